@@ -1,0 +1,94 @@
+// The memory layout of a sparse voxel octree: one linear, position-independent buffer that the
+// builder writes, a .vtp file carries, and both the CPU and a shader read.
+//
+// SPACE
+//   The octree's cube is a cube in the object's local frame, `2^level` voxels along an edge.
+//   A node is a 4x4x4 block: it spans two octree levels at once. Where `level` is odd, the root
+//   block would span half a level too much, so the root cube is twice the octree's cube and only
+//   its lower octant is used. The root cube is mapped to *octree coordinates* [1, 2)^3, where a
+//   float's mantissa bits are the voxel's integer coordinates.
+//
+//        depth           0 (root)        1                 depthCount - 1 (bricks)
+//        block edge      4^depthCount    4^(depthCount-1)  4                          voxels
+//        level of its
+//        cells           2 - odd         4 - odd           level
+//
+//   A node's 64 cells are numbered in Morton order, z y x z y x from the highest bit, so that byte
+//   number g of the mask (g = 0..7) is one cell of the octree level in between, and the mask of
+//   occupied bytes is a level of detail of its own: every octree level can be read off.
+//
+// MEMORY (little endian)
+//
+//   +------------------------+ 0
+//   | Header       256 bytes |  what it is, where its cube lies, whose mesh it belongs to
+//   +------------------------+ 256
+//   | Node 0 (root) 16 bytes |  breadth first: all nodes of depth 0, then of depth 1, ...; the
+//   | Node 1                 |  children of one node are neighbours, in Morton order, and only
+//   | ...                    |  those that exist are stored (child i is at
+//   | Node nodeCount - 1     |  first + popcount(mask & ((1 << i) - 1)))
+//   +------------------------+ 256 + 16 * nodeCount
+//   | lists   4 bytes a word |  triangle lists of the bricks that more than one triangle touches:
+//   |                        |  count, id, id, ... (ascending)
+//   +------------------------+ 256 + 16 * nodeCount + 4 * listWords
+//
+//   Node, 16 bytes:
+//     0  mask   8  bit i: cell i is occupied. Never 0, but in the root of an empty octree
+//     8  first  4  inner node: index of the first child node
+//                  brick (last depth): a single triangle's id with InlineTriangle set, else the
+//                  index in `lists` of the count that starts its list
+//    12  plane  4  the mean plane of the surface in this node's block, see svoPlane.h
+#ifndef svoLayout_h
+#define svoLayout_h
+
+#include <cstdint>
+
+namespace svo
+{
+/// What a ray meets in a leaf; see Filters/Core/vtkPolyDataToSVO.h for the choice it is.
+enum class LeafGeometry : std::uint32_t
+{
+  Voxel = 0,
+  Plane = 1,
+  Triangle = 2,
+  Automatic = 3
+};
+
+constexpr int MaximumLevel = 20;
+constexpr int MaximumDepths = (MaximumLevel + 1) / 2;
+constexpr std::uint32_t InlineTriangle = 0x80000000u;
+
+struct Node
+{
+  std::uint64_t mask;
+  std::uint32_t first;
+  std::uint32_t plane;
+};
+static_assert(sizeof(Node) == 16, "a node is 16 bytes on the CPU and one RGBA32UI texel in GLSL");
+
+struct Header
+{
+  char magic[8];                // "vtkSVO\0\0"
+  std::uint32_t version;        // LayoutVersion
+  std::uint32_t level;          // 1..MaximumLevel: voxels along an edge of the cube = 2^level
+  std::uint32_t depthCount;     // (level + 1) / 2
+  std::uint32_t leafGeometry;   // LeafGeometry the converter asked for
+  std::uint64_t nodeCount;      // nodes of all depths, at least 1 (the root, with an empty mask)
+  std::uint64_t listWords;      // 32-bit words in `lists`
+  std::uint64_t voxelCount;     // occupied voxels of the last level
+  std::uint64_t triangleCount;  // of the triangulated mesh; every id in a list is below it
+  double origin[3];             // the cube's lower corner, local frame
+  double voxelSize;             // edge of a voxel, local frame
+  std::uint64_t signature;      // of the mesh it was built from; 0: not bound to one
+  std::uint64_t pointCount;     // of that mesh
+  std::uint64_t cellCount;      // of that mesh
+  double meshBounds[6];         // of that mesh
+  std::uint32_t depthBegin[MaximumDepths + 1]; // first node of each depth; [depthCount] = nodeCount
+  std::uint32_t reserved[13];
+};
+static_assert(sizeof(Header) == 256, "the header is part of the file format");
+
+constexpr char LayoutMagic[8] = { 'v', 't', 'k', 'S', 'V', 'O', 0, 0 };
+constexpr std::uint32_t LayoutVersion = 1;
+}
+
+#endif

@@ -1,0 +1,172 @@
+#include "svoOctree.h"
+
+#include "svoMorton.h"
+
+#include <cmath>
+#include <cstring>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace svo
+{
+namespace
+{
+bool headerIsSane(const Header& h, std::size_t size)
+{
+  if (std::memcmp(h.magic, LayoutMagic, sizeof(LayoutMagic)) != 0 || h.version != LayoutVersion ||
+    h.level < 1 || h.level > static_cast<std::uint32_t>(MaximumLevel) ||
+    h.depthCount != (h.level + 1) / 2 || h.nodeCount < 1 || h.nodeCount > 0x7fffffffu ||
+    h.listWords > 0x7fffffffu || h.triangleCount > 0x7fffffffu ||
+    size != sizeof(Header) + h.nodeCount * sizeof(Node) + h.listWords * sizeof(std::uint32_t))
+  {
+    return false;
+  }
+  if (!std::isfinite(h.origin[0] + h.origin[1] + h.origin[2]) || !std::isfinite(h.voxelSize) ||
+    h.voxelSize <= 0.0 || h.leafGeometry > 3)
+  {
+    return false;
+  }
+  if (h.depthBegin[0] != 0 || h.depthBegin[h.depthCount] != h.nodeCount)
+  {
+    return false;
+  }
+  for (std::uint32_t d = 0; d < h.depthCount; ++d)
+  {
+    if (h.depthBegin[d] > h.depthBegin[d + 1])
+    {
+      return false;
+    }
+  }
+  return h.depthBegin[1] == 1 || h.nodeCount == 1;
+}
+}
+
+Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
+  std::shared_ptr<const Surface> surface, std::string& error)
+{
+  if (!data || size < sizeof(Header))
+  {
+    error = "the octree's data is shorter than its header";
+    return {};
+  }
+  Octree octree;
+  octree.Data = std::move(data);
+  octree.Size = size;
+  octree.Triangles = std::move(surface);
+  const Header& h = octree.header();
+  if (!headerIsSane(h, size))
+  {
+    error = "the octree's header is damaged, or of another version";
+    return {};
+  }
+  if (octree.Triangles && octree.Triangles->triangles.size() != h.triangleCount)
+  {
+    error = "the octree was built from another number of triangles";
+    return {};
+  }
+  if (octree.empty())
+  {
+    if (h.nodeCount != 1)
+    {
+      error = "the octree's nodes are damaged";
+      return {};
+    }
+    return octree;
+  }
+  const std::uint32_t bricks = octree.brickBegin();
+  const Node* nodes = octree.nodes();
+  const std::uint32_t* lists = octree.lists();
+  std::uint64_t next = 1; // children fill each depth in the order of their parents
+  for (std::uint32_t i = 0; i < h.nodeCount; ++i)
+  {
+    const Node& node = nodes[i];
+    bool good = node.mask != 0;
+    if (i < bricks)
+    {
+      good = good && node.first == next;
+      next += __builtin_popcountll(node.mask);
+    }
+    else if (node.first & InlineTriangle)
+    {
+      good = good && (node.first & ~InlineTriangle) < h.triangleCount;
+    }
+    else
+    {
+      good = good && node.first < h.listWords && lists[node.first] > 0 &&
+        lists[node.first] < h.listWords - node.first;
+      for (std::uint32_t k = 1; good && k <= lists[node.first]; ++k)
+      {
+        good = lists[node.first + k] < h.triangleCount;
+      }
+    }
+    if (!good || (i + 1 == h.depthBegin[1] && h.depthCount > 1 && next != h.depthBegin[2]))
+    {
+      error = "the octree's nodes are damaged";
+      return {};
+    }
+  }
+  // Depth by depth, the children of one depth are exactly the next one.
+  std::uint64_t children = 1;
+  for (std::uint32_t d = 0; d + 1 < h.depthCount; ++d)
+  {
+    for (std::uint32_t i = h.depthBegin[d]; i < h.depthBegin[d + 1]; ++i)
+    {
+      children += __builtin_popcountll(nodes[i].mask);
+    }
+    if (children != h.depthBegin[d + 2])
+    {
+      error = "the octree's depths are damaged";
+      return {};
+    }
+  }
+  return octree;
+}
+
+std::size_t Octree::bytes() const
+{
+  return this->Size + (this->Triangles ? this->Triangles->bytes() : 0);
+}
+
+glm::dmat4 Octree::localToOctree() const
+{
+  const Header& h = this->header();
+  const double scale = 1.0 / this->rootEdge();
+  const glm::dvec3 origin(h.origin[0], h.origin[1], h.origin[2]);
+  glm::dmat4 m(scale);
+  m[3] = glm::dvec4(1.0 - origin * scale, 1.0);
+  return m;
+}
+
+bool Octree::occupied(glm::ivec3 cell, int level) const
+{
+  const int size = 1 << level;
+  if (level < 0 || level > this->level() || this->empty() || cell.x < 0 || cell.y < 0 ||
+    cell.z < 0 || cell.x >= size || cell.y >= size || cell.z >= size)
+  {
+    return false;
+  }
+  const int odd = 2 * this->depthCount() - this->level();
+  int bits = level + odd; // bits of a coordinate in the root cube
+  const Node* node = this->nodes();
+  for (; bits > 2; bits -= 2)
+  {
+    const int shift = bits - 2;
+    const int i = cellIndex(cell.x >> shift & 3, cell.y >> shift & 3, cell.z >> shift & 3);
+    if (!(node->mask >> i & 1))
+    {
+      return false;
+    }
+    node = this->nodes() + node->first + __builtin_popcountll(node->mask & ((1ull << i) - 1));
+  }
+  if (bits == 2)
+  {
+    return node->mask >> cellIndex(cell.x & 3, cell.y & 3, cell.z & 3) & 1;
+  }
+  if (bits == 1)
+  {
+    const int group = (cell.x & 1) | (cell.y & 1) << 1 | (cell.z & 1) << 2;
+    return (node->mask >> (8 * group) & 0xff) != 0;
+  }
+  return true; // level 0 of an even octree: the cube itself
+}
+}

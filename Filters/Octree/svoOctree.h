@@ -1,0 +1,91 @@
+// A sparse voxel octree, ready to be traced: a layout buffer and the triangles it refers to.
+#ifndef svoOctree_h
+#define svoOctree_h
+
+#include "svoLayout.h"
+#include "svoSurface.h"
+#include "vtkSVOOctreeModule.h"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+/// An immutable view; copying it is cheap. It keeps the memory it points into alive.
+class VTKSVOOCTREE_EXPORT Octree
+{
+public:
+  Octree() = default;
+
+  /// Opens `size` bytes at `data` (8-byte aligned). Every index is checked, so that a corrupt or
+  /// hostile buffer is refused here and traversal needs no checks. On failure the result is empty
+  /// and `error` says why. `surface` may be null for an octree that is only queried, not traced
+  /// with plane or triangle leaves. `data`'s owner stays alive as long as any copy does.
+  static Octree open(std::shared_ptr<const std::byte> data, std::size_t size,
+    std::shared_ptr<const Surface> surface, std::string& error);
+
+  explicit operator bool() const { return this->Data != nullptr; }
+  const Header& header() const { return *reinterpret_cast<const Header*>(this->Data.get()); }
+  const Node* nodes() const
+  {
+    return reinterpret_cast<const Node*>(this->Data.get() + sizeof(Header));
+  }
+  const std::uint32_t* lists() const
+  {
+    return reinterpret_cast<const std::uint32_t*>(this->nodes() + this->header().nodeCount);
+  }
+  const Surface* surface() const { return this->Triangles.get(); }
+
+  int level() const { return static_cast<int>(this->header().level); }
+  int depthCount() const { return static_cast<int>(this->header().depthCount); }
+  bool empty() const { return this->nodes()[0].mask == 0; }
+  std::uint32_t brickBegin() const
+  {
+    return this->header().depthBegin[this->header().depthCount - 1];
+  }
+  /// Bytes of the buffer plus those of the surface.
+  std::size_t bytes() const;
+
+  /// Edge of the root cube (octree coordinates [1, 2)) in the local frame.
+  double rootEdge() const
+  {
+    return this->header().voxelSize * static_cast<double>(1u << (2 * this->header().depthCount));
+  }
+  /// local frame -> octree coordinates: x -> 1 + (x - origin) / rootEdge. Affine.
+  glm::dmat4 localToOctree() const;
+
+  /// True if `cell` (integer coordinates at `level`, 0..level()) is occupied. False outside.
+  bool occupied(glm::ivec3 cell, int level) const;
+
+  /// The triangles of a brick (index of a node of the last depth): begin and count. A single
+  /// inline id is written to `inlineId` and pointed at.
+  const std::uint32_t* brickTriangles(
+    std::uint32_t brick, std::uint32_t& count, std::uint32_t& inlineId) const
+  {
+    const std::uint32_t reference = this->nodes()[brick].first;
+    if (reference & InlineTriangle)
+    {
+      inlineId = reference & ~InlineTriangle;
+      count = 1;
+      return &inlineId;
+    }
+    const std::uint32_t* list = this->lists() + reference;
+    count = list[0];
+    return list + 1;
+  }
+
+  /// Identity of the buffer, for caches: two octrees with the same key are the same.
+  const void* key() const { return this->Data.get(); }
+
+private:
+  std::shared_ptr<const std::byte> Data;
+  std::size_t Size = 0;
+  std::shared_ptr<const Surface> Triangles;
+};
+}
+
+#endif

@@ -1,0 +1,70 @@
+// Rays in octree coordinates, one at a time and in blocks of 64, and what they hit.
+#ifndef svoRay_h
+#define svoRay_h
+
+#include "svoLayout.h"
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+/// One ray, x(t) = origin + t * direction for t in [tMin, tMax]. The direction is not normalised:
+/// t is the same number in every frame that an affine map leads to.
+struct Ray
+{
+  glm::dvec3 origin;
+  glm::dvec3 direction;
+  double tMin = 0.0;
+  double tMax = 1e300;
+};
+
+/// Names what was hit, in 32 bits: a triangle id (below NodePrimitive), or NodePrimitive | index of
+/// the node whose mean plane stands for the surface where a ray stopped above the bricks.
+using Primitive = std::uint32_t;
+constexpr Primitive NodePrimitive = 0x80000000u;
+constexpr Primitive NoPrimitive = 0xffffffffu;
+
+struct Hit
+{
+  double t = 0.0;
+  Primitive primitive = NoPrimitive;
+  glm::ivec3 cell{ -1 }; // the cell that was hit, integer coordinates at `level`
+  int level = 0;
+  explicit operator bool() const { return primitive != NoPrimitive; }
+};
+
+/// How rays end.
+struct TraceOptions
+{
+  LeafGeometry leafGeometry = LeafGeometry::Automatic;
+  int level = MaximumLevel; // rays stop at cells of this octree level (clamped to the octree's own)
+};
+
+/// 64 rays as a structure of arrays, in octree coordinates: an 8x8 tile of pixels or of light
+/// texels, or any 64 rays. Origins lie within a few units of the cube (the caller re-originates in
+/// double), t is relative to an origin of the caller's. A ray with tMin > tMax or with a NaN
+/// anywhere is never a hit.
+struct RayBlock
+{
+  static constexpr int Size = 64;
+  alignas(64) float originX[Size];
+  alignas(64) float originY[Size];
+  alignas(64) float originZ[Size];
+  alignas(64) float directionX[Size];
+  alignas(64) float directionY[Size];
+  alignas(64) float directionZ[Size];
+  alignas(64) float tMin[Size];
+  alignas(64) float tMax[Size];
+};
+
+/// Answer to a RayBlock. t is undefined where the primitive is NoPrimitive.
+struct HitBlock
+{
+  alignas(64) float t[RayBlock::Size];
+  alignas(64) Primitive primitive[RayBlock::Size];
+};
+}
+
+#endif

@@ -1,0 +1,99 @@
+// What is traced: instances of octrees with their look, and lights. Plain data, collected anew for
+// every frame; arrays are borrowed and must live as long as the frame.
+#ifndef svoScene_h
+#define svoScene_h
+
+#include "svoOctree.h"
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace svo
+{
+/// What an array says one value of.
+enum class Association
+{
+  None,
+  Point,
+  Cell
+};
+
+/// VTK's lighting model for surfaces without textures and PBR.
+struct Material
+{
+  glm::vec3 ambientColor{ 1.0f };  // 0..1; replaced by mapped scalars where there are any
+  glm::vec3 diffuseColor{ 1.0f };  // likewise
+  glm::vec3 specularColor{ 1.0f };
+  float ambient = 0.0f; // coefficients, 0..1
+  float diffuse = 1.0f;
+  float specular = 0.0f;
+  float specularPower = 1.0f;
+  bool lighting = true; // false: the colour as it is
+  bool flat = false;    // facet normals even where there are point normals
+};
+
+/// Arrays of the mesh that the look needs. Null where there are none.
+struct Attributes
+{
+  const float* normals = nullptr; // 3 components, local frame, one per `normalAssociation`
+  Association normalAssociation = Association::None;
+  const unsigned char* colors = nullptr; // RGBA, mapped through the lookup table
+  Association colorAssociation = Association::None;
+  /// Scalars interpolated before mapping: a coordinate per point into a row of texels.
+  const float* colorCoordinates = nullptr; // 1 per point, `colorCoordinateStride` floats apart
+  int colorCoordinateStride = 1;
+  const unsigned char* colorTexture = nullptr; // RGBA
+  int colorTextureSize = 0;                    // texels
+};
+
+/// One octree placed in the world.
+struct Instance
+{
+  Octree octree;
+  glm::dmat4 localToWorld{ 1.0 }; // affine, invertible; the caller has checked
+  LeafGeometry leafGeometry = LeafGeometry::Automatic;
+  Material material;
+  Attributes attributes;
+  bool visible = true;       // false: a rasterised object that only casts
+  bool castShadow = true;
+  bool receiveShadow = true;
+  /// Stable identity of the instance from frame to frame (actor, block, path).
+  std::uint64_t id = 0;
+  /// Coincident-topology offset, as glPolygonOffset.
+  float depthOffsetFactor = 0.0f;
+  float depthOffsetUnits = 0.0f;
+};
+
+struct Light
+{
+  enum class Kind
+  {
+    Directional,
+    Point, // positional, cone of 90 degrees half angle or more: all directions
+    Spot
+  };
+  Kind kind = Kind::Directional;
+  bool headlight = false;          // at the eye, along the view axis: VTK shades it by n.z alone
+  glm::dvec3 position{ 0.0 };      // world
+  glm::dvec3 direction{ 0, 0, -1 };// world, unit, the way the light shines
+  double coneAngle = 90.0;         // half angle, degrees
+  double exponent = 1.0;           // of the spot's fall-off
+  glm::vec3 attenuation{ 1, 0, 0 };// constant, linear, quadratic
+  glm::vec3 color{ 1.0f };         // diffuse colour times intensity
+  glm::vec3 specularColor{ 1.0f }; // as VTK's shaders use it: see svoShading
+  bool castShadow = true;
+  std::uint64_t id = 0;            // stable from frame to frame
+};
+
+struct Scene
+{
+  std::vector<Instance> instances;
+  std::vector<Light> lights; // only those that are switched on, in the renderer's order
+};
+}
+
+#endif

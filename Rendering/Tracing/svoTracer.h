@@ -1,0 +1,102 @@
+// One frame: select, trace, merge, shadow, shade. The CPU backend.
+#ifndef svoTracer_h
+#define svoTracer_h
+
+#include "svoParallel.h"
+#include "svoRay.h"
+#include "svoScene.h"
+#include "svoView.h"
+#include "vtkSVOTracingModule.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace svo
+{
+enum class ShadowTechnique
+{
+  None,
+  Buffer, // shadow buffers, merged from layers like the depth buffer
+  Rays    // one exact ray to the light per visible point and light
+};
+
+struct FrameSettings
+{
+  ShadowTechnique shadowTechnique = ShadowTechnique::Buffer;
+  int shadowResolution = 2048;  // texels along an edge of one map
+  bool automaticBias = true;    // compare on the receiver's plane, at the texel's own ray
+  double bias = 0.0;            // voxels of the caster, added
+  double shadowIntensity = 1.0; // share of the light's diffuse and specular that is removed
+  double pixelError = 1.0;      // largest projected voxel edge, pixels; 0: full depth
+  bool frameCoherence = true;   // reuse layers of instances that did not change
+  std::size_t layerMemoryLimit = std::size_t(512) << 20; // bytes
+  bool antiAliasing = false;
+  bool wholeShadowBuffers = false; // rasterised receivers look up texels nobody here knows
+  bool writeNormals = false;       // Frame::normals is wanted (SSAO)
+};
+
+/// The picture, row by row from the lower left, one entry a pixel.
+struct Frame
+{
+  int width = 0;
+  int height = 0;
+  PixelRect covered;                // smallest rectangle (8-pixel grid) with every hit
+  std::vector<std::uint8_t> color;  // RGBA; alpha 255 on a hit, 0 elsewhere
+  std::vector<float> depth;         // OpenGL window depth; 1 where nothing was hit
+  std::vector<float> normals;       // xyz, view space, if asked for
+  std::vector<std::uint32_t> instance; // index into Scene::instances, or ~0u
+  std::vector<Primitive> primitive;
+};
+
+struct FrameStatistics
+{
+  double traceTime = 0.0;  // s, depth layers of the eye, merging, shading
+  double shadowTime = 0.0; // s, shadow buffers or rays
+  std::uint64_t primaryRays = 0;
+  std::uint64_t shadowRays = 0;
+  std::uint64_t retracedLayers = 0; // layers traced this frame, of the eye and of lights
+  std::uint64_t layerMemory = 0;    // bytes held by kept layers
+};
+
+/// A finished shadow buffer, for rasterised receivers. One per map: a point light whose casters
+/// subtend more than 120 degrees has six.
+struct ShadowMap
+{
+  int light = 0; // index into Scene::lights
+  View view;     // of the light; width = height = resolution
+  /// Linear depth of the nearest caster minus `base`, row by row; infinity where there is none.
+  double base = 0.0;
+  std::vector<float> depth;
+  double worldBias = 0.0; // what a receiver without a caster's voxel should add, world units
+};
+
+class VTKSVOTRACING_EXPORT Tracer
+{
+public:
+  Tracer();
+  ~Tracer();
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
+
+  /// Renders a frame. Layers of the previous frame are reused where allowed.
+  void render(const Scene& scene, const View& view, const FrameSettings& settings,
+    const ParallelFor& parallelFor, Frame& frame);
+
+  const FrameStatistics& statistics() const;
+
+  /// The whole shadow buffers of the last frame; empty unless they were asked for with
+  /// FrameSettings::wholeShadowBuffers.
+  const std::vector<ShadowMap>& shadowMaps() const;
+
+  /// Forgets every kept layer.
+  void releaseLayers();
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Impl;
+};
+}
+
+#endif

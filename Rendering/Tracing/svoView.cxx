@@ -1,0 +1,86 @@
+#include "svoView.h"
+
+#include <cmath>
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+namespace svo
+{
+double View::windowDepth(double t) const
+{
+  // View space has z = -t; the last two rows of the projection know nothing of x and y.
+  const double z = viewToClip[2][2] * -t + viewToClip[3][2];
+  const double w = viewToClip[2][3] * -t + viewToClip[3][3];
+  return 0.5 * z / w + 0.5;
+}
+
+bool makeView(const glm::dmat4& worldToView, const glm::dmat4& viewToClip, int width, int height,
+  View& view)
+{
+  for (int c = 0; c < 4; ++c)
+  {
+    for (int r = 0; r < 4; ++r)
+    {
+      if (!std::isfinite(worldToView[c][r]) || !std::isfinite(viewToClip[c][r]))
+      {
+        return false;
+      }
+    }
+  }
+  const glm::dmat4& p = viewToClip;
+  if (width < 1 || height < 1 || p[0][3] != 0.0 || p[1][3] != 0.0)
+  {
+    return false;
+  }
+  // At depth t (view z = -t) the pixel with device coordinates (u, v) solves
+  //   P00 X + P01 Y = u w - (P03 - t P02),  P10 X + P11 Y = v w - (P13 - t P12),  w = P33 - t P32,
+  // so (X, Y) is affine in u, v and in t.
+  const glm::dmat2 a(p[0][0], p[0][1], p[1][0], p[1][1]);
+  const double determinant = glm::determinant(a);
+  const double depthDeterminant = p[2][2] * p[3][3] - p[3][2] * p[2][3];
+  if (!(std::abs(determinant) > 0.0) || !(std::abs(depthDeterminant) > 0.0))
+  {
+    return false;
+  }
+  const glm::dmat2 inverse = glm::inverse(a);
+  // Constant term and t term, each as a function of (1, u, v).
+  const double w0 = p[3][3];
+  const double wt = -p[2][3];
+  const glm::dvec2 o = inverse * glm::dvec2(-p[3][0], -p[3][1]);
+  const glm::dvec2 ou = inverse * glm::dvec2(w0, 0.0);
+  const glm::dvec2 ov = inverse * glm::dvec2(0.0, w0);
+  const glm::dvec2 d = inverse * glm::dvec2(p[2][0], p[2][1]);
+  const glm::dvec2 du = inverse * glm::dvec2(wt, 0.0);
+  const glm::dvec2 dv = inverse * glm::dvec2(0.0, wt);
+
+  const glm::dmat4 viewToWorld = glm::inverse(worldToView);
+  const auto point = [&](glm::dvec2 v) {
+    return glm::dvec3(viewToWorld * glm::dvec4(v, 0.0, 1.0));
+  };
+  const auto vector = [&](glm::dvec2 v, double z) {
+    return glm::dvec3(viewToWorld * glm::dvec4(v, z, 0.0));
+  };
+  // u = 2 x / width - 1, v = 2 y / height - 1.
+  const double su = 2.0 / width;
+  const double sv = 2.0 / height;
+  view.width = width;
+  view.height = height;
+  view.worldToView = worldToView;
+  view.viewToClip = viewToClip;
+  view.parallel = wt == 0.0;
+  view.origin = point(o - ou - ov);
+  view.originX = vector(ou * su, 0.0);
+  view.originY = vector(ov * sv, 0.0);
+  view.direction = vector(d - du - dv, -1.0);
+  view.directionX = vector(du * su, 0.0);
+  view.directionY = vector(dv * sv, 0.0);
+  // Window depths 0 and 1: z = -w and z = w.
+  const auto depthAt = [&](double ndc) {
+    // (P22 (-t) + P23) = ndc (P32 (-t) + P33)
+    return (p[3][2] - ndc * p[3][3]) / (p[2][2] - ndc * p[2][3]);
+  };
+  view.tNear = depthAt(-1.0);
+  view.tFar = depthAt(1.0);
+  return std::isfinite(view.tNear) && !std::isnan(view.tFar) && view.tNear < view.tFar;
+}
+}

@@ -1,0 +1,58 @@
+// A view: the rays of an image, for the eye and for lights alike.
+#ifndef svoView_h
+#define svoView_h
+
+#include "vtkSVOTracingModule.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+/// Every pixel's ray is an affine function of the pixel: at pixel centre (x, y), with x, y counted
+/// from the lower left corner of the image in pixels (the first centre is 0.5, 0.5),
+///
+///   origin(x, y)    = origin    + x originX    + y originY       (world)
+///   direction(x, y) = direction + x directionX + y directionY    (world)
+///
+/// and the ray parameter t is the linear depth: distance from the eye plane along the view axis,
+/// in world units. A perspective view has originX = originY = 0, a parallel one directionX =
+/// directionY = 0. Because t is affine-invariant it is the same number in every object's frame.
+struct VTKSVOTRACING_EXPORT View
+{
+  glm::dvec3 origin{ 0.0 }, originX{ 0.0 }, originY{ 0.0 };
+  glm::dvec3 direction{ 0.0, 0.0, -1.0 }, directionX{ 0.0 }, directionY{ 0.0 };
+  double tNear = 0.0; // rays start here (near plane)
+  double tFar = 1e300; // and end here (far plane)
+  int width = 0;  // pixels
+  int height = 0; // pixels
+
+  glm::dmat4 worldToView{ 1.0 }; // rigid; view space looks along -z
+  glm::dmat4 viewToClip{ 1.0 };  // OpenGL clip space, z in [-w, w]
+  bool parallel = false;
+
+  glm::dvec3 rayOrigin(double x, double y) const { return origin + x * originX + y * originY; }
+  glm::dvec3 rayDirection(double x, double y) const
+  {
+    return direction + x * directionX + y * directionY;
+  }
+  /// OpenGL window depth, 0..1, of linear depth t. Depends on t only for every projection whose
+  /// last row has no x and y terms (all of VTK's).
+  double windowDepth(double t) const;
+};
+
+/// The view of a projection: any matrix whose last row is (0, 0, a, b), so off-axis, explicit and
+/// parallel projections included. False if the matrix cannot be inverted or is not finite.
+VTKSVOTRACING_EXPORT bool makeView(const glm::dmat4& worldToView, const glm::dmat4& viewToClip,
+  int width, int height, View& view);
+
+/// A rectangle of pixels, upper bounds excluded.
+struct PixelRect
+{
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+}
+
+#endif
