@@ -1,0 +1,89 @@
+#!/bin/bash
+# Installs the Debian 12 packages that a part of the project needs, and says what each is for.
+# Usage: install-packages.sh [--list] [--no-install] group...   (groups: build test demo)
+# Packages that are there already are left alone; with none missing nothing runs and nothing is
+# asked. --no-install only checks: it names what is missing and ends with 1. --list prints names.
+set -euo pipefail
+
+packages_build="
+cmake|configures the build
+ninja-build|runs the build
+g++|the C++17 compiler
+ccache|makes the next build from scratch quick
+libvtk9-dev|VTK 9.1: headers, libraries, Python wrapping
+python3-vtk9|VTK's own Python package, which vtksvo stands beside
+libglm-dev|vectors and matrices of the engine
+libhwy-dev|Highway: SIMD, the instruction set chosen at run time"
+packages_test="
+libgtest-dev|unit tests
+xvfb|a display for machines without one
+xauth|access to that display
+libgl1-mesa-dri|software OpenGL
+libembree-dev|the ray tracer that the benchmark compares with"
+packages_demo="
+xvfb|a display for machines without one
+xauth|access to that display
+libgl1-mesa-dri|software OpenGL
+libcgal-demo|object A: ChineseDragon-10kv.off
+assimp-testmodels|object B: sydney.md2
+ffmpeg|turns the frames into a movie"
+
+list=no
+install=yes
+wanted=""
+for argument in "$@"; do
+  case "$argument" in
+    --list) list=yes ;;
+    --no-install) install=no ;;
+    build) wanted+="$packages_build" ;;
+    test) wanted+="$packages_test" ;;
+    demo) wanted+="$packages_demo" ;;
+    *)
+      echo "install-packages.sh: unknown argument '$argument' (groups: build test demo)" >&2
+      exit 2
+      ;;
+  esac
+done
+
+installed() {
+  [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+missing=()
+reasons=""
+declare -A seen
+while IFS='|' read -r name reason; do
+  [ -n "$name" ] || continue
+  [ -z "${seen[$name]:-}" ] || continue
+  seen[$name]=1
+  if [ "$list" = yes ]; then
+    echo "$name"
+  elif ! installed "$name"; then
+    missing+=("$name")
+    reasons+=$(printf '  %-20s %s' "$name" "$reason")$'\n'
+  fi
+done <<<"$wanted"
+[ "$list" = no ] || exit 0
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+if [ "$install" = no ]; then
+  printf 'Missing packages:\n%s' "$reasons" >&2
+  exit 1
+fi
+if ! command -v apt-get >/dev/null; then
+  printf 'This machine has no apt-get. Please install these by hand (names as in Debian 12):\n%s' \
+    "$reasons" >&2
+  exit 1
+fi
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    printf 'Missing packages:\n%sPlease run this as root, or install sudo.\n' "$reasons" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+printf 'Installing %d packages (and what they depend on):\n%s' "${#missing[@]}" "$reasons"
+"${as_root[@]}" apt-get update -q
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q \
+  --no-install-recommends "${missing[@]}"
