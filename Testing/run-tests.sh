@@ -1,0 +1,57 @@
+#!/bin/bash
+# Installs what is missing, builds build/vtk and runs the tests. Safe to run again.
+# Usage: run-tests.sh [--long] [--no-install]
+#   --long        also the tests labelled "long" (real meshes, big ray counts) and the sanitizers
+#   --no-install  never installs: names what is missing and stops
+# The exit code is 0 only if everything was built and every test passed.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+long=no
+check_only=()
+groups=(build test)
+for argument in "$@"; do
+  case "$argument" in
+    --long) long=yes; groups+=(demo) ;;
+    --no-install) check_only=(--no-install) ;;
+    *)
+      sed -n '2,5s/^# //p' "${BASH_SOURCE[0]}"
+      exit 2
+      ;;
+  esac
+done
+step() { printf '\n== %s (%s)\n' "$1" "$(date +%T)"; }
+
+step "Packages"
+CMake/install-packages.sh "${check_only[@]}" "${groups[@]}"
+
+step "Build: build/vtk"
+cmake -S . -B build/vtk -G Ninja \
+  -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
+  -DPython3_EXECUTABLE=/usr/bin/python3 \
+  -DVTKSVO_PARAVIEW=OFF -DVTKSVO_SANITIZE=OFF \
+  -DVTKSVO_TESTING=ON -DVTKSVO_EXAMPLES=ON -DVTKSVO_PYTHON=ON
+cmake --build build/vtk -j "${VTKSVO_JOBS:-2}"
+
+# One virtual display for the whole suite; -noreset, because the server resets whenever its last
+# window closes and windows opened meanwhile die.
+step "Tests"
+selection=(-LE long)
+[ "$long" = no ] || selection=()
+result=0
+xvfb-run -a -s "-noreset -screen 0 1920x1200x24" \
+  ctest --test-dir build/vtk --output-on-failure --timeout 300 "${selection[@]}" || result=$?
+
+if [ "$long" = yes ]; then
+  step "Sanitizers"
+  Testing/run-sanitizers.sh "${check_only[@]}" || result=$?
+fi
+
+echo
+if [ "$result" -eq 0 ]; then
+  echo "All tests passed. Python: PYTHONPATH=$PWD/build/vtk/python /usr/bin/python3 -c 'import vtksvo'"
+else
+  echo "Some tests failed. Details: build/vtk/Testing/Temporary/LastTest.log"
+fi
+exit "$result"
