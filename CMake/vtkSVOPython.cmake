@@ -3,15 +3,32 @@ if (NOT VTKSVO_PYTHON)
   return ()
 endif ()
 
+# In the build tree the package lies in python/vtksvo; installed, where Debian's interpreter looks
+# under the usual prefixes.
+set(VTKSVO_PYTHON_BUILD_DIR "python")
+set(VTKSVO_PYTHON_INSTALL_DIR
+  "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/dist-packages"
+  CACHE STRING "Where the Python package is installed, relative to the prefix")
+mark_as_advanced(VTKSVO_PYTHON_INSTALL_DIR)
+
 set(vtksvo_wrapped SVO::SVOCore SVO::SVOPass)
 vtk_module_wrap_python(
   MODULES ${vtksvo_wrapped}
   TARGET SVO::Python
   PYTHON_PACKAGE vtksvo
-  MODULE_DESTINATION python
+  MODULE_DESTINATION "${VTKSVO_PYTHON_INSTALL_DIR}"
+  LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/vtkSVO"
   BUILD_STATIC OFF
   INSTALL_HEADERS OFF)
-configure_file("${CMAKE_CURRENT_LIST_DIR}/__init__.py.in"
-  "${CMAKE_BINARY_DIR}/python/vtksvo/__init__.py" @ONLY)
-install(FILES "${CMAKE_BINARY_DIR}/python/vtksvo/__init__.py" DESTINATION python/vtksvo)
+foreach (module IN LISTS vtksvo_wrapped)
+  string(REPLACE "SVO::" "vtk" library "${module}")
+  set_target_properties("${library}Python" PROPERTIES
+    LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${VTKSVO_PYTHON_BUILD_DIR}/vtksvo")
+endforeach ()
+
+set(vtksvo_package_file "${CMAKE_BINARY_DIR}/${VTKSVO_PYTHON_BUILD_DIR}/vtksvo/__init__.py")
+configure_file("${CMAKE_CURRENT_LIST_DIR}/__init__.py.in" "${vtksvo_package_file}" @ONLY)
+install(FILES "${vtksvo_package_file}"
+  DESTINATION "${VTKSVO_PYTHON_INSTALL_DIR}/vtksvo"
+  COMPONENT python)

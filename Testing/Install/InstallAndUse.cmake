@@ -1,0 +1,37 @@
+# Installs the build into an empty prefix, moves the prefix, builds and runs Project/ against it and
+# imports the Python package from it. Called by ctest with -D definitions; see CMakeLists.txt.
+set(prefix "${WORK_DIR}/prefix")
+file(REMOVE_RECURSE "${WORK_DIR}/staged" "${prefix}" "${WORK_DIR}/project")
+
+function (run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result)
+  if (NOT result EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "This step failed (${result}): ${command}")
+  endif ()
+endfunction ()
+
+# Installed in one place and used in another: nothing may remember an absolute path.
+run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --config "${CONFIG}" --prefix "${WORK_DIR}/staged")
+file(RENAME "${WORK_DIR}/staged" "${prefix}")
+
+run("${CMAKE_COMMAND}" -S "${PROJECT_DIR}" -B "${WORK_DIR}/project" -G "${GENERATOR}"
+  "-DCMAKE_PREFIX_PATH=${prefix}"
+  "-DVTK_DIR=${VTK_DIR}"
+  "-DEXPECTED_VERSION=${VERSION}"
+  "-DCMAKE_BUILD_TYPE=${CONFIG}"
+  "-DCMAKE_C_COMPILER=${C_COMPILER}"
+  "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"
+  "-DCMAKE_CXX_COMPILER_LAUNCHER=$ENV{CMAKE_CXX_COMPILER_LAUNCHER}")
+run("${CMAKE_COMMAND}" --build "${WORK_DIR}/project" --config "${CONFIG}")
+run("${WORK_DIR}/project/shadow")
+
+if (PYTHON_DIR)
+  run("${CMAKE_COMMAND}" -E env --unset=LD_LIBRARY_PATH "PYTHONPATH=${prefix}/${PYTHON_DIR}"
+    "${PYTHON}" -c "
+import vtksvo
+assert vtksvo.__version__ == '${VERSION}', vtksvo.__version__
+assert vtksvo.__file__.startswith('${prefix}/'), vtksvo.__file__
+print(vtksvo.vtkSVORenderPass(), vtksvo.vtkPolyDataToSVO())
+")
+endif ()
