@@ -16,18 +16,18 @@ function (vtksvo_write_config file python_destination)
     file(RELATIVE_PATH vtksvo_python_relative
       "/prefix/${vtksvo_cmake_destination}" "/prefix/${python_destination}")
   endif ()
-  configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/vtkSVO-config.cmake.in" "${file}" @ONLY)
+  configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/vtkSVOConfig.cmake.in" "${file}" @ONLY)
 endfunction ()
-vtksvo_write_config("${vtksvo_cmake_build}/vtkSVO-config.cmake" "${VTKSVO_PYTHON_BUILD_DIR}")
-vtksvo_write_config("${CMAKE_BINARY_DIR}/CMakeFiles/vtkSVO-config.cmake"
+vtksvo_write_config("${vtksvo_cmake_build}/vtkSVOConfig.cmake" "${VTKSVO_PYTHON_BUILD_DIR}")
+vtksvo_write_config("${CMAKE_BINARY_DIR}/CMakeFiles/vtkSVOConfig.cmake"
   "${VTKSVO_PYTHON_INSTALL_DIR}")
 
-write_basic_package_version_file("${vtksvo_cmake_build}/vtkSVO-config-version.cmake"
+write_basic_package_version_file("${vtksvo_cmake_build}/vtkSVOConfigVersion.cmake"
   VERSION "${PROJECT_VERSION}"
   COMPATIBILITY SameMinorVersion)
 install(FILES
-  "${CMAKE_BINARY_DIR}/CMakeFiles/vtkSVO-config.cmake"
-  "${vtksvo_cmake_build}/vtkSVO-config-version.cmake"
+  "${CMAKE_BINARY_DIR}/CMakeFiles/vtkSVOConfig.cmake"
+  "${vtksvo_cmake_build}/vtkSVOConfigVersion.cmake"
   DESTINATION "${vtksvo_cmake_destination}"
   COMPONENT development)
 install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE"
