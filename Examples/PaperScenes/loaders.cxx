@@ -1,0 +1,95 @@
+// Reads triangle meshes by way of Assimp.
+#include "loaders.h"
+
+#include <vtkCellArray.h>
+#include <vtkCleanPolyData.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+
+#include <vtksys/SystemTools.hxx>
+
+#ifdef PAPERSCENES_WITH_ASSIMP
+#include <assimp/Importer.hpp>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#endif
+
+namespace paper
+{
+#ifdef PAPERSCENES_WITH_ASSIMP
+namespace
+{
+void append(const aiMesh& mesh, vtkPoints* points, vtkCellArray* triangles)
+{
+  const vtkIdType first = points->GetNumberOfPoints();
+  for (unsigned int i = 0; i < mesh.mNumVertices; ++i)
+  {
+    points->InsertNextPoint(mesh.mVertices[i].x, mesh.mVertices[i].y, mesh.mVertices[i].z);
+  }
+  for (unsigned int i = 0; i < mesh.mNumFaces; ++i)
+  {
+    const aiFace& face = mesh.mFaces[i];
+    if (face.mNumIndices == 3)
+    {
+      const vtkIdType ids[3] = { first + face.mIndices[0], first + face.mIndices[1],
+        first + face.mIndices[2] };
+      triangles->InsertNextCell(3, ids);
+    }
+  }
+}
+}
+
+vtkSmartPointer<vtkPolyData> readTriangles(
+  const std::string& path, unsigned int keyFrame, std::string& error)
+{
+  if (!vtksys::SystemTools::TestFileAccess(path, vtksys::TEST_FILE_READ) ||
+    vtksys::SystemTools::FileIsDirectory(path))
+  {
+    error = "cannot open \"" + path + "\" for reading.";
+    return nullptr;
+  }
+  Assimp::Importer importer;
+  importer.SetPropertyInteger(AI_CONFIG_IMPORT_GLOBAL_KEYFRAME, static_cast<int>(keyFrame));
+  const aiScene* scene =
+    importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  if (!scene)
+  {
+    error = "cannot read \"" + path + "\" as a mesh: " + importer.GetErrorString();
+    return nullptr;
+  }
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> triangles;
+  for (unsigned int i = 0; i < scene->mNumMeshes; ++i)
+  {
+    append(*scene->mMeshes[i], points, triangles);
+  }
+  if (triangles->GetNumberOfCells() == 0)
+  {
+    error = "\"" + path + "\" holds no triangles.";
+    return nullptr;
+  }
+  vtkNew<vtkPolyData> mesh;
+  mesh->SetPoints(points);
+  mesh->SetPolys(triangles);
+
+  // Assimp hands MD2's triangles out with three vertices each; smooth normals need shared ones.
+  vtkNew<vtkCleanPolyData> weld;
+  weld->SetInputData(mesh);
+  weld->ToleranceIsAbsoluteOn();
+  weld->SetAbsoluteTolerance(0);
+  weld->ConvertPolysToLinesOff();
+  weld->ConvertLinesToPointsOff();
+  weld->Update();
+  return weld->GetOutput();
+}
+
+#else
+
+vtkSmartPointer<vtkPolyData> readTriangles(
+  const std::string& path, unsigned int, std::string& error)
+{
+  error = "cannot read \"" + path + "\": this program was built without Assimp (libassimp-dev).";
+  return nullptr;
+}
+#endif
+}

@@ -1,0 +1,191 @@
+// Times the scenes.
+#include "measure.h"
+
+#include "vtkSVORenderPass.h"
+
+#include <vtkCameraPass.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkRenderPassCollection.h>
+#include <vtkSequencePass.h>
+#include <vtkShadowMapBakerPass.h>
+#include <vtkShadowMapPass.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace paper
+{
+namespace
+{
+constexpr int warmUpFrames = 2;
+constexpr int coverageFrames = 8;
+
+double drawMilliseconds(vtkRenderWindow* window)
+{
+  const auto start = std::chrono::steady_clock::now();
+  window->Render();
+  window->WaitForCompletion();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+    .count();
+}
+
+Timing summary(std::vector<double> milliseconds)
+{
+  Timing timing;
+  timing.frames = static_cast<int>(milliseconds.size());
+  if (!milliseconds.empty())
+  {
+    std::sort(milliseconds.begin(), milliseconds.end());
+    const std::size_t middle = milliseconds.size() / 2;
+    timing.medianMilliseconds = milliseconds.size() % 2 == 1
+      ? milliseconds[middle]
+      : 0.5 * (milliseconds[middle - 1] + milliseconds[middle]);
+    timing.slowestMilliseconds = milliseconds.back();
+  }
+  return timing;
+}
+
+double coveredShare(vtkRenderWindow* window)
+{
+  const int* size = window->GetSize();
+  vtkNew<vtkFloatArray> depth;
+  window->GetZbufferData(0, 0, size[0] - 1, size[1] - 1, depth);
+  const float* begin = depth->GetPointer(0);
+  const float* end = begin + depth->GetNumberOfValues();
+  const auto covered = std::count_if(begin, end, [](float z) { return z < 1.0f; });
+  return static_cast<double>(covered) / depth->GetNumberOfValues();
+}
+}
+
+const std::vector<Method>& methods()
+{
+  static const std::vector<Method> all{
+    { Technique::Octrees, "svo_point_retraced_full_depth",
+      "all retraced, full depth (the paper's way)", LightKind::Point, false, 0 },
+    { Technique::Octrees, "svo_point_coherent_full_depth", "frame coherence, full depth",
+      LightKind::Point, true, 0 },
+    { Technique::Octrees, "svo_point_retraced_pixel_error_1", "all retraced, pixel error 1",
+      LightKind::Point, false, 1 },
+    { Technique::Octrees, "svo_point_coherent_pixel_error_1",
+      "frame coherence, pixel error 1 (default)", LightKind::Point, true, 1 },
+    { Technique::Octrees, "svo_spot_retraced_full_depth", "all retraced, full depth",
+      LightKind::Spot, false, 0 },
+    { Technique::Octrees, "svo_spot_coherent_pixel_error_1",
+      "frame coherence, pixel error 1 (default)", LightKind::Spot, true, 1 },
+    { Technique::ShadowMaps, "vtk_shadow_map_spot", "with vtkShadowMapPass", LightKind::Spot },
+    { Technique::Rasterizer, "vtk_no_shadows", "without shadows, point light", LightKind::Point },
+    { Technique::Empty, "vtk_empty_frame", "an empty frame", LightKind::Point },
+  };
+  return all;
+}
+
+int defaultShadowMapResolution()
+{
+  vtkNew<vtkSVORenderPass> pass;
+  return pass->GetShadowBufferResolution();
+}
+
+void removePass(vtkRenderer* renderer)
+{
+  if (vtkRenderPass* pass = renderer->GetPass())
+  {
+    pass->ReleaseGraphicsResources(renderer->GetRenderWindow());
+    renderer->SetPass(nullptr);
+  }
+}
+
+void useMethod(const Method& method, vtkRenderer* renderer, int shadowMapResolution)
+{
+  removePass(renderer);
+  if (method.technique == Technique::Octrees)
+  {
+    vtkNew<vtkSVORenderPass> pass;
+    pass->SetFrameCoherence(method.frameCoherence);
+    pass->SetPixelError(method.pixelError);
+    pass->SetShadowBufferResolution(shadowMapResolution);
+    renderer->SetPass(pass);
+  }
+  else if (method.technique == Technique::ShadowMaps)
+  {
+    vtkNew<vtkShadowMapPass> shadows;
+    shadows->GetShadowMapBakerPass()->SetResolution(shadowMapResolution);
+    vtkNew<vtkRenderPassCollection> passes;
+    passes->AddItem(shadows->GetShadowMapBakerPass());
+    passes->AddItem(shadows);
+    vtkNew<vtkSequencePass> sequence;
+    sequence->SetPasses(passes);
+    vtkNew<vtkCameraPass> camera;
+    camera->SetDelegatePass(sequence);
+    renderer->SetPass(camera);
+  }
+}
+
+double Timing::framesPerSecond() const
+{
+  return this->medianMilliseconds > 0 ? 1000.0 / this->medianMilliseconds : 0;
+}
+
+Timing timeFrames(
+  vtkRenderWindow* window, Scene& scene, int framesPerView, const std::function<void()>& afterFrame)
+{
+  std::vector<double> milliseconds;
+  for (const Viewpoint& view : scene.experiment().views)
+  {
+    scene.setView(view);
+    for (int i = -warmUpFrames; i < framesPerView; ++i)
+    {
+      scene.setFrame((i + warmUpFrames) * Scene::period() / (framesPerView + warmUpFrames));
+      const double elapsed = drawMilliseconds(window);
+      if (i >= 0)
+      {
+        milliseconds.push_back(elapsed);
+        afterFrame();
+      }
+    }
+  }
+  return summary(std::move(milliseconds));
+}
+
+Timing timeEmptyFrames(vtkRenderWindow* window, int frames)
+{
+  std::vector<double> milliseconds;
+  for (int i = -warmUpFrames; i < frames; ++i)
+  {
+    const double elapsed = drawMilliseconds(window);
+    if (i >= 0)
+    {
+      milliseconds.push_back(elapsed);
+    }
+  }
+  return summary(std::move(milliseconds));
+}
+
+std::vector<double> objectCoverage(vtkRenderWindow* window, Scene& scene)
+{
+  removePass(scene.renderer());
+  scene.setGroundVisible(false);
+  scene.setAVisible(false);
+  for (std::size_t pose = 0; pose < posesOfB; ++pose)
+  {
+    scene.setPose(pose);
+    window->Render();
+  }
+  scene.setAVisible(true);
+  std::vector<double> coverage;
+  for (const Viewpoint& view : scene.experiment().views)
+  {
+    scene.setView(view);
+    double sum = 0;
+    for (int i = 0; i < coverageFrames; ++i)
+    {
+      scene.setFrame(i * Scene::period() / coverageFrames);
+      window->Render();
+      sum += coveredShare(window);
+    }
+    coverage.push_back(sum / coverageFrames);
+  }
+  scene.setGroundVisible(true);
+  return coverage;
+}
+}
