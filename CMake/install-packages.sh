@@ -24,6 +24,7 @@ packages_demo="
 xvfb|a display for machines without one
 xauth|access to that display
 libgl1-mesa-dri|software OpenGL
+libassimp-dev|reads the meshes of objects A and B
 libcgal-demo|object A: ChineseDragon-10kv.off
 assimp-testmodels|object B: sydney.md2
 ffmpeg|turns the frames into a movie"
