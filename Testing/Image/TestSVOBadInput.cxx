@@ -1,0 +1,158 @@
+// Whatever an actor brings, the rest of the frame is complete, and one message says what is wrong.
+#include "svoTestStage.h"
+
+#include "vtkCellArray.h"
+#include "vtkMatrix4x4.h"
+#include "vtkObjectFactory.h"
+#include "vtkOutputWindow.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkTrivialProducer.h"
+
+#include <functional>
+#include <iostream>
+#include <limits>
+
+namespace
+{
+// Counts messages instead of printing them, so that expected ones do not fail the test.
+class Messages : public vtkOutputWindow
+{
+public:
+  static Messages* New();
+  vtkTypeMacro(Messages, vtkOutputWindow);
+  void DisplayText(const char* text) override { this->take(text); }
+  void DisplayErrorText(const char* text) override { this->take(text); }
+  void DisplayWarningText(const char* text) override { this->take(text); }
+  void DisplayGenericWarningText(const char* text) override { this->take(text); }
+  int count = 0;
+  std::string last;
+
+private:
+  void take(const char* text)
+  {
+    ++this->count;
+    this->last = text;
+  }
+};
+vtkStandardNewMacro(Messages);
+
+const double NaN = std::numeric_limits<double>::quiet_NaN();
+
+vtkSmartPointer<vtkTrivialProducer> producer(vtkPolyData* mesh)
+{
+  auto source = vtkSmartPointer<vtkTrivialProducer>::New();
+  source->SetOutput(mesh);
+  return source;
+}
+
+// A square at height z of two triangles; `corner` is the x of its last point.
+vtkSmartPointer<vtkTrivialProducer> square(double z, double corner)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(-1.0, -1.0, z);
+  points->InsertNextPoint(1.0, -1.0, z);
+  points->InsertNextPoint(1.0, 1.0, z);
+  points->InsertNextPoint(corner, 1.0, z);
+  vtkNew<vtkCellArray> triangles;
+  const vtkIdType first[3] = { 0, 1, 2 };
+  const vtkIdType second[3] = { 0, 2, 3 };
+  triangles->InsertNextCell(3, first);
+  triangles->InsertNextCell(3, second);
+  vtkNew<vtkPolyData> mesh;
+  mesh->SetPoints(points);
+  mesh->SetPolys(triangles);
+  return producer(mesh);
+}
+
+struct Case
+{
+  const char* name;
+  int messages; // how many, over three frames
+  std::function<void(svoTest::Stage&)> add;
+};
+
+void withMatrix(svoTest::Stage& stage, int row, int column, double value)
+{
+  vtkNew<vtkMatrix4x4> matrix;
+  matrix->SetElement(row, column, value);
+  stage.add(svoTest::ball(0.5, 0.0, 0.0, 2.0), 1.0, 0.0, 0.0)->SetUserMatrix(matrix);
+}
+}
+
+int TestSVOBadInput(int, char*[])
+{
+  using namespace svoTest;
+  Checks checks;
+  const Case cases[] = {
+    { "no points at all", 0,
+      [](Stage& stage)
+      {
+        vtkNew<vtkPolyData> mesh;
+        stage.add(producer(mesh), 1.0, 0.0, 0.0);
+      } },
+    { "only a vertex and a line", 0,
+      [](Stage& stage)
+      {
+        auto source = square(-9.0, -1.0);
+        vtkPolyData* mesh = vtkPolyData::SafeDownCast(source->GetOutputDataObject(0));
+        vtkNew<vtkCellArray> lines;
+        const vtkIdType line[2] = { 0, 1 };
+        lines->InsertNextCell(2, line);
+        mesh->SetPolys(nullptr);
+        mesh->SetLines(lines);
+        stage.add(source, 1.0, 0.0, 0.0);
+      } },
+    { "all points equal", 0,
+      [](Stage& stage)
+      {
+        vtkActor* actor = stage.add(square(0.0, -1.0), 1.0, 0.0, 0.0);
+        auto* mesh = vtkPolyData::SafeDownCast(actor->GetMapper()->GetInputDataObject(0, 0));
+        for (vtkIdType i = 0; i < 4; ++i)
+        {
+          mesh->GetPoints()->SetPoint(i, 0.0, 0.0, -9.0);
+        }
+        mesh->GetPoints()->Modified();
+      } },
+    { "a point that is not a number", 1,
+      [](Stage& stage) { stage.add(square(-9.0, NaN), 1.0, 0.0, 0.0); } },
+    { "a singular matrix", 1, [](Stage& stage) { withMatrix(stage, 2, 2, 0.0); } },
+    { "a matrix that is not a number", 1, [](Stage& stage) { withMatrix(stage, 0, 0, NaN); } },
+    { "an infinite matrix", 1,
+      [](Stage& stage) { withMatrix(stage, 1, 1, std::numeric_limits<double>::infinity()); } },
+  };
+
+  Stage good;
+  good.addGround();
+  good.add(ball(0.7, 0.0, 0.0, 1.0), 0.9, 0.5, 0.3);
+  good.addSun(2.0, -1.5, 4.0);
+  const Picture expected = good.shadowed();
+
+  for (const Case& bad : cases)
+  {
+    vtkNew<Messages> messages;
+    vtkOutputWindow::SetInstance(messages);
+    Picture picture;
+    {
+      Stage stage;
+      stage.addGround();
+      stage.add(ball(0.7, 0.0, 0.0, 1.0), 0.9, 0.5, 0.3);
+      stage.addSun(2.0, -1.5, 4.0);
+      bad.add(stage);
+      for (int frame = 0; frame < 3; ++frame)
+      {
+        picture = stage.shadowed();
+      }
+    }
+    vtkOutputWindow::SetInstance(nullptr);
+    const Difference change = difference(picture, expected);
+    std::cout << bad.name << ": " << messages->count << " messages, largest difference "
+              << change.largest << "\n"
+              << messages->last << "\n";
+    checks.expect(
+      change.mean < 0.05, std::string(bad.name) + ": the rest of the frame is complete");
+    checks.expect(messages->count == bad.messages,
+      std::string(bad.name) + ": " + std::to_string(bad.messages) + " messages over three frames");
+  }
+  return checks.exitCode();
+}

@@ -1,0 +1,88 @@
+// Without shadows a traced surface looks as VTK's rasteriser draws it: interpolation, highlights,
+// ambient light, unlit surfaces, and the depth it leaves behind.
+#include "svoTestStage.h"
+
+#include "vtkProperty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iostream>
+
+int TestSVOLook(int, char*[])
+{
+  using namespace svoTest;
+  Checks checks;
+  struct Look
+  {
+    const char* name;
+    std::function<void(vtkProperty*)> set;
+  };
+  const Look looks[] = {
+    { "flat", [](vtkProperty* p) { p->SetInterpolationToFlat(); } },
+    { "Gouraud", [](vtkProperty* p) { p->SetInterpolationToGouraud(); } },
+    { "Phong with a highlight",
+      [](vtkProperty* p)
+      {
+        p->SetInterpolationToPhong();
+        p->SetSpecular(0.6);
+        p->SetSpecularPower(20.0);
+        p->SetSpecularColor(1.0, 0.9, 0.7);
+      } },
+    { "ambient",
+      [](vtkProperty* p)
+      {
+        p->SetAmbient(0.4);
+        p->SetDiffuse(0.5);
+        p->SetAmbientColor(0.2, 0.9, 0.6);
+      } },
+    { "unlit", [](vtkProperty* p) { p->LightingOff(); } },
+  };
+  Stage stage;
+  vtkActor* actors[] = { stage.addGround(), stage.add(ball(0.6, -1.1, -0.5, 0.7), 0.9, 0.5, 0.3),
+    stage.add(ring(0.8, 0.8, 0.9, 1.1), 0.3, 0.6, 0.9),
+    stage.add(box(0.7, 0.9, -1.0, 0.35), 0.5, 0.8, 0.4),
+    stage.add(spike(1.0, -0.6, 1.2, 0.5), 0.8, 0.8, 0.3) };
+  stage.addSun(2.0, -1.5, 4.0)->SetIntensity(0.8);
+  vtkLight* bulb = stage.addBulb(-1.0, -2.0, 2.0);
+  bulb->SetColor(0.5, 0.4, 0.3);
+  bulb->SetAttenuationValues(1.0, 0.05, 0.02);
+
+  for (const Look& look : looks)
+  {
+    for (vtkActor* actor : actors)
+    {
+      vtkNew<vtkProperty> property;
+      double color[3];
+      actor->GetProperty()->GetDiffuseColor(color);
+      property->SetColor(color);
+      look.set(property);
+      actor->SetProperty(property);
+    }
+    stage.usePass(true);
+    const Picture traced = stage.unshadowed();
+    checks.expect(stage.pass->GetNumberOfTracedActors() == 5, "all five actors are traced");
+    stage.usePass(false);
+    const Picture raster = capture(stage.window);
+    const Mask inner = awayFromEdges(raster, 2);
+    const Difference d = difference(raster, traced, inner);
+    std::cout << look.name << ": mean " << d.mean << ", p99 " << d.p99 << ", largest " << d.largest
+              << " of " << d.pixels << " pixels\n";
+    checks.expect(d.pixels > 20000, "enough pixels away from edges");
+    checks.expect(
+      d.mean <= 2.0 && d.p99 <= 8, std::string(look.name) + ": mean 2 and p99 8 grey levels");
+
+    std::size_t deep = 0;
+    std::size_t apart = 0;
+    for (std::size_t i = 0; i < inner.size(); ++i)
+    {
+      if (inner[i])
+      {
+        ++deep;
+        apart += std::abs(raster.depth[i] - traced.depth[i]) > 1e-5f;
+      }
+    }
+    checks.expect(apart <= deep / 1000, std::string(look.name) + ": depth as the rasteriser's");
+  }
+  return checks.exitCode();
+}
