@@ -1,0 +1,319 @@
+// What a ray meets in the cells where it stops: cubes, planes or triangles.
+//
+// A walk (svoTraverse.h, or a vector kernel, lane by lane) hands each occupied cell, front to back,
+// to meetCell(), which keeps the nearest hit in a LeafHit and says how to go on; finish() then
+// settles rays that were refused everywhere. All of it is templated on the precision of the ray.
+//
+//   voxel      the point where the ray enters the cell.
+//   plane      the plane of a representative triangle, where it passes the cell widened by one cell
+//              on all sides; else the ray walks on. A ray that finds nothing to its end is given
+//              the entry of the first cell that refused it, so that a closed mesh never shows a
+//              hole. A ray that starts in a cell, beyond that cell's plane, is not refused: it has
+//              left the surface behind.
+//   triangle   the triangles that touch the cell's 4x4x4 brick, exactly and watertight. All of the
+//              brick is settled at its first cell: the rest of it is skipped. A hit behind the
+//              brick is kept as the new end of the ray.
+//   automatic  triangle in bricks with a list of at most ShortList triangles, plane in the others.
+//
+// Where a ray stops above the bricks (TraceOptions::level below octree.level() - 2) plane, triangle
+// and automatic are the mean plane of the node that is the cell, with the rule of `plane`; at an
+// octree level between two depths, of the child node that the ray passes in the middle of the cell,
+// or the first that exists.
+#ifndef svoLeafGeometry_h
+#define svoLeafGeometry_h
+
+#include "svoMorton.h"
+#include "svoOctree.h"
+#include "svoPlane.h"
+#include "svoRay.h"
+#include "svoTraverse.h"
+#include "svoTriangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace svo
+{
+/// Longest list that `automatic` intersects triangle by triangle.
+constexpr std::uint32_t ShortList = 8;
+/// Most triangles of a list that are looked at for a representative.
+constexpr std::uint32_t RepresentativeCandidates = 32;
+
+/// What all rays of one query share.
+struct LeafQuery
+{
+  LeafQuery(const Octree& o, const TraceOptions& options)
+    : octree(o)
+    , level(std::clamp(options.level, 0, o.level()))
+    , bits(rootBits(o, level))
+    , inBrick(level >= o.level() - 2)
+    , geometry(o.surface() ? options.leafGeometry : LeafGeometry::Voxel)
+  {
+    if (!inBrick && options.leafGeometry != LeafGeometry::Voxel)
+    {
+      geometry = LeafGeometry::Plane;
+    }
+  }
+
+  const Octree& octree;
+  int level;             // where rays stop
+  int bits;              // of a cell's coordinate in the root cube
+  bool inBrick;          // cells are parts of a brick, or a brick
+  LeafGeometry geometry; // Voxel without triangles
+};
+
+/// The nearest hit so far.
+template <class Real>
+struct LeafHit
+{
+  Real t = 0;
+  Primitive primitive = NoPrimitive;
+  glm::ivec3 cell{ -1 };
+  // The first cell that refused the ray; its primitive is NoPrimitive if there is none.
+  Real refusedT = 0;
+  Primitive refused = NoPrimitive;
+  glm::ivec3 refusedCell{ -1 };
+};
+
+/// Centre and half of the edge of a cell whose coordinates have `bits` bits, in octree coordinates.
+template <class Real>
+Vector<Real> cellCentre(glm::ivec3 cell, int bits)
+{
+  return Real(1) + (Vector<Real>(cell) + Real(0.5)) / static_cast<Real>(1 << bits);
+}
+inline double cellHalf(int bits)
+{
+  return 0.5 / static_cast<double>(1 << bits);
+}
+
+/// The triangle of the brick whose plane is nearest to the centre of one of its cells, preferably
+/// one that touches the cell. Without a surface, the first of the list.
+template <class Real>
+Primitive representativeTriangle(
+  const LeafQuery& query, std::uint32_t brick, const glm::ivec3& cell)
+{
+  std::uint32_t count = 0;
+  std::uint32_t inlineId = 0;
+  const std::uint32_t* list = query.octree.brickTriangles(brick, count, inlineId);
+  const Surface* surface = query.octree.surface();
+  if (count == 1 || surface == nullptr)
+  {
+    return list[0];
+  }
+  const Vector<Real> centre = cellCentre<Real>(cell, query.bits);
+  const Real half = static_cast<Real>(cellHalf(query.bits));
+  Primitive best = list[0];
+  bool bestTouches = false;
+  Real bestDistance = std::numeric_limits<Real>::max(); // squared
+  const std::uint32_t looked = std::min(count, RepresentativeCandidates);
+  for (std::uint32_t k = 0; k < looked; ++k)
+  {
+    const glm::uvec3 triangle = surface->triangles[list[k]];
+    const Vector<Real> a = Vector<Real>(surface->points[triangle.x]) - centre;
+    const Vector<Real> b = Vector<Real>(surface->points[triangle.y]) - centre;
+    const Vector<Real> c = Vector<Real>(surface->points[triangle.z]) - centre;
+    const Vector<Real> normal = glm::cross(b - a, c - a);
+    const Real length2 = glm::dot(normal, normal);
+    if (!(length2 > Real(0)))
+    {
+      continue;
+    }
+    const Real height = glm::dot(normal, a);
+    const Real reach = half * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
+    const Vector<Real> low = glm::min(a, glm::min(b, c));
+    const Vector<Real> high = glm::max(a, glm::max(b, c));
+    const bool touches = std::abs(height) <= reach && low.x <= half && low.y <= half &&
+      low.z <= half && high.x >= -half && high.y >= -half && high.z >= -half;
+    const Real distance = height * height / length2;
+    if (touches > bestTouches || (touches == bestTouches && distance < bestDistance))
+    {
+      best = list[k];
+      bestTouches = touches;
+      bestDistance = distance;
+    }
+  }
+  return best;
+}
+
+/// The node whose mean plane stands for a cell above the bricks.
+template <class Real>
+std::uint32_t representativeNode(
+  const LeafQuery& query, const ClippedRay<Real>& ray, const StopCell<Real>& cell)
+{
+  if (cell.bitCount == 64)
+  {
+    return cell.node;
+  }
+  const Node& node = query.octree.nodes()[cell.node];
+  const Vector<Real> centre = cellCentre<Real>(cell.cell, query.bits);
+  const Real middle = (cell.tEnter + std::min(cell.tExit, ray.tMax)) * Real(0.5);
+  const Vector<Real> x = ray.origin + middle * ray.direction;
+  int bit =
+    cell.firstBit | int(x.x >= centre.x) | int(x.y >= centre.y) << 1 | int(x.z >= centre.z) << 2;
+  if (!(node.mask >> bit & 1))
+  {
+    bit = __builtin_ctzll(node.mask & (0xffull << cell.firstBit));
+  }
+  return node.first + __builtin_popcountll(node.mask & ((1ull << bit) - 1));
+}
+
+/// Where the line of the ray meets the plane of a triangle or of a node. NaN or infinite if
+/// parallel.
+template <class Real>
+Real intersectPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const StopCell<Real>& cell,
+  Primitive primitive)
+{
+  if (!(primitive & NodePrimitive))
+  {
+    const Surface& surface = *query.octree.surface();
+    const glm::uvec3 triangle = surface.triangles[primitive];
+    const Vector<Real> a(surface.points[triangle.x]);
+    const Vector<Real> normal = glm::cross(
+      Vector<Real>(surface.points[triangle.y]) - a, Vector<Real>(surface.points[triangle.z]) - a);
+    return glm::dot(normal, a - ray.origin) / glm::dot(normal, ray.direction);
+  }
+  // The node's block is the cell, or (at a level in between) one of the cell's eight children.
+  const std::uint32_t index = primitive & ~NodePrimitive;
+  glm::ivec3 block = cell.cell;
+  int bits = query.bits;
+  if (cell.bitCount == 8)
+  {
+    const Node& node = query.octree.nodes()[cell.node];
+    std::uint64_t octet = node.mask & (0xffull << cell.firstBit);
+    std::uint32_t child =
+      node.first + __builtin_popcountll(node.mask & ((1ull << cell.firstBit) - 1));
+    for (; child < index; ++child)
+    {
+      octet &= octet - 1;
+    }
+    const int bit = __builtin_ctzll(octet);
+    block = 2 * block + glm::ivec3(bit & 1, bit >> 1 & 1, bit >> 2 & 1);
+    ++bits;
+  }
+  const MeanPlane plane = decodePlane(query.octree.nodes()[index].plane);
+  const Vector<Real> normal(plane.normal);
+  const Real halfDiagonal = static_cast<Real>(std::sqrt(3.0) * cellHalf(bits));
+  const Vector<Real> toCentre = cellCentre<Real>(block, bits) - ray.origin;
+  return (glm::dot(normal, toCentre) + static_cast<Real>(plane.offset) * halfDiagonal) /
+    glm::dot(normal, ray.direction);
+}
+
+template <class Real>
+Visit meetPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const StopCell<Real>& cell,
+  Primitive primitive, Real& tMax, LeafHit<Real>& hit)
+{
+  const Real t = intersectPlane(query, ray, cell, primitive);
+  const Vector<Real> x =
+    glm::abs(ray.origin + t * ray.direction - cellCentre<Real>(cell.cell, query.bits));
+  const Real reach = static_cast<Real>(3.0 * cellHalf(query.bits));
+  const bool near = x.x <= reach && x.y <= reach && x.z <= reach; // false for NaN
+  if (near && t >= ray.tMin && t <= tMax)
+  {
+    hit.t = t;
+    hit.primitive = primitive;
+    hit.cell = cell.cell;
+    tMax = t;
+    return Visit::Stop;
+  }
+  const bool leftBehind = near && t < ray.tMin && cell.tEnter <= ray.tMin;
+  if (hit.refused == NoPrimitive && !leftBehind)
+  {
+    hit.refusedT = cell.tEnter;
+    hit.refused = primitive;
+    hit.refusedCell = cell.cell;
+  }
+  return Visit::Continue;
+}
+
+template <class Real>
+Visit meetTriangles(const LeafQuery& query, const ClippedRay<Real>& ray,
+  const ShearedRay<Real>& sheared, const std::uint32_t* list, std::uint32_t count, Real& tMax,
+  LeafHit<Real>& hit)
+{
+  const Surface& surface = *query.octree.surface();
+  for (std::uint32_t k = 0; k < count; ++k)
+  {
+    const glm::uvec3 triangle = surface.triangles[list[k]];
+    Real t;
+    if (intersectTriangle(sheared, surface.points[triangle.x], surface.points[triangle.y],
+          surface.points[triangle.z], t) &&
+      t >= ray.tMin && t <= tMax &&
+      (hit.primitive == NoPrimitive || t < hit.t || list[k] < hit.primitive))
+    {
+      hit.t = t;
+      hit.primitive = list[k];
+      tMax = t; // cells that are entered behind the hit need not be visited
+    }
+  }
+  return Visit::SkipBrick;
+}
+
+/// Tests one occupied cell. tMax is the ray's end so far and is lowered to a hit.
+template <class Real>
+Visit meetCell(const LeafQuery& query, const ClippedRay<Real>& ray, const ShearedRay<Real>& sheared,
+  const StopCell<Real>& cell, Real& tMax, LeafHit<Real>& hit)
+{
+  if (!query.inBrick)
+  {
+    const Primitive primitive = NodePrimitive | representativeNode(query, ray, cell);
+    if (query.geometry != LeafGeometry::Voxel)
+    {
+      return meetPlane(query, ray, cell, primitive, tMax, hit);
+    }
+    hit.t = cell.tEnter;
+    hit.primitive = primitive;
+    hit.cell = cell.cell;
+    return Visit::Stop;
+  }
+  if (query.geometry == LeafGeometry::Triangle || query.geometry == LeafGeometry::Automatic)
+  {
+    std::uint32_t count = 0;
+    std::uint32_t inlineId = 0;
+    const std::uint32_t* list = query.octree.brickTriangles(cell.node, count, inlineId);
+    if (query.geometry == LeafGeometry::Triangle || count <= ShortList)
+    {
+      return meetTriangles(query, ray, sheared, list, count, tMax, hit);
+    }
+  }
+  const Primitive primitive = representativeTriangle<Real>(query, cell.node, cell.cell);
+  if (query.geometry != LeafGeometry::Voxel)
+  {
+    return meetPlane(query, ray, cell, primitive, tMax, hit);
+  }
+  hit.t = cell.tEnter;
+  hit.primitive = primitive;
+  hit.cell = cell.cell;
+  return Visit::Stop;
+}
+
+/// To be called when the walk is over: a ray that hit nothing gets the first cell that refused it.
+template <class Real>
+void finish(LeafHit<Real>& hit)
+{
+  if (hit.primitive == NoPrimitive && hit.refused != NoPrimitive)
+  {
+    hit.t = hit.refusedT;
+    hit.primitive = hit.refused;
+    hit.cell = hit.refusedCell;
+  }
+}
+
+/// The nearest hit of a clipped ray; anyHit: any one.
+template <class Real>
+LeafHit<Real> intersectLeaves(const LeafQuery& query, const ClippedRay<Real>& ray, bool anyHit)
+{
+  LeafHit<Real> hit;
+  const ShearedRay<Real> sheared(ray.origin, ray.direction);
+  walk(query.octree, ray, query.level,
+    [&](const StopCell<Real>& cell, Real& tMax)
+    {
+      const Visit answer = meetCell(query, ray, sheared, cell, tMax, hit);
+      return anyHit && hit.primitive != NoPrimitive ? Visit::Stop : answer;
+    });
+  finish(hit);
+  return hit;
+}
+}
+
+#endif
