@@ -1,0 +1,99 @@
+"""The filters from Python: source, octree, questions to it, its cells, and a file in between."""
+
+import os
+import tempfile
+import unittest
+
+import vtksvo
+from vtkmodules.vtkCommonCore import mutable
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
+
+
+def sphere_with_octree(level=6):
+    source = vtkSphereSource()
+    source.SetRadius(1.0)
+    source.SetThetaResolution(32)
+    source.SetPhiResolution(32)
+    convert = vtksvo.vtkPolyDataToSVO()
+    convert.SetInputConnection(source.GetOutputPort())
+    convert.SetMaximumLevel(level)
+    convert.Update()
+    return convert
+
+
+class Filters(unittest.TestCase):
+    def test_the_mesh_passes_through_unchanged(self):
+        convert = sphere_with_octree()
+        mesh, output = convert.GetInput(), convert.GetOutput()
+        self.assertEqual(output.GetNumberOfPoints(), mesh.GetNumberOfPoints())
+        self.assertEqual(output.GetNumberOfPolys(), mesh.GetNumberOfPolys())
+        self.assertGreater(output.GetFieldData().GetNumberOfArrays(), 0)
+
+    def test_octree_answers(self):
+        octree = vtksvo.vtkSparseVoxelOctree()
+        self.assertTrue(octree.Initialize(sphere_with_octree(6).GetOutput()))
+        self.assertEqual(octree.GetNumberOfLevels(), 6)
+        # A sphere that fills its cube touches between pi and 3 pi times 4^(level - 1) cells or so.
+        self.assertGreater(octree.GetNumberOfVoxels(), 3 * 4**5)
+        self.assertLess(octree.GetNumberOfVoxels(), 12 * 4**5)
+        self.assertGreater(octree.GetActualMemorySize(), 0)
+        bounds = [0.0] * 6
+        octree.GetBounds(bounds)
+        edge = bounds[1] - bounds[0]
+        self.assertAlmostEqual(octree.GetVoxelSize(), edge / 64, places=9)
+        self.assertTrue(octree.IsOccupied([0.0, 0.0, 1.0], 6))
+        self.assertFalse(octree.IsOccupied([0.0, 0.0, 0.0], 6))
+        self.assertFalse(octree.IsOccupied([0.0, 0.0, 9.0], 6))
+
+    def test_line_meets_the_surface_where_the_sphere_is(self):
+        octree = vtksvo.vtkSparseVoxelOctree()
+        octree.Initialize(sphere_with_octree(7).GetOutput())
+        t, x, cell = mutable(-1.0), [0.0, 0.0, 0.0], mutable(-1)
+        hit = octree.IntersectWithLine([3.0, 0.1, 0.2], [-1.0, 0.1, 0.2], t, x, cell)
+        self.assertEqual(hit, 1)
+        self.assertAlmostEqual(sum(c * c for c in x) ** 0.5, 1.0, delta=0.02)
+        self.assertAlmostEqual(float(t), (3.0 - x[0]) / 4.0, places=5)
+        self.assertGreaterEqual(int(cell), 0)
+        self.assertEqual(octree.IntersectWithLine([3, 2, 0], [-1, 2, 0], t, x, cell), 0)
+        # The line ends before the surface.
+        self.assertEqual(octree.IntersectWithLine([3, 0, 0], [2, 0, 0], t, x, cell), 0)
+
+    def test_octree_travels_in_a_file(self):
+        mesh = sphere_with_octree(5).GetOutput()
+        octree = vtksvo.vtkSparseVoxelOctree()
+        octree.Initialize(mesh)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "sphere.vtp")
+            writer = vtkXMLPolyDataWriter()
+            writer.SetFileName(path)
+            writer.SetInputData(mesh)
+            self.assertEqual(writer.Write(), 1)
+            reader = vtkXMLPolyDataReader()
+            reader.SetFileName(path)
+            reader.Update()
+        again = vtksvo.vtkSparseVoxelOctree()
+        self.assertTrue(again.Initialize(reader.GetOutput()))
+        self.assertEqual(again.GetNumberOfVoxels(), octree.GetNumberOfVoxels())
+
+    def test_a_mesh_without_octree_is_an_error_once(self):
+        octree = vtksvo.vtkSparseVoxelOctree()
+        errors = []
+        octree.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+        self.assertFalse(octree.Initialize(vtkPolyData()))
+        self.assertEqual(len(errors), 1)
+
+    def test_voxels_as_a_surface(self):
+        cells = vtksvo.vtkSVOToPolyData()
+        cells.SetInputConnection(sphere_with_octree(4).GetOutputPort())
+        cells.Update()
+        surface = cells.GetOutput()
+        self.assertGreater(surface.GetNumberOfPolys(), 100)
+        for low, high in zip(surface.GetBounds()[::2], surface.GetBounds()[1::2]):
+            self.assertLess(low, -0.99)
+            self.assertGreater(high, 0.99)
+
+
+if __name__ == "__main__":
+    unittest.main()

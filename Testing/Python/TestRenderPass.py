@@ -1,0 +1,138 @@
+"""The render pass from Python: a picture with a shadow, the static helpers, the statistics."""
+
+import unittest
+
+import vtkmodules.vtkInteractionStyle
+import vtkmodules.vtkRenderingOpenGL2
+import vtksvo
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
+from vtkmodules.vtkRenderingCore import (
+    vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow)
+
+
+class Scene:
+    """A ball above a ground, the sun to its right; the shadow lies around (-1, 0, 0)."""
+
+    def __init__(self, with_filter):
+        ball = vtkSphereSource()
+        ball.SetCenter(0.0, 0.0, 1.0)
+        ground = vtkPlaneSource()
+        ground.SetOrigin(-2.0, -2.0, 0.0)
+        ground.SetPoint1(2.0, -2.0, 0.0)
+        ground.SetPoint2(-2.0, 2.0, 0.0)
+        self.window = vtkRenderWindow()
+        self.window.SetOffScreenRendering(True)
+        self.window.SetMultiSamples(0)
+        self.window.SetSize(200, 200)
+        self.renderer = vtkRenderer()
+        self.window.AddRenderer(self.renderer)
+        self.actors = []
+        for source in (ball, ground):
+            if with_filter:
+                convert = vtksvo.vtkPolyDataToSVO()
+                convert.SetMaximumLevel(7)
+                convert.SetInputConnection(source.GetOutputPort())
+                source = convert
+            mapper = vtkPolyDataMapper()
+            mapper.SetInputConnection(source.GetOutputPort())
+            actor = vtkActor()
+            actor.SetMapper(mapper)
+            self.renderer.AddActor(actor)
+            self.actors.append(actor)
+        self.light = vtkLight()
+        self.light.SetLightTypeToSceneLight()
+        self.light.SetPosition(3.0, 0.0, 4.0)
+        self.light.SetFocalPoint(0.0, 0.0, 1.0)
+        self.renderer.AddLight(self.light)
+        self.svo = vtksvo.vtkSVORenderPass()
+        self.svo.SetMaximumLevel(7)
+        self.renderer.SetPass(self.svo)
+        camera = self.renderer.GetActiveCamera()
+        camera.SetPosition(0.0, 0.0, 8.0)
+        camera.SetFocalPoint(0.0, 0.0, 0.0)
+
+    def ground_brightness(self, x, y):
+        self.window.Render()
+        self.renderer.SetWorldPoint(x, y, 0.0, 1.0)
+        self.renderer.WorldToDisplay()
+        px, py = (int(c) for c in self.renderer.GetDisplayPoint()[:2])
+        pixel = vtkUnsignedCharArray()
+        self.window.GetPixelData(px, py, px, py, 1, pixel)
+        return pixel.GetValue(0)
+
+
+class RenderPass(unittest.TestCase):
+    def test_source_to_picture_with_and_without_the_filter(self):
+        for with_filter in (False, True):
+            with self.subTest(with_filter=with_filter):
+                scene = Scene(with_filter)
+                lit = scene.ground_brightness(-1.0, 1.5)
+                shadowed = scene.ground_brightness(-1.0, 0.0)
+                self.assertGreater(lit, 100)
+                self.assertLess(shadowed, 10)
+                scene.window.Finalize()
+
+    def test_filtered_meshes_need_no_conversion(self):
+        scene = Scene(with_filter=True)
+        scene.svo.ConvertPolyDataOff()
+        scene.window.Render()
+        self.assertEqual(scene.svo.GetNumberOfTracedActors(), 2)
+        scene.window.Finalize()
+        plain = Scene(with_filter=False)
+        plain.svo.ConvertPolyDataOff()
+        plain.window.Render()
+        self.assertEqual(plain.svo.GetNumberOfTracedActors(), 0)
+        plain.window.Finalize()
+
+    def test_static_helpers_take_the_value_first(self):
+        scene = Scene(with_filter=False)
+        svo = vtksvo.vtkSVORenderPass
+        ball, ground = scene.actors
+        lit = scene.ground_brightness(-1.0, 1.5)
+        svo.SetCastShadow(False, ball)
+        self.assertFalse(svo.GetCastShadow(ball))
+        self.assertEqual(scene.ground_brightness(-1.0, 0.0), lit)
+        svo.SetCastShadow(True, ball)
+        self.assertLess(scene.ground_brightness(-1.0, 0.0), 10)
+        svo.SetReceiveShadow(False, ground)
+        self.assertFalse(svo.GetReceiveShadow(ground))
+        self.assertEqual(scene.ground_brightness(-1.0, 0.0), lit)
+        svo.SetReceiveShadow(True, ground)
+        svo.SetCastShadow(False, scene.light)
+        self.assertFalse(svo.GetCastShadow(scene.light))
+        self.assertEqual(scene.ground_brightness(-1.0, 0.0), lit)
+        svo.SetCastShadow(True, scene.light)
+        svo.SetUseSVO(False, ground)
+        self.assertFalse(svo.GetUseSVO(ground))
+        self.assertLess(scene.ground_brightness(-1.0, 0.0), 10)
+        self.assertEqual(scene.svo.GetNumberOfRasterizedActors(), 1)
+        scene.window.Finalize()
+
+    def test_statistics_of_the_last_frame(self):
+        scene = Scene(with_filter=False)
+        scene.window.Render()
+        self.assertGreater(scene.svo.GetNumberOfPrimaryRays(), 0)
+        self.assertGreater(scene.svo.GetNumberOfShadowRays(), 0)
+        self.assertGreater(scene.svo.GetTraceTime(), 0.0)
+        self.assertGreater(scene.svo.GetShadowTime(), 0.0)
+        self.assertGreater(scene.svo.GetPresentTime(), 0.0)
+        self.assertGreater(scene.svo.GetNumberOfRetracedLayers(), 0)
+        scene.window.Render()
+        self.assertEqual(scene.svo.GetNumberOfRetracedLayers(), 0)
+        scene.window.Finalize()
+
+    def test_settings_are_clamped_to_their_range(self):
+        svo = vtksvo.vtkSVORenderPass()
+        svo.SetShadowIntensity(7.0)
+        self.assertEqual(svo.GetShadowIntensity(), 1.0)
+        svo.SetPixelError(-1.0)
+        self.assertEqual(svo.GetPixelError(), 0.0)
+        svo.SetMaximumLevel(99)
+        self.assertEqual(svo.GetMaximumLevel(), 20)
+        convert = vtksvo.vtkPolyDataToSVO()
+        self.assertEqual(convert.GetMaximumLevel(), 10)
+
+
+if __name__ == "__main__":
+    unittest.main()
