@@ -80,6 +80,8 @@ public:
 
   /// Identity of the buffer, for caches: two octrees with the same key are the same.
   const void* key() const { return this->Data.get(); }
+  /// The buffer and its owner, to share them.
+  const std::shared_ptr<const std::byte>& data() const { return this->Data; }
 
 private:
   std::shared_ptr<const std::byte> Data;
