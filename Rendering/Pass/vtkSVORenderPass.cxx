@@ -1,10 +1,293 @@
 #include "vtkSVORenderPass.h"
 
+#include "svoPassRenderer.h"
+
+#include "vtkCommand.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenGLPolyDataMapper.h"
+#include "vtkRenderState.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkTimeStamp.h"
+
+#include <map>
+#include <string>
 
 vtkStandardNewMacro(vtkSVORenderPass);
 
-vtkSVORenderPass::vtkSVORenderPass() = default;
+struct vtkSVORenderPass::Internals
+{
+  svo::OctreeStore store;
+  std::map<vtkRenderer*, std::unique_ptr<svo::PassRenderer>> renderers;
+  svo::PassRenderer* current = nullptr; // while its frame is drawn
+  svo::PassStatistics statistics;
+  std::string shaderSignature; // of the shaders that mappers have built last
+  vtkTimeStamp shaderTime;
+  bool saidHeadlight = false;
+
+  svo::PassRenderer& of(vtkRenderer* renderer)
+  {
+    for (auto entry = this->renderers.begin(); entry != this->renderers.end();)
+    {
+      entry = entry->second->renderer() ? std::next(entry) : this->renderers.erase(entry);
+    }
+    std::unique_ptr<svo::PassRenderer>& found = this->renderers[renderer];
+    if (!found)
+    {
+      found = std::make_unique<svo::PassRenderer>(renderer);
+    }
+    return *found;
+  }
+};
+
+vtkSVORenderPass::vtkSVORenderPass()
+  : Impl(new Internals)
+{
+}
+
 vtkSVORenderPass::~vtkSVORenderPass() = default;
 
-void vtkSVORenderPass::Render(const vtkRenderState*) {}
+void vtkSVORenderPass::SetBackend(int backend)
+{
+  const int clamped = backend < BACKEND_AUTO
+    ? static_cast<int>(BACKEND_AUTO)
+    : (backend > BACKEND_OPENGL ? BACKEND_OPENGL : backend);
+  if (clamped == BACKEND_OPENGL && this->Backend != clamped)
+  {
+    vtkWarningMacro("The OpenGL backend is not part of this version; rays are traced on the CPU.");
+  }
+  if (this->Backend != clamped)
+  {
+    this->Backend = clamped;
+    this->Modified();
+  }
+}
+
+namespace
+{
+constexpr std::size_t BytesOfKiB = 1024;
+
+/// From this rate on VTK asks for interaction rather than for a picture to keep.
+constexpr double InteractiveRate = 1.0; // Hz
+}
+
+void vtkSVORenderPass::Render(const vtkRenderState* state)
+{
+  vtkRenderer* renderer = state->GetRenderer();
+  this->NumberOfRenderedProps = 0;
+  if (renderer->GetPass() == this)
+  {
+    // Otherwise a vtkCameraPass above has done it, or has its reasons.
+    renderer->GetRenderWindow()->MakeCurrent();
+    this->UpdateCamera(renderer);
+  }
+  this->UpdateLightGeometry(renderer);
+  this->UpdateLights(renderer);
+  if (renderer->GetSelector())
+  {
+    this->UpdateGeometry(renderer, state->GetFrameBuffer());
+    this->NumberOfRenderedProps = renderer->GetNumberOfPropsRendered();
+    return;
+  }
+
+  svo::StoreOptions store;
+  store.convert = this->ConvertPolyData;
+  store.level = this->MaximumLevel;
+  store.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);
+  store.wait = !this->BuildInBackground ||
+    renderer->GetRenderWindow()->GetDesiredUpdateRate() < InteractiveRate;
+  store.progress = [this](double amount) { this->InvokeEvent(vtkCommand::ProgressEvent, &amount); };
+  store.complain = [this](const std::string& text) { vtkWarningMacro(<< text); };
+
+  svo::FrameSettings settings;
+  settings.shadowTechnique = static_cast<svo::ShadowTechnique>(this->ShadowTechnique);
+  settings.shadowResolution = this->ShadowBufferResolution;
+  settings.automaticBias = this->AutomaticShadowBias;
+  settings.bias = this->ShadowBias;
+  settings.shadowIntensity = this->ShadowIntensity;
+  settings.pixelError = this->PixelError;
+  settings.frameCoherence = this->FrameCoherence;
+  settings.layerMemoryLimit = static_cast<std::size_t>(this->LayerMemoryLimit) * BytesOfKiB;
+  settings.antiAliasing = this->AntiAliasing;
+
+  Internals& impl = *this->Impl;
+  svo::PassRenderer& frame = impl.of(renderer);
+  frame.trace(state, impl.store, store, settings);
+  if (frame.collected().headlightOnly && !impl.saidHeadlight &&
+    settings.shadowTechnique != svo::ShadowTechnique::None)
+  {
+    impl.saidHeadlight = true;
+    vtkWarningMacro("No shadows: the only light is a headlight, which casts none that can be seen. "
+                    "Add a vtkLight with SetLightTypeToSceneLight().");
+  }
+
+  {
+    svo::ExchangedProps props(state->GetPropArray());
+    frame.exchange(props, state, this);
+    svo::ShadowReceivers& receivers = frame.receivers();
+    const bool receiving = !receivers.empty();
+    if (receiving)
+    {
+      const std::string signature = receivers.signature();
+      if (signature != impl.shaderSignature)
+      {
+        impl.shaderSignature = signature;
+        impl.shaderTime.Modified();
+      }
+      impl.current = &frame;
+      receivers.activate();
+      this->PreRender(state);
+    }
+    this->UpdateGeometry(renderer, state->GetFrameBuffer());
+    if (receiving)
+    {
+      this->PostRender(state);
+      receivers.deactivate();
+      impl.current = nullptr;
+    }
+  }
+  frame.finish();
+  impl.statistics = frame.statistics();
+  impl.store.endFrame(static_cast<std::size_t>(this->OctreeMemoryLimit) * BytesOfKiB);
+  this->NumberOfRenderedProps = renderer->GetNumberOfPropsRendered();
+}
+
+void vtkSVORenderPass::ReleaseGraphicsResources(vtkWindow* window)
+{
+  if (window)
+  {
+    this->Superclass::ReleaseGraphicsResources(window);
+  }
+  for (auto& entry : this->Impl->renderers)
+  {
+    entry.second->releaseGraphicsResources(window);
+  }
+}
+
+bool vtkSVORenderPass::PreReplaceShaderValues(
+  std::string&, std::string&, std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp*)
+{
+  if (vtkOpenGLPolyDataMapper::SafeDownCast(mapper))
+  {
+    svo::ShadowReceivers::markShader(fragmentShader);
+  }
+  return true;
+}
+
+bool vtkSVORenderPass::PostReplaceShaderValues(
+  std::string&, std::string&, std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp*)
+{
+  if (this->Impl->current && vtkOpenGLPolyDataMapper::SafeDownCast(mapper))
+  {
+    this->Impl->current->receivers().completeShader(fragmentShader);
+  }
+  return true;
+}
+
+bool vtkSVORenderPass::SetShaderParameters(
+  vtkShaderProgram* program, vtkAbstractMapper*, vtkProp* prop, vtkOpenGLVertexArrayObject*)
+{
+  if (this->Impl->current)
+  {
+    this->Impl->current->receivers().setUniforms(program, GetReceiveShadow(prop));
+  }
+  return true;
+}
+
+vtkMTimeType vtkSVORenderPass::GetShaderStageMTime()
+{
+  return this->Impl->shaderTime.GetMTime();
+}
+
+double vtkSVORenderPass::GetCollectTime() const
+{
+  return this->Impl->statistics.collectTime;
+}
+
+double vtkSVORenderPass::GetTraceTime() const
+{
+  return this->Impl->statistics.tracer.traceTime;
+}
+
+double vtkSVORenderPass::GetShadowTime() const
+{
+  return this->Impl->statistics.tracer.shadowTime;
+}
+
+double vtkSVORenderPass::GetPresentTime() const
+{
+  return this->Impl->statistics.presentTime;
+}
+
+vtkIdType vtkSVORenderPass::GetNumberOfPrimaryRays() const
+{
+  return static_cast<vtkIdType>(this->Impl->statistics.tracer.primaryRays);
+}
+
+vtkIdType vtkSVORenderPass::GetNumberOfShadowRays() const
+{
+  return static_cast<vtkIdType>(this->Impl->statistics.tracer.shadowRays);
+}
+
+vtkIdType vtkSVORenderPass::GetNumberOfRetracedLayers() const
+{
+  return static_cast<vtkIdType>(this->Impl->statistics.tracer.retracedLayers);
+}
+
+int vtkSVORenderPass::GetNumberOfTracedActors() const
+{
+  return this->Impl->statistics.tracedActors;
+}
+
+int vtkSVORenderPass::GetNumberOfRasterizedActors() const
+{
+  return this->Impl->statistics.rasterizedActors;
+}
+
+int vtkSVORenderPass::GetNumberOfInstances() const
+{
+  return this->Impl->statistics.instances;
+}
+
+vtkIdType vtkSVORenderPass::GetLayerMemorySize() const
+{
+  return static_cast<vtkIdType>(this->Impl->statistics.tracer.layerMemory / BytesOfKiB);
+}
+
+vtkIdType vtkSVORenderPass::GetOctreeMemorySize() const
+{
+  return static_cast<vtkIdType>(this->Impl->store.bytes() / BytesOfKiB);
+}
+
+void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Backend: " << this->Backend << '\n'
+     << indent << "ActiveBackend: " << this->GetActiveBackend() << '\n'
+     << indent << "ShadowTechnique: " << this->ShadowTechnique << '\n'
+     << indent << "ShadowBufferResolution: " << this->ShadowBufferResolution << " texels\n"
+     << indent << "AutomaticShadowBias: " << this->AutomaticShadowBias << '\n'
+     << indent << "ShadowBias: " << this->ShadowBias << " voxels\n"
+     << indent << "ShadowIntensity: " << this->ShadowIntensity << '\n'
+     << indent << "PixelError: " << this->PixelError << " pixels\n"
+     << indent << "ConvertPolyData: " << this->ConvertPolyData << '\n'
+     << indent << "MaximumLevel: " << this->MaximumLevel << '\n'
+     << indent << "LeafGeometry: " << this->LeafGeometry << '\n'
+     << indent << "OctreeMemoryLimit: " << this->OctreeMemoryLimit << " KiB\n"
+     << indent << "BuildInBackground: " << this->BuildInBackground << '\n'
+     << indent << "FrameCoherence: " << this->FrameCoherence << '\n'
+     << indent << "LayerMemoryLimit: " << this->LayerMemoryLimit << " KiB\n"
+     << indent << "AntiAliasing: " << this->AntiAliasing << '\n'
+     << indent << "CollectTime: " << this->GetCollectTime() << " s\n"
+     << indent << "TraceTime: " << this->GetTraceTime() << " s\n"
+     << indent << "ShadowTime: " << this->GetShadowTime() << " s\n"
+     << indent << "PresentTime: " << this->GetPresentTime() << " s\n"
+     << indent << "NumberOfPrimaryRays: " << this->GetNumberOfPrimaryRays() << '\n'
+     << indent << "NumberOfShadowRays: " << this->GetNumberOfShadowRays() << '\n'
+     << indent << "NumberOfRetracedLayers: " << this->GetNumberOfRetracedLayers() << '\n'
+     << indent << "NumberOfTracedActors: " << this->GetNumberOfTracedActors() << '\n'
+     << indent << "NumberOfRasterizedActors: " << this->GetNumberOfRasterizedActors() << '\n'
+     << indent << "NumberOfInstances: " << this->GetNumberOfInstances() << '\n'
+     << indent << "LayerMemorySize: " << this->GetLayerMemorySize() << " KiB\n"
+     << indent << "OctreeMemorySize: " << this->GetOctreeMemorySize() << " KiB\n";
+}

@@ -1,27 +1,363 @@
 /**
  * @class vtkSVORenderPass
- * @brief traces octrees inside an ordinary frame
+ * @brief traces the surfaces of a renderer through sparse voxel octrees, with shadows
+ *
+ * @code{.cpp}
+ * vtkNew<vtkSVORenderPass> pass;
+ * renderer->SetPass(pass);
+ * @endcode
+ *
+ * is all there is to it. The picture is VTK's own, plus shadows. Surfaces whose look can be
+ * reproduced (polygons and strips, material or array colours, flat, Gouraud and Phong shading, any
+ * of VTK's lights) are traced through octrees: the one that vtkPolyDataToSVO left on the mesh, or
+ * one that the pass builds where ConvertPolyData is on. Everything else (textures, PBR, visible
+ * edges, wireframe, translucent surfaces, volumes, text, widgets and so on) is drawn by VTK's
+ * rasteriser in the same frame, at the right depth. Opaque rasterised surfaces cast shadows as
+ * well, and rasterised surfaces receive them. Selection and picking stay VTK's.
+ *
+ * An octree lives in its mesh's local frame, so an actor can be moved, turned, scaled, mirrored or
+ * sheared by any affine matrix without building anything anew.
+ *
+ * Lights: every light that is switched on casts, but headlights, whose shadows nobody sees, and of
+ * several camera lights (a light kit) only the brightest. SetCastShadow(bool, vtkLight*) says
+ * otherwise. Note that a positional vtkLight has a cone of 30 degrees unless told otherwise: set
+ * 180 for a point light.
+ *
+ * Method: Huang and Cheng, "A Rendering Method Using Sparse Voxel Octrees in Dynamic Scenes",
+ * 2017. The paper's Z-buffer tables ZBT and SZBT are the depth buffer and the shadow buffers here.
+ *
+ * The pass takes the place of VTK's default pipeline (renderer->SetPass(pass)) or the delegate of a
+ * vtkCameraPass. It may be set on several renderers; statistics are those of the one rendered last.
+ *
+ * @sa vtkPolyDataToSVO vtkSparseVoxelOctree
  */
 #ifndef vtkSVORenderPass_h
 #define vtkSVORenderPass_h
 
 #include "vtkOpenGLRenderPass.h"
-#include "vtkSVOPassModule.h"
+#include "vtkSVOPassModule.h" // for the export macro
+
+#include <memory> // for std::unique_ptr
+
+class vtkInformationIntegerKey;
+class vtkLight;
+class vtkProp;
+class vtkRenderer;
 
 class VTKSVOPASS_EXPORT vtkSVORenderPass : public vtkOpenGLRenderPass
 {
 public:
   static vtkSVORenderPass* New();
   vtkTypeMacro(vtkSVORenderPass, vtkOpenGLRenderPass);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum BackendType
+  {
+    BACKEND_AUTO = 0,
+    BACKEND_CPU = 1,
+    BACKEND_OPENGL = 2
+  };
+
+  enum ShadowTechniqueType
+  {
+    SHADOW_NONE = 0,
+    SHADOW_BUFFER = 1,
+    SHADOW_RAYS = 2
+  };
+
+  enum LeafGeometryType
+  {
+    LEAF_VOXEL = 0,
+    LEAF_PLANE = 1,
+    LEAF_TRIANGLE = 2,
+    LEAF_AUTOMATIC = 3
+  };
+
+  ///@{
+  /**
+   * Where rays are traced. Auto (the default) takes the fastest that is there. This version has the
+   * CPU; asking for OpenGL warns once and uses the CPU.
+   */
+  virtual void SetBackend(int backend);
+  vtkGetMacro(Backend, int);
+  void SetBackendToAuto() { this->SetBackend(BACKEND_AUTO); }
+  void SetBackendToCPU() { this->SetBackend(BACKEND_CPU); }
+  void SetBackendToOpenGL() { this->SetBackend(BACKEND_OPENGL); }
+  ///@}
+
+  /**
+   * The backend that is used: BACKEND_CPU or BACKEND_OPENGL.
+   */
+  int GetActiveBackend() const { return BACKEND_CPU; }
+
+  ///@{
+  /**
+   * How shadows are found: not at all, by a shadow buffer per light that is traced like the picture
+   * itself (the default), or by one ray to each light from each visible point, the exact reference.
+   * With rays, rasterised surfaces still receive from shadow buffers.
+   */
+  vtkSetClampMacro(ShadowTechnique, int, SHADOW_NONE, SHADOW_RAYS);
+  vtkGetMacro(ShadowTechnique, int);
+  void SetShadowTechniqueToNone() { this->SetShadowTechnique(SHADOW_NONE); }
+  void SetShadowTechniqueToShadowBuffer() { this->SetShadowTechnique(SHADOW_BUFFER); }
+  void SetShadowTechniqueToShadowRays() { this->SetShadowTechnique(SHADOW_RAYS); }
+  ///@}
+
+  ///@{
+  /**
+   * Texels along an edge of one shadow map, 16..16384; default 2048. A directional or spot light
+   * has one map. So has a point light whose casters subtend less than 120 degrees, otherwise it has
+   * the six faces of a cube.
+   */
+  vtkSetClampMacro(ShadowBufferResolution, int, 16, 16384);
+  vtkGetMacro(ShadowBufferResolution, int);
+  ///@}
+
+  ///@{
+  /**
+   * Compare depths on the receiver's own plane, at the texel's own ray (Dou et al., JCGT 2014), so
+   * that a surface does not shade itself. Default on.
+   */
+  vtkSetMacro(AutomaticShadowBias, bool);
+  vtkGetMacro(AutomaticShadowBias, bool);
+  vtkBooleanMacro(AutomaticShadowBias, bool);
+  ///@}
+
+  ///@{
+  /**
+   * What is added to the depth of a shadow map before the comparison, in voxels of the caster,
+   * 0..1000; default 0. With AutomaticShadowBias off, 0 is the paper's bare "distance > depth".
+   */
+  vtkSetClampMacro(ShadowBias, double, 0.0, 1000.0);
+  vtkGetMacro(ShadowBias, double);
+  ///@}
+
+  ///@{
+  /**
+   * Share of a light's diffuse and specular light that a shadow removes, 0..1; default 1. Ambient
+   * light always stays.
+   */
+  vtkSetClampMacro(ShadowIntensity, double, 0.0, 1.0);
+  vtkGetMacro(ShadowIntensity, double);
+  ///@}
+
+  ///@{
+  /**
+   * Speed against accuracy: rays stop at the octree level whose voxels appear no larger than this
+   * many pixels, 0..64; default 1. 0 always goes to the octree's full depth.
+   */
+  vtkSetClampMacro(PixelError, double, 0.0, 64.0);
+  vtkGetMacro(PixelError, double);
+  ///@}
+
+  ///@{
+  /**
+   * Build an octree for each surface that comes without one; default on. Otherwise only meshes that
+   * went through vtkPolyDataToSVO are traced and cast shadows.
+   */
+  vtkSetMacro(ConvertPolyData, bool);
+  vtkGetMacro(ConvertPolyData, bool);
+  vtkBooleanMacro(ConvertPolyData, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Level of the octrees that the pass builds: 2^level voxels along an edge of the mesh's cube,
+   * 1..20; default 10.
+   */
+  vtkSetClampMacro(MaximumLevel, int, 1, 20);
+  vtkGetMacro(MaximumLevel, int);
+  ///@}
+
+  ///@{
+  /**
+   * What a ray meets in a leaf of the octrees that the pass builds; see vtkPolyDataToSVO. Default
+   * automatic.
+   */
+  vtkSetClampMacro(LeafGeometry, int, LEAF_VOXEL, LEAF_AUTOMATIC);
+  vtkGetMacro(LeafGeometry, int);
+  void SetLeafGeometryToVoxel() { this->SetLeafGeometry(LEAF_VOXEL); }
+  void SetLeafGeometryToPlane() { this->SetLeafGeometry(LEAF_PLANE); }
+  void SetLeafGeometryToTriangle() { this->SetLeafGeometry(LEAF_TRIANGLE); }
+  void SetLeafGeometryToAutomatic() { this->SetLeafGeometry(LEAF_AUTOMATIC); }
+  ///@}
+
+  ///@{
+  /**
+   * Memory for octrees that the pass keeps, in KiB; default 1 GiB. Those that the current frame
+   * does not need go first, least recently used first, so the poses of an animated mesh are built
+   * once as long as they fit.
+   */
+  vtkSetClampMacro(OctreeMemoryLimit, vtkIdType, 0, VTK_ID_MAX / 1024);
+  vtkGetMacro(OctreeMemoryLimit, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * While the user interacts (the render window's desired update rate is 1 Hz or more), build
+   * octrees in the background and rasterise their surfaces until they are there. A still render
+   * waits for them, and invokes ProgressEvent meanwhile. Default on.
+   */
+  vtkSetMacro(BuildInBackground, bool);
+  vtkGetMacro(BuildInBackground, bool);
+  vtkBooleanMacro(BuildInBackground, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Keep what was traced of each object until its own matrix, octree, level of detail or the
+   * viewpoint changes; default on. The picture is the same either way.
+   */
+  vtkSetMacro(FrameCoherence, bool);
+  vtkGetMacro(FrameCoherence, bool);
+  vtkBooleanMacro(FrameCoherence, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Memory for what FrameCoherence keeps, in KiB; default 512 MiB.
+   */
+  vtkSetClampMacro(LayerMemoryLimit, vtkIdType, 0, VTK_ID_MAX / 1024);
+  vtkGetMacro(LayerMemoryLimit, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Smooth the edges of traced surfaces; default off.
+   */
+  vtkSetMacro(AntiAliasing, bool);
+  vtkGetMacro(AntiAliasing, bool);
+  vtkBooleanMacro(AntiAliasing, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether a prop casts shadows; without an answer every opaque surface does and a translucent one
+   * does not.
+   */
+  static void SetCastShadow(bool cast, vtkProp* prop);
+  static bool GetCastShadow(vtkProp* prop);
+  ///@}
+
+  ///@{
+  /**
+   * Whether a light casts shadows; without an answer every light does but a headlight and, of
+   * several camera lights, all but the brightest.
+   */
+  static void SetCastShadow(bool cast, vtkLight* light);
+  static bool GetCastShadow(vtkLight* light);
+  ///@}
+
+  ///@{
+  /**
+   * Whether shadows fall on a prop; default true.
+   */
+  static void SetReceiveShadow(bool receive, vtkProp* prop);
+  static bool GetReceiveShadow(vtkProp* prop);
+  ///@}
+
+  ///@{
+  /**
+   * Whether a prop may be traced at all; default true. False leaves it to the rasteriser; it casts
+   * and receives shadows as before.
+   */
+  static void SetUseSVO(bool use, vtkProp* prop);
+  static bool GetUseSVO(vtkProp* prop);
+  ///@}
+
+  ///@{
+  /**
+   * Keys behind the static helpers above. Those of props live in vtkProp::GetPropertyKeys() and are
+   * not copied by vtkProp::ShallowCopy(); those of lights in vtkLight::GetInformation().
+   */
+  static vtkInformationIntegerKey* CAST_SHADOW();
+  static vtkInformationIntegerKey* RECEIVE_SHADOW();
+  static vtkInformationIntegerKey* USE_SVO();
+  ///@}
+
+  ///@{
+  /**
+   * Wall-clock times of the last frame in seconds: finding what there is to trace (octrees that had
+   * to be built included), tracing and shading, shadow buffers or rays, and handing the picture to
+   * OpenGL.
+   */
+  double GetCollectTime() const;
+  double GetTraceTime() const;
+  double GetShadowTime() const;
+  double GetPresentTime() const;
+  ///@}
+
+  ///@{
+  /**
+   * What the last frame took: rays from the eye, rays (or texels) from and to lights, and layers
+   * (one object seen from the eye or from a light) that could not be reused.
+   */
+  vtkIdType GetNumberOfPrimaryRays() const;
+  vtkIdType GetNumberOfShadowRays() const;
+  vtkIdType GetNumberOfRetracedLayers() const;
+  ///@}
+
+  ///@{
+  /**
+   * Actors of the last frame (parts of assemblies counted one by one): visible ones that were
+   * traced, visible surfaces that were left to the rasteriser, and instances of octrees (a
+   * composite actor has one for each block).
+   */
+  int GetNumberOfTracedActors() const;
+  int GetNumberOfRasterizedActors() const;
+  int GetNumberOfInstances() const;
+  ///@}
+
+  ///@{
+  /**
+   * Memory in KiB: kept layers, and the octrees that the pass built itself.
+   */
+  vtkIdType GetLayerMemorySize() const;
+  vtkIdType GetOctreeMemorySize() const;
+  ///@}
+
   void Render(const vtkRenderState* state) override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+
+  ///@{
+  /**
+   * How shadows fall on rasterised surfaces; called by their mappers.
+   */
+  bool PreReplaceShaderValues(std::string& vertexShader, std::string& geometryShader,
+    std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override;
+  bool PostReplaceShaderValues(std::string& vertexShader, std::string& geometryShader,
+    std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override;
+  bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
+    vtkOpenGLVertexArrayObject* VAO = nullptr) override;
+  vtkMTimeType GetShaderStageMTime() override;
+  ///@}
 
 protected:
   vtkSVORenderPass();
   ~vtkSVORenderPass() override;
 
+  int Backend = BACKEND_AUTO;
+  int ShadowTechnique = SHADOW_BUFFER;
+  int ShadowBufferResolution = 2048;
+  bool AutomaticShadowBias = true;
+  double ShadowBias = 0.0;
+  double ShadowIntensity = 1.0;
+  double PixelError = 1.0;
+  bool ConvertPolyData = true;
+  int MaximumLevel = 10;
+  int LeafGeometry = LEAF_AUTOMATIC;
+  vtkIdType OctreeMemoryLimit = 1024 * 1024;
+  bool BuildInBackground = true;
+  bool FrameCoherence = true;
+  vtkIdType LayerMemoryLimit = 512 * 1024;
+  bool AntiAliasing = false;
+
 private:
   vtkSVORenderPass(const vtkSVORenderPass&) = delete;
   void operator=(const vtkSVORenderPass&) = delete;
+
+  struct Internals;
+  std::unique_ptr<Internals> Impl;
 };
 
 #endif

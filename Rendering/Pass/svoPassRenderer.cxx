@@ -1,0 +1,109 @@
+#include "svoPassRenderer.h"
+
+#include "svoCameraView.h"
+#include "svoMeshOctree.h"
+
+#include "vtkOpenGLRenderPass.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkRenderState.h"
+#include "vtkRenderer.h"
+#include "vtkTimerLog.h"
+
+namespace svo
+{
+ExchangedProps::ExchangedProps(vtkProp** props)
+  : Props(props)
+{
+}
+
+ExchangedProps::~ExchangedProps()
+{
+  for (const auto& entry : this->Saved)
+  {
+    this->Props[entry.first] = entry.second;
+  }
+}
+
+void ExchangedProps::exchange(int index, vtkProp* by)
+{
+  this->Saved.emplace_back(index, this->Props[index]);
+  this->Props[index] = by;
+}
+
+PassRenderer::PassRenderer(vtkRenderer* renderer)
+  : Renderer(renderer)
+{
+}
+
+void PassRenderer::trace(const vtkRenderState* state, OctreeStore& store,
+  const StoreOptions& options, FrameSettings settings)
+{
+  this->Statistics = PassStatistics();
+  this->Collected = CollectedScene();
+  this->Picture.covered = PixelRect();
+
+  const double start = vtkTimerLog::GetUniversalTime();
+  this->Collector.collect(this->Renderer, store, options,
+    settings.shadowTechnique != ShadowTechnique::None, this->Collected);
+  this->Statistics.collectTime = vtkTimerLog::GetUniversalTime() - start;
+  this->Statistics.tracedActors = this->Collected.tracedActors;
+  this->Statistics.rasterizedActors = this->Collected.rasterizedActors;
+  const Scene& scene = this->Collected.scene;
+  this->Statistics.instances = static_cast<int>(scene.instances.size());
+
+  int width, height;
+  sizeOf(state, width, height);
+  View view;
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow());
+  if (scene.instances.empty() || !viewOfCamera(this->Renderer, width, height, view))
+  {
+    this->Trace.releaseLayers();
+    this->Receivers.update(window, {}, view, settings, false);
+    return;
+  }
+  settings.wholeShadowBuffers =
+    this->Collected.rasterizedReceivers && settings.shadowTechnique != ShadowTechnique::None;
+  settings.writeNormals = this->Renderer->GetUseSSAO();
+  this->Trace.render(scene, view, settings, smpParallelFor(), this->Picture);
+  this->Statistics.tracer = this->Trace.statistics();
+  this->Receivers.update(
+    window, this->Trace.shadowMaps(), view, settings, this->Statistics.tracer.retracedLayers > 0);
+}
+
+void PassRenderer::exchange(
+  ExchangedProps& props, const vtkRenderState* state, vtkOpenGLRenderPass* pass)
+{
+  this->Presenter->SetFrame(&this->Picture, pass);
+  std::size_t used = 0;
+  for (int i = 0; i < state->GetPropArrayCount(); ++i)
+  {
+    if (this->Collected.replaced.count(state->GetPropArray()[i]) == 0)
+    {
+      continue;
+    }
+    if (!props.any())
+    {
+      props.exchange(i, this->Presenter);
+      continue;
+    }
+    // The same prop twice in the array would leak references.
+    if (used == this->Nothings.size())
+    {
+      this->Nothings.push_back(vtkSmartPointer<vtkSVONothing>::New());
+    }
+    props.exchange(i, this->Nothings[used++]);
+  }
+}
+
+void PassRenderer::finish()
+{
+  this->Statistics.presentTime = this->Presenter->GetPresentTime();
+  this->Collected = CollectedScene();
+}
+
+void PassRenderer::releaseGraphicsResources(vtkWindow* window)
+{
+  this->Presenter->ReleaseGraphicsResources(window);
+  this->Receivers.release();
+}
+}

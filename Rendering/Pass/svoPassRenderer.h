@@ -1,0 +1,91 @@
+// What a pass keeps for each renderer that it is set on.
+#ifndef svoPassRenderer_h
+#define svoPassRenderer_h
+
+#include "svoOctreeStore.h"
+#include "svoSceneCollector.h"
+#include "svoShadowReceivers.h"
+#include "svoTracer.h"
+#include "vtkSVOPresenter.h"
+
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+class vtkOpenGLRenderPass;
+class vtkProp;
+class vtkRenderState;
+class vtkRenderer;
+class vtkWindow;
+
+namespace svo
+{
+/// One frame's figures.
+struct PassStatistics
+{
+  FrameStatistics tracer;
+  double collectTime = 0.0; // s
+  double presentTime = 0.0; // s
+  int tracedActors = 0;
+  int rasterizedActors = 0;
+  int instances = 0;
+};
+
+/// Entries of a render state's prop array, exchanged and put back. The array is the renderer's own,
+/// so its entries can change for the length of a frame, their number cannot.
+class ExchangedProps
+{
+public:
+  explicit ExchangedProps(vtkProp** props);
+  ~ExchangedProps();
+  ExchangedProps(const ExchangedProps&) = delete;
+  ExchangedProps& operator=(const ExchangedProps&) = delete;
+
+  void exchange(int index, vtkProp* by);
+  bool any() const { return !this->Saved.empty(); }
+
+private:
+  vtkProp** Props;
+  std::vector<std::pair<int, vtkProp*>> Saved;
+};
+
+class PassRenderer
+{
+public:
+  explicit PassRenderer(vtkRenderer* renderer);
+
+  vtkRenderer* renderer() const { return this->Renderer; }
+
+  /// Collects and traces a frame of the state's renderer. Nothing is drawn yet.
+  void trace(const vtkRenderState* state, OctreeStore& store, const StoreOptions& options,
+    FrameSettings settings);
+
+  /// Puts the presenter in the traced props' place.
+  void exchange(ExchangedProps& props, const vtkRenderState* state, vtkOpenGLRenderPass* pass);
+
+  /// To be called when the frame has been drawn: forgets what it borrowed.
+  void finish();
+
+  ShadowReceivers& receivers() { return this->Receivers; }
+  const CollectedScene& collected() const { return this->Collected; }
+  const PassStatistics& statistics() const { return this->Statistics; }
+  void releaseGraphicsResources(vtkWindow* window);
+
+private:
+  vtkWeakPointer<vtkRenderer> Renderer;
+  SceneCollector Collector;
+  CollectedScene Collected;
+  Tracer Trace;
+  struct Frame Picture;
+  ShadowReceivers Receivers;
+  PassStatistics Statistics;
+  vtkNew<vtkSVOPresenter> Presenter;
+  std::vector<vtkSmartPointer<vtkSVONothing>> Nothings;
+};
+}
+
+#endif

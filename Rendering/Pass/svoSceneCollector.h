@@ -1,0 +1,74 @@
+// A renderer's visible surfaces and lights as a scene of the tracer.
+#ifndef svoSceneCollector_h
+#define svoSceneCollector_h
+
+#include "svoOctreeStore.h"
+#include "svoScene.h"
+#include "svoSurfaceLook.h"
+
+#include "vtkSmartPointer.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkActor;
+class vtkMapper;
+class vtkMatrix4x4;
+class vtkObjectBase;
+class vtkPolyData;
+class vtkPolyDataMapper;
+class vtkProp;
+class vtkRenderer;
+
+namespace svo
+{
+/// A frame's scene and what it means for the renderer's props.
+struct CollectedScene
+{
+  Scene scene;
+  /// Props that the rasteriser must leave alone: every surface of theirs is traced, or must not be
+  /// shown.
+  std::set<vtkProp*> replaced;
+  int tracedActors = 0;
+  int rasterizedActors = 0;
+  bool rasterizedReceivers = false; // lit surfaces that the rasteriser draws and shadows fall on
+  bool headlightOnly = false;
+  /// Owners of the arrays that the scene points into.
+  std::vector<vtkSmartPointer<vtkObjectBase>> kept;
+};
+
+/// Collects frame after frame from one renderer. Casters outside of the picture are in.
+class SceneCollector
+{
+public:
+  /// Octrees come from `store`; messages go to `options.complain`, each once.
+  void collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options, bool shadows,
+    CollectedScene& result);
+
+private:
+  struct Surface;
+  struct Frame;
+  void collectProp(vtkProp* prop, Frame& frame);
+  bool collectActor(vtkActor* actor, vtkProp* owner, const vtkMatrix4x4* matrix, int path,
+    std::vector<Surface>& surfaces, Frame& frame);
+  std::vector<SurfacePart> partsOf(vtkActor* actor);
+  vtkMapper* colorsOfBlock(vtkMapper* mapper, vtkPolyData* block);
+  void complainOnce(const void* about, const std::string& text, const Frame& frame);
+
+  /// A composite mapper has one set of colours, but blocks need theirs at the same time.
+  struct BlockColors
+  {
+    vtkSmartPointer<vtkPolyDataMapper> mapper;
+    std::uint64_t time = 0;
+    std::uint64_t lastFrame = 0;
+  };
+  std::map<std::pair<vtkMapper*, vtkPolyData*>, BlockColors> Blocks;
+  std::set<std::pair<const void*, std::string>> Said;
+  std::uint64_t FrameNumber = 0;
+};
+}
+
+#endif

@@ -1,0 +1,19 @@
+// A renderer's lights as lights of the tracer.
+#ifndef svoSceneLights_h
+#define svoSceneLights_h
+
+#include "svoScene.h"
+
+#include <vector>
+
+class vtkRenderer;
+
+namespace svo
+{
+/// The lights that are switched on, in the renderer's order, which is the order that VTK's shaders
+/// number them in. To be called when the renderer has placed its headlights and camera lights.
+/// `headlightOnly` says that no light can cast because all of them are headlights.
+std::vector<Light> lightsOf(vtkRenderer* renderer, bool& headlightOnly);
+}
+
+#endif

@@ -1,0 +1,60 @@
+// Shadows on surfaces that the rasteriser draws, through VTK's hook into its mappers' shaders.
+#ifndef svoShadowReceivers_h
+#define svoShadowReceivers_h
+
+#include "svoTracer.h"
+#include "svoView.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <string>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+class vtkTextureObject;
+
+namespace svo
+{
+/// One renderer's shadow maps as textures, and the code that reads them.
+class ShadowReceivers
+{
+public:
+  /// Takes a frame's maps. Textures are sent again only if `changed` or if the maps are others than
+  /// last time. No maps: nothing receives.
+  void update(vtkOpenGLRenderWindow* window, const std::vector<ShadowMap>& maps, const View& eye,
+    const FrameSettings& settings, bool changed);
+
+  bool empty() const { return this->Lights.empty(); }
+  void activate();
+  void deactivate();
+  void release();
+
+  /// Which lights' colours the shaders must weigh; equal strings mean equal shaders.
+  std::string signature() const;
+
+  /// Two steps around VTK's own replacements: marks first, then code.
+  static void markShader(std::string& fragmentShader);
+  void completeShader(std::string& fragmentShader) const;
+  void setUniforms(vtkShaderProgram* program, bool receives) const;
+
+private:
+  struct LightMaps
+  {
+    int light = 0; // number in VTK's shaders
+    int resolution = 0;
+    std::vector<float> matrices; // 16 floats a map, as OpenGL wants them
+    std::vector<float> biases;
+    vtkSmartPointer<vtkTextureObject> atlas;
+  };
+  void send(
+    vtkOpenGLRenderWindow* window, const std::vector<const ShadowMap*>& maps, LightMaps& light);
+
+  std::vector<LightMaps> Lights;
+  float Intensity = 1.0f;
+  bool PlaneBias = true;
+};
+}
+
+#endif

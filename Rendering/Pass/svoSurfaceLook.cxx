@@ -1,0 +1,243 @@
+#include "svoSurfaceLook.h"
+
+#include "vtkActor.h"
+#include "vtkCellData.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkLookupTable.h"
+#include "vtkMapper.h"
+#include "vtkPlaneCollection.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkSelection.h"
+#include "vtkShaderProperty.h"
+#include "vtkTexture.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+namespace svo
+{
+namespace
+{
+/// Classes whose drawing is known to the letter. A subclass may draw anything: followers, axes and
+/// sky boxes are actors too, glyph mappers are mappers.
+bool isPlainActor(vtkActor* actor)
+{
+  const std::string name = actor->GetClassName();
+  return name == "vtkOpenGLActor" || name == "vtkLODActor" || name == "vtkQuadricLODActor" ||
+    name == "vtkPVLODActor";
+}
+
+bool isPlainMapper(vtkMapper* mapper)
+{
+  const std::string name = mapper->GetClassName();
+  return name == "vtkOpenGLPolyDataMapper" || name == "vtkCompositePolyDataMapper2";
+}
+
+bool hasCustomShaders(vtkActor* actor)
+{
+  vtkShaderProperty* shaders = actor->GetShaderProperty();
+  return shaders->GetNumberOfShaderReplacements() > 0 || shaders->HasVertexShaderCode() ||
+    shaders->HasFragmentShaderCode() || shaders->HasGeometryShaderCode();
+}
+
+/// A float array with 3 components, made where there is another type.
+const float* floatTriples(vtkDataArray* array, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+{
+  if (auto* floats = vtkFloatArray::SafeDownCast(array))
+  {
+    return floats->GetPointer(0);
+  }
+  auto copy = vtkSmartPointer<vtkFloatArray>::New();
+  copy->DeepCopy(array);
+  kept.push_back(copy);
+  return copy->GetPointer(0);
+}
+
+void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes,
+  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+{
+  vtkDataArray* normals = flat ? nullptr : mesh->GetPointData()->GetNormals();
+  attributes.normalAssociation = Association::Point;
+  if (!normals)
+  {
+    normals = mesh->GetCellData()->GetNormals();
+    attributes.normalAssociation = Association::Cell;
+  }
+  const vtkIdType needed = attributes.normalAssociation == Association::Point
+    ? mesh->GetNumberOfPoints()
+    : mesh->GetNumberOfCells();
+  if (!normals || normals->GetNumberOfComponents() != 3 || normals->GetNumberOfTuples() < needed)
+  {
+    attributes.normalAssociation = Association::None;
+    return;
+  }
+  attributes.normals = floatTriples(normals, kept);
+}
+
+/// True if VTK's mapper looks the mapped colours up by cell.
+bool colorsAreOfCells(vtkMapper* mapper, vtkPolyData* mesh)
+{
+  const int mode = mapper->GetScalarMode();
+  return (mode == VTK_SCALAR_MODE_USE_CELL_DATA || mode == VTK_SCALAR_MODE_USE_CELL_FIELD_DATA ||
+           mode == VTK_SCALAR_MODE_USE_FIELD_DATA || !mesh->GetPointData()->GetScalars()) &&
+    mode != VTK_SCALAR_MODE_USE_POINT_FIELD_DATA;
+}
+
+void setColor(Material& material, const glm::vec3& color)
+{
+  material.ambientColor = color;
+  material.diffuseColor = color;
+}
+
+/// Scalars that are interpolated before they are mapped.
+bool coordinateColors(vtkMapper* mapper, vtkPolyData* mesh, Attributes& attributes,
+  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+{
+  auto* coordinates = vtkFloatArray::SafeDownCast(mapper->GetColorCoordinates());
+  vtkImageData* texture = mapper->GetColorTextureMap();
+  auto* texels =
+    texture ? vtkUnsignedCharArray::SafeDownCast(texture->GetPointData()->GetScalars()) : nullptr;
+  if (!coordinates || !texels || texels->GetNumberOfComponents() != 4 ||
+    coordinates->GetNumberOfTuples() < mesh->GetNumberOfPoints())
+  {
+    return false;
+  }
+  const int stride = coordinates->GetNumberOfComponents();
+  const float* values = coordinates->GetPointer(0);
+  if (stride > 1)
+  {
+    // The second row of VTK's texture is the colour of NaN, blended in by interpolation.
+    for (vtkIdType i = 0; i < coordinates->GetNumberOfTuples(); ++i)
+    {
+      if (values[stride * i + 1] > 0.5f)
+      {
+        return false;
+      }
+    }
+  }
+  attributes.colorAssociation = Association::Point;
+  attributes.colorCoordinates = values;
+  attributes.colorCoordinateStride = stride;
+  attributes.colorTexture = texels->GetPointer(0);
+  attributes.colorTextureSize = texture->GetDimensions()[0];
+  kept.emplace_back(coordinates);
+  kept.emplace_back(texels);
+  return true;
+}
+
+bool scalarColors(const SurfacePart& part, Material& material, Attributes& attributes,
+  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+{
+  vtkMapper* mapper = part.colors;
+  if (!mapper->GetScalarVisibility() || part.overridesColor)
+  {
+    return true;
+  }
+  vtkUnsignedCharArray* colors = mapper->MapScalars(part.mesh, 1.0);
+  if (!colors)
+  {
+    return !mapper->GetColorCoordinates() || coordinateColors(mapper, part.mesh, attributes, kept);
+  }
+  if (colors->GetNumberOfComponents() != 4 || colors->GetNumberOfTuples() == 0)
+  {
+    return false;
+  }
+  const unsigned char* first = colors->GetPointer(0);
+  if (mapper->GetScalarMode() == VTK_SCALAR_MODE_USE_FIELD_DATA &&
+    mapper->GetFieldDataTupleId() > -1)
+  {
+    const vtkIdType tuple = mapper->GetFieldDataTupleId();
+    if (tuple >= colors->GetNumberOfTuples())
+    {
+      return false;
+    }
+    const unsigned char* c = first + 4 * tuple;
+    setColor(material, glm::vec3(c[0], c[1], c[2]) / 255.0f);
+    return true;
+  }
+  const bool cells = colorsAreOfCells(mapper, part.mesh);
+  if (colors->GetNumberOfTuples() <
+    (cells ? part.mesh->GetNumberOfCells() : part.mesh->GetNumberOfPoints()))
+  {
+    return false;
+  }
+  attributes.colorAssociation = cells ? Association::Cell : Association::Point;
+  attributes.colors = first;
+  kept.emplace_back(colors);
+  return true;
+}
+}
+
+Treatment treatmentOf(vtkActor* actor)
+{
+  vtkMapper* mapper = actor->GetMapper();
+  vtkProperty* property = actor->GetProperty();
+  vtkPlaneCollection* planes = mapper->GetClippingPlanes();
+  if (!isPlainActor(actor) || !isPlainMapper(mapper) ||
+    property->GetRepresentation() != VTK_SURFACE || (planes && planes->GetNumberOfItems() > 0))
+  {
+    return Treatment::Rasterize;
+  }
+  vtkSelection* selection = mapper->GetSelection();
+  const bool reproducible = property->GetInterpolation() != VTK_PBR &&
+    !property->GetEdgeVisibility() && !property->GetVertexVisibility() &&
+    !property->GetFrontfaceCulling() && !property->GetBackfaceCulling() &&
+    !actor->GetBackfaceProperty() && !actor->GetTexture() && property->GetNumberOfTextures() == 0 &&
+    !hasCustomShaders(actor) && !(selection && selection->GetNumberOfNodes() > 0) &&
+    !actor->HasTranslucentPolygonalGeometry();
+  return reproducible ? Treatment::Trace : Treatment::RasterizeAndCast;
+}
+
+bool lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
+  Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+{
+  vtkPolyData* mesh = part.mesh;
+  if (mesh->GetNumberOfVerts() > 0 || mesh->GetNumberOfLines() > 0)
+  {
+    return false;
+  }
+  const double* ambient = property->GetAmbientColor();
+  const double* diffuse = property->GetDiffuseColor();
+  const double* specular = property->GetSpecularColor();
+  material.ambientColor = { ambient[0], ambient[1], ambient[2] };
+  material.diffuseColor = { diffuse[0], diffuse[1], diffuse[2] };
+  material.specularColor = { specular[0], specular[1], specular[2] };
+  material.ambient = static_cast<float>(property->GetAmbient());
+  material.diffuse = static_cast<float>(property->GetDiffuse());
+  material.specular = static_cast<float>(property->GetSpecular());
+  material.specularPower = static_cast<float>(property->GetSpecularPower());
+  material.lighting = lights && property->GetLighting();
+  if (part.overridesColor)
+  {
+    setColor(material, part.color);
+  }
+  const bool flat = property->GetInterpolation() == VTK_FLAT;
+  normalsOf(mesh, flat, attributes, kept);
+  material.flat = attributes.normalAssociation == Association::None;
+  return scalarColors(part, material, attributes, kept);
+}
+
+double coincidentDepthOffset(vtkMapper* mapper)
+{
+  // VTK's fragment shader adds the units over 65000 and ignores the factor.
+  constexpr double Unit = 1.0 / 65000.0;
+  switch (vtkMapper::GetResolveCoincidentTopology())
+  {
+    case VTK_RESOLVE_SHIFT_ZBUFFER:
+      return 4.0 * vtkMapper::GetResolveCoincidentTopologyZShift() * Unit;
+    case VTK_RESOLVE_POLYGON_OFFSET:
+    {
+      double factor, units;
+      mapper->GetCoincidentTopologyPolygonOffsetParameters(factor, units);
+      return units * Unit;
+    }
+    default:
+      return 0.0;
+  }
+}
+}

@@ -1,0 +1,205 @@
+#include "vtkSVOPresenter.h"
+
+#include "svoOpenGL.h"
+#include "svoPresentFS.h"
+#include "svoPresentVS.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationObjectBaseVectorKey.h"
+#include "vtkMatrix3x3.h"
+#include "vtkMatrix4x4.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLCamera.h"
+#include "vtkOpenGLError.h"
+#include "vtkOpenGLQuadHelper.h"
+#include "vtkOpenGLRenderPass.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLState.h"
+#include "vtkRenderer.h"
+#include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
+#include "vtkTimerLog.h"
+
+vtkStandardNewMacro(vtkSVOPresenter);
+vtkStandardNewMacro(vtkSVONothing);
+
+vtkSVOPresenter::vtkSVOPresenter() = default;
+vtkSVOPresenter::~vtkSVOPresenter() = default;
+
+void vtkSVOPresenter::SetFrame(const svo::Frame* frame, vtkOpenGLRenderPass* pass)
+{
+  this->Frame = frame;
+  this->Pass = pass;
+  this->Uploaded = false;
+  this->PresentTime = 0.0;
+}
+
+void vtkSVOPresenter::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Quad.reset();
+  this->Colors = nullptr;
+  this->Depths = nullptr;
+  this->Normals = nullptr;
+  this->Uploaded = false;
+  if (window)
+  {
+    this->Nobody->ReleaseGraphicsResources(window);
+    this->Superclass::ReleaseGraphicsResources(window);
+  }
+}
+
+namespace
+{
+/// A texture of the frame's size, made anew only when that changes.
+void prepare(vtkSmartPointer<vtkTextureObject>& texture, vtkOpenGLRenderWindow* window,
+  const svo::Frame& frame, int components, int type)
+{
+  const auto width = static_cast<unsigned int>(frame.width);
+  const auto height = static_cast<unsigned int>(frame.height);
+  if (!texture || texture->GetContext() != window || texture->GetWidth() != width ||
+    texture->GetHeight() != height)
+  {
+    texture = vtkSmartPointer<vtkTextureObject>::New();
+    texture->SetContext(window);
+    texture->SetMinificationFilter(vtkTextureObject::Nearest);
+    texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+    texture->SetWrapS(vtkTextureObject::ClampToEdge);
+    texture->SetWrapT(vtkTextureObject::ClampToEdge);
+    texture->Allocate2D(width, height, components, type);
+  }
+}
+
+/// Sends the covered rectangle of an image with rows of the frame's width.
+void send(vtkTextureObject* texture, const svo::Frame& frame, GLenum format, GLenum type,
+  const void* pixels)
+{
+  const svo::PixelRect& rect = frame.covered;
+  texture->Bind();
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, frame.width);
+  glPixelStorei(GL_UNPACK_SKIP_PIXELS, rect.x0);
+  glPixelStorei(GL_UNPACK_SKIP_ROWS, rect.y0);
+  glTexSubImage2D(
+    GL_TEXTURE_2D, 0, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, format, type, pixels);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  glPixelStorei(GL_UNPACK_SKIP_PIXELS, 0);
+  glPixelStorei(GL_UNPACK_SKIP_ROWS, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+}
+}
+
+void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window)
+{
+  const svo::Frame& frame = *this->Frame;
+  prepare(this->Colors, window, frame, 4, VTK_UNSIGNED_CHAR);
+  prepare(this->Depths, window, frame, 1, VTK_FLOAT);
+  send(this->Colors, frame, GL_RGBA, GL_UNSIGNED_BYTE, frame.color.data());
+  send(this->Depths, frame, GL_RED, GL_FLOAT, frame.depth.data());
+  if (!frame.normals.empty())
+  {
+    prepare(this->Normals, window, frame, 3, VTK_FLOAT);
+    send(this->Normals, frame, GL_RGB, GL_FLOAT, frame.normals.data());
+  }
+}
+
+void vtkSVOPresenter::SelectDrawBuffers()
+{
+  vtkInformation* keys = this->GetPropertyKeys();
+  if (!keys || !keys->Has(vtkOpenGLRenderPass::RenderPasses()))
+  {
+    return;
+  }
+  const int count = keys->Length(vtkOpenGLRenderPass::RenderPasses());
+  for (int i = 0; i < count; ++i)
+  {
+    auto* pass =
+      vtkOpenGLRenderPass::SafeDownCast(keys->Get(vtkOpenGLRenderPass::RenderPasses(), i));
+    if (pass && pass != this->Pass)
+    {
+      pass->SetShaderParameters(this->Quad->Program, this->Nobody, this, nullptr);
+    }
+  }
+}
+
+bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+{
+  const svo::Frame& frame = *this->Frame;
+  if (!this->Quad)
+  {
+    this->Quad = std::make_unique<vtkOpenGLQuadHelper>(window, svoPresentVS, svoPresentFS, nullptr);
+  }
+  else
+  {
+    window->GetShaderCache()->ReadyShaderProgram(this->Quad->Program);
+  }
+  vtkShaderProgram* program = this->Quad->Program;
+  if (!program)
+  {
+    return false;
+  }
+
+  vtkMatrix4x4 *worldToView, *viewToClip, *worldToClip;
+  vtkMatrix3x3* normalMatrix;
+  vtkOpenGLCamera::SafeDownCast(renderer->GetActiveCamera())
+    ->GetKeyMatrices(renderer, worldToView, normalMatrix, viewToClip, worldToClip);
+  vtkNew<vtkMatrix4x4> clipToView; // transposed, as the key matrices are
+  vtkMatrix4x4::Invert(viewToClip, clipToView);
+
+  const float size[2] = { static_cast<float>(frame.width), static_cast<float>(frame.height) };
+  const svo::PixelRect& rect = frame.covered;
+  const float rectangle[4] = { rect.x0 / size[0], rect.y0 / size[1], rect.x1 / size[0],
+    rect.y1 / size[1] };
+  program->SetUniformMatrix("clipToView", clipToView);
+  program->SetUniform2f("frameSize", size);
+  program->SetUniform4f("rectangle", rectangle);
+  this->Colors->Activate();
+  this->Depths->Activate();
+  program->SetUniformi("colors", this->Colors->GetTextureUnit());
+  program->SetUniformi("depths", this->Depths->GetTextureUnit());
+  vtkTextureObject* normals = this->Normals ? this->Normals : this->Depths;
+  normals->Activate();
+  program->SetUniformi("normals", normals->GetTextureUnit());
+  this->SelectDrawBuffers();
+
+  vtkOpenGLState* state = window->GetState();
+  {
+    vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+    vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+    vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
+    vtkOpenGLState::ScopedglDepthMask depthMask(state);
+    vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
+    state->vtkglEnable(GL_DEPTH_TEST);
+    state->vtkglDepthFunc(GL_LEQUAL);
+    state->vtkglDepthMask(GL_TRUE);
+    state->vtkglDisable(GL_BLEND);
+    state->vtkglDisable(GL_CULL_FACE);
+    this->Quad->Render();
+  }
+  this->Colors->Deactivate();
+  this->Depths->Deactivate();
+  normals->Deactivate();
+  return true;
+}
+
+int vtkSVOPresenter::RenderOpaqueGeometry(vtkViewport* viewport)
+{
+  auto* renderer = vtkRenderer::SafeDownCast(viewport);
+  auto* window =
+    renderer ? vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()) : nullptr;
+  if (!window || !this->Frame || this->Frame->covered.empty() || renderer->GetSelector())
+  {
+    return 0;
+  }
+  const double start = vtkTimerLog::GetUniversalTime();
+  vtkOpenGLClearErrorMacro();
+  if (!this->Uploaded)
+  {
+    this->Upload(window);
+    this->Uploaded = true;
+  }
+  const bool drawn = this->Draw(renderer, window);
+  vtkOpenGLCheckErrorMacro("failed in vtkSVOPresenter");
+  this->PresentTime += vtkTimerLog::GetUniversalTime() - start;
+  return drawn ? 1 : 0;
+}

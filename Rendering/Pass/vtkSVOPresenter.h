@@ -1,0 +1,87 @@
+/**
+ * @class vtkSVOPresenter
+ * @brief the prop that shows traced pixels in the midst of VTK's own frame
+ *
+ * It takes a traced actor's place in the renderer's prop array for one frame, so that VTK draws it
+ * wherever it draws opaque geometry: below translucent props, in ambient occlusion's first stage,
+ * in every layer of depth peeling. It has no bounds.
+ */
+#ifndef vtkSVOPresenter_h
+#define vtkSVOPresenter_h
+
+#include "svoTracer.h"
+
+#include "vtkNew.h"
+#include "vtkOpenGLPolyDataMapper.h"
+#include "vtkProp3D.h"
+#include "vtkSmartPointer.h"
+
+#include <memory>
+
+class vtkOpenGLQuadHelper;
+class vtkOpenGLRenderPass;
+class vtkOpenGLRenderWindow;
+class vtkRenderer;
+class vtkTextureObject;
+
+class vtkSVOPresenter : public vtkProp3D
+{
+public:
+  static vtkSVOPresenter* New();
+  vtkTypeMacro(vtkSVOPresenter, vtkProp3D);
+
+  /// What to show; it must live until the next call. `pass` is not asked for draw buffers.
+  void SetFrame(const svo::Frame* frame, vtkOpenGLRenderPass* pass);
+
+  /// Seconds that the last frame's upload and drawing took.
+  double GetPresentTime() const { return this->PresentTime; }
+
+  double* GetBounds() override { return nullptr; }
+  int RenderOpaqueGeometry(vtkViewport* viewport) override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+
+protected:
+  vtkSVOPresenter();
+  ~vtkSVOPresenter() override;
+
+private:
+  vtkSVOPresenter(const vtkSVOPresenter&) = delete;
+  void operator=(const vtkSVOPresenter&) = delete;
+
+  void Upload(vtkOpenGLRenderWindow* window);
+  bool Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
+  void SelectDrawBuffers();
+
+  const svo::Frame* Frame = nullptr;
+  vtkOpenGLRenderPass* Pass = nullptr;
+  bool Uploaded = false;
+  double PresentTime = 0.0;
+  std::unique_ptr<vtkOpenGLQuadHelper> Quad;
+  vtkSmartPointer<vtkTextureObject> Colors;
+  vtkSmartPointer<vtkTextureObject> Depths;
+  vtkSmartPointer<vtkTextureObject> Normals;
+  /// Stands in where other passes ask whose shader they are setting up.
+  vtkNew<vtkOpenGLPolyDataMapper> Nobody;
+};
+
+/**
+ * @class vtkSVONothing
+ * @brief draws nothing in a further traced actor's place
+ */
+class vtkSVONothing : public vtkProp3D
+{
+public:
+  static vtkSVONothing* New();
+  vtkTypeMacro(vtkSVONothing, vtkProp3D);
+  double* GetBounds() override { return nullptr; }
+
+protected:
+  vtkSVONothing() = default;
+  ~vtkSVONothing() override = default;
+
+private:
+  vtkSVONothing(const vtkSVONothing&) = delete;
+  void operator=(const vtkSVONothing&) = delete;
+};
+
+#endif

@@ -1,0 +1,93 @@
+// The answers that props and lights carry themselves.
+#include "vtkSVORenderPass.h"
+
+#include "vtkActor.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkLight.h"
+#include "vtkMapper.h"
+#include "vtkNew.h"
+#include "vtkProp.h"
+
+vtkInformationKeyMacro(vtkSVORenderPass, CAST_SHADOW, Integer);
+vtkInformationKeyMacro(vtkSVORenderPass, RECEIVE_SHADOW, Integer);
+vtkInformationKeyMacro(vtkSVORenderPass, USE_SVO, Integer);
+
+namespace
+{
+void setFlag(vtkInformationIntegerKey* key, bool value, vtkProp* prop)
+{
+  if (!prop)
+  {
+    return;
+  }
+  if (!prop->GetPropertyKeys())
+  {
+    vtkNew<vtkInformation> keys;
+    prop->SetPropertyKeys(keys);
+  }
+  prop->GetPropertyKeys()->Set(key, value ? 1 : 0);
+}
+
+bool flag(vtkInformationIntegerKey* key, vtkProp* prop, bool otherwise)
+{
+  vtkInformation* keys = prop ? prop->GetPropertyKeys() : nullptr;
+  return keys && keys->Has(key) ? keys->Get(key) != 0 : otherwise;
+}
+}
+
+void vtkSVORenderPass::SetCastShadow(bool cast, vtkProp* prop)
+{
+  setFlag(CAST_SHADOW(), cast, prop);
+}
+
+bool vtkSVORenderPass::GetCastShadow(vtkProp* prop)
+{
+  return prop && flag(CAST_SHADOW(), prop, prop->HasTranslucentPolygonalGeometry() == 0);
+}
+
+void vtkSVORenderPass::SetCastShadow(bool cast, vtkLight* light)
+{
+  if (!light)
+  {
+    return;
+  }
+  if (!light->GetInformation())
+  {
+    vtkNew<vtkInformation> keys;
+    light->SetInformation(keys);
+  }
+  light->GetInformation()->Set(CAST_SHADOW(), cast ? 1 : 0);
+  light->Modified();
+}
+
+bool vtkSVORenderPass::GetCastShadow(vtkLight* light)
+{
+  if (!light)
+  {
+    return false;
+  }
+  vtkInformation* keys = light->GetInformation();
+  return keys && keys->Has(CAST_SHADOW()) ? keys->Get(CAST_SHADOW()) != 0
+                                          : !light->LightTypeIsHeadlight();
+}
+
+void vtkSVORenderPass::SetReceiveShadow(bool receive, vtkProp* prop)
+{
+  setFlag(RECEIVE_SHADOW(), receive, prop);
+}
+
+bool vtkSVORenderPass::GetReceiveShadow(vtkProp* prop)
+{
+  return flag(RECEIVE_SHADOW(), prop, true);
+}
+
+void vtkSVORenderPass::SetUseSVO(bool use, vtkProp* prop)
+{
+  setFlag(USE_SVO(), use, prop);
+}
+
+bool vtkSVORenderPass::GetUseSVO(vtkProp* prop)
+{
+  return flag(USE_SVO(), prop, true);
+}
