@@ -1,0 +1,28 @@
+"""Reads pictures for the tests of the examples."""
+
+import vtk
+
+
+class Picture:
+    """A PNG file's pixels."""
+
+    def __init__(self, path):
+        reader = vtk.vtkPNGReader()
+        reader.SetFileName(str(path))
+        reader.Update()
+        self.image = reader.GetOutput()
+        self.size = self.image.GetDimensions()[:2]
+
+    def brightness(self, x, y):
+        """Mean of the three channels at a pixel counted from the lower left, 0 to 255."""
+        return sum(self.image.GetScalarComponentAsDouble(x, y, 0, c) for c in range(3)) / 3
+
+    def difference(self, other):
+        """Greatest difference of a channel between two pictures of one size."""
+        mathematics = vtk.vtkImageDifference()
+        mathematics.SetInputData(self.image)
+        mathematics.SetImageData(other.image)
+        mathematics.AllowShiftOff()
+        mathematics.AveragingOff()
+        mathematics.Update()
+        return mathematics.GetThresholdedError()
