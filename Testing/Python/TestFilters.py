@@ -5,7 +5,7 @@ import tempfile
 import unittest
 
 import vtksvo
-from vtkmodules.vtkCommonCore import mutable
+from vtkmodules.vtkCommonCore import reference
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
@@ -50,7 +50,7 @@ class Filters(unittest.TestCase):
     def test_line_meets_the_surface_where_the_sphere_is(self):
         octree = vtksvo.vtkSparseVoxelOctree()
         octree.Initialize(sphere_with_octree(7).GetOutput())
-        t, x, cell = mutable(-1.0), [0.0, 0.0, 0.0], mutable(-1)
+        t, x, cell = reference(-1.0), [0.0, 0.0, 0.0], reference(-1)
         hit = octree.IntersectWithLine([3.0, 0.1, 0.2], [-1.0, 0.1, 0.2], t, x, cell)
         self.assertEqual(hit, 1)
         self.assertAlmostEqual(sum(c * c for c in x) ** 0.5, 1.0, delta=0.02)
