@@ -52,9 +52,9 @@ struct BuildResult
 {
   BuildStatus status = BuildStatus::BadInput;
   std::string message;
-  std::shared_ptr<std::byte> data; // the layout of svoLayout.h; signature, pointCount, cellCount and
-                                   // meshBounds of the header are left 0 for the caller
-  std::size_t size = 0;            // bytes
+  std::shared_ptr<std::byte> data; // the layout of svoLayout.h; signature, pointCount, cellCount
+                                   // and meshBounds of the header are left 0 for the caller
+  std::size_t size = 0;             // bytes
   std::size_t droppedTriangles = 0; // with a NaN or infinite vertex
 };
 

@@ -20,11 +20,19 @@ constexpr std::int32_t LatticeUnits = 1 << LatticeBits; // in a voxel
 /// Coordinates beyond this are treated like infinite ones: products with them would overflow.
 constexpr double LargestCoordinate = 1e290;
 
+/// Nor is a cube smaller than this: the inverse of a voxel's edge must stay finite.
+constexpr double SmallestEdge = 1e-250;
+
 inline bool usable(const glm::dvec3& p)
 {
   // A comparison with NaN is false.
   return std::abs(p.x) <= LargestCoordinate && std::abs(p.y) <= LargestCoordinate &&
     std::abs(p.z) <= LargestCoordinate;
+}
+
+inline bool usable(const TriangleMesh& mesh, const glm::uvec3& t)
+{
+  return usable(mesh.points[t.x]) && usable(mesh.points[t.y]) && usable(mesh.points[t.z]);
 }
 
 /// local frame -> lattice. A snapped vertex is at most half a unit away on each axis, so with
@@ -42,13 +50,17 @@ struct Lattice
   {
   }
 
-  glm::ivec3 snap(const glm::dvec3& p) const
+  /// Not snapped, in lattice units.
+  glm::dvec3 place(const glm::dvec3& p) const { return (p - this->origin) * this->unitsPerLength; }
+
+  /// The nearest lattice point of a place.
+  glm::ivec3 snap(const glm::dvec3& q) const
   {
-    const glm::dvec3 q = (p - this->origin) * this->unitsPerLength;
+    // Positive, so that the conversion rounds down.
     const double top = this->last;
-    return { static_cast<std::int32_t>(std::floor(std::clamp(q.x + 0.5, 1.0, top))),
-      static_cast<std::int32_t>(std::floor(std::clamp(q.y + 0.5, 1.0, top))),
-      static_cast<std::int32_t>(std::floor(std::clamp(q.z + 0.5, 1.0, top))) };
+    return { static_cast<std::int32_t>(std::clamp(q.x + 0.5, 1.0, top)),
+      static_cast<std::int32_t>(std::clamp(q.y + 0.5, 1.0, top)),
+      static_cast<std::int32_t>(std::clamp(q.z + 0.5, 1.0, top)) };
   }
 };
 }

@@ -36,10 +36,8 @@ inline std::uint32_t encodePlane(const MeanPlane& p)
     o = { (1.0f - std::abs(o.y)) * (o.x < 0.0f ? -1.0f : 1.0f),
       (1.0f - std::abs(o.x)) * (o.y < 0.0f ? -1.0f : 1.0f) };
   }
-  const auto quantise = [](float v, float steps) {
-    return static_cast<std::uint32_t>(
-      std::lround(std::clamp(v * 0.5f + 0.5f, 0.0f, 1.0f) * steps));
-  };
+  const auto quantise = [](float v, float steps)
+  { return static_cast<std::uint32_t>(std::clamp(v * 0.5f + 0.5f, 0.0f, 1.0f) * steps + 0.5f); };
   return quantise(o.x, 2047.0f) | quantise(o.y, 2047.0f) << 11 | quantise(p.offset, 1023.0f) << 22;
 }
 

@@ -2,25 +2,40 @@
 #ifndef svoVoxelize_h
 #define svoVoxelize_h
 
-#include "svoLattice.h"
+#include "vtkSVOOctreeModule.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 namespace svo
 {
+/// A triangle whose vertices are on the lattice of svoLattice.h.
+struct LatticeTriangle
+{
+  glm::ivec3 vertices[3]; // lattice units
+  glm::dvec3 normal;      // unit length, of the triangle before it was snapped
+  double offset = 0.0;    // normal . vertex, in voxels
+  std::uint32_t id = 0;
+};
+
 /// One triangle in one brick.
 struct BrickRecord
 {
   std::uint64_t key;      // Morton key of the brick
   std::uint64_t mask;     // the brick's voxels that the triangle touches, never 0
   std::uint32_t triangle; // id
+  float offset; // of the triangle's plane from the brick's centre along its normal, voxels
 };
 
-/// Appends the records of a triangle whose vertices are on the lattice, in any order, each brick
-/// at most once.
-void voxelizeTriangle(
-  const glm::ivec3 vertices[3], std::uint32_t id, int level, std::vector<BrickRecord>& records);
+/// Appends the records of a triangle, in any order, each brick at most once; returns how many
+/// voxels they name. Exact: a voxel is named if its closed box, grown by one lattice unit, has a
+/// point in common with the triangle. Costs time in proportion to the bricks that are touched. A
+/// large triangle can be done in `parts` disjoint parts.
+VTKSVOOCTREE_EXPORT std::uint64_t voxelizeTriangle(const LatticeTriangle& triangle, int level,
+  std::vector<BrickRecord>& records, std::uint32_t part = 0, std::uint32_t parts = 1);
 }
 
 #endif

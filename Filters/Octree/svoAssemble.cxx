@@ -1,0 +1,290 @@
+#include "svoAssemble.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace svo
+{
+namespace
+{
+constexpr std::size_t LargestIndex = 0x7fffffffu;
+constexpr std::size_t NodeBlock = 16384;
+
+/// The nodes of one depth, in ascending order of their keys.
+struct Depth
+{
+  Buffer<std::uint64_t> keys; // Morton keys of the blocks
+  Buffer<Node> nodes;         // `first` of an inner node: index in the next depth's own array
+  Buffer<SurfaceMoment> moments;
+
+  explicit Depth(std::size_t size)
+    : keys(size)
+    , nodes(size)
+    , moments(size)
+  {
+  }
+  std::size_t size() const { return this->nodes.size(); }
+};
+
+/// What a bucket of records or a block of nodes contributes, and after a sum where it starts.
+struct Share
+{
+  std::size_t nodes = 0;
+  std::size_t listWords = 0;
+  std::size_t voxels = 0;
+};
+
+Share prefixSum(std::vector<Share>& shares)
+{
+  Share sum;
+  for (Share& share : shares)
+  {
+    const Share own = share;
+    share = sum;
+    sum.nodes += own.nodes;
+    sum.listWords += own.listWords;
+    sum.voxels += own.voxels;
+  }
+  return sum;
+}
+
+/// End of the run of records, or keys, that agree with the one at `i`.
+std::size_t endOfBrick(const BrickRecord* records, std::size_t i, std::size_t count)
+{
+  const std::uint64_t key = records[i].key;
+  do
+  {
+    ++i;
+  } while (i < count && records[i].key == key);
+  return i;
+}
+
+Share countBucket(const BrickRecord* records, std::size_t count)
+{
+  Share share;
+  for (std::size_t i = 0, end = 0; i < count; i = end)
+  {
+    end = endOfBrick(records, i, count);
+    ++share.nodes;
+    share.listWords += end - i > 1 ? end - i + 1 : 0;
+  }
+  return share;
+}
+
+/// Returns the occupied voxels of a bucket's bricks.
+std::size_t fillBucket(const BrickRecord* records, std::size_t count, Share at,
+  const TriangleShape* shapes, Depth& bricks, std::uint32_t* lists)
+{
+  std::size_t voxels = 0;
+  for (std::size_t i = 0, end = 0; i < count; i = end, ++at.nodes)
+  {
+    end = endOfBrick(records, i, count);
+    Node node{ 0, 0, 0 };
+    for (std::size_t k = i; k < end; ++k)
+    {
+      node.mask |= records[k].mask;
+    }
+    if (end - i == 1)
+    {
+      node.first = records[i].triangle | InlineTriangle;
+    }
+    else
+    {
+      node.first = static_cast<std::uint32_t>(at.listWords);
+      lists[at.listWords++] = static_cast<std::uint32_t>(end - i);
+      for (std::size_t k = i; k < end; ++k)
+      {
+        lists[at.listWords++] = records[k].triangle;
+      }
+    }
+    const SurfaceMoment moment = brickMoment(records + i, end - i, node.mask, shapes);
+    node.plane = planeOfMoment(moment, 4.0f);
+    voxels += static_cast<std::size_t>(__builtin_popcountll(node.mask));
+    bricks.keys[at.nodes] = records[i].key;
+    bricks.nodes[at.nodes] = node;
+    bricks.moments[at.nodes] = moment;
+  }
+  return voxels;
+}
+
+Depth makeBricks(const SortedRecords& sorted, const Buffer<TriangleShape>& shapes, Header& header,
+  Buffer<std::uint32_t>& lists, Executor& executor)
+{
+  std::vector<Share> shares(sorted.bucketCount());
+  const auto cost = [&](std::size_t i) { return static_cast<double>(sorted.bucketSize(i)); };
+  const auto records = [&](std::size_t i) { return sorted.records.data() + sorted.bucketBegin[i]; };
+  executor.run(shares.size(), 16, 0.02, 5e6, cost,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        shares[i] = countBucket(records(i), sorted.bucketSize(i));
+      }
+    });
+  const Share all = prefixSum(shares);
+  if (all.nodes > LargestIndex || all.listWords > LargestIndex)
+  {
+    throw LayoutOverflow{ all.nodes > LargestIndex ? "nodes" : "words of triangle lists" };
+  }
+  Depth bricks(all.nodes);
+  lists = Buffer<std::uint32_t>(all.listWords);
+  std::vector<std::size_t> voxels(shares.size());
+  executor.run(shares.size(), 16, 0.1, 4e5, cost,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        voxels[i] = fillBucket(
+          records(i), sorted.bucketSize(i), shares[i], shapes.data(), bricks, lists.data());
+      }
+    });
+  header.voxelCount = 0;
+  for (const std::size_t count : voxels)
+  {
+    header.voxelCount += count;
+  }
+  header.listWords = all.listWords;
+  return bricks;
+}
+
+/// The parents of a depth whose blocks have an edge of `childEdge` voxels.
+Depth makeParents(const Depth& children, float childEdge, Executor& executor)
+{
+  const std::size_t count = children.size();
+  const std::size_t blocks = (count + NodeBlock - 1) / NodeBlock;
+  const auto startsParent = [&](std::size_t i)
+  { return i == 0 || children.keys[i] >> 6 != children.keys[i - 1] >> 6; };
+  const auto cost = [](std::size_t) { return static_cast<double>(NodeBlock); };
+  std::vector<Share> shares(blocks);
+  executor.run(blocks, 1, 0.0, 1e7, cost,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t block = first; block < last; ++block)
+      {
+        const std::size_t end = std::min((block + 1) * NodeBlock, count);
+        for (std::size_t i = block * NodeBlock; i < end; ++i)
+        {
+          shares[block].nodes += startsParent(i);
+        }
+      }
+    });
+  Depth parents(prefixSum(shares).nodes);
+  executor.run(blocks, 1, 0.0, 1e6, cost,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t block = first; block < last; ++block)
+      {
+        std::size_t at = shares[block].nodes;
+        const std::size_t end = std::min((block + 1) * NodeBlock, count);
+        for (std::size_t i = block * NodeBlock; i < end; ++i)
+        {
+          if (!startsParent(i))
+          {
+            continue;
+          }
+          Node node{ 0, static_cast<std::uint32_t>(i), 0 };
+          const std::uint64_t key = children.keys[i] >> 6;
+          for (std::size_t k = i; k < count && children.keys[k] >> 6 == key; ++k)
+          {
+            node.mask |= 1ull << (children.keys[k] & 63);
+          }
+          const SurfaceMoment moment =
+            blockMoment(children.moments.data() + i, node.mask, childEdge);
+          node.plane = planeOfMoment(moment, 4.0f * childEdge);
+          parents.keys[at] = key;
+          parents.nodes[at] = node;
+          parents.moments[at] = moment;
+          ++at;
+        }
+      }
+    });
+  return parents;
+}
+
+/// The root of an empty octree.
+Depth emptyRoot(bool brick)
+{
+  Depth root(1);
+  root.keys[0] = 0;
+  root.nodes[0] = { 0, brick ? InlineTriangle : 1u, 0 };
+  root.moments[0] = {};
+  return root;
+}
+
+std::shared_ptr<std::byte> writeBuffer(const std::vector<Depth>& depths,
+  const Buffer<std::uint32_t>& lists, Header& header, std::size_t& size, Executor& executor)
+{
+  header.nodeCount = 0;
+  for (std::size_t d = 0; d < depths.size(); ++d)
+  {
+    header.nodeCount += depths[d].size();
+    if (header.nodeCount > LargestIndex)
+    {
+      throw LayoutOverflow{ "nodes" };
+    }
+    header.depthBegin[d + 1] = static_cast<std::uint32_t>(header.nodeCount);
+  }
+  for (std::size_t d = depths.size(); d < header.depthCount; ++d)
+  {
+    header.depthBegin[d + 1] = static_cast<std::uint32_t>(header.nodeCount);
+  }
+  size = sizeof(Header) + header.nodeCount * sizeof(Node) + lists.size() * sizeof(std::uint32_t);
+  std::shared_ptr<std::byte> data(
+    static_cast<std::byte*>(::operator new(size)), [](std::byte* p) { ::operator delete(p); });
+  std::memcpy(data.get(), &header, sizeof(Header));
+  auto* nodes = reinterpret_cast<Node*>(data.get() + sizeof(Header));
+  const auto cost = [](std::size_t) { return static_cast<double>(NodeBlock); };
+  for (std::size_t d = 0; d < depths.size(); ++d)
+  {
+    const Depth& depth = depths[d];
+    const bool inner = d + 1 < header.depthCount;
+    const std::size_t blocks = (depth.size() + NodeBlock - 1) / NodeBlock;
+    executor.run(blocks, 1, 0.0, 5e6, cost,
+      [&](std::size_t first, std::size_t last)
+      {
+        const std::size_t end = std::min(last * NodeBlock, depth.size());
+        for (std::size_t i = first * NodeBlock; i < end; ++i)
+        {
+          Node node = depth.nodes[i];
+          node.first += inner ? header.depthBegin[d + 1] : 0;
+          nodes[header.depthBegin[d] + i] = node;
+        }
+      });
+  }
+  auto* words = reinterpret_cast<std::byte*>(nodes + header.nodeCount);
+  if (lists.size() > 0)
+  {
+    std::memcpy(words, lists.data(), lists.size() * sizeof(std::uint32_t));
+  }
+  return data;
+}
+}
+
+std::shared_ptr<std::byte> assemble(SortedRecords&& records, const Buffer<TriangleShape>& shapes,
+  Header& header, std::size_t& size, Executor& executor)
+{
+  std::vector<Depth> depths;
+  Buffer<std::uint32_t> lists;
+  {
+    const SortedRecords own = std::move(records);
+    depths.push_back(makeBricks(own, shapes, header, lists, executor));
+  }
+  if (depths.back().size() == 0)
+  {
+    depths.clear();
+    depths.push_back(emptyRoot(header.depthCount == 1));
+    return writeBuffer(depths, lists, header, size, executor);
+  }
+  float edge = 4.0f;
+  for (std::uint32_t d = 1; d < header.depthCount; ++d, edge *= 4.0f)
+  {
+    depths.push_back(makeParents(depths.back(), edge, executor));
+    depths[d - 1].moments = {};
+    depths[d - 1].keys = {};
+  }
+  std::reverse(depths.begin(), depths.end());
+  return writeBuffer(depths, lists, header, size, executor);
+}
+}

@@ -1,0 +1,234 @@
+#include "svoRecords.h"
+
+#include "svoLattice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace svo
+{
+namespace
+{
+constexpr int BucketBits = 12;
+
+/// Any direction across `edge`, which may be 0.
+glm::dvec3 across(const glm::dvec3& edge)
+{
+  const glm::dvec3 a = glm::abs(edge);
+  const glm::dvec3 axis = a.z <= a.x && a.z <= a.y ? glm::dvec3(0.0, 0.0, 1.0)
+    : a.y <= a.x                                   ? glm::dvec3(0.0, 1.0, 0.0)
+                                                   : glm::dvec3(1.0, 0.0, 0.0);
+  const glm::dvec3 n = axis - edge * (glm::dot(axis, edge) / std::max(glm::dot(edge, edge), 1e-30));
+  return n / glm::length(n);
+}
+
+/// Snaps a triangle; `shape` gets its normal and, instead of the share of a voxel, its whole area.
+LatticeTriangle placeTriangle(
+  const TriangleMesh& mesh, const Lattice& lattice, std::uint32_t id, TriangleShape& shape)
+{
+  const glm::uvec3& ids = mesh.triangles[id];
+  const glm::dvec3 p = lattice.place(mesh.points[ids.x]);
+  const glm::dvec3 q = lattice.place(mesh.points[ids.y]);
+  const glm::dvec3 r = lattice.place(mesh.points[ids.z]);
+  const glm::dvec3 normal = glm::cross(q - p, r - p);
+  const double length = glm::length(normal);
+  LatticeTriangle t;
+  t.id = id;
+  t.vertices[0] = lattice.snap(p);
+  t.vertices[1] = lattice.snap(q);
+  t.vertices[2] = lattice.snap(r);
+  t.normal = length > 1e-9 ? normal / length
+                           : across(glm::length(q - p) > glm::length(r - p) ? q - p : r - p);
+  t.offset = glm::dot(t.normal, p) / LatticeUnits;
+  shape.normal = glm::vec3(t.normal);
+  shape.areaPerVoxel = static_cast<float>(length * (0.5 / LatticeUnits / LatticeUnits));
+  return t;
+}
+
+/// Stable, by the lowest `bits` bits of the key. `scratch` has room for as many.
+void sortBucket(BrickRecord* records, BrickRecord* scratch, std::size_t count, int bits)
+{
+  if (count < 2 || bits == 0)
+  {
+    return;
+  }
+  const int passes = 2 * ((bits + 19) / 20); // even: the result ends where it came from
+  const int digit = (bits + passes - 1) / passes;
+  if (count < std::size_t(1) << digit >> 1)
+  {
+    std::sort(records, records + count,
+      [](const BrickRecord& a, const BrickRecord& b)
+      { return a.key != b.key ? a.key < b.key : a.triangle < b.triangle; });
+    return;
+  }
+  std::uint32_t place[1 << 10];
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    const int shift = pass * digit;
+    const std::uint64_t digits = (1ull << digit) - 1;
+    std::fill_n(place, digits + 1, 0u);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      ++place[records[i].key >> shift & digits];
+    }
+    std::uint32_t sum = 0;
+    for (std::uint64_t d = 0; d <= digits; ++d)
+    {
+      const std::uint32_t n = place[d];
+      place[d] = sum;
+      sum += n;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      scratch[place[records[i].key >> shift & digits]++] = records[i];
+    }
+    std::swap(records, scratch);
+  }
+}
+}
+
+std::vector<std::vector<BrickRecord>> voxelizeMesh(const TriangleMesh& mesh, const Cube& cube,
+  int level, const std::vector<WorkPiece>& pieces, Buffer<TriangleShape>& shapes,
+  Executor& executor)
+{
+  const Lattice lattice(cube, level);
+  std::vector<std::vector<BrickRecord>> records(pieces.size());
+  std::vector<std::uint64_t> voxelsOfPart(pieces.size());
+  executor.run(
+    pieces.size(), 1, 0.6, 2e5, [&](std::size_t i) { return pieces[i].records; },
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const WorkPiece& piece = pieces[i];
+        std::vector<BrickRecord>& out = records[i];
+        out.reserve(static_cast<std::size_t>(piece.records * 1.125) + 64);
+        for (std::uint32_t id = piece.first; id < piece.last; ++id)
+        {
+          if (!usable(mesh, mesh.triangles[id]))
+          {
+            continue;
+          }
+          TriangleShape shape;
+          const LatticeTriangle t = placeTriangle(mesh, lattice, id, shape);
+          const std::uint64_t voxels = voxelizeTriangle(t, level, out, piece.part, piece.parts);
+          if (piece.parts == 1)
+          {
+            shape.areaPerVoxel /= static_cast<float>(voxels);
+            shapes[id] = shape;
+          }
+          else
+          {
+            voxelsOfPart[i] = voxels;
+          }
+        }
+      }
+    });
+  for (std::size_t i = 0; i < pieces.size(); i += pieces[i].parts)
+  {
+    if (pieces[i].parts > 1)
+    {
+      std::uint64_t voxels = 0;
+      for (std::size_t k = i; k < i + pieces[i].parts; ++k)
+      {
+        voxels += voxelsOfPart[k];
+      }
+      TriangleShape& shape = shapes[pieces[i].first];
+      placeTriangle(mesh, lattice, pieces[i].first, shape);
+      shape.areaPerVoxel /= static_cast<float>(voxels);
+    }
+  }
+  return records;
+}
+
+SortedRecords sortRecords(
+  std::vector<std::vector<BrickRecord>>&& pieces, int level, Executor& executor)
+{
+  // Scatter into buckets by the highest bits, from a few blocks of pieces so that their histograms
+  // stay small; then each bucket is sorted where it lies, in the cache.
+  const int keyBits = 6 * ((level + 1) / 2 - 1);
+  const int bucketBits = std::min(keyBits, BucketBits);
+  const int shift = keyBits - bucketBits;
+  const std::size_t buckets = std::size_t(1) << bucketBits;
+  const std::size_t blocks = std::min<std::size_t>(pieces.size(), 64);
+  const auto blockBegin = [&](std::size_t block) { return pieces.size() * block / blocks; };
+  std::vector<std::size_t> places(blocks * buckets);
+  std::vector<std::size_t> blockSize(blocks);
+  std::size_t total = 0;
+  for (std::size_t block = 0; block < blocks; ++block)
+  {
+    for (std::size_t i = blockBegin(block); i < blockBegin(block + 1); ++i)
+    {
+      blockSize[block] += pieces[i].size();
+    }
+    total += blockSize[block];
+  }
+  const auto cost = [&](std::size_t block) { return static_cast<double>(blockSize[block]); };
+  executor.run(blocks, 1, 0.02, 5e6, cost,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t block = first; block < last; ++block)
+      {
+        std::size_t* count = places.data() + block * buckets;
+        for (std::size_t i = blockBegin(block); i < blockBegin(block + 1); ++i)
+        {
+          for (const BrickRecord& record : pieces[i])
+          {
+            ++count[record.key >> shift];
+          }
+        }
+      }
+    });
+  SortedRecords sorted;
+  sorted.bucketBegin.resize(buckets + 1);
+  std::size_t sum = 0;
+  for (std::size_t bucket = 0; bucket < buckets; ++bucket)
+  {
+    sorted.bucketBegin[bucket] = sum;
+    for (std::size_t block = 0; block < blocks; ++block)
+    {
+      const std::size_t count = places[block * buckets + bucket];
+      places[block * buckets + bucket] = sum;
+      sum += count;
+    }
+  }
+  sorted.bucketBegin[buckets] = total;
+  sorted.records = Buffer<BrickRecord>(total);
+  executor.run(blocks, 1, 0.08, 2e6, cost,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t block = first; block < last; ++block)
+      {
+        std::size_t* place = places.data() + block * buckets;
+        for (std::size_t i = blockBegin(block); i < blockBegin(block + 1); ++i)
+        {
+          for (const BrickRecord& record : pieces[i])
+          {
+            sorted.records[place[record.key >> shift]++] = record;
+          }
+          std::vector<BrickRecord>().swap(pieces[i]);
+        }
+      }
+    });
+  executor.run(
+    buckets, 16, 0.1, 1e6,
+    [&](std::size_t bucket) { return static_cast<double>(sorted.bucketSize(bucket)); },
+    [&](std::size_t first, std::size_t last)
+    {
+      std::size_t largest = 0;
+      for (std::size_t bucket = first; bucket < last; ++bucket)
+      {
+        largest = std::max(largest, sorted.bucketSize(bucket));
+      }
+      Buffer<BrickRecord> scratch(largest);
+      for (std::size_t bucket = first; bucket < last; ++bucket)
+      {
+        sortBucket(sorted.records.data() + sorted.bucketBegin[bucket], scratch.data(),
+          sorted.bucketSize(bucket), shift);
+      }
+    });
+  return sorted;
+}
+}

@@ -1,0 +1,240 @@
+#include "svoWork.h"
+
+#include "svoLattice.h"
+#include "svoMeanPlanes.h"
+
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+namespace svo
+{
+namespace
+{
+constexpr std::size_t Block = 4096; // triangles
+
+std::size_t blocksOf(std::size_t triangles)
+{
+  return (triangles + Block - 1) / Block;
+}
+
+double bricksOfEdge(int level)
+{
+  return std::ldexp(1.0, std::max(level - 2, 0));
+}
+
+Cube cubeAround(const glm::dvec3& low, const glm::dvec3& high, int level)
+{
+  if (!(low.x <= high.x))
+  {
+    return { glm::dvec3(0.0), 1.0 };
+  }
+  const glm::dvec3 extents = high - low;
+  const double extent = std::max({ extents.x, extents.y, extents.z });
+  const glm::dvec3 magnitudes = glm::max(glm::abs(low), glm::abs(high));
+  const double magnitude = std::max({ magnitudes.x, magnitudes.y, magnitudes.z });
+  // A voxel is never smaller than the steps between doubles at the mesh's distance, nor so small
+  // that its inverse overflows.
+  const double resolvable = std::ldexp(magnitude, level - 52);
+  const double units = std::ldexp(1.0, level + LatticeBits);
+  double edge = std::max({ extent * (units / (units - 4.0)), resolvable, SmallestEdge });
+  if (extent == 0.0)
+  {
+    edge = magnitude > 0.0 ? std::max(edge, std::ldexp(magnitude, -20)) : 1.0;
+  }
+  glm::dvec3 origin = low + (extents * 0.5 - edge * 0.5);
+  for (int i = 0; i < 3; ++i)
+  {
+    // Rounding may eat the margin where a lattice unit is below a double's step.
+    while (low[i] - origin[i] < edge / units)
+    {
+      origin[i] = std::nextafter(origin[i], -std::numeric_limits<double>::infinity());
+    }
+    edge = std::max(edge, (high[i] - origin[i]) * (units / (units - 1.0)));
+  }
+  return { origin, edge };
+}
+}
+
+Cube boundingCube(const TriangleMesh& mesh, int level, const ParallelFor& parallelFor,
+  std::size_t& droppedTriangles)
+{
+  struct Bounds
+  {
+    glm::dvec3 low{ std::numeric_limits<double>::infinity() };
+    glm::dvec3 high{ -std::numeric_limits<double>::infinity() };
+    std::size_t dropped = 0;
+  };
+  const std::size_t blocks = blocksOf(mesh.triangleCount);
+  std::vector<Bounds> bounds(blocks);
+  parallelFor(0, blocks, 4,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t block = first; block < last; ++block)
+      {
+        Bounds b;
+        const std::size_t end = std::min((block + 1) * Block, mesh.triangleCount);
+        for (std::size_t i = block * Block; i < end; ++i)
+        {
+          const glm::uvec3& t = mesh.triangles[i];
+          if (!usable(mesh, t))
+          {
+            ++b.dropped;
+            continue;
+          }
+          for (int k = 0; k < 3; ++k)
+          {
+            b.low = glm::min(b.low, mesh.points[t[k]]);
+            b.high = glm::max(b.high, mesh.points[t[k]]);
+          }
+        }
+        bounds[block] = b;
+      }
+    });
+  Bounds all;
+  for (const Bounds& b : bounds)
+  {
+    all.low = glm::min(all.low, b.low);
+    all.high = glm::max(all.high, b.high);
+    all.dropped += b.dropped;
+  }
+  droppedTriangles = all.dropped;
+  return cubeAround(all.low, all.high, level);
+}
+
+Cube boundingCube(const TriangleMesh& mesh, int level)
+{
+  std::size_t dropped = 0;
+  return boundingCube(mesh, level, serialFor, dropped);
+}
+
+double MeshMeasure::expectedRecords(int level) const
+{
+  const double n = bricksOfEdge(level);
+  return (this->areas * n + this->widths) * n + static_cast<double>(this->triangles);
+}
+
+double MeshMeasure::expectedBricks(int level) const
+{
+  // Triangles are taken to be neighbours on a surface, whose bricks they share.
+  const double n = bricksOfEdge(level);
+  return std::min(
+    { n * n * n, this->areas * n * n * 1.25 + 8.0 * n, this->expectedRecords(level) });
+}
+
+double MeshMeasure::expectedMemory(int level) const
+{
+  const double records = this->expectedRecords(level);
+  const double bricks = this->expectedBricks(level);
+  const double lists = 4.0 * (records - 0.5 * bricks);
+  const double mesh = static_cast<double>(this->triangles) * sizeof(TriangleShape);
+  // The records of the pieces and of the buckets; the buckets, the bricks with keys and moments and
+  // the lists; the same without the records but with the result.
+  const double scatter = 2.0 * sizeof(BrickRecord) * records;
+  const double brick = sizeof(Node) + sizeof(std::uint64_t) + sizeof(SurfaceMoment);
+  const double fill = sizeof(BrickRecord) * records + brick * bricks + lists;
+  const double write = (brick + 2.0 * sizeof(Node)) * bricks + 2.0 * lists;
+  constexpr double fixed = 3 << 20; // histograms and small arrays
+  return fixed + mesh + std::max({ scatter, fill, write });
+}
+
+bool MeshMeasure::fitsIndices(int level) const
+{
+  // Each record is a brick of its own or a word of a list.
+  return this->expectedRecords(level) < 1.05 * 4294967296.0;
+}
+
+MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const ParallelFor& parallelFor,
+  int level, Buffer<float>& recordsOfTriangle)
+{
+  const std::size_t blocks = blocksOf(mesh.triangleCount);
+  std::vector<MeshMeasure> measures(blocks);
+  const double n = bricksOfEdge(level);
+  const double scale = 1.0 / cube.edge;
+  const bool keep = recordsOfTriangle.size() == mesh.triangleCount;
+  parallelFor(0, blocks, 4,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t block = first; block < last; ++block)
+      {
+        MeshMeasure m;
+        const std::size_t end = std::min((block + 1) * Block, mesh.triangleCount);
+        for (std::size_t i = block * Block; i < end; ++i)
+        {
+          const glm::uvec3& t = mesh.triangles[i];
+          double records = 0.0;
+          if (usable(mesh, t))
+          {
+            const glm::dvec3 a = (mesh.points[t.x] - cube.origin) * scale;
+            const glm::dvec3 b = (mesh.points[t.y] - cube.origin) * scale;
+            const glm::dvec3 c = (mesh.points[t.z] - cube.origin) * scale;
+            const glm::dvec3 normal = glm::abs(glm::cross(b - a, c - a));
+            const glm::dvec3 width = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
+            const double areas = 0.5 * (normal.x + normal.y + normal.z);
+            const double widths = width.x + width.y + width.z;
+            m.areas += areas;
+            m.widths += widths;
+            ++m.triangles;
+            records = (areas * n + widths) * n + 1.0;
+          }
+          if (keep)
+          {
+            recordsOfTriangle[i] = static_cast<float>(records);
+          }
+        }
+        measures[block] = m;
+      }
+    });
+  MeshMeasure sum;
+  for (const MeshMeasure& m : measures)
+  {
+    sum.areas += m.areas;
+    sum.widths += m.widths;
+    sum.triangles += m.triangles;
+  }
+  return sum;
+}
+
+std::vector<WorkPiece> cutWork(const Buffer<float>& recordsOfTriangle)
+{
+  double total = 0.0;
+  for (std::size_t i = 0; i < recordsOfTriangle.size(); ++i)
+  {
+    total += recordsOfTriangle[i];
+  }
+  // Small enough to balance threads and to abort between them, not too many for huge meshes.
+  const double target = std::max(4096.0, total / 4096.0);
+  std::vector<WorkPiece> pieces;
+  WorkPiece piece;
+  for (std::uint32_t i = 0; i < recordsOfTriangle.size(); ++i)
+  {
+    const double records = recordsOfTriangle[i];
+    if (piece.records > 0.0 && piece.records + records > target)
+    {
+      piece.last = i;
+      pieces.push_back(piece);
+      piece = {};
+      piece.first = i;
+    }
+    piece.records += records;
+    if (records > 2.0 * target)
+    {
+      piece.last = i + 1;
+      piece.parts = static_cast<std::uint32_t>(records / target);
+      piece.records = records / piece.parts;
+      for (piece.part = 0; piece.part < piece.parts; ++piece.part)
+      {
+        pieces.push_back(piece);
+      }
+      piece = {};
+      piece.first = i + 1;
+    }
+  }
+  if (piece.first < recordsOfTriangle.size())
+  {
+    piece.last = static_cast<std::uint32_t>(recordsOfTriangle.size());
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+}

@@ -1,0 +1,53 @@
+// How much work and memory a mesh will take at a level, and the pieces it is cut into.
+#ifndef svoWork_h
+#define svoWork_h
+
+#include "svoBuffer.h"
+#include "svoBuild.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace svo
+{
+/// What the expected number of bricks depends on. By Steiner's formula a triangle at a random
+/// place meets, of a unit grid's cells, as many as the sum of its three projected areas, its three
+/// widths and one.
+struct MeshMeasure
+{
+  double areas = 0.0;  // sum of the projected areas of all triangles, in squares of the cube's edge
+  double widths = 0.0; // sum of the widths of their bounding boxes, in edges of the cube
+  std::size_t triangles = 0; // that are not dropped
+
+  double expectedRecords(int level) const;
+  double expectedBricks(int level) const;
+  /// Peak bytes of build().
+  double expectedMemory(int level) const;
+  /// False where nodes or list words will certainly be more than 31 bits can name.
+  bool fitsIndices(int level) const;
+};
+
+/// A run of triangles, or a part of one.
+struct WorkPiece
+{
+  std::uint32_t first = 0;
+  std::uint32_t last = 0;
+  std::uint32_t part = 0;
+  std::uint32_t parts = 1;
+  double records = 0.0; // expected
+};
+
+/// Sums are taken in blocks of a fixed size, so that they are the same for any executor.
+MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const ParallelFor& parallelFor,
+  int level, Buffer<float>& recordsOfTriangle);
+
+/// Cuts the mesh into pieces of about equal work, in ascending order of triangles.
+std::vector<WorkPiece> cutWork(const Buffer<float>& recordsOfTriangle);
+
+/// boundingCube() in parallel; also counts the triangles that are not usable.
+Cube boundingCube(const TriangleMesh& mesh, int level, const ParallelFor& parallelFor,
+  std::size_t& droppedTriangles);
+}
+
+#endif
