@@ -1,8 +1,182 @@
 #include "vtkPolyDataToSVO.h"
 
+#include "svoMeshOctree.h"
+#include "svoOctreeCache.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkTimerLog.h"
+
+#include <cstddef>
+#include <string>
+#include <utility>
 
 vtkStandardNewMacro(vtkPolyDataToSVO);
 
-vtkPolyDataToSVO::vtkPolyDataToSVO() = default;
+class vtkPolyDataToSVO::vtkInternals
+{
+public:
+  svo::OctreeCache Cache;
+
+  /// The octree that a mesh brings along, if it is what would be built.
+  static svo::Octree Carried(vtkPolyData* mesh, int level, svo::LeafGeometry geometry)
+  {
+    svo::Octree octree;
+    std::string ignored; // what is damaged is replaced
+    if (svo::openAttachedOctree(mesh, octree, ignored) != svo::Attached::Found ||
+      octree.level() != level ||
+      octree.header().leafGeometry != static_cast<std::uint32_t>(geometry))
+    {
+      return {};
+    }
+    return octree;
+  }
+};
+
+namespace
+{
+constexpr std::size_t Kibi = 1024;
+}
+
+//------------------------------------------------------------------------------
+vtkPolyDataToSVO::vtkPolyDataToSVO()
+  : Internals(new vtkInternals)
+{
+}
+
 vtkPolyDataToSVO::~vtkPolyDataToSVO() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkPolyDataToSVO::GetLeafGeometryAsString()
+{
+  static const char* const names[] = { "Voxel", "Plane", "Triangle", "Automatic" };
+  return names[this->LeafGeometry];
+}
+
+//------------------------------------------------------------------------------
+// Neither the cache nor its limit changes the output, so they do not make it outdated.
+void vtkPolyDataToSVO::SetCacheTimeSteps(bool cache)
+{
+  this->CacheTimeSteps = cache;
+  if (!cache)
+  {
+    this->ReleaseCache();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPolyDataToSVO::SetCacheMemoryLimit(unsigned long kibibytes)
+{
+  this->CacheMemoryLimit = kibibytes;
+  this->Internals->Cache.shrink(kibibytes * Kibi);
+}
+
+//------------------------------------------------------------------------------
+void vtkPolyDataToSVO::ReleaseCache()
+{
+  this->Internals->Cache.shrink(0);
+}
+
+//------------------------------------------------------------------------------
+unsigned long vtkPolyDataToSVO::GetCacheMemorySize()
+{
+  return static_cast<unsigned long>((this->Internals->Cache.bytes() + Kibi - 1) / Kibi);
+}
+
+//------------------------------------------------------------------------------
+int vtkPolyDataToSVO::GetNumberOfCachedOctrees()
+{
+  return static_cast<int>(this->Internals->Cache.size());
+}
+
+//------------------------------------------------------------------------------
+int vtkPolyDataToSVO::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  this->BuildTime = 0.0;
+  this->NumberOfVoxels = 0;
+  output->ShallowCopy(input);
+
+  svo::MeshOctreeOptions options;
+  options.level = this->MaximumLevel;
+  options.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);
+  options.memoryLimit = this->MemoryLimit * Kibi;
+  if (const auto carried = vtkInternals::Carried(input, options.level, options.leafGeometry))
+  {
+    this->NumberOfVoxels = static_cast<vtkIdType>(carried.header().voxelCount);
+    return 1;
+  }
+  svo::detachOctree(output);
+
+  svo::OctreeCache& cache = this->Internals->Cache;
+  const svo::OctreeCache::Key key{ svo::meshSignature(input), options.level, options.leafGeometry };
+  if (const svo::OctreeCache::Entry* kept = this->CacheTimeSteps ? cache.find(key) : nullptr)
+  {
+    svo::attachOctree(output, kept->octree);
+    this->NumberOfVoxels = static_cast<vtkIdType>(kept->octree.header().voxelCount);
+    return 1;
+  }
+
+  options.progress = [this](double progress)
+  {
+    this->UpdateProgress(progress);
+    return !this->GetAbortExecute();
+  };
+  svo::OctreeCache::Entry built{ key, {} };
+  std::string message;
+  const double start = vtkTimerLog::GetUniversalTime();
+  const svo::BuildStatus status = svo::buildMeshOctree(input, options, built.octree, message);
+  this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
+  if (status == svo::BuildStatus::Aborted)
+  {
+    return 1;
+  }
+  if (status != svo::BuildStatus::Built)
+  {
+    vtkErrorMacro("There is no octree of level " << this->MaximumLevel << ": " << message << ".");
+    return 1; // the mesh is a valid output, and one message is enough
+  }
+
+  ++this->NumberOfBuilds;
+  this->NumberOfVoxels = static_cast<vtkIdType>(built.octree.header().voxelCount);
+  svo::attachOctree(output, built.octree);
+  if (!message.empty())
+  {
+    vtkWarningMacro("The octree is not complete: " << message << ".");
+  }
+  else if (input->GetNumberOfPolys() == 0 && input->GetNumberOfStrips() == 0 &&
+    input->GetNumberOfCells() > 0)
+  {
+    vtkWarningMacro("The mesh has vertices and lines, but no polygons; its octree is empty.");
+  }
+  else if (const double* b = built.octree.header().meshBounds;
+           built.octree.header().voxelCount > 0 && b[0] == b[1] && b[2] == b[3] && b[4] == b[5])
+  {
+    vtkWarningMacro("All points of the mesh are in one place.");
+  }
+  if (this->CacheTimeSteps)
+  {
+    cache.insert(std::move(built), this->CacheMemoryLimit * Kibi);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkPolyDataToSVO::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "MaximumLevel: " << this->MaximumLevel << "\n";
+  os << indent << "LeafGeometry: " << this->GetLeafGeometryAsString() << "\n";
+  os << indent << "CacheTimeSteps: " << (this->CacheTimeSteps ? "On\n" : "Off\n");
+  os << indent << "CacheMemoryLimit: " << this->CacheMemoryLimit << " KiB\n";
+  os << indent << "CacheMemorySize: " << this->GetCacheMemorySize() << " KiB\n";
+  os << indent << "NumberOfCachedOctrees: " << this->GetNumberOfCachedOctrees() << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
+  os << indent << "NumberOfBuilds: " << this->NumberOfBuilds << "\n";
+  os << indent << "BuildTime: " << this->BuildTime << " s\n";
+  os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
+}

@@ -1,26 +1,165 @@
 /**
  * @class vtkPolyDataToSVO
- * @brief converts polydata into a sparse voxel octree
+ * @brief converts polygons into a sparse voxel octree that travels with them
+ *
+ * The output is the input mesh, unchanged, with an octree of its surface in a field-data array. So
+ * the output can be drawn, picked, written to a .vtp file and read again like any mesh, and
+ * vtkSVORenderPass traces the octree instead of building its own. vtkSparseVoxelOctree opens the
+ * octree for questions, vtkSVOToPolyData shows its cells.
+ *
+ * Polygons of any size and triangle strips are converted; vertices and lines pass through and have
+ * no part in the octree. The octree remembers a signature of the mesh, so that a filter downstream
+ * that changes points or cells leaves an octree that is recognised as foreign. An input that
+ * already carries a fitting octree of the same level and leaf geometry keeps it, without a build.
+ *
+ * Animated meshes: the octree of each time step (or of each block of a composite dataset, or of any
+ * mesh that comes along) is built once and kept, see SetCacheTimeSteps().
+ *
+ * What the filter cannot use leads to one message, and the mesh always passes through:
+ * triangles with a point that is not finite are left out (warning with their number), a mesh with
+ * only vertices and lines gets an octree without voxels (warning), so does an empty mesh (no
+ * message), all points in one place are one voxel (warning), and an octree that needs more memory
+ * than there is, is refused before it is built (error that names the size; the output has no
+ * octree).
+ *
+ * The build reports progress. If it is aborted (SetAbortExecute(1) in a ProgressEvent observer),
+ * the output is the mesh without an octree; Modified() makes the next Update() try again.
+ *
+ * @sa vtkSparseVoxelOctree vtkSVOToPolyData vtkSVORenderPass
  */
 #ifndef vtkPolyDataToSVO_h
 #define vtkPolyDataToSVO_h
 
 #include "vtkPolyDataAlgorithm.h"
-#include "vtkSVOCoreModule.h"
+#include "vtkSVOCoreModule.h" // for the export macro
+
+#include <memory> // for std::unique_ptr
 
 class VTKSVOCORE_EXPORT vtkPolyDataToSVO : public vtkPolyDataAlgorithm
 {
 public:
   static vtkPolyDataToSVO* New();
   vtkTypeMacro(vtkPolyDataToSVO, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Depth of the octree: 2^level voxels along an edge of the mesh's bounding cube. 1 to 20, values
+   * outside are clamped; default 10. One level more is half the voxel size, and four times the
+   * voxels.
+   */
+  vtkSetClampMacro(MaximumLevel, int, 1, 20);
+  vtkGetMacro(MaximumLevel, int);
+  ///@}
+
+  /**
+   * What a ray meets in an occupied voxel.
+   */
+  enum LeafGeometryType
+  {
+    VOXEL = 0,
+    PLANE = 1,
+    TRIANGLE = 2,
+    AUTOMATIC = 3
+  };
+
+  ///@{
+  /**
+   * What a ray meets in an occupied voxel, fastest first:
+   * - Voxel: the cube, where the ray enters it;
+   * - Plane: the plane of one of the triangles in the voxel;
+   * - Triangle: the triangles themselves, exactly;
+   * - Automatic (default): triangles where they are few, planes where they are many.
+   */
+  vtkSetClampMacro(LeafGeometry, int, VOXEL, AUTOMATIC);
+  vtkGetMacro(LeafGeometry, int);
+  void SetLeafGeometryToVoxel() { this->SetLeafGeometry(VOXEL); }
+  void SetLeafGeometryToPlane() { this->SetLeafGeometry(PLANE); }
+  void SetLeafGeometryToTriangle() { this->SetLeafGeometry(TRIANGLE); }
+  void SetLeafGeometryToAutomatic() { this->SetLeafGeometry(AUTOMATIC); }
+  const char* GetLeafGeometryAsString();
+  ///@}
+
+  ///@{
+  /**
+   * Whether octrees are kept after use, so that a time step that comes again is not built again.
+   * Default on. They are recognised by the mesh's signature, the level and the leaf geometry, not
+   * by the time: identical poses share one octree. Turning it off releases them.
+   */
+  virtual void SetCacheTimeSteps(bool cache);
+  vtkGetMacro(CacheTimeSteps, bool);
+  vtkBooleanMacro(CacheTimeSteps, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Memory that the kept octrees may use, in KiB; default 1048576 (1 GiB). The least recently used
+   * ones go first. An octree larger than this is not kept.
+   */
+  virtual void SetCacheMemoryLimit(unsigned long kibibytes);
+  vtkGetMacro(CacheMemoryLimit, unsigned long);
+  ///@}
+
+  ///@{
+  /**
+   * Memory that one build may use at its peak, in KiB; default 0: what the machine has available. A
+   * build that is expected to need more is refused with an error.
+   */
+  vtkSetMacro(MemoryLimit, unsigned long);
+  vtkGetMacro(MemoryLimit, unsigned long);
+  ///@}
+
+  /**
+   * Lets go of the kept octrees. Outputs keep theirs.
+   */
+  void ReleaseCache();
+
+  /**
+   * Memory of the kept octrees in KiB, rounded up.
+   */
+  unsigned long GetCacheMemorySize();
+
+  /**
+   * How many octrees are kept.
+   */
+  int GetNumberOfCachedOctrees();
+
+  ///@{
+  /**
+   * How many octrees this filter has built so far, and how long the last execution took to build
+   * one, in seconds (0 if it built none).
+   */
+  vtkGetMacro(NumberOfBuilds, vtkIdType);
+  vtkGetMacro(BuildTime, double);
+  ///@}
+
+  /**
+   * Occupied voxels of the octree that the last execution put on the output, 0 if none.
+   */
+  vtkGetMacro(NumberOfVoxels, vtkIdType);
 
 protected:
   vtkPolyDataToSVO();
   ~vtkPolyDataToSVO() override;
 
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
 private:
   vtkPolyDataToSVO(const vtkPolyDataToSVO&) = delete;
   void operator=(const vtkPolyDataToSVO&) = delete;
+
+  int MaximumLevel = 10;
+  int LeafGeometry = AUTOMATIC;
+  bool CacheTimeSteps = true;
+  unsigned long CacheMemoryLimit = 1048576;
+  unsigned long MemoryLimit = 0;
+  vtkIdType NumberOfBuilds = 0;
+  vtkIdType NumberOfVoxels = 0;
+  double BuildTime = 0.0;
+
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
 };
 
 #endif

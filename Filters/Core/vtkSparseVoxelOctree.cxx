@@ -1,8 +1,216 @@
 #include "vtkSparseVoxelOctree.h"
 
+#include "svoIntersect.h"
+#include "svoMeshOctree.h"
+
+#include "vtkMath.h"
 #include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <glm/vec4.hpp>
 
 vtkStandardNewMacro(vtkSparseVoxelOctree);
 
-vtkSparseVoxelOctree::vtkSparseVoxelOctree() = default;
+class vtkSparseVoxelOctree::vtkInternals
+{
+public:
+  svo::Octree Octree;
+  double Bounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+};
+
+namespace
+{
+/// A triangle on the surface that a hit stands for.
+std::uint32_t triangleOfHit(const svo::Octree& octree, svo::Primitive primitive)
+{
+  if (!(primitive & svo::NodePrimitive))
+  {
+    return primitive;
+  }
+  std::uint32_t node = primitive & ~svo::NodePrimitive;
+  while (node < octree.brickBegin())
+  {
+    node = octree.nodes()[node].first;
+  }
+  std::uint32_t count = 0;
+  std::uint32_t inlineId = 0;
+  return *octree.brickTriangles(node, count, inlineId);
+}
+}
+
+//------------------------------------------------------------------------------
+vtkSparseVoxelOctree::vtkSparseVoxelOctree()
+  : Internals(new vtkInternals)
+{
+}
+
 vtkSparseVoxelOctree::~vtkSparseVoxelOctree() = default;
+
+//------------------------------------------------------------------------------
+bool vtkSparseVoxelOctree::Initialize(vtkPolyData* mesh)
+{
+  this->Internals->Octree = {};
+  this->Modified();
+  if (!mesh)
+  {
+    vtkErrorMacro("There is no mesh to take an octree from.");
+    return false;
+  }
+  std::string message;
+  switch (svo::openAttachedOctree(mesh, this->Internals->Octree, message))
+  {
+    case svo::Attached::Found:
+      return true;
+    case svo::Attached::None:
+      vtkErrorMacro("The mesh carries no octree; vtkPolyDataToSVO makes one.");
+      break;
+    case svo::Attached::Foreign:
+      vtkErrorMacro(
+        "The octree that the mesh carries was built from another mesh, or from this one "
+        "before it changed; vtkPolyDataToSVO makes one that fits.");
+      break;
+    case svo::Attached::Damaged:
+      vtkErrorMacro("The octree that the mesh carries cannot be used: " << message << ".");
+      break;
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+int vtkSparseVoxelOctree::GetNumberOfLevels()
+{
+  const svo::Octree& octree = this->Internals->Octree;
+  return octree ? octree.level() : 0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkSparseVoxelOctree::GetNumberOfVoxels()
+{
+  const svo::Octree& octree = this->Internals->Octree;
+  return octree ? static_cast<vtkIdType>(octree.header().voxelCount) : 0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkSparseVoxelOctree::GetNumberOfNodes()
+{
+  const svo::Octree& octree = this->Internals->Octree;
+  return octree ? static_cast<vtkIdType>(octree.header().nodeCount) : 0;
+}
+
+//------------------------------------------------------------------------------
+unsigned long vtkSparseVoxelOctree::GetActualMemorySize()
+{
+  const svo::Octree& octree = this->Internals->Octree;
+  return octree ? static_cast<unsigned long>((octree.bytes() + 1023) / 1024) : 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkSparseVoxelOctree::GetBounds(double bounds[6])
+{
+  const svo::Octree& octree = this->Internals->Octree;
+  for (int i = 0; i < 3; ++i)
+  {
+    bounds[2 * i] = octree ? octree.header().origin[i] : 1.0;
+    bounds[2 * i + 1] =
+      octree ? bounds[2 * i] + std::ldexp(octree.header().voxelSize, octree.level()) : -1.0;
+  }
+}
+
+//------------------------------------------------------------------------------
+double* vtkSparseVoxelOctree::GetBounds()
+{
+  this->GetBounds(this->Internals->Bounds);
+  return this->Internals->Bounds;
+}
+
+//------------------------------------------------------------------------------
+double vtkSparseVoxelOctree::GetVoxelSize()
+{
+  const svo::Octree& octree = this->Internals->Octree;
+  return octree ? octree.header().voxelSize : 0.0;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSparseVoxelOctree::IsOccupied(const double x[3], int level)
+{
+  const svo::Octree& octree = this->Internals->Octree;
+  if (!octree)
+  {
+    return false;
+  }
+  const int l = std::min(std::max(level, 0), octree.level());
+  const double edge = std::ldexp(octree.header().voxelSize, octree.level() - l);
+  glm::ivec3 cell;
+  for (int i = 0; i < 3; ++i)
+  {
+    const double c = std::floor((x[i] - octree.header().origin[i]) / edge);
+    if (!(c >= 0.0 && c < static_cast<double>(1 << l))) // NaN is outside, too
+    {
+      return false;
+    }
+    cell[i] = static_cast<int>(c);
+  }
+  return octree.occupied(cell, l);
+}
+
+//------------------------------------------------------------------------------
+int vtkSparseVoxelOctree::IntersectWithLine(
+  const double p1[3], const double p2[3], double& t, double x[3], vtkIdType& cellId)
+{
+  const svo::Octree& octree = this->Internals->Octree;
+  if (!octree || octree.empty())
+  {
+    return 0;
+  }
+  const glm::dmat4 toOctree = octree.localToOctree();
+  const glm::dvec3 from(p1[0], p1[1], p1[2]);
+  const glm::dvec3 along = glm::dvec3(p2[0], p2[1], p2[2]) - from;
+  svo::Ray ray;
+  ray.origin = glm::dvec3(toOctree * glm::dvec4(from, 1.0));
+  ray.direction = glm::dvec3(toOctree * glm::dvec4(along, 0.0));
+  ray.tMin = 0.0;
+  ray.tMax = 1.0;
+  if (ray.direction == glm::dvec3(0.0))
+  {
+    return 0;
+  }
+  svo::TraceOptions options;
+  options.leafGeometry = static_cast<svo::LeafGeometry>(octree.header().leafGeometry);
+  const svo::Hit hit = svo::intersect(octree, ray, options);
+  if (!hit)
+  {
+    return 0;
+  }
+  t = hit.t;
+  for (int i = 0; i < 3; ++i)
+  {
+    x[i] = from[i] + hit.t * along[i];
+  }
+  cellId = octree.surface()->cells[triangleOfHit(octree, hit.primitive)];
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+const svo::Octree& vtkSparseVoxelOctree::GetOctree() const
+{
+  return this->Internals->Octree;
+}
+
+//------------------------------------------------------------------------------
+void vtkSparseVoxelOctree::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfLevels: " << this->GetNumberOfLevels() << "\n";
+  os << indent << "NumberOfVoxels: " << this->GetNumberOfVoxels() << "\n";
+  os << indent << "NumberOfNodes: " << this->GetNumberOfNodes() << "\n";
+  os << indent << "ActualMemorySize: " << this->GetActualMemorySize() << " KiB\n";
+  os << indent << "VoxelSize: " << this->GetVoxelSize() << "\n";
+  double b[6];
+  this->GetBounds(b);
+  os << indent << "Bounds: (" << b[0] << ", " << b[1] << ", " << b[2] << ", " << b[3] << ", "
+     << b[4] << ", " << b[5] << ")\n";
+}

@@ -1,0 +1,326 @@
+#include "svoMeshOctree.h"
+
+#include "svoMeshTriangles.h"
+
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <vtksys/SystemInformation.hxx>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <new>
+#include <tuple>
+
+namespace svo
+{
+namespace
+{
+/// Keeps the VTK array alive whose bytes an octree points into, and is how attachOctree finds it.
+struct ArrayOwner
+{
+  vtkSmartPointer<vtkUnsignedCharArray> array;
+  void operator()(const std::byte*) const {}
+};
+
+std::shared_ptr<const std::byte> bytesOf(vtkUnsignedCharArray* array)
+{
+  return { reinterpret_cast<const std::byte*>(array->GetPointer(0)), ArrayOwner{ array } };
+}
+
+std::size_t bufferSize(const Header& header)
+{
+  return sizeof(Header) + header.nodeCount * sizeof(Node) +
+    header.listWords * sizeof(std::uint32_t);
+}
+
+/// Buffers that VTK arrays have taken over from the builder. VTK's free function is given an
+/// address and nothing else.
+struct AdoptedBuffers
+{
+  std::mutex mutex;
+  std::map<void*, std::shared_ptr<std::byte>> buffers;
+};
+
+AdoptedBuffers& adoptedBuffers()
+{
+  // Never destroyed: arrays may outlive static objects.
+  static auto* instance = new AdoptedBuffers;
+  return *instance;
+}
+
+void releaseAdoptedBuffer(void* address)
+{
+  AdoptedBuffers& adopted = adoptedBuffers();
+  std::shared_ptr<std::byte> last;
+  const std::lock_guard<std::mutex> lock(adopted.mutex);
+  const auto found = adopted.buffers.find(address);
+  if (found != adopted.buffers.end())
+  {
+    last = std::move(found->second);
+    adopted.buffers.erase(found);
+  }
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> adopt(std::shared_ptr<std::byte> data, std::size_t size)
+{
+  AdoptedBuffers& adopted = adoptedBuffers();
+  std::byte* address = data.get();
+  {
+    const std::lock_guard<std::mutex> lock(adopted.mutex);
+    adopted.buffers.emplace(address, std::move(data));
+  }
+  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  array->SetName(OctreeArrayName);
+  array->SetArray(reinterpret_cast<unsigned char*>(address), static_cast<vtkIdType>(size), 0,
+    vtkAbstractArray::VTK_DATA_ARRAY_USER_DEFINED);
+  array->SetArrayFreeFunction(releaseAdoptedBuffer);
+  return array;
+}
+
+/// The surfaces of the octrees that are open now, so that a mesh is not triangulated again for
+/// every handle on it. The mesh and the cube's frame determine a surface.
+class OpenSurfaces
+{
+public:
+  std::shared_ptr<const Surface> find(const Header& header)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const auto found = this->Surfaces.find(key(header));
+    return found != this->Surfaces.end() ? found->second.lock() : nullptr;
+  }
+
+  void add(const Header& header, const std::shared_ptr<const Surface>& surface)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    for (auto i = this->Surfaces.begin(); i != this->Surfaces.end();)
+    {
+      i = i->second.expired() ? this->Surfaces.erase(i) : std::next(i);
+    }
+    this->Surfaces[key(header)] = surface;
+  }
+
+private:
+  using Key =
+    std::tuple<std::uint64_t, std::uint64_t, std::uint32_t, double, double, double, double>;
+  static Key key(const Header& h)
+  {
+    return { h.signature, h.triangleCount, h.depthCount, h.voxelSize, h.origin[0], h.origin[1],
+      h.origin[2] };
+  }
+
+  std::mutex Mutex;
+  std::map<Key, std::weak_ptr<const Surface>> Surfaces;
+};
+
+OpenSurfaces& openSurfaces()
+{
+  static auto* instance = new OpenSurfaces;
+  return *instance;
+}
+
+/// Bounds of the finite points, as they are stored in the header.
+void finiteBounds(const TriangleMesh& mesh, double bounds[6])
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    bounds[2 * i] = 1.0;
+    bounds[2 * i + 1] = -1.0;
+  }
+  for (std::size_t k = 0; k < mesh.pointCount; ++k)
+  {
+    const glm::dvec3& p = mesh.points[k];
+    for (int i = 0; i < 3; ++i)
+    {
+      if (std::isfinite(p[i]))
+      {
+        const bool first = bounds[2 * i] > bounds[2 * i + 1];
+        bounds[2 * i] = first ? p[i] : std::min(bounds[2 * i], p[i]);
+        bounds[2 * i + 1] = first ? p[i] : std::max(bounds[2 * i + 1], p[i]);
+      }
+    }
+  }
+}
+
+BuildStatus buildUnguarded(
+  vtkPolyData* mesh, const MeshOctreeOptions& options, Octree& octree, std::string& message)
+{
+  MeshTriangles triangles(mesh);
+  if (!triangles.addressable())
+  {
+    message = "the mesh has more points, cells or triangles than an octree can number";
+    return BuildStatus::BadInput;
+  }
+  BuildOptions buildOptions;
+  buildOptions.level = options.level;
+  buildOptions.leafGeometry = options.leafGeometry;
+  buildOptions.memoryLimit = options.memoryLimit != 0 ? options.memoryLimit : availableMemory();
+  buildOptions.parallelFor = smpParallelFor();
+  buildOptions.progress = options.progress;
+  const TriangleMesh view = triangles.view();
+  BuildResult result = build(view, buildOptions);
+  if (result.status != BuildStatus::Built)
+  {
+    message = result.status == BuildStatus::Aborted ? std::string() : result.message;
+    return result.status;
+  }
+
+  Header& header = *reinterpret_cast<Header*>(result.data.get());
+  header.signature = meshSignature(mesh);
+  header.pointCount = view.pointCount;
+  header.cellCount = static_cast<std::uint64_t>(mesh->GetNumberOfCells());
+  finiteBounds(view, header.meshBounds);
+  const auto surface =
+    makeSurface(view, std::move(triangles.cells()), header, buildOptions.parallelFor);
+  const auto array = adopt(std::move(result.data), result.size);
+  octree = Octree::open(bytesOf(array), result.size, surface, message);
+  if (!octree)
+  {
+    return BuildStatus::BadInput;
+  }
+  openSurfaces().add(octree.header(), surface);
+  if (result.droppedTriangles > 0)
+  {
+    message = std::to_string(result.droppedTriangles) + " of the mesh's " +
+      std::to_string(view.triangleCount) +
+      " triangles have points that are not finite; they are left out of the octree";
+  }
+  if (triangles.brokenCells() > 0)
+  {
+    message += (message.empty() ? "" : ", and ") + std::to_string(triangles.brokenCells()) +
+      " cells name points that do not exist; they are left out of the octree";
+  }
+  return BuildStatus::Built;
+}
+}
+
+BuildStatus buildMeshOctree(
+  vtkPolyData* mesh, const MeshOctreeOptions& options, Octree& octree, std::string& message)
+{
+  octree = {};
+  message.clear();
+  try
+  {
+    return buildUnguarded(mesh, options, octree, message);
+  }
+  catch (const std::bad_alloc&)
+  {
+    octree = {};
+    message = "there is not enough memory for an octree of level " + std::to_string(options.level);
+    return BuildStatus::TooLarge;
+  }
+}
+
+void attachOctree(vtkPolyData* mesh, const Octree& octree)
+{
+  vtkSmartPointer<vtkUnsignedCharArray> array;
+  if (const ArrayOwner* owner = std::get_deleter<ArrayOwner>(octree.data()))
+  {
+    array = owner->array;
+  }
+  else
+  {
+    const std::size_t size = bufferSize(octree.header());
+    array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+    array->SetName(OctreeArrayName);
+    array->SetNumberOfValues(static_cast<vtkIdType>(size));
+    std::memcpy(array->GetPointer(0), octree.key(), size);
+  }
+  mesh->GetFieldData()->AddArray(array); // replaces an array of the same name
+}
+
+void detachOctree(vtkPolyData* mesh)
+{
+  if (mesh->GetFieldData()->HasArray(OctreeArrayName))
+  {
+    mesh->GetFieldData()->RemoveArray(OctreeArrayName);
+  }
+}
+
+Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& message)
+{
+  octree = {};
+  message.clear();
+  vtkFieldData* field = mesh->GetFieldData();
+  vtkAbstractArray* any = field ? field->GetAbstractArray(OctreeArrayName) : nullptr;
+  if (!any)
+  {
+    return Attached::None;
+  }
+  vtkSmartPointer<vtkUnsignedCharArray> array = vtkUnsignedCharArray::FastDownCast(any);
+  if (!array || static_cast<std::size_t>(array->GetNumberOfValues()) < sizeof(Header))
+  {
+    message = "the field-data array that should hold the octree is too short, or not of bytes";
+    return Attached::Damaged;
+  }
+  try
+  {
+    const auto size = static_cast<std::size_t>(array->GetNumberOfValues());
+    if (reinterpret_cast<std::uintptr_t>(array->GetPointer(0)) % alignof(Header) != 0)
+    {
+      auto aligned = vtkSmartPointer<vtkUnsignedCharArray>::New();
+      aligned->DeepCopy(array);
+      array = aligned;
+    }
+    const auto bytes = bytesOf(array);
+    const Header& header = *reinterpret_cast<const Header*>(bytes.get());
+    if (std::memcmp(header.magic, LayoutMagic, sizeof(LayoutMagic)) == 0 &&
+      header.version == LayoutVersion && header.signature != meshSignature(mesh))
+    {
+      return Attached::Foreign;
+    }
+    // Checked before anything is made from the header; NaN in it would break the order of keys.
+    if (!Octree::open(bytes, size, nullptr, message))
+    {
+      return Attached::Damaged;
+    }
+    std::shared_ptr<const Surface> surface = openSurfaces().find(header);
+    if (!surface)
+    {
+      MeshTriangles triangles(mesh);
+      surface =
+        makeSurface(triangles.view(), std::move(triangles.cells()), header, smpParallelFor());
+      openSurfaces().add(header, surface);
+    }
+    octree = Octree::open(bytes, size, surface, message);
+    return octree ? Attached::Found : Attached::Damaged;
+  }
+  catch (const std::bad_alloc&)
+  {
+    octree = {};
+    message = "there is not enough memory to open the octree";
+    return Attached::Damaged;
+  }
+}
+
+std::size_t availableMemory()
+{
+  vtksys::SystemInformation system;
+  const long long total = system.GetProcMemoryAvailable(); // KiB; honours resource limits
+  const long long used = system.GetHostMemoryUsed();
+  const long long hostTotal = system.GetHostMemoryTotal();
+  if (total <= 0 || used <= 0 || hostTotal <= 0)
+  {
+    return 0;
+  }
+  long long available = std::min(hostTotal - used, total - system.GetProcMemoryUsed());
+  // A container or a batch job may have less than the machine it runs on.
+  std::ifstream limitFile("/sys/fs/cgroup/memory.max");
+  std::ifstream currentFile("/sys/fs/cgroup/memory.current");
+  long long limit = 0;
+  long long current = 0;
+  if (limitFile >> limit && currentFile >> current)
+  {
+    available = std::min(available, (limit - current) / 1024);
+  }
+  return available > 1 ? static_cast<std::size_t>(available) * 1024 : 1;
+}
+}

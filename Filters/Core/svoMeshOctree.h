@@ -1,0 +1,66 @@
+// From VTK's meshes to the engine's octrees and back: building, and travelling as field data.
+#ifndef svoMeshOctree_h
+#define svoMeshOctree_h
+
+#include "svoBuild.h"
+#include "svoMeshSignature.h"
+#include "svoOctree.h"
+#include "svoSMPParallel.h"
+#include "vtkSVOCoreModule.h"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+class vtkPolyData;
+
+namespace svo
+{
+struct MeshOctreeOptions
+{
+  int level = 10; // 1..MaximumLevel
+  LeafGeometry leafGeometry = LeafGeometry::Automatic;
+  std::size_t memoryLimit = 0; // bytes at the peak of the build; 0: what the machine has available
+  /// Called now and then on the calling thread with 0..1; returning false aborts the build.
+  std::function<bool(double)> progress;
+};
+
+/// Builds the octree of a mesh (polygons of any size and strips, triangulated as VTK's OpenGL
+/// mapper does), with its surface, and signs it with the mesh's signature. Does not attach it, does
+/// not change the mesh. A mesh without polygons has an empty octree. `message` says why there is no
+/// octree, or, although one was built, what was left out of it (points that are not finite); it is
+/// empty otherwise and when the build was aborted. On failure `octree` is empty. Throws nothing.
+VTKSVOCORE_EXPORT BuildStatus buildMeshOctree(
+  vtkPolyData* mesh, const MeshOctreeOptions& options, Octree& octree, std::string& message);
+
+/// Name of the field-data array (unsigned bytes, the layout of svoLayout.h) that an octree travels
+/// in.
+constexpr char OctreeArrayName[] = "SparseVoxelOctree";
+
+/// Puts the octree into the mesh's field data in place of any other. The bytes are not copied if
+/// they come from buildMeshOctree or openAttachedOctree: mesh and octree share them.
+VTKSVOCORE_EXPORT void attachOctree(vtkPolyData* mesh, const Octree& octree);
+
+/// Takes the octree off the mesh's field data, if there is one.
+VTKSVOCORE_EXPORT void detachOctree(vtkPolyData* mesh);
+
+enum class Attached
+{
+  Found,
+  None,
+  Foreign, // it was built from another mesh, or from this one before it changed
+  Damaged  // message says how
+};
+
+/// Opens the octree that travels on a mesh, with its surface. Only Found yields an octree. None and
+/// Foreign are ordinary states downstream of other filters and have no message. The bytes are
+/// shared with the field-data array, which must not be written to. Does not change the mesh. The
+/// surface is shared with other open octrees of the same bytes.
+VTKSVOCORE_EXPORT Attached openAttachedOctree(
+  vtkPolyData* mesh, Octree& octree, std::string& message);
+
+/// Bytes of memory that this process can still expect to get, 0 if unknown.
+VTKSVOCORE_EXPORT std::size_t availableMemory();
+}
+
+#endif

@@ -1,0 +1,208 @@
+#include "svoMeshSignature.h"
+
+#include "svoSMPParallel.h"
+
+#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace svo
+{
+namespace
+{
+std::uint64_t mix(std::uint64_t a, std::uint64_t b)
+{
+  const unsigned __int128 product =
+    static_cast<unsigned __int128>(a ^ 0x9e3779b97f4a7c15ull) * (b ^ 0xd1b54a32d192ed03ull);
+  return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
+}
+
+/// Hash of count words word(i), chunk by chunk; the chunks are fixed, so threads do not matter.
+template <typename Word>
+std::uint64_t hashWords(std::size_t count, std::uint64_t seed, const Word& word)
+{
+  constexpr std::size_t chunk = 1 << 16;
+  const std::size_t chunks = (count + chunk - 1) / chunk;
+  std::vector<std::uint64_t> hashes(chunks);
+  smpParallelFor()(0, chunks, 1,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        // Four chains, so that a multiplication need not wait for the last one.
+        std::uint64_t h[4] = { 1, 2, 3, 4 };
+        const std::size_t end = std::min(count, (c + 1) * chunk);
+        for (std::size_t i = c * chunk; i < end; ++i)
+        {
+          h[i & 3] = mix(h[i & 3] + i, word(i));
+        }
+        hashes[c] = mix(mix(h[0], h[1]), mix(h[2], h[3]));
+      }
+    });
+  std::uint64_t all = mix(seed, count);
+  for (std::uint64_t h : hashes)
+  {
+    all = mix(all, h);
+  }
+  return all;
+}
+
+template <typename Bits, typename Value>
+std::uint64_t hashValues(const Value* values, std::size_t count)
+{
+  static_assert(sizeof(Bits) == sizeof(Value), "bits of a value");
+  return hashWords(count, sizeof(Value),
+    [values](std::size_t i)
+    {
+      Bits bits;
+      std::memcpy(&bits, values + i, sizeof(Value));
+      return static_cast<std::uint64_t>(bits);
+    });
+}
+
+std::uint64_t hashPoints(vtkPoints* points)
+{
+  vtkDataArray* data = points->GetData();
+  const auto count = static_cast<std::size_t>(data->GetNumberOfValues());
+  if (auto* floats = vtkFloatArray::FastDownCast(data))
+  {
+    return hashValues<std::uint32_t>(floats->GetPointer(0), count);
+  }
+  if (auto* doubles = vtkDoubleArray::FastDownCast(data))
+  {
+    return hashValues<std::uint64_t>(doubles->GetPointer(0), count);
+  }
+  std::uint64_t all = mix(1, count);
+  double x[3];
+  for (vtkIdType i = 0; i < data->GetNumberOfTuples(); ++i)
+  {
+    data->GetTuple(i, x);
+    for (double v : x)
+    {
+      std::uint64_t bits;
+      std::memcpy(&bits, &v, sizeof(bits));
+      all = mix(all, bits);
+    }
+  }
+  return all;
+}
+
+struct CellHasher
+{
+  template <typename State>
+  std::uint64_t operator()(State& state)
+  {
+    const auto* offsets = state.GetOffsets()->GetPointer(0);
+    const auto* ids = state.GetConnectivity()->GetPointer(0);
+    const auto cells = static_cast<std::size_t>(state.GetNumberOfCells());
+    const auto hash = [](const auto* values, std::size_t count)
+    {
+      return hashWords(
+        count, 0, [values](std::size_t i) { return static_cast<std::uint64_t>(values[i]); });
+    };
+    return mix(hash(offsets, cells + 1),
+      hash(ids, static_cast<std::size_t>(state.GetConnectivity()->GetNumberOfValues())));
+  }
+};
+
+/// VTK's modification times grow over the whole process, so an object that is made where another
+/// one was freed never shows the same pair of address and time: entries need no reference, and
+/// outdated ones are harmless.
+class Memory
+{
+public:
+  template <typename Compute>
+  std::uint64_t get(const void* object, vtkMTimeType time, const Compute& compute)
+  {
+    const std::pair<const void*, vtkMTimeType> key(object, time);
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      const auto found = this->Hashes.find(key);
+      if (found != this->Hashes.end())
+      {
+        return found->second;
+      }
+    }
+    const std::uint64_t hash = compute();
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    ++this->Computed;
+    if (this->Hashes.emplace(key, hash).second)
+    {
+      this->Order.push_back(key);
+    }
+    if (this->Order.size() > Most)
+    {
+      // The older half goes, which is rare enough to be simple.
+      for (std::size_t i = 0; i < Most / 2; ++i)
+      {
+        this->Hashes.erase(this->Order[i]);
+      }
+      this->Order.erase(this->Order.begin(), this->Order.begin() + Most / 2);
+    }
+    return hash;
+  }
+
+  std::uint64_t computed()
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    return this->Computed;
+  }
+
+private:
+  static constexpr std::size_t Most = 8192;
+  std::mutex Mutex;
+  std::map<std::pair<const void*, vtkMTimeType>, std::uint64_t> Hashes;
+  std::vector<std::pair<const void*, vtkMTimeType>> Order;
+  std::uint64_t Computed = 0;
+};
+
+Memory& memory()
+{
+  static Memory instance;
+  return instance;
+}
+
+std::uint64_t cellsHash(vtkCellArray* cells)
+{
+  if (cells->GetNumberOfCells() == 0)
+  {
+    return 0;
+  }
+  const vtkMTimeType time = std::max({ cells->GetMTime(), cells->GetOffsetsArray()->GetMTime(),
+    cells->GetConnectivityArray()->GetMTime() });
+  return memory().get(cells, time, [cells] { return cells->Visit(CellHasher{}); });
+}
+}
+
+std::uint64_t meshSignature(vtkPolyData* mesh)
+{
+  vtkPoints* points = mesh->GetPoints();
+  std::uint64_t all = 0;
+  if (points && points->GetNumberOfPoints() > 0)
+  {
+    // A vtkPoints can be given another array without looking younger: both are the key.
+    all =
+      memory().get(points->GetData(), points->GetMTime(), [points] { return hashPoints(points); });
+  }
+  all = mix(all, cellsHash(mesh->GetPolys()));
+  all = mix(all, cellsHash(mesh->GetStrips()));
+  all = mix(all, static_cast<std::uint64_t>(mesh->GetNumberOfVerts()));
+  all = mix(all, static_cast<std::uint64_t>(mesh->GetNumberOfLines()));
+  return all != 0 ? all : 1;
+}
+
+std::uint64_t numberOfHashedArrays()
+{
+  return memory().computed();
+}
+}

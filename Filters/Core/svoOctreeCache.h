@@ -1,0 +1,54 @@
+// Octrees of the poses of an animated mesh, least recently used first out.
+#ifndef svoOctreeCache_h
+#define svoOctreeCache_h
+
+#include "svoOctree.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <list>
+
+namespace svo
+{
+/// Not thread-safe: a filter's own.
+class OctreeCache
+{
+public:
+  struct Key
+  {
+    std::uint64_t signature; // of the mesh
+    int level;
+    LeafGeometry leafGeometry;
+    bool operator==(const Key& other) const
+    {
+      return signature == other.signature && level == other.level &&
+        leafGeometry == other.leafGeometry;
+    }
+  };
+
+  struct Entry
+  {
+    Key key;
+    Octree octree;
+  };
+
+  /// The entry, now the most recently used one; null if there is none. Valid until the next call.
+  const Entry* find(const Key& key);
+
+  /// Keeps an octree, and lets go of others until at most `limit` bytes are in use. An octree that
+  /// is larger than the limit is not kept.
+  void insert(Entry entry, std::size_t limit);
+
+  /// Lets go of octrees until at most `limit` bytes are in use.
+  void shrink(std::size_t limit);
+
+  std::size_t bytes() const { return this->Bytes; }
+  std::size_t size() const { return this->Entries.size(); }
+
+private:
+  std::list<Entry> Entries; // most recently used first
+  std::size_t Bytes = 0;
+};
+}
+
+#endif
