@@ -45,7 +45,7 @@ class TestPaperScenes(unittest.TestCase):
         self.assertEqual(Picture(frames[-1]).size, (192, 108))
         ours = Picture(self.folder / "paper3-front.png")
         theirs = Picture(self.folder / "paper3-front-vtkShadowMapPass.png")
-        self.assertGreater(ours.difference(theirs), 0)
+        self.assertGreater(ours.differing_values(theirs), 0)
 
     def test_unreadable_file_is_one_clear_message(self):
         missing = self.folder / "dragon.off"

@@ -31,7 +31,7 @@ class TestTurntable(unittest.TestCase):
         self.assertEqual([frame.name for frame in frames], ["0000.png", "0001.png"])
         first, second = map(Picture, frames)
         self.assertEqual(first.size, (1280, 720))
-        self.assertGreater(first.difference(second), 0)
+        self.assertGreater(first.differing_values(second), 0)
         if shutil.which("ffmpeg"):
             self.assertGreater((self.folder / "out" / "turntable.mp4").stat().st_size, 1000)
 

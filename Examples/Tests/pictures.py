@@ -17,12 +17,8 @@ class Picture:
         """Mean of the three channels at a pixel counted from the lower left, 0 to 255."""
         return sum(self.image.GetScalarComponentAsDouble(x, y, 0, c) for c in range(3)) / 3
 
-    def difference(self, other):
-        """Greatest difference of a channel between two pictures of one size."""
-        mathematics = vtk.vtkImageDifference()
-        mathematics.SetInputData(self.image)
-        mathematics.SetImageData(other.image)
-        mathematics.AllowShiftOff()
-        mathematics.AveragingOff()
-        mathematics.Update()
-        return mathematics.GetThresholdedError()
+    def differing_values(self, other):
+        """How many channel values differ between two pictures of one size."""
+        ours, theirs = (bytes(memoryview(picture.image.GetPointData().GetScalars()))
+                        for picture in (self, other))
+        return sum(map(int.__ne__, ours, theirs))
