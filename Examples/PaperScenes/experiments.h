@@ -49,6 +49,11 @@ struct Experiment
   /// Further ones, for the movie only: a slim figure fills 30 % of a wide picture in close-ups
   /// alone.
   std::vector<Viewpoint> wideViews;
+
+  const std::vector<Viewpoint>& shownViews() const
+  {
+    return this->wideViews.empty() ? this->views : this->wideViews;
+  }
 };
 
 /// paper1a, paper1b, paper2, paper3, paper4.

@@ -135,7 +135,7 @@ private:
     {
       useMethod(method, scene.renderer(), this->ShadowMapResolution);
       scene.setLight(method.light);
-      for (const Viewpoint& view : experiment.views)
+      for (const Viewpoint& view : experiment.shownViews())
       {
         scene.setView(view);
         scene.setFrame(pictureFrame);

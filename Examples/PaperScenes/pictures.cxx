@@ -40,9 +40,7 @@ int movieShare(const Experiment& experiment, const std::vector<const Experiment*
 bool writeMovieFrames(vtkRenderWindow* window, Scene& scene, const std::string& folder, int first,
   int frames, const std::function<void()>& afterFrame)
 {
-  const Experiment& experiment = scene.experiment();
-  const std::vector<Viewpoint>& views =
-    experiment.wideViews.empty() ? experiment.views : experiment.wideViews;
+  const std::vector<Viewpoint>& views = scene.experiment().shownViews();
   for (int i = 0; i < frames; ++i)
   {
     const auto count = static_cast<int>(views.size());
