@@ -143,8 +143,13 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
   const auto voxelAt = [&](int a, Real t, int low, int high)
   {
     const Real x = (ray.origin[a] + t * ray.direction[a] - Real(1)) * scale;
-    const Real i = ray.direction[a] < Real(0) ? std::ceil(x) - Real(1) : std::floor(x);
-    return static_cast<int>(std::clamp(i, static_cast<Real>(low), static_cast<Real>(high)));
+    if (!(x > static_cast<Real>(low)))
+    {
+      return low;
+    }
+    const int i = static_cast<int>(std::min(x, static_cast<Real>(edge)));
+    const bool onFace = static_cast<Real>(i) == x; // about to enter the lower voxel if it goes down
+    return std::min(ray.direction[a] < Real(0) && onFace ? i - 1 : i, high);
   };
 
   Real t = ray.tMin;
