@@ -301,6 +301,24 @@ Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& mess
   }
 }
 
+std::string describe(Attached state, const std::string& message)
+{
+  switch (state)
+  {
+    case Attached::None:
+      return "The mesh carries no octree; vtkPolyDataToSVO makes one.";
+    case Attached::Foreign:
+      return "The octree that the mesh carries was built from another mesh, or from this one "
+             "before "
+             "it changed; vtkPolyDataToSVO makes one that fits.";
+    case Attached::Damaged:
+      return "The octree that the mesh carries cannot be used: " + message + ".";
+    case Attached::Found:
+      break;
+  }
+  return {};
+}
+
 std::size_t availableMemory()
 {
   vtksys::SystemInformation system;

@@ -59,6 +59,9 @@ enum class Attached
 VTKSVOCORE_EXPORT Attached openAttachedOctree(
   vtkPolyData* mesh, Octree& octree, std::string& message);
 
+/// A sentence for users about why there is no octree to open; empty if it was found.
+VTKSVOCORE_EXPORT std::string describe(Attached state, const std::string& message);
+
 /// Bytes of memory that this process can still expect to get, 0 if unknown.
 VTKSVOCORE_EXPORT std::size_t availableMemory();
 }

@@ -2,6 +2,7 @@
 
 #include "svoIntersect.h"
 #include "svoMeshOctree.h"
+#include "svoRepresentative.h"
 
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include <glm/vec4.hpp>
@@ -21,26 +23,6 @@ public:
   svo::Octree Octree;
   double Bounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
 };
-
-namespace
-{
-/// A triangle on the surface that a hit stands for.
-std::uint32_t triangleOfHit(const svo::Octree& octree, svo::Primitive primitive)
-{
-  if (!(primitive & svo::NodePrimitive))
-  {
-    return primitive;
-  }
-  std::uint32_t node = primitive & ~svo::NodePrimitive;
-  while (node < octree.brickBegin())
-  {
-    node = octree.nodes()[node].first;
-  }
-  std::uint32_t count = 0;
-  std::uint32_t inlineId = 0;
-  return *octree.brickTriangles(node, count, inlineId);
-}
-}
 
 //------------------------------------------------------------------------------
 vtkSparseVoxelOctree::vtkSparseVoxelOctree()
@@ -61,22 +43,12 @@ bool vtkSparseVoxelOctree::Initialize(vtkPolyData* mesh)
     return false;
   }
   std::string message;
-  switch (svo::openAttachedOctree(mesh, this->Internals->Octree, message))
+  const svo::Attached attached = svo::openAttachedOctree(mesh, this->Internals->Octree, message);
+  if (attached == svo::Attached::Found)
   {
-    case svo::Attached::Found:
-      return true;
-    case svo::Attached::None:
-      vtkErrorMacro("The mesh carries no octree; vtkPolyDataToSVO makes one.");
-      break;
-    case svo::Attached::Foreign:
-      vtkErrorMacro(
-        "The octree that the mesh carries was built from another mesh, or from this one "
-        "before it changed; vtkPolyDataToSVO makes one that fits.");
-      break;
-    case svo::Attached::Damaged:
-      vtkErrorMacro("The octree that the mesh carries cannot be used: " << message << ".");
-      break;
+    return true;
   }
+  vtkErrorMacro(<< svo::describe(attached, message));
   return false;
 }
 
@@ -190,7 +162,10 @@ int vtkSparseVoxelOctree::IntersectWithLine(
   {
     x[i] = from[i] + hit.t * along[i];
   }
-  cellId = octree.surface()->cells[triangleOfHit(octree, hit.primitive)];
+  const std::uint32_t triangle = hit.primitive & svo::NodePrimitive
+    ? svo::firstTriangle(octree, hit.primitive & ~svo::NodePrimitive)
+    : hit.primitive;
+  cellId = octree.surface()->cells[triangle];
   return 1;
 }
 
