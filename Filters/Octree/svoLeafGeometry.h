@@ -102,7 +102,9 @@ Primitive representativeTriangle(
     return list[0];
   }
   const Vector<Real> centre = cellCentre<Real>(cell, query.bits);
-  const Real half = static_cast<Real>(cellHalf(query.bits));
+  // The builder's voxels are grown by 1/256 of their edge, and its vertices snapped by half of
+  // that.
+  const Real half = static_cast<Real>(1.02 * cellHalf(query.bits));
   Primitive best = list[0];
   bool bestTouches = false;
   Real bestDistance = std::numeric_limits<Real>::max(); // squared
