@@ -2,6 +2,7 @@
 
 #include "svoMorton.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -39,6 +40,13 @@ bool headerIsSane(const Header& h, std::size_t size)
   }
   return h.depthBegin[1] == 1 || h.nodeCount == 1;
 }
+
+bool surfaceIsSane(const Surface& surface)
+{
+  const std::size_t points = surface.points.size();
+  return std::all_of(surface.triangles.begin(), surface.triangles.end(),
+    [points](const glm::uvec3& t) { return t.x < points && t.y < points && t.z < points; });
+}
 }
 
 Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
@@ -64,6 +72,11 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
     error = "the octree was built from another number of triangles";
     return {};
   }
+  if (octree.Triangles && !surfaceIsSane(*octree.Triangles))
+  {
+    error = "a triangle of the octree's surface has a point that is not there";
+    return {};
+  }
   if (octree.empty())
   {
     if (h.nodeCount != 1)
@@ -71,6 +84,7 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
       error = "the octree's nodes are damaged";
       return {};
     }
+    octree.Upper = std::make_shared<UpperLevels>(makeUpperLevels(h, octree.nodes(), size));
     return octree;
   }
   const std::uint32_t bricks = octree.brickBegin();
@@ -119,12 +133,14 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
       return {};
     }
   }
+  octree.Upper = std::make_shared<UpperLevels>(makeUpperLevels(h, nodes, size));
   return octree;
 }
 
 std::size_t Octree::bytes() const
 {
-  return this->Size + (this->Triangles ? this->Triangles->bytes() : 0);
+  return this->Size + (this->Triangles ? this->Triangles->bytes() : 0) +
+    (this->Upper ? this->Upper->bytes() : 0);
 }
 
 glm::dmat4 Octree::localToOctree() const

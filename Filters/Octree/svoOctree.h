@@ -4,6 +4,7 @@
 
 #include "svoLayout.h"
 #include "svoSurface.h"
+#include "svoUpperLevels.h"
 #include "vtkSVOOctreeModule.h"
 
 #include <cstddef>
@@ -47,7 +48,9 @@ public:
   {
     return this->header().depthBegin[this->header().depthCount - 1];
   }
-  /// Bytes of the buffer plus those of the surface.
+  /// Dense tables of the upper levels, for the block queries.
+  const UpperLevels& upperLevels() const { return *this->Upper; }
+  /// Bytes of the buffer, the surface and the tables of the upper levels.
   std::size_t bytes() const;
 
   /// Edge of the root cube (octree coordinates [1, 2)) in the local frame.
@@ -87,6 +90,7 @@ private:
   std::shared_ptr<const std::byte> Data;
   std::size_t Size = 0;
   std::shared_ptr<const Surface> Triangles;
+  std::shared_ptr<const UpperLevels> Upper;
 };
 }
 

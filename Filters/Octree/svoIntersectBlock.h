@@ -1,0 +1,62 @@
+// What the packets' walk needs to know of an octree and a query, settled once per call.
+#ifndef svoIntersectBlock_h
+#define svoIntersectBlock_h
+
+#include "svoLeafGeometry.h"
+
+#include <cstdint>
+
+namespace svo
+{
+constexpr int MantissaBits = 23;
+
+/// Cell sizes are exponents: a cell is 2^exponent units of a float's last place in [1, 2) wide.
+struct WalkTarget
+{
+  const std::uint64_t* nodes = nullptr; // two words a node: the mask; first and plane
+  const std::uint32_t* table = nullptr; // one of svoUpperLevels.h, above the stop level
+  int tableBits = 0;                    // the table has 2^tableBits entries along an edge
+  int stopSize = 0;                     // of the cells of the nodes where rays stop
+  bool groups = false;                  // rays stop at those nodes' groups of eight cells
+  int brickSize = 0;                    // of a brick
+  float high = 2.0f;                    // upper corner of the octree's cube; the lower one is 1
+};
+
+/// The instruction set in use.
+struct Chosen
+{
+  const char* name;
+  int lanes;
+};
+
+/// The cell where a lane has arrived: `at` are the bit patterns of its position, `node` the node.
+inline StopCell<float> stopCell(
+  const LeafQuery& query, const WalkTarget& target, const glm::ivec3& at, std::uint32_t index)
+{
+  const Node& node = query.octree.nodes()[index];
+  const int shift = target.stopSize;
+  const int i = cellIndex(at.x >> shift & 3, at.y >> shift & 3, at.z >> shift & 3);
+  const int cellShift = MantissaBits - query.bits;
+  const int mask = (1 << query.bits) - 1;
+  StopCell<float> cell{ index, 0, 64,
+    glm::ivec3(at.x >> cellShift & mask, at.y >> cellShift & mask, at.z >> cellShift & mask), 0.0f,
+    0.0f };
+  if (target.groups)
+  {
+    cell.firstBit = i & 56;
+    cell.bitCount = 8;
+  }
+  else if (target.stopSize < target.brickSize) // a voxel
+  {
+    cell.firstBit = i;
+    cell.bitCount = 1;
+  }
+  else
+  {
+    cell.node = node.first + __builtin_popcountll(node.mask & ((1ull << i) - 1));
+  }
+  return cell;
+}
+}
+
+#endif
