@@ -6,7 +6,7 @@ int TestSVOSubViewport(int argc, char* argv[])
 {
   using namespace svoTest;
   Checks checks;
-  Stage whole(360, 300);
+  Stage whole(480, 400);
   whole.usePass(false);
   whole.renderer->SetBackground(0.5, 0.2, 0.2);
   whole.add(ball(2.0, 0.0, 0.0, 0.6), 0.4, 0.4, 0.8);
@@ -16,7 +16,7 @@ int TestSVOSubViewport(int argc, char* argv[])
   Stage part(whole, 0.21, 0.13, 0.87, 0.55);
   ShadowOracle oracle;
   oracle.add(part.addGround());
-  oracle.add(part.add(ball(0.8, 0.0, 0.0, 1.0), 0.9, 0.6, 0.2));
+  oracle.add(part.add(ball(0.9, 0.3, 0.0, 1.3), 0.9, 0.6, 0.2));
   oracle.add(part.addSun(2.0, -1.5, 4.0));
   const Picture unshadowed = part.unshadowed();
   const Picture shadowed = part.shadowed();
