@@ -137,7 +137,7 @@ int vtkPolyDataToSVO::RequestData(
   }
   if (status != svo::BuildStatus::Built)
   {
-    vtkErrorMacro("There is no octree of level " << this->MaximumLevel << ": " << message << ".");
+    vtkErrorMacro("The octree is not built: " << message << ".");
     return 1; // the mesh is a valid output, and one message is enough
   }
 

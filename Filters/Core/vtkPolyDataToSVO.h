@@ -42,7 +42,7 @@ public:
   vtkTypeMacro(vtkPolyDataToSVO, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
+  //@{
   /**
    * Depth of the octree: 2^level voxels along an edge of the mesh's bounding cube. 1 to 20, values
    * outside are clamped; default 10. One level more is half the voxel size, and four times the
@@ -50,7 +50,7 @@ public:
    */
   vtkSetClampMacro(MaximumLevel, int, 1, 20);
   vtkGetMacro(MaximumLevel, int);
-  ///@}
+  //@}
 
   /**
    * What a ray meets in an occupied voxel.
@@ -63,7 +63,7 @@ public:
     AUTOMATIC = 3
   };
 
-  ///@{
+  //@{
   /**
    * What a ray meets in an occupied voxel, fastest first:
    * - Voxel: the cube, where the ray enters it;
@@ -78,9 +78,9 @@ public:
   void SetLeafGeometryToTriangle() { this->SetLeafGeometry(TRIANGLE); }
   void SetLeafGeometryToAutomatic() { this->SetLeafGeometry(AUTOMATIC); }
   const char* GetLeafGeometryAsString();
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Whether octrees are kept after use, so that a time step that comes again is not built again.
    * Default on. They are recognised by the mesh's signature, the level and the leaf geometry, not
@@ -89,25 +89,25 @@ public:
   virtual void SetCacheTimeSteps(bool cache);
   vtkGetMacro(CacheTimeSteps, bool);
   vtkBooleanMacro(CacheTimeSteps, bool);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Memory that the kept octrees may use, in KiB; default 1048576 (1 GiB). The least recently used
    * ones go first. An octree larger than this is not kept.
    */
   virtual void SetCacheMemoryLimit(unsigned long kibibytes);
   vtkGetMacro(CacheMemoryLimit, unsigned long);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Memory that one build may use at its peak, in KiB; default 0: what the machine has available. A
    * build that is expected to need more is refused with an error.
    */
   vtkSetMacro(MemoryLimit, unsigned long);
   vtkGetMacro(MemoryLimit, unsigned long);
-  ///@}
+  //@}
 
   /**
    * Lets go of the kept octrees. Outputs keep theirs.
@@ -124,14 +124,14 @@ public:
    */
   int GetNumberOfCachedOctrees();
 
-  ///@{
+  //@{
   /**
    * How many octrees this filter has built so far, and how long the last execution took to build
    * one, in seconds (0 if it built none).
    */
   vtkGetMacro(NumberOfBuilds, vtkIdType);
   vtkGetMacro(BuildTime, double);
-  ///@}
+  //@}
 
   /**
    * Occupied voxels of the octree that the last execution put on the output, 0 if none.

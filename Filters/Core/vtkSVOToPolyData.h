@@ -28,16 +28,16 @@ public:
   vtkTypeMacro(vtkSVOToPolyData, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
+  //@{
   /**
    * Octree level whose cells are shown: 0 is the whole cube, and -1 (default) or anything beyond
    * the octree's depth its voxels. -1 to 20.
    */
   vtkSetClampMacro(Level, int, -1, 20);
   vtkGetMacro(Level, int);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Whether faces between two occupied cells are kept. Default off. With it on every cell has its
    * six quads, so that cells can be told apart after a cut.
@@ -45,7 +45,7 @@ public:
   vtkSetMacro(InteriorFaces, bool);
   vtkGetMacro(InteriorFaces, bool);
   vtkBooleanMacro(InteriorFaces, bool);
-  ///@}
+  //@}
 
 protected:
   vtkSVOToPolyData() = default;

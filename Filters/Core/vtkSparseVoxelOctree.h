@@ -65,7 +65,7 @@ public:
    */
   unsigned long GetActualMemorySize();
 
-  ///@{
+  //@{
   /**
    * The octree's cube: xmin, xmax, ymin, ymax, zmin, zmax, in the mesh's frame. It encloses the
    * mesh, which lies in its middle. An uninitialized handle has VTK's empty bounds (1, -1, 1, -1,
@@ -73,7 +73,7 @@ public:
    */
   void GetBounds(double bounds[6]);
   double* GetBounds() VTK_SIZEHINT(6);
-  ///@}
+  //@}
 
   /**
    * Edge of a voxel in the mesh's frame. 0 before Initialize().

@@ -1,0 +1,467 @@
+// The conversion filter in a pipeline: the mesh passes through, poses are built once, bad input
+// leads to one message.
+#include "vtkPolyDataToSVO.h"
+
+#include "svoMeshOctree.h"
+#include "svoTestMessages.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
+#include "vtkCompositeDataPipeline.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkSphereSource.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+vtkSmartPointer<vtkPolyData> sphere(double radius = 0.5)
+{
+  vtkNew<vtkSphereSource> source;
+  source->SetThetaResolution(16);
+  source->SetPhiResolution(12);
+  source->SetRadius(radius);
+  source->Update();
+  return source->GetOutput();
+}
+
+svo::Octree octreeOf(vtkPolyData* mesh)
+{
+  svo::Octree octree;
+  std::string message;
+  svo::openAttachedOctree(mesh, octree, message);
+  return octree;
+}
+
+/// An animated sphere: time steps 0, 1, 2, 3, a radius each. A new object every time, like a
+/// reader.
+class PosesSource : public vtkPolyDataAlgorithm
+{
+public:
+  static PosesSource* New() { VTK_STANDARD_NEW_BODY(PosesSource); }
+  vtkTypeMacro(PosesSource, vtkPolyDataAlgorithm);
+
+protected:
+  PosesSource() { this->SetNumberOfInputPorts(0); }
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override
+  {
+    const double steps[4] = { 0, 1, 2, 3 };
+    const double range[2] = { 0, 3 };
+    vtkInformation* info = outputVector->GetInformationObject(0);
+    info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), steps, 4);
+    info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+    return 1;
+  }
+  int RequestData(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override
+  {
+    vtkInformation* info = outputVector->GetInformationObject(0);
+    const double time = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+    vtkPolyData* output = vtkPolyData::GetData(outputVector);
+    output->ShallowCopy(sphere(1.0 + time));
+    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+    return 1;
+  }
+};
+
+/// Converts mesh at level 4 and expects `count` messages of the given kind, and no other.
+struct Conversion
+{
+  vtkNew<vtkPolyDataToSVO> filter;
+  svo::TestMessages messages{ filter };
+
+  explicit Conversion(vtkPolyData* mesh, int level = 4)
+  {
+    this->filter->SetInputData(mesh);
+    this->filter->SetMaximumLevel(level);
+    this->filter->Update();
+    EXPECT_EQ(this->filter->GetOutput()->GetNumberOfPoints(), mesh->GetNumberOfPoints());
+    EXPECT_EQ(this->filter->GetOutput()->GetNumberOfCells(), mesh->GetNumberOfCells());
+  }
+  svo::Octree octree() const { return octreeOf(this->filter->GetOutput()); }
+};
+}
+
+TEST(PolyDataToSVO, HasDocumentedDefaultsAndClampsItsSettings)
+{
+  vtkNew<vtkPolyDataToSVO> filter;
+  EXPECT_EQ(filter->GetMaximumLevel(), 10);
+  EXPECT_STREQ(filter->GetLeafGeometryAsString(), "Automatic");
+  EXPECT_TRUE(filter->GetCacheTimeSteps());
+  EXPECT_EQ(filter->GetCacheMemoryLimit(), 1048576u);
+  EXPECT_EQ(filter->GetMemoryLimit(), 0u);
+  filter->SetMaximumLevel(0);
+  EXPECT_EQ(filter->GetMaximumLevel(), 1);
+  filter->SetMaximumLevel(99);
+  EXPECT_EQ(filter->GetMaximumLevel(), 20);
+  filter->SetLeafGeometryToPlane();
+  EXPECT_STREQ(filter->GetLeafGeometryAsString(), "Plane");
+  std::ostringstream text;
+  filter->Print(text);
+  EXPECT_NE(text.str().find("LeafGeometry: Plane"), std::string::npos);
+}
+
+TEST(PolyDataToSVO, TheMeshPassesThroughWithAnOctree)
+{
+  const auto mesh = sphere();
+  const vtkMTimeType time = mesh->GetMTime();
+  const Conversion conversion(mesh, 6);
+  vtkPolyData* output = conversion.filter->GetOutput();
+  EXPECT_EQ(output->GetPoints(), mesh->GetPoints());
+  EXPECT_EQ(output->GetPolys(), mesh->GetPolys());
+  EXPECT_EQ(output->GetPointData()->GetNormals(), mesh->GetPointData()->GetNormals());
+  EXPECT_EQ(mesh->GetMTime(), time);
+  EXPECT_EQ(mesh->GetFieldData()->GetNumberOfArrays(), 0);
+  const svo::Octree octree = conversion.octree();
+  ASSERT_TRUE(octree);
+  EXPECT_EQ(octree.level(), 6);
+  EXPECT_EQ(
+    conversion.filter->GetNumberOfVoxels(), static_cast<vtkIdType>(octree.header().voxelCount));
+  EXPECT_EQ(conversion.filter->GetNumberOfBuilds(), 1);
+  EXPECT_GT(conversion.filter->GetBuildTime(), 0.0);
+  EXPECT_EQ(conversion.messages.all(), "");
+}
+
+TEST(PolyDataToSVO, TheLeafGeometryThatWasAskedForIsInTheOctree)
+{
+  vtkNew<vtkPolyDataToSVO> filter;
+  filter->SetInputData(sphere());
+  filter->SetMaximumLevel(3);
+  for (int geometry = vtkPolyDataToSVO::VOXEL; geometry <= vtkPolyDataToSVO::AUTOMATIC; ++geometry)
+  {
+    filter->SetLeafGeometry(geometry);
+    filter->Update();
+    EXPECT_EQ(
+      octreeOf(filter->GetOutput()).header().leafGeometry, static_cast<std::uint32_t>(geometry));
+  }
+}
+
+TEST(PolyDataToSVO, AnInputThatCarriesAFittingOctreeKeepsIt)
+{
+  const Conversion first(sphere(), 5);
+  const Conversion same(first.filter->GetOutput(), 5);
+  EXPECT_EQ(same.filter->GetNumberOfBuilds(), 0);
+  EXPECT_EQ(same.octree().key(), first.octree().key());
+  EXPECT_EQ(same.filter->GetNumberOfVoxels(), first.filter->GetNumberOfVoxels());
+  const Conversion finer(first.filter->GetOutput(), 6);
+  EXPECT_EQ(finer.filter->GetNumberOfBuilds(), 1);
+  EXPECT_EQ(finer.octree().level(), 6);
+  EXPECT_EQ(first.octree().level(), 5);
+}
+
+TEST(PolyDataToSVO, EachTimeStepIsBuiltOnce)
+{
+  vtkNew<PosesSource> source;
+  vtkNew<vtkPolyDataToSVO> filter;
+  filter->SetInputConnection(source->GetOutputPort());
+  filter->SetMaximumLevel(5);
+  filter->UpdateInformation();
+  EXPECT_EQ(
+    filter->GetOutputInformation(0)->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 4);
+  const void* keys[4] = {};
+  for (int loop = 0; loop < 2; ++loop)
+  {
+    for (int step = 0; step < 4; ++step)
+    {
+      ASSERT_TRUE(filter->UpdateTimeStep(step));
+      EXPECT_EQ(filter->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), step);
+      const svo::Octree octree = octreeOf(filter->GetOutput());
+      ASSERT_TRUE(octree);
+      EXPECT_EQ(filter->GetBuildTime() > 0.0, loop == 0);
+      if (loop == 0)
+      {
+        keys[step] = octree.key();
+      }
+      EXPECT_EQ(octree.key(), keys[step]);
+    }
+    EXPECT_EQ(filter->GetNumberOfBuilds(), 4);
+  }
+  EXPECT_EQ(filter->GetNumberOfCachedOctrees(), 4);
+  EXPECT_GT(filter->GetCacheMemorySize(), 0u);
+  filter->ReleaseCache();
+  EXPECT_EQ(filter->GetCacheMemorySize(), 0u);
+  EXPECT_TRUE(octreeOf(filter->GetOutput())); // outputs keep theirs
+}
+
+TEST(PolyDataToSVO, WithoutTheCacheEveryStepIsBuiltAgain)
+{
+  vtkNew<PosesSource> source;
+  vtkNew<vtkPolyDataToSVO> filter;
+  filter->SetInputConnection(source->GetOutputPort());
+  filter->SetMaximumLevel(4);
+  filter->CacheTimeStepsOff();
+  for (int step : { 0, 1, 0, 1 })
+  {
+    filter->UpdateTimeStep(step);
+  }
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 4);
+  EXPECT_EQ(filter->GetNumberOfCachedOctrees(), 0);
+}
+
+TEST(PolyDataToSVO, TheLeastRecentlyUsedPoseGoesFirst)
+{
+  vtkNew<PosesSource> source;
+  vtkNew<vtkPolyDataToSVO> filter;
+  filter->SetInputConnection(source->GetOutputPort());
+  filter->SetMaximumLevel(5);
+  filter->UpdateTimeStep(0);
+  filter->UpdateTimeStep(1);
+  // Room for two poses of this size, not for three.
+  const unsigned long two = filter->GetCacheMemorySize();
+  filter->SetCacheMemoryLimit(two + two / 4);
+  filter->UpdateTimeStep(0); // now 1 is the older one
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 2);
+  filter->UpdateTimeStep(2);
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 3);
+  EXPECT_EQ(filter->GetNumberOfCachedOctrees(), 2);
+  EXPECT_LE(filter->GetCacheMemorySize(), filter->GetCacheMemoryLimit());
+  filter->UpdateTimeStep(0);
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 3);
+  filter->UpdateTimeStep(1);
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 4);
+  filter->SetCacheMemoryLimit(1);
+  EXPECT_EQ(filter->GetNumberOfCachedOctrees(), 0);
+}
+
+TEST(PolyDataToSVO, AMeshThatChangedIsBuiltAgain)
+{
+  vtkNew<vtkPolyData> mesh;
+  mesh->DeepCopy(sphere());
+  vtkNew<vtkPolyDataToSVO> filter;
+  filter->SetInputData(mesh);
+  filter->SetMaximumLevel(4);
+  filter->Update();
+  mesh->GetPoints()->SetPoint(0, 0.0, 0.0, 3.0);
+  mesh->GetPoints()->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 2);
+  EXPECT_TRUE(octreeOf(filter->GetOutput()));
+  // New colours are no change of the surface.
+  vtkNew<vtkFloatArray> scalars;
+  scalars->SetNumberOfValues(mesh->GetNumberOfPoints());
+  scalars->FillValue(0.5f);
+  mesh->GetPointData()->SetScalars(scalars);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 2);
+  EXPECT_TRUE(octreeOf(filter->GetOutput()));
+}
+
+TEST(PolyDataToSVO, EveryBlockOfACompositeGetsItsOctree)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, sphere(1.0));
+  blocks->SetBlock(1, sphere(2.0));
+  blocks->SetBlock(2, sphere(1.0));
+  vtkNew<vtkPolyDataToSVO> filter;
+  vtkNew<vtkCompositeDataPipeline> executive;
+  filter->SetExecutive(executive);
+  filter->SetInputDataObject(blocks);
+  filter->SetMaximumLevel(4);
+  filter->Update();
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  ASSERT_NE(output, nullptr);
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    EXPECT_TRUE(octreeOf(vtkPolyData::SafeDownCast(output->GetBlock(i)))) << i;
+  }
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 2); // two blocks are alike
+}
+
+TEST(PolyDataToSVO, ReportsProgressThatGrows)
+{
+  vtkNew<vtkPolyDataToSVO> filter;
+  filter->SetInputData(sphere());
+  filter->SetMaximumLevel(7);
+  std::vector<double> seen;
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetClientData(&seen);
+  observer->SetCallback([](vtkObject*, unsigned long, void* client, void* progress)
+    { static_cast<std::vector<double>*>(client)->push_back(*static_cast<double*>(progress)); });
+  filter->AddObserver(vtkCommand::ProgressEvent, observer);
+  filter->Update();
+  ASSERT_GE(seen.size(), 2u);
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_EQ(seen.back(), 1.0);
+}
+
+TEST(PolyDataToSVO, AnAbortedBuildLeavesTheMeshWithoutAnOctree)
+{
+  vtkNew<vtkPolyDataToSVO> filter;
+  const svo::TestMessages messages(filter);
+  const auto mesh = sphere();
+  filter->SetInputData(mesh);
+  filter->SetMaximumLevel(8);
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
+  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), mesh->GetNumberOfPolys());
+  EXPECT_FALSE(filter->GetOutput()->GetFieldData()->HasArray(svo::OctreeArrayName));
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 0);
+  EXPECT_EQ(messages.all(), "");
+  filter->RemoveObserver(tag);
+  filter->Modified();
+  filter->Update();
+  EXPECT_TRUE(octreeOf(filter->GetOutput()));
+}
+
+TEST(PolyDataToSVO, PointsThatAreNotFiniteLeadToOneWarning)
+{
+  for (double bad : { std::numeric_limits<double>::quiet_NaN(),
+         std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() })
+  {
+    const auto mesh = sphere();
+    mesh->GetPoints()->SetPoint(40, 0.0, bad, 0.0);
+    const Conversion conversion(mesh);
+    EXPECT_EQ(conversion.messages.warnings.size(), 1u);
+    EXPECT_EQ(conversion.messages.errors.size(), 0u);
+    EXPECT_NE(conversion.messages.all().find("6 of the mesh's"), std::string::npos)
+      << conversion.messages.all();
+    EXPECT_GT(conversion.filter->GetNumberOfVoxels(), 0);
+    EXPECT_TRUE(conversion.octree());
+  }
+}
+
+TEST(PolyDataToSVO, OnlyPointsThatAreNotFiniteLeadToOneWarning)
+{
+  const auto mesh = sphere();
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    mesh->GetPoints()->SetPoint(i, std::nan(""), std::nan(""), std::nan(""));
+  }
+  const Conversion conversion(mesh);
+  EXPECT_EQ(conversion.messages.warnings.size(), 1u);
+  EXPECT_EQ(conversion.messages.errors.size(), 0u);
+  ASSERT_TRUE(conversion.octree());
+  EXPECT_EQ(conversion.filter->GetNumberOfVoxels(), 0);
+}
+
+TEST(PolyDataToSVO, AnEmptyMeshIsNothingToTalkAbout)
+{
+  vtkNew<vtkPolyData> mesh;
+  const Conversion conversion(mesh);
+  EXPECT_EQ(conversion.messages.all(), "");
+  ASSERT_TRUE(conversion.octree());
+  EXPECT_TRUE(conversion.octree().empty());
+}
+
+TEST(PolyDataToSVO, AMeshOfLinesOrVerticesLeadsToOneWarning)
+{
+  for (bool lines : { false, true })
+  {
+    vtkNew<vtkPoints> points;
+    points->InsertNextPoint(0.0, 0.0, 0.0);
+    points->InsertNextPoint(1.0, 0.0, 0.0);
+    vtkNew<vtkCellArray> cells;
+    cells->InsertNextCell({ 0, 1 });
+    vtkNew<vtkPolyData> mesh;
+    mesh->SetPoints(points);
+    if (lines)
+    {
+      mesh->SetLines(cells);
+    }
+    else
+    {
+      mesh->SetVerts(cells);
+    }
+    const Conversion conversion(mesh);
+    EXPECT_EQ(conversion.messages.warnings.size(), 1u);
+    EXPECT_EQ(conversion.messages.errors.size(), 0u);
+    EXPECT_TRUE(conversion.octree());
+    EXPECT_EQ(conversion.filter->GetNumberOfVoxels(), 0);
+  }
+}
+
+TEST(PolyDataToSVO, AllPointsInOnePlaceAreOneVoxelAndOneWarning)
+{
+  for (double where : { 0.0, 1e6 })
+  {
+    const auto mesh = sphere();
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      mesh->GetPoints()->SetPoint(i, where, where, where);
+    }
+    const Conversion conversion(mesh);
+    EXPECT_EQ(conversion.messages.warnings.size(), 1u);
+    EXPECT_EQ(conversion.messages.errors.size(), 0u);
+    EXPECT_GE(conversion.filter->GetNumberOfVoxels(), 1);
+    EXPECT_LE(conversion.filter->GetNumberOfVoxels(), 8); // it may lie on a corner
+  }
+}
+
+TEST(PolyDataToSVO, APlaneWithoutThicknessIsAnOrdinaryMesh)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0.0, 0.0, 5.0);
+  points->InsertNextPoint(2.0, 0.0, 5.0);
+  points->InsertNextPoint(2.0, 1.0, 5.0);
+  points->InsertNextPoint(0.0, 1.0, 5.0);
+  vtkNew<vtkCellArray> polys;
+  polys->InsertNextCell({ 0, 1, 2, 3 });
+  vtkNew<vtkPolyData> mesh;
+  mesh->SetPoints(points);
+  mesh->SetPolys(polys);
+  const Conversion conversion(mesh);
+  EXPECT_EQ(conversion.messages.all(), "");
+  EXPECT_GE(conversion.filter->GetNumberOfVoxels(), 16 * 8);
+}
+
+TEST(PolyDataToSVO, AnOctreeBeyondTheMemoryLimitIsRefusedBeforeItIsBuilt)
+{
+  const auto mesh = sphere();
+  vtkNew<vtkPolyDataToSVO> filter;
+  const svo::TestMessages messages(filter);
+  filter->SetInputData(mesh);
+  filter->SetMaximumLevel(14);
+  filter->SetMemoryLimit(16384); // KiB
+  filter->Update();
+  EXPECT_EQ(messages.errors.size(), 1u);
+  EXPECT_EQ(messages.warnings.size(), 0u);
+  EXPECT_NE(messages.all().find("level 14"), std::string::npos) << messages.all();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), mesh->GetNumberOfPolys());
+  EXPECT_FALSE(octreeOf(filter->GetOutput()));
+  filter->SetMaximumLevel(3);
+  filter->Update();
+  EXPECT_TRUE(octreeOf(filter->GetOutput()));
+}
+
+TEST(PolyDataToSVO, TheDeepestLevelIsRefusedWithinTheMachinesMemory)
+{
+  const auto mesh = sphere();
+  const Conversion conversion(mesh, 20); // 10^12 voxels
+  EXPECT_EQ(conversion.messages.errors.size(), 1u);
+  EXPECT_FALSE(conversion.octree());
+}
+
+TEST(PolyDataToSVO, AForeignOctreeOnTheInputIsReplaced)
+{
+  const Conversion first(sphere(1.0), 4);
+  vtkNew<vtkPolyData> other;
+  other->ShallowCopy(sphere(2.0));
+  other->GetFieldData()->ShallowCopy(first.filter->GetOutput()->GetFieldData());
+  ASSERT_FALSE(octreeOf(other));
+  const Conversion second(other, 4);
+  EXPECT_EQ(second.messages.all(), "");
+  EXPECT_TRUE(second.octree());
+  EXPECT_EQ(second.filter->GetNumberOfBuilds(), 1);
+}
