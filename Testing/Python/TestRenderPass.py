@@ -58,7 +58,7 @@ class Scene:
         self.renderer.WorldToDisplay()
         px, py = (int(c) for c in self.renderer.GetDisplayPoint()[:2])
         pixel = vtkUnsignedCharArray()
-        self.window.GetPixelData(px, py, px, py, 1, pixel)
+        self.window.GetPixelData(px, py, px, py, 1, pixel, 0)
         return pixel.GetValue(0)
 
 
