@@ -155,9 +155,12 @@ glm::dmat4 Octree::localToOctree() const
 
 bool Octree::occupied(glm::ivec3 cell, int level) const
 {
+  if (level < 0 || level > this->level() || this->empty())
+  {
+    return false;
+  }
   const int size = 1 << level;
-  if (level < 0 || level > this->level() || this->empty() || cell.x < 0 || cell.y < 0 ||
-    cell.z < 0 || cell.x >= size || cell.y >= size || cell.z >= size)
+  if (cell.x < 0 || cell.y < 0 || cell.z < 0 || cell.x >= size || cell.y >= size || cell.z >= size)
   {
     return false;
   }
