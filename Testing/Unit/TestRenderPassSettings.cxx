@@ -1,0 +1,141 @@
+// The render pass without a window: defaults, ranges, and what props and lights carry.
+#include "vtkSVORenderPass.h"
+
+#include "vtkActor.h"
+#include "vtkLight.h"
+#include "vtkNew.h"
+#include "vtkProperty.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+TEST(RenderPassSettings, DefaultsAreThoseOfTheManual)
+{
+  vtkNew<vtkSVORenderPass> pass;
+  EXPECT_EQ(pass->GetBackend(), vtkSVORenderPass::BACKEND_AUTO);
+  EXPECT_EQ(pass->GetActiveBackend(), vtkSVORenderPass::BACKEND_CPU);
+  EXPECT_EQ(pass->GetShadowTechnique(), vtkSVORenderPass::SHADOW_BUFFER);
+  EXPECT_EQ(pass->GetShadowBufferResolution(), 2048);
+  EXPECT_TRUE(pass->GetAutomaticShadowBias());
+  EXPECT_EQ(pass->GetShadowBias(), 0.0);
+  EXPECT_EQ(pass->GetShadowIntensity(), 1.0);
+  EXPECT_EQ(pass->GetPixelError(), 1.0);
+  EXPECT_TRUE(pass->GetConvertPolyData());
+  EXPECT_EQ(pass->GetMaximumLevel(), 10);
+  EXPECT_EQ(pass->GetLeafGeometry(), vtkSVORenderPass::LEAF_AUTOMATIC);
+  EXPECT_EQ(pass->GetOctreeMemoryLimit(), 1024 * 1024);
+  EXPECT_TRUE(pass->GetBuildInBackground());
+  EXPECT_TRUE(pass->GetFrameCoherence());
+  EXPECT_EQ(pass->GetLayerMemoryLimit(), 512 * 1024);
+  EXPECT_FALSE(pass->GetAntiAliasing());
+}
+
+TEST(RenderPassSettings, ValuesOutOfRangeAreClamped)
+{
+  vtkNew<vtkSVORenderPass> pass;
+  pass->SetShadowBufferResolution(1);
+  EXPECT_EQ(pass->GetShadowBufferResolution(), 16);
+  pass->SetShadowBias(-1.0);
+  EXPECT_EQ(pass->GetShadowBias(), 0.0);
+  pass->SetShadowIntensity(2.0);
+  EXPECT_EQ(pass->GetShadowIntensity(), 1.0);
+  pass->SetPixelError(-1.0);
+  EXPECT_EQ(pass->GetPixelError(), 0.0);
+  pass->SetMaximumLevel(0);
+  EXPECT_EQ(pass->GetMaximumLevel(), 1);
+  pass->SetMaximumLevel(21);
+  EXPECT_EQ(pass->GetMaximumLevel(), 20);
+  pass->SetLayerMemoryLimit(-1);
+  EXPECT_EQ(pass->GetLayerMemoryLimit(), 0);
+  pass->SetBackend(-3);
+  EXPECT_EQ(pass->GetBackend(), vtkSVORenderPass::BACKEND_AUTO);
+}
+
+TEST(RenderPassSettings, NamedSettersChooseTheirValue)
+{
+  vtkNew<vtkSVORenderPass> pass;
+  pass->SetBackendToCPU();
+  EXPECT_EQ(pass->GetBackend(), vtkSVORenderPass::BACKEND_CPU);
+  pass->SetShadowTechniqueToNone();
+  EXPECT_EQ(pass->GetShadowTechnique(), vtkSVORenderPass::SHADOW_NONE);
+  pass->SetShadowTechniqueToShadowRays();
+  EXPECT_EQ(pass->GetShadowTechnique(), vtkSVORenderPass::SHADOW_RAYS);
+  pass->SetShadowTechniqueToShadowBuffer();
+  EXPECT_EQ(pass->GetShadowTechnique(), vtkSVORenderPass::SHADOW_BUFFER);
+  pass->SetLeafGeometryToVoxel();
+  EXPECT_EQ(pass->GetLeafGeometry(), vtkSVORenderPass::LEAF_VOXEL);
+  pass->SetLeafGeometryToPlane();
+  EXPECT_EQ(pass->GetLeafGeometry(), vtkSVORenderPass::LEAF_PLANE);
+  pass->SetLeafGeometryToTriangle();
+  EXPECT_EQ(pass->GetLeafGeometry(), vtkSVORenderPass::LEAF_TRIANGLE);
+}
+
+TEST(RenderPassSettings, AskingForOpenGLUsesTheCPU)
+{
+  vtkNew<vtkSVORenderPass> pass;
+  vtkObject::GlobalWarningDisplayOff();
+  pass->SetBackendToOpenGL();
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_EQ(pass->GetBackend(), vtkSVORenderPass::BACKEND_OPENGL);
+  EXPECT_EQ(pass->GetActiveBackend(), vtkSVORenderPass::BACKEND_CPU);
+}
+
+TEST(RenderPassSettings, PropsAnswerForThemselves)
+{
+  vtkNew<vtkActor> actor;
+  EXPECT_TRUE(vtkSVORenderPass::GetCastShadow(actor));
+  EXPECT_TRUE(vtkSVORenderPass::GetReceiveShadow(actor));
+  EXPECT_TRUE(vtkSVORenderPass::GetUseSVO(actor));
+  vtkSVORenderPass::SetCastShadow(false, actor);
+  vtkSVORenderPass::SetReceiveShadow(false, actor);
+  vtkSVORenderPass::SetUseSVO(false, actor);
+  EXPECT_FALSE(vtkSVORenderPass::GetCastShadow(actor));
+  EXPECT_FALSE(vtkSVORenderPass::GetReceiveShadow(actor));
+  EXPECT_FALSE(vtkSVORenderPass::GetUseSVO(actor));
+}
+
+TEST(RenderPassSettings, ATranslucentPropCastsOnlyWhenAsked)
+{
+  vtkNew<vtkActor> actor;
+  actor->GetProperty()->SetOpacity(0.5);
+  EXPECT_FALSE(vtkSVORenderPass::GetCastShadow(actor));
+  vtkSVORenderPass::SetCastShadow(true, actor);
+  EXPECT_TRUE(vtkSVORenderPass::GetCastShadow(actor));
+}
+
+TEST(RenderPassSettings, AHeadlightCastsOnlyWhenAsked)
+{
+  vtkNew<vtkLight> light;
+  EXPECT_TRUE(vtkSVORenderPass::GetCastShadow(light));
+  vtkSVORenderPass::SetCastShadow(false, light);
+  EXPECT_FALSE(vtkSVORenderPass::GetCastShadow(light));
+
+  vtkNew<vtkLight> headlight;
+  headlight->SetLightTypeToHeadlight();
+  EXPECT_FALSE(vtkSVORenderPass::GetCastShadow(headlight));
+  vtkSVORenderPass::SetCastShadow(true, headlight);
+  EXPECT_TRUE(vtkSVORenderPass::GetCastShadow(headlight));
+}
+
+TEST(RenderPassSettings, NothingIsAskedOfNobody)
+{
+  vtkSVORenderPass::SetCastShadow(true, static_cast<vtkProp*>(nullptr));
+  vtkSVORenderPass::SetCastShadow(true, static_cast<vtkLight*>(nullptr));
+  EXPECT_FALSE(vtkSVORenderPass::GetCastShadow(static_cast<vtkProp*>(nullptr)));
+  EXPECT_FALSE(vtkSVORenderPass::GetCastShadow(static_cast<vtkLight*>(nullptr)));
+}
+
+TEST(RenderPassSettings, PrintsEverySetting)
+{
+  vtkNew<vtkSVORenderPass> pass;
+  std::ostringstream text;
+  pass->Print(text);
+  for (const char* name : { "Backend", "ShadowTechnique", "ShadowBufferResolution",
+         "AutomaticShadowBias", "ShadowBias", "ShadowIntensity", "PixelError", "ConvertPolyData",
+         "MaximumLevel", "LeafGeometry", "OctreeMemoryLimit", "BuildInBackground", "FrameCoherence",
+         "LayerMemoryLimit", "AntiAliasing", "NumberOfRasterizedActors" })
+  {
+    EXPECT_NE(text.str().find(name), std::string::npos) << name;
+  }
+}
