@@ -36,43 +36,84 @@ glm::vec3 sumOnOneSide(std::size_t count, const VectorAt& at)
   return glm::dot(sum, plain) < 0.0f ? -sum : sum;
 }
 
-glm::vec3 middleOfVoxels(std::uint64_t mask)
+/// Set bits of each byte. Plain C++: without the processor's own instruction the compiler would
+/// call a function.
+std::uint64_t bitsOfBytes(std::uint64_t m)
 {
-  const auto sum = [mask](std::uint64_t low, std::uint64_t high)
-  {
-    return static_cast<float>(
-      __builtin_popcountll(mask & low) + 2 * __builtin_popcountll(mask & high));
-  };
-  const glm::vec3 sums(sum(0xaaaaaaaaaaaaaaaaull, 0xff00ff00ff00ff00ull),
-    sum(0xccccccccccccccccull, 0xffff0000ffff0000ull),
-    sum(0xf0f0f0f0f0f0f0f0ull, 0xffffffff00000000ull));
-  return sums / static_cast<float>(__builtin_popcountll(mask)) - 1.5f;
+  m -= m >> 1 & 0x5555555555555555ull;
+  m = (m & 0x3333333333333333ull) + (m >> 2 & 0x3333333333333333ull);
+  return (m + (m >> 4)) & 0x0f0f0f0f0f0f0f0full;
+}
+
+float sumOfBytes(std::uint64_t bytes)
+{
+  return static_cast<float>(static_cast<int>(bytes * 0x0101010101010101ull >> 56));
+}
+
+/// Voxels of a mask, and the middle of their centres from the brick's centre.
+glm::vec3 middleOfVoxels(std::uint64_t mask, float& count)
+{
+  const std::uint64_t bytes = bitsOfBytes(mask);
+  // The odd coordinates by bits, the upper halves by bytes.
+  const std::uint64_t x = bitsOfBytes(mask & 0xaaaaaaaaaaaaaaaaull);
+  const std::uint64_t y = bitsOfBytes(mask & 0xccccccccccccccccull);
+  const std::uint64_t z = bitsOfBytes(mask & 0xf0f0f0f0f0f0f0f0ull);
+  count = sumOfBytes(bytes);
+  const glm::vec3 sums(sumOfBytes(x + 2 * (bytes & 0x0f000f000f000f00ull)),
+    sumOfBytes(y + 2 * (bytes & 0x0f0f00000f0f0000ull)),
+    sumOfBytes(z + 2 * (bytes & 0x0f0f0f0f00000000ull)));
+  return sums / count - 1.5f;
 }
 }
 
 SurfaceMoment brickMoment(
   const BrickRecord* records, std::size_t count, std::uint64_t mask, const TriangleShape* shapes)
 {
+  float voxels = 0.0f;
+  const glm::vec3 middle = middleOfVoxels(mask, voxels);
+  if (count == 1)
+  {
+    const TriangleShape& shape = shapes[records->triangle];
+    const float area = std::max(shape.areaPerVoxel * voxels, LeastArea);
+    return { shape.normal * area, area,
+      middle + shape.normal * (records->offset - glm::dot(shape.normal, middle)) };
+  }
   const auto area = [&](std::size_t i)
   {
-    return std::max(shapes[records[i].triangle].areaPerVoxel *
-        static_cast<float>(__builtin_popcountll(records[i].mask)),
+    return std::max(
+      shapes[records[i].triangle].areaPerVoxel * sumOfBytes(bitsOfBytes(records[i].mask)),
       LeastArea);
   };
-  const glm::vec3 middle = middleOfVoxels(mask);
   SurfaceMoment moment{ glm::vec3(0.0f), 0.0f, glm::vec3(0.0f) };
+  glm::vec3 plain(0.0f);
+  glm::vec3 largest(0.0f);
+  float largestArea = 0.0f;
   for (std::size_t i = 0; i < count; ++i)
   {
     const glm::vec3& n = shapes[records[i].triangle].normal;
     const float a = area(i);
     moment.area += a;
     moment.centre += n * (a * (records[i].offset - glm::dot(n, middle)));
+    plain += a * n;
+    if (a > largestArea)
+    {
+      largestArea = a;
+      largest = n;
+    }
   }
   moment.centre = middle + moment.centre / moment.area;
-  moment.normal = count == 1
-    ? shapes[records[0].triangle].normal * moment.area
-    : sumOnOneSide(
-        count, [&](std::size_t i) { return shapes[records[i].triangle].normal * area(i); });
+  // Mostly all face one way: then the plain sum is the answer.
+  bool opposed = false;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    opposed = opposed || glm::dot(shapes[records[i].triangle].normal, largest) < 0.0f;
+  }
+  moment.normal = plain;
+  if (opposed)
+  {
+    moment.normal = sumOnOneSide(
+      count, [&](std::size_t i) { return shapes[records[i].triangle].normal * area(i); });
+  }
   return moment;
 }
 
@@ -94,8 +135,9 @@ SurfaceMoment blockMoment(const SurfaceMoment* children, std::uint64_t mask, flo
 
 std::uint32_t planeOfMoment(const SurfaceMoment& moment, float edge)
 {
-  const float length = glm::length(moment.normal);
-  const glm::vec3 normal = length > 0.0f ? moment.normal / length : glm::vec3(0.0f, 0.0f, 1.0f);
+  const float square = glm::dot(moment.normal, moment.normal);
+  const glm::vec3 normal =
+    square > 0.0f ? moment.normal * (1.0f / std::sqrt(square)) : glm::vec3(0.0f, 0.0f, 1.0f);
   const float halfDiagonal = edge * 0.8660254f;
   return encodePlane({ normal, glm::dot(normal, moment.centre) / halfDiagonal });
 }

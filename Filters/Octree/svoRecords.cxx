@@ -89,12 +89,11 @@ void sortBucket(BrickRecord* records, BrickRecord* scratch, std::size_t count, i
 }
 }
 
-std::vector<std::vector<BrickRecord>> voxelizeMesh(const TriangleMesh& mesh, const Cube& cube,
-  int level, const std::vector<WorkPiece>& pieces, Buffer<TriangleShape>& shapes,
-  Executor& executor)
+std::vector<RecordList> voxelizeMesh(const TriangleMesh& mesh, const Cube& cube, int level,
+  const std::vector<WorkPiece>& pieces, Buffer<TriangleShape>& shapes, Executor& executor)
 {
   const Lattice lattice(cube, level);
-  std::vector<std::vector<BrickRecord>> records(pieces.size());
+  std::vector<RecordList> records(pieces.size());
   std::vector<std::uint64_t> voxelsOfPart(pieces.size());
   executor.run(
     pieces.size(), 1, 0.6, 2e5, [&](std::size_t i) { return pieces[i].records; },
@@ -103,7 +102,7 @@ std::vector<std::vector<BrickRecord>> voxelizeMesh(const TriangleMesh& mesh, con
       for (std::size_t i = first; i < last; ++i)
       {
         const WorkPiece& piece = pieces[i];
-        std::vector<BrickRecord>& out = records[i];
+        RecordList& out = records[i];
         out.reserve(static_cast<std::size_t>(piece.records * 1.125) + 64);
         for (std::uint32_t id = piece.first; id < piece.last; ++id)
         {
@@ -143,8 +142,7 @@ std::vector<std::vector<BrickRecord>> voxelizeMesh(const TriangleMesh& mesh, con
   return records;
 }
 
-SortedRecords sortRecords(
-  std::vector<std::vector<BrickRecord>>&& pieces, int level, Executor& executor)
+SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor& executor)
 {
   // Scatter into buckets by the highest bits, from a few blocks of pieces so that their histograms
   // stay small; then each bucket is sorted where it lies, in the cache.
@@ -208,7 +206,7 @@ SortedRecords sortRecords(
           {
             sorted.records[place[record.key >> shift]++] = record;
           }
-          std::vector<BrickRecord>().swap(pieces[i]);
+          pieces[i] = RecordList();
         }
       }
     });

@@ -28,13 +28,11 @@ struct SortedRecords
 
 /// Voxelises the pieces. `shapes` has an element for each triangle, written for those that are
 /// usable.
-std::vector<std::vector<BrickRecord>> voxelizeMesh(const TriangleMesh& mesh, const Cube& cube,
-  int level, const std::vector<WorkPiece>& pieces, Buffer<TriangleShape>& shapes,
-  Executor& executor);
+std::vector<RecordList> voxelizeMesh(const TriangleMesh& mesh, const Cube& cube, int level,
+  const std::vector<WorkPiece>& pieces, Buffer<TriangleShape>& shapes, Executor& executor);
 
 /// Sorts the pieces' records and frees the pieces.
-SortedRecords sortRecords(
-  std::vector<std::vector<BrickRecord>>&& pieces, int level, Executor& executor);
+SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor& executor);
 }
 
 #endif

@@ -1,6 +1,13 @@
+// Enumerates the bricks of a triangle row by row over the plane it faces most, on the best
+// instruction set that the machine has.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "svoVoxelize.cxx"
+#include <hwy/foreach_target.h>
+
 #include "svoVoxelize.h"
 
-#include "svoBrickMask.h"
+#include "svoBrickMask-inl.h"
+#include "svoBrickTables.h"
 #include "svoLattice.h"
 #include "svoMorton.h"
 #include "svoTriangleBox.h"
@@ -9,7 +16,10 @@
 
 #include <glm/geometric.hpp>
 
+HWY_BEFORE_NAMESPACE();
 namespace svo
+{
+namespace HWY_NAMESPACE
 {
 namespace
 {
@@ -49,7 +59,7 @@ float offsetInBrick(const LatticeTriangle& t, const glm::ivec3& brick)
 class SegmentWalker
 {
 public:
-  SegmentWalker(const LatticeTriangle& t, int level, std::vector<BrickRecord>& records)
+  SegmentWalker(const LatticeTriangle& t, int level, RecordList& records)
     : Triangle(t)
     , Test(t.vertices[0], t.vertices[1], t.vertices[2])
     , Within(t, level)
@@ -114,7 +124,7 @@ private:
     }
     if (mask)
     {
-      this->Records.push_back({ mortonKey(cell.x, cell.y, cell.z), mask, this->Triangle.id,
+      this->Records.push({ mortonKey(cell.x, cell.y, cell.z), mask, this->Triangle.id,
         offsetInBrick(this->Triangle, cell) });
     }
   }
@@ -122,89 +132,55 @@ private:
   const LatticeTriangle& Triangle;
   TriangleBox<std::int64_t> Test; // no plane and 2D edges only: never beyond 64 bits
   Range Within;
-  std::vector<BrickRecord>& Records;
+  RecordList& Records;
   std::uint64_t Voxels = 0;
 };
 
-/// A triangle's projection along an axis, as half planes over the voxels of 4x4 tiles.
-class Projection
+/// A triangle's projection along an axis, as half planes over the voxels of tiles that are counted
+/// from `origin` (voxels). `area` is the normal's component along the axis: only its sign matters.
+/// Where it is 0 the projection is a segment, which a box must meet from both sides of every edge.
+template <typename Lane>
+void projectTriangle(const LatticeTriangle& t, const glm::ivec3& origin, int axis,
+  std::int64_t area, TileEdges<Lane>& edges)
 {
-public:
-  /// `area` is the normal's component along the axis: only its sign matters. Where it is 0 the
-  /// projection is a segment, which a box must meet from both sides of every edge.
-  void set(const LatticeTriangle& t, int axis, int area)
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  const auto add = [&](std::int64_t nu, std::int64_t nv, const glm::ivec3& p)
   {
-    const int u = (axis + 1) % 3;
-    const int v = (axis + 2) % 3;
-    this->Count = 0;
-    for (int i = 0; i < 3; ++i)
-    {
-      const glm::ivec3& p = t.vertices[i];
-      const glm::ivec3& q = t.vertices[i == 2 ? 0 : i + 1];
-      const std::int64_t nu = p[v] - q[v];
-      const std::int64_t nv = q[u] - p[u];
-      if (nu == 0 && nv == 0)
-      {
-        continue;
-      }
-      if (area >= 0)
-      {
-        this->add(nu, nv, p[u], p[v]);
-      }
-      if (area <= 0)
-      {
-        this->add(-nu, -nv, p[u], p[v]);
-      }
-    }
-  }
-
-  /// Tiles of a row that the projection may touch, intersected with [first, last].
-  void clipRow(int tileY, int& first, int& last) const
-  {
-    for (int i = 0; i < this->Count && first <= last; ++i)
-    {
-      this->Edges[i].clipRow(tileY, first, last);
-    }
-  }
-
-  /// Cells of a tile that the projection touches, 16 bits; `inside` if the whole tile is inside it.
-  unsigned mask(int tileX, int tileY, bool& inside) const
-  {
-    unsigned outside = 0;
-    inside = true;
-    for (int i = 0; i < this->Count; ++i)
-    {
-      const TileEdge& edge = this->Edges[i];
-      const std::int64_t value = edge.at(tileX, tileY);
-      if (edge.misses(value))
-      {
-        return 0;
-      }
-      inside = inside && edge.contains(value);
-      if (!edge.covers(value))
-      {
-        edge.addOutside(value, outside);
-      }
-    }
-    return ~outside & 0xffffu;
-  }
-
-private:
-  void add(std::int64_t nu, std::int64_t nv, std::int64_t pu, std::int64_t pv)
-  {
-    // The corner of voxel (0, 0)'s grown box that lies farthest to the inside.
+    // The corner of the first voxel's grown box that lies farthest to the inside.
+    const std::int64_t pu = p[u] - origin[u] * LatticeUnits;
+    const std::int64_t pv = p[v] - origin[v] * LatticeUnits;
     const std::int64_t most =
       nu * ((nu > 0 ? LatticeUnits + 1 : -1) - pu) + nv * ((nv > 0 ? LatticeUnits + 1 : -1) - pv);
     const std::int64_t span = (std::abs(nu) + std::abs(nv)) * (LatticeUnits + 2);
-    this->Edges[this->Count++] = TileEdge(nu, nv, most >> LatticeBits, (span >> LatticeBits) + 1);
+    // Rounding down is exact: what is compared are integers.
+    edges.add(nu, nv, most >> LatticeBits, (span >> LatticeBits) + 1);
+  };
+  edges.clear();
+  for (int i = 0; i < 3; ++i)
+  {
+    const glm::ivec3& p = t.vertices[i];
+    const glm::ivec3& q = t.vertices[i == 2 ? 0 : i + 1];
+    const std::int64_t nu = p[v] - q[v];
+    const std::int64_t nv = q[u] - p[u];
+    if (nu == 0 && nv == 0)
+    {
+      continue;
+    }
+    if (area >= 0)
+    {
+      add(nu, nv, p);
+    }
+    if (area <= 0)
+    {
+      add(-nu, -nv, p);
+    }
   }
+}
 
-  TileEdge Edges[6];
-  int Count = 0;
-};
-
-/// Int holds the plane's values over the whole triangle, Lane those over the brick it crosses.
-template <typename Int, typename Lane>
+/// Int holds the plane's values over the whole triangle, Lane those over a brick that it crosses,
+/// EdgeLane those of the projections' edges over the whole triangle.
+template <typename Int, typename Lane, typename EdgeLane>
 class PlaneWalker
 {
 public:
@@ -216,7 +192,7 @@ public:
   {
   }
 
-  std::uint64_t walk(std::vector<BrickRecord>& records, std::uint32_t part, std::uint32_t parts)
+  std::uint64_t walk(RecordList& records, std::uint32_t part, std::uint32_t parts)
   {
     const BrickTables& tables = BrickTables::get();
     const Range& r = this->Within;
@@ -225,55 +201,56 @@ public:
     const int v = (w + 2) % 3;
     for (int axis = 0; axis < 3; ++axis)
     {
-      const std::int64_t n = this->Normal[axis];
-      this->Shadows[axis].set(this->Triangle, axis, (n > 0) - (n < 0));
+      projectTriangle(
+        this->Triangle, r.firstBrick * 4, axis, this->Normal[axis], this->Shadows[axis]);
     }
-    const std::uint64_t rows = r.lastBrick[v] - r.firstBrick[v] + 1;
-    const int firstRow = r.firstBrick[v] + static_cast<int>(rows * part / parts);
-    const int endRow = r.firstBrick[v] + static_cast<int>(rows * (part + 1) / parts);
+    const int rows = r.lastBrick[v] - r.firstBrick[v] + 1;
+    const int endRow = static_cast<int>(std::int64_t(rows) * (part + 1) / parts);
     std::uint64_t voxels = 0;
-    glm::ivec3 b;
-    for (b[v] = firstRow; b[v] < endRow; ++b[v])
+    glm::ivec3 i; // the brick, counted from the first
+    for (i[v] = static_cast<int>(std::int64_t(rows) * part / parts); i[v] < endRow; ++i[v])
     {
-      int first = r.firstBrick[u];
-      int last = r.lastBrick[u];
-      if (last - first > 3)
+      int first = 0;
+      int last = r.lastBrick[u] - r.firstBrick[u];
+      if (last > 3)
       {
-        this->Shadows[w].clipRow(b[v], first, last);
+        this->Shadows[w].clipRow(i[v], first, last);
       }
-      const std::uint64_t row = r.brickMask(tables, v, b[v]);
-      const std::uint64_t rowKey = spreadBits(b[v]) << v;
-      for (b[u] = first; b[u] <= last; ++b[u])
+      const std::uint64_t row = r.brickMask(tables, v, r.firstBrick[v] + i[v]);
+      const std::uint64_t rowKey = spreadBits(r.firstBrick[v] + i[v]) << v;
+      for (i[u] = first; i[u] <= last; ++i[u])
       {
-        bool inside;
-        const unsigned tile = this->Shadows[w].mask(b[u], b[v], inside);
-        const std::uint64_t column = row & r.brickMask(tables, u, b[u]) & tables.columns(w, tile);
+        const unsigned tile = this->Shadows[w].mask(i[u], i[v]);
+        const std::uint64_t column =
+          row & r.brickMask(tables, u, r.firstBrick[u] + i[u]) & tables.columns(w, tile);
         if (column == 0)
         {
           continue;
         }
-        const std::uint64_t columnKey = rowKey | spreadBits(b[u]) << u;
+        // A box above the inside of a projection meets the triangle where it meets its plane.
+        const bool inside = tile == 0xffffu && this->Shadows[w].contains(i[u], i[v]);
+        const std::uint64_t columnKey = rowKey | spreadBits(r.firstBrick[u] + i[u]) << u;
         int firstW, lastW;
-        Int base = this->columnBase(b, u, v, w, firstW, lastW);
-        for (b[w] = firstW; b[w] <= lastW; ++b[w], base += 4 * this->Normal[w])
+        Int base = this->columnBase(i, u, v, w, firstW, lastW);
+        for (i[w] = firstW; i[w] <= lastW; ++i[w], base += 4 * this->Normal[w])
         {
           if (base + this->Most < 0 || base + this->Least > this->Thickness)
           {
             continue;
           }
+          const int brickW = r.firstBrick[w] + i[w];
           std::uint64_t mask =
-            column & r.brickMask(tables, w, b[w]) & this->Slab.mask(static_cast<Lane>(base));
-          if (mask != 0 && !inside)
+            column & r.brickMask(tables, w, brickW) & this->Slab.mask(static_cast<Lane>(base));
+          if (!inside)
           {
-            bool ignored;
-            mask &= tables.columns(u, this->Shadows[u].mask(b[v], b[w], ignored)) &
-              tables.columns(v, this->Shadows[v].mask(b[w], b[u], ignored));
+            mask &= tables.columns(u, this->Shadows[u].mask(i[v], i[w])) &
+              tables.columns(v, this->Shadows[v].mask(i[w], i[u]));
           }
           if (mask != 0)
           {
             voxels += __builtin_popcountll(mask);
-            records.push_back({ columnKey | spreadBits(b[w]) << w, mask, this->Triangle.id,
-              offsetInBrick(this->Triangle, b) });
+            records.push({ columnKey | spreadBits(brickW) << w, mask, this->Triangle.id,
+              offsetInBrick(this->Triangle, r.firstBrick + i) });
           }
         }
       }
@@ -315,26 +292,24 @@ private:
   }
 
   /// The plane's value in the first brick of a column, and the bricks it may cross there.
-  Int columnBase(const glm::ivec3& b, int u, int v, int w, int& first, int& last) const
+  Int columnBase(const glm::ivec3& i, int u, int v, int w, int& first, int& last) const
   {
     const Range& r = this->Within;
-    first = r.firstBrick[w];
-    last = r.lastBrick[w];
-    Int base = this->Base + static_cast<Int>(this->Normal[u]) * (4 * (b[u] - r.firstBrick[u])) +
-      static_cast<Int>(this->Normal[v]) * (4 * (b[v] - r.firstBrick[v]));
-    if (last - first > 3)
+    first = 0;
+    last = r.lastBrick[w] - r.firstBrick[w];
+    Int base = this->Base + static_cast<Int>(this->Normal[u]) * (4 * i[u]) +
+      static_cast<Int>(this->Normal[v]) * (4 * i[v]);
+    if (last > 3)
     {
       // 0 <= base + Most + step * i and base + Least + step * i <= Thickness, give or take one for
       // the division in double.
       const double step = 4.0 * static_cast<double>(this->Normal[w]);
       const double a = -static_cast<double>(base + this->Most) / step;
       const double c = static_cast<double>(this->Thickness - this->Least - base) / step;
-      const double span = last - first;
-      const int from = static_cast<int>(std::clamp(std::min(a, c) - 1.0, 0.0, span));
-      const int to = static_cast<int>(std::clamp(std::max(a, c) + 2.0, 0.0, span));
-      base += static_cast<Int>(this->Normal[w]) * 4 * from;
-      last = first + to;
-      first += from;
+      const double span = last;
+      first = static_cast<int>(std::clamp(std::min(a, c) - 1.0, 0.0, span));
+      last = static_cast<int>(std::clamp(std::max(a, c) + 2.0, 0.0, span));
+      base += static_cast<Int>(this->Normal[w]) * 4 * first;
     }
     return base;
   }
@@ -345,12 +320,12 @@ private:
   Int Base;
   std::int64_t Thickness, Most, Least;
   BrickSlab<Lane> Slab;
-  Projection Shadows[3];
+  TileEdges<EdgeLane> Shadows[3];
 };
 }
 
-std::uint64_t voxelizeTriangle(const LatticeTriangle& t, int level,
-  std::vector<BrickRecord>& records, std::uint32_t part, std::uint32_t parts)
+std::uint64_t voxelize(
+  const LatticeTriangle& t, int level, RecordList& records, std::uint32_t part, std::uint32_t parts)
 {
   const Range range(t, level);
   const glm::ivec3 p = t.vertices[1] - t.vertices[0];
@@ -368,15 +343,30 @@ std::uint64_t voxelizeTriangle(const LatticeTriangle& t, int level,
   {
     return part == 0 ? SegmentWalker(t, level, records).walk() : 0;
   }
-  if (largest < 1 << 24)
-  {
-    return PlaneWalker<std::int64_t, std::int32_t>(t, range, normal).walk(records, part, parts);
-  }
   const glm::ivec3 bricks = range.lastBrick - range.firstBrick;
-  if (largest < std::int64_t(1) << 38 && std::max({ bricks.x, bricks.y, bricks.z }) < 1 << 9)
+  if (std::max({ bricks.x, bricks.y, bricks.z }) >= 1 << 8)
   {
-    return PlaneWalker<std::int64_t, std::int64_t>(t, range, normal).walk(records, part, parts);
+    return PlaneWalker<__int128, std::int64_t, std::int64_t>(t, range, normal)
+      .walk(records, part, parts);
   }
-  return PlaneWalker<__int128, std::int64_t>(t, range, normal).walk(records, part, parts);
+  return largest < 1 << 24 ? PlaneWalker<std::int64_t, std::int32_t, std::int32_t>(t, range, normal)
+                               .walk(records, part, parts)
+                           : PlaneWalker<std::int64_t, std::int64_t, std::int32_t>(t, range, normal)
+                               .walk(records, part, parts);
 }
 }
+}
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace svo
+{
+HWY_EXPORT(voxelize);
+
+std::uint64_t voxelizeTriangle(
+  const LatticeTriangle& t, int level, RecordList& records, std::uint32_t part, std::uint32_t parts)
+{
+  return HWY_DYNAMIC_DISPATCH(voxelize)(t, level, records, part, parts);
+}
+}
+#endif

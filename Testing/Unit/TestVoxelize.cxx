@@ -20,7 +20,7 @@ svo::LatticeTriangle triangleOf(const Vertices& v)
 }
 
 /// The voxels that the builder names; fails if it names a brick twice.
-VoxelSet voxelsOf(const std::vector<svo::BrickRecord>& records)
+VoxelSet voxelsOf(const svo::RecordList& records)
 {
   VoxelSet voxels;
   std::set<std::uint64_t> keys;
@@ -42,7 +42,7 @@ VoxelSet voxelsOf(const std::vector<svo::BrickRecord>& records)
 
 VoxelSet voxelize(const Vertices& v, int level)
 {
-  std::vector<svo::BrickRecord> records;
+  svo::RecordList records;
   const std::uint64_t count = svo::voxelizeTriangle(triangleOf(v), level, records);
   const VoxelSet voxels = voxelsOf(records);
   EXPECT_EQ(count, voxels.size());
@@ -188,7 +188,7 @@ TEST(Voxelize, AHugeTriangleIsExactWhereverOneLooks)
       {
         p = { 1 + random.below(top), 1 + random.below(top), 1 + random.below(top >> (2 * i)) };
       }
-      std::vector<svo::BrickRecord> records;
+      svo::RecordList records;
       svo::voxelizeTriangle(triangleOf(v), level, records);
       std::map<std::uint64_t, std::uint64_t> bricks;
       for (const svo::BrickRecord& record : records)
@@ -222,7 +222,7 @@ TEST(Voxelize, ATriangleAcrossALevel20CubeIsExact)
   const int top = (1 << 28) - 1;
   const Vertices v{ glm::ivec3(1, 2, 3), glm::ivec3(top, 70000, 50000),
     glm::ivec3(top, 70900, 50100) };
-  std::vector<svo::BrickRecord> records;
+  svo::RecordList records;
   svo::voxelizeTriangle(triangleOf(v), 20, records);
   ASSERT_GT(records.size(), std::size_t(1) << 18);
   std::map<std::uint64_t, std::uint64_t> bricks;
@@ -255,7 +255,7 @@ TEST(Voxelize, PartsAddUpToTheWhole)
   for (int i = 0; i < 40; ++i)
   {
     const Vertices v = random.next(7, 100 * 256);
-    std::vector<svo::BrickRecord> records;
+    svo::RecordList records;
     const std::uint32_t parts = 1 + random.below(9);
     std::uint64_t count = 0;
     for (std::uint32_t part = 0; part < parts; ++part)
