@@ -18,7 +18,6 @@
 #include <map>
 #include <mutex>
 #include <new>
-#include <tuple>
 
 namespace svo
 {
@@ -86,44 +85,37 @@ vtkSmartPointer<vtkUnsignedCharArray> adopt(std::shared_ptr<std::byte> data, std
   return array;
 }
 
-/// The surfaces of the octrees that are open now, so that a mesh is not triangulated again for
-/// every handle on it. The mesh and the cube's frame determine a surface.
-class OpenSurfaces
+/// The octrees that are open now, by the address of their bytes, so that a pose that comes back is
+/// not checked and triangulated again for every handle on it. An open octree keeps its bytes alive:
+/// as long as it can be found, the address is that of the same bytes.
+class OpenOctrees
 {
 public:
-  std::shared_ptr<const Surface> find(const Header& header)
+  Octree find(const std::byte* bytes)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    const auto found = this->Surfaces.find(key(header));
-    return found != this->Surfaces.end() ? found->second.lock() : nullptr;
+    const auto found = this->Octrees.find(bytes);
+    return found != this->Octrees.end() ? found->second.lock() : Octree();
   }
 
-  void add(const Header& header, const std::shared_ptr<const Surface>& surface)
+  void add(const Octree& octree)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    for (auto i = this->Surfaces.begin(); i != this->Surfaces.end();)
+    for (auto i = this->Octrees.begin(); i != this->Octrees.end();)
     {
-      i = i->second.expired() ? this->Surfaces.erase(i) : std::next(i);
+      i = i->second.expired() ? this->Octrees.erase(i) : std::next(i);
     }
-    this->Surfaces[key(header)] = surface;
+    this->Octrees[octree.data().get()] = WeakOctree(octree);
   }
 
 private:
-  using Key =
-    std::tuple<std::uint64_t, std::uint64_t, std::uint32_t, double, double, double, double>;
-  static Key key(const Header& h)
-  {
-    return { h.signature, h.triangleCount, h.depthCount, h.voxelSize, h.origin[0], h.origin[1],
-      h.origin[2] };
-  }
-
   std::mutex Mutex;
-  std::map<Key, std::weak_ptr<const Surface>> Surfaces;
+  std::map<const std::byte*, WeakOctree> Octrees;
 };
 
-OpenSurfaces& openSurfaces()
+OpenOctrees& openOctrees()
 {
-  static auto* instance = new OpenSurfaces;
+  static auto* instance = new OpenOctrees;
   return *instance;
 }
 
@@ -186,7 +178,7 @@ BuildStatus buildUnguarded(
   {
     return BuildStatus::BadInput;
   }
-  openSurfaces().add(octree.header(), surface);
+  openOctrees().add(octree);
   if (result.droppedTriangles > 0)
   {
     message = std::to_string(result.droppedTriangles) + " of the mesh's " +
@@ -277,20 +269,20 @@ Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& mess
     {
       return Attached::Foreign;
     }
-    // Checked before anything is made from the header; NaN in it would break the order of keys.
-    if (!Octree::open(bytes, size, nullptr, message))
+    octree = openOctrees().find(bytes.get());
+    if (octree)
     {
-      return Attached::Damaged;
+      return Attached::Found;
     }
-    std::shared_ptr<const Surface> surface = openSurfaces().find(header);
-    if (!surface)
-    {
-      MeshTriangles triangles(mesh);
-      surface =
-        makeSurface(triangles.view(), std::move(triangles.cells()), header, smpParallelFor());
-      openSurfaces().add(header, surface);
-    }
+    // A surface made from a damaged header is of no use, but harmless: open() refuses both.
+    MeshTriangles triangles(mesh);
+    const auto surface =
+      makeSurface(triangles.view(), std::move(triangles.cells()), header, smpParallelFor());
     octree = Octree::open(bytes, size, surface, message);
+    if (octree)
+    {
+      openOctrees().add(octree);
+    }
     return octree ? Attached::Found : Attached::Damaged;
   }
   catch (const std::bad_alloc&)

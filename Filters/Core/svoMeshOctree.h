@@ -54,8 +54,8 @@ enum class Attached
 
 /// Opens the octree that travels on a mesh, with its surface. Only Found yields an octree. None and
 /// Foreign are ordinary states downstream of other filters and have no message. The bytes are
-/// shared with the field-data array, which must not be written to. Does not change the mesh. The
-/// surface is shared with other open octrees of the same bytes.
+/// shared with the field-data array, which must not be written to. Does not change the mesh. While
+/// a copy of the octree is open somewhere, opening it again costs a look-up.
 VTKSVOCORE_EXPORT Attached openAttachedOctree(
   vtkPolyData* mesh, Octree& octree, std::string& message);
 

@@ -42,9 +42,17 @@ std::uint64_t hashWords(std::size_t count, std::uint64_t seed, const Word& word)
         // Four chains, so that a multiplication need not wait for the last one.
         std::uint64_t h[4] = { 1, 2, 3, 4 };
         const std::size_t end = std::min(count, (c + 1) * chunk);
-        for (std::size_t i = c * chunk; i < end; ++i)
+        std::size_t i = c * chunk;
+        for (; i + 4 <= end; i += 4)
         {
-          h[i & 3] = mix(h[i & 3] + i, word(i));
+          for (std::size_t k = 0; k < 4; ++k)
+          {
+            h[k] = mix(h[k], word(i + k));
+          }
+        }
+        for (; i < end; ++i)
+        {
+          h[0] = mix(h[0], word(i));
         }
         hashes[c] = mix(mix(h[0], h[1]), mix(h[2], h[3]));
       }

@@ -87,10 +87,42 @@ public:
   const std::shared_ptr<const std::byte>& data() const { return this->Data; }
 
 private:
+  friend class WeakOctree;
   std::shared_ptr<const std::byte> Data;
   std::size_t Size = 0;
   std::shared_ptr<const Surface> Triangles;
   std::shared_ptr<const UpperLevels> Upper;
+};
+
+/// Finds an open octree that has a surface again, for as long as somebody keeps it.
+class WeakOctree
+{
+public:
+  WeakOctree() = default;
+  explicit WeakOctree(const Octree& octree)
+    : Data(octree.Data)
+    , Size(octree.Size)
+    , Triangles(octree.Triangles)
+    , Upper(octree.Upper)
+  {
+  }
+  bool expired() const { return this->Data.expired(); }
+  /// Empty once no copy of the octree is left.
+  Octree lock() const
+  {
+    Octree octree;
+    octree.Data = this->Data.lock();
+    octree.Size = this->Size;
+    octree.Triangles = this->Triangles.lock();
+    octree.Upper = this->Upper.lock();
+    return octree.Data && octree.Triangles && octree.Upper ? octree : Octree();
+  }
+
+private:
+  std::weak_ptr<const std::byte> Data;
+  std::size_t Size = 0;
+  std::weak_ptr<const Surface> Triangles;
+  std::weak_ptr<const UpperLevels> Upper;
 };
 }
 
