@@ -1,0 +1,285 @@
+#include "svoTileIntervals.h"
+
+#include "svoMorton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <glm/matrix.hpp>
+
+namespace svo
+{
+namespace
+{
+constexpr double PixelSlack = 0.01;
+constexpr double DepthSlack = 1e-5; // of the depth of the whole cube
+constexpr float CellPixels = 4.0f;  // cells up to this size are not divided any more
+constexpr int RowsPerTask = 8;      // tiles
+/// Cells that cross the eye plane are divided down to this level.
+constexpr int EyePlaneLevel = 6;
+constexpr std::size_t ManyTiles = 64;
+
+/// Homogeneous pixel coordinates and depth, as functions of octree coordinates.
+struct Projection
+{
+  // Columns: of x, y, z and of the cube's lower corner. Rows: pixel x w, pixel y w, w, t.
+  glm::dvec4 x, y, z, corner;
+};
+
+/// What one cell covers.
+struct Footprint
+{
+  float x0, y0, x1, y1; // pixels
+  float t0, t1;
+  bool everywhere; // crosses the eye plane
+};
+
+/// One walk through the octree for some rows of tiles.
+class Projector
+{
+public:
+  Projector(const Octree& octree, const Projection& projection, int stopBits, const View& view,
+    TileIntervals& intervals)
+    : Nodes(octree.nodes())
+    , Map(projection)
+    , StopBits(stopBits)
+    , Parallel(view.parallel)
+    , Intervals(intervals)
+  {
+    // Nearer cells first, so that they can hide what lies between them and the far side.
+    this->Front = int(projection.x[3] < 0.0) | int(projection.y[3] < 0.0) << 1 |
+      int(projection.z[3] < 0.0) << 2;
+  }
+
+  void rows(int first, int last, float tNear, float tFar)
+  {
+    this->FirstRow = first;
+    this->LastRow = last;
+    this->Near = tNear;
+    this->Far = tFar;
+    this->visit(0, glm::ivec3(0), 0);
+  }
+
+private:
+  /// The block of a node, `bits` of whose coordinates are given.
+  void visit(std::uint32_t index, const glm::ivec3& block, int bits)
+  {
+    const Node& node = this->Nodes[index];
+    for (int g = 0; g < 8; ++g)
+    {
+      const int group = g ^ this->Front;
+      const std::uint64_t octet = node.mask >> (8 * group) & 0xff;
+      if (octet == 0)
+      {
+        continue;
+      }
+      const glm::ivec3 half = 2 * block + glm::ivec3(group & 1, group >> 1 & 1, group >> 2);
+      if (this->settle(half, bits + 1))
+      {
+        continue;
+      }
+      for (int c = 0; c < 8; ++c)
+      {
+        const int cell = c ^ this->Front;
+        if (!(octet >> cell & 1))
+        {
+          continue;
+        }
+        const glm::ivec3 quarter = 2 * half + glm::ivec3(cell & 1, cell >> 1 & 1, cell >> 2);
+        if (this->settle(quarter, bits + 2))
+        {
+          continue;
+        }
+        const std::uint64_t below = (std::uint64_t(1) << (8 * group + cell)) - 1;
+        this->visit(node.first + __builtin_popcountll(node.mask & below), quarter, bits + 2);
+      }
+    }
+  }
+
+  /// True if nothing of the cell needs to be looked at more closely.
+  bool settle(const glm::ivec3& cell, int bits)
+  {
+    Footprint f;
+    this->project(cell, bits, f);
+    if (f.t1 < this->Near || f.t0 > this->Far)
+    {
+      return true;
+    }
+    int column0 = 0, column1 = this->Intervals.columns - 1;
+    int row0 = this->FirstRow, row1 = this->LastRow - 1;
+    bool small = bits >= this->StopBits;
+    if (f.everywhere)
+    {
+      small = small || bits >= EyePlaneLevel;
+    }
+    else
+    {
+      constexpr float scale = 1.0f / TileIntervals::TileSize;
+      const auto tile = [](float v, int origin)
+      { return static_cast<int>(std::floor(std::clamp(v * scale, -1e6f, 1e6f))) - origin; };
+      column0 = std::max(column0, tile(f.x0, this->Intervals.column0));
+      column1 = std::min(column1, tile(f.x1, this->Intervals.column0));
+      row0 = std::max(row0, tile(f.y0, this->Intervals.row0));
+      row1 = std::min(row1, tile(f.y1, this->Intervals.row0));
+      if (column0 > column1 || row0 > row1)
+      {
+        return true;
+      }
+      small = small || std::max(f.x1 - f.x0, f.y1 - f.y0) <= CellPixels;
+    }
+    const std::size_t columns = this->Intervals.columns;
+    float* tNear = this->Intervals.tNear.data();
+    float* tFar = this->Intervals.tFar.data();
+    if (small)
+    {
+      for (int row = row0; row <= row1; ++row)
+      {
+        for (std::size_t i = row * columns + column0; i <= row * columns + column1; ++i)
+        {
+          tNear[i] = std::min(tNear[i], f.t0);
+          tFar[i] = std::max(tFar[i], f.t1);
+        }
+      }
+      return true;
+    }
+    // Nothing inside can widen an interval that holds all of the cell.
+    if (std::size_t(column1 - column0 + 1) * (row1 - row0 + 1) > ManyTiles)
+    {
+      return false;
+    }
+    for (int row = row0; row <= row1; ++row)
+    {
+      for (std::size_t i = row * columns + column0; i <= row * columns + column1; ++i)
+      {
+        if (f.t0 < tNear[i] || f.t1 > tFar[i])
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  void project(const glm::ivec3& cell, int bits, Footprint& f) const
+  {
+    const double size = std::ldexp(1.0, -bits);
+    const glm::dvec4 x = size * this->Map.x;
+    const glm::dvec4 y = size * this->Map.y;
+    const glm::dvec4 z = size * this->Map.z;
+    const glm::dvec4 low =
+      this->Map.corner + double(cell.x) * x + double(cell.y) * y + double(cell.z) * z;
+    const glm::dvec4 zero(0.0);
+    const glm::dvec4 least = low + glm::min(x, zero) + glm::min(y, zero) + glm::min(z, zero);
+    const glm::dvec4 most = low + glm::max(x, zero) + glm::max(y, zero) + glm::max(z, zero);
+    f.t0 = static_cast<float>(least[3]);
+    f.t1 = static_cast<float>(most[3]);
+    f.everywhere = !(least[2] > 1e-9 * most[2]);
+    if (f.everywhere)
+    {
+      return;
+    }
+    glm::dvec2 lower, upper;
+    if (this->Parallel)
+    {
+      lower = glm::dvec2(least) / low[2];
+      upper = glm::dvec2(most) / low[2];
+    }
+    else
+    {
+      lower = glm::dvec2(std::numeric_limits<double>::max());
+      upper = -lower;
+      for (int i = 0; i < 8; ++i)
+      {
+        glm::dvec3 p(low);
+        p += i & 1 ? glm::dvec3(x) : glm::dvec3(0.0);
+        p += i & 2 ? glm::dvec3(y) : glm::dvec3(0.0);
+        p += i & 4 ? glm::dvec3(z) : glm::dvec3(0.0);
+        const glm::dvec2 pixel = glm::dvec2(p) / p.z;
+        lower = glm::min(lower, pixel);
+        upper = glm::max(upper, pixel);
+      }
+    }
+    f.x0 = static_cast<float>(lower.x - PixelSlack);
+    f.y0 = static_cast<float>(lower.y - PixelSlack);
+    f.x1 = static_cast<float>(upper.x + PixelSlack);
+    f.y1 = static_cast<float>(upper.y + PixelSlack);
+  }
+
+  const Node* Nodes;
+  Projection Map;
+  int StopBits;
+  bool Parallel;
+  TileIntervals& Intervals;
+  int Front;
+  int FirstRow = 0;
+  int LastRow = 0;
+  float Near = 0.0f;
+  float Far = 0.0f;
+};
+
+Projection makeProjection(
+  const Octree& octree, const glm::dmat4& localToWorld, const View& view, double base)
+{
+  const glm::dmat4 octreeToView =
+    view.worldToView * localToWorld * glm::inverse(octree.localToOctree());
+  const glm::dmat4 clip = view.viewToClip * octreeToView;
+  Projection projection;
+  glm::dvec4* columns[4] = { &projection.x, &projection.y, &projection.z, &projection.corner };
+  for (int c = 0; c < 4; ++c)
+  {
+    const double w = clip[c][3];
+    *columns[c] = { 0.5 * view.width * (clip[c][0] + w), 0.5 * view.height * (clip[c][1] + w), w,
+      -octreeToView[c][2] };
+  }
+  projection.corner += projection.x + projection.y + projection.z; // octree coordinates begin at 1
+  projection.corner[3] -= base;
+  return projection;
+}
+}
+
+void computeTileIntervals(const Octree& octree, const glm::dmat4& localToWorld, const View& view,
+  const PixelRect& rect, const TraceOptions& options, double base, const ParallelFor& parallelFor,
+  TileIntervals& intervals)
+{
+  constexpr int size = TileIntervals::TileSize;
+  const int x0 = std::max(rect.x0, 0), y0 = std::max(rect.y0, 0);
+  const int x1 = std::min(rect.x1, view.width), y1 = std::min(rect.y1, view.height);
+  intervals.column0 = x0 / size;
+  intervals.row0 = y0 / size;
+  intervals.columns = std::max((x1 + size - 1) / size - intervals.column0, 0);
+  intervals.rows = std::max((y1 + size - 1) / size - intervals.row0, 0);
+  const std::size_t tiles = std::size_t(intervals.columns) * intervals.rows;
+  const float infinity = std::numeric_limits<float>::infinity();
+  intervals.tNear.assign(tiles, infinity);
+  intervals.tFar.assign(tiles, -infinity);
+  if (tiles == 0 || !octree || octree.empty())
+  {
+    return;
+  }
+  const Projection projection = makeProjection(octree, localToWorld, view, base);
+  const int level = std::clamp(options.level, 0, octree.level());
+  const int odd = 2 * octree.depthCount() - octree.level();
+  const double depth =
+    std::abs(projection.x[3]) + std::abs(projection.y[3]) + std::abs(projection.z[3]);
+  double slack = DepthSlack * depth + 1e-6 * std::abs(projection.corner[3]);
+  if (options.leafGeometry != LeafGeometry::Voxel)
+  {
+    slack += std::ldexp(depth, -(level + odd)); // a plane counts as far as one cell beyond its own
+  }
+  const float tNear = static_cast<float>(view.tNear - base - slack);
+  const float tFar = static_cast<float>(std::min(view.tFar - base + slack, 1e30));
+  parallelFor(0, intervals.rows, RowsPerTask,
+    [&](std::size_t first, std::size_t last)
+    {
+      Projector projector(octree, projection, std::max(level + odd, 1), view, intervals);
+      projector.rows(static_cast<int>(first), static_cast<int>(last), tNear, tFar);
+      const float widen = static_cast<float>(slack);
+      for (std::size_t i = first * intervals.columns; i < last * intervals.columns; ++i)
+      {
+        intervals.tNear[i] -= widen; // infinities stay
+        intervals.tFar[i] += widen;
+      }
+    });
+}
+}
