@@ -73,7 +73,7 @@ public:
     LEAF_AUTOMATIC = 3
   };
 
-  ///@{
+  //@{
   /**
    * Where rays are traced. Auto (the default) takes the fastest that is there. This version has the
    * CPU; asking for OpenGL warns once and uses the CPU.
@@ -83,14 +83,14 @@ public:
   void SetBackendToAuto() { this->SetBackend(BACKEND_AUTO); }
   void SetBackendToCPU() { this->SetBackend(BACKEND_CPU); }
   void SetBackendToOpenGL() { this->SetBackend(BACKEND_OPENGL); }
-  ///@}
+  //@}
 
   /**
    * The backend that is used: BACKEND_CPU or BACKEND_OPENGL.
    */
   int GetActiveBackend() const { return BACKEND_CPU; }
 
-  ///@{
+  //@{
   /**
    * How shadows are found: not at all, by a shadow buffer per light that is traced like the picture
    * itself (the default), or by one ray to each light from each visible point, the exact reference.
@@ -101,9 +101,9 @@ public:
   void SetShadowTechniqueToNone() { this->SetShadowTechnique(SHADOW_NONE); }
   void SetShadowTechniqueToShadowBuffer() { this->SetShadowTechnique(SHADOW_BUFFER); }
   void SetShadowTechniqueToShadowRays() { this->SetShadowTechnique(SHADOW_RAYS); }
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Texels along an edge of one shadow map, 16..16384; default 2048. A directional or spot light
    * has one map. So has a point light whose casters subtend less than 120 degrees, otherwise it has
@@ -111,9 +111,9 @@ public:
    */
   vtkSetClampMacro(ShadowBufferResolution, int, 16, 16384);
   vtkGetMacro(ShadowBufferResolution, int);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Compare depths on the receiver's own plane, at the texel's own ray (Dou et al., JCGT 2014), so
    * that a surface does not shade itself. Default on.
@@ -121,36 +121,36 @@ public:
   vtkSetMacro(AutomaticShadowBias, bool);
   vtkGetMacro(AutomaticShadowBias, bool);
   vtkBooleanMacro(AutomaticShadowBias, bool);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * What is added to the depth of a shadow map before the comparison, in voxels of the caster,
    * 0..1000; default 0. With AutomaticShadowBias off, 0 is the paper's bare "distance > depth".
    */
   vtkSetClampMacro(ShadowBias, double, 0.0, 1000.0);
   vtkGetMacro(ShadowBias, double);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Share of a light's diffuse and specular light that a shadow removes, 0..1; default 1. Ambient
    * light always stays.
    */
   vtkSetClampMacro(ShadowIntensity, double, 0.0, 1.0);
   vtkGetMacro(ShadowIntensity, double);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Speed against accuracy: rays stop at the octree level whose voxels appear no larger than this
    * many pixels, 0..64; default 1. 0 always goes to the octree's full depth.
    */
   vtkSetClampMacro(PixelError, double, 0.0, 64.0);
   vtkGetMacro(PixelError, double);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Build an octree for each surface that comes without one; default on. Otherwise only meshes that
    * went through vtkPolyDataToSVO are traced and cast shadows.
@@ -158,18 +158,18 @@ public:
   vtkSetMacro(ConvertPolyData, bool);
   vtkGetMacro(ConvertPolyData, bool);
   vtkBooleanMacro(ConvertPolyData, bool);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Level of the octrees that the pass builds: 2^level voxels along an edge of the mesh's cube,
    * 1..20; default 10.
    */
   vtkSetClampMacro(MaximumLevel, int, 1, 20);
   vtkGetMacro(MaximumLevel, int);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * What a ray meets in a leaf of the octrees that the pass builds; see vtkPolyDataToSVO. Default
    * automatic.
@@ -180,9 +180,9 @@ public:
   void SetLeafGeometryToPlane() { this->SetLeafGeometry(LEAF_PLANE); }
   void SetLeafGeometryToTriangle() { this->SetLeafGeometry(LEAF_TRIANGLE); }
   void SetLeafGeometryToAutomatic() { this->SetLeafGeometry(LEAF_AUTOMATIC); }
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Memory for octrees that the pass keeps, in KiB; default 1 GiB. Those that the current frame
    * does not need go first, least recently used first, so the poses of an animated mesh are built
@@ -190,9 +190,9 @@ public:
    */
   vtkSetClampMacro(OctreeMemoryLimit, vtkIdType, 0, VTK_ID_MAX / 1024);
   vtkGetMacro(OctreeMemoryLimit, vtkIdType);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * While the user interacts (the render window's desired update rate is 1 Hz or more), build
    * octrees in the background and rasterise their surfaces until they are there. A still render
@@ -201,9 +201,9 @@ public:
   vtkSetMacro(BuildInBackground, bool);
   vtkGetMacro(BuildInBackground, bool);
   vtkBooleanMacro(BuildInBackground, bool);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Keep what was traced of each object until its own matrix, octree, level of detail or the
    * viewpoint changes; default on. The picture is the same either way.
@@ -211,61 +211,61 @@ public:
   vtkSetMacro(FrameCoherence, bool);
   vtkGetMacro(FrameCoherence, bool);
   vtkBooleanMacro(FrameCoherence, bool);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Memory for what FrameCoherence keeps, in KiB; default 512 MiB.
    */
   vtkSetClampMacro(LayerMemoryLimit, vtkIdType, 0, VTK_ID_MAX / 1024);
   vtkGetMacro(LayerMemoryLimit, vtkIdType);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Smooth the edges of traced surfaces; default off.
    */
   vtkSetMacro(AntiAliasing, bool);
   vtkGetMacro(AntiAliasing, bool);
   vtkBooleanMacro(AntiAliasing, bool);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Whether a prop casts shadows; without an answer every opaque surface does and a translucent one
    * does not.
    */
   static void SetCastShadow(bool cast, vtkProp* prop);
   static bool GetCastShadow(vtkProp* prop);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Whether a light casts shadows; without an answer every light does but a headlight and, of
    * several camera lights, all but the brightest.
    */
   static void SetCastShadow(bool cast, vtkLight* light);
   static bool GetCastShadow(vtkLight* light);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Whether shadows fall on a prop; default true.
    */
   static void SetReceiveShadow(bool receive, vtkProp* prop);
   static bool GetReceiveShadow(vtkProp* prop);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Whether a prop may be traced at all; default true. False leaves it to the rasteriser; it casts
    * and receives shadows as before.
    */
   static void SetUseSVO(bool use, vtkProp* prop);
   static bool GetUseSVO(vtkProp* prop);
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Keys behind the static helpers above. Those of props live in vtkProp::GetPropertyKeys() and are
    * not copied by vtkProp::ShallowCopy(); those of lights in vtkLight::GetInformation().
@@ -273,9 +273,9 @@ public:
   static vtkInformationIntegerKey* CAST_SHADOW();
   static vtkInformationIntegerKey* RECEIVE_SHADOW();
   static vtkInformationIntegerKey* USE_SVO();
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Wall-clock times of the last frame in seconds: finding what there is to trace (octrees that had
    * to be built included), tracing and shading, shadow buffers or rays, and handing the picture to
@@ -285,9 +285,9 @@ public:
   double GetTraceTime() const;
   double GetShadowTime() const;
   double GetPresentTime() const;
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * What the last frame took: rays from the eye, rays (or texels) from and to lights, and layers
    * (one object seen from the eye or from a light) that could not be reused.
@@ -295,9 +295,9 @@ public:
   vtkIdType GetNumberOfPrimaryRays() const;
   vtkIdType GetNumberOfShadowRays() const;
   vtkIdType GetNumberOfRetracedLayers() const;
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Actors of the last frame (parts of assemblies counted one by one): visible ones that were
    * traced, visible surfaces that were left to the rasteriser, and instances of octrees (a
@@ -306,20 +306,20 @@ public:
   int GetNumberOfTracedActors() const;
   int GetNumberOfRasterizedActors() const;
   int GetNumberOfInstances() const;
-  ///@}
+  //@}
 
-  ///@{
+  //@{
   /**
    * Memory in KiB: kept layers, and the octrees that the pass built itself.
    */
   vtkIdType GetLayerMemorySize() const;
   vtkIdType GetOctreeMemorySize() const;
-  ///@}
+  //@}
 
   void Render(const vtkRenderState* state) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
-  ///@{
+  //@{
   /**
    * How shadows fall on rasterised surfaces; called by their mappers.
    */
@@ -330,7 +330,7 @@ public:
   bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
     vtkOpenGLVertexArrayObject* VAO = nullptr) override;
   vtkMTimeType GetShaderStageMTime() override;
-  ///@}
+  //@}
 
 protected:
   vtkSVORenderPass();
