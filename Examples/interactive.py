@@ -111,7 +111,7 @@ class Room:
         self.statistics.SetVisibility(False)
 
         camera = self.renderer.GetActiveCamera()
-        camera.SetPosition(0.8, -3.6 - 0.4 * len(meshes), 1.9)
+        camera.SetPosition(0.8, -2.4 - 0.4 * len(meshes), 1.5)
         camera.SetFocalPoint(0, 0, 0.2)
         camera.SetViewUp(0, 0, 1)
 
