@@ -1,0 +1,184 @@
+// The same rays through Embree 3, where it was found (SVO_EMBREE).
+#ifndef svoEmbreeScene_h
+#define svoEmbreeScene_h
+
+#include "svoBenchmarkMesh.h"
+#include "svoRay.h"
+#include "svoView.h"
+
+#include <vector>
+
+#ifdef SVO_EMBREE
+#include <embree3/rtcore.h>
+#endif
+
+namespace svobench
+{
+#ifdef SVO_EMBREE
+class EmbreeScene
+{
+public:
+  explicit EmbreeScene(const Mesh& mesh)
+    : Device(rtcNewDevice("threads=1"))
+    , Fast(this->makeScene(mesh, RTC_SCENE_FLAG_NONE))
+    , Robust(this->makeScene(mesh, RTC_SCENE_FLAG_ROBUST))
+  {
+  }
+  ~EmbreeScene()
+  {
+    rtcReleaseScene(this->Fast);
+    rtcReleaseScene(this->Robust);
+    rtcReleaseDevice(this->Device);
+  }
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  bool available() const { return true; }
+
+  /// All tiles of a view; t is linear depth minus base. width: rays at a time, 0 for robust mode.
+  std::vector<svo::HitBlock> trace(const svo::View& view, double base, int width) const
+  {
+    const int tiles = (view.width + 7) / 8 * ((view.height + 7) / 8);
+    std::vector<svo::HitBlock> hits(tiles);
+    this->time(view, base, width, hits);
+    return hits;
+  }
+
+  void time(const svo::View& view, double base, int width, std::vector<svo::HitBlock>& hits) const
+  {
+    const int columns = (view.width + 7) / 8;
+    const glm::vec3 direction(view.direction), dx(view.directionX), dy(view.directionY);
+    for (std::size_t b = 0; b < hits.size(); ++b)
+    {
+      const float x0 = 8.0f * (b % columns) + 0.5f, y0 = 8.0f * (b / columns) + 0.5f;
+      const auto ray = [&](int i) { return direction + (x0 + i % 8) * dx + (y0 + i / 8) * dy; };
+      if (width == 8)
+      {
+        this->packets<RTCRayHit8, 8>(rtcIntersect8, view, base, ray, hits[b]);
+      }
+      else if (width == 16)
+      {
+        this->packets<RTCRayHit16, 16>(rtcIntersect16, view, base, ray, hits[b]);
+      }
+      else
+      {
+        this->single(width == 0 ? this->Robust : this->Fast, view, base, ray, hits[b]);
+      }
+    }
+  }
+
+private:
+  RTCScene makeScene(const Mesh& mesh, RTCSceneFlags flags) const
+  {
+    RTCScene scene = rtcNewScene(this->Device);
+    rtcSetSceneFlags(scene, flags);
+    RTCGeometry geometry = rtcNewGeometry(this->Device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+      RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.points.size()));
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    {
+      for (int a = 0; a < 3; ++a)
+      {
+        points[3 * i + a] = static_cast<float>(mesh.points[i][a]);
+      }
+    }
+    auto* ids = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+      RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    {
+      for (int a = 0; a < 3; ++a)
+      {
+        ids[3 * i + a] = mesh.triangles[i][a];
+      }
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    return scene;
+  }
+
+  static RTCIntersectContext coherentContext()
+  {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    return context;
+  }
+
+  template <class Directions>
+  void single(
+    RTCScene scene, const svo::View& view, double base, Directions&& ray, svo::HitBlock& hits) const
+  {
+    RTCIntersectContext context = coherentContext();
+    for (int i = 0; i < 64; ++i)
+    {
+      const glm::vec3 d = ray(i);
+      RTCRayHit r{};
+      r.ray.org_x = static_cast<float>(view.origin.x);
+      r.ray.org_y = static_cast<float>(view.origin.y);
+      r.ray.org_z = static_cast<float>(view.origin.z);
+      r.ray.dir_x = d.x;
+      r.ray.dir_y = d.y;
+      r.ray.dir_z = d.z;
+      r.ray.tnear = static_cast<float>(view.tNear);
+      r.ray.tfar = static_cast<float>(view.tFar);
+      r.ray.mask = ~0u;
+      r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(scene, &context, &r);
+      hits.t[i] = static_cast<float>(r.ray.tfar - base);
+      hits.primitive[i] = r.hit.geomID == RTC_INVALID_GEOMETRY_ID ? svo::NoPrimitive : r.hit.primID;
+    }
+  }
+
+  template <class Packet, int N, class Function, class Directions>
+  void packets(Function intersect, const svo::View& view, double base, Directions&& ray,
+    svo::HitBlock& hits) const
+  {
+    RTCIntersectContext context = coherentContext();
+    alignas(64) int valid[N];
+    std::fill_n(valid, N, -1);
+    for (int first = 0; first < 64; first += N)
+    {
+      alignas(64) Packet r{};
+      for (int i = 0; i < N; ++i)
+      {
+        const glm::vec3 d = ray(first + i);
+        r.ray.org_x[i] = static_cast<float>(view.origin.x);
+        r.ray.org_y[i] = static_cast<float>(view.origin.y);
+        r.ray.org_z[i] = static_cast<float>(view.origin.z);
+        r.ray.dir_x[i] = d.x;
+        r.ray.dir_y[i] = d.y;
+        r.ray.dir_z[i] = d.z;
+        r.ray.tnear[i] = static_cast<float>(view.tNear);
+        r.ray.tfar[i] = static_cast<float>(view.tFar);
+        r.ray.mask[i] = ~0u;
+        r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      }
+      intersect(valid, this->Fast, &context, &r);
+      for (int i = 0; i < N; ++i)
+      {
+        hits.t[first + i] = static_cast<float>(r.ray.tfar[i] - base);
+        hits.primitive[first + i] =
+          r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? svo::NoPrimitive : r.hit.primID[i];
+      }
+    }
+  }
+
+  RTCDevice Device;
+  RTCScene Fast;
+  RTCScene Robust;
+};
+#else
+class EmbreeScene
+{
+public:
+  explicit EmbreeScene(const Mesh&) {}
+  bool available() const { return false; }
+  std::vector<svo::HitBlock> trace(const svo::View&, double, int) const { return {}; }
+  void time(const svo::View&, double, int, std::vector<svo::HitBlock>&) const {}
+};
+#endif
+}
+
+#endif
