@@ -130,9 +130,9 @@ struct Scene
   int rays;
 };
 
-/// A million rays.
+/// A million rays, or every `part`-th of them.
 template <class Tracer>
-Agreement compareScenes(Tracer&& tracer)
+Agreement compareScenes(int part, Tracer&& tracer)
 {
   static const Scene scenes[] = { { makeOctree(sphere(40, 40), 10), 300000 },
     { makeOctree(torus(40, 40), 9), 300000 }, { makeOctree(soup(200, 0.3, 5), 8), 300000 },
@@ -140,8 +140,8 @@ Agreement compareScenes(Tracer&& tracer)
   Agreement agreement;
   for (const Scene& scene : scenes)
   {
-    compare(
-      scene.octree, scene.reference, scene.rays, 10 + scene.octree.level(), tracer, agreement);
+    compare(scene.octree, scene.reference, scene.rays / part, 10 + scene.octree.level(), tracer,
+      agreement);
   }
   return agreement;
 }
@@ -149,7 +149,7 @@ Agreement compareScenes(Tracer&& tracer)
 
 TEST(RayTraversal, AMillionRaysInDoubleHitTheReferencesVoxel)
 {
-  const Agreement a = compareScenes(traceDouble);
+  const Agreement a = compareScenes(1, traceDouble);
   RecordProperty("ties", a.ties);
   EXPECT_EQ(a.rays, 1000000);
   EXPECT_GT(a.hits, 300000);
@@ -159,13 +159,13 @@ TEST(RayTraversal, AMillionRaysInDoubleHitTheReferencesVoxel)
   EXPECT_LT(a.worstT, 1e-12);
 }
 
-TEST(RayTraversal, AMillionRaysInFloatHitTheReferencesVoxelButForTies)
+TEST(RayTraversal, RaysInFloatHitTheReferencesVoxelButForTies)
 {
-  const Agreement a = compareScenes(traceFloat);
+  const Agreement a = compareScenes(4, traceFloat);
   std::cout << "float: of " << a.rays << " rays " << a.ties << " named a neighbour, " << a.missTies
             << " differed on a grazing miss; depth within " << a.worstT << " of the cube\n";
   RecordProperty("ties", a.ties);
-  EXPECT_GT(a.hits, 300000);
+  EXPECT_GT(a.hits, 75000);
   EXPECT_EQ(a.wrong, 0);
   EXPECT_LT(a.worstT, 1e-5);
 }
