@@ -151,15 +151,19 @@ public:
   HWY_INLINE unsigned mask(int tileX, int tileY) const
   {
     const Tag tag;
+    HWY_ALIGN Lane at[6];
+    for (int k = 0; k < this->Count; ++k)
+    {
+      at[k] = static_cast<Lane>(4 * (this->Edges[k].u * tileX + this->Edges[k].v * tileY));
+    }
     unsigned outside = 0;
     for (std::size_t i = 0; i < 16; i += hn::MaxLanes(tag))
     {
       auto signs = hn::Zero(tag);
       for (int k = 0; k < this->Count; ++k)
       {
-        const Edge& edge = this->Edges[k];
-        const auto at = static_cast<Lane>(4 * (edge.u * tileX + edge.v * tileY));
-        signs = hn::Or(signs, hn::Add(hn::Load(tag, edge.lanes + i), hn::Set(tag, at)));
+        signs =
+          hn::Or(signs, hn::Add(hn::Load(tag, this->Edges[k].lanes + i), hn::Set(tag, at[k])));
       }
       outside |= static_cast<unsigned>(negativeLanes(tag, signs)) << i;
     }

@@ -11,7 +11,18 @@ namespace svo
 {
 namespace
 {
-constexpr int BucketBits = 12;
+constexpr int MostBucketBits = 12;
+
+/// Few enough buckets that each has some hundred records.
+int bucketBitsFor(std::size_t records)
+{
+  int bits = 3;
+  while (bits < MostBucketBits && records >> (bits + 8) != 0)
+  {
+    ++bits;
+  }
+  return bits;
+}
 
 /// Any direction across `edge`, which may be 0.
 glm::dvec3 across(const glm::dvec3& edge)
@@ -146,13 +157,8 @@ SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor&
 {
   // Scatter into buckets by the highest bits, from a few blocks of pieces so that their histograms
   // stay small; then each bucket is sorted where it lies, in the cache.
-  const int keyBits = 6 * ((level + 1) / 2 - 1);
-  const int bucketBits = std::min(keyBits, BucketBits);
-  const int shift = keyBits - bucketBits;
-  const std::size_t buckets = std::size_t(1) << bucketBits;
-  const std::size_t blocks = std::min<std::size_t>(pieces.size(), 64);
+  const std::size_t blocks = std::min<std::size_t>(pieces.size(), 32);
   const auto blockBegin = [&](std::size_t block) { return pieces.size() * block / blocks; };
-  std::vector<std::size_t> places(blocks * buckets);
   std::vector<std::size_t> blockSize(blocks);
   std::size_t total = 0;
   for (std::size_t block = 0; block < blocks; ++block)
@@ -163,6 +169,11 @@ SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor&
     }
     total += blockSize[block];
   }
+  const int keyBits = 6 * ((level + 1) / 2 - 1);
+  const int bucketBits = std::min(keyBits, bucketBitsFor(total));
+  const int shift = keyBits - bucketBits;
+  const std::size_t buckets = std::size_t(1) << bucketBits;
+  std::vector<std::size_t> places(blocks * buckets);
   const auto cost = [&](std::size_t block) { return static_cast<double>(blockSize[block]); };
   executor.run(blocks, 1, 0.02, 5e6, cost,
     [&](std::size_t first, std::size_t last)
@@ -181,18 +192,21 @@ SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor&
     });
   SortedRecords sorted;
   sorted.bucketBegin.resize(buckets + 1);
-  std::size_t sum = 0;
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    sorted.bucketBegin[(i & (buckets - 1)) + 1] += places[i];
+  }
   for (std::size_t bucket = 0; bucket < buckets; ++bucket)
   {
-    sorted.bucketBegin[bucket] = sum;
-    for (std::size_t block = 0; block < blocks; ++block)
-    {
-      const std::size_t count = places[block * buckets + bucket];
-      places[block * buckets + bucket] = sum;
-      sum += count;
-    }
+    sorted.bucketBegin[bucket + 1] += sorted.bucketBegin[bucket];
   }
-  sorted.bucketBegin[buckets] = total;
+  std::vector<std::size_t> next(sorted.bucketBegin.begin(), sorted.bucketBegin.end() - 1);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const std::size_t count = places[i];
+    places[i] = next[i & (buckets - 1)];
+    next[i & (buckets - 1)] += count;
+  }
   sorted.records = Buffer<BrickRecord>(total);
   executor.run(blocks, 1, 0.08, 2e6, cost,
     [&](std::size_t first, std::size_t last)

@@ -23,21 +23,39 @@ namespace HWY_NAMESPACE
 {
 namespace
 {
+/// A triangle's vertices, [vertex][axis].
+struct Corners
+{
+  std::int32_t at[3][3];
+
+  explicit Corners(const LatticeTriangle& t)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      this->at[i][0] = t.vertices[i].x;
+      this->at[i][1] = t.vertices[i].y;
+      this->at[i][2] = t.vertices[i].z;
+    }
+  }
+};
+
 /// The voxels, and the bricks around them, whose grown boxes touch a triangle's bounding box.
 struct Range
 {
-  glm::ivec3 first, last;           // voxels
-  glm::ivec3 firstBrick, lastBrick; // bricks
+  // Plain arrays: indexing a glm vector with a variable is a branch.
+  int first[3], last[3];           // voxels
+  int firstBrick[3], lastBrick[3]; // bricks
 
-  Range(const LatticeTriangle& t, int level)
+  Range(const Corners& corners, int level)
   {
     const std::int32_t end = (1 << level) - 1;
     for (int i = 0; i < 3; ++i)
     {
-      const auto [low, high] =
-        std::minmax({ t.vertices[0][i], t.vertices[1][i], t.vertices[2][i] });
-      this->first[i] = std::max((low - 2) >> LatticeBits, 0);
-      this->last[i] = std::min((high + 1) >> LatticeBits, end);
+      const std::int32_t a = corners.at[0][i];
+      const std::int32_t b = corners.at[1][i];
+      const std::int32_t c = corners.at[2][i];
+      this->first[i] = std::max((std::min(a, std::min(b, c)) - 2) >> LatticeBits, 0);
+      this->last[i] = std::min((std::max(a, std::max(b, c)) + 1) >> LatticeBits, end);
       this->firstBrick[i] = this->first[i] >> 2;
       this->lastBrick[i] = this->last[i] >> 2;
     }
@@ -59,17 +77,20 @@ float offsetInBrick(const LatticeTriangle& t, const glm::ivec3& brick)
 class SegmentWalker
 {
 public:
-  SegmentWalker(const LatticeTriangle& t, int level, RecordList& records)
+  SegmentWalker(const LatticeTriangle& t, const Range& within, RecordList& records)
     : Triangle(t)
     , Test(t.vertices[0], t.vertices[1], t.vertices[2])
-    , Within(t, level)
+    , Within(within)
     , Records(records)
   {
   }
 
   std::uint64_t walk()
   {
-    const glm::ivec3 &first = this->Within.first, &last = this->Within.last;
+    const int* const f = this->Within.first;
+    const int* const l = this->Within.last;
+    const glm::ivec3 first(f[0], f[1], f[2]);
+    const glm::ivec3 last(l[0], l[1], l[2]);
     int bits = 2;
     while ((last.x >> bits) - (first.x >> bits) > 1 || (last.y >> bits) - (first.y >> bits) > 1 ||
       (last.z >> bits) - (first.z >> bits) > 1)
@@ -115,8 +136,8 @@ private:
     for (int i = 0; i < 64; ++i)
     {
       const glm::ivec3 voxel = cell * 4 + cellOfIndex(i);
-      if (voxel.x <= this->Within.last.x && voxel.y <= this->Within.last.y &&
-        voxel.z <= this->Within.last.z && this->touches(voxel, 0))
+      if (voxel.x <= this->Within.last[0] && voxel.y <= this->Within.last[1] &&
+        voxel.z <= this->Within.last[2] && this->touches(voxel, 0))
       {
         mask |= 1ull << i;
         ++this->Voxels;
@@ -131,25 +152,25 @@ private:
 
   const LatticeTriangle& Triangle;
   TriangleBox<std::int64_t> Test; // no plane and 2D edges only: never beyond 64 bits
-  Range Within;
+  const Range& Within;
   RecordList& Records;
   std::uint64_t Voxels = 0;
 };
 
 /// A triangle's projection along an axis, as half planes over the voxels of tiles that are counted
-/// from `origin` (voxels). `area` is the normal's component along the axis: only its sign matters.
+/// from `firstBrick`. `area` is the normal's component along the axis: only its sign matters.
 /// Where it is 0 the projection is a segment, which a box must meet from both sides of every edge.
 template <typename Lane>
-void projectTriangle(const LatticeTriangle& t, const glm::ivec3& origin, int axis,
-  std::int64_t area, TileEdges<Lane>& edges)
+void projectTriangle(const Corners& corners, const int firstBrick[3], int axis, std::int64_t area,
+  TileEdges<Lane>& edges)
 {
   const int u = (axis + 1) % 3;
   const int v = (axis + 2) % 3;
-  const auto add = [&](std::int64_t nu, std::int64_t nv, const glm::ivec3& p)
+  const auto add = [&](std::int64_t nu, std::int64_t nv, const std::int32_t* p)
   {
     // The corner of the first voxel's grown box that lies farthest to the inside.
-    const std::int64_t pu = p[u] - origin[u] * LatticeUnits;
-    const std::int64_t pv = p[v] - origin[v] * LatticeUnits;
+    const std::int64_t pu = p[u] - firstBrick[u] * (4 * LatticeUnits);
+    const std::int64_t pv = p[v] - firstBrick[v] * (4 * LatticeUnits);
     const std::int64_t most =
       nu * ((nu > 0 ? LatticeUnits + 1 : -1) - pu) + nv * ((nv > 0 ? LatticeUnits + 1 : -1) - pv);
     const std::int64_t span = (std::abs(nu) + std::abs(nv)) * (LatticeUnits + 2);
@@ -159,8 +180,8 @@ void projectTriangle(const LatticeTriangle& t, const glm::ivec3& origin, int axi
   edges.clear();
   for (int i = 0; i < 3; ++i)
   {
-    const glm::ivec3& p = t.vertices[i];
-    const glm::ivec3& q = t.vertices[i == 2 ? 0 : i + 1];
+    const std::int32_t* const p = corners.at[i];
+    const std::int32_t* const q = corners.at[i == 2 ? 0 : i + 1];
     const std::int64_t nu = p[v] - q[v];
     const std::int64_t nv = q[u] - p[u];
     if (nu == 0 && nv == 0)
@@ -184,8 +205,10 @@ template <typename Int, typename Lane, typename EdgeLane>
 class PlaneWalker
 {
 public:
-  PlaneWalker(const LatticeTriangle& t, const Range& within, const std::int64_t normal[3])
+  PlaneWalker(const LatticeTriangle& t, const Corners& corners, const Range& within,
+    const std::int64_t normal[3])
     : Triangle(t)
+    , Vertices(corners)
     , Within(within)
     , Normal{ normal[0], normal[1], normal[2] }
     , Slab(normal, this->initialise(normal))
@@ -201,56 +224,65 @@ public:
     const int v = (w + 2) % 3;
     for (int axis = 0; axis < 3; ++axis)
     {
-      projectTriangle(
-        this->Triangle, r.firstBrick * 4, axis, this->Normal[axis], this->Shadows[axis]);
+      projectTriangle(this->Vertices, r.firstBrick, axis, this->Normal[axis], this->Shadows[axis]);
     }
+    // The plane's offset from a brick's centre.
+    const glm::dvec3& n = this->Triangle.normal;
+    const double normal[3] = { n.x, n.y, n.z };
+    const auto along = [&](int axis, int brick) { return normal[axis] * (4 * brick + 2); };
+    // Added to a key with the bits between set, one more brick carries over them.
+    const std::uint64_t axisBits = 0x1249249249249249ull;
     const int rows = r.lastBrick[v] - r.firstBrick[v] + 1;
     const int endRow = static_cast<int>(std::int64_t(rows) * (part + 1) / parts);
     std::uint64_t voxels = 0;
-    glm::ivec3 i; // the brick, counted from the first
-    for (i[v] = static_cast<int>(std::int64_t(rows) * part / parts); i[v] < endRow; ++i[v])
+    for (int y = static_cast<int>(std::int64_t(rows) * part / parts); y < endRow; ++y)
     {
       int first = 0;
       int last = r.lastBrick[u] - r.firstBrick[u];
       if (last > 3)
       {
-        this->Shadows[w].clipRow(i[v], first, last);
+        this->Shadows[w].clipRow(y, first, last);
       }
-      const std::uint64_t row = r.brickMask(tables, v, r.firstBrick[v] + i[v]);
-      const std::uint64_t rowKey = spreadBits(r.firstBrick[v] + i[v]) << v;
-      for (i[u] = first; i[u] <= last; ++i[u])
+      const int brickV = r.firstBrick[v] + y;
+      const std::uint64_t row = r.brickMask(tables, v, brickV);
+      const std::uint64_t rowKey = spreadBits(brickV) << v;
+      const double rowOffset = this->Triangle.offset - along(v, brickV);
+      for (int x = first; x <= last; ++x)
       {
-        const unsigned tile = this->Shadows[w].mask(i[u], i[v]);
-        const std::uint64_t column =
-          row & r.brickMask(tables, u, r.firstBrick[u] + i[u]) & tables.columns(w, tile);
+        const unsigned tile = this->Shadows[w].mask(x, y);
+        const int brickU = r.firstBrick[u] + x;
+        const std::uint64_t column = row & r.brickMask(tables, u, brickU) & tables.columns(w, tile);
         if (column == 0)
         {
           continue;
         }
         // A box above the inside of a projection meets the triangle where it meets its plane.
-        const bool inside = tile == 0xffffu && this->Shadows[w].contains(i[u], i[v]);
-        const std::uint64_t columnKey = rowKey | spreadBits(r.firstBrick[u] + i[u]) << u;
+        const bool inside = tile == 0xffffu && this->Shadows[w].contains(x, y);
+        const double columnOffset = rowOffset - along(u, brickU);
         int firstW, lastW;
-        Int base = this->columnBase(i, u, v, w, firstW, lastW);
-        for (i[w] = firstW; i[w] <= lastW; ++i[w], base += 4 * this->Normal[w])
+        Int base = this->columnBase(x, y, u, v, w, firstW, lastW);
+        std::uint64_t keyW = spreadBits(r.firstBrick[w] + firstW);
+        const std::uint64_t columnKey = rowKey | spreadBits(brickU) << u;
+        for (int z = firstW; z <= lastW;
+             ++z, base += 4 * this->Normal[w], keyW = ((keyW | ~axisBits) + 1) & axisBits)
         {
           if (base + this->Most < 0 || base + this->Least > this->Thickness)
           {
             continue;
           }
-          const int brickW = r.firstBrick[w] + i[w];
+          const int brickW = r.firstBrick[w] + z;
           std::uint64_t mask =
             column & r.brickMask(tables, w, brickW) & this->Slab.mask(static_cast<Lane>(base));
           if (!inside)
           {
-            mask &= tables.columns(u, this->Shadows[u].mask(i[v], i[w])) &
-              tables.columns(v, this->Shadows[v].mask(i[w], i[u]));
+            mask &= tables.columns(u, this->Shadows[u].mask(y, z)) &
+              tables.columns(v, this->Shadows[v].mask(z, x));
           }
           if (mask != 0)
           {
             voxels += __builtin_popcountll(mask);
-            records.push({ columnKey | spreadBits(brickW) << w, mask, this->Triangle.id,
-              offsetInBrick(this->Triangle, r.firstBrick + i) });
+            records.push({ columnKey | keyW << w, mask, this->Triangle.id,
+              static_cast<float>(columnOffset - along(w, brickW)) });
           }
         }
       }
@@ -269,7 +301,7 @@ private:
     for (int i = 0; i < 3; ++i)
     {
       const std::int32_t from =
-        (this->Within.firstBrick[i] << (2 + LatticeBits)) - this->Triangle.vertices[0][i];
+        (this->Within.firstBrick[i] << (2 + LatticeBits)) - this->Vertices.at[0][i];
       const std::int32_t high = n[i] > 0 ? LatticeUnits + 1 : -1;
       const std::int32_t low = n[i] > 0 ? -1 : LatticeUnits + 1;
       most += static_cast<Int>(n[i]) * (from + high);
@@ -292,13 +324,13 @@ private:
   }
 
   /// The plane's value in the first brick of a column, and the bricks it may cross there.
-  Int columnBase(const glm::ivec3& i, int u, int v, int w, int& first, int& last) const
+  Int columnBase(int x, int y, int u, int v, int w, int& first, int& last) const
   {
     const Range& r = this->Within;
     first = 0;
     last = r.lastBrick[w] - r.firstBrick[w];
-    Int base = this->Base + static_cast<Int>(this->Normal[u]) * (4 * i[u]) +
-      static_cast<Int>(this->Normal[v]) * (4 * i[v]);
+    Int base = this->Base + static_cast<Int>(this->Normal[u]) * (4 * x) +
+      static_cast<Int>(this->Normal[v]) * (4 * y);
     if (last > 3)
     {
       // 0 <= base + Most + step * i and base + Least + step * i <= Thickness, give or take one for
@@ -315,6 +347,7 @@ private:
   }
 
   const LatticeTriangle& Triangle;
+  const Corners& Vertices;
   const Range& Within;
   std::int64_t Normal[3];
   Int Base;
@@ -327,32 +360,37 @@ private:
 std::uint64_t voxelize(
   const LatticeTriangle& t, int level, RecordList& records, std::uint32_t part, std::uint32_t parts)
 {
-  const Range range(t, level);
-  const glm::ivec3 p = t.vertices[1] - t.vertices[0];
-  const glm::ivec3 q = t.vertices[2] - t.vertices[0];
+  const Corners corners(t);
+  const Range range(corners, level);
   std::int64_t normal[3];
   std::int64_t largest = 0;
+  int bricks = 0;
   for (int i = 0; i < 3; ++i)
   {
     const int u = (i + 1) % 3;
     const int v = (i + 2) % 3;
-    normal[i] = static_cast<std::int64_t>(p[u]) * q[v] - static_cast<std::int64_t>(p[v]) * q[u];
+    const std::int64_t pu = corners.at[1][u] - corners.at[0][u];
+    const std::int64_t pv = corners.at[1][v] - corners.at[0][v];
+    const std::int64_t qu = corners.at[2][u] - corners.at[0][u];
+    const std::int64_t qv = corners.at[2][v] - corners.at[0][v];
+    normal[i] = pu * qv - pv * qu;
     largest = std::max(largest, std::abs(normal[i]));
+    bricks = std::max(bricks, range.lastBrick[i] - range.firstBrick[i]);
   }
   if (largest == 0)
   {
-    return part == 0 ? SegmentWalker(t, level, records).walk() : 0;
+    return part == 0 ? SegmentWalker(t, range, records).walk() : 0;
   }
-  const glm::ivec3 bricks = range.lastBrick - range.firstBrick;
-  if (std::max({ bricks.x, bricks.y, bricks.z }) >= 1 << 8)
+  if (bricks >= 1 << 8)
   {
-    return PlaneWalker<__int128, std::int64_t, std::int64_t>(t, range, normal)
+    return PlaneWalker<__int128, std::int64_t, std::int64_t>(t, corners, range, normal)
       .walk(records, part, parts);
   }
-  return largest < 1 << 24 ? PlaneWalker<std::int64_t, std::int32_t, std::int32_t>(t, range, normal)
-                               .walk(records, part, parts)
-                           : PlaneWalker<std::int64_t, std::int64_t, std::int32_t>(t, range, normal)
-                               .walk(records, part, parts);
+  return largest < 1 << 24
+    ? PlaneWalker<std::int64_t, std::int32_t, std::int32_t>(t, corners, range, normal)
+        .walk(records, part, parts)
+    : PlaneWalker<std::int64_t, std::int64_t, std::int32_t>(t, corners, range, normal)
+        .walk(records, part, parts);
 }
 }
 }

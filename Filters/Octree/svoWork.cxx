@@ -134,8 +134,9 @@ double MeshMeasure::expectedMemory(int level) const
   const double brick = sizeof(Node) + sizeof(std::uint64_t) + sizeof(SurfaceMoment);
   const double fill = sizeof(BrickRecord) * records + brick * bricks + lists;
   const double write = (brick + 2.0 * sizeof(Node)) * bricks + 2.0 * lists;
-  constexpr double fixed = 3 << 20; // histograms and small arrays
-  return fixed + mesh + std::max({ scatter, fill, write });
+  const double histograms = std::min(records / 4096.0 + 1.0, 32.0) *
+    std::clamp(records / 128.0, 8.0, 4096.0) * sizeof(std::size_t);
+  return histograms + mesh + std::max({ scatter, fill, write });
 }
 
 bool MeshMeasure::fitsIndices(int level) const
