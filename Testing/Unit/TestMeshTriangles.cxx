@@ -74,10 +74,11 @@ TEST(MeshTriangles, PolygonsOfAnySizeKeepTheirAreaAndTheirCell)
   for (int precision : { VTK_FLOAT, VTK_DOUBLE })
   {
     const auto mesh = polygons(precision);
+    const double area = areaOf(mesh); // VTK's filter squeezes the points: before they are read
     const svo::MeshTriangles triangles(mesh);
     const svo::TriangleMesh view = triangles.view();
     ASSERT_EQ(view.triangleCount, 1u + 2 + 3 + 4 + 5 + 6 + 7);
-    EXPECT_NEAR(areaOf(view), areaOf(mesh), 1e-6);
+    EXPECT_NEAR(areaOf(view), area, 1e-6);
     for (std::size_t i = 0; i < view.triangleCount; ++i)
     {
       const double x = view.points[view.triangles[i].x].x;
