@@ -14,17 +14,27 @@ namespace
 {
 constexpr double PixelSlack = 0.01;
 constexpr double DepthSlack = 1e-5; // of the depth of the whole cube
-constexpr float CellPixels = 4.0f;  // cells up to this size are not divided any more
-constexpr int RowsPerTask = 8;      // tiles
+/// Cells up to this size are not divided any more. Smaller ones would shorten the rays a little,
+/// but cost more than that saves.
+constexpr float CellPixels = 16.0f;
+constexpr int RowsPerTask = 8; // tiles
 /// Cells that cross the eye plane are divided down to this level.
 constexpr int EyePlaneLevel = 6;
 constexpr std::size_t ManyTiles = 64;
 
-/// Homogeneous pixel coordinates and depth, as functions of octree coordinates.
+/// Homogeneous pixel coordinates, counted from the middle of the image, and depth, as functions of
+/// octree coordinates.
 struct Projection
 {
   // Columns: of x, y, z and of the cube's lower corner. Rows: pixel x w, pixel y w, w, t.
   glm::dvec4 x, y, z, corner;
+};
+
+/// A cell size: steps to the cells' lower corners, and from there to the bounds of a cell.
+struct Steps
+{
+  glm::dvec4 child[8]; // from the lower corner of the cell that is twice as wide
+  glm::dvec4 least, most;
 };
 
 /// What one cell covers.
@@ -44,12 +54,26 @@ public:
     : Nodes(octree.nodes())
     , Map(projection)
     , StopBits(stopBits)
-    , Parallel(view.parallel)
     , Intervals(intervals)
   {
     // Nearer cells first, so that they can hide what lies between them and the far side.
     this->Front = int(projection.x[3] < 0.0) | int(projection.y[3] < 0.0) << 1 |
       int(projection.z[3] < 0.0) << 2;
+    this->MiddleX = 0.5f * view.width;
+    this->MiddleY = 0.5f * view.height;
+    const glm::dvec4 zero(0.0);
+    for (int bits = 0; bits <= 2 * MaximumDepths; ++bits)
+    {
+      const double size = std::ldexp(1.0, -bits);
+      const glm::dvec4 x = size * projection.x, y = size * projection.y, z = size * projection.z;
+      Steps& steps = this->Levels[bits];
+      steps.least = glm::min(x, zero) + glm::min(y, zero) + glm::min(z, zero);
+      steps.most = glm::max(x, zero) + glm::max(y, zero) + glm::max(z, zero);
+      for (int i = 0; i < 8; ++i)
+      {
+        steps.child[i] = double(i & 1) * x + double(i >> 1 & 1) * y + double(i >> 2) * z;
+      }
+    }
   }
 
   void rows(int first, int last, float tNear, float tFar)
@@ -58,12 +82,12 @@ public:
     this->LastRow = last;
     this->Near = tNear;
     this->Far = tFar;
-    this->visit(0, glm::ivec3(0), 0);
+    this->visit(0, this->Map.corner, 0);
   }
 
 private:
-  /// The block of a node, `bits` of whose coordinates are given.
-  void visit(std::uint32_t index, const glm::ivec3& block, int bits)
+  /// The block of a node: its projected lower corner, and bits of its coordinates.
+  void visit(std::uint32_t index, const glm::dvec4& block, int bits)
   {
     const Node& node = this->Nodes[index];
     for (int g = 0; g < 8; ++g)
@@ -74,7 +98,7 @@ private:
       {
         continue;
       }
-      const glm::ivec3 half = 2 * block + glm::ivec3(group & 1, group >> 1 & 1, group >> 2);
+      const glm::dvec4 half = block + this->Levels[bits + 1].child[group];
       if (this->settle(half, bits + 1))
       {
         continue;
@@ -86,7 +110,7 @@ private:
         {
           continue;
         }
-        const glm::ivec3 quarter = 2 * half + glm::ivec3(cell & 1, cell >> 1 & 1, cell >> 2);
+        const glm::dvec4 quarter = half + this->Levels[bits + 2].child[cell];
         if (this->settle(quarter, bits + 2))
         {
           continue;
@@ -98,10 +122,10 @@ private:
   }
 
   /// True if nothing of the cell needs to be looked at more closely.
-  bool settle(const glm::ivec3& cell, int bits)
+  bool settle(const glm::dvec4& corner, int bits)
   {
     Footprint f;
-    this->project(cell, bits, f);
+    this->project(corner, bits, f);
     if (f.t1 < this->Near || f.t0 > this->Far)
     {
       return true;
@@ -161,17 +185,10 @@ private:
     return true;
   }
 
-  void project(const glm::ivec3& cell, int bits, Footprint& f) const
+  void project(const glm::dvec4& corner, int bits, Footprint& f) const
   {
-    const double size = std::ldexp(1.0, -bits);
-    const glm::dvec4 x = size * this->Map.x;
-    const glm::dvec4 y = size * this->Map.y;
-    const glm::dvec4 z = size * this->Map.z;
-    const glm::dvec4 low =
-      this->Map.corner + double(cell.x) * x + double(cell.y) * y + double(cell.z) * z;
-    const glm::dvec4 zero(0.0);
-    const glm::dvec4 least = low + glm::min(x, zero) + glm::min(y, zero) + glm::min(z, zero);
-    const glm::dvec4 most = low + glm::max(x, zero) + glm::max(y, zero) + glm::max(z, zero);
+    const glm::dvec4 least = corner + this->Levels[bits].least;
+    const glm::dvec4 most = corner + this->Levels[bits].most;
     f.t0 = static_cast<float>(least[3]);
     f.t1 = static_cast<float>(most[3]);
     f.everywhere = !(least[2] > 1e-9 * most[2]);
@@ -179,38 +196,25 @@ private:
     {
       return;
     }
-    glm::dvec2 lower, upper;
-    if (this->Parallel)
-    {
-      lower = glm::dvec2(least) / low[2];
-      upper = glm::dvec2(most) / low[2];
-    }
-    else
-    {
-      lower = glm::dvec2(std::numeric_limits<double>::max());
-      upper = -lower;
-      for (int i = 0; i < 8; ++i)
-      {
-        glm::dvec3 p(low);
-        p += i & 1 ? glm::dvec3(x) : glm::dvec3(0.0);
-        p += i & 2 ? glm::dvec3(y) : glm::dvec3(0.0);
-        p += i & 4 ? glm::dvec3(z) : glm::dvec3(0.0);
-        const glm::dvec2 pixel = glm::dvec2(p) / p.z;
-        lower = glm::min(lower, pixel);
-        upper = glm::max(upper, pixel);
-      }
-    }
-    f.x0 = static_cast<float>(lower.x - PixelSlack);
-    f.y0 = static_cast<float>(lower.y - PixelSlack);
-    f.x1 = static_cast<float>(upper.x + PixelSlack);
-    f.y1 = static_cast<float>(upper.y + PixelSlack);
+    // Bounds of x / w from bounds of x and of w: wider than the projected corners by the cell's
+    // parallax only, which is little since x is small where the middle of the image is the origin.
+    const double nearest = 1.0 / least[2];
+    const double farthest = 1.0 / most[2];
+    const auto lower = [&](int a) { return least[a] * (least[a] < 0.0 ? nearest : farthest); };
+    const auto upper = [&](int a) { return most[a] * (most[a] > 0.0 ? nearest : farthest); };
+    f.x0 = static_cast<float>(lower(0) - PixelSlack) + this->MiddleX;
+    f.y0 = static_cast<float>(lower(1) - PixelSlack) + this->MiddleY;
+    f.x1 = static_cast<float>(upper(0) + PixelSlack) + this->MiddleX;
+    f.y1 = static_cast<float>(upper(1) + PixelSlack) + this->MiddleY;
   }
 
   const Node* Nodes;
   Projection Map;
   int StopBits;
-  bool Parallel;
   TileIntervals& Intervals;
+  Steps Levels[2 * MaximumDepths + 1];
+  float MiddleX;
+  float MiddleY;
   int Front;
   int FirstRow = 0;
   int LastRow = 0;
@@ -228,8 +232,7 @@ Projection makeProjection(
   glm::dvec4* columns[4] = { &projection.x, &projection.y, &projection.z, &projection.corner };
   for (int c = 0; c < 4; ++c)
   {
-    const double w = clip[c][3];
-    *columns[c] = { 0.5 * view.width * (clip[c][0] + w), 0.5 * view.height * (clip[c][1] + w), w,
+    *columns[c] = { 0.5 * view.width * clip[c][0], 0.5 * view.height * clip[c][1], clip[c][3],
       -octreeToView[c][2] };
   }
   projection.corner += projection.x + projection.y + projection.z; // octree coordinates begin at 1
