@@ -1,0 +1,45 @@
+// The merged depth buffer of a view: for every pixel the nearest instance, where and what.
+#ifndef svoDepthBuffer_h
+#define svoDepthBuffer_h
+
+#include "svoRay.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace svo
+{
+constexpr std::uint32_t NoInstance = ~0u;
+
+/// Stored tile by tile (8x8 pixels, row by row inside), so that a tile is one stretch of memory.
+struct DepthBuffer
+{
+  int tilesX = 0;
+  int tilesY = 0;
+  std::vector<float> t; // linear depth minus the base of the winning instance
+  std::vector<std::uint32_t> instance;
+  std::vector<Primitive> primitive;
+  std::vector<std::uint8_t> hit; // per tile: some pixel of it has an instance; else its pixels are
+                                 // not written at all
+
+  void resize(int width, int height)
+  {
+    this->tilesX = (width + 7) / 8;
+    this->tilesY = (height + 7) / 8;
+    const std::size_t tiles = this->tiles();
+    this->t.resize(64 * tiles);
+    this->instance.resize(64 * tiles);
+    this->primitive.resize(64 * tiles);
+    this->hit.assign(tiles, 0);
+  }
+  std::size_t tiles() const { return static_cast<std::size_t>(this->tilesX) * this->tilesY; }
+  std::size_t at(int x, int y) const
+  {
+    return 64 * (static_cast<std::size_t>(y >> 3) * this->tilesX + (x >> 3)) + 8 * (y & 7) +
+      (x & 7);
+  }
+};
+}
+
+#endif

@@ -1,0 +1,291 @@
+#include "svoLayeredView.h"
+
+#include "svoIntersect.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+namespace svo
+{
+DepthLayer::DepthLayer(const PixelRect& r)
+  : rect(r)
+{
+  const std::size_t tiles = static_cast<std::size_t>((r.x1 - r.x0) / 8) * ((r.y1 - r.y0) / 8);
+  this->traced.resize(tiles);
+  this->t.resize(64 * tiles);
+  this->primitive.resize(64 * tiles);
+}
+
+bool sameRays(const View& a, const View& b)
+{
+  return a.origin == b.origin && a.originX == b.originX && a.originY == b.originY &&
+    a.direction == b.direction && a.directionX == b.directionX && a.directionY == b.directionY &&
+    a.tNear == b.tNear && a.tFar == b.tFar && a.width == b.width && a.height == b.height;
+}
+
+void LayeredView::release()
+{
+  this->Layers.clear();
+  this->Memory = 0;
+}
+
+void LayeredView::prepare(const Scene& scene, const View& view, bool keep, std::size_t memoryLimit)
+{
+  this->Bases.assign(scene.instances.size(), 0.0);
+  this->Levels.assign(scene.instances.size(), 0);
+  if (!keep || !sameRays(view, this->Of))
+  {
+    this->release();
+  }
+  this->Of = view;
+  for (auto& kept : this->Layers)
+  {
+    kept.second.used = false;
+  }
+  for (Entry& entry : this->Instances)
+  {
+    this->Bases[entry.index] = entry.local.base;
+    this->Levels[entry.index] = entry.key.level;
+    if (!keep)
+    {
+      continue;
+    }
+    const auto found = this->Layers.find(entry.id);
+    if (found == this->Layers.end() || !(found->second.key == entry.key) || found->second.used)
+    {
+      // New or changed: only remembered. It gets a layer once it has stood still for a frame.
+      if (found == this->Layers.end() || !found->second.used)
+      {
+        Kept& kept = this->Layers[entry.id];
+        this->Memory -= kept.layer ? kept.layer->bytes() : 0;
+        kept.key = entry.key;
+        kept.layer.reset();
+        kept.used = true;
+      }
+      continue;
+    }
+    Kept& kept = found->second;
+    kept.used = true;
+    if (!kept.layer)
+    {
+      auto layer = std::make_unique<DepthLayer>(entry.local.rect);
+      if (this->Memory + layer->bytes() <= memoryLimit)
+      {
+        this->Memory += layer->bytes();
+        kept.layer = std::move(layer);
+      }
+    }
+    entry.layer = kept.layer.get();
+  }
+  for (auto kept = this->Layers.begin(); kept != this->Layers.end();)
+  {
+    if (kept->second.used)
+    {
+      ++kept;
+      continue;
+    }
+    this->Memory -= kept->second.layer ? kept->second.layer->bytes() : 0;
+    kept = this->Layers.erase(kept);
+  }
+  // Kept layers first: they cost nothing and cut the others' rays. Then front to back.
+  std::stable_sort(this->Instances.begin(), this->Instances.end(),
+    [](const Entry& a, const Entry& b)
+    {
+      return (a.layer != nullptr) != (b.layer != nullptr) ? a.layer != nullptr
+                                                          : a.local.base < b.local.base;
+    });
+}
+
+void LayeredView::traceTile(int tileX, int tileY, std::vector<std::uint64_t>& rays)
+{
+  const int x0 = 8 * tileX;
+  const int y0 = 8 * tileY;
+  const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
+  float* t = this->Merged.t.data() + 64 * tile;
+  std::uint32_t* winner = this->Merged.instance.data() + 64 * tile;
+  Primitive* primitive = this->Merged.primitive.data() + 64 * tile;
+  RayBlock block;
+  HitBlock found;
+  bool any = false;
+  for (std::size_t e = 0; e < this->Instances.size(); ++e)
+  {
+    Entry& entry = this->Instances[e];
+    const PixelRect& rect = entry.local.rect;
+    if (x0 < rect.x0 || x0 >= rect.x1 || y0 < rect.y0 || y0 >= rect.y1)
+    {
+      continue;
+    }
+    const float* layerT = found.t;
+    const Primitive* layerPrimitive = found.primitive;
+    const TraceOptions options{ entry.key.leafGeometry, entry.key.level };
+    if (entry.layer)
+    {
+      const std::size_t k =
+        static_cast<std::size_t>((y0 - rect.y0) / 8) * ((rect.x1 - rect.x0) / 8) +
+        (x0 - rect.x0) / 8;
+      float* keptT = entry.layer->t.data() + 64 * k;
+      Primitive* keptPrimitive = entry.layer->primitive.data() + 64 * k;
+      if (!entry.layer->traced[k])
+      {
+        entry.layer->traced[k] = 1;
+        const std::size_t i = entry.layer->intervals.index(tileX, tileY);
+        const float tNear = entry.layer->intervals.tNear[i];
+        const float tFar = std::min(entry.layer->intervals.tFar[i], entry.local.tMax);
+        if (tNear <= tFar)
+        {
+          entry.local.fill(x0, y0, block);
+          std::fill(block.tMin, block.tMin + 64, std::max(tNear, 0.0f));
+          std::fill(block.tMax, block.tMax + 64, tFar);
+          intersect(*entry.octree, block, options, found);
+          std::copy(found.t, found.t + 64, keptT);
+          std::copy(found.primitive, found.primitive + 64, keptPrimitive);
+          rays[e] += 64;
+        }
+        else
+        {
+          std::fill(keptPrimitive, keptPrimitive + 64, NoPrimitive);
+        }
+      }
+      layerT = keptT;
+      layerPrimitive = keptPrimitive;
+    }
+    else
+    {
+      const std::size_t k = entry.intervals.index(tileX, tileY);
+      const float tNear = std::max(entry.intervals.tNear[k], 0.0f);
+      const float tFar = std::min(entry.intervals.tFar[k], entry.local.tMax);
+      if (!(tNear <= tFar))
+      {
+        continue;
+      }
+      std::fill(block.tMin, block.tMin + 64, tNear);
+      std::fill(block.tMax, block.tMax + 64, tFar);
+      if (any)
+      {
+        // A ray need not go beyond what is merged; a tie must survive the rounding. Plane leaves
+        // answer a ray that found nothing to its end with the first cell that refused it, so there
+        // a ray is either not traced or traced to its own end.
+        const bool cuts = options.leafGeometry == LeafGeometry::Voxel ||
+          options.leafGeometry == LeafGeometry::Triangle;
+        bool alive = false;
+        for (int i = 0; i < 64; ++i)
+        {
+          if (winner[i] != NoInstance)
+          {
+            const double cut = this->Bases[winner[i]] + t[i] - entry.local.base;
+            if (cuts || cut < tNear)
+            {
+              block.tMax[i] = std::min(block.tMax[i], roundUp(cut));
+            }
+          }
+          alive = alive || block.tMax[i] >= tNear;
+        }
+        if (!alive)
+        {
+          continue;
+        }
+      }
+      entry.local.fill(x0, y0, block);
+      intersect(*entry.octree, block, options, found);
+      rays[e] += 64;
+    }
+    if (!any)
+    {
+      bool hit = false;
+      for (int i = 0; i < 64; ++i)
+      {
+        hit = hit || layerPrimitive[i] != NoPrimitive;
+      }
+      if (!hit)
+      {
+        continue;
+      }
+      any = true;
+      for (int i = 0; i < 64; ++i)
+      {
+        t[i] = layerT[i];
+        primitive[i] = layerPrimitive[i];
+        winner[i] = layerPrimitive[i] != NoPrimitive ? entry.index : NoInstance;
+      }
+      continue;
+    }
+    // min(t), the smaller index where equal: any order of merging gives the same buffer. A NaN
+    // compares false and never wins.
+    for (int i = 0; i < 64; ++i)
+    {
+      if (layerPrimitive[i] == NoPrimitive)
+      {
+        continue;
+      }
+      const double mine = entry.local.base + layerT[i];
+      const double other = winner[i] != NoInstance ? this->Bases[winner[i]] + t[i] : 0.0;
+      if (winner[i] == NoInstance || mine < other || (mine == other && entry.index < winner[i]))
+      {
+        t[i] = layerT[i];
+        primitive[i] = layerPrimitive[i];
+        winner[i] = entry.index;
+      }
+    }
+  }
+  this->Merged.hit[tile] = any;
+}
+
+void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* wanted)
+{
+  this->Merged.resize(this->Of.width, this->Of.height);
+  this->Rays = 0;
+  this->Retraced = 0;
+  PixelRect all{ this->Of.width, this->Of.height, 0, 0 };
+  for (const Entry& entry : this->Instances)
+  {
+    const PixelRect& r = entry.local.rect;
+    all = { std::min(all.x0, r.x0), std::min(all.y0, r.y0), std::max(all.x1, r.x1),
+      std::max(all.y1, r.y1) };
+  }
+  if (all.empty())
+  {
+    return;
+  }
+  for (Entry& entry : this->Instances)
+  {
+    TileIntervals& intervals = entry.layer ? entry.layer->intervals : entry.intervals;
+    if (intervals.tNear.empty())
+    {
+      computeTileIntervals(*entry.octree, entry.key.localToWorld, this->Of, entry.local.rect,
+        { entry.key.leafGeometry, entry.key.level }, entry.local.base, parallelFor, intervals);
+    }
+  }
+  const int tx0 = all.x0 / 8;
+  const int tx1 = (all.x1 + 7) / 8;
+  const int ty0 = all.y0 / 8;
+  const int ty1 = (all.y1 + 7) / 8;
+  const std::size_t columns = tx1 - tx0;
+  std::vector<std::uint64_t> rays(this->Instances.size());
+  std::mutex raysMutex;
+  parallelFor(0, columns * (ty1 - ty0), std::max<std::size_t>(columns / 2, 16),
+    [&](std::size_t first, std::size_t last)
+    {
+      std::vector<std::uint64_t> mine(this->Instances.size());
+      for (std::size_t k = first; k < last; ++k)
+      {
+        const int tileX = tx0 + static_cast<int>(k % columns);
+        const int tileY = ty0 + static_cast<int>(k / columns);
+        if (!wanted || wanted[static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX])
+        {
+          this->traceTile(tileX, tileY, mine);
+        }
+      }
+      const std::lock_guard<std::mutex> lock(raysMutex);
+      for (std::size_t e = 0; e < mine.size(); ++e)
+      {
+        rays[e] += mine[e];
+      }
+    });
+  for (std::uint64_t r : rays)
+  {
+    this->Rays += r;
+    this->Retraced += r > 0;
+  }
+}
+}

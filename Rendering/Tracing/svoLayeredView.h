@@ -1,0 +1,131 @@
+// The depth layers of one view, one per instance, merged into a depth buffer; kept from frame to
+// frame where nothing changed.
+#ifndef svoLayeredView_h
+#define svoLayeredView_h
+
+#include "svoDepthBuffer.h"
+#include "svoLocalView.h"
+#include "svoParallel.h"
+#include "svoScene.h"
+#include "svoTileIntervals.h"
+
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace svo
+{
+/// What an instance looks like to a view. Equal keys give equal layers, bit for bit.
+struct LayerKey
+{
+  const void* octree = nullptr;
+  glm::dmat4 localToWorld{ 1.0 };
+  LeafGeometry leafGeometry = LeafGeometry::Automatic;
+  int level = 0;
+
+  bool operator==(const LayerKey& other) const
+  {
+    return octree == other.octree && localToWorld == other.localToWorld &&
+      leafGeometry == other.leafGeometry && level == other.level;
+  }
+};
+
+/// A kept depth layer: the tiles of an instance's rectangle that somebody asked for so far.
+struct DepthLayer
+{
+  PixelRect rect;
+  std::vector<std::uint8_t> traced; // per tile of rect
+  std::vector<float> t;             // 64 per tile
+  std::vector<Primitive> primitive;
+  TileIntervals intervals; // of rect
+
+  explicit DepthLayer(const PixelRect& r);
+  std::size_t bytes() const
+  {
+    return this->traced.size() + this->t.size() * sizeof(float) +
+      this->primitive.size() * sizeof(Primitive);
+  }
+};
+
+class LayeredView
+{
+public:
+  /// Prepares a frame: folds the view into every instance that `takesPart`, picks levels, and
+  /// keeps the layers that are still true. Returns false if no instance can be seen.
+  /// `levelOf` gives the octree level of an instance's rays.
+  template <class TakesPart, class LevelOf>
+  bool begin(const Scene& scene, const View& view, TakesPart takesPart, LevelOf levelOf, bool keep,
+    std::size_t memoryLimit)
+  {
+    this->Instances.clear();
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+    {
+      const Instance& instance = scene.instances[i];
+      if (!takesPart(instance) || instance.octree.empty())
+      {
+        continue;
+      }
+      const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
+      if (!local.rect.empty())
+      {
+        this->Instances.push_back({ i, instance.id, &instance.octree, local,
+          { instance.octree.key(), instance.localToWorld, instance.leafGeometry,
+            levelOf(instance, local) },
+          nullptr, {} });
+      }
+    }
+    this->prepare(scene, view, keep, memoryLimit);
+    return !this->Instances.empty();
+  }
+
+  /// Traces and merges. With `wanted` (one byte a tile) only tiles marked there; a tile that is not
+  /// wanted is left without hits.
+  void trace(const ParallelFor& parallelFor, const std::uint8_t* wanted);
+
+  const DepthBuffer& depthBuffer() const { return this->Merged; }
+  /// Base of an instance's t, by index into Scene::instances.
+  double base(std::uint32_t instance) const { return this->Bases[instance]; }
+  int level(std::uint32_t instance) const { return this->Levels[instance]; }
+  std::uint64_t rays() const { return this->Rays; }
+  std::uint64_t retracedLayers() const { return this->Retraced; }
+  std::size_t layerMemory() const { return this->Memory; }
+  void release();
+
+private:
+  struct Entry
+  {
+    std::uint32_t index; // in Scene::instances
+    std::uint64_t id;
+    const Octree* octree;
+    LocalView local;
+    LayerKey key;
+    DepthLayer* layer;       // kept, or null: traced for this frame alone, cut at what is merged
+    TileIntervals intervals; // where there is no layer
+  };
+  struct Kept
+  {
+    LayerKey key;
+    std::unique_ptr<DepthLayer> layer; // from the second frame without a change on
+    bool used = false;
+  };
+
+  void prepare(const Scene& scene, const View& view, bool keep, std::size_t memoryLimit);
+  void traceTile(int tileX, int tileY, std::vector<std::uint64_t>& rays);
+
+  View Of;
+  std::vector<Entry> Instances; // front to back
+  std::vector<double> Bases;
+  std::vector<int> Levels;
+  std::unordered_map<std::uint64_t, Kept> Layers; // by Instance::id
+  DepthBuffer Merged;
+  std::uint64_t Rays = 0;
+  std::uint64_t Retraced = 0;
+  std::size_t Memory = 0;
+};
+
+/// True if the two views have the same rays.
+bool sameRays(const View& a, const View& b);
+}
+
+#endif

@@ -1,0 +1,203 @@
+#include "svoLightView.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace svo
+{
+namespace
+{
+std::vector<glm::dvec3> casterCorners(const Scene& scene)
+{
+  std::vector<glm::dvec3> corners;
+  for (const Instance& instance : scene.instances)
+  {
+    if (!instance.castShadow || instance.octree.empty())
+    {
+      continue;
+    }
+    const Header& h = instance.octree.header();
+    const double edge = h.voxelSize * static_cast<double>(1u << h.level);
+    glm::dvec3 low(h.origin[0], h.origin[1], h.origin[2]);
+    glm::dvec3 high = low + edge;
+    // The mesh is in the middle of the cube; its own box is tighter where it is known.
+    if (h.meshBounds[0] <= h.meshBounds[1] && h.pointCount > 0)
+    {
+      const double margin = h.voxelSize;
+      low = glm::max(low, glm::dvec3(h.meshBounds[0], h.meshBounds[2], h.meshBounds[4]) - margin);
+      high = glm::min(high, glm::dvec3(h.meshBounds[1], h.meshBounds[3], h.meshBounds[5]) + margin);
+    }
+    for (int i = 0; i < 8; ++i)
+    {
+      const glm::dvec4 corner(
+        i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z, 1.0);
+      corners.emplace_back(instance.localToWorld * corner);
+    }
+  }
+  return corners;
+}
+
+/// World -> a view at `eye` that looks along `direction`.
+glm::dmat4 lookAlong(const glm::dvec3& eye, const glm::dvec3& direction)
+{
+  // The axis least along the direction, so that the frame does not spin with it.
+  const glm::dvec3 a = glm::abs(direction);
+  const glm::dvec3 up = a.y <= a.x && a.y <= a.z ? glm::dvec3(0, 1, 0)
+    : a.z <= a.x                                 ? glm::dvec3(0, 0, 1)
+                                                 : glm::dvec3(1, 0, 0);
+  const glm::dvec3 right = glm::normalize(glm::cross(direction, up));
+  const glm::dvec3 above = glm::cross(right, direction);
+  glm::dmat4 m(1.0);
+  for (int i = 0; i < 3; ++i)
+  {
+    m[i] = glm::dvec4(right[i], above[i], -direction[i], 0.0);
+  }
+  m[3] = glm::dvec4(-glm::dot(right, eye), -glm::dot(above, eye), glm::dot(direction, eye), 1.0);
+  return m;
+}
+
+struct Box
+{
+  glm::dvec3 low{ std::numeric_limits<double>::infinity() };
+  glm::dvec3 high{ -std::numeric_limits<double>::infinity() };
+  void add(const glm::dvec3& p)
+  {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+};
+
+void add(std::vector<View>& views, const glm::dmat4& worldToView, const glm::dmat4& viewToClip,
+  int resolution)
+{
+  View view;
+  if (makeView(worldToView, viewToClip, resolution, resolution, view))
+  {
+    views.push_back(view);
+  }
+}
+
+std::vector<View> fitDirectional(
+  const std::vector<glm::dvec3>& corners, const glm::dvec3& direction, int resolution)
+{
+  Box world;
+  for (const glm::dvec3& p : corners)
+  {
+    world.add(p);
+  }
+  const glm::dmat4 toView = lookAlong(0.5 * (world.low + world.high), direction);
+  Box box;
+  for (const glm::dvec3& p : corners)
+  {
+    box.add(glm::dvec3(toView * glm::dvec4(p, 1.0)));
+  }
+  // A texel of margin, so that casters never touch the border.
+  const glm::dvec3 size =
+    glm::max(box.high - box.low, glm::dvec3(1e-9 * glm::length(box.high - box.low)));
+  const glm::dvec3 margin = size / static_cast<double>(std::max(resolution - 2, 1));
+  std::vector<View> views;
+  add(views, toView,
+    glm::ortho(box.low.x - margin.x, box.high.x + margin.x, box.low.y - margin.y,
+      box.high.y + margin.y, -(box.high.z + margin.z), -(box.low.z - margin.z)),
+    resolution);
+  return views;
+}
+
+std::vector<View> sixFaces(const glm::dvec3& position, double farthest, int resolution)
+{
+  std::vector<View> views;
+  for (int i = 0; i < 6; ++i)
+  {
+    glm::dvec3 direction(0.0);
+    direction[i / 2] = i % 2 ? -1.0 : 1.0;
+    const double n = 1e-4 * farthest;
+    add(views, lookAlong(position, direction), glm::frustum(-n, n, -n, n, n, farthest), resolution);
+  }
+  return views;
+}
+
+std::vector<View> fitPositional(
+  const std::vector<glm::dvec3>& corners, const Light& light, int resolution)
+{
+  const bool spot = light.kind == Light::Kind::Spot && light.coneAngle < 60.0;
+  glm::dvec3 axis(0.0);
+  double farthest = 0.0;
+  for (const glm::dvec3& p : corners)
+  {
+    const double distance = glm::length(p - light.position);
+    farthest = std::max(farthest, distance);
+    axis += distance > 0.0 ? (p - light.position) / distance : glm::dvec3(0.0);
+  }
+  farthest *= 1.001;
+  if (!(farthest > 0.0))
+  {
+    return {};
+  }
+  if (spot)
+  {
+    axis = light.direction;
+  }
+  const double length = glm::length(axis);
+  if (!(length > 1e-9))
+  {
+    return sixFaces(light.position, farthest, resolution);
+  }
+  axis /= length;
+  const glm::dmat4 toView = lookAlong(light.position, axis);
+  Box slopes;
+  double nearest = farthest;
+  bool wide = false;
+  for (const glm::dvec3& p : corners)
+  {
+    const glm::dvec3 v(toView * glm::dvec4(p, 1.0));
+    if (!(-v.z > 0.5 * glm::length(v)))
+    {
+      wide = true; // beyond 60 degrees
+      continue;
+    }
+    slopes.add(glm::dvec3(v.x / -v.z, v.y / -v.z, 0.0));
+    nearest = std::min(nearest, -v.z);
+  }
+  if (wide && !spot)
+  {
+    return sixFaces(light.position, farthest, resolution);
+  }
+  nearest = wide ? 1e-4 * farthest : std::max(0.999 * nearest, 1e-4 * farthest);
+  if (spot)
+  {
+    const double reach = std::tan(glm::radians(light.coneAngle)) * 1.001 + 1e-6;
+    if (wide)
+    {
+      slopes.low = glm::dvec3(-reach);
+      slopes.high = glm::dvec3(reach);
+    }
+    slopes.low = glm::clamp(slopes.low, -reach, reach);
+    slopes.high = glm::clamp(slopes.high, -reach, reach);
+  }
+  const glm::dvec3 size = glm::max(slopes.high - slopes.low, glm::dvec3(1e-9));
+  const glm::dvec3 margin = size / static_cast<double>(std::max(resolution - 2, 1));
+  const glm::dvec3 low = (slopes.low - margin) * nearest;
+  const glm::dvec3 high = (slopes.high + margin) * nearest;
+  std::vector<View> views;
+  add(views, toView, glm::frustum(low.x, high.x, low.y, high.y, nearest, farthest), resolution);
+  return views;
+}
+}
+
+std::vector<View> fitLight(const Scene& scene, const Light& light, int resolution)
+{
+  const std::vector<glm::dvec3> corners = casterCorners(scene);
+  if (corners.empty() || resolution < 1)
+  {
+    return {};
+  }
+  return light.kind == Light::Kind::Directional
+    ? fitDirectional(corners, light.direction, resolution)
+    : fitPositional(corners, light, resolution);
+}
+}

@@ -1,0 +1,17 @@
+// The views of a light: what its shadow buffer is traced through.
+#ifndef svoLightView_h
+#define svoLightView_h
+
+#include "svoScene.h"
+#include "svoView.h"
+
+#include <vector>
+
+namespace svo
+{
+/// Views of `resolution`^2 texels fitted to the corners of the casters' cubes; none if nothing
+/// casts. One for directional lights and for casters within 120 degrees, else six.
+std::vector<View> fitLight(const Scene& scene, const Light& light, int resolution);
+}
+
+#endif

@@ -1,0 +1,74 @@
+// How deep an instance is traced in a view: no deeper than its pixels can show.
+#ifndef svoSelect_h
+#define svoSelect_h
+
+#include "svoLocalView.h"
+#include "svoScene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace svo
+{
+/// Longest edge of a voxel of the octree's last level, in the world.
+inline double worldVoxel(const Instance& instance)
+{
+  double scale = 0.0;
+  for (int c = 0; c < 3; ++c)
+  {
+    scale = std::max(scale, glm::length(glm::dvec3(instance.localToWorld[c])));
+  }
+  return scale * instance.octree.header().voxelSize;
+}
+
+/// Edge of the smaller side of a pixel, in the world, at linear depth t.
+inline double worldPixel(const View& view, double t)
+{
+  return std::min(glm::length(view.originX + t * view.directionX),
+    glm::length(view.originY + t * view.directionY));
+}
+
+/// The coarsest octree level whose voxels, seen at the nearest point of the octree's cube, are at
+/// most `pixelError` pixels long; the octree's last level if none is, or if pixelError is 0.
+inline int selectLevel(
+  const Instance& instance, const LocalView& local, const View& view, double pixelError)
+{
+  const int last = instance.octree.level();
+  const double allowed = pixelError * worldPixel(view, local.base);
+  double voxel = worldVoxel(instance);
+  if (!(pixelError > 0.0) || !(allowed > 0.0) || !(voxel > 0.0))
+  {
+    return last;
+  }
+  int level = last;
+  while (level > 1 && 2.0 * voxel <= allowed)
+  {
+    voxel *= 2.0;
+    --level;
+  }
+  return level;
+}
+
+/// How far a leaf of the given geometry can lie from the surface it stands for, in voxels of the
+/// level that rays stop at.
+inline double leafError(const Instance& instance, int level)
+{
+  const bool coarse = level < instance.octree.level() - 2;
+  switch (instance.leafGeometry)
+  {
+    case LeafGeometry::Voxel:
+      return 1.75; // the diagonal of a cube, and what the builder adds
+    case LeafGeometry::Plane:
+      return 1.0;
+    case LeafGeometry::Triangle:
+      return coarse ? 1.0 : 0.0;
+    case LeafGeometry::Automatic:
+      return coarse ? 1.0 : 0.25;
+  }
+  return 1.0;
+}
+}
+
+#endif

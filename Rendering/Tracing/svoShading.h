@@ -1,0 +1,84 @@
+// VTK's lighting of surfaces without textures and PBR, as its OpenGL shaders compute it.
+#ifndef svoShading_h
+#define svoShading_h
+
+#include "svoScene.h"
+#include "svoView.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace svo
+{
+/// A light in view space.
+struct ViewLight
+{
+  glm::vec3 direction; // unit, the way it shines
+  glm::vec3 position;
+  const Light* light;
+  float coneCosine;
+};
+
+inline ViewLight makeViewLight(const Light& light, const View& view)
+{
+  const glm::dmat3 rotation(view.worldToView);
+  return { glm::vec3(rotation * light.direction),
+    glm::vec3(view.worldToView * glm::dvec4(light.position, 1.0)), &light,
+    static_cast<float>(std::cos(glm::radians(light.coneAngle))) };
+}
+
+/// Diffuse and specular light that arrives at a point, before any shadow.
+struct Arriving
+{
+  glm::vec3 diffuse;
+  float specular; // times the light's colour
+};
+
+/// `normal` and `position` in view space. `onlyHeadlight`: the scene's one light is a headlight,
+/// for which VTK has a shorter formula with another highlight.
+inline Arriving arriving(const ViewLight& l, const glm::vec3& normal, const glm::vec3& position,
+  const Material& material, bool onlyHeadlight)
+{
+  const bool shines = material.specular > 0.0f;
+  if (onlyHeadlight)
+  {
+    const float df = std::max(0.0f, normal.z);
+    return { df * l.light->color, shines ? std::pow(df, material.specularPower) : 0.0f };
+  }
+  glm::vec3 direction = l.direction;
+  float attenuation = 1.0f;
+  if (l.light->kind != Light::Kind::Directional)
+  {
+    direction = position - l.position;
+    const float distance = glm::length(direction);
+    direction = distance > 0.0f ? direction / distance : l.direction;
+    const glm::vec3& a = l.light->attenuation;
+    attenuation = 1.0f / (a.x + a.y * distance + a.z * distance * distance);
+    if (l.light->kind == Light::Kind::Spot)
+    {
+      const float coneDot = glm::dot(direction, l.direction);
+      attenuation = coneDot >= l.coneCosine
+        ? attenuation * std::pow(coneDot, static_cast<float>(l.light->exponent))
+        : 0.0f;
+    }
+  }
+  const float df = std::max(0.0f, attenuation * glm::dot(normal, -direction));
+  float sf = 0.0f;
+  if (shines && df > 0.0f)
+  {
+    const float length = glm::length(position);
+    const glm::vec3 towards = length > 0.0f ? -position / length : glm::vec3(0.0f, 0.0f, 1.0f);
+    sf = attenuation *
+      std::pow(
+        std::max(0.0f, glm::dot(glm::reflect(direction, normal), towards)), material.specularPower);
+  }
+  return { df * l.light->color, sf };
+}
+}
+
+#endif

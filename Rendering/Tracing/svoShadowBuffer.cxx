@@ -1,0 +1,233 @@
+#include "svoShadowBuffer.h"
+
+#include "svoLightView.h"
+#include "svoSelect.h"
+
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+namespace svo
+{
+void ShadowBuffer::begin(const Scene& scene, const Light& light, const FrameSettings& settings)
+{
+  const std::vector<View> views = fitLight(scene, light, settings.shadowResolution);
+  this->AutomaticBias = settings.automaticBias;
+  this->Bias = settings.bias;
+  if (this->Faces.size() != views.size())
+  {
+    this->Faces.clear();
+    for (std::size_t i = 0; i < views.size(); ++i)
+    {
+      this->Faces.push_back(std::make_unique<Face>());
+    }
+  }
+  this->CasterVoxel.assign(scene.instances.size(), 0.0);
+  this->CasterError.assign(scene.instances.size(), 0.0);
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    Face& face = *this->Faces[i];
+    face.view = views[i];
+    face.seesCasters = face.layers.begin(
+      scene, face.view, [](const Instance& instance) { return instance.castShadow; },
+      [&](const Instance& instance, const LocalView& local)
+      { return selectLevel(instance, local, face.view, settings.pixelError); },
+      settings.frameCoherence, settings.layerMemoryLimit);
+    for (std::size_t k = 0; k < scene.instances.size(); ++k)
+    {
+      const Instance& instance = scene.instances[k];
+      const int level = face.layers.level(static_cast<std::uint32_t>(k));
+      if (instance.castShadow && level > 0)
+      {
+        const double voxel = std::ldexp(worldVoxel(instance), instance.octree.level() - level);
+        this->CasterVoxel[k] = std::max(this->CasterVoxel[k], voxel);
+        this->CasterError[k] = std::max(this->CasterError[k], voxel * leafError(instance, level));
+      }
+    }
+    const std::size_t tilesAcross = (face.view.width + 7) / 8;
+    const std::size_t tiles = tilesAcross * ((face.view.height + 7) / 8);
+    if (face.wanted.size() != tiles)
+    {
+      face.wanted = std::vector<std::atomic<std::uint8_t>>(tiles);
+    }
+    for (auto& tile : face.wanted)
+    {
+      tile.store(0, std::memory_order_relaxed);
+    }
+  }
+}
+
+bool ShadowBuffer::lookUp(
+  const glm::dvec3& position, const Face*& face, glm::ivec2& texel, double& t) const
+{
+  for (const auto& candidate : this->Faces)
+  {
+    const View& view = candidate->view;
+    const glm::dvec4 v = view.worldToView * glm::dvec4(position, 1.0);
+    const glm::dvec4 clip = view.viewToClip * v;
+    if (!(clip.w > 0.0) || !(std::abs(clip.x) < clip.w) || !(std::abs(clip.y) < clip.w))
+    {
+      continue;
+    }
+    texel.x = static_cast<int>((clip.x / clip.w + 1.0) * 0.5 * view.width);
+    texel.y = static_cast<int>((clip.y / clip.w + 1.0) * 0.5 * view.height);
+    texel = glm::clamp(texel, glm::ivec2(0), glm::ivec2(view.width - 1, view.height - 1));
+    t = -v.z;
+    face = candidate.get();
+    return face->seesCasters;
+  }
+  return false;
+}
+
+void ShadowBuffer::mark(const glm::dvec3& position)
+{
+  const Face* face = nullptr;
+  glm::ivec2 texel;
+  double t;
+  if (this->lookUp(position, face, texel, t))
+  {
+    const std::size_t tile =
+      static_cast<std::size_t>(texel.y >> 3) * ((face->view.width + 7) / 8) + (texel.x >> 3);
+    auto& wanted = const_cast<Face*>(face)->wanted[tile];
+    if (!wanted.load(std::memory_order_relaxed))
+    {
+      wanted.store(1, std::memory_order_relaxed);
+    }
+  }
+}
+
+void ShadowBuffer::markAll()
+{
+  for (auto& face : this->Faces)
+  {
+    for (auto& tile : face->wanted)
+    {
+      tile.store(1, std::memory_order_relaxed);
+    }
+  }
+}
+
+void ShadowBuffer::trace(const ParallelFor& parallelFor)
+{
+  for (auto& face : this->Faces)
+  {
+    std::vector<std::uint8_t> wanted(face->wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+    {
+      wanted[i] = face->wanted[i].load(std::memory_order_relaxed);
+    }
+    face->layers.trace(parallelFor, wanted.data());
+  }
+}
+
+bool ShadowBuffer::shadows(const glm::dvec3& position, const glm::vec3& facet) const
+{
+  const Face* face = nullptr;
+  glm::ivec2 texel;
+  double t;
+  if (!this->lookUp(position, face, texel, t))
+  {
+    return false;
+  }
+  const DepthBuffer& depth = face->layers.depthBuffer();
+  const std::size_t at = depth.at(texel.x, texel.y);
+  if (!depth.hit[at >> 6] || depth.instance[at] == NoInstance)
+  {
+    return false;
+  }
+  const std::uint32_t caster = depth.instance[at];
+  const double occluder = face->layers.base(caster) + depth.t[at];
+  double bias = this->Bias * this->CasterVoxel[caster];
+  if (!this->AutomaticBias)
+  {
+    return occluder + bias < t;
+  }
+  const View& view = face->view;
+  const double pixel = worldPixel(view, t);
+  const glm::dvec3 origin = view.rayOrigin(texel.x + 0.5, texel.y + 0.5);
+  const glm::dvec3 direction = view.rayDirection(texel.x + 0.5, texel.y + 0.5);
+  const glm::dvec3 normal(facet);
+  const double slope = glm::dot(normal, direction) / glm::length(direction);
+  double receiver = t;
+  if (std::abs(slope) > 1e-3)
+  {
+    receiver = glm::dot(normal, position - origin) / glm::dot(normal, direction);
+  }
+  // Grazing light: the plane says nothing beyond the texel's neighbourhood.
+  const double reach = 8.0 * pixel;
+  receiver = std::clamp(receiver, t - reach, t + reach);
+  const double grazing = std::max(std::abs(slope), 0.1);
+  bias += 0.5 * pixel + this->CasterError[caster] / grazing;
+  return occluder + bias < receiver;
+}
+
+void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps) const
+{
+  for (const auto& face : this->Faces)
+  {
+    ShadowMap map;
+    map.light = light;
+    map.view = face->view;
+    const DepthBuffer& depth = face->layers.depthBuffer();
+    map.base = std::max(face->view.tNear, 0.0);
+    map.depth.assign(static_cast<std::size_t>(face->view.width) * face->view.height,
+      std::numeric_limits<float>::infinity());
+    if (face->seesCasters)
+    {
+      for (int y = 0; y < face->view.height; ++y)
+      {
+        for (int x = 0; x < face->view.width; ++x)
+        {
+          const std::size_t at = depth.at(x, y);
+          if (depth.hit[at >> 6] && depth.instance[at] != NoInstance)
+          {
+            map.depth[static_cast<std::size_t>(y) * face->view.width + x] =
+              static_cast<float>(face->layers.base(depth.instance[at]) + depth.t[at] - map.base);
+          }
+        }
+      }
+    }
+    for (double error : this->CasterError)
+    {
+      map.worldBias = std::max(map.worldBias, error);
+    }
+    maps.push_back(std::move(map));
+  }
+}
+
+void ShadowBuffer::release()
+{
+  this->Faces.clear();
+}
+
+std::uint64_t ShadowBuffer::rays() const
+{
+  std::uint64_t sum = 0;
+  for (const auto& face : this->Faces)
+  {
+    sum += face->layers.rays();
+  }
+  return sum;
+}
+
+std::uint64_t ShadowBuffer::retracedLayers() const
+{
+  std::uint64_t sum = 0;
+  for (const auto& face : this->Faces)
+  {
+    sum += face->layers.retracedLayers();
+  }
+  return sum;
+}
+
+std::size_t ShadowBuffer::layerMemory() const
+{
+  std::size_t sum = 0;
+  for (const auto& face : this->Faces)
+  {
+    sum += face->layers.layerMemory();
+  }
+  return sum;
+}
+}

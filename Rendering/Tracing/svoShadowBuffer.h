@@ -1,0 +1,69 @@
+// The shadow buffer of one light: depth layers of the casters seen from the light, merged like the
+// eye's, and the test of a visible point against it.
+#ifndef svoShadowBuffer_h
+#define svoShadowBuffer_h
+
+#include "svoLayeredView.h"
+#include "svoScene.h"
+#include "svoTracer.h"
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+class ShadowBuffer
+{
+public:
+  /// Fits the light's views to the casters and prepares their layers. A directional light gets a
+  /// parallel view around the casters; a positional one a perspective view if they subtend less
+  /// than 120 degrees, else six square faces of a cube; a spot never more than its cone.
+  void begin(const Scene& scene, const Light& light, const FrameSettings& settings);
+
+  /// Notes the 8x8 light tile that the point will look up. Thread-safe.
+  void mark(const glm::dvec3& position);
+  /// Every tile will be looked up.
+  void markAll();
+
+  void trace(const ParallelFor& parallelFor);
+
+  /// True if a caster lies between the light and the point. `facet`: the unit normal of the
+  /// surface at the point, either side.
+  ///
+  /// With the automatic bias the point is not compared itself: its tangent plane is, at the ray of
+  /// the texel's own centre (Dou et al., "Adaptive Depth Bias for Shadow Maps", JCGT 2014, section
+  /// 3), so that the slope of the receiver and the size of the texel cost nothing. What remains is
+  /// the bend of the surface inside a texel and the leaf's own error, both known. Without it the
+  /// test is the paper's bare `distance > depth` plus `bias` voxels of the caster.
+  bool shadows(const glm::dvec3& position, const glm::vec3& facet) const;
+
+  void copyMaps(int light, std::vector<ShadowMap>& maps) const;
+  void release();
+
+  std::uint64_t rays() const;
+  std::uint64_t retracedLayers() const;
+  std::size_t layerMemory() const;
+
+private:
+  struct Face
+  {
+    View view;
+    LayeredView layers;
+    std::vector<std::atomic<std::uint8_t>> wanted; // per tile
+    bool seesCasters = false;
+  };
+  /// The face, texel and linear depth of a point; false if it is outside of all.
+  bool lookUp(const glm::dvec3& position, const Face*& face, glm::ivec2& texel, double& t) const;
+
+  std::vector<std::unique_ptr<Face>> Faces;
+  std::vector<double> CasterVoxel; // world, of the level that is traced, by index of the instance
+  std::vector<double> CasterError; // world, by index of the instance
+  bool AutomaticBias = true;
+  double Bias = 0.0;
+};
+}
+
+#endif

@@ -1,0 +1,42 @@
+#include "svoShadowRays.h"
+
+#include "svoIntersect.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace svo
+{
+ShadowRays::ShadowRays(const Scene& scene)
+{
+  for (const Instance& instance : scene.instances)
+  {
+    if (instance.castShadow && !instance.octree.empty())
+    {
+      this->Casters.push_back(
+        { &instance, instance.octree.localToOctree() * glm::inverse(instance.localToWorld) });
+    }
+  }
+}
+
+bool ShadowRays::shadows(
+  const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const
+{
+  const bool far = light.kind == Light::Kind::Directional;
+  glm::dvec3 direction = far ? -light.direction : light.position - position;
+  const glm::dvec3 side =
+    glm::dot(glm::dvec3(facet), direction) < 0.0 ? -glm::dvec3(facet) : glm::dvec3(facet);
+  const glm::dvec3 start = position + offset * side;
+  direction = far ? direction : light.position - start;
+  for (const Caster& caster : this->Casters)
+  {
+    const Ray ray{ glm::dvec3(caster.toOctree * glm::dvec4(start, 1.0)),
+      glm::dvec3(caster.toOctree * glm::dvec4(direction, 0.0)), 0.0, far ? 1e300 : 1.0 };
+    if (occluded(caster.instance->octree, ray, { caster.instance->leafGeometry, MaximumLevel }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+}

@@ -1,0 +1,33 @@
+// Exact shadows: one ray from a visible point to a light, through every caster.
+#ifndef svoShadowRays_h
+#define svoShadowRays_h
+
+#include "svoScene.h"
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+class ShadowRays
+{
+public:
+  explicit ShadowRays(const Scene& scene);
+
+  /// True if something lies between the point and the light. The ray starts off the point's own
+  /// surface, along the facet on the light's side, by `offset` (world): the error of its leaf.
+  bool shadows(
+    const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const;
+
+private:
+  struct Caster
+  {
+    const Instance* instance;
+    glm::dmat4 toOctree;
+  };
+  std::vector<Caster> Casters;
+};
+}
+
+#endif

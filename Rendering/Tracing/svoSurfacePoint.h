@@ -1,0 +1,198 @@
+// A visible point: where a hit is, its normals and its colour.
+#ifndef svoSurfacePoint_h
+#define svoSurfacePoint_h
+
+#include "svoPlane.h"
+#include "svoScene.h"
+#include "svoView.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+namespace svo
+{
+struct SurfacePoint
+{
+  glm::dvec3 position; // world
+  glm::vec3 facet;     // world, unit, the surface's own plane, towards the viewer
+  glm::vec3 normal;    // world, unit, for shading, flipped as VTK's shaders flip it
+  glm::vec3 color;     // 0..1, of the mapped scalars; meaningless unless hasColor
+  bool hasColor;
+};
+
+/// What all points of an instance share.
+struct SurfaceFrame
+{
+  explicit SurfaceFrame(const Instance& i)
+    : instance(&i)
+    , toOctree(i.octree.localToOctree() * glm::inverse(i.localToWorld))
+    , linear(glm::dmat3(i.localToWorld) * i.octree.rootEdge())
+    , normalMatrix(glm::transpose(glm::inverse(glm::dmat3(i.localToWorld))))
+  {
+    // Only directions of normals matter: without this a tiny object's overflow a float.
+    double most = 0.0;
+    for (int c = 0; c < 3; ++c)
+    {
+      most = std::max(most, glm::length(linear[c]));
+    }
+    direction = linear / most;
+  }
+  const Instance* instance;
+  glm::dmat4 toOctree;     // world -> octree coordinates
+  glm::dmat3 linear;       // octree coordinates -> world, without the translation
+  glm::dmat3 direction;    // the same, scaled so that its largest column is a unit vector
+  glm::dmat3 normalMatrix; // local normals -> world
+};
+
+namespace detail
+{
+inline glm::vec3 normalized(const glm::dvec3& v, const glm::vec3& otherwise)
+{
+  const double length = glm::length(v);
+  return length > 0.0 && std::isfinite(length) ? glm::vec3(v / length) : otherwise;
+}
+
+inline glm::dvec3 vectorAt(const float* array, std::size_t i)
+{
+  return { array[3 * i], array[3 * i + 1], array[3 * i + 2] };
+}
+
+inline glm::vec3 colorAt(const unsigned char* array, std::size_t i)
+{
+  return glm::vec3(array[4 * i], array[4 * i + 1], array[4 * i + 2]) / 255.0f;
+}
+
+/// A texel row looked up as a linearly filtered, clamped texture.
+inline glm::vec3 textureAt(const Attributes& a, float coordinate)
+{
+  const float x =
+    std::clamp(coordinate, 0.0f, 1.0f) * static_cast<float>(a.colorTextureSize) - 0.5f;
+  const float floor = std::floor(x);
+  const int i = std::clamp(static_cast<int>(floor), 0, a.colorTextureSize - 1);
+  const int j = std::clamp(static_cast<int>(floor) + 1, 0, a.colorTextureSize - 1);
+  return glm::mix(colorAt(a.colorTexture, i), colorAt(a.colorTexture, j), x - floor);
+}
+}
+
+/// `t` is the linear depth of the hit on the ray of pixel (x, y).
+inline SurfacePoint surfacePoint(
+  const SurfaceFrame& frame, const View& view, double x, double y, double t, Primitive primitive)
+{
+  const Instance& instance = *frame.instance;
+  const Octree& octree = instance.octree;
+  const Attributes& attributes = instance.attributes;
+  SurfacePoint point;
+  const glm::dvec3 ray = view.rayDirection(x, y);
+  point.position = view.rayOrigin(x, y) + t * ray;
+  point.hasColor = false;
+  point.color = glm::vec3(1.0f);
+  const glm::vec3 towards = detail::normalized(-ray, glm::vec3(0.0f, 0.0f, 1.0f));
+  if (primitive & NodePrimitive)
+  {
+    // Above the bricks: the node's mean plane is the normal, and its first triangle's look stands
+    // for all of them.
+    const Node* node = octree.nodes() + (primitive & ~NodePrimitive);
+    const glm::dmat3 toWorld = glm::transpose(glm::inverse(frame.direction));
+    point.facet =
+      detail::normalized(toWorld * glm::dvec3(decodePlane(node->plane).normal), towards);
+    point.facet = glm::dot(point.facet, towards) < 0.0f ? -point.facet : point.facet;
+    point.normal = point.facet;
+    std::uint32_t index = primitive & ~NodePrimitive;
+    while (index < octree.brickBegin())
+    {
+      index = octree.nodes()[index].first;
+    }
+    std::uint32_t count, inlineId;
+    primitive = octree.brickTriangles(index, count, inlineId)[0];
+  }
+  else
+  {
+    point.facet = glm::vec3(0.0f);
+  }
+  const bool coarse = point.facet != glm::vec3(0.0f);
+  const Surface* surface = octree.surface();
+  if (!surface)
+  {
+    point.facet = point.normal = coarse ? point.facet : towards;
+    return point;
+  }
+  const glm::uvec3 triangle = surface->triangles[primitive];
+  const glm::dvec3 a(surface->points[triangle.x]);
+  const glm::dvec3 e1 = glm::dvec3(surface->points[triangle.y]) - a;
+  const glm::dvec3 e2 = glm::dvec3(surface->points[triangle.z]) - a;
+  bool front = true;
+  if (!coarse)
+  {
+    const glm::vec3 winding =
+      detail::normalized(glm::cross(frame.direction * e1, frame.direction * e2), towards);
+    front = glm::dot(winding, towards) > 0.0f;
+    point.facet = front ? winding : -winding;
+    point.normal = point.facet;
+  }
+  const bool pointNormals =
+    attributes.normals && attributes.normalAssociation == Association::Point;
+  const bool cellNormals = attributes.normals && attributes.normalAssociation == Association::Cell;
+  const bool smooth = !coarse && !instance.material.flat && pointNormals;
+  const bool pointColors = attributes.colorCoordinates ||
+    (attributes.colors && attributes.colorAssociation == Association::Point);
+  glm::dvec3 weight(1.0, 0.0, 0.0);
+  if (smooth || pointColors)
+  {
+    // Barycentric coordinates; a plane or voxel hit beside its triangle takes the nearest in it.
+    const glm::dvec3 p = glm::dvec3(frame.toOctree * glm::dvec4(point.position, 1.0)) - a;
+    const double d11 = glm::dot(e1, e1);
+    const double d12 = glm::dot(e1, e2);
+    const double d22 = glm::dot(e2, e2);
+    const double determinant = d11 * d22 - d12 * d12;
+    const double p1 = glm::dot(p, e1);
+    const double p2 = glm::dot(p, e2);
+    double v = determinant > 0.0 ? (d22 * p1 - d12 * p2) / determinant : 0.0;
+    double w = determinant > 0.0 ? (d11 * p2 - d12 * p1) / determinant : 0.0;
+    v = std::clamp(v, 0.0, 1.0);
+    w = std::clamp(w, 0.0, 1.0);
+    const double sum = std::max(v + w, 1.0);
+    weight = { 1.0 - (v + w) / sum, v / sum, w / sum };
+  }
+  const std::uint32_t cell = surface->cells.empty() ? primitive : surface->cells[primitive];
+  if (smooth || (!coarse && cellNormals))
+  {
+    const glm::dvec3 local = smooth ? weight.x * detail::vectorAt(attributes.normals, triangle.x) +
+        weight.y * detail::vectorAt(attributes.normals, triangle.y) +
+        weight.z * detail::vectorAt(attributes.normals, triangle.z)
+                                    : detail::vectorAt(attributes.normals, cell);
+    point.normal = detail::normalized(frame.normalMatrix * local, point.facet);
+    point.normal = front ? point.normal : -point.normal;
+  }
+  if (attributes.colorCoordinates && attributes.colorTextureSize > 0)
+  {
+    const auto at = [&](std::uint32_t i)
+    {
+      return attributes
+        .colorCoordinates[static_cast<std::size_t>(i) * attributes.colorCoordinateStride];
+    };
+    point.color = detail::textureAt(attributes,
+      static_cast<float>(
+        weight.x * at(triangle.x) + weight.y * at(triangle.y) + weight.z * at(triangle.z)));
+    point.hasColor = true;
+  }
+  else if (attributes.colors && attributes.colorAssociation == Association::Point)
+  {
+    point.color = static_cast<float>(weight.x) * detail::colorAt(attributes.colors, triangle.x) +
+      static_cast<float>(weight.y) * detail::colorAt(attributes.colors, triangle.y) +
+      static_cast<float>(weight.z) * detail::colorAt(attributes.colors, triangle.z);
+    point.hasColor = true;
+  }
+  else if (attributes.colors && attributes.colorAssociation == Association::Cell)
+  {
+    point.color = detail::colorAt(attributes.colors, cell);
+    point.hasColor = true;
+  }
+  return point;
+}
+}
+
+#endif
