@@ -65,6 +65,7 @@ void buildStages(
   Executor executor(options.parallelFor, options.progress);
   executor.report();
   const Cube cube = boundingCube(mesh, options.level, options.parallelFor, result.droppedTriangles);
+  executor.report();
   Buffer<float> recordsOfTriangle(mesh.triangleCount);
   measure = measureMesh(mesh, cube, options.parallelFor, options.level, recordsOfTriangle);
   const double limit = options.memoryLimit > 0 ? static_cast<double>(options.memoryLimit) : 1e300;
@@ -74,6 +75,7 @@ void buildStages(
     result.message = tooLargeMessage(measure, options.level, limit);
     return;
   }
+  executor.report();
   const std::vector<WorkPiece> pieces = cutWork(recordsOfTriangle);
   recordsOfTriangle = {};
   Buffer<TriangleShape> shapes(mesh.triangleCount);

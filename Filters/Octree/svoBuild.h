@@ -19,7 +19,8 @@
 namespace svo
 {
 /// A mesh in its local frame, already cut into triangles. Vertices need not be welded, triangles
-/// may be degenerate. Triangles with a point that is not finite are dropped and counted.
+/// may be degenerate. Triangles with a point that is not finite, or with a coordinate beyond 1e290,
+/// are dropped and counted.
 struct TriangleMesh
 {
   const glm::dvec3* points = nullptr;
@@ -52,8 +53,8 @@ struct BuildResult
 {
   BuildStatus status = BuildStatus::BadInput;
   std::string message;
-  std::shared_ptr<std::byte> data; // the layout of svoLayout.h; signature, pointCount, cellCount
-                                   // and meshBounds of the header are left 0 for the caller
+  std::shared_ptr<std::byte> data;  // the layout of svoLayout.h; signature, pointCount, cellCount
+                                    // and meshBounds of the header are left 0 for the caller
   std::size_t size = 0;             // bytes
   std::size_t droppedTriangles = 0; // with a NaN or infinite vertex
 };
@@ -63,10 +64,13 @@ struct BuildResult
 /// plane, three projections, box), touching counts. So every ray that hits a triangle hits a voxel.
 /// The octree's cube is the mesh's bounding cube with the mesh in its middle, two lattice units of
 /// margin on the longest axis; a mesh whose points all coincide gets a cube of a size that its
-/// coordinates can resolve. Deterministic: the same bytes for any executor.
+/// coordinates can resolve, and no voxel is smaller than the steps between doubles where the mesh
+/// lies. Deterministic: the same bytes for any executor and instruction set. Time grows with the
+/// bricks that the triangles touch, never with the volume of their boxes.
 VTKSVOOCTREE_EXPORT BuildResult build(const TriangleMesh& mesh, const BuildOptions& options);
 
-/// Peak bytes that build() is expected to need, from the triangles' areas in voxels.
+/// Peak bytes that build() is expected to need, from the triangles' areas in voxels. Tests hold it
+/// to a third of what is taken.
 VTKSVOOCTREE_EXPORT std::size_t estimateBuildMemory(const TriangleMesh& mesh, int level);
 
 /// The cube that build() chooses for a mesh: its lower corner and edge.
