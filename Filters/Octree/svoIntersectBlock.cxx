@@ -8,6 +8,7 @@
 #include "svoIntersectBlock.h"
 #include "svoIntersectScalar.h"
 #include "svoLeafGeometry.h"
+#include "svoPacketLeaf-inl.h"
 #include "svoPacketWalk-inl.h"
 
 #include <algorithm>
@@ -36,22 +37,25 @@ struct Verdict
   Lanes skip;  // and of these, these past the whole brick
 };
 
-/// Shows the cells where lanes have arrived to the leaf geometry.
-HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const RayBlock& rays,
-  bool anyHit, int first, I leave, Packet& p, LeafHit<float>* hits)
+/// Shows the cells where the lanes of `arrived` are to the leaf geometry, one by one.
+/// `primitives`: their representative triangles, or null if they have none yet.
+HWY_INLINE Verdict meetOneByOne(const LeafQuery& query, const WalkTarget& target,
+  const RayBlock& rays, bool anyHit, int first, Lanes arrived, I leave, const Primitive* primitives,
+  Packet& p, BlockHits& hits)
 {
   const DF df;
   const DI di;
-  HWY_ALIGN float direction[3][64];
-  HWY_ALIGN float tMin[64];
-  HWY_ALIGN float t[64];
-  HWY_ALIGN float tMax[64];
-  HWY_ALIGN float tClip[64];
-  HWY_ALIGN float tExit[64];
-  HWY_ALIGN std::int32_t position[3][64];
-  HWY_ALIGN std::int32_t node[64];
-  HWY_ALIGN std::int32_t alive[64];
-  HWY_ALIGN std::int32_t answer[64] = {};
+  constexpr int Most = RayBlock::Size;
+  HWY_ALIGN float direction[3][Most];
+  HWY_ALIGN float tMin[Most];
+  HWY_ALIGN float t[Most];
+  HWY_ALIGN float tMax[Most];
+  HWY_ALIGN float tClip[Most];
+  HWY_ALIGN float tExit[Most];
+  HWY_ALIGN std::int32_t position[3][Most];
+  HWY_ALIGN std::int32_t node[Most];
+  HWY_ALIGN std::int32_t alive[Most];
+  HWY_ALIGN std::int32_t answer[Most];
   hn::Store(p.dx, df, direction[0]);
   hn::Store(p.dy, df, direction[1]);
   hn::Store(p.dz, df, direction[2]);
@@ -64,7 +68,8 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
   hn::Store(p.y, di, position[1]);
   hn::Store(p.z, di, position[2]);
   hn::Store(p.node, di, node);
-  hn::Store(hn::VecFromMask(di, hn::Not(p.dead)), di, alive);
+  hn::Store(hn::VecFromMask(di, arrived), di, alive);
+  hn::Store(hn::Zero(di), di, answer);
   const int n = static_cast<int>(hn::Lanes(df));
   for (int i = 0; i < n; ++i)
   {
@@ -82,9 +87,13 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
     StopCell<float> cell = stopCell(query, target, at, node[i]);
     cell.tEnter = t[i];
     cell.tExit = tExit[i];
-    const ShearedRay<float> sheared(clipped.origin, clipped.direction);
-    const Visit visit = meetCell(query, clipped, sheared, cell, tMax[i], hits[ray]);
-    const bool done = visit == Visit::Stop || (anyHit && hits[ray].primitive != NoPrimitive);
+    LeafHit<float> hit = hits.load(ray);
+    const Visit visit = primitives
+      ? meetPlane(query, clipped, cell, primitives[i], tMax[i], hit)
+      : meetCell(
+          query, clipped, ShearedRay<float>(clipped.origin, clipped.direction), cell, tMax[i], hit);
+    hits.store(ray, hit);
+    const bool done = visit == Visit::Stop || (anyHit && hit.primitive != NoPrimitive);
     answer[i] = done ? 0 : visit == Visit::Continue ? 1 : 3;
   }
   p.tMax = hn::Load(df, tMax);
@@ -92,9 +101,90 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
   return { hn::Ne(answers, hn::Zero(di)), hn::Gt(answers, hn::Set(di, 1)) };
 }
 
+/// Shows the cells where lanes have arrived to the leaf geometry.
+HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const RayBlock& rays,
+  bool anyHit, int first, I leave, Packet& p, BlockHits& hits)
+{
+  const DI di;
+  const Lanes arrived = hn::Not(p.dead);
+#if SVO_PACKET_LEAVES
+  if (target.points != nullptr)
+  {
+    const DF df;
+    const DU du;
+    const Lanes none = hn::Ne(p.size, p.size);
+    const Lists lists = findLists(target, p, arrived);
+    Lanes triangles = none;
+    if (query.geometry == LeafGeometry::Triangle)
+    {
+      triangles = arrived;
+    }
+    else if (query.geometry == LeafGeometry::Automatic)
+    {
+      const I shortest = hn::Set(di, static_cast<int>(ShortList) + 1);
+      triangles = hn::And(arrived, hn::Lt(lists.count, shortest));
+    }
+    const Lanes others = hn::AndNot(triangles, arrived);
+    F hitT = hn::Load(df, hits.out.t + first);
+    I hitId = hn::BitCast(di, hn::Load(du, hits.out.primitive + first));
+    Verdict verdict{ none, none };
+    if (!hn::AllFalse(di, triangles))
+    {
+      meetLists(target, p, lists, triangles, hitT, hitId);
+      verdict.again = anyHit ? hn::And(triangles, hn::Lt(hitId, hn::Zero(di))) : triangles;
+      verdict.skip = verdict.again;
+    }
+    HWY_ALIGN Primitive primitives[RayBlock::Size];
+    const bool anyOther = !hn::AllFalse(di, others);
+    if (anyOther)
+    {
+      const I found = representatives(target, p, lists, others);
+      hn::Store(hn::BitCast(du, found), du, primitives);
+      if (query.geometry == LeafGeometry::Voxel)
+      {
+        hitT = hn::IfThenElse(hn::RebindMask(df, others), p.t, hitT);
+        hitId = hn::IfThenElse(others, found, hitId);
+      }
+    }
+    hn::Store(hitT, df, hits.out.t + first);
+    hn::Store(hn::BitCast(du, hitId), du, hits.out.primitive + first);
+    if (anyOther && query.geometry != LeafGeometry::Voxel)
+    {
+      const Verdict planes =
+        meetOneByOne(query, target, rays, anyHit, first, others, leave, primitives, p, hits);
+      verdict.again = hn::Or(verdict.again, planes.again);
+    }
+    return verdict;
+  }
+#endif
+  return meetOneByOne(query, target, rays, anyHit, first, arrived, leave, nullptr, p, hits);
+}
+
+/// Walks until every lane has arrived or died.
+template <bool Groups>
+HWY_INLINE void walkBoth(const WalkTarget& walkTarget, Packet& first, Packet& second)
+{
+  // Copies, so that nothing the loop reads can change behind its back: they stay in registers.
+  const WalkTarget target = walkTarget;
+  Packet a = first;
+  Packet b = second;
+  // Each packet's turn is one long chain of dependent operations: two fill each other's gaps.
+  for (;;)
+  {
+    const Lanes underWayA = turn<Groups>(target, a);
+    const Lanes underWayB = turn<Groups>(target, b);
+    if (hn::AllFalse(DI(), hn::Or(underWayA, underWayB)))
+    {
+      break;
+    }
+  }
+  first = a;
+  second = b;
+}
+
 template <bool Groups>
 HWY_INLINE void traceTwo(const LeafQuery& query, const WalkTarget& target, const RayBlock& rays,
-  bool anyHit, int first, LeafHit<float>* hits)
+  bool anyHit, int first, BlockHits& hits)
 {
   const DF df;
   const DI di;
@@ -105,16 +195,7 @@ HWY_INLINE void traceTwo(const LeafQuery& query, const WalkTarget& target, const
   const I skip = hn::Max(leave, hn::Set(di, target.brickSize));
   for (;;)
   {
-    // Each packet's turn is one long chain of dependent operations: two fill each other's gaps.
-    for (;;)
-    {
-      const Lanes underWayA = turn<Groups>(target, a);
-      const Lanes underWayB = turn<Groups>(target, b);
-      if (hn::AllFalse(di, hn::Or(underWayA, underWayB)))
-      {
-        break;
-      }
-    }
+    walkBoth<Groups>(target, a, b);
     const auto resume = [&](Packet& p, int firstRay)
     {
       const Verdict verdict = meet(query, target, rays, anyHit, firstRay, leave, p, hits);
@@ -135,7 +216,7 @@ HWY_INLINE void traceTwo(const LeafQuery& query, const WalkTarget& target, const
 void traceBlock(const LeafQuery& query, const WalkTarget& target, const RayBlock& rays, bool anyHit,
   HitBlock& hits)
 {
-  LeafHit<float> found[RayBlock::Size];
+  BlockHits found(hits);
   const int n = static_cast<int>(hn::Lanes(DF()));
   for (int i = 0; i < RayBlock::Size; i += 2 * n)
   {
@@ -148,12 +229,7 @@ void traceBlock(const LeafQuery& query, const WalkTarget& target, const RayBlock
       traceTwo<false>(query, target, rays, anyHit, i, found);
     }
   }
-  for (int i = 0; i < RayBlock::Size; ++i)
-  {
-    finish(found[i]);
-    hits.t[i] = found[i].t;
-    hits.primitive[i] = found[i].primitive;
-  }
+  found.finish();
 }
 #endif
 
@@ -188,6 +264,19 @@ WalkTarget walkTarget(const LeafQuery& query)
   target.stopSize = MantissaBits - 2 * (stopDepth + 1);
   target.groups = query.bits % 2 != 0;
   target.brickSize = MantissaBits - 2 * octree.depthCount() + 2;
+  target.cellSize = MantissaBits - query.bits;
+  target.touchedHalf = static_cast<float>(touchedHalf(query.bits));
+  // The packets' leaves index with 32 bits and a sign.
+  const Surface* surface = octree.surface();
+  constexpr std::size_t most = std::size_t(1) << 29;
+  if (surface && target.stopSize < target.brickSize && surface->points.size() < most &&
+    surface->triangles.size() < most && octree.header().nodeCount < most / 4 &&
+    octree.header().listWords < most)
+  {
+    target.points = &surface->points.data()->x;
+    target.triangles = &surface->triangles.data()->x;
+    target.listBegin = static_cast<int>(4 * octree.header().nodeCount);
+  }
   target.high = 1.0f + 1.0f / static_cast<float>(1 << rootBits(octree, 0));
   return target;
 }

@@ -3,7 +3,9 @@
 #define svoIntersectBlock_h
 
 #include "svoLeafGeometry.h"
+#include "svoRay.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace svo
@@ -20,6 +22,62 @@ struct WalkTarget
   bool groups = false;                  // rays stop at those nodes' groups of eight cells
   int brickSize = 0;                    // of a brick
   float high = 2.0f;                    // upper corner of the octree's cube; the lower one is 1
+
+  // For leaves that are settled side by side; null pointers where they cannot be.
+  const float* points = nullptr;            // of the surface, 3 each
+  const std::uint32_t* triangles = nullptr; // likewise
+  int listBegin = 0;                        // index of the octree's lists, in words from `nodes`
+  int cellSize = 0;                         // of the cells where rays stop
+  float touchedHalf = 0.0f;                 // see touchedHalf()
+};
+
+/// The hits of a block while it is traced, and what LeafHit keeps besides.
+struct BlockHits
+{
+  explicit BlockHits(HitBlock& hits)
+    : out(hits)
+  {
+    std::fill_n(out.t, RayBlock::Size, 0.0f);
+    std::fill_n(out.primitive, RayBlock::Size, NoPrimitive);
+    std::fill_n(refused, RayBlock::Size, NoPrimitive);
+  }
+
+  LeafHit<float> load(int ray) const
+  {
+    LeafHit<float> hit;
+    hit.t = out.t[ray];
+    hit.primitive = out.primitive[ray];
+    hit.refused = refused[ray];
+    return hit;
+  }
+  void store(int ray, const LeafHit<float>& hit)
+  {
+    out.t[ray] = hit.t;
+    out.primitive[ray] = hit.primitive;
+    if (refused[ray] == NoPrimitive && hit.refused != NoPrimitive)
+    {
+      refused[ray] = hit.refused;
+      refusedT[ray] = hit.refusedT;
+      anyRefused = true;
+    }
+  }
+  /// As finish() of svoLeafGeometry.h.
+  void finish()
+  {
+    for (int i = 0; anyRefused && i < RayBlock::Size; ++i)
+    {
+      if (out.primitive[i] == NoPrimitive && refused[i] != NoPrimitive)
+      {
+        out.primitive[i] = refused[i];
+        out.t[i] = refusedT[i];
+      }
+    }
+  }
+
+  HitBlock& out;
+  bool anyRefused = false;
+  float refusedT[RayBlock::Size];
+  Primitive refused[RayBlock::Size];
 };
 
 /// The instruction set in use.

@@ -87,6 +87,13 @@ inline double cellHalf(int bits)
   return 0.5 / static_cast<double>(1 << bits);
 }
 
+/// Half of the edge of the box that a triangle meets if it touches a cell: the builder's voxels are
+/// grown by 1/256 of their edge, and its vertices snapped by half of that.
+inline double touchedHalf(int bits)
+{
+  return 1.02 * cellHalf(bits);
+}
+
 /// The triangle of the brick whose plane is nearest to the centre of one of its cells, preferably
 /// one that touches the cell. Without a surface, the first of the list.
 template <class Real>
@@ -102,9 +109,7 @@ Primitive representativeTriangle(
     return list[0];
   }
   const Vector<Real> centre = cellCentre<Real>(cell, query.bits);
-  // The builder's voxels are grown by 1/256 of their edge, and its vertices snapped by half of
-  // that.
-  const Real half = static_cast<Real>(1.02 * cellHalf(query.bits));
+  const Real half = static_cast<Real>(touchedHalf(query.bits));
   Primitive best = list[0];
   bool bestTouches = false;
   Real bestDistance = std::numeric_limits<Real>::max(); // squared
