@@ -29,7 +29,9 @@ struct Mesh
   void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
   {
     const auto n = static_cast<unsigned>(points.size());
-    points.insert(points.end(), { a, b, c });
+    points.push_back(a);
+    points.push_back(b);
+    points.push_back(c);
     triangles.push_back({ n, n + 1, n + 2 });
   }
 };
