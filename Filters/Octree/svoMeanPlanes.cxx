@@ -3,6 +3,9 @@
 #include "svoMorton.h"
 #include "svoPlane.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace svo
 {
 namespace
@@ -139,6 +142,15 @@ std::uint32_t planeOfMoment(const SurfaceMoment& moment, float edge)
   const glm::vec3 normal =
     square > 0.0f ? moment.normal * (1.0f / std::sqrt(square)) : glm::vec3(0.0f, 0.0f, 1.0f);
   const float halfDiagonal = edge * 0.8660254f;
-  return encodePlane({ normal, glm::dot(normal, moment.centre) / halfDiagonal });
+  float offset = glm::dot(normal, moment.centre) / halfDiagonal;
+  // A face of the octree's cube is the outer face of blocks. Rounded outwards, its plane would lie
+  // where no ray is followed; so planes along a face stay two steps of quantisation inside.
+  constexpr float Face = 0.5773503f - 2.0f * 2.0f / 1023.0f;
+  const glm::vec3 along = glm::abs(normal);
+  if (std::max({ along.x, along.y, along.z }) > 0.9999f)
+  {
+    offset = std::clamp(offset, -Face, Face);
+  }
+  return encodePlane({ normal, offset });
 }
 }
