@@ -15,6 +15,7 @@
 #include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <sstream>
 #include <thread>
@@ -114,8 +115,11 @@ private:
       Progress progress(scene.experiment().name + ": timing " + method.name, total);
       scene.setLight(method.light);
       useMethod(method, scene.renderer(), this->ShadowMapResolution);
-      figures.timings[method.name] =
+      const Timing timing =
         timeFrames(this->Window, scene, this->Options.framesPerView, [&] { progress.advance(); });
+      figures.timings[method.name] = timing;
+      progress.finish(std::to_string(std::lround(timing.medianMilliseconds)) + " ms, " +
+        std::to_string(std::lround(timing.processorMilliseconds)) + " ms of processor time");
     }
     scene.setLight(LightKind::Point);
 

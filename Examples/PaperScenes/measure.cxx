@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 namespace paper
 {
@@ -21,28 +22,48 @@ namespace
 constexpr int warmUpFrames = 2;
 constexpr int coverageFrames = 8;
 
-double drawMilliseconds(vtkRenderWindow* window)
+struct Sample
+{
+  double milliseconds;
+  double processorMilliseconds;
+};
+
+Sample draw(vtkRenderWindow* window)
 {
   const auto start = std::chrono::steady_clock::now();
+  const std::clock_t processorStart = std::clock();
   window->Render();
   window->WaitForCompletion();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-    .count();
+  const std::chrono::duration<double, std::milli> elapsed =
+    std::chrono::steady_clock::now() - start;
+  return { elapsed.count(), 1000.0 * (std::clock() - processorStart) / CLOCKS_PER_SEC };
 }
 
-Timing summary(std::vector<double> milliseconds)
+double median(std::vector<double> values)
+{
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+Timing summary(const std::vector<Sample>& samples)
 {
   Timing timing;
-  timing.frames = static_cast<int>(milliseconds.size());
-  if (!milliseconds.empty())
+  timing.frames = static_cast<int>(samples.size());
+  if (samples.empty())
   {
-    std::sort(milliseconds.begin(), milliseconds.end());
-    const std::size_t middle = milliseconds.size() / 2;
-    timing.medianMilliseconds = milliseconds.size() % 2 == 1
-      ? milliseconds[middle]
-      : 0.5 * (milliseconds[middle - 1] + milliseconds[middle]);
-    timing.slowestMilliseconds = milliseconds.back();
+    return timing;
   }
+  std::vector<double> wall;
+  std::vector<double> processor;
+  for (const Sample& sample : samples)
+  {
+    wall.push_back(sample.milliseconds);
+    processor.push_back(sample.processorMilliseconds);
+  }
+  timing.medianMilliseconds = median(wall);
+  timing.slowestMilliseconds = *std::max_element(wall.begin(), wall.end());
+  timing.processorMilliseconds = median(processor);
   return timing;
 }
 
@@ -129,36 +150,36 @@ double Timing::framesPerSecond() const
 Timing timeFrames(
   vtkRenderWindow* window, Scene& scene, int framesPerView, const std::function<void()>& afterFrame)
 {
-  std::vector<double> milliseconds;
+  std::vector<Sample> samples;
   for (const Viewpoint& view : scene.experiment().views)
   {
     scene.setView(view);
     for (int i = -warmUpFrames; i < framesPerView; ++i)
     {
       scene.setFrame((i + warmUpFrames) * Scene::period() / (framesPerView + warmUpFrames));
-      const double elapsed = drawMilliseconds(window);
+      const Sample sample = draw(window);
       if (i >= 0)
       {
-        milliseconds.push_back(elapsed);
+        samples.push_back(sample);
         afterFrame();
       }
     }
   }
-  return summary(std::move(milliseconds));
+  return summary(samples);
 }
 
 Timing timeEmptyFrames(vtkRenderWindow* window, int frames)
 {
-  std::vector<double> milliseconds;
+  std::vector<Sample> samples;
   for (int i = -warmUpFrames; i < frames; ++i)
   {
-    const double elapsed = drawMilliseconds(window);
+    const Sample sample = draw(window);
     if (i >= 0)
     {
-      milliseconds.push_back(elapsed);
+      samples.push_back(sample);
     }
   }
-  return summary(std::move(milliseconds));
+  return summary(samples);
 }
 
 std::vector<double> objectCoverage(vtkRenderWindow* window, Scene& scene)

@@ -46,6 +46,8 @@ struct Timing
 {
   double medianMilliseconds = 0;
   double slowestMilliseconds = 0;
+  /// Processor time of all threads, also median: what a frame costs on a machine that is busy.
+  double processorMilliseconds = 0;
   int frames = 0;
   double framesPerSecond() const;
 };

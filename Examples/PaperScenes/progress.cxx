@@ -38,6 +38,15 @@ void Progress::advance()
   }
 }
 
+void Progress::finish(const std::string& result)
+{
+  std::cerr << "    " << result;
+  if (!isatty(STDERR_FILENO))
+  {
+    std::cerr << std::endl;
+  }
+}
+
 void Progress::show() const
 {
   std::cerr << "\r  " << this->Step;

@@ -15,6 +15,8 @@ public:
   Progress(const Progress&) = delete;
   void operator=(const Progress&) = delete;
   void advance();
+  /// Adds the step's result behind it.
+  void finish(const std::string& result);
 
 private:
   void show() const;
