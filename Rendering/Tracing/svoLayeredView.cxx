@@ -28,17 +28,30 @@ void LayeredView::release()
 {
   this->Layers.clear();
   this->Memory = 0;
+  this->Began = false;
 }
 
 void LayeredView::prepare(const Scene& scene, const View& view, bool keep, std::size_t memoryLimit)
 {
   this->Bases.assign(scene.instances.size(), 0.0);
   this->Levels.assign(scene.instances.size(), 0);
-  if (!keep || !sameRays(view, this->Of))
+  // Layers are made for what stands still: something new is taken to do so, something that just
+  // changed, or is seen by a view that did, is taken to go on changing.
+  const bool moved = this->Began && !sameRays(view, this->Of);
+  if (!keep)
   {
     this->release();
   }
+  else if (moved)
+  {
+    for (auto& kept : this->Layers)
+    {
+      kept.second.layer.reset();
+    }
+    this->Memory = 0;
+  }
   this->Of = view;
+  this->Began = keep;
   for (auto& kept : this->Layers)
   {
     kept.second.used = false;
@@ -51,22 +64,24 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, std::
     {
       continue;
     }
-    const auto found = this->Layers.find(entry.id);
-    if (found == this->Layers.end() || !(found->second.key == entry.key) || found->second.used)
+    const auto inserted = this->Layers.try_emplace(entry.id);
+    Kept& kept = inserted.first->second;
+    if (kept.used) // two instances of one id: the first has the layer
     {
-      // New or changed: only remembered. It gets a layer once it has stood still for a frame.
-      if (found == this->Layers.end() || !found->second.used)
-      {
-        Kept& kept = this->Layers[entry.id];
-        this->Memory -= kept.layer ? kept.layer->bytes() : 0;
-        kept.key = entry.key;
-        kept.layer.reset();
-        kept.used = true;
-      }
       continue;
     }
-    Kept& kept = found->second;
     kept.used = true;
+    const bool changed = !inserted.second && !(kept.key == entry.key);
+    kept.key = entry.key;
+    if (changed)
+    {
+      this->Memory -= kept.layer ? kept.layer->bytes() : 0;
+      kept.layer.reset();
+    }
+    if (changed || moved)
+    {
+      continue;
+    }
     if (!kept.layer)
     {
       auto layer = std::make_unique<DepthLayer>(entry.local.rect);

@@ -62,7 +62,7 @@ public:
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
     {
       const Instance& instance = scene.instances[i];
-      if (!takesPart(instance) || instance.octree.empty())
+      if (!takesPart(instance) || !instance.octree || instance.octree.empty())
       {
         continue;
       }
@@ -106,7 +106,7 @@ private:
   struct Kept
   {
     LayerKey key;
-    std::unique_ptr<DepthLayer> layer; // from the second frame without a change on
+    std::unique_ptr<DepthLayer> layer; // null while the instance or the view moves
     bool used = false;
   };
 
@@ -114,6 +114,7 @@ private:
   void traceTile(int tileX, int tileY, std::vector<std::uint64_t>& rays);
 
   View Of;
+  bool Began = false;           // Of and Layers are a frame's
   std::vector<Entry> Instances; // front to back
   std::vector<double> Bases;
   std::vector<int> Levels;

@@ -17,7 +17,7 @@ std::vector<glm::dvec3> casterCorners(const Scene& scene)
   std::vector<glm::dvec3> corners;
   for (const Instance& instance : scene.instances)
   {
-    if (!instance.castShadow || instance.octree.empty())
+    if (!instance.castShadow || !instance.octree || instance.octree.empty())
     {
       continue;
     }

@@ -25,8 +25,8 @@ enum class Association
 /// VTK's lighting model for surfaces without textures and PBR.
 struct Material
 {
-  glm::vec3 ambientColor{ 1.0f };  // 0..1; replaced by mapped scalars where there are any
-  glm::vec3 diffuseColor{ 1.0f };  // likewise
+  glm::vec3 ambientColor{ 1.0f }; // 0..1; replaced by mapped scalars where there are any
+  glm::vec3 diffuseColor{ 1.0f }; // likewise
   glm::vec3 specularColor{ 1.0f };
   float ambient = 0.0f; // coefficients, 0..1
   float diffuse = 1.0f;
@@ -58,13 +58,12 @@ struct Instance
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
   Material material;
   Attributes attributes;
-  bool visible = true;       // false: a rasterised object that only casts
+  bool visible = true; // false: a rasterised object that only casts
   bool castShadow = true;
   bool receiveShadow = true;
   /// Stable identity of the instance from frame to frame (actor, block, path).
   std::uint64_t id = 0;
-  /// Coincident-topology offset, as glPolygonOffset.
-  float depthOffsetFactor = 0.0f;
+  /// Coincident-topology offset, added to the window depth (0..1); VTK's shaders know no slope.
   float depthOffsetUnits = 0.0f;
 };
 
@@ -77,16 +76,16 @@ struct Light
     Spot
   };
   Kind kind = Kind::Directional;
-  bool headlight = false;          // at the eye, along the view axis: VTK shades it by n.z alone
-  glm::dvec3 position{ 0.0 };      // world
-  glm::dvec3 direction{ 0, 0, -1 };// world, unit, the way the light shines
-  double coneAngle = 90.0;         // half angle, degrees
-  double exponent = 1.0;           // of the spot's fall-off
-  glm::vec3 attenuation{ 1, 0, 0 };// constant, linear, quadratic
-  glm::vec3 color{ 1.0f };         // diffuse colour times intensity
-  glm::vec3 specularColor{ 1.0f }; // as VTK's shaders use it: see svoShading
+  bool headlight = false;           // at the eye, along the view axis: VTK shades it by n.z alone
+  glm::dvec3 position{ 0.0 };       // world
+  glm::dvec3 direction{ 0, 0, -1 }; // world, unit, the way the light shines
+  double coneAngle = 90.0;          // half angle, degrees
+  double exponent = 1.0;            // of the spot's fall-off
+  glm::vec3 attenuation{ 1, 0, 0 }; // constant, linear, quadratic
+  glm::vec3 color{ 1.0f };          // diffuse colour times intensity
+  glm::vec3 specularColor{ 1.0f };  // as VTK's shaders use it: see svoShading
   bool castShadow = true;
-  std::uint64_t id = 0;            // stable from frame to frame
+  std::uint64_t id = 0; // stable from frame to frame
 };
 
 struct Scene

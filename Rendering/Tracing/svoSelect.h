@@ -51,6 +51,12 @@ inline int selectLevel(
   return level;
 }
 
+/// Edge of a voxel of a level in the world.
+inline double worldVoxel(const Instance& instance, int level)
+{
+  return std::ldexp(worldVoxel(instance), instance.octree.level() - level);
+}
+
 /// How far a leaf of the given geometry can lie from the surface it stands for, in voxels of the
 /// level that rays stop at.
 inline double leafError(const Instance& instance, int level)
@@ -68,6 +74,13 @@ inline double leafError(const Instance& instance, int level)
       return coarse ? 1.0 : 0.25;
   }
   return 1.0;
+}
+
+/// The same in the world, and never less than what floats resolve in the octree's cube.
+inline double worldLeafError(const Instance& instance, int level)
+{
+  return std::max(
+    leafError(instance, level) * worldVoxel(instance, level), 1e-6 * worldVoxel(instance, 0));
 }
 }
 

@@ -3,10 +3,12 @@
 #define svoShading_h
 
 #include "svoScene.h"
+#include "svoSurfacePoint.h"
 #include "svoView.h"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -78,6 +80,57 @@ inline Arriving arriving(const ViewLight& l, const glm::vec3& normal, const glm:
         std::max(0.0f, glm::dot(glm::reflect(direction, normal), towards)), material.specularPower);
   }
   return { df * l.light->color, sf };
+}
+
+/// The lights of a frame, as shading needs them.
+struct Lighting
+{
+  std::vector<ViewLight> lights;
+  bool onlyHeadlight = false;
+  glm::dmat4 worldToView{ 1.0 };
+
+  Lighting(const Scene& scene, const View& view)
+    : onlyHeadlight(scene.lights.size() == 1 && scene.lights[0].headlight)
+    , worldToView(view.worldToView)
+  {
+    for (const Light& light : scene.lights)
+    {
+      lights.push_back(makeViewLight(light, view));
+    }
+  }
+};
+
+/// Colour of a visible point, 0..1 and beyond. dark(light) is asked for lights that reach the
+/// point only, and says whether something stands between; then `remaining` of the light is left.
+template <class Dark>
+glm::vec3 shade(const Lighting& lighting, const Instance& instance, const SurfacePoint& point,
+  float remaining, Dark&& dark)
+{
+  const Material& material = instance.material;
+  const glm::vec3 ambient =
+    material.ambient * (point.hasColor ? point.color : material.ambientColor);
+  const glm::vec3 diffuseColor =
+    material.diffuse * (point.hasColor ? point.color : material.diffuseColor);
+  if (!material.lighting || lighting.lights.empty())
+  {
+    return ambient + diffuseColor;
+  }
+  const glm::vec3 normal(glm::dmat3(lighting.worldToView) * glm::dvec3(point.normal));
+  const glm::vec3 position(lighting.worldToView * glm::dvec4(point.position, 1.0));
+  glm::vec3 diffuse(0.0f);
+  glm::vec3 specular(0.0f);
+  for (std::size_t l = 0; l < lighting.lights.size(); ++l)
+  {
+    const Light& light = *lighting.lights[l].light;
+    const Arriving a =
+      arriving(lighting.lights[l], normal, position, material, lighting.onlyHeadlight);
+    const bool reached = a.diffuse != glm::vec3(0.0f) || a.specular > 0.0f;
+    const float share =
+      reached && instance.receiveShadow && light.castShadow && dark(l) ? remaining : 1.0f;
+    diffuse += share * a.diffuse;
+    specular += share * a.specular * light.color;
+  }
+  return ambient + diffuse * diffuseColor + specular * (material.specular * material.specularColor);
 }
 }
 

@@ -29,6 +29,7 @@ void ShadowBuffer::begin(const Scene& scene, const Light& light, const FrameSett
   {
     Face& face = *this->Faces[i];
     face.view = views[i];
+    face.worldToClip = face.view.viewToClip * face.view.worldToView;
     face.seesCasters = face.layers.begin(
       scene, face.view, [](const Instance& instance) { return instance.castShadow; },
       [&](const Instance& instance, const LocalView& local)
@@ -40,9 +41,8 @@ void ShadowBuffer::begin(const Scene& scene, const Light& light, const FrameSett
       const int level = face.layers.level(static_cast<std::uint32_t>(k));
       if (instance.castShadow && level > 0)
       {
-        const double voxel = std::ldexp(worldVoxel(instance), instance.octree.level() - level);
-        this->CasterVoxel[k] = std::max(this->CasterVoxel[k], voxel);
-        this->CasterError[k] = std::max(this->CasterError[k], voxel * leafError(instance, level));
+        this->CasterVoxel[k] = std::max(this->CasterVoxel[k], worldVoxel(instance, level));
+        this->CasterError[k] = std::max(this->CasterError[k], worldLeafError(instance, level));
       }
     }
     const std::size_t tilesAcross = (face.view.width + 7) / 8;
@@ -64,8 +64,7 @@ bool ShadowBuffer::lookUp(
   for (const auto& candidate : this->Faces)
   {
     const View& view = candidate->view;
-    const glm::dvec4 v = view.worldToView * glm::dvec4(position, 1.0);
-    const glm::dvec4 clip = view.viewToClip * v;
+    const glm::dvec4 clip = candidate->worldToClip * glm::dvec4(position, 1.0);
     if (!(clip.w > 0.0) || !(std::abs(clip.x) < clip.w) || !(std::abs(clip.y) < clip.w))
     {
       continue;
@@ -73,7 +72,8 @@ bool ShadowBuffer::lookUp(
     texel.x = static_cast<int>((clip.x / clip.w + 1.0) * 0.5 * view.width);
     texel.y = static_cast<int>((clip.y / clip.w + 1.0) * 0.5 * view.height);
     texel = glm::clamp(texel, glm::ivec2(0), glm::ivec2(view.width - 1, view.height - 1));
-    t = -v.z;
+    const glm::dmat4& m = view.worldToView;
+    t = -(m[0][2] * position.x + m[1][2] * position.y + m[2][2] * position.z + m[3][2]);
     face = candidate.get();
     return face->seesCasters;
   }
@@ -121,7 +121,7 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
   }
 }
 
-bool ShadowBuffer::shadows(const glm::dvec3& position, const glm::vec3& facet) const
+bool ShadowBuffer::shadows(const glm::dvec3& position, const glm::vec3& facet, double error) const
 {
   const Face* face = nullptr;
   glm::ivec2 texel;
@@ -158,7 +158,7 @@ bool ShadowBuffer::shadows(const glm::dvec3& position, const glm::vec3& facet) c
   const double reach = 8.0 * pixel;
   receiver = std::clamp(receiver, t - reach, t + reach);
   const double grazing = std::max(std::abs(slope), 0.1);
-  bias += 0.5 * pixel + this->CasterError[caster] / grazing;
+  bias += 0.5 * pixel + std::max(this->CasterError[caster], error) / grazing;
   return occluder + bias < receiver;
 }
 

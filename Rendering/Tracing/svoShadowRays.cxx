@@ -11,7 +11,7 @@ ShadowRays::ShadowRays(const Scene& scene)
 {
   for (const Instance& instance : scene.instances)
   {
-    if (instance.castShadow && !instance.octree.empty())
+    if (instance.castShadow && instance.octree && !instance.octree.empty())
     {
       this->Casters.push_back(
         { &instance, instance.octree.localToOctree() * glm::inverse(instance.localToWorld) });

@@ -27,6 +27,7 @@ struct SurfacePoint
 /// What all points of an instance share.
 struct SurfaceFrame
 {
+  SurfaceFrame() = default; // of an instance without an octree: nothing is ever seen of it
   explicit SurfaceFrame(const Instance& i)
     : instance(&i)
     , toOctree(i.octree.localToOctree() * glm::inverse(i.localToWorld))
@@ -41,7 +42,7 @@ struct SurfaceFrame
     }
     direction = linear / most;
   }
-  const Instance* instance;
+  const Instance* instance = nullptr;
   glm::dmat4 toOctree;     // world -> octree coordinates
   glm::dmat3 linear;       // octree coordinates -> world, without the translation
   glm::dmat3 direction;    // the same, scaled so that its largest column is a unit vector

@@ -1,16 +1,16 @@
 #include "svoTracer.h"
 
+#include "svoFrameTiles.h"
 #include "svoLayeredView.h"
 #include "svoSelect.h"
 #include "svoShading.h"
-#include "svoShadowBuffer.h"
-#include "svoShadowRays.h"
+#include "svoShadows.h"
 #include "svoSurfacePoint.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <unordered_map>
 
 namespace svo
 {
@@ -20,13 +20,6 @@ double now()
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-/// What shading needs of a pixel.
-struct ShadePoint
-{
-  SurfacePoint surface;
-  std::uint32_t instance;
-};
 
 std::uint8_t toByte(float v)
 {
@@ -40,83 +33,133 @@ struct Tracer::Internals
   FrameStatistics Statistics;
   std::vector<ShadowMap> Maps;
   LayeredView Eye;
-  std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> Buffers; // by Light::id
+  Shadows Dark;
+  FrameTiles Tiles;
+  std::vector<SurfacePoint> Points; // 64 per tile with hits
+  std::vector<SurfaceFrame> Frames; // by index into Scene::instances
+  std::vector<double> Errors;       // world; of the instance's leaves as the eye sees them
 
-  std::vector<std::uint32_t> HitTiles;
-  std::vector<ShadePoint> Points; // 64 per hit tile
+  /// Calls body(x, y, index into the depth buffer, point) for the pixels of the tiles with hits.
+  template <class Body>
+  void eachPoint(const View& view, const ParallelFor& parallelFor, const Body& body)
+  {
+    const std::vector<std::uint32_t>& hits = this->Tiles.hits();
+    const int tilesX = this->Eye.depthBuffer().tilesX;
+    parallelFor(0, hits.size(), 32,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t k = first; k < last; ++k)
+        {
+          const std::size_t tile = hits[k];
+          const int x0 = 8 * static_cast<int>(tile % tilesX);
+          const int y0 = 8 * static_cast<int>(tile / tilesX);
+          const int columns = std::min(8, view.width - x0);
+          const int rows = std::min(8, view.height - y0);
+          for (int j = 0; j < rows; ++j)
+          {
+            for (int i = 0; i < columns; ++i)
+            {
+              const int at = 8 * j + i;
+              body(x0 + i, y0 + j, 64 * tile + at, this->Points[64 * k + at]);
+            }
+          }
+        }
+      });
+  }
 
-  // What the last frame left in the caller's Frame, so that only that is wiped.
-  std::vector<std::uint8_t> WrittenTiles;
-  const std::uint8_t* WrittenTo = nullptr;
-
-  void prepareFrame(const View& view, const FrameSettings& settings, Frame& frame);
-  void findHitTiles(Frame& frame);
+  void describeInstances(const Scene& scene);
+  void findPoints(const Scene& scene, const View& view, const ParallelFor& parallelFor);
+  void shadePoints(const Scene& scene, const View& view, const FrameSettings& settings,
+    const ParallelFor& parallelFor, Frame& frame);
 };
 
-void Tracer::Internals::prepareFrame(const View& view, const FrameSettings& settings, Frame& frame)
+void Tracer::Internals::describeInstances(const Scene& scene)
 {
-  const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
-  const bool same = frame.width == view.width && frame.height == view.height &&
-    this->WrittenTo == frame.color.data() && frame.color.size() == 4 * pixels;
-  frame.width = view.width;
-  frame.height = view.height;
-  if (!same)
+  this->Frames.clear();
+  this->Errors.clear();
+  for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {
-    frame.color.assign(4 * pixels, 0);
-    frame.depth.assign(pixels, 1.0f);
-    frame.instance.assign(pixels, NoInstance);
-    frame.primitive.assign(pixels, NoPrimitive);
-    this->WrittenTiles.clear();
+    const Instance& instance = scene.instances[i];
+    const int level = this->Eye.level(static_cast<std::uint32_t>(i));
+    this->Frames.push_back(instance.octree ? SurfaceFrame(instance) : SurfaceFrame());
+    this->Errors.push_back(instance.octree ? worldLeafError(instance, level) : 0.0);
   }
-  if (!settings.writeNormals)
-  {
-    frame.normals.clear();
-  }
-  else if (frame.normals.size() != 3 * pixels)
-  {
-    frame.normals.assign(3 * pixels, 0.0f);
-  }
-  this->WrittenTo = frame.color.data();
-  frame.covered = PixelRect();
 }
 
-void Tracer::Internals::findHitTiles(Frame& frame)
+void Tracer::Internals::findPoints(
+  const Scene& scene, const View& view, const ParallelFor& parallelFor)
 {
   const DepthBuffer& depth = this->Eye.depthBuffer();
-  this->HitTiles.clear();
-  PixelRect covered{ frame.width, frame.height, 0, 0 };
-  this->WrittenTiles.resize(depth.tiles(), 0);
-  for (std::size_t tile = 0; tile < depth.tiles(); ++tile)
+  if (this->Points.size() < 64 * this->Tiles.hits().size())
   {
-    const int x = 8 * static_cast<int>(tile % depth.tilesX);
-    const int y = 8 * static_cast<int>(tile / depth.tilesX);
-    if (depth.hit[tile])
+    this->Points.resize(64 * this->Tiles.hits().size());
+  }
+  this->eachPoint(view, parallelFor,
+    [&](int x, int y, std::size_t at, SurfacePoint& point)
     {
-      this->HitTiles.push_back(static_cast<std::uint32_t>(tile));
-      covered = { std::min(covered.x0, x), std::min(covered.y0, y), std::max(covered.x1, x + 8),
-        std::max(covered.y1, y + 8) };
-      this->WrittenTiles[tile] = 1;
-    }
-    else if (this->WrittenTiles[tile])
-    {
-      this->WrittenTiles[tile] = 0;
-      for (int j = y; j < std::min(y + 8, frame.height); ++j)
+      const std::uint32_t i = depth.instance[at];
+      if (i == NoInstance)
       {
-        const std::size_t row = static_cast<std::size_t>(j) * frame.width;
-        const std::size_t a = row + x;
-        const std::size_t b = row + std::min(x + 8, frame.width);
-        std::fill(frame.color.begin() + 4 * a, frame.color.begin() + 4 * b, std::uint8_t(0));
-        std::fill(frame.depth.begin() + a, frame.depth.begin() + b, 1.0f);
-        std::fill(frame.instance.begin() + a, frame.instance.begin() + b, NoInstance);
-        std::fill(frame.primitive.begin() + a, frame.primitive.begin() + b, NoPrimitive);
+        return;
       }
-    }
-  }
-  if (!covered.empty())
-  {
-    frame.covered = { covered.x0, covered.y0, std::min(covered.x1, frame.width),
-      std::min(covered.y1, frame.height) };
-  }
+      point = surfacePoint(this->Frames[i], view, x + 0.5, y + 0.5, this->Eye.base(i) + depth.t[at],
+        depth.primitive[at]);
+      const Instance& instance = scene.instances[i];
+      if (instance.receiveShadow && instance.material.lighting)
+      {
+        this->Dark.mark(point);
+      }
+    });
+}
+
+void Tracer::Internals::shadePoints(const Scene& scene, const View& view,
+  const FrameSettings& settings, const ParallelFor& parallelFor, Frame& frame)
+{
+  const DepthBuffer& depth = this->Eye.depthBuffer();
+  const Lighting lighting(scene, view);
+  const float remaining = static_cast<float>(1.0 - settings.shadowIntensity);
+  std::atomic<std::uint64_t> allRays{ 0 };
+  this->eachPoint(view, parallelFor,
+    [&](int x, int y, std::size_t at, const SurfacePoint& point)
+    {
+      const std::size_t pixel = static_cast<std::size_t>(y) * view.width + x;
+      std::uint8_t* rgba = frame.color.data() + 4 * pixel;
+      const std::uint32_t i = depth.instance[at];
+      frame.instance[pixel] = i;
+      if (i == NoInstance)
+      {
+        std::fill(rgba, rgba + 4, std::uint8_t(0));
+        frame.depth[pixel] = 1.0f;
+        frame.primitive[pixel] = NoPrimitive;
+        if (settings.writeNormals)
+        {
+          std::fill_n(frame.normals.data() + 3 * pixel, 3, 0.0f);
+        }
+        return;
+      }
+      const Instance& instance = scene.instances[i];
+      std::uint64_t rays = 0;
+      const glm::vec3 color = shade(lighting, instance, point, remaining,
+        [&](std::size_t light) { return this->Dark.dark(light, point, this->Errors[i], rays); });
+      if (rays > 0)
+      {
+        allRays.fetch_add(rays, std::memory_order_relaxed);
+      }
+      rgba[0] = toByte(color.r);
+      rgba[1] = toByte(color.g);
+      rgba[2] = toByte(color.b);
+      rgba[3] = 255;
+      const double window =
+        view.windowDepth(this->Eye.base(i) + depth.t[at]) + instance.depthOffsetUnits;
+      frame.depth[pixel] = static_cast<float>(std::clamp(window, 0.0, 1.0));
+      frame.primitive[pixel] = depth.primitive[at];
+      if (settings.writeNormals)
+      {
+        const glm::vec3 normal(glm::dmat3(view.worldToView) * glm::dvec3(point.normal));
+        std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixel);
+      }
+    });
+  this->Statistics.shadowRays += allRays;
 }
 
 Tracer::Tracer()
@@ -131,240 +174,47 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
 {
   Internals& self = *this->Impl;
   const double start = now();
-  double shadowTime = 0.0;
   self.Statistics = FrameStatistics();
   self.Maps.clear();
-  self.prepareFrame(view, settings, frame);
 
   // Depth layers of the eye, merged.
   self.Eye.begin(
-    scene, view, [](const Instance& i) { return i.visible; },
-    [&](const Instance& i, const LocalView& local)
-    { return selectLevel(i, local, view, settings.pixelError); },
+    scene, view, [](const Instance& instance) { return instance.visible; },
+    [&](const Instance& instance, const LocalView& local)
+    { return selectLevel(instance, local, view, settings.pixelError); },
     settings.frameCoherence, settings.layerMemoryLimit);
   self.Eye.trace(parallelFor, nullptr);
-  self.findHitTiles(frame);
-  const DepthBuffer& depth = self.Eye.depthBuffer();
+  self.Tiles.begin(self.Eye.depthBuffer(), view, settings.writeNormals, frame);
 
-  // Lights, and the shadow buffers of those that cast.
-  std::vector<ViewLight> lights;
-  std::vector<ShadowBuffer*> buffers(scene.lights.size(), nullptr);
-  std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> kept;
-  for (std::size_t i = 0; i < scene.lights.size(); ++i)
-  {
-    const Light& light = scene.lights[i];
-    lights.push_back(makeViewLight(light, view));
-    if (settings.shadowTechnique != ShadowTechnique::Buffer || !light.castShadow ||
-      kept.count(light.id))
-    {
-      continue;
-    }
-    auto& buffer = kept[light.id];
-    buffer = std::move(self.Buffers[light.id]);
-    if (!buffer)
-    {
-      buffer = std::make_unique<ShadowBuffer>();
-    }
-    buffer->begin(scene, light, settings);
-    buffers[i] = buffer.get();
-    if (settings.wholeShadowBuffers)
-    {
-      buffer->markAll();
-    }
-  }
-  self.Buffers = std::move(kept);
-  const bool rays = settings.shadowTechnique == ShadowTechnique::Rays;
-  const bool onlyHeadlight = scene.lights.size() == 1 && scene.lights[0].headlight;
-
-  std::vector<SurfaceFrame> frames;
-  std::vector<double> offsets; // of shadow rays
-  frames.reserve(scene.instances.size());
-  for (std::size_t i = 0; i < scene.instances.size(); ++i)
-  {
-    const Instance& instance = scene.instances[i];
-    frames.emplace_back(instance);
-    const int level = std::max(self.Eye.level(static_cast<std::uint32_t>(i)), 1);
-    const double voxel = std::ldexp(worldVoxel(instance), instance.octree.level() - level);
-    offsets.push_back(voxel * std::max(1.2 * leafError(instance, level), 0.01));
-  }
-
-  // Visible points: what they are, and which light tiles they look up.
-  if (self.Points.size() < 64 * self.HitTiles.size())
-  {
-    self.Points.resize(64 * self.HitTiles.size());
-  }
-  const auto eachPoint = [&](const std::function<void(int, int, std::size_t, ShadePoint&)>& body)
-  {
-    parallelFor(0, self.HitTiles.size(), 32,
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t k = first; k < last; ++k)
-        {
-          const std::size_t tile = self.HitTiles[k];
-          const int x0 = 8 * static_cast<int>(tile % depth.tilesX);
-          const int y0 = 8 * static_cast<int>(tile / depth.tilesX);
-          for (int i = 0; i < 64; ++i)
-          {
-            if (x0 + (i & 7) < view.width && y0 + (i >> 3) < view.height)
-            {
-              body(x0 + (i & 7), y0 + (i >> 3), 64 * tile + i, self.Points[64 * k + i]);
-            }
-          }
-        }
-      });
-  };
-  eachPoint(
-    [&](int x, int y, std::size_t at, ShadePoint& point)
-    {
-      point.instance = depth.instance[at];
-      if (point.instance == NoInstance)
-      {
-        return;
-      }
-      point.surface = surfacePoint(frames[point.instance], view, x + 0.5, y + 0.5,
-        self.Eye.base(point.instance) + depth.t[at], depth.primitive[at]);
-      const Instance& instance = scene.instances[point.instance];
-      if (!instance.receiveShadow || !instance.material.lighting)
-      {
-        return;
-      }
-      for (std::size_t l = 0; l < lights.size(); ++l)
-      {
-        if (buffers[l] && !settings.wholeShadowBuffers)
-        {
-          const Light& light = scene.lights[l];
-          const glm::dvec3 towards = light.kind == Light::Kind::Directional
-            ? -light.direction
-            : light.position - point.surface.position;
-          if (glm::dot(glm::dvec3(point.surface.normal), towards) > 0.0)
-          {
-            buffers[l]->mark(point.surface.position);
-          }
-        }
-      }
-    });
+  // Visible points, and the light tiles that they will look up.
+  self.describeInstances(scene);
+  self.Dark.begin(scene, settings);
+  self.findPoints(scene, view, parallelFor);
 
   // Shadow layers, merged likewise.
   const double shadowStart = now();
-  for (ShadowBuffer* buffer : buffers)
-  {
-    if (buffer)
-    {
-      buffer->trace(parallelFor);
-      self.Statistics.shadowRays += buffer->rays();
-      self.Statistics.retracedLayers += buffer->retracedLayers();
-      self.Statistics.layerMemory += buffer->layerMemory();
-    }
-  }
+  self.Dark.trace(parallelFor);
   if (settings.wholeShadowBuffers)
   {
-    for (std::size_t l = 0; l < lights.size(); ++l)
-    {
-      if (buffers[l])
-      {
-        buffers[l]->copyMaps(static_cast<int>(l), self.Maps);
-      }
-    }
+    self.Dark.copyMaps(self.Maps);
   }
-  shadowTime += now() - shadowStart;
+  double shadowTime = now() - shadowStart;
 
   // Shade and test.
-  const ShadowRays shadowRays(scene);
-  const glm::dmat3 rotation(view.worldToView);
-  std::atomic<std::uint64_t> raysCast{ 0 };
-  eachPoint(
-    [&](int x, int y, std::size_t at, ShadePoint& point)
-    {
-      const std::size_t pixel = static_cast<std::size_t>(y) * view.width + x;
-      std::uint8_t* rgba = frame.color.data() + 4 * pixel;
-      frame.instance[pixel] = point.instance;
-      frame.primitive[pixel] = depth.primitive[at];
-      if (point.instance == NoInstance)
-      {
-        std::fill(rgba, rgba + 4, std::uint8_t(0));
-        frame.depth[pixel] = 1.0f;
-        frame.primitive[pixel] = NoPrimitive;
-        return;
-      }
-      const Instance& instance = scene.instances[point.instance];
-      const Material& material = instance.material;
-      const SurfacePoint& surface = point.surface;
-      const glm::vec3 normal(rotation * glm::dvec3(surface.normal));
-      const glm::vec3 position(view.worldToView * glm::dvec4(surface.position, 1.0));
-      const glm::vec3 ambientColor =
-        material.ambient * (surface.hasColor ? surface.color : material.ambientColor);
-      const glm::vec3 diffuseColor =
-        material.diffuse * (surface.hasColor ? surface.color : material.diffuseColor);
-      glm::vec3 sum = ambientColor;
-      if (!material.lighting || lights.empty())
-      {
-        sum += diffuseColor;
-      }
-      else
-      {
-        glm::vec3 diffuse(0.0f);
-        glm::vec3 specular(0.0f);
-        for (std::size_t l = 0; l < lights.size(); ++l)
-        {
-          Arriving light = arriving(lights[l], normal, position, material, onlyHeadlight);
-          const bool lit = light.diffuse != glm::vec3(0.0f) || light.specular > 0.0f;
-          float share = 1.0f;
-          if (lit && instance.receiveShadow && scene.lights[l].castShadow)
-          {
-            bool dark = false;
-            if (buffers[l])
-            {
-              dark = buffers[l]->shadows(surface.position, surface.facet);
-            }
-            else if (rays)
-            {
-              raysCast.fetch_add(1, std::memory_order_relaxed);
-              dark = shadowRays.shadows(
-                scene.lights[l], surface.position, surface.facet, offsets[point.instance]);
-            }
-            share = dark ? static_cast<float>(1.0 - settings.shadowIntensity) : 1.0f;
-          }
-          diffuse += share * light.diffuse;
-          specular += share * light.specular * scene.lights[l].color;
-        }
-        sum += diffuse * diffuseColor + specular * material.specular * material.specularColor;
-      }
-      rgba[0] = toByte(sum.r);
-      rgba[1] = toByte(sum.g);
-      rgba[2] = toByte(sum.b);
-      rgba[3] = 255;
-      const double t = self.Eye.base(point.instance) + depth.t[at];
-      double window = view.windowDepth(t);
-      if (instance.depthOffsetFactor != 0.0f || instance.depthOffsetUnits != 0.0f)
-      {
-        // glPolygonOffset: the steepest change of window depth over a pixel, times the factor, plus
-        // units of the least resolvable difference (24 bits).
-        const glm::dvec3 n(surface.facet);
-        const auto depthAt = [&](double px, double py)
-        {
-          const glm::dvec3 d = view.rayDirection(px, py);
-          const double along = glm::dot(n, d);
-          const double other = glm::dot(n, surface.position - view.rayOrigin(px, py)) / along;
-          return std::isfinite(other) ? view.windowDepth(other) : window;
-        };
-        const double slope = std::max(std::abs(depthAt(x + 1.5, y + 0.5) - window),
-          std::abs(depthAt(x + 0.5, y + 1.5) - window));
-        window +=
-          instance.depthOffsetFactor * std::min(slope, 1.0) + instance.depthOffsetUnits * 0x1p-24;
-      }
-      frame.depth[pixel] = static_cast<float>(std::clamp(window, 0.0, 1.0));
-      if (settings.writeNormals)
-      {
-        std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixel);
-      }
-    });
+  const double shadeStart = now();
+  self.shadePoints(scene, view, settings, parallelFor, frame);
+  if (settings.shadowTechnique == ShadowTechnique::Rays)
+  {
+    shadowTime += now() - shadeStart; // the rays are nearly all of it
+  }
 
-  self.Statistics.primaryRays = self.Eye.rays();
-  self.Statistics.shadowRays += raysCast;
-  self.Statistics.retracedLayers += self.Eye.retracedLayers();
-  self.Statistics.layerMemory += self.Eye.layerMemory();
-  self.Statistics.shadowTime = shadowTime;
-  self.Statistics.traceTime = now() - start - shadowTime;
+  FrameStatistics& statistics = self.Statistics;
+  self.Dark.addStatistics(statistics);
+  statistics.primaryRays = self.Eye.rays();
+  statistics.retracedLayers += self.Eye.retracedLayers();
+  statistics.layerMemory += self.Eye.layerMemory();
+  statistics.shadowTime = shadowTime;
+  statistics.traceTime = now() - start - shadowTime;
 }
 
 const FrameStatistics& Tracer::statistics() const
@@ -380,6 +230,6 @@ const std::vector<ShadowMap>& Tracer::shadowMaps() const
 void Tracer::releaseLayers()
 {
   this->Impl->Eye.release();
-  this->Impl->Buffers.clear();
+  this->Impl->Dark.release();
 }
 }

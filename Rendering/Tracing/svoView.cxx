@@ -14,8 +14,8 @@ double View::windowDepth(double t) const
   return 0.5 * z / w + 0.5;
 }
 
-bool makeView(const glm::dmat4& worldToView, const glm::dmat4& viewToClip, int width, int height,
-  View& view)
+bool makeView(
+  const glm::dmat4& worldToView, const glm::dmat4& viewToClip, int width, int height, View& view)
 {
   for (int c = 0; c < 4; ++c)
   {
@@ -54,12 +54,10 @@ bool makeView(const glm::dmat4& worldToView, const glm::dmat4& viewToClip, int w
   const glm::dvec2 dv = inverse * glm::dvec2(0.0, wt);
 
   const glm::dmat4 viewToWorld = glm::inverse(worldToView);
-  const auto point = [&](glm::dvec2 v) {
-    return glm::dvec3(viewToWorld * glm::dvec4(v, 0.0, 1.0));
-  };
-  const auto vector = [&](glm::dvec2 v, double z) {
-    return glm::dvec3(viewToWorld * glm::dvec4(v, z, 0.0));
-  };
+  const auto point = [&](glm::dvec2 v)
+  { return glm::dvec3(viewToWorld * glm::dvec4(v, 0.0, 1.0)); };
+  const auto vector = [&](glm::dvec2 v, double z)
+  { return glm::dvec3(viewToWorld * glm::dvec4(v, z, 0.0)); };
   // u = 2 x / width - 1, v = 2 y / height - 1.
   const double su = 2.0 / width;
   const double sv = 2.0 / height;
@@ -75,7 +73,8 @@ bool makeView(const glm::dmat4& worldToView, const glm::dmat4& viewToClip, int w
   view.directionX = vector(du * su, 0.0);
   view.directionY = vector(dv * sv, 0.0);
   // Window depths 0 and 1: z = -w and z = w.
-  const auto depthAt = [&](double ndc) {
+  const auto depthAt = [&](double ndc)
+  {
     // (P22 (-t) + P23) = ndc (P32 (-t) + P33)
     return (p[3][2] - ndc * p[3][3]) / (p[2][2] - ndc * p[2][3]);
   };

@@ -23,10 +23,10 @@ struct VTKSVOTRACING_EXPORT View
 {
   glm::dvec3 origin{ 0.0 }, originX{ 0.0 }, originY{ 0.0 };
   glm::dvec3 direction{ 0.0, 0.0, -1.0 }, directionX{ 0.0 }, directionY{ 0.0 };
-  double tNear = 0.0; // rays start here (near plane)
+  double tNear = 0.0;  // rays start here (near plane)
   double tFar = 1e300; // and end here (far plane)
-  int width = 0;  // pixels
-  int height = 0; // pixels
+  int width = 0;       // pixels
+  int height = 0;      // pixels
 
   glm::dmat4 worldToView{ 1.0 }; // rigid; view space looks along -z
   glm::dmat4 viewToClip{ 1.0 };  // OpenGL clip space, z in [-w, w]
@@ -44,8 +44,8 @@ struct VTKSVOTRACING_EXPORT View
 
 /// The view of a projection: any matrix whose last row is (0, 0, a, b), so off-axis, explicit and
 /// parallel projections included. False if the matrix cannot be inverted or is not finite.
-VTKSVOTRACING_EXPORT bool makeView(const glm::dmat4& worldToView, const glm::dmat4& viewToClip,
-  int width, int height, View& view);
+VTKSVOTRACING_EXPORT bool makeView(
+  const glm::dmat4& worldToView, const glm::dmat4& viewToClip, int width, int height, View& view);
 
 /// A rectangle of pixels, upper bounds excluded.
 struct PixelRect

@@ -1,0 +1,121 @@
+#include "svoShadows.h"
+
+#include <glm/geometric.hpp>
+
+namespace svo
+{
+void Shadows::begin(const Scene& scene, const FrameSettings& settings)
+{
+  this->Of = &scene;
+  // Subsamples of a pixel may look up what no pixel's centre does.
+  this->All = settings.wholeShadowBuffers || settings.antiAliasing;
+  this->Buffers.assign(scene.lights.size(), nullptr);
+  this->Rays.reset();
+  if (settings.shadowTechnique == ShadowTechnique::Rays)
+  {
+    this->Rays = std::make_unique<ShadowRays>(scene);
+  }
+  std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> kept;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+  {
+    const Light& light = scene.lights[i];
+    if (settings.shadowTechnique != ShadowTechnique::Buffer || !light.castShadow)
+    {
+      continue;
+    }
+    std::uint64_t id = light.id;
+    while (kept.count(id)) // two lights of one id are still two lights
+    {
+      ++id;
+    }
+    std::unique_ptr<ShadowBuffer>& buffer = kept[id];
+    const auto found = this->Kept.find(id);
+    buffer =
+      found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
+    if (!buffer)
+    {
+      buffer = std::make_unique<ShadowBuffer>();
+    }
+    buffer->begin(scene, light, settings);
+    this->Buffers[i] = buffer.get();
+    if (this->All)
+    {
+      buffer->markAll();
+    }
+  }
+  this->Kept = std::move(kept);
+}
+
+void Shadows::mark(const SurfacePoint& point)
+{
+  if (this->All)
+  {
+    return;
+  }
+  for (std::size_t i = 0; i < this->Buffers.size(); ++i)
+  {
+    if (!this->Buffers[i])
+    {
+      continue;
+    }
+    const Light& light = this->Of->lights[i];
+    const glm::dvec3 towards =
+      light.kind == Light::Kind::Directional ? -light.direction : light.position - point.position;
+    // A little more than shading will ask for: it decides in floats.
+    if (glm::dot(glm::dvec3(point.normal), towards) > -1e-4 * glm::length(towards))
+    {
+      this->Buffers[i]->mark(point.position);
+    }
+  }
+}
+
+void Shadows::trace(const ParallelFor& parallelFor)
+{
+  for (ShadowBuffer* buffer : this->Buffers)
+  {
+    if (buffer)
+    {
+      buffer->trace(parallelFor);
+    }
+  }
+}
+
+bool Shadows::dark(
+  std::size_t light, const SurfacePoint& point, double error, std::uint64_t& rays) const
+{
+  if (this->Buffers[light])
+  {
+    return this->Buffers[light]->shadows(point.position, point.facet, error);
+  }
+  if (this->Rays && this->Of->lights[light].castShadow)
+  {
+    ++rays;
+    return this->Rays->shadows(this->Of->lights[light], point.position, point.facet, error);
+  }
+  return false;
+}
+
+void Shadows::addStatistics(FrameStatistics& statistics) const
+{
+  for (const ShadowBuffer* buffer : this->Buffers)
+  {
+    if (buffer)
+    {
+      statistics.shadowRays += buffer->rays();
+      statistics.retracedLayers += buffer->retracedLayers();
+      statistics.layerMemory += buffer->layerMemory();
+    }
+  }
+}
+
+void Shadows::copyMaps(std::vector<ShadowMap>& maps) const
+{
+  for (std::size_t i = 0; i < this->Buffers.size(); ++i)
+  {
+    if (this->Buffers[i])
+    {
+      this->Buffers[i]->copyMaps(static_cast<int>(i), maps);
+    }
+  }
+}
+}

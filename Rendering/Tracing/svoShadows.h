@@ -1,0 +1,45 @@
+// The shadows of a frame: for every casting light a shadow buffer, or exact rays.
+#ifndef svoShadows_h
+#define svoShadows_h
+
+#include "svoScene.h"
+#include "svoShadowBuffer.h"
+#include "svoShadowRays.h"
+#include "svoSurfacePoint.h"
+#include "svoTracer.h"
+
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace svo
+{
+class Shadows
+{
+public:
+  /// Fits the lights' buffers and keeps of their layers what is still true.
+  void begin(const Scene& scene, const FrameSettings& settings);
+
+  void mark(const SurfacePoint& point);
+
+  void trace(const ParallelFor& parallelFor);
+
+  /// True if the point is in the shadow of the light (index into Scene::lights). `error` as in
+  /// ShadowBuffer::shadows. Counts the rays it casts in `rays`.
+  bool dark(std::size_t light, const SurfacePoint& point, double error, std::uint64_t& rays) const;
+
+  void addStatistics(FrameStatistics& statistics) const;
+  void copyMaps(std::vector<ShadowMap>& maps) const;
+  void release() { this->Kept.clear(); }
+
+private:
+  const Scene* Of = nullptr;
+  bool All = false;                   // every tile is traced
+  std::vector<ShadowBuffer*> Buffers; // by index into Scene::lights; null: no buffer
+  std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> Kept; // by Light::id
+  std::unique_ptr<ShadowRays> Rays;
+};
+}
+
+#endif
