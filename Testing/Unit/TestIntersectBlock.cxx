@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#define HWY_WANT_AVX3_DL 1 // as svoIntersectBlock.cxx does
 #include <hwy/targets.h>
 
 #include <cmath>
