@@ -31,24 +31,30 @@ void LayeredView::release()
   this->Began = false;
 }
 
-void LayeredView::prepare(const Scene& scene, const View& view, bool keep, std::size_t memoryLimit)
+void LayeredView::dropLayers(LayerBudget& budget)
+{
+  for (auto& kept : this->Layers)
+  {
+    kept.second.layer.reset();
+  }
+  budget.used -= this->Memory;
+  this->Memory = 0;
+}
+
+void LayeredView::prepare(const Scene& scene, const View& view, bool keep, LayerBudget& budget)
 {
   this->Bases.assign(scene.instances.size(), 0.0);
   this->Levels.assign(scene.instances.size(), 0);
   // Layers are made for what stands still: something new is taken to do so, something that just
   // changed, or is seen by a view that did, is taken to go on changing.
   const bool moved = this->Began && !sameRays(view, this->Of);
+  if (!keep || moved || budget.used > budget.limit)
+  {
+    this->dropLayers(budget);
+  }
   if (!keep)
   {
-    this->release();
-  }
-  else if (moved)
-  {
-    for (auto& kept : this->Layers)
-    {
-      kept.second.layer.reset();
-    }
-    this->Memory = 0;
+    this->Layers.clear();
   }
   this->Of = view;
   this->Began = keep;
@@ -73,9 +79,10 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, std::
     kept.used = true;
     const bool changed = !inserted.second && !(kept.key == entry.key);
     kept.key = entry.key;
-    if (changed)
+    if (changed && kept.layer)
     {
-      this->Memory -= kept.layer ? kept.layer->bytes() : 0;
+      this->Memory -= kept.layer->bytes();
+      budget.used -= kept.layer->bytes();
       kept.layer.reset();
     }
     if (changed || moved)
@@ -85,9 +92,10 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, std::
     if (!kept.layer)
     {
       auto layer = std::make_unique<DepthLayer>(entry.local.rect);
-      if (this->Memory + layer->bytes() <= memoryLimit)
+      if (budget.used + layer->bytes() <= budget.limit)
       {
         this->Memory += layer->bytes();
+        budget.used += layer->bytes();
         kept.layer = std::move(layer);
       }
     }
@@ -100,7 +108,9 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, std::
       ++kept;
       continue;
     }
-    this->Memory -= kept->second.layer ? kept->second.layer->bytes() : 0;
+    const std::size_t bytes = kept->second.layer ? kept->second.layer->bytes() : 0;
+    this->Memory -= bytes;
+    budget.used -= bytes;
     kept = this->Layers.erase(kept);
   }
   // Kept layers first: they cost nothing and cut the others' rays. Then front to back.

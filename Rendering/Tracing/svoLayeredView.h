@@ -31,6 +31,13 @@ struct LayerKey
   }
 };
 
+/// What all layers together may take, and take.
+struct LayerBudget
+{
+  std::size_t limit = 0; // bytes
+  std::size_t used = 0;  // bytes
+};
+
 /// A kept depth layer: the tiles of an instance's rectangle that somebody asked for so far.
 struct DepthLayer
 {
@@ -43,7 +50,7 @@ struct DepthLayer
   explicit DepthLayer(const PixelRect& r);
   std::size_t bytes() const
   {
-    return this->traced.size() + this->t.size() * sizeof(float) +
+    return this->traced.size() * (1 + 2 * sizeof(float)) + this->t.size() * sizeof(float) +
       this->primitive.size() * sizeof(Primitive);
   }
 };
@@ -56,7 +63,7 @@ public:
   /// `levelOf` gives the octree level of an instance's rays.
   template <class TakesPart, class LevelOf>
   bool begin(const Scene& scene, const View& view, TakesPart takesPart, LevelOf levelOf, bool keep,
-    std::size_t memoryLimit)
+    LayerBudget& budget)
   {
     this->Instances.clear();
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
@@ -75,7 +82,7 @@ public:
           nullptr, {} });
       }
     }
-    this->prepare(scene, view, keep, memoryLimit);
+    this->prepare(scene, view, keep, budget);
     return !this->Instances.empty();
   }
 
@@ -110,7 +117,8 @@ private:
     bool used = false;
   };
 
-  void prepare(const Scene& scene, const View& view, bool keep, std::size_t memoryLimit);
+  void prepare(const Scene& scene, const View& view, bool keep, LayerBudget& budget);
+  void dropLayers(LayerBudget& budget);
   void traceTile(int tileX, int tileY, std::vector<std::uint64_t>& rays);
 
   View Of;

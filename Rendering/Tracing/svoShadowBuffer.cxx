@@ -10,13 +10,15 @@
 
 namespace svo
 {
-void ShadowBuffer::begin(const Scene& scene, const Light& light, const FrameSettings& settings)
+void ShadowBuffer::begin(
+  const Scene& scene, const Light& light, const FrameSettings& settings, LayerBudget& budget)
 {
   const std::vector<View> views = fitLight(scene, light, settings.shadowResolution);
   this->AutomaticBias = settings.automaticBias;
   this->Bias = settings.bias;
   if (this->Faces.size() != views.size())
   {
+    budget.used -= this->layerMemory();
     this->Faces.clear();
     for (std::size_t i = 0; i < views.size(); ++i)
     {
@@ -34,7 +36,7 @@ void ShadowBuffer::begin(const Scene& scene, const Light& light, const FrameSett
       scene, face.view, [](const Instance& instance) { return instance.castShadow; },
       [&](const Instance& instance, const LocalView& local)
       { return selectLevel(instance, local, face.view, settings.pixelError); },
-      settings.frameCoherence, settings.layerMemoryLimit);
+      settings.frameCoherence, budget);
     for (std::size_t k = 0; k < scene.instances.size(); ++k)
     {
       const Instance& instance = scene.instances[k];

@@ -21,7 +21,8 @@ public:
   /// Fits the light's views to the casters and prepares their layers. A directional light gets a
   /// parallel view around the casters; a positional one a perspective view if they subtend less
   /// than 120 degrees, else six square faces of a cube; a spot never more than its cone.
-  void begin(const Scene& scene, const Light& light, const FrameSettings& settings);
+  void begin(
+    const Scene& scene, const Light& light, const FrameSettings& settings, LayerBudget& budget);
 
   /// Notes the 8x8 light tile that the point will look up. Thread-safe.
   void mark(const glm::dvec3& position);

@@ -4,7 +4,7 @@
 
 namespace svo
 {
-void Shadows::begin(const Scene& scene, const FrameSettings& settings)
+void Shadows::begin(const Scene& scene, const FrameSettings& settings, LayerBudget& budget)
 {
   this->Of = &scene;
   // Subsamples of a pixel may look up what no pixel's centre does.
@@ -32,11 +32,7 @@ void Shadows::begin(const Scene& scene, const FrameSettings& settings)
     const auto found = this->Kept.find(id);
     buffer =
       found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
-    if (!buffer)
-    {
-      buffer = std::make_unique<ShadowBuffer>();
-    }
-    buffer->begin(scene, light, settings);
+    buffer->begin(scene, light, settings, budget);
     this->Buffers[i] = buffer.get();
     if (this->All)
     {
@@ -95,6 +91,16 @@ bool Shadows::dark(
   return false;
 }
 
+std::size_t Shadows::layerMemory() const
+{
+  std::size_t sum = 0;
+  for (const auto& kept : this->Kept)
+  {
+    sum += kept.second->layerMemory();
+  }
+  return sum;
+}
+
 void Shadows::addStatistics(FrameStatistics& statistics) const
 {
   for (const ShadowBuffer* buffer : this->Buffers)
@@ -103,7 +109,6 @@ void Shadows::addStatistics(FrameStatistics& statistics) const
     {
       statistics.shadowRays += buffer->rays();
       statistics.retracedLayers += buffer->retracedLayers();
-      statistics.layerMemory += buffer->layerMemory();
     }
   }
 }

@@ -19,7 +19,7 @@ class Shadows
 {
 public:
   /// Fits the lights' buffers and keeps of their layers what is still true.
-  void begin(const Scene& scene, const FrameSettings& settings);
+  void begin(const Scene& scene, const FrameSettings& settings, LayerBudget& budget);
 
   void mark(const SurfacePoint& point);
 
@@ -31,6 +31,8 @@ public:
 
   void addStatistics(FrameStatistics& statistics) const;
   void copyMaps(std::vector<ShadowMap>& maps) const;
+  /// Bytes of all kept layers.
+  std::size_t layerMemory() const;
   void release() { this->Kept.clear(); }
 
 private:

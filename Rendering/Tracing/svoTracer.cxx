@@ -177,18 +177,20 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
   self.Statistics = FrameStatistics();
   self.Maps.clear();
 
+  LayerBudget budget{ settings.layerMemoryLimit, self.Eye.layerMemory() + self.Dark.layerMemory() };
+
   // Depth layers of the eye, merged.
   self.Eye.begin(
     scene, view, [](const Instance& instance) { return instance.visible; },
     [&](const Instance& instance, const LocalView& local)
     { return selectLevel(instance, local, view, settings.pixelError); },
-    settings.frameCoherence, settings.layerMemoryLimit);
+    settings.frameCoherence, budget);
   self.Eye.trace(parallelFor, nullptr);
   self.Tiles.begin(self.Eye.depthBuffer(), view, settings.writeNormals, frame);
 
   // Visible points, and the light tiles that they will look up.
   self.describeInstances(scene);
-  self.Dark.begin(scene, settings);
+  self.Dark.begin(scene, settings, budget);
   self.findPoints(scene, view, parallelFor);
 
   // Shadow layers, merged likewise.
@@ -212,7 +214,7 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
   self.Dark.addStatistics(statistics);
   statistics.primaryRays = self.Eye.rays();
   statistics.retracedLayers += self.Eye.retracedLayers();
-  statistics.layerMemory += self.Eye.layerMemory();
+  statistics.layerMemory = self.Eye.layerMemory() + self.Dark.layerMemory();
   statistics.shadowTime = shadowTime;
   statistics.traceTime = now() - start - shadowTime;
 }

@@ -1,0 +1,337 @@
+#include "svoIntersect.h"
+#include "svoTracerScenes.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace svotest;
+
+namespace
+{
+/// Two bodies and a ground under a point light and a directional one.
+svo::Scene makeScene(svo::LeafGeometry leafGeometry = svo::LeafGeometry::Automatic)
+{
+  static const svo::Octree ground = makeOctree(square(3.0), 7);
+  static const svo::Octree ball = makeOctree(sphere(24, 40), 7);
+  static const svo::Octree ring = makeOctree(torus(40, 24), 7);
+  svo::Scene scene;
+  scene.instances = { instanceOf(ground, 1, glm::dmat4(1.0), leafGeometry),
+    instanceOf(ball, 2, movedTo(-0.8, 0.0, 1.0), leafGeometry),
+    instanceOf(ring, 3, movedTo(1.2, 0.3, 0.8), leafGeometry) };
+  scene.lights = { lightOf(svo::Light::Kind::Point, { 2, -3, 6 }),
+    lightOf(svo::Light::Kind::Directional, { -4, -1, 5 }) };
+  scene.lights[1].id = 78;
+  scene.lights[1].color = glm::vec3(0.3f);
+  return scene;
+}
+
+const svo::View Eye = lookAt({ 1, -6, 4 }, 100, 76);
+
+svo::FrameSettings smallBuffers()
+{
+  svo::FrameSettings settings;
+  settings.shadowResolution = 128;
+  return settings;
+}
+}
+
+// Every pixel of the merged picture against rays traced one by one, in double.
+TEST(Tracer, TheNearestInstanceOfEveryPixelIsSeen)
+{
+  svo::Scene scene = makeScene(svo::LeafGeometry::Triangle);
+  scene.instances[1].localToWorld =
+    movedTo(-0.5, 0.2, 1.0) * glm::scale(glm::dmat4(1.0), { -1.0, 0.7, 1.2 });
+  scene.instances[2].localToWorld[1] = { 0.4, 1.0, 0.2, 0.0 }; // sheared
+  svo::FrameSettings settings = smallBuffers();
+  settings.pixelError = 0.0;
+  for (const svo::View& view : { Eye, lookAtParallel({ 1, -6, 4 }, 100, 76, 2.5) })
+  {
+    const svo::Frame frame = rendered(scene, view, settings);
+    int differ = 0;
+    int hits = 0;
+    for (int y = 0; y < view.height; ++y)
+    {
+      for (int x = 0; x < view.width; ++x)
+      {
+        double nearest = std::numeric_limits<double>::infinity();
+        std::uint32_t winner = ~0u;
+        for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+        {
+          const svo::Instance& instance = scene.instances[i];
+          const glm::dmat4 m =
+            instance.octree.localToOctree() * glm::inverse(instance.localToWorld);
+          svo::Ray ray;
+          ray.origin = glm::dvec3(m * glm::dvec4(view.rayOrigin(x + 0.5, y + 0.5), 1.0));
+          ray.direction = glm::dvec3(m * glm::dvec4(view.rayDirection(x + 0.5, y + 0.5), 0.0));
+          ray.tMin = view.tNear;
+          ray.tMax = view.tFar;
+          const svo::Hit hit =
+            svo::intersect(instance.octree, ray, { instance.leafGeometry, svo::MaximumLevel });
+          if (hit && hit.t < nearest)
+          {
+            nearest = hit.t;
+            winner = i;
+          }
+        }
+        const std::size_t at = std::size_t(y) * view.width + x;
+        hits += winner != ~0u;
+        if (frame.instance[at] != winner)
+        {
+          ++differ; // silhouettes, where a float decides otherwise
+        }
+        else if (winner != ~0u)
+        {
+          EXPECT_NEAR(frame.depth[at], view.windowDepth(nearest), 2e-6) << x << ", " << y;
+          EXPECT_EQ(frame.color[4 * at + 3], 255);
+        }
+        else
+        {
+          EXPECT_EQ(frame.depth[at], 1.0f);
+          EXPECT_EQ(frame.color[4 * at + 3], 0);
+        }
+      }
+    }
+    EXPECT_GT(hits, 1500);
+    EXPECT_LE(differ, 3);
+  }
+}
+
+TEST(Tracer, TheSameDepthIsTheFirstInstances)
+{
+  svo::Scene scene = makeScene();
+  scene.instances = { scene.instances[1], scene.instances[1], scene.instances[1] };
+  scene.instances[0].id = 9;
+  scene.instances[2].id = 10;
+  const svo::Frame frame = rendered(scene, Eye, smallBuffers());
+  for (std::uint32_t instance : frame.instance)
+  {
+    EXPECT_TRUE(instance == 0 || instance == ~0u);
+  }
+}
+
+TEST(Tracer, FramesDoNotDependOnThreads)
+{
+  for (svo::ShadowTechnique technique :
+    { svo::ShadowTechnique::Buffer, svo::ShadowTechnique::Rays })
+  {
+    svo::FrameSettings settings = smallBuffers();
+    settings.shadowTechnique = technique;
+    const svo::Frame one = rendered(makeScene(), Eye, settings);
+    for (unsigned threads : { 1u, 2u, 7u })
+    {
+      svo::Tracer tracer;
+      const svo::Frame many = rendered(tracer, makeScene(), Eye, settings, raggedFor(threads));
+      EXPECT_TRUE(identical(one, many)) << threads;
+    }
+  }
+}
+
+// The heart of frame coherence: whatever is edited, a tracer that keeps layers shows the very bits
+// of one that has never seen a frame, and of one that keeps nothing.
+TEST(Tracer, KeptLayersNeverChangeAPicture)
+{
+  for (svo::LeafGeometry leafGeometry : { svo::LeafGeometry::Voxel, svo::LeafGeometry::Plane,
+         svo::LeafGeometry::Triangle, svo::LeafGeometry::Automatic })
+  {
+    svo::Scene scene = makeScene(leafGeometry);
+    svo::View view = Eye;
+    svo::FrameSettings settings = smallBuffers();
+    svo::Tracer keeping;
+    svo::Frame frame; // handed in again and again, as a pass does
+    svo::FrameSettings forgetful = settings;
+    for (int step = 0; step < 12; ++step)
+    {
+      switch (step)
+      {
+        case 2:
+          scene.instances[1].localToWorld = movedTo(-0.6, 0.1, 1.1);
+          break;
+        case 3:
+          scene.instances[1].localToWorld = movedTo(-0.4, 0.1, 1.1);
+          break;
+        case 6:
+          view = lookAt({ 1.5, -6, 4 }, 100, 76);
+          break;
+        case 7:
+          view = lookAt({ 1.5, -5, 4 }, 90, 76);
+          break;
+        case 8:
+          scene.lights[0].position.x = 1.0;
+          break;
+        case 9:
+          scene.instances.erase(scene.instances.begin() + 1);
+          break;
+        case 10:
+          std::swap(scene.instances[0], scene.instances[1]);
+          break;
+        case 11:
+          settings.layerMemoryLimit = 0;
+          break;
+        default: // nothing changes: layers are made, then used
+          break;
+      }
+      forgetful = settings;
+      forgetful.frameCoherence = false;
+      keeping.render(scene, view, settings, svo::serialFor, frame);
+      EXPECT_TRUE(identical(frame, rendered(scene, view, forgetful)))
+        << "step " << step << ", leaves " << int(leafGeometry);
+    }
+  }
+}
+
+TEST(Tracer, WhatStandsStillIsNotTracedAgain)
+{
+  svo::Scene scene = makeScene();
+  svo::FrameSettings settings = smallBuffers();
+  svo::Tracer tracer;
+  rendered(tracer, scene, Eye, settings);
+  EXPECT_EQ(tracer.statistics().retracedLayers, 9u); // three of the eye and of each light
+  EXPECT_GT(tracer.statistics().layerMemory, 0u);
+  rendered(tracer, scene, Eye, settings);
+  EXPECT_EQ(tracer.statistics().retracedLayers, 0u);
+  EXPECT_EQ(tracer.statistics().primaryRays, 0u);
+  EXPECT_EQ(tracer.statistics().shadowRays, 0u);
+  // One instance moves inside of the others' bounds: its three layers and nothing else.
+  scene.instances[1].localToWorld = movedTo(-0.7, 0.0, 1.0);
+  rendered(tracer, scene, Eye, settings);
+  EXPECT_GE(tracer.statistics().retracedLayers, 3u);
+  EXPECT_LT(tracer.statistics().retracedLayers, 9u);
+  settings.frameCoherence = false;
+  rendered(tracer, scene, Eye, settings);
+  rendered(tracer, scene, Eye, settings);
+  EXPECT_EQ(tracer.statistics().retracedLayers, 9u);
+  EXPECT_EQ(tracer.statistics().layerMemory, 0u);
+}
+
+TEST(Tracer, KeptLayersStayUnderTheLimit)
+{
+  svo::FrameSettings settings = smallBuffers();
+  settings.layerMemoryLimit = 100000;
+  svo::Tracer tracer;
+  rendered(tracer, makeScene(), Eye, settings);
+  rendered(tracer, makeScene(), Eye, settings);
+  EXPECT_GT(tracer.statistics().layerMemory, 0u);
+  EXPECT_LE(tracer.statistics().layerMemory, settings.layerMemoryLimit);
+}
+
+// Wiping and writing the same Frame gives what a new one gets.
+TEST(Tracer, AFrameUsedAgainHasNothingLeftOfTheLastPicture)
+{
+  svo::Scene scene = makeScene();
+  svo::FrameSettings settings = smallBuffers();
+  settings.writeNormals = true;
+  svo::Tracer tracer;
+  svo::Frame frame;
+  tracer.render(scene, Eye, settings, svo::serialFor, frame);
+  scene.instances.resize(2);
+  scene.instances[0].visible = false;
+  scene.instances[1].localToWorld = movedTo(0.5, 0.0, 2.0);
+  tracer.render(scene, Eye, settings, svo::serialFor, frame);
+  EXPECT_TRUE(identical(frame, rendered(scene, Eye, settings)));
+  settings.writeNormals = false;
+  tracer.render(scene, Eye, settings, svo::serialFor, frame);
+  EXPECT_TRUE(frame.normals.empty());
+}
+
+TEST(Tracer, CoveredHoldsEveryHitAndNoMoreThanItsTiles)
+{
+  svo::Scene scene = makeScene();
+  scene.instances = { scene.instances[1] };
+  const svo::Frame frame = rendered(scene, Eye, smallBuffers());
+  svo::PixelRect seen{ frame.width, frame.height, 0, 0 };
+  for (int y = 0; y < frame.height; ++y)
+  {
+    for (int x = 0; x < frame.width; ++x)
+    {
+      if (frame.instance[std::size_t(y) * frame.width + x] != ~0u)
+      {
+        seen = { std::min(seen.x0, x), std::min(seen.y0, y), std::max(seen.x1, x + 1),
+          std::max(seen.y1, y + 1) };
+      }
+    }
+  }
+  EXPECT_EQ(frame.covered.x0, seen.x0 / 8 * 8);
+  EXPECT_EQ(frame.covered.y0, seen.y0 / 8 * 8);
+  EXPECT_EQ(frame.covered.x1, std::min((seen.x1 + 7) / 8 * 8, frame.width));
+  EXPECT_EQ(frame.covered.y1, std::min((seen.y1 + 7) / 8 * 8, frame.height));
+}
+
+TEST(Tracer, AnEyeInsideAnObjectSeesItsInsideEverywhere)
+{
+  svo::Scene scene = makeScene();
+  scene.instances = { instanceOf(makeOctree(sphere(24, 40), 7), 1,
+    glm::scale(glm::dmat4(1.0), glm::dvec3(4.0)), svo::LeafGeometry::Automatic) };
+  const svo::Frame frame =
+    rendered(scene, lookAt({ 0.3, -1.0, 0.2 }, 64, 48, 100.0), smallBuffers());
+  for (std::uint32_t instance : frame.instance)
+  {
+    EXPECT_EQ(instance, 0u);
+  }
+}
+
+TEST(Tracer, AnInvisibleInstanceOnlyCasts)
+{
+  svo::Scene scene = makeScene();
+  scene.lights.resize(1);
+  svo::FrameSettings settings = smallBuffers();
+  scene.instances.resize(2);
+  scene.instances[1].visible = false;
+  const svo::Frame shadowed = rendered(scene, Eye, settings);
+  scene.instances[1].castShadow = false;
+  const svo::Frame lit = rendered(scene, Eye, settings);
+  int darker = 0;
+  for (std::size_t i = 0; i < lit.instance.size(); ++i)
+  {
+    EXPECT_EQ(lit.instance[i], shadowed.instance[i]);
+    EXPECT_NE(lit.instance[i], 1u);
+    darker += shadowed.color[4 * i] < lit.color[4 * i];
+  }
+  EXPECT_GT(darker, 100);
+}
+
+TEST(Tracer, AnOffsetMovesTheWindowDepthAlone)
+{
+  svo::Scene scene = makeScene();
+  const svo::Frame plain = rendered(scene, Eye, smallBuffers());
+  for (svo::Instance& instance : scene.instances)
+  {
+    instance.depthOffsetUnits = 0.125f;
+  }
+  const svo::Frame moved = rendered(scene, Eye, smallBuffers());
+  EXPECT_EQ(plain.color, moved.color);
+  for (std::size_t i = 0; i < plain.depth.size(); ++i)
+  {
+    EXPECT_NEAR(moved.depth[i], std::min(plain.depth[i] + 0.125f, 1.0f), 1e-6);
+  }
+}
+
+TEST(Tracer, BadInputIsAPictureWithoutIt)
+{
+  svo::Scene scene = makeScene();
+  const svo::Frame expected = rendered(scene, Eye, smallBuffers());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  svo::Instance bad = scene.instances[1];
+  bad.id = 50;
+  bad.localToWorld = glm::dmat4(nan);
+  scene.instances.push_back(bad);
+  bad.localToWorld = glm::dmat4(std::numeric_limits<double>::infinity());
+  scene.instances.push_back(bad);
+  bad.localToWorld = glm::dmat4(1.0);
+  bad.octree = svo::Octree();
+  scene.instances.push_back(bad);
+  bad.octree = makeOctree(Mesh(), 5);
+  ASSERT_TRUE(bool(bad.octree));
+  scene.instances.push_back(bad);
+  const svo::Frame frame = rendered(scene, Eye, smallBuffers());
+  EXPECT_EQ(frame.instance, expected.instance);
+  EXPECT_EQ(frame.depth, expected.depth);
+
+  const svo::Frame nothing = rendered(svo::Scene(), Eye, smallBuffers());
+  EXPECT_TRUE(nothing.covered.empty());
+  EXPECT_EQ(nothing.depth.size(), std::size_t(100 * 76));
+  svo::View none;
+  EXPECT_TRUE(rendered(makeScene(), none, smallBuffers()).color.empty());
+  scene.lights.clear();
+  EXPECT_EQ(rendered(scene, Eye, smallBuffers()).instance, expected.instance);
+}

@@ -1,0 +1,132 @@
+// Scenes, views and executors that the tracer's unit tests share.
+#ifndef svoTracerScenes_h
+#define svoTracerScenes_h
+
+#include "svoTestScenes.h"
+#include "svoTracer.h"
+
+#include <thread>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace svotest
+{
+/// A square in the plane z = 0.
+inline Mesh square(double half)
+{
+  Mesh mesh;
+  mesh.points = { { -half, -half, 0 }, { half, -half, 0 }, { half, half, 0 }, { -half, half, 0 } };
+  mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  return mesh;
+}
+
+inline svo::Instance instanceOf(const svo::Octree& octree, std::uint64_t id,
+  const glm::dmat4& localToWorld = glm::dmat4(1.0),
+  svo::LeafGeometry leafGeometry = svo::LeafGeometry::Triangle)
+{
+  svo::Instance instance;
+  instance.octree = octree;
+  instance.id = id;
+  instance.localToWorld = localToWorld;
+  instance.leafGeometry = leafGeometry;
+  return instance;
+}
+
+inline glm::dmat4 movedTo(double x, double y, double z)
+{
+  return glm::translate(glm::dmat4(1.0), glm::dvec3(x, y, z));
+}
+
+/// A light at `position` that shines at the origin.
+inline svo::Light lightOf(svo::Light::Kind kind, const glm::dvec3& position)
+{
+  svo::Light light;
+  light.kind = kind;
+  light.position = position;
+  light.direction = -glm::normalize(position);
+  light.coneAngle = kind == svo::Light::Kind::Spot ? 40.0 : 180.0;
+  light.id = 77;
+  return light;
+}
+
+inline svo::View lookAt(const glm::dvec3& eye, int width, int height, double angle = 40.0,
+  const glm::dvec3& at = glm::dvec3(0.0))
+{
+  svo::View view;
+  svo::makeView(glm::lookAt(eye, at, glm::dvec3(0, 0, 1)),
+    glm::perspective(glm::radians(angle), double(width) / height, 0.1, 100.0), width, height, view);
+  return view;
+}
+
+inline svo::View lookAtParallel(const glm::dvec3& eye, int width, int height, double halfHeight)
+{
+  svo::View view;
+  const double halfWidth = halfHeight * width / height;
+  svo::makeView(glm::lookAt(eye, glm::dvec3(0.0), glm::dvec3(0, 0, 1)),
+    glm::ortho(-halfWidth, halfWidth, -halfHeight, halfHeight, 0.1, 100.0), width, height, view);
+  return view;
+}
+
+/// Cuts the range into uneven pieces and runs them on `threads` threads, last piece first.
+inline svo::ParallelFor raggedFor(unsigned threads)
+{
+  return [threads](std::size_t begin, std::size_t end, std::size_t grain,
+           const std::function<void(std::size_t, std::size_t)>& body)
+  {
+    std::vector<std::pair<std::size_t, std::size_t>> pieces;
+    std::size_t size = 1;
+    for (std::size_t i = begin; i < end;)
+    {
+      const std::size_t last = std::min(end, i + size);
+      pieces.emplace_back(i, last);
+      i = last;
+      size = size % std::max<std::size_t>(grain, 1) + 1 + pieces.size() % 3;
+    }
+    std::vector<std::thread> workers;
+    for (unsigned t = 0; t < threads; ++t)
+    {
+      workers.emplace_back(
+        [&pieces, &body, t, threads]
+        {
+          for (std::size_t k = pieces.size(); k-- > 0;)
+          {
+            if (k % threads == t)
+            {
+              body(pieces[k].first, pieces[k].second);
+            }
+          }
+        });
+    }
+    for (std::thread& worker : workers)
+    {
+      worker.join();
+    }
+  };
+}
+
+inline svo::Frame rendered(svo::Tracer& tracer, const svo::Scene& scene, const svo::View& view,
+  const svo::FrameSettings& settings, const svo::ParallelFor& parallelFor = svo::serialFor)
+{
+  svo::Frame frame;
+  tracer.render(scene, view, settings, parallelFor, frame);
+  return frame;
+}
+
+inline svo::Frame rendered(
+  const svo::Scene& scene, const svo::View& view, const svo::FrameSettings& settings)
+{
+  svo::Tracer tracer;
+  return rendered(tracer, scene, view, settings);
+}
+
+inline bool identical(const svo::Frame& a, const svo::Frame& b)
+{
+  return a.width == b.width && a.height == b.height && a.color == b.color && a.depth == b.depth &&
+    a.instance == b.instance && a.primitive == b.primitive && a.normals == b.normals &&
+    a.covered.x0 == b.covered.x0 && a.covered.y0 == b.covered.y0 && a.covered.x1 == b.covered.x1 &&
+    a.covered.y1 == b.covered.y1;
+}
+}
+
+#endif
