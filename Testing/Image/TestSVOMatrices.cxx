@@ -1,4 +1,5 @@
-// Any affine matrix: the same octree moved and turned, stretched, mirrored and sheared.
+// Any affine matrix: the same octree moved and turned, stretched, mirrored and sheared. (VTK lights
+// a mirrored mesh by normals that point inwards: it is dark, with the pass as without.)
 #include "svoShadowOracle.h"
 #include "svoTestStage.h"
 
