@@ -67,6 +67,20 @@ Timing summary(const std::vector<Sample>& samples)
   return timing;
 }
 
+std::map<std::string, double> passStatistics(vtkRenderer* renderer)
+{
+  const auto* pass = vtkSVORenderPass::SafeDownCast(renderer->GetPass());
+  if (!pass)
+  {
+    return {};
+  }
+  return { { "trace_ms", 1000 * pass->GetTraceTime() },
+    { "shadow_ms", 1000 * pass->GetShadowTime() }, { "present_ms", 1000 * pass->GetPresentTime() },
+    { "primary_rays", static_cast<double>(pass->GetNumberOfPrimaryRays()) },
+    { "shadow_rays", static_cast<double>(pass->GetNumberOfShadowRays()) },
+    { "retraced_layers", static_cast<double>(pass->GetNumberOfRetracedLayers()) } };
+}
+
 double coveredShare(vtkRenderWindow* window)
 {
   const int* size = window->GetSize();
@@ -165,7 +179,9 @@ Timing timeFrames(
       }
     }
   }
-  return summary(samples);
+  Timing timing = summary(samples);
+  timing.statistics = passStatistics(scene.renderer());
+  return timing;
 }
 
 Timing timeEmptyFrames(vtkRenderWindow* window, int frames)

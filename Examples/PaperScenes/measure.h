@@ -8,6 +8,7 @@
 #include <vtkRenderer.h>
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,8 @@ struct Timing
   /// Processor time of all threads, also median: what a frame costs on a machine that is busy.
   double processorMilliseconds = 0;
   int frames = 0;
+  /// What vtkSVORenderPass says about the last frame; empty for other techniques.
+  std::map<std::string, double> statistics;
   double framesPerSecond() const;
 };
 

@@ -166,6 +166,10 @@ bool writeJson(const Figures& figures, const std::string& path)
       times["median_ms"] = timing.medianMilliseconds;
       times["slowest_ms"] = timing.slowestMilliseconds;
       times["median_processor_ms"] = timing.processorMilliseconds;
+      for (const auto& [key, value] : timing.statistics)
+      {
+        times["last_frame"][key] = value;
+      }
       times["frames"] = timing.frames;
       times["frames_per_second"] = timing.framesPerSecond();
     }
