@@ -57,23 +57,27 @@ inline double worldVoxel(const Instance& instance, int level)
   return std::ldexp(worldVoxel(instance), instance.octree.level() - level);
 }
 
-/// How far a leaf of the given geometry can lie from the surface it stands for, in voxels of the
-/// level that rays stop at.
+/// How far a hit can lie from the surface that it stands for, in voxels of the level that rays stop
+/// at: cubes, and planes where a ray is given the cube that refused it, by the diagonal of a voxel;
+/// mean planes by half the diagonal of the three cells in which they are met.
 inline double leafError(const Instance& instance, int level)
 {
-  const bool coarse = level < instance.octree.level() - 2;
-  switch (instance.leafGeometry)
+  constexpr double Cube = 1.75;
+  constexpr double MeanPlane = 2.6;
+  if (instance.leafGeometry == LeafGeometry::Voxel)
   {
-    case LeafGeometry::Voxel:
-      return 1.75; // the diagonal of a cube, and what the builder adds
-    case LeafGeometry::Plane:
-      return 1.0;
-    case LeafGeometry::Triangle:
-      return coarse ? 1.0 : 0.0;
-    case LeafGeometry::Automatic:
-      return coarse ? 1.0 : 0.25;
+    return Cube;
   }
-  return 1.0;
+  if (level < instance.octree.level() - 2)
+  {
+    return MeanPlane;
+  }
+  if (instance.leafGeometry == LeafGeometry::Plane || !instance.octree.surface())
+  {
+    return Cube;
+  }
+  // Planes where lists are long: there the triangles are smaller than a voxel.
+  return instance.leafGeometry == LeafGeometry::Automatic ? 0.25 : 0.0;
 }
 
 /// The same in the world, and never less than what floats resolve in the octree's cube.

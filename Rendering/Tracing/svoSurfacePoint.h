@@ -3,6 +3,7 @@
 #define svoSurfacePoint_h
 
 #include "svoPlane.h"
+#include "svoRay.h"
 #include "svoScene.h"
 #include "svoView.h"
 

@@ -1,0 +1,311 @@
+#include "svoTracerScenes.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+using namespace svotest;
+
+namespace
+{
+const svo::View Eye = lookAt({ 1, -6, 4 }, 160, 120);
+
+struct Case
+{
+  std::string name;
+  svo::Light light;
+};
+
+std::vector<Case> everyLight()
+{
+  using Kind = svo::Light::Kind;
+  return { { "directional", lightOf(Kind::Directional, { 2, -2, 5 }) },
+    { "point, one map", lightOf(Kind::Point, { 2, -2, 9 }) },
+    { "point, six faces", lightOf(Kind::Point, { 1.7, -1.2, 2.5 }) },
+    { "spot", lightOf(Kind::Spot, { 2, -2, 6 }) } };
+}
+
+/// A matte ball on a ground.
+svo::Scene ballOnGround(svo::LeafGeometry leafGeometry, int level = 8)
+{
+  svo::Scene scene;
+  scene.instances = { instanceOf(makeOctree(square(3.0), level), 1, glm::dmat4(1.0), leafGeometry),
+    instanceOf(makeOctree(sphere(40, 64), level), 2, movedTo(0.0, 0.0, 1.5), leafGeometry) };
+  return scene;
+}
+
+svo::FrameSettings settingsOf(svo::ShadowTechnique technique)
+{
+  svo::FrameSettings settings;
+  settings.shadowTechnique = technique;
+  settings.shadowResolution = 512;
+  return settings;
+}
+
+/// What is lit by the buffer and not by the rays, or the other way round, more than a pixel away
+/// from the edge of the rays' shadow.
+struct Comparison
+{
+  int dark = 0;
+  int lit = 0;
+  int wrong = 0;
+  int wrongNearEdges = 0;
+};
+
+Comparison compare(const svo::Scene& scene, const svo::FrameSettings& buffer)
+{
+  svo::FrameSettings none = buffer;
+  none.shadowTechnique = svo::ShadowTechnique::None;
+  svo::FrameSettings rays = buffer;
+  rays.shadowTechnique = svo::ShadowTechnique::Rays;
+  const svo::Frame unshadowed = rendered(scene, Eye, none);
+  const svo::Frame exact = rendered(scene, Eye, rays);
+  const svo::Frame tested = rendered(scene, Eye, buffer);
+  const auto at = [](int x, int y) { return std::size_t(y) * Eye.width + x; };
+  const auto reached = [&](int x, int y) { return unshadowed.color[4 * at(x, y)] > 12; };
+  const auto isDark = [&](const svo::Frame& frame, int x, int y)
+  { return frame.color[4 * at(x, y)] + 5 < unshadowed.color[4 * at(x, y)]; };
+  Comparison result;
+  for (int y = 1; y + 1 < Eye.height; ++y)
+  {
+    for (int x = 1; x + 1 < Eye.width; ++x)
+    {
+      if (!reached(x, y))
+      {
+        continue;
+      }
+      const bool dark = isDark(exact, x, y);
+      result.dark += dark;
+      result.lit += !dark;
+      bool edge = false;
+      for (int j = -1; j <= 1; ++j)
+      {
+        for (int i = -1; i <= 1; ++i)
+        {
+          edge = edge || !reached(x + i, y + j) || isDark(exact, x + i, y + j) != dark ||
+            exact.instance[at(x + i, y + j)] != exact.instance[at(x, y)];
+        }
+      }
+      if (isDark(tested, x, y) != dark)
+      {
+        ++(edge ? result.wrongNearEdges : result.wrong);
+      }
+    }
+  }
+  return result;
+}
+}
+
+TEST(ShadowBuffer, AgreesWithShadowRaysAwayFromEdges)
+{
+  for (const Case& c : everyLight())
+  {
+    for (svo::LeafGeometry leafGeometry :
+      { svo::LeafGeometry::Triangle, svo::LeafGeometry::Plane, svo::LeafGeometry::Automatic })
+    {
+      svo::Scene scene = ballOnGround(leafGeometry);
+      scene.lights = { c.light };
+      const Comparison found = compare(scene, settingsOf(svo::ShadowTechnique::Buffer));
+      EXPECT_GT(found.dark, 300) << c.name;
+      EXPECT_GT(found.lit, 2000) << c.name;
+      EXPECT_EQ(found.wrong, 0) << c.name << ", leaves " << int(leafGeometry);
+      EXPECT_LT(found.wrongNearEdges, (found.dark + found.lit) / 200)
+        << c.name << ", leaves " << int(leafGeometry);
+    }
+  }
+}
+
+// A convex body alone casts nothing on its own lit side: whatever is dark there is acne. The body
+// is tilted and flattened, the lights near and far, with every leaf geometry and coarse levels.
+TEST(ShadowBuffer, ALitConvexBodyHasNoAcne)
+{
+  const svo::Octree ball = makeOctree(sphere(60, 90), 8);
+  const glm::dmat4 placed = movedTo(0.2, 0.1, 0.3) *
+    glm::rotate(glm::dmat4(1.0), 0.7, glm::dvec3(0.3, 1.0, 0.2)) *
+    glm::scale(glm::dmat4(1.0), glm::dvec3(1.4, 1.0, 0.8));
+  const glm::dmat4 toLocal = glm::inverse(placed);
+  // Cosine of the light on the true ellipsoid, or -1 where the pixel misses it.
+  const auto trueCosine = [&](const svo::Light& light, int x, int y)
+  {
+    const glm::dvec3 o(toLocal * glm::dvec4(Eye.rayOrigin(x + 0.5, y + 0.5), 1.0));
+    const glm::dvec3 d(toLocal * glm::dvec4(Eye.rayDirection(x + 0.5, y + 0.5), 0.0));
+    const double half = glm::dot(o, d), a = glm::dot(d, d);
+    const double root = half * half - a * (glm::dot(o, o) - 1.0);
+    if (!(root > 0.0))
+    {
+      return -1.0;
+    }
+    const glm::dvec3 local = o + (-half - std::sqrt(root)) / a * d;
+    const glm::dvec3 position(placed * glm::dvec4(local, 1.0));
+    const glm::dvec3 normal =
+      glm::normalize(glm::dvec3(glm::transpose(toLocal) * glm::dvec4(local, 0.0)));
+    const glm::dvec3 towards = light.kind == svo::Light::Kind::Directional
+      ? -light.direction
+      : glm::normalize(light.position - position);
+    return glm::dot(normal, towards);
+  };
+  for (const Case& c : everyLight())
+  {
+    for (svo::LeafGeometry leafGeometry : { svo::LeafGeometry::Voxel, svo::LeafGeometry::Plane,
+           svo::LeafGeometry::Triangle, svo::LeafGeometry::Automatic })
+    {
+      for (double pixelError : { 0.0, 1.0, 4.0 })
+      {
+        svo::Scene scene;
+        scene.instances = { instanceOf(ball, 1, placed, leafGeometry) };
+        scene.lights = { c.light };
+        svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
+        settings.pixelError = pixelError;
+        const svo::Frame shadowed = rendered(scene, Eye, settings);
+        settings.shadowTechnique = svo::ShadowTechnique::None;
+        const svo::Frame lit = rendered(scene, Eye, settings);
+        int acne = 0;
+        int faced = 0;
+        // A coarse level may show the far side in the outermost of its voxels.
+        const int margin = static_cast<int>(pixelError);
+        for (std::size_t i = 0; i < lit.instance.size(); ++i)
+        {
+          const int x = i % Eye.width;
+          const int y = i / Eye.width;
+          bool faces = lit.instance[i] == 0;
+          for (int k = 0; k < 9 && faces; ++k)
+          {
+            faces = trueCosine(c.light, x + (k % 3 - 1) * margin, y + (k / 3 - 1) * margin) > 0.1;
+          }
+          faced += faces;
+          acne += faces && shadowed.color[4 * i] < lit.color[4 * i];
+        }
+        EXPECT_GT(faced, 700) << c.name;
+        EXPECT_EQ(acne, 0) << c.name << ", leaves " << int(leafGeometry) << ", pixel error "
+                           << pixelError;
+      }
+    }
+  }
+}
+
+// A wall stands on the ground, the light comes from its other side: the ground is dark from where
+// it meets the wall on.
+TEST(ShadowBuffer, AContactShadowStartsWithinTwoVoxels)
+{
+  svo::Scene scene;
+  const int level = 7;
+  Mesh wall = square(2.0);
+  for (glm::dvec3& p : wall.points)
+  {
+    p = { p.x, 0.0, p.y + 2.0 };
+  }
+  for (svo::LeafGeometry leafGeometry : { svo::LeafGeometry::Plane, svo::LeafGeometry::Triangle })
+  {
+    scene.instances = { instanceOf(
+                          makeOctree(square(3.0), level), 1, glm::dmat4(1.0), leafGeometry),
+      instanceOf(makeOctree(wall, level), 2, glm::dmat4(1.0), leafGeometry) };
+    scene.lights = { lightOf(svo::Light::Kind::Directional, { 0.0, 2.0, 3.0 }) };
+    const double voxel = scene.instances[0].octree.header().voxelSize;
+    svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
+    settings.shadowResolution = 2048;
+    settings.pixelError = 0.0;
+    // From straight above a strip beside the wall.
+    const svo::View view = [&]
+    {
+      svo::View v;
+      svo::makeView(
+        glm::lookAt(glm::dvec3(0, -0.25, 1.0), glm::dvec3(0, -0.25, 0.0), glm::dvec3(0, 1, 0)),
+        glm::ortho(-0.25, 0.25, -0.25, 0.25, 0.1, 10.0), 64, 64, v);
+      return v;
+    }();
+    const svo::Frame frame = rendered(scene, view, settings);
+    int grounds = 0;
+    for (int y = 0; y < 64; ++y)
+    {
+      for (int x = 0; x < 64; ++x)
+      {
+        const std::size_t at = std::size_t(y) * 64 + x;
+        const double distance = -view.rayOrigin(x + 0.5, y + 0.5).y;
+        if (frame.instance[at] == 0 && distance > 2.0 * voxel)
+        {
+          ++grounds;
+          EXPECT_EQ(frame.color[4 * at], 0) << distance / voxel << " voxels from the wall";
+        }
+      }
+    }
+    EXPECT_GT(grounds, 1500);
+  }
+}
+
+// The paper's test has no bias at all, so a lit surface shadows itself; a bias in voxels of the
+// caster mends that.
+TEST(ShadowBuffer, WithoutAutomaticBiasTheTestIsThePapers)
+{
+  svo::Scene scene = ballOnGround(svo::LeafGeometry::Voxel);
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }) };
+  svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
+  settings.automaticBias = false;
+  const int bare = compare(scene, settings).wrong;
+  settings.bias = 6.0;
+  const int biased = compare(scene, settings).wrong;
+  EXPECT_GT(bare, 500);
+  EXPECT_LT(biased, bare / 20);
+}
+
+TEST(ShadowBuffer, WholeBuffersGiveTheSameBitsAndAreHandedOut)
+{
+  for (const Case& c : everyLight())
+  {
+    svo::Scene scene = ballOnGround(svo::LeafGeometry::Automatic, 6);
+    scene.lights = { c.light };
+    svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
+    settings.shadowResolution = 64;
+    svo::Tracer tracer;
+    const svo::Frame marked = rendered(tracer, scene, Eye, settings);
+    EXPECT_TRUE(tracer.shadowMaps().empty());
+    settings.wholeShadowBuffers = true;
+    svo::Tracer whole;
+    EXPECT_TRUE(identical(marked, rendered(whole, scene, Eye, settings))) << c.name;
+    ASSERT_EQ(whole.shadowMaps().size(), c.name == "point, six faces" ? 6u : 1u);
+    int occupied = 0;
+    for (const svo::ShadowMap& map : whole.shadowMaps())
+    {
+      EXPECT_EQ(map.light, 0);
+      ASSERT_EQ(map.depth.size(), 64u * 64u);
+      for (float depth : map.depth)
+      {
+        occupied += std::isfinite(depth) && depth >= 0.0f;
+      }
+    }
+    EXPECT_GT(occupied, 500) << c.name;
+  }
+}
+
+TEST(ShadowBuffer, OnlyTilesThatAreLookedUpAreTraced)
+{
+  svo::Scene scene = ballOnGround(svo::LeafGeometry::Automatic, 6);
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }) };
+  svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
+  const svo::View corner = lookAt({ 1, -6, 4 }, 64, 48, 5.0, { -1.5, -2, 0 });
+  svo::Tracer tracer;
+  rendered(tracer, scene, corner, settings);
+  const std::uint64_t marked = tracer.statistics().shadowRays;
+  settings.wholeShadowBuffers = true;
+  svo::Tracer whole;
+  rendered(whole, scene, corner, settings);
+  EXPECT_GT(marked, 0u);
+  EXPECT_LT(marked, whole.statistics().shadowRays / 10);
+}
+
+TEST(ShadowBuffer, TheSwitchesOfInstancesAndLightsAreHeeded)
+{
+  svo::Scene scene = ballOnGround(svo::LeafGeometry::Triangle, 6);
+  scene.lights = { lightOf(svo::Light::Kind::Point, { 2, -2, 9 }) };
+  const svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
+  const svo::Frame none = rendered(scene, Eye, settingsOf(svo::ShadowTechnique::None));
+  EXPECT_NE(rendered(scene, Eye, settings).color, none.color);
+  scene.lights[0].castShadow = false;
+  EXPECT_EQ(rendered(scene, Eye, settings).color, none.color);
+  scene.lights[0].castShadow = true;
+  svo::FrameSettings faint = settings;
+  faint.shadowIntensity = 0.0;
+  EXPECT_EQ(rendered(scene, Eye, faint).color, none.color);
+  scene.instances[0].receiveShadow = false;
+  scene.instances[1].receiveShadow = false;
+  EXPECT_EQ(rendered(scene, Eye, settings).color, none.color);
+}
