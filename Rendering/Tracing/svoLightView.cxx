@@ -1,5 +1,7 @@
 #include "svoLightView.h"
 
+#include "svoCasters.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,34 +14,35 @@ namespace svo
 {
 namespace
 {
-std::vector<glm::dvec3> casterCorners(const Scene& scene)
+std::vector<glm::dvec3> casterCorners(const Scene& scene, const std::vector<std::uint8_t>& casters)
 {
   std::vector<glm::dvec3> corners;
-  for (const Instance& instance : scene.instances)
+  for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {
-    if (!instance.castShadow || !instance.octree || instance.octree.empty())
+    if (casters[i])
     {
-      continue;
-    }
-    const Header& h = instance.octree.header();
-    const double edge = h.voxelSize * static_cast<double>(1u << h.level);
-    glm::dvec3 low(h.origin[0], h.origin[1], h.origin[2]);
-    glm::dvec3 high = low + edge;
-    // The mesh is in the middle of the cube; its own box is tighter where it is known.
-    if (h.meshBounds[0] <= h.meshBounds[1] && h.pointCount > 0)
-    {
-      const double margin = h.voxelSize;
-      low = glm::max(low, glm::dvec3(h.meshBounds[0], h.meshBounds[2], h.meshBounds[4]) - margin);
-      high = glm::min(high, glm::dvec3(h.meshBounds[1], h.meshBounds[3], h.meshBounds[5]) + margin);
-    }
-    for (int i = 0; i < 8; ++i)
-    {
-      const glm::dvec4 corner(
-        i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z, 1.0);
-      corners.emplace_back(instance.localToWorld * corner);
+      const std::array<glm::dvec3, 8> box = worldBox(scene.instances[i]);
+      corners.insert(corners.end(), box.begin(), box.end());
     }
   }
   return corners;
+}
+
+// A view that follows every turn of a caster is a new view, and all its layers are traced anew. So
+// each quantity of a fit is rounded outwards to a coarse grid: it changes now and then.
+
+/// Power of two not below x.
+double powerOfTwo(double x)
+{
+  return std::exp2(std::ceil(std::log2(x)));
+}
+
+/// Widens [low, high] to a grid of at most an eighth of its length.
+void roundOutwards(double& low, double& high)
+{
+  const double step = powerOfTwo(high - low) / 16.0;
+  low = std::floor(low / step) * step;
+  high = std::ceil(high / step) * step;
 }
 
 /// World -> a view at `eye` that looks along `direction`.
@@ -90,16 +93,22 @@ std::vector<View> fitDirectional(
   {
     world.add(p);
   }
-  const glm::dmat4 toView = lookAlong(0.5 * (world.low + world.high), direction);
+  const double across = powerOfTwo(glm::length(world.high - world.low));
+  const glm::dvec3 centre =
+    glm::round(0.5 * (world.low + world.high) / (0.25 * across)) * (0.25 * across);
+  const glm::dmat4 toView = lookAlong(centre, direction);
   Box box;
   for (const glm::dvec3& p : corners)
   {
     box.add(glm::dvec3(toView * glm::dvec4(p, 1.0)));
   }
+  for (int i = 0; i < 3; ++i)
+  {
+    box.high[i] = std::max(box.high[i], box.low[i] + 1e-9 * across);
+    roundOutwards(box.low[i], box.high[i]);
+  }
   // A texel of margin, so that casters never touch the border.
-  const glm::dvec3 size =
-    glm::max(box.high - box.low, glm::dvec3(1e-9 * glm::length(box.high - box.low)));
-  const glm::dvec3 margin = size / static_cast<double>(std::max(resolution - 2, 1));
+  const glm::dvec3 margin = (box.high - box.low) / static_cast<double>(std::max(resolution - 2, 1));
   std::vector<View> views;
   add(views, toView,
     glm::ortho(box.low.x - margin.x, box.high.x + margin.x, box.low.y - margin.y,
@@ -133,8 +142,8 @@ std::vector<View> fitPositional(
     farthest = std::max(farthest, distance);
     axis += distance > 0.0 ? (p - light.position) / distance : glm::dvec3(0.0);
   }
-  farthest *= 1.001;
-  if (!(farthest > 0.0))
+  farthest = powerOfTwo(1.001 * farthest);
+  if (!(farthest > 0.0) || !std::isfinite(farthest))
   {
     return {};
   }
@@ -148,6 +157,10 @@ std::vector<View> fitPositional(
     return sixFaces(light.position, farthest, resolution);
   }
   axis /= length;
+  if (!spot)
+  {
+    axis = glm::normalize(glm::round(4.0 * axis)); // at most 12 degrees off
+  }
   const glm::dmat4 toView = lookAlong(light.position, axis);
   Box slopes;
   double nearest = farthest;
@@ -167,7 +180,12 @@ std::vector<View> fitPositional(
   {
     return sixFaces(light.position, farthest, resolution);
   }
-  nearest = wide ? 1e-4 * farthest : std::max(0.999 * nearest, 1e-4 * farthest);
+  nearest = wide ? 1e-4 * farthest : std::max(0.25 * powerOfTwo(nearest), 1e-4 * farthest);
+  for (int i = 0; i < 2 && !wide; ++i)
+  {
+    slopes.high[i] = std::max(slopes.high[i], slopes.low[i] + 1e-9);
+    roundOutwards(slopes.low[i], slopes.high[i]);
+  }
   if (spot)
   {
     const double reach = std::tan(glm::radians(light.coneAngle)) * 1.001 + 1e-6;
@@ -189,9 +207,10 @@ std::vector<View> fitPositional(
 }
 }
 
-std::vector<View> fitLight(const Scene& scene, const Light& light, int resolution)
+std::vector<View> fitLight(
+  const Scene& scene, const std::vector<std::uint8_t>& casters, const Light& light, int resolution)
 {
-  const std::vector<glm::dvec3> corners = casterCorners(scene);
+  const std::vector<glm::dvec3> corners = casterCorners(scene, casters);
   if (corners.empty() || resolution < 1)
   {
     return {};

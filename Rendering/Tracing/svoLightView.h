@@ -5,13 +5,16 @@
 #include "svoScene.h"
 #include "svoView.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace svo
 {
 /// Views of `resolution`^2 texels fitted to the corners of the casters' cubes; none if nothing
 /// casts. One for directional lights and for casters within 120 degrees, else six.
-std::vector<View> fitLight(const Scene& scene, const Light& light, int resolution);
+/// `casters` as from castersOf().
+std::vector<View> fitLight(
+  const Scene& scene, const std::vector<std::uint8_t>& casters, const Light& light, int resolution);
 }
 
 #endif

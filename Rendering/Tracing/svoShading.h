@@ -88,10 +88,12 @@ struct Lighting
   std::vector<ViewLight> lights;
   bool onlyHeadlight = false;
   glm::dmat4 worldToView{ 1.0 };
+  glm::mat3 rotation{ 1.0f };
 
   Lighting(const Scene& scene, const View& view)
     : onlyHeadlight(scene.lights.size() == 1 && scene.lights[0].headlight)
     , worldToView(view.worldToView)
+    , rotation(view.worldToView)
   {
     for (const Light& light : scene.lights)
     {
@@ -115,7 +117,7 @@ glm::vec3 shade(const Lighting& lighting, const Instance& instance, const Surfac
   {
     return ambient + diffuseColor;
   }
-  const glm::vec3 normal(glm::dmat3(lighting.worldToView) * glm::dvec3(point.normal));
+  const glm::vec3 normal = lighting.rotation * point.normal;
   const glm::vec3 position(lighting.worldToView * glm::dvec4(point.position, 1.0));
   glm::vec3 diffuse(0.0f);
   glm::vec3 specular(0.0f);

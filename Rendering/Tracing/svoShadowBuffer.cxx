@@ -1,5 +1,6 @@
 #include "svoShadowBuffer.h"
 
+#include "svoCasters.h"
 #include "svoLightView.h"
 #include "svoSelect.h"
 
@@ -13,7 +14,8 @@ namespace svo
 void ShadowBuffer::begin(
   const Scene& scene, const Light& light, const FrameSettings& settings, LayerBudget& budget)
 {
-  const std::vector<View> views = fitLight(scene, light, settings.shadowResolution);
+  const std::vector<std::uint8_t> casters = castersOf(scene, light, settings.wholeShadowBuffers);
+  const std::vector<View> views = fitLight(scene, casters, light, settings.shadowResolution);
   this->AutomaticBias = settings.automaticBias;
   this->Bias = settings.bias;
   if (this->Faces.size() != views.size())
@@ -32,8 +34,11 @@ void ShadowBuffer::begin(
     Face& face = *this->Faces[i];
     face.view = views[i];
     face.worldToClip = face.view.viewToClip * face.view.worldToView;
+    face.pixel = face.view.parallel ? worldPixel(face.view, 0.0) : 0.0;
+    face.pixelPerDepth = face.view.parallel ? 0.0 : worldPixel(face.view, 1.0);
     face.seesCasters = face.layers.begin(
-      scene, face.view, [](const Instance& instance) { return instance.castShadow; },
+      scene, face.view,
+      [&](const Instance& instance) { return casters[&instance - scene.instances.data()] != 0; },
       [&](const Instance& instance, const LocalView& local)
       { return selectLevel(instance, local, face.view, settings.pixelError); },
       settings.frameCoherence, budget);
@@ -41,7 +46,7 @@ void ShadowBuffer::begin(
     {
       const Instance& instance = scene.instances[k];
       const int level = face.layers.level(static_cast<std::uint32_t>(k));
-      if (instance.castShadow && level > 0)
+      if (casters[k] && level > 0)
       {
         this->CasterVoxel[k] = std::max(this->CasterVoxel[k], worldVoxel(instance, level));
         this->CasterError[k] = std::max(this->CasterError[k], worldLeafError(instance, level));
@@ -146,21 +151,27 @@ bool ShadowBuffer::shadows(const glm::dvec3& position, const glm::vec3& facet, d
     return occluder + bias < t;
   }
   const View& view = face->view;
-  const double pixel = worldPixel(view, t);
-  const glm::dvec3 origin = view.rayOrigin(texel.x + 0.5, texel.y + 0.5);
-  const glm::dvec3 direction = view.rayDirection(texel.x + 0.5, texel.y + 0.5);
-  const glm::dvec3 normal(facet);
-  const double slope = glm::dot(normal, direction) / glm::length(direction);
-  double receiver = t;
-  if (std::abs(slope) > 1e-3)
+  const double pixel = face->pixel + t * face->pixelPerDepth;
+  const double most = 8.0 * pixel; // how far the tangent plane is followed along the ray
+  if (!(occluder + bias < t + most))
   {
-    receiver = glm::dot(normal, position - origin) / glm::dot(normal, direction);
+    return false;
+  }
+  const double x = texel.x + 0.5;
+  const double y = texel.y + 0.5;
+  const glm::dvec3 origin = view.rayOrigin(x, y);
+  const glm::dvec3 direction = view.rayDirection(x, y);
+  const glm::dvec3 normal(facet);
+  const double along = glm::dot(normal, direction);
+  const double slope = std::abs(along) / glm::length(direction);
+  double receiver = t;
+  if (slope > 1e-3)
+  {
+    receiver = glm::dot(normal, position - origin) / along;
   }
   // Grazing light: the plane says nothing beyond the texel's neighbourhood.
-  const double reach = 8.0 * pixel;
-  receiver = std::clamp(receiver, t - reach, t + reach);
-  const double grazing = std::max(std::abs(slope), 0.1);
-  bias += 0.5 * pixel + std::max(this->CasterError[caster], error) / grazing;
+  receiver = std::clamp(receiver, t - most, t + most);
+  bias += 0.5 * pixel + std::max(this->CasterError[caster], error) / std::max(slope, 0.1);
   return occluder + bias < receiver;
 }
 

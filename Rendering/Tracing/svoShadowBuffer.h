@@ -54,6 +54,8 @@ private:
   {
     View view;
     glm::dmat4 worldToClip{ 1.0 };
+    double pixel = 0.0; // edge of a texel, world, at depth t: pixel + t pixelPerDepth
+    double pixelPerDepth = 0.0;
     LayeredView layers;
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile
     bool seesCasters = false;

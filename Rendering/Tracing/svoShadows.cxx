@@ -58,7 +58,8 @@ void Shadows::mark(const SurfacePoint& point)
     const glm::dvec3 towards =
       light.kind == Light::Kind::Directional ? -light.direction : light.position - point.position;
     // A little more than shading will ask for: it decides in floats.
-    if (glm::dot(glm::dvec3(point.normal), towards) > -1e-4 * glm::length(towards))
+    const double cosine = glm::dot(glm::dvec3(point.normal), towards);
+    if (cosine > 0.0 || cosine * cosine < 1e-8 * glm::dot(towards, towards))
     {
       this->Buffers[i]->mark(point.position);
     }

@@ -32,33 +32,40 @@ struct SurfaceFrame
   explicit SurfaceFrame(const Instance& i)
     : instance(&i)
     , toOctree(i.octree.localToOctree() * glm::inverse(i.localToWorld))
-    , linear(glm::dmat3(i.localToWorld) * i.octree.rootEdge())
-    , normalMatrix(glm::transpose(glm::inverse(glm::dmat3(i.localToWorld))))
   {
-    // Only directions of normals matter: without this a tiny object's overflow a float.
+    // Only directions of normals matter: without the scale a tiny object's overflow a float.
+    glm::dmat3 linear(i.localToWorld);
     double most = 0.0;
     for (int c = 0; c < 3; ++c)
     {
       most = std::max(most, glm::length(linear[c]));
     }
-    direction = linear / most;
+    linear /= most;
+    const double side = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
+    const glm::dmat3 cofactor = glm::transpose(glm::inverse(linear));
+    normalMatrix = glm::mat3(cofactor);
+    windingMatrix = glm::mat3(side * cofactor);
   }
   const Instance* instance = nullptr;
-  glm::dmat4 toOctree;     // world -> octree coordinates
-  glm::dmat3 linear;       // octree coordinates -> world, without the translation
-  glm::dmat3 direction;    // the same, scaled so that its largest column is a unit vector
-  glm::dmat3 normalMatrix; // local normals -> world
+  glm::dmat4 toOctree{ 1.0 };      // world -> octree coordinates
+  glm::mat3 normalMatrix{ 1.0f };  // local normals -> world, to a factor
+  glm::mat3 windingMatrix{ 1.0f }; // cross products of local edges -> world, to a factor
 };
 
 namespace detail
 {
-inline glm::vec3 normalized(const glm::dvec3& v, const glm::vec3& otherwise)
+inline glm::vec3 normalized(const glm::vec3& v, const glm::vec3& otherwise)
 {
-  const double length = glm::length(v);
-  return length > 0.0 && std::isfinite(length) ? glm::vec3(v / length) : otherwise;
+  const float length2 = glm::dot(v, v);
+  if (length2 > 1e-30f && length2 < 1e30f)
+  {
+    return v / std::sqrt(length2);
+  }
+  const double length = glm::length(glm::dvec3(v));
+  return length > 0.0 && std::isfinite(length) ? glm::vec3(glm::dvec3(v) / length) : otherwise;
 }
 
-inline glm::dvec3 vectorAt(const float* array, std::size_t i)
+inline glm::vec3 vectorAt(const float* array, std::size_t i)
 {
   return { array[3 * i], array[3 * i + 1], array[3 * i + 2] };
 }
@@ -92,15 +99,13 @@ inline SurfacePoint surfacePoint(
   point.position = view.rayOrigin(x, y) + t * ray;
   point.hasColor = false;
   point.color = glm::vec3(1.0f);
-  const glm::vec3 towards = detail::normalized(-ray, glm::vec3(0.0f, 0.0f, 1.0f));
+  const glm::vec3 towards(-ray);
   if (primitive & NodePrimitive)
   {
     // Above the bricks: the node's mean plane is the normal, and its first triangle's look stands
     // for all of them.
     const Node* node = octree.nodes() + (primitive & ~NodePrimitive);
-    const glm::dmat3 toWorld = glm::transpose(glm::inverse(frame.direction));
-    point.facet =
-      detail::normalized(toWorld * glm::dvec3(decodePlane(node->plane).normal), towards);
+    point.facet = detail::normalized(frame.normalMatrix * decodePlane(node->plane).normal, towards);
     point.facet = glm::dot(point.facet, towards) < 0.0f ? -point.facet : point.facet;
     point.normal = point.facet;
     std::uint32_t index = primitive & ~NodePrimitive;
@@ -119,18 +124,18 @@ inline SurfacePoint surfacePoint(
   const Surface* surface = octree.surface();
   if (!surface)
   {
-    point.facet = point.normal = coarse ? point.facet : towards;
+    point.facet = point.normal = coarse ? point.facet : glm::normalize(towards);
     return point;
   }
   const glm::uvec3 triangle = surface->triangles[primitive];
-  const glm::dvec3 a(surface->points[triangle.x]);
-  const glm::dvec3 e1 = glm::dvec3(surface->points[triangle.y]) - a;
-  const glm::dvec3 e2 = glm::dvec3(surface->points[triangle.z]) - a;
+  const glm::vec3 a = surface->points[triangle.x];
+  const glm::vec3 e1 = surface->points[triangle.y] - a;
+  const glm::vec3 e2 = surface->points[triangle.z] - a;
   bool front = true;
   if (!coarse)
   {
     const glm::vec3 winding =
-      detail::normalized(glm::cross(frame.direction * e1, frame.direction * e2), towards);
+      detail::normalized(frame.windingMatrix * glm::cross(e1, e2), glm::normalize(towards));
     front = glm::dot(winding, towards) > 0.0f;
     point.facet = front ? winding : -winding;
     point.normal = point.facet;
@@ -141,31 +146,31 @@ inline SurfacePoint surfacePoint(
   const bool smooth = !coarse && !instance.material.flat && pointNormals;
   const bool pointColors = attributes.colorCoordinates ||
     (attributes.colors && attributes.colorAssociation == Association::Point);
-  glm::dvec3 weight(1.0, 0.0, 0.0);
+  glm::vec3 weight(1.0f, 0.0f, 0.0f);
   if (smooth || pointColors)
   {
     // Barycentric coordinates; a plane or voxel hit beside its triangle takes the nearest in it.
-    const glm::dvec3 p = glm::dvec3(frame.toOctree * glm::dvec4(point.position, 1.0)) - a;
-    const double d11 = glm::dot(e1, e1);
-    const double d12 = glm::dot(e1, e2);
-    const double d22 = glm::dot(e2, e2);
-    const double determinant = d11 * d22 - d12 * d12;
-    const double p1 = glm::dot(p, e1);
-    const double p2 = glm::dot(p, e2);
-    double v = determinant > 0.0 ? (d22 * p1 - d12 * p2) / determinant : 0.0;
-    double w = determinant > 0.0 ? (d11 * p2 - d12 * p1) / determinant : 0.0;
-    v = std::clamp(v, 0.0, 1.0);
-    w = std::clamp(w, 0.0, 1.0);
-    const double sum = std::max(v + w, 1.0);
-    weight = { 1.0 - (v + w) / sum, v / sum, w / sum };
+    const glm::vec3 p(glm::dvec3(frame.toOctree * glm::dvec4(point.position, 1.0)) - glm::dvec3(a));
+    const float d11 = glm::dot(e1, e1);
+    const float d12 = glm::dot(e1, e2);
+    const float d22 = glm::dot(e2, e2);
+    const float determinant = d11 * d22 - d12 * d12;
+    const float p1 = glm::dot(p, e1);
+    const float p2 = glm::dot(p, e2);
+    float v = determinant > 0.0f ? (d22 * p1 - d12 * p2) / determinant : 0.0f;
+    float w = determinant > 0.0f ? (d11 * p2 - d12 * p1) / determinant : 0.0f;
+    v = std::clamp(v, 0.0f, 1.0f);
+    w = std::clamp(w, 0.0f, 1.0f);
+    const float sum = std::max(v + w, 1.0f);
+    weight = { 1.0f - (v + w) / sum, v / sum, w / sum };
   }
   const std::uint32_t cell = surface->cells.empty() ? primitive : surface->cells[primitive];
   if (smooth || (!coarse && cellNormals))
   {
-    const glm::dvec3 local = smooth ? weight.x * detail::vectorAt(attributes.normals, triangle.x) +
+    const glm::vec3 local = smooth ? weight.x * detail::vectorAt(attributes.normals, triangle.x) +
         weight.y * detail::vectorAt(attributes.normals, triangle.y) +
         weight.z * detail::vectorAt(attributes.normals, triangle.z)
-                                    : detail::vectorAt(attributes.normals, cell);
+                                   : detail::vectorAt(attributes.normals, cell);
     point.normal = detail::normalized(frame.normalMatrix * local, point.facet);
     point.normal = front ? point.normal : -point.normal;
   }
@@ -177,15 +182,14 @@ inline SurfacePoint surfacePoint(
         .colorCoordinates[static_cast<std::size_t>(i) * attributes.colorCoordinateStride];
     };
     point.color = detail::textureAt(attributes,
-      static_cast<float>(
-        weight.x * at(triangle.x) + weight.y * at(triangle.y) + weight.z * at(triangle.z)));
+      weight.x * at(triangle.x) + weight.y * at(triangle.y) + weight.z * at(triangle.z));
     point.hasColor = true;
   }
   else if (attributes.colors && attributes.colorAssociation == Association::Point)
   {
-    point.color = static_cast<float>(weight.x) * detail::colorAt(attributes.colors, triangle.x) +
-      static_cast<float>(weight.y) * detail::colorAt(attributes.colors, triangle.y) +
-      static_cast<float>(weight.z) * detail::colorAt(attributes.colors, triangle.z);
+    point.color = weight.x * detail::colorAt(attributes.colors, triangle.x) +
+      weight.y * detail::colorAt(attributes.colors, triangle.y) +
+      weight.z * detail::colorAt(attributes.colors, triangle.z);
     point.hasColor = true;
   }
   else if (attributes.colors && attributes.colorAssociation == Association::Cell)

@@ -155,7 +155,7 @@ void Tracer::Internals::shadePoints(const Scene& scene, const View& view,
       frame.primitive[pixel] = depth.primitive[at];
       if (settings.writeNormals)
       {
-        const glm::vec3 normal(glm::dmat3(view.worldToView) * glm::dvec3(point.normal));
+        const glm::vec3 normal = lighting.rotation * point.normal;
         std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixel);
       }
     });
