@@ -2,7 +2,7 @@
 # Installs what is missing, builds build/vtk and renders the paper's experiments on real meshes: a
 # table of figures on the terminal; pictures, movie frames, a movie and figures.json in build/demo.
 # Usage: run-demo.sh [--quick] [--stand-in] [--no-install] [--output DIR]
-#   --quick       few frames, to see that everything works; its figures mean little
+#   --quick       few and small frames, to see that everything works; its figures mean little
 #   --stand-in    generated meshes in place of those from Debian's packages
 #   --no-install  never installs: names what is missing and stops
 #   --output DIR  in place of build/demo
@@ -20,7 +20,7 @@ stand_in=no
 check_only=()
 while [ $# -gt 0 ]; do
   case "$1" in
-    --quick) frames=(--frames 2 --movie-frames 12) ;;
+    --quick) frames=(--frames 1 --movie-frames 12 --size 640x360) ;;
     --stand-in) stand_in=yes ;;
     --no-install) check_only=(--no-install) ;;
     --output)
