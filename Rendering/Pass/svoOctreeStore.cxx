@@ -90,12 +90,23 @@ OctreeStore::Answer OctreeStore::find(
     return Answer::Found;
   }
   const Key key(known.signature, options.level, options.leafGeometry);
-  this->collectJob(key, options);
+  const auto job = this->Jobs.find(key);
+  if (job != this->Jobs.end() && (job->second->done || options.wait))
+  {
+    this->keepResult(key, *job->second);
+    this->Jobs.erase(job);
+  }
   const auto found = this->Octrees.find(key);
   if (found != this->Octrees.end())
   {
-    found->second.lastFrame = this->Frame;
-    octree = found->second.octree;
+    Built& built = found->second;
+    built.lastFrame = this->Frame;
+    if (!built.message.empty())
+    {
+      options.complain(built.message);
+      built.message.clear();
+    }
+    octree = built.octree;
     return octree ? Answer::Found : Answer::None;
   }
   return options.convert ? this->build(mesh, key, options, octree) : Answer::None;
@@ -136,25 +147,14 @@ OctreeStore::Answer OctreeStore::build(
   {
     options.complain(message);
   }
-  this->Octrees[key] = { octree, this->Frame };
+  this->Octrees[key] = { octree, this->Frame, std::string() };
   return octree ? Answer::Found : Answer::None;
 }
 
-void OctreeStore::collectJob(const Key& key, const StoreOptions& options)
+void OctreeStore::keepResult(const Key& key, Job& job)
 {
-  const auto found = this->Jobs.find(key);
-  if (found == this->Jobs.end() || (!found->second->done && !options.wait))
-  {
-    return;
-  }
-  Job& job = *found->second;
   job.thread.join();
-  if (!job.message.empty())
-  {
-    options.complain(job.message);
-  }
-  this->Octrees[key] = { job.octree, this->Frame };
-  this->Jobs.erase(found);
+  this->Octrees[key] = { job.octree, this->Frame, job.message };
 }
 
 void OctreeStore::endFrame(std::size_t memoryLimit)
@@ -162,6 +162,17 @@ void OctreeStore::endFrame(std::size_t memoryLimit)
   for (auto mesh = this->Meshes.begin(); mesh != this->Meshes.end();)
   {
     mesh = mesh->second.mesh ? std::next(mesh) : this->Meshes.erase(mesh);
+  }
+  // Those whose mesh nobody asks for any more would otherwise stay for ever.
+  for (auto job = this->Jobs.begin(); job != this->Jobs.end();)
+  {
+    if (!job->second->done)
+    {
+      ++job;
+      continue;
+    }
+    this->keepResult(job->first, *job->second);
+    job = this->Jobs.erase(job);
   }
   std::size_t used = this->bytes();
   std::vector<std::pair<std::uint64_t, Key>> idle;

@@ -62,6 +62,7 @@ private:
   {
     Octree octree; // empty if the build failed
     std::uint64_t lastFrame = 0;
+    std::string message; // not said yet
   };
   /// A build on a thread of its own, on a private copy of the mesh.
   struct Job
@@ -84,7 +85,7 @@ private:
 
   Known& knownOf(vtkPolyData* mesh, const StoreOptions& options);
   Answer build(vtkPolyData* mesh, const Key& key, const StoreOptions& options, Octree& octree);
-  void collectJob(const Key& key, const StoreOptions& options);
+  void keepResult(const Key& key, Job& job);
 
   std::map<vtkPolyData*, Known> Meshes;
   std::map<Key, Built> Octrees;

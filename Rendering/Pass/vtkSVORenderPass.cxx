@@ -24,6 +24,7 @@ struct vtkSVORenderPass::Internals
   std::string shaderSignature; // of the shaders that mappers have built last
   vtkTimeStamp shaderTime;
   bool saidHeadlight = false;
+  bool saidOpenGL = false;
 
   svo::PassRenderer& of(vtkRenderer* renderer)
   {
@@ -52,8 +53,9 @@ void vtkSVORenderPass::SetBackend(int backend)
   const int clamped = backend < BACKEND_AUTO
     ? static_cast<int>(BACKEND_AUTO)
     : (backend > BACKEND_OPENGL ? BACKEND_OPENGL : backend);
-  if (clamped == BACKEND_OPENGL && this->Backend != clamped)
+  if (clamped == BACKEND_OPENGL && !this->Impl->saidOpenGL)
   {
+    this->Impl->saidOpenGL = true;
     vtkWarningMacro("The OpenGL backend is not part of this version; rays are traced on the CPU.");
   }
   if (this->Backend != clamped)
