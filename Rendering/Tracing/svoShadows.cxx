@@ -1,7 +1,5 @@
 #include "svoShadows.h"
 
-#include <glm/geometric.hpp>
-
 namespace svo
 {
 void Shadows::begin(const Scene& scene, const FrameSettings& settings, LayerBudget& budget)
@@ -40,28 +38,19 @@ void Shadows::begin(const Scene& scene, const FrameSettings& settings, LayerBudg
     }
   }
   this->Kept = std::move(kept);
+  this->Casting = !this->Kept.empty();
 }
 
-void Shadows::mark(const SurfacePoint& point)
+void Shadows::mark(const glm::dvec3& position)
 {
-  if (this->All)
+  if (!this->All)
   {
-    return;
-  }
-  for (std::size_t i = 0; i < this->Buffers.size(); ++i)
-  {
-    if (!this->Buffers[i])
+    for (ShadowBuffer* buffer : this->Buffers)
     {
-      continue;
-    }
-    const Light& light = this->Of->lights[i];
-    const glm::dvec3 towards =
-      light.kind == Light::Kind::Directional ? -light.direction : light.position - point.position;
-    // A little more than shading will ask for: it decides in floats.
-    const double cosine = glm::dot(glm::dvec3(point.normal), towards);
-    if (cosine > 0.0 || cosine * cosine < 1e-8 * glm::dot(towards, towards))
-    {
-      this->Buffers[i]->mark(point.position);
+      if (buffer)
+      {
+        buffer->mark(position);
+      }
     }
   }
 }

@@ -21,7 +21,11 @@ public:
   /// Fits the lights' buffers and keeps of their layers what is still true.
   void begin(const Scene& scene, const FrameSettings& settings, LayerBudget& budget);
 
-  void mark(const SurfacePoint& point);
+  /// Notes what a visible point will look up. Which side of it is lit does not matter: light tiles
+  /// that only unlit sides look up are few. Thread-safe.
+  void mark(const glm::dvec3& position);
+  /// True if mark() does anything.
+  bool wantsMarks() const { return !this->All && this->Casting; }
 
   void trace(const ParallelFor& parallelFor);
 
@@ -38,6 +42,7 @@ public:
 private:
   const Scene* Of = nullptr;
   bool All = false;                   // every tile is traced
+  bool Casting = false;               // there are buffers
   std::vector<ShadowBuffer*> Buffers; // by index into Scene::lights; null: no buffer
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> Kept; // by Light::id
   std::unique_ptr<ShadowRays> Rays;

@@ -35,13 +35,12 @@ struct Tracer::Internals
   LayeredView Eye;
   Shadows Dark;
   FrameTiles Tiles;
-  std::vector<SurfacePoint> Points; // 64 per tile with hits
   std::vector<SurfaceFrame> Frames; // by index into Scene::instances
   std::vector<double> Errors;       // world; of the instance's leaves as the eye sees them
 
-  /// Calls body(x, y, index into the depth buffer, point) for the pixels of the tiles with hits.
+  /// Calls body(x, y, index into the depth buffer) for the pixels of the tiles with hits.
   template <class Body>
-  void eachPoint(const View& view, const ParallelFor& parallelFor, const Body& body)
+  void eachPixel(const View& view, const ParallelFor& parallelFor, const Body& body)
   {
     const std::vector<std::uint32_t>& hits = this->Tiles.hits();
     const int tilesX = this->Eye.depthBuffer().tilesX;
@@ -59,8 +58,7 @@ struct Tracer::Internals
           {
             for (int i = 0; i < columns; ++i)
             {
-              const int at = 8 * j + i;
-              body(x0 + i, y0 + j, 64 * tile + at, this->Points[64 * k + at]);
+              body(x0 + i, y0 + j, 64 * tile + 8 * j + i);
             }
           }
         }
@@ -68,8 +66,8 @@ struct Tracer::Internals
   }
 
   void describeInstances(const Scene& scene);
-  void findPoints(const Scene& scene, const View& view, const ParallelFor& parallelFor);
-  void shadePoints(const Scene& scene, const View& view, const FrameSettings& settings,
+  void markLightTiles(const Scene& scene, const View& view, const ParallelFor& parallelFor);
+  void shadePixels(const Scene& scene, const View& view, const FrameSettings& settings,
     const ParallelFor& parallelFor, Frame& frame);
 };
 
@@ -86,41 +84,36 @@ void Tracer::Internals::describeInstances(const Scene& scene)
   }
 }
 
-void Tracer::Internals::findPoints(
+void Tracer::Internals::markLightTiles(
   const Scene& scene, const View& view, const ParallelFor& parallelFor)
 {
-  const DepthBuffer& depth = this->Eye.depthBuffer();
-  if (this->Points.size() < 64 * this->Tiles.hits().size())
+  if (!this->Dark.wantsMarks())
   {
-    this->Points.resize(64 * this->Tiles.hits().size());
+    return;
   }
-  this->eachPoint(view, parallelFor,
-    [&](int x, int y, std::size_t at, SurfacePoint& point)
+  const DepthBuffer& depth = this->Eye.depthBuffer();
+  this->eachPixel(view, parallelFor,
+    [&](int x, int y, std::size_t at)
     {
       const std::uint32_t i = depth.instance[at];
-      if (i == NoInstance)
+      if (i != NoInstance && scene.instances[i].receiveShadow &&
+        scene.instances[i].material.lighting)
       {
-        return;
-      }
-      point = surfacePoint(this->Frames[i], view, x + 0.5, y + 0.5, this->Eye.base(i) + depth.t[at],
-        depth.primitive[at]);
-      const Instance& instance = scene.instances[i];
-      if (instance.receiveShadow && instance.material.lighting)
-      {
-        this->Dark.mark(point);
+        const double t = this->Eye.base(i) + depth.t[at];
+        this->Dark.mark(view.rayOrigin(x + 0.5, y + 0.5) + t * view.rayDirection(x + 0.5, y + 0.5));
       }
     });
 }
 
-void Tracer::Internals::shadePoints(const Scene& scene, const View& view,
+void Tracer::Internals::shadePixels(const Scene& scene, const View& view,
   const FrameSettings& settings, const ParallelFor& parallelFor, Frame& frame)
 {
   const DepthBuffer& depth = this->Eye.depthBuffer();
   const Lighting lighting(scene, view);
   const float remaining = static_cast<float>(1.0 - settings.shadowIntensity);
   std::atomic<std::uint64_t> allRays{ 0 };
-  this->eachPoint(view, parallelFor,
-    [&](int x, int y, std::size_t at, const SurfacePoint& point)
+  this->eachPixel(view, parallelFor,
+    [&](int x, int y, std::size_t at)
     {
       const std::size_t pixel = static_cast<std::size_t>(y) * view.width + x;
       std::uint8_t* rgba = frame.color.data() + 4 * pixel;
@@ -138,6 +131,9 @@ void Tracer::Internals::shadePoints(const Scene& scene, const View& view,
         return;
       }
       const Instance& instance = scene.instances[i];
+      const double t = this->Eye.base(i) + depth.t[at];
+      const SurfacePoint point =
+        surfacePoint(this->Frames[i], view, x + 0.5, y + 0.5, t, depth.primitive[at]);
       std::uint64_t rays = 0;
       const glm::vec3 color = shade(lighting, instance, point, remaining,
         [&](std::size_t light) { return this->Dark.dark(light, point, this->Errors[i], rays); });
@@ -149,8 +145,7 @@ void Tracer::Internals::shadePoints(const Scene& scene, const View& view,
       rgba[1] = toByte(color.g);
       rgba[2] = toByte(color.b);
       rgba[3] = 255;
-      const double window =
-        view.windowDepth(this->Eye.base(i) + depth.t[at]) + instance.depthOffsetUnits;
+      const double window = view.windowDepth(t) + instance.depthOffsetUnits;
       frame.depth[pixel] = static_cast<float>(std::clamp(window, 0.0, 1.0));
       frame.primitive[pixel] = depth.primitive[at];
       if (settings.writeNormals)
@@ -188,10 +183,10 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
   self.Eye.trace(parallelFor, nullptr);
   self.Tiles.begin(self.Eye.depthBuffer(), view, settings.writeNormals, frame);
 
-  // Visible points, and the light tiles that they will look up.
+  // What visible points will look up of the lights.
   self.describeInstances(scene);
   self.Dark.begin(scene, settings, budget);
-  self.findPoints(scene, view, parallelFor);
+  self.markLightTiles(scene, view, parallelFor);
 
   // Shadow layers, merged likewise.
   const double shadowStart = now();
@@ -204,7 +199,7 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
 
   // Shade and test.
   const double shadeStart = now();
-  self.shadePoints(scene, view, settings, parallelFor, frame);
+  self.shadePixels(scene, view, settings, parallelFor, frame);
   if (settings.shadowTechnique == ShadowTechnique::Rays)
   {
     shadowTime += now() - shadeStart; // the rays are nearly all of it
