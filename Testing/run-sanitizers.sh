@@ -18,8 +18,6 @@ cmake -S . -B build/sanitize -G Ninja \
   -DVTKSVO_SANITIZE=ON -DVTKSVO_PYTHON=OFF -DVTKSVO_EXAMPLES=OFF
 cmake --build build/sanitize -j "${VTKSVO_JOBS:-2}"
 
-# Mesa's driver maps and unmaps its own code; a symbol of an unloaded library cannot be named, so
-# libraries are kept loaded (fast_unwind_on_malloc off would be the other way, at ten times the cost).
 export ASAN_OPTIONS="detect_leaks=1:detect_stack_use_after_return=1:strict_init_order=1"
 export LSAN_OPTIONS="suppressions=$PWD/Testing/sanitizers.supp:print_suppressions=0"
 export UBSAN_OPTIONS="print_stacktrace=1"
