@@ -212,6 +212,10 @@ std::vector<SurfacePart> SceneCollector::partsOf(vtkActor* actor)
 bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatrix4x4* matrix,
   int path, std::vector<Surface>& surfaces, Frame& frame)
 {
+  if (!isPlainActor(actor))
+  {
+    return false; // it may well draw without a mapper of its own
+  }
   vtkMapper* mapper = actor->GetMapper();
   if (!mapper || mapper->GetNumberOfInputConnections(0) == 0)
   {

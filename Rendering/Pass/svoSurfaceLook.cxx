@@ -23,15 +23,7 @@ namespace svo
 {
 namespace
 {
-/// Classes whose drawing is known to the letter. A subclass may draw anything: followers, axes and
-/// sky boxes are actors too, glyph mappers are mappers.
-bool isPlainActor(vtkActor* actor)
-{
-  const std::string name = actor->GetClassName();
-  return name == "vtkOpenGLActor" || name == "vtkLODActor" || name == "vtkQuadricLODActor" ||
-    name == "vtkPVLODActor";
-}
-
+/// Glyph mappers and the like are mappers too.
 bool isPlainMapper(vtkMapper* mapper)
 {
   const std::string name = mapper->GetClassName();
@@ -173,13 +165,20 @@ bool scalarColors(const SurfacePart& part, Material& material, Attributes& attri
 }
 }
 
+bool isPlainActor(vtkActor* actor)
+{
+  const std::string name = actor->GetClassName();
+  return name == "vtkOpenGLActor" || name == "vtkLODActor" || name == "vtkQuadricLODActor" ||
+    name == "vtkPVLODActor";
+}
+
 Treatment treatmentOf(vtkActor* actor)
 {
   vtkMapper* mapper = actor->GetMapper();
   vtkProperty* property = actor->GetProperty();
   vtkPlaneCollection* planes = mapper->GetClippingPlanes();
-  if (!isPlainActor(actor) || !isPlainMapper(mapper) ||
-    property->GetRepresentation() != VTK_SURFACE || (planes && planes->GetNumberOfItems() > 0))
+  if (!isPlainMapper(mapper) || property->GetRepresentation() != VTK_SURFACE ||
+    (planes && planes->GetNumberOfItems() > 0))
   {
     return Treatment::Rasterize;
   }

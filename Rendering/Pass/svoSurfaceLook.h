@@ -26,7 +26,11 @@ enum class Treatment
   Rasterize         // not even that (lines, followers, glyphs, clipped surfaces)
 };
 
-/// What the actor, its property and its mapper's settings allow, whatever the mesh.
+/// True for classes whose drawing is known to the letter. A subclass may draw anything: followers,
+/// axes and sky boxes are actors too.
+bool isPlainActor(vtkActor* actor);
+
+/// What a plain actor, its property and its mapper's settings allow, whatever the mesh.
 Treatment treatmentOf(vtkActor* actor);
 
 /// One mesh of an actor: all there is of a plain mapper, one block of a composite one.
