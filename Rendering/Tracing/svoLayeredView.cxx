@@ -256,6 +256,48 @@ void LayeredView::traceTile(int tileX, int tileY, std::vector<std::uint64_t>& ra
   this->Merged.hit[tile] = any;
 }
 
+void LayeredView::sample(int tileX, int tileY, Samples& samples) const
+{
+  std::fill(samples.instance, samples.instance + 64, NoInstance);
+  RayBlock block;
+  HitBlock found;
+  for (const Entry& entry : this->Instances)
+  {
+    const PixelRect& rect = entry.local.rect;
+    if (8 * tileX < rect.x0 || 8 * tileX >= rect.x1 || 8 * tileY < rect.y0 || 8 * tileY >= rect.y1)
+    {
+      continue;
+    }
+    const TileIntervals& intervals = entry.layer ? entry.layer->intervals : entry.intervals;
+    const std::size_t k = intervals.index(tileX, tileY);
+    const float tNear = std::max(intervals.tNear[k], 0.0f);
+    const float tFar = std::min(intervals.tFar[k], entry.local.tMax);
+    if (!(tNear <= tFar))
+    {
+      continue;
+    }
+    for (int i = 0; i < 64; ++i)
+    {
+      entry.local.fill(samples.x[i], samples.y[i], i, block);
+    }
+    std::fill(block.tMin, block.tMin + 64, tNear);
+    std::fill(block.tMax, block.tMax + 64, tFar);
+    intersect(*entry.octree, block, { entry.key.leafGeometry, entry.key.level }, found);
+    for (int i = 0; i < 64; ++i)
+    {
+      const double t = entry.local.base + found.t[i];
+      const bool nearer = samples.instance[i] == NoInstance || t < samples.t[i] ||
+        (t == samples.t[i] && entry.index < samples.instance[i]);
+      if (found.primitive[i] != NoPrimitive && nearer)
+      {
+        samples.t[i] = t;
+        samples.instance[i] = entry.index;
+        samples.primitive[i] = found.primitive[i];
+      }
+    }
+  }
+}
+
 void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* wanted)
 {
   this->Merged.resize(this->Of.width, this->Of.height);

@@ -55,6 +55,16 @@ struct DepthLayer
   }
 };
 
+/// What 64 rays anywhere in a tile see.
+struct Samples
+{
+  double x[64]; // points of the image, all in one tile
+  double y[64];
+  double t[64]; // linear depth
+  std::uint32_t instance[64];
+  Primitive primitive[64];
+};
+
 class LayeredView
 {
 public:
@@ -89,6 +99,9 @@ public:
   /// Traces and merges. With `wanted` (one byte a tile) only tiles marked there; a tile that is not
   /// wanted is left without hits.
   void trace(const ParallelFor& parallelFor, const std::uint8_t* wanted);
+
+  /// Traces the points x, y of a tile through all instances; to be called after trace().
+  void sample(int tileX, int tileY, Samples& samples) const;
 
   const DepthBuffer& depthBuffer() const { return this->Merged; }
   /// Base of an instance's t, by index into Scene::instances.

@@ -26,25 +26,28 @@ struct LocalView
   float tMax = -1.0f; // far plane or farthest corner, whichever is nearer; minus base
   PixelRect rect;     // of whole tiles that can see the cube; empty if none
 
+  /// Ray k of a block: the one through point (x, y) of the image.
+  void fill(double x, double y, int k, RayBlock& rays) const
+  {
+    rays.originX[k] =
+      static_cast<float>(this->origin.x + y * this->originY.x + x * this->originX.x);
+    rays.originY[k] =
+      static_cast<float>(this->origin.y + y * this->originY.y + x * this->originX.y);
+    rays.originZ[k] =
+      static_cast<float>(this->origin.z + y * this->originY.z + x * this->originX.z);
+    rays.directionX[k] =
+      static_cast<float>(this->direction.x + y * this->directionY.x + x * this->directionX.x);
+    rays.directionY[k] =
+      static_cast<float>(this->direction.y + y * this->directionY.y + x * this->directionX.y);
+    rays.directionZ[k] =
+      static_cast<float>(this->direction.z + y * this->directionY.z + x * this->directionX.z);
+  }
   /// Rays of the tile with its lower left pixel at (x0, y0).
   void fill(int x0, int y0, RayBlock& rays) const
   {
-    for (int j = 0; j < 8; ++j)
+    for (int k = 0; k < 64; ++k)
     {
-      const double y = y0 + j + 0.5;
-      const glm::dvec3 o = this->origin + y * this->originY;
-      const glm::dvec3 d = this->direction + y * this->directionY;
-      for (int i = 0; i < 8; ++i)
-      {
-        const double x = x0 + i + 0.5;
-        const int k = 8 * j + i;
-        rays.originX[k] = static_cast<float>(o.x + x * this->originX.x);
-        rays.originY[k] = static_cast<float>(o.y + x * this->originX.y);
-        rays.originZ[k] = static_cast<float>(o.z + x * this->originX.z);
-        rays.directionX[k] = static_cast<float>(d.x + x * this->directionX.x);
-        rays.directionY[k] = static_cast<float>(d.y + x * this->directionX.y);
-        rays.directionZ[k] = static_cast<float>(d.z + x * this->directionX.z);
-      }
+      this->fill(x0 + (k & 7) + 0.5, y0 + (k >> 3) + 0.5, k, rays);
     }
   }
 };

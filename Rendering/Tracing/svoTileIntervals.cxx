@@ -141,7 +141,12 @@ private:
     {
       constexpr float scale = 1.0f / TileIntervals::TileSize;
       const auto tile = [](float v, int origin)
-      { return static_cast<int>(std::floor(std::clamp(v * scale, -1e6f, 1e6f))) - origin; };
+      {
+        // std::floor is a call without SSE4.1.
+        const float clamped = std::clamp(v * scale, -1e6f, 1e6f);
+        const int towardsZero = static_cast<int>(clamped);
+        return towardsZero - (clamped < static_cast<float>(towardsZero)) - origin;
+      };
       column0 = std::max(column0, tile(f.x0, this->Intervals.column0));
       column1 = std::min(column1, tile(f.x1, this->Intervals.column0));
       row0 = std::max(row0, tile(f.y0, this->Intervals.row0));

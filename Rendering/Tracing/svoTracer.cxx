@@ -1,5 +1,6 @@
 #include "svoTracer.h"
 
+#include "svoEdges.h"
 #include "svoFrameTiles.h"
 #include "svoLayeredView.h"
 #include "svoSelect.h"
@@ -35,8 +36,9 @@ struct Tracer::Internals
   LayeredView Eye;
   Shadows Dark;
   FrameTiles Tiles;
-  std::vector<SurfaceFrame> Frames; // by index into Scene::instances
-  std::vector<double> Errors;       // world; of the instance's leaves as the eye sees them
+  std::vector<SurfaceFrame> Frames;   // by index into Scene::instances
+  std::vector<std::uint8_t> Darkness; // per pixel, as the depth buffer: which lights are dark
+  std::vector<double> Errors;         // world; of the instance's leaves as the eye sees them
 
   /// Calls body(x, y, index into the depth buffer) for the pixels of the tiles with hits.
   template <class Body>
@@ -68,6 +70,8 @@ struct Tracer::Internals
   void describeInstances(const Scene& scene);
   void markLightTiles(const Scene& scene, const View& view, const ParallelFor& parallelFor);
   void shadePixels(const Scene& scene, const View& view, const FrameSettings& settings,
+    const ParallelFor& parallelFor, Frame& frame);
+  void smoothEdges(const Scene& scene, const View& view, const FrameSettings& settings,
     const ParallelFor& parallelFor, Frame& frame);
 };
 
@@ -112,6 +116,10 @@ void Tracer::Internals::shadePixels(const Scene& scene, const View& view,
   const Lighting lighting(scene, view);
   const float remaining = static_cast<float>(1.0 - settings.shadowIntensity);
   std::atomic<std::uint64_t> allRays{ 0 };
+  if (settings.antiAliasing)
+  {
+    this->Darkness.resize(depth.instance.size());
+  }
   this->eachPixel(view, parallelFor,
     [&](int x, int y, std::size_t at)
     {
@@ -135,8 +143,18 @@ void Tracer::Internals::shadePixels(const Scene& scene, const View& view,
       const SurfacePoint point =
         surfacePoint(this->Frames[i], view, x + 0.5, y + 0.5, t, depth.primitive[at]);
       std::uint64_t rays = 0;
+      std::uint8_t darkness = 0;
       const glm::vec3 color = shade(lighting, instance, point, remaining,
-        [&](std::size_t light) { return this->Dark.dark(light, point, this->Errors[i], rays); });
+        [&](std::size_t light)
+        {
+          const bool dark = this->Dark.dark(light, point, this->Errors[i], rays);
+          darkness ^= static_cast<std::uint8_t>(dark << light % 8);
+          return dark;
+        });
+      if (settings.antiAliasing)
+      {
+        this->Darkness[at] = darkness;
+      }
       if (rays > 0)
       {
         allRays.fetch_add(rays, std::memory_order_relaxed);
@@ -155,6 +173,79 @@ void Tracer::Internals::shadePixels(const Scene& scene, const View& view,
       }
     });
   this->Statistics.shadowRays += allRays;
+}
+
+void Tracer::Internals::smoothEdges(const Scene& scene, const View& view,
+  const FrameSettings& settings, const ParallelFor& parallelFor, Frame& frame)
+{
+  // A rotated grid: four points of a pixel that share no row and no column.
+  constexpr double OffsetX[4] = { 0.375, 0.875, 0.125, 0.625 };
+  constexpr double OffsetY[4] = { 0.125, 0.375, 0.625, 0.875 };
+  const DepthBuffer& depth = this->Eye.depthBuffer();
+  const EdgeFinder edges(depth, this->Eye, this->Darkness, view);
+  const Lighting lighting(scene, view);
+  const float remaining = static_cast<float>(1.0 - settings.shadowIntensity);
+  std::atomic<std::uint64_t> primaryRays{ 0 };
+  std::atomic<std::uint64_t> shadowRays{ 0 };
+  const auto smoothTile = [&](std::size_t tile)
+  {
+    const int tileX = static_cast<int>(tile % depth.tilesX);
+    const int tileY = static_cast<int>(tile / depth.tilesX);
+    int pixels[64];
+    const int count = edges.find(tileX, tileY, pixels);
+    std::uint64_t rays = 0;
+    for (int first = 0; first < count; first += 16)
+    {
+      Samples samples;
+      for (int k = 0; k < 64; ++k)
+      {
+        const int pixel = pixels[std::min(first + k / 4, count - 1)];
+        samples.x[k] = 8 * tileX + (pixel & 7) + OffsetX[k % 4];
+        samples.y[k] = 8 * tileY + (pixel >> 3) + OffsetY[k % 4];
+      }
+      this->Eye.sample(tileX, tileY, samples);
+      primaryRays.fetch_add(64, std::memory_order_relaxed);
+      for (int p = 0; p < std::min(16, count - first); ++p)
+      {
+        glm::vec3 sum(0.0f);
+        int hits = 0;
+        for (int k = 4 * p; k < 4 * p + 4; ++k)
+        {
+          const std::uint32_t i = samples.instance[k];
+          if (i == NoInstance)
+          {
+            continue;
+          }
+          ++hits;
+          const SurfacePoint point = surfacePoint(
+            this->Frames[i], view, samples.x[k], samples.y[k], samples.t[k], samples.primitive[k]);
+          sum += glm::clamp(shade(lighting, scene.instances[i], point, remaining,
+                              [&](std::size_t light)
+                              { return this->Dark.dark(light, point, this->Errors[i], rays); }),
+            0.0f, 1.0f);
+        }
+        const int x = 8 * tileX + (pixels[first + p] & 7);
+        const int y = 8 * tileY + (pixels[first + p] >> 3);
+        std::uint8_t* rgba =
+          frame.color.data() + 4 * (static_cast<std::size_t>(y) * view.width + x);
+        for (int c = 0; c < 3 && hits > 0; ++c)
+        {
+          rgba[c] = toByte(sum[c] / static_cast<float>(hits));
+        }
+      }
+    }
+    shadowRays.fetch_add(rays, std::memory_order_relaxed);
+  };
+  parallelFor(0, this->Tiles.hits().size(), 32,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t k = first; k < last; ++k)
+      {
+        smoothTile(this->Tiles.hits()[k]);
+      }
+    });
+  this->Statistics.primaryRays += primaryRays;
+  this->Statistics.shadowRays += shadowRays;
 }
 
 Tracer::Tracer()
@@ -200,6 +291,10 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
   // Shade and test.
   const double shadeStart = now();
   self.shadePixels(scene, view, settings, parallelFor, frame);
+  if (settings.antiAliasing)
+  {
+    self.smoothEdges(scene, view, settings, parallelFor, frame);
+  }
   if (settings.shadowTechnique == ShadowTechnique::Rays)
   {
     shadowTime += now() - shadeStart; // the rays are nearly all of it
@@ -207,7 +302,7 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
 
   FrameStatistics& statistics = self.Statistics;
   self.Dark.addStatistics(statistics);
-  statistics.primaryRays = self.Eye.rays();
+  statistics.primaryRays += self.Eye.rays();
   statistics.retracedLayers += self.Eye.retracedLayers();
   statistics.layerMemory = self.Eye.layerMemory() + self.Dark.layerMemory();
   statistics.shadowTime = shadowTime;

@@ -32,6 +32,9 @@ struct FrameSettings
   double pixelError = 1.0;      // largest projected voxel edge, pixels; 0: full depth
   bool frameCoherence = true;   // reuse layers of instances that did not change
   std::size_t layerMemoryLimit = std::size_t(512) << 20; // bytes
+  /// Four rays in pixels at whose border the instance, the depth or a shadow changes. Colours are
+  /// averaged over what is hit; depth stays that of the pixel's centre, and a pixel whose centre
+  /// misses stays a miss. Shadow buffers are traced whole.
   bool antiAliasing = false;
   bool wholeShadowBuffers = false; // rasterised receivers look up texels nobody here knows
   bool writeNormals = false;       // Frame::normals is wanted (SSAO)

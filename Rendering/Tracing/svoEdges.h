@@ -1,0 +1,85 @@
+// Pixels where the picture changes from one surface, depth or shadow to another.
+#ifndef svoEdges_h
+#define svoEdges_h
+
+#include "svoDepthBuffer.h"
+#include "svoLayeredView.h"
+#include "svoSelect.h"
+#include "svoView.h"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace svo
+{
+class EdgeFinder
+{
+public:
+  /// `darkness`: per pixel, as the depth buffer, a number that changes where a shadow does.
+  EdgeFinder(const DepthBuffer& depth, const LayeredView& eye,
+    const std::vector<std::uint8_t>& darkness, const View& view)
+    : Depth(depth)
+    , Eye(eye)
+    , Darkness(darkness)
+    , Of(view)
+  {
+  }
+
+  /// Writes the pixels (8 * row + column) of the tile that are hits and edges; returns how many.
+  int find(int tileX, int tileY, int pixels[64]) const
+  {
+    int count = 0;
+    for (int k = 0; k < 64; ++k)
+    {
+      const int x = 8 * tileX + (k & 7);
+      const int y = 8 * tileY + (k >> 3);
+      if (x < this->Of.width && y < this->Of.height && this->instance(x, y) != NoInstance &&
+        (this->edge(x, y, 1, 0) || this->edge(x, y, 0, 1)))
+      {
+        pixels[count++] = k;
+      }
+    }
+    return count;
+  }
+
+private:
+  std::uint32_t instance(int x, int y) const
+  {
+    if (x < 0 || y < 0 || x >= this->Of.width || y >= this->Of.height)
+    {
+      return NoInstance;
+    }
+    const std::size_t at = this->Depth.at(x, y);
+    return this->Depth.hit[at >> 6] ? this->Depth.instance[at] : NoInstance;
+  }
+
+  /// Compares a pixel with its two neighbours in one direction.
+  bool edge(int x, int y, int dx, int dy) const
+  {
+    const std::uint32_t i = this->instance(x, y);
+    if (this->instance(x - dx, y - dy) != i || this->instance(x + dx, y + dy) != i)
+    {
+      return true;
+    }
+    const std::size_t at = this->Depth.at(x, y);
+    const std::size_t before = this->Depth.at(x - dx, y - dy);
+    const std::size_t after = this->Depth.at(x + dx, y + dy);
+    if (this->Darkness[before] != this->Darkness[at] || this->Darkness[after] != this->Darkness[at])
+    {
+      return true;
+    }
+    // One surface bends little between pixels; a step is of more than a few pixels' size.
+    const double bend =
+      std::abs(double(this->Depth.t[before]) - 2.0 * this->Depth.t[at] + this->Depth.t[after]);
+    return bend > 3.0 * worldPixel(this->Of, this->Eye.base(i) + this->Depth.t[at]);
+  }
+
+  const DepthBuffer& Depth;
+  const LayeredView& Eye;
+  const std::vector<std::uint8_t>& Darkness;
+  const View& Of;
+};
+}
+
+#endif
