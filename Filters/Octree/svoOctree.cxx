@@ -103,6 +103,7 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
     else if (node.first & InlineTriangle)
     {
       good = good && (node.first & ~InlineTriangle) < h.triangleCount;
+      octree.Longest = std::max(octree.Longest, 1u);
     }
     else
     {
@@ -112,6 +113,7 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
       {
         good = lists[node.first + k] < h.triangleCount;
       }
+      octree.Longest = std::max(octree.Longest, good ? lists[node.first] : 0u);
     }
     if (!good || (i + 1 == h.depthBegin[1] && h.depthCount > 1 && next != h.depthBegin[2]))
     {

@@ -81,6 +81,9 @@ public:
     return list + 1;
   }
 
+  /// Triangles of the brick that has most; 0 in an empty octree.
+  std::uint32_t longestList() const { return this->Longest; }
+
   /// Identity of the buffer, for caches: two octrees with the same key are the same.
   const void* key() const { return this->Data.get(); }
   /// The buffer and its owner, to share them.
@@ -90,6 +93,7 @@ private:
   friend class WeakOctree;
   std::shared_ptr<const std::byte> Data;
   std::size_t Size = 0;
+  std::uint32_t Longest = 0;
   std::shared_ptr<const Surface> Triangles;
   std::shared_ptr<const UpperLevels> Upper;
 };
@@ -102,6 +106,7 @@ public:
   explicit WeakOctree(const Octree& octree)
     : Data(octree.Data)
     , Size(octree.Size)
+    , Longest(octree.Longest)
     , Triangles(octree.Triangles)
     , Upper(octree.Upper)
   {
@@ -113,6 +118,7 @@ public:
     Octree octree;
     octree.Data = this->Data.lock();
     octree.Size = this->Size;
+    octree.Longest = this->Longest;
     octree.Triangles = this->Triangles.lock();
     octree.Upper = this->Upper.lock();
     return octree.Data && octree.Triangles && octree.Upper ? octree : Octree();
@@ -121,6 +127,7 @@ public:
 private:
   std::weak_ptr<const std::byte> Data;
   std::size_t Size = 0;
+  std::uint32_t Longest = 0;
   std::weak_ptr<const Surface> Triangles;
   std::weak_ptr<const UpperLevels> Upper;
 };
