@@ -7,6 +7,7 @@
 #include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkProperty.h>
+#include <vtkRenderWindow.h>
 #include <vtkTextProperty.h>
 #include <vtkTransform.h>
 
@@ -129,9 +130,8 @@ Scene::Scene(const Experiment& experiment, const Objects& objects)
     this->B = makeActor(objects.b.poses.front(), coral, 0.15);
     this->Renderer->AddActor(this->B);
   }
-  this->Caption->GetTextProperty()->SetFontSize(26);
-  this->Caption->GetTextProperty()->SetColor(0.1, 0.11, 0.13);
-  this->Caption->SetPosition(32, 24);
+  this->Caption->GetTextProperty()->SetColor(1, 1, 1);
+  this->Caption->GetTextProperty()->ShadowOn();
   this->Caption->VisibilityOff();
   this->Renderer->AddActor2D(this->Caption);
 
@@ -218,6 +218,9 @@ void Scene::setPose(std::size_t pose)
 
 void Scene::setCaption(const std::string& text)
 {
+  const int height = this->Renderer->GetRenderWindow()->GetSize()[1];
+  this->Caption->GetTextProperty()->SetFontSize(std::max(8, height / 42));
+  this->Caption->SetPosition(height / 34, height / 45);
   this->Caption->SetInput(text.c_str());
   this->Caption->SetVisibility(!text.empty());
 }

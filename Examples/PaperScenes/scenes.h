@@ -37,7 +37,7 @@ public:
   void setAVisible(bool visible);
   /// Shows B in one of its poses whatever the frame; nothing without a B.
   void setPose(std::size_t pose);
-  /// A line at the lower left; empty for none.
+  /// A line at the lower left; empty for none. The renderer must be in a window.
   void setCaption(const std::string& text);
 
   const Experiment& experiment() const { return *this->Setup; }
