@@ -1,9 +1,10 @@
 #include "svoLayeredView.h"
 
 #include "svoIntersect.h"
+#include "svoLeafGeometry.h"
 
 #include <algorithm>
-#include <atomic>
+#include <limits>
 #include <mutex>
 
 namespace svo
@@ -15,6 +16,19 @@ DepthLayer::DepthLayer(const PixelRect& r)
   this->traced.resize(tiles);
   this->t.resize(64 * tiles);
   this->primitive.resize(64 * tiles);
+}
+
+bool endsFreely(const Instance& instance, int level)
+{
+  if (instance.leafGeometry == LeafGeometry::Voxel || !instance.octree.surface())
+  {
+    return true;
+  }
+  const bool inBrick = level >= instance.octree.level() - 2; // above, leaves are mean planes
+  return inBrick &&
+    (instance.leafGeometry == LeafGeometry::Triangle ||
+      (instance.leafGeometry == LeafGeometry::Automatic &&
+        instance.octree.longestList() <= ShortList));
 }
 
 bool sameRays(const View& a, const View& b)
@@ -113,147 +127,132 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, Layer
     budget.used -= bytes;
     kept = this->Layers.erase(kept);
   }
-  // Kept layers first: they cost nothing and cut the others' rays. Then front to back.
-  std::stable_sort(this->Instances.begin(), this->Instances.end(),
-    [](const Entry& a, const Entry& b)
-    {
-      return (a.layer != nullptr) != (b.layer != nullptr) ? a.layer != nullptr
-                                                          : a.local.base < b.local.base;
-    });
 }
 
-void LayeredView::traceTile(int tileX, int tileY, std::vector<std::uint64_t>& rays)
+void LayeredView::order(int tileX, int tileY, std::vector<TileEntry>& order)
 {
-  const int x0 = 8 * tileX;
-  const int y0 = 8 * tileY;
-  const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
-  float* t = this->Merged.t.data() + 64 * tile;
-  std::uint32_t* winner = this->Merged.instance.data() + 64 * tile;
-  Primitive* primitive = this->Merged.primitive.data() + 64 * tile;
-  RayBlock block;
-  HitBlock found;
-  bool any = false;
-  for (std::size_t e = 0; e < this->Instances.size(); ++e)
+  order.clear();
+  for (Entry& entry : this->Instances)
   {
-    Entry& entry = this->Instances[e];
     const PixelRect& rect = entry.local.rect;
-    if (x0 < rect.x0 || x0 >= rect.x1 || y0 < rect.y0 || y0 >= rect.y1)
+    if (8 * tileX < rect.x0 || 8 * tileX >= rect.x1 || 8 * tileY < rect.y0 || 8 * tileY >= rect.y1)
     {
       continue;
     }
-    const float* layerT = found.t;
-    const Primitive* layerPrimitive = found.primitive;
-    const TraceOptions options{ entry.key.leafGeometry, entry.key.level };
-    if (entry.layer)
+    const TileIntervals& intervals = entry.layer ? entry.layer->intervals : entry.intervals;
+    const std::size_t i = intervals.index(tileX, tileY);
+    const float tNear = std::max(intervals.tNear[i], 0.0f);
+    const float tFar = std::min(intervals.tFar[i], entry.local.tMax);
+    if (tNear <= tFar)
     {
-      const std::size_t k =
-        static_cast<std::size_t>((y0 - rect.y0) / 8) * ((rect.x1 - rect.x0) / 8) +
-        (x0 - rect.x0) / 8;
-      float* keptT = entry.layer->t.data() + 64 * k;
-      Primitive* keptPrimitive = entry.layer->primitive.data() + 64 * k;
-      if (!entry.layer->traced[k])
-      {
-        entry.layer->traced[k] = 1;
-        const std::size_t i = entry.layer->intervals.index(tileX, tileY);
-        const float tNear = entry.layer->intervals.tNear[i];
-        const float tFar = std::min(entry.layer->intervals.tFar[i], entry.local.tMax);
-        if (tNear <= tFar)
-        {
-          entry.local.fill(x0, y0, block);
-          std::fill(block.tMin, block.tMin + 64, std::max(tNear, 0.0f));
-          std::fill(block.tMax, block.tMax + 64, tFar);
-          intersect(*entry.octree, block, options, found);
-          std::copy(found.t, found.t + 64, keptT);
-          std::copy(found.primitive, found.primitive + 64, keptPrimitive);
-          rays[e] += 64;
-        }
-        else
-        {
-          std::fill(keptPrimitive, keptPrimitive + 64, NoPrimitive);
-        }
-      }
-      layerT = keptT;
-      layerPrimitive = keptPrimitive;
-    }
-    else
-    {
-      const std::size_t k = entry.intervals.index(tileX, tileY);
-      const float tNear = std::max(entry.intervals.tNear[k], 0.0f);
-      const float tFar = std::min(entry.intervals.tFar[k], entry.local.tMax);
-      if (!(tNear <= tFar))
-      {
-        continue;
-      }
-      std::fill(block.tMin, block.tMin + 64, tNear);
-      std::fill(block.tMax, block.tMax + 64, tFar);
-      if (any)
-      {
-        // A ray need not go beyond what is merged; a tie must survive the rounding. Plane leaves
-        // answer a ray that found nothing to its end with the first cell that refused it, so there
-        // a ray is either not traced or traced to its own end.
-        const bool cuts = options.leafGeometry == LeafGeometry::Voxel ||
-          options.leafGeometry == LeafGeometry::Triangle;
-        bool alive = false;
-        for (int i = 0; i < 64; ++i)
-        {
-          if (winner[i] != NoInstance)
-          {
-            const double cut = this->Bases[winner[i]] + t[i] - entry.local.base;
-            if (cuts || cut < tNear)
-            {
-              block.tMax[i] = std::min(block.tMax[i], roundUp(cut));
-            }
-          }
-          alive = alive || block.tMax[i] >= tNear;
-        }
-        if (!alive)
-        {
-          continue;
-        }
-      }
-      entry.local.fill(x0, y0, block);
-      intersect(*entry.octree, block, options, found);
-      rays[e] += 64;
-    }
-    if (!any)
-    {
-      bool hit = false;
-      for (int i = 0; i < 64; ++i)
-      {
-        hit = hit || layerPrimitive[i] != NoPrimitive;
-      }
-      if (!hit)
-      {
-        continue;
-      }
-      any = true;
-      for (int i = 0; i < 64; ++i)
-      {
-        t[i] = layerT[i];
-        primitive[i] = layerPrimitive[i];
-        winner[i] = layerPrimitive[i] != NoPrimitive ? entry.index : NoInstance;
-      }
-      continue;
-    }
-    // min(t), the smaller index where equal: any order of merging gives the same buffer. A NaN
-    // compares false and never wins.
-    for (int i = 0; i < 64; ++i)
-    {
-      if (layerPrimitive[i] == NoPrimitive)
-      {
-        continue;
-      }
-      const double mine = entry.local.base + layerT[i];
-      const double other = winner[i] != NoInstance ? this->Bases[winner[i]] + t[i] : 0.0;
-      if (winner[i] == NoInstance || mine < other || (mine == other && entry.index < winner[i]))
-      {
-        t[i] = layerT[i];
-        primitive[i] = layerPrimitive[i];
-        winner[i] = entry.index;
-      }
+      // Kept layers first: they cost nothing and cut the others' rays. Then front to back.
+      const double key =
+        entry.layer ? -std::numeric_limits<double>::infinity() : entry.local.base + tNear;
+      order.push_back({ &entry, key, tNear, tFar });
     }
   }
-  this->Merged.hit[tile] = any;
+  std::stable_sort(order.begin(), order.end(),
+    [](const TileEntry& a, const TileEntry& b) { return a.key < b.key; });
+}
+
+bool LayeredView::cutRays(
+  const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const
+{
+  // A tie must survive the rounding. Plane leaves answer a ray that found nothing to its end with
+  // the first cell that refused it, so there a ray is either not traced or traced to its own end.
+  const Entry& entry = *candidate.entry;
+  bool alive = false;
+  for (int i = 0; i < 64; ++i)
+  {
+    if (merged.instance[i] != NoInstance)
+    {
+      const double cut = this->Bases[merged.instance[i]] + merged.t[i] - entry.local.base;
+      if (entry.cuttable || cut < candidate.tNear)
+      {
+        block.tMax[i] = std::min(block.tMax[i], roundUp(cut));
+      }
+    }
+    alive = alive || block.tMax[i] >= candidate.tNear;
+  }
+  return alive;
+}
+
+void LayeredView::merge(
+  const Entry& entry, const float* t, const Primitive* primitive, MergedTile& merged) const
+{
+  // min(t), the smaller index where equal: any order of merging gives the same buffer. A NaN
+  // compares false and never wins.
+  for (int i = 0; i < 64; ++i)
+  {
+    if (primitive[i] == NoPrimitive)
+    {
+      continue;
+    }
+    if (!merged.any)
+    {
+      merged.any = true;
+      std::fill(merged.instance, merged.instance + 64, NoInstance);
+      std::fill(merged.primitive, merged.primitive + 64, NoPrimitive);
+    }
+    const std::uint32_t winner = merged.instance[i];
+    const double mine = entry.local.base + t[i];
+    const double other = winner != NoInstance ? this->Bases[winner] + merged.t[i] : 0.0;
+    if (winner == NoInstance || mine < other || (mine == other && entry.index < winner))
+    {
+      merged.t[i] = t[i];
+      merged.primitive[i] = primitive[i];
+      merged.instance[i] = entry.index;
+    }
+  }
+}
+
+void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
+{
+  const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
+  MergedTile merged{ this->Merged.t.data() + 64 * tile, this->Merged.instance.data() + 64 * tile,
+    this->Merged.primitive.data() + 64 * tile, false };
+  RayBlock block;
+  HitBlock found;
+  this->order(tileX, tileY, scratch.order);
+  for (const TileEntry& candidate : scratch.order)
+  {
+    const Entry& entry = *candidate.entry;
+    const TraceOptions options{ entry.key.leafGeometry, entry.key.level };
+    const auto fill = [&]
+    {
+      std::fill(block.tMin, block.tMin + 64, candidate.tNear);
+      std::fill(block.tMax, block.tMax + 64, candidate.tFar);
+    };
+    if (!entry.layer)
+    {
+      fill();
+      if (merged.any && !this->cutRays(candidate, merged, block))
+      {
+        continue;
+      }
+      entry.local.fill(8 * tileX, 8 * tileY, block);
+      intersect(*entry.octree, block, options, found);
+      scratch.rays[&entry - this->Instances.data()] += 64;
+      this->merge(entry, found.t, found.primitive, merged);
+      continue;
+    }
+    // A layer is traced whole: it must stay true when what is before it goes away.
+    const std::size_t k = entry.layer->intervals.index(tileX, tileY);
+    float* keptT = entry.layer->t.data() + 64 * k;
+    Primitive* keptPrimitive = entry.layer->primitive.data() + 64 * k;
+    if (!entry.layer->traced[k])
+    {
+      entry.layer->traced[k] = 1;
+      fill();
+      entry.local.fill(8 * tileX, 8 * tileY, block);
+      intersect(*entry.octree, block, options, found);
+      std::copy(found.t, found.t + 64, keptT);
+      std::copy(found.primitive, found.primitive + 64, keptPrimitive);
+      scratch.rays[&entry - this->Instances.data()] += 64;
+    }
+    this->merge(entry, keptT, keptPrimitive, merged);
+  }
+  this->Merged.hit[tile] = merged.any;
 }
 
 void LayeredView::sample(int tileX, int tileY, Samples& samples) const
@@ -333,7 +332,8 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
   parallelFor(0, columns * (ty1 - ty0), std::max<std::size_t>(columns / 2, 16),
     [&](std::size_t first, std::size_t last)
     {
-      std::vector<std::uint64_t> mine(this->Instances.size());
+      TileScratch mine;
+      mine.rays.resize(this->Instances.size());
       for (std::size_t k = first; k < last; ++k)
       {
         const int tileX = tx0 + static_cast<int>(k % columns);
@@ -344,9 +344,9 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
         }
       }
       const std::lock_guard<std::mutex> lock(raysMutex);
-      for (std::size_t e = 0; e < mine.size(); ++e)
+      for (std::size_t e = 0; e < mine.rays.size(); ++e)
       {
-        rays[e] += mine[e];
+        rays[e] += mine.rays[e];
       }
     });
   for (std::uint64_t r : rays)

@@ -43,8 +43,8 @@ struct DepthLayer
 {
   PixelRect rect;
   std::vector<std::uint8_t> traced; // per tile of rect
-  std::vector<float> t;             // 64 per tile
-  std::vector<Primitive> primitive;
+  RawArray<float> t;                // 64 per tile, of traced ones
+  RawArray<Primitive> primitive;
   TileIntervals intervals; // of rect
 
   explicit DepthLayer(const PixelRect& r);
@@ -64,6 +64,10 @@ struct Samples
   std::uint32_t instance[64];
   Primitive primitive[64];
 };
+
+/// True if what a ray that stops at `level` hits does not depend on where the ray ends, so that it
+/// may be cut short: all leaves but planes, whose rays fall back on a refused cell at their end.
+bool endsFreely(const Instance& instance, int level);
 
 class LayeredView
 {
@@ -86,10 +90,10 @@ public:
       const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
       if (!local.rect.empty())
       {
+        const int level = levelOf(instance, local);
         this->Instances.push_back({ i, instance.id, &instance.octree, local,
-          { instance.octree.key(), instance.localToWorld, instance.leafGeometry,
-            levelOf(instance, local) },
-          nullptr, {} });
+          { instance.octree.key(), instance.localToWorld, instance.leafGeometry, level }, nullptr,
+          {}, endsFreely(instance, level) });
       }
     }
     this->prepare(scene, view, keep, budget);
@@ -122,6 +126,27 @@ private:
     LayerKey key;
     DepthLayer* layer;       // kept, or null: traced for this frame alone, cut at what is merged
     TileIntervals intervals; // where there is no layer
+    bool cuttable;           // a ray's hit does not depend on where the ray ends
+  };
+  /// An instance that a tile's rays may meet.
+  struct TileEntry
+  {
+    Entry* entry;
+    double key; // order of tracing
+    float tNear, tFar;
+  };
+  struct MergedTile
+  {
+    float* t;
+    std::uint32_t* instance;
+    Primitive* primitive;
+    bool any; // else nothing is written yet
+  };
+  /// What a thread keeps from tile to tile.
+  struct TileScratch
+  {
+    std::vector<TileEntry> order;
+    std::vector<std::uint64_t> rays; // by index into Instances
   };
   struct Kept
   {
@@ -132,11 +157,15 @@ private:
 
   void prepare(const Scene& scene, const View& view, bool keep, LayerBudget& budget);
   void dropLayers(LayerBudget& budget);
-  void traceTile(int tileX, int tileY, std::vector<std::uint64_t>& rays);
+  void order(int tileX, int tileY, std::vector<TileEntry>& order);
+  bool cutRays(const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const;
+  void merge(
+    const Entry& entry, const float* t, const Primitive* primitive, MergedTile& merged) const;
+  void traceTile(int tileX, int tileY, TileScratch& scratch);
 
   View Of;
-  bool Began = false;           // Of and Layers are a frame's
-  std::vector<Entry> Instances; // front to back
+  bool Began = false; // Of and Layers are a frame's
+  std::vector<Entry> Instances;
   std::vector<double> Bases;
   std::vector<int> Levels;
   std::unordered_map<std::uint64_t, Kept> Layers; // by Instance::id
