@@ -2,6 +2,7 @@
 #ifndef svoDepthBuffer_h
 #define svoDepthBuffer_h
 
+#include "svoRawArray.h"
 #include "svoRay.h"
 
 #include <cstddef>
@@ -17,9 +18,9 @@ struct DepthBuffer
 {
   int tilesX = 0;
   int tilesY = 0;
-  std::vector<float> t; // linear depth minus the base of the winning instance
-  std::vector<std::uint32_t> instance;
-  std::vector<Primitive> primitive;
+  RawArray<float> t; // linear depth minus the base of the winning instance
+  RawArray<std::uint32_t> instance;
+  RawArray<Primitive> primitive;
   std::vector<std::uint8_t> hit; // per tile: some pixel of it has an instance; else its pixels are
                                  // not written at all
 
