@@ -62,11 +62,12 @@ struct BuildResult
 /// Conservative and exact: vertices are snapped to a lattice of 1/256 voxel, every voxel's closed
 /// box grown by one lattice unit is tested against the triangle in integers (Schwarz & Seidel 2010:
 /// plane, three projections, box), touching counts. So every ray that hits a triangle hits a voxel.
-/// The octree's cube is the mesh's bounding cube with the mesh in its middle, two lattice units of
-/// margin on the longest axis; a mesh whose points all coincide gets a cube of a size that its
-/// coordinates can resolve, and no voxel is smaller than the steps between doubles where the mesh
-/// lies. Deterministic: the same bytes for any executor and instruction set. Time grows with the
-/// bricks that the triangles touch, never with the volume of their boxes.
+/// The octree's cube is the mesh's bounding cube with the mesh in its middle (half a voxel beside
+/// it where the mesh is flat, so that it fills one layer of voxels), two lattice units of margin on
+/// the longest axis; a mesh whose points all coincide gets a cube of a size that its coordinates
+/// can resolve, and no voxel is smaller than the steps between doubles where the mesh lies.
+/// Deterministic: the same bytes for any executor and instruction set. Time grows with the bricks
+/// that the triangles touch, never with the volume of their boxes.
 VTKSVOOCTREE_EXPORT BuildResult build(const TriangleMesh& mesh, const BuildOptions& options);
 
 /// Peak bytes that build() is expected to need, from the triangles' areas in voxels. Tests hold it

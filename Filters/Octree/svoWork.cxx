@@ -52,6 +52,14 @@ Cube cubeAround(const glm::dvec3& low, const glm::dvec3& high, int level)
     }
     edge = std::max(edge, (high[i] - origin[i]) * (units / (units - 1.0)));
   }
+  for (int i = 0; i < 3; ++i)
+  {
+    // A flat mesh in the very middle would lie between two layers of voxels and fill both.
+    if (low[i] == high[i])
+    {
+      origin[i] -= std::ldexp(edge, -level - 1);
+    }
+  }
   return { origin, edge };
 }
 }

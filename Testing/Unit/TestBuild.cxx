@@ -348,6 +348,23 @@ TEST(Build, TheMeshLiesInTheMiddleOfItsCube)
   }
 }
 
+TEST(Build, AFlatMeshFillsOneLayerOfVoxels)
+{
+  const Mesh mesh = pointsAt({ 0.0, 0.0, 3.0 }, { 4.0, 0.0, 3.0 }, { 0.0, 4.0, 3.0 });
+  for (const int level : { 2, 5, 8 })
+  {
+    const svo::Octree octree = built(mesh, level);
+    ASSERT_TRUE(octree);
+    const int across = 1 << level;
+    int layers = 0;
+    for (int z = 0; z < across; ++z)
+    {
+      layers += octree.occupied({ across / 4, across / 4, z }, level);
+    }
+    EXPECT_EQ(layers, 1);
+  }
+}
+
 TEST(Build, TheSurfaceIsTheMeshInOctreeCoordinates)
 {
   const Mesh mesh = svotest::sphere(8);
