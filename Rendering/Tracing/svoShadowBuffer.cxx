@@ -128,7 +128,8 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
   }
 }
 
-bool ShadowBuffer::shadows(const glm::dvec3& position, const glm::vec3& facet, double error) const
+bool ShadowBuffer::shadows(
+  const glm::dvec3& position, const glm::vec3& planeNormal, double error) const
 {
   const Face* face = nullptr;
   glm::ivec2 texel;
@@ -161,7 +162,7 @@ bool ShadowBuffer::shadows(const glm::dvec3& position, const glm::vec3& facet, d
   const double y = texel.y + 0.5;
   const glm::dvec3 origin = view.rayOrigin(x, y);
   const glm::dvec3 direction = view.rayDirection(x, y);
-  const glm::dvec3 normal(facet);
+  const glm::dvec3 normal(planeNormal);
   const double along = glm::dot(normal, direction);
   const double slope = std::abs(along) / glm::length(direction);
   double receiver = t;
@@ -171,7 +172,8 @@ bool ShadowBuffer::shadows(const glm::dvec3& position, const glm::vec3& facet, d
   }
   // Grazing light: the plane says nothing beyond the texel's neighbourhood.
   receiver = std::clamp(receiver, t - most, t + most);
-  bias += 0.5 * pixel + std::max(this->CasterError[caster], error) / std::max(slope, 0.1);
+  // Half a texel and the leaf's error, both along the normal.
+  bias += (0.5 * pixel + std::max(this->CasterError[caster], error)) / std::max(slope, 0.1);
   return occluder + bias < receiver;
 }
 

@@ -71,7 +71,9 @@ bool Shadows::dark(
 {
   if (this->Buffers[light])
   {
-    return this->Buffers[light]->shadows(point.position, point.facet, error);
+    // Facets near the terminator disagree with the curved surface that they stand for about which
+    // way the light goes by; the normal that is shaded with does not.
+    return this->Buffers[light]->shadows(point.position, point.normal, error);
   }
   if (this->Rays && this->Of->lights[light].castShadow)
   {
