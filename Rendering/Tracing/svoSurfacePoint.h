@@ -2,7 +2,6 @@
 #ifndef svoSurfacePoint_h
 #define svoSurfacePoint_h
 
-#include "svoPlane.h"
 #include "svoRay.h"
 #include "svoScene.h"
 #include "svoView.h"
@@ -87,6 +86,47 @@ inline glm::vec3 textureAt(const Attributes& a, float coordinate)
 }
 }
 
+namespace detail
+{
+/// The triangle that stands for a node above the bricks: of the nearest of its bricks, roughly, the
+/// first that faces the viewer, or the first of all. `towards`: to the viewer, world.
+inline Primitive facingTriangle(
+  const SurfaceFrame& frame, std::uint32_t node, const glm::vec3& towards)
+{
+  const Octree& octree = frame.instance->octree;
+  const glm::dvec3 local = glm::dmat3(frame.toOctree) * glm::dvec3(towards);
+  // Cell indices in this order come nearest first along each axis.
+  const unsigned flip =
+    (local.x > 0.0 ? 011u : 0u) | (local.y > 0.0 ? 022u : 0u) | (local.z > 0.0 ? 044u : 0u);
+  while (node < octree.brickBegin())
+  {
+    const Node& inner = octree.nodes()[node];
+    unsigned i = 0;
+    while (!(inner.mask >> (i ^ flip) & 1))
+    {
+      ++i;
+    }
+    const std::uint64_t below = (std::uint64_t(1) << (i ^ flip)) - 1;
+    node = inner.first + __builtin_popcountll(inner.mask & below);
+  }
+  std::uint32_t count, inlineId;
+  const std::uint32_t* list = octree.brickTriangles(node, count, inlineId);
+  const Surface* surface = octree.surface();
+  for (std::uint32_t k = 0; surface && k < count; ++k)
+  {
+    const glm::uvec3 triangle = surface->triangles[list[k]];
+    const glm::vec3 a = surface->points[triangle.x];
+    const glm::vec3 winding = frame.windingMatrix *
+      glm::cross(surface->points[triangle.y] - a, surface->points[triangle.z] - a);
+    if (glm::dot(winding, towards) > 0.0f)
+    {
+      return list[k];
+    }
+  }
+  return list[0];
+}
+}
+
 /// `t` is the linear depth of the hit on the ray of pixel (x, y).
 inline SurfacePoint surfacePoint(
   const SurfaceFrame& frame, const View& view, double x, double y, double t, Primitive primitive)
@@ -102,48 +142,29 @@ inline SurfacePoint surfacePoint(
   const glm::vec3 towards(-ray);
   if (primitive & NodePrimitive)
   {
-    // Above the bricks: the node's mean plane is the normal, and its first triangle's look stands
-    // for all of them.
-    const Node* node = octree.nodes() + (primitive & ~NodePrimitive);
-    point.facet = detail::normalized(frame.normalMatrix * decodePlane(node->plane).normal, towards);
-    point.facet = glm::dot(point.facet, towards) < 0.0f ? -point.facet : point.facet;
-    point.normal = point.facet;
-    std::uint32_t index = primitive & ~NodePrimitive;
-    while (index < octree.brickBegin())
-    {
-      index = octree.nodes()[index].first;
-    }
-    std::uint32_t count, inlineId;
-    primitive = octree.brickTriangles(index, count, inlineId)[0];
+    // The node's mean plane is where the point is; it is no normal to shade with, for it has faces
+    // in it that the viewer does not see.
+    primitive = detail::facingTriangle(frame, primitive & ~NodePrimitive, towards);
   }
-  else
-  {
-    point.facet = glm::vec3(0.0f);
-  }
-  const bool coarse = point.facet != glm::vec3(0.0f);
   const Surface* surface = octree.surface();
   if (!surface)
   {
-    point.facet = point.normal = coarse ? point.facet : glm::normalize(towards);
+    point.facet = point.normal = glm::normalize(towards);
     return point;
   }
   const glm::uvec3 triangle = surface->triangles[primitive];
   const glm::vec3 a = surface->points[triangle.x];
   const glm::vec3 e1 = surface->points[triangle.y] - a;
   const glm::vec3 e2 = surface->points[triangle.z] - a;
-  bool front = true;
-  if (!coarse)
-  {
-    const glm::vec3 winding =
-      detail::normalized(frame.windingMatrix * glm::cross(e1, e2), glm::normalize(towards));
-    front = glm::dot(winding, towards) > 0.0f;
-    point.facet = front ? winding : -winding;
-    point.normal = point.facet;
-  }
+  const glm::vec3 winding =
+    detail::normalized(frame.windingMatrix * glm::cross(e1, e2), glm::normalize(towards));
+  const bool front = glm::dot(winding, towards) > 0.0f;
+  point.facet = front ? winding : -winding;
+  point.normal = point.facet;
   const bool pointNormals =
     attributes.normals && attributes.normalAssociation == Association::Point;
   const bool cellNormals = attributes.normals && attributes.normalAssociation == Association::Cell;
-  const bool smooth = !coarse && !instance.material.flat && pointNormals;
+  const bool smooth = !instance.material.flat && pointNormals;
   const bool pointColors = attributes.colorCoordinates ||
     (attributes.colors && attributes.colorAssociation == Association::Point);
   glm::vec3 weight(1.0f, 0.0f, 0.0f);
@@ -165,7 +186,7 @@ inline SurfacePoint surfacePoint(
     weight = { 1.0f - (v + w) / sum, v / sum, w / sum };
   }
   const std::uint32_t cell = surface->cells.empty() ? primitive : surface->cells[primitive];
-  if (smooth || (!coarse && cellNormals))
+  if (smooth || cellNormals)
   {
     const glm::vec3 local = smooth ? weight.x * detail::vectorAt(attributes.normals, triangle.x) +
         weight.y * detail::vectorAt(attributes.normals, triangle.y) +
