@@ -128,9 +128,9 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
   }
 }
 
-bool ShadowBuffer::shadows(
-  const glm::dvec3& position, const glm::vec3& planeNormal, double error) const
+bool ShadowBuffer::shadows(const SurfacePoint& point, double error) const
 {
+  const glm::dvec3& position = point.position;
   const Face* face = nullptr;
   glm::ivec2 texel;
   double t;
@@ -162,18 +162,29 @@ bool ShadowBuffer::shadows(
   const double y = texel.y + 0.5;
   const glm::dvec3 origin = view.rayOrigin(x, y);
   const glm::dvec3 direction = view.rayDirection(x, y);
-  const glm::dvec3 normal(planeNormal);
-  const double along = glm::dot(normal, direction);
-  const double slope = std::abs(along) / glm::length(direction);
-  double receiver = t;
-  if (slope > 1e-3)
+  const double length = glm::length(direction);
+  if (glm::dot(glm::dvec3(point.facet), direction) > 0.0)
   {
-    receiver = glm::dot(normal, position - origin) / along;
+    // The facet turns its back on the light, whatever the normal that is shaded with says: it is
+    // dark if light meets anything down to the facet itself.
+    return occluder + bias < t + 0.5 * pixel;
   }
-  // Grazing light: the plane says nothing beyond the texel's neighbourhood.
-  receiver = std::clamp(receiver, t - most, t + most);
+  double receiver = t + most;
+  double steepest = 0.1;
+  for (const glm::vec3& planeNormal : { point.facet, point.normal })
+  {
+    const glm::dvec3 normal(planeNormal);
+    const double along = glm::dot(normal, direction);
+    const double slope = std::abs(along) / length;
+    // Grazing light: the plane says nothing beyond the texel's neighbourhood.
+    const double plane = slope > 1e-3
+      ? std::clamp(glm::dot(normal, position - origin) / along, t - most, t + most)
+      : t;
+    receiver = std::min(receiver, plane);
+    steepest = std::max(steepest, slope);
+  }
   // Half a texel and the leaf's error, both along the normal.
-  bias += (0.5 * pixel + std::max(this->CasterError[caster], error)) / std::max(slope, 0.1);
+  bias += (0.5 * pixel + std::max(this->CasterError[caster], error)) / steepest;
   return occluder + bias < receiver;
 }
 

@@ -5,6 +5,7 @@
 
 #include "svoLayeredView.h"
 #include "svoScene.h"
+#include "svoSurfacePoint.h"
 #include "svoTracer.h"
 
 #include <atomic>
@@ -31,16 +32,19 @@ public:
 
   void trace(const ParallelFor& parallelFor);
 
-  /// True if a caster lies between the light and the point. `planeNormal`: the unit normal of
-  /// the tangent plane at the point, either side. `error`: how far the point may lie from the
-  /// surface that it stands for, world units.
+  /// True if a caster lies between the light and the point. `error`: how far the point may lie from
+  /// the surface that it stands for, world units.
   ///
-  /// With the automatic bias the point is not compared itself: its tangent plane is, at the ray of
-  /// the texel's own centre (Dou et al., "Adaptive Depth Bias for Shadow Maps", JCGT 2014, section
-  /// 3), so that the slope of the receiver and the size of the texel cost nothing. What remains is
-  /// the bend of the surface inside a texel and the leaf's own error, both known. Without it the
-  /// test is the paper's bare `distance > depth` plus `bias` voxels of the caster.
-  bool shadows(const glm::dvec3& position, const glm::vec3& planeNormal, double error) const;
+  /// With the automatic bias the point is not compared itself: its tangent planes are, at the ray
+  /// of the texel's own centre (Dou et al., "Adaptive Depth Bias for Shadow Maps", JCGT 2014,
+  /// section 3), so that the slope of the receiver and the size of the texel cost nothing. Both its
+  /// planes, the facet's and the one that is shaded with, have to lie behind the occluder: where a
+  /// facet faces the light its own plane is exact, and near the terminator, where facets disagree
+  /// with the curved surface that they stand for about which way the light goes by, the other one
+  /// is right. What remains is the bend of the surface inside a texel and the leaf's own error,
+  /// both known. Without it the test is the paper's bare `distance > depth` plus `bias` voxels of
+  /// the caster.
+  bool shadows(const SurfacePoint& point, double error) const;
 
   void copyMaps(int light, std::vector<ShadowMap>& maps) const;
   void release();

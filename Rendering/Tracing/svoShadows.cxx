@@ -71,9 +71,7 @@ bool Shadows::dark(
 {
   if (this->Buffers[light])
   {
-    // Facets near the terminator disagree with the curved surface that they stand for about which
-    // way the light goes by; the normal that is shaded with does not.
-    return this->Buffers[light]->shadows(point.position, point.normal, error);
+    return this->Buffers[light]->shadows(point, error);
   }
   if (this->Rays && this->Of->lights[light].castShadow)
   {
