@@ -65,8 +65,15 @@ void ShadowBuffer::begin(
   }
 }
 
-bool ShadowBuffer::lookUp(
-  const glm::dvec3& position, const Face*& face, glm::ivec2& texel, double& t) const
+glm::ivec2 ShadowBuffer::Place::neighbour(int i) const
+{
+  const glm::ivec2 texel = this->nearest();
+  const int dx = this->x - texel.x < 0.5 ? -1 : 1;
+  const int dy = this->y - texel.y < 0.5 ? -1 : 1;
+  return texel + glm::ivec2(i & 1 ? dx : 0, i & 2 ? dy : 0);
+}
+
+bool ShadowBuffer::lookUp(const glm::dvec3& position, Place& place) const
 {
   for (const auto& candidate : this->Faces)
   {
@@ -76,27 +83,41 @@ bool ShadowBuffer::lookUp(
     {
       continue;
     }
-    texel.x = static_cast<int>((clip.x / clip.w + 1.0) * 0.5 * view.width);
-    texel.y = static_cast<int>((clip.y / clip.w + 1.0) * 0.5 * view.height);
-    texel = glm::clamp(texel, glm::ivec2(0), glm::ivec2(view.width - 1, view.height - 1));
+    // Rounding may put a point of the border beyond it.
+    place.x = std::min((clip.x / clip.w + 1.0) * 0.5 * view.width, view.width - 1e-9);
+    place.y = std::min((clip.y / clip.w + 1.0) * 0.5 * view.height, view.height - 1e-9);
     const glm::dmat4& m = view.worldToView;
-    t = -(m[0][2] * position.x + m[1][2] * position.y + m[2][2] * position.z + m[3][2]);
-    face = candidate.get();
-    return face->seesCasters;
+    place.t = -(m[0][2] * position.x + m[1][2] * position.y + m[2][2] * position.z + m[3][2]);
+    place.face = candidate.get();
+    return place.face->seesCasters;
   }
   return false;
 }
 
 void ShadowBuffer::mark(const glm::dvec3& position)
 {
-  const Face* face = nullptr;
-  glm::ivec2 texel;
-  double t;
-  if (this->lookUp(position, face, texel, t))
+  Place place;
+  if (!this->lookUp(position, place))
   {
+    return;
+  }
+  const View& view = place.face->view;
+  std::size_t last = ~std::size_t(0);
+  for (int i = 0; i < 4; ++i)
+  {
+    const glm::ivec2 texel = i == 0 ? place.nearest() : place.neighbour(i);
+    if (texel.x < 0 || texel.y < 0 || texel.x >= view.width || texel.y >= view.height)
+    {
+      continue;
+    }
     const std::size_t tile =
-      static_cast<std::size_t>(texel.y >> 3) * ((face->view.width + 7) / 8) + (texel.x >> 3);
-    auto& wanted = const_cast<Face*>(face)->wanted[tile];
+      static_cast<std::size_t>(texel.y >> 3) * ((view.width + 7) / 8) + (texel.x >> 3);
+    if (tile == last)
+    {
+      continue;
+    }
+    last = tile;
+    auto& wanted = const_cast<Face*>(place.face)->wanted[tile];
     if (!wanted.load(std::memory_order_relaxed))
     {
       wanted.store(1, std::memory_order_relaxed);
@@ -130,34 +151,55 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
 
 bool ShadowBuffer::shadows(const SurfacePoint& point, double error) const
 {
-  const glm::dvec3& position = point.position;
-  const Face* face = nullptr;
-  glm::ivec2 texel;
-  double t;
-  if (!this->lookUp(position, face, texel, t))
+  Place place;
+  if (!this->lookUp(point.position, place))
   {
     return false;
+  }
+  const Answer answer = this->ask(place, place.nearest(), point, error);
+  if (answer != Answer::DarkNearby)
+  {
+    return answer == Answer::Dark;
+  }
+  int dark = 0;
+  for (int i = 1; i < 4; ++i)
+  {
+    dark += this->ask(place, place.neighbour(i), point, error) != Answer::Lit;
+  }
+  return dark >= 2;
+}
+
+ShadowBuffer::Answer ShadowBuffer::ask(
+  const Place& place, const glm::ivec2& texel, const SurfacePoint& point, double error) const
+{
+  const Face* face = place.face;
+  const double t = place.t;
+  const glm::dvec3& position = point.position;
+  if (texel.x < 0 || texel.y < 0 || texel.x >= face->view.width || texel.y >= face->view.height)
+  {
+    return Answer::Lit;
   }
   const DepthBuffer& depth = face->layers.depthBuffer();
   const std::size_t at = depth.at(texel.x, texel.y);
   if (!depth.hit[at >> 6] || depth.instance[at] == NoInstance)
   {
-    return false;
+    return Answer::Lit;
   }
   const std::uint32_t caster = depth.instance[at];
   const double occluder = face->layers.base(caster) + depth.t[at];
   double bias = this->Bias * this->CasterVoxel[caster];
   if (!this->AutomaticBias)
   {
-    return occluder + bias < t;
+    return occluder + bias < t ? Answer::Dark : Answer::Lit;
   }
   const View& view = face->view;
   const double pixel = face->pixel + t * face->pixelPerDepth;
   const double most = 8.0 * pixel; // how far the tangent plane is followed along the ray
   if (!(occluder + bias < t + most))
   {
-    return false;
+    return Answer::Lit;
   }
+  const Answer dark = occluder < t - most ? Answer::Dark : Answer::DarkNearby;
   const double x = texel.x + 0.5;
   const double y = texel.y + 0.5;
   const glm::dvec3 origin = view.rayOrigin(x, y);
@@ -167,7 +209,7 @@ bool ShadowBuffer::shadows(const SurfacePoint& point, double error) const
   {
     // The facet turns its back on the light, whatever the normal that is shaded with says: it is
     // dark if light meets anything down to the facet itself.
-    return occluder + bias < t + 0.5 * pixel;
+    return occluder + bias < t + 0.5 * pixel ? dark : Answer::Lit;
   }
   double receiver = t + most;
   double steepest = 0.1;
@@ -185,7 +227,7 @@ bool ShadowBuffer::shadows(const SurfacePoint& point, double error) const
   }
   // Half a texel and the leaf's error, both along the normal.
   bias += (0.5 * pixel + std::max(this->CasterError[caster], error)) / steepest;
-  return occluder + bias < receiver;
+  return occluder + bias < receiver ? dark : Answer::Lit;
 }
 
 void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps) const

@@ -64,8 +64,26 @@ private:
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile
     bool seesCasters = false;
   };
-  /// The face, texel and linear depth of a point; false if it is outside of all.
-  bool lookUp(const glm::dvec3& position, const Face*& face, glm::ivec2& texel, double& t) const;
+  /// Where a point is looked up.
+  struct Place
+  {
+    const Face* face = nullptr;
+    double x = 0.0, y = 0.0; // texels
+    double t = 0.0;          // linear depth of the point
+    glm::ivec2 nearest() const { return glm::ivec2(static_cast<int>(x), static_cast<int>(y)); }
+    /// Number i (1..3) of the other texels whose centres surround the point.
+    glm::ivec2 neighbour(int i) const;
+  };
+  enum class Answer
+  {
+    Lit,
+    DarkNearby, // by an occluder within a few texels' depth
+    Dark
+  };
+  /// False if the point is outside of all faces, or its face sees no caster.
+  bool lookUp(const glm::dvec3& position, Place& place) const;
+  Answer ask(
+    const Place& place, const glm::ivec2& texel, const SurfacePoint& point, double error) const;
 
   std::vector<std::unique_ptr<Face>> Faces;
   std::vector<double> CasterVoxel; // world, of the level that is traced, by index of the instance
