@@ -35,8 +35,6 @@ Light lightOf(vtkLight* source)
   const double* diffuse = source->GetDiffuseColor();
   light.color =
     glm::vec3(diffuse[0], diffuse[1], diffuse[2]) * static_cast<float>(source->GetIntensity());
-  // VTK's shaders have one colour a light; its specular colour goes unused.
-  light.specularColor = light.color;
   light.id = reinterpret_cast<std::uintptr_t>(source);
   return light;
 }

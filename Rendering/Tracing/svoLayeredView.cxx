@@ -129,21 +129,27 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, Layer
   }
 }
 
+bool LayeredView::Entry::meets(int tileX, int tileY, float& tNear, float& tFar) const
+{
+  const PixelRect& rect = this->local.rect;
+  if (8 * tileX < rect.x0 || 8 * tileX >= rect.x1 || 8 * tileY < rect.y0 || 8 * tileY >= rect.y1)
+  {
+    return false;
+  }
+  const TileIntervals& all = this->layer ? this->layer->intervals : this->intervals;
+  const std::size_t i = all.index(tileX, tileY);
+  tNear = std::max(all.tNear[i], 0.0f);
+  tFar = std::min(all.tFar[i], this->local.tMax);
+  return tNear <= tFar;
+}
+
 void LayeredView::order(int tileX, int tileY, std::vector<TileEntry>& order)
 {
   order.clear();
   for (Entry& entry : this->Instances)
   {
-    const PixelRect& rect = entry.local.rect;
-    if (8 * tileX < rect.x0 || 8 * tileX >= rect.x1 || 8 * tileY < rect.y0 || 8 * tileY >= rect.y1)
-    {
-      continue;
-    }
-    const TileIntervals& intervals = entry.layer ? entry.layer->intervals : entry.intervals;
-    const std::size_t i = intervals.index(tileX, tileY);
-    const float tNear = std::max(intervals.tNear[i], 0.0f);
-    const float tFar = std::min(intervals.tFar[i], entry.local.tMax);
-    if (tNear <= tFar)
+    float tNear, tFar;
+    if (entry.meets(tileX, tileY, tNear, tFar))
     {
       // Kept layers first: they cost nothing and cut the others' rays. Then front to back.
       const double key =
@@ -262,16 +268,8 @@ void LayeredView::sample(int tileX, int tileY, Samples& samples) const
   HitBlock found;
   for (const Entry& entry : this->Instances)
   {
-    const PixelRect& rect = entry.local.rect;
-    if (8 * tileX < rect.x0 || 8 * tileX >= rect.x1 || 8 * tileY < rect.y0 || 8 * tileY >= rect.y1)
-    {
-      continue;
-    }
-    const TileIntervals& intervals = entry.layer ? entry.layer->intervals : entry.intervals;
-    const std::size_t k = intervals.index(tileX, tileY);
-    const float tNear = std::max(intervals.tNear[k], 0.0f);
-    const float tFar = std::min(intervals.tFar[k], entry.local.tMax);
-    if (!(tNear <= tFar))
+    float tNear, tFar;
+    if (!entry.meets(tileX, tileY, tNear, tFar))
     {
       continue;
     }

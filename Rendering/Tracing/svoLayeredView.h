@@ -127,6 +127,8 @@ private:
     DepthLayer* layer;       // kept, or null: traced for this frame alone, cut at what is merged
     TileIntervals intervals; // where there is no layer
     bool cuttable;           // a ray's hit does not depend on where the ray ends
+    /// Where the rays of a tile can meet the instance; false if nowhere.
+    bool meets(int tileX, int tileY, float& tNear, float& tFar) const;
   };
   /// An instance that a tile's rays may meet.
   struct TileEntry

@@ -72,7 +72,7 @@ struct Light
   enum class Kind
   {
     Directional,
-    Point, // positional, cone of 90 degrees half angle or more: all directions
+    Point, // positional, cone of more than 90 degrees half angle: all directions
     Spot
   };
   Kind kind = Kind::Directional;
@@ -83,7 +83,6 @@ struct Light
   double exponent = 1.0;            // of the spot's fall-off
   glm::vec3 attenuation{ 1, 0, 0 }; // constant, linear, quadratic
   glm::vec3 color{ 1.0f };          // diffuse colour times intensity
-  glm::vec3 specularColor{ 1.0f };  // as VTK's shaders use it: see svoShading
   bool castShadow = true;
   std::uint64_t id = 0; // stable from frame to frame
 };
