@@ -84,7 +84,7 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
       error = "the octree's nodes are damaged";
       return {};
     }
-    octree.Upper = std::make_shared<UpperLevels>(makeUpperLevels(h, octree.nodes(), size));
+    octree.derive();
     return octree;
   }
   const std::uint32_t bricks = octree.brickBegin();
@@ -135,14 +135,22 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
       return {};
     }
   }
-  octree.Upper = std::make_shared<UpperLevels>(makeUpperLevels(h, nodes, size));
+  octree.derive();
   return octree;
+}
+
+void Octree::derive()
+{
+  this->Upper =
+    std::make_shared<UpperLevels>(makeUpperLevels(this->header(), this->nodes(), this->Size));
+  this->Lists =
+    std::make_shared<ShortLists>(this->Triangles ? makeShortLists(*this) : ShortLists());
 }
 
 std::size_t Octree::bytes() const
 {
   return this->Size + (this->Triangles ? this->Triangles->bytes() : 0) +
-    (this->Upper ? this->Upper->bytes() : 0);
+    (this->Upper ? this->Upper->bytes() : 0) + (this->Lists ? this->Lists->bytes() : 0);
 }
 
 glm::dmat4 Octree::localToOctree() const

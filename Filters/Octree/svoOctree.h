@@ -3,6 +3,7 @@
 #define svoOctree_h
 
 #include "svoLayout.h"
+#include "svoShortLists.h"
 #include "svoSurface.h"
 #include "svoUpperLevels.h"
 #include "vtkSVOOctreeModule.h"
@@ -50,7 +51,9 @@ public:
   }
   /// Dense tables of the upper levels, for the block queries.
   const UpperLevels& upperLevels() const { return *this->Upper; }
-  /// Bytes of the buffer, the surface and the tables of the upper levels.
+  /// The highest nodes with few triangles, for the tile queries; only where there is a surface.
+  const ShortLists& shortLists() const { return *this->Lists; }
+  /// Bytes of the buffer, the surface, the tables of the upper levels and the short lists.
   std::size_t bytes() const;
 
   /// Edge of the root cube (octree coordinates [1, 2)) in the local frame.
@@ -91,11 +94,14 @@ public:
 
 private:
   friend class WeakOctree;
+  void derive(); // what is not stored
+
   std::shared_ptr<const std::byte> Data;
   std::size_t Size = 0;
   std::uint32_t Longest = 0;
   std::shared_ptr<const Surface> Triangles;
   std::shared_ptr<const UpperLevels> Upper;
+  std::shared_ptr<const ShortLists> Lists;
 };
 
 /// Finds an open octree that has a surface again, for as long as somebody keeps it.
@@ -109,6 +115,7 @@ public:
     , Longest(octree.Longest)
     , Triangles(octree.Triangles)
     , Upper(octree.Upper)
+    , Lists(octree.Lists)
   {
   }
   bool expired() const { return this->Data.expired(); }
@@ -121,7 +128,8 @@ public:
     octree.Longest = this->Longest;
     octree.Triangles = this->Triangles.lock();
     octree.Upper = this->Upper.lock();
-    return octree.Data && octree.Triangles && octree.Upper ? octree : Octree();
+    octree.Lists = this->Lists.lock();
+    return octree.Data && octree.Triangles && octree.Upper && octree.Lists ? octree : Octree();
   }
 
 private:
@@ -130,6 +138,7 @@ private:
   std::uint32_t Longest = 0;
   std::weak_ptr<const Surface> Triangles;
   std::weak_ptr<const UpperLevels> Upper;
+  std::weak_ptr<const ShortLists> Lists;
 };
 }
 

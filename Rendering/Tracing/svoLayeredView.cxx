@@ -2,6 +2,7 @@
 
 #include "svoIntersect.h"
 #include "svoLeafGeometry.h"
+#include "svoSelect.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,6 +10,14 @@
 
 namespace svo
 {
+namespace
+{
+/// Area of a triangle in the image, pixels, from which on tracing by tiles is quicker.
+constexpr double LeastTrianglePixels = 1.5;
+/// Where a tile sees more nodes than this its rays are walked one by one after all.
+constexpr std::size_t MostTileNodes = 256;
+}
+
 DepthLayer::DepthLayer(const PixelRect& r)
   : rect(r)
 {
@@ -29,6 +38,22 @@ bool endsFreely(const Instance& instance, int level)
     (instance.leafGeometry == LeafGeometry::Triangle ||
       (instance.leafGeometry == LeafGeometry::Automatic &&
         instance.octree.longestList() <= ShortList));
+}
+
+bool worthTiles(const Instance& instance, const LocalView& local, const View& view)
+{
+  const Octree& octree = instance.octree;
+  const bool exact = instance.leafGeometry == LeafGeometry::Triangle ||
+    instance.leafGeometry == LeafGeometry::Automatic;
+  if (!exact || !octree.surface())
+  {
+    return false;
+  }
+  const double pixel = worldPixel(view, local.base + 0.5 * local.tMax);
+  const double voxel = worldVoxel(instance) / pixel;
+  const Header& h = octree.header();
+  const double voxels = static_cast<double>(h.voxelCount) / static_cast<double>(h.triangleCount);
+  return voxels * voxel * voxel >= LeastTrianglePixels;
 }
 
 bool sameRays(const View& a, const View& b)
@@ -129,36 +154,85 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, Layer
   }
 }
 
-bool LayeredView::Entry::meets(int tileX, int tileY, float& tNear, float& tFar) const
+bool LayeredView::meets(int tileX, int tileY, TileEntry& candidate) const
 {
-  const PixelRect& rect = this->local.rect;
+  const Entry& entry = *candidate.entry;
+  const PixelRect& rect = entry.local.rect;
   if (8 * tileX < rect.x0 || 8 * tileX >= rect.x1 || 8 * tileY < rect.y0 || 8 * tileY >= rect.y1)
   {
     return false;
   }
-  const TileIntervals& all = this->layer ? this->layer->intervals : this->intervals;
-  const std::size_t i = all.index(tileX, tileY);
-  tNear = std::max(all.tNear[i], 0.0f);
-  tFar = std::min(all.tFar[i], this->local.tMax);
-  return tNear <= tFar;
+  candidate.nodes.clear();
+  if (!entry.tiles)
+  {
+    const TileIntervals& all = entry.layer ? entry.layer->intervals : entry.intervals;
+    const std::size_t i = all.index(tileX, tileY);
+    candidate.tNear = std::max(all.tNear[i], 0.0f);
+    candidate.tFar = std::min(all.tFar[i], entry.local.tMax);
+    return candidate.tNear <= candidate.tFar;
+  }
+  candidate.tNear = 0.0f;
+  candidate.tFar = entry.local.tMax;
+  candidate.pyramid = makePyramid(entry.projection, this->Of, tileX, tileY);
+  if (!findTileNodes(*entry.octree, candidate.pyramid, candidate.tNear, candidate.tFar,
+        MostTileNodes, candidate.nodes))
+  {
+    candidate.nodes.clear();
+    return true;
+  }
+  if (candidate.nodes.empty())
+  {
+    return false;
+  }
+  candidate.tNear = std::max(candidate.tNear, candidate.nodes.front().tNear);
+  return true;
 }
 
-void LayeredView::order(int tileX, int tileY, std::vector<TileEntry>& order)
+void LayeredView::order(int tileX, int tileY, TileScratch& scratch)
 {
-  order.clear();
-  for (Entry& entry : this->Instances)
+  scratch.order.clear();
+  for (std::size_t e = 0; e < this->Instances.size(); ++e)
   {
-    float tNear, tFar;
-    if (entry.meets(tileX, tileY, tNear, tFar))
+    const Entry& entry = this->Instances[e];
+    TileEntry& candidate = scratch.entries[e];
+    candidate.entry = &entry;
+    DepthLayer* layer = entry.layer;
+    if (layer && layer->holds(tileX, tileY))
     {
-      // Kept layers first: they cost nothing and cut the others' rays. Then front to back.
-      const double key =
-        entry.layer ? -std::numeric_limits<double>::infinity() : entry.local.base + tNear;
-      order.push_back({ &entry, key, tNear, tFar });
+      std::uint8_t& state = layer->traced[layer->index(tileX, tileY)];
+      if (state == DepthLayer::Unknown && !this->meets(tileX, tileY, candidate))
+      {
+        state = DepthLayer::Empty;
+      }
+      if (state != DepthLayer::Empty)
+      {
+        // Kept layers first: they cost nothing and cut the others' rays.
+        candidate.key = -std::numeric_limits<double>::infinity();
+        scratch.order.push_back(&candidate);
+      }
+    }
+    else if (!layer && this->meets(tileX, tileY, candidate))
+    {
+      candidate.key = entry.local.base + candidate.tNear;
+      scratch.order.push_back(&candidate);
     }
   }
-  std::stable_sort(order.begin(), order.end(),
-    [](const TileEntry& a, const TileEntry& b) { return a.key < b.key; });
+  // Then front to back.
+  std::stable_sort(scratch.order.begin(), scratch.order.end(),
+    [](const TileEntry* a, const TileEntry* b) { return a->key < b->key; });
+}
+
+void LayeredView::traceRays(const TileEntry& candidate, const RayBlock& block, HitBlock& found)
+{
+  const Entry& entry = *candidate.entry;
+  if (!candidate.nodes.empty())
+  {
+    intersectTile(*entry.octree, candidate.pyramid, candidate.nodes, block, found);
+  }
+  else
+  {
+    intersect(*entry.octree, block, { entry.key.leafGeometry, entry.key.level }, found);
+  }
 }
 
 bool LayeredView::cutRays(
@@ -219,11 +293,11 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
     this->Merged.primitive.data() + 64 * tile, false };
   RayBlock block;
   HitBlock found;
-  this->order(tileX, tileY, scratch.order);
-  for (const TileEntry& candidate : scratch.order)
+  this->order(tileX, tileY, scratch);
+  for (const TileEntry* next : scratch.order)
   {
+    const TileEntry& candidate = *next;
     const Entry& entry = *candidate.entry;
-    const TraceOptions options{ entry.key.leafGeometry, entry.key.level };
     const auto fill = [&]
     {
       std::fill(block.tMin, block.tMin + 64, candidate.tNear);
@@ -237,21 +311,21 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
         continue;
       }
       entry.local.fill(8 * tileX, 8 * tileY, block);
-      intersect(*entry.octree, block, options, found);
+      traceRays(candidate, block, found);
       scratch.rays[&entry - this->Instances.data()] += 64;
       this->merge(entry, found.t, found.primitive, merged);
       continue;
     }
     // A layer is traced whole: it must stay true when what is before it goes away.
-    const std::size_t k = entry.layer->intervals.index(tileX, tileY);
+    const std::size_t k = entry.layer->index(tileX, tileY);
     float* keptT = entry.layer->t.data() + 64 * k;
     Primitive* keptPrimitive = entry.layer->primitive.data() + 64 * k;
-    if (!entry.layer->traced[k])
+    if (entry.layer->traced[k] == DepthLayer::Unknown)
     {
-      entry.layer->traced[k] = 1;
+      entry.layer->traced[k] = DepthLayer::Traced;
       fill();
       entry.local.fill(8 * tileX, 8 * tileY, block);
-      intersect(*entry.octree, block, options, found);
+      traceRays(candidate, block, found);
       std::copy(found.t, found.t + 64, keptT);
       std::copy(found.primitive, found.primitive + 64, keptPrimitive);
       scratch.rays[&entry - this->Instances.data()] += 64;
@@ -266,10 +340,11 @@ void LayeredView::sample(int tileX, int tileY, Samples& samples) const
   std::fill(samples.instance, samples.instance + 64, NoInstance);
   RayBlock block;
   HitBlock found;
+  TileEntry candidate;
   for (const Entry& entry : this->Instances)
   {
-    float tNear, tFar;
-    if (!entry.meets(tileX, tileY, tNear, tFar))
+    candidate.entry = &entry;
+    if (!this->meets(tileX, tileY, candidate))
     {
       continue;
     }
@@ -277,9 +352,9 @@ void LayeredView::sample(int tileX, int tileY, Samples& samples) const
     {
       entry.local.fill(samples.x[i], samples.y[i], i, block);
     }
-    std::fill(block.tMin, block.tMin + 64, tNear);
-    std::fill(block.tMax, block.tMax + 64, tFar);
-    intersect(*entry.octree, block, { entry.key.leafGeometry, entry.key.level }, found);
+    std::fill(block.tMin, block.tMin + 64, candidate.tNear);
+    std::fill(block.tMax, block.tMax + 64, candidate.tFar);
+    traceRays(candidate, block, found);
     for (int i = 0; i < 64; ++i)
     {
       const double t = entry.local.base + found.t[i];
@@ -314,7 +389,7 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
   for (Entry& entry : this->Instances)
   {
     TileIntervals& intervals = entry.layer ? entry.layer->intervals : entry.intervals;
-    if (intervals.tNear.empty())
+    if (!entry.tiles && intervals.tNear.empty())
     {
       computeTileIntervals(*entry.octree, entry.key.localToWorld, this->Of, entry.local.rect,
         { entry.key.leafGeometry, entry.key.level }, entry.local.base, parallelFor, intervals);
@@ -331,6 +406,7 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
     [&](std::size_t first, std::size_t last)
     {
       TileScratch mine;
+      mine.entries.resize(this->Instances.size());
       mine.rays.resize(this->Instances.size());
       for (std::size_t k = first; k < last; ++k)
       {

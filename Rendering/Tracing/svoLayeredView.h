@@ -4,8 +4,10 @@
 #define svoLayeredView_h
 
 #include "svoDepthBuffer.h"
+#include "svoIntersectTile.h"
 #include "svoLocalView.h"
 #include "svoParallel.h"
+#include "svoProjection.h"
 #include "svoScene.h"
 #include "svoTileIntervals.h"
 
@@ -42,12 +44,31 @@ struct LayerBudget
 struct DepthLayer
 {
   PixelRect rect;
-  std::vector<std::uint8_t> traced; // per tile of rect
+  std::vector<std::uint8_t> traced; // per tile of rect, a State
   RawArray<float> t;                // 64 per tile, of traced ones
   RawArray<Primitive> primitive;
   TileIntervals intervals; // of rect
 
+  enum State : std::uint8_t
+  {
+    Unknown,
+    Traced,
+    Empty // traced, and nothing was there
+  };
+
   explicit DepthLayer(const PixelRect& r);
+  bool holds(int tileX, int tileY) const
+  {
+    return 8 * tileX >= this->rect.x0 && 8 * tileX < this->rect.x1 && 8 * tileY >= this->rect.y0 &&
+      8 * tileY < this->rect.y1;
+  }
+  /// Index of a tile of the image, which must be one of the rectangle.
+  std::size_t index(int tileX, int tileY) const
+  {
+    return static_cast<std::size_t>(tileY - this->rect.y0 / 8) *
+      ((this->rect.x1 - this->rect.x0) / 8) +
+      (tileX - this->rect.x0 / 8);
+  }
   std::size_t bytes() const
   {
     return this->traced.size() * (1 + 2 * sizeof(float)) + this->t.size() * sizeof(float) +
@@ -68,6 +89,11 @@ struct Samples
 /// True if what a ray that stops at `level` hits does not depend on where the ray ends, so that it
 /// may be cut short: all leaves but planes, whose rays fall back on a refused cell at their end.
 bool endsFreely(const Instance& instance, int level);
+
+/// True if an instance is to be traced tile by tile, to its triangles: those that its leaf geometry
+/// leaves exact anyway, and no smaller in the image than about a pixel. Of `level` the tiles know
+/// nothing: they are more accurate than any, and faster.
+bool worthTiles(const Instance& instance, const LocalView& local, const View& view);
 
 class LayeredView
 {
@@ -90,10 +116,13 @@ public:
       const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
       if (!local.rect.empty())
       {
-        const int level = levelOf(instance, local);
+        const bool tiles = worthTiles(instance, local, view);
+        const int level = tiles ? instance.octree.level() : levelOf(instance, local);
+        const LeafGeometry geometry = tiles ? LeafGeometry::Triangle : instance.leafGeometry;
         this->Instances.push_back({ i, instance.id, &instance.octree, local,
-          { instance.octree.key(), instance.localToWorld, instance.leafGeometry, level }, nullptr,
-          {}, endsFreely(instance, level) });
+          makeProjection(instance.octree, instance.localToWorld, view, local.base),
+          { instance.octree.key(), instance.localToWorld, geometry, level }, nullptr, {},
+          tiles || endsFreely(instance, level), tiles });
       }
     }
     this->prepare(scene, view, keep, budget);
@@ -123,19 +152,21 @@ private:
     std::uint64_t id;
     const Octree* octree;
     LocalView local;
+    Projection projection;
     LayerKey key;
     DepthLayer* layer;       // kept, or null: traced for this frame alone, cut at what is merged
     TileIntervals intervals; // where there is no layer
     bool cuttable;           // a ray's hit does not depend on where the ray ends
-    /// Where the rays of a tile can meet the instance; false if nowhere.
-    bool meets(int tileX, int tileY, float& tNear, float& tFar) const;
+    bool tiles;              // see worthTiles()
   };
   /// An instance that a tile's rays may meet.
   struct TileEntry
   {
-    Entry* entry;
+    const Entry* entry;
     double key; // order of tracing
     float tNear, tFar;
+    TilePyramid pyramid;
+    std::vector<TileNode> nodes; // empty: the rays are walked one by one, or known already
   };
   struct MergedTile
   {
@@ -147,7 +178,8 @@ private:
   /// What a thread keeps from tile to tile.
   struct TileScratch
   {
-    std::vector<TileEntry> order;
+    std::vector<TileEntry> entries;  // by index into Instances
+    std::vector<TileEntry*> order;   // those that the tile's rays may meet
     std::vector<std::uint64_t> rays; // by index into Instances
   };
   struct Kept
@@ -159,8 +191,10 @@ private:
 
   void prepare(const Scene& scene, const View& view, bool keep, LayerBudget& budget);
   void dropLayers(LayerBudget& budget);
-  void order(int tileX, int tileY, std::vector<TileEntry>& order);
+  bool meets(int tileX, int tileY, TileEntry& candidate) const;
+  void order(int tileX, int tileY, TileScratch& scratch);
   bool cutRays(const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const;
+  static void traceRays(const TileEntry& candidate, const RayBlock& block, HitBlock& found);
   void merge(
     const Entry& entry, const float* t, const Primitive* primitive, MergedTile& merged) const;
   void traceTile(int tileX, int tileY, TileScratch& scratch);

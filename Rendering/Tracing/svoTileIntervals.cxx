@@ -1,12 +1,11 @@
 #include "svoTileIntervals.h"
 
 #include "svoMorton.h"
+#include "svoProjection.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-
-#include <glm/matrix.hpp>
 
 namespace svo
 {
@@ -21,14 +20,6 @@ constexpr int RowsPerTask = 8; // tiles
 /// Cells that cross the eye plane are divided down to this level.
 constexpr int EyePlaneLevel = 6;
 constexpr std::size_t ManyTiles = 64;
-
-/// Homogeneous pixel coordinates, counted from the middle of the image, and depth, as functions of
-/// octree coordinates.
-struct Projection
-{
-  // Columns: of x, y, z and of the cube's lower corner. Rows: pixel x w, pixel y w, w, t.
-  glm::dvec4 x, y, z, corner;
-};
 
 /// A cell size: steps to the cells' lower corners, and from there to the bounds of a cell.
 struct Steps
@@ -226,24 +217,6 @@ private:
   float Near = 0.0f;
   float Far = 0.0f;
 };
-
-Projection makeProjection(
-  const Octree& octree, const glm::dmat4& localToWorld, const View& view, double base)
-{
-  const glm::dmat4 octreeToView =
-    view.worldToView * localToWorld * glm::inverse(octree.localToOctree());
-  const glm::dmat4 clip = view.viewToClip * octreeToView;
-  Projection projection;
-  glm::dvec4* columns[4] = { &projection.x, &projection.y, &projection.z, &projection.corner };
-  for (int c = 0; c < 4; ++c)
-  {
-    *columns[c] = { 0.5 * view.width * clip[c][0], 0.5 * view.height * clip[c][1], clip[c][3],
-      -octreeToView[c][2] };
-  }
-  projection.corner += projection.x + projection.y + projection.z; // octree coordinates begin at 1
-  projection.corner[3] -= base;
-  return projection;
-}
 }
 
 void computeTileIntervals(const Octree& octree, const glm::dmat4& localToWorld, const View& view,
