@@ -4,9 +4,7 @@
 
 namespace svo
 {
-namespace
-{
-void wipe(Frame& frame, int x0, int y0)
+void wipeTile(Frame& frame, int x0, int y0)
 {
   const int x1 = std::min(x0 + 8, frame.width);
   for (int y = y0; y < std::min(y0 + 8, frame.height); ++y)
@@ -23,7 +21,6 @@ void wipe(Frame& frame, int x0, int y0)
       std::fill(frame.normals.begin() + 3 * a, frame.normals.begin() + 3 * b, 0.0f);
     }
   }
-}
 }
 
 void FrameTiles::begin(const DepthBuffer& depth, const View& view, bool writeNormals, Frame& frame)
@@ -59,7 +56,7 @@ void FrameTiles::begin(const DepthBuffer& depth, const View& view, bool writeNor
     }
     else if (this->Written[tile])
     {
-      wipe(frame, x, y);
+      wipeTile(frame, x, y);
     }
     this->Written[tile] = depth.hit[tile];
   }

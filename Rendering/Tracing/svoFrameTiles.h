@@ -10,6 +10,9 @@
 
 namespace svo
 {
+/// Makes the pixels of the tile whose lower left pixel is (x0, y0) misses.
+void wipeTile(Frame& frame, int x0, int y0);
+
 /// A frame is wiped as a whole only where it is new; after that only tiles that lost their hits
 /// are, and the others are written anew by shading.
 class FrameTiles

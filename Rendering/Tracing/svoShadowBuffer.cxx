@@ -3,7 +3,9 @@
 #include "svoCasters.h"
 #include "svoLightView.h"
 #include "svoSelect.h"
+#include "svoTileShadows.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -94,15 +96,9 @@ bool ShadowBuffer::lookUp(const glm::dvec3& position, Place& place) const
   return false;
 }
 
-void ShadowBuffer::mark(const glm::dvec3& position)
+void ShadowBuffer::markPlace(Face& face, const Place& place, std::size_t& last)
 {
-  Place place;
-  if (!this->lookUp(position, place))
-  {
-    return;
-  }
-  const View& view = place.face->view;
-  std::size_t last = ~std::size_t(0);
+  const View& view = face.view;
   for (int i = 0; i < 4; ++i)
   {
     const glm::ivec2 texel = i == 0 ? place.nearest() : place.neighbour(i);
@@ -117,10 +113,44 @@ void ShadowBuffer::mark(const glm::dvec3& position)
       continue;
     }
     last = tile;
-    auto& wanted = const_cast<Face*>(place.face)->wanted[tile];
+    auto& wanted = face.wanted[tile];
     if (!wanted.load(std::memory_order_relaxed))
     {
       wanted.store(1, std::memory_order_relaxed);
+    }
+  }
+}
+
+void ShadowBuffer::mark(const TilePoints& points)
+{
+  std::size_t last = ~std::size_t(0);
+  if (this->Faces.size() == 1)
+  {
+    Face& face = *this->Faces.front();
+    if (!face.seesCasters)
+    {
+      return;
+    }
+    TexelPlaces places;
+    lookUpTexels(face.view, face.worldToClip, points, 0, points.count, places);
+    for (int i = 0; i < points.count; ++i)
+    {
+      if (places.inside[i])
+      {
+        markPlace(face, { &face, places.x[i], places.y[i], places.t[i] }, last);
+      }
+    }
+    return;
+  }
+  const Face* lastFace = nullptr;
+  for (int i = 0; i < points.count; ++i)
+  {
+    Place place;
+    if (this->lookUp({ points.positionX[i], points.positionY[i], points.positionZ[i] }, place))
+    {
+      last = place.face == lastFace ? last : ~std::size_t(0);
+      lastFace = place.face;
+      markPlace(const_cast<Face&>(*place.face), place, last);
     }
   }
 }
@@ -161,6 +191,73 @@ bool ShadowBuffer::shadows(const SurfacePoint& point, double error) const
   {
     return answer == Answer::Dark;
   }
+  return this->agreed(place, point, error);
+}
+
+void ShadowBuffer::shadows(const TilePoints& points, int first, int last, double error,
+  const std::uint8_t* asked, std::uint8_t* dark) const
+{
+  const int count = last - first;
+  if (this->Faces.size() != 1 || !this->AutomaticBias)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      dark[i] = asked[i] && this->shadows(points.point(first + i), error);
+    }
+    return;
+  }
+  std::fill_n(dark, count, std::uint8_t(0));
+  const Face& face = *this->Faces.front();
+  if (!face.seesCasters)
+  {
+    return;
+  }
+  TexelPlaces places;
+  lookUpTexels(face.view, face.worldToClip, points, first, last, places);
+  TexelTests tests;
+  const DepthBuffer& depth = face.layers.depthBuffer();
+  const double infinity = std::numeric_limits<double>::infinity();
+  bool any = false;
+  for (int i = 0; i < count + TilePoints::Step; ++i)
+  {
+    tests.x[i] = tests.y[i] = tests.bias[i] = tests.error[i] = 0.0;
+    tests.occluder[i] = infinity;
+    if (i >= count || !asked[i] || !places.inside[i])
+    {
+      continue;
+    }
+    const int x = static_cast<int>(places.x[i]), y = static_cast<int>(places.y[i]);
+    const std::size_t at = depth.at(x, y);
+    const std::uint32_t caster = depth.hit[at >> 6] ? depth.instance[at] : NoInstance;
+    if (caster == NoInstance)
+    {
+      continue;
+    }
+    any = true;
+    tests.x[i] = x + 0.5;
+    tests.y[i] = y + 0.5;
+    tests.occluder[i] = face.layers.base(caster) + depth.t[at];
+    tests.bias[i] = this->Bias * this->CasterVoxel[caster];
+    tests.error[i] = std::max(this->CasterError[caster], error);
+  }
+  if (!any)
+  {
+    return;
+  }
+  testTexels(face.view, face.pixel, face.pixelPerDepth, points, first, last, places, tests);
+  for (int i = 0; i < count; ++i)
+  {
+    dark[i] = tests.dark[i] > 0.0;
+    if (tests.dark[i] == 1.0)
+    {
+      const Place place{ &face, places.x[i], places.y[i], places.t[i] };
+      dark[i] = this->agreed(place, points.point(first + i), error);
+    }
+  }
+}
+
+bool ShadowBuffer::agreed(const Place& place, const SurfacePoint& point, double error) const
+{
   int dark = 0;
   for (int i = 1; i < 4; ++i)
   {

@@ -6,6 +6,7 @@
 #include "svoLayeredView.h"
 #include "svoScene.h"
 #include "svoSurfacePoint.h"
+#include "svoTilePoints.h"
 #include "svoTracer.h"
 
 #include <atomic>
@@ -25,8 +26,8 @@ public:
   void begin(
     const Scene& scene, const Light& light, const FrameSettings& settings, LayerBudget& budget);
 
-  /// Notes the 8x8 light tile that the point will look up. Thread-safe.
-  void mark(const glm::dvec3& position);
+  /// Notes the 8x8 light tiles that the points will look up. Thread-safe.
+  void mark(const TilePoints& points);
   /// Every tile will be looked up.
   void markAll();
 
@@ -45,6 +46,10 @@ public:
   /// both known. Without it the test is the paper's bare `distance > depth` plus `bias` voxels of
   /// the caster.
   bool shadows(const SurfacePoint& point, double error) const;
+
+  /// The same for points [first, last) of one instance: dark[i - first] of those that are `asked`.
+  void shadows(const TilePoints& points, int first, int last, double error,
+    const std::uint8_t* asked, std::uint8_t* dark) const;
 
   void copyMaps(int light, std::vector<ShadowMap>& maps) const;
   void release();
@@ -82,6 +87,9 @@ private:
   };
   /// False if the point is outside of all faces, or its face sees no caster.
   bool lookUp(const glm::dvec3& position, Place& place) const;
+  static void markPlace(Face& face, const Place& place, std::size_t& last);
+  /// True if most of the other texels around the point find it dark as well.
+  bool agreed(const Place& place, const SurfacePoint& point, double error) const;
   Answer ask(
     const Place& place, const glm::ivec2& texel, const SurfacePoint& point, double error) const;
 

@@ -41,7 +41,7 @@ void Shadows::begin(const Scene& scene, const FrameSettings& settings, LayerBudg
   this->Casting = !this->Kept.empty();
 }
 
-void Shadows::mark(const glm::dvec3& position)
+void Shadows::mark(const TilePoints& points)
 {
   if (!this->All)
   {
@@ -49,7 +49,7 @@ void Shadows::mark(const glm::dvec3& position)
     {
       if (buffer)
       {
-        buffer->mark(position);
+        buffer->mark(points);
       }
     }
   }
@@ -79,6 +79,20 @@ bool Shadows::dark(
     return this->Rays->shadows(this->Of->lights[light], point.position, point.facet, error);
   }
   return false;
+}
+
+void Shadows::dark(std::size_t light, const TilePoints& points, int first, int last, double error,
+  const std::uint8_t* asked, std::uint8_t* dark, std::uint64_t& rays) const
+{
+  if (this->Buffers[light])
+  {
+    this->Buffers[light]->shadows(points, first, last, error, asked, dark);
+    return;
+  }
+  for (int i = first; i < last; ++i)
+  {
+    dark[i - first] = asked[i - first] && this->dark(light, points.point(i), error, rays);
+  }
 }
 
 std::size_t Shadows::layerMemory() const

@@ -21,9 +21,9 @@ public:
   /// Fits the lights' buffers and keeps of their layers what is still true.
   void begin(const Scene& scene, const FrameSettings& settings, LayerBudget& budget);
 
-  /// Notes what a visible point will look up. Which side of it is lit does not matter: light tiles
+  /// Notes what visible points will look up. Which side of them is lit does not matter: light tiles
   /// that only unlit sides look up are few. Thread-safe.
-  void mark(const glm::dvec3& position);
+  void mark(const TilePoints& points);
   /// True if mark() does anything.
   bool wantsMarks() const { return !this->All && this->Casting; }
 
@@ -32,6 +32,10 @@ public:
   /// True if the point is in the shadow of the light (index into Scene::lights). `error` as in
   /// ShadowBuffer::shadows. Counts the rays it casts in `rays`.
   bool dark(std::size_t light, const SurfacePoint& point, double error, std::uint64_t& rays) const;
+
+  /// The same for points [first, last) of one instance: dark[i - first] of those that are `asked`.
+  void dark(std::size_t light, const TilePoints& points, int first, int last, double error,
+    const std::uint8_t* asked, std::uint8_t* dark, std::uint64_t& rays) const;
 
   void addStatistics(FrameStatistics& statistics) const;
   void copyMaps(std::vector<ShadowMap>& maps) const;

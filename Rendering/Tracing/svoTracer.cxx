@@ -7,6 +7,8 @@
 #include "svoShading.h"
 #include "svoShadows.h"
 #include "svoSurfacePoint.h"
+#include "svoTileLighting.h"
+#include "svoTilePoints.h"
 
 #include <algorithm>
 #include <atomic>
@@ -40,34 +42,29 @@ struct Tracer::Internals
   std::vector<std::uint8_t> Darkness; // per pixel, as the depth buffer: which lights are dark
   std::vector<double> Errors;         // world; of the instance's leaves as the eye sees them
 
-  /// Calls body(x, y, index into the depth buffer) for the pixels of the tiles with hits.
-  template <class Body>
-  void eachPixel(const View& view, const ParallelFor& parallelFor, const Body& body)
+  /// Calls body(tileX, tileY, scratch) for the tiles with hits.
+  template <class Scratch, class Body>
+  void eachTile(const ParallelFor& parallelFor, const Body& body)
   {
     const std::vector<std::uint32_t>& hits = this->Tiles.hits();
     const int tilesX = this->Eye.depthBuffer().tilesX;
     parallelFor(0, hits.size(), 32,
       [&](std::size_t first, std::size_t last)
       {
+        Scratch scratch{};
         for (std::size_t k = first; k < last; ++k)
         {
-          const std::size_t tile = hits[k];
-          const int x0 = 8 * static_cast<int>(tile % tilesX);
-          const int y0 = 8 * static_cast<int>(tile / tilesX);
-          const int columns = std::min(8, view.width - x0);
-          const int rows = std::min(8, view.height - y0);
-          for (int j = 0; j < rows; ++j)
-          {
-            for (int i = 0; i < columns; ++i)
-            {
-              body(x0 + i, y0 + j, 64 * tile + 8 * j + i);
-            }
-          }
+          const int tile = static_cast<int>(hits[k]);
+          body(tile % tilesX, tile / tilesX, scratch);
         }
       });
   }
 
   void describeInstances(const Scene& scene);
+  struct ShadeScratch;
+  /// Colours points [first, last) of one instance.
+  void lightInstance(const Scene& scene, const Lighting& lighting, float remaining, int first,
+    int last, bool hasColor, ShadeScratch& scratch, std::uint64_t& rays);
   void markLightTiles(const Scene& scene, const View& view, const ParallelFor& parallelFor);
   void shadePixels(const Scene& scene, const View& view, const FrameSettings& settings,
     const ParallelFor& parallelFor, Frame& frame);
@@ -95,18 +92,61 @@ void Tracer::Internals::markLightTiles(
   {
     return;
   }
-  const DepthBuffer& depth = this->Eye.depthBuffer();
-  this->eachPixel(view, parallelFor,
-    [&](int x, int y, std::size_t at)
+  this->eachTile<TilePoints>(parallelFor,
+    [&](int tileX, int tileY, TilePoints& points)
     {
-      const std::uint32_t i = depth.instance[at];
-      if (i != NoInstance && scene.instances[i].receiveShadow &&
-        scene.instances[i].material.lighting)
+      const auto receives = [&](std::uint32_t i)
+      { return scene.instances[i].receiveShadow && scene.instances[i].material.lighting; };
+      const auto baseOf = [&](std::uint32_t i) { return this->Eye.base(i); };
+      if (takePoints(this->Eye.depthBuffer(), view, tileX, tileY, receives, baseOf, points))
       {
-        const double t = this->Eye.base(i) + depth.t[at];
-        this->Dark.mark(view.rayOrigin(x + 0.5, y + 0.5) + t * view.rayDirection(x + 0.5, y + 0.5));
+        placePoints(view, points);
+        this->Dark.mark(points);
       }
     });
+}
+
+/// What a thread needs to shade a tile.
+struct Tracer::Internals::ShadeScratch
+{
+  TilePoints points;
+  TileLight light;
+  TileColors colors;
+  std::uint8_t darkness[TilePoints::Most]; // by index of the point: which lights are dark
+};
+
+void Tracer::Internals::lightInstance(const Scene& scene, const Lighting& lighting, float remaining,
+  int first, int last, bool hasColor, ShadeScratch& scratch, std::uint64_t& rays)
+{
+  const TilePoints& points = scratch.points;
+  TileLight& light = scratch.light;
+  const std::uint32_t index = points.instance[first];
+  const Instance& instance = scene.instances[index];
+  const int count = last - first;
+  std::fill_n(scratch.darkness + first, count, std::uint8_t(0));
+  if (instance.material.lighting && !lighting.lights.empty())
+  {
+    beginLight(lighting, points, first, last, light);
+    for (std::size_t l = 0; l < lighting.lights.size(); ++l)
+    {
+      arriveLight(lighting, l, instance.material, count, light);
+      if (instance.receiveShadow && lighting.lights[l].light->castShadow)
+      {
+        this->Dark.dark(
+          l, points, first, last, this->Errors[index], light.reached, light.dark, rays);
+        for (int i = 0; i < count; ++i)
+        {
+          scratch.darkness[first + i] ^= static_cast<std::uint8_t>(light.dark[i] << l % 8);
+        }
+      }
+      else
+      {
+        std::fill_n(light.dark, count, std::uint8_t(0));
+      }
+      addLight(lighting.lights[l], remaining, count, light);
+    }
+  }
+  finishLight(lighting, instance.material, points, first, last, hasColor, light, scratch.colors);
 }
 
 void Tracer::Internals::shadePixels(const Scene& scene, const View& view,
@@ -120,56 +160,65 @@ void Tracer::Internals::shadePixels(const Scene& scene, const View& view,
   {
     this->Darkness.resize(depth.instance.size());
   }
-  this->eachPixel(view, parallelFor,
-    [&](int x, int y, std::size_t at)
+  this->eachTile<ShadeScratch>(parallelFor,
+    [&](int tileX, int tileY, ShadeScratch& scratch)
     {
-      const std::size_t pixel = static_cast<std::size_t>(y) * view.width + x;
-      std::uint8_t* rgba = frame.color.data() + 4 * pixel;
-      const std::uint32_t i = depth.instance[at];
-      frame.instance[pixel] = i;
-      if (i == NoInstance)
+      TilePoints& points = scratch.points;
+      takePoints(
+        depth, view, tileX, tileY, [](std::uint32_t) { return true; },
+        [&](std::uint32_t i) { return this->Eye.base(i); }, points);
+      if (points.count < TilePoints::Most)
       {
-        std::fill(rgba, rgba + 4, std::uint8_t(0));
-        frame.depth[pixel] = 1.0f;
-        frame.primitive[pixel] = NoPrimitive;
-        if (settings.writeNormals)
-        {
-          std::fill_n(frame.normals.data() + 3 * pixel, 3, 0.0f);
-        }
+        wipeTile(frame, 8 * tileX, 8 * tileY);
+      }
+      if (points.count == 0) // hits beyond the border of the image only
+      {
         return;
       }
-      const Instance& instance = scene.instances[i];
-      const double t = this->Eye.base(i) + depth.t[at];
-      const SurfacePoint point =
-        surfacePoint(this->Frames[i], view, x + 0.5, y + 0.5, t, depth.primitive[at]);
+      lookAtPoints(this->Frames, view, points);
       std::uint64_t rays = 0;
-      std::uint8_t darkness = 0;
-      const glm::vec3 color = shade(lighting, instance, point, remaining,
-        [&](std::size_t light)
-        {
-          const bool dark = this->Dark.dark(light, point, this->Errors[i], rays);
-          darkness ^= static_cast<std::uint8_t>(dark << light % 8);
-          return dark;
-        });
-      if (settings.antiAliasing)
+      for (int run = 0; run < points.runCount;)
       {
-        this->Darkness[at] = darkness;
+        const int first = points.runs[run].first;
+        const std::uint32_t instance = points.runs[run].instance;
+        const bool hasColor = points.runs[run].hasColor;
+        int last = first;
+        for (; run < points.runCount && points.runs[run].instance == instance; ++run)
+        {
+          last = points.runs[run].last;
+        }
+        this->lightInstance(scene, lighting, remaining, first, last, hasColor, scratch, rays);
       }
       if (rays > 0)
       {
         allRays.fetch_add(rays, std::memory_order_relaxed);
       }
-      rgba[0] = toByte(color.r);
-      rgba[1] = toByte(color.g);
-      rgba[2] = toByte(color.b);
-      rgba[3] = 255;
-      const double window = view.windowDepth(t) + instance.depthOffsetUnits;
-      frame.depth[pixel] = static_cast<float>(std::clamp(window, 0.0, 1.0));
-      frame.primitive[pixel] = depth.primitive[at];
-      if (settings.writeNormals)
+      for (int i = 0; i < points.count; ++i)
       {
-        const glm::vec3 normal = lighting.rotation * point.normal;
-        std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixel);
+        const int k = points.pixel[i];
+        const std::size_t pixel =
+          static_cast<std::size_t>(8 * tileY + (k >> 3)) * view.width + 8 * tileX + (k & 7);
+        std::uint8_t* rgba = frame.color.data() + 4 * pixel;
+        rgba[0] = toByte(scratch.colors.r[i]);
+        rgba[1] = toByte(scratch.colors.g[i]);
+        rgba[2] = toByte(scratch.colors.b[i]);
+        rgba[3] = 255;
+        const std::uint32_t instance = points.instance[i];
+        const double window = points.window[i] + scene.instances[instance].depthOffsetUnits;
+        frame.depth[pixel] = static_cast<float>(std::clamp(window, 0.0, 1.0));
+        frame.instance[pixel] = instance;
+        frame.primitive[pixel] = points.primitive[i];
+        if (settings.writeNormals)
+        {
+          const glm::vec3 normal =
+            lighting.rotation * glm::vec3(points.normalX[i], points.normalY[i], points.normalZ[i]);
+          std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixel);
+        }
+        if (settings.antiAliasing)
+        {
+          this->Darkness[64 * (static_cast<std::size_t>(tileY) * depth.tilesX + tileX) + k] =
+            scratch.darkness[i];
+        }
       }
     });
   this->Statistics.shadowRays += allRays;

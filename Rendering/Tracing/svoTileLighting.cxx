@@ -1,0 +1,294 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "svoTileLighting.cxx"
+#include <hwy/foreach_target.h>
+
+#include "svoTileLighting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace svo
+{
+namespace HWY_NAMESPACE
+{
+constexpr int Step = TilePoints::Step;
+
+void begin(
+  const glm::mat3& r, const glm::dmat4& m, const TilePoints& p, int first, int last, TileLight& l)
+{
+  for (int i = first; i < last; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      const float x = p.normalX[k], y = p.normalY[k], z = p.normalZ[k];
+      l.normalX[k - first] = r[0].x * x + r[1].x * y + r[2].x * z;
+      l.normalY[k - first] = r[0].y * x + r[1].y * y + r[2].y * z;
+      l.normalZ[k - first] = r[0].z * x + r[1].z * y + r[2].z * z;
+    }
+    for (int k = i; k < i + Step; ++k)
+    {
+      const double x = p.positionX[k], y = p.positionY[k], z = p.positionZ[k];
+      l.positionX[k - first] =
+        static_cast<float>((m[0].x * x + m[1].x * y) + (m[2].x * z + m[3].x * 1.0));
+      l.positionY[k - first] =
+        static_cast<float>((m[0].y * x + m[1].y * y) + (m[2].y * z + m[3].y * 1.0));
+      l.positionZ[k - first] =
+        static_cast<float>((m[0].z * x + m[1].z * y) + (m[2].z * z + m[3].z * 1.0));
+    }
+  }
+  const int n = last - first;
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      l.diffuseR[k] = l.diffuseG[k] = l.diffuseB[k] = 0.0f;
+      l.specularR[k] = l.specularG[k] = l.specularB[k] = 0.0f;
+    }
+  }
+}
+
+/// The one light is a headlight.
+void arriveFromEye(int n, TileLight& l)
+{
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      l.diffuse[k] = 0.0f < l.normalZ[k] ? l.normalZ[k] : 0.0f;
+      l.base[k] = l.diffuse[k];
+    }
+  }
+}
+
+/// Directions of the light that arrives and attenuation without the spot's; then the rest of it.
+void arriveFromPosition(const ViewLight& from, int n, float* dx, float* dy, float* dz,
+  float* attenuation, const TileLight& l)
+{
+  const glm::vec3 at = from.position, otherwise = from.direction, a = from.light->attenuation;
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      const float x = l.positionX[k] - at.x;
+      const float y = l.positionY[k] - at.y;
+      const float z = l.positionZ[k] - at.z;
+      const float distance = std::sqrt(x * x + y * y + z * z);
+      dx[k] = distance > 0.0f ? x / distance : otherwise.x;
+      dy[k] = distance > 0.0f ? y / distance : otherwise.y;
+      dz[k] = distance > 0.0f ? z / distance : otherwise.z;
+      attenuation[k] = 1.0f / (a.x + a.y * distance + a.z * distance * distance);
+    }
+  }
+}
+
+/// Cosines to the axis of a spot.
+void towardsAxis(
+  const ViewLight& from, int n, const float* dx, const float* dy, const float* dz, float* cosine)
+{
+  const glm::vec3 d = from.direction;
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      cosine[k] = dx[k] * d.x + dy[k] * d.y + dz[k] * d.z;
+    }
+  }
+}
+
+void arriveAtSurface(int n, bool shines, const float* dx, const float* dy, const float* dz,
+  const float* attenuation, TileLight& l)
+{
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      const float df =
+        attenuation[k] * (l.normalX[k] * -dx[k] + l.normalY[k] * -dy[k] + l.normalZ[k] * -dz[k]);
+      l.diffuse[k] = 0.0f < df ? df : 0.0f;
+    }
+  }
+  for (int i = 0; shines && i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      const float x = l.positionX[k], y = l.positionY[k], z = l.positionZ[k];
+      const float nx = l.normalX[k], ny = l.normalY[k], nz = l.normalZ[k];
+      const float length = std::sqrt(x * x + y * y + z * z);
+      const float tx = length > 0.0f ? -x / length : 0.0f;
+      const float ty = length > 0.0f ? -y / length : 0.0f;
+      const float tz = length > 0.0f ? -z / length : 1.0f;
+      const float along = nx * dx[k] + ny * dy[k] + nz * dz[k];
+      const float rx = dx[k] - nx * along * 2.0f;
+      const float ry = dy[k] - ny * along * 2.0f;
+      const float rz = dz[k] - nz * along * 2.0f;
+      const float base = rx * tx + ry * ty + rz * tz;
+      l.base[k] = 0.0f < base ? base : 0.0f;
+    }
+  }
+}
+
+void reach(int n, TileLight& l)
+{
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      l.reached[k] = (l.diffuse[k] != 0.0f) | (l.specular[k] > 0.0f);
+    }
+  }
+}
+
+void add(const glm::vec3& c, float remaining, int n, TileLight& l)
+{
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      const float share = l.dark[k] ? remaining : 1.0f;
+      l.diffuseR[k] += share * (l.diffuse[k] * c.r);
+      l.diffuseG[k] += share * (l.diffuse[k] * c.g);
+      l.diffuseB[k] += share * (l.diffuse[k] * c.b);
+      const float specular = share * l.specular[k];
+      l.specularR[k] += specular * c.r;
+      l.specularG[k] += specular * c.g;
+      l.specularB[k] += specular * c.b;
+    }
+  }
+}
+
+/// a + d * diffuse + s * specular, of each point's own colour.
+void finish(const Material& m, bool lit, int n, const float* r, const float* g, const float* b,
+  const TileLight& l, float* outR, float* outG, float* outB)
+{
+  const glm::vec3 shine = m.specular * m.specularColor;
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      const float dr = m.diffuse * r[k], dg = m.diffuse * g[k], db = m.diffuse * b[k];
+      const float ar = m.ambient * r[k], ag = m.ambient * g[k], ab = m.ambient * b[k];
+      outR[k] = lit ? ar + l.diffuseR[k] * dr + l.specularR[k] * shine.r : ar + dr;
+      outG[k] = lit ? ag + l.diffuseG[k] * dg + l.specularG[k] * shine.g : ag + dg;
+      outB[k] = lit ? ab + l.diffuseB[k] * db + l.specularB[k] * shine.b : ab + db;
+    }
+  }
+}
+
+/// The same with one colour for all.
+void finishPlain(const glm::vec3& ambient, const glm::vec3& diffuse, const glm::vec3& shine,
+  bool lit, int n, const TileLight& l, float* outR, float* outG, float* outB)
+{
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      outR[k] = lit ? ambient.r + l.diffuseR[k] * diffuse.r + l.specularR[k] * shine.r
+                    : ambient.r + diffuse.r;
+      outG[k] = lit ? ambient.g + l.diffuseG[k] * diffuse.g + l.specularG[k] * shine.g
+                    : ambient.g + diffuse.g;
+      outB[k] = lit ? ambient.b + l.diffuseB[k] * diffuse.b + l.specularB[k] * shine.b
+                    : ambient.b + diffuse.b;
+    }
+  }
+}
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace svo
+{
+HWY_EXPORT(begin);
+HWY_EXPORT(arriveFromEye);
+HWY_EXPORT(arriveFromPosition);
+HWY_EXPORT(towardsAxis);
+HWY_EXPORT(arriveAtSurface);
+HWY_EXPORT(reach);
+HWY_EXPORT(add);
+HWY_EXPORT(finish);
+HWY_EXPORT(finishPlain);
+
+void beginLight(
+  const Lighting& lighting, const TilePoints& points, int first, int last, TileLight& light)
+{
+  HWY_DYNAMIC_DISPATCH(begin)
+  (lighting.rotation, lighting.worldToView, points, first, last, light);
+}
+
+void arriveLight(
+  const Lighting& lighting, std::size_t l, const Material& material, int count, TileLight& light)
+{
+  const ViewLight& from = lighting.lights[l];
+  const bool shines = material.specular > 0.0f;
+  std::fill_n(light.specular, count + TilePoints::Step, 0.0f);
+  if (lighting.onlyHeadlight)
+  {
+    HWY_DYNAMIC_DISPATCH(arriveFromEye)(count, light);
+    for (int i = 0; shines && i < count; ++i)
+    {
+      light.specular[i] = std::pow(light.base[i], material.specularPower);
+    }
+  }
+  else
+  {
+    alignas(64) float dx[TilePoints::Room], dy[TilePoints::Room], dz[TilePoints::Room];
+    alignas(64) float attenuation[TilePoints::Room], cosine[TilePoints::Room];
+    if (from.light->kind == Light::Kind::Directional)
+    {
+      std::fill_n(dx, count + TilePoints::Step, from.direction.x);
+      std::fill_n(dy, count + TilePoints::Step, from.direction.y);
+      std::fill_n(dz, count + TilePoints::Step, from.direction.z);
+      std::fill_n(attenuation, count + TilePoints::Step, 1.0f);
+    }
+    else
+    {
+      HWY_DYNAMIC_DISPATCH(arriveFromPosition)(from, count, dx, dy, dz, attenuation, light);
+    }
+    if (from.light->kind == Light::Kind::Spot)
+    {
+      HWY_DYNAMIC_DISPATCH(towardsAxis)(from, count, dx, dy, dz, cosine);
+      const float exponent = static_cast<float>(from.light->exponent);
+      for (int i = 0; i < count; ++i)
+      {
+        attenuation[i] = cosine[i] >= from.coneCosine
+          ? attenuation[i] * (exponent == 1.0f ? cosine[i] : std::pow(cosine[i], exponent))
+          : 0.0f;
+      }
+    }
+    HWY_DYNAMIC_DISPATCH(arriveAtSurface)(count, shines, dx, dy, dz, attenuation, light);
+    for (int i = 0; shines && i < count; ++i)
+    {
+      light.specular[i] = light.diffuse[i] > 0.0f
+        ? attenuation[i] * std::pow(light.base[i], material.specularPower)
+        : 0.0f;
+    }
+  }
+  HWY_DYNAMIC_DISPATCH(reach)(count, light);
+}
+
+void addLight(const ViewLight& from, float remaining, int count, TileLight& light)
+{
+  HWY_DYNAMIC_DISPATCH(add)(from.light->color, remaining, count, light);
+}
+
+void finishLight(const Lighting& lighting, const Material& material, const TilePoints& points,
+  int first, int last, bool hasColor, const TileLight& light, TileColors& colors)
+{
+  const bool lit = material.lighting && !lighting.lights.empty();
+  if (hasColor)
+  {
+    HWY_DYNAMIC_DISPATCH(finish)
+    (material, lit, last - first, points.colorR + first, points.colorG + first,
+      points.colorB + first, light, colors.r + first, colors.g + first, colors.b + first);
+    return;
+  }
+  HWY_DYNAMIC_DISPATCH(finishPlain)
+  (material.ambient * material.ambientColor, material.diffuse * material.diffuseColor,
+    material.specular * material.specularColor, lit, last - first, light, colors.r + first,
+    colors.g + first, colors.b + first);
+}
+}
+#endif

@@ -1,0 +1,54 @@
+// Lighting of the visible points of a tile. The operations and their order are those of shade()
+// (svoShading.h), the reference, so that the results are the same bits.
+#ifndef svoTileLighting_h
+#define svoTileLighting_h
+
+#include "svoShading.h"
+#include "svoTilePoints.h"
+
+#include <cstdint>
+
+namespace svo
+{
+/// Colours of points, 0..1 and beyond, by index of the point.
+struct TileColors
+{
+  alignas(64) float r[TilePoints::Room], g[TilePoints::Room], b[TilePoints::Room];
+};
+
+/// Points [first, last) of one instance in view space, and the light that arrives there.
+struct TileLight
+{
+  // By index of the point minus `first`.
+  alignas(64) float normalX[TilePoints::Room], normalY[TilePoints::Room], normalZ[TilePoints::Room];
+  alignas(64) float positionX[TilePoints::Room], positionY[TilePoints::Room],
+    positionZ[TilePoints::Room];
+  // Of one light: before any shadow, to be multiplied by its colour.
+  alignas(64) float diffuse[TilePoints::Room], specular[TilePoints::Room];
+  alignas(64) float base[TilePoints::Room]; // of the highlight's power
+  // Of all lights together.
+  alignas(64) float diffuseR[TilePoints::Room], diffuseG[TilePoints::Room],
+    diffuseB[TilePoints::Room];
+  alignas(64) float specularR[TilePoints::Room], specularG[TilePoints::Room],
+    specularB[TilePoints::Room];
+  /// A point that light reaches from the present one; and those of them that lie in its shadow.
+  std::uint8_t reached[TilePoints::Room], dark[TilePoints::Room];
+};
+
+/// To view space.
+void beginLight(
+  const Lighting& lighting, const TilePoints& points, int first, int last, TileLight& light);
+
+/// Light number l: sets `diffuse`, `specular` and `reached`.
+void arriveLight(
+  const Lighting& lighting, std::size_t l, const Material& material, int count, TileLight& light);
+
+/// Adds what arrived. Where it is `dark` a share of `remaining` is left.
+void addLight(const ViewLight& from, float remaining, int count, TileLight& light);
+
+/// The colours of the points.
+void finishLight(const Lighting& lighting, const Material& material, const TilePoints& points,
+  int first, int last, bool hasColor, const TileLight& light, TileColors& colors);
+}
+
+#endif

@@ -1,0 +1,104 @@
+// The visible points of an 8x8 tile, side by side, ordered so that points of one triangle are
+// neighbours: what they share is settled once, the rest in loops that the compiler turns into
+// vectors, for whatever instruction set the machine has.
+//
+// The operations and their order are those of surfacePoint() (svoSurfacePoint.h), the reference, so
+// that the results are the same bits.
+#ifndef svoTilePoints_h
+#define svoTilePoints_h
+
+#include "svoDepthBuffer.h"
+#include "svoSurfacePoint.h"
+#include "svoView.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace svo
+{
+struct TilePoints
+{
+  static constexpr int Most = 64;
+  /// Loops take this many points at once. They may run over the end of a part: what they write
+  /// there is not valid until its own turn.
+  static constexpr int Step = 16;
+  static constexpr int Room = Most + Step;
+
+  /// Points of one triangle of one instance.
+  struct Run
+  {
+    int first, last;
+    std::uint32_t instance;
+    bool hasColor;
+  };
+
+  int count = 0;
+  int runCount = 0;
+  Run runs[Most];
+  std::uint8_t pixel[Room]; // in the tile, row by row
+  std::uint32_t instance[Room];
+  Primitive primitive[Room];
+  alignas(64) double x[Room], y[Room]; // on the image, pixels
+  alignas(64) double t[Room];          // linear depth
+  alignas(64) double window[Room];     // OpenGL window depth, without offsets
+  alignas(64) double positionX[Room], positionY[Room], positionZ[Room]; // world
+  alignas(64) float towardsX[Room], towardsY[Room], towardsZ[Room];     // to the viewer, not unit
+  // As in SurfacePoint.
+  alignas(64) float facetX[Room], facetY[Room], facetZ[Room];
+  alignas(64) float normalX[Room], normalY[Room], normalZ[Room];
+  alignas(64) float colorR[Room], colorG[Room], colorB[Room];
+
+  /// Points [first, last) of one instance.
+  int endOfInstance(int first) const
+  {
+    int last = first + 1;
+    while (last < count && instance[last] == instance[first])
+    {
+      ++last;
+    }
+    return last;
+  }
+  SurfacePoint point(int i) const
+  {
+    return { { positionX[i], positionY[i], positionZ[i] }, { facetX[i], facetY[i], facetZ[i] },
+      { normalX[i], normalY[i], normalZ[i] }, { colorR[i], colorG[i], colorB[i] }, false };
+  }
+};
+
+/// Takes the hits of a tile whose instance `wanted(instance)`, in the order of the tile's pixels.
+/// Sets everything up to and including `t`. Returns false if there is none.
+template <class Wanted, class BaseOf>
+bool takePoints(const DepthBuffer& depth, const View& view, int tileX, int tileY, Wanted&& wanted,
+  BaseOf&& baseOf, TilePoints& points)
+{
+  const std::size_t begin = 64 * (static_cast<std::size_t>(tileY) * depth.tilesX + tileX);
+  points.count = 0;
+  for (int k = 0; k < 64; ++k)
+  {
+    const int x = 8 * tileX + (k & 7);
+    const int y = 8 * tileY + (k >> 3);
+    const std::uint32_t instance = depth.instance[begin + k];
+    if (instance == NoInstance || x >= view.width || y >= view.height || !wanted(instance))
+    {
+      continue;
+    }
+    const int i = points.count++;
+    points.pixel[i] = static_cast<std::uint8_t>(k);
+    points.instance[i] = instance;
+    points.primitive[i] = depth.primitive[begin + k];
+    points.x[i] = x + 0.5;
+    points.y[i] = y + 0.5;
+    points.t[i] = baseOf(instance) + depth.t[begin + k];
+  }
+  return points.count > 0;
+}
+
+/// Sets the positions, the directions to the viewer and the window depths.
+void placePoints(const View& view, TilePoints& points);
+
+/// Brings the points of one triangle together and sets facets, normals and colours. `frames` by
+/// index of the instance.
+void lookAtPoints(const std::vector<SurfaceFrame>& frames, const View& view, TilePoints& points);
+}
+
+#endif

@@ -1,0 +1,120 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "svoTileShadows.cxx"
+#include <hwy/foreach_target.h>
+
+#include "svoTileShadows.h"
+
+#include <cmath>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace svo
+{
+namespace HWY_NAMESPACE
+{
+constexpr int Step = TilePoints::Step;
+
+void lookUp(const View& light, const glm::dmat4& c, const TilePoints& p, int first, int last,
+  TexelPlaces& places)
+{
+  const glm::dmat4& m = light.worldToView;
+  const double width = light.width, height = light.height;
+  const double lastX = width - 1e-9, lastY = height - 1e-9;
+  for (int i = first; i < last; i += Step)
+  {
+    for (int k = 0; k < Step; ++k)
+    {
+      const double x = p.positionX[i + k], y = p.positionY[i + k], z = p.positionZ[i + k];
+      const double cx = (c[0].x * x + c[1].x * y) + (c[2].x * z + c[3].x * 1.0);
+      const double cy = (c[0].y * x + c[1].y * y) + (c[2].y * z + c[3].y * 1.0);
+      const double cw = (c[0].w * x + c[1].w * y) + (c[2].w * z + c[3].w * 1.0);
+      const int j = i - first + k;
+      places.inside[j] = (cw > 0.0) & (std::abs(cx) < cw) & (std::abs(cy) < cw);
+      const double px = (cx / cw + 1.0) * 0.5 * width;
+      const double py = (cy / cw + 1.0) * 0.5 * height;
+      places.x[j] = lastX < px ? lastX : px;
+      places.y[j] = lastY < py ? lastY : py;
+      places.t[j] = -(m[0].z * x + m[1].z * y + m[2].z * z + m[3].z);
+    }
+  }
+}
+
+void test(const View& light, double pixel0, double pixelPerDepth, const TilePoints& p, int first,
+  int last, const TexelPlaces& places, TexelTests& tests)
+{
+  const glm::dvec3 o = light.origin, oX = light.originX, oY = light.originY;
+  const glm::dvec3 d = light.direction, dX = light.directionX, dY = light.directionY;
+  for (int i = first; i < last; i += Step)
+  {
+    for (int k = 0; k < Step; ++k)
+    {
+      const int j = i - first + k;
+      const double t = places.t[j];
+      const double pixel = pixel0 + t * pixelPerDepth;
+      const double most = 8.0 * pixel;
+      const double occluder = tests.occluder[j];
+      const double bias = tests.bias[j];
+      const double x = tests.x[j], y = tests.y[j];
+      // From the texel's own ray to the point.
+      const double toX = p.positionX[i + k] - (o.x + x * oX.x + y * oY.x);
+      const double toY = p.positionY[i + k] - (o.y + x * oX.y + y * oY.y);
+      const double toZ = p.positionZ[i + k] - (o.z + x * oX.z + y * oY.z);
+      const double rayX = d.x + x * dX.x + y * dY.x;
+      const double rayY = d.y + x * dX.y + y * dY.y;
+      const double rayZ = d.z + x * dX.z + y * dY.z;
+      const double length = std::sqrt(rayX * rayX + rayY * rayY + rayZ * rayZ);
+      const double low = t - most, high = t + most;
+
+      const double fx = p.facetX[i + k], fy = p.facetY[i + k], fz = p.facetZ[i + k];
+      const double facetAlong = fx * rayX + fy * rayY + fz * rayZ;
+      const double facetSlope = std::abs(facetAlong) / length;
+      const double facetPlane = (fx * toX + fy * toY + fz * toZ) / facetAlong;
+      const double facetBounded = facetPlane < low ? low : high < facetPlane ? high : facetPlane;
+      const double facet = facetSlope > 1e-3 ? facetBounded : t;
+
+      const double nx = p.normalX[i + k], ny = p.normalY[i + k], nz = p.normalZ[i + k];
+      const double normalAlong = nx * rayX + ny * rayY + nz * rayZ;
+      const double normalSlope = std::abs(normalAlong) / length;
+      const double normalPlane = (nx * toX + ny * toY + nz * toZ) / normalAlong;
+      const double normalBounded = normalPlane < low ? low
+        : high < normalPlane                         ? high
+                                                     : normalPlane;
+      const double normal = normalSlope > 1e-3 ? normalBounded : t;
+
+      const double nearer = facet < high ? facet : high;
+      const double receiver = normal < nearer ? normal : nearer;
+      const double steeper = 0.1 < facetSlope ? facetSlope : 0.1;
+      const double steepest = steeper < normalSlope ? normalSlope : steeper;
+      const double allowed = bias + (0.5 * pixel + tests.error[j]) / steepest;
+      const double front = occluder + allowed < receiver ? 1.0 : 0.0;
+      const double back = occluder + bias < t + 0.5 * pixel ? 1.0 : 0.0;
+      const double dark = facetAlong > 0.0 ? back : front;
+      const double which = occluder < low ? 2.0 : 1.0;
+      tests.dark[j] = occluder + bias < high ? dark * which : 0.0;
+    }
+  }
+}
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace svo
+{
+HWY_EXPORT(lookUp);
+HWY_EXPORT(test);
+
+void lookUpTexels(const View& light, const glm::dmat4& worldToClip, const TilePoints& points,
+  int first, int last, TexelPlaces& places)
+{
+  HWY_DYNAMIC_DISPATCH(lookUp)(light, worldToClip, points, first, last, places);
+}
+
+void testTexels(const View& light, double pixel, double pixelPerDepth, const TilePoints& points,
+  int first, int last, const TexelPlaces& places, TexelTests& tests)
+{
+  HWY_DYNAMIC_DISPATCH(test)(light, pixel, pixelPerDepth, points, first, last, places, tests);
+}
+}
+#endif

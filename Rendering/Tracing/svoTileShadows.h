@@ -1,0 +1,42 @@
+// The shadow test of the visible points of a tile against one map of a shadow buffer. The
+// operations and their order are those of ShadowBuffer::shadows() for one point, the reference, so
+// that the results are the same bits.
+#ifndef svoTileShadows_h
+#define svoTileShadows_h
+
+#include "svoTilePoints.h"
+#include "svoView.h"
+
+#include <cstdint>
+
+#include <glm/mat4x4.hpp>
+
+namespace svo
+{
+/// Where points are looked up, by index of the point minus `first`.
+struct TexelPlaces
+{
+  alignas(64) double x[TilePoints::Room], y[TilePoints::Room]; // texels
+  alignas(64) double t[TilePoints::Room];                      // linear depth from the light
+  std::uint8_t inside[TilePoints::Room];                       // of the map
+};
+
+/// What a texel says to a point, and what it does not.
+struct TexelTests
+{
+  alignas(64) double x[TilePoints::Room], y[TilePoints::Room]; // the texel's centre
+  alignas(64) double occluder[TilePoints::Room];               // infinity: none
+  alignas(64) double bias[TilePoints::Room];                   // world, along the light
+  alignas(64) double error[TilePoints::Room];                  // world, along the normal
+  alignas(64) double dark[TilePoints::Room]; // answer: 0 lit, 1 dark by an occluder nearby, 2 dark
+};
+
+void lookUpTexels(const View& light, const glm::dmat4& worldToClip, const TilePoints& points,
+  int first, int last, TexelPlaces& places);
+
+/// `pixel`, `pixelPerDepth`: edge of a texel, world, at depth t: pixel + t pixelPerDepth.
+void testTexels(const View& light, double pixel, double pixelPerDepth, const TilePoints& points,
+  int first, int last, const TexelPlaces& places, TexelTests& tests);
+}
+
+#endif
