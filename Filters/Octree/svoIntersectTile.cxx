@@ -23,7 +23,7 @@ constexpr double RoundingSlack = 1.0 / (1 << 18);
 /// Lower corners of a node's 64 cells, for a node of edge 1, in the order of cellIndex().
 struct CellOffsets
 {
-  HWY_ALIGN float x[64], y[64], z[64];
+  alignas(64) float x[64], y[64], z[64];
 
   CellOffsets()
   {
@@ -94,6 +94,27 @@ struct OpenNode
   float size;     // edge, octree coordinates
   float value[5]; // of the sides and of t at its lower corner, rounding allowed for
 };
+
+inline void sortByDepth(std::vector<TileNode>& nodes)
+{
+  const auto nearer = [](const TileNode& a, const TileNode& b) { return a.tNear < b.tNear; };
+  constexpr std::size_t Few = 48;
+  if (nodes.size() > Few)
+  {
+    std::sort(nodes.begin(), nodes.end(), nearer);
+    return;
+  }
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+  {
+    const TileNode node = nodes[i];
+    std::size_t k = i;
+    for (; k > 0 && nearer(node, nodes[k - 1]); --k)
+    {
+      nodes[k] = nodes[k - 1];
+    }
+    nodes[k] = node;
+  }
+}
 
 bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyramid& pyramid,
   float tMin, float tMax, std::size_t most, std::vector<TileNode>& nodes)
@@ -185,9 +206,7 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
       next.value[4] = parent.value[4] + parent.size * (tables.near[i] + tables.toCorner[4]);
     }
   }
-  std::sort(nodes.begin(), nodes.end(),
-    [](const TileNode& a, const TileNode& b)
-    { return a.tNear < b.tNear || (a.tNear == b.tNear && a.node < b.node); });
+  sortByDepth(nodes);
   return nodes.size() <= most;
 }
 

@@ -99,24 +99,26 @@ bool ShadowBuffer::lookUp(const glm::dvec3& position, Place& place) const
 void ShadowBuffer::markPlace(Face& face, const Place& place, std::size_t& last)
 {
   const View& view = face.view;
-  for (int i = 0; i < 4; ++i)
+  const int tilesAcross = (view.width + 7) / 8;
+  const auto mark = [&](int tileX, int tileY)
   {
-    const glm::ivec2 texel = i == 0 ? place.nearest() : place.neighbour(i);
-    if (texel.x < 0 || texel.y < 0 || texel.x >= view.width || texel.y >= view.height)
+    const std::size_t tile = static_cast<std::size_t>(tileY) * tilesAcross + tileX;
+    if (tile != last && !face.wanted[tile].load(std::memory_order_relaxed))
     {
-      continue;
-    }
-    const std::size_t tile =
-      static_cast<std::size_t>(texel.y >> 3) * ((view.width + 7) / 8) + (texel.x >> 3);
-    if (tile == last)
-    {
-      continue;
+      face.wanted[tile].store(1, std::memory_order_relaxed);
     }
     last = tile;
-    auto& wanted = face.wanted[tile];
-    if (!wanted.load(std::memory_order_relaxed))
+  };
+  // The four texels whose centres surround the point lie in one tile, in two or in four.
+  const int x0 = std::max(static_cast<int>(place.x - 0.5), 0) >> 3;
+  const int y0 = std::max(static_cast<int>(place.y - 0.5), 0) >> 3;
+  const int x1 = std::min(static_cast<int>(place.x + 0.5), view.width - 1) >> 3;
+  const int y1 = std::min(static_cast<int>(place.y + 0.5), view.height - 1) >> 3;
+  for (int y = y0; y <= y1; ++y)
+  {
+    for (int x = x0; x <= x1; ++x)
     {
-      wanted.store(1, std::memory_order_relaxed);
+      mark(x, y);
     }
   }
 }
