@@ -19,7 +19,7 @@ struct ShortLists
 {
   /// Most triangles of a list. Longer ones test triangles that a tile does not see; shorter ones
   /// descend to more nodes.
-  static constexpr std::uint32_t Most = 12;
+  static constexpr std::uint32_t Most = 16;
   /// A node that has no list: its children are to be looked at, or it lies below one that has.
   static constexpr std::uint32_t None = 0xffffffffu;
 
