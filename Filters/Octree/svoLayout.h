@@ -28,7 +28,8 @@
 //   | Node nodeCount - 1     |  first + popcount(mask & ((1 << i) - 1)))
 //   +------------------------+ 256 + 16 * nodeCount
 //   | lists   4 bytes a word |  triangle lists of the bricks that more than one triangle touches:
-//   |                        |  count, id, id, ... (ascending)
+//   |                        |  count, id, id, ... (ascending); in the order of their bricks, none
+//   |                        |  shared
 //   +------------------------+ 256 + 16 * nodeCount + 4 * listWords
 //
 //   Node, 16 bytes:

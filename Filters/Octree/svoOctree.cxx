@@ -22,8 +22,10 @@ bool headerIsSane(const Header& h, std::size_t size)
   {
     return false;
   }
-  if (!std::isfinite(h.origin[0] + h.origin[1] + h.origin[2]) || !std::isfinite(h.voxelSize) ||
-    h.voxelSize <= 0.0 || h.leafGeometry > 3)
+  // The cube's edge and its inverse are finite, or nothing in octree coordinates would be.
+  const double rootEdge = h.voxelSize * static_cast<double>(1u << (2 * h.depthCount));
+  if (!std::isfinite(h.origin[0] + h.origin[1] + h.origin[2]) || !(h.voxelSize > 0.0) ||
+    !std::isfinite(rootEdge) || !std::isfinite(1.0 / rootEdge) || h.leafGeometry > 3)
   {
     return false;
   }
@@ -79,7 +81,7 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
   }
   if (octree.empty())
   {
-    if (h.nodeCount != 1)
+    if (h.nodeCount != 1 || h.listWords != 0 || h.voxelCount != 0)
     {
       error = "the octree's nodes are damaged";
       return {};
@@ -90,7 +92,17 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
   const std::uint32_t bricks = octree.brickBegin();
   const Node* nodes = octree.nodes();
   const std::uint32_t* lists = octree.lists();
+  // Of an odd level's root only the lower octant is the octree's cube.
+  if (h.level % 2 != 0 && nodes[0].mask >> 8 != 0)
+  {
+    error = "the octree has nodes outside of its cube";
+    return {};
+  }
   std::uint64_t next = 1; // children fill each depth in the order of their parents
+  // Lists lie in the order of their bricks. Were they shared, a small file could name a long list
+  // so often that reading it would never end.
+  std::uint64_t nextList = 0;
+  std::uint64_t voxels = 0;
   for (std::uint32_t i = 0; i < h.nodeCount; ++i)
   {
     const Node& node = nodes[i];
@@ -107,14 +119,16 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
     }
     else
     {
-      good = good && node.first < h.listWords && lists[node.first] > 0 &&
-        lists[node.first] < h.listWords - node.first;
+      good = good && node.first == nextList && nextList < h.listWords && lists[nextList] > 0 &&
+        lists[nextList] < h.listWords - nextList;
       for (std::uint32_t k = 1; good && k <= lists[node.first]; ++k)
       {
         good = lists[node.first + k] < h.triangleCount;
       }
       octree.Longest = std::max(octree.Longest, good ? lists[node.first] : 0u);
+      nextList += good ? lists[node.first] + std::uint64_t(1) : 0;
     }
+    voxels += i < bricks ? 0 : __builtin_popcountll(node.mask);
     if (!good || (i + 1 == h.depthBegin[1] && h.depthCount > 1 && next != h.depthBegin[2]))
     {
       error = "the octree's nodes are damaged";
@@ -134,6 +148,11 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
       error = "the octree's depths are damaged";
       return {};
     }
+  }
+  if (nextList != h.listWords || voxels != h.voxelCount)
+  {
+    error = "the octree's header counts other lists or voxels than there are";
+    return {};
   }
   octree.derive();
   return octree;

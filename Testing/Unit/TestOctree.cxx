@@ -161,7 +161,10 @@ TEST(Octree, ADamagedHeaderIsRefused)
   EXPECT_TRUE(damage([](svo::Header& h) { h.triangleCount = 0; }));
   EXPECT_TRUE(damage([](svo::Header& h) { h.voxelSize = 0.0; }));
   EXPECT_TRUE(damage([](svo::Header& h) { h.voxelSize = std::nan(""); }));
+  EXPECT_TRUE(damage([](svo::Header& h) { h.voxelSize = 5e-324; })); // its inverse is infinite
+  EXPECT_TRUE(damage([](svo::Header& h) { h.voxelSize = 1e308; }));  // the cube's edge is
   EXPECT_TRUE(damage([](svo::Header& h) { h.origin[2] = HUGE_VAL; }));
+  EXPECT_TRUE(damage([](svo::Header& h) { h.voxelCount = ~0ull; }));
   EXPECT_TRUE(damage([](svo::Header& h) { h.depthBegin[1] = 0; }));
   EXPECT_TRUE(damage([](svo::Header& h) { h.depthBegin[1] = 2; }));
   EXPECT_TRUE(damage([](svo::Header& h) { h.depthBegin[1] = 1000; }));
@@ -195,6 +198,44 @@ TEST(Octree, DamagedNodesAndListsAreRefused)
   EXPECT_TRUE(damage([](auto& b) { listsOf(b)[0] = 0; }));
   EXPECT_TRUE(damage([](auto& b) { listsOf(b)[0] = 0xffffffff; }));
   EXPECT_TRUE(damage([](auto& b) { listsOf(b)[1] = 1; }));
+}
+
+// Bricks that share a long list would make a file of a megabyte take hours to check and to trace.
+TEST(Octree, AListThatTwoBricksShareIsRefused)
+{
+  auto buffer = sample();
+  std::string error;
+  ASSERT_TRUE(openBuffer(buffer, error)) << error;
+  std::vector<svo::Node*> listed;
+  for (svo::Node* node = nodesOf(buffer) + 1; node < nodesOf(buffer) + 4; ++node)
+  {
+    if (!(node->first & svo::InlineTriangle))
+    {
+      listed.push_back(node);
+    }
+  }
+  ASSERT_GE(listed.size(), 1u);
+  svo::Node* inlined = nodesOf(buffer) + 1;
+  while (!(inlined->first & svo::InlineTriangle))
+  {
+    ++inlined;
+  }
+  inlined->first = listed[0]->first;
+  EXPECT_TRUE(refused(buffer));
+}
+
+TEST(Octree, ListsThatNobodyNamesAreRefused)
+{
+  auto buffer = sample();
+  nodesOf(buffer)[headerOf(buffer).nodeCount - 1].first = svo::InlineTriangle;
+  nodesOf(buffer)[headerOf(buffer).nodeCount - 2].first = svo::InlineTriangle;
+  EXPECT_TRUE(refused(buffer));
+}
+
+TEST(Octree, VoxelsOutsideOfTheCubeOfAnOddLevelAreRefused)
+{
+  auto buffer = makeBuffer({ { 0, 0, 0 }, { 9, 0, 0 } }, 3); // the second one is outside
+  EXPECT_TRUE(refused(buffer));
 }
 
 TEST(Octree, ASurfaceOfAnotherMeshIsRefused)
