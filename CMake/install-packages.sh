@@ -1,6 +1,6 @@
 #!/bin/bash
 # Installs the Debian 12 packages that a part of the project needs, and says what each is for.
-# Usage: install-packages.sh [--list] [--no-install] group...   (groups: build test demo)
+# Usage: install-packages.sh [--list] [--no-install] group...   (groups: build test demo fuzz)
 # Packages that are there already are left alone; with none missing nothing runs and nothing is
 # asked. --no-install only checks: it names what is missing and ends with 1. --list prints names.
 set -euo pipefail
@@ -28,6 +28,9 @@ libassimp-dev|reads the meshes of objects A and B
 libcgal-demo|object A: ChineseDragon-10kv.off
 assimp-testmodels|object B: sydney.md2
 ffmpeg|turns the frames into a movie"
+packages_fuzz="
+clang|libFuzzer, which hunts for octree files that do harm
+libclang-rt-14-dev|its runtime and that of the sanitizers"
 
 list=no
 install=yes
@@ -39,8 +42,9 @@ for argument in "$@"; do
     build) wanted+="$packages_build" ;;
     test) wanted+="$packages_test" ;;
     demo) wanted+="$packages_demo" ;;
+    fuzz) wanted+="$packages_fuzz" ;;
     *)
-      echo "install-packages.sh: unknown argument '$argument' (groups: build test demo)" >&2
+      echo "install-packages.sh: unknown argument '$argument' (groups: build test demo fuzz)" >&2
       exit 2
       ;;
   esac
