@@ -138,12 +138,15 @@ int vtkSparseVoxelOctree::IntersectWithLine(
   {
     return 0;
   }
-  const glm::dmat4 toOctree = octree.localToOctree();
+  // Differences first: the mesh may lie far from the origin of its frame.
+  const svo::Header& h = octree.header();
+  const glm::dvec3 origin(h.origin[0], h.origin[1], h.origin[2]);
+  const double scale = 1.0 / octree.rootEdge();
   const glm::dvec3 from(p1[0], p1[1], p1[2]);
   const glm::dvec3 along = glm::dvec3(p2[0], p2[1], p2[2]) - from;
   svo::Ray ray;
-  ray.origin = glm::dvec3(toOctree * glm::dvec4(from, 1.0));
-  ray.direction = glm::dvec3(toOctree * glm::dvec4(along, 0.0));
+  ray.origin = 1.0 + (from - origin) * scale;
+  ray.direction = along * scale;
   ray.tMin = 0.0;
   ray.tMax = 1.0;
   if (ray.direction == glm::dvec3(0.0))

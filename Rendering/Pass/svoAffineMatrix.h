@@ -2,11 +2,12 @@
 #ifndef svoAffineMatrix_h
 #define svoAffineMatrix_h
 
+#include "svoWorldToOctree.h"
+
 #include <cmath>
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
-#include <glm/matrix.hpp>
 
 namespace svo
 {
@@ -52,7 +53,7 @@ inline MatrixKind kindOf(const glm::dmat4& m)
   {
     return MatrixKind::Singular;
   }
-  const double condition = frobeniusNorm(glm::inverse(linear / scale));
+  const double condition = frobeniusNorm(stableInverse(linear / scale));
   return condition <= MaximumCondition ? MatrixKind::Affine : MatrixKind::Singular;
 }
 }

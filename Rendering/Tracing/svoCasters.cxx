@@ -1,7 +1,8 @@
 #include "svoCasters.h"
 
+#include "svoWorldToOctree.h"
+
 #include <glm/common.hpp>
-#include <glm/matrix.hpp>
 
 namespace svo
 {
@@ -47,21 +48,24 @@ bool isOnlyBackdrop(const Scene& scene, const Instance& caster, const Light& lig
   {
     return false;
   }
-  const glm::dmat4 toLocal = glm::inverse(caster.localToWorld);
+  const glm::dmat3 inverse = stableInverse(glm::dmat3(caster.localToWorld));
+  const glm::dvec3 translation(caster.localToWorld[3]);
+  const auto height = [&](const glm::dvec3& x) { return (inverse * (x - translation))[axis]; };
   const double plane = h.meshBounds[2 * axis];
   const double lightSide = light.kind == Light::Kind::Directional
-    ? -(toLocal * glm::dvec4(light.direction, 0.0))[axis]
-    : (toLocal * glm::dvec4(light.position, 1.0))[axis] - plane;
+    ? -(inverse * light.direction)[axis]
+    : height(light.position) - plane;
   const double side = lightSide < 0.0 ? -1.0 : 1.0;
   for (const Instance& receiver : scene.instances)
   {
-    if (&receiver == &caster || !receiver.visible || !receiver.receiveShadow || !receiver.octree)
+    if (&receiver == &caster || !receiver.visible || !receiver.receiveShadow || !receiver.octree ||
+      !placesSomething(receiver.localToWorld))
     {
       continue;
     }
     for (const glm::dvec3& corner : corners(receiver, 0.0))
     {
-      const double local = (toLocal * glm::dvec4(corner, 1.0))[axis] - plane;
+      const double local = height(corner) - plane;
       if (!(side * local >= -0.5 * h.voxelSize))
       {
         return false;
@@ -84,6 +88,7 @@ std::vector<std::uint8_t> castersOf(const Scene& scene, const Light& light, bool
   {
     const Instance& instance = scene.instances[i];
     casters[i] = instance.castShadow && instance.octree && !instance.octree.empty() &&
+      placesSomething(instance.localToWorld) &&
       (unknownReceivers || !isOnlyBackdrop(scene, instance, light));
   }
   return casters;

@@ -45,7 +45,7 @@ bool worthTiles(const Instance& instance, const LocalView& local, const View& vi
   const Octree& octree = instance.octree;
   const bool exact = instance.leafGeometry == LeafGeometry::Triangle ||
     instance.leafGeometry == LeafGeometry::Automatic;
-  if (!exact || !octree.surface())
+  if (!exact || !octree.surface() || local.stretched)
   {
     return false;
   }
@@ -222,16 +222,27 @@ void LayeredView::order(int tileX, int tileY, TileScratch& scratch)
     [](const TileEntry* a, const TileEntry* b) { return a->key < b->key; });
 }
 
-void LayeredView::traceRays(const TileEntry& candidate, const RayBlock& block, HitBlock& found)
+void LayeredView::traceRays(const TileEntry& candidate, const double* x, const double* y,
+  RayBlock& block, HitBlock& found)
 {
   const Entry& entry = *candidate.entry;
+  const TraceOptions options{ entry.key.leafGeometry, entry.key.level };
+  if (entry.local.stretched)
+  {
+    intersectStretched(*entry.octree, entry.local, x, y, block, options, found);
+    return;
+  }
+  for (int i = 0; i < 64; ++i)
+  {
+    entry.local.fill(x[i], y[i], i, block);
+  }
   if (!candidate.nodes.empty())
   {
     intersectTile(*entry.octree, candidate.pyramid, candidate.nodes, block, found);
   }
   else
   {
-    intersect(*entry.octree, block, { entry.key.leafGeometry, entry.key.level }, found);
+    intersect(*entry.octree, block, options, found);
   }
 }
 
@@ -293,6 +304,12 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
     this->Merged.primitive.data() + 64 * tile, false };
   RayBlock block;
   HitBlock found;
+  double xs[64], ys[64];
+  for (int i = 0; i < 64; ++i)
+  {
+    xs[i] = 8 * tileX + (i & 7) + 0.5;
+    ys[i] = 8 * tileY + (i >> 3) + 0.5;
+  }
   this->order(tileX, tileY, scratch);
   for (const TileEntry* next : scratch.order)
   {
@@ -310,8 +327,7 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
       {
         continue;
       }
-      entry.local.fill(8 * tileX, 8 * tileY, block);
-      traceRays(candidate, block, found);
+      traceRays(candidate, xs, ys, block, found);
       scratch.rays[&entry - this->Instances.data()] += 64;
       this->merge(entry, found.t, found.primitive, merged);
       continue;
@@ -324,8 +340,7 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
     {
       entry.layer->traced[k] = DepthLayer::Traced;
       fill();
-      entry.local.fill(8 * tileX, 8 * tileY, block);
-      traceRays(candidate, block, found);
+      traceRays(candidate, xs, ys, block, found);
       std::copy(found.t, found.t + 64, keptT);
       std::copy(found.primitive, found.primitive + 64, keptPrimitive);
       scratch.rays[&entry - this->Instances.data()] += 64;
@@ -348,13 +363,9 @@ void LayeredView::sample(int tileX, int tileY, Samples& samples) const
     {
       continue;
     }
-    for (int i = 0; i < 64; ++i)
-    {
-      entry.local.fill(samples.x[i], samples.y[i], i, block);
-    }
     std::fill(block.tMin, block.tMin + 64, candidate.tNear);
     std::fill(block.tMax, block.tMax + 64, candidate.tFar);
-    traceRays(candidate, block, found);
+    traceRays(candidate, samples.x, samples.y, block, found);
     for (int i = 0; i < 64; ++i)
     {
       const double t = entry.local.base + found.t[i];

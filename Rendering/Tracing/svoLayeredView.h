@@ -194,7 +194,9 @@ private:
   bool meets(int tileX, int tileY, TileEntry& candidate) const;
   void order(int tileX, int tileY, TileScratch& scratch);
   bool cutRays(const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const;
-  static void traceRays(const TileEntry& candidate, const RayBlock& block, HitBlock& found);
+  /// Through points x, y of the image; tMin and tMax are set.
+  static void traceRays(const TileEntry& candidate, const double* x, const double* y,
+    RayBlock& block, HitBlock& found);
   void merge(
     const Entry& entry, const float* t, const Primitive* primitive, MergedTile& merged) const;
   void traceTile(int tileX, int tileY, TileScratch& scratch);

@@ -2,16 +2,17 @@
 #ifndef svoLocalView_h
 #define svoLocalView_h
 
+#include "svoIntersect.h"
 #include "svoOctree.h"
 #include "svoRay.h"
 #include "svoView.h"
+#include "svoWorldToOctree.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <glm/mat4x4.hpp>
-#include <glm/matrix.hpp>
 
 namespace svo
 {
@@ -25,6 +26,10 @@ struct LocalView
   double base = 0.0;
   float tMax = -1.0f; // far plane or farthest corner, whichever is nearer; minus base
   PixelRect rect;     // of whole tiles that can see the cube; empty if none
+  /// On the plane of `base` rays may start many cubes away from where they meet the cube, as where
+  /// an object is flat or long and seen at a slant, or at the border of a very wide view: a float
+  /// would lose the voxel. Such rays are traced by intersectStretched().
+  bool stretched = false;
 
   /// Ray k of a block: the one through point (x, y) of the image.
   void fill(double x, double y, int k, RayBlock& rays) const
@@ -112,15 +117,67 @@ inline LocalView makeLocalView(
   }
   local.rect = { local.rect.x0 & ~7, local.rect.y0 & ~7, (local.rect.x1 + 7) & ~7,
     (local.rect.y1 + 7) & ~7 };
-  const glm::dmat4 toOctree = octree.localToOctree() * glm::inverse(localToWorld);
-  const glm::dmat3 linear(toOctree);
-  local.direction = linear * view.direction;
-  local.directionX = linear * view.directionX;
-  local.directionY = linear * view.directionY;
-  local.origin = glm::dvec3(toOctree * glm::dvec4(view.origin + local.base * view.direction, 1.0));
-  local.originX = linear * (view.originX + local.base * view.directionX);
-  local.originY = linear * (view.originY + local.base * view.directionY);
+  const WorldToOctree toOctree(octree, localToWorld);
+  local.direction = toOctree.vector(view.direction);
+  local.directionX = toOctree.vector(view.directionX);
+  local.directionY = toOctree.vector(view.directionY);
+  local.origin = toOctree.point(view.origin + local.base * view.direction);
+  local.originX = toOctree.vector(view.originX + local.base * view.directionX);
+  local.originY = toOctree.vector(view.originY + local.base * view.directionY);
+  // The farthest that a ray can start from where it meets the cube, in cubes: 16 of them, rounded
+  // to a float, are a thousandth of a voxel of level 10.
+  constexpr double FarthestStart = 16.0;
+  const double across = std::max({ glm::length(local.direction), // at the corners of the image
+    glm::length(local.direction + static_cast<double>(view.width) * local.directionX),
+    glm::length(local.direction + static_cast<double>(view.height) * local.directionY),
+    glm::length(local.direction + static_cast<double>(view.width) * local.directionX +
+      static_cast<double>(view.height) * local.directionY) });
+  local.stretched = local.tMax * across > FarthestStart;
   return local;
+}
+
+/// As intersect() of a block, for rays through the points x[k], y[k] of the image whose tMin and
+/// tMax are set: every ray starts where it enters the cube, found in double.
+inline void intersectStretched(const Octree& octree, const LocalView& local, const double* x,
+  const double* y, RayBlock& rays, const TraceOptions& options, HitBlock& hits)
+{
+  const double high = 1.0 + std::ldexp(1.0, octree.level() - 2 * octree.depthCount());
+  double start[RayBlock::Size];
+  for (int k = 0; k < RayBlock::Size; ++k)
+  {
+    const glm::dvec3 origin = local.origin + y[k] * local.originY + x[k] * local.originX;
+    const glm::dvec3 d = local.direction + y[k] * local.directionY + x[k] * local.directionX;
+    double enter = rays.tMin[k];
+    double leave = rays.tMax[k];
+    for (int a = 0; a < 3; ++a)
+    {
+      if (d[a] != 0.0)
+      {
+        const double low = (1.0 - origin[a]) / d[a];
+        const double far = (high - origin[a]) / d[a];
+        enter = std::max(enter, std::min(low, far));
+        leave = std::min(leave, std::max(low, far));
+      }
+    }
+    start[k] = enter;
+    const glm::dvec3 at = origin + enter * d;
+    rays.originX[k] = static_cast<float>(at.x);
+    rays.originY[k] = static_cast<float>(at.y);
+    rays.originZ[k] = static_cast<float>(at.z);
+    rays.directionX[k] = static_cast<float>(d.x);
+    rays.directionY[k] = static_cast<float>(d.y);
+    rays.directionZ[k] = static_cast<float>(d.z);
+    // What the float ray has of the cube is decided by its own clipping.
+    rays.tMin[k] = enter <= leave ? 0.0f : 1.0f;
+    // A hit that is rounded down to tMax below has to be found, or cutting would change ties.
+    const double end = std::nextafter(rays.tMax[k], std::numeric_limits<float>::infinity());
+    rays.tMax[k] = enter <= leave ? roundUp(end - enter) : 0.0f;
+  }
+  intersect(octree, rays, options, hits);
+  for (int k = 0; k < RayBlock::Size; ++k)
+  {
+    hits.t[k] = static_cast<float>(start[k] + hits.t[k]);
+  }
 }
 }
 

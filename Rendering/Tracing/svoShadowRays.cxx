@@ -3,7 +3,6 @@
 #include "svoIntersect.h"
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 namespace svo
 {
@@ -13,8 +12,7 @@ ShadowRays::ShadowRays(const Scene& scene)
   {
     if (instance.castShadow && instance.octree && !instance.octree.empty())
     {
-      this->Casters.push_back(
-        { &instance, instance.octree.localToOctree() * glm::inverse(instance.localToWorld) });
+      this->Casters.push_back({ &instance, WorldToOctree(instance.octree, instance.localToWorld) });
     }
   }
 }
@@ -30,8 +28,8 @@ bool ShadowRays::shadows(
   direction = far ? direction : light.position - start;
   for (const Caster& caster : this->Casters)
   {
-    const Ray ray{ glm::dvec3(caster.toOctree * glm::dvec4(start, 1.0)),
-      glm::dvec3(caster.toOctree * glm::dvec4(direction, 0.0)), 0.0, far ? 1e300 : 1.0 };
+    const Ray ray{ caster.toOctree.point(start), caster.toOctree.vector(direction), 0.0,
+      far ? 1e300 : 1.0 };
     if (occluded(caster.instance->octree, ray, { caster.instance->leafGeometry, MaximumLevel }))
     {
       return true;

@@ -3,6 +3,7 @@
 #define svoShadowRays_h
 
 #include "svoScene.h"
+#include "svoWorldToOctree.h"
 
 #include <vector>
 
@@ -24,7 +25,7 @@ private:
   struct Caster
   {
     const Instance* instance;
-    glm::dmat4 toOctree;
+    WorldToOctree toOctree;
   };
   std::vector<Caster> Casters;
 };

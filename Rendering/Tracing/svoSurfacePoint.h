@@ -5,6 +5,7 @@
 #include "svoRay.h"
 #include "svoScene.h"
 #include "svoView.h"
+#include "svoWorldToOctree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,7 @@ struct SurfaceFrame
   SurfaceFrame() = default; // of an instance without an octree: nothing is ever seen of it
   explicit SurfaceFrame(const Instance& i)
     : instance(&i)
-    , toOctree(i.octree.localToOctree() * glm::inverse(i.localToWorld))
+    , toOctree(i.octree, i.localToWorld)
   {
     // Only directions of normals matter: without the scale a tiny object's overflow a float.
     glm::dmat3 linear(i.localToWorld);
@@ -41,12 +42,12 @@ struct SurfaceFrame
     }
     linear /= most;
     const double side = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
-    const glm::dmat3 cofactor = glm::transpose(glm::inverse(linear));
+    const glm::dmat3 cofactor = glm::transpose(stableInverse(linear));
     normalMatrix = glm::mat3(cofactor);
     windingMatrix = glm::mat3(side * cofactor);
   }
   const Instance* instance = nullptr;
-  glm::dmat4 toOctree{ 1.0 };      // world -> octree coordinates
+  WorldToOctree toOctree;
   glm::mat3 normalMatrix{ 1.0f };  // local normals -> world, to a factor
   glm::mat3 windingMatrix{ 1.0f }; // cross products of local edges -> world, to a factor
 };
@@ -94,7 +95,7 @@ inline Primitive facingTriangle(
   const SurfaceFrame& frame, std::uint32_t node, const glm::vec3& towards)
 {
   const Octree& octree = frame.instance->octree;
-  const glm::dvec3 local = glm::dmat3(frame.toOctree) * glm::dvec3(towards);
+  const glm::dvec3 local = frame.toOctree.vector(glm::dvec3(towards));
   // Cell indices in this order come nearest first along each axis.
   const unsigned flip =
     (local.x > 0.0 ? 011u : 0u) | (local.y > 0.0 ? 022u : 0u) | (local.z > 0.0 ? 044u : 0u);
@@ -171,7 +172,7 @@ inline SurfacePoint surfacePoint(
   if (smooth || pointColors)
   {
     // Barycentric coordinates; a plane or voxel hit beside its triangle takes the nearest in it.
-    const glm::vec3 p(glm::dvec3(frame.toOctree * glm::dvec4(point.position, 1.0)) - glm::dvec3(a));
+    const glm::vec3 p(frame.toOctree.point(point.position) - glm::dvec3(a));
     const float d11 = glm::dot(e1, e1);
     const float d12 = glm::dot(e1, e2);
     const float d22 = glm::dot(e2, e2);

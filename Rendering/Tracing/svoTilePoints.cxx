@@ -17,7 +17,7 @@ namespace svo
 /// What the points of a triangle share.
 struct TriangleLook
 {
-  glm::dmat4 toOctree;
+  WorldToOctree toOctree;
   glm::vec3 winding; // world, unit
   // For barycentric coordinates; octree coordinates.
   glm::dvec3 a;
@@ -84,18 +84,22 @@ void faceViewer(
 void weigh(
   const TriangleLook& l, const TilePoints& p, int first, int last, float* wa, float* wb, float* wc)
 {
-  const glm::dmat4& m = l.toOctree;
+  const glm::dmat3& m = l.toOctree.inverse;
+  const glm::dvec3 from = l.toOctree.translation, o = l.toOctree.origin;
+  const double scale = l.toOctree.scale;
   for (int i = first; i < last; i += TilePoints::Step)
   {
     for (int k = 0; k < TilePoints::Step; ++k)
     {
-      const double x = p.positionX[i + k], y = p.positionY[i + k], z = p.positionZ[i + k];
-      const float px =
-        static_cast<float>((m[0].x * x + m[1].x * y) + (m[2].x * z + m[3].x * 1.0) - l.a.x);
-      const float py =
-        static_cast<float>((m[0].y * x + m[1].y * y) + (m[2].y * z + m[3].y * 1.0) - l.a.y);
-      const float pz =
-        static_cast<float>((m[0].z * x + m[1].z * y) + (m[2].z * z + m[3].z * 1.0) - l.a.z);
+      const double x = p.positionX[i + k] - from.x;
+      const double y = p.positionY[i + k] - from.y;
+      const double z = p.positionZ[i + k] - from.z;
+      const double lx = m[0].x * x + m[1].x * y + m[2].x * z;
+      const double ly = m[0].y * x + m[1].y * y + m[2].y * z;
+      const double lz = m[0].z * x + m[1].z * y + m[2].z * z;
+      const float px = static_cast<float>(1.0 + (lx - o.x) * scale - l.a.x);
+      const float py = static_cast<float>(1.0 + (ly - o.y) * scale - l.a.y);
+      const float pz = static_cast<float>(1.0 + (lz - o.z) * scale - l.a.z);
       const float p1 = px * l.e1.x + py * l.e1.y + pz * l.e1.z;
       const float p2 = px * l.e2.x + py * l.e2.y + pz * l.e2.z;
       float v = l.determinant > 0.0f ? (l.d22 * p1 - l.d12 * p2) / l.determinant : 0.0f;
