@@ -6,6 +6,12 @@
 
 namespace svo
 {
+namespace
+{
+/// Where rays to a light end, the light itself being at 1: what the light lies on is not between.
+constexpr double BeforeLight = 1.0 - 1e-9;
+}
+
 ShadowRays::ShadowRays(const Scene& scene)
 {
   for (const Instance& instance : scene.instances)
@@ -29,7 +35,7 @@ bool ShadowRays::shadows(
   for (const Caster& caster : this->Casters)
   {
     const Ray ray{ caster.toOctree.point(start), caster.toOctree.vector(direction), 0.0,
-      far ? 1e300 : 1.0 };
+      far ? 1e300 : BeforeLight };
     if (occluded(caster.instance->octree, ray, { caster.instance->leafGeometry, MaximumLevel }))
     {
       return true;
