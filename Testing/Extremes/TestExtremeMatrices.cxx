@@ -97,42 +97,6 @@ double displacement(const Pair& pair, const svo::LocalView& moved, const glm::dv
   return static_cast<double>(glm::length(off - glm::dot(off, along) * along)) / h.voxelSize;
 }
 
-/// The local ray of a point of the image, in double.
-svo::Ray localRay(const svo::LocalView& view, const glm::dvec2& image)
-{
-  svo::Ray ray;
-  ray.origin = view.origin + image.y * view.originY + image.x * view.originX;
-  ray.direction = view.direction + image.y * view.directionY + image.x * view.directionX;
-  ray.tMax = view.tMax;
-  return ray;
-}
-
-/// The same in floats, as it is traced in a block.
-svo::Ray blockRay(const svo::LocalView& view, const glm::dvec2& image)
-{
-  svo::RayBlock block;
-  svo::HitBlock hits;
-  double x[64], y[64];
-  std::fill_n(x, 64, image.x);
-  std::fill_n(y, 64, image.y);
-  std::fill_n(block.tMin, 64, 0.0f);
-  std::fill_n(block.tMax, 64, view.tMax);
-  if (view.stretched)
-  {
-    svo::intersectStretched(object(), view, x, y, block, {}, hits);
-  }
-  else
-  {
-    view.fill(image.x, image.y, 0, block);
-  }
-  svo::Ray ray;
-  ray.origin = { block.originX[0], block.originY[0], block.originZ[0] };
-  ray.direction = { block.directionX[0], block.directionY[0], block.directionZ[0] };
-  ray.tMin = block.tMin[0];
-  ray.tMax = block.tMax[0];
-  return ray;
-}
-
 /// What a ray meets: in double, or in float as a block does.
 FoundCell traceAs(bool floats, const svo::Ray& ray)
 {
@@ -143,28 +107,6 @@ FoundCell traceAs(bool floats, const svo::Ray& ray)
 bool same(const FoundCell& a, const FoundCell& b)
 {
   return a.hit == b.hit && (!a.hit || a.cell == b.cell);
-}
-
-/// True if the ray passes the border of the cell within `slack` (octree coordinates).
-bool isTie(const svo::Ray& ray, const glm::ivec3& cell, double slack)
-{
-  const double edge = cellEdge(object(), object().level());
-  const glm::dvec3 low = 1.0 + glm::dvec3(cell) * edge;
-  if (2.0 * slack < edge)
-  {
-    return grazes(ray, low, low + edge, slack);
-  }
-  // All of the cell is border: the ray has to come near it.
-  const glm::dvec3 middle = low + 0.5 * edge;
-  const double reach = slack + 0.5 * edge;
-  return grazes(ray, middle, middle, reach) || grazes(ray, middle - reach, middle + reach, 1e-300);
-}
-
-/// How far floats may be from the ray, in octree coordinates: three roundings of the farthest
-/// number in the sum origin + t direction at the cube.
-double floatSlack(const svo::Ray& ray)
-{
-  return 3.0 * std::ldexp(1.0, -23) * (2.0 + glm::length(ray.origin - 1.5));
 }
 
 svo::Frame frameOf(const svo::Scene& scene, const svo::View& view)
@@ -248,16 +190,16 @@ TEST_P(MovedTogether, TheSameVoxelsAreHit)
           return;
         }
         ++count;
-        EXPECT_TRUE(
-          (exact.hit && isTie(a, exact.cell, slack)) || (other.hit && isTie(a, other.cell, slack)))
+        EXPECT_TRUE((exact.hit && isTie(object(), a, exact.cell, slack)) ||
+          (other.hit && isTie(object(), a, other.cell, slack)))
           << t.name << ", towards " << local.x << " " << local.y << " " << local.z << "\nmodel "
           << text(pair.model) << "\nmoved " << text(pair.movedModel);
       };
       const double slack = law + 4.0 * Ulp * (2.0 + glm::length(a.origin));
       expectSame(traceAs(false, localRay(moved, image)), slack, ties);
-      const svo::Ray inFloats = blockRay(still, image);
+      const svo::Ray inFloats = blockRay(object(), still, image);
       expectSame(traceAs(true, inFloats), slack + floatSlack(inFloats), rounded);
-      const svo::Ray movedInFloats = blockRay(moved, image);
+      const svo::Ray movedInFloats = blockRay(object(), moved, image);
       expectSame(traceAs(true, movedInFloats), slack + floatSlack(movedInFloats), floatTies);
     }
   }
@@ -323,8 +265,10 @@ TEST(ExtremeMatrices, EveryKindOfMatrixShowsTheObject)
       if (expected.hit != (frame.instance[p] == 0))
       {
         ++differ;
-        const FoundCell found = traceAs(true, blockRay(local, { p % 96 + 0.5, p / 96 + 0.5 }));
-        EXPECT_TRUE(isTie(ray, expected.hit ? expected.cell : found.cell, floatSlack(ray)))
+        const FoundCell found =
+          traceAs(true, blockRay(object(), local, { p % 96 + 0.5, p / 96 + 0.5 }));
+        EXPECT_TRUE(
+          isTie(object(), ray, expected.hit ? expected.cell : found.cell, floatSlack(ray)))
           << kind.name << ", pixel " << p % 96 << ", " << p / 96;
       }
       EXPECT_FALSE(std::isnan(frame.depth[p]));

@@ -6,6 +6,7 @@
 #define svoExtremes_h
 
 #include "svoLocalView.h"
+#include "svoTestTracers.h"
 #include "svoTracerScenes.h"
 
 #include <cmath>
@@ -101,6 +102,66 @@ inline ExactMat4 inverseAffine(const ExactMat4& m)
   ExactMat4 inverse(inverted);
   inverse[3] = ExactVec4(-(inverted * ExactVec3(m[3])), Exact(1));
   return inverse;
+}
+
+/// The local ray of a point of the image, in double.
+inline svo::Ray localRay(const svo::LocalView& view, const glm::dvec2& image)
+{
+  svo::Ray ray;
+  ray.origin = view.origin + image.y * view.originY + image.x * view.originX;
+  ray.direction = view.direction + image.y * view.directionY + image.x * view.directionX;
+  ray.tMax = view.tMax;
+  return ray;
+}
+
+/// The same in floats, as it is traced in a block.
+inline svo::Ray blockRay(
+  const svo::Octree& octree, const svo::LocalView& view, const glm::dvec2& image)
+{
+  svo::RayBlock block;
+  svo::HitBlock hits;
+  double x[64], y[64];
+  std::fill_n(x, 64, image.x);
+  std::fill_n(y, 64, image.y);
+  std::fill_n(block.tMin, 64, 0.0f);
+  std::fill_n(block.tMax, 64, view.tMax);
+  if (view.stretched)
+  {
+    svo::intersectStretched(octree, view, x, y, block, {}, hits);
+  }
+  else
+  {
+    view.fill(image.x, image.y, 0, block);
+  }
+  svo::Ray ray;
+  ray.origin = { block.originX[0], block.originY[0], block.originZ[0] };
+  ray.direction = { block.directionX[0], block.directionY[0], block.directionZ[0] };
+  ray.tMin = block.tMin[0];
+  ray.tMax = block.tMax[0];
+  return ray;
+}
+
+/// True if the ray passes the border of the cell within `slack` (octree coordinates).
+inline bool isTie(
+  const svo::Octree& octree, const svo::Ray& ray, const glm::ivec3& cell, double slack)
+{
+  const double edge = cellEdge(octree, octree.level());
+  const glm::dvec3 low = 1.0 + glm::dvec3(cell) * edge;
+  if (2.0 * slack < edge)
+  {
+    return grazes(ray, low, low + edge, slack);
+  }
+  // All of the cell is border: the ray has to come near it.
+  const glm::dvec3 middle = low + 0.5 * edge;
+  const double reach = slack + 0.5 * edge;
+  return grazes(ray, middle, middle, reach) || grazes(ray, middle - reach, middle + reach, 1e-300);
+}
+
+/// How far floats may be from the ray, in octree coordinates: three roundings of the farthest
+/// number in the sum origin + t direction at the cube.
+inline double floatSlack(const svo::Ray& ray)
+{
+  return 3.0 * std::ldexp(1.0, -23) * (2.0 + glm::length(ray.origin - 1.5));
 }
 }
 
