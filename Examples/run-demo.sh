@@ -72,21 +72,11 @@ rm -f "$output/paper.mp4" "$output/figures.json" "$output/table.txt"
 step "Meshes"
 meshes=(--stand-in)
 if [ "$stand_in" = no ]; then
-  mkdir -p build/demo-meshes
-  archive=$(dpkg -L libcgal-demo | grep '/data\.tar\.gz$') ||
-    fail "the package libcgal-demo holds no data.tar.gz"
-  if [ ! -e "$archive" ]; then
-    # Slim images of Debian drop everything below /usr/share/doc when a package is installed.
-    echo "Unpacking libcgal-demo once more, as this machine keeps no /usr/share/doc"
-    (cd build/demo-meshes && apt-get download -q libcgal-demo && dpkg-deb -x libcgal-demo_*.deb .)
-    archive="build/demo-meshes$archive"
-  fi
+  Examples/unpack-meshes.sh build/meshes ChineseDragon-10kv.off
   walker=$(dpkg -L assimp-testmodels | grep '/sydney\.md2$') ||
     fail "the package assimp-testmodels holds no sydney.md2"
-  tar -xzf "$archive" -C build/demo-meshes --strip-components=2 \
-    data/meshes/ChineseDragon-10kv.off || fail "cannot read the dragon from $archive"
-  meshes=(--a build/demo-meshes/ChineseDragon-10kv.off --b "$walker")
-  echo "A: build/demo-meshes/ChineseDragon-10kv.off, from $archive"
+  meshes=(--a build/meshes/ChineseDragon-10kv.off --b "$walker")
+  echo "A: build/meshes/ChineseDragon-10kv.off"
   echo "B: $walker"
 else
   echo "Generated stand-ins"

@@ -1,6 +1,6 @@
 // Reads triangle meshes from formats VTK 9.1 has no reader for (OFF, MD2), by way of Assimp.
-#ifndef PaperScenes_loaders_h
-#define PaperScenes_loaders_h
+#ifndef PaperMeshes_loaders_h
+#define PaperMeshes_loaders_h
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>

@@ -8,7 +8,7 @@
 
 #include <vtksys/SystemTools.hxx>
 
-#ifdef PAPERSCENES_WITH_ASSIMP
+#ifdef PAPERMESHES_WITH_ASSIMP
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -16,7 +16,7 @@
 
 namespace paper
 {
-#ifdef PAPERSCENES_WITH_ASSIMP
+#ifdef PAPERMESHES_WITH_ASSIMP
 namespace
 {
 void append(const aiMesh& mesh, vtkPoints* points, vtkCellArray* triangles)

@@ -1,7 +1,7 @@
 // The paper's two objects: A, a detailed rigid mesh, and B, a walking figure with one mesh per
 // pose.
-#ifndef PaperScenes_meshes_h
-#define PaperScenes_meshes_h
+#ifndef PaperMeshes_meshes_h
+#define PaperMeshes_meshes_h
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
