@@ -174,21 +174,23 @@ Mesh moved(vtkPolyData* mesh, Move&& move)
 }
 }
 
-bool readMeshes(
-  const std::string& fileOfA, const std::string& fileOfB, Meshes& meshes, std::string& error)
+Mesh readObjectA(const std::string& file, std::string& error)
 {
-  Mesh a = readTriangles(fileOfA, 0, error);
+  Mesh a = readTriangles(file, 0, error);
   if (!a)
   {
-    return false;
+    return nullptr;
   }
   a = decimated(a, trianglesOfA);
-  meshes.a = withNormals(transformed(a, standUpright(a, 0)));
-  meshes.sourceOfA = fileOfA;
+  return withNormals(transformed(a, standUpright(a, 0)));
+}
 
-  meshes.b.clear();
+bool readObjectB(
+  const std::string& file, unsigned int count, std::vector<Mesh>& poses, std::string& error)
+{
+  poses.clear();
   // The standing pose says where the ground is: a running figure leaves it.
-  const Mesh standing = readTriangles(fileOfB, standingKeyFrame, error);
+  const Mesh standing = readTriangles(file, standingKeyFrame, error);
   if (!standing)
   {
     return false;
@@ -196,18 +198,26 @@ bool readMeshes(
   const auto upright = standUpright(standing, 0);
   for (const KeyFrames& range : keyFramesOfB)
   {
-    for (unsigned int i = 0; i < range.count; ++i)
+    for (unsigned int i = 0; i < range.count && poses.size() < count; ++i)
     {
-      Mesh pose = readTriangles(fileOfB, range.first + i, error);
+      const Mesh pose = readTriangles(file, range.first + i, error);
       if (!pose)
       {
         return false;
       }
-      meshes.b.push_back(subdivided(withNormals(transformed(pose, upright))));
+      poses.push_back(subdivided(withNormals(transformed(pose, upright))));
     }
   }
-  meshes.sourceOfB = fileOfB;
   return true;
+}
+
+bool readMeshes(
+  const std::string& fileOfA, const std::string& fileOfB, Meshes& meshes, std::string& error)
+{
+  meshes.a = readObjectA(fileOfA, error);
+  meshes.sourceOfA = fileOfA;
+  meshes.sourceOfB = fileOfB;
+  return meshes.a && readObjectB(fileOfB, posesOfB, meshes.b, error);
 }
 
 Meshes standInMeshes()

@@ -28,11 +28,16 @@ struct Meshes
   std::string sourceOfB;
 };
 
-/**
- * Reads A from @a fileOfA, decimated to `trianglesOfA` where it has more, and B from 50 key frames
- * of
- * @a fileOfB, each subdivided once. False, and one sentence in @a error, if a file is unreadable.
- */
+/// Reads A, decimated to `trianglesOfA` where it has more. Null, and one sentence in @a error, if
+/// the file is unreadable.
+vtkSmartPointer<vtkPolyData> readObjectA(const std::string& file, std::string& error);
+
+/// Reads the first @a count poses of B, at most `posesOfB`, from key frames of a file, each
+/// subdivided once. False, and one sentence in @a error, if the file is unreadable.
+bool readObjectB(const std::string& file, unsigned int count,
+  std::vector<vtkSmartPointer<vtkPolyData>>& poses, std::string& error);
+
+/// Both, with all poses.
 bool readMeshes(
   const std::string& fileOfA, const std::string& fileOfB, Meshes& meshes, std::string& error);
 

@@ -1,7 +1,8 @@
 // How long building takes: each mesh at levels 8, 10 and 12, on one thread and on two. Every octree
 // that is timed is opened, compared between the executors, and probed at points of the mesh.
 //
-//   BenchmarkBuild [--levels 8,10,12] [--repeat n] [mesh.off ...]
+//   BenchmarkBuild [--levels 8,10,12] [--repeat n] [--a dragon.off] [--b sydney.md2] [mesh ...]
+#include "svoBenchmarkMesh.h"
 #include "svoBuild.h"
 #include "svoOctree.h"
 
@@ -13,7 +14,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <fstream>
 #include <random>
 #include <sstream>
 #include <string>
@@ -22,98 +22,7 @@
 
 namespace
 {
-struct Mesh
-{
-  std::string name;
-  std::vector<glm::dvec3> points;
-  std::vector<glm::uvec3> triangles;
-
-  svo::TriangleMesh view() const
-  {
-    return { points.data(), points.size(), triangles.data(), triangles.size() };
-  }
-};
-
-/// Polygons become fans. False if the file is no readable OFF mesh.
-bool readOFF(const char* path, Mesh& mesh)
-{
-  std::ifstream file(path);
-  std::stringstream text; // without comments
-  for (std::string line; std::getline(file, line);)
-  {
-    text << line.substr(0, line.find('#')) << '\n';
-  }
-  std::string magic;
-  std::size_t points = 0;
-  std::size_t faces = 0;
-  std::size_t edges = 0;
-  text >> magic >> points >> faces >> edges;
-  if (!text || magic != "OFF")
-  {
-    return false;
-  }
-  mesh.name = std::string(path).substr(std::string(path).find_last_of('/') + 1);
-  mesh.points.resize(points);
-  for (glm::dvec3& p : mesh.points)
-  {
-    text >> p.x >> p.y >> p.z;
-  }
-  std::string line;
-  std::getline(text, line);
-  for (std::size_t i = 0; i < faces && std::getline(text, line); ++i)
-  {
-    std::istringstream face(line);
-    unsigned count = 0;
-    unsigned first = 0;
-    unsigned previous = 0;
-    face >> count >> first >> previous;
-    for (unsigned k = 2, id = 0; k < count && face >> id; ++k, previous = id)
-    {
-      if (std::max({ first, previous, id }) >= points)
-      {
-        return false;
-      }
-      mesh.triangles.push_back({ first, previous, id });
-    }
-  }
-  return !mesh.triangles.empty();
-}
-
-Mesh bumpySphere(unsigned slices)
-{
-  Mesh mesh;
-  mesh.name = "bumpy sphere";
-  const double pi = std::acos(-1.0);
-  for (unsigned i = 0; i <= slices; ++i)
-  {
-    for (unsigned j = 0; j <= 2 * slices; ++j)
-    {
-      const double a = pi * i / slices;
-      const double b = pi * j / slices;
-      const double r = 1.0 + 0.1 * std::sin(9.0 * a) * std::cos(8.0 * b);
-      mesh.points.push_back(
-        r * glm::dvec3(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)));
-    }
-  }
-  const unsigned row = 2 * slices + 1;
-  for (unsigned i = 0; i < slices; ++i)
-  {
-    for (unsigned j = 0; j < 2 * slices; ++j)
-    {
-      const unsigned a = i * row + j;
-      mesh.triangles.push_back({ a, a + row, a + 1 });
-      mesh.triangles.push_back({ a + row, a + row + 1, a + 1 });
-    }
-  }
-  return mesh;
-}
-
-Mesh ground()
-{
-  return { "ground, 2 triangles",
-    { { 0.0, 0.0, 0.1 }, { 1.0, 0.0, 0.2 }, { 1.0, 1.0, 0.3 }, { 0.0, 1.0, 0.2 } },
-    { { 0, 1, 2 }, { 0, 2, 3 } } };
-}
+using svobench::Mesh;
 
 svo::ParallelFor executor(int threads)
 {
@@ -253,18 +162,17 @@ int main(int argc, char** argv)
     }
     else
     {
-      Mesh mesh;
-      if (!readOFF(argv[i], mesh))
+      std::string error;
+      if (!svobench::readArgument(argc, argv, i, meshes, error))
       {
-        std::fprintf(stderr, "%s is no OFF mesh\n", argv[i]);
+        std::fprintf(stderr, "BenchmarkBuild: %s\n", error.c_str());
         return 1;
       }
-      meshes.push_back(std::move(mesh));
     }
   }
   if (meshes.empty())
   {
-    meshes = { bumpySphere(24), bumpySphere(160), ground() };
+    meshes = { svobench::bumpySphere(24), svobench::bumpySphere(160), svobench::ground() };
   }
   std::printf("%-26s %9s %6s %9s %9s %11s %9s %9s %9s\n", "mesh", "triangles", "level", "ms, 1 thr",
     "ms, 2 thr", "voxels", "B/vox", "+ lists", "est. MiB");

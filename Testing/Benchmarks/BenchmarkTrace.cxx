@@ -4,7 +4,7 @@
 // leaves against Embree in robust mode. Times are the thread's own CPU time, medians.
 //
 //   BenchmarkTrace [--levels 8,10,12] [--size 640x360] [--repeat n] [--scalar] [--json file]
-//                  [mesh.off ...]
+//                  [--a dragon.off] [--b sydney.md2] [mesh ...]
 #include "svoBenchmarkMesh.h"
 #include "svoEmbreeScene.h"
 
@@ -38,7 +38,7 @@ struct Settings
   int repeat = 9;
   bool scalar = false;
   std::string json;
-  std::vector<std::string> meshes;
+  std::vector<svobench::Mesh> meshes;
 };
 
 double cpuSeconds()
@@ -316,9 +316,14 @@ bool parse(int argc, char** argv, Settings& settings)
       settings.scalar = true;
       continue;
     }
-    if (a.compare(0, 2, "--") != 0)
+    if (a == "--a" || a == "--b" || a.compare(0, 2, "--") != 0)
     {
-      settings.meshes.push_back(a);
+      std::string error;
+      if (!svobench::readArgument(argc, argv, i, settings.meshes, error))
+      {
+        std::fprintf(stderr, "BenchmarkTrace: %s\n", error.c_str());
+        return false;
+      }
       continue;
     }
     ++i;
@@ -368,28 +373,17 @@ int main(int argc, char** argv)
   {
     std::fprintf(stderr,
       "usage: BenchmarkTrace [--levels 8,10,12] [--size 640x360] [--repeat n] "
-      "[--scalar] [--json file] [mesh.off ...]\n");
+      "[--scalar] [--json file] [--a file] [--b file] [mesh ...]\n");
     return 2;
   }
-  std::vector<svobench::Mesh> meshes;
-  for (const std::string& path : settings.meshes)
+  if (settings.meshes.empty())
   {
-    svobench::Mesh mesh;
-    if (!svobench::readOFF(path, mesh))
-    {
-      std::fprintf(stderr, "%s is no readable OFF mesh\n", path.c_str());
-      return 2;
-    }
-    meshes.push_back(std::move(mesh));
-  }
-  if (meshes.empty())
-  {
-    meshes.push_back(svobench::torus(200, 120));
+    settings.meshes.push_back(svobench::torus(200, 120));
   }
   Report report(settings.json);
   std::printf("%s, %d lanes, %dx%d rays, one thread\n", instructionSet(), vectorLanes(),
     settings.width, settings.height);
-  for (const svobench::Mesh& mesh : meshes)
+  for (const svobench::Mesh& mesh : settings.meshes)
   {
     std::printf("%s, %zu triangles\n", mesh.name.c_str(), mesh.triangles.size());
     for (const int level : settings.levels)
