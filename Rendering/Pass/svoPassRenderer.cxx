@@ -2,6 +2,7 @@
 
 #include "svoCameraView.h"
 #include "svoMeshOctree.h"
+#include "svoSilhouettes.h"
 
 #include "vtkOpenGLRenderPass.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -53,7 +54,9 @@ void PassRenderer::trace(const vtkRenderState* state, OctreeStore& store,
 
   int width, height;
   sizeOf(state, width, height);
-  View view;
+  View& view = this->Eye;
+  view = View();
+  this->PixelError = settings.pixelError;
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow());
   if (scene.instances.empty() || !viewOfCamera(this->Renderer, width, height, view))
   {
@@ -73,7 +76,14 @@ void PassRenderer::trace(const vtkRenderState* state, OctreeStore& store,
 void PassRenderer::exchange(
   ExchangedProps& props, const vtkRenderState* state, vtkOpenGLRenderPass* pass)
 {
-  this->Presenter->SetFrame(&this->Picture, pass);
+  this->Presenter->SetFrame(
+    &this->Picture,
+    [this](const std::vector<glm::vec2>& positions, Silhouettes& silhouettes)
+    {
+      findSilhouettes(this->Collected.scene, this->Eye, this->PixelError, this->Picture, positions,
+        smpParallelFor(), silhouettes);
+    },
+    pass);
   std::size_t used = 0;
   for (int i = 0; i < state->GetPropArrayCount(); ++i)
   {

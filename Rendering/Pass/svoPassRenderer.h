@@ -80,6 +80,8 @@ private:
   SceneCollector Collector;
   CollectedScene Collected;
   Tracer Trace;
+  View Eye; // of the frame
+  double PixelError = 1.0;
   struct Frame Picture;
   ShadowReceivers Receivers;
   PassStatistics Statistics;

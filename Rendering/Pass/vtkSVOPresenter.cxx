@@ -21,15 +21,20 @@
 #include "vtkTextureObject.h"
 #include "vtkTimerLog.h"
 
+#include <utility>
+
 vtkStandardNewMacro(vtkSVOPresenter);
 vtkStandardNewMacro(vtkSVONothing);
 
 vtkSVOPresenter::vtkSVOPresenter() = default;
 vtkSVOPresenter::~vtkSVOPresenter() = default;
 
-void vtkSVOPresenter::SetFrame(const svo::Frame* frame, vtkOpenGLRenderPass* pass)
+void vtkSVOPresenter::SetFrame(
+  svo::Frame* frame, const SilhouetteFinder& silhouettes, vtkOpenGLRenderPass* pass)
 {
   this->Frame = frame;
+  this->FindSilhouettes = silhouettes;
+  this->Silhouettes.clear();
   this->Pass = pass;
   this->Uploaded = false;
   this->PresentTime = 0.0;
@@ -41,6 +46,7 @@ void vtkSVOPresenter::ReleaseGraphicsResources(vtkWindow* window)
   this->Colors = nullptr;
   this->Depths = nullptr;
   this->Normals = nullptr;
+  this->Parts.release();
   this->Uploaded = false;
   if (window)
   {
@@ -87,6 +93,25 @@ void send(vtkTextureObject* texture, const svo::Frame& frame, GLenum format, GLe
   glPixelStorei(GL_UNPACK_SKIP_ROWS, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
+}
+
+void vtkSVOPresenter::DivideSilhouettes()
+{
+  const auto setAlpha = [this](std::uint8_t alpha)
+  {
+    for (const std::size_t pixel : this->Silhouettes.pixels)
+    {
+      this->Frame->color[4 * pixel + 3] = alpha;
+    }
+  };
+  setAlpha(255); // those of another framebuffer
+  this->Silhouettes.clear();
+  if (!this->SamplePositions.empty() && this->FindSilhouettes)
+  {
+    this->FindSilhouettes(this->SamplePositions, this->Silhouettes);
+  }
+  setAlpha(0);
+  this->Parts.upload(this->Silhouettes.parts);
 }
 
 void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window)
@@ -162,6 +187,7 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
   program->SetUniformi("normals", normals->GetTextureUnit());
   this->SelectDrawBuffers();
 
+  bool drawn = false;
   vtkOpenGLState* state = window->GetState();
   {
     vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
@@ -175,11 +201,12 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
     state->vtkglDisable(GL_BLEND);
     state->vtkglDisable(GL_CULL_FACE);
     this->Quad->Render();
+    drawn = this->Parts.draw(window, size);
   }
   this->Colors->Deactivate();
   this->Depths->Deactivate();
   normals->Deactivate();
-  return true;
+  return drawn;
 }
 
 int vtkSVOPresenter::RenderOpaqueGeometry(vtkViewport* viewport)
@@ -193,8 +220,11 @@ int vtkSVOPresenter::RenderOpaqueGeometry(vtkViewport* viewport)
   }
   const double start = vtkTimerLog::GetUniversalTime();
   vtkOpenGLClearErrorMacro();
-  if (!this->Uploaded)
+  std::vector<glm::vec2> positions = svo::samplePositions();
+  if (!this->Uploaded || positions != this->SamplePositions)
   {
+    this->SamplePositions = std::move(positions);
+    this->DivideSilhouettes();
     this->Upload(window);
     this->Uploaded = true;
   }

@@ -9,6 +9,8 @@
 #ifndef vtkSVOPresenter_h
 #define vtkSVOPresenter_h
 
+#include "svoPixelParts.h"
+#include "svoSilhouettes.h"
 #include "svoTracer.h"
 
 #include "vtkNew.h"
@@ -16,7 +18,9 @@
 #include "vtkProp3D.h"
 #include "vtkSmartPointer.h"
 
+#include <functional>
 #include <memory>
+#include <vector>
 
 class vtkOpenGLQuadHelper;
 class vtkOpenGLRenderPass;
@@ -30,8 +34,13 @@ public:
   static vtkSVOPresenter* New();
   vtkTypeMacro(vtkSVOPresenter, vtkProp3D);
 
-  /// What to show; it must live until the next call. `pass` is not asked for draw buffers.
-  void SetFrame(const svo::Frame* frame, vtkOpenGLRenderPass* pass);
+  /// Finds what surfaces cover of pixels with samples at these positions.
+  using SilhouetteFinder = std::function<void(const std::vector<glm::vec2>&, svo::Silhouettes&)>;
+
+  /// What to show; it must live until the next call. `pass` is not asked for draw buffers. Where
+  /// the framebuffer has several samples a pixel, silhouettes are asked for and alpha is taken away
+  /// from the frame's pixels that they replace.
+  void SetFrame(svo::Frame* frame, const SilhouetteFinder& silhouettes, vtkOpenGLRenderPass* pass);
 
   /// Seconds that the last frame's upload and drawing took.
   double GetPresentTime() const { return this->PresentTime; }
@@ -48,14 +57,19 @@ private:
   vtkSVOPresenter(const vtkSVOPresenter&) = delete;
   void operator=(const vtkSVOPresenter&) = delete;
 
+  void DivideSilhouettes();
   void Upload(vtkOpenGLRenderWindow* window);
   bool Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void SelectDrawBuffers();
 
-  const svo::Frame* Frame = nullptr;
+  svo::Frame* Frame = nullptr;
+  SilhouetteFinder FindSilhouettes;
   vtkOpenGLRenderPass* Pass = nullptr;
   bool Uploaded = false;
   double PresentTime = 0.0;
+  std::vector<glm::vec2> SamplePositions; // that the upload was made for
+  svo::Silhouettes Silhouettes;
+  svo::PixelParts Parts;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
   vtkSmartPointer<vtkTextureObject> Colors;
   vtkSmartPointer<vtkTextureObject> Depths;

@@ -223,7 +223,9 @@ public:
 
   //@{
   /**
-   * Smooth the edges of traced surfaces; default off.
+   * Smooth edges inside and between traced surfaces, and those of shadows, with four rays in each of
+   * their pixels; default off. Silhouettes follow the render window's SetMultiSamples instead, as
+   * those of everything that VTK draws.
    */
   vtkSetMacro(AntiAliasing, bool);
   vtkGetMacro(AntiAliasing, bool);
