@@ -1,25 +1,29 @@
 //VTK::System::Dec
 //VTK::Output::Dec
-// Pixels that were traced elsewhere: colour and window depth, and what VTK's ambient occlusion
-// reads, the position and the normal in view coordinates.
+// Pixels that were traced elsewhere: colour and window depth. With SVO_WRITE_NORMALS also what
+// VTK's ambient occlusion reads, the position and the normal in view coordinates. Textures are as
+// large as the viewport, so that each fragment lies on the centre of its texel; filtered look-ups
+// cost software OpenGL less than texelFetch.
 in vec2 texCoord;
 uniform sampler2D colors;
 uniform sampler2D depths;
+#ifdef SVO_WRITE_NORMALS
 uniform sampler2D normals;
-uniform vec2 frameSize; // pixels
 uniform mat4 clipToView;
+#endif
 void main()
 {
-  ivec2 pixel = ivec2(texCoord * frameSize);
-  vec4 color = texelFetch(colors, pixel, 0);
+  vec4 color = texture(colors, texCoord);
   if (color.a == 0.0)
   {
     discard;
   }
-  float depth = texelFetch(depths, pixel, 0).r;
+  float depth = texture(depths, texCoord).r;
   gl_FragDepth = depth;
   gl_FragData[0] = color;
+#ifdef SVO_WRITE_NORMALS
   vec4 position = clipToView * vec4(texCoord * 2.0 - 1.0, depth * 2.0 - 1.0, 1.0);
   gl_FragData[1] = vec4(position.xyz / position.w, 1.0);
-  gl_FragData[2] = vec4(texelFetch(normals, pixel, 0).xyz, 1.0);
+  gl_FragData[2] = vec4(texture(normals, texCoord).xyz, 1.0);
+#endif
 }

@@ -6,9 +6,8 @@
 #include "svoSelect.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
+#include <limits>
 
 namespace svo
 {
@@ -21,6 +20,7 @@ struct SeenInstance
 {
   LocalView local;
   TraceOptions options;
+  double voxel = 0.0; // edge of a cell where rays stop, world
 };
 
 /// The inverse of View::windowDepth.
@@ -31,11 +31,39 @@ double linearDepth(const View& view, double window)
   return (p[3][2] - ndc * p[3][3]) / (p[2][2] - ndc * p[2][3]);
 }
 
-/// The nearest hits of 64 points of the image.
+/// What a pixel's width is in window depth. With z = a + b / t and a pixel's width proportional to
+/// t it is affine in z, in a parallel view constant.
+struct PixelDepth
+{
+  explicit PixelDepth(const View& view)
+  {
+    const double first = view.parallel ? 1.0 : view.tNear;
+    const double t[2] = { first, 2.0 * first };
+    double z[2], width[2];
+    for (int i = 0; i < 2; ++i)
+    {
+      z[i] = view.windowDepth(t[i]);
+      // The derivative of the window depth, from a difference that is exact for 1 / t.
+      const double step = view.windowDepth(2.0 * t[i]) - z[i];
+      width[i] = worldPixel(view, t[i]) * std::abs(step) * (view.parallel ? 1.0 : 2.0) / t[i];
+    }
+    this->slope = z[1] != z[0] ? static_cast<float>((width[1] - width[0]) / (z[1] - z[0])) : 0.0f;
+    this->constant = static_cast<float>(width[0] - this->slope * z[0]);
+  }
+  float operator()(float window) const { return this->constant + this->slope * window; }
+
+  float constant = 0.0f;
+  float slope = 0.0f;
+};
+
+/// Rays through points of the image that are near each other, and what they hit.
 struct Samples
 {
+  int count = 0;
   double x[64];
   double y[64];
+  int pixelX[64]; // that the point lies in
+  int pixelY[64];
   double t[64]; // linear depth
   std::uint32_t instance[64];
 };
@@ -50,6 +78,7 @@ public:
     , Picture(frame)
     , Positions(positions)
     , SampleCount(std::min(static_cast<int>(positions.size()), MostSamples))
+    , Width(view)
   {
     for (const Instance& instance : scene.instances)
     {
@@ -59,218 +88,254 @@ public:
         seen.local = makeLocalView(instance.octree, instance.localToWorld, view);
         seen.options = { instance.leafGeometry,
           selectLevel(instance, seen.local, view, pixelError) };
+        seen.voxel = worldVoxel(instance, seen.options.level);
       }
       this->Seen.push_back(seen);
     }
   }
 
-  /// The tile's pixels that are shared.
-  void find(int tileX, int tileY, Silhouettes& result) const
+  /// The pixels of an 8x8 tile that are shared.
+  void find(int x0, int y0, Silhouettes& result) const
   {
-    Tile tile(*this, 8 * tileX, 8 * tileY);
-    if (tile.present.empty())
+    Samples samples;
+    const int x1 = std::min(x0 + 8, this->Of.width);
+    const int y1 = std::min(y0 + 8, this->Of.height);
+    for (int y = y0; y < y1; ++y)
     {
-      return;
-    }
-    const int atOnce = 64 / this->SampleCount;
-    std::array<int, 64> edges;
-    int count = 0;
-    for (int k = 0; k < 64; ++k)
-    {
-      if (tile.x0 + (k & 7) < this->Of.width && tile.y0 + (k >> 3) < this->Of.height &&
-        (this->edge(tile, k, 1, 0) || this->edge(tile, k, 0, 1)))
+      for (int x = x0; x < x1; ++x)
       {
-        edges[count++] = k;
+        if (!this->edge(x, y))
+        {
+          continue;
+        }
+        for (int s = 0; s < this->SampleCount; ++s)
+        {
+          const int i = samples.count++;
+          samples.x[i] = x + static_cast<double>(this->Positions[s].x);
+          samples.y[i] = y + static_cast<double>(this->Positions[s].y);
+          samples.pixelX[i] = x;
+          samples.pixelY[i] = y;
+        }
+        if (samples.count + this->SampleCount > 64)
+        {
+          this->divide(samples, result);
+          samples.count = 0;
+        }
       }
     }
-    for (int first = 0; first < count; first += atOnce)
+    if (samples.count > 0)
     {
-      Samples samples;
-      for (int s = 0; s < 64; ++s)
-      {
-        const int k = edges[std::min(first + s / this->SampleCount, count - 1)];
-        const glm::vec2 position = this->Positions[s % this->SampleCount];
-        samples.x[s] = tile.x0 + (k & 7) + static_cast<double>(position.x);
-        samples.y[s] = tile.y0 + (k >> 3) + static_cast<double>(position.y);
-      }
-      this->trace(tile, samples);
-      for (int e = first; e < std::min(first + atOnce, count); ++e)
-      {
-        this->divide(tile, edges[e], samples, (e - first) * this->SampleCount, result);
-      }
+      this->divide(samples, result);
     }
   }
 
 private:
-  /// A tile with a border of one pixel.
-  struct Tile
+  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * this->Of.width + x; }
+  bool inside(int x, int y) const
   {
-    static constexpr int Width = 10;
-
-    Tile(const Finder& finder, int left, int bottom)
-      : x0(left)
-      , y0(bottom)
-    {
-      for (int j = 0; j < Width; ++j)
-      {
-        for (int i = 0; i < Width; ++i)
-        {
-          const int x = this->x0 + i - 1;
-          const int y = this->y0 + j - 1;
-          const bool inside = x >= 0 && y >= 0 && x < finder.Of.width && y < finder.Of.height;
-          const std::size_t pixel = static_cast<std::size_t>(y) * finder.Of.width + x;
-          const std::uint32_t found = inside ? finder.Picture.instance[pixel] : NoInstance;
-          this->instance[Width * j + i] = found;
-          if (found != NoInstance)
-          {
-            this->depth[Width * j + i] = linearDepth(finder.Of,
-              finder.Picture.depth[pixel] - double(finder.Instances[found].depthOffsetUnits));
-            if (this->present.empty() || this->present.back() != found)
-            {
-              this->present.push_back(found);
-            }
-          }
-        }
-      }
-      std::sort(this->present.begin(), this->present.end());
-      this->present.erase(
-        std::unique(this->present.begin(), this->present.end()), this->present.end());
-    }
-
-    /// Index of pixel k (8 * row + column) of the tile proper.
-    static int at(int k) { return Width * ((k >> 3) + 1) + (k & 7) + 1; }
-
-    int x0, y0;
-    std::uint32_t instance[Width * Width];
-    double depth[Width * Width];        // linear, where there is an instance
-    std::vector<std::uint32_t> present; // instances, ascending
-  };
-
-  /// Compares a pixel with its two neighbours in one direction.
-  bool edge(const Tile& tile, int k, int dx, int dy) const
+    return x >= 0 && y >= 0 && x < this->Of.width && y < this->Of.height;
+  }
+  std::uint32_t instance(int x, int y) const
   {
-    const int at = Tile::at(k);
-    const int step = dx + Tile::Width * dy;
-    const std::uint32_t i = tile.instance[at];
-    if (tile.instance[at - step] != i || tile.instance[at + step] != i)
+    return this->inside(x, y) ? this->Picture.instance[this->at(x, y)] : NoInstance;
+  }
+
+  bool edge(int x, int y) const
+  {
+    const std::uint32_t i = this->Picture.instance[this->at(x, y)];
+    if (this->instance(x - 1, y) != i || this->instance(x + 1, y) != i ||
+      this->instance(x, y - 1) != i || this->instance(x, y + 1) != i)
     {
       return true;
     }
-    // One surface bends little between pixels; a step is of more than a few pixels' size.
-    return i != NoInstance &&
-      std::abs(tile.depth[at - step] - 2.0 * tile.depth[at] + tile.depth[at + step]) >
-      3.0 * worldPixel(this->Of, tile.depth[at]);
+    if (i == NoInstance)
+    {
+      return false;
+    }
+    // Window depth is linear on planes. One surface bends little between pixels; a step is of more
+    // than a few pixels' size.
+    const float* depth = this->Picture.depth.data() + this->at(x, y);
+    const int up = this->Of.width;
+    const float limit = 3.0f * this->Width(*depth);
+    return std::abs(depth[-1] - 2.0f * depth[0] + depth[1]) > limit ||
+      std::abs(depth[-up] - 2.0f * depth[0] + depth[up]) > limit;
   }
 
-  void trace(const Tile& tile, Samples& samples) const
+  /// Calls body(index into the frame) for the pixels in and around one that show an instance.
+  template <class Body>
+  void around(int x, int y, Body&& body) const
+  {
+    for (int j = std::max(y - 1, 0); j <= std::min(y + 1, this->Of.height - 1); ++j)
+    {
+      for (int i = std::max(x - 1, 0); i <= std::min(x + 1, this->Of.width - 1); ++i)
+      {
+        if (this->Picture.instance[this->at(i, j)] != NoInstance)
+        {
+          body(this->at(i, j));
+        }
+      }
+    }
+  }
+
+  /// Every ray through the instances that are seen in and around its pixel.
+  void trace(Samples& samples) const
   {
     std::fill(samples.instance, samples.instance + 64, NoInstance);
-    RayBlock rays;
-    HitBlock hits;
-    for (const std::uint32_t i : tile.present)
+    std::vector<std::uint32_t> present;
+    for (int s = 0; s < samples.count; s += this->SampleCount)
     {
-      const SeenInstance& seen = this->Seen[i];
-      for (int s = 0; s < 64; ++s)
-      {
-        seen.local.fill(samples.x[s], samples.y[s], s, rays);
-      }
-      std::fill(rays.tMin, rays.tMin + 64, 0.0f);
-      std::fill(rays.tMax, rays.tMax + 64, seen.local.tMax);
-      intersect(this->Instances[i].octree, rays, seen.options, hits);
-      for (int s = 0; s < 64; ++s)
-      {
-        const double t = seen.local.base + hits.t[s];
-        if (hits.primitive[s] != NoPrimitive &&
-          (samples.instance[s] == NoInstance || t < samples.t[s]))
+      this->around(samples.pixelX[s], samples.pixelY[s],
+        [&](std::size_t pixel)
         {
-          samples.instance[s] = i;
-          samples.t[s] = t;
-        }
+          const std::uint32_t i = this->Picture.instance[pixel];
+          if (std::find(present.begin(), present.end(), i) == present.end())
+          {
+            present.push_back(i);
+          }
+        });
+    }
+    std::sort(present.begin(), present.end());
+    for (const std::uint32_t i : present)
+    {
+      this->trace(i, samples);
+    }
+  }
+
+  void trace(std::uint32_t i, Samples& samples) const
+  {
+    const SeenInstance& seen = this->Seen[i];
+    RayBlock rays;
+    std::fill(rays.tMin, rays.tMin + 64, 1.0f); // never a hit
+    std::fill(rays.tMax, rays.tMax + 64, 0.0f);
+    for (int first = 0; first < samples.count; first += this->SampleCount)
+    {
+      // Not far in front of what the centres of the pixels around show there is nothing.
+      float nearest = 2.0f;
+      this->around(samples.pixelX[first], samples.pixelY[first],
+        [&](std::size_t pixel)
+        {
+          if (this->Picture.instance[pixel] == i)
+          {
+            nearest = std::min(nearest, this->Picture.depth[pixel]);
+          }
+        });
+      if (nearest > 1.0f)
+      {
+        continue;
+      }
+      const double t = linearDepth(this->Of, double(nearest) - this->Instances[i].depthOffsetUnits);
+      const double start = t - 16.0 * worldPixel(this->Of, t) - 4.0 * seen.voxel - seen.local.base;
+      for (int s = first; s < first + this->SampleCount; ++s)
+      {
+        rays.tMin[s] = std::max(static_cast<float>(start), 0.0f);
+        rays.tMax[s] = seen.local.tMax;
+      }
+    }
+    for (int s = 0; s < 64; ++s)
+    {
+      const int k = std::min(s, samples.count - 1);
+      seen.local.fill(samples.x[k], samples.y[k], s, rays);
+    }
+    HitBlock hits;
+    intersect(this->Instances[i].octree, rays, seen.options, hits);
+    for (int s = 0; s < samples.count; ++s)
+    {
+      const double t = seen.local.base + hits.t[s];
+      if (hits.primitive[s] != NoPrimitive &&
+        (samples.instance[s] == NoInstance || t < samples.t[s]))
+      {
+        samples.instance[s] = i;
+        samples.t[s] = t;
       }
     }
   }
 
-  /// The pixel around k that shows what the sample hit: of its instance and nearest to its depth,
-  /// k itself where the difference is small. -1 if there is none.
-  int shownBy(const Tile& tile, int k, std::uint32_t instance, double t) const
+  /// The window depth of what a sample hit.
+  float depthOf(const Samples& samples, int s) const
   {
-    const int at = Tile::at(k);
-    int best = -1;
-    double least = 0.0;
-    for (int j = -1; j <= 1; ++j)
-    {
-      for (int i = -1; i <= 1; ++i)
+    const Instance& hit = this->Instances[samples.instance[s]];
+    const double window = this->Of.windowDepth(samples.t[s]) + hit.depthOffsetUnits;
+    return static_cast<float>(std::clamp(window, 0.0, 1.0));
+  }
+
+  /// The pixel in or around the sample's that shows what the sample hit: of its instance and
+  /// nearest to its depth, the sample's own where the difference is small.
+  std::size_t shownBy(const Samples& samples, int s) const
+  {
+    const float depth = this->depthOf(samples, s);
+    std::size_t best = this->at(samples.pixelX[s], samples.pixelY[s]);
+    float least = std::numeric_limits<float>::infinity();
+    this->around(samples.pixelX[s], samples.pixelY[s],
+      [&](std::size_t pixel)
       {
-        const int other = at + i + Tile::Width * j;
-        if (tile.instance[other] != instance)
+        const float distance = std::abs(this->Picture.depth[pixel] - depth);
+        if (this->Picture.instance[pixel] == samples.instance[s] && distance < least)
         {
-          continue;
-        }
-        const double distance = std::abs(tile.depth[other] - t);
-        if (best < 0 || distance < least)
-        {
-          best = other;
+          best = pixel;
           least = distance;
         }
-      }
+      });
+    const std::size_t own = this->at(samples.pixelX[s], samples.pixelY[s]);
+    const bool near = this->Picture.instance[own] == samples.instance[s] &&
+      std::abs(this->Picture.depth[own] - depth) <= least + 3.0f * this->Width(depth);
+    return near ? own : best;
+  }
+
+  void divide(Samples& samples, Silhouettes& result) const
+  {
+    this->trace(samples);
+    for (int first = 0; first < samples.count; first += this->SampleCount)
+    {
+      this->dividePixel(samples, first, result);
     }
-    const bool near = tile.instance[at] == instance &&
-      std::abs(tile.depth[at] - t) <= least + 3.0 * worldPixel(this->Of, t);
-    return near ? at : best;
   }
 
   /// Adds the parts of an edge pixel, unless all of it is one surface's.
-  void divide(const Tile& tile, int k, const Samples& samples, int first, Silhouettes& result) const
+  void dividePixel(const Samples& samples, int first, Silhouettes& result) const
   {
-    const int at = Tile::at(k);
-    int shown[MostSamples];
+    constexpr std::size_t Nothing = ~std::size_t(0);
+    const std::size_t own = this->at(samples.pixelX[first], samples.pixelY[first]);
+    const bool hit = this->Picture.instance[own] != NoInstance;
+    std::size_t shown[MostSamples];
     bool whole = true;
     for (int s = 0; s < this->SampleCount; ++s)
     {
-      const std::uint32_t instance = samples.instance[first + s];
       shown[s] =
-        instance == NoInstance ? -1 : this->shownBy(tile, k, instance, samples.t[first + s]);
-      whole = whole && shown[s] == (tile.instance[at] == NoInstance ? -1 : at);
+        samples.instance[first + s] == NoInstance ? Nothing : this->shownBy(samples, first + s);
+      whole = whole && shown[s] == (hit ? own : Nothing);
     }
     if (whole)
     {
       return;
     }
-    const int x = tile.x0 + (k & 7);
-    const int y = tile.y0 + (k >> 3);
-    if (tile.instance[at] != NoInstance)
+    if (hit)
     {
-      result.pixels.push_back(static_cast<std::size_t>(y) * this->Of.width + x);
+      result.pixels.push_back(own);
     }
     for (int s = 0; s < this->SampleCount; ++s)
     {
-      const int source = shown[s];
-      if (source < 0)
+      const std::size_t source = shown[s];
+      if (source == Nothing)
       {
         continue;
       }
       PixelPart part;
-      double sum = 0.0;
+      part.x = static_cast<std::uint16_t>(samples.pixelX[first]);
+      part.y = static_cast<std::uint16_t>(samples.pixelY[first]);
+      float sum = 0.0f;
       int count = 0;
       for (int other = s; other < this->SampleCount; ++other)
       {
         if (shown[other] == source)
         {
           part.samples |= 1u << other;
-          sum += this->Of.windowDepth(samples.t[first + other]);
+          sum += this->depthOf(samples, first + other);
           ++count;
-          shown[other] = -1;
+          shown[other] = Nothing;
         }
       }
-      const Instance& instance = this->Instances[tile.instance[source]];
-      part.x = static_cast<std::uint16_t>(x);
-      part.y = static_cast<std::uint16_t>(y);
-      part.depth =
-        static_cast<float>(std::clamp(sum / count + instance.depthOffsetUnits, 0.0, 1.0));
-      const int sourceX = tile.x0 + source % Tile::Width - 1;
-      const int sourceY = tile.y0 + source / Tile::Width - 1;
-      const std::size_t pixel = static_cast<std::size_t>(sourceY) * this->Of.width + sourceX;
-      std::copy_n(this->Picture.color.data() + 4 * pixel, 4, part.color);
+      part.depth = sum / static_cast<float>(count);
+      std::copy_n(this->Picture.color.data() + 4 * source, 4, part.color);
       result.parts.push_back(part);
     }
   }
@@ -280,6 +345,7 @@ private:
   const Frame& Picture;
   const std::vector<glm::vec2>& Positions;
   int SampleCount;
+  PixelDepth Width;
   std::vector<SeenInstance> Seen; // by index into Scene::instances
 };
 }
@@ -306,7 +372,7 @@ void findSilhouettes(const Scene& scene, const View& view, double pixelError, co
       {
         for (int column = left; column < right; ++column)
         {
-          finder.find(column, bottom + static_cast<int>(row), rows[row]);
+          finder.find(8 * column, 8 * (bottom + static_cast<int>(row)), rows[row]);
         }
       }
     });

@@ -21,6 +21,7 @@
 #include "vtkTextureObject.h"
 #include "vtkTimerLog.h"
 
+#include <string>
 #include <utility>
 
 vtkStandardNewMacro(vtkSVOPresenter);
@@ -150,9 +151,18 @@ void vtkSVOPresenter::SelectDrawBuffers()
 bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   const svo::Frame& frame = *this->Frame;
-  if (!this->Quad)
+  const bool writeNormals = !frame.normals.empty();
+  if (!this->Quad || this->QuadWritesNormals != writeNormals)
   {
-    this->Quad = std::make_unique<vtkOpenGLQuadHelper>(window, svoPresentVS, svoPresentFS, nullptr);
+    const std::string mark = "//VTK::System::Dec\n";
+    std::string shader = svoPresentFS;
+    if (writeNormals)
+    {
+      shader.replace(shader.find(mark), mark.size(), mark + "#define SVO_WRITE_NORMALS\n");
+    }
+    this->Quad =
+      std::make_unique<vtkOpenGLQuadHelper>(window, svoPresentVS, shader.c_str(), nullptr);
+    this->QuadWritesNormals = writeNormals;
   }
   else
   {
@@ -164,27 +174,27 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
     return false;
   }
 
-  vtkMatrix4x4 *worldToView, *viewToClip, *worldToClip;
-  vtkMatrix3x3* normalMatrix;
-  vtkOpenGLCamera::SafeDownCast(renderer->GetActiveCamera())
-    ->GetKeyMatrices(renderer, worldToView, normalMatrix, viewToClip, worldToClip);
-  vtkNew<vtkMatrix4x4> clipToView; // transposed, as the key matrices are
-  vtkMatrix4x4::Invert(viewToClip, clipToView);
-
   const float size[2] = { static_cast<float>(frame.width), static_cast<float>(frame.height) };
   const svo::PixelRect& rect = frame.covered;
   const float rectangle[4] = { rect.x0 / size[0], rect.y0 / size[1], rect.x1 / size[0],
     rect.y1 / size[1] };
-  program->SetUniformMatrix("clipToView", clipToView);
-  program->SetUniform2f("frameSize", size);
   program->SetUniform4f("rectangle", rectangle);
   this->Colors->Activate();
   this->Depths->Activate();
   program->SetUniformi("colors", this->Colors->GetTextureUnit());
   program->SetUniformi("depths", this->Depths->GetTextureUnit());
-  vtkTextureObject* normals = this->Normals ? this->Normals : this->Depths;
-  normals->Activate();
-  program->SetUniformi("normals", normals->GetTextureUnit());
+  if (writeNormals)
+  {
+    vtkMatrix4x4 *worldToView, *viewToClip, *worldToClip;
+    vtkMatrix3x3* normalMatrix;
+    vtkOpenGLCamera::SafeDownCast(renderer->GetActiveCamera())
+      ->GetKeyMatrices(renderer, worldToView, normalMatrix, viewToClip, worldToClip);
+    vtkNew<vtkMatrix4x4> clipToView; // transposed, as the key matrices are
+    vtkMatrix4x4::Invert(viewToClip, clipToView);
+    program->SetUniformMatrix("clipToView", clipToView);
+    this->Normals->Activate();
+    program->SetUniformi("normals", this->Normals->GetTextureUnit());
+  }
   this->SelectDrawBuffers();
 
   bool drawn = false;
@@ -205,7 +215,10 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
   }
   this->Colors->Deactivate();
   this->Depths->Deactivate();
-  normals->Deactivate();
+  if (writeNormals)
+  {
+    this->Normals->Deactivate();
+  }
   return drawn;
 }
 

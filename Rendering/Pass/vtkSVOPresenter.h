@@ -71,6 +71,7 @@ private:
   svo::Silhouettes Silhouettes;
   svo::PixelParts Parts;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
+  bool QuadWritesNormals = false;
   vtkSmartPointer<vtkTextureObject> Colors;
   vtkSmartPointer<vtkTextureObject> Depths;
   vtkSmartPointer<vtkTextureObject> Normals;
