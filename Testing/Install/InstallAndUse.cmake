@@ -1,7 +1,7 @@
-# Installs the build into an empty prefix, moves the prefix, builds and runs Project/ against it and
-# imports the Python package from it. Called by ctest with -D definitions; see CMakeLists.txt.
+# Installs the build into an empty prefix, moves the prefix, builds and runs Project/ and the example
+# ShadowedSphere against it and imports the Python package from it. Called by ctest with -D definitions; see CMakeLists.txt.
 set(prefix "${WORK_DIR}/prefix")
-file(REMOVE_RECURSE "${WORK_DIR}/staged" "${prefix}" "${WORK_DIR}/project")
+file(REMOVE_RECURSE "${WORK_DIR}/staged" "${prefix}" "${WORK_DIR}/project" "${WORK_DIR}/example")
 
 function (run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result)
@@ -15,16 +15,23 @@ endfunction ()
 run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --config "${CONFIG}" --prefix "${WORK_DIR}/staged")
 file(RENAME "${WORK_DIR}/staged" "${prefix}")
 
-run("${CMAKE_COMMAND}" -S "${PROJECT_DIR}" -B "${WORK_DIR}/project" -G "${GENERATOR}"
-  "-DCMAKE_PREFIX_PATH=${prefix}"
-  "-DVTK_DIR=${VTK_DIR}"
-  "-DEXPECTED_VERSION=${VERSION}"
-  "-DCMAKE_BUILD_TYPE=${CONFIG}"
-  "-DCMAKE_C_COMPILER=${C_COMPILER}"
-  "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"
-  "-DCMAKE_CXX_COMPILER_LAUNCHER=$ENV{CMAKE_CXX_COMPILER_LAUNCHER}")
-run("${CMAKE_COMMAND}" --build "${WORK_DIR}/project" --config "${CONFIG}")
+function (build source binary)
+  run("${CMAKE_COMMAND}" -S "${source}" -B "${binary}" -G "${GENERATOR}"
+    "-DCMAKE_PREFIX_PATH=${prefix}"
+    "-DVTK_DIR=${VTK_DIR}"
+    "-DCMAKE_BUILD_TYPE=${CONFIG}"
+    "-DCMAKE_C_COMPILER=${C_COMPILER}"
+    "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"
+    "-DCMAKE_CXX_COMPILER_LAUNCHER=$ENV{CMAKE_CXX_COMPILER_LAUNCHER}"
+    ${ARGN})
+  run("${CMAKE_COMMAND}" --build "${binary}" --config "${CONFIG}")
+endfunction ()
+
+build("${PROJECT_DIR}" "${WORK_DIR}/project" "-DEXPECTED_VERSION=${VERSION}")
 run("${WORK_DIR}/project/shadow")
+
+build("${EXAMPLE_DIR}" "${WORK_DIR}/example")
+run("${WORK_DIR}/example/ShadowedSphere" "${WORK_DIR}/example/sphere.png")
 
 if (PYTHON_DIR)
   run("${CMAKE_COMMAND}" -E env --unset=LD_LIBRARY_PATH "PYTHONPATH=${prefix}/${PYTHON_DIR}"
@@ -34,4 +41,7 @@ assert vtksvo.__version__ == '${VERSION}', vtksvo.__version__
 assert vtksvo.__file__.startswith('${prefix}/'), vtksvo.__file__
 print(vtksvo.vtkSVORenderPass(), vtksvo.vtkPolyDataToSVO())
 ")
+  # The example's own test, on the program that was built against the installation.
+  run("${PYTHON}" "${EXAMPLE_DIR}/../Tests/TestShadowedSphere.py"
+    "${WORK_DIR}/example/ShadowedSphere")
 endif ()
