@@ -1,0 +1,79 @@
+// Speed against accuracy: sweeps the settings, measures times, memory and errors against exact
+// references (Embree, refined in double; VTK's rasteriser and vtkShadowMapPass on the same axes),
+// and writes every measurement to a JSON and a CSV file. Documentation/Accuracy.md has the
+// definitions and what came out.
+//
+//   BenchmarkAccuracy [--output folder] [--short] [name=file.off:up ...]
+//
+// `up` is the mesh's upward axis, x, y or z. --short: a generated body and few settings. The exit
+// code is 1 if a bar of accuracyBars.cxx is missed.
+#include "accuracyExperiments.h"
+
+#include <iostream>
+#include <string>
+
+namespace
+{
+using namespace accuracy;
+
+bool readShape(const std::string& argument, Sweep& sweep)
+{
+  const std::size_t equals = argument.find('='), colon = argument.rfind(':');
+  if (equals == std::string::npos || colon == std::string::npos || colon < equals)
+  {
+    return false;
+  }
+  Mesh mesh;
+  if (!svobench::readOFF(argument.substr(equals + 1, colon - equals - 1), mesh))
+  {
+    return false;
+  }
+  normalise(mesh, std::string("xyz").find(argument.substr(colon + 1)));
+  mesh.name = argument.substr(0, equals);
+  sweep.shapes.push_back(std::make_shared<Shape>(mesh));
+  return true;
+}
+}
+
+int main(int argc, char** argv)
+{
+  Sweep sweep;
+  std::string output = ".";
+  bool brief = false;
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string argument = argv[i];
+    if (argument == "--short")
+    {
+      brief = true;
+    }
+    else if (argument == "--output" && i + 1 < argc)
+    {
+      output = argv[++i];
+    }
+    else if (!readShape(argument, sweep))
+    {
+      std::cerr << "usage: BenchmarkAccuracy [--output folder] [--short] [name=file.off:up ...]\n"
+                << argument << " is neither an option nor a readable mesh\n";
+      return 2;
+    }
+  }
+  if (brief || sweep.shapes.empty())
+  {
+    sweep.shapes = { std::make_shared<Shape>(knot()) };
+  }
+  if (brief)
+  {
+    sweep.levels = { 8, 10 };
+    sweep.repeat = 1;
+    sweep.size = 256;
+  }
+  Results results;
+  measureLeaves(sweep, results);
+  if (!results.writeJson(output + "/accuracy.json") || !results.writeCsv(output + "/accuracy.csv"))
+  {
+    std::cerr << "cannot write to " << output << "\n";
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,40 @@
+// The experiments. Each appends its rows to the results; what they vary is in Documentation/
+// Accuracy.md.
+#ifndef accuracyExperiments_h
+#define accuracyExperiments_h
+
+#include "accuracyResults.h"
+#include "accuracyStage.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkRenderWindow;
+
+namespace accuracy
+{
+struct Sweep
+{
+  std::vector<std::shared_ptr<const Shape>> shapes;
+  std::vector<int> levels{ 5, 6, 7, 8, 9, 10, 11, 12, 13 };
+  std::vector<int> shadowLevels{ 7, 8, 9, 10, 11, 12 };
+  std::vector<int> resolutions{ 256, 512, 1024, 2048, 4096, 8192 };
+  std::vector<double> pixelErrors{ 0.5, 1.0, 2.0, 4.0, 8.0 };
+  int size = 512;     // pixels along an edge of the pictures
+  int repeat = 3;     // times each timed frame is drawn; the least time counts
+  std::string images; // folder for difference images; empty: none
+};
+
+extern const std::vector<std::pair<svo::LeafGeometry, const char*>> LeafGeometries;
+
+/// Draws with the tracer; times go into the row: processorMs, traceMs, shadowMs of the fastest of
+/// the repetitions, none of which reuses anything of another.
+Picture traced(const svo::Scene& scene, const svo::View& view, svo::FrameSettings settings,
+  int repeat, Row& row);
+
+/// Depth, silhouette and normals against levels and leaf geometries; the object fills the window.
+void measureLeaves(const Sweep& sweep, Results& results);
+}
+
+#endif
