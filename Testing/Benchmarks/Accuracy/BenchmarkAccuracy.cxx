@@ -3,7 +3,7 @@
 // and writes every measurement to a JSON and a CSV file. Documentation/Accuracy.md has the
 // definitions and what came out.
 //
-//   BenchmarkAccuracy [--output folder] [--short] [name=file.off:up ...]
+//   BenchmarkAccuracy [--output folder] [--images folder] [--short] [name=file.off:up ...]
 //
 // `up` is the mesh's upward axis, x, y or z. --short: a generated body and few settings. The exit
 // code is 1 if a bar of accuracyBars.cxx is missed.
@@ -47,13 +47,18 @@ int main(int argc, char** argv)
     {
       brief = true;
     }
+    else if (argument == "--images" && i + 1 < argc)
+    {
+      sweep.images = argv[++i];
+    }
     else if (argument == "--output" && i + 1 < argc)
     {
       output = argv[++i];
     }
     else if (!readShape(argument, sweep))
     {
-      std::cerr << "usage: BenchmarkAccuracy [--output folder] [--short] [name=file.off:up ...]\n"
+      std::cerr << "usage: BenchmarkAccuracy [--output folder] [--images folder] [--short] "
+                   "[name=file.off:up ...]\n"
                 << argument << " is neither an option nor a readable mesh\n";
       return 2;
     }
@@ -65,11 +70,14 @@ int main(int argc, char** argv)
   if (brief)
   {
     sweep.levels = { 8, 10 };
+    sweep.shadowLevels = { 8, 10 };
+    sweep.resolutions = { 512, 2048 };
     sweep.repeat = 1;
     sweep.size = 256;
   }
   Results results;
   measureLeaves(sweep, results);
+  measureShadows(sweep, results);
   if (!results.writeJson(output + "/accuracy.json") || !results.writeCsv(output + "/accuracy.csv"))
   {
     std::cerr << "cannot write to " << output << "\n";

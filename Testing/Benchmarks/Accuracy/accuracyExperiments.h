@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-class vtkRenderWindow;
-
 namespace accuracy
 {
 struct Sweep
@@ -35,6 +33,15 @@ Picture traced(const svo::Scene& scene, const svo::View& view, svo::FrameSetting
 
 /// Depth, silhouette and normals against levels and leaf geometries; the object fills the window.
 void measureLeaves(const Sweep& sweep, Results& results);
+
+/// The lights that every object is put under, by name: directional, spot, point (one map) and near
+/// point (six faces).
+std::vector<std::pair<std::string, svo::Light>> lightsAround();
+/// An object on a ground that fills the window.
+Stage groundStage(const std::shared_ptr<const Shape>& shape, int size);
+
+/// Shadows of an object on a ground and on itself.
+void measureShadows(const Sweep& sweep, Results& results);
 }
 
 #endif

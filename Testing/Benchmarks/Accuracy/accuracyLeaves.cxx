@@ -1,5 +1,6 @@
 // Octree levels and leaf geometries: depth, silhouette, normals.
 #include "accuracyExperiments.h"
+#include "accuracyImages.h"
 
 #include "svoSMPParallel.h"
 #include "svoSelect.h"
@@ -73,6 +74,11 @@ void measureLeaves(const Sweep& sweep, Results& results)
         measureDepth(picture, truth, view, svo::worldVoxel(scene.instances[0]), row);
         measureSilhouette(picture, truth, reference, view, row);
         results.add(row);
+        if (!sweep.images.empty() && level == 10)
+        {
+          writeDepthDifference(picture, truth, view, svo::worldVoxel(scene.instances[0]),
+            sweep.images + "/depth-" + stage.name + "-" + name + ".png");
+        }
       }
     }
   }
