@@ -7,6 +7,7 @@
 //
 // `up` is the mesh's upward axis, x, y or z. --short: a generated body and few settings. The exit
 // code is 1 if a bar of accuracyBars.cxx is missed.
+#include "accuracyBars.h"
 #include "accuracyExperiments.h"
 
 #include <iostream>
@@ -39,13 +40,17 @@ int main(int argc, char** argv)
 {
   Sweep sweep;
   std::string output = ".";
-  bool brief = false;
   for (int i = 1; i < argc; ++i)
   {
     const std::string argument = argv[i];
     if (argument == "--short")
     {
-      brief = true;
+      sweep.brief = true;
+    }
+    else if (argument == "--paper" && i + 2 < argc)
+    {
+      sweep.fileOfA = argv[++i];
+      sweep.fileOfB = argv[++i];
     }
     else if (argument == "--images" && i + 1 < argc)
     {
@@ -63,25 +68,32 @@ int main(int argc, char** argv)
       return 2;
     }
   }
-  if (brief || sweep.shapes.empty())
+  if (sweep.brief || sweep.shapes.empty())
   {
     sweep.shapes = { std::make_shared<Shape>(knot()) };
   }
-  if (brief)
+  if (sweep.brief)
   {
     sweep.levels = { 8, 10 };
     sweep.shadowLevels = { 8, 10 };
     sweep.resolutions = { 512, 2048 };
+    sweep.pixelErrorLevel = 10;
+    sweep.pixelErrors = { 1.0, 2.0, 4.0 };
     sweep.repeat = 1;
     sweep.size = 256;
   }
   Results results;
   measureLeaves(sweep, results);
+  measurePixelError(sweep, results);
+  measureContact(sweep, results);
   measureShadows(sweep, results);
+  measureAntiAliasing(sweep, results);
+  measurePaperScenes(sweep, results);
+  const bool good = checkBars(results);
   if (!results.writeJson(output + "/accuracy.json") || !results.writeCsv(output + "/accuracy.csv"))
   {
     std::cerr << "cannot write to " << output << "\n";
     return 2;
   }
-  return 0;
+  return good ? 0 : 1;
 }

@@ -19,8 +19,12 @@ struct Sweep
   std::vector<int> shadowLevels{ 7, 8, 9, 10, 11, 12 };
   std::vector<int> resolutions{ 256, 512, 1024, 2048, 4096, 8192 };
   std::vector<double> pixelErrors{ 0.5, 1.0, 2.0, 4.0, 8.0 };
-  int size = 512;     // pixels along an edge of the pictures
-  int repeat = 3;     // times each timed frame is drawn; the least time counts
+  int pixelErrorLevel = 12; // of the octrees that these stop in
+  int size = 512;           // pixels along an edge of the pictures
+  int repeat = 3;           // times each timed frame is drawn; the least time counts
+  bool brief = false;       // one of the paper's scenes
+  std::string fileOfA;      // the paper's objects; empty: generated stand-ins
+  std::string fileOfB;
   std::string images; // folder for difference images; empty: none
 };
 
@@ -42,6 +46,18 @@ Stage groundStage(const std::shared_ptr<const Shape>& shape, int size);
 
 /// Shadows of an object on a ground and on itself.
 void measureShadows(const Sweep& sweep, Results& results);
+
+/// Displacement on the screen, error and time against the pixel error.
+void measurePixelError(const Sweep& sweep, Results& results);
+
+/// The paper's scenes, all methods.
+void measurePaperScenes(const Sweep& sweep, Results& results);
+
+/// Edges with and without anti-aliasing.
+void measureAntiAliasing(const Sweep& sweep, Results& results);
+
+/// Acne on a convex body, and the beginning of a contact shadow.
+void measureContact(const Sweep& sweep, Results& results);
 }
 
 #endif

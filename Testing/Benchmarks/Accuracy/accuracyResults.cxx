@@ -53,7 +53,8 @@ void Results::add(const Row& row)
   this->Rows.append(kept);
   for (const char* key : { "experiment", "mesh", "light", "method", "level", "leaves", "technique",
          "resolution", "bias", "pixelError", "rayMedian", "rayP95", "normalP99", "falseMisses",
-         "meshWrong", "meshWrongTolerant", "meshIoU", "mapWrong", "processorMs" })
+         "meshWrong", "meshWrongTolerant", "meshIoU", "mapWrong", "movedP99", "movedMax",
+         "beyondPromise", "selfShadowed", "gapVoxels", "antiAliasing", "edgeRms", "processorMs" })
   {
     if (kept.isMember(key))
     {
