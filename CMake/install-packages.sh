@@ -1,6 +1,7 @@
 #!/bin/bash
 # Installs the Debian 12 packages that a part of the project needs, and says what each is for.
-# Usage: install-packages.sh [--list] [--no-install] group...   (groups: build test demo fuzz)
+# Usage: install-packages.sh [--list] [--no-install] group...
+# Groups: build test demo fuzz accuracy
 # Packages that are there already are left alone; with none missing nothing runs and nothing is
 # asked. --no-install only checks: it names what is missing and ends with 1. --list prints names.
 set -euo pipefail
@@ -31,6 +32,11 @@ ffmpeg|turns the frames into a movie"
 packages_fuzz="
 clang|libFuzzer, which hunts for octree files that do harm
 libclang-rt-14-dev|its runtime and that of the sanitizers"
+packages_accuracy="
+libembree-dev|the exact reference that accuracy is measured against
+libcgal-demo|the meshes that it is measured on
+assimp-testmodels|the walking figure of the paper's scenes
+python3-matplotlib|draws the plots of Documentation/Accuracy.md"
 
 list=no
 install=yes
@@ -43,8 +49,10 @@ for argument in "$@"; do
     test) wanted+="$packages_test" ;;
     demo) wanted+="$packages_demo" ;;
     fuzz) wanted+="$packages_fuzz" ;;
+    accuracy) wanted+="$packages_accuracy" ;;
     *)
-      echo "install-packages.sh: unknown argument '$argument' (groups: build test demo fuzz)" >&2
+      echo "install-packages.sh: unknown argument '$argument'" \
+        "(groups: build test demo fuzz accuracy)" >&2
       exit 2
       ;;
   esac

@@ -20,6 +20,16 @@ Mesh trianglesOf(vtkPolyData* data, const std::string& name)
 }
 }
 
+bool readFile(const std::string& path, Mesh& mesh, std::string& error)
+{
+  const vtkSmartPointer<vtkPolyData> data = paper::readTriangles(path, 0, error);
+  if (data)
+  {
+    mesh = trianglesOf(data, path.substr(path.find_last_of('/') + 1));
+  }
+  return data != nullptr;
+}
+
 bool readArgument(int argc, char** argv, int& i, std::vector<Mesh>& meshes, std::string& error)
 {
   const std::string first = argv[i];

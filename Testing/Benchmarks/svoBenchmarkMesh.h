@@ -21,6 +21,9 @@ struct Mesh
   }
 };
 
+/// Any format that Assimp knows. False, and one sentence in `error`, if it is unreadable.
+bool readFile(const std::string& path, Mesh& mesh, std::string& error);
+
 /**
  * Reads the mesh that argument `i` of the command line names: `--a FILE` for the paper's object A,
  * `--b FILE` for the first pose of B (Examples/PaperMeshes), else the path of a file; `i` moves to

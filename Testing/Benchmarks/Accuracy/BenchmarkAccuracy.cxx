@@ -25,8 +25,10 @@ bool readShape(const std::string& argument, Sweep& sweep)
     return false;
   }
   Mesh mesh;
-  if (!svobench::readOFF(argument.substr(equals + 1, colon - equals - 1), mesh))
+  std::string error;
+  if (!svobench::readFile(argument.substr(equals + 1, colon - equals - 1), mesh, error))
   {
+    std::cerr << error << "\n";
     return false;
   }
   normalise(mesh, std::string("xyz").find(argument.substr(colon + 1)));
@@ -76,7 +78,7 @@ int main(int argc, char** argv)
   {
     sweep.levels = { 8, 10 };
     sweep.shadowLevels = { 8, 10 };
-    sweep.resolutions = { 512, 2048 };
+    sweep.resolutions = { 2048 };
     sweep.pixelErrorLevel = 10;
     sweep.pixelErrors = { 1.0, 2.0, 4.0 };
     sweep.repeat = 1;

@@ -246,7 +246,10 @@ void measurePaperScenes(const Sweep& sweep, Results& results)
       PaperRun run(sweep, stage, results);
       for (const Setting& setting : settings())
       {
-        run.tracer(shelf, setting);
+        if (!sweep.brief || setting.level == 10)
+        {
+          run.tracer(shelf, setting);
+        }
       }
       run.passes(kind == paper::LightKind::Spot);
     }

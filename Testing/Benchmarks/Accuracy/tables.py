@@ -1,0 +1,281 @@
+"""Writes the tables of Documentation/Accuracy.md from the measurements.
+
+    tables.py accuracy.json Accuracy.md
+
+What stands between <!-- begin NAME --> and <!-- end NAME --> is replaced; the rest of the text is
+left as it is.
+"""
+import json
+import re
+import sys
+
+KINDS = ["voxel", "plane", "triangle", "automatic"]
+LIGHTS = ["directional", "spot", "point", "near point"]
+
+
+def number(value):
+    if value == 0:
+        return "0"
+    if abs(value) < 1e-3:
+        return f"{value:.0e}".replace("e-0", "e-")
+    return f"{value:.3g}"
+
+
+def percent(value):
+    return "0" if value == 0 else f"{100 * value:.2g} %" if value < 0.1 else f"{100 * value:.0f} %"
+
+
+def table(head, lines):
+    out = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(out + ["| " + " | ".join(line) + " |" for line in lines])
+
+
+def mean(rows, key):
+    return sum(r[key] for r in rows) / len(rows) if rows else float("nan")
+
+
+def worst(rows, key):
+    return max(r[key] for r in rows)
+
+
+def spread(rows, key, form=number):
+    """Smallest to largest of the meshes."""
+    low, high = min(r[key] for r in rows), max(r[key] for r in rows)
+    return form(low) if form(low) == form(high) else f"{form(low)} - {form(high)}"
+
+
+def bars(rows):
+    lines = []
+    for r in rows:
+        if r["experiment"] == "bars":
+            at_least = "union" in r["bar"]
+            lines.append([r["bar"], ("at least " if at_least else "") + number(r["limit"]),
+                          number(r["measured"]), "met" if r["met"] else "**missed**", r["where"]])
+    return table(["what", "bar", "measured, worst", "", "where"], lines)
+
+
+def leaves(rows):
+    lines = []
+    for kind in KINDS:
+        some = [r for r in rows if r["experiment"] == "leaves" and r["level"] == 10
+                and r["leaves"] == kind]
+        lines.append([kind, spread(some, "rayMedian"), spread(some, "rayP95"),
+                      spread(some, "normalP99"), spread(some, "rayMax"),
+                      spread(some, "grazingP95"), spread(some, "edgeP95"),
+                      spread(some, "facetAngleMedian"), spread(some, "facetAngleP95"),
+                      spread(some, "falseHits"), spread(some, "falseMisses"),
+                      spread(some, "silhouetteIoU", lambda v: f"{v:.4f}")])
+    raster = [r for r in rows if r.get("method") == "vtkRasterizer" and r["experiment"] == "shadows"
+              and r["light"] == "directional"]
+    lines.append(["VTK's rasteriser", spread(raster, "rayMedian"), spread(raster, "rayP95"),
+                  spread(raster, "normalP99"), spread(raster, "rayMax"),
+                  spread(raster, "grazingP95"), spread(raster, "edgeP95"), "", "",
+                  spread(raster, "falseHits"), spread(raster, "falseMisses"),
+                  spread(raster, "silhouetteIoU", lambda v: f"{v:.4f}")])
+    return table(["leaves", "median", "95 %", "along n, 99 %", "worst", "n.v below 0.1, 95 %",
+                  "near edges, 95 %", "facet, median", "facet, 95 %", "false hits", "false misses",
+                  "IoU"], lines)
+
+
+def levels(rows):
+    lines = []
+    some = [r for r in rows if r["experiment"] == "leaves"]
+    for level in sorted(set(r["level"] for r in some)):
+        here = [r for r in some if r["level"] == level]
+        lines.append([str(level), spread(here, "buildMs"),
+                      spread(here, "octreeKiB", lambda v: number(v / 1024))])
+        for kind in KINDS:
+            of = [r for r in here if r["leaves"] == kind]
+            lines[-1].append(f"{number(mean(of, 'processorMs'))} ms, {number(mean(of, 'rayP95'))}")
+    return table(["level", "build, ms", "octree, MiB"] + KINDS, lines)
+
+
+def shadow_rows(rows, **wanted):
+    return [r for r in rows if r["experiment"] == "shadows"
+            and all(r.get(key) == value for key, value in wanted.items())]
+
+
+def judged(name, rows):
+    return [name, number(mean(rows, "processorMs")),
+            percent(mean(rows, "mapWrong")) if "mapWrong" in rows[0] else "",
+            percent(mean(rows, "meshWrong")), percent(mean(rows, "meshWrongTolerant")),
+            percent(mean(rows, "meshFalseDark")), percent(mean(rows, "meshFalseLit")),
+            f"{mean(rows, 'meshIoU'):.3f}"]
+
+
+JUDGED = ["time, ms", "wrong against rays on the octree", "wrong against the mesh",
+          "one pixel tolerated", "falsely dark", "falsely lit", "IoU"]
+
+
+def shadows(rows):
+    lines = []
+    for light in LIGHTS:
+        for resolution in sorted(set(r["resolution"] for r in shadow_rows(rows)
+                                     if "resolution" in r)):
+            some = shadow_rows(rows, light=light, method="svo", level=10, leaves="automatic",
+                               technique="buffer", bias="automatic", resolution=resolution)
+            lines.append([light] + judged(f"buffer, {resolution}", some))
+        some = shadow_rows(rows, light=light, method="svo", level=10, leaves="automatic",
+                           technique="rays")
+        lines.append([light] + judged("rays", some))
+        for resolution in (1024, 2048, 4096):
+            some = shadow_rows(rows, light=light, method="vtkShadowMapPass", resolution=resolution)
+            if some:
+                lines.append([light] + judged(f"vtkShadowMapPass, {resolution}", some))
+    return table(["light", "technique, texels"] + JUDGED, lines)
+
+
+def biases(rows):
+    lines = []
+    for bias in ("automatic", "none", "1 voxel", "2 voxels", "4 voxels"):
+        some = shadow_rows(rows, method="svo", level=10, leaves="automatic", technique="buffer",
+                           resolution=2048, bias=bias)
+        lines.append(judged(bias, some))
+    return table(["bias"] + JUDGED, lines)
+
+
+def shadow_levels(rows):
+    lines = []
+    for level in sorted(set(r["level"] for r in shadow_rows(rows, method="svo"))):
+        for technique in ("buffer", "rays"):
+            some = [r for r in shadow_rows(rows, method="svo", level=level, leaves="automatic",
+                                           technique=technique)
+                    if technique == "rays" or (r["resolution"] == 2048 and r["bias"] == "automatic")]
+            lines.append(judged(f"{level}, automatic, {technique}", some))
+    for kind in ("voxel", "plane", "triangle"):
+        for technique in ("buffer", "rays"):
+            some = shadow_rows(rows, method="svo", level=10, leaves=kind, technique=technique)
+            lines.append(judged(f"10, {kind}, {technique}", some))
+    return table(["level, leaves, technique"] + JUDGED, lines)
+
+
+def contact(rows):
+    lines = []
+    for kind in KINDS:
+        some = [r for r in rows if r["experiment"] == "contact" and r["leaves"] == kind]
+        line = [kind] + [number(next(r["gapVoxels"] for r in some if r["light"] == light))
+                         for light in LIGHTS]
+        acne = [r for r in rows if r["experiment"] == "acne" and r["leaves"] == kind]
+        lines.append(line + [f"{sum(r['selfShadowed'] for r in acne)} of "
+                             f"{sum(r['litPixels'] for r in acne)}"])
+    return table(["leaves"] + [f"gap, {light}" for light in LIGHTS] + ["self-shadowed pixels"],
+                 lines)
+
+
+def pixel_errors(rows):
+    lines = []
+    some = [r for r in rows if r["experiment"] == "pixelError"]
+    for kind in ("voxel", "automatic"):
+        for error in sorted(set(r["pixelError"] for r in some)):
+            here = [r for r in some if r["pixelError"] == error and r["leaves"] == kind]
+            lines.append([kind, number(error), spread(here, "level", str),
+                          number(here[0]["promisedPixels"]), number(worst(here, "movedMax")),
+                          number(worst(here, "movedP99")), number(worst(here, "movedMedian")),
+                          percent(worst(here, "beyondPromise")), number(mean(here, "processorMs")),
+                          spread(here, "falseMisses")])
+    return table(["leaves", "pixel error", "level taken", "promised, pixels", "worst", "99 %",
+                  "median", "beyond the promise", "time, ms", "false misses"], lines)
+
+
+def anti_aliasing(rows):
+    lines = []
+    some = [r for r in rows if r["experiment"] == "antiAliasing"]
+    for technique in ("buffer", "rays"):
+        for smooth in (False, True):
+            here = [r for r in some if r["technique"] == technique and r["antiAliasing"] == smooth]
+            lines.append([technique, "on" if smooth else "off", number(mean(here, "edgeRms")),
+                          number(mean(here, "rms")), number(mean(here, "processorMs"))])
+    return table(["shadows", "anti-aliasing", "error of edge pixels", "error of all pixels",
+                  "time, ms"], lines)
+
+
+def paper(rows):
+    lines = []
+    some = [r for r in rows if r["experiment"] == "paper"]
+    names = list(dict.fromkeys(
+        (r["method"], r.get("resolution")) for r in some if r["method"] != "vtkRasterizer"))
+    for method, resolution in names:
+        line = [method + (f", {resolution}" if resolution else "")]
+        for light in ("point", "spot"):
+            here = [r for r in some if r["method"] == method and r.get("resolution") == resolution
+                    and r["light"] == light]
+            line += [f"{number(mean(here, 'processorMs'))}", percent(mean(here, "meshWrong")),
+                     number(mean(here, "rayP95"))] if here else ["", "", ""]
+        lines.append(line)
+    return table(["settings", "point: ms", "wrong shadows", "depth error, 95 %", "spot: ms",
+                  "wrong shadows", "depth error, 95 %"], lines)
+
+
+def passes(rows):
+    lines = []
+    for light in LIGHTS:
+        some = shadow_rows(rows, light=light, method="vtkSVORenderPass")
+        lines.append([light] + [number(mean(some, key)) for key in (
+            "frameMs", "collectMs", "traceMs", "shadowMs", "presentMs")] +
+            [number(mean(some, "octreeKiB") / 1024)])
+    return table(["light", "frame, ms", "collect", "trace", "shadow", "present", "octrees, MiB"],
+                 lines)
+
+
+def wishes(rows):
+    """I want ... then set ...: the settings are fixed, the figures are measured."""
+    def lead(kind):
+        return [r for r in rows if r["experiment"] == "leaves" and r["level"] == 10
+                and r["leaves"] == kind]
+
+    def shade(**wanted):
+        return [r for r in shadow_rows(rows, method="svo", level=10, **wanted)
+                if r["technique"] == "rays" or r["bias"] == "automatic"]
+    fast = [r for r in rows if r["experiment"] == "paper"
+            and r["method"] == "voxel leaves, level 8, 512 texels"]
+    usual = [r for r in rows if r["experiment"] == "paper" and r["method"] == "defaults"]
+    exact = [r for r in rows if r["experiment"] == "paper"
+             and r["method"] == "triangle leaves, full depth, rays"]
+    def paper_figures(some):
+        return (f"the paper's scenes: {number(mean(some, 'processorMs'))} ms, "
+                f"{percent(mean(some, 'meshWrong'))} wrong shadows")
+    return table(["I want", "then set", "what to expect"], [
+        ["a good picture without thinking", "nothing", paper_figures(usual)],
+        ["the exact picture", "`LeafGeometry` triangle, `PixelError` 0, `ShadowTechnique` rays",
+         f"depth error at most {number(worst(lead('triangle'), 'rayMax'))} voxel, "
+         f"{percent(worst(shade(leaves='triangle', technique='rays'), 'meshWrong'))} wrong "
+         f"shadows; {paper_figures(exact)}"],
+        ["the fastest picture, for moving about",
+         "`LeafGeometry` voxel, `MaximumLevel` 8, `ShadowBufferResolution` 512",
+         paper_figures(fast)],
+        ["exact surfaces, and shadows as they come", "`LeafGeometry` triangle",
+         f"{number(mean(lead('triangle'), 'processorMs') / mean(lead('voxel'), 'processorMs'))} "
+         "times the time of cubes"],
+        ["finer shadow edges", "`ShadowBufferResolution` 4096",
+         f"{percent(mean(shade(leaves='automatic', technique='buffer', resolution=4096), 'meshWrong'))}"
+         f" wrong instead of "
+         f"{percent(mean(shade(leaves='automatic', technique='buffer', resolution=2048), 'meshWrong'))}"],
+        ["shadows in a small picture (fewer pixels than texels)", "`ShadowTechnique` rays",
+         f"{number(mean(shade(leaves='automatic', technique='rays'), 'processorMs'))} ms instead of "
+         f"{number(mean(shade(leaves='automatic', technique='buffer', resolution=2048), 'processorMs'))}"],
+        ["smooth edges", "`AntiAliasing` on",
+         "see [below](#anti-aliasing) for what it gains and costs"],
+    ])
+
+
+SECTIONS = {"bars": bars, "leaves": leaves, "levels": levels, "shadows": shadows, "biases": biases,
+            "shadow-levels": shadow_levels, "contact": contact, "pixel-error": pixel_errors,
+            "anti-aliasing": anti_aliasing, "paper": paper, "passes": passes, "wishes": wishes}
+
+
+def main():
+    with open(sys.argv[1], encoding="utf-8") as file:
+        rows = json.load(file)
+    with open(sys.argv[2], encoding="utf-8") as file:
+        text = file.read()
+    for name, make in SECTIONS.items():
+        pattern = re.compile(f"(<!-- begin {name} -->\n).*?(<!-- end {name} -->)", re.DOTALL)
+        if not pattern.search(text):
+            sys.exit(f"{sys.argv[2]} has no place for the table {name}")
+        text = pattern.sub(lambda found: found[1] + make(rows) + "\n" + found[2], text)
+    with open(sys.argv[2], "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+if __name__ == "__main__":
+    main()
