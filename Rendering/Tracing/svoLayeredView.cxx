@@ -84,6 +84,11 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, Layer
 {
   this->Bases.assign(scene.instances.size(), 0.0);
   this->Levels.assign(scene.instances.size(), 0);
+  this->Geometries.clear();
+  for (const Instance& instance : scene.instances)
+  {
+    this->Geometries.push_back(instance.leafGeometry);
+  }
   // Layers are made for what stands still: something new is taken to do so, something that just
   // changed, or is seen by a view that did, is taken to go on changing.
   const bool moved = this->Began && !sameRays(view, this->Of);
@@ -105,6 +110,7 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, Layer
   {
     this->Bases[entry.index] = entry.local.base;
     this->Levels[entry.index] = entry.key.level;
+    this->Geometries[entry.index] = entry.key.leafGeometry;
     if (!keep)
     {
       continue;
@@ -222,8 +228,8 @@ void LayeredView::order(int tileX, int tileY, TileScratch& scratch)
     [](const TileEntry* a, const TileEntry* b) { return a->key < b->key; });
 }
 
-void LayeredView::traceRays(const TileEntry& candidate, const double* x, const double* y,
-  RayBlock& block, HitBlock& found)
+void LayeredView::traceRays(
+  const TileEntry& candidate, const double* x, const double* y, RayBlock& block, HitBlock& found)
 {
   const Entry& entry = *candidate.entry;
   const TraceOptions options{ entry.key.leafGeometry, entry.key.level };

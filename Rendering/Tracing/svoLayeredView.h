@@ -140,6 +140,8 @@ public:
   /// Base of an instance's t, by index into Scene::instances.
   double base(std::uint32_t instance) const { return this->Bases[instance]; }
   int level(std::uint32_t instance) const { return this->Levels[instance]; }
+  /// What the instance's rays end on in this view.
+  LeafGeometry leafGeometry(std::uint32_t instance) const { return this->Geometries[instance]; }
   std::uint64_t rays() const { return this->Rays; }
   std::uint64_t retracedLayers() const { return this->Retraced; }
   std::size_t layerMemory() const { return this->Memory; }
@@ -195,8 +197,8 @@ private:
   void order(int tileX, int tileY, TileScratch& scratch);
   bool cutRays(const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const;
   /// Through points x, y of the image; tMin and tMax are set.
-  static void traceRays(const TileEntry& candidate, const double* x, const double* y,
-    RayBlock& block, HitBlock& found);
+  static void traceRays(
+    const TileEntry& candidate, const double* x, const double* y, RayBlock& block, HitBlock& found);
   void merge(
     const Entry& entry, const float* t, const Primitive* primitive, MergedTile& merged) const;
   void traceTile(int tileX, int tileY, TileScratch& scratch);
@@ -206,6 +208,7 @@ private:
   std::vector<Entry> Instances;
   std::vector<double> Bases;
   std::vector<int> Levels;
+  std::vector<LeafGeometry> Geometries;
   std::unordered_map<std::uint64_t, Kept> Layers; // by Instance::id
   DepthBuffer Merged;
   std::uint64_t Rays = 0;

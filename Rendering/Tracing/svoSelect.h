@@ -60,11 +60,11 @@ inline double worldVoxel(const Instance& instance, int level)
 /// How far a hit can lie from the surface that it stands for, in voxels of the level that rays stop
 /// at: cubes, and planes where a ray is given the cube that refused it, by the diagonal of a voxel;
 /// mean planes by half the diagonal of the three cells in which they are met.
-inline double leafError(const Instance& instance, int level)
+inline double leafError(const Instance& instance, LeafGeometry geometry, int level)
 {
   constexpr double Cube = 1.75;
   constexpr double MeanPlane = 2.6;
-  if (instance.leafGeometry == LeafGeometry::Voxel)
+  if (geometry == LeafGeometry::Voxel)
   {
     return Cube;
   }
@@ -72,19 +72,19 @@ inline double leafError(const Instance& instance, int level)
   {
     return MeanPlane;
   }
-  if (instance.leafGeometry == LeafGeometry::Plane || !instance.octree.surface())
+  if (geometry == LeafGeometry::Plane || !instance.octree.surface())
   {
     return Cube;
   }
   // Planes where lists are long: there the triangles are smaller than a voxel.
-  return instance.leafGeometry == LeafGeometry::Automatic ? 0.25 : 0.0;
+  return geometry == LeafGeometry::Automatic ? 0.25 : 0.0;
 }
 
 /// The same in the world, and never less than what floats resolve in the octree's cube.
-inline double worldLeafError(const Instance& instance, int level)
+inline double worldLeafError(const Instance& instance, LeafGeometry geometry, int level)
 {
-  return std::max(
-    leafError(instance, level) * worldVoxel(instance, level), 1e-6 * worldVoxel(instance, 0));
+  return std::max(leafError(instance, geometry, level) * worldVoxel(instance, level),
+    1e-6 * worldVoxel(instance, 0));
 }
 }
 

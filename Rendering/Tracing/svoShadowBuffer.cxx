@@ -48,10 +48,12 @@ void ShadowBuffer::begin(
     {
       const Instance& instance = scene.instances[k];
       const int level = face.layers.level(static_cast<std::uint32_t>(k));
+      const LeafGeometry geometry = face.layers.leafGeometry(static_cast<std::uint32_t>(k));
       if (casters[k] && level > 0)
       {
         this->CasterVoxel[k] = std::max(this->CasterVoxel[k], worldVoxel(instance, level));
-        this->CasterError[k] = std::max(this->CasterError[k], worldLeafError(instance, level));
+        this->CasterError[k] =
+          std::max(this->CasterError[k], worldLeafError(instance, geometry, level));
       }
     }
     const std::size_t tilesAcross = (face.view.width + 7) / 8;

@@ -12,13 +12,15 @@ namespace
 constexpr double BeforeLight = 1.0 - 1e-9;
 }
 
-ShadowRays::ShadowRays(const Scene& scene)
+ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
 {
   for (const Instance& instance : scene.instances)
   {
     if (instance.castShadow && instance.octree && !instance.octree.empty())
     {
-      this->Casters.push_back({ &instance, WorldToOctree(instance.octree, instance.localToWorld) });
+      const std::size_t index = &instance - scene.instances.data();
+      this->Casters.push_back({ &instance, eye.leafGeometry(static_cast<std::uint32_t>(index)),
+        WorldToOctree(instance.octree, instance.localToWorld) });
     }
   }
 }
@@ -36,7 +38,7 @@ bool ShadowRays::shadows(
   {
     const Ray ray{ caster.toOctree.point(start), caster.toOctree.vector(direction), 0.0,
       far ? 1e300 : BeforeLight };
-    if (occluded(caster.instance->octree, ray, { caster.instance->leafGeometry, MaximumLevel }))
+    if (occluded(caster.instance->octree, ray, { caster.geometry, MaximumLevel }))
     {
       return true;
     }

@@ -2,6 +2,7 @@
 #ifndef svoShadowRays_h
 #define svoShadowRays_h
 
+#include "svoLayeredView.h"
 #include "svoScene.h"
 #include "svoWorldToOctree.h"
 
@@ -14,7 +15,8 @@ namespace svo
 class ShadowRays
 {
 public:
-  explicit ShadowRays(const Scene& scene);
+  /// `eye`: of its leaf geometries.
+  ShadowRays(const Scene& scene, const LayeredView& eye);
 
   /// True if something lies between the point and the light. The ray starts off the point's own
   /// surface, along the facet on the light's side, by `offset` (world): the error of its leaf.
@@ -25,6 +27,7 @@ private:
   struct Caster
   {
     const Instance* instance;
+    LeafGeometry geometry;
     WorldToOctree toOctree;
   };
   std::vector<Caster> Casters;

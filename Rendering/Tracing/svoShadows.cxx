@@ -2,7 +2,8 @@
 
 namespace svo
 {
-void Shadows::begin(const Scene& scene, const FrameSettings& settings, LayerBudget& budget)
+void Shadows::begin(
+  const Scene& scene, const FrameSettings& settings, const LayeredView& eye, LayerBudget& budget)
 {
   this->Of = &scene;
   // Subsamples of a pixel may look up what no pixel's centre does.
@@ -11,7 +12,7 @@ void Shadows::begin(const Scene& scene, const FrameSettings& settings, LayerBudg
   this->Rays.reset();
   if (settings.shadowTechnique == ShadowTechnique::Rays)
   {
-    this->Rays = std::make_unique<ShadowRays>(scene);
+    this->Rays = std::make_unique<ShadowRays>(scene, eye);
   }
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> kept;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)

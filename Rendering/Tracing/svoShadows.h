@@ -18,8 +18,10 @@ namespace svo
 class Shadows
 {
 public:
-  /// Fits the lights' buffers and keeps of their layers what is still true.
-  void begin(const Scene& scene, const FrameSettings& settings, LayerBudget& budget);
+  /// Fits the lights' buffers and keeps of their layers what is still true. `eye`: the points to be
+  /// tested are its; rays to the light meet the same geometry, or surfaces would shadow themselves.
+  void begin(
+    const Scene& scene, const FrameSettings& settings, const LayeredView& eye, LayerBudget& budget);
 
   /// Notes what visible points will look up. Which side of them is lit does not matter: light tiles
   /// that only unlit sides look up are few. Thread-safe.

@@ -80,8 +80,9 @@ void Tracer::Internals::describeInstances(const Scene& scene)
   {
     const Instance& instance = scene.instances[i];
     const int level = this->Eye.level(static_cast<std::uint32_t>(i));
+    const LeafGeometry geometry = this->Eye.leafGeometry(static_cast<std::uint32_t>(i));
     this->Frames.push_back(instance.octree ? SurfaceFrame(instance) : SurfaceFrame());
-    this->Errors.push_back(instance.octree ? worldLeafError(instance, level) : 0.0);
+    this->Errors.push_back(instance.octree ? worldLeafError(instance, geometry, level) : 0.0);
   }
 }
 
@@ -325,7 +326,7 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
 
   // What visible points will look up of the lights.
   self.describeInstances(scene);
-  self.Dark.begin(scene, settings, budget);
+  self.Dark.begin(scene, settings, self.Eye, budget);
   self.markLightTiles(scene, view, parallelFor);
 
   // Shadow layers, merged likewise.
