@@ -11,6 +11,7 @@
 #include "svoBuild.h"
 #include "svoIntersect.h"
 #include "svoIntersectScalar.h"
+#include "svoProjection.h"
 #include "svoTileIntervals.h"
 
 #include <algorithm>
@@ -131,6 +132,23 @@ void traceWithIntervals(const Octree& octree, const Tiles& tiles, const TraceOpt
       block.tMax[i] = std::min(block.tMax[i], intervals.tFar[b]);
     }
     intersect(octree, block, options, hits[b]);
+  }
+}
+
+/// A tile at a time, its rays together.
+void traceByTiles(const Octree& octree, const Tiles& tiles, std::vector<HitBlock>& hits)
+{
+  const Projection projection = makeProjection(octree, glm::dmat4(1.0), tiles.view, tiles.base);
+  std::vector<TileNode> nodes;
+  for (std::size_t b = 0; b < tiles.blocks.size(); ++b)
+  {
+    const TilePyramid pyramid = makePyramid(projection, tiles.view,
+      static_cast<int>(b) % tiles.columns, static_cast<int>(b) / tiles.columns);
+    const RayBlock& block = tiles.blocks[b];
+    if (findTileNodes(octree, pyramid, block.tMin[0], block.tMax[0], 1 << 20, nodes))
+    {
+      intersectTile(octree, pyramid, nodes, block, hits[b]);
+    }
   }
 }
 
@@ -285,7 +303,14 @@ void benchmark(const svobench::Mesh& mesh, const Octree& octree, const char* cam
     time(", blocks in tile intervals", [&] { traceWithIntervals(octree, tiles, options, hits); });
     report.check(
       "tile intervals against full rays", countDifferent(hits, scalar, 0.01 * voxel), rays, 2e-3);
-    if (options.leafGeometry == LeafGeometry::Triangle && embree.available())
+    if (options.leafGeometry != LeafGeometry::Triangle)
+    {
+      continue;
+    }
+    time(", whole tiles", [&] { traceByTiles(octree, tiles, hits); });
+    report.check("whole tiles against the scalar walk", countDifferent(hits, scalar, 0.0), rays,
+      1e-5);
+    if (embree.available())
     {
       const std::vector<HitBlock> exact = embree.trace(tiles.view, tiles.base, 0);
       // Both are exact but for their float depths, whatever the level.
