@@ -69,7 +69,8 @@ public:
    * - Voxel: the cube, where the ray enters it;
    * - Plane: the plane of one of the triangles in the voxel;
    * - Triangle: the triangles themselves, exactly;
-   * - Automatic (default): triangles where they are few, planes where they are many.
+   * - Automatic (default): triangles where they are few, planes where they are many. A render pass
+   *   goes by what a view shows: it takes planes only for triangles smaller than about a pixel.
    */
   vtkSetClampMacro(LeafGeometry, int, VOXEL, AUTOMATIC);
   vtkGetMacro(LeafGeometry, int);
