@@ -2,6 +2,7 @@
 
 #include "svoCameraView.h"
 #include "svoMeshOctree.h"
+#include "svoSelect.h"
 #include "svoSilhouettes.h"
 
 #include "vtkOpenGLRenderPass.h"
@@ -9,6 +10,8 @@
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkTimerLog.h"
+
+#include <algorithm>
 
 namespace svo
 {
@@ -61,7 +64,7 @@ void PassRenderer::trace(const vtkRenderState* state, OctreeStore& store,
   if (scene.instances.empty() || !viewOfCamera(this->Renderer, width, height, view))
   {
     this->Trace.releaseLayers();
-    this->Receivers.update(window, {}, view, settings, false);
+    this->Receivers.update(window, {}, view, settings, 0.0, false);
     return;
   }
   settings.wholeShadowBuffers =
@@ -69,8 +72,14 @@ void PassRenderer::trace(const vtkRenderState* state, OctreeStore& store,
   settings.writeNormals = this->Renderer->GetUseSSAO();
   this->Trace.render(scene, view, settings, smpParallelFor(), this->Picture);
   this->Statistics.tracer = this->Trace.statistics();
-  this->Receivers.update(
-    window, this->Trace.shadowMaps(), view, settings, this->Statistics.tracer.retracedLayers > 0);
+  double casterVoxel = 0.0;
+  for (const Instance& instance : scene.instances)
+  {
+    casterVoxel =
+      std::max(casterVoxel, instance.castShadow && instance.octree ? worldVoxel(instance) : 0.0);
+  }
+  this->Receivers.update(window, this->Trace.shadowMaps(), view, settings, casterVoxel,
+    this->Statistics.tracer.retracedLayers > 0);
 }
 
 void PassRenderer::exchange(

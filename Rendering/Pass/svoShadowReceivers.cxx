@@ -67,8 +67,9 @@ bool rename(std::string& text, const std::string& from, const std::string& to)
 }
 
 void ShadowReceivers::update(vtkOpenGLRenderWindow* window, const std::vector<ShadowMap>& maps,
-  const View& eye, const FrameSettings& settings, bool changed)
+  const View& eye, const FrameSettings& settings, double casterVoxel, bool changed)
 {
+  this->ManualBias = static_cast<float>(settings.bias * casterVoxel);
   this->Intensity = static_cast<float>(settings.shadowIntensity);
   this->PlaneBias = settings.automaticBias;
   std::map<int, std::vector<const ShadowMap*>> byLight;
@@ -180,6 +181,9 @@ void ShadowReceivers::completeShader(std::string& fragmentShader) const
   }
   std::string declarations = fragmentShader.substr(0, main);
   std::string body = fragmentShader.substr(main);
+  // A normal map's bumps are no planes of the surface.
+  const bool hasNormal = body.find("normalVCVSOutput") != std::string::npos &&
+    fragmentShader.find("normalTex") == std::string::npos;
   std::ostringstream uniforms;
   std::ostringstream code;
   // Unlit surfaces have no position to ask about.
@@ -198,16 +202,17 @@ void ShadowReceivers::completeShader(std::string& fragmentShader) const
                << "[6];\n";
       code << "  vec3 svoColor" << number << " = " << color << " * svoLit(svoAtlas" << number
            << ", svoCount" << number << ", svoMaps" << number << ", svoBias" << number
-           << ", vertexVC.xyz, svoNormal);\n";
+           << ", vertexVC.xyz, svoFacet, " << (hasNormal ? "normalVCVSOutput" : "svoFacet")
+           << ");\n";
     }
   }
   const bool any = !uniforms.str().empty();
   vtkShaderProgram::Substitute(declarations, DeclarationMark,
     any ? std::string(svoShadowReceiver) + uniforms.str() : std::string(), false);
   vtkShaderProgram::Substitute(body, ImplementationMark,
-    any ? "  vec3 svoNormal = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));\n" +
-        code.str()
-        : std::string(),
+    any
+      ? "  vec3 svoFacet = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));\n" + code.str()
+      : std::string(),
     false);
   fragmentShader = declarations + body;
 }
@@ -238,6 +243,7 @@ void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives) cons
     program->SetUniformf("svoReceive", receives ? 1.0f : 0.0f);
     program->SetUniformf("svoIntensity", this->Intensity);
     program->SetUniformi("svoPlaneBias", this->PlaneBias ? 1 : 0);
+    program->SetUniformf("svoManualBias", this->ManualBias);
   }
 }
 }
