@@ -13,6 +13,7 @@
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeRange.h"
+#include "vtkDataSetMapper.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkLookupTable.h"
@@ -196,12 +197,15 @@ std::vector<SurfacePart> SceneCollector::partsOf(vtkActor* actor)
         parts.push_back(part);
       });
   }
-  else if (auto* plain = vtkPolyDataMapper::SafeDownCast(mapper))
+  else
   {
-    whole.mesh = plain->GetInput();
-    whole.colors = mapper;
-    if (whole.mesh)
+    auto* dataSet = vtkDataSetMapper::SafeDownCast(mapper);
+    vtkPolyDataMapper* plain =
+      dataSet ? this->Surfaces.mapperOf(dataSet) : vtkPolyDataMapper::SafeDownCast(mapper);
+    if (plain && plain->GetInput())
     {
+      whole.mesh = plain->GetInput();
+      whole.colors = plain;
       parts.push_back(whole);
     }
   }
@@ -267,7 +271,7 @@ bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatr
     Instance& instance = surface.instance;
     surface.traceable = mayTrace &&
       lookOf(part, property, !frame.result.scene.lights.empty(), instance.material,
-        instance.attributes, frame.result.kept);
+        instance.attributes, this->Floats, frame.result.kept);
     surface.casts = flagOf(actor, owner, vtkSVORenderPass::CAST_SHADOW(),
       part.opacity >= 1.0 && (composite || !translucent));
     if (surface.traceable || (surface.casts && frame.shadows))
@@ -381,6 +385,8 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
       this->collectProp(prop, frame);
     }
   }
+  this->Surfaces.endFrame();
+  this->Floats.endFrame();
   for (auto block = this->Blocks.begin(); block != this->Blocks.end();)
   {
     block =

@@ -2,6 +2,8 @@
 #ifndef svoSceneCollector_h
 #define svoSceneCollector_h
 
+#include "svoDataSetSurfaces.h"
+#include "svoFloatArrays.h"
 #include "svoOctreeStore.h"
 #include "svoScene.h"
 #include "svoSurfaceLook.h"
@@ -66,6 +68,8 @@ private:
     std::uint64_t lastFrame = 0;
   };
   std::map<std::pair<vtkMapper*, vtkPolyData*>, BlockColors> Blocks;
+  DataSetSurfaces Surfaces;
+  FloatArrays Floats;
   std::set<std::pair<const void*, std::string>> Said;
   std::uint64_t FrameNumber = 0;
 };

@@ -27,7 +27,8 @@ namespace
 bool isPlainMapper(vtkMapper* mapper)
 {
   const std::string name = mapper->GetClassName();
-  return name == "vtkOpenGLPolyDataMapper" || name == "vtkCompositePolyDataMapper2";
+  return name == "vtkOpenGLPolyDataMapper" || name == "vtkCompositePolyDataMapper2" ||
+    name == "vtkDataSetMapper";
 }
 
 bool hasCustomShaders(vtkActor* actor)
@@ -37,21 +38,7 @@ bool hasCustomShaders(vtkActor* actor)
     shaders->HasFragmentShaderCode() || shaders->HasGeometryShaderCode();
 }
 
-/// A float array with 3 components, made where there is another type.
-const float* floatTriples(vtkDataArray* array, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
-{
-  if (auto* floats = vtkFloatArray::SafeDownCast(array))
-  {
-    return floats->GetPointer(0);
-  }
-  auto copy = vtkSmartPointer<vtkFloatArray>::New();
-  copy->DeepCopy(array);
-  kept.push_back(copy);
-  return copy->GetPointer(0);
-}
-
-void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes,
-  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays& floats)
 {
   vtkDataArray* normals = flat ? nullptr : mesh->GetPointData()->GetNormals();
   attributes.normalAssociation = Association::Point;
@@ -68,7 +55,7 @@ void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes,
     attributes.normalAssociation = Association::None;
     return;
   }
-  attributes.normals = floatTriples(normals, kept);
+  attributes.normals = floats.values(normals);
 }
 
 /// True if VTK's mapper looks the mapped colours up by cell.
@@ -193,7 +180,7 @@ Treatment treatmentOf(vtkActor* actor)
 }
 
 bool lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
-  Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+  Attributes& attributes, FloatArrays& floats, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
 {
   vtkPolyData* mesh = part.mesh;
   if (mesh->GetNumberOfVerts() > 0 || mesh->GetNumberOfLines() > 0)
@@ -216,7 +203,7 @@ bool lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Materia
     setColor(material, part.color);
   }
   const bool flat = property->GetInterpolation() == VTK_FLAT;
-  normalsOf(mesh, flat, attributes, kept);
+  normalsOf(mesh, flat, attributes, floats);
   material.flat = attributes.normalAssociation == Association::None;
   return scalarColors(part, material, attributes, kept);
 }

@@ -2,6 +2,7 @@
 #ifndef svoSurfaceLook_h
 #define svoSurfaceLook_h
 
+#include "svoFloatArrays.h"
 #include "svoScene.h"
 
 #include "vtkSmartPointer.h"
@@ -45,9 +46,9 @@ struct SurfacePart
 };
 
 /// Material and attributes of a part. False if the look is beyond the tracer. Arrays that the
-/// attributes point into are kept in `kept`.
+/// attributes point into are the mesh's own, or kept in `floats` and `kept`.
 bool lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
-  Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
+  Attributes& attributes, FloatArrays& floats, std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
 
 /// VTK's offset of coincident polygons for this mapper, as its shaders apply it: the amount added
 /// to window depth.

@@ -1,0 +1,54 @@
+#include "svoDataSetSurfaces.h"
+
+#include "vtkDataSetMapper.h"
+#include "vtkDataSetSurfaceFilter.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+
+#include <iterator>
+
+namespace svo
+{
+DataSetSurfaces::DataSetSurfaces() = default;
+DataSetSurfaces::~DataSetSurfaces() = default;
+
+vtkPolyDataMapper* DataSetSurfaces::mapperOf(vtkDataSetMapper* mapper)
+{
+  vtkDataSet* input = mapper->GetInput();
+  if (!input)
+  {
+    return nullptr;
+  }
+  Entry& entry = this->Entries[mapper];
+  entry.asked = true;
+  if (!entry.mapper)
+  {
+    entry.mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
+    entry.filter = vtkSmartPointer<vtkDataSetSurfaceFilter>::New();
+  }
+  if (entry.time != mapper->GetMTime())
+  {
+    entry.time = mapper->GetMTime();
+    entry.mapper->vtkMapper::ShallowCopy(mapper);
+  }
+  auto* mesh = vtkPolyData::SafeDownCast(input);
+  if (!mesh)
+  {
+    entry.filter->SetInputData(input);
+    entry.filter->Update();
+    mesh = entry.filter->GetOutput();
+  }
+  entry.mapper->SetInputData(mesh);
+  return entry.mapper;
+}
+
+void DataSetSurfaces::endFrame()
+{
+  for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
+  {
+    const bool asked = entry->second.asked;
+    entry->second.asked = false;
+    entry = asked ? std::next(entry) : this->Entries.erase(entry);
+  }
+}
+}

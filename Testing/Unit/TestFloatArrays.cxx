@@ -1,0 +1,44 @@
+#include "svoFloatArrays.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+
+#include <gtest/gtest.h>
+
+TEST(FloatArrays, FloatsAreNotCopied)
+{
+  vtkNew<vtkFloatArray> array;
+  array->InsertNextValue(1.5f);
+  svo::FloatArrays floats;
+  EXPECT_EQ(floats.values(array), array->GetPointer(0));
+  EXPECT_EQ(floats.size(), 0u);
+}
+
+TEST(FloatArrays, DoublesAreConvertedOncePerChange)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetNumberOfComponents(3);
+  array->InsertNextTuple3(1.0, 2.0, 3.0);
+  svo::FloatArrays floats;
+  const float* first = floats.values(array);
+  EXPECT_EQ(first[2], 3.0f);
+  floats.endFrame();
+  EXPECT_EQ(floats.values(array), first);
+  array->SetComponent(0, 2, 5.0);
+  EXPECT_EQ(floats.values(array)[2], 3.0f) << "nobody has said that the array changed";
+  array->Modified();
+  EXPECT_EQ(floats.values(array)[2], 5.0f);
+  EXPECT_EQ(floats.size(), 1u);
+}
+
+TEST(FloatArrays, CopiesThatNobodyAsksForAreForgotten)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->InsertNextValue(1.0);
+  svo::FloatArrays floats;
+  floats.values(array);
+  floats.endFrame();
+  EXPECT_EQ(floats.size(), 1u);
+  floats.endFrame();
+  EXPECT_EQ(floats.size(), 0u);
+}
