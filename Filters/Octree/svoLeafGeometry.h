@@ -154,7 +154,8 @@ std::uint32_t representativeNode(
   }
   const Node& node = query.octree.nodes()[cell.node];
   const Vector<Real> centre = cellCentre<Real>(cell.cell, query.bits);
-  const Real middle = (cell.tEnter + std::min(cell.tExit, ray.tMax)) * Real(0.5);
+  // Of the cell, not of the ray: what is hit must not depend on where the ray was cut.
+  const Real middle = (cell.tEnter + cell.tExit) * Real(0.5);
   const Vector<Real> x = ray.origin + middle * ray.direction;
   int bit =
     cell.firstBit | int(x.x >= centre.x) | int(x.y >= centre.y) << 1 | int(x.z >= centre.z) << 2;
