@@ -234,3 +234,76 @@ TEST(Watertight, NoRayPassesBetweenTwoTriangles)
     EXPECT_GT(rays, scaled(200000) / 4);
   }
 }
+
+// The walk's loop has a bound so that no proof is needed. No ray comes near it: none through
+// surfaces, noise, a full cube or single voxels, in double or float, along axes, in planes between
+// voxels, of any length.
+TEST(Watertight, NoWalkReachesItsBound)
+{
+  std::vector<glm::ivec3> full;
+  for (int i = 0; i < 4096; ++i)
+  {
+    full.push_back({ i & 15, i >> 4 & 15, i >> 8 });
+  }
+  std::vector<glm::ivec3> chess;
+  for (const glm::ivec3& v : full)
+  {
+    if ((v.x + v.y + v.z) % 2 == 0)
+    {
+      chess.push_back(v);
+    }
+  }
+  const std::vector<svo::Octree> octrees = { makeOctree(sphere(60, 80), 9), makeOctree(star(), 10),
+    makeOctree(full, 4), makeOctree(chess, 4), makeOctree(noise(11, 20000, 3), 11),
+    makeOctree(std::vector<glm::ivec3>{ glm::ivec3(0), glm::ivec3((1 << 20) - 1) }, 20) };
+  for (std::size_t o = 0; o < octrees.size(); ++o)
+  {
+    const svo::Octree& octree = octrees[o];
+    ASSERT_TRUE(octree);
+    RandomRays random(octree, 77);
+    Chance chance(5);
+    long most = 0;
+    for (long i = 0; i < scaled(20000); ++i)
+    {
+      svo::Ray ray = random.next();
+      const double grid = std::ldexp(1.0, 1 + chance.below(octree.level()));
+      for (int a = 0; a < 3; ++a)
+      {
+        ray.origin[a] =
+          chance.unit() < 0.3 ? std::round(ray.origin[a] * grid) / grid : ray.origin[a];
+        const double choice = chance.unit();
+        ray.direction[a] = choice < 0.2 ? 0.0
+          : choice < 0.3                ? std::copysign(1.0, ray.direction[a])
+          : choice < 0.35               ? 1e-18
+          : choice < 0.4                ? -1e-7
+                                        : ray.direction[a];
+      }
+      const double length = std::pow(10.0, chance.between(-20.0, 20.0));
+      ray.direction *= length;
+      ray.tMax = 1e35;
+      const int level = chance.below(octree.level() + 1);
+      long visited = 0;
+      const auto count = [&](const auto&, auto&)
+      {
+        ++visited;
+        return svo::Visit::Continue;
+      };
+      svo::ClippedRay<double> inDouble;
+      svo::ClippedRay<float> inFloat;
+      if (svo::clip(octree, ray.origin, ray.direction, 0.0, ray.tMax, inDouble))
+      {
+        EXPECT_NE(svo::walk(octree, inDouble, level, count), svo::WalkEnd::Bound)
+          << "octree " << o << ", ray " << i;
+      }
+      if (svo::clip(octree, glm::vec3(ray.origin), glm::vec3(ray.direction), 0.0f,
+            static_cast<float>(ray.tMax), inFloat))
+      {
+        EXPECT_NE(svo::walk(octree, inFloat, level, count), svo::WalkEnd::Bound)
+          << "octree " << o << ", ray " << i;
+      }
+      most = std::max(most, visited / 2);
+    }
+    // Cells that a ray can pass: three for each step along an edge.
+    EXPECT_LE(most, 3l << octree.level()) << "octree " << o;
+  }
+}
