@@ -70,6 +70,7 @@ struct Case
   const char* name;
   int messages; // how many, over three frames
   std::function<void(svoTest::Stage&)> add;
+  bool untouched = false; // no bit of the picture may change
 };
 
 void withMatrix(svoTest::Stage& stage, int row, int column, double value)
@@ -116,10 +117,23 @@ int TestSVOBadInput(int, char*[])
       } },
     { "a point that is not a number", 1,
       [](Stage& stage) { stage.add(square(-9.0, NaN), 1.0, 0.0, 0.0); } },
-    { "a singular matrix", 1, [](Stage& stage) { withMatrix(stage, 2, 2, 0.0); } },
-    { "a matrix that is not a number", 1, [](Stage& stage) { withMatrix(stage, 0, 0, NaN); } },
+    { "a singular matrix", 1, [](Stage& stage) { withMatrix(stage, 2, 2, 0.0); }, true },
+    { "a matrix that is not a number", 1, [](Stage& stage) { withMatrix(stage, 0, 0, NaN); },
+      true },
     { "an infinite matrix", 1,
-      [](Stage& stage) { withMatrix(stage, 1, 1, std::numeric_limits<double>::infinity()); } },
+      [](Stage& stage) { withMatrix(stage, 1, 1, std::numeric_limits<double>::infinity()); },
+      true },
+    { "a matrix of condition 1e13", 1, [](Stage& stage) { withMatrix(stage, 2, 2, 1e-13); }, true },
+    // It is left to the rasteriser, which draws it far beside the picture here. A rasterised
+    // receiver may be anywhere, so the ground casts as well, and shadows have other texels.
+    { "a matrix with a perspective row", 1,
+      [](Stage& stage)
+      {
+        vtkNew<vtkMatrix4x4> matrix;
+        matrix->SetElement(0, 3, 1000.0);
+        matrix->SetElement(3, 1, 0.1);
+        stage.add(ball(0.5, 0.0, 0.0, 2.0), 1.0, 0.0, 0.0)->SetUserMatrix(matrix);
+      } },
   };
 
   Stage good;
@@ -151,6 +165,8 @@ int TestSVOBadInput(int, char*[])
               << messages->last << "\n";
     checks.expect(
       change.mean < 0.05, std::string(bad.name) + ": the rest of the frame is complete");
+    checks.expect(!bad.untouched || change.largest == 0,
+      std::string(bad.name) + ": the rest of the frame is the same to the bit");
     checks.expect(messages->count == bad.messages,
       std::string(bad.name) + ": " + std::to_string(bad.messages) + " messages over three frames");
   }
