@@ -1,7 +1,7 @@
 #!/bin/bash
 # Installs the Debian 12 packages that a part of the project needs, and says what each is for.
 # Usage: install-packages.sh [--list] [--no-install] group...
-# Groups: build test demo fuzz accuracy
+# Groups: build test paraview demo fuzz accuracy
 # Packages that are there already are left alone; with none missing nothing runs and nothing is
 # asked. --no-install only checks: it names what is missing and ends with 1. --list prints names.
 set -euo pipefail
@@ -21,6 +21,11 @@ xvfb|a display for machines without one
 xauth|access to that display
 libgl1-mesa-dri|software OpenGL
 libembree-dev|the ray tracer that the benchmark compares with"
+packages_paraview="
+paraview|ParaView 5.11 and what it depends on
+paraview-dev|its headers and CMake package
+python3-numpy|the plugin's tests judge their pictures with it
+openmpi-bin|tests on several processes"
 packages_demo="
 xvfb|a display for machines without one
 xauth|access to that display
@@ -50,9 +55,10 @@ for argument in "$@"; do
     demo) wanted+="$packages_demo" ;;
     fuzz) wanted+="$packages_fuzz" ;;
     accuracy) wanted+="$packages_accuracy" ;;
+    paraview) wanted+="$packages_paraview" ;;
     *)
       echo "install-packages.sh: unknown argument '$argument'" \
-        "(groups: build test demo fuzz accuracy)" >&2
+        "(groups: build test paraview demo fuzz accuracy)" >&2
       exit 2
       ;;
   esac

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Installs what is missing, builds build/vtk and runs the tests. Safe to run again.
+# Installs what is missing, builds build/vtk and build/paraview and runs the tests of both. Safe to
+# run again.
 # Usage: run-tests.sh [--long] [--no-install]
 #   --long        also the tests labelled "long" (real meshes, big ray counts) and the sanitizers
 #   --no-install  never installs: names what is missing and stops
@@ -9,13 +10,13 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 long=no
 check_only=()
-groups=(build test)
+groups=(build test paraview)
 for argument in "$@"; do
   case "$argument" in
     --long) long=yes; groups+=(demo) ;;
     --no-install) check_only=(--no-install) ;;
     *)
-      sed -n '2,5s/^# //p' "${BASH_SOURCE[0]}"
+      sed -n '2,6s/^# //p' "${BASH_SOURCE[0]}"
       exit 2
       ;;
   esac
@@ -24,6 +25,7 @@ step() { printf '\n== %s (%s)\n' "$1" "$(date +%T)"; }
 
 step "Packages"
 CMake/install-packages.sh "${check_only[@]}" "${groups[@]}"
+paraview=$(CMake/unpack-paraview.sh "${check_only[@]}")
 
 step "Build: build/vtk"
 cmake -S . -B build/vtk -G Ninja \
@@ -34,14 +36,27 @@ cmake -S . -B build/vtk -G Ninja \
   -DVTKSVO_TESTING=ON -DVTKSVO_EXAMPLES=ON -DVTKSVO_PYTHON=ON
 cmake --build build/vtk -j "${VTKSVO_JOBS:-2}"
 
+step "Build: build/paraview"
+cmake -S . -B build/paraview -G Ninja \
+  -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
+  -DPython3_EXECUTABLE=/usr/bin/python3 \
+  -DParaView_DIR="$(echo "$paraview"/usr/lib/*/cmake/paraview-*)" \
+  -DVTKSVO_PARAVIEW=ON -DVTKSVO_SANITIZE=OFF -DVTKSVO_TESTING=ON -DVTKSVO_PYTHON=ON
+cmake --build build/paraview -j "${VTKSVO_JOBS:-2}"
+
 # One virtual display for the whole suite; -noreset, because the server resets whenever its last
 # window closes and windows opened meanwhile die.
 step "Tests"
 selection=(-LE long)
 [ "$long" = no ] || selection=()
 result=0
-xvfb-run -a -s "-noreset -screen 0 1920x1200x24" \
-  ctest --test-dir build/vtk --output-on-failure --timeout 300 "${selection[@]}" || result=$?
+xvfb-run -a -s "-noreset -screen 0 1920x1200x24" bash -c '
+  result=0
+  for tree in build/vtk build/paraview; do
+    ctest --test-dir "$tree" --output-on-failure --timeout 300 "$@" || result=$?
+  done
+  exit $result' tests "${selection[@]}" || result=$?
 
 if [ "$long" = yes ]; then
   step "Sanitizers"
@@ -52,7 +67,7 @@ echo
 if [ "$result" -eq 0 ]; then
   echo "All tests passed. Python: PYTHONPATH=$PWD/build/vtk/python /usr/bin/python3 -c 'import vtksvo'"
 else
-  echo "Some tests failed. Details: build/vtk/Testing/Temporary/LastTest.log"
+  echo "Some tests failed. Details: Testing/Temporary/LastTest.log in build/vtk and build/paraview"
 fi
-echo "ParaView plugin: not part of this version yet"
+echo "ParaView plugin: $(find "$PWD/build/paraview" -name SparseVoxelOctree.so)"
 exit "$result"

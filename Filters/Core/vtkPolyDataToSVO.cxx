@@ -20,18 +20,18 @@ class vtkPolyDataToSVO::vtkInternals
 public:
   svo::OctreeCache Cache;
 
-  /// The octree that a mesh brings along, if it is what would be built.
-  static svo::Octree Carried(vtkPolyData* mesh, int level, svo::LeafGeometry geometry)
+  /// The octree that a mesh brings along, if it is what would be built or if `any` will do.
+  static svo::Octree Carried(vtkPolyData* mesh, int level, svo::LeafGeometry geometry, bool any)
   {
     svo::Octree octree;
     std::string ignored; // what is damaged is replaced
-    if (svo::openAttachedOctree(mesh, octree, ignored) != svo::Attached::Found ||
-      octree.level() != level ||
-      octree.header().leafGeometry != static_cast<std::uint32_t>(geometry))
+    if (svo::openAttachedOctree(mesh, octree, ignored) != svo::Attached::Found)
     {
       return {};
     }
-    return octree;
+    const bool same = octree.level() == level &&
+      octree.header().leafGeometry == static_cast<std::uint32_t>(geometry);
+    return same || any ? octree : svo::Octree();
   }
 };
 
@@ -105,7 +105,8 @@ int vtkPolyDataToSVO::RequestData(
   options.level = this->MaximumLevel;
   options.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);
   options.memoryLimit = this->MemoryLimit * Kibi;
-  if (const auto carried = vtkInternals::Carried(input, options.level, options.leafGeometry))
+  if (const auto carried =
+        vtkInternals::Carried(input, options.level, options.leafGeometry, this->KeepOctrees))
   {
     this->NumberOfVoxels = static_cast<vtkIdType>(carried.header().voxelCount);
     return 1;
@@ -175,6 +176,7 @@ void vtkPolyDataToSVO::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CacheMemoryLimit: " << this->CacheMemoryLimit << " KiB\n";
   os << indent << "CacheMemorySize: " << this->GetCacheMemorySize() << " KiB\n";
   os << indent << "NumberOfCachedOctrees: " << this->GetNumberOfCachedOctrees() << "\n";
+  os << indent << "KeepOctrees: " << (this->KeepOctrees ? "On\n" : "Off\n");
   os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
   os << indent << "NumberOfBuilds: " << this->NumberOfBuilds << "\n";
   os << indent << "BuildTime: " << this->BuildTime << " s\n";

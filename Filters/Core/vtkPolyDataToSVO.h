@@ -103,6 +103,16 @@ public:
 
   //@{
   /**
+   * Whether a mesh that comes with an octree keeps it, whatever its level and leaf geometry.
+   * Default off: it is kept only if it is what would be built.
+   */
+  vtkSetMacro(KeepOctrees, bool);
+  vtkGetMacro(KeepOctrees, bool);
+  vtkBooleanMacro(KeepOctrees, bool);
+  //@}
+
+  //@{
+  /**
    * Memory that one build may use at its peak, in KiB; default 0: what the machine has available. A
    * build that is expected to need more is refused with an error.
    */
@@ -153,6 +163,7 @@ private:
   int MaximumLevel = 10;
   int LeafGeometry = AUTOMATIC;
   bool CacheTimeSteps = true;
+  bool KeepOctrees = false;
   unsigned long CacheMemoryLimit = 1048576;
   unsigned long MemoryLimit = 0;
   vtkIdType NumberOfBuilds = 0;

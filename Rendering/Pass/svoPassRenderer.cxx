@@ -39,24 +39,24 @@ PassRenderer::PassRenderer(vtkRenderer* renderer)
 {
 }
 
-void PassRenderer::trace(const vtkRenderState* state, OctreeStore& store,
-  const StoreOptions& options, FrameSettings settings)
+void PassRenderer::collect(
+  OctreeStore& store, const StoreOptions& options, const CollectSettings& settings)
 {
   this->Statistics = PassStatistics();
   this->Collected = CollectedScene();
   this->Picture.covered = PixelRect();
 
   const double start = vtkTimerLog::GetUniversalTime();
-  this->Collector.collect(this->Renderer, store, options,
-    settings.shadowTechnique != ShadowTechnique::None, this->Collected);
+  this->Collector.collect(this->Renderer, store, options, settings, this->Collected);
   this->Statistics.collectTime = vtkTimerLog::GetUniversalTime() - start;
   this->Statistics.tracedActors = this->Collected.tracedActors;
   this->Statistics.rasterizedActors = this->Collected.rasterizedActors;
-  const Scene& scene = this->Collected.scene;
-  this->Statistics.instances = static_cast<int>(scene.instances.size());
+  this->Statistics.instances = static_cast<int>(this->Collected.scene.instances.size());
+}
 
-  int width, height;
-  sizeOf(state, width, height);
+void PassRenderer::trace(int width, int height, FrameSettings settings)
+{
+  const Scene& scene = this->Collected.scene;
   View& view = this->Eye;
   view = View();
   this->PixelError = settings.pixelError;
@@ -82,8 +82,7 @@ void PassRenderer::trace(const vtkRenderState* state, OctreeStore& store,
     this->Statistics.tracer.retracedLayers > 0);
 }
 
-void PassRenderer::exchange(
-  ExchangedProps& props, const vtkRenderState* state, vtkOpenGLRenderPass* pass)
+void PassRenderer::present(vtkOpenGLRenderPass* pass)
 {
   this->Presenter->SetFrame(
     &this->Picture,
@@ -93,6 +92,12 @@ void PassRenderer::exchange(
         smpParallelFor(), silhouettes);
     },
     pass);
+}
+
+void PassRenderer::exchange(
+  ExchangedProps& props, const vtkRenderState* state, vtkOpenGLRenderPass* pass)
+{
+  this->present(pass);
   std::size_t used = 0;
   for (int i = 0; i < state->GetPropArrayCount(); ++i)
   {
@@ -117,6 +122,7 @@ void PassRenderer::exchange(
 void PassRenderer::finish()
 {
   this->Statistics.presentTime = this->Presenter->GetPresentTime();
+  this->Presenter->SetFrame(nullptr, nullptr, nullptr);
   this->Collected = CollectedScene();
 }
 

@@ -60,12 +60,20 @@ public:
 
   vtkRenderer* renderer() const { return this->Renderer; }
 
-  /// Collects and traces a frame of the state's renderer. Nothing is drawn yet.
-  void trace(const vtkRenderState* state, OctreeStore& store, const StoreOptions& options,
-    FrameSettings settings);
+  /// Collects a frame's scene from the renderer, whose lights are in place.
+  void collect(OctreeStore& store, const StoreOptions& options, const CollectSettings& settings);
+
+  /// Traces the collected scene, `width` by `height` pixels. Nothing is drawn yet.
+  void trace(int width, int height, FrameSettings settings);
+
+  /// The prop that shows what was traced.
+  vtkSVOPresenter* presenter() { return this->Presenter; }
 
   /// Puts the presenter in the traced props' place.
   void exchange(ExchangedProps& props, const vtkRenderState* state, vtkOpenGLRenderPass* pass);
+
+  /// Has the presenter, which is in the renderer's own list, show what was traced.
+  void present(vtkOpenGLRenderPass* pass);
 
   /// To be called when the frame has been drawn: forgets what it borrowed.
   void finish();

@@ -36,7 +36,7 @@ struct SceneCollector::Frame
 {
   OctreeStore& store;
   const StoreOptions& options;
-  bool shadows;
+  CollectSettings settings;
   CollectedScene& result;
 };
 
@@ -67,6 +67,12 @@ bool flagOf(vtkProp* prop, vtkProp* owner, vtkInformationIntegerKey* key, bool o
     }
   }
   return otherwise;
+}
+
+/// True if the prop or its assembly says explicitly that it uses octrees.
+bool isMarked(vtkProp* prop, vtkProp* owner)
+{
+  return flagOf(prop, owner, vtkSVORenderPass::USE_SVO(), false);
 }
 
 bool hasSurface(vtkPolyData* mesh)
@@ -216,7 +222,7 @@ std::vector<SurfacePart> SceneCollector::partsOf(vtkActor* actor)
 bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatrix4x4* matrix,
   int path, std::vector<Surface>& surfaces, Frame& frame)
 {
-  if (!isPlainActor(actor))
+  if (!isPlainActor(actor) && !isMarked(actor, owner))
   {
     return false; // it may well draw without a mapper of its own
   }
@@ -224,6 +230,10 @@ bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatr
   if (!mapper || mapper->GetNumberOfInputConnections(0) == 0)
   {
     return true;
+  }
+  if (frame.settings.onlyMarked && !isMarked(actor, owner))
+  {
+    return false;
   }
   if (!mapper->GetStatic())
   {
@@ -274,7 +284,7 @@ bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatr
         instance.attributes, this->Floats, frame.result.kept);
     surface.casts = flagOf(actor, owner, vtkSVORenderPass::CAST_SHADOW(),
       part.opacity >= 1.0 && (composite || !translucent));
-    if (surface.traceable || (surface.casts && frame.shadows))
+    if (surface.traceable || (surface.casts && frame.settings.shadows))
     {
       if (frame.store.find(part.mesh, frame.options, instance.octree) != OctreeStore::Answer::Found)
       {
@@ -357,7 +367,7 @@ void SceneCollector::collectProp(vtkProp* prop, Frame& frame)
   for (Surface& surface : surfaces)
   {
     surface.instance.visible = traced;
-    if (traced || (surface.casts && frame.shadows))
+    if (traced || (surface.casts && frame.settings.shadows))
     {
       result.scene.instances.push_back(surface.instance);
     }
@@ -365,7 +375,7 @@ void SceneCollector::collectProp(vtkProp* prop, Frame& frame)
 }
 
 void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options,
-  bool shadows, CollectedScene& result)
+  const CollectSettings& settings, CollectedScene& result)
 {
   ++this->FrameNumber;
   result.scene.lights = lightsOf(renderer, result.headlightOnly);
@@ -374,7 +384,8 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   {
     casting = casting || light.castShadow;
   }
-  Frame frame{ store, options, shadows && casting, result };
+  Frame frame{ store, options, settings, result };
+  frame.settings.shadows = settings.shadows && casting;
   vtkCollectionSimpleIterator iterator;
   vtkPropCollection* props = renderer->GetViewProps();
   props->InitTraversal(iterator);

@@ -27,6 +27,15 @@ class vtkRenderer;
 
 namespace svo
 {
+/// What a frame asks of the collection.
+struct CollectSettings
+{
+  bool shadows = true; // casters are wanted
+  /// Only props that say explicitly that they use octrees (vtkSVORenderPass::SetUseSVO) are traced
+  /// or cast; the others only receive.
+  bool onlyMarked = false;
+};
+
 /// A frame's scene and what it means for the renderer's props.
 struct CollectedScene
 {
@@ -47,8 +56,8 @@ class SceneCollector
 {
 public:
   /// Octrees come from `store`; messages go to `options.complain`, each once.
-  void collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options, bool shadows,
-    CollectedScene& result);
+  void collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options,
+    const CollectSettings& settings, CollectedScene& result);
 
 private:
   struct Surface;

@@ -227,7 +227,17 @@ int vtkSVOPresenter::RenderOpaqueGeometry(vtkViewport* viewport)
   auto* renderer = vtkRenderer::SafeDownCast(viewport);
   auto* window =
     renderer ? vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()) : nullptr;
-  if (!window || !this->Frame || this->Frame->covered.empty() || renderer->GetSelector())
+  if (!window || renderer->GetSelector())
+  {
+    return 0;
+  }
+  if (this->PrepareFrame)
+  {
+    int rectangle[4];
+    window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, rectangle);
+    this->PrepareFrame(rectangle[2], rectangle[3]);
+  }
+  if (!this->Frame || this->Frame->covered.empty())
   {
     return 0;
   }

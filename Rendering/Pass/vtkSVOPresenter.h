@@ -42,6 +42,11 @@ public:
   /// from the frame's pixels that they replace.
   void SetFrame(svo::Frame* frame, const SilhouetteFinder& silhouettes, vtkOpenGLRenderPass* pass);
 
+  /// Called when the prop is about to draw, with the size in pixels of what is drawn, before it
+  /// looks at its frame. Null (the default) in renderers whose pass is the prop's own.
+  using Prepare = std::function<void(int width, int height)>;
+  void SetPrepare(Prepare prepare) { this->PrepareFrame = std::move(prepare); }
+
   /// Seconds that the last frame's upload and drawing took.
   double GetPresentTime() const { return this->PresentTime; }
 
@@ -62,6 +67,7 @@ private:
   bool Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void SelectDrawBuffers();
 
+  Prepare PrepareFrame;
   svo::Frame* Frame = nullptr;
   SilhouetteFinder FindSilhouettes;
   vtkOpenGLRenderPass* Pass = nullptr;

@@ -1,6 +1,7 @@
 #include "vtkSVORenderPass.h"
 
-#include "svoPassRenderer.h"
+#include "svoCameraView.h"
+#include "svoPassInternals.h"
 
 #include "vtkCommand.h"
 #include "vtkObjectFactory.h"
@@ -8,45 +9,23 @@
 #include "vtkRenderState.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
-#include "vtkTimeStamp.h"
 
-#include <map>
 #include <string>
 
 vtkStandardNewMacro(vtkSVORenderPass);
-
-struct vtkSVORenderPass::Internals
-{
-  svo::OctreeStore store;
-  std::map<vtkRenderer*, std::unique_ptr<svo::PassRenderer>> renderers;
-  svo::PassRenderer* current = nullptr; // while its frame is drawn
-  svo::PassStatistics statistics;
-  std::string shaderSignature; // of the shaders that mappers have built last
-  vtkTimeStamp shaderTime;
-  bool saidHeadlight = false;
-  bool saidOpenGL = false;
-
-  svo::PassRenderer& of(vtkRenderer* renderer)
-  {
-    for (auto entry = this->renderers.begin(); entry != this->renderers.end();)
-    {
-      entry = entry->second->renderer() ? std::next(entry) : this->renderers.erase(entry);
-    }
-    std::unique_ptr<svo::PassRenderer>& found = this->renderers[renderer];
-    if (!found)
-    {
-      found = std::make_unique<svo::PassRenderer>(renderer);
-    }
-    return *found;
-  }
-};
 
 vtkSVORenderPass::vtkSVORenderPass()
   : Impl(new Internals)
 {
 }
 
-vtkSVORenderPass::~vtkSVORenderPass() = default;
+vtkSVORenderPass::~vtkSVORenderPass()
+{
+  while (!this->Impl->attached.empty())
+  {
+    this->Detach(this->Impl->attached.begin()->first);
+  }
+}
 
 void vtkSVORenderPass::SetBackend(int backend)
 {
@@ -73,6 +52,68 @@ constexpr std::size_t BytesOfKiB = 1024;
 constexpr double InteractiveRate = 1.0; // Hz
 }
 
+/// Fills the pass's current frame with the renderer's scene.
+void vtkSVORenderPass::CollectFrame(vtkRenderer* renderer, bool attached)
+{
+  svo::StoreOptions store;
+  store.convert = this->ConvertPolyData;
+  store.level = this->MaximumLevel;
+  store.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);
+  store.wait = !this->BuildInBackground ||
+    renderer->GetRenderWindow()->GetDesiredUpdateRate() < InteractiveRate;
+  store.progress = [this](double amount) { this->InvokeEvent(vtkCommand::ProgressEvent, &amount); };
+  store.complain = [this](const std::string& text) { vtkWarningMacro(<< text); };
+
+  Internals& impl = *this->Impl;
+  impl.current = &impl.of(renderer);
+  impl.current->collect(
+    impl.store, store, { this->ShadowTechnique != SHADOW_NONE, /*onlyMarked=*/attached });
+  const svo::CollectedScene& collected = impl.current->collected();
+  if (collected.headlightOnly && !impl.saidHeadlight && this->ShadowTechnique != SHADOW_NONE &&
+    (!attached || !collected.scene.instances.empty()))
+  {
+    impl.saidHeadlight = true;
+    vtkWarningMacro("No shadows: the only light is a headlight, which casts none that can be seen. "
+                    "Add a vtkLight with SetLightTypeToSceneLight().");
+  }
+}
+
+/// Traces the current frame and has its shadow maps ready for rasterised surfaces.
+void vtkSVORenderPass::TraceFrame(int width, int height)
+{
+  svo::FrameSettings settings;
+  settings.shadowTechnique = static_cast<svo::ShadowTechnique>(this->ShadowTechnique);
+  settings.shadowResolution = this->ShadowBufferResolution;
+  settings.automaticBias = this->AutomaticShadowBias;
+  settings.bias = this->ShadowBias;
+  settings.shadowIntensity = this->ShadowIntensity;
+  settings.pixelError = this->PixelError;
+  settings.frameCoherence = this->FrameCoherence;
+  settings.layerMemoryLimit = static_cast<std::size_t>(this->LayerMemoryLimit) * BytesOfKiB;
+  settings.antiAliasing = this->AntiAliasing;
+
+  Internals& impl = *this->Impl;
+  impl.current->trace(width, height, settings);
+  svo::ShadowReceivers& receivers = impl.current->receivers();
+  const std::string signature = receivers.signature();
+  if (signature != impl.shaderSignature)
+  {
+    impl.shaderSignature = signature;
+    impl.shaderTime.Modified();
+  }
+  receivers.activate();
+}
+
+void vtkSVORenderPass::FinishFrame()
+{
+  Internals& impl = *this->Impl;
+  impl.current->receivers().deactivate();
+  impl.current->finish();
+  impl.statistics = impl.current->statistics();
+  impl.store.endFrame(static_cast<std::size_t>(this->OctreeMemoryLimit) * BytesOfKiB);
+  impl.current = nullptr;
+}
+
 void vtkSVORenderPass::Render(const vtkRenderState* state)
 {
   vtkRenderer* renderer = state->GetRenderer();
@@ -92,65 +133,26 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
     return;
   }
 
-  svo::StoreOptions store;
-  store.convert = this->ConvertPolyData;
-  store.level = this->MaximumLevel;
-  store.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);
-  store.wait = !this->BuildInBackground ||
-    renderer->GetRenderWindow()->GetDesiredUpdateRate() < InteractiveRate;
-  store.progress = [this](double amount) { this->InvokeEvent(vtkCommand::ProgressEvent, &amount); };
-  store.complain = [this](const std::string& text) { vtkWarningMacro(<< text); };
-
-  svo::FrameSettings settings;
-  settings.shadowTechnique = static_cast<svo::ShadowTechnique>(this->ShadowTechnique);
-  settings.shadowResolution = this->ShadowBufferResolution;
-  settings.automaticBias = this->AutomaticShadowBias;
-  settings.bias = this->ShadowBias;
-  settings.shadowIntensity = this->ShadowIntensity;
-  settings.pixelError = this->PixelError;
-  settings.frameCoherence = this->FrameCoherence;
-  settings.layerMemoryLimit = static_cast<std::size_t>(this->LayerMemoryLimit) * BytesOfKiB;
-  settings.antiAliasing = this->AntiAliasing;
-
-  Internals& impl = *this->Impl;
-  svo::PassRenderer& frame = impl.of(renderer);
-  frame.trace(state, impl.store, store, settings);
-  if (frame.collected().headlightOnly && !impl.saidHeadlight &&
-    settings.shadowTechnique != svo::ShadowTechnique::None)
-  {
-    impl.saidHeadlight = true;
-    vtkWarningMacro("No shadows: the only light is a headlight, which casts none that can be seen. "
-                    "Add a vtkLight with SetLightTypeToSceneLight().");
-  }
-
+  int width, height;
+  svo::sizeOf(state, width, height);
+  this->CollectFrame(renderer, false);
+  this->TraceFrame(width, height);
+  svo::PassRenderer& frame = *this->Impl->current;
   {
     svo::ExchangedProps props(state->GetPropArray());
     frame.exchange(props, state, this);
-    svo::ShadowReceivers& receivers = frame.receivers();
-    const bool receiving = !receivers.empty();
+    const bool receiving = !frame.receivers().empty();
     if (receiving)
     {
-      const std::string signature = receivers.signature();
-      if (signature != impl.shaderSignature)
-      {
-        impl.shaderSignature = signature;
-        impl.shaderTime.Modified();
-      }
-      impl.current = &frame;
-      receivers.activate();
       this->PreRender(state);
     }
     this->UpdateGeometry(renderer, state->GetFrameBuffer());
     if (receiving)
     {
       this->PostRender(state);
-      receivers.deactivate();
-      impl.current = nullptr;
     }
   }
-  frame.finish();
-  impl.statistics = frame.statistics();
-  impl.store.endFrame(static_cast<std::size_t>(this->OctreeMemoryLimit) * BytesOfKiB);
+  this->FinishFrame();
   this->NumberOfRenderedProps = renderer->GetNumberOfPropsRendered();
 }
 

@@ -28,6 +28,7 @@
  *
  * The pass takes the place of VTK's default pipeline (renderer->SetPass(pass)) or the delegate of a
  * vtkCameraPass. It may be set on several renderers; statistics are those of the one rendered last.
+ * A host that keeps the renderer's passes to itself, as ParaView does, calls Attach() instead.
  *
  * @sa vtkPolyDataToSVO vtkSparseVoxelOctree
  */
@@ -320,6 +321,19 @@ public:
   vtkIdType GetOctreeMemorySize() const;
   //@}
 
+  //@{
+  /**
+   * For a host whose renderers have passes of their own: from Attach() to Detach() each frame of
+   * the renderer shows what this pass traces, although the pass is not set on it. A prop that is
+   * put first in the renderer's list draws it. Only props with an explicit SetUseSVO(true) are
+   * traced and cast shadows; those must draw nothing while IsTraced() says that they are (a
+   * selector's frames are never traced). All other surfaces are drawn as ever, and receive shadows.
+   */
+  void Attach(vtkRenderer* renderer);
+  void Detach(vtkRenderer* renderer);
+  bool IsTraced(vtkProp* prop) const;
+  //@}
+
   void Render(const vtkRenderState* state) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
@@ -359,6 +373,12 @@ protected:
 private:
   vtkSVORenderPass(const vtkSVORenderPass&) = delete;
   void operator=(const vtkSVORenderPass&) = delete;
+
+  void BeginAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
+  void EndAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
+  void CollectFrame(vtkRenderer* renderer, bool attached);
+  void TraceFrame(int width, int height);
+  void FinishFrame();
 
   struct Internals;
   std::unique_ptr<Internals> Impl;

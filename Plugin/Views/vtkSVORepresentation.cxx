@@ -1,0 +1,156 @@
+#include "vtkSVORepresentation.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVRenderView.h"
+#include "vtkPolyDataToSVO.h"
+#include "vtkSVOActor.h"
+#include "vtkSVORenderPass.h"
+#include "vtkSVOViewPass.h"
+
+vtkStandardNewMacro(vtkSVORepresentation);
+
+vtkSVORepresentation::vtkSVORepresentation()
+{
+  this->ToOctree->SetKeepOctrees(true);
+  this->Actor->Delete();
+  this->Actor = vtkSVOActor::New();
+  this->SuppressLOD = true;
+  this->SetupDefaults();
+  vtkSVORenderPass::SetUseSVO(true, this->Actor);
+}
+
+vtkSVORepresentation::~vtkSVORepresentation() = default;
+
+void vtkSVORepresentation::SetupDefaults()
+{
+  this->Superclass::SetupDefaults();
+  this->ToOctree->SetInputConnection(this->GeometryFilter->GetOutputPort());
+  this->MultiBlockMaker->SetInputConnection(this->ToOctree->GetOutputPort());
+}
+
+bool vtkSVORepresentation::AddToView(vtkView* view)
+{
+  if (!this->Superclass::AddToView(view))
+  {
+    return false;
+  }
+  this->UpdateUse(view);
+  return true;
+}
+
+bool vtkSVORepresentation::RemoveFromView(vtkView* view)
+{
+  this->UpdateUse(nullptr);
+  return this->Superclass::RemoveFromView(view);
+}
+
+void vtkSVORepresentation::SetVisibility(bool visible)
+{
+  this->Superclass::SetVisibility(visible);
+  this->UpdateUse(this->GetView());
+}
+
+/// Every surface in a view has this representation among its own, mostly unseen. Only one that is
+/// shown has a use for the view's pass.
+void vtkSVORepresentation::UpdateUse(vtkView* view)
+{
+  vtkView* wanted = this->GetVisibility() ? view : nullptr;
+  if (this->Used == wanted)
+  {
+    return;
+  }
+  if (this->Used)
+  {
+    vtkSVOViewPass::RemoveUser(this->Used);
+  }
+  this->Used = wanted;
+  if (wanted)
+  {
+    vtkSVOViewPass::AddUser(wanted);
+  }
+  static_cast<vtkSVOActor*>(this->Actor)->SetPass(vtkSVOViewPass::Of(wanted));
+}
+
+void vtkSVORepresentation::SetMaximumLevel(int level)
+{
+  if (this->ToOctree->GetMaximumLevel() != level)
+  {
+    this->ToOctree->SetMaximumLevel(level);
+    this->MarkModified();
+  }
+}
+
+int vtkSVORepresentation::GetMaximumLevel()
+{
+  return this->ToOctree->GetMaximumLevel();
+}
+
+void vtkSVORepresentation::SetLeafGeometry(int geometry)
+{
+  if (this->ToOctree->GetLeafGeometry() != geometry)
+  {
+    this->ToOctree->SetLeafGeometry(geometry);
+    this->MarkModified();
+  }
+}
+
+int vtkSVORepresentation::GetLeafGeometry()
+{
+  return this->ToOctree->GetLeafGeometry();
+}
+
+void vtkSVORepresentation::SetCacheMemoryLimit(vtkIdType kibibytes)
+{
+  this->ToOctree->SetCacheMemoryLimit(static_cast<unsigned long>(kibibytes));
+}
+
+vtkIdType vtkSVORepresentation::GetCacheMemoryLimit()
+{
+  return static_cast<vtkIdType>(this->ToOctree->GetCacheMemoryLimit());
+}
+
+void vtkSVORepresentation::SetCastShadows(bool cast)
+{
+  // Without an answer opaque surfaces cast and translucent ones do not.
+  this->Actor->GetPropertyKeys()->Remove(vtkSVORenderPass::CAST_SHADOW());
+  if (!cast)
+  {
+    vtkSVORenderPass::SetCastShadow(false, this->Actor);
+  }
+}
+
+bool vtkSVORepresentation::GetCastShadows()
+{
+  return !this->Actor->GetPropertyKeys()->Has(vtkSVORenderPass::CAST_SHADOW());
+}
+
+void vtkSVORepresentation::SetReceiveShadows(bool receive)
+{
+  vtkSVORenderPass::SetReceiveShadow(receive, this->Actor);
+}
+
+bool vtkSVORepresentation::GetReceiveShadows()
+{
+  return vtkSVORenderPass::GetReceiveShadow(this->Actor);
+}
+
+vtkIdType vtkSVORepresentation::GetNumberOfBuilds()
+{
+  return this->ToOctree->GetNumberOfBuilds();
+}
+
+vtkIdType vtkSVORepresentation::GetCacheMemorySize()
+{
+  return static_cast<vtkIdType>(this->ToOctree->GetCacheMemorySize());
+}
+
+void vtkSVORepresentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "CastShadows: " << this->GetCastShadows() << '\n'
+     << indent << "ReceiveShadows: " << this->GetReceiveShadows() << '\n'
+     << indent << "ToOctree:\n";
+  this->ToOctree->PrintSelf(os, indent.GetNextIndent());
+}

@@ -1,0 +1,85 @@
+/**
+ * @class vtkSVORepresentation
+ * @brief ParaView's surface representation, traced through octrees, with shadows
+ *
+ * Surfaces that come without an octree get one before they are handed to the view, so that the
+ * octree travels with the surface to wherever it is drawn and stays with it in ParaView's cache of
+ * time steps. What cannot be traced (see vtkSVORenderPass) is rasterised, as in the surface
+ * representation.
+ */
+#ifndef vtkSVORepresentation_h
+#define vtkSVORepresentation_h
+
+#include "vtkGeometryRepresentationWithFaces.h"
+#include "vtkNew.h"            // for vtkNew
+#include "vtkSVOViewsModule.h" // for the export macro
+#include "vtkWeakPointer.h"    // for vtkWeakPointer
+
+class vtkPolyDataToSVO;
+
+class VTKSVOVIEWS_EXPORT vtkSVORepresentation : public vtkGeometryRepresentationWithFaces
+{
+public:
+  static vtkSVORepresentation* New();
+  vtkTypeMacro(vtkSVORepresentation, vtkGeometryRepresentationWithFaces);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  //@{
+  /**
+   * Octrees that are built here; see vtkPolyDataToSVO. A surface that comes with an octree keeps
+   * it.
+   */
+  void SetMaximumLevel(int level);
+  int GetMaximumLevel();
+  void SetLeafGeometry(int geometry);
+  int GetLeafGeometry();
+  void SetCacheMemoryLimit(vtkIdType kibibytes);
+  vtkIdType GetCacheMemoryLimit();
+  //@}
+
+  //@{
+  /**
+   * Whether the surface casts shadows, and whether shadows fall on it. Default on. Translucent
+   * surfaces never cast.
+   */
+  void SetCastShadows(bool cast);
+  bool GetCastShadows();
+  void SetReceiveShadows(bool receive);
+  bool GetReceiveShadows();
+  //@}
+
+  //@{
+  /**
+   * How many octrees were built so far, and memory of those that are kept, in KiB.
+   */
+  vtkIdType GetNumberOfBuilds();
+  vtkIdType GetCacheMemorySize();
+  //@}
+
+  void SetVisibility(bool visible) override;
+
+  /**
+   * Octrees have their own levels of detail; the decimated surface that other representations show
+   * during interaction is never made.
+   */
+  void SetSuppressLOD(bool) override {}
+
+protected:
+  vtkSVORepresentation();
+  ~vtkSVORepresentation() override;
+
+  void SetupDefaults() override;
+  bool AddToView(vtkView* view) override;
+  bool RemoveFromView(vtkView* view) override;
+
+private:
+  vtkSVORepresentation(const vtkSVORepresentation&) = delete;
+  void operator=(const vtkSVORepresentation&) = delete;
+
+  void UpdateUse(vtkView* view);
+
+  vtkNew<vtkPolyDataToSVO> ToOctree;
+  vtkWeakPointer<vtkView> Used; // the view whose pass this one is a user of
+};
+
+#endif

@@ -1,0 +1,56 @@
+/**
+ * @class vtkSVOViewPass
+ * @brief the render pass of a render view
+ *
+ * Every view has one vtkSVORenderPass, which lives as long as the view's renderer. It holds the
+ * settings that belong to the view, and is attached to the renderer while there is a representation
+ * to trace.
+ */
+#ifndef vtkSVOViewPass_h
+#define vtkSVOViewPass_h
+
+#include "vtkObject.h"
+#include "vtkSVOViewsModule.h" // for the export macro
+
+class vtkInformationObjectBaseKey;
+class vtkRenderer;
+class vtkSVORenderPass;
+class vtkView;
+
+class VTKSVOVIEWS_EXPORT vtkSVOViewPass : public vtkObject
+{
+public:
+  static vtkSVOViewPass* New();
+  vtkTypeMacro(vtkSVOViewPass, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The pass of a view, made when it is first asked for. Null if the view is no render view.
+   */
+  static vtkSVORenderPass* Of(vtkObjectBase* view);
+
+  //@{
+  /**
+   * A representation comes or goes: with the first one the pass is attached to the view's renderer,
+   * with the last one it is detached.
+   */
+  static void AddUser(vtkView* view);
+  static void RemoveUser(vtkView* view);
+  //@}
+
+protected:
+  vtkSVOViewPass();
+  ~vtkSVOViewPass() override;
+
+private:
+  vtkSVOViewPass(const vtkSVOViewPass&) = delete;
+  void operator=(const vtkSVOViewPass&) = delete;
+
+  static vtkInformationObjectBaseKey* VIEW_PASS();
+  static vtkSVOViewPass* OfRenderer(vtkRenderer* renderer);
+
+  vtkSVORenderPass* Pass;
+  int Users = 0;
+};
+
+#endif

@@ -1,0 +1,92 @@
+"""The plugin in an ordinary Render View: traced surfaces look as Surface does, and their shadows lie
+where arithmetic says, on each other and on ordinary surfaces."""
+
+import unittest
+
+import paraview.simple as pv
+import scene
+
+
+class TestShadows(unittest.TestCase):
+    def setUp(self):
+        self.view = scene.make_view()
+        scene.add_sun(self.view)
+        self.ball = scene.make_ball()
+        self.ground = scene.make_ground()
+
+    def tearDown(self):
+        pv.ResetSession()
+
+    def show(self, ball, ground):
+        return (scene.show(self.ball, self.view, ball), scene.show(self.ground, self.view, ground))
+
+    def check_shadow(self, picture):
+        ground, dark = scene.exact_shadow(self.view, self.view.ViewSize)
+        self.assertGreater(dark.sum(), 1000)
+        # With a pixel error of 1 outlines may be off by a pixel.
+        sure = ground & ~scene.border(ground, 2) & ~scene.border(dark, 2)
+        black = picture.max(axis=2) < 10
+        wrong = (black != dark) & sure
+        self.assertEqual(wrong.sum(), 0)
+
+    def test_without_shadows_the_look_is_that_of_surface(self):
+        self.view.SVOShadowTechnique = "None"
+        self.view.SVOPixelError = 0
+        self.show("Surface", "Surface")
+        surface = scene.picture(self.view, "surface")
+        self.show("SVO", "SVO")
+        traced = scene.picture(self.view, "no-shadows")
+        self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 2)
+        self.assertLess(scene.differing(surface, traced, tolerance=2), 1e-4)
+
+    def test_shadow_on_a_traced_surface(self):
+        self.show("SVO", "SVO")
+        picture = scene.picture(self.view, "traced-ground")
+        self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 2)
+        self.check_shadow(picture)
+        self.assertLess(scene.baseline_difference(picture, "ShadowedSphere"), 1e-3)
+
+    def test_shadow_on_an_ordinary_surface(self):
+        self.show("SVO", "Surface")
+        picture = scene.picture(self.view, "ordinary-ground")
+        self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 1)
+        self.check_shadow(picture)
+
+    def test_ordinary_surfaces_cast_nothing(self):
+        self.show("Surface", "SVO")
+        ordinary = scene.picture(self.view, "ordinary-ball")
+        ground, _ = scene.exact_shadow(self.view, self.view.ViewSize)
+        self.assertGreater(ordinary[ground & ~scene.border(ground, 2)].min(), 100)
+
+    def test_exact_rays_agree_with_the_buffer(self):
+        self.show("SVO", "SVO")
+        buffer = scene.picture(self.view, "buffer")
+        self.view.SVOShadowTechnique = "Shadow Rays"
+        rays = scene.picture(self.view, "rays")
+        self.check_shadow(rays)
+        self.assertLess(scene.differing(buffer, rays), 2e-3)
+
+    def test_cast_and_receive(self):
+        ball, ground = self.show("SVO", "SVO")
+        shown, _ = scene.exact_shadow(self.view, self.view.ViewSize)
+        shown &= ~scene.border(shown, 2)
+        ball.SVOCastShadows = 0
+        self.assertGreater(scene.picture(self.view, "no-caster")[shown].min(), 100)
+        ball.SVOCastShadows = 1
+        ground.SVOReceiveShadows = 0
+        self.assertGreater(scene.picture(self.view, "no-receiver")[shown].min(), 100)
+        ground.SVOReceiveShadows = 1
+        self.check_shadow(scene.picture(self.view, "both-again"))
+
+    def test_intensity_halves_the_shadow(self):
+        self.show("SVO", "SVO")
+        self.view.SVOShadowIntensity = 0.5
+        picture = scene.picture(self.view, "half")
+        ground, dark = scene.exact_shadow(self.view, self.view.ViewSize)
+        inside = dark & ~scene.border(dark) & ~scene.border(ground)
+        lit = ground & ~dark & ~scene.border(dark) & ~scene.border(ground)
+        self.assertAlmostEqual(picture[inside].mean() / picture[lit].mean(), 0.5, delta=0.01)
+
+
+scene.load_plugin()
+scene.run_tests()

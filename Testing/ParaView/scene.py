@@ -1,0 +1,147 @@
+"""The scene and the pictures that the ParaView tests share.
+
+VTKSVO_PLUGIN names the plugin's file, VTKSVO_OUTPUT a folder for pictures, VTKSVO_BASELINE that of
+the pictures to compare with.
+"""
+
+import os
+import sys
+import unittest
+
+import numpy
+import paraview.simple as pv
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+CENTER = numpy.array([0.0, 0.0, 0.8])
+RADIUS = 0.5
+TO_LIGHT = numpy.array([3.0, -2.0, 5.0]) / numpy.linalg.norm([3.0, -2.0, 5.0])
+
+
+def load_plugin():
+    """Before the first view is made, so that it has the plugin's settings."""
+    pv._DisableFirstRenderCameraReset()
+    pv.LoadPlugin(os.environ["VTKSVO_PLUGIN"], remote=False, ns=vars(pv))
+
+
+def output(name):
+    return os.path.join(os.environ["VTKSVO_OUTPUT"], name)
+
+
+def make_view(size=(600, 400)):
+    """A view without a light kit, at a place that sees the ball and the ground."""
+    view = pv.CreateView("RenderView")
+    view.ViewSize = list(size)
+    view.OrientationAxesVisibility = 0
+    view.UseLight = 0
+    view.CameraPosition = [5.0, -6.0, 4.0]
+    view.CameraFocalPoint = [0.0, 0.0, 0.3]
+    view.CameraViewUp = [0.0, 0.0, 1.0]
+    view.CameraViewAngle = 25.0
+    return view
+
+
+def add_sun(view):
+    """A directional light of the scene."""
+    light = pv.AddLight(view=view)
+    light.Coords = "Scene"
+    light.Type = "Directional"
+    light.Position = list(10.0 * TO_LIGHT)
+    light.FocalPoint = [0.0, 0.0, 0.0]
+    return light
+
+
+def make_ball():
+    return pv.Sphere(Center=list(CENTER), Radius=RADIUS, ThetaResolution=128, PhiResolution=128)
+
+
+def make_ground():
+    return pv.Plane(Origin=[-2, -2, 0], Point1=[2, -2, 0], Point2=[-2, 2, 0])
+
+
+def show(source, view, kind="SVO"):
+    display = pv.Show(source, view)
+    display.Representation = kind
+    return display
+
+
+def statistic(proxy, name):
+    """A property that is there for information only, which ParaView makes no attribute."""
+    proxy.UpdatePropertyInformation()
+    return proxy.GetPropertyValue(name)
+
+
+def picture(view, name, **options):
+    """Renders, saves the picture and returns it: rows from below, columns, 3 or 4 channels."""
+    path = output(name + ".png")
+    options.setdefault("ImageResolution", list(view.ViewSize))
+    pv.SaveScreenshot(path, view, **options)
+    return read(path)
+
+
+def read(path):
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    image = reader.GetOutput()
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1).astype(int)
+
+
+def differing(a, b, tolerance=8):
+    """Share of the pixels with a channel that differs by more than `tolerance` of 255."""
+    return float((abs(a - b).max(axis=2) > tolerance).mean())
+
+
+def baseline_difference(actual, name):
+    return differing(actual, read(os.path.join(os.environ["VTKSVO_BASELINE"], name + ".png")))
+
+
+def exact_shadow(view, size):
+    """What the scene's ball does to the ground, by arithmetic: for each pixel whether it shows the
+    ground, and whether the ball is between that place and the light."""
+    width, height = size
+    eye = numpy.array(view.CameraPosition)
+    ahead = numpy.array(view.CameraFocalPoint) - eye
+    ahead /= numpy.linalg.norm(ahead)
+    right = numpy.cross(ahead, view.CameraViewUp)
+    right /= numpy.linalg.norm(right)
+    above = numpy.cross(right, ahead)
+    slope = numpy.tan(numpy.radians(view.CameraViewAngle) / 2)
+    x = ((numpy.arange(width) + 0.5) / width * 2 - 1) * slope * width / height
+    y = ((numpy.arange(height) + 0.5) / height * 2 - 1) * slope
+    rays = ahead + x[None, :, None] * right + y[:, None, None] * above
+
+    def meets_ball(origins, directions):
+        to_center = CENTER - origins
+        along = (to_center * directions).sum(axis=-1) / (directions ** 2).sum(axis=-1)
+        nearest = origins + along[..., None] * directions
+        return (along > 0) & (((nearest - CENTER) ** 2).sum(axis=-1) < RADIUS ** 2)
+
+    t = -eye[2] / rays[..., 2]
+    points = eye + t[..., None] * rays
+    ground = (t > 0) & (abs(points[..., :2]) < 2).all(axis=-1)
+    ground &= ~meets_ball(numpy.broadcast_to(eye, rays.shape), rays)
+    dark = ground & meets_ball(points, numpy.broadcast_to(TO_LIGHT, points.shape))
+    return ground, dark
+
+
+def border(mask, distance=1):
+    """Pixels with one on the other side of the mask no farther than `distance` rows and columns."""
+    near = numpy.zeros_like(mask)
+    steps = range(-distance, distance + 1)
+    for dy in steps:
+        for dx in steps:
+            near |= numpy.roll(mask, (dy, dx), (0, 1)) != mask
+    return near
+
+
+def run_tests():
+    """Runs the test cases of the main module. A failure ends the program on the spot: ParaView crashes where a
+    script calls sys.exit() while there are views."""
+    tests = unittest.defaultTestLoader.loadTestsFromModule(sys.modules["__main__"])
+    result = unittest.TextTestRunner(stream=sys.stdout, verbosity=2).run(tests)
+    if not result.wasSuccessful():
+        sys.stdout.flush()
+        os._exit(1)
+    pv.ResetSession()
