@@ -3,8 +3,11 @@
 if (VTKSVO_PYTHON)
   find_package(Python3 REQUIRED COMPONENTS Interpreter Development)
 endif ()
-# Without components ParaView's package asks for the development files of Qt.
+# Without components ParaView's package asks for the development files of Qt. It uses names of its own
+# that it calls deprecated, which is not ours to say.
+set(CMAKE_WARN_DEPRECATED OFF)
 find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingViews)
+unset(CMAKE_WARN_DEPRECATED)
 
 paraview_plugin_scan(
   PLUGIN_FILES "${CMAKE_CURRENT_SOURCE_DIR}/Plugin/paraview.plugin"

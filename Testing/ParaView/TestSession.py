@@ -1,0 +1,141 @@
+"""A session's other work on traced surfaces: selecting, saving and loading states, tracing to Python,
+and changing the representation back and forth."""
+
+import os
+import unittest
+
+import paraview.simple as pv
+import scene
+from paraview import smtrace
+
+
+def resident_memory():
+    """Of this process, in KiB."""
+    with open("/proc/self/status") as status:
+        return next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
+
+
+class TestSession(unittest.TestCase):
+    size = (400, 300)
+
+    def setUp(self):
+        self.view = scene.make_view(self.size)
+        scene.add_sun(self.view)
+        self.ball, self.ground = scene.make_ball(), scene.make_ground()
+        self.displays = [scene.show(source, self.view) for source in (self.ball, self.ground)]
+        pv.Render(self.view)
+
+    def tearDown(self):
+        pv.ResetSession()
+
+    def set_kind(self, kind):
+        for display in self.displays:
+            display.Representation = kind
+
+    def selected(self, select):
+        """Ids of the ball's selected cells or points."""
+        pv.ClearSelection(self.ball)
+        select(Rectangle=[150, 150, 260, 240], View=self.view)
+        selection = self.ball.GetSelectionInput(self.ball.Port)
+        self.assertIsNotNone(selection)
+        return sorted(selection.IDs)
+
+    def test_selection(self):
+        for select in (pv.SelectSurfaceCells, pv.SelectSurfacePoints):
+            self.set_kind("SVO")
+            traced = self.selected(select)
+            shown = scene.picture(self.view, "selection-svo")
+            self.set_kind("Surface")
+            ordinary = self.selected(select)
+            self.assertGreater(len(ordinary), 100)
+            self.assertEqual(traced, ordinary)
+            # What is selected is outlined in magenta.
+            magenta = (shown[..., 0] > 200) & (shown[..., 1] < 60) & (shown[..., 2] > 200)
+            self.assertGreater(magenta.sum(), 50)
+        self.set_kind("SVO")
+        pv.ClearSelection(self.ball)
+        pv.Render(self.view)
+        self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 2)
+
+    def test_frustum_selection(self):
+        pv.SelectCellsThrough(Rectangle=[150, 150, 260, 240], View=self.view)
+        self.assertIsNotNone(self.ball.GetSelectionInput(self.ball.Port))
+
+    def change_everything(self):
+        self.view.SVOShadowIntensity = 0.6
+        self.view.SVOShadowBufferResolution = 512
+        self.view.SVOPixelError = 0.5
+        self.displays[0].SVOMaximumLevel = 7
+        self.displays[0].SVOLeafGeometry = "Voxel"
+        self.displays[1].SVOReceiveShadows = 1
+        self.displays[0].Position = [0.2, 0.1, 0.0]
+
+    def check_restored(self, picture):
+        view = pv.GetActiveViewOrCreate("RenderView")
+        self.assertEqual(view.SVOShadowBufferResolution, 512)
+        self.assertEqual(scene.differing(picture, scene.picture(view, "restored"), 0), 0)
+        self.assertEqual(scene.statistic(view, "SVONumberOfTracedActors"), 2)
+
+    def test_state(self):
+        self.change_everything()
+        picture = scene.picture(self.view, "state")
+        path = scene.output("state.pvsm")
+        pv.SaveState(path)
+        pv.ResetSession()
+        pv.LoadState(path)
+        self.check_restored(picture)
+
+    def test_python_state(self):
+        self.change_everything()
+        picture = scene.picture(self.view, "python-state")
+        path = scene.output("state.py")
+        pv.SaveState(path)
+        pv.ResetSession()
+        with open(path) as script:
+            text = script.read()
+        self.assertIn("SVOShadowIntensity = 0.6", text)
+        exec(compile(text, path, "exec"), {"__name__": "state"})
+        self.check_restored(picture)
+
+    def test_python_trace(self):
+        smtrace.start_trace(preamble="")
+        self.displays[0].SetRepresentationType("SVO")
+        self.view.SVOShadowTechnique = "Shadow Rays"
+        octrees = pv.PolyDataToSVO(Input=self.ball)
+        octrees.MaximumLevel = 6
+        pv.Show(octrees, self.view).SetRepresentationType("SVO")
+        smtrace.stop_trace()
+        text = smtrace.get_current_trace_output() or smtrace.stop_trace()
+        self.assertIn("PolyDataToSVO", text)
+
+    def test_switching_does_not_grow(self):
+        def switch(times):
+            for _ in range(times):
+                self.set_kind("Surface")
+                pv.Render(self.view)
+                self.set_kind("SVO")
+                pv.Render(self.view)
+
+        switch(20)
+        before = resident_memory()
+        builds = scene.statistic(self.displays[0], "SVONumberOfBuilds")
+        switch(100)
+        # The ball's octree alone takes 10 MB.
+        self.assertLess(resident_memory() - before, 5 * 1024)
+        self.assertEqual(scene.statistic(self.displays[0], "SVONumberOfBuilds"), builds)
+
+    def test_hiding_and_deleting(self):
+        pv.Hide(self.ball, self.view)
+        picture = scene.picture(self.view, "hidden")
+        self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 1)
+        pv.Delete(self.displays[0])
+        pv.Delete(self.ball)
+        self.assertEqual(scene.differing(picture, scene.picture(self.view, "deleted"), 0), 0)
+        pv.Hide(self.ground, self.view)
+        pv.Render(self.view)
+        pv.Show(self.ground, self.view)
+        self.assertEqual(scene.differing(picture, scene.picture(self.view, "again"), 0), 0)
+
+
+scene.load_plugin()
+scene.run_tests()
