@@ -1,5 +1,6 @@
 #include "vtkSVOViewPass.h"
 
+#include "vtkCommand.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseKey.h"
 #include "vtkNew.h"
@@ -51,6 +52,9 @@ void vtkSVOViewPass::AddUser(vtkView* view)
     vtkSVOViewPass* self = OfRenderer(renderView->GetRenderer());
     if (self->Users++ == 0)
     {
+      self->View = renderView;
+      self->Observer = renderView->GetRenderer()->AddObserver(
+        vtkCommand::StartEvent, self, &vtkSVOViewPass::BeginFrame);
       self->Pass->Attach(renderView->GetRenderer());
     }
   }
@@ -64,8 +68,21 @@ void vtkSVOViewPass::RemoveUser(vtkView* view)
     if (self->Users > 0 && --self->Users == 0)
     {
       self->Pass->Detach(renderView->GetRenderer());
+      renderView->GetRenderer()->RemoveObserver(self->Observer);
     }
   }
+}
+
+void vtkSVOViewPass::BeginFrame()
+{
+  // The view knows, but tells its subclasses only. While it makes a selection it also draws ordinary
+  // frames, for their depth.
+  struct Asking : public vtkPVRenderView
+  {
+    using vtkPVRenderView::GetMakingSelection;
+  };
+  vtkPVRenderView* view = this->View;
+  this->Pass->SetTracing(!view || !(view->*(&Asking::GetMakingSelection))());
 }
 
 void vtkSVOViewPass::PrintSelf(ostream& os, vtkIndent indent)

@@ -11,8 +11,10 @@
 
 #include "vtkObject.h"
 #include "vtkSVOViewsModule.h" // for the export macro
+#include "vtkWeakPointer.h"    // for vtkWeakPointer
 
 class vtkInformationObjectBaseKey;
+class vtkPVRenderView;
 class vtkRenderer;
 class vtkSVORenderPass;
 class vtkView;
@@ -48,8 +50,11 @@ private:
 
   static vtkInformationObjectBaseKey* VIEW_PASS();
   static vtkSVOViewPass* OfRenderer(vtkRenderer* renderer);
+  void BeginFrame();
 
   vtkSVORenderPass* Pass;
+  vtkWeakPointer<vtkPVRenderView> View;
+  unsigned long Observer = 0; // of the renderer, while there are users
   int Users = 0;
 };
 

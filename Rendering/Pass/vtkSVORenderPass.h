@@ -334,6 +334,17 @@ public:
   bool IsTraced(vtkProp* prop) const;
   //@}
 
+  //@{
+  /**
+   * Off: frames of attached renderers are left to the rasteriser, for a host that needs the mesh's own
+   * depth, as a selection of points does. Default on. It is asked at the renderer's StartEvent, after
+   * observers of priority 0.
+   */
+  vtkSetMacro(Tracing, bool);
+  vtkGetMacro(Tracing, bool);
+  vtkBooleanMacro(Tracing, bool);
+  //@}
+
   void Render(const vtkRenderState* state) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
@@ -369,6 +380,7 @@ protected:
   bool FrameCoherence = true;
   vtkIdType LayerMemoryLimit = 512 * 1024;
   bool AntiAliasing = false;
+  bool Tracing = true;
 
 private:
   vtkSVORenderPass(const vtkSVORenderPass&) = delete;

@@ -84,7 +84,7 @@ bool vtkSVORenderPass::IsTraced(vtkProp* prop) const
 void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void*)
 {
   auto* renderer = static_cast<vtkRenderer*>(caller);
-  if (renderer->GetSelector())
+  if (renderer->GetSelector() || !this->Tracing)
   {
     return;
   }
