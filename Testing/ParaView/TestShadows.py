@@ -40,6 +40,7 @@ class TestShadows(unittest.TestCase):
         self.assertLess(scene.differing(surface, traced, tolerance=2), 1e-4)
 
     def test_shadow_on_a_traced_surface(self):
+        self.view.SVOPixelError = 0
         self.show("SVO", "SVO")
         picture = scene.picture(self.view, "traced-ground")
         self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 2)
