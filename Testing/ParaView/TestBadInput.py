@@ -1,0 +1,106 @@
+"""Series with empty steps, missing files and blocks without polygons: at most one message, and an
+otherwise complete frame."""
+
+import os
+import sys
+import tempfile
+import unittest
+
+import paraview.simple as pv
+import scene
+import series
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+
+class Output:
+    """What the process writes meanwhile, ParaView's own messages included."""
+
+    def __enter__(self):
+        sys.stdout.flush()
+        self.file = tempfile.TemporaryFile()
+        self.saved = [os.dup(1), os.dup(2)]
+        os.dup2(self.file.fileno(), 1)
+        os.dup2(self.file.fileno(), 2)
+        return self
+
+    def __exit__(self, *_):
+        sys.stdout.flush()
+        for number, saved in zip((1, 2), self.saved):
+            os.dup2(saved, number)
+            os.close(saved)
+        self.file.seek(0)
+        self.text = self.file.read().decode(errors="replace")
+
+    def messages(self):
+        return [line for line in self.text.splitlines() if "ERR|" in line or "WARN|" in line]
+
+
+class TestBadInput(unittest.TestCase):
+    def setUp(self):
+        self.view = scene.make_view((300, 200))
+        scene.add_sun(self.view)
+        scene.show(scene.make_ground(), self.view)
+        self.ground = scene.picture(self.view, "ground")
+
+    def tearDown(self):
+        pv.ResetSession()
+
+    def play(self, meshes, name):
+        """The pictures of all steps, and what was said about them."""
+        path = series.write(scene.output(name), meshes)
+        with Output() as output:
+            reader = pv.PVDReader(FileName=path)
+            animation = pv.GetAnimationScene()
+            animation.UpdateAnimationUsingDataTimeSteps()
+            scene.show(reader, self.view)
+            pictures = []
+            for time in range(len(meshes)):
+                animation.AnimationTime = time
+                pictures.append(scene.picture(self.view, f"{name}-{time}"))
+        return pictures, output
+
+    def shows_ball(self, picture):
+        return scene.differing(picture, self.ground) > 0.02
+
+    def test_empty_step(self):
+        first, second, third = series.breathing_ball(3)
+        empty = vtkPolyData()
+        empty.SetPoints(vtkPoints())
+        pictures, output = self.play([first, empty, third], "empty-step")
+        self.assertEqual([self.shows_ball(p) for p in pictures], [True, False, True])
+        self.assertEqual(output.messages(), [])
+
+    def test_removed_file(self):
+        first, second, third = series.breathing_ball(3)
+        pictures, output = self.play([first, None, third], "removed-file")
+        self.assertEqual([self.shows_ball(p) for p in pictures], [True, False, True])
+        # The reader's own, about the file.
+        self.assertTrue(all("vtkXML" in line or "vtkPVD" in line or "Executive" in line
+                            for line in output.messages()), output.text)
+
+    def test_block_without_polygons(self):
+        line = pv.Line(Point1=[-1, 0, 1], Point2=[1, 0, 1])
+        with Output() as output:
+            group = pv.GroupDatasets(Input=[scene.make_ball(), line],
+                                     OutputType="vtkMultiBlockDataSet")
+            scene.show(group, self.view)
+            picture = scene.picture(self.view, "line-block")
+        self.assertTrue(self.shows_ball(picture))
+        self.assertLessEqual(len(output.messages()), 1, output.text)
+
+    def test_points_that_are_not_finite(self):
+        ball, = series.breathing_ball(1)
+        ball.GetPoints().SetPoint(100, float("nan"), 0.0, 0.0)
+        with Output() as output:
+            producer = pv.TrivialProducer()
+            producer.GetClientSideObject().SetOutput(ball)
+            producer.MarkModified(None)
+            scene.show(producer, self.view)
+            picture = scene.picture(self.view, "not-finite")
+        self.assertTrue(self.shows_ball(picture))
+        self.assertLessEqual(len(output.messages()), 1, output.text)
+
+
+scene.load_plugin()
+scene.run_tests()
