@@ -3,9 +3,11 @@
 #include "vtkCommand.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseKey.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
+#include "vtkPVSynchronizedRenderer.h"
 #include "vtkRenderer.h"
 #include "vtkSVORenderPass.h"
 
@@ -75,14 +77,23 @@ void vtkSVOViewPass::RemoveUser(vtkView* view)
 
 void vtkSVOViewPass::BeginFrame()
 {
-  // The view knows, but tells its subclasses only. While it makes a selection it also draws ordinary
-  // frames, for their depth.
+  // The view knows, but tells its subclasses only. While it makes a selection it also draws
+  // ordinary frames, for their depth.
   struct Asking : public vtkPVRenderView
   {
     using vtkPVRenderView::GetMakingSelection;
+    using vtkPVRenderView::SynchronizedRenderers;
   };
   vtkPVRenderView* view = this->View;
-  this->Pass->SetTracing(!view || !(view->*(&Asking::GetMakingSelection))());
+  if (!view)
+  {
+    return;
+  }
+  this->Pass->SetTracing(!(view->*(&Asking::GetMakingSelection))());
+  // Enabled for this frame if all processes render it.
+  this->Pass->SetController((view->*(&Asking::SynchronizedRenderers))->GetEnabled()
+      ? vtkMultiProcessController::GetGlobalController()
+      : nullptr);
 }
 
 void vtkSVOViewPass::PrintSelf(ostream& os, vtkIndent indent)

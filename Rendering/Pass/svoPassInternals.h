@@ -5,6 +5,8 @@
 #include "svoPassRenderer.h"
 #include "vtkSVORenderPass.h"
 
+#include "vtkMultiProcessController.h"
+#include "vtkSmartPointer.h"
 #include "vtkTimeStamp.h"
 #include "vtkWeakPointer.h"
 
@@ -31,7 +33,8 @@ struct vtkSVORenderPass::Internals
   std::map<vtkRenderer*, std::unique_ptr<svo::PassRenderer>> renderers;
   std::map<vtkRenderer*, svo::AttachedRenderer> attached;
   svo::PassRenderer* current = nullptr; // while its frame is drawn
-  bool traced = false;                  // the current frame is, where the pass is attached
+  vtkSmartPointer<vtkMultiProcessController> controller;
+  bool traced = false; // the current frame is, where the pass is attached
   svo::PassStatistics statistics;
   std::string shaderSignature; // of the shaders that mappers have built last
   vtkTimeStamp shaderTime;

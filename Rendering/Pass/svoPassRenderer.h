@@ -5,6 +5,7 @@
 #include "svoOctreeStore.h"
 #include "svoSceneCollector.h"
 #include "svoShadowReceivers.h"
+#include "svoSharedCasters.h"
 #include "svoTracer.h"
 #include "vtkSVOPresenter.h"
 
@@ -63,6 +64,12 @@ public:
   /// Collects a frame's scene from the renderer, whose lights are in place.
   void collect(OctreeStore& store, const StoreOptions& options, const CollectSettings& settings);
 
+  /// Adds other processes' casters to the collected scene; see SharedCasters.
+  void shareCasters(vtkMultiProcessController* controller, std::size_t memoryLimit)
+  {
+    this->Shared.exchange(controller, memoryLimit, this->Collected);
+  }
+
   /// Traces the collected scene, `width` by `height` pixels. Nothing is drawn yet.
   void trace(int width, int height, FrameSettings settings);
 
@@ -87,6 +94,7 @@ private:
   vtkWeakPointer<vtkRenderer> Renderer;
   SceneCollector Collector;
   CollectedScene Collected;
+  SharedCasters Shared;
   Tracer Trace;
   View Eye; // of the frame
   double PixelError = 1.0;

@@ -44,6 +44,7 @@ struct SceneCollector::Frame
 struct SceneCollector::Surface
 {
   Instance instance;
+  vtkPolyData* mesh = nullptr;
   bool traceable = false;
   bool casts = false;
 };
@@ -278,6 +279,7 @@ bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatr
       continue;
     }
     Surface surface;
+    surface.mesh = part.mesh;
     Instance& instance = surface.instance;
     surface.traceable = mayTrace &&
       lookOf(part, property, !frame.result.scene.lights.empty(), instance.material,
@@ -370,6 +372,7 @@ void SceneCollector::collectProp(vtkProp* prop, Frame& frame)
     if (traced || (surface.casts && frame.settings.shadows))
     {
       result.scene.instances.push_back(surface.instance);
+      result.meshes.push_back(surface.mesh);
     }
   }
 }

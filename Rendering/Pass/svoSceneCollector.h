@@ -40,6 +40,7 @@ struct CollectSettings
 struct CollectedScene
 {
   Scene scene;
+  std::vector<vtkPolyData*> meshes; // of the scene's instances, by index
   /// Props that the rasteriser must leave alone: every surface of theirs is traced, or must not be
   /// shown.
   std::set<vtkProp*> replaced;

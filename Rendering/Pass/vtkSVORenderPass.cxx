@@ -282,6 +282,7 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "FrameCoherence: " << this->FrameCoherence << '\n'
      << indent << "LayerMemoryLimit: " << this->LayerMemoryLimit << " KiB\n"
      << indent << "AntiAliasing: " << this->AntiAliasing << '\n'
+     << indent << "Controller: " << this->GetController() << '\n'
      << indent << "Tracing: " << this->Tracing << '\n'
      << indent << "CollectTime: " << this->GetCollectTime() << " s\n"
      << indent << "TraceTime: " << this->GetTraceTime() << " s\n"

@@ -42,6 +42,7 @@
 
 class vtkInformationIntegerKey;
 class vtkLight;
+class vtkMultiProcessController;
 class vtkProp;
 class vtkRenderer;
 
@@ -226,9 +227,9 @@ public:
 
   //@{
   /**
-   * Smooth edges inside and between traced surfaces, and those of shadows, with four rays in each of
-   * their pixels; default off. Silhouettes follow the render window's SetMultiSamples instead, as
-   * those of everything that VTK draws.
+   * Smooth edges inside and between traced surfaces, and those of shadows, with four rays in each
+   * of their pixels; default off. Silhouettes follow the render window's SetMultiSamples instead,
+   * as those of everything that VTK draws.
    */
   vtkSetMacro(AntiAliasing, bool);
   vtkGetMacro(AntiAliasing, bool);
@@ -336,13 +337,23 @@ public:
 
   //@{
   /**
-   * Off: frames of attached renderers are left to the rasteriser, for a host that needs the mesh's own
-   * depth, as a selection of points does. Default on. It is asked at the renderer's StartEvent, after
-   * observers of priority 0.
+   * Off: frames of attached renderers are left to the rasteriser, for a host that needs the mesh's
+   * own depth, as a selection of points does. Default on. It is asked at the renderer's StartEvent,
+   * after observers of priority 0.
    */
   vtkSetMacro(Tracing, bool);
   vtkGetMacro(Tracing, bool);
   vtkBooleanMacro(Tracing, bool);
+  //@}
+
+  //@{
+  /**
+   * Where the surfaces of attached renderers are spread over several processes: the processes that
+   * render, all of them in every frame, at the renderer's StartEvent. Each gets the others'
+   * casters, so that shadows fall across processes. Null (the default): one process has all.
+   */
+  virtual void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController() const;
   //@}
 
   void Render(const vtkRenderState* state) override;

@@ -75,6 +75,16 @@ void vtkSVORenderPass::Detach(vtkRenderer* renderer)
   this->Impl->renderers.erase(renderer);
 }
 
+void vtkSVORenderPass::SetController(vtkMultiProcessController* controller)
+{
+  this->Impl->controller = controller;
+}
+
+vtkMultiProcessController* vtkSVORenderPass::GetController() const
+{
+  return this->Impl->controller;
+}
+
 bool vtkSVORenderPass::IsTraced(vtkProp* prop) const
 {
   const Internals& impl = *this->Impl;
@@ -91,6 +101,13 @@ void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void
   // The lights' places are those of this frame's camera.
   this->UpdateLightGeometry(renderer);
   this->CollectFrame(renderer, true);
+  vtkMultiProcessController* controller = this->Impl->controller;
+  if (controller && controller->GetNumberOfProcesses() > 1 && this->ShadowTechnique != SHADOW_NONE)
+  {
+    // Here, and not when something is drawn: a process that shows nothing may not draw at all.
+    this->Impl->current->shareCasters(
+      controller, static_cast<std::size_t>(this->OctreeMemoryLimit) * 1024);
+  }
   this->Impl->traced = false;
 
   svo::AttachedRenderer& attached = this->Impl->attached[renderer];

@@ -1,0 +1,161 @@
+#include "svoSharedCasters.h"
+
+#include "svoMeshOctree.h"
+
+#include "vtkCellArray.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace svo
+{
+/// A caster, as the processes tell each other.
+struct SharedCasters::Record
+{
+  std::uint64_t signature;
+  int level;
+  int leafGeometry;
+  std::uint64_t id;
+  double localToWorld[16];
+  int instance; // index on the process that it comes from
+  int unused = 0;
+
+  Key key() const { return { this->signature, this->level, this->leafGeometry }; }
+};
+
+void SharedCasters::receive(vtkMultiProcessController* controller, int owner, const Record& record,
+  const CollectedScene& collected)
+{
+  Known& known = this->Meshes[record.key()];
+  vtkNew<vtkPolyData> mesh;
+  if (controller->GetLocalProcessId() == owner)
+  {
+    vtkPolyData* own = collected.meshes[record.instance];
+    mesh->SetPoints(own->GetPoints());
+    mesh->SetVerts(own->GetVerts());
+    mesh->SetLines(own->GetLines());
+    mesh->SetPolys(own->GetPolys());
+    mesh->SetStrips(own->GetStrips());
+    attachOctree(mesh, collected.scene.instances[record.instance].octree);
+  }
+  vtkTypeInt64 bytes =
+    static_cast<vtkTypeInt64>(mesh->GetActualMemorySize()) * 1024; // GetActualMemorySize: KiB
+  controller->Broadcast(&bytes, 1, owner);
+  known.bytes = static_cast<std::size_t>(bytes);
+  controller->Broadcast(mesh.GetPointer(), owner);
+  if (controller->GetLocalProcessId() == owner)
+  {
+    known.octree = collected.scene.instances[record.instance].octree;
+    return;
+  }
+  known.mesh = mesh;
+  std::string ignored; // an octree that does not open casts nothing here
+  openAttachedOctree(mesh, known.octree, ignored);
+}
+
+void SharedCasters::exchange(
+  vtkMultiProcessController* controller, std::size_t memoryLimit, CollectedScene& collected)
+{
+  static_assert(std::is_trivially_copyable<Record>::value, "records travel as bytes");
+  ++this->Frame;
+  const int processes = controller->GetNumberOfProcesses();
+  const int self = controller->GetLocalProcessId();
+  std::vector<Record> own;
+  for (std::size_t i = 0; i < collected.scene.instances.size(); ++i)
+  {
+    const Instance& instance = collected.scene.instances[i];
+    if (!instance.castShadow)
+    {
+      continue;
+    }
+    Record record{};
+    record.signature = instance.octree.header().signature;
+    record.level = instance.octree.level();
+    record.leafGeometry = static_cast<int>(instance.octree.header().leafGeometry);
+    record.id = instance.id;
+    record.instance = static_cast<int>(i);
+    std::memcpy(record.localToWorld, &instance.localToWorld[0][0], sizeof(record.localToWorld));
+    own.push_back(record);
+  }
+
+  const vtkIdType length = static_cast<vtkIdType>(own.size() * sizeof(Record));
+  std::vector<vtkIdType> lengths(processes);
+  controller->AllGather(&length, lengths.data(), 1);
+  std::vector<vtkIdType> offsets(processes);
+  vtkIdType total = 0;
+  for (int i = 0; i < processes; ++i)
+  {
+    offsets[i] = total;
+    total += lengths[i];
+  }
+  if (total == 0)
+  {
+    return;
+  }
+  std::vector<Record> all(total / sizeof(Record));
+  controller->AllGatherV(reinterpret_cast<const char*>(own.data()),
+    reinterpret_cast<char*>(all.data()), length, lengths.data(), offsets.data());
+
+  std::size_t at = 0;
+  for (int owner = 0; owner < processes; ++owner)
+  {
+    for (vtkIdType k = 0; k < lengths[owner]; k += sizeof(Record))
+    {
+      const Record& record = all[at++];
+      if (this->Meshes.count(record.key()) == 0)
+      {
+        this->receive(controller, owner, record, collected);
+      }
+      Known& known = this->Meshes[record.key()];
+      known.lastFrame = this->Frame;
+      if (owner == self || !known.octree)
+      {
+        continue;
+      }
+      Instance instance;
+      instance.octree = known.octree;
+      std::memcpy(&instance.localToWorld[0][0], record.localToWorld, sizeof(record.localToWorld));
+      instance.leafGeometry = static_cast<LeafGeometry>(record.leafGeometry);
+      instance.visible = false;
+      instance.receiveShadow = false;
+      instance.id = record.id ^ (0x9e3779b97f4a7c15ull * (owner + 1));
+      collected.scene.instances.push_back(instance);
+      collected.meshes.push_back(known.mesh);
+    }
+  }
+  this->forget(memoryLimit);
+}
+
+void SharedCasters::forget(std::size_t memoryLimit)
+{
+  std::size_t used = 0;
+  for (const auto& entry : this->Meshes)
+  {
+    used += entry.second.bytes;
+  }
+  while (used > memoryLimit)
+  {
+    auto oldest = this->Meshes.end();
+    for (auto entry = this->Meshes.begin(); entry != this->Meshes.end(); ++entry)
+    {
+      if (entry->second.lastFrame != this->Frame &&
+        (oldest == this->Meshes.end() || entry->second.lastFrame < oldest->second.lastFrame))
+      {
+        oldest = entry;
+      }
+    }
+    if (oldest == this->Meshes.end())
+    {
+      return;
+    }
+    used -= oldest->second.bytes;
+    this->Meshes.erase(oldest);
+  }
+}
+}
