@@ -57,16 +57,18 @@ inline double worldVoxel(const Instance& instance, int level)
   return std::ldexp(worldVoxel(instance), instance.octree.level() - level);
 }
 
+/// How far a cube can lie from the surface that it stands for: the diagonal of a voxel.
+constexpr double CubeError = 1.75;
+
 /// How far a hit can lie from the surface that it stands for, in voxels of the level that rays stop
 /// at: cubes, and planes where a ray is given the cube that refused it, by the diagonal of a voxel;
 /// mean planes by half the diagonal of the three cells in which they are met.
 inline double leafError(const Instance& instance, LeafGeometry geometry, int level)
 {
-  constexpr double Cube = 1.75;
   constexpr double MeanPlane = 2.6;
   if (geometry == LeafGeometry::Voxel)
   {
-    return Cube;
+    return CubeError;
   }
   if (level < instance.octree.level() - 2)
   {
@@ -74,7 +76,7 @@ inline double leafError(const Instance& instance, LeafGeometry geometry, int lev
   }
   if (geometry == LeafGeometry::Plane || !instance.octree.surface())
   {
-    return Cube;
+    return CubeError;
   }
   // Planes where lists are long: there the triangles are smaller than a voxel.
   return geometry == LeafGeometry::Automatic ? 0.25 : 0.0;

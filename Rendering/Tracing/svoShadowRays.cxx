@@ -1,6 +1,10 @@
 #include "svoShadowRays.h"
 
 #include "svoIntersect.h"
+#include "svoLeafGeometry.h"
+#include "svoSelect.h"
+
+#include <algorithm>
 
 #include <glm/geometric.hpp>
 
@@ -19,8 +23,12 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
     if (instance.castShadow && instance.octree && !instance.octree.empty())
     {
       const std::size_t index = &instance - scene.instances.data();
-      this->Casters.push_back({ &instance, eye.leafGeometry(static_cast<std::uint32_t>(index)),
-        WorldToOctree(instance.octree, instance.localToWorld) });
+      const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(index));
+      const bool mixed =
+        geometry == LeafGeometry::Automatic && instance.octree.longestList() > ShortList;
+      this->Casters.push_back({ &instance, geometry,
+        WorldToOctree(instance.octree, instance.localToWorld),
+        mixed ? CubeError * worldVoxel(instance) : 0.0 });
     }
   }
 }
@@ -38,7 +46,28 @@ bool ShadowRays::shadows(
   {
     const Ray ray{ caster.toOctree.point(start), caster.toOctree.vector(direction), 0.0,
       far ? 1e300 : BeforeLight };
-    if (occluded(caster.instance->octree, ray, { caster.geometry, MaximumLevel }))
+    const TraceOptions options{ caster.geometry, MaximumLevel };
+    if (!occluded(caster.instance->octree, ray, options))
+    {
+      continue;
+    }
+    if (caster.planeError <= offset)
+    {
+      return true;
+    }
+    // Triangles and planes are mixed: the start may lie behind the planes of its own surface, or in
+    // cells that refuse the ray. What is met before the ray can have left them has to be met from
+    // outside of them too.
+    const double length = glm::length(direction);
+    const double slope = std::max(glm::dot(side, direction) / length, 0.05);
+    const Hit hit = intersect(caster.instance->octree, ray, options);
+    if (hit.t * length > caster.planeError / slope)
+    {
+      return true;
+    }
+    const Ray outer{ caster.toOctree.point(position + caster.planeError * side), ray.direction, 0.0,
+      ray.tMax };
+    if (occluded(caster.instance->octree, outer, options))
     {
       return true;
     }

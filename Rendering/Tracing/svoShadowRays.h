@@ -29,6 +29,7 @@ private:
     const Instance* instance;
     LeafGeometry geometry;
     WorldToOctree toOctree;
+    double planeError; // world; how far plane leaves among triangles can be off, 0 without any
   };
   std::vector<Caster> Casters;
 };

@@ -36,17 +36,8 @@ program=${VTKSVO_ACCURACY_PROGRAM:-build/vtk/bin/BenchmarkAccuracy}
 
 out=build/accuracy
 mkdir -p "$out/pictures" "$out/meshes"
-archive=$(dpkg -L libcgal-demo | grep '/data\.tar\.gz$') ||
-  fail "the package libcgal-demo holds no data.tar.gz"
-if [ ! -e "$archive" ]; then
-  # Slim images of Debian drop everything below /usr/share/doc when a package is installed.
-  (cd "$out/meshes" && apt-get download -q libcgal-demo && dpkg-deb -x libcgal-demo_*.deb .)
-  archive="$out/meshes$archive"
-fi
 names=(ChineseDragon-10kv armadillo bunny00 refined_elephant)
-mapfile -t files < <(printf 'data/meshes/%s.off\n' "${names[@]}")
-tar -xzf "$archive" -C "$out/meshes" --strip-components=2 "${files[@]}" ||
-  fail "cannot read the meshes from $archive"
+Examples/unpack-meshes.sh "$out/meshes" "${names[@]/%/.off}"
 walker=$(dpkg -L assimp-testmodels | grep '/sydney\.md2$') ||
   fail "the package assimp-testmodels holds no sydney.md2"
 

@@ -1,5 +1,7 @@
 #include "svoTracerScenes.h"
 
+#include "svoLeafGeometry.h"
+
 #include <gtest/gtest.h>
 
 #include <string>
@@ -180,6 +182,40 @@ TEST(ShadowBuffer, ALitConvexBodyHasNoAcne)
                            << pixelError;
       }
     }
+  }
+}
+
+// Octrees in which planes stand beside triangles: rays from the one meet the other, and no more of
+// them than where all leaves are planes.
+TEST(ShadowRays, ALitBodyOfMixedLeavesShadowsItselfNoMoreThanOneOfPlanes)
+{
+  const svo::Octree ball = makeOctree(sphere(90, 120), 6);
+  ASSERT_GT(ball.longestList(), svo::ShortList);
+  for (const Case& c : everyLight())
+  {
+    int acne[2] = { 0, 0 };
+    for (int k = 0; k < 2; ++k)
+    {
+      svo::Scene scene;
+      scene.instances = { instanceOf(ball, 1, glm::dmat4(1.0),
+        k == 0 ? svo::LeafGeometry::Plane : svo::LeafGeometry::Automatic) };
+      scene.lights = { c.light };
+      svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Rays);
+      settings.pixelError = 0.0;
+      const svo::Frame shadowed = rendered(scene, Eye, settings);
+      settings.shadowTechnique = svo::ShadowTechnique::None;
+      const svo::Frame lit = rendered(scene, Eye, settings);
+      int faced = 0;
+      for (std::size_t i = 0; i < lit.instance.size(); ++i)
+      {
+        const bool faces = lit.instance[i] == 0 && lit.color[4 * i] > 40; // n.l above 0.15
+        faced += faces;
+        acne[k] += faces && shadowed.color[4 * i] < lit.color[4 * i];
+      }
+      EXPECT_GT(faced, 600) << c.name;
+    }
+    EXPECT_LE(acne[1], acne[0]) << c.name;
+    EXPECT_LE(acne[1], 10) << c.name;
   }
 }
 
