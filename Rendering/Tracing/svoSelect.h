@@ -88,6 +88,17 @@ inline double worldLeafError(const Instance& instance, LeafGeometry geometry, in
   return std::max(leafError(instance, geometry, level) * worldVoxel(instance, level),
     1e-6 * worldVoxel(instance, 0));
 }
+
+/// What the test against a shadow map allows for, in the world. Of plane leaves that is a voxel:
+/// few are further off, and their acne (1e-4 of the pixels of real meshes) is a smaller harm than
+/// contact shadows that begin three voxels late. A ray among planes needs all of their error.
+inline double worldMapError(const Instance& instance, int level)
+{
+  constexpr double Plane = 1.0;
+  const bool planes = instance.leafGeometry == LeafGeometry::Plane && instance.octree.surface() &&
+    level >= instance.octree.level() - 2;
+  return planes ? Plane * worldVoxel(instance, level) : worldLeafError(instance, level);
+}
 }
 
 #endif

@@ -53,7 +53,7 @@ void ShadowBuffer::begin(
       {
         this->CasterVoxel[k] = std::max(this->CasterVoxel[k], worldVoxel(instance, level));
         this->CasterError[k] =
-          std::max(this->CasterError[k], worldLeafError(instance, geometry, level));
+          std::max(this->CasterError[k], worldMapError(instance, geometry, level));
       }
     }
     const std::size_t tilesAcross = (face.view.width + 7) / 8;

@@ -60,7 +60,7 @@ struct Tracer::Internals
       });
   }
 
-  void describeInstances(const Scene& scene);
+  void describeInstances(const Scene& scene, ShadowTechnique technique);
   struct ShadeScratch;
   /// Colours points [first, last) of one instance.
   void lightInstance(const Scene& scene, const Lighting& lighting, float remaining, int first,
@@ -72,7 +72,7 @@ struct Tracer::Internals
     const ParallelFor& parallelFor, Frame& frame);
 };
 
-void Tracer::Internals::describeInstances(const Scene& scene)
+void Tracer::Internals::describeInstances(const Scene& scene, ShadowTechnique technique)
 {
   this->Frames.clear();
   this->Errors.clear();
@@ -82,7 +82,9 @@ void Tracer::Internals::describeInstances(const Scene& scene)
     const int level = this->Eye.level(static_cast<std::uint32_t>(i));
     const LeafGeometry geometry = this->Eye.leafGeometry(static_cast<std::uint32_t>(i));
     this->Frames.push_back(instance.octree ? SurfaceFrame(instance) : SurfaceFrame());
-    this->Errors.push_back(instance.octree ? worldLeafError(instance, geometry, level) : 0.0);
+    this->Errors.push_back(!instance.octree  ? 0.0
+        : technique == ShadowTechnique::Rays ? worldLeafError(instance, geometry, level)
+                                             : worldMapError(instance, geometry, level));
   }
 }
 
@@ -325,7 +327,7 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
   self.Tiles.begin(self.Eye.depthBuffer(), view, settings.writeNormals, frame);
 
   // What visible points will look up of the lights.
-  self.describeInstances(scene);
+  self.describeInstances(scene, settings.shadowTechnique);
   self.Dark.begin(scene, settings, self.Eye, budget);
   self.markLightTiles(scene, view, parallelFor);
 

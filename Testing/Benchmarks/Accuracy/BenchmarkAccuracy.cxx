@@ -3,10 +3,12 @@
 // and writes every measurement to a JSON and a CSV file. Documentation/Accuracy.md has the
 // definitions and what came out.
 //
-//   BenchmarkAccuracy [--output folder] [--images folder] [--short] [name=file.off:up ...]
+//   BenchmarkAccuracy [--output folder] [--images folder] [--short] [--paper a.off b.md2]
+//                     [name=file.off:up ...]
 //
-// `up` is the mesh's upward axis, x, y or z. --short: a generated body and few settings. The exit
-// code is 1 if a bar of accuracyBars.cxx is missed.
+// `up` is the mesh's upward axis, x, y or z. --short: a generated body and few settings. --paper:
+// the paper's objects A and B, else stand-ins. --images: pictures of what is wrong. The exit code
+// is 1 if a bar of accuracyBars.cxx is missed.
 #include "accuracyBars.h"
 #include "accuracyExperiments.h"
 
@@ -65,7 +67,7 @@ int main(int argc, char** argv)
     else if (!readShape(argument, sweep))
     {
       std::cerr << "usage: BenchmarkAccuracy [--output folder] [--images folder] [--short] "
-                   "[name=file.off:up ...]\n"
+                   "[--paper a.off b.md2] [name=file.off:up ...]\n"
                 << argument << " is neither an option nor a readable mesh\n";
       return 2;
     }

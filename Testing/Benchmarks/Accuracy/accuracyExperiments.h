@@ -21,7 +21,7 @@ struct Sweep
   std::vector<double> pixelErrors{ 0.5, 1.0, 2.0, 4.0, 8.0 };
   int pixelErrorLevel = 12; // of the octrees that these stop in
   int size = 512;           // pixels along an edge of the pictures
-  int repeat = 3;           // times each timed frame is drawn; the least time counts
+  int repeat = 2;           // times each timed frame is drawn; the least time counts
   bool brief = false;       // one of the paper's scenes
   std::string fileOfA;      // the paper's objects; empty: generated stand-ins
   std::string fileOfB;
