@@ -78,8 +78,7 @@ inline double leafError(const Instance& instance, LeafGeometry geometry, int lev
   {
     return CubeError;
   }
-  // Planes where lists are long: there the triangles are smaller than a voxel.
-  return geometry == LeafGeometry::Automatic ? 0.25 : 0.0;
+  return 0.0; // of automatic leaves, where lists are short; see worldMapError() and ShadowRays
 }
 
 /// The same in the world, and never less than what floats resolve in the octree's cube.
@@ -91,13 +90,19 @@ inline double worldLeafError(const Instance& instance, LeafGeometry geometry, in
 
 /// What the test against a shadow map allows for, in the world. Of plane leaves that is a voxel:
 /// few are further off, and their acne (1e-4 of the pixels of real meshes) is a smaller harm than
-/// contact shadows that begin three voxels late. A ray among planes needs all of their error.
-inline double worldMapError(const Instance& instance, int level)
+/// contact shadows that begin three voxels late. Automatic leaves are planes where lists are long,
+/// and the triangles smaller than a voxel. A ray among planes needs all of their error.
+inline double worldMapError(const Instance& instance, LeafGeometry geometry, int level)
 {
   constexpr double Plane = 1.0;
-  const bool planes = instance.leafGeometry == LeafGeometry::Plane && instance.octree.surface() &&
-    level >= instance.octree.level() - 2;
-  return planes ? Plane * worldVoxel(instance, level) : worldLeafError(instance, level);
+  constexpr double Automatic = 0.25;
+  if (level < instance.octree.level() - 2 || !instance.octree.surface())
+  {
+    return worldLeafError(instance, geometry, level);
+  }
+  return geometry == LeafGeometry::Plane  ? Plane * worldVoxel(instance, level)
+    : geometry == LeafGeometry::Automatic ? Automatic * worldVoxel(instance, level)
+                                          : worldLeafError(instance, geometry, level);
 }
 }
 
