@@ -92,6 +92,7 @@ struct OpenNode
 {
   std::uint32_t node;
   float size;     // edge, octree coordinates
+  float x, y, z;  // lower corner, octree coordinates minus 1
   float value[5]; // of the sides and of t at its lower corner, rounding allowed for
 };
 
@@ -125,6 +126,7 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
   int count = 1;
   open[0].node = 0;
   open[0].size = 1.0f;
+  open[0].x = open[0].y = open[0].z = 0.0f;
   double tSlack = 0.0;
   for (int k = 0; k < 5; ++k)
   {
@@ -157,7 +159,7 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
   nodes.clear();
   if (bricks == 0 || lists.begin[0] != ShortLists::None)
   {
-    nodes.push_back({ -std::numeric_limits<float>::infinity(), 0 });
+    nodes.push_back({ -std::numeric_limits<float>::infinity(), 0, 0.0f, 0.0f, 0.0f, 1.0f });
     return true;
   }
   HWY_ALIGN float tNear[64];
@@ -191,14 +193,20 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
       const int i = __builtin_ctzll(left);
       const std::uint32_t child =
         node.first + __builtin_popcountll(node.mask & ((std::uint64_t(1) << i) - 1));
+      const float x = parent.x + parent.size * offsets.x[i];
+      const float y = parent.y + parent.size * offsets.y[i];
+      const float z = parent.z + parent.size * offsets.z[i];
       if (child >= bricks || lists.begin[child] != ShortLists::None)
       {
-        nodes.push_back({ tNear[i], child });
+        nodes.push_back({ tNear[i], child, x, y, z, 0.25f * parent.size });
         continue;
       }
       OpenNode& next = open[count++];
       next.node = child;
       next.size = 0.25f * parent.size;
+      next.x = x;
+      next.y = y;
+      next.z = z;
       for (int k = 0; k < 4; ++k)
       {
         next.value[k] = parent.value[k] + parent.size * (tables.most[k][i] + tables.toCorner[k]);
@@ -208,6 +216,61 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
   }
   sortByDepth(nodes);
   return nodes.size() <= most;
+}
+
+/// The four sides of the pyramid, lane by lane, as functions of octree coordinates minus 1.
+struct Sides
+{
+  HWY_ALIGN float x[4], y[4], z[4], w[4];
+};
+
+HWY_INLINE Sides makeSides(const TilePyramid& pyramid)
+{
+  Sides sides;
+  for (int k = 0; k < 4; ++k)
+  {
+    const glm::dvec4& f = pyramid.side[k];
+    const double corner = f.x + f.y + f.z + f.w;
+    const double slack =
+      RoundingSlack * (std::abs(f.x) + std::abs(f.y) + std::abs(f.z) + std::abs(corner));
+    sides.x[k] = static_cast<float>(f.x);
+    sides.y[k] = static_cast<float>(f.y);
+    sides.z[k] = static_cast<float>(f.z);
+    sides.w[k] = static_cast<float>(corner + slack);
+  }
+  return sides;
+}
+
+/// Which of `count` cubes are inside: one bit each. The arrays have room for a vector more.
+void cubesInside(const TilePyramid& pyramid, const float* x, const float* y, const float* z,
+  const float* size, std::size_t count, std::uint64_t* inside)
+{
+  const DF df;
+  const Sides sides = makeSides(pyramid);
+  for (std::size_t first = 0; first < count; first += 64)
+  {
+    std::uint64_t bits = 0;
+    for (std::size_t i = first; i < std::min(first + 64, count); i += hn::Lanes(df))
+    {
+      const F vx = hn::LoadU(df, x + i);
+      const F vy = hn::LoadU(df, y + i);
+      const F vz = hn::LoadU(df, z + i);
+      const F edge = hn::LoadU(df, size + i);
+      auto in = hn::Eq(edge, edge);
+      for (int k = 0; k < 4; ++k)
+      {
+        const float grows =
+          std::max(sides.x[k], 0.0f) + std::max(sides.y[k], 0.0f) + std::max(sides.z[k], 0.0f);
+        const F best = hn::MulAdd(hn::Set(df, sides.x[k]), vx,
+          hn::MulAdd(hn::Set(df, sides.y[k]), vy,
+            hn::MulAdd(hn::Set(df, sides.z[k]), vz,
+              hn::MulAdd(hn::Set(df, grows), edge, hn::Set(df, sides.w[k])))));
+        in = hn::And(in, hn::Ge(best, hn::Zero(df)));
+      }
+      bits |= laneBits(df, in) << (i - first);
+    }
+    inside[first / 64] = bits;
+  }
 }
 
 /// a b - c d as differenceOfProducts() of svoTriangle.h computes it.
@@ -313,12 +376,6 @@ HWY_INLINE bool meetTriangle(
   }
   return any;
 }
-
-/// The four sides of the pyramid, lane by lane, as functions of octree coordinates minus 1.
-struct Sides
-{
-  HWY_ALIGN float x[4], y[4], z[4], w[4];
-};
 
 HWY_INLINE bool outside(const Sides& sides, const float* p, const float* q, const float* r)
 {
@@ -493,18 +550,7 @@ void traceKind(
 void traceTile(const Octree& octree, const TilePyramid& pyramid, const std::vector<TileNode>& nodes,
   const RayBlock& block, HitBlock& hits)
 {
-  Sides sides;
-  for (int k = 0; k < 4; ++k)
-  {
-    const glm::dvec4& f = pyramid.side[k];
-    const double corner = f.x + f.y + f.z + f.w;
-    const double slack =
-      RoundingSlack * (std::abs(f.x) + std::abs(f.y) + std::abs(f.z) + std::abs(corner));
-    sides.x[k] = static_cast<float>(f.x);
-    sides.y[k] = static_cast<float>(f.y);
-    sides.z[k] = static_cast<float>(f.z);
-    sides.w[k] = static_cast<float>(corner + slack);
-  }
+  const Sides sides = makeSides(pyramid);
   HWY_ALIGN float direction[3][64];
   HWY_ALIGN std::int32_t kinds[64];
   float* const directions[3] = { direction[0], direction[1], direction[2] };
@@ -537,6 +583,7 @@ HWY_AFTER_NAMESPACE();
 namespace svo
 {
 HWY_EXPORT(findNodes);
+HWY_EXPORT(cubesInside);
 HWY_EXPORT(traceTile);
 
 bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax,
@@ -546,6 +593,54 @@ bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin,
   nodes.clear();
   return !octree || octree.empty() ||
     HWY_DYNAMIC_DISPATCH(findNodes)(octree, offsets, pyramid, tMin, tMax, most, nodes);
+}
+
+bool TileGroup::find(
+  const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax, std::size_t most)
+{
+  if (!findTileNodes(octree, pyramid, tMin, tMax, most, this->Nodes))
+  {
+    return false;
+  }
+  constexpr std::size_t Vector = 16;
+  for (std::vector<float>* array : { &this->X, &this->Y, &this->Z, &this->Size })
+  {
+    array->assign(this->Nodes.size() + Vector, 0.0f);
+  }
+  for (std::size_t i = 0; i < this->Nodes.size(); ++i)
+  {
+    this->X[i] = this->Nodes[i].x;
+    this->Y[i] = this->Nodes[i].y;
+    this->Z[i] = this->Nodes[i].z;
+    this->Size[i] = this->Nodes[i].size;
+  }
+  return true;
+}
+
+void TileGroup::select(const TilePyramid& pyramid, std::vector<TileNode>& nodes) const
+{
+  nodes.clear();
+  constexpr std::size_t Chunk = 512;
+  std::uint64_t inside[Chunk / 64];
+  for (std::size_t first = 0; first < this->Nodes.size(); first += Chunk)
+  {
+    const std::size_t count = std::min(Chunk, this->Nodes.size() - first);
+    HWY_DYNAMIC_DISPATCH(cubesInside)
+    (pyramid, this->X.data() + first, this->Y.data() + first, this->Z.data() + first,
+      this->Size.data() + first, count, inside);
+    for (std::size_t k = 0; k < count; k += 64)
+    {
+      std::uint64_t bits = inside[k / 64];
+      if (count - k < 64)
+      {
+        bits &= (std::uint64_t(1) << (count - k)) - 1;
+      }
+      for (; bits != 0; bits &= bits - 1)
+      {
+        nodes.push_back(this->Nodes[first + k + __builtin_ctzll(bits)]);
+      }
+    }
+  }
 }
 
 void intersectTile(const Octree& octree, const TilePyramid& pyramid,

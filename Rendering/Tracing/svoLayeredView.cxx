@@ -16,6 +16,8 @@ namespace
 constexpr double LeastTrianglePixels = 1.5;
 /// Where a tile sees more nodes than this its rays are walked one by one after all.
 constexpr std::size_t MostTileNodes = 256;
+/// Tiles along an edge of a group whose nodes are found together.
+constexpr int GroupTiles = 4;
 }
 
 DepthLayer::DepthLayer(const PixelRect& r)
@@ -160,6 +162,28 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, Layer
   }
 }
 
+bool LayeredView::findNodes(int tileX, int tileY, TileEntry& candidate) const
+{
+  const Entry& entry = *candidate.entry;
+  const int groupX = tileX / GroupTiles, groupY = tileY / GroupTiles;
+  if (groupX != candidate.groupX || groupY != candidate.groupY)
+  {
+    candidate.groupX = groupX;
+    candidate.groupY = groupY;
+    const TilePyramid all =
+      makePyramid(entry.projection, this->Of, GroupTiles * groupX, GroupTiles * groupY, GroupTiles);
+    candidate.groupFound = candidate.group.find(
+      *entry.octree, all, candidate.tNear, candidate.tFar, GroupTiles * MostTileNodes);
+  }
+  if (candidate.groupFound)
+  {
+    candidate.group.select(candidate.pyramid, candidate.nodes);
+    return candidate.nodes.size() <= MostTileNodes;
+  }
+  return findTileNodes(*entry.octree, candidate.pyramid, candidate.tNear, candidate.tFar,
+    MostTileNodes, candidate.nodes);
+}
+
 bool LayeredView::meets(int tileX, int tileY, TileEntry& candidate) const
 {
   const Entry& entry = *candidate.entry;
@@ -180,8 +204,7 @@ bool LayeredView::meets(int tileX, int tileY, TileEntry& candidate) const
   candidate.tNear = 0.0f;
   candidate.tFar = entry.local.tMax;
   candidate.pyramid = makePyramid(entry.projection, this->Of, tileX, tileY);
-  if (!findTileNodes(*entry.octree, candidate.pyramid, candidate.tNear, candidate.tFar,
-        MostTileNodes, candidate.nodes))
+  if (!this->findNodes(tileX, tileY, candidate))
   {
     candidate.nodes.clear();
     return true;
@@ -365,6 +388,9 @@ void LayeredView::sample(int tileX, int tileY, Samples& samples) const
   for (const Entry& entry : this->Instances)
   {
     candidate.entry = &entry;
+    candidate.groupX = tileX / GroupTiles; // no other tile of the group will ask
+    candidate.groupY = tileY / GroupTiles;
+    candidate.groupFound = false;
     if (!this->meets(tileX, tileY, candidate))
     {
       continue;
@@ -416,22 +442,32 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
   const int tx1 = (all.x1 + 7) / 8;
   const int ty0 = all.y0 / 8;
   const int ty1 = (all.y1 + 7) / 8;
-  const std::size_t columns = tx1 - tx0;
+  const int gx0 = tx0 / GroupTiles;
+  const int gy0 = ty0 / GroupTiles;
+  const std::size_t columns = (tx1 + GroupTiles - 1) / GroupTiles - gx0;
+  const std::size_t rows = (ty1 + GroupTiles - 1) / GroupTiles - gy0;
   std::vector<std::uint64_t> rays(this->Instances.size());
   std::mutex raysMutex;
-  parallelFor(0, columns * (ty1 - ty0), std::max<std::size_t>(columns / 2, 16),
+  parallelFor(0, columns * rows, std::max<std::size_t>(columns / 8, 2),
     [&](std::size_t first, std::size_t last)
     {
       TileScratch mine;
       mine.entries.resize(this->Instances.size());
       mine.rays.resize(this->Instances.size());
-      for (std::size_t k = first; k < last; ++k)
+      for (std::size_t group = first; group < last; ++group)
       {
-        const int tileX = tx0 + static_cast<int>(k % columns);
-        const int tileY = ty0 + static_cast<int>(k / columns);
-        if (!wanted || wanted[static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX])
+        const int x0 = GroupTiles * (gx0 + static_cast<int>(group % columns));
+        const int y0 = GroupTiles * (gy0 + static_cast<int>(group / columns));
+        for (int tileY = std::max(y0, ty0); tileY < std::min(y0 + GroupTiles, ty1); ++tileY)
         {
-          this->traceTile(tileX, tileY, mine);
+          for (int tileX = std::max(x0, tx0); tileX < std::min(x0 + GroupTiles, tx1); ++tileX)
+          {
+            const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
+            if (!wanted || wanted[tile])
+            {
+              this->traceTile(tileX, tileY, mine);
+            }
+          }
         }
       }
       const std::lock_guard<std::mutex> lock(raysMutex);

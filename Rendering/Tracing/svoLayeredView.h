@@ -169,6 +169,10 @@ private:
     float tNear, tFar;
     TilePyramid pyramid;
     std::vector<TileNode> nodes; // empty: the rays are walked one by one, or known already
+    // Of a group of tiles that this one is part of.
+    int groupX = -1, groupY = -1;
+    bool groupFound = false;
+    TileGroup group;
   };
   struct MergedTile
   {
@@ -193,7 +197,9 @@ private:
 
   void prepare(const Scene& scene, const View& view, bool keep, LayerBudget& budget);
   void dropLayers(LayerBudget& budget);
+  /// Where the rays of a tile can meet an instance; false if nowhere.
   bool meets(int tileX, int tileY, TileEntry& candidate) const;
+  bool findNodes(int tileX, int tileY, TileEntry& candidate) const;
   void order(int tileX, int tileY, TileScratch& scratch);
   bool cutRays(const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const;
   /// Through points x, y of the image; tMin and tMax are set.

@@ -41,13 +41,15 @@ inline Projection makeProjection(
   return projection;
 }
 
-/// What the rays of an 8x8 tile see, through any points of its pixels.
-inline TilePyramid makePyramid(const Projection& projection, const View& view, int tileX, int tileY)
+/// What the rays of n x n tiles of 8x8 pixels see, through any points of their pixels; (tileX,
+/// tileY) is the lower left one.
+inline TilePyramid makePyramid(
+  const Projection& projection, const View& view, int tileX, int tileY, int n = 1)
 {
   const glm::dvec4 x = projection.row(0), y = projection.row(1), w = projection.row(2);
-  const double x0 = 8.0 * tileX - 0.5 * view.width;
-  const double y0 = 8.0 * tileY - 0.5 * view.height;
-  return { { x - x0 * w, (x0 + 8.0) * w - x, y - y0 * w, (y0 + 8.0) * w - y }, projection.row(3) };
+  const double x0 = 8.0 * tileX - 0.5 * view.width, x1 = x0 + 8.0 * n;
+  const double y0 = 8.0 * tileY - 0.5 * view.height, y1 = y0 + 8.0 * n;
+  return { { x - x0 * w, x1 * w - x, y - y0 * w, y1 * w - y }, projection.row(3) };
 }
 }
 

@@ -194,6 +194,24 @@ void finishPlain(const glm::vec3& ambient, const glm::vec3& diffuse, const glm::
     }
   }
 }
+
+void pack(const TileColors& c, int n, std::uint32_t* rgba)
+{
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      // toByte()
+      const float r = c.r[k] > 0.0f ? (c.r[k] < 1.0f ? c.r[k] : 1.0f) : 0.0f;
+      const float g = c.g[k] > 0.0f ? (c.g[k] < 1.0f ? c.g[k] : 1.0f) : 0.0f;
+      const float b = c.b[k] > 0.0f ? (c.b[k] < 1.0f ? c.b[k] : 1.0f) : 0.0f;
+      const auto red = static_cast<std::int32_t>(r * 255.0f + 0.5f);
+      const auto green = static_cast<std::int32_t>(g * 255.0f + 0.5f);
+      const auto blue = static_cast<std::int32_t>(b * 255.0f + 0.5f);
+      rgba[k] = static_cast<std::uint32_t>(red | green << 8 | blue << 16) | 0xff000000u;
+    }
+  }
+}
 }
 }
 HWY_AFTER_NAMESPACE();
@@ -210,6 +228,12 @@ HWY_EXPORT(reach);
 HWY_EXPORT(add);
 HWY_EXPORT(finish);
 HWY_EXPORT(finishPlain);
+HWY_EXPORT(pack);
+
+void packColors(const TileColors& colors, int count, std::uint32_t* rgba)
+{
+  HWY_DYNAMIC_DISPATCH(pack)(colors, count, rgba);
+}
 
 void beginLight(
   const Lighting& lighting, const TilePoints& points, int first, int last, TileLight& light)

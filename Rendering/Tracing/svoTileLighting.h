@@ -6,6 +6,7 @@
 #include "svoShading.h"
 #include "svoTilePoints.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace svo
@@ -15,6 +16,15 @@ struct TileColors
 {
   alignas(64) float r[TilePoints::Room], g[TilePoints::Room], b[TilePoints::Room];
 };
+
+/// A colour channel as a byte; NaN becomes 0.
+inline std::uint8_t toByte(float v)
+{
+  return v > 0.0f ? static_cast<std::uint8_t>(std::min(v, 1.0f) * 255.0f + 0.5f) : 0;
+}
+
+/// Colours as RGBA in memory, alpha 255, by index of the point.
+void packColors(const TileColors& colors, int count, std::uint32_t* rgba);
 
 /// Points [first, last) of one instance in view space, and the light that arrives there.
 struct TileLight

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 
 namespace svo
 {
@@ -22,12 +23,6 @@ namespace
 double now()
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-std::uint8_t toByte(float v)
-{
-  // NaN compares false and becomes 0.
-  return v > 0.0f ? static_cast<std::uint8_t>(std::min(v, 1.0f) * 255.0f + 0.5f) : 0;
 }
 }
 
@@ -65,6 +60,8 @@ struct Tracer::Internals
   /// Colours points [first, last) of one instance.
   void lightInstance(const Scene& scene, const Lighting& lighting, float remaining, int first,
     int last, bool hasColor, ShadeScratch& scratch, std::uint64_t& rays);
+  void write(const Scene& scene, const Lighting& lighting, const FrameSettings& settings, int tileX,
+    int tileY, ShadeScratch& scratch, Frame& frame);
   void markLightTiles(const Scene& scene, const View& view, const ParallelFor& parallelFor);
   void shadePixels(const Scene& scene, const View& view, const FrameSettings& settings,
     const ParallelFor& parallelFor, Frame& frame);
@@ -115,6 +112,7 @@ struct Tracer::Internals::ShadeScratch
   TilePoints points;
   TileLight light;
   TileColors colors;
+  std::uint32_t rgba[TilePoints::Room];
   std::uint8_t darkness[TilePoints::Most]; // by index of the point: which lights are dark
 };
 
@@ -150,6 +148,42 @@ void Tracer::Internals::lightInstance(const Scene& scene, const Lighting& lighti
     }
   }
   finishLight(lighting, instance.material, points, first, last, hasColor, light, scratch.colors);
+}
+
+/// Writes a tile's points into the frame.
+void Tracer::Internals::write(const Scene& scene, const Lighting& lighting,
+  const FrameSettings& settings, int tileX, int tileY, ShadeScratch& scratch, Frame& frame)
+{
+  const TilePoints& points = scratch.points;
+  packColors(scratch.colors, points.count, scratch.rgba);
+  const std::size_t corner = static_cast<std::size_t>(8 * tileY) * frame.width + 8 * tileX;
+  for (int run = 0; run < points.runCount; ++run)
+  {
+    const TilePoints::Run& r = points.runs[run];
+    const double offset = scene.instances[r.instance].depthOffsetUnits;
+    for (int i = r.first; i < r.last; ++i)
+    {
+      const int k = points.pixel[i];
+      const std::size_t pixel = corner + static_cast<std::size_t>(k >> 3) * frame.width + (k & 7);
+      std::memcpy(frame.color.data() + 4 * pixel, scratch.rgba + i, 4);
+      frame.depth[pixel] = static_cast<float>(std::clamp(points.window[i] + offset, 0.0, 1.0));
+      frame.instance[pixel] = r.instance;
+      frame.primitive[pixel] = points.primitive[i];
+    }
+  }
+  for (int i = 0; settings.writeNormals && i < points.count; ++i)
+  {
+    const int k = points.pixel[i];
+    const std::size_t pixel = corner + static_cast<std::size_t>(k >> 3) * frame.width + (k & 7);
+    const glm::vec3 normal =
+      lighting.rotation * glm::vec3(points.normalX[i], points.normalY[i], points.normalZ[i]);
+    std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixel);
+  }
+  const std::size_t tile = static_cast<std::size_t>(tileY) * this->Eye.depthBuffer().tilesX + tileX;
+  for (int i = 0; settings.antiAliasing && i < points.count; ++i)
+  {
+    this->Darkness[64 * tile + points.pixel[i]] = scratch.darkness[i];
+  }
 }
 
 void Tracer::Internals::shadePixels(const Scene& scene, const View& view,
@@ -196,33 +230,7 @@ void Tracer::Internals::shadePixels(const Scene& scene, const View& view,
       {
         allRays.fetch_add(rays, std::memory_order_relaxed);
       }
-      for (int i = 0; i < points.count; ++i)
-      {
-        const int k = points.pixel[i];
-        const std::size_t pixel =
-          static_cast<std::size_t>(8 * tileY + (k >> 3)) * view.width + 8 * tileX + (k & 7);
-        std::uint8_t* rgba = frame.color.data() + 4 * pixel;
-        rgba[0] = toByte(scratch.colors.r[i]);
-        rgba[1] = toByte(scratch.colors.g[i]);
-        rgba[2] = toByte(scratch.colors.b[i]);
-        rgba[3] = 255;
-        const std::uint32_t instance = points.instance[i];
-        const double window = points.window[i] + scene.instances[instance].depthOffsetUnits;
-        frame.depth[pixel] = static_cast<float>(std::clamp(window, 0.0, 1.0));
-        frame.instance[pixel] = instance;
-        frame.primitive[pixel] = points.primitive[i];
-        if (settings.writeNormals)
-        {
-          const glm::vec3 normal =
-            lighting.rotation * glm::vec3(points.normalX[i], points.normalY[i], points.normalZ[i]);
-          std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixel);
-        }
-        if (settings.antiAliasing)
-        {
-          this->Darkness[64 * (static_cast<std::size_t>(tileY) * depth.tilesX + tileX) + k] =
-            scratch.darkness[i];
-        }
-      }
+      this->write(scene, lighting, settings, tileX, tileY, scratch, frame);
     });
   this->Statistics.shadowRays += allRays;
 }

@@ -79,7 +79,7 @@ struct Task
 {
   std::string name;
   RayBlock rays;
-  TilePyramid pyramid;
+  TilePyramid pyramid, group;
   float tMax;
   HitBlock expected;
 };
@@ -106,6 +106,7 @@ void addTiles(const Octree& octree, const glm::dmat4& localToWorld, const View& 
       std::to_string(x) + ", " + std::to_string(y);
     local.fill(8 * x, 8 * y, task.rays);
     task.pyramid = makePyramid(projection, view, x, y);
+    task.group = makePyramid(projection, view, x / 4 * 4, y / 4 * 4, 4);
     task.tMax = local.tMax;
     const bool cut = k % 3 == 0;
     for (int i = 0; i < 64; ++i)
@@ -126,6 +127,19 @@ int compare(const Octree& octree, const Task& task)
   EXPECT_TRUE(findTileNodes(octree, task.pyramid, 0.0f, task.tMax, 1 << 20, nodes));
   HitBlock hits;
   intersectTile(octree, task.pyramid, nodes, task.rays, hits);
+  // The same by way of a group of tiles.
+  TileGroup group;
+  EXPECT_TRUE(group.find(octree, task.group, 0.0f, task.tMax, 1 << 20));
+  std::vector<TileNode> selected;
+  group.select(task.pyramid, selected);
+  EXPECT_LE(selected.size(), 2 * nodes.size() + 8); // rounding, not whole subtrees
+  HitBlock grouped;
+  intersectTile(octree, task.pyramid, selected, task.rays, grouped);
+  for (int i = 0; i < 64; ++i)
+  {
+    EXPECT_EQ(grouped.primitive[i], hits.primitive[i]) << "ray " << i;
+    EXPECT_TRUE(hits.primitive[i] == NoPrimitive || grouped.t[i] == hits.t[i]) << "ray " << i;
+  }
   int count = 0;
   for (int i = 0; i < 64; ++i)
   {
