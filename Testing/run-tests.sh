@@ -13,7 +13,7 @@ check_only=()
 groups=(build test paraview)
 for argument in "$@"; do
   case "$argument" in
-    --long) long=yes; groups+=(demo) ;;
+    --long) long=yes; groups+=(demo accuracy) ;;
     --no-install) check_only=(--no-install) ;;
     *)
       sed -n '2,6s/^# //p' "${BASH_SOURCE[0]}"
