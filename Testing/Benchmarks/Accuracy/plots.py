@@ -138,7 +138,7 @@ def shadows(rows, folder):
             x = sum(r["processorMs"] for r in some) / len(some)
             y = 100 * sum(r["meshWrong"] for r in some) / len(some)
             axis.plot([x], [max(y, 1e-3)], mark, color=COLOURS[kind],
-                      label=f"shadow rays, {kind} leaves" + (" (none wrong)" if y < 1e-3 else ""))
+                      label=f"shadow rays, {kind} leaves" + (" (below 0.001 %)" if y < 1e-3 else ""))
         axis.set_xscale("log")
         axis.set_yscale("log")
         plain_numbers(axis)
@@ -200,7 +200,7 @@ def paper(rows, folder):
     axis.set_xlim(min(g[0] for g in groups) / 1.1, max(g[0] for g in groups) * 1.5)
     plain_numbers(axis)
     label(axis, "processor time of a frame, ms",
-          "wrong shadows, % (0.001: none)", False)
+          "wrong shadows, %", False)
     save(figure, folder, "accuracy-paper.png")
 
 
