@@ -61,6 +61,8 @@ xvfb-run -a -s "-noreset -screen 0 1920x1200x24" bash -c '
 if [ "$long" = yes ]; then
   step "Sanitizers"
   Testing/run-sanitizers.sh "${check_only[@]}" || result=$?
+  step "Thread sanitizer"
+  Testing/run-thread-sanitizer.sh "${check_only[@]}" || result=$?
 fi
 
 echo

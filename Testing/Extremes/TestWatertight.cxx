@@ -307,3 +307,44 @@ TEST(Watertight, NoWalkReachesItsBound)
     EXPECT_LE(most, 3l << octree.level()) << "octree " << o;
   }
 }
+
+// The same in pictures, where a tile's rays go through the octree together: no pixel is a hole that
+// an eye inside of a closed mesh sees.
+TEST(Watertight, NoPixelIsAHoleForAnEyeInside)
+{
+  long pixels = 0;
+  Chance chance(41);
+  for (const Closed& c : closedMeshes())
+  {
+    const svo::Octree octree = makeOctree(c.mesh, c.level);
+    for (long k = 0; k < scaled(48); ++k)
+    {
+      const auto leaf = static_cast<svo::LeafGeometry>(k % 4);
+      const glm::dvec3 eye =
+        k % 3 == 0 ? glm::dvec3(0.0) : 0.3 * chance.unit() * chance.direction();
+      glm::dvec3 ahead = chance.direction();
+      if (k % 2 == 0) // along an axis
+      {
+        ahead = glm::dvec3(0.0);
+        ahead[chance.below(3)] = chance.unit() < 0.5 ? 1.0 : -1.0;
+      }
+      const glm::dvec3 up = std::abs(ahead.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+      const double angle = chance.between(1.0, 160.0);
+      svo::View view;
+      ASSERT_TRUE(svo::makeView(glm::lookAt(eye, eye + ahead, up),
+        glm::perspective(glm::radians(angle), 1.0, 1e-4, 10.0), 64, 64, view));
+      svo::Scene scene;
+      scene.instances = { instanceOf(octree, 1, glm::dmat4(1.0), leaf) };
+      svo::FrameSettings settings;
+      settings.shadowTechnique = svo::ShadowTechnique::None;
+      settings.pixelError = 0.0;
+      const svo::Frame frame = rendered(scene, view, settings);
+      const auto holes = std::count(frame.instance.begin(), frame.instance.end(), ~0u);
+      pixels += 64 * 64;
+      EXPECT_EQ(holes, 0) << c.name << ", picture " << k << ", leaves " << int(leaf) << ", angle "
+                          << angle << ", eye " << eye.x << " " << eye.y << " " << eye.z
+                          << ", ahead " << ahead.x << " " << ahead.y << " " << ahead.z;
+    }
+  }
+  std::printf("%ld pixels\n", pixels);
+}
