@@ -10,18 +10,17 @@ import unittest
 
 import numpy
 import paraview.simple as pv
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
+from pictures import differing, read
 
 CENTER = numpy.array([0.0, 0.0, 0.8])
 RADIUS = 0.5
 TO_LIGHT = numpy.array([3.0, -2.0, 5.0]) / numpy.linalg.norm([3.0, -2.0, 5.0])
 
 
-def load_plugin():
+def load_plugin(remote=False):
     """Before the first view is made, so that it has the plugin's settings."""
     pv._DisableFirstRenderCameraReset()
-    pv.LoadPlugin(os.environ["VTKSVO_PLUGIN"], remote=False, ns=vars(pv))
+    pv.LoadPlugin(os.environ["VTKSVO_PLUGIN"], remote=remote, ns=vars(pv))
 
 
 def output(name):
@@ -77,20 +76,6 @@ def picture(view, name, **options):
     options.setdefault("ImageResolution", list(view.ViewSize))
     pv.SaveScreenshot(path, view, **options)
     return read(path)
-
-
-def read(path):
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    image = reader.GetOutput()
-    width, height, _ = image.GetDimensions()
-    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1).astype(int)
-
-
-def differing(a, b, tolerance=8):
-    """Share of the pixels with a channel that differs by more than `tolerance` of 255."""
-    return float((abs(a - b).max(axis=2) > tolerance).mean())
 
 
 def baseline_difference(actual, name):

@@ -1,0 +1,92 @@
+"""The same pictures from one process, from several, and from servers: shadows cross processes.
+
+usage: TestParallel.py folder of ParaView's programs
+"""
+
+import os
+import subprocess
+import sys
+import unittest
+
+import pictures
+
+PROGRAMS = sys.argv.pop(1)
+SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "several_processes.py")
+NAMES = ("shadow", "moved", "turned", "rays", "ordinary-ground", "light-kit", "translucent")
+LEVELS = "level-of-detail"
+# Open MPI refuses to run as root, and more processes than cores, unless told to.
+os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                  OMPI_MCA_rmaps_base_oversubscribe="1")
+
+
+def program(name):
+    return os.path.join(PROGRAMS, name)
+
+
+def run(command):
+    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                            timeout=240)
+    print(result.stdout)
+    if result.returncode != 0 or "ERR|" in result.stdout:
+        raise AssertionError(f"{command} ended with {result.returncode}")
+    return result.stdout
+
+
+def read(prefix, name):
+    return pictures.read(os.path.join(os.environ["VTKSVO_OUTPUT"], f"{prefix}-{name}.png"))
+
+
+class TestParallel(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        run([program("pvbatch"), SCRIPT, "one"])
+        cls.expected = {name: read("one", name) for name in NAMES}
+
+    def check(self, prefix, share=1e-4):
+        for name in NAMES:
+            with self.subTest(picture=name):
+                difference = pictures.differing(read(prefix, name), self.expected[name], tolerance=2)
+                print(f"{prefix}-{name}: {difference:.6f} of the pixels differ")
+                self.assertLess(difference, share)
+
+        # Pieces of a surface have voxels of their own size, and so levels of detail.
+        difference = pictures.differing(read(prefix, LEVELS), read("one", LEVELS))
+        print(f"{prefix}-{LEVELS}: {difference:.6f} of the pixels differ")
+        self.assertLess(difference, 1e-2)
+
+    def check_processes(self, processes):
+        prefix = f"processes{processes}"
+        output = run(["mpirun", "-np", str(processes), program("pvbatch"), SCRIPT, prefix])
+        self.assertIn(f"processes with data: {processes}\n", output)
+        self.check(prefix)
+
+    def test_two_processes(self):
+        self.check_processes(2)
+
+    def test_three_processes(self):
+        self.check_processes(3)
+
+    def check_server(self, prefix, command, port):
+        server = subprocess.Popen(command + [f"--server-port={port}"], stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True)
+        try:
+            for line in server.stdout:
+                if "Accepting connection" in line:
+                    break
+            run([program("pvpython"), SCRIPT, prefix, str(port)])
+            said = server.communicate(timeout=60)[0]
+            self.assertNotIn("ERR|", said)
+        finally:
+            server.kill()
+            server.wait()
+        self.check(prefix)
+
+    def test_server(self):
+        self.check_server("server", [program("pvserver")], 21111)
+
+    def test_server_of_two_processes(self):
+        self.check_server("server2", ["mpirun", "-np", "2", program("pvserver")], 21112)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

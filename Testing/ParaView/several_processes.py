@@ -1,0 +1,54 @@
+"""Pictures of one scene, for TestParallel.py to compare. Runs in pvbatch on any number of processes, or in
+pvpython as the client of a server.
+
+usage: several_processes.py prefix [port of a server on this machine]
+"""
+
+import sys
+
+import paraview.simple as pv
+import scene
+
+prefix = sys.argv[1]
+served = len(sys.argv) > 2
+if served:
+    pv.Connect("localhost", int(sys.argv[2]))
+scene.load_plugin()
+if served:
+    scene.load_plugin(remote=True)
+
+view = scene.make_view((400, 300))
+view.RemoteRenderThreshold = 0.0
+scene.add_sun(view)
+ball, ground = scene.make_ball(), scene.make_ground()
+displays = [scene.show(source, view) for source in (ball, ground)]
+ids = pv.ProcessIdScalars(Input=ball)
+ids.UpdatePipeline()
+print("processes with data:", int(ids.PointData["ProcessId"].GetRange()[1]) + 1)
+
+
+def picture(name):
+    return scene.picture(view, f"{prefix}-{name}")
+
+
+picture("level-of-detail")
+view.SVOPixelError = 0  # where every process goes to the full depth, voxels' sizes do not matter
+picture("shadow")
+displays[0].Position = [0.3, -0.2, 0.1]
+displays[0].Scale = [1.0, 1.2, 0.9]
+picture("moved")
+view.CameraPosition = [4.0, 5.0, 3.0]
+picture("turned")
+view.SVOShadowTechnique = "Shadow Rays"
+picture("rays")
+view.SVOShadowTechnique = "Shadow Buffer"
+displays[1].Representation = "Surface"
+picture("ordinary-ground")
+displays[1].Representation = "SVO"
+view.UseLight = 1
+pv.RemoveLight(view.AdditionalLights[0])
+picture("light-kit")
+displays[0].Opacity = 0.5
+picture("translucent")
+if served:
+    pv.Disconnect()
