@@ -12,6 +12,7 @@
 #include "vtkTimerLog.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace svo
 {
@@ -54,8 +55,11 @@ void PassRenderer::collect(
   this->Statistics.instances = static_cast<int>(this->Collected.scene.instances.size());
 }
 
-void PassRenderer::trace(int width, int height, FrameSettings settings)
+void PassRenderer::trace(int width, int height, double distance, FrameSettings settings)
 {
+  width = static_cast<int>(std::ceil(width / distance));
+  height = static_cast<int>(std::ceil(height / distance));
+  this->Statistics.sampleDistance = distance;
   const Scene& scene = this->Collected.scene;
   View& view = this->Eye;
   view = View();
@@ -88,8 +92,11 @@ void PassRenderer::present(vtkOpenGLRenderPass* pass)
     &this->Picture,
     [this](const std::vector<glm::vec2>& positions, Silhouettes& silhouettes)
     {
-      findSilhouettes(this->Collected.scene, this->Eye, this->PixelError, this->Picture, positions,
-        smpParallelFor(), silhouettes);
+      if (this->Statistics.sampleDistance == 1.0)
+      {
+        findSilhouettes(this->Collected.scene, this->Eye, this->PixelError, this->Picture,
+          positions, smpParallelFor(), silhouettes);
+      }
     },
     pass);
 }

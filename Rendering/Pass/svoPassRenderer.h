@@ -3,6 +3,7 @@
 #define svoPassRenderer_h
 
 #include "svoOctreeStore.h"
+#include "svoSampleDistance.h"
 #include "svoSceneCollector.h"
 #include "svoShadowReceivers.h"
 #include "svoSharedCasters.h"
@@ -34,6 +35,7 @@ struct PassStatistics
   int tracedActors = 0;
   int rasterizedActors = 0;
   int instances = 0;
+  double sampleDistance = 1.0; // pixels
 };
 
 /// Entries of a render state's prop array, exchanged and put back. The array is the renderer's own,
@@ -70,8 +72,12 @@ public:
     this->Shared.exchange(controller, memoryLimit, this->Collected);
   }
 
-  /// Traces the collected scene, `width` by `height` pixels. Nothing is drawn yet.
-  void trace(int width, int height, FrameSettings settings);
+  /// Traces the collected scene, `width` by `height` pixels, with rays `distance` pixels apart.
+  /// Nothing is drawn yet.
+  void trace(int width, int height, double distance, FrameSettings settings);
+
+  /// For frames of a budget.
+  SampleDistance& sampleDistance() { return this->Distance; }
 
   /// The prop that shows what was traced.
   vtkSVOPresenter* presenter() { return this->Presenter; }
@@ -95,6 +101,7 @@ private:
   SceneCollector Collector;
   CollectedScene Collected;
   SharedCasters Shared;
+  SampleDistance Distance;
   Tracer Trace;
   View Eye; // of the frame
   double PixelError = 1.0;

@@ -4,12 +4,15 @@
 #include "svoPassInternals.h"
 
 #include "vtkCommand.h"
+#include "vtkLight.h"
+#include "vtkLightCollection.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLPolyDataMapper.h"
 #include "vtkRenderState.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
+#include <algorithm>
 #include <string>
 
 vtkStandardNewMacro(vtkSVORenderPass);
@@ -50,6 +53,30 @@ constexpr std::size_t BytesOfKiB = 1024;
 
 /// From this rate on VTK asks for interaction rather than for a picture to keep.
 constexpr double InteractiveRate = 1.0; // Hz
+
+/// Share of an interactive frame's time that is the pass's; the rest is for what else is drawn.
+constexpr double OwnShare = 0.5;
+
+bool isInteractive(vtkRenderer* renderer)
+{
+  return renderer->GetRenderWindow()->GetDesiredUpdateRate() >= InteractiveRate;
+}
+
+/// True if a light moves with the camera, so that nothing seen from it outlives a frame.
+bool hasCameraLight(vtkRenderer* renderer)
+{
+  vtkCollectionSimpleIterator iterator;
+  vtkLightCollection* lights = renderer->GetLights();
+  lights->InitTraversal(iterator);
+  while (vtkLight* light = lights->GetNextLight(iterator))
+  {
+    if (light->GetSwitch() && light->LightTypeIsCameraLight())
+    {
+      return true;
+    }
+  }
+  return false;
+}
 }
 
 /// Fills the pass's current frame with the renderer's scene.
@@ -59,8 +86,7 @@ void vtkSVORenderPass::CollectFrame(vtkRenderer* renderer, bool attached)
   store.convert = this->ConvertPolyData;
   store.level = this->MaximumLevel;
   store.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);
-  store.wait = !this->BuildInBackground ||
-    renderer->GetRenderWindow()->GetDesiredUpdateRate() < InteractiveRate;
+  store.wait = !this->BuildInBackground || !isInteractive(renderer);
   store.progress = [this](double amount) { this->InvokeEvent(vtkCommand::ProgressEvent, &amount); };
   store.complain = [this](const std::string& text) { vtkWarningMacro(<< text); };
 
@@ -93,7 +119,20 @@ void vtkSVORenderPass::TraceFrame(int width, int height)
   settings.antiAliasing = this->AntiAliasing;
 
   Internals& impl = *this->Impl;
-  impl.current->trace(width, height, settings);
+  vtkRenderer* renderer = impl.current->renderer();
+  double distance = 1.0;
+  if (this->AutoAdjustSampleDistances && isInteractive(renderer))
+  {
+    distance = impl.current->sampleDistance().choose(
+      OwnShare / renderer->GetRenderWindow()->GetDesiredUpdateRate(),
+      this->MaximumImageSampleDistance);
+    if (hasCameraLight(renderer))
+    {
+      settings.shadowResolution =
+        std::max(static_cast<int>(settings.shadowResolution / distance), 16);
+    }
+  }
+  impl.current->trace(width, height, distance, settings);
   svo::ShadowReceivers& receivers = impl.current->receivers();
   const std::string signature = receivers.signature();
   if (signature != impl.shaderSignature)
@@ -110,6 +149,12 @@ void vtkSVORenderPass::FinishFrame()
   impl.current->receivers().deactivate();
   impl.current->finish();
   impl.statistics = impl.current->statistics();
+  if (impl.statistics.tracer.retracedLayers > 0)
+  {
+    const svo::PassStatistics& frame = impl.statistics;
+    impl.current->sampleDistance().measured(frame.sampleDistance,
+      frame.collectTime + frame.tracer.traceTime + frame.tracer.shadowTime + frame.presentTime);
+  }
   impl.store.endFrame(static_cast<std::size_t>(this->OctreeMemoryLimit) * BytesOfKiB);
   impl.current = nullptr;
 }
@@ -253,6 +298,11 @@ int vtkSVORenderPass::GetNumberOfInstances() const
   return this->Impl->statistics.instances;
 }
 
+double vtkSVORenderPass::GetImageSampleDistance() const
+{
+  return this->Impl->statistics.sampleDistance;
+}
+
 vtkIdType vtkSVORenderPass::GetLayerMemorySize() const
 {
   return static_cast<vtkIdType>(this->Impl->statistics.tracer.layerMemory / BytesOfKiB);
@@ -282,6 +332,9 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "FrameCoherence: " << this->FrameCoherence << '\n'
      << indent << "LayerMemoryLimit: " << this->LayerMemoryLimit << " KiB\n"
      << indent << "AntiAliasing: " << this->AntiAliasing << '\n'
+     << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << '\n'
+     << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << " pixels\n"
+     << indent << "ImageSampleDistance: " << this->GetImageSampleDistance() << " pixels\n"
      << indent << "Controller: " << this->GetController() << '\n'
      << indent << "Tracing: " << this->Tracing << '\n'
      << indent << "CollectTime: " << this->GetCollectTime() << " s\n"

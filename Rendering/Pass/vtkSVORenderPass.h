@@ -238,6 +238,26 @@ public:
 
   //@{
   /**
+   * While the user interacts (the render window's desired update rate is 1 Hz or more): whether
+   * rays are as far apart as it takes to keep to half of the time for a frame, up to
+   * MaximumImageSampleDistance pixels. Default on, and 8 (1..64). Shadow maps of camera lights get
+   * coarser alike. Other frames have a ray for each pixel and do not depend on the time that
+   * anything takes. Named as in vtkGPUVolumeRayCastMapper.
+   */
+  vtkSetMacro(AutoAdjustSampleDistances, bool);
+  vtkGetMacro(AutoAdjustSampleDistances, bool);
+  vtkBooleanMacro(AutoAdjustSampleDistances, bool);
+  vtkSetClampMacro(MaximumImageSampleDistance, double, 1.0, 64.0);
+  vtkGetMacro(MaximumImageSampleDistance, double);
+  //@}
+
+  /**
+   * Pixels from ray to ray in the last frame.
+   */
+  double GetImageSampleDistance() const;
+
+  //@{
+  /**
    * Whether a prop casts shadows; without an answer every opaque surface does and a translucent one
    * does not.
    */
@@ -392,6 +412,8 @@ protected:
   vtkIdType LayerMemoryLimit = 512 * 1024;
   bool AntiAliasing = false;
   bool Tracing = true;
+  bool AutoAdjustSampleDistances = true;
+  double MaximumImageSampleDistance = 8.0;
 
 private:
   vtkSVORenderPass(const vtkSVORenderPass&) = delete;
