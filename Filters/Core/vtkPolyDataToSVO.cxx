@@ -3,12 +3,16 @@
 #include "svoMeshOctree.h"
 #include "svoOctreeCache.h"
 
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkTimerLog.h"
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -92,6 +96,33 @@ int vtkPolyDataToSVO::GetNumberOfCachedOctrees()
 }
 
 //------------------------------------------------------------------------------
+void vtkPolyDataToSVO::Finish(vtkPolyData* output)
+{
+  svo::Octree octree;
+  std::string ignored;
+  if (svo::openAttachedOctree(output, octree, ignored) != svo::Attached::Found)
+  {
+    return;
+  }
+  this->NumberOfVoxels = static_cast<vtkIdType>(octree.header().voxelCount);
+  if (!this->WriteStatistics)
+  {
+    return;
+  }
+  const std::pair<const char*, double> statistics[] = { { "SVO Level", octree.level() },
+    { "SVO Voxels", static_cast<double>(octree.header().voxelCount) },
+    { "SVO Memory", std::ceil(octree.bytes() / static_cast<double>(Kibi)) },
+    { "SVO Build Time", this->BuildTime } };
+  for (const auto& statistic : statistics)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(statistic.first);
+    array->InsertNextValue(statistic.second);
+    output->GetFieldData()->AddArray(array);
+  }
+}
+
+//------------------------------------------------------------------------------
 int vtkPolyDataToSVO::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -105,10 +136,9 @@ int vtkPolyDataToSVO::RequestData(
   options.level = this->MaximumLevel;
   options.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);
   options.memoryLimit = this->MemoryLimit * Kibi;
-  if (const auto carried =
-        vtkInternals::Carried(input, options.level, options.leafGeometry, this->KeepOctrees))
+  if (vtkInternals::Carried(input, options.level, options.leafGeometry, this->KeepOctrees))
   {
-    this->NumberOfVoxels = static_cast<vtkIdType>(carried.header().voxelCount);
+    this->Finish(output);
     return 1;
   }
   svo::detachOctree(output);
@@ -118,7 +148,7 @@ int vtkPolyDataToSVO::RequestData(
   if (const svo::OctreeCache::Entry* kept = this->CacheTimeSteps ? cache.find(key) : nullptr)
   {
     svo::attachOctree(output, kept->octree);
-    this->NumberOfVoxels = static_cast<vtkIdType>(kept->octree.header().voxelCount);
+    this->Finish(output);
     return 1;
   }
 
@@ -143,8 +173,8 @@ int vtkPolyDataToSVO::RequestData(
   }
 
   ++this->NumberOfBuilds;
-  this->NumberOfVoxels = static_cast<vtkIdType>(built.octree.header().voxelCount);
   svo::attachOctree(output, built.octree);
+  this->Finish(output);
   if (!message.empty())
   {
     vtkWarningMacro("The octree is not complete: " << message << ".");
@@ -177,6 +207,7 @@ void vtkPolyDataToSVO::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CacheMemorySize: " << this->GetCacheMemorySize() << " KiB\n";
   os << indent << "NumberOfCachedOctrees: " << this->GetNumberOfCachedOctrees() << "\n";
   os << indent << "KeepOctrees: " << (this->KeepOctrees ? "On\n" : "Off\n");
+  os << indent << "WriteStatistics: " << (this->WriteStatistics ? "On\n" : "Off\n");
   os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
   os << indent << "NumberOfBuilds: " << this->NumberOfBuilds << "\n";
   os << indent << "BuildTime: " << this->BuildTime << " s\n";

@@ -113,6 +113,17 @@ public:
 
   //@{
   /**
+   * Whether the output's field data also says, in arrays of one value, what the octree is like:
+   * "SVO Level", "SVO Voxels", "SVO Memory" (KiB) and "SVO Build Time" (s, 0 if it was not built
+   * now). For programs that show field data to people. Default off.
+   */
+  vtkSetMacro(WriteStatistics, bool);
+  vtkGetMacro(WriteStatistics, bool);
+  vtkBooleanMacro(WriteStatistics, bool);
+  //@}
+
+  //@{
+  /**
    * Memory that one build may use at its peak, in KiB; default 0: what the machine has available. A
    * build that is expected to need more is refused with an error.
    */
@@ -164,11 +175,14 @@ private:
   int LeafGeometry = AUTOMATIC;
   bool CacheTimeSteps = true;
   bool KeepOctrees = false;
+  bool WriteStatistics = false;
   unsigned long CacheMemoryLimit = 1048576;
   unsigned long MemoryLimit = 0;
   vtkIdType NumberOfBuilds = 0;
   vtkIdType NumberOfVoxels = 0;
   double BuildTime = 0.0;
+
+  void Finish(vtkPolyData* output);
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -36,6 +36,7 @@ struct vtkSVORenderPass::Internals
   vtkSmartPointer<vtkMultiProcessController> controller;
   bool traced = false; // the current frame is, where the pass is attached
   svo::PassStatistics statistics;
+  std::string castingLights;
   std::string shaderSignature; // of the shaders that mappers have built last
   vtkTimeStamp shaderTime;
   bool saidHeadlight = false;

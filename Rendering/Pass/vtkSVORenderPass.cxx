@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkSVORenderPass);
 
@@ -57,6 +58,22 @@ constexpr double InteractiveRate = 1.0; // Hz
 /// Share of an interactive frame's time that is the pass's; the rest is for what else is drawn.
 constexpr double OwnShare = 0.5;
 
+std::string describeLights(const std::vector<svo::Light>& lights)
+{
+  std::string text;
+  for (std::size_t i = 0; i < lights.size(); ++i)
+  {
+    const svo::Light& light = lights[i];
+    const char* kind = light.headlight        ? "headlight"
+      : light.kind == svo::Light::Kind::Point ? "point light"
+      : light.kind == svo::Light::Kind::Spot  ? "spot light"
+                                              : "directional light";
+    text += "Light " + std::to_string(i + 1) + ", " + kind +
+      (light.castShadow ? ": casts shadows\n" : ": casts none\n");
+  }
+  return text;
+}
+
 bool isInteractive(vtkRenderer* renderer)
 {
   return renderer->GetRenderWindow()->GetDesiredUpdateRate() >= InteractiveRate;
@@ -95,6 +112,7 @@ void vtkSVORenderPass::CollectFrame(vtkRenderer* renderer, bool attached)
   impl.current->collect(
     impl.store, store, { this->ShadowTechnique != SHADOW_NONE, /*onlyMarked=*/attached });
   const svo::CollectedScene& collected = impl.current->collected();
+  impl.castingLights = describeLights(collected.scene.lights);
   if (collected.headlightOnly && !impl.saidHeadlight && this->ShadowTechnique != SHADOW_NONE &&
     (!attached || !collected.scene.instances.empty()))
   {
@@ -298,6 +316,11 @@ int vtkSVORenderPass::GetNumberOfInstances() const
   return this->Impl->statistics.instances;
 }
 
+const char* vtkSVORenderPass::GetCastingLights() const
+{
+  return this->Impl->castingLights.c_str();
+}
+
 double vtkSVORenderPass::GetImageSampleDistance() const
 {
   return this->Impl->statistics.sampleDistance;
@@ -335,7 +358,8 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << '\n'
      << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << " pixels\n"
      << indent << "ImageSampleDistance: " << this->GetImageSampleDistance() << " pixels\n"
-     << indent << "Controller: " << this->GetController() << '\n'
+     << indent << "CastingLights:\n"
+     << this->GetCastingLights() << indent << "Controller: " << this->GetController() << '\n'
      << indent << "Tracing: " << this->Tracing << '\n'
      << indent << "CollectTime: " << this->GetCollectTime() << " s\n"
      << indent << "TraceTime: " << this->GetTraceTime() << " s\n"

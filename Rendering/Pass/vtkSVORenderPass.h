@@ -334,6 +334,12 @@ public:
   int GetNumberOfInstances() const;
   //@}
 
+  /**
+   * Which lights cast shadows, for people: a line for each light that was switched on in the last
+   * frame, in the renderer's order.
+   */
+  const char* GetCastingLights() const;
+
   //@{
   /**
    * Memory in KiB: kept layers, and the octrees that the pass built itself.

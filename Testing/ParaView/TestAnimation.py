@@ -54,6 +54,11 @@ class TestAnimation(unittest.TestCase):
         self.loop(octrees, "NumberOfBuilds")
         self.assertEqual(scene.statistic(octrees, "NumberOfBuilds"), STEPS)
         self.assertEqual(self.loop(octrees, "NumberOfBuilds"), 0)
+        fields = octrees.FieldData
+        self.assertEqual(fields["SVO Level"].GetRange(), (8.0, 8.0))
+        self.assertEqual(fields["SVO Voxels"].GetRange()[0],
+                         scene.statistic(octrees, "NumberOfVoxels"))
+        self.assertGreater(fields["SVO Memory"].GetRange()[0], 1)
         # The representation takes what comes, whatever its own level.
         self.assertEqual(scene.statistic(ball, "SVONumberOfBuilds"), 0)
         self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 2)

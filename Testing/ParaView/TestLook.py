@@ -168,6 +168,10 @@ class TestLook(unittest.TestCase):
         darker = (plain - shadowed).max(axis=2) > 8
         self.assertGreater(darker.mean(), 0.005)
         self.assertLess((shadowed - plain).max(), 9)  # a shadow never lightens
+        # The kit's key light, and neither its other lights nor the headlight.
+        lights = scene.statistic(self.view, "SVOCastingLights").splitlines()
+        self.assertEqual(len(lights), 5)
+        self.assertEqual(sum("casts shadows" in line for line in lights), 1)
 
     def test_several_views(self):
         ball, ground = scene.make_ball(), scene.make_ground()

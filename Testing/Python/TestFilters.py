@@ -32,6 +32,28 @@ class Filters(unittest.TestCase):
         self.assertEqual(output.GetNumberOfPolys(), mesh.GetNumberOfPolys())
         self.assertGreater(output.GetFieldData().GetNumberOfArrays(), 0)
 
+    def test_an_octree_that_comes_along_can_be_kept(self):
+        first, second = sphere_with_octree(5), vtksvo.vtkPolyDataToSVO()
+        second.SetInputConnection(first.GetOutputPort())
+        second.SetMaximumLevel(7)
+        second.SetKeepOctrees(True)
+        second.Update()
+        self.assertEqual(second.GetNumberOfBuilds(), 0)
+        self.assertEqual(second.GetNumberOfVoxels(), first.GetNumberOfVoxels())
+        second.SetKeepOctrees(False)
+        second.Update()
+        self.assertEqual(second.GetNumberOfBuilds(), 1)
+
+    def test_statistics_in_field_data(self):
+        convert = sphere_with_octree(5)
+        self.assertIsNone(convert.GetOutput().GetFieldData().GetArray("SVO Level"))
+        convert.SetWriteStatistics(True)
+        convert.Update()
+        fields = convert.GetOutput().GetFieldData()
+        self.assertEqual(fields.GetArray("SVO Level").GetValue(0), 5)
+        self.assertEqual(fields.GetArray("SVO Voxels").GetValue(0), convert.GetNumberOfVoxels())
+        self.assertGreater(fields.GetArray("SVO Memory").GetValue(0), 0)
+
     def test_octree_answers(self):
         octree = vtksvo.vtkSparseVoxelOctree()
         self.assertTrue(octree.Initialize(sphere_with_octree(6).GetOutput()))
