@@ -25,7 +25,8 @@ packages_paraview="
 paraview|ParaView 5.11 and what it depends on
 paraview-dev|its headers and CMake package
 python3-numpy|the plugin's tests judge their pictures with it
-openmpi-bin|tests on several processes"
+openmpi-bin|tests on several processes
+libqt5svg5|icons in ParaView's window"
 packages_demo="
 xvfb|a display for machines without one
 xauth|access to that display

@@ -92,7 +92,7 @@ void PassRenderer::present(vtkOpenGLRenderPass* pass)
     &this->Picture,
     [this](const std::vector<glm::vec2>& positions, Silhouettes& silhouettes)
     {
-      if (this->Statistics.sampleDistance == 1.0)
+      if (this->Statistics.sampleDistance == 1.0) // else the frame's pixels are not the window's
       {
         findSilhouettes(this->Collected.scene, this->Eye, this->PixelError, this->Picture,
           positions, smpParallelFor(), silhouettes);
