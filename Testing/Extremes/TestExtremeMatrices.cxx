@@ -158,6 +158,11 @@ struct Together
   double distance; // object sizes
 };
 
+void PrintTo(const Together& t, std::ostream* out)
+{
+  *out << t.name;
+}
+
 class MovedTogether : public testing::TestWithParam<Together>
 {
 };
