@@ -65,10 +65,11 @@ public:
 
   //@{
   /**
-   * What a ray meets in an occupied voxel, fastest first:
-   * - Voxel: the cube, where the ray enters it;
+   * What a ray meets in an occupied voxel:
+   * - Voxel: the cube, where the ray enters it; the least work for a single ray;
    * - Plane: the plane of one of the triangles in the voxel;
-   * - Triangle: the triangles themselves, exactly;
+   * - Triangle: the triangles themselves, exactly; fastest in pictures where they look larger than
+   *   a pixel or two;
    * - Automatic (default): triangles where they are few, planes where they are many. A render pass
    *   goes by what a view shows: it takes planes only for triangles smaller than about a pixel.
    */

@@ -326,6 +326,13 @@ double vtkSVORenderPass::GetImageSampleDistance() const
   return this->Impl->statistics.sampleDistance;
 }
 
+double vtkSVORenderPass::GetAcceptedPixelError() const
+{
+  // A pixel of the traced picture is `distance` pixels of the window.
+  const double distance = this->GetImageSampleDistance();
+  return distance > 1.0 ? distance * std::max(this->PixelError, 1.0) : this->PixelError;
+}
+
 vtkIdType vtkSVORenderPass::GetLayerMemorySize() const
 {
   return static_cast<vtkIdType>(this->Impl->statistics.tracer.layerMemory / BytesOfKiB);
@@ -358,6 +365,7 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << '\n'
      << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << " pixels\n"
      << indent << "ImageSampleDistance: " << this->GetImageSampleDistance() << " pixels\n"
+     << indent << "AcceptedPixelError: " << this->GetAcceptedPixelError() << " pixels\n"
      << indent << "CastingLights:\n"
      << this->GetCastingLights() << indent << "Controller: " << this->GetController() << '\n'
      << indent << "Tracing: " << this->Tracing << '\n'

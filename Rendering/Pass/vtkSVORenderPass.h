@@ -256,6 +256,12 @@ public:
    */
   double GetImageSampleDistance() const;
 
+  /**
+   * The pixel error that the last frame accepted, in pixels of the window: PixelError, or where rays
+   * were more than a pixel apart to save time, at least the distance from ray to ray.
+   */
+  double GetAcceptedPixelError() const;
+
   //@{
   /**
    * Whether a prop casts shadows; without an answer every opaque surface does and a translucent one

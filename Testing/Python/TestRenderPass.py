@@ -52,6 +52,12 @@ class Scene:
         camera.SetPosition(0.0, 0.0, 8.0)
         camera.SetFocalPoint(0.0, 0.0, 0.0)
 
+    def pixels(self):
+        self.window.Render()
+        pixels = vtkUnsignedCharArray()
+        self.window.GetPixelData(0, 0, 199, 199, 1, pixels, 0)
+        return bytes(memoryview(pixels))
+
     def ground_brightness(self, x, y):
         self.window.Render()
         self.renderer.SetWorldPoint(x, y, 0.0, 1.0)
@@ -122,6 +128,28 @@ class RenderPass(unittest.TestCase):
         scene.window.Render()
         scene.window.Render()
         self.assertEqual(scene.svo.GetNumberOfRetracedLayers(), 0)
+        scene.window.Finalize()
+
+    def test_an_interactive_frame_says_what_it_accepted(self):
+        scene = Scene(with_filter=False)
+        scene.svo.SetPixelError(0.5)
+        scene.svo.SetMaximumImageSampleDistance(4.0)
+        scene.svo.SetFrameCoherence(False)
+        scene.window.Render()
+        self.assertEqual(scene.svo.GetImageSampleDistance(), 1.0)
+        self.assertEqual(scene.svo.GetAcceptedPixelError(), 0.5)
+        still = scene.pixels()
+        scene.window.SetDesiredUpdateRate(1e9)  # no frame is that quick
+        scene.window.Render()
+        self.assertEqual(scene.svo.GetImageSampleDistance(), 4.0)
+        self.assertEqual(scene.svo.GetAcceptedPixelError(), 4.0)
+        self.assertNotEqual(scene.pixels(), still)
+        scene.svo.SetAutoAdjustSampleDistances(False)
+        self.assertEqual(scene.pixels(), still)
+        scene.svo.SetAutoAdjustSampleDistances(True)
+        scene.window.SetDesiredUpdateRate(0.0001)
+        self.assertEqual(scene.pixels(), still)
+        self.assertEqual(scene.svo.GetAcceptedPixelError(), 0.5)
         scene.window.Finalize()
 
     def test_settings_are_clamped_to_their_range(self):
