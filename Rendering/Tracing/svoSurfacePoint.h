@@ -2,6 +2,7 @@
 #ifndef svoSurfacePoint_h
 #define svoSurfacePoint_h
 
+#include "svoNodeTriangle.h"
 #include "svoRay.h"
 #include "svoScene.h"
 #include "svoView.h"
@@ -87,67 +88,27 @@ inline glm::vec3 textureAt(const Attributes& a, float coordinate)
 }
 }
 
-namespace detail
+/// The triangle of a node; see pickTriangle(). `position` and `towards`, to the viewer: world.
+inline NodeTriangle pickTriangle(const SurfaceFrame& frame, std::uint32_t node,
+  const glm::dvec3& position, const glm::vec3& towards)
 {
-/// The triangle that stands for a node above the bricks: of the nearest of its bricks, roughly, the
-/// first that faces the viewer, or the first of all. `towards`: to the viewer, world.
-inline Primitive facingTriangle(
-  const SurfaceFrame& frame, std::uint32_t node, const glm::vec3& towards)
-{
-  const Octree& octree = frame.instance->octree;
-  const glm::dvec3 local = frame.toOctree.vector(glm::dvec3(towards));
-  // Cell indices in this order come nearest first along each axis.
-  const unsigned flip =
-    (local.x > 0.0 ? 011u : 0u) | (local.y > 0.0 ? 022u : 0u) | (local.z > 0.0 ? 044u : 0u);
-  while (node < octree.brickBegin())
-  {
-    const Node& inner = octree.nodes()[node];
-    unsigned i = 0;
-    while (!(inner.mask >> (i ^ flip) & 1))
-    {
-      ++i;
-    }
-    const std::uint64_t below = (std::uint64_t(1) << (i ^ flip)) - 1;
-    node = inner.first + __builtin_popcountll(inner.mask & below);
-  }
-  std::uint32_t count, inlineId;
-  const std::uint32_t* list = octree.brickTriangles(node, count, inlineId);
-  const Surface* surface = octree.surface();
-  for (std::uint32_t k = 0; surface && k < count; ++k)
-  {
-    const glm::uvec3 triangle = surface->triangles[list[k]];
-    const glm::vec3 a = surface->points[triangle.x];
-    const glm::vec3 winding = frame.windingMatrix *
-      glm::cross(surface->points[triangle.y] - a, surface->points[triangle.z] - a);
-    if (glm::dot(winding, towards) > 0.0f)
-    {
-      return list[k];
-    }
-  }
-  return list[0];
-}
+  return pickTriangle(frame.instance->octree, node, frame.toOctree.point(position),
+    frame.toOctree.vector(glm::dvec3(towards)),
+    [&](const glm::vec3& n)
+    { return glm::dot(detail::normalized(frame.windingMatrix * n, -towards), towards); });
 }
 
-/// `t` is the linear depth of the hit on the ray of pixel (x, y).
-inline SurfacePoint surfacePoint(
-  const SurfaceFrame& frame, const View& view, double x, double y, double t, Primitive primitive)
+/// A point of a triangle, with the attributes that the triangle has at `at`, octree coordinates.
+inline SurfacePoint pointOfTriangle(const SurfaceFrame& frame, const glm::dvec3& position,
+  const glm::vec3& towards, Primitive primitive, const glm::dvec3& at)
 {
   const Instance& instance = *frame.instance;
-  const Octree& octree = instance.octree;
   const Attributes& attributes = instance.attributes;
+  const Surface* surface = instance.octree.surface();
   SurfacePoint point;
-  const glm::dvec3 ray = view.rayDirection(x, y);
-  point.position = view.rayOrigin(x, y) + t * ray;
+  point.position = position;
   point.hasColor = false;
   point.color = glm::vec3(1.0f);
-  const glm::vec3 towards(-ray);
-  if (primitive & NodePrimitive)
-  {
-    // The node's mean plane is where the point is; it is no normal to shade with, for it has faces
-    // in it that the viewer does not see.
-    primitive = detail::facingTriangle(frame, primitive & ~NodePrimitive, towards);
-  }
-  const Surface* surface = octree.surface();
   if (!surface)
   {
     point.facet = point.normal = glm::normalize(towards);
@@ -172,28 +133,16 @@ inline SurfacePoint surfacePoint(
   if (smooth || pointColors)
   {
     // Barycentric coordinates; a plane or voxel hit beside its triangle takes the nearest in it.
-    const glm::vec3 p(frame.toOctree.point(point.position) - glm::dvec3(a));
-    const float d11 = glm::dot(e1, e1);
-    const float d12 = glm::dot(e1, e2);
-    const float d22 = glm::dot(e2, e2);
-    const float determinant = d11 * d22 - d12 * d12;
-    const float p1 = glm::dot(p, e1);
-    const float p2 = glm::dot(p, e2);
-    float v = determinant > 0.0f ? (d22 * p1 - d12 * p2) / determinant : 0.0f;
-    float w = determinant > 0.0f ? (d11 * p2 - d12 * p1) / determinant : 0.0f;
-    v = std::clamp(v, 0.0f, 1.0f);
-    w = std::clamp(w, 0.0f, 1.0f);
-    const float sum = std::max(v + w, 1.0f);
-    weight = { 1.0f - (v + w) / sum, v / sum, w / sum };
+    weight = nearWeights(glm::vec3(at - glm::dvec3(a)), e1, e2);
   }
   const std::uint32_t cell = surface->cells.empty() ? primitive : surface->cells[primitive];
   if (smooth || cellNormals)
   {
-    const glm::vec3 local = smooth ? weight.x * detail::vectorAt(attributes.normals, triangle.x) +
+    const glm::vec3 normal = smooth ? weight.x * detail::vectorAt(attributes.normals, triangle.x) +
         weight.y * detail::vectorAt(attributes.normals, triangle.y) +
         weight.z * detail::vectorAt(attributes.normals, triangle.z)
-                                   : detail::vectorAt(attributes.normals, cell);
-    point.normal = detail::normalized(frame.normalMatrix * local, point.facet);
+                                    : detail::vectorAt(attributes.normals, cell);
+    point.normal = detail::normalized(frame.normalMatrix * normal, point.facet);
     point.normal = front ? point.normal : -point.normal;
   }
   if (attributes.colorCoordinates && attributes.colorTextureSize > 0)
@@ -220,6 +169,28 @@ inline SurfacePoint surfacePoint(
     point.hasColor = true;
   }
   return point;
+}
+
+/// `t` is the linear depth of the hit on the ray of pixel (x, y).
+inline SurfacePoint surfacePoint(
+  const SurfaceFrame& frame, const View& view, double x, double y, double t, Primitive primitive)
+{
+  const Octree& octree = frame.instance->octree;
+  const glm::dvec3 ray = view.rayDirection(x, y);
+  const glm::dvec3 position = view.rayOrigin(x, y) + t * ray;
+  const glm::vec3 towards(-ray);
+  if (!(primitive & NodePrimitive) || !octree.surface())
+  {
+    return pointOfTriangle(frame, position, towards, primitive, frame.toOctree.point(position));
+  }
+  NodeTriangle picked = pickTriangle(frame, primitive & ~NodePrimitive, position, towards);
+  if (!picked.faces)
+  {
+    NodeTriangle* one[] = { &picked };
+    const glm::dvec3 local = frame.toOctree.vector(glm::dvec3(towards));
+    settleTriangles(octree, one, &local, 1);
+  }
+  return pointOfTriangle(frame, position, towards, picked.triangle, picked.at);
 }
 }
 

@@ -4,6 +4,8 @@
 
 #include "svoTilePoints.h"
 
+#include "svoTileNodes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -248,15 +250,7 @@ void lookAtEach(const SurfaceFrame& frame, const View& view, TilePoints::Run& ru
   for (int i = run.first; i < run.last; ++i)
   {
     const SurfacePoint point = surfacePoint(frame, view, p.x[i], p.y[i], p.t[i], p.primitive[i]);
-    p.facetX[i] = point.facet.x;
-    p.facetY[i] = point.facet.y;
-    p.facetZ[i] = point.facet.z;
-    p.normalX[i] = point.normal.x;
-    p.normalY[i] = point.normal.y;
-    p.normalZ[i] = point.normal.z;
-    p.colorR[i] = point.color.r;
-    p.colorG[i] = point.color.g;
-    p.colorB[i] = point.color.b;
+    p.set(i, point);
     run.hasColor = point.hasColor;
   }
 }
@@ -274,7 +268,7 @@ void lookAtRun(const SurfaceFrame& frame, const View& view, TilePoints::Run& run
   const Attributes& attributes = instance.attributes;
   const Surface* surface = instance.octree.surface();
   const Primitive primitive = p.primitive[run.first];
-  if (!surface || primitive & NodePrimitive)
+  if (!surface)
   {
     lookAtEach(frame, view, run, p);
     return;
@@ -383,10 +377,28 @@ void lookAtPoints(const std::vector<SurfaceFrame>& frames, const View& view, Til
 {
   makeRuns(points);
   placePoints(view, points);
-  for (int k = 0; k < points.runCount; ++k)
+  for (int k = 0; k < points.runCount;)
   {
-    TilePoints::Run& run = points.runs[k];
-    lookAtRun(frames[run.instance], view, run, points);
+    const std::uint32_t instance = points.runs[k].instance;
+    const SurfaceFrame& frame = frames[instance];
+    const int first = k;
+    bool nodes = false;
+    for (; k < points.runCount && points.runs[k].instance == instance; ++k)
+    {
+      TilePoints::Run& run = points.runs[k];
+      if (frame.instance->octree.surface() && points.primitive[run.first] & NodePrimitive)
+      {
+        nodes = true;
+      }
+      else
+      {
+        lookAtRun(frame, view, run, points);
+      }
+    }
+    if (nodes)
+    {
+      lookAtNodes(frame, first, k, points);
+    }
   }
 }
 }

@@ -63,6 +63,19 @@ struct TilePoints
     return { { positionX[i], positionY[i], positionZ[i] }, { facetX[i], facetY[i], facetZ[i] },
       { normalX[i], normalY[i], normalZ[i] }, { colorR[i], colorG[i], colorB[i] }, false };
   }
+  /// Facet, normal and colour.
+  void set(int i, const SurfacePoint& point)
+  {
+    facetX[i] = point.facet.x;
+    facetY[i] = point.facet.y;
+    facetZ[i] = point.facet.z;
+    normalX[i] = point.normal.x;
+    normalY[i] = point.normal.y;
+    normalZ[i] = point.normal.z;
+    colorR[i] = point.color.r;
+    colorG[i] = point.color.g;
+    colorB[i] = point.color.b;
+  }
 };
 
 /// Takes the hits of a tile whose instance `wanted(instance)`, in the order of the tile's pixels.

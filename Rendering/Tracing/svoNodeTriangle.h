@@ -1,0 +1,183 @@
+// The triangle that stands for a node above the bricks, where a ray stopped for level of detail.
+//
+// The point that is shaded lies on the node's mean plane, which is no normal to shade with: the
+// node has faces in it that the viewer does not see. So a triangle of the node is taken that faces
+// the viewer. At a silhouette there may be none: the widened node reaches beyond the edge of the
+// object, and holds what lies behind it. On a sheet that is seen from behind there is none either,
+// and the triangle is right. A ray to the triangle tells the two apart: what it meets first is what
+// the viewer sees there.
+#ifndef svoNodeTriangle_h
+#define svoNodeTriangle_h
+
+#include "svoIntersect.h"
+#include "svoLeafGeometry.h"
+#include "svoOctree.h"
+#include "svoRay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+/// Shares of a triangle's corners in the point of it that is near another point; at least 0, sum 1.
+/// `p`, `e1`, `e2`: the other point and the second and third corner, from the first one.
+inline glm::vec3 nearWeights(const glm::vec3& p, const glm::vec3& e1, const glm::vec3& e2)
+{
+  const float d11 = glm::dot(e1, e1);
+  const float d12 = glm::dot(e1, e2);
+  const float d22 = glm::dot(e2, e2);
+  const float determinant = d11 * d22 - d12 * d12;
+  const float p1 = glm::dot(p, e1);
+  const float p2 = glm::dot(p, e2);
+  float v = determinant > 0.0f ? (d22 * p1 - d12 * p2) / determinant : 0.0f;
+  float w = determinant > 0.0f ? (d11 * p2 - d12 * p1) / determinant : 0.0f;
+  v = std::clamp(v, 0.0f, 1.0f);
+  w = std::clamp(w, 0.0f, 1.0f);
+  const float sum = std::max(v + w, 1.0f);
+  return { 1.0f - (v + w) / sum, v / sum, w / sum };
+}
+
+struct NodeTriangle
+{
+  Primitive triangle;
+  glm::dvec3 at; // where to interpolate, octree coordinates
+  bool faces;    // the viewer; if not, the triangle is to be settled
+};
+
+namespace detail
+{
+/// The brick of a node that is nearest to the viewer, roughly. `towards`: to the viewer, octree
+/// coordinates.
+inline std::uint32_t nearestBrick(
+  const Octree& octree, std::uint32_t node, const glm::dvec3& towards)
+{
+  // Cell indices in this order come nearest first along each axis.
+  const unsigned flip =
+    (towards.x > 0.0 ? 011u : 0u) | (towards.y > 0.0 ? 022u : 0u) | (towards.z > 0.0 ? 044u : 0u);
+  while (node < octree.brickBegin())
+  {
+    const Node& inner = octree.nodes()[node];
+    unsigned i = 0;
+    while (!(inner.mask >> (i ^ flip) & 1))
+    {
+      ++i;
+    }
+    const std::uint64_t below = (std::uint64_t(1) << (i ^ flip)) - 1;
+    node = inner.first + __builtin_popcountll(inner.mask & below);
+  }
+  return node;
+}
+
+/// The point of a triangle that is near x, a little inside, so that no rounding makes a ray miss.
+inline glm::dvec3 pointInside(const Surface& surface, Primitive triangle, const glm::dvec3& x)
+{
+  const glm::uvec3 corners = surface.triangles[triangle];
+  const glm::vec3 a = surface.points[corners.x];
+  const glm::vec3 e1 = surface.points[corners.y] - a;
+  const glm::vec3 e2 = surface.points[corners.z] - a;
+  const glm::vec3 near = nearWeights(glm::vec3(x - glm::dvec3(a)), e1, e2);
+  const glm::vec3 weight = glm::mix(near, glm::vec3(1.0f / 3.0f), 0.125f);
+  return glm::dvec3(a) + glm::dvec3(weight.y * e1 + weight.z * e2);
+}
+
+/// Squared distance of a triangle, near x, from the line through x; `along`: unit, of the line.
+inline float distanceFromLine(const glm::vec3& a, const glm::vec3& e1, const glm::vec3& e2,
+  const glm::vec3& x, const glm::vec3& along)
+{
+  const glm::vec3 weight = nearWeights(x - a, e1, e2);
+  const glm::vec3 to = a + weight.y * e1 + weight.z * e2 - x;
+  const glm::vec3 beside = to - glm::dot(to, along) * along;
+  return glm::dot(beside, beside);
+}
+}
+
+/// Of the brick of a node that is nearest to the viewer, the triangle nearest to the line of sight
+/// that faces the viewer; where none does, the one that is turned away least. `x`: where the ray
+/// met the node; `towards`: to the viewer, of any length; both in octree coordinates. `cosine(n)`:
+/// of the viewer with the side that a triangle winds to; n: cross product of its edges, octree
+/// coordinates. The octree has a surface.
+template <class Cosine>
+NodeTriangle pickTriangle(const Octree& octree, std::uint32_t node, const glm::dvec3& x,
+  const glm::dvec3& towards, const Cosine& cosine)
+{
+  std::uint32_t count, inlineId;
+  const std::uint32_t* list =
+    octree.brickTriangles(detail::nearestBrick(octree, node, towards), count, inlineId);
+  const Surface& surface = *octree.surface();
+  const glm::vec3 along(glm::normalize(towards));
+  NodeTriangle picked{ list[0], x, false };
+  float nearest = std::numeric_limits<float>::max();
+  float most = -std::numeric_limits<float>::max();
+  for (std::uint32_t k = 0; k < count && !(picked.faces && k >= RepresentativeCandidates); ++k)
+  {
+    const glm::uvec3 corners = surface.triangles[list[k]];
+    const glm::vec3 a = surface.points[corners.x];
+    const glm::vec3 e1 = surface.points[corners.y] - a;
+    const glm::vec3 e2 = surface.points[corners.z] - a;
+    const float c = cosine(glm::cross(e1, e2));
+    if (c > 0.0f)
+    {
+      const float distance = detail::distanceFromLine(a, e1, e2, glm::vec3(x), along);
+      if (!picked.faces || distance < nearest)
+      {
+        picked = { list[k], x, true };
+        nearest = distance;
+      }
+    }
+    else if (!picked.faces && c > most)
+    {
+      picked.triangle = list[k];
+      most = c;
+    }
+  }
+  if (!picked.faces)
+  {
+    picked.at = detail::pointInside(surface, picked.triangle, x);
+  }
+  return picked;
+}
+
+/// Settles up to 64 triangles that do not face the viewer: each becomes the first hit of the line
+/// of sight that passes through it. The answer to one does not depend on the others. `towards`: as
+/// of pickTriangle(), one each.
+inline void settleTriangles(
+  const Octree& octree, NodeTriangle* const* picked, const glm::dvec3* towards, int count)
+{
+  constexpr double FromOutside = 2.0; // more than the diagonal of the root cube
+  RayBlock rays;
+  for (int i = 0; i < RayBlock::Size; ++i)
+  {
+    const int k = std::min(i, count - 1);
+    const glm::vec3 direction(-glm::normalize(towards[k]));
+    const glm::vec3 origin(picked[k]->at - FromOutside * glm::dvec3(direction));
+    rays.originX[i] = origin.x;
+    rays.originY[i] = origin.y;
+    rays.originZ[i] = origin.z;
+    rays.directionX[i] = direction.x;
+    rays.directionY[i] = direction.y;
+    rays.directionZ[i] = direction.z;
+    rays.tMin[i] = i < count ? 0.0f : 1.0f;
+    rays.tMax[i] = i < count ? static_cast<float>(2.0 * FromOutside) : 0.0f;
+  }
+  HitBlock hits;
+  intersect(octree, rays, { LeafGeometry::Triangle }, hits);
+  for (int i = 0; i < count; ++i)
+  {
+    if (hits.primitive[i] != NoPrimitive)
+    {
+      picked[i]->triangle = hits.primitive[i];
+      picked[i]->at = glm::dvec3(rays.originX[i], rays.originY[i], rays.originZ[i]) +
+        static_cast<double>(hits.t[i]) *
+          glm::dvec3(rays.directionX[i], rays.directionY[i], rays.directionZ[i]);
+    }
+  }
+}
+}
+
+#endif
