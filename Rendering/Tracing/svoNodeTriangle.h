@@ -5,7 +5,8 @@
 // the viewer. At a silhouette there may be none: the widened node reaches beyond the edge of the
 // object, and holds what lies behind it. On a sheet that is seen from behind there is none either,
 // and the triangle is right. A ray to the triangle tells the two apart: what it meets first is what
-// the viewer sees there.
+// the viewer sees there. (A closed mesh that is wound the wrong way round is the harder case: what
+// its silhouettes hide seems to face the viewer, and is believed.)
 #ifndef svoNodeTriangle_h
 #define svoNodeTriangle_h
 
@@ -43,6 +44,7 @@ inline glm::vec3 nearWeights(const glm::vec3& p, const glm::vec3& e1, const glm:
   return { 1.0f - (v + w) / sum, v / sum, w / sum };
 }
 
+/// A triangle that stands for a node, and where on it.
 struct NodeTriangle
 {
   Primitive triangle;
