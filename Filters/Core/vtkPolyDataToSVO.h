@@ -69,7 +69,7 @@ public:
    * - Voxel: the cube, where the ray enters it; the least work for a single ray;
    * - Plane: the plane of one of the triangles in the voxel;
    * - Triangle: the triangles themselves, exactly; fastest in pictures where they look larger than
-   *   a pixel or two;
+   *   about a pixel;
    * - Automatic (default): triangles where they are few, planes where they are many. A render pass
    *   goes by what a view shows: it takes planes only for triangles smaller than about a pixel.
    */

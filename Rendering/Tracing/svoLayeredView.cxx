@@ -13,7 +13,7 @@ namespace svo
 namespace
 {
 /// Area of a triangle in the image, pixels, from which on tracing by tiles is quicker.
-constexpr double LeastTrianglePixels = 1.5;
+constexpr double LeastTrianglePixels = 0.5;
 /// Where a tile sees more nodes than this its rays are walked one by one after all.
 constexpr std::size_t MostTileNodes = 256;
 /// Tiles along an edge of a group whose nodes are found together.
