@@ -136,6 +136,16 @@ bool vtkSVORepresentation::GetReceiveShadows()
   return vtkSVORenderPass::GetReceiveShadow(this->Actor);
 }
 
+void vtkSVORepresentation::SetPixelError(double error)
+{
+  vtkSVORenderPass::SetPropPixelError(error, this->Actor);
+}
+
+double vtkSVORepresentation::GetPixelError()
+{
+  return vtkSVORenderPass::GetPropPixelError(this->Actor);
+}
+
 vtkIdType vtkSVORepresentation::GetNumberOfBuilds()
 {
   return this->ToOctree->GetNumberOfBuilds();
@@ -151,6 +161,7 @@ void vtkSVORepresentation::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "CastShadows: " << this->GetCastShadows() << '\n'
      << indent << "ReceiveShadows: " << this->GetReceiveShadows() << '\n'
+     << indent << "PixelError: " << this->GetPixelError() << '\n'
      << indent << "ToOctree:\n";
   this->ToOctree->PrintSelf(os, indent.GetNextIndent());
 }

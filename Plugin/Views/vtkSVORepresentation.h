@@ -50,6 +50,15 @@ public:
 
   //@{
   /**
+   * Largest projected edge of the voxels where rays stop, in pixels, 0..64; negative (the default):
+   * the view's.
+   */
+  void SetPixelError(double error);
+  double GetPixelError();
+  //@}
+
+  //@{
+  /**
    * How many octrees were built so far, and memory of those that are kept, in KiB.
    */
   vtkIdType GetNumberOfBuilds();

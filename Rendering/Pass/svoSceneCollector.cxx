@@ -70,6 +70,12 @@ bool flagOf(vtkProp* prop, vtkProp* owner, vtkInformationIntegerKey* key, bool o
   return otherwise;
 }
 
+double pixelErrorOf(vtkProp* prop, vtkProp* owner)
+{
+  const double own = vtkSVORenderPass::GetPropPixelError(prop);
+  return own >= 0.0 ? own : vtkSVORenderPass::GetPropPixelError(owner);
+}
+
 /// True if the prop or its assembly says explicitly that it uses octrees.
 bool isMarked(vtkProp* prop, vtkProp* owner)
 {
@@ -302,6 +308,7 @@ bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatr
     instance.localToWorld = localToWorld;
     instance.leafGeometry = static_cast<LeafGeometry>(instance.octree.header().leafGeometry);
     instance.castShadow = surface.casts;
+    instance.pixelError = pixelErrorOf(actor, owner);
     instance.receiveShadow = flagOf(actor, owner, vtkSVORenderPass::RECEIVE_SHADOW(), true);
     instance.id =
       combine(combine(reinterpret_cast<std::uintptr_t>(actor), part.block), std::uint64_t(path));

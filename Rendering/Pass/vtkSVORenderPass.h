@@ -40,6 +40,7 @@
 
 #include <memory> // for std::unique_ptr
 
+class vtkInformationDoubleKey;
 class vtkInformationIntegerKey;
 class vtkLight;
 class vtkMultiProcessController;
@@ -299,12 +300,21 @@ public:
 
   //@{
   /**
+   * A prop's own PixelError, 0..64; negative (the default): the pass's.
+   */
+  static void SetPropPixelError(double error, vtkProp* prop);
+  static double GetPropPixelError(vtkProp* prop);
+  //@}
+
+  //@{
+  /**
    * Keys behind the static helpers above. Those of props live in vtkProp::GetPropertyKeys() and are
    * not copied by vtkProp::ShallowCopy(); those of lights in vtkLight::GetInformation().
    */
   static vtkInformationIntegerKey* CAST_SHADOW();
   static vtkInformationIntegerKey* RECEIVE_SHADOW();
   static vtkInformationIntegerKey* USE_SVO();
+  static vtkInformationDoubleKey* PIXEL_ERROR();
   //@}
 
   //@{

@@ -3,30 +3,38 @@
 
 #include "vtkActor.h"
 #include "vtkInformation.h"
+#include "vtkInformationDoubleKey.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkLight.h"
 #include "vtkMapper.h"
 #include "vtkNew.h"
 #include "vtkProp.h"
 
+#include <algorithm>
+
 vtkInformationKeyMacro(vtkSVORenderPass, CAST_SHADOW, Integer);
 vtkInformationKeyMacro(vtkSVORenderPass, RECEIVE_SHADOW, Integer);
 vtkInformationKeyMacro(vtkSVORenderPass, USE_SVO, Integer);
+vtkInformationKeyMacro(vtkSVORenderPass, PIXEL_ERROR, Double);
 
 namespace
 {
-void setFlag(vtkInformationIntegerKey* key, bool value, vtkProp* prop)
+vtkInformation* keysOf(vtkProp* prop)
 {
-  if (!prop)
-  {
-    return;
-  }
   if (!prop->GetPropertyKeys())
   {
     vtkNew<vtkInformation> keys;
     prop->SetPropertyKeys(keys);
   }
-  prop->GetPropertyKeys()->Set(key, value ? 1 : 0);
+  return prop->GetPropertyKeys();
+}
+
+void setFlag(vtkInformationIntegerKey* key, bool value, vtkProp* prop)
+{
+  if (prop)
+  {
+    keysOf(prop)->Set(key, value ? 1 : 0);
+  }
 }
 
 bool flag(vtkInformationIntegerKey* key, vtkProp* prop, bool otherwise)
@@ -90,4 +98,18 @@ void vtkSVORenderPass::SetUseSVO(bool use, vtkProp* prop)
 bool vtkSVORenderPass::GetUseSVO(vtkProp* prop)
 {
   return flag(USE_SVO(), prop, true);
+}
+
+void vtkSVORenderPass::SetPropPixelError(double error, vtkProp* prop)
+{
+  if (prop)
+  {
+    keysOf(prop)->Set(PIXEL_ERROR(), error >= 0.0 ? std::min(error, 64.0) : -1.0);
+  }
+}
+
+double vtkSVORenderPass::GetPropPixelError(vtkProp* prop)
+{
+  vtkInformation* keys = prop ? prop->GetPropertyKeys() : nullptr;
+  return keys && keys->Has(PIXEL_ERROR()) ? keys->Get(PIXEL_ERROR()) : -1.0;
 }

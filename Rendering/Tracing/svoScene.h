@@ -61,6 +61,8 @@ struct Instance
   bool visible = true; // false: a rasterised object that only casts
   bool castShadow = true;
   bool receiveShadow = true;
+  /// Largest projected edge of its voxels, pixels (0: full depth); negative: the frame's.
+  double pixelError = -1.0;
   /// Stable identity of the instance from frame to frame (actor, block, path).
   std::uint64_t id = 0;
   /// Coincident-topology offset, added to the window depth (0..1); VTK's shaders know no slope.

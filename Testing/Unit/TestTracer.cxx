@@ -290,6 +290,28 @@ TEST(Tracer, AnInvisibleInstanceOnlyCasts)
   EXPECT_GT(darker, 100);
 }
 
+TEST(Tracer, AnInstanceMayHaveItsOwnPixelError)
+{
+  using namespace svo;
+  // Cubes stop at the level that the error allows, so that pictures differ.
+  const Octree octree = svotest::makeOctree(svotest::sphere(30, 40), 8);
+  const View view = svotest::lookAt({ 4, 0, 1 }, 96, 96);
+  const auto picture = [&](double ofFrame, double ofInstance)
+  {
+    Scene scene;
+    scene.instances = { svotest::instanceOf(octree, 1, glm::dmat4(1.0), LeafGeometry::Voxel) };
+    scene.instances[0].pixelError = ofInstance;
+    FrameSettings settings;
+    settings.pixelError = ofFrame;
+    return svotest::rendered(scene, view, settings);
+  };
+  const Frame fine = picture(0.0, -1.0);
+  const Frame coarse = picture(12.0, -1.0);
+  EXPECT_FALSE(svotest::identical(fine, coarse));
+  EXPECT_TRUE(svotest::identical(picture(12.0, 0.0), fine));
+  EXPECT_TRUE(svotest::identical(picture(0.0, 12.0), coarse));
+}
+
 TEST(Tracer, AnOffsetMovesTheWindowDepthAlone)
 {
   svo::Scene scene = makeScene();
