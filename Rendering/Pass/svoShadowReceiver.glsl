@@ -53,12 +53,14 @@ int svoAsk(sampler2D atlas, int map, mat4 rows, float error, vec4 point, vec2 te
   {
     vec3 n = k == 0 ? facet : normal;
     float slope = abs(dot(n, direction)) / length(direction);
-    float plane = depth;
+    // Inside a texel a plane in grazing light reaches far towards the light, at most 64 texels here.
+    float low = depth - max(most, pixel / max(slope, 1.0 / 64.0));
+    float plane = low;
     if (slope > 0.001)
     {
       // The step on the plane to the ray.
       vec3 step = (off.x * cross(y, n) + off.y * cross(n, x)) / dot(xy, n);
-      plane = clamp(depth + dot(axis, step), depth - most, depth + most);
+      plane = clamp(depth + dot(axis, step), low, depth + most);
     }
     receiver = min(receiver, plane);
     steepest = max(steepest, slope);

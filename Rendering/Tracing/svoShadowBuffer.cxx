@@ -319,10 +319,13 @@ ShadowBuffer::Answer ShadowBuffer::ask(
     const glm::dvec3 normal(planeNormal);
     const double along = glm::dot(normal, direction);
     const double slope = std::abs(along) / length;
-    // Grazing light: the plane says nothing beyond the texel's neighbourhood.
-    const double plane = slope > 1e-3
-      ? std::clamp(glm::dot(normal, position - origin) / along, t - most, t + most)
-      : t;
+    // Inside a texel a plane in grazing light reaches far towards the light. Where it is edge-on it
+    // says nothing.
+    const double farthest = GrazingReach * pixel;
+    const double reach = pixel < farthest * slope ? pixel / slope : farthest;
+    const double low = t - std::max(most, reach);
+    const double plane =
+      slope > 1e-3 ? std::clamp(glm::dot(normal, position - origin) / along, low, t + most) : low;
     receiver = std::min(receiver, plane);
     steepest = std::max(steepest, slope);
   }

@@ -65,22 +65,27 @@ void test(const View& light, double pixel0, double pixelPerDepth, const TilePoin
       const double rayZ = d.z + x * dX.z + y * dY.z;
       const double length = std::sqrt(rayX * rayX + rayY * rayY + rayZ * rayZ);
       const double low = t - most, high = t + most;
+      const double farthest = GrazingReach * pixel;
 
       const double fx = p.facetX[i + k], fy = p.facetY[i + k], fz = p.facetZ[i + k];
       const double facetAlong = fx * rayX + fy * rayY + fz * rayZ;
       const double facetSlope = std::abs(facetAlong) / length;
       const double facetPlane = (fx * toX + fy * toY + fz * toZ) / facetAlong;
-      const double facetBounded = facetPlane < low ? low : high < facetPlane ? high : facetPlane;
-      const double facet = facetSlope > 1e-3 ? facetBounded : t;
+      const double facetReach = pixel < farthest * facetSlope ? pixel / facetSlope : farthest;
+      const double facetLow = t - (most < facetReach ? facetReach : most);
+      const double facetCapped = high < facetPlane ? high : facetPlane;
+      const double facetBounded = facetPlane < facetLow ? facetLow : facetCapped;
+      const double facet = facetSlope > 1e-3 ? facetBounded : facetLow;
 
       const double nx = p.normalX[i + k], ny = p.normalY[i + k], nz = p.normalZ[i + k];
       const double normalAlong = nx * rayX + ny * rayY + nz * rayZ;
       const double normalSlope = std::abs(normalAlong) / length;
       const double normalPlane = (nx * toX + ny * toY + nz * toZ) / normalAlong;
-      const double normalBounded = normalPlane < low ? low
-        : high < normalPlane                         ? high
-                                                     : normalPlane;
-      const double normal = normalSlope > 1e-3 ? normalBounded : t;
+      const double normalReach = pixel < farthest * normalSlope ? pixel / normalSlope : farthest;
+      const double normalLow = t - (most < normalReach ? normalReach : most);
+      const double normalCapped = high < normalPlane ? high : normalPlane;
+      const double normalBounded = normalPlane < normalLow ? normalLow : normalCapped;
+      const double normal = normalSlope > 1e-3 ? normalBounded : normalLow;
 
       const double nearer = facet < high ? facet : high;
       const double receiver = normal < nearer ? normal : nearer;

@@ -13,6 +13,9 @@
 
 namespace svo
 {
+/// How far a plane in grazing light is followed towards the light, in texels.
+constexpr double GrazingReach = 64.0;
+
 /// Where points are looked up, by index of the point minus `first`.
 struct TexelPlaces
 {

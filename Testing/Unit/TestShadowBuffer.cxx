@@ -1,6 +1,9 @@
 #include "svoTracerScenes.h"
 
+#include "svoLayeredView.h"
 #include "svoLeafGeometry.h"
+#include "svoShadowBuffer.h"
+#include "svoSurfacePoint.h"
 
 #include <gtest/gtest.h>
 
@@ -344,4 +347,72 @@ TEST(ShadowBuffer, TheSwitchesOfInstancesAndLightsAreHeeded)
   scene.instances[0].receiveShadow = false;
   scene.instances[1].receiveShadow = false;
   EXPECT_EQ(rendered(scene, Eye, settings).color, none.color);
+}
+
+/// Facets of a convex body that face the light, however little, are lit: inside one texel they
+/// may be deeper than eight texels are wide.
+TEST(ShadowBuffer, AConvexBodyInGrazingLightDoesNotShadowItself)
+{
+  using namespace svo;
+  // Facets at all angles to the light; with shared normals, as smooth surfaces have them.
+  const svotest::Mesh ball = svotest::sphere(9, 12);
+  const Octree octree = svotest::makeOctree(ball, 9);
+  std::vector<float> normals;
+  for (const glm::dvec3& point : ball.points)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      normals.push_back(static_cast<float>(point[a]));
+    }
+  }
+  int grazing = 0;
+  for (int turn = 0; turn < 24; ++turn)
+  {
+    const double angle = 0.02 * turn;
+    Scene scene;
+    scene.instances = { svotest::instanceOf(octree, 1,
+      glm::rotate(glm::dmat4(1.0), angle, glm::dvec3(0.3, 1.0, 0.2)), LeafGeometry::Automatic) };
+    scene.instances[0].attributes.normals = normals.data();
+    scene.instances[0].attributes.normalAssociation = Association::Point;
+    scene.lights = { svotest::lightOf(Light::Kind::Point, { 1.0, -4.0, 1.5 }) };
+    const View view = svotest::lookAt({ 3.0, 1.0, 0.5 }, 256, 256, 50.0);
+    FrameSettings settings;
+    settings.shadowResolution = 512;
+    settings.frameCoherence = false;
+    LayerBudget budget{ 0, 0 };
+    LayeredView eye;
+    eye.begin(
+      scene, view, [](const Instance&) { return true; },
+      [](const Instance& i, const LocalView&) { return i.octree.level(); }, false, budget);
+    eye.trace(serialFor, nullptr);
+    ShadowBuffer buffer;
+    buffer.begin(scene, scene.lights[0], settings, budget);
+    buffer.markAll();
+    buffer.trace(serialFor);
+    const SurfaceFrame frame(scene.instances[0]);
+    const DepthBuffer& depth = eye.depthBuffer();
+    int wrong = 0;
+    for (int y = 0; y < view.height; ++y)
+    {
+      for (int x = 0; x < view.width; ++x)
+      {
+        const std::size_t at = depth.at(x, y);
+        if (!depth.hit[at >> 6] || depth.instance[at] == NoInstance)
+        {
+          continue;
+        }
+        const SurfacePoint point = surfacePoint(
+          frame, view, x + 0.5, y + 0.5, eye.base(0) + depth.t[at], depth.primitive[at]);
+        const glm::dvec3 towards = glm::normalize(scene.lights[0].position - point.position);
+        const double cosine = glm::dot(glm::dvec3(point.facet), towards);
+        if (cosine > 0.02)
+        {
+          grazing += cosine < 0.08;
+          wrong += buffer.shadows(point, 0.0);
+        }
+      }
+    }
+    EXPECT_EQ(wrong, 0) << "turned by " << angle;
+  }
+  EXPECT_GT(grazing, 1000) << "too few to say anything";
 }
