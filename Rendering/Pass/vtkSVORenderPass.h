@@ -258,8 +258,8 @@ public:
   double GetImageSampleDistance() const;
 
   /**
-   * The pixel error that the last frame accepted, in pixels of the window: PixelError, or where rays
-   * were more than a pixel apart to save time, at least the distance from ray to ray.
+   * The pixel error that the last frame accepted, in pixels of the window: PixelError, or where
+   * rays were more than a pixel apart to save time, at least the distance from ray to ray.
    */
   double GetAcceptedPixelError() const;
 

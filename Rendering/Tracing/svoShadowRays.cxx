@@ -26,9 +26,9 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
       const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(index));
       const bool mixed =
         geometry == LeafGeometry::Automatic && instance.octree.longestList() > ShortList;
-      this->Casters.push_back({ &instance, geometry,
-        WorldToOctree(instance.octree, instance.localToWorld),
-        mixed ? CubeError * worldVoxel(instance) : 0.0 });
+      this->Casters.push_back(
+        { &instance, geometry, WorldToOctree(instance.octree, instance.localToWorld),
+          mixed ? CubeError * worldVoxel(instance) : 0.0 });
     }
   }
 }

@@ -308,8 +308,8 @@ void benchmark(const svobench::Mesh& mesh, const Octree& octree, const char* cam
       continue;
     }
     time(", whole tiles", [&] { traceByTiles(octree, tiles, hits); });
-    report.check("whole tiles against the scalar walk", countDifferent(hits, scalar, 0.0), rays,
-      1e-5);
+    report.check(
+      "whole tiles against the scalar walk", countDifferent(hits, scalar, 0.0), rays, 1e-5);
     if (embree.available())
     {
       const std::vector<HitBlock> exact = embree.trace(tiles.view, tiles.base, 0);

@@ -1,5 +1,6 @@
 // Tile queries against every triangle of the mesh, bit for bit, on every instruction set of this
 // machine; and against the walk.
+#include "svoInstructionSets.h"
 #include "svoIntersect.h"
 #include "svoIntersectTile.h"
 #include "svoLocalView.h"
@@ -9,8 +10,6 @@
 #include "svoTriangle.h"
 
 #include <gtest/gtest.h>
-
-#include <hwy/targets.h>
 
 #include <cmath>
 #include <cstring>
@@ -23,6 +22,7 @@
 namespace
 {
 using namespace svo;
+using svotest::onEveryInstructionSet;
 
 /// The hit of one ray among all triangles.
 void bruteForce(const Octree& octree, const RayBlock& rays, int i, float& t, Primitive& primitive)
@@ -57,21 +57,6 @@ void bruteForce(const Octree& octree, const RayBlock& rays, int i, float& t, Pri
       primitive = id;
     }
   }
-}
-
-/// Calls f once for each instruction set that was compiled and that the machine has.
-template <class F>
-void onEveryInstructionSet(F&& f)
-{
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
-  {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(target);
-    SCOPED_TRACE(hwy::TargetName(target));
-    f();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 /// A tile's rays and what they hit.

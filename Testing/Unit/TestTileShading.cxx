@@ -1,5 +1,6 @@
 // The visible points of a tile, side by side, against the functions for one point, bit for bit, on
 // every instruction set of this machine.
+#include "svoInstructionSets.h"
 #include "svoSelect.h"
 #include "svoShadowBuffer.h"
 #include "svoTileLighting.h"
@@ -8,8 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <hwy/targets.h>
-
 #include <cstring>
 #include <random>
 #include <vector>
@@ -17,20 +16,7 @@
 namespace
 {
 using namespace svo;
-
-template <class F>
-void onEveryInstructionSet(F&& f)
-{
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
-  {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(target);
-    SCOPED_TRACE(hwy::TargetName(target));
-    f();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
+using svotest::onEveryInstructionSet;
 
 template <class T>
 bool sameBits(const T& a, const T& b)
@@ -70,7 +56,8 @@ struct Stage
     std::fill_n(normals.begin() + 30, 3, 0.0f); // one that is none
     for (int i = 0; i < 8; ++i)
     {
-      const glm::dmat4 place = svotest::movedTo(0.9 * (i % 3) - 0.9, 0.8 * (i / 3) - 0.8, 0.15 * (i % 2)) *
+      const glm::dmat4 place =
+        svotest::movedTo(0.9 * (i % 3) - 0.9, 0.8 * (i / 3) - 0.8, 0.15 * (i % 2)) *
         glm::dmat4(glm::dmat3(0.5));
       scene.instances.push_back(svotest::instanceOf(torus, 10 + i, place));
       Instance& instance = scene.instances.back();

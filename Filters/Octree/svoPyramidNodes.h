@@ -1,0 +1,59 @@
+// Which nodes of an octree a tile's rays can meet: the highest with short lists of triangles
+// (svoShortLists.h), and bricks.
+//
+// The rays of a tile fill a narrow pyramid. A node is outside of it if it is beyond one of the four
+// sides, each a linear function of octree coordinates; all 64 cells of a node are compared at once.
+#ifndef svoPyramidNodes_h
+#define svoPyramidNodes_h
+
+#include "svoOctree.h"
+#include "vtkSVOOctreeModule.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+namespace svo
+{
+/// What holds the rays of a tile, as linear functions f(p) = f.x p.x + f.y p.y + f.z p.z + f.w of
+/// octree coordinates p.
+struct TilePyramid
+{
+  glm::dvec4 side[4]; // not negative inside
+  glm::dvec4 t;       // the rays' parameter
+};
+
+/// A node that a tile's rays may meet: one with a short list, or a brick.
+struct TileNode
+{
+  float tNear; // not above the t of any hit inside
+  std::uint32_t node;
+  float x, y, z, size; // its cube: lower corner, octree coordinates minus 1, and edge
+};
+
+/// The nodes of a group of tiles, found together; each tile then takes its own out of them.
+class VTKSVOOCTREE_EXPORT TileGroup
+{
+public:
+  /// Finds the nodes inside the group's pyramid; false if there are more than `most`.
+  bool find(
+    const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax, std::size_t most);
+  /// Those inside the pyramid of one of its tiles, nearest first: what rays of the tile can meet is
+  /// among them.
+  void select(const TilePyramid& pyramid, std::vector<TileNode>& nodes) const;
+
+private:
+  std::vector<TileNode> Nodes; // nearest first
+  /// Their cubes: lower corners, octree coordinates minus 1, and edges; room for a vector more.
+  std::vector<float> X, Y, Z, Size;
+};
+
+/// Finds the nodes inside the pyramid between tMin and tMax, nearest first. False if there are more
+/// than `most`: then they are not all there. The octree must have a surface.
+VTKSVOOCTREE_EXPORT bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin,
+  float tMax, std::size_t most, std::vector<TileNode>& nodes);
+}
+
+#endif
