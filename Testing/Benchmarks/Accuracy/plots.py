@@ -142,7 +142,8 @@ def shadows(rows, folder):
         axis.set_xscale("log")
         axis.set_yscale("log")
         plain_numbers(axis)
-        label(axis, "processor time of a frame, ms", "wrong pixels, %")
+        label(axis, "processor time of a frame, ms", "wrong pixels, %", legend=False)
+    axes[0].legend(fontsize=7, loc=(0.02, 0.12))  # of all panels; there it hides nothing
     save(figure, folder, "accuracy-shadows.png")
 
 
