@@ -68,21 +68,21 @@ static_assert(sizeof(Node) == 16, "a node is 16 bytes on the CPU and one RGBA32U
 
 struct Header
 {
-  char magic[8];                // "vtkSVO\0\0"
-  std::uint32_t version;        // LayoutVersion
-  std::uint32_t level;          // 1..MaximumLevel: voxels along an edge of the cube = 2^level
-  std::uint32_t depthCount;     // (level + 1) / 2
-  std::uint32_t leafGeometry;   // LeafGeometry the converter asked for
-  std::uint64_t nodeCount;      // nodes of all depths, at least 1 (the root, with an empty mask)
-  std::uint64_t listWords;      // 32-bit words in `lists`
-  std::uint64_t voxelCount;     // occupied voxels of the last level
-  std::uint64_t triangleCount;  // of the triangulated mesh; every id in a list is below it
-  double origin[3];             // the cube's lower corner, local frame
-  double voxelSize;             // edge of a voxel, local frame
-  std::uint64_t signature;      // of the mesh it was built from; 0: not bound to one
-  std::uint64_t pointCount;     // of that mesh
-  std::uint64_t cellCount;      // of that mesh
-  double meshBounds[6];         // of that mesh
+  char magic[8];               // "vtkSVO\0\0"
+  std::uint32_t version;       // LayoutVersion
+  std::uint32_t level;         // 1..MaximumLevel: voxels along an edge of the cube = 2^level
+  std::uint32_t depthCount;    // (level + 1) / 2
+  std::uint32_t leafGeometry;  // LeafGeometry the converter asked for
+  std::uint64_t nodeCount;     // nodes of all depths, at least 1 (the root, with an empty mask)
+  std::uint64_t listWords;     // 32-bit words in `lists`
+  std::uint64_t voxelCount;    // occupied voxels of the last level
+  std::uint64_t triangleCount; // of the triangulated mesh; every id in a list is below it
+  double origin[3];            // the cube's lower corner, local frame
+  double voxelSize;            // edge of a voxel, local frame
+  std::uint64_t signature;     // of the mesh it was built from; 0: not bound to one
+  std::uint64_t pointCount;    // of that mesh
+  std::uint64_t cellCount;     // of that mesh
+  double meshBounds[6];        // of that mesh
   std::uint32_t depthBegin[MaximumDepths + 1]; // first node of each depth; [depthCount] = nodeCount
   std::uint32_t reserved[13];
 };
