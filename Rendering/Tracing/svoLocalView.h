@@ -47,14 +47,6 @@ struct LocalView
     rays.directionZ[k] =
       static_cast<float>(this->direction.z + y * this->directionY.z + x * this->directionX.z);
   }
-  /// Rays of the tile with its lower left pixel at (x0, y0).
-  void fill(int x0, int y0, RayBlock& rays) const
-  {
-    for (int k = 0; k < 64; ++k)
-    {
-      this->fill(x0 + (k & 7) + 0.5, y0 + (k >> 3) + 0.5, k, rays);
-    }
-  }
 };
 
 /// Smallest float that is not below x.

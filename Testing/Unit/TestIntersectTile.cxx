@@ -59,6 +59,15 @@ void bruteForce(const Octree& octree, const RayBlock& rays, int i, float& t, Pri
   }
 }
 
+/// Rays through the centres of a tile's pixels.
+void fillTile(const LocalView& local, int tileX, int tileY, RayBlock& rays)
+{
+  for (int k = 0; k < 64; ++k)
+  {
+    local.fill(8 * tileX + (k & 7) + 0.5, 8 * tileY + (k >> 3) + 0.5, k, rays);
+  }
+}
+
 /// A tile's rays and what they hit.
 struct Task
 {
@@ -89,7 +98,7 @@ void addTiles(const Octree& octree, const glm::dmat4& localToWorld, const View& 
     Task task;
     task.name = "seed " + std::to_string(seed) + ", tile " + std::to_string(k) + " at " +
       std::to_string(x) + ", " + std::to_string(y);
-    local.fill(8 * x, 8 * y, task.rays);
+    fillTile(local, x, y, task.rays);
     task.pyramid = makePyramid(projection, view, x, y);
     task.group = makePyramid(projection, view, x / 4 * 4, y / 4 * 4, 4);
     task.tMax = local.tMax;
@@ -227,7 +236,7 @@ TEST(IntersectTile, FindsWhatTheWalkFinds)
       for (int x = local.rect.x0 / 8; 8 * x < local.rect.x1; ++x)
       {
         RayBlock block;
-        local.fill(8 * x, 8 * y, block);
+        fillTile(local, x, y, block);
         std::fill(block.tMin, block.tMin + 64, 0.0f);
         std::fill(block.tMax, block.tMax + 64, local.tMax);
         HitBlock tile, walk;
@@ -260,7 +269,7 @@ TEST(IntersectTile, RaysThatAreNotRaysHitNothing)
   std::vector<TileNode> nodes;
   ASSERT_TRUE(findTileNodes(octree, pyramid, 0.0f, local.tMax, 1 << 20, nodes));
   RayBlock block;
-  local.fill(32, 32, block);
+  fillTile(local, 4, 4, block);
   std::fill(block.tMin, block.tMin + 64, 0.0f);
   std::fill(block.tMax, block.tMax + 64, local.tMax);
   const float nan = std::numeric_limits<float>::quiet_NaN();
