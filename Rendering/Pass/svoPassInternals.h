@@ -34,7 +34,9 @@ struct vtkSVORenderPass::Internals
   std::map<vtkRenderer*, svo::AttachedRenderer> attached;
   svo::PassRenderer* current = nullptr; // while its frame is drawn
   vtkSmartPointer<vtkMultiProcessController> controller;
-  bool traced = false; // the current frame is, where the pass is attached
+  svo::FrameSettings settings; // of the current frame
+  double sampleDistance = 1.0; // pixels, likewise
+  bool traced = false;         // the current frame is, where the pass is attached
   svo::PassStatistics statistics;
   std::string castingLights;
   std::string shaderSignature; // of the shaders that mappers have built last

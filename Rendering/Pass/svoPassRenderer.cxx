@@ -1,6 +1,7 @@
 #include "svoPassRenderer.h"
 
 #include "svoCameraView.h"
+#include "svoControllerProcesses.h"
 #include "svoMeshOctree.h"
 #include "svoSelect.h"
 #include "svoSilhouettes.h"
@@ -46,6 +47,7 @@ void PassRenderer::collect(
   this->Statistics = PassStatistics();
   this->Collected = CollectedScene();
   this->Picture.covered = PixelRect();
+  this->Sharing = false;
 
   const double start = vtkTimerLog::GetUniversalTime();
   this->Collector.collect(this->Renderer, store, options, settings, this->Collected);
@@ -53,6 +55,14 @@ void PassRenderer::collect(
   this->Statistics.tracedActors = this->Collected.tracedActors;
   this->Statistics.rasterizedActors = this->Collected.rasterizedActors;
   this->Statistics.instances = static_cast<int>(this->Collected.scene.instances.size());
+}
+
+void PassRenderer::shareShadows(vtkMultiProcessController* controller, FrameSettings settings)
+{
+  ControllerProcesses processes(controller);
+  settings.wholeShadowBuffers = this->Collected.rasterizedReceivers;
+  this->Sharing =
+    this->Trace.shareShadows(this->Collected.scene, settings, smpParallelFor(), processes);
 }
 
 void PassRenderer::trace(int width, int height, double distance, FrameSettings settings)
@@ -65,10 +75,10 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   view = View();
   this->PixelError = settings.pixelError;
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow());
-  if (scene.instances.empty() || !viewOfCamera(this->Renderer, width, height, view))
+  if (!this->hasSomething() || !viewOfCamera(this->Renderer, width, height, view))
   {
     this->Trace.releaseLayers();
-    this->Receivers.update(window, {}, view, settings, 0.0, false);
+    this->Receivers.update(window, {}, view, settings, false);
     return;
   }
   settings.wholeShadowBuffers =
@@ -76,14 +86,8 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   settings.writeNormals = this->Renderer->GetUseSSAO();
   this->Trace.render(scene, view, settings, smpParallelFor(), this->Picture);
   this->Statistics.tracer = this->Trace.statistics();
-  double casterVoxel = 0.0;
-  for (const Instance& instance : scene.instances)
-  {
-    casterVoxel =
-      std::max(casterVoxel, instance.castShadow && instance.octree ? worldVoxel(instance) : 0.0);
-  }
-  this->Receivers.update(window, this->Trace.shadowMaps(), view, settings, casterVoxel,
-    this->Statistics.tracer.retracedLayers > 0);
+  this->Receivers.update(window, this->Trace.shadowMaps(), view, settings,
+    this->Statistics.tracer.retracedLayers > 0 || this->Statistics.tracer.mergedShadows);
 }
 
 void PassRenderer::present(vtkOpenGLRenderPass* pass)

@@ -72,6 +72,13 @@ public:
     this->Shared.exchange(controller, memoryLimit, this->Collected);
   }
 
+  /// Merges the shadow buffers of the collected scene with other processes'; see
+  /// Tracer::shareShadows.
+  void shareShadows(vtkMultiProcessController* controller, FrameSettings settings);
+
+  /// True if there is anything to trace, here or, with shadows to be seen here, elsewhere.
+  bool hasSomething() const { return !this->Collected.scene.instances.empty() || this->Sharing; }
+
   /// Traces the collected scene, `width` by `height` pixels, with rays `distance` pixels apart.
   /// Nothing is drawn yet.
   void trace(int width, int height, double distance, FrameSettings settings);
@@ -105,6 +112,7 @@ private:
   Tracer Trace;
   View Eye; // of the frame
   double PixelError = 1.0;
+  bool Sharing = false; // this frame's shadow buffers are those of all processes
   struct Frame Picture;
   ShadowReceivers Receivers;
   PassStatistics Statistics;

@@ -67,8 +67,13 @@ bool rename(std::string& text, const std::string& from, const std::string& to)
 }
 
 void ShadowReceivers::update(vtkOpenGLRenderWindow* window, const std::vector<ShadowMap>& maps,
-  const View& eye, const FrameSettings& settings, double casterVoxel, bool changed)
+  const View& eye, const FrameSettings& settings, bool changed)
 {
+  double casterVoxel = 0.0;
+  for (const ShadowMap& map : maps)
+  {
+    casterVoxel = std::max(casterVoxel, map.casterVoxel);
+  }
   this->ManualBias = static_cast<float>(settings.bias * casterVoxel);
   this->Intensity = static_cast<float>(settings.shadowIntensity);
   this->PlaneBias = settings.automaticBias;

@@ -22,10 +22,10 @@ class ShadowReceivers
 {
 public:
   /// Takes a frame's maps. Textures are sent again only if `changed` or if the maps are others than
-  /// last time. No maps: nothing receives. `casterVoxel`: of the coarsest caster, world units; the
-  /// bias that the settings have in voxels is added in these, as maps do not say who casts.
+  /// last time. No maps: nothing receives. The bias that the settings have in voxels is added in
+  /// those of the coarsest caster, as maps do not say who casts.
   void update(vtkOpenGLRenderWindow* window, const std::vector<ShadowMap>& maps, const View& eye,
-    const FrameSettings& settings, double casterVoxel, bool changed);
+    const FrameSettings& settings, bool changed);
 
   bool empty() const { return this->Lights.empty(); }
   void activate();

@@ -120,12 +120,15 @@ void vtkSVORenderPass::CollectFrame(vtkRenderer* renderer, bool attached)
     vtkWarningMacro("No shadows: the only light is a headlight, which casts none that can be seen. "
                     "Add a vtkLight with SetLightTypeToSceneLight().");
   }
+  this->DecideSettings();
 }
 
-/// Traces the current frame and has its shadow maps ready for rasterised surfaces.
-void vtkSVORenderPass::TraceFrame(int width, int height)
+/// Says how the current frame is to be traced.
+void vtkSVORenderPass::DecideSettings()
 {
-  svo::FrameSettings settings;
+  Internals& impl = *this->Impl;
+  svo::FrameSettings& settings = impl.settings;
+  settings = svo::FrameSettings();
   settings.shadowTechnique = static_cast<svo::ShadowTechnique>(this->ShadowTechnique);
   settings.shadowResolution = this->ShadowBufferResolution;
   settings.automaticBias = this->AutomaticShadowBias;
@@ -136,21 +139,26 @@ void vtkSVORenderPass::TraceFrame(int width, int height)
   settings.layerMemoryLimit = static_cast<std::size_t>(this->LayerMemoryLimit) * BytesOfKiB;
   settings.antiAliasing = this->AntiAliasing;
 
-  Internals& impl = *this->Impl;
   vtkRenderer* renderer = impl.current->renderer();
-  double distance = 1.0;
+  impl.sampleDistance = 1.0;
   if (this->AutoAdjustSampleDistances && isInteractive(renderer))
   {
-    distance = impl.current->sampleDistance().choose(
+    impl.sampleDistance = impl.current->sampleDistance().choose(
       OwnShare / renderer->GetRenderWindow()->GetDesiredUpdateRate(),
       this->MaximumImageSampleDistance);
     if (hasCameraLight(renderer))
     {
       settings.shadowResolution =
-        std::max(static_cast<int>(settings.shadowResolution / distance), 16);
+        std::max(static_cast<int>(settings.shadowResolution / impl.sampleDistance), 16);
     }
   }
-  impl.current->trace(width, height, distance, settings);
+}
+
+/// Traces the current frame and has its shadow maps ready for rasterised surfaces.
+void vtkSVORenderPass::TraceFrame(int width, int height)
+{
+  Internals& impl = *this->Impl;
+  impl.current->trace(width, height, impl.sampleDistance, impl.settings);
   svo::ShadowReceivers& receivers = impl.current->receivers();
   const std::string signature = receivers.signature();
   if (signature != impl.shaderSignature)

@@ -102,18 +102,25 @@ void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void
   this->UpdateLightGeometry(renderer);
   this->CollectFrame(renderer, true);
   vtkMultiProcessController* controller = this->Impl->controller;
-  if (controller && controller->GetNumberOfProcesses() > 1 && this->ShadowTechnique != SHADOW_NONE)
+  if (controller && controller->GetNumberOfProcesses() > 1)
   {
     // Here, and not when something is drawn: a process that shows nothing may not draw at all.
-    this->Impl->current->shareCasters(
-      controller, static_cast<std::size_t>(this->OctreeMemoryLimit) * 1024);
+    if (this->ShadowTechnique == SHADOW_BUFFER)
+    {
+      this->Impl->current->shareShadows(controller, this->Impl->settings);
+    }
+    else if (this->ShadowTechnique == SHADOW_RAYS)
+    {
+      this->Impl->current->shareCasters(
+        controller, static_cast<std::size_t>(this->OctreeMemoryLimit) * 1024);
+    }
   }
   this->Impl->traced = false;
 
   svo::AttachedRenderer& attached = this->Impl->attached[renderer];
   attached.props.clear();
   const svo::CollectedScene& collected = this->Impl->current->collected();
-  if (collected.rasterizedReceivers && !collected.scene.instances.empty())
+  if (collected.rasterizedReceivers && this->Impl->current->hasSomething())
   {
     vtkCollectionSimpleIterator iterator;
     vtkPropCollection* props = renderer->GetViewProps();

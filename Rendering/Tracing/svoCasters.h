@@ -2,25 +2,20 @@
 #ifndef svoCasters_h
 #define svoCasters_h
 
+#include "svoOutline.h"
 #include "svoScene.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 namespace svo
 {
-/// Corners, in the world, of the mesh's own box where the octree knows it (a voxel wider on all
-/// sides), else of the octree's cube.
-std::array<glm::dvec3, 8> worldBox(const Instance& instance);
-
 /// One byte per instance, 1 if it casts: it is allowed to, and something can lie in its shadow. A
 /// flat mesh (a ground, a wall) shadows nothing if the light and every receiver are on one side of
 /// its plane; half a voxel through it is allowed, since its octree resolves no less.
 /// `unknownReceivers`: there are receivers that are no instances, anywhere.
-std::vector<std::uint8_t> castersOf(const Scene& scene, const Light& light, bool unknownReceivers);
+std::vector<std::uint8_t> castersOf(
+  const std::vector<Outline>& instances, const Light& light, bool unknownReceivers);
 }
 
 #endif

@@ -1,7 +1,5 @@
 #include "svoLightView.h"
 
-#include "svoCasters.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,14 +12,16 @@ namespace svo
 {
 namespace
 {
-std::vector<glm::dvec3> casterCorners(const Scene& scene, const std::vector<std::uint8_t>& casters)
+/// Corners of the casters' boxes, a voxel wider than the meshes.
+std::vector<glm::dvec3> casterCorners(
+  const std::vector<Outline>& instances, const std::vector<std::uint8_t>& casters)
 {
   std::vector<glm::dvec3> corners;
-  for (std::size_t i = 0; i < scene.instances.size(); ++i)
+  for (std::size_t i = 0; i < instances.size(); ++i)
   {
     if (casters[i])
     {
-      const std::array<glm::dvec3, 8> box = worldBox(scene.instances[i]);
+      const std::array<glm::dvec3, 8> box = worldCorners(instances[i], instances[i].voxelSize);
       corners.insert(corners.end(), box.begin(), box.end());
     }
   }
@@ -207,10 +207,10 @@ std::vector<View> fitPositional(
 }
 }
 
-std::vector<View> fitLight(
-  const Scene& scene, const std::vector<std::uint8_t>& casters, const Light& light, int resolution)
+std::vector<View> fitLight(const std::vector<Outline>& instances,
+  const std::vector<std::uint8_t>& casters, const Light& light, int resolution)
 {
-  const std::vector<glm::dvec3> corners = casterCorners(scene, casters);
+  const std::vector<glm::dvec3> corners = casterCorners(instances, casters);
   if (corners.empty() || resolution < 1)
   {
     return {};

@@ -2,6 +2,7 @@
 #ifndef svoLightView_h
 #define svoLightView_h
 
+#include "svoOutline.h"
 #include "svoScene.h"
 #include "svoView.h"
 
@@ -13,8 +14,8 @@ namespace svo
 /// Views of `resolution`^2 texels fitted to the corners of the casters' cubes; none if nothing
 /// casts. One for directional lights and for casters within 120 degrees, else six.
 /// `casters` as from castersOf().
-std::vector<View> fitLight(
-  const Scene& scene, const std::vector<std::uint8_t>& casters, const Light& light, int resolution);
+std::vector<View> fitLight(const std::vector<Outline>& instances,
+  const std::vector<std::uint8_t>& casters, const Light& light, int resolution);
 }
 
 #endif

@@ -13,11 +13,14 @@
 
 namespace svo
 {
-void ShadowBuffer::begin(
-  const Scene& scene, const Light& light, const FrameSettings& settings, LayerBudget& budget)
+void ShadowBuffer::begin(const Scene& scene, const Outlines& outlines, const Light& light,
+  const FrameSettings& settings, LayerBudget& budget)
 {
-  const std::vector<std::uint8_t> casters = castersOf(scene, light, settings.wholeShadowBuffers);
-  const std::vector<View> views = fitLight(scene, casters, light, settings.shadowResolution);
+  const std::vector<std::uint8_t> all =
+    castersOf(outlines.instances, light, outlines.unknownReceivers);
+  const std::vector<View> views =
+    fitLight(outlines.instances, all, light, settings.shadowResolution);
+  const std::uint8_t* casters = all.data() + outlines.first; // this scene's
   this->AutomaticBias = settings.automaticBias;
   this->Bias = settings.bias;
   if (this->Faces.size() != views.size())
@@ -35,6 +38,7 @@ void ShadowBuffer::begin(
   {
     Face& face = *this->Faces[i];
     face.view = views[i];
+    face.shared.clear();
     face.worldToClip = face.view.viewToClip * face.view.worldToView;
     face.pixel = face.view.parallel ? worldPixel(face.view, 0.0) : 0.0;
     face.pixelPerDepth = face.view.parallel ? 0.0 : worldPixel(face.view, 1.0);
@@ -183,6 +187,33 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
   }
 }
 
+void ShadowBuffer::merge(Processes& processes, std::size_t first)
+{
+  struct Caster
+  {
+    double voxel, error;
+  };
+  std::vector<Caster> own;
+  for (std::size_t i = 0; i < this->CasterVoxel.size(); ++i)
+  {
+    own.push_back({ this->CasterVoxel[i], this->CasterError[i] });
+  }
+  std::vector<Caster> all;
+  gatherRecords(processes, own, all);
+  this->CasterVoxel.clear();
+  this->CasterError.clear();
+  for (const Caster& caster : all)
+  {
+    this->CasterVoxel.push_back(caster.voxel);
+    this->CasterError.push_back(caster.error);
+  }
+  for (auto& face : this->Faces)
+  {
+    face->shared.merge(processes, face->view, face->layers, first);
+    face->seesCasters = face->shared.bytes() > 0;
+  }
+}
+
 bool ShadowBuffer::shadows(const SurfacePoint& point, double error) const
 {
   Place place;
@@ -231,16 +262,14 @@ void ShadowBuffer::shadows(const TilePoints& points, int first, int last, double
       continue;
     }
     const int x = static_cast<int>(places.x[i]), y = static_cast<int>(places.y[i]);
-    const std::size_t at = depth.at(x, y);
-    const std::uint32_t caster = depth.hit[at >> 6] ? depth.instance[at] : NoInstance;
-    if (caster == NoInstance)
+    std::uint32_t caster;
+    if (!face.occluder(depth.at(x, y), caster, tests.occluder[i]))
     {
       continue;
     }
     any = true;
     tests.x[i] = x + 0.5;
     tests.y[i] = y + 0.5;
-    tests.occluder[i] = face.layers.base(caster) + depth.t[at];
     tests.bias[i] = this->Bias * this->CasterVoxel[caster];
     tests.error[i] = std::max(this->CasterError[caster], error);
   }
@@ -280,14 +309,12 @@ ShadowBuffer::Answer ShadowBuffer::ask(
   {
     return Answer::Lit;
   }
-  const DepthBuffer& depth = face->layers.depthBuffer();
-  const std::size_t at = depth.at(texel.x, texel.y);
-  if (!depth.hit[at >> 6] || depth.instance[at] == NoInstance)
+  std::uint32_t caster;
+  double occluder;
+  if (!face->occluder(face->layers.depthBuffer().at(texel.x, texel.y), caster, occluder))
   {
     return Answer::Lit;
   }
-  const std::uint32_t caster = depth.instance[at];
-  const double occluder = face->layers.base(caster) + depth.t[at];
   double bias = this->Bias * this->CasterVoxel[caster];
   if (!this->AutomaticBias)
   {
@@ -351,11 +378,12 @@ void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps) const
       {
         for (int x = 0; x < face->view.width; ++x)
         {
-          const std::size_t at = depth.at(x, y);
-          if (depth.hit[at >> 6] && depth.instance[at] != NoInstance)
+          std::uint32_t caster;
+          double t;
+          if (face->occluder(depth.at(x, y), caster, t))
           {
             map.depth[static_cast<std::size_t>(y) * face->view.width + x] =
-              static_cast<float>(face->layers.base(depth.instance[at]) + depth.t[at] - map.base);
+              static_cast<float>(t - map.base);
           }
         }
       }
@@ -363,6 +391,10 @@ void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps) const
     for (double error : this->CasterError)
     {
       map.worldBias = std::max(map.worldBias, error);
+    }
+    for (double voxel : this->CasterVoxel)
+    {
+      map.casterVoxel = std::max(map.casterVoxel, voxel);
     }
     maps.push_back(std::move(map));
   }

@@ -4,7 +4,10 @@
 #define svoShadowBuffer_h
 
 #include "svoLayeredView.h"
+#include "svoOutline.h"
+#include "svoProcesses.h"
 #include "svoScene.h"
+#include "svoSharedDepth.h"
 #include "svoSurfacePoint.h"
 #include "svoTilePoints.h"
 #include "svoTracer.h"
@@ -23,8 +26,9 @@ public:
   /// Fits the light's views to the casters and prepares their layers. A directional light gets a
   /// parallel view around the casters; a positional one a perspective view if they subtend less
   /// than 120 degrees, else six square faces of a cube; a spot never more than its cone.
-  void begin(
-    const Scene& scene, const Light& light, const FrameSettings& settings, LayerBudget& budget);
+  /// `outlines`: of the scene's instances, and of other processes'.
+  void begin(const Scene& scene, const Outlines& outlines, const Light& light,
+    const FrameSettings& settings, LayerBudget& budget);
 
   /// Notes the 8x8 light tiles that the points will look up. Thread-safe.
   void mark(const TilePoints& points);
@@ -32,6 +36,10 @@ public:
   void markAll();
 
   void trace(const ParallelFor& parallelFor);
+
+  /// Merges what was traced, whole, with the other processes'. A collective call; `first`: index of
+  /// this process's first instance among all.
+  void merge(Processes& processes, std::size_t first);
 
   /// True if a caster lies between the light and the point. `error`: how far the point may lie from
   /// the surface that it stands for, world units.
@@ -66,8 +74,26 @@ private:
     double pixel = 0.0; // edge of a texel, world, at depth t: pixel + t pixelPerDepth
     double pixelPerDepth = 0.0;
     LayeredView layers;
+    SharedDepth shared; // with other processes' casters; takes the place of the layers' depths
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile
     bool seesCasters = false;
+
+    /// What lies at a texel (index as DepthBuffer::at): false if nothing.
+    bool occluder(std::size_t at, std::uint32_t& caster, double& t) const
+    {
+      if (this->shared.merged())
+      {
+        return this->shared.at(at, caster, t);
+      }
+      const DepthBuffer& depth = this->layers.depthBuffer();
+      if (!depth.hit[at >> 6] || depth.instance[at] == NoInstance)
+      {
+        return false;
+      }
+      caster = depth.instance[at];
+      t = this->layers.base(caster) + depth.t[at];
+      return true;
+    }
   };
   /// Where a point is looked up.
   struct Place
@@ -94,8 +120,9 @@ private:
     const Place& place, const glm::ivec2& texel, const SurfacePoint& point, double error) const;
 
   std::vector<std::unique_ptr<Face>> Faces;
-  std::vector<double> CasterVoxel; // world, of the level that is traced, by index of the instance
-  std::vector<double> CasterError; // world, by index of the instance
+  // By index of the instance, among those of all processes where depths are shared.
+  std::vector<double> CasterVoxel; // world, of the level that is traced
+  std::vector<double> CasterError; // world
   bool AutomaticBias = true;
   double Bias = 0.0;
 };

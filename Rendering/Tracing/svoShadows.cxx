@@ -5,19 +5,28 @@ namespace svo
 void Shadows::begin(
   const Scene& scene, const FrameSettings& settings, const LayeredView& eye, LayerBudget& budget)
 {
-  this->Of = &scene;
   // Subsamples of a pixel may look up what no pixel's centre does.
   this->All = settings.wholeShadowBuffers || settings.antiAliasing;
-  this->Buffers.assign(scene.lights.size(), nullptr);
-  this->Rays.reset();
+  this->Shared.clear();
+  this->beginBuffers(
+    scene, scene.lights, { outlinesOf(scene), 0, settings.wholeShadowBuffers }, settings, budget);
   if (settings.shadowTechnique == ShadowTechnique::Rays)
   {
     this->Rays = std::make_unique<ShadowRays>(scene, eye);
   }
+}
+
+void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
+  const Outlines& outlines, const FrameSettings& settings, LayerBudget& budget)
+{
+  this->Of = &scene;
+  this->Traced = true;
+  this->Buffers.assign(lights.size(), nullptr);
+  this->Rays.reset();
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> kept;
-  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+  for (std::size_t i = 0; i < lights.size(); ++i)
   {
-    const Light& light = scene.lights[i];
+    const Light& light = lights[i];
     if (settings.shadowTechnique != ShadowTechnique::Buffer || !light.castShadow)
     {
       continue;
@@ -31,7 +40,7 @@ void Shadows::begin(
     const auto found = this->Kept.find(id);
     buffer =
       found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
-    buffer->begin(scene, light, settings, budget);
+    buffer->begin(scene, outlines, light, settings, budget);
     this->Buffers[i] = buffer.get();
     if (this->All)
     {
@@ -40,6 +49,112 @@ void Shadows::begin(
   }
   this->Kept = std::move(kept);
   this->Casting = !this->Kept.empty();
+}
+
+namespace
+{
+/// What processes must agree on; plain bytes without gaps.
+struct SharedSettings
+{
+  double pixelError;
+  std::int32_t resolution;
+  std::int32_t lights;
+  std::int32_t unknownReceivers;
+  std::int32_t canKeep; // the last frame's buffers are there
+};
+struct SharedLight
+{
+  double position[3], direction[3], coneAngle;
+  std::int32_t kind, casts;
+};
+static_assert(sizeof(SharedSettings) == 24 && sizeof(SharedLight) == 64, "no gaps");
+
+template <class T>
+void append(std::vector<unsigned char>& bytes, const std::vector<T>& values)
+{
+  const auto* begin = reinterpret_cast<const unsigned char*>(values.data());
+  bytes.insert(bytes.end(), begin, begin + values.size() * sizeof(T));
+}
+}
+
+bool Shadows::traceShared(const Scene& scene, const FrameSettings& own, LayerBudget& budget,
+  const ParallelFor& parallelFor, Processes& processes)
+{
+  std::vector<SharedSettings> settingsOfAll;
+  gatherRecords(processes,
+    std::vector<SharedSettings>{ { own.pixelError, own.shadowResolution,
+      static_cast<std::int32_t>(scene.lights.size()), own.wholeShadowBuffers,
+      own.frameCoherence && !this->Shared.empty() } },
+    settingsOfAll);
+  std::vector<SharedLight> ownLights;
+  for (const Light& light : scene.lights)
+  {
+    const glm::dvec3 &p = light.position, &d = light.direction;
+    ownLights.push_back({ { p.x, p.y, p.z }, { d.x, d.y, d.z }, light.coneAngle,
+      static_cast<std::int32_t>(light.kind), light.castShadow });
+  }
+  std::vector<SharedLight> lightsOfAll;
+  gatherRecords(processes, ownLights, lightsOfAll);
+  Outlines outlines;
+  outlines.first = gatherRecords(processes, outlinesOf(scene), outlines.instances);
+
+  const SharedSettings& agreed = settingsOfAll.front();
+  bool keep = true;
+  for (const SharedSettings& settings : settingsOfAll)
+  {
+    if (settings.lights != agreed.lights)
+    {
+      return false;
+    }
+    outlines.unknownReceivers |= settings.unknownReceivers != 0;
+    keep = keep && settings.canKeep;
+  }
+  lightsOfAll.resize(agreed.lights);
+
+  std::vector<unsigned char> state;
+  append(state, std::vector<double>{ agreed.pixelError, static_cast<double>(agreed.resolution),
+                  static_cast<double>(outlines.unknownReceivers) });
+  append(state, lightsOfAll);
+  append(state, outlines.instances);
+  if (keep && state == this->Shared)
+  {
+    this->Of = &scene;
+    this->Traced = false;
+    return true;
+  }
+
+  FrameSettings settings = own;
+  settings.pixelError = agreed.pixelError;
+  settings.shadowResolution = agreed.resolution;
+  std::vector<Light> lights = scene.lights;
+  for (std::size_t i = 0; i < lights.size(); ++i)
+  {
+    const SharedLight& light = lightsOfAll[i];
+    lights[i].position = { light.position[0], light.position[1], light.position[2] };
+    lights[i].direction = { light.direction[0], light.direction[1], light.direction[2] };
+    lights[i].coneAngle = light.coneAngle;
+    lights[i].kind = static_cast<Light::Kind>(light.kind);
+    lights[i].castShadow = light.casts != 0;
+  }
+  this->All = true; // what the others' visible points look up is not known here
+  this->beginBuffers(scene, lights, outlines, settings, budget);
+  this->trace(parallelFor);
+  for (ShadowBuffer* buffer : this->Buffers)
+  {
+    if (buffer)
+    {
+      buffer->merge(processes, outlines.first);
+    }
+  }
+  this->Shared = std::move(state);
+  return true;
+}
+
+void Shadows::release()
+{
+  this->Kept.clear();
+  this->Buffers.clear();
+  this->Shared.clear();
 }
 
 void Shadows::mark(const TilePoints& points)
@@ -108,9 +223,10 @@ std::size_t Shadows::layerMemory() const
 
 void Shadows::addStatistics(FrameStatistics& statistics) const
 {
+  statistics.mergedShadows = this->Traced && !this->Shared.empty();
   for (const ShadowBuffer* buffer : this->Buffers)
   {
-    if (buffer)
+    if (buffer && this->Traced)
     {
       statistics.shadowRays += buffer->rays();
       statistics.retracedLayers += buffer->retracedLayers();

@@ -23,6 +23,14 @@ public:
   void begin(
     const Scene& scene, const FrameSettings& settings, const LayeredView& eye, LayerBudget& budget);
 
+  /// Instead of begin() and trace() where other processes hold parts of the scene: traces the
+  /// buffers whole and merges them with the others', so that all have the same. A collective call.
+  /// The lights, the resolution and the pixel error of the first process count. Where no process
+  /// has changed anything the last frame's buffers are true still, wherever the camera went. Returns
+  /// false, and nothing is done, if the processes have different numbers of lights.
+  bool traceShared(const Scene& scene, const FrameSettings& settings, LayerBudget& budget,
+    const ParallelFor& parallelFor, Processes& processes);
+
   /// Notes what visible points will look up. Which side of them is lit does not matter: light tiles
   /// that only unlit sides look up are few. Thread-safe.
   void mark(const TilePoints& points);
@@ -43,15 +51,20 @@ public:
   void copyMaps(std::vector<ShadowMap>& maps) const;
   /// Bytes of all kept layers.
   std::size_t layerMemory() const;
-  void release() { this->Kept.clear(); }
+  void release();
 
 private:
+  void beginBuffers(const Scene& scene, const std::vector<Light>& lights, const Outlines& outlines,
+    const FrameSettings& settings, LayerBudget& budget);
+
   const Scene* Of = nullptr;
   bool All = false;                   // every tile is traced
   bool Casting = false;               // there are buffers
   std::vector<ShadowBuffer*> Buffers; // by index into Scene::lights; null: no buffer
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> Kept; // by Light::id
   std::unique_ptr<ShadowRays> Rays;
+  std::vector<unsigned char> Shared; // what the shared buffers in Kept show; empty if they are not
+  bool Traced = false;               // buffers were, in this frame
 };
 }
 

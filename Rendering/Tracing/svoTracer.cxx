@@ -36,6 +36,8 @@ struct Tracer::Internals
   std::vector<SurfaceFrame> Frames;   // by index into Scene::instances
   std::vector<std::uint8_t> Darkness; // per pixel, as the depth buffer: which lights are dark
   std::vector<double> Errors;         // world; of the instance's leaves as the eye sees them
+  bool Shared = false;                // shadow buffers are traced, for all processes
+  double SharedTime = 0.0;            // s, that took
 
   /// Calls body(tileX, tileY, scratch) for the tiles with hits.
   template <class Scratch, class Body>
@@ -336,12 +338,19 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
 
   // What visible points will look up of the lights.
   self.describeInstances(scene, settings.shadowTechnique);
-  self.Dark.begin(scene, settings, self.Eye, budget);
-  self.markLightTiles(scene, view, parallelFor);
+  const bool shared = self.Shared && settings.shadowTechnique == ShadowTechnique::Buffer;
+  if (!shared)
+  {
+    self.Dark.begin(scene, settings, self.Eye, budget);
+    self.markLightTiles(scene, view, parallelFor);
+  }
 
   // Shadow layers, merged likewise.
   const double shadowStart = now();
-  self.Dark.trace(parallelFor);
+  if (!shared)
+  {
+    self.Dark.trace(parallelFor);
+  }
   if (settings.wholeShadowBuffers)
   {
     self.Dark.copyMaps(self.Maps);
@@ -365,8 +374,21 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
   statistics.primaryRays += self.Eye.rays();
   statistics.retracedLayers += self.Eye.retracedLayers();
   statistics.layerMemory = self.Eye.layerMemory() + self.Dark.layerMemory();
-  statistics.shadowTime = shadowTime;
+  statistics.shadowTime = shadowTime + self.SharedTime;
   statistics.traceTime = now() - start - shadowTime;
+  self.Shared = false;
+  self.SharedTime = 0.0;
+}
+
+bool Tracer::shareShadows(const Scene& scene, const FrameSettings& settings,
+  const ParallelFor& parallelFor, Processes& processes)
+{
+  Internals& self = *this->Impl;
+  const double start = now();
+  LayerBudget budget{ settings.layerMemoryLimit, self.Eye.layerMemory() + self.Dark.layerMemory() };
+  self.Shared = self.Dark.traceShared(scene, settings, budget, parallelFor, processes);
+  self.SharedTime = now() - start;
+  return self.Shared;
 }
 
 const FrameStatistics& Tracer::statistics() const

@@ -61,6 +61,7 @@ struct FrameStatistics
   std::uint64_t shadowRays = 0;
   std::uint64_t retracedLayers = 0; // layers traced this frame, of the eye and of lights
   std::uint64_t layerMemory = 0;    // bytes held by kept layers
+  bool mergedShadows = false;       // shadow buffers were merged with other processes' anew
 };
 
 /// A finished shadow buffer, for rasterised receivers. One per map: a point light whose casters
@@ -72,8 +73,11 @@ struct ShadowMap
   /// Linear depth of the nearest caster minus `base`, row by row; infinity where there is none.
   double base = 0.0;
   std::vector<float> depth;
-  double worldBias = 0.0; // what a receiver without a caster's voxel should add, world units
+  double worldBias = 0.0;   // what a receiver that does not know who casts should add, world units
+  double casterVoxel = 0.0; // of the coarsest caster, world units
 };
+
+class Processes;
 
 class VTKSVOTRACING_EXPORT Tracer
 {
@@ -86,6 +90,12 @@ public:
   /// Renders a frame. Layers of the previous frame are reused where allowed.
   void render(const Scene& scene, const View& view, const FrameSettings& settings,
     const ParallelFor& parallelFor, Frame& frame);
+
+  /// For scenes that are spread over several processes, to be called by all of them before
+  /// render() and with the same scene: traces the shadow buffers and merges them with the others'.
+  /// render() then takes these instead of its own. See Shadows::traceShared.
+  bool shareShadows(const Scene& scene, const FrameSettings& settings,
+    const ParallelFor& parallelFor, Processes& processes);
 
   const FrameStatistics& statistics() const;
 

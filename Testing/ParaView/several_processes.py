@@ -31,8 +31,16 @@ def picture(name):
     return scene.picture(view, f"{prefix}-{name}")
 
 
+# Triangles smaller than pixels, so that rays stop at coarse nodes.
+smooth = ball.ThetaResolution, ball.PhiResolution
+ball.ThetaResolution = ball.PhiResolution = 700
 picture("level-of-detail")
-view.SVOPixelError = 0  # where every process goes to the full depth, voxels' sizes do not matter
+view.SVOPixelError = 2
+picture("coarse")
+view.SVOPixelError = 0
+picture("full-depth")
+view.SVOPixelError = 1
+ball.ThetaResolution, ball.PhiResolution = smooth
 picture("shadow")
 displays[0].Position = [0.3, -0.2, 0.1]
 displays[0].Scale = [1.0, 1.2, 0.9]

@@ -386,7 +386,7 @@ TEST(ShadowBuffer, AConvexBodyInGrazingLightDoesNotShadowItself)
       [](const Instance& i, const LocalView&) { return i.octree.level(); }, false, budget);
     eye.trace(serialFor, nullptr);
     ShadowBuffer buffer;
-    buffer.begin(scene, scene.lights[0], settings, budget);
+    buffer.begin(scene, { svo::outlinesOf(scene) }, scene.lights[0], settings, budget);
     buffer.markAll();
     buffer.trace(serialFor);
     const SurfaceFrame frame(scene.instances[0]);

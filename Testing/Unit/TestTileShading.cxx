@@ -275,7 +275,7 @@ TEST(TileShading, ShadowsAreThoseOfOnePoint)
       settings.frameCoherence = false;
       LayerBudget budget{ 0, 0 };
       ShadowBuffer buffer;
-      buffer.begin(stage.scene, light, settings, budget);
+      buffer.begin(stage.scene, { svo::outlinesOf(stage.scene) }, light, settings, budget);
       buffer.markAll();
       buffer.trace(serialFor);
       onEveryInstructionSet(
@@ -326,10 +326,10 @@ TEST(TileShading, WhatIsMarkedIsWhatIsLookedUp)
     settings.frameCoherence = false;
     LayerBudget budget{ 0, 0 };
     ShadowBuffer whole, marked;
-    whole.begin(stage.scene, light, settings, budget);
+    whole.begin(stage.scene, { svo::outlinesOf(stage.scene) }, light, settings, budget);
     whole.markAll();
     whole.trace(serialFor);
-    marked.begin(stage.scene, light, settings, budget);
+    marked.begin(stage.scene, { svo::outlinesOf(stage.scene) }, light, settings, budget);
     stage.eachTile(
       [&](TilePoints& points)
       {

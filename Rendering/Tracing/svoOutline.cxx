@@ -1,0 +1,82 @@
+#include "svoOutline.h"
+
+#include "svoWorldToOctree.h"
+
+#include <cstring>
+
+#include <glm/common.hpp>
+
+namespace svo
+{
+Outline outlineOf(const Instance& instance)
+{
+  Outline outline{};
+  std::memcpy(outline.localToWorld, &instance.localToWorld[0][0], sizeof(outline.localToWorld));
+  outline.pixelError = instance.pixelError;
+  outline.leafGeometry = static_cast<std::int32_t>(instance.leafGeometry);
+  if (!instance.octree)
+  {
+    return outline;
+  }
+  const Header& h = instance.octree.header();
+  for (int i = 0; i < 3; ++i)
+  {
+    outline.cubeLow[i] = h.origin[i];
+    outline.cubeHigh[i] = h.origin[i] + h.voxelSize * static_cast<double>(1u << h.level);
+    outline.meshLow[i] = h.pointCount > 0 ? h.meshBounds[2 * i] : 1.0;
+    outline.meshHigh[i] = h.pointCount > 0 ? h.meshBounds[2 * i + 1] : -1.0;
+  }
+  outline.voxelSize = h.voxelSize;
+  outline.signature = h.signature;
+  outline.level = static_cast<std::int32_t>(h.level);
+  const bool placed = placesSomething(instance.localToWorld);
+  outline.casts = instance.castShadow && !instance.octree.empty() && placed;
+  outline.receives = instance.visible && instance.receiveShadow && placed;
+  return outline;
+}
+
+std::vector<Outline> outlinesOf(const Scene& scene)
+{
+  std::vector<Outline> outlines;
+  for (const Instance& instance : scene.instances)
+  {
+    outlines.push_back(outlineOf(instance));
+  }
+  return outlines;
+}
+
+glm::dmat4 matrixOf(const Outline& outline)
+{
+  glm::dmat4 matrix;
+  std::memcpy(&matrix[0][0], outline.localToWorld, sizeof(outline.localToWorld));
+  return matrix;
+}
+
+bool knowsMeshBox(const Outline& outline)
+{
+  return outline.meshLow[0] <= outline.meshHigh[0] && outline.meshLow[1] <= outline.meshHigh[1] &&
+    outline.meshLow[2] <= outline.meshHigh[2];
+}
+
+std::array<glm::dvec3, 8> worldCorners(const Outline& outline, double margin)
+{
+  double box[2][3];
+  const bool known = knowsMeshBox(outline);
+  for (int i = 0; i < 3; ++i)
+  {
+    // The mesh is in the middle of the cube: its own box is tighter.
+    box[0][i] =
+      known ? glm::max(outline.cubeLow[i], outline.meshLow[i] - margin) : outline.cubeLow[i];
+    box[1][i] =
+      known ? glm::min(outline.cubeHigh[i], outline.meshHigh[i] + margin) : outline.cubeHigh[i];
+  }
+  const glm::dmat4 localToWorld = matrixOf(outline);
+  std::array<glm::dvec3, 8> corners;
+  for (int i = 0; i < 8; ++i)
+  {
+    corners[i] = glm::dvec3(
+      localToWorld * glm::dvec4(box[i & 1][0], box[i >> 1 & 1][1], box[i >> 2 & 1][2], 1.0));
+  }
+  return corners;
+}
+}

@@ -1,0 +1,55 @@
+// An instance without its octree: all that must be known of it to fit a light's view, and to tell
+// whether its shadow is still the same.
+#ifndef svoOutline_h
+#define svoOutline_h
+
+#include "svoScene.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+/// Plain bytes, without gaps: processes send them to each other and compare them.
+struct Outline
+{
+  double localToWorld[16];
+  double cubeLow[3], cubeHigh[3]; // the octree's cube, local frame
+  double meshLow[3], meshHigh[3]; // the mesh's own box; low > high where the octree does not know it
+  double voxelSize;               // local frame
+  double pixelError;              // Instance::pixelError
+  std::uint64_t signature;        // of the mesh
+  std::int32_t level;
+  std::int32_t leafGeometry; // LeafGeometry
+  std::int32_t casts;        // it is allowed to cast, and has voxels
+  std::int32_t receives;     // it is seen, and shows shadows
+};
+static_assert(sizeof(Outline) == 16 * 8 + 12 * 8 + 3 * 8 + 4 * 4, "no gaps");
+
+/// The instances of a scene, or of the scenes of all processes, one after the other.
+struct Outlines
+{
+  std::vector<Outline> instances;
+  std::size_t first = 0;         // index of this process's first
+  bool unknownReceivers = false; // there are receivers that are no instances, anywhere
+};
+
+Outline outlineOf(const Instance& instance);
+std::vector<Outline> outlinesOf(const Scene& scene);
+
+glm::dmat4 matrixOf(const Outline& outline);
+
+/// True if the mesh's own box is known.
+bool knowsMeshBox(const Outline& outline);
+
+/// Corners of the mesh's box, `margin` (local units) wider on all sides but never beyond the octree's
+/// cube, in the world; of the cube where there is no such box.
+std::array<glm::dvec3, 8> worldCorners(const Outline& outline, double margin);
+}
+
+#endif

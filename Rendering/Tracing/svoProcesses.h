@@ -1,0 +1,54 @@
+// Other processes that hold a part of the scene each.
+#ifndef svoProcesses_h
+#define svoProcesses_h
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+namespace svo
+{
+/// All calls are collective: every process makes them, in the same order.
+class Processes
+{
+public:
+  virtual ~Processes() = default;
+  virtual int count() const = 0;
+  virtual int self() const = 0; // 0..count() - 1
+
+  /// Everybody's bytes, one behind the other in the order of the processes, which may differ in how
+  /// many they have; `begins`: where each one's begin, and the end of all.
+  virtual void gather(const std::vector<unsigned char>& own, std::vector<unsigned char>& all,
+    std::vector<std::size_t>& begins) = 0;
+
+  /// Replaces each value by the smallest that a process has in its place.
+  virtual void minimum(std::vector<std::uint64_t>& values) = 0;
+};
+
+/// Everybody's records, in the order of the processes; returns the index of the first one of this
+/// process.
+template <class Record>
+std::size_t gatherRecords(
+  Processes& processes, const std::vector<Record>& own, std::vector<Record>& all)
+{
+  static_assert(std::is_trivially_copyable<Record>::value, "records travel as bytes");
+  std::vector<unsigned char> bytes(own.size() * sizeof(Record));
+  if (!own.empty())
+  {
+    std::memcpy(bytes.data(), own.data(), bytes.size());
+  }
+  std::vector<unsigned char> allBytes;
+  std::vector<std::size_t> begins;
+  processes.gather(bytes, allBytes, begins);
+  all.resize(allBytes.size() / sizeof(Record));
+  if (!all.empty())
+  {
+    std::memcpy(all.data(), allBytes.data(), all.size() * sizeof(Record));
+  }
+  return begins[processes.self()] / sizeof(Record);
+}
+}
+
+#endif

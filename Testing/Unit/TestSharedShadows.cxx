@@ -1,0 +1,223 @@
+// Shadow buffers that several processes merge are those of one process with everything.
+#include "svoThreadProcesses.h"
+#include "svoTracerScenes.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+using namespace svotest;
+
+namespace
+{
+struct Case
+{
+  std::string name;
+  svo::Light light;
+};
+
+std::vector<Case> everyLight()
+{
+  using Kind = svo::Light::Kind;
+  return { { "directional", lightOf(Kind::Directional, { 2, -2, 5 }) },
+    { "point, one map", lightOf(Kind::Point, { 2, -2, 9 }) },
+    { "point, six faces", lightOf(Kind::Point, { 1.7, -1.2, 2.5 }) },
+    { "spot", lightOf(Kind::Spot, { 2, -2, 6 }) } };
+}
+
+/// A ground with three balls, one above the other in part.
+svo::Scene ballsOnGround()
+{
+  svo::Scene scene;
+  const svo::Octree ball = makeOctree(sphere(40, 64), 7);
+  scene.instances = { instanceOf(makeOctree(square(3.0), 7), 1),
+    instanceOf(ball, 2, movedTo(0.0, 0.0, 1.2)), instanceOf(ball, 3, movedTo(1.2, -1.0, 1.4)),
+    instanceOf(ball, 4, movedTo(-1.5, 0.8, 1.1)) };
+  return scene;
+}
+
+/// Every `count`th instance.
+svo::Scene partOf(const svo::Scene& whole, int self, int count)
+{
+  svo::Scene part;
+  part.lights = whole.lights;
+  for (std::size_t i = self; i < whole.instances.size(); i += count)
+  {
+    part.instances.push_back(whole.instances[i]);
+  }
+  return part;
+}
+
+/// The nearest of the processes' pixels.
+svo::Frame composed(const std::vector<svo::Frame>& frames)
+{
+  svo::Frame picture = frames.front();
+  for (const svo::Frame& frame : frames)
+  {
+    for (std::size_t i = 0; i < frame.depth.size(); ++i)
+    {
+      if (frame.depth[i] < picture.depth[i])
+      {
+        picture.depth[i] = frame.depth[i];
+        std::copy_n(frame.color.data() + 4 * i, 4, picture.color.data() + 4 * i);
+      }
+    }
+  }
+  return picture;
+}
+
+svo::FrameSettings smallBuffers()
+{
+  svo::FrameSettings settings;
+  settings.shadowResolution = 256;
+  return settings;
+}
+
+/// Each process's tracer, which lives from frame to frame.
+struct Group
+{
+  explicit Group(int count)
+    : Tracers(count)
+    , Frames(count)
+  {
+  }
+  svo::Frame picture(
+    const svo::Scene& whole, const svo::View& view, const svo::FrameSettings& settings)
+  {
+    const int count = static_cast<int>(this->Tracers.size());
+    inProcesses(count,
+      [&](svo::Processes& processes)
+      {
+        const int self = processes.self();
+        const svo::Scene part = partOf(whole, self, count);
+        EXPECT_TRUE(
+          this->Tracers[self].shareShadows(part, settings, svo::serialFor, processes));
+        this->Tracers[self].render(part, view, settings, svo::serialFor, this->Frames[self]);
+      });
+    return composed(this->Frames);
+  }
+  std::uint64_t shadowRays() const
+  {
+    std::uint64_t sum = 0;
+    for (const svo::Tracer& tracer : this->Tracers)
+    {
+      sum += tracer.statistics().shadowRays;
+    }
+    return sum;
+  }
+  std::vector<svo::Tracer> Tracers;
+  std::vector<svo::Frame> Frames;
+};
+
+std::size_t differing(const svo::Frame& a, const svo::Frame& b)
+{
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.depth.size(); ++i)
+  {
+    count += !std::equal(a.color.data() + 4 * i, a.color.data() + 4 * i + 4, b.color.data() + 4 * i);
+  }
+  return count;
+}
+}
+
+TEST(SharedShadows, SeveralProcessesHaveThePictureOfOne)
+{
+  const svo::View eye = lookAt({ 1, -6, 4 }, 160, 120);
+  for (const Case& test : everyLight())
+  {
+    svo::Scene scene = ballsOnGround();
+    scene.lights = { test.light };
+    const svo::Frame expected = rendered(scene, eye, smallBuffers());
+    svo::FrameSettings none = smallBuffers();
+    none.shadowTechnique = svo::ShadowTechnique::None;
+    ASSERT_GT(differing(expected, rendered(scene, eye, none)), 500u) << test.name;
+    for (int count : { 1, 2, 3, 5 }) // the last of five has nothing
+    {
+      Group group(count);
+      EXPECT_EQ(differing(group.picture(scene, eye, smallBuffers()), expected), 0u)
+        << test.name << ", " << count << " processes";
+    }
+  }
+}
+
+TEST(SharedShadows, AreKeptWhileNoProcessChangesAnything)
+{
+  svo::Scene scene = ballsOnGround();
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }) };
+  Group group(3);
+  const svo::FrameSettings settings = smallBuffers();
+  group.picture(scene, lookAt({ 1, -6, 4 }, 160, 120), settings);
+  EXPECT_GT(group.shadowRays(), 0u);
+
+  const svo::View turned = lookAt({ 3, -5, 4 }, 160, 120);
+  EXPECT_EQ(
+    differing(group.picture(scene, turned, settings), rendered(scene, turned, settings)), 0u);
+  EXPECT_EQ(group.shadowRays(), 0u);
+
+  // Of a process that is not the ground's.
+  scene.instances[1].localToWorld = movedTo(0.5, 0.5, 1.6);
+  EXPECT_EQ(
+    differing(group.picture(scene, turned, settings), rendered(scene, turned, settings)), 0u);
+  EXPECT_GT(group.shadowRays(), 0u);
+
+  scene.lights[0].direction = glm::normalize(glm::dvec3(1, 1, -3));
+  EXPECT_EQ(
+    differing(group.picture(scene, turned, settings), rendered(scene, turned, settings)), 0u);
+
+  scene.instances[1].castShadow = false;
+  EXPECT_EQ(
+    differing(group.picture(scene, turned, settings), rendered(scene, turned, settings)), 0u);
+
+  // One of them forgets: all trace again, and none waits for ever.
+  group.Tracers[2].releaseLayers();
+  EXPECT_EQ(
+    differing(group.picture(scene, turned, settings), rendered(scene, turned, settings)), 0u);
+  EXPECT_GT(group.shadowRays(), 0u);
+}
+
+TEST(SharedShadows, AProcessWithoutInstancesHasTheWholeMaps)
+{
+  svo::Scene scene = ballsOnGround();
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }) };
+  svo::FrameSettings settings = smallBuffers();
+  settings.wholeShadowBuffers = true; // rasterised receivers
+  const svo::View eye = lookAt({ 1, -6, 4 }, 160, 120);
+  svo::Tracer one;
+  rendered(one, scene, eye, settings);
+  Group group(5);
+  group.picture(scene, eye, settings);
+  ASSERT_EQ(one.shadowMaps().size(), 1u);
+  ASSERT_EQ(group.Tracers[4].shadowMaps().size(), 1u);
+  const svo::ShadowMap& expected = one.shadowMaps()[0];
+  const svo::ShadowMap& found = group.Tracers[4].shadowMaps()[0];
+  EXPECT_EQ(found.worldBias, expected.worldBias);
+  std::size_t casters = 0;
+  for (std::size_t i = 0; i < expected.depth.size(); ++i)
+  {
+    casters += expected.depth[i] < 1e30f;
+    ASSERT_TRUE(found.depth[i] == expected.depth[i] ||
+      std::abs(found.depth[i] - expected.depth[i]) < 1e-6f)
+      << i;
+  }
+  EXPECT_GT(casters, 1000u);
+}
+
+TEST(SharedShadows, ProcessesThatDisagreeAboutTheLightsKeepTheirOwn)
+{
+  svo::Scene scene = ballsOnGround();
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }) };
+  const svo::View eye = lookAt({ 1, -6, 4 }, 160, 120);
+  inProcesses(2,
+    [&](svo::Processes& processes)
+    {
+      svo::Scene part = partOf(scene, processes.self(), 2);
+      if (processes.self() == 1)
+      {
+        part.lights.clear();
+      }
+      svo::Tracer tracer;
+      EXPECT_FALSE(tracer.shareShadows(part, smallBuffers(), svo::serialFor, processes));
+      EXPECT_TRUE(identical(
+        rendered(tracer, part, eye, smallBuffers()), rendered(part, eye, smallBuffers())));
+    });
+}
