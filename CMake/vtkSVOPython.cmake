@@ -11,7 +11,7 @@ set(VTKSVO_PYTHON_INSTALL_DIR
   CACHE STRING "Where the Python package is installed, relative to the prefix")
 mark_as_advanced(VTKSVO_PYTHON_INSTALL_DIR)
 
-set(vtksvo_wrapped SVO::SVOCore SVO::SVOPass)
+set(vtksvo_wrapped SVO::SVOCore SVO::SVOParallel SVO::SVOPass)
 vtk_module_wrap_python(
   MODULES ${vtksvo_wrapped}
   TARGET SVO::Python

@@ -19,6 +19,9 @@
 #include <mutex>
 #include <new>
 
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
 namespace svo
 {
 namespace
@@ -119,6 +122,16 @@ OpenOctrees& openOctrees()
   return *instance;
 }
 
+glm::dvec3 lowOf(const std::array<double, 6>& bounds)
+{
+  return { bounds[0], bounds[2], bounds[4] };
+}
+
+glm::dvec3 highOf(const std::array<double, 6>& bounds)
+{
+  return { bounds[1], bounds[3], bounds[5] };
+}
+
 /// Bounds of the finite points, as they are stored in the header.
 void finiteBounds(const TriangleMesh& mesh, double bounds[6])
 {
@@ -154,6 +167,8 @@ BuildStatus buildUnguarded(
   BuildOptions buildOptions;
   buildOptions.level = options.level;
   buildOptions.leafGeometry = options.leafGeometry;
+  buildOptions.modelLow = lowOf(options.modelBounds);
+  buildOptions.modelHigh = highOf(options.modelBounds);
   buildOptions.memoryLimit = options.memoryLimit != 0 ? options.memoryLimit : availableMemory();
   buildOptions.parallelFor = smpParallelFor();
   buildOptions.progress = options.progress;
@@ -209,6 +224,23 @@ BuildStatus buildMeshOctree(
     message = "there is not enough memory for an octree of level " + std::to_string(options.level);
     return BuildStatus::TooLarge;
   }
+}
+
+bool fitsModel(const Octree& octree, const std::array<double, 6>& modelBounds)
+{
+  const glm::dvec3 low = lowOf(modelBounds), high = highOf(modelBounds);
+  if (!glm::all(glm::lessThanEqual(low, high)))
+  {
+    return true;
+  }
+  const Header& header = octree.header();
+  const double* own = header.meshBounds;
+  const bool empty = !(own[0] <= own[1]);
+  const Cube cube = empty ? boundingCube(low, high, octree.level())
+                          : boundingCube(glm::min(low, glm::dvec3(own[0], own[2], own[4])),
+                              glm::max(high, glm::dvec3(own[1], own[3], own[5])), octree.level());
+  return cube.origin == glm::dvec3(header.origin[0], header.origin[1], header.origin[2]) &&
+    std::ldexp(cube.edge, -octree.level()) == header.voxelSize;
 }
 
 void attachOctree(vtkPolyData* mesh, const Octree& octree)

@@ -8,6 +8,7 @@
 #include "svoSMPParallel.h"
 #include "vtkSVOCoreModule.h"
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -20,6 +21,8 @@ struct MeshOctreeOptions
 {
   int level = 10; // 1..MaximumLevel
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
+  /// Of what the mesh is a part of, as VTK orders bounds; low above high: it is all there is.
+  std::array<double, 6> modelBounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
   std::size_t memoryLimit = 0; // bytes at the peak of the build; 0: what the machine has available
   /// Called now and then on the calling thread with 0..1; returning false aborts the build.
   std::function<bool(double)> progress;
@@ -32,6 +35,9 @@ struct MeshOctreeOptions
 /// empty otherwise and when the build was aborted. On failure `octree` is empty. Throws nothing.
 VTKSVOCORE_EXPORT BuildStatus buildMeshOctree(
   vtkPolyData* mesh, const MeshOctreeOptions& options, Octree& octree, std::string& message);
+
+/// True if buildMeshOctree() would choose the cube that the octree of the same mesh has.
+VTKSVOCORE_EXPORT bool fitsModel(const Octree& octree, const std::array<double, 6>& modelBounds);
 
 /// Name of the field-data array (unsigned bytes, the layout of svoLayout.h) that an octree travels
 /// in.

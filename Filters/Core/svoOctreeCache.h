@@ -4,6 +4,7 @@
 
 #include "svoOctree.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <list>
@@ -19,10 +20,11 @@ public:
     std::uint64_t signature; // of the mesh
     int level;
     LeafGeometry leafGeometry;
+    std::array<double, 6> modelBounds; // of what the mesh is a part of
     bool operator==(const Key& other) const
     {
       return signature == other.signature && level == other.level &&
-        leafGeometry == other.leafGeometry;
+        leafGeometry == other.leafGeometry && modelBounds == other.modelBounds;
     }
   };
 

@@ -12,6 +12,7 @@
 #include "vtkPolyData.h"
 #include "vtkTimerLog.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -25,7 +26,7 @@ public:
   svo::OctreeCache Cache;
 
   /// The octree that a mesh brings along, if it is what would be built or if `any` will do.
-  static svo::Octree Carried(vtkPolyData* mesh, int level, svo::LeafGeometry geometry, bool any)
+  static svo::Octree Carried(vtkPolyData* mesh, const svo::MeshOctreeOptions& options, bool any)
   {
     svo::Octree octree;
     std::string ignored; // what is damaged is replaced
@@ -33,8 +34,9 @@ public:
     {
       return {};
     }
-    const bool same = octree.level() == level &&
-      octree.header().leafGeometry == static_cast<std::uint32_t>(geometry);
+    const bool same = octree.level() == options.level &&
+      octree.header().leafGeometry == static_cast<std::uint32_t>(options.leafGeometry) &&
+      svo::fitsModel(octree, options.modelBounds);
     return same || any ? octree : svo::Octree();
   }
 };
@@ -128,6 +130,13 @@ int vtkPolyDataToSVO::RequestData(
 {
   vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  this->Convert(input, output, this->ModelBounds);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkPolyDataToSVO::Convert(vtkPolyData* input, vtkPolyData* output, const double modelBounds[6])
+{
   this->BuildTime = 0.0;
   this->NumberOfVoxels = 0;
   output->ShallowCopy(input);
@@ -135,21 +144,23 @@ int vtkPolyDataToSVO::RequestData(
   svo::MeshOctreeOptions options;
   options.level = this->MaximumLevel;
   options.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);
+  std::copy(modelBounds, modelBounds + 6, options.modelBounds.begin());
   options.memoryLimit = this->MemoryLimit * Kibi;
-  if (vtkInternals::Carried(input, options.level, options.leafGeometry, this->KeepOctrees))
+  if (vtkInternals::Carried(input, options, this->KeepOctrees))
   {
     this->Finish(output);
-    return 1;
+    return;
   }
   svo::detachOctree(output);
 
   svo::OctreeCache& cache = this->Internals->Cache;
-  const svo::OctreeCache::Key key{ svo::meshSignature(input), options.level, options.leafGeometry };
+  const svo::OctreeCache::Key key{ svo::meshSignature(input), options.level, options.leafGeometry,
+    options.modelBounds };
   if (const svo::OctreeCache::Entry* kept = this->CacheTimeSteps ? cache.find(key) : nullptr)
   {
     svo::attachOctree(output, kept->octree);
     this->Finish(output);
-    return 1;
+    return;
   }
 
   options.progress = [this](double progress)
@@ -164,12 +175,12 @@ int vtkPolyDataToSVO::RequestData(
   this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
   if (status == svo::BuildStatus::Aborted)
   {
-    return 1;
+    return;
   }
   if (status != svo::BuildStatus::Built)
   {
     vtkErrorMacro("The octree is not built: " << message << ".");
-    return 1; // the mesh is a valid output, and one message is enough
+    return; // the mesh is a valid output, and one message is enough
   }
 
   ++this->NumberOfBuilds;
@@ -193,7 +204,6 @@ int vtkPolyDataToSVO::RequestData(
   {
     cache.insert(std::move(built), this->CacheMemoryLimit * Kibi);
   }
-  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -202,6 +212,9 @@ void vtkPolyDataToSVO::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MaximumLevel: " << this->MaximumLevel << "\n";
   os << indent << "LeafGeometry: " << this->GetLeafGeometryAsString() << "\n";
+  os << indent << "ModelBounds: (" << this->ModelBounds[0] << ", " << this->ModelBounds[1] << ", "
+     << this->ModelBounds[2] << ", " << this->ModelBounds[3] << ", " << this->ModelBounds[4] << ", "
+     << this->ModelBounds[5] << ")\n";
   os << indent << "CacheTimeSteps: " << (this->CacheTimeSteps ? "On\n" : "Off\n");
   os << indent << "CacheMemoryLimit: " << this->CacheMemoryLimit << " KiB\n";
   os << indent << "CacheMemorySize: " << this->GetCacheMemorySize() << " KiB\n";

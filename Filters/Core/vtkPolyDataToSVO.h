@@ -84,6 +84,17 @@ public:
 
   //@{
   /**
+   * Bounds of what the mesh is a part of, in its local frame. The octree's cube is then that of the
+   * whole, so that parts that are converted apart have the voxels that the whole would have. A mesh
+   * that reaches beyond makes the cube larger. Default: low above high on each axis, which means
+   * that the mesh is all there is.
+   */
+  vtkSetVector6Macro(ModelBounds, double);
+  vtkGetVector6Macro(ModelBounds, double);
+  //@}
+
+  //@{
+  /**
    * Whether octrees are kept after use, so that a time step that comes again is not built again.
    * Default on. They are recognised by the mesh's signature, the level and the leaf geometry, not
    * by the time: identical poses share one octree. Turning it off releases them.
@@ -168,12 +179,18 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
+  /**
+   * Makes the output of one mesh.
+   */
+  void Convert(vtkPolyData* input, vtkPolyData* output, const double modelBounds[6]);
+
 private:
   vtkPolyDataToSVO(const vtkPolyDataToSVO&) = delete;
   void operator=(const vtkPolyDataToSVO&) = delete;
 
   int MaximumLevel = 10;
   int LeafGeometry = AUTOMATIC;
+  double ModelBounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
   bool CacheTimeSteps = true;
   bool KeepOctrees = false;
   bool WriteStatistics = false;

@@ -64,7 +64,7 @@ void buildStages(
 {
   Executor executor(options.parallelFor, options.progress);
   executor.report();
-  const Cube cube = boundingCube(mesh, options.level, options.parallelFor, result.droppedTriangles);
+  const Cube cube = boundingCube(mesh, options, result.droppedTriangles);
   executor.report();
   Buffer<float> recordsOfTriangle(mesh.triangleCount);
   measure = measureMesh(mesh, cube, options.parallelFor, options.level, recordsOfTriangle);

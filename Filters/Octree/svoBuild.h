@@ -33,6 +33,10 @@ struct BuildOptions
 {
   int level = 10; // 1..MaximumLevel
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
+  /// Bounds of what the mesh is a part of, local frame: the cube is then that of the whole, so that
+  /// all parts have the same voxels. Low above high: the mesh is all there is.
+  glm::dvec3 modelLow{ 1.0 };
+  glm::dvec3 modelHigh{ -1.0 };
   /// The build is refused before it allocates if it is expected to need more than this at its
   /// peak. 0: no limit.
   std::size_t memoryLimit = 0; // bytes
@@ -81,6 +85,9 @@ struct Cube
   double edge;
 };
 VTKSVOOCTREE_EXPORT Cube boundingCube(const TriangleMesh& mesh, int level);
+
+/// The same from bounds.
+VTKSVOOCTREE_EXPORT Cube boundingCube(const glm::dvec3& low, const glm::dvec3& high, int level);
 
 /// The surface in the octree coordinates of a given header. Points that are not finite are put at
 /// the cube's corner (no list names their triangles). `cells` is copied as it is.

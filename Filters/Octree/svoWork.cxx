@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace svo
 {
@@ -22,8 +23,9 @@ double bricksOfEdge(int level)
 {
   return std::ldexp(1.0, std::max(level - 2, 0));
 }
+}
 
-Cube cubeAround(const glm::dvec3& low, const glm::dvec3& high, int level)
+Cube boundingCube(const glm::dvec3& low, const glm::dvec3& high, int level)
 {
   if (!(low.x <= high.x))
   {
@@ -62,10 +64,9 @@ Cube cubeAround(const glm::dvec3& low, const glm::dvec3& high, int level)
   }
   return { origin, edge };
 }
-}
 
-Cube boundingCube(const TriangleMesh& mesh, int level, const ParallelFor& parallelFor,
-  std::size_t& droppedTriangles)
+Cube boundingCube(
+  const TriangleMesh& mesh, const BuildOptions& options, std::size_t& droppedTriangles)
 {
   struct Bounds
   {
@@ -75,7 +76,7 @@ Cube boundingCube(const TriangleMesh& mesh, int level, const ParallelFor& parall
   };
   const std::size_t blocks = blocksOf(mesh.triangleCount);
   std::vector<Bounds> bounds(blocks);
-  parallelFor(0, blocks, 4,
+  options.parallelFor(0, blocks, 4,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t block = first; block < last; ++block)
@@ -100,6 +101,11 @@ Cube boundingCube(const TriangleMesh& mesh, int level, const ParallelFor& parall
       }
     });
   Bounds all;
+  if (glm::all(glm::lessThanEqual(options.modelLow, options.modelHigh)))
+  {
+    all.low = options.modelLow;
+    all.high = options.modelHigh;
+  }
   for (const Bounds& b : bounds)
   {
     all.low = glm::min(all.low, b.low);
@@ -107,13 +113,15 @@ Cube boundingCube(const TriangleMesh& mesh, int level, const ParallelFor& parall
     all.dropped += b.dropped;
   }
   droppedTriangles = all.dropped;
-  return cubeAround(all.low, all.high, level);
+  return boundingCube(all.low, all.high, options.level);
 }
 
 Cube boundingCube(const TriangleMesh& mesh, int level)
 {
+  BuildOptions options;
+  options.level = level;
   std::size_t dropped = 0;
-  return boundingCube(mesh, level, serialFor, dropped);
+  return boundingCube(mesh, options, dropped);
 }
 
 double MeshMeasure::expectedRecords(int level) const

@@ -46,8 +46,8 @@ MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const Parall
 std::vector<WorkPiece> cutWork(const Buffer<float>& recordsOfTriangle);
 
 /// boundingCube() in parallel; also counts the triangles that are not usable.
-Cube boundingCube(const TriangleMesh& mesh, int level, const ParallelFor& parallelFor,
-  std::size_t& droppedTriangles);
+Cube boundingCube(
+  const TriangleMesh& mesh, const BuildOptions& options, std::size_t& droppedTriangles);
 }
 
 #endif

@@ -15,7 +15,7 @@
 #include "vtkSVOViewsModule.h" // for the export macro
 #include "vtkWeakPointer.h"    // for vtkWeakPointer
 
-class vtkPolyDataToSVO;
+class vtkPPolyDataToSVO;
 
 class VTKSVOVIEWS_EXPORT vtkSVORepresentation : public vtkGeometryRepresentationWithFaces
 {
@@ -87,7 +87,7 @@ private:
 
   void UpdateUse(vtkView* view);
 
-  vtkNew<vtkPolyDataToSVO> ToOctree;
+  vtkNew<vtkPPolyDataToSVO> ToOctree;
   vtkWeakPointer<vtkView> Used; // the view whose pass this one is a user of
 };
 

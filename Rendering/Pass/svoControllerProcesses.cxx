@@ -32,8 +32,7 @@ void ControllerProcesses::gather(const std::vector<unsigned char>& own,
   all.resize(begins.back());
   if (!all.empty())
   {
-    this->Controller->AllGatherV(
-      own.data(), all.data(), length, lengths.data(), offsets.data());
+    this->Controller->AllGatherV(own.data(), all.data(), length, lengths.data(), offsets.data());
   }
 }
 
@@ -44,7 +43,7 @@ void ControllerProcesses::minimum(std::vector<std::uint64_t>& values)
     return;
   }
   const std::vector<std::uint64_t> own = values;
-  this->Controller->AllReduce(own.data(), values.data(), static_cast<vtkIdType>(values.size()),
-    vtkCommunicator::MIN_OP);
+  this->Controller->AllReduce(
+    own.data(), values.data(), static_cast<vtkIdType>(values.size()), vtkCommunicator::MIN_OP);
 }
 }

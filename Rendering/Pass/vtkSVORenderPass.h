@@ -391,9 +391,9 @@ public:
   //@{
   /**
    * Where the surfaces of attached renderers are spread over several processes: the processes that
-   * render, all of them in every frame, at the renderer's StartEvent. Their shadow buffers are merged
-   * by the nearest caster, so that shadows fall across processes; for shadow rays each gets the
-   * others' casters. Null (the default): one process has all.
+   * render, all of them in every frame, at the renderer's StartEvent. Their shadow buffers are
+   * merged by the nearest caster, so that shadows fall across processes; for shadow rays each gets
+   * the others' casters. Null (the default): one process has all.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController() const;

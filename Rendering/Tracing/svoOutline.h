@@ -20,10 +20,11 @@ struct Outline
 {
   double localToWorld[16];
   double cubeLow[3], cubeHigh[3]; // the octree's cube, local frame
-  double meshLow[3], meshHigh[3]; // the mesh's own box; low > high where the octree does not know it
-  double voxelSize;               // local frame
-  double pixelError;              // Instance::pixelError
-  std::uint64_t signature;        // of the mesh
+  double meshLow[3],
+    meshHigh[3];           // the mesh's own box; low > high where the octree does not know it
+  double voxelSize;        // local frame
+  double pixelError;       // Instance::pixelError
+  std::uint64_t signature; // of the mesh
   std::int32_t level;
   std::int32_t leafGeometry; // LeafGeometry
   std::int32_t casts;        // it is allowed to cast, and has voxels
@@ -47,8 +48,8 @@ glm::dmat4 matrixOf(const Outline& outline);
 /// True if the mesh's own box is known.
 bool knowsMeshBox(const Outline& outline);
 
-/// Corners of the mesh's box, `margin` (local units) wider on all sides but never beyond the octree's
-/// cube, in the world; of the cube where there is no such box.
+/// Corners of the mesh's box, `margin` (local units) wider on all sides but never beyond the
+/// octree's cube, in the world; of the cube where there is no such box.
 std::array<glm::dvec3, 8> worldCorners(const Outline& outline, double margin);
 }
 

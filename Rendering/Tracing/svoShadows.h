@@ -26,8 +26,8 @@ public:
   /// Instead of begin() and trace() where other processes hold parts of the scene: traces the
   /// buffers whole and merges them with the others', so that all have the same. A collective call.
   /// The lights, the resolution and the pixel error of the first process count. Where no process
-  /// has changed anything the last frame's buffers are true still, wherever the camera went. Returns
-  /// false, and nothing is done, if the processes have different numbers of lights.
+  /// has changed anything the last frame's buffers are true still, wherever the camera went.
+  /// Returns false, and nothing is done, if the processes have different numbers of lights.
   bool traceShared(const Scene& scene, const FrameSettings& settings, LayerBudget& budget,
     const ParallelFor& parallelFor, Processes& processes);
 

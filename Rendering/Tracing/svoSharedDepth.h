@@ -54,8 +54,8 @@ private:
   static constexpr std::uint32_t Nothing = ~0u;
   static constexpr std::uint64_t Empty = ~std::uint64_t(0) >> 1;
 
-  double Near = 0.0; // linear depth, world
-  double Step = 1.0; // between two depths
+  double Near = 0.0;                    // linear depth, world
+  double Step = 1.0;                    // between two depths
   std::vector<std::uint32_t> TileBegin; // per tile, in Texels, or Nothing
   std::vector<std::uint64_t> Texels;
 };

@@ -13,7 +13,8 @@ import pictures
 PROGRAMS = sys.argv.pop(1)
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "several_processes.py")
 NAMES = ("full-depth", "shadow", "moved", "turned", "rays", "ordinary-ground", "light-kit", "translucent")
-LEVELS = ("level-of-detail", "coarse")
+# With triangles smaller than pixels, at pixel errors 1 (the default) and 2.
+LEVELS = {"level-of-detail": 1e-4, "coarse": 1e-3}
 # Open MPI refuses to run as root, and more processes than cores, unless told to.
 os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                   OMPI_MCA_rmaps_base_oversubscribe="1")
@@ -49,11 +50,12 @@ class TestParallel(unittest.TestCase):
                 print(f"{prefix}-{name}: {difference:.6f} of the pixels differ")
                 self.assertLess(difference, share)
 
-        # Pieces of a surface have voxels of their own size, and so levels of detail.
-        for name in LEVELS:
-            difference = pictures.differing(read(prefix, name), read("one", name), tolerance=2)
-            print(f"{prefix}-{name}: {difference:.6f} of the pixels differ")
-            self.assertLess(difference, 1e-2)
+        # Where pieces meet, a coarse node has only what one of them knows of the surface in it.
+        for name, share in LEVELS.items():
+            with self.subTest(picture=name):
+                difference = pictures.differing(read(prefix, name), read("one", name))
+                print(f"{prefix}-{name}: {difference:.6f} of the pixels differ")
+                self.assertLess(difference, share)
 
     def check_processes(self, processes):
         prefix = f"processes{processes}"

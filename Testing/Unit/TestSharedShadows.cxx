@@ -90,8 +90,7 @@ struct Group
       {
         const int self = processes.self();
         const svo::Scene part = partOf(whole, self, count);
-        EXPECT_TRUE(
-          this->Tracers[self].shareShadows(part, settings, svo::serialFor, processes));
+        EXPECT_TRUE(this->Tracers[self].shareShadows(part, settings, svo::serialFor, processes));
         this->Tracers[self].render(part, view, settings, svo::serialFor, this->Frames[self]);
       });
     return composed(this->Frames);
@@ -114,7 +113,8 @@ std::size_t differing(const svo::Frame& a, const svo::Frame& b)
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.depth.size(); ++i)
   {
-    count += !std::equal(a.color.data() + 4 * i, a.color.data() + 4 * i + 4, b.color.data() + 4 * i);
+    count +=
+      !std::equal(a.color.data() + 4 * i, a.color.data() + 4 * i + 4, b.color.data() + 4 * i);
   }
   return count;
 }
@@ -195,8 +195,8 @@ TEST(SharedShadows, AProcessWithoutInstancesHasTheWholeMaps)
   for (std::size_t i = 0; i < expected.depth.size(); ++i)
   {
     casters += expected.depth[i] < 1e30f;
-    ASSERT_TRUE(found.depth[i] == expected.depth[i] ||
-      std::abs(found.depth[i] - expected.depth[i]) < 1e-6f)
+    ASSERT_TRUE(
+      found.depth[i] == expected.depth[i] || std::abs(found.depth[i] - expected.depth[i]) < 1e-6f)
       << i;
   }
   EXPECT_GT(casters, 1000u);

@@ -1,0 +1,105 @@
+// Shadow buffers that several processes trace together, each of its own part of the scene.
+#include "svoShadows.h"
+
+namespace svo
+{
+namespace
+{
+/// What processes must agree on; plain bytes without gaps.
+struct SharedSettings
+{
+  double pixelError;
+  std::int32_t resolution;
+  std::int32_t lights;
+  std::int32_t unknownReceivers;
+  std::int32_t canKeep; // the last frame's buffers are there
+};
+struct SharedLight
+{
+  double position[3], direction[3], coneAngle;
+  std::int32_t kind, casts;
+};
+static_assert(sizeof(SharedSettings) == 24 && sizeof(SharedLight) == 64, "no gaps");
+
+template <class T>
+void append(std::vector<unsigned char>& bytes, const std::vector<T>& values)
+{
+  const auto* begin = reinterpret_cast<const unsigned char*>(values.data());
+  bytes.insert(bytes.end(), begin, begin + values.size() * sizeof(T));
+}
+}
+
+bool Shadows::traceShared(const Scene& scene, const FrameSettings& own, LayerBudget& budget,
+  const ParallelFor& parallelFor, Processes& processes)
+{
+  std::vector<SharedSettings> settingsOfAll;
+  gatherRecords(processes,
+    std::vector<SharedSettings>{
+      { own.pixelError, own.shadowResolution, static_cast<std::int32_t>(scene.lights.size()),
+        own.wholeShadowBuffers, own.frameCoherence && !this->Shared.empty() } },
+    settingsOfAll);
+  std::vector<SharedLight> ownLights;
+  for (const Light& light : scene.lights)
+  {
+    const glm::dvec3 &p = light.position, &d = light.direction;
+    ownLights.push_back({ { p.x, p.y, p.z }, { d.x, d.y, d.z }, light.coneAngle,
+      static_cast<std::int32_t>(light.kind), light.castShadow });
+  }
+  std::vector<SharedLight> lightsOfAll;
+  gatherRecords(processes, ownLights, lightsOfAll);
+  Outlines outlines;
+  outlines.first = gatherRecords(processes, outlinesOf(scene), outlines.instances);
+
+  const SharedSettings& agreed = settingsOfAll.front();
+  bool keep = true;
+  for (const SharedSettings& settings : settingsOfAll)
+  {
+    if (settings.lights != agreed.lights)
+    {
+      return false;
+    }
+    outlines.unknownReceivers |= settings.unknownReceivers != 0;
+    keep = keep && settings.canKeep;
+  }
+  lightsOfAll.resize(agreed.lights);
+
+  std::vector<unsigned char> state;
+  append(state,
+    std::vector<double>{ agreed.pixelError, static_cast<double>(agreed.resolution),
+      static_cast<double>(outlines.unknownReceivers) });
+  append(state, lightsOfAll);
+  append(state, outlines.instances);
+  if (keep && state == this->Shared)
+  {
+    this->Of = &scene;
+    this->Traced = false;
+    return true;
+  }
+
+  FrameSettings settings = own;
+  settings.pixelError = agreed.pixelError;
+  settings.shadowResolution = agreed.resolution;
+  std::vector<Light> lights = scene.lights;
+  for (std::size_t i = 0; i < lights.size(); ++i)
+  {
+    const SharedLight& light = lightsOfAll[i];
+    lights[i].position = { light.position[0], light.position[1], light.position[2] };
+    lights[i].direction = { light.direction[0], light.direction[1], light.direction[2] };
+    lights[i].coneAngle = light.coneAngle;
+    lights[i].kind = static_cast<Light::Kind>(light.kind);
+    lights[i].castShadow = light.casts != 0;
+  }
+  this->All = true; // what the others' visible points look up is not known here
+  this->beginBuffers(scene, lights, outlines, settings, budget);
+  this->trace(parallelFor);
+  for (ShadowBuffer* buffer : this->Buffers)
+  {
+    if (buffer)
+    {
+      buffer->merge(processes, outlines.first);
+    }
+  }
+  this->Shared = std::move(state);
+  return true;
+}
+}
