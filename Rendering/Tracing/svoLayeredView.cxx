@@ -1,5 +1,7 @@
 #include "svoLayeredView.h"
 
+#include "svoPlaceOnTriangles.h"
+
 #include "svoIntersect.h"
 #include "svoLeafGeometry.h"
 #include "svoSelect.h"
@@ -268,6 +270,7 @@ void LayeredView::traceRays(
   if (!candidate.nodes.empty())
   {
     intersectTile(*entry.octree, candidate.pyramid, candidate.nodes, block, found);
+    placeOnTriangles(*entry.octree->surface(), entry.local, x, y, found);
   }
   else
   {
@@ -289,7 +292,8 @@ bool LayeredView::cutRays(
       const double cut = this->Bases[merged.instance[i]] + merged.t[i] - entry.local.base;
       if (entry.cuttable || cut < candidate.tNear)
       {
-        block.tMax[i] = std::min(block.tMax[i], roundUp(cut));
+        const double reach = candidate.nodes.empty() ? 0.0 : placingReach(entry.local);
+        block.tMax[i] = std::min(block.tMax[i], roundUp(cut + reach));
       }
     }
     alive = alive || block.tMax[i] >= candidate.tNear;
