@@ -43,6 +43,7 @@ bool prepare(const Octree& octree, const Ray& ray, LocalRay& local)
   local.start = local.ray.tMin;
   local.ray.origin = glm::clamp(ray.origin + local.start * local.ray.direction, 1.0, 1.0 + edge);
   local.ray.tMin = 0.0;
+  local.ray.tStart -= local.start;
   local.ray.tMax -= local.start;
   return true;
 }

@@ -84,6 +84,7 @@ HWY_INLINE Verdict meetOneByOne(const LeafQuery& query, const WalkTarget& target
     clipped.origin = { rays.originX[ray], rays.originY[ray], rays.originZ[ray] };
     clipped.direction = { direction[0][i], direction[1][i], direction[2][i] };
     clipped.tMin = tMin[i];
+    clipped.tStart = rays.tMin[ray];
     clipped.tMax = tClip[i];
     const glm::ivec3 at(position[0][i], position[1][i], position[2][i]);
     StopCell<float> cell = stopCell(query, target, at, node[i]);

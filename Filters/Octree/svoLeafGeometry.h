@@ -216,7 +216,8 @@ Visit meetPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const StopC
     glm::abs(ray.origin + t * ray.direction - cellCentre<Real>(cell.cell, query.bits));
   const Real reach = static_cast<Real>(3.0 * cellHalf(query.bits));
   const bool near = x.x <= reach && x.y <= reach && x.z <= reach; // false for NaN
-  if (near && t >= ray.tMin && t <= tMax)
+  // A plane may pass the cell on the outside of the octree's cube, where the ray has begun.
+  if (near && t >= ray.tStart && t <= tMax)
   {
     hit.t = t;
     hit.primitive = primitive;
@@ -224,7 +225,7 @@ Visit meetPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const StopC
     tMax = t;
     return Visit::Stop;
   }
-  const bool leftBehind = near && t < ray.tMin && cell.tEnter <= ray.tMin;
+  const bool leftBehind = near && t < ray.tStart && cell.tEnter <= ray.tMin;
   if (hit.refused == NoPrimitive && !leftBehind)
   {
     hit.refusedT = cell.tEnter;

@@ -41,6 +41,7 @@ struct ClippedRay
   Vector<Real> inverse; // 1 / direction, +infinity where it is zero
   Real tMin;
   Real tMax;
+  Real tStart; // where the ray itself starts: at tMin, or earlier, before it enters the cube
 };
 
 /// A cell where a ray stops, as bits [firstBit, firstBit + bitCount) of a node's mask: all 64 if
@@ -102,6 +103,7 @@ bool clip(const Octree& octree, const Vector<Real>& origin, const Vector<Real>& 
   const Real negligible =
     std::max(largest * std::numeric_limits<Real>::epsilon() / Real(256), smallest);
   clipped.origin = origin;
+  clipped.tStart = tMin;
   for (int a = 0; a < 3; ++a)
   {
     const bool zero = std::abs(direction[a]) < negligible;

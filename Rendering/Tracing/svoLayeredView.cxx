@@ -199,7 +199,9 @@ bool LayeredView::meets(int tileX, int tileY, TileEntry& candidate) const
   {
     const TileIntervals& all = entry.layer ? entry.layer->intervals : entry.intervals;
     const std::size_t i = all.index(tileX, tileY);
-    candidate.tNear = std::max(all.tNear[i], 0.0f);
+    // Planes may be met a cell before the cube, but not before the near plane.
+    candidate.tNear =
+      std::max(all.tNear[i], static_cast<float>(std::min(this->Of.tNear - entry.local.base, 0.0)));
     candidate.tFar = std::min(all.tFar[i], entry.local.tMax);
     return candidate.tNear <= candidate.tFar;
   }

@@ -159,8 +159,9 @@ inline void intersectStretched(const Octree& octree, const LocalView& local, con
     rays.directionX[k] = static_cast<float>(d.x);
     rays.directionY[k] = static_cast<float>(d.y);
     rays.directionZ[k] = static_cast<float>(d.z);
-    // What the float ray has of the cube is decided by its own clipping.
-    rays.tMin[k] = enter <= leave ? 0.0f : 1.0f;
+    // What the float ray has of the cube is decided by its own clipping; before it the ray begins
+    // where it began.
+    rays.tMin[k] = enter <= leave ? static_cast<float>(rays.tMin[k] - enter) : 1.0f;
     // A hit that is rounded down to tMax below has to be found, or cutting would change ties.
     const double end = std::nextafter(rays.tMax[k], std::numeric_limits<float>::infinity());
     rays.tMax[k] = enter <= leave ? roundUp(end - enter) : 0.0f;
