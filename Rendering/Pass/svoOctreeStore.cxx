@@ -8,19 +8,31 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <iterator>
 #include <vector>
+
+#include <glm/common.hpp>
 
 namespace svo
 {
 namespace
 {
-MeshOctreeOptions buildOptions(const StoreOptions& options)
+MeshBox finiteBox(vtkPolyData* mesh)
 {
-  MeshOctreeOptions result;
-  result.level = options.level;
-  result.leafGeometry = options.leafGeometry;
-  return result;
+  MeshBox box;
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    glm::dvec3 p;
+    mesh->GetPoint(i, &p.x);
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
+    {
+      box.low = box.known() ? glm::min(box.low, p) : p;
+      box.high = box.known() ? glm::max(box.high, p) : p;
+    }
+  }
+  return box;
 }
 
 /// Points and cells of its own, so that the original may change while a thread reads the copy.
@@ -56,6 +68,15 @@ OctreeStore::Job::~Job()
   }
 }
 
+OctreeStore::OctreeStore(Launcher launcher)
+  : Launch(std::move(launcher))
+{
+  if (!this->Launch)
+  {
+    this->Launch = [](std::function<void()> run) { return std::thread(std::move(run)); };
+  }
+}
+
 OctreeStore::~OctreeStore() = default;
 
 OctreeStore::Known& OctreeStore::knownOf(vtkPolyData* mesh, const StoreOptions& options)
@@ -75,64 +96,100 @@ OctreeStore::Known& OctreeStore::knownOf(vtkPolyData* mesh, const StoreOptions& 
     if (!known.attached)
     {
       known.signature = meshSignature(mesh);
+      known.box = finiteBox(mesh);
     }
   }
   return known;
 }
 
-OctreeStore::Answer OctreeStore::find(
-  vtkPolyData* mesh, const StoreOptions& options, Octree& octree)
+bool OctreeStore::attached(vtkPolyData* mesh, const StoreOptions& options, Octree& octree)
 {
-  const Known& known = this->knownOf(mesh, options);
-  if (known.attached)
+  octree = this->knownOf(mesh, options).attached;
+  return static_cast<bool>(octree);
+}
+
+MeshBox OctreeStore::box(vtkPolyData* mesh, const StoreOptions& options)
+{
+  return this->knownOf(mesh, options).box;
+}
+
+OctreeStore::Answer OctreeStore::find(
+  vtkPolyData* mesh, int level, const StoreOptions& options, Octree& octree)
+{
+  if (this->attached(mesh, options, octree))
   {
-    octree = known.attached;
     return Answer::Found;
   }
-  const Key key(known.signature, options.level, options.leafGeometry);
+  if (!options.convert)
+  {
+    return Answer::None;
+  }
+  const Key key(this->knownOf(mesh, options).signature, level, options.leafGeometry);
   const auto job = this->Jobs.find(key);
   if (job != this->Jobs.end() && (job->second->done || options.wait))
   {
-    this->keepResult(key, *job->second);
-    this->Jobs.erase(job);
+    this->waitFor(key, options);
+  }
+  if (options.wait && this->Octrees.count(key) == 0)
+  {
+    this->build(mesh, key, options);
   }
   const auto found = this->Octrees.find(key);
   if (found != this->Octrees.end())
   {
-    Built& built = found->second;
-    built.lastFrame = this->Frame;
-    if (!built.message.empty())
-    {
-      options.complain(built.message);
-      built.message.clear();
-    }
-    octree = built.octree;
-    return octree ? Answer::Found : Answer::None;
+    return this->answer(key, found->second, options, octree);
   }
-  return options.convert ? this->build(mesh, key, options, octree) : Answer::None;
+  Built* other = this->substitute(key);
+  if (!other || other->octree.level() < level)
+  {
+    this->buildInBackground(mesh, key);
+  }
+  return other ? this->answer(key, *other, options, octree) : Answer::Building;
 }
 
-OctreeStore::Answer OctreeStore::build(
-  vtkPolyData* mesh, const Key& key, const StoreOptions& options, Octree& octree)
+OctreeStore::Answer OctreeStore::answer(
+  const Key& key, Built& built, const StoreOptions& options, Octree& octree)
 {
-  if (!options.wait)
+  built.lastFrame = this->Frame;
+  if (!built.message.empty())
   {
-    std::unique_ptr<Job>& job = this->Jobs[key];
-    if (!job)
+    // The same of each level is said once.
+    if (this->Said.emplace(std::get<0>(key), built.message).second)
     {
-      job = std::make_unique<Job>();
-      MeshOctreeOptions build = buildOptions(options);
-      build.progress = [running = job.get()](double) { return !running->abandon.load(); };
-      job->thread = std::thread(
-        [running = job.get(), copy = privateCopy(mesh), build]()
-        {
-          buildMeshOctree(copy, build, running->octree, running->message);
-          running->done = true;
-        });
+      options.complain(built.message);
     }
-    return Answer::Building;
+    built.message.clear();
   }
-  MeshOctreeOptions build = buildOptions(options);
+  octree = built.octree;
+  return octree ? Answer::Found : Answer::None;
+}
+
+/// The octree to go on with while the right one is built; null if there is none.
+OctreeStore::Built* OctreeStore::substitute(const Key& key)
+{
+  const auto [signature, level, leafGeometry] = key;
+  Built* best = nullptr;
+  for (auto i = this->Octrees.lower_bound(Key(signature, 0, LeafGeometry::Voxel));
+       i != this->Octrees.end() && std::get<0>(i->first) == signature; ++i)
+  {
+    // By level, coarse ones first.
+    if (std::get<2>(i->first) == leafGeometry && i->second.octree)
+    {
+      best = &i->second;
+      if (best->octree.level() > level)
+      {
+        break;
+      }
+    }
+  }
+  return best;
+}
+
+void OctreeStore::build(vtkPolyData* mesh, const Key& key, const StoreOptions& options)
+{
+  MeshOctreeOptions build;
+  build.level = std::get<1>(key);
+  build.leafGeometry = std::get<2>(key);
   build.progress = [&options](double amount)
   {
     if (options.progress)
@@ -141,27 +198,91 @@ OctreeStore::Answer OctreeStore::build(
     }
     return true;
   };
-  std::string message;
-  buildMeshOctree(mesh, build, octree, message);
-  if (!message.empty())
+  Built& built = this->Octrees[key];
+  buildMeshOctree(mesh, build, built.octree, built.message);
+  this->BuiltSoFar += built.octree ? 1 : 0;
+}
+
+void OctreeStore::buildInBackground(vtkPolyData* mesh, const Key& key)
+{
+  if (this->Jobs.size() >= MostJobs || this->Jobs.count(key))
   {
-    options.complain(message);
+    return;
   }
-  this->Octrees[key] = { octree, this->Frame, std::string() };
-  return octree ? Answer::Found : Answer::None;
+  auto job = std::make_unique<Job>();
+  MeshOctreeOptions build;
+  build.level = std::get<1>(key);
+  build.leafGeometry = std::get<2>(key);
+  build.progress = [running = job.get()](double amount)
+  {
+    running->progress = amount;
+    return !running->abandon.load();
+  };
+  job->thread = this->Launch(
+    [running = job.get(), copy = privateCopy(mesh), build]()
+    {
+      buildMeshOctree(copy, build, running->octree, running->message);
+      running->done = true;
+    });
+  this->Jobs[key] = std::move(job);
+}
+
+void OctreeStore::waitFor(const Key& key, const StoreOptions& options)
+{
+  const auto job = this->Jobs.find(key);
+  while (options.progress && !job->second->done)
+  {
+    options.progress(job->second->progress);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  this->keepResult(key, *job->second);
+  this->Jobs.erase(job);
 }
 
 void OctreeStore::keepResult(const Key& key, Job& job)
 {
   job.thread.join();
-  this->Octrees[key] = { job.octree, this->Frame, job.message };
+  if (!job.abandon)
+  {
+    this->Octrees[key] = { job.octree, this->Frame, job.message };
+    this->BuiltSoFar += job.octree ? 1 : 0;
+  }
+}
+
+/// Unless another mesh is the same.
+void OctreeStore::abandonBuildsOf(std::uint64_t signature)
+{
+  for (const auto& mesh : this->Meshes)
+  {
+    if (!mesh.second.attached && mesh.second.signature == signature)
+    {
+      return;
+    }
+  }
+  for (auto& job : this->Jobs)
+  {
+    if (std::get<0>(job.first) == signature)
+    {
+      job.second->abandon = true;
+    }
+  }
 }
 
 void OctreeStore::endFrame(std::size_t memoryLimit)
 {
   for (auto mesh = this->Meshes.begin(); mesh != this->Meshes.end();)
   {
-    mesh = mesh->second.mesh ? std::next(mesh) : this->Meshes.erase(mesh);
+    if (mesh->second.mesh)
+    {
+      ++mesh;
+      continue;
+    }
+    const Known gone = mesh->second;
+    mesh = this->Meshes.erase(mesh);
+    if (!gone.attached)
+    {
+      this->abandonBuildsOf(gone.signature);
+    }
   }
   // Those whose mesh nobody asks for any more would otherwise stay for ever.
   for (auto job = this->Jobs.begin(); job != this->Jobs.end();)
@@ -207,8 +328,9 @@ std::size_t OctreeStore::bytes() const
   return sum;
 }
 
-bool OctreeStore::building() const
+int OctreeStore::building() const
 {
-  return !this->Jobs.empty();
+  return static_cast<int>(std::count_if(this->Jobs.begin(), this->Jobs.end(),
+    [](const auto& job) { return !job.second->abandon.load(); }));
 }
 }

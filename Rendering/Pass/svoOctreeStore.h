@@ -3,6 +3,7 @@
 #define svoOctreeStore_h
 
 #include "svoOctree.h"
+#include "svoScene.h"
 
 #include "vtkWeakPointer.h"
 
@@ -12,9 +13,11 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <thread>
 #include <tuple>
+#include <utility>
 
 class vtkPolyData;
 
@@ -23,7 +26,7 @@ namespace svo
 struct StoreOptions
 {
   bool convert = true; // build where a mesh brings no octree
-  int level = 10;      // of octrees built here
+  int level = 10;      // of the deepest octrees built here
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
   bool wait = true;                                 // false: build in the background
   std::function<void(double)> progress;             // 0..1 of the build that is waited for
@@ -31,7 +34,12 @@ struct StoreOptions
 };
 
 /// Octrees are kept by the signature of their mesh: an animated mesh that returns to a pose finds
-/// that pose's octree, and a mesh shared by many actors has one.
+/// that pose's octree, and a mesh shared by many actors has one. A mesh may have octrees of several
+/// levels: which one a frame needs is its own affair (svoNeededLevels.h).
+///
+/// All functions are called by one thread. Background builds have private copies of their meshes,
+/// and what they build is put in place by find() and endFrame() alone: a mesh may change or go
+/// while its octree is built, and the store may go.
 class OctreeStore
 {
 public:
@@ -42,9 +50,23 @@ public:
     None      // not wanted, or not possible (said once)
   };
 
+  /// Starts background builds: gives the thread that runs the function it is given.
+  using Launcher = std::function<std::thread(std::function<void()>)>;
+
+  explicit OctreeStore(Launcher launcher = {});
   ~OctreeStore();
 
-  Answer find(vtkPolyData* mesh, const StoreOptions& options, Octree& octree);
+  /// True if the mesh brings an octree; it is all there will be for that mesh.
+  bool attached(vtkPolyData* mesh, const StoreOptions& options, Octree& octree);
+
+  /// The box of the mesh's finite points; for a mesh that brings no octree.
+  MeshBox box(vtkPolyData* mesh, const StoreOptions& options);
+
+  /// The octree of exactly this level, or the one that the mesh brings. With options.wait it is
+  /// built where there is none. Else it is built in the background, and meanwhile another one is
+  /// found if there is one: the coarsest that is deeper, or the deepest. If that one is deeper
+  /// nothing is built.
+  Answer find(vtkPolyData* mesh, int level, const StoreOptions& options, Octree& octree);
 
   /// Between frames: frees octrees of meshes that are gone and, least recently used first, those
   /// that the last frame did not use until the rest fits into `memoryLimit` bytes.
@@ -53,10 +75,16 @@ public:
   /// Bytes of the octrees that were built here.
   std::size_t bytes() const;
 
-  /// True while a background build runs.
-  bool building() const;
+  /// Background builds whose result no frame has had yet.
+  int building() const;
+
+  /// Octrees built here so far, kept or not.
+  int built() const { return this->BuiltSoFar; }
 
 private:
+  /// Background builds at a time; each of them uses all processors where it can.
+  static constexpr std::size_t MostJobs = 4;
+
   using Key = std::tuple<std::uint64_t, int, LeafGeometry>; // signature, level, leaf geometry
   struct Built
   {
@@ -70,6 +98,7 @@ private:
     std::thread thread;
     std::atomic<bool> done{ false };
     std::atomic<bool> abandon{ false };
+    std::atomic<double> progress{ 0.0 };
     Octree octree;
     std::string message;
     ~Job();
@@ -81,12 +110,21 @@ private:
     std::uint64_t time = 0; // MTime
     Octree attached;        // empty: it brings none
     std::uint64_t signature = 0;
+    MeshBox box;
   };
 
   Known& knownOf(vtkPolyData* mesh, const StoreOptions& options);
-  Answer build(vtkPolyData* mesh, const Key& key, const StoreOptions& options, Octree& octree);
+  void build(vtkPolyData* mesh, const Key& key, const StoreOptions& options);
+  void buildInBackground(vtkPolyData* mesh, const Key& key);
+  void waitFor(const Key& key, const StoreOptions& options);
   void keepResult(const Key& key, Job& job);
+  Built* substitute(const Key& key);
+  void abandonBuildsOf(std::uint64_t signature);
+  Answer answer(const Key& key, Built& built, const StoreOptions& options, Octree& octree);
 
+  Launcher Launch;
+  int BuiltSoFar = 0;
+  std::set<std::pair<std::uint64_t, std::string>> Said; // of a signature
   std::map<vtkPolyData*, Known> Meshes;
   std::map<Key, Built> Octrees;
   std::map<Key, std::unique_ptr<Job>> Jobs;

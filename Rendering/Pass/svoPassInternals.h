@@ -44,6 +44,8 @@ struct vtkSVORenderPass::Internals
   bool saidHeadlight = false;
   bool saidOpenGL = false;
 
+  static svo::FrameSettings settingsOf(const vtkSVORenderPass& pass);
+
   svo::PassRenderer& of(vtkRenderer* renderer)
   {
     for (auto entry = this->renderers.begin(); entry != this->renderers.end();)

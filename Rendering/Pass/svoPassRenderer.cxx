@@ -2,6 +2,7 @@
 
 #include "svoCameraView.h"
 #include "svoControllerProcesses.h"
+#include "svoLayeredView.h"
 #include "svoMeshOctree.h"
 #include "svoSelect.h"
 #include "svoSilhouettes.h"
@@ -65,6 +66,25 @@ void PassRenderer::shareShadows(vtkMultiProcessController* controller, FrameSett
     this->Trace.shareShadows(this->Collected.scene, settings, smpParallelFor(), processes);
 }
 
+double PassRenderer::coarseOctreeError(double distance) const
+{
+  double largest = 0.0;
+  for (const Instance& instance : this->Collected.scene.instances)
+  {
+    if (!instance.visible || instance.octree.level() >= instance.neededLevel)
+    {
+      continue;
+    }
+    const LocalView local = makeLocalView(instance.octree, instance.localToWorld, this->Eye);
+    if (!local.rect.empty() && !worthTiles(instance, local, this->Eye))
+    {
+      largest =
+        std::max(largest, distance * worldVoxel(instance) / worldPixel(this->Eye, local.base));
+    }
+  }
+  return largest;
+}
+
 void PassRenderer::trace(int width, int height, double distance, FrameSettings settings)
 {
   width = static_cast<int>(std::ceil(width / distance));
@@ -86,6 +106,7 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   settings.writeNormals = this->Renderer->GetUseSSAO();
   this->Trace.render(scene, view, settings, smpParallelFor(), this->Picture);
   this->Statistics.tracer = this->Trace.statistics();
+  this->Statistics.coarseOctreeError = this->coarseOctreeError(distance);
   this->Receivers.update(window, this->Trace.shadowMaps(), view, settings,
     this->Statistics.tracer.retracedLayers > 0 || this->Statistics.tracer.mergedShadows);
 }

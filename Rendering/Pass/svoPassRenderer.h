@@ -36,6 +36,8 @@ struct PassStatistics
   int rasterizedActors = 0;
   int instances = 0;
   double sampleDistance = 1.0; // pixels
+  /// Largest voxel of the octrees that are shown while they are deepened; pixels of the window.
+  double coarseOctreeError = 0.0;
 };
 
 /// Entries of a render state's prop array, exchanged and put back. The array is the renderer's own,
@@ -104,6 +106,8 @@ public:
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
+  double coarseOctreeError(double distance) const;
+
   vtkWeakPointer<vtkRenderer> Renderer;
   SceneCollector Collector;
   CollectedScene Collected;

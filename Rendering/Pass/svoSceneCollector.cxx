@@ -34,19 +34,10 @@ namespace svo
 /// What one frame's collection hands around.
 struct SceneCollector::Frame
 {
-  OctreeStore& store;
   const StoreOptions& options;
   CollectSettings settings;
   CollectedScene& result;
-};
-
-/// An instance in the making.
-struct SceneCollector::Surface
-{
-  Instance instance;
-  vtkPolyData* mesh = nullptr;
-  bool traceable = false;
-  bool casts = false;
+  std::vector<PropSurfaces> props;
 };
 
 namespace
@@ -227,7 +218,7 @@ std::vector<SurfacePart> SceneCollector::partsOf(vtkActor* actor)
 
 /// Adds the actor's surfaces. False if the rasteriser has to draw the actor.
 bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatrix4x4* matrix,
-  int path, std::vector<Surface>& surfaces, Frame& frame)
+  int path, std::vector<SceneSurface>& surfaces, Frame& frame)
 {
   if (!isPlainActor(actor) && !isMarked(actor, owner))
   {
@@ -284,7 +275,7 @@ bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatr
       traced = traced && part.mesh->GetNumberOfCells() == 0;
       continue;
     }
-    Surface surface;
+    SceneSurface surface;
     surface.mesh = part.mesh;
     Instance& instance = surface.instance;
     surface.traceable = mayTrace &&
@@ -292,22 +283,13 @@ bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatr
         instance.attributes, this->Floats, frame.result.kept);
     surface.casts = flagOf(actor, owner, vtkSVORenderPass::CAST_SHADOW(),
       part.opacity >= 1.0 && (composite || !translucent));
-    if (surface.traceable || (surface.casts && frame.settings.shadows))
-    {
-      if (frame.store.find(part.mesh, frame.options, instance.octree) != OctreeStore::Answer::Found)
-      {
-        surface.traceable = false;
-        surface.casts = false;
-      }
-    }
+    surface.casts = surface.casts && frame.settings.shadows;
     traced = traced && surface.traceable;
-    if (!instance.octree)
+    if (!surface.traceable && !surface.casts)
     {
       continue;
     }
     instance.localToWorld = localToWorld;
-    instance.leafGeometry = static_cast<LeafGeometry>(instance.octree.header().leafGeometry);
-    instance.castShadow = surface.casts;
     instance.pixelError = pixelErrorOf(actor, owner);
     instance.receiveShadow = flagOf(actor, owner, vtkSVORenderPass::RECEIVE_SHADOW(), true);
     instance.id =
@@ -320,17 +302,16 @@ bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatr
 
 void SceneCollector::collectProp(vtkProp* prop, Frame& frame)
 {
-  std::vector<Surface> surfaces;
-  int actors = 0;
-  bool traced = true;
-  bool receivers = false;
+  PropSurfaces found;
+  found.prop = prop;
   const auto collect = [&](vtkActor* actor, const vtkMatrix4x4* matrix)
   {
-    traced = this->collectActor(actor, prop, matrix, actors, surfaces, frame) && traced;
-    receivers = receivers ||
+    found.traced =
+      this->collectActor(actor, prop, matrix, found.actors, found.surfaces, frame) && found.traced;
+    found.receives = found.receives ||
       (actor->GetMapper() && actor->GetProperty()->GetLighting() &&
         flagOf(actor, prop, vtkSVORenderPass::RECEIVE_SHADOW(), true));
-    ++actors;
+    ++found.actors;
   };
 
   if (auto* actor = vtkActor::SafeDownCast(prop))
@@ -353,7 +334,7 @@ void SceneCollector::collectProp(vtkProp* prop, Frame& frame)
       }
       else if (leaf != prop)
       {
-        traced = false;
+        found.traced = false;
       }
     }
   }
@@ -362,26 +343,34 @@ void SceneCollector::collectProp(vtkProp* prop, Frame& frame)
     return;
   }
 
-  CollectedScene& result = frame.result;
-  if (traced)
+  frame.props.push_back(std::move(found));
+}
+
+namespace
+{
+/// Adds a prop, whose surfaces have their octrees, to the scene.
+void addProp(const PropSurfaces& prop, CollectedScene& result)
+{
+  if (prop.traced)
   {
-    result.replaced.insert(prop);
-    result.tracedActors += surfaces.empty() ? 0 : actors;
+    result.replaced.insert(prop.prop);
+    result.tracedActors += prop.surfaces.empty() ? 0 : prop.actors;
   }
   else
   {
-    result.rasterizedActors += actors;
-    result.rasterizedReceivers = result.rasterizedReceivers || receivers;
+    result.rasterizedActors += prop.actors;
+    result.rasterizedReceivers = result.rasterizedReceivers || prop.receives;
   }
-  for (Surface& surface : surfaces)
+  for (const SceneSurface& surface : prop.surfaces)
   {
-    surface.instance.visible = traced;
-    if (traced || (surface.casts && frame.settings.shadows))
+    if (surface.instance.octree && (prop.traced || surface.casts))
     {
       result.scene.instances.push_back(surface.instance);
+      result.scene.instances.back().visible = prop.traced;
       result.meshes.push_back(surface.mesh);
     }
   }
+}
 }
 
 void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options,
@@ -394,7 +383,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   {
     casting = casting || light.castShadow;
   }
-  Frame frame{ store, options, settings, result };
+  Frame frame{ options, settings, result, {} };
   frame.settings.shadows = settings.shadows && casting;
   vtkCollectionSimpleIterator iterator;
   vtkPropCollection* props = renderer->GetViewProps();
@@ -405,6 +394,11 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
     {
       this->collectProp(prop, frame);
     }
+  }
+  findOctrees(frame.props, result.scene.lights, settings.levels, store, options);
+  for (const PropSurfaces& prop : frame.props)
+  {
+    addProp(prop, result);
   }
   this->Surfaces.endFrame();
   this->Floats.endFrame();

@@ -6,6 +6,7 @@
 #include "svoFloatArrays.h"
 #include "svoOctreeStore.h"
 #include "svoScene.h"
+#include "svoSceneOctrees.h"
 #include "svoSurfaceLook.h"
 
 #include "vtkSmartPointer.h"
@@ -34,6 +35,7 @@ struct CollectSettings
   /// Only props that say explicitly that they use octrees (vtkSVORenderPass::SetUseSVO) are traced
   /// or cast; the others only receive.
   bool onlyMarked = false;
+  LevelSettings levels;
 };
 
 /// A frame's scene and what it means for the renderer's props.
@@ -61,11 +63,10 @@ public:
     const CollectSettings& settings, CollectedScene& result);
 
 private:
-  struct Surface;
   struct Frame;
   void collectProp(vtkProp* prop, Frame& frame);
   bool collectActor(vtkActor* actor, vtkProp* owner, const vtkMatrix4x4* matrix, int path,
-    std::vector<Surface>& surfaces, Frame& frame);
+    std::vector<SceneSurface>& surfaces, Frame& frame);
   std::vector<SurfacePart> partsOf(vtkActor* actor);
   vtkMapper* colorsOfBlock(vtkMapper* mapper, vtkPolyData* block);
   void complainOnce(const void* about, const std::string& text, const Frame& frame);

@@ -96,8 +96,23 @@ bool hasCameraLight(vtkRenderer* renderer)
 }
 }
 
+svo::FrameSettings vtkSVORenderPass::Internals::settingsOf(const vtkSVORenderPass& pass)
+{
+  svo::FrameSettings settings;
+  settings.shadowTechnique = static_cast<svo::ShadowTechnique>(pass.ShadowTechnique);
+  settings.shadowResolution = pass.ShadowBufferResolution;
+  settings.automaticBias = pass.AutomaticShadowBias;
+  settings.bias = pass.ShadowBias;
+  settings.shadowIntensity = pass.ShadowIntensity;
+  settings.pixelError = pass.PixelError;
+  settings.frameCoherence = pass.FrameCoherence;
+  settings.layerMemoryLimit = static_cast<std::size_t>(pass.LayerMemoryLimit) * BytesOfKiB;
+  settings.antiAliasing = pass.AntiAliasing;
+  return settings;
+}
+
 /// Fills the pass's current frame with the renderer's scene.
-void vtkSVORenderPass::CollectFrame(vtkRenderer* renderer, bool attached)
+void vtkSVORenderPass::CollectFrame(vtkRenderer* renderer, int width, int height, bool attached)
 {
   svo::StoreOptions store;
   store.convert = this->ConvertPolyData;
@@ -107,10 +122,15 @@ void vtkSVORenderPass::CollectFrame(vtkRenderer* renderer, bool attached)
   store.progress = [this](double amount) { this->InvokeEvent(vtkCommand::ProgressEvent, &amount); };
   store.complain = [this](const std::string& text) { vtkWarningMacro(<< text); };
 
+  svo::CollectSettings collect;
+  collect.shadows = this->ShadowTechnique != SHADOW_NONE;
+  collect.onlyMarked = attached;
+  collect.levels.frame = Internals::settingsOf(*this);
+  svo::viewOfCamera(renderer, width, height, collect.levels.eye);
+
   Internals& impl = *this->Impl;
   impl.current = &impl.of(renderer);
-  impl.current->collect(
-    impl.store, store, { this->ShadowTechnique != SHADOW_NONE, /*onlyMarked=*/attached });
+  impl.current->collect(impl.store, store, collect);
   const svo::CollectedScene& collected = impl.current->collected();
   impl.castingLights = describeLights(collected.scene.lights);
   if (collected.headlightOnly && !impl.saidHeadlight && this->ShadowTechnique != SHADOW_NONE &&
@@ -128,17 +148,7 @@ void vtkSVORenderPass::DecideSettings()
 {
   Internals& impl = *this->Impl;
   svo::FrameSettings& settings = impl.settings;
-  settings = svo::FrameSettings();
-  settings.shadowTechnique = static_cast<svo::ShadowTechnique>(this->ShadowTechnique);
-  settings.shadowResolution = this->ShadowBufferResolution;
-  settings.automaticBias = this->AutomaticShadowBias;
-  settings.bias = this->ShadowBias;
-  settings.shadowIntensity = this->ShadowIntensity;
-  settings.pixelError = this->PixelError;
-  settings.frameCoherence = this->FrameCoherence;
-  settings.layerMemoryLimit = static_cast<std::size_t>(this->LayerMemoryLimit) * BytesOfKiB;
-  settings.antiAliasing = this->AntiAliasing;
-
+  settings = Internals::settingsOf(*this);
   vtkRenderer* renderer = impl.current->renderer();
   impl.sampleDistance = 1.0;
   if (this->AutoAdjustSampleDistances && isInteractive(renderer))
@@ -206,7 +216,7 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
 
   int width, height;
   svo::sizeOf(state, width, height);
-  this->CollectFrame(renderer, false);
+  this->CollectFrame(renderer, width, height, false);
   this->TraceFrame(width, height);
   svo::PassRenderer& frame = *this->Impl->current;
   {
@@ -338,7 +348,19 @@ double vtkSVORenderPass::GetAcceptedPixelError() const
 {
   // A pixel of the traced picture is `distance` pixels of the window.
   const double distance = this->GetImageSampleDistance();
-  return distance > 1.0 ? distance * std::max(this->PixelError, 1.0) : this->PixelError;
+  const double ofRays =
+    distance > 1.0 ? distance * std::max(this->PixelError, 1.0) : this->PixelError;
+  return std::max(ofRays, this->Impl->statistics.coarseOctreeError);
+}
+
+int vtkSVORenderPass::GetNumberOfOctreesBuilt() const
+{
+  return this->Impl->store.built();
+}
+
+int vtkSVORenderPass::GetNumberOfOctreesInProgress() const
+{
+  return this->Impl->store.building();
 }
 
 vtkIdType vtkSVORenderPass::GetLayerMemorySize() const
@@ -387,6 +409,8 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "NumberOfTracedActors: " << this->GetNumberOfTracedActors() << '\n'
      << indent << "NumberOfRasterizedActors: " << this->GetNumberOfRasterizedActors() << '\n'
      << indent << "NumberOfInstances: " << this->GetNumberOfInstances() << '\n'
+     << indent << "NumberOfOctreesBuilt: " << this->GetNumberOfOctreesBuilt() << '\n'
+     << indent << "NumberOfOctreesInProgress: " << this->GetNumberOfOctreesInProgress() << '\n'
      << indent << "LayerMemorySize: " << this->GetLayerMemorySize() << " KiB\n"
      << indent << "OctreeMemorySize: " << this->GetOctreeMemorySize() << " KiB\n";
 }

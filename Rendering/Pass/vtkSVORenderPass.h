@@ -167,8 +167,11 @@ public:
 
   //@{
   /**
-   * Level of the octrees that the pass builds: 2^level voxels along an edge of the mesh's cube,
-   * 1..20; default 10.
+   * Level of the deepest octrees that the pass builds: 2^level voxels along an edge of the mesh's
+   * cube, 1..20; default 10. They are built no deeper than PixelError asks for, by the pixels of
+   * the picture and by the texels of the shadow buffers, and are deepened when the camera comes
+   * closer: see BuildInBackground. With a PixelError of 0, and for exact shadow rays, all are of
+   * this level.
    */
   vtkSetClampMacro(MaximumLevel, int, 1, 20);
   vtkGetMacro(MaximumLevel, int);
@@ -200,8 +203,10 @@ public:
   //@{
   /**
    * While the user interacts (the render window's desired update rate is 1 Hz or more), build
-   * octrees in the background and rasterise their surfaces until they are there. A still render
-   * waits for them, and invokes ProgressEvent meanwhile. Default on.
+   * octrees in the background. Until they are there surfaces are traced through octrees of another
+   * level if there are any, and rasterised if there are none. A still render waits for them, and
+   * invokes ProgressEvent meanwhile: its picture depends neither on time nor on what was shown
+   * before. Default on.
    */
   vtkSetMacro(BuildInBackground, bool);
   vtkGetMacro(BuildInBackground, bool);
@@ -259,7 +264,8 @@ public:
 
   /**
    * The pixel error that the last frame accepted, in pixels of the window: PixelError, or where
-   * rays were more than a pixel apart to save time, at least the distance from ray to ray.
+   * rays were more than a pixel apart to save time, at least the distance from ray to ray, and at
+   * least the voxels of octrees that were shown while deeper ones were built.
    */
   double GetAcceptedPixelError() const;
 
@@ -358,6 +364,16 @@ public:
 
   //@{
   /**
+   * Octrees that the pass has built so far (a mesh that is seen from far and from near has several),
+   * and those that are built in the background at this moment: as long as there are any, another
+   * render will show more than the last one.
+   */
+  int GetNumberOfOctreesBuilt() const;
+  int GetNumberOfOctreesInProgress() const;
+  //@}
+
+  //@{
+  /**
    * Memory in KiB: kept layers, and the octrees that the pass built itself.
    */
   vtkIdType GetLayerMemorySize() const;
@@ -444,7 +460,7 @@ private:
 
   void BeginAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
   void EndAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
-  void CollectFrame(vtkRenderer* renderer, bool attached);
+  void CollectFrame(vtkRenderer* renderer, int width, int height, bool attached);
   void DecideSettings();
   void TraceFrame(int width, int height);
   void FinishFrame();

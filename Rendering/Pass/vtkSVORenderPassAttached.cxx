@@ -100,7 +100,9 @@ void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void
   }
   // The lights' places are those of this frame's camera.
   this->UpdateLightGeometry(renderer);
-  this->CollectFrame(renderer, true);
+  int width, height, left, bottom;
+  renderer->GetTiledSizeAndOrigin(&width, &height, &left, &bottom);
+  this->CollectFrame(renderer, width, height, true);
   vtkMultiProcessController* controller = this->Impl->controller;
   if (controller && controller->GetNumberOfProcesses() > 1)
   {

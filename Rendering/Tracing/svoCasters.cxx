@@ -39,7 +39,7 @@ bool isOnlyBackdrop(
     for (const glm::dvec3& corner : worldCorners(receiver, 0.0))
     {
       const double local = height(corner) - plane;
-      if (!(side * local >= -0.5 * caster.voxelSize))
+      if (!(side * local >= -0.5 * caster.smallestVoxel))
       {
         return false;
       }

@@ -56,22 +56,29 @@ inline float roundUp(double x)
   return f < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
 }
 
-inline LocalView makeLocalView(
-  const Octree& octree, const glm::dmat4& localToWorld, const View& view)
+/// A cube of a local frame as a view sees it.
+struct SeenCube
 {
-  LocalView local;
-  const Header& h = octree.header();
-  const double edge = h.voxelSize * static_cast<double>(1u << h.level);
+  double nearest = 0.0; // linear depth of the nearest corner, or of the near plane
+  double farthest = 0.0;
+  PixelRect rect; // empty if it cannot be seen
+};
+
+/// `low`, `edge`: the cube's lower corner and the length of its edges, local.
+inline SeenCube seeCube(
+  const glm::dvec3& low, double edge, const glm::dmat4& localToWorld, const View& view)
+{
+  SeenCube seen;
   double nearest = std::numeric_limits<double>::infinity();
   double farthest = -nearest;
-  glm::dvec2 low(std::numeric_limits<double>::infinity());
-  glm::dvec2 high = -low;
+  glm::dvec2 lowest(std::numeric_limits<double>::infinity());
+  glm::dvec2 highest = -lowest;
   bool behind = false;
   const glm::dmat4 toView = view.worldToView * localToWorld;
   for (int i = 0; i < 8; ++i)
   {
-    const glm::dvec4 corner(h.origin[0] + (i & 1) * edge, h.origin[1] + (i >> 1 & 1) * edge,
-      h.origin[2] + (i >> 2) * edge, 1.0);
+    const glm::dvec4 corner(
+      low[0] + (i & 1) * edge, low[1] + (i >> 1 & 1) * edge, low[2] + (i >> 2) * edge, 1.0);
     const glm::dvec4 v = toView * corner;
     nearest = std::min(nearest, -v.z);
     farthest = std::max(farthest, -v.z);
@@ -79,34 +86,50 @@ inline LocalView makeLocalView(
     behind = behind || !(clip.w > 1e-9 * std::abs(clip.x) && clip.w > 1e-9 * std::abs(clip.y));
     const glm::dvec2 pixel(
       (clip.x / clip.w + 1.0) * 0.5 * view.width, (clip.y / clip.w + 1.0) * 0.5 * view.height);
-    low = glm::min(low, pixel);
-    high = glm::max(high, pixel);
+    lowest = glm::min(lowest, pixel);
+    highest = glm::max(highest, pixel);
   }
   if (!(farthest >= view.tNear && nearest <= view.tFar))
   {
-    return local;
+    return seen;
   }
   const double slack = 1e-5 * (farthest - nearest);
-  local.base = std::max(nearest - slack, view.tNear);
-  local.tMax = roundUp(std::min(farthest + slack, view.tFar) - local.base);
+  seen.nearest = std::max(nearest - slack, view.tNear);
+  seen.farthest = std::min(farthest + slack, view.tFar);
   if (behind)
   {
-    local.rect = { 0, 0, view.width, view.height };
+    seen.rect = { 0, 0, view.width, view.height };
   }
   else
   {
     // A pixel of margin for the rounding of floats.
     const auto clamp = [](double v, int most)
     { return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(most))); };
-    local.rect = { clamp(std::floor(low.x - 1.0), view.width),
-      clamp(std::floor(low.y - 1.0), view.height), clamp(std::ceil(high.x + 1.0), view.width),
-      clamp(std::ceil(high.y + 1.0), view.height) };
+    seen.rect = { clamp(std::floor(lowest.x - 1.0), view.width),
+      clamp(std::floor(lowest.y - 1.0), view.height), clamp(std::ceil(highest.x + 1.0), view.width),
+      clamp(std::ceil(highest.y + 1.0), view.height) };
   }
+  if (seen.rect.empty())
+  {
+    seen.rect = PixelRect();
+  }
+  return seen;
+}
+
+inline LocalView makeLocalView(
+  const Octree& octree, const glm::dmat4& localToWorld, const View& view)
+{
+  LocalView local;
+  const Header& h = octree.header();
+  const SeenCube seen = seeCube({ h.origin[0], h.origin[1], h.origin[2] },
+    h.voxelSize * static_cast<double>(1u << h.level), localToWorld, view);
+  local.rect = seen.rect;
   if (local.rect.empty())
   {
-    local.rect = PixelRect();
     return local;
   }
+  local.base = seen.nearest;
+  local.tMax = roundUp(seen.farthest - local.base);
   local.rect = { local.rect.x0 & ~7, local.rect.y0 & ~7, (local.rect.x1 + 7) & ~7,
     (local.rect.y1 + 7) & ~7 };
   const WorldToOctree toOctree(octree, localToWorld);

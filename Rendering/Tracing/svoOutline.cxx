@@ -2,6 +2,8 @@
 
 #include "svoWorldToOctree.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include <glm/common.hpp>
@@ -14,8 +16,22 @@ Outline outlineOf(const Instance& instance)
   std::memcpy(outline.localToWorld, &instance.localToWorld[0][0], sizeof(outline.localToWorld));
   outline.pixelError = instance.pixelError;
   outline.leafGeometry = static_cast<std::int32_t>(instance.leafGeometry);
+  const bool placed = placesSomething(instance.localToWorld);
   if (!instance.octree)
   {
+    const MeshBox& box = instance.box;
+    if (box.known())
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        outline.cubeLow[i] = outline.meshLow[i] = box.low[i];
+        outline.cubeHigh[i] = outline.meshHigh[i] = box.high[i];
+        outline.smallestVoxel = std::max(
+          outline.smallestVoxel, std::ldexp(box.high[i] - box.low[i], -instance.deepestLevel));
+      }
+      outline.casts = instance.castShadow && placed;
+      outline.receives = instance.visible && instance.receiveShadow && placed;
+    }
     return outline;
   }
   const Header& h = instance.octree.header();
@@ -27,9 +43,10 @@ Outline outlineOf(const Instance& instance)
     outline.meshHigh[i] = h.pointCount > 0 ? h.meshBounds[2 * i + 1] : -1.0;
   }
   outline.voxelSize = h.voxelSize;
+  outline.smallestVoxel =
+    std::ldexp(h.voxelSize, std::min(static_cast<int>(h.level) - instance.deepestLevel, 0));
   outline.signature = h.signature;
   outline.level = static_cast<std::int32_t>(h.level);
-  const bool placed = placesSomething(instance.localToWorld);
   outline.casts = instance.castShadow && !instance.octree.empty() && placed;
   outline.receives = instance.visible && instance.receiveShadow && placed;
   return outline;

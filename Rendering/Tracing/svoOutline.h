@@ -22,7 +22,8 @@ struct Outline
   double cubeLow[3], cubeHigh[3]; // the octree's cube, local frame
   double meshLow[3],
     meshHigh[3];           // the mesh's own box; low > high where the octree does not know it
-  double voxelSize;        // local frame
+  double voxelSize;        // local frame; 0: there is no octree yet, and the cube is the box
+  double smallestVoxel;    // of the deepest octree that the mesh may get, local frame
   double pixelError;       // Instance::pixelError
   std::uint64_t signature; // of the mesh
   std::int32_t level;
@@ -30,7 +31,7 @@ struct Outline
   std::int32_t casts;        // it is allowed to cast, and has voxels
   std::int32_t receives;     // it is seen, and shows shadows
 };
-static_assert(sizeof(Outline) == 16 * 8 + 12 * 8 + 3 * 8 + 4 * 4, "no gaps");
+static_assert(sizeof(Outline) == 16 * 8 + 12 * 8 + 4 * 8 + 4 * 4, "no gaps");
 
 /// The instances of a scene, or of the scenes of all processes, one after the other.
 struct Outlines

@@ -50,10 +50,20 @@ struct Attributes
   int colorTextureSize = 0;                    // texels
 };
 
+/// A box along the axes of a mesh's local frame.
+struct MeshBox
+{
+  glm::dvec3 low{ 1.0 }, high{ -1.0 };
+  bool known() const { return low.x <= high.x && low.y <= high.y && low.z <= high.z; }
+};
+
 /// One octree placed in the world.
 struct Instance
 {
   Octree octree;
+  /// What lights see instead of `octree`, if it is not empty. The eye may need a deeper octree than
+  /// the lights do; if they saw that one, shadows would change when the camera comes closer.
+  Octree casterOctree;
   glm::dmat4 localToWorld{ 1.0 }; // affine, invertible; the caller has checked
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
   Material material;
@@ -67,6 +77,11 @@ struct Instance
   std::uint64_t id = 0;
   /// Coincident-topology offset, added to the window depth (0..1); VTK's shaders know no slope.
   float depthOffsetUnits = 0.0f;
+
+  // Where octrees are built no deeper than they are needed; see svoNeededLevels.h.
+  MeshBox box;          // the mesh's own, local; stands for the octree until there is one
+  int deepestLevel = 0; // that the mesh's octree may have; 0: the one that `octree` has
+  int neededLevel = 0;  // that this frame needs: `octree` is coarser while it is being deepened
 };
 
 struct Light

@@ -32,6 +32,7 @@ struct Tracer::Internals
   std::vector<ShadowMap> Maps;
   LayeredView Eye;
   Shadows Dark;
+  Scene AsLightsSee; // where that is not the frame's scene; for the length of a frame
   FrameTiles Tiles;
   std::vector<SurfaceFrame> Frames;   // by index into Scene::instances
   std::vector<std::uint8_t> Darkness; // per pixel, as the depth buffer: which lights are dark
@@ -58,6 +59,7 @@ struct Tracer::Internals
   }
 
   void describeInstances(const Scene& scene, ShadowTechnique technique);
+  const Scene& sceneOfLights(const Scene& scene, ShadowTechnique technique);
   struct ShadeScratch;
   /// Colours points [first, last) of one instance.
   void lightInstance(const Scene& scene, const Lighting& lighting, float remaining, int first,
@@ -85,6 +87,27 @@ void Tracer::Internals::describeInstances(const Scene& scene, ShadowTechnique te
         : technique == ShadowTechnique::Rays ? worldLeafError(instance, geometry, level)
                                              : worldMapError(instance, geometry, level));
   }
+}
+
+/// The scene with the octrees that shadow buffers are traced through.
+const Scene& Tracer::Internals::sceneOfLights(const Scene& scene, ShadowTechnique technique)
+{
+  const auto differs = [](const Instance& instance)
+  { return instance.casterOctree && instance.casterOctree.key() != instance.octree.key(); };
+  if (technique != ShadowTechnique::Buffer ||
+    std::none_of(scene.instances.begin(), scene.instances.end(), differs))
+  {
+    return scene;
+  }
+  this->AsLightsSee = scene;
+  for (Instance& instance : this->AsLightsSee.instances)
+  {
+    if (instance.casterOctree)
+    {
+      instance.octree = instance.casterOctree;
+    }
+  }
+  return this->AsLightsSee;
 }
 
 void Tracer::Internals::markLightTiles(
@@ -341,7 +364,8 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
   const bool shared = self.Shared && settings.shadowTechnique == ShadowTechnique::Buffer;
   if (!shared)
   {
-    self.Dark.begin(scene, settings, self.Eye, budget);
+    self.Dark.begin(
+      self.sceneOfLights(scene, settings.shadowTechnique), settings, self.Eye, budget);
     self.markLightTiles(scene, view, parallelFor);
   }
 
@@ -369,6 +393,7 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
     shadowTime += now() - shadeStart; // the rays are nearly all of it
   }
 
+  self.AsLightsSee = Scene();
   FrameStatistics& statistics = self.Statistics;
   self.Dark.addStatistics(statistics);
   statistics.primaryRays += self.Eye.rays();
@@ -386,7 +411,8 @@ bool Tracer::shareShadows(const Scene& scene, const FrameSettings& settings,
   Internals& self = *this->Impl;
   const double start = now();
   LayerBudget budget{ settings.layerMemoryLimit, self.Eye.layerMemory() + self.Dark.layerMemory() };
-  self.Shared = self.Dark.traceShared(scene, settings, budget, parallelFor, processes);
+  self.Shared = self.Dark.traceShared(
+    self.sceneOfLights(scene, settings.shadowTechnique), settings, budget, parallelFor, processes);
   self.SharedTime = now() - start;
   return self.Shared;
 }

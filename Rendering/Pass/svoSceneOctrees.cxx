@@ -1,0 +1,97 @@
+#include "svoSceneOctrees.h"
+
+#include "svoNeededLevels.h"
+
+namespace svo
+{
+namespace
+{
+/// Calls visit(prop, surface) for all surfaces, in order.
+template <class Visit>
+void eachSurface(std::vector<PropSurfaces>& props, const Visit& visit)
+{
+  for (PropSurfaces& prop : props)
+  {
+    for (SceneSurface& surface : prop.surfaces)
+    {
+      visit(prop, surface);
+    }
+  }
+}
+
+/// What the surface brings, else what is known without an octree.
+void beginSurface(SceneSurface& surface, OctreeStore& store, const StoreOptions& options)
+{
+  Instance& instance = surface.instance;
+  if (!store.attached(surface.mesh, options, instance.octree))
+  {
+    instance.box = store.box(surface.mesh, options);
+    instance.deepestLevel = options.level;
+  }
+}
+
+void findOctree(
+  SceneSurface& surface, const NeededLevels& needed, OctreeStore& store, const StoreOptions& options)
+{
+  Instance& instance = surface.instance;
+  instance.neededLevel = needed.eye;
+  if (store.find(surface.mesh, needed.eye, options, instance.octree) != OctreeStore::Answer::Found)
+  {
+    return;
+  }
+  if (needed.lights > 0 && needed.lights != needed.eye)
+  {
+    store.find(surface.mesh, needed.lights, options, instance.casterOctree);
+  }
+}
+}
+
+void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lights,
+  const LevelSettings& settings, OctreeStore& store, const StoreOptions& options)
+{
+  Scene scene;
+  scene.lights = lights;
+  FrameSettings frame = settings.frame;
+  bool building = false;
+  for (const PropSurfaces& prop : props)
+  {
+    frame.wholeShadowBuffers = frame.wholeShadowBuffers || (!prop.traced && prop.receives);
+  }
+  eachSurface(props,
+    [&](const PropSurfaces& prop, SceneSurface& surface)
+    {
+      beginSurface(surface, store, options);
+      scene.instances.push_back(surface.instance);
+      scene.instances.back().visible = prop.traced;
+      scene.instances.back().castShadow = surface.casts;
+      building = building || (!surface.instance.octree && options.convert);
+    });
+  std::vector<NeededLevels> needed(scene.instances.size());
+  if (building)
+  {
+    needed = neededLevels(scene, settings.eye, frame);
+  }
+  auto next = needed.begin();
+  eachSurface(props,
+    [&](PropSurfaces& prop, SceneSurface& surface)
+    {
+      Instance& instance = surface.instance;
+      const NeededLevels& levels = *next++;
+      if (!instance.octree)
+      {
+        findOctree(surface, levels, store, options);
+      }
+      if (!instance.octree)
+      {
+        surface.traceable = false;
+        surface.casts = false;
+      }
+      else
+      {
+        instance.leafGeometry = static_cast<LeafGeometry>(instance.octree.header().leafGeometry);
+      }
+      instance.castShadow = surface.casts;
+      prop.traced = prop.traced && surface.traceable;
+    });
+}
+}

@@ -1,0 +1,49 @@
+// The octrees of a frame's surfaces: how deep they have to be, and where they come from.
+#ifndef svoSceneOctrees_h
+#define svoSceneOctrees_h
+
+#include "svoOctreeStore.h"
+#include "svoScene.h"
+#include "svoTracer.h"
+#include "svoView.h"
+
+#include <vector>
+
+class vtkPolyData;
+class vtkProp;
+
+namespace svo
+{
+/// An instance in the making.
+struct SceneSurface
+{
+  Instance instance;
+  vtkPolyData* mesh = nullptr;
+  bool traceable = false;
+  bool casts = false;
+};
+
+/// What was found of a prop.
+struct PropSurfaces
+{
+  vtkProp* prop = nullptr;
+  std::vector<SceneSurface> surfaces; // those that are traceable or cast
+  int actors = 0;
+  bool traced = true;    // all that the prop shows is traced
+  bool receives = false; // shadows fall on it
+};
+
+/// What the levels of octrees that are built here follow from.
+struct LevelSettings
+{
+  View eye; // with a pixel for each of the window's; no pixels: not known
+  FrameSettings frame;
+};
+
+/// Gives each surface its octrees: those that it brings, or from the store those that the frame
+/// needs (svoNeededLevels.h). Where the store has none, the surface is neither traced nor casts.
+void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lights,
+  const LevelSettings& settings, OctreeStore& store, const StoreOptions& options);
+}
+
+#endif

@@ -1,0 +1,112 @@
+#include "svoNeededLevels.h"
+
+#include "svoCasters.h"
+#include "svoLightView.h"
+#include "svoLocalView.h"
+#include "svoSelect.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace svo
+{
+namespace
+{
+/// Voxels are built this much smaller than they may appear: an octree's cube is a little wider than
+/// the mesh's box, and lights are fitted anew to octrees once they are there.
+constexpr double HeadRoom = 7.0 / 8.0;
+
+/// Beyond this, world units, nothing can be said of what is seen.
+constexpr double LargestEdge = 1e140;
+
+/// `level`, rounded up to one of those that are built.
+int roundUpToBuilt(int level, int deepest)
+{
+  const int steps = (deepest - std::max(level, CoarsestLevel)) / 2;
+  return deepest - 2 * std::max(steps, 0);
+}
+
+/// Largest octree level that the rays of a view stop at; 0 if the view does not see the instance.
+int levelFor(const Instance& instance, const View& view, double pixelError)
+{
+  const glm::dvec3 size = instance.box.high - instance.box.low;
+  const double edge = std::max({ size.x, size.y, size.z }) * (1.0 + 1.0 / 64.0);
+  double scale = 0.0;
+  for (int c = 0; c < 3; ++c)
+  {
+    scale = std::max(scale, glm::length(glm::dvec3(instance.localToWorld[c])));
+  }
+  if (!(scale * edge < LargestEdge))
+  {
+    return instance.deepestLevel;
+  }
+  const glm::dvec3 low = 0.5 * (instance.box.low + instance.box.high) - 0.5 * edge;
+  const SeenCube seen = seeCube(low, edge, instance.localToWorld, view);
+  if (seen.rect.empty())
+  {
+    return 0;
+  }
+  const double allowed = HeadRoom * pixelError * worldPixel(view, seen.nearest);
+  if (!(allowed > 0.0))
+  {
+    return instance.deepestLevel;
+  }
+  int level = 1;
+  while (level < instance.deepestLevel && std::ldexp(scale * edge, -level) > allowed)
+  {
+    ++level;
+  }
+  return level;
+}
+}
+
+std::vector<NeededLevels> neededLevels(
+  const Scene& scene, const View& eye, const FrameSettings& settings)
+{
+  std::vector<NeededLevels> needed(scene.instances.size());
+  const auto errorOf = [&](const Instance& instance)
+  { return instance.pixelError >= 0.0 ? instance.pixelError : settings.pixelError; };
+  const std::vector<Outline> outlines = outlinesOf(scene);
+  bool casting = false;
+  for (const Light& light : scene.lights)
+  {
+    casting = casting || light.castShadow;
+    if (!light.castShadow || settings.shadowTechnique != ShadowTechnique::Buffer)
+    {
+      continue;
+    }
+    const std::vector<std::uint8_t> casters =
+      castersOf(outlines, light, settings.wholeShadowBuffers);
+    for (const View& view : fitLight(outlines, casters, light, settings.shadowResolution))
+    {
+      for (std::size_t i = 0; i < needed.size(); ++i)
+      {
+        const Instance& instance = scene.instances[i];
+        if (casters[i] && instance.box.known())
+        {
+          needed[i].lights =
+            std::max({ needed[i].lights, 1, levelFor(instance, view, errorOf(instance)) });
+        }
+      }
+    }
+  }
+  for (std::size_t i = 0; i < needed.size(); ++i)
+  {
+    const Instance& instance = scene.instances[i];
+    const int deepest = instance.deepestLevel;
+    const bool unknown =
+      !instance.box.known() || (instance.visible && (eye.width <= 0 || eye.height <= 0));
+    const bool rays =
+      casting && instance.castShadow && settings.shadowTechnique == ShadowTechnique::Rays;
+    int& lights = needed[i].lights;
+    lights = lights > 0 ? roundUpToBuilt(lights, deepest) : 0;
+    const int level = unknown || rays ? deepest
+      : instance.visible              ? levelFor(instance, eye, errorOf(instance))
+                                      : 1;
+    needed[i].eye = std::max(roundUpToBuilt(level, deepest), lights);
+  }
+  return needed;
+}
+}

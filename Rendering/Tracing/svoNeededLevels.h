@@ -1,0 +1,42 @@
+// How deep the octrees of a scene have to be: no deeper than its pixels and texels can show.
+#ifndef svoNeededLevels_h
+#define svoNeededLevels_h
+
+#include "svoScene.h"
+#include "svoTracer.h"
+#include "svoView.h"
+#include "vtkSVOTracingModule.h"
+
+#include <vector>
+
+namespace svo
+{
+/// Levels of an instance's octrees.
+struct NeededLevels
+{
+  int eye = 1;
+  int lights =
+    0; // 0: it is in no shadow buffer, or it is seen by rays that start on what the eye sees
+};
+
+/// For each instance the levels from which on a deeper octree is traced no deeper (selectLevel()),
+/// so that the picture keeps the promise of the pixel error; at most Instance::deepestLevel. The
+/// instances have a box and need no octree. The answer depends on the scene, the view and the
+/// settings and on nothing else: not on octrees that happen to be there, nor on time.
+///
+/// The level for lights comes from the texels of the shadow buffers alone. It does not depend on
+/// the eye, unless the light is bound to it. The level for the eye is never less: what the lights
+/// need is built anyway. Rays to lights (ShadowTechnique::Rays) are the exact reference and need
+/// the deepest octrees of everything that casts. So does a view without pixels, one that is not
+/// known yet, of what is visible.
+///
+/// Levels are few: every second one, counted from the deepest, so that an object that moves to and
+/// fro is not built anew all the time. What is needed is rounded up to one of these.
+VTKSVOTRACING_EXPORT std::vector<NeededLevels> neededLevels(
+  const Scene& scene, const View& eye, const FrameSettings& settings);
+
+/// The coarsest octree that is worth while: smaller ones take no less time to build.
+constexpr int CoarsestLevel = 4;
+}
+
+#endif
