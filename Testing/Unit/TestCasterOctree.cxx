@@ -1,0 +1,115 @@
+// What lights see does not depend on the camera: neither its place nor the octrees that it needs.
+#include "svoTracerScenes.h"
+
+#include <gtest/gtest.h>
+
+using namespace svotest;
+
+namespace
+{
+/// A ring above a ground, under a lamp. The ring of the level that lights are given.
+struct LitRing
+{
+  svo::Octree coarse = makeOctree(torus(64, 32), 6);
+  svo::Octree fine = makeOctree(torus(64, 32), 9);
+  svo::Scene scene;
+
+  explicit LitRing(svo::LeafGeometry leaves)
+  {
+    scene.instances = { instanceOf(coarse, 1, movedTo(0, 0, 1.5), leaves),
+      instanceOf(makeOctree(square(3.0), 6), 2) };
+    scene.instances[0].casterOctree = coarse;
+    scene.lights = { lightOf(svo::Light::Kind::Point, { 2, -1, 8 }) };
+  }
+};
+
+svo::FrameSettings wholeBuffers()
+{
+  svo::FrameSettings settings;
+  settings.shadowResolution = 256;
+  settings.pixelError = 1.0;
+  settings.wholeShadowBuffers = true;
+  return settings;
+}
+
+std::vector<svo::ShadowMap> mapsOf(const svo::Scene& scene, const svo::View& view)
+{
+  svo::Tracer tracer;
+  rendered(tracer, scene, view, wholeBuffers());
+  return tracer.shadowMaps();
+}
+
+void expectSame(const std::vector<svo::ShadowMap>& a, const std::vector<svo::ShadowMap>& b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_FALSE(a.empty());
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    EXPECT_EQ(a[i].view.worldToView, b[i].view.worldToView);
+    EXPECT_EQ(a[i].view.viewToClip, b[i].view.viewToClip);
+    EXPECT_EQ(a[i].base, b[i].base);
+    EXPECT_EQ(a[i].depth, b[i].depth);
+    EXPECT_EQ(a[i].worldBias, b[i].worldBias);
+  }
+}
+
+constexpr svo::LeafGeometry AllLeaves[] = { svo::LeafGeometry::Voxel, svo::LeafGeometry::Plane,
+  svo::LeafGeometry::Automatic };
+}
+
+TEST(CasterOctree, MapsAreTheSameBitsForTwoCameras)
+{
+  for (const svo::LeafGeometry leaves : AllLeaves)
+  {
+    const LitRing lit(leaves);
+    expectSame(mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120)),
+      mapsOf(lit.scene, lookAt({ -60, 20, 35 }, 320, 200, 25.0)));
+  }
+}
+
+TEST(CasterOctree, MapsStayWhenTheEyesOctreeIsDeepened)
+{
+  for (const svo::LeafGeometry leaves : AllLeaves)
+  {
+    LitRing lit(leaves);
+    const auto before = mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120));
+    lit.scene.instances[0].octree = lit.fine;
+    expectSame(before, mapsOf(lit.scene, lookAt({ 1, -4, 3 }, 160, 120)));
+  }
+}
+
+TEST(CasterOctree, WithoutOneTheLightsSeeWhatTheEyeSees)
+{
+  LitRing lit(svo::LeafGeometry::Voxel);
+  const auto given = mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120));
+  lit.scene.instances[0].casterOctree = svo::Octree();
+  expectSame(given, mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120)));
+  lit.scene.instances[0].octree = lit.fine;
+  EXPECT_NE(given[0].depth, mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120))[0].depth);
+}
+
+TEST(CasterOctree, DeepeningRetracesTheEyesLayerAlone)
+{
+  LitRing lit(svo::LeafGeometry::Automatic);
+  const svo::View view = lookAt({ 1, -7, 4 }, 160, 120);
+  svo::FrameSettings settings;
+  svo::Tracer tracer;
+  rendered(tracer, lit.scene, view, settings);
+  rendered(tracer, lit.scene, view, settings);
+  EXPECT_EQ(tracer.statistics().retracedLayers, 0u);
+  lit.scene.instances[0].octree = lit.fine;
+  rendered(tracer, lit.scene, view, settings);
+  EXPECT_EQ(tracer.statistics().retracedLayers, 1u);
+}
+
+TEST(CasterOctree, RaysToLightsMeetWhatTheEyeSees)
+{
+  LitRing lit(svo::LeafGeometry::Automatic);
+  svo::FrameSettings settings;
+  settings.shadowTechnique = svo::ShadowTechnique::Rays;
+  lit.scene.instances[0].octree = lit.fine;
+  const svo::View view = lookAt({ 1, -7, 4 }, 160, 120);
+  const svo::Frame given = rendered(lit.scene, view, settings);
+  lit.scene.instances[0].casterOctree = svo::Octree();
+  EXPECT_TRUE(identical(given, rendered(lit.scene, view, settings)));
+}

@@ -1,0 +1,350 @@
+// The store of octrees: several levels of a mesh, built at once or in the background.
+#include "svoOctreeStore.h"
+
+#include "svoMeshOctree.h"
+
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkSphereSource.h"
+
+#include <gtest/gtest.h>
+
+#include <future>
+#include <limits>
+#include <list>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+using Answer = svo::OctreeStore::Answer;
+
+namespace
+{
+/// Background builds that begin when the test says so, on threads of their own.
+class Gate
+{
+public:
+  svo::OctreeStore::Launcher launcher()
+  {
+    return [this](std::function<void()> run)
+    {
+      this->Started.emplace_back();
+      std::promise<void>& finished = this->Started.back();
+      return std::thread(
+        [run = std::move(run), open = this->Opened, &finished]
+        {
+          open.wait();
+          run();
+          finished.set_value();
+        });
+    };
+  }
+
+  /// Lets the builds that were started go on, and waits for the end of each.
+  void letThrough()
+  {
+    this->Open.set_value();
+    for (std::promise<void>& finished : this->Started)
+    {
+      finished.get_future().wait();
+    }
+    this->Open = std::promise<void>();
+    this->Opened = this->Open.get_future().share();
+    this->Started.clear();
+  }
+
+  int started() const { return static_cast<int>(this->Started.size()); }
+
+private:
+  std::promise<void> Open;
+  std::shared_future<void> Opened = Open.get_future().share();
+  std::list<std::promise<void>> Started; // and not let through yet
+};
+
+vtkSmartPointer<vtkPolyData> sphere(double radius, int resolution = 24)
+{
+  vtkNew<vtkSphereSource> source;
+  source->SetRadius(radius);
+  source->SetThetaResolution(resolution);
+  source->SetPhiResolution(resolution);
+  source->Update();
+  return source->GetOutput();
+}
+
+struct OctreeStore : ::testing::Test
+{
+  Gate gate;
+  svo::OctreeStore store{ gate.launcher() };
+  svo::StoreOptions options;
+  std::vector<std::string> said;
+  vtkSmartPointer<vtkPolyData> mesh = sphere(1.0);
+  svo::Octree octree;
+
+  OctreeStore()
+  {
+    options.complain = [this](const std::string& text) { this->said.push_back(text); };
+  }
+
+  Answer find(int level, bool wait)
+  {
+    options.wait = wait;
+    octree = svo::Octree();
+    return store.find(mesh, level, options, octree);
+  }
+
+  void endFrame() { store.endFrame(std::size_t(1) << 30); }
+};
+
+/// The bytes that a build at this level gives when nothing else is going on.
+std::vector<std::byte> bytesOf(const svo::Octree& octree)
+{
+  const auto* first = reinterpret_cast<const std::byte*>(octree.key());
+  const std::size_t size = sizeof(svo::Header) + octree.header().nodeCount * sizeof(svo::Node) +
+    octree.header().listWords * sizeof(std::uint32_t);
+  return { first, first + size };
+}
+
+std::vector<std::byte> builtAlone(vtkPolyData* mesh, int level)
+{
+  svo::MeshOctreeOptions options;
+  options.level = level;
+  svo::Octree octree;
+  std::string message;
+  svo::buildMeshOctree(mesh, options, octree, message);
+  return bytesOf(octree);
+}
+}
+
+TEST_F(OctreeStore, StillFramesGetTheLevelThatTheyAskFor)
+{
+  for (const int level : { 4, 8, 6, 4 })
+  {
+    ASSERT_EQ(find(level, true), Answer::Found);
+    EXPECT_EQ(octree.level(), level);
+    EXPECT_EQ(bytesOf(octree), builtAlone(mesh, level));
+    endFrame();
+  }
+  EXPECT_EQ(store.built(), 3);
+  EXPECT_EQ(gate.started(), 0);
+}
+
+TEST_F(OctreeStore, ACoarserOctreeIsShownWhileADeeperOneIsBuilt)
+{
+  ASSERT_EQ(find(5, true), Answer::Found);
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    ASSERT_EQ(find(9, false), Answer::Found);
+    EXPECT_EQ(octree.level(), 5);
+    endFrame();
+    EXPECT_EQ(store.building(), 1);
+    EXPECT_EQ(store.built(), 1);
+  }
+  EXPECT_EQ(gate.started(), 1); // once, however many frames ask
+  gate.letThrough();
+  ASSERT_EQ(find(9, false), Answer::Found);
+  EXPECT_EQ(octree.level(), 9);
+  EXPECT_EQ(bytesOf(octree), builtAlone(mesh, 9));
+  EXPECT_EQ(store.building(), 0);
+  EXPECT_EQ(store.built(), 2);
+}
+
+TEST_F(OctreeStore, WithoutAnOctreeThereIsNoneUntilItIsBuilt)
+{
+  EXPECT_EQ(find(7, false), Answer::Building);
+  EXPECT_FALSE(octree);
+  gate.letThrough();
+  EXPECT_EQ(find(7, false), Answer::Found);
+}
+
+TEST_F(OctreeStore, ADeeperOctreeDoesAndNothingIsBuiltForIt)
+{
+  ASSERT_EQ(find(8, true), Answer::Found);
+  ASSERT_EQ(find(10, true), Answer::Found);
+  ASSERT_EQ(find(6, false), Answer::Found);
+  EXPECT_EQ(octree.level(), 8); // the coarsest of the deeper ones
+  EXPECT_EQ(gate.started(), 0);
+  // A still picture does not depend on what was built before.
+  ASSERT_EQ(find(6, true), Answer::Found);
+  EXPECT_EQ(octree.level(), 6);
+}
+
+TEST_F(OctreeStore, AStillFrameWaitsForTheBuildThatIsUnderWay)
+{
+  ASSERT_EQ(find(5, true), Answer::Found);
+  find(8, false);
+  ASSERT_EQ(gate.started(), 1);
+  std::vector<double> progress;
+  options.progress = [&](double amount)
+  {
+    // A still frame is waiting: now, and not before, the build may begin.
+    if (progress.empty())
+    {
+      gate.letThrough();
+    }
+    progress.push_back(amount);
+  };
+  ASSERT_EQ(find(8, true), Answer::Found);
+  EXPECT_EQ(octree.level(), 8);
+  EXPECT_FALSE(progress.empty());
+  EXPECT_EQ(store.built(), 2); // not built twice
+}
+
+TEST_F(OctreeStore, AMeshMayChangeWhileItsOctreeIsBuilt)
+{
+  const auto before = builtAlone(mesh, 8);
+  find(8, false);
+  vtkPoints* points = mesh->GetPoints();
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    points->GetPoint(i, p);
+    points->SetPoint(i, 2.0 * p[0], p[1], p[2]);
+  }
+  points->Modified();
+  const auto after = builtAlone(mesh, 8);
+  ASSERT_NE(before, after);
+  gate.letThrough();
+  endFrame();
+  // What was built is not the changed mesh's.
+  EXPECT_EQ(find(8, false), Answer::Building);
+  gate.letThrough();
+  ASSERT_EQ(find(8, false), Answer::Found);
+  EXPECT_EQ(bytesOf(octree), after);
+  // But it is kept for when the mesh looks like that again.
+  mesh = sphere(1.0);
+  ASSERT_EQ(find(8, false), Answer::Found);
+  EXPECT_EQ(bytesOf(octree), before);
+}
+
+TEST_F(OctreeStore, ABuildWhoseMeshIsGoneIsAbandoned)
+{
+  find(8, false);
+  EXPECT_EQ(store.building(), 1);
+  mesh = nullptr;
+  endFrame();
+  EXPECT_EQ(store.building(), 0);
+  gate.letThrough();
+  endFrame();
+  EXPECT_EQ(store.built(), 0);
+  // The same mesh again is built, not taken for one that cannot be.
+  mesh = sphere(1.0);
+  EXPECT_EQ(find(8, true), Answer::Found);
+}
+
+TEST_F(OctreeStore, ABuildThatAnotherMeshNeedsIsNotAbandoned)
+{
+  find(8, false);
+  const vtkSmartPointer<vtkPolyData> twin = sphere(1.0);
+  mesh = twin;
+  find(8, false);
+  mesh = nullptr;
+  endFrame();
+  EXPECT_EQ(store.building(), 1);
+  gate.letThrough();
+  mesh = twin;
+  EXPECT_EQ(find(8, false), Answer::Found);
+  EXPECT_EQ(store.built(), 1);
+}
+
+TEST_F(OctreeStore, TheStoreMayGoWhileItBuilds)
+{
+  auto own = std::make_unique<svo::OctreeStore>(); // with plain threads
+  options.wait = false;
+  EXPECT_EQ(own->find(sphere(1.0, 200), 10, options, octree), Answer::Building);
+  own.reset();
+  EXPECT_FALSE(octree);
+}
+
+TEST_F(OctreeStore, BuildsAtATimeAreLimited)
+{
+  std::vector<vtkSmartPointer<vtkPolyData>> meshes;
+  for (int i = 0; i < 10; ++i)
+  {
+    meshes.push_back(sphere(1.0 + i));
+  }
+  int found = 0;
+  for (int frame = 0; frame < 10 && found < 10; ++frame)
+  {
+    found = 0;
+    for (const auto& each : meshes)
+    {
+      mesh = each;
+      found += find(6, false) == Answer::Found;
+    }
+    EXPECT_LE(store.building(), 4);
+    gate.letThrough();
+    endFrame();
+  }
+  EXPECT_EQ(found, 10);
+  EXPECT_EQ(store.built(), 10);
+}
+
+TEST_F(OctreeStore, OctreesThatFramesDoNotUseGoWhenMemoryIsShort)
+{
+  find(5, true);
+  const std::size_t coarse = store.bytes();
+  find(9, true);
+  const std::size_t both = store.bytes();
+  endFrame();
+  find(9, true);
+  store.endFrame(both - 1); // the coarse one was not used
+  EXPECT_EQ(store.bytes(), both - coarse);
+}
+
+TEST_F(OctreeStore, AnOctreeThatTheMeshBringsIsAllThereIs)
+{
+  svo::MeshOctreeOptions build;
+  build.level = 3;
+  svo::Octree own;
+  std::string message;
+  svo::buildMeshOctree(mesh, build, own, message);
+  svo::attachOctree(mesh, own);
+  ASSERT_EQ(find(8, true), Answer::Found);
+  EXPECT_EQ(octree.level(), 3);
+  ASSERT_EQ(find(8, false), Answer::Found);
+  EXPECT_EQ(store.built(), 0);
+  EXPECT_EQ(gate.started(), 0);
+}
+
+TEST_F(OctreeStore, NothingIsConvertedThatNobodyWantsConverted)
+{
+  options.convert = false;
+  EXPECT_EQ(find(6, true), Answer::None);
+  EXPECT_EQ(find(6, false), Answer::None);
+  EXPECT_EQ(store.built(), 0);
+  EXPECT_EQ(gate.started(), 0);
+}
+
+TEST_F(OctreeStore, AMessageIsSaidOnceAndNotForEachLevel)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  mesh->GetPoints()->SetPoint(5, nan, 0.0, 0.0);
+  mesh->GetPoints()->Modified();
+  find(5, true);
+  EXPECT_EQ(said.size(), 1u);
+  find(7, true);
+  find(9, false);
+  gate.letThrough();
+  find(9, false);
+  EXPECT_EQ(octree.level(), 9);
+  EXPECT_EQ(said.size(), 1u);
+}
+
+TEST_F(OctreeStore, TheBoxIsThatOfTheFinitePoints)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(std::numeric_limits<double>::quiet_NaN(), 9.0, 9.0);
+  points->InsertNextPoint(1.0, -2.0, 3.0);
+  points->InsertNextPoint(-1.0, 5.0, 3.5);
+  vtkNew<vtkPolyData> few;
+  few->SetPoints(points);
+  const svo::MeshBox box = store.box(few, options);
+  EXPECT_TRUE(box.known());
+  EXPECT_EQ(box.low, glm::dvec3(-1.0, -2.0, 3.0));
+  EXPECT_EQ(box.high, glm::dvec3(1.0, 5.0, 3.5));
+  vtkNew<vtkPolyData> none;
+  EXPECT_FALSE(store.box(none, options).known());
+}
