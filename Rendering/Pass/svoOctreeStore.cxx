@@ -35,6 +35,18 @@ MeshBox finiteBox(vtkPolyData* mesh)
   return box;
 }
 
+/// A polygon or strip of n points makes n - 2.
+std::size_t trianglesOf(vtkPolyData* mesh)
+{
+  vtkIdType sum = 0;
+  for (vtkCellArray* cells : { mesh->GetPolys(), mesh->GetStrips() })
+  {
+    sum +=
+      std::max<vtkIdType>(cells->GetNumberOfConnectivityIds() - 2 * cells->GetNumberOfCells(), 0);
+  }
+  return static_cast<std::size_t>(sum);
+}
+
 /// Points and cells of its own, so that the original may change while a thread reads the copy.
 vtkSmartPointer<vtkPolyData> privateCopy(vtkPolyData* mesh)
 {
@@ -97,6 +109,7 @@ OctreeStore::Known& OctreeStore::knownOf(vtkPolyData* mesh, const StoreOptions& 
     {
       known.signature = meshSignature(mesh);
       known.box = finiteBox(mesh);
+      known.triangles = trianglesOf(mesh);
     }
   }
   return known;
@@ -108,9 +121,12 @@ bool OctreeStore::attached(vtkPolyData* mesh, const StoreOptions& options, Octre
   return static_cast<bool>(octree);
 }
 
-MeshBox OctreeStore::box(vtkPolyData* mesh, const StoreOptions& options)
+void OctreeStore::measure(
+  vtkPolyData* mesh, const StoreOptions& options, MeshBox& box, std::size_t& triangles)
 {
-  return this->knownOf(mesh, options).box;
+  const Known& known = this->knownOf(mesh, options);
+  box = known.box;
+  triangles = known.triangles;
 }
 
 OctreeStore::Answer OctreeStore::find(

@@ -59,8 +59,10 @@ public:
   /// True if the mesh brings an octree; it is all there will be for that mesh.
   bool attached(vtkPolyData* mesh, const StoreOptions& options, Octree& octree);
 
-  /// The box of the mesh's finite points; for a mesh that brings no octree.
-  MeshBox box(vtkPolyData* mesh, const StoreOptions& options);
+  /// The box of the mesh's finite points and its number of triangles; for a mesh that brings no
+  /// octree.
+  void measure(
+    vtkPolyData* mesh, const StoreOptions& options, MeshBox& box, std::size_t& triangles);
 
   /// The octree of exactly this level, or the one that the mesh brings. With options.wait it is
   /// built where there is none. Else it is built in the background, and meanwhile another one is
@@ -111,6 +113,7 @@ private:
     Octree attached;        // empty: it brings none
     std::uint64_t signature = 0;
     MeshBox box;
+    std::size_t triangles = 0;
   };
 
   Known& knownOf(vtkPolyData* mesh, const StoreOptions& options);

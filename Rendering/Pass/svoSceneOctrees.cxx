@@ -25,7 +25,7 @@ void beginSurface(SceneSurface& surface, OctreeStore& store, const StoreOptions&
   Instance& instance = surface.instance;
   if (!store.attached(surface.mesh, options, instance.octree))
   {
-    instance.box = store.box(surface.mesh, options);
+    store.measure(surface.mesh, options, instance.box, instance.triangles);
     instance.deepestLevel = options.level;
   }
 }

@@ -1,6 +1,7 @@
 #include "svoNeededLevels.h"
 
 #include "svoCasters.h"
+#include "svoLeafGeometry.h"
 #include "svoLightView.h"
 #include "svoLocalView.h"
 #include "svoSelect.h"
@@ -22,10 +23,11 @@ constexpr double HeadRoom = 7.0 / 8.0;
 constexpr double LargestEdge = 1e140;
 
 /// `level`, rounded up to one of those that are built.
-int roundUpToBuilt(int level, int deepest)
+int roundUpToBuilt(int level, const Instance& instance)
 {
-  const int steps = (deepest - std::max(level, CoarsestLevel)) / 2;
-  return deepest - 2 * std::max(steps, 0);
+  const int coarsest = coarsestLevel(instance.box, instance.triangles);
+  const int steps = (instance.deepestLevel - std::max(level, coarsest)) / 2;
+  return instance.deepestLevel - 2 * std::max(steps, 0);
 }
 
 /// Largest octree level that the rays of a view stop at; 0 if the view does not see the instance.
@@ -60,6 +62,24 @@ int levelFor(const Instance& instance, const View& view, double pixelError)
   }
   return level;
 }
+}
+
+int coarsestLevel(const MeshBox& box, std::size_t triangles)
+{
+  constexpr double Coarsest = 4.0; // smaller ones take no less time to build
+  const glm::dvec3 size = box.high - box.low;
+  const double edge = std::max({ size.x, size.y, size.z });
+  if (!(edge > 0.0) || !std::isfinite(edge))
+  {
+    return static_cast<int>(Coarsest);
+  }
+  // In edges, so that no size is too large or too small.
+  const glm::dvec3 sides = size / edge;
+  const double area = 2.0 * (sides.x * sides.y + sides.y * sides.z + sides.z * sides.x);
+  const double trianglesOfVoxel = ShortList / 16.0; // a brick's face has 16
+  const double voxels2 = static_cast<double>(triangles) / (trianglesOfVoxel * std::max(area, 1e-6));
+  const double level = std::ceil(0.5 * std::log2(std::max(voxels2, 1.0)));
+  return static_cast<int>(std::clamp(level, Coarsest, static_cast<double>(MaximumLevel)));
 }
 
 std::vector<NeededLevels> neededLevels(
@@ -101,11 +121,11 @@ std::vector<NeededLevels> neededLevels(
     const bool rays =
       casting && instance.castShadow && settings.shadowTechnique == ShadowTechnique::Rays;
     int& lights = needed[i].lights;
-    lights = lights > 0 ? roundUpToBuilt(lights, deepest) : 0;
+    lights = lights > 0 ? roundUpToBuilt(lights, instance) : 0;
     const int level = unknown || rays ? deepest
       : instance.visible              ? levelFor(instance, eye, errorOf(instance))
                                       : 1;
-    needed[i].eye = std::max(roundUpToBuilt(level, deepest), lights);
+    needed[i].eye = std::max(roundUpToBuilt(level, instance), lights);
   }
   return needed;
 }

@@ -30,13 +30,17 @@ struct NeededLevels
 /// the deepest octrees of everything that casts. So does a view without pixels, one that is not
 /// known yet, of what is visible.
 ///
-/// Levels are few: every second one, counted from the deepest, so that an object that moves to and
-/// fro is not built anew all the time. What is needed is rounded up to one of these.
+/// No octree is coarser than its mesh: where many triangles share a brick, none of them stands well
+/// for a voxel (coarsestLevel()). Levels are few: every second one, counted from the deepest, so
+/// that an object that moves to and fro is not built anew all the time. What is needed is rounded
+/// up to one of these.
 VTKSVOTRACING_EXPORT std::vector<NeededLevels> neededLevels(
   const Scene& scene, const View& eye, const FrameSettings& settings);
 
-/// The coarsest octree that is worth while: smaller ones take no less time to build.
-constexpr int CoarsestLevel = 4;
+/// The coarsest octree that shows a mesh well, 4 or more, not regarding Instance::deepestLevel: its
+/// bricks have as many triangles as are intersected one by one (ShortList), if the mesh covers
+/// about as much area as its box.
+VTKSVOTRACING_EXPORT int coarsestLevel(const MeshBox& box, std::size_t triangles);
 }
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "svoOctree.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -79,9 +80,10 @@ struct Instance
   float depthOffsetUnits = 0.0f;
 
   // Where octrees are built no deeper than they are needed; see svoNeededLevels.h.
-  MeshBox box;          // the mesh's own, local; stands for the octree until there is one
-  int deepestLevel = 0; // that the mesh's octree may have; 0: the one that `octree` has
-  int neededLevel = 0;  // that this frame needs: `octree` is coarser while it is being deepened
+  MeshBox box;               // the mesh's own, local; stands for the octree until there is one
+  std::size_t triangles = 0; // of the mesh, or about as many
+  int deepestLevel = 0;      // that the mesh's octree may have; 0: the one that `octree` has
+  int neededLevel = 0; // that this frame needs: `octree` is coarser while it is being deepened
 };
 
 struct Light

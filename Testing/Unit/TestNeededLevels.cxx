@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 using namespace svotest;
@@ -15,6 +16,7 @@ using namespace svotest;
 namespace
 {
 constexpr int Deepest = 11;
+constexpr int Coarsest = 4;
 
 /// A mesh of the given half size about the origin, of which there is no octree yet.
 svo::Instance unbuilt(std::uint64_t id, double half, const glm::dmat4& localToWorld)
@@ -72,7 +74,7 @@ TEST(NeededLevels, AreNeverLessThanTheLevelAtWhichRaysStop)
       const int stops = svo::selectLevel(deep, local, view, pixelError);
       const int needed = eyeLevel(oneThing(), view, noShadows(pixelError));
       EXPECT_GE(needed, stops) << distance << ' ' << pixelError;
-      EXPECT_LE(needed, std::max(stops + 2, svo::CoarsestLevel + 1)) << distance;
+      EXPECT_LE(needed, std::max(stops + 2, Coarsest + 1)) << distance;
     }
   }
 }
@@ -190,9 +192,37 @@ TEST(NeededLevels, LightsNeedWhatTheirTexelsResolve)
       settings.shadowResolution = resolution;
       const int needed = svo::neededLevels(scene, seenFrom(400.0), settings)[0].lights;
       EXPECT_GE(needed, stops) << resolution;
-      EXPECT_LE(needed, std::max(stops + 2, svo::CoarsestLevel + 1)) << resolution;
+      EXPECT_LE(needed, std::max(stops + 2, Coarsest + 1)) << resolution;
     }
   }
+}
+
+TEST(NeededLevels, NoOctreeIsCoarserThanItsMesh)
+{
+  const svo::MeshBox cube{ glm::dvec3(-1e-30), glm::dvec3(1e-30) };
+  EXPECT_EQ(svo::coarsestLevel(cube, 12), Coarsest);
+  // Eight triangles a brick of 16 voxels: half a triangle a voxel, on six faces of 2^level voxels.
+  for (int level = Coarsest; level <= svo::MaximumLevel; ++level)
+  {
+    const auto most = static_cast<std::size_t>(std::ldexp(3.0, 2 * level));
+    EXPECT_EQ(svo::coarsestLevel(cube, most), level);
+    EXPECT_EQ(svo::coarsestLevel(cube, most + 1), std::min(level + 1, svo::MaximumLevel));
+  }
+  EXPECT_EQ(svo::coarsestLevel(svo::MeshBox(), 1000), Coarsest);
+  const svo::MeshBox line{ glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0) };
+  EXPECT_LE(svo::coarsestLevel(line, 1000000000), svo::MaximumLevel);
+
+  svo::Scene scene = oneThing();
+  scene.lights = { lightOf(svo::Light::Kind::Point, { 3, -5, 9 }) };
+  svo::FrameSettings settings;
+  settings.shadowResolution = 16;
+  EXPECT_EQ(svo::neededLevels(scene, seenFrom(400.0), settings)[0].lights, 5);
+  scene.instances[0].triangles = 100000; // level 8
+  const auto needed = svo::neededLevels(scene, seenFrom(400.0), settings);
+  EXPECT_EQ(needed[0].lights, 9);
+  EXPECT_EQ(needed[0].eye, 9);
+  scene.instances[0].triangles = 100000000;
+  EXPECT_EQ(eyeLevel(scene, seenFrom(400.0), settings), Deepest);
 }
 
 TEST(NeededLevels, RaysToLightsNeedTheDeepestOfCastersOnly)

@@ -3,6 +3,7 @@
 
 #include "svoMeshOctree.h"
 
+#include "vtkCellArray.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -333,7 +334,7 @@ TEST_F(OctreeStore, AMessageIsSaidOnceAndNotForEachLevel)
   EXPECT_EQ(said.size(), 1u);
 }
 
-TEST_F(OctreeStore, TheBoxIsThatOfTheFinitePoints)
+TEST_F(OctreeStore, TheBoxIsThatOfTheFinitePointsAndStripsCountAsTriangles)
 {
   vtkNew<vtkPoints> points;
   points->InsertNextPoint(std::numeric_limits<double>::quiet_NaN(), 9.0, 9.0);
@@ -341,10 +342,22 @@ TEST_F(OctreeStore, TheBoxIsThatOfTheFinitePoints)
   points->InsertNextPoint(-1.0, 5.0, 3.5);
   vtkNew<vtkPolyData> few;
   few->SetPoints(points);
-  const svo::MeshBox box = store.box(few, options);
+  vtkNew<vtkCellArray> strips;
+  strips->InsertNextCell({ 0, 1, 2, 1, 0 });
+  few->SetStrips(strips);
+  vtkNew<vtkCellArray> polys;
+  polys->InsertNextCell({ 0, 1, 2, 0 });
+  polys->InsertNextCell({ 0, 1, 2 });
+  few->SetPolys(polys);
+  svo::MeshBox box;
+  std::size_t triangles = 0;
+  store.measure(few, options, box, triangles);
   EXPECT_TRUE(box.known());
   EXPECT_EQ(box.low, glm::dvec3(-1.0, -2.0, 3.0));
   EXPECT_EQ(box.high, glm::dvec3(1.0, 5.0, 3.5));
+  EXPECT_EQ(triangles, 3u + 2u + 1u);
   vtkNew<vtkPolyData> none;
-  EXPECT_FALSE(store.box(none, options).known());
+  store.measure(none, options, box, triangles);
+  EXPECT_FALSE(box.known());
+  EXPECT_EQ(triangles, 0u);
 }
