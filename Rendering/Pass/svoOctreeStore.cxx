@@ -35,6 +35,9 @@ MeshBox finiteBox(vtkPolyData* mesh)
   return box;
 }
 
+/// A build that has not been asked for in so many frames is nobody's.
+constexpr std::uint64_t FramesOfOthers = 8;
+
 /// A polygon or strip of n points makes n - 2.
 std::size_t trianglesOf(vtkPolyData* mesh)
 {
@@ -221,11 +224,20 @@ void OctreeStore::build(vtkPolyData* mesh, const Key& key, const StoreOptions& o
 
 void OctreeStore::buildInBackground(vtkPolyData* mesh, const Key& key)
 {
-  if (this->Jobs.size() >= MostJobs || this->Jobs.count(key))
+  const auto running = this->Jobs.find(key);
+  if (running != this->Jobs.end())
+  {
+    running->second->lastFrame = this->Frame;
+    return;
+  }
+  const auto atWork = std::count_if(
+    this->Jobs.begin(), this->Jobs.end(), [](const auto& job) { return !job.second->done; });
+  if (atWork >= MostJobs)
   {
     return;
   }
   auto job = std::make_unique<Job>();
+  job->lastFrame = this->Frame;
   MeshOctreeOptions build;
   build.level = std::get<1>(key);
   build.leafGeometry = std::get<2>(key);
@@ -300,10 +312,11 @@ void OctreeStore::endFrame(std::size_t memoryLimit)
       this->abandonBuildsOf(gone.signature);
     }
   }
-  // Those whose mesh nobody asks for any more would otherwise stay for ever.
+  // Those whose mesh nobody asks for any more would otherwise stay for ever. The others stay until
+  // a frame has them: so long there is more to be seen. (Other renderers have frames in between.)
   for (auto job = this->Jobs.begin(); job != this->Jobs.end();)
   {
-    if (!job->second->done)
+    if (!job->second->done || this->Frame - job->second->lastFrame < FramesOfOthers)
     {
       ++job;
       continue;

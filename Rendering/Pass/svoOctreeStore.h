@@ -85,7 +85,7 @@ public:
 
 private:
   /// Background builds at a time; each of them uses all processors where it can.
-  static constexpr std::size_t MostJobs = 4;
+  static constexpr int MostJobs = 4;
 
   using Key = std::tuple<std::uint64_t, int, LeafGeometry>; // signature, level, leaf geometry
   struct Built
@@ -101,6 +101,7 @@ private:
     std::atomic<bool> done{ false };
     std::atomic<bool> abandon{ false };
     std::atomic<double> progress{ 0.0 };
+    std::uint64_t lastFrame = 0; // that asked for it
     Octree octree;
     std::string message;
     ~Job();

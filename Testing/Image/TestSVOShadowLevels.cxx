@@ -22,7 +22,7 @@ struct Scene : Stage
   explicit Scene(int size)
     : Stage(size, size)
   {
-    this->pass->SetLeafGeometryToPlane();
+    this->pass->SetLeafGeometryToVoxel();
     this->pass->SetMaximumLevel(11);
     this->pass->SetShadowBufferResolution(64);
     this->caster = this->add(ring(0.9, 0.0, 0.0, 1.2), 0.9, 0.5, 0.3);

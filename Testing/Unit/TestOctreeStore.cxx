@@ -145,6 +145,8 @@ TEST_F(OctreeStore, ACoarserOctreeIsShownWhileADeeperOneIsBuilt)
   }
   EXPECT_EQ(gate.started(), 1); // once, however many frames ask
   gate.letThrough();
+  endFrame(); // it came too late for this one
+  EXPECT_EQ(store.building(), 1);
   ASSERT_EQ(find(9, false), Answer::Found);
   EXPECT_EQ(octree.level(), 9);
   EXPECT_EQ(bytesOf(octree), builtAlone(mesh, 9));
@@ -211,6 +213,7 @@ TEST_F(OctreeStore, AMeshMayChangeWhileItsOctreeIsBuilt)
   endFrame();
   // What was built is not the changed mesh's.
   EXPECT_EQ(find(8, false), Answer::Building);
+  EXPECT_EQ(store.building(), 2);
   gate.letThrough();
   ASSERT_EQ(find(8, false), Answer::Found);
   EXPECT_EQ(bytesOf(octree), after);
@@ -248,6 +251,21 @@ TEST_F(OctreeStore, ABuildThatAnotherMeshNeedsIsNotAbandoned)
   mesh = twin;
   EXPECT_EQ(find(8, false), Answer::Found);
   EXPECT_EQ(store.built(), 1);
+}
+
+TEST_F(OctreeStore, ABuildThatNoFrameAsksForIsKeptForLater)
+{
+  find(8, false);
+  gate.letThrough();
+  for (int frame = 0; frame < 20; ++frame)
+  {
+    endFrame();
+  }
+  EXPECT_EQ(store.building(), 0);
+  EXPECT_EQ(store.built(), 1);
+  EXPECT_GT(store.bytes(), 0u);
+  EXPECT_EQ(find(8, false), Answer::Found);
+  EXPECT_EQ(gate.started(), 0);
 }
 
 TEST_F(OctreeStore, TheStoreMayGoWhileItBuilds)
