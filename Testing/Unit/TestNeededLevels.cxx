@@ -180,8 +180,9 @@ TEST(NeededLevels, LightsNeedWhatTheirTexelsResolve)
       built.instances = { instanceOf(octree, 1) };
       built.lights = { lightOf(kind, { 3, -5, 9 }) };
       int stops = 0;
-      const auto casters = svo::castersOf(built, built.lights[0], false);
-      for (const svo::View& view : svo::fitLight(built, casters, built.lights[0], resolution))
+      const auto outlines = svo::outlinesOf(built);
+      const auto casters = svo::castersOf(outlines, built.lights[0], false);
+      for (const svo::View& view : svo::fitLight(outlines, casters, built.lights[0], resolution))
       {
         const auto local = svo::makeLocalView(octree, glm::dmat4(1.0), view);
         stops = std::max(stops, svo::selectLevel(built.instances[0], local, view, 1.0));
