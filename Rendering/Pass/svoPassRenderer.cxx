@@ -42,6 +42,32 @@ PassRenderer::PassRenderer(vtkRenderer* renderer)
 {
 }
 
+PassRenderer::~PassRenderer()
+{
+  if (this->Window)
+  {
+    this->Window->forget(this);
+  }
+}
+
+double PassRenderer::chooseDistance(double budget, double maximum)
+{
+  return this->Distance.choose(
+    budget, maximum, this->Window ? this->Window->others(this) : FrameCost());
+}
+
+void PassRenderer::measured(double seconds, double fixed)
+{
+  this->Distance.measured(this->Statistics.sampleDistance, seconds, fixed);
+  const std::shared_ptr<WindowTime> window = WindowTime::of(this->Renderer->GetRenderWindow());
+  if (this->Window && this->Window != window)
+  {
+    this->Window->forget(this);
+  }
+  this->Window = window;
+  this->Window->measured(this, this->Distance.cost());
+}
+
 void PassRenderer::collect(
   OctreeStore& store, const StoreOptions& options, const CollectSettings& settings)
 {
@@ -51,8 +77,10 @@ void PassRenderer::collect(
   this->Sharing = false;
 
   const double start = vtkTimerLog::GetUniversalTime();
+  const int built = store.built();
   this->Collector.collect(this->Renderer, store, options, settings, this->Collected);
   this->Statistics.collectTime = vtkTimerLog::GetUniversalTime() - start;
+  this->Statistics.octreesBuilt = store.built() - built;
   this->Statistics.tracedActors = this->Collected.tracedActors;
   this->Statistics.rasterizedActors = this->Collected.rasterizedActors;
   this->Statistics.instances = static_cast<int>(this->Collected.scene.instances.size());

@@ -8,6 +8,7 @@
 #include "svoShadowReceivers.h"
 #include "svoSharedCasters.h"
 #include "svoTracer.h"
+#include "svoWindowTime.h"
 #include "vtkSVOPresenter.h"
 
 #include "vtkNew.h"
@@ -15,6 +16,7 @@
 #include "vtkWeakPointer.h"
 
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -35,6 +37,7 @@ struct PassStatistics
   int tracedActors = 0;
   int rasterizedActors = 0;
   int instances = 0;
+  int octreesBuilt = 0;        // or taken over from a background build
   double sampleDistance = 1.0; // pixels
   /// Largest voxel of the octrees that are shown while they are deepened; pixels of the window.
   double coarseOctreeError = 0.0;
@@ -62,6 +65,7 @@ class PassRenderer
 {
 public:
   explicit PassRenderer(vtkRenderer* renderer);
+  ~PassRenderer();
 
   vtkRenderer* renderer() const { return this->Renderer; }
 
@@ -85,8 +89,12 @@ public:
   /// Nothing is drawn yet.
   void trace(int width, int height, double distance, FrameSettings settings);
 
-  /// For frames of a budget.
-  SampleDistance& sampleDistance() { return this->Distance; }
+  /// Pixels from ray to ray, up to `maximum`, of a frame whose window has `budget` seconds for all
+  /// of its renderers.
+  double chooseDistance(double budget, double maximum);
+
+  /// What the frame took, `fixed` of it whatever the number of rays.
+  void measured(double seconds, double fixed);
 
   /// The prop that shows what was traced.
   vtkSVOPresenter* presenter() { return this->Presenter; }
@@ -113,6 +121,7 @@ private:
   CollectedScene Collected;
   SharedCasters Shared;
   SampleDistance Distance;
+  std::shared_ptr<WindowTime> Window; // of the window that it was measured in last
   Tracer Trace;
   View Eye; // of the frame
   double PixelError = 1.0;

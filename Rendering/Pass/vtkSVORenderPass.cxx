@@ -153,9 +153,9 @@ void vtkSVORenderPass::DecideSettings()
   impl.sampleDistance = 1.0;
   if (this->AutoAdjustSampleDistances && isInteractive(renderer))
   {
-    impl.sampleDistance = impl.current->sampleDistance().choose(
-      OwnShare / renderer->GetRenderWindow()->GetDesiredUpdateRate(),
-      this->MaximumImageSampleDistance);
+    impl.sampleDistance =
+      impl.current->chooseDistance(OwnShare / renderer->GetRenderWindow()->GetDesiredUpdateRate(),
+        this->MaximumImageSampleDistance);
     if (hasCameraLight(renderer))
     {
       settings.shadowResolution =
@@ -187,12 +187,20 @@ void vtkSVORenderPass::FinishFrame()
   impl.statistics = impl.current->statistics();
   if (impl.statistics.tracer.retracedLayers > 0)
   {
-    const svo::PassStatistics& frame = impl.statistics;
-    impl.current->sampleDistance().measured(frame.sampleDistance,
-      frame.collectTime + frame.tracer.traceTime + frame.tracer.shadowTime + frame.presentTime);
+    double seconds, fixedSeconds;
+    this->MeasureFrame(seconds, fixedSeconds);
+    impl.current->measured(seconds, fixedSeconds);
   }
   impl.store.endFrame(static_cast<std::size_t>(this->OctreeMemoryLimit) * BytesOfKiB);
   impl.current = nullptr;
+}
+
+void vtkSVORenderPass::MeasureFrame(double& seconds, double& fixedSeconds) const
+{
+  const svo::PassStatistics& frame = this->Impl->statistics;
+  // What was waited for to be built will not be built again.
+  fixedSeconds = frame.octreesBuilt > 0 ? 0.0 : frame.collectTime;
+  seconds = fixedSeconds + frame.tracer.traceTime + frame.tracer.shadowTime + frame.presentTime;
 }
 
 void vtkSVORenderPass::Render(const vtkRenderState* state)

@@ -246,7 +246,8 @@ public:
   /**
    * While the user interacts (the render window's desired update rate is 1 Hz or more): whether
    * rays are as far apart as it takes to keep to half of the time for a frame, up to
-   * MaximumImageSampleDistance pixels. Default on, and 8 (1..64). Shadow maps of camera lights get
+   * MaximumImageSampleDistance pixels. Default on, and 8 (1..64). All of a window's renderers with
+   * a pass share that time, with rays equally far apart. Shadow maps of camera lights get
    * coarser alike. Other frames have a ray for each pixel and do not depend on the time that
    * anything takes. Named as in vtkGPUVolumeRayCastMapper.
    */
@@ -434,6 +435,13 @@ public:
 protected:
   vtkSVORenderPass();
   ~vtkSVORenderPass() override;
+
+  /**
+   * What the last frame took, in seconds, and which part of it fewer rays would not shorten. It is
+   * all that AutoAdjustSampleDistances goes by, so a subclass that answers otherwise than by the
+   * clock has interactive pictures that can be reproduced.
+   */
+  virtual void MeasureFrame(double& seconds, double& fixedSeconds) const;
 
   int Backend = BACKEND_AUTO;
   int ShadowTechnique = SHADOW_BUFFER;
