@@ -2,9 +2,9 @@
 
 #include "vtkSMPTools.h"
 
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
-#include <mutex>
 
 namespace svo
 {
@@ -24,22 +24,32 @@ void forOnVTKThreads(std::size_t begin, std::size_t end, std::size_t grain,
     vtkSMPTools::For(static_cast<vtkIdType>(begin), static_cast<vtkIdType>(end),
       static_cast<vtkIdType>(grain), range);
   };
-  if (std::strcmp(vtkSMPTools::GetBackend(), "Sequential") != 0 ||
-    std::getenv("VTK_SMP_BACKEND_IN_USE") != nullptr)
+  const bool scoped = std::strcmp(vtkSMPTools::GetBackend(), "Sequential") == 0 &&
+    std::getenv("VTK_SMP_BACKEND_IN_USE") == nullptr;
+  if (!scoped && std::strcmp(vtkSMPTools::GetBackend(), "STDThread") != 0)
   {
     run();
     return;
   }
-  // A scope changes global state: one at a time, and whoever comes second goes on alone.
-  static std::mutex scope;
-  std::unique_lock<std::mutex> lock(scope, std::try_to_lock);
-  if (lock)
+  // A scope changes global state, and plain threads have a flag that nobody guards: one at a time,
+  // and whoever comes second goes on alone.
+  static std::atomic<bool> busy{ false };
+  if (busy.exchange(true))
+  {
+    body(begin, end);
+    return;
+  }
+  struct Free
+  {
+    ~Free() { busy = false; }
+  } free;
+  if (scoped)
   {
     vtkSMPTools::LocalScope(vtkSMPTools::Config{ 0, "STDThread", false }, run);
   }
   else
   {
-    body(begin, end);
+    run();
   }
 }
 }

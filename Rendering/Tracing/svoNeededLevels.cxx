@@ -22,12 +22,11 @@ constexpr double HeadRoom = 7.0 / 8.0;
 /// Beyond this, world units, nothing can be said of what is seen.
 constexpr double LargestEdge = 1e140;
 
-/// `level`, rounded up to one of those that are built.
-int roundUpToBuilt(int level, const Instance& instance)
+/// The level that is built where `level` would do.
+int builtLevel(int level, const Instance& instance)
 {
   const int coarsest = coarsestLevel(instance.box, instance.triangles);
-  const int steps = (instance.deepestLevel - std::max(level, coarsest)) / 2;
-  return instance.deepestLevel - 2 * std::max(steps, 0);
+  return std::min(std::max(level, coarsest), instance.deepestLevel);
 }
 
 /// Largest octree level that the rays of a view stop at; 0 if the view does not see the instance.
@@ -121,11 +120,11 @@ std::vector<NeededLevels> neededLevels(
     const bool rays =
       casting && instance.castShadow && settings.shadowTechnique == ShadowTechnique::Rays;
     int& lights = needed[i].lights;
-    lights = lights > 0 ? roundUpToBuilt(lights, instance) : 0;
+    lights = lights > 0 ? builtLevel(lights, instance) : 0;
     const int level = unknown || rays ? deepest
       : instance.visible              ? levelFor(instance, eye, errorOf(instance))
                                       : 1;
-    needed[i].eye = std::max(roundUpToBuilt(level, instance), lights);
+    needed[i].eye = std::max(builtLevel(level, instance), lights);
   }
   return needed;
 }

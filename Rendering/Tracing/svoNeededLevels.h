@@ -31,9 +31,7 @@ struct NeededLevels
 /// known yet, of what is visible.
 ///
 /// No octree is coarser than its mesh: where many triangles share a brick, none of them stands well
-/// for a voxel (coarsestLevel()). Levels are few: every second one, counted from the deepest, so
-/// that an object that moves to and fro is not built anew all the time. What is needed is rounded
-/// up to one of these.
+/// for a voxel (coarsestLevel()).
 VTKSVOTRACING_EXPORT std::vector<NeededLevels> neededLevels(
   const Scene& scene, const View& eye, const FrameSettings& settings);
 

@@ -45,6 +45,7 @@ vtkStandardNewMacro(ScriptedPass);
 void prepare(Stage& stage, ScriptedPass* pass)
 {
   pass->SetFrameCoherence(false); // every frame is traced, and measured
+  pass->SetBuildInBackground(false);
   stage.renderer->SetPass(pass);
   stage.addSun(2.0, -1.5, 4.0);
   stage.add(ring(0.9, 0.0, 0.0, 1.0), 0.9, 0.5, 0.3);

@@ -152,6 +152,22 @@ class RenderPass(unittest.TestCase):
         self.assertEqual(scene.svo.GetAcceptedPixelError(), 0.5)
         scene.window.Finalize()
 
+    def test_octrees_that_the_pass_builds_are_counted(self):
+        scene = Scene(with_filter=False)
+        self.assertEqual(scene.svo.GetNumberOfOctreesBuilt(), 0)
+        scene.window.Render()
+        built = scene.svo.GetNumberOfOctreesBuilt()
+        self.assertGreaterEqual(built, 2)
+        self.assertEqual(scene.svo.GetNumberOfOctreesInProgress(), 0)
+        scene.window.Render()
+        self.assertEqual(scene.svo.GetNumberOfOctreesBuilt(), built)
+        scene.window.Finalize()
+        # Those that come with their meshes are not the pass's.
+        scene = Scene(with_filter=True)
+        scene.window.Render()
+        self.assertEqual(scene.svo.GetNumberOfOctreesBuilt(), 0)
+        scene.window.Finalize()
+
     def test_settings_are_clamped_to_their_range(self):
         svo = vtksvo.vtkSVORenderPass()
         svo.SetShadowIntensity(7.0)

@@ -74,7 +74,7 @@ TEST(NeededLevels, AreNeverLessThanTheLevelAtWhichRaysStop)
       const int stops = svo::selectLevel(deep, local, view, pixelError);
       const int needed = eyeLevel(oneThing(), view, noShadows(pixelError));
       EXPECT_GE(needed, stops) << distance << ' ' << pixelError;
-      EXPECT_LE(needed, std::max(stops + 2, Coarsest + 1)) << distance;
+      EXPECT_LE(needed, std::max(stops + 1, Coarsest)) << distance;
     }
   }
 }
@@ -90,7 +90,7 @@ TEST(NeededLevels, GrowAsTheCameraComesCloserUpToTheDeepest)
     last = level;
     levels.insert(level);
   }
-  EXPECT_EQ(levels, (std::set<int>{ 5, 7, 9, 11 }));
+  EXPECT_EQ(levels, (std::set<int>{ 4, 5, 6, 7, 8, 9, 10, 11 }));
 }
 
 TEST(NeededLevels, AnInstancesOwnPixelErrorCounts)
@@ -120,10 +120,10 @@ TEST(NeededLevels, WhatIsOutOfThePictureNeedsTheCoarsest)
 {
   svo::Scene scene = oneThing();
   scene.instances[0].localToWorld = movedTo(0, -30, 0); // behind the eye
-  EXPECT_EQ(eyeLevel(scene, seenFrom(4.0), noShadows()), 5);
+  EXPECT_EQ(eyeLevel(scene, seenFrom(4.0), noShadows()), Coarsest);
   scene.instances[0].localToWorld = glm::dmat4(1.0);
   scene.instances[0].visible = false;
-  EXPECT_EQ(eyeLevel(scene, seenFrom(4.0), noShadows()), 5);
+  EXPECT_EQ(eyeLevel(scene, seenFrom(4.0), noShadows()), Coarsest);
 }
 
 TEST(NeededLevels, AnUnknownViewAndAnUnknownBoxNeedTheDeepest)
@@ -193,7 +193,7 @@ TEST(NeededLevels, LightsNeedWhatTheirTexelsResolve)
       settings.shadowResolution = resolution;
       const int needed = svo::neededLevels(scene, seenFrom(400.0), settings)[0].lights;
       EXPECT_GE(needed, stops) << resolution;
-      EXPECT_LE(needed, std::max(stops + 2, Coarsest + 1)) << resolution;
+      EXPECT_LE(needed, std::max(stops + 1, Coarsest)) << resolution;
     }
   }
 }
@@ -217,11 +217,11 @@ TEST(NeededLevels, NoOctreeIsCoarserThanItsMesh)
   scene.lights = { lightOf(svo::Light::Kind::Point, { 3, -5, 9 }) };
   svo::FrameSettings settings;
   settings.shadowResolution = 16;
-  EXPECT_EQ(svo::neededLevels(scene, seenFrom(400.0), settings)[0].lights, 5);
+  EXPECT_EQ(svo::neededLevels(scene, seenFrom(400.0), settings)[0].lights, Coarsest);
   scene.instances[0].triangles = 100000; // level 8
   const auto needed = svo::neededLevels(scene, seenFrom(400.0), settings);
-  EXPECT_EQ(needed[0].lights, 9);
-  EXPECT_EQ(needed[0].eye, 9);
+  EXPECT_EQ(needed[0].lights, 8);
+  EXPECT_EQ(needed[0].eye, 8);
   scene.instances[0].triangles = 100000000;
   EXPECT_EQ(eyeLevel(scene, seenFrom(400.0), settings), Deepest);
 }

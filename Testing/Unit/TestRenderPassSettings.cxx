@@ -134,7 +134,8 @@ TEST(RenderPassSettings, PrintsEverySetting)
   for (const char* name : { "Backend", "ShadowTechnique", "ShadowBufferResolution",
          "AutomaticShadowBias", "ShadowBias", "ShadowIntensity", "PixelError", "ConvertPolyData",
          "MaximumLevel", "LeafGeometry", "OctreeMemoryLimit", "BuildInBackground", "FrameCoherence",
-         "LayerMemoryLimit", "AntiAliasing", "NumberOfRasterizedActors" })
+         "LayerMemoryLimit", "AntiAliasing", "NumberOfRasterizedActors", "AcceptedPixelError",
+         "NumberOfOctreesBuilt", "NumberOfOctreesInProgress" })
   {
     EXPECT_NE(text.str().find(name), std::string::npos) << name;
   }
