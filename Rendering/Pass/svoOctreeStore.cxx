@@ -237,6 +237,7 @@ void OctreeStore::buildInBackground(vtkPolyData* mesh, const Key& key)
     return;
   }
   auto job = std::make_unique<Job>();
+  job->mesh = mesh;
   job->lastFrame = this->Frame;
   MeshOctreeOptions build;
   build.level = std::get<1>(key);
@@ -277,46 +278,23 @@ void OctreeStore::keepResult(const Key& key, Job& job)
   }
 }
 
-/// Unless another mesh is the same.
-void OctreeStore::abandonBuildsOf(std::uint64_t signature)
-{
-  for (const auto& mesh : this->Meshes)
-  {
-    if (!mesh.second.attached && mesh.second.signature == signature)
-    {
-      return;
-    }
-  }
-  for (auto& job : this->Jobs)
-  {
-    if (std::get<0>(job.first) == signature)
-    {
-      job.second->abandon = true;
-    }
-  }
-}
-
 void OctreeStore::endFrame(std::size_t memoryLimit)
 {
   for (auto mesh = this->Meshes.begin(); mesh != this->Meshes.end();)
   {
-    if (mesh->second.mesh)
-    {
-      ++mesh;
-      continue;
-    }
-    const Known gone = mesh->second;
-    mesh = this->Meshes.erase(mesh);
-    if (!gone.attached)
-    {
-      this->abandonBuildsOf(gone.signature);
-    }
+    mesh = mesh->second.mesh ? std::next(mesh) : this->Meshes.erase(mesh);
   }
-  // Those whose mesh nobody asks for any more would otherwise stay for ever. The others stay until
-  // a frame has them: so long there is more to be seen. (Other renderers have frames in between.)
+  // What a frame asks for stays until a frame has it: so long there is more to be seen. (Other
+  // renderers have frames in between.) What nobody asks for any more is kept for later, as a mesh
+  // may come back to a pose; but nobody waits for those of a mesh that is gone.
   for (auto job = this->Jobs.begin(); job != this->Jobs.end();)
   {
-    if (!job->second->done || this->Frame - job->second->lastFrame < FramesOfOthers)
+    const bool asked = this->Frame - job->second->lastFrame < FramesOfOthers;
+    if (!asked && !job->second->mesh)
+    {
+      job->second->abandon = true;
+    }
+    if (asked || !job->second->done)
     {
       ++job;
       continue;

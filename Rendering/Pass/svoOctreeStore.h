@@ -101,6 +101,7 @@ private:
     std::atomic<bool> done{ false };
     std::atomic<bool> abandon{ false };
     std::atomic<double> progress{ 0.0 };
+    vtkWeakPointer<vtkPolyData> mesh;
     std::uint64_t lastFrame = 0; // that asked for it
     Octree octree;
     std::string message;
@@ -123,7 +124,6 @@ private:
   void waitFor(const Key& key, const StoreOptions& options);
   void keepResult(const Key& key, Job& job);
   Built* substitute(const Key& key);
-  void abandonBuildsOf(std::uint64_t signature);
   Answer answer(const Key& key, Built& built, const StoreOptions& options, Octree& octree);
 
   Launcher Launch;

@@ -15,8 +15,7 @@ namespace svo
 struct NeededLevels
 {
   int eye = 1;
-  int lights =
-    0; // 0: it is in no shadow buffer, or it is seen by rays that start on what the eye sees
+  int lights = 0; // 0: it is in no shadow buffer
 };
 
 /// For each instance the levels from which on a deeper octree is traced no deeper (selectLevel()),
