@@ -7,21 +7,55 @@
 #include "svoSelect.h"
 #include "svoView.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 namespace svo
 {
+/// How dark a pixel is in the shadows of the lights: four bits for each of the first eight, the
+/// others share theirs with these.
+using Darkness = std::uint32_t;
+
+/// `share` of light number l, 0..1.
+inline void darken(Darkness& darkness, std::size_t l, float share)
+{
+  const unsigned shift = 4 * (l % 8);
+  const Darkness held = (darkness >> shift) & 15u;
+  const Darkness more = static_cast<Darkness>(std::clamp(share, 0.0f, 1.0f) * 15.0f + 0.5f);
+  darkness = (darkness & ~(15u << shift)) | (std::min(held + more, 15u) << shift);
+}
+
+/// True if one light's shadow changes from the one to the other by more than an eighth of the
+/// light; a gentler change needs no further rays.
+inline bool shadowChanges(Darkness a, Darkness b)
+{
+  if (a == b)
+  {
+    return false;
+  }
+  for (unsigned shift = 0; shift < 32; shift += 4)
+  {
+    const int change = static_cast<int>((a >> shift) & 15u) - static_cast<int>((b >> shift) & 15u);
+    if (std::abs(change) > 2)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 class EdgeFinder
 {
 public:
-  /// `darkness`: per pixel, as the depth buffer, a number that changes where a shadow does.
+  /// `darkness`: per pixel, as the depth buffer.
   EdgeFinder(const DepthBuffer& depth, const LayeredView& eye,
-    const std::vector<std::uint8_t>& darkness, const View& view)
+    const std::vector<Darkness>& darkness, const View& view)
     : Depth(depth)
     , Eye(eye)
-    , Darkness(darkness)
+    , Dark(darkness)
     , Of(view)
   {
   }
@@ -65,7 +99,8 @@ private:
     const std::size_t at = this->Depth.at(x, y);
     const std::size_t before = this->Depth.at(x - dx, y - dy);
     const std::size_t after = this->Depth.at(x + dx, y + dy);
-    if (this->Darkness[before] != this->Darkness[at] || this->Darkness[after] != this->Darkness[at])
+    if (shadowChanges(this->Dark[before], this->Dark[at]) ||
+      shadowChanges(this->Dark[after], this->Dark[at]))
     {
       return true;
     }
@@ -77,7 +112,7 @@ private:
 
   const DepthBuffer& Depth;
   const LayeredView& Eye;
-  const std::vector<std::uint8_t>& Darkness;
+  const std::vector<Darkness>& Dark;
   const View& Of;
 };
 }

@@ -102,8 +102,18 @@ struct Lighting
   }
 };
 
+/// What is left of a light of which a point misses the share `darkness`, 0..1, if of a whole shadow
+/// `remaining` is left. Exact at both ends.
+inline float shareOfLight(float darkness, float remaining)
+{
+  return darkness >= 1.0f ? remaining
+    : darkness > 0.0f     ? 1.0f - darkness * (1.0f - remaining)
+                          : 1.0f;
+}
+
 /// Colour of a visible point, 0..1 and beyond. dark(light) is asked for lights that reach the
-/// point only, and says whether something stands between; then `remaining` of the light is left.
+/// point only, and says which share of the light, 0..1, something between them takes, or whether
+/// something does; of what is taken `remaining` is left.
 template <class Dark>
 glm::vec3 shade(const Lighting& lighting, const Instance& instance, const SurfacePoint& point,
   float remaining, Dark&& dark)
@@ -127,8 +137,9 @@ glm::vec3 shade(const Lighting& lighting, const Instance& instance, const Surfac
     const Arriving a =
       arriving(lighting.lights[l], normal, position, material, lighting.onlyHeadlight);
     const bool reached = a.diffuse != glm::vec3(0.0f) || a.specular > 0.0f;
-    const float share =
-      reached && instance.receiveShadow && light.castShadow && dark(l) ? remaining : 1.0f;
+    const float share = reached && instance.receiveShadow && light.castShadow
+      ? shareOfLight(static_cast<float>(dark(l)), remaining)
+      : 1.0f;
     diffuse += share * a.diffuse;
     specular += share * a.specular * light.color;
   }

@@ -217,10 +217,11 @@ void ShadowBuffer::merge(Processes& processes, std::size_t first)
 bool ShadowBuffer::shadows(const SurfacePoint& point, double error) const
 {
   Place place;
-  if (!this->lookUp(point.position, place))
-  {
-    return false;
-  }
+  return this->lookUp(point.position, place) && this->shadows(place, point, error);
+}
+
+bool ShadowBuffer::shadows(const Place& place, const SurfacePoint& point, double error) const
+{
   const Answer answer = this->ask(place, place.nearest(), point, error);
   if (answer != Answer::DarkNearby)
   {
@@ -299,8 +300,8 @@ bool ShadowBuffer::agreed(const Place& place, const SurfacePoint& point, double 
   return dark >= 2;
 }
 
-ShadowBuffer::Answer ShadowBuffer::ask(
-  const Place& place, const glm::ivec2& texel, const SurfacePoint& point, double error) const
+ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& texel,
+  const SurfacePoint& point, double error, double span) const
 {
   const Face* face = place.face;
   const double t = place.t;
@@ -321,8 +322,8 @@ ShadowBuffer::Answer ShadowBuffer::ask(
     return occluder + bias < t ? Answer::Dark : Answer::Lit;
   }
   const View& view = face->view;
-  const double pixel = face->pixel + t * face->pixelPerDepth;
-  const double most = 8.0 * pixel; // how far the tangent plane is followed along the ray
+  const double pixel = span * (face->pixel + t * face->pixelPerDepth);
+  const double most = NearbyReach * pixel; // how far the tangent plane is followed along the ray
   if (!(occluder + bias < t + most))
   {
     return Answer::Lit;

@@ -59,6 +59,25 @@ public:
   void shadows(const TilePoints& points, int first, int last, double error,
     const std::uint8_t* asked, std::uint8_t* dark) const;
 
+  /// The share of the light that the point misses, 0..1: the test above, of every texel in a window
+  /// around the point, weighted so that it changes smoothly with the point (percentage-closer
+  /// filtering: Reeves et al., SIGGRAPH 1987; on the receiver's plane: Isidoro, "Shadow Mapping:
+  /// GPU-based Tips and Techniques", GDC 2006). `extent`, world units: how wide a piece of the
+  /// surface the point stands for; the window is three texels wide, more only where a piece is
+  /// wider than a texel (TexelWindow).
+  ///
+  /// A texel's answer is that of a texel as large as it takes to hold the point: planes are
+  /// followed, and the bend of the surface is allowed for, over the whole way. A nearby occluder
+  /// does not count if it is the other side of a crease. Where the map is flat all texels say what
+  /// one says, and the test of one is all there is. Without the automatic bias: 0 or 1, as the test
+  /// above has it.
+  float darkness(const SurfacePoint& point, double error, double extent) const;
+
+  /// The same for points [first, last) of one instance: darkness[i - first] of those that are
+  /// `asked`, 0 of others; of extent 0.
+  void darkness(const TilePoints& points, int first, int last, double error,
+    const std::uint8_t* asked, float* darkness) const;
+
   void copyMaps(int light, std::vector<ShadowMap>& maps) const;
   void release();
 
@@ -95,6 +114,7 @@ private:
       return true;
     }
   };
+  static constexpr double NearbyReach = 8.0;
   /// Where a point is looked up.
   struct Place
   {
@@ -108,7 +128,7 @@ private:
   enum class Answer
   {
     Lit,
-    DarkNearby, // by an occluder within a few texels' depth
+    DarkNearby, // by an occluder within NearbyReach texels' depth
     Dark
   };
   /// False if the point is outside of all faces, or its face sees no caster.
@@ -116,8 +136,19 @@ private:
   static void markPlace(Face& face, const Place& place, std::size_t& last);
   /// True if most of the other texels around the point find it dark as well.
   bool agreed(const Place& place, const SurfacePoint& point, double error) const;
-  Answer ask(
-    const Place& place, const glm::ivec2& texel, const SurfacePoint& point, double error) const;
+  /// `span`: the size of the texel is taken for so many times what it is.
+  Answer ask(const Place& place, const glm::ivec2& texel, const SurfacePoint& point, double error,
+    double span = 1.0) const;
+  bool shadows(const Place& place, const SurfacePoint& point, double error) const;
+  // The filter; svoShadowFilter.cxx has it.
+  /// Width of the box for a point that stands for `extent`, texels.
+  static double boxWidth(const Place& place, double extent);
+  /// The texels of the window hold nothing, or one surface without steps and creases.
+  bool isFlat(const Place& place, double width) const;
+  /// What lies at a texel, followed to the point in the way that the map shows from the texel
+  /// beyond, passes behind the point: it is the other side of a crease and no occluder.
+  bool endsBefore(const Place& place, const glm::ivec2& texel, double error) const;
+  float filtered(const Place& place, double width, const SurfacePoint& point, double error) const;
 
   std::vector<std::unique_ptr<Face>> Faces;
   // By index of the instance, among those of all processes where depths are shared.

@@ -1,12 +1,21 @@
 #include "svoShadows.h"
 
+#include <algorithm>
+
 namespace svo
 {
+bool Shadows::canFilter(const FrameSettings& settings)
+{
+  return settings.filterShadows && settings.automaticBias &&
+    settings.shadowTechnique == ShadowTechnique::Buffer;
+}
+
 void Shadows::begin(
   const Scene& scene, const FrameSettings& settings, const LayeredView& eye, LayerBudget& budget)
 {
-  // Subsamples of a pixel may look up what no pixel's centre does.
-  this->All = settings.wholeShadowBuffers || settings.antiAliasing;
+  this->Filters = canFilter(settings);
+  // Subsamples of a pixel, and filters, may look up what no pixel's centre does.
+  this->All = settings.wholeShadowBuffers || settings.antiAliasing || this->Filters;
   this->Shared.clear();
   this->beginBuffers(
     scene, scene.lights, { outlinesOf(scene), 0, settings.wholeShadowBuffers }, settings, budget);
@@ -110,6 +119,25 @@ void Shadows::dark(std::size_t light, const TilePoints& points, int first, int l
   {
     dark[i - first] = asked[i - first] && this->dark(light, points.point(i), error, rays);
   }
+}
+
+float Shadows::darkness(std::size_t light, const SurfacePoint& point, double error, double extent,
+  std::uint64_t& rays) const
+{
+  return this->Filters && this->Buffers[light]
+    ? this->Buffers[light]->darkness(point, error, extent)
+    : this->dark(light, point, error, rays);
+}
+
+void Shadows::darkness(std::size_t light, const TilePoints& points, int first, int last,
+  double error, const std::uint8_t* asked, float* darkness) const
+{
+  if (this->Buffers[light])
+  {
+    this->Buffers[light]->darkness(points, first, last, error, asked, darkness);
+    return;
+  }
+  std::fill_n(darkness, last - first, 0.0f);
 }
 
 std::size_t Shadows::layerMemory() const

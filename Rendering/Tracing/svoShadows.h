@@ -47,6 +47,17 @@ public:
   void dark(std::size_t light, const TilePoints& points, int first, int last, double error,
     const std::uint8_t* asked, std::uint8_t* dark, std::uint64_t& rays) const;
 
+  /// True if darkness() should be asked instead of dark(): it knows more than yes and no.
+  bool filters() const { return this->Filters; }
+  /// The share of the light that the point misses, 0..1; see ShadowBuffer::darkness(). Of lights
+  /// without a buffer 0 or 1, as dark() says.
+  float darkness(std::size_t light, const SurfacePoint& point, double error, double extent,
+    std::uint64_t& rays) const;
+  /// The same for points [first, last) of one instance: darkness[i - first] of those that are
+  /// `asked`. Only where there are buffers.
+  void darkness(std::size_t light, const TilePoints& points, int first, int last, double error,
+    const std::uint8_t* asked, float* darkness) const;
+
   void addStatistics(FrameStatistics& statistics) const;
   void copyMaps(std::vector<ShadowMap>& maps) const;
   /// Bytes of all kept layers.
@@ -54,12 +65,14 @@ public:
   void release();
 
 private:
+  static bool canFilter(const FrameSettings& settings);
   void beginBuffers(const Scene& scene, const std::vector<Light>& lights, const Outlines& outlines,
     const FrameSettings& settings, LayerBudget& budget);
 
   const Scene* Of = nullptr;
-  bool All = false;                   // every tile is traced
-  bool Casting = false;               // there are buffers
+  bool All = false;     // every tile is traced
+  bool Casting = false; // there are buffers
+  bool Filters = false;
   std::vector<ShadowBuffer*> Buffers; // by index into Scene::lights; null: no buffer
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> Kept; // by Light::id
   std::unique_ptr<ShadowRays> Rays;

@@ -32,6 +32,7 @@ void append(std::vector<unsigned char>& bytes, const std::vector<T>& values)
 bool Shadows::traceShared(const Scene& scene, const FrameSettings& own, LayerBudget& budget,
   const ParallelFor& parallelFor, Processes& processes)
 {
+  this->Filters = canFilter(own);
   std::vector<SharedSettings> settingsOfAll;
   gatherRecords(processes,
     std::vector<SharedSettings>{

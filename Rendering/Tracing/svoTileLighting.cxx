@@ -159,6 +159,24 @@ void add(const glm::vec3& c, float remaining, int n, TileLight& l)
   }
 }
 
+void addParts(const glm::vec3& c, int n, TileLight& l)
+{
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      const float share = l.share[k];
+      l.diffuseR[k] += share * (l.diffuse[k] * c.r);
+      l.diffuseG[k] += share * (l.diffuse[k] * c.g);
+      l.diffuseB[k] += share * (l.diffuse[k] * c.b);
+      const float specular = share * l.specular[k];
+      l.specularR[k] += specular * c.r;
+      l.specularG[k] += specular * c.g;
+      l.specularB[k] += specular * c.b;
+    }
+  }
+}
+
 /// a + d * diffuse + s * specular, of each point's own colour.
 void finish(const Material& m, bool lit, int n, const float* r, const float* g, const float* b,
   const TileLight& l, float* outR, float* outG, float* outB)
@@ -226,6 +244,7 @@ HWY_EXPORT(towardsAxis);
 HWY_EXPORT(arriveAtSurface);
 HWY_EXPORT(reach);
 HWY_EXPORT(add);
+HWY_EXPORT(addParts);
 HWY_EXPORT(finish);
 HWY_EXPORT(finishPlain);
 HWY_EXPORT(pack);
@@ -296,6 +315,11 @@ void arriveLight(
 void addLight(const ViewLight& from, float remaining, int count, TileLight& light)
 {
   HWY_DYNAMIC_DISPATCH(add)(from.light->color, remaining, count, light);
+}
+
+void addShares(const ViewLight& from, int count, TileLight& light)
+{
+  HWY_DYNAMIC_DISPATCH(addParts)(from.light->color, count, light);
 }
 
 void finishLight(const Lighting& lighting, const Material& material, const TilePoints& points,

@@ -43,6 +43,8 @@ struct TileLight
     specularB[TilePoints::Room];
   /// A point that light reaches from the present one; and those of them that lie in its shadow.
   std::uint8_t reached[TilePoints::Room], dark[TilePoints::Room];
+  /// Of the present light, what is left of it, 0..1; addShares() alone reads it.
+  alignas(64) float share[TilePoints::Room];
 };
 
 /// To view space.
@@ -55,6 +57,9 @@ void arriveLight(
 
 /// Adds what arrived. Where it is `dark` a share of `remaining` is left.
 void addLight(const ViewLight& from, float remaining, int count, TileLight& light);
+
+/// The same; of every point its `share` is left.
+void addShares(const ViewLight& from, int count, TileLight& light);
 
 /// The colours of the points.
 void finishLight(const Lighting& lighting, const Material& material, const TilePoints& points,

@@ -34,11 +34,12 @@ struct Tracer::Internals
   Shadows Dark;
   Scene AsLightsSee; // where that is not the frame's scene; for the length of a frame
   FrameTiles Tiles;
-  std::vector<SurfaceFrame> Frames;   // by index into Scene::instances
-  std::vector<std::uint8_t> Darkness; // per pixel, as the depth buffer: which lights are dark
-  std::vector<double> Errors;         // world; of the instance's leaves as the eye sees them
-  bool Shared = false;                // shadow buffers are traced, for all processes
-  double SharedTime = 0.0;            // s, that took
+  std::vector<SurfaceFrame> Frames; // by index into Scene::instances
+  bool FindsEdges = false;
+  std::vector<Darkness> DarkPixels; // per pixel, as the depth buffer, where edges are to be found
+  std::vector<double> Errors;       // world; of the instance's leaves as the eye sees them
+  bool Shared = false;              // shadow buffers are traced, for all processes
+  double SharedTime = 0.0;          // s, that took
 
   /// Calls body(tileX, tileY, scratch) for the tiles with hits.
   template <class Scratch, class Body>
@@ -61,6 +62,10 @@ struct Tracer::Internals
   void describeInstances(const Scene& scene, ShadowTechnique technique);
   const Scene& sceneOfLights(const Scene& scene, ShadowTechnique technique);
   struct ShadeScratch;
+  /// Shadows of light l on points [first, last) of one instance that it reaches, and adds the
+  /// light.
+  void shadowAndAdd(std::size_t l, const Lighting& lighting, float remaining, int first, int last,
+    ShadeScratch& scratch, std::uint64_t& rays);
   /// Colours points [first, last) of one instance.
   void lightInstance(const Scene& scene, const Lighting& lighting, float remaining, int first,
     int last, bool hasColor, ShadeScratch& scratch, std::uint64_t& rays);
@@ -138,8 +143,38 @@ struct Tracer::Internals::ShadeScratch
   TileLight light;
   TileColors colors;
   std::uint32_t rgba[TilePoints::Room];
-  std::uint8_t darkness[TilePoints::Most]; // by index of the point: which lights are dark
+  float missed[TilePoints::Room];      // by index of the point minus the first: of one light
+  Darkness darkness[TilePoints::Most]; // by index of the point
 };
+
+void Tracer::Internals::shadowAndAdd(std::size_t l, const Lighting& lighting, float remaining,
+  int first, int last, ShadeScratch& scratch, std::uint64_t& rays)
+{
+  const TilePoints& points = scratch.points;
+  TileLight& light = scratch.light;
+  const int count = last - first;
+  const double error = this->Errors[points.instance[first]];
+  if (!this->Dark.filters())
+  {
+    this->Dark.dark(l, points, first, last, error, light.reached, light.dark, rays);
+    for (int i = 0; i < count && this->FindsEdges; ++i)
+    {
+      darken(scratch.darkness[first + i], l, light.dark[i]);
+    }
+    addLight(lighting.lights[l], remaining, count, light);
+    return;
+  }
+  this->Dark.darkness(l, points, first, last, error, light.reached, scratch.missed);
+  for (int i = 0; i < count; ++i)
+  {
+    light.share[i] = shareOfLight(scratch.missed[i], remaining);
+  }
+  for (int i = 0; i < count && this->FindsEdges; ++i)
+  {
+    darken(scratch.darkness[first + i], l, scratch.missed[i]);
+  }
+  addShares(lighting.lights[l], count, light);
+}
 
 void Tracer::Internals::lightInstance(const Scene& scene, const Lighting& lighting, float remaining,
   int first, int last, bool hasColor, ShadeScratch& scratch, std::uint64_t& rays)
@@ -149,7 +184,7 @@ void Tracer::Internals::lightInstance(const Scene& scene, const Lighting& lighti
   const std::uint32_t index = points.instance[first];
   const Instance& instance = scene.instances[index];
   const int count = last - first;
-  std::fill_n(scratch.darkness + first, count, std::uint8_t(0));
+  std::fill_n(scratch.darkness + first, count, Darkness(0));
   if (instance.material.lighting && !lighting.lights.empty())
   {
     beginLight(lighting, points, first, last, light);
@@ -158,18 +193,13 @@ void Tracer::Internals::lightInstance(const Scene& scene, const Lighting& lighti
       arriveLight(lighting, l, instance.material, count, light);
       if (instance.receiveShadow && lighting.lights[l].light->castShadow)
       {
-        this->Dark.dark(
-          l, points, first, last, this->Errors[index], light.reached, light.dark, rays);
-        for (int i = 0; i < count; ++i)
-        {
-          scratch.darkness[first + i] ^= static_cast<std::uint8_t>(light.dark[i] << l % 8);
-        }
+        this->shadowAndAdd(l, lighting, remaining, first, last, scratch, rays);
       }
       else
       {
         std::fill_n(light.dark, count, std::uint8_t(0));
+        addLight(lighting.lights[l], remaining, count, light);
       }
-      addLight(lighting.lights[l], remaining, count, light);
     }
   }
   finishLight(lighting, instance.material, points, first, last, hasColor, light, scratch.colors);
@@ -205,9 +235,9 @@ void Tracer::Internals::write(const Scene& scene, const Lighting& lighting,
     std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixel);
   }
   const std::size_t tile = static_cast<std::size_t>(tileY) * this->Eye.depthBuffer().tilesX + tileX;
-  for (int i = 0; settings.antiAliasing && i < points.count; ++i)
+  for (int i = 0; this->FindsEdges && i < points.count; ++i)
   {
-    this->Darkness[64 * tile + points.pixel[i]] = scratch.darkness[i];
+    this->DarkPixels[64 * tile + points.pixel[i]] = scratch.darkness[i];
   }
 }
 
@@ -218,9 +248,10 @@ void Tracer::Internals::shadePixels(const Scene& scene, const View& view,
   const Lighting lighting(scene, view);
   const float remaining = static_cast<float>(1.0 - settings.shadowIntensity);
   std::atomic<std::uint64_t> allRays{ 0 };
-  if (settings.antiAliasing)
+  this->FindsEdges = settings.antiAliasing;
+  if (this->FindsEdges)
   {
-    this->Darkness.resize(depth.instance.size());
+    this->DarkPixels.resize(depth.instance.size());
   }
   this->eachTile<ShadeScratch>(parallelFor,
     [&](int tileX, int tileY, ShadeScratch& scratch)
@@ -267,7 +298,7 @@ void Tracer::Internals::smoothEdges(const Scene& scene, const View& view,
   constexpr double OffsetX[4] = { 0.375, 0.875, 0.125, 0.625 };
   constexpr double OffsetY[4] = { 0.125, 0.375, 0.625, 0.875 };
   const DepthBuffer& depth = this->Eye.depthBuffer();
-  const EdgeFinder edges(depth, this->Eye, this->Darkness, view);
+  const EdgeFinder edges(depth, this->Eye, this->DarkPixels, view);
   const Lighting lighting(scene, view);
   const float remaining = static_cast<float>(1.0 - settings.shadowIntensity);
   std::atomic<std::uint64_t> primaryRays{ 0 };
@@ -302,11 +333,13 @@ void Tracer::Internals::smoothEdges(const Scene& scene, const View& view,
             continue;
           }
           ++hits;
+          const double extent = 0.5 * worldPixel(view, samples.t[k]);
           const SurfacePoint point = surfacePoint(
             this->Frames[i], view, samples.x[k], samples.y[k], samples.t[k], samples.primitive[k]);
-          sum += glm::clamp(shade(lighting, scene.instances[i], point, remaining,
-                              [&](std::size_t light)
-                              { return this->Dark.dark(light, point, this->Errors[i], rays); }),
+          sum += glm::clamp(
+            shade(lighting, scene.instances[i], point, remaining,
+              [&](std::size_t light)
+              { return this->Dark.darkness(light, point, this->Errors[i], extent, rays); }),
             0.0f, 1.0f);
         }
         const int x = 8 * tileX + (pixels[first + p] & 7);

@@ -36,6 +36,10 @@ struct FrameSettings
   /// averaged over what is hit; depth stays that of the pixel's centre, and a pixel whose centre
   /// misses stays a miss. Shadow buffers are traced whole.
   bool antiAliasing = false;
+  /// Shadow buffers say which share of a light a point misses, instead of yes or no, so that the
+  /// edges of shadows do not show the buffer's texels: ShadowBuffer::darkness(). With the automatic
+  /// bias only. Shadow buffers are traced whole.
+  bool filterShadows = false;
   bool wholeShadowBuffers = false; // rasterised receivers look up texels nobody here knows
   bool writeNormals = false;       // Frame::normals is wanted (SSAO)
 };

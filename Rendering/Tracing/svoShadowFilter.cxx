@@ -1,0 +1,180 @@
+// The filtered test of a shadow buffer: which share of the light a point misses.
+#include "svoShadowFilter.h"
+
+#include "svoShadowBuffer.h"
+#include "svoTileShadows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace svo
+{
+double ShadowBuffer::boxWidth(const Place& place, double extent)
+{
+  const double pixel = place.face->pixel + place.t * place.face->pixelPerDepth;
+  return extent > pixel ? std::min(extent / pixel, TexelWindow::Widest) : 1.0;
+}
+
+bool ShadowBuffer::isFlat(const Place& place, double width) const
+{
+  const Face& face = *place.face;
+  const DepthBuffer& depth = face.layers.depthBuffer();
+  const TexelWindow x(place.x, width, face.view.width);
+  const TexelWindow y(place.y, width, face.view.height);
+  double t[TexelWindow::Most][TexelWindow::Most];
+  int hits = 0;
+  for (int j = 0; j < y.count; ++j)
+  {
+    for (int i = 0; i < x.count; ++i)
+    {
+      std::uint32_t caster;
+      hits += face.occluder(depth.at(x.first + i, y.first + j), caster, t[j][i]);
+    }
+  }
+  if (hits < x.count * y.count)
+  {
+    return hits == 0;
+  }
+  // A second difference of more than a texel's edge is a step or a crease.
+  const double most = face.pixel + place.t * face.pixelPerDepth;
+  for (int j = 0; j < y.count; ++j)
+  {
+    for (int i = 2; i < x.count; ++i)
+    {
+      if (std::abs(t[j][i - 2] - 2.0 * t[j][i - 1] + t[j][i]) > most)
+      {
+        return false;
+      }
+    }
+  }
+  for (int j = 2; j < y.count; ++j)
+  {
+    for (int i = 0; i < x.count; ++i)
+    {
+      if (std::abs(t[j - 2][i] - 2.0 * t[j - 1][i] + t[j][i]) > most)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool ShadowBuffer::endsBefore(const Place& place, const glm::ivec2& texel, double error) const
+{
+  const Face& face = *place.face;
+  const DepthBuffer& depth = face.layers.depthBuffer();
+  const double offset[2] = { texel.x + 0.5 - place.x, texel.y + 0.5 - place.y };
+  const int size[2] = { face.view.width, face.view.height };
+  const double pixel = face.pixel + place.t * face.pixelPerDepth;
+  std::uint32_t caster, other;
+  double here, farther;
+  if (!face.occluder(depth.at(texel.x, texel.y), caster, here))
+  {
+    return false;
+  }
+  double t = here;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    glm::ivec2 next = texel;
+    next[axis] += offset[axis] < 0.0 ? -1 : 1;
+    if (next[axis] < 0 || next[axis] >= size[axis] ||
+      !face.occluder(depth.at(next.x, next.y), other, farther) ||
+      std::abs(farther - here) > NearbyReach * pixel)
+    {
+      return false;
+    }
+    t -= (farther - here) * std::abs(offset[axis]);
+  }
+  return !(t + 0.5 * pixel + std::max(this->CasterError[caster], error) < place.t);
+}
+
+float ShadowBuffer::filtered(
+  const Place& place, double width, const SurfacePoint& point, double error) const
+{
+  TexelWindow x(place.x, width, place.face->view.width);
+  TexelWindow y(place.y, width, place.face->view.height);
+  x.weigh();
+  y.weigh();
+  double sum = 0.0;
+  bool anyDark = false, anyLit = false;
+  for (int j = 0; j < y.count; ++j)
+  {
+    for (int i = 0; i < x.count; ++i)
+    {
+      const glm::ivec2 texel(x.first + i, y.first + j);
+      const double away =
+        std::max(std::abs(texel.x + 0.5 - place.x), std::abs(texel.y + 0.5 - place.y));
+      const Answer answer = this->ask(place, texel, point, error, std::max(1.0, 2.0 * away));
+      const bool dark = answer == Answer::Dark ||
+        (answer == Answer::DarkNearby && !this->endsBefore(place, texel, error));
+      sum += dark ? x.weight[i] * y.weight[j] : 0.0;
+      anyDark = anyDark || dark;
+      anyLit = anyLit || !dark;
+    }
+  }
+  return !anyDark ? 0.0f : !anyLit ? 1.0f : static_cast<float>(std::clamp(sum, 0.0, 1.0));
+}
+
+float ShadowBuffer::darkness(const SurfacePoint& point, double error, double extent) const
+{
+  Place place;
+  if (!this->lookUp(point.position, place))
+  {
+    return 0.0f;
+  }
+  const double width = boxWidth(place, extent);
+  if (this->AutomaticBias && !this->isFlat(place, width))
+  {
+    return this->filtered(place, width, point, error);
+  }
+  return this->shadows(place, point, error) ? 1.0f : 0.0f;
+}
+
+void ShadowBuffer::darkness(const TilePoints& points, int first, int last, double error,
+  const std::uint8_t* asked, float* darkness) const
+{
+  const int count = last - first;
+  std::uint8_t dark[TilePoints::Room];
+  this->shadows(points, first, last, error, asked, dark);
+  for (int i = 0; i < count; ++i)
+  {
+    darkness[i] = dark[i] ? 1.0f : 0.0f;
+  }
+  if (!this->AutomaticBias || this->Faces.empty())
+  {
+    return;
+  }
+  const Face& face = *this->Faces.front();
+  const bool oneMap = this->Faces.size() == 1;
+  if (oneMap && !face.seesCasters)
+  {
+    return;
+  }
+  TexelPlaces places;
+  if (oneMap)
+  {
+    lookUpTexels(face.view, face.worldToClip, points, first, last, places);
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    if (!asked[i])
+    {
+      continue;
+    }
+    Place place;
+    if (oneMap)
+    {
+      place = { places.inside[i] ? &face : nullptr, places.x[i], places.y[i], places.t[i] };
+    }
+    else if (!this->lookUp(points.point(first + i).position, place))
+    {
+      place.face = nullptr;
+    }
+    if (place.face && !this->isFlat(place, 1.0))
+    {
+      darkness[i] = this->filtered(place, 1.0, points.point(first + i), error);
+    }
+  }
+}
+}
