@@ -1,34 +1,48 @@
 // The share of a light that reaches a fragment of a rasterised surface, by the test of
-// svoShadowBuffer.cxx. `atlas` has `count` square maps, one above the other; each holds the linear
+// svoShadowBuffer.cxx, filtered as in svoShadowFilter.cxx. `atlas` has `count` square maps, one above the other; each holds the linear
 // depth of the nearest caster. A map's matrix takes view coordinates to (x, y, linear depth, w), with
 // x / w and y / w in -1..1 across the map. `facet` is the fragment's own plane, towards the viewer,
-// `normal` what it is shaded with.
+// `normal` what it is shaded with, `extent` how wide a piece of the surface it shows.
 uniform float svoReceive; // 0: no shadow falls on this surface
 uniform float svoIntensity;
 uniform int svoPlaneBias; // compare at the texel's own ray, on the planes of the receiver
 uniform float svoManualBias; // world units, added
+uniform int svoFilter; // weigh the texels around the point; with svoPlaneBias only
+
+// Edge of a texel in the world, at the depth of a point whose w is given.
+float svoTexelEdge(mat4 rows, float w, float size)
+{
+  vec3 axis = rows[2].xyz;
+  float across = length(rows[0].xyz - dot(rows[0].xyz, axis) * axis);
+  float up = length(rows[1].xyz - dot(rows[1].xyz, axis) * axis);
+  return 2.0 * w / (size * max(across, up));
+}
+
+// Depth of the nearest caster, infinite if there is none.
+float svoOccluder(sampler2D atlas, int map, ivec2 texel)
+{
+  return texelFetch(atlas, texel + ivec2(0, map * textureSize(atlas, 0).x), 0).r;
+}
 
 // What one texel says of the point: 0 lit, 1 dark by an occluder within a few texels' depth, 2 dark.
+// `span`: the size of the texel is taken for so many times what it is.
 int svoAsk(sampler2D atlas, int map, mat4 rows, float error, vec4 point, vec2 texel, vec3 facet,
-  vec3 normal)
+  vec3 normal, float span)
 {
   float size = float(textureSize(atlas, 0).x);
   if (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(size))))
   {
     return 0;
   }
-  float occluder = texelFetch(atlas, ivec2(texel) + ivec2(0, map * int(size)), 0).r + svoManualBias;
+  float occluder = svoOccluder(atlas, map, ivec2(texel)) + svoManualBias;
   float w = dot(rows[3], point);
   float depth = dot(rows[2], point);
   if (svoPlaneBias == 0)
   {
     return occluder < depth ? 2 : 0;
   }
-  // Edge of a texel in the world, at the depth of the point.
   vec3 axis = rows[2].xyz;
-  float across = length(rows[0].xyz - dot(rows[0].xyz, axis) * axis);
-  float up = length(rows[1].xyz - dot(rows[1].xyz, axis) * axis);
-  float pixel = 2.0 * w / (size * max(across, up));
+  float pixel = span * svoTexelEdge(rows, w, size);
   float most = 8.0 * pixel; // how far the tangent planes are followed along the ray
   if (!(occluder < depth + most))
   {
@@ -68,8 +82,104 @@ int svoAsk(sampler2D atlas, int map, mat4 rows, float error, vec4 point, vec2 te
   return occluder + (0.5 * pixel + error) / steepest < receiver ? dark : 0;
 }
 
+// Of a box around 0, its edges blurred by a texel, what lies below x.
+float svoCovered(float x, float width)
+{
+  float beyond = max(0.5 * (width + 1.0) - abs(x), 0.0);
+  float part = abs(x) <= 0.5 * (width - 1.0) ? abs(x) / width : 0.5 - 0.5 * beyond * beyond / width;
+  return x < 0.0 ? 0.5 - part : 0.5 + part;
+}
+
+// True if texels first..last hold nothing, or one surface without steps and creases.
+bool svoIsFlat(sampler2D atlas, int map, ivec2 first, ivec2 last, float most)
+{
+  int hits = 0;
+  bool even = true;
+  for (int y = first.y; y <= last.y; ++y)
+  {
+    for (int x = first.x; x <= last.x; ++x)
+    {
+      float t = svoOccluder(atlas, map, ivec2(x, y));
+      hits += t < 1e30 ? 1 : 0;
+      if (x > first.x + 1)
+      {
+        float bend = svoOccluder(atlas, map, ivec2(x - 2, y)) -
+          2.0 * svoOccluder(atlas, map, ivec2(x - 1, y)) + t;
+        even = even && abs(bend) <= most;
+      }
+      if (y > first.y + 1)
+      {
+        float bend = svoOccluder(atlas, map, ivec2(x, y - 2)) -
+          2.0 * svoOccluder(atlas, map, ivec2(x, y - 1)) + t;
+        even = even && abs(bend) <= most;
+      }
+    }
+  }
+  ivec2 count = last - first + 1;
+  return hits == 0 || (even && hits == count.x * count.y);
+}
+
+// True if what lies at a texel, followed to the point in the way that the map shows from the texel
+// beyond, passes behind the point.
+bool svoEndsBefore(
+  sampler2D atlas, int map, ivec2 texel, vec2 offset, float depth, float pixel, float error)
+{
+  int size = textureSize(atlas, 0).x;
+  float here = svoOccluder(atlas, map, texel);
+  float t = here;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    ivec2 next = texel;
+    next[axis] += offset[axis] < 0.0 ? -1 : 1;
+    if (next[axis] < 0 || next[axis] >= size)
+    {
+      return false;
+    }
+    float farther = svoOccluder(atlas, map, next);
+    if (!(abs(farther - here) <= 8.0 * pixel))
+    {
+      return false;
+    }
+    t -= (farther - here) * abs(offset[axis]);
+  }
+  return !(t + 0.5 * pixel + error < depth);
+}
+
+// The share of the light that the point misses. `place`: in texels.
+float svoFiltered(sampler2D atlas, int map, mat4 rows, float error, vec4 point, vec2 place,
+  ivec2 first, ivec2 last, float width, vec3 facet, vec3 normal)
+{
+  float size = float(textureSize(atlas, 0).x);
+  float depth = dot(rows[2], point);
+  float pixel = svoTexelEdge(rows, dot(rows[3], point), size);
+  float dark = 0.0;
+  float all = 0.0;
+  for (int y = first.y; y <= last.y; ++y)
+  {
+    float below = float(y) - place.y;
+    float row = svoCovered(below + 1.0, width) - svoCovered(below, width);
+    for (int x = first.x; x <= last.x; ++x)
+    {
+      float left = float(x) - place.x;
+      float weight = row * (svoCovered(left + 1.0, width) - svoCovered(left, width));
+      vec2 offset = vec2(float(x), float(y)) + 0.5 - place;
+      float away = max(abs(offset.x), abs(offset.y));
+      int answer = svoAsk(atlas, map, rows, error, point, vec2(float(x), float(y)), facet, normal,
+        max(1.0, 2.0 * away));
+      if (answer == 2 ||
+        (answer == 1 &&
+          !svoEndsBefore(atlas, map, ivec2(x, y), offset, depth, pixel, error)))
+      {
+        dark += weight;
+      }
+      all += weight;
+    }
+  }
+  return dark / all;
+}
+
 float svoLit(sampler2D atlas, int count, mat4 maps[6], float errors[6], vec3 position, vec3 facet,
-  vec3 normal)
+  vec3 normal, float extent)
 {
   float size = float(textureSize(atlas, 0).x);
   vec4 point = vec4(position, 1.0);
@@ -89,7 +199,20 @@ float svoLit(sampler2D atlas, int count, mat4 maps[6], float errors[6], vec3 pos
     }
     vec2 place = (at * 0.5 + 0.5) * size;
     vec2 texel = min(floor(place), vec2(size - 1.0));
-    int answer = svoAsk(atlas, i, rows, errors[i], point, texel, facet, normal);
+    if (svoFilter != 0 && svoPlaneBias != 0)
+    {
+      float pixel = svoTexelEdge(rows, w, size);
+      float width = clamp(extent / pixel, 1.0, 4.0);
+      ivec2 first = ivec2(max(floor(place - 0.5 * (width + 1.0)), vec2(0.0)));
+      ivec2 last = ivec2(min(floor(place + 0.5 * (width + 1.0)), vec2(size - 1.0)));
+      if (!svoIsFlat(atlas, i, first, last, pixel))
+      {
+        lit = min(lit, 1.0 - svoFiltered(atlas, i, rows, errors[i], point, place, first, last, width,
+                               facet, normal));
+        continue;
+      }
+    }
+    int answer = svoAsk(atlas, i, rows, errors[i], point, texel, facet, normal, 1.0);
     if (answer == 1)
     {
       // An occluder nearby has to be one for most of the four texels around the point.
@@ -98,7 +221,7 @@ float svoLit(sampler2D atlas, int count, mat4 maps[6], float errors[6], vec3 pos
       for (int k = 1; k < 4; ++k)
       {
         vec2 neighbour = texel + other * vec2(float(k & 1), float(k >> 1));
-        dark += svoAsk(atlas, i, rows, errors[i], point, neighbour, facet, normal) != 0 ? 1 : 0;
+        dark += svoAsk(atlas, i, rows, errors[i], point, neighbour, facet, normal, 1.0) != 0 ? 1 : 0;
       }
       answer = dark >= 2 ? 2 : 0;
     }

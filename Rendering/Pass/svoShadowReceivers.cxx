@@ -77,6 +77,7 @@ void ShadowReceivers::update(vtkOpenGLRenderWindow* window, const std::vector<Sh
   this->ManualBias = static_cast<float>(settings.bias * casterVoxel);
   this->Intensity = static_cast<float>(settings.shadowIntensity);
   this->PlaneBias = settings.automaticBias;
+  this->Filter = settings.filterShadows;
   std::map<int, std::vector<const ShadowMap*>> byLight;
   for (const ShadowMap& map : maps)
   {
@@ -208,16 +209,17 @@ void ShadowReceivers::completeShader(std::string& fragmentShader) const
       code << "  vec3 svoColor" << number << " = " << color << " * svoLit(svoAtlas" << number
            << ", svoCount" << number << ", svoMaps" << number << ", svoBias" << number
            << ", vertexVC.xyz, svoFacet, " << (hasNormal ? "normalVCVSOutput" : "svoFacet")
-           << ");\n";
+           << ", svoExtent);\n";
     }
   }
   const bool any = !uniforms.str().empty();
   vtkShaderProgram::Substitute(declarations, DeclarationMark,
     any ? std::string(svoShadowReceiver) + uniforms.str() : std::string(), false);
   vtkShaderProgram::Substitute(body, ImplementationMark,
-    any
-      ? "  vec3 svoFacet = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));\n" + code.str()
-      : std::string(),
+    any ? "  vec3 svoFacet = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));\n"
+          "  float svoExtent = min(length(dFdx(vertexVC.xyz)), length(dFdy(vertexVC.xyz)));\n" +
+        code.str()
+        : std::string(),
     false);
   fragmentShader = declarations + body;
 }
@@ -248,6 +250,7 @@ void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives) cons
     program->SetUniformf("svoReceive", receives ? 1.0f : 0.0f);
     program->SetUniformf("svoIntensity", this->Intensity);
     program->SetUniformi("svoPlaneBias", this->PlaneBias ? 1 : 0);
+    program->SetUniformi("svoFilter", this->Filter ? 1 : 0);
     program->SetUniformf("svoManualBias", this->ManualBias);
   }
 }

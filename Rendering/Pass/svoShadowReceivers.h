@@ -56,6 +56,7 @@ private:
   float Intensity = 1.0f;
   float ManualBias = 0.0f; // world
   bool PlaneBias = true;
+  bool Filter = false;
 };
 }
 

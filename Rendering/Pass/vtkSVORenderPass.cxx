@@ -108,6 +108,7 @@ svo::FrameSettings vtkSVORenderPass::Internals::settingsOf(const vtkSVORenderPas
   settings.frameCoherence = pass.FrameCoherence;
   settings.layerMemoryLimit = static_cast<std::size_t>(pass.LayerMemoryLimit) * BytesOfKiB;
   settings.antiAliasing = pass.AntiAliasing;
+  settings.filterShadows = pass.AntiAliasing;
   return settings;
 }
 

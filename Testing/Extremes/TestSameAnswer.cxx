@@ -141,6 +141,7 @@ struct World
         return "another memory limit";
       case 14:
         settings.antiAliasing = !settings.antiAliasing;
+        settings.filterShadows = settings.antiAliasing;
         return "anti-aliasing on or off";
       default:
         return "nothing";
