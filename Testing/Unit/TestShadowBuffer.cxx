@@ -154,13 +154,15 @@ TEST(ShadowBuffer, ALitConvexBodyHasNoAcne)
     for (svo::LeafGeometry leafGeometry : { svo::LeafGeometry::Voxel, svo::LeafGeometry::Plane,
            svo::LeafGeometry::Triangle, svo::LeafGeometry::Automatic })
     {
-      for (double pixelError : { 0.0, 1.0, 4.0 })
+      for (const auto& [pixelError, filter] : { std::pair{ 0.0, false }, { 1.0, false },
+             { 4.0, false }, { 0.0, true }, { 1.0, true }, { 4.0, true } })
       {
         svo::Scene scene;
         scene.instances = { instanceOf(ball, 1, placed, leafGeometry) };
         scene.lights = { c.light };
         svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
         settings.pixelError = pixelError;
+        settings.filterShadows = filter;
         const svo::Frame shadowed = rendered(scene, Eye, settings);
         settings.shadowTechnique = svo::ShadowTechnique::None;
         const svo::Frame lit = rendered(scene, Eye, settings);
@@ -182,7 +184,7 @@ TEST(ShadowBuffer, ALitConvexBodyHasNoAcne)
         }
         EXPECT_GT(faced, 700) << c.name;
         EXPECT_EQ(acne, 0) << c.name << ", leaves " << int(leafGeometry) << ", pixel error "
-                           << pixelError;
+                           << pixelError << (filter ? ", filtered" : "");
       }
     }
   }
@@ -233,7 +235,9 @@ TEST(ShadowBuffer, AContactShadowStartsWithinTwoVoxels)
   {
     p = { p.x, 0.0, p.y + 2.0 };
   }
-  for (svo::LeafGeometry leafGeometry : { svo::LeafGeometry::Plane, svo::LeafGeometry::Triangle })
+  for (const auto& [leafGeometry, filter] :
+    { std::pair{ svo::LeafGeometry::Plane, false }, { svo::LeafGeometry::Triangle, false },
+      { svo::LeafGeometry::Plane, true }, { svo::LeafGeometry::Triangle, true } })
   {
     scene.instances = { instanceOf(
                           makeOctree(square(3.0), level), 1, glm::dmat4(1.0), leafGeometry),
@@ -243,6 +247,7 @@ TEST(ShadowBuffer, AContactShadowStartsWithinTwoVoxels)
     svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
     settings.shadowResolution = 2048;
     settings.pixelError = 0.0;
+    settings.filterShadows = filter;
     // From straight above a strip beside the wall.
     const svo::View view = [&]
     {
@@ -408,7 +413,7 @@ TEST(ShadowBuffer, AConvexBodyInGrazingLightDoesNotShadowItself)
         if (cosine > 0.02)
         {
           grazing += cosine < 0.08;
-          wrong += buffer.shadows(point, 0.0);
+          wrong += buffer.shadows(point, 0.0) || buffer.darkness(point, 0.0, 0.0) > 0.0f;
         }
       }
     }

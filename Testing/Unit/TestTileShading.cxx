@@ -249,6 +249,58 @@ TEST(TileShading, ColoursAreThoseOfShade)
   compareLighting(stage);
 }
 
+TEST(TileShading, ColoursInPartialShadowsAreThoseOfShade)
+{
+  Stage stage;
+  stage.trace(7);
+  const Lighting lighting(stage.scene, stage.view);
+  constexpr float Remaining = 0.3f;
+  onEveryInstructionSet(
+    [&]
+    {
+      TileLight light{};
+      TileColors colors{};
+      stage.eachTile(
+        [&](TilePoints& points)
+        {
+          lookAtPoints(stage.frames, stage.view, points);
+          const auto missed = [&](std::size_t l, int i)
+          { return 0.125f * static_cast<float>((points.pixel[i] * 7 + l * 5) % 9); };
+          eachInstance(points,
+            [&](std::uint32_t index, int first, int last, bool hasColor)
+            {
+              const Instance& instance = stage.scene.instances[index];
+              if (!instance.material.lighting)
+              {
+                return;
+              }
+              beginLight(lighting, points, first, last, light);
+              for (std::size_t l = 0; l < lighting.lights.size(); ++l)
+              {
+                arriveLight(lighting, l, instance.material, last - first, light);
+                for (int i = first; i < last; ++i)
+                {
+                  light.share[i - first] =
+                    light.reached[i - first] ? shareOfLight(missed(l, i), Remaining) : 1.0f;
+                }
+                addShares(lighting.lights[l], last - first, light);
+              }
+              finishLight(
+                lighting, instance.material, points, first, last, hasColor, light, colors);
+              for (int i = first; i < last; ++i)
+              {
+                SurfacePoint point = points.point(i);
+                point.hasColor = hasColor;
+                const glm::vec3 expected = shade(lighting, instance, point, Remaining,
+                  [&](std::size_t l) { return missed(l, i); });
+                ASSERT_TRUE(sameBits(expected, glm::vec3(colors.r[i], colors.g[i], colors.b[i])))
+                  << "instance " << index << ": " << colors.r[i] << ", " << expected.r;
+              }
+            });
+        });
+    });
+}
+
 TEST(TileShading, ColoursUnderAHeadlightAloneAreThoseOfShade)
 {
   Stage stage;
@@ -281,7 +333,7 @@ TEST(TileShading, ShadowsAreThoseOfOnePoint)
       onEveryInstructionSet(
         [&]
         {
-          int dark = 0, lit = 0;
+          int dark = 0, lit = 0, partly = 0;
           stage.eachTile(
             [&](TilePoints& points)
             {
@@ -297,6 +349,8 @@ TEST(TileShading, ShadowsAreThoseOfOnePoint)
                     asked[i - first] = i % 5 != 0;
                   }
                   buffer.shadows(points, first, last, error, asked, found);
+                  float missed[TilePoints::Room];
+                  buffer.darkness(points, first, last, error, asked, missed);
                   for (int i = first; i < last; ++i)
                   {
                     const bool expected =
@@ -304,13 +358,43 @@ TEST(TileShading, ShadowsAreThoseOfOnePoint)
                     ASSERT_EQ(found[i - first] != 0, expected) << "instance " << index;
                     dark += expected;
                     lit += asked[i - first] && !expected;
+                    const float share =
+                      asked[i - first] ? buffer.darkness(points.point(i), error, 0.0) : 0.0f;
+                    ASSERT_TRUE(sameBits(missed[i - first], share)) << "instance " << index;
+                    partly += share > 0.0f && share < 1.0f;
+                    ASSERT_TRUE(automatic || share == (expected ? 1.0f : 0.0f));
                   }
                 });
             });
           EXPECT_GT(dark, 100);
           EXPECT_GT(lit, 100);
+          EXPECT_TRUE(partly > 100 || !automatic);
         });
     }
+  }
+}
+
+TEST(TileShading, FilteredFramesAreTheSame)
+{
+  Stage stage;
+  for (const bool antiAliasing : { false, true })
+  {
+    FrameSettings settings;
+    settings.shadowResolution = 256;
+    settings.antiAliasing = antiAliasing;
+    settings.filterShadows = true;
+    const Frame expected = svotest::rendered(stage.scene, stage.view, settings);
+    onEveryInstructionSet(
+      [&]
+      {
+        EXPECT_TRUE(
+          svotest::identical(expected, svotest::rendered(stage.scene, stage.view, settings)));
+      });
+    Tracer tracer;
+    EXPECT_TRUE(svotest::identical(expected,
+      svotest::rendered(tracer, stage.scene, stage.view, settings, svotest::raggedFor(7))));
+    EXPECT_TRUE(svotest::identical(expected,
+      svotest::rendered(tracer, stage.scene, stage.view, settings, svotest::raggedFor(2))));
   }
 }
 
