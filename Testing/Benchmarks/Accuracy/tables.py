@@ -180,13 +180,19 @@ def pixel_errors(rows):
 def anti_aliasing(rows):
     lines = []
     some = [r for r in rows if r["experiment"] == "antiAliasing"]
-    for technique in ("buffer", "rays"):
-        for smooth in (False, True):
-            here = [r for r in some if r["technique"] == technique and r["antiAliasing"] == smooth]
-            lines.append([technique, "on" if smooth else "off", number(mean(here, "edgeRms")),
-                          number(mean(here, "rms")), number(mean(here, "processorMs"))])
-    return table(["shadows", "anti-aliasing", "error of edge pixels", "error of all pixels",
-                  "time, ms"], lines)
+    ways = {(False, False): "off", (True, False): "more rays only", (True, True): "on"}
+    for technique, resolution in dict.fromkeys((r["technique"], r["resolution"]) for r in some):
+        for way, name in ways.items():
+            here = [r for r in some if r["technique"] == technique and
+                    r["resolution"] == resolution and
+                    (r["antiAliasing"], r["filterShadows"]) == way]
+            if here:
+                lines.append(["rays" if technique == "rays" else f"buffer, {resolution}",
+                              "on" if technique == "rays" and way[0] else name,
+                              number(mean(here, "shadowEdgeRms")), number(mean(here, "edgeRms")),
+                              number(mean(here, "rms")), number(mean(here, "processorMs"))])
+    return table(["shadows", "anti-aliasing", "error of shadow edges", "error of all edges",
+                  "error of all pixels", "time, ms"], lines)
 
 
 def paper(rows):
@@ -257,7 +263,8 @@ def wishes(rows):
         return figures(min(good, key=lambda name: means[name][0]))
 
     smooth = {r: [row for row in rows if row["experiment"] == "antiAliasing"
-                  and row["technique"] == "buffer" and row["antiAliasing"] == r]
+                  and row["technique"] == "buffer" and row["resolution"] == 2048
+                  and row["antiAliasing"] == r and row["filterShadows"] == r]
               for r in (False, True)}
     gain = mean(smooth[True], "edgeRms") / mean(smooth[False], "edgeRms")
     cost = mean(smooth[True], "processorMs") / mean(smooth[False], "processorMs")
