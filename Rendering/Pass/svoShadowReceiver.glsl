@@ -193,11 +193,12 @@ float svoLit(sampler2D atlas, int count, mat4 maps[6], float errors[6], vec3 pos
       continue;
     }
     vec2 at = vec2(dot(rows[0], point), dot(rows[1], point)) / w;
-    if (any(greaterThan(abs(at), vec2(1.0))))
+    // Rounding may put a point on the border of two maps beyond both.
+    if (any(greaterThan(abs(at), vec2(1.00001))))
     {
       continue;
     }
-    vec2 place = (at * 0.5 + 0.5) * size;
+    vec2 place = clamp((at * 0.5 + 0.5) * size, vec2(0.0), vec2(size));
     vec2 texel = min(floor(place), vec2(size - 1.0));
     if (svoFilter != 0 && svoPlaneBias != 0)
     {

@@ -87,13 +87,13 @@ bool ShadowBuffer::lookUp(const glm::dvec3& position, Place& place) const
   {
     const View& view = candidate->view;
     const glm::dvec4 clip = candidate->worldToClip * glm::dvec4(position, 1.0);
-    if (!(clip.w > 0.0) || !(std::abs(clip.x) < clip.w) || !(std::abs(clip.y) < clip.w))
+    const double border = MapBorder * clip.w;
+    if (!(clip.w > 0.0) || !(std::abs(clip.x) <= border) || !(std::abs(clip.y) <= border))
     {
       continue;
     }
-    // Rounding may put a point of the border beyond it.
-    place.x = std::min((clip.x / clip.w + 1.0) * 0.5 * view.width, view.width - 1e-9);
-    place.y = std::min((clip.y / clip.w + 1.0) * 0.5 * view.height, view.height - 1e-9);
+    place.x = std::clamp((clip.x / clip.w + 1.0) * 0.5 * view.width, 0.0, view.width - 1e-9);
+    place.y = std::clamp((clip.y / clip.w + 1.0) * 0.5 * view.height, 0.0, view.height - 1e-9);
     const glm::dmat4& m = view.worldToView;
     place.t = -(m[0][2] * position.x + m[1][2] * position.y + m[2][2] * position.z + m[3][2]);
     place.face = candidate.get();

@@ -30,11 +30,14 @@ void lookUp(const View& light, const glm::dmat4& c, const TilePoints& p, int fir
       const double cy = (c[0].y * x + c[1].y * y) + (c[2].y * z + c[3].y * 1.0);
       const double cw = (c[0].w * x + c[1].w * y) + (c[2].w * z + c[3].w * 1.0);
       const int j = i - first + k;
-      places.inside[j] = (cw > 0.0) & (std::abs(cx) < cw) & (std::abs(cy) < cw);
+      const double border = MapBorder * cw;
+      places.inside[j] = (cw > 0.0) & (std::abs(cx) <= border) & (std::abs(cy) <= border);
       const double px = (cx / cw + 1.0) * 0.5 * width;
       const double py = (cy / cw + 1.0) * 0.5 * height;
-      places.x[j] = lastX < px ? lastX : px;
-      places.y[j] = lastY < py ? lastY : py;
+      const double x0 = px < 0.0 ? 0.0 : px;
+      const double y0 = py < 0.0 ? 0.0 : py;
+      places.x[j] = lastX < x0 ? lastX : x0;
+      places.y[j] = lastY < y0 ? lastY : y0;
       places.t[j] = -(m[0].z * x + m[1].z * y + m[2].z * z + m[3].z);
     }
   }

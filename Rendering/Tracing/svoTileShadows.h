@@ -16,6 +16,10 @@ namespace svo
 /// How far a plane in grazing light is followed towards the light, in texels.
 constexpr double GrazingReach = 64.0;
 
+/// Where a map ends, in clip space. Rounding may put a point on the border of two maps beyond both;
+/// it belongs to the last texel of either.
+constexpr double MapBorder = 1.0 + 1e-12;
+
 /// Where points are looked up, by index of the point minus `first`.
 struct TexelPlaces
 {

@@ -289,6 +289,47 @@ TEST(ShadowFilter, AShadowBeginsWhereItsCasterStands)
   }
 }
 
+// A shadow that falls across the border of two of a point light's six maps: the border is not seen.
+TEST(ShadowFilter, BordersOfMapsAreNotSeen)
+{
+  svo::Scene scene;
+  scene.instances = { instanceOf(makeOctree(square(3.0), 9), 1),
+    instanceOf(makeOctree(square(0.5), 9), 2, movedTo(0.0, 0.0, 1.0)) };
+  const glm::dvec3 from(0.3, 0.2, 1.6);
+  scene.lights = { lightOf(svo::Light::Kind::Point, from) };
+  svo::FrameSettings settings;
+  settings.shadowResolution = Resolution;
+  settings.wholeShadowBuffers = true;
+  svo::LayerBudget budget{ 0, 0 };
+  svo::ShadowBuffer buffer;
+  buffer.begin(scene, { svo::outlinesOf(scene), 0, true }, scene.lights[0], settings, budget);
+  buffer.markAll();
+  buffer.trace(svo::serialFor);
+  std::vector<svo::ShadowMap> maps;
+  buffer.copyMaps(0, maps);
+  ASSERT_EQ(maps.size(), 6u);
+  int dark = 0, lit = 0;
+  for (int k = 0; k < 160000; ++k)
+  {
+    const double x = -2.6 + 0.01 * (k % 400), y = -2.6 + 0.01 * (k / 400);
+    // Where the ray from the light passes the square's plane; 0 on its edge, negative inside.
+    const double u = from.x + (x - from.x) * 0.6 / 1.6, v = from.y + (y - from.y) * 0.6 / 1.6;
+    const double outside = std::max(std::abs(u), std::abs(v)) - 0.5;
+    if (std::abs(outside) < 0.06)
+    {
+      continue;
+    }
+    const svo::SurfacePoint point = Place::pointOf({ x, y, 0 }, { 0, 0, 1 });
+    ASSERT_EQ(buffer.shadows(point, 0.0), outside < 0.0) << x << ", " << y;
+    ASSERT_EQ(buffer.darkness(point, 0.0, 0.0), outside < 0.0 ? 1.0 : 0.0) << x << ", " << y;
+    const bool besideBorder = std::abs(std::abs(x - from.x) - from.z) < 0.03;
+    dark += besideBorder && outside < 0.0;
+    lit += besideBorder && outside > 0.0;
+  }
+  EXPECT_GT(dark, 100);
+  EXPECT_GT(lit, 100);
+}
+
 // A piece of the surface that is wider than a texel has a ramp as wide.
 TEST(ShadowFilter, TheRampIsAsWideAsThePiece)
 {
