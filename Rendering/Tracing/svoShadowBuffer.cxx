@@ -88,7 +88,7 @@ bool ShadowBuffer::lookUp(const glm::dvec3& position, Place& place) const
     const View& view = candidate->view;
     const glm::dvec4 clip = candidate->worldToClip * glm::dvec4(position, 1.0);
     const double border = MapBorder * clip.w;
-    if (!(clip.w > 0.0) || !(std::abs(clip.x) <= border) || !(std::abs(clip.y) <= border))
+    if (!(clip.w > 0.0) || !(std::abs(clip.x) < border) || !(std::abs(clip.y) < border))
     {
       continue;
     }

@@ -31,7 +31,7 @@ void lookUp(const View& light, const glm::dmat4& c, const TilePoints& p, int fir
       const double cw = (c[0].w * x + c[1].w * y) + (c[2].w * z + c[3].w * 1.0);
       const int j = i - first + k;
       const double border = MapBorder * cw;
-      places.inside[j] = (cw > 0.0) & (std::abs(cx) <= border) & (std::abs(cy) <= border);
+      places.inside[j] = (cw > 0.0) & (std::abs(cx) < border) & (std::abs(cy) < border);
       const double px = (cx / cw + 1.0) * 0.5 * width;
       const double py = (cy / cw + 1.0) * 0.5 * height;
       const double x0 = px < 0.0 ? 0.0 : px;

@@ -281,12 +281,15 @@ TEST(ExtremeLights, BuffersAgreeWithRays)
     const svo::Frame lit = rendered(scene, view, settings);
     settings.shadowTechnique = svo::ShadowTechnique::Buffer;
     const svo::Frame buffer = rendered(scene, view, settings);
+    settings.filterShadows = true;
+    const svo::Frame filtered = rendered(scene, view, settings);
     settings.shadowTechnique = svo::ShadowTechnique::Rays;
     const svo::Frame rays = rendered(scene, view, settings);
     EXPECT_EQ(lit.instance, buffer.instance) << lamp.name;
+    EXPECT_EQ(lit.depth, filtered.depth) << lamp.name;
     EXPECT_EQ(lit.depth, buffer.depth) << lamp.name;
     EXPECT_EQ(lit.depth, rays.depth) << lamp.name;
-    long receiving = 0, darkInBuffer = 0, darkInRays = 0, wrong = 0;
+    long receiving = 0, darkInBuffer = 0, darkInRays = 0, wrong = 0, wrongFiltered = 0;
     for (std::size_t p = 0; p < lit.instance.size(); ++p)
     {
       if (lit.instance[p] == ~0u || lit.color[4 * p] < 12)
@@ -299,9 +302,11 @@ TEST(ExtremeLights, BuffersAgreeWithRays)
       darkInBuffer += b;
       darkInRays += r;
       wrong += b != r;
+      wrongFiltered += (2 * filtered.color[4 * p] < lit.color[4 * p]) != r;
     }
-    std::printf("%s: %ld lit pixels, %ld dark by buffers, %ld by rays, %ld differ\n",
-      lamp.name.c_str(), receiving, darkInBuffer, darkInRays, wrong);
+    std::printf("%s: %ld lit pixels, %ld dark by buffers, %ld by rays, %ld differ, filtered %ld\n",
+      lamp.name.c_str(), receiving, darkInBuffer, darkInRays, wrong, wrongFiltered);
+    EXPECT_LE(wrongFiltered, 3 + receiving / 50) << lamp.name;
     EXPECT_LE(wrong, 3 + receiving / 50) << lamp.name;
   }
 }
