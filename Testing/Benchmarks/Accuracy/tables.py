@@ -151,11 +151,12 @@ def shadow_levels(rows):
 
 def contact(rows):
     lines = []
-    for kind in KINDS:
-        some = [r for r in rows if r["experiment"] == "contact" and r["leaves"] == kind]
-        line = [kind] + [number(next(r["gapVoxels"] for r in some if r["light"] == light))
-                         for light in LIGHTS]
-        acne = [r for r in rows if r["experiment"] == "acne" and r["leaves"] == kind]
+    for kind, filtered in [(kind, False) for kind in KINDS] + [("automatic", True)]:
+        gaps, acne = ([r for r in rows if r["experiment"] == experiment and r["leaves"] == kind
+                       and r["filterShadows"] == filtered] for experiment in ("contact", "acne"))
+        line = [kind + (", filtered" if filtered else "")]
+        line += [number(next(r["gapVoxels"] for r in gaps if r["light"] == light))
+                 for light in LIGHTS]
         lines.append(line + [f"{sum(r['selfShadowed'] for r in acne)} of "
                              f"{sum(r['litPixels'] for r in acne)}"])
     return table(["leaves"] + [f"gap, {light}" for light in LIGHTS] + ["self-shadowed pixels"],
