@@ -235,10 +235,10 @@ public:
   /**
    * Smooth edges inside and between traced surfaces, and those of shadows, with four rays in each
    * of their pixels; default off. Shadow buffers then give a share of each light, from all texels
-   * around a point, compared with the planes of its surface: texels do not show, on rasterised
-   * surfaces neither. Needs AutomaticShadowBias; without it shadows are sampled more, but not
-   * filtered. Shadow rays are exact and only sampled more. Silhouettes follow the render window's SetMultiSamples instead,
-   * as those of everything that VTK draws.
+   * around a point, compared with the planes of its surface, so that texels do not show, nor do
+   * they on rasterised surfaces. That needs AutomaticShadowBias; without it shadows are sampled
+   * more, but not filtered, and so are exact shadow rays. Silhouettes follow the render window's
+   * SetMultiSamples instead, as those of everything that VTK draws.
    */
   vtkSetMacro(AntiAliasing, bool);
   vtkGetMacro(AntiAliasing, bool);

@@ -52,7 +52,6 @@ struct Pictures
 {
   Picture unshadowed, exact, hard, filtered;
   Mask ground; // pixels of the ground that light reaches, away from all edges of surfaces
-  int width() const { return this->exact.width; }
   /// The share of the light that is left, 0..1.
   double lit(const Picture& p, std::size_t i) const { return p.grey(i) / this->unshadowed.grey(i); }
   /// 1 or 0 if the exact picture is lit or dark for so many pixels around, else -1.
@@ -140,18 +139,6 @@ int TestSVOFilteredShadows(int argc, char* argv[])
   const Picture filtered = capture(true, buffer);
   checks.expect(left.pass->GetNumberOfTracedActors() == 4, "left all is traced");
   checks.expect(right.pass->GetNumberOfTracedActors() == 3, "right the ground is not");
-  if (getenv("DUMP"))
-  {
-    const Picture* ps[] = { &unshadowed, &exact, &hard, &filtered };
-    for (int k = 0; k < 4; ++k)
-    {
-      FILE* f = fopen(("d" + std::to_string(k) + ".ppm").c_str(), "wb");
-      fprintf(f, "P6\n%d %d\n255\n", ps[k]->width, ps[k]->height);
-      for (int y = ps[k]->height - 1; y >= 0; --y)
-        fwrite(ps[k]->rgb.data() + 3 * y * ps[k]->width, 1, 3 * ps[k]->width, f);
-      fclose(f);
-    }
-  }
   const bool same = matchesBaseline(left.window, argc, argv);
 
   Pictures halves[2];
