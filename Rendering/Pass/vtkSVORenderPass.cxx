@@ -65,10 +65,10 @@ std::string describeLights(const std::vector<svo::Light>& lights)
   {
     const svo::Light& light = lights[i];
     const char* kind = light.headlight        ? "headlight"
-      : light.kind == svo::Light::Kind::Point ? "point light"
-      : light.kind == svo::Light::Kind::Spot  ? "spot light"
-                                              : "directional light";
-    text += "Light " + std::to_string(i + 1) + ", " + kind +
+      : light.kind == svo::Light::Kind::Point ? "point"
+      : light.kind == svo::Light::Kind::Spot  ? "spot"
+                                              : "directional";
+    text += std::to_string(i + 1) + ". " + kind +
       (light.castShadow ? ": casts shadows\n" : ": casts none\n");
   }
   return text;

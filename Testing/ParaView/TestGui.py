@@ -1,20 +1,21 @@
-"""ParaView's own window: the plugin loads from PV_PLUGIN_PATH, the first view has its settings, and a
-scripted session is traced. Where ffmpeg is there, a picture of the window is left to look at.
+"""ParaView's own window: the plugin loads from PV_PLUGIN_PATH, the first view has its settings, and what a user
+clicks and types in a session is played back. Where ffmpeg is there, pictures of the window are left to
+look at.
 
 usage: TestGui.py folder of ParaView's programs
 """
 
 import os
-import shutil
 import subprocess
 import sys
-import time
 import unittest
+
+import gui_events
 
 PROGRAMS = sys.argv.pop(1)
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 OUTPUT = os.environ["VTKSVO_OUTPUT"]
-SECONDS = 120  # for the window to come up
+SECONDS = 240
 
 
 class TestGui(unittest.TestCase):
@@ -22,37 +23,29 @@ class TestGui(unittest.TestCase):
         done = os.path.join(OUTPUT, "done")
         if os.path.exists(done):
             os.remove(done)
+        events = os.path.join(OUTPUT, "events.xml")
+        gui_events.write(events)
+        # With this variable ParaView takes it that no one is there to answer dialogues.
         environment = dict(os.environ, VTKSVO_DONE=done, QT_QPA_PLATFORM="xcb",
+                           DASHBOARD_TEST_FROM_CTEST="1",
                            PV_PLUGIN_PATH=os.path.dirname(os.environ["VTKSVO_PLUGIN"]))
-        log = os.path.join(OUTPUT, "log.txt")
         # Without --dr a dialogue that welcomes the user would wait for an answer.
-        with open(log, "w") as file:
-            gui = subprocess.Popen(
-                [os.path.join(PROGRAMS, "paraview"), "--dr", "-geometry", "1500x1050+0+0",
-                 "--script=" + os.path.join(FOLDER, "gui_session.py")],
-                env=environment, stdout=file, stderr=subprocess.STDOUT)
-        try:
-            end = time.monotonic() + SECONDS
-            while not (os.path.exists(done) and os.path.getsize(done)):
-                self.assertIsNone(gui.poll(), "ParaView ended by itself; see " + log)
-                self.assertLess(time.monotonic(), end, "the session is not done; see " + log)
-                time.sleep(0.5)
-            with open(done) as file:
-                self.assertEqual(file.read().split(), ["2"])  # traced surfaces
-            if shutil.which("ffmpeg"):
-                time.sleep(3)  # the window's other parts
-                subprocess.run(
-                    ["ffmpeg", "-y", "-loglevel", "error", "-nostdin", "-f", "x11grab",
-                     "-video_size", "1500x1050", "-i", os.environ["DISPLAY"], "-frames:v", "1",
-                     os.path.join(OUTPUT, "window.png")], check=True)
-            self.assertIsNone(gui.poll(), "ParaView ended by itself; see " + log)
-        finally:
-            gui.terminate()
-            gui.wait()
-        with open(log) as file:
-            said = file.read()
-        self.assertNotIn("ERR|", said)
-        self.assertNotIn("WARN|", said)
+        gui = subprocess.run(
+            [os.path.join(PROGRAMS, "paraview"), "--dr", "-geometry", "1500x1050+0+0",
+             "--script=" + os.path.join(FOLDER, "gui_session.py"), "--test-script=" + events,
+             "--exit"],
+            env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+            timeout=SECONDS)
+        print(gui.stdout)
+        with open(done) as file:
+            results = file.read().splitlines()
+        for line in results:
+            with self.subTest(check=line.split(": ")[0]):
+                self.assertTrue(line.endswith(": passed"), line.replace(" | ", "\n"))
+        self.assertEqual(gui.returncode, 0)
+        self.assertEqual(len(results), gui_events.number_of_checks())
+        for message in "ERR|", "WARN|", "critical:":
+            self.assertNotIn(message, gui.stdout)
 
 
 if __name__ == "__main__":
