@@ -1,5 +1,6 @@
 #include "vtkPolyDataToSVO.h"
 
+#include "svoAbort.h"
 #include "svoMeshOctree.h"
 #include "svoOctreeCache.h"
 
@@ -166,7 +167,7 @@ void vtkPolyDataToSVO::Convert(vtkPolyData* input, vtkPolyData* output, const do
   options.progress = [this](double progress)
   {
     this->UpdateProgress(progress);
-    return !this->GetAbortExecute();
+    return !svo::isAborted(this);
   };
   svo::OctreeCache::Entry built{ key, {} };
   std::string message;

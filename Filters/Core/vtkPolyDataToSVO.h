@@ -23,7 +23,9 @@
  * octree).
  *
  * The build reports progress. If it is aborted (SetAbortExecute(1) in a ProgressEvent observer),
- * the output is the mesh without an octree; Modified() makes the next Update() try again.
+ * the output is the mesh without an octree; Modified() makes the next Update() try again. With VTK
+ * 9.3, and with the VTK of ParaView 5.11, the output is empty instead, as VTK does it there, and
+ * SetAbortExecute(0) makes the next Update() try again.
  *
  * @sa vtkSparseVoxelOctree vtkSVOToPolyData vtkSVORenderPass
  */

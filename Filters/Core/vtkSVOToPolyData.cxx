@@ -1,5 +1,6 @@
 #include "vtkSVOToPolyData.h"
 
+#include "svoAbort.h"
 #include "svoMeshOctree.h"
 #include "svoOctreeCells.h"
 #include "svoRepresentative.h"
@@ -116,7 +117,7 @@ int vtkSVOToPolyData::RequestData(
     {
       this->UpdateProgress(begin + share * std::min(1.0, visited / cellCount));
     }
-    return !this->GetAbortExecute();
+    return !svo::isAborted(this);
   };
   std::size_t count = 0;
   forEachVisibleCell(octree, level, this->InteriorFaces,
@@ -125,7 +126,7 @@ int vtkSVOToPolyData::RequestData(
       count += static_cast<std::size_t>(__builtin_popcount(static_cast<unsigned>(faces)));
       return goOn(0.0, 0.3);
     });
-  if (this->GetAbortExecute())
+  if (svo::isAborted(this))
   {
     return 1;
   }
@@ -167,7 +168,7 @@ int vtkSVOToPolyData::RequestData(
         }
         return goOn(0.3, 0.4);
       });
-    if (this->GetAbortExecute())
+    if (svo::isAborted(this))
     {
       return 1;
     }

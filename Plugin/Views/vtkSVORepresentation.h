@@ -86,6 +86,7 @@ private:
   void operator=(const vtkSVORepresentation&) = delete;
 
   void UpdateUse(vtkView* view);
+  void ForwardProgress();
 
   vtkNew<vtkPPolyDataToSVO> ToOctree;
   vtkWeakPointer<vtkView> Used; // the view whose pass this one is a user of

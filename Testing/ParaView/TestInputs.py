@@ -1,0 +1,119 @@
+"""What the filter and the representation take: surfaces of every kind of composite dataset, AMR, hyper tree grids;
+progress while an octree is built, and aborting it."""
+
+import unittest
+
+import paraview.simple as pv
+import scene
+
+COMPOSITES = ("vtkMultiBlockDataSet", "vtkPartitionedDataSet", "vtkPartitionedDataSetCollection")
+OCTREE = "SparseVoxelOctree"
+
+
+class TestInputs(unittest.TestCase):
+    def setUp(self):
+        self.view = scene.make_view((400, 300))
+        scene.add_sun(self.view)
+        self.view.SVOShadowTechnique = "None"
+        self.view.SVOPixelError = 0
+
+    def tearDown(self):
+        pv.ResetSession()
+
+    def group(self, kind):
+        return pv.GroupDatasets(Input=[scene.make_ball(), scene.make_ground()], OutputType=kind)
+
+    def check(self, source, name, octrees=1):
+        """Traced with so many octrees, and as the representation Surface looks."""
+        source.UpdatePipeline()
+        pv.HideAll(self.view)
+        display = scene.show(source, self.view, "Surface")
+        pv.ResetCamera(self.view)
+        surface = scene.picture(self.view, name + "-surface")
+        display.Representation = "SVO"
+        traced = scene.picture(self.view, name + "-svo")
+        self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 1)
+        self.assertEqual(scene.statistic(self.view, "SVONumberOfInstances"), octrees)
+        self.assertLess(scene.differing(traced, surface, 3), 3e-4)
+        background = traced[0, 0]
+        self.assertGreater((abs(traced - background).max(axis=2) > 8).mean(), 0.05)
+        return display
+
+    def test_composites(self):
+        for kind in COMPOSITES:
+            with self.subTest(kind=kind):
+                source = self.group(kind)
+                display = self.check(source, kind, octrees=2)
+                self.assertEqual(scene.statistic(display, "SVONumberOfBuilds"), 2)
+
+    def test_composites_through_the_filter(self):
+        for kind in COMPOSITES:
+            with self.subTest(kind=kind):
+                octrees = pv.PolyDataToSVO(Input=self.group(kind))
+                display = self.check(octrees, kind + "-filter", octrees=2)
+                self.assertEqual(octrees.GetDataInformation().GetDataSetTypeAsString(), kind)
+                self.assertEqual(scene.statistic(octrees, "NumberOfBuilds"), 2)
+                self.assertEqual(scene.statistic(display, "SVONumberOfBuilds"), 0)
+
+    def test_overlapping_amr(self):
+        source = pv.AMRGaussianPulseSource()
+        self.check(source, "overlapping-amr")
+        self.assertEqual(source.GetDataInformation().GetDataSetTypeAsString(), "vtkOverlappingAMR")
+
+    def test_hierarchical_boxes(self):
+        self.check(pv.HierarchicalFractal(), "hierarchical-boxes")
+
+    def test_hyper_tree_grids(self):
+        for name in "HyperTreeGrid", "HyperTreeGridRandom":
+            with self.subTest(source=name):
+                source = getattr(pv.servermanager.sources, name)()
+                self.check(source, name)
+                self.assertEqual(source.GetDataInformation().GetDataSetTypeAsString(),
+                                 "vtkHyperTreeGrid")
+
+    def test_filter_is_aborted(self):
+        octrees = pv.PolyDataToSVO(Input=scene.make_ball(), MaximumLevel=9)
+        algorithm = octrees.GetClientSideObject()
+        seen = []
+
+        def abort(*_):
+            seen.append(algorithm.GetProgress())
+            algorithm.SetAbortExecute(1)
+
+        observer = algorithm.AddObserver("ProgressEvent", abort)
+        octrees.UpdatePipeline()
+        # When the execution begins, at the next progress, where it stops, and when it is over.
+        self.assertLessEqual(len(seen), 3)
+        self.assertEqual(seen[-1], 1.0)
+        self.assertEqual(algorithm.GetOutput().GetNumberOfCells(), 0)
+        self.assertEqual(scene.statistic(octrees, "NumberOfBuilds"), 0)
+        algorithm.RemoveObserver(observer)
+        algorithm.SetAbortExecute(0)
+        octrees.MaximumLevel = 8
+        octrees.UpdatePipeline()
+        self.assertTrue(algorithm.GetOutput().GetFieldData().HasArray(OCTREE))
+        self.assertEqual(scene.statistic(octrees, "NumberOfBuilds"), 1)
+
+    def test_progress(self):
+        octrees = pv.PolyDataToSVO(Input=scene.make_ball(), MaximumLevel=9)
+        algorithm = octrees.GetClientSideObject()
+        seen = []
+        algorithm.AddObserver("ProgressEvent", lambda *_: seen.append(algorithm.GetProgress()))
+        octrees.UpdatePipeline()
+        self.assertGreater(len(seen), 5)
+        self.assertEqual(seen, sorted(seen))
+        self.assertEqual(seen[-1], 1.0)
+
+    def test_progress_of_the_representation(self):
+        display = scene.show(scene.make_ball(), self.view)
+        representation = display.GetClientSideObject().GetActiveRepresentation()
+        seen = []
+        representation.AddObserver("ProgressEvent",
+                                   lambda *_: seen.append(representation.GetProgress()))
+        pv.Render(self.view)
+        self.assertEqual(scene.statistic(display, "SVONumberOfBuilds"), 1)
+        self.assertGreater(sum(0.8 < progress < 0.85 for progress in seen), 5)
+
+
+scene.load_plugin()
+scene.run_tests()
