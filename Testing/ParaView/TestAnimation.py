@@ -89,6 +89,22 @@ class TestAnimation(unittest.TestCase):
                 self.assertLess(scene.differing(picture, expected, tolerance=2), 2e-4)
         self.assertGreater(scene.differing(pictures[0], pictures[1]), 1e-2)
 
+    def test_saved_animation(self):
+        ball = scene.show(self.reader, self.view)
+        size = list(self.view.ViewSize)
+        pictures = []
+        for step in range(STEPS):
+            self.scene.AnimationTime = step
+            pictures.append(scene.picture(self.view, f"shown-{step}"))
+        builds = scene.statistic(ball, "SVONumberOfBuilds")
+        pv.SaveAnimation(scene.output("saved.png"), self.view, ImageResolution=size,
+                         FrameWindow=[0, STEPS - 1])
+        for step, picture in enumerate(pictures):
+            saved = scene.read(scene.output(f"saved.{step:04}.png"))
+            self.assertEqual(scene.differing(saved, picture, 0), 0)
+        self.assertGreater(scene.differing(pictures[0], pictures[1]), 1e-2)
+        self.assertEqual(scene.statistic(ball, "SVONumberOfBuilds"), builds)
+
     def test_moving_and_turning_builds_nothing(self):
         octrees = scene.make_ball()
         ball = scene.show(octrees, self.view)

@@ -46,18 +46,19 @@ class TestBadInput(unittest.TestCase):
     def tearDown(self):
         pv.ResetSession()
 
-    def play(self, meshes, name):
+    def play(self, meshes, name, kind="SVO"):
         """The pictures of all steps, and what was said about them."""
         path = series.write(scene.output(name), meshes)
         with Output() as output:
             reader = pv.PVDReader(FileName=path)
             animation = pv.GetAnimationScene()
             animation.UpdateAnimationUsingDataTimeSteps()
-            scene.show(reader, self.view)
+            scene.show(reader, self.view, kind)
             pictures = []
             for time in range(len(meshes)):
                 animation.AnimationTime = time
                 pictures.append(scene.picture(self.view, f"{name}-{time}"))
+            pv.Hide(reader, self.view)
         return pictures, output
 
     def shows_ball(self, picture):
@@ -75,9 +76,16 @@ class TestBadInput(unittest.TestCase):
         first, second, third = series.breathing_ball(3)
         pictures, output = self.play([first, None, third], "removed-file")
         self.assertEqual([self.shows_ball(p) for p in pictures], [True, False, True])
-        # The reader's own, about the file.
-        self.assertTrue(all("vtkXML" in line or "vtkPVD" in line or "Executive" in line
-                            for line in output.messages()), output.text)
+        self.assertEqual(scene.differing(pictures[1], self.ground, 0), 0)
+        # The reader complains whenever it is asked, and its executive with it; no one else.
+        lines = output.messages()
+        files = {line.split("Error opening file")[1].strip()
+                 for line in lines if "Error opening file" in line}
+        self.assertEqual(len(files), 1, output.text)
+        self.assertIn("step001.vtp", files.pop())
+        self.assertTrue(all("vtkXMLPolyDataReader" in line for line in lines), output.text)
+        _, ordinary = self.play([first, None, third], "removed-file", "Surface")
+        self.assertEqual(len(lines), len(ordinary.messages()), output.text)
 
     def test_block_without_polygons(self):
         line = pv.Line(Point1=[-1, 0, 1], Point2=[1, 0, 1])

@@ -142,10 +142,14 @@ class TestLook(unittest.TestCase):
 
     def test_stereo(self):
         self.show(scene.make_ball(), scene.make_ground())
+        one_eye = scene.picture(self.view, "one-eye")
         self.view.StereoRender = 1
-        self.view.StereoType = "Red-Blue"
-        pv.Render(self.view)  # ParaView's own first picture shows one eye twice
-        self.check("stereo", traced=2)
+        for kind in "Red-Blue", "Interlaced", "Anaglyph", "Checkerboard", "SplitViewportHorizontal":
+            with self.subTest(kind=kind):
+                self.view.StereoType = kind
+                pv.Render(self.view)  # ParaView's own first picture shows one eye twice
+                stereo = self.check("stereo-" + kind, traced=2)
+                self.assertGreater(scene.differing(stereo, one_eye), 5e-3)
 
     def test_screenshots(self):
         self.show(scene.make_ball(), scene.make_ground())
@@ -189,6 +193,29 @@ class TestLook(unittest.TestCase):
         self.assertEqual(scene.differing(first, scene.picture(other, "view-2-like-1")), 0)
         pv.Delete(other)
         self.assertEqual(scene.differing(first, scene.picture(self.view, "view-1-alone")), 0)
+
+    def test_split_view(self):
+        ball, ground = scene.make_ball(), scene.make_ground()
+        self.show(ball, ground)
+        layout = pv.CreateLayout("split")
+        left = layout.SplitHorizontal(0, 0.5)
+        pv.AssignViewToLayout(self.view, layout, left)
+        other = scene.make_view(self.size)
+        scene.add_sun(other)
+        other.SVOShadowTechnique = "Shadow Buffer"
+        other.SVOShadowIntensity = 0.5
+        pv.AssignViewToLayout(other, layout, left + 1)
+        for source in ball, ground:
+            scene.show(source, other)
+        layout.SetSize(2 * self.size[0], self.size[1])
+        alone = [scene.picture(view, "split-" + name)
+                 for view, name in ((self.view, "left"), (other, "right"))]
+        self.assertGreater(scene.differing(*[a[:, :300] for a in alone]), 5e-3)
+        path = scene.output("split.png")
+        pv.SaveScreenshot(path, layout, SeparatorWidth=0,
+                          ImageResolution=[sum(a.shape[1] for a in alone), alone[0].shape[0]])
+        both = scene.read(path)
+        self.assertEqual(scene.differing(both, numpy.concatenate(alone, axis=1), 0), 0)
 
     def test_surface_of_other_data(self):
         wavelet = pv.Wavelet(WholeExtent=[-10, 10] * 3)

@@ -21,11 +21,12 @@ class TestShadows(unittest.TestCase):
         return (scene.show(self.ball, self.view, ball), scene.show(self.ground, self.view, ground))
 
     def check_shadow(self, picture):
-        ground, dark = scene.exact_shadow(self.view, self.view.ViewSize)
+        height, width = picture.shape[:2]
+        ground, dark = scene.exact_shadow(self.view, (width, height))
         self.assertGreater(dark.sum(), 1000)
         # With a pixel error of 1 outlines may be off by a pixel.
         sure = ground & ~scene.border(ground, 2) & ~scene.border(dark, 2)
-        black = picture.max(axis=2) < 10
+        black = picture[..., :3].max(axis=2) < 10
         wrong = (black != dark) & sure
         self.assertEqual(wrong.sum(), 0)
 
@@ -66,6 +67,29 @@ class TestShadows(unittest.TestCase):
         rays = scene.picture(self.view, "rays")
         self.check_shadow(rays)
         self.assertLess(scene.differing(buffer, rays), 2e-3)
+
+    def test_large_picture_with_a_clear_background(self):
+        self.show("SVO", "SVO")
+        picture = scene.picture(self.view, "large", TransparentBackground=1,
+                                ImageResolution=[2400, 1600])  # four times the window
+        self.check_shadow(picture)
+        ground, dark = scene.exact_shadow(self.view, (2400, 1600))
+        self.assertEqual(picture[dark & ~scene.border(dark, 2), 3].min(), 255)
+        self.assertEqual(picture[-1, 0, 3], 0)
+
+    def test_stereo(self):
+        self.show("SVO", "SVO")
+        one_eye = scene.picture(self.view, "one-eye")
+        self.view.StereoRender = 1
+        self.view.StereoType = "Anaglyph"
+        pv.Render(self.view)
+        buffer = scene.picture(self.view, "stereo-buffer")
+        self.view.SVOShadowTechnique = "Shadow Rays"
+        rays = scene.picture(self.view, "stereo-rays")
+        self.assertLess(scene.differing(buffer, rays), 2e-3)
+        self.assertGreater(scene.differing(buffer, one_eye), 1e-2)
+        self.view.SVOShadowTechnique = "None"
+        self.assertGreater(scene.differing(buffer, scene.picture(self.view, "stereo-none")), 1e-2)
 
     def test_cast_and_receive(self):
         ball, ground = self.show("SVO", "SVO")
