@@ -1,6 +1,6 @@
-"""ParaView's own window: the plugin loads from PV_PLUGIN_PATH, the first view has its settings, and what a user
-clicks and types in a session is played back. Where ffmpeg is there, pictures of the window are left to
-look at.
+"""ParaView's own window: the plugin loads from PV_PLUGIN_PATH, where the first view has its settings, by the
+plugin manager or by the option --plugins, and what a user clicks and types in a session is played back.
+Where ffmpeg is there, pictures of the window are left to look at.
 
 usage: TestGui.py folder of ParaView's programs
 """
@@ -14,38 +14,51 @@ import gui_events
 
 PROGRAMS = sys.argv.pop(1)
 FOLDER = os.path.dirname(os.path.abspath(__file__))
+PLUGIN = os.environ["VTKSVO_PLUGIN"]
 OUTPUT = os.environ["VTKSVO_OUTPUT"]
 SECONDS = 240
 
 
 class TestGui(unittest.TestCase):
-    def test_session(self):
-        done = os.path.join(OUTPUT, "done")
+    def play(self, name, events, options=(), **variables):
+        """ParaView's client in a window plays the events and ends; all their checks have passed."""
+        done = os.path.join(OUTPUT, name + "-done")
         if os.path.exists(done):
             os.remove(done)
-        events = os.path.join(OUTPUT, "events.xml")
-        gui_events.write(events)
+        path = os.path.join(OUTPUT, name + ".xml")
+        gui_events.write(path, events)
         # With this variable ParaView takes it that no one is there to answer dialogues.
         environment = dict(os.environ, VTKSVO_DONE=done, QT_QPA_PLATFORM="xcb",
-                           DASHBOARD_TEST_FROM_CTEST="1",
-                           PV_PLUGIN_PATH=os.path.dirname(os.environ["VTKSVO_PLUGIN"]))
+                           DASHBOARD_TEST_FROM_CTEST="1", **variables)
         # Without --dr a dialogue that welcomes the user would wait for an answer.
         gui = subprocess.run(
             [os.path.join(PROGRAMS, "paraview"), "--dr", "-geometry", "1500x1050+0+0",
-             "--script=" + os.path.join(FOLDER, "gui_session.py"), "--test-script=" + events,
-             "--exit"],
+             *options, "--test-script=" + path, "--exit"],
             env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
             timeout=SECONDS)
         print(gui.stdout)
-        with open(done) as file:
-            results = file.read().splitlines()
+        results = []
+        if os.path.exists(done):
+            with open(done) as file:
+                results = file.read().splitlines()
         for line in results:
             with self.subTest(check=line.split(": ")[0]):
                 self.assertTrue(line.endswith(": passed"), line.replace(" | ", "\n"))
         self.assertEqual(gui.returncode, 0)
-        self.assertEqual(len(results), gui_events.number_of_checks())
+        self.assertEqual(len(results), gui_events.number_of_checks(events))
         for message in "ERR|", "WARN|", "critical:":
             self.assertNotIn(message, gui.stdout)
+
+    def test_session(self):
+        self.play("session", gui_events.SESSION, PV_PLUGIN_PATH=os.path.dirname(PLUGIN))
+
+    def test_plugin_manager(self):
+        self.play("plugin-manager", gui_events.load(PLUGIN) + gui_events.LATE)
+
+    def test_plugins_option(self):
+        self.play("plugins-option", gui_events.LATE,
+                  ["--plugin-search-paths=" + os.path.dirname(PLUGIN),
+                   "--plugins=SparseVoxelOctree"])
 
 
 if __name__ == "__main__":

@@ -55,6 +55,7 @@ REDO = event(MAIN + "/MainControlsToolbar/actionRedo", "activate")
 
 
 representation = [
+    check("make_scene"),
     check("select", "Ground"),
     shown(REPRESENTATION, "currentText", "SVO"),
     check("window", "window"),
@@ -129,6 +130,10 @@ view = [
     check("differs_from", "both", 0.003),
     number(VIEW + "SVOShadowIntensity/DoubleRangeWidget/DoubleLineEdit", "1"),
     check("looks_like", "both"),
+    number(VIEW + "SVOShadowBufferResolution/IntRangeWidget/LineEdit", "64"),
+    check("differs_from", "both", 0.0005),
+    number(VIEW + "SVOShadowBufferResolution/IntRangeWidget/LineEdit", "2048"),
+    check("looks_like", "both"),
     tick(VIEW + "SVOAntiAliasing/CheckBox", True),
     check("differs_from", "both", 0.0005),
     tick(VIEW + "SVOAntiAliasing/CheckBox", False),
@@ -187,14 +192,49 @@ lights = [
     shown(CASTING, "plainText", "1. directional: casts shadows\n"),
 ]
 
-EVENTS = [wait(500), python("import gui_session"), *representation, *surface, *view,
-          *hovers, *lights, *information]
+SESSION = [wait(500), python("import gui_session"), *representation, *surface, *view, *hovers, *lights,
+           *information]
+
+PLUGINS = MAIN + "/PluginManagerDialog/"
 
 
-def write(path):
+def load(plugin):
+    """Opens the plugin manager, loads the plugin and closes it."""
+    return [
+        wait(500),
+        event(MAIN + "/menubar/menuTools", "activate", "actionManage_Plugins"),
+        event(PLUGINS + "splitter/localGroup/loadLocal", "activate"),
+        event(PLUGINS + "1pqFileDialog0", "filesSelected", plugin),
+        event(PLUGINS + "buttonBox/1QPushButton0", "activate"),
+    ]
+
+
+# The plugin came when the first view was there already: its surfaces have shadows, but only the
+# next session's view has settings.
+LATE = [
+    python("import gui_session"),
+    check("make_scene"),
+    shown(REPRESENTATION, "currentText", "SVO"),
+    check("view_lacks", "SVOShadowTechnique"),
+    check("remember", "late"),
+    tick(DISPLAY + "SVOReceiveShadows/CheckBox", False),
+    check("differs_from", "late", 0.003),
+    tick(DISPLAY + "SVOReceiveShadows/CheckBox", True),
+    check("looks_like", "late"),
+    event(MAIN + "/menubar/menu_Edit", "activate", "actionDelete_All"),  # resets the session
+    wait(500),
+    python("import gui_session"),
+    check("make_scene"),
+    check("traced", 2),
+    check("view_has", "SVOShadowTechnique", "Shadow Buffer"),
+    shown(CASTING, "plainText", KIT),
+]
+
+
+def write(path, events):
     with open(path, "w") as file:
-        file.write('<?xml version="1.0" ?>\n<pqevents>\n' + "\n".join(EVENTS) + "\n</pqevents>\n")
+        file.write('<?xml version="1.0" ?>\n<pqevents>\n' + "\n".join(events) + "\n</pqevents>\n")
 
 
-def number_of_checks():
-    return sum("gui_session.run" in text for text in EVENTS)
+def number_of_checks(events):
+    return sum("gui_session.run" in text for text in events)

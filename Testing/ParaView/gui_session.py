@@ -41,6 +41,7 @@ def view():
     return pv.GetActiveView()
 
 
+@check
 def make_scene():
     render_view = pv.GetActiveViewOrCreate("RenderView")
     ball = pv.Sphere(registrationName="Ball", Center=[0, 0, 0.8], ThetaResolution=64,
@@ -86,6 +87,11 @@ def display_has(source, name, value):
 @check
 def view_has(name, value):
     same(view().GetPropertyValue(name), value)
+
+
+@check
+def view_lacks(name):
+    same(view().GetProperty(name), None)
 
 
 @check
@@ -170,5 +176,3 @@ def window(name):
              scene.output(name + ".png")], check=True)
 
 
-if __name__ == "__main__":
-    make_scene()
