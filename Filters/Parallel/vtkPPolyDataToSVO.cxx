@@ -1,5 +1,7 @@
 #include "vtkPPolyDataToSVO.h"
 
+#include "svoAbort.h"
+
 #include "vtkDataObjectTree.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkFieldData.h"
@@ -276,7 +278,7 @@ int vtkPPolyDataToSVO::RequestData(
   for (std::size_t i = 0; i < all.size(); ++i)
   {
     const Piece& piece = all[i];
-    if (this->GetAbortExecute())
+    if (svo::isAborted(this))
     {
       piece.output->ShallowCopy(piece.input);
       continue;
