@@ -5,9 +5,33 @@ import unittest
 
 import paraview.simple as pv
 import scene
+import series
+from vtkmodules.vtkCommonDataModel import (
+    vtkHyperTreeGrid, vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet,
+    vtkPartitionedDataSetCollection, vtkPolyData, vtkUnstructuredGrid)
 
 COMPOSITES = ("vtkMultiBlockDataSet", "vtkPartitionedDataSet", "vtkPartitionedDataSetCollection")
 OCTREE = "SparseVoxelOctree"
+
+
+def with_gaps():
+    """Composite datasets of a ball, of a surface without cells, and of places where nothing is."""
+    ball, = series.breathing_ball(1)
+    blocks, empty = vtkMultiBlockDataSet(), vtkMultiBlockDataSet()
+    blocks.SetBlock(1, ball)
+    blocks.SetBlock(3, vtkPolyData())
+    empty.SetNumberOfBlocks(1)
+    blocks.SetBlock(4, empty)
+    partitions = vtkPartitionedDataSet()
+    partitions.SetNumberOfPartitions(3)
+    partitions.SetPartition(1, ball)
+    partitions.SetPartition(2, vtkPolyData())
+    collection = vtkPartitionedDataSetCollection()
+    collection.SetNumberOfPartitionedDataSets(3)
+    collection.SetPartition(0, 0, ball)
+    collection.SetNumberOfPartitions(2, 2)
+    collection.SetPartition(2, 1, vtkPolyData())
+    return blocks, partitions, collection
 
 
 class TestInputs(unittest.TestCase):
@@ -71,6 +95,29 @@ class TestInputs(unittest.TestCase):
                 self.check(source, name)
                 self.assertEqual(source.GetDataInformation().GetDataSetTypeAsString(),
                                  "vtkHyperTreeGrid")
+
+    def check_traced(self, data, octrees):
+        producer = pv.TrivialProducer()
+        producer.GetClientSideObject().SetOutput(data)
+        producer.MarkModified(None)
+        sources = [producer]
+        if data.IsA("vtkPolyData") or data.IsA("vtkCompositeDataSet"):
+            sources.append(pv.PolyDataToSVO(Input=producer))
+        for source in sources:
+            with self.subTest(data=data.GetClassName(), source=source.GetXMLName()):
+                pv.HideAll(self.view)
+                scene.show(source, self.view)
+                pv.Render(self.view)
+                self.assertEqual(scene.statistic(self.view, "SVONumberOfInstances"), octrees)
+
+    def test_gaps(self):
+        for data in with_gaps():
+            self.check_traced(data, 1)
+
+    def test_empty(self):
+        for kind in (vtkPolyData, vtkUnstructuredGrid, vtkImageData, vtkHyperTreeGrid,
+                     vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPartitionedDataSetCollection):
+            self.check_traced(kind(), 0)
 
     def test_filter_is_aborted(self):
         octrees = pv.PolyDataToSVO(Input=scene.make_ball(), MaximumLevel=9)
