@@ -21,8 +21,7 @@ void ShadowBuffer::begin(const Scene& scene, const Outlines& outlines, const Lig
   const std::vector<View> views =
     fitLight(outlines.instances, all, light, settings.shadowResolution);
   const std::uint8_t* casters = all.data() + outlines.first; // this scene's
-  this->AutomaticBias = settings.automaticBias;
-  this->Bias = settings.bias;
+  this->setBias(settings);
   if (this->Faces.size() != views.size())
   {
     budget.used -= this->layerMemory();

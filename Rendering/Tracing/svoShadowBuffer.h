@@ -30,6 +30,13 @@ public:
   void begin(const Scene& scene, const Outlines& outlines, const Light& light,
     const FrameSettings& settings, LayerBudget& budget);
 
+  /// How points are tested; begin() does this, too.
+  void setBias(const FrameSettings& settings)
+  {
+    this->AutomaticBias = settings.automaticBias;
+    this->Bias = settings.bias;
+  }
+
   /// Notes the 8x8 light tiles that the points will look up. Thread-safe.
   void mark(const TilePoints& points);
   /// Every tile will be looked up.

@@ -74,6 +74,13 @@ bool Shadows::traceShared(const Scene& scene, const FrameSettings& own, LayerBud
   {
     this->Of = &scene;
     this->Traced = false;
+    for (ShadowBuffer* buffer : this->Buffers)
+    {
+      if (buffer)
+      {
+        buffer->setBias(own);
+      }
+    }
     return true;
   }
 

@@ -154,6 +154,17 @@ TEST(SharedShadows, AreKeptWhileNoProcessChangesAnything)
     differing(group.picture(scene, turned, settings), rendered(scene, turned, settings)), 0u);
   EXPECT_EQ(group.shadowRays(), 0u);
 
+  // How points are tested is no matter of what is traced.
+  svo::FrameSettings others = settings;
+  others.automaticBias = false;
+  others.bias = 6.0;
+  EXPECT_EQ(differing(group.picture(scene, turned, others), rendered(scene, turned, others)), 0u);
+  EXPECT_EQ(group.shadowRays(), 0u);
+  others = settings;
+  others.filterShadows = true;
+  EXPECT_EQ(differing(group.picture(scene, turned, others), rendered(scene, turned, others)), 0u);
+  EXPECT_EQ(group.shadowRays(), 0u);
+
   // Of a process that is not the ground's.
   scene.instances[1].localToWorld = movedTo(0.5, 0.5, 1.6);
   EXPECT_EQ(
