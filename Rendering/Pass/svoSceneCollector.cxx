@@ -360,6 +360,7 @@ void addProp(const PropSurfaces& prop, CollectedScene& result)
   {
     result.rasterizedActors += prop.actors;
     result.rasterizedReceivers = result.rasterizedReceivers || prop.receives;
+    addReceiver(prop, result.scene);
   }
   for (const SceneSurface& surface : prop.surfaces)
   {

@@ -2,6 +2,8 @@
 
 #include "svoNeededLevels.h"
 
+#include "vtkProp.h"
+
 namespace svo
 {
 namespace
@@ -46,16 +48,24 @@ void findOctree(
 }
 }
 
+void addReceiver(const PropSurfaces& prop, Scene& scene)
+{
+  const double* b = !prop.traced && prop.receives ? prop.prop->GetBounds() : nullptr;
+  if (b && b[0] <= b[1] && b[2] <= b[3] && b[4] <= b[5])
+  {
+    scene.receivers.push_back({ { b[0], b[2], b[4] }, { b[1], b[3], b[5] } });
+  }
+}
+
 void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lights,
   const LevelSettings& settings, OctreeStore& store, const StoreOptions& options)
 {
   Scene scene;
   scene.lights = lights;
-  FrameSettings frame = settings.frame;
   bool building = false;
   for (const PropSurfaces& prop : props)
   {
-    frame.wholeShadowBuffers = frame.wholeShadowBuffers || (!prop.traced && prop.receives);
+    addReceiver(prop, scene);
   }
   eachSurface(props,
     [&](const PropSurfaces& prop, SceneSurface& surface)
@@ -69,7 +79,7 @@ void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lig
   std::vector<NeededLevels> needed(scene.instances.size());
   if (building)
   {
-    needed = neededLevels(scene, settings.eye, frame);
+    needed = neededLevels(scene, settings.eye, settings.frame);
   }
   auto next = needed.begin();
   eachSurface(props,

@@ -40,6 +40,9 @@ struct LevelSettings
   FrameSettings frame;
 };
 
+/// Where the rasteriser draws something that shadows fall on: says so to the scene.
+void addReceiver(const PropSurfaces& prop, Scene& scene);
+
 /// Gives each surface its octrees: those that it brings, or from the store those that the frame
 /// needs (svoNeededLevels.h). Where the store has none, the surface is neither traced nor casts.
 void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lights,

@@ -10,7 +10,7 @@ namespace
 {
 /// True if `caster` is flat and the light and all receivers are on one side of it.
 bool isOnlyBackdrop(
-  const std::vector<Outline>& instances, const Outline& caster, const Light& light)
+  const std::vector<Outline>& outlines, const Outline& caster, const Light& light)
 {
   int axis = 0;
   while (axis < 3 && caster.meshLow[axis] != caster.meshHigh[axis])
@@ -30,7 +30,7 @@ bool isOnlyBackdrop(
     ? -(inverse * light.direction)[axis]
     : height(light.position) - plane;
   const double side = lightSide < 0.0 ? -1.0 : 1.0;
-  for (const Outline& receiver : instances)
+  for (const Outline& receiver : outlines)
   {
     if (&receiver == &caster || !receiver.receives)
     {
@@ -49,14 +49,12 @@ bool isOnlyBackdrop(
 }
 }
 
-std::vector<std::uint8_t> castersOf(
-  const std::vector<Outline>& instances, const Light& light, bool unknownReceivers)
+std::vector<std::uint8_t> castersOf(const std::vector<Outline>& outlines, const Light& light)
 {
   std::vector<std::uint8_t> casters;
-  for (const Outline& instance : instances)
+  for (const Outline& outline : outlines)
   {
-    casters.push_back(
-      instance.casts && (unknownReceivers || !isOnlyBackdrop(instances, instance, light)));
+    casters.push_back(outline.casts && !isOnlyBackdrop(outlines, outline, light));
   }
   return casters;
 }

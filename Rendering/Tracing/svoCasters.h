@@ -10,13 +10,12 @@
 
 namespace svo
 {
-/// One byte per instance, 1 if it casts: it is allowed to, and something can lie in its shadow. A
+/// One byte per outline, 1 if it casts: it is allowed to, and something can lie in its shadow. A
 /// flat mesh (a ground, a wall) shadows nothing if the light and every receiver are on one side of
 /// its plane; half a voxel through it is allowed, since its octree resolves no less: a voxel of the
 /// deepest octree that it may get.
-/// `unknownReceivers`: there are receivers that are no instances, anywhere.
 std::vector<std::uint8_t> castersOf(
-  const std::vector<Outline>& instances, const Light& light, bool unknownReceivers);
+  const std::vector<Outline>& outlines, const Light& light);
 }
 
 #endif

@@ -14,14 +14,14 @@ namespace
 {
 /// Corners of the casters' boxes, a voxel wider than the meshes.
 std::vector<glm::dvec3> casterCorners(
-  const std::vector<Outline>& instances, const std::vector<std::uint8_t>& casters)
+  const std::vector<Outline>& outlines, const std::vector<std::uint8_t>& casters)
 {
   std::vector<glm::dvec3> corners;
-  for (std::size_t i = 0; i < instances.size(); ++i)
+  for (std::size_t i = 0; i < outlines.size(); ++i)
   {
     if (casters[i])
     {
-      const std::array<glm::dvec3, 8> box = worldCorners(instances[i], instances[i].voxelSize);
+      const std::array<glm::dvec3, 8> box = worldCorners(outlines[i], outlines[i].voxelSize);
       corners.insert(corners.end(), box.begin(), box.end());
     }
   }
@@ -207,10 +207,10 @@ std::vector<View> fitPositional(
 }
 }
 
-std::vector<View> fitLight(const std::vector<Outline>& instances,
+std::vector<View> fitLight(const std::vector<Outline>& outlines,
   const std::vector<std::uint8_t>& casters, const Light& light, int resolution)
 {
-  const std::vector<glm::dvec3> corners = casterCorners(instances, casters);
+  const std::vector<glm::dvec3> corners = casterCorners(outlines, casters);
   if (corners.empty() || resolution < 1)
   {
     return {};

@@ -96,8 +96,7 @@ std::vector<NeededLevels> neededLevels(
     {
       continue;
     }
-    const std::vector<std::uint8_t> casters =
-      castersOf(outlines, light, settings.wholeShadowBuffers);
+    const std::vector<std::uint8_t> casters = castersOf(outlines, light);
     for (const View& view : fitLight(outlines, casters, light, settings.shadowResolution))
     {
       for (std::size_t i = 0; i < needed.size(); ++i)

@@ -52,12 +52,30 @@ Outline outlineOf(const Instance& instance)
   return outline;
 }
 
+Outline outlineOf(const Receiver& receiver)
+{
+  Outline outline{};
+  for (int i = 0; i < 3; ++i)
+  {
+    outline.localToWorld[5 * i] = 1.0;
+    outline.cubeLow[i] = outline.meshLow[i] = receiver.low[i];
+    outline.cubeHigh[i] = outline.meshHigh[i] = receiver.high[i];
+  }
+  outline.localToWorld[15] = 1.0;
+  outline.receives = 1;
+  return outline;
+}
+
 std::vector<Outline> outlinesOf(const Scene& scene)
 {
   std::vector<Outline> outlines;
   for (const Instance& instance : scene.instances)
   {
     outlines.push_back(outlineOf(instance));
+  }
+  for (const Receiver& receiver : scene.receivers)
+  {
+    outlines.push_back(outlineOf(receiver));
   }
   return outlines;
 }

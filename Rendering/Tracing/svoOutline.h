@@ -33,15 +33,16 @@ struct Outline
 };
 static_assert(sizeof(Outline) == 16 * 8 + 12 * 8 + 4 * 8 + 4 * 4, "no gaps");
 
-/// The instances of a scene, or of the scenes of all processes, one after the other.
+/// Outlines of the instances of a scene, then of its receivers; or of the scenes of all processes, one
+/// scene after the other.
 struct Outlines
 {
-  std::vector<Outline> instances;
-  std::size_t first = 0;         // index of this process's first
-  bool unknownReceivers = false; // there are receivers that are no instances, anywhere
+  std::vector<Outline> all;
+  std::size_t first = 0; // index of this process's first
 };
 
 Outline outlineOf(const Instance& instance);
+Outline outlineOf(const Receiver& receiver);
 std::vector<Outline> outlinesOf(const Scene& scene);
 
 glm::dmat4 matrixOf(const Outline& outline);

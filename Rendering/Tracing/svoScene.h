@@ -106,9 +106,16 @@ struct Light
   std::uint64_t id = 0; // stable from frame to frame
 };
 
+/// A surface that is no instance, but on which shadows of instances fall: where it is, in the world.
+struct Receiver
+{
+  glm::dvec3 low, high;
+};
+
 struct Scene
 {
   std::vector<Instance> instances;
+  std::vector<Receiver> receivers;
   std::vector<Light> lights; // only those that are switched on, in the renderer's order
 };
 }

@@ -17,9 +17,9 @@ void ShadowBuffer::begin(const Scene& scene, const Outlines& outlines, const Lig
   const FrameSettings& settings, LayerBudget& budget)
 {
   const std::vector<std::uint8_t> all =
-    castersOf(outlines.instances, light, outlines.unknownReceivers);
+    castersOf(outlines.all, light);
   const std::vector<View> views =
-    fitLight(outlines.instances, all, light, settings.shadowResolution);
+    fitLight(outlines.all, all, light, settings.shadowResolution);
   const std::uint8_t* casters = all.data() + outlines.first; // this scene's
   this->setBias(settings);
   if (this->Faces.size() != views.size())
@@ -31,8 +31,8 @@ void ShadowBuffer::begin(const Scene& scene, const Outlines& outlines, const Lig
       this->Faces.push_back(std::make_unique<Face>());
     }
   }
-  this->CasterVoxel.assign(scene.instances.size(), 0.0);
-  this->CasterError.assign(scene.instances.size(), 0.0);
+  this->CasterVoxel.assign(scene.instances.size() + scene.receivers.size(), 0.0);
+  this->CasterError.assign(this->CasterVoxel.size(), 0.0);
   for (std::size_t i = 0; i < views.size(); ++i)
   {
     Face& face = *this->Faces[i];

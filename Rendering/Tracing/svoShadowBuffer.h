@@ -158,7 +158,7 @@ private:
   float filtered(const Place& place, double width, const SurfacePoint& point, double error) const;
 
   std::vector<std::unique_ptr<Face>> Faces;
-  // By index of the instance, among those of all processes where depths are shared.
+  // By index of the outline: of the instance, among those of all processes where depths are shared.
   std::vector<double> CasterVoxel; // world, of the level that is traced
   std::vector<double> CasterError; // world
   bool AutomaticBias = true;

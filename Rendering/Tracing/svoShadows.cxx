@@ -18,7 +18,7 @@ void Shadows::begin(
   this->All = settings.wholeShadowBuffers || settings.antiAliasing || this->Filters;
   this->Shared.clear();
   this->beginBuffers(
-    scene, scene.lights, { outlinesOf(scene), 0, settings.wholeShadowBuffers }, settings, budget);
+    scene, scene.lights, { outlinesOf(scene) }, settings, budget);
   if (settings.shadowTechnique == ShadowTechnique::Rays)
   {
     this->Rays = std::make_unique<ShadowRays>(scene, eye);

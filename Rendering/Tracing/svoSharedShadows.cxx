@@ -11,8 +11,8 @@ struct SharedSettings
   double pixelError;
   std::int32_t resolution;
   std::int32_t lights;
-  std::int32_t unknownReceivers;
   std::int32_t canKeep; // the last frame's buffers are there
+  std::int32_t unused;
 };
 struct SharedLight
 {
@@ -37,7 +37,7 @@ bool Shadows::traceShared(const Scene& scene, const FrameSettings& own, LayerBud
   gatherRecords(processes,
     std::vector<SharedSettings>{
       { own.pixelError, own.shadowResolution, static_cast<std::int32_t>(scene.lights.size()),
-        own.wholeShadowBuffers, own.frameCoherence && !this->Shared.empty() } },
+        own.frameCoherence && !this->Shared.empty(), 0 } },
     settingsOfAll);
   std::vector<SharedLight> ownLights;
   for (const Light& light : scene.lights)
@@ -49,7 +49,7 @@ bool Shadows::traceShared(const Scene& scene, const FrameSettings& own, LayerBud
   std::vector<SharedLight> lightsOfAll;
   gatherRecords(processes, ownLights, lightsOfAll);
   Outlines outlines;
-  outlines.first = gatherRecords(processes, outlinesOf(scene), outlines.instances);
+  outlines.first = gatherRecords(processes, outlinesOf(scene), outlines.all);
 
   const SharedSettings& agreed = settingsOfAll.front();
   bool keep = true;
@@ -59,17 +59,15 @@ bool Shadows::traceShared(const Scene& scene, const FrameSettings& own, LayerBud
     {
       return false;
     }
-    outlines.unknownReceivers |= settings.unknownReceivers != 0;
     keep = keep && settings.canKeep;
   }
   lightsOfAll.resize(agreed.lights);
 
   std::vector<unsigned char> state;
   append(state,
-    std::vector<double>{ agreed.pixelError, static_cast<double>(agreed.resolution),
-      static_cast<double>(outlines.unknownReceivers) });
+    std::vector<double>{ agreed.pixelError, static_cast<double>(agreed.resolution) });
   append(state, lightsOfAll);
-  append(state, outlines.instances);
+  append(state, outlines.all);
   if (keep && state == this->Shared)
   {
     this->Of = &scene;

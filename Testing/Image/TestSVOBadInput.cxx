@@ -133,7 +133,8 @@ int TestSVOBadInput(int, char*[])
         matrix->SetElement(0, 3, 1000.0);
         matrix->SetElement(3, 1, 0.1);
         stage.add(ball(0.5, 0.0, 0.0, 2.0), 1.0, 0.0, 0.0)->SetUserMatrix(matrix);
-      } },
+      },
+      true },
   };
 
   Stage good;

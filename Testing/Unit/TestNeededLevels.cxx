@@ -181,7 +181,7 @@ TEST(NeededLevels, LightsNeedWhatTheirTexelsResolve)
       built.lights = { lightOf(kind, { 3, -5, 9 }) };
       int stops = 0;
       const auto outlines = svo::outlinesOf(built);
-      const auto casters = svo::castersOf(outlines, built.lights[0], false);
+      const auto casters = svo::castersOf(outlines, built.lights[0]);
       for (const svo::View& view : svo::fitLight(outlines, casters, built.lights[0], resolution))
       {
         const auto local = svo::makeLocalView(octree, glm::dmat4(1.0), view);

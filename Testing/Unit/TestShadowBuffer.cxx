@@ -1,5 +1,6 @@
 #include "svoTracerScenes.h"
 
+#include "svoCasters.h"
 #include "svoLayeredView.h"
 #include "svoLeafGeometry.h"
 #include "svoShadowBuffer.h"
@@ -420,4 +421,22 @@ TEST(ShadowBuffer, AConvexBodyInGrazingLightDoesNotShadowItself)
     EXPECT_EQ(wrong, 0) << "turned by " << angle;
   }
   EXPECT_GT(grazing, 1000) << "too few to say anything";
+}
+
+TEST(ShadowBuffer, AGroundCastsOnlyIfSomethingCanLieInItsShadow)
+{
+  svo::Scene scene = ballOnGround(svo::LeafGeometry::Triangle, 6);
+  const svo::Light sun = lightOf(svo::Light::Kind::Directional, { 2, -2, 5 });
+  const auto casters = [&] { return svo::castersOf(svo::outlinesOf(scene), sun); };
+  EXPECT_EQ(casters(), (std::vector<std::uint8_t>{ 0, 1 }));
+  // Rasterised surfaces on the ground and above it change nothing,
+  scene.receivers = { { { -1, -1, 0 }, { 1, 1, 2 } }, { { 5, 5, 7 }, { 6, 6, 9 } } };
+  EXPECT_EQ(casters(), (std::vector<std::uint8_t>{ 0, 1, 0, 0 }));
+  // one that reaches below it does,
+  scene.receivers.push_back({ { 5, 5, -1 }, { 6, 6, 9 } });
+  EXPECT_EQ(casters(), (std::vector<std::uint8_t>{ 1, 1, 0, 0, 0 }));
+  // and so does one that may be anywhere.
+  const double infinity = std::numeric_limits<double>::infinity();
+  scene.receivers = { { glm::dvec3(-infinity), glm::dvec3(infinity) } };
+  EXPECT_EQ(casters(), (std::vector<std::uint8_t>{ 1, 1, 0 }));
 }

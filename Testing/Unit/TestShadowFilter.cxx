@@ -34,9 +34,9 @@ struct Place
     settings.bias = bias;
     settings.frameCoherence = false;
     // The ground casts, too: else its map would hold nothing that it could be mistaken for.
-    settings.wholeShadowBuffers = true;
+    scene.receivers = { { glm::dvec3(-9.0), glm::dvec3(9.0) } };
     svo::LayerBudget budget{ 0, 0 };
-    buffer.begin(scene, { svo::outlinesOf(scene), 0, true }, scene.lights[0], settings, budget);
+    buffer.begin(scene, { svo::outlinesOf(scene) }, scene.lights[0], settings, budget);
     buffer.markAll();
     buffer.trace(svo::serialFor);
     std::vector<svo::ShadowMap> maps;
@@ -299,10 +299,10 @@ TEST(ShadowFilter, BordersOfMapsAreNotSeen)
   scene.lights = { lightOf(svo::Light::Kind::Point, from) };
   svo::FrameSettings settings;
   settings.shadowResolution = Resolution;
-  settings.wholeShadowBuffers = true;
+  scene.receivers = { { glm::dvec3(-9.0), glm::dvec3(9.0) } };
   svo::LayerBudget budget{ 0, 0 };
   svo::ShadowBuffer buffer;
-  buffer.begin(scene, { svo::outlinesOf(scene), 0, true }, scene.lights[0], settings, budget);
+  buffer.begin(scene, { svo::outlinesOf(scene) }, scene.lights[0], settings, budget);
   buffer.markAll();
   buffer.trace(svo::serialFor);
   std::vector<svo::ShadowMap> maps;
