@@ -3,6 +3,7 @@ where arithmetic says, on each other and on ordinary surfaces."""
 
 import unittest
 
+import numpy
 import paraview.simple as pv
 import scene
 
@@ -67,6 +68,37 @@ class TestShadows(unittest.TestCase):
         rays = scene.picture(self.view, "rays")
         self.check_shadow(rays)
         self.assertLess(scene.differing(buffer, rays), 2e-3)
+
+    def test_kinds_of_lights(self):
+        """Each from where the sun is."""
+        self.show("SVO", "SVO")
+        sun = self.view.AdditionalLights[0]
+
+        def check(name, says):
+            self.check_shadow(scene.picture(self.view, "light-" + name))
+            self.assertEqual(scene.statistic(self.view, "SVOCastingLights"), says)
+
+        check("directional", "1. directional: casts shadows\n")
+        sun.Type = "Positional"
+        sun.Position = list(500.0 * scene.TO_LIGHT)  # its rays are parallel to half a pixel
+        sun.ConeAngle = 180.0
+        check("point", "1. point: casts shadows\n")
+        sun.ConeAngle = 20.0
+        check("spot", "1. spot: casts shadows\n")
+        ahead = numpy.array(self.view.CameraFocalPoint) - self.view.CameraPosition
+        ahead /= numpy.linalg.norm(ahead)
+        right = numpy.cross(ahead, self.view.CameraViewUp)
+        right /= numpy.linalg.norm(right)
+        axes = numpy.stack([right, numpy.cross(right, ahead), -ahead])
+        sun.Type = "Directional"
+        sun.Coords = "Camera"
+        sun.Position = list(axes @ scene.TO_LIGHT)
+        check("camera", "1. directional: casts shadows\n")
+        sun.Enable = 0
+        unlit = scene.picture(self.view, "light-off")
+        self.assertEqual(scene.statistic(self.view, "SVOCastingLights"), "")
+        self.show("Surface", "Surface")
+        self.assertLess(scene.differing(unlit, scene.picture(self.view, "light-off-surface")), 1e-3)
 
     def test_large_picture_with_a_clear_background(self):
         self.show("SVO", "SVO")
