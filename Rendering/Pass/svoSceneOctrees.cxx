@@ -32,8 +32,8 @@ void beginSurface(SceneSurface& surface, OctreeStore& store, const StoreOptions&
   }
 }
 
-void findOctree(
-  SceneSurface& surface, const NeededLevels& needed, OctreeStore& store, const StoreOptions& options)
+void findOctree(SceneSurface& surface, const NeededLevels& needed, OctreeStore& store,
+  const StoreOptions& options)
 {
   Instance& instance = surface.instance;
   instance.neededLevel = needed.eye;

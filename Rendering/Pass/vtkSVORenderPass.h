@@ -368,9 +368,9 @@ public:
 
   //@{
   /**
-   * Octrees that the pass has built so far (a mesh that is seen from far and from near has several),
-   * and those that are built in the background at this moment: as long as there are any, another
-   * render will show more than the last one.
+   * Octrees that the pass has built so far (a mesh that is seen from far and from near has
+   * several), and those that are built in the background at this moment: as long as there are any,
+   * another render will show more than the last one.
    */
   int GetNumberOfOctreesBuilt() const;
   int GetNumberOfOctreesInProgress() const;

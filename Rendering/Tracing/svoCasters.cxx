@@ -9,8 +9,7 @@ namespace svo
 namespace
 {
 /// True if `caster` is flat and the light and all receivers are on one side of it.
-bool isOnlyBackdrop(
-  const std::vector<Outline>& outlines, const Outline& caster, const Light& light)
+bool isOnlyBackdrop(const std::vector<Outline>& outlines, const Outline& caster, const Light& light)
 {
   int axis = 0;
   while (axis < 3 && caster.meshLow[axis] != caster.meshHigh[axis])

@@ -14,8 +14,7 @@ namespace svo
 /// flat mesh (a ground, a wall) shadows nothing if the light and every receiver are on one side of
 /// its plane; half a voxel through it is allowed, since its octree resolves no less: a voxel of the
 /// deepest octree that it may get.
-std::vector<std::uint8_t> castersOf(
-  const std::vector<Outline>& outlines, const Light& light);
+std::vector<std::uint8_t> castersOf(const std::vector<Outline>& outlines, const Light& light);
 }
 
 #endif

@@ -33,8 +33,8 @@ struct Outline
 };
 static_assert(sizeof(Outline) == 16 * 8 + 12 * 8 + 4 * 8 + 4 * 4, "no gaps");
 
-/// Outlines of the instances of a scene, then of its receivers; or of the scenes of all processes, one
-/// scene after the other.
+/// Outlines of the instances of a scene, then of its receivers; or of the scenes of all processes,
+/// one scene after the other.
 struct Outlines
 {
   std::vector<Outline> all;

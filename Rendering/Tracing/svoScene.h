@@ -106,7 +106,8 @@ struct Light
   std::uint64_t id = 0; // stable from frame to frame
 };
 
-/// A surface that is no instance, but on which shadows of instances fall: where it is, in the world.
+/// A surface that is no instance, but on which shadows of instances fall: where it is, in the
+/// world.
 struct Receiver
 {
   glm::dvec3 low, high;

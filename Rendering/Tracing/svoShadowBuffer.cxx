@@ -16,10 +16,8 @@ namespace svo
 void ShadowBuffer::begin(const Scene& scene, const Outlines& outlines, const Light& light,
   const FrameSettings& settings, LayerBudget& budget)
 {
-  const std::vector<std::uint8_t> all =
-    castersOf(outlines.all, light);
-  const std::vector<View> views =
-    fitLight(outlines.all, all, light, settings.shadowResolution);
+  const std::vector<std::uint8_t> all = castersOf(outlines.all, light);
+  const std::vector<View> views = fitLight(outlines.all, all, light, settings.shadowResolution);
   const std::uint8_t* casters = all.data() + outlines.first; // this scene's
   this->setBias(settings);
   if (this->Faces.size() != views.size())

@@ -17,8 +17,7 @@ void Shadows::begin(
   // Subsamples of a pixel, and filters, may look up what no pixel's centre does.
   this->All = settings.wholeShadowBuffers || settings.antiAliasing || this->Filters;
   this->Shared.clear();
-  this->beginBuffers(
-    scene, scene.lights, { outlinesOf(scene) }, settings, budget);
+  this->beginBuffers(scene, scene.lights, { outlinesOf(scene) }, settings, budget);
   if (settings.shadowTechnique == ShadowTechnique::Rays)
   {
     this->Rays = std::make_unique<ShadowRays>(scene, eye);

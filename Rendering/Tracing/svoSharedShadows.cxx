@@ -64,8 +64,7 @@ bool Shadows::traceShared(const Scene& scene, const FrameSettings& own, LayerBud
   lightsOfAll.resize(agreed.lights);
 
   std::vector<unsigned char> state;
-  append(state,
-    std::vector<double>{ agreed.pixelError, static_cast<double>(agreed.resolution) });
+  append(state, std::vector<double>{ agreed.pixelError, static_cast<double>(agreed.resolution) });
   append(state, lightsOfAll);
   append(state, outlines.all);
   if (keep && state == this->Shared)

@@ -427,7 +427,18 @@ TEST(ShadowBuffer, AGroundCastsOnlyIfSomethingCanLieInItsShadow)
 {
   svo::Scene scene = ballOnGround(svo::LeafGeometry::Triangle, 6);
   const svo::Light sun = lightOf(svo::Light::Kind::Directional, { 2, -2, 5 });
-  const auto casters = [&] { return svo::castersOf(svo::outlinesOf(scene), sun); };
+  const auto casters = [&]
+  {
+    std::vector<svo::Outline> outlines = svo::outlinesOf(scene);
+    for (int i = 0; i < 3; ++i) // octrees that are made without a vtkPolyData do not know its box
+    {
+      outlines[0].meshHigh[i] = i < 2 ? 3.0 : 0.0;
+      outlines[0].meshLow[i] = -outlines[0].meshHigh[i];
+      outlines[1].meshHigh[i] = 1.0;
+      outlines[1].meshLow[i] = -1.0;
+    }
+    return svo::castersOf(outlines, sun);
+  };
   EXPECT_EQ(casters(), (std::vector<std::uint8_t>{ 0, 1 }));
   // Rasterised surfaces on the ground and above it change nothing,
   scene.receivers = { { { -1, -1, 0 }, { 1, 1, 2 } }, { { 5, 5, 7 }, { 6, 6, 9 } } };
