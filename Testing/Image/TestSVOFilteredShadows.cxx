@@ -24,8 +24,9 @@ vtkActor* fill(Stage& stage)
   vtkActor* floating = stage.add(ring(0.5, 0.0, 0.0, 0.0), 0.3, 0.6, 0.9);
   floating->SetPosition(0.7, 0.9, 0.9);
   floating->RotateY(20.0);
-  // Always rasterised, so that both halves have the same shadow buffers: whole, with all casters.
-  vtkSVORenderPass::SetUseSVO(false, stage.add(ball(0.15, -0.3, -1.4, 0.15), 0.9, 0.8, 0.2));
+  // Always rasterised, and in part below the ground, so that both halves have the same shadow
+  // buffers: whole, with the ground among the casters.
+  vtkSVORenderPass::SetUseSVO(false, stage.add(ball(0.15, -0.3, -1.4, 0.12), 0.9, 0.8, 0.2));
   stage.addSun(1.5, -1.0, 2.5);
   stage.pass->SetShadowBufferResolution(128);
   return ground;
