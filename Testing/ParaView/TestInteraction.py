@@ -52,12 +52,15 @@ class TestInteraction(unittest.TestCase):
         surface = self.median("Surface")
         traced = self.median("SVO")
         self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 2)
-        self.assertGreater(scene.statistic(self.view, "SVOImageSampleDistance"), 1.0)
+        distance = scene.statistic(self.view, "SVOImageSampleDistance")
+        self.assertGreater(distance, 1.0)
+        self.assertEqual(scene.statistic(self.view, "SVOAcceptedPixelError"), distance)
         # On a busy machine not even the rasteriser may keep to it.
         self.assertLess(traced, max(0.2, 1.5 * surface))
         self.view.CameraPosition = position
         after = scene.picture(self.view, name + "-after")
         self.assertEqual(scene.statistic(self.view, "SVOImageSampleDistance"), 1.0)
+        self.assertEqual(scene.statistic(self.view, "SVOAcceptedPixelError"), 1.0)
         self.assertEqual(scene.differing(before, after, 0), 0)
 
     def test_sun(self):
