@@ -155,6 +155,18 @@ void finiteBounds(const TriangleMesh& mesh, double bounds[6])
   }
 }
 
+/// A part of something counts as large as the whole: lights' views are fitted to that, for parts as
+/// for the whole.
+void addModel(const std::array<double, 6>& model, double bounds[6])
+{
+  for (int i = 0; i < 6 && model[0] <= model[1]; i += 2)
+  {
+    const bool empty = bounds[i] > bounds[i + 1];
+    bounds[i] = empty ? model[i] : std::min(bounds[i], model[i]);
+    bounds[i + 1] = empty ? model[i + 1] : std::max(bounds[i + 1], model[i + 1]);
+  }
+}
+
 BuildStatus buildUnguarded(
   vtkPolyData* mesh, const MeshOctreeOptions& options, Octree& octree, std::string& message)
 {
@@ -185,6 +197,7 @@ BuildStatus buildUnguarded(
   header.pointCount = view.pointCount;
   header.cellCount = static_cast<std::uint64_t>(mesh->GetNumberOfCells());
   finiteBounds(view, header.meshBounds);
+  addModel(options.modelBounds, header.meshBounds);
   const auto surface =
     makeSurface(view, std::move(triangles.cells()), header, buildOptions.parallelFor);
   const auto array = adopt(std::move(result.data), result.size);

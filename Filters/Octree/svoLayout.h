@@ -82,7 +82,7 @@ struct Header
   std::uint64_t signature;     // of the mesh it was built from; 0: not bound to one
   std::uint64_t pointCount;    // of that mesh
   std::uint64_t cellCount;     // of that mesh
-  double meshBounds[6];        // of that mesh
+  double meshBounds[6];        // of that mesh, or of what it is a part of
   std::uint32_t depthBegin[MaximumDepths + 1]; // first node of each depth; [depthCount] = nodeCount
   std::uint32_t reserved[13];
 };
