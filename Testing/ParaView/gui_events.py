@@ -130,12 +130,12 @@ view = [
     check("differs_from", "both", 0.003),
     number(VIEW + "SVOShadowIntensity/DoubleRangeWidget/DoubleLineEdit", "1"),
     check("looks_like", "both"),
-    number(VIEW + "SVOShadowBufferResolution/IntRangeWidget/LineEdit", "64"),
+    number(VIEW + "SVOShadowBufferResolution/IntRangeWidget/LineEdit", "16"),
     check("differs_from", "both", 0.0005),
     number(VIEW + "SVOShadowBufferResolution/IntRangeWidget/LineEdit", "2048"),
     check("looks_like", "both"),
     tick(VIEW + "SVOAntiAliasing/CheckBox", True),
-    check("differs_from", "both", 0.0001),  # only along edges, which FXAA has smoothed already
+    check("differs_from", "both", 0.0005),
     tick(VIEW + "SVOAntiAliasing/CheckBox", False),
     check("looks_like", "both"),
 ]
