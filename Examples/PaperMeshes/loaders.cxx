@@ -8,6 +8,9 @@
 
 #include <vtksys/SystemTools.hxx>
 
+#include <algorithm>
+#include <fstream>
+
 #ifdef PAPERMESHES_WITH_ASSIMP
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
@@ -39,6 +42,25 @@ void append(const aiMesh& mesh, vtkPoints* points, vtkCellArray* triangles)
 }
 }
 
+namespace
+{
+/// Comments of an OFF file may stand anywhere; Assimp knows them between the vertices only.
+std::string withoutComments(const std::string& path)
+{
+  std::ifstream file(path);
+  std::string text, line;
+  while (std::getline(file, line))
+  {
+    line.erase(std::min(line.find('#'), line.size()));
+    if (line.find_first_not_of(" \t\r") != std::string::npos)
+    {
+      text += line + '\n';
+    }
+  }
+  return text;
+}
+}
+
 vtkSmartPointer<vtkPolyData> readTriangles(
   const std::string& path, unsigned int keyFrame, std::string& error)
 {
@@ -50,8 +72,13 @@ vtkSmartPointer<vtkPolyData> readTriangles(
   }
   Assimp::Importer importer;
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_GLOBAL_KEYFRAME, static_cast<int>(keyFrame));
-  const aiScene* scene =
-    importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  constexpr unsigned int steps = aiProcess_Triangulate | aiProcess_PreTransformVertices;
+  const aiScene* scene = importer.ReadFile(path, steps);
+  if (!scene && vtksys::SystemTools::GetFilenameLastExtension(path) == ".off")
+  {
+    const std::string text = withoutComments(path);
+    scene = importer.ReadFileFromMemory(text.data(), text.size(), steps, "off");
+  }
   if (!scene)
   {
     error = "cannot read \"" + path + "\" as a mesh: " + importer.GetErrorString();

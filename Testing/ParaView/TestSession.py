@@ -6,7 +6,9 @@ import unittest
 
 import paraview.simple as pv
 import scene
+import vtksvo
 from paraview import smstate, smtrace
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 
 def resident_memory():
@@ -76,6 +78,20 @@ class TestSession(unittest.TestCase):
         self.assertEqual(view.SVOShadowBufferResolution, 512)
         self.assertEqual(scene.differing(picture, scene.picture(view, "restored"), 0), 0)
         self.assertEqual(scene.statistic(view, "SVONumberOfTracedActors"), 2)
+
+    def test_wrapped_classes(self):
+        sphere = vtkSphereSource()
+        convert = vtksvo.vtkPolyDataToSVO()
+        convert.SetInputConnection(sphere.GetOutputPort())
+        convert.SetMaximumLevel(6)
+        convert.Update()
+        octree = vtksvo.vtkSparseVoxelOctree()
+        self.assertTrue(octree.Initialize(convert.GetOutput()))
+        self.assertEqual(octree.GetNumberOfLevels(), 6)
+        # The class of the filter in the menu, from the same libraries.
+        menu = pv.PolyDataToSVO(Input=self.ball)
+        menu.UpdatePipeline()
+        self.assertIsInstance(menu.GetClientSideObject(), vtksvo.vtkPPolyDataToSVO)
 
     def test_state(self):
         self.change_everything()
