@@ -255,8 +255,8 @@ void LayeredView::order(int tileX, int tileY, TileScratch& scratch)
     [](const TileEntry* a, const TileEntry* b) { return a->key < b->key; });
 }
 
-void LayeredView::traceRays(
-  const TileEntry& candidate, const double* x, const double* y, RayBlock& block, HitBlock& found)
+void LayeredView::traceRays(const TileEntry& candidate, const double* x, const double* y,
+  RayBlock& block, HitBlock& found) const
 {
   const Entry& entry = *candidate.entry;
   const TraceOptions options{ entry.key.leafGeometry, entry.key.level };
@@ -272,7 +272,10 @@ void LayeredView::traceRays(
   if (!candidate.nodes.empty())
   {
     intersectTile(*entry.octree, candidate.pyramid, candidate.nodes, block, found);
-    placeOnTriangles(*entry.octree->surface(), entry.local, x, y, found);
+    if (this->Exact)
+    {
+      placeOnTriangles(*entry.octree->surface(), entry.local, x, y, found);
+    }
   }
   else
   {
@@ -294,7 +297,8 @@ bool LayeredView::cutRays(
       const double cut = this->Bases[merged.instance[i]] + merged.t[i] - entry.local.base;
       if (entry.cuttable || cut < candidate.tNear)
       {
-        const double reach = candidate.nodes.empty() ? 0.0 : placingReach(entry.local);
+        const bool placed = this->Exact && !candidate.nodes.empty();
+        const double reach = placed ? placingReach(entry.local) : 0.0;
         block.tMax[i] = std::min(block.tMax[i], roundUp(cut + reach));
       }
     }

@@ -98,6 +98,13 @@ bool worthTiles(const Instance& instance, const LocalView& local, const View& vi
 class LayeredView
 {
 public:
+  /// `exact`: hits of whole tiles are placed in double (svoPlaceOnTriangles.h). A light's view can
+  /// do without: its texels are wider than what that mends.
+  explicit LayeredView(bool exact = true)
+    : Exact(exact)
+  {
+  }
+
   /// Prepares a frame: folds the view into every instance that `takesPart`, picks levels, and
   /// keeps the layers that are still true. Returns false if no instance can be seen.
   /// `levelOf` gives the octree level of an instance's rays.
@@ -203,12 +210,13 @@ private:
   void order(int tileX, int tileY, TileScratch& scratch);
   bool cutRays(const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const;
   /// Through points x, y of the image; tMin and tMax are set.
-  static void traceRays(
-    const TileEntry& candidate, const double* x, const double* y, RayBlock& block, HitBlock& found);
+  void traceRays(const TileEntry& candidate, const double* x, const double* y, RayBlock& block,
+    HitBlock& found) const;
   void merge(
     const Entry& entry, const float* t, const Primitive* primitive, MergedTile& merged) const;
   void traceTile(int tileX, int tileY, TileScratch& scratch);
 
+  const bool Exact;
   View Of;
   bool Began = false; // Of and Layers are a frame's
   std::vector<Entry> Instances;

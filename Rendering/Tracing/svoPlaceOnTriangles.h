@@ -29,16 +29,23 @@ inline void placeOnTriangles(
   const Surface& surface, const LocalView& local, const double* x, const double* y, HitBlock& hits)
 {
   const double reach = placingReach(local);
+  Primitive last = NoPrimitive; // neighbours often meet the same triangle
+  glm::dvec3 p(0.0), normal(0.0);
   for (int k = 0; k < RayBlock::Size; ++k)
   {
-    if (hits.primitive[k] == NoPrimitive)
+    const Primitive primitive = hits.primitive[k];
+    if (primitive == NoPrimitive)
     {
       continue;
     }
-    const glm::uvec3 triangle = surface.triangles[hits.primitive[k]];
-    const glm::dvec3 p(surface.points[triangle.x]);
-    const glm::dvec3 normal = glm::cross(
-      glm::dvec3(surface.points[triangle.y]) - p, glm::dvec3(surface.points[triangle.z]) - p);
+    if (primitive != last)
+    {
+      last = primitive;
+      const glm::uvec3 triangle = surface.triangles[primitive];
+      p = glm::dvec3(surface.points[triangle.x]);
+      normal = glm::cross(
+        glm::dvec3(surface.points[triangle.y]) - p, glm::dvec3(surface.points[triangle.z]) - p);
+    }
     const glm::dvec3 origin = local.origin + y[k] * local.originY + x[k] * local.originX;
     const glm::dvec3 direction =
       local.direction + y[k] * local.directionY + x[k] * local.directionX;

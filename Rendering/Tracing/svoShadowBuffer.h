@@ -99,7 +99,7 @@ private:
     glm::dmat4 worldToClip{ 1.0 };
     double pixel = 0.0; // edge of a texel, world, at depth t: pixel + t pixelPerDepth
     double pixelPerDepth = 0.0;
-    LayeredView layers;
+    LayeredView layers{ /*exact=*/false };
     SharedDepth shared; // with other processes' casters; takes the place of the layers' depths
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile
     bool seesCasters = false;
