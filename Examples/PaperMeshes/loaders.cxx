@@ -9,7 +9,9 @@
 #include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
+#include <sstream>
 
 #ifdef PAPERMESHES_WITH_ASSIMP
 #include <assimp/Importer.hpp>
@@ -44,17 +46,28 @@ void append(const aiMesh& mesh, vtkPoints* points, vtkCellArray* triangles)
 
 namespace
 {
-/// Comments of an OFF file may stand anywhere; Assimp knows them between the vertices only.
-std::string withoutComments(const std::string& path)
+/// An OFF file without what Assimp stumbles over: comments anywhere, and colours of three numbers
+/// behind the vertices.
+std::string plainOFF(const std::string& path)
 {
   std::ifstream file(path);
-  std::string text, line;
-  while (std::getline(file, line))
+  std::string text = "OFF\n", line;
+  std::size_t vertices = 0;
+  for (std::size_t row = 0; std::getline(file, line);)
   {
     line.erase(std::min(line.find('#'), line.size()));
-    if (line.find_first_not_of(" \t\r") != std::string::npos)
+    std::istringstream words(line);
+    std::string word[3];
+    if (!(words >> word[0]) || row++ == 0) // nothing, or the first line's OFF
     {
-      text += line + '\n';
+      continue;
+    }
+    words >> word[1] >> word[2];
+    const bool vertex = row > 2 && row <= 2 + vertices;
+    text += (vertex ? word[0] + ' ' + word[1] + ' ' + word[2] : line) + '\n';
+    if (row == 2)
+    {
+      vertices = std::strtoul(word[0].c_str(), nullptr, 10);
     }
   }
   return text;
@@ -76,7 +89,7 @@ vtkSmartPointer<vtkPolyData> readTriangles(
   const aiScene* scene = importer.ReadFile(path, steps);
   if (!scene && vtksys::SystemTools::GetFilenameLastExtension(path) == ".off")
   {
-    const std::string text = withoutComments(path);
+    const std::string text = plainOFF(path);
     scene = importer.ReadFileFromMemory(text.data(), text.size(), steps, "off");
   }
   if (!scene)
