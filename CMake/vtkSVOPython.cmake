@@ -25,6 +25,13 @@ foreach (module IN LISTS vtksvo_wrapped)
   string(REPLACE "SVO::" "vtk" library "${module}")
   set_target_properties("${library}Python" PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${VTKSVO_PYTHON_BUILD_DIR}/vtksvo")
+  if (VTKSVO_PARAVIEW)
+    # The libraries lie beside the plugin.
+    file(RELATIVE_PATH vtksvo_to_plugin "/prefix/${VTKSVO_PYTHON_INSTALL_DIR}/vtksvo"
+      "/prefix/${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_PLUGIN_SUBDIR}/SparseVoxelOctree")
+    set_property(TARGET "${library}Python" APPEND
+      PROPERTY INSTALL_RPATH "$ORIGIN/${vtksvo_to_plugin}")
+  endif ()
 endforeach ()
 
 set(vtksvo_package_file "${CMAKE_BINARY_DIR}/${VTKSVO_PYTHON_BUILD_DIR}/vtksvo/__init__.py")
