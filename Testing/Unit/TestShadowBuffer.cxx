@@ -16,21 +16,6 @@ namespace
 {
 const svo::View Eye = lookAt({ 1, -6, 4 }, 160, 120);
 
-struct Case
-{
-  std::string name;
-  svo::Light light;
-};
-
-std::vector<Case> everyLight()
-{
-  using Kind = svo::Light::Kind;
-  return { { "directional", lightOf(Kind::Directional, { 2, -2, 5 }) },
-    { "point, one map", lightOf(Kind::Point, { 2, -2, 9 }) },
-    { "point, six faces", lightOf(Kind::Point, { 1.7, -1.2, 2.5 }) },
-    { "spot", lightOf(Kind::Spot, { 2, -2, 6 }) } };
-}
-
 /// A matte ball on a ground.
 svo::Scene ballOnGround(svo::LeafGeometry leafGeometry, int level = 8)
 {
@@ -104,7 +89,7 @@ Comparison compare(const svo::Scene& scene, const svo::FrameSettings& buffer)
 
 TEST(ShadowBuffer, AgreesWithShadowRaysAwayFromEdges)
 {
-  for (const Case& c : everyLight())
+  for (const LightCase& c : everyLight())
   {
     for (svo::LeafGeometry leafGeometry :
       { svo::LeafGeometry::Triangle, svo::LeafGeometry::Plane, svo::LeafGeometry::Automatic })
@@ -150,7 +135,7 @@ TEST(ShadowBuffer, ALitConvexBodyHasNoAcne)
       : glm::normalize(light.position - position);
     return glm::dot(normal, towards);
   };
-  for (const Case& c : everyLight())
+  for (const LightCase& c : everyLight())
   {
     for (svo::LeafGeometry leafGeometry : { svo::LeafGeometry::Voxel, svo::LeafGeometry::Plane,
            svo::LeafGeometry::Triangle, svo::LeafGeometry::Automatic })
@@ -197,7 +182,7 @@ TEST(ShadowRays, ALitBodyOfMixedLeavesShadowsItselfNoMoreThanOneOfPlanes)
 {
   const svo::Octree ball = makeOctree(sphere(90, 120), 6);
   ASSERT_GT(ball.longestList(), svo::ShortList);
-  for (const Case& c : everyLight())
+  for (const LightCase& c : everyLight())
   {
     int acne[2] = { 0, 0 };
     for (int k = 0; k < 2; ++k)
@@ -294,7 +279,7 @@ TEST(ShadowBuffer, WithoutAutomaticBiasTheTestIsThePapers)
 
 TEST(ShadowBuffer, WholeBuffersGiveTheSameBitsAndAreHandedOut)
 {
-  for (const Case& c : everyLight())
+  for (const LightCase& c : everyLight())
   {
     svo::Scene scene = ballOnGround(svo::LeafGeometry::Automatic, 6);
     scene.lights = { c.light };

@@ -10,21 +10,6 @@ using namespace svotest;
 
 namespace
 {
-struct Case
-{
-  std::string name;
-  svo::Light light;
-};
-
-std::vector<Case> everyLight()
-{
-  using Kind = svo::Light::Kind;
-  return { { "directional", lightOf(Kind::Directional, { 2, -2, 5 }) },
-    { "point, one map", lightOf(Kind::Point, { 2, -2, 9 }) },
-    { "point, six faces", lightOf(Kind::Point, { 1.7, -1.2, 2.5 }) },
-    { "spot", lightOf(Kind::Spot, { 2, -2, 6 }) } };
-}
-
 /// A ground with three balls, one above the other in part.
 svo::Scene ballsOnGround()
 {
@@ -123,7 +108,7 @@ std::size_t differing(const svo::Frame& a, const svo::Frame& b)
 TEST(SharedShadows, SeveralProcessesHaveThePictureOfOne)
 {
   const svo::View eye = lookAt({ 1, -6, 4 }, 160, 120);
-  for (const Case& test : everyLight())
+  for (const LightCase& test : everyLight())
   {
     svo::Scene scene = ballsOnGround();
     scene.lights = { test.light };

@@ -5,7 +5,9 @@
 #include "svoTestScenes.h"
 #include "svoTracer.h"
 
+#include <string>
 #include <thread>
+#include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
@@ -48,6 +50,23 @@ inline svo::Light lightOf(svo::Light::Kind kind, const glm::dvec3& position)
   light.coneAngle = kind == svo::Light::Kind::Spot ? 40.0 : 180.0;
   light.id = 77;
   return light;
+}
+
+/// A light with a name for messages.
+struct LightCase
+{
+  std::string name;
+  svo::Light light;
+};
+
+/// Every kind of light, above the origin.
+inline std::vector<LightCase> everyLight()
+{
+  using Kind = svo::Light::Kind;
+  return { { "directional", lightOf(Kind::Directional, { 2, -2, 5 }) },
+    { "point, one map", lightOf(Kind::Point, { 2, -2, 9 }) },
+    { "point, six faces", lightOf(Kind::Point, { 1.7, -1.2, 2.5 }) },
+    { "spot", lightOf(Kind::Spot, { 2, -2, 6 }) } };
 }
 
 inline svo::View lookAt(const glm::dvec3& eye, int width, int height, double angle = 40.0,
