@@ -1,5 +1,7 @@
 #include "vtkPPolyDataToSVO.h"
 
+#include "svoControllerProcesses.h"
+
 #include "svoAbort.h"
 
 #include "vtkDataObjectTree.h"
@@ -138,28 +140,6 @@ struct Record
   Place place;
   Bounds bounds;
 };
-
-/// Everybody's. A collective call.
-std::vector<Record> gather(vtkMultiProcessController* controller, const std::vector<Record>& own)
-{
-  const int processes = controller->GetNumberOfProcesses();
-  const auto length = static_cast<vtkIdType>(own.size() * sizeof(Record));
-  std::vector<vtkIdType> lengths(processes), offsets(processes);
-  controller->AllGather(&length, lengths.data(), 1);
-  vtkIdType total = 0;
-  for (int i = 0; i < processes; ++i)
-  {
-    offsets[i] = total;
-    total += lengths[i];
-  }
-  std::vector<Record> all(total / sizeof(Record));
-  if (total > 0)
-  {
-    controller->AllGatherV(reinterpret_cast<const char*>(own.data()),
-      reinterpret_cast<char*>(all.data()), length, lengths.data(), offsets.data());
-  }
-  return all;
-}
 }
 
 vtkStandardNewMacro(vtkPPolyDataToSVO);
@@ -259,7 +239,9 @@ int vtkPPolyDataToSVO::RequestData(
   }
   if (this->Controller && this->Controller->GetNumberOfProcesses() > 1)
   {
-    records = gather(this->Controller, records);
+    svo::ControllerProcesses processes(this->Controller);
+    const std::vector<Record> own = records;
+    svo::gatherRecords(processes, own, records);
   }
   std::map<Place, std::pair<Bounds, int>> wholes; // and the number of pieces
   for (const Record& record : records)

@@ -1,5 +1,6 @@
 #include "svoSharedCasters.h"
 
+#include "svoControllerProcesses.h"
 #include "svoMeshOctree.h"
 
 #include "vtkCellArray.h"
@@ -10,7 +11,6 @@
 
 #include <cstring>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace svo
@@ -62,9 +62,7 @@ void SharedCasters::receive(vtkMultiProcessController* controller, int owner, co
 void SharedCasters::exchange(
   vtkMultiProcessController* controller, std::size_t memoryLimit, CollectedScene& collected)
 {
-  static_assert(std::is_trivially_copyable<Record>::value, "records travel as bytes");
   ++this->Frame;
-  const int processes = controller->GetNumberOfProcesses();
   const int self = controller->GetLocalProcessId();
   std::vector<Record> own;
   for (std::size_t i = 0; i < collected.scene.instances.size(); ++i)
@@ -84,30 +82,18 @@ void SharedCasters::exchange(
     own.push_back(record);
   }
 
-  const vtkIdType length = static_cast<vtkIdType>(own.size() * sizeof(Record));
-  std::vector<vtkIdType> lengths(processes);
-  controller->AllGather(&length, lengths.data(), 1);
-  std::vector<vtkIdType> offsets(processes);
-  vtkIdType total = 0;
-  for (int i = 0; i < processes; ++i)
-  {
-    offsets[i] = total;
-    total += lengths[i];
-  }
-  if (total == 0)
+  std::vector<Record> all;
+  ControllerProcesses processes(controller);
+  const std::vector<std::size_t> begins = gatherRecords(processes, own, all);
+  if (all.empty())
   {
     return;
   }
-  std::vector<Record> all(total / sizeof(Record));
-  controller->AllGatherV(reinterpret_cast<const char*>(own.data()),
-    reinterpret_cast<char*>(all.data()), length, lengths.data(), offsets.data());
-
-  std::size_t at = 0;
-  for (int owner = 0; owner < processes; ++owner)
+  for (int owner = 0; owner < processes.count(); ++owner)
   {
-    for (vtkIdType k = 0; k < lengths[owner]; k += sizeof(Record))
+    for (std::size_t k = begins[owner]; k < begins[owner + 1]; ++k)
     {
-      const Record& record = all[at++];
+      const Record& record = all[k];
       if (this->Meshes.count(record.key()) == 0)
       {
         this->receive(controller, owner, record, collected);

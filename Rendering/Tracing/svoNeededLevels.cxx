@@ -9,8 +9,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/geometric.hpp>
-
 namespace svo
 {
 namespace
@@ -34,11 +32,7 @@ int levelFor(const Instance& instance, const View& view, double pixelError)
 {
   const glm::dvec3 size = instance.box.high - instance.box.low;
   const double edge = std::max({ size.x, size.y, size.z }) * (1.0 + 1.0 / 64.0);
-  double scale = 0.0;
-  for (int c = 0; c < 3; ++c)
-  {
-    scale = std::max(scale, glm::length(glm::dvec3(instance.localToWorld[c])));
-  }
+  const double scale = worldScale(instance.localToWorld);
   if (!(scale * edge < LargestEdge))
   {
     return instance.deepestLevel;

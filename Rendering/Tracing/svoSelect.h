@@ -12,15 +12,21 @@
 
 namespace svo
 {
-/// Longest edge of a voxel of the octree's last level, in the world.
-inline double worldVoxel(const Instance& instance)
+/// How long an edge of local length 1 along an axis is in the world, at most.
+inline double worldScale(const glm::dmat4& localToWorld)
 {
   double scale = 0.0;
   for (int c = 0; c < 3; ++c)
   {
-    scale = std::max(scale, glm::length(glm::dvec3(instance.localToWorld[c])));
+    scale = std::max(scale, glm::length(glm::dvec3(localToWorld[c])));
   }
-  return scale * instance.octree.header().voxelSize;
+  return scale;
+}
+
+/// Longest edge of a voxel of the octree's last level, in the world.
+inline double worldVoxel(const Instance& instance)
+{
+  return worldScale(instance.localToWorld) * instance.octree.header().voxelSize;
 }
 
 /// Edge of the smaller side of a pixel, in the world, at linear depth t.

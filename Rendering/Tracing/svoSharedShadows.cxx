@@ -49,7 +49,7 @@ bool Shadows::traceShared(const Scene& scene, const FrameSettings& own, LayerBud
   std::vector<SharedLight> lightsOfAll;
   gatherRecords(processes, ownLights, lightsOfAll);
   Outlines outlines;
-  outlines.first = gatherRecords(processes, outlinesOf(scene), outlines.all);
+  outlines.first = gatherRecords(processes, outlinesOf(scene), outlines.all)[processes.self()];
 
   const SharedSettings& agreed = settingsOfAll.front();
   bool keep = true;

@@ -464,5 +464,6 @@ void Tracer::releaseLayers()
 {
   this->Impl->Eye.release();
   this->Impl->Dark.release();
+  this->Impl->Shared = false;
 }
 }

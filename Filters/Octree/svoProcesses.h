@@ -27,10 +27,10 @@ public:
   virtual void minimum(std::vector<std::uint64_t>& values) = 0;
 };
 
-/// Everybody's records, in the order of the processes; returns the index of the first one of this
-/// process.
+/// Everybody's records, in the order of the processes; returns where each process's begin, and the
+/// end of all.
 template <class Record>
-std::size_t gatherRecords(
+std::vector<std::size_t> gatherRecords(
   Processes& processes, const std::vector<Record>& own, std::vector<Record>& all)
 {
   static_assert(std::is_trivially_copyable<Record>::value, "records travel as bytes");
@@ -47,7 +47,11 @@ std::size_t gatherRecords(
   {
     std::memcpy(all.data(), allBytes.data(), all.size() * sizeof(Record));
   }
-  return begins[processes.self()] / sizeof(Record);
+  for (std::size_t& begin : begins)
+  {
+    begin /= sizeof(Record);
+  }
+  return begins;
 }
 }
 

@@ -3,12 +3,13 @@
 #define svoControllerProcesses_h
 
 #include "svoProcesses.h"
+#include "vtkSVOParallelModule.h"
 
 class vtkMultiProcessController;
 
 namespace svo
 {
-class ControllerProcesses : public Processes
+class VTKSVOPARALLEL_EXPORT ControllerProcesses : public Processes
 {
 public:
   /// The controller must live as long.
