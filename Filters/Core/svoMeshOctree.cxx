@@ -3,6 +3,10 @@
 #include "svoMeshTriangles.h"
 
 #include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationDoubleVectorKey.h"
+#include "vtkInformationInformationVectorKey.h"
+#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -26,6 +30,24 @@ namespace svo
 {
 namespace
 {
+/// Tells the array the range of its values, so that nobody (ParaView's Information panel, writers)
+/// goes through all the bytes for it: it means nothing, and any byte may be there.
+void tellRange(vtkUnsignedCharArray* array)
+{
+  vtkInformation* information = array->GetInformation();
+  for (auto* key : { vtkAbstractArray::PER_COMPONENT(), vtkAbstractArray::PER_FINITE_COMPONENT() })
+  {
+    if (!information->Has(key))
+    {
+      const double range[2] = { 0.0, 255.0 };
+      vtkNew<vtkInformationVector> components;
+      components->SetNumberOfInformationObjects(1);
+      components->GetInformationObject(0)->Set(vtkDataArray::COMPONENT_RANGE(), range, 2);
+      information->Set(key, components);
+    }
+  }
+}
+
 /// Keeps the VTK array alive whose bytes an octree points into, and is how attachOctree finds it.
 struct ArrayOwner
 {
@@ -182,7 +204,7 @@ BuildStatus buildUnguarded(
   buildOptions.modelLow = lowOf(options.modelBounds);
   buildOptions.modelHigh = highOf(options.modelBounds);
   buildOptions.memoryLimit = options.memoryLimit != 0 ? options.memoryLimit : availableMemory();
-  buildOptions.parallelFor = smpParallelFor();
+  buildOptions.parallelFor = options.parallelFor;
   buildOptions.progress = options.progress;
   const TriangleMesh view = triangles.view();
   BuildResult result = build(view, buildOptions);
@@ -271,6 +293,7 @@ void attachOctree(vtkPolyData* mesh, const Octree& octree)
     array->SetNumberOfValues(static_cast<vtkIdType>(size));
     std::memcpy(array->GetPointer(0), octree.key(), size);
   }
+  tellRange(array);
   mesh->GetFieldData()->AddArray(array); // replaces an array of the same name
 }
 

@@ -18,6 +18,15 @@ const OctreeCache::Entry* OctreeCache::find(const Key& key)
   return &this->Entries.front();
 }
 
+const OctreeCache::Entry* OctreeCache::latest(
+  std::uint64_t signature, const std::array<double, 6>& modelBounds) const
+{
+  const auto found = std::find_if(this->Entries.begin(), this->Entries.end(),
+    [&](const Entry& entry)
+    { return entry.key.signature == signature && entry.key.modelBounds == modelBounds; });
+  return found == this->Entries.end() ? nullptr : &*found;
+}
+
 void OctreeCache::insert(Entry entry, std::size_t limit)
 {
   const std::size_t bytes = entry.octree.bytes();

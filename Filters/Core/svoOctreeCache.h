@@ -37,6 +37,10 @@ public:
   /// The entry, now the most recently used one; null if there is none. Valid until the next call.
   const Entry* find(const Key& key);
 
+  /// The entry of the same mesh in the same cube that was used last, of any level and leaf
+  /// geometry; null if there is none. Valid until the next call.
+  const Entry* latest(std::uint64_t signature, const std::array<double, 6>& modelBounds) const;
+
   /// Keeps an octree, and lets go of others until at most `limit` bytes are in use. An octree that
   /// is larger than the limit is not kept.
   void insert(Entry entry, std::size_t limit);

@@ -2,60 +2,113 @@
 
 #include "vtkSMPTools.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <future>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace svo
 {
 namespace
 {
-void forOnVTKThreads(std::size_t begin, std::size_t end, std::size_t grain,
-  const std::function<void(std::size_t, std::size_t)>& body)
+using Body = std::function<void(std::size_t, std::size_t)>;
+
+bool backendIs(const char* name)
+{
+  return std::strcmp(vtkSMPTools::GetBackend(), name) == 0;
+}
+
+/// How many threads VTK would use if its backend were STDThread.
+std::size_t plainThreads()
+{
+  if (backendIs("Sequential"))
+  {
+    if (std::getenv("VTK_SMP_BACKEND_IN_USE"))
+    {
+      return 1; // somebody wants it so
+    }
+    const char* most = std::getenv("VTK_SMP_MAX_THREADS");
+    const int asked = most ? std::atoi(most) : 0;
+    return asked > 0 ? asked : std::max(1u, std::thread::hardware_concurrency());
+  }
+  return std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads());
+}
+
+/// The caller's thread and others take chunks until there are no more.
+void forOnPlainThreads(
+  std::size_t threads, std::size_t begin, std::size_t end, std::size_t grain, const Body& body)
 {
   if (begin >= end)
   {
     return;
   }
-  const auto range = [&body](vtkIdType first, vtkIdType last)
-  { body(static_cast<std::size_t>(first), static_cast<std::size_t>(last)); };
-  const auto run = [&]
-  {
-    vtkSMPTools::For(static_cast<vtkIdType>(begin), static_cast<vtkIdType>(end),
-      static_cast<vtkIdType>(grain), range);
-  };
-  const bool scoped = std::strcmp(vtkSMPTools::GetBackend(), "Sequential") == 0 &&
-    std::getenv("VTK_SMP_BACKEND_IN_USE") == nullptr;
-  if (!scoped && std::strcmp(vtkSMPTools::GetBackend(), "STDThread") != 0)
-  {
-    run();
-    return;
-  }
-  // A scope changes global state, and plain threads have a flag that nobody guards: one at a time,
-  // and whoever comes second goes on alone.
-  static std::atomic<bool> busy{ false };
-  if (busy.exchange(true))
+  const std::size_t chunk = std::max<std::size_t>(grain, 1);
+  const std::size_t chunks = (end - begin - 1) / chunk + 1;
+  if (threads <= 1 || chunks == 1)
   {
     body(begin, end);
     return;
   }
-  struct Free
+  std::atomic<std::size_t> next{ 0 };
+  const auto work = [&]
   {
-    ~Free() { busy = false; }
-  } free;
-  if (scoped)
+    for (std::size_t i = next++; i < chunks; i = next++)
+    {
+      const std::size_t first = begin + i * chunk;
+      body(first, i + 1 == chunks ? end : first + chunk);
+    }
+  };
+  std::vector<std::future<void>> others; // waits for them whatever happens
+  try
   {
-    vtkSMPTools::LocalScope(vtkSMPTools::Config{ 0, "STDThread", false }, run);
+    for (std::size_t k = 1; k < std::min(threads, chunks); ++k)
+    {
+      others.push_back(std::async(std::launch::async, work));
+    }
   }
-  else
+  catch (const std::system_error&)
   {
-    run();
+    // No more threads to be had: those that there are do it.
   }
+  work();
+  for (std::future<void>& other : others)
+  {
+    other.get();
+  }
+}
+
+void forOnVTKThreads(std::size_t begin, std::size_t end, std::size_t grain, const Body& body)
+{
+  if (backendIs("Sequential") || backendIs("STDThread"))
+  {
+    forOnPlainThreads(plainThreads(), begin, end, grain, body);
+  }
+  else if (begin < end)
+  {
+    vtkSMPTools::For(static_cast<vtkIdType>(begin), static_cast<vtkIdType>(end),
+      static_cast<vtkIdType>(grain),
+      [&body](vtkIdType first, vtkIdType last)
+      { body(static_cast<std::size_t>(first), static_cast<std::size_t>(last)); });
+  }
+}
+
+void forInBackground(std::size_t begin, std::size_t end, std::size_t grain, const Body& body)
+{
+  forOnPlainThreads(plainThreads() - 1, begin, end, grain, body);
 }
 }
 
 ParallelFor smpParallelFor()
 {
   return forOnVTKThreads;
+}
+
+ParallelFor backgroundParallelFor()
+{
+  return forInBackground;
 }
 }

@@ -1,4 +1,4 @@
-// The engine's executor on VTK's threads.
+// The engine's executors: on VTK's threads, and for what must not be in anybody's way.
 #ifndef svoSMPParallel_h
 #define svoSMPParallel_h
 
@@ -7,11 +7,16 @@
 
 namespace svo
 {
-/// vtkSMPTools with a backend that has threads. Where VTK's backend is Sequential only by default
-/// (nobody asked for it by VTK_SMP_BACKEND_IN_USE), STDThread is used inside a
-/// vtkSMPTools::LocalScope; VTK's global settings are what they were when the call returns. A limit
-/// set by vtkSMPTools::Initialize is respected. May be called from any thread.
+/// vtkSMPTools where VTK's backend is TBB or OpenMP. Where it is STDThread, or Sequential only by
+/// default (nobody asked for it by VTK_SMP_BACKEND_IN_USE), plain threads: as many as
+/// vtkSMPTools::Initialize or VTK_SMP_MAX_THREADS say, else one for each processor. VTK's global
+/// settings are never touched: other threads may be in the middle of VTK's own loops. May be
+/// called from any thread.
 VTKSVOCORE_EXPORT ParallelFor smpParallelFor();
+
+/// The same, but plain threads in any case, and one less, so that one processor is left to the
+/// thread that the user waits for.
+VTKSVOCORE_EXPORT ParallelFor backgroundParallelFor();
 }
 
 #endif

@@ -3,6 +3,7 @@
 #include "svoAbort.h"
 #include "svoMeshOctree.h"
 #include "svoOctreeCache.h"
+#include "svoOctreeJobs.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -21,31 +22,72 @@
 
 vtkStandardNewMacro(vtkPolyDataToSVO);
 
+namespace
+{
+constexpr std::size_t Kibi = 1024;
+
+/// The octree that a mesh brings along; any, or only what would be built.
+svo::Octree carriedOctree(vtkPolyData* mesh, const svo::MeshOctreeOptions& options, bool any)
+{
+  svo::Octree octree;
+  std::string ignored; // what is damaged is replaced
+  if (svo::openAttachedOctree(mesh, octree, ignored) != svo::Attached::Found)
+  {
+    return {};
+  }
+  const bool same = octree.level() == options.level &&
+    octree.header().leafGeometry == static_cast<std::uint32_t>(options.leafGeometry) &&
+    svo::fitsModel(octree, options.modelBounds);
+  return same || any ? octree : svo::Octree();
+}
+
+/// The octree that a mesh goes out with until its own is there: another of its octrees, else any
+/// that it brings along.
+void attachMeanwhile(vtkPolyData* mesh, const svo::OctreeCache::Entry* other)
+{
+  if (other)
+  {
+    svo::attachOctree(mesh, other->octree);
+  }
+  else if (!carriedOctree(mesh, {}, true))
+  {
+    svo::detachOctree(mesh);
+  }
+}
+
+/// What there is to be said of an octree, or of one that could not be built. The mesh is a valid
+/// output in any case, and one message is enough.
+void report(vtkPolyDataToSVO* filter, vtkPolyData* mesh, const svo::Octree& octree,
+  const std::string& message)
+{
+  if (!octree)
+  {
+    vtkErrorWithObjectMacro(filter, "The octree is not built: " << message << ".");
+  }
+  else if (!message.empty())
+  {
+    vtkWarningWithObjectMacro(filter, "The octree is not complete: " << message << ".");
+  }
+  else if (mesh->GetNumberOfPolys() == 0 && mesh->GetNumberOfStrips() == 0 &&
+    mesh->GetNumberOfCells() > 0)
+  {
+    vtkWarningWithObjectMacro(
+      filter, "The mesh has vertices and lines, but no polygons; its octree is empty.");
+  }
+  else if (const double* b = octree.header().meshBounds;
+           octree.header().voxelCount > 0 && b[0] == b[1] && b[2] == b[3] && b[4] == b[5])
+  {
+    vtkWarningWithObjectMacro(filter, "All points of the mesh are in one place.");
+  }
+}
+}
+
 class vtkPolyDataToSVO::vtkInternals
 {
 public:
   svo::OctreeCache Cache;
-
-  /// The octree that a mesh brings along, if it is what would be built or if `any` will do.
-  static svo::Octree Carried(vtkPolyData* mesh, const svo::MeshOctreeOptions& options, bool any)
-  {
-    svo::Octree octree;
-    std::string ignored; // what is damaged is replaced
-    if (svo::openAttachedOctree(mesh, octree, ignored) != svo::Attached::Found)
-    {
-      return {};
-    }
-    const bool same = octree.level() == options.level &&
-      octree.header().leafGeometry == static_cast<std::uint32_t>(options.leafGeometry) &&
-      svo::fitsModel(octree, options.modelBounds);
-    return same || any ? octree : svo::Octree();
-  }
+  svo::OctreeJobs Jobs;
 };
-
-namespace
-{
-constexpr std::size_t Kibi = 1024;
-}
 
 //------------------------------------------------------------------------------
 vtkPolyDataToSVO::vtkPolyDataToSVO()
@@ -126,13 +168,37 @@ void vtkPolyDataToSVO::Finish(vtkPolyData* output)
 }
 
 //------------------------------------------------------------------------------
+// The output that there is stays what it is, but who wants to wait may have something to wait for.
+void vtkPolyDataToSVO::SetBuildInBackground(bool background)
+{
+  this->BuildInBackground = background;
+  if (!background && this->Preliminary)
+  {
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkPolyDataToSVO::GetNumberOfOctreesInProgress()
+{
+  return this->Internals->Jobs.count();
+}
+
+//------------------------------------------------------------------------------
 int vtkPolyDataToSVO::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
-  vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  this->Convert(input, output, this->ModelBounds);
+  this->Preliminary = false;
+  this->ConvertInput(vtkDataObject::GetData(inputVector[0]), vtkDataObject::GetData(outputVector));
+  this->Internals->Jobs.endExecution();
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output)
+{
+  this->Convert(
+    vtkPolyData::SafeDownCast(input), vtkPolyData::SafeDownCast(output), this->ModelBounds);
 }
 
 //------------------------------------------------------------------------------
@@ -147,63 +213,56 @@ void vtkPolyDataToSVO::Convert(vtkPolyData* input, vtkPolyData* output, const do
   options.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);
   std::copy(modelBounds, modelBounds + 6, options.modelBounds.begin());
   options.memoryLimit = this->MemoryLimit * Kibi;
-  if (vtkInternals::Carried(input, options, this->KeepOctrees))
+  if (carriedOctree(input, options, this->KeepOctrees))
   {
     this->Finish(output);
     return;
   }
-  svo::detachOctree(output);
 
-  svo::OctreeCache& cache = this->Internals->Cache;
+  vtkInternals& internals = *this->Internals;
   const svo::OctreeCache::Key key{ svo::meshSignature(input), options.level, options.leafGeometry,
     options.modelBounds };
-  if (const svo::OctreeCache::Entry* kept = this->CacheTimeSteps ? cache.find(key) : nullptr)
+  if (const auto* kept = this->CacheTimeSteps ? internals.Cache.find(key) : nullptr)
   {
     svo::attachOctree(output, kept->octree);
     this->Finish(output);
     return;
   }
 
-  options.progress = [this](double progress)
+  svo::BackgroundBuild::Result result;
+  if (!internals.Jobs.ask(key, input, options, this->BuildInBackground, result))
   {
-    this->UpdateProgress(progress);
-    return !svo::isAborted(this);
-  };
-  svo::OctreeCache::Entry built{ key, {} };
-  std::string message;
-  const double start = vtkTimerLog::GetUniversalTime();
-  const svo::BuildStatus status = svo::buildMeshOctree(input, options, built.octree, message);
-  this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
-  if (status == svo::BuildStatus::Aborted)
-  {
-    return;
-  }
-  if (status != svo::BuildStatus::Built)
-  {
-    vtkErrorMacro("The octree is not built: " << message << ".");
-    return; // the mesh is a valid output, and one message is enough
+    if (this->BuildInBackground)
+    {
+      this->Preliminary = true;
+      attachMeanwhile(output, internals.Cache.latest(key.signature, key.modelBounds));
+      this->Finish(output);
+      return;
+    }
+    options.progress = [this](double progress)
+    {
+      this->UpdateProgress(progress);
+      return !svo::isAborted(this);
+    };
+    const double start = vtkTimerLog::GetUniversalTime();
+    internals.Jobs.wait(key, input, options, result);
+    this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
   }
 
-  ++this->NumberOfBuilds;
-  svo::attachOctree(output, built.octree);
-  this->Finish(output);
-  if (!message.empty())
+  svo::detachOctree(output);
+  if (result.status == svo::BuildStatus::Built)
   {
-    vtkWarningMacro("The octree is not complete: " << message << ".");
+    ++this->NumberOfBuilds;
+    svo::attachOctree(output, result.octree);
+    this->Finish(output);
+    if (this->CacheTimeSteps)
+    {
+      internals.Cache.insert({ key, result.octree }, this->CacheMemoryLimit * Kibi);
+    }
   }
-  else if (input->GetNumberOfPolys() == 0 && input->GetNumberOfStrips() == 0 &&
-    input->GetNumberOfCells() > 0)
+  if (result.status != svo::BuildStatus::Aborted)
   {
-    vtkWarningMacro("The mesh has vertices and lines, but no polygons; its octree is empty.");
-  }
-  else if (const double* b = built.octree.header().meshBounds;
-           built.octree.header().voxelCount > 0 && b[0] == b[1] && b[2] == b[3] && b[4] == b[5])
-  {
-    vtkWarningMacro("All points of the mesh are in one place.");
-  }
-  if (this->CacheTimeSteps)
-  {
-    cache.insert(std::move(built), this->CacheMemoryLimit * Kibi);
+    report(this, input, result.octree, result.message);
   }
 }
 
@@ -221,6 +280,8 @@ void vtkPolyDataToSVO::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CacheMemorySize: " << this->GetCacheMemorySize() << " KiB\n";
   os << indent << "NumberOfCachedOctrees: " << this->GetNumberOfCachedOctrees() << "\n";
   os << indent << "KeepOctrees: " << (this->KeepOctrees ? "On\n" : "Off\n");
+  os << indent << "BuildInBackground: " << (this->BuildInBackground ? "On\n" : "Off\n");
+  os << indent << "NumberOfOctreesInProgress: " << this->GetNumberOfOctreesInProgress() << "\n";
   os << indent << "WriteStatistics: " << (this->WriteStatistics ? "On\n" : "Off\n");
   os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
   os << indent << "NumberOfBuilds: " << this->NumberOfBuilds << "\n";

@@ -127,6 +127,25 @@ public:
 
   //@{
   /**
+   * Whether an execution goes on without octrees that are not there yet. They are built in the
+   * background, and meanwhile a mesh goes out with the octree that it had last (of another level or
+   * leaf geometry), or without one. Later executions take over what is finished: call Modified()
+   * while GetNumberOfOctreesInProgress() is not 0. Turned off, the next Update() waits for them.
+   * What the last execution did not ask for is abandoned. For programs that must answer at once;
+   * default off.
+   */
+  virtual void SetBuildInBackground(bool background);
+  vtkGetMacro(BuildInBackground, bool);
+  vtkBooleanMacro(BuildInBackground, bool);
+  //@}
+
+  /**
+   * Octrees that are built in the background and that no output has yet.
+   */
+  int GetNumberOfOctreesInProgress();
+
+  //@{
+  /**
    * Whether the output's field data also says, in arrays of one value, what the octree is like:
    * "SVO Level", "SVO Voxels", "SVO Memory" (KiB) and "SVO Build Time" (s, 0 if it was not built
    * now). For programs that show field data to people. Default off.
@@ -182,9 +201,17 @@ protected:
     vtkInformationVector* outputVector) override;
 
   /**
+   * Makes the output of one execution: Convert() for each mesh.
+   */
+  virtual void ConvertInput(vtkDataObject* input, vtkDataObject* output);
+
+  /**
    * Makes the output of one mesh.
    */
   void Convert(vtkPolyData* input, vtkPolyData* output, const double modelBounds[6]);
+
+  /// Whether the last output lacks octrees that are built in the background.
+  bool Preliminary = false;
 
 private:
   vtkPolyDataToSVO(const vtkPolyDataToSVO&) = delete;
@@ -195,6 +222,7 @@ private:
   double ModelBounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
   bool CacheTimeSteps = true;
   bool KeepOctrees = false;
+  bool BuildInBackground = false;
   bool WriteStatistics = false;
   unsigned long CacheMemoryLimit = 1048576;
   unsigned long MemoryLimit = 0;

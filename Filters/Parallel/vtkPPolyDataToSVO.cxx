@@ -209,11 +209,8 @@ int vtkPPolyDataToSVO::RequestDataObject(
 }
 
 //------------------------------------------------------------------------------
-int vtkPPolyDataToSVO::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+void vtkPPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output)
 {
-  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-  vtkDataObject* output = vtkDataObject::GetData(outputVector);
   Pieces pieces;
   std::vector<Piece> all;
   if (auto* tree = vtkDataObjectTree::SafeDownCast(input))
@@ -237,7 +234,8 @@ int vtkPPolyDataToSVO::RequestData(
       records.push_back({ piece.place, bounds });
     }
   }
-  if (this->Controller && this->Controller->GetNumberOfProcesses() > 1)
+  const bool shared = this->Controller && this->Controller->GetNumberOfProcesses() > 1;
+  if (shared)
   {
     svo::ControllerProcesses processes(this->Controller);
     const std::vector<Record> own = records;
@@ -283,7 +281,14 @@ int vtkPPolyDataToSVO::RequestData(
     this->Convert(piece.input, piece.output, model.data());
   }
   this->SetProgressShiftScale(0.0, 1.0);
-  return 1;
+  if (shared && this->GetBuildInBackground())
+  {
+    // The next execution is one of all processes.
+    svo::ControllerProcesses processes(this->Controller);
+    std::vector<std::uint64_t> complete = { this->Preliminary ? 0u : 1u };
+    processes.minimum(complete);
+    this->Preliminary = complete.front() == 0;
+  }
 }
 
 //------------------------------------------------------------------------------

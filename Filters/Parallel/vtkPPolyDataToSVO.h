@@ -11,6 +11,8 @@
  *
  * With more than one process each execution is a collective call: all processes of the controller
  * have to update the filter together, those without data with an empty vtkPolyData.
+ * BuildInBackground has to be the same for all of them; a process waits for the others' octrees,
+ * too.
  *
  * @sa vtkPolyDataToSVO
  */
@@ -50,8 +52,7 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
+  void ConvertInput(vtkDataObject* input, vtkDataObject* output) override;
 
 private:
   vtkPPolyDataToSVO(const vtkPPolyDataToSVO&) = delete;

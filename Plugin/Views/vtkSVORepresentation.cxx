@@ -1,6 +1,7 @@
 #include "vtkSVORepresentation.h"
 
 #include "vtkCommand.h"
+#include "vtkCompositePolyDataMapper2.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkObjectFactory.h"
@@ -37,6 +38,52 @@ void vtkSVORepresentation::ForwardProgress()
 {
   // After the superclass's first filter, which has the range from 0 to 0.8, and beside its second.
   this->UpdateProgress(0.8 + 0.05 * this->ToOctree->GetProgress());
+}
+
+int vtkSVORepresentation::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->UpdatedInteractively = this->UpdatedInteractively || this->Interactive;
+  return this->Superclass::RequestData(request, inputVector, outputVector);
+}
+
+int vtkSVORepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
+{
+  if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
+  {
+    return 0;
+  }
+  // A view that draws levels of detail delivers nothing else. What it has of an earlier still
+  // picture does, unless there was an update since.
+  if (request == vtkPVView::REQUEST_UPDATE_LOD() && this->UpdatedInteractively)
+  {
+    vtkPVView::SetPieceLOD(inInfo, this, vtkPVView::GetPiece(inInfo, this));
+  }
+  else if (request == vtkPVView::REQUEST_RENDER() && inInfo->Has(vtkPVRenderView::USE_LOD()))
+  {
+    if (vtkDataObject* surface = vtkPVView::GetDeliveredPieceLOD(inInfo, this))
+    {
+      this->Mapper->SetInputDataObject(surface);
+      if (auto* mapper = vtkCompositePolyDataMapper2::SafeDownCast(this->Mapper))
+      {
+        this->PopulateBlockAttributes(mapper->GetCompositeDataDisplayAttributes(), surface);
+        this->BlockAttrChanged = true; // for the other one, when its turn comes
+      }
+    }
+  }
+  return 1;
+}
+
+void vtkSVORepresentation::SetInteractive(bool interactive)
+{
+  this->Interactive = interactive;
+  this->ToOctree->SetBuildInBackground(interactive);
+  if (!interactive && this->UpdatedInteractively)
+  {
+    this->UpdatedInteractively = false;
+    this->MarkModified();
+  }
 }
 
 bool vtkSVORepresentation::AddToView(vtkView* view)
@@ -168,7 +215,9 @@ vtkIdType vtkSVORepresentation::GetCacheMemorySize()
 void vtkSVORepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "CastShadows: " << this->GetCastShadows() << '\n'
+  os << indent << "Interactive: " << this->Interactive << '\n'
+     << indent << "UpdatedInteractively: " << this->UpdatedInteractively << '\n'
+     << indent << "CastShadows: " << this->GetCastShadows() << '\n'
      << indent << "ReceiveShadows: " << this->GetReceiveShadows() << '\n'
      << indent << "PixelError: " << this->GetPixelError() << '\n'
      << indent << "ToOctree:\n";

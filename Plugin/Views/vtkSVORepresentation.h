@@ -65,7 +65,21 @@ public:
   vtkIdType GetCacheMemorySize();
   //@}
 
+  //@{
+  /**
+   * While the user interacts an update does not wait for octrees: they are built in the background
+   * (see vtkPolyDataToSVO::SetBuildInBackground), and when the interaction is over the
+   * representation needs an update if there was one meanwhile. The same on all processes.
+   */
+  void SetInteractive(bool interactive);
+  vtkGetMacro(Interactive, bool);
+  vtkGetMacro(UpdatedInteractively, bool);
+  //@}
+
   void SetVisibility(bool visible) override;
+
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo) override;
 
   /**
    * Octrees have their own levels of detail; the decimated surface that other representations show
@@ -78,6 +92,8 @@ protected:
   ~vtkSVORepresentation() override;
 
   void SetupDefaults() override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   bool AddToView(vtkView* view) override;
   bool RemoveFromView(vtkView* view) override;
 
@@ -89,6 +105,8 @@ private:
   void ForwardProgress();
 
   vtkNew<vtkPPolyDataToSVO> ToOctree;
+  bool Interactive = false;
+  bool UpdatedInteractively = false;
   vtkWeakPointer<vtkView> Used; // the view whose pass this one is a user of
 };
 

@@ -3,14 +3,13 @@
 #include "svoMeshOctree.h"
 
 #include "vtkCellArray.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <thread>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -49,47 +48,11 @@ std::size_t trianglesOf(vtkPolyData* mesh)
   }
   return static_cast<std::size_t>(sum);
 }
-
-/// Points and cells of its own, so that the original may change while a thread reads the copy.
-vtkSmartPointer<vtkPolyData> privateCopy(vtkPolyData* mesh)
-{
-  auto copy = vtkSmartPointer<vtkPolyData>::New();
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  if (mesh->GetPoints())
-  {
-    points->DeepCopy(mesh->GetPoints());
-  }
-  copy->SetPoints(points);
-  const auto cells = [](vtkCellArray* source)
-  {
-    auto result = vtkSmartPointer<vtkCellArray>::New();
-    result->DeepCopy(source);
-    return result;
-  };
-  copy->SetVerts(cells(mesh->GetVerts()));
-  copy->SetLines(cells(mesh->GetLines()));
-  copy->SetPolys(cells(mesh->GetPolys()));
-  copy->SetStrips(cells(mesh->GetStrips()));
-  return copy;
-}
 }
 
-OctreeStore::Job::~Job()
-{
-  this->abandon = true;
-  if (this->thread.joinable())
-  {
-    this->thread.join();
-  }
-}
-
-OctreeStore::OctreeStore(Launcher launcher)
+OctreeStore::OctreeStore(BackgroundBuild::Launcher launcher)
   : Launch(std::move(launcher))
 {
-  if (!this->Launch)
-  {
-    this->Launch = [](std::function<void()> run) { return std::thread(std::move(run)); };
-  }
 }
 
 OctreeStore::~OctreeStore() = default;
@@ -145,7 +108,7 @@ OctreeStore::Answer OctreeStore::find(
   }
   const Key key(this->knownOf(mesh, options).signature, level, options.leafGeometry);
   const auto job = this->Jobs.find(key);
-  if (job != this->Jobs.end() && (job->second->done || options.wait))
+  if (job != this->Jobs.end() && (job->second->build.done() || options.wait))
   {
     this->waitFor(key, options);
   }
@@ -230,38 +193,24 @@ void OctreeStore::buildInBackground(vtkPolyData* mesh, const Key& key)
     running->second->lastFrame = this->Frame;
     return;
   }
-  const auto atWork = std::count_if(
-    this->Jobs.begin(), this->Jobs.end(), [](const auto& job) { return !job.second->done; });
+  const auto atWork = std::count_if(this->Jobs.begin(), this->Jobs.end(),
+    [](const auto& job) { return !job.second->build.done(); });
   if (atWork >= MostJobs)
   {
     return;
   }
-  auto job = std::make_unique<Job>();
-  job->mesh = mesh;
-  job->lastFrame = this->Frame;
   MeshOctreeOptions build;
   build.level = std::get<1>(key);
   build.leafGeometry = std::get<2>(key);
-  build.progress = [running = job.get()](double amount)
-  {
-    running->progress = amount;
-    return !running->abandon.load();
-  };
-  job->thread = this->Launch(
-    [running = job.get(), copy = privateCopy(mesh), build]()
-    {
-      buildMeshOctree(copy, build, running->octree, running->message);
-      running->done = true;
-    });
-  this->Jobs[key] = std::move(job);
+  this->Jobs[key].reset(new Job{ { mesh, build, this->Launch }, mesh, this->Frame });
 }
 
 void OctreeStore::waitFor(const Key& key, const StoreOptions& options)
 {
   const auto job = this->Jobs.find(key);
-  while (options.progress && !job->second->done)
+  while (options.progress && !job->second->build.done())
   {
-    options.progress(job->second->progress);
+    options.progress(job->second->build.progress());
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   this->keepResult(key, *job->second);
@@ -270,11 +219,11 @@ void OctreeStore::waitFor(const Key& key, const StoreOptions& options)
 
 void OctreeStore::keepResult(const Key& key, Job& job)
 {
-  job.thread.join();
-  if (!job.abandon)
+  const BackgroundBuild::Result& result = job.build.result();
+  if (!job.build.abandoned())
   {
-    this->Octrees[key] = { job.octree, this->Frame, job.message };
-    this->BuiltSoFar += job.octree ? 1 : 0;
+    this->Octrees[key] = { result.octree, this->Frame, result.message };
+    this->BuiltSoFar += result.octree ? 1 : 0;
   }
 }
 
@@ -292,9 +241,9 @@ void OctreeStore::endFrame(std::size_t memoryLimit)
     const bool asked = this->Frame - job->second->lastFrame < FramesOfOthers;
     if (!asked && !job->second->mesh)
     {
-      job->second->abandon = true;
+      job->second->build.abandon();
     }
-    if (asked || !job->second->done)
+    if (asked || !job->second->build.done())
     {
       ++job;
       continue;
@@ -338,6 +287,6 @@ std::size_t OctreeStore::bytes() const
 int OctreeStore::building() const
 {
   return static_cast<int>(std::count_if(this->Jobs.begin(), this->Jobs.end(),
-    [](const auto& job) { return !job.second->abandon.load(); }));
+    [](const auto& job) { return !job.second->build.abandoned(); }));
 }
 }

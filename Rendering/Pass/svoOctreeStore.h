@@ -2,12 +2,12 @@
 #ifndef svoOctreeStore_h
 #define svoOctreeStore_h
 
+#include "svoBackgroundBuild.h"
 #include "svoOctree.h"
 #include "svoScene.h"
 
 #include "vtkWeakPointer.h"
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -15,7 +15,6 @@
 #include <memory>
 #include <set>
 #include <string>
-#include <thread>
 #include <tuple>
 #include <utility>
 
@@ -50,10 +49,8 @@ public:
     None      // not wanted, or not possible (said once)
   };
 
-  /// Starts background builds: gives the thread that runs the function it is given.
-  using Launcher = std::function<std::thread(std::function<void()>)>;
-
-  explicit OctreeStore(Launcher launcher = {});
+  /// The launcher is that of background builds.
+  explicit OctreeStore(BackgroundBuild::Launcher launcher = {});
   ~OctreeStore();
 
   /// True if the mesh brings an octree; it is all there will be for that mesh.
@@ -94,18 +91,11 @@ private:
     std::uint64_t lastFrame = 0;
     std::string message; // not said yet
   };
-  /// A build on a thread of its own, on a private copy of the mesh.
   struct Job
   {
-    std::thread thread;
-    std::atomic<bool> done{ false };
-    std::atomic<bool> abandon{ false };
-    std::atomic<double> progress{ 0.0 };
+    BackgroundBuild build;
     vtkWeakPointer<vtkPolyData> mesh;
-    std::uint64_t lastFrame = 0; // that asked for it
-    Octree octree;
-    std::string message;
-    ~Job();
+    std::uint64_t lastFrame; // that asked for it
   };
   /// What is known of a mesh until it is modified.
   struct Known
@@ -126,7 +116,7 @@ private:
   Built* substitute(const Key& key);
   Answer answer(const Key& key, Built& built, const StoreOptions& options, Octree& octree);
 
-  Launcher Launch;
+  BackgroundBuild::Launcher Launch;
   int BuiltSoFar = 0;
   std::set<std::pair<std::uint64_t, std::string>> Said; // of a signature
   std::map<vtkPolyData*, Known> Meshes;

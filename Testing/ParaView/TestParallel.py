@@ -61,6 +61,7 @@ class TestParallel(unittest.TestCase):
         prefix = f"processes{processes}"
         output = run(["mpirun", "-np", str(processes), program("pvbatch"), SCRIPT, prefix])
         self.assertIn(f"processes with data: {processes}\n", output)
+        self.assertIn("octrees built before a level changed: 1 and by the next interactive frame: 0\n", output)
         self.check(prefix)
 
     def test_two_processes(self):

@@ -40,7 +40,17 @@ picture("coarse")
 view.SVOPixelError = 0
 picture("full-depth")
 view.SVOPixelError = 1
+# What changes right before interactive frames: those do not wait for octrees, the still picture does.
+builds = scene.statistic(displays[0], "SVONumberOfBuilds")
+displays[0].SVOMaximumLevel = 8
+view.SMProxy.InteractiveRender()
+print("octrees built before a level changed:", builds, "and by the next interactive frame:",
+      scene.statistic(displays[0], "SVONumberOfBuilds") - builds)
 ball.ThetaResolution, ball.PhiResolution = smooth
+for _ in range(3):
+    view.SMProxy.InteractiveRender()
+displays[0].SVOMaximumLevel = 10
+view.SMProxy.InteractiveRender()
 picture("shadow")
 displays[0].Position = [0.3, -0.2, 0.1]
 displays[0].Scale = [1.0, 1.2, 0.9]

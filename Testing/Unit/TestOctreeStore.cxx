@@ -28,7 +28,7 @@ namespace
 class Gate
 {
 public:
-  svo::OctreeStore::Launcher launcher()
+  svo::BackgroundBuild::Launcher launcher()
   {
     return [this](std::function<void()> run)
     {

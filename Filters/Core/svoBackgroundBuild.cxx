@@ -1,0 +1,74 @@
+#include "svoBackgroundBuild.h"
+
+#include "vtkCellArray.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <utility>
+
+namespace svo
+{
+namespace
+{
+vtkSmartPointer<vtkPolyData> privateCopy(vtkPolyData* mesh)
+{
+  auto copy = vtkSmartPointer<vtkPolyData>::New();
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  if (mesh->GetPoints())
+  {
+    points->DeepCopy(mesh->GetPoints());
+  }
+  copy->SetPoints(points);
+  const auto cells = [](vtkCellArray* source)
+  {
+    auto result = vtkSmartPointer<vtkCellArray>::New();
+    result->DeepCopy(source);
+    return result;
+  };
+  copy->SetVerts(cells(mesh->GetVerts()));
+  copy->SetLines(cells(mesh->GetLines()));
+  copy->SetPolys(cells(mesh->GetPolys()));
+  copy->SetStrips(cells(mesh->GetStrips()));
+  return copy;
+}
+}
+
+BackgroundBuild::BackgroundBuild(
+  vtkPolyData* mesh, const MeshOctreeOptions& options, const Launcher& launch)
+{
+  std::function<void()> body = [this, copy = privateCopy(mesh), options]
+  { this->run(copy, options); };
+  this->Thread = launch ? launch(std::move(body)) : std::thread(std::move(body));
+}
+
+BackgroundBuild::~BackgroundBuild()
+{
+  this->abandon();
+  if (this->Thread.joinable())
+  {
+    this->Thread.join();
+  }
+}
+
+void BackgroundBuild::run(vtkPolyData* mesh, MeshOctreeOptions options)
+{
+  options.parallelFor = backgroundParallelFor();
+  options.progress = [this](double amount)
+  {
+    this->Progress = amount;
+    return !this->abandoned();
+  };
+  this->Made.status = buildMeshOctree(mesh, options, this->Made.octree, this->Made.message);
+  this->Done = true;
+}
+
+const BackgroundBuild::Result& BackgroundBuild::result()
+{
+  if (this->Thread.joinable())
+  {
+    this->Thread.join();
+  }
+  return this->Made;
+}
+}

@@ -1,0 +1,64 @@
+// An octree in the making, on a thread of its own.
+#ifndef svoBackgroundBuild_h
+#define svoBackgroundBuild_h
+
+#include "svoMeshOctree.h"
+#include "svoOctree.h"
+#include "vtkSVOCoreModule.h"
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <thread>
+
+class vtkPolyData;
+
+namespace svo
+{
+/// Begins when it is made and is abandoned when it goes. It reads a copy of the mesh's points and
+/// cells: the mesh may change or go meanwhile.
+class VTKSVOCORE_EXPORT BackgroundBuild
+{
+public:
+  /// Gives the thread that runs the function it is given.
+  using Launcher = std::function<std::thread(std::function<void()>)>;
+
+  /// As buildMeshOctree() has them.
+  struct Result
+  {
+    BuildStatus status = BuildStatus::Aborted;
+    Octree octree;
+    std::string message;
+  };
+
+  /// options.progress has no part in it. Without a launcher it is std::thread's constructor.
+  BackgroundBuild(vtkPolyData* mesh, const MeshOctreeOptions& options, const Launcher& launch = {});
+  ~BackgroundBuild();
+  BackgroundBuild(const BackgroundBuild&) = delete;
+  BackgroundBuild& operator=(const BackgroundBuild&) = delete;
+
+  /// The result is there and nothing runs any more that takes time.
+  bool done() const { return this->Done; }
+
+  /// 0..1.
+  double progress() const { return this->Progress; }
+
+  /// Nobody needs the result: the build ends as soon as it notices.
+  void abandon() { this->Abandoned = true; }
+  bool abandoned() const { return this->Abandoned; }
+
+  /// Waits for the end.
+  const Result& result();
+
+private:
+  void run(vtkPolyData* mesh, MeshOctreeOptions options);
+
+  std::atomic<bool> Done{ false };
+  std::atomic<bool> Abandoned{ false };
+  std::atomic<double> Progress{ 0.0 };
+  Result Made;
+  std::thread Thread;
+};
+}
+
+#endif
