@@ -3,6 +3,7 @@
 #include "vtkClientServerStream.h"
 #include "vtkCommand.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVSession.h"
 #include "vtkSMViewProxy.h"
 #include "vtkSVORepresentation.h"
 
@@ -67,6 +68,15 @@ void vtkSMSVORepresentationProxy::FrameBegins(vtkObject*, unsigned long, void* c
   {
     this->MarkDirty(this); // so that the view updates before it draws
   }
+}
+
+void vtkSMSVORepresentationProxy::UpdatePropertyInformationInternal(vtkSMProperty* property)
+{
+  this->CreateVTKObjects();
+  const vtkTypeUInt32 location = this->Location;
+  this->Location &= vtkPVSession::SERVERS;
+  this->Superclass::UpdatePropertyInformationInternal(property);
+  this->Location = location;
 }
 
 void vtkSMSVORepresentationProxy::PrintSelf(ostream& os, vtkIndent indent)

@@ -29,6 +29,8 @@ protected:
   void RemoveConsumer(vtkSMProperty* property, vtkSMProxy* proxy) override;
   void RemoveAllConsumers() override;
 
+  void UpdatePropertyInformationInternal(vtkSMProperty* property) override;
+
 private:
   vtkSMSVORepresentationProxy(const vtkSMSVORepresentationProxy&) = delete;
   void operator=(const vtkSMSVORepresentationProxy&) = delete;
