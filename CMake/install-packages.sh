@@ -25,6 +25,7 @@ packages_paraview="
 paraview|ParaView 5.11 and what it depends on
 paraview-dev|its headers and CMake package
 python3-numpy|the plugin's tests judge their pictures with it
+assimp-testmodels|the figure that walks in the tests
 openmpi-bin|tests on several processes
 libqt5svg5|icons in ParaView's window"
 packages_demo="

@@ -38,6 +38,35 @@ class TestAnimation(unittest.TestCase):
         self.assertGreaterEqual(first, STEPS - 1)  # one may have been built by the first picture
         self.assertEqual(self.loop(ball, "SVONumberOfBuilds"), 0)
 
+    def test_walking_figure(self):
+        """All key frames of a real figure. Two of its poses are the same."""
+        reader = pv.PVDReader(FileName=series.write(scene.output("figure"), series.md2(series.SYDNEY)))
+        pv.Delete(self.reader)
+        self.scene.UpdateAnimationUsingDataTimeSteps()
+        self.assertEqual(len(reader.TimestepValues), 198)
+        figure = scene.show(reader, self.view)
+        figure.Scale = [1.5, 1.5, 1.5]
+        figure.SVOMaximumLevel = 8
+        self.view.CameraPosition = [3.2, -3.9, 2.7]
+        self.view.CameraFocalPoint = [0.0, 0.0, 0.5]
+        first = scene.picture(self.view, "figure-first")
+        self.loop(figure, "SVONumberOfBuilds")
+        self.assertEqual(scene.statistic(figure, "SVONumberOfBuilds"), 197)
+        self.assertEqual(self.loop(figure, "SVONumberOfBuilds"), 0)
+        kept = scene.statistic(figure, "SVOCacheMemorySize")
+        self.assertLess(kept, figure.SVOCacheMemoryLimit)
+        self.scene.AnimationTime = 99
+        between = scene.picture(self.view, "figure-between")
+        self.assertLess(scene.baseline_difference(between, "WalkingFigure"), 1e-3)
+        self.assertGreater(scene.differing(first, between), 0.003)
+        self.scene.AnimationTime = 0
+        self.assertEqual(scene.differing(scene.picture(self.view, "figure-again"), first, 0), 0)
+        # With room for half of them a second loop finds none of those that it needs next.
+        figure.SVOCacheMemoryLimit = kept // 2
+        self.loop(figure, "SVONumberOfBuilds")
+        self.assertEqual(self.loop(figure, "SVONumberOfBuilds"), 197)
+        self.assertLessEqual(scene.statistic(figure, "SVOCacheMemorySize"), kept // 2)
+
     def test_limit_of_the_cache(self):
         ball = scene.show(self.reader, self.view)
         ball.SVOCacheMemoryLimit = 0

@@ -70,6 +70,14 @@ class TestInputs(unittest.TestCase):
                 display = self.check(source, kind, octrees=2)
                 self.assertEqual(scene.statistic(display, "SVONumberOfBuilds"), 2)
 
+    def test_blocks_shadow_each_other(self):
+        octrees = pv.PolyDataToSVO(Input=self.group(COMPOSITES[0]), MaximumLevel=9)
+        self.view.SVOShadowTechnique = "Shadow Buffer"
+        scene.show(octrees, self.view)
+        picture = scene.picture(self.view, "blocks-with-shadows")
+        self.assertEqual(scene.statistic(self.view, "SVONumberOfInstances"), 2)
+        self.assertLess(scene.baseline_difference(picture, "FilteredBlocks"), 1e-3)
+
     def test_composites_through_the_filter(self):
         for kind in COMPOSITES:
             with self.subTest(kind=kind):

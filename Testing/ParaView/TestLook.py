@@ -121,6 +121,23 @@ class TestLook(unittest.TestCase):
         self.check("one-block-translucent")
         self.assertEqual(self.builds(), builds)
 
+    def test_all_together(self):
+        ball, ground = self.show(self.colored_ball(), scene.make_ground())
+        self.view.SVOShadowTechnique, self.view.SVOPixelError = "Shadow Buffer", 1
+        self.view.SVOShadowIntensity, self.view.SVOAntiAliasing = 0.7, 1
+        self.view.OrientationAxesVisibility = 1
+        ground.DiffuseColor = ground.AmbientColor = [0.6, 0.8, 0.6]
+        pv.ColorBy(ball, ("POINTS", "Elevation"))
+        pv.GetColorTransferFunction("Elevation").ApplyPreset("Viridis (matplotlib)", True)
+        ball.SetScalarBarVisibility(self.view, True)
+        pv.Render(self.view)
+        pv.SelectSurfaceCells(Rectangle=[150, 150, 190, 200], View=self.view)
+        picture = scene.picture(self.view, "all-together")
+        self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 2)
+        # The axes' and legend's letters are in it.
+        self.assertLess(scene.baseline_difference(picture, "AllTogether"), 2e-3)
+        pv.ClearSelection()
+
     def test_effects_of_the_view(self):
         self.show(scene.make_ball(), scene.make_ground())
         self.check("effects-none", traced=2)
