@@ -25,6 +25,7 @@ void wipeTile(Frame& frame, int x0, int y0)
 
 void FrameTiles::begin(const DepthBuffer& depth, const View& view, bool writeNormals, Frame& frame)
 {
+  this->TilesX = depth.tilesX;
   const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
   const bool same = frame.width == view.width && frame.height == view.height &&
     this->WrittenTo == frame.color.data() && frame.color.size() == 4 * pixels &&

@@ -25,7 +25,25 @@ public:
   /// Indices into the depth buffer's tiles, ascending.
   const std::vector<std::uint32_t>& hits() const { return this->Hits; }
 
+  /// Calls body(tileX, tileY, scratch) for the tiles with hits; a scratch serves some of them, one
+  /// after the other.
+  template <class Scratch, class Body>
+  void each(const ParallelFor& parallelFor, const Body& body) const
+  {
+    parallelFor(0, this->Hits.size(), 32,
+      [&](std::size_t first, std::size_t last)
+      {
+        Scratch scratch{};
+        for (std::size_t k = first; k < last; ++k)
+        {
+          const int tile = static_cast<int>(this->Hits[k]);
+          body(tile % this->TilesX, tile / this->TilesX, scratch);
+        }
+      });
+  }
+
 private:
+  int TilesX = 0;
   std::vector<std::uint32_t> Hits;
   std::vector<std::uint8_t> Written; // per tile: the last frame wrote it
   const std::uint8_t* WrittenTo = nullptr;

@@ -155,6 +155,9 @@ public:
   void release();
 
 private:
+  /// Tiles along an edge of a group whose nodes are found together.
+  static constexpr int GroupTiles = 4;
+
   struct Entry
   {
     std::uint32_t index; // in Scene::instances

@@ -1,0 +1,278 @@
+// What LayeredView does for one tile: finds the instances that its rays may meet, traces them front
+// to back, merges.
+#include "svoLayeredView.h"
+
+#include "svoPlaceOnTriangles.h"
+
+#include "svoIntersect.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace svo
+{
+namespace
+{
+/// Where a tile sees more nodes than this its rays are walked one by one after all.
+constexpr std::size_t MostTileNodes = 256;
+}
+
+bool LayeredView::findNodes(int tileX, int tileY, TileEntry& candidate) const
+{
+  const Entry& entry = *candidate.entry;
+  const int groupX = tileX / GroupTiles, groupY = tileY / GroupTiles;
+  if (groupX != candidate.groupX || groupY != candidate.groupY)
+  {
+    candidate.groupX = groupX;
+    candidate.groupY = groupY;
+    const TilePyramid all =
+      makePyramid(entry.projection, this->Of, GroupTiles * groupX, GroupTiles * groupY, GroupTiles);
+    candidate.groupFound = candidate.group.find(
+      *entry.octree, all, candidate.tNear, candidate.tFar, GroupTiles * MostTileNodes);
+  }
+  if (candidate.groupFound)
+  {
+    candidate.group.select(candidate.pyramid, candidate.nodes);
+    return candidate.nodes.size() <= MostTileNodes;
+  }
+  return findTileNodes(*entry.octree, candidate.pyramid, candidate.tNear, candidate.tFar,
+    MostTileNodes, candidate.nodes);
+}
+
+bool LayeredView::meets(int tileX, int tileY, TileEntry& candidate) const
+{
+  const Entry& entry = *candidate.entry;
+  const PixelRect& rect = entry.local.rect;
+  if (8 * tileX < rect.x0 || 8 * tileX >= rect.x1 || 8 * tileY < rect.y0 || 8 * tileY >= rect.y1)
+  {
+    return false;
+  }
+  candidate.nodes.clear();
+  if (!entry.tiles)
+  {
+    const TileIntervals& all = entry.layer ? entry.layer->intervals : entry.intervals;
+    const std::size_t i = all.index(tileX, tileY);
+    // Planes may be met a cell before the cube, but not before the near plane.
+    candidate.tNear =
+      std::max(all.tNear[i], static_cast<float>(std::min(this->Of.tNear - entry.local.base, 0.0)));
+    candidate.tFar = std::min(all.tFar[i], entry.local.tMax);
+    return candidate.tNear <= candidate.tFar;
+  }
+  candidate.tNear = 0.0f;
+  candidate.tFar = entry.local.tMax;
+  candidate.pyramid = makePyramid(entry.projection, this->Of, tileX, tileY);
+  if (!this->findNodes(tileX, tileY, candidate))
+  {
+    candidate.nodes.clear();
+    return true;
+  }
+  if (candidate.nodes.empty())
+  {
+    return false;
+  }
+  candidate.tNear = std::max(candidate.tNear, candidate.nodes.front().tNear);
+  return true;
+}
+
+void LayeredView::order(int tileX, int tileY, TileScratch& scratch)
+{
+  scratch.order.clear();
+  for (std::size_t e = 0; e < this->Instances.size(); ++e)
+  {
+    const Entry& entry = this->Instances[e];
+    TileEntry& candidate = scratch.entries[e];
+    candidate.entry = &entry;
+    DepthLayer* layer = entry.layer;
+    if (layer && layer->holds(tileX, tileY))
+    {
+      std::uint8_t& state = layer->traced[layer->index(tileX, tileY)];
+      if (state == DepthLayer::Unknown && !this->meets(tileX, tileY, candidate))
+      {
+        state = DepthLayer::Empty;
+      }
+      if (state != DepthLayer::Empty)
+      {
+        // Kept layers first: they cost nothing and cut the others' rays.
+        candidate.key = -std::numeric_limits<double>::infinity();
+        scratch.order.push_back(&candidate);
+      }
+    }
+    else if (!layer && this->meets(tileX, tileY, candidate))
+    {
+      candidate.key = entry.local.base + candidate.tNear;
+      scratch.order.push_back(&candidate);
+    }
+  }
+  // Then front to back.
+  std::stable_sort(scratch.order.begin(), scratch.order.end(),
+    [](const TileEntry* a, const TileEntry* b) { return a->key < b->key; });
+}
+
+void LayeredView::traceRays(const TileEntry& candidate, const double* x, const double* y,
+  RayBlock& block, HitBlock& found) const
+{
+  const Entry& entry = *candidate.entry;
+  const TraceOptions options{ entry.key.leafGeometry, entry.key.level };
+  if (entry.local.stretched)
+  {
+    intersectStretched(*entry.octree, entry.local, x, y, block, options, found);
+    return;
+  }
+  for (int i = 0; i < 64; ++i)
+  {
+    entry.local.fill(x[i], y[i], i, block);
+  }
+  if (!candidate.nodes.empty())
+  {
+    intersectTile(*entry.octree, candidate.pyramid, candidate.nodes, block, found);
+    if (this->Exact)
+    {
+      placeOnTriangles(*entry.octree->surface(), entry.local, x, y, found);
+    }
+  }
+  else
+  {
+    intersect(*entry.octree, block, options, found);
+  }
+}
+
+bool LayeredView::cutRays(
+  const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const
+{
+  // A tie must survive the rounding. Plane leaves answer a ray that found nothing to its end with
+  // the first cell that refused it, so there a ray is either not traced or traced to its own end.
+  const Entry& entry = *candidate.entry;
+  bool alive = false;
+  for (int i = 0; i < 64; ++i)
+  {
+    if (merged.instance[i] != NoInstance)
+    {
+      const double cut = this->Bases[merged.instance[i]] + merged.t[i] - entry.local.base;
+      if (entry.cuttable || cut < candidate.tNear)
+      {
+        const bool placed = this->Exact && !candidate.nodes.empty();
+        const double reach = placed ? placingReach(entry.local) : 0.0;
+        block.tMax[i] = std::min(block.tMax[i], roundUp(cut + reach));
+      }
+    }
+    alive = alive || block.tMax[i] >= candidate.tNear;
+  }
+  return alive;
+}
+
+void LayeredView::merge(
+  const Entry& entry, const float* t, const Primitive* primitive, MergedTile& merged) const
+{
+  // min(t), the smaller index where equal: any order of merging gives the same buffer. A NaN
+  // compares false and never wins.
+  for (int i = 0; i < 64; ++i)
+  {
+    if (primitive[i] == NoPrimitive)
+    {
+      continue;
+    }
+    if (!merged.any)
+    {
+      merged.any = true;
+      std::fill(merged.instance, merged.instance + 64, NoInstance);
+      std::fill(merged.primitive, merged.primitive + 64, NoPrimitive);
+    }
+    const std::uint32_t winner = merged.instance[i];
+    const double mine = entry.local.base + t[i];
+    const double other = winner != NoInstance ? this->Bases[winner] + merged.t[i] : 0.0;
+    if (winner == NoInstance || mine < other || (mine == other && entry.index < winner))
+    {
+      merged.t[i] = t[i];
+      merged.primitive[i] = primitive[i];
+      merged.instance[i] = entry.index;
+    }
+  }
+}
+
+void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
+{
+  const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
+  MergedTile merged{ this->Merged.t.data() + 64 * tile, this->Merged.instance.data() + 64 * tile,
+    this->Merged.primitive.data() + 64 * tile, false };
+  RayBlock block;
+  HitBlock found;
+  double xs[64], ys[64];
+  for (int i = 0; i < 64; ++i)
+  {
+    xs[i] = 8 * tileX + (i & 7) + 0.5;
+    ys[i] = 8 * tileY + (i >> 3) + 0.5;
+  }
+  this->order(tileX, tileY, scratch);
+  for (const TileEntry* next : scratch.order)
+  {
+    const TileEntry& candidate = *next;
+    const Entry& entry = *candidate.entry;
+    const auto fill = [&]
+    {
+      std::fill(block.tMin, block.tMin + 64, candidate.tNear);
+      std::fill(block.tMax, block.tMax + 64, candidate.tFar);
+    };
+    if (!entry.layer)
+    {
+      fill();
+      if (merged.any && !this->cutRays(candidate, merged, block))
+      {
+        continue;
+      }
+      traceRays(candidate, xs, ys, block, found);
+      scratch.rays[&entry - this->Instances.data()] += 64;
+      this->merge(entry, found.t, found.primitive, merged);
+      continue;
+    }
+    // A layer is traced whole: it must stay true when what is before it goes away.
+    const std::size_t k = entry.layer->index(tileX, tileY);
+    float* keptT = entry.layer->t.data() + 64 * k;
+    Primitive* keptPrimitive = entry.layer->primitive.data() + 64 * k;
+    if (entry.layer->traced[k] == DepthLayer::Unknown)
+    {
+      entry.layer->traced[k] = DepthLayer::Traced;
+      fill();
+      traceRays(candidate, xs, ys, block, found);
+      std::copy(found.t, found.t + 64, keptT);
+      std::copy(found.primitive, found.primitive + 64, keptPrimitive);
+      scratch.rays[&entry - this->Instances.data()] += 64;
+    }
+    this->merge(entry, keptT, keptPrimitive, merged);
+  }
+  this->Merged.hit[tile] = merged.any;
+}
+
+void LayeredView::sample(int tileX, int tileY, Samples& samples) const
+{
+  std::fill(samples.instance, samples.instance + 64, NoInstance);
+  RayBlock block;
+  HitBlock found;
+  TileEntry candidate;
+  for (const Entry& entry : this->Instances)
+  {
+    candidate.entry = &entry;
+    candidate.groupX = tileX / GroupTiles; // no other tile of the group will ask
+    candidate.groupY = tileY / GroupTiles;
+    candidate.groupFound = false;
+    if (!this->meets(tileX, tileY, candidate))
+    {
+      continue;
+    }
+    std::fill(block.tMin, block.tMin + 64, candidate.tNear);
+    std::fill(block.tMax, block.tMax + 64, candidate.tFar);
+    traceRays(candidate, samples.x, samples.y, block, found);
+    for (int i = 0; i < 64; ++i)
+    {
+      const double t = entry.local.base + found.t[i];
+      const bool nearer = samples.instance[i] == NoInstance || t < samples.t[i] ||
+        (t == samples.t[i] && entry.index < samples.instance[i]);
+      if (found.primitive[i] != NoPrimitive && nearer)
+      {
+        samples.t[i] = t;
+        samples.instance[i] = entry.index;
+        samples.primitive[i] = found.primitive[i];
+      }
+    }
+  }
+}
+}

@@ -1,0 +1,202 @@
+#include "svoPixelShader.h"
+
+#include "svoSelect.h"
+#include "svoTileLighting.h"
+#include "svoTilePoints.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+
+namespace svo
+{
+void PixelShader::begin(const Scene& scene, ShadowTechnique technique, const LayeredView& eye)
+{
+  this->Frames.clear();
+  this->Errors.clear();
+  for (std::size_t i = 0; i < scene.instances.size(); ++i)
+  {
+    const Instance& instance = scene.instances[i];
+    const int level = eye.level(static_cast<std::uint32_t>(i));
+    const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(i));
+    this->Frames.push_back(instance.octree ? SurfaceFrame(instance) : SurfaceFrame());
+    this->Errors.push_back(!instance.octree  ? 0.0
+        : technique == ShadowTechnique::Rays ? worldLeafError(instance, geometry, level)
+                                             : worldMapError(instance, geometry, level));
+  }
+}
+
+/// What all tiles of a frame have in common.
+struct PixelShader::Lit
+{
+  const ShadedScene& shaded;
+  Lighting lighting;
+  float remaining; // of a light in its shadow
+
+  explicit Lit(const ShadedScene& frame)
+    : shaded(frame)
+    , lighting(frame.scene, frame.view)
+    , remaining(static_cast<float>(1.0 - frame.settings.shadowIntensity))
+  {
+  }
+};
+
+/// What a thread needs to shade a tile.
+struct PixelShader::Scratch
+{
+  TilePoints points;
+  TileLight light;
+  TileColors colors;
+  std::uint32_t rgba[TilePoints::Room];
+  float missed[TilePoints::Room];      // by index of the point minus the first: of one light
+  Darkness darkness[TilePoints::Most]; // by index of the point
+  std::uint64_t rays;                  // of shadows
+};
+
+/// Shadows of light l on points [first, last) of one instance that it reaches, and adds the light.
+void PixelShader::shadowAndAdd(
+  std::size_t l, const Lit& lit, int first, int last, Scratch& scratch) const
+{
+  const Shadows& dark = lit.shaded.dark;
+  const TilePoints& points = scratch.points;
+  TileLight& light = scratch.light;
+  const int count = last - first;
+  const double error = this->Errors[points.instance[first]];
+  if (!dark.filters())
+  {
+    dark.dark(l, points, first, last, error, light.reached, light.dark, scratch.rays);
+    for (int i = 0; i < count && this->FindsEdges; ++i)
+    {
+      darken(scratch.darkness[first + i], l, light.dark[i]);
+    }
+    addLight(lit.lighting.lights[l], lit.remaining, count, light);
+    return;
+  }
+  dark.darkness(l, points, first, last, error, light.reached, scratch.missed);
+  for (int i = 0; i < count; ++i)
+  {
+    light.share[i] = shareOfLight(scratch.missed[i], lit.remaining);
+  }
+  for (int i = 0; i < count && this->FindsEdges; ++i)
+  {
+    darken(scratch.darkness[first + i], l, scratch.missed[i]);
+  }
+  addShares(lit.lighting.lights[l], count, light);
+}
+
+/// Colours points [first, last) of one instance.
+void PixelShader::lightInstance(
+  const Lit& lit, int first, int last, bool hasColor, Scratch& scratch) const
+{
+  const Lighting& lighting = lit.lighting;
+  const TilePoints& points = scratch.points;
+  TileLight& light = scratch.light;
+  const std::uint32_t index = points.instance[first];
+  const Instance& instance = lit.shaded.scene.instances[index];
+  const int count = last - first;
+  std::fill_n(scratch.darkness + first, count, Darkness(0));
+  if (instance.material.lighting && !lighting.lights.empty())
+  {
+    beginLight(lighting, points, first, last, light);
+    for (std::size_t l = 0; l < lighting.lights.size(); ++l)
+    {
+      arriveLight(lighting, l, instance.material, count, light);
+      if (instance.receiveShadow && lighting.lights[l].light->castShadow)
+      {
+        this->shadowAndAdd(l, lit, first, last, scratch);
+      }
+      else
+      {
+        std::fill_n(light.dark, count, std::uint8_t(0));
+        addLight(lighting.lights[l], lit.remaining, count, light);
+      }
+    }
+  }
+  finishLight(lighting, instance.material, points, first, last, hasColor, light, scratch.colors);
+}
+
+/// Writes a tile's points into the frame.
+void PixelShader::write(const Lit& lit, int tileX, int tileY, Scratch& scratch, Frame& frame)
+{
+  const TilePoints& points = scratch.points;
+  packColors(scratch.colors, points.count, scratch.rgba);
+  const std::size_t corner = static_cast<std::size_t>(8 * tileY) * frame.width + 8 * tileX;
+  for (int run = 0; run < points.runCount; ++run)
+  {
+    const TilePoints::Run& r = points.runs[run];
+    const double offset = lit.shaded.scene.instances[r.instance].depthOffsetUnits;
+    for (int i = r.first; i < r.last; ++i)
+    {
+      const int k = points.pixel[i];
+      const std::size_t pixel = corner + static_cast<std::size_t>(k >> 3) * frame.width + (k & 7);
+      std::memcpy(frame.color.data() + 4 * pixel, scratch.rgba + i, 4);
+      frame.depth[pixel] = static_cast<float>(std::clamp(points.window[i] + offset, 0.0, 1.0));
+      frame.instance[pixel] = r.instance;
+      frame.primitive[pixel] = points.primitive[i];
+    }
+  }
+  for (int i = 0; lit.shaded.settings.writeNormals && i < points.count; ++i)
+  {
+    const int k = points.pixel[i];
+    const std::size_t pixel = corner + static_cast<std::size_t>(k >> 3) * frame.width + (k & 7);
+    const glm::vec3 normal =
+      lit.lighting.rotation * glm::vec3(points.normalX[i], points.normalY[i], points.normalZ[i]);
+    std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixel);
+  }
+  const std::size_t tile =
+    static_cast<std::size_t>(tileY) * lit.shaded.eye.depthBuffer().tilesX + tileX;
+  for (int i = 0; this->FindsEdges && i < points.count; ++i)
+  {
+    this->DarkPixels[64 * tile + points.pixel[i]] = scratch.darkness[i];
+  }
+}
+
+void PixelShader::shade(const ShadedScene& shaded, const ParallelFor& parallelFor, Frame& frame,
+  FrameStatistics& statistics)
+{
+  const DepthBuffer& depth = shaded.eye.depthBuffer();
+  const Lit lit(shaded);
+  std::atomic<std::uint64_t> allRays{ 0 };
+  this->FindsEdges = shaded.settings.antiAliasing;
+  if (this->FindsEdges)
+  {
+    this->DarkPixels.resize(depth.instance.size());
+  }
+  shaded.tiles.each<Scratch>(parallelFor,
+    [&](int tileX, int tileY, Scratch& scratch)
+    {
+      TilePoints& points = scratch.points;
+      takePoints(
+        depth, shaded.view, tileX, tileY, [](std::uint32_t) { return true; },
+        [&](std::uint32_t i) { return shaded.eye.base(i); }, points);
+      if (points.count < TilePoints::Most)
+      {
+        wipeTile(frame, 8 * tileX, 8 * tileY);
+      }
+      if (points.count == 0) // hits beyond the border of the image only
+      {
+        return;
+      }
+      lookAtPoints(this->Frames, shaded.view, points);
+      scratch.rays = 0;
+      for (int run = 0; run < points.runCount;)
+      {
+        const int first = points.runs[run].first;
+        const std::uint32_t instance = points.runs[run].instance;
+        const bool hasColor = points.runs[run].hasColor;
+        int last = first;
+        for (; run < points.runCount && points.runs[run].instance == instance; ++run)
+        {
+          last = points.runs[run].last;
+        }
+        this->lightInstance(lit, first, last, hasColor, scratch);
+      }
+      if (scratch.rays > 0)
+      {
+        allRays.fetch_add(scratch.rays, std::memory_order_relaxed);
+      }
+      this->write(lit, tileX, tileY, scratch, frame);
+    });
+  statistics.shadowRays += allRays;
+}
+}

@@ -1,0 +1,61 @@
+// Colours the pixels of a frame: what the eye's rays met, lit by the lights that reach it.
+#ifndef svoPixelShader_h
+#define svoPixelShader_h
+
+#include "svoEdges.h"
+#include "svoFrameTiles.h"
+#include "svoLayeredView.h"
+#include "svoParallel.h"
+#include "svoShading.h"
+#include "svoShadows.h"
+#include "svoSurfacePoint.h"
+#include "svoTracer.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace svo
+{
+/// What is shaded; for the length of a frame.
+struct ShadedScene
+{
+  const Scene& scene;
+  const View& view;
+  const FrameSettings& settings;
+  const LayeredView& eye;
+  const FrameTiles& tiles; // of the frame that is written
+  const Shadows& dark;
+};
+
+/// Two steps a frame: shade() gives each pixel its colour, smoothEdges() gives those on edges the
+/// mean of four more rays.
+class PixelShader
+{
+public:
+  /// To be called once the eye has traced the scene.
+  void begin(const Scene& scene, ShadowTechnique technique, const LayeredView& eye);
+
+  /// Writes the tiles with hits. Counts its shadow rays.
+  void shade(const ShadedScene& shaded, const ParallelFor& parallelFor, Frame& frame,
+    FrameStatistics& statistics);
+
+  /// After shade() with FrameSettings::antiAliasing. Counts its rays.
+  void smoothEdges(const ShadedScene& shaded, const ParallelFor& parallelFor, Frame& frame,
+    FrameStatistics& statistics) const;
+
+private:
+  struct Lit;
+  struct Scratch;
+  void shadowAndAdd(std::size_t l, const Lit& lit, int first, int last, Scratch& scratch) const;
+  void lightInstance(const Lit& lit, int first, int last, bool hasColor, Scratch& scratch) const;
+  void write(const Lit& lit, int tileX, int tileY, Scratch& scratch, Frame& frame);
+
+  std::vector<SurfaceFrame> Frames; // by index into Scene::instances
+  std::vector<double> Errors;       // world; of the instance's leaves as the eye sees them
+  bool FindsEdges = false;
+  std::vector<Darkness> DarkPixels; // per pixel, as the depth buffer, where edges are to be found
+};
+}
+
+#endif

@@ -1,0 +1,82 @@
+#include "svoPixelShader.h"
+
+#include "svoSelect.h"
+#include "svoTileLighting.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace svo
+{
+void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& parallelFor,
+  Frame& frame, FrameStatistics& statistics) const
+{
+  // A rotated grid: four points of a pixel that share no row and no column.
+  constexpr double OffsetX[4] = { 0.375, 0.875, 0.125, 0.625 };
+  constexpr double OffsetY[4] = { 0.125, 0.375, 0.625, 0.875 };
+  const Scene& scene = shaded.scene;
+  const View& view = shaded.view;
+  const EdgeFinder edges(shaded.eye.depthBuffer(), shaded.eye, this->DarkPixels, view);
+  const Lighting lighting(scene, view);
+  const float remaining = static_cast<float>(1.0 - shaded.settings.shadowIntensity);
+  std::atomic<std::uint64_t> primaryRays{ 0 };
+  std::atomic<std::uint64_t> shadowRays{ 0 };
+  struct Scratch
+  {
+    int pixels[64];
+    Samples samples;
+  };
+  const auto smoothTile = [&](int tileX, int tileY, Scratch& scratch)
+  {
+    int* pixels = scratch.pixels;
+    const int count = edges.find(tileX, tileY, pixels);
+    std::uint64_t rays = 0;
+    for (int first = 0; first < count; first += 16)
+    {
+      Samples& samples = scratch.samples;
+      for (int k = 0; k < 64; ++k)
+      {
+        const int pixel = pixels[std::min(first + k / 4, count - 1)];
+        samples.x[k] = 8 * tileX + (pixel & 7) + OffsetX[k % 4];
+        samples.y[k] = 8 * tileY + (pixel >> 3) + OffsetY[k % 4];
+      }
+      shaded.eye.sample(tileX, tileY, samples);
+      primaryRays.fetch_add(64, std::memory_order_relaxed);
+      for (int p = 0; p < std::min(16, count - first); ++p)
+      {
+        glm::vec3 sum(0.0f);
+        int hits = 0;
+        for (int k = 4 * p; k < 4 * p + 4; ++k)
+        {
+          const std::uint32_t i = samples.instance[k];
+          if (i == NoInstance)
+          {
+            continue;
+          }
+          ++hits;
+          const double extent = 0.5 * worldPixel(view, samples.t[k]);
+          const SurfacePoint point = surfacePoint(
+            this->Frames[i], view, samples.x[k], samples.y[k], samples.t[k], samples.primitive[k]);
+          sum += glm::clamp(
+            svo::shade(lighting, scene.instances[i], point, remaining,
+              [&](std::size_t light)
+              { return shaded.dark.darkness(light, point, this->Errors[i], extent, rays); }),
+            0.0f, 1.0f);
+        }
+        const int x = 8 * tileX + (pixels[first + p] & 7);
+        const int y = 8 * tileY + (pixels[first + p] >> 3);
+        std::uint8_t* rgba =
+          frame.color.data() + 4 * (static_cast<std::size_t>(y) * view.width + x);
+        for (int c = 0; c < 3 && hits > 0; ++c)
+        {
+          rgba[c] = toByte(sum[c] / static_cast<float>(hits));
+        }
+      }
+    }
+    shadowRays.fetch_add(rays, std::memory_order_relaxed);
+  };
+  shaded.tiles.each<Scratch>(parallelFor, smoothTile);
+  statistics.primaryRays += primaryRays;
+  statistics.shadowRays += shadowRays;
+}
+}
