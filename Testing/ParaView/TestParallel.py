@@ -61,10 +61,11 @@ class TestParallel(unittest.TestCase):
         prefix = f"processes{processes}"
         output = run(["mpirun", "-np", str(processes), program("pvbatch"), SCRIPT, prefix])
         self.assertIn(f"processes with data: {processes}\n", output)
-        self.check_builds(output)
+        self.check_figures(output)
         self.check(prefix)
 
-    def check_builds(self, output):
+    def check_figures(self, output):
+        self.assertIn("traced: 2 instances: 2 sample distance: 1.0 time: known\n", output)
         self.assertIn("octrees built before a level changed: 1 and by the next interactive frame: 0\n", output)
 
     def test_two_processes(self):
@@ -80,7 +81,7 @@ class TestParallel(unittest.TestCase):
             for line in server.stdout:
                 if "Accepting connection" in line:
                     break
-            self.check_builds(run([program("pvpython"), SCRIPT, prefix, str(port)]))
+            self.check_figures(run([program("pvpython"), SCRIPT, prefix, str(port)]))
             said = server.communicate(timeout=60)[0]
             self.assertNotIn("ERR|", said)
         finally:

@@ -52,6 +52,10 @@ for _ in range(3):
 displays[0].SVOMaximumLevel = 10
 view.SMProxy.InteractiveRender()
 picture("shadow")
+print("traced:", int(scene.statistic(view, "SVONumberOfTracedActors")),
+      "instances:", int(scene.statistic(view, "SVONumberOfInstances")),
+      "sample distance:", scene.statistic(view, "SVOImageSampleDistance"),
+      "time:", "known" if scene.statistic(view, "SVOTraceTime") > 0 else "unknown")
 displays[0].Position = [0.3, -0.2, 0.1]
 displays[0].Scale = [1.0, 1.2, 0.9]
 picture("moved")

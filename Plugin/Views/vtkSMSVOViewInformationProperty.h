@@ -1,0 +1,33 @@
+/**
+ * @class vtkSMSVOViewInformationProperty
+ * @brief a number that a view's vtkSVORenderPass knows, for information
+ *
+ * A property of a view is read on the client, whose pass has nothing to tell of frames that a
+ * server rendered: then this one asks there. On the server, and without one, it is a
+ * vtkSISVOViewProperty.
+ */
+#ifndef vtkSMSVOViewInformationProperty_h
+#define vtkSMSVOViewInformationProperty_h
+
+#include "vtkSMDoubleVectorProperty.h"
+#include "vtkSVOViewsModule.h" // for the export macro
+
+class VTKSVOVIEWS_EXPORT vtkSMSVOViewInformationProperty : public vtkSMDoubleVectorProperty
+{
+public:
+  static vtkSMSVOViewInformationProperty* New();
+  vtkTypeMacro(vtkSMSVOViewInformationProperty, vtkSMDoubleVectorProperty);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+protected:
+  vtkSMSVOViewInformationProperty();
+  ~vtkSMSVOViewInformationProperty() override;
+
+  void ReadFrom(const vtkSMMessage* message, int offset, vtkSMProxyLocator* locator) override;
+
+private:
+  vtkSMSVOViewInformationProperty(const vtkSMSVOViewInformationProperty&) = delete;
+  void operator=(const vtkSMSVOViewInformationProperty&) = delete;
+};
+
+#endif
