@@ -215,7 +215,7 @@ BuildStatus buildUnguarded(
   }
 
   Header& header = *reinterpret_cast<Header*>(result.data.get());
-  header.signature = meshSignature(mesh);
+  header.signature = options.signature != 0 ? options.signature : meshSignature(mesh);
   header.pointCount = view.pointCount;
   header.cellCount = static_cast<std::uint64_t>(mesh->GetNumberOfCells());
   finiteBounds(view, header.meshBounds);

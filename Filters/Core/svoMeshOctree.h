@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -24,6 +25,7 @@ struct MeshOctreeOptions
   /// Of what the mesh is a part of, as VTK orders bounds; low above high: it is all there is.
   std::array<double, 6> modelBounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
   std::size_t memoryLimit = 0; // bytes at the peak of the build; 0: what the machine has available
+  std::uint64_t signature = 0; // of the mesh, where it is known
   ParallelFor parallelFor = smpParallelFor();
   /// Called now and then on the calling thread with 0..1; returning false aborts the build.
   std::function<bool(double)> progress;

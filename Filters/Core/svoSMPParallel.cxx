@@ -22,20 +22,28 @@ bool backendIs(const char* name)
   return std::strcmp(vtkSMPTools::GetBackend(), name) == 0;
 }
 
-/// How many threads VTK would use if its backend were STDThread.
-std::size_t plainThreads()
+/// Where VTK's backend is Sequential; the environment is read once, as VTK does it.
+std::size_t threadsInsteadOfOne()
 {
-  if (backendIs("Sequential"))
+  static const std::size_t threads = []
   {
+    const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
     if (std::getenv("VTK_SMP_BACKEND_IN_USE"))
     {
-      return 1; // somebody wants it so
+      return std::size_t(1); // somebody wants it so
     }
     const char* most = std::getenv("VTK_SMP_MAX_THREADS");
     const int asked = most ? std::atoi(most) : 0;
-    return asked > 0 ? asked : std::max(1u, std::thread::hardware_concurrency());
-  }
-  return std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads());
+    return asked > 0 ? std::min<std::size_t>(asked, processors) : processors;
+  }();
+  return threads;
+}
+
+std::size_t plainThreads()
+{
+  return backendIs("Sequential")
+    ? threadsInsteadOfOne()
+    : static_cast<std::size_t>(std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads()));
 }
 
 /// The caller's thread and others take chunks until there are no more.

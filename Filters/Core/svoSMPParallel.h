@@ -7,10 +7,11 @@
 
 namespace svo
 {
-/// vtkSMPTools where VTK's backend is TBB or OpenMP. Where it is STDThread, or Sequential only by
-/// default (nobody asked for it by VTK_SMP_BACKEND_IN_USE), plain threads: as many as
-/// vtkSMPTools::Initialize or VTK_SMP_MAX_THREADS say, else one for each processor. VTK's global
-/// settings are never touched: other threads may be in the middle of VTK's own loops. May be
+/// vtkSMPTools where VTK's backend is TBB or OpenMP. Where it is STDThread: plain threads, as many
+/// as vtkSMPTools::Initialize says. Where it is Sequential only by default (nobody asked for it by
+/// VTK_SMP_BACKEND_IN_USE), as in ParaView: plain threads, one for each processor or as many as
+/// VTK_SMP_MAX_THREADS says if that is less; what Initialize says that backend does not tell. VTK's
+/// global settings are never touched: other threads may be in the midst of VTK's own loops. May be
 /// called from any thread.
 VTKSVOCORE_EXPORT ParallelFor smpParallelFor();
 

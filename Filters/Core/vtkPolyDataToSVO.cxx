@@ -3,7 +3,6 @@
 #include "svoAbort.h"
 #include "svoMeshOctree.h"
 #include "svoOctreeCache.h"
-#include "svoOctreeJobs.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -86,7 +85,6 @@ class vtkPolyDataToSVO::vtkInternals
 {
 public:
   svo::OctreeCache Cache;
-  svo::OctreeJobs Jobs;
 };
 
 //------------------------------------------------------------------------------
@@ -168,29 +166,21 @@ void vtkPolyDataToSVO::Finish(vtkPolyData* output)
 }
 
 //------------------------------------------------------------------------------
-// The output that there is stays what it is, but who wants to wait may have something to wait for.
-void vtkPolyDataToSVO::SetBuildInBackground(bool background)
+void vtkPolyDataToSVO::SetBuildOctrees(bool build)
 {
-  this->BuildInBackground = background;
-  if (!background && this->Preliminary)
+  this->BuildOctrees = build;
+  if (build && !this->BuiltOctrees)
   {
-    this->Modified();
+    this->Modified(); // on all processes alike, see vtkPPolyDataToSVO
   }
-}
-
-//------------------------------------------------------------------------------
-int vtkPolyDataToSVO::GetNumberOfOctreesInProgress()
-{
-  return this->Internals->Jobs.count();
 }
 
 //------------------------------------------------------------------------------
 int vtkPolyDataToSVO::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->Preliminary = false;
+  this->BuiltOctrees = this->BuildOctrees;
   this->ConvertInput(vtkDataObject::GetData(inputVector[0]), vtkDataObject::GetData(outputVector));
-  this->Internals->Jobs.endExecution();
   return 1;
 }
 
@@ -219,50 +209,48 @@ void vtkPolyDataToSVO::Convert(vtkPolyData* input, vtkPolyData* output, const do
     return;
   }
 
-  vtkInternals& internals = *this->Internals;
+  svo::OctreeCache& cache = this->Internals->Cache;
   const svo::OctreeCache::Key key{ svo::meshSignature(input), options.level, options.leafGeometry,
     options.modelBounds };
-  if (const auto* kept = this->CacheTimeSteps ? internals.Cache.find(key) : nullptr)
+  if (const auto* kept = this->CacheTimeSteps ? cache.find(key) : nullptr)
   {
     svo::attachOctree(output, kept->octree);
     this->Finish(output);
     return;
   }
-
-  svo::BackgroundBuild::Result result;
-  if (!internals.Jobs.ask(key, input, options, this->BuildInBackground, result))
+  if (!this->BuildOctrees)
   {
-    if (this->BuildInBackground)
-    {
-      this->Preliminary = true;
-      attachMeanwhile(output, internals.Cache.latest(key.signature, key.modelBounds));
-      this->Finish(output);
-      return;
-    }
-    options.progress = [this](double progress)
-    {
-      this->UpdateProgress(progress);
-      return !svo::isAborted(this);
-    };
-    const double start = vtkTimerLog::GetUniversalTime();
-    internals.Jobs.wait(key, input, options, result);
-    this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
+    attachMeanwhile(output, cache.latest(key.signature, key.modelBounds));
+    this->Finish(output);
+    return;
   }
 
   svo::detachOctree(output);
-  if (result.status == svo::BuildStatus::Built)
+  options.signature = key.signature;
+  options.progress = [this](double progress)
+  {
+    this->UpdateProgress(progress);
+    return !svo::isAborted(this);
+  };
+  svo::OctreeCache::Entry built{ key, {} };
+  std::string message;
+  const double start = vtkTimerLog::GetUniversalTime();
+  const svo::BuildStatus status = svo::buildMeshOctree(input, options, built.octree, message);
+  this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
+  if (status == svo::BuildStatus::Aborted)
+  {
+    return;
+  }
+  if (status == svo::BuildStatus::Built)
   {
     ++this->NumberOfBuilds;
-    svo::attachOctree(output, result.octree);
+    svo::attachOctree(output, built.octree);
     this->Finish(output);
-    if (this->CacheTimeSteps)
-    {
-      internals.Cache.insert({ key, result.octree }, this->CacheMemoryLimit * Kibi);
-    }
   }
-  if (result.status != svo::BuildStatus::Aborted)
+  report(this, input, built.octree, message);
+  if (status == svo::BuildStatus::Built && this->CacheTimeSteps)
   {
-    report(this, input, result.octree, result.message);
+    cache.insert(std::move(built), this->CacheMemoryLimit * Kibi);
   }
 }
 
@@ -280,8 +268,7 @@ void vtkPolyDataToSVO::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CacheMemorySize: " << this->GetCacheMemorySize() << " KiB\n";
   os << indent << "NumberOfCachedOctrees: " << this->GetNumberOfCachedOctrees() << "\n";
   os << indent << "KeepOctrees: " << (this->KeepOctrees ? "On\n" : "Off\n");
-  os << indent << "BuildInBackground: " << (this->BuildInBackground ? "On\n" : "Off\n");
-  os << indent << "NumberOfOctreesInProgress: " << this->GetNumberOfOctreesInProgress() << "\n";
+  os << indent << "BuildOctrees: " << (this->BuildOctrees ? "On\n" : "Off\n");
   os << indent << "WriteStatistics: " << (this->WriteStatistics ? "On\n" : "Off\n");
   os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
   os << indent << "NumberOfBuilds: " << this->NumberOfBuilds << "\n";

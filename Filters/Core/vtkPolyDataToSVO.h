@@ -127,22 +127,15 @@ public:
 
   //@{
   /**
-   * Whether an execution goes on without octrees that are not there yet. They are built in the
-   * background, and meanwhile a mesh goes out with the octree that it had last (of another level or
-   * leaf geometry), or without one. Later executions take over what is finished: call Modified()
-   * while GetNumberOfOctreesInProgress() is not 0. Turned off, the next Update() waits for them.
-   * What the last execution did not ask for is abandoned. For programs that must answer at once;
-   * default off.
+   * Whether octrees that are not kept are built. Off: a mesh goes out with the octree of it that
+   * was used last, of whatever level and leaf geometry, else with the one that it brings, else
+   * without; for programs that must answer at once. Turned on again, the next Update() builds what
+   * is missing. Default on.
    */
-  virtual void SetBuildInBackground(bool background);
-  vtkGetMacro(BuildInBackground, bool);
-  vtkBooleanMacro(BuildInBackground, bool);
+  virtual void SetBuildOctrees(bool build);
+  vtkGetMacro(BuildOctrees, bool);
+  vtkBooleanMacro(BuildOctrees, bool);
   //@}
-
-  /**
-   * Octrees that are built in the background and that no output has yet.
-   */
-  int GetNumberOfOctreesInProgress();
 
   //@{
   /**
@@ -210,9 +203,6 @@ protected:
    */
   void Convert(vtkPolyData* input, vtkPolyData* output, const double modelBounds[6]);
 
-  /// Whether the last output lacks octrees that are built in the background.
-  bool Preliminary = false;
-
 private:
   vtkPolyDataToSVO(const vtkPolyDataToSVO&) = delete;
   void operator=(const vtkPolyDataToSVO&) = delete;
@@ -222,7 +212,8 @@ private:
   double ModelBounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
   bool CacheTimeSteps = true;
   bool KeepOctrees = false;
-  bool BuildInBackground = false;
+  bool BuildOctrees = true;
+  bool BuiltOctrees = true; // as it was in the last execution
   bool WriteStatistics = false;
   unsigned long CacheMemoryLimit = 1048576;
   unsigned long MemoryLimit = 0;

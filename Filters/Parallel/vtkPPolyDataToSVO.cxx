@@ -234,8 +234,7 @@ void vtkPPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output
       records.push_back({ piece.place, bounds });
     }
   }
-  const bool shared = this->Controller && this->Controller->GetNumberOfProcesses() > 1;
-  if (shared)
+  if (this->Controller && this->Controller->GetNumberOfProcesses() > 1)
   {
     svo::ControllerProcesses processes(this->Controller);
     const std::vector<Record> own = records;
@@ -281,14 +280,6 @@ void vtkPPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output
     this->Convert(piece.input, piece.output, model.data());
   }
   this->SetProgressShiftScale(0.0, 1.0);
-  if (shared && this->GetBuildInBackground())
-  {
-    // The next execution is one of all processes.
-    svo::ControllerProcesses processes(this->Controller);
-    std::vector<std::uint64_t> complete = { this->Preliminary ? 0u : 1u };
-    processes.minimum(complete);
-    this->Preliminary = complete.front() == 0;
-  }
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,8 @@
 #include "vtkCommand.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVSession.h"
+#include "vtkPVView.h"
+#include "vtkSMSession.h"
 #include "vtkSMViewProxy.h"
 #include "vtkSVORepresentation.h"
 
@@ -40,34 +42,77 @@ void vtkSMSVORepresentationProxy::Listen(vtkSMProxy* view)
 {
   if (this->View)
   {
-    this->View->RemoveObserver(this->Observer);
+    for (unsigned long observer : this->Observers)
+    {
+      this->View->RemoveObserver(observer);
+    }
   }
+  this->FrameEnds();
   this->View = view;
   if (view)
   {
-    this->Observer =
+    this->Observers[0] =
       view->AddObserver(vtkCommand::StartEvent, this, &vtkSMSVORepresentationProxy::FrameBegins);
+    this->Observers[1] =
+      view->AddObserver(vtkCommand::EndEvent, this, &vtkSMSVORepresentationProxy::FrameEnds);
   }
+}
+
+bool vtkSMSVORepresentationProxy::MayLeaveOut()
+{
+  // They know, but tell their subclasses only.
+  struct Asking : public vtkSMProxy
+  {
+    using vtkSMProxy::NeedsUpdate;
+  };
+  struct AskingView : public vtkPVView
+  {
+    using vtkPVView::GetInCaptureScreenshot;
+  };
+  auto* own = vtkSVORepresentation::SafeDownCast(this->GetClientSideObject());
+  auto* view = vtkPVView::SafeDownCast(this->View->GetClientSideObject());
+  return this->View->*(&Asking::NeedsUpdate) && own && own->GetVisibility() &&
+    !own->GetForceUseCache() && view && !(view->*(&AskingView::GetInCaptureScreenshot))() &&
+    !this->GetSession()->IsMultiClients();
 }
 
 void vtkSMSVORepresentationProxy::FrameBegins(vtkObject*, unsigned long, void* calldata)
 {
-  auto* own = vtkSVORepresentation::SafeDownCast(this->GetClientSideObject());
   const bool interactive = calldata && *static_cast<int*>(calldata) != 0;
-  if (!own || interactive == this->Interactive || (interactive && !own->GetVisibility()))
+  if (interactive)
   {
+    if (this->MayLeaveOut())
+    {
+      this->TellInteractive(true);
+    }
     return;
   }
+  auto* own = vtkSVORepresentation::SafeDownCast(this->GetClientSideObject());
+  if (own && own->GetUpdatedInteractively())
+  {
+    vtkClientServerStream stream;
+    stream << vtkClientServerStream::Invoke << VTKOBJECT(this) << "CompleteUpdate"
+           << vtkClientServerStream::End;
+    this->ExecuteStream(stream);
+    this->MarkDirty(this); // so that the view updates before it draws
+  }
+}
+
+void vtkSMSVORepresentationProxy::FrameEnds()
+{
+  if (this->Interactive)
+  {
+    this->TellInteractive(false);
+  }
+}
+
+void vtkSMSVORepresentationProxy::TellInteractive(bool interactive)
+{
   this->Interactive = interactive;
-  const bool again = !interactive && own->GetUpdatedInteractively();
   vtkClientServerStream stream;
   stream << vtkClientServerStream::Invoke << VTKOBJECT(this) << "SetInteractive"
          << (interactive ? 1 : 0) << vtkClientServerStream::End;
   this->ExecuteStream(stream);
-  if (again)
-  {
-    this->MarkDirty(this); // so that the view updates before it draws
-  }
 }
 
 void vtkSMSVORepresentationProxy::UpdatePropertyInformationInternal(vtkSMProperty* property)

@@ -3,8 +3,14 @@
  * @brief tells the representation, on all processes, whether the user is interacting
  *
  * ParaView updates its pipelines before interactive frames, too, but only a view's proxy says what
- * kind of frame begins. Representations that are shown hear from this one when an interaction
- * begins and when the next still picture does.
+ * kind of frame begins. Where an interactive frame begins with an update, representations that are
+ * shown hear of it from this one; before the next still picture they complete what that update left
+ * out.
+ *
+ * Not told of interactive frames are representations of sessions with several clients, of
+ * comparative views, and while a screenshot is taken: nothing may be left out there.
+ *
+ * Properties for information are read where octrees are built: on the server's first process.
  */
 #ifndef vtkSMSVORepresentationProxy_h
 #define vtkSMSVORepresentationProxy_h
@@ -37,9 +43,12 @@ private:
 
   void Listen(vtkSMProxy* view);
   void FrameBegins(vtkObject* view, unsigned long event, void* interactive);
+  void FrameEnds();
+  bool MayLeaveOut();
+  void TellInteractive(bool interactive);
 
   vtkWeakPointer<vtkSMProxy> View;
-  unsigned long Observer = 0;
+  unsigned long Observers[2] = { 0, 0 };
   bool Interactive = false; // as the processes were told last
 };
 

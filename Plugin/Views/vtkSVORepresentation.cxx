@@ -6,6 +6,7 @@
 #include "vtkInformationIntegerKey.h"
 #include "vtkObjectFactory.h"
 #include "vtkPPolyDataToSVO.h"
+#include "vtkPVDataDeliveryManager.h"
 #include "vtkPVRenderView.h"
 #include "vtkSVOActor.h"
 #include "vtkSVORenderPass.h"
@@ -43,7 +44,12 @@ void vtkSVORepresentation::ForwardProgress()
 int vtkSVORepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->UpdatedInteractively = this->UpdatedInteractively || this->Interactive;
+  if (this->UpdatedInteractively)
+  {
+    this->ForgetPieces();
+  }
+  this->UpdatedInteractively = this->Interactive;
+  this->Updated = true;
   return this->Superclass::RequestData(request, inputVector, outputVector);
 }
 
@@ -54,13 +60,17 @@ int vtkSVORepresentation::ProcessViewRequest(
   {
     return 0;
   }
-  // A view that draws levels of detail delivers nothing else. What it has of an earlier still
-  // picture does, unless there was an update since.
-  if (request == vtkPVView::REQUEST_UPDATE_LOD() && this->UpdatedInteractively)
+  // A view that draws levels of detail delivers nothing else. What it has of an earlier picture
+  // does, unless there was an update since.
+  if (request == vtkPVView::REQUEST_UPDATE_LOD() && this->Updated)
   {
     vtkPVView::SetPieceLOD(inInfo, this, vtkPVView::GetPiece(inInfo, this));
   }
-  else if (request == vtkPVView::REQUEST_RENDER() && inInfo->Has(vtkPVRenderView::USE_LOD()))
+  else if (request == vtkPVView::REQUEST_RENDER() && !inInfo->Has(vtkPVRenderView::USE_LOD()))
+  {
+    this->Updated = false;
+  }
+  else if (request == vtkPVView::REQUEST_RENDER())
   {
     if (vtkDataObject* surface = vtkPVView::GetDeliveredPieceLOD(inInfo, this))
     {
@@ -78,11 +88,22 @@ int vtkSVORepresentation::ProcessViewRequest(
 void vtkSVORepresentation::SetInteractive(bool interactive)
 {
   this->Interactive = interactive;
-  this->ToOctree->SetBuildInBackground(interactive);
-  if (!interactive && this->UpdatedInteractively)
+  this->ToOctree->SetBuildOctrees(!interactive);
+}
+
+void vtkSVORepresentation::CompleteUpdate()
+{
+  this->UpdatedInteractively = false;
+  this->MarkModified();
+  this->ForgetPieces();
+}
+
+/// What ParaView keeps of time steps, also while an animation plays and MarkModified() leaves it.
+void vtkSVORepresentation::ForgetPieces()
+{
+  if (auto* view = vtkPVView::SafeDownCast(this->GetView()))
   {
-    this->UpdatedInteractively = false;
-    this->MarkModified();
+    view->GetDeliveryManager()->ClearCache(this);
   }
 }
 
@@ -217,6 +238,7 @@ void vtkSVORepresentation::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Interactive: " << this->Interactive << '\n'
      << indent << "UpdatedInteractively: " << this->UpdatedInteractively << '\n'
+     << indent << "Updated: " << this->Updated << '\n'
      << indent << "CastShadows: " << this->GetCastShadows() << '\n'
      << indent << "ReceiveShadows: " << this->GetReceiveShadows() << '\n'
      << indent << "PixelError: " << this->GetPixelError() << '\n'

@@ -67,13 +67,21 @@ public:
 
   //@{
   /**
-   * While the user interacts an update does not wait for octrees: they are built in the background
-   * (see vtkPolyDataToSVO::SetBuildInBackground), and when the interaction is over the
-   * representation needs an update if there was one meanwhile. The same on all processes.
+   * In an interactive frame an update does not wait for octrees: surfaces go out with those that
+   * there are (see vtkPolyDataToSVO::SetBuildOctrees), or without, and the render pass builds what
+   * it needs in the background. The same on all processes.
    */
   void SetInteractive(bool interactive);
   vtkGetMacro(Interactive, bool);
+  //@}
+
+  //@{
+  /**
+   * Whether the last update was one of an interactive frame, and makes another one necessary, which
+   * is complete.
+   */
   vtkGetMacro(UpdatedInteractively, bool);
+  void CompleteUpdate();
   //@}
 
   void SetVisibility(bool visible) override;
@@ -102,11 +110,13 @@ private:
   void operator=(const vtkSVORepresentation&) = delete;
 
   void UpdateUse(vtkView* view);
+  void ForgetPieces();
   void ForwardProgress();
 
   vtkNew<vtkPPolyDataToSVO> ToOctree;
   bool Interactive = false;
   bool UpdatedInteractively = false;
+  bool Updated = false;         // since the view showed all of its data, and not levels of detail
   vtkWeakPointer<vtkView> Used; // the view whose pass this one is a user of
 };
 

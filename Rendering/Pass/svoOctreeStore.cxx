@@ -55,7 +55,13 @@ OctreeStore::OctreeStore(BackgroundBuild::Launcher launcher)
 {
 }
 
-OctreeStore::~OctreeStore() = default;
+OctreeStore::~OctreeStore()
+{
+  for (auto& job : this->Jobs)
+  {
+    job.second.build->abandon(); // all of them before the first is waited for
+  }
+}
 
 OctreeStore::Known& OctreeStore::knownOf(vtkPolyData* mesh, const StoreOptions& options)
 {
@@ -108,7 +114,7 @@ OctreeStore::Answer OctreeStore::find(
   }
   const Key key(this->knownOf(mesh, options).signature, level, options.leafGeometry);
   const auto job = this->Jobs.find(key);
-  if (job != this->Jobs.end() && (job->second->build.done() || options.wait))
+  if (job != this->Jobs.end() && (job->second.build->done() || options.wait))
   {
     this->waitFor(key, options);
   }
@@ -172,6 +178,7 @@ void OctreeStore::build(vtkPolyData* mesh, const Key& key, const StoreOptions& o
   MeshOctreeOptions build;
   build.level = std::get<1>(key);
   build.leafGeometry = std::get<2>(key);
+  build.signature = std::get<0>(key);
   build.progress = [&options](double amount)
   {
     if (options.progress)
@@ -190,37 +197,45 @@ void OctreeStore::buildInBackground(vtkPolyData* mesh, const Key& key)
   const auto running = this->Jobs.find(key);
   if (running != this->Jobs.end())
   {
-    running->second->lastFrame = this->Frame;
+    running->second.lastFrame = this->Frame;
     return;
   }
   const auto atWork = std::count_if(this->Jobs.begin(), this->Jobs.end(),
-    [](const auto& job) { return !job.second->build.done(); });
-  if (atWork >= MostJobs)
+    [](const auto& job) { return !job.second.build->done(); });
+  if (atWork >= BackgroundBuild::MostAtATime || this->TooLarge.count(key) > 0)
   {
     return;
   }
   MeshOctreeOptions build;
   build.level = std::get<1>(key);
   build.leafGeometry = std::get<2>(key);
-  this->Jobs[key].reset(new Job{ { mesh, build, this->Launch }, mesh, this->Frame });
+  build.signature = std::get<0>(key);
+  if (auto begun = BackgroundBuild::begin(mesh, build, this->Launch))
+  {
+    this->Jobs[key] = { std::move(begun), mesh, this->Frame };
+  }
 }
 
 void OctreeStore::waitFor(const Key& key, const StoreOptions& options)
 {
   const auto job = this->Jobs.find(key);
-  while (options.progress && !job->second->build.done())
+  while (options.progress && !job->second.build->done())
   {
-    options.progress(job->second->build.progress());
+    options.progress(job->second.build->progress());
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  this->keepResult(key, *job->second);
+  this->keepResult(key, *job->second.build);
   this->Jobs.erase(job);
 }
 
-void OctreeStore::keepResult(const Key& key, Job& job)
+void OctreeStore::keepResult(const Key& key, BackgroundBuild& build)
 {
-  const BackgroundBuild::Result& result = job.build.result();
-  if (!job.build.abandoned())
+  const BackgroundBuild::Result& result = build.result();
+  if (result.status == BuildStatus::TooLarge)
+  {
+    this->TooLarge.insert(key); // a frame that waits has all memory for it
+  }
+  else if (!build.abandoned())
   {
     this->Octrees[key] = { result.octree, this->Frame, result.message };
     this->BuiltSoFar += result.octree ? 1 : 0;
@@ -238,17 +253,17 @@ void OctreeStore::endFrame(std::size_t memoryLimit)
   // may come back to a pose; but nobody waits for those of a mesh that is gone.
   for (auto job = this->Jobs.begin(); job != this->Jobs.end();)
   {
-    const bool asked = this->Frame - job->second->lastFrame < FramesOfOthers;
-    if (!asked && !job->second->mesh)
+    const bool asked = this->Frame - job->second.lastFrame < FramesOfOthers;
+    if (!asked && !job->second.mesh)
     {
-      job->second->build.abandon();
+      job->second.build->abandon();
     }
-    if (asked || !job->second->build.done())
+    if (asked || !job->second.build->done())
     {
       ++job;
       continue;
     }
-    this->keepResult(job->first, *job->second);
+    this->keepResult(job->first, *job->second.build);
     job = this->Jobs.erase(job);
   }
   std::size_t used = this->bytes();
@@ -287,6 +302,6 @@ std::size_t OctreeStore::bytes() const
 int OctreeStore::building() const
 {
   return static_cast<int>(std::count_if(this->Jobs.begin(), this->Jobs.end(),
-    [](const auto& job) { return !job.second->build.abandoned(); }));
+    [](const auto& job) { return !job.second.build->abandoned(); }));
 }
 }

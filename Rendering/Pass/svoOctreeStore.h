@@ -81,9 +81,6 @@ public:
   int built() const { return this->BuiltSoFar; }
 
 private:
-  /// Background builds at a time; each of them uses all processors where it can.
-  static constexpr int MostJobs = 4;
-
   using Key = std::tuple<std::uint64_t, int, LeafGeometry>; // signature, level, leaf geometry
   struct Built
   {
@@ -93,7 +90,7 @@ private:
   };
   struct Job
   {
-    BackgroundBuild build;
+    std::unique_ptr<BackgroundBuild> build;
     vtkWeakPointer<vtkPolyData> mesh;
     std::uint64_t lastFrame; // that asked for it
   };
@@ -112,7 +109,7 @@ private:
   void build(vtkPolyData* mesh, const Key& key, const StoreOptions& options);
   void buildInBackground(vtkPolyData* mesh, const Key& key);
   void waitFor(const Key& key, const StoreOptions& options);
-  void keepResult(const Key& key, Job& job);
+  void keepResult(const Key& key, BackgroundBuild& build);
   Built* substitute(const Key& key);
   Answer answer(const Key& key, Built& built, const StoreOptions& options, Octree& octree);
 
@@ -121,7 +118,8 @@ private:
   std::set<std::pair<std::uint64_t, std::string>> Said; // of a signature
   std::map<vtkPolyData*, Known> Meshes;
   std::map<Key, Built> Octrees;
-  std::map<Key, std::unique_ptr<Job>> Jobs;
+  std::map<Key, Job> Jobs;
+  std::set<Key> TooLarge; // for the share of memory that a background build may use
   std::uint64_t Frame = 1;
 };
 }

@@ -17,6 +17,7 @@
 #include <list>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -286,6 +287,34 @@ TEST_F(OctreeStore, TheStoreMayGoWhileItBuilds)
   EXPECT_EQ(own->find(sphere(1.0, 200), 10, options, octree), Answer::Building);
   own.reset();
   EXPECT_FALSE(octree);
+}
+
+TEST_F(OctreeStore, WhatIsTooLargeIsSaidByTheFrameThatWaits)
+{
+  ASSERT_EQ(find(20, false), Answer::Building);
+  gate.letThrough();
+  endFrame();
+  for (int frame = 0; frame < 12; ++frame)
+  {
+    EXPECT_EQ(find(20, false), Answer::Building);
+    endFrame();
+  }
+  EXPECT_EQ(gate.started(), 0); // not tried again and again
+  EXPECT_EQ(store.building(), 0);
+  EXPECT_TRUE(said.empty());
+  EXPECT_EQ(find(20, true), Answer::None);
+  EXPECT_EQ(said.size(), 1u);
+}
+
+TEST_F(OctreeStore, WithoutAThreadTheOctreeIsBuiltByTheFrameThatWaits)
+{
+  svo::OctreeStore lonely([](std::function<void()>) -> std::thread
+    { throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again)); });
+  options.wait = false;
+  EXPECT_EQ(lonely.find(mesh, 5, options, octree), Answer::Building);
+  EXPECT_EQ(lonely.building(), 0);
+  options.wait = true;
+  EXPECT_EQ(lonely.find(mesh, 5, options, octree), Answer::Found);
 }
 
 TEST_F(OctreeStore, BuildsAtATimeAreLimited)

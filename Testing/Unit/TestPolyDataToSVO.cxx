@@ -1,9 +1,5 @@
-// The conversion filter in a pipeline: the mesh passes through, poses are built once, bad input
-// leads to one message.
-#include "vtkPolyDataToSVO.h"
-
-#include "svoMeshOctree.h"
-#include "svoTestMessages.h"
+// The conversion filter in a pipeline: the mesh passes through, poses are built once.
+#include "svoConversion.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
@@ -19,12 +15,9 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkSphereSource.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -33,24 +26,6 @@
 
 namespace
 {
-vtkSmartPointer<vtkPolyData> sphere(double radius = 0.5)
-{
-  vtkNew<vtkSphereSource> source;
-  source->SetThetaResolution(16);
-  source->SetPhiResolution(12);
-  source->SetRadius(radius);
-  source->Update();
-  return source->GetOutput();
-}
-
-svo::Octree octreeOf(vtkPolyData* mesh)
-{
-  svo::Octree octree;
-  std::string message;
-  svo::openAttachedOctree(mesh, octree, message);
-  return octree;
-}
-
 /// An animated sphere: time steps 0, 1, 2, 3, a radius each. A new object every time, like a
 /// reader.
 class PosesSource : public vtkPolyDataAlgorithm
@@ -82,23 +57,6 @@ protected:
     return 1;
   }
 };
-
-/// Converts mesh at level 4 and expects `count` messages of the given kind, and no other.
-struct Conversion
-{
-  vtkNew<vtkPolyDataToSVO> filter;
-  svo::TestMessages messages{ filter };
-
-  explicit Conversion(vtkPolyData* mesh, int level = 4)
-  {
-    this->filter->SetInputData(mesh);
-    this->filter->SetMaximumLevel(level);
-    this->filter->Update();
-    EXPECT_EQ(this->filter->GetOutput()->GetNumberOfPoints(), mesh->GetNumberOfPoints());
-    EXPECT_EQ(this->filter->GetOutput()->GetNumberOfCells(), mesh->GetNumberOfCells());
-  }
-  svo::Octree octree() const { return octreeOf(this->filter->GetOutput()); }
-};
 }
 
 TEST(PolyDataToSVO, HasDocumentedDefaultsAndClampsItsSettings)
@@ -106,6 +64,7 @@ TEST(PolyDataToSVO, HasDocumentedDefaultsAndClampsItsSettings)
   vtkNew<vtkPolyDataToSVO> filter;
   EXPECT_EQ(filter->GetMaximumLevel(), 10);
   EXPECT_STREQ(filter->GetLeafGeometryAsString(), "Automatic");
+  EXPECT_TRUE(filter->GetBuildOctrees());
   EXPECT_TRUE(filter->GetCacheTimeSteps());
   EXPECT_EQ(filter->GetCacheMemoryLimit(), 1048576u);
   EXPECT_EQ(filter->GetMemoryLimit(), 0u);
@@ -242,6 +201,70 @@ TEST(PolyDataToSVO, TheLeastRecentlyUsedPoseGoesFirst)
   EXPECT_EQ(filter->GetNumberOfCachedOctrees(), 0);
 }
 
+TEST(PolyDataToSVO, WithoutBuildsAMeshGoesOutWithTheOctreeThatItHadLast)
+{
+  const auto mesh = sphere();
+  vtkNew<vtkPolyDataToSVO> filter;
+  filter->SetInputData(mesh);
+  for (const int level : { 4, 6, 5 })
+  {
+    filter->SetMaximumLevel(level);
+    filter->Update();
+  }
+  filter->BuildOctreesOff();
+  filter->SetMaximumLevel(7);
+  filter->SetLeafGeometryToPlane();
+  filter->Update();
+  EXPECT_EQ(octreeOf(filter->GetOutput()).level(), 5);
+  EXPECT_EQ(filter->GetNumberOfVoxels(),
+    static_cast<vtkIdType>(octreeOf(filter->GetOutput()).header().voxelCount));
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 3);
+  filter->SetLeafGeometryToAutomatic();
+  filter->SetMaximumLevel(6); // is kept
+  filter->Update();
+  EXPECT_EQ(octreeOf(filter->GetOutput()).level(), 6);
+
+  filter->SetMaximumLevel(7);
+  filter->SetInputData(sphere(0.7)); // another mesh's octree is no substitute
+  filter->Update();
+  EXPECT_FALSE(filter->GetOutput()->GetFieldData()->HasArray(svo::OctreeArrayName));
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), mesh->GetNumberOfPolys());
+
+  filter->BuildOctreesOn();
+  filter->Update();
+  EXPECT_EQ(octreeOf(filter->GetOutput()).level(), 7);
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 4);
+}
+
+TEST(PolyDataToSVO, WithoutBuildsAMeshKeepsTheOctreeThatItBrings)
+{
+  vtkNew<vtkPolyDataToSVO> upstream;
+  upstream->SetInputData(sphere());
+  upstream->SetMaximumLevel(3);
+  upstream->Update();
+  vtkNew<vtkPolyDataToSVO> filter;
+  filter->SetInputData(upstream->GetOutput());
+  filter->SetMaximumLevel(6);
+  filter->BuildOctreesOff();
+  filter->Update();
+  EXPECT_EQ(octreeOf(filter->GetOutput()).level(), 3);
+  filter->BuildOctreesOn();
+  filter->Update();
+  EXPECT_EQ(octreeOf(filter->GetOutput()).level(), 6);
+}
+
+TEST(PolyDataToSVO, SwitchingBuildsMakesNothingOutdatedThatIsComplete)
+{
+  vtkNew<vtkPolyDataToSVO> filter;
+  filter->SetInputData(sphere());
+  filter->SetMaximumLevel(4);
+  filter->Update();
+  const auto time = filter->GetMTime();
+  filter->BuildOctreesOff();
+  filter->BuildOctreesOn();
+  EXPECT_EQ(filter->GetMTime(), time);
+}
+
 TEST(PolyDataToSVO, AMeshThatChangedIsBuiltAgain)
 {
   vtkNew<vtkPolyData> mesh;
@@ -323,134 +346,6 @@ TEST(PolyDataToSVO, AnAbortedBuildLeavesTheMeshWithoutAnOctree)
   filter->Modified();
   filter->Update();
   EXPECT_TRUE(octreeOf(filter->GetOutput()));
-}
-
-TEST(PolyDataToSVO, PointsThatAreNotFiniteLeadToOneWarning)
-{
-  for (double bad : { std::numeric_limits<double>::quiet_NaN(),
-         std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() })
-  {
-    const auto mesh = sphere();
-    mesh->GetPoints()->SetPoint(40, 0.0, bad, 0.0);
-    const Conversion conversion(mesh);
-    EXPECT_EQ(conversion.messages.warnings.size(), 1u);
-    EXPECT_EQ(conversion.messages.errors.size(), 0u);
-    EXPECT_NE(conversion.messages.all().find("6 of the mesh's"), std::string::npos)
-      << conversion.messages.all();
-    EXPECT_GT(conversion.filter->GetNumberOfVoxels(), 0);
-    EXPECT_TRUE(conversion.octree());
-  }
-}
-
-TEST(PolyDataToSVO, OnlyPointsThatAreNotFiniteLeadToOneWarning)
-{
-  const auto mesh = sphere();
-  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
-  {
-    mesh->GetPoints()->SetPoint(i, std::nan(""), std::nan(""), std::nan(""));
-  }
-  const Conversion conversion(mesh);
-  EXPECT_EQ(conversion.messages.warnings.size(), 1u);
-  EXPECT_EQ(conversion.messages.errors.size(), 0u);
-  ASSERT_TRUE(conversion.octree());
-  EXPECT_EQ(conversion.filter->GetNumberOfVoxels(), 0);
-}
-
-TEST(PolyDataToSVO, AnEmptyMeshIsNothingToTalkAbout)
-{
-  vtkNew<vtkPolyData> mesh;
-  const Conversion conversion(mesh);
-  EXPECT_EQ(conversion.messages.all(), "");
-  ASSERT_TRUE(conversion.octree());
-  EXPECT_TRUE(conversion.octree().empty());
-}
-
-TEST(PolyDataToSVO, AMeshOfLinesOrVerticesLeadsToOneWarning)
-{
-  for (bool lines : { false, true })
-  {
-    vtkNew<vtkPoints> points;
-    points->InsertNextPoint(0.0, 0.0, 0.0);
-    points->InsertNextPoint(1.0, 0.0, 0.0);
-    vtkNew<vtkCellArray> cells;
-    cells->InsertNextCell({ 0, 1 });
-    vtkNew<vtkPolyData> mesh;
-    mesh->SetPoints(points);
-    if (lines)
-    {
-      mesh->SetLines(cells);
-    }
-    else
-    {
-      mesh->SetVerts(cells);
-    }
-    const Conversion conversion(mesh);
-    EXPECT_EQ(conversion.messages.warnings.size(), 1u);
-    EXPECT_EQ(conversion.messages.errors.size(), 0u);
-    EXPECT_TRUE(conversion.octree());
-    EXPECT_EQ(conversion.filter->GetNumberOfVoxels(), 0);
-  }
-}
-
-TEST(PolyDataToSVO, AllPointsInOnePlaceAreOneVoxelAndOneWarning)
-{
-  for (double where : { 0.0, 1e6 })
-  {
-    const auto mesh = sphere();
-    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
-    {
-      mesh->GetPoints()->SetPoint(i, where, where, where);
-    }
-    const Conversion conversion(mesh);
-    EXPECT_EQ(conversion.messages.warnings.size(), 1u);
-    EXPECT_EQ(conversion.messages.errors.size(), 0u);
-    EXPECT_GE(conversion.filter->GetNumberOfVoxels(), 1);
-    EXPECT_LE(conversion.filter->GetNumberOfVoxels(), 8); // it may lie on a corner
-  }
-}
-
-TEST(PolyDataToSVO, APlaneWithoutThicknessIsAnOrdinaryMesh)
-{
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(0.0, 0.0, 5.0);
-  points->InsertNextPoint(2.0, 0.0, 5.0);
-  points->InsertNextPoint(2.0, 1.0, 5.0);
-  points->InsertNextPoint(0.0, 1.0, 5.0);
-  vtkNew<vtkCellArray> polys;
-  polys->InsertNextCell({ 0, 1, 2, 3 });
-  vtkNew<vtkPolyData> mesh;
-  mesh->SetPoints(points);
-  mesh->SetPolys(polys);
-  const Conversion conversion(mesh);
-  EXPECT_EQ(conversion.messages.all(), "");
-  EXPECT_GE(conversion.filter->GetNumberOfVoxels(), 16 * 8);
-}
-
-TEST(PolyDataToSVO, AnOctreeBeyondTheMemoryLimitIsRefusedBeforeItIsBuilt)
-{
-  const auto mesh = sphere();
-  vtkNew<vtkPolyDataToSVO> filter;
-  const svo::TestMessages messages(filter);
-  filter->SetInputData(mesh);
-  filter->SetMaximumLevel(14);
-  filter->SetMemoryLimit(16384); // KiB
-  filter->Update();
-  EXPECT_EQ(messages.errors.size(), 1u);
-  EXPECT_EQ(messages.warnings.size(), 0u);
-  EXPECT_NE(messages.all().find("level 14"), std::string::npos) << messages.all();
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), mesh->GetNumberOfPolys());
-  EXPECT_FALSE(octreeOf(filter->GetOutput()));
-  filter->SetMaximumLevel(3);
-  filter->Update();
-  EXPECT_TRUE(octreeOf(filter->GetOutput()));
-}
-
-TEST(PolyDataToSVO, TheDeepestLevelIsRefusedWithinTheMachinesMemory)
-{
-  const auto mesh = sphere();
-  const Conversion conversion(mesh, 20); // 10^12 voxels
-  EXPECT_EQ(conversion.messages.errors.size(), 1u);
-  EXPECT_FALSE(conversion.octree());
 }
 
 TEST(PolyDataToSVO, AForeignOctreeOnTheInputIsReplaced)

@@ -5,8 +5,10 @@
 #include "vtkPoints.h"
 #include "vtkSMPTools.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <set>
@@ -130,6 +132,25 @@ TEST_P(SMPParallel, ManyThreadsMayLoopBesideVTK)
 INSTANTIATE_TEST_SUITE_P(Backends, SMPParallel, ::testing::Values("Sequential", "STDThread", "TBB"),
   [](const auto& info) { return std::string(info.param); });
 
+namespace
+{
+/// How many threads a loop ran on, the caller's among them.
+std::size_t threadsOf(const svo::ParallelFor& parallelFor)
+{
+  std::mutex mutex;
+  std::set<std::thread::id> seen;
+  parallelFor(0, 1000, 1,
+    [&](std::size_t, std::size_t)
+    {
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+      const std::lock_guard<std::mutex> lock(mutex);
+      seen.insert(std::this_thread::get_id());
+    });
+  EXPECT_EQ(seen.count(std::this_thread::get_id()), 1u);
+  return seen.size();
+}
+}
+
 TEST(SMPParallelThreads, ThereAreAsManyAsVTKIsTold)
 {
   const std::string before = vtkSMPTools::GetBackend();
@@ -137,20 +158,26 @@ TEST(SMPParallelThreads, ThereAreAsManyAsVTKIsTold)
   for (const int asked : { 1, 2, 5 })
   {
     vtkSMPTools::Initialize(asked);
-    const int threads = vtkSMPTools::GetEstimatedNumberOfThreads(); // or what the machine has
-    std::mutex mutex;
-    std::set<std::thread::id> seen;
-    svo::smpParallelFor()(0, 1000, 1,
-      [&](std::size_t, std::size_t)
-      {
-        std::this_thread::sleep_for(std::chrono::microseconds(100));
-        const std::lock_guard<std::mutex> lock(mutex);
-        seen.insert(std::this_thread::get_id());
-      });
-    EXPECT_EQ(seen.size(), static_cast<std::size_t>(threads));
-    EXPECT_EQ(seen.count(std::this_thread::get_id()), 1u);
+    // Or what the machine has.
+    const auto threads = static_cast<std::size_t>(vtkSMPTools::GetEstimatedNumberOfThreads());
+    EXPECT_EQ(threadsOf(svo::smpParallelFor()), threads);
+    EXPECT_EQ(threadsOf(svo::backgroundParallelFor()), std::max<std::size_t>(threads - 1, 1));
   }
   vtkSMPTools::Initialize();
+  vtkSMPTools::SetBackend(before.c_str());
+}
+
+TEST(SMPParallelThreads, WhereVTKHasOneByDefaultThereIsOneForEachProcessor)
+{
+  if (std::getenv("VTK_SMP_BACKEND_IN_USE") || std::getenv("VTK_SMP_MAX_THREADS"))
+  {
+    GTEST_SKIP() << "the environment says something else";
+  }
+  const std::string before = vtkSMPTools::GetBackend();
+  ASSERT_TRUE(vtkSMPTools::SetBackend("Sequential"));
+  const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
+  EXPECT_EQ(threadsOf(svo::smpParallelFor()), processors);
+  EXPECT_EQ(threadsOf(svo::backgroundParallelFor()), std::max<std::size_t>(processors - 1, 1));
   vtkSMPTools::SetBackend(before.c_str());
 }
 

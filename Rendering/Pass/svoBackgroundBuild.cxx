@@ -3,8 +3,9 @@
 #include "vtkCellArray.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 
+#include <new>
+#include <system_error>
 #include <utility>
 
 namespace svo
@@ -34,12 +35,24 @@ vtkSmartPointer<vtkPolyData> privateCopy(vtkPolyData* mesh)
 }
 }
 
-BackgroundBuild::BackgroundBuild(
+std::unique_ptr<BackgroundBuild> BackgroundBuild::begin(
   vtkPolyData* mesh, const MeshOctreeOptions& options, const Launcher& launch)
 {
-  std::function<void()> body = [this, copy = privateCopy(mesh), options]
-  { this->run(copy, options); };
-  this->Thread = launch ? launch(std::move(body)) : std::thread(std::move(body));
+  try
+  {
+    std::unique_ptr<BackgroundBuild> build(new BackgroundBuild);
+    std::function<void()> body = [self = build.get(), copy = privateCopy(mesh), options]
+    { self->run(copy, options); };
+    build->Thread = launch ? launch(std::move(body)) : std::thread(std::move(body));
+    return build;
+  }
+  catch (const std::bad_alloc&)
+  {
+  }
+  catch (const std::system_error&)
+  {
+  }
+  return nullptr;
 }
 
 BackgroundBuild::~BackgroundBuild()
@@ -54,6 +67,10 @@ BackgroundBuild::~BackgroundBuild()
 void BackgroundBuild::run(vtkPolyData* mesh, MeshOctreeOptions options)
 {
   options.parallelFor = backgroundParallelFor();
+  if (options.memoryLimit == 0)
+  {
+    options.memoryLimit = availableMemory() / MostAtATime;
+  }
   options.progress = [this](double amount)
   {
     this->Progress = amount;

@@ -4,10 +4,12 @@
 
 #include "svoMeshOctree.h"
 #include "svoOctree.h"
-#include "vtkSVOCoreModule.h"
+
+#include "vtkSmartPointer.h"
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -15,13 +17,15 @@ class vtkPolyData;
 
 namespace svo
 {
-/// Begins when it is made and is abandoned when it goes. It reads a copy of the mesh's points and
-/// cells: the mesh may change or go meanwhile.
-class VTKSVOCORE_EXPORT BackgroundBuild
+/// It reads a copy of the mesh's points and cells: the mesh may change or go meanwhile.
+class BackgroundBuild
 {
 public:
   /// Gives the thread that runs the function it is given.
   using Launcher = std::function<std::thread(std::function<void()>)>;
+
+  /// Builds at a time. Each may use as large a share of the memory that there is.
+  static constexpr int MostAtATime = 4;
 
   /// As buildMeshOctree() has them.
   struct Result
@@ -31,8 +35,12 @@ public:
     std::string message;
   };
 
-  /// options.progress has no part in it. Without a launcher it is std::thread's constructor.
-  BackgroundBuild(vtkPolyData* mesh, const MeshOctreeOptions& options, const Launcher& launch = {});
+  /// Null if there is not enough memory for the copy, or no thread to be had. Without a launcher it
+  /// is std::thread's constructor. options.progress and options.parallelFor have no part in it.
+  static std::unique_ptr<BackgroundBuild> begin(
+    vtkPolyData* mesh, const MeshOctreeOptions& options, const Launcher& launch = {});
+
+  /// Abandons it and waits for its end.
   ~BackgroundBuild();
   BackgroundBuild(const BackgroundBuild&) = delete;
   BackgroundBuild& operator=(const BackgroundBuild&) = delete;
@@ -51,6 +59,7 @@ public:
   const Result& result();
 
 private:
+  BackgroundBuild() = default;
   void run(vtkPolyData* mesh, MeshOctreeOptions options);
 
   std::atomic<bool> Done{ false };

@@ -1,5 +1,5 @@
 """Interactive frames do not wait for octrees, whatever has changed right before; the still picture that
-follows does, and is the one that it would have been anyway."""
+follows does, and is the one that it would have been anyway. So are screenshots and animations."""
 
 import unittest
 
@@ -14,7 +14,7 @@ from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 DETAILS = {"full-geometry": 1000.0, "levels-of-detail": 0.0}
 
 
-class TestBackgroundBuilds(unittest.TestCase):
+class TestInteractiveChanges(unittest.TestCase):
     def setUp(self):
         self.view = scene.make_view((300, 200))
         scene.add_sun(self.view)
@@ -117,36 +117,116 @@ class TestBackgroundBuilds(unittest.TestCase):
             after = self.check_still(f"blocks-{name}", builds=2)
             self.assertLess(scene.differing(after, still, 40), 0.01)
 
+    def show_series(self, name, steps, level):
+        """Voxels so large that no other octree looks the same."""
+        path = series.write(scene.output(name), series.breathing_ball(steps))
+        pv.Hide(self.ball, self.view)
+        display = scene.show(pv.PVDReader(FileName=path), self.view)
+        display.SVOLeafGeometry = "Voxel"
+        display.SVOMaximumLevel = level
+        self.displays[0] = display
+        return pv.GetAnimationScene()
+
     def test_time(self):
         steps = 4
-        path = series.write(scene.output("ball"), series.breathing_ball(steps))
-        pv.Hide(self.ball, self.view)
-        reader = pv.PVDReader(FileName=path)
+        self.show_series("time", steps, 4)
+        self.view.ViewTime = 0
+        pv.Render(self.view)
+        for time in range(1, steps):
+            self.before = self.builds()
+            self.view.ViewTime = time
+            self.view.SMProxy.InteractiveRender()
+            self.assertEqual(self.builds(), self.before)
+        first = self.check_still("time-still")
+        self.view.ViewTime = 0
+        scene.picture(self.view, "time-0")
+        self.view.ViewTime = steps - 1
+        self.assertEqual(scene.differing(scene.picture(self.view, "time-again"), first, 0), 0)
+        self.assertEqual(self.builds(), self.before + 1)
+
+    def test_time_steps_of_an_animation_are_complete(self):
+        """Also those that ParaView keeps, and that begin while the user still interacts."""
         for cache in (0, 1):
             pv.GetSettingsProxy("GeneralSettings").CacheGeometryForAnimation = cache
-            self.displays[0] = scene.show(reader, self.view)
-            self.displays[0].SVOMaximumLevel = 9 - cache
-            self.view.ViewTime = 0
-            pv.Render(self.view)
-            for time in range(1, steps):
-                self.before = self.builds()
-                self.view.ViewTime = time
-                self.view.SMProxy.InteractiveRender()
-                self.assertEqual(self.builds(), self.before)
-            first = self.check_still(f"time-{cache}")
-            self.view.ViewTime = 0
-            scene.picture(self.view, "time-0")
-            self.view.ViewTime = steps - 1
-            self.assertEqual(scene.differing(scene.picture(self.view, "time"), first, 0), 0)
-            self.assertEqual(self.builds(), self.before + 1)
+            for turning in (False, True):
+                with self.subTest(cache=cache, turning=turning):
+                    # A level of its own each, so that all are built.
+                    animation = self.show_series(f"animation{cache}{turning}", 4, 4)
+                    animation.UpdateAnimationUsingDataTimeSteps()
+                    expected = []
+                    for time in range(4):
+                        animation.AnimationTime = time
+                        expected.append(scene.picture(self.view, f"animation-{time}"))
+                    self.displays[0].SVOMaximumLevel = 5
+                    animation.AnimationTime = 0
+                    pv.Render(self.view)
+                    self.displays[0].SVOMaximumLevel = 4
+                    self.displays[0].SVOCacheMemoryLimit = 0
+                    for time in (1, 0, 2, 3, 1, 2, 0, 3):
+                        if turning:
+                            self.view.SMProxy.InteractiveRender()
+                        animation.AnimationTime = time
+                        shown = scene.picture(self.view, "animation-shown")
+                        self.assertEqual(scene.differing(shown, expected[time], 0), 0)
+                    self.assertGreater(scene.differing(expected[0], expected[1], 20), 0.01)
+                    pv.Hide(pv.GetActiveSource(), self.view)
+                    pv.Delete(self.displays[0].Input)
+
+    def updates(self, action):
+        """How often the ball's representation is updated meanwhile."""
+        representation = self.displays[0].SMProxy.GetClientSideObject().GetActiveRepresentation()
+        count = []
+        observer = representation.AddObserver("UpdateDataEvent", lambda *_: count.append(1))
+        action()
+        representation.RemoveObserver(observer)
+        return len(count)
 
     def test_a_camera_that_only_moves_updates_nothing(self):
-        pv.Render(self.view)
-        for _ in range(3):
-            self.view.CameraPosition = list(numpy.array(self.view.CameraPosition) + 0.1)
-            self.view.SMProxy.InteractiveRender()
-        pv.Render(self.view)
-        self.assertEqual(self.builds(), self.before)
+        def turn():
+            for _ in range(3):
+                self.view.CameraPosition = list(numpy.array(self.view.CameraPosition) + 0.1)
+                self.view.SMProxy.InteractiveRender()
+            pv.Render(self.view)
+
+        self.assertEqual(self.updates(turn), 0)
+        self.displays[0].SVOMaximumLevel = 6
+        # By the first frame, and to complete it by the still picture.
+        self.assertEqual(self.updates(turn), 2)
+        self.assertEqual(self.updates(turn), 0)
+
+    def test_screenshots_are_complete(self):
+        self.view.UseInteractiveRenderingForScreenshots = 1
+        self.ball.ThetaResolution = 12
+        scene.picture(self.view, "interactive-screenshot")
+        self.assertEqual(self.builds(), self.before + 1)
+        self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 2)
+
+    def test_updates_outside_of_frames(self):
+        still = scene.picture(self.view, "outside-before")
+        for resolution, name in zip((100, 90), DETAILS):
+            self.set_detail(name)
+            self.ball.ThetaResolution = resolution
+            self.view.SMProxy.Update()
+            self.assertEqual(self.builds(), self.before + 1)
+            frame = self.interactive_frame()
+            self.assertLess(scene.differing(frame, still, 40), 0.02)
+            self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 2)
+
+    def test_comparative_view(self):
+        view = pv.CreateView("ComparativeRenderView")
+        display = scene.show(self.ball, view)
+        pv.ResetCamera(view)
+        pv.Render(view)
+        root = view.SMProxy.GetRootView()
+        for resolution in (100, 90):
+            builds = scene.statistic(display, "SVONumberOfBuilds")
+            self.ball.ThetaResolution = resolution
+            view.SMProxy.InteractiveRender()
+            root.InteractiveRender()
+            pv.Render(view)
+            self.assertEqual(scene.statistic(display, "SVONumberOfBuilds"), builds + 1)
+            root.UpdatePropertyInformation()
+            self.assertEqual(root.GetProperty("SVONumberOfTracedActors").GetElement(0), 1)
 
 
 scene.load_plugin()
