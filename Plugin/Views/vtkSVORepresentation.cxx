@@ -2,6 +2,7 @@
 
 #include "vtkCommand.h"
 #include "vtkCompositePolyDataMapper2.h"
+#include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkObjectFactory.h"
@@ -49,37 +50,39 @@ int vtkSVORepresentation::RequestData(
     this->ForgetPieces();
   }
   this->UpdatedInteractively = this->Interactive;
-  this->Updated = true;
   return this->Superclass::RequestData(request, inputVector, outputVector);
 }
 
 int vtkSVORepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
 {
+  // A view that draws levels of detail delivers nothing else: the whole surface is one.
+  vtkDataObject* shown = nullptr;
+  if (request == vtkPVView::REQUEST_RENDER())
+  {
+    shown = inInfo->Has(vtkPVRenderView::USE_LOD()) ? vtkPVView::GetDeliveredPieceLOD(inInfo, this)
+                                                    : nullptr;
+    this->BlockAttrChanged = this->BlockAttrChanged || shown != this->ShownAsDetail;
+    this->ShownAsDetail = shown;
+  }
+  const vtkMTimeType populated = this->BlockAttributeTime;
   if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
   {
     return 0;
   }
-  // A view that draws levels of detail delivers nothing else. What it has of an earlier picture
-  // does, unless there was an update since.
-  if (request == vtkPVView::REQUEST_UPDATE_LOD() && this->Updated)
+  if (request == vtkPVView::REQUEST_UPDATE_LOD())
   {
     vtkPVView::SetPieceLOD(inInfo, this, vtkPVView::GetPiece(inInfo, this));
   }
-  else if (request == vtkPVView::REQUEST_RENDER() && !inInfo->Has(vtkPVRenderView::USE_LOD()))
+  if (shown)
   {
-    this->Updated = false;
-  }
-  else if (request == vtkPVView::REQUEST_RENDER())
-  {
-    if (vtkDataObject* surface = vtkPVView::GetDeliveredPieceLOD(inInfo, this))
+    this->Mapper->SetInputDataObject(shown);
+    auto* mapper = vtkCompositePolyDataMapper2::SafeDownCast(this->Mapper);
+    if (mapper && (this->BlockAttributeTime > populated || this->BlockAttrChanged))
     {
-      this->Mapper->SetInputDataObject(surface);
-      if (auto* mapper = vtkCompositePolyDataMapper2::SafeDownCast(this->Mapper))
-      {
-        this->PopulateBlockAttributes(mapper->GetCompositeDataDisplayAttributes(), surface);
-        this->BlockAttrChanged = true; // for the other one, when its turn comes
-      }
+      // Not yet so if only the levels of detail were delivered.
+      this->PopulateBlockAttributes(mapper->GetCompositeDataDisplayAttributes(), shown);
+      this->BlockAttrChanged = false;
     }
   }
   return 1;
@@ -238,7 +241,6 @@ void vtkSVORepresentation::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Interactive: " << this->Interactive << '\n'
      << indent << "UpdatedInteractively: " << this->UpdatedInteractively << '\n'
-     << indent << "Updated: " << this->Updated << '\n'
      << indent << "CastShadows: " << this->GetCastShadows() << '\n'
      << indent << "ReceiveShadows: " << this->GetReceiveShadows() << '\n'
      << indent << "PixelError: " << this->GetPixelError() << '\n'

@@ -15,6 +15,7 @@
 #include "vtkSVOViewsModule.h" // for the export macro
 #include "vtkWeakPointer.h"    // for vtkWeakPointer
 
+class vtkDataObject;
 class vtkPPolyDataToSVO;
 
 class VTKSVOVIEWS_EXPORT vtkSVORepresentation : public vtkGeometryRepresentationWithFaces
@@ -116,8 +117,8 @@ private:
   vtkNew<vtkPPolyDataToSVO> ToOctree;
   bool Interactive = false;
   bool UpdatedInteractively = false;
-  bool Updated = false;         // since the view showed all of its data, and not levels of detail
-  vtkWeakPointer<vtkView> Used; // the view whose pass this one is a user of
+  vtkWeakPointer<vtkDataObject> ShownAsDetail; // in the last picture
+  vtkWeakPointer<vtkView> Used;                // the view whose pass this one is a user of
 };
 
 #endif

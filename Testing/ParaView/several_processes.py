@@ -56,6 +56,19 @@ print("traced:", int(scene.statistic(view, "SVONumberOfTracedActors")),
       "instances:", int(scene.statistic(view, "SVONumberOfInstances")),
       "sample distance:", scene.statistic(view, "SVOImageSampleDistance"),
       "time:", "known" if scene.statistic(view, "SVOTraceTime") > 0 else "unknown")
+# Levels of detail, which for these surfaces are the surfaces, on the processes that draw: with a server, the
+# client's and then the server's.
+pv.GetSettingsProxy("RenderViewSettings").LODThreshold = 0.0
+for threshold, name in (1e6, "drawn-by-the-client"), (0.0, "drawn-by-the-server"):
+    view.RemoteRenderThreshold = threshold
+    pv.Render(view)
+    view.SMProxy.InteractiveRender()
+    displays[0].SVOMaximumLevel = 9
+    view.SMProxy.InteractiveRender()
+    displays[0].SVOMaximumLevel = 10
+    view.SMProxy.InteractiveRender()
+    picture(name)
+pv.GetSettingsProxy("RenderViewSettings").LODThreshold = 20.0
 displays[0].Position = [0.3, -0.2, 0.1]
 displays[0].Scale = [1.0, 1.2, 0.9]
 picture("moved")
