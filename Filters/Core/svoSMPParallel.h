@@ -15,8 +15,8 @@ namespace svo
 /// called from any thread.
 VTKSVOCORE_EXPORT ParallelFor smpParallelFor();
 
-/// The same, but plain threads in any case, and one less, so that one processor is left to the
-/// thread that the user waits for.
+/// The same, but plain threads in any case, and one less in each loop: a loop in the background
+/// leaves a processor to the thread that the user waits for.
 VTKSVOCORE_EXPORT ParallelFor backgroundParallelFor();
 }
 

@@ -11,8 +11,8 @@
  *
  * With more than one process each execution is a collective call: all processes of the controller
  * have to update the filter together, those without data with an empty vtkPolyData.
- * BuildInBackground has to be the same for all of them; a process waits for the others' octrees,
- * too.
+ * Settings have to be
+ * the same for all of them.
  *
  * @sa vtkPolyDataToSVO
  */

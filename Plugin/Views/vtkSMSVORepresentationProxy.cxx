@@ -58,37 +58,38 @@ void vtkSMSVORepresentationProxy::Listen(vtkSMProxy* view)
   }
 }
 
-bool vtkSMSVORepresentationProxy::MayLeaveOut()
+/// Whether the frame that begins has to be complete.
+bool vtkSMSVORepresentationProxy::MustBeComplete(vtkSVORepresentation* own, bool interactive)
 {
-  // They know, but tell their subclasses only.
+  // The view knows, but tells its subclasses only.
+  struct Asking : public vtkPVView
+  {
+    using vtkPVView::GetInCaptureScreenshot;
+  };
+  auto* view = vtkPVView::SafeDownCast(this->View->GetClientSideObject());
+  return !interactive || !view || (view->*(&Asking::GetInCaptureScreenshot))() ||
+    own->GetForceUseCache() || this->GetSession()->IsMultiClients();
+}
+
+void vtkSMSVORepresentationProxy::FrameBegins(vtkObject*, unsigned long, void* interactive)
+{
   struct Asking : public vtkSMProxy
   {
     using vtkSMProxy::NeedsUpdate;
   };
-  struct AskingView : public vtkPVView
-  {
-    using vtkPVView::GetInCaptureScreenshot;
-  };
   auto* own = vtkSVORepresentation::SafeDownCast(this->GetClientSideObject());
-  auto* view = vtkPVView::SafeDownCast(this->View->GetClientSideObject());
-  return this->View->*(&Asking::NeedsUpdate) && own && own->GetVisibility() &&
-    !own->GetForceUseCache() && view && !(view->*(&AskingView::GetInCaptureScreenshot))() &&
-    !this->GetSession()->IsMultiClients();
-}
-
-void vtkSMSVORepresentationProxy::FrameBegins(vtkObject*, unsigned long, void* calldata)
-{
-  const bool interactive = calldata && *static_cast<int*>(calldata) != 0;
-  if (interactive)
+  if (!own || !this->View)
   {
-    if (this->MayLeaveOut())
+    return;
+  }
+  if (!this->MustBeComplete(own, interactive && *static_cast<int*>(interactive) != 0))
+  {
+    if (own->GetVisibility() && this->View->*(&Asking::NeedsUpdate))
     {
       this->TellInteractive(true);
     }
-    return;
   }
-  auto* own = vtkSVORepresentation::SafeDownCast(this->GetClientSideObject());
-  if (own && own->GetUpdatedInteractively())
+  else if (own->GetUpdatedInteractively())
   {
     vtkClientServerStream stream;
     stream << vtkClientServerStream::Invoke << VTKOBJECT(this) << "CompleteUpdate"

@@ -19,6 +19,8 @@
 #include "vtkSVOViewsModule.h" // for the export macro
 #include "vtkWeakPointer.h"    // for vtkWeakPointer
 
+class vtkSVORepresentation;
+
 class VTKSVOVIEWS_EXPORT vtkSMSVORepresentationProxy : public vtkSMRepresentationProxy
 {
 public:
@@ -44,7 +46,7 @@ private:
   void Listen(vtkSMProxy* view);
   void FrameBegins(vtkObject* view, unsigned long event, void* interactive);
   void FrameEnds();
-  bool MayLeaveOut();
+  bool MustBeComplete(vtkSVORepresentation* own, bool interactive);
   void TellInteractive(bool interactive);
 
   vtkWeakPointer<vtkSMProxy> View;

@@ -13,6 +13,8 @@
 #include "vtkSVORenderPass.h"
 #include "vtkSVOViewPass.h"
 
+#include <algorithm>
+
 vtkStandardNewMacro(vtkSVORepresentation);
 
 vtkSVORepresentation::vtkSVORepresentation()
@@ -65,6 +67,22 @@ int vtkSVORepresentation::ProcessViewRequest(
     this->BlockAttrChanged = this->BlockAttrChanged || shown != this->ShownAsDetail;
     this->ShownAsDetail = shown;
   }
+  if (request == vtkPVView::REQUEST_UPDATE())
+  {
+    if (!this->vtkPVDataRepresentation::ProcessViewRequest(request, inInfo, outInfo))
+    {
+      return 0;
+    }
+    // Where ParaView draws, and whether levels of detail, follows from the size of the data. It
+    // must not change only because an octree is left out. (The superclass's own call comes too
+    // late.)
+    if (vtkDataObject* surface = this->MultiBlockMaker->GetOutputDataObject(0))
+    {
+      const unsigned long size = surface->GetActualMemorySize();
+      this->Size = this->UpdatedInteractively ? std::max(this->Size, size) : size;
+      vtkPVView::SetPiece(inInfo, this, surface, this->Size);
+    }
+  }
   const vtkMTimeType populated = this->BlockAttributeTime;
   if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
   {
@@ -72,7 +90,7 @@ int vtkSVORepresentation::ProcessViewRequest(
   }
   if (request == vtkPVView::REQUEST_UPDATE_LOD())
   {
-    vtkPVView::SetPieceLOD(inInfo, this, vtkPVView::GetPiece(inInfo, this));
+    vtkPVView::SetPieceLOD(inInfo, this, vtkPVView::GetPiece(inInfo, this), this->Size);
   }
   if (shown)
   {

@@ -117,6 +117,7 @@ private:
   vtkNew<vtkPPolyDataToSVO> ToOctree;
   bool Interactive = false;
   bool UpdatedInteractively = false;
+  unsigned long Size = 0;                      // KiB, of the last complete surface with its octrees
   vtkWeakPointer<vtkDataObject> ShownAsDetail; // in the last picture
   vtkWeakPointer<vtkView> Used;                // the view whose pass this one is a user of
 };

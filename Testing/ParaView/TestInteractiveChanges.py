@@ -197,9 +197,25 @@ class TestInteractiveChanges(unittest.TestCase):
     def test_screenshots_are_complete(self):
         self.view.UseInteractiveRenderingForScreenshots = 1
         self.ball.ThetaResolution = 12
+        self.view.SMProxy.InteractiveRender()
+        self.assertEqual(self.builds(), self.before)
         scene.picture(self.view, "interactive-screenshot")
         self.assertEqual(self.builds(), self.before + 1)
         self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 2)
+
+    def test_what_paraview_takes_for_the_size(self):
+        """Thresholds of the size decide where and how ParaView draws, with octrees or without."""
+        view = self.view.SMProxy.GetClientSideObject()
+        for threshold in (0.5, 1, 2, 3, 4, 5, 6, 8, 12):
+            pv.GetSettingsProxy("RenderViewSettings").LODThreshold = threshold
+            self.ball.ThetaResolution = 128
+            pv.Render(self.view)
+            details = view.GetUseLODForInteractiveRender()
+            self.ball.ThetaResolution = 127
+            self.view.SMProxy.InteractiveRender()
+            self.assertEqual(view.GetUseLODForInteractiveRender(), details)
+            self.displays[0].SVOCacheMemoryLimit = 0  # so that it is not kept for the next threshold
+            pv.Render(self.view)
 
     def test_updates_outside_of_frames(self):
         still = scene.picture(self.view, "outside-before")
