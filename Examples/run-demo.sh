@@ -102,5 +102,5 @@ echo "Frames:    $output/frames/frame-*.png ($(ls "$output/frames" | wc -l))"
 echo "Figures:   $output/figures.json, $output/table.txt"
 echo "Pictures (those named vtkShadowMapPass are VTK's own rasteriser, for comparison):"
 ls "$output"/paper*.png | sed 's/^/  /'
-plugin=$(find build/paraview -name SparseVoxelOctree.so 2>/dev/null || true)
+plugin=$(find build/paraview/lib -name SparseVoxelOctree.so 2>/dev/null || true)
 echo "ParaView plugin: ${plugin:+$PWD/}${plugin:-Testing/run-tests.sh builds it}"

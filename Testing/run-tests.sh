@@ -71,5 +71,5 @@ if [ "$result" -eq 0 ]; then
 else
   echo "Some tests failed. Details: Testing/Temporary/LastTest.log in build/vtk and build/paraview"
 fi
-echo "ParaView plugin: $(find "$PWD/build/paraview" -name SparseVoxelOctree.so)"
+echo "ParaView plugin: $(find "$PWD/build/paraview/lib" -name SparseVoxelOctree.so)"
 exit "$result"
