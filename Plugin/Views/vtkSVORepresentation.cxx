@@ -51,7 +51,7 @@ int vtkSVORepresentation::RequestData(
   {
     this->ForgetPieces();
   }
-  this->UpdatedInteractively = this->Interactive;
+  this->UpdatedInteractively = this->GetInteractive();
   return this->Superclass::RequestData(request, inputVector, outputVector);
 }
 
@@ -108,8 +108,12 @@ int vtkSVORepresentation::ProcessViewRequest(
 
 void vtkSVORepresentation::SetInteractive(bool interactive)
 {
-  this->Interactive = interactive;
   this->ToOctree->SetBuildOctrees(!interactive);
+}
+
+bool vtkSVORepresentation::GetInteractive()
+{
+  return !this->ToOctree->GetBuildOctrees();
 }
 
 void vtkSVORepresentation::CompleteUpdate()
@@ -257,7 +261,7 @@ vtkIdType vtkSVORepresentation::GetCacheMemorySize()
 void vtkSVORepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Interactive: " << this->Interactive << '\n'
+  os << indent << "Interactive: " << this->GetInteractive() << '\n'
      << indent << "UpdatedInteractively: " << this->UpdatedInteractively << '\n'
      << indent << "CastShadows: " << this->GetCastShadows() << '\n'
      << indent << "ReceiveShadows: " << this->GetReceiveShadows() << '\n'

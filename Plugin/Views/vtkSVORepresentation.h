@@ -73,7 +73,7 @@ public:
    * it needs in the background. The same on all processes.
    */
   void SetInteractive(bool interactive);
-  vtkGetMacro(Interactive, bool);
+  bool GetInteractive();
   //@}
 
   //@{
@@ -115,7 +115,6 @@ private:
   void ForwardProgress();
 
   vtkNew<vtkPPolyDataToSVO> ToOctree;
-  bool Interactive = false;
   bool UpdatedInteractively = false;
   unsigned long Size = 0;                      // KiB, of the last complete surface with its octrees
   vtkWeakPointer<vtkDataObject> ShownAsDetail; // in the last picture
