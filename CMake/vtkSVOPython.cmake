@@ -23,6 +23,8 @@ vtk_module_wrap_python(
   INSTALL_HEADERS OFF)
 foreach (module IN LISTS vtksvo_wrapped)
   string(REPLACE "SVO::" "vtk" library "${module}")
+  # VTK's generator knows the members of Python's types up to some version only.
+  target_compile_options("${library}Python" PRIVATE -Wno-missing-field-initializers)
   set_target_properties("${library}Python" PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${VTKSVO_PYTHON_BUILD_DIR}/vtksvo")
   if (VTKSVO_PARAVIEW)

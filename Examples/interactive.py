@@ -176,7 +176,7 @@ class Room:
         actor.SetPosition(0.015, 0.98 if top else 0.02)
         if top:
             actor.GetTextProperty().SetVerticalJustificationToTop()
-        self.renderer.AddActor2D(actor)
+        self.renderer.AddViewProp(actor)
         return actor
 
     def current(self):

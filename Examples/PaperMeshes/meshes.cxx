@@ -13,7 +13,7 @@
 #include <vtkQuadricDecimation.h>
 #include <vtkSphereSource.h>
 #include <vtkTransform.h>
-#include <vtkTransformPolyDataFilter.h>
+#include <vtkTransformFilter.h>
 
 #include <algorithm>
 #include <cmath>
@@ -120,7 +120,7 @@ vtkSmartPointer<vtkTransform> standUpright(vtkPolyData* mesh, double heading)
   vtkNew<vtkTransform> turn;
   turn->RotateZ(heading);
   turn->RotateX(90);
-  vtkNew<vtkTransformPolyDataFilter> turned;
+  vtkNew<vtkTransformFilter> turned;
   turned->SetInputData(mesh);
   turned->SetTransform(turn);
   turned->Update();
@@ -137,11 +137,11 @@ vtkSmartPointer<vtkTransform> standUpright(vtkPolyData* mesh, double heading)
 
 Mesh transformed(vtkPolyData* mesh, vtkTransform* transform)
 {
-  vtkNew<vtkTransformPolyDataFilter> filter;
+  vtkNew<vtkTransformFilter> filter;
   filter->SetInputData(mesh);
   filter->SetTransform(transform);
   filter->Update();
-  return filter->GetOutput();
+  return filter->GetPolyDataOutput();
 }
 
 Mesh sphere(int thetaResolution, int phiResolution)

@@ -133,7 +133,7 @@ Scene::Scene(const Experiment& experiment, const Objects& objects)
   this->Caption->GetTextProperty()->SetColor(1, 1, 1);
   this->Caption->GetTextProperty()->ShadowOn();
   this->Caption->VisibilityOff();
-  this->Renderer->AddActor2D(this->Caption);
+  this->Renderer->AddViewProp(this->Caption);
 
   this->setLight(LightKind::Point);
   this->setFrame(0);

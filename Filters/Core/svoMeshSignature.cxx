@@ -1,5 +1,6 @@
 #include "svoMeshSignature.h"
 
+#include "svoCellIds.h"
 #include "svoSMPParallel.h"
 
 #include "vtkCellArray.h"
@@ -16,15 +17,18 @@
 #include <utility>
 #include <vector>
 
+#include <hwy/base.h>
+
 namespace svo
 {
 namespace
 {
 std::uint64_t mix(std::uint64_t a, std::uint64_t b)
 {
-  const unsigned __int128 product =
-    static_cast<unsigned __int128>(a ^ 0x9e3779b97f4a7c15ull) * (b ^ 0xd1b54a32d192ed03ull);
-  return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
+  std::uint64_t high;
+  const std::uint64_t low =
+    hwy::Mul128(a ^ 0x9e3779b97f4a7c15ull, b ^ 0xd1b54a32d192ed03ull, &high);
+  return low ^ high;
 }
 
 /// Hash of count words word(i), chunk by chunk; the chunks are fixed, so threads do not matter.
@@ -105,23 +109,24 @@ std::uint64_t hashPoints(vtkPoints* points)
   return all;
 }
 
-struct CellHasher
+/// The same for the same cells, whether VTK stores their ids in 32 or 64 bits or computes offsets.
+std::uint64_t hashCells(vtkCellArray* cells)
 {
-  template <typename State>
-  std::uint64_t operator()(State& state)
-  {
-    const auto* offsets = state.GetOffsets()->GetPointer(0);
-    const auto* ids = state.GetConnectivity()->GetPointer(0);
-    const auto cells = static_cast<std::size_t>(state.GetNumberOfCells());
-    const auto hash = [](const auto* values, std::size_t count)
+  const auto offsetCount = static_cast<std::size_t>(cells->GetNumberOfCells()) + 1;
+  const auto idCount = static_cast<std::size_t>(cells->GetNumberOfConnectivityIds());
+  std::uint64_t all = 0;
+  useCellIds(cells,
+    [&](const auto* offsets, const auto* ids)
     {
-      return hashWords(
-        count, 0, [values](std::size_t i) { return static_cast<std::uint64_t>(values[i]); });
-    };
-    return mix(hash(offsets, cells + 1),
-      hash(ids, static_cast<std::size_t>(state.GetConnectivity()->GetNumberOfValues())));
-  }
-};
+      const auto hash = [](const auto* values, std::size_t count)
+      {
+        return hashWords(
+          count, 0, [values](std::size_t i) { return static_cast<std::uint64_t>(values[i]); });
+      };
+      all = mix(hash(offsets, offsetCount), hash(ids, idCount));
+    });
+  return all;
+}
 
 /// VTK's modification times grow over the whole process, so an object that is made where another
 /// one was freed never shows the same pair of address and time: entries need no reference, and
@@ -188,7 +193,7 @@ std::uint64_t cellsHash(vtkCellArray* cells)
   }
   const vtkMTimeType time = std::max({ cells->GetMTime(), cells->GetOffsetsArray()->GetMTime(),
     cells->GetConnectivityArray()->GetMTime() });
-  return memory().get(cells, time, [cells] { return cells->Visit(CellHasher{}); });
+  return memory().get(cells, time, [cells] { return hashCells(cells); });
 }
 }
 

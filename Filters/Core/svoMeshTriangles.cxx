@@ -1,5 +1,7 @@
 #include "svoMeshTriangles.h"
 
+#include "svoCellIds.h"
+
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
@@ -19,14 +21,22 @@ struct Appender
   std::vector<std::uint32_t>& cells;
   std::size_t& broken;
 
-  // Visits the cells of either storage of vtkCellArray without its iterator state, so that
-  // several threads may read one mesh.
-  template <typename State>
-  void operator()(State& state, vtkIdType firstCell, bool strips)
+  void appendAll(vtkCellArray* array, vtkIdType firstCell, bool strips)
   {
-    const auto* offsets = state.GetOffsets()->GetPointer(0);
-    const auto* ids = state.GetConnectivity()->GetPointer(0);
-    const vtkIdType count = state.GetNumberOfCells();
+    const vtkIdType count = array->GetNumberOfCells();
+    if (count > 0 &&
+      !useCellIds(array,
+        [&](const auto* offsets, const auto* ids)
+        { this->appendCells(offsets, ids, count, firstCell, strips); }))
+    {
+      this->broken += static_cast<std::size_t>(count);
+    }
+  }
+
+  template <typename Id>
+  void appendCells(
+    const Id* offsets, const Id* ids, vtkIdType count, vtkIdType firstCell, bool strips)
+  {
     for (vtkIdType c = 0; c < count; ++c)
     {
       const auto* first = ids + offsets[c];
@@ -128,8 +138,8 @@ MeshTriangles::MeshTriangles(vtkPolyData* mesh)
   this->Cells.reserve(triangles);
   Appender append{ static_cast<vtkIdType>(this->PointCount), this->Triangles, this->Cells,
     this->Broken };
-  polys->Visit(append, firstPoly, false);
-  strips->Visit(append, firstStrip, true);
+  append.appendAll(polys, firstPoly, false);
+  append.appendAll(strips, firstStrip, true);
 }
 
 TriangleMesh MeshTriangles::view() const

@@ -108,12 +108,12 @@ HWY_INLINE Verdict meetOneByOne(const LeafQuery& query, const WalkTarget& target
 HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const RayBlock& rays,
   bool anyHit, int first, I leave, Packet& p, BlockHits& hits)
 {
-  const DI di;
   const Lanes arrived = hn::Not(p.dead);
 #if SVO_PACKET_LEAVES
   if (target.points != nullptr)
   {
     const DF df;
+    const DI di;
     const DU du;
     const Lanes none = hn::Ne(p.size, p.size);
     const Lists lists = findLists(target, p, arrived);

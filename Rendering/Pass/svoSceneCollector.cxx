@@ -9,14 +9,9 @@
 #include "vtkAssembly.h"
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"
-#include "vtkCompositeDataDisplayAttributes.h"
-#include "vtkCompositePolyDataMapper2.h"
-#include "vtkDataObjectTree.h"
-#include "vtkDataObjectTreeRange.h"
 #include "vtkDataSetMapper.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
-#include "vtkLookupTable.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
@@ -25,9 +20,6 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkSVORenderPass.h"
-
-#include <functional>
-#include <iterator>
 
 namespace svo
 {
@@ -77,77 +69,6 @@ bool hasSurface(vtkPolyData* mesh)
 {
   return mesh->GetNumberOfPolys() > 0 || mesh->GetNumberOfStrips() > 0;
 }
-
-/// What the composite mapper's attributes say on the way down to a block.
-struct BlockState
-{
-  bool visible = true;
-  bool overridesColor = false;
-  glm::vec3 color{ 1.0f };
-  double opacity = 1.0;
-};
-
-using BlockVisitor = std::function<void(vtkPolyData*, unsigned int, const BlockState&)>;
-
-void visitBlocks(vtkDataObject* object, vtkCompositeDataDisplayAttributes* attributes,
-  BlockState state, unsigned int& flatIndex, const BlockVisitor& visit)
-{
-  if (attributes && attributes->HasBlockVisibility(object))
-  {
-    state.visible = attributes->GetBlockVisibility(object);
-  }
-  if (attributes && attributes->HasBlockOpacity(object))
-  {
-    state.opacity = attributes->GetBlockOpacity(object);
-  }
-  if (attributes && attributes->HasBlockColor(object))
-  {
-    const vtkColor3d color = attributes->GetBlockColor(object);
-    state.overridesColor = true;
-    state.color = { color[0], color[1], color[2] };
-  }
-  const unsigned int index = flatIndex++;
-  if (auto* tree = vtkDataObjectTree::SafeDownCast(object))
-  {
-    for (vtkDataObject* child : vtk::Range(tree, vtk::DataObjectTreeOptions::None))
-    {
-      if (child)
-      {
-        visitBlocks(child, attributes, state, flatIndex, visit);
-      }
-      else
-      {
-        ++flatIndex;
-      }
-    }
-  }
-  else if (auto* mesh = vtkPolyData::SafeDownCast(object))
-  {
-    if (state.visible)
-    {
-      visit(mesh, index, state);
-    }
-  }
-}
-
-/// Blocks that lack the array the others are coloured by take the table's colour of NaN, if asked.
-void colorMissingArray(vtkCompositePolyDataMapper2* mapper, SurfacePart& part)
-{
-  if (!mapper->GetColorMissingArraysWithNanColor() || !mapper->GetScalarVisibility())
-  {
-    return;
-  }
-  int cells = 0;
-  auto* table = vtkLookupTable::SafeDownCast(mapper->GetLookupTable());
-  if (table &&
-    !vtkAbstractMapper::GetAbstractScalars(part.mesh, mapper->GetScalarMode(),
-      mapper->GetArrayAccessMode(), mapper->GetArrayId(), mapper->GetArrayName(), cells))
-  {
-    const double* nan = table->GetNanColor();
-    part.overridesColor = true;
-    part.color = { nan[0], nan[1], nan[2] };
-  }
-}
 }
 
 void SceneCollector::complainOnce(const void* about, const std::string& text, const Frame& frame)
@@ -158,62 +79,26 @@ void SceneCollector::complainOnce(const void* about, const std::string& text, co
   }
 }
 
-vtkMapper* SceneCollector::colorsOfBlock(vtkMapper* mapper, vtkPolyData* block)
-{
-  BlockColors& colors = this->Blocks[{ mapper, block }];
-  colors.lastFrame = this->FrameNumber;
-  if (!colors.mapper)
-  {
-    colors.mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
-  }
-  if (colors.time != mapper->GetMTime())
-  {
-    colors.time = mapper->GetMTime();
-    colors.mapper->vtkMapper::ShallowCopy(mapper);
-    colors.mapper->SetInputData(block);
-  }
-  return colors.mapper;
-}
-
 std::vector<SurfacePart> SceneCollector::partsOf(vtkActor* actor)
 {
-  std::vector<SurfacePart> parts;
   vtkMapper* mapper = actor->GetMapper();
+  const double opacity = actor->GetProperty()->GetOpacity();
+  if (CompositeMapper* composite = compositeMapper(mapper))
+  {
+    return this->Blocks.partsOf(composite, opacity);
+  }
+  auto* dataSet = vtkDataSetMapper::SafeDownCast(mapper);
+  vtkPolyDataMapper* plain =
+    dataSet ? this->Surfaces.mapperOf(dataSet) : vtkPolyDataMapper::SafeDownCast(mapper);
+  if (!plain || !plain->GetInput())
+  {
+    return {};
+  }
   SurfacePart whole;
-  whole.opacity = actor->GetProperty()->GetOpacity();
-  if (auto* composite = vtkCompositePolyDataMapper2::SafeDownCast(mapper))
-  {
-    vtkDataObject* root = composite->GetInputDataObject(0, 0);
-    BlockState state;
-    state.opacity = whole.opacity;
-    unsigned int flatIndex = 0;
-    visitBlocks(root, composite->GetCompositeDataDisplayAttributes(), state, flatIndex,
-      [&](vtkPolyData* mesh, unsigned int index, const BlockState& block)
-      {
-        SurfacePart part;
-        part.mesh = mesh;
-        part.colors = this->colorsOfBlock(mapper, mesh);
-        part.block = index;
-        part.overridesColor = block.overridesColor;
-        part.color = block.color;
-        part.opacity = block.opacity;
-        colorMissingArray(composite, part);
-        parts.push_back(part);
-      });
-  }
-  else
-  {
-    auto* dataSet = vtkDataSetMapper::SafeDownCast(mapper);
-    vtkPolyDataMapper* plain =
-      dataSet ? this->Surfaces.mapperOf(dataSet) : vtkPolyDataMapper::SafeDownCast(mapper);
-    if (plain && plain->GetInput())
-    {
-      whole.mesh = plain->GetInput();
-      whole.colors = plain;
-      parts.push_back(whole);
-    }
-  }
-  return parts;
+  whole.mesh = plain->GetInput();
+  whole.colors = plain;
+  whole.opacity = opacity;
+  return { whole };
 }
 
 /// Adds the actor's surfaces. False if the rasteriser has to draw the actor.
@@ -236,6 +121,13 @@ bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatr
   if (!mapper->GetStatic())
   {
     mapper->GetInputAlgorithm()->Update();
+  }
+  if (isUnknownSurfaceMapper(mapper))
+  {
+    this->complainOnce(nullptr,
+      std::string("Surfaces of a ") + mapper->GetClassName() +
+        " are left to the rasteriser and cast no shadow: this pass does not know that mapper.",
+      frame);
   }
   Treatment treatment = treatmentOf(actor);
   const glm::dmat4 localToWorld = toGlm(matrix);
@@ -263,7 +155,7 @@ bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatr
   }
 
   vtkProperty* property = actor->GetProperty();
-  const bool composite = mapper->IsA("vtkCompositePolyDataMapper2");
+  const bool composite = compositeMapper(mapper) != nullptr;
   const bool translucent = actor->HasTranslucentPolygonalGeometry();
   const bool mayTrace =
     treatment == Treatment::Trace && flagOf(actor, owner, vtkSVORenderPass::USE_SVO(), true);
@@ -377,7 +269,6 @@ void addProp(const PropSurfaces& prop, CollectedScene& result)
 void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options,
   const CollectSettings& settings, CollectedScene& result)
 {
-  ++this->FrameNumber;
   result.scene.lights = lightsOf(renderer, result.headlightOnly);
   bool casting = false;
   for (const Light& light : result.scene.lights)
@@ -403,10 +294,6 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   }
   this->Surfaces.endFrame();
   this->Floats.endFrame();
-  for (auto block = this->Blocks.begin(); block != this->Blocks.end();)
-  {
-    block =
-      block->second.lastFrame == this->FrameNumber ? std::next(block) : this->Blocks.erase(block);
-  }
+  this->Blocks.endFrame();
 }
 }

@@ -2,6 +2,7 @@
 #ifndef svoSceneCollector_h
 #define svoSceneCollector_h
 
+#include "svoCompositeBlocks.h"
 #include "svoDataSetSurfaces.h"
 #include "svoFloatArrays.h"
 #include "svoOctreeStore.h"
@@ -11,18 +12,15 @@
 
 #include "vtkSmartPointer.h"
 
-#include <map>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 class vtkActor;
-class vtkMapper;
 class vtkMatrix4x4;
 class vtkObjectBase;
 class vtkPolyData;
-class vtkPolyDataMapper;
 class vtkProp;
 class vtkRenderer;
 
@@ -68,21 +66,12 @@ private:
   bool collectActor(vtkActor* actor, vtkProp* owner, const vtkMatrix4x4* matrix, int path,
     std::vector<SceneSurface>& surfaces, Frame& frame);
   std::vector<SurfacePart> partsOf(vtkActor* actor);
-  vtkMapper* colorsOfBlock(vtkMapper* mapper, vtkPolyData* block);
   void complainOnce(const void* about, const std::string& text, const Frame& frame);
 
-  /// A composite mapper has one set of colours, but blocks need theirs at the same time.
-  struct BlockColors
-  {
-    vtkSmartPointer<vtkPolyDataMapper> mapper;
-    std::uint64_t time = 0;
-    std::uint64_t lastFrame = 0;
-  };
-  std::map<std::pair<vtkMapper*, vtkPolyData*>, BlockColors> Blocks;
+  CompositeBlocks Blocks;
   DataSetSurfaces Surfaces;
   FloatArrays Floats;
   std::set<std::pair<const void*, std::string>> Said;
-  std::uint64_t FrameNumber = 0;
 };
 }
 

@@ -1,5 +1,7 @@
 #include "svoSurfaceLook.h"
 
+#include "svoCompositeBlocks.h"
+
 #include "vtkActor.h"
 #include "vtkCellData.h"
 #include "vtkFloatArray.h"
@@ -27,8 +29,8 @@ namespace
 bool isPlainMapper(vtkMapper* mapper)
 {
   const std::string name = mapper->GetClassName();
-  return name == "vtkOpenGLPolyDataMapper" || name == "vtkCompositePolyDataMapper2" ||
-    name == "vtkDataSetMapper";
+  return name == "vtkOpenGLPolyDataMapper" || name == "vtkDataSetMapper" ||
+    name == CompositeMapperName;
 }
 
 bool hasCustomShaders(vtkActor* actor)
@@ -159,6 +161,18 @@ bool isPlainActor(vtkActor* actor)
     name == "vtkPVLODActor";
 }
 
+bool isUnknownSurfaceMapper(vtkMapper* mapper)
+{
+  // These draw something else in the place of the mesh's triangles, and nobody expects otherwise.
+  constexpr const char* others[] = { "vtkPointGaussianMapper", "vtkOpenGLSphereMapper",
+    "vtkOpenGLStickMapper", "vtkOpenGLGlyph3DHelper", "vtkSurfaceLICMapper",
+    "vtkCompositeSurfaceLICMapper" };
+  return !isPlainMapper(mapper) &&
+    (mapper->IsA("vtkPolyDataMapper") || mapper->IsA("vtkCompositePolyDataMapper2")) &&
+    std::none_of(std::begin(others), std::end(others),
+      [mapper](const char* name) { return mapper->IsA(name) != 0; });
+}
+
 Treatment treatmentOf(vtkActor* actor)
 {
   vtkMapper* mapper = actor->GetMapper();
@@ -183,7 +197,7 @@ bool lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Materia
   Attributes& attributes, FloatArrays& floats, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
 {
   vtkPolyData* mesh = part.mesh;
-  if (mesh->GetNumberOfVerts() > 0 || mesh->GetNumberOfLines() > 0)
+  if (part.textured || mesh->GetNumberOfVerts() > 0 || mesh->GetNumberOfLines() > 0)
   {
     return false;
   }

@@ -31,6 +31,10 @@ enum class Treatment
 /// axes and sky boxes are actors too.
 bool isPlainActor(vtkActor* actor);
 
+/// True for a mapper that should draw a mesh's triangles, but whose class is not known here: it is
+/// rasterised, and whoever chose it should hear of that.
+bool isUnknownSurfaceMapper(vtkMapper* mapper);
+
 /// What a plain actor, its property and its mapper's settings allow, whatever the mesh.
 Treatment treatmentOf(vtkActor* actor);
 
@@ -42,7 +46,8 @@ struct SurfacePart
   unsigned int block = 0;      // flat index
   bool overridesColor = false; // the block's colour, instead of scalars and the property's colour
   glm::vec3 color{ 1.0f };
-  double opacity = 1.0; // of the property or the block, scalars not considered
+  double opacity = 1.0;  // of the property or the block, scalars not considered
+  bool textured = false; // the block has a texture of its own
 };
 
 /// Material and attributes of a part. False if the look is beyond the tracer. Arrays that the

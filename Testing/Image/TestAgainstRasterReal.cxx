@@ -7,7 +7,7 @@
 #include "vtkNew.h"
 #include "vtkPolyDataNormals.h"
 #include "vtkTransform.h"
-#include "vtkTransformPolyDataFilter.h"
+#include "vtkTransformFilter.h"
 
 #include <algorithm>
 #include <iostream>
@@ -29,7 +29,7 @@ vtkSmartPointer<vtkPolyData> fitted(vtkPolyData* mesh)
   transform->Scale(scale, scale, scale);
   transform->Translate(
     -0.5 * (bounds[0] + bounds[1]), -0.5 * (bounds[2] + bounds[3]), -0.5 * (bounds[4] + bounds[5]));
-  vtkNew<vtkTransformPolyDataFilter> move;
+  vtkNew<vtkTransformFilter> move;
   move->SetInputData(mesh);
   move->SetTransform(transform);
   vtkNew<vtkPolyDataNormals> normals;

@@ -4,6 +4,7 @@
 #include "vtkCellArray.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenGLPolyDataMapper.h"
 #include "vtkOutputWindow.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -36,6 +37,15 @@ private:
   }
 };
 vtkStandardNewMacro(Messages);
+
+// A mapper as a later VTK may have one.
+class NewMapper : public vtkOpenGLPolyDataMapper
+{
+public:
+  static NewMapper* New();
+  vtkTypeMacro(NewMapper, vtkOpenGLPolyDataMapper);
+};
+vtkStandardNewMacro(NewMapper);
 
 const double NaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -124,6 +134,17 @@ int TestSVOBadInput(int, char*[])
       [](Stage& stage) { withMatrix(stage, 1, 1, std::numeric_limits<double>::infinity()); },
       true },
     { "a matrix of condition 1e13", 1, [](Stage& stage) { withMatrix(stage, 2, 2, 1e-13); }, true },
+    { "surfaces of a mapper that is not known", 1,
+      [](Stage& stage)
+      {
+        for (int i = 0; i < 2; ++i)
+        {
+          vtkActor* actor = stage.add(square(-9.0, -1.0), 1.0, 0.0, 0.0);
+          vtkNew<NewMapper> mapper;
+          mapper->SetInputConnection(actor->GetMapper()->GetInputConnection(0, 0));
+          actor->SetMapper(mapper);
+        }
+      } },
     // It is left to the rasteriser, which draws it far beside the picture here. A rasterised
     // receiver may be anywhere, so the ground casts as well, and shadows have other texels.
     { "a matrix with a perspective row", 1,

@@ -1,9 +1,9 @@
 // A composite mapper: blocks with colours of their own, one of them invisible.
+#include "svoCompositeMapper.h"
 #include "svoShadowOracle.h"
 #include "svoTestStage.h"
 
 #include "vtkCompositeDataDisplayAttributes.h"
-#include "vtkCompositePolyDataMapper2.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPolyData.h"
 
@@ -20,7 +20,7 @@ int TestSVOCompositeBlocks(int argc, char* argv[])
     sources[i]->Update();
     blocks->SetBlock(i, sources[i]->GetOutputDataObject(0));
   }
-  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  vtkNew<CompositeMapper> mapper;
   vtkNew<vtkCompositeDataDisplayAttributes> attributes;
   mapper->SetInputDataObject(blocks);
   mapper->SetCompositeDataDisplayAttributes(attributes);

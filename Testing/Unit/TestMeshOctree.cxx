@@ -1,11 +1,15 @@
 // The octree on its mesh: signature, field data, files, and meshes that changed under it.
 #include "svoMeshOctree.h"
+#include "svoMeshSignature.h"
+#include "svoMeshTriangles.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkClipPolyData.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
+#include "vtkFlyingEdges3D.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationInformationVectorKey.h"
 #include "vtkNew.h"
@@ -16,8 +20,9 @@
 #include "vtkSmartPointer.h"
 #include "vtkSphereSource.h"
 #include "vtkTransform.h"
-#include "vtkTransformPolyDataFilter.h"
+#include "vtkTransformFilter.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkVersion.h"
 #include "vtkXMLPolyDataReader.h"
 #include "vtkXMLPolyDataWriter.h"
 
@@ -124,6 +129,62 @@ TEST(MeshSignature, DoesNotDependOnTheIntegerWidthOfTheCells)
   ASSERT_TRUE(wide->GetPolys()->ConvertTo64BitStorage());
   EXPECT_EQ(svo::meshSignature(narrow), svo::meshSignature(wide));
 }
+
+// From VTK 9.6 on, cells that all have one size may be stored without offsets, and ids as any
+// array; vtkFlyingEdges3D and others make such meshes. Before, what it makes is stored as
+// everything else.
+TEST(MeshSignature, DoesNotDependOnHowAFilterStoresItsCells)
+{
+  vtkNew<vtkImageData> field; // distances from the middle of one of its faces
+  field->SetDimensions(12, 12, 12);
+  field->AllocateScalars(VTK_FLOAT, 1);
+  for (vtkIdType i = 0; i < field->GetNumberOfPoints(); ++i)
+  {
+    const double* p = field->GetPoint(i);
+    field->GetPointData()->GetScalars()->SetTuple1(i, std::hypot(p[0], p[1] - 5.5, p[2] - 5.5));
+  }
+  vtkNew<vtkFlyingEdges3D> contour;
+  contour->SetInputData(field);
+  contour->SetValue(0, 4.2);
+  contour->Update();
+  vtkPolyData* mesh = contour->GetOutput();
+  ASSERT_GT(mesh->GetNumberOfPolys(), 100);
+  const auto ordinary = copyOf(mesh);
+  ASSERT_TRUE(ordinary->GetPolys()->ConvertTo64BitStorage());
+  EXPECT_EQ(svo::meshSignature(mesh), svo::meshSignature(ordinary));
+
+  const auto changed = copyOf(ordinary);
+  changed->GetPolys()->ReplaceCellAtId(7, { 0, 1, 2 });
+  changed->GetPolys()->Modified();
+  EXPECT_NE(svo::meshSignature(mesh), svo::meshSignature(changed));
+
+  const svo::MeshTriangles expected(ordinary);
+  const svo::MeshTriangles triangles(mesh);
+  EXPECT_EQ(expected.view().triangleCount, static_cast<std::size_t>(mesh->GetNumberOfPolys()));
+  ASSERT_EQ(triangles.view().triangleCount, expected.view().triangleCount);
+  for (std::size_t i = 0; i < expected.view().triangleCount; ++i)
+  {
+    ASSERT_EQ(triangles.view().triangles[i], expected.view().triangles[i]);
+  }
+}
+
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+TEST(MeshSignature, DoesNotDependOnWhetherOffsetsAreStored)
+{
+  const auto mesh = sphere();
+  for (const auto convert : { &vtkCellArray::ConvertToFixedSize32BitStorage,
+         &vtkCellArray::ConvertToFixedSize64BitStorage })
+  {
+    const auto fixed = copyOf(mesh);
+    ASSERT_TRUE((fixed->GetPolys()->*convert)());
+    ASSERT_TRUE(fixed->GetPolys()->IsStorageFixedSize());
+    EXPECT_EQ(svo::meshSignature(fixed), svo::meshSignature(mesh));
+    EXPECT_EQ(svo::MeshTriangles(fixed).view().triangleCount,
+      svo::MeshTriangles(mesh).view().triangleCount);
+    EXPECT_TRUE(fixed->GetPolys()->IsStorageFixedSize()) << "the mesh is left alone";
+  }
+}
+#endif
 
 TEST(MeshSignature, IsComputedOncePerChangeAndLeavesTheMeshAlone)
 {
@@ -283,11 +344,11 @@ TEST(MeshOctree, IsForeignDownstreamOfAClipOrATransform)
 
   vtkNew<vtkTransform> transform;
   transform->Translate(0.0, 0.0, 1e-3);
-  vtkNew<vtkTransformPolyDataFilter> move;
+  vtkNew<vtkTransformFilter> move;
   move->SetInputData(mesh);
   move->SetTransform(transform);
   move->Update();
-  EXPECT_EQ(stateOf(move->GetOutput()), svo::Attached::Foreign);
+  EXPECT_EQ(stateOf(move->GetPolyDataOutput()), svo::Attached::Foreign);
   EXPECT_EQ(stateOf(mesh), svo::Attached::Found);
 }
 

@@ -7,6 +7,7 @@
 #include "svoMorton.h"
 #include "svoOctree.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <map>
