@@ -1,4 +1,4 @@
-// The same rays through Embree 3, where it was found (SVO_EMBREE).
+// The same rays through Embree, where it was found (SVO_EMBREE).
 #ifndef svoEmbreeScene_h
 #define svoEmbreeScene_h
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #ifdef SVO_EMBREE
-#include <embree3/rtcore.h>
+#include "svoEmbree.h"
 #endif
 
 namespace svobench
@@ -54,11 +54,11 @@ public:
       const auto ray = [&](int i) { return direction + (x0 + i % 8) * dx + (y0 + i / 8) * dy; };
       if (width == 8)
       {
-        this->packets<RTCRayHit8, 8>(rtcIntersect8, view, base, ray, hits[b]);
+        this->packets<RTCRayHit8, 8>(view, base, ray, hits[b]);
       }
       else if (width == 16)
       {
-        this->packets<RTCRayHit16, 16>(rtcIntersect16, view, base, ray, hits[b]);
+        this->packets<RTCRayHit16, 16>(view, base, ray, hits[b]);
       }
       else
       {
@@ -98,19 +98,11 @@ private:
     return scene;
   }
 
-  static RTCIntersectContext coherentContext()
-  {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    return context;
-  }
-
   template <class Directions>
   void single(
     RTCScene scene, const svo::View& view, double base, Directions&& ray, svo::HitBlock& hits) const
   {
-    RTCIntersectContext context = coherentContext();
+    EmbreeQuery query(true);
     for (int i = 0; i < 64; ++i)
     {
       const glm::vec3 d = ray(i);
@@ -125,17 +117,16 @@ private:
       r.ray.tfar = static_cast<float>(view.tFar);
       r.ray.mask = ~0u;
       r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(scene, &context, &r);
+      query.intersect(scene, r);
       hits.t[i] = static_cast<float>(r.ray.tfar - base);
       hits.primitive[i] = r.hit.geomID == RTC_INVALID_GEOMETRY_ID ? svo::NoPrimitive : r.hit.primID;
     }
   }
 
-  template <class Packet, int N, class Function, class Directions>
-  void packets(Function intersect, const svo::View& view, double base, Directions&& ray,
-    svo::HitBlock& hits) const
+  template <class Packet, int N, class Directions>
+  void packets(const svo::View& view, double base, Directions&& ray, svo::HitBlock& hits) const
   {
-    RTCIntersectContext context = coherentContext();
+    EmbreeQuery query(true);
     alignas(64) int valid[N];
     std::fill_n(valid, N, -1);
     for (int first = 0; first < 64; first += N)
@@ -155,7 +146,7 @@ private:
         r.ray.mask[i] = ~0u;
         r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       }
-      intersect(valid, this->Fast, &context, &r);
+      query.intersect(this->Fast, valid, r);
       for (int i = 0; i < N; ++i)
       {
         hits.t[first + i] = static_cast<float>(r.ray.tfar[i] - base);

@@ -1,8 +1,7 @@
 #include "accuracyReference.h"
 
+#include "svoEmbree.h"
 #include "svoSMPParallel.h"
-
-#include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <cmath>
@@ -139,9 +138,7 @@ ExactHit Reference::first(const svo::View& view, double x, double y) const
   RTCRayHit query{};
   query.ray = rayOf(view.rayOrigin(x, y), view.rayDirection(x, y), view.tNear, view.tFar);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(this->Impl->scene, &context, &query);
+  svobench::EmbreeQuery(false).intersect(this->Impl->scene, query);
   return query.hit.geomID == RTC_INVALID_GEOMETRY_ID
     ? ExactHit()
     : this->onPlane(view, x, y, static_cast<int>(query.hit.geomID), query.hit.primID);
@@ -191,9 +188,7 @@ bool Reference::blocked(
     : glm::length(light.position - point);
   const glm::dvec3 side = glm::dot(normal, direction) < 0.0 ? -normal : normal;
   RTCRay ray = rayOf(point + Beside * side, direction, 0.0, far);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(this->Impl->scene, &context, &ray);
+  svobench::EmbreeQuery(false).occlude(this->Impl->scene, ray);
   return ray.tfar < 0.0f;
 }
 
