@@ -1,7 +1,7 @@
 #!/bin/bash
 # Installs the Debian 12 packages that a part of the project needs, and says what each is for.
 # Usage: install-packages.sh [--list] [--no-install] group...
-# Groups: build test paraview demo fuzz accuracy
+# Groups: build test paraview demo fuzz accuracy fresh user
 # Packages that are there already are left alone; with none missing nothing runs and nothing is
 # asked. --no-install only checks: it names what is missing and ends with 1. --list prints names.
 set -euo pipefail
@@ -44,6 +44,12 @@ libembree-dev|the exact reference that accuracy is measured against
 libcgal-demo|the meshes that it is measured on
 assimp-testmodels|the walking figure of the paper's scenes
 python3-matplotlib|draws the plots of Documentation/Accuracy.md"
+packages_fresh="
+mmdebstrap|makes the root file system of a fresh Debian
+debian-archive-keyring|its releases' keys
+git|takes HEAD there"
+packages_user="
+uidmap|lets a user be root in a root file system"
 
 list=no
 install=yes
@@ -57,10 +63,12 @@ for argument in "$@"; do
     demo) wanted+="$packages_demo" ;;
     fuzz) wanted+="$packages_fuzz" ;;
     accuracy) wanted+="$packages_accuracy" ;;
+    fresh) wanted+="$packages_fresh" ;;
+    user) wanted+="$packages_user" ;;
     paraview) wanted+="$packages_paraview" ;;
     *)
       echo "install-packages.sh: unknown argument '$argument'" \
-        "(groups: build test paraview demo fuzz accuracy)" >&2
+        "(groups: build test paraview demo fuzz accuracy fresh user)" >&2
       exit 2
       ;;
   esac

@@ -6,7 +6,8 @@
 #   --stand-in    generated meshes in place of those from Debian's packages
 #   --no-install  never installs: names what is missing and stops
 #   --output DIR  in place of build/demo
-# Safe to run again; the frames of the run before are replaced.
+# Safe to run again; the frames of the run before are replaced. VTKSVO_CMAKE_ARGUMENTS in the
+# environment goes to CMake: -D options of one's own.
 set -euo pipefail
 called_from="$PWD"
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -62,7 +63,8 @@ cmake -S . -B build/vtk -G Ninja \
   -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
   -DPython3_EXECUTABLE=/usr/bin/python3 \
   -DVTKSVO_PARAVIEW=OFF -DVTKSVO_SANITIZE=OFF \
-  -DVTKSVO_TESTING=OFF -DVTKSVO_EXAMPLES=ON -DVTKSVO_PYTHON=ON
+  -DVTKSVO_TESTING=OFF -DVTKSVO_EXAMPLES=ON -DVTKSVO_PYTHON=ON \
+  ${VTKSVO_CMAKE_ARGUMENTS:-}
 cmake --build build/vtk -j "${VTKSVO_JOBS:-$(nproc)}"
 
 mkdir -p "$output" || fail "cannot make the folder $output"

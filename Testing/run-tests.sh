@@ -2,8 +2,10 @@
 # Installs what is missing, builds build/vtk and build/paraview and runs the tests of both. Safe to
 # run again.
 # Usage: run-tests.sh [--long] [--no-install]
-#   --long        also the tests labelled "long" (real meshes, big ray counts) and the sanitizers
+#   --long        also the tests labelled "long" (real meshes, big ray counts), the sanitizers, and
+#                 all of this on each fresh Debian that is supported: hours, see run-on.sh
 #   --no-install  never installs: names what is missing and stops
+# VTKSVO_CMAKE_ARGUMENTS in the environment goes to CMake: -D options of one's own.
 # The exit code is 0 only if everything was built and every test passed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -13,10 +15,10 @@ check_only=()
 groups=(build test paraview)
 for argument in "$@"; do
   case "$argument" in
-    --long) long=yes; groups+=(demo accuracy) ;;
+    --long) long=yes; groups+=(demo accuracy fresh) ;;
     --no-install) check_only=(--no-install) ;;
     *)
-      sed -n '2,6s/^# //p' "${BASH_SOURCE[0]}"
+      sed -n '4,9s/^# //p' "${BASH_SOURCE[0]}"
       exit 2
       ;;
   esac
@@ -33,7 +35,8 @@ cmake -S . -B build/vtk -G Ninja \
   -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
   -DPython3_EXECUTABLE=/usr/bin/python3 \
   -DVTKSVO_PARAVIEW=OFF -DVTKSVO_SANITIZE=OFF \
-  -DVTKSVO_TESTING=ON -DVTKSVO_EXAMPLES=ON -DVTKSVO_PYTHON=ON
+  -DVTKSVO_TESTING=ON -DVTKSVO_EXAMPLES=ON -DVTKSVO_PYTHON=ON \
+  ${VTKSVO_CMAKE_ARGUMENTS:-}
 cmake --build build/vtk -j "${VTKSVO_JOBS:-2}"
 
 step "Build: build/paraview"
@@ -42,7 +45,8 @@ cmake -S . -B build/paraview -G Ninja \
   -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
   -DPython3_EXECUTABLE=/usr/bin/python3 \
   -DParaView_DIR="$(echo "$paraview"/usr/lib/*/cmake/paraview-*)" \
-  -DVTKSVO_PARAVIEW=ON -DVTKSVO_SANITIZE=OFF -DVTKSVO_TESTING=ON -DVTKSVO_PYTHON=ON
+  -DVTKSVO_PARAVIEW=ON -DVTKSVO_SANITIZE=OFF -DVTKSVO_TESTING=ON -DVTKSVO_PYTHON=ON \
+  ${VTKSVO_CMAKE_ARGUMENTS:-}
 cmake --build build/paraview -j "${VTKSVO_JOBS:-2}"
 
 # One virtual display for the whole suite; -noreset, because the server resets whenever its last
@@ -63,6 +67,10 @@ if [ "$long" = yes ]; then
   Testing/run-sanitizers.sh "${check_only[@]}" || result=$?
   step "Thread sanitizer"
   Testing/run-thread-sanitizer.sh "${check_only[@]}" || result=$?
+  for release in bookworm trixie sid; do
+    step "Fresh $release"
+    Testing/run-on.sh "${check_only[@]}" "$release" || result=$?
+  done
 fi
 
 echo
