@@ -1,7 +1,6 @@
 #include "vtkSVORepresentation.h"
 
 #include "vtkCommand.h"
-#include "vtkCompositePolyDataMapper2.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -14,6 +13,15 @@
 #include "vtkSVOViewPass.h"
 
 #include <algorithm>
+
+// The mapper of ParaView's surfaces. With VTK 9.3 it took over the name of another one.
+#if __has_include("vtkCompositePolyDataMapperDelegator.h")
+#include "vtkCompositePolyDataMapper.h"
+using CompositeMapper = vtkCompositePolyDataMapper;
+#else
+#include "vtkCompositePolyDataMapper2.h"
+using CompositeMapper = vtkCompositePolyDataMapper2;
+#endif
 
 vtkStandardNewMacro(vtkSVORepresentation);
 
@@ -95,7 +103,7 @@ int vtkSVORepresentation::ProcessViewRequest(
   if (shown)
   {
     this->Mapper->SetInputDataObject(shown);
-    auto* mapper = vtkCompositePolyDataMapper2::SafeDownCast(this->Mapper);
+    auto* mapper = CompositeMapper::SafeDownCast(this->Mapper);
     if (mapper && (this->BlockAttributeTime > populated || this->BlockAttrChanged))
     {
       // Not yet so if only the levels of detail were delivered.
