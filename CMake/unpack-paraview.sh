@@ -2,8 +2,8 @@
 # Unpacks Debian's ParaView with its Python package into build/paraview-debian, and prints that path.
 # Usage: unpack-paraview.sh [--no-install] [folder]
 #
-# Building a plugin needs the package python3-paraview, which cannot be installed beside python3-vtk9
-# (that libvtk9-dev depends on). So the packages paraview, paraview-dev and python3-paraview are
+# Building a plugin needs the package python3-paraview, which up to Debian 13 cannot be installed beside
+# python3-vtk9 (that libvtk9-dev depends on), and CMake files that find what is in it. So the packages paraview, paraview-dev and python3-paraview are
 # downloaded and unpacked into a folder of this project; what they depend on is installed as usual, see
 # install-packages.sh. Nothing outside of the folder is changed, and a folder that holds the version
 # that apt would install is left alone. With --no-install nothing is downloaded: a missing or
@@ -51,5 +51,23 @@ mkdir -p "$folder/packages"
   done
 )
 rm -rf "$folder/packages"
+
+# From Debian 13 on the names of Python's modules say for which interpreter they are. ParaView's CMake
+# files expect the plain names.
+find "$folder/usr/lib/python3" -name '*.cpython-*.so' | while read -r module; do
+  ln -s "$(basename "$module")" "${module%%.cpython-*}.so"
+done
+# Where ParaView brings its own VTK, readers that a plugin does not use are linked to these, but the CMake
+# files look for them only when such a reader is asked for.
+for vtk in "$folder"/usr/lib/*/cmake/paraview-*/vtk; do
+  [ -d "$vtk" ] || continue
+  cat >"$vtk/vtk-find-package-helpers.cmake" <<'EOF'
+foreach (unused IN ITEMS hdf5::hdf5 hdf5::hdf5_hl NetCDF::NetCDF)
+  if (NOT TARGET "${unused}")
+    add_library("${unused}" INTERFACE IMPORTED)
+  endif ()
+endforeach ()
+EOF
+done
 echo "$wanted" >"$stamp"
 echo "$folder"
