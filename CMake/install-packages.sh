@@ -38,7 +38,7 @@ assimp-testmodels|object B: sydney.md2
 ffmpeg|turns the frames into a movie"
 packages_fuzz="
 clang|libFuzzer, which hunts for octree files that do harm
-libclang-rt-14-dev|its runtime and that of the sanitizers"
+libclang-rt-dev|its runtime and that of the sanitizers"
 packages_accuracy="
 libembree-dev|the exact reference that accuracy is measured against
 libcgal-demo|the meshes that it is measured on

@@ -7,6 +7,7 @@
 #include "vtkLookupTable.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
+#include "vtkTexture.h"
 
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
 #include "vtkCompositePolyDataMapper.h"
