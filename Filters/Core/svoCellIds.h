@@ -36,7 +36,7 @@ bool useCellIds(vtkCellArray* cells, const Use& use)
     return true;
   }
   vtkNew<vtkCellArray> copy;
-  copy->ShallowCopy(cells);
+  copy->DeepCopy(cells); // converting empties the arrays that are converted
   return copy->ConvertTo64BitStorage() && useStoredCellIds<vtkTypeInt64>(copy, use);
 }
 }

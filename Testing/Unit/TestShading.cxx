@@ -80,7 +80,7 @@ TEST(Shading, WithoutLightsOrLightingTheColourIsAmbientPlusDiffuse)
   const glm::vec3 expected(
     0.2f * 0.5f + 0.7f * 0.8f, 0.2f * 0.25f + 0.7f * 0.4f, 0.2f + 0.7f * 0.2f);
   expectColor(colorOf(scene, instance, pointFacing({ 0, 0, 1 })), expected);
-  scene.lights = { lightTowards({ 0, 0, -1 }) };
+  scene.lights.push_back(lightTowards({ 0, 0, -1 }));
   instance.material.lighting = false;
   expectColor(colorOf(scene, instance, pointFacing({ 0, 0, 1 })), expected);
 }
@@ -89,7 +89,7 @@ TEST(Shading, WithoutLightsOrLightingTheColourIsAmbientPlusDiffuse)
 TEST(Shading, AHeadlightAloneUsesTheNormalsZ)
 {
   svo::Scene scene;
-  scene.lights = { lightTowards({ 0, 0, -1 }) };
+  scene.lights.push_back(lightTowards({ 0, 0, -1 }));
   scene.lights[0].headlight = true;
   const svo::Instance instance = shiny();
   // normal (0.6, 0, 0.8): df = 0.8, sf = 0.8^3 = 0.512
@@ -102,7 +102,8 @@ TEST(Shading, AHeadlightAloneUsesTheNormalsZ)
 TEST(Shading, AHeadlightInCompanyUsesTheReflection)
 {
   svo::Scene scene;
-  scene.lights = { lightTowards({ 0, 0, -1 }), lightTowards({ 0, 0, 1 }) };
+  scene.lights.push_back(lightTowards({ 0, 0, -1 }));
+  scene.lights.push_back(lightTowards({ 0, 0, 1 }));
   scene.lights[0].headlight = true;
   const svo::Instance instance = shiny();
   // reflect((0,0,-1), n) = (0.96, 0, 0.28); towards the viewer is +z: 0.28^3. The second light
@@ -114,7 +115,7 @@ TEST(Shading, AHeadlightInCompanyUsesTheReflection)
 TEST(Shading, ADirectionalLightIsLambertPlusPhong)
 {
   svo::Scene scene;
-  scene.lights = { lightTowards({ 0.6, 0.0, -0.8 }) };
+  scene.lights.push_back(lightTowards({ 0.6, 0.0, -0.8 }));
   const svo::Instance instance = shiny();
   // n = z: df = 0.8; the reflected direction (0.6, 0, 0.8) has 0.8 with the viewer.
   expectColor(colorOf(scene, instance, pointFacing({ 0, 0, 1 })),
@@ -124,7 +125,7 @@ TEST(Shading, ADirectionalLightIsLambertPlusPhong)
 TEST(Shading, APointLightFallsOffWithDistance)
 {
   svo::Scene scene;
-  scene.lights = { lightTowards({ 0, 0, -1 }) };
+  scene.lights.push_back(lightTowards({ 0, 0, -1 }));
   scene.lights[0].kind = svo::Light::Kind::Point;
   scene.lights[0].position = { 3.0, 0.0, 0.0 }; // 5 from the point, direction (-0.6, 0, -0.8)
   scene.lights[0].attenuation = { 0.5f, 0.1f, 0.04f }; // 1 / (0.5 + 0.5 + 1) = 0.5
@@ -136,7 +137,7 @@ TEST(Shading, APointLightFallsOffWithDistance)
 TEST(Shading, ASpotFadesTowardsItsConeAndEndsThere)
 {
   svo::Scene scene;
-  scene.lights = { lightTowards({ 0, 0, -1 }) };
+  scene.lights.push_back(lightTowards({ 0, 0, -1 }));
   scene.lights[0].kind = svo::Light::Kind::Spot;
   scene.lights[0].position = { 3.0, 0.0, 0.0 };
   scene.lights[0].exponent = 2.0;
@@ -152,7 +153,7 @@ TEST(Shading, ASpotFadesTowardsItsConeAndEndsThere)
 TEST(Shading, MappedScalarsReplaceAmbientAndDiffuseColour)
 {
   svo::Scene scene;
-  scene.lights = { lightTowards({ 0, 0, -1 }) };
+  scene.lights.push_back(lightTowards({ 0, 0, -1 }));
   svo::Instance instance = shiny();
   svo::SurfacePoint point = pointFacing({ 0, 0, 1 });
   point.hasColor = true;
@@ -166,7 +167,8 @@ TEST(Shading, MappedScalarsReplaceAmbientAndDiffuseColour)
 TEST(Shading, AShadowTakesItsShareOfItsLightAlone)
 {
   svo::Scene scene;
-  scene.lights = { lightTowards({ 0.6, 0.0, -0.8 }), lightTowards({ 0, 0, -1 }) };
+  scene.lights.push_back(lightTowards({ 0.6, 0.0, -0.8 }));
+  scene.lights.push_back(lightTowards({ 0, 0, -1 }));
   scene.lights[1].castShadow = false;
   const svo::Instance instance = shiny();
   const glm::vec3 found = colorOf(scene, instance, pointFacing({ 0, 0, 1 }), 0.25f, true);
@@ -189,7 +191,7 @@ TEST(Shading, NormalsFollowTheMeshAndFaceTheViewer)
   }
   svo::Scene scene;
   scene.instances = { instanceOf(ball, 1) };
-  scene.lights = { lightTowards({ 0, 1, 0 }) };
+  scene.lights.push_back(lightTowards({ 0, 1, 0 }));
   svo::FrameSettings settings;
   settings.shadowTechnique = svo::ShadowTechnique::None;
   settings.writeNormals = true;
