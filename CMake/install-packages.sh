@@ -21,13 +21,18 @@ xvfb|a display for machines without one
 xauth|access to that display
 libgl1-mesa-dri|software OpenGL
 libembree-dev|the ray tracer that the benchmark compares with"
+# ParaView's window is made with Qt 5 in Debian 12 and with Qt 6 since.
+svg_icons=qt6-svg-plugins
+if grep -qs '^VERSION_ID="12"' /etc/os-release; then
+  svg_icons=libqt5svg5
+fi
 packages_paraview="
-paraview|ParaView 5.11 and what it depends on
+paraview|ParaView and what it depends on
 paraview-dev|its headers and CMake package
 python3-numpy|the plugin's tests judge their pictures with it
 assimp-testmodels|the figure that walks in the tests
 openmpi-bin|tests on several processes
-libqt5svg5|icons in ParaView's window"
+$svg_icons|icons in ParaView's window"
 packages_demo="
 xvfb|a display for machines without one
 xauth|access to that display

@@ -138,7 +138,8 @@ class TestAnimation(unittest.TestCase):
         octrees = scene.make_ball()
         ball = scene.show(octrees, self.view)
         pv.Render(self.view)
-        for name, index, values in (("Position", 0, (0.0, 1.0)), ("Orientation", 2, (0.0, 180.0))):
+        for name, index, values in ((scene.position_name(ball), 0, (0.0, 1.0)),
+                                    ("Orientation", 2, (0.0, 180.0))):
             track = pv.GetAnimationTrack(name, index=index, proxy=ball)
             first, last = pv.CompositeKeyFrame(), pv.CompositeKeyFrame()
             first.KeyTime, first.KeyValues = 0.0, [values[0]]

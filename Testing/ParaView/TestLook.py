@@ -66,7 +66,7 @@ class TestLook(unittest.TestCase):
             table.RescaleTransferFunction(0.0, 0.4)
             rescaled = self.check(association.lower() + "-rescaled", traced=2)
             self.assertGreater(scene.differing(rescaled, colored), 0.02)
-            table.ApplyPreset(preset, True)
+            scene.apply_preset(table, preset)
             self.assertGreater(scene.differing(rescaled, self.check("preset", traced=2)), 0.02)
             table.RescaleTransferFunction(0.0, 1.0)
         ball.MapScalars = 1
@@ -91,7 +91,8 @@ class TestLook(unittest.TestCase):
         ball.BackfaceRepresentation = "Cull Backface"
         self.check("culled", traced=1)
         ball.BackfaceRepresentation = "Follow Frontface"
-        ball.Position, ball.Scale, ball.Orientation = [0.3, 0, 0.1], [1, 1.5, 0.7], [10, 20, 30]
+        scene.move(ball, [0.3, 0, 0.1])
+        ball.Scale, ball.Orientation = [1, 1.5, 0.7], [10, 20, 30]
         self.check("transformed", traced=2)
         self.assertEqual(self.builds(), max(builds, 2))
 
@@ -128,7 +129,7 @@ class TestLook(unittest.TestCase):
         self.view.OrientationAxesVisibility = 1
         ground.DiffuseColor = ground.AmbientColor = [0.6, 0.8, 0.6]
         pv.ColorBy(ball, ("POINTS", "Elevation"))
-        pv.GetColorTransferFunction("Elevation").ApplyPreset("Viridis (matplotlib)", True)
+        scene.apply_preset(pv.GetColorTransferFunction("Elevation"), "Viridis (matplotlib)")
         ball.SetScalarBarVisibility(self.view, True)
         pv.Render(self.view)
         pv.SelectSurfaceCells(Rectangle=[150, 150, 190, 200], View=self.view)

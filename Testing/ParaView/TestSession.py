@@ -71,7 +71,7 @@ class TestSession(unittest.TestCase):
         self.displays[0].SVOMaximumLevel = 7
         self.displays[0].SVOLeafGeometry = "Voxel"
         self.displays[1].SVOReceiveShadows = 1
-        self.displays[0].Position = [0.2, 0.1, 0.0]
+        scene.move(self.displays[0], [0.2, 0.1, 0.0])
 
     def check_restored(self, picture):
         view = pv.GetActiveViewOrCreate("RenderView")
@@ -107,7 +107,7 @@ class TestSession(unittest.TestCase):
         picture = scene.picture(self.view, "python-state")
         text = smstate.get_state()
         pv.ResetSession()
-        self.assertTrue("SVOShadowIntensity = 0.6" in text, "no SVOShadowIntensity in the script")
+        self.assertRegex(text, r"SVOShadowIntensity ?= ?0\.6\b")  # an assignment, or an argument of Set()
         exec(compile(text, "state", "exec"), {"__name__": "state"})
         self.check_restored(picture)
 

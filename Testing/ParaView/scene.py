@@ -28,7 +28,9 @@ def output(name):
 
 
 def make_view(size=(600, 400)):
-    """A view without a light kit, at a place that sees the ball and the ground."""
+    """A view without a light kit, at a place that sees the ball and the ground, in the colors that were ParaView's
+    own before 6.0."""
+    pv.LoadPalette("BlueGrayBackground")
     view = pv.CreateView("RenderView")
     view.ViewSize = list(size)
     view.OrientationAxesVisibility = 0
@@ -62,6 +64,21 @@ def show(source, view, kind="SVO"):
     display = pv.Show(source, view)
     display.Representation = kind
     return display
+
+
+def position_name(display):
+    """ParaView 5.13 renamed the property."""
+    return "Translation" if "Translation" in display.ListProperties() else "Position"
+
+
+def move(display, position):
+    setattr(display, position_name(display), position)
+
+
+def apply_preset(table, name):
+    """ParaView 6 left out the origin, which is in parentheses."""
+    presets = pv.servermanager.vtkSMTransferFunctionPresets.GetInstance()
+    table.ApplyPreset(name if presets.HasPreset(name) else name.split(" (")[0], True)
 
 
 def statistic(proxy, name):
@@ -123,10 +140,11 @@ def border(mask, distance=1):
 
 def run_tests():
     """Runs the test cases of the main module. A failure ends the program on the spot: ParaView crashes where a
-    script calls sys.exit() while there are views."""
+    script calls sys.exit() while there are views. From ParaView 5.13 on what was printed to its own stream
+    would then be lost."""
+    sys.stdout = open(1, "w", buffering=1, closefd=False)
     tests = unittest.defaultTestLoader.loadTestsFromModule(sys.modules["__main__"])
     result = unittest.TextTestRunner(stream=sys.stdout, verbosity=2).run(tests)
     if not result.wasSuccessful():
-        sys.stdout.flush()
         os._exit(1)
     pv.ResetSession()

@@ -69,7 +69,7 @@ for threshold, name in (1e6, "drawn-by-the-client"), (0.0, "drawn-by-the-server"
     view.SMProxy.InteractiveRender()
     picture(name)
 pv.GetSettingsProxy("RenderViewSettings").LODThreshold = 20.0
-displays[0].Position = [0.3, -0.2, 0.1]
+scene.move(displays[0], [0.3, -0.2, 0.1])
 displays[0].Scale = [1.0, 1.2, 0.9]
 picture("moved")
 view.CameraPosition = [4.0, 5.0, 3.0]
