@@ -13,12 +13,12 @@ import pictures
 PROGRAMS = sys.argv.pop(1)
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "several_processes.py")
 NAMES = ("full-depth", "shadow", "drawn-by-the-client", "drawn-by-the-server", "moved", "turned", "rays",
-         "ordinary-ground", "light-kit", "translucent")
+         "ordinary-ground", "light-kit")
 # With triangles smaller than pixels, at pixel errors 1 (the default) and 2.
 LEVELS = {"level-of-detail": 1e-4, "coarse": 1e-3}
 # Open MPI refuses to run as root, and more processes than cores, unless told to.
-os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                  OMPI_MCA_rmaps_base_oversubscribe="1")
+os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+MPIRUN = ["mpirun", "--map-by", ":OVERSUBSCRIBE", "-np"]
 
 
 def program(name):
@@ -51,6 +51,14 @@ class TestParallel(unittest.TestCase):
                 print(f"{prefix}-{name}: {difference:.6f} of the pixels differ")
                 self.assertLess(difference, share)
 
+        # ParaView 5.13 and 6.1 lose part of what they redistribute for ordered compositing, of ordinary surfaces
+        # too, so one process is no measure.
+        with self.subTest(picture="translucent"):
+            difference = pictures.differing(read(prefix, "translucent"),
+                                            read(prefix, "translucent-surface"), tolerance=2)
+            print(f"{prefix}-translucent: {difference:.6f} of the pixels differ from Surface")
+            self.assertLess(difference, share)
+
         # Where pieces meet, a coarse node has only what one of them knows of the surface in it.
         for name, share in LEVELS.items():
             with self.subTest(picture=name):
@@ -60,7 +68,7 @@ class TestParallel(unittest.TestCase):
 
     def check_processes(self, processes):
         prefix = f"processes{processes}"
-        output = run(["mpirun", "-np", str(processes), program("pvbatch"), SCRIPT, prefix])
+        output = run(MPIRUN + [str(processes), program("pvbatch"), SCRIPT, prefix])
         self.assertIn(f"processes with data: {processes}\n", output)
         self.check_figures(output)
         self.check(prefix)
@@ -94,7 +102,7 @@ class TestParallel(unittest.TestCase):
         self.check_server("server", [program("pvserver")], 21111)
 
     def test_server_of_two_processes(self):
-        self.check_server("server2", ["mpirun", "-np", "2", program("pvserver")], 21112)
+        self.check_server("server2", MPIRUN + ["2", program("pvserver")], 21112)
 
 
 if __name__ == "__main__":

@@ -22,9 +22,11 @@ view.RemoteRenderThreshold = 0.0
 scene.add_sun(view)
 ball, ground = scene.make_ball(), scene.make_ground()
 displays = [scene.show(source, view) for source in (ball, ground)]
-ids = pv.ProcessIdScalars(Input=ball)
+# ParaView 5.12 renamed the filter and its array.
+ids = getattr(pv, "ProcessIds" if hasattr(pv, "ProcessIds") else "ProcessIdScalars")(Input=ball)
 ids.UpdatePipeline()
-print("processes with data:", int(ids.PointData["ProcessId"].GetRange()[1]) + 1)
+array, = [name for name in ids.PointData.keys() if "ProcessId" in name]
+print("processes with data:", int(ids.PointData[array].GetRange()[1]) + 1)
 
 
 def picture(name):
@@ -85,5 +87,8 @@ pv.RemoveLight(view.AdditionalLights[0])
 picture("light-kit")
 displays[0].Opacity = 0.5
 picture("translucent")
+for display in displays:
+    display.Representation = "Surface"
+picture("translucent-surface")
 if served:
     pv.Disconnect()
