@@ -20,7 +20,9 @@ libgtest-dev|unit tests
 xvfb|a display for machines without one
 xauth|access to that display
 libgl1-mesa-dri|software OpenGL
-libembree-dev|the ray tracer that the benchmark compares with"
+libembree-dev|the ray tracer that the benchmark compares with
+dpkg-dev|finds out what our own packages depend on
+file|tells it which of their files are programs"
 packages_paraview="
 paraview|ParaView 5.11 and what it depends on
 paraview-dev|its headers and CMake package

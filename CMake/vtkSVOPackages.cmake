@@ -43,6 +43,11 @@ function (vtksvo_only_minor variable package version)
 endfunction ()
 if (VTKSVO_PYTHON)
   vtksvo_only_minor(vtksvo_python_depends python3 "${Python3_VERSION}")
+  # Python leaves its compiled copy beside the file when root imports it, and no package owns that.
+  string(REGEX REPLACE "/python3\\.[0-9]+/" "/python3/" vtksvo_python_folder
+    "/usr/${VTKSVO_PYTHON_INSTALL_DIR}/vtksvo")
+  set(vtksvo_prerm "${CMAKE_BINARY_DIR}/CMakeFiles/prerm")
+  file(WRITE "${vtksvo_prerm}" "#!/bin/sh\nset -e\nrm -rf ${vtksvo_python_folder}/__pycache__\n")
 endif ()
 
 # The last touches to what was installed for a package.
@@ -56,6 +61,7 @@ if (VTKSVO_PARAVIEW)
   set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "sparse voxel octrees with shadows - ParaView plugin")
   set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "${PROJECT_DESCRIPTION}: the plugin SparseVoxelOctree.")
   vtksvo_only_minor(CPACK_DEBIAN_PACKAGE_DEPENDS paraview "${ParaView_VERSION}")
+  set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${vtksvo_prerm})
   # Everything but headers. ParaView 5.11 gives the plugin itself no component.
   set(CPACK_DEB_COMPONENT_INSTALL OFF)
   set(CPACK_INSTALL_CMAKE_PROJECTS "")
@@ -96,6 +102,7 @@ else ()
     list(APPEND CPACK_COMPONENTS_ALL python)
     set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-vtksvo)
     set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${vtksvo_prerm}")
     set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "${vtksvo_library} (= ${vtksvo_debian_version}), python3-vtk9, ${vtksvo_python_depends}")
     set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION}: the Python package vtksvo.")
