@@ -20,7 +20,9 @@ libgtest-dev|unit tests
 xvfb|a display for machines without one
 xauth|access to that display
 libgl1-mesa-dri|software OpenGL
-libembree-dev|the ray tracer that the benchmark compares with"
+libembree-dev|the ray tracer that the benchmark compares with
+dpkg-dev|finds out what our own packages depend on
+file|tells it which of their files are programs"
 # ParaView's window is made with Qt 5 in Debian 12 and with Qt 6 since.
 svg_icons=qt6-svg-plugins
 if grep -qs '^VERSION_ID="12"' /etc/os-release; then

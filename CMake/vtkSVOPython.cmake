@@ -4,13 +4,20 @@ if (NOT VTKSVO_PYTHON)
 endif ()
 
 # In the build tree the package lies in python/vtksvo; installed, where Debian's interpreter looks
-# under the usual prefixes.
+# under the usual prefixes. That for ParaView's VTK goes with the plugin: both trees can be installed
+# below one prefix.
 set(VTKSVO_PYTHON_BUILD_DIR "python")
-set(VTKSVO_PYTHON_INSTALL_DIR
-  "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/dist-packages"
+set(vtksvo_python_default
+  "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/dist-packages")
+if (VTKSVO_PARAVIEW)
+  set(vtksvo_python_default
+    "${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_PLUGIN_SUBDIR}/SparseVoxelOctree/python")
+endif ()
+set(VTKSVO_PYTHON_INSTALL_DIR "${vtksvo_python_default}"
   CACHE STRING "Where the Python package is installed, relative to the prefix")
 mark_as_advanced(VTKSVO_PYTHON_INSTALL_DIR)
 
+# The modules carry the interpreter's tag in their names, so that no other one loads them.
 set(vtksvo_wrapped SVO::SVOCore SVO::SVOParallel SVO::SVOPass)
 vtk_module_wrap_python(
   MODULES ${vtksvo_wrapped}
@@ -19,6 +26,7 @@ vtk_module_wrap_python(
   MODULE_DESTINATION "${VTKSVO_PYTHON_INSTALL_DIR}"
   LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/vtkSVO"
+  SOABI "${Python3_SOABI}"
   BUILD_STATIC OFF
   INSTALL_HEADERS OFF)
 foreach (module IN LISTS vtksvo_wrapped)

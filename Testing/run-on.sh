@@ -1,16 +1,17 @@
 #!/bin/bash
 # Runs the two commands of the README on a fresh Debian: a root file system with nothing installed,
-# made for this, that holds a clone of this repository's HEAD.
+# made for this, that holds a clone of this repository's HEAD. Then makes the Debian packages there,
+# installs them in a second fresh root, which has no compiler, and renders with them.
 # Usage: run-on.sh [options] RELEASE          RELEASE: bookworm, trixie, sid
-#   --only demo|tests  one of the two commands
-#   --keep         leaves the root for the next call with --keep, which takes the new HEAD into it
-#   --folder DIR   where roots and logs lie, in place of build/fresh
+#   --only demo|tests|packages  one of the three; packages needs a root that was kept after the tests
+#   --keep         leaves the roots for the next call with --keep, which takes the new HEAD into them
+#   --folder DIR   where roots, packages and logs lie, in place of build/fresh
 #   --cache DIR    a compiler cache to be used and kept. Without it everything is compiled, as on a
 #                  fresh machine
 #   --mirror URL   in place of http://deb.debian.org/debian
 #   --no-install   never installs on this machine: names what is missing and stops
-# The exit code is 0 only if all commands succeeded. Without --keep the root is removed, one that was
-# kept before as well. What is not committed is not tested.
+# The exit code is 0 only if everything succeeded. Without --keep the roots are removed, those that
+# were kept before as well. What is not committed is not tested.
 #
 # Runs as root, or as a user who has a range of ids in /etc/subuid. Everything is mounted in
 # namespaces of the commands' own, which the kernel clears away with their last process.
@@ -23,11 +24,11 @@ fail() {
   exit "${2:-1}"
 }
 step() { printf '\n== %s (%s)\n' "$1" "$(date +%T)"; }
-usage() { sed -n '4,14s/^# //p' Testing/run-on.sh; }
+usage() { sed -n '5,15s/^# //p' Testing/run-on.sh; }
 absolute() { (cd "$called_from" && realpath -m -- "$1"); }
 
 release=""
-commands=(Examples/run-demo.sh Testing/run-tests.sh)
+steps="demo tests packages"
 keep=no
 folder="$PWD/build/fresh"
 cache=""
@@ -38,9 +39,8 @@ while [ $# -gt 0 ]; do
     --only | --folder | --cache | --mirror)
       [ -n "${2:-}" ] || fail "$1 needs a value" 2
       case "$1 $2" in
-        "--only demo") commands=(Examples/run-demo.sh) ;;
-        "--only tests") commands=(Testing/run-tests.sh) ;;
-        --only*) fail "--only takes demo or tests, not '$2'" 2 ;;
+        "--only demo" | "--only tests" | "--only packages") steps="$2" ;;
+        --only*) fail "--only takes demo, tests or packages, not '$2'" 2 ;;
         --folder*) folder=$(absolute "$2") ;;
         --cache*) cache=$(absolute "$2") ;;
         --mirror*) mirror="$2" ;;
@@ -65,6 +65,7 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
+wants() { [[ " $steps " == *" $1 "* ]]; }
 case "$release" in
   bookworm | trixie | sid) ;;
   "")
@@ -125,6 +126,7 @@ clean_up() {
 place="$folder/$release"
 root="$place/root"
 log="$folder/$release.log"
+packages="$folder/$release.packages"
 mkdir -p "$folder" ${cache:+"$cache"}
 exec 9>"$folder/$release.lock"
 flock -n 9 || fail "another run-on.sh is at work in $place"
@@ -187,18 +189,18 @@ isolated bash -c '
   git fetch -q "$1" HEAD
   git checkout -q -f --detach FETCH_HEAD' clone "$place/head.bundle" "$root/root/vtkSVO"
 
-# run NAME COMMAND...: in the clone; its output goes to the terminal and into the log.
+# run ROOT NAME COMMAND...: output goes to the terminal and into the log.
 result=0
 times=""
 run() {
-  local name="$1" code=0 start=$SECONDS
-  shift
+  local where="$1" name="$2" code=0 start=$SECONDS
+  shift 2
   exec 8> >(exec tee -a "$log")
   local tee=$!
   step "$release: $name" >&8
   # Not the first process of its namespace: that one is spared signals, which xvfb-run waits for.
-  in_root "$root" VTKSVO_CMAKE_ARGUMENTS="$arguments" \
-    bash -c 'cd /root/vtkSVO; "$@"; exit $?' run "$@" >&8 2>&1 || code=$?
+  in_root "$where" VTKSVO_CMAKE_ARGUMENTS="$arguments" \
+    bash -c '"$@"; exit $?' run "$@" >&8 2>&1 || code=$?
   exec 8>&-
   wait "$tee"
   local seconds=$((SECONDS - start)) said=succeeded
@@ -207,10 +209,25 @@ run() {
     result=1
   fi
   times+=$(printf '  %-24s %3d:%02d minutes  %s' "$name" $((seconds / 60)) $((seconds % 60)) "$said")$'\n'
+  return "$code"
 }
-for command in "${commands[@]}"; do
-  run "./$command" "./$command"
-done
+if wants demo; then
+  run "$root" ./Examples/run-demo.sh bash -c 'cd /root/vtkSVO && ./Examples/run-demo.sh' || true
+fi
+if wants tests; then
+  run "$root" ./Testing/run-tests.sh bash -c 'cd /root/vtkSVO && ./Testing/run-tests.sh' || true
+fi
+if wants packages && run "$root" "packages made" /root/vtkSVO/Testing/Packages/make.sh; then
+  rm -rf "$packages"
+  isolated cp -r "$root/root/vtkSVO/build/packages" "$packages"
+  users="$place/users"
+  isolated rm -rf --one-file-system "$users"
+  step "A fresh $release in $users"
+  make_root "$users"
+  isolated cp -r "$packages" "$users/root/packages"
+  isolated cp -r "$root/root/vtkSVO/Testing" "$users/root/Testing"
+  run "$users" "packages used" /root/Testing/Packages/use.sh /root/packages || true
+fi
 
 step "Result of $head on $release"
 version() { in_root "$root" dpkg-query -W -f='${source:Upstream-Version}' "$1" 2>/dev/null || echo "not installed"; }
@@ -224,6 +241,7 @@ awk '
   /% tests passed, [0-9]+ tests failed out of/ {
     printf "  %-24s %d passed, %d failed, %d skipped\n", tree, $NF - $4 - skipped, $4, skipped
   }' "$log"
+[ ! -e "$packages" ] || ls -sh "$packages"
 echo "Log: $log"
 [ "$keep" = no ] || echo "Root: $root"
 exit "$result"
