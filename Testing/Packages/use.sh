@@ -46,7 +46,6 @@ display /tmp/program/shadow
 
 step "Removed again"
 DEBIAN_FRONTEND=noninteractive apt-get purge -y -q libvtksvo-dev 'libvtksvo[0-9]*' paraview-vtksvo
-left=$(find / -xdev \( -ipath '*vtksvo*' -o -name 'SparseVoxelOctree*' -o -name paraview.conf \) -not -path '/root/*' -not -path '/tmp/*' \
-  -not -path '/proc/*' -not -path '/var/lib/dpkg/*')
+left=$(find /usr /etc /var/lib/dpkg/info -ipath '*vtksvo*' -o -name 'SparseVoxelOctree*' -o -path /usr/bin/paraview.conf)
 [ -z "$left" ] || { printf 'use.sh: packages left these behind:\n%s\n' "$left" >&2; exit 1; }
 echo "Nothing is left of them."
