@@ -147,7 +147,8 @@ while read -r setting; do
 done < <(apt-config dump 2>/dev/null | grep -E '^Acquire::(https?::Proxy|Check-Valid-Until|Check-Date)')
 make_root() {
   isolated rm -rf --one-file-system "$1.part"
-  isolated mmdebstrap --quiet --mode=root --variant=minbase "${settings[@]}" \
+  # A root that is thrown away need not be safe from a loss of power.
+  isolated mmdebstrap --quiet --mode=root --variant=minbase --dpkgopt=force-unsafe-io "${settings[@]}" \
     "$release" "$1.part" "$mirror" || fail "mmdebstrap could not make $release"
   # What the installer of a real machine writes.
   isolated sh -c 'echo "127.0.0.1 localhost $(uname -n)" >"$1/etc/hosts"' hosts "$1.part"
