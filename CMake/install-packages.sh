@@ -1,5 +1,5 @@
 #!/bin/bash
-# Installs the Debian 12 packages that a part of the project needs, and says what each is for.
+# Installs the Debian packages that a part of the project needs, and says what each is for.
 # Usage: install-packages.sh [--list] [--no-install] group...
 # Groups: build test paraview demo fuzz accuracy fresh user
 # Packages that are there already are left alone; with none missing nothing runs and nothing is
@@ -107,7 +107,7 @@ if [ "$install" = no ]; then
   exit 1
 fi
 if ! command -v apt-get >/dev/null; then
-  printf 'This machine has no apt-get. Please install these by hand (names as in Debian 12):\n%s' \
+  printf 'This machine has no apt-get. Please install these by hand (names as in Debian):\n%s' \
     "$reasons" >&2
   exit 1
 fi

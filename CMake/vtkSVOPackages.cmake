@@ -4,8 +4,8 @@
 #   libvtksvo-dev     headers and find_package(vtkSVO)
 #   python3-vtksvo    `import vtksvo`
 # and from build/paraview:
-#   paraview-vtksvo   the plugin, with a `vtksvo` for pvpython. It needs none of the others: Debian's ParaView
-#                     brings a VTK of its own, whose Python package cannot be installed beside VTK's
+#   paraview-vtksvo   the plugin, with a `vtksvo` for pvpython. It needs none of the others: up to Debian 13
+#                     ParaView brings a VTK of its own, whose Python package conflicts with VTK's
 if (NOT EXISTS "/etc/debian_version")
   return ()
 endif ()
@@ -32,7 +32,8 @@ if (vtksvo_release MATCHES "[0-9]")
 endif ()
 set(vtksvo_debian_version "${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}")
 
-# What the libraries load is found by dpkg-shlibdeps, which is told where our own lie.
+# What the libraries load is found by dpkg-shlibdeps, which is told where our own lie. It ties the plugin to
+# the very release of ParaView.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
 # A versioned range: what is built for one minor version of a library or interpreter fits no other.
@@ -60,7 +61,6 @@ if (VTKSVO_PARAVIEW)
   set(CPACK_DEBIAN_PACKAGE_SECTION science)
   set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "sparse voxel octrees with shadows - ParaView plugin")
   set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "${PROJECT_DESCRIPTION}: the plugin SparseVoxelOctree.")
-  vtksvo_only_minor(CPACK_DEBIAN_PACKAGE_DEPENDS paraview "${ParaView_VERSION}")
   set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${vtksvo_prerm})
   # Everything but headers. ParaView 5.11 gives the plugin itself no component.
   set(CPACK_DEB_COMPONENT_INSTALL OFF)

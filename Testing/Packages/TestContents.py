@@ -24,6 +24,8 @@ def run(*command):
     return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
+places = {False: r"usr/(include/vtkSVO|lib/[^/]+-linux-[^/]+|lib/python3/dist-packages/vtksvo|share/doc)/",
+          True: r"usr/(lib/[^/]+-linux-[^/]+/paraview-[0-9.]+/plugins/SparseVoxelOctree/|share/doc/|bin/paraview.conf$)"}
 found = {run("dpkg-deb", "-f", file, "Package").strip(): file for file in glob.glob(f"{packages}/*.deb")}
 assert sorted(found) == sorted(names), sorted(found)
 
@@ -40,6 +42,8 @@ for name, file in found.items():
                 if os.path.islink(path):
                     continue
                 inside = os.path.relpath(path, root)
+                # Where Debian wants it; a build tree configured long ago may have other destinations.
+                assert re.match(places[name.startswith("paraview")], inside), f"{inside}: not its place"
                 with open(path, "rb") as opened:
                     content = opened.read()
                 if content.startswith(b"\x7fELF"):

@@ -24,8 +24,8 @@ install "$packages"/libvtksvo[0-9]*.deb "$packages"/python3-vtksvo_*.deb xvfb xa
 absent g++ c++ cmake ninja
 display python3 check_vtk.py "$packages"
 
-# Debian's Python packages of VTK and of ParaView conflict: this one replaces the other. It may bring g++,
-# through those that it needs.
+# Up to Debian 13 the Python packages of VTK and of ParaView conflict: this one replaces the other. It may
+# bring g++, through those that it needs.
 step "ParaView"
 install "$packages"/paraview-vtksvo_*.deb python3-paraview
 absent cmake ninja
