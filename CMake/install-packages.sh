@@ -11,7 +11,7 @@ cmake|configures the build
 ninja-build|runs the build
 g++|the C++17 compiler
 ccache|makes the next build from scratch quick
-libvtk9-dev|VTK 9.1: headers, libraries, Python wrapping
+libvtk9-dev|VTK: headers, libraries, Python wrapping
 python3-vtk9|VTK's own Python package, which vtksvo stands beside
 libglm-dev|vectors and matrices of the engine
 libhwy-dev|Highway: SIMD, the instruction set chosen at run time"
