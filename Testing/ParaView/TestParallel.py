@@ -3,6 +3,7 @@
 usage: TestParallel.py folder of ParaView's programs
 """
 
+import glob
 import os
 import subprocess
 import sys
@@ -34,13 +35,19 @@ def run(command):
     return result.stdout
 
 
+def file_of(prefix, name):
+    return os.path.join(os.environ["VTKSVO_OUTPUT"], f"{prefix}-{name}.png")
+
+
 def read(prefix, name):
-    return pictures.read(os.path.join(os.environ["VTKSVO_OUTPUT"], f"{prefix}-{name}.png"))
+    return pictures.read(file_of(prefix, name))
 
 
 class TestParallel(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        for old in glob.glob(file_of("*", "*")):
+            os.remove(old)
         run([program("pvbatch"), SCRIPT, "one"])
         cls.expected = {name: read("one", name) for name in NAMES}
 
@@ -54,6 +61,9 @@ class TestParallel(unittest.TestCase):
         # ParaView 5.13 and 6.1 lose part of what they redistribute for ordered compositing, of ordinary surfaces
         # too, so one process is no measure.
         with self.subTest(picture="translucent"):
+            if not os.path.exists(file_of(prefix, "translucent")):
+                self.skipTest("this ParaView cannot read XML with appended data, which it sends to order "
+                              "translucent surfaces: Debian bug 1114938")
             difference = pictures.differing(read(prefix, "translucent"),
                                             read(prefix, "translucent-surface"), tolerance=2)
             print(f"{prefix}-translucent: {difference:.6f} of the pixels differ from Surface")

@@ -10,6 +10,9 @@ import unittest
 
 import numpy
 import paraview.simple as pv
+from vtkmodules.vtkCommonCore import vtkObject
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 from pictures import differing, read
 
 CENTER = numpy.array([0.0, 0.0, 0.8])
@@ -64,6 +67,24 @@ def show(source, view, kind="SVO"):
     display = pv.Show(source, view)
     display.Representation = kind
     return display
+
+
+def reads_appended_data():
+    """Whether ParaView reads what VTK's XML writers make by default. That of Debian 12 does not since its libexpat
+    has the correction of CVE-2023-52425 (Debian bug 1114938)."""
+    writer, reader = vtkXMLPolyDataWriter(), vtkXMLPolyDataReader()
+    source = vtkSphereSource()
+    source.SetThetaResolution(100)
+    writer.SetInputConnection(source.GetOutputPort())
+    writer.WriteToOutputStringOn()
+    writer.Write()
+    reader.ReadFromInputStringOn()
+    reader.SetInputString(writer.GetOutputString())
+    display = vtkObject.GetGlobalWarningDisplay()
+    vtkObject.GlobalWarningDisplayOff()
+    reader.Update()
+    vtkObject.SetGlobalWarningDisplay(display)
+    return reader.GetOutput().GetNumberOfPolys() > 0
 
 
 def position_name(display):

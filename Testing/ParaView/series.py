@@ -35,6 +35,8 @@ def write(folder, meshes):
             writer = vtkXMLPolyDataWriter()
             writer.SetFileName(path)
             writer.SetInputData(step)
+            # With today's libexpat of Debian 12 its ParaView cannot read appended data, VTK's default.
+            writer.SetDataModeToBinary()
             writer.Write()
         entries.append(f'<DataSet timestep="{i}" part="0" file="{name}"/>')
     path = os.path.join(folder, "series.pvd")

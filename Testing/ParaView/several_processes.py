@@ -85,10 +85,12 @@ displays[1].Representation = "SVO"
 view.UseLight = 1
 pv.RemoveLight(view.AdditionalLights[0])
 picture("light-kit")
-displays[0].Opacity = 0.5
-picture("translucent")
-for display in displays:
-    display.Representation = "Surface"
-picture("translucent-surface")
+# ParaView orders translucent surfaces by sending parts of them as XML with appended data.
+if scene.reads_appended_data():
+    displays[0].Opacity = 0.5
+    picture("translucent")
+    for display in displays:
+        display.Representation = "Surface"
+    picture("translucent-surface")
 if served:
     pv.Disconnect()
