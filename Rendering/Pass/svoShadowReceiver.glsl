@@ -178,15 +178,36 @@ float svoFiltered(sampler2D atlas, int map, mat4 rows, float error, vec4 point, 
   return dark / all;
 }
 
-float svoLit(sampler2D atlas, int count, mat4 maps[6], float errors[6], vec3 position, vec3 facet,
-  vec3 normal, float extent)
+// How far the smooth surface that the normals stand for lies over a point of a facet, as
+// svoTerminator.h has it from all three corners: here from one, and from the normal at the point,
+// which together make a parabola. `corner`: the facet's, with its unit normal.
+vec3 svoSmoothLift(vec3 position, vec3 facet, vec3 normal, vec3 corner, vec3 cornerNormal)
+{
+  vec3 outwards = dot(cornerNormal, normal) < 0.0 ? -cornerNormal : cornerNormal;
+  float height = dot(normal + outwards, corner - position);
+  return dot(facet, normal) > 0.0 ? max(height, 0.0) * normal : vec3(0.0);
+}
+
+// `lift`: how far the smooth surface lies over the facet; 0 where it does not.
+float svoLit(sampler2D atlas, int count, mat4 maps[6], float errors[6], vec3 position, vec3 plane,
+  vec3 normal, vec3 lift, float extent)
 {
   float size = float(textureSize(atlas, 0).x);
-  vec4 point = vec4(position, 1.0);
   float lit = 1.0;
   for (int i = 0; i < count; ++i)
   {
     mat4 rows = transpose(maps[i]);
+    vec4 point = vec4(position, 1.0);
+    vec3 facet = plane;
+    // Where the facet has turned its back on the light, or nearly so, the smooth surface is asked.
+    vec2 centre = vec2(dot(rows[0], point), dot(rows[1], point)) / dot(rows[3], point);
+    vec3 xy = cross(rows[0].xyz - centre.x * rows[3].xyz, rows[1].xyz - centre.y * rows[3].xyz);
+    vec3 along = xy * sign(dot(rows[2].xyz, xy));
+    if (svoPlaneBias != 0 && dot(lift, lift) > 0.0 && dot(plane, along) > -length(xy) / 64.0)
+    {
+      point.xyz += lift;
+      facet = normal;
+    }
     float w = dot(rows[3], point);
     if (w <= 0.0)
     {

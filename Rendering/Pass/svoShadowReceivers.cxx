@@ -64,6 +64,41 @@ bool rename(std::string& text, const std::string& from, const std::string& to)
   }
   return found;
 }
+
+/// Has the vertex shader, and the geometry shader if there is one, send each facet one of its
+/// corners with its normal; false if they know none. (VTK's shader cache changes VSOut in fragment
+/// shaders to GSOut where there are geometry shaders.)
+bool sendCorner(std::string& vertexShader, std::string& geometryShader)
+{
+  const std::string copied = "normalVCGSOutput = normalVCVSOutput[i];";
+  const std::size_t main = vertexShader.find("void main()");
+  const std::size_t end = vertexShader.rfind('}');
+  const std::size_t geometryMain = geometryShader.find("void main()");
+  const std::size_t copy = geometryShader.find(copied);
+  if (main == std::string::npos || end == std::string::npos || end < main ||
+    vertexShader.find("out vec3 normalVCVSOutput;") == std::string::npos ||
+    vertexShader.find("vertexVCVSOutput =", main) == std::string::npos ||
+    (!geometryShader.empty() &&
+      (geometryMain == std::string::npos || copy == std::string::npos || copy < geometryMain)))
+  {
+    return false;
+  }
+  vertexShader.insert(end,
+    "  svoCornerVSOutput = vertexVCVSOutput.xyz;\n"
+    "  svoCornerNormalVSOutput = normalVCVSOutput;\n");
+  vertexShader.insert(
+    main, "flat out vec3 svoCornerVSOutput;\nflat out vec3 svoCornerNormalVSOutput;\n");
+  if (!geometryShader.empty())
+  {
+    geometryShader.insert(copy + copied.size(),
+      "\n  svoCornerGSOutput = svoCornerVSOutput[0];\n"
+      "  svoCornerNormalGSOutput = svoCornerNormalVSOutput[0];\n");
+    geometryShader.insert(geometryMain,
+      "flat in vec3 svoCornerVSOutput[];\nflat in vec3 svoCornerNormalVSOutput[];\n"
+      "flat out vec3 svoCornerGSOutput;\nflat out vec3 svoCornerNormalGSOutput;\n");
+  }
+  return true;
+}
 }
 
 void ShadowReceivers::update(vtkOpenGLRenderWindow* window, const std::vector<ShadowMap>& maps,
@@ -178,7 +213,8 @@ void ShadowReceivers::markShader(std::string& fragmentShader)
     std::string(ImplementationMark) + "  //VTK::Light::Impl", false);
 }
 
-void ShadowReceivers::completeShader(std::string& fragmentShader) const
+void ShadowReceivers::completeShader(
+  std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const
 {
   const std::size_t main = fragmentShader.find("void main()");
   if (main == std::string::npos)
@@ -209,15 +245,24 @@ void ShadowReceivers::completeShader(std::string& fragmentShader) const
       code << "  vec3 svoColor" << number << " = " << color << " * svoLit(svoAtlas" << number
            << ", svoCount" << number << ", svoMaps" << number << ", svoBias" << number
            << ", vertexVC.xyz, svoFacet, " << (hasNormal ? "normalVCVSOutput" : "svoFacet")
-           << ", svoExtent);\n";
+           << ", svoLift, svoExtent);\n";
     }
   }
   const bool any = !uniforms.str().empty();
+  const bool smooth = any && hasNormal && sendCorner(vertexShader, geometryShader);
+  if (smooth)
+  {
+    uniforms << "flat in vec3 svoCornerVSOutput;\nflat in vec3 svoCornerNormalVSOutput;\n";
+  }
   vtkShaderProgram::Substitute(declarations, DeclarationMark,
     any ? std::string(svoShadowReceiver) + uniforms.str() : std::string(), false);
   vtkShaderProgram::Substitute(body, ImplementationMark,
     any ? "  vec3 svoFacet = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));\n"
-          "  float svoExtent = min(length(dFdx(vertexVC.xyz)), length(dFdy(vertexVC.xyz)));\n" +
+          "  float svoExtent = min(length(dFdx(vertexVC.xyz)), length(dFdy(vertexVC.xyz)));\n"
+          "  vec3 svoLift = " +
+        std::string(smooth ? "svoSmoothLift(vertexVC.xyz, svoFacet, normalVCVSOutput, "
+                             "svoCornerVSOutput, normalize(svoCornerNormalVSOutput));\n"
+                           : "vec3(0.0);\n") +
         code.str()
         : std::string(),
     false);

@@ -37,7 +37,8 @@ public:
 
   /// Two steps around VTK's own replacements: marks first, then code.
   static void markShader(std::string& fragmentShader);
-  void completeShader(std::string& fragmentShader) const;
+  void completeShader(
+    std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const;
   void setUniforms(vtkShaderProgram* program, bool receives) const;
 
 private:

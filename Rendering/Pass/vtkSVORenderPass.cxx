@@ -268,12 +268,12 @@ bool vtkSVORenderPass::PreReplaceShaderValues(
   return true;
 }
 
-bool vtkSVORenderPass::PostReplaceShaderValues(
-  std::string&, std::string&, std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp*)
+bool vtkSVORenderPass::PostReplaceShaderValues(std::string& vertexShader,
+  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp*)
 {
   if (this->Impl->current && vtkOpenGLPolyDataMapper::SafeDownCast(mapper))
   {
-    this->Impl->current->receivers().completeShader(fragmentShader);
+    this->Impl->current->receivers().completeShader(vertexShader, geometryShader, fragmentShader);
   }
   return true;
 }

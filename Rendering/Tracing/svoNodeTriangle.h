@@ -10,10 +10,10 @@
 #ifndef svoNodeTriangle_h
 #define svoNodeTriangle_h
 
-#include "svoIntersect.h"
 #include "svoLeafGeometry.h"
 #include "svoOctree.h"
 #include "svoRay.h"
+#include "vtkSVOTracingModule.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,38 +148,8 @@ NodeTriangle pickTriangle(const Octree& octree, std::uint32_t node, const glm::d
 /// Settles up to 64 triangles that do not face the viewer: each becomes the first hit of the line
 /// of sight that passes through it. The answer to one does not depend on the others. `towards`: as
 /// of pickTriangle(), one each.
-inline void settleTriangles(
-  const Octree& octree, NodeTriangle* const* picked, const glm::dvec3* towards, int count)
-{
-  constexpr double FromOutside = 2.0; // more than the diagonal of the root cube
-  RayBlock rays;
-  for (int i = 0; i < RayBlock::Size; ++i)
-  {
-    const int k = std::min(i, count - 1);
-    const glm::vec3 direction(-glm::normalize(towards[k]));
-    const glm::vec3 origin(picked[k]->at - FromOutside * glm::dvec3(direction));
-    rays.originX[i] = origin.x;
-    rays.originY[i] = origin.y;
-    rays.originZ[i] = origin.z;
-    rays.directionX[i] = direction.x;
-    rays.directionY[i] = direction.y;
-    rays.directionZ[i] = direction.z;
-    rays.tMin[i] = i < count ? 0.0f : 1.0f;
-    rays.tMax[i] = i < count ? static_cast<float>(2.0 * FromOutside) : 0.0f;
-  }
-  HitBlock hits;
-  intersect(octree, rays, { LeafGeometry::Triangle }, hits);
-  for (int i = 0; i < count; ++i)
-  {
-    if (hits.primitive[i] != NoPrimitive)
-    {
-      picked[i]->triangle = hits.primitive[i];
-      picked[i]->at = glm::dvec3(rays.originX[i], rays.originY[i], rays.originZ[i]) +
-        static_cast<double>(hits.t[i]) *
-          glm::dvec3(rays.directionX[i], rays.directionY[i], rays.directionZ[i]);
-    }
-  }
-}
+VTKSVOTRACING_EXPORT void settleTriangles(
+  const Octree& octree, NodeTriangle* const* picked, const glm::dvec3* towards, int count);
 }
 
 #endif

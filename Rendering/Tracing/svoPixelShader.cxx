@@ -1,6 +1,7 @@
 #include "svoPixelShader.h"
 
 #include "svoSelect.h"
+#include "svoTerminator.h"
 #include "svoTileLighting.h"
 #include "svoTilePoints.h"
 
@@ -53,6 +54,37 @@ struct PixelShader::Scratch
   std::uint64_t rays;                  // of shadows
 };
 
+/// Calls set(i, darkness) for those points first + i, of one instance, that light l reaches though
+/// their facets turn away from it.
+template <class Set>
+void PixelShader::shadowTerminator(
+  std::size_t l, const Lit& lit, int first, int last, Scratch& scratch, Set&& set) const
+{
+  const TilePoints& p = scratch.points;
+  const Light& light = *lit.lighting.lights[l].light;
+  const Shadows& dark = lit.shaded.dark;
+  const SurfaceFrame& frame = this->Frames[p.instance[first]];
+  if (!isSmooth(*frame.instance) || !dark.knowsTerminator(l))
+  {
+    return;
+  }
+  for (int i = 0; i < last - first; ++i)
+  {
+    const int k = first + i;
+    if (scratch.light.reached[i] &&
+      turnsAway(light, { p.positionX[k], p.positionY[k], p.positionZ[k] },
+        { p.facetX[k], p.facetY[k], p.facetZ[k] }, dark.grazing()))
+    {
+      const TerminatorPoint at = atTerminator(frame, light, dark.grazing(), p.point(k),
+        { p.towardsX[k], p.towardsY[k], p.towardsZ[k] }, p.primitive[k]);
+      if (at.kind != TerminatorPoint::Kind::Plain)
+      {
+        set(i, dark.darkness(l, p.point(k), at, this->Errors[p.instance[k]], 0.0, scratch.rays));
+      }
+    }
+  }
+}
+
 /// Shadows of light l on points [first, last) of one instance that it reaches, and adds the light.
 void PixelShader::shadowAndAdd(
   std::size_t l, const Lit& lit, int first, int last, Scratch& scratch) const
@@ -65,6 +97,8 @@ void PixelShader::shadowAndAdd(
   if (!dark.filters())
   {
     dark.dark(l, points, first, last, error, light.reached, light.dark, scratch.rays);
+    this->shadowTerminator(l, lit, first, last, scratch,
+      [&](int i, float darkness) { light.dark[i] = darkness > 0.0f; });
     for (int i = 0; i < count && this->FindsEdges; ++i)
     {
       darken(scratch.darkness[first + i], l, light.dark[i]);
@@ -73,6 +107,8 @@ void PixelShader::shadowAndAdd(
     return;
   }
   dark.darkness(l, points, first, last, error, light.reached, scratch.missed);
+  this->shadowTerminator(
+    l, lit, first, last, scratch, [&](int i, float darkness) { scratch.missed[i] = darkness; });
   for (int i = 0; i < count; ++i)
   {
     light.share[i] = shareOfLight(scratch.missed[i], lit.remaining);

@@ -48,6 +48,9 @@ private:
   struct Lit;
   struct Scratch;
   void shadowAndAdd(std::size_t l, const Lit& lit, int first, int last, Scratch& scratch) const;
+  template <class Set>
+  void shadowTerminator(
+    std::size_t l, const Lit& lit, int first, int last, Scratch& scratch, Set&& set) const;
   void lightInstance(const Lit& lit, int first, int last, bool hasColor, Scratch& scratch) const;
   void write(const Lit& lit, int tileX, int tileY, Scratch& scratch, Frame& frame);
 

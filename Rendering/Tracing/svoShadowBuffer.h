@@ -85,6 +85,13 @@ public:
   void darkness(const TilePoints& points, int first, int last, double error,
     const std::uint8_t* asked, float* darkness) const;
 
+  /// Whether points are compared on their own planes, see setBias().
+  bool automaticBias() const { return this->AutomaticBias; }
+  /// True if the tiles that a point there looks up are traced, or need not be.
+  bool knows(const glm::dvec3& position) const;
+  /// Edge of a texel at a point, world; 0 outside of the map.
+  double texelEdge(const glm::dvec3& position) const;
+
   void copyMaps(int light, std::vector<ShadowMap>& maps) const;
   void release();
 
@@ -132,6 +139,11 @@ private:
     /// Number i (1..3) of the other texels whose centres surround the point.
     glm::ivec2 neighbour(int i) const;
   };
+  /// Of a map, both ends included.
+  struct TileRange
+  {
+    int x0, y0, x1, y1;
+  };
   enum class Answer
   {
     Lit,
@@ -140,6 +152,7 @@ private:
   };
   /// False if the point is outside of all faces, or its face sees no caster.
   bool lookUp(const glm::dvec3& position, Place& place) const;
+  static TileRange tilesAround(const Place& place);
   static void markPlace(Face& face, const Place& place, std::size_t& last);
   /// True if most of the other texels around the point find it dark as well.
   bool agreed(const Place& place, const SurfacePoint& point, double error) const;

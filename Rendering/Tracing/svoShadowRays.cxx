@@ -26,9 +26,10 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
       const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(index));
       const bool mixed =
         geometry == LeafGeometry::Automatic && instance.octree.longestList() > ShortList;
+      const double planeError = mixed ? CubeError * worldVoxel(instance) : 0.0;
       this->Casters.push_back(
-        { &instance, geometry, WorldToOctree(instance.octree, instance.localToWorld),
-          mixed ? CubeError * worldVoxel(instance) : 0.0 });
+        { &instance, geometry, WorldToOctree(instance.octree, instance.localToWorld), planeError,
+          std::max(planeError, worldLeafError(instance, geometry, instance.octree.level())) });
     }
   }
 }
@@ -70,6 +71,26 @@ bool ShadowRays::shadows(
     if (occluded(caster.instance->octree, outer, options))
     {
       return true;
+    }
+  }
+  return false;
+}
+
+bool ShadowRays::between(const glm::dvec3& from, const glm::dvec3& to, double offset) const
+{
+  const glm::dvec3 direction = to - from;
+  const double length = glm::length(direction);
+  for (const Caster& caster : this->Casters)
+  {
+    const double first = std::max(offset, caster.leafError);
+    if (first < length)
+    {
+      const Ray ray{ caster.toOctree.point(from), caster.toOctree.vector(direction), first / length,
+        1.0 };
+      if (occluded(caster.instance->octree, ray, { caster.geometry, MaximumLevel }))
+      {
+        return true;
+      }
     }
   }
   return false;

@@ -23,6 +23,10 @@ public:
   bool shadows(
     const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const;
 
+  /// True if something lies between two points, farther from the first one than `offset` and than
+  /// the error of its own leaves (world).
+  bool between(const glm::dvec3& from, const glm::dvec3& to, double offset) const;
+
 private:
   struct Caster
   {
@@ -30,6 +34,7 @@ private:
     LeafGeometry geometry;
     WorldToOctree toOctree;
     double planeError; // world; how far plane leaves among triangles can be off, 0 without any
+    double leafError;  // world; how far any leaf can be off
   };
   std::vector<Caster> Casters;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <glm/geometric.hpp>
+
 namespace svo
 {
 bool Shadows::canFilter(const FrameSettings& settings)
@@ -10,15 +12,22 @@ bool Shadows::canFilter(const FrameSettings& settings)
     settings.shadowTechnique == ShadowTechnique::Buffer;
 }
 
-void Shadows::begin(
-  const Scene& scene, const FrameSettings& settings, const LayeredView& eye, LayerBudget& budget)
+void Shadows::begin(const Scene& scene, const FrameSettings& settings, LayerBudget& budget)
 {
   this->Filters = canFilter(settings);
   // Subsamples of a pixel, and filters, may look up what no pixel's centre does.
   this->All = settings.wholeShadowBuffers || settings.antiAliasing || this->Filters;
   this->Shared.clear();
   this->beginBuffers(scene, scene.lights, { outlinesOf(scene) }, settings, budget);
-  if (settings.shadowTechnique == ShadowTechnique::Rays)
+}
+
+void Shadows::beginRays(const Scene& scene, const FrameSettings& settings, const LayeredView& eye)
+{
+  this->Of = &scene;
+  this->Exact = settings.shadowTechnique == ShadowTechnique::Rays;
+  this->Rays.reset();
+  if (this->Exact ||
+    (this->Casting && std::any_of(scene.instances.begin(), scene.instances.end(), isSmooth)))
   {
     this->Rays = std::make_unique<ShadowRays>(scene, eye);
   }
@@ -27,10 +36,8 @@ void Shadows::begin(
 void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
   const Outlines& outlines, const FrameSettings& settings, LayerBudget& budget)
 {
-  this->Of = &scene;
   this->Traced = true;
   this->Buffers.assign(lights.size(), nullptr);
-  this->Rays.reset();
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> kept;
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
@@ -98,7 +105,7 @@ bool Shadows::dark(
   {
     return this->Buffers[light]->shadows(point, error);
   }
-  if (this->Rays && this->Of->lights[light].castShadow)
+  if (this->Exact && this->Of->lights[light].castShadow)
   {
     ++rays;
     return this->Rays->shadows(this->Of->lights[light], point.position, point.facet, error);
@@ -137,6 +144,32 @@ void Shadows::darkness(std::size_t light, const TilePoints& points, int first, i
     return;
   }
   std::fill_n(darkness, last - first, 0.0f);
+}
+
+float Shadows::darkness(std::size_t light, const SurfacePoint& on, const TerminatorPoint& at,
+  double error, double extent, std::uint64_t& rays) const
+{
+  if (at.kind == TerminatorPoint::Kind::Hidden)
+  {
+    return 1.0f;
+  }
+  const ShadowBuffer* buffer = this->Buffers[light];
+  const glm::dvec3& raised = at.point.position;
+  if (glm::distance(on.position, raised) > (buffer ? buffer->texelEdge(raised) : 0.0))
+  {
+    ++rays;
+    if (this->Rays->between(on.position, raised, error))
+    {
+      return 1.0f;
+    }
+  }
+  if (buffer && buffer->knows(raised))
+  {
+    return this->darkness(light, at.point, error, extent, rays);
+  }
+  ++rays;
+  const bool dark = this->Rays->shadows(this->Of->lights[light], raised, at.point.facet, error);
+  return dark ? 1.0f : 0.0f;
 }
 
 std::size_t Shadows::layerMemory() const

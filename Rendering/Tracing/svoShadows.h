@@ -6,6 +6,8 @@
 #include "svoShadowBuffer.h"
 #include "svoShadowRays.h"
 #include "svoSurfacePoint.h"
+#include "svoTerminator.h"
+#include "svoTileShadows.h"
 #include "svoTracer.h"
 
 #include <cstdint>
@@ -18,10 +20,14 @@ namespace svo
 class Shadows
 {
 public:
-  /// Fits the lights' buffers and keeps of their layers what is still true. `eye`: the points to be
-  /// tested are its; rays to the light meet the same geometry, or surfaces would shadow themselves.
-  void begin(
-    const Scene& scene, const FrameSettings& settings, const LayeredView& eye, LayerBudget& budget);
+  /// Fits the lights' buffers and keeps of their layers what is still true. `scene`: as lights see
+  /// it.
+  void begin(const Scene& scene, const FrameSettings& settings, LayerBudget& budget);
+
+  /// To be called in every frame, after begin() or traceShared(). `scene` and `eye`: the points to
+  /// be tested are theirs; rays to the light meet the same geometry, or surfaces would shadow
+  /// themselves.
+  void beginRays(const Scene& scene, const FrameSettings& settings, const LayeredView& eye);
 
   /// Instead of begin() and trace() where other processes hold parts of the scene: traces the
   /// buffers whole and merges them with the others', so that all have the same. A collective call.
@@ -58,6 +64,20 @@ public:
   void darkness(std::size_t light, const TilePoints& points, int first, int last, double error,
     const std::uint8_t* asked, float* darkness) const;
 
+  /// The same for points at the terminator, see svoTerminator.h. False where nothing is in shadow,
+  /// or points are compared with a shadow map without any regard to what they lie on.
+  bool knowsTerminator(std::size_t light) const
+  {
+    return this->Buffers[light] ? this->Buffers[light]->automaticBias()
+                                : this->Exact && this->Of->lights[light].castShadow;
+  }
+  /// What atTerminator() is to be asked with: rays need no margin.
+  double grazing() const { return this->Exact ? 0.0 : 1.0 / GrazingReach; }
+  /// `at` is not plain. A raised point is lit if the way from the one `on` the mesh to it and on to
+  /// the light is free; the first part is not looked at where it is shorter than a texel.
+  float darkness(std::size_t light, const SurfacePoint& on, const TerminatorPoint& at, double error,
+    double extent, std::uint64_t& rays) const;
+
   void addStatistics(FrameStatistics& statistics) const;
   void copyMaps(std::vector<ShadowMap>& maps) const;
   /// Bytes of all kept layers.
@@ -69,9 +89,10 @@ private:
   void beginBuffers(const Scene& scene, const std::vector<Light>& lights, const Outlines& outlines,
     const FrameSettings& settings, LayerBudget& budget);
 
-  const Scene* Of = nullptr;
-  bool All = false;     // every tile is traced
-  bool Casting = false; // there are buffers
+  const Scene* Of = nullptr; // the frame's
+  bool Exact = false;        // rays, no buffers
+  bool All = false;          // every tile is traced
+  bool Casting = false;      // there are buffers
   bool Filters = false;
   std::vector<ShadowBuffer*> Buffers; // by index into Scene::lights; null: no buffer
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> Kept; // by Light::id

@@ -69,7 +69,6 @@ bool Shadows::traceShared(const Scene& scene, const FrameSettings& own, LayerBud
   append(state, outlines.all);
   if (keep && state == this->Shared)
   {
-    this->Of = &scene;
     this->Traced = false;
     for (ShadowBuffer* buffer : this->Buffers)
     {

@@ -1,6 +1,7 @@
 #include "svoPixelShader.h"
 
 #include "svoSelect.h"
+#include "svoTerminator.h"
 #include "svoTileLighting.h"
 
 #include <algorithm>
@@ -57,11 +58,23 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
           const double extent = 0.5 * worldPixel(view, samples.t[k]);
           const SurfacePoint point = surfacePoint(
             this->Frames[i], view, samples.x[k], samples.y[k], samples.t[k], samples.primitive[k]);
+          const glm::vec3 towards(-view.rayDirection(samples.x[k], samples.y[k]));
+          const auto darkness = [&](std::size_t l)
+          {
+            const Shadows& dark = shaded.dark;
+            if (dark.knowsTerminator(l))
+            {
+              const TerminatorPoint at = atTerminator(this->Frames[i], scene.lights[l],
+                dark.grazing(), point, towards, samples.primitive[k]);
+              if (at.kind != TerminatorPoint::Kind::Plain)
+              {
+                return dark.darkness(l, point, at, this->Errors[i], extent, rays);
+              }
+            }
+            return dark.darkness(l, point, this->Errors[i], extent, rays);
+          };
           sum += glm::clamp(
-            svo::shade(lighting, scene.instances[i], point, remaining,
-              [&](std::size_t light)
-              { return shaded.dark.darkness(light, point, this->Errors[i], extent, rays); }),
-            0.0f, 1.0f);
+            svo::shade(lighting, scene.instances[i], point, remaining, darkness), 0.0f, 1.0f);
         }
         const int x = 8 * tileX + (pixels[first + p] & 7);
         const int y = 8 * tileY + (pixels[first + p] >> 3);

@@ -171,26 +171,38 @@ inline SurfacePoint pointOfTriangle(const SurfaceFrame& frame, const glm::dvec3&
   return point;
 }
 
-/// `t` is the linear depth of the hit on the ray of pixel (x, y).
-inline SurfacePoint surfacePoint(
-  const SurfaceFrame& frame, const View& view, double x, double y, double t, Primitive primitive)
+/// The triangle of a hit at `position`, and where on it to interpolate; `towards`, to the viewer:
+/// world. The octree has a surface.
+inline NodeTriangle triangleOfHit(const SurfaceFrame& frame, const glm::dvec3& position,
+  const glm::vec3& towards, Primitive primitive)
 {
-  const Octree& octree = frame.instance->octree;
-  const glm::dvec3 ray = view.rayDirection(x, y);
-  const glm::dvec3 position = view.rayOrigin(x, y) + t * ray;
-  const glm::vec3 towards(-ray);
-  if (!(primitive & NodePrimitive) || !octree.surface())
+  if (!(primitive & NodePrimitive))
   {
-    return pointOfTriangle(frame, position, towards, primitive, frame.toOctree.point(position));
+    return { primitive, frame.toOctree.point(position), true };
   }
   NodeTriangle picked = pickTriangle(frame, primitive & ~NodePrimitive, position, towards);
   if (!picked.faces)
   {
     NodeTriangle* one[] = { &picked };
     const glm::dvec3 local = frame.toOctree.vector(glm::dvec3(towards));
-    settleTriangles(octree, one, &local, 1);
+    settleTriangles(frame.instance->octree, one, &local, 1);
   }
-  return pointOfTriangle(frame, position, towards, picked.triangle, picked.at);
+  return picked;
+}
+
+/// `t` is the linear depth of the hit on the ray of pixel (x, y).
+inline SurfacePoint surfacePoint(
+  const SurfaceFrame& frame, const View& view, double x, double y, double t, Primitive primitive)
+{
+  const glm::dvec3 ray = view.rayDirection(x, y);
+  const glm::dvec3 position = view.rayOrigin(x, y) + t * ray;
+  const glm::vec3 towards(-ray);
+  if (!frame.instance->octree.surface())
+  {
+    return pointOfTriangle(frame, position, towards, primitive, frame.toOctree.point(position));
+  }
+  const NodeTriangle hit = triangleOfHit(frame, position, towards, primitive);
+  return pointOfTriangle(frame, position, towards, hit.triangle, hit.at);
 }
 }
 

@@ -109,10 +109,10 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
   const bool shared = self.Shared && settings.shadowTechnique == ShadowTechnique::Buffer;
   if (!shared)
   {
-    self.Dark.begin(
-      self.sceneOfLights(scene, settings.shadowTechnique), settings, self.Eye, budget);
+    self.Dark.begin(self.sceneOfLights(scene, settings.shadowTechnique), settings, budget);
     self.markLightTiles(scene, view, parallelFor);
   }
+  self.Dark.beginRays(scene, settings, self.Eye);
 
   // Shadow layers, merged likewise.
   const double shadowStart = now();

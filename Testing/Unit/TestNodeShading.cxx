@@ -17,18 +17,6 @@ namespace
 constexpr int Level = 8;
 constexpr int Coarse[] = { 2, 3, 4, 5 }; // levels above the bricks
 
-/// Of a mesh around the origin: its point normals, towards the outside.
-std::vector<float> radialNormals(const Mesh& mesh)
-{
-  std::vector<float> normals;
-  for (const glm::dvec3& x : mesh.points)
-  {
-    const glm::vec3 n(glm::normalize(x));
-    normals.insert(normals.end(), { n.x, n.y, n.z });
-  }
-  return normals;
-}
-
 /// Traces an instance to a coarse level, in views from several sides, and calls f(point, view) for
 /// what is seen, which has to be on nodes and the same side by side as one by one.
 void eachSeenPoint(const svo::Instance& instance, int level, const std::vector<glm::dvec3>& eyes,

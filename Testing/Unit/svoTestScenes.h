@@ -97,6 +97,18 @@ inline Mesh sphere(unsigned rows, unsigned columns)
   return mesh;
 }
 
+/// Of a mesh around the origin: its point normals, towards the outside.
+inline std::vector<float> radialNormals(const Mesh& mesh)
+{
+  std::vector<float> normals;
+  for (const glm::dvec3& x : mesh.points)
+  {
+    const glm::vec3 n(glm::normalize(x));
+    normals.insert(normals.end(), { n.x, n.y, n.z });
+  }
+  return normals;
+}
+
 /// Triangles anywhere in the unit cube, of edges up to `size`.
 inline Mesh soup(unsigned count, double size, unsigned seed)
 {

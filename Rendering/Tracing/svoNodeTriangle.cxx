@@ -1,0 +1,39 @@
+#include "svoNodeTriangle.h"
+
+#include "svoIntersect.h"
+
+namespace svo
+{
+void settleTriangles(
+  const Octree& octree, NodeTriangle* const* picked, const glm::dvec3* towards, int count)
+{
+  constexpr double FromOutside = 2.0; // more than the diagonal of the root cube
+  RayBlock rays;
+  for (int i = 0; i < RayBlock::Size; ++i)
+  {
+    const int k = std::min(i, count - 1);
+    const glm::vec3 direction(-glm::normalize(towards[k]));
+    const glm::vec3 origin(picked[k]->at - FromOutside * glm::dvec3(direction));
+    rays.originX[i] = origin.x;
+    rays.originY[i] = origin.y;
+    rays.originZ[i] = origin.z;
+    rays.directionX[i] = direction.x;
+    rays.directionY[i] = direction.y;
+    rays.directionZ[i] = direction.z;
+    rays.tMin[i] = i < count ? 0.0f : 1.0f;
+    rays.tMax[i] = i < count ? static_cast<float>(2.0 * FromOutside) : 0.0f;
+  }
+  HitBlock hits;
+  intersect(octree, rays, { LeafGeometry::Triangle }, hits);
+  for (int i = 0; i < count; ++i)
+  {
+    if (hits.primitive[i] != NoPrimitive)
+    {
+      picked[i]->triangle = hits.primitive[i];
+      picked[i]->at = glm::dvec3(rays.originX[i], rays.originY[i], rays.originZ[i]) +
+        static_cast<double>(hits.t[i]) *
+          glm::dvec3(rays.directionX[i], rays.directionY[i], rays.directionZ[i]);
+    }
+  }
+}
+}

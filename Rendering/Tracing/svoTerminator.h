@@ -1,0 +1,129 @@
+// The shadow terminator: where a facet has turned its back on a light that the smooth normal still
+// faces. The facet itself is dark there, in patches with the outline of facets; the curved surface
+// that the normals stand for is not. Shadows are therefore asked for on that surface.
+//
+// Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4. Here only for
+// facets that are turned away, so that shadows on all others stay exact; and only where the surface
+// bulges outwards: what is hollow is in its own shadow.
+#ifndef svoTerminator_h
+#define svoTerminator_h
+
+#include "svoScene.h"
+#include "svoSurfacePoint.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+namespace svo
+{
+/// True if normals of the mesh's points are interpolated.
+inline bool isSmooth(const Instance& instance)
+{
+  return !instance.material.flat && instance.attributes.normals &&
+    instance.attributes.normalAssociation == Association::Point && instance.octree.surface();
+}
+
+/// The way a light's ray goes that arrives at a point; not unit.
+inline glm::dvec3 alongLight(const Light& light, const glm::dvec3& position)
+{
+  return light.kind == Light::Kind::Directional ? light.direction : position - light.position;
+}
+
+/// True if light that arrives at a point meets the facet there from behind, or so flat that the
+/// sine is at most `grazing`.
+inline bool turnsAway(
+  const Light& light, const glm::dvec3& position, const glm::vec3& facet, double grazing)
+{
+  const glm::dvec3 along = alongLight(light, position);
+  const double behind = glm::dot(glm::dvec3(facet), along);
+  return behind > 0.0 || behind * behind < grazing * grazing * glm::dot(along, along);
+}
+
+/// Where the smooth surface is, seen from a point of the mesh.
+struct SmoothSurface
+{
+  glm::dvec3 lift{ 0.0 }; // world; to the smooth surface, where it bulges towards the viewer
+  bool hollow = false;    // it bends away from the viewer only
+};
+
+/// `towards`: to the viewer; `primitive`: of the hit. The instance isSmooth().
+inline SmoothSurface smoothSurfaceAt(const SurfaceFrame& frame, const SurfacePoint& point,
+  const glm::vec3& towards, Primitive primitive)
+{
+  constexpr double LeastBend = 1e-5; // radians; rounding of normals is less
+  SmoothSurface result;
+  const Instance& instance = *frame.instance;
+  if (!(glm::dot(point.facet, point.normal) > 0.0f))
+  {
+    return result; // no normal of this facet
+  }
+  const NodeTriangle hit = triangleOfHit(frame, point.position, towards, primitive);
+  const Surface& surface = *instance.octree.surface();
+  const glm::uvec3 triangle = surface.triangles[hit.triangle];
+  const glm::vec3 a = surface.points[triangle.x];
+  const glm::vec3 e1 = surface.points[triangle.y] - a;
+  const glm::vec3 e2 = surface.points[triangle.z] - a;
+  const glm::vec3 weight = nearWeights(glm::vec3(hit.at - glm::dvec3(a)), e1, e2);
+  const bool front = glm::dot(frame.windingMatrix * glm::cross(e1, e2), towards) > 0.0f;
+  const glm::dmat3 toWorld = glm::dmat3(instance.localToWorld) * instance.octree.rootEdge();
+  const glm::vec3 at = weight.y * e1 + weight.z * e2; // from the first corner
+  const glm::vec3 corners[3] = { glm::vec3(0.0f), e1, e2 };
+  double away = 0.0, below = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const glm::vec3 normal = detail::normalized(
+      frame.normalMatrix * detail::vectorAt(instance.attributes.normals, triangle[i]),
+      front ? point.facet : -point.facet);
+    const glm::dvec3 outwards(front ? normal : -normal);
+    const glm::dvec3 from = toWorld * glm::dvec3(at - corners[i]);
+    const double over = glm::dot(from, outwards); // of the point over the plane of this corner
+    result.lift += weight[i] * std::max(0.0, -over) * outwards;
+    below += weight[i] * std::max(0.0, over);
+    away += weight[i] * glm::length(from);
+  }
+  result.hollow = result.lift == glm::dvec3(0.0) && below > LeastBend * away;
+  return result;
+}
+
+/// A visible point as one light finds it.
+struct TerminatorPoint
+{
+  enum class Kind
+  {
+    Plain,  // shadows are asked for at the point itself
+    Raised, // ... at `point`: on the smooth surface, its facet the plane that it is shaded with
+    Hidden  // light would have to come through its facet
+  };
+  Kind kind = Kind::Plain;
+  SurfacePoint point{};
+};
+
+/// `grazing`: see turnsAway().
+inline TerminatorPoint atTerminator(const SurfaceFrame& frame, const Light& light, double grazing,
+  const SurfacePoint& point, const glm::vec3& towards, Primitive primitive)
+{
+  TerminatorPoint result;
+  if (!isSmooth(*frame.instance) || !turnsAway(light, point.position, point.facet, grazing))
+  {
+    return result;
+  }
+  const bool behind = turnsAway(light, point.position, point.facet, 0.0);
+  const SmoothSurface smooth = smoothSurfaceAt(frame, point, towards, primitive);
+  if (smooth.lift != glm::dvec3(0.0) || (behind && !smooth.hollow))
+  {
+    result.kind = TerminatorPoint::Kind::Raised;
+    result.point = point;
+    result.point.position += smooth.lift;
+    result.point.facet = point.normal;
+  }
+  else if (behind && frame.instance->castShadow)
+  {
+    result.kind = TerminatorPoint::Kind::Hidden;
+  }
+  return result;
+}
+}
+
+#endif

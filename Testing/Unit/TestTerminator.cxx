@@ -1,0 +1,260 @@
+// Coarse meshes with smooth normals where light grazes them: facets that have turned away from a
+// light that their normals still face.
+#include "svoTerminator.h"
+#include "svoTracerScenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace svotest;
+
+namespace
+{
+/// Ways to find shadows.
+struct Technique
+{
+  std::string name;
+  svo::FrameSettings settings;
+};
+
+std::vector<Technique> everyTechnique()
+{
+  std::vector<Technique> all(6);
+  all[0].name = "buffer";
+  all[1].name = "coarse buffer";
+  all[1].settings.shadowResolution = 128;
+  all[2].name = "filtered buffer";
+  all[2].settings.filterShadows = true;
+  all[3].name = "anti-aliased";
+  all[3].settings.filterShadows = all[3].settings.antiAliasing = true;
+  all[4].name = "rays";
+  all[4].settings.shadowTechnique = svo::ShadowTechnique::Rays;
+  all[5].name = "whole buffer";
+  all[5].settings.wholeShadowBuffers = true;
+  return all;
+}
+
+/// A unit ball of flat facets, shaded as a round one.
+struct Ball
+{
+  Mesh mesh;
+  svo::Octree octree;
+  std::vector<float> normals;
+
+  Ball(unsigned rows, unsigned columns)
+    : mesh(sphere(rows, columns))
+    , octree(makeOctree(mesh, 6))
+    , normals(radialNormals(mesh))
+  {
+  }
+  svo::Instance instance(std::uint64_t id, const glm::dmat4& place = glm::dmat4(1.0)) const
+  {
+    svo::Instance result = instanceOf(this->octree, id, place, svo::LeafGeometry::Automatic);
+    result.attributes.normals = this->normals.data();
+    result.attributes.normalAssociation = svo::Association::Point;
+    return result;
+  }
+};
+
+/// Pixels of different colour, and how many there are in all.
+struct Count
+{
+  int different = 0, seen = 0;
+};
+
+Count compare(const svo::Frame& a, const svo::Frame& b)
+{
+  Count count;
+  for (std::size_t i = 0; i < a.instance.size(); ++i)
+  {
+    count.seen += a.instance[i] != ~0u;
+    count.different += a.color[4 * i] != b.color[4 * i];
+  }
+  return count;
+}
+
+/// The picture and the one without shadows.
+Count shadowed(const svo::Scene& scene, const svo::View& view, const svo::FrameSettings& settings)
+{
+  svo::Scene unshadowed = scene;
+  unshadowed.lights[0].castShadow = false;
+  return compare(rendered(scene, view, settings), rendered(unshadowed, view, settings));
+}
+
+/// All of the scene that these views show has to be in shadow: by rays exactly, by a buffer but for
+/// texels along edges and where light grazes.
+void expectDark(const svo::Scene& scene, const std::vector<svo::View>& views,
+  const Technique& technique, const std::string& name)
+{
+  int lit = 0, seen = 0;
+  for (const svo::View& view : views)
+  {
+    const svo::Frame frame = rendered(scene, view, technique.settings);
+    for (std::size_t i = 0; i < frame.instance.size(); ++i)
+    {
+      seen += frame.instance[i] != ~0u;
+      lit += frame.instance[i] != ~0u && frame.color[4 * i] > 0;
+    }
+  }
+  EXPECT_GT(seen, 10000);
+  const bool exact = technique.settings.shadowTechnique == svo::ShadowTechnique::Rays;
+  EXPECT_LE(lit, exact ? 0 : seen / 100) << name << ", " << technique.name;
+}
+
+const std::vector<glm::dvec3> Eyes = { { 3, -3, 2 }, { -3, -2, -1 }, { 0.2, 4, 0.5 } };
+}
+
+TEST(Terminator, ThePointThatIsAskedAboutLiesOnTheSmoothSurface)
+{
+  const Ball ball(8, 8);
+  const svo::Instance instance = ball.instance(1, movedTo(3, 0, 0));
+  const svo::SurfaceFrame frame(instance);
+  const svo::Surface& surface = *ball.octree.surface();
+  for (std::uint32_t k = 0; k < surface.triangles.size(); ++k)
+  {
+    const glm::uvec3 corners = surface.triangles[k];
+    glm::dvec3 middle(0.0);
+    for (int i = 0; i < 3; ++i)
+    {
+      middle += ball.mesh.points[corners[i]] / 3.0;
+    }
+    const glm::dvec3 position = middle + glm::dvec3(3, 0, 0);
+    for (const double side : { 1.0, -1.0 })
+    {
+      const glm::vec3 towards(side * middle);
+      const svo::SurfacePoint point =
+        svo::pointOfTriangle(frame, position, towards, k, frame.toOctree.point(position));
+      svo::Light light = lightOf(svo::Light::Kind::Directional, { 1, 0, 0 });
+      light.direction = glm::dvec3(point.facet); // from behind
+      const svo::TerminatorPoint at = svo::atTerminator(frame, light, 0.0, point, towards, k);
+      ASSERT_EQ(at.kind,
+        side > 0.0 ? svo::TerminatorPoint::Kind::Raised : svo::TerminatorPoint::Kind::Hidden);
+      if (side > 0.0)
+      {
+        const double radius = glm::length(at.point.position - glm::dvec3(3, 0, 0));
+        EXPECT_GT(radius, 1.0);
+        EXPECT_LT(radius, 1.0 + 2.0 * (1.0 - glm::length(middle)));
+        EXPECT_EQ(at.point.facet, point.normal);
+      }
+      light.direction = -light.direction;
+      EXPECT_EQ(svo::atTerminator(frame, light, 0.0, point, towards, k).kind,
+        svo::TerminatorPoint::Kind::Plain);
+    }
+  }
+}
+
+TEST(Terminator, AConvexBodyHasNoShadowOnItself)
+{
+  const glm::dmat4 squeezed(
+    glm::dmat3(glm::dvec3(1, 0.2, 0), glm::dvec3(0, 0.6, 0.3), glm::dvec3(0, 0, 0.8)));
+  for (const unsigned columns : { 6u, 8u, 24u })
+  {
+    const Ball ball(columns == 6 ? 4 : columns, columns);
+    for (const glm::dmat4& place : columns == 8
+        ? std::vector<glm::dmat4>{ glm::dmat4(1.0), squeezed }
+        : std::vector<glm::dmat4>{ glm::dmat4(1.0) })
+    {
+      for (const LightCase& light : everyLight())
+      {
+        for (const Technique& technique : everyTechnique())
+        {
+          for (const glm::dvec3& eye : Eyes)
+          {
+            svo::Scene scene;
+            scene.instances = { ball.instance(1, place) };
+            scene.lights = { light.light };
+            const svo::View view = lookAt(eye, 120, 120);
+            const Count count = shadowed(scene, view, technique.settings);
+            EXPECT_GT(count.seen, 1500);
+            EXPECT_EQ(count.different, 0) << columns << " facets, " << light.name << ", "
+                                          << technique.name << ", eye " << eye.x;
+          }
+        }
+      }
+    }
+  }
+}
+
+namespace
+{
+/// Those that can tell walls apart that are a fiftieth of the scene thick.
+std::vector<Technique> fineTechniques()
+{
+  std::vector<Technique> all = everyTechnique();
+  all.erase(all.begin() + 1);
+  return all;
+}
+
+std::vector<svo::View> fromEyes()
+{
+  std::vector<svo::View> views;
+  for (const glm::dvec3& eye : Eyes)
+  {
+    views.push_back(lookAt(eye, 120, 120));
+  }
+  return views;
+}
+}
+
+// A shell so close that the smooth surface of the ball lies beyond it.
+TEST(Terminator, AThinWallStaysTight)
+{
+  const Ball ball(8, 8);
+  for (const LightCase& light : everyLight())
+  {
+    for (const Technique& technique : fineTechniques())
+    {
+      svo::Scene scene;
+      scene.instances = { ball.instance(1), ball.instance(2, glm::dmat4(glm::dmat3(1.02))) };
+      scene.instances[1].visible = false;
+      scene.lights = { light.light };
+      expectDark(scene, fromEyes(), technique, light.name);
+    }
+  }
+}
+
+TEST(Terminator, TheInsideOfABallStaysDark)
+{
+  const Ball ball(8, 8);
+  std::vector<svo::View> views;
+  for (const glm::dvec3& eye : { glm::dvec3(0.1, 0, 0), glm::dvec3(0, -0.5, 0.1) })
+  {
+    for (const glm::dvec3& at : { glm::dvec3(1, 0, 0), glm::dvec3(-1, 0.2, -0.5) })
+    {
+      views.push_back(lookAt(eye, 120, 120, 80.0, at));
+    }
+  }
+  for (const LightCase& light : everyLight())
+  {
+    for (const Technique& technique : fineTechniques())
+    {
+      svo::Scene scene;
+      scene.instances = { ball.instance(1) };
+      scene.lights = { light.light };
+      expectDark(scene, views, technique, light.name);
+    }
+  }
+}
+
+// What other bodies cast on such facets stays.
+TEST(Terminator, AnotherBodysShadowFallsOnFacetsThatAreTurnedAway)
+{
+  const Ball ball(8, 8);
+  for (const LightCase& light : everyLight())
+  {
+    for (const Technique& technique : everyTechnique())
+    {
+      const glm::dvec3 towards = glm::normalize(light.light.position);
+      svo::Scene scene;
+      scene.instances = { ball.instance(1),
+        ball.instance(
+          2, glm::translate(glm::dmat4(1.0), 1.3 * towards) * glm::dmat4(glm::dmat3(1.5))) };
+      scene.instances[1].visible = false;
+      scene.lights = { light.light };
+      expectDark(scene, fromEyes(), technique, light.name);
+    }
+  }
+}
