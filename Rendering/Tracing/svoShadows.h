@@ -68,8 +68,8 @@ public:
   /// or points are compared with a shadow map without any regard to what they lie on.
   bool knowsTerminator(std::size_t light) const
   {
-    return this->Buffers[light] ? this->Buffers[light]->automaticBias()
-                                : this->Exact && this->Of->lights[light].castShadow;
+    return this->Exact ? this->Of->lights[light].castShadow
+                       : this->Buffers[light] && this->Buffers[light]->automaticBias();
   }
   /// What atTerminator() is to be asked with: rays need no margin.
   double grazing() const { return this->Exact ? 0.0 : 1.0 / GrazingReach; }
@@ -85,12 +85,13 @@ public:
   void release();
 
 private:
+  static bool usesBuffers(const FrameSettings& settings);
   static bool canFilter(const FrameSettings& settings);
   void beginBuffers(const Scene& scene, const std::vector<Light>& lights, const Outlines& outlines,
     const FrameSettings& settings, LayerBudget& budget);
 
   const Scene* Of = nullptr; // the frame's
-  bool Exact = false;        // rays, no buffers
+  bool Exact = false;        // rays; buffers are for others
   bool All = false;          // every tile is traced
   bool Casting = false;      // there are buffers
   bool Filters = false;
