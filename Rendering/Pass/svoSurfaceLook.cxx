@@ -83,27 +83,14 @@ bool coordinateColors(vtkMapper* mapper, vtkPolyData* mesh, Attributes& attribut
   vtkImageData* texture = mapper->GetColorTextureMap();
   auto* texels =
     texture ? vtkUnsignedCharArray::SafeDownCast(texture->GetPointData()->GetScalars()) : nullptr;
-  if (!coordinates || !texels || texels->GetNumberOfComponents() != 4 ||
+  if (!coordinates || coordinates->GetNumberOfComponents() != 2 || !texels ||
+    texels->GetNumberOfComponents() != 4 || texture->GetDimensions()[1] != 2 ||
     coordinates->GetNumberOfTuples() < mesh->GetNumberOfPoints())
   {
     return false;
   }
-  const int stride = coordinates->GetNumberOfComponents();
-  const float* values = coordinates->GetPointer(0);
-  if (stride > 1)
-  {
-    // The second row of VTK's texture is the colour of NaN, blended in by interpolation.
-    for (vtkIdType i = 0; i < coordinates->GetNumberOfTuples(); ++i)
-    {
-      if (values[stride * i + 1] > 0.5f)
-      {
-        return false;
-      }
-    }
-  }
   attributes.colorAssociation = Association::Point;
-  attributes.colorCoordinates = values;
-  attributes.colorCoordinateStride = stride;
+  attributes.colorCoordinates = coordinates->GetPointer(0);
   attributes.colorTexture = texels->GetPointer(0);
   attributes.colorTextureSize = texture->GetDimensions()[0];
   kept.emplace_back(coordinates);
