@@ -6,6 +6,7 @@
 #include "svoDataSetSurfaces.h"
 #include "svoFloatArrays.h"
 #include "svoOctreeStore.h"
+#include "svoOpaqueCells.h"
 #include "svoScene.h"
 #include "svoSceneOctrees.h"
 #include "svoSurfaceLook.h"
@@ -60,16 +61,21 @@ public:
   void collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options,
     const CollectSettings& settings, CollectedScene& result);
 
+  /// What a frame would collect of a prop, octrees apart, if a light casts; nothing is said.
+  PropSurfaces judge(vtkProp* prop);
+
 private:
   struct Frame;
-  void collectProp(vtkProp* prop, Frame& frame);
-  bool collectActor(vtkActor* actor, vtkProp* owner, const vtkMatrix4x4* matrix, int path,
-    std::vector<SceneSurface>& surfaces, Frame& frame);
+  bool collectProp(PropSurfaces& found, Frame& frame);
+  void collectActor(vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, Frame& frame);
   std::vector<SurfacePart> partsOf(vtkActor* actor);
+  vtkPolyData* casterOf(const SurfacePart& part, OpaqueCells::Answer opaque, vtkActor* actor,
+    PropSurfaces& found, const Frame& frame);
   void complainOnce(const void* about, const std::string& text, const Frame& frame);
 
   CompositeBlocks Blocks;
   DataSetSurfaces Surfaces;
+  OpaqueCells Opaque;
   FloatArrays Floats;
   std::set<std::pair<const void*, std::string>> Said;
 };

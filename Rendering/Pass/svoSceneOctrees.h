@@ -4,9 +4,11 @@
 
 #include "svoOctreeStore.h"
 #include "svoScene.h"
+#include "svoSurfaceLook.h"
 #include "svoTracer.h"
 #include "svoView.h"
 
+#include <algorithm>
 #include <vector>
 
 class vtkPolyData;
@@ -18,7 +20,7 @@ namespace svo
 struct SceneSurface
 {
   Instance instance;
-  vtkPolyData* mesh = nullptr;
+  vtkPolyData* mesh = nullptr; // what casts alone, where the surface is not traceable
   bool traceable = false;
   bool casts = false;
 };
@@ -29,8 +31,28 @@ struct PropSurfaces
   vtkProp* prop = nullptr;
   std::vector<SceneSurface> surfaces; // those that are traceable or cast
   int actors = 0;
-  bool traced = true;    // all that the prop shows is traced
-  bool receives = false; // shadows fall on it
+  bool traced = true;          // all that the prop shows is traced
+  bool receives = false;       // shadows fall on it
+  Reason rasterized = nullptr; // why it is not traced
+  Reason castsNone = nullptr;  // why something of it casts nothing
+
+  /// Leaves the prop to the rasteriser.
+  void rasterize(Reason reason)
+  {
+    this->traced = false;
+    this->rasterized = this->rasterized ? this->rasterized : reason;
+  }
+  void castNothing(Reason reason) { this->castsNone = this->castsNone ? this->castsNone : reason; }
+  bool casts() const
+  {
+    return std::any_of(this->surfaces.begin(), this->surfaces.end(),
+      [](const SceneSurface& surface) { return surface.casts; });
+  }
+  void leaveAlone(Reason reason)
+  {
+    this->rasterize(reason);
+    this->castNothing(reason);
+  }
 };
 
 /// What the levels of octrees that are built here follow from.

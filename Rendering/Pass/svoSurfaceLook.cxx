@@ -40,6 +40,42 @@ bool hasCustomShaders(vtkActor* actor)
     shaders->HasFragmentShaderCode() || shaders->HasGeometryShaderCode();
 }
 
+/// What of a plain actor with a plain mapper cannot be reproduced, whatever the mesh.
+Reason beyondTracing(vtkActor* actor)
+{
+  vtkProperty* property = actor->GetProperty();
+  if (property->GetInterpolation() == VTK_PBR)
+  {
+    return "has a physically based material";
+  }
+  if (property->GetEdgeVisibility() || property->GetVertexVisibility())
+  {
+    return "shows its edges or vertices";
+  }
+  if (property->GetFrontfaceCulling() || property->GetBackfaceCulling())
+  {
+    return "has culled faces";
+  }
+  if (actor->GetBackfaceProperty())
+  {
+    return "has a backface property";
+  }
+  if (actor->GetTexture() || property->GetNumberOfTextures() > 0)
+  {
+    return "has a texture";
+  }
+  if (hasCustomShaders(actor))
+  {
+    return "has shaders of its own";
+  }
+  vtkSelection* selection = actor->GetMapper()->GetSelection();
+  if (selection && selection->GetNumberOfNodes() > 0)
+  {
+    return "shows a selection";
+  }
+  return actor->HasTranslucentPolygonalGeometry() ? "is translucent" : nullptr;
+}
+
 void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays& floats)
 {
   vtkDataArray* normals = flat ? nullptr : mesh->GetPointData()->GetNormals();
@@ -98,8 +134,22 @@ bool coordinateColors(vtkMapper* mapper, vtkPolyData* mesh, Attributes& attribut
   return true;
 }
 
-bool scalarColors(const SurfacePart& part, Material& material, Attributes& attributes,
-  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+/// The one colour of tuple `tuple` for all of the part. False if there is no such tuple.
+bool colorOfTuple(vtkUnsignedCharArray* colors, vtkIdType tuple, SurfacePart& part)
+{
+  if (tuple >= colors->GetNumberOfTuples())
+  {
+    return false;
+  }
+  const unsigned char* c = colors->GetPointer(4 * tuple);
+  part.overridesColor = true;
+  part.color = glm::vec3(c[0], c[1], c[2]) / 255.0f;
+  part.opacity *= c[3] / 255.0;
+  return true;
+}
+
+bool scalarColors(
+  SurfacePart& part, Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
 {
   vtkMapper* mapper = part.colors;
   if (!mapper->GetScalarVisibility() || part.overridesColor)
@@ -115,18 +165,10 @@ bool scalarColors(const SurfacePart& part, Material& material, Attributes& attri
   {
     return false;
   }
-  const unsigned char* first = colors->GetPointer(0);
   if (mapper->GetScalarMode() == VTK_SCALAR_MODE_USE_FIELD_DATA &&
     mapper->GetFieldDataTupleId() > -1)
   {
-    const vtkIdType tuple = mapper->GetFieldDataTupleId();
-    if (tuple >= colors->GetNumberOfTuples())
-    {
-      return false;
-    }
-    const unsigned char* c = first + 4 * tuple;
-    setColor(material, glm::vec3(c[0], c[1], c[2]) / 255.0f);
-    return true;
+    return colorOfTuple(colors, mapper->GetFieldDataTupleId(), part);
   }
   const bool cells = colorsAreOfCells(mapper, part.mesh);
   if (colors->GetNumberOfTuples() <
@@ -135,7 +177,7 @@ bool scalarColors(const SurfacePart& part, Material& material, Attributes& attri
     return false;
   }
   attributes.colorAssociation = cells ? Association::Cell : Association::Point;
-  attributes.colors = first;
+  attributes.colors = colors->GetPointer(0);
   kept.emplace_back(colors);
   return true;
 }
@@ -163,30 +205,75 @@ bool isUnknownSurfaceMapper(vtkMapper* mapper)
 Treatment treatmentOf(vtkActor* actor)
 {
   vtkMapper* mapper = actor->GetMapper();
-  vtkProperty* property = actor->GetProperty();
   vtkPlaneCollection* planes = mapper->GetClippingPlanes();
-  if (!isPlainMapper(mapper) || property->GetRepresentation() != VTK_SURFACE ||
-    (planes && planes->GetNumberOfItems() > 0))
+  Treatment treatment;
+  if (!isPlainMapper(mapper))
   {
-    return Treatment::Rasterize;
+    treatment.castsNone = "has a mapper of a class that is not known here";
   }
-  vtkSelection* selection = mapper->GetSelection();
-  const bool reproducible = property->GetInterpolation() != VTK_PBR &&
-    !property->GetEdgeVisibility() && !property->GetVertexVisibility() &&
-    !property->GetFrontfaceCulling() && !property->GetBackfaceCulling() &&
-    !actor->GetBackfaceProperty() && !actor->GetTexture() && property->GetNumberOfTextures() == 0 &&
-    !hasCustomShaders(actor) && !(selection && selection->GetNumberOfNodes() > 0) &&
-    !actor->HasTranslucentPolygonalGeometry();
-  return reproducible ? Treatment::Trace : Treatment::RasterizeAndCast;
+  else if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE)
+  {
+    treatment.castsNone = "is shown as wireframe or points";
+  }
+  else if (planes && planes->GetNumberOfItems() > 0)
+  {
+    treatment.castsNone = "has clipping planes on its mapper";
+  }
+  treatment.rasterized = treatment.castsNone ? treatment.castsNone : beyondTracing(actor);
+  return treatment;
 }
 
-bool lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
-  Attributes& attributes, FloatArrays& floats, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+vtkTexture* textureOf(vtkActor* actor)
+{
+  return actor->GetTexture() ? actor->GetTexture() : actor->GetProperty()->GetTexture("albedoTex");
+}
+
+TextureAlpha alphaOf(vtkTexture* texture)
+{
+  if (!texture)
+  {
+    return TextureAlpha::Opaque;
+  }
+  if (texture->IsTranslucent())
+  {
+    return TextureAlpha::Translucent;
+  }
+  vtkImageData* image = texture->GetInput();
+  vtkDataArray* texels = image ? image->GetPointData()->GetScalars() : nullptr;
+  const int alpha = texels ? texels->GetNumberOfComponents() - 1 : 0;
+  // Of all texels VTK has seen that they are opaque or invisible.
+  return alpha % 2 == 1 && texels->GetNumberOfTuples() > 0 && texels->GetRange(alpha)[0] <= 0.0
+    ? TextureAlpha::CutOut
+    : TextureAlpha::Opaque;
+}
+
+bool hasOpaqueTable(const SurfacePart& part)
+{
+  // Of transfer functions VTK does not ask for the colour of NaN.
+  return part.overridesColor || !part.colors->GetScalarVisibility() ||
+    (vtkLookupTable::SafeDownCast(part.colors->GetLookupTable()) &&
+      !part.colors->HasTranslucentPolygonalGeometry());
+}
+
+Reason mapColors(
+  SurfacePart& part, Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+{
+  return scalarColors(part, attributes, kept)
+    ? nullptr
+    : "has colours that do not belong to its cells or points";
+}
+
+Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
+  Attributes& attributes, FloatArrays& floats)
 {
   vtkPolyData* mesh = part.mesh;
-  if (part.textured || mesh->GetNumberOfVerts() > 0 || mesh->GetNumberOfLines() > 0)
+  if (part.texture)
   {
-    return false;
+    return "has a texture";
+  }
+  if (mesh->GetNumberOfVerts() > 0 || mesh->GetNumberOfLines() > 0)
+  {
+    return "has lines or vertices";
   }
   const double* ambient = property->GetAmbientColor();
   const double* diffuse = property->GetDiffuseColor();
@@ -206,7 +293,7 @@ bool lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Materia
   const bool flat = property->GetInterpolation() == VTK_FLAT;
   normalsOf(mesh, flat, attributes, floats);
   material.flat = attributes.normalAssociation == Association::None;
-  return scalarColors(part, material, attributes, kept);
+  return nullptr;
 }
 
 double coincidentDepthOffset(vtkMapper* mapper)
