@@ -13,6 +13,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct vtkSVORenderPass::Internals
   std::string castingLights;
   std::string shaderSignature; // of the shaders that mappers have built last
   vtkTimeStamp shaderTime;
+  std::set<std::string> said; // about traced frames
   bool saidHeadlight = false;
   bool saidOpenGL = false;
 

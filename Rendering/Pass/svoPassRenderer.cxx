@@ -74,6 +74,7 @@ void PassRenderer::collect(
   this->Statistics = PassStatistics();
   this->Collected = CollectedScene();
   this->Picture.covered = PixelRect();
+  this->Complaint.clear();
   this->Sharing = false;
 
   const double start = vtkTimerLog::GetUniversalTime();
@@ -126,7 +127,7 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   if (!this->hasSomething() || !viewOfCamera(this->Renderer, width, height, view))
   {
     this->Trace.releaseLayers();
-    this->Receivers.update(window, {}, view, settings, false);
+    this->Receivers.update(window, {}, {}, view, settings, false);
     return;
   }
   settings.wholeShadowBuffers =
@@ -135,8 +136,8 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   this->Trace.render(scene, view, settings, smpParallelFor(), this->Picture);
   this->Statistics.tracer = this->Trace.statistics();
   this->Statistics.coarseOctreeError = this->coarseOctreeError(distance);
-  this->Receivers.update(window, this->Trace.shadowMaps(), view, settings,
-    this->Statistics.tracer.retracedLayers > 0 || this->Statistics.tracer.mergedShadows);
+  this->Complaint = this->Receivers.update(window, this->Trace.shadowMaps(), scene.lights, view,
+    settings, this->Statistics.tracer.retracedLayers > 0 || this->Statistics.tracer.mergedShadows);
 }
 
 void PassRenderer::present(vtkOpenGLRenderPass* pass)

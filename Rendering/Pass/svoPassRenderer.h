@@ -17,6 +17,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -108,6 +109,9 @@ public:
   /// To be called when the frame has been drawn: forgets what it borrowed.
   void finish();
 
+  /// What there is to say about the traced frame; empty if all is well.
+  const std::string& complaint() const { return this->Complaint; }
+
   ShadowReceivers& receivers() { return this->Receivers; }
   const CollectedScene& collected() const { return this->Collected; }
   const PassStatistics& statistics() const { return this->Statistics; }
@@ -128,6 +132,7 @@ private:
   bool Sharing = false; // this frame's shadow buffers are those of all processes
   struct Frame Picture;
   ShadowReceivers Receivers;
+  std::string Complaint;
   PassStatistics Statistics;
   vtkNew<vtkSVOPresenter> Presenter;
   std::vector<vtkSmartPointer<vtkSVONothing>> Nothings;

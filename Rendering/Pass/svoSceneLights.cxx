@@ -26,10 +26,11 @@ Light lightOf(vtkLight* source)
   const glm::dvec3 axis = glm::dvec3(focalPoint[0], focalPoint[1], focalPoint[2]) - light.position;
   const double length = glm::length(axis);
   light.direction = length > 0.0 ? axis / length : glm::dvec3(0.0);
-  // VTK's shaders still have a cone at 90 degrees.
+  // In the words of VTK's shaders, to whom angles are floats.
   if (source->GetPositional())
   {
-    light.kind = source->GetConeAngle() > 90.0 ? Light::Kind::Point : Light::Kind::Spot;
+    light.kind =
+      static_cast<float>(source->GetConeAngle()) < 90.0f ? Light::Kind::Spot : Light::Kind::Point;
   }
   light.headlight = source->LightTypeIsHeadlight() && !source->GetPositional();
   light.coneAngle = source->GetConeAngle();

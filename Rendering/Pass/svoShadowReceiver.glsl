@@ -1,8 +1,12 @@
 // The share of a light that reaches a fragment of a rasterised surface, by the test of
-// svoShadowBuffer.cxx, filtered as in svoShadowFilter.cxx. `atlas` has `count` square maps, one above the other; each holds the linear
-// depth of the nearest caster. A map's matrix takes view coordinates to (x, y, linear depth, w), with
-// x / w and y / w in -1..1 across the map. `facet` is the fragment's own plane, towards the viewer,
-// `normal` what it is shaded with, `extent` how wide a piece of the surface it shows.
+// svoShadowBuffer.cxx, filtered as in svoShadowFilter.cxx. A map is a layer of an array of square
+// textures, however many lights there are: it holds the linear depth of the nearest caster. Its
+// matrix takes view coordinates to (x, y, linear depth, w), with x / w and y / w in -1..1 across the
+// map. `facet` is the fragment's own plane, towards the viewer, `normal` what it is shaded with,
+// `extent` how wide a piece of the surface it shows.
+uniform sampler2DArray svoMaps;
+uniform mat4 svoRows[svoCapacity]; // the rows of a map's matrix
+uniform float svoErrors[svoCapacity]; // of what casts, world units
 uniform float svoReceive; // 0: no shadow falls on this surface
 uniform float svoIntensity;
 uniform int svoPlaneBias; // compare at the texel's own ray, on the planes of the receiver
@@ -19,22 +23,22 @@ float svoTexelEdge(mat4 rows, float w, float size)
 }
 
 // Depth of the nearest caster, infinite if there is none.
-float svoOccluder(sampler2D atlas, int map, ivec2 texel)
+float svoOccluder(int map, ivec2 texel)
 {
-  return texelFetch(atlas, texel + ivec2(0, map * textureSize(atlas, 0).x), 0).r;
+  return texelFetch(svoMaps, ivec3(texel, map), 0).r;
 }
 
 // What one texel says of the point: 0 lit, 1 dark by an occluder within a few texels' depth, 2 dark.
 // `span`: the size of the texel is taken for so many times what it is.
-int svoAsk(sampler2D atlas, int map, mat4 rows, float error, vec4 point, vec2 texel, vec3 facet,
+int svoAsk(int map, mat4 rows, float error, vec4 point, vec2 texel, vec3 facet,
   vec3 normal, float span)
 {
-  float size = float(textureSize(atlas, 0).x);
+  float size = float(textureSize(svoMaps, 0).x);
   if (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(size))))
   {
     return 0;
   }
-  float occluder = svoOccluder(atlas, map, ivec2(texel)) + svoManualBias;
+  float occluder = svoOccluder(map, ivec2(texel)) + svoManualBias;
   float w = dot(rows[3], point);
   float depth = dot(rows[2], point);
   if (svoPlaneBias == 0)
@@ -91,7 +95,7 @@ float svoCovered(float x, float width)
 }
 
 // True if texels first..last hold nothing, or one surface without steps and creases.
-bool svoIsFlat(sampler2D atlas, int map, ivec2 first, ivec2 last, float most)
+bool svoIsFlat(int map, ivec2 first, ivec2 last, float most)
 {
   int hits = 0;
   bool even = true;
@@ -99,18 +103,18 @@ bool svoIsFlat(sampler2D atlas, int map, ivec2 first, ivec2 last, float most)
   {
     for (int x = first.x; x <= last.x; ++x)
     {
-      float t = svoOccluder(atlas, map, ivec2(x, y));
+      float t = svoOccluder(map, ivec2(x, y));
       hits += t < 1e30 ? 1 : 0;
       if (x > first.x + 1)
       {
-        float bend = svoOccluder(atlas, map, ivec2(x - 2, y)) -
-          2.0 * svoOccluder(atlas, map, ivec2(x - 1, y)) + t;
+        float bend = svoOccluder(map, ivec2(x - 2, y)) -
+          2.0 * svoOccluder(map, ivec2(x - 1, y)) + t;
         even = even && abs(bend) <= most;
       }
       if (y > first.y + 1)
       {
-        float bend = svoOccluder(atlas, map, ivec2(x, y - 2)) -
-          2.0 * svoOccluder(atlas, map, ivec2(x, y - 1)) + t;
+        float bend = svoOccluder(map, ivec2(x, y - 2)) -
+          2.0 * svoOccluder(map, ivec2(x, y - 1)) + t;
         even = even && abs(bend) <= most;
       }
     }
@@ -122,10 +126,10 @@ bool svoIsFlat(sampler2D atlas, int map, ivec2 first, ivec2 last, float most)
 // True if what lies at a texel, followed to the point in the way that the map shows from the texel
 // beyond, passes behind the point.
 bool svoEndsBefore(
-  sampler2D atlas, int map, ivec2 texel, vec2 offset, float depth, float pixel, float error)
+  int map, ivec2 texel, vec2 offset, float depth, float pixel, float error)
 {
-  int size = textureSize(atlas, 0).x;
-  float here = svoOccluder(atlas, map, texel);
+  int size = textureSize(svoMaps, 0).x;
+  float here = svoOccluder(map, texel);
   float t = here;
   for (int axis = 0; axis < 2; ++axis)
   {
@@ -135,7 +139,7 @@ bool svoEndsBefore(
     {
       return false;
     }
-    float farther = svoOccluder(atlas, map, next);
+    float farther = svoOccluder(map, next);
     if (!(abs(farther - here) <= 8.0 * pixel))
     {
       return false;
@@ -146,10 +150,10 @@ bool svoEndsBefore(
 }
 
 // The share of the light that the point misses. `place`: in texels.
-float svoFiltered(sampler2D atlas, int map, mat4 rows, float error, vec4 point, vec2 place,
+float svoFiltered(int map, mat4 rows, float error, vec4 point, vec2 place,
   ivec2 first, ivec2 last, float width, vec3 facet, vec3 normal)
 {
-  float size = float(textureSize(atlas, 0).x);
+  float size = float(textureSize(svoMaps, 0).x);
   float depth = dot(rows[2], point);
   float pixel = svoTexelEdge(rows, dot(rows[3], point), size);
   float dark = 0.0;
@@ -164,11 +168,11 @@ float svoFiltered(sampler2D atlas, int map, mat4 rows, float error, vec4 point, 
       float weight = row * (svoCovered(left + 1.0, width) - svoCovered(left, width));
       vec2 offset = vec2(float(x), float(y)) + 0.5 - place;
       float away = max(abs(offset.x), abs(offset.y));
-      int answer = svoAsk(atlas, map, rows, error, point, vec2(float(x), float(y)), facet, normal,
+      int answer = svoAsk(map, rows, error, point, vec2(float(x), float(y)), facet, normal,
         max(1.0, 2.0 * away));
       if (answer == 2 ||
         (answer == 1 &&
-          !svoEndsBefore(atlas, map, ivec2(x, y), offset, depth, pixel, error)))
+          !svoEndsBefore(map, ivec2(x, y), offset, depth, pixel, error)))
       {
         dark += weight;
       }
@@ -178,15 +182,16 @@ float svoFiltered(sampler2D atlas, int map, mat4 rows, float error, vec4 point, 
   return dark / all;
 }
 
-float svoLit(sampler2D atlas, int count, mat4 maps[6], float errors[6], vec3 position, vec3 facet,
-  vec3 normal, float extent)
+// Of the light whose maps are first..beyond - 1.
+float svoLit(int first, int beyond, vec3 position, vec3 facet, vec3 normal, float extent)
 {
-  float size = float(textureSize(atlas, 0).x);
+  float size = float(textureSize(svoMaps, 0).x);
   vec4 point = vec4(position, 1.0);
   float lit = 1.0;
-  for (int i = 0; i < count; ++i)
+  for (int i = first; i < beyond; ++i)
   {
-    mat4 rows = transpose(maps[i]);
+    mat4 rows = svoRows[i];
+    float error = svoErrors[i];
     float w = dot(rows[3], point);
     if (w <= 0.0)
     {
@@ -204,16 +209,16 @@ float svoLit(sampler2D atlas, int count, mat4 maps[6], float errors[6], vec3 pos
     {
       float pixel = svoTexelEdge(rows, w, size);
       float width = clamp(extent / pixel, 1.0, 4.0);
-      ivec2 first = ivec2(max(floor(place - 0.5 * (width + 1.0)), vec2(0.0)));
-      ivec2 last = ivec2(min(floor(place + 0.5 * (width + 1.0)), vec2(size - 1.0)));
-      if (!svoIsFlat(atlas, i, first, last, pixel))
+      ivec2 low = ivec2(max(floor(place - 0.5 * (width + 1.0)), vec2(0.0)));
+      ivec2 high = ivec2(min(floor(place + 0.5 * (width + 1.0)), vec2(size - 1.0)));
+      if (!svoIsFlat(i, low, high, pixel))
       {
-        lit = min(lit, 1.0 - svoFiltered(atlas, i, rows, errors[i], point, place, first, last, width,
-                               facet, normal));
+        lit = min(lit,
+          1.0 - svoFiltered(i, rows, error, point, place, low, high, width, facet, normal));
         continue;
       }
     }
-    int answer = svoAsk(atlas, i, rows, errors[i], point, texel, facet, normal, 1.0);
+    int answer = svoAsk(i, rows, error, point, texel, facet, normal, 1.0);
     if (answer == 1)
     {
       // An occluder nearby has to be one for most of the four texels around the point.
@@ -222,7 +227,7 @@ float svoLit(sampler2D atlas, int count, mat4 maps[6], float errors[6], vec3 pos
       for (int k = 1; k < 4; ++k)
       {
         vec2 neighbour = texel + other * vec2(float(k & 1), float(k >> 1));
-        dark += svoAsk(atlas, i, rows, errors[i], point, neighbour, facet, normal, 1.0) != 0 ? 1 : 0;
+        dark += svoAsk(i, rows, error, point, neighbour, facet, normal, 1.0) != 0 ? 1 : 0;
       }
       answer = dark >= 2 ? 2 : 0;
     }

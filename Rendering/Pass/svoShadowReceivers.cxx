@@ -5,7 +5,6 @@
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkShaderProgram.h"
-#include "vtkTextureObject.h"
 
 #include <algorithm>
 #include <cctype>
@@ -21,7 +20,24 @@ namespace
 {
 const char DeclarationMark[] = "//SVO::Dec\n";
 const char ImplementationMark[] = "//SVO::Impl\n";
-constexpr std::size_t MaximumMaps = 6;
+constexpr std::size_t MostMapsOfLight = 6;
+
+/// Maps that a shader has room for beside what VTK tells it of so many lights.
+std::size_t mostMaps(std::size_t lights)
+{
+  constexpr std::size_t OfLight = 28, OfMap = 20, Others = 512; // components, as vectors of four
+  GLint components = 0;
+  glGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS, &components);
+  const std::size_t taken = OfLight * lights + Others;
+  const std::size_t left = std::max<std::size_t>(components, taken) - taken;
+  return std::clamp<std::size_t>(
+    left / OfMap, MostMapsOfLight, static_cast<std::size_t>(TextureArray::mostLayers()));
+}
+
+double brightness(const Light& light)
+{
+  return light.color.r + light.color.g + light.color.b;
+}
 
 /// View coordinates of the eye -> (x, y, linear depth - base, w) of a map. Composed in double, so
 /// that world coordinates may be large.
@@ -64,11 +80,42 @@ bool rename(std::string& text, const std::string& from, const std::string& to)
   }
   return found;
 }
+
+/// Leaves maps of the faintest lights out until no more than `most` are left; true if there were
+/// more.
+bool keepBrightest(std::map<int, std::vector<const ShadowMap*>>& byLight,
+  const std::vector<Light>& lights, std::size_t most)
+{
+  std::size_t count = 0;
+  for (const auto& entry : byLight)
+  {
+    count += entry.second.size();
+  }
+  if (count <= most)
+  {
+    return false;
+  }
+  const auto fainter = [&](const auto& a, const auto& b)
+  { return brightness(lights[a.first]) < brightness(lights[b.first]); };
+  while (count > most)
+  {
+    const auto faintest = std::min_element(byLight.begin(), byLight.end(), fainter);
+    count -= faintest->second.size();
+    byLight.erase(faintest);
+  }
+  return true;
+}
 }
 
-void ShadowReceivers::update(vtkOpenGLRenderWindow* window, const std::vector<ShadowMap>& maps,
-  const View& eye, const FrameSettings& settings, bool changed)
+std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
+  const std::vector<ShadowMap>& maps, const std::vector<Light>& lights, const View& eye,
+  const FrameSettings& settings, bool changed)
 {
+  if (maps.empty())
+  {
+    this->release();
+    return {};
+  }
   double casterVoxel = 0.0;
   for (const ShadowMap& map : maps)
   {
@@ -81,91 +128,91 @@ void ShadowReceivers::update(vtkOpenGLRenderWindow* window, const std::vector<Sh
   std::map<int, std::vector<const ShadowMap*>> byLight;
   for (const ShadowMap& map : maps)
   {
-    if (byLight[map.light].size() < MaximumMaps)
-    {
-      byLight[map.light].push_back(&map);
-    }
+    byLight[map.light].push_back(&map);
+  }
+  std::string complaint;
+  const std::size_t most = mostMaps(lights.size());
+  if (keepBrightest(byLight, lights, most))
+  {
+    complaint = "Rasterised surfaces receive shadows of the brightest lights only: OpenGL takes no "
+                "more shadow maps.";
   }
 
-  std::vector<LightMaps> lights;
+  // Shaders are not built anew because a light has other maps than before.
+  this->Capacity = std::min(MostMapsOfLight * byLight.size(), most);
+
+  std::vector<const ShadowMap*> layers;
+  this->Lights.clear();
+  this->First.clear();
+  this->Rows.clear();
+  this->Errors.clear();
   for (const auto& entry : byLight)
   {
-    LightMaps light;
-    light.light = entry.first;
-    light.resolution = entry.second.front()->view.width;
-    const auto old = std::find_if(this->Lights.begin(), this->Lights.end(),
-      [&](const LightMaps& candidate) { return candidate.light == light.light; });
-    const bool fits = old != this->Lights.end() && old->resolution == light.resolution &&
-      old->biases.size() == entry.second.size() && old->atlas && old->atlas->GetContext() == window;
-    if (fits)
-    {
-      light.atlas = old->atlas;
-    }
+    this->Lights.push_back(entry.first);
+    this->First.push_back(static_cast<int>(layers.size()));
     for (const ShadowMap* map : entry.second)
     {
-      const glm::mat4 matrix = receiverMatrix(*map, eye);
-      light.matrices.insert(light.matrices.end(), &matrix[0][0], &matrix[0][0] + 16);
-      light.biases.push_back(static_cast<float>(map->worldBias));
+      const glm::mat4 matrix = glm::transpose(receiverMatrix(*map, eye));
+      this->Rows.insert(this->Rows.end(), &matrix[0][0], &matrix[0][0] + 16);
+      this->Errors.push_back(static_cast<float>(map->worldBias));
+      layers.push_back(map);
     }
-    if (!fits || changed)
-    {
-      this->send(window, entry.second, light);
-    }
-    lights.push_back(light);
   }
-  this->Lights = std::move(lights);
-}
+  const auto count = static_cast<int>(layers.size());
+  this->First.push_back(count);
 
-void ShadowReceivers::send(
-  vtkOpenGLRenderWindow* window, const std::vector<const ShadowMap*>& maps, LightMaps& light)
-{
-  const int size = light.resolution;
-  const auto count = static_cast<int>(maps.size());
-  if (!light.atlas)
+  const int size = maps.front().view.width;
+  if (!this->Maps || !this->Maps->fits(window, size, count))
   {
-    light.atlas = vtkSmartPointer<vtkTextureObject>::New();
-    light.atlas->SetContext(window);
-    light.atlas->SetMinificationFilter(vtkTextureObject::Nearest);
-    light.atlas->SetMagnificationFilter(vtkTextureObject::Nearest);
-    light.atlas->SetWrapS(vtkTextureObject::ClampToEdge);
-    light.atlas->SetWrapT(vtkTextureObject::ClampToEdge);
-    light.atlas->Allocate2D(size, size * count, 1, VTK_FLOAT);
+    this->Maps = vtkSmartPointer<TextureArray>::New();
+    this->Maps->SetContext(window);
+    if (!this->Maps->allocate(size, count))
+    {
+      this->release();
+      return "Rasterised surfaces receive no shadows: OpenGL has no room for " +
+        std::to_string(count) + " shadow maps of " + std::to_string(size) +
+        " texels. Lower ShadowBufferResolution.";
+    }
+    changed = true;
   }
-  light.atlas->Bind();
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; changed && i < count; ++i)
   {
-    glTexSubImage2D(
-      GL_TEXTURE_2D, 0, 0, i * size, size, size, GL_RED, GL_FLOAT, maps[i]->depth.data());
+    this->Maps->send(i, layers[i]->depth.data());
   }
+  return complaint;
 }
 
 void ShadowReceivers::activate()
 {
-  for (LightMaps& light : this->Lights)
+  if (!this->empty())
   {
-    light.atlas->Activate();
+    this->Maps->Activate();
   }
 }
 
 void ShadowReceivers::deactivate()
 {
-  for (LightMaps& light : this->Lights)
+  if (!this->empty())
   {
-    light.atlas->Deactivate();
+    this->Maps->Deactivate();
   }
 }
 
 void ShadowReceivers::release()
 {
   this->Lights.clear();
+  this->First.clear();
+  this->Capacity = 0;
+  this->Maps = nullptr;
 }
 
 std::string ShadowReceivers::signature() const
 {
   std::ostringstream text;
-  for (const LightMaps& light : this->Lights)
+  text << this->Capacity << ": ";
+  for (const int light : this->Lights)
   {
-    text << light.light << ' ';
+    text << light << ' ';
   }
   return text.str();
 }
@@ -190,34 +237,42 @@ void ShadowReceivers::completeShader(std::string& fragmentShader) const
   // A normal map's bumps are no planes of the surface.
   const bool hasNormal = body.find("normalVCVSOutput") != std::string::npos &&
     fragmentShader.find("normalTex") == std::string::npos;
-  std::ostringstream uniforms;
   std::ostringstream code;
   // Unlit surfaces have no position to ask about.
   if (body.find("vec4 vertexVC =") != std::string::npos)
   {
-    for (const LightMaps& light : this->Lights)
+    for (std::size_t i = 0; i < this->Lights.size(); ++i)
     {
-      const std::string number = std::to_string(light.light);
+      const std::string number = std::to_string(this->Lights[i]);
       const std::string color = "lightColor" + number;
-      if (!rename(body, color, "svoColor" + number))
+      if (rename(body, color, "svoColor" + number))
       {
-        continue;
+        code << "  vec3 svoColor" << number << " = " << color << " * svoShare[" << i << "];\n";
       }
-      uniforms << "uniform sampler2D svoAtlas" << number << ";\nuniform int svoCount" << number
-               << ";\nuniform mat4 svoMaps" << number << "[6];\nuniform float svoBias" << number
-               << "[6];\n";
-      code << "  vec3 svoColor" << number << " = " << color << " * svoLit(svoAtlas" << number
-           << ", svoCount" << number << ", svoMaps" << number << ", svoBias" << number
-           << ", vertexVC.xyz, svoFacet, " << (hasNormal ? "normalVCVSOutput" : "svoFacet")
-           << ", svoExtent);\n";
     }
   }
-  const bool any = !uniforms.str().empty();
+  const bool any = !code.str().empty();
+  // One loop, since compilers copy the function to wherever it is called.
+  const std::string count = std::to_string(this->Lights.size());
   vtkShaderProgram::Substitute(declarations, DeclarationMark,
-    any ? std::string(svoShadowReceiver) + uniforms.str() : std::string(), false);
+    any ? "const int svoCapacity = " + std::to_string(this->Capacity) + ";\n" + svoShadowReceiver +
+        "uniform int svoFirst[" + count + " + 1];\n"
+        : std::string(),
+    false);
   vtkShaderProgram::Substitute(body, ImplementationMark,
     any ? "  vec3 svoFacet = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));\n"
-          "  float svoExtent = min(length(dFdx(vertexVC.xyz)), length(dFdy(vertexVC.xyz)));\n" +
+          "  float svoExtent = min(length(dFdx(vertexVC.xyz)), length(dFdy(vertexVC.xyz)));\n"
+          "  float svoShare[" +
+        count +
+        "];\n"
+        "  for (int i = 0; i < " +
+        count +
+        "; ++i)\n"
+        "  {\n"
+        "    svoShare[i] = svoLit(svoFirst[i], svoFirst[i + 1], vertexVC.xyz, svoFacet, " +
+        (hasNormal ? "normalVCVSOutput" : "svoFacet") +
+        ", svoExtent);\n"
+        "  }\n" +
         code.str()
         : std::string(),
     false);
@@ -226,32 +281,21 @@ void ShadowReceivers::completeShader(std::string& fragmentShader) const
 
 void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives) const
 {
-  bool any = false;
-  for (const LightMaps& light : this->Lights)
+  if (this->empty() || !program->IsUniformUsed("svoMaps"))
   {
-    const std::string number = std::to_string(light.light);
-    const std::string atlas = "svoAtlas" + number;
-    if (!program->IsUniformUsed(atlas.c_str()))
-    {
-      continue;
-    }
-    any = true;
-    // Mappers' own textures may have taken the unit meanwhile.
-    light.atlas->Activate();
-    const auto count = static_cast<int>(light.biases.size());
-    program->SetUniformi(atlas.c_str(), light.atlas->GetTextureUnit());
-    program->SetUniformi(("svoCount" + number).c_str(), count);
-    program->SetUniformMatrix4x4v(
-      ("svoMaps" + number).c_str(), count, const_cast<float*>(light.matrices.data()));
-    program->SetUniform1fv(("svoBias" + number).c_str(), count, light.biases.data());
+    return;
   }
-  if (any)
-  {
-    program->SetUniformf("svoReceive", receives ? 1.0f : 0.0f);
-    program->SetUniformf("svoIntensity", this->Intensity);
-    program->SetUniformi("svoPlaneBias", this->PlaneBias ? 1 : 0);
-    program->SetUniformi("svoFilter", this->Filter ? 1 : 0);
-    program->SetUniformf("svoManualBias", this->ManualBias);
-  }
+  // Mappers' own textures may have taken the unit meanwhile.
+  this->Maps->Activate();
+  program->SetUniformi("svoMaps", this->Maps->GetTextureUnit());
+  const auto count = static_cast<int>(this->Errors.size());
+  program->SetUniformMatrix4x4v("svoRows", count, const_cast<float*>(this->Rows.data()));
+  program->SetUniform1fv("svoErrors", count, this->Errors.data());
+  program->SetUniform1iv("svoFirst", static_cast<int>(this->First.size()), this->First.data());
+  program->SetUniformf("svoReceive", receives ? 1.0f : 0.0f);
+  program->SetUniformf("svoIntensity", this->Intensity);
+  program->SetUniformi("svoPlaneBias", this->PlaneBias ? 1 : 0);
+  program->SetUniformi("svoFilter", this->Filter ? 1 : 0);
+  program->SetUniformf("svoManualBias", this->ManualBias);
 }
 }

@@ -2,6 +2,8 @@
 #ifndef svoShadowReceivers_h
 #define svoShadowReceivers_h
 
+#include "svoScene.h"
+#include "svoTextureArray.h"
 #include "svoTracer.h"
 #include "svoView.h"
 
@@ -23,9 +25,11 @@ class ShadowReceivers
 public:
   /// Takes a frame's maps. Textures are sent again only if `changed` or if the maps are others than
   /// last time. No maps: nothing receives. The bias that the settings have in voxels is added in
-  /// those of the coarsest caster, as maps do not say who casts.
-  void update(vtkOpenGLRenderWindow* window, const std::vector<ShadowMap>& maps, const View& eye,
-    const FrameSettings& settings, bool changed);
+  /// those of the coarsest caster, as maps do not say who casts. `lights`: that the maps are of.
+  /// Returns what there is to complain about: of more maps than OpenGL takes, those of the
+  /// brightest lights are there.
+  std::string update(vtkOpenGLRenderWindow* window, const std::vector<ShadowMap>& maps,
+    const std::vector<Light>& lights, const View& eye, const FrameSettings& settings, bool changed);
 
   bool empty() const { return this->Lights.empty(); }
   void activate();
@@ -41,18 +45,12 @@ public:
   void setUniforms(vtkShaderProgram* program, bool receives) const;
 
 private:
-  struct LightMaps
-  {
-    int light = 0; // number in VTK's shaders
-    int resolution = 0;
-    std::vector<float> matrices; // 16 floats a map, as OpenGL wants them
-    std::vector<float> biases;
-    vtkSmartPointer<vtkTextureObject> atlas;
-  };
-  void send(
-    vtkOpenGLRenderWindow* window, const std::vector<const ShadowMap*>& maps, LightMaps& light);
-
-  std::vector<LightMaps> Lights;
+  std::vector<int> Lights; // that have maps: their numbers in VTK's shaders
+  std::vector<int> First;  // map of each of them; then the number of all maps
+  std::vector<float> Rows; // 16 floats a map, row by row
+  std::vector<float> Errors;
+  std::size_t Capacity = 0; // maps that the shaders have room for
+  vtkSmartPointer<TextureArray> Maps;
   float Intensity = 1.0f;
   float ManualBias = 0.0f; // world
   bool PlaneBias = true;

@@ -170,6 +170,11 @@ void vtkSVORenderPass::TraceFrame(int width, int height)
 {
   Internals& impl = *this->Impl;
   impl.current->trace(width, height, impl.sampleDistance, impl.settings);
+  const std::string& complaint = impl.current->complaint();
+  if (!complaint.empty() && impl.said.insert(complaint).second)
+  {
+    vtkWarningMacro(<< complaint);
+  }
   svo::ShadowReceivers& receivers = impl.current->receivers();
   const std::string signature = receivers.signature();
   if (signature != impl.shaderSignature)

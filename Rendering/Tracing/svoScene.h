@@ -91,7 +91,7 @@ struct Light
   enum class Kind
   {
     Directional,
-    Point, // positional, cone of more than 90 degrees half angle: all directions
+    Point, // positional, cone of 90 degrees half angle or more: all directions
     Spot
   };
   Kind kind = Kind::Directional;

@@ -4,6 +4,13 @@
 
 namespace svo
 {
+/// Rasterised surfaces look up buffers whatever is traced.
+bool Shadows::usesBuffers(const FrameSettings& settings)
+{
+  return settings.shadowTechnique == ShadowTechnique::Buffer ||
+    (settings.shadowTechnique == ShadowTechnique::Rays && settings.wholeShadowBuffers);
+}
+
 bool Shadows::canFilter(const FrameSettings& settings)
 {
   return settings.filterShadows && settings.automaticBias &&
@@ -35,7 +42,7 @@ void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
     const Light& light = lights[i];
-    if (settings.shadowTechnique != ShadowTechnique::Buffer || !light.castShadow)
+    if (!usesBuffers(settings) || !light.castShadow)
     {
       continue;
     }
@@ -94,22 +101,19 @@ void Shadows::trace(const ParallelFor& parallelFor)
 bool Shadows::dark(
   std::size_t light, const SurfacePoint& point, double error, std::uint64_t& rays) const
 {
-  if (this->Buffers[light])
+  if (this->Rays)
   {
-    return this->Buffers[light]->shadows(point, error);
+    const Light& source = this->Of->lights[light];
+    rays += source.castShadow;
+    return source.castShadow && this->Rays->shadows(source, point.position, point.facet, error);
   }
-  if (this->Rays && this->Of->lights[light].castShadow)
-  {
-    ++rays;
-    return this->Rays->shadows(this->Of->lights[light], point.position, point.facet, error);
-  }
-  return false;
+  return this->Buffers[light] && this->Buffers[light]->shadows(point, error);
 }
 
 void Shadows::dark(std::size_t light, const TilePoints& points, int first, int last, double error,
   const std::uint8_t* asked, std::uint8_t* dark, std::uint64_t& rays) const
 {
-  if (this->Buffers[light])
+  if (this->Buffers[light] && !this->Rays)
   {
     this->Buffers[light]->shadows(points, first, last, error, asked, dark);
     return;

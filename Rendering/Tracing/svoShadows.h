@@ -65,6 +65,7 @@ public:
   void release();
 
 private:
+  static bool usesBuffers(const FrameSettings& settings);
   static bool canFilter(const FrameSettings& settings);
   void beginBuffers(const Scene& scene, const std::vector<Light>& lights, const Outlines& outlines,
     const FrameSettings& settings, LayerBudget& budget);

@@ -19,7 +19,7 @@ enum class ShadowTechnique
 {
   None,
   Buffer, // shadow buffers, merged from layers like the depth buffer
-  Rays    // one exact ray to the light per visible point and light
+  Rays    // one exact ray to the light per visible point and light; buffers for receivers
 };
 
 struct FrameSettings

@@ -2,10 +2,27 @@
 // the midst of its casters with its six maps included.
 #include "svoTestStage.h"
 
+#include "vtkMath.h"
+
 #include <cmath>
 #include <functional>
 #include <iostream>
 #include <string>
+
+namespace
+{
+/// So many suns close together, as bright as one.
+void addCluster(svoTest::Stage& stage, int count)
+{
+  stage.pass->SetShadowBufferResolution(256);
+  for (int i = 0; i < count; ++i)
+  {
+    const double angle = 2.0 * vtkMath::Pi() * i / count;
+    stage.addSun(2.0 + 0.2 * std::cos(angle), -1.5 + 0.2 * std::sin(angle), 4.0)
+      ->SetIntensity(1.0 / count);
+  }
+}
+}
 
 int TestSVORasterizedLights(int, char*[])
 {
@@ -36,6 +53,9 @@ int TestSVORasterizedLights(int, char*[])
         stage.addSun(2.0, -1.5, 4.0)->SetIntensity(0.5);
         stage.addSun(-2.0, -0.5, 3.0)->SetIntensity(0.3);
       } },
+    // As many maps as OpenGL has texture units, and more.
+    { "32 suns", [](Stage& stage) { addCluster(stage, 32); } },
+    { "40 suns", [](Stage& stage) { addCluster(stage, 40); } },
   };
   for (const Case& c : cases)
   {

@@ -76,6 +76,11 @@ int TestSVORasterizedReceivers(int argc, char* argv[])
     stage->pass->SetShadowTechniqueToShadowBuffer();
   }
   const Picture shadowed = capture(stages[0]->window);
+  for (auto& stage : stages)
+  {
+    stage->pass->SetShadowTechniqueToShadowRays();
+  }
+  const Picture byRays = capture(stages[0]->window);
   for (int i = 0; i < 3; ++i)
   {
     checks.expect(stages[i]->pass->GetNumberOfRasterizedActors() == 1,
@@ -83,6 +88,13 @@ int TestSVORasterizedReceivers(int argc, char* argv[])
     // The lines of edges have their own colour: they are 1 % of that floor.
     expectShadows(checks, oracles[i].judge(stages[i]->renderer, shadowed, unshadowed), names[i],
       i == 2 ? 0.01 : 0.002);
+    // Rays are for what is traced: the floors keep their shadow buffers.
+    expectShadows(checks, oracles[i].judge(stages[i]->renderer, byRays, unshadowed),
+      (std::string(names[i]) + ", by rays").c_str(), i == 2 ? 0.01 : 0.002);
+  }
+  for (auto& stage : stages)
+  {
+    stage->pass->SetShadowTechniqueToShadowBuffer();
   }
   checks.expect(matchesBaseline(stages[0]->window, argc, argv), "the baseline");
   return checks.exitCode();

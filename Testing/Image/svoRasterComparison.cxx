@@ -225,6 +225,14 @@ std::vector<Variant> variants(vtkPolyData* mesh)
         actor->GetProperty()->SetSpecular(0.3);
         actor->GetProperty()->SetSpecularPower(10.0);
       } },
+    // From 90 degrees on VTK takes it for a point light, whose exponent means nothing.
+    { "cone of 90 degrees",
+      [](Stage& stage, vtkActor*)
+      {
+        vtkLight* light = stage.addBulb(1.5, -2.0, 2.5);
+        light->SetConeAngle(90.0);
+        light->SetExponent(2.0);
+      } },
     { "all kinds at once",
       [=](Stage& stage, vtkActor* actor)
       {
