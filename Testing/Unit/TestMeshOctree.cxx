@@ -270,7 +270,7 @@ TEST(MeshOctree, IsSignedWithItsMesh)
   }
 }
 
-TEST(MeshOctree, TravelsWithoutACopyAndOutlivesTheMesh)
+TEST(MeshOctree, IsOpenOnceAndOutlivesTheMesh)
 {
   svo::Octree octree;
   {
