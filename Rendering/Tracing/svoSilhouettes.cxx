@@ -201,6 +201,9 @@ private:
     this->Lit.shaded.eye.sample(tileX, tileY, scratch.samples.data(), scratch.samples.size());
   }
 
+  /// From linear depth to what is affine on a plane, and back: so means stay on the triangle.
+  double flat(double t) const { return this->Of.parallel ? t : 1.0 / t; }
+
   void findFacets(TileScratch& scratch) const
   {
     scratch.facets.clear();
@@ -233,7 +236,7 @@ private:
         ++pixel.hits;
         facet.x += samples.x[lane];
         facet.y += samples.y[lane];
-        facet.t += samples.t[lane];
+        facet.t += this->flat(samples.t[lane]);
       }
       pixel.lastFacet = scratch.facets.size();
     }
@@ -241,7 +244,7 @@ private:
     {
       facet.x /= facet.count;
       facet.y /= facet.count;
-      facet.t /= facet.count;
+      facet.t = this->flat(facet.t / facet.count);
     }
   }
 

@@ -136,6 +136,42 @@ void compareOutlines(const std::string& name, vtkAlgorithm* source, double flatn
   checks.expect(wrong < edges / 20, name + ": its edge pixels are the raster's");
 }
 
+/// Samples are in the shadows that their pixels are in: what they make of a pixel lies between what
+/// is seen around it without multisampling.
+void compareShadows(const std::string& name, bool rays, Checks& checks)
+{
+  Stage stage;
+  stage.addGround(2.5);
+  stage.add(ball(0.7, -0.6, -0.2, 0.9), 0.9, 0.5, 0.3);
+  stage.add(box(0.9, 0.7, 0.3, 0.45), 0.3, 0.6, 0.9);
+  stage.addSun(2.0, -1.5, 4.0);
+  stage.pass->SetShadowTechnique(
+    rays ? vtkSVORenderPass::SHADOW_RAYS : vtkSVORenderPass::SHADOW_BUFFER);
+  stage.usePass(true);
+  const Picture plain = capture(stage.window);
+  stage.window->SetMultiSamples(4);
+  const Picture samples = capture(stage.window);
+  std::size_t outside = 0;
+  for (int y = 1; y + 1 < plain.height; ++y)
+  {
+    for (int x = 1; x + 1 < plain.width; ++x)
+    {
+      double least = 255.0, most = 0.0;
+      for (int k = 0; k < 9; ++k)
+      {
+        const double grey = plain.grey(x + k % 3 - 1, y + k / 3 - 1);
+        least = std::min(least, grey);
+        most = std::max(most, grey);
+      }
+      outside += samples.grey(x, y) > most + 16.0 || samples.grey(x, y) < least - 16.0;
+    }
+  }
+  std::cout << name << ": " << outside << " pixels are brighter or darker than all around them, "
+            << different(plain, samples, 16) << " are smoothed\n";
+  checks.expect(different(plain, samples, 16) > 400, name + ": edges are smoothed");
+  checks.expect(outside < 8, name + ": samples are shadowed as their pixels are");
+}
+
 void compareFacets(int resolution, Checks& checks)
 {
   const Pair pair = picturesOf(sheet(resolution), checks, [](vtkActor*) {});
@@ -176,6 +212,8 @@ int TestSVOMultiSamples(int argc, char* argv[])
   compareOutlines("fine ball", finely(1.0), 1.0, checks);
   compareOutlines("ring of level 7", converted(ring(1.0, 0.0, 0.0, 0.0), 7), 1.0, checks);
   compareOutlines("flattened ball", ball(1.0, 0.0, 0.0, 0.0), 1e-8, checks);
+  compareShadows("buffers", false, checks);
+  compareShadows("rays", true, checks);
   compareFacets(30, checks);
   compareFacets(150, checks);
   return same ? checks.exitCode() : EXIT_FAILURE;
