@@ -130,15 +130,17 @@ bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatr
       frame);
   }
   Treatment treatment = treatmentOf(actor);
-  const glm::dmat4 localToWorld = toGlm(matrix);
+  glm::dmat4 localToWorld = toGlm(matrix);
   if (treatment != Treatment::Rasterize)
   {
     switch (kindOf(localToWorld))
     {
-      case MatrixKind::Singular:
-        this->complainOnce(
-          actor, "An actor is not drawn: its matrix is singular, nearly so, or not finite.", frame);
+      case MatrixKind::Nowhere:
+        this->complainOnce(actor, "An actor is not drawn: its matrix is not finite.", frame);
         return true;
+      case MatrixKind::Flat:
+        treatment = thicken(localToWorld) ? Treatment::RasterizeAndCast : Treatment::Rasterize;
+        break;
       case MatrixKind::Projective:
         this->complainOnce(actor,
           "An actor casts no shadow and is left to the rasteriser: its matrix is not affine.",
