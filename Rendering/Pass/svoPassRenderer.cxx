@@ -122,7 +122,6 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   const Scene& scene = this->Collected.scene;
   View& view = this->Eye;
   view = View();
-  this->PixelError = settings.pixelError;
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow());
   if (!this->hasSomething() || !viewOfCamera(this->Renderer, width, height, view))
   {
@@ -148,8 +147,8 @@ void PassRenderer::present(vtkOpenGLRenderPass* pass)
     {
       if (this->Statistics.sampleDistance == 1.0) // else the frame's pixels are not the window's
       {
-        findSilhouettes(this->Collected.scene, this->Eye, this->PixelError, this->Picture,
-          positions, smpParallelFor(), silhouettes);
+        this->Trace.divideEdges(this->Collected.scene, this->Eye, this->Picture, positions,
+          smpParallelFor(), silhouettes);
       }
     },
     pass);

@@ -128,7 +128,6 @@ private:
   std::shared_ptr<WindowTime> Window; // of the window that it was measured in last
   Tracer Trace;
   View Eye; // of the frame
-  double PixelError = 1.0;
   bool Sharing = false; // this frame's shadow buffers are those of all processes
   struct Frame Picture;
   ShadowReceivers Receivers;

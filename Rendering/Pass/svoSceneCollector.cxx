@@ -183,14 +183,22 @@ void SceneCollector::collectActor(
     found.leaveAlone(treatment.castsNone);
     return;
   }
-  const glm::dmat4 localToWorld = toGlm(matrix);
+  Reason beyond = treatment.rasterized;
+  glm::dmat4 localToWorld = toGlm(matrix);
   switch (kindOf(localToWorld))
   {
-    case MatrixKind::Singular:
-      found.castNothing("has a matrix that is singular");
-      this->complainOnce(
-        actor, "An actor is not drawn: its matrix is singular, nearly so, or not finite.", frame);
+    case MatrixKind::Nowhere:
+      found.castNothing("has a matrix that is not finite");
+      this->complainOnce(actor, "An actor is not drawn: its matrix is not finite.", frame);
       return;
+    case MatrixKind::Flat:
+      beyond = "is flattened by its matrix";
+      if (!thicken(localToWorld))
+      {
+        found.leaveAlone(beyond);
+        return;
+      }
+      break;
     case MatrixKind::Projective:
       found.leaveAlone("has a matrix that is not affine");
       this->complainOnce(actor,
@@ -200,7 +208,6 @@ void SceneCollector::collectActor(
       break;
   }
 
-  Reason beyond = treatment.rasterized;
   if (!beyond && !flagOf(actor, owner, vtkSVORenderPass::USE_SVO(), true))
   {
     beyond = "was told so";

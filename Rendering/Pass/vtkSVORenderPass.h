@@ -238,8 +238,8 @@ public:
    * of their pixels; default off. Shadow buffers then give a share of each light, from all texels
    * around a point, compared with the planes of its surface, so that texels do not show, nor do
    * they on rasterised surfaces. That needs AutomaticShadowBias; without it shadows are sampled
-   * more, but not filtered, and so are exact shadow rays. Silhouettes follow the render window's
-   * SetMultiSamples instead, as those of everything that VTK draws.
+   * more, but not filtered, and so are exact shadow rays. Silhouettes and edges between facets
+   * follow the render window's SetMultiSamples instead, as those of everything that VTK draws.
    */
   vtkSetMacro(AntiAliasing, bool);
   vtkGetMacro(AntiAliasing, bool);

@@ -140,8 +140,8 @@ public:
   /// wanted is left without hits.
   void trace(const ParallelFor& parallelFor, const std::uint8_t* wanted);
 
-  /// Traces the points x, y of a tile through all instances; to be called after trace().
-  void sample(int tileX, int tileY, Samples& samples) const;
+  /// Traces points of a tile, `count` times 64, through all instances; to be called after trace().
+  void sample(int tileX, int tileY, Samples* samples, std::size_t count) const;
 
   const DepthBuffer& depthBuffer() const { return this->Merged; }
   /// Base of an instance's t, by index into Scene::instances.

@@ -99,20 +99,11 @@ bool ShadowBuffer::lookUp(const glm::dvec3& position, Place& place) const
   return false;
 }
 
-void ShadowBuffer::markPlace(Face& face, const Place& place, std::size_t& last)
+template <class Body>
+void ShadowBuffer::tilesAround(const Place& place, Body&& body)
 {
-  const View& view = face.view;
+  const View& view = place.face->view;
   const int tilesAcross = (view.width + 7) / 8;
-  const auto mark = [&](int tileX, int tileY)
-  {
-    const std::size_t tile = static_cast<std::size_t>(tileY) * tilesAcross + tileX;
-    if (tile != last && !face.wanted[tile].load(std::memory_order_relaxed))
-    {
-      face.wanted[tile].store(1, std::memory_order_relaxed);
-    }
-    last = tile;
-  };
-  // The four texels whose centres surround the point lie in one tile, in two or in four.
   const int x0 = std::max(static_cast<int>(place.x - 0.5), 0) >> 3;
   const int y0 = std::max(static_cast<int>(place.y - 0.5), 0) >> 3;
   const int x1 = std::min(static_cast<int>(place.x + 0.5), view.width - 1) >> 3;
@@ -121,9 +112,35 @@ void ShadowBuffer::markPlace(Face& face, const Place& place, std::size_t& last)
   {
     for (int x = x0; x <= x1; ++x)
     {
-      mark(x, y);
+      body(static_cast<std::size_t>(y) * tilesAcross + x);
     }
   }
+}
+
+void ShadowBuffer::markPlace(Face& face, const Place& place, std::size_t& last)
+{
+  tilesAround(place,
+    [&](std::size_t tile)
+    {
+      if (tile != last && !face.wanted[tile].load(std::memory_order_relaxed))
+      {
+        face.wanted[tile].store(1, std::memory_order_relaxed);
+      }
+      last = tile;
+    });
+}
+
+bool ShadowBuffer::knows(const glm::dvec3& position) const
+{
+  bool known = true;
+  Place place;
+  if (this->lookUp(position, place))
+  {
+    tilesAround(place,
+      [&](std::size_t tile)
+      { known = known && place.face->wanted[tile].load(std::memory_order_relaxed); });
+  }
+  return known;
 }
 
 void ShadowBuffer::mark(const TilePoints& points)

@@ -48,6 +48,9 @@ public:
   /// this process's first instance among all.
   void merge(Processes& processes, std::size_t first);
 
+  /// True if the texels around the point are traced: those of marked points are.
+  bool knows(const glm::dvec3& position) const;
+
   /// True if a caster lies between the light and the point. `error`: how far the point may lie from
   /// the surface that it stands for, world units.
   ///
@@ -140,6 +143,10 @@ private:
   };
   /// False if the point is outside of all faces, or its face sees no caster.
   bool lookUp(const glm::dvec3& position, Place& place) const;
+  /// Calls body(tile) for the light tiles of the four texels whose centres surround the point: one,
+  /// two or four.
+  template <class Body>
+  static void tilesAround(const Place& place, Body&& body);
   static void markPlace(Face& face, const Place& place, std::size_t& last);
   /// True if most of the other texels around the point find it dark as well.
   bool agreed(const Place& place, const SurfacePoint& point, double error) const;
