@@ -69,6 +69,7 @@ OctreeStore::Known& OctreeStore::knownOf(vtkPolyData* mesh, const StoreOptions& 
   const std::uint64_t time = mesh->GetMTime();
   if (known.mesh != mesh || known.time != time)
   {
+    const Octree former = known.attached; // found again, not opened again, if it is still the one
     known = Known();
     known.mesh = mesh;
     known.time = time;

@@ -21,7 +21,7 @@ namespace svo
 /// What an instance looks like to a view. Equal keys give equal layers, bit for bit.
 struct LayerKey
 {
-  const void* octree = nullptr;
+  std::uint64_t octree = 0; // Octree::id()
   glm::dmat4 localToWorld{ 1.0 };
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
   int level = 0;
@@ -128,7 +128,7 @@ public:
         const LeafGeometry geometry = tiles ? LeafGeometry::Triangle : instance.leafGeometry;
         this->Instances.push_back({ i, instance.id, &instance.octree, local,
           makeProjection(instance.octree, instance.localToWorld, view, local.base),
-          { instance.octree.key(), instance.localToWorld, geometry, level }, nullptr, {},
+          { instance.octree.id(), instance.localToWorld, geometry, level }, nullptr, {},
           tiles || endsFreely(instance, level), tiles });
       }
     }
