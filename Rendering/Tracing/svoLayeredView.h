@@ -10,6 +10,7 @@
 #include "svoProjection.h"
 #include "svoScene.h"
 #include "svoTileIntervals.h"
+#include "vtkSVOTracingModule.h"
 
 #include <cstdint>
 #include <memory>
@@ -93,7 +94,8 @@ bool endsFreely(const Instance& instance, int level);
 /// True if an instance is to be traced tile by tile, to its triangles: those that its leaf geometry
 /// leaves exact anyway, and no smaller in the image than about a pixel. Of `level` the tiles know
 /// nothing: they are more accurate than any, and faster.
-bool worthTiles(const Instance& instance, const LocalView& local, const View& view);
+VTKSVOTRACING_EXPORT bool worthTiles(
+  const Instance& instance, const LocalView& local, const View& view);
 
 class LayeredView
 {
