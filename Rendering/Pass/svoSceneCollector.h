@@ -11,7 +11,9 @@
 #include "svoSurfaceLook.h"
 
 #include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
 
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -19,6 +21,7 @@
 
 class vtkActor;
 class vtkMatrix4x4;
+class vtkObject;
 class vtkObjectBase;
 class vtkPolyData;
 class vtkProp;
@@ -40,7 +43,7 @@ struct CollectSettings
 struct CollectedScene
 {
   Scene scene;
-  std::vector<vtkPolyData*> meshes; // of the scene's instances, by index
+  std::vector<vtkSmartPointer<vtkPolyData>> meshes; // of the scene's instances, by index
   /// Props that the rasteriser must leave alone: every surface of theirs is traced, or must not be
   /// shown.
   std::set<vtkProp*> replaced;
@@ -66,12 +69,12 @@ private:
   bool collectActor(vtkActor* actor, vtkProp* owner, const vtkMatrix4x4* matrix, int path,
     std::vector<SceneSurface>& surfaces, Frame& frame);
   std::vector<SurfacePart> partsOf(vtkActor* actor);
-  void complainOnce(const void* about, const std::string& text, const Frame& frame);
+  void complainOnce(vtkObject* about, const std::string& text, const Frame& frame);
 
   CompositeBlocks Blocks;
   DataSetSurfaces Surfaces;
   FloatArrays Floats;
-  std::set<std::pair<const void*, std::string>> Said;
+  std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>> Said; // about what
 };
 }
 

@@ -7,10 +7,11 @@
 #include "svoTracer.h"
 #include "svoView.h"
 
-#include <vector>
+#include "vtkPolyData.h"
+#include "vtkProp.h"
+#include "vtkSmartPointer.h"
 
-class vtkPolyData;
-class vtkProp;
+#include <vector>
 
 namespace svo
 {
@@ -18,7 +19,7 @@ namespace svo
 struct SceneSurface
 {
   Instance instance;
-  vtkPolyData* mesh = nullptr;
+  vtkSmartPointer<vtkPolyData> mesh;
   bool traceable = false;
   bool casts = false;
 };
@@ -26,7 +27,7 @@ struct SceneSurface
 /// What was found of a prop.
 struct PropSurfaces
 {
-  vtkProp* prop = nullptr;
+  vtkSmartPointer<vtkProp> prop;
   std::vector<SceneSurface> surfaces; // those that are traceable or cast
   int actors = 0;
   bool traced = true;    // all that the prop shows is traced

@@ -40,7 +40,8 @@ bool hasCustomShaders(vtkActor* actor)
     shaders->HasFragmentShaderCode() || shaders->HasGeometryShaderCode();
 }
 
-void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays& floats)
+void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays& floats,
+  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
 {
   vtkDataArray* normals = flat ? nullptr : mesh->GetPointData()->GetNormals();
   attributes.normalAssociation = Association::Point;
@@ -58,6 +59,7 @@ void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays
     return;
   }
   attributes.normals = floats.values(normals);
+  kept.emplace_back(normals);
 }
 
 /// True if VTK's mapper looks the mapped colours up by cell.
@@ -217,7 +219,7 @@ bool lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Materia
     setColor(material, part.color);
   }
   const bool flat = property->GetInterpolation() == VTK_FLAT;
-  normalsOf(mesh, flat, attributes, floats);
+  normalsOf(mesh, flat, attributes, floats, kept);
   material.flat = attributes.normalAssociation == Association::None;
   return scalarColors(part, material, attributes, kept);
 }

@@ -51,7 +51,7 @@ struct SurfacePart
 };
 
 /// Material and attributes of a part. False if the look is beyond the tracer. Arrays that the
-/// attributes point into are the mesh's own, or kept in `floats` and `kept`.
+/// attributes point into are kept in `floats` and `kept`.
 bool lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
   Attributes& attributes, FloatArrays& floats, std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
 
