@@ -68,20 +68,24 @@ void PassRenderer::measured(double seconds, double fixed)
   this->Window->measured(this, this->Distance.cost());
 }
 
-void PassRenderer::collect(
-  OctreeStore& store, const StoreOptions& options, const CollectSettings& settings)
+void PassRenderer::begin()
 {
   this->Statistics = PassStatistics();
   this->Collected = CollectedScene();
   this->Picture.covered = PixelRect();
   this->Complaint.clear();
   this->Sharing = false;
+}
 
+void PassRenderer::collect(
+  OctreeStore& store, const StoreOptions& options, const CollectSettings& settings)
+{
+  this->Collected = CollectedScene();
   const double start = vtkTimerLog::GetUniversalTime();
   const int built = store.built();
   this->Collector.collect(this->Renderer, store, options, settings, this->Collected);
-  this->Statistics.collectTime = vtkTimerLog::GetUniversalTime() - start;
-  this->Statistics.octreesBuilt = store.built() - built;
+  this->Statistics.collectTime += vtkTimerLog::GetUniversalTime() - start;
+  this->Statistics.octreesBuilt += store.built() - built;
   this->Statistics.tracedActors = this->Collected.tracedActors;
   this->Statistics.rasterizedActors = this->Collected.rasterizedActors;
   this->Statistics.instances = static_cast<int>(this->Collected.scene.instances.size());

@@ -22,6 +22,8 @@
 #include "vtkRenderer.h"
 #include "vtkSVORenderPass.h"
 
+#include <iterator>
+
 namespace svo
 {
 /// What one frame's collection hands around.
@@ -72,10 +74,17 @@ bool hasSurface(vtkPolyData* mesh)
 }
 }
 
-void SceneCollector::complainOnce(const void* about, const std::string& text, const Frame& frame)
+/// About an object, or about nothing in particular (null).
+void SceneCollector::complainOnce(vtkObject* about, const std::string& text, const Frame& frame)
 {
-  if (frame.options.complain && this->Said.emplace(about, text).second)
+  if (!frame.options.complain)
   {
+    return;
+  }
+  const auto [said, isNew] = this->Said.try_emplace({ about, text }, about);
+  if (isNew || said->second != about) // another one is in its place now
+  {
+    said->second = about;
     frame.options.complain(text);
   }
 }
@@ -242,9 +251,10 @@ void SceneCollector::collectActor(
     surface.casts = surface.mesh != nullptr;
     if (!reason)
     {
-      reason = opaque.mesh != part.mesh ? "is translucent"
-                                        : lookOf(part, property, !frame.result.scene.lights.empty(),
-                                            instance.material, instance.attributes, this->Floats);
+      reason = opaque.mesh != part.mesh
+        ? "is translucent"
+        : lookOf(part, property, !frame.result.scene.lights.empty(), instance.material,
+            instance.attributes, this->Floats, frame.result.kept);
     }
     surface.traceable = !reason;
     if (surface.traceable)
@@ -368,10 +378,16 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   }
   Frame frame{ options, settings, result, {} };
   frame.settings.shadows = settings.shadows && casting;
+  // Updating a prop may change the renderer's list.
+  std::vector<vtkSmartPointer<vtkProp>> props;
   vtkCollectionSimpleIterator iterator;
-  vtkPropCollection* props = renderer->GetViewProps();
-  props->InitTraversal(iterator);
-  while (vtkProp* prop = props->GetNextProp(iterator))
+  vtkPropCollection* collection = renderer->GetViewProps();
+  collection->InitTraversal(iterator);
+  while (vtkProp* prop = collection->GetNextProp(iterator))
+  {
+    props.emplace_back(prop);
+  }
+  for (vtkProp* prop : props)
   {
     PropSurfaces found;
     found.prop = prop;
@@ -384,6 +400,11 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   for (const PropSurfaces& prop : frame.props)
   {
     addProp(prop, result);
+  }
+  for (auto said = this->Said.begin(); said != this->Said.end();)
+  {
+    const bool gone = said->first.first && !said->second;
+    said = gone ? this->Said.erase(said) : std::next(said);
   }
   this->Surfaces.endFrame();
   this->Floats.endFrame();

@@ -12,7 +12,9 @@
 #include "svoSurfaceLook.h"
 
 #include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
 
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -20,6 +22,7 @@
 
 class vtkActor;
 class vtkMatrix4x4;
+class vtkObject;
 class vtkObjectBase;
 class vtkPolyData;
 class vtkProp;
@@ -41,7 +44,7 @@ struct CollectSettings
 struct CollectedScene
 {
   Scene scene;
-  std::vector<vtkPolyData*> meshes; // of the scene's instances, by index
+  std::vector<vtkSmartPointer<vtkPolyData>> meshes; // of the scene's instances, by index
   /// Props that the rasteriser must leave alone: every surface of theirs is traced, or must not be
   /// shown.
   std::set<vtkProp*> replaced;
@@ -71,13 +74,13 @@ private:
   std::vector<SurfacePart> partsOf(vtkActor* actor);
   vtkPolyData* casterOf(const SurfacePart& part, OpaqueCells::Answer opaque, vtkActor* actor,
     PropSurfaces& found, const Frame& frame);
-  void complainOnce(const void* about, const std::string& text, const Frame& frame);
+  void complainOnce(vtkObject* about, const std::string& text, const Frame& frame);
 
   CompositeBlocks Blocks;
   DataSetSurfaces Surfaces;
   OpaqueCells Opaque;
   FloatArrays Floats;
-  std::set<std::pair<const void*, std::string>> Said;
+  std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>> Said; // about what
 };
 }
 

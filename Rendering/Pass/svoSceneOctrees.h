@@ -8,11 +8,12 @@
 #include "svoTracer.h"
 #include "svoView.h"
 
+#include "vtkPolyData.h"
+#include "vtkProp.h"
+#include "vtkSmartPointer.h"
+
 #include <algorithm>
 #include <vector>
-
-class vtkPolyData;
-class vtkProp;
 
 namespace svo
 {
@@ -20,7 +21,7 @@ namespace svo
 struct SceneSurface
 {
   Instance instance;
-  vtkPolyData* mesh = nullptr; // what casts alone, where the surface is not traceable
+  vtkSmartPointer<vtkPolyData> mesh; // what casts alone, where the surface is not traceable
   bool traceable = false;
   bool casts = false;
 };
@@ -28,7 +29,7 @@ struct SceneSurface
 /// What was found of a prop.
 struct PropSurfaces
 {
-  vtkProp* prop = nullptr;
+  vtkSmartPointer<vtkProp> prop;
   std::vector<SceneSurface> surfaces; // those that are traceable or cast
   int actors = 0;
   bool traced = true;          // all that the prop shows is traced

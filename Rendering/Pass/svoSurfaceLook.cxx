@@ -76,7 +76,8 @@ Reason beyondTracing(vtkActor* actor)
   return actor->HasTranslucentPolygonalGeometry() ? "is translucent" : nullptr;
 }
 
-void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays& floats)
+void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays& floats,
+  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
 {
   vtkDataArray* normals = flat ? nullptr : mesh->GetPointData()->GetNormals();
   attributes.normalAssociation = Association::Point;
@@ -94,6 +95,7 @@ void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays
     return;
   }
   attributes.normals = floats.values(normals);
+  kept.emplace_back(normals);
 }
 
 /// True if VTK's mapper looks the mapped colours up by cell.
@@ -264,7 +266,7 @@ Reason mapColors(
 }
 
 Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
-  Attributes& attributes, FloatArrays& floats)
+  Attributes& attributes, FloatArrays& floats, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
 {
   vtkPolyData* mesh = part.mesh;
   if (part.texture)
@@ -291,7 +293,7 @@ Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Mater
     setColor(material, part.color);
   }
   const bool flat = property->GetInterpolation() == VTK_FLAT;
-  normalsOf(mesh, flat, attributes, floats);
+  normalsOf(mesh, flat, attributes, floats, kept);
   material.flat = attributes.normalAssociation == Association::None;
   return nullptr;
 }

@@ -76,9 +76,9 @@ bool hasOpaqueTable(const SurfacePart& part);
 Reason mapColors(
   SurfacePart& part, Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
 
-/// Material and normals of a part. Arrays of normals are the mesh's own, or kept in `floats`.
+/// Material and normals of a part. Arrays of normals are kept in `floats` and `kept`.
 Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
-  Attributes& attributes, FloatArrays& floats);
+  Attributes& attributes, FloatArrays& floats, std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
 
 /// VTK's offset of coincident polygons for this mapper, as its shaders apply it: the amount added
 /// to window depth.

@@ -47,6 +47,12 @@ class vtkLight;
 class vtkMultiProcessController;
 class vtkProp;
 class vtkRenderer;
+#ifndef __VTK_WRAP__
+namespace svo
+{
+struct PassFrame;
+}
+#endif
 
 class VTKSVOPASS_EXPORT vtkSVORenderPass : public vtkOpenGLRenderPass
 {
@@ -483,10 +489,14 @@ private:
 
   void BeginAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
   void EndAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
-  void CollectFrame(vtkRenderer* renderer, int width, int height, bool attached);
-  void DecideSettings();
-  void TraceFrame(int width, int height);
-  void FinishFrame();
+  void ForgetAttached(vtkObject* renderer, unsigned long event, void* data);
+#ifndef __VTK_WRAP__
+  svo::PassFrame& BeginFrame(vtkRenderer* renderer);
+  bool CollectFrame(svo::PassFrame& frame, int width, int height, bool attached, bool ownsCamera);
+  void DecideSettings(svo::PassFrame& frame);
+  void TraceFrame(svo::PassFrame& frame, int width, int height);
+  void FinishFrame(svo::PassFrame& frame);
+#endif
 
   struct Internals;
   std::unique_ptr<Internals> Impl;
