@@ -1,6 +1,7 @@
 #include "svoMeshOctree.h"
 
 #include "svoMeshTriangles.h"
+#include "svoOpenOctrees.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -9,18 +10,15 @@
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <vtksys/SystemInformation.hxx>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <map>
-#include <mutex>
+#include <memory>
 #include <new>
 
 #include <glm/common.hpp>
@@ -48,100 +46,19 @@ void tellRange(vtkUnsignedCharArray* array)
   }
 }
 
-/// Keeps the VTK array alive whose bytes an octree points into, and is how attachOctree finds it.
-struct ArrayOwner
-{
-  vtkSmartPointer<vtkUnsignedCharArray> array;
-  void operator()(const std::byte*) const {}
-};
-
-std::shared_ptr<const std::byte> bytesOf(vtkUnsignedCharArray* array)
-{
-  return { reinterpret_cast<const std::byte*>(array->GetPointer(0)), ArrayOwner{ array } };
-}
-
 std::size_t bufferSize(const Header& header)
 {
   return sizeof(Header) + header.nodeCount * sizeof(Node) +
     header.listWords * sizeof(std::uint32_t);
 }
 
-/// Buffers that VTK arrays have taken over from the builder. VTK's free function is given an
-/// address and nothing else.
-struct AdoptedBuffers
+/// Bytes of an octree's own, aligned as Octree::open() wants them.
+std::shared_ptr<const std::byte> ownBytes(const void* bytes, std::size_t size)
 {
-  std::mutex mutex;
-  std::map<void*, std::shared_ptr<std::byte>> buffers;
-};
-
-AdoptedBuffers& adoptedBuffers()
-{
-  // Never destroyed: arrays may outlive static objects.
-  static auto* instance = new AdoptedBuffers;
-  return *instance;
-}
-
-void releaseAdoptedBuffer(void* address)
-{
-  AdoptedBuffers& adopted = adoptedBuffers();
-  std::shared_ptr<std::byte> last;
-  const std::lock_guard<std::mutex> lock(adopted.mutex);
-  const auto found = adopted.buffers.find(address);
-  if (found != adopted.buffers.end())
-  {
-    last = std::move(found->second);
-    adopted.buffers.erase(found);
-  }
-}
-
-vtkSmartPointer<vtkUnsignedCharArray> adopt(std::shared_ptr<std::byte> data, std::size_t size)
-{
-  AdoptedBuffers& adopted = adoptedBuffers();
-  std::byte* address = data.get();
-  {
-    const std::lock_guard<std::mutex> lock(adopted.mutex);
-    adopted.buffers.emplace(address, std::move(data));
-  }
-  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  array->SetName(OctreeArrayName);
-  array->SetArray(reinterpret_cast<unsigned char*>(address), static_cast<vtkIdType>(size), 0,
-    vtkAbstractArray::VTK_DATA_ARRAY_USER_DEFINED);
-  array->SetArrayFreeFunction(releaseAdoptedBuffer);
-  return array;
-}
-
-/// The octrees that are open now, by the address of their bytes, so that a pose that comes back is
-/// not checked and triangulated again for every handle on it. An open octree keeps its bytes alive:
-/// as long as it can be found, the address is that of the same bytes.
-class OpenOctrees
-{
-public:
-  Octree find(const std::byte* bytes)
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    const auto found = this->Octrees.find(bytes);
-    return found != this->Octrees.end() ? found->second.lock() : Octree();
-  }
-
-  void add(const Octree& octree)
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    for (auto i = this->Octrees.begin(); i != this->Octrees.end();)
-    {
-      i = i->second.expired() ? this->Octrees.erase(i) : std::next(i);
-    }
-    this->Octrees[octree.data().get()] = WeakOctree(octree);
-  }
-
-private:
-  std::mutex Mutex;
-  std::map<const std::byte*, WeakOctree> Octrees;
-};
-
-OpenOctrees& openOctrees()
-{
-  static auto* instance = new OpenOctrees;
-  return *instance;
+  std::shared_ptr<std::byte> own(
+    static_cast<std::byte*>(::operator new(size)), [](std::byte* p) { ::operator delete(p); });
+  std::memcpy(own.get(), bytes, size);
+  return own;
 }
 
 glm::dvec3 lowOf(const std::array<double, 6>& bounds)
@@ -222,13 +139,11 @@ BuildStatus buildUnguarded(
   addModel(options.modelBounds, header.meshBounds);
   const auto surface =
     makeSurface(view, std::move(triangles.cells()), header, buildOptions.parallelFor);
-  const auto array = adopt(std::move(result.data), result.size);
-  octree = Octree::open(bytesOf(array), result.size, surface, message);
+  octree = Octree::open(std::move(result.data), result.size, surface, message);
   if (!octree)
   {
     return BuildStatus::BadInput;
   }
-  openOctrees().add(octree);
   if (result.droppedTriangles > 0)
   {
     message = std::to_string(result.droppedTriangles) + " of the mesh's " +
@@ -280,21 +195,14 @@ bool fitsModel(const Octree& octree, const std::array<double, 6>& modelBounds)
 
 void attachOctree(vtkPolyData* mesh, const Octree& octree)
 {
-  vtkSmartPointer<vtkUnsignedCharArray> array;
-  if (const ArrayOwner* owner = std::get_deleter<ArrayOwner>(octree.data()))
-  {
-    array = owner->array;
-  }
-  else
-  {
-    const std::size_t size = bufferSize(octree.header());
-    array = vtkSmartPointer<vtkUnsignedCharArray>::New();
-    array->SetName(OctreeArrayName);
-    array->SetNumberOfValues(static_cast<vtkIdType>(size));
-    std::memcpy(array->GetPointer(0), octree.key(), size);
-  }
+  const std::size_t size = bufferSize(octree.header());
+  vtkNew<vtkUnsignedCharArray> array;
+  array->SetName(OctreeArrayName);
+  array->SetNumberOfValues(static_cast<vtkIdType>(size));
+  std::memcpy(array->GetPointer(0), octree.key(), size);
   tellRange(array);
   mesh->GetFieldData()->AddArray(array); // replaces an array of the same name
+  OpenOctrees::instance().add(array, octree);
 }
 
 void detachOctree(vtkPolyData* mesh)
@@ -315,7 +223,7 @@ Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& mess
   {
     return Attached::None;
   }
-  vtkSmartPointer<vtkUnsignedCharArray> array = vtkUnsignedCharArray::FastDownCast(any);
+  auto* array = vtkUnsignedCharArray::FastDownCast(any);
   if (!array || static_cast<std::size_t>(array->GetNumberOfValues()) < sizeof(Header))
   {
     message = "the field-data array that should hold the octree is too short, or not of bytes";
@@ -324,20 +232,16 @@ Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& mess
   try
   {
     const auto size = static_cast<std::size_t>(array->GetNumberOfValues());
-    if (reinterpret_cast<std::uintptr_t>(array->GetPointer(0)) % alignof(Header) != 0)
-    {
-      auto aligned = vtkSmartPointer<vtkUnsignedCharArray>::New();
-      aligned->DeepCopy(array);
-      array = aligned;
-    }
-    const auto bytes = bytesOf(array);
-    const Header& header = *reinterpret_cast<const Header*>(bytes.get());
+    const unsigned char* theirs = array->GetPointer(0);
+    octree = OpenOctrees::instance().find(array);
+    Header header;
+    std::memcpy(&header, octree ? octree.key() : theirs, sizeof(Header));
     if (std::memcmp(header.magic, LayoutMagic, sizeof(LayoutMagic)) == 0 &&
       header.version == LayoutVersion && header.signature != meshSignature(mesh))
     {
+      octree = {};
       return Attached::Foreign;
     }
-    octree = openOctrees().find(bytes.get());
     if (octree)
     {
       return Attached::Found;
@@ -346,10 +250,10 @@ Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& mess
     MeshTriangles triangles(mesh);
     const auto surface =
       makeSurface(triangles.view(), std::move(triangles.cells()), header, smpParallelFor());
-    octree = Octree::open(bytes, size, surface, message);
+    octree = Octree::open(ownBytes(theirs, size), size, surface, message);
     if (octree)
     {
-      openOctrees().add(octree);
+      OpenOctrees::instance().add(array, octree);
     }
     return octree ? Attached::Found : Attached::Damaged;
   }

@@ -46,8 +46,7 @@ VTKSVOCORE_EXPORT bool fitsModel(const Octree& octree, const std::array<double, 
 /// in.
 constexpr char OctreeArrayName[] = "SparseVoxelOctree";
 
-/// Puts the octree into the mesh's field data in place of any other. The bytes are not copied if
-/// they come from buildMeshOctree or openAttachedOctree: mesh and octree share them.
+/// Puts a copy of the octree's bytes into the mesh's field data in place of any other.
 VTKSVOCORE_EXPORT void attachOctree(vtkPolyData* mesh, const Octree& octree);
 
 /// Takes the octree off the mesh's field data, if there is one.
@@ -62,9 +61,10 @@ enum class Attached
 };
 
 /// Opens the octree that travels on a mesh, with its surface. Only Found yields an octree. None and
-/// Foreign are ordinary states downstream of other filters and have no message. The bytes are
-/// shared with the field-data array, which must not be written to. Does not change the mesh. While
-/// a copy of the octree is open somewhere, opening it again costs a look-up.
+/// Foreign are ordinary states downstream of other filters and have no message. The octree has a
+/// copy of the array's bytes: whoever writes to the array changes no open octree. Does not change
+/// the mesh. While the octree is open somewhere, and the array was not modified, opening it again
+/// costs a look-up.
 VTKSVOCORE_EXPORT Attached openAttachedOctree(
   vtkPolyData* mesh, Octree& octree, std::string& message);
 

@@ -137,7 +137,7 @@ public:
   template <typename Compute>
   std::uint64_t get(const void* object, vtkMTimeType time, const Compute& compute)
   {
-    const std::pair<const void*, vtkMTimeType> key(object, time);
+    const Key key(object, time);
     {
       const std::lock_guard<std::mutex> lock(this->Mutex);
       const auto found = this->Hashes.find(key);
@@ -149,6 +149,27 @@ public:
     const std::uint64_t hash = compute();
     const std::lock_guard<std::mutex> lock(this->Mutex);
     ++this->Computed;
+    this->keep(key, hash);
+    return hash;
+  }
+
+  void put(const void* object, vtkMTimeType time, std::uint64_t hash)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->keep({ object, time }, hash);
+  }
+
+  std::uint64_t computed()
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    return this->Computed;
+  }
+
+private:
+  using Key = std::pair<const void*, vtkMTimeType>;
+
+  void keep(const Key& key, std::uint64_t hash)
+  {
     if (this->Hashes.emplace(key, hash).second)
     {
       this->Order.push_back(key);
@@ -162,20 +183,12 @@ public:
       }
       this->Order.erase(this->Order.begin(), this->Order.begin() + Most / 2);
     }
-    return hash;
   }
 
-  std::uint64_t computed()
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    return this->Computed;
-  }
-
-private:
   static constexpr std::size_t Most = 8192;
   std::mutex Mutex;
-  std::map<std::pair<const void*, vtkMTimeType>, std::uint64_t> Hashes;
-  std::vector<std::pair<const void*, vtkMTimeType>> Order;
+  std::map<Key, std::uint64_t> Hashes;
+  std::vector<Key> Order;
   std::uint64_t Computed = 0;
 };
 
@@ -185,33 +198,64 @@ Memory& memory()
   return instance;
 }
 
-std::uint64_t cellsHash(vtkCellArray* cells)
+/// When somebody last said that the mesh changed: whoever writes ids or coordinates in place may
+/// say so to the mesh alone.
+vtkMTimeType saidAt(vtkPolyData* mesh)
 {
-  if (cells->GetNumberOfCells() == 0)
-  {
-    return 0;
-  }
-  const vtkMTimeType time = std::max({ cells->GetMTime(), cells->GetOffsetsArray()->GetMTime(),
+  return mesh->vtkObject::GetMTime();
+}
+
+vtkMTimeType timeOf(vtkCellArray* cells)
+{
+  return std::max({ cells->GetMTime(), cells->GetOffsetsArray()->GetMTime(),
     cells->GetConnectivityArray()->GetMTime() });
-  return memory().get(cells, time, [cells] { return hashCells(cells); });
+}
+
+std::uint64_t cellsHash(vtkCellArray* cells, vtkMTimeType said)
+{
+  return cells->GetNumberOfCells() == 0
+    ? 0
+    : memory().get(cells, std::max(timeOf(cells), said), [cells] { return hashCells(cells); });
+}
+
+/// A vtkPoints can be given another array without looking younger: the array is the identity.
+std::uint64_t pointsHash(vtkPoints* points, vtkMTimeType said)
+{
+  return !points || points->GetNumberOfPoints() == 0
+    ? 0
+    : memory().get(points->GetData(), std::max(points->GetMTime(), said),
+        [points] { return hashPoints(points); });
 }
 }
 
 std::uint64_t meshSignature(vtkPolyData* mesh)
 {
-  vtkPoints* points = mesh->GetPoints();
-  std::uint64_t all = 0;
-  if (points && points->GetNumberOfPoints() > 0)
-  {
-    // A vtkPoints can be given another array without looking younger: both are the key.
-    all =
-      memory().get(points->GetData(), points->GetMTime(), [points] { return hashPoints(points); });
-  }
-  all = mix(all, cellsHash(mesh->GetPolys()));
-  all = mix(all, cellsHash(mesh->GetStrips()));
+  const vtkMTimeType said = saidAt(mesh);
+  std::uint64_t all = pointsHash(mesh->GetPoints(), said);
+  all = mix(all, cellsHash(mesh->GetPolys(), said));
+  all = mix(all, cellsHash(mesh->GetStrips(), said));
   all = mix(all, static_cast<std::uint64_t>(mesh->GetNumberOfVerts()));
   all = mix(all, static_cast<std::uint64_t>(mesh->GetNumberOfLines()));
   return all != 0 ? all : 1;
+}
+
+void copySignature(vtkPolyData* from, vtkPolyData* to)
+{
+  const vtkMTimeType said = saidAt(from), saidOfCopy = saidAt(to);
+  const auto copy = [&](const void* object, vtkMTimeType time, std::uint64_t hash)
+  { memory().put(object, std::max(time, saidOfCopy), hash); };
+  if (vtkPoints* points = to->GetPoints(); points && points->GetNumberOfPoints() > 0)
+  {
+    copy(points->GetData(), points->GetMTime(), pointsHash(from->GetPoints(), said));
+  }
+  for (const auto& [own, original] : { std::make_pair(to->GetPolys(), from->GetPolys()),
+         std::make_pair(to->GetStrips(), from->GetStrips()) })
+  {
+    if (own->GetNumberOfCells() > 0)
+    {
+      copy(own, timeOf(own), cellsHash(original, said));
+    }
+  }
 }
 
 std::uint64_t numberOfHashedArrays()

@@ -15,11 +15,14 @@ namespace svo
 /// a mesh keeps its octree. Independent of the integer width that the cells are stored in and of
 /// threads.
 ///
-/// Computed once per change: the hashes of points and cells are remembered by the identity and
-/// modification time of the vtkPoints and vtkCellArrays. So whoever edits points in place calls
-/// Modified() on the vtkPoints, as VTK's mappers need it too. Does not change the mesh; may be
-/// called from any thread.
+/// Computed once per change: the hashes of points and cells are remembered by their identity and
+/// modification time. Whoever edits them in place calls Modified() on them or on the mesh. Does not
+/// change the mesh; may be called from any thread.
 VTKSVOCORE_EXPORT std::uint64_t meshSignature(vtkPolyData* mesh);
+
+/// Tells that `to` is a shallow copy that was made of `from` right now, so that its signature is
+/// known. (Any other copy is younger than what is remembered, so it is hashed once.)
+VTKSVOCORE_EXPORT void copySignature(vtkPolyData* from, vtkPolyData* to);
 
 /// How many arrays have been hashed so far in this process, for tests.
 VTKSVOCORE_EXPORT std::uint64_t numberOfHashedArrays();

@@ -198,6 +198,8 @@ void vtkPolyDataToSVO::Convert(vtkPolyData* input, vtkPolyData* output, const do
   this->NumberOfVoxels = 0;
   output->ShallowCopy(input);
 
+  svo::copySignature(input, output);
+
   svo::MeshOctreeOptions options;
   options.level = this->MaximumLevel;
   options.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);

@@ -3,9 +3,9 @@
  * @brief a handle on the sparse voxel octree that travels with a mesh
  *
  * vtkPolyDataToSVO puts an octree into the field data of its output mesh. Initialize() opens it,
- * and this class answers questions to it. The octree is not copied where the array's alignment
- * allows: the handle shares the mesh's field-data array and keeps it alive. Changing the mesh
- * afterwards does not change the handle.
+ * and this class answers questions to it. Changing the mesh afterwards, its points, its cells or
+ * the bytes of the octree in its field data, does not change the handle: it has bytes of its own,
+ * which all handles and render passes share that open the same array.
  *
  * All coordinates are in the mesh's own frame (not the actor's). The octree divides a cube, see
  * GetBounds(), into 2^level cells along an edge, level 0 to GetNumberOfLevels(); the cells of the

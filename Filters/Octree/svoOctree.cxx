@@ -3,6 +3,7 @@
 #include "svoMorton.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -59,7 +60,9 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
     error = "the octree's data is shorter than its header";
     return {};
   }
+  static std::atomic<std::uint64_t> opened{ 0 };
   Octree octree;
+  octree.Id = ++opened;
   octree.Data = std::move(data);
   octree.Size = size;
   octree.Triangles = std::move(surface);

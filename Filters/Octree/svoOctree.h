@@ -9,6 +9,7 @@
 #include "vtkSVOOctreeModule.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -87,8 +88,10 @@ public:
   /// Triangles of the brick that has most; 0 in an empty octree.
   std::uint32_t longestList() const { return this->Longest; }
 
-  /// Identity of the buffer, for caches: two octrees with the same key are the same.
+  /// Where the buffer lies: of two octrees that are open, those with the same key are the same.
   const void* key() const { return this->Data.get(); }
+  /// Identity for caches that may outlive the octree: copies share it, and it is never given twice.
+  std::uint64_t id() const { return this->Id; }
   /// The buffer and its owner, to share them.
   const std::shared_ptr<const std::byte>& data() const { return this->Data; }
 
@@ -98,6 +101,7 @@ private:
 
   std::shared_ptr<const std::byte> Data;
   std::size_t Size = 0;
+  std::uint64_t Id = 0;
   std::uint32_t Longest = 0;
   std::shared_ptr<const Surface> Triangles;
   std::shared_ptr<const UpperLevels> Upper;
@@ -112,6 +116,7 @@ public:
   explicit WeakOctree(const Octree& octree)
     : Data(octree.Data)
     , Size(octree.Size)
+    , Id(octree.Id)
     , Longest(octree.Longest)
     , Triangles(octree.Triangles)
     , Upper(octree.Upper)
@@ -125,6 +130,7 @@ public:
     Octree octree;
     octree.Data = this->Data.lock();
     octree.Size = this->Size;
+    octree.Id = this->Id;
     octree.Longest = this->Longest;
     octree.Triangles = this->Triangles.lock();
     octree.Upper = this->Upper.lock();
@@ -135,6 +141,7 @@ public:
 private:
   std::weak_ptr<const std::byte> Data;
   std::size_t Size = 0;
+  std::uint64_t Id = 0;
   std::uint32_t Longest = 0;
   std::weak_ptr<const Surface> Triangles;
   std::weak_ptr<const UpperLevels> Upper;

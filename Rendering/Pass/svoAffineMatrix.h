@@ -6,16 +6,19 @@
 
 #include <cmath>
 
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 
 namespace svo
 {
 enum class MatrixKind
 {
   Affine,     // and invertible
+  Flat,       // affine, but singular or nearly so: what it places is a sheet, a line or a point
   Projective, // its last row is not (0, 0, 0, 1)
-  Singular    // or so nearly that nothing can be seen of what it places; or not finite
+  Nowhere     // its last row is 0, or it is not finite: nothing can be seen of what it places
 };
 
 /// Condition number, in the Frobenius norm, from which a matrix counts as singular.
@@ -37,13 +40,13 @@ inline MatrixKind kindOf(const glm::dmat4& m)
   {
     if (!std::isfinite(m[i / 4][i % 4]))
     {
-      return MatrixKind::Singular;
+      return MatrixKind::Nowhere;
     }
   }
   if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0)
   {
     return m[0][3] == 0.0 && m[1][3] == 0.0 && m[2][3] == 0.0 && m[3][3] == 0.0
-      ? MatrixKind::Singular
+      ? MatrixKind::Nowhere
       : MatrixKind::Projective;
   }
   // Scaled first: neither tiny nor huge worlds are singular.
@@ -51,10 +54,46 @@ inline MatrixKind kindOf(const glm::dmat4& m)
   const double scale = frobeniusNorm(linear);
   if (!(scale > 0.0))
   {
-    return MatrixKind::Singular;
+    return MatrixKind::Flat;
   }
   const double condition = frobeniusNorm(stableInverse(linear / scale));
-  return condition <= MaximumCondition ? MatrixKind::Affine : MatrixKind::Singular;
+  return condition <= MaximumCondition ? MatrixKind::Affine : MatrixKind::Flat;
+}
+
+/// A flat matrix with a thickness of a millionth, so that the sheet can be traced by lights. False
+/// if it places no sheet, but a line or a point, which casts no shadow.
+inline bool thicken(glm::dmat4& m)
+{
+  constexpr double Thickness = 1e-6;
+  const auto longestCross = [](const glm::dmat3& a)
+  {
+    glm::dvec3 longest(0.0);
+    for (int i = 0; i < 3; ++i)
+    {
+      const glm::dvec3 cross = glm::cross(a[i], a[(i + 1) % 3]);
+      longest = glm::length(cross) > glm::length(longest) ? cross : longest;
+    }
+    return longest;
+  };
+  const double scale = frobeniusNorm(glm::dmat3(m));
+  if (!(scale > 0.0))
+  {
+    return false;
+  }
+  // Across the sheet, before and after it is flattened.
+  const glm::dmat3 linear = glm::dmat3(m) / scale;
+  const glm::dvec3 before = longestCross(glm::transpose(linear));
+  const glm::dvec3 after = longestCross(linear);
+  if (!(glm::length(before) > Thickness && glm::length(after) > Thickness))
+  {
+    return false;
+  }
+  const glm::dmat3 across = glm::outerProduct(glm::normalize(after), glm::normalize(before));
+  for (int c = 0; c < 3; ++c)
+  {
+    m[c] += glm::dvec4(Thickness * scale * across[c], 0.0);
+  }
+  return true;
 }
 }
 

@@ -10,8 +10,6 @@
 
 namespace svo
 {
-namespace
-{
 vtkSmartPointer<vtkPolyData> privateCopy(vtkPolyData* mesh)
 {
   auto copy = vtkSmartPointer<vtkPolyData>::New();
@@ -32,7 +30,6 @@ vtkSmartPointer<vtkPolyData> privateCopy(vtkPolyData* mesh)
   copy->SetPolys(cells(mesh->GetPolys()));
   copy->SetStrips(cells(mesh->GetStrips()));
   return copy;
-}
 }
 
 std::unique_ptr<BackgroundBuild> BackgroundBuild::begin(

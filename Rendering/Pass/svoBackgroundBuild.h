@@ -17,6 +17,9 @@ class vtkPolyData;
 
 namespace svo
 {
+/// A mesh's points and cells, in memory of their own.
+vtkSmartPointer<vtkPolyData> privateCopy(vtkPolyData* mesh);
+
 /// It reads a copy of the mesh's points and cells: the mesh may change or go meanwhile.
 class BackgroundBuild
 {

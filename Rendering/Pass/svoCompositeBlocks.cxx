@@ -76,15 +76,15 @@ void applyOwnValues([[maybe_unused]] vtkCompositeDataDisplayAttributes* own,
 #endif
 }
 
-bool hasTexture([[maybe_unused]] vtkCompositeDataDisplayAttributes* own,
+vtkTexture* textureOf([[maybe_unused]] vtkCompositeDataDisplayAttributes* own,
   [[maybe_unused]] const std::vector<vtkDataObject*>& path)
 {
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
   vtkDataObject* object =
     nearest(path, [&](vtkDataObject* candidate) { return own->HasBlockTexture(candidate); });
-  return object && own->GetBlockTexture(object);
+  return object ? own->GetBlockTexture(object).Get() : nullptr;
 #else
-  return false;
+  return nullptr;
 #endif
 }
 
@@ -184,7 +184,7 @@ SurfacePart CompositeBlocks::partOf(CompositeMapper* mapper, const Path& path, d
     {
       overrideColor(own->GetBlockColor(object), part);
     }
-    part.textured = hasTexture(own, path);
+    part.texture = textureOf(own, path);
   }
   // Blocks that lack the array the others are coloured by take the table's colour of NaN, if asked.
   double nan[3];

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -69,6 +70,7 @@ OctreeStore::Known& OctreeStore::knownOf(vtkPolyData* mesh, const StoreOptions& 
   const std::uint64_t time = mesh->GetMTime();
   if (known.mesh != mesh || known.time != time)
   {
+    const Octree former = known.attached; // found again, not opened again, if it is still the one
     known = Known();
     known.mesh = mesh;
     known.time = time;
@@ -179,17 +181,27 @@ void OctreeStore::build(vtkPolyData* mesh, const Key& key, const StoreOptions& o
   build.level = std::get<1>(key);
   build.leafGeometry = std::get<2>(key);
   build.signature = std::get<0>(key);
-  build.progress = [&options](double amount)
+  vtkSmartPointer<vtkPolyData> source = mesh;
+  if (options.progress)
   {
-    if (options.progress)
+    try
     {
-      options.progress(amount);
+      // Who is told of the progress may change the mesh, or ask for other octrees.
+      source = privateCopy(mesh);
+      build.progress = [&options](double amount)
+      {
+        options.progress(amount);
+        return true;
+      };
     }
-    return true;
-  };
-  Built& built = this->Octrees[key];
-  buildMeshOctree(mesh, build, built.octree, built.message);
+    catch (const std::bad_alloc&)
+    {
+    }
+  }
+  Built built;
+  buildMeshOctree(source, build, built.octree, built.message);
   this->BuiltSoFar += built.octree ? 1 : 0;
+  this->Octrees[key] = std::move(built);
 }
 
 void OctreeStore::buildInBackground(vtkPolyData* mesh, const Key& key)
@@ -218,14 +230,18 @@ void OctreeStore::buildInBackground(vtkPolyData* mesh, const Key& key)
 
 void OctreeStore::waitFor(const Key& key, const StoreOptions& options)
 {
-  const auto job = this->Jobs.find(key);
-  while (options.progress && !job->second.build->done())
+  auto job = this->Jobs.find(key);
+  while (options.progress && job != this->Jobs.end() && !job->second.build->done())
   {
     options.progress(job->second.build->progress());
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    job = this->Jobs.find(key); // who was told may have waited for it, too
   }
-  this->keepResult(key, *job->second.build);
-  this->Jobs.erase(job);
+  if (job != this->Jobs.end())
+  {
+    this->keepResult(key, *job->second.build);
+    this->Jobs.erase(job);
+  }
 }
 
 void OctreeStore::keepResult(const Key& key, BackgroundBuild& build)

@@ -36,7 +36,8 @@ struct StoreOptions
 /// that pose's octree, and a mesh shared by many actors has one. A mesh may have octrees of several
 /// levels: which one a frame needs is its own affair (svoNeededLevels.h).
 ///
-/// All functions are called by one thread. Background builds have private copies of their meshes,
+/// All functions are called by one thread. A progress function may call them, too, change meshes
+/// and let them go. Background builds have private copies of their meshes,
 /// and what they build is put in place by find() and endFrame() alone: a mesh may change or go
 /// while its octree is built, and the store may go.
 class OctreeStore

@@ -2,6 +2,7 @@
 #ifndef svoPassInternals_h
 #define svoPassInternals_h
 
+#include "svoPassFrame.h"
 #include "svoPassRenderer.h"
 #include "vtkSVORenderPass.h"
 
@@ -10,6 +11,7 @@
 #include "vtkTimeStamp.h"
 #include "vtkWeakPointer.h"
 
+#include <algorithm>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -24,20 +26,17 @@ struct AttachedRenderer
 {
   vtkWeakPointer<vtkRenderer> renderer;
   std::vector<unsigned long> observers;
-  std::vector<vtkProp*> props; // those that carry the pass while a frame is drawn
+  bool leaving = false; // detached in the midst of a frame: as soon as that ends
 };
 }
 
 struct vtkSVORenderPass::Internals
 {
   svo::OctreeStore store;
-  std::map<vtkRenderer*, std::unique_ptr<svo::PassRenderer>> renderers;
+  std::map<vtkRenderer*, std::shared_ptr<svo::PassRenderer>> renderers;
   std::map<vtkRenderer*, svo::AttachedRenderer> attached;
-  svo::PassRenderer* current = nullptr; // while its frame is drawn
+  std::vector<std::unique_ptr<svo::PassFrame>> frames; // in progress, the innermost last
   vtkSmartPointer<vtkMultiProcessController> controller;
-  svo::FrameSettings settings; // of the current frame
-  double sampleDistance = 1.0; // pixels, likewise
-  bool traced = false;         // the current frame is, where the pass is attached
   svo::PassStatistics statistics;
   std::string castingLights;
   std::string shaderSignature; // of the shaders that mappers have built last
@@ -48,18 +47,33 @@ struct vtkSVORenderPass::Internals
 
   static svo::FrameSettings settingsOf(const vtkSVORenderPass& pass);
 
-  svo::PassRenderer& of(vtkRenderer* renderer)
+  /// What is kept for a renderer.
+  std::shared_ptr<svo::PassRenderer> of(vtkRenderer* renderer)
   {
     for (auto entry = this->renderers.begin(); entry != this->renderers.end();)
     {
       entry = entry->second->renderer() ? std::next(entry) : this->renderers.erase(entry);
     }
-    std::unique_ptr<svo::PassRenderer>& found = this->renderers[renderer];
+    std::shared_ptr<svo::PassRenderer>& found = this->renderers[renderer];
     if (!found)
     {
-      found = std::make_unique<svo::PassRenderer>(renderer);
+      found = std::make_shared<svo::PassRenderer>(renderer);
     }
-    return *found;
+    return found;
+  }
+
+  /// What is kept for the renderer of the innermost frame; null between frames.
+  svo::PassRenderer* current() const
+  {
+    return this->frames.empty() ? nullptr : this->frames.back()->of.get();
+  }
+
+  /// The frame of a renderer that is in progress; null if there is none.
+  svo::PassFrame* frameOf(vtkRenderer* renderer) const
+  {
+    const auto found = std::find_if(this->frames.begin(), this->frames.end(),
+      [renderer](const auto& frame) { return frame->renderer == renderer; });
+    return found != this->frames.end() ? found->get() : nullptr;
   }
 };
 

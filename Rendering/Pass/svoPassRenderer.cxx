@@ -68,20 +68,24 @@ void PassRenderer::measured(double seconds, double fixed)
   this->Window->measured(this, this->Distance.cost());
 }
 
-void PassRenderer::collect(
-  OctreeStore& store, const StoreOptions& options, const CollectSettings& settings)
+void PassRenderer::begin()
 {
   this->Statistics = PassStatistics();
   this->Collected = CollectedScene();
   this->Picture.covered = PixelRect();
   this->Complaint.clear();
   this->Sharing = false;
+}
 
+void PassRenderer::collect(
+  OctreeStore& store, const StoreOptions& options, const CollectSettings& settings)
+{
+  this->Collected = CollectedScene();
   const double start = vtkTimerLog::GetUniversalTime();
   const int built = store.built();
   this->Collector.collect(this->Renderer, store, options, settings, this->Collected);
-  this->Statistics.collectTime = vtkTimerLog::GetUniversalTime() - start;
-  this->Statistics.octreesBuilt = store.built() - built;
+  this->Statistics.collectTime += vtkTimerLog::GetUniversalTime() - start;
+  this->Statistics.octreesBuilt += store.built() - built;
   this->Statistics.tracedActors = this->Collected.tracedActors;
   this->Statistics.rasterizedActors = this->Collected.rasterizedActors;
   this->Statistics.instances = static_cast<int>(this->Collected.scene.instances.size());
@@ -122,7 +126,6 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   const Scene& scene = this->Collected.scene;
   View& view = this->Eye;
   view = View();
-  this->PixelError = settings.pixelError;
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow());
   if (!this->hasSomething() || !viewOfCamera(this->Renderer, width, height, view))
   {
@@ -148,8 +151,8 @@ void PassRenderer::present(vtkOpenGLRenderPass* pass)
     {
       if (this->Statistics.sampleDistance == 1.0) // else the frame's pixels are not the window's
       {
-        findSilhouettes(this->Collected.scene, this->Eye, this->PixelError, this->Picture,
-          positions, smpParallelFor(), silhouettes);
+        this->Trace.divideEdges(this->Collected.scene, this->Eye, this->Picture, positions,
+          smpParallelFor(), silhouettes);
       }
     },
     pass);

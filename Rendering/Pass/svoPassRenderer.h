@@ -70,7 +70,11 @@ public:
 
   vtkRenderer* renderer() const { return this->Renderer; }
 
-  /// Collects a frame's scene from the renderer, whose lights are in place.
+  /// Begins a frame.
+  void begin();
+
+  /// Collects its scene from the renderer, whose lights are in place; the last of several times
+  /// counts.
   void collect(OctreeStore& store, const StoreOptions& options, const CollectSettings& settings);
 
   /// Adds other processes' casters to the collected scene; see SharedCasters.
@@ -128,7 +132,6 @@ private:
   std::shared_ptr<WindowTime> Window; // of the window that it was measured in last
   Tracer Trace;
   View Eye; // of the frame
-  double PixelError = 1.0;
   bool Sharing = false; // this frame's shadow buffers are those of all processes
   struct Frame Picture;
   ShadowReceivers Receivers;

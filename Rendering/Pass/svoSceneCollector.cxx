@@ -13,6 +13,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkMatrix4x4.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkPropAssembly.h"
@@ -20,6 +21,8 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkSVORenderPass.h"
+
+#include <iterator>
 
 namespace svo
 {
@@ -71,10 +74,17 @@ bool hasSurface(vtkPolyData* mesh)
 }
 }
 
-void SceneCollector::complainOnce(const void* about, const std::string& text, const Frame& frame)
+/// About an object, or about nothing in particular (null).
+void SceneCollector::complainOnce(vtkObject* about, const std::string& text, const Frame& frame)
 {
-  if (this->Said.emplace(about, text).second)
+  if (!frame.options.complain)
   {
+    return;
+  }
+  const auto [said, isNew] = this->Said.try_emplace({ about, text }, about);
+  if (isNew || said->second != about) // another one is in its place now
+  {
+    said->second = about;
     frame.options.complain(text);
   }
 }
@@ -101,22 +111,69 @@ std::vector<SurfacePart> SceneCollector::partsOf(vtkActor* actor)
   return { whole };
 }
 
-/// Adds the actor's surfaces. False if the rasteriser has to draw the actor.
-bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatrix4x4* matrix,
-  int path, std::vector<SceneSurface>& surfaces, Frame& frame)
+/// What of a part casts a shadow; nullptr if nothing does.
+vtkPolyData* SceneCollector::casterOf(const SurfacePart& part, OpaqueCells::Answer opaque,
+  vtkActor* actor, PropSurfaces& found, const Frame& frame)
 {
+  const auto answer = [&](bool otherwise)
+  { return flagOf(actor, found.prop, vtkSVORenderPass::CAST_SHADOW(), otherwise); };
+  if (answer(false))
+  {
+    return part.mesh;
+  }
+  if (!answer(true))
+  {
+    found.castNothing("was told so");
+    return nullptr;
+  }
+  const bool mapped = part.mesh->GetPointData()->GetTCoords() != nullptr;
+  const TextureAlpha texture = mapped ? alphaOf(part.texture) : TextureAlpha::Opaque;
+  if (opaque.mesh && (actor->GetForceTranslucent() || texture == TextureAlpha::Translucent))
+  {
+    opaque = { nullptr, true };
+  }
+  if (opaque.mesh != part.mesh)
+  {
+    found.castNothing(opaque.translucent ? "is translucent"
+        : opaque.mesh                    ? "is invisible in parts"
+                                         : "is invisible");
+  }
+  if (opaque.translucent)
+  {
+    this->complainOnce(nullptr,
+      "A surface, or some cells of it, cast no shadow because opacity, colours or texture make "
+      "them translucent. SetCastShadow(true, prop) has all of it cast, false none and in silence.",
+      frame);
+  }
+  else if (opaque.mesh && texture == TextureAlpha::CutOut)
+  {
+    this->complainOnce(nullptr,
+      "A surface casts the shadow of its whole cells although its texture hides parts of them. "
+      "SetCastShadow(true, prop) says that this is meant, false takes the shadow away.",
+      frame);
+  }
+  return opaque.mesh;
+}
+
+/// Adds the actor's surfaces.
+void SceneCollector::collectActor(
+  vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, Frame& frame)
+{
+  vtkProp* owner = found.prop;
   if (!isPlainActor(actor) && !isMarked(actor, owner))
   {
-    return false; // it may well draw without a mapper of its own
+    found.leaveAlone("is of a class that may draw anything"); // without a mapper, even
+    return;
   }
   vtkMapper* mapper = actor->GetMapper();
   if (!mapper || mapper->GetNumberOfInputConnections(0) == 0)
   {
-    return true;
+    return;
   }
   if (frame.settings.onlyMarked && !isMarked(actor, owner))
   {
-    return false;
+    found.leaveAlone("was not chosen with SetUseSVO");
+    return;
   }
   if (!mapper->GetStatic())
   {
@@ -129,77 +186,106 @@ bool SceneCollector::collectActor(vtkActor* actor, vtkProp* owner, const vtkMatr
         " are left to the rasteriser and cast no shadow: this pass does not know that mapper.",
       frame);
   }
-  Treatment treatment = treatmentOf(actor);
-  const glm::dmat4 localToWorld = toGlm(matrix);
-  if (treatment != Treatment::Rasterize)
+  const Treatment treatment = treatmentOf(actor);
+  if (treatment.castsNone)
   {
-    switch (kindOf(localToWorld))
-    {
-      case MatrixKind::Singular:
-        this->complainOnce(
-          actor, "An actor is not drawn: its matrix is singular, nearly so, or not finite.", frame);
-        return true;
-      case MatrixKind::Projective:
-        this->complainOnce(actor,
-          "An actor casts no shadow and is left to the rasteriser: its matrix is not affine.",
-          frame);
-        treatment = Treatment::Rasterize;
-        break;
-      case MatrixKind::Affine:
-        break;
-    }
+    found.leaveAlone(treatment.castsNone);
+    return;
   }
-  if (treatment == Treatment::Rasterize)
+  Reason beyond = treatment.rasterized;
+  glm::dmat4 localToWorld = toGlm(matrix);
+  switch (kindOf(localToWorld))
   {
-    return false;
+    case MatrixKind::Nowhere:
+      found.castNothing("has a matrix that is not finite");
+      this->complainOnce(actor, "An actor is not drawn: its matrix is not finite.", frame);
+      return;
+    case MatrixKind::Flat:
+      beyond = "is flattened by its matrix";
+      if (!thicken(localToWorld))
+      {
+        found.leaveAlone(beyond);
+        return;
+      }
+      break;
+    case MatrixKind::Projective:
+      found.leaveAlone("has a matrix that is not affine");
+      this->complainOnce(actor,
+        "An actor casts no shadow and is left to the rasteriser: its matrix is not affine.", frame);
+      return;
+    case MatrixKind::Affine:
+      break;
   }
 
+  if (!beyond && !flagOf(actor, owner, vtkSVORenderPass::USE_SVO(), true))
+  {
+    beyond = "was told so";
+  }
+  if (beyond)
+  {
+    found.rasterize(beyond);
+  }
   vtkProperty* property = actor->GetProperty();
-  const bool composite = compositeMapper(mapper) != nullptr;
-  const bool translucent = actor->HasTranslucentPolygonalGeometry();
-  const bool mayTrace =
-    treatment == Treatment::Trace && flagOf(actor, owner, vtkSVORenderPass::USE_SVO(), true);
-  bool traced = mayTrace;
-  for (const SurfacePart& part : this->partsOf(actor))
+  for (SurfacePart& part : this->partsOf(actor))
   {
     if (!hasSurface(part.mesh))
     {
-      traced = traced && part.mesh->GetNumberOfCells() == 0;
+      if (part.mesh->GetNumberOfCells() > 0)
+      {
+        found.leaveAlone("has lines or vertices");
+      }
       continue;
     }
     SceneSurface surface;
-    surface.mesh = part.mesh;
     Instance& instance = surface.instance;
-    surface.traceable = mayTrace &&
-      lookOf(part, property, !frame.result.scene.lights.empty(), instance.material,
-        instance.attributes, this->Floats, frame.result.kept);
-    surface.casts = flagOf(actor, owner, vtkSVORenderPass::CAST_SHADOW(),
-      part.opacity >= 1.0 && (composite || !translucent));
-    surface.casts = surface.casts && frame.settings.shadows;
-    traced = traced && surface.traceable;
-    if (!surface.traceable && !surface.casts)
+    part.texture = part.texture ? part.texture : textureOf(actor);
+    Reason reason = beyond;
+    if (!beyond || !hasOpaqueTable(part))
     {
-      continue;
+      const Reason unmapped = mapColors(part, instance.attributes, frame.result.kept);
+      reason = beyond ? beyond : unmapped;
+    }
+    const OpaqueCells::Answer opaque = this->Opaque.of(part, instance.attributes);
+    surface.mesh =
+      frame.settings.shadows ? this->casterOf(part, opaque, actor, found, frame) : nullptr;
+    surface.casts = surface.mesh != nullptr;
+    if (!reason)
+    {
+      reason = opaque.mesh != part.mesh
+        ? "is translucent"
+        : lookOf(part, property, !frame.result.scene.lights.empty(), instance.material,
+            instance.attributes, this->Floats, frame.result.kept);
+    }
+    surface.traceable = !reason;
+    if (surface.traceable)
+    {
+      surface.mesh = part.mesh;
+    }
+    else
+    {
+      found.rasterize(reason);
+      if (!surface.casts)
+      {
+        continue;
+      }
     }
     instance.localToWorld = localToWorld;
     instance.pixelError = pixelErrorOf(actor, owner);
     instance.receiveShadow = flagOf(actor, owner, vtkSVORenderPass::RECEIVE_SHADOW(), true);
-    instance.id =
-      combine(combine(reinterpret_cast<std::uintptr_t>(actor), part.block), std::uint64_t(path));
+    instance.id = combine(
+      combine(reinterpret_cast<std::uintptr_t>(actor), part.block), std::uint64_t(found.actors));
     instance.depthOffsetUnits = static_cast<float>(coincidentDepthOffset(mapper));
-    surfaces.push_back(surface);
+    found.surfaces.push_back(surface);
   }
-  return traced;
 }
 
-void SceneCollector::collectProp(vtkProp* prop, Frame& frame)
+/// False if the prop cannot have any.
+bool SceneCollector::collectProp(PropSurfaces& found, Frame& frame)
 {
-  PropSurfaces found;
-  found.prop = prop;
+  vtkProp* prop = found.prop;
   const auto collect = [&](vtkActor* actor, const vtkMatrix4x4* matrix)
   {
-    found.traced =
-      this->collectActor(actor, prop, matrix, found.actors, found.surfaces, frame) && found.traced;
+    this->collectActor(actor, matrix, found, frame);
     found.receives = found.receives ||
       (actor->GetMapper() && actor->GetProperty()->GetLighting() &&
         flagOf(actor, prop, vtkSVORenderPass::RECEIVE_SHADOW(), true));
@@ -209,33 +295,48 @@ void SceneCollector::collectProp(vtkProp* prop, Frame& frame)
   if (auto* actor = vtkActor::SafeDownCast(prop))
   {
     collect(actor, actor->GetMatrix());
+    return true;
   }
-  else if (vtkAssembly::SafeDownCast(prop) || vtkPropAssembly::SafeDownCast(prop))
+  if (!vtkAssembly::SafeDownCast(prop) && !vtkPropAssembly::SafeDownCast(prop))
   {
-    prop->InitPathTraversal();
-    while (vtkAssemblyPath* path = prop->GetNextPath())
+    return false;
+  }
+  prop->InitPathTraversal();
+  while (vtkAssemblyPath* path = prop->GetNextPath())
+  {
+    vtkProp* leaf = path->GetLastNode()->GetViewProp();
+    if (!leaf->GetVisibility())
     {
-      vtkProp* leaf = path->GetLastNode()->GetViewProp();
-      if (!leaf->GetVisibility())
-      {
-        continue;
-      }
-      if (auto* part = vtkActor::SafeDownCast(leaf))
-      {
-        collect(part, path->GetLastNode()->GetMatrix());
-      }
-      else if (leaf != prop)
-      {
-        found.traced = false;
-      }
+      continue;
+    }
+    if (auto* part = vtkActor::SafeDownCast(leaf))
+    {
+      collect(part, path->GetLastNode()->GetMatrix());
+    }
+    else if (leaf != prop)
+    {
+      found.leaveAlone("has parts that are no actors");
     }
   }
-  else
-  {
-    return;
-  }
+  return true;
+}
 
-  frame.props.push_back(std::move(found));
+PropSurfaces SceneCollector::judge(vtkProp* prop)
+{
+  CollectedScene scene;
+  const StoreOptions silent{};
+  Frame frame{ silent, CollectSettings(), scene, {} };
+  PropSurfaces found;
+  found.prop = prop;
+  if (!prop->GetVisibility())
+  {
+    found.castNothing("is not visible");
+  }
+  else if (!this->collectProp(found, frame))
+  {
+    found.leaveAlone("is neither an actor nor an assembly");
+  }
+  return found;
 }
 
 namespace
@@ -277,14 +378,22 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   }
   Frame frame{ options, settings, result, {} };
   frame.settings.shadows = settings.shadows && casting;
+  // Updating a prop may change the renderer's list.
+  std::vector<vtkSmartPointer<vtkProp>> props;
   vtkCollectionSimpleIterator iterator;
-  vtkPropCollection* props = renderer->GetViewProps();
-  props->InitTraversal(iterator);
-  while (vtkProp* prop = props->GetNextProp(iterator))
+  vtkPropCollection* collection = renderer->GetViewProps();
+  collection->InitTraversal(iterator);
+  while (vtkProp* prop = collection->GetNextProp(iterator))
   {
-    if (prop->GetVisibility())
+    props.emplace_back(prop);
+  }
+  for (vtkProp* prop : props)
+  {
+    PropSurfaces found;
+    found.prop = prop;
+    if (prop->GetVisibility() && this->collectProp(found, frame))
     {
-      this->collectProp(prop, frame);
+      frame.props.push_back(std::move(found));
     }
   }
   findOctrees(frame.props, result.scene.lights, settings.levels, store, options);
@@ -292,8 +401,14 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   {
     addProp(prop, result);
   }
+  for (auto said = this->Said.begin(); said != this->Said.end();)
+  {
+    const bool gone = said->first.first && !said->second;
+    said = gone ? this->Said.erase(said) : std::next(said);
+  }
   this->Surfaces.endFrame();
   this->Floats.endFrame();
   this->Blocks.endFrame();
+  this->Opaque.endFrame();
 }
 }

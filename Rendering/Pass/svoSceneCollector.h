@@ -6,12 +6,15 @@
 #include "svoDataSetSurfaces.h"
 #include "svoFloatArrays.h"
 #include "svoOctreeStore.h"
+#include "svoOpaqueCells.h"
 #include "svoScene.h"
 #include "svoSceneOctrees.h"
 #include "svoSurfaceLook.h"
 
 #include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
 
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -19,6 +22,7 @@
 
 class vtkActor;
 class vtkMatrix4x4;
+class vtkObject;
 class vtkObjectBase;
 class vtkPolyData;
 class vtkProp;
@@ -40,7 +44,7 @@ struct CollectSettings
 struct CollectedScene
 {
   Scene scene;
-  std::vector<vtkPolyData*> meshes; // of the scene's instances, by index
+  std::vector<vtkSmartPointer<vtkPolyData>> meshes; // of the scene's instances, by index
   /// Props that the rasteriser must leave alone: every surface of theirs is traced, or must not be
   /// shown.
   std::set<vtkProp*> replaced;
@@ -60,18 +64,23 @@ public:
   void collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options,
     const CollectSettings& settings, CollectedScene& result);
 
+  /// What a frame would collect of a prop, octrees apart, if a light casts; nothing is said.
+  PropSurfaces judge(vtkProp* prop);
+
 private:
   struct Frame;
-  void collectProp(vtkProp* prop, Frame& frame);
-  bool collectActor(vtkActor* actor, vtkProp* owner, const vtkMatrix4x4* matrix, int path,
-    std::vector<SceneSurface>& surfaces, Frame& frame);
+  bool collectProp(PropSurfaces& found, Frame& frame);
+  void collectActor(vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, Frame& frame);
   std::vector<SurfacePart> partsOf(vtkActor* actor);
-  void complainOnce(const void* about, const std::string& text, const Frame& frame);
+  vtkPolyData* casterOf(const SurfacePart& part, OpaqueCells::Answer opaque, vtkActor* actor,
+    PropSurfaces& found, const Frame& frame);
+  void complainOnce(vtkObject* about, const std::string& text, const Frame& frame);
 
   CompositeBlocks Blocks;
   DataSetSurfaces Surfaces;
+  OpaqueCells Opaque;
   FloatArrays Floats;
-  std::set<std::pair<const void*, std::string>> Said;
+  std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>> Said; // about what
 };
 }
 

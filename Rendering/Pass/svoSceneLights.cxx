@@ -2,10 +2,14 @@
 
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
+#include "vtkInformationObjectBaseKey.h"
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
 #include "vtkSVORenderPass.h"
+#include "vtkWeakPointer.h"
 
 #include <glm/geometric.hpp>
 
@@ -44,47 +48,121 @@ double brightness(const Light& light)
 {
   return light.color.r + light.color.g + light.color.b;
 }
+
+/// What somebody said about a light; `otherwise` if nobody did.
+bool answerOf(vtkLight* light, bool otherwise)
+{
+  vtkInformation* keys = light->GetInformation();
+  vtkInformationIntegerKey* key = vtkSVORenderPass::CAST_SHADOW();
+  return keys && keys->Has(key) ? keys->Get(key) != 0 : otherwise;
+}
+
+bool isAnswered(vtkLight* light)
+{
+  return answerOf(light, true) == answerOf(light, false);
+}
+
+/// Left on camera lights: the renderer among whose lights they are.
+class LightPlace : public vtkObject
+{
+public:
+  static LightPlace* New();
+  vtkTypeMacro(LightPlace, vtkObject);
+  vtkWeakPointer<vtkRenderer> renderer;
+
+  static vtkInformationObjectBaseKey* key()
+  {
+    static auto* const made = vtkInformationObjectBaseKey::MakeKey("LIGHT_PLACE", "vtkSVO");
+    return made;
+  }
+
+  /// nullptr if it is not known.
+  static LightPlace* of(vtkLight* light)
+  {
+    vtkInformation* keys = light->GetInformation();
+    return keys ? LightPlace::SafeDownCast(keys->Get(key())) : nullptr;
+  }
+
+  static void set(vtkLight* light, vtkRenderer* renderer)
+  {
+    if (!of(light))
+    {
+      if (!light->GetInformation())
+      {
+        vtkNew<vtkInformation> keys;
+        light->SetInformation(keys);
+      }
+      vtkNew<LightPlace> place;
+      light->GetInformation()->Set(key(), place);
+    }
+    of(light)->renderer = renderer;
+  }
+};
+vtkStandardNewMacro(LightPlace);
+
+/// Calls visit(light) for those of a renderer that are switched on.
+template <class Visit>
+void eachLight(vtkRenderer* renderer, const Visit& visit)
+{
+  vtkCollectionSimpleIterator iterator;
+  vtkLightCollection* lights = renderer->GetLights();
+  lights->InitTraversal(iterator);
+  while (vtkLight* light = lights->GetNextLight(iterator))
+  {
+    if (light->GetSwitch())
+    {
+      visit(light);
+    }
+  }
+}
+
+/// Of a renderer's camera lights that nobody gave an answer for the one that casts.
+vtkLight* keyLightOf(vtkRenderer* renderer)
+{
+  vtkLight* key = nullptr;
+  eachLight(renderer,
+    [&](vtkLight* light)
+    {
+      if (light->LightTypeIsCameraLight() && !isAnswered(light) &&
+        (!key || brightness(lightOf(light)) > brightness(lightOf(key))))
+      {
+        key = light;
+      }
+    });
+  return key;
+}
 }
 
 std::vector<Light> lightsOf(vtkRenderer* renderer, bool& headlightOnly)
 {
   std::vector<Light> lights;
-  std::vector<std::size_t> undecided; // camera lights that nobody gave an answer for
+  const vtkLight* const key = keyLightOf(renderer);
   headlightOnly = true;
-  vtkCollectionSimpleIterator iterator;
-  vtkLightCollection* collection = renderer->GetLights();
-  collection->InitTraversal(iterator);
-  while (vtkLight* source = collection->GetNextLight(iterator))
-  {
-    if (!source->GetSwitch())
+  eachLight(renderer,
+    [&](vtkLight* source)
     {
-      continue;
-    }
-    Light light = lightOf(source);
-    light.castShadow = vtkSVORenderPass::GetCastShadow(source);
-    vtkInformation* keys = source->GetInformation();
-    const bool answered = keys && keys->Has(vtkSVORenderPass::CAST_SHADOW());
-    headlightOnly = headlightOnly && source->LightTypeIsHeadlight() && !answered;
-    if (source->LightTypeIsCameraLight() && !answered)
-    {
-      undecided.push_back(lights.size());
-    }
-    lights.push_back(light);
-  }
-
-  std::size_t key = 0;
-  for (std::size_t i = 1; i < undecided.size(); ++i)
-  {
-    if (brightness(lights[undecided[i]]) > brightness(lights[undecided[key]]))
-    {
-      key = i;
-    }
-  }
-  for (std::size_t i = 0; i < undecided.size(); ++i)
-  {
-    lights[undecided[i]].castShadow = i == key;
-  }
+      Light light = lightOf(source);
+      light.castShadow = answerOf(source, source->LightTypeIsSceneLight() || source == key);
+      headlightOnly = headlightOnly && source->LightTypeIsHeadlight() && !isAnswered(source);
+      if (source->LightTypeIsCameraLight())
+      {
+        LightPlace::set(source, renderer);
+      }
+      lights.push_back(light);
+    });
   headlightOnly = headlightOnly && !lights.empty();
   return lights;
+}
+
+bool castsShadow(vtkLight* light)
+{
+  if (light->LightTypeIsCameraLight() && !isAnswered(light))
+  {
+    const LightPlace* place = LightPlace::of(light);
+    vtkRenderer* renderer = place ? place->renderer.GetPointer() : nullptr;
+    return !renderer || !renderer->GetLights()->IsItemPresent(light) ||
+      keyLightOf(renderer) == light;
+  }
+  return answerOf(light, light->LightTypeIsSceneLight());
 }
 }

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+class vtkLight;
 class vtkRenderer;
 
 namespace svo
@@ -14,6 +15,10 @@ namespace svo
 /// number them in. To be called when the renderer has placed its headlights and camera lights.
 /// `headlightOnly` says that no light can cast because all of them are headlights.
 std::vector<Light> lightsOf(vtkRenderer* renderer, bool& headlightOnly);
+
+/// Whether a light casts where it is switched on. A camera light that nobody gave an answer for is
+/// compared with the others of the renderer whose lights were asked for last.
+bool castsShadow(vtkLight* light);
 }
 
 #endif

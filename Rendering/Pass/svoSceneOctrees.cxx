@@ -2,8 +2,6 @@
 
 #include "svoNeededLevels.h"
 
-#include "vtkProp.h"
-
 namespace svo
 {
 namespace

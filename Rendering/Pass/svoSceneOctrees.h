@@ -4,13 +4,16 @@
 
 #include "svoOctreeStore.h"
 #include "svoScene.h"
+#include "svoSurfaceLook.h"
 #include "svoTracer.h"
 #include "svoView.h"
 
-#include <vector>
+#include "vtkPolyData.h"
+#include "vtkProp.h"
+#include "vtkSmartPointer.h"
 
-class vtkPolyData;
-class vtkProp;
+#include <algorithm>
+#include <vector>
 
 namespace svo
 {
@@ -18,7 +21,7 @@ namespace svo
 struct SceneSurface
 {
   Instance instance;
-  vtkPolyData* mesh = nullptr;
+  vtkSmartPointer<vtkPolyData> mesh; // what casts alone, where the surface is not traceable
   bool traceable = false;
   bool casts = false;
 };
@@ -26,11 +29,31 @@ struct SceneSurface
 /// What was found of a prop.
 struct PropSurfaces
 {
-  vtkProp* prop = nullptr;
+  vtkSmartPointer<vtkProp> prop;
   std::vector<SceneSurface> surfaces; // those that are traceable or cast
   int actors = 0;
-  bool traced = true;    // all that the prop shows is traced
-  bool receives = false; // shadows fall on it
+  bool traced = true;          // all that the prop shows is traced
+  bool receives = false;       // shadows fall on it
+  Reason rasterized = nullptr; // why it is not traced
+  Reason castsNone = nullptr;  // why something of it casts nothing
+
+  /// Leaves the prop to the rasteriser.
+  void rasterize(Reason reason)
+  {
+    this->traced = false;
+    this->rasterized = this->rasterized ? this->rasterized : reason;
+  }
+  void castNothing(Reason reason) { this->castsNone = this->castsNone ? this->castsNone : reason; }
+  bool casts() const
+  {
+    return std::any_of(this->surfaces.begin(), this->surfaces.end(),
+      [](const SceneSurface& surface) { return surface.casts; });
+  }
+  void leaveAlone(Reason reason)
+  {
+    this->rasterize(reason);
+    this->castNothing(reason);
+  }
 };
 
 /// What the levels of octrees that are built here follow from.

@@ -40,7 +40,44 @@ bool hasCustomShaders(vtkActor* actor)
     shaders->HasFragmentShaderCode() || shaders->HasGeometryShaderCode();
 }
 
-void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays& floats)
+/// What of a plain actor with a plain mapper cannot be reproduced, whatever the mesh.
+Reason beyondTracing(vtkActor* actor)
+{
+  vtkProperty* property = actor->GetProperty();
+  if (property->GetInterpolation() == VTK_PBR)
+  {
+    return "has a physically based material";
+  }
+  if (property->GetEdgeVisibility() || property->GetVertexVisibility())
+  {
+    return "shows its edges or vertices";
+  }
+  if (property->GetFrontfaceCulling() || property->GetBackfaceCulling())
+  {
+    return "has culled faces";
+  }
+  if (actor->GetBackfaceProperty())
+  {
+    return "has a backface property";
+  }
+  if (actor->GetTexture() || property->GetNumberOfTextures() > 0)
+  {
+    return "has a texture";
+  }
+  if (hasCustomShaders(actor))
+  {
+    return "has shaders of its own";
+  }
+  vtkSelection* selection = actor->GetMapper()->GetSelection();
+  if (selection && selection->GetNumberOfNodes() > 0)
+  {
+    return "shows a selection";
+  }
+  return actor->HasTranslucentPolygonalGeometry() ? "is translucent" : nullptr;
+}
+
+void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays& floats,
+  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
 {
   vtkDataArray* normals = flat ? nullptr : mesh->GetPointData()->GetNormals();
   attributes.normalAssociation = Association::Point;
@@ -58,6 +95,7 @@ void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays
     return;
   }
   attributes.normals = floats.values(normals);
+  kept.emplace_back(normals);
 }
 
 /// True if VTK's mapper looks the mapped colours up by cell.
@@ -83,27 +121,14 @@ bool coordinateColors(vtkMapper* mapper, vtkPolyData* mesh, Attributes& attribut
   vtkImageData* texture = mapper->GetColorTextureMap();
   auto* texels =
     texture ? vtkUnsignedCharArray::SafeDownCast(texture->GetPointData()->GetScalars()) : nullptr;
-  if (!coordinates || !texels || texels->GetNumberOfComponents() != 4 ||
+  if (!coordinates || coordinates->GetNumberOfComponents() != 2 || !texels ||
+    texels->GetNumberOfComponents() != 4 || texture->GetDimensions()[1] != 2 ||
     coordinates->GetNumberOfTuples() < mesh->GetNumberOfPoints())
   {
     return false;
   }
-  const int stride = coordinates->GetNumberOfComponents();
-  const float* values = coordinates->GetPointer(0);
-  if (stride > 1)
-  {
-    // The second row of VTK's texture is the colour of NaN, blended in by interpolation.
-    for (vtkIdType i = 0; i < coordinates->GetNumberOfTuples(); ++i)
-    {
-      if (values[stride * i + 1] > 0.5f)
-      {
-        return false;
-      }
-    }
-  }
   attributes.colorAssociation = Association::Point;
-  attributes.colorCoordinates = values;
-  attributes.colorCoordinateStride = stride;
+  attributes.colorCoordinates = coordinates->GetPointer(0);
   attributes.colorTexture = texels->GetPointer(0);
   attributes.colorTextureSize = texture->GetDimensions()[0];
   kept.emplace_back(coordinates);
@@ -111,8 +136,22 @@ bool coordinateColors(vtkMapper* mapper, vtkPolyData* mesh, Attributes& attribut
   return true;
 }
 
-bool scalarColors(const SurfacePart& part, Material& material, Attributes& attributes,
-  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+/// The one colour of tuple `tuple` for all of the part. False if there is no such tuple.
+bool colorOfTuple(vtkUnsignedCharArray* colors, vtkIdType tuple, SurfacePart& part)
+{
+  if (tuple >= colors->GetNumberOfTuples())
+  {
+    return false;
+  }
+  const unsigned char* c = colors->GetPointer(4 * tuple);
+  part.overridesColor = true;
+  part.color = glm::vec3(c[0], c[1], c[2]) / 255.0f;
+  part.opacity *= c[3] / 255.0;
+  return true;
+}
+
+bool scalarColors(
+  SurfacePart& part, Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
 {
   vtkMapper* mapper = part.colors;
   if (!mapper->GetScalarVisibility() || part.overridesColor)
@@ -128,18 +167,10 @@ bool scalarColors(const SurfacePart& part, Material& material, Attributes& attri
   {
     return false;
   }
-  const unsigned char* first = colors->GetPointer(0);
   if (mapper->GetScalarMode() == VTK_SCALAR_MODE_USE_FIELD_DATA &&
     mapper->GetFieldDataTupleId() > -1)
   {
-    const vtkIdType tuple = mapper->GetFieldDataTupleId();
-    if (tuple >= colors->GetNumberOfTuples())
-    {
-      return false;
-    }
-    const unsigned char* c = first + 4 * tuple;
-    setColor(material, glm::vec3(c[0], c[1], c[2]) / 255.0f);
-    return true;
+    return colorOfTuple(colors, mapper->GetFieldDataTupleId(), part);
   }
   const bool cells = colorsAreOfCells(mapper, part.mesh);
   if (colors->GetNumberOfTuples() <
@@ -148,7 +179,7 @@ bool scalarColors(const SurfacePart& part, Material& material, Attributes& attri
     return false;
   }
   attributes.colorAssociation = cells ? Association::Cell : Association::Point;
-  attributes.colors = first;
+  attributes.colors = colors->GetPointer(0);
   kept.emplace_back(colors);
   return true;
 }
@@ -176,30 +207,75 @@ bool isUnknownSurfaceMapper(vtkMapper* mapper)
 Treatment treatmentOf(vtkActor* actor)
 {
   vtkMapper* mapper = actor->GetMapper();
-  vtkProperty* property = actor->GetProperty();
   vtkPlaneCollection* planes = mapper->GetClippingPlanes();
-  if (!isPlainMapper(mapper) || property->GetRepresentation() != VTK_SURFACE ||
-    (planes && planes->GetNumberOfItems() > 0))
+  Treatment treatment;
+  if (!isPlainMapper(mapper))
   {
-    return Treatment::Rasterize;
+    treatment.castsNone = "has a mapper of a class that is not known here";
   }
-  vtkSelection* selection = mapper->GetSelection();
-  const bool reproducible = property->GetInterpolation() != VTK_PBR &&
-    !property->GetEdgeVisibility() && !property->GetVertexVisibility() &&
-    !property->GetFrontfaceCulling() && !property->GetBackfaceCulling() &&
-    !actor->GetBackfaceProperty() && !actor->GetTexture() && property->GetNumberOfTextures() == 0 &&
-    !hasCustomShaders(actor) && !(selection && selection->GetNumberOfNodes() > 0) &&
-    !actor->HasTranslucentPolygonalGeometry();
-  return reproducible ? Treatment::Trace : Treatment::RasterizeAndCast;
+  else if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE)
+  {
+    treatment.castsNone = "is shown as wireframe or points";
+  }
+  else if (planes && planes->GetNumberOfItems() > 0)
+  {
+    treatment.castsNone = "has clipping planes on its mapper";
+  }
+  treatment.rasterized = treatment.castsNone ? treatment.castsNone : beyondTracing(actor);
+  return treatment;
 }
 
-bool lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
+vtkTexture* textureOf(vtkActor* actor)
+{
+  return actor->GetTexture() ? actor->GetTexture() : actor->GetProperty()->GetTexture("albedoTex");
+}
+
+TextureAlpha alphaOf(vtkTexture* texture)
+{
+  if (!texture)
+  {
+    return TextureAlpha::Opaque;
+  }
+  if (texture->IsTranslucent())
+  {
+    return TextureAlpha::Translucent;
+  }
+  vtkImageData* image = texture->GetInput();
+  vtkDataArray* texels = image ? image->GetPointData()->GetScalars() : nullptr;
+  const int alpha = texels ? texels->GetNumberOfComponents() - 1 : 0;
+  // Of all texels VTK has seen that they are opaque or invisible.
+  return alpha % 2 == 1 && texels->GetNumberOfTuples() > 0 && texels->GetRange(alpha)[0] <= 0.0
+    ? TextureAlpha::CutOut
+    : TextureAlpha::Opaque;
+}
+
+bool hasOpaqueTable(const SurfacePart& part)
+{
+  // Of transfer functions VTK does not ask for the colour of NaN.
+  return part.overridesColor || !part.colors->GetScalarVisibility() ||
+    (vtkLookupTable::SafeDownCast(part.colors->GetLookupTable()) &&
+      !part.colors->HasTranslucentPolygonalGeometry());
+}
+
+Reason mapColors(
+  SurfacePart& part, Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+{
+  return scalarColors(part, attributes, kept)
+    ? nullptr
+    : "has colours that do not belong to its cells or points";
+}
+
+Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
   Attributes& attributes, FloatArrays& floats, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
 {
   vtkPolyData* mesh = part.mesh;
-  if (part.textured || mesh->GetNumberOfVerts() > 0 || mesh->GetNumberOfLines() > 0)
+  if (part.texture)
   {
-    return false;
+    return "has a texture";
+  }
+  if (mesh->GetNumberOfVerts() > 0 || mesh->GetNumberOfLines() > 0)
+  {
+    return "has lines or vertices";
   }
   const double* ambient = property->GetAmbientColor();
   const double* diffuse = property->GetDiffuseColor();
@@ -217,9 +293,9 @@ bool lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Materia
     setColor(material, part.color);
   }
   const bool flat = property->GetInterpolation() == VTK_FLAT;
-  normalsOf(mesh, flat, attributes, floats);
+  normalsOf(mesh, flat, attributes, floats, kept);
   material.flat = attributes.normalAssociation == Association::None;
-  return scalarColors(part, material, attributes, kept);
+  return nullptr;
 }
 
 double coincidentDepthOffset(vtkMapper* mapper)

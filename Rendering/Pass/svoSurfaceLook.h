@@ -16,15 +16,19 @@ class vtkMapper;
 class vtkObjectBase;
 class vtkPolyData;
 class vtkProperty;
+class vtkTexture;
 
 namespace svo
 {
+/// What keeps something from being traced or from casting, for people: the end of a sentence that
+/// begins with "it". Nullptr: nothing does.
+using Reason = const char*;
+
 /// What to do with a visible actor.
-enum class Treatment
+struct Treatment
 {
-  Trace,
-  RasterizeAndCast, // its look cannot be reproduced, its silhouette can
-  Rasterize         // not even that (lines, followers, glyphs, clipped surfaces)
+  Reason rasterized = nullptr; // its look cannot be reproduced
+  Reason castsNone = nullptr;  // nor its silhouette (lines, followers, glyphs, clipped surfaces)
 };
 
 /// True for classes whose drawing is known to the letter. A subclass may draw anything: followers,
@@ -35,8 +39,21 @@ bool isPlainActor(vtkActor* actor);
 /// rasterised, and whoever chose it should hear of that.
 bool isUnknownSurfaceMapper(vtkMapper* mapper);
 
-/// What a plain actor, its property and its mapper's settings allow, whatever the mesh.
+/// What a plain actor, its property and its mapper's settings allow, whatever the mesh and however
+/// opaque it is.
 Treatment treatmentOf(vtkActor* actor);
+
+/// The texture that colours an actor; nullptr if there is none.
+vtkTexture* textureOf(vtkActor* actor);
+
+/// How a texture, which may be none, lets light through.
+enum class TextureAlpha
+{
+  Opaque,
+  CutOut,     // opaque in places, or invisible
+  Translucent // VTK draws its surface among translucent ones
+};
+TextureAlpha alphaOf(vtkTexture* texture);
 
 /// One mesh of an actor: all there is of a plain mapper, one block of a composite one.
 struct SurfacePart
@@ -46,13 +63,21 @@ struct SurfacePart
   unsigned int block = 0;      // flat index
   bool overridesColor = false; // the block's colour, instead of scalars and the property's colour
   glm::vec3 color{ 1.0f };
-  double opacity = 1.0;  // of the property or the block, scalars not considered
-  bool textured = false; // the block has a texture of its own
+  double opacity = 1.0; // of the property or the block, colours of points and cells apart
+  vtkTexture* texture = nullptr;
 };
 
-/// Material and attributes of a part. False if the look is beyond the tracer. Arrays that the
-/// attributes point into are the mesh's own, or kept in `floats` and `kept`.
-bool lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
+/// True if the part's lookup table, or the array of its colours, lets no light through whatever is
+/// looked up. False says nothing: then its colours have to be mapped.
+bool hasOpaqueTable(const SurfacePart& part);
+
+/// Maps the part's scalars; one colour for all of it becomes the part's own. Colours of points and
+/// cells lie in arrays that are added to `kept`.
+Reason mapColors(
+  SurfacePart& part, Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
+
+/// Material and normals of a part. Arrays of normals are kept in `floats` and `kept`.
+Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
   Attributes& attributes, FloatArrays& floats, std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
 
 /// VTK's offset of coincident polygons for this mapper, as its shaders apply it: the amount added

@@ -98,20 +98,13 @@ void send(vtkTextureObject* texture, const svo::Frame& frame, GLenum format, GLe
 
 void vtkSVOPresenter::DivideSilhouettes()
 {
-  const auto setAlpha = [this](std::uint8_t alpha)
-  {
-    for (const std::size_t pixel : this->Silhouettes.pixels)
-    {
-      this->Frame->color[4 * pixel + 3] = alpha;
-    }
-  };
-  setAlpha(255); // those of another framebuffer
+  this->Silhouettes.exchange(*this->Frame); // back, after another framebuffer
   this->Silhouettes.clear();
   if (!this->SamplePositions.empty() && this->FindSilhouettes)
   {
     this->FindSilhouettes(this->SamplePositions, this->Silhouettes);
   }
-  setAlpha(0);
+  this->Silhouettes.exchange(*this->Frame);
   this->Parts.upload(this->Silhouettes.parts);
 }
 

@@ -38,8 +38,8 @@ public:
   using SilhouetteFinder = std::function<void(const std::vector<glm::vec2>&, svo::Silhouettes&)>;
 
   /// What to show; it must live until the next call. `pass` is not asked for draw buffers. Where
-  /// the framebuffer has several samples a pixel, silhouettes are asked for and alpha is taken away
-  /// from the frame's pixels that they replace.
+  /// the framebuffer has several samples a pixel, silhouettes are asked for and the frame's pixels
+  /// that they replace are exchanged.
   void SetFrame(svo::Frame* frame, const SilhouetteFinder& silhouettes, vtkOpenGLRenderPass* pass);
 
   /// Called when the prop is about to draw, with the size in pixels of what is drawn, before it

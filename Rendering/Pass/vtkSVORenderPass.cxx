@@ -112,70 +112,118 @@ svo::FrameSettings vtkSVORenderPass::Internals::settingsOf(const vtkSVORenderPas
   return settings;
 }
 
-/// Fills the pass's current frame with the renderer's scene.
-void vtkSVORenderPass::CollectFrame(vtkRenderer* renderer, int width, int height, bool attached)
+svo::PassFrame& vtkSVORenderPass::BeginFrame(vtkRenderer* renderer)
 {
-  svo::StoreOptions store;
-  store.convert = this->ConvertPolyData;
-  store.level = this->MaximumLevel;
-  store.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);
-  store.wait = !this->BuildInBackground || !isInteractive(renderer);
-  store.progress = [this](double amount) { this->InvokeEvent(vtkCommand::ProgressEvent, &amount); };
-  store.complain = [this](const std::string& text) { vtkWarningMacro(<< text); };
-
-  svo::CollectSettings collect;
-  collect.shadows = this->ShadowTechnique != SHADOW_NONE;
-  collect.onlyMarked = attached;
-  collect.levels.frame = Internals::settingsOf(*this);
-  svo::viewOfCamera(renderer, width, height, collect.levels.eye);
-
   Internals& impl = *this->Impl;
-  impl.current = &impl.of(renderer);
-  impl.current->collect(impl.store, store, collect);
-  const svo::CollectedScene& collected = impl.current->collected();
+  impl.frames.push_back(std::make_unique<svo::PassFrame>(impl.of(renderer), renderer));
+  return *impl.frames.back();
+}
+
+/// Fills a frame with the renderer's scene, as camera and lights are then; with `ownsCamera` the
+/// camera is set up, too. False if the frame cannot be drawn.
+bool vtkSVORenderPass::CollectFrame(
+  svo::PassFrame& frame, int width, int height, bool attached, bool ownsCamera)
+{
+  // What is collected is borrowed, and who observes the progress of a build may change it. So all
+  // is collected once more after that, when nothing is left to be built. Of the last collection
+  // nobody is told, so that it ends even for those who change something every time.
+  constexpr int MostCollections = 4;
+  Internals& impl = *this->Impl;
+  vtkRenderer* renderer = frame.renderer;
+  frame.of->begin();
+  bool disturbed = true;
+  for (int i = 1; disturbed && i <= MostCollections; ++i)
+  {
+    if (!frame.reopen())
+    {
+      return false;
+    }
+    disturbed = false;
+    renderer->GetRenderWindow()->MakeCurrent();
+    if (ownsCamera)
+    {
+      this->UpdateCamera(renderer);
+    }
+    this->UpdateLightGeometry(renderer);
+    if (!attached)
+    {
+      this->UpdateLights(renderer);
+    }
+
+    svo::StoreOptions store;
+    store.convert = this->ConvertPolyData;
+    store.level = this->MaximumLevel;
+    store.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);
+    store.wait = !this->BuildInBackground || !isInteractive(renderer);
+    if (i < MostCollections && this->HasObserver(vtkCommand::ProgressEvent))
+    {
+      store.progress = [this, &disturbed](double amount)
+      {
+        disturbed = true;
+        this->InvokeEvent(vtkCommand::ProgressEvent, &amount);
+      };
+    }
+    store.complain = [&frame](const std::string& text) { frame.messages.push_back(text); };
+
+    svo::CollectSettings collect;
+    collect.shadows = this->ShadowTechnique != SHADOW_NONE;
+    collect.onlyMarked = attached;
+    collect.levels.frame = Internals::settingsOf(*this);
+    svo::viewOfCamera(renderer, width, height, collect.levels.eye);
+    frame.of->collect(impl.store, store, collect);
+    disturbed = disturbed || !frame.canDraw();
+  }
+  if (disturbed)
+  {
+    frame.reopen();
+    return false;
+  }
+  renderer->GetRenderWindow()->MakeCurrent(); // pipelines may have had others drawn
+  const svo::CollectedScene& collected = frame.of->collected();
   impl.castingLights = describeLights(collected.scene.lights);
   if (collected.headlightOnly && !impl.saidHeadlight && this->ShadowTechnique != SHADOW_NONE &&
     (!attached || !collected.scene.instances.empty()))
   {
     impl.saidHeadlight = true;
-    vtkWarningMacro("No shadows: the only light is a headlight, which casts none that can be seen. "
-                    "Add a vtkLight with SetLightTypeToSceneLight().");
+    frame.messages.emplace_back(
+      "No shadows: the only light is a headlight, which casts none that can be seen. "
+      "Add a vtkLight with SetLightTypeToSceneLight().");
   }
-  this->DecideSettings();
+  this->DecideSettings(frame);
+  return true;
 }
 
-/// Says how the current frame is to be traced.
-void vtkSVORenderPass::DecideSettings()
+/// Says how a frame is to be traced.
+void vtkSVORenderPass::DecideSettings(svo::PassFrame& frame)
 {
-  Internals& impl = *this->Impl;
-  svo::FrameSettings& settings = impl.settings;
+  svo::FrameSettings& settings = frame.settings;
   settings = Internals::settingsOf(*this);
-  vtkRenderer* renderer = impl.current->renderer();
-  impl.sampleDistance = 1.0;
+  vtkRenderer* renderer = frame.renderer;
   if (this->AutoAdjustSampleDistances && isInteractive(renderer))
   {
-    impl.sampleDistance =
-      impl.current->chooseDistance(OwnShare / renderer->GetRenderWindow()->GetDesiredUpdateRate(),
+    frame.sampleDistance =
+      frame.of->chooseDistance(OwnShare / renderer->GetRenderWindow()->GetDesiredUpdateRate(),
         this->MaximumImageSampleDistance);
     if (hasCameraLight(renderer))
     {
       settings.shadowResolution =
-        std::max(static_cast<int>(settings.shadowResolution / impl.sampleDistance), 16);
+        std::max(static_cast<int>(settings.shadowResolution / frame.sampleDistance), 16);
     }
   }
 }
 
-/// Traces the current frame and has its shadow maps ready for rasterised surfaces.
-void vtkSVORenderPass::TraceFrame(int width, int height)
+/// Traces a frame and has its shadow maps ready for rasterised surfaces.
+void vtkSVORenderPass::TraceFrame(svo::PassFrame& frame, int width, int height)
 {
   Internals& impl = *this->Impl;
-  impl.current->trace(width, height, impl.sampleDistance, impl.settings);
-  const std::string& complaint = impl.current->complaint();
+  frame.traced = true;
+  frame.of->trace(width, height, frame.sampleDistance, frame.settings);
+  const std::string& complaint = frame.of->complaint();
   if (!complaint.empty() && impl.said.insert(complaint).second)
   {
     vtkWarningMacro(<< complaint);
   }
-  svo::ShadowReceivers& receivers = impl.current->receivers();
+  svo::ShadowReceivers& receivers = frame.of->receivers();
   const std::string signature = receivers.signature();
   if (signature != impl.shaderSignature)
   {
@@ -185,20 +233,31 @@ void vtkSVORenderPass::TraceFrame(int width, int height)
   receivers.activate();
 }
 
-void vtkSVORenderPass::FinishFrame()
+/// Ends a frame, whether or not it was drawn; the caller holds the pass.
+void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
 {
   Internals& impl = *this->Impl;
-  impl.current->receivers().deactivate();
-  impl.current->finish();
-  impl.statistics = impl.current->statistics();
+  const auto entry = std::find_if(impl.frames.begin(), impl.frames.end(),
+    [&frame](const auto& other) { return other.get() == &frame; });
+  const std::unique_ptr<svo::PassFrame> done = std::move(*entry);
+  impl.frames.erase(entry);
+  if (frame.traced && frame.canDraw())
+  {
+    frame.of->receivers().deactivate();
+  }
+  frame.of->finish();
+  impl.statistics = frame.of->statistics();
   if (impl.statistics.tracer.retracedLayers > 0)
   {
     double seconds, fixedSeconds;
     this->MeasureFrame(seconds, fixedSeconds);
-    impl.current->measured(seconds, fixedSeconds);
+    frame.of->measured(seconds, fixedSeconds);
   }
   impl.store.endFrame(static_cast<std::size_t>(this->OctreeMemoryLimit) * BytesOfKiB);
-  impl.current = nullptr;
+  for (const std::string& message : frame.messages)
+  {
+    vtkWarningMacro(<< message);
+  }
 }
 
 void vtkSVORenderPass::MeasureFrame(double& seconds, double& fixedSeconds) const
@@ -211,18 +270,20 @@ void vtkSVORenderPass::MeasureFrame(double& seconds, double& fixedSeconds) const
 
 void vtkSVORenderPass::Render(const vtkRenderState* state)
 {
+  const vtkSmartPointer<vtkSVORenderPass> alive(this); // whatever observers do
   vtkRenderer* renderer = state->GetRenderer();
   this->NumberOfRenderedProps = 0;
-  if (renderer->GetPass() == this)
+  // Otherwise a vtkCameraPass above has done it, or has its reasons.
+  const bool ownsCamera = renderer->GetPass() == this;
+  if (renderer->GetSelector() || this->Impl->frameOf(renderer))
   {
-    // Otherwise a vtkCameraPass above has done it, or has its reasons.
-    renderer->GetRenderWindow()->MakeCurrent();
-    this->UpdateCamera(renderer);
-  }
-  this->UpdateLightGeometry(renderer);
-  this->UpdateLights(renderer);
-  if (renderer->GetSelector())
-  {
+    if (ownsCamera)
+    {
+      renderer->GetRenderWindow()->MakeCurrent();
+      this->UpdateCamera(renderer);
+    }
+    this->UpdateLightGeometry(renderer);
+    this->UpdateLights(renderer);
     this->UpdateGeometry(renderer, state->GetFrameBuffer());
     this->NumberOfRenderedProps = renderer->GetNumberOfPropsRendered();
     return;
@@ -230,13 +291,17 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
 
   int width, height;
   svo::sizeOf(state, width, height);
-  this->CollectFrame(renderer, width, height, false);
-  this->TraceFrame(width, height);
-  svo::PassRenderer& frame = *this->Impl->current;
+  svo::PassFrame& frame = this->BeginFrame(renderer);
+  if (!this->CollectFrame(frame, width, height, false, ownsCamera))
+  {
+    this->FinishFrame(frame);
+    return;
+  }
+  this->TraceFrame(frame, width, height);
   {
     svo::ExchangedProps props(state->GetPropArray());
-    frame.exchange(props, state, this);
-    const bool receiving = !frame.receivers().empty();
+    frame.of->exchange(props, state, this);
+    const bool receiving = !frame.of->receivers().empty();
     if (receiving)
     {
       this->PreRender(state);
@@ -247,7 +312,7 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
       this->PostRender(state);
     }
   }
-  this->FinishFrame();
+  this->FinishFrame(frame);
   this->NumberOfRenderedProps = renderer->GetNumberOfPropsRendered();
 }
 
@@ -276,9 +341,10 @@ bool vtkSVORenderPass::PreReplaceShaderValues(
 bool vtkSVORenderPass::PostReplaceShaderValues(std::string& vertexShader,
   std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp*)
 {
-  if (this->Impl->current && vtkOpenGLPolyDataMapper::SafeDownCast(mapper))
+  svo::PassRenderer* current = this->Impl->current();
+  if (current && vtkOpenGLPolyDataMapper::SafeDownCast(mapper))
   {
-    this->Impl->current->receivers().completeShader(vertexShader, geometryShader, fragmentShader);
+    current->receivers().completeShader(vertexShader, geometryShader, fragmentShader);
   }
   return true;
 }
@@ -286,9 +352,9 @@ bool vtkSVORenderPass::PostReplaceShaderValues(std::string& vertexShader,
 bool vtkSVORenderPass::SetShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper*, vtkProp* prop, vtkOpenGLVertexArrayObject*)
 {
-  if (this->Impl->current)
+  if (svo::PassRenderer* current = this->Impl->current())
   {
-    this->Impl->current->receivers().setUniforms(program, GetReceiveShadow(prop));
+    current->receivers().setUniforms(program, GetReceiveShadow(prop));
   }
   return true;
 }

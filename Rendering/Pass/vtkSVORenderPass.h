@@ -39,6 +39,7 @@
 #include "vtkSVOPassModule.h" // for the export macro
 
 #include <memory> // for std::unique_ptr
+#include <string> // for std::string
 
 class vtkInformationDoubleKey;
 class vtkInformationIntegerKey;
@@ -46,6 +47,12 @@ class vtkLight;
 class vtkMultiProcessController;
 class vtkProp;
 class vtkRenderer;
+#ifndef __VTK_WRAP__
+namespace svo
+{
+struct PassFrame;
+}
+#endif
 
 class VTKSVOPASS_EXPORT vtkSVORenderPass : public vtkOpenGLRenderPass
 {
@@ -237,8 +244,8 @@ public:
    * of their pixels; default off. Shadow buffers then give a share of each light, from all texels
    * around a point, compared with the planes of its surface, so that texels do not show, nor do
    * they on rasterised surfaces. That needs AutomaticShadowBias; without it shadows are sampled
-   * more, but not filtered, and so are exact shadow rays. Silhouettes follow the render window's
-   * SetMultiSamples instead, as those of everything that VTK draws.
+   * more, but not filtered, and so are exact shadow rays. Silhouettes and edges between facets
+   * follow the render window's SetMultiSamples instead, as those of everything that VTK draws.
    */
   vtkSetMacro(AntiAliasing, bool);
   vtkGetMacro(AntiAliasing, bool);
@@ -276,16 +283,27 @@ public:
   //@{
   /**
    * Whether a prop casts shadows; without an answer every opaque surface does and a translucent one
-   * does not.
+   * does not. Of surfaces whose colours, by lookup table, opacity array or block, are translucent
+   * or invisible in places, the opaque cells do. An answer of true has all of a surface cast,
+   * however translucent. Get says what the next frame will do as far as it depends on the prop, and
+   * false of what never casts: wireframes, volumes, widgets, props that are not visible.
    */
   static void SetCastShadow(bool cast, vtkProp* prop);
   static bool GetCastShadow(vtkProp* prop);
   //@}
 
+  /**
+   * Why a prop is left to the rasteriser, or casts no shadow or less than its whole one: sentences
+   * for people. Empty if it is traced and casts. Like GetCastShadow() it goes by the prop alone.
+   */
+  static std::string GetReason(vtkProp* prop);
+
   //@{
   /**
    * Whether a light casts shadows; without an answer every light does but a headlight and, of
-   * several camera lights, all but the brightest.
+   * several camera lights, all but the brightest. Get says what the next frame will do: false of a
+   * light that is switched off, and of a camera light whether it is the brightest of the renderer
+   * that a pass has drawn it in last. Until it has been drawn it counts as the only one.
    */
   static void SetCastShadow(bool cast, vtkLight* light);
   static bool GetCastShadow(vtkLight* light);
@@ -471,10 +489,14 @@ private:
 
   void BeginAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
   void EndAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
-  void CollectFrame(vtkRenderer* renderer, int width, int height, bool attached);
-  void DecideSettings();
-  void TraceFrame(int width, int height);
-  void FinishFrame();
+  void ForgetAttached(vtkObject* renderer, unsigned long event, void* data);
+#ifndef __VTK_WRAP__
+  svo::PassFrame& BeginFrame(vtkRenderer* renderer);
+  bool CollectFrame(svo::PassFrame& frame, int width, int height, bool attached, bool ownsCamera);
+  void DecideSettings(svo::PassFrame& frame);
+  void TraceFrame(svo::PassFrame& frame, int width, int height);
+  void FinishFrame(svo::PassFrame& frame);
+#endif
 
   struct Internals;
   std::unique_ptr<Internals> Impl;

@@ -17,27 +17,33 @@ constexpr float AfterHosts = -1.0f;
 
 void vtkSVORenderPass::Attach(vtkRenderer* renderer)
 {
-  if (!renderer || this->Impl->attached.count(renderer))
+  Internals& impl = *this->Impl;
+  if (!renderer)
   {
     return;
   }
-  svo::AttachedRenderer& attached = this->Impl->attached[renderer];
+  svo::AttachedRenderer& attached = impl.attached[renderer];
+  attached.leaving = false;
+  if (attached.renderer == renderer)
+  {
+    return;
+  }
   attached.renderer = renderer;
   attached.observers = { renderer->AddObserver(vtkCommand::StartEvent, this,
                            &vtkSVORenderPass::BeginAttachedFrame, AfterHosts),
     renderer->AddObserver(
-      vtkCommand::EndEvent, this, &vtkSVORenderPass::EndAttachedFrame, AfterHosts) };
+      vtkCommand::EndEvent, this, &vtkSVORenderPass::EndAttachedFrame, AfterHosts),
+    renderer->AddObserver(vtkCommand::DeleteEvent, this, &vtkSVORenderPass::ForgetAttached) };
 
-  vtkSVOPresenter* presenter = this->Impl->of(renderer).presenter();
+  vtkSVOPresenter* presenter = impl.of(renderer)->presenter();
   presenter->SetPrepare(
-    [this](int width, int height)
+    [this, renderer](int width, int height)
     {
-      Internals& impl = *this->Impl;
-      if (impl.current && !impl.traced)
+      svo::PassFrame* frame = this->Impl->frameOf(renderer);
+      if (frame && !frame->traced)
       {
-        impl.traced = true;
-        this->TraceFrame(width, height);
-        impl.current->present(this);
+        this->TraceFrame(*frame, width, height);
+        frame->of->present(this);
       }
     });
   // Shadows must be known before the first surface that receives them is drawn.
@@ -52,9 +58,15 @@ void vtkSVORenderPass::Attach(vtkRenderer* renderer)
 
 void vtkSVORenderPass::Detach(vtkRenderer* renderer)
 {
-  const auto found = this->Impl->attached.find(renderer);
-  if (found == this->Impl->attached.end())
+  Internals& impl = *this->Impl;
+  const auto found = impl.attached.find(renderer);
+  if (found == impl.attached.end())
   {
+    return;
+  }
+  if (impl.frameOf(renderer))
+  {
+    found->second.leaving = true; // VTK is about to draw the presenter, and others ask the pass
     return;
   }
   if (found->second.renderer)
@@ -63,15 +75,28 @@ void vtkSVORenderPass::Detach(vtkRenderer* renderer)
     {
       renderer->RemoveObserver(observer);
     }
-    vtkSVOPresenter* presenter = this->Impl->of(renderer).presenter();
-    presenter->SetPrepare(nullptr);
-    renderer->RemoveViewProp(presenter);
+    const std::shared_ptr<svo::PassRenderer> kept = impl.of(renderer);
+    kept->presenter()->SetPrepare(nullptr);
+    renderer->RemoveViewProp(kept->presenter());
     if (renderer->GetRenderWindow())
     {
-      this->Impl->of(renderer).releaseGraphicsResources(renderer->GetRenderWindow());
+      kept->releaseGraphicsResources(renderer->GetRenderWindow());
     }
   }
-  this->Impl->attached.erase(found);
+  impl.attached.erase(found);
+  impl.renderers.erase(renderer);
+}
+
+/// The renderer is being deleted.
+void vtkSVORenderPass::ForgetAttached(vtkObject* caller, unsigned long, void*)
+{
+  const vtkSmartPointer<vtkSVORenderPass> alive(this);
+  auto* renderer = static_cast<vtkRenderer*>(caller);
+  if (svo::PassFrame* frame = this->Impl->frameOf(renderer))
+  {
+    this->FinishFrame(*frame);
+  }
+  this->Impl->attached.erase(renderer);
   this->Impl->renderers.erase(renderer);
 }
 
@@ -87,70 +112,75 @@ vtkMultiProcessController* vtkSVORenderPass::GetController() const
 
 bool vtkSVORenderPass::IsTraced(vtkProp* prop) const
 {
-  const Internals& impl = *this->Impl;
-  return impl.current && impl.current->collected().replaced.count(prop) > 0;
+  const svo::PassRenderer* current = this->Impl->current();
+  return current && current->collected().replaced.count(prop) > 0;
 }
 
 void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void*)
 {
+  const vtkSmartPointer<vtkSVORenderPass> alive(this);
   auto* renderer = static_cast<vtkRenderer*>(caller);
+  if (svo::PassFrame* unfinished = this->Impl->frameOf(renderer))
+  {
+    this->FinishFrame(*unfinished); // somebody ended it without an event
+  }
   if (renderer->GetSelector() || !this->Tracing)
   {
     return;
   }
-  // The lights' places are those of this frame's camera.
-  this->UpdateLightGeometry(renderer);
   int width, height, left, bottom;
   renderer->GetTiledSizeAndOrigin(&width, &height, &left, &bottom);
-  this->CollectFrame(renderer, width, height, true);
+  svo::PassFrame& frame = this->BeginFrame(renderer);
+  frame.pass = this;
+  if (!this->CollectFrame(frame, width, height, true, false))
+  {
+    this->FinishFrame(frame);
+    return;
+  }
   vtkMultiProcessController* controller = this->Impl->controller;
   if (controller && controller->GetNumberOfProcesses() > 1)
   {
     // Here, and not when something is drawn: a process that shows nothing may not draw at all.
     if (this->ShadowTechnique == SHADOW_BUFFER)
     {
-      this->Impl->current->shareShadows(controller, this->Impl->settings);
+      frame.of->shareShadows(controller, frame.settings);
     }
     else if (this->ShadowTechnique == SHADOW_RAYS)
     {
-      this->Impl->current->shareCasters(
-        controller, static_cast<std::size_t>(this->OctreeMemoryLimit) * 1024);
+      frame.of->shareCasters(controller, static_cast<std::size_t>(this->OctreeMemoryLimit) * 1024);
     }
   }
-  this->Impl->traced = false;
-
-  svo::AttachedRenderer& attached = this->Impl->attached[renderer];
-  attached.props.clear();
-  const svo::CollectedScene& collected = this->Impl->current->collected();
-  if (collected.rasterizedReceivers && this->Impl->current->hasSomething())
+  if (frame.of->collected().rasterizedReceivers && frame.of->hasSomething())
   {
-    vtkCollectionSimpleIterator iterator;
-    vtkPropCollection* props = renderer->GetViewProps();
-    props->InitTraversal(iterator);
-    while (vtkProp* prop = props->GetNextProp(iterator))
+    for (vtkProp* prop : frame.props)
     {
-      attached.props.push_back(prop);
+      frame.receivers.push_back(prop);
     }
     vtkRenderState state(renderer);
-    state.SetPropArrayAndCount(attached.props.data(), static_cast<int>(attached.props.size()));
+    state.SetPropArrayAndCount(frame.receivers.data(), static_cast<int>(frame.receivers.size()));
     this->PreRender(&state);
   }
 }
 
 void vtkSVORenderPass::EndAttachedFrame(vtkObject* caller, unsigned long, void*)
 {
+  const vtkSmartPointer<vtkSVORenderPass> alive(this);
   auto* renderer = static_cast<vtkRenderer*>(caller);
-  if (!this->Impl->current)
+  svo::PassFrame* frame = this->Impl->frameOf(renderer);
+  if (!frame)
   {
     return;
   }
-  svo::AttachedRenderer& attached = this->Impl->attached[renderer];
-  if (!attached.props.empty())
+  if (!frame->receivers.empty())
   {
     vtkRenderState state(renderer);
-    state.SetPropArrayAndCount(attached.props.data(), static_cast<int>(attached.props.size()));
+    state.SetPropArrayAndCount(frame->receivers.data(), static_cast<int>(frame->receivers.size()));
     this->PostRender(&state);
-    attached.props.clear();
   }
-  this->FinishFrame();
+  this->FinishFrame(*frame);
+  const auto attached = this->Impl->attached.find(renderer);
+  if (attached != this->Impl->attached.end() && attached->second.leaving)
+  {
+    this->Detach(renderer);
+  }
 }

@@ -1,12 +1,13 @@
 // The answers that props and lights carry themselves.
 #include "vtkSVORenderPass.h"
 
-#include "vtkActor.h"
+#include "svoSceneCollector.h"
+#include "svoSceneLights.h"
+
 #include "vtkInformation.h"
 #include "vtkInformationDoubleKey.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkLight.h"
-#include "vtkMapper.h"
 #include "vtkNew.h"
 #include "vtkProp.h"
 
@@ -51,7 +52,37 @@ void vtkSVORenderPass::SetCastShadow(bool cast, vtkProp* prop)
 
 bool vtkSVORenderPass::GetCastShadow(vtkProp* prop)
 {
-  return prop && flag(CAST_SHADOW(), prop, prop->HasTranslucentPolygonalGeometry() == 0);
+  if (!prop)
+  {
+    return false;
+  }
+  const svo::PropSurfaces judged = svo::SceneCollector().judge(prop);
+  if (judged.casts())
+  {
+    return true;
+  }
+  // Nothing to be seen yet is no reason.
+  return !judged.castsNone && flag(CAST_SHADOW(), prop, !prop->HasTranslucentPolygonalGeometry());
+}
+
+std::string vtkSVORenderPass::GetReason(vtkProp* prop)
+{
+  std::string text;
+  if (prop)
+  {
+    const svo::PropSurfaces judged = svo::SceneCollector().judge(prop);
+    if (judged.rasterized)
+    {
+      text += std::string("Left to the rasteriser: it ") + judged.rasterized + ".";
+    }
+    if (judged.castsNone)
+    {
+      text += (text.empty() ? "" : " ");
+      text += judged.casts() ? "Casts less than its whole shadow: it " : "Casts no shadow: it ";
+      text += std::string(judged.castsNone) + ".";
+    }
+  }
+  return text;
 }
 
 void vtkSVORenderPass::SetCastShadow(bool cast, vtkLight* light)
@@ -75,9 +106,7 @@ bool vtkSVORenderPass::GetCastShadow(vtkLight* light)
   {
     return false;
   }
-  vtkInformation* keys = light->GetInformation();
-  return keys && keys->Has(CAST_SHADOW()) ? keys->Get(CAST_SHADOW()) != 0
-                                          : !light->LightTypeIsHeadlight();
+  return light->GetSwitch() && svo::castsShadow(light);
 }
 
 void vtkSVORenderPass::SetReceiveShadow(bool receive, vtkProp* prop)

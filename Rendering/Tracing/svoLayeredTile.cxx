@@ -242,9 +242,12 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
   this->Merged.hit[tile] = merged.any;
 }
 
-void LayeredView::sample(int tileX, int tileY, Samples& samples) const
+void LayeredView::sample(int tileX, int tileY, Samples* samples, std::size_t count) const
 {
-  std::fill(samples.instance, samples.instance + 64, NoInstance);
+  for (std::size_t b = 0; b < count; ++b)
+  {
+    std::fill(samples[b].instance, samples[b].instance + 64, NoInstance);
+  }
   RayBlock block;
   HitBlock found;
   TileEntry candidate;
@@ -258,19 +261,23 @@ void LayeredView::sample(int tileX, int tileY, Samples& samples) const
     {
       continue;
     }
-    std::fill(block.tMin, block.tMin + 64, candidate.tNear);
-    std::fill(block.tMax, block.tMax + 64, candidate.tFar);
-    traceRays(candidate, samples.x, samples.y, block, found);
-    for (int i = 0; i < 64; ++i)
+    for (std::size_t b = 0; b < count; ++b)
     {
-      const double t = entry.local.base + found.t[i];
-      const bool nearer = samples.instance[i] == NoInstance || t < samples.t[i] ||
-        (t == samples.t[i] && entry.index < samples.instance[i]);
-      if (found.primitive[i] != NoPrimitive && nearer)
+      Samples& s = samples[b];
+      std::fill(block.tMin, block.tMin + 64, candidate.tNear);
+      std::fill(block.tMax, block.tMax + 64, candidate.tFar);
+      traceRays(candidate, s.x, s.y, block, found);
+      for (int i = 0; i < 64; ++i)
       {
-        samples.t[i] = t;
-        samples.instance[i] = entry.index;
-        samples.primitive[i] = found.primitive[i];
+        const double t = entry.local.base + found.t[i];
+        const bool nearer =
+          s.instance[i] == NoInstance || t < s.t[i] || (t == s.t[i] && entry.index < s.instance[i]);
+        if (found.primitive[i] != NoPrimitive && nearer)
+        {
+          s.t[i] = t;
+          s.instance[i] = entry.index;
+          s.primitive[i] = found.primitive[i];
+        }
       }
     }
   }

@@ -10,6 +10,7 @@
 #include "svoProjection.h"
 #include "svoScene.h"
 #include "svoTileIntervals.h"
+#include "vtkSVOTracingModule.h"
 
 #include <cstdint>
 #include <memory>
@@ -21,7 +22,7 @@ namespace svo
 /// What an instance looks like to a view. Equal keys give equal layers, bit for bit.
 struct LayerKey
 {
-  const void* octree = nullptr;
+  std::uint64_t octree = 0; // Octree::id()
   glm::dmat4 localToWorld{ 1.0 };
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
   int level = 0;
@@ -93,7 +94,8 @@ bool endsFreely(const Instance& instance, int level);
 /// True if an instance is to be traced tile by tile, to its triangles: those that its leaf geometry
 /// leaves exact anyway, and no smaller in the image than about a pixel. Of `level` the tiles know
 /// nothing: they are more accurate than any, and faster.
-bool worthTiles(const Instance& instance, const LocalView& local, const View& view);
+VTKSVOTRACING_EXPORT bool worthTiles(
+  const Instance& instance, const LocalView& local, const View& view);
 
 class LayeredView
 {
@@ -128,7 +130,7 @@ public:
         const LeafGeometry geometry = tiles ? LeafGeometry::Triangle : instance.leafGeometry;
         this->Instances.push_back({ i, instance.id, &instance.octree, local,
           makeProjection(instance.octree, instance.localToWorld, view, local.base),
-          { instance.octree.key(), instance.localToWorld, geometry, level }, nullptr, {},
+          { instance.octree.id(), instance.localToWorld, geometry, level }, nullptr, {},
           tiles || endsFreely(instance, level), tiles });
       }
     }
@@ -140,8 +142,8 @@ public:
   /// wanted is left without hits.
   void trace(const ParallelFor& parallelFor, const std::uint8_t* wanted);
 
-  /// Traces the points x, y of a tile through all instances; to be called after trace().
-  void sample(int tileX, int tileY, Samples& samples) const;
+  /// Traces points of a tile, `count` times 64, through all instances; to be called after trace().
+  void sample(int tileX, int tileY, Samples* samples, std::size_t count) const;
 
   const DepthBuffer& depthBuffer() const { return this->Merged; }
   /// Base of an instance's t, by index into Scene::instances.

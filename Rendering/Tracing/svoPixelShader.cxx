@@ -2,8 +2,6 @@
 
 #include "svoSelect.h"
 #include "svoTerminator.h"
-#include "svoTileLighting.h"
-#include "svoTilePoints.h"
 
 #include <algorithm>
 #include <atomic>
@@ -26,33 +24,6 @@ void PixelShader::begin(const Scene& scene, ShadowTechnique technique, const Lay
                                              : worldMapError(instance, geometry, level));
   }
 }
-
-/// What all tiles of a frame have in common.
-struct PixelShader::Lit
-{
-  const ShadedScene& shaded;
-  Lighting lighting;
-  float remaining; // of a light in its shadow
-
-  explicit Lit(const ShadedScene& frame)
-    : shaded(frame)
-    , lighting(frame.scene, frame.view)
-    , remaining(static_cast<float>(1.0 - frame.settings.shadowIntensity))
-  {
-  }
-};
-
-/// What a thread needs to shade a tile.
-struct PixelShader::Scratch
-{
-  TilePoints points;
-  TileLight light;
-  TileColors colors;
-  std::uint32_t rgba[TilePoints::Room];
-  float missed[TilePoints::Room];      // by index of the point minus the first: of one light
-  Darkness darkness[TilePoints::Most]; // by index of the point
-  std::uint64_t rays;                  // of shadows
-};
 
 /// Calls set(i, darkness) for those points first + i, of one instance, that light l reaches though
 /// their facets turn away from it.
@@ -151,11 +122,29 @@ void PixelShader::lightInstance(
   finishLight(lighting, instance.material, points, first, last, hasColor, light, scratch.colors);
 }
 
+void PixelShader::shadePoints(const Lit& lit, Scratch& scratch) const
+{
+  TilePoints& points = scratch.points;
+  lookAtPoints(this->Frames, lit.shaded.view, points);
+  for (int run = 0; run < points.runCount;)
+  {
+    const int first = points.runs[run].first;
+    const std::uint32_t instance = points.runs[run].instance;
+    const bool hasColor = points.runs[run].hasColor;
+    int last = first;
+    for (; run < points.runCount && points.runs[run].instance == instance; ++run)
+    {
+      last = points.runs[run].last;
+    }
+    this->lightInstance(lit, first, last, hasColor, scratch);
+  }
+  packColors(scratch.colors, points.count, scratch.rgba);
+}
+
 /// Writes a tile's points into the frame.
-void PixelShader::write(const Lit& lit, int tileX, int tileY, Scratch& scratch, Frame& frame)
+void PixelShader::write(const Lit& lit, int tileX, int tileY, const Scratch& scratch, Frame& frame)
 {
   const TilePoints& points = scratch.points;
-  packColors(scratch.colors, points.count, scratch.rgba);
   const std::size_t corner = static_cast<std::size_t>(8 * tileY) * frame.width + 8 * tileX;
   for (int run = 0; run < points.runCount; ++run)
   {
@@ -213,20 +202,8 @@ void PixelShader::shade(const ShadedScene& shaded, const ParallelFor& parallelFo
       {
         return;
       }
-      lookAtPoints(this->Frames, shaded.view, points);
       scratch.rays = 0;
-      for (int run = 0; run < points.runCount;)
-      {
-        const int first = points.runs[run].first;
-        const std::uint32_t instance = points.runs[run].instance;
-        const bool hasColor = points.runs[run].hasColor;
-        int last = first;
-        for (; run < points.runCount && points.runs[run].instance == instance; ++run)
-        {
-          last = points.runs[run].last;
-        }
-        this->lightInstance(lit, first, last, hasColor, scratch);
-      }
+      this->shadePoints(lit, scratch);
       if (scratch.rays > 0)
       {
         allRays.fetch_add(scratch.rays, std::memory_order_relaxed);

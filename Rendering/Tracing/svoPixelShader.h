@@ -9,6 +9,8 @@
 #include "svoShading.h"
 #include "svoShadows.h"
 #include "svoSurfacePoint.h"
+#include "svoTileLighting.h"
+#include "svoTilePoints.h"
 #include "svoTracer.h"
 
 #include <cstddef>
@@ -44,15 +46,44 @@ public:
   void smoothEdges(const ShadedScene& shaded, const ParallelFor& parallelFor, Frame& frame,
     FrameStatistics& statistics) const;
 
+  /// What all points of a frame have in common.
+  struct Lit
+  {
+    const ShadedScene& shaded;
+    Lighting lighting;
+    float remaining; // of a light in its shadow
+
+    explicit Lit(const ShadedScene& frame)
+      : shaded(frame)
+      , lighting(frame.scene, frame.view)
+      , remaining(static_cast<float>(1.0 - frame.settings.shadowIntensity))
+    {
+    }
+  };
+
+  /// What a thread needs to shade up to 64 points.
+  struct Scratch
+  {
+    TilePoints points;
+    TileLight light;
+    TileColors colors;
+    std::uint32_t rgba[TilePoints::Room];
+    float missed[TilePoints::Room];      // by index of the point minus the first: of one light
+    Darkness darkness[TilePoints::Most]; // by index of the point
+    std::uint64_t rays;                  // of shadows
+  };
+
+  /// After shade(): colours points anywhere in the image, of which everything up to `t` is set.
+  /// Reorders them and sets `rgba`, by index of the point. Adds to the rays.
+  void shadePoints(const Lit& lit, Scratch& scratch) const;
+
 private:
-  struct Lit;
-  struct Scratch;
   void shadowAndAdd(std::size_t l, const Lit& lit, int first, int last, Scratch& scratch) const;
   template <class Set>
   void shadowTerminator(
     std::size_t l, const Lit& lit, int first, int last, Scratch& scratch, Set&& set) const;
   void lightInstance(const Lit& lit, int first, int last, bool hasColor, Scratch& scratch) const;
-  void write(const Lit& lit, int tileX, int tileY, Scratch& scratch, Frame& frame);
+  void write(const Lit& lit, int tileX, int tileY, const Scratch& scratch, Frame& frame);
 
   std::vector<SurfaceFrame> Frames; // by index into Scene::instances
   std::vector<double> Errors;       // world; of the instance's leaves as the eye sees them

@@ -44,11 +44,11 @@ struct Attributes
   Association normalAssociation = Association::None;
   const unsigned char* colors = nullptr; // RGBA, mapped through the lookup table
   Association colorAssociation = Association::None;
-  /// Scalars interpolated before mapping: a coordinate per point into a row of texels.
-  const float* colorCoordinates = nullptr; // 1 per point, `colorCoordinateStride` floats apart
-  int colorCoordinateStride = 1;
+  /// Scalars interpolated before mapping: two coordinates per point into two rows of texels, one of
+  /// colours and above it one of the colour of NaN. The nearest texel counts, as in VTK's texture.
+  const float* colorCoordinates = nullptr;
   const unsigned char* colorTexture = nullptr; // RGBA
-  int colorTextureSize = 0;                    // texels
+  int colorTextureSize = 0;                    // texels of a row
 };
 
 /// A box along the axes of a mesh's local frame.

@@ -99,37 +99,48 @@ bool ShadowBuffer::lookUp(const glm::dvec3& position, Place& place) const
   return false;
 }
 
-/// The four texels whose centres surround the point lie in one tile, in two or in four.
-ShadowBuffer::TileRange ShadowBuffer::tilesAround(const Place& place)
+template <class Body>
+void ShadowBuffer::tilesAround(const Place& place, Body&& body)
 {
   const View& view = place.face->view;
-  return { std::max(static_cast<int>(place.x - 0.5), 0) >> 3,
-    std::max(static_cast<int>(place.y - 0.5), 0) >> 3,
-    std::min(static_cast<int>(place.x + 0.5), view.width - 1) >> 3,
-    std::min(static_cast<int>(place.y + 0.5), view.height - 1) >> 3 };
+  const int tilesAcross = (view.width + 7) / 8;
+  const int x0 = std::max(static_cast<int>(place.x - 0.5), 0) >> 3;
+  const int y0 = std::max(static_cast<int>(place.y - 0.5), 0) >> 3;
+  const int x1 = std::min(static_cast<int>(place.x + 0.5), view.width - 1) >> 3;
+  const int y1 = std::min(static_cast<int>(place.y + 0.5), view.height - 1) >> 3;
+  for (int y = y0; y <= y1; ++y)
+  {
+    for (int x = x0; x <= x1; ++x)
+    {
+      body(static_cast<std::size_t>(y) * tilesAcross + x);
+    }
+  }
 }
 
 void ShadowBuffer::markPlace(Face& face, const Place& place, std::size_t& last)
 {
-  const View& view = face.view;
-  const int tilesAcross = (view.width + 7) / 8;
-  const auto mark = [&](int tileX, int tileY)
-  {
-    const std::size_t tile = static_cast<std::size_t>(tileY) * tilesAcross + tileX;
-    if (tile != last && !face.wanted[tile].load(std::memory_order_relaxed))
+  tilesAround(place,
+    [&](std::size_t tile)
     {
-      face.wanted[tile].store(1, std::memory_order_relaxed);
-    }
-    last = tile;
-  };
-  const TileRange tiles = tilesAround(place);
-  for (int y = tiles.y0; y <= tiles.y1; ++y)
+      if (tile != last && !face.wanted[tile].load(std::memory_order_relaxed))
+      {
+        face.wanted[tile].store(1, std::memory_order_relaxed);
+      }
+      last = tile;
+    });
+}
+
+bool ShadowBuffer::knows(const glm::dvec3& position) const
+{
+  bool known = true;
+  Place place;
+  if (this->lookUp(position, place))
   {
-    for (int x = tiles.x0; x <= tiles.x1; ++x)
-    {
-      mark(x, y);
-    }
+    tilesAround(place,
+      [&](std::size_t tile)
+      { known = known && place.face->wanted[tile].load(std::memory_order_relaxed); });
   }
+  return known;
 }
 
 void ShadowBuffer::mark(const TilePoints& points)
@@ -363,27 +374,6 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
   // Half a texel and the leaf's error, both along the normal.
   bias += (0.5 * pixel + std::max(this->CasterError[caster], error)) / steepest;
   return occluder + bias < receiver ? dark : Answer::Lit;
-}
-
-bool ShadowBuffer::knows(const glm::dvec3& position) const
-{
-  Place place;
-  if (!this->lookUp(position, place) || place.face->shared.merged())
-  {
-    return true;
-  }
-  const int tilesAcross = (place.face->view.width + 7) / 8;
-  const TileRange tiles = tilesAround(place);
-  bool known = true;
-  for (int y = tiles.y0; y <= tiles.y1; ++y)
-  {
-    for (int x = tiles.x0; x <= tiles.x1; ++x)
-    {
-      const std::size_t tile = static_cast<std::size_t>(y) * tilesAcross + x;
-      known = known && place.face->wanted[tile].load(std::memory_order_relaxed);
-    }
-  }
-  return known;
 }
 
 double ShadowBuffer::texelEdge(const glm::dvec3& position) const

@@ -48,6 +48,9 @@ public:
   /// this process's first instance among all.
   void merge(Processes& processes, std::size_t first);
 
+  /// True if the texels around the point are traced: those of marked points are.
+  bool knows(const glm::dvec3& position) const;
+
   /// True if a caster lies between the light and the point. `error`: how far the point may lie from
   /// the surface that it stands for, world units.
   ///
@@ -87,8 +90,6 @@ public:
 
   /// Whether points are compared on their own planes, see setBias().
   bool automaticBias() const { return this->AutomaticBias; }
-  /// True if the tiles that a point there looks up are traced, or need not be.
-  bool knows(const glm::dvec3& position) const;
   /// Edge of a texel at a point, world; 0 outside of the map.
   double texelEdge(const glm::dvec3& position) const;
 
@@ -139,11 +140,6 @@ private:
     /// Number i (1..3) of the other texels whose centres surround the point.
     glm::ivec2 neighbour(int i) const;
   };
-  /// Of a map, both ends included.
-  struct TileRange
-  {
-    int x0, y0, x1, y1;
-  };
   enum class Answer
   {
     Lit,
@@ -152,7 +148,10 @@ private:
   };
   /// False if the point is outside of all faces, or its face sees no caster.
   bool lookUp(const glm::dvec3& position, Place& place) const;
-  static TileRange tilesAround(const Place& place);
+  /// Calls body(tile) for the light tiles of the four texels whose centres surround the point: one,
+  /// two or four.
+  template <class Body>
+  static void tilesAround(const Place& place, Body&& body);
   static void markPlace(Face& face, const Place& place, std::size_t& last);
   /// True if most of the other texels around the point find it dark as well.
   bool agreed(const Place& place, const SurfacePoint& point, double error) const;

@@ -105,6 +105,13 @@ void Shadows::trace(const ParallelFor& parallelFor)
   }
 }
 
+bool Shadows::knows(const glm::dvec3& position) const
+{
+  return this->All ||
+    std::all_of(this->Buffers.begin(), this->Buffers.end(),
+      [&](const ShadowBuffer* buffer) { return !buffer || buffer->knows(position); });
+}
+
 bool Shadows::dark(
   std::size_t light, const SurfacePoint& point, double error, std::uint64_t& rays) const
 {

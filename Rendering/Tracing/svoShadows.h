@@ -45,6 +45,10 @@ public:
 
   void trace(const ParallelFor& parallelFor);
 
+  /// True if all lights can tell whether the point is in their shadow. They can of visible points;
+  /// of others only where their buffers happen to be traced.
+  bool knows(const glm::dvec3& position) const;
+
   /// True if the point is in the shadow of the light (index into Scene::lights). `error` as in
   /// ShadowBuffer::shadows. Counts the rays it casts in `rays`.
   bool dark(std::size_t light, const SurfacePoint& point, double error, std::uint64_t& rays) const;

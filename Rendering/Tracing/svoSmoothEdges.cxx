@@ -41,7 +41,7 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
         samples.x[k] = 8 * tileX + (pixel & 7) + OffsetX[k % 4];
         samples.y[k] = 8 * tileY + (pixel >> 3) + OffsetY[k % 4];
       }
-      shaded.eye.sample(tileX, tileY, samples);
+      shaded.eye.sample(tileX, tileY, &samples, 1);
       primaryRays.fetch_add(64, std::memory_order_relaxed);
       for (int p = 0; p < std::min(16, count - first); ++p)
       {

@@ -76,15 +76,19 @@ inline glm::vec3 colorAt(const unsigned char* array, std::size_t i)
   return glm::vec3(array[4 * i], array[4 * i + 1], array[4 * i + 2]) / 255.0f;
 }
 
-/// A texel row looked up as a linearly filtered, clamped texture.
-inline glm::vec3 textureAt(const Attributes& a, float coordinate)
+/// Texture coordinates of a point.
+inline glm::vec2 coordinatesAt(const Attributes& a, std::size_t i)
+{
+  return { a.colorCoordinates[2 * i], a.colorCoordinates[2 * i + 1] };
+}
+
+/// The texel that VTK's texture, clamped to its edge and not interpolated, shows at `at`.
+inline int texelAt(const Attributes& a, const glm::vec2& at)
 {
   const float x =
-    std::clamp(coordinate, 0.0f, 1.0f) * static_cast<float>(a.colorTextureSize) - 0.5f;
-  const float floor = std::floor(x);
-  const int i = std::clamp(static_cast<int>(floor), 0, a.colorTextureSize - 1);
-  const int j = std::clamp(static_cast<int>(floor) + 1, 0, a.colorTextureSize - 1);
-  return glm::mix(colorAt(a.colorTexture, i), colorAt(a.colorTexture, j), x - floor);
+    at.x > 0.0f ? std::min(at.x, 1.0f) * static_cast<float>(a.colorTextureSize) : 0.0f;
+  const int texel = std::min(static_cast<int>(x), a.colorTextureSize - 1);
+  return at.y < 0.5f ? texel : texel + a.colorTextureSize;
 }
 }
 
@@ -147,13 +151,10 @@ inline SurfacePoint pointOfTriangle(const SurfaceFrame& frame, const glm::dvec3&
   }
   if (attributes.colorCoordinates && attributes.colorTextureSize > 0)
   {
-    const auto at = [&](std::uint32_t i)
-    {
-      return attributes
-        .colorCoordinates[static_cast<std::size_t>(i) * attributes.colorCoordinateStride];
-    };
-    point.color = detail::textureAt(attributes,
-      weight.x * at(triangle.x) + weight.y * at(triangle.y) + weight.z * at(triangle.z));
+    const glm::vec2 at = weight.x * detail::coordinatesAt(attributes, triangle.x) +
+      weight.y * detail::coordinatesAt(attributes, triangle.y) +
+      weight.z * detail::coordinatesAt(attributes, triangle.z);
+    point.color = detail::colorAt(attributes.colorTexture, detail::texelAt(attributes, at));
     point.hasColor = true;
   }
   else if (attributes.colors && attributes.colorAssociation == Association::Point)

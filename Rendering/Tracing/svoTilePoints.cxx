@@ -335,15 +335,13 @@ void lookAtRun(const SurfaceFrame& frame, const View& view, TilePoints::Run& run
   run.hasColor = texture || pointColors || cellColors;
   if (texture)
   {
-    const auto at = [&](std::uint32_t i)
-    {
-      return attributes
-        .colorCoordinates[static_cast<std::size_t>(i) * attributes.colorCoordinateStride];
-    };
-    const float ca = at(triangle.x), cb = at(triangle.y), cc = at(triangle.z);
+    const glm::vec2 ca = detail::coordinatesAt(attributes, triangle.x);
+    const glm::vec2 cb = detail::coordinatesAt(attributes, triangle.y);
+    const glm::vec2 cc = detail::coordinatesAt(attributes, triangle.z);
     for (int i = run.first, j = 0; i < run.last; ++i, ++j)
     {
-      setColor(p, i, detail::textureAt(attributes, wa[j] * ca + wb[j] * cb + wc[j] * cc));
+      const int texel = detail::texelAt(attributes, wa[j] * ca + wb[j] * cb + wc[j] * cc);
+      setColor(p, i, detail::colorAt(attributes.colorTexture, texel));
     }
   }
   else if (pointColors)

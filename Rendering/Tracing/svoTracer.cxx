@@ -5,6 +5,7 @@
 #include "svoPixelShader.h"
 #include "svoSelect.h"
 #include "svoShadows.h"
+#include "svoSilhouettes.h"
 #include "svoTilePoints.h"
 
 #include <algorithm>
@@ -22,6 +23,7 @@ double now()
 
 struct Tracer::Internals
 {
+  FrameSettings Settings; // of the last frame
   FrameStatistics Statistics;
   std::vector<ShadowMap> Maps;
   LayeredView Eye;
@@ -90,6 +92,7 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
 {
   Internals& self = *this->Impl;
   const double start = now();
+  self.Settings = settings;
   self.Statistics = FrameStatistics();
   self.Maps.clear();
 
@@ -161,6 +164,15 @@ bool Tracer::shareShadows(const Scene& scene, const FrameSettings& settings,
     self.sceneOfLights(scene, settings.shadowTechnique), settings, budget, parallelFor, processes);
   self.SharedTime = now() - start;
   return self.Shared;
+}
+
+void Tracer::divideEdges(const Scene& scene, const View& view, const Frame& frame,
+  const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor,
+  Silhouettes& result) const
+{
+  const Internals& self = *this->Impl;
+  findSilhouettes({ scene, view, self.Settings, self.Eye, self.Tiles, self.Dark }, self.Shader,
+    frame, positions, parallelFor, result);
 }
 
 const FrameStatistics& Tracer::statistics() const

@@ -13,6 +13,8 @@
 #include <memory>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 namespace svo
 {
 enum class ShadowTechnique
@@ -82,6 +84,7 @@ struct ShadowMap
 };
 
 class Processes;
+struct Silhouettes;
 
 class VTKSVOTRACING_EXPORT Tracer
 {
@@ -100,6 +103,12 @@ public:
   /// render() then takes these instead of its own. See Shadows::traceShared.
   bool shareShadows(const Scene& scene, const FrameSettings& settings,
     const ParallelFor& parallelFor, Processes& processes);
+
+  /// After render(), with the same scene and view: what surfaces cover of the pixels of `frame` that
+  /// they share. See svoSilhouettes.h.
+  void divideEdges(const Scene& scene, const View& view, const Frame& frame,
+    const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor,
+    Silhouettes& result) const;
 
   const FrameStatistics& statistics() const;
 

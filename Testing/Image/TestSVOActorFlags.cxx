@@ -43,5 +43,22 @@ int TestSVOActorFlags(int, char*[])
   checks.expect(stage.pass->GetNumberOfRasterizedActors() == 4, "all four are rasterised");
   expectShadows(
     checks, oracle.judge(stage.renderer, rasterised, rasterisedLit), "flags, rasterised");
+
+  // Of a light kit's camera lights only the brightest casts, also before the next frame.
+  vtkSVORenderPass::SetCastShadow(false, sun);
+  vtkNew<vtkLight> key;
+  vtkNew<vtkLight> other;
+  for (vtkLight* light : { key.Get(), other.Get() })
+  {
+    light->SetLightTypeToCameraLight();
+    stage.renderer->AddLight(light);
+  }
+  other->SetIntensity(0.5);
+  stage.shadowed();
+  checks.expect(vtkSVORenderPass::GetCastShadow(key), "the brightest camera light casts");
+  checks.expect(!vtkSVORenderPass::GetCastShadow(other), "another one does not");
+  other->SetIntensity(2.0);
+  checks.expect(!vtkSVORenderPass::GetCastShadow(key), "until it is the brightest");
+  checks.expect(vtkSVORenderPass::GetCastShadow(other), "then it does");
   return checks.exitCode();
 }

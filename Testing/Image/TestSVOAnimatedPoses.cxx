@@ -1,9 +1,14 @@
-// A mesh that changes its shape and an actor that moves: each frame is what a fresh start would
-// have drawn, whatever was kept from the frames before.
+// A mesh that changes its shape or its cells and an actor that moves: each frame is what a fresh
+// start would have drawn, whatever was kept from the frames before.
 #include "svoShadowOracle.h"
 #include "svoTestStage.h"
 
+#include "vtkCellArray.h"
+#include "vtkPolyData.h"
 #include "vtkSuperquadricSource.h"
+#include "vtkTrivialProducer.h"
+
+#include <iostream>
 
 namespace
 {
@@ -25,12 +30,41 @@ struct Act
     this->moving->SetOrientation(0.0, 0.0, 15.0 * frame);
   }
 };
+
+/// Cells are replaced in place, and only the mesh is told so.
+void testCellsInPlace(svoTest::Checks& checks)
+{
+  const auto source = svoTest::ball(0.9, 0.0, 0.0, 1.0);
+  source->Update();
+  vtkNew<vtkPolyData> mesh;
+  mesh->DeepCopy(source->GetOutputDataObject(0));
+  vtkNew<vtkTrivialProducer> producer;
+  producer->SetOutput(mesh);
+  svoTest::Stage stage;
+  stage.add(producer, 0.9, 0.5, 0.3);
+  const svoTest::Picture whole = stage.unshadowed();
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfPolys() / 2; ++cell)
+  {
+    mesh->GetPolys()->ReplaceCellAtId(cell, { 0, 0, 0 });
+  }
+  mesh->Modified();
+  const svoTest::Picture traced = stage.unshadowed();
+  stage.usePass(false);
+  const svoTest::Picture raster = svoTest::capture(stage.window);
+  const double change = svoTest::difference(raster, whole).mean;
+  const double error = svoTest::difference(traced, raster).mean;
+  std::cout << "cells in place: " << change << " from the whole ball, " << error
+            << " from the rasteriser\n";
+  checks.expect(change > 0.2, "the rasteriser shows half a ball");
+  checks.expect(error < 0.2 * change, "and so does the pass");
+}
 }
 
 int TestSVOAnimatedPoses(int argc, char* argv[])
 {
   using namespace svoTest;
   Checks checks;
+  testCellsInPlace(checks);
   Act running;
   // The poses come round again: the fifth frame has the shape of the first.
   for (int frame = 0; frame < 6; ++frame)

@@ -4,10 +4,73 @@
 #include "svoTestStage.h"
 
 #include "vtkMatrix4x4.h"
+#include "vtkProperty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <string>
+
+namespace
+{
+using namespace svoTest;
+
+/// A square above a ground, flattened by one of its own axes and tilted.
+void addFlattened(Stage& stage, const double scale[3])
+{
+  stage.addGround();
+  vtkActor* actor = stage.add(box(1.0, 0.0, 0.0, 0.0), 0.9, 0.5, 0.3);
+  actor->SetScale(scale[0], scale[1], scale[2]);
+  actor->SetPosition(0.2, -0.3, 1.2);
+  actor->RotateX(20.0);
+  actor->GetProperty()->LightingOff(); // VTK has no normals for it
+  stage.addSun(1.0, -1.5, 4.0);
+}
+
+std::size_t changed(const Picture& a, const Picture& b)
+{
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    count += std::abs(a.grey(i) - b.grey(i)) > 20.0;
+  }
+  return count;
+}
+
+/// Singular matrices: VTK's picture, and the shadow of something a little thicker.
+void compareFlattened(Checks& checks)
+{
+  const double flat[][3] = { { 1.0, 1.0, 0.0 }, { 0.0, 1.0, 1.0 }, { 1.3, 1.0, 1e-13 },
+    { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+  for (const double(&scale)[3] : flat)
+  {
+    const std::string name =
+      std::to_string(scale[0]) + " " + std::to_string(scale[1]) + " " + std::to_string(scale[2]);
+    Stage stage, thick;
+    addFlattened(stage, scale);
+    double thicker[3];
+    for (int i = 0; i < 3; ++i)
+    {
+      thicker[i] = std::max(scale[i], 1e-4);
+    }
+    addFlattened(thick, thicker);
+    const Picture unshadowed = stage.unshadowed();
+    const Picture shadowed = stage.shadowed();
+    const Picture expected = thick.shadowed();
+    checks.expect(stage.pass->GetNumberOfRasterizedActors() == 1, name + ": it is rasterised");
+    stage.usePass(false);
+    const Picture raster = capture(stage.window);
+    std::cout << "scale " << name << ": " << changed(raster, unshadowed)
+              << " pixels are not the raster's, " << changed(shadowed, unshadowed) << " in shadow, "
+              << changed(shadowed, expected) << " otherwise than if thicker\n";
+    checks.expect(changed(raster, unshadowed) < 5, name + ": VTK's own picture");
+    checks.expect(changed(shadowed, expected) < 15, name + ": its shadow");
+  }
+}
+}
 
 int TestSVOMatrices(int argc, char* argv[])
 {
-  using namespace svoTest;
   Checks checks;
   Stage stage(360, 300);
   ShadowOracle oracle;
@@ -49,6 +112,7 @@ int TestSVOMatrices(int argc, char* argv[])
   const Difference look = difference(raster, unshadowed, awayFromEdges(raster, 2));
   checks.expect(look.mean <= 2.0 && look.p99 <= 8, "without shadows it is VTK's own picture");
 
+  compareFlattened(checks);
   stage.usePass(true);
   checks.expect(matchesBaseline(stage.window, argc, argv), "the baseline");
   return checks.exitCode();

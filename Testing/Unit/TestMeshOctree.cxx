@@ -196,12 +196,35 @@ TEST(MeshSignature, IsComputedOncePerChangeAndLeavesTheMeshAlone)
   svo::meshSignature(mesh);
   vtkNew<vtkPolyData> shallow;
   shallow->ShallowCopy(mesh);
-  svo::meshSignature(shallow);
+  svo::copySignature(mesh, shallow);
+  EXPECT_EQ(svo::meshSignature(shallow), svo::meshSignature(mesh));
   EXPECT_EQ(svo::numberOfHashedArrays(), before + 2);
   mesh->GetPoints()->Modified();
   svo::meshSignature(mesh);
   EXPECT_EQ(svo::numberOfHashedArrays(), before + 3);
   EXPECT_EQ(mesh->GetPolys()->GetMTime() > time, false);
+}
+
+TEST(MeshSignature, NoticesWhatIsWrittenInPlaceWhenTheMeshSaysSo)
+{
+  const auto mesh = copyOf(sphere());
+  const std::uint64_t original = svo::meshSignature(mesh);
+  mesh->GetPolys()->ReplaceCellAtId(7, { 0, 1, 2 });
+  mesh->Modified();
+  const std::uint64_t otherCells = svo::meshSignature(mesh);
+  EXPECT_NE(otherCells, original);
+  EXPECT_EQ(otherCells, svo::meshSignature(copyOf(mesh)));
+
+  mesh->GetPoints()->SetPoint(100, 1.0, 2.0, 3.0);
+  mesh->Modified();
+  EXPECT_NE(svo::meshSignature(mesh), otherCells);
+  EXPECT_EQ(svo::meshSignature(mesh), svo::meshSignature(copyOf(mesh)));
+
+  // A copy that shares the arrays is younger than the edit.
+  mesh->GetPolys()->ReplaceCellAtId(8, { 3, 1, 2 });
+  vtkNew<vtkPolyData> shallow;
+  shallow->ShallowCopy(mesh);
+  EXPECT_EQ(svo::meshSignature(shallow), svo::meshSignature(copyOf(mesh)));
 }
 
 TEST(MeshSignature, CanBeAskedForFromManyThreads)
@@ -247,7 +270,7 @@ TEST(MeshOctree, IsSignedWithItsMesh)
   }
 }
 
-TEST(MeshOctree, TravelsWithoutACopyAndOutlivesTheMesh)
+TEST(MeshOctree, IsOpenOnceAndOutlivesTheMesh)
 {
   svo::Octree octree;
   {

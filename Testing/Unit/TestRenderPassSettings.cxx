@@ -2,9 +2,13 @@
 #include "vtkSVORenderPass.h"
 
 #include "vtkActor.h"
+#include "vtkFollower.h"
 #include "vtkLight.h"
 #include "vtkNew.h"
+#include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
+#include "vtkSphereSource.h"
+#include "vtkVolume.h"
 
 #include <gtest/gtest.h>
 
@@ -116,6 +120,44 @@ TEST(RenderPassSettings, AHeadlightCastsOnlyWhenAsked)
   EXPECT_FALSE(vtkSVORenderPass::GetCastShadow(headlight));
   vtkSVORenderPass::SetCastShadow(true, headlight);
   EXPECT_TRUE(vtkSVORenderPass::GetCastShadow(headlight));
+}
+
+TEST(RenderPassSettings, WhatNeverCastsSaysSoAndWhy)
+{
+  using Pass = vtkSVORenderPass;
+  vtkNew<vtkSphereSource> ball;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(ball->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  EXPECT_TRUE(Pass::GetCastShadow(actor));
+  EXPECT_EQ(Pass::GetReason(actor), "");
+
+  actor->GetProperty()->SetRepresentationToWireframe();
+  EXPECT_FALSE(Pass::GetCastShadow(actor));
+  Pass::SetCastShadow(true, actor); // nothing helps
+  EXPECT_FALSE(Pass::GetCastShadow(actor));
+  EXPECT_NE(Pass::GetReason(actor).find("wireframe"), std::string::npos);
+
+  actor->GetProperty()->SetRepresentationToSurface();
+  EXPECT_TRUE(Pass::GetCastShadow(actor));
+  actor->GetProperty()->EdgeVisibilityOn();
+  EXPECT_TRUE(Pass::GetCastShadow(actor));
+  EXPECT_EQ(Pass::GetReason(actor), "Left to the rasteriser: it shows its edges or vertices.");
+  actor->VisibilityOff();
+  EXPECT_FALSE(Pass::GetCastShadow(actor));
+
+  vtkNew<vtkVolume> volume;
+  EXPECT_FALSE(Pass::GetCastShadow(volume));
+  EXPECT_NE(Pass::GetReason(volume).find("neither an actor"), std::string::npos);
+  vtkNew<vtkFollower> follower;
+  follower->SetMapper(mapper);
+  EXPECT_FALSE(Pass::GetCastShadow(follower));
+  EXPECT_EQ(Pass::GetReason(nullptr), "");
+
+  vtkNew<vtkLight> light;
+  light->SwitchOff();
+  EXPECT_FALSE(Pass::GetCastShadow(light));
 }
 
 TEST(RenderPassSettings, NothingIsAskedOfNobody)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 using namespace svotest;
 
@@ -275,15 +276,28 @@ TEST(Shading, CellAndPointColoursAreLookedUpByCellAndInterpolatedByPoint)
     EXPECT_NEAR(pixel(byPoint, x, 5)[0], (x + 0.5) / 32 * 255, 1.0);
   }
 
-  // Interpolated before mapping: the ramp runs through the texels' middles.
-  const float coordinates[] = { 0.0f, 1.0f, 1.0f, 0.0f };
-  const unsigned char texels[] = { 0, 0, 255, 255, 0, 255, 0, 255, 255, 0, 0, 255 };
+  // Interpolated before mapping: each texel has its third of the way, and nothing is blended.
+  const float coordinates[] = { 0.0f, 0.49f, 1.0f, 0.49f, 1.0f, 0.49f, 0.0f, 0.49f };
+  const unsigned char texels[] = { 0, 0, 255, 255, 0, 255, 0, 255, 255, 0, 0, 255, //
+    90, 90, 90, 255, 90, 90, 90, 255, 90, 90, 90, 255 };
   attributes = svo::Attributes();
   attributes.colorCoordinates = coordinates;
   attributes.colorTexture = texels;
   attributes.colorTextureSize = 3;
   const svo::Frame mapped = rendered(scene, view, svo::FrameSettings());
-  EXPECT_NEAR(pixel(mapped, 1, 16)[2], 255, 1);
-  EXPECT_NEAR(pixel(mapped, 16, 16)[1], (1.0 - 0.5 / 32 * 3) * 255, 1.5);
-  EXPECT_NEAR(pixel(mapped, 30, 16)[0], 255, 1);
+  for (int x = 0; x < 32; ++x)
+  {
+    EXPECT_EQ(pixel(mapped, x, 16)[2], x < 11 ? 255 : 0) << x;
+    EXPECT_EQ(pixel(mapped, x, 16)[1], x >= 11 && x < 21 ? 255 : 0) << x;
+    EXPECT_EQ(pixel(mapped, x, 16)[0], x >= 21 ? 255 : 0) << x;
+  }
+
+  // A point without a value takes the colour of NaN almost to its neighbours; no value is safe.
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float odd[] = { 0.5f, 1.0f, 1.0f, 0.49f, nan, 0.49f, 0.0f, 0.49f };
+  attributes.colorCoordinates = odd;
+  const svo::Frame partly = rendered(scene, view, svo::FrameSettings());
+  EXPECT_EQ(pixel(partly, 1, 1)[0], 90);
+  EXPECT_EQ(pixel(partly, 30, 1)[0], 90);
+  EXPECT_EQ(pixel(partly, 31, 16)[2], 255);
 }

@@ -17,10 +17,12 @@
 #include "vtkSphereSource.h"
 #include "vtkStaticCellLocator.h"
 #include "vtkStripper.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -355,4 +357,55 @@ TEST(SparseVoxelOctree, KeepsTheOctreeAliveWithoutTheMesh)
   vtkIdType cell;
   EXPECT_EQ(octree->IntersectWithLine(above, centre, t, x, cell), 1);
   EXPECT_NEAR(t, 0.9, 1e-3);
+}
+
+// Anybody can write to the array that the octree travels in.
+TEST(SparseVoxelOctree, BytesThatChangeAfterwardsDoNotChangeTheHandle)
+{
+  const auto hits = [](vtkSparseVoxelOctree* octree)
+  {
+    std::vector<double> found;
+    Lines lines(octree->GetBounds());
+    for (int i = 0; i < 200; ++i)
+    {
+      double p1[3], p2[3], t = -1.0, x[3] = {};
+      vtkIdType cell = -1;
+      lines.next(p1, p2);
+      octree->IntersectWithLine(p1, p2, t, x, cell);
+      found.insert(found.end(), { t, x[0], x[1], x[2], static_cast<double>(cell) });
+    }
+    return found;
+  };
+  using Change = void (*)(vtkUnsignedCharArray*);
+  const Change changes[] = { [](vtkUnsignedCharArray* bytes) { bytes->FillValue(0xb7); },
+    [](vtkUnsignedCharArray* bytes)
+    {
+      for (vtkIdType i = static_cast<vtkIdType>(sizeof(svo::Header));
+           i < bytes->GetNumberOfValues(); ++i)
+      {
+        bytes->SetValue(i, static_cast<unsigned char>(i * 167 >> 3));
+      }
+    },
+    [](vtkUnsignedCharArray* bytes) { bytes->Initialize(); },
+    [](vtkUnsignedCharArray* bytes) { bytes->Resize(100); } };
+  for (const Change change : changes)
+  {
+    const auto mesh = converted(sphere(), 7, vtkPolyDataToSVO::AUTOMATIC);
+    auto* bytes = vtkUnsignedCharArray::SafeDownCast(
+      mesh->GetFieldData()->GetAbstractArray("SparseVoxelOctree"));
+    vtkNew<vtkSparseVoxelOctree> octree;
+    ASSERT_TRUE(octree->Initialize(mesh));
+    const vtkIdType voxels = octree->GetNumberOfVoxels();
+    const std::vector<double> before = hits(octree);
+    change(bytes);
+    EXPECT_EQ(octree->GetNumberOfVoxels(), voxels);
+    EXPECT_EQ(hits(octree), before);
+    // A new handle sees what there is now.
+    bytes->Modified();
+    vtkNew<vtkSparseVoxelOctree> later;
+    const svo::TestMessages messages(later);
+    EXPECT_FALSE(later->Initialize(mesh));
+    EXPECT_EQ(messages.errors.size(), 1u);
+    EXPECT_EQ(hits(octree), before);
+  }
 }

@@ -80,7 +80,7 @@ struct Stage
       {
         a.colorCoordinates = coordinates.data();
         a.colorTexture = texture.data();
-        a.colorTextureSize = static_cast<int>(count);
+        a.colorTextureSize = static_cast<int>(count) / 2;
       }
     }
     scene.instances[1].localToWorld = scene.instances[1].localToWorld *

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
 #include <limits>
 
 using namespace svotest;
@@ -24,6 +26,16 @@ svo::Scene makeScene(svo::LeafGeometry leafGeometry = svo::LeafGeometry::Automat
   scene.lights[1].id = 78;
   scene.lights[1].color = glm::vec3(0.3f);
   return scene;
+}
+
+std::vector<std::uint64_t> bytesOf(const svo::Octree& octree)
+{
+  const svo::Header& h = octree.header();
+  const std::size_t size =
+    sizeof(svo::Header) + h.nodeCount * sizeof(svo::Node) + h.listWords * sizeof(std::uint32_t);
+  std::vector<std::uint64_t> bytes((size + 7) / 8);
+  std::memcpy(bytes.data(), octree.key(), size);
+  return bytes;
 }
 
 const svo::View Eye = lookAt({ 1, -6, 4 }, 100, 76);
@@ -177,6 +189,31 @@ TEST(Tracer, KeptLayersNeverChangeAPicture)
       EXPECT_TRUE(identical(frame, rendered(scene, view, forgetful)))
         << "step " << step << ", leaves " << int(leafGeometry);
     }
+  }
+}
+
+// A limit of octree memory lets octrees go between frames, and the next one may lie in their place.
+TEST(Tracer, AnOctreeInAnotherOnesPlaceIsAnotherOctree)
+{
+  const std::vector<std::uint64_t> bytes[2] = { bytesOf(makeOctree(sphere(24, 40), 5)),
+    bytesOf(makeOctree(torus(40, 24), 5)) };
+  std::vector<std::uint64_t> place(std::max(bytes[0].size(), bytes[1].size()));
+  svo::Tracer tracer;
+  for (int step = 0; step < 4; ++step)
+  {
+    const std::vector<std::uint64_t>& next = bytes[step % 2];
+    std::copy(next.begin(), next.end(), place.begin());
+    std::string error;
+    svo::Scene scene = makeScene();
+    scene.instances.resize(1);
+    scene.instances[0].octree =
+      svo::Octree::open(std::shared_ptr<const std::byte>(
+                          reinterpret_cast<const std::byte*>(place.data()), [](const void*) {}),
+        8 * next.size(), nullptr, error);
+    ASSERT_TRUE(scene.instances[0].octree) << error;
+    EXPECT_TRUE(
+      identical(rendered(tracer, scene, Eye, smallBuffers()), rendered(scene, Eye, smallBuffers())))
+      << "step " << step;
   }
 }
 

@@ -90,6 +90,7 @@ int main(int argc, char** argv)
   measureLeaves(sweep, results);
   measurePixelError(sweep, results);
   measureContact(sweep, results);
+  measureTerminator(sweep, results);
   measureShadows(sweep, results);
   measureAntiAliasing(sweep, results);
   measurePaperScenes(sweep, results);

@@ -73,6 +73,12 @@ std::vector<Bar> bars()
       true },
     { "convex body: self-shadowed pixels", "selfShadowed", 0.0,
       [](const Row& row) { return experiment(row, "acne"); } },
+    { "coarse smooth convex body: pixels darkened by its own facets", "toothed", 0.0,
+      [](const Row& row)
+      { return experiment(row, "terminator") && row["leaves"] == "automatic"; } },
+    { "coarse smooth body under a thin wall: share of pixels lit through it", "throughWall", 0.01,
+      [](const Row& row)
+      { return experiment(row, "terminator") && row["leaves"] == "automatic"; } },
     { "contact shadow: begins after, voxels", "gapVoxels", 2.0,
       [](const Row& row) { return experiment(row, "contact"); } },
     { "pixel error: share of points displaced further than promised", "beyondPromise", 0.0,

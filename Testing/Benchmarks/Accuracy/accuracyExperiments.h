@@ -58,6 +58,9 @@ void measureAntiAliasing(const Sweep& sweep, Results& results);
 
 /// Acne on a convex body, and the beginning of a contact shadow.
 void measureContact(const Sweep& sweep, Results& results);
+
+/// Few facets with smooth normals: shadows on themselves, and light through a wall above them.
+void measureTerminator(const Sweep& sweep, Results& results);
 }
 
 #endif

@@ -54,8 +54,8 @@ void Results::add(const Row& row)
   for (const char* key : { "experiment", "mesh", "light", "method", "level", "leaves", "technique",
          "resolution", "bias", "pixelError", "rayMedian", "rayP95", "normalP99", "falseMisses",
          "meshWrong", "meshWrongTolerant", "meshIoU", "mapWrong", "movedP99", "movedMax",
-         "beyondPromise", "selfShadowed", "gapVoxels", "antiAliasing", "filterShadows", "edgeRms",
-         "shadowEdgeRms", "rms", "processorMs" })
+         "beyondPromise", "selfShadowed", "toothed", "throughWall", "gapVoxels", "antiAliasing",
+         "filterShadows", "edgeRms", "shadowEdgeRms", "rms", "processorMs" })
   {
     if (kept.isMember(key))
     {

@@ -163,6 +163,21 @@ def contact(rows):
                  lines)
 
 
+def terminator(rows):
+    lines = []
+    some = [r for r in rows if r["experiment"] == "terminator"]
+    for kind, technique, filtered in ([(kind, technique, False) for kind in KINDS
+                                       for technique in ("buffer", "rays")]
+                                      + [("automatic", "buffer", True)]):
+        here = [r for r in some if r["leaves"] == kind and r["technique"] == technique
+                and r["filterShadows"] == filtered]
+        lines.append([f"{kind}, {technique}" + (", filtered" if filtered else ""),
+                      f"{sum(r['toothed'] for r in here)} of {sum(r['litPixels'] for r in here)}",
+                      percent(worst(here, "throughWall"))])
+    return table(["leaves, technique", "pixels darkened by their own facets",
+                  "lit through a thin wall, worst"], lines)
+
+
 def pixel_errors(rows):
     lines = []
     some = [r for r in rows if r["experiment"] == "pixelError"]
@@ -282,8 +297,8 @@ def wishes(rows):
 
 
 SECTIONS = {"bars": bars, "leaves": leaves, "levels": levels, "shadows": shadows, "biases": biases,
-            "shadow-levels": shadow_levels, "contact": contact, "pixel-error": pixel_errors,
-            "anti-aliasing": anti_aliasing, "paper": paper, "passes": passes, "wishes": wishes}
+            "shadow-levels": shadow_levels, "contact": contact, "terminator": terminator,
+            "pixel-error": pixel_errors, "anti-aliasing": anti_aliasing, "paper": paper, "passes": passes, "wishes": wishes}
 
 
 def main():

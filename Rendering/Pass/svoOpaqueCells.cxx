@@ -1,0 +1,219 @@
+#include "svoOpaqueCells.h"
+
+#include "svoSurfacePoint.h"
+
+#include "vtkCellArray.h"
+#include "vtkFloatArray.h"
+#include "vtkIdList.h"
+#include "vtkImageData.h"
+#include "vtkMapper.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace svo
+{
+namespace
+{
+std::uint64_t timeOf(vtkObject* object)
+{
+  return object ? object->GetMTime() : 0;
+}
+
+/// True if all of these RGBA colours are opaque.
+bool allOpaque(const unsigned char* colors, std::size_t count)
+{
+  unsigned char all = 255;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    all &= colors[4 * i + 3];
+  }
+  return all == 255;
+}
+
+/// The least and the most alpha of a mesh's cells, 0..255.
+class CellAlpha
+{
+public:
+  explicit CellAlpha(const Attributes& attributes)
+    : Colors(attributes)
+  {
+    for (int i = 0; attributes.colorCoordinates && i < attributes.colorTextureSize; ++i)
+    {
+      const unsigned char alpha = attributes.colorTexture[4 * i + 3];
+      this->Clear.push_back(this->Clear.back() + (alpha < 255));
+      this->Visible.push_back(this->Visible.back() + (alpha > 0));
+    }
+  }
+
+  struct Range
+  {
+    bool opaque, invisible;
+  };
+
+  Range of(vtkIdType cell, vtkIdList* points) const
+  {
+    Range range{ true, true };
+    const auto add = [&](unsigned char alpha)
+    {
+      range.opaque = range.opaque && alpha == 255;
+      range.invisible = range.invisible && alpha == 0;
+    };
+    if (this->Colors.colorCoordinates)
+    {
+      return this->between(points);
+    }
+    if (this->Colors.colorAssociation == Association::Cell)
+    {
+      add(this->Colors.colors[4 * cell + 3]);
+      return range;
+    }
+    for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+    {
+      add(this->Colors.colors[4 * points->GetId(i) + 3]);
+    }
+    return range;
+  }
+
+private:
+  /// Of all texels between those of the points.
+  Range between(vtkIdList* points) const
+  {
+    const int size = this->Colors.colorTextureSize;
+    int first = size, last = -1;
+    bool none = false; // a point has no value
+    for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+    {
+      const int texel = detail::texelAt(this->Colors,
+        detail::coordinatesAt(this->Colors, static_cast<std::size_t>(points->GetId(i))));
+      none = none || texel >= size;
+      first = texel < size ? std::min(first, texel) : first;
+      last = texel < size ? std::max(last, texel) : last;
+    }
+    Range range{ true, true };
+    if (none)
+    {
+      const unsigned char alpha = this->Colors.colorTexture[4 * size + 3];
+      range = { alpha == 255, alpha == 0 };
+    }
+    if (first <= last)
+    {
+      range.opaque = range.opaque && this->Clear[last + 1] == this->Clear[first];
+      range.invisible = range.invisible && this->Visible[last + 1] == this->Visible[first];
+    }
+    return range;
+  }
+
+  const Attributes& Colors;
+  std::vector<int> Clear{ 0 }, Visible{ 0 }; // such texels among the first i
+};
+
+struct Counts
+{
+  vtkIdType opaque = 0, invisible = 0, all = 0;
+};
+
+/// The opaque ones of cells whose ids begin at `base`.
+vtkSmartPointer<vtkCellArray> opaqueOf(
+  vtkCellArray* cells, vtkIdType base, vtkIdType points, const CellAlpha& alpha, Counts& counts)
+{
+  auto found = vtkSmartPointer<vtkCellArray>::New();
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i)
+  {
+    cells->GetCellAtId(i, ids);
+    const vtkIdType* id = ids->GetPointer(0);
+    if (ids->GetNumberOfIds() < 3 ||
+      std::any_of(
+        id, id + ids->GetNumberOfIds(), [&](vtkIdType p) { return p < 0 || p >= points; }))
+    {
+      continue;
+    }
+    const CellAlpha::Range range = alpha.of(base + i, ids);
+    ++counts.all;
+    counts.invisible += range.invisible;
+    counts.opaque += range.opaque;
+    if (range.opaque)
+    {
+      found->InsertNextCell(ids);
+    }
+  }
+  return found;
+}
+
+OpaqueCells::Answer sort(
+  vtkPolyData* mesh, const Attributes& attributes, vtkSmartPointer<vtkPolyData>& made)
+{
+  const std::size_t count = attributes.colorCoordinates ? 2 * attributes.colorTextureSize
+    : attributes.colorAssociation == Association::Cell  ? mesh->GetNumberOfCells()
+                                                        : mesh->GetNumberOfPoints();
+  made = nullptr;
+  if (allOpaque(attributes.colorCoordinates ? attributes.colorTexture : attributes.colors, count))
+  {
+    return { mesh, false };
+  }
+  const CellAlpha alpha(attributes);
+  Counts counts;
+  const vtkIdType polys = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
+  const vtkIdType points = mesh->GetNumberOfPoints();
+  const auto opaquePolys = opaqueOf(mesh->GetPolys(), polys, points, alpha, counts);
+  const auto opaqueStrips =
+    opaqueOf(mesh->GetStrips(), polys + mesh->GetNumberOfPolys(), points, alpha, counts);
+  OpaqueCells::Answer answer;
+  answer.translucent = counts.opaque + counts.invisible < counts.all;
+  if (counts.opaque == counts.all)
+  {
+    answer.mesh = mesh;
+  }
+  else if (counts.opaque > 0)
+  {
+    made = vtkSmartPointer<vtkPolyData>::New();
+    made->SetPoints(mesh->GetPoints());
+    made->SetPolys(opaquePolys);
+    made->SetStrips(opaqueStrips);
+    answer.mesh = made;
+  }
+  return answer;
+}
+}
+
+OpaqueCells::Answer OpaqueCells::of(const SurfacePart& part, const Attributes& attributes)
+{
+  vtkPolyData* mesh = part.mesh;
+  vtkMapper* colors = part.colors;
+  if (part.opacity < 1.0)
+  {
+    return { nullptr, part.opacity > 0.0 };
+  }
+  if (!attributes.colors && !attributes.colorCoordinates)
+  {
+    return { mesh, false };
+  }
+  Entry& entry = this->Entries[{ mesh, colors }];
+  entry.asked = true;
+  // Times are never given twice, so a new object in an old one's place is noticed, too.
+  const Times times{ mesh->GetMTime(), timeOf(colors->GetColorMapColors()),
+    timeOf(colors->GetColorCoordinates()), timeOf(colors->GetColorTextureMap()) };
+  if (entry.times != times)
+  {
+    entry.times = times;
+    entry.answer = sort(mesh, attributes, entry.made);
+  }
+  return entry.answer;
+}
+
+void OpaqueCells::endFrame()
+{
+  for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
+  {
+    const bool asked = std::exchange(entry->second.asked, false);
+    entry = asked ? std::next(entry) : this->Entries.erase(entry);
+  }
+}
+}

@@ -1,0 +1,50 @@
+// Which cells of a surface its mapped colours leave opaque.
+#ifndef svoOpaqueCells_h
+#define svoOpaqueCells_h
+
+#include "svoScene.h"
+#include "svoSurfaceLook.h"
+
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+class vtkMapper;
+class vtkPolyData;
+
+namespace svo
+{
+/// Kept from frame to frame until the mesh or its colours change.
+class OpaqueCells
+{
+public:
+  struct Answer
+  {
+    vtkPolyData* mesh = nullptr; // of the opaque cells: the surface's own if all are; none if none
+    bool translucent = false;    // there are cells that are neither opaque nor invisible
+  };
+
+  /// The part's scalars have been mapped to `attributes`. A cell is opaque if all of its points
+  /// are, and all colours between them.
+  Answer of(const SurfacePart& part, const Attributes& attributes);
+
+  /// Forgets what was not asked for since the last call.
+  void endFrame();
+
+private:
+  using Times = std::array<std::uint64_t, 4>; // of the mesh and of what its colours are made of
+  struct Entry
+  {
+    Times times{};
+    Answer answer;
+    vtkSmartPointer<vtkPolyData> made;
+    bool asked = false;
+  };
+  std::map<std::pair<vtkPolyData*, vtkMapper*>, Entry> Entries;
+};
+}
+
+#endif

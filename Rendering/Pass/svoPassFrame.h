@@ -1,0 +1,87 @@
+// A frame of a pass, from its collection to its end.
+#ifndef svoPassFrame_h
+#define svoPassFrame_h
+
+#include "svoPassRenderer.h"
+#include "vtkSVORenderPass.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkProp.h"
+#include "vtkPropCollection.h"
+#include "vtkRenderer.h"
+#include "vtkSmartPointer.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace svo
+{
+/// It owns what it needs: between its beginning and its end pipelines run and events are invoked,
+/// and observers do as they like. They drop the pass, detach it, remove actors, finalize the window
+/// or draw another one with the same pass, whose frame then lies within this one.
+struct PassFrame
+{
+  PassFrame(std::shared_ptr<PassRenderer> passRenderer, vtkRenderer* drawn)
+    : of(std::move(passRenderer))
+    , renderer(drawn)
+    , context(stateOf(windowOf(drawn)))
+  {
+    vtkCollectionSimpleIterator iterator;
+    vtkPropCollection* collection = drawn->GetViewProps();
+    collection->InitTraversal(iterator);
+    while (vtkProp* prop = collection->GetNextProp(iterator))
+    {
+      this->props.emplace_back(prop);
+    }
+  }
+
+  /// False if the window was finalized, or taken away, since the frame was begun.
+  bool canDraw() const
+  {
+    return this->context && stateOf(windowOf(this->renderer)) == this->context;
+  }
+
+  /// Opens the window again if it was finalized, as its next frame would: VTK goes on with this one
+  /// in any case, and aborts without. False if there is no window.
+  bool reopen()
+  {
+    vtkOpenGLRenderWindow* window = windowOf(this->renderer);
+    if (window && !this->canDraw())
+    {
+      window->Start();
+    }
+    this->context = stateOf(window);
+    return window != nullptr;
+  }
+
+  const std::shared_ptr<PassRenderer> of;
+  vtkRenderer* const renderer;
+  /// VTK's renderer has an array of them and does not own them.
+  std::vector<vtkSmartPointer<vtkProp>> props;
+  FrameSettings settings;
+  double sampleDistance = 1.0; // pixels
+  bool traced = false;
+  std::vector<std::string> messages; // said when the frame is done
+
+  // Where the pass is attached:
+  vtkSmartPointer<vtkSVORenderPass> pass; // until the frame ends
+  std::vector<vtkProp*> receivers;        // those that carry the pass while the frame is drawn
+
+private:
+  static vtkOpenGLRenderWindow* windowOf(vtkRenderer* renderer)
+  {
+    return vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  }
+  /// What a window has until it is finalized.
+  static vtkOpenGLState* stateOf(vtkOpenGLRenderWindow* window)
+  {
+    return window ? window->GetState() : nullptr;
+  }
+
+  vtkSmartPointer<vtkOpenGLState> context; // kept, so that no other comes into its place
+};
+}
+
+#endif

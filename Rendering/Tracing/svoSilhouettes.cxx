@@ -1,0 +1,457 @@
+#include "svoSilhouettes.h"
+
+#include "svoLayeredView.h"
+#include "svoPixelShader.h"
+#include "svoSelect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+namespace svo
+{
+namespace
+{
+constexpr int MostSamples = 32;
+
+/// What a pixel's width is in window depth. With z = a + b / t and a pixel's width proportional to
+/// t it is affine in z, in a parallel view constant.
+struct PixelDepth
+{
+  explicit PixelDepth(const View& view)
+  {
+    const double first = view.parallel ? 1.0 : view.tNear;
+    const double t[2] = { first, 2.0 * first };
+    double z[2], width[2];
+    for (int i = 0; i < 2; ++i)
+    {
+      z[i] = view.windowDepth(t[i]);
+      // The derivative of the window depth, from a difference that is exact for 1 / t.
+      const double step = view.windowDepth(2.0 * t[i]) - z[i];
+      width[i] = worldPixel(view, t[i]) * std::abs(step) * (view.parallel ? 1.0 : 2.0) / t[i];
+    }
+    this->slope = z[1] != z[0] ? static_cast<float>((width[1] - width[0]) / (z[1] - z[0])) : 0.0f;
+    this->constant = static_cast<float>(width[0] - this->slope * z[0]);
+  }
+  float operator()(float window) const { return this->constant + this->slope * window; }
+
+  float constant = 0.0f;
+  float slope = 0.0f;
+};
+
+/// Samples of one pixel that see the same triangle.
+struct Facet
+{
+  std::uint32_t instance;
+  Primitive primitive;
+  std::uint32_t samples = 0; // bit i: sample i
+  int count = 0;
+  double x = 0.0, y = 0.0, t = 0.0; // mean of its samples; in between their sum
+  std::uint8_t color[4]{};
+};
+
+/// An edge pixel, and which of the tile's facets are its own.
+struct EdgePixel
+{
+  int x, y;
+  std::size_t firstFacet, lastFacet;
+  int hits; // samples
+};
+
+/// What a thread needs, from tile to tile.
+struct TileScratch
+{
+  std::vector<EdgePixel> pixels;
+  std::vector<Samples> samples;
+  std::vector<Facet> facets;
+  std::vector<std::size_t> shaded; // indices of facets
+  PixelShader::Scratch shading;
+};
+
+class Finder
+{
+public:
+  Finder(const ShadedScene& shaded, const PixelShader& shader, const Frame& frame,
+    const std::vector<glm::vec2>& positions)
+    : Lit(shaded)
+    , Shader(shader)
+    , Of(shaded.view)
+    , Picture(frame)
+    , Positions(positions)
+    , SampleCount(std::min(static_cast<int>(positions.size()), MostSamples))
+    , Width(shaded.view)
+  {
+  }
+
+  /// Adds what is to be changed in an 8x8 tile.
+  void find(int tileX, int tileY, TileScratch& scratch, Silhouettes& result) const
+  {
+    this->findPixels(8 * tileX, 8 * tileY, scratch);
+    if (scratch.pixels.empty())
+    {
+      return;
+    }
+    this->trace(tileX, tileY, scratch);
+    this->findFacets(scratch);
+    this->color(scratch);
+    for (const EdgePixel& pixel : scratch.pixels)
+    {
+      this->divide(pixel, scratch.facets, result);
+    }
+  }
+
+private:
+  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * this->Of.width + x; }
+  bool inside(int x, int y) const
+  {
+    return x >= 0 && y >= 0 && x < this->Of.width && y < this->Of.height;
+  }
+  std::uint32_t instance(int x, int y) const
+  {
+    return this->inside(x, y) ? this->Picture.instance[this->at(x, y)] : NoInstance;
+  }
+
+  void findPixels(int x0, int y0, TileScratch& scratch) const
+  {
+    scratch.pixels.clear();
+    for (int y = y0; y < std::min(y0 + 8, this->Of.height); ++y)
+    {
+      for (int x = x0; x < std::min(x0 + 8, this->Of.width); ++x)
+      {
+        if (this->edge(x, y))
+        {
+          scratch.pixels.push_back({ x, y, 0, 0, 0 });
+        }
+      }
+    }
+  }
+
+  bool edge(int x, int y) const
+  {
+    const std::uint32_t i = this->Picture.instance[this->at(x, y)];
+    if (this->instance(x - 1, y) != i || this->instance(x + 1, y) != i ||
+      this->instance(x, y - 1) != i || this->instance(x, y + 1) != i)
+    {
+      return true;
+    }
+    return i != NoInstance && (this->step(x, y) || this->crease(x, y));
+  }
+
+  /// The pixels around are of the same instance. Window depth is linear on planes. One surface
+  /// bends little between pixels; a step is of more than a few pixels' size.
+  bool step(int x, int y) const
+  {
+    const float* depth = this->Picture.depth.data() + this->at(x, y);
+    const int up = this->Of.width;
+    const float limit = 3.0f * this->Width(*depth);
+    return std::abs(depth[-1] - 2.0f * depth[0] + depth[1]) > limit ||
+      std::abs(depth[-up] - 2.0f * depth[0] + depth[up]) > limit;
+  }
+
+  /// Likewise: the colour bends from one triangle to another, more than its rounding does.
+  bool crease(int x, int y) const
+  {
+    constexpr int Most = 4; // grey levels
+    const Primitive* primitive = this->Picture.primitive.data() + this->at(x, y);
+    const std::ptrdiff_t up = this->Of.width;
+    if (primitive[-1] == *primitive && primitive[1] == *primitive && primitive[-up] == *primitive &&
+      primitive[up] == *primitive)
+    {
+      return false;
+    }
+    const std::uint8_t* color = this->Picture.color.data() + 4 * this->at(x, y);
+    const auto bends = [&](std::ptrdiff_t away)
+    {
+      return std::abs(color[-away] - 2 * color[0] + color[away]) > Most ||
+        std::abs(color[1 - away] - 2 * color[1] + color[1 + away]) > Most ||
+        std::abs(color[2 - away] - 2 * color[2] + color[2 + away]) > Most;
+    };
+    return bends(4) || bends(4 * up);
+  }
+
+  /// The samples of pixel number k.
+  std::size_t block(std::size_t k) const { return k / this->pixelsPerBlock(); }
+  int lane(std::size_t k) const
+  {
+    return static_cast<int>(k % this->pixelsPerBlock()) * this->SampleCount;
+  }
+  std::size_t pixelsPerBlock() const { return static_cast<std::size_t>(64 / this->SampleCount); }
+
+  void trace(int tileX, int tileY, TileScratch& scratch) const
+  {
+    const std::size_t count = scratch.pixels.size();
+    scratch.samples.resize(this->block(count - 1) + 1);
+    for (Samples& samples : scratch.samples) // lanes that nobody needs
+    {
+      std::fill(samples.x, samples.x + 64, 8.0 * tileX + 0.5);
+      std::fill(samples.y, samples.y + 64, 8.0 * tileY + 0.5);
+    }
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      Samples& samples = scratch.samples[this->block(k)];
+      for (int s = 0; s < this->SampleCount; ++s)
+      {
+        samples.x[this->lane(k) + s] = scratch.pixels[k].x + double(this->Positions[s].x);
+        samples.y[this->lane(k) + s] = scratch.pixels[k].y + double(this->Positions[s].y);
+      }
+    }
+    this->Lit.shaded.eye.sample(tileX, tileY, scratch.samples.data(), scratch.samples.size());
+  }
+
+  /// From linear depth to what is affine on a plane, and back: so means stay on the triangle.
+  double flat(double t) const { return this->Of.parallel ? t : 1.0 / t; }
+
+  void findFacets(TileScratch& scratch) const
+  {
+    scratch.facets.clear();
+    for (std::size_t k = 0; k < scratch.pixels.size(); ++k)
+    {
+      EdgePixel& pixel = scratch.pixels[k];
+      pixel.firstFacet = scratch.facets.size();
+      const Samples& samples = scratch.samples[this->block(k)];
+      for (int s = 0; s < this->SampleCount; ++s)
+      {
+        const int lane = this->lane(k) + s;
+        if (samples.instance[lane] == NoInstance)
+        {
+          continue;
+        }
+        const auto found =
+          std::find_if(scratch.facets.begin() + pixel.firstFacet, scratch.facets.end(),
+            [&](const Facet& facet) {
+              return facet.instance == samples.instance[lane] &&
+                facet.primitive == samples.primitive[lane];
+            });
+        const std::size_t at = found - scratch.facets.begin();
+        if (at == scratch.facets.size())
+        {
+          scratch.facets.push_back({ samples.instance[lane], samples.primitive[lane] });
+        }
+        Facet& facet = scratch.facets[at];
+        facet.samples |= 1u << s;
+        ++facet.count;
+        ++pixel.hits;
+        facet.x += samples.x[lane];
+        facet.y += samples.y[lane];
+        facet.t += this->flat(samples.t[lane]);
+      }
+      pixel.lastFacet = scratch.facets.size();
+    }
+    for (Facet& facet : scratch.facets)
+    {
+      facet.x /= facet.count;
+      facet.y /= facet.count;
+      facet.t = this->flat(facet.t / facet.count);
+    }
+  }
+
+  /// Colours all facets: those that the pixel's centre sees as the frame has it, others at the
+  /// middle of their samples.
+  void color(TileScratch& scratch) const
+  {
+    scratch.shaded.clear();
+    for (const EdgePixel& pixel : scratch.pixels)
+    {
+      for (std::size_t f = pixel.firstFacet; f < pixel.lastFacet; ++f)
+      {
+        Facet& facet = scratch.facets[f];
+        std::size_t shownBy = this->at(pixel.x, pixel.y);
+        if (!this->shows(shownBy, facet) &&
+          (this->Lit.shaded.dark.knows(this->position(facet)) ||
+            !this->nearby(pixel, facet, shownBy)))
+        {
+          scratch.shaded.push_back(f);
+          continue;
+        }
+        std::copy_n(this->Picture.color.data() + 4 * shownBy, 4, facet.color);
+      }
+    }
+    TilePoints& points = scratch.shading.points;
+    for (std::size_t first = 0; first < scratch.shaded.size(); first += TilePoints::Most)
+    {
+      points.count =
+        static_cast<int>(std::min<std::size_t>(scratch.shaded.size() - first, TilePoints::Most));
+      for (int i = 0; i < points.count; ++i)
+      {
+        const Facet& facet = scratch.facets[scratch.shaded[first + i]];
+        points.pixel[i] = static_cast<std::uint8_t>(i);
+        points.instance[i] = facet.instance;
+        points.primitive[i] = facet.primitive;
+        points.x[i] = facet.x;
+        points.y[i] = facet.y;
+        points.t[i] = facet.t;
+      }
+      this->Shader.shadePoints(this->Lit, scratch.shading);
+      for (int i = 0; i < points.count; ++i)
+      {
+        Facet& facet = scratch.facets[scratch.shaded[first + points.pixel[i]]];
+        std::memcpy(facet.color, scratch.shading.rgba + i, 4);
+      }
+    }
+  }
+
+  bool shows(std::size_t pixel, const Facet& facet) const
+  {
+    return this->Picture.instance[pixel] == facet.instance &&
+      this->Picture.primitive[pixel] == facet.primitive;
+  }
+
+  glm::dvec3 position(const Facet& facet) const
+  {
+    return this->Of.rayOrigin(facet.x, facet.y) + facet.t * this->Of.rayDirection(facet.x, facet.y);
+  }
+
+  float windowDepth(const Facet& facet) const
+  {
+    const double offset = this->Lit.shaded.scene.instances[facet.instance].depthOffsetUnits;
+    return static_cast<float>(std::clamp(this->Of.windowDepth(facet.t) + offset, 0.0, 1.0));
+  }
+
+  /// The pixel in or around this one that shows the facet's instance nearest to its depth.
+  bool nearby(const EdgePixel& pixel, const Facet& facet, std::size_t& best) const
+  {
+    const float depth = this->windowDepth(facet);
+    float least = std::numeric_limits<float>::infinity();
+    for (int y = pixel.y - 1; y <= pixel.y + 1; ++y)
+    {
+      for (int x = pixel.x - 1; x <= pixel.x + 1; ++x)
+      {
+        if (this->instance(x, y) == facet.instance)
+        {
+          const float distance = std::abs(this->Picture.depth[this->at(x, y)] - depth);
+          best = distance < least ? this->at(x, y) : best;
+          least = std::min(distance, least);
+        }
+      }
+    }
+    return least < std::numeric_limits<float>::infinity();
+  }
+
+  /// Adds an edge pixel's parts, or, where one surface fills it, its colour.
+  void divide(const EdgePixel& pixel, const std::vector<Facet>& facets, Silhouettes& result) const
+  {
+    const std::size_t own = this->at(pixel.x, pixel.y);
+    const bool hit = this->Picture.instance[own] != NoInstance;
+    const std::size_t count = pixel.lastFacet - pixel.firstFacet;
+    const bool whole = pixel.hits == this->SampleCount;
+    if (count == 0 ? !hit : count == 1 && whole && this->shows(own, facets[pixel.firstFacet]))
+    {
+      return;
+    }
+    Silhouettes::Pixel replaced;
+    replaced.index = own;
+    const std::size_t firstPart = result.parts.size();
+    std::uint32_t taken = 0;
+    for (std::size_t f = pixel.firstFacet; f < pixel.lastFacet; ++f)
+    {
+      if (!(facets[f].samples & taken))
+      {
+        result.parts.push_back(this->partOf(pixel, facets, f, taken));
+      }
+    }
+    if (result.parts.size() == firstPart + 1 && whole && hit &&
+      this->sameSurface(result.parts.back(), facets[pixel.firstFacet].instance, own))
+    {
+      std::copy_n(result.parts.back().color, 4, replaced.color);
+      result.parts.pop_back();
+    }
+    if (hit)
+    {
+      result.pixels.push_back(replaced);
+    }
+  }
+
+  bool sameSurface(const PixelPart& part, std::uint32_t instance, std::size_t pixel) const
+  {
+    return this->Picture.instance[pixel] == instance &&
+      std::abs(this->Picture.depth[pixel] - part.depth) <= 3.0f * this->Width(part.depth);
+  }
+
+  /// The facets of the instance that are about as deep as number f.
+  PixelPart partOf(const EdgePixel& pixel, const std::vector<Facet>& facets, std::size_t f,
+    std::uint32_t& taken) const
+  {
+    PixelPart part;
+    part.x = static_cast<std::uint16_t>(pixel.x);
+    part.y = static_cast<std::uint16_t>(pixel.y);
+    const float depth = this->windowDepth(facets[f]);
+    float depths = 0.0f;
+    int colors[3]{};
+    int count = 0;
+    for (std::size_t g = f; g < pixel.lastFacet; ++g)
+    {
+      const Facet& facet = facets[g];
+      const float other = this->windowDepth(facet);
+      if (facet.instance != facets[f].instance || facet.samples & taken ||
+        std::abs(other - depth) > 3.0f * this->Width(depth))
+      {
+        continue;
+      }
+      part.samples |= facet.samples;
+      depths += static_cast<float>(facet.count) * other;
+      count += facet.count;
+      for (int c = 0; c < 3; ++c)
+      {
+        colors[c] += facet.count * facet.color[c];
+      }
+    }
+    taken |= part.samples;
+    part.depth = depths / static_cast<float>(count);
+    for (int c = 0; c < 3; ++c)
+    {
+      part.color[c] = static_cast<std::uint8_t>((colors[c] + count / 2) / count);
+    }
+    part.color[3] = 255;
+    return part;
+  }
+
+  PixelShader::Lit Lit;
+  const PixelShader& Shader;
+  const View& Of;
+  const Frame& Picture;
+  const std::vector<glm::vec2>& Positions;
+  int SampleCount;
+  PixelDepth Width;
+};
+}
+
+void findSilhouettes(const ShadedScene& shaded, const PixelShader& shader, const Frame& frame,
+  const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor, Silhouettes& result)
+{
+  result.clear();
+  if (frame.covered.empty() || positions.empty())
+  {
+    return;
+  }
+  const Finder finder(shaded, shader, frame, positions);
+  const View& view = shaded.view;
+  // A surface reaches into pixels beside those whose centres show it.
+  const int left = std::max(frame.covered.x0 - 1, 0) / 8;
+  const int right = (std::min(frame.covered.x1 + 1, view.width) + 7) / 8;
+  const int bottom = std::max(frame.covered.y0 - 1, 0) / 8;
+  const int top = (std::min(frame.covered.y1 + 1, view.height) + 7) / 8;
+  std::vector<Silhouettes> rows(top - bottom);
+  parallelFor(0, rows.size(), 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      const auto scratch = std::make_unique<TileScratch>();
+      for (std::size_t row = begin; row < end; ++row)
+      {
+        for (int column = left; column < right; ++column)
+        {
+          finder.find(column, bottom + static_cast<int>(row), *scratch, rows[row]);
+        }
+      }
+    });
+  for (const Silhouettes& row : rows)
+  {
+    result.parts.insert(result.parts.end(), row.parts.begin(), row.parts.end());
+    result.pixels.insert(result.pixels.end(), row.pixels.begin(), row.pixels.end());
+  }
+  std::stable_sort(result.parts.begin(), result.parts.end(),
+    [](const PixelPart& a, const PixelPart& b) { return a.samples < b.samples; });
+}
+}

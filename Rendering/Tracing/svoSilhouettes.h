@@ -1,0 +1,71 @@
+// Pixels that surfaces share with each other or with the background, and edges inside of surfaces:
+// what the samples of a window with multisampling see there.
+//
+// The tracer answers one ray a pixel. VTK's rasteriser gives every pixel of such a window several
+// depths, and one colour for each triangle in it; this does the same for traced surfaces, along
+// their edges only, so that these are as smooth as everybody else's. Samples are traced by the
+// rule of the pixels: through the same LayeredView.
+#ifndef svoSilhouettes_h
+#define svoSilhouettes_h
+
+#include "svoParallel.h"
+#include "svoTracer.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace svo
+{
+class PixelShader;
+struct ShadedScene;
+
+/// What one surface covers of one pixel.
+struct PixelPart
+{
+  std::uint32_t samples = 0; // bit i: sample i
+  std::uint16_t x = 0;       // pixel
+  std::uint16_t y = 0;
+  float depth = 1.0f;      // window depth, mean of its samples
+  std::uint8_t color[4]{}; // RGBA, mean of its samples
+};
+
+struct Silhouettes
+{
+  /// A pixel of the frame with a hit, and the colour that it has in this window: the mean of its
+  /// samples where one surface fills it, alpha 0 where parts replace it.
+  struct Pixel
+  {
+    std::size_t index = 0;
+    std::uint8_t color[4]{}; // RGBA
+  };
+  std::vector<PixelPart> parts; // by `samples`, then row by row
+  std::vector<Pixel> pixels;
+
+  void clear()
+  {
+    this->parts.clear();
+    this->pixels.clear();
+  }
+  /// Exchanges the colours of `pixels` with the frame's: once to use them, once more to go back.
+  void exchange(Frame& frame)
+  {
+    for (Pixel& pixel : this->pixels)
+    {
+      std::swap_ranges(pixel.color, pixel.color + 4, frame.color.data() + 4 * pixel.index);
+    }
+  }
+};
+
+/// Finds the pixels where the instance, the depth, or the colour from one facet to the next
+/// changes, and traces a ray through each of their samples, at `positions` in a pixel, 0..1, at
+/// most 32. `frame` is what `shaded` was rendered to. Other pixels are left to the frame. See
+/// Tracer::divideEdges().
+void findSilhouettes(const ShadedScene& shaded, const PixelShader& shader, const Frame& frame,
+  const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor, Silhouettes& result);
+}
+
+#endif
