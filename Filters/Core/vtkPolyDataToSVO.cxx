@@ -1,9 +1,11 @@
 #include "vtkPolyDataToSVO.h"
 
 #include "svoAbort.h"
+#include "svoMeshDetail.h"
 #include "svoMeshOctree.h"
 #include "svoOctreeCache.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -16,6 +18,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -85,6 +89,7 @@ class vtkPolyDataToSVO::vtkInternals
 {
 public:
   svo::OctreeCache Cache;
+  std::map<std::uint64_t, double> Voxels; // by the signature of a mesh
 };
 
 //------------------------------------------------------------------------------
@@ -187,12 +192,48 @@ int vtkPolyDataToSVO::RequestData(
 //------------------------------------------------------------------------------
 void vtkPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output)
 {
-  this->Convert(
-    vtkPolyData::SafeDownCast(input), vtkPolyData::SafeDownCast(output), this->ModelBounds);
+  vtkPolyData* mesh = vtkPolyData::SafeDownCast(input);
+  vtkBoundingBox whole;
+  if (const double voxel = this->AdaptedVoxel(mesh); voxel > 0.0)
+  {
+    double cells[6];
+    mesh->GetCellsBounds(cells);
+    whole.AddBounds(cells);
+    whole.AddBounds(this->ModelBounds); // nothing, where low is above high
+    double bounds[6];
+    whole.GetBounds(bounds);
+    this->Convert(mesh, vtkPolyData::SafeDownCast(output), this->ModelBounds,
+      svo::levelOfVoxel(bounds, voxel, this->MaximumLevel));
+    return;
+  }
+  this->Convert(mesh, vtkPolyData::SafeDownCast(output), this->ModelBounds, this->MaximumLevel);
 }
 
 //------------------------------------------------------------------------------
-void vtkPolyDataToSVO::Convert(vtkPolyData* input, vtkPolyData* output, const double modelBounds[6])
+double vtkPolyDataToSVO::AdaptedVoxel(vtkPolyData* mesh)
+{
+  constexpr std::size_t Most = 4096; // meshes to remember
+  if (!this->AdaptLevel || (this->LeafGeometry != TRIANGLE && this->LeafGeometry != AUTOMATIC))
+  {
+    return 0.0;
+  }
+  auto& voxels = this->Internals->Voxels;
+  const std::uint64_t signature = svo::meshSignature(mesh);
+  const auto known = voxels.find(signature);
+  if (known != voxels.end())
+  {
+    return known->second;
+  }
+  if (voxels.size() == Most)
+  {
+    voxels.clear();
+  }
+  return voxels[signature] = svo::detailVoxel(mesh);
+}
+
+//------------------------------------------------------------------------------
+void vtkPolyDataToSVO::Convert(
+  vtkPolyData* input, vtkPolyData* output, const double modelBounds[6], int level)
 {
   this->BuildTime = 0.0;
   this->NumberOfVoxels = 0;
@@ -201,7 +242,7 @@ void vtkPolyDataToSVO::Convert(vtkPolyData* input, vtkPolyData* output, const do
   svo::copySignature(input, output);
 
   svo::MeshOctreeOptions options;
-  options.level = this->MaximumLevel;
+  options.level = level;
   options.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);
   std::copy(modelBounds, modelBounds + 6, options.modelBounds.begin());
   options.memoryLimit = this->MemoryLimit * Kibi;
@@ -261,6 +302,7 @@ void vtkPolyDataToSVO::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MaximumLevel: " << this->MaximumLevel << "\n";
+  os << indent << "AdaptLevel: " << (this->AdaptLevel ? "On\n" : "Off\n");
   os << indent << "LeafGeometry: " << this->GetLeafGeometryAsString() << "\n";
   os << indent << "ModelBounds: (" << this->ModelBounds[0] << ", " << this->ModelBounds[1] << ", "
      << this->ModelBounds[2] << ", " << this->ModelBounds[3] << ", " << this->ModelBounds[4] << ", "

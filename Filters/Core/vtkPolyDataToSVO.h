@@ -54,6 +54,19 @@ public:
   vtkGetMacro(MaximumLevel, int);
   //@}
 
+  //@{
+  /**
+   * Whether MaximumLevel is a limit: where triangles are exact (leaf geometry Triangle or
+   * Automatic), octrees get no more levels than it takes to tell the mesh's triangles apart. They
+   * look the same, and those of meshes of few triangles, as blocks are, take a small part of the
+   * memory and of the time to build. IsOccupied() of vtkSparseVoxelOctree is as coarse then.
+   * Default off. See GetNumberOfLevels() of vtkSparseVoxelOctree for what it came to.
+   */
+  vtkSetMacro(AdaptLevel, bool);
+  vtkGetMacro(AdaptLevel, bool);
+  vtkBooleanMacro(AdaptLevel, bool);
+  //@}
+
   /**
    * What a ray meets in an occupied voxel.
    */
@@ -199,9 +212,15 @@ protected:
   virtual void ConvertInput(vtkDataObject* input, vtkDataObject* output);
 
   /**
-   * Makes the output of one mesh.
+   * Makes the output of one mesh, with an octree of the level.
    */
-  void Convert(vtkPolyData* input, vtkPolyData* output, const double modelBounds[6]);
+  void Convert(vtkPolyData* input, vtkPolyData* output, const double modelBounds[6], int level);
+
+  /**
+   * The largest voxel, in the mesh's units, that tells the mesh's triangles apart; 0 where
+   * MaximumLevel is no limit but the level, or for a mesh that needs all of it.
+   */
+  double AdaptedVoxel(vtkPolyData* mesh);
 
 private:
   vtkPolyDataToSVO(const vtkPolyDataToSVO&) = delete;
@@ -209,6 +228,7 @@ private:
 
   int MaximumLevel = 10;
   int LeafGeometry = AUTOMATIC;
+  bool AdaptLevel = false;
   double ModelBounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
   bool CacheTimeSteps = true;
   bool KeepOctrees = false;

@@ -3,6 +3,7 @@
 #include "svoControllerProcesses.h"
 
 #include "svoAbort.h"
+#include "svoMeshDetail.h"
 
 #include "vtkDataObjectTree.h"
 #include "vtkDemandDrivenPipeline.h"
@@ -134,11 +135,33 @@ void Pieces::add(vtkDataObject* input, vtkDataObject* output, Place place)
   }
 }
 
-/// Bounds of a piece, as processes tell each other.
+/// Bounds of a piece and the voxels that it needs, as processes tell each other.
 struct Record
 {
   Place place;
   Bounds bounds;
+  double voxel; // 0: as small as there are
+};
+
+/// What the pieces in a place are pieces of.
+struct Whole
+{
+  Bounds bounds = Nothing;
+  int pieces = 0;
+  double voxel = 0.0;
+
+  void add(const Record& piece)
+  {
+    Bounds& b = this->bounds;
+    const bool first = this->pieces == 0;
+    for (int i = 0; i < 6; i += 2)
+    {
+      b[i] = first ? piece.bounds[i] : std::min(b[i], piece.bounds[i]);
+      b[i + 1] = first ? piece.bounds[i + 1] : std::max(b[i + 1], piece.bounds[i + 1]);
+    }
+    this->voxel = first ? piece.voxel : std::min(this->voxel, piece.voxel);
+    ++this->pieces;
+  }
 };
 }
 
@@ -231,7 +254,7 @@ void vtkPPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output
     const Bounds bounds = boundsOf(piece.input);
     if (!isNothing(bounds))
     {
-      records.push_back({ piece.place, bounds });
+      records.push_back({ piece.place, bounds, this->AdaptedVoxel(piece.input) });
     }
   }
   if (this->Controller && this->Controller->GetNumberOfProcesses() > 1)
@@ -240,18 +263,10 @@ void vtkPPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output
     const std::vector<Record> own = records;
     svo::gatherRecords(processes, own, records);
   }
-  std::map<Place, std::pair<Bounds, int>> wholes; // and the number of pieces
+  std::map<Place, Whole> wholes;
   for (const Record& record : records)
   {
-    auto& whole = wholes[record.place];
-    Bounds& b = whole.first;
-    for (int i = 0; i < 6; i += 2)
-    {
-      const bool first = whole.second == 0;
-      b[i] = first ? record.bounds[i] : std::min(b[i], record.bounds[i]);
-      b[i + 1] = first ? record.bounds[i + 1] : std::max(b[i + 1], record.bounds[i + 1]);
-    }
-    ++whole.second;
+    wholes[record.place].add(record);
   }
 
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -262,22 +277,24 @@ void vtkPPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output
       piece.output->ShallowCopy(piece.input);
       continue;
     }
-    const auto whole = wholes.find(piece.place);
+    const auto found = wholes.find(piece.place);
+    const Whole whole = found != wholes.end() ? found->second : Whole();
     Bounds model;
     std::copy(this->GetModelBounds(), this->GetModelBounds() + 6, model.begin());
-    if (whole != wholes.end() && whole->second.second > 1)
+    Bounds reach = isNothing(model) ? whole.bounds : model;
+    for (int k = 0; k < 6 && whole.pieces > 0; k += 2)
     {
-      const Bounds& b = whole->second.first;
-      const bool given = !isNothing(model);
-      for (int k = 0; k < 6; k += 2)
-      {
-        model[k] = given ? std::min(model[k], b[k]) : b[k];
-        model[k + 1] = given ? std::max(model[k + 1], b[k + 1]) : b[k + 1];
-      }
+      reach[k] = std::min(reach[k], whole.bounds[k]);
+      reach[k + 1] = std::max(reach[k + 1], whole.bounds[k + 1]);
+    }
+    if (whole.pieces > 1)
+    {
+      model = reach;
     }
     this->SetProgressShiftScale(
       static_cast<double>(i) / all.size(), 1.0 / static_cast<double>(all.size()));
-    this->Convert(piece.input, piece.output, model.data());
+    this->Convert(piece.input, piece.output, model.data(),
+      svo::levelOfVoxel(reach.data(), whole.voxel, this->GetMaximumLevel()));
   }
   this->SetProgressShiftScale(0.0, 1.0);
 }

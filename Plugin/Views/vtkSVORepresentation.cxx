@@ -28,6 +28,7 @@ vtkStandardNewMacro(vtkSVORepresentation);
 vtkSVORepresentation::vtkSVORepresentation()
 {
   this->ToOctree->SetKeepOctrees(true);
+  this->ToOctree->SetAdaptLevel(true);
   this->ToOctree->AddObserver(
     vtkCommand::ProgressEvent, this, &vtkSVORepresentation::ForwardProgress);
   this->Actor->Delete();

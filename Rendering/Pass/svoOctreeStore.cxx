@@ -1,5 +1,6 @@
 #include "svoOctreeStore.h"
 
+#include "svoMeshDetail.h"
 #include "svoMeshOctree.h"
 
 #include "vtkCellArray.h"
@@ -95,12 +96,18 @@ bool OctreeStore::attached(vtkPolyData* mesh, const StoreOptions& options, Octre
   return static_cast<bool>(octree);
 }
 
-void OctreeStore::measure(
-  vtkPolyData* mesh, const StoreOptions& options, MeshBox& box, std::size_t& triangles)
+void OctreeStore::measure(vtkPolyData* mesh, const StoreOptions& options, Instance& instance)
 {
-  const Known& known = this->knownOf(mesh, options);
-  box = known.box;
-  triangles = known.triangles;
+  Known& known = this->knownOf(mesh, options);
+  const bool exact = options.leafGeometry == LeafGeometry::Triangle ||
+    options.leafGeometry == LeafGeometry::Automatic;
+  if (exact && options.convert && known.detailLevel == 0)
+  {
+    known.detailLevel = detailLevel(mesh);
+  }
+  instance.box = known.box;
+  instance.triangles = known.triangles;
+  instance.detailLevel = exact ? known.detailLevel : 0;
 }
 
 OctreeStore::Answer OctreeStore::find(

@@ -57,10 +57,9 @@ public:
   /// True if the mesh brings an octree; it is all there will be for that mesh.
   bool attached(vtkPolyData* mesh, const StoreOptions& options, Octree& octree);
 
-  /// The box of the mesh's finite points and its number of triangles; for a mesh that brings no
-  /// octree.
-  void measure(
-    vtkPolyData* mesh, const StoreOptions& options, MeshBox& box, std::size_t& triangles);
+  /// Says what is known of a mesh that brings no octree: the box of its finite points, its number
+  /// of triangles and, where they will be exact, its level of detail.
+  void measure(vtkPolyData* mesh, const StoreOptions& options, Instance& instance);
 
   /// The octree of exactly this level, or the one that the mesh brings. With options.wait it is
   /// built where there is none. Else it is built in the background, and meanwhile another one is
@@ -104,6 +103,7 @@ private:
     std::uint64_t signature = 0;
     MeshBox box;
     std::size_t triangles = 0;
+    int detailLevel = 0; // 0: nobody asked
   };
 
   Known& knownOf(vtkPolyData* mesh, const StoreOptions& options);

@@ -25,7 +25,7 @@ void beginSurface(SceneSurface& surface, OctreeStore& store, const StoreOptions&
   Instance& instance = surface.instance;
   if (!store.attached(surface.mesh, options, instance.octree))
   {
-    store.measure(surface.mesh, options, instance.box, instance.triangles);
+    store.measure(surface.mesh, options, instance);
     instance.deepestLevel = options.level;
   }
 }

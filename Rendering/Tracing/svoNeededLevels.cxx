@@ -20,11 +20,15 @@ constexpr double HeadRoom = 7.0 / 8.0;
 /// Beyond this, world units, nothing can be said of what is seen.
 constexpr double LargestEdge = 1e140;
 
-/// The level that is built where `level` would do.
-int builtLevel(int level, const Instance& instance)
+/// The level that is built where `level` would do. Where triangles are exact, no deeper than it
+/// takes to tell them apart.
+int builtLevel(int level, const Instance& instance, bool exact)
 {
   const int coarsest = coarsestLevel(instance.box, instance.triangles);
-  return std::min(std::max(level, coarsest), instance.deepestLevel);
+  const int deepest = exact && instance.detailLevel > 0
+    ? std::min(instance.deepestLevel, std::max(instance.detailLevel, coarsest))
+    : instance.deepestLevel;
+  return std::min(std::max(level, coarsest), deepest);
 }
 
 /// Largest octree level that the rays of a view stop at; 0 if the view does not see the instance.
@@ -112,12 +116,14 @@ std::vector<NeededLevels> neededLevels(
       !instance.box.known() || (instance.visible && (eye.width <= 0 || eye.height <= 0));
     const bool rays =
       casting && instance.castShadow && settings.shadowTechnique == ShadowTechnique::Rays;
+    // Who asks for no error at all, or gives a bias in voxels, has the voxels' size in mind.
+    const bool exact = !rays && errorOf(instance) > 0.0 && settings.bias == 0.0;
     int& lights = needed[i].lights;
-    lights = lights > 0 ? builtLevel(lights, instance) : 0;
+    lights = lights > 0 ? builtLevel(lights, instance, exact) : 0;
     const int level = unknown || rays ? deepest
       : instance.visible              ? levelFor(instance, eye, errorOf(instance))
                                       : 1;
-    needed[i].eye = std::max(builtLevel(level, instance), lights);
+    needed[i].eye = std::max(builtLevel(level, instance, exact), lights);
   }
   return needed;
 }

@@ -30,7 +30,9 @@ struct NeededLevels
 /// known yet, of what is visible.
 ///
 /// No octree is coarser than its mesh: where many triangles share a brick, none of them stands well
-/// for a voxel (coarsestLevel()).
+/// for a voxel (coarsestLevel()). None is much finer either: triangles that look larger than voxels
+/// are traced exactly whatever the level (Instance::detailLevel). A pixel error of 0, a bias in
+/// voxels and rays to lights have the level that they ask for.
 VTKSVOTRACING_EXPORT std::vector<NeededLevels> neededLevels(
   const Scene& scene, const View& eye, const FrameSettings& settings);
 

@@ -42,9 +42,15 @@ Outline outlineOf(const Instance& instance)
     outline.meshLow[i] = h.pointCount > 0 ? h.meshBounds[2 * i] : 1.0;
     outline.meshHigh[i] = h.pointCount > 0 ? h.meshBounds[2 * i + 1] : -1.0;
   }
-  outline.voxelSize = h.voxelSize;
-  outline.smallestVoxel =
-    std::ldexp(h.voxelSize, std::min(static_cast<int>(h.level) - instance.deepestLevel, 0));
+  // An octree whose leaves are exact may be coarse because its mesh is: its voxels say nothing then
+  // of how far it reaches beyond the mesh.
+  constexpr int FineEnough = 10;
+  const int level = static_cast<int>(h.level);
+  const bool exact = instance.leafGeometry == LeafGeometry::Triangle ||
+    instance.leafGeometry == LeafGeometry::Automatic;
+  outline.voxelSize = std::ldexp(h.voxelSize, exact ? std::min(level - FineEnough, 0) : 0);
+  outline.smallestVoxel = std::min(
+    outline.voxelSize, std::ldexp(h.voxelSize, std::min(level - instance.deepestLevel, 0)));
   outline.signature = h.signature;
   outline.level = static_cast<std::int32_t>(h.level);
   outline.casts = instance.castShadow && !instance.octree.empty() && placed;

@@ -83,6 +83,7 @@ struct Instance
   MeshBox box;               // the mesh's own, local; stands for the octree until there is one
   std::size_t triangles = 0; // of the mesh, or about as many
   int deepestLevel = 0;      // that the mesh's octree may have; 0: the one that `octree` has
+  int detailLevel = 0;       // from which on its bricks have few triangles, all exact; 0: unknown
   int neededLevel = 0; // that this frame needs: `octree` is coarser while it is being deepened
 };
 

@@ -126,8 +126,19 @@ void testStill(Checks& checks, int leafGeometry, const std::string& name)
     checks.expect(outline < 0.05, name + ": the outline is that of the full level");
     checks.expect(own.pixels > 50 && own.mean < best.mean + 2.0, name + ": colours are as good");
   }
-  // Near it is the same octree.
-  checks.expect(same(adaptive.still(3.0), full.still(3.0)), name + ": near it is the full level");
+  if (leafGeometry == vtkSVORenderPass::LEAF_AUTOMATIC)
+  {
+    // Near its triangles are exact whatever the level, so that it is not deepened to the end.
+    const Difference near = difference(adaptive.still(3.0), full.still(3.0));
+    std::cout << name << ": near it is " << near.mean << " from the full level\n";
+    checks.expect(near.mean < 1e-3, name + ": near it looks like the full level");
+    checks.expect(memory < 1500, name + ": and takes a small part of the memory");
+  }
+  else
+  {
+    // Near it is the same octree.
+    checks.expect(same(adaptive.still(3.0), full.still(3.0)), name + ": near it is the full level");
+  }
   adaptive.pass->SetShadowTechniqueToShadowBuffer();
   // Back again, by way of interaction: nothing remains of it.
   Ring fresh(false, leafGeometry);

@@ -226,6 +226,29 @@ TEST(NeededLevels, NoOctreeIsCoarserThanItsMesh)
   EXPECT_EQ(eyeLevel(scene, seenFrom(400.0), settings), Deepest);
 }
 
+TEST(NeededLevels, NoOctreeIsFinerThanItsMeshWhereTrianglesAreExact)
+{
+  svo::Scene scene = oneThing();
+  const svo::View close = seenFrom(1.5);
+  ASSERT_GT(eyeLevel(scene, close, noShadows()), 6);
+  scene.instances[0].detailLevel = 6;
+  EXPECT_EQ(eyeLevel(scene, close, noShadows()), 6);
+  EXPECT_EQ(eyeLevel(scene, seenFrom(390.0), noShadows()), Coarsest); // where less will do
+  scene.instances[0].triangles = 1000000; // no coarser than the mesh all the same
+  EXPECT_GT(eyeLevel(scene, close, noShadows()), 6);
+  scene.instances[0].triangles = 0;
+  // Those who have the size of voxels in mind get it.
+  EXPECT_EQ(eyeLevel(scene, close, noShadows(0.0)), Deepest);
+  svo::FrameSettings biased = noShadows();
+  biased.bias = 1.0;
+  EXPECT_GT(eyeLevel(scene, close, biased), 6);
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 3.0, 2.0, 10.0 }) };
+  svo::FrameSettings settings;
+  EXPECT_EQ(svo::neededLevels(scene, close, settings)[0].lights, 6);
+  settings.shadowTechnique = svo::ShadowTechnique::Rays;
+  EXPECT_EQ(eyeLevel(scene, close, settings), Deepest);
+}
+
 TEST(NeededLevels, RaysToLightsNeedTheDeepestOfCastersOnly)
 {
   svo::Scene scene = oneThing();

@@ -407,15 +407,14 @@ TEST_F(OctreeStore, TheBoxIsThatOfTheFinitePointsAndStripsCountAsTriangles)
   polys->InsertNextCell({ 0, 1, 2, 0 });
   polys->InsertNextCell({ 0, 1, 2 });
   few->SetPolys(polys);
-  svo::MeshBox box;
-  std::size_t triangles = 0;
-  store.measure(few, options, box, triangles);
-  EXPECT_TRUE(box.known());
-  EXPECT_EQ(box.low, glm::dvec3(-1.0, -2.0, 3.0));
-  EXPECT_EQ(box.high, glm::dvec3(1.0, 5.0, 3.5));
-  EXPECT_EQ(triangles, 3u + 2u + 1u);
+  svo::Instance instance;
+  store.measure(few, options, instance);
+  EXPECT_TRUE(instance.box.known());
+  EXPECT_EQ(instance.box.low, glm::dvec3(-1.0, -2.0, 3.0));
+  EXPECT_EQ(instance.box.high, glm::dvec3(1.0, 5.0, 3.5));
+  EXPECT_EQ(instance.triangles, 3u + 2u + 1u);
   vtkNew<vtkPolyData> none;
-  store.measure(none, options, box, triangles);
-  EXPECT_FALSE(box.known());
-  EXPECT_EQ(triangles, 0u);
+  store.measure(none, options, instance);
+  EXPECT_FALSE(instance.box.known());
+  EXPECT_EQ(instance.triangles, 0u);
 }

@@ -242,3 +242,44 @@ TEST(PPolyDataToSVO, AModelsBoundsCountInTheCacheAndForOctreesThatCome)
   third->Update();
   EXPECT_EQ(third->GetNumberOfBuilds(), 0);
 }
+
+// A block of few triangles needs no voxels as small as those of a large mesh.
+TEST(PPolyDataToSVO, BlocksAreNoFinerThanTheirTrianglesAndPiecesAgree)
+{
+  vtkNew<vtkPPolyDataToSVO> filter;
+  filter->AdaptLevelOn();
+  const auto levelOf = [&filter](vtkPolyData* mesh)
+  {
+    filter->SetInputDataObject(mesh);
+    filter->Update();
+    return octreeOf(filter->GetOutputDataObject(0))->GetNumberOfLevels();
+  };
+  const int level = levelOf(slice(0.0, 360.0));
+  EXPECT_LT(level, 8);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, slice(0.0, 360.0));
+  blocks->SetBlock(1, slice(0.0, 180.0));
+  filter->SetInputDataObject(blocks);
+  filter->Update();
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  EXPECT_EQ(octreeOf(output->GetBlock(0))->GetNumberOfLevels(), level);
+  EXPECT_LE(octreeOf(output->GetBlock(1))->GetNumberOfLevels(), 8);
+
+  vtkNew<vtkPartitionedDataSet> pieces;
+  pieces->SetPartition(0, slice(0.0, 200.0));
+  pieces->SetPartition(1, slice(200.0, 220.0));
+  filter->SetInputDataObject(pieces);
+  filter->Update();
+  auto* parts = vtkPartitionedDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  expectSameCube(
+    octreeOf(parts->GetPartitionAsDataObject(0)), octreeOf(parts->GetPartitionAsDataObject(1)));
+
+  filter->SetMaximumLevel(3);
+  EXPECT_EQ(levelOf(slice(0.0, 360.0)), 3); // it stays the limit
+  filter->SetMaximumLevel(9);
+  filter->SetLeafGeometryToPlane(); // whose error is the voxel
+  EXPECT_EQ(levelOf(slice(0.0, 360.0)), 9);
+  filter->SetLeafGeometryToAutomatic();
+  filter->AdaptLevelOff();
+  EXPECT_EQ(levelOf(slice(0.0, 360.0)), 9);
+}
