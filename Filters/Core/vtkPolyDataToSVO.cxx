@@ -103,6 +103,28 @@ const char* vtkPolyDataToSVO::GetLeafGeometryAsString()
 }
 
 //------------------------------------------------------------------------------
+void vtkPolyDataToSVO::SetModelBounds(
+  double xMin, double xMax, double yMin, double yMax, double zMin, double zMax)
+{
+  const double bounds[6] = { xMin, xMax, yMin, yMax, zMin, zMax };
+  this->SetModelBounds(bounds);
+}
+
+//------------------------------------------------------------------------------
+void vtkPolyDataToSVO::SetModelBounds(const double bounds[6])
+{
+  if (!std::all_of(bounds, bounds + 6, [](double b) { return std::isfinite(b); }))
+  {
+    vtkWarningMacro("ModelBounds stay as they are: those given are not finite.");
+  }
+  else if (!std::equal(bounds, bounds + 6, this->ModelBounds))
+  {
+    std::copy(bounds, bounds + 6, this->ModelBounds);
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
 // Neither the cache nor its limit changes the output, so they do not make it outdated.
 void vtkPolyDataToSVO::SetCacheTimeSteps(bool cache)
 {

@@ -117,6 +117,22 @@ TEST(PolyDataToSVOBadInput, APlaneWithoutThicknessIsAnOrdinaryMesh)
   EXPECT_GE(conversion.filter->GetNumberOfVoxels(), 16 * 8);
 }
 
+TEST(PolyDataToSVOBadInput, BoundsThatAreNotFiniteAreRefused)
+{
+  vtkNew<vtkPolyDataToSVO> filter;
+  const svo::TestMessages messages(filter);
+  filter->SetModelBounds(-1.0, 1.0, -2.0, 2.0, -3.0, 3.0);
+  const vtkMTimeType time = filter->GetMTime();
+  filter->SetModelBounds(std::nan(""), 1.0, -2.0, 2.0, -3.0, 3.0);
+  const double infinite[6] = { -1.0, 1.0, -2.0, 2.0, -3.0,
+    std::numeric_limits<double>::infinity() };
+  filter->SetModelBounds(infinite);
+  EXPECT_EQ(messages.warnings.size(), 2u);
+  EXPECT_EQ(filter->GetModelBounds()[0], -1.0);
+  EXPECT_EQ(filter->GetModelBounds()[5], 3.0);
+  EXPECT_EQ(filter->GetMTime(), time);
+}
+
 TEST(PolyDataToSVOBadInput, AnOctreeBeyondTheMemoryLimitIsRefusedBeforeItIsBuilt)
 {
   const auto mesh = sphere();
