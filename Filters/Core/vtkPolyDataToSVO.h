@@ -16,9 +16,10 @@
  * mesh that comes along) is built once and kept, see SetCacheTimeSteps().
  *
  * What the filter cannot use leads to one message, and the mesh always passes through:
- * triangles with a point that is not finite are left out (warning with their number), a mesh with
- * only vertices and lines gets an octree without voxels (warning), so does an empty mesh (no
- * message), all points in one place are one voxel (warning), and an octree that needs more memory
+ * triangles with a point that is not finite are left out (a warning with their number, for the
+ * first of all time steps and blocks that have some), a mesh without polygons gets an octree without
+ * voxels (no message), all points in one place are one voxel (warning), and an octree that needs more
+ * memory
  * than there is, is refused before it is built (error that names the size; the output has no
  * octree).
  *
