@@ -80,9 +80,11 @@ OctreeStore::Known& OctreeStore::knownOf(vtkPolyData* mesh, const StoreOptions& 
     known.mesh = mesh;
     known.time = time;
     std::string message;
-    if (openAttachedOctree(mesh, known.attached, message) == Attached::Damaged)
+    const Attached state = openAttachedOctree(mesh, known.attached, message);
+    const std::string complaint = describe(state, message);
+    if (state != Attached::None && !complaint.empty() && known.said.insert(complaint).second)
     {
-      options.complain(message);
+      options.complain(complaint);
     }
     if (!known.attached)
     {

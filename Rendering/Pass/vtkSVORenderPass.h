@@ -26,6 +26,10 @@
  * Settings that are given a value out of their range take the nearest one in it; a value that is
  * not a number changes nothing and leads to a warning.
  *
+ * While octrees are built for a still render, and while pipelines run, observers may do as they
+ * like: draw other windows, with this pass too, change meshes, drop the pass. If they have changed
+ * something, the frame is collected once more.
+ *
  * Method: Huang and Cheng, "A Rendering Method Using Sparse Voxel Octrees in Dynamic Scenes",
  * 2017. The paper's Z-buffer tables ZBT and SZBT are the depth buffer and the shadow buffers here.
  *
@@ -441,9 +445,10 @@ public:
   /**
    * For a host whose renderers have passes of their own: from Attach() to Detach() each frame of
    * the renderer shows what this pass traces, although the pass is not set on it. A prop that is
-   * put first in the renderer's list draws it. Only props with an explicit SetUseSVO(true) are
-   * traced and cast shadows; those must draw nothing while IsTraced() says that they are (a
-   * selector's frames are never traced). All other surfaces are drawn as ever, and receive shadows.
+   * put first in the renderer's list draws it. In the midst of a frame Detach() takes effect when
+   * the frame is done. Only props with an explicit SetUseSVO(true) are traced and cast shadows;
+   * those must draw nothing while IsTraced() says that they are (a selector's frames are never
+   * traced). All other surfaces are drawn as ever, and receive shadows.
    */
   void Attach(vtkRenderer* renderer);
   void Detach(vtkRenderer* renderer);
