@@ -59,9 +59,10 @@ void attachMeanwhile(vtkPolyData* mesh, const svo::OctreeCache::Entry* other)
 }
 
 /// What there is to be said of an octree, or of one that could not be built. The mesh is a valid
-/// output in any case, and one message is enough.
-void report(vtkPolyDataToSVO* filter, vtkPolyData* mesh, const svo::Octree& octree,
-  const std::string& message)
+/// output in any case, and one message is enough. `saidIncomplete`: when that was said, by the
+/// filter's own time.
+void report(vtkPolyDataToSVO* filter, const svo::Octree& octree, const std::string& message,
+  vtkMTimeType& saidIncomplete)
 {
   if (!octree)
   {
@@ -69,13 +70,13 @@ void report(vtkPolyDataToSVO* filter, vtkPolyData* mesh, const svo::Octree& octr
   }
   else if (!message.empty())
   {
-    vtkWarningWithObjectMacro(filter, "The octree is not complete: " << message << ".");
-  }
-  else if (mesh->GetNumberOfPolys() == 0 && mesh->GetNumberOfStrips() == 0 &&
-    mesh->GetNumberOfCells() > 0)
-  {
-    vtkWarningWithObjectMacro(
-      filter, "The mesh has vertices and lines, but no polygons; its octree is empty.");
+    if (saidIncomplete != filter->GetMTime())
+    {
+      saidIncomplete = filter->GetMTime();
+      vtkWarningWithObjectMacro(filter,
+        "The octree is not complete: "
+          << message << ". Of other time steps and blocks this is not said again.");
+    }
   }
   else if (const double* b = octree.header().meshBounds;
            octree.header().voxelCount > 0 && b[0] == b[1] && b[2] == b[3] && b[4] == b[5])
@@ -90,6 +91,7 @@ class vtkPolyDataToSVO::vtkInternals
 public:
   svo::OctreeCache Cache;
   std::map<std::uint64_t, double> Voxels; // by the signature of a mesh
+  vtkMTimeType SaidIncomplete = 0;
 };
 
 //------------------------------------------------------------------------------
@@ -105,6 +107,28 @@ const char* vtkPolyDataToSVO::GetLeafGeometryAsString()
 {
   static const char* const names[] = { "Voxel", "Plane", "Triangle", "Automatic" };
   return names[this->LeafGeometry];
+}
+
+//------------------------------------------------------------------------------
+void vtkPolyDataToSVO::SetModelBounds(
+  double xMin, double xMax, double yMin, double yMax, double zMin, double zMax)
+{
+  const double bounds[6] = { xMin, xMax, yMin, yMax, zMin, zMax };
+  this->SetModelBounds(bounds);
+}
+
+//------------------------------------------------------------------------------
+void vtkPolyDataToSVO::SetModelBounds(const double bounds[6])
+{
+  if (!std::all_of(bounds, bounds + 6, [](double b) { return std::isfinite(b); }))
+  {
+    vtkWarningMacro("ModelBounds stay as they are: those given are not finite.");
+  }
+  else if (!std::equal(bounds, bounds + 6, this->ModelBounds))
+  {
+    std::copy(bounds, bounds + 6, this->ModelBounds);
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -290,7 +314,7 @@ void vtkPolyDataToSVO::Convert(
     svo::attachOctree(output, built.octree);
     this->Finish(output);
   }
-  report(this, input, built.octree, message);
+  report(this, built.octree, message, this->Internals->SaidIncomplete);
   if (status == svo::BuildStatus::Built && this->CacheTimeSteps)
   {
     cache.insert(std::move(built), this->CacheMemoryLimit * Kibi);

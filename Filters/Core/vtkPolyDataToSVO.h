@@ -3,7 +3,8 @@
  * @brief converts polygons into a sparse voxel octree that travels with them
  *
  * The output is the input mesh, unchanged, with an octree of its surface in a field-data array. So
- * the output can be drawn, picked, written to a .vtp file and read again like any mesh, and
+ * the output can be drawn, picked, written to a .vtp file and read again like any mesh (not to an
+ * ASCII .vtk file, which rounds the points, so that the octree is not theirs any more), and
  * vtkSVORenderPass traces the octree instead of building its own. vtkSparseVoxelOctree opens the
  * octree for questions, vtkSVOToPolyData shows its cells.
  *
@@ -16,11 +17,11 @@
  * mesh that comes along) is built once and kept, see SetCacheTimeSteps().
  *
  * What the filter cannot use leads to one message, and the mesh always passes through:
- * triangles with a point that is not finite are left out (warning with their number), a mesh with
- * only vertices and lines gets an octree without voxels (warning), so does an empty mesh (no
- * message), all points in one place are one voxel (warning), and an octree that needs more memory
- * than there is, is refused before it is built (error that names the size; the output has no
- * octree).
+ * triangles with a point that is not finite are left out (a warning with their number, for the
+ * first of all time steps and blocks that have some), a mesh without polygons gets an octree
+ * without voxels (no message), all points in one place are one voxel (warning), and an octree that
+ * needs more memory than there is, is refused before it is built (error that names the size; the
+ * output has no octree).
  *
  * The build reports progress. If it is aborted (SetAbortExecute(1) in a ProgressEvent observer),
  * the output is the mesh without an octree; Modified() makes the next Update() try again. With VTK
@@ -102,9 +103,11 @@ public:
    * Bounds of what the mesh is a part of, in its local frame. The octree's cube is then that of the
    * whole, so that parts that are converted apart have the voxels that the whole would have. A mesh
    * that reaches beyond makes the cube larger. Default: low above high on each axis, which means
-   * that the mesh is all there is.
+   * that the mesh is all there is. Bounds that are not finite are refused, with a warning.
    */
-  vtkSetVector6Macro(ModelBounds, double);
+  virtual void SetModelBounds(
+    double xMin, double xMax, double yMin, double yMax, double zMin, double zMax);
+  virtual void SetModelBounds(const double bounds[6]);
   vtkGetVector6Macro(ModelBounds, double);
   //@}
 

@@ -10,6 +10,7 @@
 #include "vtkPVSynchronizedRenderer.h"
 #include "vtkRenderer.h"
 #include "vtkSVORenderPass.h"
+#include "vtkSynchronizedRenderers.h"
 
 vtkStandardNewMacro(vtkSVOViewPass);
 vtkInformationKeyMacro(vtkSVOViewPass, VIEW_PASS, ObjectBase);
@@ -91,9 +92,12 @@ void vtkSVOViewPass::BeginFrame()
   }
   this->Pass->SetTracing(!(view->*(&Asking::GetMakingSelection))());
   // Enabled for this frame if all processes render it.
-  this->Pass->SetController((view->*(&Asking::SynchronizedRenderers))->GetEnabled()
-      ? vtkMultiProcessController::GetGlobalController()
-      : nullptr);
+  vtkPVSynchronizedRenderer* together = view->*(&Asking::SynchronizedRenderers);
+  vtkSynchronizedRenderers* ofServers =
+    together->GetEnabled() ? together->GetParallelSynchronizer() : nullptr;
+  this->Pass->SetController(
+    together->GetEnabled() ? vtkMultiProcessController::GetGlobalController() : nullptr);
+  this->Pass->SetImageReductionFactor(ofServers ? ofServers->GetImageReductionFactor() : 1);
 }
 
 void vtkSVOViewPass::PrintSelf(ostream& os, vtkIndent indent)

@@ -72,13 +72,20 @@ OctreeStore::Known& OctreeStore::knownOf(vtkPolyData* mesh, const StoreOptions& 
   if (known.mesh != mesh || known.time != time)
   {
     const Octree former = known.attached; // found again, not opened again, if it is still the one
-    known = Known();
+    Known fresh;
+    if (known.mesh == mesh)
+    {
+      fresh.said = std::move(known.said);
+    }
+    known = std::move(fresh);
     known.mesh = mesh;
     known.time = time;
     std::string message;
-    if (openAttachedOctree(mesh, known.attached, message) == Attached::Damaged)
+    const Attached state = openAttachedOctree(mesh, known.attached, message);
+    const std::string complaint = describe(state, message);
+    if (state != Attached::None && !complaint.empty() && known.said.insert(complaint).second)
     {
-      options.complain(message);
+      options.complain(complaint);
     }
     if (!known.attached)
     {
@@ -134,24 +141,27 @@ OctreeStore::Answer OctreeStore::find(
   const auto found = this->Octrees.find(key);
   if (found != this->Octrees.end())
   {
-    return this->answer(key, found->second, options, octree);
+    return this->answer(mesh, found->second, options, octree);
   }
   Built* other = this->substitute(key);
   if (!other || other->octree.level() < level)
   {
     this->buildInBackground(mesh, key);
   }
-  return other ? this->answer(key, *other, options, octree) : Answer::Building;
+  return other ? this->answer(mesh, *other, options, octree) : Answer::Building;
 }
 
 OctreeStore::Answer OctreeStore::answer(
-  const Key& key, Built& built, const StoreOptions& options, Octree& octree)
+  vtkPolyData* mesh, Built& built, const StoreOptions& options, Octree& octree)
 {
   built.lastFrame = this->Frame;
   if (!built.message.empty())
   {
-    // The same of each level is said once.
-    if (this->Said.emplace(std::get<0>(key), built.message).second)
+    // The same of each level is said once; that an octree lacks triangles, once for all poses, each
+    // of which has another number of them.
+    if (this->knownOf(mesh, options)
+          .said.insert(built.octree ? "incomplete" : built.message)
+          .second)
     {
       options.complain(built.message);
     }

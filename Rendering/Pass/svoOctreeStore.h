@@ -29,7 +29,7 @@ struct StoreOptions
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
   bool wait = true;                                 // false: build in the background
   std::function<void(double)> progress;             // 0..1 of the build that is waited for
-  std::function<void(const std::string&)> complain; // once per mesh and message
+  std::function<void(const std::string&)> complain; // once per mesh and what is wrong
 };
 
 /// Octrees are kept by the signature of their mesh: an animated mesh that returns to a pose finds
@@ -104,6 +104,7 @@ private:
     MeshBox box;
     std::size_t triangles = 0;
     int detailLevel = 0; // 0: nobody asked
+    std::set<std::string> said; // of the mesh, whatever its poses
   };
 
   Known& knownOf(vtkPolyData* mesh, const StoreOptions& options);
@@ -112,11 +113,10 @@ private:
   void waitFor(const Key& key, const StoreOptions& options);
   void keepResult(const Key& key, BackgroundBuild& build);
   Built* substitute(const Key& key);
-  Answer answer(const Key& key, Built& built, const StoreOptions& options, Octree& octree);
+  Answer answer(vtkPolyData* mesh, Built& built, const StoreOptions& options, Octree& octree);
 
   BackgroundBuild::Launcher Launch;
   int BuiltSoFar = 0;
-  std::set<std::pair<std::uint64_t, std::string>> Said; // of a signature
   std::map<vtkPolyData*, Known> Meshes;
   std::map<Key, Built> Octrees;
   std::map<Key, Job> Jobs;

@@ -39,8 +39,9 @@ struct PassStatistics
   int rasterizedActors = 0;
   int instances = 0;
   int octreesBuilt = 0;        // or taken over from a background build
-  double sampleDistance = 1.0; // pixels
-  /// Largest voxel of the octrees that are shown while they are deepened; pixels of the window.
+  double sampleDistance = 1.0; // pixels of the frame
+  int imageReduction = 1;      // pixels of the window that one of the frame becomes
+  /// Largest voxel of the octrees that are shown while they are deepened; pixels of the frame.
   double coarseOctreeError = 0.0;
 };
 

@@ -13,6 +13,7 @@
 #include "vtkRenderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,22 @@ void vtkSVORenderPass::SetBackend(int backend)
   if (this->Backend != clamped)
   {
     this->Backend = clamped;
+    this->Modified();
+  }
+}
+
+void vtkSVORenderPass::SetNumber(
+  const char* name, double value, double least, double most, double& setting)
+{
+  if (std::isnan(value))
+  {
+    vtkWarningMacro(<< name << " stays " << setting << ": the value given is not a number.");
+    return;
+  }
+  value = std::min(std::max(value, least), most);
+  if (setting != value)
+  {
+    setting = value;
     this->Modified();
   }
 }
@@ -203,7 +220,7 @@ void vtkSVORenderPass::DecideSettings(svo::PassFrame& frame)
   {
     frame.sampleDistance =
       frame.of->chooseDistance(OwnShare / renderer->GetRenderWindow()->GetDesiredUpdateRate(),
-        this->MaximumImageSampleDistance);
+        std::max(this->MaximumImageSampleDistance / this->ImageReductionFactor, 1.0));
     if (hasCameraLight(renderer))
     {
       settings.shadowResolution =
@@ -247,6 +264,7 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   }
   frame.of->finish();
   impl.statistics = frame.of->statistics();
+  impl.statistics.imageReduction = this->ImageReductionFactor;
   if (impl.statistics.tracer.retracedLayers > 0)
   {
     double seconds, fixedSeconds;
@@ -421,7 +439,7 @@ const char* vtkSVORenderPass::GetCastingLights() const
 
 double vtkSVORenderPass::GetImageSampleDistance() const
 {
-  return this->Impl->statistics.sampleDistance;
+  return this->Impl->statistics.sampleDistance * this->Impl->statistics.imageReduction;
 }
 
 double vtkSVORenderPass::GetAcceptedPixelError() const
@@ -430,7 +448,8 @@ double vtkSVORenderPass::GetAcceptedPixelError() const
   const double distance = this->GetImageSampleDistance();
   const double ofRays =
     distance > 1.0 ? distance * std::max(this->PixelError, 1.0) : this->PixelError;
-  return std::max(ofRays, this->Impl->statistics.coarseOctreeError);
+  const svo::PassStatistics& frame = this->Impl->statistics;
+  return std::max(ofRays, frame.coarseOctreeError * frame.imageReduction);
 }
 
 int vtkSVORenderPass::GetNumberOfOctreesBuilt() const
@@ -474,6 +493,7 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "AntiAliasing: " << this->AntiAliasing << '\n'
      << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << '\n'
      << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << " pixels\n"
+     << indent << "ImageReductionFactor: " << this->ImageReductionFactor << '\n'
      << indent << "ImageSampleDistance: " << this->GetImageSampleDistance() << " pixels\n"
      << indent << "AcceptedPixelError: " << this->GetAcceptedPixelError() << " pixels\n"
      << indent << "CastingLights:\n"

@@ -23,6 +23,13 @@
  * otherwise. Note that a positional vtkLight has a cone of 30 degrees unless told otherwise: set
  * 180 for a point light.
  *
+ * Settings that are given a value out of their range take the nearest one in it; a value that is
+ * not a number changes nothing and leads to a warning.
+ *
+ * While octrees are built for a still render, and while pipelines run, observers may do as they
+ * like: draw other windows, with this pass too, change meshes, drop the pass. If they have changed
+ * something, the frame is collected once more.
+ *
  * Method: Huang and Cheng, "A Rendering Method Using Sparse Voxel Octrees in Dynamic Scenes",
  * 2017. The paper's Z-buffer tables ZBT and SZBT are the depth buffer and the shadow buffers here.
  *
@@ -138,7 +145,12 @@ public:
    * What is added to the depth of a shadow map before the comparison, in voxels of the caster,
    * 0..1000; default 0. With AutomaticShadowBias off, 0 is the paper's bare "distance > depth".
    */
-  vtkSetClampMacro(ShadowBias, double, 0.0, 1000.0);
+  virtual void SetShadowBias(double voxels)
+  {
+    this->SetNumber("ShadowBias", voxels, 0.0, 1000.0, this->ShadowBias);
+  }
+  virtual double GetShadowBiasMinValue() { return 0.0; }
+  virtual double GetShadowBiasMaxValue() { return 1000.0; }
   vtkGetMacro(ShadowBias, double);
   //@}
 
@@ -147,7 +159,12 @@ public:
    * Share of a light's diffuse and specular light that a shadow removes, 0..1; default 1. Ambient
    * light always stays.
    */
-  vtkSetClampMacro(ShadowIntensity, double, 0.0, 1.0);
+  virtual void SetShadowIntensity(double share)
+  {
+    this->SetNumber("ShadowIntensity", share, 0.0, 1.0, this->ShadowIntensity);
+  }
+  virtual double GetShadowIntensityMinValue() { return 0.0; }
+  virtual double GetShadowIntensityMaxValue() { return 1.0; }
   vtkGetMacro(ShadowIntensity, double);
   //@}
 
@@ -158,7 +175,12 @@ public:
    * geometry is triangles or automatic and whose triangles are larger than about a pixel are
    * traced to the triangles themselves whatever is set here: that is faster, and exact.
    */
-  vtkSetClampMacro(PixelError, double, 0.0, 64.0);
+  virtual void SetPixelError(double pixels)
+  {
+    this->SetNumber("PixelError", pixels, 0.0, 64.0, this->PixelError);
+  }
+  virtual double GetPixelErrorMinValue() { return 0.0; }
+  virtual double GetPixelErrorMaxValue() { return 64.0; }
   vtkGetMacro(PixelError, double);
   //@}
 
@@ -264,12 +286,28 @@ public:
   vtkSetMacro(AutoAdjustSampleDistances, bool);
   vtkGetMacro(AutoAdjustSampleDistances, bool);
   vtkBooleanMacro(AutoAdjustSampleDistances, bool);
-  vtkSetClampMacro(MaximumImageSampleDistance, double, 1.0, 64.0);
+  virtual void SetMaximumImageSampleDistance(double pixels)
+  {
+    this->SetNumber(
+      "MaximumImageSampleDistance", pixels, 1.0, 64.0, this->MaximumImageSampleDistance);
+  }
+  virtual double GetMaximumImageSampleDistanceMinValue() { return 1.0; }
+  virtual double GetMaximumImageSampleDistanceMaxValue() { return 64.0; }
   vtkGetMacro(MaximumImageSampleDistance, double);
   //@}
 
+  //@{
   /**
-   * Pixels from ray to ray in the last frame.
+   * For a host that enlarges what it renders, as ParaView's servers do while the user interacts:
+   * how many pixels of the window a pixel of the frame becomes, along an edge, 1..50; default 1.
+   * MaximumImageSampleDistance holds in the window. Named as in vtkSynchronizedRenderers.
+   */
+  vtkSetClampMacro(ImageReductionFactor, int, 1, 50);
+  vtkGetMacro(ImageReductionFactor, int);
+  //@}
+
+  /**
+   * Pixels of the window from ray to ray in the last frame.
    */
   double GetImageSampleDistance() const;
 
@@ -328,7 +366,8 @@ public:
 
   //@{
   /**
-   * A prop's own PixelError, 0..64; negative (the default): the pass's.
+   * A prop's own PixelError, 0..64; negative (the default): the pass's. Not a number: refused, with
+   * a warning.
    */
   static void SetPropPixelError(double error, vtkProp* prop);
   static double GetPropPixelError(vtkProp* prop);
@@ -406,9 +445,10 @@ public:
   /**
    * For a host whose renderers have passes of their own: from Attach() to Detach() each frame of
    * the renderer shows what this pass traces, although the pass is not set on it. A prop that is
-   * put first in the renderer's list draws it. Only props with an explicit SetUseSVO(true) are
-   * traced and cast shadows; those must draw nothing while IsTraced() says that they are (a
-   * selector's frames are never traced). All other surfaces are drawn as ever, and receive shadows.
+   * put first in the renderer's list draws it. In the midst of a frame Detach() takes effect when
+   * the frame is done. Only props with an explicit SetUseSVO(true) are traced and cast shadows;
+   * those must draw nothing while IsTraced() says that they are (a selector's frames are never
+   * traced). All other surfaces are drawn as ever, and receive shadows.
    */
   void Attach(vtkRenderer* renderer);
   void Detach(vtkRenderer* renderer);
@@ -482,10 +522,14 @@ protected:
   bool Tracing = true;
   bool AutoAdjustSampleDistances = true;
   double MaximumImageSampleDistance = 8.0;
+  int ImageReductionFactor = 1;
 
 private:
   vtkSVORenderPass(const vtkSVORenderPass&) = delete;
   void operator=(const vtkSVORenderPass&) = delete;
+
+  /// Clamps a value to its range; one that is not a number is refused with a warning.
+  void SetNumber(const char* name, double value, double least, double most, double& setting);
 
   void BeginAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
   void EndAttachedFrame(vtkObject* renderer, unsigned long event, void* data);

@@ -12,6 +12,7 @@
 #include "vtkProp.h"
 
 #include <algorithm>
+#include <cmath>
 
 vtkInformationKeyMacro(vtkSVORenderPass, CAST_SHADOW, Integer);
 vtkInformationKeyMacro(vtkSVORenderPass, RECEIVE_SHADOW, Integer);
@@ -131,7 +132,12 @@ bool vtkSVORenderPass::GetUseSVO(vtkProp* prop)
 
 void vtkSVORenderPass::SetPropPixelError(double error, vtkProp* prop)
 {
-  if (prop)
+  if (std::isnan(error))
+  {
+    vtkGenericWarningMacro("A prop's pixel error stays " << GetPropPixelError(prop)
+                                                         << ": the value given is not a number.");
+  }
+  else if (prop)
   {
     keysOf(prop)->Set(PIXEL_ERROR(), error >= 0.0 ? std::min(error, 64.0) : -1.0);
   }

@@ -97,6 +97,15 @@ void testOneRenderer(Checks& checks)
   frame(Interactive, 1000.0);
   frame(Interactive, 1000.0);
   checks.expect(distance() == pass->GetMaximumImageSampleDistance(), "there is a limit");
+  const double rays = static_cast<double>(pass->GetNumberOfPrimaryRays());
+  pass->SetImageReductionFactor(2);
+  frame(Interactive, 1000.0);
+  std::cout << rays << " rays at the limit, " << pass->GetNumberOfPrimaryRays()
+            << " where pixels of the frame become larger\n";
+  checks.expect(distance() == pass->GetMaximumImageSampleDistance() &&
+      pass->GetNumberOfPrimaryRays() > 2.0 * rays,
+    "a limit in the window, where pixels of the frame become larger");
+  pass->SetImageReductionFactor(1);
 
   // What fewer rays would not save.
   frame(Interactive, 0.25 * Budget, 100.0 * Budget);

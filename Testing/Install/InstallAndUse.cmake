@@ -1,7 +1,8 @@
-# Installs the build into an empty prefix, moves the prefix, builds and runs Project/ and the example
-# ShadowedSphere against it and imports the Python package from it. Called by ctest with -D definitions; see CMakeLists.txt.
+# Installs the build into an empty prefix, moves the prefix, builds and runs Project/, the README's
+# lines and the example ShadowedSphere against it and imports the Python package from it. Called by ctest with -D definitions; see CMakeLists.txt.
 set(prefix "${WORK_DIR}/prefix")
-file(REMOVE_RECURSE "${WORK_DIR}/staged" "${prefix}" "${WORK_DIR}/project" "${WORK_DIR}/example")
+file(REMOVE_RECURSE "${WORK_DIR}/staged" "${prefix}" "${WORK_DIR}/project" "${WORK_DIR}/readme"
+  "${WORK_DIR}/example")
 
 function (run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result)
@@ -29,6 +30,29 @@ endfunction ()
 
 build("${PROJECT_DIR}" "${WORK_DIR}/project" "-DEXPECTED_VERSION=${VERSION}")
 run("${WORK_DIR}/project/shadow")
+
+# The README's own lines.
+file(READ "${README}" readme)
+if (NOT readme MATCHES "```cmake\n([^`]*)```")
+  message(FATAL_ERROR "The README has no lines for a project of one's own")
+endif ()
+file(WRITE "${WORK_DIR}/readme/CMakeLists.txt" "${CMAKE_MATCH_1}")
+file(WRITE "${WORK_DIR}/readme/main.cxx" "
+#include <vtkNew.h>
+#include <vtkPolyDataToSVO.h>
+#include <vtkRenderer.h>
+#include <vtkSVORenderPass.h>
+int main()
+{
+  vtkNew<vtkPolyDataToSVO> toOctree;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkSVORenderPass> pass;
+  renderer->SetPass(pass);
+  return toOctree->GetMaximumLevel() == 10 && renderer->GetPass() == pass ? 0 : 1;
+}
+")
+build("${WORK_DIR}/readme" "${WORK_DIR}/readme/build")
+run("${WORK_DIR}/readme/build/program")
 
 build("${EXAMPLE_DIR}" "${WORK_DIR}/example")
 run("${WORK_DIR}/example/ShadowedSphere" "${WORK_DIR}/example/sphere.png")

@@ -9,6 +9,7 @@ import vtksvo
 from vtkmodules.vtkCommonCore import reference
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkPolyDataWriter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
 
@@ -144,6 +145,31 @@ class Filters(unittest.TestCase):
         self.assertFalse(octree.Initialize(mesh))
         self.assertEqual(len(errors), 1)
         self.assertEqual(octree.GetNumberOfVoxels(), 0)
+
+    def test_octrees_travel_in_files(self):
+        converted = sphere_with_octree(4).GetOutput()
+
+        def travels(writer, reader, name):
+            with tempfile.TemporaryDirectory() as folder:
+                for end in (writer, reader):
+                    end.SetFileName(os.path.join(folder, name))
+                writer.SetInputData(converted)
+                writer.Write()
+                reader.Update()
+            octree = vtksvo.vtkSparseVoxelOctree()
+            octree.AddObserver("ErrorEvent", lambda *_: None)
+            return octree.Initialize(reader.GetOutput())
+
+        for mode in ("Ascii", "Binary", "Appended"):
+            writer = vtkXMLPolyDataWriter()
+            getattr(writer, f"SetDataModeTo{mode}")()
+            self.assertTrue(travels(writer, vtkXMLPolyDataReader(), "mesh.vtp"), mode)
+        writer = vtkPolyDataWriter()
+        writer.SetFileTypeToBinary()
+        self.assertTrue(travels(writer, vtkPolyDataReader(), "mesh.vtk"))
+        # The guide says so: it rounds the points.
+        writer.SetFileTypeToASCII()
+        self.assertFalse(travels(writer, vtkPolyDataReader(), "mesh.vtk"))
 
 
 if __name__ == "__main__":

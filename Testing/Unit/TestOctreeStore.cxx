@@ -392,6 +392,61 @@ TEST_F(OctreeStore, AMessageIsSaidOnceAndNotForEachLevel)
   EXPECT_EQ(said.size(), 1u);
 }
 
+TEST_F(OctreeStore, AMessageIsSaidOnceAndNotForEachPose)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int pose = 5; pose < 10; ++pose)
+  {
+    mesh->GetPoints()->SetPoint(pose, nan, 0.0, 0.0);
+    mesh->GetPoints()->Modified();
+    EXPECT_EQ(find(5, true), Answer::Found);
+    endFrame();
+  }
+  EXPECT_EQ(store.built(), 5);
+  EXPECT_EQ(said.size(), 1u);
+}
+
+TEST_F(OctreeStore, AnOctreeOfAnotherMeshIsReplacedAndThatIsSaidOnce)
+{
+  EXPECT_EQ(find(5, true), Answer::Found);
+  svo::attachOctree(mesh, octree);
+  mesh->Modified();
+  svo::Octree own;
+  EXPECT_TRUE(store.attached(mesh, options, own));
+  EXPECT_TRUE(said.empty());
+  for (int pose = 5; pose < 8; ++pose)
+  {
+    mesh->GetPoints()->SetPoint(pose, 0.1, 0.0, 0.0);
+    mesh->GetPoints()->Modified();
+    EXPECT_FALSE(store.attached(mesh, options, own));
+    EXPECT_EQ(find(5, true), Answer::Found);
+    endFrame();
+  }
+  EXPECT_EQ(said.size(), 1u);
+}
+
+// Who is told of the progress may do anything that the store's users may.
+TEST_F(OctreeStore, ProgressMayAskForOctreesAndChangeTheMesh)
+{
+  int calls = 0;
+  options.progress = [&](double)
+  {
+    if (++calls == 1)
+    {
+      svo::StoreOptions inner;
+      inner.complain = options.complain;
+      svo::Octree other;
+      EXPECT_EQ(store.find(mesh, 6, inner, other), Answer::Found);
+      EXPECT_EQ(other.level(), 6);
+      store.endFrame(0);
+      mesh->Initialize();
+    }
+  };
+  EXPECT_EQ(find(6, true), Answer::Found);
+  EXPECT_EQ(octree.level(), 6);
+  EXPECT_GT(calls, 0);
+}
+
 TEST_F(OctreeStore, TheBoxIsThatOfTheFinitePointsAndStripsCountAsTriangles)
 {
   vtkNew<vtkPoints> points;

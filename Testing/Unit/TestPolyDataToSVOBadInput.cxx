@@ -33,6 +33,25 @@ TEST(PolyDataToSVOBadInput, PointsThatAreNotFiniteLeadToOneWarning)
   }
 }
 
+TEST(PolyDataToSVOBadInput, ASeriesWithPointsThatAreNotFiniteLeadsToOneWarning)
+{
+  vtkNew<vtkPolyDataToSVO> filter;
+  const svo::TestMessages messages(filter);
+  const auto mesh = sphere();
+  filter->SetInputData(mesh);
+  for (int step = 0; step < 5; ++step)
+  {
+    mesh->GetPoints()->SetPoint(40 + step, 0.0, std::nan(""), 0.0);
+    mesh->GetPoints()->Modified();
+    filter->Update();
+  }
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 5);
+  EXPECT_EQ(messages.warnings.size(), 1u);
+  filter->SetMaximumLevel(5); // other octrees: told anew
+  filter->Update();
+  EXPECT_EQ(messages.warnings.size(), 2u);
+}
+
 TEST(PolyDataToSVOBadInput, OnlyPointsThatAreNotFiniteLeadToOneWarning)
 {
   const auto mesh = sphere();
@@ -56,7 +75,7 @@ TEST(PolyDataToSVOBadInput, AnEmptyMeshIsNothingToTalkAbout)
   EXPECT_TRUE(conversion.octree().empty());
 }
 
-TEST(PolyDataToSVOBadInput, AMeshOfLinesOrVerticesLeadsToOneWarning)
+TEST(PolyDataToSVOBadInput, AMeshOfLinesOrVerticesIsNothingToTalkAbout)
 {
   for (bool lines : { false, true })
   {
@@ -76,8 +95,7 @@ TEST(PolyDataToSVOBadInput, AMeshOfLinesOrVerticesLeadsToOneWarning)
       mesh->SetVerts(cells);
     }
     const Conversion conversion(mesh);
-    EXPECT_EQ(conversion.messages.warnings.size(), 1u);
-    EXPECT_EQ(conversion.messages.errors.size(), 0u);
+    EXPECT_EQ(conversion.messages.all(), "");
     EXPECT_TRUE(conversion.octree());
     EXPECT_EQ(conversion.filter->GetNumberOfVoxels(), 0);
   }
@@ -115,6 +133,22 @@ TEST(PolyDataToSVOBadInput, APlaneWithoutThicknessIsAnOrdinaryMesh)
   const Conversion conversion(mesh);
   EXPECT_EQ(conversion.messages.all(), "");
   EXPECT_GE(conversion.filter->GetNumberOfVoxels(), 16 * 8);
+}
+
+TEST(PolyDataToSVOBadInput, BoundsThatAreNotFiniteAreRefused)
+{
+  vtkNew<vtkPolyDataToSVO> filter;
+  const svo::TestMessages messages(filter);
+  filter->SetModelBounds(-1.0, 1.0, -2.0, 2.0, -3.0, 3.0);
+  const vtkMTimeType time = filter->GetMTime();
+  filter->SetModelBounds(std::nan(""), 1.0, -2.0, 2.0, -3.0, 3.0);
+  const double infinite[6] = { -1.0, 1.0, -2.0, 2.0, -3.0,
+    std::numeric_limits<double>::infinity() };
+  filter->SetModelBounds(infinite);
+  EXPECT_EQ(messages.warnings.size(), 2u);
+  EXPECT_EQ(filter->GetModelBounds()[0], -1.0);
+  EXPECT_EQ(filter->GetModelBounds()[5], 3.0);
+  EXPECT_EQ(filter->GetMTime(), time);
 }
 
 TEST(PolyDataToSVOBadInput, AnOctreeBeyondTheMemoryLimitIsRefusedBeforeItIsBuilt)

@@ -1,4 +1,5 @@
 // The render pass without a window: defaults, ranges, and what props and lights carry.
+#include "svoTestMessages.h"
 #include "vtkSVORenderPass.h"
 
 #include "vtkActor.h"
@@ -12,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <sstream>
 
 TEST(RenderPassSettings, DefaultsAreThoseOfTheManual)
@@ -54,6 +56,41 @@ TEST(RenderPassSettings, ValuesOutOfRangeAreClamped)
   EXPECT_EQ(pass->GetLayerMemoryLimit(), 0);
   pass->SetBackend(-3);
   EXPECT_EQ(pass->GetBackend(), vtkSVORenderPass::BACKEND_AUTO);
+}
+
+// They would pass every comparison with the ends of a range.
+TEST(RenderPassSettings, WhatIsNotANumberIsRefused)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  vtkNew<vtkSVORenderPass> pass;
+  svo::TestMessages messages(pass);
+  pass->SetShadowBias(2.0);
+  pass->SetShadowIntensity(0.5);
+  pass->SetPixelError(3.0);
+  pass->SetMaximumImageSampleDistance(4.0);
+  const vtkMTimeType time = pass->GetMTime();
+  pass->SetShadowBias(nan);
+  pass->SetShadowIntensity(nan);
+  pass->SetPixelError(nan);
+  pass->SetMaximumImageSampleDistance(nan);
+  EXPECT_EQ(pass->GetShadowBias(), 2.0);
+  EXPECT_EQ(pass->GetShadowIntensity(), 0.5);
+  EXPECT_EQ(pass->GetPixelError(), 3.0);
+  EXPECT_EQ(pass->GetMaximumImageSampleDistance(), 4.0);
+  EXPECT_EQ(pass->GetMTime(), time);
+  EXPECT_EQ(messages.warnings.size(), 4u);
+  pass->SetShadowBias(infinity);
+  EXPECT_EQ(pass->GetShadowBias(), pass->GetShadowBiasMaxValue());
+  pass->SetMaximumImageSampleDistance(-infinity);
+  EXPECT_EQ(pass->GetMaximumImageSampleDistance(), 1.0);
+
+  vtkNew<vtkActor> actor;
+  vtkSVORenderPass::SetPropPixelError(2.0, actor);
+  vtkObject::GlobalWarningDisplayOff();
+  vtkSVORenderPass::SetPropPixelError(nan, actor);
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_EQ(vtkSVORenderPass::GetPropPixelError(actor), 2.0);
 }
 
 TEST(RenderPassSettings, NamedSettersChooseTheirValue)
