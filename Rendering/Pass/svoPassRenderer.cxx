@@ -118,24 +118,40 @@ double PassRenderer::coarseOctreeError(double distance) const
   return largest;
 }
 
+View PassRenderer::aim(int width, int height, double distance) const
+{
+  View view;
+  const bool seen = viewOfCamera(this->Renderer, static_cast<int>(std::ceil(width / distance)),
+    static_cast<int>(std::ceil(height / distance)), view);
+  return seen ? view : View();
+}
+
+bool PassRenderer::shows(int width, int height) const
+{
+  const View view = this->aim(width, height, this->Statistics.sampleDistance);
+  return view.width == this->Eye.width && view.height == this->Eye.height &&
+    view.worldToView == this->Eye.worldToView && view.viewToClip == this->Eye.viewToClip;
+}
+
 void PassRenderer::trace(int width, int height, double distance, FrameSettings settings)
 {
-  width = static_cast<int>(std::ceil(width / distance));
-  height = static_cast<int>(std::ceil(height / distance));
   this->Statistics.sampleDistance = distance;
   const Scene& scene = this->Collected.scene;
   View& view = this->Eye;
-  view = View();
+  view = this->aim(width, height, distance);
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow());
-  if (!this->hasSomething() || !viewOfCamera(this->Renderer, width, height, view))
+  if (!this->hasSomething() || view.width == 0)
   {
+    this->Picture.covered = PixelRect();
     this->Trace.releaseLayers();
     this->Receivers.update(window, {}, {}, view, settings, false);
     return;
   }
   settings.wholeShadowBuffers =
     this->Collected.rasterizedReceivers && settings.shadowTechnique != ShadowTechnique::None;
-  settings.writeNormals = this->Renderer->GetUseSSAO();
+  const bool occlusion = this->Renderer->GetUseSSAO(); // into a framebuffer that is not bound yet
+  settings.writeNormals = occlusion || this->Presenter->WantsNormals();
+  settings.writeLight = occlusion || vtkSVOPresenter::KeepsLight();
   this->Trace.render(scene, view, settings, smpParallelFor(), this->Picture);
   this->Statistics.tracer = this->Trace.statistics();
   this->Statistics.coarseOctreeError = this->coarseOctreeError(distance);
@@ -156,6 +172,15 @@ void PassRenderer::present(vtkOpenGLRenderPass* pass)
       }
     },
     pass);
+}
+
+void PassRenderer::joinPasses(const vtkRenderState* state)
+{
+  vtkProp** const first = state->GetPropArray();
+  vtkProp** const last = first + state->GetPropArrayCount();
+  vtkProp** const replaced = std::find_if(
+    first, last, [this](vtkProp* prop) { return this->Collected.replaced.count(prop) > 0; });
+  this->Presenter->StandFor(replaced != last ? *replaced : nullptr);
 }
 
 void PassRenderer::exchange(

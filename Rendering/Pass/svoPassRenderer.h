@@ -91,9 +91,17 @@ public:
   /// True if there is anything to trace, here or, with shadows to be seen here, elsewhere.
   bool hasSomething() const { return !this->Collected.scene.instances.empty() || this->Sharing; }
 
+  /// Before tracing: what the presenter writes is what outer passes expect of the props it
+  /// replaces.
+  void joinPasses(const vtkRenderState* state);
+
   /// Traces the collected scene, `width` by `height` pixels, with rays `distance` pixels apart.
   /// Nothing is drawn yet.
   void trace(int width, int height, double distance, FrameSettings settings);
+
+  /// True if what has been traced is what the renderer's camera sees now. Passes that show several
+  /// directions, as a panorama does, draw the props once for each.
+  bool shows(int width, int height) const;
 
   /// Pixels from ray to ray, up to `maximum`, of a frame whose window has `budget` seconds for all
   /// of its renderers.
@@ -123,6 +131,8 @@ public:
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
+  /// Of the renderer's camera; without pixels if there is none to be had.
+  View aim(int width, int height, double distance) const;
   double coarseOctreeError(double distance) const;
 
   vtkWeakPointer<vtkRenderer> Renderer;
@@ -132,7 +142,7 @@ private:
   SampleDistance Distance;
   std::shared_ptr<WindowTime> Window; // of the window that it was measured in last
   Tracer Trace;
-  View Eye; // of the frame
+  View Eye;             // of the frame
   bool Sharing = false; // this frame's shadow buffers are those of all processes
   struct Frame Picture;
   ShadowReceivers Receivers;

@@ -1,7 +1,8 @@
 //VTK::System::Dec
 //VTK::Output::Dec
 // Pixels that were traced elsewhere: colour and window depth. With SVO_WRITE_NORMALS also what
-// VTK's ambient occlusion reads, the position and the normal in view coordinates. Textures are as
+// VTK's ambient occlusion reads, the position and the normal in view coordinates; with
+// SVO_WRITE_LIGHT the colour is not cut to 0..1. Textures are as
 // large as the viewport, so that each fragment lies on the centre of its texel; filtered look-ups
 // cost software OpenGL less than texelFetch.
 in vec2 texCoord;
@@ -10,6 +11,9 @@ uniform sampler2D depths;
 #ifdef SVO_WRITE_NORMALS
 uniform sampler2D normals;
 uniform mat4 clipToView;
+#endif
+#ifdef SVO_WRITE_LIGHT
+uniform sampler2D light;
 #endif
 void main()
 {
@@ -20,6 +24,9 @@ void main()
   }
   float depth = texture(depths, texCoord).r;
   gl_FragDepth = depth;
+#ifdef SVO_WRITE_LIGHT
+  color.rgb = texture(light, texCoord).rgb;
+#endif
   gl_FragData[0] = color;
 #ifdef SVO_WRITE_NORMALS
   vec4 position = clipToView * vec4(texCoord * 2.0 - 1.0, depth * 2.0 - 1.0, 1.0);

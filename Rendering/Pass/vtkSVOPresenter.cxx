@@ -17,6 +17,7 @@
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
 #include "vtkRenderer.h"
+#include "vtkSSAOPass.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 #include "vtkTimerLog.h"
@@ -47,6 +48,7 @@ void vtkSVOPresenter::ReleaseGraphicsResources(vtkWindow* window)
   this->Colors = nullptr;
   this->Depths = nullptr;
   this->Normals = nullptr;
+  this->Light = nullptr;
   this->Parts.release();
   this->Uploaded = false;
   if (window)
@@ -120,42 +122,98 @@ void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window)
     prepare(this->Normals, window, frame, 3, VTK_FLOAT);
     send(this->Normals, frame, GL_RGB, GL_FLOAT, frame.normals.data());
   }
+  if (!frame.light.empty())
+  {
+    prepare(this->Light, window, frame, 3, VTK_FLOAT);
+    send(this->Light, frame, GL_RGB, GL_FLOAT, frame.light.data());
+  }
+}
+
+namespace
+{
+/// Calls visit(pass) for the passes that a prop carries in this frame.
+template <class Visit>
+void eachPass(vtkProp* prop, const Visit& visit)
+{
+  vtkInformation* keys = prop->GetPropertyKeys();
+  vtkInformationObjectBaseVectorKey* passes = vtkOpenGLRenderPass::RenderPasses();
+  const int count = keys && keys->Has(passes) ? keys->Length(passes) : 0;
+  for (int i = 0; i < count; ++i)
+  {
+    if (auto* pass = vtkOpenGLRenderPass::SafeDownCast(keys->Get(passes, i)))
+    {
+      visit(pass);
+    }
+  }
+}
+}
+
+void vtkSVOPresenter::StandFor(vtkProp* prop)
+{
+  this->SetPropertyKeys(nullptr);
+  if (prop)
+  {
+    vtkNew<vtkInformation> keys;
+    eachPass(prop,
+      [&](vtkOpenGLRenderPass* pass) { keys->Append(vtkOpenGLRenderPass::RenderPasses(), pass); });
+    this->SetPropertyKeys(keys);
+  }
+}
+
+bool vtkSVOPresenter::WantsNormals()
+{
+  bool wants = false;
+  eachPass(
+    this, [&](vtkOpenGLRenderPass* pass) { wants = wants || vtkSSAOPass::SafeDownCast(pass); });
+  return wants;
+}
+
+bool vtkSVOPresenter::KeepsLight()
+{
+  GLint buffer = GL_NONE;
+  glGetIntegerv(GL_DRAW_BUFFER, &buffer);
+  if (buffer < GL_COLOR_ATTACHMENT0 || buffer > GL_COLOR_ATTACHMENT15)
+  {
+    return false; // of the window itself, or none
+  }
+  const auto ask = [buffer](GLenum what)
+  {
+    GLint answer = GL_NONE;
+    glGetFramebufferAttachmentParameteriv(
+      GL_DRAW_FRAMEBUFFER, static_cast<GLenum>(buffer), what, &answer);
+    return answer;
+  };
+  return ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE &&
+    ask(GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
 }
 
 void vtkSVOPresenter::SelectDrawBuffers()
 {
-  vtkInformation* keys = this->GetPropertyKeys();
-  if (!keys || !keys->Has(vtkOpenGLRenderPass::RenderPasses()))
-  {
-    return;
-  }
-  const int count = keys->Length(vtkOpenGLRenderPass::RenderPasses());
-  for (int i = 0; i < count; ++i)
-  {
-    auto* pass =
-      vtkOpenGLRenderPass::SafeDownCast(keys->Get(vtkOpenGLRenderPass::RenderPasses(), i));
-    if (pass && pass != this->Pass)
+  eachPass(this,
+    [&](vtkOpenGLRenderPass* pass)
     {
-      pass->SetShaderParameters(this->Quad->Program, this->Nobody, this, nullptr);
-    }
-  }
+      if (pass != this->Pass)
+      {
+        pass->SetShaderParameters(this->Quad->Program, this->Nobody, this, nullptr);
+      }
+    });
 }
 
 bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   const svo::Frame& frame = *this->Frame;
   const bool writeNormals = !frame.normals.empty();
-  if (!this->Quad || this->QuadWritesNormals != writeNormals)
+  const bool writeLight = !frame.light.empty();
+  const std::string mark = "//VTK::System::Dec\n";
+  std::string shader = svoPresentFS;
+  shader.replace(shader.find(mark), mark.size(),
+    mark + (writeNormals ? "#define SVO_WRITE_NORMALS\n" : "") +
+      (writeLight ? "#define SVO_WRITE_LIGHT\n" : ""));
+  if (!this->Quad || this->QuadShader != shader)
   {
-    const std::string mark = "//VTK::System::Dec\n";
-    std::string shader = svoPresentFS;
-    if (writeNormals)
-    {
-      shader.replace(shader.find(mark), mark.size(), mark + "#define SVO_WRITE_NORMALS\n");
-    }
     this->Quad =
       std::make_unique<vtkOpenGLQuadHelper>(window, svoPresentVS, shader.c_str(), nullptr);
-    this->QuadWritesNormals = writeNormals;
+    this->QuadShader = shader;
   }
   else
   {
@@ -188,6 +246,11 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
     this->Normals->Activate();
     program->SetUniformi("normals", this->Normals->GetTextureUnit());
   }
+  if (writeLight)
+  {
+    this->Light->Activate();
+    program->SetUniformi("light", this->Light->GetTextureUnit());
+  }
   this->SelectDrawBuffers();
 
   bool drawn = false;
@@ -211,6 +274,10 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
   if (writeNormals)
   {
     this->Normals->Deactivate();
+  }
+  if (writeLight)
+  {
+    this->Light->Deactivate();
   }
   return drawn;
 }

@@ -20,6 +20,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 class vtkOpenGLQuadHelper;
@@ -46,6 +47,16 @@ public:
   /// looks at its frame. Null (the default) in renderers whose pass is the prop's own.
   using Prepare = std::function<void(int width, int height)>;
   void SetPrepare(Prepare prepare) { this->PrepareFrame = std::move(prepare); }
+
+  /// Other passes that set up what the framebuffer takes are asked as for this prop, whose place in
+  /// their frame the presenter has. Null: for none but those that know the presenter itself.
+  void StandFor(vtkProp* prop);
+
+  /// True if one of these passes wants positions and normals beside colours.
+  bool WantsNormals();
+
+  /// True if the framebuffer that is bound keeps colours beyond 1.
+  static bool KeepsLight();
 
   /// Seconds that the last frame's upload and drawing took.
   double GetPresentTime() const { return this->PresentTime; }
@@ -77,10 +88,11 @@ private:
   svo::Silhouettes Silhouettes;
   svo::PixelParts Parts;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
-  bool QuadWritesNormals = false;
+  std::string QuadShader; // of the quad
   vtkSmartPointer<vtkTextureObject> Colors;
   vtkSmartPointer<vtkTextureObject> Depths;
   vtkSmartPointer<vtkTextureObject> Normals;
+  vtkSmartPointer<vtkTextureObject> Light;
   /// Stands in where other passes ask whose shader they are setting up.
   vtkNew<vtkOpenGLPolyDataMapper> Nobody;
 };

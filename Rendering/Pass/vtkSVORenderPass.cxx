@@ -315,6 +315,7 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
     this->FinishFrame(frame);
     return;
   }
+  frame.of->joinPasses(state);
   this->TraceFrame(frame, width, height);
   {
     svo::ExchangedProps props(state->GetPropArray());
@@ -330,6 +331,7 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
       this->PostRender(state);
     }
   }
+  frame.of->presenter()->StandFor(nullptr);
   this->FinishFrame(frame);
   this->NumberOfRenderedProps = renderer->GetNumberOfPropsRendered();
 }

@@ -40,7 +40,7 @@ void vtkSVORenderPass::Attach(vtkRenderer* renderer)
     [this, renderer](int width, int height)
     {
       svo::PassFrame* frame = this->Impl->frameOf(renderer);
-      if (frame && !frame->traced)
+      if (frame && !(frame->traced && frame->of->shows(width, height)))
       {
         this->TraceFrame(*frame, width, height);
         frame->of->present(this);

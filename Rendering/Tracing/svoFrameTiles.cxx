@@ -23,13 +23,15 @@ void wipeTile(Frame& frame, int x0, int y0)
   }
 }
 
-void FrameTiles::begin(const DepthBuffer& depth, const View& view, bool writeNormals, Frame& frame)
+void FrameTiles::begin(
+  const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame)
 {
   this->TilesX = depth.tilesX;
   const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
   const bool same = frame.width == view.width && frame.height == view.height &&
     this->WrittenTo == frame.color.data() && frame.color.size() == 4 * pixels &&
-    frame.normals.size() == (writeNormals ? 3 * pixels : 0);
+    frame.normals.size() == (settings.writeNormals ? 3 * pixels : 0) &&
+    frame.light.size() == (settings.writeLight ? 3 * pixels : 0);
   if (!same)
   {
     frame.width = view.width;
@@ -38,7 +40,8 @@ void FrameTiles::begin(const DepthBuffer& depth, const View& view, bool writeNor
     frame.depth.assign(pixels, 1.0f);
     frame.instance.assign(pixels, NoInstance);
     frame.primitive.assign(pixels, NoPrimitive);
-    frame.normals.assign(writeNormals ? 3 * pixels : 0, 0.0f);
+    frame.normals.assign(settings.writeNormals ? 3 * pixels : 0, 0.0f);
+    frame.light.assign(settings.writeLight ? 3 * pixels : 0, 0.0f);
     this->WrittenTo = frame.color.data();
     this->Written.clear();
   }

@@ -20,7 +20,8 @@ class FrameTiles
 public:
   /// Makes the frame as large as the view, finds the tiles with hits and Frame::covered, and wipes
   /// tiles that have none any more.
-  void begin(const DepthBuffer& depth, const View& view, bool writeNormals, Frame& frame);
+  void begin(
+    const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame);
 
   /// Indices into the depth buffer's tiles, ascending.
   const std::vector<std::uint32_t>& hits() const { return this->Hits; }

@@ -168,6 +168,15 @@ void PixelShader::write(const Lit& lit, int tileX, int tileY, const Scratch& scr
       lit.lighting.rotation * glm::vec3(points.normalX[i], points.normalY[i], points.normalZ[i]);
     std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixel);
   }
+  const auto positive = [](float v) { return v > 0.0f ? v : 0.0f; }; // not a number: no light
+  for (int i = 0; lit.shaded.settings.writeLight && i < points.count; ++i)
+  {
+    const int k = points.pixel[i];
+    const std::size_t pixel = corner + static_cast<std::size_t>(k >> 3) * frame.width + (k & 7);
+    frame.light[3 * pixel] = positive(scratch.colors.r[i]);
+    frame.light[3 * pixel + 1] = positive(scratch.colors.g[i]);
+    frame.light[3 * pixel + 2] = positive(scratch.colors.b[i]);
+  }
   const std::size_t tile =
     static_cast<std::size_t>(tileY) * lit.shaded.eye.depthBuffer().tilesX + tileX;
   for (int i = 0; this->FindsEdges && i < points.count; ++i)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 
 namespace svo
 {
@@ -20,6 +21,8 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
   const EdgeFinder edges(shaded.eye.depthBuffer(), shaded.eye, this->DarkPixels, view);
   const Lighting lighting(scene, view);
   const float remaining = static_cast<float>(1.0 - shaded.settings.shadowIntensity);
+  // Of a sample, as of multisampled framebuffers of that kind.
+  const float brightest = shaded.settings.writeLight ? std::numeric_limits<float>::max() : 1.0f;
   std::atomic<std::uint64_t> primaryRays{ 0 };
   std::atomic<std::uint64_t> shadowRays{ 0 };
   struct Scratch
@@ -74,15 +77,19 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
             return dark.darkness(l, point, this->Errors[i], extent, rays);
           };
           sum += glm::clamp(
-            svo::shade(lighting, scene.instances[i], point, remaining, darkness), 0.0f, 1.0f);
+            svo::shade(lighting, scene.instances[i], point, remaining, darkness), 0.0f, brightest);
         }
         const int x = 8 * tileX + (pixels[first + p] & 7);
         const int y = 8 * tileY + (pixels[first + p] >> 3);
-        std::uint8_t* rgba =
-          frame.color.data() + 4 * (static_cast<std::size_t>(y) * view.width + x);
+        const std::size_t pixel = static_cast<std::size_t>(y) * view.width + x;
         for (int c = 0; c < 3 && hits > 0; ++c)
         {
-          rgba[c] = toByte(sum[c] / static_cast<float>(hits));
+          const float mean = sum[c] / static_cast<float>(hits);
+          frame.color[4 * pixel + c] = toByte(mean);
+          if (shaded.settings.writeLight)
+          {
+            frame.light[3 * pixel + c] = mean;
+          }
         }
       }
     }

@@ -105,7 +105,7 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
     { return selectLevel(instance, local, view, settings.pixelError); },
     settings.frameCoherence, budget);
   self.Eye.trace(parallelFor, nullptr);
-  self.Tiles.begin(self.Eye.depthBuffer(), view, settings.writeNormals, frame);
+  self.Tiles.begin(self.Eye.depthBuffer(), view, settings, frame);
 
   // What visible points will look up of the lights.
   self.Shader.begin(scene, settings.shadowTechnique, self.Eye);

@@ -44,6 +44,7 @@ struct FrameSettings
   bool filterShadows = false;
   bool wholeShadowBuffers = false; // rasterised receivers look up texels nobody here knows
   bool writeNormals = false;       // Frame::normals is wanted (SSAO)
+  bool writeLight = false;         // Frame::light is wanted (tone mapping)
 };
 
 /// The picture, row by row from the lower left, one entry a pixel.
@@ -55,6 +56,7 @@ struct Frame
   std::vector<std::uint8_t> color;     // RGBA; alpha 255 on a hit, 0 elsewhere
   std::vector<float> depth;            // OpenGL window depth; 1 where nothing was hit
   std::vector<float> normals;          // xyz, view space, if asked for
+  std::vector<float> light;            // RGB that `color` has cut to 0..1, on hits, if asked for
   std::vector<std::uint32_t> instance; // index into Scene::instances, or ~0u
   std::vector<Primitive> primitive;
 };
@@ -104,8 +106,8 @@ public:
   bool shareShadows(const Scene& scene, const FrameSettings& settings,
     const ParallelFor& parallelFor, Processes& processes);
 
-  /// After render(), with the same scene and view: what surfaces cover of the pixels of `frame` that
-  /// they share. See svoSilhouettes.h.
+  /// After render(), with the same scene and view: what surfaces cover of the pixels of `frame`
+  /// that they share. See svoSilhouettes.h.
   void divideEdges(const Scene& scene, const View& view, const Frame& frame,
     const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor,
     Silhouettes& result) const;

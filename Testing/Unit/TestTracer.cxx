@@ -394,3 +394,37 @@ TEST(Tracer, BadInputIsAPictureWithoutIt)
   scene.lights.clear();
   EXPECT_EQ(rendered(scene, Eye, smallBuffers()).instance, expected.instance);
 }
+
+TEST(Tracer, LightBeyondOneIsKeptWhereItIsAskedFor)
+{
+  svo::Scene scene = makeScene();
+  for (svo::Light& light : scene.lights)
+  {
+    light.color *= 3.0f;
+  }
+  for (const bool smooth : { false, true })
+  {
+    svo::FrameSettings settings = smallBuffers();
+    settings.antiAliasing = smooth;
+    const svo::Frame plain = rendered(scene, Eye, settings);
+    EXPECT_TRUE(plain.light.empty());
+    settings.writeLight = true;
+    const svo::Frame bright = rendered(scene, Eye, settings);
+    ASSERT_EQ(bright.light.size(), 3 * bright.depth.size());
+    int beyond = 0;
+    int differ = 0;
+    for (std::size_t i = 0; i < bright.depth.size(); ++i)
+    {
+      for (int c = 0; c < 3 && bright.color[4 * i + 3] == 255; ++c)
+      {
+        const float light = bright.light[3 * i + c];
+        beyond += light > 1.0f;
+        EXPECT_EQ(bright.color[4 * i + c], int(std::min(light, 1.0f) * 255.0f + 0.5f));
+        differ += bright.color[4 * i + c] != plain.color[4 * i + c];
+      }
+    }
+    EXPECT_GT(beyond, 100);
+    // Only pixels of several samples, of which some are cut and some are not.
+    EXPECT_LE(differ, smooth ? 2000 : 0);
+  }
+}

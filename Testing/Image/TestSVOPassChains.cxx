@@ -1,0 +1,146 @@
+// Chains of VTK's render passes around this one: what they make of traced surfaces is what they
+// make of rasterised ones.
+#include "svoTestStage.h"
+
+#include "vtkCameraPass.h"
+#include "vtkCullerCollection.h"
+#include "vtkLightsPass.h"
+#include "vtkOpaquePass.h"
+#include "vtkPanoramicProjectionPass.h"
+#include "vtkProperty.h"
+#include "vtkRenderPassCollection.h"
+#include "vtkSSAOPass.h"
+#include "vtkSequencePass.h"
+#include "vtkToneMappingPass.h"
+
+#include <cstdlib>
+#include <functional>
+#include <iostream>
+
+namespace
+{
+using PassPointer = vtkSmartPointer<vtkRenderPass>;
+
+// The camera's pass around another one.
+PassPointer withCamera(vtkRenderPass* inner)
+{
+  auto camera = vtkSmartPointer<vtkCameraPass>::New();
+  camera->SetDelegatePass(inner);
+  return camera;
+}
+
+PassPointer withOcclusion(vtkRenderPass* inner)
+{
+  auto occlusion = vtkSmartPointer<vtkSSAOPass>::New();
+  occlusion->SetRadius(0.5);
+  occlusion->SetKernelSize(64);
+  occlusion->BlurOn();
+  occlusion->SetDelegatePass(inner);
+  return occlusion;
+}
+
+PassPointer withToneMapping(vtkRenderPass* inner)
+{
+  auto tones = vtkSmartPointer<vtkToneMappingPass>::New();
+  tones->SetDelegatePass(inner);
+  return tones;
+}
+
+PassPointer withPanorama(vtkRenderPass* inner)
+{
+  auto panorama = vtkSmartPointer<vtkPanoramicProjectionPass>::New();
+  panorama->SetCubeResolution(256);
+  panorama->SetAngle(360.0);
+  panorama->SetDelegatePass(inner);
+  return panorama;
+}
+
+// What VTK draws of opaque surfaces.
+PassPointer rasteriser()
+{
+  vtkNew<vtkRenderPassCollection> steps;
+  vtkNew<vtkLightsPass> lights;
+  vtkNew<vtkOpaquePass> opaque;
+  steps->AddItem(lights);
+  steps->AddItem(opaque);
+  auto sequence = vtkSmartPointer<vtkSequencePass>::New();
+  sequence->SetPasses(steps);
+  return sequence;
+}
+}
+
+int TestSVOPassChains(int, char*[])
+{
+  using namespace svoTest;
+  Checks checks;
+  struct Chain
+  {
+    const char* name;
+    double intensity; // of the light
+    std::function<PassPointer(vtkRenderPass*)> around;
+  };
+  const Chain chains[] = {
+    { "camera", 1.0, [](vtkRenderPass* inner) { return withCamera(inner); } },
+    { "occlusion around the camera", 1.0,
+      [](vtkRenderPass* inner) { return withOcclusion(withCamera(inner)); } },
+    { "occlusion inside the camera", 1.0,
+      [](vtkRenderPass* inner) { return withCamera(withOcclusion(inner)); } },
+    { "occlusion under bright light", 3.0,
+      [](vtkRenderPass* inner) { return withOcclusion(withCamera(inner)); } },
+    { "tone mapping", 1.0,
+      [](vtkRenderPass* inner) { return withToneMapping(withCamera(inner)); } },
+    { "tone mapping under bright light", 4.0,
+      [](vtkRenderPass* inner) { return withToneMapping(withCamera(inner)); } },
+    { "tone mapping around occlusion", 4.0,
+      [](vtkRenderPass* inner) { return withToneMapping(withOcclusion(withCamera(inner))); } },
+    { "a panorama", 1.0, [](vtkRenderPass* inner) { return withPanorama(withCamera(inner)); } },
+  };
+  for (const Chain& chain : chains)
+  {
+    for (const bool smooth : { false, true })
+    {
+      Stage stage;
+      stage.renderer->GetCullers()->RemoveAllItems(); // panoramas see what lies behind
+      stage.addGround();
+      vtkProperty* shining = stage.add(ball(0.7, -0.6, 0.3, 0.8), 0.9, 0.5, 0.3)->GetProperty();
+      shining->SetSpecular(0.6);
+      shining->SetSpecularPower(20.0);
+      stage.add(box(0.8, 0.5, 0.6, 0.4), 0.4, 0.7, 0.9);
+      // One that stays with the rasteriser.
+      stage.add(ring(0.5, 0.8, -0.9, 0.6), 0.5, 0.9, 0.4)->GetProperty()->EdgeVisibilityOn();
+      stage.addSun(2.0, -1.5, 4.0)->SetIntensity(chain.intensity);
+      stage.pass->SetShadowTechniqueToNone();
+      stage.pass->SetAntiAliasing(smooth);
+
+      const auto shownBy = [&](vtkRenderPass* inner)
+      {
+        const PassPointer pass = chain.around(inner);
+        stage.renderer->SetPass(pass);
+        const Picture picture = capture(stage.window);
+        stage.renderer->SetPass(nullptr);
+        pass->ReleaseGraphicsResources(stage.window);
+        return picture;
+      };
+      const Picture raster = shownBy(rasteriser());
+      const Picture traced = shownBy(stage.pass);
+      checks.expect(stage.pass->GetNumberOfTracedActors() == 3 &&
+          stage.pass->GetNumberOfRasterizedActors() == 1,
+        "three actors are traced, one is not");
+      std::size_t wrong = 0;
+      for (std::size_t i = 0; i < raster.rgb.size(); i += 3)
+      {
+        bool differs = false;
+        for (int c = 0; c < 3; ++c)
+        {
+          differs = differs || std::abs(int(raster.rgb[i + c]) - int(traced.rgb[i + c])) > 10;
+        }
+        wrong += differs;
+      }
+      std::cout << chain.name << (smooth ? ", smooth edges: " : ": ") << wrong
+                << " pixels differ by more than 10 of 255\n";
+      // Smooth edges are unlike the rasteriser's: as many pixels as without any chain.
+      checks.expect(wrong <= (smooth ? 400 : 8), std::string(chain.name) + ": VTK's own picture");
+    }
+  }
+  return checks.exitCode();
+}
