@@ -39,8 +39,7 @@ bool TextureArray::allocate(int size, int layers)
   this->SetMagnificationFilter(vtkTextureObject::Nearest);
   this->SetWrapS(vtkTextureObject::ClampToEdge);
   this->SetWrapT(vtkTextureObject::ClampToEdge);
-  // Sent when it is made; sending them again asserts that VTK knows this kind of texture.
-  this->SetAutoParameters(0);
+  this->AutoParametersOff(); // CreateTexture() sends them; later on VTK asserts that it knows arrays
   this->CreateTexture();
   this->Activate();
   for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) // errors of others

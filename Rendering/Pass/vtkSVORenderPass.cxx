@@ -238,7 +238,7 @@ void vtkSVORenderPass::TraceFrame(svo::PassFrame& frame, int width, int height)
   const std::string& complaint = frame.of->complaint();
   if (!complaint.empty() && impl.said.insert(complaint).second)
   {
-    vtkWarningMacro(<< complaint);
+    frame.messages.push_back(complaint);
   }
   svo::ShadowReceivers& receivers = frame.of->receivers();
   const std::string signature = receivers.signature();
