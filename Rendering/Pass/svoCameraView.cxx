@@ -6,6 +6,8 @@
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 
+#include <glm/matrix.hpp>
+
 namespace svo
 {
 glm::dmat4 toGlm(const vtkMatrix4x4* matrix)
@@ -35,6 +37,11 @@ void sizeOf(const vtkRenderState* state, int& width, int& height)
   state->GetRenderer()->GetTiledSizeAndOrigin(&width, &height, &left, &bottom);
 }
 
+glm::dmat4 modelTransform(vtkRenderer* renderer)
+{
+  return toGlm(renderer->GetActiveCamera()->GetModelTransformMatrix());
+}
+
 bool viewOfCamera(vtkRenderer* renderer, int width, int height, View& view)
 {
   if (width <= 0 || height <= 0)
@@ -42,7 +49,12 @@ bool viewOfCamera(vtkRenderer* renderer, int width, int height, View& view)
     return false;
   }
   vtkCamera* camera = renderer->GetActiveCamera();
-  const glm::dmat4 worldToView = toGlm(camera->GetModelViewTransformMatrix());
+  glm::dmat4 worldToView = toGlm(camera->GetModelViewTransformMatrix());
+  const glm::dmat4 model = modelTransform(renderer);
+  if (model != glm::dmat4(1.0))
+  {
+    worldToView = worldToView * glm::inverse(model);
+  }
   const glm::dmat4 viewToClip =
     toGlm(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
   return makeView(worldToView, viewToClip, width, height, view);

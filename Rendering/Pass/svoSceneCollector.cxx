@@ -32,6 +32,7 @@ struct SceneCollector::Frame
   const StoreOptions& options;
   CollectSettings settings;
   CollectedScene& result;
+  glm::dmat4 world; // see modelTransform()
   std::vector<PropSurfaces> props;
 };
 
@@ -193,7 +194,7 @@ void SceneCollector::collectActor(
     return;
   }
   Reason beyond = treatment.rasterized;
-  glm::dmat4 localToWorld = toGlm(matrix);
+  glm::dmat4 localToWorld = frame.world * toGlm(matrix);
   switch (kindOf(localToWorld))
   {
     case MatrixKind::Nowhere:
@@ -283,6 +284,7 @@ void SceneCollector::collectActor(
 bool SceneCollector::collectProp(PropSurfaces& found, Frame& frame)
 {
   vtkProp* prop = found.prop;
+  found.world = frame.world;
   const auto collect = [&](vtkActor* actor, const vtkMatrix4x4* matrix)
   {
     this->collectActor(actor, matrix, found, frame);
@@ -370,13 +372,14 @@ void addProp(const PropSurfaces& prop, CollectedScene& result)
 void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options,
   const CollectSettings& settings, CollectedScene& result)
 {
-  result.scene.lights = lightsOf(renderer, result.headlightOnly);
+  const glm::dmat4 world = modelTransform(renderer);
+  result.scene.lights = lightsOf(renderer, world, result.headlightOnly);
   bool casting = false;
   for (const Light& light : result.scene.lights)
   {
     casting = casting || light.castShadow;
   }
-  Frame frame{ options, settings, result, {} };
+  Frame frame{ options, settings, result, world, {} };
   frame.settings.shadows = settings.shadows && casting;
   // Updating a prop may change the renderer's list.
   std::vector<vtkSmartPointer<vtkProp>> props;

@@ -1,5 +1,7 @@
 #include "svoSceneLights.h"
 
+#include "svoAffineMatrix.h"
+
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationObjectBaseKey.h"
@@ -17,6 +19,19 @@ namespace svo
 {
 namespace
 {
+/// VTK's renderer transforms a light's direction as it does normals.
+void transform(const glm::dmat4& world, Light& light)
+{
+  if (world == glm::dmat4(1.0) || kindOf(world) != MatrixKind::Affine)
+  {
+    return;
+  }
+  light.position = glm::dvec3(world * glm::dvec4(light.position, 1.0));
+  const glm::dvec3 direction = light.direction * stableInverse(glm::dmat3(world));
+  const double length = glm::length(direction);
+  light.direction = length > 0.0 ? direction / length : glm::dvec3(0.0);
+}
+
 Light lightOf(vtkLight* source)
 {
   Light light;
@@ -133,7 +148,7 @@ vtkLight* keyLightOf(vtkRenderer* renderer)
 }
 }
 
-std::vector<Light> lightsOf(vtkRenderer* renderer, bool& headlightOnly)
+std::vector<Light> lightsOf(vtkRenderer* renderer, const glm::dmat4& world, bool& headlightOnly)
 {
   std::vector<Light> lights;
   const vtkLight* const key = keyLightOf(renderer);
@@ -142,6 +157,7 @@ std::vector<Light> lightsOf(vtkRenderer* renderer, bool& headlightOnly)
     [&](vtkLight* source)
     {
       Light light = lightOf(source);
+      transform(world, light);
       light.castShadow = answerOf(source, source->LightTypeIsSceneLight() || source == key);
       headlightOnly = headlightOnly && source->LightTypeIsHeadlight() && !isAnswered(source);
       if (source->LightTypeIsCameraLight())

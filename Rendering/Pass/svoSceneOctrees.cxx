@@ -2,6 +2,10 @@
 
 #include "svoNeededLevels.h"
 
+#include <limits>
+
+#include <glm/common.hpp>
+
 namespace svo
 {
 namespace
@@ -51,7 +55,16 @@ void addReceiver(const PropSurfaces& prop, Scene& scene)
   const double* b = !prop.traced && prop.receives ? prop.prop->GetBounds() : nullptr;
   if (b && b[0] <= b[1] && b[2] <= b[3] && b[4] <= b[5])
   {
-    scene.receivers.push_back({ { b[0], b[2], b[4] }, { b[1], b[3], b[5] } });
+    Receiver receiver{ glm::dvec3(std::numeric_limits<double>::infinity()),
+      glm::dvec3(-std::numeric_limits<double>::infinity()) };
+    for (int i = 0; i < 8; ++i)
+    {
+      const glm::dvec3 corner(
+        prop.world * glm::dvec4(b[i & 1], b[2 + (i >> 1 & 1)], b[4 + (i >> 2)], 1.0));
+      receiver.low = glm::min(receiver.low, corner);
+      receiver.high = glm::max(receiver.high, corner);
+    }
+    scene.receivers.push_back(receiver);
   }
 }
 

@@ -147,10 +147,16 @@ bool LayeredView::cutRays(
   {
     if (merged.instance[i] != NoInstance)
     {
-      const double cut = this->Bases[merged.instance[i]] + merged.t[i] - entry.local.base;
+      double cut = this->Bases[merged.instance[i]] + merged.t[i];
+      if (this->Shifted)
+      {
+        cut =
+          this->Of.linearDepth(this->rank(merged.instance[i], cut) - this->Offsets[entry.index]);
+      }
+      cut -= entry.local.base;
       if (entry.cuttable || cut < candidate.tNear)
       {
-        const bool placed = this->Exact && !candidate.nodes.empty();
+        const bool placed = this->Exact && (!candidate.nodes.empty() || this->Shifted);
         const double reach = placed ? placingReach(entry.local) : 0.0;
         block.tMax[i] = std::min(block.tMax[i], roundUp(cut + reach));
       }
@@ -163,7 +169,7 @@ bool LayeredView::cutRays(
 void LayeredView::merge(
   const Entry& entry, const float* t, const Primitive* primitive, MergedTile& merged) const
 {
-  // min(t), the smaller index where equal: any order of merging gives the same buffer. A NaN
+  // The least, the smaller index where equal: any order of merging gives the same buffer. A NaN
   // compares false and never wins.
   for (int i = 0; i < 64; ++i)
   {
@@ -178,8 +184,9 @@ void LayeredView::merge(
       std::fill(merged.primitive, merged.primitive + 64, NoPrimitive);
     }
     const std::uint32_t winner = merged.instance[i];
-    const double mine = entry.local.base + t[i];
-    const double other = winner != NoInstance ? this->Bases[winner] + merged.t[i] : 0.0;
+    const double mine = this->rank(entry.index, entry.local.base + t[i]);
+    const double other =
+      winner != NoInstance ? this->rank(winner, this->Bases[winner] + merged.t[i]) : 0.0;
     if (winner == NoInstance || mine < other || (mine == other && entry.index < winner))
     {
       merged.t[i] = t[i];
@@ -270,8 +277,11 @@ void LayeredView::sample(int tileX, int tileY, Samples* samples, std::size_t cou
       for (int i = 0; i < 64; ++i)
       {
         const double t = entry.local.base + found.t[i];
+        const double mine = this->rank(entry.index, t);
+        const std::uint32_t winner = s.instance[i];
+        const double other = winner != NoInstance ? this->rank(winner, s.t[i]) : 0.0;
         const bool nearer =
-          s.instance[i] == NoInstance || t < s.t[i] || (t == s.t[i] && entry.index < s.instance[i]);
+          winner == NoInstance || mine < other || (mine == other && entry.index < winner);
         if (found.primitive[i] != NoPrimitive && nearer)
         {
           s.t[i] = t;

@@ -81,9 +81,17 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, Layer
   this->Bases.assign(scene.instances.size(), 0.0);
   this->Levels.assign(scene.instances.size(), 0);
   this->Geometries.clear();
+  this->Offsets.clear();
   for (const Instance& instance : scene.instances)
   {
     this->Geometries.push_back(instance.leafGeometry);
+    this->Offsets.push_back(instance.depthOffsetUnits);
+  }
+  this->Shifted = false;
+  for (const Entry& entry : this->Instances)
+  {
+    this->Shifted = this->Shifted ||
+      (this->Exact && this->Offsets[entry.index] != this->Offsets[this->Instances[0].index]);
   }
   // Layers are made for what stands still: something new is taken to do so, something that just
   // changed, or is seen by a view that did, is taken to go on changing.

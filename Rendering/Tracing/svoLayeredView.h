@@ -100,8 +100,9 @@ VTKSVOTRACING_EXPORT bool worthTiles(
 class LayeredView
 {
 public:
-  /// `exact`: hits of whole tiles are placed in double (svoPlaceOnTriangles.h). A light's view can
-  /// do without: its texels are wider than what that mends.
+  /// `exact`: hits of whole tiles are placed in double (svoPlaceOnTriangles.h), and who is in front
+  /// follows from window depths with their offsets (Instance::depthOffsetUnits). A light's view can
+  /// do without: its texels are wider than what the one mends, and the other is the window's.
   explicit LayeredView(bool exact = true)
     : Exact(exact)
   {
@@ -217,6 +218,12 @@ private:
   /// Through points x, y of the image; tMin and tMax are set.
   void traceRays(const TileEntry& candidate, const double* x, const double* y, RayBlock& block,
     HitBlock& found) const;
+  /// By what it is decided who is in front: an instance's linear depth, but where offsets differ.
+  double rank(std::uint32_t instance, double linearDepth) const
+  {
+    return this->Shifted ? this->Of.windowDepth(linearDepth) + this->Offsets[instance]
+                         : linearDepth;
+  }
   void merge(
     const Entry& entry, const float* t, const Primitive* primitive, MergedTile& merged) const;
   void traceTile(int tileX, int tileY, TileScratch& scratch);
@@ -226,6 +233,8 @@ private:
   bool Began = false; // Of and Layers are a frame's
   std::vector<Entry> Instances;
   std::vector<double> Bases;
+  std::vector<double> Offsets; // of window depths
+  bool Shifted = false;        // offsets of visible instances differ
   std::vector<int> Levels;
   std::vector<LeafGeometry> Geometries;
   std::unordered_map<std::uint64_t, Kept> Layers; // by Instance::id

@@ -76,7 +76,8 @@ struct Instance
   double pixelError = -1.0;
   /// Stable identity of the instance from frame to frame (actor, block, path).
   std::uint64_t id = 0;
-  /// Coincident-topology offset, added to the window depth (0..1); VTK's shaders know no slope.
+  /// Coincident-topology offset, added to the window depth (0..1) before depths are compared; VTK's
+  /// shaders know no slope. Shadows know nothing of it.
   float depthOffsetUnits = 0.0f;
 
   // Where octrees are built no deeper than they are needed; see svoNeededLevels.h.

@@ -1,6 +1,7 @@
 #include "svoView.h"
 
 #include <cmath>
+#include <limits>
 
 #include <glm/gtc/matrix_inverse.hpp>
 
@@ -12,6 +13,14 @@ double View::windowDepth(double t) const
   const double z = viewToClip[2][2] * -t + viewToClip[3][2];
   const double w = viewToClip[2][3] * -t + viewToClip[3][3];
   return 0.5 * z / w + 0.5;
+}
+
+double View::linearDepth(double windowDepth) const
+{
+  const double ndc = 2.0 * windowDepth - 1.0;
+  const double t =
+    (viewToClip[3][2] - ndc * viewToClip[3][3]) / (viewToClip[2][2] - ndc * viewToClip[2][3]);
+  return parallel || t > 0.0 ? t : std::numeric_limits<double>::infinity();
 }
 
 bool makeView(

@@ -40,6 +40,8 @@ struct VTKSVOTRACING_EXPORT View
   /// OpenGL window depth, 0..1, of linear depth t. Depends on t only for every projection whose
   /// last row has no x and y terms (all of VTK's).
   double windowDepth(double t) const;
+  /// The inverse: infinity where no ray is so deep.
+  double linearDepth(double windowDepth) const;
 };
 
 /// The view of a projection: any matrix whose last row is (0, 0, a, b), so off-axis, explicit and

@@ -3,8 +3,10 @@
 #include "svoShadowOracle.h"
 #include "svoTestStage.h"
 
+#include "vtkCamera.h"
 #include "vtkMatrix4x4.h"
 #include "vtkProperty.h"
+#include "vtkTransform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,6 +69,43 @@ void compareFlattened(Checks& checks)
     checks.expect(changed(shadowed, expected) < 15, name + ": its shadow");
   }
 }
+
+/// Matrices that the camera puts before its view are VTK's for normals and lights, too.
+void compareModelTransforms(Checks& checks)
+{
+  const char* names[] = { "turned", "scaled", "mirrored", "sheared" };
+  for (int i = 0; i < 4; ++i)
+  {
+    for (const bool bulb : { false, true })
+    {
+      Stage stage;
+      stage.addGround();
+      vtkActor* actor = stage.add(ball(0.7, 0.2, -0.3, 0.9), 0.9, 0.5, 0.3);
+      actor->GetProperty()->SetSpecular(0.4);
+      actor->GetProperty()->SetSpecularPower(15.0);
+      bulb ? stage.addBulb(1.0, -1.5, 4.0)->SetAttenuationValues(0.2, 0.1, 0.02)
+           : stage.addSun(1.0, -1.5, 4.0)->SetIntensity(1.0);
+      vtkNew<vtkTransform> transform;
+      const double sheared[16] = { 1, 0.3, 0, 0, 0, 1, 0.4, 0.2, 0, 0, 1, 0, 0, 0, 0, 1 };
+      i == 0     ? transform->RotateWXYZ(25.0, 0.3, 0.2, 1.0)
+        : i == 1 ? transform->Scale(1.2, 0.8, 1.5)
+        : i == 2 ? transform->Scale(-1.0, 1.0, 1.0)
+                 : transform->SetMatrix(sheared);
+      stage.renderer->GetActiveCamera()->SetModelTransformMatrix(transform->GetMatrix());
+      stage.pass->SetShadowTechniqueToNone();
+      stage.usePass(false);
+      const Picture raster = capture(stage.window);
+      stage.usePass(true);
+      const Picture traced = capture(stage.window);
+      const std::size_t wrong = changed(raster, traced);
+      const Difference look = difference(raster, traced);
+      std::cout << "model transform " << names[i] << ": mean " << look.mean << ", p99 " << look.p99
+                << ", " << wrong << " pixels differ\n";
+      checks.expect(wrong < 10 && look.p99 <= 2,
+        std::string("the camera's world is ") + names[i] + ": VTK's own picture");
+    }
+  }
+}
 }
 
 int TestSVOMatrices(int argc, char* argv[])
@@ -113,6 +152,7 @@ int TestSVOMatrices(int argc, char* argv[])
   checks.expect(look.mean <= 2.0 && look.p99 <= 8, "without shadows it is VTK's own picture");
 
   compareFlattened(checks);
+  compareModelTransforms(checks);
   stage.usePass(true);
   checks.expect(matchesBaseline(stage.window, argc, argv), "the baseline");
   return checks.exitCode();

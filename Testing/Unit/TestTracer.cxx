@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+<<<<<<< HEAD
 #include <cstring>
+=======
+>>>>>>> b55e968 (Coincident topology between traced surfaces and a camera's ModelTransformMatrix are VTK's)
 #include <limits>
 
 using namespace svotest;
@@ -48,8 +51,11 @@ svo::FrameSettings smallBuffers()
 }
 }
 
-// Every pixel of the merged picture against rays traced one by one, in double.
-TEST(Tracer, TheNearestInstanceOfEveryPixelIsSeen)
+namespace
+{
+/// Every pixel of the merged picture against rays traced one by one, in double. `offsets`: of the
+/// instances' window depths.
+void expectNearest(const float (&offsets)[3])
 {
   svo::Scene scene = makeScene(svo::LeafGeometry::Triangle);
   scene.instances[1].localToWorld =
@@ -57,9 +63,18 @@ TEST(Tracer, TheNearestInstanceOfEveryPixelIsSeen)
   scene.instances[2].localToWorld[1] = { 0.4, 1.0, 0.2, 0.0 }; // sheared
   svo::FrameSettings settings = smallBuffers();
   settings.pixelError = 0.0;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i)
+  {
+    scene.instances[i].depthOffsetUnits = offsets[i];
+  }
   for (const svo::View& view : { Eye, lookAtParallel({ 1, -6, 4 }, 100, 76, 2.5) })
   {
-    const svo::Frame frame = rendered(scene, view, settings);
+    svo::Tracer tracer;
+    const svo::Frame frame = rendered(tracer, scene, view, settings);
+    EXPECT_TRUE(identical(frame, rendered(tracer, scene, view, settings))) << "with kept layers";
+    svo::FrameSettings cutting = settings;
+    cutting.frameCoherence = false;
+    EXPECT_TRUE(identical(frame, rendered(scene, view, cutting))) << "with rays that are cut";
     int differ = 0;
     int hits = 0;
     for (int y = 0; y < view.height; ++y)
@@ -80,9 +95,10 @@ TEST(Tracer, TheNearestInstanceOfEveryPixelIsSeen)
           ray.tMax = view.tFar;
           const svo::Hit hit =
             svo::intersect(instance.octree, ray, { instance.leafGeometry, svo::MaximumLevel });
-          if (hit && hit.t < nearest)
+          const double depth = view.windowDepth(hit.t) + offsets[i];
+          if (hit && depth < nearest)
           {
-            nearest = hit.t;
+            nearest = depth;
             winner = i;
           }
         }
@@ -94,7 +110,7 @@ TEST(Tracer, TheNearestInstanceOfEveryPixelIsSeen)
         }
         else if (winner != ~0u)
         {
-          EXPECT_NEAR(frame.depth[at], view.windowDepth(nearest), 2e-6) << x << ", " << y;
+          EXPECT_NEAR(frame.depth[at], std::clamp(nearest, 0.0, 1.0), 2e-6) << x << ", " << y;
           EXPECT_EQ(frame.color[4 * at + 3], 255);
         }
         else
@@ -107,6 +123,18 @@ TEST(Tracer, TheNearestInstanceOfEveryPixelIsSeen)
     EXPECT_GT(hits, 1500);
     EXPECT_LE(differ, 3);
   }
+}
+}
+
+TEST(Tracer, TheNearestInstanceOfEveryPixelIsSeen)
+{
+  expectNearest({ 0.0f, 0.0f, 0.0f });
+}
+
+TEST(Tracer, WindowDepthsAreComparedWithTheirOffsets)
+{
+  expectNearest({ 0.0f, 0.003f, -0.002f });
+  expectNearest({ -0.002f, 0.0f, 0.0f });
 }
 
 TEST(Tracer, TheSameDepthIsTheFirstInstances)
@@ -349,7 +377,7 @@ TEST(Tracer, AnInstanceMayHaveItsOwnPixelError)
   EXPECT_TRUE(svotest::identical(picture(0.0, 12.0), coarse));
 }
 
-TEST(Tracer, AnOffsetMovesTheWindowDepthAlone)
+TEST(Tracer, AnOffsetOfAllMovesTheWindowDepthAlone)
 {
   svo::Scene scene = makeScene();
   const svo::Frame plain = rendered(scene, Eye, smallBuffers());

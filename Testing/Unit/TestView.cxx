@@ -26,6 +26,7 @@ void expectRoundTrip(const svo::View& view)
         EXPECT_NEAR((clip.x / clip.w + 1) / 2 * view.width, x, 1e-9);
         EXPECT_NEAR((clip.y / clip.w + 1) / 2 * view.height, y, 1e-9);
         EXPECT_NEAR(view.windowDepth(t), clip.z / clip.w / 2 + 0.5, 1e-12);
+        EXPECT_NEAR(view.linearDepth(view.windowDepth(t)), t, 1e-9 * (1 + t));
       }
     }
   }
