@@ -52,6 +52,14 @@ bool worthTiles(const Instance& instance, const LocalView& local, const View& vi
   return voxels * voxel * voxel >= LeastTrianglePixels;
 }
 
+int deepened(const Instance& instance, int level)
+{
+  const bool exact = instance.leafGeometry == LeafGeometry::Triangle ||
+    instance.leafGeometry == LeafGeometry::Automatic;
+  const int last = instance.octree.level();
+  return exact && instance.octree.surface() && level >= last - 2 ? last : level;
+}
+
 bool sameRays(const View& a, const View& b)
 {
   return a.origin == b.origin && a.originX == b.originX && a.originY == b.originY &&

@@ -97,6 +97,11 @@ bool endsFreely(const Instance& instance, int level);
 VTKSVOTRACING_EXPORT bool worthTiles(
   const Instance& instance, const LocalView& local, const View& view);
 
+/// The level that rays of an instance really stop at: the last one where they would stop inside of
+/// bricks whose triangles they test. They meet the same triangles, but pass bricks by that they
+/// have nothing to look for in.
+int deepened(const Instance& instance, int level);
+
 class LayeredView
 {
 public:
@@ -127,7 +132,8 @@ public:
       if (!local.rect.empty())
       {
         const bool tiles = worthTiles(instance, local, view);
-        const int level = tiles ? instance.octree.level() : levelOf(instance, local);
+        const int level =
+          tiles ? instance.octree.level() : deepened(instance, levelOf(instance, local));
         const LeafGeometry geometry = tiles ? LeafGeometry::Triangle : instance.leafGeometry;
         this->Instances.push_back({ i, instance.id, &instance.octree, local,
           makeProjection(instance.octree, instance.localToWorld, view, local.base),

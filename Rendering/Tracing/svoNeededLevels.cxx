@@ -73,7 +73,8 @@ int coarsestLevel(const MeshBox& box, std::size_t triangles)
   // In edges, so that no size is too large or too small.
   const glm::dvec3 sides = size / edge;
   const double area = 2.0 * (sides.x * sides.y + sides.y * sides.z + sides.z * sides.x);
-  const double trianglesOfVoxel = ShortList / 16.0; // a brick's face has 16
+  constexpr double TrianglesOfBrick = 8.0;
+  constexpr double trianglesOfVoxel = TrianglesOfBrick / 16.0; // a brick's face has 16
   const double voxels2 = static_cast<double>(triangles) / (trianglesOfVoxel * std::max(area, 1e-6));
   const double level = std::ceil(0.5 * std::log2(std::max(voxels2, 1.0)));
   return static_cast<int>(std::clamp(level, Coarsest, static_cast<double>(MaximumLevel)));

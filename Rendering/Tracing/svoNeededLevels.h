@@ -37,8 +37,8 @@ VTKSVOTRACING_EXPORT std::vector<NeededLevels> neededLevels(
   const Scene& scene, const View& eye, const FrameSettings& settings);
 
 /// The coarsest octree that shows a mesh well, 4 or more, not regarding Instance::deepestLevel: its
-/// bricks have as many triangles as are intersected one by one (ShortList), if the mesh covers
-/// about as much area as its box.
+/// bricks have eight triangles, few to be intersected one by one, if the mesh covers about as much
+/// area as its box.
 VTKSVOTRACING_EXPORT int coarsestLevel(const MeshBox& box, std::size_t triangles);
 }
 

@@ -101,7 +101,7 @@ TEST(AutomaticLeaves, AreTrianglesWhereListsAreShort)
 
 TEST(AutomaticLeaves, ArePlanesWhereListsAreLong)
 {
-  const svo::Octree octree = makeOctree(sphere(60, 60), 4); // some hundred triangles a brick
+  const svo::Octree octree = makeOctree(sphere(120, 120), 4); // hundreds of triangles a brick
   for (std::uint32_t b = octree.brickBegin(); b < octree.header().nodeCount; ++b)
   {
     std::uint32_t count = 0, id = 0;
