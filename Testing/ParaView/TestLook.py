@@ -1,11 +1,20 @@
 """Whatever a user then does: a traced surface looks as the representation Surface does, and what is
 not the surface's look builds no octree."""
 
+import pathlib
 import unittest
 
 import numpy
+import paraview
 import paraview.simple as pv
 import scene
+
+
+def distributed_plugins(name):
+    """Files of a plugin that comes with ParaView, which knows those of the folder that it was installed to only."""
+    own = pathlib.Path(paraview.__file__).parents[4]
+    found = [file for usr in (own, pathlib.Path("/usr")) for file in usr.glob(f"lib/*/paraview-*/plugins/{name}/*.so")]
+    return [str(file) for file in found]
 
 
 class TestLook(unittest.TestCase):
@@ -52,6 +61,29 @@ class TestLook(unittest.TestCase):
         ball = scene.make_ball()
         points = pv.Elevation(Input=ball, LowPoint=[0, 0, 0.3], HighPoint=[0, 0, 1.3])
         return pv.PointDatatoCellData(Input=points, PassPointData=1)
+
+    def test_a_panorama(self):
+        """A view that draws its scene in six directions, by another of ParaView's plugins."""
+        plugins = distributed_plugins("PanoramicProjectionView")
+        if not plugins:
+            self.skipTest("this ParaView has no panoramas")
+        pv.LoadPlugin(plugins[0], remote=False, ns=vars(pv))
+        panorama = pv.CreateView("PanoramicProjectionView")
+        for name in ("UseLight", "OrientationAxesVisibility"):
+            panorama.SetPropertyWithName(name, 0)
+        panorama.ViewSize = list(self.size)
+        panorama.CameraPosition = [0.0, -3.0, 1.5]
+        panorama.CameraFocalPoint = [0.0, 0.0, 0.3]
+        panorama.CameraViewUp = [0.0, 0.0, 1.0]
+        panorama.SVOShadowTechnique = "None"
+        self.view = panorama
+        scene.add_sun(self.view)
+        beside = pv.Box(XLength=1, YLength=1, ZLength=1, Center=[-3, -3, 0.5])
+        self.show(scene.make_ball(), beside, scene.make_ground())
+        picture = self.check("panorama", traced=3, share=2e-3)
+        self.view.SVOShadowTechnique = "Shadow Buffer"
+        shadowed = scene.picture(self.view, "panorama-shadows")
+        self.assertGreater(scene.differing(picture, shadowed, 20), 1e-3)
 
     def test_point_and_cell_colors(self):
         ball, _ = self.show(self.colored_ball(), scene.make_ground())
