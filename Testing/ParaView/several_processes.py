@@ -60,7 +60,7 @@ print("traced:", int(scene.statistic(view, "SVONumberOfTracedActors")),
       "time:", "known" if scene.statistic(view, "SVOTraceTime") > 0 else "unknown")
 # Servers reduce interactive images, by a factor that the largest distance of rays must not be multiplied with.
 view.ImageReductionFactor = 4
-view.SVOMaximumImageSampleDistance = 4
+view.SVOMaximumImageSampleDistance = 2  # a pixel of theirs is more
 view.SMProxy.InteractiveRender()
 print("sample distance where images are reduced:", scene.statistic(view, "SVOImageSampleDistance"))
 view.ImageReductionFactor = 2
