@@ -98,7 +98,7 @@ class TestBadInput(unittest.TestCase):
         self.assertEqual(output.messages(), [])
 
     def test_series_with_points_that_are_not_finite(self):
-        meshes = series.breathing_ball(3)
+        meshes = list(series.breathing_ball(3))
         for mesh in meshes:
             mesh.GetPoints().SetPoint(100, float("nan"), 0.0, 0.0)
         pictures, output = self.play(meshes, "not-finite-series")

@@ -81,6 +81,7 @@ class TestParallel(unittest.TestCase):
         output = run(MPIRUN + [str(processes), program("pvbatch"), SCRIPT, prefix])
         self.assertIn(f"processes with data: {processes}\n", output)
         self.check_figures(output)
+        self.assertIn("sample distance where images are reduced: 4.0\n", output)
         self.check(prefix)
 
     def check_figures(self, output):

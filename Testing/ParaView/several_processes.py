@@ -58,6 +58,13 @@ print("traced:", int(scene.statistic(view, "SVONumberOfTracedActors")),
       "instances:", int(scene.statistic(view, "SVONumberOfInstances")),
       "sample distance:", scene.statistic(view, "SVOImageSampleDistance"),
       "time:", "known" if scene.statistic(view, "SVOTraceTime") > 0 else "unknown")
+# Servers reduce interactive images, by a factor that the largest distance of rays must not be multiplied with.
+view.ImageReductionFactor = 4
+view.SVOMaximumImageSampleDistance = 2  # a pixel of theirs is more
+view.SMProxy.InteractiveRender()
+print("sample distance where images are reduced:", scene.statistic(view, "SVOImageSampleDistance"))
+view.ImageReductionFactor = 2
+view.SVOMaximumImageSampleDistance = 8
 # Levels of detail, which for these surfaces are the surfaces, on the processes that draw: with a server, the
 # client's and then the server's.
 pv.GetSettingsProxy("RenderViewSettings").LODThreshold = 0.0
