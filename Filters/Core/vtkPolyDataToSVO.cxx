@@ -300,7 +300,7 @@ void vtkPolyDataToSVO::Convert(
   {
     svo::attachOctree(output, built.octree);
     this->Finish(output);
-    report(this, input, built.octree, message);
+    report(this, built.octree, message, this->Internals->SaidIncomplete);
     if (this->CacheTimeSteps)
     {
       cache.insert(std::move(built), this->CacheMemoryLimit * Kibi);

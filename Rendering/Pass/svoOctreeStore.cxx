@@ -92,7 +92,7 @@ OctreeStore::Known& OctreeStore::knownOf(vtkPolyData* mesh, const StoreOptions& 
     if (known.mesh == mesh)
     {
       fresh.said = std::move(known.said);
-      fresh.keys = std::move(known.keys);
+      fresh.keys.swap(known.keys);
     }
     this->Orphans = this->Orphans || !known.keys.empty(); // of a mesh that was at this address
     known = std::move(fresh);
