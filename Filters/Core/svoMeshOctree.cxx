@@ -106,6 +106,15 @@ void addModel(const std::array<double, 6>& model, double bounds[6])
   }
 }
 
+OpenOctrees::Recipe recipeOf(const MeshOctreeOptions& options, std::uint64_t signature)
+{
+  // Bounds that say nothing are all the same.
+  constexpr std::array<double, 6> nothing{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+  const std::array<double, 6>& model = options.modelBounds;
+  const bool given = model[0] <= model[1] && model[2] <= model[3] && model[4] <= model[5];
+  return { signature, options.level, options.leafGeometry, given ? model : nothing };
+}
+
 BuildStatus buildUnguarded(
   vtkPolyData* mesh, const MeshOctreeOptions& options, Octree& octree, std::string& message)
 {
@@ -155,8 +164,14 @@ BuildStatus buildUnguarded(
     message += (message.empty() ? "" : ", and ") + std::to_string(triangles.brokenCells()) +
       " cells name points that do not exist; they are left out of the octree";
   }
+  OpenOctrees::instance().add(recipeOf(options, header.signature), octree, message);
   return BuildStatus::Built;
 }
+}
+
+Octree findBuiltOctree(const MeshOctreeOptions& options, std::string& message)
+{
+  return OpenOctrees::instance().find(recipeOf(options, options.signature), message);
 }
 
 BuildStatus buildMeshOctree(

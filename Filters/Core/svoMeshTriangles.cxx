@@ -1,6 +1,7 @@
 #include "svoMeshTriangles.h"
 
 #include "svoCellIds.h"
+#include "svoLargePolygon.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -16,6 +17,7 @@ namespace
 {
 struct Appender
 {
+  const glm::dvec3* points;
   vtkIdType pointCount;
   std::vector<glm::uvec3>& triangles;
   std::vector<std::uint32_t>& cells;
@@ -52,6 +54,17 @@ struct Appender
         continue;
       }
       const auto cell = static_cast<std::uint32_t>(firstCell + c);
+      if (!strips && size > static_cast<vtkIdType>(LargePolygon))
+      {
+        const std::vector<std::uint32_t> polygon(first, first + size);
+        if (canBeHalved(this->points, polygon))
+        {
+          halve(0, polygon.size() - 1,
+            [&](std::size_t i, std::size_t k, std::size_t j)
+            { this->append(polygon[i], polygon[k], polygon[j], cell); });
+          continue;
+        }
+      }
       for (vtkIdType i = 0; i + 2 < size; ++i)
       {
         if (strips)
@@ -136,8 +149,8 @@ MeshTriangles::MeshTriangles(vtkPolyData* mesh)
 
   this->Triangles.reserve(triangles);
   this->Cells.reserve(triangles);
-  Appender append{ static_cast<vtkIdType>(this->PointCount), this->Triangles, this->Cells,
-    this->Broken };
+  Appender append{ this->Points, static_cast<vtkIdType>(this->PointCount), this->Triangles,
+    this->Cells, this->Broken };
   append.appendAll(polys, firstPoly, false);
   append.appendAll(strips, firstStrip, true);
 }

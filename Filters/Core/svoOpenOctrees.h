@@ -4,9 +4,13 @@
 
 #include "svoOctree.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <mutex>
+#include <string>
+#include <tuple>
 #include <utility>
 
 class vtkUnsignedCharArray;
@@ -28,13 +32,24 @@ public:
   Octree find(vtkUnsignedCharArray* array);
   void add(vtkUnsignedCharArray* array, const Octree& octree);
 
+  /// What makes one octree of a mesh differ from another: the mesh's signature, the level, the leaf
+  /// geometry and the bounds of what the mesh is a part of.
+  using Recipe = std::tuple<std::uint64_t, int, LeafGeometry, std::array<double, 6>>;
+
+  /// The octree that was built like that, and what was said of it.
+  Octree find(const Recipe& recipe, std::string& message);
+  void add(const Recipe& recipe, const Octree& octree, const std::string& message);
+
 private:
   using Key = std::pair<const void*, unsigned long long>; // array, modification time
   OpenOctrees() = default;
 
   std::mutex Mutex;
   std::map<Key, WeakOctree> OfArrays;
-  std::size_t Tidy = 64; // entries at which closed octrees are taken out
+  std::map<Recipe, std::pair<WeakOctree, std::string>> Built;
+  // Entries at which closed octrees are taken out.
+  std::size_t TidyArrays = 64;
+  std::size_t TidyBuilt = 64;
 };
 }
 

@@ -292,15 +292,28 @@ void vtkPolyDataToSVO::Convert(
     return;
   }
 
-  svo::detachOctree(output);
   options.signature = key.signature;
+  svo::OctreeCache::Entry built{ key, {} };
+  std::string message;
+  built.octree = svo::findBuiltOctree(options, message); // another filter's, or a render pass's
+  if (built.octree)
+  {
+    svo::attachOctree(output, built.octree);
+    this->Finish(output);
+    report(this, built.octree, message, this->Internals->SaidIncomplete);
+    if (this->CacheTimeSteps)
+    {
+      cache.insert(std::move(built), this->CacheMemoryLimit * Kibi);
+    }
+    return;
+  }
+
+  svo::detachOctree(output);
   options.progress = [this](double progress)
   {
     this->UpdateProgress(progress);
     return !svo::isAborted(this);
   };
-  svo::OctreeCache::Entry built{ key, {} };
-  std::string message;
   const double start = vtkTimerLog::GetUniversalTime();
   const svo::BuildStatus status = svo::buildMeshOctree(input, options, built.octree, message);
   this->BuildTime = vtkTimerLog::GetUniversalTime() - start;

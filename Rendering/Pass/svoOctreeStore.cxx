@@ -39,6 +39,25 @@ MeshBox finiteBox(vtkPolyData* mesh)
 /// A build that has not been asked for in so many frames is nobody's.
 constexpr std::uint64_t FramesOfOthers = 8;
 
+template <typename Key>
+MeshOctreeOptions optionsOf(const Key& key)
+{
+  MeshOctreeOptions options;
+  options.signature = std::get<0>(key);
+  options.level = std::get<1>(key);
+  options.leafGeometry = std::get<2>(key);
+  return options;
+}
+
+template <typename Key>
+ReuseHistory::Id idOf(const Key& key)
+{
+  return std::get<0>(key) ^
+    (static_cast<std::uint64_t>(std::get<1>(key)) * 4 +
+      static_cast<std::uint64_t>(std::get<2>(key))) *
+    0x9e3779b97f4a7c15ull;
+}
+
 /// A polygon or strip of n points makes n - 2.
 std::size_t trianglesOf(vtkPolyData* mesh)
 {
@@ -59,10 +78,7 @@ OctreeStore::OctreeStore(BackgroundBuild::Launcher launcher)
 
 OctreeStore::~OctreeStore()
 {
-  for (auto& job : this->Jobs)
-  {
-    job.second.build->abandon(); // all of them before the first is waited for
-  }
+  this->release();
 }
 
 OctreeStore::Known& OctreeStore::knownOf(vtkPolyData* mesh, const StoreOptions& options)
@@ -76,7 +92,9 @@ OctreeStore::Known& OctreeStore::knownOf(vtkPolyData* mesh, const StoreOptions& 
     if (known.mesh == mesh)
     {
       fresh.said = std::move(known.said);
+      fresh.keys.swap(known.keys);
     }
+    this->Orphans = this->Orphans || !known.keys.empty(); // of a mesh that was at this address
     known = std::move(fresh);
     known.mesh = mesh;
     known.time = time;
@@ -128,13 +146,26 @@ OctreeStore::Answer OctreeStore::find(
   {
     return Answer::None;
   }
-  const Key key(this->knownOf(mesh, options).signature, level, options.leafGeometry);
+  Known& known = this->knownOf(mesh, options);
+  const Key key(known.signature, level, options.leafGeometry);
+  if (known.keys.insert(key).second && this->Orphaned.erase(key) > 0)
+  {
+    this->Recurring.insert(key);
+  }
+  if (this->Asked.insert(key).second && this->AskedLast.count(key) == 0)
+  {
+    this->History.comes(idOf(key), this->Octrees.count(key) > 0);
+  }
   const auto job = this->Jobs.find(key);
   if (job != this->Jobs.end() && (job->second.build->done() || options.wait))
   {
     this->waitFor(key, options);
   }
-  if (options.wait && this->Octrees.count(key) == 0)
+  if (this->Octrees.count(key) == 0)
+  {
+    this->takeOver(key);
+  }
+  if (options.wait && this->Octrees.count(key) == 0 && this->Jobs.count(key) == 0)
   {
     this->build(mesh, key, options);
   }
@@ -144,7 +175,7 @@ OctreeStore::Answer OctreeStore::find(
     return this->answer(mesh, found->second, options, octree);
   }
   Built* other = this->substitute(key);
-  if (!other || other->octree.level() < level)
+  if (!options.wait && (!other || other->octree.level() < level))
   {
     this->buildInBackground(mesh, key);
   }
@@ -194,12 +225,13 @@ OctreeStore::Built* OctreeStore::substitute(const Key& key)
 
 void OctreeStore::build(vtkPolyData* mesh, const Key& key, const StoreOptions& options)
 {
-  MeshOctreeOptions build;
-  build.level = std::get<1>(key);
-  build.leafGeometry = std::get<2>(key);
-  build.signature = std::get<0>(key);
+  if (options.aborted && options.aborted())
+  {
+    return;
+  }
+  MeshOctreeOptions build = optionsOf(key);
   vtkSmartPointer<vtkPolyData> source = mesh;
-  if (options.progress)
+  if (options.progress || options.aborted)
   {
     try
     {
@@ -207,8 +239,11 @@ void OctreeStore::build(vtkPolyData* mesh, const Key& key, const StoreOptions& o
       source = privateCopy(mesh);
       build.progress = [&options](double amount)
       {
-        options.progress(amount);
-        return true;
+        if (options.progress)
+        {
+          options.progress(amount);
+        }
+        return !options.aborted || !options.aborted();
       };
     }
     catch (const std::bad_alloc&)
@@ -216,9 +251,34 @@ void OctreeStore::build(vtkPolyData* mesh, const Key& key, const StoreOptions& o
     }
   }
   Built built;
-  buildMeshOctree(source, build, built.octree, built.message);
-  this->BuiltSoFar += built.octree ? 1 : 0;
+  if (buildMeshOctree(source, build, built.octree, built.message) != BuildStatus::Aborted)
+  {
+    this->BuiltSoFar += built.octree ? 1 : 0;
+    this->keep(key, std::move(built));
+  }
+}
+
+void OctreeStore::keep(const Key& key, Built built)
+{
+  const auto same = this->Octrees.find(key); // built in between, by a frame that an observer drew
+  if (same != this->Octrees.end())
+  {
+    this->erase(same);
+  }
+  this->Bytes += built.octree ? built.octree.bytes() : 0;
+  built.lastFrame = this->Frame;
   this->Octrees[key] = std::move(built);
+}
+
+/// An octree that another pass or a filter has built.
+void OctreeStore::takeOver(const Key& key)
+{
+  Built built;
+  built.octree = findBuiltOctree(optionsOf(key), built.message);
+  if (built.octree)
+  {
+    this->keep(key, std::move(built));
+  }
 }
 
 void OctreeStore::buildInBackground(vtkPolyData* mesh, const Key& key)
@@ -235,11 +295,7 @@ void OctreeStore::buildInBackground(vtkPolyData* mesh, const Key& key)
   {
     return;
   }
-  MeshOctreeOptions build;
-  build.level = std::get<1>(key);
-  build.leafGeometry = std::get<2>(key);
-  build.signature = std::get<0>(key);
-  if (auto begun = BackgroundBuild::begin(mesh, build, this->Launch))
+  if (auto begun = BackgroundBuild::begin(mesh, optionsOf(key), this->Launch))
   {
     this->Jobs[key] = { std::move(begun), mesh, this->Frame };
   }
@@ -248,9 +304,17 @@ void OctreeStore::buildInBackground(vtkPolyData* mesh, const Key& key)
 void OctreeStore::waitFor(const Key& key, const StoreOptions& options)
 {
   auto job = this->Jobs.find(key);
-  while (options.progress && job != this->Jobs.end() && !job->second.build->done())
+  while (
+    (options.progress || options.aborted) && job != this->Jobs.end() && !job->second.build->done())
   {
-    options.progress(job->second.build->progress());
+    if (options.aborted && options.aborted())
+    {
+      return; // it goes on in the background
+    }
+    if (options.progress)
+    {
+      options.progress(job->second.build->progress());
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     job = this->Jobs.find(key); // who was told may have waited for it, too
   }
@@ -270,16 +334,52 @@ void OctreeStore::keepResult(const Key& key, BackgroundBuild& build)
   }
   else if (!build.abandoned())
   {
-    this->Octrees[key] = { result.octree, this->Frame, result.message };
+    this->keep(key, { result.octree, this->Frame, result.message });
     this->BuiltSoFar += result.octree ? 1 : 0;
   }
 }
 
-void OctreeStore::endFrame(std::size_t memoryLimit)
+std::map<OctreeStore::Key, OctreeStore::Built>::iterator OctreeStore::erase(
+  std::map<Key, Built>::iterator octree)
+{
+  this->Bytes -= octree->second.octree ? octree->second.octree.bytes() : 0;
+  return this->Octrees.erase(octree);
+}
+
+/// Frees octrees whose meshes are all gone. Where another mesh came later that looked the same, as
+/// with a reader that makes new ones for each time step, more are expected.
+void OctreeStore::freeOrphans()
+{
+  constexpr std::size_t Most = 1 << 16; // to remember
+  if (this->Orphaned.size() + this->Recurring.size() > Most)
+  {
+    this->Orphaned.clear();
+    this->Recurring.clear();
+  }
+  std::set<Key> owned;
+  for (const auto& mesh : this->Meshes)
+  {
+    owned.insert(mesh.second.keys.begin(), mesh.second.keys.end());
+  }
+  for (auto octree = this->Octrees.begin(); octree != this->Octrees.end();)
+  {
+    if (owned.count(octree->first) > 0 || this->Recurring.count(octree->first) > 0)
+    {
+      ++octree;
+      continue;
+    }
+    this->Orphaned.insert(octree->first);
+    octree = this->erase(octree);
+  }
+}
+
+std::size_t OctreeStore::endFrame(std::size_t memoryLimit)
 {
   for (auto mesh = this->Meshes.begin(); mesh != this->Meshes.end();)
   {
-    mesh = mesh->second.mesh ? std::next(mesh) : this->Meshes.erase(mesh);
+    const bool gone = !mesh->second.mesh;
+    this->Orphans = this->Orphans || gone;
+    mesh = gone ? this->Meshes.erase(mesh) : std::next(mesh);
   }
   // What a frame asks for stays until a frame has it: so long there is more to be seen. (Other
   // renderers have frames in between.) What nobody asks for any more is kept for later, as a mesh
@@ -299,37 +399,57 @@ void OctreeStore::endFrame(std::size_t memoryLimit)
     this->keepResult(job->first, *job->second.build);
     job = this->Jobs.erase(job);
   }
-  std::size_t used = this->bytes();
-  std::vector<std::pair<std::uint64_t, Key>> idle;
-  for (const auto& entry : this->Octrees)
+  if (this->Orphans)
   {
-    if (entry.second.lastFrame != this->Frame)
+    this->freeOrphans();
+    this->Orphans = false;
+  }
+  if (this->Bytes > memoryLimit)
+  {
+    std::map<ReuseHistory::Id, Key> idle;
+    std::vector<ReuseHistory::Id> going;
+    for (const auto& entry : this->Octrees)
     {
-      idle.emplace_back(entry.second.lastFrame, entry.first);
+      if (entry.second.lastFrame != this->Frame &&
+        idle.emplace(idOf(entry.first), entry.first).second)
+      {
+        going.push_back(idOf(entry.first));
+      }
+    }
+    this->History.sortForGoing(going);
+    for (auto id = going.begin(); this->Bytes > memoryLimit && id != going.end(); ++id)
+    {
+      this->erase(this->Octrees.find(idle.at(*id)));
+    }
+    for (auto& mesh : this->Meshes)
+    {
+      std::set<Key>& keys = mesh.second.keys;
+      for (auto key = keys.begin(); key != keys.end();)
+      {
+        const bool used = this->Octrees.count(*key) > 0 || this->Jobs.count(*key) > 0;
+        key = used ? std::next(key) : keys.erase(key);
+      }
     }
   }
-  std::sort(idle.begin(), idle.end());
-  for (const auto& entry : idle)
-  {
-    if (used <= memoryLimit)
-    {
-      break;
-    }
-    const auto victim = this->Octrees.find(entry.second);
-    used -= victim->second.octree ? victim->second.octree.bytes() : 0;
-    this->Octrees.erase(victim);
-  }
+  this->AskedLast = std::move(this->Asked);
+  this->Asked.clear();
   ++this->Frame;
+  return this->Bytes > memoryLimit ? this->Bytes - memoryLimit : 0;
 }
 
-std::size_t OctreeStore::bytes() const
+void OctreeStore::release()
 {
-  std::size_t sum = 0;
-  for (const auto& entry : this->Octrees)
+  for (auto& job : this->Jobs)
   {
-    sum += entry.second.octree ? entry.second.octree.bytes() : 0;
+    job.second.build->abandon(); // all of them before the first is waited for
   }
-  return sum;
+  this->Jobs.clear();
+  this->Meshes.clear();
+  this->Octrees.clear();
+  this->Bytes = 0;
+  this->TooLarge.clear();
+  this->Orphaned.clear();
+  this->Recurring.clear();
 }
 
 int OctreeStore::building() const

@@ -4,6 +4,7 @@
 
 #include "svoBackgroundBuild.h"
 #include "svoOctree.h"
+#include "svoReuse.h"
 #include "svoScene.h"
 
 #include "vtkWeakPointer.h"
@@ -29,12 +30,14 @@ struct StoreOptions
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
   bool wait = true;                                 // false: build in the background
   std::function<void(double)> progress;             // 0..1 of the build that is waited for
+  std::function<bool()> aborted;                    // true: waits for no more builds
   std::function<void(const std::string&)> complain; // once per mesh and what is wrong
 };
 
 /// Octrees are kept by the signature of their mesh: an animated mesh that returns to a pose finds
 /// that pose's octree, and a mesh shared by many actors has one. A mesh may have octrees of several
-/// levels: which one a frame needs is its own affair (svoNeededLevels.h).
+/// levels: which one a frame needs is its own affair (svoNeededLevels.h). What another store or a
+/// filter of this process has is not built again.
 ///
 /// All functions are called by one thread. A progress function may call them, too, change meshes
 /// and let them go. Background builds have private copies of their meshes,
@@ -62,17 +65,22 @@ public:
   void measure(vtkPolyData* mesh, const StoreOptions& options, Instance& instance);
 
   /// The octree of exactly this level, or the one that the mesh brings. With options.wait it is
-  /// built where there is none. Else it is built in the background, and meanwhile another one is
-  /// found if there is one: the coarsest that is deeper, or the deepest. If that one is deeper
-  /// nothing is built.
+  /// built where there is none, unless the frame is aborted. Else it is built in the background.
+  /// Meanwhile another one is found if there is one: the coarsest that is deeper, or the deepest.
+  /// If that one is deeper nothing is built in the background.
   Answer find(vtkPolyData* mesh, int level, const StoreOptions& options, Octree& octree);
 
-  /// Between frames: frees octrees of meshes that are gone and, least recently used first, those
-  /// that the last frame did not use until the rest fits into `memoryLimit` bytes.
-  void endFrame(std::size_t memoryLimit);
+  /// Between frames: frees octrees of meshes that are gone, but for those of which other meshes
+  /// were seen to come again, and of those that the last frame did not use the ones that will be
+  /// used last (svoReuse.h), until the rest fits into `memoryLimit` bytes. Returns by how many
+  /// bytes it does not: all of the rest is in use.
+  std::size_t endFrame(std::size_t memoryLimit);
+
+  /// Between frames: frees all octrees and what is known of meshes, and abandons all builds.
+  void release();
 
   /// Bytes of the octrees that were built here.
-  std::size_t bytes() const;
+  std::size_t bytes() const { return this->Bytes; }
 
   /// Background builds whose result no frame has had yet.
   int building() const;
@@ -103,8 +111,9 @@ private:
     std::uint64_t signature = 0;
     MeshBox box;
     std::size_t triangles = 0;
-    int detailLevel = 0; // 0: nobody asked
+    int detailLevel = 0;        // 0: nobody asked
     std::set<std::string> said; // of the mesh, whatever its poses
+    std::set<Key> keys;         // of its octrees, whatever it looked like
   };
 
   Known& knownOf(vtkPolyData* mesh, const StoreOptions& options);
@@ -112,6 +121,10 @@ private:
   void buildInBackground(vtkPolyData* mesh, const Key& key);
   void waitFor(const Key& key, const StoreOptions& options);
   void keepResult(const Key& key, BackgroundBuild& build);
+  void keep(const Key& key, Built built);
+  void takeOver(const Key& key);
+  void freeOrphans();
+  std::map<Key, Built>::iterator erase(std::map<Key, Built>::iterator octree);
   Built* substitute(const Key& key);
   Answer answer(vtkPolyData* mesh, Built& built, const StoreOptions& options, Octree& octree);
 
@@ -119,6 +132,12 @@ private:
   int BuiltSoFar = 0;
   std::map<vtkPolyData*, Known> Meshes;
   std::map<Key, Built> Octrees;
+  std::size_t Bytes = 0;          // of Octrees
+  ReuseHistory History;           // of Octrees
+  std::set<Key> Asked, AskedLast; // in this frame and in the one before
+  bool Orphans = false;           // a mesh is gone
+  std::set<Key> Orphaned;         // octrees that were freed because their meshes were gone
+  std::set<Key> Recurring;        // of those, what another mesh had again
   std::map<Key, Job> Jobs;
   std::set<Key> TooLarge; // for the share of memory that a background build may use
   std::uint64_t Frame = 1;

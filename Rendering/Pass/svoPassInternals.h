@@ -44,6 +44,8 @@ struct vtkSVORenderPass::Internals
   std::set<std::string> said; // about traced frames
   bool saidHeadlight = false;
   bool saidOpenGL = false;
+  bool saidMemory = false;
+  bool releaseAsked = false; // while a frame was drawn
 
   static svo::FrameSettings settingsOf(const vtkSVORenderPass& pass);
 

@@ -119,6 +119,9 @@ public:
   /// Has the presenter, which is in the renderer's own list, show what was traced.
   void present(vtkOpenGLRenderPass* pass);
 
+  /// Forgets what was kept of octrees for the next frame.
+  void releaseLayers() { this->Trace.releaseLayers(); }
+
   /// To be called when the frame has been drawn: forgets what it borrowed.
   void finish();
 

@@ -180,6 +180,7 @@ bool vtkSVORenderPass::CollectFrame(
         this->InvokeEvent(vtkCommand::ProgressEvent, &amount);
       };
     }
+    store.aborted = this->AbortOf(renderer->GetRenderWindow(), i < MostCollections, disturbed);
     store.complain = [&frame](const std::string& text) { frame.messages.push_back(text); };
 
     svo::CollectSettings collect;
@@ -208,6 +209,25 @@ bool vtkSVORenderPass::CollectFrame(
   }
   this->DecideSettings(frame);
   return true;
+}
+
+/// Whether a window's frame is to wait for no more builds. Its observers are asked only with `ask`.
+std::function<bool()> vtkSVORenderPass::AbortOf(vtkRenderWindow* window, bool ask, bool& disturbed)
+{
+  const bool observed = ask && window->HasObserver(vtkCommand::AbortCheckEvent);
+  if (!observed && !this->HasObserver(vtkCommand::ProgressEvent))
+  {
+    return nullptr; // there is nobody who could say so
+  }
+  return [window = vtkSmartPointer<vtkRenderWindow>(window), observed, &disturbed]
+  {
+    if (observed && !window->GetAbortRender())
+    {
+      disturbed = true;
+      window->CheckAbortStatus();
+    }
+    return window->GetAbortRender() != 0;
+  };
 }
 
 /// Says how a frame is to be traced.
@@ -271,10 +291,37 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
     this->MeasureFrame(seconds, fixedSeconds);
     frame.of->measured(seconds, fixedSeconds);
   }
-  impl.store.endFrame(static_cast<std::size_t>(this->OctreeMemoryLimit) * BytesOfKiB);
+  const std::size_t beyond =
+    impl.store.endFrame(static_cast<std::size_t>(this->OctreeMemoryLimit) * BytesOfKiB);
+  if (beyond > 0 && !impl.saidMemory)
+  {
+    impl.saidMemory = true;
+    frame.messages.push_back("The octrees of a single frame take " +
+      std::to_string(this->GetOctreeMemorySize()) + " KiB, more than the OctreeMemoryLimit of " +
+      std::to_string(this->OctreeMemoryLimit) + " KiB; they are kept as long as they are shown.");
+  }
+  if (impl.releaseAsked)
+  {
+    this->ReleaseOctrees();
+  }
   for (const std::string& message : frame.messages)
   {
     vtkWarningMacro(<< message);
+  }
+}
+
+void vtkSVORenderPass::ReleaseOctrees()
+{
+  Internals& impl = *this->Impl;
+  impl.releaseAsked = !impl.frames.empty(); // by an observer of a frame, which needs them
+  if (impl.releaseAsked)
+  {
+    return;
+  }
+  impl.store.release();
+  for (auto& entry : impl.renderers)
+  {
+    entry.second->releaseLayers();
   }
 }
 

@@ -45,14 +45,16 @@
 #include "vtkOpenGLRenderPass.h"
 #include "vtkSVOPassModule.h" // for the export macro
 
-#include <memory> // for std::unique_ptr
-#include <string> // for std::string
+#include <functional> // for std::function
+#include <memory>     // for std::unique_ptr
+#include <string>     // for std::string
 
 class vtkInformationDoubleKey;
 class vtkInformationIntegerKey;
 class vtkLight;
 class vtkMultiProcessController;
 class vtkProp;
+class vtkRenderWindow;
 class vtkRenderer;
 #ifndef __VTK_WRAP__
 namespace svo
@@ -222,12 +224,20 @@ public:
   //@{
   /**
    * Memory for octrees that the pass keeps, in KiB; default 1 GiB. Those that the current frame
-   * does not need go first, least recently used first, so the poses of an animated mesh are built
-   * once as long as they fit.
+   * does not need go first, so the poses of an animated mesh are built once as long as they fit; of
+   * a loop that is longer as many poses are kept as there is room for. Octrees of meshes that are
+   * deleted go at once. What a single frame needs is kept in any case, with a warning where that is
+   * more. Passes of one process share octrees of the same mesh.
    */
   vtkSetClampMacro(OctreeMemoryLimit, vtkIdType, 0, VTK_ID_MAX / 1024);
   vtkGetMacro(OctreeMemoryLimit, vtkIdType);
   //@}
+
+  /**
+   * Frees the octrees that the pass keeps, and ends what is built in the background; the next frame
+   * builds what it needs. During a frame: when it is through.
+   */
+  void ReleaseOctrees();
 
   //@{
   /**
@@ -235,7 +245,9 @@ public:
    * octrees in the background. Until they are there surfaces are traced through octrees of another
    * level if there are any, and rasterised if there are none. A still render waits for them, and
    * invokes ProgressEvent meanwhile: its picture depends neither on time nor on what was shown
-   * before. Default on.
+   * before. An observer of it, or of the render window's AbortCheckEvent, that sets the window's
+   * AbortRender ends the wait: surfaces whose octrees are not there yet are left to the rasteriser,
+   * of which VTK shows as much as of any frame that is aborted. Default on.
    */
   vtkSetMacro(BuildInBackground, bool);
   vtkGetMacro(BuildInBackground, bool);
@@ -537,6 +549,7 @@ private:
 #ifndef __VTK_WRAP__
   svo::PassFrame& BeginFrame(vtkRenderer* renderer);
   bool CollectFrame(svo::PassFrame& frame, int width, int height, bool attached, bool ownsCamera);
+  std::function<bool()> AbortOf(vtkRenderWindow* window, bool ask, bool& disturbed);
   void DecideSettings(svo::PassFrame& frame);
   void TraceFrame(svo::PassFrame& frame, int width, int height);
   void FinishFrame(svo::PassFrame& frame);

@@ -263,12 +263,15 @@ enum class When
 
 void detached(Checks& checks, When when, bool drop, const std::string& name)
 {
-  HostScene plain;
-  const Picture raster = plain.picture();
-  plain.scene.pass->Attach(plain.renderer());
-  const Picture traced = plain.picture();
-  checks.expect(difference(raster, traced).largest > 0, "attached, the pass draws a shadow");
-  plain.scene.pass->Detach(plain.renderer());
+  Picture raster, traced;
+  {
+    HostScene plain;
+    raster = plain.picture();
+    plain.scene.pass->Attach(plain.renderer());
+    traced = plain.picture();
+    checks.expect(difference(raster, traced).largest > 0, "attached, the pass draws a shadow");
+    plain.scene.pass->Detach(plain.renderer());
+  } // or the passes would share their octrees, and nothing were built
 
   HostScene host;
   vtkSVORenderPass* pass = host.scene.pass;

@@ -196,3 +196,80 @@ TEST(MeshTriangles, AMeshWithoutPointsHasNone)
   EXPECT_EQ(triangles.view().triangleCount, 0u);
   EXPECT_EQ(triangles.view().pointCount, 0u);
 }
+
+namespace
+{
+/// A polygon of many points at the radius that `radiusOf` gives for the angle, at the height that
+/// `heightOf` gives.
+template <typename Radius, typename Height>
+vtkSmartPointer<vtkPolyData> largePolygon(int count, const Radius& radiusOf, const Height& heightOf)
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> polys;
+  polys->InsertNextCell(count);
+  for (int i = 0; i < count; ++i)
+  {
+    const double angle = 2.0 * vtkMath::Pi() * i / count;
+    const double r = radiusOf(angle);
+    polys->InsertCellPoint(
+      points->InsertNextPoint(r * std::cos(angle), r * std::sin(angle), heightOf(angle)));
+  }
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->SetPoints(points);
+  mesh->SetPolys(polys);
+  return mesh;
+}
+
+double one(double)
+{
+  return 1.0;
+}
+
+bool isFan(const svo::MeshTriangles& triangles)
+{
+  const svo::TriangleMesh mesh = triangles.view();
+  for (std::size_t i = 0; i < mesh.triangleCount; ++i)
+  {
+    if (mesh.triangles[i].x != 0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+}
+
+// A fan of a million points took a minute to build: each triangle reaches across all of the disc.
+TEST(MeshTriangles, LargeConvexPolygonsAreCutIntoShortTriangles)
+{
+  constexpr int Count = 200000;
+  const auto disc = largePolygon(Count, one, one);
+  const svo::MeshTriangles triangles(disc);
+  const svo::TriangleMesh mesh = triangles.view();
+  EXPECT_EQ(mesh.triangleCount, std::size_t(Count - 2));
+  EXPECT_NEAR(areaOf(mesh), vtkMath::Pi(), 1e-5);
+  double widths = 0.0;
+  for (std::size_t i = 0; i < mesh.triangleCount; ++i)
+  {
+    const glm::uvec3& t = mesh.triangles[i];
+    const glm::dvec3 a = mesh.points[t.x];
+    EXPECT_GE(glm::cross(mesh.points[t.y] - a, mesh.points[t.z] - a).z, -1e-6);
+    widths += glm::length(mesh.points[t.y] - a);
+    EXPECT_EQ(triangles.cells()[i], 0u);
+  }
+  EXPECT_LT(widths, 20.0 * 2.0 * vtkMath::Pi()); // a fan's are 250000 together
+  // Ordinary polygons, and those that halves do not fit, are fans as ever.
+  EXPECT_TRUE(isFan(svo::MeshTriangles(largePolygon(5000, one, one))));
+  EXPECT_TRUE(isFan(svo::MeshTriangles(largePolygon(
+    20000, [](double a) { return 1.0 + 0.3 * std::cos(5.0 * a); }, one))));
+  EXPECT_TRUE(isFan(svo::MeshTriangles(
+    largePolygon(20000, one, [](double a) { return 0.01 * std::cos(2.0 * a); }))));
+  EXPECT_FALSE(isFan(svo::MeshTriangles(
+    largePolygon(20000, one, [](double a) { return 0.5 * std::cos(a); })))); // slanted, but flat
+  const auto broken = largePolygon(20000, one, one);
+  broken->GetPoints()->SetPoint(777, std::nan(""), 0.0, 0.0);
+  EXPECT_TRUE(isFan(svo::MeshTriangles(broken)));
+  const auto far = largePolygon(
+    20000, [](double) { return 1e200; }, one);
+  EXPECT_EQ(svo::MeshTriangles(far).view().triangleCount, 19998u);
+}

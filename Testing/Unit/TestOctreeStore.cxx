@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <future>
 #include <limits>
 #include <list>
@@ -472,4 +473,245 @@ TEST_F(OctreeStore, TheBoxIsThatOfTheFinitePointsAndStripsCountAsTriangles)
   store.measure(none, options, instance);
   EXPECT_FALSE(instance.box.known());
   EXPECT_EQ(instance.triangles, 0u);
+}
+
+namespace
+{
+/// Frames that each show one of `count` poses of a mesh, `loops` times: how many octrees each loop
+/// builds. There is room for `room` of them. With `anew` each frame has a mesh of its own.
+std::vector<int> buildsOfLoops(
+  svo::OctreeStore& store, svo::StoreOptions options, int count, int room, int loops, bool anew)
+{
+  std::vector<vtkSmartPointer<vtkPolyData>> poses;
+  for (int i = 0; i < count; ++i)
+  {
+    poses.push_back(sphere(1.0 + 0.001 * i, 6));
+  }
+  svo::Octree octree;
+  options.wait = true;
+  store.find(poses[0], 4, options, octree);
+  const std::size_t limit = room * octree.bytes() + octree.bytes() / 2;
+  std::vector<int> builds;
+  for (int loop = 0; loop < loops; ++loop)
+  {
+    const int before = loop == 0 ? 0 : store.built();
+    for (const auto& pose : poses)
+    {
+      vtkSmartPointer<vtkPolyData> mesh = pose;
+      if (anew)
+      {
+        mesh = vtkSmartPointer<vtkPolyData>::New();
+        mesh->DeepCopy(pose);
+      }
+      EXPECT_EQ(store.find(mesh, 4, options, octree), Answer::Found);
+      octree = svo::Octree();
+      mesh = nullptr;
+      store.endFrame(limit);
+      EXPECT_LE(store.bytes(), limit);
+    }
+    builds.push_back(store.built() - before);
+  }
+  return builds;
+}
+}
+
+// Least recently used first out kept nothing of a loop that is longer than the cache: 300 builds
+// each time.
+TEST_F(OctreeStore, OfALoopThatIsTooLongAsManyPosesAreKeptAsThereIsRoomFor)
+{
+  const std::vector<int> builds = buildsOfLoops(store, options, 300, 100, 4, false);
+  EXPECT_EQ(builds[0], 300);
+  for (std::size_t loop = 1; loop < builds.size(); ++loop)
+  {
+    EXPECT_LE(builds[loop], 300 - 100 + 5) << "loop " << loop;
+  }
+}
+
+TEST_F(OctreeStore, AShortLoopIsBuiltOnceAndTheNextOneIsNotKeptOutForLong)
+{
+  EXPECT_EQ(buildsOfLoops(store, options, 90, 100, 3, false), (std::vector<int>{ 90, 0, 0 }));
+  buildsOfLoops(store, options, 300, 100, 2, false);
+  svo::OctreeStore other;
+  std::vector<vtkSmartPointer<vtkPolyData>> poses;
+  for (int i = 0; i < 90; ++i)
+  {
+    poses.push_back(sphere(5.0 + 0.001 * i, 6));
+  }
+  const std::size_t limit = store.bytes();
+  options.wait = true;
+  int last = 0;
+  for (int loop = 0; loop < 6; ++loop)
+  {
+    const int before = store.built();
+    for (const auto& pose : poses)
+    {
+      store.find(pose, 4, options, octree);
+      store.endFrame(limit);
+    }
+    last = store.built() - before;
+  }
+  EXPECT_EQ(last, 0);
+}
+
+TEST_F(OctreeStore, OctreesOfMeshesThatAreGoneAreFreed)
+{
+  std::size_t most = 0;
+  for (int frame = 0; frame < 200; ++frame)
+  {
+    mesh = sphere(1.0 + 0.01 * frame, 8);
+    find(6, true);
+    octree = svo::Octree();
+    endFrame();
+    most = std::max(most, store.bytes());
+  }
+  mesh = nullptr;
+  endFrame();
+  EXPECT_EQ(store.bytes(), 0u);
+  mesh = sphere(3.0, 8);
+  find(6, true);
+  EXPECT_LE(most, 3 * octree.bytes());
+}
+
+TEST_F(OctreeStore, OctreesOfEarlierPosesOfAMeshAreKeptWhileItLives)
+{
+  const auto other = sphere(2.0);
+  const auto own = vtkSmartPointer<vtkPolyData>::New();
+  own->DeepCopy(mesh);
+  mesh = own;
+  find(6, true);
+  endFrame();
+  own->GetPoints()->DeepCopy(other->GetPoints());
+  own->GetPoints()->Modified();
+  find(6, true);
+  endFrame();
+  const std::size_t both = store.bytes();
+  sphere(9.0); // a mesh that comes and goes
+  endFrame();
+  EXPECT_EQ(store.bytes(), both);
+  EXPECT_EQ(store.built(), 2);
+}
+
+// A reader that makes new meshes for each time step.
+TEST_F(OctreeStore, WhatNewMeshesHaveAgainIsKeptFromThenOn)
+{
+  EXPECT_EQ(buildsOfLoops(store, options, 20, 100, 4, true), (std::vector<int>{ 20, 19, 0, 0 }));
+}
+
+TEST_F(OctreeStore, StoresShareTheirOctrees)
+{
+  ASSERT_EQ(find(7, true), Answer::Found);
+  svo::OctreeStore another(gate.launcher());
+  svo::Octree same;
+  options.wait = true;
+  ASSERT_EQ(another.find(sphere(1.0), 7, options, same), Answer::Found);
+  EXPECT_EQ(same.key(), octree.key());
+  EXPECT_EQ(another.built(), 0);
+  EXPECT_EQ(another.bytes(), store.bytes());
+  // An interactive frame need not even wait.
+  svo::OctreeStore third(gate.launcher());
+  options.wait = false;
+  EXPECT_EQ(third.find(sphere(1.0), 7, options, same), Answer::Found);
+  EXPECT_EQ(gate.started(), 0);
+  // It stays with the others when one is through with it.
+  octree = svo::Octree();
+  store.release();
+  EXPECT_EQ(store.bytes(), 0u);
+  another.endFrame(std::size_t(1) << 30);
+  options.wait = true;
+  EXPECT_EQ(another.find(sphere(1.0), 7, options, same), Answer::Found);
+  EXPECT_EQ(another.built(), 0);
+}
+
+TEST_F(OctreeStore, AreSharedByManyThreads)
+{
+  std::vector<std::thread> threads;
+  std::vector<svo::Octree> found(4);
+  for (std::size_t t = 0; t < found.size(); ++t)
+  {
+    threads.emplace_back(
+      [t, &found]
+      {
+        svo::StoreOptions own;
+        own.complain = [](const std::string&) {};
+        for (int round = 0; round < 20; ++round)
+        {
+          svo::OctreeStore each;
+          each.find(sphere(1.0 + 0.1 * (round % 3), 12), 6, own, found[t]);
+        }
+      });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  for (const svo::Octree& each : found)
+  {
+    ASSERT_TRUE(each);
+    EXPECT_EQ(bytesOf(each), bytesOf(found[0]));
+  }
+}
+
+TEST_F(OctreeStore, AFrameThatIsAbortedWaitsForNoBuild)
+{
+  bool abort = false;
+  int asked = 0;
+  options.aborted = [&]
+  {
+    ++asked;
+    return abort;
+  };
+  options.progress = [&](double) { abort = true; };
+  EXPECT_EQ(find(9, true), Answer::Building);
+  EXPECT_GT(asked, 0);
+  EXPECT_EQ(store.built(), 0);
+  EXPECT_EQ(find(9, true), Answer::Building); // the rest of the frame, too
+  EXPECT_EQ(gate.started(), 0);
+  endFrame();
+  // The next frame has it, and nothing was said.
+  abort = false;
+  options.progress = nullptr;
+  EXPECT_EQ(find(9, true), Answer::Found);
+  EXPECT_EQ(octree.level(), 9);
+  EXPECT_TRUE(said.empty());
+  // Meanwhile another octree of the mesh does.
+  abort = true;
+  EXPECT_EQ(find(8, true), Answer::Found);
+  EXPECT_EQ(octree.level(), 9);
+}
+
+TEST_F(OctreeStore, AFrameThatIsAbortedLeavesABuildInTheBackgroundAlone)
+{
+  EXPECT_EQ(find(8, false), Answer::Building);
+  ASSERT_EQ(gate.started(), 1);
+  options.aborted = [] { return true; };
+  EXPECT_EQ(find(8, true), Answer::Building); // and does not hang
+  EXPECT_EQ(store.building(), 1);
+  gate.letThrough();
+  options.aborted = nullptr;
+  EXPECT_EQ(find(8, true), Answer::Found);
+  EXPECT_EQ(store.built(), 1);
+}
+
+TEST_F(OctreeStore, ReleasedEverythingIsBuiltAnew)
+{
+  find(6, true);
+  find(8, false);
+  ASSERT_EQ(store.building(), 1);
+  gate.letThrough(); // an abandoned build is waited for
+  octree = svo::Octree();
+  store.release();
+  EXPECT_EQ(store.bytes(), 0u);
+  EXPECT_EQ(store.building(), 0);
+  EXPECT_EQ(find(6, true), Answer::Found);
+  EXPECT_EQ(store.built(), 2);
+}
+
+TEST_F(OctreeStore, WhatAFrameNeedsIsKeptAndTheExcessIsTold)
+{
+  find(8, true);
+  const std::size_t bytes = store.bytes();
+  EXPECT_EQ(store.endFrame(bytes - 10), 10u);
+  EXPECT_EQ(store.bytes(), bytes);
+  find(8, true);
+  EXPECT_EQ(store.endFrame(bytes), 0u);
 }

@@ -202,6 +202,41 @@ TEST(PolyDataToSVO, TheLeastRecentlyUsedPoseGoesFirst)
   EXPECT_EQ(filter->GetNumberOfCachedOctrees(), 0);
 }
 
+TEST(PolyDataToSVO, OfALoopThatIsTooLongAsManyPosesAreKeptAsThereIsRoomFor)
+{
+  constexpr int Poses = 60;
+  vtkNew<vtkPolyDataToSVO> filter;
+  filter->SetMaximumLevel(4);
+  const auto show = [&filter](int pose)
+  {
+    filter->SetInputData(sphere(1.0 + 0.01 * pose));
+    filter->Update();
+  };
+  show(0);
+  filter->SetCacheMemoryLimit(20 * filter->GetCacheMemorySize());
+  for (int loop = 0; loop < 4; ++loop)
+  {
+    const vtkIdType before = loop == 0 ? 0 : filter->GetNumberOfBuilds();
+    for (int pose = 0; pose < Poses; ++pose)
+    {
+      show(pose);
+      EXPECT_LE(filter->GetCacheMemorySize(), filter->GetCacheMemoryLimit());
+    }
+    EXPECT_LE(filter->GetNumberOfBuilds() - before, loop == 0 ? Poses : Poses - 15) << loop;
+  }
+}
+
+TEST(PolyDataToSVO, FiltersShareTheirOctrees)
+{
+  const Conversion first(sphere(), 6);
+  const Conversion second(sphere(), 6);
+  EXPECT_EQ(first.filter->GetNumberOfBuilds(), 1);
+  EXPECT_EQ(second.filter->GetNumberOfBuilds(), 0);
+  EXPECT_EQ(second.octree().key(), first.octree().key());
+  EXPECT_EQ(second.filter->GetCacheMemorySize(), first.filter->GetCacheMemorySize());
+  EXPECT_EQ(second.filter->GetNumberOfVoxels(), first.filter->GetNumberOfVoxels());
+}
+
 TEST(PolyDataToSVO, WithoutBuildsAMeshGoesOutWithTheOctreeThatItHadLast)
 {
   const auto mesh = sphere();
