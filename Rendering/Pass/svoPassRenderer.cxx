@@ -18,6 +18,12 @@
 
 namespace svo
 {
+namespace
+{
+/// From this width on, pixels, what blurs a shadow is complained about.
+constexpr double CoarseShadow = 32.0;
+}
+
 ExchangedProps::ExchangedProps(vtkProp** props)
   : Props(props)
 {
@@ -91,12 +97,14 @@ void PassRenderer::collect(
   this->Statistics.instances = static_cast<int>(this->Collected.scene.instances.size());
 }
 
-void PassRenderer::shareShadows(vtkMultiProcessController* controller, FrameSettings settings)
+void PassRenderer::shareShadows(vtkMultiProcessController* controller, int width, int height,
+  double distance, FrameSettings settings)
 {
+  const View eye = this->aim(width, height, distance);
   ControllerProcesses processes(controller);
   settings.wholeShadowBuffers = this->Collected.rasterizedReceivers;
   this->Sharing =
-    this->Trace.shareShadows(this->Collected.scene, settings, smpParallelFor(), processes);
+    this->Trace.shareShadows(this->Collected.scene, eye, settings, smpParallelFor(), processes);
 }
 
 double PassRenderer::coarseOctreeError(double distance) const
@@ -133,6 +141,31 @@ bool PassRenderer::shows(int width, int height) const
     view.worldToView == this->Eye.worldToView && view.viewToClip == this->Eye.viewToClip;
 }
 
+/// Which shadows small things cannot have, in words; empty if all is well.
+std::string PassRenderer::lostShadows(const FrameSettings& settings) const
+{
+  if (settings.shadowTechnique == ShadowTechnique::Buffer &&
+    this->Statistics.tracer.coarsestTexel > CoarseShadow)
+  {
+    return "The texels of a shadow map look more than 32 pixels wide, even where it is fitted to "
+           "what is seen. Raise ShadowBufferResolution, or take ShadowRays.";
+  }
+  for (const Instance& instance : this->Collected.scene.instances)
+  {
+    if (instance.visible && instance.receiveShadow)
+    {
+      const LocalView local = makeLocalView(instance.octree, instance.localToWorld, this->Eye);
+      const double lost = worldLeafError(instance, LeafGeometry::Triangle, MaximumLevel, true);
+      if (!local.rect.empty() && lost > CoarseShadow * worldPixel(this->Eye, local.base))
+      {
+        return "A surface is so vast that octrees do not resolve the shadows of small things on "
+               "it. Divide it, or make it smaller.";
+      }
+    }
+  }
+  return {};
+}
+
 void PassRenderer::trace(int width, int height, double distance, FrameSettings settings)
 {
   this->Statistics.sampleDistance = distance;
@@ -157,6 +190,10 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   this->Statistics.coarseOctreeError = this->coarseOctreeError(distance);
   this->Complaint = this->Receivers.update(window, this->Trace.shadowMaps(), scene.lights, view,
     settings, this->Statistics.tracer.retracedLayers > 0 || this->Statistics.tracer.mergedShadows);
+  if (this->Complaint.empty() && settings.shadowTechnique != ShadowTechnique::None)
+  {
+    this->Complaint = this->lostShadows(settings);
+  }
 }
 
 void PassRenderer::present(vtkOpenGLRenderPass* pass)

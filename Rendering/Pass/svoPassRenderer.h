@@ -85,8 +85,9 @@ public:
   }
 
   /// Merges the shadow buffers of the collected scene with other processes'; see
-  /// Tracer::shareShadows.
-  void shareShadows(vtkMultiProcessController* controller, FrameSettings settings);
+  /// Tracer::shareShadows. The rest as trace() will be told.
+  void shareShadows(vtkMultiProcessController* controller, int width, int height, double distance,
+    FrameSettings settings);
 
   /// True if there is anything to trace, here or, with shadows to be seen here, elsewhere.
   bool hasSomething() const { return !this->Collected.scene.instances.empty() || this->Sharing; }
@@ -137,6 +138,7 @@ private:
   /// Of the renderer's camera; without pixels if there is none to be had.
   View aim(int width, int height, double distance) const;
   double coarseOctreeError(double distance) const;
+  std::string lostShadows(const FrameSettings& settings) const;
 
   vtkWeakPointer<vtkRenderer> Renderer;
   SceneCollector Collector;

@@ -192,8 +192,8 @@ vec3 svoSmoothLift(vec3 position, vec3 facet, vec3 normal, vec3 corner, vec3 cor
   return dot(facet, normal) > 0.0 ? max(height, 0.0) * normal : vec3(0.0);
 }
 
-// Of the light whose maps are first..beyond - 1. `lift`: how far the smooth surface lies over the
-// facet; 0 where it does not.
+// Of the light whose maps are first..beyond - 1: the first one that holds the point is asked.
+// `lift`: how far the smooth surface lies over the facet; 0 where it does not.
 float svoLit(
   int first, int beyond, vec3 position, vec3 plane, vec3 normal, vec3 lift, float extent)
 {
@@ -235,9 +235,8 @@ float svoLit(
       ivec2 high = ivec2(min(floor(place + 0.5 * (width + 1.0)), vec2(size - 1.0)));
       if (!svoIsFlat(i, low, high, pixel))
       {
-        lit = min(lit,
-          1.0 - svoFiltered(i, rows, error, point, place, low, high, width, facet, normal));
-        continue;
+        lit = 1.0 - svoFiltered(i, rows, error, point, place, low, high, width, facet, normal);
+        break;
       }
     }
     int answer = svoAsk(i, rows, error, point, texel, facet, normal, 1.0);
@@ -253,10 +252,8 @@ float svoLit(
       }
       answer = dark >= 2 ? 2 : 0;
     }
-    if (answer == 2)
-    {
-      lit = 0.0;
-    }
+    lit = answer == 2 ? 0.0 : 1.0;
+    break;
   }
   return 1.0 - svoReceive * svoIntensity * (1.0 - lit);
 }

@@ -20,7 +20,7 @@ namespace
 {
 const char DeclarationMark[] = "//SVO::Dec\n";
 const char ImplementationMark[] = "//SVO::Impl\n";
-constexpr std::size_t MostMapsOfLight = 6;
+constexpr std::size_t MapsOfLight = 6; // that there is room for, where most have fewer
 
 /// Maps that a shader has room for beside what VTK tells it of so many lights.
 std::size_t mostMaps(std::size_t lights)
@@ -31,7 +31,7 @@ std::size_t mostMaps(std::size_t lights)
   const std::size_t taken = OfLight * lights + Others;
   const std::size_t left = std::max<std::size_t>(components, taken) - taken;
   return std::clamp<std::size_t>(
-    left / OfMap, MostMapsOfLight, static_cast<std::size_t>(TextureArray::mostLayers()));
+    left / OfMap, MapsOfLight, static_cast<std::size_t>(TextureArray::mostLayers()));
 }
 
 double brightness(const Light& light)
@@ -173,9 +173,6 @@ std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
                 "more shadow maps.";
   }
 
-  // Shaders are not built anew because a light has other maps than before.
-  this->Capacity = std::min(MostMapsOfLight * byLight.size(), most);
-
   std::vector<const ShadowMap*> layers;
   this->Lights.clear();
   this->First.clear();
@@ -195,6 +192,8 @@ std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
   }
   const auto count = static_cast<int>(layers.size());
   this->First.push_back(count);
+  // Shaders are not built anew because a light has other maps than before.
+  this->Capacity = std::min(std::max(layers.size(), MapsOfLight * byLight.size()), most);
 
   const int size = maps.front().view.width;
   if (!this->Maps || !this->Maps->fits(window, size, count))

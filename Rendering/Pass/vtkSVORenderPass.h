@@ -126,7 +126,8 @@ public:
   /**
    * Texels along an edge of one shadow map, 16..16384; default 2048. A directional or spot light
    * has one map. So has a point light whose casters subtend less than 120 degrees, otherwise it has
-   * the six faces of a cube.
+   * the six faces of a cube. Where a texel of such a map would look wider than 16 pixels, as with a
+   * terrain or a large ground that casts, maps of so many texels are fitted to what is seen.
    */
   vtkSetClampMacro(ShadowBufferResolution, int, 16, 16384);
   vtkGetMacro(ShadowBufferResolution, int);

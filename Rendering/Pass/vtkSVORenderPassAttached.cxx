@@ -143,7 +143,7 @@ void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void
     // Here, and not when something is drawn: a process that shows nothing may not draw at all.
     if (this->ShadowTechnique == SHADOW_BUFFER)
     {
-      frame.of->shareShadows(controller, frame.settings);
+      frame.of->shareShadows(controller, width, height, frame.sampleDistance, frame.settings);
     }
     else if (this->ShadowTechnique == SHADOW_RAYS)
     {

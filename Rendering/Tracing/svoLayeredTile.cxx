@@ -125,14 +125,14 @@ void LayeredView::traceRays(const TileEntry& candidate, const double* x, const d
   if (!candidate.nodes.empty())
   {
     intersectTile(*entry.octree, candidate.pyramid, candidate.nodes, block, found);
-    if (this->Exact)
-    {
-      placeOnTriangles(*entry.octree->surface(), entry.local, x, y, found);
-    }
   }
   else
   {
     intersect(*entry.octree, block, options, found);
+  }
+  if (this->Placed[entry.index])
+  {
+    placeOnTriangles(*entry.octree->surface(), entry.local, x, y, found);
   }
 }
 
@@ -156,8 +156,8 @@ bool LayeredView::cutRays(
       cut -= entry.local.base;
       if (entry.cuttable || cut < candidate.tNear)
       {
-        const bool placed = this->Exact && (!candidate.nodes.empty() || this->Shifted);
-        const double reach = placed ? placingReach(entry.local) : 0.0;
+        const bool moves = this->Placed[entry.index] || (this->Exact && this->Shifted);
+        const double reach = moves ? placingReach(entry.local) : 0.0;
         block.tMax[i] = std::min(block.tMax[i], roundUp(cut + reach));
       }
     }

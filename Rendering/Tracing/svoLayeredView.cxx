@@ -90,6 +90,7 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, Layer
   this->Levels.assign(scene.instances.size(), 0);
   this->Geometries.clear();
   this->Offsets.clear();
+  this->Placed.assign(scene.instances.size(), 0);
   for (const Instance& instance : scene.instances)
   {
     this->Geometries.push_back(instance.leafGeometry);
@@ -123,6 +124,7 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, Layer
     this->Bases[entry.index] = entry.local.base;
     this->Levels[entry.index] = entry.key.level;
     this->Geometries[entry.index] = entry.key.leafGeometry;
+    this->Placed[entry.index] = this->Exact && entry.tiles;
     if (!keep)
     {
       continue;

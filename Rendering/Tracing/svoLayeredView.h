@@ -105,9 +105,10 @@ int deepened(const Instance& instance, int level);
 class LayeredView
 {
 public:
-  /// `exact`: hits of whole tiles are placed in double (svoPlaceOnTriangles.h), and who is in front
-  /// follows from window depths with their offsets (Instance::depthOffsetUnits). A light's view can
-  /// do without: its texels are wider than what the one mends, and the other is the window's.
+  /// `exact`: hits of instances that are traced by tiles are placed in double
+  /// (svoPlaceOnTriangles.h), and who is in front follows from window depths with their offsets
+  /// (Instance::depthOffsetUnits). A light's view can do without: its texels are wider than what
+  /// the one mends, and the other is the window's.
   explicit LayeredView(bool exact = true)
     : Exact(exact)
   {
@@ -158,6 +159,8 @@ public:
   int level(std::uint32_t instance) const { return this->Levels[instance]; }
   /// What the instance's rays end on in this view.
   LeafGeometry leafGeometry(std::uint32_t instance) const { return this->Geometries[instance]; }
+  /// True if all hits of the instance are placed in double.
+  bool placed(std::uint32_t instance) const { return this->Placed[instance] != 0; }
   std::uint64_t rays() const { return this->Rays; }
   std::uint64_t retracedLayers() const { return this->Retraced; }
   std::size_t layerMemory() const { return this->Memory; }
@@ -243,6 +246,7 @@ private:
   bool Shifted = false;        // offsets of visible instances differ
   std::vector<int> Levels;
   std::vector<LeafGeometry> Geometries;
+  std::vector<std::uint8_t> Placed;
   std::unordered_map<std::uint64_t, Kept> Layers; // by Instance::id
   DepthBuffer Merged;
   std::uint64_t Rays = 0;

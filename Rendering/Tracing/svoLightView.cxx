@@ -37,14 +37,6 @@ double powerOfTwo(double x)
   return std::exp2(std::ceil(std::log2(x)));
 }
 
-/// Widens [low, high] to a grid of at most an eighth of its length.
-void roundOutwards(double& low, double& high)
-{
-  const double step = powerOfTwo(high - low) / 16.0;
-  low = std::floor(low / step) * step;
-  high = std::ceil(high / step) * step;
-}
-
 /// World -> a view at `eye` that looks along `direction`.
 glm::dmat4 lookAlong(const glm::dvec3& eye, const glm::dvec3& direction)
 {
@@ -63,6 +55,10 @@ glm::dmat4 lookAlong(const glm::dvec3& eye, const glm::dvec3& direction)
   m[3] = glm::dvec4(-glm::dot(right, eye), -glm::dot(above, eye), glm::dot(direction, eye), 1.0);
   return m;
 }
+
+/// Where rays of positional lights begin, of the farthest corner: before a small caster beside a
+/// light above a vast ground.
+constexpr double NearestDepth = 1e-6;
 
 struct Box
 {
@@ -124,7 +120,7 @@ std::vector<View> sixFaces(const glm::dvec3& position, double farthest, int reso
   {
     glm::dvec3 direction(0.0);
     direction[i / 2] = i % 2 ? -1.0 : 1.0;
-    const double n = 1e-4 * farthest;
+    const double n = NearestDepth * farthest;
     add(views, lookAlong(position, direction), glm::frustum(-n, n, -n, n, n, farthest), resolution);
   }
   return views;
@@ -163,7 +159,6 @@ std::vector<View> fitPositional(
   }
   const glm::dmat4 toView = lookAlong(light.position, axis);
   Box slopes;
-  double nearest = farthest;
   bool wide = false;
   for (const glm::dvec3& p : corners)
   {
@@ -174,13 +169,12 @@ std::vector<View> fitPositional(
       continue;
     }
     slopes.add(glm::dvec3(v.x / -v.z, v.y / -v.z, 0.0));
-    nearest = std::min(nearest, -v.z);
   }
   if (wide && !spot)
   {
     return sixFaces(light.position, farthest, resolution);
   }
-  nearest = wide ? 1e-4 * farthest : std::max(0.25 * powerOfTwo(nearest), 1e-4 * farthest);
+  const double nearest = NearestDepth * farthest;
   for (int i = 0; i < 2 && !wide; ++i)
   {
     slopes.high[i] = std::max(slopes.high[i], slopes.low[i] + 1e-9);
@@ -205,6 +199,13 @@ std::vector<View> fitPositional(
   add(views, toView, glm::frustum(low.x, high.x, low.y, high.y, nearest, farthest), resolution);
   return views;
 }
+}
+
+void roundOutwards(double& low, double& high)
+{
+  const double step = powerOfTwo(high - low) / 16.0;
+  low = std::floor(low / step) * step;
+  high = std::ceil(high / step) * step;
 }
 
 std::vector<View> fitLight(const std::vector<Outline>& outlines,

@@ -11,11 +11,17 @@
 
 namespace svo
 {
-/// Views of `resolution`^2 texels fitted to the corners of the casters' cubes; none if nothing
-/// casts. One for directional lights and for casters within 120 degrees, else six.
+/// The views that a light needs, whatever is seen: a parallel one around the casters for a
+/// directional light; for a positional one a perspective view if they subtend less than 120
+/// degrees, else six square faces of a cube; for a spot never more than its cone. Views of
+/// `resolution`^2 texels fitted to the corners of the casters' cubes; none if nothing casts.
 /// `casters` as from castersOf().
 std::vector<View> fitLight(const std::vector<Outline>& outlines,
   const std::vector<std::uint8_t>& casters, const Light& light, int resolution);
+
+/// Widens [low, high] to a grid of at most an eighth of its length: what is fitted so changes now
+/// and then only.
+void roundOutwards(double& low, double& high);
 }
 
 #endif

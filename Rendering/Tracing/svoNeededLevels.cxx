@@ -1,8 +1,7 @@
 #include "svoNeededLevels.h"
 
-#include "svoCasters.h"
 #include "svoLeafGeometry.h"
-#include "svoLightView.h"
+#include "svoLightDetail.h"
 #include "svoLocalView.h"
 #include "svoSelect.h"
 
@@ -95,13 +94,13 @@ std::vector<NeededLevels> neededLevels(
     {
       continue;
     }
-    const std::vector<std::uint8_t> casters = castersOf(outlines, light);
-    for (const View& view : fitLight(outlines, casters, light, settings.shadowResolution))
+    const LightMaps maps = mapsOfLight(outlines, light, settings.shadowResolution, eye);
+    for (const View& view : maps.views)
     {
       for (std::size_t i = 0; i < needed.size(); ++i)
       {
         const Instance& instance = scene.instances[i];
-        if (casters[i] && instance.box.known())
+        if (maps.casters[i] && instance.box.known())
         {
           needed[i].lights =
             std::max({ needed[i].lights, 1, levelFor(instance, view, errorOf(instance)) });

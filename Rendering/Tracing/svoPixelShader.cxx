@@ -18,10 +18,11 @@ void PixelShader::begin(const Scene& scene, ShadowTechnique technique, const Lay
     const Instance& instance = scene.instances[i];
     const int level = eye.level(static_cast<std::uint32_t>(i));
     const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(i));
+    const bool placed = eye.placed(static_cast<std::uint32_t>(i));
     this->Frames.push_back(instance.octree ? SurfaceFrame(instance) : SurfaceFrame());
     this->Errors.push_back(!instance.octree  ? 0.0
-        : technique == ShadowTechnique::Rays ? worldLeafError(instance, geometry, level)
-                                             : worldMapError(instance, geometry, level));
+        : technique == ShadowTechnique::Rays ? worldLeafError(instance, geometry, level, placed)
+                                             : worldMapError(instance, geometry, level, placed));
   }
 }
 

@@ -92,28 +92,32 @@ inline double leafError(const Instance& instance, LeafGeometry geometry, int lev
   return 0.0; // of automatic leaves, where lists are short; see worldMapError() and ShadowRays
 }
 
-/// The same in the world, and never less than what floats resolve in the octree's cube.
-inline double worldLeafError(const Instance& instance, LeafGeometry geometry, int level)
+/// The same in the world, and never less than what floats resolve in the octree's cube: where hits
+/// are `placed` on the triangles in double (svoPlaceOnTriangles.h) only the triangles' points and
+/// the hit's depth are floats, not the ray.
+inline double worldLeafError(
+  const Instance& instance, LeafGeometry geometry, int level, bool placed = false)
 {
   return std::max(leafError(instance, geometry, level) * worldVoxel(instance, level),
-    1e-6 * worldVoxel(instance, 0));
+    (placed ? 1.2e-7 : 1e-6) * worldVoxel(instance, 0));
 }
 
 /// What the test against a shadow map allows for, in the world. Of plane leaves that is a voxel:
 /// few are further off, and their acne (1e-4 of the pixels of real meshes) is a smaller harm than
 /// contact shadows that begin three voxels late. Automatic leaves are planes where lists are long,
 /// and the triangles smaller than a voxel. A ray among planes needs all of their error.
-inline double worldMapError(const Instance& instance, LeafGeometry geometry, int level)
+inline double worldMapError(
+  const Instance& instance, LeafGeometry geometry, int level, bool placed = false)
 {
   constexpr double Plane = 1.0;
   constexpr double Automatic = 0.25;
   if (level < instance.octree.level() - 2 || !instance.octree.surface())
   {
-    return worldLeafError(instance, geometry, level);
+    return worldLeafError(instance, geometry, level, placed);
   }
   return geometry == LeafGeometry::Plane  ? Plane * worldVoxel(instance, level)
     : geometry == LeafGeometry::Automatic ? Automatic * worldVoxel(instance, level)
-                                          : worldLeafError(instance, geometry, level);
+                                          : worldLeafError(instance, geometry, level, placed);
 }
 }
 

@@ -1,7 +1,5 @@
 #include "svoShadowBuffer.h"
 
-#include "svoCasters.h"
-#include "svoLightView.h"
 #include "svoSelect.h"
 #include "svoTileShadows.h"
 
@@ -13,12 +11,11 @@
 
 namespace svo
 {
-void ShadowBuffer::begin(const Scene& scene, const Outlines& outlines, const Light& light,
+void ShadowBuffer::begin(const Scene& scene, const LightMaps& maps, std::size_t first,
   const FrameSettings& settings, LayerBudget& budget)
 {
-  const std::vector<std::uint8_t> all = castersOf(outlines.all, light);
-  const std::vector<View> views = fitLight(outlines.all, all, light, settings.shadowResolution);
-  const std::uint8_t* casters = all.data() + outlines.first; // this scene's
+  const std::vector<View>& views = maps.views;
+  const std::uint8_t* casters = maps.casters.data() + first; // this scene's
   this->setBias(settings);
   if (this->Faces.size() != views.size())
   {

@@ -4,7 +4,7 @@
 #define svoShadowBuffer_h
 
 #include "svoLayeredView.h"
-#include "svoOutline.h"
+#include "svoLightDetail.h"
 #include "svoProcesses.h"
 #include "svoScene.h"
 #include "svoSharedDepth.h"
@@ -23,11 +23,9 @@ namespace svo
 class ShadowBuffer
 {
 public:
-  /// Fits the light's views to the casters and prepares their layers. A directional light gets a
-  /// parallel view around the casters; a positional one a perspective view if they subtend less
-  /// than 120 degrees, else six square faces of a cube; a spot never more than its cone.
-  /// `outlines`: of the scene's instances, and of other processes'.
-  void begin(const Scene& scene, const Outlines& outlines, const Light& light,
+  /// Prepares the layers of the light's maps, which are of the scene's outlines and those of other
+  /// processes; `first`: of this scene's instances among all.
+  void begin(const Scene& scene, const LightMaps& maps, std::size_t first,
     const FrameSettings& settings, LayerBudget& budget);
 
   /// How points are tested; begin() does this, too.

@@ -19,13 +19,15 @@ bool Shadows::canFilter(const FrameSettings& settings)
     settings.shadowTechnique == ShadowTechnique::Buffer;
 }
 
-void Shadows::begin(const Scene& scene, const FrameSettings& settings, LayerBudget& budget)
+void Shadows::begin(
+  const Scene& scene, const View& eye, const FrameSettings& settings, LayerBudget& budget)
 {
   this->Filters = canFilter(settings);
   // Subsamples of a pixel, and filters, may look up what no pixel's centre does.
   this->All = settings.wholeShadowBuffers || settings.antiAliasing || this->Filters;
   this->Shared.clear();
-  this->beginBuffers(scene, scene.lights, { outlinesOf(scene) }, settings, budget);
+  this->beginBuffers(scene, scene.lights,
+    mapsOf(scene.lights, { outlinesOf(scene), 0 }, settings, eye), 0, settings, budget);
 }
 
 void Shadows::beginRays(const Scene& scene, const FrameSettings& settings, const LayeredView& eye)
@@ -40,9 +42,26 @@ void Shadows::beginRays(const Scene& scene, const FrameSettings& settings, const
   }
 }
 
-void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
-  const Outlines& outlines, const FrameSettings& settings, LayerBudget& budget)
+/// By index of the light; none of those without a buffer.
+std::vector<LightMaps> Shadows::mapsOf(const std::vector<Light>& lights, const Outlines& outlines,
+  const FrameSettings& settings, const View& eye)
 {
+  std::vector<LightMaps> maps(lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i)
+  {
+    if (usesBuffers(settings) && lights[i].castShadow)
+    {
+      maps[i] = mapsOfLight(outlines.all, lights[i], settings.shadowResolution, eye);
+    }
+  }
+  return maps;
+}
+
+void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
+  const std::vector<LightMaps>& maps, std::size_t first, const FrameSettings& settings,
+  LayerBudget& budget)
+{
+  this->CoarsestTexel = 0.0;
   this->Traced = true;
   this->Buffers.assign(lights.size(), nullptr);
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> kept;
@@ -62,7 +81,8 @@ void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
     const auto found = this->Kept.find(id);
     buffer =
       found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
-    buffer->begin(scene, outlines, light, settings, budget);
+    buffer->begin(scene, maps[i], first, settings, budget);
+    this->CoarsestTexel = std::max(this->CoarsestTexel, maps[i].coarsest);
     this->Buffers[i] = buffer.get();
     if (this->All)
     {
@@ -195,6 +215,7 @@ std::size_t Shadows::layerMemory() const
 
 void Shadows::addStatistics(FrameStatistics& statistics) const
 {
+  statistics.coarsestTexel = this->CoarsestTexel;
   statistics.mergedShadows = this->Traced && !this->Shared.empty();
   for (const ShadowBuffer* buffer : this->Buffers)
   {

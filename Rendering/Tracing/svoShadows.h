@@ -21,8 +21,9 @@ class Shadows
 {
 public:
   /// Fits the lights' buffers and keeps of their layers what is still true. `scene`: as lights see
-  /// it.
-  void begin(const Scene& scene, const FrameSettings& settings, LayerBudget& budget);
+  /// it; `eye`: what it is seen through.
+  void begin(
+    const Scene& scene, const View& eye, const FrameSettings& settings, LayerBudget& budget);
 
   /// To be called in every frame, after begin() or traceShared(). `scene` and `eye`: the points to
   /// be tested are theirs; rays to the light meet the same geometry, or surfaces would shadow
@@ -31,11 +32,12 @@ public:
 
   /// Instead of begin() and trace() where other processes hold parts of the scene: traces the
   /// buffers whole and merges them with the others', so that all have the same. A collective call.
-  /// The lights, the resolution and the pixel error of the first process count. Where no process
-  /// has changed anything the last frame's buffers are true still, wherever the camera went.
-  /// Returns false, and nothing is done, if the processes have different numbers of lights.
-  bool traceShared(const Scene& scene, const FrameSettings& settings, LayerBudget& budget,
-    const ParallelFor& parallelFor, Processes& processes);
+  /// The lights, the resolution, the pixel error and the eye of the first process count. Where no
+  /// process has changed anything the last frame's buffers are true still, wherever the camera
+  /// went, unless it makes other maps necessary. Returns false, and nothing is done, if the
+  /// processes have different numbers of lights.
+  bool traceShared(const Scene& scene, const View& eye, const FrameSettings& settings,
+    LayerBudget& budget, const ParallelFor& parallelFor, Processes& processes);
 
   /// Notes what visible points will look up. Which side of them is lit does not matter: light tiles
   /// that only unlit sides look up are few. Thread-safe.
@@ -91,8 +93,11 @@ public:
 private:
   static bool usesBuffers(const FrameSettings& settings);
   static bool canFilter(const FrameSettings& settings);
-  void beginBuffers(const Scene& scene, const std::vector<Light>& lights, const Outlines& outlines,
-    const FrameSettings& settings, LayerBudget& budget);
+  static std::vector<LightMaps> mapsOf(const std::vector<Light>& lights, const Outlines& outlines,
+    const FrameSettings& settings, const View& eye);
+  void beginBuffers(const Scene& scene, const std::vector<Light>& lights,
+    const std::vector<LightMaps>& maps, std::size_t first, const FrameSettings& settings,
+    LayerBudget& budget);
 
   const Scene* Of = nullptr; // the frame's
   bool Exact = false;        // rays; buffers are for others
@@ -104,6 +109,7 @@ private:
   std::unique_ptr<ShadowRays> Rays;
   std::vector<unsigned char> Shared; // what the shared buffers in Kept show; empty if they are not
   bool Traced = false;               // buffers were, in this frame
+  double CoarsestTexel = 0.0;        // LightMaps::coarsest, of all lights
 };
 }
 

@@ -1,6 +1,8 @@
 // Shadow buffers that several processes trace together, each of its own part of the scene.
 #include "svoShadows.h"
 
+#include <cstring>
+
 namespace svo
 {
 namespace
@@ -9,6 +11,8 @@ namespace
 struct SharedSettings
 {
   double pixelError;
+  double worldToView[16], viewToClip[16]; // of the eye
+  std::int32_t width, height;
   std::int32_t resolution;
   std::int32_t lights;
   std::int32_t canKeep; // the last frame's buffers are there
@@ -19,7 +23,28 @@ struct SharedLight
   double position[3], direction[3], coneAngle;
   std::int32_t kind, casts;
 };
-static_assert(sizeof(SharedSettings) == 24 && sizeof(SharedLight) == 64, "no gaps");
+static_assert(sizeof(SharedSettings) == 288 && sizeof(SharedLight) == 64, "no gaps");
+
+SharedSettings settingsOf(const FrameSettings& settings, const View& eye)
+{
+  SharedSettings shared{};
+  shared.pixelError = settings.pixelError;
+  std::memcpy(shared.worldToView, &eye.worldToView[0][0], sizeof(shared.worldToView));
+  std::memcpy(shared.viewToClip, &eye.viewToClip[0][0], sizeof(shared.viewToClip));
+  shared.width = eye.width;
+  shared.height = eye.height;
+  shared.resolution = settings.shadowResolution;
+  return shared;
+}
+
+View eyeOf(const SharedSettings& settings)
+{
+  glm::dmat4 worldToView, viewToClip;
+  std::memcpy(&worldToView[0][0], settings.worldToView, sizeof(settings.worldToView));
+  std::memcpy(&viewToClip[0][0], settings.viewToClip, sizeof(settings.viewToClip));
+  View eye;
+  return makeView(worldToView, viewToClip, settings.width, settings.height, eye) ? eye : View();
+}
 
 template <class T>
 void append(std::vector<unsigned char>& bytes, const std::vector<T>& values)
@@ -29,16 +54,15 @@ void append(std::vector<unsigned char>& bytes, const std::vector<T>& values)
 }
 }
 
-bool Shadows::traceShared(const Scene& scene, const FrameSettings& own, LayerBudget& budget,
-  const ParallelFor& parallelFor, Processes& processes)
+bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettings& own,
+  LayerBudget& budget, const ParallelFor& parallelFor, Processes& processes)
 {
   this->Filters = canFilter(own);
   std::vector<SharedSettings> settingsOfAll;
-  gatherRecords(processes,
-    std::vector<SharedSettings>{
-      { own.pixelError, own.shadowResolution, static_cast<std::int32_t>(scene.lights.size()),
-        own.frameCoherence && !this->Shared.empty(), 0 } },
-    settingsOfAll);
+  SharedSettings mine = settingsOf(own, eye);
+  mine.lights = static_cast<std::int32_t>(scene.lights.size());
+  mine.canKeep = own.frameCoherence && !this->Shared.empty();
+  gatherRecords(processes, std::vector<SharedSettings>{ mine }, settingsOfAll);
   std::vector<SharedLight> ownLights;
   for (const Light& light : scene.lights)
   {
@@ -63,23 +87,6 @@ bool Shadows::traceShared(const Scene& scene, const FrameSettings& own, LayerBud
   }
   lightsOfAll.resize(agreed.lights);
 
-  std::vector<unsigned char> state;
-  append(state, std::vector<double>{ agreed.pixelError, static_cast<double>(agreed.resolution) });
-  append(state, lightsOfAll);
-  append(state, outlines.all);
-  if (keep && state == this->Shared)
-  {
-    this->Traced = false;
-    for (ShadowBuffer* buffer : this->Buffers)
-    {
-      if (buffer)
-      {
-        buffer->setBias(own);
-      }
-    }
-    return true;
-  }
-
   FrameSettings settings = own;
   settings.pixelError = agreed.pixelError;
   settings.shadowResolution = agreed.resolution;
@@ -93,8 +100,34 @@ bool Shadows::traceShared(const Scene& scene, const FrameSettings& own, LayerBud
     lights[i].kind = static_cast<Light::Kind>(light.kind);
     lights[i].castShadow = light.casts != 0;
   }
+  const std::vector<LightMaps> maps = mapsOf(lights, outlines, settings, eyeOf(agreed));
+
+  std::vector<unsigned char> state;
+  append(state, std::vector<double>{ agreed.pixelError, static_cast<double>(agreed.resolution) });
+  append(state, lightsOfAll);
+  append(state, outlines.all);
+  for (const LightMaps& light : maps)
+  {
+    for (const View& view : light.views)
+    {
+      append(state, std::vector<glm::dmat4>{ view.worldToView, view.viewToClip });
+    }
+  }
+  if (keep && state == this->Shared)
+  {
+    this->Traced = false;
+    for (ShadowBuffer* buffer : this->Buffers)
+    {
+      if (buffer)
+      {
+        buffer->setBias(own);
+      }
+    }
+    return true;
+  }
+
   this->All = true; // what the others' visible points look up is not known here
-  this->beginBuffers(scene, lights, outlines, settings, budget);
+  this->beginBuffers(scene, lights, maps, outlines.first, settings, budget);
   this->trace(parallelFor);
   for (ShadowBuffer* buffer : this->Buffers)
   {

@@ -112,7 +112,7 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
   const bool shared = self.Shared && settings.shadowTechnique == ShadowTechnique::Buffer;
   if (!shared)
   {
-    self.Dark.begin(self.sceneOfLights(scene, settings.shadowTechnique), settings, budget);
+    self.Dark.begin(self.sceneOfLights(scene, settings.shadowTechnique), view, settings, budget);
     self.markLightTiles(scene, view, parallelFor);
   }
   self.Dark.beginRays(scene, settings, self.Eye);
@@ -154,14 +154,14 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
   self.SharedTime = 0.0;
 }
 
-bool Tracer::shareShadows(const Scene& scene, const FrameSettings& settings,
+bool Tracer::shareShadows(const Scene& scene, const View& view, const FrameSettings& settings,
   const ParallelFor& parallelFor, Processes& processes)
 {
   Internals& self = *this->Impl;
   const double start = now();
   LayerBudget budget{ settings.layerMemoryLimit, self.Eye.layerMemory() + self.Dark.layerMemory() };
-  self.Shared = self.Dark.traceShared(
-    self.sceneOfLights(scene, settings.shadowTechnique), settings, budget, parallelFor, processes);
+  self.Shared = self.Dark.traceShared(self.sceneOfLights(scene, settings.shadowTechnique), view,
+    settings, budget, parallelFor, processes);
   self.SharedTime = now() - start;
   return self.Shared;
 }

@@ -69,7 +69,10 @@ struct FrameStatistics
   std::uint64_t shadowRays = 0;
   std::uint64_t retracedLayers = 0; // layers traced this frame, of the eye and of lights
   std::uint64_t layerMemory = 0;    // bytes held by kept layers
-  bool mergedShadows = false;       // shadow buffers were merged with other processes' anew
+  /// How wide the texels of a shadow map may look that was fitted to what is seen, pixels; 0: of
+  /// none.
+  double coarsestTexel = 0.0;
+  bool mergedShadows = false; // shadow buffers were merged with other processes' anew
 };
 
 /// A finished shadow buffer, for rasterised receivers. One per map: a point light whose casters
@@ -101,9 +104,9 @@ public:
     const ParallelFor& parallelFor, Frame& frame);
 
   /// For scenes that are spread over several processes, to be called by all of them before
-  /// render() and with the same scene: traces the shadow buffers and merges them with the others'.
-  /// render() then takes these instead of its own. See Shadows::traceShared.
-  bool shareShadows(const Scene& scene, const FrameSettings& settings,
+  /// render() and with the same scene and view: traces the shadow buffers and merges them with the
+  /// others'. render() then takes these instead of its own. See Shadows::traceShared.
+  bool shareShadows(const Scene& scene, const View& view, const FrameSettings& settings,
     const ParallelFor& parallelFor, Processes& processes);
 
   /// After render(), with the same scene and view: what surfaces cover of the pixels of `frame`

@@ -155,7 +155,8 @@ TEST(NeededLevels, LightsNeedTheSameWhereverTheEyeIs)
     const auto first = svo::neededLevels(scene, seenFrom(400.0), settings);
     EXPECT_GT(first[0].lights, first[1].lights); // the small one has fewer texels
     EXPECT_LT(first[0].lights, Deepest);
-    for (double distance = 1.1; distance < 400.0; distance *= 1.3)
+    // Nearer than that their texels would look wide: the maps are fitted to what is seen.
+    for (double distance = 2.0; distance < 400.0; distance *= 1.3)
     {
       const auto needed = svo::neededLevels(scene, seenFrom(distance), settings);
       for (std::size_t i = 0; i < 2; ++i)
@@ -165,6 +166,16 @@ TEST(NeededLevels, LightsNeedTheSameWhereverTheEyeIs)
       }
     }
   }
+}
+
+TEST(NeededLevels, LightsNeedMoreWhereTheirMapsAreFittedToWhatIsSeen)
+{
+  svo::Scene scene = oneThing();
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 3, -5, 9 }) };
+  svo::FrameSettings settings;
+  settings.shadowResolution = 256;
+  const int far = svo::neededLevels(scene, seenFrom(4.0), settings)[0].lights;
+  EXPECT_GT(svo::neededLevels(scene, seenFrom(1.1), settings)[0].lights, far);
 }
 
 TEST(NeededLevels, LightsNeedWhatTheirTexelsResolve)

@@ -377,7 +377,10 @@ TEST(ShadowBuffer, AConvexBodyInGrazingLightDoesNotShadowItself)
       [](const Instance& i, const LocalView&) { return i.octree.level(); }, false, budget);
     eye.trace(serialFor, nullptr);
     ShadowBuffer buffer;
-    buffer.begin(scene, { svo::outlinesOf(scene) }, scene.lights[0], settings, budget);
+    buffer.begin(scene,
+      svo::mapsOfLight(
+        svo::outlinesOf(scene), scene.lights[0], settings.shadowResolution, svo::View()),
+      0, settings, budget);
     buffer.markAll();
     buffer.trace(serialFor);
     const SurfaceFrame frame(scene.instances[0]);

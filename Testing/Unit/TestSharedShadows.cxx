@@ -75,7 +75,8 @@ struct Group
       {
         const int self = processes.self();
         const svo::Scene part = partOf(whole, self, count);
-        EXPECT_TRUE(this->Tracers[self].shareShadows(part, settings, svo::serialFor, processes));
+        EXPECT_TRUE(
+          this->Tracers[self].shareShadows(part, view, settings, svo::serialFor, processes));
         this->Tracers[self].render(part, view, settings, svo::serialFor, this->Frames[self]);
       });
     return composed(this->Frames);
@@ -122,6 +123,26 @@ TEST(SharedShadows, SeveralProcessesHaveThePictureOfOne)
       EXPECT_EQ(differing(group.picture(scene, eye, smallBuffers()), expected), 0u)
         << test.name << ", " << count << " processes";
     }
+  }
+}
+
+// Maps that are fitted to what is seen are the same on all processes, whoever holds the ground.
+TEST(SharedShadows, MapsOfAVastGroundAreFittedAlike)
+{
+  svo::Scene scene = ballsOnGround();
+  Mesh ground = square(2000.0);
+  ground.points.push_back({ 0.0, 0.0, -5.0 }); // no flat one, which would not cast
+  ground.triangles.push_back({ 0, 1, 4 });
+  scene.instances[0] = instanceOf(makeOctree(ground, 7), 1);
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }) };
+  Group group(3);
+  for (const svo::View& eye : { lookAt({ 1, -6, 4 }, 160, 120), lookAt({ 6, -4, 4 }, 160, 120) })
+  {
+    const svo::Frame expected = rendered(scene, eye, smallBuffers());
+    svo::FrameSettings none = smallBuffers();
+    none.shadowTechnique = svo::ShadowTechnique::None;
+    ASSERT_GT(differing(expected, rendered(scene, eye, none)), 300u);
+    EXPECT_EQ(differing(group.picture(scene, eye, smallBuffers()), expected), 0u);
   }
 }
 
@@ -212,7 +233,8 @@ TEST(SharedShadows, ProcessesThatDisagreeAboutTheLightsKeepTheirOwn)
         part.lights.clear();
       }
       svo::Tracer tracer;
-      EXPECT_FALSE(tracer.shareShadows(part, smallBuffers(), svo::serialFor, processes));
+      EXPECT_FALSE(
+        tracer.shareShadows(part, svo::View(), smallBuffers(), svo::serialFor, processes));
       EXPECT_TRUE(identical(
         rendered(tracer, part, eye, smallBuffers()), rendered(part, eye, smallBuffers())));
     });

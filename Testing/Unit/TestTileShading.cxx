@@ -327,7 +327,10 @@ TEST(TileShading, ShadowsAreThoseOfOnePoint)
       settings.frameCoherence = false;
       LayerBudget budget{ 0, 0 };
       ShadowBuffer buffer;
-      buffer.begin(stage.scene, { svo::outlinesOf(stage.scene) }, light, settings, budget);
+      buffer.begin(stage.scene,
+        svo::mapsOfLight(
+          svo::outlinesOf(stage.scene), light, settings.shadowResolution, svo::View()),
+        0, settings, budget);
       buffer.markAll();
       buffer.trace(serialFor);
       onEveryInstructionSet(
@@ -410,10 +413,12 @@ TEST(TileShading, WhatIsMarkedIsWhatIsLookedUp)
     settings.frameCoherence = false;
     LayerBudget budget{ 0, 0 };
     ShadowBuffer whole, marked;
-    whole.begin(stage.scene, { svo::outlinesOf(stage.scene) }, light, settings, budget);
+    const svo::LightMaps maps =
+      svo::mapsOfLight(svo::outlinesOf(stage.scene), light, settings.shadowResolution, svo::View());
+    whole.begin(stage.scene, maps, 0, settings, budget);
     whole.markAll();
     whole.trace(serialFor);
-    marked.begin(stage.scene, { svo::outlinesOf(stage.scene) }, light, settings, budget);
+    marked.begin(stage.scene, maps, 0, settings, budget);
     stage.eachTile(
       [&](TilePoints& points)
       {

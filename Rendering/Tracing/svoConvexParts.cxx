@@ -1,0 +1,132 @@
+#include "svoConvexParts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+namespace svo
+{
+namespace
+{
+using Polygon = std::vector<glm::dvec3>;
+
+/// The half-space dot(normal, x) >= offset.
+struct HalfSpace
+{
+  glm::dvec3 normal;
+  double offset;
+};
+
+struct Face
+{
+  Polygon polygon;
+  HalfSpace inside;
+  bool flat; // the whole body lies in its plane
+};
+
+std::vector<Face> facesOf(const ConvexBody& body)
+{
+  glm::dvec3 middle(0.0);
+  for (const glm::dvec3& corner : body)
+  {
+    middle += 0.125 * corner;
+  }
+  std::vector<Face> faces;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
+    for (const int first : { 0, 1 << axis })
+    {
+      const Polygon polygon{ body[first], body[first | u], body[first | u | v], body[first | v] };
+      const glm::dvec3 diagonal = polygon[2] - polygon[0];
+      glm::dvec3 normal = glm::cross(diagonal, polygon[3] - polygon[1]);
+      const double length = glm::length(normal);
+      if (!(length > 0.0) || !std::isfinite(length))
+      {
+        continue; // no more than an edge
+      }
+      normal /= length;
+      const double side = glm::dot(normal, middle - polygon[0]);
+      normal = side < 0.0 ? -normal : normal;
+      const bool flat = std::abs(side) <= 1e-12 * glm::length(diagonal);
+      faces.push_back({ polygon, { normal, glm::dot(normal, polygon[0]) }, flat });
+    }
+  }
+  return faces;
+}
+
+void clip(Polygon& polygon, const HalfSpace& side, Polygon& scratch)
+{
+  scratch.clear();
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const glm::dvec3& a = polygon[i];
+    const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
+    const double da = glm::dot(side.normal, a) - side.offset;
+    const double db = glm::dot(side.normal, b) - side.offset;
+    if (da >= 0.0)
+    {
+      scratch.push_back(a);
+    }
+    if ((da >= 0.0) != (db >= 0.0))
+    {
+      scratch.push_back(a + da / (da - db) * (b - a));
+    }
+  }
+  polygon.swap(scratch);
+}
+}
+
+ConvexBody pieceOf(const View& view, double nearest, double farthest)
+{
+  ConvexBody body;
+  for (int i = 0; i < 8; ++i)
+  {
+    const double x = i & 1 ? view.width : 0.0;
+    const double y = i & 2 ? view.height : 0.0;
+    body[i] = view.rayOrigin(x, y) + (i & 4 ? farthest : nearest) * view.rayDirection(x, y);
+  }
+  return body;
+}
+
+void addCommonPart(const std::vector<ConvexBody>& bodies, std::vector<glm::dvec3>& points)
+{
+  std::vector<std::vector<Face>> faces;
+  std::size_t flat = bodies.size(); // a flat one, if there is one, holds all of the common part
+  for (const ConvexBody& body : bodies)
+  {
+    faces.push_back(facesOf(body));
+    const auto isFlat = [](const Face& face) { return face.flat; };
+    if (std::any_of(faces.back().begin(), faces.back().end(), isFlat))
+    {
+      flat = faces.size() - 1;
+    }
+  }
+  // The corners of the common part lie on faces of some body, inside of all others.
+  Polygon scratch;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    for (const Face& face : faces[i])
+    {
+      if (flat < faces.size() && (i != flat || !face.flat))
+      {
+        continue;
+      }
+      Polygon polygon = face.polygon;
+      for (std::size_t k = 0; k < faces.size() && !polygon.empty(); ++k)
+      {
+        for (const Face& other : faces[k])
+        {
+          if (k != i && !other.flat)
+          {
+            clip(polygon, other.inside, scratch);
+          }
+        }
+      }
+      points.insert(points.end(), polygon.begin(), polygon.end());
+    }
+  }
+}
+}

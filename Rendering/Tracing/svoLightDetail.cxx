@@ -1,0 +1,233 @@
+#include "svoLightDetail.h"
+
+#include "svoCasters.h"
+#include "svoConvexParts.h"
+#include "svoLightView.h"
+#include "svoSelect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+namespace svo
+{
+namespace
+{
+/// Pixels that a texel may look wide before anything is done about it.
+constexpr double WidestTexel = 16.0;
+/// Further maps of a light, of all its views together.
+constexpr int MostDetails = 5;
+/// Texels around what is seen, for filters and for rounding.
+constexpr double Margin = 4.0;
+
+/// A surface that receives, in the world.
+struct Seen
+{
+  ConvexBody body;
+  double nearest, farthest; // linear depth from the eye, between its near and far plane
+};
+
+double depthFrom(const View& view, const glm::dvec3& p)
+{
+  const glm::dmat4& m = view.worldToView;
+  return -(m[0][2] * p.x + m[1][2] * p.y + m[2][2] * p.z + m[3][2]);
+}
+
+/// Edge of the wider side of a texel at linear depth t.
+double texelEdge(const View& light, double t)
+{
+  return std::max(glm::length(light.originX + t * light.directionX),
+    glm::length(light.originY + t * light.directionY));
+}
+
+/// What may be seen with shadows on it, and how near it comes to the eye.
+std::vector<Seen> receiversOf(const std::vector<Outline>& outlines, const View& eye)
+{
+  std::vector<Seen> receivers;
+  for (const Outline& outline : outlines)
+  {
+    if (!outline.receives)
+    {
+      continue;
+    }
+    constexpr double Infinity = std::numeric_limits<double>::infinity();
+    Seen seen{ worldCorners(outline, 0.0), Infinity, -Infinity };
+    for (const glm::dvec3& corner : seen.body)
+    {
+      const double depth = depthFrom(eye, corner);
+      seen.nearest = std::min(seen.nearest, depth);
+      seen.farthest = std::max(seen.farthest, depth);
+    }
+    seen.nearest = std::max(seen.nearest, eye.tNear);
+    seen.farthest = std::min(seen.farthest, eye.tFar);
+    if (seen.nearest <= seen.farthest && std::isfinite(seen.farthest))
+    {
+      receivers.push_back(seen);
+    }
+  }
+  return receivers;
+}
+
+/// Of what the eye sees: a rectangle of a light's map, in clip space, and depths from the eye.
+struct Part
+{
+  glm::dvec2 low{ std::numeric_limits<double>::infinity() };
+  glm::dvec2 high{ -std::numeric_limits<double>::infinity() };
+  double nearest = std::numeric_limits<double>::infinity();
+  double farthest = 0.0;
+  double widest = 0.0; // how wide a texel of the map looks at most, pixels
+  bool empty() const { return !(low.x <= high.x); }
+};
+
+/// What the eye sees of the receivers, up to a depth, in a light's view.
+Part seenPart(
+  const std::vector<Seen>& receivers, const View& eye, double farthest, const View& light)
+{
+  Part part;
+  std::vector<glm::dvec3> points;
+  const glm::dmat4 toClip = light.viewToClip * light.worldToView;
+  for (const Seen& receiver : receivers)
+  {
+    if (receiver.nearest < farthest)
+    {
+      points.clear();
+      addCommonPart({ receiver.body, pieceOf(eye, eye.tNear, farthest),
+                      pieceOf(light, light.tNear, light.tFar) },
+        points);
+      for (const glm::dvec3& p : points)
+      {
+        const glm::dvec4 clip = toClip * glm::dvec4(p, 1.0);
+        const glm::dvec2 at = glm::clamp(glm::dvec2(clip) / clip.w, -1.0, 1.0);
+        const double depth = std::max(depthFrom(eye, p), eye.tNear);
+        part.low = glm::min(part.low, at);
+        part.high = glm::max(part.high, at);
+        part.nearest = std::min(part.nearest, depth);
+        part.farthest = std::max(part.farthest, depth);
+        part.widest =
+          std::max(part.widest, texelEdge(light, depthFrom(light, p)) / worldPixel(eye, depth));
+      }
+    }
+  }
+  return part;
+}
+
+/// The view of a part of a light's map, rounded outwards, so that it changes now and then only when
+/// the eye moves.
+bool crop(const View& light, const Part& part, View& view)
+{
+  glm::dmat4 toClip = light.viewToClip;
+  const glm::dvec2 texels(light.width, light.height);
+  for (int i = 0; i < 2; ++i)
+  {
+    double low = part.low[i];
+    double high = std::max(part.high[i], low + 1e-9);
+    const double margin = Margin * (high - low) / std::max(texels[i] - 2.0 * Margin, 1.0);
+    low -= margin;
+    high += margin;
+    roundOutwards(low, high);
+    low = std::max(low, -1.0);
+    high = std::min(high, 1.0);
+    for (int column = 0; column < 4; ++column)
+    {
+      const double w = toClip[column][3];
+      toClip[column][i] = (toClip[column][i] - 0.5 * (low + high) * w) / (0.5 * (high - low));
+    }
+  }
+  return makeView(light.worldToView, toClip, light.width, light.height, view);
+}
+
+/// Appends views of what is seen through `light`, fine ones first: so many that a texel looks no
+/// wider than `widest` pixels, if `most` further ones are enough. Returns how wide it looks.
+double refine(const View& light, const Part& all, const std::vector<Seen>& receivers,
+  const View& eye, double widest, int most, std::vector<View>& views)
+{
+  // Texels get smaller by the same factor everywhere.
+  const auto scaleOf = [&](const View& view)
+  { return texelEdge(view, 1.0) / texelEdge(light, 1.0); };
+  constexpr double WorthIt = 1.0 / 1.5;
+  std::vector<View> found{ light };
+  double scale = 1.0;
+  View view;
+  if (crop(light, all, view) && scaleOf(view) < WorthIt)
+  {
+    found.front() = view; // nobody looks up anything else
+    scale = scaleOf(view);
+  }
+  // Pixels grow with depth: what is nearer than where they are wide enough gets a map of its own.
+  while (all.widest * scale > 1.25 * widest && static_cast<int>(found.size()) <= most)
+  {
+    const double reach = all.nearest * all.widest * scale / widest;
+    const Part near =
+      seenPart(receivers, eye, eye.parallel ? all.farthest : std::min(reach, all.farthest), light);
+    if (near.empty() || !crop(light, near, view) || !(scaleOf(view) < WorthIt * scale))
+    {
+      break; // as fine as it gets
+    }
+    scale = scaleOf(view);
+    found.push_back(view);
+  }
+  views.insert(views.end(), found.rbegin(), found.rend());
+  return all.widest * scale;
+}
+}
+
+LightMaps mapsOfLight(
+  const std::vector<Outline>& outlines, const Light& light, int resolution, const View& eye)
+{
+  LightMaps maps{ castersOf(outlines, light), {}, 0.0 };
+  maps.views = fitLight(outlines, maps.casters, light, resolution);
+  if (eye.width < 1 || eye.height < 1 || maps.views.empty())
+  {
+    return maps;
+  }
+  const std::vector<View> fitted = maps.views;
+  const std::vector<Seen> receivers = receiversOf(outlines, eye);
+  double nearest = std::numeric_limits<double>::infinity();
+  double farthest = -nearest;
+  for (const Seen& receiver : receivers)
+  {
+    nearest = std::min(nearest, receiver.nearest);
+    farthest = std::max(farthest, receiver.farthest);
+  }
+  const double pixel = worldPixel(eye, nearest);
+  const auto mayBeCoarse = [&](const View& view)
+  { return texelEdge(view, view.parallel ? 0.0 : view.tFar) > WidestTexel * pixel; };
+  if (!std::isfinite(nearest) || std::none_of(fitted.begin(), fitted.end(), mayBeCoarse))
+  {
+    return maps;
+  }
+  std::vector<Part> parts;
+  bool coarse = false;
+  for (const View& view : fitted)
+  {
+    parts.push_back(seenPart(receivers, eye, farthest, view));
+    coarse = coarse || parts.back().widest > WidestTexel;
+  }
+  if (!coarse)
+  {
+    return maps;
+  }
+  for (double widest = 2.0;; widest *= 2.0)
+  {
+    maps.views.clear();
+    maps.coarsest = 0.0;
+    int left = MostDetails;
+    for (std::size_t i = 0; i < fitted.size(); ++i)
+    {
+      if (!parts[i].empty())
+      {
+        const std::size_t before = maps.views.size();
+        maps.coarsest = std::max(
+          maps.coarsest, refine(fitted[i], parts[i], receivers, eye, widest, left, maps.views));
+        left -= static_cast<int>(maps.views.size() - before) - 1;
+      }
+    }
+    if (maps.coarsest <= 1.25 * widest || widest >= 0.5 * WidestTexel)
+    {
+      return maps;
+    }
+  }
+}
+}

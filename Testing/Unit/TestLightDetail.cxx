@@ -1,0 +1,239 @@
+// Shadows of small things on vast grounds that cast shadows themselves: by buffers as by rays,
+// because the maps are fitted to what is seen; and maps that stay as they are where that is not
+// needed.
+#include "svoConvexParts.h"
+#include "svoLightDetail.h"
+#include "svoLightView.h"
+#include "svoTestTracers.h"
+#include "svoTracerScenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+using namespace svotest;
+
+namespace
+{
+const svo::View Eye = lookAt({ 0, -6, 4 }, 200, 150);
+
+/// A square with bumps a tenth high, which is enough to make it a caster.
+Mesh bumpy(double half)
+{
+  constexpr int Cells = 60;
+  Mesh mesh;
+  for (int y = 0; y <= Cells; ++y)
+  {
+    for (int x = 0; x <= Cells; ++x)
+    {
+      const double px = half * (2.0 * x / Cells - 1.0), py = half * (2.0 * y / Cells - 1.0);
+      mesh.points.push_back({ px, py, 0.05 * (std::sin(0.7 * px) * std::cos(0.9 * py) - 1.0) });
+    }
+  }
+  for (unsigned y = 0; y < Cells; ++y)
+  {
+    for (unsigned x = 0; x < Cells; ++x)
+    {
+      const unsigned a = y * (Cells + 1) + x, b = a + 1, c = a + Cells + 1, d = c + 1;
+      mesh.triangles.push_back({ a, b, d });
+      mesh.triangles.push_back({ a, d, c });
+    }
+  }
+  return mesh;
+}
+
+svo::Scene ballAbove(const Mesh& ground)
+{
+  svo::Scene scene;
+  scene.instances = { instanceOf(makeOctree(ground, 8), 1),
+    instanceOf(makeOctree(sphere(40, 64), 7), 2,
+      movedTo(0.0, 0.0, 0.8) * glm::scale(glm::dmat4(1.0), glm::dvec3(0.5))) };
+  return scene;
+}
+
+std::vector<LightCase> lights()
+{
+  using Kind = svo::Light::Kind;
+  return { { "sun", lightOf(Kind::Directional, { 3, -2, 5 }) },
+    { "bulb", lightOf(Kind::Point, { 3, -2, 5 }) },
+    { "bulb far away", lightOf(Kind::Point, { 3e4, -2e4, 5e4 }) },
+    { "spot", lightOf(Kind::Spot, { 3, -2, 5 }) } };
+}
+
+svo::Frame rendered(const svo::Scene& scene, svo::ShadowTechnique technique)
+{
+  svo::FrameSettings settings;
+  settings.shadowTechnique = technique;
+  svo::Tracer tracer;
+  return svotest::rendered(tracer, scene, Eye, settings);
+}
+
+struct Comparison
+{
+  int dark = 0;  // by rays
+  int wrong = 0; // by buffers
+};
+
+Comparison compare(const svo::Scene& scene)
+{
+  const svo::Frame lit = rendered(scene, svo::ShadowTechnique::None);
+  const svo::Frame buffer = rendered(scene, svo::ShadowTechnique::Buffer);
+  const svo::Frame rays = rendered(scene, svo::ShadowTechnique::Rays);
+  Comparison found;
+  for (std::size_t p = 0; p < lit.instance.size(); ++p)
+  {
+    found.dark += lit.color[4 * p] - rays.color[4 * p] > 8;
+    found.wrong += std::abs(buffer.color[4 * p] - rays.color[4 * p]) > 8;
+  }
+  return found;
+}
+
+void expectShadows(const svo::Scene& ground, const std::string& name)
+{
+  for (const LightCase& test : lights())
+  {
+    svo::Scene scene = ground;
+    scene.lights = { test.light };
+    const Comparison found = compare(scene);
+    std::printf("%s, %s: %d dark pixels, %d wrong\n", name.c_str(), test.name.c_str(), found.dark,
+      found.wrong);
+    EXPECT_GT(found.dark, 300) << name << ", " << test.name;
+    EXPECT_LE(found.wrong, found.dark / 20) << name << ", " << test.name;
+  }
+}
+
+/// Corner i at the upper ends that its bits say.
+svo::ConvexBody box(const glm::dvec3& low, const glm::dvec3& high)
+{
+  svo::ConvexBody body;
+  for (int i = 0; i < 8; ++i)
+  {
+    body[i] = { i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z };
+  }
+  return body;
+}
+}
+
+TEST(LightDetail, ABallOnAVastBumpyGroundHasItsShadow)
+{
+  for (const double half : { 20.0, 200.0, 600.0, 1e4, 1e5 })
+  {
+    expectShadows(ballAbove(bumpy(half)), "bumpy, " + std::to_string(half));
+  }
+}
+
+// A million times as wide as the ball.
+TEST(LightDetail, ABallOnAnEndlessFlatGroundHasItsShadow)
+{
+  expectShadows(ballAbove(square(1e4)), "flat, 1e4");
+  const Comparison found = []
+  {
+    svo::Scene scene = ballAbove(square(5e5));
+    scene.lights = { lightOf(svo::Light::Kind::Directional, { 3, -2, 5 }) };
+    return compare(scene);
+  }();
+  EXPECT_GT(found.dark, 300);
+  EXPECT_LE(found.wrong, found.dark / 5); // floats resolve a tenth of the ball on that ground
+}
+
+TEST(LightDetail, MapsOfOrdinaryScenesAreThoseOfTheirCasters)
+{
+  for (const LightCase& test : everyLight())
+  {
+    const auto outlines = svo::outlinesOf(ballAbove(bumpy(5.0)));
+    const svo::LightMaps maps = svo::mapsOfLight(outlines, test.light, 2048, Eye);
+    const auto fitted = svo::fitLight(outlines, maps.casters, test.light, 2048);
+    ASSERT_EQ(maps.views.size(), fitted.size()) << test.name;
+    for (std::size_t i = 0; i < fitted.size(); ++i)
+    {
+      EXPECT_EQ(maps.views[i].viewToClip, fitted[i].viewToClip) << test.name;
+    }
+    EXPECT_EQ(maps.coarsest, 0.0) << test.name;
+  }
+}
+
+TEST(LightDetail, MapsAreNoFinerThanPixelsAndFew)
+{
+  for (const double half : { 200.0, 1e4, 1e6 })
+  {
+    for (const LightCase& test : lights())
+    {
+      const auto outlines = svo::outlinesOf(ballAbove(bumpy(half)));
+      const svo::LightMaps maps = svo::mapsOfLight(outlines, test.light, 2048, Eye);
+      EXPECT_LE(maps.views.size(), 11u) << test.name;
+      EXPECT_LE(maps.coarsest, 16.0) << test.name << ", " << half;
+    }
+  }
+}
+
+// Most small steps of the eye leave the maps as they are, and what was traced through them.
+TEST(LightDetail, MapsChangeNowAndThenOnlyWhenTheEyeMoves)
+{
+  const auto outlines = svo::outlinesOf(ballAbove(bumpy(600.0)));
+  const svo::Light sun = lightOf(svo::Light::Kind::Directional, { 3, -2, 5 });
+  int changes = 0;
+  svo::LightMaps last = svo::mapsOfLight(outlines, sun, 2048, Eye);
+  for (int i = 1; i <= 100; ++i)
+  {
+    const svo::View eye = lookAt({ 0.01 * i, -6, 4 }, 200, 150);
+    const svo::LightMaps maps = svo::mapsOfLight(outlines, sun, 2048, eye);
+    bool same = maps.views.size() == last.views.size();
+    for (std::size_t k = 0; same && k < maps.views.size(); ++k)
+    {
+      same = maps.views[k].viewToClip == last.views[k].viewToClip;
+    }
+    changes += !same;
+    last = maps;
+  }
+  EXPECT_LT(changes, 50);
+}
+
+TEST(ConvexParts, WhatBoxesHaveInCommon)
+{
+  std::vector<glm::dvec3> points;
+  svo::addCommonPart({ box({ 0, 0, 0 }, { 4, 4, 4 }), box({ 1, 2, 3 }, { 9, 9, 9 }),
+                       box({ -9, -9, -9 }, { 3.5, 9, 9 }) },
+    points);
+  ASSERT_FALSE(points.empty());
+  glm::dvec3 low(1e9), high(-1e9);
+  for (const glm::dvec3& p : points)
+  {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  EXPECT_EQ(low, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(high, glm::dvec3(3.5, 4, 4));
+
+  points.clear();
+  svo::addCommonPart({ box({ 0, 0, 0 }, { 1, 1, 1 }), box({ 2, 0, 0 }, { 3, 1, 1 }) }, points);
+  EXPECT_TRUE(points.empty());
+}
+
+TEST(ConvexParts, AFlatBoxIsCutAsASurface)
+{
+  std::vector<glm::dvec3> points;
+  svo::addCommonPart({ box({ -9, -9, 1 }, { 9, 9, 1 }), box({ 0, 0, 0 }, { 2, 3, 4 }) }, points);
+  ASSERT_FALSE(points.empty());
+  for (const glm::dvec3& p : points)
+  {
+    EXPECT_EQ(p.z, 1.0);
+    EXPECT_TRUE(p.x >= 0.0 && p.x <= 2.0 && p.y >= 0.0 && p.y <= 3.0);
+  }
+}
+
+TEST(ConvexParts, APieceOfAViewHasWhatItSees)
+{
+  std::vector<glm::dvec3> points;
+  const svo::ConvexBody piece = svo::pieceOf(Eye, 1.0, 100.0);
+  svo::addCommonPart({ piece, box({ -1e6, -1e6, 0 }, { 1e6, 1e6, 0 }) }, points);
+  ASSERT_FALSE(points.empty());
+  for (const glm::dvec3& p : points)
+  {
+    const glm::dvec4 clip = Eye.viewToClip * Eye.worldToView * glm::dvec4(p, 1.0);
+    EXPECT_LE(std::abs(clip.x), 1.000001 * clip.w);
+    EXPECT_LE(std::abs(clip.y), 1.000001 * clip.w);
+    EXPECT_NEAR(p.z, 0.0, 1e-9);
+  }
+}
