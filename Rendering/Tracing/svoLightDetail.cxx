@@ -230,4 +230,29 @@ LightMaps mapsOfLight(
     }
   }
 }
+
+std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
+  const std::vector<Light>& lights, const FrameSettings& settings, const View& eye)
+{
+  // Depth, instance and primitive of the buffer; for receivers a copy, and OpenGL's.
+  const double bytes = settings.wholeShadowBuffers ? 20.0 : 12.0;
+  std::vector<LightMaps> maps(lights.size());
+  for (int resolution = settings.shadowResolution;; resolution = (resolution + 1) / 2)
+  {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+    {
+      if (lights[i].castShadow)
+      {
+        maps[i] = mapsOfLight(outlines, lights[i], resolution, eye);
+        count += maps[i].views.size();
+      }
+    }
+    const double taken = bytes * static_cast<double>(count) * resolution * resolution;
+    if (taken <= static_cast<double>(settings.shadowMemoryLimit) || resolution <= 16)
+    {
+      return maps;
+    }
+  }
+}
 }

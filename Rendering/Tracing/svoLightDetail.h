@@ -4,6 +4,7 @@
 
 #include "svoOutline.h"
 #include "svoScene.h"
+#include "svoTracer.h"
 #include "svoView.h"
 
 #include <cstdint>
@@ -29,6 +30,12 @@ struct LightMaps
 /// agree on the maps. An eye without pixels sees nothing.
 LightMaps mapsOfLight(
   const std::vector<Outline>& outlines, const Light& light, int resolution, const View& eye);
+
+/// The maps of all lights that cast, by index of the light, of FrameSettings::shadowResolution
+/// texels, or of half as many, and so on, until all of them fit into
+/// FrameSettings::shadowMemoryLimit.
+std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
+  const std::vector<Light>& lights, const FrameSettings& settings, const View& eye);
 }
 
 #endif

@@ -86,15 +86,15 @@ std::vector<NeededLevels> neededLevels(
   const auto errorOf = [&](const Instance& instance)
   { return instance.pixelError >= 0.0 ? instance.pixelError : settings.pixelError; };
   const std::vector<Outline> outlines = outlinesOf(scene);
-  bool casting = false;
-  for (const Light& light : scene.lights)
+  const bool casting = std::any_of(
+    scene.lights.begin(), scene.lights.end(), [](const Light& light) { return light.castShadow; });
+  std::vector<LightMaps> lights;
+  if (settings.shadowTechnique == ShadowTechnique::Buffer)
   {
-    casting = casting || light.castShadow;
-    if (!light.castShadow || settings.shadowTechnique != ShadowTechnique::Buffer)
-    {
-      continue;
-    }
-    const LightMaps maps = mapsOfLight(outlines, light, settings.shadowResolution, eye);
+    lights = mapsOfLights(outlines, scene.lights, settings, eye);
+  }
+  for (const LightMaps& maps : lights)
+  {
     for (const View& view : maps.views)
     {
       for (std::size_t i = 0; i < needed.size(); ++i)

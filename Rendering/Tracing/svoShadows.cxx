@@ -26,8 +26,12 @@ void Shadows::begin(
   // Subsamples of a pixel, and filters, may look up what no pixel's centre does.
   this->All = settings.wholeShadowBuffers || settings.antiAliasing || this->Filters;
   this->Shared.clear();
-  this->beginBuffers(scene, scene.lights,
-    mapsOf(scene.lights, { outlinesOf(scene), 0 }, settings, eye), 0, settings, budget);
+  std::vector<LightMaps> maps(scene.lights.size());
+  if (usesBuffers(settings))
+  {
+    maps = mapsOfLights(outlinesOf(scene), scene.lights, settings, eye);
+  }
+  this->beginBuffers(scene, scene.lights, maps, 0, settings, budget);
 }
 
 void Shadows::beginRays(const Scene& scene, const FrameSettings& settings, const LayeredView& eye)
@@ -42,26 +46,12 @@ void Shadows::beginRays(const Scene& scene, const FrameSettings& settings, const
   }
 }
 
-/// By index of the light; none of those without a buffer.
-std::vector<LightMaps> Shadows::mapsOf(const std::vector<Light>& lights, const Outlines& outlines,
-  const FrameSettings& settings, const View& eye)
-{
-  std::vector<LightMaps> maps(lights.size());
-  for (std::size_t i = 0; i < lights.size(); ++i)
-  {
-    if (usesBuffers(settings) && lights[i].castShadow)
-    {
-      maps[i] = mapsOfLight(outlines.all, lights[i], settings.shadowResolution, eye);
-    }
-  }
-  return maps;
-}
-
 void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
   const std::vector<LightMaps>& maps, std::size_t first, const FrameSettings& settings,
   LayerBudget& budget)
 {
   this->CoarsestTexel = 0.0;
+  this->Resolution = 0;
   this->Traced = true;
   this->Buffers.assign(lights.size(), nullptr);
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> kept;
@@ -83,6 +73,7 @@ void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
       found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
     buffer->begin(scene, maps[i], first, settings, budget);
     this->CoarsestTexel = std::max(this->CoarsestTexel, maps[i].coarsest);
+    this->Resolution = maps[i].views.empty() ? this->Resolution : maps[i].views.front().width;
     this->Buffers[i] = buffer.get();
     if (this->All)
     {
@@ -216,6 +207,7 @@ std::size_t Shadows::layerMemory() const
 void Shadows::addStatistics(FrameStatistics& statistics) const
 {
   statistics.coarsestTexel = this->CoarsestTexel;
+  statistics.shadowResolution = this->Resolution;
   statistics.mergedShadows = this->Traced && !this->Shared.empty();
   for (const ShadowBuffer* buffer : this->Buffers)
   {

@@ -93,8 +93,6 @@ public:
 private:
   static bool usesBuffers(const FrameSettings& settings);
   static bool canFilter(const FrameSettings& settings);
-  static std::vector<LightMaps> mapsOf(const std::vector<Light>& lights, const Outlines& outlines,
-    const FrameSettings& settings, const View& eye);
   void beginBuffers(const Scene& scene, const std::vector<Light>& lights,
     const std::vector<LightMaps>& maps, std::size_t first, const FrameSettings& settings,
     LayerBudget& budget);
@@ -109,6 +107,7 @@ private:
   std::unique_ptr<ShadowRays> Rays;
   std::vector<unsigned char> Shared; // what the shared buffers in Kept show; empty if they are not
   bool Traced = false;               // buffers were, in this frame
+  int Resolution = 0;                // of the maps; 0 without any
   double CoarsestTexel = 0.0;        // LightMaps::coarsest, of all lights
 };
 }

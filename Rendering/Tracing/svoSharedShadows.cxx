@@ -100,7 +100,8 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
     lights[i].kind = static_cast<Light::Kind>(light.kind);
     lights[i].castShadow = light.casts != 0;
   }
-  const std::vector<LightMaps> maps = mapsOf(lights, outlines, settings, eyeOf(agreed));
+  settings.wholeShadowBuffers = true; // where some process has receivers all count their copies
+  const std::vector<LightMaps> maps = mapsOfLights(outlines.all, lights, settings, eyeOf(agreed));
 
   std::vector<unsigned char> state;
   append(state, std::vector<double>{ agreed.pixelError, static_cast<double>(agreed.resolution) });

@@ -27,7 +27,8 @@ enum class ShadowTechnique
 struct FrameSettings
 {
   ShadowTechnique shadowTechnique = ShadowTechnique::Buffer;
-  int shadowResolution = 2048;  // texels along an edge of one map
+  int shadowResolution = 2048;                          // texels along an edge of one map
+  std::size_t shadowMemoryLimit = std::size_t(4) << 30; // bytes, of the maps of all lights
   bool automaticBias = true;    // compare on the receiver's plane, at the texel's own ray
   double bias = 0.0;            // voxels of the caster, added
   double shadowIntensity = 1.0; // share of the light's diffuse and specular that is removed
@@ -72,6 +73,7 @@ struct FrameStatistics
   /// How wide the texels of a shadow map may look that was fitted to what is seen, pixels; 0: of
   /// none.
   double coarsestTexel = 0.0;
+  int shadowResolution = 0;   // texels, of the shadow maps; 0 without any
   bool mergedShadows = false; // shadow buffers were merged with other processes' anew
 };
 

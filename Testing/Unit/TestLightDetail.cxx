@@ -190,6 +190,35 @@ TEST(LightDetail, MapsChangeNowAndThenOnlyWhenTheEyeMoves)
   EXPECT_LT(changes, 50);
 }
 
+// Two lights with maps of 16384 texels and receivers would take 10 GiB.
+TEST(LightDetail, MapsOfAllLightsAreLimitedTogether)
+{
+  const auto outlines = svo::outlinesOf(ballAbove(bumpy(5.0)));
+  const auto widthOf = [&](int resolution, std::size_t count, bool receivers)
+  {
+    svo::FrameSettings settings;
+    settings.shadowResolution = resolution;
+    settings.wholeShadowBuffers = receivers;
+    const std::vector<svo::Light> suns(count, lightOf(svo::Light::Kind::Directional, { 3, -2, 5 }));
+    const auto maps = svo::mapsOfLights(outlines, suns, settings, Eye);
+    EXPECT_EQ(maps.size(), count);
+    return maps.back().views.front().width;
+  };
+  EXPECT_EQ(widthOf(16384, 1, false), 16384);
+  EXPECT_EQ(widthOf(16384, 2, false), 8192);
+  EXPECT_EQ(widthOf(16384, 2, true), 8192);
+  EXPECT_EQ(widthOf(16384, 100, true), 1024);
+  EXPECT_EQ(widthOf(2048, 40, true), 2048);
+
+  svo::Scene scene = ballAbove(bumpy(5.0));
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 3, -2, 5 }) };
+  svo::FrameSettings settings;
+  settings.shadowMemoryLimit = 12 * 512 * 512;
+  svo::Tracer tracer;
+  svotest::rendered(tracer, scene, Eye, settings);
+  EXPECT_EQ(tracer.statistics().shadowResolution, 512);
+}
+
 TEST(ConvexParts, WhatBoxesHaveInCommon)
 {
   std::vector<glm::dvec3> points;
