@@ -94,6 +94,7 @@ pv.RemoveLight(view.AdditionalLights[0])
 picture("light-kit")
 # ParaView orders translucent surfaces by sending parts of them as XML with appended data.
 if scene.reads_appended_data():
+    displays[0].SVOCastShadows = 0  # or it would be said that it casts none
     displays[0].Opacity = 0.5
     picture("translucent")
     for display in displays:
