@@ -26,9 +26,8 @@
  * Settings that are given a value out of their range take the nearest one in it; a value that is
  * not a number changes nothing and leads to a warning.
  *
- * While octrees are built for a still render, and while pipelines run, observers may do as they
- * like: draw other windows, with this pass too, change meshes, drop the pass. If they have changed
- * something, the frame is collected once more.
+ * Observers of ProgressEvent may do as they like: draw other windows, with this pass too, change
+ * meshes, drop the pass. The frame is then collected once more.
  *
  * Method: Huang and Cheng, "A Rendering Method Using Sparse Voxel Octrees in Dynamic Scenes",
  * 2017. The paper's Z-buffer tables ZBT and SZBT are the depth buffer and the shadow buffers here.

@@ -4,6 +4,7 @@
 #include "svoTestStage.h"
 
 #include "vtkCommand.h"
+#include "vtkCullerCollection.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLActor.h"
 #include "vtkOpenGLRenderer.h"
@@ -233,6 +234,44 @@ void duringABuild(Checks& checks)
   }
 }
 
+/// Pipelines run while a frame is collected, and have observers, too.
+void inAPipeline(Checks& checks)
+{
+  const Picture still = expected();
+  {
+    Scene first;
+    Scene second;
+    first.stage.renderer->GetCullers()->RemoveAllItems(); // they ask for bounds before the pass
+    second.stage.renderer->SetPass(first.pass);
+    Picture other;
+    at(first.ball, vtkCommand::StartEvent, once([&] { other = capture(second.stage.window); }));
+    expectSame(checks, capture(first.stage.window), still, "a source has another window drawn");
+    expectSame(checks, other, still, "the window that it has drawn");
+    second.stage.renderer->SetPass(nullptr);
+  }
+  {
+    Scene scene;
+    scene.stage.renderer->GetCullers()->RemoveAllItems();
+    at(scene.ball, vtkCommand::StartEvent,
+      once(
+        [&]
+        {
+          scene.stage.usePass(false);
+          scene.pass = nullptr;
+          scene.stage.renderer->RemoveActor(scene.ground);
+        }));
+    capture(scene.stage.window);
+    checks.expect(!scene.stage.renderer->GetPass(), "a source drops the pass");
+  }
+  {
+    Scene scene;
+    scene.stage.renderer->GetCullers()->RemoveAllItems();
+    at(scene.ball, vtkCommand::StartEvent, once([&] { scene.stage.window->Finalize(); }));
+    scene.stage.window->Render();
+    expectSame(checks, capture(scene.stage.window), still, "a source finalizes the window");
+  }
+}
+
 /// The ball in a renderer that a pass is attached to.
 struct HostScene
 {
@@ -364,6 +403,7 @@ int TestSVOReentrancy(int, char*[])
 {
   Checks checks;
   duringABuild(checks);
+  inAPipeline(checks);
   attachments(checks);
   return checks.exitCode();
 }
