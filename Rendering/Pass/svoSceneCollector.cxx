@@ -327,7 +327,7 @@ PropSurfaces SceneCollector::judge(vtkProp* prop)
 {
   CollectedScene scene;
   const StoreOptions silent{};
-  Frame frame{ silent, CollectSettings(), scene, {} };
+  Frame frame{ silent, CollectSettings(), scene, glm::dmat4(1.0), {} };
   PropSurfaces found;
   found.prop = prop;
   if (!prop->GetVisibility())

@@ -4,10 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-<<<<<<< HEAD
 #include <cstring>
-=======
->>>>>>> b55e968 (Coincident topology between traced surfaces and a camera's ModelTransformMatrix are VTK's)
 #include <limits>
 
 using namespace svotest;
