@@ -232,6 +232,7 @@ TEST(PPolyDataToSVO, AModelsBoundsCountInTheCacheAndForOctreesThatCome)
   second->Update();
   EXPECT_EQ(second->GetNumberOfBuilds(), 0); // it is what would be built
   second->SetModelBounds(-2, 2, -2, 2, -2, 2);
+  filter->ReleaseCache(); // which would be shared
   second->Update();
   EXPECT_EQ(second->GetNumberOfBuilds(), 1);
   EXPECT_EQ(octreeOf(second->GetOutput())->GetVoxelSize(), model);
