@@ -124,19 +124,23 @@ void testStill(Checks& checks, int leafGeometry, const std::string& name)
     const Picture raster = capture(full.window);
     full.usePass(true);
     const double outline = outlineDifference(picture, truth);
+    const double fatter = outlineDifference(picture, raster);
     const Difference own = difference(picture, raster, coveredByBoth(picture, raster));
     const Difference best = difference(truth, raster, coveredByBoth(truth, raster));
     std::cout << name << " from " << distance << ": " << adaptive.pass->GetNumberOfOctreesBuilt()
               << " octrees, " << adaptive.pass->GetOctreeMemorySize() << " KiB; outline "
-              << 100.0 * outline << " % from the full level's; colours " << own.mean << " and "
-              << best.mean << " from the rasteriser's (" << own.pixels << " pixels)\n";
+              << 100.0 * outline << " % from the full level's, " << 100.0 * fatter
+              << " % from the rasteriser's; colours " << own.mean << " and " << best.mean
+              << " from the rasteriser's (" << own.pixels << " pixels)\n";
     checks.expect(adaptive.pass->GetNumberOfTracedActors() == 1, name + ": it is traced");
     checks.expect(adaptive.pass->GetNumberOfOctreesInProgress() == 0, name + ": it waits");
     checks.expect(adaptive.pass->GetAcceptedPixelError() == 1.0, name + ": full quality");
     checks.expect(adaptive.pass->GetOctreeMemorySize() > memory, name + ": it is deepened");
     memory = adaptive.pass->GetOctreeMemorySize();
-    // Octrees stop at whole voxels, so that a pixel of the outline may go either way.
-    checks.expect(outline < 0.05, name + ": the outline is that of the full level");
+    // Octrees stop at whole voxels, so that a pixel of the outline may go either way. From afar
+    // rays stop at coarse nodes of the full level, and at triangles of a coarse octree.
+    checks.expect(outline < 0.05 || fatter < 0.01,
+      name + ": the outline is that of the full level, or the rasteriser's");
     checks.expect(own.pixels > 50 && own.mean < best.mean + 2.0, name + ": colours are as good");
   }
   if (leafGeometry == vtkSVORenderPass::LEAF_AUTOMATIC)
