@@ -36,16 +36,16 @@ void PixelShader::shadowTerminator(
   const Light& light = *lit.lighting.lights[l].light;
   const Shadows& dark = lit.shaded.dark;
   const SurfaceFrame& frame = this->Frames[p.instance[first]];
-  if (!isSmooth(*frame.instance) || !dark.knowsTerminator(l))
+  std::uint8_t turned[TilePoints::Room];
+  if (!isSmooth(*frame.instance) || !dark.knowsTerminator(l) ||
+    !mayTurnAway(light, dark.grazing(), p, first, last, scratch.light.reached, turned))
   {
     return;
   }
   for (int i = 0; i < last - first; ++i)
   {
     const int k = first + i;
-    if (scratch.light.reached[i] &&
-      turnsAway(light, { p.positionX[k], p.positionY[k], p.positionZ[k] },
-        { p.facetX[k], p.facetY[k], p.facetZ[k] }, dark.grazing()))
+    if (turned[i])
     {
       const TerminatorPoint at = atTerminator(frame, light, dark.grazing(), p.point(k),
         { p.towardsX[k], p.towardsY[k], p.towardsZ[k] }, p.primitive[k]);

@@ -43,6 +43,35 @@ void lookUp(const View& light, const glm::dmat4& c, const TilePoints& p, int fir
   }
 }
 
+/// In single precision, with a margin that is more than its rounding. `far`: the light shines the
+/// way `along`, from no place in particular.
+int turn(const glm::dvec3& from, const glm::vec3& along, bool far, float sine, const TilePoints& p,
+  int first, int last, const std::uint8_t* asked, std::uint8_t* turned)
+{
+  int any = 0;
+  const float sine2 = sine * sine;
+  const int n = last - first;
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      const float x = far ? along.x : static_cast<float>(p.positionX[first + k] - from.x);
+      const float y = far ? along.y : static_cast<float>(p.positionY[first + k] - from.y);
+      const float z = far ? along.z : static_cast<float>(p.positionZ[first + k] - from.z);
+      const float behind =
+        p.facetX[first + k] * x + p.facetY[first + k] * y + p.facetZ[first + k] * z;
+      const float length2 = x * x + y * y + z * z;
+      turned[k] = (behind > 0.0f) | !(behind * behind > sine2 * length2);
+    }
+  }
+  for (int k = 0; k < n; ++k)
+  {
+    turned[k] &= asked[k];
+    any |= turned[k];
+  }
+  return any;
+}
+
 void test(const View& light, double pixel0, double pixelPerDepth, const TilePoints& p, int first,
   int last, const TexelPlaces& places, TexelTests& tests)
 {
@@ -111,12 +140,22 @@ HWY_AFTER_NAMESPACE();
 namespace svo
 {
 HWY_EXPORT(lookUp);
+HWY_EXPORT(turn);
 HWY_EXPORT(test);
 
 void lookUpTexels(const View& light, const glm::dmat4& worldToClip, const TilePoints& points,
   int first, int last, TexelPlaces& places)
 {
   HWY_DYNAMIC_DISPATCH(lookUp)(light, worldToClip, points, first, last, places);
+}
+
+bool mayTurnAway(const Light& light, double grazing, const TilePoints& points, int first, int last,
+  const std::uint8_t* asked, std::uint8_t* turned)
+{
+  constexpr double Margin = 1e-4;
+  return HWY_DYNAMIC_DISPATCH(turn)(light.position, glm::vec3(light.direction),
+           light.kind == Light::Kind::Directional, static_cast<float>(grazing + Margin), points,
+           first, last, asked, turned) != 0;
 }
 
 void testTexels(const View& light, double pixel, double pixelPerDepth, const TilePoints& points,

@@ -4,6 +4,7 @@
 #ifndef svoTileShadows_h
 #define svoTileShadows_h
 
+#include "svoScene.h"
 #include "svoTilePoints.h"
 #include "svoView.h"
 
@@ -40,6 +41,11 @@ struct TexelTests
 
 void lookUpTexels(const View& light, const glm::dmat4& worldToClip, const TilePoints& points,
   int first, int last, TexelPlaces& places);
+
+/// Which of the points first..last - 1 are `asked` about and may turnsAway() from the light, by
+/// index minus `first`; all that do are among them. False if there are none.
+bool mayTurnAway(const Light& light, double grazing, const TilePoints& points, int first, int last,
+  const std::uint8_t* asked, std::uint8_t* turned);
 
 /// `pixel`, `pixelPerDepth`: edge of a texel, world, at depth t: pixel + t pixelPerDepth.
 void testTexels(const View& light, double pixel, double pixelPerDepth, const TilePoints& points,
