@@ -61,10 +61,12 @@ class TestAnimation(unittest.TestCase):
         self.assertGreater(scene.differing(first, between), 0.003)
         self.scene.AnimationTime = 0
         self.assertEqual(scene.differing(scene.picture(self.view, "figure-again"), first, 0), 0)
-        # With room for half of them a second loop finds none of those that it needs next.
+        # With room for half of them a loop builds the other half, and few more.
         figure.SVOCacheMemoryLimit = kept // 2
         self.loop(figure, "SVONumberOfBuilds")
-        self.assertEqual(self.loop(figure, "SVONumberOfBuilds"), 197)
+        again = self.loop(figure, "SVONumberOfBuilds")
+        self.assertGreater(again, 50)
+        self.assertLess(again, 120)
         self.assertLessEqual(scene.statistic(figure, "SVOCacheMemorySize"), kept // 2)
 
     def test_limit_of_the_cache(self):
