@@ -154,8 +154,11 @@ void vtkSVOPresenter::StandFor(vtkProp* prop)
   if (prop)
   {
     vtkNew<vtkInformation> keys;
+    int count = 0;
+    // Not Append(): what it adds has to be removed one by one, or is never freed.
     eachPass(prop,
-      [&](vtkOpenGLRenderPass* pass) { keys->Append(vtkOpenGLRenderPass::RenderPasses(), pass); });
+      [&](vtkOpenGLRenderPass* pass)
+      { keys->Set(vtkOpenGLRenderPass::RenderPasses(), pass, count++); });
     this->SetPropertyKeys(keys);
   }
 }
