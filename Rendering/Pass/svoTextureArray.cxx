@@ -39,7 +39,8 @@ bool TextureArray::allocate(int size, int layers)
   this->SetMagnificationFilter(vtkTextureObject::Nearest);
   this->SetWrapS(vtkTextureObject::ClampToEdge);
   this->SetWrapT(vtkTextureObject::ClampToEdge);
-  this->AutoParametersOff(); // CreateTexture() sends them; later on VTK asserts that it knows arrays
+  // CreateTexture() sends them; later on VTK asserts that it knows arrays.
+  this->AutoParametersOff();
   this->CreateTexture();
   this->Activate();
   for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) // errors of others

@@ -127,8 +127,9 @@ public:
    * has one map. So has a point light whose casters subtend less than 120 degrees, otherwise it has
    * the six faces of a cube. Where a texel of such a map would look wider than 16 pixels, as with a
    * terrain or a large ground that casts, maps of so many texels are fitted to what is seen.
-   * All maps of a frame, 12 bytes a texel and 8 more where rasterised surfaces receive, take at most
-   * 4 GiB: beyond that they have half as many texels along an edge, and so on, and the pass says so.
+   * All maps of a frame, 12 bytes a texel and 8 more where rasterised surfaces receive, take at
+   * most 4 GiB: beyond that they have half as many texels along an edge, and so on, and the pass
+   * says so.
    */
   vtkSetClampMacro(ShadowBufferResolution, int, 16, 16384);
   vtkGetMacro(ShadowBufferResolution, int);
