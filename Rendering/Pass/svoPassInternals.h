@@ -12,6 +12,7 @@
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -21,6 +22,9 @@
 
 namespace svo
 {
+/// What settings of memory count in.
+constexpr std::size_t BytesOfKiB = 1024;
+
 /// A renderer that the pass is attached to.
 struct AttachedRenderer
 {

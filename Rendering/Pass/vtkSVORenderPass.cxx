@@ -67,8 +67,6 @@ void vtkSVORenderPass::SetNumber(
 
 namespace
 {
-constexpr std::size_t BytesOfKiB = 1024;
-
 /// From this rate on VTK asks for interaction rather than for a picture to keep.
 constexpr double InteractiveRate = 1.0; // Hz
 
@@ -123,7 +121,7 @@ svo::FrameSettings vtkSVORenderPass::Internals::settingsOf(const vtkSVORenderPas
   settings.shadowIntensity = pass.ShadowIntensity;
   settings.pixelError = pass.PixelError;
   settings.frameCoherence = pass.FrameCoherence;
-  settings.layerMemoryLimit = static_cast<std::size_t>(pass.LayerMemoryLimit) * BytesOfKiB;
+  settings.layerMemoryLimit = static_cast<std::size_t>(pass.LayerMemoryLimit) * svo::BytesOfKiB;
   settings.antiAliasing = pass.AntiAliasing;
   settings.filterShadows = pass.AntiAliasing;
   return settings;
@@ -292,7 +290,7 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
     frame.of->measured(seconds, fixedSeconds);
   }
   const std::size_t beyond =
-    impl.store.endFrame(static_cast<std::size_t>(this->OctreeMemoryLimit) * BytesOfKiB);
+    impl.store.endFrame(static_cast<std::size_t>(this->OctreeMemoryLimit) * svo::BytesOfKiB);
   if (beyond > 0 && !impl.saidMemory)
   {
     impl.saidMemory = true;
@@ -429,96 +427,6 @@ bool vtkSVORenderPass::SetShaderParameters(
 vtkMTimeType vtkSVORenderPass::GetShaderStageMTime()
 {
   return this->Impl->shaderTime.GetMTime();
-}
-
-double vtkSVORenderPass::GetCollectTime() const
-{
-  return this->Impl->statistics.collectTime;
-}
-
-double vtkSVORenderPass::GetTraceTime() const
-{
-  return this->Impl->statistics.tracer.traceTime;
-}
-
-double vtkSVORenderPass::GetShadowTime() const
-{
-  return this->Impl->statistics.tracer.shadowTime;
-}
-
-double vtkSVORenderPass::GetPresentTime() const
-{
-  return this->Impl->statistics.presentTime;
-}
-
-vtkIdType vtkSVORenderPass::GetNumberOfPrimaryRays() const
-{
-  return static_cast<vtkIdType>(this->Impl->statistics.tracer.primaryRays);
-}
-
-vtkIdType vtkSVORenderPass::GetNumberOfShadowRays() const
-{
-  return static_cast<vtkIdType>(this->Impl->statistics.tracer.shadowRays);
-}
-
-vtkIdType vtkSVORenderPass::GetNumberOfRetracedLayers() const
-{
-  return static_cast<vtkIdType>(this->Impl->statistics.tracer.retracedLayers);
-}
-
-int vtkSVORenderPass::GetNumberOfTracedActors() const
-{
-  return this->Impl->statistics.tracedActors;
-}
-
-int vtkSVORenderPass::GetNumberOfRasterizedActors() const
-{
-  return this->Impl->statistics.rasterizedActors;
-}
-
-int vtkSVORenderPass::GetNumberOfInstances() const
-{
-  return this->Impl->statistics.instances;
-}
-
-const char* vtkSVORenderPass::GetCastingLights() const
-{
-  return this->Impl->castingLights.c_str();
-}
-
-double vtkSVORenderPass::GetImageSampleDistance() const
-{
-  return this->Impl->statistics.sampleDistance * this->Impl->statistics.imageReduction;
-}
-
-double vtkSVORenderPass::GetAcceptedPixelError() const
-{
-  // A pixel of the traced picture is `distance` pixels of the window.
-  const double distance = this->GetImageSampleDistance();
-  const double ofRays =
-    distance > 1.0 ? distance * std::max(this->PixelError, 1.0) : this->PixelError;
-  const svo::PassStatistics& frame = this->Impl->statistics;
-  return std::max(ofRays, frame.coarseOctreeError * frame.imageReduction);
-}
-
-int vtkSVORenderPass::GetNumberOfOctreesBuilt() const
-{
-  return this->Impl->store.built();
-}
-
-int vtkSVORenderPass::GetNumberOfOctreesInProgress() const
-{
-  return this->Impl->store.building();
-}
-
-vtkIdType vtkSVORenderPass::GetLayerMemorySize() const
-{
-  return static_cast<vtkIdType>(this->Impl->statistics.tracer.layerMemory / BytesOfKiB);
-}
-
-vtkIdType vtkSVORenderPass::GetOctreeMemorySize() const
-{
-  return static_cast<vtkIdType>(this->Impl->store.bytes() / BytesOfKiB);
 }
 
 void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)

@@ -147,7 +147,8 @@ void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void
     }
     else if (this->ShadowTechnique == SHADOW_RAYS)
     {
-      frame.of->shareCasters(controller, static_cast<std::size_t>(this->OctreeMemoryLimit) * 1024);
+      frame.of->shareCasters(
+        controller, static_cast<std::size_t>(this->OctreeMemoryLimit) * svo::BytesOfKiB);
     }
   }
   if (frame.of->collected().rasterizedReceivers && frame.of->hasSomething())

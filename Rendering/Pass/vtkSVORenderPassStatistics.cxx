@@ -1,0 +1,96 @@
+// What the last frame took, and what is kept.
+#include "vtkSVORenderPass.h"
+
+#include "svoPassInternals.h"
+
+#include <algorithm>
+
+double vtkSVORenderPass::GetCollectTime() const
+{
+  return this->Impl->statistics.collectTime;
+}
+
+double vtkSVORenderPass::GetTraceTime() const
+{
+  return this->Impl->statistics.tracer.traceTime;
+}
+
+double vtkSVORenderPass::GetShadowTime() const
+{
+  return this->Impl->statistics.tracer.shadowTime;
+}
+
+double vtkSVORenderPass::GetPresentTime() const
+{
+  return this->Impl->statistics.presentTime;
+}
+
+vtkIdType vtkSVORenderPass::GetNumberOfPrimaryRays() const
+{
+  return static_cast<vtkIdType>(this->Impl->statistics.tracer.primaryRays);
+}
+
+vtkIdType vtkSVORenderPass::GetNumberOfShadowRays() const
+{
+  return static_cast<vtkIdType>(this->Impl->statistics.tracer.shadowRays);
+}
+
+vtkIdType vtkSVORenderPass::GetNumberOfRetracedLayers() const
+{
+  return static_cast<vtkIdType>(this->Impl->statistics.tracer.retracedLayers);
+}
+
+int vtkSVORenderPass::GetNumberOfTracedActors() const
+{
+  return this->Impl->statistics.tracedActors;
+}
+
+int vtkSVORenderPass::GetNumberOfRasterizedActors() const
+{
+  return this->Impl->statistics.rasterizedActors;
+}
+
+int vtkSVORenderPass::GetNumberOfInstances() const
+{
+  return this->Impl->statistics.instances;
+}
+
+const char* vtkSVORenderPass::GetCastingLights() const
+{
+  return this->Impl->castingLights.c_str();
+}
+
+double vtkSVORenderPass::GetImageSampleDistance() const
+{
+  return this->Impl->statistics.sampleDistance * this->Impl->statistics.imageReduction;
+}
+
+double vtkSVORenderPass::GetAcceptedPixelError() const
+{
+  // A pixel of the traced picture is `distance` pixels of the window.
+  const double distance = this->GetImageSampleDistance();
+  const double ofRays =
+    distance > 1.0 ? distance * std::max(this->PixelError, 1.0) : this->PixelError;
+  const svo::PassStatistics& frame = this->Impl->statistics;
+  return std::max(ofRays, frame.coarseOctreeError * frame.imageReduction);
+}
+
+int vtkSVORenderPass::GetNumberOfOctreesBuilt() const
+{
+  return this->Impl->store.built();
+}
+
+int vtkSVORenderPass::GetNumberOfOctreesInProgress() const
+{
+  return this->Impl->store.building();
+}
+
+vtkIdType vtkSVORenderPass::GetLayerMemorySize() const
+{
+  return static_cast<vtkIdType>(this->Impl->statistics.tracer.layerMemory / svo::BytesOfKiB);
+}
+
+vtkIdType vtkSVORenderPass::GetOctreeMemorySize() const
+{
+  return static_cast<vtkIdType>(this->Impl->store.bytes() / svo::BytesOfKiB);
+}
