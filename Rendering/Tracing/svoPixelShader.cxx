@@ -12,6 +12,7 @@ namespace svo
 void PixelShader::begin(const Scene& scene, ShadowTechnique technique, const LayeredView& eye)
 {
   this->Frames.clear();
+  this->Smooth.clear();
   this->Errors.clear();
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {
@@ -20,6 +21,7 @@ void PixelShader::begin(const Scene& scene, ShadowTechnique technique, const Lay
     const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(i));
     const bool placed = eye.placed(static_cast<std::uint32_t>(i));
     this->Frames.push_back(instance.octree ? SurfaceFrame(instance) : SurfaceFrame());
+    this->Smooth.push_back(instance.octree && isSmooth(instance));
     this->Errors.push_back(!instance.octree  ? 0.0
         : technique == ShadowTechnique::Rays ? worldLeafError(instance, geometry, level, placed)
                                              : worldMapError(instance, geometry, level, placed));
@@ -37,7 +39,7 @@ void PixelShader::shadowTerminator(
   const Shadows& dark = lit.shaded.dark;
   const SurfaceFrame& frame = this->Frames[p.instance[first]];
   std::uint8_t turned[TilePoints::Room];
-  if (!isSmooth(*frame.instance) || !dark.knowsTerminator(l) ||
+  if (!this->Smooth[p.instance[first]] || !dark.knowsTerminator(l) ||
     !mayTurnAway(light, dark.grazing(), p, first, last, scratch.light.reached, turned))
   {
     return;

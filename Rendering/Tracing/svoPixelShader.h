@@ -85,7 +85,9 @@ private:
   void lightInstance(const Lit& lit, int first, int last, bool hasColor, Scratch& scratch) const;
   void write(const Lit& lit, int tileX, int tileY, const Scratch& scratch, Frame& frame);
 
-  std::vector<SurfaceFrame> Frames; // by index into Scene::instances
+  // By index into Scene::instances.
+  std::vector<SurfaceFrame> Frames;
+  std::vector<std::uint8_t> Smooth; // isSmooth()
   std::vector<double> Errors;       // world; of the instance's leaves as the eye sees them
   bool FindsEdges = false;
   std::vector<Darkness> DarkPixels; // per pixel, as the depth buffer, where edges are to be found

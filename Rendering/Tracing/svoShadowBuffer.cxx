@@ -154,7 +154,7 @@ void ShadowBuffer::mark(const TilePoints& points)
     lookUpTexels(face.view, face.worldToClip, points, 0, points.count, places);
     for (int i = 0; i < points.count; ++i)
     {
-      if (places.inside[i])
+      if (places.inside[i] > 0.0)
       {
         markPlace(face, { &face, places.x[i], places.y[i], places.t[i] }, last);
       }
@@ -269,7 +269,7 @@ void ShadowBuffer::shadows(const TilePoints& points, int first, int last, double
   {
     tests.x[i] = tests.y[i] = tests.bias[i] = tests.error[i] = 0.0;
     tests.occluder[i] = infinity;
-    if (i >= count || !asked[i] || !places.inside[i])
+    if (i >= count || !asked[i] || !(places.inside[i] > 0.0))
     {
       continue;
     }

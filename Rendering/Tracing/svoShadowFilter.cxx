@@ -165,7 +165,7 @@ void ShadowBuffer::darkness(const TilePoints& points, int first, int last, doubl
     Place place;
     if (oneMap)
     {
-      place = { places.inside[i] ? &face : nullptr, places.x[i], places.y[i], places.t[i] };
+      place = { places.inside[i] > 0.0 ? &face : nullptr, places.x[i], places.y[i], places.t[i] };
     }
     else if (!this->lookUp(points.point(first + i).position, place))
     {

@@ -65,7 +65,7 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
           const auto darkness = [&](std::size_t l)
           {
             const Shadows& dark = shaded.dark;
-            if (dark.knowsTerminator(l))
+            if (this->Smooth[i] && dark.knowsTerminator(l))
             {
               const TerminatorPoint at = atTerminator(this->Frames[i], scene.lights[l],
                 dark.grazing(), point, towards, samples.primitive[k]);

@@ -15,14 +15,42 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 namespace svo
 {
-/// True if normals of the mesh's points are interpolated.
+/// True if normals of the mesh's points are interpolated and are not just those of its facets; of
+/// large meshes the latter is not looked at.
 inline bool isSmooth(const Instance& instance)
 {
-  return !instance.material.flat && instance.attributes.normals &&
-    instance.attributes.normalAssociation == Association::Point && instance.octree.surface();
+  constexpr std::size_t Few = 256; // triangles: what may be looked at in every frame
+  constexpr double Flat = 1e-5;    // radians; rounding of normals is less
+  const Attributes& attributes = instance.attributes;
+  const Surface* surface = instance.octree.surface();
+  if (instance.material.flat || !attributes.normals ||
+    attributes.normalAssociation != Association::Point || !surface)
+  {
+    return false;
+  }
+  const double side = glm::determinant(glm::dmat3(instance.localToWorld)) < 0.0 ? -1.0 : 1.0;
+  const auto bends = [&](const glm::uvec3& triangle)
+  {
+    const glm::dvec3 a(surface->points[triangle.x]);
+    const glm::dvec3 b(surface->points[triangle.y]), c(surface->points[triangle.z]);
+    const glm::dvec3 winding = side * glm::cross(b - a, c - a);
+    for (int i = 0; i < 3; ++i)
+    {
+      const glm::dvec3 normal(detail::vectorAt(attributes.normals, triangle[i]));
+      const double most = Flat * glm::length(winding) * glm::length(normal);
+      if (!(glm::length(glm::cross(winding, normal)) <= most && glm::dot(winding, normal) >= 0.0))
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  return surface->triangles.size() > Few ||
+    std::any_of(surface->triangles.begin(), surface->triangles.end(), bends);
 }
 
 /// The way a light's ray goes that arrives at a point; not unit.
@@ -100,12 +128,12 @@ struct TerminatorPoint
   SurfacePoint point{};
 };
 
-/// `grazing`: see turnsAway().
+/// `grazing`: see turnsAway(). The instance isSmooth().
 inline TerminatorPoint atTerminator(const SurfaceFrame& frame, const Light& light, double grazing,
   const SurfacePoint& point, const glm::vec3& towards, Primitive primitive)
 {
   TerminatorPoint result;
-  if (!isSmooth(*frame.instance) || !turnsAway(light, point.position, point.facet, grazing))
+  if (!turnsAway(light, point.position, point.facet, grazing))
   {
     return result;
   }

@@ -179,15 +179,16 @@ void addParts(const glm::vec3& c, int n, TileLight& l)
 
 /// a + d * diffuse + s * specular, of each point's own colour.
 void finish(const Material& m, bool lit, int n, const float* r, const float* g, const float* b,
-  const TileLight& l, float* outR, float* outG, float* outB)
+  const TileLight& l, float* HWY_RESTRICT outR, float* HWY_RESTRICT outG, float* HWY_RESTRICT outB)
 {
   const glm::vec3 shine = m.specular * m.specularColor;
+  const float ambient = m.ambient, diffuse = m.diffuse;
   for (int i = 0; i < n; i += Step)
   {
     for (int k = i; k < i + Step; ++k)
     {
-      const float dr = m.diffuse * r[k], dg = m.diffuse * g[k], db = m.diffuse * b[k];
-      const float ar = m.ambient * r[k], ag = m.ambient * g[k], ab = m.ambient * b[k];
+      const float dr = diffuse * r[k], dg = diffuse * g[k], db = diffuse * b[k];
+      const float ar = ambient * r[k], ag = ambient * g[k], ab = ambient * b[k];
       outR[k] = lit ? ar + l.diffuseR[k] * dr + l.specularR[k] * shine.r : ar + dr;
       outG[k] = lit ? ag + l.diffuseG[k] * dg + l.specularG[k] * shine.g : ag + dg;
       outB[k] = lit ? ab + l.diffuseB[k] * db + l.specularB[k] * shine.b : ab + db;
@@ -197,7 +198,8 @@ void finish(const Material& m, bool lit, int n, const float* r, const float* g, 
 
 /// The same with one colour for all.
 void finishPlain(const glm::vec3& ambient, const glm::vec3& diffuse, const glm::vec3& shine,
-  bool lit, int n, const TileLight& l, float* outR, float* outG, float* outB)
+  bool lit, int n, const TileLight& l, float* HWY_RESTRICT outR, float* HWY_RESTRICT outG,
+  float* HWY_RESTRICT outB)
 {
   for (int i = 0; i < n; i += Step)
   {

@@ -120,7 +120,8 @@ void weigh(
 bool interpolateNormals(const TriangleLook& l, int first, int last, const float* wa,
   const float* wb, const float* wc, TilePoints& p)
 {
-  const glm::mat3& m = l.normalMatrix;
+  const glm::mat3 m = l.normalMatrix;
+  const glm::vec3 winding = l.winding;
   const glm::vec3 a = l.normals[0], b = l.normals[1], c = l.normals[2];
   int odd = 0;
   for (int i = first; i < last; i += TilePoints::Step)
@@ -137,8 +138,8 @@ bool interpolateNormals(const TriangleLook& l, int first, int last, const float*
       const float length2 = x * x + y * y + z * z;
       odd |= int(!(length2 > 1e-30f)) | int(!(length2 < 1e30f));
       const float length = std::sqrt(length2);
-      const float along = l.winding.x * p.towardsX[i + k] + l.winding.y * p.towardsY[i + k] +
-        l.winding.z * p.towardsZ[i + k];
+      const float along = winding.x * p.towardsX[i + k] + winding.y * p.towardsY[i + k] +
+        winding.z * p.towardsZ[i + k];
       const float side = along > 0.0f ? 1.0f : -1.0f;
       p.normalX[i + k] = side * (x / length);
       p.normalY[i + k] = side * (y / length);

@@ -4,6 +4,7 @@
 
 #include "svoTileShadows.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <hwy/highway.h>
@@ -15,10 +16,10 @@ namespace HWY_NAMESPACE
 {
 constexpr int Step = TilePoints::Step;
 
-void lookUp(const View& light, const glm::dmat4& c, const TilePoints& p, int first, int last,
-  TexelPlaces& places)
+void lookUp(const View& light, const glm::dmat4& worldToClip, const TilePoints& p, int first,
+  int last, TexelPlaces& places)
 {
-  const glm::dmat4& m = light.worldToView;
+  const glm::dmat4 c = worldToClip, m = light.worldToView;
   const double width = light.width, height = light.height;
   const double lastX = width - 1e-9, lastY = height - 1e-9;
   for (int i = first; i < last; i += Step)
@@ -31,7 +32,9 @@ void lookUp(const View& light, const glm::dmat4& c, const TilePoints& p, int fir
       const double cw = (c[0].w * x + c[1].w * y) + (c[2].w * z + c[3].w * 1.0);
       const int j = i - first + k;
       const double border = MapBorder * cw;
-      places.inside[j] = (cw > 0.0) & (std::abs(cx) < border) & (std::abs(cy) < border);
+      const double insideX = std::abs(cx) < border ? 1.0 : 0.0;
+      const double insideY = std::abs(cy) < border ? insideX : 0.0;
+      places.inside[j] = cw > 0.0 ? insideY : 0.0;
       const double px = (cx / cw + 1.0) * 0.5 * width;
       const double py = (cy / cw + 1.0) * 0.5 * height;
       const double x0 = px < 0.0 ? 0.0 : px;
@@ -48,25 +51,40 @@ void lookUp(const View& light, const glm::dmat4& c, const TilePoints& p, int fir
 int turn(const glm::dvec3& from, const glm::vec3& along, bool far, float sine, const TilePoints& p,
   int first, int last, const std::uint8_t* asked, std::uint8_t* turned)
 {
-  int any = 0;
-  const float sine2 = sine * sine;
+  alignas(64) float x[TilePoints::Room], y[TilePoints::Room], z[TilePoints::Room];
   const int n = last - first;
+  if (far)
+  {
+    std::fill_n(x, n + Step, along.x);
+    std::fill_n(y, n + Step, along.y);
+    std::fill_n(z, n + Step, along.z);
+  }
+  else
+  {
+    for (int k = 0; k < (n + Step - 1) / Step * Step; ++k)
+    {
+      x[k] = static_cast<float>(p.positionX[first + k] - from.x);
+      y[k] = static_cast<float>(p.positionY[first + k] - from.y);
+      z[k] = static_cast<float>(p.positionZ[first + k] - from.z);
+    }
+  }
+  const float sine2 = sine * sine;
+  alignas(64) std::uint32_t turns[TilePoints::Room];
   for (int i = 0; i < n; i += Step)
   {
     for (int k = i; k < i + Step; ++k)
     {
-      const float x = far ? along.x : static_cast<float>(p.positionX[first + k] - from.x);
-      const float y = far ? along.y : static_cast<float>(p.positionY[first + k] - from.y);
-      const float z = far ? along.z : static_cast<float>(p.positionZ[first + k] - from.z);
       const float behind =
-        p.facetX[first + k] * x + p.facetY[first + k] * y + p.facetZ[first + k] * z;
-      const float length2 = x * x + y * y + z * z;
-      turned[k] = (behind > 0.0f) | !(behind * behind > sine2 * length2);
+        p.facetX[first + k] * x[k] + p.facetY[first + k] * y[k] + p.facetZ[first + k] * z[k];
+      const float length2 = x[k] * x[k] + y[k] * y[k] + z[k] * z[k];
+      const std::uint32_t faces = behind * behind > sine2 * length2 ? 1u : 0u;
+      turns[k] = behind <= 0.0f ? 1u - faces : 1u; // what is not a number turns away
     }
   }
+  int any = 0;
   for (int k = 0; k < n; ++k)
   {
-    turned[k] &= asked[k];
+    turned[k] = static_cast<std::uint8_t>(turns[k] & asked[k]);
     any |= turned[k];
   }
   return any;

@@ -26,7 +26,7 @@ struct TexelPlaces
 {
   alignas(64) double x[TilePoints::Room], y[TilePoints::Room]; // texels
   alignas(64) double t[TilePoints::Room];                      // linear depth from the light
-  std::uint8_t inside[TilePoints::Room];                       // of the map
+  alignas(64) double inside[TilePoints::Room];                 // of the map: 1, or 0
 };
 
 /// What a texel says to a point, and what it does not.
