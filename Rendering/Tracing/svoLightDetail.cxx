@@ -15,8 +15,11 @@ namespace svo
 {
 namespace
 {
-/// Pixels that a texel may look wide before anything is done about it.
-constexpr double WidestTexel = 16.0;
+/// Pixels that a texel may look wide before anything is done about it: maps that are fitted to what
+/// is seen are traced again when the camera moves.
+constexpr double WidestTexel = 4.0;
+/// Pixels that it is made to look wide at most, and that it may look if so many maps do not exist.
+constexpr double WantedTexel = 2.0, WidestDetail = 8.0;
 /// Further maps of a light, of all its views together.
 constexpr int MostDetails = 5;
 /// Texels around what is seen, for filters and for rounding.
@@ -209,7 +212,7 @@ LightMaps mapsOfLight(
   {
     return maps;
   }
-  for (double widest = 2.0;; widest *= 2.0)
+  for (double widest = WantedTexel;; widest *= 2.0)
   {
     maps.views.clear();
     maps.coarsest = 0.0;
@@ -224,7 +227,7 @@ LightMaps mapsOfLight(
         left -= static_cast<int>(maps.views.size() - before) - 1;
       }
     }
-    if (maps.coarsest <= 1.25 * widest || widest >= 0.5 * WidestTexel)
+    if (maps.coarsest <= 1.25 * widest || widest >= WidestDetail)
     {
       return maps;
     }

@@ -26,7 +26,7 @@ struct LitRing
 svo::FrameSettings wholeBuffers()
 {
   svo::FrameSettings settings;
-  settings.shadowResolution = 256;
+  settings.shadowResolution = 512; // no texel looks wide
   settings.pixelError = 1.0;
   settings.wholeShadowBuffers = true;
   return settings;

@@ -213,10 +213,10 @@ TEST(LightDetail, MapsOfAllLightsAreLimitedTogether)
   svo::Scene scene = ballAbove(bumpy(5.0));
   scene.lights = { lightOf(svo::Light::Kind::Directional, { 3, -2, 5 }) };
   svo::FrameSettings settings;
-  settings.shadowMemoryLimit = 12 * 512 * 512;
+  settings.shadowMemoryLimit = 12 * 1024 * 1024;
   svo::Tracer tracer;
   svotest::rendered(tracer, scene, Eye, settings);
-  EXPECT_EQ(tracer.statistics().shadowResolution, 512);
+  EXPECT_EQ(tracer.statistics().shadowResolution, 1024); // one map
 }
 
 TEST(ConvexParts, WhatBoxesHaveInCommon)
