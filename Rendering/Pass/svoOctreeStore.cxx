@@ -2,6 +2,7 @@
 
 #include "svoMeshDetail.h"
 #include "svoMeshOctree.h"
+#include "svoSideBySide.h"
 
 #include "vtkCellArray.h"
 #include "vtkPolyData.h"
@@ -135,6 +136,75 @@ void OctreeStore::measure(vtkPolyData* mesh, const StoreOptions& options, Instan
   instance.detailLevel = exact ? known.detailLevel : 0;
 }
 
+/// Notes that the frame asks for an octree.
+OctreeStore::Key OctreeStore::asked(Known& known, int level, const StoreOptions& options)
+{
+  const Key key(known.signature, level, options.leafGeometry);
+  if (known.keys.insert(key).second && this->Orphaned.erase(key) > 0)
+  {
+    this->Recurring.insert(key);
+  }
+  if (this->Asked.insert(key).second && this->AskedLast.count(key) == 0)
+  {
+    this->History.comes(idOf(key), this->Octrees.count(key) > 0);
+  }
+  return key;
+}
+
+void OctreeStore::prepare(const Wanted& wanted, const StoreOptions& options)
+{
+  constexpr std::size_t MostAtOnce = 64; // between two reports of the progress
+  std::map<Key, vtkWeakPointer<vtkPolyData>> missing;
+  for (const auto& [mesh, level] : wanted)
+  {
+    Known& known = this->knownOf(mesh, options);
+    if (!options.convert || !options.wait || known.attached || known.triangles > SmallMesh)
+    {
+      continue;
+    }
+    const Key key = this->asked(known, level, options);
+    if (this->Octrees.count(key) == 0 && this->Jobs.count(key) == 0)
+    {
+      this->takeOver(key);
+    }
+    if (this->Octrees.count(key) == 0 && this->Jobs.count(key) == 0)
+    {
+      missing.emplace(key, mesh);
+    }
+  }
+  std::vector<SideBySide> builds;
+  double done = 0.0;
+  for (auto next = missing.begin(); missing.size() > 1 && next != missing.end();)
+  {
+    if (options.aborted && options.aborted())
+    {
+      return;
+    }
+    builds.clear();
+    for (; next != missing.end() && builds.size() < MostAtOnce; ++next, done += 1.0)
+    {
+      // Who was told of the progress may have changed meshes, or let them go.
+      vtkPolyData* mesh = next->second;
+      if (mesh && this->knownOf(mesh, options).signature == std::get<0>(next->first))
+      {
+        builds.push_back({ mesh, optionsOf(next->first) });
+      }
+    }
+    buildSideBySide(builds);
+    for (SideBySide& build : builds)
+    {
+      const MeshOctreeOptions& o = build.options;
+      this->BuiltSoFar += build.octree ? 1 : 0;
+      this->keep(
+        Key(o.signature, o.level, o.leafGeometry), { build.octree, 0, std::move(build.message) });
+    }
+    if (options.progress)
+    {
+      options.progress(done / static_cast<double>(missing.size()));
+    }
+  }
+}
+
 OctreeStore::Answer OctreeStore::find(
   vtkPolyData* mesh, int level, const StoreOptions& options, Octree& octree)
 {
@@ -147,15 +217,7 @@ OctreeStore::Answer OctreeStore::find(
     return Answer::None;
   }
   Known& known = this->knownOf(mesh, options);
-  const Key key(known.signature, level, options.leafGeometry);
-  if (known.keys.insert(key).second && this->Orphaned.erase(key) > 0)
-  {
-    this->Recurring.insert(key);
-  }
-  if (this->Asked.insert(key).second && this->AskedLast.count(key) == 0)
-  {
-    this->History.comes(idOf(key), this->Octrees.count(key) > 0);
-  }
+  const Key key = this->asked(known, level, options);
   const auto job = this->Jobs.find(key);
   if (job != this->Jobs.end() && (job->second.build->done() || options.wait))
   {

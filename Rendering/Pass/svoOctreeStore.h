@@ -18,6 +18,7 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 class vtkPolyData;
 
@@ -63,6 +64,11 @@ public:
   /// Says what is known of a mesh that brings no octree: the box of its finite points, its number
   /// of triangles and, where they will be exact, its level of detail.
   void measure(vtkPolyData* mesh, const StoreOptions& options, Instance& instance);
+
+  /// Before find() is asked for octrees that are waited for, each of a mesh and of a level: builds
+  /// those of small meshes side by side. Whatever is not there then is built by find().
+  using Wanted = std::vector<std::pair<vtkPolyData*, int>>;
+  void prepare(const Wanted& wanted, const StoreOptions& options);
 
   /// The octree of exactly this level, or the one that the mesh brings. With options.wait it is
   /// built where there is none, unless the frame is aborted. Else it is built in the background.
@@ -117,6 +123,7 @@ private:
   };
 
   Known& knownOf(vtkPolyData* mesh, const StoreOptions& options);
+  Key asked(Known& known, int level, const StoreOptions& options);
   void build(vtkPolyData* mesh, const Key& key, const StoreOptions& options);
   void buildInBackground(vtkPolyData* mesh, const Key& key);
   void waitFor(const Key& key, const StoreOptions& options);

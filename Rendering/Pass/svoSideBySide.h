@@ -1,0 +1,32 @@
+// Octrees of many small meshes at once. Inside a small build there is little to share out, and what
+// there is costs more threads than it saves time.
+#ifndef svoSideBySide_h
+#define svoSideBySide_h
+
+#include "svoMeshOctree.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+namespace svo
+{
+/// Triangles up to which a mesh is small.
+constexpr std::size_t SmallMesh = 1 << 14;
+
+struct SideBySide
+{
+  vtkPolyData* mesh;
+  MeshOctreeOptions options;
+  Octree octree{};       // empty if the build failed
+  std::string message{}; // as of buildMeshOctree()
+};
+
+/// Builds all of them, each on one thread; options.parallelFor and options.progress are not asked.
+/// Nobody may change the meshes meanwhile.
+void buildSideBySide(std::vector<SideBySide>& builds);
+}
+
+#endif
