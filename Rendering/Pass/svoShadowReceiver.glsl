@@ -13,13 +13,13 @@ uniform int svoPlaneBias; // compare at the texel's own ray, on the planes of th
 uniform float svoManualBias; // world units, added
 uniform int svoFilter; // weigh the texels around the point; with svoPlaneBias only
 
-// Edge of a texel in the world, at the depth of a point whose w is given.
+// Edge of the wider side of a texel in the world, at the depth of a point whose w is given.
 float svoTexelEdge(mat4 rows, float w, float size)
 {
   vec3 axis = rows[2].xyz;
   float across = length(rows[0].xyz - dot(rows[0].xyz, axis) * axis);
   float up = length(rows[1].xyz - dot(rows[1].xyz, axis) * axis);
-  return 2.0 * w / (size * max(across, up));
+  return 2.0 * w / (size * min(across, up));
 }
 
 // Depth of the nearest caster, infinite if there is none.

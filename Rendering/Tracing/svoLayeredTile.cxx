@@ -74,10 +74,25 @@ bool LayeredView::meets(int tileX, int tileY, TileEntry& candidate) const
   return true;
 }
 
+void LayeredView::gather(int firstTileX, int firstTileY, TileScratch& scratch) const
+{
+  const int x0 = 8 * firstTileX, y0 = 8 * firstTileY;
+  const int x1 = x0 + 8 * GroupTiles, y1 = y0 + 8 * GroupTiles;
+  scratch.nearby.clear();
+  for (std::size_t e = 0; e < this->Instances.size(); ++e)
+  {
+    const PixelRect& r = this->Instances[e].local.rect;
+    if (r.x0 < x1 && r.x1 > x0 && r.y0 < y1 && r.y1 > y0)
+    {
+      scratch.nearby.push_back(e);
+    }
+  }
+}
+
 void LayeredView::order(int tileX, int tileY, TileScratch& scratch)
 {
   scratch.order.clear();
-  for (std::size_t e = 0; e < this->Instances.size(); ++e)
+  for (const std::size_t e : scratch.nearby)
   {
     const Entry& entry = this->Instances[e];
     TileEntry& candidate = scratch.entries[e];

@@ -219,6 +219,7 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
       {
         const int x0 = GroupTiles * (gx0 + static_cast<int>(group % columns));
         const int y0 = GroupTiles * (gy0 + static_cast<int>(group / columns));
+        this->gather(x0, y0, mine);
         for (int tileY = std::max(y0, ty0); tileY < std::min(y0 + GroupTiles, ty1); ++tileY)
         {
           for (int tileX = std::max(x0, tx0); tileX < std::min(x0 + GroupTiles, tx1); ++tileX)

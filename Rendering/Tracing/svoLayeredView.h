@@ -207,6 +207,7 @@ private:
   struct TileScratch
   {
     std::vector<TileEntry> entries;  // by index into Instances
+    std::vector<std::size_t> nearby; // of Instances: those that reach into the group of tiles
     std::vector<TileEntry*> order;   // those that the tile's rays may meet
     std::vector<std::uint64_t> rays; // by index into Instances
   };
@@ -222,6 +223,8 @@ private:
   /// Where the rays of a tile can meet an instance; false if nowhere.
   bool meets(int tileX, int tileY, TileEntry& candidate) const;
   bool findNodes(int tileX, int tileY, TileEntry& candidate) const;
+  /// Finds the instances that reach into a group of tiles.
+  void gather(int firstTileX, int firstTileY, TileScratch& scratch) const;
   void order(int tileX, int tileY, TileScratch& scratch);
   bool cutRays(const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const;
   /// Through points x, y of the image; tMin and tMax are set.

@@ -38,13 +38,6 @@ double depthFrom(const View& view, const glm::dvec3& p)
   return -(m[0][2] * p.x + m[1][2] * p.y + m[2][2] * p.z + m[3][2]);
 }
 
-/// Edge of the wider side of a texel at linear depth t.
-double texelEdge(const View& light, double t)
-{
-  return std::max(glm::length(light.originX + t * light.directionX),
-    glm::length(light.originY + t * light.directionY));
-}
-
 /// What may be seen with shadows on it, and how near it comes to the eye.
 std::vector<Seen> receiversOf(const std::vector<Outline>& outlines, const View& eye)
 {
@@ -108,8 +101,8 @@ Part seenPart(
         part.high = glm::max(part.high, at);
         part.nearest = std::min(part.nearest, depth);
         part.farthest = std::max(part.farthest, depth);
-        part.widest =
-          std::max(part.widest, texelEdge(light, depthFrom(light, p)) / worldPixel(eye, depth));
+        part.widest = std::max(
+          part.widest, widerWorldPixel(light, depthFrom(light, p)) / worldPixel(eye, depth));
       }
     }
   }
@@ -148,7 +141,7 @@ double refine(const View& light, const Part& all, const std::vector<Seen>& recei
 {
   // Texels get smaller by the same factor everywhere.
   const auto scaleOf = [&](const View& view)
-  { return texelEdge(view, 1.0) / texelEdge(light, 1.0); };
+  { return widerWorldPixel(view, 1.0) / widerWorldPixel(light, 1.0); };
   constexpr double WorthIt = 1.0 / 1.5;
   std::vector<View> found{ light };
   double scale = 1.0;
@@ -196,7 +189,7 @@ LightMaps mapsOfLight(
   }
   const double pixel = worldPixel(eye, nearest);
   const auto mayBeCoarse = [&](const View& view)
-  { return texelEdge(view, view.parallel ? 0.0 : view.tFar) > WidestTexel * pixel; };
+  { return widerWorldPixel(view, view.parallel ? 0.0 : view.tFar) > WidestTexel * pixel; };
   if (!std::isfinite(nearest) || std::none_of(fitted.begin(), fitted.end(), mayBeCoarse))
   {
     return maps;

@@ -36,6 +36,13 @@ inline double worldPixel(const View& view, double t)
     glm::length(view.originY + t * view.directionY));
 }
 
+/// Edge of the wider side.
+inline double widerWorldPixel(const View& view, double t)
+{
+  return std::max(glm::length(view.originX + t * view.directionX),
+    glm::length(view.originY + t * view.directionY));
+}
+
 /// The coarsest octree level whose voxels, seen at the nearest point of the octree's cube, are at
 /// most `pixelError` pixels long, or Instance::pixelError where the instance has its own; the
 /// octree's last level if none is, or if the error is 0.

@@ -34,8 +34,8 @@ void ShadowBuffer::begin(const Scene& scene, const LightMaps& maps, std::size_t 
     face.view = views[i];
     face.shared.clear();
     face.worldToClip = face.view.viewToClip * face.view.worldToView;
-    face.pixel = face.view.parallel ? worldPixel(face.view, 0.0) : 0.0;
-    face.pixelPerDepth = face.view.parallel ? 0.0 : worldPixel(face.view, 1.0);
+    face.pixel = face.view.parallel ? widerWorldPixel(face.view, 0.0) : 0.0;
+    face.pixelPerDepth = face.view.parallel ? 0.0 : widerWorldPixel(face.view, 1.0);
     face.seesCasters = face.layers.begin(
       scene, face.view,
       [&](const Instance& instance) { return casters[&instance - scene.instances.data()] != 0; },

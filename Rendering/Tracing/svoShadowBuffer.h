@@ -88,7 +88,7 @@ public:
 
   /// Whether points are compared on their own planes, see setBias().
   bool automaticBias() const { return this->AutomaticBias; }
-  /// Edge of a texel at a point, world; 0 outside of the map.
+  /// Edge of the wider side of a texel at a point, world; 0 outside of the map.
   double texelEdge(const glm::dvec3& position) const;
 
   void copyMaps(int light, std::vector<ShadowMap>& maps) const;
@@ -103,7 +103,8 @@ private:
   {
     View view;
     glm::dmat4 worldToClip{ 1.0 };
-    double pixel = 0.0; // edge of a texel, world, at depth t: pixel + t pixelPerDepth
+    // Edge of the wider side of a texel, world, at depth t: pixel + t pixelPerDepth.
+    double pixel = 0.0;
     double pixelPerDepth = 0.0;
     LayeredView layers{ /*exact=*/false };
     SharedDepth shared; // with other processes' casters; takes the place of the layers' depths

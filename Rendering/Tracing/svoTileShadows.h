@@ -47,7 +47,8 @@ void lookUpTexels(const View& light, const glm::dmat4& worldToClip, const TilePo
 bool mayTurnAway(const Light& light, double grazing, const TilePoints& points, int first, int last,
   const std::uint8_t* asked, std::uint8_t* turned);
 
-/// `pixel`, `pixelPerDepth`: edge of a texel, world, at depth t: pixel + t pixelPerDepth.
+/// `pixel`, `pixelPerDepth`: edge of the wider side of a texel, world, at depth t: pixel + t
+/// pixelPerDepth.
 void testTexels(const View& light, double pixel, double pixelPerDepth, const TilePoints& points,
   int first, int last, const TexelPlaces& places, TexelTests& tests);
 }
