@@ -345,12 +345,6 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
   const glm::dvec3 origin = view.rayOrigin(x, y);
   const glm::dvec3 direction = view.rayDirection(x, y);
   const double length = glm::length(direction);
-  if (glm::dot(glm::dvec3(point.facet), direction) > 0.0)
-  {
-    // The facet turns its back on the light, whatever the normal that is shaded with says: it is
-    // dark if light meets anything down to the facet itself.
-    return occluder + bias < t + 0.5 * pixel ? dark : Answer::Lit;
-  }
   double receiver = t + most;
   double steepest = 0.1;
   for (const glm::vec3& planeNormal : { point.facet, point.normal })

@@ -143,10 +143,8 @@ void test(const View& light, double pixel0, double pixelPerDepth, const TilePoin
       const double steepest = steeper < normalSlope ? normalSlope : steeper;
       const double allowed = bias + (0.5 * pixel + tests.error[j]) / steepest;
       const double front = occluder + allowed < receiver ? 1.0 : 0.0;
-      const double back = occluder + bias < t + 0.5 * pixel ? 1.0 : 0.0;
-      const double dark = facetAlong > 0.0 ? back : front;
       const double which = occluder < low ? 2.0 : 1.0;
-      tests.dark[j] = occluder + bias < high ? dark * which : 0.0;
+      tests.dark[j] = occluder + bias < high ? front * which : 0.0;
     }
   }
 }
