@@ -13,13 +13,13 @@ uniform int svoPlaneBias; // compare at the texel's own ray, on the planes of th
 uniform float svoManualBias; // world units, added
 uniform int svoFilter; // weigh the texels around the point; with svoPlaneBias only
 
-// Edge of the wider side of a texel in the world, at the depth of a point whose w is given.
-float svoTexelEdge(mat4 rows, float w, float size)
+// The shorter and the longer edge of a texel in the world, at the depth of a point whose w is given.
+vec2 svoTexelEdges(mat4 rows, float w, float size)
 {
   vec3 axis = rows[2].xyz;
   float across = length(rows[0].xyz - dot(rows[0].xyz, axis) * axis);
   float up = length(rows[1].xyz - dot(rows[1].xyz, axis) * axis);
-  return 2.0 * w / (size * min(across, up));
+  return 2.0 * w / (size * vec2(max(across, up), min(across, up)));
 }
 
 // Depth of the nearest caster, infinite if there is none.
@@ -46,7 +46,8 @@ int svoAsk(int map, mat4 rows, float error, vec4 point, vec2 texel, vec3 facet,
     return occluder < depth ? 2 : 0;
   }
   vec3 axis = rows[2].xyz;
-  float pixel = span * svoTexelEdge(rows, w, size);
+  vec2 edges = span * svoTexelEdges(rows, w, size);
+  float pixel = edges.x;
   float most = 8.0 * pixel; // how far the tangent planes are followed along the ray
   if (!(occluder < depth + most))
   {
@@ -72,7 +73,7 @@ int svoAsk(int map, mat4 rows, float error, vec4 point, vec2 texel, vec3 facet,
     vec3 n = k == 0 ? facet : normal;
     float slope = abs(dot(n, direction)) / length(direction);
     // Inside a texel a plane in grazing light reaches far towards the light, at most 64 texels here.
-    float low = depth - max(most, pixel / max(slope, 1.0 / 64.0));
+    float low = depth - max(most, edges.y / max(slope, 1.0 / 64.0));
     float plane = low;
     if (slope > 0.001)
     {
@@ -155,7 +156,7 @@ float svoFiltered(int map, mat4 rows, float error, vec4 point, vec2 place,
 {
   float size = float(textureSize(svoMaps, 0).x);
   float depth = dot(rows[2], point);
-  float pixel = svoTexelEdge(rows, dot(rows[3], point), size);
+  float pixel = svoTexelEdges(rows, dot(rows[3], point), size).x;
   float dark = 0.0;
   float all = 0.0;
   for (int y = first.y; y <= last.y; ++y)
@@ -229,7 +230,7 @@ float svoLit(
     vec2 texel = min(floor(place), vec2(size - 1.0));
     if (svoFilter != 0 && svoPlaneBias != 0)
     {
-      float pixel = svoTexelEdge(rows, w, size);
+      float pixel = svoTexelEdges(rows, w, size).x;
       float width = clamp(extent / pixel, 1.0, 4.0);
       ivec2 low = ivec2(max(floor(place - 0.5 * (width + 1.0)), vec2(0.0)));
       ivec2 high = ivec2(min(floor(place + 0.5 * (width + 1.0)), vec2(size - 1.0)));

@@ -1,7 +1,6 @@
 #include "svoShadowBuffer.h"
 
 #include "svoSelect.h"
-#include "svoTileShadows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,8 +33,7 @@ void ShadowBuffer::begin(const Scene& scene, const LightMaps& maps, std::size_t 
     face.view = views[i];
     face.shared.clear();
     face.worldToClip = face.view.viewToClip * face.view.worldToView;
-    face.pixel = face.view.parallel ? widerWorldPixel(face.view, 0.0) : 0.0;
-    face.pixelPerDepth = face.view.parallel ? 0.0 : widerWorldPixel(face.view, 1.0);
+    face.edge = TexelEdge(face.view);
     face.seesCasters = face.layers.begin(
       scene, face.view,
       [&](const Instance& instance) { return casters[&instance - scene.instances.data()] != 0; },
@@ -289,7 +287,7 @@ void ShadowBuffer::shadows(const TilePoints& points, int first, int last, double
   {
     return;
   }
-  testTexels(face.view, face.pixel, face.pixelPerDepth, points, first, last, places, tests);
+  testTexels(face.view, face.edge, points, first, last, places, tests);
   for (int i = 0; i < count; ++i)
   {
     dark[i] = tests.dark[i] > 0.0;
@@ -333,7 +331,7 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
     return occluder + bias < t ? Answer::Dark : Answer::Lit;
   }
   const View& view = face->view;
-  const double pixel = span * (face->pixel + t * face->pixelPerDepth);
+  const double pixel = span * face->edge(t);
   const double most = NearbyReach * pixel; // how far the tangent plane is followed along the ray
   if (!(occluder + bias < t + most))
   {
@@ -354,8 +352,8 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
     const double slope = std::abs(along) / length;
     // Inside a texel a plane in grazing light reaches far towards the light. Where it is edge-on it
     // says nothing.
-    const double farthest = GrazingReach * pixel;
-    const double reach = pixel < farthest * slope ? pixel / slope : farthest;
+    const double wide = face->edge.aspect * pixel, farthest = GrazingReach * wide;
+    const double reach = wide < farthest * slope ? wide / slope : farthest;
     const double low = t - std::max(most, reach);
     const double plane =
       slope > 1e-3 ? std::clamp(glm::dot(normal, position - origin) / along, low, t + most) : low;
@@ -370,8 +368,7 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
 double ShadowBuffer::texelEdge(const glm::dvec3& position) const
 {
   Place place;
-  return this->lookUp(position, place) ? place.face->pixel + place.t * place.face->pixelPerDepth
-                                       : 0.0;
+  return this->lookUp(position, place) ? place.face->edge(place.t) : 0.0;
 }
 
 void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps) const

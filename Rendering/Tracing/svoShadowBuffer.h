@@ -10,6 +10,7 @@
 #include "svoSharedDepth.h"
 #include "svoSurfacePoint.h"
 #include "svoTilePoints.h"
+#include "svoTileShadows.h"
 #include "svoTracer.h"
 
 #include <atomic>
@@ -88,7 +89,7 @@ public:
 
   /// Whether points are compared on their own planes, see setBias().
   bool automaticBias() const { return this->AutomaticBias; }
-  /// Edge of the wider side of a texel at a point, world; 0 outside of the map.
+  /// The shorter edge of a texel at a point, world; 0 outside of the map.
   double texelEdge(const glm::dvec3& position) const;
 
   void copyMaps(int light, std::vector<ShadowMap>& maps) const;
@@ -103,9 +104,7 @@ private:
   {
     View view;
     glm::dmat4 worldToClip{ 1.0 };
-    // Edge of the wider side of a texel, world, at depth t: pixel + t pixelPerDepth.
-    double pixel = 0.0;
-    double pixelPerDepth = 0.0;
+    TexelEdge edge;
     LayeredView layers{ /*exact=*/false };
     SharedDepth shared; // with other processes' casters; takes the place of the layers' depths
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile

@@ -11,7 +11,7 @@ namespace svo
 {
 double ShadowBuffer::boxWidth(const Place& place, double extent)
 {
-  const double pixel = place.face->pixel + place.t * place.face->pixelPerDepth;
+  const double pixel = place.face->edge(place.t);
   return extent > pixel ? std::min(extent / pixel, TexelWindow::Widest) : 1.0;
 }
 
@@ -36,7 +36,7 @@ bool ShadowBuffer::isFlat(const Place& place, double width) const
     return hits == 0;
   }
   // A second difference of more than a texel's edge is a step or a crease.
-  const double most = face.pixel + place.t * face.pixelPerDepth;
+  const double most = face.edge(place.t);
   for (int j = 0; j < y.count; ++j)
   {
     for (int i = 2; i < x.count; ++i)
@@ -66,7 +66,7 @@ bool ShadowBuffer::endsBefore(const Place& place, const glm::ivec2& texel, doubl
   const DepthBuffer& depth = face.layers.depthBuffer();
   const double offset[2] = { texel.x + 0.5 - place.x, texel.y + 0.5 - place.y };
   const int size[2] = { face.view.width, face.view.height };
-  const double pixel = face.pixel + place.t * face.pixelPerDepth;
+  const double pixel = face.edge(place.t);
   std::uint32_t caster, other;
   double here, farther;
   if (!face.occluder(depth.at(texel.x, texel.y), caster, here))

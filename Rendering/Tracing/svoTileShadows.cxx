@@ -90,9 +90,10 @@ int turn(const glm::dvec3& from, const glm::vec3& along, bool far, float sine, c
   return any;
 }
 
-void test(const View& light, double pixel0, double pixelPerDepth, const TilePoints& p, int first,
-  int last, const TexelPlaces& places, TexelTests& tests)
+void test(const View& light, const TexelEdge& edge, const TilePoints& p, int first, int last,
+  const TexelPlaces& places, TexelTests& tests)
 {
+  const double pixel0 = edge.constant, pixelPerDepth = edge.perDepth, aspect = edge.aspect;
   const glm::dvec3 o = light.origin, oX = light.originX, oY = light.originY;
   const glm::dvec3 d = light.direction, dX = light.directionX, dY = light.directionY;
   for (int i = first; i < last; i += Step)
@@ -115,13 +116,13 @@ void test(const View& light, double pixel0, double pixelPerDepth, const TilePoin
       const double rayZ = d.z + x * dX.z + y * dY.z;
       const double length = std::sqrt(rayX * rayX + rayY * rayY + rayZ * rayZ);
       const double low = t - most, high = t + most;
-      const double farthest = GrazingReach * pixel;
+      const double wide = aspect * pixel, farthest = GrazingReach * wide;
 
       const double fx = p.facetX[i + k], fy = p.facetY[i + k], fz = p.facetZ[i + k];
       const double facetAlong = fx * rayX + fy * rayY + fz * rayZ;
       const double facetSlope = std::abs(facetAlong) / length;
       const double facetPlane = (fx * toX + fy * toY + fz * toZ) / facetAlong;
-      const double facetReach = pixel < farthest * facetSlope ? pixel / facetSlope : farthest;
+      const double facetReach = wide < farthest * facetSlope ? wide / facetSlope : farthest;
       const double facetLow = t - (most < facetReach ? facetReach : most);
       const double facetCapped = high < facetPlane ? high : facetPlane;
       const double facetBounded = facetPlane < facetLow ? facetLow : facetCapped;
@@ -131,7 +132,7 @@ void test(const View& light, double pixel0, double pixelPerDepth, const TilePoin
       const double normalAlong = nx * rayX + ny * rayY + nz * rayZ;
       const double normalSlope = std::abs(normalAlong) / length;
       const double normalPlane = (nx * toX + ny * toY + nz * toZ) / normalAlong;
-      const double normalReach = pixel < farthest * normalSlope ? pixel / normalSlope : farthest;
+      const double normalReach = wide < farthest * normalSlope ? wide / normalSlope : farthest;
       const double normalLow = t - (most < normalReach ? normalReach : most);
       const double normalCapped = high < normalPlane ? high : normalPlane;
       const double normalBounded = normalPlane < normalLow ? normalLow : normalCapped;
@@ -174,10 +175,10 @@ bool mayTurnAway(const Light& light, double grazing, const TilePoints& points, i
            first, last, asked, turned) != 0;
 }
 
-void testTexels(const View& light, double pixel, double pixelPerDepth, const TilePoints& points,
-  int first, int last, const TexelPlaces& places, TexelTests& tests)
+void testTexels(const View& light, const TexelEdge& edge, const TilePoints& points, int first,
+  int last, const TexelPlaces& places, TexelTests& tests)
 {
-  HWY_DYNAMIC_DISPATCH(test)(light, pixel, pixelPerDepth, points, first, last, places, tests);
+  HWY_DYNAMIC_DISPATCH(test)(light, edge, points, first, last, places, tests);
 }
 }
 #endif

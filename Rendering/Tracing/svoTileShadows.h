@@ -5,6 +5,7 @@
 #define svoTileShadows_h
 
 #include "svoScene.h"
+#include "svoSelect.h"
 #include "svoTilePoints.h"
 #include "svoView.h"
 
@@ -29,6 +30,24 @@ struct TexelPlaces
   alignas(64) double inside[TilePoints::Room];                 // of the map: 1, or 0
 };
 
+/// How large a map's texels are in the world.
+struct TexelEdge
+{
+  TexelEdge() = default;
+  explicit TexelEdge(const View& light)
+    : constant(light.parallel ? worldPixel(light, 0.0) : 0.0)
+    , perDepth(light.parallel ? 0.0 : worldPixel(light, 1.0))
+    , aspect(widerWorldPixel(light, 1.0) / worldPixel(light, 1.0))
+  {
+  }
+  /// The shorter edge, at linear depth t.
+  double operator()(double t) const { return this->constant + t * this->perDepth; }
+
+  double constant = 0.0;
+  double perDepth = 0.0;
+  double aspect = 1.0; // the longer edge, in shorter ones
+};
+
 /// What a texel says to a point, and what it does not.
 struct TexelTests
 {
@@ -47,10 +66,8 @@ void lookUpTexels(const View& light, const glm::dmat4& worldToClip, const TilePo
 bool mayTurnAway(const Light& light, double grazing, const TilePoints& points, int first, int last,
   const std::uint8_t* asked, std::uint8_t* turned);
 
-/// `pixel`, `pixelPerDepth`: edge of the wider side of a texel, world, at depth t: pixel + t
-/// pixelPerDepth.
-void testTexels(const View& light, double pixel, double pixelPerDepth, const TilePoints& points,
-  int first, int last, const TexelPlaces& places, TexelTests& tests);
+void testTexels(const View& light, const TexelEdge& edge, const TilePoints& points, int first,
+  int last, const TexelPlaces& places, TexelTests& tests);
 }
 
 #endif
