@@ -28,11 +28,12 @@ void PixelShader::begin(const Scene& scene, ShadowTechnique technique, const Lay
   }
 }
 
-/// Calls set(i, darkness) for those points first + i, of one instance, that light l reaches though
-/// their facets turn away from it.
-template <class Set>
+/// Asks once more for those points first + i, of one instance, that light l reaches though their
+/// facets turn away from it, or are dark and nearly do. `darkness`: of point i, any number above 0
+/// where TileLight::dark is.
+template <class Number>
 void PixelShader::shadowTerminator(
-  std::size_t l, const Lit& lit, int first, int last, Scratch& scratch, Set&& set) const
+  std::size_t l, const Lit& lit, int first, int last, Scratch& scratch, Number* darkness) const
 {
   const TilePoints& p = scratch.points;
   const Light& light = *lit.lighting.lights[l].light;
@@ -40,7 +41,8 @@ void PixelShader::shadowTerminator(
   const SurfaceFrame& frame = this->Frames[p.instance[first]];
   std::uint8_t turned[TilePoints::Room];
   if (!this->Smooth[p.instance[first]] || !dark.knowsTerminator(l) ||
-    !mayTurnAway(light, dark.grazing(), p, first, last, scratch.light.reached, turned))
+    !mayTurnAway(
+      light, dark.grazing(), p, first, last, scratch.light.reached, scratch.light.dark, turned))
   {
     return;
   }
@@ -49,11 +51,13 @@ void PixelShader::shadowTerminator(
     const int k = first + i;
     if (turned[i])
     {
-      const TerminatorPoint at = atTerminator(frame, light, dark.grazing(), p.point(k),
-        { p.towardsX[k], p.towardsY[k], p.towardsZ[k] }, p.primitive[k]);
+      const TerminatorPoint at = atTerminator(frame, light, dark.grazing(), scratch.light.dark[i],
+        p.point(k), { p.towardsX[k], p.towardsY[k], p.towardsZ[k] }, p.primitive[k]);
       if (at.kind != TerminatorPoint::Kind::Plain)
       {
-        set(i, dark.darkness(l, p.point(k), at, this->Errors[p.instance[k]], 0.0, scratch.rays));
+        const float plain = darkness[i];
+        darkness[i] = static_cast<Number>(
+          dark.darkness(l, p.point(k), at, plain, this->Errors[p.instance[k]], 0.0, scratch.rays));
       }
     }
   }
@@ -71,8 +75,7 @@ void PixelShader::shadowAndAdd(
   if (!dark.filters())
   {
     dark.dark(l, points, first, last, error, light.reached, light.dark, scratch.rays);
-    this->shadowTerminator(l, lit, first, last, scratch,
-      [&](int i, float darkness) { light.dark[i] = darkness > 0.0f; });
+    this->shadowTerminator(l, lit, first, last, scratch, light.dark);
     for (int i = 0; i < count && this->FindsEdges; ++i)
     {
       darken(scratch.darkness[first + i], l, light.dark[i]);
@@ -81,8 +84,11 @@ void PixelShader::shadowAndAdd(
     return;
   }
   dark.darkness(l, points, first, last, error, light.reached, scratch.missed);
-  this->shadowTerminator(
-    l, lit, first, last, scratch, [&](int i, float darkness) { scratch.missed[i] = darkness; });
+  for (int i = 0; i < count; ++i)
+  {
+    light.dark[i] = scratch.missed[i] > 0.0f;
+  }
+  this->shadowTerminator(l, lit, first, last, scratch, scratch.missed);
   for (int i = 0; i < count; ++i)
   {
     light.share[i] = shareOfLight(scratch.missed[i], lit.remaining);

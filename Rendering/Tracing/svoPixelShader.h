@@ -79,9 +79,9 @@ public:
 
 private:
   void shadowAndAdd(std::size_t l, const Lit& lit, int first, int last, Scratch& scratch) const;
-  template <class Set>
+  template <class Number>
   void shadowTerminator(
-    std::size_t l, const Lit& lit, int first, int last, Scratch& scratch, Set&& set) const;
+    std::size_t l, const Lit& lit, int first, int last, Scratch& scratch, Number* darkness) const;
   void lightInstance(const Lit& lit, int first, int last, bool hasColor, Scratch& scratch) const;
   void write(const Lit& lit, int tileX, int tileY, const Scratch& scratch, Frame& frame);
 

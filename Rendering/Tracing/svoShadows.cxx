@@ -169,7 +169,7 @@ void Shadows::darkness(std::size_t light, const TilePoints& points, int first, i
 }
 
 float Shadows::darkness(std::size_t light, const SurfacePoint& on, const TerminatorPoint& at,
-  double error, double extent, std::uint64_t& rays) const
+  float plain, double error, double extent, std::uint64_t& rays) const
 {
   if (at.kind == TerminatorPoint::Kind::Hidden)
   {
@@ -177,6 +177,19 @@ float Shadows::darkness(std::size_t light, const SurfacePoint& on, const Termina
   }
   const ShadowBuffer* buffer = this->Exact ? nullptr : this->Buffers[light];
   const glm::dvec3& raised = at.point.position;
+  if (at.kind == TerminatorPoint::Kind::Doubted)
+  {
+    const bool known = buffer && buffer->knows(raised);
+    const float dark = known ? this->darkness(light, at.point, error, extent, rays) : 0.0f;
+    if (dark >= plain)
+    {
+      return plain;
+    }
+    ++rays;
+    const bool blocked = this->Rays->between(on.position, raised, error) ||
+      this->Rays->shadows(this->Of->lights[light], raised, at.point.facet, error);
+    return blocked ? plain : dark;
+  }
   if (glm::distance(on.position, raised) > (buffer ? buffer->texelEdge(raised) : 0.0))
   {
     ++rays;

@@ -79,10 +79,11 @@ public:
   }
   /// What atTerminator() is to be asked with: rays need no margin.
   double grazing() const { return this->Exact ? 0.0 : 1.0 / GrazingReach; }
-  /// `at` is not plain. A raised point is lit if the way from the one `on` the mesh to it and on to
-  /// the light is free; the first part is not looked at where it is shorter than a texel.
-  float darkness(std::size_t light, const SurfacePoint& on, const TerminatorPoint& at, double error,
-    double extent, std::uint64_t& rays) const;
+  /// `at` is not plain; `plain`: the answer of the point `on` the mesh. A raised point is lit if
+  /// the way from the one on the mesh to it and on to the light is free; the first part is not
+  /// looked at where it is shorter than a texel. A doubted one has to be lit by rays as well.
+  float darkness(std::size_t light, const SurfacePoint& on, const TerminatorPoint& at, float plain,
+    double error, double extent, std::uint64_t& rays) const;
 
   void addStatistics(FrameStatistics& statistics) const;
   void copyMaps(std::vector<ShadowMap>& maps) const;

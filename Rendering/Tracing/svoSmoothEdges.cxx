@@ -65,16 +65,17 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
           const auto darkness = [&](std::size_t l)
           {
             const Shadows& dark = shaded.dark;
+            const float plain = dark.darkness(l, point, this->Errors[i], extent, rays);
             if (this->Smooth[i] && dark.knowsTerminator(l))
             {
               const TerminatorPoint at = atTerminator(this->Frames[i], scene.lights[l],
-                dark.grazing(), point, towards, samples.primitive[k]);
+                dark.grazing(), plain > 0.0f, point, towards, samples.primitive[k]);
               if (at.kind != TerminatorPoint::Kind::Plain)
               {
-                return dark.darkness(l, point, at, this->Errors[i], extent, rays);
+                return dark.darkness(l, point, at, plain, this->Errors[i], extent, rays);
               }
             }
-            return dark.darkness(l, point, this->Errors[i], extent, rays);
+            return plain;
           };
           sum += glm::clamp(
             svo::shade(lighting, scene.instances[i], point, remaining, darkness), 0.0f, brightest);

@@ -115,25 +115,31 @@ inline SmoothSurface smoothSurfaceAt(const SurfaceFrame& frame, const SurfacePoi
   return result;
 }
 
+/// Sine of the light's angle to a facet up to which facets beside it may have turned away and
+/// shadow it: on ridges and saddles, with the outline of facets as well.
+constexpr double DoubtfulSine = 0.25;
+
 /// A visible point as one light finds it.
 struct TerminatorPoint
 {
   enum class Kind
   {
-    Plain,  // shadows are asked for at the point itself
-    Raised, // ... at `point`: on the smooth surface, its facet the plane that it is shaded with
-    Hidden  // light would have to come through its facet
+    Plain,   // shadows are asked for at the point itself
+    Raised,  // ... at `point`: on the smooth surface, its facet the plane that it is shaded with
+    Doubted, // the mesh shadows it; it is lit if `point` is, beyond doubt
+    Hidden   // light would have to come through its facet
   };
   Kind kind = Kind::Plain;
   SurfacePoint point{};
 };
 
-/// `grazing`: see turnsAway(). The instance isSmooth().
+/// `grazing`: see turnsAway(). `dark`: the mesh itself shadows the point. The instance isSmooth().
 inline TerminatorPoint atTerminator(const SurfaceFrame& frame, const Light& light, double grazing,
-  const SurfacePoint& point, const glm::vec3& towards, Primitive primitive)
+  bool dark, const SurfacePoint& point, const glm::vec3& towards, Primitive primitive)
 {
   TerminatorPoint result;
-  if (!turnsAway(light, point.position, point.facet, grazing))
+  const bool turned = turnsAway(light, point.position, point.facet, grazing);
+  if (!turned && !(dark && turnsAway(light, point.position, point.facet, DoubtfulSine)))
   {
     return result;
   }
@@ -141,7 +147,7 @@ inline TerminatorPoint atTerminator(const SurfaceFrame& frame, const Light& ligh
   const SmoothSurface smooth = smoothSurfaceAt(frame, point, towards, primitive);
   if (smooth.lift != glm::dvec3(0.0) || (behind && !smooth.hollow))
   {
-    result.kind = TerminatorPoint::Kind::Raised;
+    result.kind = turned ? TerminatorPoint::Kind::Raised : TerminatorPoint::Kind::Doubted;
     result.point = point;
     result.point.position += smooth.lift;
     result.point.facet = point.normal;

@@ -4,6 +4,8 @@
 
 #include "svoTileShadows.h"
 
+#include "svoTerminator.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -48,8 +50,9 @@ void lookUp(const View& light, const glm::dmat4& worldToClip, const TilePoints& 
 
 /// In single precision, with a margin that is more than its rounding. `far`: the light shines the
 /// way `along`, from no place in particular.
-int turn(const glm::dvec3& from, const glm::vec3& along, bool far, float sine, const TilePoints& p,
-  int first, int last, const std::uint8_t* asked, std::uint8_t* turned)
+int turn(const glm::dvec3& from, const glm::vec3& along, bool far, float sine, float sineIfDark,
+  const TilePoints& p, int first, int last, const std::uint8_t* asked, const std::uint8_t* dark,
+  std::uint8_t* turned)
 {
   alignas(64) float x[TilePoints::Room], y[TilePoints::Room], z[TilePoints::Room];
   const int n = last - first;
@@ -68,7 +71,7 @@ int turn(const glm::dvec3& from, const glm::vec3& along, bool far, float sine, c
       z[k] = static_cast<float>(p.positionZ[first + k] - from.z);
     }
   }
-  const float sine2 = sine * sine;
+  const float sine2 = sine * sine, sineIfDark2 = sineIfDark * sineIfDark;
   alignas(64) std::uint32_t turns[TilePoints::Room];
   for (int i = 0; i < n; i += Step)
   {
@@ -77,14 +80,17 @@ int turn(const glm::dvec3& from, const glm::vec3& along, bool far, float sine, c
       const float behind =
         p.facetX[first + k] * x[k] + p.facetY[first + k] * y[k] + p.facetZ[first + k] * z[k];
       const float length2 = x[k] * x[k] + y[k] * y[k] + z[k] * z[k];
-      const std::uint32_t faces = behind * behind > sine2 * length2 ? 1u : 0u;
-      turns[k] = behind <= 0.0f ? 1u - faces : 1u; // what is not a number turns away
+      const float behind2 = behind * behind;
+      const std::uint32_t faces = behind2 > sine2 * length2 ? 1u : 0u;
+      const std::uint32_t facesIfDark = behind2 > sineIfDark2 * length2 ? 1u : 0u;
+      // What is not a number turns away.
+      turns[k] = behind <= 0.0f ? (1u - faces) * 2u + (1u - facesIfDark) : 2u;
     }
   }
   int any = 0;
   for (int k = 0; k < n; ++k)
   {
-    turned[k] = static_cast<std::uint8_t>(turns[k] & asked[k]);
+    turned[k] = asked[k] && turns[k] + dark[k] > 1u;
     any |= turned[k];
   }
   return any;
@@ -167,12 +173,13 @@ void lookUpTexels(const View& light, const glm::dmat4& worldToClip, const TilePo
 }
 
 bool mayTurnAway(const Light& light, double grazing, const TilePoints& points, int first, int last,
-  const std::uint8_t* asked, std::uint8_t* turned)
+  const std::uint8_t* asked, const std::uint8_t* dark, std::uint8_t* turned)
 {
   constexpr double Margin = 1e-4;
   return HWY_DYNAMIC_DISPATCH(turn)(light.position, glm::vec3(light.direction),
-           light.kind == Light::Kind::Directional, static_cast<float>(grazing + Margin), points,
-           first, last, asked, turned) != 0;
+           light.kind == Light::Kind::Directional, static_cast<float>(grazing + Margin),
+           static_cast<float>(DoubtfulSine + Margin), points, first, last, asked, dark,
+           turned) != 0;
 }
 
 void testTexels(const View& light, const TexelEdge& edge, const TilePoints& points, int first,

@@ -62,9 +62,10 @@ void lookUpTexels(const View& light, const glm::dmat4& worldToClip, const TilePo
   int first, int last, TexelPlaces& places);
 
 /// Which of the points first..last - 1 are `asked` about and may turnsAway() from the light, by
-/// index minus `first`; all that do are among them. False if there are none.
+/// `grazing`, or DoubtfulSine where they are `dark`; by index minus `first`. All that do are among
+/// them. False if there are none.
 bool mayTurnAway(const Light& light, double grazing, const TilePoints& points, int first, int last,
-  const std::uint8_t* asked, std::uint8_t* turned);
+  const std::uint8_t* asked, const std::uint8_t* dark, std::uint8_t* turned);
 
 void testTexels(const View& light, const TexelEdge& edge, const TilePoints& points, int first,
   int last, const TexelPlaces& places, TexelTests& tests);

@@ -129,7 +129,7 @@ TEST(Terminator, ThePointThatIsAskedAboutLiesOnTheSmoothSurface)
         svo::pointOfTriangle(frame, position, towards, k, frame.toOctree.point(position));
       svo::Light light = lightOf(svo::Light::Kind::Directional, { 1, 0, 0 });
       light.direction = glm::dvec3(point.facet); // from behind
-      const svo::TerminatorPoint at = svo::atTerminator(frame, light, 0.0, point, towards, k);
+      const svo::TerminatorPoint at = svo::atTerminator(frame, light, 0.0, false, point, towards, k);
       ASSERT_EQ(at.kind,
         side > 0.0 ? svo::TerminatorPoint::Kind::Raised : svo::TerminatorPoint::Kind::Hidden);
       if (side > 0.0)
@@ -140,7 +140,7 @@ TEST(Terminator, ThePointThatIsAskedAboutLiesOnTheSmoothSurface)
         EXPECT_EQ(at.point.facet, point.normal);
       }
       light.direction = -light.direction;
-      EXPECT_EQ(svo::atTerminator(frame, light, 0.0, point, towards, k).kind,
+      EXPECT_EQ(svo::atTerminator(frame, light, 0.0, false, point, towards, k).kind,
         svo::TerminatorPoint::Kind::Plain);
     }
   }
