@@ -411,6 +411,37 @@ TEST(ShadowBuffer, AConvexBodyInGrazingLightDoesNotShadowItself)
   EXPECT_GT(grazing, 1000) << "too few to say anything";
 }
 
+/// Two bodies side by side make a map with texels that are longer than wide: planes are followed
+/// over the longer edge.
+TEST(ShadowBuffer, FacetsInSlantingLightAreLitWhereTexelsAreNotSquare)
+{
+  const svo::Octree ball = makeOctree(sphere(9, 12), 8);
+  svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
+  settings.shadowResolution = 512;
+  svo::FrameSettings unshadowed = settingsOf(svo::ShadowTechnique::None);
+  const svo::View view = lookAt({ 3, -4, 2 }, 256, 256);
+  int faced = 0;
+  for (int turn = 0; turn < 24; ++turn)
+  {
+    svo::Scene scene;
+    scene.instances = { instanceOf(ball, 1), instanceOf(ball, 2, movedTo(8, 0, 0)) };
+    scene.instances[1].visible = false;
+    const double angle = 0.13 * turn;
+    scene.lights = { lightOf(
+      svo::Light::Kind::Directional, { 0.3, -std::cos(angle), std::sin(angle) }) };
+    const svo::Frame lit = rendered(scene, view, unshadowed);
+    const svo::Frame shadowed = rendered(scene, view, settings);
+    int wrong = 0;
+    for (std::size_t i = 0; i < lit.instance.size(); ++i)
+    {
+      faced += lit.instance[i] == 0 && lit.color[4 * i] > 0;
+      wrong += shadowed.color[4 * i] != lit.color[4 * i];
+    }
+    EXPECT_EQ(wrong, 0) << "turned by " << angle;
+  }
+  EXPECT_GT(faced, 100000);
+}
+
 TEST(ShadowBuffer, AGroundCastsOnlyIfSomethingCanLieInItsShadow)
 {
   svo::Scene scene = ballOnGround(svo::LeafGeometry::Triangle, 6);
