@@ -187,6 +187,7 @@ bool vtkSVORenderPass::CollectFrame(
     svo::CollectSettings collect;
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
+    collect.said = &impl.said;
     collect.levels.frame = Internals::settingsOf(*this);
     svo::viewOfCamera(renderer, width, height, collect.levels.eye);
     frame.of->collect(impl.store, store, collect);
