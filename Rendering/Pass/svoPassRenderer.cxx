@@ -9,6 +9,7 @@
 
 #include "vtkOpenGLRenderPass.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLRenderer.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkTimerLog.h"
@@ -175,7 +176,10 @@ std::string PassRenderer::lostShadows(const FrameSettings& settings) const
 void PassRenderer::trace(int width, int height, double distance, FrameSettings settings)
 {
   this->Statistics.sampleDistance = distance;
-  const Scene& scene = this->Collected.scene;
+  Scene& scene = this->Collected.scene;
+  // By now the renderer has counted its lights, by rules of its own, for the mappers.
+  auto* counted = vtkOpenGLRenderer::SafeDownCast(this->Renderer);
+  scene.onlyHeadlight = counted && counted->GetLightingComplexity() == 1;
   View& view = this->Eye;
   view = this->aim(width, height, distance);
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow());
