@@ -32,7 +32,7 @@ struct SceneCollector::Frame
   const StoreOptions& options;
   CollectSettings settings;
   CollectedScene& result;
-  glm::dmat4 world; // see modelTransform()
+  glm::dmat4 world; // see sceneTransform()
   std::vector<PropSurfaces> props;
 };
 
@@ -382,7 +382,7 @@ void addProp(const PropSurfaces& prop, CollectedScene& result)
 void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options,
   const CollectSettings& settings, CollectedScene& result)
 {
-  const glm::dmat4 world = modelTransform(renderer);
+  const glm::dmat4 world = sceneTransform(renderer);
   result.scene.lights = lightsOf(renderer, world, result.headlightOnly);
   bool casting = false;
   for (const Light& light : result.scene.lights)

@@ -172,6 +172,27 @@ inline SurfacePoint pointOfTriangle(const SurfaceFrame& frame, const glm::dvec3&
   return point;
 }
 
+/// Turns the normal of a point to the side that VTK's shaders light, where that is not the one that
+/// its ray sees: VTK's rule for facets without normals knows nothing of sheared projections, and
+/// the rule for others calls the front of a mirrored picture its back. Not for points without a
+/// surface.
+inline void turnAsShaders(const SurfaceFrame& frame, const View& view, SurfacePoint& point)
+{
+  if (view.plain)
+  {
+    return;
+  }
+  const Attributes& attributes = frame.instance->attributes;
+  bool other = view.mirrored;
+  if (!attributes.normals ||
+    (frame.instance->material.flat && attributes.normalAssociation != Association::Cell))
+  {
+    const glm::dvec3 along = view.facetsFaceAxis ? view.axis : point.position - view.eye;
+    other = glm::dot(glm::dvec3(point.facet), along) > 0.0;
+  }
+  point.normal = other ? -point.normal : point.normal;
+}
+
 /// The triangle of a hit at `position`, and where on it to interpolate; `towards`, to the viewer:
 /// world. The octree has a surface.
 inline NodeTriangle triangleOfHit(const SurfaceFrame& frame, const glm::dvec3& position,
@@ -203,7 +224,9 @@ inline SurfacePoint surfacePoint(
     return pointOfTriangle(frame, position, towards, primitive, frame.toOctree.point(position));
   }
   const NodeTriangle hit = triangleOfHit(frame, position, towards, primitive);
-  return pointOfTriangle(frame, position, towards, hit.triangle, hit.at);
+  SurfacePoint point = pointOfTriangle(frame, position, towards, hit.triangle, hit.at);
+  turnAsShaders(frame, view, point);
+  return point;
 }
 }
 
