@@ -187,7 +187,7 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   {
     this->Picture.covered = PixelRect();
     this->Trace.releaseLayers();
-    this->Receivers.update(window, {}, {}, view, settings, false);
+    this->Receivers.update(window, {}, {}, view, settings);
     return;
   }
   settings.wholeShadowBuffers =
@@ -198,8 +198,8 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   this->Trace.render(scene, view, settings, smpParallelFor(), this->Picture);
   this->Statistics.tracer = this->Trace.statistics();
   this->Statistics.coarseOctreeError = this->coarseOctreeError(distance);
-  this->Complaint = this->Receivers.update(window, this->Trace.shadowMaps(), scene.lights, view,
-    settings, this->Statistics.tracer.retracedLayers > 0 || this->Statistics.tracer.mergedShadows);
+  this->Complaint =
+    this->Receivers.update(window, this->Trace.shadowMaps(), scene.lights, view, settings);
   if (this->Complaint.empty() && settings.shadowTechnique != ShadowTechnique::None)
   {
     this->Complaint = this->lostShadows(settings);

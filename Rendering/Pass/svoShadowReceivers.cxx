@@ -144,7 +144,7 @@ bool keepBrightest(std::map<int, std::vector<const ShadowMap*>>& byLight,
 
 std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
   const std::vector<ShadowMap>& maps, const std::vector<Light>& lights, const View& eye,
-  const FrameSettings& settings, bool changed)
+  const FrameSettings& settings)
 {
   if (maps.empty())
   {
@@ -207,11 +207,17 @@ std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
         std::to_string(count) + " shadow maps of " + std::to_string(size) +
         " texels. Lower ShadowBufferResolution.";
     }
-    changed = true;
+    this->Sent.clear();
   }
-  for (int i = 0; changed && i < count; ++i)
+  this->Sent.resize(count);
+  for (int i = 0; i < count; ++i)
   {
-    this->Maps->send(i, layers[i]->depth.data());
+    const std::shared_ptr<const std::vector<float>>& depth = layers[i]->depth;
+    if (this->Sent[i].lock() != depth)
+    {
+      this->Maps->send(i, depth->data());
+      this->Sent[i] = depth;
+    }
   }
   return complaint;
 }

@@ -85,7 +85,7 @@ public:
     double extent, std::uint64_t& rays) const;
 
   void addStatistics(FrameStatistics& statistics) const;
-  void copyMaps(std::vector<ShadowMap>& maps) const;
+  void copyMaps(std::vector<ShadowMap>& maps);
   /// Bytes of all kept layers.
   std::size_t layerMemory() const;
   void release();

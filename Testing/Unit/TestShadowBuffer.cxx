@@ -296,8 +296,8 @@ TEST(ShadowBuffer, WholeBuffersGiveTheSameBitsAndAreHandedOut)
     for (const svo::ShadowMap& map : whole.shadowMaps())
     {
       EXPECT_EQ(map.light, 0);
-      ASSERT_EQ(map.depth.size(), 64u * 64u);
-      for (float depth : map.depth)
+      ASSERT_EQ(map.depth->size(), 64u * 64u);
+      for (float depth : *map.depth)
       {
         occupied += std::isfinite(depth) && depth >= 0.0f;
       }
