@@ -249,7 +249,7 @@ void ShadowReceivers::release()
 std::string ShadowReceivers::signature() const
 {
   std::ostringstream text;
-  text << this->Capacity << ": ";
+  text << this->Capacity << ' ' << this->PlaneBias << ' ' << this->Filter << ": ";
   for (const int light : this->Lights)
   {
     text << light << ' ';
@@ -297,7 +297,9 @@ void ShadowReceivers::completeShader(
   // One loop, since compilers copy the function to wherever it is called.
   const std::string count = std::to_string(this->Lights.size());
   vtkShaderProgram::Substitute(declarations, DeclarationMark,
-    any ? "const int svoCapacity = " + std::to_string(this->Capacity) + ";\n" + svoShadowReceiver +
+    any ? "const int svoCapacity = " + std::to_string(this->Capacity) + ";\n" +
+        "const bool svoPlaneBias = " + (this->PlaneBias ? "true" : "false") + ";\n" +
+        "const bool svoFilter = " + (this->Filter ? "true" : "false") + ";\n" + svoShadowReceiver +
         "uniform int svoFirst[" + count + " + 1];\n" +
         (smooth ? "flat in vec3 svoCornerVSOutput;\nflat in vec3 svoCornerNormalVSOutput;\n" : "")
         : std::string(),
@@ -340,8 +342,6 @@ void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives) cons
   program->SetUniform1iv("svoFirst", static_cast<int>(this->First.size()), this->First.data());
   program->SetUniformf("svoReceive", receives ? 1.0f : 0.0f);
   program->SetUniformf("svoIntensity", this->Intensity);
-  program->SetUniformi("svoPlaneBias", this->PlaneBias ? 1 : 0);
-  program->SetUniformi("svoFilter", this->Filter ? 1 : 0);
   program->SetUniformf("svoManualBias", this->ManualBias);
 }
 }
