@@ -5,10 +5,10 @@
 // map. `facet` is the fragment's own plane, towards the viewer, `normal` what it is shaded with,
 // `extent` how wide a piece of the surface it shows.
 //
-// Constants are put before it: svoCapacity, maps that there is room for; svoPlaneBias, to compare at
-// the texel's own ray, on the planes of the receiver; svoFilter, to weigh the texels around the
-// point, with svoPlaneBias only. They are none that are asked while it runs, since software OpenGL
-// walks through branches that are not taken.
+// Constants are put before it: svoCapacity, maps that there is room for; svoPlaneBias, to compare
+// at the texel's own ray, on the planes of the receiver; svoFilter, to weigh the texels around the
+// point, with svoPlaneBias only. They are not asked while it runs, since software OpenGL walks
+// through branches that are not taken.
 uniform sampler2DArray svoMaps;
 uniform mat4 svoRows[svoCapacity]; // the rows of a map's matrix
 uniform float svoErrors[svoCapacity]; // of what casts, world units

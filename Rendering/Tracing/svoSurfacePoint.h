@@ -174,24 +174,10 @@ inline SurfacePoint pointOfTriangle(const SurfaceFrame& frame, const glm::dvec3&
 
 /// Turns the normal of a point to the side that VTK's shaders light, where that is not the one that
 /// its ray sees: VTK's rule for facets without normals knows nothing of sheared projections, and
-/// the rule for others calls the front of a mirrored picture its back. Not for points without a
-/// surface.
-inline void turnAsShaders(const SurfaceFrame& frame, const View& view, SurfacePoint& point)
-{
-  if (view.plain)
-  {
-    return;
-  }
-  const Attributes& attributes = frame.instance->attributes;
-  bool other = view.mirrored;
-  if (!attributes.normals ||
-    (frame.instance->material.flat && attributes.normalAssociation != Association::Cell))
-  {
-    const glm::dvec3 along = view.facetsFaceAxis ? view.axis : point.position - view.eye;
-    other = glm::dot(glm::dvec3(point.facet), along) > 0.0;
-  }
-  point.normal = other ? -point.normal : point.normal;
-}
+/// the rule for others calls the front of a mirrored picture its back. Only for views that are not
+/// plain, and not for points without a surface.
+VTKSVOTRACING_EXPORT void turnAsShaders(
+  const SurfaceFrame& frame, const View& view, SurfacePoint& point);
 
 /// The triangle of a hit at `position`, and where on it to interpolate; `towards`, to the viewer:
 /// world. The octree has a surface.
@@ -225,7 +211,10 @@ inline SurfacePoint surfacePoint(
   }
   const NodeTriangle hit = triangleOfHit(frame, position, towards, primitive);
   SurfacePoint point = pointOfTriangle(frame, position, towards, hit.triangle, hit.at);
-  turnAsShaders(frame, view, point);
+  if (!view.plain)
+  {
+    turnAsShaders(frame, view, point);
+  }
   return point;
 }
 }

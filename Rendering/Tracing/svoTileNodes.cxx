@@ -40,7 +40,10 @@ void lookAtNodes(
     [&](TilePoints::Run& run, int i, const glm::dvec3& position, const glm::vec3& to)
     {
       SurfacePoint point = pointOfTriangle(frame, position, to, picked[i].triangle, picked[i].at);
-      turnAsShaders(frame, view, point);
+      if (!view.plain)
+      {
+        turnAsShaders(frame, view, point);
+      }
       p.set(i, point);
       run.hasColor = point.hasColor;
     });
