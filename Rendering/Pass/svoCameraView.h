@@ -19,10 +19,10 @@ glm::dmat4 toGlm(const vtkMatrix4x4* matrix);
 /// viewport.
 void sizeOf(const vtkRenderState* state, int& width, int& height);
 
-/// The matrix that VTK's cameras put before their own view, of everything that is seen: identity,
-/// but for somebody who set ModelTransformMatrix. The scene's world is what it makes of VTK's, so
-/// that the view stays rigid: it is multiplied to the matrices of actors.
-glm::dmat4 modelTransform(vtkRenderer* renderer);
+/// What the scene's world is made of VTK's by, so that the view is rigid: it is multiplied to the
+/// matrices of actors. Identity, but for somebody who set the camera's ModelTransformMatrix, or a
+/// UserViewTransform that is not rigid.
+glm::dmat4 sceneTransform(vtkRenderer* renderer);
 
 /// The rays of the renderer's active camera. They come from the projection matrix, so window
 /// centres, shears, stereo eyes, explicit projections and tiles are all in them. False if the size

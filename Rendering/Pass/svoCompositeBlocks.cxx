@@ -8,10 +8,12 @@
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkTexture.h"
+#include "vtkVersion.h"
 
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+// The mapper that draws blocks together lost the number in its name with VTK 9.3, when the one went
+// that had the name before and made a mapper for each block.
 #include "vtkCompositePolyDataMapper.h"
-#else
+#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 0)
 #include "vtkCompositePolyDataMapper2.h"
 #endif
 
@@ -23,6 +25,22 @@ namespace svo
 {
 namespace
 {
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+using AttributedMapper = vtkCompositePolyDataMapper;
+constexpr const char* CompositeMappers[] = { "vtkCompositePolyDataMapper" };
+#else
+using AttributedMapper = vtkCompositePolyDataMapper2;
+constexpr const char* CompositeMappers[] = { "vtkCompositePolyDataMapper2",
+  "vtkCompositePolyDataMapper", "vtkHierarchicalPolyDataMapper" };
+#endif
+
+/// What a mapper says of single blocks; nullptr if it says nothing.
+vtkCompositeDataDisplayAttributes* attributesOf(vtkMapper* mapper)
+{
+  auto* attributed = AttributedMapper::SafeDownCast(mapper);
+  return attributed ? attributed->GetCompositeDataDisplayAttributes() : nullptr;
+}
+
 /// The block, else the nearest tree around it, that has a value of its own; nullptr if none has.
 template <typename Has>
 vtkDataObject* nearest(const std::vector<vtkDataObject*>& path, const Has& has)
@@ -98,7 +116,7 @@ vtkAbstractArray* scalarsOf(vtkPolyDataMapper* mapper, vtkDataSet* mesh)
 
 /// True if the colour given to a block, or to a tree around it, counts for more than its scalars.
 bool colorWins([[maybe_unused]] vtkCompositeDataDisplayAttributes* own,
-  [[maybe_unused]] vtkDataObject* block, [[maybe_unused]] CompositeMapper* mapper,
+  [[maybe_unused]] vtkDataObject* block, [[maybe_unused]] vtkMapper* mapper,
   [[maybe_unused]] bool hasScalars)
 {
   // First it always did; VTK's rule is another one from the 12th of April 2024 on.
@@ -135,12 +153,14 @@ void overrideColor(const Color& color, SurfacePart& part)
 }
 }
 
-CompositeMapper* compositeMapper(vtkMapper* mapper)
+bool isCompositeMapper(vtkMapper* mapper)
 {
-  return CompositeMapper::SafeDownCast(mapper);
+  const std::string name = mapper->GetClassName();
+  return std::find(std::begin(CompositeMappers), std::end(CompositeMappers), name) !=
+    std::end(CompositeMappers);
 }
 
-vtkPolyDataMapper* CompositeBlocks::colorsOf(CompositeMapper* mapper, const Path& path)
+vtkPolyDataMapper* CompositeBlocks::colorsOf(vtkMapper* mapper, const Path& path)
 {
   Colors& colors = this->Blocks[{ mapper, path.back() }];
   colors.used = true;
@@ -148,7 +168,7 @@ vtkPolyDataMapper* CompositeBlocks::colorsOf(CompositeMapper* mapper, const Path
   {
     colors.mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
   }
-  auto* attributes = mapper->GetCompositeDataDisplayAttributes();
+  auto* attributes = attributesOf(mapper);
   const std::uint64_t time =
     std::max(mapper->GetMTime(), attributes ? attributes->GetMTime() : vtkMTimeType(0));
   if (colors.time != time)
@@ -164,7 +184,7 @@ vtkPolyDataMapper* CompositeBlocks::colorsOf(CompositeMapper* mapper, const Path
   return colors.mapper;
 }
 
-SurfacePart CompositeBlocks::partOf(CompositeMapper* mapper, const Path& path, double opacity)
+SurfacePart CompositeBlocks::partOf(vtkMapper* mapper, const Path& path, double opacity)
 {
   SurfacePart part;
   part.mesh = vtkPolyData::SafeDownCast(path.back());
@@ -172,7 +192,7 @@ SurfacePart CompositeBlocks::partOf(CompositeMapper* mapper, const Path& path, d
   vtkPolyDataMapper* colors = this->colorsOf(mapper, path);
   part.colors = colors;
   const bool hasScalars = scalarsOf(colors, part.mesh) != nullptr;
-  if (auto* own = mapper->GetCompositeDataDisplayAttributes())
+  if (auto* own = attributesOf(mapper))
   {
     if (vtkDataObject* object =
           nearest(path, [&](vtkDataObject* o) { return own->HasBlockOpacity(o); }))
@@ -188,16 +208,17 @@ SurfacePart CompositeBlocks::partOf(CompositeMapper* mapper, const Path& path, d
   }
   // Blocks that lack the array the others are coloured by take the table's colour of NaN, if asked.
   double nan[3];
-  if (mapper->GetColorMissingArraysWithNanColor() && colors->GetScalarVisibility() && !hasScalars &&
-    nanColor(colors->GetLookupTable(), nan))
+  auto* attributed = AttributedMapper::SafeDownCast(mapper);
+  if (attributed && attributed->GetColorMissingArraysWithNanColor() &&
+    colors->GetScalarVisibility() && !hasScalars && nanColor(colors->GetLookupTable(), nan))
   {
     overrideColor(nan, part);
   }
   return part;
 }
 
-void CompositeBlocks::visit(CompositeMapper* mapper, Path& path, unsigned int& flatIndex,
-  double opacity, std::vector<SurfacePart>& parts)
+void CompositeBlocks::visit(vtkMapper* mapper, Path& path, unsigned int& flatIndex, double opacity,
+  std::vector<SurfacePart>& parts)
 {
   const unsigned int index = flatIndex++;
   if (auto* tree = vtkDataObjectTree::SafeDownCast(path.back()))
@@ -216,7 +237,7 @@ void CompositeBlocks::visit(CompositeMapper* mapper, Path& path, unsigned int& f
   }
   else if (vtkPolyData::SafeDownCast(path.back()))
   {
-    auto* own = mapper->GetCompositeDataDisplayAttributes();
+    auto* own = attributesOf(mapper);
     vtkDataObject* object =
       own ? nearest(path, [&](vtkDataObject* o) { return own->HasBlockVisibility(o); }) : nullptr;
     if (!object || own->GetBlockVisibility(object))
@@ -227,7 +248,7 @@ void CompositeBlocks::visit(CompositeMapper* mapper, Path& path, unsigned int& f
   }
 }
 
-std::vector<SurfacePart> CompositeBlocks::partsOf(CompositeMapper* mapper, double opacity)
+std::vector<SurfacePart> CompositeBlocks::partsOf(vtkMapper* mapper, double opacity)
 {
   std::vector<SurfacePart> parts;
   if (vtkDataObject* root = mapper->GetInputDataObject(0, 0))

@@ -45,7 +45,7 @@ struct vtkSVORenderPass::Internals
   std::string castingLights;
   std::string shaderSignature; // of the shaders that mappers have built last
   vtkTimeStamp shaderTime;
-  std::set<std::string> said; // about traced frames
+  std::set<std::string> said; // about no object in particular
   bool saidHeadlight = false;
   bool saidOpenGL = false;
   bool saidMemory = false;

@@ -9,6 +9,7 @@
 
 #include "vtkOpenGLRenderPass.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLRenderer.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkTimerLog.h"
@@ -175,7 +176,10 @@ std::string PassRenderer::lostShadows(const FrameSettings& settings) const
 void PassRenderer::trace(int width, int height, double distance, FrameSettings settings)
 {
   this->Statistics.sampleDistance = distance;
-  const Scene& scene = this->Collected.scene;
+  Scene& scene = this->Collected.scene;
+  // By now the renderer has counted its lights, by rules of its own, for the mappers.
+  auto* counted = vtkOpenGLRenderer::SafeDownCast(this->Renderer);
+  scene.onlyHeadlight = counted && counted->GetLightingComplexity() == 1;
   View& view = this->Eye;
   view = this->aim(width, height, distance);
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow());
@@ -183,7 +187,7 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   {
     this->Picture.covered = PixelRect();
     this->Trace.releaseLayers();
-    this->Receivers.update(window, {}, {}, view, settings, false);
+    this->Receivers.update(window, {}, {}, view, settings);
     return;
   }
   settings.wholeShadowBuffers =
@@ -194,8 +198,8 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   this->Trace.render(scene, view, settings, smpParallelFor(), this->Picture);
   this->Statistics.tracer = this->Trace.statistics();
   this->Statistics.coarseOctreeError = this->coarseOctreeError(distance);
-  this->Complaint = this->Receivers.update(window, this->Trace.shadowMaps(), scene.lights, view,
-    settings, this->Statistics.tracer.retracedLayers > 0 || this->Statistics.tracer.mergedShadows);
+  this->Complaint =
+    this->Receivers.update(window, this->Trace.shadowMaps(), scene.lights, view, settings);
   if (this->Complaint.empty() && settings.shadowTechnique != ShadowTechnique::None)
   {
     this->Complaint = this->lostShadows(settings);

@@ -32,7 +32,7 @@ struct SceneCollector::Frame
   const StoreOptions& options;
   CollectSettings settings;
   CollectedScene& result;
-  glm::dmat4 world; // see modelTransform()
+  glm::dmat4 world; // see sceneTransform()
   std::vector<PropSurfaces> props;
 };
 
@@ -75,11 +75,19 @@ bool hasSurface(vtkPolyData* mesh)
 }
 }
 
-/// About an object, or about nothing in particular (null).
+/// About an object, or about nothing in particular (null): then once for all renderers.
 void SceneCollector::complainOnce(vtkObject* about, const std::string& text, const Frame& frame)
 {
   if (!frame.options.complain)
   {
+    return;
+  }
+  if (!about)
+  {
+    if (!frame.settings.said || frame.settings.said->insert(text).second)
+    {
+      frame.options.complain(text);
+    }
     return;
   }
   const auto [said, isNew] = this->Said.try_emplace({ about, text }, about);
@@ -94,9 +102,9 @@ std::vector<SurfacePart> SceneCollector::partsOf(vtkActor* actor)
 {
   vtkMapper* mapper = actor->GetMapper();
   const double opacity = actor->GetProperty()->GetOpacity();
-  if (CompositeMapper* composite = compositeMapper(mapper))
+  if (isCompositeMapper(mapper))
   {
-    return this->Blocks.partsOf(composite, opacity);
+    return this->Blocks.partsOf(mapper, opacity);
   }
   auto* dataSet = vtkDataSetMapper::SafeDownCast(mapper);
   vtkPolyDataMapper* plain =
@@ -180,11 +188,13 @@ void SceneCollector::collectActor(
   {
     mapper->GetInputAlgorithm()->Update();
   }
-  if (isUnknownSurfaceMapper(mapper))
+  if (frame.settings.shadows && isUnknownSurface(actor) &&
+    flagOf(actor, owner, vtkSVORenderPass::CAST_SHADOW(), true))
   {
     this->complainOnce(nullptr,
-      std::string("Surfaces of a ") + mapper->GetClassName() +
-        " are left to the rasteriser and cast no shadow: this pass does not know that mapper.",
+      std::string("What a ") + mapper->GetClassName() +
+        " draws is left to the rasteriser and casts no shadow: this pass does not know that "
+        "mapper. SetCastShadow(false, prop) says that this is meant.",
       frame);
   }
   const Treatment treatment = treatmentOf(actor);
@@ -372,7 +382,7 @@ void addProp(const PropSurfaces& prop, CollectedScene& result)
 void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options,
   const CollectSettings& settings, CollectedScene& result)
 {
-  const glm::dmat4 world = modelTransform(renderer);
+  const glm::dmat4 world = sceneTransform(renderer);
   result.scene.lights = lightsOf(renderer, world, result.headlightOnly);
   bool casting = false;
   for (const Light& light : result.scene.lights)
@@ -406,8 +416,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   }
   for (auto said = this->Said.begin(); said != this->Said.end();)
   {
-    const bool gone = said->first.first && !said->second;
-    said = gone ? this->Said.erase(said) : std::next(said);
+    said = said->second ? std::next(said) : this->Said.erase(said);
   }
   this->Surfaces.endFrame();
   this->Floats.endFrame();

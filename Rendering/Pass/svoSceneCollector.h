@@ -38,6 +38,7 @@ struct CollectSettings
   /// or cast; the others only receive.
   bool onlyMarked = false;
   LevelSettings levels;
+  std::set<std::string>* said = nullptr; // by the pass, about no object in particular
 };
 
 /// A frame's scene and what it means for the renderer's props.

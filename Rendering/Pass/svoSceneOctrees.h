@@ -30,7 +30,7 @@ struct SceneSurface
 struct PropSurfaces
 {
   vtkSmartPointer<vtkProp> prop;
-  glm::dmat4 world{ 1.0 };            // what the scene makes of VTK's; see modelTransform()
+  glm::dmat4 world{ 1.0 };            // what the scene makes of VTK's; see sceneTransform()
   std::vector<SceneSurface> surfaces; // those that are traceable or cast
   int actors = 0;
   bool traced = true;          // all that the prop shows is traced

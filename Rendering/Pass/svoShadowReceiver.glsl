@@ -4,14 +4,17 @@
 // matrix takes view coordinates to (x, y, linear depth, w), with x / w and y / w in -1..1 across the
 // map. `facet` is the fragment's own plane, towards the viewer, `normal` what it is shaded with,
 // `extent` how wide a piece of the surface it shows.
+//
+// Constants are put before it: svoCapacity, maps that there is room for; svoPlaneBias, to compare
+// at the texel's own ray, on the planes of the receiver; svoFilter, to weigh the texels around the
+// point, with svoPlaneBias only. They are not asked while it runs, since software OpenGL walks
+// through branches that are not taken.
 uniform sampler2DArray svoMaps;
 uniform mat4 svoRows[svoCapacity]; // the rows of a map's matrix
 uniform float svoErrors[svoCapacity]; // of what casts, world units
 uniform float svoReceive; // 0: no shadow falls on this surface
 uniform float svoIntensity;
-uniform int svoPlaneBias; // compare at the texel's own ray, on the planes of the receiver
 uniform float svoManualBias; // world units, added
-uniform int svoFilter; // weigh the texels around the point; with svoPlaneBias only
 
 // The shorter and the longer edge of a texel in the world, at the depth of a point whose w is given.
 vec2 svoTexelEdges(mat4 rows, float w, float size)
@@ -41,7 +44,7 @@ int svoAsk(int map, mat4 rows, float error, vec4 point, vec2 texel, vec3 facet,
   float occluder = svoOccluder(map, ivec2(texel)) + svoManualBias;
   float w = dot(rows[3], point);
   float depth = dot(rows[2], point);
-  if (svoPlaneBias == 0)
+  if (!svoPlaneBias)
   {
     return occluder < depth ? 2 : 0;
   }
@@ -210,7 +213,7 @@ float svoLit(
     vec2 centre = vec2(dot(rows[0], point), dot(rows[1], point)) / dot(rows[3], point);
     vec3 xy = cross(rows[0].xyz - centre.x * rows[3].xyz, rows[1].xyz - centre.y * rows[3].xyz);
     vec3 along = xy * sign(dot(rows[2].xyz, xy));
-    if (svoPlaneBias != 0 && dot(lift, lift) > 0.0 && dot(plane, along) > -length(xy) / 64.0)
+    if (svoPlaneBias && dot(lift, lift) > 0.0 && dot(plane, along) > -length(xy) / 64.0)
     {
       point.xyz += lift;
       facet = normal;
@@ -228,7 +231,7 @@ float svoLit(
     }
     vec2 place = clamp((at * 0.5 + 0.5) * size, vec2(0.0), vec2(size));
     vec2 texel = min(floor(place), vec2(size - 1.0));
-    if (svoFilter != 0 && svoPlaneBias != 0)
+    if (svoFilter && svoPlaneBias)
     {
       float pixel = svoTexelEdges(rows, w, size).x;
       float width = clamp(extent / pixel, 1.0, 4.0);

@@ -144,7 +144,7 @@ bool keepBrightest(std::map<int, std::vector<const ShadowMap*>>& byLight,
 
 std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
   const std::vector<ShadowMap>& maps, const std::vector<Light>& lights, const View& eye,
-  const FrameSettings& settings, bool changed)
+  const FrameSettings& settings)
 {
   if (maps.empty())
   {
@@ -207,11 +207,17 @@ std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
         std::to_string(count) + " shadow maps of " + std::to_string(size) +
         " texels. Lower ShadowBufferResolution.";
     }
-    changed = true;
+    this->Sent.clear();
   }
-  for (int i = 0; changed && i < count; ++i)
+  this->Sent.resize(count);
+  for (int i = 0; i < count; ++i)
   {
-    this->Maps->send(i, layers[i]->depth.data());
+    const std::shared_ptr<const std::vector<float>>& depth = layers[i]->depth;
+    if (this->Sent[i].lock() != depth)
+    {
+      this->Maps->send(i, depth->data());
+      this->Sent[i] = depth;
+    }
   }
   return complaint;
 }
@@ -243,7 +249,7 @@ void ShadowReceivers::release()
 std::string ShadowReceivers::signature() const
 {
   std::ostringstream text;
-  text << this->Capacity << ": ";
+  text << this->Capacity << ' ' << this->PlaneBias << ' ' << this->Filter << ": ";
   for (const int light : this->Lights)
   {
     text << light << ' ';
@@ -291,7 +297,9 @@ void ShadowReceivers::completeShader(
   // One loop, since compilers copy the function to wherever it is called.
   const std::string count = std::to_string(this->Lights.size());
   vtkShaderProgram::Substitute(declarations, DeclarationMark,
-    any ? "const int svoCapacity = " + std::to_string(this->Capacity) + ";\n" + svoShadowReceiver +
+    any ? "const int svoCapacity = " + std::to_string(this->Capacity) + ";\n" +
+        "const bool svoPlaneBias = " + (this->PlaneBias ? "true" : "false") + ";\n" +
+        "const bool svoFilter = " + (this->Filter ? "true" : "false") + ";\n" + svoShadowReceiver +
         "uniform int svoFirst[" + count + " + 1];\n" +
         (smooth ? "flat in vec3 svoCornerVSOutput;\nflat in vec3 svoCornerNormalVSOutput;\n" : "")
         : std::string(),
@@ -334,8 +342,6 @@ void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives) cons
   program->SetUniform1iv("svoFirst", static_cast<int>(this->First.size()), this->First.data());
   program->SetUniformf("svoReceive", receives ? 1.0f : 0.0f);
   program->SetUniformf("svoIntensity", this->Intensity);
-  program->SetUniformi("svoPlaneBias", this->PlaneBias ? 1 : 0);
-  program->SetUniformi("svoFilter", this->Filter ? 1 : 0);
   program->SetUniformf("svoManualBias", this->ManualBias);
 }
 }

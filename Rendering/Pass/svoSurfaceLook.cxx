@@ -30,7 +30,7 @@ bool isPlainMapper(vtkMapper* mapper)
 {
   const std::string name = mapper->GetClassName();
   return name == "vtkOpenGLPolyDataMapper" || name == "vtkDataSetMapper" ||
-    name == CompositeMapperName;
+    isCompositeMapper(mapper);
 }
 
 bool hasCustomShaders(vtkActor* actor)
@@ -192,14 +192,15 @@ bool isPlainActor(vtkActor* actor)
     name == "vtkPVLODActor";
 }
 
-bool isUnknownSurfaceMapper(vtkMapper* mapper)
+bool isUnknownSurface(vtkActor* actor)
 {
-  // These draw something else in the place of the mesh's triangles, and nobody expects otherwise.
-  constexpr const char* others[] = { "vtkPointGaussianMapper", "vtkOpenGLSphereMapper",
-    "vtkOpenGLStickMapper", "vtkOpenGLGlyph3DHelper", "vtkSurfaceLICMapper",
-    "vtkCompositeSurfaceLICMapper" };
-  return !isPlainMapper(mapper) &&
-    (mapper->IsA("vtkPolyDataMapper") || mapper->IsA("vtkCompositePolyDataMapper2")) &&
+  // What these draw (splats, points and lines, labels) has no surface.
+  constexpr const char* others[] = { "vtkPointGaussianMapper", "vtkGraphMapper",
+    "vtkLabeledContourMapper" };
+  vtkMapper* mapper = actor->GetMapper();
+  vtkProperty* property = actor->GetProperty();
+  return !isPlainMapper(mapper) && property->GetRepresentation() == VTK_SURFACE &&
+    property->GetOpacity() >= 1.0 &&
     std::none_of(std::begin(others), std::end(others),
       [mapper](const char* name) { return mapper->IsA(name) != 0; });
 }

@@ -35,9 +35,9 @@ struct Treatment
 /// axes and sky boxes are actors too.
 bool isPlainActor(vtkActor* actor);
 
-/// True for a mapper that should draw a mesh's triangles, but whose class is not known here: it is
-/// rasterised, and whoever chose it should hear of that.
-bool isUnknownSurfaceMapper(vtkMapper* mapper);
+/// True for opaque surfaces, spheres of a molecule for one, whose mapper's class is not known here:
+/// they are rasterised and cast nothing, and whoever chose that mapper should hear of it.
+bool isUnknownSurface(vtkActor* actor);
 
 /// What a plain actor, its property and its mapper's settings allow, whatever the mesh and however
 /// opaque it is.

@@ -1,6 +1,7 @@
 #include "vtkSVORenderPass.h"
 
 #include "svoCameraView.h"
+#include "svoOwnCamera.h"
 #include "svoPassInternals.h"
 
 #include "vtkCommand.h"
@@ -134,11 +135,13 @@ svo::PassFrame& vtkSVORenderPass::BeginFrame(vtkRenderer* renderer)
   return *impl.frames.back();
 }
 
-/// Fills a frame with the renderer's scene, as camera and lights are then; with `ownsCamera` the
-/// camera is set up, too. False if the frame cannot be drawn.
+/// Fills a frame with the renderer's scene, as camera and lights are then, and sets up its camera.
+/// Without one the renderer, to which the pass is attached, does that, and the lights. False if the
+/// frame cannot be drawn.
 bool vtkSVORenderPass::CollectFrame(
-  svo::PassFrame& frame, int width, int height, bool attached, bool ownsCamera)
+  svo::PassFrame& frame, int width, int height, const svo::OwnCamera* camera)
 {
+  const bool attached = !camera;
   // What is collected is borrowed, and who observes the progress of a build may change it. So all
   // is collected once more after that, when nothing is left to be built. Of the last collection
   // nobody is told, so that it ends even for those who change something every time.
@@ -155,9 +158,9 @@ bool vtkSVORenderPass::CollectFrame(
     }
     disturbed = false;
     renderer->GetRenderWindow()->MakeCurrent();
-    if (ownsCamera)
+    if (camera)
     {
-      this->UpdateCamera(renderer);
+      camera->setUp();
     }
     this->UpdateLightGeometry(renderer);
     if (!attached)
@@ -184,6 +187,7 @@ bool vtkSVORenderPass::CollectFrame(
     svo::CollectSettings collect;
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
+    collect.said = &impl.said;
     collect.levels.frame = Internals::settingsOf(*this);
     svo::viewOfCamera(renderer, width, height, collect.levels.eye);
     frame.of->collect(impl.store, store, collect);
@@ -336,15 +340,11 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
   const vtkSmartPointer<vtkSVORenderPass> alive(this); // whatever observers do
   vtkRenderer* renderer = state->GetRenderer();
   this->NumberOfRenderedProps = 0;
-  // Otherwise a vtkCameraPass above has done it, or has its reasons.
-  const bool ownsCamera = renderer->GetPass() == this;
+  const svo::OwnCamera camera(state, this);
   if (renderer->GetSelector() || this->Impl->frameOf(renderer))
   {
-    if (ownsCamera)
-    {
-      renderer->GetRenderWindow()->MakeCurrent();
-      this->UpdateCamera(renderer);
-    }
+    renderer->GetRenderWindow()->MakeCurrent();
+    camera.setUp();
     this->UpdateLightGeometry(renderer);
     this->UpdateLights(renderer);
     this->UpdateGeometry(renderer, state->GetFrameBuffer());
@@ -355,7 +355,7 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
   int width, height;
   svo::sizeOf(state, width, height);
   svo::PassFrame& frame = this->BeginFrame(renderer);
-  if (!this->CollectFrame(frame, width, height, false, ownsCamera))
+  if (!this->CollectFrame(frame, width, height, &camera))
   {
     this->FinishFrame(frame);
     return;

@@ -32,9 +32,10 @@
  * Method: Huang and Cheng, "A Rendering Method Using Sparse Voxel Octrees in Dynamic Scenes",
  * 2017. The paper's Z-buffer tables ZBT and SZBT are the depth buffer and the shadow buffers here.
  *
- * The pass takes the place of VTK's default pipeline (renderer->SetPass(pass)) or the delegate of a
- * vtkCameraPass. It may be set on several renderers; statistics are those of the one rendered last.
- * A host that keeps the renderer's passes to itself, as ParaView does, calls Attach() instead.
+ * The pass takes the place of VTK's default pipeline (renderer->SetPass(pass)), or that of
+ * vtkRenderStepsPass in a chain of passes, inside a vtkCameraPass or without one. It may be set on
+ * several renderers; statistics are those of the one rendered last. A host that keeps the
+ * renderer's passes to itself, as ParaView does, calls Attach() instead.
  *
  * @sa vtkPolyDataToSVO vtkSparseVoxelOctree
  */
@@ -58,6 +59,7 @@ class vtkRenderer;
 #ifndef __VTK_WRAP__
 namespace svo
 {
+class OwnCamera;
 struct PassFrame;
 }
 #endif
@@ -551,7 +553,7 @@ private:
   void ForgetAttached(vtkObject* renderer, unsigned long event, void* data);
 #ifndef __VTK_WRAP__
   svo::PassFrame& BeginFrame(vtkRenderer* renderer);
-  bool CollectFrame(svo::PassFrame& frame, int width, int height, bool attached, bool ownsCamera);
+  bool CollectFrame(svo::PassFrame& frame, int width, int height, const svo::OwnCamera* camera);
   std::function<bool()> AbortOf(vtkRenderWindow* window, bool ask, bool& disturbed);
   void DecideSettings(svo::PassFrame& frame);
   void TraceFrame(svo::PassFrame& frame, int width, int height);

@@ -132,7 +132,7 @@ void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void
   renderer->GetTiledSizeAndOrigin(&width, &height, &left, &bottom);
   svo::PassFrame& frame = this->BeginFrame(renderer);
   frame.pass = this;
-  if (!this->CollectFrame(frame, width, height, true, false))
+  if (!this->CollectFrame(frame, width, height, nullptr))
   {
     this->FinishFrame(frame);
     return;

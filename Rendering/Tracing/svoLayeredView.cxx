@@ -72,6 +72,7 @@ void LayeredView::release()
   this->Layers.clear();
   this->Memory = 0;
   this->Began = false;
+  this->MergedWhole = false;
 }
 
 void LayeredView::dropLayers(LayerBudget& budget)
@@ -174,9 +175,29 @@ void LayeredView::prepare(const Scene& scene, const View& view, bool keep, Layer
   }
 }
 
+bool LayeredView::isMerged(const std::uint8_t* wanted)
+{
+  const std::size_t tiles =
+    static_cast<std::size_t>((this->Of.width + 7) / 8) * ((this->Of.height + 7) / 8);
+  const bool whole =
+    !wanted || std::all_of(wanted, wanted + tiles, [](std::uint8_t w) { return w != 0; });
+  bool kept = true;
+  std::vector<Part> parts;
+  for (const Entry& entry : this->Instances)
+  {
+    kept = kept && entry.layer;
+    parts.push_back({ entry.index, entry.key, this->Offsets[entry.index] });
+  }
+  const bool same = kept && whole && this->MergedWhole && sameRays(this->Of, this->MergedView) &&
+    parts == this->MergedParts;
+  this->MergedWhole = whole;
+  this->MergedView = this->Of;
+  this->MergedParts = std::move(parts);
+  return same;
+}
+
 void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* wanted)
 {
-  this->Merged.resize(this->Of.width, this->Of.height);
   this->Rays = 0;
   this->Retraced = 0;
   PixelRect all{ this->Of.width, this->Of.height, 0, 0 };
@@ -186,10 +207,6 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
     all = { std::min(all.x0, r.x0), std::min(all.y0, r.y0), std::max(all.x1, r.x1),
       std::max(all.y1, r.y1) };
   }
-  if (all.empty())
-  {
-    return;
-  }
   for (Entry& entry : this->Instances)
   {
     TileIntervals& intervals = entry.layer ? entry.layer->intervals : entry.intervals;
@@ -198,6 +215,16 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
       computeTileIntervals(*entry.octree, entry.key.localToWorld, this->Of, entry.local.rect,
         { entry.key.leafGeometry, entry.key.level }, entry.local.base, parallelFor, intervals);
     }
+  }
+  this->Changed = !this->isMerged(wanted);
+  if (!this->Changed)
+  {
+    return;
+  }
+  this->Merged.resize(this->Of.width, this->Of.height);
+  if (all.empty())
+  {
+    return;
   }
   const int tx0 = all.x0 / 8;
   const int tx1 = (all.x1 + 7) / 8;

@@ -147,8 +147,11 @@ public:
   }
 
   /// Traces and merges. With `wanted` (one byte a tile) only tiles marked there; a tile that is not
-  /// wanted is left without hits.
+  /// wanted is left without hits. What was merged last, of all tiles, stays where it would be the
+  /// same.
   void trace(const ParallelFor& parallelFor, const std::uint8_t* wanted);
+  /// False if the depth buffer is the one that it was before trace().
+  bool changed() const { return this->Changed; }
 
   /// Traces points of a tile, `count` times 64, through all instances; to be called after trace().
   void sample(int tileX, int tileY, Samples* samples, std::size_t count) const;
@@ -239,6 +242,8 @@ private:
   void merge(
     const Entry& entry, const float* t, const Primitive* primitive, MergedTile& merged) const;
   void traceTile(int tileX, int tileY, TileScratch& scratch);
+  /// True if Merged is what a frame's instances give; notes what it will be.
+  bool isMerged(const std::uint8_t* wanted);
 
   const bool Exact;
   View Of;
@@ -252,6 +257,21 @@ private:
   std::vector<std::uint8_t> Placed;
   std::unordered_map<std::uint64_t, Kept> Layers; // by Instance::id
   DepthBuffer Merged;
+  /// What Merged shows, seen by MergedView; true of all tiles if MergedWhole.
+  struct Part
+  {
+    std::uint32_t index;
+    LayerKey key;
+    double offset;
+    bool operator==(const Part& other) const
+    {
+      return index == other.index && key == other.key && offset == other.offset;
+    }
+  };
+  std::vector<Part> MergedParts;
+  View MergedView;
+  bool MergedWhole = false;
+  bool Changed = true;
   std::uint64_t Rays = 0;
   std::uint64_t Retraced = 0;
   std::size_t Memory = 0;

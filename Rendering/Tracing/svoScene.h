@@ -97,7 +97,7 @@ struct Light
     Spot
   };
   Kind kind = Kind::Directional;
-  bool headlight = false;           // at the eye, along the view axis: VTK shades it by n.z alone
+  bool headlight = false;           // at the eye, along the view axis
   glm::dvec3 position{ 0.0 };       // world
   glm::dvec3 direction{ 0, 0, -1 }; // world, unit, the way the light shines
   double coneAngle = 90.0;          // half angle, degrees
@@ -119,7 +119,8 @@ struct Scene
 {
   std::vector<Instance> instances;
   std::vector<Receiver> receivers;
-  std::vector<Light> lights; // only those that are switched on, in the renderer's order
+  std::vector<Light> lights;  // only those that are switched on, in the renderer's order
+  bool onlyHeadlight = false; // VTK shades by the headlight alone; lights that are off count, too
 };
 }
 

@@ -41,8 +41,8 @@ struct Arriving
   float specular; // times the light's colour
 };
 
-/// `normal` and `position` in view space. `onlyHeadlight`: the scene's one light is a headlight,
-/// for which VTK has a shorter formula with another highlight.
+/// `normal` and `position` in view space. `onlyHeadlight`: VTK shades the scene by its headlight
+/// alone, for which it has a shorter formula with another highlight.
 inline Arriving arriving(const ViewLight& l, const glm::vec3& normal, const glm::vec3& position,
   const Material& material, bool onlyHeadlight)
 {
@@ -91,7 +91,7 @@ struct Lighting
   glm::mat3 rotation{ 1.0f };
 
   Lighting(const Scene& scene, const View& view)
-    : onlyHeadlight(scene.lights.size() == 1 && scene.lights[0].headlight)
+    : onlyHeadlight(scene.onlyHeadlight)
     , worldToView(view.worldToView)
     , rotation(view.worldToView)
   {

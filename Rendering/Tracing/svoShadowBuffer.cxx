@@ -31,6 +31,10 @@ void ShadowBuffer::begin(const Scene& scene, const LightMaps& maps, std::size_t 
   {
     Face& face = *this->Faces[i];
     face.view = views[i];
+    if (face.shared.merged() || !settings.wholeShadowBuffers)
+    {
+      face.copied.reset();
+    }
     face.shared.clear();
     face.worldToClip = face.view.viewToClip * face.view.worldToView;
     face.edge = TexelEdge(face.view);
@@ -193,6 +197,10 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
       wanted[i] = face->wanted[i].load(std::memory_order_relaxed);
     }
     face->layers.trace(parallelFor, wanted.data());
+    if (face->layers.changed())
+    {
+      face->copied.reset();
+    }
   }
 }
 
@@ -220,6 +228,7 @@ void ShadowBuffer::merge(Processes& processes, std::size_t first)
   {
     face->shared.merge(processes, face->view, face->layers, first);
     face->seesCasters = face->shared.bytes() > 0;
+    face->copied.reset();
   }
 }
 
@@ -371,33 +380,41 @@ double ShadowBuffer::texelEdge(const glm::dvec3& position) const
   return this->lookUp(position, place) ? place.face->edge(place.t) : 0.0;
 }
 
-void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps) const
+std::shared_ptr<const std::vector<float>> ShadowBuffer::Face::copyDepth(double base) const
+{
+  auto copy = std::make_shared<std::vector<float>>(
+    static_cast<std::size_t>(this->view.width) * this->view.height,
+    std::numeric_limits<float>::infinity());
+  const DepthBuffer& depth = this->layers.depthBuffer();
+  for (int y = 0; this->seesCasters && y < this->view.height; ++y)
+  {
+    float* row = copy->data() + static_cast<std::size_t>(y) * this->view.width;
+    for (int x = 0; x < this->view.width; ++x)
+    {
+      std::uint32_t caster;
+      double t;
+      if (this->occluder(depth.at(x, y), caster, t))
+      {
+        row[x] = static_cast<float>(t - base);
+      }
+    }
+  }
+  return copy;
+}
+
+void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps)
 {
   for (const auto& face : this->Faces)
   {
     ShadowMap map;
     map.light = light;
     map.view = face->view;
-    const DepthBuffer& depth = face->layers.depthBuffer();
     map.base = std::max(face->view.tNear, 0.0);
-    map.depth.assign(static_cast<std::size_t>(face->view.width) * face->view.height,
-      std::numeric_limits<float>::infinity());
-    if (face->seesCasters)
+    if (!face->copied)
     {
-      for (int y = 0; y < face->view.height; ++y)
-      {
-        for (int x = 0; x < face->view.width; ++x)
-        {
-          std::uint32_t caster;
-          double t;
-          if (face->occluder(depth.at(x, y), caster, t))
-          {
-            map.depth[static_cast<std::size_t>(y) * face->view.width + x] =
-              static_cast<float>(t - map.base);
-          }
-        }
-      }
+      face->copied = face->copyDepth(map.base);
     }
+    map.depth = face->copied;
     for (double error : this->CasterError)
     {
       map.worldBias = std::max(map.worldBias, error);

@@ -92,7 +92,7 @@ public:
   /// The shorter edge of a texel at a point, world; 0 outside of the map.
   double texelEdge(const glm::dvec3& position) const;
 
-  void copyMaps(int light, std::vector<ShadowMap>& maps) const;
+  void copyMaps(int light, std::vector<ShadowMap>& maps);
   void release();
 
   std::uint64_t rays() const;
@@ -109,6 +109,9 @@ private:
     SharedDepth shared; // with other processes' casters; takes the place of the layers' depths
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile
     bool seesCasters = false;
+    std::shared_ptr<const std::vector<float>> copied; // ShadowMap::depth; null: it has changed
+
+    std::shared_ptr<const std::vector<float>> copyDepth(double base) const;
 
     /// What lies at a texel (index as DepthBuffer::at): false if nothing.
     bool occluder(std::size_t at, std::uint32_t& caster, double& t) const

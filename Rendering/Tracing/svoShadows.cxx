@@ -221,7 +221,6 @@ void Shadows::addStatistics(FrameStatistics& statistics) const
 {
   statistics.coarsestTexel = this->CoarsestTexel;
   statistics.shadowResolution = this->Resolution;
-  statistics.mergedShadows = this->Traced && !this->Shared.empty();
   for (const ShadowBuffer* buffer : this->Buffers)
   {
     if (buffer && this->Traced)
@@ -232,7 +231,7 @@ void Shadows::addStatistics(FrameStatistics& statistics) const
   }
 }
 
-void Shadows::copyMaps(std::vector<ShadowMap>& maps) const
+void Shadows::copyMaps(std::vector<ShadowMap>& maps)
 {
   for (std::size_t i = 0; i < this->Buffers.size(); ++i)
   {

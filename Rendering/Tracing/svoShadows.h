@@ -86,7 +86,7 @@ public:
     double error, double extent, std::uint64_t& rays) const;
 
   void addStatistics(FrameStatistics& statistics) const;
-  void copyMaps(std::vector<ShadowMap>& maps) const;
+  void copyMaps(std::vector<ShadowMap>& maps);
   /// Bytes of all kept layers.
   std::size_t layerMemory() const;
   void release();

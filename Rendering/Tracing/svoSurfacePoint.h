@@ -172,6 +172,13 @@ inline SurfacePoint pointOfTriangle(const SurfaceFrame& frame, const glm::dvec3&
   return point;
 }
 
+/// Turns the normal of a point to the side that VTK's shaders light, where that is not the one that
+/// its ray sees: VTK's rule for facets without normals knows nothing of sheared projections, and
+/// the rule for others calls the front of a mirrored picture its back. Only for views that are not
+/// plain, and not for points without a surface.
+VTKSVOTRACING_EXPORT void turnAsShaders(
+  const SurfaceFrame& frame, const View& view, SurfacePoint& point);
+
 /// The triangle of a hit at `position`, and where on it to interpolate; `towards`, to the viewer:
 /// world. The octree has a surface.
 inline NodeTriangle triangleOfHit(const SurfaceFrame& frame, const glm::dvec3& position,
@@ -203,7 +210,12 @@ inline SurfacePoint surfacePoint(
     return pointOfTriangle(frame, position, towards, primitive, frame.toOctree.point(position));
   }
   const NodeTriangle hit = triangleOfHit(frame, position, towards, primitive);
-  return pointOfTriangle(frame, position, towards, hit.triangle, hit.at);
+  SurfacePoint point = pointOfTriangle(frame, position, towards, hit.triangle, hit.at);
+  if (!view.plain)
+  {
+    turnAsShaders(frame, view, point);
+  }
+  return point;
 }
 }
 

@@ -4,7 +4,8 @@
 
 namespace svo
 {
-void lookAtNodes(const SurfaceFrame& frame, int firstRun, int lastRun, TilePoints& p)
+void lookAtNodes(
+  const SurfaceFrame& frame, const View& view, int firstRun, int lastRun, TilePoints& p)
 {
   NodeTriangle picked[TilePoints::Most];
   NodeTriangle* doubtful[TilePoints::Most];
@@ -38,8 +39,11 @@ void lookAtNodes(const SurfaceFrame& frame, int firstRun, int lastRun, TilePoint
   each(
     [&](TilePoints::Run& run, int i, const glm::dvec3& position, const glm::vec3& to)
     {
-      const SurfacePoint point =
-        pointOfTriangle(frame, position, to, picked[i].triangle, picked[i].at);
+      SurfacePoint point = pointOfTriangle(frame, position, to, picked[i].triangle, picked[i].at);
+      if (!view.plain)
+      {
+        turnAsShaders(frame, view, point);
+      }
       p.set(i, point);
       run.hasColor = point.hasColor;
     });

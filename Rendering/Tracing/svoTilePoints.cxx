@@ -256,6 +256,22 @@ void lookAtEach(const SurfaceFrame& frame, const View& view, TilePoints::Run& ru
   }
 }
 
+/// turnAsShaders() of all points.
+void turnRun(const SurfaceFrame& frame, const View& view, const TilePoints::Run& run, TilePoints& p)
+{
+  for (int i = run.first; !view.plain && i < run.last; ++i)
+  {
+    SurfacePoint point;
+    point.position = { p.positionX[i], p.positionY[i], p.positionZ[i] };
+    point.facet = { p.facetX[i], p.facetY[i], p.facetZ[i] };
+    point.normal = { p.normalX[i], p.normalY[i], p.normalZ[i] };
+    turnAsShaders(frame, view, point);
+    p.normalX[i] = point.normal.x;
+    p.normalY[i] = point.normal.y;
+    p.normalZ[i] = point.normal.z;
+  }
+}
+
 void setColor(TilePoints& p, int i, const glm::vec3& color)
 {
   p.colorR[i] = color.r;
@@ -333,6 +349,7 @@ void lookAtRun(const SurfaceFrame& frame, const View& view, TilePoints::Run& run
       return;
     }
   }
+  turnRun(frame, view, run, p);
   run.hasColor = texture || pointColors || cellColors;
   if (texture)
   {
@@ -396,7 +413,7 @@ void lookAtPoints(const std::vector<SurfaceFrame>& frames, const View& view, Til
     }
     if (nodes)
     {
-      lookAtNodes(frame, first, k, points);
+      lookAtNodes(frame, view, first, k, points);
     }
   }
 }

@@ -73,8 +73,7 @@ struct FrameStatistics
   /// How wide the texels of a shadow map may look that was fitted to what is seen, pixels; 0: of
   /// none.
   double coarsestTexel = 0.0;
-  int shadowResolution = 0;   // texels, of the shadow maps; 0 without any
-  bool mergedShadows = false; // shadow buffers were merged with other processes' anew
+  int shadowResolution = 0; // texels, of the shadow maps; 0 without any
 };
 
 /// A finished shadow buffer, for rasterised receivers. One per map: a point light whose casters
@@ -84,8 +83,9 @@ struct ShadowMap
   int light = 0; // index into Scene::lights
   View view;     // of the light; width = height = resolution
   /// Linear depth of the nearest caster minus `base`, row by row; infinity where there is none.
+  /// From frame to frame the same object as long as the values are the same.
   double base = 0.0;
-  std::vector<float> depth;
+  std::shared_ptr<const std::vector<float>> depth;
   double worldBias = 0.0;   // what a receiver that does not know who casts should add, world units
   double casterVoxel = 0.0; // of the coarsest caster, world units
 };

@@ -75,6 +75,12 @@ bool makeView(
   view.worldToView = worldToView;
   view.viewToClip = viewToClip;
   view.parallel = wt == 0.0;
+  view.mirrored = determinant < 0.0;
+  view.facetsFaceAxis = view.parallel;
+  const glm::dvec2 none(0.0);
+  view.plain = !view.mirrored && (view.parallel ? d == none : o == none && w0 == 0.0);
+  view.eye = point(none);
+  view.axis = vector(none, -1.0);
   view.origin = point(o - ou - ov);
   view.originX = vector(ou * su, 0.0);
   view.originY = vector(ov * sv, 0.0);

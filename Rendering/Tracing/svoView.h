@@ -32,6 +32,14 @@ struct VTKSVOTRACING_EXPORT View
   glm::dmat4 viewToClip{ 1.0 };  // OpenGL clip space, z in [-w, w]
   bool parallel = false;
 
+  /// Rays come from the eye, or go along the axis, and front faces are wound to the left, as in all
+  /// common projections: the side of a facet that rays see is the one that VTK's shaders light.
+  bool plain = true;
+  bool mirrored = false;       // front faces are wound to the right, so VTK lights their backs
+  bool facetsFaceAxis = false; // facets without normals are lit as they face the axis, not the eye
+  glm::dvec3 eye{ 0.0 };       // origin of view space, world
+  glm::dvec3 axis{ 0, 0, -1.0 }; // the way it looks, world
+
   glm::dvec3 rayOrigin(double x, double y) const { return origin + x * originX + y * originY; }
   glm::dvec3 rayDirection(double x, double y) const
   {

@@ -1,10 +1,13 @@
 // VTK's own effects go on working around traced surfaces: ambient occlusion, depth peeling, FXAA.
+// The renderer's switches act as they do without a pass.
 #include "svoTestStage.h"
 
 #include "vtkProperty.h"
 
+#include <cmath>
 #include <functional>
 #include <iostream>
+#include <string>
 
 int TestSVOEffects(int, char*[])
 {
@@ -52,6 +55,17 @@ int TestSVOEffects(int, char*[])
     const Picture shadowed = stage.shadowed();
     stage.usePass(false);
     const Picture raster = capture(stage.window);
+    if (effect.name == std::string("FXAA"))
+    {
+      stage.renderer->UseFXAAOff();
+      const double smoothed = difference(raster, capture(stage.window)).mean;
+      stage.usePass(true);
+      const double tracedSmoothed = difference(traced, stage.unshadowed()).mean;
+      stage.renderer->UseFXAAOn();
+      std::cout << "FXAA changes " << smoothed << ", traced " << tracedSmoothed << '\n';
+      checks.expect(std::abs(smoothed - tracedSmoothed) < 0.05 * smoothed,
+        "the renderer's FXAA acts as without the pass");
+    }
     const Difference look = difference(raster, traced, awayFromEdges(raster, 3));
     std::cout << effect.name << ": mean " << look.mean << ", p99 " << look.p99 << " of "
               << look.pixels << " pixels\n";

@@ -1,5 +1,6 @@
 // Without shadows a traced surface looks as VTK's rasteriser draws it: interpolation, highlights,
-// ambient light, unlit surfaces, and the depth it leaves behind.
+// ambient light, unlit surfaces, and the depth it leaves behind. A headlight's highlight is another
+// one beside other lights, also of such that are off.
 #include "svoTestStage.h"
 
 #include "vtkProperty.h"
@@ -8,11 +9,63 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <string>
+
+namespace
+{
+using namespace svoTest;
+
+void expectHeadlight(Checks& checks)
+{
+  struct Other
+  {
+    const char* name;
+    bool first, positional;
+  };
+  for (const Other& other : { Other{ "no other light", false, false },
+         Other{ "a light that is off before it", true, false },
+         Other{ "a light that is off behind it", false, false },
+         Other{ "a lamp that is off before it", true, true },
+         Other{ "a lamp that is off behind it", false, true } })
+  {
+    Stage stage;
+    vtkProperty* shining = stage.add(ball(1.0, 0.8, 0.0, 0.5), 0.9, 0.5, 0.3)->GetProperty();
+    shining->SetSpecular(0.9);
+    shining->SetSpecularPower(20.0);
+    const auto addHeadlight = [&]
+    {
+      vtkNew<vtkLight> light;
+      light->SetLightTypeToHeadlight();
+      stage.renderer->AddLight(light);
+    };
+    if (!other.first)
+    {
+      addHeadlight();
+    }
+    if (other.name != std::string("no other light"))
+    {
+      vtkLight* off = other.positional ? stage.addBulb(3.0, 3.0, 3.0) : stage.addSun(1.0, 2.0, 3.0);
+      off->SwitchOff();
+    }
+    if (other.first)
+    {
+      addHeadlight();
+    }
+    const Picture traced = stage.unshadowed();
+    stage.usePass(false);
+    const Picture raster = capture(stage.window);
+    const Difference d = difference(raster, traced, awayFromEdges(raster, 2));
+    std::cout << "a headlight and " << other.name << ": mean " << d.mean << ", p99 " << d.p99
+              << ", largest " << d.largest << '\n';
+    checks.expect(d.mean <= 0.5 && d.largest <= 3, std::string("a headlight and ") + other.name);
+  }
+}
+}
 
 int TestSVOLook(int, char*[])
 {
-  using namespace svoTest;
   Checks checks;
+  expectHeadlight(checks);
   struct Look
   {
     const char* name;

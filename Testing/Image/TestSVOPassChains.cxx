@@ -1,14 +1,20 @@
 // Chains of VTK's render passes around this one: what they make of traced surfaces is what they
-// make of rasterised ones.
+// make of rasterised ones. Without a camera's pass in a chain vtkRenderStepsPass is compared with,
+// which brings its own.
 #include "svoTestStage.h"
 
 #include "vtkCameraPass.h"
 #include "vtkCullerCollection.h"
+#include "vtkEDLShading.h"
+#include "vtkGaussianBlurPass.h"
 #include "vtkLightsPass.h"
 #include "vtkOpaquePass.h"
+#include "vtkOpenGLFXAAPass.h"
 #include "vtkPanoramicProjectionPass.h"
 #include "vtkProperty.h"
 #include "vtkRenderPassCollection.h"
+#include "vtkRenderStepsPass.h"
+#include "vtkSSAAPass.h"
 #include "vtkSSAOPass.h"
 #include "vtkSequencePass.h"
 #include "vtkToneMappingPass.h"
@@ -55,6 +61,26 @@ PassPointer withPanorama(vtkRenderPass* inner)
   return panorama;
 }
 
+// A pass that draws into a framebuffer of its own.
+template <class Pass>
+PassPointer within(vtkRenderPass* inner)
+{
+  auto pass = vtkSmartPointer<Pass>::New();
+  pass->SetDelegatePass(inner);
+  return pass;
+}
+
+PassPointer inSequence(vtkRenderPass* inner)
+{
+  vtkNew<vtkRenderPassCollection> steps;
+  vtkNew<vtkLightsPass> lights;
+  steps->AddItem(lights);
+  steps->AddItem(inner);
+  auto sequence = vtkSmartPointer<vtkSequencePass>::New();
+  sequence->SetPasses(steps);
+  return sequence;
+}
+
 // What VTK draws of opaque surfaces.
 PassPointer rasteriser()
 {
@@ -78,6 +104,7 @@ int TestSVOPassChains(int, char*[])
     const char* name;
     double intensity; // of the light
     std::function<PassPointer(vtkRenderPass*)> around;
+    bool steps = false; // no camera's pass: compared with vtkRenderStepsPass
   };
   const Chain chains[] = {
     { "camera", 1.0, [](vtkRenderPass* inner) { return withCamera(inner); } },
@@ -94,6 +121,18 @@ int TestSVOPassChains(int, char*[])
     { "tone mapping around occlusion", 4.0,
       [](vtkRenderPass* inner) { return withToneMapping(withOcclusion(withCamera(inner))); } },
     { "a panorama", 1.0, [](vtkRenderPass* inner) { return withPanorama(withCamera(inner)); } },
+    { "occlusion alone", 1.0, withOcclusion, true },
+    { "tone mapping alone", 4.0, withToneMapping, true },
+    { "a panorama alone", 1.0, withPanorama, true },
+    { "supersampling alone", 1.0, within<vtkSSAAPass>, true },
+    { "supersampled occlusion alone", 1.0,
+      [](vtkRenderPass* inner) { return within<vtkSSAAPass>(withOcclusion(inner)); }, true },
+    { "FXAA alone", 1.0, within<vtkOpenGLFXAAPass>, true },
+    { "eye dome lighting alone", 1.0, within<vtkEDLShading>, true },
+    { "blur alone", 1.0, within<vtkGaussianBlurPass>, true },
+    { "a sequence alone", 1.0, inSequence, true },
+    { "a blurred sequence alone", 1.0,
+      [](vtkRenderPass* inner) { return within<vtkGaussianBlurPass>(inSequence(inner)); }, true },
   };
   for (const Chain& chain : chains)
   {
@@ -121,7 +160,10 @@ int TestSVOPassChains(int, char*[])
         pass->ReleaseGraphicsResources(stage.window);
         return picture;
       };
-      const Picture raster = shownBy(rasteriser());
+      vtkNew<vtkRenderStepsPass> steps;
+      vtkRenderPass* const whole = steps;
+      const PassPointer opaque = rasteriser();
+      const Picture raster = shownBy(chain.steps ? whole : opaque.Get());
       const Picture traced = shownBy(stage.pass);
       checks.expect(stage.pass->GetNumberOfTracedActors() == 3 &&
           stage.pass->GetNumberOfRasterizedActors() == 1,

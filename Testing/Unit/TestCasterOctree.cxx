@@ -48,7 +48,7 @@ void expectSame(const std::vector<svo::ShadowMap>& a, const std::vector<svo::Sha
     EXPECT_EQ(a[i].view.worldToView, b[i].view.worldToView);
     EXPECT_EQ(a[i].view.viewToClip, b[i].view.viewToClip);
     EXPECT_EQ(a[i].base, b[i].base);
-    EXPECT_EQ(a[i].depth, b[i].depth);
+    EXPECT_EQ(*a[i].depth, *b[i].depth);
     EXPECT_EQ(a[i].worldBias, b[i].worldBias);
   }
 }
@@ -85,7 +85,7 @@ TEST(CasterOctree, WithoutOneTheLightsSeeWhatTheEyeSees)
   lit.scene.instances[0].casterOctree = svo::Octree();
   expectSame(given, mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120)));
   lit.scene.instances[0].octree = lit.fine;
-  EXPECT_NE(given[0].depth, mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120))[0].depth);
+  EXPECT_NE(*given[0].depth, *mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120))[0].depth);
 }
 
 TEST(CasterOctree, DeepeningRetracesTheEyesLayerAlone)

@@ -91,7 +91,7 @@ TEST(Shading, AHeadlightAloneUsesTheNormalsZ)
 {
   svo::Scene scene;
   scene.lights.push_back(lightTowards({ 0, 0, -1 }));
-  scene.lights[0].headlight = true;
+  scene.onlyHeadlight = true;
   const svo::Instance instance = shiny();
   // normal (0.6, 0, 0.8): df = 0.8, sf = 0.8^3 = 0.512
   expectColor(colorOf(scene, instance, pointFacing({ 0.6f, 0.0f, 0.8f })),

@@ -296,13 +296,59 @@ TEST(ShadowBuffer, WholeBuffersGiveTheSameBitsAndAreHandedOut)
     for (const svo::ShadowMap& map : whole.shadowMaps())
     {
       EXPECT_EQ(map.light, 0);
-      ASSERT_EQ(map.depth.size(), 64u * 64u);
-      for (float depth : map.depth)
+      ASSERT_EQ(map.depth->size(), 64u * 64u);
+      for (float depth : *map.depth)
       {
         occupied += std::isfinite(depth) && depth >= 0.0f;
       }
     }
     EXPECT_GT(occupied, 500) << c.name;
+  }
+}
+
+// Who sends them to a GPU tells by the object whether they are others than last time.
+TEST(ShadowBuffer, MapsAreKeptAsLongAsNothingTheyShowChanges)
+{
+  for (const LightCase& c : everyLight())
+  {
+    svo::Scene scene = ballOnGround(svo::LeafGeometry::Automatic, 6);
+    scene.lights = { c.light };
+    svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
+    settings.shadowResolution = 64;
+    settings.wholeShadowBuffers = true;
+    svo::Tracer tracer;
+    const auto shown = [&](const svo::View& eye)
+    {
+      svo::Tracer fresh;
+      const svo::Frame expected = rendered(fresh, scene, eye, settings);
+      EXPECT_TRUE(identical(expected, rendered(tracer, scene, eye, settings))) << c.name;
+      const std::vector<svo::ShadowMap> maps = tracer.shadowMaps();
+      EXPECT_EQ(maps.size(), fresh.shadowMaps().size());
+      for (std::size_t i = 0; i < maps.size(); ++i)
+      {
+        EXPECT_EQ(*maps[i].depth, *fresh.shadowMaps()[i].depth) << c.name;
+      }
+      return maps.front().depth;
+    };
+    const svo::View aside = lookAt({ 1, -7, 4 }, 160, 120);
+    const auto first = shown(Eye);
+    EXPECT_EQ(shown(aside), first) << c.name << ": the eye moves";
+    EXPECT_EQ(shown(Eye), first);
+    const svo::Scene both = scene;
+    scene.instances.erase(scene.instances.begin());
+    const auto without = shown(Eye);
+    EXPECT_NE(without, first) << c.name << ": a caster goes";
+    EXPECT_EQ(shown(aside), without);
+    scene = both;
+    EXPECT_NE(shown(Eye), without) << c.name << ": it comes back";
+    scene.instances.back().localToWorld[3].z += 0.1;
+    EXPECT_NE(shown(Eye), first) << c.name << ": one moves";
+    shown(Eye);
+    tracer.releaseLayers();
+    shown(Eye);
+    settings.frameCoherence = false;
+    shown(aside);
+    shown(Eye);
   }
 }
 

@@ -209,11 +209,11 @@ TEST(SharedShadows, AProcessWithoutInstancesHasTheWholeMaps)
   const svo::ShadowMap& found = group.Tracers[4].shadowMaps()[0];
   EXPECT_EQ(found.worldBias, expected.worldBias);
   std::size_t casters = 0;
-  for (std::size_t i = 0; i < expected.depth.size(); ++i)
+  for (std::size_t i = 0; i < expected.depth->size(); ++i)
   {
-    casters += expected.depth[i] < 1e30f;
-    ASSERT_TRUE(
-      found.depth[i] == expected.depth[i] || std::abs(found.depth[i] - expected.depth[i]) < 1e-6f)
+    casters += (*expected.depth)[i] < 1e30f;
+    ASSERT_TRUE((*found.depth)[i] == (*expected.depth)[i] ||
+      std::abs((*found.depth)[i] - (*expected.depth)[i]) < 1e-6f)
       << i;
   }
   EXPECT_GT(casters, 1000u);

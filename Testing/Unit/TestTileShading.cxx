@@ -306,7 +306,7 @@ TEST(TileShading, ColoursUnderAHeadlightAloneAreThoseOfShade)
   Stage stage;
   stage.trace(7);
   stage.scene.lights.resize(1);
-  stage.scene.lights[0].headlight = true;
+  stage.scene.onlyHeadlight = true;
   compareLighting(stage);
 }
 
