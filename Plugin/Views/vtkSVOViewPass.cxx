@@ -9,14 +9,14 @@
 #include "vtkPVRenderView.h"
 #include "vtkPVSynchronizedRenderer.h"
 #include "vtkRenderer.h"
-#include "vtkSVORenderPass.h"
+#include "vtkSVOViewRenderPass.h"
 #include "vtkSynchronizedRenderers.h"
 
 vtkStandardNewMacro(vtkSVOViewPass);
 vtkInformationKeyMacro(vtkSVOViewPass, VIEW_PASS, ObjectBase);
 
 vtkSVOViewPass::vtkSVOViewPass()
-  : Pass(vtkSVORenderPass::New())
+  : Pass(vtkSVOViewRenderPass::New())
 {
 }
 

@@ -151,8 +151,7 @@ std::string PassRenderer::lostShadows(const FrameSettings& settings) const
     return "The texels of a shadow map look more than 32 pixels wide, even where it is fitted to "
            "what is seen. Raise ShadowBufferResolution, or take ShadowRays.";
   }
-  const int resolution = this->Statistics.tracer.shadowResolution;
-  if (resolution > 0 && resolution < settings.shadowResolution)
+  if (this->Statistics.tracer.fewerTexels)
   {
     return "Shadow maps have fewer texels than ShadowBufferResolution asks for: all of them would "
            "take more than 4 GiB.";

@@ -147,19 +147,14 @@ vtkPolyData* SceneCollector::casterOf(const SurfacePart& part, OpaqueCells::Answ
         : opaque.mesh                    ? "is invisible in parts"
                                          : "is invisible");
   }
-  if (opaque.translucent)
+  // Who makes all of a surface translucent sees at once what becomes of its shadow.
+  if (opaque.translucent && part.opacity >= 1.0 && !actor->GetForceTranslucent())
   {
-    this->complainOnce(nullptr,
-      "A surface, or some cells of it, cast no shadow because opacity, colours or texture make "
-      "them translucent. SetCastShadow(true, prop) has all of it cast, false none and in silence.",
-      frame);
+    this->complainOnce(nullptr, frame.settings.translucentText, frame);
   }
   else if (opaque.mesh && texture == TextureAlpha::CutOut)
   {
-    this->complainOnce(nullptr,
-      "A surface casts the shadow of its whole cells although its texture hides parts of them. "
-      "SetCastShadow(true, prop) says that this is meant, false takes the shadow away.",
-      frame);
+    this->complainOnce(nullptr, frame.settings.cutOutText, frame);
   }
   return opaque.mesh;
 }

@@ -39,6 +39,9 @@ struct CollectSettings
   bool onlyMarked = false;
   LevelSettings levels;
   std::set<std::string>* said = nullptr; // by the pass, about no object in particular
+  /// What to say of cells that cast nothing, or more than there is to see.
+  std::string translucentText;
+  std::string cutOutText;
 };
 
 /// A frame's scene and what it means for the renderer's props.

@@ -74,13 +74,15 @@ constexpr double InteractiveRate = 1.0; // Hz
 /// Share of an interactive frame's time that is the pass's; the rest is for what else is drawn.
 constexpr double OwnShare = 0.5;
 
-std::string describeLights(const std::vector<svo::Light>& lights)
+/// In the words that `nameOf` finds for headlights.
+template <class NameOf>
+std::string describeLights(const std::vector<svo::Light>& lights, const NameOf& nameOf)
 {
   std::string text;
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
     const svo::Light& light = lights[i];
-    const char* kind = light.headlight        ? "headlight"
+    const std::string kind = light.headlight  ? nameOf(reinterpret_cast<vtkLight*>(light.id))
       : light.kind == svo::Light::Kind::Point ? "point"
       : light.kind == svo::Light::Kind::Spot  ? "spot"
                                               : "directional";
@@ -188,6 +190,8 @@ bool vtkSVORenderPass::CollectFrame(
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
     collect.said = &impl.said;
+    collect.translucentText = this->GetText(TEXT_TRANSLUCENT, nullptr);
+    collect.cutOutText = this->GetText(TEXT_CUT_OUT, nullptr);
     collect.levels.frame = Internals::settingsOf(*this);
     svo::viewOfCamera(renderer, width, height, collect.levels.eye);
     frame.of->collect(impl.store, store, collect);
@@ -200,14 +204,13 @@ bool vtkSVORenderPass::CollectFrame(
   }
   renderer->GetRenderWindow()->MakeCurrent(); // pipelines may have had others drawn
   const svo::CollectedScene& collected = frame.of->collected();
-  impl.castingLights = describeLights(collected.scene.lights);
+  impl.castingLights = describeLights(collected.scene.lights,
+    [this](vtkLight* light) { return this->GetText(TEXT_HEADLIGHT, light); });
   if (collected.headlightOnly && !impl.saidHeadlight && this->ShadowTechnique != SHADOW_NONE &&
     (!attached || !collected.scene.instances.empty()))
   {
     impl.saidHeadlight = true;
-    frame.messages.emplace_back(
-      "No shadows: the only light is a headlight, which casts none that can be seen. "
-      "Add a vtkLight with SetLightTypeToSceneLight().");
+    frame.messages.push_back(this->GetText(TEXT_ONLY_HEADLIGHTS, nullptr));
   }
   this->DecideSettings(frame);
   return true;
@@ -308,7 +311,32 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   }
   for (const std::string& message : frame.messages)
   {
-    vtkWarningMacro(<< message);
+    if (!message.empty())
+    {
+      vtkWarningMacro(<< message);
+    }
+  }
+}
+
+std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
+{
+  switch (text)
+  {
+    case TEXT_HEADLIGHT:
+      return "headlight";
+    case TEXT_ONLY_HEADLIGHTS:
+      return "No shadows: the only light is a headlight, which casts none that can be seen. "
+             "Add a vtkLight with SetLightTypeToSceneLight().";
+    case TEXT_TRANSLUCENT:
+      return "A surface, or some cells of it, cast no shadow because colours or texture make them "
+             "translucent. SetCastShadow(true, prop) has all of it cast, false none and in "
+             "silence.";
+    case TEXT_CUT_OUT:
+      return "A surface casts the shadow of its whole cells although its texture hides parts of "
+             "them. SetCastShadow(true, prop) says that this is meant, false takes the shadow "
+             "away.";
+    default:
+      return std::string();
   }
 }
 

@@ -521,6 +521,24 @@ protected:
    */
   virtual void MeasureFrame(double& seconds, double& fixedSeconds) const;
 
+  /**
+   * What the pass says that only the host's own words make sense of, because it asks for something
+   * to be done or names what the host gave another name.
+   */
+  enum TextType
+  {
+    TEXT_HEADLIGHT = 0,       // what a headlight is called, in GetCastingLights()
+    TEXT_ONLY_HEADLIGHTS = 1, // there are no shadows, because no other lights are on
+    TEXT_TRANSLUCENT = 2,     // cells of a surface cast none, because they are translucent
+    TEXT_CUT_OUT = 3          // cells cast their whole shadows, although a texture hides parts
+  };
+
+  /**
+   * The text, for programmers. For a subclass to override whose users set the scene up otherwise
+   * than by calls; an empty message is not given. `about` is the light, or nullptr.
+   */
+  virtual std::string GetText(int text, vtkLight* about) const;
+
   int Backend = BACKEND_AUTO;
   int ShadowTechnique = SHADOW_BUFFER;
   int ShadowBufferResolution = 2048;

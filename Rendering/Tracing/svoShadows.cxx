@@ -52,6 +52,7 @@ void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
 {
   this->CoarsestTexel = 0.0;
   this->Resolution = 0;
+  this->Fewer = false;
   this->Traced = true;
   this->Buffers.assign(lights.size(), nullptr);
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> kept;
@@ -74,6 +75,8 @@ void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
     buffer->begin(scene, maps[i], first, settings, budget);
     this->CoarsestTexel = std::max(this->CoarsestTexel, maps[i].coarsest);
     this->Resolution = maps[i].views.empty() ? this->Resolution : maps[i].views.front().width;
+    this->Fewer = this->Fewer ||
+      (!maps[i].views.empty() && maps[i].views.front().width < settings.shadowResolution);
     this->Buffers[i] = buffer.get();
     if (this->All)
     {
@@ -221,6 +224,7 @@ void Shadows::addStatistics(FrameStatistics& statistics) const
 {
   statistics.coarsestTexel = this->CoarsestTexel;
   statistics.shadowResolution = this->Resolution;
+  statistics.fewerTexels = this->Fewer;
   for (const ShadowBuffer* buffer : this->Buffers)
   {
     if (buffer && this->Traced)

@@ -74,6 +74,7 @@ struct FrameStatistics
   /// none.
   double coarsestTexel = 0.0;
   int shadowResolution = 0; // texels, of the shadow maps; 0 without any
+  bool fewerTexels = false; // than were asked for, by all processes alike, for lack of memory
 };
 
 /// A finished shadow buffer, for rasterised receivers. One per map: a point light whose casters

@@ -85,6 +85,23 @@ class TestLook(unittest.TestCase):
         shadowed = scene.picture(self.view, "panorama-shadows")
         self.assertGreater(scene.differing(picture, shadowed, 20), 1e-3)
 
+    def test_a_comparative_view(self):
+        """ParaView shows none of the settings; those of the first view, from scripts, are those of all."""
+        comparative = pv.CreateView("ComparativeRenderView")
+        comparative.ViewSize, comparative.Dimensions = list(self.size), [2, 1]
+        for source in (scene.make_ball(), scene.make_ground()):
+            pv.Show(source, comparative).Representation = "SVO"
+        comparative.CameraPosition = [0.0, -5.0, 3.0]
+        comparative.CameraFocalPoint = [0.0, 0.0, 0.3]
+        comparative.CameraViewUp = [0.0, 0.0, 1.0]
+        shadowed = scene.picture(comparative, "comparative-shadows")
+        first = pv.servermanager._getPyProxy(comparative.GetRootView())
+        first.SVOShadowTechnique = "None"
+        plain = scene.picture(comparative, "comparative-plain")
+        half = shadowed.shape[1] // 2
+        for part in (slice(None, half), slice(half, None)):
+            self.assertGreater(scene.differing(shadowed[:, part], plain[:, part], 8), 0.005)
+
     def test_point_and_cell_colors(self):
         ball, _ = self.show(self.colored_ball(), scene.make_ground())
         plain = self.check("plain", traced=2)

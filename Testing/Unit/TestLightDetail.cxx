@@ -217,6 +217,7 @@ TEST(LightDetail, MapsOfAllLightsAreLimitedTogether)
   svo::Tracer tracer;
   svotest::rendered(tracer, scene, Eye, settings);
   EXPECT_EQ(tracer.statistics().shadowResolution, 1024); // one map
+  EXPECT_TRUE(tracer.statistics().fewerTexels);
 }
 
 TEST(ConvexParts, WhatBoxesHaveInCommon)

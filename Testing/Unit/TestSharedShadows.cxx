@@ -219,6 +219,26 @@ TEST(SharedShadows, AProcessWithoutInstancesHasTheWholeMaps)
   EXPECT_GT(casters, 1000u);
 }
 
+TEST(SharedShadows, TheFirstProcessSaysHowManyTexelsThereAre)
+{
+  svo::Scene scene = ballsOnGround();
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }) };
+  const svo::View eye = lookAt({ 1, -6, 4 }, 160, 120);
+  inProcesses(2,
+    [&](svo::Processes& processes)
+    {
+      // As where rays are further apart to save time, which each process measures for itself.
+      svo::FrameSettings settings = smallBuffers();
+      settings.shadowResolution = processes.self() == 0 ? 128 : 256;
+      const svo::Scene part = partOf(scene, processes.self(), 2);
+      svo::Tracer tracer;
+      EXPECT_TRUE(tracer.shareShadows(part, eye, settings, svo::serialFor, processes));
+      svo::Frame frame;
+      tracer.render(part, eye, settings, svo::serialFor, frame);
+      EXPECT_FALSE(tracer.statistics().fewerTexels) << "none is missing for lack of memory";
+    });
+}
+
 TEST(SharedShadows, ProcessesThatDisagreeAboutTheLightsKeepTheirOwn)
 {
   svo::Scene scene = ballsOnGround();

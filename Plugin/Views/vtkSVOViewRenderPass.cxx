@@ -1,0 +1,38 @@
+#include "vtkSVOViewRenderPass.h"
+
+#include "vtkObjectFactory.h"
+#include "vtkPVLight.h"
+
+vtkStandardNewMacro(vtkSVOViewRenderPass);
+
+vtkSVOViewRenderPass::vtkSVOViewRenderPass() = default;
+vtkSVOViewRenderPass::~vtkSVOViewRenderPass() = default;
+
+std::string vtkSVOViewRenderPass::GetText(int text, vtkLight* about) const
+{
+  switch (text)
+  {
+    case TEXT_HEADLIGHT:
+      // For the rasteriser ParaView makes a headlight of an ambient light, and nothing tells them
+      // apart. The light kit's own is another class.
+      return vtkPVLight::SafeDownCast(about) ? "headlight or ambient light" : "headlight";
+    case TEXT_ONLY_HEADLIGHTS:
+      // The light kit is on unless somebody switches it off, and lights that are added are of the
+      // scene: so it was chosen, and the view's Casting Lights tell what comes of it.
+      return std::string();
+    case TEXT_TRANSLUCENT:
+      return "A surface, or some cells of it, cast no shadow because colours or texture make them "
+             "translucent. Cast Shadows, of the surface's properties, switches the others' shadow "
+             "and this message off.";
+    case TEXT_CUT_OUT:
+      return "A surface casts the shadow of its whole cells although its texture hides parts of "
+             "them. Cast Shadows, of the surface's properties, switches the shadow off.";
+    default:
+      return this->Superclass::GetText(text, about);
+  }
+}
+
+void vtkSVOViewRenderPass::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}

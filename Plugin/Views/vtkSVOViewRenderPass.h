@@ -1,0 +1,31 @@
+/**
+ * @class vtkSVOViewRenderPass
+ * @brief a render pass that speaks to users of ParaView
+ *
+ * Its messages open a window, and ask for what can be done in ParaView's panels.
+ */
+#ifndef vtkSVOViewRenderPass_h
+#define vtkSVOViewRenderPass_h
+
+#include "vtkSVORenderPass.h"
+#include "vtkSVOViewsModule.h" // for the export macro
+
+class VTKSVOVIEWS_EXPORT vtkSVOViewRenderPass : public vtkSVORenderPass
+{
+public:
+  static vtkSVOViewRenderPass* New();
+  vtkTypeMacro(vtkSVOViewRenderPass, vtkSVORenderPass);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+protected:
+  vtkSVOViewRenderPass();
+  ~vtkSVOViewRenderPass() override;
+
+  std::string GetText(int text, vtkLight* about) const override;
+
+private:
+  vtkSVOViewRenderPass(const vtkSVOViewRenderPass&) = delete;
+  void operator=(const vtkSVOViewRenderPass&) = delete;
+};
+
+#endif

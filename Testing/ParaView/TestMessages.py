@@ -1,0 +1,66 @@
+"""Each message opens a window in ParaView: none comes of an ordinary click, and those that come ask for what
+ParaView's panels offer."""
+
+import unittest
+
+import paraview.simple as pv
+import scene
+from messages import Output
+
+
+class TestMessages(unittest.TestCase):
+    def setUp(self):
+        self.view = scene.make_view((300, 200))
+        self.sun = scene.add_sun(self.view)
+        scene.show(scene.make_ground(), self.view)
+
+    def tearDown(self):
+        pv.ResetSession()
+
+    def said(self, change):
+        """By two pictures after a change."""
+        with Output() as output:
+            change()
+            pv.Render(self.view)
+            pv.Render(self.view)
+        return output.messages()
+
+    def test_opacity(self):
+        ball = scene.show(scene.make_ball(), self.view)
+        pv.Render(self.view)
+        for opacity in (0.5, 0.3, 0.0, 1.0):
+            self.assertEqual(self.said(lambda: setattr(ball, "Opacity", opacity)), [])
+
+    def test_opacity_of_a_block(self):
+        groups = pv.GroupDatasets(Input=[scene.make_ball(), scene.make_ground()],
+                                  OutputType="vtkMultiBlockDataSet",
+                                  BlockNames=["Sphere1", "Plane1"])
+        display = scene.show(groups, self.view)
+        self.assertEqual(self.said(
+            lambda: setattr(display, "BlockOpacities", ["/Root/Sphere1", "0.4"])), [])
+
+    def test_translucent_cells(self):
+        """That some cells cast and others do not is said, once."""
+        ball = scene.show(pv.Elevation(Input=scene.make_ball()), self.view)
+        pv.ColorBy(ball, ("POINTS", "Elevation"))
+        table = pv.GetColorTransferFunction("Elevation")
+        opacity = pv.GetOpacityTransferFunction("Elevation")
+        for function in (table, opacity):
+            function.RescaleTransferFunction(0.3, 1.3)
+        opacity.Points = [0.3, 0.0, 0.5, 0.0, 1.3, 1.0, 0.5, 0.0]
+        messages = self.said(lambda: setattr(table, "EnableOpacityMapping", 1))
+        self.assertEqual(len(messages), 1, messages)
+        self.assertIn("Cast Shadows", messages[0])
+        self.assertNotIn("SetCastShadow", messages[0])
+
+    def test_headlights(self):
+        """Whoever wants an ambient light or a headlight alone, instead of the light kit, knows what it does."""
+        scene.show(scene.make_ball(), self.view)
+        for coords in ("Ambient", "Headlight"):
+            self.assertEqual(self.said(lambda: setattr(self.sun, "Coords", coords)), [])
+            self.assertEqual(scene.statistic(self.view, "SVOCastingLights"),
+                             "1. headlight or ambient light: casts none\n")
+
+
+scene.load_plugin()
+scene.run_tests()
