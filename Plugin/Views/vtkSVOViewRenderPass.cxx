@@ -17,9 +17,10 @@ std::string vtkSVOViewRenderPass::GetText(int text, vtkLight* about) const
       // apart. The light kit's own is another class.
       return vtkPVLight::SafeDownCast(about) ? "headlight or ambient light" : "headlight";
     case TEXT_ONLY_HEADLIGHTS:
-      // The light kit is on unless somebody switches it off, and lights that are added are of the
-      // scene: so it was chosen, and the view's Casting Lights tell what comes of it.
-      return std::string();
+      return "No shadows: the only lights are headlights or ambient ones, which cast none that can "
+             "be seen. Switch the light kit on, or add a light: Light Inspector, Add Light.";
+    case TEXT_TRANSLUCENT_SURFACE:
+      return std::string(); // a window for each opacity that is lowered would be too much
     case TEXT_TRANSLUCENT:
       return "A surface, or some cells of it, cast no shadow because colours or texture make them "
              "translucent. Cast Shadows, of the surface's properties, switches the others' shadow "

@@ -147,10 +147,11 @@ vtkPolyData* SceneCollector::casterOf(const SurfacePart& part, OpaqueCells::Answ
         : opaque.mesh                    ? "is invisible in parts"
                                          : "is invisible");
   }
-  // Who makes all of a surface translucent sees at once what becomes of its shadow.
-  if (opaque.translucent && part.opacity >= 1.0 && !actor->GetForceTranslucent())
+  if (opaque.translucent)
   {
-    this->complainOnce(nullptr, frame.settings.translucentText, frame);
+    const bool whole = part.opacity < 1.0 || actor->GetForceTranslucent();
+    this->complainOnce(nullptr,
+      whole ? frame.settings.translucentSurfaceText : frame.settings.translucentText, frame);
   }
   else if (opaque.mesh && texture == TextureAlpha::CutOut)
   {

@@ -39,7 +39,9 @@ struct CollectSettings
   bool onlyMarked = false;
   LevelSettings levels;
   std::set<std::string>* said = nullptr; // by the pass, about no object in particular
-  /// What to say of cells that cast nothing, or more than there is to see.
+  /// What to say of surfaces and of cells that cast nothing, or more than there is to see; empty:
+  /// nothing.
+  std::string translucentSurfaceText;
   std::string translucentText;
   std::string cutOutText;
 };

@@ -190,6 +190,7 @@ bool vtkSVORenderPass::CollectFrame(
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
     collect.said = &impl.said;
+    collect.translucentSurfaceText = this->GetText(TEXT_TRANSLUCENT_SURFACE, nullptr);
     collect.translucentText = this->GetText(TEXT_TRANSLUCENT, nullptr);
     collect.cutOutText = this->GetText(TEXT_CUT_OUT, nullptr);
     collect.levels.frame = Internals::settingsOf(*this);
@@ -327,6 +328,9 @@ std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
     case TEXT_ONLY_HEADLIGHTS:
       return "No shadows: the only light is a headlight, which casts none that can be seen. "
              "Add a vtkLight with SetLightTypeToSceneLight().";
+    case TEXT_TRANSLUCENT_SURFACE:
+      return "A surface casts no shadow because its opacity makes it translucent. "
+             "SetCastShadow(true, prop) has it cast, false makes it cast none in silence.";
     case TEXT_TRANSLUCENT:
       return "A surface, or some cells of it, cast no shadow because colours or texture make them "
              "translucent. SetCastShadow(true, prop) has all of it cast, false none and in "

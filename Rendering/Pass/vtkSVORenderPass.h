@@ -527,10 +527,11 @@ protected:
    */
   enum TextType
   {
-    TEXT_HEADLIGHT = 0,       // what a headlight is called, in GetCastingLights()
-    TEXT_ONLY_HEADLIGHTS = 1, // there are no shadows, because no other lights are on
-    TEXT_TRANSLUCENT = 2,     // cells of a surface cast none, because they are translucent
-    TEXT_CUT_OUT = 3          // cells cast their whole shadows, although a texture hides parts
+    TEXT_HEADLIGHT = 0,           // what a headlight is called, in GetCastingLights()
+    TEXT_ONLY_HEADLIGHTS = 1,     // there are no shadows, because no other lights are on
+    TEXT_TRANSLUCENT = 2,         // cells of a surface cast none, because they are translucent
+    TEXT_TRANSLUCENT_SURFACE = 3, // a surface casts none, because somebody made it translucent
+    TEXT_CUT_OUT = 4              // cells cast their whole shadows, although a texture hides parts
   };
 
   /**

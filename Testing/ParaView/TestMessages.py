@@ -1,5 +1,5 @@
-"""Each message opens a window in ParaView: none comes of an ordinary click, and those that come ask for what
-ParaView's panels offer."""
+"""Each message opens a window in ParaView: none comes of an opacity that is lowered, and those that come ask
+for what ParaView's panels offer."""
 
 import unittest
 
@@ -54,10 +54,11 @@ class TestMessages(unittest.TestCase):
         self.assertNotIn("SetCastShadow", messages[0])
 
     def test_headlights(self):
-        """Whoever wants an ambient light or a headlight alone, instead of the light kit, knows what it does."""
         scene.show(scene.make_ball(), self.view)
-        for coords in ("Ambient", "Headlight"):
-            self.assertEqual(self.said(lambda: setattr(self.sun, "Coords", coords)), [])
+        for coords, count in (("Ambient", 1), ("Headlight", 0)):  # once
+            messages = self.said(lambda: setattr(self.sun, "Coords", coords))
+            self.assertEqual(len(messages), count, messages)
+            self.assertTrue(all("Add Light" in message for message in messages), messages)
             self.assertEqual(scene.statistic(self.view, "SVOCastingLights"),
                              "1. headlight or ambient light: casts none\n")
 
