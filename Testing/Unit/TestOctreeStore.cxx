@@ -2,6 +2,7 @@
 #include "svoOctreeStore.h"
 
 #include "svoMeshOctree.h"
+#include "svoOctreeBytes.h"
 
 #include "vtkCellArray.h"
 #include "vtkNew.h"
@@ -23,6 +24,8 @@
 #include <vector>
 
 using Answer = svo::OctreeStore::Answer;
+
+using svotest::bytesOf;
 
 namespace
 {
@@ -102,14 +105,6 @@ struct OctreeStore : ::testing::Test
 };
 
 /// The bytes that a build at this level gives when nothing else is going on.
-std::vector<std::byte> bytesOf(const svo::Octree& octree)
-{
-  const auto* first = reinterpret_cast<const std::byte*>(octree.key());
-  const std::size_t size = sizeof(svo::Header) + octree.header().nodeCount * sizeof(svo::Node) +
-    octree.header().listWords * sizeof(std::uint32_t);
-  return { first, first + size };
-}
-
 std::vector<std::byte> builtAlone(vtkPolyData* mesh, int level)
 {
   svo::MeshOctreeOptions options;

@@ -3,6 +3,7 @@
 #include "svoSideBySide.h"
 
 #include "svoMeshOctree.h"
+#include "svoOctreeBytes.h"
 
 #include "vtkNew.h"
 #include "vtkPoints.h"
@@ -17,6 +18,8 @@
 #include <string>
 #include <vector>
 
+using svotest::bytesOf;
+
 namespace
 {
 vtkSmartPointer<vtkPolyData> ball(double radius, int resolution = 12)
@@ -27,14 +30,6 @@ vtkSmartPointer<vtkPolyData> ball(double radius, int resolution = 12)
   source->SetPhiResolution(resolution);
   source->Update();
   return source->GetOutput();
-}
-
-std::vector<std::byte> bytesOf(const svo::Octree& octree)
-{
-  const auto* first = reinterpret_cast<const std::byte*>(octree.key());
-  const std::size_t size = sizeof(svo::Header) + octree.header().nodeCount * sizeof(svo::Node) +
-    octree.header().listWords * sizeof(std::uint32_t);
-  return { first, first + size };
 }
 
 struct SideBySide : ::testing::Test

@@ -1,0 +1,22 @@
+// What an octree consists of, to compare two builds bit for bit.
+#ifndef svoOctreeBytes_h
+#define svoOctreeBytes_h
+
+#include "svoOctree.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace svotest
+{
+inline std::vector<std::byte> bytesOf(const svo::Octree& octree)
+{
+  const auto* first = reinterpret_cast<const std::byte*>(octree.key());
+  const std::size_t size = sizeof(svo::Header) + octree.header().nodeCount * sizeof(svo::Node) +
+    octree.header().listWords * sizeof(std::uint32_t);
+  return { first, first + size };
+}
+}
+
+#endif
