@@ -51,7 +51,6 @@ void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
   LayerBudget& budget)
 {
   this->CoarsestTexel = 0.0;
-  this->Resolution = 0;
   this->Fewer = false;
   this->Traced = true;
   this->Buffers.assign(lights.size(), nullptr);
@@ -74,7 +73,6 @@ void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
       found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
     buffer->begin(scene, maps[i], first, settings, budget);
     this->CoarsestTexel = std::max(this->CoarsestTexel, maps[i].coarsest);
-    this->Resolution = maps[i].views.empty() ? this->Resolution : maps[i].views.front().width;
     this->Fewer = this->Fewer ||
       (!maps[i].views.empty() && maps[i].views.front().width < settings.shadowResolution);
     this->Buffers[i] = buffer.get();
@@ -223,7 +221,6 @@ std::size_t Shadows::layerMemory() const
 void Shadows::addStatistics(FrameStatistics& statistics) const
 {
   statistics.coarsestTexel = this->CoarsestTexel;
-  statistics.shadowResolution = this->Resolution;
   statistics.fewerTexels = this->Fewer;
   for (const ShadowBuffer* buffer : this->Buffers)
   {

@@ -108,7 +108,6 @@ private:
   std::unique_ptr<ShadowRays> Rays;
   std::vector<unsigned char> Shared; // what the shared buffers in Kept show; empty if they are not
   bool Traced = false;               // buffers were, in this frame
-  int Resolution = 0;                // of the maps; 0 without any
   bool Fewer = false;                // texels than were asked for, by all processes alike
   double CoarsestTexel = 0.0;        // LightMaps::coarsest, of all lights
 };

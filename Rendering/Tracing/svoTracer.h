@@ -73,7 +73,6 @@ struct FrameStatistics
   /// How wide the texels of a shadow map may look that was fitted to what is seen, pixels; 0: of
   /// none.
   double coarsestTexel = 0.0;
-  int shadowResolution = 0; // texels, of the shadow maps; 0 without any
   bool fewerTexels = false; // than were asked for, by all processes alike, for lack of memory
 };
 
