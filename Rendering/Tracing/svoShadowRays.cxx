@@ -3,6 +3,7 @@
 #include "svoIntersect.h"
 #include "svoLeafGeometry.h"
 #include "svoSelect.h"
+#include "svoTerminator.h"
 
 #include <algorithm>
 
@@ -14,6 +15,13 @@ namespace
 {
 /// Where rays to a light end, the light itself being at 1: what the light lies on is not between.
 constexpr double BeforeLight = 1.0 - 1e-9;
+
+/// The facet's normal on the light's side.
+glm::dvec3 sideOf(const Light& light, const glm::dvec3& position, const glm::vec3& facet)
+{
+  const glm::dvec3 normal(facet);
+  return glm::dot(normal, alongLight(light, position)) > 0.0 ? -normal : normal;
+}
 }
 
 ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
@@ -38,11 +46,9 @@ bool ShadowRays::shadows(
   const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const
 {
   const bool far = light.kind == Light::Kind::Directional;
-  glm::dvec3 direction = far ? -light.direction : light.position - position;
-  const glm::dvec3 side =
-    glm::dot(glm::dvec3(facet), direction) < 0.0 ? -glm::dvec3(facet) : glm::dvec3(facet);
+  const glm::dvec3 side = sideOf(light, position, facet);
   const glm::dvec3 start = position + offset * side;
-  direction = far ? direction : light.position - start;
+  const glm::dvec3 direction = -alongLight(light, start);
   for (const Caster& caster : this->Casters)
   {
     const Ray ray{ caster.toOctree.point(start), caster.toOctree.vector(direction), 0.0,
@@ -74,6 +80,12 @@ bool ShadowRays::shadows(
     }
   }
   return false;
+}
+
+glm::dvec3 ShadowRays::start(
+  const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset)
+{
+  return position + offset * sideOf(light, position, facet);
 }
 
 bool ShadowRays::between(const glm::dvec3& from, const glm::dvec3& to, double offset) const

@@ -23,6 +23,10 @@ public:
   bool shadows(
     const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const;
 
+  /// Where that ray starts.
+  static glm::dvec3 start(
+    const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset);
+
   /// True if something lies between two points, farther from the first one than `offset` and than
   /// the error of its own leaves (world).
   bool between(const glm::dvec3& from, const glm::dvec3& to, double offset) const;

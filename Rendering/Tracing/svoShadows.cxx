@@ -178,6 +178,8 @@ float Shadows::darkness(std::size_t light, const SurfacePoint& on, const Termina
   }
   const ShadowBuffer* buffer = this->Exact ? nullptr : this->Buffers[light];
   const glm::dvec3& raised = at.point.position;
+  const Light& source = this->Of->lights[light];
+  const glm::dvec3 start = ShadowRays::start(source, raised, at.point.facet, error);
   if (at.kind == TerminatorPoint::Kind::Doubted)
   {
     const bool known = buffer && buffer->knows(raised);
@@ -187,14 +189,14 @@ float Shadows::darkness(std::size_t light, const SurfacePoint& on, const Termina
       return plain;
     }
     ++rays;
-    const bool blocked = this->Rays->between(on.position, raised, error) ||
-      this->Rays->shadows(this->Of->lights[light], raised, at.point.facet, error);
+    const bool blocked = this->Rays->between(on.position, start, error) ||
+      this->Rays->shadows(source, raised, at.point.facet, error);
     return blocked ? plain : dark;
   }
   if (glm::distance(on.position, raised) > (buffer ? buffer->texelEdge(raised) : 0.0))
   {
     ++rays;
-    if (this->Rays->between(on.position, raised, error))
+    if (this->Rays->between(on.position, start, error))
     {
       return 1.0f;
     }
@@ -204,7 +206,7 @@ float Shadows::darkness(std::size_t light, const SurfacePoint& on, const Termina
     return this->darkness(light, at.point, error, extent, rays);
   }
   ++rays;
-  const bool dark = this->Rays->shadows(this->Of->lights[light], raised, at.point.facet, error);
+  const bool dark = this->Rays->shadows(source, raised, at.point.facet, error);
   return dark ? 1.0f : 0.0f;
 }
 

@@ -44,9 +44,9 @@ struct Ball
   svo::Octree octree;
   std::vector<float> normals;
 
-  Ball(unsigned rows, unsigned columns)
+  Ball(unsigned rows, unsigned columns, int level = 6)
     : mesh(sphere(rows, columns))
-    , octree(makeOctree(mesh, 6))
+    , octree(makeOctree(mesh, level))
     , normals(radialNormals(mesh))
   {
   }
@@ -213,6 +213,32 @@ TEST(Terminator, AThinWallStaysTight)
       scene.instances[1].visible = false;
       scene.lights = { light.light };
       expectDark(scene, fromEyes(), technique, light.name);
+    }
+  }
+}
+
+// Rays start off their surface by the error of its leaves: that may be beyond the shell as well.
+TEST(Terminator, AThinWallStaysTightWhereLeavesAreCoarse)
+{
+  const Ball ball(24, 24, 9);
+  for (const svo::LeafGeometry leaves : { svo::LeafGeometry::Voxel, svo::LeafGeometry::Plane })
+  {
+    for (const LightCase& light : everyLight())
+    {
+      for (Technique technique : fineTechniques())
+      {
+        if (technique.name != "rays" && technique.name != "anti-aliased")
+        {
+          continue;
+        }
+        technique.settings.pixelError = 0.0; // leaves, not nodes as large as pixels
+        svo::Scene scene;
+        scene.instances = { ball.instance(1), ball.instance(2, glm::dmat4(glm::dmat3(1.02))) };
+        scene.instances[0].leafGeometry = scene.instances[1].leafGeometry = leaves;
+        scene.instances[1].visible = false;
+        scene.lights = { light.light };
+        expectDark(scene, fromEyes(), technique, light.name);
+      }
     }
   }
 }
