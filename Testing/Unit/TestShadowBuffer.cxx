@@ -488,6 +488,35 @@ TEST(ShadowBuffer, FacetsInSlantingLightAreLitWhereTexelsAreNotSquare)
   EXPECT_GT(faced, 100000);
 }
 
+/// A sheet whose normals stand on the wrong side, as cell normals do under a mirroring matrix: VTK
+/// lights the side that is turned away, and so do rays.
+TEST(ShadowBuffer, FacetsThatTurnTheirBacksOnALightAreNotSpeckled)
+{
+  Mesh sheet = sphere(32, 32);
+  sheet.triangles.resize(sheet.triangles.size() * 5 / 8); // open, so that its inside is seen
+  std::vector<float> normals;
+  for (const glm::uvec3& t : sheet.triangles)
+  {
+    const glm::vec3 inwards(-glm::normalize(
+      glm::cross(sheet.points[t.y] - sheet.points[t.x], sheet.points[t.z] - sheet.points[t.x])));
+    normals.insert(normals.end(), { inwards.x, inwards.y, inwards.z });
+  }
+  svo::Scene scene;
+  scene.instances = { instanceOf(makeOctree(sheet, 8), 1) };
+  scene.instances[0].attributes.normals = normals.data();
+  scene.instances[0].attributes.normalAssociation = svo::Association::Cell;
+  int lit = 0;
+  for (const glm::dvec3& from :
+    { glm::dvec3(2, -2, 5), glm::dvec3(-2, 3, -1), glm::dvec3(4, 1, -3) })
+  {
+    scene.lights = { lightOf(svo::Light::Kind::Directional, from) };
+    const Comparison found = compare(scene, settingsOf(svo::ShadowTechnique::Buffer));
+    lit += found.lit;
+    EXPECT_EQ(found.wrong, 0) << "light from " << from.x;
+  }
+  EXPECT_GT(lit, 2000) << "too few to say anything";
+}
+
 TEST(ShadowBuffer, AGroundCastsOnlyIfSomethingCanLieInItsShadow)
 {
   svo::Scene scene = ballOnGround(svo::LeafGeometry::Triangle, 6);
