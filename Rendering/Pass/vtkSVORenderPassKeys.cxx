@@ -1,11 +1,11 @@
 // The answers that props and lights carry themselves.
 #include "vtkSVORenderPass.h"
 
+#include "svoPropKeys.h"
 #include "svoSceneCollector.h"
 #include "svoSceneLights.h"
 
 #include "vtkInformation.h"
-#include "vtkInformationDoubleKey.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkLight.h"
 #include "vtkNew.h"
@@ -14,41 +14,29 @@
 #include <algorithm>
 #include <cmath>
 
-vtkInformationKeyMacro(vtkSVORenderPass, CAST_SHADOW, Integer);
-vtkInformationKeyMacro(vtkSVORenderPass, RECEIVE_SHADOW, Integer);
-vtkInformationKeyMacro(vtkSVORenderPass, USE_SVO, Integer);
-vtkInformationKeyMacro(vtkSVORenderPass, PIXEL_ERROR, Double);
-
-namespace
+vtkInformationIntegerKey* vtkSVORenderPass::CAST_SHADOW()
 {
-vtkInformation* keysOf(vtkProp* prop)
-{
-  if (!prop->GetPropertyKeys())
-  {
-    vtkNew<vtkInformation> keys;
-    prop->SetPropertyKeys(keys);
-  }
-  return prop->GetPropertyKeys();
+  return svo::castShadowKey();
 }
 
-void setFlag(vtkInformationIntegerKey* key, bool value, vtkProp* prop)
+vtkInformationIntegerKey* vtkSVORenderPass::RECEIVE_SHADOW()
 {
-  if (prop)
-  {
-    keysOf(prop)->Set(key, value ? 1 : 0);
-  }
+  return svo::receiveShadowKey();
 }
 
-bool flag(vtkInformationIntegerKey* key, vtkProp* prop, bool otherwise)
+vtkInformationIntegerKey* vtkSVORenderPass::USE_SVO()
 {
-  vtkInformation* keys = prop ? prop->GetPropertyKeys() : nullptr;
-  return keys && keys->Has(key) ? keys->Get(key) != 0 : otherwise;
+  return svo::useSVOKey();
 }
+
+vtkInformationDoubleKey* vtkSVORenderPass::PIXEL_ERROR()
+{
+  return svo::pixelErrorKey();
 }
 
 void vtkSVORenderPass::SetCastShadow(bool cast, vtkProp* prop)
 {
-  setFlag(CAST_SHADOW(), cast, prop);
+  svo::setFlag(prop, svo::castShadowKey(), cast);
 }
 
 bool vtkSVORenderPass::GetCastShadow(vtkProp* prop)
@@ -63,7 +51,8 @@ bool vtkSVORenderPass::GetCastShadow(vtkProp* prop)
     return true;
   }
   // Nothing to be seen yet is no reason.
-  return !judged.castsNone && flag(CAST_SHADOW(), prop, !prop->HasTranslucentPolygonalGeometry());
+  return !judged.castsNone &&
+    svo::flagOf(prop, nullptr, svo::castShadowKey(), !prop->HasTranslucentPolygonalGeometry());
 }
 
 std::string vtkSVORenderPass::GetReason(vtkProp* prop)
@@ -112,22 +101,22 @@ bool vtkSVORenderPass::GetCastShadow(vtkLight* light)
 
 void vtkSVORenderPass::SetReceiveShadow(bool receive, vtkProp* prop)
 {
-  setFlag(RECEIVE_SHADOW(), receive, prop);
+  svo::setFlag(prop, svo::receiveShadowKey(), receive);
 }
 
 bool vtkSVORenderPass::GetReceiveShadow(vtkProp* prop)
 {
-  return flag(RECEIVE_SHADOW(), prop, true);
+  return svo::flagOf(prop, nullptr, svo::receiveShadowKey(), true);
 }
 
 void vtkSVORenderPass::SetUseSVO(bool use, vtkProp* prop)
 {
-  setFlag(USE_SVO(), use, prop);
+  svo::setFlag(prop, svo::useSVOKey(), use);
 }
 
 bool vtkSVORenderPass::GetUseSVO(vtkProp* prop)
 {
-  return flag(USE_SVO(), prop, true);
+  return svo::flagOf(prop, nullptr, svo::useSVOKey(), true);
 }
 
 void vtkSVORenderPass::SetPropPixelError(double error, vtkProp* prop)
@@ -137,14 +126,13 @@ void vtkSVORenderPass::SetPropPixelError(double error, vtkProp* prop)
     vtkGenericWarningMacro("A prop's pixel error stays " << GetPropPixelError(prop)
                                                          << ": the value given is not a number.");
   }
-  else if (prop)
+  else
   {
-    keysOf(prop)->Set(PIXEL_ERROR(), error >= 0.0 ? std::min(error, 64.0) : -1.0);
+    svo::setPixelError(prop, error >= 0.0 ? std::min(error, 64.0) : -1.0);
   }
 }
 
 double vtkSVORenderPass::GetPropPixelError(vtkProp* prop)
 {
-  vtkInformation* keys = prop ? prop->GetPropertyKeys() : nullptr;
-  return keys && keys->Has(PIXEL_ERROR()) ? keys->Get(PIXEL_ERROR()) : -1.0;
+  return svo::pixelErrorOf(prop, nullptr);
 }

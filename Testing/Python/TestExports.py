@@ -11,7 +11,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 def exported():
     """The names of exported functions and classes, as the headers have them."""
     functions, classes = set(), set()
-    for header in [*SOURCE.glob("Filters/*/*.h"), *SOURCE.glob("Rendering/*/*.h")]:
+    for header in [*SOURCE.glob("Filters/**/*.h"), *SOURCE.glob("Rendering/**/*.h")]:
         text = header.read_text()
         classes.update(re.findall(r"(?:class|struct)\s+VTK\w+_EXPORT\s+(\w+)", text))
         functions.update(re.findall(r"VTK\w+_EXPORT\s[^;{(]*?(\w+)\(", text))

@@ -1,6 +1,7 @@
 #include "svoSceneLights.h"
 
 #include "svoAffineMatrix.h"
+#include "svoPropKeys.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -10,7 +11,6 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
-#include "vtkSVORenderPass.h"
 #include "vtkWeakPointer.h"
 
 #include <glm/geometric.hpp>
@@ -68,7 +68,7 @@ double brightness(const Light& light)
 bool answerOf(vtkLight* light, bool otherwise)
 {
   vtkInformation* keys = light->GetInformation();
-  vtkInformationIntegerKey* key = vtkSVORenderPass::CAST_SHADOW();
+  vtkInformationIntegerKey* key = castShadowKey();
   return keys && keys->Has(key) ? keys->Get(key) != 0 : otherwise;
 }
 

@@ -2,6 +2,7 @@
 
 #include "svoAffineMatrix.h"
 #include "svoCameraView.h"
+#include "svoPropKeys.h"
 #include "svoSceneLights.h"
 
 #include "vtkActor.h"
@@ -20,7 +21,6 @@
 #include "vtkPropCollection.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
-#include "vtkSVORenderPass.h"
 
 #include <iterator>
 
@@ -43,30 +43,10 @@ std::uint64_t combine(std::uint64_t a, std::uint64_t b)
   return a ^ (b + 0x9e3779b97f4a7c15ull + (a << 6) + (a >> 2));
 }
 
-/// An explicit answer of the part or of the assembly that it belongs to; `otherwise` without one.
-bool flagOf(vtkProp* prop, vtkProp* owner, vtkInformationIntegerKey* key, bool otherwise)
-{
-  for (vtkProp* asked : { prop, owner })
-  {
-    vtkInformation* keys = asked->GetPropertyKeys();
-    if (keys && keys->Has(key))
-    {
-      return keys->Get(key) != 0;
-    }
-  }
-  return otherwise;
-}
-
-double pixelErrorOf(vtkProp* prop, vtkProp* owner)
-{
-  const double own = vtkSVORenderPass::GetPropPixelError(prop);
-  return own >= 0.0 ? own : vtkSVORenderPass::GetPropPixelError(owner);
-}
-
 /// True if the prop or its assembly says explicitly that it uses octrees.
 bool isMarked(vtkProp* prop, vtkProp* owner)
 {
-  return flagOf(prop, owner, vtkSVORenderPass::USE_SVO(), false);
+  return flagOf(prop, owner, useSVOKey(), false);
 }
 
 bool hasSurface(vtkPolyData* mesh)
@@ -125,7 +105,7 @@ vtkPolyData* SceneCollector::casterOf(const SurfacePart& part, OpaqueCells::Answ
   vtkActor* actor, PropSurfaces& found, const Frame& frame)
 {
   const auto answer = [&](bool otherwise)
-  { return flagOf(actor, found.prop, vtkSVORenderPass::CAST_SHADOW(), otherwise); };
+  { return flagOf(actor, found.prop, castShadowKey(), otherwise); };
   if (answer(false))
   {
     return part.mesh;
@@ -185,7 +165,7 @@ void SceneCollector::collectActor(
     mapper->GetInputAlgorithm()->Update();
   }
   if (frame.settings.shadows && isUnknownSurface(actor) &&
-    flagOf(actor, owner, vtkSVORenderPass::CAST_SHADOW(), true))
+    flagOf(actor, owner, castShadowKey(), true))
   {
     this->complainOnce(nullptr,
       std::string("What a ") + mapper->GetClassName() +
@@ -224,7 +204,7 @@ void SceneCollector::collectActor(
       break;
   }
 
-  if (!beyond && !flagOf(actor, owner, vtkSVORenderPass::USE_SVO(), true))
+  if (!beyond && !flagOf(actor, owner, useSVOKey(), true))
   {
     beyond = "was told so";
   }
@@ -278,7 +258,7 @@ void SceneCollector::collectActor(
     }
     instance.localToWorld = localToWorld;
     instance.pixelError = pixelErrorOf(actor, owner);
-    instance.receiveShadow = flagOf(actor, owner, vtkSVORenderPass::RECEIVE_SHADOW(), true);
+    instance.receiveShadow = flagOf(actor, owner, receiveShadowKey(), true);
     instance.id = combine(
       combine(reinterpret_cast<std::uintptr_t>(actor), part.block), std::uint64_t(found.actors));
     instance.depthOffsetUnits = static_cast<float>(coincidentDepthOffset(mapper));
@@ -296,7 +276,7 @@ bool SceneCollector::collectProp(PropSurfaces& found, Frame& frame)
     this->collectActor(actor, matrix, found, frame);
     found.receives = found.receives ||
       (actor->GetMapper() && actor->GetProperty()->GetLighting() &&
-        flagOf(actor, prop, vtkSVORenderPass::RECEIVE_SHADOW(), true));
+        flagOf(actor, prop, receiveShadowKey(), true));
     ++found.actors;
   };
 

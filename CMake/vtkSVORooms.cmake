@@ -1,0 +1,14 @@
+# The files of a module lie in rooms, sub-folders named from the lowest to the highest: the files of a
+# room include those of their own and of lower ones only (Testing/House checks it). Includes name no
+# room, since installed headers lie side by side.
+#
+# vtksvo_rooms(<module> ROOMS <room>... [INSTALL <header>...])
+function (vtksvo_rooms module)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ROOMS;INSTALL")
+  foreach (room IN LISTS arg_ROOMS)
+    vtk_module_include("${module}" PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${room}>")
+  endforeach ()
+  if (arg_INSTALL)
+    vtk_module_install_headers(FILES ${arg_INSTALL})
+  endif ()
+endfunction ()

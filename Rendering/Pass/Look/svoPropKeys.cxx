@@ -1,0 +1,90 @@
+#include "svoPropKeys.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationDoubleKey.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkNew.h"
+#include "vtkProp.h"
+
+namespace svo
+{
+namespace
+{
+vtkInformation* keysOf(vtkProp* prop)
+{
+  if (!prop->GetPropertyKeys())
+  {
+    vtkNew<vtkInformation> keys;
+    prop->SetPropertyKeys(keys);
+  }
+  return prop->GetPropertyKeys();
+}
+}
+
+// They are known to scripts by this class's name.
+vtkInformationIntegerKey* castShadowKey()
+{
+  static auto* key = vtkInformationIntegerKey::MakeKey("CAST_SHADOW", "vtkSVORenderPass");
+  return key;
+}
+
+vtkInformationIntegerKey* receiveShadowKey()
+{
+  static auto* key = vtkInformationIntegerKey::MakeKey("RECEIVE_SHADOW", "vtkSVORenderPass");
+  return key;
+}
+
+vtkInformationIntegerKey* useSVOKey()
+{
+  static auto* key = vtkInformationIntegerKey::MakeKey("USE_SVO", "vtkSVORenderPass");
+  return key;
+}
+
+vtkInformationDoubleKey* pixelErrorKey()
+{
+  static auto* key = vtkInformationDoubleKey::MakeKey("PIXEL_ERROR", "vtkSVORenderPass");
+  return key;
+}
+
+bool flagOf(vtkProp* prop, vtkProp* owner, vtkInformationIntegerKey* key, bool otherwise)
+{
+  for (vtkProp* asked : { prop, owner })
+  {
+    vtkInformation* keys = asked ? asked->GetPropertyKeys() : nullptr;
+    if (keys && keys->Has(key))
+    {
+      return keys->Get(key) != 0;
+    }
+  }
+  return otherwise;
+}
+
+double pixelErrorOf(vtkProp* prop, vtkProp* owner)
+{
+  for (vtkProp* asked : { prop, owner })
+  {
+    vtkInformation* keys = asked ? asked->GetPropertyKeys() : nullptr;
+    if (keys && keys->Has(pixelErrorKey()) && keys->Get(pixelErrorKey()) >= 0.0)
+    {
+      return keys->Get(pixelErrorKey());
+    }
+  }
+  return -1.0;
+}
+
+void setFlag(vtkProp* prop, vtkInformationIntegerKey* key, bool value)
+{
+  if (prop)
+  {
+    keysOf(prop)->Set(key, value ? 1 : 0);
+  }
+}
+
+void setPixelError(vtkProp* prop, double error)
+{
+  if (prop)
+  {
+    keysOf(prop)->Set(pixelErrorKey(), error);
+  }
+}
+}
