@@ -36,6 +36,12 @@ struct AttachedRenderer
 
 struct vtkSVORenderPass::Internals
 {
+  explicit Internals(const vtkSVORenderPass& pass)
+    : self(pass)
+  {
+  }
+
+  const vtkSVORenderPass& self;
   svo::OctreeStore store;
   std::map<vtkRenderer*, std::shared_ptr<svo::PassRenderer>> renderers;
   std::map<vtkRenderer*, svo::AttachedRenderer> attached;
@@ -63,7 +69,7 @@ struct vtkSVORenderPass::Internals
     std::shared_ptr<svo::PassRenderer>& found = this->renderers[renderer];
     if (!found)
     {
-      found = std::make_shared<svo::PassRenderer>(renderer);
+      found = std::make_shared<svo::PassRenderer>(renderer, this->self.MakeTracer());
     }
     return found;
   }

@@ -21,7 +21,7 @@
 vtkStandardNewMacro(vtkSVORenderPass);
 
 vtkSVORenderPass::vtkSVORenderPass()
-  : Impl(new Internals)
+  : Impl(new Internals(*this))
 {
 }
 
@@ -317,6 +317,11 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
       vtkWarningMacro(<< message);
     }
   }
+}
+
+std::unique_ptr<svo::Tracer> vtkSVORenderPass::MakeTracer() const
+{
+  return svo::makeCPUTracer();
 }
 
 std::string vtkSVORenderPass::GetText(int text, vtkLight*) const

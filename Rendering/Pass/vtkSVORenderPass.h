@@ -60,6 +60,7 @@ class vtkRenderer;
 namespace svo
 {
 class OwnCamera;
+class Tracer;
 struct PassFrame;
 }
 #endif
@@ -539,6 +540,14 @@ protected:
    * than by calls; an empty message is not given. `about` is the light, or nullptr.
    */
   virtual std::string GetText(int text, vtkLight* about) const;
+
+#ifndef __VTK_WRAP__
+  /**
+   * A tracer for a renderer, which is asked for all of its frames. This one runs on the processor;
+   * a subclass may have another (svoTracer.h).
+   */
+  virtual std::unique_ptr<svo::Tracer> MakeTracer() const;
+#endif
 
   int Backend = BACKEND_AUTO;
   int ShadowTechnique = SHADOW_BUFFER;

@@ -6,11 +6,11 @@
 #include "objects.h"
 #include "scenes.h"
 
+#include "svoCPUTracer.h"
 #include "svoMeshOctree.h"
 #include "svoSMPParallel.h"
 #include "svoScene.h"
 #include "svoSilhouettes.h"
-#include "svoTracer.h"
 #include "svoView.h"
 
 #include <vtkActor.h>
@@ -306,7 +306,7 @@ void Program::run(const paper::Experiment& experiment)
       {
         for (const double pixelError : { 1.0, 0.0, 4.0 })
         {
-          svo::Tracer tracer; // keeps layers from way to way
+          svo::CPUTracer tracer; // keeps layers from way to way
           for (const Way& way : ways())
           {
             svo::Scene scene = this->sceneOf(paperScene, level, leaf, ++turn);

@@ -3,8 +3,8 @@
 #include "svoExtremes.h"
 
 #include "svoIntersect.h"
-#include "svoSelect.h"
 #include "svoTestTracers.h"
+#include "svoWorldSize.h"
 
 #include <gtest/gtest.h>
 

@@ -169,7 +169,7 @@ TEST(SameAnswer, AfterAnySequenceOfEdits)
   {
     Chance chance(100 + sequence);
     World world(chance);
-    svo::Tracer keeping;
+    svo::CPUTracer keeping;
     svo::Frame frame;
     std::string story;
     for (int step = 0; step < 40; ++step)
@@ -199,7 +199,7 @@ TEST(SameAnswer, WithOneTwoAndSevenThreads)
     const svo::Frame expected = rendered(world.scene, world.view, world.settings);
     for (const unsigned threads : { 1u, 2u, 7u })
     {
-      svo::Tracer tracer;
+      svo::CPUTracer tracer;
       for (int again = 0; again < 2; ++again) // traced, and from kept layers
       {
         EXPECT_TRUE(identical(

@@ -6,10 +6,10 @@
 // wants to do harm, and without it every input would be refused at once.
 #include "svoFuzzMesh.h"
 
+#include "svoCPUTracer.h"
 #include "svoIntersect.h"
 #include "svoIntersectScalar.h"
 #include "svoMeshOctree.h"
-#include "svoTracer.h"
 #include "svoTraverse.h"
 #include "vtkSVOToPolyData.h"
 #include "vtkSparseVoxelOctree.h"
@@ -169,7 +169,7 @@ void render(const Octree& octree)
   FrameSettings settings;
   settings.shadowResolution = 16;
   settings.pixelError = 0.0;
-  Tracer tracer;
+  CPUTracer tracer;
   Frame frame;
   tracer.render(scene, view, settings, serialFor, frame);
 }

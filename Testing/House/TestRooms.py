@@ -1,5 +1,6 @@
-"""Files include those of their own room and of lower ones only, modules those of lower modules, and
-every room opens with a README.md that names each of its files and no other.
+"""Files include those of their own room and of lower ones only, modules those of lower modules; of the
+tracer all others see its face only; and every room opens with a README.md that names each of its files
+and no other.
 
 The order of the modules stands in the CMakeLists.txt of the project, that of the rooms in
 vtksvo_rooms() of each module, lowest first.
@@ -62,6 +63,18 @@ def check_includes(root, places):
     return problems
 
 
+def check_face(root, places):
+    """Renderers see Rendering/Tracing/Face, no tracer."""
+    problems = []
+    for _, _, path in places.values():
+        if path.startswith(("Rendering/Pass", "Plugin")):
+            for name in re.findall(r'^#include "([^"]+)"', text_of(root, path), re.M):
+                lies = places[name][2] if name in places else ""
+                if lies.startswith("Rendering/Tracing/") and not lies.startswith("Rendering/Tracing/Face/"):
+                    problems.append(f"{path} includes {lies}, which is behind the tracer's face")
+    return problems
+
+
 def check_readmes(root):
     problems = []
     for module in modules_of(root):
@@ -83,7 +96,7 @@ def main(root):
     places, problems = place_files(root)
     if len(places) < 150:
         problems.append(f"only {len(places)} files found")
-    problems += check_includes(root, places) + check_readmes(root)
+    problems += check_includes(root, places) + check_face(root, places) + check_readmes(root)
     for problem in problems:
         print(problem)
     print(f"{len(places)} files, {len(problems)} problems")

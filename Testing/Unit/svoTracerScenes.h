@@ -2,8 +2,8 @@
 #ifndef svoTracerScenes_h
 #define svoTracerScenes_h
 
+#include "svoCPUTracer.h"
 #include "svoTestScenes.h"
-#include "svoTracer.h"
 
 #include <string>
 #include <thread>
@@ -135,7 +135,7 @@ inline svo::Frame rendered(svo::Tracer& tracer, const svo::Scene& scene, const s
 inline svo::Frame rendered(
   const svo::Scene& scene, const svo::View& view, const svo::FrameSettings& settings)
 {
-  svo::Tracer tracer;
+  svo::CPUTracer tracer;
   return rendered(tracer, scene, view, settings);
 }
 

@@ -22,6 +22,7 @@
 #ifndef svoLeafGeometry_h
 #define svoLeafGeometry_h
 
+#include "svoLeafTraits.h"
 #include "svoMorton.h"
 #include "svoOctree.h"
 #include "svoPlane.h"
@@ -35,9 +36,6 @@
 
 namespace svo
 {
-/// Longest list that `automatic` intersects triangle by triangle. Up to here that takes no longer
-/// than to look for a plane in every cell.
-constexpr std::uint32_t ShortList = 64;
 /// Most triangles of a list that are looked at for a representative.
 constexpr std::uint32_t RepresentativeCandidates = 32;
 

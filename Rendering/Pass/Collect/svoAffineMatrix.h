@@ -2,7 +2,7 @@
 #ifndef svoAffineMatrix_h
 #define svoAffineMatrix_h
 
-#include "svoWorldToOctree.h"
+#include "svoInverse.h"
 
 #include <cmath>
 

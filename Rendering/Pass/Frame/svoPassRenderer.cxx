@@ -2,9 +2,7 @@
 
 #include "svoCameraView.h"
 #include "svoControllerProcesses.h"
-#include "svoLayeredView.h"
-#include "svoMeshOctree.h"
-#include "svoSelect.h"
+#include "svoSMPParallel.h"
 #include "svoSilhouettes.h"
 
 #include "vtkOpenGLRenderPass.h"
@@ -44,8 +42,9 @@ void ExchangedProps::exchange(int index, vtkProp* by)
   this->Props[index] = by;
 }
 
-PassRenderer::PassRenderer(vtkRenderer* renderer)
+PassRenderer::PassRenderer(vtkRenderer* renderer, std::unique_ptr<Tracer> tracer)
   : Renderer(renderer)
+  , Trace(std::move(tracer))
 {
 }
 
@@ -85,8 +84,9 @@ void PassRenderer::begin()
 }
 
 void PassRenderer::collect(
-  OctreeStore& store, const StoreOptions& options, const CollectSettings& settings)
+  OctreeStore& store, const StoreOptions& options, CollectSettings settings)
 {
+  settings.levels.tracer = this->Trace.get();
   this->Collected = CollectedScene();
   const double start = vtkTimerLog::GetUniversalTime();
   const int built = store.built();
@@ -105,26 +105,7 @@ void PassRenderer::shareShadows(vtkMultiProcessController* controller, int width
   ControllerProcesses processes(controller);
   settings.wholeShadowBuffers = this->Collected.rasterizedReceivers;
   this->Sharing =
-    this->Trace.shareShadows(this->Collected.scene, eye, settings, smpParallelFor(), processes);
-}
-
-double PassRenderer::coarseOctreeError(double distance) const
-{
-  double largest = 0.0;
-  for (const Instance& instance : this->Collected.scene.instances)
-  {
-    if (!instance.visible || instance.octree.level() >= instance.neededLevel)
-    {
-      continue;
-    }
-    const LocalView local = makeLocalView(instance.octree, instance.localToWorld, this->Eye);
-    if (!local.rect.empty() && !worthTiles(instance, local, this->Eye))
-    {
-      largest =
-        std::max(largest, distance * worldVoxel(instance) / worldPixel(this->Eye, local.base));
-    }
-  }
-  return largest;
+    this->Trace->shareShadows(this->Collected.scene, eye, settings, smpParallelFor(), processes);
 }
 
 View PassRenderer::aim(int width, int height, double distance) const
@@ -156,18 +137,10 @@ std::string PassRenderer::lostShadows(const FrameSettings& settings) const
     return "Shadow maps have fewer texels than ShadowBufferResolution asks for: all of them would "
            "take more than 4 GiB.";
   }
-  for (const Instance& instance : this->Collected.scene.instances)
+  if (this->Statistics.tracer.largestGap > CoarseShadow)
   {
-    if (instance.visible && instance.receiveShadow)
-    {
-      const LocalView local = makeLocalView(instance.octree, instance.localToWorld, this->Eye);
-      const double lost = worldLeafError(instance, LeafGeometry::Triangle, MaximumLevel, true);
-      if (!local.rect.empty() && lost > CoarseShadow * worldPixel(this->Eye, local.base))
-      {
-        return "A surface is so vast that octrees do not resolve the shadows of small things on "
-               "it. Divide it, or make it smaller.";
-      }
-    }
+    return "A surface is so vast that octrees do not resolve the shadows of small things on it. "
+           "Divide it, or make it smaller.";
   }
   return {};
 }
@@ -185,7 +158,7 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   if (!this->hasSomething() || view.width == 0)
   {
     this->Picture.covered = PixelRect();
-    this->Trace.releaseLayers();
+    this->Trace->releaseLayers();
     this->Receivers.update(window, {}, {}, view, settings);
     return;
   }
@@ -194,11 +167,11 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   const bool occlusion = this->Renderer->GetUseSSAO(); // into a framebuffer that is not bound yet
   settings.writeNormals = occlusion || this->Presenter->WantsNormals();
   settings.writeLight = occlusion || vtkSVOPresenter::KeepsLight();
-  this->Trace.render(scene, view, settings, smpParallelFor(), this->Picture);
-  this->Statistics.tracer = this->Trace.statistics();
-  this->Statistics.coarseOctreeError = this->coarseOctreeError(distance);
+  this->Trace->render(scene, view, settings, smpParallelFor(), this->Picture);
+  this->Statistics.tracer = this->Trace->statistics();
+  this->Statistics.coarseOctreeError = distance * this->Statistics.tracer.coarsestVoxel;
   this->Complaint =
-    this->Receivers.update(window, this->Trace.shadowMaps(), scene.lights, view, settings);
+    this->Receivers.update(window, this->Trace->shadowMaps(), scene.lights, view, settings);
   if (this->Complaint.empty() && settings.shadowTechnique != ShadowTechnique::None)
   {
     this->Complaint = this->lostShadows(settings);
@@ -213,7 +186,7 @@ void PassRenderer::present(vtkOpenGLRenderPass* pass)
     {
       if (this->Statistics.sampleDistance == 1.0) // else the frame's pixels are not the window's
       {
-        this->Trace.divideEdges(this->Collected.scene, this->Eye, this->Picture, positions,
+        this->Trace->divideEdges(this->Collected.scene, this->Eye, this->Picture, positions,
           smpParallelFor(), silhouettes);
       }
     },

@@ -66,7 +66,7 @@ private:
 class PassRenderer
 {
 public:
-  explicit PassRenderer(vtkRenderer* renderer);
+  PassRenderer(vtkRenderer* renderer, std::unique_ptr<Tracer> tracer);
   ~PassRenderer();
 
   vtkRenderer* renderer() const { return this->Renderer; }
@@ -76,7 +76,7 @@ public:
 
   /// Collects its scene from the renderer, whose lights are in place; the last of several times
   /// counts.
-  void collect(OctreeStore& store, const StoreOptions& options, const CollectSettings& settings);
+  void collect(OctreeStore& store, const StoreOptions& options, CollectSettings settings);
 
   /// Adds other processes' casters to the collected scene; see SharedCasters.
   void shareCasters(vtkMultiProcessController* controller, std::size_t memoryLimit)
@@ -121,7 +121,7 @@ public:
   void present(vtkOpenGLRenderPass* pass);
 
   /// Forgets what was kept of octrees for the next frame.
-  void releaseLayers() { this->Trace.releaseLayers(); }
+  void releaseLayers() { this->Trace->releaseLayers(); }
 
   /// To be called when the frame has been drawn: forgets what it borrowed.
   void finish();
@@ -137,7 +137,6 @@ public:
 private:
   /// Of the renderer's camera; without pixels if there is none to be had.
   View aim(int width, int height, double distance) const;
-  double coarseOctreeError(double distance) const;
   std::string lostShadows(const FrameSettings& settings) const;
 
   vtkWeakPointer<vtkRenderer> Renderer;
@@ -146,7 +145,7 @@ private:
   SharedCasters Shared;
   SampleDistance Distance;
   std::shared_ptr<WindowTime> Window; // of the window that it was measured in last
-  Tracer Trace;
+  std::unique_ptr<Tracer> Trace;
   View Eye;             // of the frame
   bool Sharing = false; // this frame's shadow buffers are those of all processes
   struct Frame Picture;

@@ -1,6 +1,6 @@
 #include "svoOpaqueCells.h"
 
-#include "svoSurfacePoint.h"
+#include "svoAttributes.h"
 
 #include "vtkCellArray.h"
 #include "vtkFloatArray.h"

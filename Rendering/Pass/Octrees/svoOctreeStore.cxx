@@ -1,5 +1,6 @@
 #include "svoOctreeStore.h"
 
+#include "svoLeafTraits.h"
 #include "svoMeshDetail.h"
 #include "svoMeshOctree.h"
 #include "svoSideBySide.h"
@@ -125,8 +126,7 @@ bool OctreeStore::attached(vtkPolyData* mesh, const StoreOptions& options, Octre
 void OctreeStore::measure(vtkPolyData* mesh, const StoreOptions& options, Instance& instance)
 {
   Known& known = this->knownOf(mesh, options);
-  const bool exact = options.leafGeometry == LeafGeometry::Triangle ||
-    options.leafGeometry == LeafGeometry::Automatic;
+  const bool exact = traitsOf(options.leafGeometry).exact();
   if (exact && options.convert && known.detailLevel == 0)
   {
     known.detailLevel = detailLevel(mesh);

@@ -1,7 +1,5 @@
 #include "svoSceneOctrees.h"
 
-#include "svoNeededLevels.h"
-
 #include <limits>
 
 #include <glm/common.hpp>
@@ -112,7 +110,7 @@ void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lig
   std::vector<NeededLevels> needed(scene.instances.size());
   if (building)
   {
-    needed = neededLevels(scene, settings.eye, settings.frame);
+    needed = settings.tracer->neededLevels(scene, settings.eye, settings.frame);
     if (options.wait)
     {
       prepareOctrees(props, needed, store, options);

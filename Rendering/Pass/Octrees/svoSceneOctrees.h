@@ -62,13 +62,15 @@ struct LevelSettings
 {
   View eye; // with a pixel for each of the window's; no pixels: not known
   FrameSettings frame;
+  const Tracer* tracer = nullptr; // asked where octrees have to be built
 };
 
 /// Where the rasteriser draws something that shadows fall on: says so to the scene.
 void addReceiver(const PropSurfaces& prop, Scene& scene);
 
 /// Gives each surface its octrees: those that it brings, or from the store those that the frame
-/// needs (svoNeededLevels.h). Where the store has none, the surface is neither traced nor casts.
+/// needs (Tracer::neededLevels()). Where the store has none, the surface is neither traced nor
+/// casts.
 void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lights,
   const LevelSettings& settings, OctreeStore& store, const StoreOptions& options);
 }

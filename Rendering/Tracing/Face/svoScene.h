@@ -1,113 +1,17 @@
 // What is traced: instances of octrees with their look, and lights. Plain data, collected anew for
-// every frame; arrays are borrowed and must live as long as the frame.
+// every frame.
 #ifndef svoScene_h
 #define svoScene_h
 
-#include "svoOctree.h"
+#include "svoInstance.h"
+#include "svoLight.h"
 
-#include <cstddef>
-#include <cstdint>
 #include <vector>
 
-#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 
 namespace svo
 {
-/// What an array says one value of.
-enum class Association
-{
-  None,
-  Point,
-  Cell
-};
-
-/// VTK's lighting model for surfaces without textures and PBR.
-struct Material
-{
-  glm::vec3 ambientColor{ 1.0f }; // 0..1; replaced by mapped scalars where there are any
-  glm::vec3 diffuseColor{ 1.0f }; // likewise
-  glm::vec3 specularColor{ 1.0f };
-  float ambient = 0.0f; // coefficients, 0..1
-  float diffuse = 1.0f;
-  float specular = 0.0f;
-  float specularPower = 1.0f;
-  bool lighting = true; // false: the colour as it is
-  bool flat = false;    // facet normals even where there are point normals
-};
-
-/// Arrays of the mesh that the look needs. Null where there are none.
-struct Attributes
-{
-  const float* normals = nullptr; // 3 components, local frame, one per `normalAssociation`
-  Association normalAssociation = Association::None;
-  const unsigned char* colors = nullptr; // RGBA, mapped through the lookup table
-  Association colorAssociation = Association::None;
-  /// Scalars interpolated before mapping: two coordinates per point into two rows of texels, one of
-  /// colours and above it one of the colour of NaN. The nearest texel counts, as in VTK's texture.
-  const float* colorCoordinates = nullptr;
-  const unsigned char* colorTexture = nullptr; // RGBA
-  int colorTextureSize = 0;                    // texels of a row
-};
-
-/// A box along the axes of a mesh's local frame.
-struct MeshBox
-{
-  glm::dvec3 low{ 1.0 }, high{ -1.0 };
-  bool known() const { return low.x <= high.x && low.y <= high.y && low.z <= high.z; }
-};
-
-/// One octree placed in the world.
-struct Instance
-{
-  Octree octree;
-  /// What lights see instead of `octree`, if it is not empty. The eye may need a deeper octree than
-  /// the lights do; if they saw that one, shadows would change when the camera comes closer.
-  Octree casterOctree;
-  glm::dmat4 localToWorld{ 1.0 }; // affine, invertible; the caller has checked
-  LeafGeometry leafGeometry = LeafGeometry::Automatic;
-  Material material;
-  Attributes attributes;
-  bool visible = true; // false: a rasterised object that only casts
-  bool castShadow = true;
-  bool receiveShadow = true;
-  /// Largest projected edge of its voxels, pixels (0: full depth); negative: the frame's.
-  double pixelError = -1.0;
-  /// Stable identity of the instance from frame to frame (actor, block, path).
-  std::uint64_t id = 0;
-  /// Coincident-topology offset, added to the window depth (0..1) before depths are compared; VTK's
-  /// shaders know no slope. Shadows know nothing of it.
-  float depthOffsetUnits = 0.0f;
-
-  // Where octrees are built no deeper than they are needed; see svoNeededLevels.h.
-  MeshBox box;               // the mesh's own, local; stands for the octree until there is one
-  std::size_t triangles = 0; // of the mesh, or about as many
-  int deepestLevel = 0;      // that the mesh's octree may have; 0: the one that `octree` has
-  int detailLevel = 0;       // from which on its bricks have few triangles, all exact; 0: unknown
-  int neededLevel = 0; // that this frame needs: `octree` is coarser while it is being deepened
-};
-
-struct Light
-{
-  enum class Kind
-  {
-    Directional,
-    Point, // positional, cone of 90 degrees half angle or more: all directions
-    Spot
-  };
-  Kind kind = Kind::Directional;
-  bool headlight = false;           // at the eye, along the view axis
-  glm::dvec3 position{ 0.0 };       // world
-  glm::dvec3 direction{ 0, 0, -1 }; // world, unit, the way the light shines
-  double coneAngle = 90.0;          // half angle, degrees
-  double exponent = 1.0;            // of the spot's fall-off
-  glm::vec3 attenuation{ 1, 0, 0 }; // constant, linear, quadratic
-  glm::vec3 color{ 1.0f };          // diffuse colour times intensity
-  bool castShadow = true;
-  std::uint64_t id = 0; // stable from frame to frame
-};
-
 /// A surface that is no instance, but on which shadows of instances fall: where it is, in the
 /// world.
 struct Receiver

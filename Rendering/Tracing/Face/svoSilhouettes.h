@@ -8,21 +8,15 @@
 #ifndef svoSilhouettes_h
 #define svoSilhouettes_h
 
-#include "svoParallel.h"
-#include "svoTracer.h"
+#include "svoFrame.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include <glm/vec2.hpp>
-
 namespace svo
 {
-class PixelShader;
-struct ShadedScene;
-
 /// What one surface covers of one pixel.
 struct PixelPart
 {
@@ -59,13 +53,6 @@ struct Silhouettes
     }
   }
 };
-
-/// Finds the pixels where the instance, the depth, or the colour from one facet to the next
-/// changes, and traces a ray through each of their samples, at `positions` in a pixel, 0..1, at
-/// most 32. `frame` is what `shaded` was rendered to. Other pixels are left to the frame. See
-/// Tracer::divideEdges().
-void findSilhouettes(const ShadedScene& shaded, const PixelShader& shader, const Frame& frame,
-  const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor, Silhouettes& result);
 }
 
 #endif

@@ -1,15 +1,19 @@
-// One frame: select, trace, merge, shadow, shade. The CPU backend.
+// The face of all tracers: what a renderer asks for, and in which order.
+//
+// Fill a Scene with the instances that there are and ask neededLevels() how deep their octrees have
+// to be; give them octrees; render(). Where a scene is spread over several processes all of them
+// call shareShadows() before it. What is drawn beside the frame, by others, asks for shadowMaps()
+// and, in a window with multisampling, for divideEdges() afterwards.
 #ifndef svoTracer_h
 #define svoTracer_h
 
+#include "svoFrame.h"
+#include "svoLevels.h"
 #include "svoParallel.h"
-#include "svoRay.h"
 #include "svoScene.h"
 #include "svoView.h"
 #include "vtkSVOTracingModule.h"
 
-#include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -17,119 +21,54 @@
 
 namespace svo
 {
-enum class ShadowTechnique
-{
-  None,
-  Buffer, // shadow buffers, merged from layers like the depth buffer
-  Rays    // one exact ray to the light per visible point and light; buffers for receivers
-};
-
-struct FrameSettings
-{
-  ShadowTechnique shadowTechnique = ShadowTechnique::Buffer;
-  int shadowResolution = 2048;                          // texels along an edge of one map
-  std::size_t shadowMemoryLimit = std::size_t(4) << 30; // bytes, of the maps of all lights
-  bool automaticBias = true;    // compare on the receiver's plane, at the texel's own ray
-  double bias = 0.0;            // voxels of the caster, added
-  double shadowIntensity = 1.0; // share of the light's diffuse and specular that is removed
-  double pixelError = 1.0;      // largest projected voxel edge, pixels; 0: full depth
-  bool frameCoherence = true;   // reuse layers of instances that did not change
-  std::size_t layerMemoryLimit = std::size_t(512) << 20; // bytes
-  /// Four rays in pixels at whose border the instance, the depth or a shadow changes. Colours are
-  /// averaged over what is hit; depth stays that of the pixel's centre, and a pixel whose centre
-  /// misses stays a miss. Shadow buffers are traced whole.
-  bool antiAliasing = false;
-  /// Shadow buffers say which share of a light a point misses, instead of yes or no, so that the
-  /// edges of shadows do not show the buffer's texels: ShadowBuffer::darkness(). With the automatic
-  /// bias only. Shadow buffers are traced whole.
-  bool filterShadows = false;
-  bool wholeShadowBuffers = false; // rasterised receivers look up texels nobody here knows
-  bool writeNormals = false;       // Frame::normals is wanted (SSAO)
-  bool writeLight = false;         // Frame::light is wanted (tone mapping)
-};
-
-/// The picture, row by row from the lower left, one entry a pixel.
-struct Frame
-{
-  int width = 0;
-  int height = 0;
-  PixelRect covered;                   // smallest rectangle (8-pixel grid) with every hit
-  std::vector<std::uint8_t> color;     // RGBA; alpha 255 on a hit, 0 elsewhere
-  std::vector<float> depth;            // OpenGL window depth; 1 where nothing was hit
-  std::vector<float> normals;          // xyz, view space, if asked for
-  std::vector<float> light;            // RGB that `color` has cut to 0..1, on hits, if asked for
-  std::vector<std::uint32_t> instance; // index into Scene::instances, or ~0u
-  std::vector<Primitive> primitive;
-};
-
-struct FrameStatistics
-{
-  double traceTime = 0.0;  // s, depth layers of the eye, merging, shading
-  double shadowTime = 0.0; // s, shadow buffers or rays
-  std::uint64_t primaryRays = 0;
-  std::uint64_t shadowRays = 0;
-  std::uint64_t retracedLayers = 0; // layers traced this frame, of the eye and of lights
-  std::uint64_t layerMemory = 0;    // bytes held by kept layers
-  /// How wide the texels of a shadow map may look that was fitted to what is seen, pixels; 0: of
-  /// none.
-  double coarsestTexel = 0.0;
-  bool fewerTexels = false; // than were asked for, by all processes alike, for lack of memory
-};
-
-/// A finished shadow buffer, for rasterised receivers. One per map: a point light whose casters
-/// subtend more than 120 degrees has six.
-struct ShadowMap
-{
-  int light = 0; // index into Scene::lights
-  View view;     // of the light; width = height = resolution
-  /// Linear depth of the nearest caster minus `base`, row by row; infinity where there is none.
-  /// From frame to frame the same object as long as the values are the same.
-  double base = 0.0;
-  std::shared_ptr<const std::vector<float>> depth;
-  double worldBias = 0.0;   // what a receiver that does not know who casts should add, world units
-  double casterVoxel = 0.0; // of the coarsest caster, world units
-};
-
 class Processes;
 struct Silhouettes;
 
 class VTKSVOTRACING_EXPORT Tracer
 {
 public:
-  Tracer();
-  ~Tracer();
+  Tracer() = default;
+  virtual ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
-  /// Renders a frame. Layers of the previous frame are reused where allowed.
-  void render(const Scene& scene, const View& view, const FrameSettings& settings,
-    const ParallelFor& parallelFor, Frame& frame);
+  /// For each instance how deep its octrees have to be, so that a frame keeps the promise of its
+  /// pixel error. The instances have a box and need no octree. The answer depends on the scene, the
+  /// view and the settings alone.
+  virtual std::vector<NeededLevels> neededLevels(
+    const Scene& scene, const View& view, const FrameSettings& settings) const = 0;
+
+  /// Renders a frame. What was kept of previous frames is used where the settings allow it, and
+  /// changes no bit.
+  virtual void render(const Scene& scene, const View& view, const FrameSettings& settings,
+    const ParallelFor& parallelFor, Frame& frame) = 0;
 
   /// For scenes that are spread over several processes, to be called by all of them before
   /// render() and with the same scene and view: traces the shadow buffers and merges them with the
-  /// others'. render() then takes these instead of its own. See Shadows::traceShared.
-  bool shareShadows(const Scene& scene, const View& view, const FrameSettings& settings,
-    const ParallelFor& parallelFor, Processes& processes);
+  /// others'. render() then takes these instead of its own. False if it takes its own: no light
+  /// casts, or one of the processes has no memory for it.
+  virtual bool shareShadows(const Scene& scene, const View& view, const FrameSettings& settings,
+    const ParallelFor& parallelFor, Processes& processes) = 0;
 
   /// After render(), with the same scene and view: what surfaces cover of the pixels of `frame`
-  /// that they share. See svoSilhouettes.h.
-  void divideEdges(const Scene& scene, const View& view, const Frame& frame,
+  /// that they share, for samples at `positions` in a pixel, 0..1, at most 32.
+  virtual void divideEdges(const Scene& scene, const View& view, const Frame& frame,
     const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor,
-    Silhouettes& result) const;
+    Silhouettes& result) const = 0;
 
-  const FrameStatistics& statistics() const;
+  /// Of the last frame.
+  virtual const FrameStatistics& statistics() const = 0;
 
   /// The whole shadow buffers of the last frame; empty unless they were asked for with
   /// FrameSettings::wholeShadowBuffers.
-  const std::vector<ShadowMap>& shadowMaps() const;
+  virtual const std::vector<ShadowMap>& shadowMaps() const = 0;
 
-  /// Forgets every kept layer.
-  void releaseLayers();
-
-private:
-  struct Internals;
-  std::unique_ptr<Internals> Impl;
+  /// Forgets all that is kept for the next frame: FrameStatistics::layerMemory.
+  virtual void releaseLayers() = 0;
 };
+
+/// The tracer on the processor.
+VTKSVOTRACING_EXPORT std::unique_ptr<Tracer> makeCPUTracer();
 }
 
 #endif

@@ -1,8 +1,5 @@
 #include "svoLayeredView.h"
 
-#include "svoLeafGeometry.h"
-#include "svoSelect.h"
-
 #include <algorithm>
 #include <mutex>
 
@@ -23,25 +20,10 @@ DepthLayer::DepthLayer(const PixelRect& r)
   this->primitive.resize(64 * tiles);
 }
 
-bool endsFreely(const Instance& instance, int level)
-{
-  if (instance.leafGeometry == LeafGeometry::Voxel || !instance.octree.surface())
-  {
-    return true;
-  }
-  const bool inBrick = level >= instance.octree.level() - 2; // above, leaves are mean planes
-  return inBrick &&
-    (instance.leafGeometry == LeafGeometry::Triangle ||
-      (instance.leafGeometry == LeafGeometry::Automatic &&
-        instance.octree.longestList() <= ShortList));
-}
-
 bool worthTiles(const Instance& instance, const LocalView& local, const View& view)
 {
   const Octree& octree = instance.octree;
-  const bool exact = instance.leafGeometry == LeafGeometry::Triangle ||
-    instance.leafGeometry == LeafGeometry::Automatic;
-  if (!exact || !octree.surface() || local.stretched)
+  if (!traitsOf(instance.leafGeometry).exact() || !octree.surface() || local.stretched)
   {
     return false;
   }
@@ -54,10 +36,10 @@ bool worthTiles(const Instance& instance, const LocalView& local, const View& vi
 
 int deepened(const Instance& instance, int level)
 {
-  const bool exact = instance.leafGeometry == LeafGeometry::Triangle ||
-    instance.leafGeometry == LeafGeometry::Automatic;
-  const int last = instance.octree.level();
-  return exact && instance.octree.surface() && level >= last - 2 ? last : level;
+  return traitsOf(instance.leafGeometry).exact() && instance.octree.surface() &&
+      !stopsAtNodes(instance, level)
+    ? instance.octree.level()
+    : level;
 }
 
 bool sameRays(const View& a, const View& b)

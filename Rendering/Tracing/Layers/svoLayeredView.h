@@ -5,6 +5,7 @@
 
 #include "svoDepthBuffer.h"
 #include "svoIntersectTile.h"
+#include "svoLeafError.h"
 #include "svoLocalView.h"
 #include "svoParallel.h"
 #include "svoProjection.h"
@@ -86,10 +87,6 @@ struct Samples
   std::uint32_t instance[64];
   Primitive primitive[64];
 };
-
-/// True if what a ray that stops at `level` hits does not depend on where the ray ends, so that it
-/// may be cut short: all leaves but planes, whose rays fall back on a refused cell at their end.
-bool endsFreely(const Instance& instance, int level);
 
 /// True if an instance is to be traced tile by tile, to its triangles: those that its leaf geometry
 /// leaves exact anyway, and no smaller in the image than about a pixel. Of `level` the tiles know

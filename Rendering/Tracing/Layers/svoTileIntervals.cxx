@@ -1,5 +1,6 @@
 #include "svoTileIntervals.h"
 
+#include "svoLeafTraits.h"
 #include "svoMorton.h"
 #include "svoProjection.h"
 
@@ -244,10 +245,7 @@ void computeTileIntervals(const Octree& octree, const glm::dmat4& localToWorld, 
   const double depth =
     std::abs(projection.x[3]) + std::abs(projection.y[3]) + std::abs(projection.z[3]);
   double slack = DepthSlack * depth + 1e-6 * std::abs(projection.corner[3]);
-  if (options.leafGeometry != LeafGeometry::Voxel)
-  {
-    slack += std::ldexp(depth, -(level + odd)); // a plane counts as far as one cell beyond its own
-  }
+  slack += traitsOf(options.leafGeometry).reach * std::ldexp(depth, -(level + odd));
   const float tNear = static_cast<float>(view.tNear - base - slack);
   const float tFar = static_cast<float>(std::min(view.tFar - base + slack, 1e30));
   parallelFor(0, intervals.rows, RowsPerTask,

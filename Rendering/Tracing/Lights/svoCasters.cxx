@@ -25,9 +25,8 @@ bool isOnlyBackdrop(const std::vector<Outline>& outlines, const Outline& caster,
   const glm::dvec3 translation(localToWorld[3]);
   const auto height = [&](const glm::dvec3& x) { return (inverse * (x - translation))[axis]; };
   const double plane = caster.meshLow[axis];
-  const double lightSide = light.kind == Light::Kind::Directional
-    ? -(inverse * light.direction)[axis]
-    : height(light.position) - plane;
+  const double lightSide =
+    light.atInfinity() ? -(inverse * light.direction)[axis] : height(light.position) - plane;
   const double side = lightSide < 0.0 ? -1.0 : 1.0;
   for (const Outline& receiver : outlines)
   {

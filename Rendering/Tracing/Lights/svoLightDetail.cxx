@@ -3,7 +3,7 @@
 #include "svoCasters.h"
 #include "svoConvexParts.h"
 #include "svoLightView.h"
-#include "svoSelect.h"
+#include "svoWorldSize.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #ifndef svoLightDetail_h
 #define svoLightDetail_h
 
+#include "svoFrame.h"
 #include "svoOutline.h"
 #include "svoScene.h"
-#include "svoTracer.h"
 #include "svoView.h"
 
 #include <cstdint>

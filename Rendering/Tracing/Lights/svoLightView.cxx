@@ -129,7 +129,7 @@ std::vector<View> sixFaces(const glm::dvec3& position, double farthest, int reso
 std::vector<View> fitPositional(
   const std::vector<glm::dvec3>& corners, const Light& light, int resolution)
 {
-  const bool spot = light.kind == Light::Kind::Spot && light.coneAngle < 60.0;
+  const bool spot = light.hasCone() && light.coneAngle < 60.0;
   glm::dvec3 axis(0.0);
   double farthest = 0.0;
   for (const glm::dvec3& p : corners)
@@ -216,8 +216,7 @@ std::vector<View> fitLight(const std::vector<Outline>& outlines,
   {
     return {};
   }
-  return light.kind == Light::Kind::Directional
-    ? fitDirectional(corners, light.direction, resolution)
-    : fitPositional(corners, light, resolution);
+  return light.atInfinity() ? fitDirectional(corners, light.direction, resolution)
+                            : fitPositional(corners, light, resolution);
 }
 }

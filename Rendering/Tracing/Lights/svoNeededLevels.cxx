@@ -3,7 +3,7 @@
 #include "svoLeafGeometry.h"
 #include "svoLightDetail.h"
 #include "svoLocalView.h"
-#include "svoSelect.h"
+#include "svoWorldSize.h"
 
 #include <algorithm>
 #include <cmath>

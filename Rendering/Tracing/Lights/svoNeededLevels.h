@@ -2,8 +2,9 @@
 #ifndef svoNeededLevels_h
 #define svoNeededLevels_h
 
+#include "svoFrame.h"
+#include "svoLevels.h"
 #include "svoScene.h"
-#include "svoTracer.h"
 #include "svoView.h"
 #include "vtkSVOTracingModule.h"
 
@@ -11,13 +12,6 @@
 
 namespace svo
 {
-/// Levels of an instance's octrees.
-struct NeededLevels
-{
-  int eye = 1;
-  int lights = 0; // 0: it is in no shadow buffer
-};
-
 /// For each instance the levels from which on a deeper octree is traced no deeper (selectLevel()),
 /// so that the picture keeps the promise of the pixel error; at most Instance::deepestLevel. The
 /// instances have a box and need no octree. The answer depends on the scene, the view and the

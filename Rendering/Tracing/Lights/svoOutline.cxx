@@ -1,5 +1,6 @@
 #include "svoOutline.h"
 
+#include "svoLeafTraits.h"
 #include "svoWorldToOctree.h"
 
 #include <algorithm>
@@ -46,8 +47,7 @@ Outline outlineOf(const Instance& instance)
   // of how far it reaches beyond the mesh.
   constexpr int FineEnough = 10;
   const int level = static_cast<int>(h.level);
-  const bool exact = instance.leafGeometry == LeafGeometry::Triangle ||
-    instance.leafGeometry == LeafGeometry::Automatic;
+  const bool exact = traitsOf(instance.leafGeometry).exact();
   outline.voxelSize = std::ldexp(h.voxelSize, exact ? std::min(level - FineEnough, 0) : 0);
   outline.smallestVoxel = std::min(
     outline.voxelSize, std::ldexp(h.voxelSize, std::min(level - instance.deepestLevel, 0)));

@@ -4,8 +4,8 @@
 
 #include "svoDepthBuffer.h"
 #include "svoLayeredView.h"
-#include "svoSelect.h"
 #include "svoView.h"
+#include "svoWorldSize.h"
 
 #include <algorithm>
 #include <cmath>

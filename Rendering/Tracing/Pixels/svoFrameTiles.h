@@ -3,7 +3,8 @@
 #define svoFrameTiles_h
 
 #include "svoDepthBuffer.h"
-#include "svoTracer.h"
+#include "svoFrame.h"
+#include "svoParallel.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "svoPixelShader.h"
 
-#include "svoSelect.h"
+#include "svoLeafError.h"
 #include "svoTerminator.h"
 
 #include <algorithm>

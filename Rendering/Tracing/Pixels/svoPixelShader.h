@@ -3,6 +3,7 @@
 #define svoPixelShader_h
 
 #include "svoEdges.h"
+#include "svoFrame.h"
 #include "svoFrameTiles.h"
 #include "svoLayeredView.h"
 #include "svoParallel.h"
@@ -11,7 +12,6 @@
 #include "svoSurfacePoint.h"
 #include "svoTileLighting.h"
 #include "svoTilePoints.h"
-#include "svoTracer.h"
 
 #include <cstddef>
 #include <cstdint>

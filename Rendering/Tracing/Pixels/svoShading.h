@@ -54,14 +54,14 @@ inline Arriving arriving(const ViewLight& l, const glm::vec3& normal, const glm:
   }
   glm::vec3 direction = l.direction;
   float attenuation = 1.0f;
-  if (l.light->kind != Light::Kind::Directional)
+  if (!l.light->atInfinity())
   {
     direction = position - l.position;
     const float distance = glm::length(direction);
     direction = distance > 0.0f ? direction / distance : l.direction;
     const glm::vec3& a = l.light->attenuation;
     attenuation = 1.0f / (a.x + a.y * distance + a.z * distance * distance);
-    if (l.light->kind == Light::Kind::Spot)
+    if (l.light->hasCone())
     {
       const float coneDot = glm::dot(direction, l.direction);
       attenuation = coneDot >= l.coneCosine

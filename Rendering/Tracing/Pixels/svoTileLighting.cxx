@@ -281,7 +281,7 @@ void arriveLight(
   {
     alignas(64) float dx[TilePoints::Room], dy[TilePoints::Room], dz[TilePoints::Room];
     alignas(64) float attenuation[TilePoints::Room], cosine[TilePoints::Room];
-    if (from.light->kind == Light::Kind::Directional)
+    if (from.light->atInfinity())
     {
       std::fill_n(dx, count + TilePoints::Step, from.direction.x);
       std::fill_n(dy, count + TilePoints::Step, from.direction.y);
@@ -292,7 +292,7 @@ void arriveLight(
     {
       HWY_DYNAMIC_DISPATCH(arriveFromPosition)(from, count, dx, dy, dz, attenuation, light);
     }
-    if (from.light->kind == Light::Kind::Spot)
+    if (from.light->hasCone())
     {
       HWY_DYNAMIC_DISPATCH(towardsAxis)(from, count, dx, dy, dz, cosine);
       const float exponent = static_cast<float>(from.light->exponent);

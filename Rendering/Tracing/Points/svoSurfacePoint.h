@@ -65,31 +65,6 @@ inline glm::vec3 normalized(const glm::vec3& v, const glm::vec3& otherwise)
   const double length = glm::length(glm::dvec3(v));
   return length > 0.0 && std::isfinite(length) ? glm::vec3(glm::dvec3(v) / length) : otherwise;
 }
-
-inline glm::vec3 vectorAt(const float* array, std::size_t i)
-{
-  return { array[3 * i], array[3 * i + 1], array[3 * i + 2] };
-}
-
-inline glm::vec3 colorAt(const unsigned char* array, std::size_t i)
-{
-  return glm::vec3(array[4 * i], array[4 * i + 1], array[4 * i + 2]) / 255.0f;
-}
-
-/// Texture coordinates of a point.
-inline glm::vec2 coordinatesAt(const Attributes& a, std::size_t i)
-{
-  return { a.colorCoordinates[2 * i], a.colorCoordinates[2 * i + 1] };
-}
-
-/// The texel that VTK's texture, clamped to its edge and not interpolated, shows at `at`.
-inline int texelAt(const Attributes& a, const glm::vec2& at)
-{
-  const float x =
-    at.x > 0.0f ? std::min(at.x, 1.0f) * static_cast<float>(a.colorTextureSize) : 0.0f;
-  const int texel = std::min(static_cast<int>(x), a.colorTextureSize - 1);
-  return at.y < 0.5f ? texel : texel + a.colorTextureSize;
-}
 }
 
 /// The triangle of a node; see pickTriangle(). `position` and `towards`, to the viewer: world.

@@ -1,6 +1,8 @@
 #include "svoShadowBuffer.h"
 
-#include "svoSelect.h"
+#include "svoLeafError.h"
+#include "svoSelectLevel.h"
+#include "svoWorldSize.h"
 
 #include <algorithm>
 #include <cmath>

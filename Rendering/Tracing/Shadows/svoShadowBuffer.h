@@ -3,6 +3,7 @@
 #ifndef svoShadowBuffer_h
 #define svoShadowBuffer_h
 
+#include "svoFrame.h"
 #include "svoLayeredView.h"
 #include "svoLightDetail.h"
 #include "svoProcesses.h"
@@ -11,7 +12,6 @@
 #include "svoSurfacePoint.h"
 #include "svoTilePoints.h"
 #include "svoTileShadows.h"
-#include "svoTracer.h"
 
 #include <atomic>
 #include <memory>

@@ -1,9 +1,8 @@
 #include "svoShadowRays.h"
 
 #include "svoIntersect.h"
-#include "svoLeafGeometry.h"
-#include "svoSelect.h"
-#include "svoTerminator.h"
+#include "svoLeafError.h"
+#include "svoWorldSize.h"
 
 #include <algorithm>
 
@@ -20,7 +19,7 @@ constexpr double BeforeLight = 1.0 - 1e-9;
 glm::dvec3 sideOf(const Light& light, const glm::dvec3& position, const glm::vec3& facet)
 {
   const glm::dvec3 normal(facet);
-  return glm::dot(normal, alongLight(light, position)) > 0.0 ? -normal : normal;
+  return glm::dot(normal, light.along(position)) > 0.0 ? -normal : normal;
 }
 }
 
@@ -32,8 +31,8 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
     {
       const std::size_t index = &instance - scene.instances.data();
       const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(index));
-      const bool mixed =
-        geometry == LeafGeometry::Automatic && instance.octree.longestList() > ShortList;
+      const LeafTraits traits = traitsOf(geometry);
+      const bool mixed = traits.exact() && instance.octree.longestList() > traits.longestExact;
       const double planeError = mixed ? CubeError * worldVoxel(instance) : 0.0;
       this->Casters.push_back(
         { &instance, geometry, WorldToOctree(instance.octree, instance.localToWorld), planeError,
@@ -45,10 +44,10 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
 bool ShadowRays::shadows(
   const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const
 {
-  const bool far = light.kind == Light::Kind::Directional;
+  const bool far = light.atInfinity();
   const glm::dvec3 side = sideOf(light, position, facet);
   const glm::dvec3 start = position + offset * side;
-  const glm::dvec3 direction = -alongLight(light, start);
+  const glm::dvec3 direction = -light.along(start);
   for (const Caster& caster : this->Casters)
   {
     const Ray ray{ caster.toOctree.point(start), caster.toOctree.vector(direction), 0.0,

@@ -2,13 +2,13 @@
 #ifndef svoShadows_h
 #define svoShadows_h
 
+#include "svoFrame.h"
 #include "svoScene.h"
 #include "svoShadowBuffer.h"
 #include "svoShadowRays.h"
 #include "svoSurfacePoint.h"
 #include "svoTerminator.h"
 #include "svoTileShadows.h"
-#include "svoTracer.h"
 
 #include <cstdint>
 #include <memory>

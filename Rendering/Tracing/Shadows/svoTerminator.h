@@ -53,18 +53,12 @@ inline bool isSmooth(const Instance& instance)
     std::any_of(surface->triangles.begin(), surface->triangles.end(), bends);
 }
 
-/// The way a light's ray goes that arrives at a point; not unit.
-inline glm::dvec3 alongLight(const Light& light, const glm::dvec3& position)
-{
-  return light.kind == Light::Kind::Directional ? light.direction : position - light.position;
-}
-
 /// True if light that arrives at a point meets the facet there from behind, or so flat that the
 /// sine is at most `grazing`.
 inline bool turnsAway(
   const Light& light, const glm::dvec3& position, const glm::vec3& facet, double grazing)
 {
-  const glm::dvec3 along = alongLight(light, position);
+  const glm::dvec3 along = light.along(position);
   const double behind = glm::dot(glm::dvec3(facet), along);
   return behind > 0.0 || behind * behind < grazing * grazing * glm::dot(along, along);
 }

@@ -176,10 +176,9 @@ bool mayTurnAway(const Light& light, double grazing, const TilePoints& points, i
   const std::uint8_t* asked, const std::uint8_t* dark, std::uint8_t* turned)
 {
   constexpr double Margin = 1e-4;
-  return HWY_DYNAMIC_DISPATCH(turn)(light.position, glm::vec3(light.direction),
-           light.kind == Light::Kind::Directional, static_cast<float>(grazing + Margin),
-           static_cast<float>(DoubtfulSine + Margin), points, first, last, asked, dark,
-           turned) != 0;
+  return HWY_DYNAMIC_DISPATCH(turn)(light.position, glm::vec3(light.direction), light.atInfinity(),
+           static_cast<float>(grazing + Margin), static_cast<float>(DoubtfulSine + Margin), points,
+           first, last, asked, dark, turned) != 0;
 }
 
 void testTexels(const View& light, const TexelEdge& edge, const TilePoints& points, int first,

@@ -5,9 +5,9 @@
 #define svoTileShadows_h
 
 #include "svoScene.h"
-#include "svoSelect.h"
 #include "svoTilePoints.h"
 #include "svoView.h"
+#include "svoWorldSize.h"
 
 #include <cstdint>
 

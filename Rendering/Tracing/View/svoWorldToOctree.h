@@ -2,10 +2,8 @@
 #ifndef svoWorldToOctree_h
 #define svoWorldToOctree_h
 
+#include "svoInverse.h"
 #include "svoOctree.h"
-
-#include <algorithm>
-#include <cmath>
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -13,115 +11,6 @@
 
 namespace svo
 {
-namespace detail
-{
-/// (1 - m x)[row, column] with the precision of products and sums of twice as many digits.
-inline double residual(const glm::dmat3& m, const glm::dmat3& x, int row, int column)
-{
-  double sum = row == column ? 1.0 : 0.0;
-  double lost = 0.0;
-  for (int k = 0; k < 3; ++k)
-  {
-    const double product = m[k][row] * x[column][k];
-    const double next = sum - product;
-    const double part = next - sum;
-    lost += (sum - (next - part)) + (-product - part); // of the sum
-    lost -= std::fma(m[k][row], x[column][k], -product);
-    sum = next;
-  }
-  return sum + lost;
-}
-}
-
-/// The inverse of a 3x3 matrix with all the digits of a double, up to a condition of about 1e12:
-/// elimination with complete pivoting, then Newton's iteration with exact residuals. A ray passes
-/// through two rounded products, of the eye and of the direction, and only if each is right by
-/// itself is the ray right where it meets the object. (With glm::inverse, cofactors over the
-/// determinant, rays missed a needle of condition 1e6 by hundredths of its voxels and one of
-/// condition 1e9 altogether.) Not finite for a singular or not finite matrix.
-inline glm::dmat3 stableInverse(const glm::dmat3& m)
-{
-  double a[3][6]; // rows of [ m | 1 ]
-  int column[3] = { 0, 1, 2 };
-  for (int r = 0; r < 3; ++r)
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      a[r][c] = m[c][r];
-      a[r][3 + c] = r == c ? 1.0 : 0.0;
-    }
-  }
-  for (int k = 0; k < 3; ++k)
-  {
-    int row = k;
-    int best = k;
-    for (int r = k; r < 3; ++r)
-    {
-      for (int c = k; c < 3; ++c)
-      {
-        if (std::abs(a[r][c]) > std::abs(a[row][best]))
-        {
-          row = r;
-          best = c;
-        }
-      }
-    }
-    std::swap_ranges(a[k], a[k] + 6, a[row]);
-    for (int r = 0; r < 3 && best != k; ++r)
-    {
-      std::swap(a[r][k], a[r][best]);
-    }
-    std::swap(column[k], column[best]);
-    for (int r = 0; r < 3; ++r)
-    {
-      if (r == k)
-      {
-        continue;
-      }
-      const double factor = a[r][k] / a[k][k];
-      for (int c = k; c < 6; ++c)
-      {
-        a[r][c] -= factor * a[k][c];
-      }
-    }
-  }
-  glm::dmat3 inverse;
-  for (int k = 0; k < 3; ++k)
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      inverse[c][column[k]] = a[k][3 + c] / a[k][k];
-    }
-  }
-  for (int i = 0; i < 2; ++i)
-  {
-    glm::dmat3 error;
-    for (int c = 0; c < 3; ++c)
-    {
-      for (int r = 0; r < 3; ++r)
-      {
-        error[c][r] = detail::residual(m, inverse, r, c);
-      }
-    }
-    inverse += inverse * error;
-  }
-  return inverse;
-}
-
-/// True if a matrix places something somewhere: it is finite and can be inverted. What is placed by
-/// others is neither seen nor does it cast.
-inline bool placesSomething(const glm::dmat4& m)
-{
-  const glm::dmat3 inverse = stableInverse(glm::dmat3(m));
-  bool finite = true;
-  for (int i = 0; i < 12; ++i)
-  {
-    finite = finite && std::isfinite(m[i / 3][i % 3]);
-    finite = finite && (i >= 9 || std::isfinite(inverse[i / 3][i % 3]));
-  }
-  return finite;
-}
-
 /// What M^-1 and the octree's cube do to a point, in the order that cancels what is common before
 /// anything is rounded: 1 + (L^-1 (x - translation) - origin) / edge of the root cube. The error is
 /// at most some condition(L) 2^-52 |x - translation| in the object (Documentation/Numerics.md).

@@ -1,7 +1,7 @@
 // Where a bias shows: acne on a convex body, and how far from its foot a shadow begins.
 #include "accuracyExperiments.h"
 
-#include "svoSelect.h"
+#include "svoWorldSize.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "accuracyImages.h"
 
 #include "svoSMPParallel.h"
-#include "svoSelect.h"
+#include "svoWorldSize.h"
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ Picture traced(
   const svo::Scene& scene, const svo::View& view, svo::FrameSettings settings, int repeat, Row& row)
 {
   settings.frameCoherence = false;
-  svo::Tracer tracer;
+  svo::CPUTracer tracer;
   svo::Frame frame;
   double least = 0.0;
   for (int i = 0; i < repeat; ++i)

@@ -4,7 +4,7 @@
 
 #include "accuracyReference.h"
 
-#include "svoTracer.h"
+#include "svoCPUTracer.h"
 
 #include <vtk_jsoncpp.h>
 

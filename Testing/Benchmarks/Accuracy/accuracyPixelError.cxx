@@ -2,7 +2,8 @@
 #include "accuracyExperiments.h"
 
 #include "svoSMPParallel.h"
-#include "svoSelect.h"
+#include "svoSelectLevel.h"
+#include "svoWorldSize.h"
 
 #include <vtkGenericCell.h>
 #include <vtkNew.h>

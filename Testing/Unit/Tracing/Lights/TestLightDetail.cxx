@@ -66,7 +66,7 @@ svo::Frame rendered(const svo::Scene& scene, svo::ShadowTechnique technique)
 {
   svo::FrameSettings settings;
   settings.shadowTechnique = technique;
-  svo::Tracer tracer;
+  svo::CPUTracer tracer;
   return svotest::rendered(tracer, scene, Eye, settings);
 }
 
@@ -214,7 +214,7 @@ TEST(LightDetail, MapsOfAllLightsAreLimitedTogether)
   scene.lights = { lightOf(svo::Light::Kind::Directional, { 3, -2, 5 }) };
   svo::FrameSettings settings;
   settings.shadowMemoryLimit = 12 * 1024 * 1024;
-  svo::Tracer tracer;
+  svo::CPUTracer tracer;
   svotest::rendered(tracer, scene, Eye, settings);
   EXPECT_TRUE(tracer.statistics().fewerTexels);
   settings.shadowMemoryLimit = svo::FrameSettings().shadowMemoryLimit;

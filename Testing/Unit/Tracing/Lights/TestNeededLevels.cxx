@@ -4,7 +4,7 @@
 #include "svoCasters.h"
 #include "svoLightView.h"
 #include "svoNeededLevels.h"
-#include "svoSelect.h"
+#include "svoSelectLevel.h"
 
 #include <gtest/gtest.h>
 

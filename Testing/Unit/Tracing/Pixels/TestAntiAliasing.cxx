@@ -130,7 +130,7 @@ TEST(AntiAliasing, DoesNotDependOnThreadsOrKeptLayers)
   settings.antiAliasing = true;
   settings.shadowResolution = 128;
   const svo::Frame one = rendered(ballAndRing(), view, settings);
-  svo::Tracer tracer;
+  svo::CPUTracer tracer;
   EXPECT_TRUE(identical(one, rendered(tracer, ballAndRing(), view, settings, raggedFor(7))));
   const svo::Scene scene = ballAndRing();
   rendered(tracer, scene, view, settings);

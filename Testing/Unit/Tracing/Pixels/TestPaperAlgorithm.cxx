@@ -65,7 +65,7 @@ TEST(PaperAlgorithm, FramesAgreeWithItsStepsWrittenDownLiterally)
   settings.shadowResolution = 96;
   settings.wholeShadowBuffers = true;
   const svo::View eye = lookAt({ 1, -6, 4 }, 100, 76);
-  svo::Tracer tracer;
+  svo::CPUTracer tracer;
   const svo::Frame frame = rendered(tracer, scene, eye, settings);
   ASSERT_EQ(tracer.shadowMaps().size(), 1u);
   const svo::View light = tracer.shadowMaps()[0].view;

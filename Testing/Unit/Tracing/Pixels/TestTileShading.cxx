@@ -1,7 +1,7 @@
 // The visible points of a tile, side by side, against the functions for one point, bit for bit, on
 // every instruction set of this machine.
 #include "svoInstructionSets.h"
-#include "svoSelect.h"
+#include "svoLeafError.h"
 #include "svoShadowBuffer.h"
 #include "svoTileLighting.h"
 #include "svoTilePoints.h"
@@ -393,7 +393,7 @@ TEST(TileShading, FilteredFramesAreTheSame)
         EXPECT_TRUE(
           svotest::identical(expected, svotest::rendered(stage.scene, stage.view, settings)));
       });
-    Tracer tracer;
+    CPUTracer tracer;
     EXPECT_TRUE(svotest::identical(expected,
       svotest::rendered(tracer, stage.scene, stage.view, settings, svotest::raggedFor(7))));
     EXPECT_TRUE(svotest::identical(expected,

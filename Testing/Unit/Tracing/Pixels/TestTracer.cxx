@@ -66,7 +66,7 @@ void expectNearest(const float (&offsets)[3])
   }
   for (const svo::View& view : { Eye, lookAtParallel({ 1, -6, 4 }, 100, 76, 2.5) })
   {
-    svo::Tracer tracer;
+    svo::CPUTracer tracer;
     const svo::Frame frame = rendered(tracer, scene, view, settings);
     EXPECT_TRUE(identical(frame, rendered(tracer, scene, view, settings))) << "with kept layers";
     svo::FrameSettings cutting = settings;
@@ -157,7 +157,7 @@ TEST(Tracer, FramesDoNotDependOnThreads)
     const svo::Frame one = rendered(makeScene(), Eye, settings);
     for (unsigned threads : { 1u, 2u, 7u })
     {
-      svo::Tracer tracer;
+      svo::CPUTracer tracer;
       const svo::Frame many = rendered(tracer, makeScene(), Eye, settings, raggedFor(threads));
       EXPECT_TRUE(identical(one, many)) << threads;
     }
@@ -174,7 +174,7 @@ TEST(Tracer, KeptLayersNeverChangeAPicture)
     svo::Scene scene = makeScene(leafGeometry);
     svo::View view = Eye;
     svo::FrameSettings settings = smallBuffers();
-    svo::Tracer keeping;
+    svo::CPUTracer keeping;
     svo::Frame frame; // handed in again and again, as a pass does
     svo::FrameSettings forgetful = settings;
     for (int step = 0; step < 12; ++step)
@@ -223,7 +223,7 @@ TEST(Tracer, AnOctreeInAnotherOnesPlaceIsAnotherOctree)
   const std::vector<std::uint64_t> bytes[2] = { bytesOf(makeOctree(sphere(24, 40), 5)),
     bytesOf(makeOctree(torus(40, 24), 5)) };
   std::vector<std::uint64_t> place(std::max(bytes[0].size(), bytes[1].size()));
-  svo::Tracer tracer;
+  svo::CPUTracer tracer;
   for (int step = 0; step < 4; ++step)
   {
     const std::vector<std::uint64_t>& next = bytes[step % 2];
@@ -246,7 +246,7 @@ TEST(Tracer, WhatStandsStillIsNotTracedAgain)
 {
   svo::Scene scene = makeScene();
   svo::FrameSettings settings = smallBuffers();
-  svo::Tracer tracer;
+  svo::CPUTracer tracer;
   rendered(tracer, scene, Eye, settings);
   EXPECT_EQ(tracer.statistics().retracedLayers, 9u); // three of the eye and of each light
   EXPECT_GT(tracer.statistics().layerMemory, 0u);
@@ -270,7 +270,7 @@ TEST(Tracer, KeptLayersStayUnderTheLimit)
 {
   svo::FrameSettings settings = smallBuffers();
   settings.layerMemoryLimit = 100000;
-  svo::Tracer tracer;
+  svo::CPUTracer tracer;
   rendered(tracer, makeScene(), Eye, settings);
   rendered(tracer, makeScene(), Eye, settings);
   EXPECT_GT(tracer.statistics().layerMemory, 0u);
@@ -283,7 +283,7 @@ TEST(Tracer, AFrameUsedAgainHasNothingLeftOfTheLastPicture)
   svo::Scene scene = makeScene();
   svo::FrameSettings settings = smallBuffers();
   settings.writeNormals = true;
-  svo::Tracer tracer;
+  svo::CPUTracer tracer;
   svo::Frame frame;
   tracer.render(scene, Eye, settings, svo::serialFor, frame);
   scene.instances.resize(2);

@@ -1,8 +1,8 @@
 // What is shaded where rays stop at nodes above the bricks: faces that the viewer sees.
 #include "svoLayeredView.h"
-#include "svoSelect.h"
 #include "svoTilePoints.h"
 #include "svoTracerScenes.h"
+#include "svoWorldSize.h"
 
 #include <gtest/gtest.h>
 

@@ -34,7 +34,7 @@ svo::FrameSettings wholeBuffers()
 
 std::vector<svo::ShadowMap> mapsOf(const svo::Scene& scene, const svo::View& view)
 {
-  svo::Tracer tracer;
+  svo::CPUTracer tracer;
   rendered(tracer, scene, view, wholeBuffers());
   return tracer.shadowMaps();
 }
@@ -93,7 +93,7 @@ TEST(CasterOctree, DeepeningRetracesTheEyesLayerAlone)
   LitRing lit(svo::LeafGeometry::Automatic);
   const svo::View view = lookAt({ 1, -7, 4 }, 160, 120);
   svo::FrameSettings settings;
-  svo::Tracer tracer;
+  svo::CPUTracer tracer;
   rendered(tracer, lit.scene, view, settings);
   rendered(tracer, lit.scene, view, settings);
   EXPECT_EQ(tracer.statistics().retracedLayers, 0u);

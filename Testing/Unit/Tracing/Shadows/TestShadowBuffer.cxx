@@ -285,11 +285,11 @@ TEST(ShadowBuffer, WholeBuffersGiveTheSameBitsAndAreHandedOut)
     scene.lights = { c.light };
     svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
     settings.shadowResolution = 64;
-    svo::Tracer tracer;
+    svo::CPUTracer tracer;
     const svo::Frame marked = rendered(tracer, scene, Eye, settings);
     EXPECT_TRUE(tracer.shadowMaps().empty());
     settings.wholeShadowBuffers = true;
-    svo::Tracer whole;
+    svo::CPUTracer whole;
     EXPECT_TRUE(identical(marked, rendered(whole, scene, Eye, settings))) << c.name;
     ASSERT_EQ(whole.shadowMaps().size(), c.name == "point, six faces" ? 6u : 1u);
     int occupied = 0;
@@ -316,10 +316,10 @@ TEST(ShadowBuffer, MapsAreKeptAsLongAsNothingTheyShowChanges)
     svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
     settings.shadowResolution = 64;
     settings.wholeShadowBuffers = true;
-    svo::Tracer tracer;
+    svo::CPUTracer tracer;
     const auto shown = [&](const svo::View& eye)
     {
-      svo::Tracer fresh;
+      svo::CPUTracer fresh;
       const svo::Frame expected = rendered(fresh, scene, eye, settings);
       EXPECT_TRUE(identical(expected, rendered(tracer, scene, eye, settings))) << c.name;
       const std::vector<svo::ShadowMap> maps = tracer.shadowMaps();
@@ -358,11 +358,11 @@ TEST(ShadowBuffer, OnlyTilesThatAreLookedUpAreTraced)
   scene.lights = { lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }) };
   svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
   const svo::View corner = lookAt({ 1, -6, 4 }, 64, 48, 5.0, { -1.5, -2, 0 });
-  svo::Tracer tracer;
+  svo::CPUTracer tracer;
   rendered(tracer, scene, corner, settings);
   const std::uint64_t marked = tracer.statistics().shadowRays;
   settings.wholeShadowBuffers = true;
-  svo::Tracer whole;
+  svo::CPUTracer whole;
   rendered(whole, scene, corner, settings);
   EXPECT_GT(marked, 0u);
   EXPECT_LT(marked, whole.statistics().shadowRays / 10);

@@ -90,7 +90,7 @@ struct Group
     }
     return sum;
   }
-  std::vector<svo::Tracer> Tracers;
+  std::vector<svo::CPUTracer> Tracers;
   std::vector<svo::Frame> Frames;
 };
 
@@ -199,7 +199,7 @@ TEST(SharedShadows, AProcessWithoutInstancesHasTheWholeMaps)
   svo::FrameSettings settings = smallBuffers();
   settings.wholeShadowBuffers = true; // rasterised receivers
   const svo::View eye = lookAt({ 1, -6, 4 }, 160, 120);
-  svo::Tracer one;
+  svo::CPUTracer one;
   rendered(one, scene, eye, settings);
   Group group(5);
   group.picture(scene, eye, settings);
@@ -231,7 +231,7 @@ TEST(SharedShadows, TheFirstProcessSaysHowManyTexelsThereAre)
       svo::FrameSettings settings = smallBuffers();
       settings.shadowResolution = processes.self() == 0 ? 128 : 256;
       const svo::Scene part = partOf(scene, processes.self(), 2);
-      svo::Tracer tracer;
+      svo::CPUTracer tracer;
       EXPECT_TRUE(tracer.shareShadows(part, eye, settings, svo::serialFor, processes));
       svo::Frame frame;
       tracer.render(part, eye, settings, svo::serialFor, frame);
@@ -252,7 +252,7 @@ TEST(SharedShadows, ProcessesThatDisagreeAboutTheLightsKeepTheirOwn)
       {
         part.lights.clear();
       }
-      svo::Tracer tracer;
+      svo::CPUTracer tracer;
       EXPECT_FALSE(
         tracer.shareShadows(part, svo::View(), smallBuffers(), svo::serialFor, processes));
       EXPECT_TRUE(identical(

@@ -1,8 +1,8 @@
-#include "svoSilhouettes.h"
+#include "svoSilhouetteFinder.h"
 
 #include "svoLayeredView.h"
 #include "svoPixelShader.h"
-#include "svoSelect.h"
+#include "svoWorldSize.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,13 @@
-#include "svoTracer.h"
+#include "svoCPUTracer.h"
 
 #include "svoFrameTiles.h"
 #include "svoLayeredView.h"
+#include "svoLeafError.h"
+#include "svoNeededLevels.h"
 #include "svoPixelShader.h"
-#include "svoSelect.h"
+#include "svoSelectLevel.h"
 #include "svoShadows.h"
-#include "svoSilhouettes.h"
+#include "svoSilhouetteFinder.h"
 #include "svoTilePoints.h"
 
 #include <algorithm>
@@ -19,9 +21,47 @@ double now()
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+/// FrameStatistics::coarsestVoxel
+double coarsestVoxel(const Scene& scene, const View& view)
+{
+  double largest = 0.0;
+  for (const Instance& instance : scene.instances)
+  {
+    if (!instance.visible || instance.octree.level() >= instance.neededLevel)
+    {
+      continue;
+    }
+    const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
+    if (!local.rect.empty() && !worthTiles(instance, local, view))
+    {
+      largest = std::max(largest, worldVoxel(instance) / worldPixel(view, local.base));
+    }
+  }
+  return largest;
 }
 
-struct Tracer::Internals
+/// FrameStatistics::largestGap
+double largestGap(const Scene& scene, const View& view)
+{
+  double largest = 0.0;
+  for (const Instance& instance : scene.instances)
+  {
+    if (instance.visible && instance.receiveShadow)
+    {
+      const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
+      const double gap = worldLeafError(instance, LeafGeometry::Triangle, MaximumLevel, true);
+      if (!local.rect.empty())
+      {
+        largest = std::max(largest, gap / worldPixel(view, local.base));
+      }
+    }
+  }
+  return largest;
+}
+}
+
+struct CPUTracer::Internals
 {
   FrameSettings Settings; // of the last frame
   FrameStatistics Statistics;
@@ -39,7 +79,7 @@ struct Tracer::Internals
 };
 
 /// The scene with the octrees that shadow buffers are traced through.
-const Scene& Tracer::Internals::sceneOfLights(const Scene& scene, ShadowTechnique technique)
+const Scene& CPUTracer::Internals::sceneOfLights(const Scene& scene, ShadowTechnique technique)
 {
   const auto differs = [](const Instance& instance)
   { return instance.casterOctree && instance.casterOctree.key() != instance.octree.key(); };
@@ -59,7 +99,7 @@ const Scene& Tracer::Internals::sceneOfLights(const Scene& scene, ShadowTechniqu
   return this->AsLightsSee;
 }
 
-void Tracer::Internals::markLightTiles(
+void CPUTracer::Internals::markLightTiles(
   const Scene& scene, const View& view, const ParallelFor& parallelFor)
 {
   if (!this->Dark.wantsMarks())
@@ -80,14 +120,27 @@ void Tracer::Internals::markLightTiles(
     });
 }
 
-Tracer::Tracer()
+CPUTracer::CPUTracer()
   : Impl(new Internals)
 {
 }
 
+CPUTracer::~CPUTracer() = default;
+
 Tracer::~Tracer() = default;
 
-void Tracer::render(const Scene& scene, const View& view, const FrameSettings& settings,
+std::unique_ptr<Tracer> makeCPUTracer()
+{
+  return std::make_unique<CPUTracer>();
+}
+
+std::vector<NeededLevels> CPUTracer::neededLevels(
+  const Scene& scene, const View& view, const FrameSettings& settings) const
+{
+  return svo::neededLevels(scene, view, settings);
+}
+
+void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings& settings,
   const ParallelFor& parallelFor, Frame& frame)
 {
   Internals& self = *this->Impl;
@@ -147,6 +200,8 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
   self.Dark.addStatistics(statistics);
   statistics.primaryRays += self.Eye.rays();
   statistics.retracedLayers += self.Eye.retracedLayers();
+  statistics.coarsestVoxel = coarsestVoxel(scene, view);
+  statistics.largestGap = largestGap(scene, view);
   statistics.layerMemory = self.Eye.layerMemory() + self.Dark.layerMemory();
   statistics.shadowTime = shadowTime + self.SharedTime;
   statistics.traceTime = now() - start - shadowTime;
@@ -154,7 +209,7 @@ void Tracer::render(const Scene& scene, const View& view, const FrameSettings& s
   self.SharedTime = 0.0;
 }
 
-bool Tracer::shareShadows(const Scene& scene, const View& view, const FrameSettings& settings,
+bool CPUTracer::shareShadows(const Scene& scene, const View& view, const FrameSettings& settings,
   const ParallelFor& parallelFor, Processes& processes)
 {
   Internals& self = *this->Impl;
@@ -166,7 +221,7 @@ bool Tracer::shareShadows(const Scene& scene, const View& view, const FrameSetti
   return self.Shared;
 }
 
-void Tracer::divideEdges(const Scene& scene, const View& view, const Frame& frame,
+void CPUTracer::divideEdges(const Scene& scene, const View& view, const Frame& frame,
   const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor,
   Silhouettes& result) const
 {
@@ -175,17 +230,17 @@ void Tracer::divideEdges(const Scene& scene, const View& view, const Frame& fram
     frame, positions, parallelFor, result);
 }
 
-const FrameStatistics& Tracer::statistics() const
+const FrameStatistics& CPUTracer::statistics() const
 {
   return this->Impl->Statistics;
 }
 
-const std::vector<ShadowMap>& Tracer::shadowMaps() const
+const std::vector<ShadowMap>& CPUTracer::shadowMaps() const
 {
   return this->Impl->Maps;
 }
 
-void Tracer::releaseLayers()
+void CPUTracer::releaseLayers()
 {
   this->Impl->Eye.release();
   this->Impl->Dark.release();

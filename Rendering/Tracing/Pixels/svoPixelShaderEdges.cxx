@@ -1,8 +1,9 @@
+// The pixels on edges once more, with four rays each: anti-aliasing.
 #include "svoPixelShader.h"
 
-#include "svoSelect.h"
 #include "svoTerminator.h"
 #include "svoTileLighting.h"
+#include "svoWorldSize.h"
 
 #include <algorithm>
 #include <atomic>

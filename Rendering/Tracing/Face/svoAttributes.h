@@ -1,0 +1,64 @@
+// Arrays of a mesh that its look needs, and the values in them.
+#ifndef svoAttributes_h
+#define svoAttributes_h
+
+#include <algorithm>
+#include <cstddef>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+/// What an array says one value of.
+enum class Association
+{
+  None,
+  Point,
+  Cell
+};
+
+/// Arrays of the mesh that the look needs. Null where there are none.
+struct Attributes
+{
+  const float* normals = nullptr; // 3 components, local frame, one per `normalAssociation`
+  Association normalAssociation = Association::None;
+  const unsigned char* colors = nullptr; // RGBA, mapped through the lookup table
+  Association colorAssociation = Association::None;
+  /// Scalars interpolated before mapping: two coordinates per point into two rows of texels, one of
+  /// colours and above it one of the colour of NaN. The nearest texel counts, as in VTK's texture.
+  const float* colorCoordinates = nullptr;
+  const unsigned char* colorTexture = nullptr; // RGBA
+  int colorTextureSize = 0;                    // texels of a row
+};
+
+namespace detail
+{
+inline glm::vec3 vectorAt(const float* array, std::size_t i)
+{
+  return { array[3 * i], array[3 * i + 1], array[3 * i + 2] };
+}
+
+inline glm::vec3 colorAt(const unsigned char* array, std::size_t i)
+{
+  return glm::vec3(array[4 * i], array[4 * i + 1], array[4 * i + 2]) / 255.0f;
+}
+
+/// Texture coordinates of a point.
+inline glm::vec2 coordinatesAt(const Attributes& a, std::size_t i)
+{
+  return { a.colorCoordinates[2 * i], a.colorCoordinates[2 * i + 1] };
+}
+
+/// The texel that VTK's texture, clamped to its edge and not interpolated, shows at `at`.
+inline int texelAt(const Attributes& a, const glm::vec2& at)
+{
+  const float x =
+    at.x > 0.0f ? std::min(at.x, 1.0f) * static_cast<float>(a.colorTextureSize) : 0.0f;
+  const int texel = std::min(static_cast<int>(x), a.colorTextureSize - 1);
+  return at.y < 0.5f ? texel : texel + a.colorTextureSize;
+}
+}
+}
+
+#endif

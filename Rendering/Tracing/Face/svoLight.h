@@ -1,0 +1,40 @@
+// A light, as VTK's shaders see it.
+#ifndef svoLight_h
+#define svoLight_h
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+struct Light
+{
+  enum class Kind
+  {
+    Directional,
+    Point, // positional, cone of 90 degrees half angle or more: all directions
+    Spot
+  };
+  Kind kind = Kind::Directional;
+  bool headlight = false;           // at the eye, along the view axis
+  glm::dvec3 position{ 0.0 };       // world
+  glm::dvec3 direction{ 0, 0, -1 }; // world, unit, the way the light shines
+  double coneAngle = 90.0;          // half angle, degrees
+  double exponent = 1.0;            // of the spot's fall-off
+  glm::vec3 attenuation{ 1, 0, 0 }; // constant, linear, quadratic
+  glm::vec3 color{ 1.0f };          // diffuse colour times intensity
+  bool castShadow = true;
+  std::uint64_t id = 0; // stable from frame to frame
+
+  bool atInfinity() const { return this->kind == Kind::Directional; }
+  bool hasCone() const { return this->kind == Kind::Spot; }
+  /// The way to `x`, world, that the light's ray goes; unit only from infinity.
+  glm::dvec3 along(const glm::dvec3& x) const
+  {
+    return this->atInfinity() ? this->direction : x - this->position;
+  }
+};
+}
+
+#endif

@@ -1,0 +1,77 @@
+// How far a hit can lie from the surface that it stands for.
+#ifndef svoLeafError_h
+#define svoLeafError_h
+
+#include "svoLeafTraits.h"
+#include "svoWorldSize.h"
+
+#include <algorithm>
+
+namespace svo
+{
+/// How far a cube can lie from the surface that it stands for: the diagonal of a voxel.
+constexpr double CubeError = 1.75;
+
+/// How far a mean plane of a node above the bricks can: half the diagonal of the three cells in
+/// which it is met.
+constexpr double MeanPlaneError = 2.6;
+
+/// True if rays that stop at `level` meet mean planes of nodes: bricks are not reached.
+inline bool stopsAtNodes(const Instance& instance, int level)
+{
+  return level < instance.octree.level() - 2;
+}
+
+/// The error of a hit in voxels of the level that rays stop at. Cubes, and planes where a ray is
+/// given the cube that refused it, are off by the diagonal of a voxel.
+inline double leafError(const Instance& instance, LeafGeometry geometry, int level)
+{
+  const LeafTraits traits = traitsOf(geometry);
+  if (!traits.planes)
+  {
+    return CubeError;
+  }
+  if (stopsAtNodes(instance, level))
+  {
+    return MeanPlaneError;
+  }
+  // Of automatic leaves that holds where lists are short; see worldMapError() and ShadowRays.
+  return traits.exact() && instance.octree.surface() ? 0.0 : CubeError;
+}
+
+/// The same in the world, and never less than what floats resolve in the octree's cube: where hits
+/// are `placed` on the triangles in double (svoPlaceOnTriangles.h) only the triangles' points and
+/// the hit's depth are floats, not the ray.
+inline double worldLeafError(
+  const Instance& instance, LeafGeometry geometry, int level, bool placed = false)
+{
+  return std::max(leafError(instance, geometry, level) * worldVoxel(instance, level),
+    (placed ? 1.2e-7 : 1e-6) * worldVoxel(instance, 0));
+}
+
+/// What the test against a shadow map allows for (LeafTraits::mapError), in the world. A ray among
+/// planes needs all of their error.
+inline double worldMapError(
+  const Instance& instance, LeafGeometry geometry, int level, bool placed = false)
+{
+  const double error = traitsOf(geometry).mapError;
+  return error > 0.0 && !stopsAtNodes(instance, level) && instance.octree.surface()
+    ? error * worldVoxel(instance, level)
+    : worldLeafError(instance, geometry, level, placed);
+}
+
+/// True if the hit of a ray that stops at `level` does not depend on where the ray ends, so that it
+/// may be cut short: all leaves but planes, whose rays fall back on a refused cell at their end.
+inline bool endsFreely(const Instance& instance, int level)
+{
+  const LeafTraits traits = traitsOf(instance.leafGeometry);
+  if (!traits.planes || !instance.octree.surface())
+  {
+    return true;
+  }
+  return !stopsAtNodes(instance, level) && traits.exact() &&
+    instance.octree.longestList() <= traits.longestExact;
+}
+}
+
+#endif
