@@ -4,6 +4,7 @@
 #include "svoTestStage.h"
 
 #include "vtkCamera.h"
+#include "vtkMatrix4x4.h"
 #include "vtkProperty.h"
 #include "vtkTransform.h"
 
@@ -107,6 +108,20 @@ int TestSVOCameraMatrices(int, char*[])
       projection("stretched", [](vtkTransform* t) { t->Scale(1.2, 0.8, 1.0); }),
       projection("mirrored", [](vtkTransform* t) { t->Scale(-1.0, 1.0, 1.0); }),
       Case{ "the rays are sheared", [](vtkCamera* c) { c->SetViewShear(0.3, 0.1, 1.0); } },
+      Case{ "the rays are sheared far", [](vtkCamera* c) { c->SetViewShear(1.2, 0.8, 1.0); } },
+      Case{ "the rays are parallel though the camera's are not",
+        [&](vtkCamera* c)
+        {
+          // The eye is lower than the top of the box, which rays see as they go down.
+          c->SetPosition(1.5, 7.0, 0.5);
+          c->SetFocalPoint(0.0, 0.0, -2.0);
+          parallel(c);
+          vtkNew<vtkMatrix4x4> matrix;
+          matrix->DeepCopy(c->GetProjectionTransformMatrix(1.0, -1.0, 1.0));
+          c->ParallelProjectionOff();
+          c->SetExplicitProjectionTransformMatrix(matrix);
+          c->UseExplicitProjectionTransformMatrixOn();
+        } },
       Case{ "parallel rays are oblique",
         [&](vtkCamera* c)
         {

@@ -8,11 +8,13 @@
 #include "vtkEDLShading.h"
 #include "vtkGaussianBlurPass.h"
 #include "vtkLightsPass.h"
+#include "vtkObjectFactory.h"
 #include "vtkOpaquePass.h"
 #include "vtkOpenGLFXAAPass.h"
 #include "vtkPanoramicProjectionPass.h"
 #include "vtkProperty.h"
 #include "vtkRenderPassCollection.h"
+#include "vtkRenderState.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkSSAAPass.h"
 #include "vtkSSAOPass.h"
@@ -81,6 +83,35 @@ PassPointer inSequence(vtkRenderPass* inner)
   return sequence;
 }
 
+// Stands for whatever somebody has drawn before.
+class Backdrop : public vtkRenderPass
+{
+public:
+  static Backdrop* New();
+  vtkTypeMacro(Backdrop, vtkRenderPass);
+  void Render(const vtkRenderState* state) override
+  {
+    vtkRenderer* renderer = state->GetRenderer();
+    double before[3];
+    renderer->GetBackground(before);
+    renderer->SetBackground(0.9, 0.2, 0.1);
+    renderer->Clear();
+    renderer->SetBackground(before);
+  }
+};
+vtkStandardNewMacro(Backdrop);
+
+PassPointer onBackdrop(vtkRenderPass* inner)
+{
+  vtkNew<vtkRenderPassCollection> steps;
+  vtkNew<Backdrop> backdrop;
+  steps->AddItem(backdrop);
+  steps->AddItem(inner);
+  auto sequence = vtkSmartPointer<vtkSequencePass>::New();
+  sequence->SetPasses(steps);
+  return sequence;
+}
+
 // What VTK draws of opaque surfaces.
 PassPointer rasteriser()
 {
@@ -105,6 +136,7 @@ int TestSVOPassChains(int, char*[])
     double intensity; // of the light
     std::function<PassPointer(vtkRenderPass*)> around;
     bool steps = false; // no camera's pass: compared with vtkRenderStepsPass
+    bool part = false;  // of the window, not all of it
   };
   const Chain chains[] = {
     { "camera", 1.0, [](vtkRenderPass* inner) { return withCamera(inner); } },
@@ -121,6 +153,10 @@ int TestSVOPassChains(int, char*[])
     { "tone mapping around occlusion", 4.0,
       [](vtkRenderPass* inner) { return withToneMapping(withOcclusion(withCamera(inner))); } },
     { "a panorama", 1.0, [](vtkRenderPass* inner) { return withPanorama(withCamera(inner)); } },
+    { "something drawn before", 1.0,
+      [](vtkRenderPass* inner) { return withCamera(onBackdrop(inner)); } },
+    { "something drawn before in a framebuffer", 1.0,
+      [](vtkRenderPass* inner) { return withToneMapping(withCamera(onBackdrop(inner))); } },
     { "occlusion alone", 1.0, withOcclusion, true },
     { "tone mapping alone", 4.0, withToneMapping, true },
     { "a panorama alone", 1.0, withPanorama, true },
@@ -129,6 +165,7 @@ int TestSVOPassChains(int, char*[])
       [](vtkRenderPass* inner) { return within<vtkSSAAPass>(withOcclusion(inner)); }, true },
     { "FXAA alone", 1.0, within<vtkOpenGLFXAAPass>, true },
     { "eye dome lighting alone", 1.0, within<vtkEDLShading>, true },
+    { "eye dome lighting alone in a part of the window", 1.0, within<vtkEDLShading>, true, true },
     { "blur alone", 1.0, within<vtkGaussianBlurPass>, true },
     { "a sequence alone", 1.0, inSequence, true },
     { "a blurred sequence alone", 1.0,
@@ -139,6 +176,10 @@ int TestSVOPassChains(int, char*[])
     for (const bool smooth : { false, true })
     {
       Stage stage;
+      if (chain.part)
+      {
+        stage.renderer->SetViewport(0.2, 0.1, 0.9, 1.0);
+      }
       stage.renderer->GetCullers()->RemoveAllItems(); // panoramas see what lies behind
       stage.addGround();
       vtkProperty* shining = stage.add(ball(0.7, -0.6, 0.3, 0.8), 0.9, 0.5, 0.3)->GetProperty();

@@ -91,7 +91,7 @@ void expectNames(Checks& checks)
 
   Stage stage;
   stage.addGround();
-  stage.addSun(2.0, -1.5, 4.0);
+  vtkLight* sun = stage.addSun(2.0, -1.5, 4.0);
   stage.usePass(true);
   const svo::TestMessages messages(stage.pass);
   const auto expect = [&](std::size_t count, const std::string& what)
@@ -118,6 +118,9 @@ void expectNames(Checks& checks)
   stage.pass->SetShadowTechniqueToNone();
   expect(0, "without shadows none is missed");
   stage.pass->SetShadowTechniqueToShadowBuffer();
+  vtkSVORenderPass::SetCastShadow(false, sun);
+  expect(0, "nor is one while no light casts");
+  vtkSVORenderPass::SetCastShadow(true, sun);
   stage.renderer->AddActor(actorOf(glyphs));
   expect(1, "a class is named once, not for each actor");
   checks.expect(

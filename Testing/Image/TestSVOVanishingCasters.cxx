@@ -1,5 +1,6 @@
 // Shadow maps are kept for rasterised surfaces from frame to frame, and are others as soon as a
-// caster goes, comes or moves: the picture has no history.
+// caster goes, comes or moves, a light moves, or somebody starts to receive: the picture has no
+// history.
 #include "svoTestStage.h"
 
 #include "vtkCamera.h"
@@ -18,15 +19,18 @@ struct Scene
 {
   Scene()
   {
-    this->stage.addGround()->GetProperty()->EdgeVisibilityOn(); // rasterised
+    this->ground = this->stage.addGround();
+    this->ground->GetProperty()->EdgeVisibilityOn(); // rasterised
     // What the light's map is fitted to.
     this->stage.add(box(0.5, -1.8, -1.8, 0.3), 0.4, 0.7, 0.9);
     this->stage.add(box(0.5, 1.8, 1.8, 1.0), 0.4, 0.7, 0.9);
     this->middle = this->stage.add(ball(0.5, 0.0, 0.0, 0.7), 0.9, 0.5, 0.3);
-    this->stage.addSun(1.0, -1.5, 4.0);
+    this->sun = this->stage.addSun(1.0, -1.5, 4.0);
   }
   Stage stage;
+  vtkActor* ground;
   vtkActor* middle;
+  vtkLight* sun;
 };
 
 void compare(Checks& checks, Scene& old, const std::function<void(Scene&)>& set, const char* name)
@@ -101,10 +105,53 @@ int TestSVOVanishingCasters(int, char*[])
       s.stage.renderer->GetActiveCamera()->Azimuth(&s == &scene ? 0.0 : 10.0);
       s.middle->SetPosition(0.3, 0.2, 0.0);
     };
+    compare(
+      checks, scene,
+      [&](Scene& s)
+      {
+        none(s);
+        s.sun->SetPosition(2.0, -1.0, 4.0);
+      },
+      "a light moves");
+    compare(
+      checks, scene,
+      [&](Scene& s)
+      {
+        none(s);
+        s.sun->SetPosition(1.0, -1.5, 4.0);
+      },
+      "it moves back");
+    compare(
+      checks, scene,
+      [&](Scene& s)
+      {
+        none(s);
+        s.ground->GetProperty()->EdgeVisibilityOff();
+      },
+      "nothing that is rasterised receives");
+    compare(
+      checks, scene,
+      [&](Scene& s)
+      {
+        none(s);
+        s.ground->GetProperty()->EdgeVisibilityOn();
+      },
+      "the ground receives again");
     scene.stage.pass->ReleaseOctrees();
     compare(checks, scene, none, "octrees are released");
     scene.stage.pass->SetFrameCoherence(false);
     compare(checks, scene, none, "nothing is kept");
+    for (const double x : { 0.5, 0.3 })
+    {
+      compare(
+        checks, scene,
+        [&](Scene& s)
+        {
+          none(s);
+          s.middle->SetPosition(x, 0.2, 0.0);
+        },
+        "a caster moves and nothing is kept");
+    }
     scene.stage.pass->SetFrameCoherence(true);
     compare(checks, scene, none, "all is kept again");
   }

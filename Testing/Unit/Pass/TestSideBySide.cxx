@@ -6,15 +6,22 @@
 #include "svoOctreeBytes.h"
 
 #include "vtkNew.h"
+#include "vtkObjectFactory.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
 #include "vtkSphereSource.h"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <limits>
+#include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +38,56 @@ vtkSmartPointer<vtkPolyData> ball(double radius, int resolution = 12)
   source->Update();
   return source->GetOutput();
 }
+
+/// Where builds wait for each other, once it is open.
+class Meeting
+{
+public:
+  void open(std::size_t guests)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Here.clear();
+    this->Guests = guests;
+  }
+  void enter(const void* guest)
+  {
+    std::unique_lock<std::mutex> lock(this->Mutex);
+    this->Here.insert(guest);
+    this->Changed.notify_all();
+    if (!this->Changed.wait_for(
+          lock, std::chrono::seconds(20), [this] { return this->Here.size() >= this->Guests; }))
+    {
+      this->Guests = 0; // the others need not wait as long
+      this->Missed = true;
+    }
+  }
+  bool missed() const { return this->Missed; }
+
+private:
+  std::mutex Mutex;
+  std::condition_variable Changed;
+  std::set<const void*> Here;
+  std::size_t Guests = 0;
+  bool Missed = false;
+};
+
+/// A mesh that enters a meeting when it is read.
+class MeetingMesh : public vtkPolyData
+{
+public:
+  static MeetingMesh* New();
+  vtkTypeMacro(MeetingMesh, vtkPolyData);
+  vtkPoints* GetPoints() override
+  {
+    if (this->Where)
+    {
+      this->Where->enter(this);
+    }
+    return this->Superclass::GetPoints();
+  }
+  Meeting* Where = nullptr;
+};
+vtkStandardNewMacro(MeetingMesh);
 
 struct SideBySide : ::testing::Test
 {
@@ -84,6 +141,73 @@ TEST_F(SideBySide, TheyAreThoseThatAreBuiltAlone)
   EXPECT_EQ(store.built(), 151);
   store.prepare(wanted, options);
   EXPECT_EQ(store.built(), 151); // nothing is built twice
+}
+
+// None of two builds goes on before the other one has begun.
+TEST_F(SideBySide, TheyAreBuiltAtTheSameTime)
+{
+  const std::string before = vtkSMPTools::GetBackend();
+  ASSERT_TRUE(vtkSMPTools::SetBackend("STDThread"));
+  const bool alone = vtkSMPTools::GetEstimatedNumberOfThreads() < 2;
+  if (!alone)
+  {
+    Meeting meeting;
+    for (const double radius : { 6.0, 6.1 })
+    {
+      vtkNew<MeetingMesh> mesh;
+      mesh->ShallowCopy(ball(radius));
+      meshes.emplace_back(mesh);
+      wanted.emplace_back(mesh, 6);
+      mesh->Where = &meeting;
+    }
+    // Asked when all meshes are known, before any of them is built.
+    options.aborted = [&]
+    {
+      meeting.open(wanted.size());
+      return false;
+    };
+    store.prepare(wanted, options);
+    EXPECT_EQ(store.built(), 2);
+    EXPECT_FALSE(meeting.missed());
+    for (const auto& each : wanted)
+    {
+      static_cast<MeetingMesh*>(each.first)->Where = nullptr;
+    }
+  }
+  vtkSMPTools::SetBackend(before.c_str());
+  if (alone)
+  {
+    GTEST_SKIP() << "there is one processor";
+  }
+}
+
+TEST_F(SideBySide, EachIsBuiltOnOneThread)
+{
+  want(7.0, 5);
+  std::atomic<int> asked{ 0 };
+  std::vector<svo::SideBySide> builds;
+  for (const auto& [mesh, level] : wanted)
+  {
+    svo::MeshOctreeOptions o;
+    o.level = level;
+    o.parallelFor = [&](std::size_t begin, std::size_t end, std::size_t grain, const auto& body)
+    {
+      ++asked;
+      svo::serialFor(begin, end, grain, body);
+    };
+    o.progress = [&](double)
+    {
+      ++asked;
+      return true;
+    };
+    builds.push_back({ mesh, o });
+  }
+  svo::buildSideBySide(builds);
+  for (const svo::SideBySide& build : builds)
+  {
+    EXPECT_TRUE(build.octree) << build.message;
+  }
+  EXPECT_EQ(asked, 0);
 }
 
 TEST_F(SideBySide, LargeMeshesAndInteractiveFramesAreLeftToFind)

@@ -58,6 +58,16 @@ void eachSeenPoint(const svo::Instance& instance, int level, const std::vector<g
         ASSERT_EQ(std::memcmp(&point.normal, &other.normal, sizeof(glm::vec3)), 0);
         f(point, view.rayDirection(points.x[i], points.y[i]));
       }
+      // A mirrored projection turns front faces into back ones.
+      svo::View mirrored = view;
+      mirrored.plain = false;
+      mirrored.mirrored = true;
+      const svo::TilePoints plain = points;
+      svo::lookAtPoints(frames, mirrored, points);
+      for (int i = 0; i < points.count; ++i)
+      {
+        ASSERT_EQ(points.point(i).normal, -plain.point(i).normal);
+      }
     }
   }
 }

@@ -239,6 +239,28 @@ TEST(SharedShadows, TheFirstProcessSaysHowManyTexelsThereAre)
     });
 }
 
+// Where some process has rasterised receivers the maps take more memory, of which the others do not
+// know.
+TEST(SharedShadows, ProcessesAgreeOnFewerTexels)
+{
+  svo::Scene scene = ballsOnGround();
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }) };
+  const svo::View eye = lookAt({ 1, -6, 4 }, 160, 120);
+  inProcesses(2,
+    [&](svo::Processes& processes)
+    {
+      svo::FrameSettings settings = smallBuffers();
+      settings.shadowMemoryLimit = 16 * 256 * 256; // enough without receivers
+      settings.wholeShadowBuffers = processes.self() == 0;
+      const svo::Scene part = partOf(scene, processes.self(), 2);
+      svo::Tracer tracer;
+      EXPECT_TRUE(tracer.shareShadows(part, eye, settings, svo::serialFor, processes));
+      svo::Frame frame;
+      tracer.render(part, eye, settings, svo::serialFor, frame);
+      EXPECT_TRUE(tracer.statistics().fewerTexels) << processes.self();
+    });
+}
+
 TEST(SharedShadows, ProcessesThatDisagreeAboutTheLightsKeepTheirOwn)
 {
   svo::Scene scene = ballsOnGround();
