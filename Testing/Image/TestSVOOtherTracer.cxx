@@ -1,5 +1,5 @@
-// Another tracer than ours behind the pass: it knows the tracer's face (svoTracer.h) and nothing else,
-// and whatever picture it gives is what the window shows.
+// Another tracer than ours behind the pass: it knows the tracer's face (svoTracer.h) and nothing
+// else, and whatever picture it gives is what the window shows.
 #include "svoTestStage.h"
 
 #include "svoTracer.h"
@@ -85,7 +85,7 @@ int TestSVOOtherTracer(int, char*[])
   stage.addSun(3.0, 0.5, 1.5);
   vtkNew<WallPass> pass;
   stage.renderer->SetPass(pass);
-  const Picture picture = stage.draw();
+  const Picture picture = capture(stage.window);
   std::size_t green = 0;
   for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
   {
@@ -96,5 +96,5 @@ int TestSVOOtherTracer(int, char*[])
   checks.expect(Wall::Frames == 1, "it was asked for one frame");
   checks.expect(Wall::Asked > 0, "it was asked how deep octrees have to be");
   checks.expect(Wall::Level == 3, "the octree is as deep as it said");
-  return checks.result();
+  return checks.exitCode();
 }

@@ -28,7 +28,7 @@ double coarsestVoxel(const Scene& scene, const View& view)
   double largest = 0.0;
   for (const Instance& instance : scene.instances)
   {
-    if (!instance.visible || instance.octree.level() >= instance.neededLevel)
+    if (!instance.visible || !instance.octree || instance.octree.level() >= instance.neededLevel)
     {
       continue;
     }
@@ -47,7 +47,7 @@ double largestGap(const Scene& scene, const View& view)
   double largest = 0.0;
   for (const Instance& instance : scene.instances)
   {
-    if (instance.visible && instance.receiveShadow)
+    if (instance.visible && instance.receiveShadow && instance.octree)
     {
       const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
       const double gap = worldLeafError(instance, LeafGeometry::Triangle, MaximumLevel, true);

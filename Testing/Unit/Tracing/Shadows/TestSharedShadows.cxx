@@ -253,7 +253,7 @@ TEST(SharedShadows, ProcessesAgreeOnFewerTexels)
       settings.shadowMemoryLimit = 16 * 256 * 256; // enough without receivers
       settings.wholeShadowBuffers = processes.self() == 0;
       const svo::Scene part = partOf(scene, processes.self(), 2);
-      svo::Tracer tracer;
+      svo::CPUTracer tracer;
       EXPECT_TRUE(tracer.shareShadows(part, eye, settings, svo::serialFor, processes));
       svo::Frame frame;
       tracer.render(part, eye, settings, svo::serialFor, frame);
