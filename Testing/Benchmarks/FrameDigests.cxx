@@ -1,6 +1,7 @@
 // Digests of frames: of the same commit's on any machine, and of two commits' that should draw the
-// same, each line is the same. The paper's scenes, every leaf geometry, technique, level of detail
-// and look; colour, depth, instance, primitive, normals, shadow maps and silhouettes of each.
+// same, each line is the same; `--every 7` draws every seventh only. The paper's scenes, every leaf
+// geometry, technique, level of detail and look; colour, depth, instance, primitive, normals,
+// shadow maps and silhouettes of each.
 #include "experiments.h"
 #include "meshes.h"
 #include "objects.h"
@@ -20,7 +21,9 @@
 #include <vtkMatrix4x4.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <string>
@@ -249,6 +252,8 @@ struct Program
 
   svo::Scene sceneOf(paper::Scene& paperScene, int level, svo::LeafGeometry leaves, int look);
   void run(const paper::Experiment& experiment);
+
+  int every = 1; // frames from one that is drawn to the next
 };
 
 svo::Scene Program::sceneOf(paper::Scene& paperScene, int level, svo::LeafGeometry leaves, int look)
@@ -309,7 +314,11 @@ void Program::run(const paper::Experiment& experiment)
           svo::CPUTracer tracer; // keeps layers from way to way
           for (const Way& way : ways())
           {
-            svo::Scene scene = this->sceneOf(paperScene, level, leaf, ++turn);
+            if (++turn % this->every != 0)
+            {
+              continue;
+            }
+            svo::Scene scene = this->sceneOf(paperScene, level, leaf, turn);
             scene.lights = lamp.lights;
             svo::FrameSettings settings = way.settings;
             settings.pixelError = pixelError;
@@ -329,17 +338,24 @@ int main(int argc, char* argv[])
 {
   paper::Meshes meshes;
   std::string error;
-  if (argc == 1)
+  Program program;
+  int next = 1;
+  if (argc > 2 && std::string(argv[1]) == "--every")
+  {
+    program.every = std::max(std::atoi(argv[2]), 1);
+    next = 3;
+  }
+  if (argc == next)
   {
     meshes = paper::standInMeshes();
   }
-  else if (argc != 3 || !paper::readMeshes(argv[1], argv[2], meshes, error))
+  else if (argc != next + 2 || !paper::readMeshes(argv[next], argv[next + 1], meshes, error))
   {
-    std::fprintf(stderr, "%s\nFrameDigests [mesh of A, animated mesh of B]\n", error.c_str());
+    std::fprintf(stderr, "%s\nFrameDigests [--every <frames>] [mesh of A, animated mesh of B]\n",
+      error.c_str());
     return 1;
   }
   meshes.b.resize(1);
-  Program program;
   if (!paper::buildOctrees(
         meshes, 1, [](double) {}, program.objects, error))
   {

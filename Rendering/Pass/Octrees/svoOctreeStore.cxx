@@ -22,17 +22,16 @@ namespace svo
 {
 namespace
 {
-MeshBox finiteBox(vtkPolyData* mesh)
+Box finiteBox(vtkPolyData* mesh)
 {
-  MeshBox box;
+  Box box;
   for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
   {
     glm::dvec3 p;
     mesh->GetPoint(i, &p.x);
     if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
     {
-      box.low = box.known() ? glm::min(box.low, p) : p;
-      box.high = box.known() ? glm::max(box.high, p) : p;
+      box.add(p);
     }
   }
   return box;

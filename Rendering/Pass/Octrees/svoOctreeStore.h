@@ -115,7 +115,7 @@ private:
     std::uint64_t time = 0; // MTime
     Octree attached;        // empty: it brings none
     std::uint64_t signature = 0;
-    MeshBox box;
+    Box box;
     std::size_t triangles = 0;
     int detailLevel = 0;        // 0: nobody asked
     std::set<std::string> said; // of the mesh, whatever its poses

@@ -1,9 +1,5 @@
 #include "svoSceneOctrees.h"
 
-#include <limits>
-
-#include <glm/common.hpp>
-
 namespace svo
 {
 namespace
@@ -75,14 +71,10 @@ void addReceiver(const PropSurfaces& prop, Scene& scene)
   const double* b = !prop.traced && prop.receives ? prop.prop->GetBounds() : nullptr;
   if (b && b[0] <= b[1] && b[2] <= b[3] && b[4] <= b[5])
   {
-    Receiver receiver{ glm::dvec3(std::numeric_limits<double>::infinity()),
-      glm::dvec3(-std::numeric_limits<double>::infinity()) };
+    Box receiver;
     for (int i = 0; i < 8; ++i)
     {
-      const glm::dvec3 corner(
-        prop.world * glm::dvec4(b[i & 1], b[2 + (i >> 1 & 1)], b[4 + (i >> 2)], 1.0));
-      receiver.low = glm::min(receiver.low, corner);
-      receiver.high = glm::max(receiver.high, corner);
+      receiver.add(prop.world * glm::dvec4(b[i & 1], b[2 + (i >> 1 & 1)], b[4 + (i >> 2)], 1.0));
     }
     scene.receivers.push_back(receiver);
   }

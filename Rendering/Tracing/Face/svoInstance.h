@@ -4,6 +4,7 @@
 #define svoInstance_h
 
 #include "svoAttributes.h"
+#include "svoBox.h"
 #include "svoOctree.h"
 
 #include <cstddef>
@@ -26,13 +27,6 @@ struct Material
   float specularPower = 1.0f;
   bool lighting = true; // false: the colour as it is
   bool flat = false;    // facet normals even where there are point normals
-};
-
-/// A box along the axes of a mesh's local frame.
-struct MeshBox
-{
-  glm::dvec3 low{ 1.0 }, high{ -1.0 };
-  bool known() const { return low.x <= high.x && low.y <= high.y && low.z <= high.z; }
 };
 
 /// One octree placed in the world.
@@ -58,7 +52,7 @@ struct Instance
   float depthOffsetUnits = 0.0f;
 
   // Where octrees are built no deeper than they are needed; see svoNeededLevels.h.
-  MeshBox box;               // the mesh's own, local; stands for the octree until there is one
+  Box box;                   // the mesh's own, local; stands for the octree until there is one
   std::size_t triangles = 0; // of the mesh, or about as many
   int deepestLevel = 0;      // that the mesh's octree may have; 0: the one that `octree` has
   int detailLevel = 0;       // from which on its bricks have few triangles, all exact; 0: unknown

@@ -3,26 +3,19 @@
 #ifndef svoScene_h
 #define svoScene_h
 
+#include "svoBox.h"
 #include "svoInstance.h"
 #include "svoLight.h"
 
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 namespace svo
 {
-/// A surface that is no instance, but on which shadows of instances fall: where it is, in the
-/// world.
-struct Receiver
-{
-  glm::dvec3 low, high;
-};
-
 struct Scene
 {
   std::vector<Instance> instances;
-  std::vector<Receiver> receivers;
+  /// Surfaces that are no instances, but on which shadows of instances fall, in the world.
+  std::vector<Box> receivers;
   std::vector<Light> lights;  // only those that are switched on, in the renderer's order
   bool onlyHeadlight = false; // VTK shades by the headlight alone; lights that are off count, too
 };

@@ -97,4 +97,11 @@ bool makeView(
   view.tFar = depthAt(1.0);
   return std::isfinite(view.tNear) && !std::isnan(view.tFar) && view.tNear < view.tFar;
 }
+
+bool sameRays(const View& a, const View& b)
+{
+  return a.origin == b.origin && a.originX == b.originX && a.originY == b.originY &&
+    a.direction == b.direction && a.directionX == b.directionX && a.directionY == b.directionY &&
+    a.tNear == b.tNear && a.tFar == b.tFar && a.width == b.width && a.height == b.height;
+}
 }

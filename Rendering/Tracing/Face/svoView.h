@@ -57,6 +57,9 @@ struct VTKSVOTRACING_EXPORT View
 VTKSVOTRACING_EXPORT bool makeView(
   const glm::dmat4& worldToView, const glm::dmat4& viewToClip, int width, int height, View& view);
 
+/// True if the two views have the same rays.
+VTKSVOTRACING_EXPORT bool sameRays(const View& a, const View& b);
+
 /// A rectangle of pixels, upper bounds excluded.
 struct PixelRect
 {

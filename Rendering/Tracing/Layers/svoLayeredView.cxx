@@ -5,156 +5,48 @@
 
 namespace svo
 {
-namespace
-{
-/// Area of a triangle in the image, pixels, from which on tracing by tiles is quicker.
-constexpr double LeastTrianglePixels = 0.5;
-}
-
-DepthLayer::DepthLayer(const PixelRect& r)
-  : rect(r)
-{
-  const std::size_t tiles = static_cast<std::size_t>((r.x1 - r.x0) / 8) * ((r.y1 - r.y0) / 8);
-  this->traced.resize(tiles);
-  this->t.resize(64 * tiles);
-  this->primitive.resize(64 * tiles);
-}
-
-bool worthTiles(const Instance& instance, const LocalView& local, const View& view)
-{
-  const Octree& octree = instance.octree;
-  if (!traitsOf(instance.leafGeometry).exact() || !octree.surface() || local.stretched)
-  {
-    return false;
-  }
-  const double pixel = worldPixel(view, local.base + 0.5 * local.tMax);
-  const double voxel = worldVoxel(instance) / pixel;
-  const Header& h = octree.header();
-  const double voxels = static_cast<double>(h.voxelCount) / static_cast<double>(h.triangleCount);
-  return voxels * voxel * voxel >= LeastTrianglePixels;
-}
-
-int deepened(const Instance& instance, int level)
-{
-  return traitsOf(instance.leafGeometry).exact() && instance.octree.surface() &&
-      !stopsAtNodes(instance, level)
-    ? instance.octree.level()
-    : level;
-}
-
-bool sameRays(const View& a, const View& b)
-{
-  return a.origin == b.origin && a.originX == b.originX && a.originY == b.originY &&
-    a.direction == b.direction && a.directionX == b.directionX && a.directionY == b.directionY &&
-    a.tNear == b.tNear && a.tFar == b.tFar && a.width == b.width && a.height == b.height;
-}
-
 void LayeredView::release()
 {
   this->Layers.clear();
-  this->Memory = 0;
   this->Began = false;
   this->MergedWhole = false;
 }
 
-void LayeredView::dropLayers(LayerBudget& budget)
+bool LayeredView::begin(const Scene& scene, const View& view,
+  const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf, bool keep,
+  LayerBudget& budget)
 {
-  for (auto& kept : this->Layers)
-  {
-    kept.second.layer.reset();
-  }
-  budget.used -= this->Memory;
-  this->Memory = 0;
-}
-
-void LayeredView::prepare(const Scene& scene, const View& view, bool keep, LayerBudget& budget)
-{
-  this->Bases.assign(scene.instances.size(), 0.0);
-  this->Levels.assign(scene.instances.size(), 0);
+  const std::size_t count = scene.instances.size();
+  this->Instances.clear();
+  this->Bases.assign(count, 0.0);
+  this->Levels.assign(count, 0);
+  this->Placed.assign(count, 0);
   this->Geometries.clear();
   this->Offsets.clear();
-  this->Placed.assign(scene.instances.size(), 0);
   for (const Instance& instance : scene.instances)
   {
     this->Geometries.push_back(instance.leafGeometry);
     this->Offsets.push_back(instance.depthOffsetUnits);
   }
-  this->Shifted = false;
-  for (const Entry& entry : this->Instances)
-  {
-    this->Shifted = this->Shifted ||
-      (this->Exact && this->Offsets[entry.index] != this->Offsets[this->Instances[0].index]);
-  }
-  // Layers are made for what stands still: something new is taken to do so, something that just
-  // changed, or is seen by a view that did, is taken to go on changing.
-  const bool moved = this->Began && !sameRays(view, this->Of);
-  if (!keep || moved || budget.used > budget.limit)
-  {
-    this->dropLayers(budget);
-  }
-  if (!keep)
-  {
-    this->Layers.clear();
-  }
+  this->Layers.begin(keep, this->Began && !sameRays(view, this->Of), budget);
   this->Of = view;
   this->Began = keep;
-  for (auto& kept : this->Layers)
+  for (VisibleInstance& visible : findVisible(scene, view, takesPart, levelOf))
   {
-    kept.second.used = false;
+    const std::uint32_t i = visible.index;
+    this->Bases[i] = visible.local.base;
+    this->Levels[i] = visible.key.level;
+    this->Geometries[i] = visible.key.leafGeometry;
+    this->Placed[i] = this->Exact && visible.tiles;
+    DepthLayer* layer = this->Layers.layerOf(visible.id, visible.key, visible.local.rect, budget);
+    this->Instances.push_back({ std::move(visible), layer, {} });
   }
-  for (Entry& entry : this->Instances)
-  {
-    this->Bases[entry.index] = entry.local.base;
-    this->Levels[entry.index] = entry.key.level;
-    this->Geometries[entry.index] = entry.key.leafGeometry;
-    this->Placed[entry.index] = this->Exact && entry.tiles;
-    if (!keep)
-    {
-      continue;
-    }
-    const auto inserted = this->Layers.try_emplace(entry.id);
-    Kept& kept = inserted.first->second;
-    if (kept.used) // two instances of one id: the first has the layer
-    {
-      continue;
-    }
-    kept.used = true;
-    const bool changed = !inserted.second && !(kept.key == entry.key);
-    kept.key = entry.key;
-    if (changed && kept.layer)
-    {
-      this->Memory -= kept.layer->bytes();
-      budget.used -= kept.layer->bytes();
-      kept.layer.reset();
-    }
-    if (changed || moved)
-    {
-      continue;
-    }
-    if (!kept.layer)
-    {
-      auto layer = std::make_unique<DepthLayer>(entry.local.rect);
-      if (budget.used + layer->bytes() <= budget.limit)
-      {
-        this->Memory += layer->bytes();
-        budget.used += layer->bytes();
-        kept.layer = std::move(layer);
-      }
-    }
-    entry.layer = kept.layer.get();
-  }
-  for (auto kept = this->Layers.begin(); kept != this->Layers.end();)
-  {
-    if (kept->second.used)
-    {
-      ++kept;
-      continue;
-    }
-    const std::size_t bytes = kept->second.layer ? kept->second.layer->bytes() : 0;
-    this->Memory -= bytes;
-    budget.used -= bytes;
-    kept = this->Layers.erase(kept);
-  }
+  this->Layers.end(budget);
+  this->Shifted = std::any_of(this->Instances.begin(), this->Instances.end(),
+    [this](const Entry& entry) {
+      return this->Exact && this->Offsets[entry.index] != this->Offsets[this->Instances[0].index];
+    });
+  return !this->Instances.empty();
 }
 
 bool LayeredView::isMerged(const std::uint8_t* wanted)

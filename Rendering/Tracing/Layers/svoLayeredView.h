@@ -5,81 +5,19 @@
 
 #include "svoDepthBuffer.h"
 #include "svoIntersectTile.h"
-#include "svoLeafError.h"
-#include "svoLocalView.h"
+#include "svoLayerCache.h"
 #include "svoParallel.h"
-#include "svoProjection.h"
 #include "svoScene.h"
-#include "svoTileIntervals.h"
-#include "vtkSVOTracingModule.h"
+#include "svoVisibleInstances.h"
 
 #include <cstdint>
-#include <memory>
-#include <unordered_map>
+#include <functional>
 #include <vector>
 
 namespace svo
 {
-/// What an instance looks like to a view. Equal keys give equal layers, bit for bit.
-struct LayerKey
-{
-  std::uint64_t octree = 0; // Octree::id()
-  glm::dmat4 localToWorld{ 1.0 };
-  LeafGeometry leafGeometry = LeafGeometry::Automatic;
-  int level = 0;
-
-  bool operator==(const LayerKey& other) const
-  {
-    return octree == other.octree && localToWorld == other.localToWorld &&
-      leafGeometry == other.leafGeometry && level == other.level;
-  }
-};
-
-/// What all layers together may take, and take.
-struct LayerBudget
-{
-  std::size_t limit = 0; // bytes
-  std::size_t used = 0;  // bytes
-};
-
-/// A kept depth layer: the tiles of an instance's rectangle that somebody asked for so far.
-struct DepthLayer
-{
-  PixelRect rect;
-  std::vector<std::uint8_t> traced; // per tile of rect, a State
-  RawArray<float> t;                // 64 per tile, of traced ones
-  RawArray<Primitive> primitive;
-  TileIntervals intervals; // of rect
-
-  enum State : std::uint8_t
-  {
-    Unknown,
-    Traced,
-    Empty // traced, and nothing was there
-  };
-
-  explicit DepthLayer(const PixelRect& r);
-  bool holds(int tileX, int tileY) const
-  {
-    return 8 * tileX >= this->rect.x0 && 8 * tileX < this->rect.x1 && 8 * tileY >= this->rect.y0 &&
-      8 * tileY < this->rect.y1;
-  }
-  /// Index of a tile of the image, which must be one of the rectangle.
-  std::size_t index(int tileX, int tileY) const
-  {
-    return static_cast<std::size_t>(tileY - this->rect.y0 / 8) *
-      ((this->rect.x1 - this->rect.x0) / 8) +
-      (tileX - this->rect.x0 / 8);
-  }
-  std::size_t bytes() const
-  {
-    return this->traced.size() * (1 + 2 * sizeof(float)) + this->t.size() * sizeof(float) +
-      this->primitive.size() * sizeof(Primitive);
-  }
-};
-
 /// What 64 rays anywhere in a tile see.
-struct Samples
+struct TileSamples
 {
   double x[64]; // points of the image, all in one tile
   double y[64];
@@ -87,17 +25,6 @@ struct Samples
   std::uint32_t instance[64];
   Primitive primitive[64];
 };
-
-/// True if an instance is to be traced tile by tile, to its triangles: those that its leaf geometry
-/// leaves exact anyway, and no smaller in the image than about a pixel. Of `level` the tiles know
-/// nothing: they are more accurate than any, and faster.
-VTKSVOTRACING_EXPORT bool worthTiles(
-  const Instance& instance, const LocalView& local, const View& view);
-
-/// The level that rays of an instance really stop at: the last one where they would stop inside of
-/// bricks whose triangles they test. They meet the same triangles, but pass bricks by that they
-/// have nothing to look for in.
-int deepened(const Instance& instance, int level);
 
 class LayeredView
 {
@@ -111,37 +38,11 @@ public:
   {
   }
 
-  /// Prepares a frame: folds the view into every instance that `takesPart`, picks levels, and
-  /// keeps the layers that are still true. Returns false if no instance can be seen.
-  /// `levelOf` gives the octree level of an instance's rays.
-  template <class TakesPart, class LevelOf>
-  bool begin(const Scene& scene, const View& view, TakesPart takesPart, LevelOf levelOf, bool keep,
-    LayerBudget& budget)
-  {
-    this->Instances.clear();
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
-    {
-      const Instance& instance = scene.instances[i];
-      if (!takesPart(instance) || !instance.octree || instance.octree.empty())
-      {
-        continue;
-      }
-      const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
-      if (!local.rect.empty())
-      {
-        const bool tiles = worthTiles(instance, local, view);
-        const int level =
-          tiles ? instance.octree.level() : deepened(instance, levelOf(instance, local));
-        const LeafGeometry geometry = tiles ? LeafGeometry::Triangle : instance.leafGeometry;
-        this->Instances.push_back({ i, instance.id, &instance.octree, local,
-          makeProjection(instance.octree, instance.localToWorld, view, local.base),
-          { instance.octree.id(), instance.localToWorld, geometry, level }, nullptr, {},
-          tiles || endsFreely(instance, level), tiles });
-      }
-    }
-    this->prepare(scene, view, keep, budget);
-    return !this->Instances.empty();
-  }
+  /// Prepares a frame: finds the instances that the view sees (findVisible()) and the layers of
+  /// them that are still true. Returns false if no instance can be seen.
+  bool begin(const Scene& scene, const View& view,
+    const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf, bool keep,
+    LayerBudget& budget);
 
   /// Traces and merges. With `wanted` (one byte a tile) only tiles marked there; a tile that is not
   /// wanted is left without hits. What was merged last, of all tiles, stays where it would be the
@@ -151,7 +52,7 @@ public:
   bool changed() const { return this->Changed; }
 
   /// Traces points of a tile, `count` times 64, through all instances; to be called after trace().
-  void sample(int tileX, int tileY, Samples* samples, std::size_t count) const;
+  void sample(int tileX, int tileY, TileSamples* samples, std::size_t count) const;
 
   const DepthBuffer& depthBuffer() const { return this->Merged; }
   /// Base of an instance's t, by index into Scene::instances.
@@ -163,25 +64,18 @@ public:
   bool placed(std::uint32_t instance) const { return this->Placed[instance] != 0; }
   std::uint64_t rays() const { return this->Rays; }
   std::uint64_t retracedLayers() const { return this->Retraced; }
-  std::size_t layerMemory() const { return this->Memory; }
+  std::size_t layerMemory() const { return this->Layers.memory(); }
   void release();
 
 private:
   /// Tiles along an edge of a group whose nodes are found together.
   static constexpr int GroupTiles = 4;
 
-  struct Entry
+  struct Entry : VisibleInstance
   {
-    std::uint32_t index; // in Scene::instances
-    std::uint64_t id;
-    const Octree* octree;
-    LocalView local;
-    Projection projection;
-    LayerKey key;
-    DepthLayer* layer;       // kept, or null: traced for this frame alone, cut at what is merged
+    DepthLayer* layer =
+      nullptr;               // kept, or null: traced for this frame alone, cut at what is merged
     TileIntervals intervals; // where there is no layer
-    bool cuttable;           // a ray's hit does not depend on where the ray ends
-    bool tiles;              // see worthTiles()
   };
   /// An instance that a tile's rays may meet.
   struct TileEntry
@@ -211,15 +105,6 @@ private:
     std::vector<TileEntry*> order;   // those that the tile's rays may meet
     std::vector<std::uint64_t> rays; // by index into Instances
   };
-  struct Kept
-  {
-    LayerKey key;
-    std::unique_ptr<DepthLayer> layer; // null while the instance or the view moves
-    bool used = false;
-  };
-
-  void prepare(const Scene& scene, const View& view, bool keep, LayerBudget& budget);
-  void dropLayers(LayerBudget& budget);
   /// Where the rays of a tile can meet an instance; false if nowhere.
   bool meets(int tileX, int tileY, TileEntry& candidate) const;
   bool findNodes(int tileX, int tileY, TileEntry& candidate) const;
@@ -244,7 +129,7 @@ private:
 
   const bool Exact;
   View Of;
-  bool Began = false; // Of and Layers are a frame's
+  bool Began = false; // Of and Layers are those of a frame that keeps layers
   std::vector<Entry> Instances;
   std::vector<double> Bases;
   std::vector<double> Offsets; // of window depths
@@ -252,7 +137,7 @@ private:
   std::vector<int> Levels;
   std::vector<LeafGeometry> Geometries;
   std::vector<std::uint8_t> Placed;
-  std::unordered_map<std::uint64_t, Kept> Layers; // by Instance::id
+  LayerCache Layers;
   DepthBuffer Merged;
   /// What Merged shows, seen by MergedView; true of all tiles if MergedWhole.
   struct Part
@@ -271,11 +156,7 @@ private:
   bool Changed = true;
   std::uint64_t Rays = 0;
   std::uint64_t Retraced = 0;
-  std::size_t Memory = 0;
 };
-
-/// True if the two views have the same rays.
-bool sameRays(const View& a, const View& b);
 }
 
 #endif

@@ -264,7 +264,7 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
   this->Merged.hit[tile] = merged.any;
 }
 
-void LayeredView::sample(int tileX, int tileY, Samples* samples, std::size_t count) const
+void LayeredView::sample(int tileX, int tileY, TileSamples* samples, std::size_t count) const
 {
   for (std::size_t b = 0; b < count; ++b)
   {
@@ -285,7 +285,7 @@ void LayeredView::sample(int tileX, int tileY, Samples* samples, std::size_t cou
     }
     for (std::size_t b = 0; b < count; ++b)
     {
-      Samples& s = samples[b];
+      TileSamples& s = samples[b];
       std::fill(block.tMin, block.tMin + 64, candidate.tNear);
       std::fill(block.tMax, block.tMax + 64, candidate.tFar);
       traceRays(candidate, s.x, s.y, block, found);

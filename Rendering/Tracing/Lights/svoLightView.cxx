@@ -1,5 +1,7 @@
 #include "svoLightView.h"
 
+#include "svoBox.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -59,17 +61,6 @@ glm::dmat4 lookAlong(const glm::dvec3& eye, const glm::dvec3& direction)
 /// Where rays of positional lights begin, of the farthest corner: before a small caster beside a
 /// light above a vast ground.
 constexpr double NearestDepth = 1e-6;
-
-struct Box
-{
-  glm::dvec3 low{ std::numeric_limits<double>::infinity() };
-  glm::dvec3 high{ -std::numeric_limits<double>::infinity() };
-  void add(const glm::dvec3& p)
-  {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-};
 
 void add(std::vector<View>& views, const glm::dmat4& worldToView, const glm::dmat4& viewToClip,
   int resolution)

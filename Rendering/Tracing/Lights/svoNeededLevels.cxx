@@ -60,7 +60,7 @@ int levelFor(const Instance& instance, const View& view, double pixelError)
 }
 }
 
-int coarsestLevel(const MeshBox& box, std::size_t triangles)
+int coarsestLevel(const Box& box, std::size_t triangles)
 {
   constexpr double Coarsest = 4.0; // smaller ones take no less time to build
   const glm::dvec3 size = box.high - box.low;

@@ -33,7 +33,7 @@ VTKSVOTRACING_EXPORT std::vector<NeededLevels> neededLevels(
 /// The coarsest octree that shows a mesh well, 4 or more, not regarding Instance::deepestLevel: its
 /// bricks have eight triangles, few to be intersected one by one, if the mesh covers about as much
 /// area as its box.
-VTKSVOTRACING_EXPORT int coarsestLevel(const MeshBox& box, std::size_t triangles);
+VTKSVOTRACING_EXPORT int coarsestLevel(const Box& box, std::size_t triangles);
 }
 
 #endif

@@ -20,7 +20,7 @@ Outline outlineOf(const Instance& instance)
   const bool placed = placesSomething(instance.localToWorld);
   if (!instance.octree)
   {
-    const MeshBox& box = instance.box;
+    const Box& box = instance.box;
     if (box.known())
     {
       for (int i = 0; i < 3; ++i)
@@ -58,7 +58,7 @@ Outline outlineOf(const Instance& instance)
   return outline;
 }
 
-Outline outlineOf(const Receiver& receiver)
+Outline outlineOf(const Box& receiver)
 {
   Outline outline{};
   for (int i = 0; i < 3; ++i)
@@ -79,7 +79,7 @@ std::vector<Outline> outlinesOf(const Scene& scene)
   {
     outlines.push_back(outlineOf(instance));
   }
-  for (const Receiver& receiver : scene.receivers)
+  for (const Box& receiver : scene.receivers)
   {
     outlines.push_back(outlineOf(receiver));
   }

@@ -42,7 +42,7 @@ struct Outlines
 };
 
 Outline outlineOf(const Instance& instance);
-Outline outlineOf(const Receiver& receiver);
+Outline outlineOf(const Box& receiver);
 std::vector<Outline> outlinesOf(const Scene& scene);
 
 glm::dmat4 matrixOf(const Outline& outline);

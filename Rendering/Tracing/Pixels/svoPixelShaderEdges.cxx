@@ -29,7 +29,7 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
   struct Scratch
   {
     int pixels[64];
-    Samples samples;
+    TileSamples samples;
   };
   const auto smoothTile = [&](int tileX, int tileY, Scratch& scratch)
   {
@@ -38,7 +38,7 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
     std::uint64_t rays = 0;
     for (int first = 0; first < count; first += 16)
     {
-      Samples& samples = scratch.samples;
+      TileSamples& samples = scratch.samples;
       for (int k = 0; k < 64; ++k)
       {
         const int pixel = pixels[std::min(first + k / 4, count - 1)];

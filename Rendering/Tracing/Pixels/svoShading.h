@@ -2,6 +2,7 @@
 #ifndef svoShading_h
 #define svoShading_h
 
+#include "svoLightingLane.h"
 #include "svoScene.h"
 #include "svoSurfacePoint.h"
 #include "svoView.h"
@@ -52,33 +53,23 @@ inline Arriving arriving(const ViewLight& l, const glm::vec3& normal, const glm:
     const float df = std::max(0.0f, normal.z);
     return { df * l.light->color, shines ? std::pow(df, material.specularPower) : 0.0f };
   }
-  glm::vec3 direction = l.direction;
-  float attenuation = 1.0f;
+  const Lane3 at(position), facing(normal);
+  ArrivingLane light{ Lane3(l.direction), 1.0f };
   if (!l.light->atInfinity())
   {
-    direction = position - l.position;
-    const float distance = glm::length(direction);
-    direction = distance > 0.0f ? direction / distance : l.direction;
-    const glm::vec3& a = l.light->attenuation;
-    attenuation = 1.0f / (a.x + a.y * distance + a.z * distance * distance);
+    light = arriveLane(at, Lane3(l.position), Lane3(l.direction), Lane3(l.light->attenuation));
     if (l.light->hasCone())
     {
-      const float coneDot = glm::dot(direction, l.direction);
-      attenuation = coneDot >= l.coneCosine
-        ? attenuation * std::pow(coneDot, static_cast<float>(l.light->exponent))
+      const float cosine = dotLane(light.direction, Lane3(l.direction));
+      light.attenuation = cosine >= l.coneCosine
+        ? light.attenuation * std::pow(cosine, static_cast<float>(l.light->exponent))
         : 0.0f;
     }
   }
-  const float df = std::max(0.0f, attenuation * glm::dot(normal, -direction));
-  float sf = 0.0f;
-  if (shines && df > 0.0f)
-  {
-    const float length = glm::length(position);
-    const glm::vec3 towards = length > 0.0f ? -position / length : glm::vec3(0.0f, 0.0f, 1.0f);
-    sf = attenuation *
-      std::pow(
-        std::max(0.0f, glm::dot(glm::reflect(direction, normal), towards)), material.specularPower);
-  }
+  const float df = diffuseLane(light.attenuation, facing, light.direction);
+  const float sf = shines && df > 0.0f ? light.attenuation *
+      std::pow(highlightLane(at, facing, light.direction), material.specularPower)
+                                       : 0.0f;
   return { df * l.light->color, sf };
 }
 
@@ -123,14 +114,24 @@ glm::vec3 shade(const Lighting& lighting, const Instance& instance, const Surfac
     material.ambient * (point.hasColor ? point.color : material.ambientColor);
   const glm::vec3 diffuseColor =
     material.diffuse * (point.hasColor ? point.color : material.diffuseColor);
+  const glm::vec3 shine = material.specular * material.specularColor;
+  glm::vec3 diffuse(0.0f);
+  glm::vec3 specular(0.0f);
+  const auto colored = [&](bool lit)
+  {
+    glm::vec3 color;
+    for (int c = 0; c < 3; ++c)
+    {
+      color[c] = colorLane(lit, ambient[c], diffuse[c], diffuseColor[c], specular[c], shine[c]);
+    }
+    return color;
+  };
   if (!material.lighting || lighting.lights.empty())
   {
-    return ambient + diffuseColor;
+    return colored(false);
   }
   const glm::vec3 normal = lighting.rotation * point.normal;
   const glm::vec3 position(lighting.worldToView * glm::dvec4(point.position, 1.0));
-  glm::vec3 diffuse(0.0f);
-  glm::vec3 specular(0.0f);
   for (std::size_t l = 0; l < lighting.lights.size(); ++l)
   {
     const Light& light = *lighting.lights[l].light;
@@ -143,7 +144,7 @@ glm::vec3 shade(const Lighting& lighting, const Instance& instance, const Surfac
     diffuse += share * a.diffuse;
     specular += share * a.specular * light.color;
   }
-  return ambient + diffuse * diffuseColor + specular * (material.specular * material.specularColor);
+  return colored(true);
 }
 }
 

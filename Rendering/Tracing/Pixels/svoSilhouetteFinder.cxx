@@ -65,7 +65,7 @@ struct EdgePixel
 struct TileScratch
 {
   std::vector<EdgePixel> pixels;
-  std::vector<Samples> samples;
+  std::vector<TileSamples> samples;
   std::vector<Facet> facets;
   std::vector<std::size_t> shaded; // indices of facets
   PixelShader::Scratch shading;
@@ -184,14 +184,14 @@ private:
   {
     const std::size_t count = scratch.pixels.size();
     scratch.samples.resize(this->block(count - 1) + 1);
-    for (Samples& samples : scratch.samples) // lanes that nobody needs
+    for (TileSamples& samples : scratch.samples) // lanes that nobody needs
     {
       std::fill(samples.x, samples.x + 64, 8.0 * tileX + 0.5);
       std::fill(samples.y, samples.y + 64, 8.0 * tileY + 0.5);
     }
     for (std::size_t k = 0; k < count; ++k)
     {
-      Samples& samples = scratch.samples[this->block(k)];
+      TileSamples& samples = scratch.samples[this->block(k)];
       for (int s = 0; s < this->SampleCount; ++s)
       {
         samples.x[this->lane(k) + s] = scratch.pixels[k].x + double(this->Positions[s].x);
@@ -211,7 +211,7 @@ private:
     {
       EdgePixel& pixel = scratch.pixels[k];
       pixel.firstFacet = scratch.facets.size();
-      const Samples& samples = scratch.samples[this->block(k)];
+      const TileSamples& samples = scratch.samples[this->block(k)];
       for (int s = 0; s < this->SampleCount; ++s)
       {
         const int lane = this->lane(k) + s;

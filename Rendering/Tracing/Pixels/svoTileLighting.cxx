@@ -57,7 +57,7 @@ void arriveFromEye(int n, TileLight& l)
   {
     for (int k = i; k < i + Step; ++k)
     {
-      l.diffuse[k] = 0.0f < l.normalZ[k] ? l.normalZ[k] : 0.0f;
+      l.diffuse[k] = positiveLane(l.normalZ[k]);
       l.base[k] = l.diffuse[k];
     }
   }
@@ -67,19 +67,17 @@ void arriveFromEye(int n, TileLight& l)
 void arriveFromPosition(const ViewLight& from, int n, float* dx, float* dy, float* dz,
   float* attenuation, const TileLight& l)
 {
-  const glm::vec3 at = from.position, otherwise = from.direction, a = from.light->attenuation;
+  const Lane3 at(from.position), axis(from.direction), constants(from.light->attenuation);
   for (int i = 0; i < n; i += Step)
   {
     for (int k = i; k < i + Step; ++k)
     {
-      const float x = l.positionX[k] - at.x;
-      const float y = l.positionY[k] - at.y;
-      const float z = l.positionZ[k] - at.z;
-      const float distance = std::sqrt(x * x + y * y + z * z);
-      dx[k] = distance > 0.0f ? x / distance : otherwise.x;
-      dy[k] = distance > 0.0f ? y / distance : otherwise.y;
-      dz[k] = distance > 0.0f ? z / distance : otherwise.z;
-      attenuation[k] = 1.0f / (a.x + a.y * distance + a.z * distance * distance);
+      const ArrivingLane light =
+        arriveLane({ l.positionX[k], l.positionY[k], l.positionZ[k] }, at, axis, constants);
+      dx[k] = light.direction.x;
+      dy[k] = light.direction.y;
+      dz[k] = light.direction.z;
+      attenuation[k] = light.attenuation;
     }
   }
 }
@@ -88,12 +86,12 @@ void arriveFromPosition(const ViewLight& from, int n, float* dx, float* dy, floa
 void towardsAxis(
   const ViewLight& from, int n, const float* dx, const float* dy, const float* dz, float* cosine)
 {
-  const glm::vec3 d = from.direction;
+  const Lane3 axis(from.direction);
   for (int i = 0; i < n; i += Step)
   {
     for (int k = i; k < i + Step; ++k)
     {
-      cosine[k] = dx[k] * d.x + dy[k] * d.y + dz[k] * d.z;
+      cosine[k] = dotLane({ dx[k], dy[k], dz[k] }, axis);
     }
   }
 }
@@ -105,27 +103,16 @@ void arriveAtSurface(int n, bool shines, const float* dx, const float* dy, const
   {
     for (int k = i; k < i + Step; ++k)
     {
-      const float df =
-        attenuation[k] * (l.normalX[k] * -dx[k] + l.normalY[k] * -dy[k] + l.normalZ[k] * -dz[k]);
-      l.diffuse[k] = 0.0f < df ? df : 0.0f;
+      l.diffuse[k] = diffuseLane(
+        attenuation[k], { l.normalX[k], l.normalY[k], l.normalZ[k] }, { dx[k], dy[k], dz[k] });
     }
   }
   for (int i = 0; shines && i < n; i += Step)
   {
     for (int k = i; k < i + Step; ++k)
     {
-      const float x = l.positionX[k], y = l.positionY[k], z = l.positionZ[k];
-      const float nx = l.normalX[k], ny = l.normalY[k], nz = l.normalZ[k];
-      const float length = std::sqrt(x * x + y * y + z * z);
-      const float tx = length > 0.0f ? -x / length : 0.0f;
-      const float ty = length > 0.0f ? -y / length : 0.0f;
-      const float tz = length > 0.0f ? -z / length : 1.0f;
-      const float along = nx * dx[k] + ny * dy[k] + nz * dz[k];
-      const float rx = dx[k] - nx * along * 2.0f;
-      const float ry = dy[k] - ny * along * 2.0f;
-      const float rz = dz[k] - nz * along * 2.0f;
-      const float base = rx * tx + ry * ty + rz * tz;
-      l.base[k] = 0.0f < base ? base : 0.0f;
+      l.base[k] = highlightLane({ l.positionX[k], l.positionY[k], l.positionZ[k] },
+        { l.normalX[k], l.normalY[k], l.normalZ[k] }, { dx[k], dy[k], dz[k] });
     }
   }
 }
@@ -189,9 +176,9 @@ void finish(const Material& m, bool lit, int n, const float* r, const float* g, 
     {
       const float dr = diffuse * r[k], dg = diffuse * g[k], db = diffuse * b[k];
       const float ar = ambient * r[k], ag = ambient * g[k], ab = ambient * b[k];
-      outR[k] = lit ? ar + l.diffuseR[k] * dr + l.specularR[k] * shine.r : ar + dr;
-      outG[k] = lit ? ag + l.diffuseG[k] * dg + l.specularG[k] * shine.g : ag + dg;
-      outB[k] = lit ? ab + l.diffuseB[k] * db + l.specularB[k] * shine.b : ab + db;
+      outR[k] = colorLane(lit, ar, l.diffuseR[k], dr, l.specularR[k], shine.r);
+      outG[k] = colorLane(lit, ag, l.diffuseG[k], dg, l.specularG[k], shine.g);
+      outB[k] = colorLane(lit, ab, l.diffuseB[k], db, l.specularB[k], shine.b);
     }
   }
 }
@@ -205,12 +192,9 @@ void finishPlain(const glm::vec3& ambient, const glm::vec3& diffuse, const glm::
   {
     for (int k = i; k < i + Step; ++k)
     {
-      outR[k] = lit ? ambient.r + l.diffuseR[k] * diffuse.r + l.specularR[k] * shine.r
-                    : ambient.r + diffuse.r;
-      outG[k] = lit ? ambient.g + l.diffuseG[k] * diffuse.g + l.specularG[k] * shine.g
-                    : ambient.g + diffuse.g;
-      outB[k] = lit ? ambient.b + l.diffuseB[k] * diffuse.b + l.specularB[k] * shine.b
-                    : ambient.b + diffuse.b;
+      outR[k] = colorLane(lit, ambient.r, l.diffuseR[k], diffuse.r, l.specularR[k], shine.r);
+      outG[k] = colorLane(lit, ambient.g, l.diffuseG[k], diffuse.g, l.specularG[k], shine.g);
+      outB[k] = colorLane(lit, ambient.b, l.diffuseB[k], diffuse.b, l.specularB[k], shine.b);
     }
   }
 }

@@ -130,7 +130,7 @@ TEST(NeededLevels, AnUnknownViewAndAnUnknownBoxNeedTheDeepest)
 {
   svo::Scene scene = oneThing();
   EXPECT_EQ(eyeLevel(scene, svo::View(), noShadows()), Deepest);
-  scene.instances[0].box = svo::MeshBox();
+  scene.instances[0].box = svo::Box();
   EXPECT_EQ(eyeLevel(scene, seenFrom(300.0), noShadows()), Deepest);
 }
 
@@ -211,7 +211,7 @@ TEST(NeededLevels, LightsNeedWhatTheirTexelsResolve)
 
 TEST(NeededLevels, NoOctreeIsCoarserThanItsMesh)
 {
-  const svo::MeshBox cube{ glm::dvec3(-1e-30), glm::dvec3(1e-30) };
+  const svo::Box cube{ glm::dvec3(-1e-30), glm::dvec3(1e-30) };
   EXPECT_EQ(svo::coarsestLevel(cube, 12), Coarsest);
   // Eight triangles a brick of 16 voxels: half a triangle a voxel, on six faces of 2^level voxels.
   for (int level = Coarsest; level <= svo::MaximumLevel; ++level)
@@ -220,8 +220,8 @@ TEST(NeededLevels, NoOctreeIsCoarserThanItsMesh)
     EXPECT_EQ(svo::coarsestLevel(cube, most), level);
     EXPECT_EQ(svo::coarsestLevel(cube, most + 1), std::min(level + 1, svo::MaximumLevel));
   }
-  EXPECT_EQ(svo::coarsestLevel(svo::MeshBox(), 1000), Coarsest);
-  const svo::MeshBox line{ glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0) };
+  EXPECT_EQ(svo::coarsestLevel(svo::Box(), 1000), Coarsest);
+  const svo::Box line{ glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0) };
   EXPECT_LE(svo::coarsestLevel(line, 1000000000), svo::MaximumLevel);
 
   svo::Scene scene = oneThing();

@@ -1,0 +1,78 @@
+// A depth layer: an instance alone, as one view sees it.
+#ifndef svoDepthLayer_h
+#define svoDepthLayer_h
+
+#include "svoLayout.h"
+#include "svoRawArray.h"
+#include "svoRay.h"
+#include "svoTileIntervals.h"
+#include "svoView.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+namespace svo
+{
+/// What an instance looks like to a view. Equal keys give equal layers, bit for bit.
+struct LayerKey
+{
+  std::uint64_t octree = 0; // Octree::id()
+  glm::dmat4 localToWorld{ 1.0 };
+  LeafGeometry leafGeometry = LeafGeometry::Automatic;
+  int level = 0;
+
+  bool operator==(const LayerKey& other) const
+  {
+    return octree == other.octree && localToWorld == other.localToWorld &&
+      leafGeometry == other.leafGeometry && level == other.level;
+  }
+};
+
+/// A kept depth layer: the tiles of an instance's rectangle that somebody asked for so far.
+struct DepthLayer
+{
+  PixelRect rect;
+  std::vector<std::uint8_t> traced; // per tile of rect, a State
+  RawArray<float> t;                // 64 per tile, of traced ones
+  RawArray<Primitive> primitive;
+  TileIntervals intervals; // of rect
+
+  enum State : std::uint8_t
+  {
+    Unknown,
+    Traced,
+    Empty // traced, and nothing was there
+  };
+
+  explicit DepthLayer(const PixelRect& r)
+    : rect(r)
+  {
+    const std::size_t tiles = static_cast<std::size_t>((r.x1 - r.x0) / 8) * ((r.y1 - r.y0) / 8);
+    this->traced.resize(tiles);
+    this->t.resize(64 * tiles);
+    this->primitive.resize(64 * tiles);
+  }
+  bool holds(int tileX, int tileY) const
+  {
+    return 8 * tileX >= this->rect.x0 && 8 * tileX < this->rect.x1 && 8 * tileY >= this->rect.y0 &&
+      8 * tileY < this->rect.y1;
+  }
+  /// Index of a tile of the image, which must be one of the rectangle.
+  std::size_t index(int tileX, int tileY) const
+  {
+    return static_cast<std::size_t>(tileY - this->rect.y0 / 8) *
+      ((this->rect.x1 - this->rect.x0) / 8) +
+      (tileX - this->rect.x0 / 8);
+  }
+  std::size_t bytes() const
+  {
+    return this->traced.size() * (1 + 2 * sizeof(float)) + this->t.size() * sizeof(float) +
+      this->primitive.size() * sizeof(Primitive);
+  }
+};
+}
+
+#endif

@@ -1,0 +1,61 @@
+#include "svoVisibleInstances.h"
+
+#include "svoLeafError.h"
+
+namespace svo
+{
+namespace
+{
+/// Area of a triangle in the image, pixels, from which on tracing by tiles is quicker.
+constexpr double LeastTrianglePixels = 0.5;
+}
+
+bool worthTiles(const Instance& instance, const LocalView& local, const View& view)
+{
+  const Octree& octree = instance.octree;
+  if (!traitsOf(instance.leafGeometry).exact() || !octree.surface() || local.stretched)
+  {
+    return false;
+  }
+  const double pixel = worldPixel(view, local.base + 0.5 * local.tMax);
+  const double voxel = worldVoxel(instance) / pixel;
+  const Header& h = octree.header();
+  const double voxels = static_cast<double>(h.voxelCount) / static_cast<double>(h.triangleCount);
+  return voxels * voxel * voxel >= LeastTrianglePixels;
+}
+
+int deepened(const Instance& instance, int level)
+{
+  return traitsOf(instance.leafGeometry).exact() && instance.octree.surface() &&
+      !stopsAtNodes(instance, level)
+    ? instance.octree.level()
+    : level;
+}
+
+std::vector<VisibleInstance> findVisible(const Scene& scene, const View& view,
+  const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf)
+{
+  std::vector<VisibleInstance> visible;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+  {
+    const Instance& instance = scene.instances[i];
+    if (!takesPart(instance) || !instance.octree || instance.octree.empty())
+    {
+      continue;
+    }
+    const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
+    if (!local.rect.empty())
+    {
+      const bool tiles = worthTiles(instance, local, view);
+      const int level =
+        tiles ? instance.octree.level() : deepened(instance, levelOf(instance, local));
+      const LeafGeometry geometry = tiles ? LeafGeometry::Triangle : instance.leafGeometry;
+      visible.push_back({ i, instance.id, &instance.octree, local,
+        makeProjection(instance.octree, instance.localToWorld, view, local.base),
+        { instance.octree.id(), instance.localToWorld, geometry, level },
+        tiles || endsFreely(instance, level), tiles });
+    }
+  }
+  return visible;
+}
+}

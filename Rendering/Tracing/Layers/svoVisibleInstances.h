@@ -1,0 +1,50 @@
+// Which instances a view may see, and how their rays are traced: the cull in front of the layers.
+#ifndef svoVisibleInstances_h
+#define svoVisibleInstances_h
+
+#include "svoDepthLayer.h"
+#include "svoLocalView.h"
+#include "svoProjection.h"
+#include "svoScene.h"
+#include "vtkSVOTracingModule.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace svo
+{
+/// True if an instance is to be traced tile by tile, to its triangles: those that its leaf geometry
+/// leaves exact anyway, and no smaller in the image than about a pixel. Of `level` the tiles know
+/// nothing: they are more accurate than any, and faster.
+VTKSVOTRACING_EXPORT bool worthTiles(
+  const Instance& instance, const LocalView& local, const View& view);
+
+/// The level that rays of an instance really stop at: the last one where they would stop inside of
+/// bricks whose triangles they test. They meet the same triangles, but pass bricks by that they
+/// have nothing to look for in.
+int deepened(const Instance& instance, int level);
+
+/// An instance in a view.
+struct VisibleInstance
+{
+  std::uint32_t index; // in Scene::instances
+  std::uint64_t id;    // Instance::id
+  const Octree* octree;
+  LocalView local; // its rectangle is not empty
+  Projection projection;
+  LayerKey key;
+  bool cuttable; // a ray's hit does not depend on where the ray ends; see endsFreely()
+  bool tiles;    // see worthTiles()
+};
+
+/// The octree level that an instance's rays stop at.
+using LevelOf = std::function<int(const Instance&, const LocalView&)>;
+
+/// The instances that `takesPart` and whose cubes lie in the view, in the scene's order. All that a
+/// ray of the view can hit is among them. Octrees are borrowed from the scene.
+VTKSVOTRACING_EXPORT std::vector<VisibleInstance> findVisible(const Scene& scene, const View& view,
+  const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf);
+}
+
+#endif
