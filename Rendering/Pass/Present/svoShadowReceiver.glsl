@@ -1,5 +1,5 @@
 // The share of a light that reaches a fragment of a rasterised surface, by the test of
-// svoShadowBuffer.cxx, filtered as in svoShadowFilter.cxx. A map is a layer of an array of square
+// svoShadowTest.h, filtered as in svoShadowFilter.cxx. A map is a layer of an array of square
 // textures, however many lights there are: it holds the linear depth of the nearest caster. Its
 // matrix takes view coordinates to (x, y, linear depth, w), with x / w and y / w in -1..1 across the
 // map. `facet` is the fragment's own plane, towards the viewer, `normal` what it is shaded with,
@@ -8,7 +8,12 @@
 // Constants are put before it: svoCapacity, maps that there is room for; svoPlaneBias, to compare
 // at the texel's own ray, on the planes of the receiver; svoFilter, to weigh the texels around the
 // point, with svoPlaneBias only. They are not asked while it runs, since software OpenGL walks
-// through branches that are not taken.
+// through branches that are not taken. And the numbers of svoShadowRules.h, by the same names:
+// svoNearbyReach, svoGrazingReach, svoEdgeOnSine, svoLeastSteepness, svoTexelBend, svoTexelsToAgree,
+// svoWidestBox, svoMapBorder.
+//
+// One rule is another one than svoShadowTest.h has: a facet that turns its back on the light lies in
+// the shadow of all that is before it, half a texel aside, and is not tested as a plane.
 uniform sampler2DArray svoMaps;
 uniform mat4 svoRows[svoCapacity]; // the rows of a map's matrix
 uniform float svoErrors[svoCapacity]; // of what casts, world units
@@ -51,7 +56,7 @@ int svoAsk(int map, mat4 rows, float error, vec4 point, vec2 texel, vec3 facet,
   vec3 axis = rows[2].xyz;
   vec2 edges = span * svoTexelEdges(rows, w, size);
   float pixel = edges.x;
-  float most = 8.0 * pixel; // how far the tangent planes are followed along the ray
+  float most = svoNearbyReach * pixel; // how far the tangent planes are followed along the ray
   if (!(occluder < depth + most))
   {
     return 0;
@@ -66,19 +71,19 @@ int svoAsk(int map, mat4 rows, float error, vec4 point, vec2 texel, vec3 facet,
   vec3 direction = xy / dot(axis, xy); // linear depth grows by 1
   if (dot(facet, direction) > 0.0)
   {
-    return occluder < depth + 0.5 * pixel ? dark : 0;
+    return occluder < depth + svoTexelBend * pixel ? dark : 0;
   }
   vec2 off = w * centre - vec2(dot(rows[0], point), dot(rows[1], point));
   float receiver = depth + most;
-  float steepest = 0.1;
+  float steepest = svoLeastSteepness;
   for (int k = 0; k < 2; ++k)
   {
     vec3 n = k == 0 ? facet : normal;
     float slope = abs(dot(n, direction)) / length(direction);
-    // Inside a texel a plane in grazing light reaches far towards the light, at most 64 texels here.
-    float low = depth - max(most, edges.y / max(slope, 1.0 / 64.0));
+    // Inside a texel a plane in grazing light reaches far towards the light.
+    float low = depth - max(most, edges.y / max(slope, 1.0 / svoGrazingReach));
     float plane = low;
-    if (slope > 0.001)
+    if (slope > svoEdgeOnSine)
     {
       // The step on the plane to the ray.
       vec3 step = (off.x * cross(y, n) + off.y * cross(n, x)) / dot(xy, n);
@@ -87,7 +92,7 @@ int svoAsk(int map, mat4 rows, float error, vec4 point, vec2 texel, vec3 facet,
     receiver = min(receiver, plane);
     steepest = max(steepest, slope);
   }
-  return occluder + (0.5 * pixel + error) / steepest < receiver ? dark : 0;
+  return occluder + (svoTexelBend * pixel + error) / steepest < receiver ? dark : 0;
 }
 
 // Of a box around 0, its edges blurred by a texel, what lies below x.
@@ -144,13 +149,13 @@ bool svoEndsBefore(
       return false;
     }
     float farther = svoOccluder(map, next);
-    if (!(abs(farther - here) <= 8.0 * pixel))
+    if (!(abs(farther - here) <= svoNearbyReach * pixel))
     {
       return false;
     }
     t -= (farther - here) * abs(offset[axis]);
   }
-  return !(t + 0.5 * pixel + error < depth);
+  return !(t + svoTexelBend * pixel + error < depth);
 }
 
 // The share of the light that the point misses. `place`: in texels.
@@ -213,7 +218,7 @@ float svoLit(
     vec2 centre = vec2(dot(rows[0], point), dot(rows[1], point)) / dot(rows[3], point);
     vec3 xy = cross(rows[0].xyz - centre.x * rows[3].xyz, rows[1].xyz - centre.y * rows[3].xyz);
     vec3 along = xy * sign(dot(rows[2].xyz, xy));
-    if (svoPlaneBias && dot(lift, lift) > 0.0 && dot(plane, along) > -length(xy) / 64.0)
+    if (svoPlaneBias && dot(lift, lift) > 0.0 && dot(plane, along) > -length(xy) / svoGrazingReach)
     {
       point.xyz += lift;
       facet = normal;
@@ -225,7 +230,7 @@ float svoLit(
     }
     vec2 at = vec2(dot(rows[0], point), dot(rows[1], point)) / w;
     // Rounding may put a point on the border of two maps beyond both.
-    if (any(greaterThan(abs(at), vec2(1.00001))))
+    if (any(greaterThan(abs(at), vec2(svoMapBorder))))
     {
       continue;
     }
@@ -234,7 +239,7 @@ float svoLit(
     if (svoFilter && svoPlaneBias)
     {
       float pixel = svoTexelEdges(rows, w, size).x;
-      float width = clamp(extent / pixel, 1.0, 4.0);
+      float width = clamp(extent / pixel, 1.0, svoWidestBox);
       ivec2 low = ivec2(max(floor(place - 0.5 * (width + 1.0)), vec2(0.0)));
       ivec2 high = ivec2(min(floor(place + 0.5 * (width + 1.0)), vec2(size - 1.0)));
       if (!svoIsFlat(i, low, high, pixel))
@@ -254,7 +259,7 @@ float svoLit(
         vec2 neighbour = texel + other * vec2(float(k & 1), float(k >> 1));
         dark += svoAsk(i, rows, error, point, neighbour, facet, normal, 1.0) != 0 ? 1 : 0;
       }
-      answer = dark >= 2 ? 2 : 0;
+      answer = dark >= svoTexelsToAgree ? 2 : 0;
     }
     lit = answer == 2 ? 0.0 : 1.0;
     break;

@@ -2,12 +2,15 @@
 
 #include "svoOpenGL.h"
 #include "svoShadowReceiver.h"
+#include "svoShadowRules.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkShaderProgram.h"
 
 #include <algorithm>
 #include <cctype>
+#include <iomanip>
+#include <locale>
 #include <map>
 #include <sstream>
 
@@ -114,6 +117,23 @@ bool sendCorner(std::string& vertexShader, std::string& geometryShader)
       "flat out vec3 svoCornerGSOutput;\nflat out vec3 svoCornerNormalGSOutput;\n");
   }
   return true;
+}
+
+/// The numbers of svoShadowRules.h, in GLSL.
+std::string shadowRules()
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::showpoint << std::setprecision(9); // a float's; without a point it were an int
+  text << "const float svoNearbyReach = " << NearbyReach << ";\n"
+       << "const float svoGrazingReach = " << GrazingReach << ";\n"
+       << "const float svoEdgeOnSine = " << EdgeOnSine << ";\n"
+       << "const float svoLeastSteepness = " << LeastSteepness << ";\n"
+       << "const float svoTexelBend = " << TexelBend << ";\n"
+       << "const int svoTexelsToAgree = " << TexelsToAgree << ";\n"
+       << "const float svoWidestBox = " << WidestBox << ";\n"
+       << "const float svoMapBorder = " << MapBorderOfFloats << ";\n";
+  return text.str();
 }
 
 /// Leaves maps of the faintest lights out until no more than `most` are left; true if there were
@@ -265,6 +285,19 @@ void ShadowReceivers::markShader(std::string& fragmentShader)
     std::string(ImplementationMark) + "  //VTK::Light::Impl", false);
 }
 
+std::string ShadowReceivers::declarations() const
+{
+  const auto boolean = [](bool value) { return value ? "true" : "false"; };
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << "const int svoCapacity = " << this->Capacity << ";\n"
+       << "const bool svoPlaneBias = " << boolean(this->PlaneBias) << ";\n"
+       << "const bool svoFilter = " << boolean(this->Filter) << ";\n"
+       << shadowRules() << svoShadowReceiver << "uniform int svoFirst[" << this->Lights.size()
+       << " + 1];\n";
+  return text.str();
+}
+
 void ShadowReceivers::completeShader(
   std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const
 {
@@ -297,10 +330,7 @@ void ShadowReceivers::completeShader(
   // One loop, since compilers copy the function to wherever it is called.
   const std::string count = std::to_string(this->Lights.size());
   vtkShaderProgram::Substitute(declarations, DeclarationMark,
-    any ? "const int svoCapacity = " + std::to_string(this->Capacity) + ";\n" +
-        "const bool svoPlaneBias = " + (this->PlaneBias ? "true" : "false") + ";\n" +
-        "const bool svoFilter = " + (this->Filter ? "true" : "false") + ";\n" + svoShadowReceiver +
-        "uniform int svoFirst[" + count + " + 1];\n" +
+    any ? this->declarations() +
         (smooth ? "flat in vec3 svoCornerVSOutput;\nflat in vec3 svoCornerNormalVSOutput;\n" : "")
         : std::string(),
     false);

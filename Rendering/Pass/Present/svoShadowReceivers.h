@@ -46,6 +46,9 @@ public:
     std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const;
   void setUniforms(vtkShaderProgram* program, bool receives) const;
 
+  /// What completeShader() puts before a fragment shader's main(): constants, uniforms, functions.
+  std::string declarations() const;
+
 private:
   std::vector<int> Lights; // that have maps: their numbers in VTK's shaders
   std::vector<int> First;  // map of each of them; then the number of all maps

@@ -2,6 +2,7 @@
 
 #include "svoLeafError.h"
 #include "svoSelectLevel.h"
+#include "svoShadowTest.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
@@ -317,7 +318,7 @@ bool ShadowBuffer::agreed(const Place& place, const SurfacePoint& point, double 
   {
     dark += this->ask(place, place.neighbour(i), point, error) != Answer::Lit;
   }
-  return dark >= 2;
+  return dark >= TexelsToAgree;
 }
 
 ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& texel,
@@ -325,7 +326,6 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
 {
   const Face* face = place.face;
   const double t = place.t;
-  const glm::dvec3& position = point.position;
   if (texel.x < 0 || texel.y < 0 || texel.x >= face->view.width || texel.y >= face->view.height)
   {
     return Answer::Lit;
@@ -336,44 +336,31 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
   {
     return Answer::Lit;
   }
-  double bias = this->Bias * this->CasterVoxel[caster];
+  const double bias = this->Bias * this->CasterVoxel[caster];
   if (!this->AutomaticBias)
   {
     return occluder + bias < t ? Answer::Dark : Answer::Lit;
   }
-  const View& view = face->view;
-  const double pixel = span * face->edge(t);
-  const double most = NearbyReach * pixel; // how far the tangent plane is followed along the ray
-  if (!(occluder + bias < t + most))
+  const double edge = span * face->edge(t);
+  if (!mayShadow(t, edge, occluder, bias))
   {
     return Answer::Lit;
   }
-  const Answer dark = occluder < t - most ? Answer::Dark : Answer::DarkNearby;
+  const auto vector = [](const auto& v) { return ShadowTestVector{ v.x, v.y, v.z }; };
   const double x = texel.x + 0.5;
   const double y = texel.y + 0.5;
-  const glm::dvec3 origin = view.rayOrigin(x, y);
-  const glm::dvec3 direction = view.rayDirection(x, y);
-  const double length = glm::length(direction);
-  double receiver = t + most;
-  double steepest = 0.1;
-  for (const glm::vec3& planeNormal : { point.facet, point.normal })
-  {
-    const glm::dvec3 normal(planeNormal);
-    const double along = glm::dot(normal, direction);
-    const double slope = std::abs(along) / length;
-    // Inside a texel a plane in grazing light reaches far towards the light. Where it is edge-on it
-    // says nothing.
-    const double wide = face->edge.aspect * pixel, farthest = GrazingReach * wide;
-    const double reach = wide < farthest * slope ? wide / slope : farthest;
-    const double low = t - std::max(most, reach);
-    const double plane =
-      slope > 1e-3 ? std::clamp(glm::dot(normal, position - origin) / along, low, t + most) : low;
-    receiver = std::min(receiver, plane);
-    steepest = std::max(steepest, slope);
-  }
-  // Half a texel and the leaf's error, both along the normal.
-  bias += (0.5 * pixel + std::max(this->CasterError[caster], error)) / steepest;
-  return occluder + bias < receiver ? dark : Answer::Lit;
+  ShadowQuestion question;
+  question.facet = vector(point.facet);
+  question.normal = vector(point.normal);
+  question.to = vector(point.position - face->view.rayOrigin(x, y));
+  question.ray = vector(face->view.rayDirection(x, y));
+  question.t = t;
+  question.edge = edge;
+  question.aspect = face->edge.aspect;
+  question.occluder = occluder;
+  question.bias = bias;
+  question.error = std::max(this->CasterError[caster], error);
+  return static_cast<Answer>(static_cast<int>(shadowTest(question)));
 }
 
 double ShadowBuffer::texelEdge(const glm::dvec3& position) const

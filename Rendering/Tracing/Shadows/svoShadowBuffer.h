@@ -130,7 +130,6 @@ private:
       return true;
     }
   };
-  static constexpr double NearbyReach = 8.0;
   /// Where a point is looked up.
   struct Place
   {
@@ -141,11 +140,11 @@ private:
     /// Number i (1..3) of the other texels whose centres surround the point.
     glm::ivec2 neighbour(int i) const;
   };
-  enum class Answer
+  enum class Answer // of shadowTest()
   {
-    Lit,
-    DarkNearby, // by an occluder within NearbyReach texels' depth
-    Dark
+    Lit = 0,
+    DarkNearby = 1, // by an occluder within NearbyReach texels' depth
+    Dark = 2
   };
   /// False if the point is outside of all faces, or its face sees no caster.
   bool lookUp(const glm::dvec3& position, Place& place) const;

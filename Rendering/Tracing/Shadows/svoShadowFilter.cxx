@@ -2,6 +2,7 @@
 #include "svoShadowFilter.h"
 
 #include "svoShadowBuffer.h"
+#include "svoShadowRules.h"
 #include "svoTileShadows.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace svo
 double ShadowBuffer::boxWidth(const Place& place, double extent)
 {
   const double pixel = place.face->edge(place.t);
-  return extent > pixel ? std::min(extent / pixel, TexelWindow::Widest) : 1.0;
+  return extent > pixel ? std::min(extent / pixel, WidestBox) : 1.0;
 }
 
 bool ShadowBuffer::isFlat(const Place& place, double width) const
@@ -86,7 +87,7 @@ bool ShadowBuffer::endsBefore(const Place& place, const glm::ivec2& texel, doubl
     }
     t -= (farther - here) * std::abs(offset[axis]);
   }
-  return !(t + 0.5 * pixel + std::max(this->CasterError[caster], error) < place.t);
+  return !(t + TexelBend * pixel + std::max(this->CasterError[caster], error) < place.t);
 }
 
 float ShadowBuffer::filtered(

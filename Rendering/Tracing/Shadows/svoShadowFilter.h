@@ -2,6 +2,8 @@
 #ifndef svoShadowFilter_h
 #define svoShadowFilter_h
 
+#include "svoShadowRules.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,14 +16,13 @@ namespace svo
 class TexelWindow
 {
 public:
-  static constexpr double Widest = 4.0; // box, texels
-  static constexpr int Most = 6;        // texels in the window
-  int first;                            // texel
+  static constexpr int Most = static_cast<int>(WidestBox) + 2; // texels in the window
+  int first;                                                   // texel
   int count;
   double weight[Most]; // set by weigh()
 
   /// `place`: texels from the border of a map of `size` of them; at least 0, less than `size`.
-  /// `width` of the box: 1..Widest texels.
+  /// `width` of the box: 1..WidestBox texels.
   TexelWindow(double place, double width, int size)
     : Place(place)
     , Width(width)

@@ -6,6 +6,7 @@
 #include "svoScene.h"
 #include "svoShadowBuffer.h"
 #include "svoShadowRays.h"
+#include "svoShadowRules.h"
 #include "svoSurfacePoint.h"
 #include "svoTerminator.h"
 #include "svoTileShadows.h"

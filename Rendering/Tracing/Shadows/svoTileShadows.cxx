@@ -4,6 +4,8 @@
 
 #include "svoTileShadows.h"
 
+#include "svoShadowRules.h"
+#include "svoShadowTest.h"
 #include "svoTerminator.h"
 
 #include <algorithm>
@@ -107,51 +109,21 @@ void test(const View& light, const TexelEdge& edge, const TilePoints& p, int fir
     for (int k = 0; k < Step; ++k)
     {
       const int j = i - first + k;
-      const double t = places.t[j];
-      const double pixel = pixel0 + t * pixelPerDepth;
-      const double most = 8.0 * pixel;
-      const double occluder = tests.occluder[j];
-      const double bias = tests.bias[j];
       const double x = tests.x[j], y = tests.y[j];
-      // From the texel's own ray to the point.
-      const double toX = p.positionX[i + k] - (o.x + x * oX.x + y * oY.x);
-      const double toY = p.positionY[i + k] - (o.y + x * oX.y + y * oY.y);
-      const double toZ = p.positionZ[i + k] - (o.z + x * oX.z + y * oY.z);
-      const double rayX = d.x + x * dX.x + y * dY.x;
-      const double rayY = d.y + x * dX.y + y * dY.y;
-      const double rayZ = d.z + x * dX.z + y * dY.z;
-      const double length = std::sqrt(rayX * rayX + rayY * rayY + rayZ * rayZ);
-      const double low = t - most, high = t + most;
-      const double wide = aspect * pixel, farthest = GrazingReach * wide;
-
-      const double fx = p.facetX[i + k], fy = p.facetY[i + k], fz = p.facetZ[i + k];
-      const double facetAlong = fx * rayX + fy * rayY + fz * rayZ;
-      const double facetSlope = std::abs(facetAlong) / length;
-      const double facetPlane = (fx * toX + fy * toY + fz * toZ) / facetAlong;
-      const double facetReach = wide < farthest * facetSlope ? wide / facetSlope : farthest;
-      const double facetLow = t - (most < facetReach ? facetReach : most);
-      const double facetCapped = high < facetPlane ? high : facetPlane;
-      const double facetBounded = facetPlane < facetLow ? facetLow : facetCapped;
-      const double facet = facetSlope > 1e-3 ? facetBounded : facetLow;
-
-      const double nx = p.normalX[i + k], ny = p.normalY[i + k], nz = p.normalZ[i + k];
-      const double normalAlong = nx * rayX + ny * rayY + nz * rayZ;
-      const double normalSlope = std::abs(normalAlong) / length;
-      const double normalPlane = (nx * toX + ny * toY + nz * toZ) / normalAlong;
-      const double normalReach = wide < farthest * normalSlope ? wide / normalSlope : farthest;
-      const double normalLow = t - (most < normalReach ? normalReach : most);
-      const double normalCapped = high < normalPlane ? high : normalPlane;
-      const double normalBounded = normalPlane < normalLow ? normalLow : normalCapped;
-      const double normal = normalSlope > 1e-3 ? normalBounded : normalLow;
-
-      const double nearer = facet < high ? facet : high;
-      const double receiver = normal < nearer ? normal : nearer;
-      const double steeper = 0.1 < facetSlope ? facetSlope : 0.1;
-      const double steepest = steeper < normalSlope ? normalSlope : steeper;
-      const double allowed = bias + (0.5 * pixel + tests.error[j]) / steepest;
-      const double front = occluder + allowed < receiver ? 1.0 : 0.0;
-      const double which = occluder < low ? 2.0 : 1.0;
-      tests.dark[j] = occluder + bias < high ? front * which : 0.0;
+      ShadowQuestion q;
+      q.t = places.t[j];
+      q.edge = pixel0 + q.t * pixelPerDepth;
+      q.aspect = aspect;
+      q.occluder = tests.occluder[j];
+      q.bias = tests.bias[j];
+      q.to = { p.positionX[i + k] - (o.x + x * oX.x + y * oY.x),
+        p.positionY[i + k] - (o.y + x * oX.y + y * oY.y),
+        p.positionZ[i + k] - (o.z + x * oX.z + y * oY.z) };
+      q.ray = { d.x + x * dX.x + y * dY.x, d.y + x * dX.y + y * dY.y, d.z + x * dX.z + y * dY.z };
+      q.facet = { p.facetX[i + k], p.facetY[i + k], p.facetZ[i + k] };
+      q.normal = { p.normalX[i + k], p.normalY[i + k], p.normalZ[i + k] };
+      q.error = tests.error[j];
+      tests.dark[j] = shadowTest(q);
     }
   }
 }

@@ -1,6 +1,6 @@
-// The shadow test of the visible points of a tile against one map of a shadow buffer. The
-// operations and their order are those of ShadowBuffer::shadows() for one point, the reference, so
-// that the results are the same bits.
+// The shadow test of the visible points of a tile against one map of a shadow buffer:
+// svoShadowTest.h, point by point, in vectors. Points are looked up by the operations that
+// ShadowBuffer::lookUp() has for one, in their order, so that the results are the same bits.
 #ifndef svoTileShadows_h
 #define svoTileShadows_h
 
@@ -15,13 +15,6 @@
 
 namespace svo
 {
-/// How far a plane in grazing light is followed towards the light, in texels.
-constexpr double GrazingReach = 64.0;
-
-/// Where a map ends, in clip space. Rounding may put a point on the border of two maps beyond both;
-/// it belongs to the last texel of either.
-constexpr double MapBorder = 1.0 + 1e-12;
-
 /// Where points are looked up, by index of the point minus `first`.
 struct TexelPlaces
 {

@@ -1,6 +1,10 @@
 // The render pass without a window: defaults, ranges, and what props and lights carry.
 #include "svoTestMessages.h"
+#include "vtkPolyDataToSVO.h"
 #include "vtkSVORenderPass.h"
+
+#include "svoFrame.h"
+#include "svoLayout.h"
 
 #include "vtkActor.h"
 #include "vtkFollower.h"
@@ -13,6 +17,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <limits>
 #include <sstream>
 
@@ -35,6 +40,53 @@ TEST(RenderPassSettings, DefaultsAreThoseOfTheManual)
   EXPECT_TRUE(pass->GetFrameCoherence());
   EXPECT_EQ(pass->GetLayerMemoryLimit(), 512 * 1024);
   EXPECT_FALSE(pass->GetAntiAliasing());
+}
+
+// The manual of the pass says them once more; a tracer takes the scene without a pass, too.
+TEST(RenderPassSettings, DefaultsAreThoseOfTheTracer)
+{
+  vtkNew<vtkSVORenderPass> pass;
+  const svo::FrameSettings settings;
+  EXPECT_EQ(pass->GetShadowTechnique(), static_cast<int>(settings.shadowTechnique));
+  EXPECT_EQ(pass->GetShadowBufferResolution(), settings.shadowResolution);
+  EXPECT_EQ(pass->GetAutomaticShadowBias(), settings.automaticBias);
+  EXPECT_EQ(pass->GetShadowBias(), settings.bias);
+  EXPECT_EQ(pass->GetShadowIntensity(), settings.shadowIntensity);
+  EXPECT_EQ(pass->GetPixelError(), settings.pixelError);
+  EXPECT_EQ(pass->GetFrameCoherence(), settings.frameCoherence);
+  EXPECT_EQ(
+    static_cast<std::size_t>(pass->GetLayerMemoryLimit()) * 1024, settings.layerMemoryLimit);
+  EXPECT_EQ(pass->GetAntiAliasing(), settings.antiAliasing);
+  EXPECT_EQ(pass->GetAntiAliasing(), settings.filterShadows);
+  EXPECT_EQ(settings.shadowMemoryLimit, std::size_t(4) << 30); // SetShadowBufferResolution()
+  // What only the pass knows when to ask for.
+  EXPECT_FALSE(settings.wholeShadowBuffers);
+  EXPECT_FALSE(settings.writeNormals);
+  EXPECT_FALSE(settings.writeLight);
+}
+
+// Numbers are handed on as they are.
+TEST(RenderPassSettings, ChoicesAreThoseOfTheTracer)
+{
+  using Pass = vtkSVORenderPass;
+  EXPECT_EQ(static_cast<int>(Pass::SHADOW_NONE), static_cast<int>(svo::ShadowTechnique::None));
+  EXPECT_EQ(static_cast<int>(Pass::SHADOW_BUFFER), static_cast<int>(svo::ShadowTechnique::Buffer));
+  EXPECT_EQ(static_cast<int>(Pass::SHADOW_RAYS), static_cast<int>(svo::ShadowTechnique::Rays));
+  EXPECT_EQ(static_cast<int>(Pass::LEAF_VOXEL), static_cast<int>(svo::LeafGeometry::Voxel));
+  EXPECT_EQ(static_cast<int>(Pass::LEAF_PLANE), static_cast<int>(svo::LeafGeometry::Plane));
+  EXPECT_EQ(static_cast<int>(Pass::LEAF_TRIANGLE), static_cast<int>(svo::LeafGeometry::Triangle));
+  EXPECT_EQ(static_cast<int>(Pass::LEAF_AUTOMATIC), static_cast<int>(svo::LeafGeometry::Automatic));
+  EXPECT_EQ(static_cast<int>(vtkPolyDataToSVO::VOXEL), static_cast<int>(Pass::LEAF_VOXEL));
+  EXPECT_EQ(static_cast<int>(vtkPolyDataToSVO::PLANE), static_cast<int>(Pass::LEAF_PLANE));
+  EXPECT_EQ(static_cast<int>(vtkPolyDataToSVO::TRIANGLE), static_cast<int>(Pass::LEAF_TRIANGLE));
+  EXPECT_EQ(static_cast<int>(vtkPolyDataToSVO::AUTOMATIC), static_cast<int>(Pass::LEAF_AUTOMATIC));
+
+  vtkNew<Pass> pass;
+  pass->SetMaximumLevel(100);
+  EXPECT_EQ(pass->GetMaximumLevel(), svo::MaximumLevel);
+  vtkNew<vtkPolyDataToSVO> filter;
+  filter->SetMaximumLevel(100);
+  EXPECT_EQ(filter->GetMaximumLevel(), svo::MaximumLevel);
 }
 
 TEST(RenderPassSettings, ValuesOutOfRangeAreClamped)

@@ -1,0 +1,26 @@
+// One fragment of a shader for each of many cases: numbers go in, numbers come out.
+#ifndef svoFragments_h
+#define svoFragments_h
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+
+namespace svoTest
+{
+using FourFloats = std::array<float, 4>;
+
+/// Runs a fragment shader for size * size cases. `inputs`: textures that the shader finds as
+/// `uniform sampler2D input0`, `input1` and so on, a texel a case, at ivec2(gl_FragCoord).
+/// `declarations` stand before main(), whose body is `main`; it writes gl_FragData[0]. `prepare`
+/// sets further uniforms. Empty if the shader could not be made.
+std::vector<FourFloats> runFragments(vtkOpenGLRenderWindow* window, int size,
+  const std::vector<std::vector<FourFloats>>& inputs, const std::string& declarations,
+  const std::string& main, const std::function<void(vtkShaderProgram*)>& prepare);
+}
+
+#endif
