@@ -1,4 +1,4 @@
-// Is a matrix fit for tracing?
+// Whether a matrix is fit for tracing: affine and invertible, flat, projective, or not finite.
 #ifndef svoAffineMatrix_h
 #define svoAffineMatrix_h
 

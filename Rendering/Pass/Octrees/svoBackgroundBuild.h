@@ -48,7 +48,7 @@ public:
   BackgroundBuild(const BackgroundBuild&) = delete;
   BackgroundBuild& operator=(const BackgroundBuild&) = delete;
 
-  /// The result is there and nothing runs any more that takes time.
+  /// The result is there, and the thread is about to end.
   bool done() const { return this->Done; }
 
   /// 0..1.

@@ -1,5 +1,5 @@
-// Octrees of many small meshes at once. Inside a small build there is little to share out, and what
-// there is costs more threads than it saves time.
+// Octrees of many small meshes at once, each on one thread: a loop inside a small build starts more
+// threads than it has work for.
 #ifndef svoSideBySide_h
 #define svoSideBySide_h
 

@@ -27,7 +27,7 @@ public:
   /// Takes a frame's maps. Only those whose depths are others than last time are sent to OpenGL. No
   /// maps: nothing receives. The bias that the settings have in voxels is added in
   /// those of the coarsest caster, as maps do not say who casts. `lights`: that the maps are of.
-  /// Returns what there is to complain about: of more maps than OpenGL takes, those of the
+  /// Returns a message, empty if all is well: of more maps than OpenGL takes, those of the
   /// brightest lights are there.
   std::string update(vtkOpenGLRenderWindow* window, const std::vector<ShadowMap>& maps,
     const std::vector<Light>& lights, const View& eye, const FrameSettings& settings);

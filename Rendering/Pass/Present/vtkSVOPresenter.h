@@ -35,7 +35,7 @@ public:
   static vtkSVOPresenter* New();
   vtkTypeMacro(vtkSVOPresenter, vtkProp3D);
 
-  /// Finds what surfaces cover of pixels with samples at these positions.
+  /// Finds the parts of pixels that surfaces cover, for samples at these positions.
   using SilhouetteFinder = std::function<void(const std::vector<glm::vec2>&, svo::Silhouettes&)>;
 
   /// What to show; it must live until the next call. `pass` is not asked for draw buffers. Where
@@ -88,12 +88,12 @@ private:
   svo::Silhouettes Silhouettes;
   svo::PixelParts Parts;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
-  std::string QuadShader; // of the quad
+  std::string QuadShader; // fragment shader that the quad was made with
   vtkSmartPointer<vtkTextureObject> Colors;
   vtkSmartPointer<vtkTextureObject> Depths;
   vtkSmartPointer<vtkTextureObject> Normals;
   vtkSmartPointer<vtkTextureObject> Light;
-  /// Stands in where other passes ask whose shader they are setting up.
+  /// The mapper that other passes are given when they set up the quad's shader.
   vtkNew<vtkOpenGLPolyDataMapper> Nobody;
 };
 

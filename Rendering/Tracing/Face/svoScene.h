@@ -1,5 +1,5 @@
-// What is traced: instances of octrees with their look, and lights. Plain data, collected anew for
-// every frame.
+// A scene: instances of octrees with their look, receivers, and lights. Plain data, collected anew
+// for every frame.
 #ifndef svoScene_h
 #define svoScene_h
 
@@ -12,8 +12,7 @@
 
 namespace svo
 {
-/// A surface that is no instance, but on which shadows of instances fall: where it is, in the
-/// world.
+/// The box, in the world, of a surface that is no instance but receives shadows of instances.
 struct Receiver
 {
   glm::dvec3 low, high;

@@ -1,9 +1,9 @@
-// The face of all tracers: what a renderer asks for, and in which order.
+// The interface of all tracers: the calls of a renderer, and their order.
 //
-// Fill a Scene with the instances that there are and ask neededLevels() how deep their octrees have
-// to be; give them octrees; render(). Where a scene is spread over several processes all of them
-// call shareShadows() before it. What is drawn beside the frame, by others, asks for shadowMaps()
-// and, in a window with multisampling, for divideEdges() afterwards.
+// Fill a Scene with instances and ask neededLevels() how deep their octrees have to be; give them
+// octrees; render(). Where a scene is spread over several processes all of them call shareShadows()
+// before render(). Afterwards rasterised surfaces ask for shadowMaps(), and windows with
+// multisampling for divideEdges().
 #ifndef svoTracer_h
 #define svoTracer_h
 

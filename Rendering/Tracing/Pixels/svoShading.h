@@ -1,4 +1,5 @@
-// VTK's lighting of surfaces without textures and PBR, as its OpenGL shaders compute it.
+// VTK's lighting of surfaces without textures and PBR, as its OpenGL shaders compute it
+// (vtkOpenGLPolyDataMapper::ReplaceShaderLight).
 #ifndef svoShading_h
 #define svoShading_h
 

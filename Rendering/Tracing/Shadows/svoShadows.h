@@ -25,8 +25,8 @@ public:
   void begin(
     const Scene& scene, const View& eye, const FrameSettings& settings, LayerBudget& budget);
 
-  /// To be called in every frame, after begin() or traceShared(). `scene` and `eye`: the points to
-  /// be tested are theirs; rays to the light meet the same geometry, or surfaces would shadow
+  /// To be called in every frame, after begin() or traceShared(). `scene` and `eye`: those of the
+  /// points to be tested; rays to the light meet the same geometry, or surfaces would shadow
   /// themselves.
   void beginRays(const Scene& scene, const FrameSettings& settings, const LayeredView& eye);
 
@@ -71,7 +71,7 @@ public:
     const std::uint8_t* asked, float* darkness) const;
 
   /// The same for points at the terminator, see svoTerminator.h. False where nothing is in shadow,
-  /// or points are compared with a shadow map without any regard to what they lie on.
+  /// or points are compared with a shadow map without the automatic bias.
   bool knowsTerminator(std::size_t light) const
   {
     return this->Exact ? this->Of->lights[light].castShadow
