@@ -16,9 +16,9 @@ namespace svo
 enum class MatrixKind
 {
   Affine,     // and invertible
-  Flat,       // affine, but singular or nearly so: what it places is a sheet, a line or a point
+  Flat,       // affine, but singular or nearly so: its surface is a sheet, a line or a point
   Projective, // its last row is not (0, 0, 0, 1)
-  Nowhere     // its last row is 0, or it is not finite: nothing can be seen of what it places
+  Nowhere     // its last row is 0, or it is not finite: its surface cannot be seen
 };
 
 /// Condition number, in the Frobenius norm, from which a matrix counts as singular.

@@ -86,7 +86,7 @@ private:
   DataSetSurfaces Surfaces;
   OpaqueCells Opaque;
   FloatArrays Floats;
-  std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>> Said; // about what
+  std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>> Said; // by object
 };
 }
 

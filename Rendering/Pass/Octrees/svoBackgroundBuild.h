@@ -54,7 +54,7 @@ public:
   /// 0..1.
   double progress() const { return this->Progress; }
 
-  /// Nobody needs the result: the build ends as soon as it notices.
+  /// Abandons the result: the build ends at its next report of progress.
   void abandon() { this->Abandoned = true; }
   bool abandoned() const { return this->Abandoned; }
 

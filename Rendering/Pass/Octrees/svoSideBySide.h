@@ -25,7 +25,7 @@ struct SideBySide
 };
 
 /// Builds all of them, each on one thread; options.parallelFor and options.progress are not asked.
-/// Nobody may change the meshes meanwhile.
+/// The meshes must not change meanwhile.
 void buildSideBySide(std::vector<SideBySide>& builds);
 }
 

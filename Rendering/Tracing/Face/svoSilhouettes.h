@@ -16,7 +16,7 @@
 
 namespace svo
 {
-/// What one surface covers of one pixel.
+/// The samples of one pixel that one surface covers.
 struct PixelPart
 {
   std::uint32_t samples = 0; // bit i: sample i

@@ -49,8 +49,8 @@ inline double worldLeafError(
     (placed ? 1.2e-7 : 1e-6) * worldVoxel(instance, 0));
 }
 
-/// What the test against a shadow map allows for (LeafTraits::mapError), in the world. A ray among
-/// planes needs all of their error.
+/// The error that the test against a shadow map allows for (LeafTraits::mapError), in the world. A
+/// ray among planes needs all of their error.
 inline double worldMapError(
   const Instance& instance, LeafGeometry geometry, int level, bool placed = false)
 {
