@@ -18,9 +18,9 @@
 
 namespace svo
 {
-/// It owns what it needs: between its beginning and its end pipelines run and events are invoked,
-/// and observers do as they like. They drop the pass, detach it, remove actors, finalize the window
-/// or draw another one with the same pass, whose frame then lies within this one.
+/// A frame owns what it needs: between its beginning and its end pipelines run, events are invoked,
+/// and observers may drop the pass, detach it, remove actors, finalize the window or draw another
+/// one with the same pass, whose frame then lies within this one.
 struct PassFrame
 {
   PassFrame(std::shared_ptr<PassRenderer> passRenderer, vtkRenderer* drawn)
@@ -74,7 +74,7 @@ private:
   {
     return vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   }
-  /// What a window has until it is finalized.
+  /// The OpenGL state that a window has until it is finalized.
   static vtkOpenGLState* stateOf(vtkOpenGLRenderWindow* window)
   {
     return window ? window->GetState() : nullptr;

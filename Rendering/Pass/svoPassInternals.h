@@ -1,4 +1,4 @@
-// What vtkSVORenderPass keeps, for the files that it is made of.
+// The private state of vtkSVORenderPass, for the files that implement the class.
 #ifndef svoPassInternals_h
 #define svoPassInternals_h
 
@@ -22,7 +22,7 @@
 
 namespace svo
 {
-/// What settings of memory count in.
+/// The unit of settings of memory.
 constexpr std::size_t BytesOfKiB = 1024;
 
 /// A renderer that the pass is attached to.
@@ -51,7 +51,7 @@ struct vtkSVORenderPass::Internals
   std::string castingLights;
   std::string shaderSignature; // of the shaders that mappers have built last
   vtkTimeStamp shaderTime;
-  std::set<std::string> said; // about no object in particular
+  std::set<std::string> said; // messages about no object in particular
   bool saidHeadlight = false;
   bool saidOpenGL = false;
   bool saidMemory = false;
@@ -59,7 +59,8 @@ struct vtkSVORenderPass::Internals
 
   static svo::FrameSettings settingsOf(const vtkSVORenderPass& pass);
 
-  /// What is kept for a renderer.
+  /// The state for a renderer, made when it is first asked for; those of dead renderers are
+  /// dropped.
   std::shared_ptr<svo::PassRenderer> of(vtkRenderer* renderer)
   {
     for (auto entry = this->renderers.begin(); entry != this->renderers.end();)
@@ -74,7 +75,7 @@ struct vtkSVORenderPass::Internals
     return found;
   }
 
-  /// What is kept for the renderer of the innermost frame; null between frames.
+  /// The state for the renderer of the innermost frame; null between frames.
   svo::PassRenderer* current() const
   {
     return this->frames.empty() ? nullptr : this->frames.back()->of.get();

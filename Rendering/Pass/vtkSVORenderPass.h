@@ -18,8 +18,8 @@
  * An octree lives in its mesh's local frame, so an actor can be moved, turned, scaled, mirrored or
  * sheared by any affine matrix without building anything anew.
  *
- * Lights: every light that is switched on casts, but headlights, whose shadows nobody sees, and of
- * several camera lights (a light kit) only the brightest. SetCastShadow(bool, vtkLight*) says
+ * Lights: every light that is switched on casts, but headlights, whose shadows cannot be seen, and
+ * of several camera lights (a light kit) only the brightest. SetCastShadow(bool, vtkLight*) says
  * otherwise. Note that a positional vtkLight has a cone of 30 degrees unless told otherwise: set
  * 180 for a point light.
  *
@@ -416,7 +416,7 @@ public:
 
   //@{
   /**
-   * What the last frame took: rays from the eye, rays (or texels) from and to lights, and layers
+   * The work of the last frame: rays from the eye, rays (or texels) from and to lights, and layers
    * (one object seen from the eye or from a light) that could not be reused.
    */
   vtkIdType GetNumberOfPrimaryRays() const;
@@ -523,15 +523,15 @@ protected:
   virtual void MeasureFrame(double& seconds, double& fixedSeconds) const;
 
   /**
-   * What the pass says that only the host's own words make sense of, because it asks for something
-   * to be done or names what the host gave another name.
+   * Texts of the pass that a host puts into its own words, because they ask users to do something
+   * or name things that have other names there.
    */
   enum TextType
   {
     TEXT_HEADLIGHT = 0,           // what a headlight is called, in GetCastingLights()
     TEXT_ONLY_HEADLIGHTS = 1,     // there are no shadows, because no other lights are on
     TEXT_TRANSLUCENT = 2,         // cells of a surface cast none, because they are translucent
-    TEXT_TRANSLUCENT_SURFACE = 3, // a surface casts none, because somebody made it translucent
+    TEXT_TRANSLUCENT_SURFACE = 3, // a surface casts none, because its opacity makes it translucent
     TEXT_CUT_OUT = 4              // cells cast their whole shadows, although a texture hides parts
   };
 

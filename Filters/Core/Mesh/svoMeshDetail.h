@@ -1,4 +1,4 @@
-// How deep an octree has to be to tell a mesh's triangles apart.
+// The octree level, or voxel size, that tells a mesh's triangles apart.
 #ifndef svoMeshDetail_h
 #define svoMeshDetail_h
 

@@ -23,6 +23,7 @@ namespace svo
 {
 namespace
 {
+/// The 128-bit product of both, folded, as wyhash (Wang Yi) mixes.
 std::uint64_t mix(std::uint64_t a, std::uint64_t b)
 {
   std::uint64_t high;

@@ -1,4 +1,4 @@
-// What an octree remembers of the mesh it was built from.
+// The hash of a mesh that an octree carries, so that the mesh it was built from is recognised.
 #ifndef svoMeshSignature_h
 #define svoMeshSignature_h
 
@@ -16,8 +16,8 @@ namespace svo
 /// threads.
 ///
 /// Computed once per change: the hashes of points and cells are remembered by their identity and
-/// modification time. Whoever edits them in place calls Modified() on them or on the mesh. Does not
-/// change the mesh; may be called from any thread.
+/// modification time. Code that edits them in place calls Modified() on them or on the mesh. Does
+/// not change the mesh; may be called from any thread.
 VTKSVOCORE_EXPORT std::uint64_t meshSignature(vtkPolyData* mesh);
 
 /// Tells that `to` is a shallow copy that was made of `from` right now, so that its signature is

@@ -22,7 +22,8 @@ struct MeshOctreeOptions
 {
   int level = 10; // 1..MaximumLevel
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
-  /// Of what the mesh is a part of, as VTK orders bounds; low above high: it is all there is.
+  /// Bounds of the whole that the mesh is a part of, as VTK orders them; low above high: the mesh
+  /// is the whole.
   std::array<double, 6> modelBounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
   std::size_t memoryLimit = 0; // bytes at the peak of the build; 0: what the machine has available
   std::uint64_t signature = 0; // of the mesh, where it is known
@@ -40,8 +41,8 @@ VTKSVOCORE_EXPORT BuildStatus buildMeshOctree(
   vtkPolyData* mesh, const MeshOctreeOptions& options, Octree& octree, std::string& message);
 
 /// The octree that buildMeshOctree() built with these options, of a mesh of options.signature,
-/// where somebody in this process still has it; empty otherwise. `message` is what was said then.
-/// Any thread may ask.
+/// where it is still open in this process; empty otherwise. `message` is that of the build. May be
+/// called from any thread.
 VTKSVOCORE_EXPORT Octree findBuiltOctree(const MeshOctreeOptions& options, std::string& message);
 
 /// True if buildMeshOctree() would choose the cube that the octree of the same mesh has.
@@ -67,7 +68,7 @@ enum class Attached
 
 /// Opens the octree that travels on a mesh, with its surface. Only Found yields an octree. None and
 /// Foreign are ordinary states downstream of other filters and have no message. The octree has a
-/// copy of the array's bytes: whoever writes to the array changes no open octree. Does not change
+/// copy of the array's bytes: writing to the array changes no open octree. Does not change
 /// the mesh. While the octree is open somewhere, and the array was not modified, opening it again
 /// costs a look-up.
 VTKSVOCORE_EXPORT Attached openAttachedOctree(

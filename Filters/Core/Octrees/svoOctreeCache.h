@@ -21,7 +21,7 @@ public:
     std::uint64_t signature; // of the mesh
     int level;
     LeafGeometry leafGeometry;
-    std::array<double, 6> modelBounds; // of what the mesh is a part of
+    std::array<double, 6> modelBounds; // of the whole that the mesh is a part of
     bool operator==(const Key& other) const
     {
       return signature == other.signature && level == other.level &&

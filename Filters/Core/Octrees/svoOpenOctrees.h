@@ -17,10 +17,10 @@ class vtkUnsignedCharArray;
 
 namespace svo
 {
-/// Keeps none of them alive. Any thread may ask.
+/// Keeps no octree alive. May be called from any thread.
 ///
 /// An octree owns its bytes: the field-data array that it was opened from, or that it was attached
-/// as, has a copy of them, since anybody may write to that. So an array is known by its
+/// as, has a copy of them, since any code may write to the array. So an array is known by its
 /// modification time. VTK's times grow over the whole process: an array that is made where another
 /// one was freed never shows the same pair of address and time.
 class OpenOctrees
@@ -28,15 +28,16 @@ class OpenOctrees
 public:
   static OpenOctrees& instance();
 
-  /// The octree whose bytes the array has, as far as it says; empty if it is not open.
+  /// The octree whose bytes the array has, by address and modification time; empty if it is not
+  /// open.
   Octree find(vtkUnsignedCharArray* array);
   void add(vtkUnsignedCharArray* array, const Octree& octree);
 
-  /// What makes one octree of a mesh differ from another: the mesh's signature, the level, the leaf
-  /// geometry and the bounds of what the mesh is a part of.
+  /// The inputs that make one octree of a mesh differ from another: the mesh's signature, the
+  /// level, the leaf geometry and the bounds of the whole that the mesh is a part of.
   using Recipe = std::tuple<std::uint64_t, int, LeafGeometry, std::array<double, 6>>;
 
-  /// The octree that was built like that, and what was said of it.
+  /// The octree that was built by the recipe, and the message of its build.
   Octree find(const Recipe& recipe, std::string& message);
   void add(const Recipe& recipe, const Octree& octree, const std::string& message);
 

@@ -1,4 +1,4 @@
-// When things come again: what a full cache goes by.
+// The order in which a full cache drops its entries: the one that will be used last goes first.
 #ifndef svoReuse_h
 #define svoReuse_h
 
@@ -11,12 +11,13 @@
 
 namespace svo
 {
-/// A cache that lets go of what was used longest ago keeps nothing of an animation that is longer
-/// than itself: what comes next has always just gone. So it is remembered how long each thing took
-/// to come again, also of things that are gone, and what will be needed last goes first: of a
-/// loop, what has just passed. What did not come when it was due is forgotten about, so that the
-/// next file, or the next part of the animation, is not kept out for long. As long as nothing has
-/// come again after it was let go, the least recently used goes first.
+/// A cache that drops the least recently used entry keeps nothing of an animation that is longer
+/// than the cache: the next pose has always just been dropped. So the history remembers how many
+/// uses each entry took to come again, of dropped entries too, and the entry that will be used last
+/// goes first (Belady, "A study of replacement algorithms for a virtual-storage computer", 1966,
+/// with predicted uses): of a loop, the pose that has just passed. Overdue entries go before all
+/// others, so that the next file, or the next part of the animation, is not kept out for long. As
+/// long as no entry has come again after it was dropped, the least recently used one goes first.
 ///
 /// Time is counted in uses. Deterministic. Not thread-safe: a cache's own.
 class VTKSVOCORE_EXPORT ReuseHistory
@@ -24,10 +25,10 @@ class VTKSVOCORE_EXPORT ReuseHistory
 public:
   using Id = std::uint64_t;
 
-  /// To be called when a thing comes, `kept` or to be made anew; not for what is still in use.
+  /// To be called when an entry is used, `kept` or to be made anew; not while it is still in use.
   void comes(Id id, bool kept);
 
-  /// Puts ids into the order in which to let go of them. All must have come.
+  /// Sorts ids into the order in which to drop them. All must have come.
   void sortForGoing(std::vector<Id>& ids) const;
 
 private:
@@ -43,7 +44,7 @@ private:
   static constexpr std::size_t Most = 1 << 16; // things that are remembered
   std::unordered_map<Id, Thing> Things;
   std::uint64_t Now = 0;
-  std::uint64_t Loop = 0; // interval of what was missed last; 0: nothing was
+  std::uint64_t Loop = 0; // interval of the entry that was missed last; 0: none was
 };
 }
 

@@ -9,7 +9,7 @@ namespace svo
 {
 /// Up to VTK 9.2 an algorithm's own flag, which the next execution clears. VTK 9.3, and the VTK of
 /// ParaView 5.11, asks the algorithms upstream as well; the executive then empties the output, and
-/// executes again once the flag is cleared by whoever set it.
+/// executes again once the flag is cleared.
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220816)
 constexpr bool ExecutiveEmptiesAbortedOutput = true;
 inline bool isAborted(vtkAlgorithm* algorithm)

@@ -1,4 +1,4 @@
-// The engine's executors: on VTK's threads, and for what must not be in anybody's way.
+// The engine's executors: on VTK's threads, and on plain threads for builds in the background.
 #ifndef svoSMPParallel_h
 #define svoSMPParallel_h
 

@@ -1,4 +1,4 @@
-// Is a matrix fit for tracing?
+// Whether a matrix is fit for tracing: affine and invertible, flat, projective, or not finite.
 #ifndef svoAffineMatrix_h
 #define svoAffineMatrix_h
 
@@ -16,9 +16,9 @@ namespace svo
 enum class MatrixKind
 {
   Affine,     // and invertible
-  Flat,       // affine, but singular or nearly so: what it places is a sheet, a line or a point
+  Flat,       // affine, but singular or nearly so: its surface is a sheet, a line or a point
   Projective, // its last row is not (0, 0, 0, 1)
-  Nowhere     // its last row is 0, or it is not finite: nothing can be seen of what it places
+  Nowhere     // its last row is 0, or it is not finite: its surface cannot be seen
 };
 
 /// Condition number, in the Frobenius norm, from which a matrix counts as singular.

@@ -19,9 +19,9 @@ glm::dmat4 toGlm(const vtkMatrix4x4* matrix);
 /// viewport.
 void sizeOf(const vtkRenderState* state, int& width, int& height);
 
-/// What the scene's world is made of VTK's by, so that the view is rigid: it is multiplied to the
-/// matrices of actors. Identity, but for somebody who set the camera's ModelTransformMatrix, or a
-/// UserViewTransform that is not rigid.
+/// VTK's world to the scene's, so that the view is rigid: actors' matrices are multiplied by it.
+/// Identity, unless the camera has a ModelTransformMatrix, or a UserViewTransform that is not
+/// rigid.
 glm::dmat4 sceneTransform(vtkRenderer* renderer);
 
 /// The rays of the renderer's active camera. They come from the projection matrix, so window

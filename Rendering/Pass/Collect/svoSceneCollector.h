@@ -30,7 +30,7 @@ class vtkRenderer;
 
 namespace svo
 {
-/// What a frame asks of the collection.
+/// A frame's settings of the collection.
 struct CollectSettings
 {
   bool shadows = true; // casters are wanted
@@ -38,15 +38,14 @@ struct CollectSettings
   /// or cast; the others only receive.
   bool onlyMarked = false;
   LevelSettings levels;
-  std::set<std::string>* said = nullptr; // by the pass, about no object in particular
-  /// What to say of surfaces and of cells that cast nothing, or more than there is to see; empty:
-  /// nothing.
+  std::set<std::string>* said = nullptr; // messages of the pass, about no object in particular
+  /// Messages about surfaces and cells that cast nothing, or more than they show; empty: none.
   std::string translucentSurfaceText;
   std::string translucentText;
   std::string cutOutText;
 };
 
-/// A frame's scene and what it means for the renderer's props.
+/// A frame's scene, and the renderer's props that the scene replaces.
 struct CollectedScene
 {
   Scene scene;
@@ -70,7 +69,8 @@ public:
   void collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options,
     const CollectSettings& settings, CollectedScene& result);
 
-  /// What a frame would collect of a prop, octrees apart, if a light casts; nothing is said.
+  /// The surfaces that a frame would collect of a prop, octrees apart, if a light casts. Gives no
+  /// messages.
   PropSurfaces judge(vtkProp* prop);
 
 private:
@@ -86,7 +86,7 @@ private:
   DataSetSurfaces Surfaces;
   OpaqueCells Opaque;
   FloatArrays Floats;
-  std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>> Said; // about what
+  std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>> Said; // by object
 };
 }
 

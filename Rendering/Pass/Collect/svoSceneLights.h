@@ -19,8 +19,8 @@ namespace svo
 /// of them are headlights.
 std::vector<Light> lightsOf(vtkRenderer* renderer, const glm::dmat4& world, bool& headlightOnly);
 
-/// Whether a light casts where it is switched on. A camera light that nobody gave an answer for is
-/// compared with the others of the renderer whose lights were asked for last.
+/// Whether a light casts while it is switched on. A camera light without a key of its own
+/// (svoPropKeys.h) is compared with the others of the renderer whose lights were collected last.
 bool castsShadow(vtkLight* light);
 }
 

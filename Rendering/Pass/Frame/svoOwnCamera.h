@@ -1,4 +1,5 @@
-// Who sets up viewport and background: the pass itself, wherever vtkRenderStepsPass would.
+// Viewport and background of a pass that has no vtkCameraPass above it, as vtkRenderStepsPass sets
+// them up.
 #ifndef svoOwnCamera_h
 #define svoOwnCamera_h
 
@@ -11,14 +12,15 @@ class vtkRenderState;
 
 namespace svo
 {
-/// The camera of a frame of a pass, while that lasts. Passes around it find OpenGL's viewport as it
-/// was.
+/// The camera of a frame of a pass. Its destructor gives OpenGL's viewport back to the passes
+/// around it.
 class OwnCamera
 {
 public:
   OwnCamera(const vtkRenderState* state, vtkRenderPass* pass);
 
-  /// Sets it up, unless a vtkCameraPass above the pass has: others may have drawn since.
+  /// Sets the camera up, unless a vtkCameraPass above the pass has. May be called again, after
+  /// other frames have been drawn.
   void setUp() const;
 
 private:

@@ -1,4 +1,4 @@
-// What a pass keeps for each renderer that it is set on.
+// The state of a pass for one renderer, and the steps of its frames: collect, trace, present.
 #ifndef svoPassRenderer_h
 #define svoPassRenderer_h
 
@@ -92,7 +92,7 @@ public:
   /// True if there is anything to trace, here or, with shadows to be seen here, elsewhere.
   bool hasSomething() const { return !this->Collected.scene.instances.empty() || this->Sharing; }
 
-  /// Before tracing: what the presenter writes is what outer passes expect of the props it
+  /// Before tracing: the presenter is to write what outer passes expect of the props that it
   /// replaces.
   void joinPasses(const vtkRenderState* state);
 
@@ -108,7 +108,7 @@ public:
   /// of its renderers.
   double chooseDistance(double budget, double maximum);
 
-  /// What the frame took, `fixed` of it whatever the number of rays.
+  /// The frame's time, and its part that does not depend on the number of rays.
   void measured(double seconds, double fixed);
 
   /// The prop that shows what was traced.
@@ -120,13 +120,13 @@ public:
   /// Has the presenter, which is in the renderer's own list, show what was traced.
   void present(vtkOpenGLRenderPass* pass);
 
-  /// Forgets what was kept of octrees for the next frame.
+  /// Frees the depth layers that are kept for the next frame.
   void releaseLayers() { this->Trace->releaseLayers(); }
 
-  /// To be called when the frame has been drawn: forgets what it borrowed.
+  /// To be called when the frame has been drawn: lets go of the borrowed scene.
   void finish();
 
-  /// What there is to say about the traced frame; empty if all is well.
+  /// A message about the traced frame; empty if all is well.
   const std::string& complaint() const { return this->Complaint; }
 
   ShadowReceivers& receivers() { return this->Receivers; }

@@ -1,4 +1,4 @@
-// The blocks of a composite mapper, and what its attributes say about the look of each.
+// The visible blocks of a composite mapper, and the look of each by the mapper's attributes.
 #ifndef svoCompositeBlocks_h
 #define svoCompositeBlocks_h
 
@@ -17,7 +17,7 @@ class vtkPolyDataMapper;
 
 namespace svo
 {
-/// Whether a mapper draws the blocks of a tree, in a way that is known to the letter.
+/// Whether a mapper is of a class that draws the blocks of a tree by known rules.
 bool isCompositeMapper(vtkMapper* mapper);
 
 /// A composite mapper has one set of colours, but blocks need theirs at the same time: each gets a
@@ -30,7 +30,7 @@ public:
   /// mapper's (vtkCompositePolyDataMapper::BuildRenderValues).
   std::vector<SurfacePart> partsOf(vtkMapper* mapper, double opacity);
 
-  /// Forgets what was not asked for since the last call.
+  /// Drops entries that were not asked for since the last call.
   void endFrame();
 
 private:

@@ -25,7 +25,7 @@ public:
   /// there is no data set.
   vtkPolyDataMapper* mapperOf(vtkDataSetMapper* mapper);
 
-  /// Forgets what nobody has asked for since the last call.
+  /// Drops entries that were not asked for since the last call.
   void endFrame();
 
 private:

@@ -35,7 +35,7 @@ public:
     return entry.copy->GetPointer(0);
   }
 
-  /// Forgets what nobody has asked for since the last call.
+  /// Drops entries that were not asked for since the last call.
   void endFrame()
   {
     for (auto entry = this->Entries.begin(); entry != this->Entries.end();)

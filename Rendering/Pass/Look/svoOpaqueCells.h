@@ -1,4 +1,4 @@
-// Which cells of a surface its mapped colours leave opaque.
+// The opaque cells of a surface, by its mapped colours, as a mesh that casts.
 #ifndef svoOpaqueCells_h
 #define svoOpaqueCells_h
 
@@ -31,7 +31,7 @@ public:
   /// are, and all colours between them.
   Answer of(const SurfacePart& part, const Attributes& attributes);
 
-  /// Forgets what was not asked for since the last call.
+  /// Drops entries that were not asked for since the last call.
   void endFrame();
 
 private:

@@ -1,4 +1,5 @@
-// The answers that props and lights carry themselves; vtkSVORenderPass has them as static methods.
+// Information keys of props and lights: casts, receives, uses octrees, pixel error. The static
+// methods of vtkSVORenderPass set and read them.
 #ifndef svoPropKeys_h
 #define svoPropKeys_h
 
@@ -13,13 +14,13 @@ vtkInformationIntegerKey* receiveShadowKey();
 vtkInformationIntegerKey* useSVOKey();
 vtkInformationDoubleKey* pixelErrorKey();
 
-/// What a prop says, or else the assembly that owns it; `otherwise` if neither says anything or
-/// both are null.
+/// The key's value of a prop, else of the assembly that owns the prop; `otherwise` if neither has
+/// one or both are null.
 bool flagOf(vtkProp* prop, vtkProp* owner, vtkInformationIntegerKey* key, bool otherwise);
-/// Pixels; negative without an answer.
+/// The same of the pixel error, pixels; negative if neither has one.
 double pixelErrorOf(vtkProp* prop, vtkProp* owner);
 
-/// Nothing happens to a prop that is null.
+/// A prop that is null is ignored.
 void setFlag(vtkProp* prop, vtkInformationIntegerKey* key, bool value);
 void setPixelError(vtkProp* prop, double error);
 }

@@ -1,4 +1,4 @@
-// What VTK's rasteriser would show of a surface, and whether the tracer can show the same.
+// The look that VTK's rasteriser would give a surface, and whether the tracer can show the same.
 #ifndef svoSurfaceLook_h
 #define svoSurfaceLook_h
 
@@ -20,11 +20,11 @@ class vtkTexture;
 
 namespace svo
 {
-/// What keeps something from being traced or from casting, for people: the end of a sentence that
-/// begins with "it". Nullptr: nothing does.
+/// Why a surface is not traced, or does not cast, for users: the end of a sentence that begins with
+/// "it". Nullptr: it is traced, or casts.
 using Reason = const char*;
 
-/// What to do with a visible actor.
+/// Whether a visible actor is traced, rasterised or left out of shadows.
 struct Treatment
 {
   Reason rasterized = nullptr; // its look cannot be reproduced
@@ -36,11 +36,11 @@ struct Treatment
 bool isPlainActor(vtkActor* actor);
 
 /// True for opaque surfaces, spheres of a molecule for one, whose mapper's class is not known here:
-/// they are rasterised and cast nothing, and whoever chose that mapper should hear of it.
+/// they are rasterised and cast nothing, and the pass gives a message that names the class.
 bool isUnknownSurface(vtkActor* actor);
 
-/// What a plain actor, its property and its mapper's settings allow, whatever the mesh and however
-/// opaque it is.
+/// The treatment that a plain actor, its property and its mapper's settings allow, for any mesh and
+/// any opacity.
 Treatment treatmentOf(vtkActor* actor);
 
 /// The texture that colours an actor; nullptr if there is none.

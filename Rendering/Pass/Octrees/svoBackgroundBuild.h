@@ -48,13 +48,13 @@ public:
   BackgroundBuild(const BackgroundBuild&) = delete;
   BackgroundBuild& operator=(const BackgroundBuild&) = delete;
 
-  /// The result is there and nothing runs any more that takes time.
+  /// The result is there, and the thread is about to end.
   bool done() const { return this->Done; }
 
   /// 0..1.
   double progress() const { return this->Progress; }
 
-  /// Nobody needs the result: the build ends as soon as it notices.
+  /// Abandons the result: the build ends at its next report of progress.
   void abandon() { this->Abandoned = true; }
   bool abandoned() const { return this->Abandoned; }
 

@@ -32,7 +32,7 @@ struct StoreOptions
   bool wait = true;                                 // false: build in the background
   std::function<void(double)> progress;             // 0..1 of the build that is waited for
   std::function<bool()> aborted;                    // true: waits for no more builds
-  std::function<void(const std::string&)> complain; // once per mesh and what is wrong
+  std::function<void(const std::string&)> complain; // once per mesh and fault
 };
 
 /// Octrees are kept by the signature of their mesh: an animated mesh that returns to a pose finds
@@ -61,7 +61,7 @@ public:
   /// True if the mesh brings an octree; it is all there will be for that mesh.
   bool attached(vtkPolyData* mesh, const StoreOptions& options, Octree& octree);
 
-  /// Says what is known of a mesh that brings no octree: the box of its finite points, its number
+  /// Sets properties of a mesh that brings no octree: the box of its finite points, its number
   /// of triangles and, where they will be exact, its level of detail.
   void measure(vtkPolyData* mesh, const StoreOptions& options, Instance& instance);
 
@@ -82,7 +82,7 @@ public:
   /// bytes it does not: all of the rest is in use.
   std::size_t endFrame(std::size_t memoryLimit);
 
-  /// Between frames: frees all octrees and what is known of meshes, and abandons all builds.
+  /// Between frames: frees all octrees and properties of meshes, and abandons all builds.
   void release();
 
   /// Bytes of the octrees that were built here.
@@ -108,7 +108,7 @@ private:
     vtkWeakPointer<vtkPolyData> mesh;
     std::uint64_t lastFrame; // that asked for it
   };
-  /// What is known of a mesh until it is modified.
+  /// Properties of a mesh, valid until it is modified.
   struct Known
   {
     vtkWeakPointer<vtkPolyData> mesh;
@@ -117,7 +117,7 @@ private:
     std::uint64_t signature = 0;
     Box box;
     std::size_t triangles = 0;
-    int detailLevel = 0;        // 0: nobody asked
+    int detailLevel = 0;        // 0: not computed yet
     std::set<std::string> said; // of the mesh, whatever its poses
     std::set<Key> keys;         // of its octrees, whatever it looked like
   };
@@ -144,7 +144,7 @@ private:
   std::set<Key> Asked, AskedLast; // in this frame and in the one before
   bool Orphans = false;           // a mesh is gone
   std::set<Key> Orphaned;         // octrees that were freed because their meshes were gone
-  std::set<Key> Recurring;        // of those, what another mesh had again
+  std::set<Key> Recurring;        // of those, octrees that another mesh had again
   std::map<Key, Job> Jobs;
   std::set<Key> TooLarge; // for the share of memory that a background build may use
   std::uint64_t Frame = 1;

@@ -21,16 +21,16 @@ namespace svo
 struct SceneSurface
 {
   Instance instance;
-  vtkSmartPointer<vtkPolyData> mesh; // what casts alone, where the surface is not traceable
+  vtkSmartPointer<vtkPolyData> mesh; // the mesh that only casts, where the surface is not traceable
   bool traceable = false;
   bool casts = false;
 };
 
-/// What was found of a prop.
+/// The surfaces of a prop, and how they are shown.
 struct PropSurfaces
 {
   vtkSmartPointer<vtkProp> prop;
-  glm::dmat4 world{ 1.0 };            // what the scene makes of VTK's; see sceneTransform()
+  glm::dmat4 world{ 1.0 };            // from VTK's world to the scene's; see sceneTransform()
   std::vector<SceneSurface> surfaces; // those that are traceable or cast
   int actors = 0;
   bool traced = true;          // all that the prop shows is traced
@@ -57,7 +57,7 @@ struct PropSurfaces
   }
 };
 
-/// What the levels of octrees that are built here follow from.
+/// The inputs of Tracer::neededLevels() for octrees that are built here.
 struct LevelSettings
 {
   View eye; // with a pixel for each of the window's; no pixels: not known

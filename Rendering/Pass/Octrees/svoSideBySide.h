@@ -1,5 +1,5 @@
-// Octrees of many small meshes at once. Inside a small build there is little to share out, and what
-// there is costs more threads than it saves time.
+// Octrees of many small meshes at once, each on one thread: a loop inside a small build starts more
+// threads than it has work for.
 #ifndef svoSideBySide_h
 #define svoSideBySide_h
 
@@ -25,7 +25,7 @@ struct SideBySide
 };
 
 /// Builds all of them, each on one thread; options.parallelFor and options.progress are not asked.
-/// Nobody may change the meshes meanwhile.
+/// The meshes must not change meanwhile.
 void buildSideBySide(std::vector<SideBySide>& builds);
 }
 

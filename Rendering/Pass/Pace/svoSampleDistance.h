@@ -1,4 +1,5 @@
-// How far apart the rays of an interactive frame are, so that it takes no longer than it may.
+// The distance between the rays of an interactive frame, chosen so that the frame keeps to its
+// time.
 #ifndef svoSampleDistance_h
 #define svoSampleDistance_h
 
@@ -7,15 +8,15 @@
 
 namespace svo
 {
-/// What frames cost, in seconds.
+/// The time of a frame, in seconds.
 struct FrameCost
 {
   double fixed = 0.0; // whatever the number of rays
   double rays = 0.0;  // if there is a ray for each pixel; in proportion to their number
 };
 
-/// Pixels from one ray to the next, 1 or more. It follows the time that frames took, and asks of
-/// the rays only what fewer rays can give: their own part of that time.
+/// Pixels from one ray to the next, 1 or more. It follows the times of frames, and weighs only the
+/// part of them that grows with the number of rays.
 class SampleDistance
 {
 public:

@@ -1,4 +1,4 @@
-// The renderers of a window share the time of its frames.
+// The times that the renderers of a window take, which share the time of its frames.
 #ifndef svoWindowTime_h
 #define svoWindowTime_h
 
@@ -11,7 +11,7 @@
 
 namespace svo
 {
-/// What frames of a window's renderers cost. Rays are equally far apart in all of them, so that
+/// The cost of frames of a window's renderers. Rays are equally far apart in all of them, so that
 /// each has a share of the time in proportion to what there is to be seen in it: see
 /// SampleDistance::choose().
 class WindowTime

@@ -29,7 +29,7 @@ public:
   void upload(const std::vector<PixelPart>& parts);
   /// Into the viewport that is set, which is as large as the frame. The depth test is the caller's.
   bool draw(vtkOpenGLRenderWindow* window, const float frameSize[2]);
-  /// Forgets all, with what it has in OpenGL.
+  /// Drops all parts, and the buffers in OpenGL.
   void release();
 
 private:

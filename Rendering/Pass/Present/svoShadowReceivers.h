@@ -26,8 +26,8 @@ class ShadowReceivers
 public:
   /// Takes a frame's maps. Only those whose depths are others than last time are sent to OpenGL. No
   /// maps: nothing receives. The bias that the settings have in voxels is added in
-  /// those of the coarsest caster, as maps do not say who casts. `lights`: that the maps are of.
-  /// Returns what there is to complain about: of more maps than OpenGL takes, those of the
+  /// those of the coarsest caster, as maps do not hold casters. `lights`: of the maps.
+  /// Returns a message, empty if all is well: of more maps than OpenGL takes, those of the
   /// brightest lights are there.
   std::string update(vtkOpenGLRenderWindow* window, const std::vector<ShadowMap>& maps,
     const std::vector<Light>& lights, const View& eye, const FrameSettings& settings);
@@ -56,7 +56,7 @@ private:
   std::vector<float> Errors;
   std::size_t Capacity = 0; // maps that the shaders have room for
   vtkSmartPointer<TextureArray> Maps;
-  std::vector<std::weak_ptr<const std::vector<float>>> Sent; // what each layer of it holds
+  std::vector<std::weak_ptr<const std::vector<float>>> Sent; // depths in each layer of Maps
   float Intensity = 1.0f;
   float ManualBias = 0.0f; // world
   bool PlaneBias = true;

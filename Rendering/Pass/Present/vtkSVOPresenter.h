@@ -35,12 +35,12 @@ public:
   static vtkSVOPresenter* New();
   vtkTypeMacro(vtkSVOPresenter, vtkProp3D);
 
-  /// Finds what surfaces cover of pixels with samples at these positions.
+  /// Finds the parts of pixels that surfaces cover, for samples at these positions.
   using SilhouetteFinder = std::function<void(const std::vector<glm::vec2>&, svo::Silhouettes&)>;
 
-  /// What to show; it must live until the next call. `pass` is not asked for draw buffers. Where
-  /// the framebuffer has several samples a pixel, silhouettes are asked for and the frame's pixels
-  /// that they replace are exchanged.
+  /// The frame to show; it must live until the next call. `pass` is not asked for draw buffers.
+  /// Where the framebuffer has several samples a pixel, silhouettes are asked for and the frame's
+  /// pixels that they replace are exchanged.
   void SetFrame(svo::Frame* frame, const SilhouetteFinder& silhouettes, vtkOpenGLRenderPass* pass);
 
   /// Called when the prop is about to draw, with the size in pixels of what is drawn, before it
@@ -48,8 +48,9 @@ public:
   using Prepare = std::function<void(int width, int height)>;
   void SetPrepare(Prepare prepare) { this->PrepareFrame = std::move(prepare); }
 
-  /// Other passes that set up what the framebuffer takes are asked as for this prop, whose place in
-  /// their frame the presenter has. Null: for none but those that know the presenter itself.
+  /// Other passes, which set up the framebuffer's attachments, are asked as for this prop, whose
+  /// place in their frame the presenter has. Null: for none but those that know the presenter
+  /// itself.
   void StandFor(vtkProp* prop);
 
   /// True if one of these passes wants positions and normals beside colours.
@@ -88,12 +89,12 @@ private:
   svo::Silhouettes Silhouettes;
   svo::PixelParts Parts;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
-  std::string QuadShader; // of the quad
+  std::string QuadShader; // fragment shader that the quad was made with
   vtkSmartPointer<vtkTextureObject> Colors;
   vtkSmartPointer<vtkTextureObject> Depths;
   vtkSmartPointer<vtkTextureObject> Normals;
   vtkSmartPointer<vtkTextureObject> Light;
-  /// Stands in where other passes ask whose shader they are setting up.
+  /// The mapper that other passes are given when they set up the quad's shader.
   vtkNew<vtkOpenGLPolyDataMapper> Nobody;
 };
 

@@ -10,7 +10,7 @@
 
 namespace svo
 {
-/// What an array says one value of.
+/// The element of the mesh that an array has one value for.
 enum class Association
 {
   None,

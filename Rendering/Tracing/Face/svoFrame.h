@@ -1,5 +1,4 @@
-// A frame: how it is asked for, the picture, what it took, and its shadow maps.
-// it.
+// A frame: its settings, the picture, its statistics, and its shadow maps.
 #ifndef svoFrame_h
 #define svoFrame_h
 
@@ -39,7 +38,7 @@ struct FrameSettings
   /// edges of shadows do not show the buffer's texels: ShadowBuffer::darkness(). With the automatic
   /// bias only. Shadow buffers are traced whole.
   bool filterShadows = false;
-  bool wholeShadowBuffers = false; // rasterised receivers look up texels nobody here knows
+  bool wholeShadowBuffers = false; // rasterised receivers look up texels unknown to the tracer
   bool writeNormals = false;       // Frame::normals is wanted (SSAO)
   bool writeLight = false;         // Frame::light is wanted (tone mapping)
 };
@@ -66,8 +65,8 @@ struct FrameStatistics
   std::uint64_t shadowRays = 0;
   std::uint64_t retracedLayers = 0; // layers traced this frame, of the eye and of lights
   std::uint64_t layerMemory = 0;    // bytes held by kept layers
-  /// How wide the texels of a shadow map may look that was fitted to what is seen, pixels; 0: of
-  /// none.
+  /// How wide texels look at most in the shadow maps that were fitted to the eye's view, pixels; 0:
+  /// no map was.
   double coarsestTexel = 0.0;
   bool fewerTexels = false; // than were asked for, by all processes alike, for lack of memory
   /// Largest voxel, pixels, of visible octrees that are coarser than the frame needs, where they
@@ -88,7 +87,7 @@ struct ShadowMap
   /// From frame to frame the same object as long as the values are the same.
   double base = 0.0;
   std::shared_ptr<const std::vector<float>> depth;
-  double worldBias = 0.0;   // what a receiver that does not know who casts should add, world units
+  double worldBias = 0.0;   // for receivers that do not know the caster of a texel, world units
   double casterVoxel = 0.0; // of the coarsest caster, world units
 };
 }

@@ -33,8 +33,9 @@ struct Material
 struct Instance
 {
   Octree octree;
-  /// What lights see instead of `octree`, if it is not empty. The eye may need a deeper octree than
-  /// the lights do; if they saw that one, shadows would change when the camera comes closer.
+  /// The octree that shadow buffers are traced through instead of `octree`, if it is not empty. The
+  /// eye may need a deeper octree than the lights do; through that one, shadows would change when
+  /// the camera comes closer.
   Octree casterOctree;
   glm::dmat4 localToWorld{ 1.0 }; // affine, invertible; the caller has checked
   LeafGeometry leafGeometry = LeafGeometry::Automatic;

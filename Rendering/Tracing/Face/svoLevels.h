@@ -8,7 +8,7 @@ namespace svo
 struct NeededLevels
 {
   int eye = 1;
-  int lights = 0; // 0: it is in no shadow buffer
+  int lights = 0; // 0: the instance is in no shadow buffer
 };
 }
 

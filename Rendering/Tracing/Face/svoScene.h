@@ -1,5 +1,5 @@
-// What is traced: instances of octrees with their look, and lights. Plain data, collected anew for
-// every frame.
+// A scene: instances of octrees with their look, receivers, and lights. Plain data, collected anew
+// for every frame.
 #ifndef svoScene_h
 #define svoScene_h
 
@@ -14,7 +14,7 @@ namespace svo
 struct Scene
 {
   std::vector<Instance> instances;
-  /// Surfaces that are no instances, but on which shadows of instances fall, in the world.
+  /// Of surfaces that are no instances but receive shadows of instances; world.
   std::vector<Box> receivers;
   std::vector<Light> lights;  // only those that are switched on, in the renderer's order
   bool onlyHeadlight = false; // VTK shades by the headlight alone; lights that are off count, too

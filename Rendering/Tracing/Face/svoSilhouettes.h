@@ -1,10 +1,9 @@
-// Pixels that surfaces share with each other or with the background, and edges inside of surfaces:
-// what the samples of a window with multisampling see there.
+// Silhouettes and edges in a window with multisampling: the samples of pixels that surfaces share
+// with each other or with the background, and of pixels on edges inside of surfaces.
 //
 // The tracer answers one ray a pixel. VTK's rasteriser gives every pixel of such a window several
-// depths, and one colour for each triangle in it; this does the same for traced surfaces, along
-// their edges only, so that these are as smooth as everybody else's. Samples are traced by the
-// rule of the pixels: through the same LayeredView.
+// depths, and one colour for each triangle in it. Samples do the same for traced surfaces, along
+// their edges only, so that these are as smooth as rasterised ones.
 #ifndef svoSilhouettes_h
 #define svoSilhouettes_h
 
@@ -17,7 +16,7 @@
 
 namespace svo
 {
-/// What one surface covers of one pixel.
+/// The samples of one pixel that one surface covers.
 struct PixelPart
 {
   std::uint32_t samples = 0; // bit i: sample i

@@ -1,9 +1,9 @@
-// The face of all tracers: what a renderer asks for, and in which order.
+// The interface of all tracers: the calls of a renderer, and their order.
 //
-// Fill a Scene with the instances that there are and ask neededLevels() how deep their octrees have
-// to be; give them octrees; render(). Where a scene is spread over several processes all of them
-// call shareShadows() before it. What is drawn beside the frame, by others, asks for shadowMaps()
-// and, in a window with multisampling, for divideEdges() afterwards.
+// Fill a Scene with instances and ask neededLevels() how deep their octrees have to be; give them
+// octrees; render(). Where a scene is spread over several processes all of them call shareShadows()
+// before render(). Afterwards rasterised surfaces ask for shadowMaps(), and windows with
+// multisampling for divideEdges().
 #ifndef svoTracer_h
 #define svoTracer_h
 
@@ -38,8 +38,8 @@ public:
   virtual std::vector<NeededLevels> neededLevels(
     const Scene& scene, const View& view, const FrameSettings& settings) const = 0;
 
-  /// Renders a frame. What was kept of previous frames is used where the settings allow it, and
-  /// changes no bit.
+  /// Renders a frame. Layers kept from previous frames are used where the settings allow it, and
+  /// change no bit.
   virtual void render(const Scene& scene, const View& view, const FrameSettings& settings,
     const ParallelFor& parallelFor, Frame& frame) = 0;
 
@@ -50,8 +50,8 @@ public:
   virtual bool shareShadows(const Scene& scene, const View& view, const FrameSettings& settings,
     const ParallelFor& parallelFor, Processes& processes) = 0;
 
-  /// After render(), with the same scene and view: what surfaces cover of the pixels of `frame`
-  /// that they share, for samples at `positions` in a pixel, 0..1, at most 32.
+  /// After render(), with the same scene and view: the parts that surfaces cover of the pixels of
+  /// `frame` that they share, for samples at `positions` in a pixel, 0..1, at most 32.
   virtual void divideEdges(const Scene& scene, const View& view, const Frame& frame,
     const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor,
     Silhouettes& result) const = 0;
@@ -63,7 +63,7 @@ public:
   /// FrameSettings::wholeShadowBuffers.
   virtual const std::vector<ShadowMap>& shadowMaps() const = 0;
 
-  /// Forgets all that is kept for the next frame: FrameStatistics::layerMemory.
+  /// Frees all layers that are kept for the next frame (FrameStatistics::layerMemory).
   virtual void releaseLayers() = 0;
 };
 

@@ -18,7 +18,7 @@ namespace svo
 ///
 /// and the ray parameter t is the linear depth: distance from the eye plane along the view axis,
 /// in world units. A perspective view has originX = originY = 0, a parallel one directionX =
-/// directionY = 0. Because t is affine-invariant it is the same number in every object's frame.
+/// directionY = 0. t is affine-invariant, so the same number in every object's frame.
 struct VTKSVOTRACING_EXPORT View
 {
   glm::dvec3 origin{ 0.0 }, originX{ 0.0 }, originY{ 0.0 };
@@ -38,7 +38,7 @@ struct VTKSVOTRACING_EXPORT View
   bool mirrored = false;       // front faces are wound to the right, so VTK lights their backs
   bool facetsFaceAxis = false; // facets without normals are lit as they face the axis, not the eye
   glm::dvec3 eye{ 0.0 };       // origin of view space, world
-  glm::dvec3 axis{ 0, 0, -1.0 }; // the way it looks, world
+  glm::dvec3 axis{ 0, 0, -1.0 }; // view direction, world
 
   glm::dvec3 rayOrigin(double x, double y) const { return origin + x * originX + y * originY; }
   glm::dvec3 rayDirection(double x, double y) const

@@ -1,4 +1,5 @@
-// The merged depth buffer of a view: for every pixel the nearest instance, where and what.
+// The merged depth buffer of a view (ZBT in Huang and Cheng, 2017): for every pixel the nearest
+// instance, its depth and its primitive.
 #ifndef svoDepthBuffer_h
 #define svoDepthBuffer_h
 

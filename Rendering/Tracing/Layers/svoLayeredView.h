@@ -1,5 +1,5 @@
-// The depth layers of one view, one per instance, merged into a depth buffer; kept from frame to
-// frame where nothing changed.
+// The depth layers of one view, one per instance ("Z-buffer depth table of an object" in Huang and
+// Cheng, 2017), merged into a depth buffer; kept from frame to frame where nothing changed.
 #ifndef svoLayeredView_h
 #define svoLayeredView_h
 

@@ -1,4 +1,4 @@
-// Where exactly rays meet the triangles that they were found to meet.
+// Hits of float rays moved onto their triangles' planes, along the rays in double.
 #ifndef svoPlaceOnTriangles_h
 #define svoPlaceOnTriangles_h
 

@@ -1,4 +1,4 @@
-// An array whose elements are not written before somebody writes them.
+// An array without initial values: memory of elements that no code writes is never touched.
 #ifndef svoRawArray_h
 #define svoRawArray_h
 

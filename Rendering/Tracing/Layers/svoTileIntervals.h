@@ -1,6 +1,6 @@
-// Where along its rays a tile of 8x8 pixels can meet an object at all: a conservative interval of
-// depth per tile, so that tiles beside the object are rejected, and the rays of the others start
-// just before it and end just behind.
+// Conservative intervals of depth in which the rays of a tile of 8x8 pixels can meet an object.
+// Tiles beside the object have none and are skipped; rays of the others start just before it and
+// end just behind.
 #ifndef svoTileIntervals_h
 #define svoTileIntervals_h
 

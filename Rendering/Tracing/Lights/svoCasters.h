@@ -1,4 +1,4 @@
-// Which instances can throw a shadow from a light at all: only those are modelled.
+// The instances that can throw a shadow from a light: a light's maps are fitted to these only.
 #ifndef svoCasters_h
 #define svoCasters_h
 

@@ -1,4 +1,4 @@
-// What convex bodies have in common: boxes, and pieces of views.
+// The intersection of convex bodies: boxes, and pieces of views.
 #ifndef svoConvexParts_h
 #define svoConvexParts_h
 
@@ -15,10 +15,10 @@ namespace svo
 /// if i & 4. Faces are flat; a body may be flat as well.
 using ConvexBody = std::array<glm::dvec3, 8>;
 
-/// What a view sees between two linear depths.
+/// The piece of a view between two linear depths.
 ConvexBody pieceOf(const View& view, double nearest, double farthest);
 
-/// Adds points whose convex hull is what all bodies have in common; none if they have nothing.
+/// Adds points whose convex hull is the intersection of all bodies; none if it is empty.
 void addCommonPart(const std::vector<ConvexBody>& bodies, std::vector<glm::dvec3>& points);
 }
 

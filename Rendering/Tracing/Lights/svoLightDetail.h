@@ -1,4 +1,4 @@
-// Finer maps of a light where the map of all that casts would show its texels.
+// Finer maps of a light, where texels of the map of all casters would look wide.
 #ifndef svoLightDetail_h
 #define svoLightDetail_h
 
@@ -12,22 +12,22 @@
 
 namespace svo
 {
-/// What a light's shadow buffer is traced through.
+/// The maps of a light's shadow buffer.
 struct LightMaps
 {
   std::vector<std::uint8_t> casters; // castersOf()
   std::vector<View> views;           // a point is looked up in the first one that holds it
-  /// How wide their texels may look at most on what is seen, pixels; 0 where nobody asked, because
-  /// the maps are those that casters ask for.
+  /// How wide texels of maps that are fitted to the eye's view look there at most, pixels; 0 where
+  /// the maps are fitted to casters.
   double coarsest = 0.0;
 };
 
 /// The maps of a light: those that fit its casters (fitLight()), of resolution^2 texels, unless a
-/// texel would look wider than eight pixels: of a ground or a terrain that casts, and of which the
-/// eye sees a small part only. Then a map covers what receives shadows in the eye's view and no
-/// more; and where that is still too coarse nearby, further ones inside of it cover what lies
-/// nearer to the eye. All of it follows from outlines and views: processes that agree on these
-/// agree on the maps. An eye without pixels sees nothing.
+/// texel would look wider than four pixels: of a ground or a terrain that casts, and of which the
+/// eye sees a small part only. Then a map covers the receivers in the eye's view and no more; where
+/// that is still too coarse nearby, further maps inside of it cover what lies nearer to the eye.
+/// Outlines and views alone decide: processes that agree on these agree on the maps. An eye without
+/// pixels sees nothing.
 LightMaps mapsOfLight(
   const std::vector<Outline>& outlines, const Light& light, int resolution, const View& eye);
 

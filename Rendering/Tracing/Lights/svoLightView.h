@@ -1,4 +1,4 @@
-// The views of a light: what its shadow buffer is traced through.
+// The views of a light: those that its shadow buffer is traced through.
 #ifndef svoLightView_h
 #define svoLightView_h
 
@@ -19,8 +19,8 @@ namespace svo
 std::vector<View> fitLight(const std::vector<Outline>& outlines,
   const std::vector<std::uint8_t>& casters, const Light& light, int resolution);
 
-/// Widens [low, high] to a grid of at most an eighth of its length: what is fitted so changes now
-/// and then only.
+/// Widens [low, high] to a grid of at most an eighth of its length, so that fitted bounds seldom
+/// change.
 void roundOutwards(double& low, double& high);
 }
 

@@ -1,5 +1,5 @@
-// An instance without its octree: all that must be known of it to fit a light's view, and to tell
-// whether its shadow is still the same.
+// An instance without its octree: the data that fit a light's view, and that tell whether the
+// instance's shadow is still the same.
 #ifndef svoOutline_h
 #define svoOutline_h
 
@@ -28,8 +28,8 @@ struct Outline
   std::uint64_t signature; // of the mesh
   std::int32_t level;
   std::int32_t leafGeometry; // LeafGeometry
-  std::int32_t casts;        // it is allowed to cast, and has voxels
-  std::int32_t receives;     // it is seen, and shows shadows
+  std::int32_t casts;        // the instance is allowed to cast, and has voxels
+  std::int32_t receives;     // the instance is visible, and shows shadows
 };
 static_assert(sizeof(Outline) == 16 * 8 + 12 * 8 + 4 * 8 + 4 * 4, "no gaps");
 

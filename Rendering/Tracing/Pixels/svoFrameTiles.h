@@ -1,4 +1,4 @@
-// The tiles of a frame that show something, and the wiping of those that did so the last time.
+// The tiles of a frame that have hits; tiles that had hits in the last frame only are wiped.
 #ifndef svoFrameTiles_h
 #define svoFrameTiles_h
 

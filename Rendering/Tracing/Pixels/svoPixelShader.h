@@ -1,4 +1,4 @@
-// Colours the pixels of a frame: what the eye's rays met, lit by the lights that reach it.
+// Colours the pixels of a frame: the hits of the eye's rays, lit by the lights that reach them.
 #ifndef svoPixelShader_h
 #define svoPixelShader_h
 

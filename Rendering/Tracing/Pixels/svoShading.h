@@ -1,4 +1,5 @@
-// VTK's lighting of surfaces without textures and PBR, as its OpenGL shaders compute it.
+// VTK's lighting of surfaces without textures and PBR, as its OpenGL shaders compute it
+// (vtkOpenGLPolyDataMapper::ReplaceShaderLight).
 #ifndef svoShading_h
 #define svoShading_h
 
@@ -93,8 +94,8 @@ struct Lighting
   }
 };
 
-/// What is left of a light of which a point misses the share `darkness`, 0..1, if of a whole shadow
-/// `remaining` is left. Exact at both ends.
+/// The share of a light that is left at a point that misses the share `darkness`, 0..1, if
+/// `remaining` is left in a whole shadow. Exact at both ends.
 inline float shareOfLight(float darkness, float remaining)
 {
   return darkness >= 1.0f ? remaining

@@ -1,4 +1,4 @@
-// Finds what samples see of pixels that surfaces share; see svoSilhouettes.h.
+// Finds the pixels of svoSilhouettes.h and traces a ray through each of their samples.
 #ifndef svoSilhouetteFinder_h
 #define svoSilhouetteFinder_h
 

@@ -26,7 +26,8 @@
 
 namespace svo
 {
-/// Shares of a triangle's corners in the point of it that is near another point; at least 0, sum 1.
+/// Barycentric coordinates of the point of a triangle that is near another point, by Cramer's rule,
+/// clamped to at least 0 and scaled to sum 1.
 /// `p`, `e1`, `e2`: the other point and the second and third corner, from the first one.
 inline glm::vec3 nearWeights(const glm::vec3& p, const glm::vec3& e1, const glm::vec3& e2)
 {
@@ -49,7 +50,7 @@ struct NodeTriangle
 {
   Primitive triangle;
   glm::dvec3 at; // where to interpolate, octree coordinates
-  bool faces;    // the viewer; if not, the triangle is to be settled
+  bool faces;    // the triangle faces the viewer; if not, it is to be settled
 };
 
 namespace detail

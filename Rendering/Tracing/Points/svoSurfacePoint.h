@@ -1,4 +1,4 @@
-// A visible point: where a hit is, its normals and its colour.
+// A visible point: its position, its normals and its colour.
 #ifndef svoSurfacePoint_h
 #define svoSurfacePoint_h
 
@@ -26,10 +26,10 @@ struct SurfacePoint
   bool hasColor;
 };
 
-/// What all points of an instance share.
+/// Matrices that all points of an instance share.
 struct SurfaceFrame
 {
-  SurfaceFrame() = default; // of an instance without an octree: nothing is ever seen of it
+  SurfaceFrame() = default; // of an instance without an octree, which is never seen
   explicit SurfaceFrame(const Instance& i)
     : instance(&i)
     , toOctree(i.octree, i.localToWorld)

@@ -1,5 +1,5 @@
-// The visible points of a tile that lie on nodes above the bricks. What is seen of nodes without a
-// triangle that faces the viewer is asked for all of them at once.
+// The visible points of a tile that lie on nodes above the bricks. Lines of sight to nodes without
+// a triangle that faces the viewer are traced all at once.
 //
 // The results are those of surfacePoint() (svoSurfacePoint.h), bit for bit.
 #ifndef svoTileNodes_h

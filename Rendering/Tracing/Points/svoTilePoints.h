@@ -1,5 +1,5 @@
 // The visible points of an 8x8 tile, side by side, ordered so that points of one triangle are
-// neighbours: what they share is settled once, the rest in loops that the compiler turns into
+// neighbours: shared values are computed once, the rest in loops that the compiler turns into
 // vectors, for whatever instruction set the machine has.
 //
 // The operations and their order are those of surfacePoint() (svoSurfacePoint.h), the reference, so

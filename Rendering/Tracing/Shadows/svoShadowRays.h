@@ -18,16 +18,16 @@ public:
   /// `eye`: of its leaf geometries.
   ShadowRays(const Scene& scene, const LayeredView& eye);
 
-  /// True if something lies between the point and the light. The ray starts off the point's own
+  /// True if a caster lies between the point and the light. The ray starts off the point's own
   /// surface, along the facet on the light's side, by `offset` (world): the error of its leaf.
   bool shadows(
     const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const;
 
-  /// Where that ray starts.
+  /// The start of that ray, world.
   static glm::dvec3 start(
     const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset);
 
-  /// True if something lies between two points, farther from the first one than `offset` and than
+  /// True if a caster lies between two points, farther from the first one than `offset` and than
   /// the error of its own leaves (world).
   bool between(const glm::dvec3& from, const glm::dvec3& to, double offset) const;
 

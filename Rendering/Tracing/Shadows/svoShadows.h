@@ -21,13 +21,13 @@ namespace svo
 class Shadows
 {
 public:
-  /// Fits the lights' buffers and keeps of their layers what is still true. `scene`: as lights see
-  /// it; `eye`: what it is seen through.
+  /// Fits the lights' buffers and keeps those of their layers that are still true. `scene`: with
+  /// the octrees that lights see; `eye`: the view of the frame.
   void begin(
     const Scene& scene, const View& eye, const FrameSettings& settings, LayerBudget& budget);
 
-  /// To be called in every frame, after begin() or traceShared(). `scene` and `eye`: the points to
-  /// be tested are theirs; rays to the light meet the same geometry, or surfaces would shadow
+  /// To be called in every frame, after begin() or traceShared(). `scene` and `eye`: those of the
+  /// points to be tested; rays to the light meet the same geometry, or surfaces would shadow
   /// themselves.
   void beginRays(const Scene& scene, const FrameSettings& settings, const LayeredView& eye);
 
@@ -72,13 +72,13 @@ public:
     const std::uint8_t* asked, float* darkness) const;
 
   /// The same for points at the terminator, see svoTerminator.h. False where nothing is in shadow,
-  /// or points are compared with a shadow map without any regard to what they lie on.
+  /// or points are compared with a shadow map without the automatic bias.
   bool knowsTerminator(std::size_t light) const
   {
     return this->Exact ? this->Of->lights[light].castShadow
                        : this->Buffers[light] && this->Buffers[light]->automaticBias();
   }
-  /// What atTerminator() is to be asked with: rays need no margin.
+  /// The `grazing` of atTerminator(): rays need no margin.
   double grazing() const { return this->Exact ? 0.0 : 1.0 / GrazingReach; }
   /// `at` is not plain; `plain`: the answer of the point `on` the mesh. A raised point is lit if
   /// the way from the one on the mesh to it and on to the light is free; the first part is not
@@ -107,7 +107,7 @@ private:
   std::vector<ShadowBuffer*> Buffers; // by index into Scene::lights; null: no buffer
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> Kept; // by Light::id
   std::unique_ptr<ShadowRays> Rays;
-  std::vector<unsigned char> Shared; // what the shared buffers in Kept show; empty if they are not
+  std::vector<unsigned char> Shared; // inputs of the shared buffers in Kept; empty: not shared
   bool Traced = false;               // buffers were, in this frame
   bool Fewer = false;                // texels than were asked for, by all processes alike
   double CoarsestTexel = 0.0;        // LightMaps::coarsest, of all lights

@@ -12,17 +12,17 @@
 
 namespace svo
 {
-/// The merging step of an object's depth layer with the others', once more with processes in place
-/// of objects. A texel is one number, so that the smallest of them is the nearest caster and, of
-/// equally near ones, that of the smallest index: 39 bits of depth from the near to the far plane
-/// (finer than a float), 24 bits of who it is, and none of the sign.
+/// The merging step of Huang and Cheng, 2017, with processes in place of objects. A texel is one
+/// number, so that the smallest of them is the nearest caster and, of equally near ones, that of
+/// the smallest index: 39 bits of depth from the near to the far plane (finer than a float), 24
+/// bits of the caster's index, and none of the sign.
 class SharedDepth
 {
 public:
   static constexpr std::uint32_t MostCasters = (1u << 24) - 1;
 
-  /// Takes what this process has traced, and merges it with the others'. A collective call.
-  /// `first`: the index, among the instances of all processes, of this one's first.
+  /// Takes the depths that this process has traced, and merges them with the others'. A collective
+  /// call. `first`: the index, among the instances of all processes, of this one's first.
   void merge(Processes& processes, const View& view, const LayeredView& traced, std::size_t first);
 
   void clear()
@@ -32,8 +32,8 @@ public:
   }
   bool merged() const { return !this->TileBegin.empty(); }
 
-  /// What lies at a texel (index as DepthBuffer::at): false if nothing. `caster`: among the
-  /// instances of all processes.
+  /// Depth and caster at a texel (index as DepthBuffer::at): false if there is none. `caster`:
+  /// among the instances of all processes.
   bool at(std::size_t texel, std::uint32_t& caster, double& depth) const
   {
     const std::uint32_t begin = this->TileBegin[texel >> 6];

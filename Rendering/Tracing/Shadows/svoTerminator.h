@@ -4,7 +4,7 @@
 //
 // Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4. Here only for
 // facets that are turned away, so that shadows on all others stay exact; and only where the surface
-// bulges outwards: what is hollow is in its own shadow.
+// bulges outwards: a hollow is in its own shadow.
 #ifndef svoTerminator_h
 #define svoTerminator_h
 
@@ -20,10 +20,10 @@
 namespace svo
 {
 /// True if normals of the mesh's points are interpolated and are not just those of its facets; of
-/// large meshes the latter is not looked at.
+/// large meshes the latter is not examined.
 inline bool isSmooth(const Instance& instance)
 {
-  constexpr std::size_t Few = 256; // triangles: what may be looked at in every frame
+  constexpr std::size_t Few = 256; // triangles: few enough to be examined in every frame
   constexpr double Flat = 1e-5;    // radians; rounding of normals is less
   const Attributes& attributes = instance.attributes;
   const Surface* surface = instance.octree.surface();
@@ -63,11 +63,11 @@ inline bool turnsAway(
   return behind > 0.0 || behind * behind < grazing * grazing * glm::dot(along, along);
 }
 
-/// Where the smooth surface is, seen from a point of the mesh.
+/// The smooth surface at a point of the mesh.
 struct SmoothSurface
 {
   glm::dvec3 lift{ 0.0 }; // world; to the smooth surface, where it bulges towards the viewer
-  bool hollow = false;    // it bends away from the viewer only
+  bool hollow = false;    // the smooth surface bends away from the viewer only
 };
 
 /// `towards`: to the viewer; `primitive`: of the hit. The instance isSmooth().
@@ -113,14 +113,14 @@ inline SmoothSurface smoothSurfaceAt(const SurfaceFrame& frame, const SurfacePoi
 /// shadow it: on ridges and saddles, with the outline of facets as well.
 constexpr double DoubtfulSine = 0.25;
 
-/// A visible point as one light finds it.
+/// The shadow test that a visible point needs from one light.
 struct TerminatorPoint
 {
   enum class Kind
   {
     Plain,   // shadows are asked for at the point itself
     Raised,  // ... at `point`: on the smooth surface, its facet the plane that it is shaded with
-    Doubted, // the mesh shadows it; it is lit if `point` is, beyond doubt
+    Doubted, // the mesh shadows the point; it is lit if rays find `point` lit
     Hidden   // light would have to come through its facet
   };
   Kind kind = Kind::Plain;

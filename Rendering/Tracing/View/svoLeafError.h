@@ -1,4 +1,4 @@
-// How far a hit can lie from the surface that it stands for.
+// The error of a hit: how far a hit can lie from the surface that it stands for.
 #ifndef svoLeafError_h
 #define svoLeafError_h
 
@@ -12,8 +12,8 @@ namespace svo
 /// How far a cube can lie from the surface that it stands for: the diagonal of a voxel.
 constexpr double CubeError = 1.75;
 
-/// How far a mean plane of a node above the bricks can: half the diagonal of the three cells in
-/// which it is met.
+/// How far a mean plane of a node above the bricks can lie from it: half the diagonal of the three
+/// cells in which the plane is met.
 constexpr double MeanPlaneError = 2.6;
 
 /// True if rays that stop at `level` meet mean planes of nodes: bricks are not reached.
@@ -49,8 +49,8 @@ inline double worldLeafError(
     (placed ? 1.2e-7 : 1e-6) * worldVoxel(instance, 0));
 }
 
-/// What the test against a shadow map allows for (LeafTraits::mapError), in the world. A ray among
-/// planes needs all of their error.
+/// The error that the test against a shadow map allows for (LeafTraits::mapError), in the world. A
+/// ray among planes needs all of their error.
 inline double worldMapError(
   const Instance& instance, LeafGeometry geometry, int level, bool placed = false)
 {

@@ -1,4 +1,5 @@
-// A view folded into an instance's octree coordinates: the local rays E' = M^-1 E, V' = M^-1 V.
+// A view folded into an instance's octree coordinates: the local rays E' = M^-1 E, V' = M^-1 V of
+// Huang and Cheng, 2017.
 #ifndef svoLocalView_h
 #define svoLocalView_h
 

@@ -41,8 +41,8 @@ inline Projection makeProjection(
   return projection;
 }
 
-/// What the rays of n x n tiles of 8x8 pixels see, through any points of their pixels; (tileX,
-/// tileY) is the lower left one.
+/// The pyramid of all rays through n x n tiles of 8x8 pixels, at any points of their pixels;
+/// (tileX, tileY) is the lower left tile.
 inline TilePyramid makePyramid(
   const Projection& projection, const View& view, int tileX, int tileY, int n = 1)
 {

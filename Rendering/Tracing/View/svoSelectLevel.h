@@ -1,4 +1,4 @@
-// How deep an instance is traced in a view: no deeper than its pixels can show.
+// The octree level at which an instance's rays stop in a view: no deeper than pixels can show.
 #ifndef svoSelectLevel_h
 #define svoSelectLevel_h
 

@@ -1,4 +1,4 @@
-// How large voxels and pixels are in the world.
+// Sizes of voxels and pixels in the world.
 #ifndef svoWorldSize_h
 #define svoWorldSize_h
 
@@ -12,7 +12,7 @@
 
 namespace svo
 {
-/// How long an edge of local length 1 along an axis is in the world, at most.
+/// Longest edge, in the world, that an edge of local length 1 along an axis becomes.
 inline double worldScale(const glm::dmat4& localToWorld)
 {
   double scale = 0.0;

@@ -11,8 +11,8 @@
 
 namespace svo
 {
-/// What M^-1 and the octree's cube do to a point, in the order that cancels what is common before
-/// anything is rounded: 1 + (L^-1 (x - translation) - origin) / edge of the root cube. The error is
+/// M^-1 and the octree's cube applied to a point, in the order that cancels common parts before
+/// any rounding: 1 + (L^-1 (x - translation) - origin) / edge of the root cube. The error is
 /// at most some condition(L) 2^-52 |x - translation| in the object (Documentation/Numerics.md).
 struct WorldToOctree
 {
