@@ -1,6 +1,7 @@
-// The arithmetic of VTK's lighting for one point, on plain floats. The loops over the points of a
-// tile (svoTileLighting.cxx) and shade(), which does one point (svoShading.h), both call it: so
-// they give the same bits, and a formula stands once. Loops of such calls become vectors.
+// The arithmetic of VTK's lighting of surfaces without textures and PBR, as its OpenGL shaders
+// compute it (vtkOpenGLPolyDataMapper::ReplaceShaderLight), for one point, on plain floats. The
+// loops over the points of a tile (svoTileLighting.cxx) call it, and become vectors; the tests'
+// reference calls it for one point.
 //
 // Frame of reference: view space. Vectors are three floats; lengths in the world's unit.
 #ifndef svoLightingLane_h

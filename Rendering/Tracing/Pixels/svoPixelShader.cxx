@@ -2,6 +2,7 @@
 
 #include "svoLeafError.h"
 #include "svoTerminator.h"
+#include "svoWorldSize.h"
 
 #include <algorithm>
 #include <atomic>
@@ -56,8 +57,8 @@ void PixelShader::shadowTerminator(
       if (at.kind != TerminatorPoint::Kind::Plain)
       {
         const float plain = darkness[i];
-        darkness[i] = static_cast<Number>(
-          dark.darkness(l, p.point(k), at, plain, this->Errors[p.instance[k]], 0.0, scratch.rays));
+        darkness[i] = static_cast<Number>(dark.darkness(l, p.point(k), at, plain,
+          this->Errors[p.instance[k]], dark.filters() ? scratch.extents[i] : 0.0, scratch.rays));
       }
     }
   }
@@ -83,7 +84,11 @@ void PixelShader::shadowAndAdd(
     addLight(lit.lighting.lights[l], lit.remaining, count, light);
     return;
   }
-  dark.darkness(l, points, first, last, error, light.reached, scratch.missed);
+  for (int i = 0; i < count; ++i)
+  {
+    scratch.extents[i] = lit.samples ? 0.5 * worldPixel(lit.shaded.view, points.t[first + i]) : 0.0;
+  }
+  dark.darkness(l, points, first, last, error, scratch.extents, light.reached, scratch.missed);
   for (int i = 0; i < count; ++i)
   {
     light.dark[i] = scratch.missed[i] > 0.0f;

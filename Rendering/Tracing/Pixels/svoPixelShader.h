@@ -7,11 +7,11 @@
 #include "svoFrameTiles.h"
 #include "svoLayeredView.h"
 #include "svoParallel.h"
-#include "svoShading.h"
 #include "svoShadows.h"
 #include "svoSurfacePoint.h"
 #include "svoTileLighting.h"
 #include "svoTilePoints.h"
+#include "svoViewLights.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -51,7 +51,8 @@ public:
   {
     const ShadedScene& shaded;
     Lighting lighting;
-    float remaining; // of a light in its shadow
+    float remaining;      // of a light in its shadow
+    bool samples = false; // points stand for a quarter of a pixel each, not for the pixel's centre
 
     explicit Lit(const ShadedScene& frame)
       : shaded(frame)
@@ -68,13 +69,14 @@ public:
     TileLight light;
     TileColors colors;
     std::uint32_t rgba[TilePoints::Room];
+    double extents[TilePoints::Room];    // world, as `missed`: ShadowBuffer::darkness()
     float missed[TilePoints::Room];      // by index of the point minus the first: of one light
     Darkness darkness[TilePoints::Most]; // by index of the point
     std::uint64_t rays;                  // of shadows
   };
 
   /// After shade(): colours points anywhere in the image, of which everything up to `t` is set.
-  /// Reorders them and sets `rgba`, by index of the point. Adds to the rays.
+  /// Reorders them and sets `colors` and `rgba`, by index of the point. Adds to the rays.
   void shadePoints(const Lit& lit, Scratch& scratch) const;
 
 private:

@@ -1,10 +1,6 @@
 // The pixels on edges once more, with four rays each: anti-aliasing.
 #include "svoPixelShader.h"
 
-#include "svoTerminator.h"
-#include "svoTileLighting.h"
-#include "svoWorldSize.h"
-
 #include <algorithm>
 #include <atomic>
 #include <limits>
@@ -17,11 +13,10 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
   // A rotated grid: four points of a pixel that share no row and no column.
   constexpr double OffsetX[4] = { 0.375, 0.875, 0.125, 0.625 };
   constexpr double OffsetY[4] = { 0.125, 0.375, 0.625, 0.875 };
-  const Scene& scene = shaded.scene;
   const View& view = shaded.view;
   const EdgeFinder edges(shaded.eye.depthBuffer(), shaded.eye, this->DarkPixels, view);
-  const Lighting lighting(scene, view);
-  const float remaining = static_cast<float>(1.0 - shaded.settings.shadowIntensity);
+  Lit lit(shaded);
+  lit.samples = true;
   // Of a sample, as of multisampled framebuffers of that kind.
   const float brightest = shaded.settings.writeLight ? std::numeric_limits<float>::max() : 1.0f;
   std::atomic<std::uint64_t> primaryRays{ 0 };
@@ -30,12 +25,43 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
   {
     int pixels[64];
     TileSamples samples;
+    glm::vec3 colors[64]; // of the samples
+    PixelShader::Scratch shading;
+  };
+  const auto color = [&](Scratch& scratch)
+  {
+    const TileSamples& samples = scratch.samples;
+    TilePoints& points = scratch.shading.points;
+    points.count = 0;
+    for (int k = 0; k < 64; ++k)
+    {
+      if (samples.instance[k] != NoInstance)
+      {
+        const int i = points.count++;
+        points.pixel[i] = static_cast<std::uint8_t>(k);
+        points.instance[i] = samples.instance[k];
+        points.primitive[i] = samples.primitive[k];
+        points.x[i] = samples.x[k];
+        points.y[i] = samples.y[k];
+        points.t[i] = samples.t[k];
+      }
+    }
+    if (points.count > 0)
+    {
+      this->shadePoints(lit, scratch.shading);
+    }
+    const TileColors& found = scratch.shading.colors;
+    for (int i = 0; i < points.count; ++i)
+    {
+      scratch.colors[points.pixel[i]] =
+        glm::clamp(glm::vec3(found.r[i], found.g[i], found.b[i]), 0.0f, brightest);
+    }
   };
   const auto smoothTile = [&](int tileX, int tileY, Scratch& scratch)
   {
     int* pixels = scratch.pixels;
     const int count = edges.find(tileX, tileY, pixels);
-    std::uint64_t rays = 0;
+    scratch.shading.rays = 0;
     for (int first = 0; first < count; first += 16)
     {
       TileSamples& samples = scratch.samples;
@@ -47,39 +73,20 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
       }
       shaded.eye.sample(tileX, tileY, &samples, 1);
       primaryRays.fetch_add(64, std::memory_order_relaxed);
+      std::fill(samples.instance + 4 * std::min(16, count - first), samples.instance + 64,
+        NoInstance); // of no further pixel
+      color(scratch);
       for (int p = 0; p < std::min(16, count - first); ++p)
       {
         glm::vec3 sum(0.0f);
         int hits = 0;
         for (int k = 4 * p; k < 4 * p + 4; ++k)
         {
-          const std::uint32_t i = samples.instance[k];
-          if (i == NoInstance)
+          if (samples.instance[k] != NoInstance)
           {
-            continue;
+            ++hits;
+            sum += scratch.colors[k];
           }
-          ++hits;
-          const double extent = 0.5 * worldPixel(view, samples.t[k]);
-          const SurfacePoint point = surfacePoint(
-            this->Frames[i], view, samples.x[k], samples.y[k], samples.t[k], samples.primitive[k]);
-          const glm::vec3 towards(-view.rayDirection(samples.x[k], samples.y[k]));
-          const auto darkness = [&](std::size_t l)
-          {
-            const Shadows& dark = shaded.dark;
-            const float plain = dark.darkness(l, point, this->Errors[i], extent, rays);
-            if (this->Smooth[i] && dark.knowsTerminator(l))
-            {
-              const TerminatorPoint at = atTerminator(this->Frames[i], scene.lights[l],
-                dark.grazing(), plain > 0.0f, point, towards, samples.primitive[k]);
-              if (at.kind != TerminatorPoint::Kind::Plain)
-              {
-                return dark.darkness(l, point, at, plain, this->Errors[i], extent, rays);
-              }
-            }
-            return plain;
-          };
-          sum += glm::clamp(
-            svo::shade(lighting, scene.instances[i], point, remaining, darkness), 0.0f, brightest);
         }
         const int x = 8 * tileX + (pixels[first + p] & 7);
         const int y = 8 * tileY + (pixels[first + p] >> 3);
@@ -95,7 +102,7 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
         }
       }
     }
-    shadowRays.fetch_add(rays, std::memory_order_relaxed);
+    shadowRays.fetch_add(scratch.shading.rays, std::memory_order_relaxed);
   };
   shaded.tiles.each<Scratch>(parallelFor, smoothTile);
   statistics.primaryRays += primaryRays;

@@ -4,6 +4,8 @@
 
 #include "svoTileLighting.h"
 
+#include "svoLightingLane.h"
+
 #include <algorithm>
 #include <cmath>
 

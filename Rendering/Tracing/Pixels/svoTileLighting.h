@@ -1,10 +1,9 @@
-// Lighting of the visible points of a tile. The operations and their order are those of shade()
-// (svoShading.h), the reference, so that the results are the same bits.
+// Lighting of the visible points of a tile, in loops over the arithmetic of svoLightingLane.h.
 #ifndef svoTileLighting_h
 #define svoTileLighting_h
 
-#include "svoShading.h"
 #include "svoTilePoints.h"
+#include "svoViewLights.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -83,8 +83,8 @@ public:
   float darkness(const SurfacePoint& point, double error, double extent) const;
 
   /// The same for points [first, last) of one instance: darkness[i - first] of those that are
-  /// `asked`, 0 of others; of extent 0.
-  void darkness(const TilePoints& points, int first, int last, double error,
+  /// `asked`, 0 of others. `extents`, too, from index 0 on.
+  void darkness(const TilePoints& points, int first, int last, double error, const double* extents,
     const std::uint8_t* asked, float* darkness) const;
 
   /// Whether points are compared on their own planes, see setBias().

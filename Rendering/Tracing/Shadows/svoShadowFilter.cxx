@@ -133,7 +133,7 @@ float ShadowBuffer::darkness(const SurfacePoint& point, double error, double ext
 }
 
 void ShadowBuffer::darkness(const TilePoints& points, int first, int last, double error,
-  const std::uint8_t* asked, float* darkness) const
+  const double* extents, const std::uint8_t* asked, float* darkness) const
 {
   const int count = last - first;
   std::uint8_t dark[TilePoints::Room];
@@ -172,9 +172,10 @@ void ShadowBuffer::darkness(const TilePoints& points, int first, int last, doubl
     {
       place.face = nullptr;
     }
-    if (place.face && !this->isFlat(place, 1.0))
+    const double width = place.face ? boxWidth(place, extents[i]) : 1.0;
+    if (place.face && !this->isFlat(place, width))
     {
-      darkness[i] = this->filtered(place, 1.0, points.point(first + i), error);
+      darkness[i] = this->filtered(place, width, points.point(first + i), error);
     }
   }
 }

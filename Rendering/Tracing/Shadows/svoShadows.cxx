@@ -159,11 +159,11 @@ float Shadows::darkness(std::size_t light, const SurfacePoint& point, double err
 }
 
 void Shadows::darkness(std::size_t light, const TilePoints& points, int first, int last,
-  double error, const std::uint8_t* asked, float* darkness) const
+  double error, const double* extents, const std::uint8_t* asked, float* darkness) const
 {
   if (this->Buffers[light])
   {
-    this->Buffers[light]->darkness(points, first, last, error, asked, darkness);
+    this->Buffers[light]->darkness(points, first, last, error, extents, asked, darkness);
     return;
   }
   std::fill_n(darkness, last - first, 0.0f);

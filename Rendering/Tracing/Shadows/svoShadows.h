@@ -67,9 +67,9 @@ public:
   float darkness(std::size_t light, const SurfacePoint& point, double error, double extent,
     std::uint64_t& rays) const;
   /// The same for points [first, last) of one instance: darkness[i - first] of those that are
-  /// `asked`. Only where there are buffers.
+  /// `asked`; `extents` likewise. Only where there are buffers.
   void darkness(std::size_t light, const TilePoints& points, int first, int last, double error,
-    const std::uint8_t* asked, float* darkness) const;
+    const double* extents, const std::uint8_t* asked, float* darkness) const;
 
   /// The same for points at the terminator, see svoTerminator.h. False where nothing is in shadow,
   /// or points are compared with a shadow map without the automatic bias.

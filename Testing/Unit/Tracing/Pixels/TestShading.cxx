@@ -1,5 +1,5 @@
 // What VTK's shaders write, computed by hand for points whose geometry is simple.
-#include "svoShading.h"
+#include "svoReferenceShading.h"
 #include "svoTracerScenes.h"
 
 #include <gtest/gtest.h>

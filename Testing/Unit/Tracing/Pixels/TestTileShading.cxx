@@ -2,6 +2,7 @@
 // every instruction set of this machine.
 #include "svoInstructionSets.h"
 #include "svoLeafError.h"
+#include "svoReferenceShading.h"
 #include "svoShadowBuffer.h"
 #include "svoTileLighting.h"
 #include "svoTilePoints.h"
@@ -347,13 +348,15 @@ TEST(TileShading, ShadowsAreThoseOfOnePoint)
                   const Instance& instance = stage.scene.instances[index];
                   const double error = worldLeafError(instance, instance.leafGeometry, 7);
                   std::uint8_t asked[TilePoints::Room], found[TilePoints::Room];
+                  double extents[TilePoints::Room];
                   for (int i = first; i < last; ++i)
                   {
                     asked[i - first] = i % 5 != 0;
+                    extents[i - first] = 0.02 * (i % 4);
                   }
                   buffer.shadows(points, first, last, error, asked, found);
                   float missed[TilePoints::Room];
-                  buffer.darkness(points, first, last, error, asked, missed);
+                  buffer.darkness(points, first, last, error, extents, asked, missed);
                   for (int i = first; i < last; ++i)
                   {
                     const bool expected =
@@ -361,8 +364,9 @@ TEST(TileShading, ShadowsAreThoseOfOnePoint)
                     ASSERT_EQ(found[i - first] != 0, expected) << "instance " << index;
                     dark += expected;
                     lit += asked[i - first] && !expected;
-                    const float share =
-                      asked[i - first] ? buffer.darkness(points.point(i), error, 0.0) : 0.0f;
+                    const float share = asked[i - first]
+                      ? buffer.darkness(points.point(i), error, extents[i - first])
+                      : 0.0f;
                     ASSERT_TRUE(sameBits(missed[i - first], share)) << "instance " << index;
                     partly += share > 0.0f && share < 1.0f;
                     ASSERT_TRUE(automatic || share == (expected ? 1.0f : 0.0f));

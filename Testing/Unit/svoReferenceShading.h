@@ -1,41 +1,17 @@
-// VTK's lighting of surfaces without textures and PBR, as its OpenGL shaders compute it
-// (vtkOpenGLPolyDataMapper::ReplaceShaderLight).
-#ifndef svoShading_h
-#define svoShading_h
+// VTK's lighting of one visible point, light by light: the oracle of the tile shader.
+#ifndef svoReferenceShading_h
+#define svoReferenceShading_h
 
 #include "svoLightingLane.h"
-#include "svoScene.h"
 #include "svoSurfacePoint.h"
-#include "svoView.h"
+#include "svoViewLights.h"
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/trigonometric.hpp>
+#include <cstddef>
 
 namespace svo
 {
-/// A light in view space.
-struct ViewLight
-{
-  glm::vec3 direction; // unit, the way it shines
-  glm::vec3 position;
-  const Light* light;
-  float coneCosine;
-};
-
-inline ViewLight makeViewLight(const Light& light, const View& view)
-{
-  const glm::dmat3 rotation(view.worldToView);
-  return { glm::vec3(rotation * light.direction),
-    glm::vec3(view.worldToView * glm::dvec4(light.position, 1.0)), &light,
-    static_cast<float>(std::cos(glm::radians(light.coneAngle))) };
-}
-
 /// Diffuse and specular light that arrives at a point, before any shadow.
 struct Arriving
 {
@@ -72,35 +48,6 @@ inline Arriving arriving(const ViewLight& l, const glm::vec3& normal, const glm:
       std::pow(highlightLane(at, facing, light.direction), material.specularPower)
                                        : 0.0f;
   return { df * l.light->color, sf };
-}
-
-/// The lights of a frame, as shading needs them.
-struct Lighting
-{
-  std::vector<ViewLight> lights;
-  bool onlyHeadlight = false;
-  glm::dmat4 worldToView{ 1.0 };
-  glm::mat3 rotation{ 1.0f };
-
-  Lighting(const Scene& scene, const View& view)
-    : onlyHeadlight(scene.onlyHeadlight)
-    , worldToView(view.worldToView)
-    , rotation(view.worldToView)
-  {
-    for (const Light& light : scene.lights)
-    {
-      lights.push_back(makeViewLight(light, view));
-    }
-  }
-};
-
-/// The share of a light that is left at a point that misses the share `darkness`, 0..1, if
-/// `remaining` is left in a whole shadow. Exact at both ends.
-inline float shareOfLight(float darkness, float remaining)
-{
-  return darkness >= 1.0f ? remaining
-    : darkness > 0.0f     ? 1.0f - darkness * (1.0f - remaining)
-                          : 1.0f;
 }
 
 /// Colour of a visible point, 0..1 and beyond. dark(light) is asked for lights that reach the
