@@ -2,7 +2,7 @@
 #ifndef svoPassFrame_h
 #define svoPassFrame_h
 
-#include "svoPassRenderer.h"
+#include "svoRendererState.h"
 #include "vtkSVORenderPass.h"
 
 #include "vtkOpenGLRenderWindow.h"
@@ -23,8 +23,8 @@ namespace svo
 /// one with the same pass, whose frame then lies within this one.
 struct PassFrame
 {
-  PassFrame(std::shared_ptr<PassRenderer> passRenderer, vtkRenderer* drawn)
-    : of(std::move(passRenderer))
+  PassFrame(std::shared_ptr<RendererState> rendererState, vtkRenderer* drawn)
+    : state(std::move(rendererState))
     , renderer(drawn)
     , context(stateOf(windowOf(drawn)))
   {
@@ -56,7 +56,7 @@ struct PassFrame
     return window != nullptr;
   }
 
-  const std::shared_ptr<PassRenderer> of;
+  const std::shared_ptr<RendererState> state;
   vtkRenderer* const renderer;
   /// VTK's renderer has an array of them and does not own them.
   std::vector<vtkSmartPointer<vtkProp>> props;

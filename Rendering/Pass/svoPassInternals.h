@@ -3,7 +3,7 @@
 #define svoPassInternals_h
 
 #include "svoPassFrame.h"
-#include "svoPassRenderer.h"
+#include "svoRendererState.h"
 #include "vtkSVORenderPass.h"
 
 #include "vtkMultiProcessController.h"
@@ -43,7 +43,7 @@ struct vtkSVORenderPass::Internals
 
   const vtkSVORenderPass& self;
   svo::OctreeStore store;
-  std::map<vtkRenderer*, std::shared_ptr<svo::PassRenderer>> renderers;
+  std::map<vtkRenderer*, std::shared_ptr<svo::RendererState>> renderers;
   std::map<vtkRenderer*, svo::AttachedRenderer> attached;
   std::vector<std::unique_ptr<svo::PassFrame>> frames; // in progress, the innermost last
   vtkSmartPointer<vtkMultiProcessController> controller;
@@ -61,24 +61,24 @@ struct vtkSVORenderPass::Internals
 
   /// The state for a renderer, made when it is first asked for; those of dead renderers are
   /// dropped.
-  std::shared_ptr<svo::PassRenderer> of(vtkRenderer* renderer)
+  std::shared_ptr<svo::RendererState> stateOf(vtkRenderer* renderer)
   {
     for (auto entry = this->renderers.begin(); entry != this->renderers.end();)
     {
       entry = entry->second->renderer() ? std::next(entry) : this->renderers.erase(entry);
     }
-    std::shared_ptr<svo::PassRenderer>& found = this->renderers[renderer];
+    std::shared_ptr<svo::RendererState>& found = this->renderers[renderer];
     if (!found)
     {
-      found = std::make_shared<svo::PassRenderer>(renderer, this->self.MakeTracer());
+      found = std::make_shared<svo::RendererState>(renderer, this->self.MakeTracer());
     }
     return found;
   }
 
   /// The state for the renderer of the innermost frame; null between frames.
-  svo::PassRenderer* current() const
+  svo::RendererState* current() const
   {
-    return this->frames.empty() ? nullptr : this->frames.back()->of.get();
+    return this->frames.empty() ? nullptr : this->frames.back()->state.get();
   }
 
   /// The frame of a renderer that is in progress; null if there is none.

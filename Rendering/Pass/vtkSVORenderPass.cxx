@@ -133,7 +133,7 @@ svo::FrameSettings vtkSVORenderPass::Internals::settingsOf(const vtkSVORenderPas
 svo::PassFrame& vtkSVORenderPass::BeginFrame(vtkRenderer* renderer)
 {
   Internals& impl = *this->Impl;
-  impl.frames.push_back(std::make_unique<svo::PassFrame>(impl.of(renderer), renderer));
+  impl.frames.push_back(std::make_unique<svo::PassFrame>(impl.stateOf(renderer), renderer));
   return *impl.frames.back();
 }
 
@@ -150,7 +150,7 @@ bool vtkSVORenderPass::CollectFrame(
   constexpr int MostCollections = 4;
   Internals& impl = *this->Impl;
   vtkRenderer* renderer = frame.renderer;
-  frame.of->begin();
+  frame.state->begin();
   bool disturbed = true;
   for (int i = 1; disturbed && i <= MostCollections; ++i)
   {
@@ -195,7 +195,7 @@ bool vtkSVORenderPass::CollectFrame(
     collect.cutOutText = this->GetText(TEXT_CUT_OUT, nullptr);
     collect.levels.frame = Internals::settingsOf(*this);
     svo::viewOfCamera(renderer, width, height, collect.levels.eye);
-    frame.of->collect(impl.store, store, collect);
+    frame.state->collect(impl.store, store, collect);
     disturbed = disturbed || !frame.canDraw();
   }
   if (disturbed)
@@ -204,7 +204,7 @@ bool vtkSVORenderPass::CollectFrame(
     return false;
   }
   renderer->GetRenderWindow()->MakeCurrent(); // pipelines may have had others drawn
-  const svo::CollectedScene& collected = frame.of->collected();
+  const svo::CollectedScene& collected = frame.state->collected();
   impl.castingLights = describeLights(collected.scene.lights,
     [this](vtkLight* light) { return this->GetText(TEXT_HEADLIGHT, light); });
   if (collected.headlightOnly && !impl.saidHeadlight && this->ShadowTechnique != SHADOW_NONE &&
@@ -245,7 +245,7 @@ void vtkSVORenderPass::DecideSettings(svo::PassFrame& frame)
   if (this->AutoAdjustSampleDistances && isInteractive(renderer))
   {
     frame.sampleDistance =
-      frame.of->chooseDistance(OwnShare / renderer->GetRenderWindow()->GetDesiredUpdateRate(),
+      frame.state->chooseDistance(OwnShare / renderer->GetRenderWindow()->GetDesiredUpdateRate(),
         std::max(this->MaximumImageSampleDistance / this->ImageReductionFactor, 1.0));
     if (hasCameraLight(renderer))
     {
@@ -260,13 +260,13 @@ void vtkSVORenderPass::TraceFrame(svo::PassFrame& frame, int width, int height)
 {
   Internals& impl = *this->Impl;
   frame.traced = true;
-  frame.of->trace(width, height, frame.sampleDistance, frame.settings);
-  const std::string& complaint = frame.of->complaint();
+  frame.state->trace(width, height, frame.sampleDistance, frame.settings);
+  const std::string& complaint = frame.state->complaint();
   if (!complaint.empty() && impl.said.insert(complaint).second)
   {
     frame.messages.push_back(complaint);
   }
-  svo::ShadowReceivers& receivers = frame.of->receivers();
+  svo::ShadowReceivers& receivers = frame.state->receivers();
   const std::string signature = receivers.signature();
   if (signature != impl.shaderSignature)
   {
@@ -286,16 +286,16 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   impl.frames.erase(entry);
   if (frame.traced && frame.canDraw())
   {
-    frame.of->receivers().deactivate();
+    frame.state->receivers().deactivate();
   }
-  frame.of->finish();
-  impl.statistics = frame.of->statistics();
+  frame.state->finish();
+  impl.statistics = frame.state->statistics();
   impl.statistics.imageReduction = this->ImageReductionFactor;
   if (impl.statistics.tracer.retracedLayers > 0)
   {
     double seconds, fixedSeconds;
     this->MeasureFrame(seconds, fixedSeconds);
-    frame.of->measured(seconds, fixedSeconds);
+    frame.state->measured(seconds, fixedSeconds);
   }
   const std::size_t beyond =
     impl.store.endFrame(static_cast<std::size_t>(this->OctreeMemoryLimit) * svo::BytesOfKiB);
@@ -397,12 +397,12 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
     this->FinishFrame(frame);
     return;
   }
-  frame.of->joinPasses(state);
+  frame.state->joinPasses(state);
   this->TraceFrame(frame, width, height);
   {
     svo::ExchangedProps props(state->GetPropArray());
-    frame.of->exchange(props, state, this);
-    const bool receiving = !frame.of->receivers().empty();
+    frame.state->exchange(props, state, this);
+    const bool receiving = !frame.state->receivers().empty();
     if (receiving)
     {
       this->PreRender(state);
@@ -413,7 +413,7 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
       this->PostRender(state);
     }
   }
-  frame.of->presenter()->StandFor(nullptr);
+  frame.state->presenter()->StandFor(nullptr);
   this->FinishFrame(frame);
   this->NumberOfRenderedProps = renderer->GetNumberOfPropsRendered();
 }
@@ -443,7 +443,7 @@ bool vtkSVORenderPass::PreReplaceShaderValues(
 bool vtkSVORenderPass::PostReplaceShaderValues(std::string& vertexShader,
   std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp*)
 {
-  svo::PassRenderer* current = this->Impl->current();
+  svo::RendererState* current = this->Impl->current();
   if (current && vtkOpenGLPolyDataMapper::SafeDownCast(mapper))
   {
     current->receivers().completeShader(vertexShader, geometryShader, fragmentShader);
@@ -454,7 +454,7 @@ bool vtkSVORenderPass::PostReplaceShaderValues(std::string& vertexShader,
 bool vtkSVORenderPass::SetShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper*, vtkProp* prop, vtkOpenGLVertexArrayObject*)
 {
-  if (svo::PassRenderer* current = this->Impl->current())
+  if (svo::RendererState* current = this->Impl->current())
   {
     current->receivers().setUniforms(program, GetReceiveShadow(prop));
   }

@@ -35,15 +35,15 @@ void vtkSVORenderPass::Attach(vtkRenderer* renderer)
       vtkCommand::EndEvent, this, &vtkSVORenderPass::EndAttachedFrame, AfterHosts),
     renderer->AddObserver(vtkCommand::DeleteEvent, this, &vtkSVORenderPass::ForgetAttached) };
 
-  vtkSVOPresenter* presenter = impl.of(renderer)->presenter();
+  vtkSVOPresenter* presenter = impl.stateOf(renderer)->presenter();
   presenter->SetPrepare(
     [this, renderer](int width, int height)
     {
       svo::PassFrame* frame = this->Impl->frameOf(renderer);
-      if (frame && !(frame->traced && frame->of->shows(width, height)))
+      if (frame && !(frame->traced && frame->state->shows(width, height)))
       {
         this->TraceFrame(*frame, width, height);
-        frame->of->present(this);
+        frame->state->present(this);
       }
     });
   // Shadows must be known before the first surface that receives them is drawn.
@@ -75,7 +75,7 @@ void vtkSVORenderPass::Detach(vtkRenderer* renderer)
     {
       renderer->RemoveObserver(observer);
     }
-    const std::shared_ptr<svo::PassRenderer> kept = impl.of(renderer);
+    const std::shared_ptr<svo::RendererState> kept = impl.stateOf(renderer);
     kept->presenter()->SetPrepare(nullptr);
     renderer->RemoveViewProp(kept->presenter());
     if (renderer->GetRenderWindow())
@@ -112,7 +112,7 @@ vtkMultiProcessController* vtkSVORenderPass::GetController() const
 
 bool vtkSVORenderPass::IsTraced(vtkProp* prop) const
 {
-  const svo::PassRenderer* current = this->Impl->current();
+  const svo::RendererState* current = this->Impl->current();
   return current && current->collected().replaced.count(prop) > 0;
 }
 
@@ -143,15 +143,15 @@ void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void
     // Here, and not when something is drawn: a process that shows nothing may not draw at all.
     if (this->ShadowTechnique == SHADOW_BUFFER)
     {
-      frame.of->shareShadows(controller, width, height, frame.sampleDistance, frame.settings);
+      frame.state->shareShadows(controller, width, height, frame.sampleDistance, frame.settings);
     }
     else if (this->ShadowTechnique == SHADOW_RAYS)
     {
-      frame.of->shareCasters(
+      frame.state->shareCasters(
         controller, static_cast<std::size_t>(this->OctreeMemoryLimit) * svo::BytesOfKiB);
     }
   }
-  if (frame.of->collected().rasterizedReceivers && frame.of->hasSomething())
+  if (frame.state->collected().rasterizedReceivers && frame.state->hasSomething())
   {
     for (vtkProp* prop : frame.props)
     {

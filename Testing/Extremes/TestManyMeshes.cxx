@@ -47,7 +47,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 namespace fs = std::filesystem;
 
 constexpr int Size = 320;

@@ -12,7 +12,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 /// A sphere with waves all over: concave, smooth normals.
 vtkSmartPointer<vtkPolyData> bumpy()

@@ -15,7 +15,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 /// As the comparison wants it: 2 along its longest edge, around the origin, y up turned to z up.
 vtkSmartPointer<vtkPolyData> fitted(vtkPolyData* mesh)

@@ -9,7 +9,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 /// Sets the window's AbortRender when it asks, while told to.
 struct Impatient

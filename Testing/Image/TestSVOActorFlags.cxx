@@ -4,7 +4,7 @@
 
 int TestSVOActorFlags(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage stage;
   vtkActor* ground = stage.addGround();

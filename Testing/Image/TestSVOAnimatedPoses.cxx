@@ -14,11 +14,11 @@ namespace
 {
 struct Act
 {
-  svoTest::Stage stage;
-  vtkSmartPointer<vtkAlgorithm> shape = svoTest::ring(0.9, -0.5, 0.0, 1.2);
+  svotest::Stage stage;
+  vtkSmartPointer<vtkAlgorithm> shape = svotest::ring(0.9, -0.5, 0.0, 1.2);
   vtkActor* ground = stage.addGround();
   vtkActor* changing = stage.add(shape, 0.9, 0.5, 0.3);
-  vtkActor* moving = stage.add(svoTest::spike(0.9, 0.0, 0.0, 0.45), 0.3, 0.6, 0.9);
+  vtkActor* moving = stage.add(svotest::spike(0.9, 0.0, 0.0, 0.45), 0.3, 0.6, 0.9);
   vtkLight* sun = stage.addSun(2.0, -1.5, 4.0);
 
   void pose(int frame)
@@ -32,27 +32,27 @@ struct Act
 };
 
 /// Cells are replaced in place, and only the mesh is told so.
-void testCellsInPlace(svoTest::Checks& checks)
+void testCellsInPlace(svotest::Checks& checks)
 {
-  const auto source = svoTest::ball(0.9, 0.0, 0.0, 1.0);
+  const auto source = svotest::ball(0.9, 0.0, 0.0, 1.0);
   source->Update();
   vtkNew<vtkPolyData> mesh;
   mesh->DeepCopy(source->GetOutputDataObject(0));
   vtkNew<vtkTrivialProducer> producer;
   producer->SetOutput(mesh);
-  svoTest::Stage stage;
+  svotest::Stage stage;
   stage.add(producer, 0.9, 0.5, 0.3);
-  const svoTest::Picture whole = stage.unshadowed();
+  const svotest::Picture whole = stage.unshadowed();
   for (vtkIdType cell = 0; cell < mesh->GetNumberOfPolys() / 2; ++cell)
   {
     mesh->GetPolys()->ReplaceCellAtId(cell, { 0, 0, 0 });
   }
   mesh->Modified();
-  const svoTest::Picture traced = stage.unshadowed();
+  const svotest::Picture traced = stage.unshadowed();
   stage.usePass(false);
-  const svoTest::Picture raster = svoTest::capture(stage.window);
-  const double change = svoTest::difference(raster, whole).mean;
-  const double error = svoTest::difference(traced, raster).mean;
+  const svotest::Picture raster = svotest::capture(stage.window);
+  const double change = svotest::difference(raster, whole).mean;
+  const double error = svotest::difference(traced, raster).mean;
   std::cout << "cells in place: " << change << " from the whole ball, " << error
             << " from the rasteriser\n";
   checks.expect(change > 0.2, "the rasteriser shows half a ball");
@@ -62,7 +62,7 @@ void testCellsInPlace(svoTest::Checks& checks)
 
 int TestSVOAnimatedPoses(int argc, char* argv[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   testCellsInPlace(checks);
   Act running;

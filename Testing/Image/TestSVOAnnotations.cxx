@@ -16,7 +16,7 @@
 
 int TestSVOAnnotations(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage stage;
   stage.addGround(2.0);

@@ -10,7 +10,7 @@
 
 int TestSVOAssembly(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage stage;
   stage.addGround();

@@ -11,7 +11,7 @@
 
 int TestSVOBackgroundBuild(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage stage;
   stage.addSun(2.0, -1.5, 4.0);

@@ -93,31 +93,31 @@ struct Case
 {
   const char* name;
   int messages; // how many, over three frames
-  std::function<void(svoTest::Stage&)> add;
+  std::function<void(svotest::Stage&)> add;
   bool untouched = false; // no bit of the picture may change
 };
 
-void withMatrix(svoTest::Stage& stage, int row, int column, double value)
+void withMatrix(svotest::Stage& stage, int row, int column, double value)
 {
   vtkNew<vtkMatrix4x4> matrix;
   matrix->SetElement(row, column, value);
-  stage.add(svoTest::ball(0.5, 0.0, 0.0, 2.0), 1.0, 0.0, 0.0)->SetUserMatrix(matrix);
+  stage.add(svotest::ball(0.5, 0.0, 0.0, 2.0), 1.0, 0.0, 0.0)->SetUserMatrix(matrix);
 }
 
-void flattened(svoTest::Stage& stage, double scale)
+void flattened(svotest::Stage& stage, double scale)
 {
   vtkNew<vtkMatrix4x4> matrix;
   matrix->SetElement(2, 2, scale);
   matrix->SetElement(2, 3, 1.0);
-  stage.add(svoTest::ball(0.5, 0.0, 0.0, 0.0), 1.0, 0.0, 0.0)->SetUserMatrix(matrix);
+  stage.add(svotest::ball(0.5, 0.0, 0.0, 0.0), 1.0, 0.0, 0.0)->SetUserMatrix(matrix);
 }
 }
 
 namespace
 {
-void expectMessagesOfNewActors(svoTest::Checks& checks)
+void expectMessagesOfNewActors(svotest::Checks& checks)
 {
-  using namespace svoTest;
+  using namespace svotest;
   Stage stage;
   stage.addGround();
   stage.addSun(2.0, -1.5, 4.0);
@@ -145,7 +145,7 @@ void expectMessagesOfNewActors(svoTest::Checks& checks)
 
 int TestSVOBadInput(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   const Case cases[] = {
     { "no points at all", 0,

@@ -39,7 +39,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> rings()
   for (int i = 0; i < 3; ++i)
   {
     vtkNew<vtkElevationFilter> height;
-    height->SetInputConnection(svoTest::ring(0.7, 1.4 * (i - 1), 0.0, 1.0)->GetOutputPort());
+    height->SetInputConnection(svotest::ring(0.7, 1.4 * (i - 1), 0.0, 1.0)->GetOutputPort());
     height->SetLowPoint(0.0, -0.7, 0.0);
     height->SetHighPoint(0.0, 0.7, 0.0);
     height->Update();
@@ -75,7 +75,7 @@ struct Case
 
 int TestSVOBlockAttributes(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   const Case cases[] = {
     { "another array",

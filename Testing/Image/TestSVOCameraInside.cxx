@@ -6,7 +6,7 @@
 
 int TestSVOCameraInside(int argc, char* argv[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage stage;
   vtkCamera* camera = stage.renderer->GetActiveCamera();

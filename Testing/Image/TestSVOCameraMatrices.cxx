@@ -15,7 +15,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 struct Case
 {

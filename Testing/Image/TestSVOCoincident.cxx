@@ -11,7 +11,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 /// The static setting of all mappers, put back at the end.
 struct PolygonOffset

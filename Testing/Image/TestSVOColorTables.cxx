@@ -30,7 +30,7 @@ vtkSmartPointer<vtkLookupTable> tableOf(int colors)
 
 vtkSmartPointer<vtkPolyData> ballWithHeights()
 {
-  const auto source = svoTest::ball(1.2, 0.0, 0.0, 1.0);
+  const auto source = svotest::ball(1.2, 0.0, 0.0, 1.0);
   vtkNew<vtkElevationFilter> heights;
   heights->SetInputConnection(source->GetOutputPort());
   heights->SetLowPoint(-1.2, 0.0, 0.4);
@@ -42,7 +42,7 @@ vtkSmartPointer<vtkPolyData> ballWithHeights()
 }
 
 std::size_t pixelsBeyond(
-  const svoTest::Picture& a, const svoTest::Picture& b, int levels, const svoTest::Mask& mask)
+  const svotest::Picture& a, const svotest::Picture& b, int levels, const svotest::Mask& mask)
 {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -60,7 +60,7 @@ std::size_t pixelsBeyond(
 
 int TestSVOColorTables(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   struct Case
   {

@@ -9,7 +9,7 @@
 
 int TestSVOCompositeBlocks(int argc, char* argv[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage stage;
   vtkNew<vtkMultiBlockDataSet> blocks;

@@ -11,7 +11,7 @@
 namespace
 {
 // The lines are pure magenta and nothing else is.
-std::size_t linePixels(const svoTest::Picture& picture)
+std::size_t linePixels(const svotest::Picture& picture)
 {
   std::size_t count = 0;
   for (std::size_t i = 0; i < picture.size(); ++i)
@@ -25,7 +25,7 @@ std::size_t linePixels(const svoTest::Picture& picture)
 
 int TestSVOContourLines(int argc, char* argv[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   Stage stage;

@@ -14,7 +14,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 /// Hexahedra that fill a cube from `low` to `high`, `count` along each edge.
 vtkSmartPointer<vtkUnstructuredGrid> blocks(int count, double low, double high)

@@ -14,7 +14,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 constexpr double Still = 0.0001; // Hz
 constexpr double Interactive = 15.0;

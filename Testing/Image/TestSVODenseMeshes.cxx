@@ -18,7 +18,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 vtkSmartPointer<vtkAlgorithm> denseBall()
 {

@@ -11,7 +11,7 @@
 
 int TestSVOEffects(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   struct Effect
   {

@@ -9,7 +9,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 constexpr int Edge = 300; // pixels of each half
 
@@ -129,7 +129,7 @@ int TestSVOFilteredShadows(int argc, char* argv[])
       stage->pass->SetAntiAliasing(antiAliasing);
       technique(stage->pass.Get());
     }
-    return svoTest::capture(left.window);
+    return svotest::capture(left.window);
   };
   const Picture unshadowed =
     capture(false, [](vtkSVORenderPass* pass) { pass->SetShadowTechniqueToNone(); });

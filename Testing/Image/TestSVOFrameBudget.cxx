@@ -11,7 +11,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 constexpr double Still = 0.0001;   // Hz
 constexpr double Interactive = 10; // Hz: 0.1 s a frame, half of it for what is traced

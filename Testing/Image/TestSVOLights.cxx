@@ -12,7 +12,7 @@ namespace
 const char* const Names[6] = { "directional", "point", "spot", "headlight", "camera light",
   "two lights" };
 
-void addLights(svoTest::Stage& stage, int kind)
+void addLights(svotest::Stage& stage, int kind)
 {
   switch (kind)
   {
@@ -48,7 +48,7 @@ void addLights(svoTest::Stage& stage, int kind)
 
 int TestSVOLights(int argc, char* argv[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   std::array<std::unique_ptr<Stage>, 6> stages;
   std::array<ShadowOracle, 6> oracles;

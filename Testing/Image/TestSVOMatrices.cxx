@@ -15,7 +15,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 /// A square above a ground, flattened by one of its own axes and tilted.
 void addFlattened(Stage& stage, const double scale[3])

@@ -27,7 +27,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 // Two plates above the ground, side by side; the left one is the first half of points and cells.
 vtkSmartPointer<vtkPolyData> plates(bool left = true)

@@ -6,7 +6,7 @@
 
 int TestSVOParallelProjection(int argc, char* argv[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage stage(340, 260);
   stage.renderer->GetActiveCamera()->ParallelProjectionOn();

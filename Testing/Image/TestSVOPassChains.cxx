@@ -128,7 +128,7 @@ PassPointer rasteriser()
 
 int TestSVOPassChains(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   struct Chain
   {

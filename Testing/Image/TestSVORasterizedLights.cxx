@@ -12,7 +12,7 @@
 namespace
 {
 /// So many suns close together, as bright as one.
-void addCluster(svoTest::Stage& stage, int count)
+void addCluster(svotest::Stage& stage, int count)
 {
   stage.pass->SetShadowBufferResolution(256);
   for (int i = 0; i < count; ++i)
@@ -26,7 +26,7 @@ void addCluster(svoTest::Stage& stage, int count)
 
 int TestSVORasterizedLights(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   struct Case
   {

@@ -37,7 +37,7 @@ vtkSmartPointer<vtkTexture> checkerboard()
 
 int TestSVORasterizedReceivers(int argc, char* argv[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   std::array<std::unique_ptr<Stage>, 3> stages;
   std::array<ShadowOracle, 3> oracles;

@@ -19,7 +19,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 /// By how much shares of light may differ beyond what the processor says of points and planes
 /// within rounding (ShadowCases::Rounding, Tilt).

@@ -10,7 +10,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 vtkSmartPointer<vtkAlgorithm> coarseBall(double radius, double x, double y, double z)
 {

@@ -19,7 +19,7 @@
 #include <iostream>
 #include <string>
 
-using namespace svoTest;
+using namespace svotest;
 
 namespace
 {

@@ -20,7 +20,7 @@ namespace
 // A ring with heights at its points, numbers at its cells and colours at its points.
 vtkSmartPointer<vtkTrivialProducer> withArrays()
 {
-  const auto source = svoTest::ring(1.2, 0.0, 0.0, 1.2);
+  const auto source = svotest::ring(1.2, 0.0, 0.0, 1.2);
   vtkNew<vtkElevationFilter> height;
   height->SetInputConnection(source->GetOutputPort());
   height->SetLowPoint(-1.2, 0.0, 0.8);
@@ -53,7 +53,7 @@ vtkSmartPointer<vtkTrivialProducer> withArrays()
 
 int TestSVOScalars(int argc, char* argv[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   const char* const names[4] = { "points", "points, interpolated before mapping", "cells",
     "colours" };

@@ -40,7 +40,7 @@ Selected select(vtkRenderer* renderer)
 
 int TestSVOSelection(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage stage;
   stage.addGround();

@@ -8,7 +8,7 @@
 
 int TestSVOShadowIntensity(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage stage;
   vtkActor* ground = stage.addGround();

@@ -11,7 +11,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 /// Parallel pictures of one scene: in the larger ones every third pixel of every third row sees
 /// what a pixel of the smaller one sees.

@@ -4,7 +4,7 @@
 
 int TestSVOSubViewport(int argc, char* argv[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage whole(480, 400);
   whole.usePass(false);

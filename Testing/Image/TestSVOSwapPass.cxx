@@ -28,7 +28,7 @@ std::vector<int> references(vtkRenderer* renderer)
 
 int TestSVOSwapPass(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage stage;
   stage.addGround();

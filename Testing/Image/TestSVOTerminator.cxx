@@ -14,7 +14,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 vtkSmartPointer<vtkAlgorithm> coarseSphere()
 {

@@ -10,18 +10,18 @@
 
 namespace
 {
-void fill(svoTest::Stage& stage)
+void fill(svotest::Stage& stage)
 {
   stage.addGround();
-  stage.add(svoTest::ball(0.7, -0.6, -0.2, 0.9), 0.9, 0.5, 0.3);
-  stage.add(svoTest::ring(0.7, 0.9, 0.3, 0.9), 0.3, 0.6, 0.9);
+  stage.add(svotest::ball(0.7, -0.6, -0.2, 0.9), 0.9, 0.5, 0.3);
+  stage.add(svotest::ring(0.7, 0.9, 0.3, 0.9), 0.3, 0.6, 0.9);
   stage.addSun(2.0, -1.5, 4.0);
 }
 }
 
 int TestSVOTiledScreenshot(int, char*[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage big(450, 360);
   fill(big);

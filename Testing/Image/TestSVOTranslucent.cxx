@@ -6,7 +6,7 @@
 
 int TestSVOTranslucent(int argc, char* argv[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage stage;
   ShadowOracle oracle;

@@ -11,7 +11,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 /// Frame after frame another mesh in each renderer, and no memory to keep octrees in: those of one
 /// frame lie where those of the last one lay.
@@ -66,7 +66,7 @@ void expectOnePassIsEnough(Checks& checks)
 
 int TestSVOTwoRenderers(int argc, char* argv[])
 {
-  using namespace svoTest;
+  using namespace svotest;
   Checks checks;
   Stage left(500, 250);
   left.renderer->SetViewport(0.0, 0.0, 0.5, 1.0);

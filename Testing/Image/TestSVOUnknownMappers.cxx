@@ -24,7 +24,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 vtkSmartPointer<vtkMultiBlockDataSet> coloredBlocks()
 {

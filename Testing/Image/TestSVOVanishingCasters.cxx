@@ -13,7 +13,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 struct Scene
 {

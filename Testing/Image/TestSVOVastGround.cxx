@@ -16,7 +16,7 @@
 
 namespace
 {
-using namespace svoTest;
+using namespace svotest;
 
 vtkSmartPointer<vtkAlgorithm> bumpyGround(double half, int cells)
 {

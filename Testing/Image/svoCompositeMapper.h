@@ -6,13 +6,13 @@
 
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
 #include "vtkCompositePolyDataMapper.h"
-namespace svoTest
+namespace svotest
 {
 using CompositeMapper = vtkCompositePolyDataMapper;
 }
 #else
 #include "vtkCompositePolyDataMapper2.h"
-namespace svoTest
+namespace svotest
 {
 using CompositeMapper = vtkCompositePolyDataMapper2;
 }

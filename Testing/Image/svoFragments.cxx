@@ -11,7 +11,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h"
 
-namespace svoTest
+namespace svotest
 {
 std::vector<FourFloats> runFragments(vtkOpenGLRenderWindow* window, int size,
   const std::vector<std::vector<FourFloats>>& inputs, const std::string& declarations,

@@ -10,7 +10,7 @@
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
 
-namespace svoTest
+namespace svotest
 {
 using FourFloats = std::array<float, 4>;
 

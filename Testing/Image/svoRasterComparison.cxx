@@ -17,7 +17,7 @@
 #include <iostream>
 #include <vector>
 
-namespace svoTest
+namespace svotest
 {
 namespace
 {

@@ -9,7 +9,7 @@
 
 #include <string>
 
-namespace svoTest
+namespace svotest
 {
 /// About 2 wide and around the origin, where the camera and the lights expect it; with point
 /// normals, as Gouraud shading interpolates them.

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace svoTest
+namespace svotest
 {
 namespace
 {

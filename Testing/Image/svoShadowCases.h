@@ -10,7 +10,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace svoTest
+namespace svotest
 {
 /// A point in the eye's view coordinates, as fragments have it.
 struct ShadowCase

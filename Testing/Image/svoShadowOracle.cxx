@@ -19,7 +19,7 @@
 #include <iostream>
 #include <sstream>
 
-namespace svoTest
+namespace svotest
 {
 namespace
 {

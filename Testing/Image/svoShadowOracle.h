@@ -16,7 +16,7 @@ class vtkPolyData;
 class vtkRenderer;
 class vtkStaticCellLocator;
 
-namespace svoTest
+namespace svotest
 {
 /// How a shadowed picture stands against the judgement. Only pixels that are clear count: no edge
 /// and no shadow edge within the margin, no light that grazes the surface.

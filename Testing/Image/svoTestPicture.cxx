@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <iostream>
 
-namespace svoTest
+namespace svotest
 {
 double Picture::grey(std::size_t pixel) const
 {

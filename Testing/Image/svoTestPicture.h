@@ -7,7 +7,7 @@
 
 class vtkRenderWindow;
 
-namespace svoTest
+namespace svotest
 {
 /// What a window shows: rows from the bottom, as VTK has them.
 struct Picture

@@ -10,7 +10,7 @@
 #include "vtkSphereSource.h"
 #include "vtkSuperquadricSource.h"
 
-namespace svoTest
+namespace svotest
 {
 namespace
 {

@@ -14,7 +14,7 @@
 #include "vtkSVORenderPass.h"
 #include "vtkSmartPointer.h"
 
-namespace svoTest
+namespace svotest
 {
 /// A renderer with its pass, looking down at the origin from the side; z is up.
 class Stage

@@ -6,6 +6,7 @@
 #include "svoMorton.h"
 #include "svoOctree.h"
 #include "svoRay.h"
+#include "svoTestMesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,17 +22,6 @@
 
 namespace svotest
 {
-struct Mesh
-{
-  std::vector<glm::dvec3> points;
-  std::vector<glm::uvec3> triangles;
-
-  svo::TriangleMesh view() const
-  {
-    return { points.data(), points.size(), triangles.data(), triangles.size() };
-  }
-};
-
 constexpr double Pi = 3.14159265358979323846;
 
 /// A closed grid of `rows` x `columns` quads wrapped both ways, placed by f(u, v), u, v in [0, 1).

@@ -70,7 +70,7 @@ void SceneCollector::complainOnce(vtkObject* about, const std::string& text, con
     }
     return;
   }
-  const auto [said, isNew] = this->Said.try_emplace({ about, text }, about);
+  const auto [said, isNew] = this->GivenMessages.try_emplace({ about, text }, about);
   if (isNew || said->second != about) // another one is in its place now
   {
     said->second = about;
@@ -390,9 +390,9 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   {
     addProp(prop, result);
   }
-  for (auto said = this->Said.begin(); said != this->Said.end();)
+  for (auto said = this->GivenMessages.begin(); said != this->GivenMessages.end();)
   {
-    said = said->second ? std::next(said) : this->Said.erase(said);
+    said = said->second ? std::next(said) : this->GivenMessages.erase(said);
   }
   this->Surfaces.endFrame();
   this->Floats.endFrame();

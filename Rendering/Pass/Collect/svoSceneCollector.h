@@ -86,7 +86,8 @@ private:
   DataSetSurfaces Surfaces;
   OpaqueCells Opaque;
   FloatArrays Floats;
-  std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>> Said; // by object
+  std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>>
+    GivenMessages; // by object
 };
 }
 

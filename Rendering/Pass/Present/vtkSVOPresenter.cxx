@@ -53,7 +53,7 @@ void vtkSVOPresenter::ReleaseGraphicsResources(vtkWindow* window)
   this->Uploaded = false;
   if (window)
   {
-    this->Nobody->ReleaseGraphicsResources(window);
+    this->QuadMapper->ReleaseGraphicsResources(window);
     this->Superclass::ReleaseGraphicsResources(window);
   }
 }
@@ -197,7 +197,7 @@ void vtkSVOPresenter::SelectDrawBuffers()
     {
       if (pass != this->Pass)
       {
-        pass->SetShaderParameters(this->Quad->Program, this->Nobody, this, nullptr);
+        pass->SetShaderParameters(this->Quad->Program, this->QuadMapper, this, nullptr);
       }
     });
 }

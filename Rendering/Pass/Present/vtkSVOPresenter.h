@@ -95,7 +95,7 @@ private:
   vtkSmartPointer<vtkTextureObject> Normals;
   vtkSmartPointer<vtkTextureObject> Light;
   /// The mapper that other passes are given when they set up the quad's shader.
-  vtkNew<vtkOpenGLPolyDataMapper> Nobody;
+  vtkNew<vtkOpenGLPolyDataMapper> QuadMapper;
 };
 
 /**

@@ -8,7 +8,7 @@ namespace svo
 void LayeredView::release()
 {
   this->Layers.clear();
-  this->Began = false;
+  this->HasFrame = false;
   this->MergedWhole = false;
 }
 
@@ -28,9 +28,9 @@ bool LayeredView::begin(const Scene& scene, const View& view,
     this->Geometries.push_back(instance.leafGeometry);
     this->Offsets.push_back(instance.depthOffsetUnits);
   }
-  this->Layers.begin(keep, this->Began && !sameRays(view, this->Of), budget);
-  this->Of = view;
-  this->Began = keep;
+  this->Layers.begin(keep, this->HasFrame && !sameRays(view, this->Seen), budget);
+  this->Seen = view;
+  this->HasFrame = keep;
   for (VisibleInstance& visible : findVisible(scene, view, takesPart, levelOf))
   {
     const std::uint32_t i = visible.index;
@@ -52,7 +52,7 @@ bool LayeredView::begin(const Scene& scene, const View& view,
 bool LayeredView::isMerged(const std::uint8_t* wanted)
 {
   const std::size_t tiles =
-    static_cast<std::size_t>((this->Of.width + 7) / 8) * ((this->Of.height + 7) / 8);
+    static_cast<std::size_t>((this->Seen.width + 7) / 8) * ((this->Seen.height + 7) / 8);
   const bool whole =
     !wanted || std::all_of(wanted, wanted + tiles, [](std::uint8_t w) { return w != 0; });
   bool kept = true;
@@ -62,10 +62,10 @@ bool LayeredView::isMerged(const std::uint8_t* wanted)
     kept = kept && entry.layer;
     parts.push_back({ entry.index, entry.key, this->Offsets[entry.index] });
   }
-  const bool same = kept && whole && this->MergedWhole && sameRays(this->Of, this->MergedView) &&
+  const bool same = kept && whole && this->MergedWhole && sameRays(this->Seen, this->MergedView) &&
     parts == this->MergedParts;
   this->MergedWhole = whole;
-  this->MergedView = this->Of;
+  this->MergedView = this->Seen;
   this->MergedParts = std::move(parts);
   return same;
 }
@@ -74,7 +74,7 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
 {
   this->Rays = 0;
   this->Retraced = 0;
-  PixelRect all{ this->Of.width, this->Of.height, 0, 0 };
+  PixelRect all{ this->Seen.width, this->Seen.height, 0, 0 };
   for (const Entry& entry : this->Instances)
   {
     const PixelRect& r = entry.local.rect;
@@ -86,7 +86,7 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
     TileIntervals& intervals = entry.layer ? entry.layer->intervals : entry.intervals;
     if (!entry.tiles && intervals.tNear.empty())
     {
-      computeTileIntervals(*entry.octree, entry.key.localToWorld, this->Of, entry.local.rect,
+      computeTileIntervals(*entry.octree, entry.key.localToWorld, this->Seen, entry.local.rect,
         { entry.key.leafGeometry, entry.key.level }, entry.local.base, parallelFor, intervals);
     }
   }
@@ -95,7 +95,7 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
   {
     return;
   }
-  this->Merged.resize(this->Of.width, this->Of.height);
+  this->Merged.resize(this->Seen.width, this->Seen.height);
   if (all.empty())
   {
     return;

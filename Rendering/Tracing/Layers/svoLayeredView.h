@@ -118,7 +118,7 @@ private:
   /// By what it is decided who is in front: an instance's linear depth, but where offsets differ.
   double rank(std::uint32_t instance, double linearDepth) const
   {
-    return this->Shifted ? this->Of.windowDepth(linearDepth) + this->Offsets[instance]
+    return this->Shifted ? this->Seen.windowDepth(linearDepth) + this->Offsets[instance]
                          : linearDepth;
   }
   void merge(
@@ -128,8 +128,8 @@ private:
   bool isMerged(const std::uint8_t* wanted);
 
   const bool Exact;
-  View Of;
-  bool Began = false; // Of and Layers are those of a frame that keeps layers
+  View Seen;
+  bool HasFrame = false; // Seen and Layers are those of a frame that keeps layers
   std::vector<Entry> Instances;
   std::vector<double> Bases;
   std::vector<double> Offsets; // of window depths

@@ -25,8 +25,8 @@ bool LayeredView::findNodes(int tileX, int tileY, TileEntry& candidate) const
   {
     candidate.groupX = groupX;
     candidate.groupY = groupY;
-    const TilePyramid all =
-      makePyramid(entry.projection, this->Of, GroupTiles * groupX, GroupTiles * groupY, GroupTiles);
+    const TilePyramid all = makePyramid(
+      entry.projection, this->Seen, GroupTiles * groupX, GroupTiles * groupY, GroupTiles);
     candidate.groupFound = candidate.group.find(
       *entry.octree, all, candidate.tNear, candidate.tFar, GroupTiles * MostTileNodes);
   }
@@ -53,14 +53,14 @@ bool LayeredView::meets(int tileX, int tileY, TileEntry& candidate) const
     const TileIntervals& all = entry.layer ? entry.layer->intervals : entry.intervals;
     const std::size_t i = all.index(tileX, tileY);
     // Planes may be met a cell before the cube, but not before the near plane.
-    candidate.tNear =
-      std::max(all.tNear[i], static_cast<float>(std::min(this->Of.tNear - entry.local.base, 0.0)));
+    candidate.tNear = std::max(
+      all.tNear[i], static_cast<float>(std::min(this->Seen.tNear - entry.local.base, 0.0)));
     candidate.tFar = std::min(all.tFar[i], entry.local.tMax);
     return candidate.tNear <= candidate.tFar;
   }
   candidate.tNear = 0.0f;
   candidate.tFar = entry.local.tMax;
-  candidate.pyramid = makePyramid(entry.projection, this->Of, tileX, tileY);
+  candidate.pyramid = makePyramid(entry.projection, this->Seen, tileX, tileY);
   if (!this->findNodes(tileX, tileY, candidate))
   {
     candidate.nodes.clear();
@@ -166,7 +166,7 @@ bool LayeredView::cutRays(
       if (this->Shifted)
       {
         cut =
-          this->Of.linearDepth(this->rank(merged.instance[i], cut) - this->Offsets[entry.index]);
+          this->Seen.linearDepth(this->rank(merged.instance[i], cut) - this->Offsets[entry.index]);
       }
       cut -= entry.local.base;
       if (entry.cuttable || cut < candidate.tNear)

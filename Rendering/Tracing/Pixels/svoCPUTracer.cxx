@@ -67,12 +67,12 @@ struct CPUTracer::Internals
   FrameStatistics Statistics;
   std::vector<ShadowMap> Maps;
   LayeredView Eye;
-  Shadows Dark;
+  Shadows LightShadows;
   Scene AsLightsSee; // where that is not the frame's scene; for the length of a frame
   FrameTiles Tiles;
   PixelShader Shader;
-  bool Shared = false;     // shadow buffers are traced, for all processes
-  double SharedTime = 0.0; // s, that took
+  bool SharesBuffers = false; // shadow buffers are traced, for all processes
+  double SharingTime = 0.0;   // s, that took
 
   const Scene& sceneOfLights(const Scene& scene, ShadowTechnique technique);
   void markLightTiles(const Scene& scene, const View& view, const ParallelFor& parallelFor);
@@ -102,7 +102,7 @@ const Scene& CPUTracer::Internals::sceneOfLights(const Scene& scene, ShadowTechn
 void CPUTracer::Internals::markLightTiles(
   const Scene& scene, const View& view, const ParallelFor& parallelFor)
 {
-  if (!this->Dark.wantsMarks())
+  if (!this->LightShadows.wantsMarks())
   {
     return;
   }
@@ -115,7 +115,7 @@ void CPUTracer::Internals::markLightTiles(
       if (takePoints(this->Eye.depthBuffer(), view, tileX, tileY, receives, baseOf, points))
       {
         placePoints(view, points);
-        this->Dark.mark(points);
+        this->LightShadows.mark(points);
       }
     });
 }
@@ -149,7 +149,8 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   self.Statistics = FrameStatistics();
   self.Maps.clear();
 
-  LayerBudget budget{ settings.layerMemoryLimit, self.Eye.layerMemory() + self.Dark.layerMemory() };
+  LayerBudget budget{ settings.layerMemoryLimit,
+    self.Eye.layerMemory() + self.LightShadows.layerMemory() };
 
   // Depth layers of the eye, merged.
   self.Eye.begin(
@@ -162,29 +163,30 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
 
   // What visible points will look up of the lights.
   self.Shader.begin(scene, settings.shadowTechnique, self.Eye);
-  const bool shared = self.Shared && settings.shadowTechnique == ShadowTechnique::Buffer;
+  const bool shared = self.SharesBuffers && settings.shadowTechnique == ShadowTechnique::Buffer;
   if (!shared)
   {
-    self.Dark.begin(self.sceneOfLights(scene, settings.shadowTechnique), view, settings, budget);
+    self.LightShadows.begin(
+      self.sceneOfLights(scene, settings.shadowTechnique), view, settings, budget);
     self.markLightTiles(scene, view, parallelFor);
   }
-  self.Dark.beginRays(scene, settings, self.Eye);
+  self.LightShadows.beginRays(scene, settings, self.Eye);
 
   // Shadow layers, merged likewise.
   const double shadowStart = now();
   if (!shared)
   {
-    self.Dark.trace(parallelFor);
+    self.LightShadows.trace(parallelFor);
   }
   if (settings.wholeShadowBuffers)
   {
-    self.Dark.copyMaps(self.Maps);
+    self.LightShadows.copyMaps(self.Maps);
   }
   double shadowTime = now() - shadowStart;
 
   // Shade and test.
   const double shadeStart = now();
-  const ShadedScene shaded{ scene, view, settings, self.Eye, self.Tiles, self.Dark };
+  const ShadedScene shaded{ scene, view, settings, self.Eye, self.Tiles, self.LightShadows };
   self.Shader.shade(shaded, parallelFor, frame, self.Statistics);
   if (settings.antiAliasing)
   {
@@ -197,16 +199,16 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
 
   self.AsLightsSee = Scene();
   FrameStatistics& statistics = self.Statistics;
-  self.Dark.addStatistics(statistics);
+  self.LightShadows.addStatistics(statistics);
   statistics.primaryRays += self.Eye.rays();
   statistics.retracedLayers += self.Eye.retracedLayers();
   statistics.coarsestVoxel = coarsestVoxel(scene, view);
   statistics.largestGap = largestGap(scene, view);
-  statistics.layerMemory = self.Eye.layerMemory() + self.Dark.layerMemory();
-  statistics.shadowTime = shadowTime + self.SharedTime;
+  statistics.layerMemory = self.Eye.layerMemory() + self.LightShadows.layerMemory();
+  statistics.shadowTime = shadowTime + self.SharingTime;
   statistics.traceTime = now() - start - shadowTime;
-  self.Shared = false;
-  self.SharedTime = 0.0;
+  self.SharesBuffers = false;
+  self.SharingTime = 0.0;
 }
 
 bool CPUTracer::shareShadows(const Scene& scene, const View& view, const FrameSettings& settings,
@@ -214,11 +216,13 @@ bool CPUTracer::shareShadows(const Scene& scene, const View& view, const FrameSe
 {
   Internals& self = *this->Impl;
   const double start = now();
-  LayerBudget budget{ settings.layerMemoryLimit, self.Eye.layerMemory() + self.Dark.layerMemory() };
-  self.Shared = self.Dark.traceShared(self.sceneOfLights(scene, settings.shadowTechnique), view,
-    settings, budget, parallelFor, processes);
-  self.SharedTime = now() - start;
-  return self.Shared;
+  LayerBudget budget{ settings.layerMemoryLimit,
+    self.Eye.layerMemory() + self.LightShadows.layerMemory() };
+  self.SharesBuffers =
+    self.LightShadows.traceShared(self.sceneOfLights(scene, settings.shadowTechnique), view,
+      settings, budget, parallelFor, processes);
+  self.SharingTime = now() - start;
+  return self.SharesBuffers;
 }
 
 void CPUTracer::divideEdges(const Scene& scene, const View& view, const Frame& frame,
@@ -226,8 +230,8 @@ void CPUTracer::divideEdges(const Scene& scene, const View& view, const Frame& f
   Silhouettes& result) const
 {
   const Internals& self = *this->Impl;
-  findSilhouettes({ scene, view, self.Settings, self.Eye, self.Tiles, self.Dark }, self.Shader,
-    frame, positions, parallelFor, result);
+  findSilhouettes({ scene, view, self.Settings, self.Eye, self.Tiles, self.LightShadows },
+    self.Shader, frame, positions, parallelFor, result);
 }
 
 const FrameStatistics& CPUTracer::statistics() const
@@ -243,7 +247,7 @@ const std::vector<ShadowMap>& CPUTracer::shadowMaps() const
 void CPUTracer::releaseLayers()
 {
   this->Impl->Eye.release();
-  this->Impl->Dark.release();
-  this->Impl->Shared = false;
+  this->Impl->LightShadows.release();
+  this->Impl->SharesBuffers = false;
 }
 }

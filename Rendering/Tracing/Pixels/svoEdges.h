@@ -56,7 +56,7 @@ public:
     : Depth(depth)
     , Eye(eye)
     , Dark(darkness)
-    , Of(view)
+    , EyeView(view)
   {
   }
 
@@ -68,8 +68,8 @@ public:
     {
       const int x = 8 * tileX + (k & 7);
       const int y = 8 * tileY + (k >> 3);
-      if (x < this->Of.width && y < this->Of.height && this->instance(x, y) != NoInstance &&
-        (this->edge(x, y, 1, 0) || this->edge(x, y, 0, 1)))
+      if (x < this->EyeView.width && y < this->EyeView.height &&
+        this->instance(x, y) != NoInstance && (this->edge(x, y, 1, 0) || this->edge(x, y, 0, 1)))
       {
         pixels[count++] = k;
       }
@@ -80,7 +80,7 @@ public:
 private:
   std::uint32_t instance(int x, int y) const
   {
-    if (x < 0 || y < 0 || x >= this->Of.width || y >= this->Of.height)
+    if (x < 0 || y < 0 || x >= this->EyeView.width || y >= this->EyeView.height)
     {
       return NoInstance;
     }
@@ -107,13 +107,13 @@ private:
     // One surface bends little between pixels; a step is of more than a few pixels' size.
     const double bend =
       std::abs(double(this->Depth.t[before]) - 2.0 * this->Depth.t[at] + this->Depth.t[after]);
-    return bend > 3.0 * worldPixel(this->Of, this->Eye.base(i) + this->Depth.t[at]);
+    return bend > 3.0 * worldPixel(this->EyeView, this->Eye.base(i) + this->Depth.t[at]);
   }
 
   const DepthBuffer& Depth;
   const LayeredView& Eye;
   const std::vector<Darkness>& Dark;
-  const View& Of;
+  const View& EyeView;
 };
 }
 

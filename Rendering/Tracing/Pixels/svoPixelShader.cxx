@@ -21,7 +21,7 @@ void PixelShader::begin(const Scene& scene, ShadowTechnique technique, const Lay
     const int level = eye.level(static_cast<std::uint32_t>(i));
     const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(i));
     const bool placed = eye.placed(static_cast<std::uint32_t>(i));
-    this->Frames.push_back(instance.octree ? SurfaceFrame(instance) : SurfaceFrame());
+    this->Frames.push_back(instance.octree ? SurfaceMatrices(instance) : SurfaceMatrices());
     this->Smooth.push_back(instance.octree && isSmooth(instance));
     this->Errors.push_back(!instance.octree  ? 0.0
         : technique == ShadowTechnique::Rays ? worldLeafError(instance, geometry, level, placed)
@@ -39,7 +39,7 @@ void PixelShader::shadowTerminator(
   const TilePoints& p = scratch.points;
   const Light& light = *lit.lighting.lights[l].light;
   const Shadows& dark = lit.shaded.dark;
-  const SurfaceFrame& frame = this->Frames[p.instance[first]];
+  const SurfaceMatrices& frame = this->Frames[p.instance[first]];
   std::uint8_t turned[TilePoints::Room];
   if (!this->Smooth[p.instance[first]] || !dark.knowsTerminator(l) ||
     !mayTurnAway(

@@ -88,7 +88,7 @@ private:
   void write(const Lit& lit, int tileX, int tileY, const Scratch& scratch, Frame& frame);
 
   // By index into Scene::instances.
-  std::vector<SurfaceFrame> Frames;
+  std::vector<SurfaceMatrices> Frames;
   std::vector<std::uint8_t> Smooth; // isSmooth()
   std::vector<double> Errors;       // world; of the instance's leaves as the eye sees them
   bool FindsEdges = false;

@@ -78,7 +78,7 @@ public:
     const std::vector<glm::vec2>& positions)
     : Lit(shaded)
     , Shader(shader)
-    , Of(shaded.view)
+    , EyeView(shaded.view)
     , Picture(frame)
     , Positions(positions)
     , SampleCount(std::min(static_cast<int>(positions.size()), MostSamples))
@@ -104,10 +104,13 @@ public:
   }
 
 private:
-  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * this->Of.width + x; }
+  std::size_t at(int x, int y) const
+  {
+    return static_cast<std::size_t>(y) * this->EyeView.width + x;
+  }
   bool inside(int x, int y) const
   {
-    return x >= 0 && y >= 0 && x < this->Of.width && y < this->Of.height;
+    return x >= 0 && y >= 0 && x < this->EyeView.width && y < this->EyeView.height;
   }
   std::uint32_t instance(int x, int y) const
   {
@@ -117,9 +120,9 @@ private:
   void findPixels(int x0, int y0, TileScratch& scratch) const
   {
     scratch.pixels.clear();
-    for (int y = y0; y < std::min(y0 + 8, this->Of.height); ++y)
+    for (int y = y0; y < std::min(y0 + 8, this->EyeView.height); ++y)
     {
-      for (int x = x0; x < std::min(x0 + 8, this->Of.width); ++x)
+      for (int x = x0; x < std::min(x0 + 8, this->EyeView.width); ++x)
       {
         if (this->edge(x, y))
         {
@@ -145,7 +148,7 @@ private:
   bool step(int x, int y) const
   {
     const float* depth = this->Picture.depth.data() + this->at(x, y);
-    const int up = this->Of.width;
+    const int up = this->EyeView.width;
     const float limit = 3.0f * this->Width(*depth);
     return std::abs(depth[-1] - 2.0f * depth[0] + depth[1]) > limit ||
       std::abs(depth[-up] - 2.0f * depth[0] + depth[up]) > limit;
@@ -156,7 +159,7 @@ private:
   {
     constexpr int Most = 4; // grey levels
     const Primitive* primitive = this->Picture.primitive.data() + this->at(x, y);
-    const std::ptrdiff_t up = this->Of.width;
+    const std::ptrdiff_t up = this->EyeView.width;
     if (primitive[-1] == *primitive && primitive[1] == *primitive && primitive[-up] == *primitive &&
       primitive[up] == *primitive)
     {
@@ -202,7 +205,7 @@ private:
   }
 
   /// From linear depth to what is affine on a plane, and back: so means stay on the triangle.
-  double flat(double t) const { return this->Of.parallel ? t : 1.0 / t; }
+  double flat(double t) const { return this->EyeView.parallel ? t : 1.0 / t; }
 
   void findFacets(TileScratch& scratch) const
   {
@@ -301,13 +304,14 @@ private:
 
   glm::dvec3 position(const Facet& facet) const
   {
-    return this->Of.rayOrigin(facet.x, facet.y) + facet.t * this->Of.rayDirection(facet.x, facet.y);
+    return this->EyeView.rayOrigin(facet.x, facet.y) +
+      facet.t * this->EyeView.rayDirection(facet.x, facet.y);
   }
 
   float windowDepth(const Facet& facet) const
   {
     const double offset = this->Lit.shaded.scene.instances[facet.instance].depthOffsetUnits;
-    return static_cast<float>(std::clamp(this->Of.windowDepth(facet.t) + offset, 0.0, 1.0));
+    return static_cast<float>(std::clamp(this->EyeView.windowDepth(facet.t) + offset, 0.0, 1.0));
   }
 
   /// The pixel in or around this one that shows the facet's instance nearest to its depth.
@@ -410,7 +414,7 @@ private:
 
   PixelShader::Lit Lit;
   const PixelShader& Shader;
-  const View& Of;
+  const View& EyeView;
   const Frame& Picture;
   const std::vector<glm::vec2>& Positions;
   int SampleCount;

@@ -2,7 +2,7 @@
 
 namespace svo
 {
-void turnAsShaders(const SurfaceFrame& frame, const View& view, SurfacePoint& point)
+void turnAsShaders(const SurfaceMatrices& frame, const View& view, SurfacePoint& point)
 {
   const Attributes& attributes = frame.instance->attributes;
   bool other = view.mirrored;

@@ -27,10 +27,10 @@ struct SurfacePoint
 };
 
 /// Matrices that all points of an instance share.
-struct SurfaceFrame
+struct SurfaceMatrices
 {
-  SurfaceFrame() = default; // of an instance without an octree, which is never seen
-  explicit SurfaceFrame(const Instance& i)
+  SurfaceMatrices() = default; // of an instance without an octree, which is never seen
+  explicit SurfaceMatrices(const Instance& i)
     : instance(&i)
     , toOctree(i.octree, i.localToWorld)
   {
@@ -68,7 +68,7 @@ inline glm::vec3 normalized(const glm::vec3& v, const glm::vec3& otherwise)
 }
 
 /// The triangle of a node; see pickTriangle(). `position` and `towards`, to the viewer: world.
-inline NodeTriangle pickTriangle(const SurfaceFrame& frame, std::uint32_t node,
+inline NodeTriangle pickTriangle(const SurfaceMatrices& frame, std::uint32_t node,
   const glm::dvec3& position, const glm::vec3& towards)
 {
   return pickTriangle(frame.instance->octree, node, frame.toOctree.point(position),
@@ -78,7 +78,7 @@ inline NodeTriangle pickTriangle(const SurfaceFrame& frame, std::uint32_t node,
 }
 
 /// A point of a triangle, with the attributes that the triangle has at `at`, octree coordinates.
-inline SurfacePoint pointOfTriangle(const SurfaceFrame& frame, const glm::dvec3& position,
+inline SurfacePoint pointOfTriangle(const SurfaceMatrices& frame, const glm::dvec3& position,
   const glm::vec3& towards, Primitive primitive, const glm::dvec3& at)
 {
   const Instance& instance = *frame.instance;
@@ -152,11 +152,11 @@ inline SurfacePoint pointOfTriangle(const SurfaceFrame& frame, const glm::dvec3&
 /// the rule for others calls the front of a mirrored picture its back. Only for views that are not
 /// plain, and not for points without a surface.
 VTKSVOTRACING_EXPORT void turnAsShaders(
-  const SurfaceFrame& frame, const View& view, SurfacePoint& point);
+  const SurfaceMatrices& frame, const View& view, SurfacePoint& point);
 
 /// The triangle of a hit at `position`, and where on it to interpolate; `towards`, to the viewer:
 /// world. The octree has a surface.
-inline NodeTriangle triangleOfHit(const SurfaceFrame& frame, const glm::dvec3& position,
+inline NodeTriangle triangleOfHit(const SurfaceMatrices& frame, const glm::dvec3& position,
   const glm::vec3& towards, Primitive primitive)
 {
   if (!(primitive & NodePrimitive))
@@ -175,7 +175,7 @@ inline NodeTriangle triangleOfHit(const SurfaceFrame& frame, const glm::dvec3& p
 
 /// `t` is the linear depth of the hit on the ray of pixel (x, y).
 inline SurfacePoint surfacePoint(
-  const SurfaceFrame& frame, const View& view, double x, double y, double t, Primitive primitive)
+  const SurfaceMatrices& frame, const View& view, double x, double y, double t, Primitive primitive)
 {
   const glm::dvec3 ray = view.rayDirection(x, y);
   const glm::dvec3 position = view.rayOrigin(x, y) + t * ray;

@@ -5,7 +5,7 @@
 namespace svo
 {
 void lookAtNodes(
-  const SurfaceFrame& frame, const View& view, int firstRun, int lastRun, TilePoints& p)
+  const SurfaceMatrices& frame, const View& view, int firstRun, int lastRun, TilePoints& p)
 {
   NodeTriangle picked[TilePoints::Most];
   NodeTriangle* doubtful[TilePoints::Most];

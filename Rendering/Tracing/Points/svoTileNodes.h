@@ -12,7 +12,7 @@ namespace svo
 /// Sets facets, normals and colours of the runs on nodes among runs [firstRun, lastRun), which are
 /// of one instance; its octree has a surface, and the points are placed.
 void lookAtNodes(
-  const SurfaceFrame& frame, const View& view, int firstRun, int lastRun, TilePoints& points);
+  const SurfaceMatrices& frame, const View& view, int firstRun, int lastRun, TilePoints& points);
 }
 
 #endif

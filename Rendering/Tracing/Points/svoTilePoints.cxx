@@ -246,7 +246,7 @@ void pad(TilePoints& p)
 }
 
 /// One by one, whatever they are.
-void lookAtEach(const SurfaceFrame& frame, const View& view, TilePoints::Run& run, TilePoints& p)
+void lookAtEach(const SurfaceMatrices& frame, const View& view, TilePoints::Run& run, TilePoints& p)
 {
   for (int i = run.first; i < run.last; ++i)
   {
@@ -257,7 +257,8 @@ void lookAtEach(const SurfaceFrame& frame, const View& view, TilePoints::Run& ru
 }
 
 /// turnAsShaders() of all points.
-void turnRun(const SurfaceFrame& frame, const View& view, const TilePoints::Run& run, TilePoints& p)
+void turnRun(
+  const SurfaceMatrices& frame, const View& view, const TilePoints::Run& run, TilePoints& p)
 {
   for (int i = run.first; !view.plain && i < run.last; ++i)
   {
@@ -279,7 +280,7 @@ void setColor(TilePoints& p, int i, const glm::vec3& color)
   p.colorB[i] = color.b;
 }
 
-void lookAtRun(const SurfaceFrame& frame, const View& view, TilePoints::Run& run, TilePoints& p)
+void lookAtRun(const SurfaceMatrices& frame, const View& view, TilePoints::Run& run, TilePoints& p)
 {
   const Instance& instance = *frame.instance;
   const Attributes& attributes = instance.attributes;
@@ -389,14 +390,14 @@ void placePoints(const View& view, TilePoints& points)
   HWY_DYNAMIC_DISPATCH(place)(view, points);
 }
 
-void lookAtPoints(const std::vector<SurfaceFrame>& frames, const View& view, TilePoints& points)
+void lookAtPoints(const std::vector<SurfaceMatrices>& frames, const View& view, TilePoints& points)
 {
   makeRuns(points);
   placePoints(view, points);
   for (int k = 0; k < points.runCount;)
   {
     const std::uint32_t instance = points.runs[k].instance;
-    const SurfaceFrame& frame = frames[instance];
+    const SurfaceMatrices& frame = frames[instance];
     const int first = k;
     bool nodes = false;
     for (; k < points.runCount && points.runs[k].instance == instance; ++k)

@@ -111,7 +111,7 @@ void placePoints(const View& view, TilePoints& points);
 
 /// Brings the points of one triangle together and sets facets, normals and colours. `frames` by
 /// index of the instance.
-void lookAtPoints(const std::vector<SurfaceFrame>& frames, const View& view, TilePoints& points);
+void lookAtPoints(const std::vector<SurfaceMatrices>& frames, const View& view, TilePoints& points);
 }
 
 #endif

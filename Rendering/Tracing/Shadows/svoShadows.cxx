@@ -24,8 +24,8 @@ void Shadows::begin(
 {
   this->Filters = canFilter(settings);
   // Subsamples of a pixel, and filters, may look up what no pixel's centre does.
-  this->All = settings.wholeShadowBuffers || settings.antiAliasing || this->Filters;
-  this->Shared.clear();
+  this->TracesWhole = settings.wholeShadowBuffers || settings.antiAliasing || this->Filters;
+  this->SharedState.clear();
   std::vector<LightMaps> maps(scene.lights.size());
   if (usesBuffers(settings))
   {
@@ -36,10 +36,10 @@ void Shadows::begin(
 
 void Shadows::beginRays(const Scene& scene, const FrameSettings& settings, const LayeredView& eye)
 {
-  this->Of = &scene;
-  this->Exact = settings.shadowTechnique == ShadowTechnique::Rays;
+  this->Tested = &scene;
+  this->UsesRays = settings.shadowTechnique == ShadowTechnique::Rays;
   this->Rays.reset();
-  if (this->Exact ||
+  if (this->UsesRays ||
     (this->Casting && std::any_of(scene.instances.begin(), scene.instances.end(), isSmooth)))
   {
     this->Rays = std::make_unique<ShadowRays>(scene, eye);
@@ -51,7 +51,7 @@ void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
   LayerBudget& budget)
 {
   this->CoarsestTexel = 0.0;
-  this->Fewer = false;
+  this->HasFewerTexels = false;
   this->Traced = true;
   this->Buffers.assign(lights.size(), nullptr);
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> kept;
@@ -73,10 +73,10 @@ void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
       found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
     buffer->begin(scene, maps[i], first, settings, budget);
     this->CoarsestTexel = std::max(this->CoarsestTexel, maps[i].coarsest);
-    this->Fewer = this->Fewer ||
+    this->HasFewerTexels = this->HasFewerTexels ||
       (!maps[i].views.empty() && maps[i].views.front().width < settings.shadowResolution);
     this->Buffers[i] = buffer.get();
-    if (this->All)
+    if (this->TracesWhole)
     {
       buffer->markAll();
     }
@@ -89,12 +89,12 @@ void Shadows::release()
 {
   this->Kept.clear();
   this->Buffers.clear();
-  this->Shared.clear();
+  this->SharedState.clear();
 }
 
 void Shadows::mark(const TilePoints& points)
 {
-  if (!this->All)
+  if (!this->TracesWhole)
   {
     for (ShadowBuffer* buffer : this->Buffers)
     {
@@ -119,7 +119,7 @@ void Shadows::trace(const ParallelFor& parallelFor)
 
 bool Shadows::knows(const glm::dvec3& position) const
 {
-  return this->All ||
+  return this->TracesWhole ||
     std::all_of(this->Buffers.begin(), this->Buffers.end(),
       [&](const ShadowBuffer* buffer) { return !buffer || buffer->knows(position); });
 }
@@ -127,9 +127,9 @@ bool Shadows::knows(const glm::dvec3& position) const
 bool Shadows::dark(
   std::size_t light, const SurfacePoint& point, double error, std::uint64_t& rays) const
 {
-  if (this->Exact)
+  if (this->UsesRays)
   {
-    const Light& source = this->Of->lights[light];
+    const Light& source = this->Tested->lights[light];
     rays += source.castShadow;
     return source.castShadow && this->Rays->shadows(source, point.position, point.facet, error);
   }
@@ -139,7 +139,7 @@ bool Shadows::dark(
 void Shadows::dark(std::size_t light, const TilePoints& points, int first, int last, double error,
   const std::uint8_t* asked, std::uint8_t* dark, std::uint64_t& rays) const
 {
-  if (this->Buffers[light] && !this->Exact)
+  if (this->Buffers[light] && !this->UsesRays)
   {
     this->Buffers[light]->shadows(points, first, last, error, asked, dark);
     return;
@@ -176,9 +176,9 @@ float Shadows::darkness(std::size_t light, const SurfacePoint& on, const Termina
   {
     return 1.0f;
   }
-  const ShadowBuffer* buffer = this->Exact ? nullptr : this->Buffers[light];
+  const ShadowBuffer* buffer = this->UsesRays ? nullptr : this->Buffers[light];
   const glm::dvec3& raised = at.point.position;
-  const Light& source = this->Of->lights[light];
+  const Light& source = this->Tested->lights[light];
   const glm::dvec3 start = ShadowRays::start(source, raised, at.point.facet, error);
   if (at.kind == TerminatorPoint::Kind::Doubted)
   {
@@ -223,7 +223,7 @@ std::size_t Shadows::layerMemory() const
 void Shadows::addStatistics(FrameStatistics& statistics) const
 {
   statistics.coarsestTexel = this->CoarsestTexel;
-  statistics.fewerTexels = this->Fewer;
+  statistics.fewerTexels = this->HasFewerTexels;
   for (const ShadowBuffer* buffer : this->Buffers)
   {
     if (buffer && this->Traced)

@@ -44,7 +44,7 @@ public:
   /// that only unlit sides look up are few. Thread-safe.
   void mark(const TilePoints& points);
   /// True if mark() does anything.
-  bool wantsMarks() const { return !this->All && this->Casting; }
+  bool wantsMarks() const { return !this->TracesWhole && this->Casting; }
 
   void trace(const ParallelFor& parallelFor);
 
@@ -75,11 +75,11 @@ public:
   /// or points are compared with a shadow map without the automatic bias.
   bool knowsTerminator(std::size_t light) const
   {
-    return this->Exact ? this->Of->lights[light].castShadow
-                       : this->Buffers[light] && this->Buffers[light]->automaticBias();
+    return this->UsesRays ? this->Tested->lights[light].castShadow
+                          : this->Buffers[light] && this->Buffers[light]->automaticBias();
   }
   /// The `grazing` of atTerminator(): rays need no margin.
-  double grazing() const { return this->Exact ? 0.0 : 1.0 / GrazingReach; }
+  double grazing() const { return this->UsesRays ? 0.0 : 1.0 / GrazingReach; }
   /// `at` is not plain; `plain`: the answer of the point `on` the mesh. A raised point is lit if
   /// the way from the one on the mesh to it and on to the light is free; the first part is not
   /// looked at where it is shorter than a texel. A doubted one has to be lit by rays as well.
@@ -99,18 +99,18 @@ private:
     const std::vector<LightMaps>& maps, std::size_t first, const FrameSettings& settings,
     LayerBudget& budget);
 
-  const Scene* Of = nullptr; // the frame's
-  bool Exact = false;        // rays; buffers are for others
-  bool All = false;          // every tile is traced
-  bool Casting = false;      // there are buffers
+  const Scene* Tested = nullptr; // the frame's
+  bool UsesRays = false;         // rays; buffers are for others
+  bool TracesWhole = false;      // every tile is traced
+  bool Casting = false;          // there are buffers
   bool Filters = false;
   std::vector<ShadowBuffer*> Buffers; // by index into Scene::lights; null: no buffer
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> Kept; // by Light::id
   std::unique_ptr<ShadowRays> Rays;
-  std::vector<unsigned char> Shared; // inputs of the shared buffers in Kept; empty: not shared
-  bool Traced = false;               // buffers were, in this frame
-  bool Fewer = false;                // texels than were asked for, by all processes alike
-  double CoarsestTexel = 0.0;        // LightMaps::coarsest, of all lights
+  std::vector<unsigned char> SharedState; // inputs of the shared buffers in Kept; empty: not shared
+  bool Traced = false;                    // buffers were, in this frame
+  bool HasFewerTexels = false;            // texels than were asked for, by all processes alike
+  double CoarsestTexel = 0.0;             // LightMaps::coarsest, of all lights
 };
 }
 

@@ -61,7 +61,7 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
   std::vector<SharedSettings> settingsOfAll;
   SharedSettings mine = settingsOf(own, eye);
   mine.lights = static_cast<std::int32_t>(scene.lights.size());
-  mine.canKeep = own.frameCoherence && !this->Shared.empty();
+  mine.canKeep = own.frameCoherence && !this->SharedState.empty();
   gatherRecords(processes, std::vector<SharedSettings>{ mine }, settingsOfAll);
   std::vector<SharedLight> ownLights;
   for (const Light& light : scene.lights)
@@ -114,7 +114,7 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
       append(state, std::vector<glm::dmat4>{ view.worldToView, view.viewToClip });
     }
   }
-  if (keep && state == this->Shared)
+  if (keep && state == this->SharedState)
   {
     this->Traced = false;
     for (ShadowBuffer* buffer : this->Buffers)
@@ -127,7 +127,7 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
     return true;
   }
 
-  this->All = true; // what the others' visible points look up is not known here
+  this->TracesWhole = true; // what the others' visible points look up is not known here
   this->beginBuffers(scene, lights, maps, outlines.first, settings, budget);
   this->trace(parallelFor);
   for (ShadowBuffer* buffer : this->Buffers)
@@ -137,7 +137,7 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
       buffer->merge(processes, outlines.first);
     }
   }
-  this->Shared = std::move(state);
+  this->SharedState = std::move(state);
   return true;
 }
 }

@@ -71,7 +71,7 @@ struct SmoothSurface
 };
 
 /// `towards`: to the viewer; `primitive`: of the hit. The instance isSmooth().
-inline SmoothSurface smoothSurfaceAt(const SurfaceFrame& frame, const SurfacePoint& point,
+inline SmoothSurface smoothSurfaceAt(const SurfaceMatrices& frame, const SurfacePoint& point,
   const glm::vec3& towards, Primitive primitive)
 {
   constexpr double LeastBend = 1e-5; // radians; rounding of normals is less
@@ -128,8 +128,9 @@ struct TerminatorPoint
 };
 
 /// `grazing`: see turnsAway(). `dark`: the mesh itself shadows the point. The instance isSmooth().
-inline TerminatorPoint atTerminator(const SurfaceFrame& frame, const Light& light, double grazing,
-  bool dark, const SurfacePoint& point, const glm::vec3& towards, Primitive primitive)
+inline TerminatorPoint atTerminator(const SurfaceMatrices& frame, const Light& light,
+  double grazing, bool dark, const SurfacePoint& point, const glm::vec3& towards,
+  Primitive primitive)
 {
   TerminatorPoint result;
   const bool turned = turnsAway(light, point.position, point.facet, grazing);

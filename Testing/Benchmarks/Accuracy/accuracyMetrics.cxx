@@ -57,7 +57,7 @@ Picture pictureOf(const svo::Frame& frame, const svo::Scene& scene, const svo::V
   picture.grey.resize(pixels);
   picture.object.assign(pixels, NoObject);
   picture.normal.assign(pixels, glm::vec3(0.0f));
-  std::vector<svo::SurfaceFrame> frames(scene.instances.begin(), scene.instances.end());
+  std::vector<svo::SurfaceMatrices> frames(scene.instances.begin(), scene.instances.end());
   for (std::size_t i = 0; i < pixels; ++i)
   {
     picture.grey[i] = frame.color[4 * i];

@@ -34,7 +34,7 @@ struct Stage
   Scene scene;
   View view = svotest::lookAt({ 3.5, -3.0, 2.5 }, 427, 301);
   LayeredView eye;
-  std::vector<SurfaceFrame> frames;
+  std::vector<SurfaceMatrices> frames;
 
   Stage()
   {
@@ -115,7 +115,7 @@ struct Stage
     frames.clear();
     for (const Instance& instance : scene.instances)
     {
-      frames.push_back(SurfaceFrame(instance));
+      frames.push_back(SurfaceMatrices(instance));
     }
   }
 

@@ -24,7 +24,7 @@ void eachSeenPoint(const svo::Instance& instance, int level, const std::vector<g
 {
   svo::Scene scene;
   scene.instances = { instance };
-  const std::vector<svo::SurfaceFrame> frames{ svo::SurfaceFrame(scene.instances[0]) };
+  const std::vector<svo::SurfaceMatrices> frames{ svo::SurfaceMatrices(scene.instances[0]) };
   for (const glm::dvec3& eye : eyes)
   {
     const svo::View view = lookAt(eye, 96, 96);

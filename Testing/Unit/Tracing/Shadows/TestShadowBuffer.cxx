@@ -429,7 +429,7 @@ TEST(ShadowBuffer, AConvexBodyInGrazingLightDoesNotShadowItself)
       0, settings, budget);
     buffer.markAll();
     buffer.trace(serialFor);
-    const SurfaceFrame frame(scene.instances[0]);
+    const SurfaceMatrices frame(scene.instances[0]);
     const DepthBuffer& depth = eye.depthBuffer();
     int wrong = 0;
     for (int y = 0; y < view.height; ++y)

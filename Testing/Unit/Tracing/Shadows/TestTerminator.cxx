@@ -111,7 +111,7 @@ TEST(Terminator, ThePointThatIsAskedAboutLiesOnTheSmoothSurface)
 {
   const Ball ball(8, 8);
   const svo::Instance instance = ball.instance(1, movedTo(3, 0, 0));
-  const svo::SurfaceFrame frame(instance);
+  const svo::SurfaceMatrices frame(instance);
   const svo::Surface& surface = *ball.octree.surface();
   for (std::uint32_t k = 0; k < surface.triangles.size(); ++k)
   {

@@ -1,6 +1,6 @@
 // The state of a pass for one renderer, and the steps of its frames: collect, trace, present.
-#ifndef svoPassRenderer_h
-#define svoPassRenderer_h
+#ifndef svoRendererState_h
+#define svoRendererState_h
 
 #include "svoOctreeStore.h"
 #include "svoSampleDistance.h"
@@ -63,11 +63,11 @@ private:
   std::vector<std::pair<int, vtkProp*>> Saved;
 };
 
-class PassRenderer
+class RendererState
 {
 public:
-  PassRenderer(vtkRenderer* renderer, std::unique_ptr<Tracer> tracer);
-  ~PassRenderer();
+  RendererState(vtkRenderer* renderer, std::unique_ptr<Tracer> tracer);
+  ~RendererState();
 
   vtkRenderer* renderer() const { return this->Renderer; }
 
@@ -81,7 +81,7 @@ public:
   /// Adds other processes' casters to the collected scene; see SharedCasters.
   void shareCasters(vtkMultiProcessController* controller, std::size_t memoryLimit)
   {
-    this->Shared.exchange(controller, memoryLimit, this->Collected);
+    this->OtherCasters.exchange(controller, memoryLimit, this->Collected);
   }
 
   /// Merges the shadow buffers of the collected scene with other processes'; see
@@ -90,7 +90,10 @@ public:
     FrameSettings settings);
 
   /// True if there is anything to trace, here or, with shadows to be seen here, elsewhere.
-  bool hasSomething() const { return !this->Collected.scene.instances.empty() || this->Sharing; }
+  bool hasSomething() const
+  {
+    return !this->Collected.scene.instances.empty() || this->SharesShadows;
+  }
 
   /// Before tracing: the presenter is to write what outer passes expect of the props that it
   /// replaces.
@@ -142,12 +145,12 @@ private:
   vtkWeakPointer<vtkRenderer> Renderer;
   SceneCollector Collector;
   CollectedScene Collected;
-  SharedCasters Shared;
+  SharedCasters OtherCasters;
   SampleDistance Distance;
   std::shared_ptr<WindowTime> Window; // of the window that it was measured in last
   std::unique_ptr<Tracer> Trace;
-  View Eye;             // of the frame
-  bool Sharing = false; // this frame's shadow buffers are those of all processes
+  View Eye;                   // of the frame
+  bool SharesShadows = false; // this frame's shadow buffers are those of all processes
   struct Frame Picture;
   ShadowReceivers Receivers;
   std::string Complaint;

@@ -1,4 +1,4 @@
-#include "svoPassRenderer.h"
+#include "svoRendererState.h"
 
 #include "svoCameraView.h"
 #include "svoControllerProcesses.h"
@@ -42,13 +42,13 @@ void ExchangedProps::exchange(int index, vtkProp* by)
   this->Props[index] = by;
 }
 
-PassRenderer::PassRenderer(vtkRenderer* renderer, std::unique_ptr<Tracer> tracer)
+RendererState::RendererState(vtkRenderer* renderer, std::unique_ptr<Tracer> tracer)
   : Renderer(renderer)
   , Trace(std::move(tracer))
 {
 }
 
-PassRenderer::~PassRenderer()
+RendererState::~RendererState()
 {
   if (this->Window)
   {
@@ -56,13 +56,13 @@ PassRenderer::~PassRenderer()
   }
 }
 
-double PassRenderer::chooseDistance(double budget, double maximum)
+double RendererState::chooseDistance(double budget, double maximum)
 {
   return this->Distance.choose(
     budget, maximum, this->Window ? this->Window->others(this) : FrameCost());
 }
 
-void PassRenderer::measured(double seconds, double fixed)
+void RendererState::measured(double seconds, double fixed)
 {
   this->Distance.measured(this->Statistics.sampleDistance, seconds, fixed);
   const std::shared_ptr<WindowTime> window = WindowTime::of(this->Renderer->GetRenderWindow());
@@ -74,16 +74,16 @@ void PassRenderer::measured(double seconds, double fixed)
   this->Window->measured(this, this->Distance.cost());
 }
 
-void PassRenderer::begin()
+void RendererState::begin()
 {
   this->Statistics = PassStatistics();
   this->Collected = CollectedScene();
   this->Picture.covered = PixelRect();
   this->Complaint.clear();
-  this->Sharing = false;
+  this->SharesShadows = false;
 }
 
-void PassRenderer::collect(
+void RendererState::collect(
   OctreeStore& store, const StoreOptions& options, CollectSettings settings)
 {
   settings.levels.tracer = this->Trace.get();
@@ -98,17 +98,17 @@ void PassRenderer::collect(
   this->Statistics.instances = static_cast<int>(this->Collected.scene.instances.size());
 }
 
-void PassRenderer::shareShadows(vtkMultiProcessController* controller, int width, int height,
+void RendererState::shareShadows(vtkMultiProcessController* controller, int width, int height,
   double distance, FrameSettings settings)
 {
   const View eye = this->aim(width, height, distance);
   ControllerProcesses processes(controller);
   settings.wholeShadowBuffers = this->Collected.rasterizedReceivers;
-  this->Sharing =
+  this->SharesShadows =
     this->Trace->shareShadows(this->Collected.scene, eye, settings, smpParallelFor(), processes);
 }
 
-View PassRenderer::aim(int width, int height, double distance) const
+View RendererState::aim(int width, int height, double distance) const
 {
   View view;
   const bool seen = viewOfCamera(this->Renderer, static_cast<int>(std::ceil(width / distance)),
@@ -116,7 +116,7 @@ View PassRenderer::aim(int width, int height, double distance) const
   return seen ? view : View();
 }
 
-bool PassRenderer::shows(int width, int height) const
+bool RendererState::shows(int width, int height) const
 {
   const View view = this->aim(width, height, this->Statistics.sampleDistance);
   return view.width == this->Eye.width && view.height == this->Eye.height &&
@@ -124,7 +124,7 @@ bool PassRenderer::shows(int width, int height) const
 }
 
 /// Which shadows small things cannot have, in words; empty if all is well.
-std::string PassRenderer::lostShadows(const FrameSettings& settings) const
+std::string RendererState::lostShadows(const FrameSettings& settings) const
 {
   if (settings.shadowTechnique == ShadowTechnique::Buffer &&
     this->Statistics.tracer.coarsestTexel > CoarseShadow)
@@ -145,7 +145,7 @@ std::string PassRenderer::lostShadows(const FrameSettings& settings) const
   return {};
 }
 
-void PassRenderer::trace(int width, int height, double distance, FrameSettings settings)
+void RendererState::trace(int width, int height, double distance, FrameSettings settings)
 {
   this->Statistics.sampleDistance = distance;
   Scene& scene = this->Collected.scene;
@@ -178,7 +178,7 @@ void PassRenderer::trace(int width, int height, double distance, FrameSettings s
   }
 }
 
-void PassRenderer::present(vtkOpenGLRenderPass* pass)
+void RendererState::present(vtkOpenGLRenderPass* pass)
 {
   this->Presenter->SetFrame(
     &this->Picture,
@@ -193,7 +193,7 @@ void PassRenderer::present(vtkOpenGLRenderPass* pass)
     pass);
 }
 
-void PassRenderer::joinPasses(const vtkRenderState* state)
+void RendererState::joinPasses(const vtkRenderState* state)
 {
   vtkProp** const first = state->GetPropArray();
   vtkProp** const last = first + state->GetPropArrayCount();
@@ -202,7 +202,7 @@ void PassRenderer::joinPasses(const vtkRenderState* state)
   this->Presenter->StandFor(replaced != last ? *replaced : nullptr);
 }
 
-void PassRenderer::exchange(
+void RendererState::exchange(
   ExchangedProps& props, const vtkRenderState* state, vtkOpenGLRenderPass* pass)
 {
   this->present(pass);
@@ -227,14 +227,14 @@ void PassRenderer::exchange(
   }
 }
 
-void PassRenderer::finish()
+void RendererState::finish()
 {
   this->Statistics.presentTime = this->Presenter->GetPresentTime();
   this->Presenter->SetFrame(nullptr, nullptr, nullptr);
   this->Collected = CollectedScene();
 }
 
-void PassRenderer::releaseGraphicsResources(vtkWindow* window)
+void RendererState::releaseGraphicsResources(vtkWindow* window)
 {
   this->Presenter->ReleaseGraphicsResources(window);
   this->Receivers.release();
