@@ -1,5 +1,7 @@
 #include "svoRepresentative.h"
 
+#include "svoNode.h"
+
 #include <cmath>
 #include <limits>
 
@@ -53,11 +55,9 @@ std::uint32_t representativeTriangle(const Octree& octree, const OctreeCell& cel
     std::uint32_t node = cell.node;
     if (cell.bitCount < 64)
     {
-      // The first child below the cell's own bits.
-      const std::uint64_t mask = octree.nodes()[node].mask;
-      const int bit = __builtin_ctzll(mask & (~std::uint64_t(0) << cell.firstBit));
-      node = octree.nodes()[node].first +
-        static_cast<std::uint32_t>(__builtin_popcountll(mask & ((1ull << bit) - 1)));
+      // The first of the children that are the cell's.
+      const Node& parent = octree.nodes()[node];
+      node = parent.first + static_cast<std::uint32_t>(childrenBefore(parent, cell.firstBit));
     }
     return firstTriangle(octree, node);
   }

@@ -1,5 +1,7 @@
 #include "svoAssemble.h"
 
+#include "svoNode.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -101,7 +103,7 @@ std::size_t fillBucket(const BrickRecord* records, std::size_t count, Share at,
     }
     const SurfaceMoment moment = brickMoment(records + i, end - i, node.mask, shapes);
     node.plane = planeOfMoment(moment, 4.0f);
-    voxels += static_cast<std::size_t>(__builtin_popcountll(node.mask));
+    voxels += static_cast<std::size_t>(childCount(node));
     bricks.keys[at.nodes] = records[i].key;
     bricks.nodes[at.nodes] = node;
     bricks.moments[at.nodes] = moment;
@@ -188,7 +190,7 @@ Depth makeParents(const Depth& children, float childEdge, Executor& executor)
           const std::uint64_t key = children.keys[i] >> 6;
           for (std::size_t k = i; k < count && children.keys[k] >> 6 == key; ++k)
           {
-            node.mask |= 1ull << (children.keys[k] & 63);
+            node.mask |= cellBit(children.keys[k] & 63);
           }
           const SurfaceMoment moment =
             blockMoment(children.moments.data() + i, node.mask, childEdge);

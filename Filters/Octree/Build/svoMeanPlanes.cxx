@@ -1,6 +1,7 @@
 #include "svoMeanPlanes.h"
 
 #include "svoMorton.h"
+#include "svoNode.h"
 #include "svoPlane.h"
 
 #include <algorithm>
@@ -127,7 +128,7 @@ SurfaceMoment blockMoment(const SurfaceMoment* children, std::uint64_t mask, flo
   for (; mask != 0; mask &= mask - 1, ++count)
   {
     const SurfaceMoment& child = children[count];
-    const glm::vec3 cell(cellOfIndex(__builtin_ctzll(mask)));
+    const glm::vec3 cell(cellOfIndex(lowestBit(mask)));
     moment.area += child.area;
     moment.centre += ((cell - 1.5f) * childEdge + child.centre) * child.area;
   }

@@ -10,6 +10,7 @@
 #include "svoBrickTables.h"
 #include "svoLattice.h"
 #include "svoMorton.h"
+#include "svoNode.h"
 #include "svoTriangleBox.h"
 
 #include <cmath>
@@ -139,7 +140,7 @@ private:
       if (voxel.x <= this->Within.last[0] && voxel.y <= this->Within.last[1] &&
         voxel.z <= this->Within.last[2] && this->touches(voxel, 0))
       {
-        mask |= 1ull << i;
+        mask |= cellBit(i);
         ++this->Voxels;
       }
     }
@@ -280,7 +281,7 @@ public:
           }
           if (mask != 0)
           {
-            voxels += __builtin_popcountll(mask);
+            voxels += countBits(mask);
             records.push({ columnKey | keyW << w, mask, this->Triangle.id,
               static_cast<float>(columnOffset - along(w, brickW)) });
           }

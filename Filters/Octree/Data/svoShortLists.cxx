@@ -1,5 +1,6 @@
 #include "svoShortLists.h"
 
+#include "svoNode.h"
 #include "svoOctree.h"
 
 #include <algorithm>
@@ -69,7 +70,7 @@ public:
       return;
     }
     const Node& node = this->Of.nodes()[index];
-    const std::uint32_t children = __builtin_popcountll(node.mask);
+    const auto children = static_cast<std::uint32_t>(childCount(node));
     Few below[64];
     few.count = 0;
     for (std::uint32_t k = 0; k < children; ++k)

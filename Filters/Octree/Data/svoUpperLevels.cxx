@@ -1,6 +1,7 @@
 #include "svoUpperLevels.h"
 
 #include "svoMorton.h"
+#include "svoNode.h"
 
 #include <algorithm>
 
@@ -28,16 +29,13 @@ void refine(const std::vector<std::uint32_t>& coarse, int depth, const Node* nod
         {
           const Node& node = nodes[parent >> 5];
           const int cell = cellIndex(x & 3, y & 3, z & 3);
-          const std::uint64_t bit = std::uint64_t(1) << cell;
-          if (node.mask & bit)
+          if (hasChild(node, cell))
           {
-            const std::uint32_t child =
-              node.first + static_cast<std::uint32_t>(__builtin_popcountll(node.mask & (bit - 1)));
-            entry = child << 5 | (cellExponent - 2);
+            entry = child(node, cell) << 5 | (cellExponent - 2);
           }
           else
           {
-            const bool emptyGroup = (node.mask >> (cell & 56) & 0xff) == 0;
+            const bool emptyGroup = groupCells(node, groupOf(cell)) == 0;
             entry = UpperLevels::Empty | (cellExponent + (emptyGroup ? 1 : 0) - 2);
           }
         }

@@ -3,6 +3,7 @@
 #include <hwy/foreach_target.h>
 
 #include "svoMorton.h"
+#include "svoNode.h"
 #include "svoPyramidNodes.h"
 #include "svoPyramidSides.h"
 
@@ -184,19 +185,18 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
     }
     for (std::uint64_t left = inside & node.mask; left != 0; left &= left - 1)
     {
-      const int i = __builtin_ctzll(left);
-      const std::uint32_t child =
-        node.first + __builtin_popcountll(node.mask & ((std::uint64_t(1) << i) - 1));
+      const int i = lowestBit(left);
+      const std::uint32_t index = child(node, i);
       const float x = parent.x + parent.size * offsets.x[i];
       const float y = parent.y + parent.size * offsets.y[i];
       const float z = parent.z + parent.size * offsets.z[i];
-      if (child >= bricks || lists.begin[child] != ShortLists::None)
+      if (index >= bricks || lists.begin[index] != ShortLists::None)
       {
-        nodes.push_back({ tNear[i], child, x, y, z, 0.25f * parent.size });
+        nodes.push_back({ tNear[i], index, x, y, z, 0.25f * parent.size });
         continue;
       }
       OpenNode& next = open[count++];
-      next.node = child;
+      next.node = index;
       next.size = 0.25f * parent.size;
       next.x = x;
       next.y = y;
@@ -304,7 +304,7 @@ void TileGroup::select(const TilePyramid& pyramid, std::vector<TileNode>& nodes)
       }
       for (; bits != 0; bits &= bits - 1)
       {
-        nodes.push_back(this->Nodes[first + k + __builtin_ctzll(bits)]);
+        nodes.push_back(this->Nodes[first + k + lowestBit(bits)]);
       }
     }
   }

@@ -3,6 +3,7 @@
 #define svoIntersectBlock_h
 
 #include "svoLeafGeometry.h"
+#include "svoNode.h"
 #include "svoRay.h"
 
 #include <algorithm>
@@ -101,8 +102,8 @@ inline StopCell<float> stopCell(
     0.0f };
   if (target.groups)
   {
-    cell.firstBit = i & 56;
-    cell.bitCount = 8;
+    cell.firstBit = groupOf(i);
+    cell.bitCount = GroupSize;
   }
   else if (target.stopSize < target.brickSize) // a voxel
   {
@@ -111,7 +112,7 @@ inline StopCell<float> stopCell(
   }
   else
   {
-    cell.node = node.first + __builtin_popcountll(node.mask & ((1ull << i) - 1));
+    cell.node = child(node, i);
   }
   return cell;
 }

@@ -23,6 +23,7 @@
 #define svoLeafGeometry_h
 
 #include "svoMorton.h"
+#include "svoNode.h"
 #include "svoOctree.h"
 #include "svoPlane.h"
 #include "svoRay.h"
@@ -160,11 +161,11 @@ std::uint32_t representativeNode(
   const Vector<Real> x = ray.origin + middle * ray.direction;
   int bit =
     cell.firstBit | int(x.x >= centre.x) | int(x.y >= centre.y) << 1 | int(x.z >= centre.z) << 2;
-  if (!(node.mask >> bit & 1))
+  if (!hasChild(node, bit))
   {
-    bit = __builtin_ctzll(node.mask & (0xffull << cell.firstBit));
+    bit = cell.firstBit | lowestBit(groupCells(node, cell.firstBit));
   }
-  return node.first + __builtin_popcountll(node.mask & ((1ull << bit) - 1));
+  return child(node, bit);
 }
 
 /// Where the line of the ray meets the plane of a triangle or of a node. NaN or infinite if
@@ -186,18 +187,17 @@ Real intersectPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const S
   const std::uint32_t index = primitive & ~NodePrimitive;
   glm::ivec3 block = cell.cell;
   int bits = query.bits;
-  if (cell.bitCount == 8)
+  if (cell.bitCount == GroupSize)
   {
     const Node& node = query.octree.nodes()[cell.node];
-    std::uint64_t octet = node.mask & (0xffull << cell.firstBit);
-    std::uint32_t child =
-      node.first + __builtin_popcountll(node.mask & ((1ull << cell.firstBit) - 1));
-    for (; child < index; ++child)
+    std::uint64_t octet = groupCells(node, cell.firstBit);
+    std::uint32_t at = node.first + childrenBefore(node, cell.firstBit);
+    for (; at < index; ++at)
     {
       octet &= octet - 1;
     }
-    const int bit = __builtin_ctzll(octet);
-    block = 2 * block + glm::ivec3(bit & 1, bit >> 1 & 1, bit >> 2 & 1);
+    const int bit = lowestBit(octet);
+    block = 2 * block + glm::ivec3(bit & 1, bit >> 1 & 1, bit >> 2);
     ++bits;
   }
   const MeanPlane plane = decodePlane(query.octree.nodes()[index].plane);

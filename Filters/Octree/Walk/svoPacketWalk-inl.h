@@ -65,7 +65,7 @@ HWY_INLINE I spreadCoordinate(I position, I size)
   return hn::Or(hn::And(v, hn::Set(di, 1)), hn::And(hn::ShiftLeft<2>(v), hn::Set(di, 8)));
 }
 
-/// What a lane sees where it is.
+/// What a lane sees where it is: hasChild(), groupCells() and childrenBefore() of svoNode.h.
 struct Probe
 {
   Lanes nothing; // the whole block is empty

@@ -16,6 +16,7 @@
 #define svoTraverse_h
 
 #include "svoMorton.h"
+#include "svoNode.h"
 #include "svoOctree.h"
 
 #include <algorithm>
@@ -172,7 +173,7 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
     const Node& node = nodes[index];
     const int shift = bits - 2 * (depth + 1);
     const int i = cellIndex(at.x >> shift & 3, at.y >> shift & 3, at.z >> shift & 3);
-    const std::uint64_t octet = node.mask >> (i & 56) & 0xff;
+    const std::uint64_t octet = groupCells(node, groupOf(i));
     int leave = shift; // the cell to leave is 1 << leave voxels wide
     bool stop = false;
     if (stopShift == shift + 2) // only the root's own block: deeper ones are found by their parents
@@ -185,11 +186,11 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
       leave = shift + 1;
       stop = octet != 0;
     }
-    else if (node.mask >> i & 1)
+    else if (hasChild(node, i))
     {
       if (stopShift < shift)
       {
-        path[++depth] = node.first + __builtin_popcountll(node.mask & ((1ull << i) - 1));
+        path[++depth] = child(node, i);
         continue;
       }
       stop = true;
@@ -215,8 +216,8 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
       StopCell<Real> cell{ index, 0, 64, at >> stopShift, t, std::max(t, tExit) };
       if (leave == shift + 1)
       {
-        cell.firstBit = i & 56;
-        cell.bitCount = 8;
+        cell.firstBit = groupOf(i);
+        cell.bitCount = GroupSize;
       }
       else if (leave == 0)
       {
@@ -225,7 +226,7 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
       }
       else if (leave == shift)
       {
-        cell.node = node.first + __builtin_popcountll(node.mask & ((1ull << i) - 1));
+        cell.node = child(node, i);
       }
       const Visit answer = visit(static_cast<const StopCell<Real>&>(cell), tMax);
       if (answer == Visit::Stop)
