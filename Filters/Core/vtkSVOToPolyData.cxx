@@ -155,7 +155,7 @@ int vtkSVOToPolyData::RequestData(
     forEachVisibleCell(octree, level, this->InteriorFaces,
       [&](const svo::OctreeCell& cell, int faces)
       {
-        const std::uint32_t triangle = svo::representativeTriangle(octree, cell, level);
+        const std::uint32_t triangle = svo::nearestTriangle(octree, cell, level);
         for (int f = 0; f < 6; ++f)
         {
           if (faces >> f & 1)

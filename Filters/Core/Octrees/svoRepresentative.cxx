@@ -48,7 +48,7 @@ std::uint32_t firstTriangle(const Octree& octree, std::uint32_t node)
   return *octree.brickTriangles(node, count, inlineId);
 }
 
-std::uint32_t representativeTriangle(const Octree& octree, const OctreeCell& cell, int level)
+std::uint32_t nearestTriangle(const Octree& octree, const OctreeCell& cell, int level)
 {
   if (cell.node < octree.brickBegin())
   {

@@ -17,9 +17,9 @@ constexpr std::size_t NodeBlock = 16384;
 /// The nodes of one depth, in ascending order of their keys.
 struct Depth
 {
-  Buffer<std::uint64_t> keys; // Morton keys of the blocks
-  Buffer<Node> nodes;         // `first` of an inner node: index in the next depth's own array
-  Buffer<SurfaceMoment> moments;
+  RawArray<std::uint64_t> keys; // Morton keys of the blocks
+  RawArray<Node> nodes;         // `first` of an inner node: index in the next depth's own array
+  RawArray<SurfaceMoment> moments;
 
   explicit Depth(std::size_t size)
     : keys(size)
@@ -111,8 +111,8 @@ std::size_t fillBucket(const BrickRecord* records, std::size_t count, Share at,
   return voxels;
 }
 
-Depth makeBricks(const SortedRecords& sorted, const Buffer<TriangleShape>& shapes, Header& header,
-  Buffer<std::uint32_t>& lists, Executor& executor)
+Depth makeBricks(const SortedRecords& sorted, const RawArray<TriangleShape>& shapes, Header& header,
+  RawArray<std::uint32_t>& lists, Executor& executor)
 {
   std::vector<Share> shares(sorted.bucketCount());
   const auto cost = [&](std::size_t i) { return static_cast<double>(sorted.bucketSize(i)); };
@@ -131,7 +131,7 @@ Depth makeBricks(const SortedRecords& sorted, const Buffer<TriangleShape>& shape
     throw LayoutOverflow{ all.nodes > LargestIndex ? "nodes" : "words of triangle lists" };
   }
   Depth bricks(all.nodes);
-  lists = Buffer<std::uint32_t>(all.listWords);
+  lists = RawArray<std::uint32_t>(all.listWords);
   std::vector<std::size_t> voxels(shares.size());
   executor.run(shares.size(), 16, 0.1, 4e5, cost,
     [&](std::size_t first, std::size_t last)
@@ -216,7 +216,7 @@ Depth emptyRoot(bool brick)
 }
 
 std::shared_ptr<std::byte> writeBuffer(const std::vector<Depth>& depths,
-  const Buffer<std::uint32_t>& lists, Header& header, std::size_t& size, Executor& executor)
+  const RawArray<std::uint32_t>& lists, Header& header, std::size_t& size, Executor& executor)
 {
   header.nodeCount = 0;
   for (std::size_t d = 0; d < depths.size(); ++d)
@@ -264,11 +264,11 @@ std::shared_ptr<std::byte> writeBuffer(const std::vector<Depth>& depths,
 }
 }
 
-std::shared_ptr<std::byte> assemble(SortedRecords&& records, const Buffer<TriangleShape>& shapes,
+std::shared_ptr<std::byte> assemble(SortedRecords&& records, const RawArray<TriangleShape>& shapes,
   Header& header, std::size_t& size, Executor& executor)
 {
   std::vector<Depth> depths;
-  Buffer<std::uint32_t> lists;
+  RawArray<std::uint32_t> lists;
   {
     const SortedRecords own = std::move(records);
     depths.push_back(makeBricks(own, shapes, header, lists, executor));

@@ -101,7 +101,7 @@ void sortBucket(BrickRecord* records, BrickRecord* scratch, std::size_t count, i
 }
 
 std::vector<RecordList> voxelizeMesh(const TriangleMesh& mesh, const Cube& cube, int level,
-  const std::vector<WorkPiece>& pieces, Buffer<TriangleShape>& shapes, Executor& executor)
+  const std::vector<WorkPiece>& pieces, RawArray<TriangleShape>& shapes, Executor& executor)
 {
   const Lattice lattice(cube, level);
   std::vector<RecordList> records(pieces.size());
@@ -207,7 +207,7 @@ SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor&
     places[i] = next[i & (buckets - 1)];
     next[i & (buckets - 1)] += count;
   }
-  sorted.records = Buffer<BrickRecord>(total);
+  sorted.records = RawArray<BrickRecord>(total);
   executor.run(blocks, 1, 0.08, 2e6, cost,
     [&](std::size_t first, std::size_t last)
     {
@@ -234,7 +234,7 @@ SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor&
       {
         largest = std::max(largest, sorted.bucketSize(bucket));
       }
-      Buffer<BrickRecord> scratch(largest);
+      RawArray<BrickRecord> scratch(largest);
       for (std::size_t bucket = first; bucket < last; ++bucket)
       {
         sortBucket(sorted.records.data() + sorted.bucketBegin[bucket], scratch.data(),

@@ -162,7 +162,7 @@ bool MeshMeasure::fitsIndices(int level) const
 }
 
 MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const ParallelFor& parallelFor,
-  int level, Buffer<float>& recordsOfTriangle)
+  int level, RawArray<float>& recordsOfTriangle)
 {
   const std::size_t blocks = blocksOf(mesh.triangleCount);
   std::vector<MeshMeasure> measures(blocks);
@@ -212,7 +212,7 @@ MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const Parall
   return sum;
 }
 
-std::vector<WorkPiece> cutWork(const Buffer<float>& recordsOfTriangle)
+std::vector<WorkPiece> cutWork(const RawArray<float>& recordsOfTriangle)
 {
   double total = 0.0;
   for (std::size_t i = 0; i < recordsOfTriangle.size(); ++i)

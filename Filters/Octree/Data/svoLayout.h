@@ -56,6 +56,9 @@ enum class LeafGeometry : std::uint32_t
 
 constexpr int MaximumLevel = 20;
 constexpr int MaximumDepths = (MaximumLevel + 1) / 2;
+/// Bits of a float below its exponent: of an octree coordinate, those of the cells.
+constexpr int MantissaBits = 23;
+static_assert(2 * MaximumDepths <= MantissaBits, "a float tells all voxels of a root cube apart");
 constexpr std::uint32_t InlineTriangle = 0x80000000u;
 
 struct Node

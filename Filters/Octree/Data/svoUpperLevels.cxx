@@ -9,8 +9,6 @@ namespace svo
 {
 namespace
 {
-constexpr int MantissaBits = 23;
-
 /// Fills a table from the one before it: every entry's cell is divided into 4x4x4.
 void refine(const std::vector<std::uint32_t>& coarse, int depth, const Node* nodes,
   std::vector<std::uint32_t>& fine)

@@ -11,8 +11,6 @@
 
 namespace svo
 {
-constexpr int MantissaBits = 23;
-
 /// Cell sizes are exponents: a cell is 2^exponent units of a float's last place in [1, 2) wide.
 struct WalkTarget
 {

@@ -99,8 +99,7 @@ inline double touchedHalf(int bits)
 /// The triangle of the brick whose plane is nearest to the centre of one of its cells, preferably
 /// one that touches the cell. Without a surface, the first of the list.
 template <class Real>
-Primitive representativeTriangle(
-  const LeafQuery& query, std::uint32_t brick, const glm::ivec3& cell)
+Primitive nearestPlaneTriangle(const LeafQuery& query, std::uint32_t brick, const glm::ivec3& cell)
 {
   std::uint32_t count = 0;
   std::uint32_t inlineId = 0;
@@ -286,7 +285,7 @@ Visit meetCell(const LeafQuery& query, const ClippedRay<Real>& ray, const Sheare
       return meetTriangles(query, ray, sheared, list, count, tMax, hit);
     }
   }
-  const Primitive primitive = representativeTriangle<Real>(query, cell.node, cell.cell);
+  const Primitive primitive = nearestPlaneTriangle<Real>(query, cell.node, cell.cell);
   if (query.geometry != LeafGeometry::Voxel)
   {
     return meetPlane(query, ray, cell, primitive, tMax, hit);

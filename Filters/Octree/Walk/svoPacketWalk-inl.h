@@ -165,7 +165,7 @@ HWY_INLINE Lanes advance(Packet& p, Lanes step, I exponent)
   p.z = z;
   p.t = hn::IfThenElse(hn::RebindMask(df, step), t, p.t);
   const Lanes past = hn::RebindMask(di, hn::Gt(tExit, p.tMax));
-  const Lanes outside = hn::Gt(changed, hn::Set(di, 0x7fffff));
+  const Lanes outside = hn::Gt(changed, hn::Set(di, (1 << MantissaBits) - 1));
   p.dead = hn::Or(p.dead, hn::And(step, hn::Or(past, outside)));
   return hn::Ne(hn::Shr(changed, hn::Add(p.size, hn::Set(di, 2))), hn::Zero(di));
 }
@@ -175,7 +175,7 @@ HWY_INLINE void find(const WalkTarget& target, Packet& p, Lanes lost)
 {
   const DI di;
   const DU du;
-  const I shift = hn::Set(di, 23 - target.tableBits);
+  const I shift = hn::Set(di, MantissaBits - target.tableBits);
   const I edge = hn::Set(di, (1 << target.tableBits) - 1);
   const I tx = hn::And(hn::Shr(p.x, shift), edge);
   const I ty = hn::And(hn::Shr(p.y, shift), edge);
