@@ -3,6 +3,7 @@
 #include "svoNode.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -104,6 +105,7 @@ std::size_t fillBucket(const BrickRecord* records, std::size_t count, Share at,
     const SurfaceMoment moment = brickMoment(records + i, end - i, node.mask, shapes);
     node.plane = planeOfMoment(moment, 4.0f);
     voxels += static_cast<std::size_t>(childCount(node));
+    assert(at.nodes < bricks.size());
     bricks.keys[at.nodes] = records[i].key;
     bricks.nodes[at.nodes] = node;
     bricks.moments[at.nodes] = moment;
@@ -188,6 +190,7 @@ Depth makeParents(const Depth& children, float childEdge, Executor& executor)
           }
           Node node{ 0, static_cast<std::uint32_t>(i), 0 };
           const std::uint64_t key = children.keys[i] >> 6;
+          assert(i == 0 || children.keys[i - 1] < children.keys[i]);
           for (std::size_t k = i; k < count && children.keys[k] >> 6 == key; ++k)
           {
             node.mask |= cellBit(children.keys[k] & 63);
@@ -286,6 +289,7 @@ std::shared_ptr<std::byte> assemble(SortedRecords&& records, const RawArray<Tria
     depths[d - 1].moments = {};
     depths[d - 1].keys = {};
   }
+  assert(depths.back().size() == 1 && depths.back().keys[0] == 0);
   std::reverse(depths.begin(), depths.end());
   return writeBuffer(depths, lists, header, size, executor);
 }

@@ -5,6 +5,7 @@
 #include "svoPlane.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace svo
@@ -73,6 +74,7 @@ glm::vec3 middleOfVoxels(std::uint64_t mask, float& count)
 SurfaceMoment brickMoment(
   const BrickRecord* records, std::size_t count, std::uint64_t mask, const TriangleShape* shapes)
 {
+  assert(count > 0 && mask != 0);
   float voxels = 0.0f;
   const glm::vec3 middle = middleOfVoxels(mask, voxels);
   if (count == 1)
@@ -132,6 +134,7 @@ SurfaceMoment blockMoment(const SurfaceMoment* children, std::uint64_t mask, flo
     moment.area += child.area;
     moment.centre += ((cell - 1.5f) * childEdge + child.centre) * child.area;
   }
+  assert(moment.area > 0.0f);
   moment.centre /= moment.area;
   moment.normal = sumOnOneSide(count, [&](std::size_t i) { return children[i].normal; });
   return moment;

@@ -3,6 +3,7 @@
 #include "svoLattice.h"
 #include "svoMeanPlanes.h"
 
+#include <cassert>
 #include <limits>
 
 #include <glm/geometric.hpp>
@@ -252,6 +253,8 @@ std::vector<WorkPiece> cutWork(const RawArray<float>& recordsOfTriangle)
     piece.last = static_cast<std::uint32_t>(recordsOfTriangle.size());
     pieces.push_back(piece);
   }
+  assert(pieces.empty() ? recordsOfTriangle.size() == 0
+                        : pieces.back().last == recordsOfTriangle.size());
   return pieces;
 }
 }

@@ -8,6 +8,7 @@
 
 #include "svoLayout.h"
 
+#include <cassert>
 #include <cstdint>
 
 namespace svo
@@ -23,18 +24,21 @@ inline int countBits(std::uint64_t mask)
 /// Index of the lowest set bit of a mask, which is not 0.
 inline int lowestBit(std::uint64_t mask)
 {
+  assert(mask != 0);
   return __builtin_ctzll(mask);
 }
 
 /// A mask with one cell in it.
 inline std::uint64_t cellBit(int i)
 {
+  assert(i >= 0 && i < 64);
   return std::uint64_t(1) << i;
 }
 
 /// True if cell i is occupied: then an inner node has a child there, a brick a voxel.
 inline bool hasChild(const Node& node, int i)
 {
+  assert(i >= 0 && i < 64);
   return node.mask >> i & 1;
 }
 
@@ -53,6 +57,7 @@ inline int childrenBefore(const Node& node, int i)
 /// Index of the node of cell i, which is occupied. The node is an inner one.
 inline std::uint32_t child(const Node& node, int i)
 {
+  assert(hasChild(node, i));
   return node.first + static_cast<std::uint32_t>(childrenBefore(node, i));
 }
 
@@ -65,6 +70,7 @@ constexpr int groupOf(int i)
 /// The occupied cells of the group whose first cell is `first`, as bits 0..7.
 inline std::uint64_t groupCells(const Node& node, int first)
 {
+  assert(first >= 0 && first < 64 && first % GroupSize == 0);
   return node.mask >> first & 0xff;
 }
 }

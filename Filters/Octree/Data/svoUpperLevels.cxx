@@ -4,6 +4,7 @@
 #include "svoNode.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace svo
 {
@@ -29,6 +30,7 @@ void refine(const std::vector<std::uint32_t>& coarse, int depth, const Node* nod
           const int cell = cellIndex(x & 3, y & 3, z & 3);
           if (hasChild(node, cell))
           {
+            assert(child(node, cell) < UpperLevels::Empty >> 5);
             entry = child(node, cell) << 5 | (cellExponent - 2);
           }
           else

@@ -7,6 +7,7 @@
 #include "svoPyramidSides.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <limits>
 
@@ -237,6 +238,7 @@ void traceKind(const Octree& octree, const PyramidSides& sides, const std::vecto
     const std::uint32_t* list;
     if (candidate.node < bricks)
     {
+      assert(lists.begin[candidate.node] != ShortLists::None);
       list = lists.words.data() + lists.begin[candidate.node];
       count = *list++;
     }
@@ -248,6 +250,7 @@ void traceKind(const Octree& octree, const PyramidSides& sides, const std::vecto
     for (std::uint32_t k = 0; k < count; ++k)
     {
       const std::uint32_t id = list[k];
+      assert(id < surface.triangles.size());
       std::uint32_t& tested = mailbox[id % Mailboxes];
       if (tested == id)
       {
@@ -273,6 +276,9 @@ void traceKind(const Octree& octree, const PyramidSides& sides, const std::vecto
 void traceTile(const Octree& octree, const TilePyramid& pyramid, const std::vector<TileNode>& nodes,
   const RayBlock& block, HitBlock& hits)
 {
+  assert(octree.surface() != nullptr);
+  assert(std::is_sorted(nodes.begin(), nodes.end(),
+    [](const TileNode& a, const TileNode& b) { return a.tNear < b.tNear; }));
   const PyramidSides sides(pyramid);
   HWY_ALIGN float direction[3][64];
   HWY_ALIGN std::int32_t kinds[64];

@@ -8,6 +8,7 @@
 #include "svoPyramidSides.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -18,6 +19,9 @@
 #define SVO_PYRAMID_NODES_ONCE
 namespace svo
 {
+/// What arrays of cubes have room for behind the last: a vector of any instruction set.
+constexpr std::size_t RoomBehind = 16;
+
 /// Lower corners of a node's 64 cells, for a node of edge 1, in the order of cellIndex().
 struct CellOffsets
 {
@@ -115,6 +119,7 @@ inline void sortByDepth(std::vector<TileNode>& nodes)
 bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyramid& pyramid,
   float tMin, float tMax, std::size_t most, std::vector<TileNode>& nodes)
 {
+  assert(octree.surface() != nullptr && octree.shortLists().begin.size() == octree.brickBegin());
   const DF df;
   ChildTables tables;
   OpenNode open[64 * MaximumDepths];
@@ -161,6 +166,7 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
   while (count > 0)
   {
     const OpenNode parent = open[--count];
+    assert(parent.node < bricks && parent.size > 0.0f);
     const Node& node = all[parent.node];
     const F size = hn::Set(df, parent.size);
     const F deep = hn::Set(df, parent.size * tables.deep);
@@ -187,6 +193,7 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
     {
       const int i = lowestBit(left);
       const std::uint32_t index = child(node, i);
+      assert(index < octree.header().nodeCount);
       const float x = parent.x + parent.size * offsets.x[i];
       const float y = parent.y + parent.size * offsets.y[i];
       const float z = parent.z + parent.size * offsets.z[i];
@@ -195,6 +202,7 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
         nodes.push_back({ tNear[i], index, x, y, z, 0.25f * parent.size });
         continue;
       }
+      assert(count < 64 * MaximumDepths);
       OpenNode& next = open[count++];
       next.node = index;
       next.size = 0.25f * parent.size;
@@ -212,12 +220,13 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
   return nodes.size() <= most;
 }
 
-/// Which of `count` cubes are inside: one bit each. The arrays have room for a vector more.
+/// Which of `count` cubes are inside: one bit each. The arrays have room for RoomBehind more.
 void cubesInside(const TilePyramid& pyramid, const float* x, const float* y, const float* z,
   const float* size, std::size_t count, std::uint64_t* inside)
 {
   const DF df;
   const PyramidSides sides(pyramid);
+  assert(hn::Lanes(df) <= RoomBehind);
   for (std::size_t first = 0; first < count; first += 64)
   {
     std::uint64_t bits = 0;
@@ -269,10 +278,9 @@ bool TileGroup::find(
   {
     return false;
   }
-  constexpr std::size_t Vector = 16;
   for (std::vector<float>* array : { &this->X, &this->Y, &this->Z, &this->Size })
   {
-    array->assign(this->Nodes.size() + Vector, 0.0f);
+    array->assign(this->Nodes.size() + RoomBehind, 0.0f);
   }
   for (std::size_t i = 0; i < this->Nodes.size(); ++i)
   {
@@ -287,6 +295,7 @@ bool TileGroup::find(
 void TileGroup::select(const TilePyramid& pyramid, std::vector<TileNode>& nodes) const
 {
   nodes.clear();
+  assert(this->X.empty() ? this->Nodes.empty() : this->X.size() == this->Nodes.size() + RoomBehind);
   constexpr std::size_t Chunk = 512;
   std::uint64_t inside[Chunk / 64];
   for (std::size_t first = 0; first < this->Nodes.size(); first += Chunk)

@@ -14,6 +14,7 @@
 #include "svoPacketWalk-inl.h"
 
 #include <algorithm>
+#include <cassert>
 
 HWY_BEFORE_NAMESPACE();
 namespace svo
@@ -221,6 +222,7 @@ void traceBlock(const LeafQuery& query, const WalkTarget& target, const RayBlock
 {
   BlockHits found(hits);
   const int n = static_cast<int>(hn::Lanes(DF()));
+  assert(RayBlock::Size % (2 * n) == 0);
   for (int i = 0; i < RayBlock::Size; i += 2 * n)
   {
     if (target.groups)
@@ -258,6 +260,7 @@ WalkTarget walkTarget(const LeafQuery& query)
   const Octree& octree = query.octree;
   // A node at depth d has cells with 2 (d + 1) bits, in groups with one bit less.
   const int stopDepth = (query.bits - 1) / 2;
+  assert(query.bits > 0 && stopDepth < octree.depthCount());
   const UpperLevels& upper = octree.upperLevels();
   const int table = std::min(upper.tableCount - 1, stopDepth);
   WalkTarget target;
@@ -280,6 +283,9 @@ WalkTarget walkTarget(const LeafQuery& query)
     target.triangles = &surface->triangles.data()->x;
     target.listBegin = static_cast<int>(4 * octree.header().nodeCount);
   }
+  assert(target.tableBits >= 0 && !upper.tables[table].empty());
+  assert(target.cellSize == target.stopSize + target.groups);
+  assert(target.stopSize + 2 >= target.brickSize && target.brickSize <= MantissaBits);
   target.high = 1.0f + 1.0f / static_cast<float>(1 << rootBits(octree, 0));
   return target;
 }

@@ -7,6 +7,7 @@
 #include "svoRay.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 
 namespace svo
@@ -86,10 +87,13 @@ struct Chosen
   int lanes;
 };
 
-/// The cell where a lane has arrived: `at` are the bit patterns of its position, `node` the node.
+/// The cell where a lane has arrived: `at` are the bit patterns of its position, which lies in
+/// [1, 2), `index` is the node.
 inline StopCell<float> stopCell(
   const LeafQuery& query, const WalkTarget& target, const glm::ivec3& at, std::uint32_t index)
 {
+  assert(index < query.octree.header().nodeCount);
+  assert(at.x >> MantissaBits == 127 && at.y >> MantissaBits == 127 && at.z >> MantissaBits == 127);
   const Node& node = query.octree.nodes()[index];
   const int shift = target.stopSize;
   const int i = cellIndex(at.x >> shift & 3, at.y >> shift & 3, at.z >> shift & 3);

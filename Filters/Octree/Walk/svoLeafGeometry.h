@@ -31,6 +31,7 @@
 #include "svoTriangle.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -56,6 +57,7 @@ struct LeafQuery
     {
       geometry = LeafGeometry::Plane;
     }
+    assert(!o.empty());
   }
 
   const Octree& octree;
@@ -153,6 +155,7 @@ std::uint32_t representativeNode(
   {
     return cell.node;
   }
+  assert(cell.bitCount == GroupSize);
   const Node& node = query.octree.nodes()[cell.node];
   const Vector<Real> centre = cellCentre<Real>(cell.cell, query.bits);
   // Of the cell, not of the ray: what is hit must not depend on where the ray was cut.
@@ -176,6 +179,7 @@ Real intersectPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const S
   if (!(primitive & NodePrimitive))
   {
     const Surface& surface = *query.octree.surface();
+    assert(primitive < surface.triangles.size());
     const glm::uvec3 triangle = surface.triangles[primitive];
     const Vector<Real> a(surface.points[triangle.x]);
     const Vector<Real> normal = glm::cross(
@@ -184,6 +188,7 @@ Real intersectPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const S
   }
   // The node's block is the cell, or (at a level in between) one of the cell's eight children.
   const std::uint32_t index = primitive & ~NodePrimitive;
+  assert(index < query.octree.header().nodeCount);
   glm::ivec3 block = cell.cell;
   int bits = query.bits;
   if (cell.bitCount == GroupSize)
@@ -240,6 +245,7 @@ Visit meetTriangles(const LeafQuery& query, const ClippedRay<Real>& ray,
   const ShearedRay<Real>& sheared, const std::uint32_t* list, std::uint32_t count, Real& tMax,
   LeafHit<Real>& hit)
 {
+  assert(count > 0 && query.octree.surface() != nullptr);
   const Surface& surface = *query.octree.surface();
   for (std::uint32_t k = 0; k < count; ++k)
   {

@@ -17,6 +17,7 @@
 #include "svoIntersectBlock.h"
 #include "svoRay.h"
 
+#include <cassert>
 #include <cstdint>
 #include <limits>
 
@@ -292,6 +293,11 @@ HWY_INLINE Packet makePacket(const WalkTarget& target, const RayBlock& rays, int
   p.node = hn::Zero(di);
   p.size = hn::Zero(di);
   find(target, p, hn::Eq(p.node, p.node));
+  // Every lane, dead or not, is inside the cube and has a size to turn with.
+  assert(hn::AllTrue(di, hn::Eq(hn::ShiftRight<MantissaBits>(p.x), hn::Set(di, 127))));
+  assert(hn::AllTrue(di, hn::Eq(hn::ShiftRight<MantissaBits>(p.y), hn::Set(di, 127))));
+  assert(hn::AllTrue(di, hn::Eq(hn::ShiftRight<MantissaBits>(p.z), hn::Set(di, 127))));
+  assert(hn::AllFalse(di, hn::Lt(p.size, hn::Set(di, target.stopSize))));
   return p;
 }
 }

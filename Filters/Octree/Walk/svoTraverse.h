@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -77,6 +78,7 @@ enum class WalkEnd
 /// Bits of a cell's coordinate in the root cube at an octree level (0..octree.level()).
 inline int rootBits(const Octree& octree, int level)
 {
+  assert(level >= 0 && level <= octree.level());
   return level + 2 * octree.depthCount() - octree.level();
 }
 
@@ -134,6 +136,8 @@ bool clip(const Octree& octree, const Vector<Real>& origin, const Vector<Real>& 
 template <class Real, class Visitor>
 WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visitor&& visit)
 {
+  assert(!octree.empty());
+  assert(ray.tMin <= ray.tMax);
   const int bits = 2 * octree.depthCount(); // of a coordinate in voxels of the root cube
   const int stopShift = bits - rootBits(octree, level); // voxel >> stopShift = cell where we stop
   const int edge = 1 << octree.level();                 // voxels along the octree's cube
@@ -169,9 +173,13 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
   {
     // A cell of this node is `1 << shift` voxels wide. Find the largest cell around the ray that is
     // empty, or is one where the ray stops; else go down.
+    assert(depth < octree.depthCount());
     const std::uint32_t index = path[depth];
+    assert(
+      index >= octree.header().depthBegin[depth] && index < octree.header().depthBegin[depth + 1]);
     const Node& node = nodes[index];
     const int shift = bits - 2 * (depth + 1);
+    assert(node.mask != 0 && stopShift <= shift + 2);
     const int i = cellIndex(at.x >> shift & 3, at.y >> shift & 3, at.z >> shift & 3);
     const std::uint64_t octet = groupCells(node, groupOf(i));
     int leave = shift; // the cell to leave is 1 << leave voxels wide
@@ -266,6 +274,7 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
       changed |= next ^ at[a];
       at[a] = next;
     }
+    assert(changed != 0);
     // Up to the deepest node that holds both positions.
     while (depth > 0 && changed >> (bits - 2 * depth) != 0)
     {
