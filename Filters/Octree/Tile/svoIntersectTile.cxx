@@ -2,6 +2,7 @@
 #define HWY_TARGET_INCLUDE "svoIntersectTile.cxx"
 #include <hwy/foreach_target.h>
 
+#include "svoCounters.h"
 #include "svoIntersectTile.h"
 #include "svoLaneProducts-inl.h"
 #include "svoPyramidSides.h"
@@ -261,8 +262,13 @@ void traceKind(const Octree& octree, const PyramidSides& sides, const std::vecto
       const float* p = &surface.points[triangle.x].x;
       const float* q = &surface.points[triangle.y].x;
       const float* r = &surface.points[triangle.z].x;
-      if (!outside(sides, p, q, r))
+      if (outside(sides, p, q, r))
       {
+        SVO_COUNT(TileTrianglesOutside, 1);
+      }
+      else
+      {
+        SVO_COUNT(TileTriangles, 1);
         any = meetTriangle(rays, p, q, r, static_cast<std::int32_t>(id)) || any;
       }
     }

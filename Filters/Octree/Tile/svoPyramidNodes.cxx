@@ -2,6 +2,7 @@
 #define HWY_TARGET_INCLUDE "svoPyramidNodes.cxx"
 #include <hwy/foreach_target.h>
 
+#include "svoCounters.h"
 #include "svoMorton.h"
 #include "svoNode.h"
 #include "svoPyramidNodes.h"
@@ -167,6 +168,7 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
   {
     const OpenNode parent = open[--count];
     assert(parent.node < bricks && parent.size > 0.0f);
+    SVO_COUNT(TileNodesOpened, 1);
     const Node& node = all[parent.node];
     const F size = hn::Set(df, parent.size);
     const F deep = hn::Set(df, parent.size * tables.deep);
@@ -262,7 +264,10 @@ namespace svo
 HWY_EXPORT(findNodes);
 HWY_EXPORT(cubesInside);
 
-bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax,
+namespace
+{
+/// findTileNodes() of a tile or of a group of them.
+bool findInside(const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax,
   std::size_t most, std::vector<TileNode>& nodes)
 {
   static const CellOffsets offsets;
@@ -271,10 +276,25 @@ bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin,
     HWY_DYNAMIC_DISPATCH(findNodes)(octree, offsets, pyramid, tMin, tMax, most, nodes);
 }
 
+void countTile([[maybe_unused]] const std::vector<TileNode>& nodes)
+{
+  SVO_COUNT(TilesAccepted, nodes.empty() ? 0 : 1);
+  SVO_COUNT(TilesRejected, nodes.empty() ? 1 : 0);
+}
+}
+
+bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax,
+  std::size_t most, std::vector<TileNode>& nodes)
+{
+  const bool all = findInside(octree, pyramid, tMin, tMax, most, nodes);
+  countTile(nodes);
+  return all;
+}
+
 bool TileGroup::find(
   const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax, std::size_t most)
 {
-  if (!findTileNodes(octree, pyramid, tMin, tMax, most, this->Nodes))
+  if (!findInside(octree, pyramid, tMin, tMax, most, this->Nodes))
   {
     return false;
   }
@@ -317,6 +337,7 @@ void TileGroup::select(const TilePyramid& pyramid, std::vector<TileNode>& nodes)
       }
     }
   }
+  countTile(nodes);
 }
 }
 #endif

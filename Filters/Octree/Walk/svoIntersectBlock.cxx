@@ -6,6 +6,7 @@
 #define HWY_TARGET_INCLUDE "svoIntersectBlock.cxx"
 #include <hwy/foreach_target.h>
 
+#include "svoCounters.h"
 #include "svoIntersect.h"
 #include "svoIntersectBlock.h"
 #include "svoIntersectScalar.h"
@@ -164,6 +165,14 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
   return meetOneByOne(query, target, rays, anyHit, first, arrived, leave, nullptr, p, hits);
 }
 
+/// Counts a turn of two packets, of which these lanes are under way.
+HWY_INLINE void countTurn([[maybe_unused]] Lanes first, [[maybe_unused]] Lanes second)
+{
+  SVO_COUNT(NodesVisited, hn::CountTrue(DI(), first) + hn::CountTrue(DI(), second));
+  SVO_COUNT(
+    IdleLanes, 2 * hn::Lanes(DI()) - hn::CountTrue(DI(), first) - hn::CountTrue(DI(), second));
+}
+
 /// Walks until every lane has arrived or died.
 template <bool Groups>
 HWY_INLINE void walkBoth(const WalkTarget& walkTarget, Packet& first, Packet& second)
@@ -172,6 +181,7 @@ HWY_INLINE void walkBoth(const WalkTarget& walkTarget, Packet& first, Packet& se
   const WalkTarget target = walkTarget;
   Packet a = first;
   Packet b = second;
+  countTurn(hn::Not(a.dead), hn::Not(b.dead));
   // Each packet's turn is one long chain of dependent operations: two fill each other's gaps.
   for (;;)
   {
@@ -181,6 +191,7 @@ HWY_INLINE void walkBoth(const WalkTarget& walkTarget, Packet& first, Packet& se
     {
       break;
     }
+    countTurn(underWayA, underWayB);
   }
   first = a;
   second = b;

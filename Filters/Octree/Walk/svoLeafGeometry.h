@@ -22,6 +22,7 @@
 #ifndef svoLeafGeometry_h
 #define svoLeafGeometry_h
 
+#include "svoCounters.h"
 #include "svoMorton.h"
 #include "svoNode.h"
 #include "svoOctree.h"
@@ -245,6 +246,7 @@ Visit meetTriangles(const LeafQuery& query, const ClippedRay<Real>& ray,
   const ShearedRay<Real>& sheared, const std::uint32_t* list, std::uint32_t count, Real& tMax,
   LeafHit<Real>& hit)
 {
+  SVO_COUNT(TrianglesTested, count);
   assert(count > 0 && query.octree.surface() != nullptr);
   const Surface& surface = *query.octree.surface();
   for (std::uint32_t k = 0; k < count; ++k)

@@ -8,6 +8,7 @@
 #define SVO_PACKET_LEAF_INL
 #endif
 
+#include "svoCounters.h"
 #include "svoLaneProducts-inl.h"
 #include "svoPacketWalk-inl.h"
 
@@ -221,6 +222,7 @@ HWY_INLINE void meetLists(
   for (int k = 0; k < steps; ++k)
   {
     const Lanes active = hn::Gt(count, hn::Set(di, k));
+    SVO_COUNT(TrianglesTested, hn::CountTrue(di, active));
     const I id = triangleId(target, lists, k, active);
     Vec3 a, b, c;
     gatherTriangle(target, id, a, b, c);

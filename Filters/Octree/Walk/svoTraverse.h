@@ -15,6 +15,7 @@
 #ifndef svoTraverse_h
 #define svoTraverse_h
 
+#include "svoCounters.h"
 #include "svoMorton.h"
 #include "svoNode.h"
 #include "svoOctree.h"
@@ -173,6 +174,7 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
   {
     // A cell of this node is `1 << shift` voxels wide. Find the largest cell around the ray that is
     // empty, or is one where the ray stops; else go down.
+    SVO_COUNT(NodesVisited, 1);
     assert(depth < octree.depthCount());
     const std::uint32_t index = path[depth];
     assert(
