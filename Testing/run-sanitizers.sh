@@ -1,6 +1,6 @@
 #!/bin/bash
-# Builds build/sanitize under AddressSanitizer and UndefinedBehaviorSanitizer and runs the C++
-# tests there. Usage: run-sanitizers.sh [--no-install] [ctest arguments, e.g. -R TestBuild]
+# Builds build/sanitize under AddressSanitizer and UndefinedBehaviorSanitizer, with assert() alive, and
+# runs the C++ tests there. Usage: run-sanitizers.sh [--no-install] [ctest arguments, e.g. -R TestBuild]
 # Only libraries that are not ours are excused from leak reports: sanitizers.supp names them.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -13,7 +13,7 @@ fi
 CMake/install-packages.sh "${check_only[@]}" build test
 
 cmake -S . -B build/sanitize -G Ninja \
-  -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+  -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g" \
   -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
   -DVTKSVO_SANITIZE=ON -DVTKSVO_PYTHON=OFF -DVTKSVO_EXAMPLES=OFF
 cmake --build build/sanitize -j "${VTKSVO_JOBS:-2}"

@@ -2,6 +2,7 @@
 
 #include "svoAbort.h"
 #include "svoMeshOctree.h"
+#include "svoNode.h"
 #include "svoOctreeCells.h"
 #include "svoRepresentative.h"
 
@@ -49,10 +50,10 @@ bool isOccupied(
   const glm::ivec3 difference = (at ^ cell.cell) >> (cell.bitCount == 1 ? 2 : 1);
   if (cell.bitCount < 64 && difference == glm::ivec3(0))
   {
-    const std::uint64_t mask = octree.nodes()[cell.node].mask;
+    const svo::Node& node = octree.nodes()[cell.node];
     return cell.bitCount == 1
-      ? mask >> svo::cellIndex(at.x & 3, at.y & 3, at.z & 3) & 1
-      : (mask >> (8 * svo::cellIndex(at.x & 1, at.y & 1, at.z & 1)) & 0xff) != 0;
+      ? svo::hasChild(node, svo::cellIndex(at.x & 3, at.y & 3, at.z & 3))
+      : svo::groupCells(node, svo::GroupSize * svo::cellIndex(at.x & 1, at.y & 1, at.z & 1)) != 0;
   }
   return octree.occupied(at, level);
 }
@@ -123,7 +124,7 @@ int vtkSVOToPolyData::RequestData(
   forEachVisibleCell(octree, level, this->InteriorFaces,
     [&](const svo::OctreeCell&, int faces)
     {
-      count += static_cast<std::size_t>(__builtin_popcount(static_cast<unsigned>(faces)));
+      count += static_cast<std::size_t>(svo::countBits(static_cast<unsigned>(faces)));
       return goOn(0.0, 0.3);
     });
   if (svo::isAborted(this))
@@ -154,7 +155,7 @@ int vtkSVOToPolyData::RequestData(
     forEachVisibleCell(octree, level, this->InteriorFaces,
       [&](const svo::OctreeCell& cell, int faces)
       {
-        const std::uint32_t triangle = svo::representativeTriangle(octree, cell, level);
+        const std::uint32_t triangle = svo::nearestTriangle(octree, cell, level);
         for (int f = 0; f < 6; ++f)
         {
           if (faces >> f & 1)

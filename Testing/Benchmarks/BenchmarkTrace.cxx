@@ -1,7 +1,8 @@
 // How fast rays are: primary rays a second on one core, per leaf geometry and level, from far and
 // near, beside Embree where it was found. Every kernel that is timed is checked in the same run:
 // block queries against the scalar walk bit for bit and against the double reference, triangle
-// leaves against Embree in robust mode. Times are the thread's own CPU time, medians.
+// leaves against Embree in robust mode. Times are the thread's own CPU time, medians. Built with
+// VTKSVO_COUNTERS it says what each kernel did as well; then times mean nothing.
 //
 //   BenchmarkTrace [--levels 8,10,12] [--size 640x360] [--repeat n] [--scalar] [--json file]
 //                  [--a dragon.off] [--b sydney.md2] [mesh ...]
@@ -9,6 +10,7 @@
 #include "svoEmbreeScene.h"
 
 #include "svoBuild.h"
+#include "svoCounters.h"
 #include "svoIntersect.h"
 #include "svoIntersectScalar.h"
 #include "svoProjection.h"
@@ -191,6 +193,29 @@ std::vector<HitBlock> traceInDouble(
   return hits;
 }
 
+/// Forgets what was counted so far.
+void startCounting()
+{
+#ifdef VTKSVO_COUNTERS
+  takeCounts();
+#endif
+}
+
+/// Prints what was counted since, for each of `rays`.
+void printCounts([[maybe_unused]] double rays)
+{
+#ifdef VTKSVO_COUNTERS
+  const Counts counts = takeCounts();
+  for (std::size_t i = 0; i < CounterCount; ++i)
+  {
+    if (counts[i] != 0)
+    {
+      std::printf("      %-32s %9.4f a ray\n", counterName(i), counts[i] / rays);
+    }
+  }
+#endif
+}
+
 class Report
 {
 public:
@@ -274,8 +299,10 @@ void benchmark(const svobench::Mesh& mesh, const Octree& octree, const char* cam
     }
     const auto time = [&](const std::string& kernel, const std::function<void()>& run)
     {
+      startCounting();
       const double seconds = medianSeconds(settings.repeat, run);
       report.add(mesh.name, octree.level(), camera, names[g] + kernel, rays / seconds);
+      printCounts(static_cast<double>(rays) * (settings.repeat + 1)); // once to warm up
     };
     if (settings.scalar)
     {

@@ -4,6 +4,7 @@
 
 #include "svoBuild.h"
 #include "svoMorton.h"
+#include "svoNode.h"
 #include "svoOctree.h"
 #include "svoRay.h"
 #include "svoTestMesh.h"
@@ -174,7 +175,7 @@ inline std::vector<std::uint64_t> makeBuffer(const std::vector<glm::ivec3>& voxe
       std::uint32_t first = next;
       if (depth + 1 < header.depthCount)
       {
-        next += __builtin_popcountll(mask);
+        next += svo::countBits(mask);
       }
       else if (nodes.size() % 2 == 0)
       {

@@ -3,6 +3,7 @@
 #define svoOctreeCells_h
 
 #include "svoMorton.h"
+#include "svoNode.h"
 #include "svoOctree.h"
 
 #include <cstdint>
@@ -32,7 +33,8 @@ bool visitCells(
     for (int group = 0; group < 8; ++group)
     {
       const glm::ivec3 at = 2 * block + glm::ivec3(group & 1, group >> 1 & 1, group >> 2);
-      if ((node.mask >> (8 * group) & 0xff) && !visit(OctreeCell{ at, index, 8 * group, 8 }))
+      const int first = GroupSize * group;
+      if (groupCells(node, first) != 0 && !visit(OctreeCell{ at, index, first, GroupSize }))
       {
         return false;
       }
@@ -42,7 +44,7 @@ bool visitCells(
   std::uint32_t child = node.first;
   for (std::uint64_t mask = node.mask; mask; mask &= mask - 1)
   {
-    const int bit = __builtin_ctzll(mask);
+    const int bit = lowestBit(mask);
     const glm::ivec3 at = 4 * block + cellOfIndex(bit);
     const bool goOn = remaining == 2 ? visit(OctreeCell{ at, index, bit, 1 })
                                      : visitCells(octree, child++, at, remaining - 2, visit);

@@ -1,5 +1,7 @@
 #include "svoRepresentative.h"
 
+#include "svoNode.h"
+
 #include <cmath>
 #include <limits>
 
@@ -46,18 +48,16 @@ std::uint32_t firstTriangle(const Octree& octree, std::uint32_t node)
   return *octree.brickTriangles(node, count, inlineId);
 }
 
-std::uint32_t representativeTriangle(const Octree& octree, const OctreeCell& cell, int level)
+std::uint32_t nearestTriangle(const Octree& octree, const OctreeCell& cell, int level)
 {
   if (cell.node < octree.brickBegin())
   {
     std::uint32_t node = cell.node;
     if (cell.bitCount < 64)
     {
-      // The first child below the cell's own bits.
-      const std::uint64_t mask = octree.nodes()[node].mask;
-      const int bit = __builtin_ctzll(mask & (~std::uint64_t(0) << cell.firstBit));
-      node = octree.nodes()[node].first +
-        static_cast<std::uint32_t>(__builtin_popcountll(mask & ((1ull << bit) - 1)));
+      // The first of the children that are the cell's.
+      const Node& parent = octree.nodes()[node];
+      node = parent.first + static_cast<std::uint32_t>(childrenBefore(parent, cell.firstBit));
     }
     return firstTriangle(octree, node);
   }

@@ -14,7 +14,7 @@ std::uint32_t firstTriangle(const Octree& octree, std::uint32_t node);
 
 /// The triangle that is nearest to the cell's centre among those of the cell's brick; above the
 /// bricks, the first triangle. The octree must have its surface.
-std::uint32_t representativeTriangle(const Octree& octree, const OctreeCell& cell, int level);
+std::uint32_t nearestTriangle(const Octree& octree, const OctreeCell& cell, int level);
 }
 
 #endif

@@ -1,6 +1,9 @@
 #include "svoAssemble.h"
 
+#include "svoNode.h"
+
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -15,9 +18,9 @@ constexpr std::size_t NodeBlock = 16384;
 /// The nodes of one depth, in ascending order of their keys.
 struct Depth
 {
-  Buffer<std::uint64_t> keys; // Morton keys of the blocks
-  Buffer<Node> nodes;         // `first` of an inner node: index in the next depth's own array
-  Buffer<SurfaceMoment> moments;
+  RawArray<std::uint64_t> keys; // Morton keys of the blocks
+  RawArray<Node> nodes;         // `first` of an inner node: index in the next depth's own array
+  RawArray<SurfaceMoment> moments;
 
   explicit Depth(std::size_t size)
     : keys(size)
@@ -101,7 +104,8 @@ std::size_t fillBucket(const BrickRecord* records, std::size_t count, Share at,
     }
     const SurfaceMoment moment = brickMoment(records + i, end - i, node.mask, shapes);
     node.plane = planeOfMoment(moment, 4.0f);
-    voxels += static_cast<std::size_t>(__builtin_popcountll(node.mask));
+    voxels += static_cast<std::size_t>(childCount(node));
+    assert(at.nodes < bricks.size());
     bricks.keys[at.nodes] = records[i].key;
     bricks.nodes[at.nodes] = node;
     bricks.moments[at.nodes] = moment;
@@ -109,8 +113,8 @@ std::size_t fillBucket(const BrickRecord* records, std::size_t count, Share at,
   return voxels;
 }
 
-Depth makeBricks(const SortedRecords& sorted, const Buffer<TriangleShape>& shapes, Header& header,
-  Buffer<std::uint32_t>& lists, Executor& executor)
+Depth makeBricks(const SortedRecords& sorted, const RawArray<TriangleShape>& shapes, Header& header,
+  RawArray<std::uint32_t>& lists, Executor& executor)
 {
   std::vector<Share> shares(sorted.bucketCount());
   const auto cost = [&](std::size_t i) { return static_cast<double>(sorted.bucketSize(i)); };
@@ -129,7 +133,7 @@ Depth makeBricks(const SortedRecords& sorted, const Buffer<TriangleShape>& shape
     throw LayoutOverflow{ all.nodes > LargestIndex ? "nodes" : "words of triangle lists" };
   }
   Depth bricks(all.nodes);
-  lists = Buffer<std::uint32_t>(all.listWords);
+  lists = RawArray<std::uint32_t>(all.listWords);
   std::vector<std::size_t> voxels(shares.size());
   executor.run(shares.size(), 16, 0.1, 4e5, cost,
     [&](std::size_t first, std::size_t last)
@@ -186,9 +190,10 @@ Depth makeParents(const Depth& children, float childEdge, Executor& executor)
           }
           Node node{ 0, static_cast<std::uint32_t>(i), 0 };
           const std::uint64_t key = children.keys[i] >> 6;
+          assert(i == 0 || children.keys[i - 1] < children.keys[i]);
           for (std::size_t k = i; k < count && children.keys[k] >> 6 == key; ++k)
           {
-            node.mask |= 1ull << (children.keys[k] & 63);
+            node.mask |= cellBit(children.keys[k] & 63);
           }
           const SurfaceMoment moment =
             blockMoment(children.moments.data() + i, node.mask, childEdge);
@@ -214,7 +219,7 @@ Depth emptyRoot(bool brick)
 }
 
 std::shared_ptr<std::byte> writeBuffer(const std::vector<Depth>& depths,
-  const Buffer<std::uint32_t>& lists, Header& header, std::size_t& size, Executor& executor)
+  const RawArray<std::uint32_t>& lists, Header& header, std::size_t& size, Executor& executor)
 {
   header.nodeCount = 0;
   for (std::size_t d = 0; d < depths.size(); ++d)
@@ -262,11 +267,11 @@ std::shared_ptr<std::byte> writeBuffer(const std::vector<Depth>& depths,
 }
 }
 
-std::shared_ptr<std::byte> assemble(SortedRecords&& records, const Buffer<TriangleShape>& shapes,
+std::shared_ptr<std::byte> assemble(SortedRecords&& records, const RawArray<TriangleShape>& shapes,
   Header& header, std::size_t& size, Executor& executor)
 {
   std::vector<Depth> depths;
-  Buffer<std::uint32_t> lists;
+  RawArray<std::uint32_t> lists;
   {
     const SortedRecords own = std::move(records);
     depths.push_back(makeBricks(own, shapes, header, lists, executor));
@@ -284,6 +289,7 @@ std::shared_ptr<std::byte> assemble(SortedRecords&& records, const Buffer<Triang
     depths[d - 1].moments = {};
     depths[d - 1].keys = {};
   }
+  assert(depths.back().size() == 1 && depths.back().keys[0] == 0);
   std::reverse(depths.begin(), depths.end());
   return writeBuffer(depths, lists, header, size, executor);
 }

@@ -17,7 +17,7 @@ struct LayoutOverflow
 
 /// Fills the counts of the header and returns the whole buffer, of `size` bytes. The level, the
 /// depths and the cube must be in the header already. Frees the records.
-std::shared_ptr<std::byte> assemble(SortedRecords&& records, const Buffer<TriangleShape>& shapes,
+std::shared_ptr<std::byte> assemble(SortedRecords&& records, const RawArray<TriangleShape>& shapes,
   Header& header, std::size_t& size, Executor& executor);
 }
 

@@ -1,6 +1,7 @@
 #include "svoBuild.h"
 
 #include "svoAssemble.h"
+#include "svoLattice.h"
 #include "svoWork.h"
 
 #include <algorithm>
@@ -66,7 +67,7 @@ void buildStages(
   executor.report();
   const Cube cube = boundingCube(mesh, options, result.droppedTriangles);
   executor.report();
-  Buffer<float> recordsOfTriangle(mesh.triangleCount);
+  RawArray<float> recordsOfTriangle(mesh.triangleCount);
   measure = measureMesh(mesh, cube, options.parallelFor, options.level, recordsOfTriangle);
   const double limit = options.memoryLimit > 0 ? static_cast<double>(options.memoryLimit) : 1e300;
   if (measure.expectedMemory(options.level) > limit || !measure.fitsIndices(options.level))
@@ -78,7 +79,7 @@ void buildStages(
   executor.report();
   const std::vector<WorkPiece> pieces = cutWork(recordsOfTriangle);
   recordsOfTriangle = {};
-  Buffer<TriangleShape> shapes(mesh.triangleCount);
+  RawArray<TriangleShape> shapes(mesh.triangleCount);
   Header header = makeHeader(mesh, options, cube);
   SortedRecords records = sortRecords(
     voxelizeMesh(mesh, cube, options.level, pieces, shapes, executor), options.level, executor);
@@ -90,7 +91,7 @@ void buildStages(
 std::size_t estimateBuildMemory(const TriangleMesh& mesh, int level)
 {
   level = std::clamp(level, 1, MaximumLevel);
-  Buffer<float> none;
+  RawArray<float> none;
   const double bytes =
     measureMesh(mesh, boundingCube(mesh, level), serialFor, level, none).expectedMemory(level);
   return static_cast<std::size_t>(std::min(bytes, 1e18));
@@ -139,5 +140,26 @@ BuildResult build(const TriangleMesh& mesh, const BuildOptions& options)
     result.size = 0;
   }
   return result;
+}
+
+std::shared_ptr<const Surface> makeSurface(const TriangleMesh& mesh,
+  std::vector<std::uint32_t> cells, const Header& header, const ParallelFor& parallelFor)
+{
+  auto surface = std::make_shared<Surface>();
+  surface->points.resize(mesh.pointCount);
+  surface->triangles.assign(mesh.triangles, mesh.triangles + mesh.triangleCount);
+  surface->cells = std::move(cells);
+  const glm::dvec3 origin(header.origin[0], header.origin[1], header.origin[2]);
+  const double scale = 1.0 / std::ldexp(header.voxelSize, static_cast<int>(2 * header.depthCount));
+  parallelFor(0, mesh.pointCount, 16384,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const glm::dvec3& p = mesh.points[i];
+        surface->points[i] = usable(p) ? glm::vec3(1.0 + (p - origin) * scale) : glm::vec3(1.0f);
+      }
+    });
+  return surface;
 }
 }

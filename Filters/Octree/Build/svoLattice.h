@@ -6,6 +6,7 @@
 #include "svoBuild.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -48,6 +49,8 @@ struct Lattice
     , unitsPerLength(std::ldexp(1.0 / cube.edge, level + LatticeBits))
     , last((1 << (level + LatticeBits)) - 1)
   {
+    assert(level >= 1 && level <= MaximumLevel);
+    assert(cube.edge > 0.0 && std::isfinite(this->unitsPerLength));
   }
 
   /// Not snapped, in lattice units.
@@ -56,6 +59,7 @@ struct Lattice
   /// The nearest lattice point of a place.
   glm::ivec3 snap(const glm::dvec3& q) const
   {
+    assert(std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z));
     // Positive, so that the conversion rounds down.
     const double top = this->last;
     return { static_cast<std::int32_t>(std::clamp(q.x + 0.5, 1.0, top)),

@@ -1,9 +1,11 @@
 #include "svoMeanPlanes.h"
 
 #include "svoMorton.h"
+#include "svoNode.h"
 #include "svoPlane.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace svo
@@ -72,6 +74,7 @@ glm::vec3 middleOfVoxels(std::uint64_t mask, float& count)
 SurfaceMoment brickMoment(
   const BrickRecord* records, std::size_t count, std::uint64_t mask, const TriangleShape* shapes)
 {
+  assert(count > 0 && mask != 0);
   float voxels = 0.0f;
   const glm::vec3 middle = middleOfVoxels(mask, voxels);
   if (count == 1)
@@ -127,10 +130,11 @@ SurfaceMoment blockMoment(const SurfaceMoment* children, std::uint64_t mask, flo
   for (; mask != 0; mask &= mask - 1, ++count)
   {
     const SurfaceMoment& child = children[count];
-    const glm::vec3 cell(cellOfIndex(__builtin_ctzll(mask)));
+    const glm::vec3 cell(cellOfIndex(lowestBit(mask)));
     moment.area += child.area;
     moment.centre += ((cell - 1.5f) * childEdge + child.centre) * child.area;
   }
+  assert(moment.area > 0.0f);
   moment.centre /= moment.area;
   moment.normal = sumOnOneSide(count, [&](std::size_t i) { return children[i].normal; });
   return moment;

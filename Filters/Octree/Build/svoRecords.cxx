@@ -3,6 +3,7 @@
 #include "svoLattice.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -74,6 +75,7 @@ void sortBucket(BrickRecord* records, BrickRecord* scratch, std::size_t count, i
       { return a.key != b.key ? a.key < b.key : a.triangle < b.triangle; });
     return;
   }
+  assert(digit <= 10);
   std::uint32_t place[1 << 10];
   for (int pass = 0; pass < passes; ++pass)
   {
@@ -98,10 +100,19 @@ void sortBucket(BrickRecord* records, BrickRecord* scratch, std::size_t count, i
     std::swap(records, scratch);
   }
 }
+
+/// True if no brick is out of order, and no triangle of a brick, or there twice.
+[[maybe_unused]] bool isSorted(const RawArray<BrickRecord>& records)
+{
+  const BrickRecord* const end = records.data() + records.size();
+  return std::adjacent_find(records.data(), end,
+           [](const BrickRecord& a, const BrickRecord& b)
+           { return a.key > b.key || (a.key == b.key && a.triangle >= b.triangle); }) == end;
+}
 }
 
 std::vector<RecordList> voxelizeMesh(const TriangleMesh& mesh, const Cube& cube, int level,
-  const std::vector<WorkPiece>& pieces, Buffer<TriangleShape>& shapes, Executor& executor)
+  const std::vector<WorkPiece>& pieces, RawArray<TriangleShape>& shapes, Executor& executor)
 {
   const Lattice lattice(cube, level);
   std::vector<RecordList> records(pieces.size());
@@ -126,6 +137,7 @@ std::vector<RecordList> voxelizeMesh(const TriangleMesh& mesh, const Cube& cube,
           const std::uint64_t voxels = voxelizeTriangle(t, level, out, piece.part, piece.parts);
           if (piece.parts == 1)
           {
+            assert(voxels > 0);
             shape.areaPerVoxel /= static_cast<float>(voxels);
             shapes[id] = shape;
           }
@@ -145,6 +157,7 @@ std::vector<RecordList> voxelizeMesh(const TriangleMesh& mesh, const Cube& cube,
       {
         voxels += voxelsOfPart[k];
       }
+      assert(voxels > 0);
       TriangleShape& shape = shapes[pieces[i].first];
       placeTriangle(mesh, lattice, pieces[i].first, shape);
       shape.areaPerVoxel /= static_cast<float>(voxels);
@@ -185,6 +198,7 @@ SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor&
         {
           for (const BrickRecord& record : pieces[i])
           {
+            assert(record.key >> keyBits == 0);
             ++count[record.key >> shift];
           }
         }
@@ -207,7 +221,7 @@ SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor&
     places[i] = next[i & (buckets - 1)];
     next[i & (buckets - 1)] += count;
   }
-  sorted.records = Buffer<BrickRecord>(total);
+  sorted.records = RawArray<BrickRecord>(total);
   executor.run(blocks, 1, 0.08, 2e6, cost,
     [&](std::size_t first, std::size_t last)
     {
@@ -234,13 +248,15 @@ SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor&
       {
         largest = std::max(largest, sorted.bucketSize(bucket));
       }
-      Buffer<BrickRecord> scratch(largest);
+      RawArray<BrickRecord> scratch(largest);
       for (std::size_t bucket = first; bucket < last; ++bucket)
       {
         sortBucket(sorted.records.data() + sorted.bucketBegin[bucket], scratch.data(),
           sorted.bucketSize(bucket), shift);
       }
     });
+  assert(sorted.bucketBegin.back() == total);
+  assert(isSorted(sorted.records));
   return sorted;
 }
 }

@@ -2,9 +2,9 @@
 #ifndef svoRecords_h
 #define svoRecords_h
 
-#include "svoBuffer.h"
 #include "svoExecutor.h"
 #include "svoMeanPlanes.h"
+#include "svoRawArray.h"
 #include "svoVoxelize.h"
 #include "svoWork.h"
 
@@ -16,7 +16,7 @@ namespace svo
 /// whose keys agree in their highest bits: buckets can be worked on without each other.
 struct SortedRecords
 {
-  Buffer<BrickRecord> records;
+  RawArray<BrickRecord> records;
   std::vector<std::size_t> bucketBegin;
 
   std::size_t bucketCount() const { return this->bucketBegin.size() - 1; }
@@ -29,7 +29,7 @@ struct SortedRecords
 /// Voxelises the pieces. `shapes` has an element for each triangle, written for those that are
 /// usable.
 std::vector<RecordList> voxelizeMesh(const TriangleMesh& mesh, const Cube& cube, int level,
-  const std::vector<WorkPiece>& pieces, Buffer<TriangleShape>& shapes, Executor& executor);
+  const std::vector<WorkPiece>& pieces, RawArray<TriangleShape>& shapes, Executor& executor);
 
 /// Sorts the pieces' records and frees the pieces.
 SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor& executor);

@@ -10,8 +10,10 @@
 #include "svoBrickTables.h"
 #include "svoLattice.h"
 #include "svoMorton.h"
+#include "svoNode.h"
 #include "svoTriangleBox.h"
 
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -36,6 +38,13 @@ struct Corners
       this->at[i][1] = t.vertices[i].y;
       this->at[i][2] = t.vertices[i].z;
     }
+  }
+
+  /// True if all coordinates are 0..end - 1.
+  bool within(std::int32_t end) const
+  {
+    return std::all_of(
+      &this->at[0][0], &this->at[0][0] + 9, [end](std::int32_t c) { return c >= 0 && c < end; });
   }
 };
 
@@ -139,7 +148,7 @@ private:
       if (voxel.x <= this->Within.last[0] && voxel.y <= this->Within.last[1] &&
         voxel.z <= this->Within.last[2] && this->touches(voxel, 0))
       {
-        mask |= 1ull << i;
+        mask |= cellBit(i);
         ++this->Voxels;
       }
     }
@@ -280,7 +289,7 @@ public:
           }
           if (mask != 0)
           {
-            voxels += __builtin_popcountll(mask);
+            voxels += countBits(mask);
             records.push({ columnKey | keyW << w, mask, this->Triangle.id,
               static_cast<float>(columnOffset - along(w, brickW)) });
           }
@@ -360,7 +369,9 @@ private:
 std::uint64_t voxelize(
   const LatticeTriangle& t, int level, RecordList& records, std::uint32_t part, std::uint32_t parts)
 {
+  assert(level >= 1 && level <= MaximumLevel && part < parts);
   const Corners corners(t);
+  assert(corners.within(1 << (level + LatticeBits)));
   const Range range(corners, level);
   std::int64_t normal[3];
   std::int64_t largest = 0;

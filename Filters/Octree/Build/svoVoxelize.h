@@ -5,6 +5,7 @@
 #include "vtkSVOOctreeModule.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -45,6 +46,7 @@ public:
   }
   void push(const BrickRecord& record)
   {
+    assert(record.mask != 0);
     if (this->Size == this->Capacity)
     {
       this->grow(2 * this->Capacity + 64);

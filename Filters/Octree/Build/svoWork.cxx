@@ -3,6 +3,7 @@
 #include "svoLattice.h"
 #include "svoMeanPlanes.h"
 
+#include <cassert>
 #include <limits>
 
 #include <glm/geometric.hpp>
@@ -162,7 +163,7 @@ bool MeshMeasure::fitsIndices(int level) const
 }
 
 MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const ParallelFor& parallelFor,
-  int level, Buffer<float>& recordsOfTriangle)
+  int level, RawArray<float>& recordsOfTriangle)
 {
   const std::size_t blocks = blocksOf(mesh.triangleCount);
   std::vector<MeshMeasure> measures(blocks);
@@ -212,7 +213,7 @@ MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const Parall
   return sum;
 }
 
-std::vector<WorkPiece> cutWork(const Buffer<float>& recordsOfTriangle)
+std::vector<WorkPiece> cutWork(const RawArray<float>& recordsOfTriangle)
 {
   double total = 0.0;
   for (std::size_t i = 0; i < recordsOfTriangle.size(); ++i)
@@ -252,6 +253,8 @@ std::vector<WorkPiece> cutWork(const Buffer<float>& recordsOfTriangle)
     piece.last = static_cast<std::uint32_t>(recordsOfTriangle.size());
     pieces.push_back(piece);
   }
+  assert(pieces.empty() ? recordsOfTriangle.size() == 0
+                        : pieces.back().last == recordsOfTriangle.size());
   return pieces;
 }
 }

@@ -2,8 +2,8 @@
 #ifndef svoWork_h
 #define svoWork_h
 
-#include "svoBuffer.h"
 #include "svoBuild.h"
+#include "svoRawArray.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -40,10 +40,10 @@ struct WorkPiece
 
 /// Sums are taken in blocks of a fixed size, so that they are the same for any executor.
 MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const ParallelFor& parallelFor,
-  int level, Buffer<float>& recordsOfTriangle);
+  int level, RawArray<float>& recordsOfTriangle);
 
 /// Cuts the mesh into pieces of about equal work, in ascending order of triangles.
-std::vector<WorkPiece> cutWork(const Buffer<float>& recordsOfTriangle);
+std::vector<WorkPiece> cutWork(const RawArray<float>& recordsOfTriangle);
 
 /// boundingCube() in parallel; also counts the triangles that are not usable.
 Cube boundingCube(

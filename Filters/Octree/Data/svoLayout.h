@@ -24,8 +24,8 @@
 //   +------------------------+ 256
 //   | Node 0 (root) 16 bytes |  breadth first: all nodes of depth 0, then of depth 1, ...; the
 //   | Node 1                 |  children of one node are neighbours, in Morton order, and only
-//   | ...                    |  those that exist are stored (child i is at
-//   | Node nodeCount - 1     |  first + popcount(mask & ((1 << i) - 1)))
+//   | ...                    |  those that exist are stored (that of cell i is at
+//   | Node nodeCount - 1     |  first + the number of bits below bit i that mask has: svoNode.h)
 //   +------------------------+ 256 + 16 * nodeCount
 //   | lists   4 bytes a word |  triangle lists of the bricks that more than one triangle touches:
 //   |                        |  count, id, id, ... (ascending); in the order of their bricks, none
@@ -56,6 +56,9 @@ enum class LeafGeometry : std::uint32_t
 
 constexpr int MaximumLevel = 20;
 constexpr int MaximumDepths = (MaximumLevel + 1) / 2;
+/// Bits of a float below its exponent: of an octree coordinate, those of the cells.
+constexpr int MantissaBits = 23;
+static_assert(2 * MaximumDepths <= MantissaBits, "a float tells all voxels of a root cube apart");
 constexpr std::uint32_t InlineTriangle = 0x80000000u;
 
 struct Node

@@ -2,6 +2,7 @@
 #ifndef svoMorton_h
 #define svoMorton_h
 
+#include <cassert>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -11,12 +12,14 @@ namespace svo
 /// Index 0..63 of the cell (x, y, z), each 0..3, in a 4x4x4 block.
 constexpr int cellIndex(int x, int y, int z)
 {
+  assert((x & 3) == x && (y & 3) == y && (z & 3) == z);
   return (x & 1) | (y & 1) << 1 | (z & 1) << 2 | (x >> 1) << 3 | (y >> 1) << 4 | (z >> 1) << 5;
 }
 
 /// Inverse of cellIndex.
 inline glm::ivec3 cellOfIndex(int i)
 {
+  assert(i >= 0 && i < 64);
   return { (i & 1) | (i >> 2 & 2), (i >> 1 & 1) | (i >> 3 & 2), (i >> 2 & 1) | (i >> 4 & 2) };
 }
 

@@ -1,6 +1,7 @@
 #include "svoOctree.h"
 
 #include "svoMorton.h"
+#include "svoNode.h"
 
 #include <algorithm>
 #include <atomic>
@@ -113,7 +114,7 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
     if (i < bricks)
     {
       good = good && node.first == next;
-      next += __builtin_popcountll(node.mask);
+      next += childCount(node);
     }
     else if (node.first & InlineTriangle)
     {
@@ -131,7 +132,7 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
       octree.Longest = std::max(octree.Longest, good ? lists[node.first] : 0u);
       nextList += good ? lists[node.first] + std::uint64_t(1) : 0;
     }
-    voxels += i < bricks ? 0 : __builtin_popcountll(node.mask);
+    voxels += i < bricks ? 0 : childCount(node);
     if (!good || (i + 1 == h.depthBegin[1] && h.depthCount > 1 && next != h.depthBegin[2]))
     {
       error = "the octree's nodes are damaged";
@@ -144,7 +145,7 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
   {
     for (std::uint32_t i = h.depthBegin[d]; i < h.depthBegin[d + 1]; ++i)
     {
-      children += __builtin_popcountll(nodes[i].mask);
+      children += childCount(nodes[i]);
     }
     if (children != h.depthBegin[d + 2])
     {
@@ -203,20 +204,20 @@ bool Octree::occupied(glm::ivec3 cell, int level) const
   {
     const int shift = bits - 2;
     const int i = cellIndex(cell.x >> shift & 3, cell.y >> shift & 3, cell.z >> shift & 3);
-    if (!(node->mask >> i & 1))
+    if (!hasChild(*node, i))
     {
       return false;
     }
-    node = this->nodes() + node->first + __builtin_popcountll(node->mask & ((1ull << i) - 1));
+    node = this->nodes() + child(*node, i);
   }
   if (bits == 2)
   {
-    return node->mask >> cellIndex(cell.x & 3, cell.y & 3, cell.z & 3) & 1;
+    return hasChild(*node, cellIndex(cell.x & 3, cell.y & 3, cell.z & 3));
   }
   if (bits == 1)
   {
     const int group = (cell.x & 1) | (cell.y & 1) << 1 | (cell.z & 1) << 2;
-    return (node->mask >> (8 * group) & 0xff) != 0;
+    return groupCells(*node, GroupSize * group) != 0;
   }
   return true; // level 0 of an even octree: the cube itself
 }

@@ -8,6 +8,7 @@
 #include "svoUpperLevels.h"
 #include "vtkSVOOctreeModule.h"
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -32,7 +33,11 @@ public:
     std::shared_ptr<const Surface> surface, std::string& error);
 
   explicit operator bool() const { return this->Data != nullptr; }
-  const Header& header() const { return *reinterpret_cast<const Header*>(this->Data.get()); }
+  const Header& header() const
+  {
+    assert(this->Data);
+    return *reinterpret_cast<const Header*>(this->Data.get());
+  }
   const Node* nodes() const
   {
     return reinterpret_cast<const Node*>(this->Data.get() + sizeof(Header));
@@ -73,6 +78,7 @@ public:
   const std::uint32_t* brickTriangles(
     std::uint32_t brick, std::uint32_t& count, std::uint32_t& inlineId) const
   {
+    assert(brick >= this->brickBegin() && brick < this->header().nodeCount);
     const std::uint32_t reference = this->nodes()[brick].first;
     if (reference & InlineTriangle)
     {

@@ -11,6 +11,7 @@
 #define svoPlane_h
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -29,6 +30,7 @@ struct MeanPlane
 inline std::uint32_t encodePlane(const MeanPlane& p)
 {
   const glm::vec3 n = p.normal;
+  assert(std::abs(glm::dot(n, n) - 1.0f) < 1e-3f);
   const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
   glm::vec2 o = sum > 0.0f ? glm::vec2(n.x, n.y) / sum : glm::vec2(0.0f);
   if (n.z < 0.0f)

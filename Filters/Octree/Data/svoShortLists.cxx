@@ -1,8 +1,10 @@
 #include "svoShortLists.h"
 
+#include "svoNode.h"
 #include "svoOctree.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace svo
 {
@@ -54,6 +56,7 @@ public:
   /// The triangles of a node. Lists below a node with too many are written down.
   void gather(std::uint32_t index, Few& few)
   {
+    assert(index < this->Of.header().nodeCount);
     if (index >= this->Bricks)
     {
       std::uint32_t count, inlineId;
@@ -69,7 +72,7 @@ public:
       return;
     }
     const Node& node = this->Of.nodes()[index];
-    const std::uint32_t children = __builtin_popcountll(node.mask);
+    const auto children = static_cast<std::uint32_t>(childCount(node));
     Few below[64];
     few.count = 0;
     for (std::uint32_t k = 0; k < children; ++k)
@@ -94,6 +97,7 @@ public:
   {
     if (few.count != Few::TooMany)
     {
+      assert(few.count > 0 && std::is_sorted(few.ids, few.ids + few.count));
       this->Lists.begin[index] = static_cast<std::uint32_t>(this->Lists.words.size());
       this->Lists.words.push_back(few.count);
       this->Lists.words.insert(this->Lists.words.end(), few.ids, few.ids + few.count);

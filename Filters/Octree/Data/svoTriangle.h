@@ -8,6 +8,7 @@
 #ifndef svoTriangle_h
 #define svoTriangle_h
 
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -33,6 +34,7 @@ struct ShearedRay
     {
       std::swap(x, y);
     }
+    assert(direction[z] != Real(0) && std::isfinite(direction[z]));
     shear = { direction[x] / direction[z], direction[y] / direction[z], Real(1) / direction[z] };
   }
 

@@ -1,15 +1,15 @@
 #include "svoUpperLevels.h"
 
 #include "svoMorton.h"
+#include "svoNode.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace svo
 {
 namespace
 {
-constexpr int MantissaBits = 23;
-
 /// Fills a table from the one before it: every entry's cell is divided into 4x4x4.
 void refine(const std::vector<std::uint32_t>& coarse, int depth, const Node* nodes,
   std::vector<std::uint32_t>& fine)
@@ -28,16 +28,14 @@ void refine(const std::vector<std::uint32_t>& coarse, int depth, const Node* nod
         {
           const Node& node = nodes[parent >> 5];
           const int cell = cellIndex(x & 3, y & 3, z & 3);
-          const std::uint64_t bit = std::uint64_t(1) << cell;
-          if (node.mask & bit)
+          if (hasChild(node, cell))
           {
-            const std::uint32_t child =
-              node.first + static_cast<std::uint32_t>(__builtin_popcountll(node.mask & (bit - 1)));
-            entry = child << 5 | (cellExponent - 2);
+            assert(child(node, cell) < UpperLevels::Empty >> 5);
+            entry = child(node, cell) << 5 | (cellExponent - 2);
           }
           else
           {
-            const bool emptyGroup = (node.mask >> (cell & 56) & 0xff) == 0;
+            const bool emptyGroup = groupCells(node, groupOf(cell)) == 0;
             entry = UpperLevels::Empty | (cellExponent + (emptyGroup ? 1 : 0) - 2);
           }
         }

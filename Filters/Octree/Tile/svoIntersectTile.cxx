@@ -2,11 +2,13 @@
 #define HWY_TARGET_INCLUDE "svoIntersectTile.cxx"
 #include <hwy/foreach_target.h>
 
+#include "svoCounters.h"
 #include "svoIntersectTile.h"
+#include "svoLaneProducts-inl.h"
 #include "svoPyramidSides.h"
-#include "svoTriangle.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <limits>
 
@@ -24,35 +26,6 @@ using DI = hn::ScalableTag<std::int32_t>;
 using DFour = hn::CappedTag<float, 4>;
 using F = hn::Vec<DF>;
 using I = hn::Vec<DI>;
-
-/// a b - c d as differenceOfProducts() of svoTriangle.h computes it.
-HWY_INLINE F exactDifference(F a, F b, F c, F d)
-{
-  const DF df;
-  const F ab = hn::Mul(a, b);
-  const F cd = hn::Mul(c, d);
-  const F difference = hn::Sub(ab, cd);
-  const auto equal = hn::Eq(ab, cd);
-  if (HWY_LIKELY(hn::AllFalse(df, equal)))
-  {
-    return difference;
-  }
-#if HWY_NATIVE_FMA
-  const F exact = hn::Sub(hn::MulSub(a, b, ab), hn::MulSub(c, d, cd));
-  return hn::IfThenElse(equal, exact, difference);
-#else
-  HWY_ALIGN float v[5][hn::MaxLanes(df)];
-  hn::Store(a, df, v[0]);
-  hn::Store(b, df, v[1]);
-  hn::Store(c, df, v[2]);
-  hn::Store(d, df, v[3]);
-  for (std::size_t i = 0; i < hn::Lanes(df); ++i)
-  {
-    v[4][i] = differenceOfProducts(v[0][i], v[1][i], v[2][i], v[3][i]);
-  }
-  return hn::Load(df, v[4]);
-#endif
-}
 
 /// The rays of a tile whose direction is longest along one axis, sheared as ShearedRay of
 /// svoTriangle.h does.
@@ -96,9 +69,9 @@ HWY_INLINE bool meetTriangle(
     const F by = hn::Sub(hn::Sub(qy, oy), hn::Mul(sy, bz));
     const F cx = hn::Sub(hn::Sub(rx, ox), hn::Mul(sx, cz));
     const F cy = hn::Sub(hn::Sub(ry, oy), hn::Mul(sy, cz));
-    const F u = exactDifference(cx, by, cy, bx);
-    const F v = exactDifference(ax, cy, ay, cx);
-    const F w = exactDifference(bx, ay, by, ax);
+    const F u = differenceOfProducts(cx, by, cy, bx);
+    const F v = differenceOfProducts(ax, cy, ay, cx);
+    const F w = differenceOfProducts(bx, ay, by, ax);
     const F least = hn::Min(hn::Min(u, v), w);
     const F most = hn::Max(hn::Max(u, v), w);
     const auto within = hn::Or(hn::Ge(least, zero), hn::Le(most, zero));
@@ -266,6 +239,7 @@ void traceKind(const Octree& octree, const PyramidSides& sides, const std::vecto
     const std::uint32_t* list;
     if (candidate.node < bricks)
     {
+      assert(lists.begin[candidate.node] != ShortLists::None);
       list = lists.words.data() + lists.begin[candidate.node];
       count = *list++;
     }
@@ -277,6 +251,7 @@ void traceKind(const Octree& octree, const PyramidSides& sides, const std::vecto
     for (std::uint32_t k = 0; k < count; ++k)
     {
       const std::uint32_t id = list[k];
+      assert(id < surface.triangles.size());
       std::uint32_t& tested = mailbox[id % Mailboxes];
       if (tested == id)
       {
@@ -287,8 +262,13 @@ void traceKind(const Octree& octree, const PyramidSides& sides, const std::vecto
       const float* p = &surface.points[triangle.x].x;
       const float* q = &surface.points[triangle.y].x;
       const float* r = &surface.points[triangle.z].x;
-      if (!outside(sides, p, q, r))
+      if (outside(sides, p, q, r))
       {
+        SVO_COUNT(TileTrianglesOutside, 1);
+      }
+      else
+      {
+        SVO_COUNT(TileTriangles, 1);
         any = meetTriangle(rays, p, q, r, static_cast<std::int32_t>(id)) || any;
       }
     }
@@ -302,6 +282,9 @@ void traceKind(const Octree& octree, const PyramidSides& sides, const std::vecto
 void traceTile(const Octree& octree, const TilePyramid& pyramid, const std::vector<TileNode>& nodes,
   const RayBlock& block, HitBlock& hits)
 {
+  assert(octree.surface() != nullptr);
+  assert(std::is_sorted(nodes.begin(), nodes.end(),
+    [](const TileNode& a, const TileNode& b) { return a.tNear < b.tNear; }));
   const PyramidSides sides(pyramid);
   HWY_ALIGN float direction[3][64];
   HWY_ALIGN std::int32_t kinds[64];

@@ -2,11 +2,14 @@
 #define HWY_TARGET_INCLUDE "svoPyramidNodes.cxx"
 #include <hwy/foreach_target.h>
 
+#include "svoCounters.h"
 #include "svoMorton.h"
+#include "svoNode.h"
 #include "svoPyramidNodes.h"
 #include "svoPyramidSides.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -17,6 +20,9 @@
 #define SVO_PYRAMID_NODES_ONCE
 namespace svo
 {
+/// What arrays of cubes have room for behind the last: a vector of any instruction set.
+constexpr std::size_t RoomBehind = 16;
+
 /// Lower corners of a node's 64 cells, for a node of edge 1, in the order of cellIndex().
 struct CellOffsets
 {
@@ -114,6 +120,7 @@ inline void sortByDepth(std::vector<TileNode>& nodes)
 bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyramid& pyramid,
   float tMin, float tMax, std::size_t most, std::vector<TileNode>& nodes)
 {
+  assert(octree.surface() != nullptr && octree.shortLists().begin.size() == octree.brickBegin());
   const DF df;
   ChildTables tables;
   OpenNode open[64 * MaximumDepths];
@@ -160,6 +167,8 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
   while (count > 0)
   {
     const OpenNode parent = open[--count];
+    assert(parent.node < bricks && parent.size > 0.0f);
+    SVO_COUNT(TileNodesOpened, 1);
     const Node& node = all[parent.node];
     const F size = hn::Set(df, parent.size);
     const F deep = hn::Set(df, parent.size * tables.deep);
@@ -184,19 +193,20 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
     }
     for (std::uint64_t left = inside & node.mask; left != 0; left &= left - 1)
     {
-      const int i = __builtin_ctzll(left);
-      const std::uint32_t child =
-        node.first + __builtin_popcountll(node.mask & ((std::uint64_t(1) << i) - 1));
+      const int i = lowestBit(left);
+      const std::uint32_t index = child(node, i);
+      assert(index < octree.header().nodeCount);
       const float x = parent.x + parent.size * offsets.x[i];
       const float y = parent.y + parent.size * offsets.y[i];
       const float z = parent.z + parent.size * offsets.z[i];
-      if (child >= bricks || lists.begin[child] != ShortLists::None)
+      if (index >= bricks || lists.begin[index] != ShortLists::None)
       {
-        nodes.push_back({ tNear[i], child, x, y, z, 0.25f * parent.size });
+        nodes.push_back({ tNear[i], index, x, y, z, 0.25f * parent.size });
         continue;
       }
+      assert(count < 64 * MaximumDepths);
       OpenNode& next = open[count++];
-      next.node = child;
+      next.node = index;
       next.size = 0.25f * parent.size;
       next.x = x;
       next.y = y;
@@ -212,12 +222,13 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
   return nodes.size() <= most;
 }
 
-/// Which of `count` cubes are inside: one bit each. The arrays have room for a vector more.
+/// Which of `count` cubes are inside: one bit each. The arrays have room for RoomBehind more.
 void cubesInside(const TilePyramid& pyramid, const float* x, const float* y, const float* z,
   const float* size, std::size_t count, std::uint64_t* inside)
 {
   const DF df;
   const PyramidSides sides(pyramid);
+  assert(hn::Lanes(df) <= RoomBehind);
   for (std::size_t first = 0; first < count; first += 64)
   {
     std::uint64_t bits = 0;
@@ -253,7 +264,10 @@ namespace svo
 HWY_EXPORT(findNodes);
 HWY_EXPORT(cubesInside);
 
-bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax,
+namespace
+{
+/// findTileNodes() of a tile or of a group of them.
+bool findInside(const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax,
   std::size_t most, std::vector<TileNode>& nodes)
 {
   static const CellOffsets offsets;
@@ -262,17 +276,31 @@ bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin,
     HWY_DYNAMIC_DISPATCH(findNodes)(octree, offsets, pyramid, tMin, tMax, most, nodes);
 }
 
+void countTile([[maybe_unused]] const std::vector<TileNode>& nodes)
+{
+  SVO_COUNT(TilesAccepted, nodes.empty() ? 0 : 1);
+  SVO_COUNT(TilesRejected, nodes.empty() ? 1 : 0);
+}
+}
+
+bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax,
+  std::size_t most, std::vector<TileNode>& nodes)
+{
+  const bool all = findInside(octree, pyramid, tMin, tMax, most, nodes);
+  countTile(nodes);
+  return all;
+}
+
 bool TileGroup::find(
   const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax, std::size_t most)
 {
-  if (!findTileNodes(octree, pyramid, tMin, tMax, most, this->Nodes))
+  if (!findInside(octree, pyramid, tMin, tMax, most, this->Nodes))
   {
     return false;
   }
-  constexpr std::size_t Vector = 16;
   for (std::vector<float>* array : { &this->X, &this->Y, &this->Z, &this->Size })
   {
-    array->assign(this->Nodes.size() + Vector, 0.0f);
+    array->assign(this->Nodes.size() + RoomBehind, 0.0f);
   }
   for (std::size_t i = 0; i < this->Nodes.size(); ++i)
   {
@@ -287,6 +315,7 @@ bool TileGroup::find(
 void TileGroup::select(const TilePyramid& pyramid, std::vector<TileNode>& nodes) const
 {
   nodes.clear();
+  assert(this->X.empty() ? this->Nodes.empty() : this->X.size() == this->Nodes.size() + RoomBehind);
   constexpr std::size_t Chunk = 512;
   std::uint64_t inside[Chunk / 64];
   for (std::size_t first = 0; first < this->Nodes.size(); first += Chunk)
@@ -304,10 +333,11 @@ void TileGroup::select(const TilePyramid& pyramid, std::vector<TileNode>& nodes)
       }
       for (; bits != 0; bits &= bits - 1)
       {
-        nodes.push_back(this->Nodes[first + k + __builtin_ctzll(bits)]);
+        nodes.push_back(this->Nodes[first + k + lowestBit(bits)]);
       }
     }
   }
+  countTile(nodes);
 }
 }
 #endif

@@ -3,6 +3,7 @@
 #include "svoLeafGeometry.h"
 #include "svoTraverse.h"
 
+#include <cassert>
 #include <cmath>
 
 namespace svo
@@ -45,6 +46,7 @@ bool prepare(const Octree& octree, const Ray& ray, LocalRay& local)
   local.ray.tMin = 0.0;
   local.ray.tStart -= local.start;
   local.ray.tMax -= local.start;
+  assert(local.ray.tMax >= 0.0);
   return true;
 }
 }

@@ -6,6 +6,7 @@
 #define HWY_TARGET_INCLUDE "svoIntersectBlock.cxx"
 #include <hwy/foreach_target.h>
 
+#include "svoCounters.h"
 #include "svoIntersect.h"
 #include "svoIntersectBlock.h"
 #include "svoIntersectScalar.h"
@@ -14,6 +15,7 @@
 #include "svoPacketWalk-inl.h"
 
 #include <algorithm>
+#include <cassert>
 
 HWY_BEFORE_NAMESPACE();
 namespace svo
@@ -163,6 +165,14 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
   return meetOneByOne(query, target, rays, anyHit, first, arrived, leave, nullptr, p, hits);
 }
 
+/// Counts a turn of two packets, of which these lanes are under way.
+HWY_INLINE void countTurn([[maybe_unused]] Lanes first, [[maybe_unused]] Lanes second)
+{
+  SVO_COUNT(NodesVisited, hn::CountTrue(DI(), first) + hn::CountTrue(DI(), second));
+  SVO_COUNT(
+    IdleLanes, 2 * hn::Lanes(DI()) - hn::CountTrue(DI(), first) - hn::CountTrue(DI(), second));
+}
+
 /// Walks until every lane has arrived or died.
 template <bool Groups>
 HWY_INLINE void walkBoth(const WalkTarget& walkTarget, Packet& first, Packet& second)
@@ -171,6 +181,7 @@ HWY_INLINE void walkBoth(const WalkTarget& walkTarget, Packet& first, Packet& se
   const WalkTarget target = walkTarget;
   Packet a = first;
   Packet b = second;
+  countTurn(hn::Not(a.dead), hn::Not(b.dead));
   // Each packet's turn is one long chain of dependent operations: two fill each other's gaps.
   for (;;)
   {
@@ -180,6 +191,7 @@ HWY_INLINE void walkBoth(const WalkTarget& walkTarget, Packet& first, Packet& se
     {
       break;
     }
+    countTurn(underWayA, underWayB);
   }
   first = a;
   second = b;
@@ -221,6 +233,7 @@ void traceBlock(const LeafQuery& query, const WalkTarget& target, const RayBlock
 {
   BlockHits found(hits);
   const int n = static_cast<int>(hn::Lanes(DF()));
+  assert(RayBlock::Size % (2 * n) == 0);
   for (int i = 0; i < RayBlock::Size; i += 2 * n)
   {
     if (target.groups)
@@ -258,6 +271,7 @@ WalkTarget walkTarget(const LeafQuery& query)
   const Octree& octree = query.octree;
   // A node at depth d has cells with 2 (d + 1) bits, in groups with one bit less.
   const int stopDepth = (query.bits - 1) / 2;
+  assert(query.bits > 0 && stopDepth < octree.depthCount());
   const UpperLevels& upper = octree.upperLevels();
   const int table = std::min(upper.tableCount - 1, stopDepth);
   WalkTarget target;
@@ -280,6 +294,9 @@ WalkTarget walkTarget(const LeafQuery& query)
     target.triangles = &surface->triangles.data()->x;
     target.listBegin = static_cast<int>(4 * octree.header().nodeCount);
   }
+  assert(target.tableBits >= 0 && !upper.tables[table].empty());
+  assert(target.cellSize == target.stopSize + target.groups);
+  assert(target.stopSize + 2 >= target.brickSize && target.brickSize <= MantissaBits);
   target.high = 1.0f + 1.0f / static_cast<float>(1 << rootBits(octree, 0));
   return target;
 }

@@ -3,15 +3,15 @@
 #define svoIntersectBlock_h
 
 #include "svoLeafGeometry.h"
+#include "svoNode.h"
 #include "svoRay.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 
 namespace svo
 {
-constexpr int MantissaBits = 23;
-
 /// Cell sizes are exponents: a cell is 2^exponent units of a float's last place in [1, 2) wide.
 struct WalkTarget
 {
@@ -87,10 +87,13 @@ struct Chosen
   int lanes;
 };
 
-/// The cell where a lane has arrived: `at` are the bit patterns of its position, `node` the node.
+/// The cell where a lane has arrived: `at` are the bit patterns of its position, which lies in
+/// [1, 2), `index` is the node.
 inline StopCell<float> stopCell(
   const LeafQuery& query, const WalkTarget& target, const glm::ivec3& at, std::uint32_t index)
 {
+  assert(index < query.octree.header().nodeCount);
+  assert(at.x >> MantissaBits == 127 && at.y >> MantissaBits == 127 && at.z >> MantissaBits == 127);
   const Node& node = query.octree.nodes()[index];
   const int shift = target.stopSize;
   const int i = cellIndex(at.x >> shift & 3, at.y >> shift & 3, at.z >> shift & 3);
@@ -101,8 +104,8 @@ inline StopCell<float> stopCell(
     0.0f };
   if (target.groups)
   {
-    cell.firstBit = i & 56;
-    cell.bitCount = 8;
+    cell.firstBit = groupOf(i);
+    cell.bitCount = GroupSize;
   }
   else if (target.stopSize < target.brickSize) // a voxel
   {
@@ -111,7 +114,7 @@ inline StopCell<float> stopCell(
   }
   else
   {
-    cell.node = node.first + __builtin_popcountll(node.mask & ((1ull << i) - 1));
+    cell.node = child(node, i);
   }
   return cell;
 }

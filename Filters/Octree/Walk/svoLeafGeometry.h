@@ -22,8 +22,10 @@
 #ifndef svoLeafGeometry_h
 #define svoLeafGeometry_h
 
+#include "svoCounters.h"
 #include "svoLeafTraits.h"
 #include "svoMorton.h"
+#include "svoNode.h"
 #include "svoOctree.h"
 #include "svoPlane.h"
 #include "svoRay.h"
@@ -31,6 +33,7 @@
 #include "svoTriangle.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -53,6 +56,7 @@ struct LeafQuery
     {
       geometry = LeafGeometry::Plane;
     }
+    assert(!o.empty());
   }
 
   const Octree& octree;
@@ -96,8 +100,7 @@ inline double touchedHalf(int bits)
 /// The triangle of the brick whose plane is nearest to the centre of one of its cells, preferably
 /// one that touches the cell. Without a surface, the first of the list.
 template <class Real>
-Primitive representativeTriangle(
-  const LeafQuery& query, std::uint32_t brick, const glm::ivec3& cell)
+Primitive nearestPlaneTriangle(const LeafQuery& query, std::uint32_t brick, const glm::ivec3& cell)
 {
   std::uint32_t count = 0;
   std::uint32_t inlineId = 0;
@@ -151,6 +154,7 @@ std::uint32_t representativeNode(
   {
     return cell.node;
   }
+  assert(cell.bitCount == GroupSize);
   const Node& node = query.octree.nodes()[cell.node];
   const Vector<Real> centre = cellCentre<Real>(cell.cell, query.bits);
   // Of the cell, not of the ray: what is hit must not depend on where the ray was cut.
@@ -158,11 +162,11 @@ std::uint32_t representativeNode(
   const Vector<Real> x = ray.origin + middle * ray.direction;
   int bit =
     cell.firstBit | int(x.x >= centre.x) | int(x.y >= centre.y) << 1 | int(x.z >= centre.z) << 2;
-  if (!(node.mask >> bit & 1))
+  if (!hasChild(node, bit))
   {
-    bit = __builtin_ctzll(node.mask & (0xffull << cell.firstBit));
+    bit = cell.firstBit | lowestBit(groupCells(node, cell.firstBit));
   }
-  return node.first + __builtin_popcountll(node.mask & ((1ull << bit) - 1));
+  return child(node, bit);
 }
 
 /// Where the line of the ray meets the plane of a triangle or of a node. NaN or infinite if
@@ -174,6 +178,7 @@ Real intersectPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const S
   if (!(primitive & NodePrimitive))
   {
     const Surface& surface = *query.octree.surface();
+    assert(primitive < surface.triangles.size());
     const glm::uvec3 triangle = surface.triangles[primitive];
     const Vector<Real> a(surface.points[triangle.x]);
     const Vector<Real> normal = glm::cross(
@@ -182,20 +187,20 @@ Real intersectPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const S
   }
   // The node's block is the cell, or (at a level in between) one of the cell's eight children.
   const std::uint32_t index = primitive & ~NodePrimitive;
+  assert(index < query.octree.header().nodeCount);
   glm::ivec3 block = cell.cell;
   int bits = query.bits;
-  if (cell.bitCount == 8)
+  if (cell.bitCount == GroupSize)
   {
     const Node& node = query.octree.nodes()[cell.node];
-    std::uint64_t octet = node.mask & (0xffull << cell.firstBit);
-    std::uint32_t child =
-      node.first + __builtin_popcountll(node.mask & ((1ull << cell.firstBit) - 1));
-    for (; child < index; ++child)
+    std::uint64_t octet = groupCells(node, cell.firstBit);
+    std::uint32_t at = node.first + childrenBefore(node, cell.firstBit);
+    for (; at < index; ++at)
     {
       octet &= octet - 1;
     }
-    const int bit = __builtin_ctzll(octet);
-    block = 2 * block + glm::ivec3(bit & 1, bit >> 1 & 1, bit >> 2 & 1);
+    const int bit = lowestBit(octet);
+    block = 2 * block + glm::ivec3(bit & 1, bit >> 1 & 1, bit >> 2);
     ++bits;
   }
   const MeanPlane plane = decodePlane(query.octree.nodes()[index].plane);
@@ -239,6 +244,8 @@ Visit meetTriangles(const LeafQuery& query, const ClippedRay<Real>& ray,
   const ShearedRay<Real>& sheared, const std::uint32_t* list, std::uint32_t count, Real& tMax,
   LeafHit<Real>& hit)
 {
+  SVO_COUNT(TrianglesTested, count);
+  assert(count > 0 && query.octree.surface() != nullptr);
   const Surface& surface = *query.octree.surface();
   for (std::uint32_t k = 0; k < count; ++k)
   {
@@ -284,7 +291,7 @@ Visit meetCell(const LeafQuery& query, const ClippedRay<Real>& ray, const Sheare
       return meetTriangles(query, ray, sheared, list, count, tMax, hit);
     }
   }
-  const Primitive primitive = representativeTriangle<Real>(query, cell.node, cell.cell);
+  const Primitive primitive = nearestPlaneTriangle<Real>(query, cell.node, cell.cell);
   if (query.geometry != LeafGeometry::Voxel)
   {
     return meetPlane(query, ray, cell, primitive, tMax, hit);

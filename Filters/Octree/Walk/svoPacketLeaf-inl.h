@@ -1,5 +1,5 @@
 // The leaf geometry of bricks, one ray a lane: the lanes' triangle lists are gone through side by
-// side. The same operations in the same order as representativeTriangle() and meetTriangles() of
+// side. The same operations in the same order as nearestPlaneTriangle() and meetTriangles() of
 // svoLeafGeometry.h, so that the results are the same bits.
 #if defined(SVO_PACKET_LEAF_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SVO_PACKET_LEAF_INL
@@ -8,6 +8,8 @@
 #define SVO_PACKET_LEAF_INL
 #endif
 
+#include "svoCounters.h"
+#include "svoLaneProducts-inl.h"
 #include "svoPacketWalk-inl.h"
 
 // Edges are decided by true fused multiply-adds, which SSE does not have.
@@ -117,7 +119,7 @@ HWY_INLINE Vec3 cellCentres(const Packet& p, int exponent)
   return { centre(p.x), centre(p.y), centre(p.z) };
 }
 
-/// representativeTriangle() of svoLeafGeometry.h.
+/// nearestPlaneTriangle() of svoLeafGeometry.h.
 HWY_INLINE I representatives(
   const WalkTarget& target, const Packet& p, const Lists& lists, Lanes lanes)
 {
@@ -171,15 +173,6 @@ HWY_INLINE I representatives(
   return best;
 }
 
-/// differenceOfProducts() of svoTriangle.h.
-HWY_INLINE F productDifference(F a, F b, F c, F d)
-{
-  const F ab = hn::Mul(a, b);
-  const F cd = hn::Mul(c, d);
-  const F tie = hn::Sub(hn::MulSub(a, b, ab), hn::MulSub(c, d, cd));
-  return hn::IfThenElse(hn::Eq(ab, cd), tie, hn::Sub(ab, cd));
-}
-
 /// ShearedRay of svoTriangle.h. The axes are chosen lane by lane.
 struct Shear
 {
@@ -229,6 +222,7 @@ HWY_INLINE void meetLists(
   for (int k = 0; k < steps; ++k)
   {
     const Lanes active = hn::Gt(count, hn::Set(di, k));
+    SVO_COUNT(TrianglesTested, hn::CountTrue(di, active));
     const I id = triangleId(target, lists, k, active);
     Vec3 a, b, c;
     gatherTriangle(target, id, a, b, c);
@@ -241,9 +235,9 @@ HWY_INLINE void meetLists(
     const F by = hn::Sub(b.y, hn::Mul(shear.y, b.z));
     const F cx = hn::Sub(c.x, hn::Mul(shear.x, c.z));
     const F cy = hn::Sub(c.y, hn::Mul(shear.y, c.z));
-    const F u = productDifference(cx, by, cy, bx);
-    const F v = productDifference(ax, cy, ay, cx);
-    const F w = productDifference(bx, ay, by, ax);
+    const F u = differenceOfProducts(cx, by, cy, bx);
+    const F v = differenceOfProducts(ax, cy, ay, cx);
+    const F w = differenceOfProducts(bx, ay, by, ax);
     const auto negative = hn::Or(hn::Or(hn::Lt(u, zero), hn::Lt(v, zero)), hn::Lt(w, zero));
     const auto positive = hn::Or(hn::Or(hn::Gt(u, zero), hn::Gt(v, zero)), hn::Gt(w, zero));
     const F determinant = hn::Add(hn::Add(u, v), w);

@@ -17,6 +17,7 @@
 #include "svoIntersectBlock.h"
 #include "svoRay.h"
 
+#include <cassert>
 #include <cstdint>
 #include <limits>
 
@@ -65,7 +66,7 @@ HWY_INLINE I spreadCoordinate(I position, I size)
   return hn::Or(hn::And(v, hn::Set(di, 1)), hn::And(hn::ShiftLeft<2>(v), hn::Set(di, 8)));
 }
 
-/// What a lane sees where it is.
+/// What a lane sees where it is: hasChild(), groupCells() and childrenBefore() of svoNode.h.
 struct Probe
 {
   Lanes nothing; // the whole block is empty
@@ -165,7 +166,7 @@ HWY_INLINE Lanes advance(Packet& p, Lanes step, I exponent)
   p.z = z;
   p.t = hn::IfThenElse(hn::RebindMask(df, step), t, p.t);
   const Lanes past = hn::RebindMask(di, hn::Gt(tExit, p.tMax));
-  const Lanes outside = hn::Gt(changed, hn::Set(di, 0x7fffff));
+  const Lanes outside = hn::Gt(changed, hn::Set(di, (1 << MantissaBits) - 1));
   p.dead = hn::Or(p.dead, hn::And(step, hn::Or(past, outside)));
   return hn::Ne(hn::Shr(changed, hn::Add(p.size, hn::Set(di, 2))), hn::Zero(di));
 }
@@ -175,7 +176,7 @@ HWY_INLINE void find(const WalkTarget& target, Packet& p, Lanes lost)
 {
   const DI di;
   const DU du;
-  const I shift = hn::Set(di, 23 - target.tableBits);
+  const I shift = hn::Set(di, MantissaBits - target.tableBits);
   const I edge = hn::Set(di, (1 << target.tableBits) - 1);
   const I tx = hn::And(hn::Shr(p.x, shift), edge);
   const I ty = hn::And(hn::Shr(p.y, shift), edge);
@@ -292,6 +293,11 @@ HWY_INLINE Packet makePacket(const WalkTarget& target, const RayBlock& rays, int
   p.node = hn::Zero(di);
   p.size = hn::Zero(di);
   find(target, p, hn::Eq(p.node, p.node));
+  // Every lane, dead or not, is inside the cube and has a size to turn with.
+  assert(hn::AllTrue(di, hn::Eq(hn::ShiftRight<MantissaBits>(p.x), hn::Set(di, 127))));
+  assert(hn::AllTrue(di, hn::Eq(hn::ShiftRight<MantissaBits>(p.y), hn::Set(di, 127))));
+  assert(hn::AllTrue(di, hn::Eq(hn::ShiftRight<MantissaBits>(p.z), hn::Set(di, 127))));
+  assert(hn::AllFalse(di, hn::Lt(p.size, hn::Set(di, target.stopSize))));
   return p;
 }
 }

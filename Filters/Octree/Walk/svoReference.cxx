@@ -1,6 +1,7 @@
 #include "svoReference.h"
 
 #include "svoMorton.h"
+#include "svoNode.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,7 @@ void collect(const Octree& octree, std::uint32_t index, int depth, const glm::iv
   std::uint32_t child = node.first;
   for (int i = 0; i < 64; ++i)
   {
-    if (node.mask >> i & 1)
+    if (hasChild(node, i))
     {
       const glm::ivec3 cell = 4 * corner + cellOfIndex(i);
       if (depth + 1 == octree.depthCount())

@@ -15,11 +15,14 @@
 #ifndef svoTraverse_h
 #define svoTraverse_h
 
+#include "svoCounters.h"
 #include "svoMorton.h"
+#include "svoNode.h"
 #include "svoOctree.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -76,6 +79,7 @@ enum class WalkEnd
 /// Bits of a cell's coordinate in the root cube at an octree level (0..octree.level()).
 inline int rootBits(const Octree& octree, int level)
 {
+  assert(level >= 0 && level <= octree.level());
   return level + 2 * octree.depthCount() - octree.level();
 }
 
@@ -133,6 +137,8 @@ bool clip(const Octree& octree, const Vector<Real>& origin, const Vector<Real>& 
 template <class Real, class Visitor>
 WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visitor&& visit)
 {
+  assert(!octree.empty());
+  assert(ray.tMin <= ray.tMax);
   const int bits = 2 * octree.depthCount(); // of a coordinate in voxels of the root cube
   const int stopShift = bits - rootBits(octree, level); // voxel >> stopShift = cell where we stop
   const int edge = 1 << octree.level();                 // voxels along the octree's cube
@@ -168,11 +174,16 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
   {
     // A cell of this node is `1 << shift` voxels wide. Find the largest cell around the ray that is
     // empty, or is one where the ray stops; else go down.
+    SVO_COUNT(NodesVisited, 1);
+    assert(depth < octree.depthCount());
     const std::uint32_t index = path[depth];
+    assert(
+      index >= octree.header().depthBegin[depth] && index < octree.header().depthBegin[depth + 1]);
     const Node& node = nodes[index];
     const int shift = bits - 2 * (depth + 1);
+    assert(node.mask != 0 && stopShift <= shift + 2);
     const int i = cellIndex(at.x >> shift & 3, at.y >> shift & 3, at.z >> shift & 3);
-    const std::uint64_t octet = node.mask >> (i & 56) & 0xff;
+    const std::uint64_t octet = groupCells(node, groupOf(i));
     int leave = shift; // the cell to leave is 1 << leave voxels wide
     bool stop = false;
     if (stopShift == shift + 2) // only the root's own block: deeper ones are found by their parents
@@ -185,11 +196,11 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
       leave = shift + 1;
       stop = octet != 0;
     }
-    else if (node.mask >> i & 1)
+    else if (hasChild(node, i))
     {
       if (stopShift < shift)
       {
-        path[++depth] = node.first + __builtin_popcountll(node.mask & ((1ull << i) - 1));
+        path[++depth] = child(node, i);
         continue;
       }
       stop = true;
@@ -215,8 +226,8 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
       StopCell<Real> cell{ index, 0, 64, at >> stopShift, t, std::max(t, tExit) };
       if (leave == shift + 1)
       {
-        cell.firstBit = i & 56;
-        cell.bitCount = 8;
+        cell.firstBit = groupOf(i);
+        cell.bitCount = GroupSize;
       }
       else if (leave == 0)
       {
@@ -225,7 +236,7 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
       }
       else if (leave == shift)
       {
-        cell.node = node.first + __builtin_popcountll(node.mask & ((1ull << i) - 1));
+        cell.node = child(node, i);
       }
       const Visit answer = visit(static_cast<const StopCell<Real>&>(cell), tMax);
       if (answer == Visit::Stop)
@@ -265,6 +276,7 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
       changed |= next ^ at[a];
       at[a] = next;
     }
+    assert(changed != 0);
     // Up to the deepest node that holds both positions.
     while (depth > 0 && changed >> (bits - 2 * depth) != 0)
     {

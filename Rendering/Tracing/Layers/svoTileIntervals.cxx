@@ -1,7 +1,7 @@
 #include "svoTileIntervals.h"
 
 #include "svoLeafTraits.h"
-#include "svoMorton.h"
+#include "svoNode.h"
 #include "svoProjection.h"
 
 #include <algorithm>
@@ -85,7 +85,7 @@ private:
     for (int g = 0; g < 8; ++g)
     {
       const int group = g ^ this->Front;
-      const std::uint64_t octet = node.mask >> (8 * group) & 0xff;
+      const std::uint64_t octet = groupCells(node, GroupSize * group);
       if (octet == 0)
       {
         continue;
@@ -107,8 +107,7 @@ private:
         {
           continue;
         }
-        const std::uint64_t below = (std::uint64_t(1) << (8 * group + cell)) - 1;
-        this->visit(node.first + __builtin_popcountll(node.mask & below), quarter, bits + 2);
+        this->visit(child(node, GroupSize * group + cell), quarter, bits + 2);
       }
     }
   }

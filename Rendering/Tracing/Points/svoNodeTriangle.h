@@ -11,6 +11,7 @@
 #define svoNodeTriangle_h
 
 #include "svoLeafGeometry.h"
+#include "svoNode.h"
 #include "svoOctree.h"
 #include "svoRay.h"
 #include "vtkSVOTracingModule.h"
@@ -61,18 +62,17 @@ inline std::uint32_t nearestBrick(
   const Octree& octree, std::uint32_t node, const glm::dvec3& towards)
 {
   // Cell indices in this order come nearest first along each axis.
-  const unsigned flip =
-    (towards.x > 0.0 ? 011u : 0u) | (towards.y > 0.0 ? 022u : 0u) | (towards.z > 0.0 ? 044u : 0u);
+  const int flip =
+    (towards.x > 0.0 ? 011 : 0) | (towards.y > 0.0 ? 022 : 0) | (towards.z > 0.0 ? 044 : 0);
   while (node < octree.brickBegin())
   {
     const Node& inner = octree.nodes()[node];
-    unsigned i = 0;
-    while (!(inner.mask >> (i ^ flip) & 1))
+    int i = 0;
+    while (!hasChild(inner, i ^ flip))
     {
       ++i;
     }
-    const std::uint64_t below = (std::uint64_t(1) << (i ^ flip)) - 1;
-    node = inner.first + __builtin_popcountll(inner.mask & below);
+    node = child(inner, i ^ flip);
   }
   return node;
 }

@@ -1,6 +1,7 @@
 // The builder as a whole: what the octree of a mesh holds, and how a build ends.
 #include "svoBuildMeshes.h"
 #include "svoLattice.h"
+#include "svoNode.h"
 #include "svoSeparatingAxes.h"
 
 #include <cstring>
@@ -137,7 +138,7 @@ TEST(Build, EveryLevelOpensAndCountsItsVoxels)
     std::uint64_t voxels = 0;
     for (const svotest::Brick& brick : svotest::bricksOf(octree))
     {
-      voxels += __builtin_popcountll(octree.nodes()[brick.node].mask);
+      voxels += svo::childCount(octree.nodes()[brick.node]);
     }
     EXPECT_EQ(octree.header().voxelCount, voxels);
   }

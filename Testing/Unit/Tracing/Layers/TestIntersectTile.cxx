@@ -4,6 +4,7 @@
 #include "svoIntersect.h"
 #include "svoIntersectTile.h"
 #include "svoLocalView.h"
+#include "svoNode.h"
 #include "svoProjection.h"
 #include "svoTestScenes.h"
 #include "svoTracerScenes.h"
@@ -331,7 +332,7 @@ TEST(ShortLists, HoldTheTrianglesBelow)
         return;
       }
       const Node& inner = octree.nodes()[node];
-      for (int k = 0; k < __builtin_popcountll(inner.mask); ++k)
+      for (int k = 0; k < childCount(inner); ++k)
       {
         self(self, inner.first + k, ids);
       }
@@ -354,7 +355,7 @@ TEST(ShortLists, HoldTheTrianglesBelow)
         return; // nothing is written below
       }
       const Node& inner = octree.nodes()[node];
-      for (int k = 0; k < __builtin_popcountll(inner.mask); ++k)
+      for (int k = 0; k < childCount(inner); ++k)
       {
         self(self, inner.first + k);
       }

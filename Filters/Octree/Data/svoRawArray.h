@@ -4,15 +4,22 @@
 
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 
 namespace svo
 {
-/// For image-sized buffers of which only some tiles are ever used: the pages of the others are
-/// never touched, so they cost neither time nor memory.
+/// For large scratch memory that is written before it is read, and for image-sized buffers of which
+/// only some tiles are ever used: the pages of the others are never touched, so they cost neither
+/// time nor memory.
 template <class T>
 class RawArray
 {
+  static_assert(std::is_trivially_copyable<T>::value, "elements start without a value");
+
 public:
+  RawArray() = default;
+  explicit RawArray(std::size_t size) { this->resize(size); }
+
   /// Elements are undefined afterwards, unless the size stays as it is.
   void resize(std::size_t size)
   {
