@@ -2,9 +2,12 @@
 # room include those of their own and of lower ones only (Testing/House checks it). Includes name no
 # room, since installed headers lie side by side.
 #
+# Modules are compiled with all warnings about shadowed names and narrowing conversions.
+#
 # vtksvo_rooms(<module> ROOMS <room>... [INSTALL <header>...])
 function (vtksvo_rooms module)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ROOMS;INSTALL")
+  vtk_module_compile_options("${module}" PRIVATE -Wshadow -Wconversion)
   foreach (room IN LISTS arg_ROOMS)
     vtk_module_include("${module}" PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${room}>")
   endforeach ()

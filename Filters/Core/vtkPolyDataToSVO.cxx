@@ -183,7 +183,7 @@ void vtkPolyDataToSVO::Finish(vtkPolyData* output)
   }
   const std::pair<const char*, double> statistics[] = { { "SVO Level", octree.level() },
     { "SVO Voxels", static_cast<double>(octree.header().voxelCount) },
-    { "SVO Memory", std::ceil(octree.bytes() / static_cast<double>(Kibi)) },
+    { "SVO Memory", std::ceil(static_cast<double>(octree.bytes()) / static_cast<double>(Kibi)) },
     { "SVO Build Time", this->BuildTime } };
   for (const auto& statistic : statistics)
   {

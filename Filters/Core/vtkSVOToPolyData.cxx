@@ -116,7 +116,7 @@ int vtkSVOToPolyData::RequestData(
   {
     if ((++visited & 0xffff) == 0)
     {
-      this->UpdateProgress(begin + share * std::min(1.0, visited / cellCount));
+      this->UpdateProgress(begin + share * std::min(1.0, static_cast<double>(visited) / cellCount));
     }
     return !svo::isAborted(this);
   };

@@ -291,8 +291,8 @@ void vtkPPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output
     {
       model = reach;
     }
-    this->SetProgressShiftScale(
-      static_cast<double>(i) / all.size(), 1.0 / static_cast<double>(all.size()));
+    this->SetProgressShiftScale(static_cast<double>(i) / static_cast<double>(all.size()),
+      1.0 / static_cast<double>(all.size()));
     this->Convert(piece.input, piece.output, model.data(),
       svo::levelOfVoxel(reach.data(), whole.voxel, this->GetMaximumLevel()));
   }

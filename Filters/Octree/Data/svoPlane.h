@@ -45,14 +45,16 @@ inline std::uint32_t encodePlane(const MeanPlane& p)
 
 inline MeanPlane decodePlane(std::uint32_t bits)
 {
-  glm::vec2 o((bits & 2047u) / 2047.0f * 2.0f - 1.0f, (bits >> 11 & 2047u) / 2047.0f * 2.0f - 1.0f);
+  const auto share = [](std::uint32_t steps, float all)
+  { return static_cast<float>(steps) / all * 2.0f - 1.0f; };
+  glm::vec2 o(share(bits & 2047u, 2047.0f), share(bits >> 11 & 2047u, 2047.0f));
   glm::vec3 n(o.x, o.y, 1.0f - std::abs(o.x) - std::abs(o.y));
   if (n.z < 0.0f)
   {
     n.x = (1.0f - std::abs(o.y)) * (o.x < 0.0f ? -1.0f : 1.0f);
     n.y = (1.0f - std::abs(o.x)) * (o.y < 0.0f ? -1.0f : 1.0f);
   }
-  return { glm::normalize(n), (bits >> 22) / 1023.0f * 2.0f - 1.0f };
+  return { glm::normalize(n), share(bits >> 22, 1023.0f) };
 }
 }
 

@@ -137,18 +137,18 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
       RoundingSlack * (std::abs(f.x) + std::abs(f.y) + std::abs(f.z) + std::abs(corner));
     if (k < 4)
     {
-      const double most = 0.25 * (std::max(f.x, 0.0) + std::max(f.y, 0.0) + std::max(f.z, 0.0));
-      fillTable(f, most, offsets.x, offsets.y, offsets.z, tables.most[k]);
-      tables.toCorner[k] = static_cast<float>(-most);
+      const double farthest = 0.25 * (std::max(f.x, 0.0) + std::max(f.y, 0.0) + std::max(f.z, 0.0));
+      fillTable(f, farthest, offsets.x, offsets.y, offsets.z, tables.most[k]);
+      tables.toCorner[k] = static_cast<float>(-farthest);
       open[0].value[k] = static_cast<float>(corner + slack);
     }
     else
     {
       const double least = 0.25 * (std::min(f.x, 0.0) + std::min(f.y, 0.0) + std::min(f.z, 0.0));
-      const double most = 0.25 * (std::max(f.x, 0.0) + std::max(f.y, 0.0) + std::max(f.z, 0.0));
+      const double farthest = 0.25 * (std::max(f.x, 0.0) + std::max(f.y, 0.0) + std::max(f.z, 0.0));
       fillTable(f, least, offsets.x, offsets.y, offsets.z, tables.near);
       tables.toCorner[4] = static_cast<float>(-least);
-      tables.deep = static_cast<float>(most - least);
+      tables.deep = static_cast<float>(farthest - least);
       open[0].value[4] = static_cast<float>(corner - slack);
       tSlack = slack;
     }

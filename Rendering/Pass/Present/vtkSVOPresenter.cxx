@@ -25,6 +25,8 @@
 #include <string>
 #include <utility>
 
+#include <glm/vec2.hpp>
+
 vtkStandardNewMacro(vtkSVOPresenter);
 vtkStandardNewMacro(vtkSVONothing);
 
@@ -79,13 +81,14 @@ void prepare(vtkSmartPointer<vtkTextureObject>& texture, vtkOpenGLRenderWindow* 
   }
 }
 
-/// Sends the covered rectangle of an image with rows of the frame's width.
+/// Sends the covered rectangle of an image with rows of the frame's width. VTK knows the alignment
+/// that it has set, and relies on the other three being 0.
 void send(vtkTextureObject* texture, const svo::Frame& frame, GLenum format, GLenum type,
   const void* pixels)
 {
   const svo::PixelRect& rect = frame.covered;
   texture->Bind();
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  texture->GetContext()->GetState()->vtkglPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, frame.width);
   glPixelStorei(GL_UNPACK_SKIP_PIXELS, rect.x0);
   glPixelStorei(GL_UNPACK_SKIP_ROWS, rect.y0);
@@ -94,7 +97,6 @@ void send(vtkTextureObject* texture, const svo::Frame& frame, GLenum format, GLe
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   glPixelStorei(GL_UNPACK_SKIP_PIXELS, 0);
   glPixelStorei(GL_UNPACK_SKIP_ROWS, 0);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 }
 
@@ -228,10 +230,11 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
     return false;
   }
 
-  const float size[2] = { static_cast<float>(frame.width), static_cast<float>(frame.height) };
+  const glm::vec2 size(frame.width, frame.height);
   const svo::PixelRect& rect = frame.covered;
-  const float rectangle[4] = { rect.x0 / size[0], rect.y0 / size[1], rect.x1 / size[0],
-    rect.y1 / size[1] };
+  const glm::vec2 low = glm::vec2(rect.x0, rect.y0) / size;
+  const glm::vec2 high = glm::vec2(rect.x1, rect.y1) / size;
+  const float rectangle[4] = { low.x, low.y, high.x, high.y };
   program->SetUniform4f("rectangle", rectangle);
   this->Colors->Activate();
   this->Depths->Activate();
@@ -270,7 +273,7 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
     state->vtkglDisable(GL_BLEND);
     state->vtkglDisable(GL_CULL_FACE);
     this->Quad->Render();
-    drawn = this->Parts.draw(window, size);
+    drawn = this->Parts.draw(window, &size.x);
   }
   this->Colors->Deactivate();
   this->Depths->Deactivate();

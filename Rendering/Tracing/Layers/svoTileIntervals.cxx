@@ -51,8 +51,8 @@ public:
     // Nearer cells first, so that they can hide what lies between them and the far side.
     this->Front = int(projection.x[3] < 0.0) | int(projection.y[3] < 0.0) << 1 |
       int(projection.z[3] < 0.0) << 2;
-    this->MiddleX = 0.5f * view.width;
-    this->MiddleY = 0.5f * view.height;
+    this->MiddleX = 0.5f * static_cast<float>(view.width);
+    this->MiddleY = 0.5f * static_cast<float>(view.height);
     const glm::dvec4 zero(0.0);
     for (int bits = 0; bits <= 2 * MaximumDepths; ++bits)
     {

@@ -118,12 +118,12 @@ std::vector<NeededLevels> neededLevels(
       casting && instance.castShadow && settings.shadowTechnique == ShadowTechnique::Rays;
     // Who asks for no error at all, or gives a bias in voxels, has the voxels' size in mind.
     const bool exact = !rays && errorOf(instance) > 0.0 && settings.bias == 0.0;
-    int& lights = needed[i].lights;
-    lights = lights > 0 ? builtLevel(lights, instance, exact) : 0;
+    int& seenByLights = needed[i].lights;
+    seenByLights = seenByLights > 0 ? builtLevel(seenByLights, instance, exact) : 0;
     const int level = unknown || rays ? deepest
       : instance.visible              ? levelFor(instance, eye, errorOf(instance))
                                       : 1;
-    needed[i].eye = std::max(builtLevel(level, instance, exact), lights);
+    needed[i].eye = std::max(builtLevel(level, instance, exact), seenByLights);
   }
   return needed;
 }

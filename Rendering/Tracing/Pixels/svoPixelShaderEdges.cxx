@@ -21,14 +21,14 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
   const float brightest = shaded.settings.writeLight ? std::numeric_limits<float>::max() : 1.0f;
   std::atomic<std::uint64_t> primaryRays{ 0 };
   std::atomic<std::uint64_t> shadowRays{ 0 };
-  struct Scratch
+  struct EdgeScratch
   {
     int pixels[64];
     TileSamples samples;
     glm::vec3 colors[64]; // of the samples
     PixelShader::Scratch shading;
   };
-  const auto color = [&](Scratch& scratch)
+  const auto color = [&](EdgeScratch& scratch)
   {
     const TileSamples& samples = scratch.samples;
     TilePoints& points = scratch.shading.points;
@@ -57,7 +57,7 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
         glm::clamp(glm::vec3(found.r[i], found.g[i], found.b[i]), 0.0f, brightest);
     }
   };
-  const auto smoothTile = [&](int tileX, int tileY, Scratch& scratch)
+  const auto smoothTile = [&](int tileX, int tileY, EdgeScratch& scratch)
   {
     int* pixels = scratch.pixels;
     const int count = edges.find(tileX, tileY, pixels);
@@ -104,7 +104,7 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
     }
     shadowRays.fetch_add(scratch.shading.rays, std::memory_order_relaxed);
   };
-  shaded.tiles.each<Scratch>(parallelFor, smoothTile);
+  shaded.tiles.each<EdgeScratch>(parallelFor, smoothTile);
   statistics.primaryRays += primaryRays;
   statistics.shadowRays += shadowRays;
 }

@@ -126,10 +126,10 @@ inline SurfacePoint pointOfTriangle(const SurfaceMatrices& frame, const glm::dve
   }
   if (attributes.colorCoordinates && attributes.colorTextureSize > 0)
   {
-    const glm::vec2 at = weight.x * detail::coordinatesAt(attributes, triangle.x) +
+    const glm::vec2 place = weight.x * detail::coordinatesAt(attributes, triangle.x) +
       weight.y * detail::coordinatesAt(attributes, triangle.y) +
       weight.z * detail::coordinatesAt(attributes, triangle.z);
-    point.color = detail::colorAt(attributes.colorTexture, detail::texelAt(attributes, at));
+    point.color = detail::colorAt(attributes.colorTexture, detail::texelAt(attributes, place));
     point.hasColor = true;
   }
   else if (attributes.colors && attributes.colorAssociation == Association::Point)
