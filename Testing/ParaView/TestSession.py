@@ -64,6 +64,11 @@ class TestSession(unittest.TestCase):
         pv.SelectCellsThrough(Rectangle=[150, 150, 260, 240], View=self.view)
         self.assertIsNotNone(self.ball.GetSelectionInput(self.ball.Port))
 
+    def test_a_view_keeps_paraviews_own_help(self):
+        text = type(self.view).__doc__
+        self.assertIn("render", text.lower())
+        self.assertNotIn("SVO", text.split("\n")[0])
+
     def change_everything(self):
         self.view.SVOShadowIntensity = 0.6
         self.view.SVOShadowBufferResolution = 512
