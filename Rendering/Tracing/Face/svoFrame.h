@@ -73,7 +73,7 @@ struct FrameStatistics
   /// are not traced exactly.
   double coarsestVoxel = 0.0;
   /// How far from the surface of a receiver in view its shadows may begin, pixels, however deep its
-  /// octree is.
+  /// octree is; 0 without shadows.
   double largestGap = 0.0;
 };
 

@@ -203,7 +203,10 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   statistics.primaryRays += self.Eye.rays();
   statistics.retracedLayers += self.Eye.retracedLayers();
   statistics.coarsestVoxel = coarsestVoxel(scene, view);
-  statistics.largestGap = largestGap(scene, view);
+  if (settings.shadowTechnique != ShadowTechnique::None)
+  {
+    statistics.largestGap = largestGap(scene, view);
+  }
   statistics.layerMemory = self.Eye.layerMemory() + self.LightShadows.layerMemory();
   statistics.shadowTime = shadowTime + self.SharingTime;
   statistics.traceTime = now() - start - shadowTime;
