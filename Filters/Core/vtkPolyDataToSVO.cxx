@@ -1,6 +1,7 @@
 #include "vtkPolyDataToSVO.h"
 
 #include "svoAbort.h"
+#include "svoLeafTraits.h"
 #include "svoMeshDetail.h"
 #include "svoMeshOctree.h"
 #include "svoOctreeCache.h"
@@ -237,7 +238,8 @@ void vtkPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output)
 double vtkPolyDataToSVO::AdaptedVoxel(vtkPolyData* mesh)
 {
   constexpr std::size_t Most = 4096; // meshes to remember
-  if (!this->AdaptLevel || (this->LeafGeometry != TRIANGLE && this->LeafGeometry != AUTOMATIC))
+  if (!this->AdaptLevel ||
+    !svo::traitsOf(static_cast<svo::LeafGeometry>(this->LeafGeometry)).exact())
   {
     return 0.0;
   }

@@ -74,24 +74,6 @@ constexpr double InteractiveRate = 1.0; // Hz
 /// Share of an interactive frame's time that is the pass's; the rest is for what else is drawn.
 constexpr double OwnShare = 0.5;
 
-/// In the words that `nameOf` finds for headlights.
-template <class NameOf>
-std::string describeLights(const std::vector<svo::Light>& lights, const NameOf& nameOf)
-{
-  std::string text;
-  for (std::size_t i = 0; i < lights.size(); ++i)
-  {
-    const svo::Light& light = lights[i];
-    const std::string kind = light.headlight  ? nameOf(reinterpret_cast<vtkLight*>(light.id))
-      : light.kind == svo::Light::Kind::Point ? "point"
-      : light.kind == svo::Light::Kind::Spot  ? "spot"
-                                              : "directional";
-    text += std::to_string(i + 1) + ". " + kind +
-      (light.castShadow ? ": casts shadows\n" : ": casts none\n");
-  }
-  return text;
-}
-
 bool isInteractive(vtkRenderer* renderer)
 {
   return renderer->GetRenderWindow()->GetDesiredUpdateRate() >= InteractiveRate;
@@ -150,7 +132,7 @@ bool vtkSVORenderPass::CollectFrame(
   constexpr int MostCollections = 4;
   Internals& impl = *this->Impl;
   vtkRenderer* renderer = frame.renderer;
-  frame.state->begin();
+  frame.state->beginFrame();
   bool disturbed = true;
   for (int i = 1; disturbed && i <= MostCollections; ++i)
   {
@@ -193,6 +175,8 @@ bool vtkSVORenderPass::CollectFrame(
     collect.translucentSurfaceText = this->GetText(TEXT_TRANSLUCENT_SURFACE, nullptr);
     collect.translucentText = this->GetText(TEXT_TRANSLUCENT, nullptr);
     collect.cutOutText = this->GetText(TEXT_CUT_OUT, nullptr);
+    collect.nameOfHeadlight = [this](vtkLight* light)
+    { return this->GetText(TEXT_HEADLIGHT, light); };
     collect.levels.frame = Internals::settingsOf(*this);
     svo::viewOfCamera(renderer, width, height, collect.levels.eye);
     frame.state->collect(impl.store, store, collect);
@@ -205,8 +189,7 @@ bool vtkSVORenderPass::CollectFrame(
   }
   renderer->GetRenderWindow()->MakeCurrent(); // pipelines may have had others drawn
   const svo::CollectedScene& collected = frame.state->collected();
-  impl.castingLights = describeLights(collected.scene.lights,
-    [this](vtkLight* light) { return this->GetText(TEXT_HEADLIGHT, light); });
+  impl.castingLights = collected.lightsText;
   if (collected.headlightOnly && !impl.saidHeadlight && this->ShadowTechnique != SHADOW_NONE &&
     (!attached || !collected.scene.instances.empty()))
   {

@@ -216,7 +216,7 @@ ShadowCases::ShadowCases(
   const double edge = svo::TexelEdge(lightMaps.views.back())(Middle);
   RandomCaster caster(lightMaps.views, edge, 0.4 * edge, dice);
   svo::LayerBudget budget{ 0, 0 };
-  this->buffer.begin(svo::Scene(), lightMaps, 0, this->settings, budget);
+  this->buffer.prepare(svo::Scene(), lightMaps, 0, this->settings, budget);
   this->buffer.trace(svo::serialFor); // of this process: nothing
   this->buffer.merge(caster, 0);
   this->buffer.copyMaps(0, this->maps);

@@ -1,5 +1,7 @@
 #include "svoLargePolygon.h"
 
+#include "svoBox.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,15 +17,14 @@ bool canBeHalved(const glm::dvec3* points, const std::vector<std::uint32_t>& pol
   const glm::dvec3 origin = points[polygon[0]];
   const auto at = [&](std::size_t i) { return points[polygon[i]] - origin; };
   glm::dvec3 area(0.0);
-  glm::dvec3 low(0.0), high(0.0);
+  Box box{ glm::dvec3(0.0), glm::dvec3(0.0) };
   for (std::size_t i = 1; i < count; ++i)
   {
     const glm::dvec3 p = at(i);
     area += glm::cross(at(i - 1), p);
-    low = glm::min(low, p);
-    high = glm::max(high, p);
+    box.add(p);
   }
-  const double size = glm::length(high - low);
+  const double size = glm::length(box.high - box.low);
   const double length = glm::length(area);
   // Points that are not finite end here, too.
   if (count < 3 || !(length > Tolerance * size * size) || !std::isfinite(length))

@@ -1,5 +1,6 @@
 #include "svoWork.h"
 
+#include "svoBox.h"
 #include "svoLattice.h"
 #include "svoMeanPlanes.h"
 
@@ -71,8 +72,7 @@ Cube boundingCube(
 {
   struct Bounds
   {
-    glm::dvec3 low{ std::numeric_limits<double>::infinity() };
-    glm::dvec3 high{ -std::numeric_limits<double>::infinity() };
+    Box box;
     std::size_t dropped = 0;
   };
   const std::size_t blocks = blocksOf(mesh.triangleCount);
@@ -94,26 +94,20 @@ Cube boundingCube(
           }
           for (int k = 0; k < 3; ++k)
           {
-            b.low = glm::min(b.low, mesh.points[t[k]]);
-            b.high = glm::max(b.high, mesh.points[t[k]]);
+            b.box.add(mesh.points[t[k]]);
           }
         }
         bounds[block] = b;
       }
     });
-  Bounds all;
-  if (glm::all(glm::lessThanEqual(options.modelLow, options.modelHigh)))
-  {
-    all.low = options.modelLow;
-    all.high = options.modelHigh;
-  }
+  Box all{ options.modelLow, options.modelHigh };
+  all = all.known() ? all : Box();
+  droppedTriangles = 0;
   for (const Bounds& b : bounds)
   {
-    all.low = glm::min(all.low, b.low);
-    all.high = glm::max(all.high, b.high);
-    all.dropped += b.dropped;
+    all.add(b.box);
+    droppedTriangles += b.dropped;
   }
-  droppedTriangles = all.dropped;
   return boundingCube(all.low, all.high, options.level);
 }
 

@@ -22,6 +22,11 @@ struct Box
     low = glm::min(low, point);
     high = glm::max(high, point);
   }
+  void add(const Box& other)
+  {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+  }
 };
 }
 

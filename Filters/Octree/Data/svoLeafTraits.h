@@ -15,7 +15,8 @@ constexpr std::uint32_t ShortList = 64;
 
 struct LeafTraits
 {
-  /// Bricks with lists of up to so many triangles are met exactly, triangle by triangle.
+  /// Bricks with lists of up to so many triangles are met exactly, triangle by triangle; fits in an
+  /// int.
   std::uint32_t longestExact;
   /// True if other cells are met at their mean plane, false if they are cubes.
   bool planes;
@@ -33,7 +34,7 @@ struct LeafTraits
 
 constexpr LeafTraits traitsOf(LeafGeometry geometry)
 {
-  constexpr std::uint32_t All = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint32_t All = std::numeric_limits<std::int32_t>::max();
   constexpr LeafTraits Table[] = {
     { 0, false, 0.0, 0.0 },        // Voxel
     { 0, true, 1.0, 1.0 },         // Plane

@@ -27,10 +27,7 @@ namespace HWY_NAMESPACE
 void traceBlock(
   const LeafQuery& query, const WalkTarget&, const RayBlock& rays, bool, HitBlock& hits)
 {
-  TraceOptions options;
-  options.level = query.level;
-  options.leafGeometry = query.geometry;
-  intersectBlockScalar(query.octree, rays, options, hits);
+  intersectBlockScalar(query.octree, rays, query.options, hits);
 }
 
 #else
@@ -120,14 +117,10 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
     const Lanes none = hn::Ne(p.size, p.size);
     const Lists lists = findLists(target, p, arrived);
     Lanes triangles = none;
-    if (query.geometry == LeafGeometry::Triangle)
+    if (query.leaf.exact())
     {
-      triangles = arrived;
-    }
-    else if (query.geometry == LeafGeometry::Automatic)
-    {
-      const I shortest = hn::Set(di, static_cast<int>(ShortList) + 1);
-      triangles = hn::And(arrived, hn::Lt(lists.count, shortest));
+      const I longest = hn::Set(di, static_cast<int>(query.leaf.longestExact));
+      triangles = hn::AndNot(hn::Gt(lists.count, longest), arrived);
     }
     const Lanes others = hn::AndNot(triangles, arrived);
     F hitT = hn::Load(df, hits.out.t + first);
@@ -145,7 +138,7 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
     {
       const I found = representatives(target, p, lists, others);
       hn::Store(hn::BitCast(du, found), du, primitives);
-      if (query.geometry == LeafGeometry::Voxel)
+      if (!query.leaf.planes)
       {
         hitT = hn::IfThenElse(hn::RebindMask(df, others), p.t, hitT);
         hitId = hn::IfThenElse(others, found, hitId);
@@ -153,7 +146,7 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
     }
     hn::Store(hitT, df, hits.out.t + first);
     hn::Store(hn::BitCast(du, hitId), du, hits.out.primitive + first);
-    if (anyOther && query.geometry != LeafGeometry::Voxel)
+    if (anyOther && query.leaf.planes)
     {
       const Verdict planes =
         meetOneByOne(query, target, rays, anyHit, first, others, leave, primitives, p, hits);

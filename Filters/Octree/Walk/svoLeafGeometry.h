@@ -45,25 +45,27 @@ constexpr std::uint32_t RepresentativeCandidates = 32;
 /// What all rays of one query share.
 struct LeafQuery
 {
-  LeafQuery(const Octree& o, const TraceOptions& options)
+  LeafQuery(const Octree& o, const TraceOptions& asked)
     : octree(o)
+    , options(asked)
     , level(std::clamp(options.level, 0, o.level()))
     , bits(rootBits(o, level))
     , inBrick(level >= o.level() - 2)
-    , geometry(o.surface() ? options.leafGeometry : LeafGeometry::Voxel)
+    , leaf(traitsOf(o.surface() ? options.leafGeometry : LeafGeometry::Voxel))
   {
     if (!inBrick && options.leafGeometry != LeafGeometry::Voxel)
     {
-      geometry = LeafGeometry::Plane;
+      leaf = traitsOf(LeafGeometry::Plane);
     }
     assert(!o.empty());
   }
 
   const Octree& octree;
-  int level;             // where rays stop
-  int bits;              // of a cell's coordinate in the root cube
-  bool inBrick;          // cells are parts of a brick, or a brick
-  LeafGeometry geometry; // Voxel without triangles
+  TraceOptions options;
+  int level;       // where rays stop
+  int bits;        // of a cell's coordinate in the root cube
+  bool inBrick;    // cells are parts of a brick, or a brick
+  LeafTraits leaf; // a voxel's without triangles
 };
 
 /// The nearest hit so far.
@@ -272,7 +274,7 @@ Visit meetCell(const LeafQuery& query, const ClippedRay<Real>& ray, const Sheare
   if (!query.inBrick)
   {
     const Primitive primitive = NodePrimitive | representativeNode(query, ray, cell);
-    if (query.geometry != LeafGeometry::Voxel)
+    if (query.leaf.planes)
     {
       return meetPlane(query, ray, cell, primitive, tMax, hit);
     }
@@ -281,18 +283,18 @@ Visit meetCell(const LeafQuery& query, const ClippedRay<Real>& ray, const Sheare
     hit.cell = cell.cell;
     return Visit::Stop;
   }
-  if (query.geometry == LeafGeometry::Triangle || query.geometry == LeafGeometry::Automatic)
+  if (query.leaf.exact())
   {
     std::uint32_t count = 0;
     std::uint32_t inlineId = 0;
     const std::uint32_t* list = query.octree.brickTriangles(cell.node, count, inlineId);
-    if (query.geometry == LeafGeometry::Triangle || count <= ShortList)
+    if (count <= query.leaf.longestExact)
     {
       return meetTriangles(query, ray, sheared, list, count, tMax, hit);
     }
   }
   const Primitive primitive = nearestPlaneTriangle<Real>(query, cell.node, cell.cell);
-  if (query.geometry != LeafGeometry::Voxel)
+  if (query.leaf.planes)
   {
     return meetPlane(query, ray, cell, primitive, tMax, hit);
   }

@@ -359,7 +359,10 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   const CollectSettings& settings, CollectedScene& result)
 {
   const glm::dmat4 world = sceneTransform(renderer);
-  result.scene.lights = lightsOf(renderer, world, result.headlightOnly);
+  SceneLights lights = lightsOf(renderer, world, settings.nameOfHeadlight);
+  result.scene.lights = std::move(lights.lights);
+  result.lightsText = std::move(lights.text);
+  result.headlightOnly = lights.headlightOnly;
   bool casting = false;
   for (const Light& light : result.scene.lights)
   {

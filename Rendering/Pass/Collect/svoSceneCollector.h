@@ -8,6 +8,7 @@
 #include "svoOctreeStore.h"
 #include "svoOpaqueCells.h"
 #include "svoScene.h"
+#include "svoSceneLights.h"
 #include "svoSceneOctrees.h"
 #include "svoSurfaceLook.h"
 
@@ -43,6 +44,7 @@ struct CollectSettings
   std::string translucentSurfaceText;
   std::string translucentText;
   std::string cutOutText;
+  LightNames nameOfHeadlight;
 };
 
 /// A frame's scene, and the renderer's props that the scene replaces.
@@ -56,7 +58,8 @@ struct CollectedScene
   int tracedActors = 0;
   int rasterizedActors = 0;
   bool rasterizedReceivers = false; // lit surfaces that the rasteriser draws and shadows fall on
-  bool headlightOnly = false;
+  bool headlightOnly = false;       // SceneLights
+  std::string lightsText;
   /// Owners of the arrays that the scene points into.
   std::vector<vtkSmartPointer<vtkObjectBase>> kept;
 };

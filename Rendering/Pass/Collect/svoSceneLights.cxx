@@ -148,11 +148,12 @@ vtkLight* keyLightOf(vtkRenderer* renderer)
 }
 }
 
-std::vector<Light> lightsOf(vtkRenderer* renderer, const glm::dmat4& world, bool& headlightOnly)
+SceneLights lightsOf(
+  vtkRenderer* renderer, const glm::dmat4& world, const LightNames& nameOfHeadlight)
 {
-  std::vector<Light> lights;
+  SceneLights result;
   const vtkLight* const key = keyLightOf(renderer);
-  headlightOnly = true;
+  bool headlightOnly = true;
   eachLight(renderer,
     [&](vtkLight* source)
     {
@@ -164,10 +165,16 @@ std::vector<Light> lightsOf(vtkRenderer* renderer, const glm::dmat4& world, bool
       {
         LightPlace::set(source, renderer);
       }
-      lights.push_back(light);
+      result.lights.push_back(light);
+      const std::string kind = light.headlight ? nameOfHeadlight(source)
+        : light.kind == Light::Kind::Point     ? "point"
+        : light.kind == Light::Kind::Spot      ? "spot"
+                                               : "directional";
+      result.text += std::to_string(result.lights.size()) + ". " + kind +
+        (light.castShadow ? ": casts shadows\n" : ": casts none\n");
     });
-  headlightOnly = headlightOnly && !lights.empty();
-  return lights;
+  result.headlightOnly = headlightOnly && !result.lights.empty();
+  return result;
 }
 
 bool castsShadow(vtkLight* light)

@@ -2,8 +2,10 @@
 #ifndef svoSceneLights_h
 #define svoSceneLights_h
 
-#include "svoScene.h"
+#include "svoLight.h"
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -13,11 +15,21 @@ class vtkRenderer;
 
 namespace svo
 {
-/// The lights that are switched on, in the renderer's order, which is the order that VTK's shaders
-/// number them in, in a world that `world` makes of VTK's. To be called when the renderer has
-/// placed its headlights and camera lights. `headlightOnly` says that no light can cast because all
-/// of them are headlights.
-std::vector<Light> lightsOf(vtkRenderer* renderer, const glm::dmat4& world, bool& headlightOnly);
+/// The lights of a renderer that are switched on, in its order, which is the order that VTK's
+/// shaders number them in.
+struct SceneLights
+{
+  std::vector<Light> lights;
+  std::string text;           // a line for each: its kind, and whether it casts
+  bool headlightOnly = false; // no light can cast because all of them are headlights
+};
+
+using LightNames = std::function<std::string(vtkLight*)>;
+
+/// The lights in a world that `world` makes of VTK's, headlights in the words of `nameOfHeadlight`.
+/// To be called when the renderer has placed its headlights and camera lights.
+SceneLights lightsOf(
+  vtkRenderer* renderer, const glm::dmat4& world, const LightNames& nameOfHeadlight);
 
 /// Whether a light casts while it is switched on. A camera light without a key of its own
 /// (svoPropKeys.h) is compared with the others of the renderer whose lights were collected last.

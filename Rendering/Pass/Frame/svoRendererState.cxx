@@ -74,7 +74,7 @@ void RendererState::measured(double seconds, double fixed)
   this->Window->measured(this, this->Distance.cost());
 }
 
-void RendererState::begin()
+void RendererState::beginFrame()
 {
   this->Statistics = PassStatistics();
   this->Collected = CollectedScene();

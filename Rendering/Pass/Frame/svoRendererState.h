@@ -71,8 +71,7 @@ public:
 
   vtkRenderer* renderer() const { return this->Renderer; }
 
-  /// Begins a frame.
-  void begin();
+  void beginFrame();
 
   /// Collects its scene from the renderer, whose lights are in place; the last of several times
   /// counts.

@@ -32,7 +32,7 @@ vtkSmartPointer<vtkPolyData> privateCopy(vtkPolyData* mesh)
   return copy;
 }
 
-std::unique_ptr<BackgroundBuild> BackgroundBuild::begin(
+std::unique_ptr<BackgroundBuild> BackgroundBuild::start(
   vtkPolyData* mesh, const MeshOctreeOptions& options, const Launcher& launch)
 {
   try

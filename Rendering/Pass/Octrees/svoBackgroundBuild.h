@@ -40,7 +40,7 @@ public:
 
   /// Null if there is not enough memory for the copy, or no thread to be had. Without a launcher it
   /// is std::thread's constructor. options.progress and options.parallelFor have no part in it.
-  static std::unique_ptr<BackgroundBuild> begin(
+  static std::unique_ptr<BackgroundBuild> start(
     vtkPolyData* mesh, const MeshOctreeOptions& options, const Launcher& launch = {});
 
   /// Abandons it and waits for its end.

@@ -356,7 +356,7 @@ void OctreeStore::buildInBackground(vtkPolyData* mesh, const Key& key)
   {
     return;
   }
-  if (auto begun = BackgroundBuild::begin(mesh, optionsOf(key), this->Launch))
+  if (auto begun = BackgroundBuild::start(mesh, optionsOf(key), this->Launch))
   {
     this->Jobs[key] = { std::move(begun), mesh, this->Frame };
   }

@@ -18,7 +18,7 @@ void eachSurface(std::vector<PropSurfaces>& props, const Visit& visit)
 }
 
 /// What the surface brings, else what is known without an octree.
-void beginSurface(SceneSurface& surface, OctreeStore& store, const StoreOptions& options)
+void findAttached(SceneSurface& surface, OctreeStore& store, const StoreOptions& options)
 {
   Instance& instance = surface.instance;
   if (!store.attached(surface.mesh, options, instance.octree))
@@ -93,7 +93,7 @@ void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lig
   eachSurface(props,
     [&](const PropSurfaces& prop, SceneSurface& surface)
     {
-      beginSurface(surface, store, options);
+      findAttached(surface, store, options);
       scene.instances.push_back(surface.instance);
       scene.instances.back().visible = prop.traced;
       scene.instances.back().castShadow = surface.casts;

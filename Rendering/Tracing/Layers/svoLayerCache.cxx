@@ -12,7 +12,7 @@ void LayerCache::drop(Kept& kept, LayerBudget& budget)
   }
 }
 
-void LayerCache::begin(bool keep, bool moved, LayerBudget& budget)
+void LayerCache::beginFrame(bool keep, bool moved, LayerBudget& budget)
 {
   this->Keep = keep;
   this->Moved = moved;
@@ -68,7 +68,7 @@ DepthLayer* LayerCache::layerOf(
   return kept.layer.get();
 }
 
-void LayerCache::end(LayerBudget& budget)
+void LayerCache::endFrame(LayerBudget& budget)
 {
   for (auto kept = this->Layers.begin(); kept != this->Layers.end();)
   {

@@ -28,7 +28,7 @@ public:
   /// Begins a frame. Layers are dropped, not to come back in this frame, where `moved`, the view's
   /// rays are others than in the last frame; all are, with what is known of instances, unless
   /// `keep`.
-  void begin(bool keep, bool moved, LayerBudget& budget);
+  void beginFrame(bool keep, bool moved, LayerBudget& budget);
 
   /// The layer of an instance, by Instance::id; null if it has none in this frame: layers are not
   /// kept, the instance changes, another one with the same id has it, or the budget is spent. It is
@@ -36,8 +36,8 @@ public:
   DepthLayer* layerOf(
     std::uint64_t id, const LayerKey& key, const PixelRect& rect, LayerBudget& budget);
 
-  /// Ends the asking: forgets instances that were not asked for since begin().
-  void end(LayerBudget& budget);
+  /// Ends the asking: forgets instances that were not asked for since beginFrame().
+  void endFrame(LayerBudget& budget);
 
   std::size_t memory() const { return this->Memory; } // bytes
   void clear();

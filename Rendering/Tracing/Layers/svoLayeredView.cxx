@@ -12,7 +12,7 @@ void LayeredView::release()
   this->MergedWhole = false;
 }
 
-bool LayeredView::begin(const Scene& scene, const View& view,
+bool LayeredView::prepare(const Scene& scene, const View& view,
   const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf, bool keep,
   LayerBudget& budget)
 {
@@ -28,7 +28,7 @@ bool LayeredView::begin(const Scene& scene, const View& view,
     this->Geometries.push_back(instance.leafGeometry);
     this->Offsets.push_back(instance.depthOffsetUnits);
   }
-  this->Layers.begin(keep, this->HasFrame && !sameRays(view, this->Seen), budget);
+  this->Layers.beginFrame(keep, this->HasFrame && !sameRays(view, this->Seen), budget);
   this->Seen = view;
   this->HasFrame = keep;
   for (VisibleInstance& visible : findVisible(scene, view, takesPart, levelOf))
@@ -41,7 +41,7 @@ bool LayeredView::begin(const Scene& scene, const View& view,
     DepthLayer* layer = this->Layers.layerOf(visible.id, visible.key, visible.local.rect, budget);
     this->Instances.push_back({ std::move(visible), layer, {} });
   }
-  this->Layers.end(budget);
+  this->Layers.endFrame(budget);
   this->Shifted = std::any_of(this->Instances.begin(), this->Instances.end(),
     [this](const Entry& entry) {
       return this->Exact && this->Offsets[entry.index] != this->Offsets[this->Instances[0].index];

@@ -40,7 +40,7 @@ public:
 
   /// Prepares a frame: finds the instances that the view sees (findVisible()) and the layers of
   /// them that are still true. Returns false if no instance can be seen.
-  bool begin(const Scene& scene, const View& view,
+  bool prepare(const Scene& scene, const View& view,
     const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf, bool keep,
     LayerBudget& budget);
 

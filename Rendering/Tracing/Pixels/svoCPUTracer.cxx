@@ -153,24 +153,24 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
     self.Eye.layerMemory() + self.LightShadows.layerMemory() };
 
   // Depth layers of the eye, merged.
-  self.Eye.begin(
+  self.Eye.prepare(
     scene, view, [](const Instance& instance) { return instance.visible; },
     [&](const Instance& instance, const LocalView& local)
     { return selectLevel(instance, local, view, settings.pixelError); },
     settings.frameCoherence, budget);
   self.Eye.trace(parallelFor, nullptr);
-  self.Tiles.begin(self.Eye.depthBuffer(), view, settings, frame);
+  self.Tiles.find(self.Eye.depthBuffer(), view, settings, frame);
 
   // What visible points will look up of the lights.
-  self.Shader.begin(scene, settings.shadowTechnique, self.Eye);
+  self.Shader.prepare(scene, settings.shadowTechnique, self.Eye);
   const bool shared = self.SharesBuffers && settings.shadowTechnique == ShadowTechnique::Buffer;
   if (!shared)
   {
-    self.LightShadows.begin(
+    self.LightShadows.prepare(
       self.sceneOfLights(scene, settings.shadowTechnique), view, settings, budget);
     self.markLightTiles(scene, view, parallelFor);
   }
-  self.LightShadows.beginRays(scene, settings, self.Eye);
+  self.LightShadows.prepareRays(scene, settings, self.Eye);
 
   // Shadow layers, merged likewise.
   const double shadowStart = now();

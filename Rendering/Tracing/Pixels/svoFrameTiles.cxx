@@ -23,7 +23,7 @@ void wipeTile(Frame& frame, int x0, int y0)
   }
 }
 
-void FrameTiles::begin(
+void FrameTiles::find(
   const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame)
 {
   this->TilesX = depth.tilesX;

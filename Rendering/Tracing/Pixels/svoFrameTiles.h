@@ -21,7 +21,7 @@ class FrameTiles
 public:
   /// Makes the frame as large as the view, finds the tiles with hits and Frame::covered, and wipes
   /// tiles that have none any more.
-  void begin(
+  void find(
     const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame);
 
   /// Indices into the depth buffer's tiles, ascending.

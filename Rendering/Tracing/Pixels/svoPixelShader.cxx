@@ -10,7 +10,7 @@
 
 namespace svo
 {
-void PixelShader::begin(const Scene& scene, ShadowTechnique technique, const LayeredView& eye)
+void PixelShader::prepare(const Scene& scene, ShadowTechnique technique, const LayeredView& eye)
 {
   this->Frames.clear();
   this->Smooth.clear();
@@ -118,7 +118,7 @@ void PixelShader::lightInstance(
   std::fill_n(scratch.darkness + first, count, Darkness(0));
   if (instance.material.lighting && !lighting.lights.empty())
   {
-    beginLight(lighting, points, first, last, light);
+    toViewSpace(lighting, points, first, last, light);
     for (std::size_t l = 0; l < lighting.lights.size(); ++l)
     {
       arriveLight(lighting, l, instance.material, count, light);

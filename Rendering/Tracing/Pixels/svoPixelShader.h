@@ -2,7 +2,7 @@
 #ifndef svoPixelShader_h
 #define svoPixelShader_h
 
-#include "svoEdges.h"
+#include "svoDarkness.h"
 #include "svoFrame.h"
 #include "svoFrameTiles.h"
 #include "svoLayeredView.h"
@@ -36,7 +36,7 @@ class PixelShader
 {
 public:
   /// To be called once the eye has traced the scene.
-  void begin(const Scene& scene, ShadowTechnique technique, const LayeredView& eye);
+  void prepare(const Scene& scene, ShadowTechnique technique, const LayeredView& eye);
 
   /// Writes the tiles with hits. Counts its shadow rays.
   void shade(const ShadedScene& shaded, const ParallelFor& parallelFor, Frame& frame,

@@ -1,4 +1,5 @@
 // The pixels on edges once more, with four rays each: anti-aliasing.
+#include "svoDepthEdges.h"
 #include "svoPixelShader.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
   constexpr double OffsetX[4] = { 0.375, 0.875, 0.125, 0.625 };
   constexpr double OffsetY[4] = { 0.125, 0.375, 0.625, 0.875 };
   const View& view = shaded.view;
-  const EdgeFinder edges(shaded.eye.depthBuffer(), shaded.eye, this->DarkPixels, view);
+  const DepthEdges edges(shaded.eye, this->DarkPixels, view);
   Lit lit(shaded);
   lit.samples = true;
   // Of a sample, as of multisampled framebuffers of that kind.

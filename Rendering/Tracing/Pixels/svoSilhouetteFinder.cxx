@@ -1,8 +1,8 @@
 #include "svoSilhouetteFinder.h"
 
+#include "svoFrameEdges.h"
 #include "svoLayeredView.h"
 #include "svoPixelShader.h"
-#include "svoWorldSize.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,31 +16,6 @@ namespace svo
 namespace
 {
 constexpr int MostSamples = 32;
-
-/// What a pixel's width is in window depth. With z = a + b / t and a pixel's width proportional to
-/// t it is affine in z, in a parallel view constant.
-struct PixelDepth
-{
-  explicit PixelDepth(const View& view)
-  {
-    const double first = view.parallel ? 1.0 : view.tNear;
-    const double t[2] = { first, 2.0 * first };
-    double z[2], width[2];
-    for (int i = 0; i < 2; ++i)
-    {
-      z[i] = view.windowDepth(t[i]);
-      // The derivative of the window depth, from a difference that is exact for 1 / t.
-      const double step = view.windowDepth(2.0 * t[i]) - z[i];
-      width[i] = worldPixel(view, t[i]) * std::abs(step) * (view.parallel ? 1.0 : 2.0) / t[i];
-    }
-    this->slope = z[1] != z[0] ? static_cast<float>((width[1] - width[0]) / (z[1] - z[0])) : 0.0f;
-    this->constant = static_cast<float>(width[0] - this->slope * z[0]);
-  }
-  float operator()(float window) const { return this->constant + this->slope * window; }
-
-  float constant = 0.0f;
-  float slope = 0.0f;
-};
 
 /// Samples of one pixel that see the same triangle.
 struct Facet
@@ -82,7 +57,7 @@ public:
     , Picture(frame)
     , Positions(positions)
     , SampleCount(std::min(static_cast<int>(positions.size()), MostSamples))
-    , Width(shaded.view)
+    , Edges(frame, shaded.view)
   {
   }
 
@@ -108,15 +83,6 @@ private:
   {
     return static_cast<std::size_t>(y) * this->EyeView.width + x;
   }
-  bool inside(int x, int y) const
-  {
-    return x >= 0 && y >= 0 && x < this->EyeView.width && y < this->EyeView.height;
-  }
-  std::uint32_t instance(int x, int y) const
-  {
-    return this->inside(x, y) ? this->Picture.instance[this->at(x, y)] : NoInstance;
-  }
-
   void findPixels(int x0, int y0, TileScratch& scratch) const
   {
     scratch.pixels.clear();
@@ -124,55 +90,12 @@ private:
     {
       for (int x = x0; x < std::min(x0 + 8, this->EyeView.width); ++x)
       {
-        if (this->edge(x, y))
+        if (isEdge(this->Edges, x, y))
         {
           scratch.pixels.push_back({ x, y, 0, 0, 0 });
         }
       }
     }
-  }
-
-  bool edge(int x, int y) const
-  {
-    const std::uint32_t i = this->Picture.instance[this->at(x, y)];
-    if (this->instance(x - 1, y) != i || this->instance(x + 1, y) != i ||
-      this->instance(x, y - 1) != i || this->instance(x, y + 1) != i)
-    {
-      return true;
-    }
-    return i != NoInstance && (this->step(x, y) || this->crease(x, y));
-  }
-
-  /// The pixels around are of the same instance. Window depth is linear on planes. One surface
-  /// bends little between pixels; a step is of more than a few pixels' size.
-  bool step(int x, int y) const
-  {
-    const float* depth = this->Picture.depth.data() + this->at(x, y);
-    const int up = this->EyeView.width;
-    const float limit = 3.0f * this->Width(*depth);
-    return std::abs(depth[-1] - 2.0f * depth[0] + depth[1]) > limit ||
-      std::abs(depth[-up] - 2.0f * depth[0] + depth[up]) > limit;
-  }
-
-  /// Likewise: the colour bends from one triangle to another, more than its rounding does.
-  bool crease(int x, int y) const
-  {
-    constexpr int Most = 4; // grey levels
-    const Primitive* primitive = this->Picture.primitive.data() + this->at(x, y);
-    const std::ptrdiff_t up = this->EyeView.width;
-    if (primitive[-1] == *primitive && primitive[1] == *primitive && primitive[-up] == *primitive &&
-      primitive[up] == *primitive)
-    {
-      return false;
-    }
-    const std::uint8_t* color = this->Picture.color.data() + 4 * this->at(x, y);
-    const auto bends = [&](std::ptrdiff_t away)
-    {
-      return std::abs(color[-away] - 2 * color[0] + color[away]) > Most ||
-        std::abs(color[1 - away] - 2 * color[1] + color[1 + away]) > Most ||
-        std::abs(color[2 - away] - 2 * color[2] + color[2 + away]) > Most;
-    };
-    return bends(4) || bends(4 * up);
   }
 
   /// The samples of pixel number k.
@@ -323,7 +246,7 @@ private:
     {
       for (int x = pixel.x - 1; x <= pixel.x + 1; ++x)
       {
-        if (this->instance(x, y) == facet.instance)
+        if (this->Edges.instance(x, y) == facet.instance)
         {
           const float distance = std::abs(this->Picture.depth[this->at(x, y)] - depth);
           best = distance < least ? this->at(x, y) : best;
@@ -371,7 +294,7 @@ private:
   bool sameSurface(const PixelPart& part, std::uint32_t instance, std::size_t pixel) const
   {
     return this->Picture.instance[pixel] == instance &&
-      std::abs(this->Picture.depth[pixel] - part.depth) <= 3.0f * this->Width(part.depth);
+      std::abs(this->Picture.depth[pixel] - part.depth) <= 3.0f * this->Edges.width(part.depth);
   }
 
   /// The facets of the instance that are about as deep as number f.
@@ -390,7 +313,7 @@ private:
       const Facet& facet = facets[g];
       const float other = this->windowDepth(facet);
       if (facet.instance != facets[f].instance || facet.samples & taken ||
-        std::abs(other - depth) > 3.0f * this->Width(depth))
+        std::abs(other - depth) > 3.0f * this->Edges.width(depth))
       {
         continue;
       }
@@ -418,7 +341,7 @@ private:
   const Frame& Picture;
   const std::vector<glm::vec2>& Positions;
   int SampleCount;
-  PixelDepth Width;
+  FrameEdges Edges;
 };
 }
 

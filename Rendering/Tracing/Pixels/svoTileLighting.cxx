@@ -242,7 +242,7 @@ void packColors(const TileColors& colors, int count, std::uint32_t* rgba)
   HWY_DYNAMIC_DISPATCH(pack)(colors, count, rgba);
 }
 
-void beginLight(
+void toViewSpace(
   const Lighting& lighting, const TilePoints& points, int first, int last, TileLight& light)
 {
   HWY_DYNAMIC_DISPATCH(begin)

@@ -47,7 +47,7 @@ struct TileLight
 };
 
 /// To view space.
-void beginLight(
+void toViewSpace(
   const Lighting& lighting, const TilePoints& points, int first, int last, TileLight& light);
 
 /// Light number l: sets `diffuse`, `specular` and `reached`.

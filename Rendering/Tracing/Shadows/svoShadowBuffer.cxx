@@ -13,7 +13,7 @@
 
 namespace svo
 {
-void ShadowBuffer::begin(const Scene& scene, const LightMaps& maps, std::size_t first,
+void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_t first,
   const FrameSettings& settings, LayerBudget& budget)
 {
   const std::vector<View>& views = maps.views;
@@ -41,7 +41,7 @@ void ShadowBuffer::begin(const Scene& scene, const LightMaps& maps, std::size_t 
     face.shared.clear();
     face.worldToClip = face.view.viewToClip * face.view.worldToView;
     face.edge = TexelEdge(face.view);
-    face.seesCasters = face.layers.begin(
+    face.seesCasters = face.layers.prepare(
       scene, face.view,
       [&](const Instance& instance) { return casters[&instance - scene.instances.data()] != 0; },
       [&](const Instance& instance, const LocalView& local)

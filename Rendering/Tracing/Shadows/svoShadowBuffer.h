@@ -26,10 +26,10 @@ class ShadowBuffer
 public:
   /// Prepares the layers of the light's maps, which are of the scene's outlines and those of other
   /// processes; `first`: of this scene's instances among all.
-  void begin(const Scene& scene, const LightMaps& maps, std::size_t first,
+  void prepare(const Scene& scene, const LightMaps& maps, std::size_t first,
     const FrameSettings& settings, LayerBudget& budget);
 
-  /// How points are tested; begin() does this, too.
+  /// How points are tested; prepare() does this, too.
   void setBias(const FrameSettings& settings)
   {
     this->AutomaticBias = settings.automaticBias;

@@ -19,7 +19,7 @@ bool Shadows::canFilter(const FrameSettings& settings)
     settings.shadowTechnique == ShadowTechnique::Buffer;
 }
 
-void Shadows::begin(
+void Shadows::prepare(
   const Scene& scene, const View& eye, const FrameSettings& settings, LayerBudget& budget)
 {
   this->Filters = canFilter(settings);
@@ -31,10 +31,10 @@ void Shadows::begin(
   {
     maps = mapsOfLights(outlinesOf(scene), scene.lights, settings, eye);
   }
-  this->beginBuffers(scene, scene.lights, maps, 0, settings, budget);
+  this->prepareBuffers(scene, scene.lights, maps, 0, settings, budget);
 }
 
-void Shadows::beginRays(const Scene& scene, const FrameSettings& settings, const LayeredView& eye)
+void Shadows::prepareRays(const Scene& scene, const FrameSettings& settings, const LayeredView& eye)
 {
   this->Tested = &scene;
   this->UsesRays = settings.shadowTechnique == ShadowTechnique::Rays;
@@ -46,7 +46,7 @@ void Shadows::beginRays(const Scene& scene, const FrameSettings& settings, const
   }
 }
 
-void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
+void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& lights,
   const std::vector<LightMaps>& maps, std::size_t first, const FrameSettings& settings,
   LayerBudget& budget)
 {
@@ -71,7 +71,7 @@ void Shadows::beginBuffers(const Scene& scene, const std::vector<Light>& lights,
     const auto found = this->Kept.find(id);
     buffer =
       found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
-    buffer->begin(scene, maps[i], first, settings, budget);
+    buffer->prepare(scene, maps[i], first, settings, budget);
     this->CoarsestTexel = std::max(this->CoarsestTexel, maps[i].coarsest);
     this->HasFewerTexels = this->HasFewerTexels ||
       (!maps[i].views.empty() && maps[i].views.front().width < settings.shadowResolution);

@@ -23,15 +23,15 @@ class Shadows
 public:
   /// Fits the lights' buffers and keeps those of their layers that are still true. `scene`: with
   /// the octrees that lights see; `eye`: the view of the frame.
-  void begin(
+  void prepare(
     const Scene& scene, const View& eye, const FrameSettings& settings, LayerBudget& budget);
 
-  /// To be called in every frame, after begin() or traceShared(). `scene` and `eye`: those of the
+  /// To be called in every frame, after prepare() or traceShared(). `scene` and `eye`: those of the
   /// points to be tested; rays to the light meet the same geometry, or surfaces would shadow
   /// themselves.
-  void beginRays(const Scene& scene, const FrameSettings& settings, const LayeredView& eye);
+  void prepareRays(const Scene& scene, const FrameSettings& settings, const LayeredView& eye);
 
-  /// Instead of begin() and trace() where other processes hold parts of the scene: traces the
+  /// Instead of prepare() and trace() where other processes hold parts of the scene: traces the
   /// buffers whole and merges them with the others', so that all have the same. A collective call.
   /// The lights, the resolution, the pixel error and the eye of the first process count. Where no
   /// process has changed anything the last frame's buffers are true still, wherever the camera
@@ -95,7 +95,7 @@ public:
 private:
   static bool usesBuffers(const FrameSettings& settings);
   static bool canFilter(const FrameSettings& settings);
-  void beginBuffers(const Scene& scene, const std::vector<Light>& lights,
+  void prepareBuffers(const Scene& scene, const std::vector<Light>& lights,
     const std::vector<LightMaps>& maps, std::size_t first, const FrameSettings& settings,
     LayerBudget& budget);
 

@@ -23,11 +23,11 @@ struct Frame
 Frame draw(svo::LayerCache& cache, svo::LayerBudget& budget, const svo::LayerKey& first,
   const svo::LayerKey& second, bool moved = false, bool keep = true)
 {
-  cache.begin(keep, moved, budget);
+  cache.beginFrame(keep, moved, budget);
   Frame frame{};
   frame.first = cache.layerOf(1, first, Rect, budget);
   frame.second = cache.layerOf(2, second, Rect, budget);
-  cache.end(budget);
+  cache.endFrame(budget);
   EXPECT_EQ(budget.used, cache.memory());
   return frame;
 }
@@ -65,10 +65,10 @@ TEST(LayerCache, TwoInstancesOfOneIdentityDoNotShareALayer)
 {
   svo::LayerCache cache;
   svo::LayerBudget budget{ 10 * Bytes, 0 };
-  cache.begin(true, false, budget);
+  cache.beginFrame(true, false, budget);
   EXPECT_NE(cache.layerOf(1, keyOf(1), Rect, budget), nullptr);
   EXPECT_EQ(cache.layerOf(1, keyOf(1), Rect, budget), nullptr);
-  cache.end(budget);
+  cache.endFrame(budget);
 }
 
 TEST(LayerCache, AViewThatMovesHasNoLayers)
@@ -98,16 +98,16 @@ TEST(LayerCache, TheBudgetIsOfAllCaches)
 {
   svo::LayerCache cache;
   svo::LayerBudget budget{ 2 * Bytes, Bytes }; // others have one layer already
-  cache.begin(true, false, budget);
+  cache.beginFrame(true, false, budget);
   EXPECT_NE(cache.layerOf(1, keyOf(1), Rect, budget), nullptr);
   EXPECT_EQ(cache.layerOf(2, keyOf(2), Rect, budget), nullptr);
-  cache.end(budget);
+  cache.endFrame(budget);
   EXPECT_EQ(budget.used, 2 * Bytes);
   budget.limit = Bytes; // lowered: those that are there go
-  cache.begin(true, false, budget);
+  cache.beginFrame(true, false, budget);
   EXPECT_EQ(budget.used, Bytes);
   EXPECT_EQ(cache.layerOf(1, keyOf(1), Rect, budget), nullptr);
-  cache.end(budget);
+  cache.endFrame(budget);
 }
 
 TEST(LayerCache, InstancesThatAreGoneAreForgotten)
@@ -115,9 +115,9 @@ TEST(LayerCache, InstancesThatAreGoneAreForgotten)
   svo::LayerCache cache;
   svo::LayerBudget budget{ 10 * Bytes, 0 };
   draw(cache, budget, keyOf(1), keyOf(2));
-  cache.begin(true, false, budget);
+  cache.beginFrame(true, false, budget);
   cache.layerOf(2, keyOf(2), Rect, budget);
-  cache.end(budget);
+  cache.endFrame(budget);
   EXPECT_EQ(cache.memory(), Bytes);
   EXPECT_EQ(budget.used, Bytes);
 }

@@ -25,7 +25,7 @@ TEST(NearSide, IsWhatEveryRayThroughABallMeets)
       {
         svo::LayeredView layers;
         svo::LayerBudget budget{ 0, 0 };
-        layers.begin(
+        layers.prepare(
           scene, view, [](const svo::Instance&) { return true; },
           [&](const svo::Instance&, const svo::LocalView&) { return level; }, false, budget);
         layers.trace(svo::serialFor, nullptr);

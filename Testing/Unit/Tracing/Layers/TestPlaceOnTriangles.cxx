@@ -33,7 +33,7 @@ TEST(PlaceOnTriangles, APicturesDepthsAreThoseOfRaysInDouble)
   {
     svo::LayeredView layers;
     svo::LayerBudget budget{ 0, 0 };
-    layers.begin(
+    layers.prepare(
       scene, view, [](const svo::Instance&) { return true; },
       [](const svo::Instance& i, const svo::LocalView&) { return i.octree.level(); }, false,
       budget);

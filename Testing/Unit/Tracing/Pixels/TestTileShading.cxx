@@ -106,7 +106,7 @@ struct Stage
   void trace(int level)
   {
     LayerBudget budget{ 0, 0 };
-    eye.begin(
+    eye.prepare(
       scene, view, [](const Instance& i) { return i.visible; },
       [&](const Instance& i, const LocalView&)
       { return &i == &scene.instances[7] ? level : i.octree.level(); },
@@ -216,7 +216,7 @@ void compareLighting(Stage& stage)
               const Instance& instance = stage.scene.instances[index];
               if (instance.material.lighting)
               {
-                beginLight(lighting, points, first, last, light);
+                toViewSpace(lighting, points, first, last, light);
                 for (std::size_t l = 0; l < lighting.lights.size(); ++l)
                 {
                   arriveLight(lighting, l, instance.material, last - first, light);
@@ -275,7 +275,7 @@ TEST(TileShading, ColoursInPartialShadowsAreThoseOfShade)
               {
                 return;
               }
-              beginLight(lighting, points, first, last, light);
+              toViewSpace(lighting, points, first, last, light);
               for (std::size_t l = 0; l < lighting.lights.size(); ++l)
               {
                 arriveLight(lighting, l, instance.material, last - first, light);
@@ -328,7 +328,7 @@ TEST(TileShading, ShadowsAreThoseOfOnePoint)
       settings.frameCoherence = false;
       LayerBudget budget{ 0, 0 };
       ShadowBuffer buffer;
-      buffer.begin(stage.scene,
+      buffer.prepare(stage.scene,
         svo::mapsOfLight(
           svo::outlinesOf(stage.scene), light, settings.shadowResolution, svo::View()),
         0, settings, budget);
@@ -419,10 +419,10 @@ TEST(TileShading, WhatIsMarkedIsWhatIsLookedUp)
     ShadowBuffer whole, marked;
     const svo::LightMaps maps =
       svo::mapsOfLight(svo::outlinesOf(stage.scene), light, settings.shadowResolution, svo::View());
-    whole.begin(stage.scene, maps, 0, settings, budget);
+    whole.prepare(stage.scene, maps, 0, settings, budget);
     whole.markAll();
     whole.trace(serialFor);
-    marked.begin(stage.scene, maps, 0, settings, budget);
+    marked.prepare(stage.scene, maps, 0, settings, budget);
     stage.eachTile(
       [&](TilePoints& points)
       {

@@ -30,7 +30,7 @@ void eachSeenPoint(const svo::Instance& instance, int level, const std::vector<g
     const svo::View view = lookAt(eye, 96, 96);
     svo::LayeredView layers;
     svo::LayerBudget budget{ 0, 0 };
-    layers.begin(
+    layers.prepare(
       scene, view, [](const svo::Instance&) { return true; },
       [&](const svo::Instance&, const svo::LocalView&) { return level; }, false, budget);
     layers.trace(svo::serialFor, nullptr);

@@ -418,12 +418,12 @@ TEST(ShadowBuffer, AConvexBodyInGrazingLightDoesNotShadowItself)
     settings.frameCoherence = false;
     LayerBudget budget{ 0, 0 };
     LayeredView eye;
-    eye.begin(
+    eye.prepare(
       scene, view, [](const Instance&) { return true; },
       [](const Instance& i, const LocalView&) { return i.octree.level(); }, false, budget);
     eye.trace(serialFor, nullptr);
     ShadowBuffer buffer;
-    buffer.begin(scene,
+    buffer.prepare(scene,
       svo::mapsOfLight(
         svo::outlinesOf(scene), scene.lights[0], settings.shadowResolution, svo::View()),
       0, settings, budget);

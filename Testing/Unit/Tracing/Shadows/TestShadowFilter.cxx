@@ -36,7 +36,7 @@ struct Place
     // The ground casts, too: else its map would hold nothing that it could be mistaken for.
     scene.receivers = { { glm::dvec3(-9.0), glm::dvec3(9.0) } };
     svo::LayerBudget budget{ 0, 0 };
-    buffer.begin(scene,
+    buffer.prepare(scene,
       svo::mapsOfLight(
         svo::outlinesOf(scene), scene.lights[0], settings.shadowResolution, svo::View()),
       0, settings, budget);
@@ -305,7 +305,7 @@ TEST(ShadowFilter, BordersOfMapsAreNotSeen)
   scene.receivers = { { glm::dvec3(-9.0), glm::dvec3(9.0) } };
   svo::LayerBudget budget{ 0, 0 };
   svo::ShadowBuffer buffer;
-  buffer.begin(scene,
+  buffer.prepare(scene,
     svo::mapsOfLight(
       svo::outlinesOf(scene), scene.lights[0], settings.shadowResolution, svo::View()),
     0, settings, budget);

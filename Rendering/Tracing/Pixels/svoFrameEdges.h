@@ -1,0 +1,108 @@
+// The edges of a frame as it is shown.
+#ifndef svoFrameEdges_h
+#define svoFrameEdges_h
+
+#include "svoEdges.h"
+#include "svoFrame.h"
+#include "svoView.h"
+#include "svoWorldSize.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+namespace svo
+{
+/// A pixel's width in window depth. With z = a + b / t and a pixel's width proportional to
+/// t it is affine in z, in a parallel view constant.
+struct PixelDepth
+{
+  explicit PixelDepth(const View& view)
+  {
+    const double first = view.parallel ? 1.0 : view.tNear;
+    const double t[2] = { first, 2.0 * first };
+    double z[2], width[2];
+    for (int i = 0; i < 2; ++i)
+    {
+      z[i] = view.windowDepth(t[i]);
+      // The derivative of the window depth, from a difference that is exact for 1 / t.
+      const double step = view.windowDepth(2.0 * t[i]) - z[i];
+      width[i] = worldPixel(view, t[i]) * std::abs(step) * (view.parallel ? 1.0 : 2.0) / t[i];
+    }
+    this->slope = z[1] != z[0] ? static_cast<float>((width[1] - width[0]) / (z[1] - z[0])) : 0.0f;
+    this->constant = static_cast<float>(width[0] - this->slope * z[0]);
+  }
+  float operator()(float window) const { return this->constant + this->slope * window; }
+
+  float constant = 0.0f;
+  float slope = 0.0f;
+};
+
+class FrameEdges
+{
+public:
+  FrameEdges(const Frame& frame, const View& view)
+    : Picture(frame)
+    , Columns(view.width)
+    , Rows(view.height)
+    , Width(view)
+  {
+  }
+
+  std::uint32_t instance(int x, int y) const
+  {
+    return x >= 0 && y >= 0 && x < this->Columns && y < this->Rows
+      ? this->Picture.instance[this->at(x, y)]
+      : NoInstance;
+  }
+
+  bool changes(int x, int y) const
+  {
+    const std::size_t pixel = this->at(x, y);
+    return this->steps(pixel) || this->creases(pixel);
+  }
+
+  /// Of a pixel in window depth, where the window depth is `depth`.
+  float width(float depth) const { return this->Width(depth); }
+
+private:
+  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * this->Columns + x; }
+
+  bool steps(std::size_t pixel) const
+  {
+    const float* depth = this->Picture.depth.data() + pixel;
+    const std::ptrdiff_t up = this->Columns;
+    const float width = this->Width(*depth);
+    return depthSteps(depth[-1], *depth, depth[1], width) ||
+      depthSteps(depth[-up], *depth, depth[up], width);
+  }
+
+  /// True if the colour bends from one triangle to another, more than its rounding does.
+  bool creases(std::size_t pixel) const
+  {
+    constexpr int Most = 4; // grey levels
+    const Primitive* primitive = this->Picture.primitive.data() + pixel;
+    const std::ptrdiff_t up = this->Columns;
+    if (primitive[-1] == *primitive && primitive[1] == *primitive && primitive[-up] == *primitive &&
+      primitive[up] == *primitive)
+    {
+      return false;
+    }
+    const std::uint8_t* color = this->Picture.color.data() + 4 * pixel;
+    const auto bends = [&](std::ptrdiff_t away)
+    {
+      return std::abs(color[-away] - 2 * color[0] + color[away]) > Most ||
+        std::abs(color[1 - away] - 2 * color[1] + color[1 + away]) > Most ||
+        std::abs(color[2 - away] - 2 * color[2] + color[2 + away]) > Most;
+    };
+    return bends(4) || bends(4 * up);
+  }
+
+  const Frame& Picture;
+  int Columns, Rows;
+  PixelDepth Width;
+};
+}
+
+#endif
