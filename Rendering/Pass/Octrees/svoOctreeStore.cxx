@@ -5,71 +5,20 @@
 #include "svoMeshOctree.h"
 #include "svoSideBySide.h"
 
-#include "vtkCellArray.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <iterator>
 #include <new>
 #include <thread>
 #include <vector>
-
-#include <glm/common.hpp>
 
 namespace svo
 {
 namespace
 {
-Box finiteBox(vtkPolyData* mesh)
-{
-  Box box;
-  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
-  {
-    glm::dvec3 p;
-    mesh->GetPoint(i, &p.x);
-    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
-    {
-      box.add(p);
-    }
-  }
-  return box;
-}
-
 /// A build that has not been asked for in so many frames is nobody's.
 constexpr std::uint64_t FramesOfOthers = 8;
-
-template <typename Key>
-MeshOctreeOptions optionsOf(const Key& key)
-{
-  MeshOctreeOptions options;
-  options.signature = std::get<0>(key);
-  options.level = std::get<1>(key);
-  options.leafGeometry = std::get<2>(key);
-  return options;
-}
-
-template <typename Key>
-ReuseHistory::Id idOf(const Key& key)
-{
-  return std::get<0>(key) ^
-    (static_cast<std::uint64_t>(std::get<1>(key)) * 4 +
-      static_cast<std::uint64_t>(std::get<2>(key))) *
-    0x9e3779b97f4a7c15ull;
-}
-
-/// A polygon or strip of n points makes n - 2.
-std::size_t trianglesOf(vtkPolyData* mesh)
-{
-  vtkIdType sum = 0;
-  for (vtkCellArray* cells : { mesh->GetPolys(), mesh->GetStrips() })
-  {
-    sum +=
-      std::max<vtkIdType>(cells->GetNumberOfConnectivityIds() - 2 * cells->GetNumberOfCells(), 0);
-  }
-  return static_cast<std::size_t>(sum);
-}
 }
 
 OctreeStore::OctreeStore(BackgroundBuild::Launcher launcher)
@@ -82,49 +31,15 @@ OctreeStore::~OctreeStore()
   this->release();
 }
 
-OctreeStore::Known& OctreeStore::knownOf(vtkPolyData* mesh, const StoreOptions& options)
-{
-  Known& known = this->Meshes[mesh];
-  const std::uint64_t time = mesh->GetMTime();
-  if (known.mesh != mesh || known.time != time)
-  {
-    const Octree former = known.attached; // found again, not opened again, if it is still the one
-    Known fresh;
-    if (known.mesh == mesh)
-    {
-      fresh.said = std::move(known.said);
-      fresh.keys.swap(known.keys);
-    }
-    this->Orphans = this->Orphans || !known.keys.empty(); // of a mesh that was at this address
-    known = std::move(fresh);
-    known.mesh = mesh;
-    known.time = time;
-    std::string message;
-    const Attached state = openAttachedOctree(mesh, known.attached, message);
-    const std::string complaint = describe(state, message);
-    if (state != Attached::None && !complaint.empty() && known.said.insert(complaint).second)
-    {
-      options.complain(complaint);
-    }
-    if (!known.attached)
-    {
-      known.signature = meshSignature(mesh);
-      known.box = finiteBox(mesh);
-      known.triangles = trianglesOf(mesh);
-    }
-  }
-  return known;
-}
-
 bool OctreeStore::attached(vtkPolyData* mesh, const StoreOptions& options, Octree& octree)
 {
-  octree = this->knownOf(mesh, options).attached;
+  octree = this->Meshes.of(mesh, options.complain).attached;
   return static_cast<bool>(octree);
 }
 
 void OctreeStore::measure(vtkPolyData* mesh, const StoreOptions& options, Instance& instance)
 {
-  Known& known = this->knownOf(mesh, options);
+  KnownMesh& known = this->Meshes.of(mesh, options.complain);
   const bool exact = traitsOf(options.leafGeometry).exact();
   if (exact && options.convert && known.detailLevel == 0)
   {
@@ -136,37 +51,30 @@ void OctreeStore::measure(vtkPolyData* mesh, const StoreOptions& options, Instan
 }
 
 /// Notes that the frame asks for an octree.
-OctreeStore::Key OctreeStore::asked(Known& known, int level, const StoreOptions& options)
+OctreeKey OctreeStore::asked(KnownMesh& known, int level, const StoreOptions& options)
 {
-  const Key key(known.signature, level, options.leafGeometry);
-  if (known.keys.insert(key).second && this->Orphaned.erase(key) > 0)
-  {
-    this->Recurring.insert(key);
-  }
-  if (this->Asked.insert(key).second && this->AskedLast.count(key) == 0)
-  {
-    this->History.comes(idOf(key), this->Octrees.count(key) > 0);
-  }
+  const OctreeKey key{ known.signature, level, options.leafGeometry };
+  this->Octrees.asked(key, known.keys.insert(key).second);
   return key;
 }
 
 void OctreeStore::prepare(const Wanted& wanted, const StoreOptions& options)
 {
   constexpr std::size_t MostAtOnce = 64; // between two reports of the progress
-  std::map<Key, vtkWeakPointer<vtkPolyData>> missing;
+  std::map<OctreeKey, vtkWeakPointer<vtkPolyData>> missing;
   for (const auto& [mesh, level] : wanted)
   {
-    Known& known = this->knownOf(mesh, options);
+    KnownMesh& known = this->Meshes.of(mesh, options.complain);
     if (!options.convert || !options.wait || known.attached || known.triangles > SmallMesh)
     {
       continue;
     }
-    const Key key = this->asked(known, level, options);
-    if (this->Octrees.count(key) == 0 && this->Jobs.count(key) == 0)
+    const OctreeKey key = this->asked(known, level, options);
+    if (!this->Octrees.has(key) && this->Jobs.count(key) == 0)
     {
       this->takeOver(key);
     }
-    if (this->Octrees.count(key) == 0 && this->Jobs.count(key) == 0)
+    if (!this->Octrees.has(key) && this->Jobs.count(key) == 0)
     {
       missing.emplace(key, mesh);
     }
@@ -184,9 +92,9 @@ void OctreeStore::prepare(const Wanted& wanted, const StoreOptions& options)
     {
       // Who was told of the progress may have changed meshes, or let them go.
       vtkPolyData* mesh = next->second;
-      if (mesh && this->knownOf(mesh, options).signature == std::get<0>(next->first))
+      if (mesh && this->Meshes.of(mesh, options.complain).signature == next->first.signature)
       {
-        builds.push_back({ mesh, optionsOf(next->first) });
+        builds.push_back({ mesh, next->first.options() });
       }
     }
     buildSideBySide(builds);
@@ -194,8 +102,7 @@ void OctreeStore::prepare(const Wanted& wanted, const StoreOptions& options)
     {
       const MeshOctreeOptions& o = build.options;
       this->BuiltSoFar += build.octree ? 1 : 0;
-      this->keep(
-        Key(o.signature, o.level, o.leafGeometry), { build.octree, 0, std::move(build.message) });
+      this->keep({ o.signature, o.level, o.leafGeometry }, build.octree, std::move(build.message));
     }
     if (options.progress)
     {
@@ -215,27 +122,26 @@ OctreeStore::Answer OctreeStore::find(
   {
     return Answer::None;
   }
-  Known& known = this->knownOf(mesh, options);
-  const Key key = this->asked(known, level, options);
+  KnownMesh& known = this->Meshes.of(mesh, options.complain);
+  const OctreeKey key = this->asked(known, level, options);
   const auto job = this->Jobs.find(key);
   if (job != this->Jobs.end() && (job->second.build->done() || options.wait))
   {
     this->waitFor(key, options);
   }
-  if (this->Octrees.count(key) == 0)
+  if (!this->Octrees.has(key))
   {
     this->takeOver(key);
   }
-  if (options.wait && this->Octrees.count(key) == 0 && this->Jobs.count(key) == 0)
+  if (options.wait && !this->Octrees.has(key) && this->Jobs.count(key) == 0)
   {
     this->build(mesh, key, options);
   }
-  const auto found = this->Octrees.find(key);
-  if (found != this->Octrees.end())
+  if (KeptOctree* found = this->Octrees.find(key))
   {
-    return this->answer(mesh, found->second, options, octree);
+    return this->answer(mesh, *found, options, octree);
   }
-  Built* other = this->substitute(key);
+  KeptOctree* other = this->Octrees.substitute(key);
   if (!options.wait && (!other || other->octree.level() < level))
   {
     this->buildInBackground(mesh, key);
@@ -244,14 +150,14 @@ OctreeStore::Answer OctreeStore::find(
 }
 
 OctreeStore::Answer OctreeStore::answer(
-  vtkPolyData* mesh, Built& built, const StoreOptions& options, Octree& octree)
+  vtkPolyData* mesh, KeptOctree& built, const StoreOptions& options, Octree& octree)
 {
   built.lastFrame = this->Frame;
   if (!built.message.empty())
   {
     // The same of each level is said once; that an octree lacks triangles, once for all poses, each
     // of which has another number of them.
-    if (this->knownOf(mesh, options)
+    if (this->Meshes.of(mesh, options.complain)
           .said.insert(built.octree ? "incomplete" : built.message)
           .second)
     {
@@ -263,34 +169,13 @@ OctreeStore::Answer OctreeStore::answer(
   return octree ? Answer::Found : Answer::None;
 }
 
-/// The octree to go on with while the right one is built; null if there is none.
-OctreeStore::Built* OctreeStore::substitute(const Key& key)
-{
-  const auto [signature, level, leafGeometry] = key;
-  Built* best = nullptr;
-  for (auto i = this->Octrees.lower_bound(Key(signature, 0, LeafGeometry::Voxel));
-       i != this->Octrees.end() && std::get<0>(i->first) == signature; ++i)
-  {
-    // By level, coarse ones first.
-    if (std::get<2>(i->first) == leafGeometry && i->second.octree)
-    {
-      best = &i->second;
-      if (best->octree.level() > level)
-      {
-        break;
-      }
-    }
-  }
-  return best;
-}
-
-void OctreeStore::build(vtkPolyData* mesh, const Key& key, const StoreOptions& options)
+void OctreeStore::build(vtkPolyData* mesh, const OctreeKey& key, const StoreOptions& options)
 {
   if (options.aborted && options.aborted())
   {
     return;
   }
-  MeshOctreeOptions build = optionsOf(key);
+  MeshOctreeOptions build = key.options();
   vtkSmartPointer<vtkPolyData> source = mesh;
   if (options.progress || options.aborted)
   {
@@ -311,38 +196,31 @@ void OctreeStore::build(vtkPolyData* mesh, const Key& key, const StoreOptions& o
     {
     }
   }
-  Built built;
-  if (buildMeshOctree(source, build, built.octree, built.message) != BuildStatus::Aborted)
+  Octree octree;
+  std::string message;
+  if (buildMeshOctree(source, build, octree, message) != BuildStatus::Aborted)
   {
-    this->BuiltSoFar += built.octree ? 1 : 0;
-    this->keep(key, std::move(built));
+    this->BuiltSoFar += octree ? 1 : 0;
+    this->keep(key, octree, std::move(message));
   }
 }
 
-void OctreeStore::keep(const Key& key, Built built)
+void OctreeStore::keep(const OctreeKey& key, const Octree& octree, std::string message)
 {
-  const auto same = this->Octrees.find(key); // built in between, by a frame that an observer drew
-  if (same != this->Octrees.end())
-  {
-    this->erase(same);
-  }
-  this->Bytes += built.octree ? built.octree.bytes() : 0;
-  built.lastFrame = this->Frame;
-  this->Octrees[key] = std::move(built);
+  this->Octrees.keep(key, { octree, std::move(message), this->Frame });
 }
 
 /// An octree that another pass or a filter has built.
-void OctreeStore::takeOver(const Key& key)
+void OctreeStore::takeOver(const OctreeKey& key)
 {
-  Built built;
-  built.octree = findBuiltOctree(optionsOf(key), built.message);
-  if (built.octree)
+  std::string message;
+  if (const Octree octree = findBuiltOctree(key.options(), message))
   {
-    this->keep(key, std::move(built));
+    this->keep(key, octree, std::move(message));
   }
 }
 
-void OctreeStore::buildInBackground(vtkPolyData* mesh, const Key& key)
+void OctreeStore::buildInBackground(vtkPolyData* mesh, const OctreeKey& key)
 {
   const auto running = this->Jobs.find(key);
   if (running != this->Jobs.end())
@@ -356,13 +234,13 @@ void OctreeStore::buildInBackground(vtkPolyData* mesh, const Key& key)
   {
     return;
   }
-  if (auto begun = BackgroundBuild::start(mesh, optionsOf(key), this->Launch))
+  if (auto begun = BackgroundBuild::start(mesh, key.options(), this->Launch))
   {
     this->Jobs[key] = { std::move(begun), mesh, this->Frame };
   }
 }
 
-void OctreeStore::waitFor(const Key& key, const StoreOptions& options)
+void OctreeStore::waitFor(const OctreeKey& key, const StoreOptions& options)
 {
   auto job = this->Jobs.find(key);
   while (
@@ -386,7 +264,7 @@ void OctreeStore::waitFor(const Key& key, const StoreOptions& options)
   }
 }
 
-void OctreeStore::keepResult(const Key& key, BackgroundBuild& build)
+void OctreeStore::keepResult(const OctreeKey& key, BackgroundBuild& build)
 {
   const BackgroundBuild::Result& result = build.result();
   if (result.status == BuildStatus::TooLarge)
@@ -395,53 +273,13 @@ void OctreeStore::keepResult(const Key& key, BackgroundBuild& build)
   }
   else if (!build.abandoned())
   {
-    this->keep(key, { result.octree, this->Frame, result.message });
+    this->keep(key, result.octree, result.message);
     this->BuiltSoFar += result.octree ? 1 : 0;
-  }
-}
-
-std::map<OctreeStore::Key, OctreeStore::Built>::iterator OctreeStore::erase(
-  std::map<Key, Built>::iterator octree)
-{
-  this->Bytes -= octree->second.octree ? octree->second.octree.bytes() : 0;
-  return this->Octrees.erase(octree);
-}
-
-/// Frees octrees whose meshes are all gone. Where another mesh came later that looked the same, as
-/// with a reader that makes new ones for each time step, more are expected.
-void OctreeStore::freeOrphans()
-{
-  constexpr std::size_t Most = 1 << 16; // to remember
-  if (this->Orphaned.size() + this->Recurring.size() > Most)
-  {
-    this->Orphaned.clear();
-    this->Recurring.clear();
-  }
-  std::set<Key> owned;
-  for (const auto& mesh : this->Meshes)
-  {
-    owned.insert(mesh.second.keys.begin(), mesh.second.keys.end());
-  }
-  for (auto octree = this->Octrees.begin(); octree != this->Octrees.end();)
-  {
-    if (owned.count(octree->first) > 0 || this->Recurring.count(octree->first) > 0)
-    {
-      ++octree;
-      continue;
-    }
-    this->Orphaned.insert(octree->first);
-    octree = this->erase(octree);
   }
 }
 
 std::size_t OctreeStore::endFrame(std::size_t memoryLimit)
 {
-  for (auto mesh = this->Meshes.begin(); mesh != this->Meshes.end();)
-  {
-    const bool gone = !mesh->second.mesh;
-    this->Orphans = this->Orphans || gone;
-    mesh = gone ? this->Meshes.erase(mesh) : std::next(mesh);
-  }
   // What a frame asks for stays until a frame has it: so long there is more to be seen. (Other
   // renderers have frames in between.) What nobody asks for any more is kept for later, as a mesh
   // may come back to a pose; but nobody waits for those of a mesh that is gone.
@@ -460,42 +298,19 @@ std::size_t OctreeStore::endFrame(std::size_t memoryLimit)
     this->keepResult(job->first, *job->second.build);
     job = this->Jobs.erase(job);
   }
-  if (this->Orphans)
+  if (this->Meshes.forgetGone())
   {
-    this->freeOrphans();
-    this->Orphans = false;
+    this->Octrees.freeOrphans(this->Meshes.keys());
   }
-  if (this->Bytes > memoryLimit)
+  if (this->bytes() > memoryLimit)
   {
-    std::map<ReuseHistory::Id, Key> idle;
-    std::vector<ReuseHistory::Id> going;
-    for (const auto& entry : this->Octrees)
-    {
-      if (entry.second.lastFrame != this->Frame &&
-        idle.emplace(idOf(entry.first), entry.first).second)
-      {
-        going.push_back(idOf(entry.first));
-      }
-    }
-    this->History.sortForGoing(going);
-    for (auto id = going.begin(); this->Bytes > memoryLimit && id != going.end(); ++id)
-    {
-      this->erase(this->Octrees.find(idle.at(*id)));
-    }
-    for (auto& mesh : this->Meshes)
-    {
-      std::set<Key>& keys = mesh.second.keys;
-      for (auto key = keys.begin(); key != keys.end();)
-      {
-        const bool used = this->Octrees.count(*key) > 0 || this->Jobs.count(*key) > 0;
-        key = used ? std::next(key) : keys.erase(key);
-      }
-    }
+    this->Octrees.shrink(memoryLimit, this->Frame);
+    this->Meshes.forgetKeys([this](const OctreeKey& key)
+      { return !this->Octrees.has(key) && this->Jobs.count(key) == 0; });
   }
-  this->AskedLast = std::move(this->Asked);
-  this->Asked.clear();
+  this->Octrees.endFrame();
   ++this->Frame;
-  return this->Bytes > memoryLimit ? this->Bytes - memoryLimit : 0;
+  return this->bytes() > memoryLimit ? this->bytes() - memoryLimit : 0;
 }
 
 void OctreeStore::release()
@@ -507,10 +322,7 @@ void OctreeStore::release()
   this->Jobs.clear();
   this->Meshes.clear();
   this->Octrees.clear();
-  this->Bytes = 0;
   this->TooLarge.clear();
-  this->Orphaned.clear();
-  this->Recurring.clear();
 }
 
 int OctreeStore::building() const

@@ -3,8 +3,10 @@
 #define svoOctreeStore_h
 
 #include "svoBackgroundBuild.h"
+#include "svoKeptOctrees.h"
+#include "svoKnownMeshes.h"
 #include "svoOctree.h"
-#include "svoReuse.h"
+#include "svoOctreeKey.h"
 #include "svoScene.h"
 
 #include "vtkWeakPointer.h"
@@ -16,7 +18,6 @@
 #include <memory>
 #include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -86,7 +87,7 @@ public:
   void release();
 
   /// Bytes of the octrees that were built here.
-  std::size_t bytes() const { return this->Bytes; }
+  std::size_t bytes() const { return this->Octrees.bytes(); }
 
   /// Background builds whose result no frame has had yet.
   int building() const;
@@ -95,58 +96,27 @@ public:
   int built() const { return this->BuiltSoFar; }
 
 private:
-  using Key = std::tuple<std::uint64_t, int, LeafGeometry>; // signature, level, leaf geometry
-  struct Built
-  {
-    Octree octree; // empty if the build failed
-    std::uint64_t lastFrame = 0;
-    std::string message; // not said yet
-  };
   struct Job
   {
     std::unique_ptr<BackgroundBuild> build;
     vtkWeakPointer<vtkPolyData> mesh;
     std::uint64_t lastFrame; // that asked for it
   };
-  /// Properties of a mesh, valid until it is modified.
-  struct Known
-  {
-    vtkWeakPointer<vtkPolyData> mesh;
-    std::uint64_t time = 0; // MTime
-    Octree attached;        // empty: it brings none
-    std::uint64_t signature = 0;
-    Box box;
-    std::size_t triangles = 0;
-    int detailLevel = 0;        // 0: not computed yet
-    std::set<std::string> said; // of the mesh, whatever its poses
-    std::set<Key> keys;         // of its octrees, whatever it looked like
-  };
-
-  Known& knownOf(vtkPolyData* mesh, const StoreOptions& options);
-  Key asked(Known& known, int level, const StoreOptions& options);
-  void build(vtkPolyData* mesh, const Key& key, const StoreOptions& options);
-  void buildInBackground(vtkPolyData* mesh, const Key& key);
-  void waitFor(const Key& key, const StoreOptions& options);
-  void keepResult(const Key& key, BackgroundBuild& build);
-  void keep(const Key& key, Built built);
-  void takeOver(const Key& key);
-  void freeOrphans();
-  std::map<Key, Built>::iterator erase(std::map<Key, Built>::iterator octree);
-  Built* substitute(const Key& key);
-  Answer answer(vtkPolyData* mesh, Built& built, const StoreOptions& options, Octree& octree);
+  OctreeKey asked(KnownMesh& known, int level, const StoreOptions& options);
+  void build(vtkPolyData* mesh, const OctreeKey& key, const StoreOptions& options);
+  void buildInBackground(vtkPolyData* mesh, const OctreeKey& key);
+  void waitFor(const OctreeKey& key, const StoreOptions& options);
+  void keepResult(const OctreeKey& key, BackgroundBuild& build);
+  void keep(const OctreeKey& key, const Octree& octree, std::string message);
+  void takeOver(const OctreeKey& key);
+  Answer answer(vtkPolyData* mesh, KeptOctree& built, const StoreOptions& options, Octree& octree);
 
   BackgroundBuild::Launcher Launch;
   int BuiltSoFar = 0;
-  std::map<vtkPolyData*, Known> Meshes;
-  std::map<Key, Built> Octrees;
-  std::size_t Bytes = 0;          // of Octrees
-  ReuseHistory History;           // of Octrees
-  std::set<Key> Asked, AskedLast; // in this frame and in the one before
-  bool Orphans = false;           // a mesh is gone
-  std::set<Key> Orphaned;         // octrees that were freed because their meshes were gone
-  std::set<Key> Recurring;        // of those, octrees that another mesh had again
-  std::map<Key, Job> Jobs;
-  std::set<Key> TooLarge; // for the share of memory that a background build may use
+  KnownMeshes Meshes;
+  KeptOctrees Octrees;
+  std::map<OctreeKey, Job> Jobs;
+  std::set<OctreeKey> TooLarge; // for the share of memory that a background build may use
   std::uint64_t Frame = 1;
 };
 }
