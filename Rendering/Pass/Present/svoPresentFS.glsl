@@ -30,7 +30,9 @@ void main()
   gl_FragData[0] = color;
 #ifdef SVO_WRITE_NORMALS
   vec4 position = clipToView * vec4(texCoord * 2.0 - 1.0, depth * 2.0 - 1.0, 1.0);
-  gl_FragData[1] = vec4(position.xyz / position.w, 1.0);
-  gl_FragData[2] = vec4(texture(normals, texCoord).xyz, 1.0);
+  vec3 normal = texture(normals, texCoord).xyz;
+  bool lit = normal != vec3(0.0); // unlit surfaces are transparent here, as VTK's mappers have it
+  gl_FragData[1] = lit ? vec4(position.xyz / position.w, 1.0) : vec4(0.0);
+  gl_FragData[2] = lit ? vec4(normal, 1.0) : vec4(0.0);
 #endif
 }

@@ -270,7 +270,10 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
     state->vtkglEnable(GL_DEPTH_TEST);
     state->vtkglDepthFunc(GL_LEQUAL);
     state->vtkglDepthMask(GL_TRUE);
-    state->vtkglDisable(GL_BLEND);
+    if (!writeNormals) // else VTK's blending is part of the picture: see the shader
+    {
+      state->vtkglDisable(GL_BLEND);
+    }
     state->vtkglDisable(GL_CULL_FACE);
     this->Quad->Render();
     drawn = this->Parts.draw(window, &size.x);

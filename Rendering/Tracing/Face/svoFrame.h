@@ -51,7 +51,7 @@ struct Frame
   PixelRect covered;                   // smallest rectangle (8-pixel grid) with every hit
   std::vector<std::uint8_t> color;     // RGBA; alpha 255 on a hit, 0 elsewhere
   std::vector<float> depth;            // OpenGL window depth; 1 where nothing was hit
-  std::vector<float> normals;          // xyz, view space, if asked for
+  std::vector<float> normals;          // xyz, view space, if asked for; 0 of unlit surfaces
   std::vector<float> light;            // RGB that `color` has cut to 0..1, on hits, if asked for
   std::vector<std::uint32_t> instance; // index into Scene::instances, or ~0u
   std::vector<Primitive> primitive;

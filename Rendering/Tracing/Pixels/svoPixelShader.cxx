@@ -178,8 +178,10 @@ void PixelShader::write(const Lit& lit, int tileX, int tileY, const Scratch& scr
   {
     const int k = points.pixel[i];
     const std::size_t pixel = corner + static_cast<std::size_t>(k >> 3) * frame.width + (k & 7);
-    const glm::vec3 normal =
-      lit.lighting.rotation * glm::vec3(points.normalX[i], points.normalY[i], points.normalZ[i]);
+    const bool hasNormal = lit.shaded.scene.instances[points.instance[i]].material.lighting;
+    const glm::vec3 normal = hasNormal
+      ? lit.lighting.rotation * glm::vec3(points.normalX[i], points.normalY[i], points.normalZ[i])
+      : glm::vec3(0.0f);
     std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixel);
   }
   const auto positive = [](float v) { return v > 0.0f ? v : 0.0f; }; // not a number: no light
