@@ -259,7 +259,7 @@ float svoLit(
         vec2 neighbour = texel + other * vec2(float(k & 1), float(k >> 1));
         dark += svoAsk(i, rows, error, point, neighbour, facet, normal, 1.0) != 0 ? 1 : 0;
       }
-      answer = dark >= svoTexelsToAgree ? 2 : 0;
+      answer = float(dark) >= svoTexelsToAgree ? 2 : 0;
     }
     lit = answer == 2 ? 0.0 : 1.0;
     break;

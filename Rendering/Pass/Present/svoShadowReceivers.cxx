@@ -125,14 +125,10 @@ std::string shadowRules()
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::showpoint << std::setprecision(9); // a float's; without a point it were an int
-  text << "const float svoNearbyReach = " << NearbyReach << ";\n"
-       << "const float svoGrazingReach = " << GrazingReach << ";\n"
-       << "const float svoEdgeOnSine = " << EdgeOnSine << ";\n"
-       << "const float svoLeastSteepness = " << LeastSteepness << ";\n"
-       << "const float svoTexelBend = " << TexelBend << ";\n"
-       << "const int svoTexelsToAgree = " << TexelsToAgree << ";\n"
-       << "const float svoWidestBox = " << WidestBox << ";\n"
-       << "const float svoMapBorder = " << MapBorderOfFloats << ";\n";
+  for (const ShadowRule& rule : ShadowRules)
+  {
+    text << "const float svo" << rule.name << " = " << rule.value << ";\n";
+  }
   return text.str();
 }
 

@@ -35,6 +35,19 @@ constexpr double MapBorder = 1.0 + 1e-12;
 
 /// The same for who computes in single precision.
 constexpr double MapBorderOfFloats = 1.0 + 1e-5;
+
+struct ShadowRule
+{
+  const char* name;
+  double value;
+};
+
+/// The numbers for who takes them by name.
+constexpr ShadowRule ShadowRules[] = { { "NearbyReach", NearbyReach },
+  { "GrazingReach", GrazingReach }, { "EdgeOnSine", EdgeOnSine },
+  { "LeastSteepness", LeastSteepness }, { "TexelBend", TexelBend },
+  { "TexelsToAgree", TexelsToAgree }, { "WidestBox", WidestBox },
+  { "MapBorder", MapBorderOfFloats } };
 }
 
 #endif
