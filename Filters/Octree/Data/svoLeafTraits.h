@@ -13,13 +13,19 @@ namespace svo
 /// a brick takes as long as to test so many triangles once.
 constexpr std::uint32_t ShortList = 64;
 
+/// How a cell is met whose triangles are not gone through.
+enum class CellShape
+{
+  Cube,
+  Plane // the mean one, or a triangle's
+};
+
 struct LeafTraits
 {
   /// Bricks with lists of up to so many triangles are met exactly, triangle by triangle; fits in an
   /// int.
   std::uint32_t longestExact;
-  /// True if other cells are met at their mean plane, false if they are cubes.
-  bool planes;
+  CellShape shape; // of other cells
   /// How far beyond its own cell a hit may lie, in cells.
   double reach;
   /// What the test against a shadow map allows for, in voxels of the last level; 0: no less than
@@ -32,16 +38,18 @@ struct LeafTraits
   bool exact() const { return this->longestExact > 0; }
 };
 
+/// By LeafGeometry.
+constexpr LeafTraits LeafTable[] = {
+  { 0, CellShape::Cube, 0.0, 0.0 },                                         // Voxel
+  { 0, CellShape::Plane, 1.0, 1.0 },                                        // Plane
+  { std::numeric_limits<std::int32_t>::max(), CellShape::Plane, 1.0, 0.0 }, // Triangle
+  { ShortList, CellShape::Plane, 1.0, 0.25 }                                // Automatic
+};
+constexpr std::uint32_t LeafGeometries = sizeof(LeafTable) / sizeof(LeafTable[0]);
+
 constexpr LeafTraits traitsOf(LeafGeometry geometry)
 {
-  constexpr std::uint32_t All = std::numeric_limits<std::int32_t>::max();
-  constexpr LeafTraits Table[] = {
-    { 0, false, 0.0, 0.0 },        // Voxel
-    { 0, true, 1.0, 1.0 },         // Plane
-    { All, true, 1.0, 0.0 },       // Triangle
-    { ShortList, true, 1.0, 0.25 } // Automatic
-  };
-  return Table[static_cast<std::uint32_t>(geometry)];
+  return LeafTable[static_cast<std::uint32_t>(geometry)];
 }
 }
 

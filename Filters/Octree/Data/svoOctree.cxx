@@ -1,5 +1,6 @@
 #include "svoOctree.h"
 
+#include "svoLeafTraits.h"
 #include "svoMorton.h"
 #include "svoNode.h"
 
@@ -27,7 +28,7 @@ bool headerIsSane(const Header& h, std::size_t size)
   // The cube's edge and its inverse are finite, or nothing in octree coordinates would be.
   const double rootEdge = h.voxelSize * static_cast<double>(1u << (2 * h.depthCount));
   if (!std::isfinite(h.origin[0] + h.origin[1] + h.origin[2]) || !(h.voxelSize > 0.0) ||
-    !std::isfinite(rootEdge) || !std::isfinite(1.0 / rootEdge) || h.leafGeometry > 3)
+    !std::isfinite(rootEdge) || !std::isfinite(1.0 / rootEdge) || h.leafGeometry >= LeafGeometries)
   {
     return false;
   }

@@ -91,7 +91,7 @@ HWY_INLINE Verdict meetOneByOne(const LeafQuery& query, const WalkTarget& target
     cell.tExit = tExit[i];
     LeafHit<float> hit = hits.load(ray);
     const Visit visit = primitives
-      ? meetPlane(query, clipped, cell, primitives[i], tMax[i], hit)
+      ? meetShape(query, clipped, cell, primitives[i], tMax[i], hit)
       : meetCell(
           query, clipped, ShearedRay<float>(clipped.origin, clipped.direction), cell, tMax[i], hit);
     hits.store(ray, hit);
@@ -138,7 +138,7 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
     {
       const I found = representatives(target, p, lists, others);
       hn::Store(hn::BitCast(du, found), du, primitives);
-      if (!query.leaf.planes)
+      if (query.leaf.shape == CellShape::Cube)
       {
         hitT = hn::IfThenElse(hn::RebindMask(df, others), p.t, hitT);
         hitId = hn::IfThenElse(others, found, hitId);
@@ -146,7 +146,7 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
     }
     hn::Store(hitT, df, hits.out.t + first);
     hn::Store(hn::BitCast(du, hitId), du, hits.out.primitive + first);
-    if (anyOther && query.leaf.planes)
+    if (anyOther && query.leaf.shape != CellShape::Cube)
     {
       const Verdict planes =
         meetOneByOne(query, target, rays, anyHit, first, others, leave, primitives, p, hits);

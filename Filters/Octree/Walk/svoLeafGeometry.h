@@ -266,6 +266,21 @@ Visit meetTriangles(const LeafQuery& query, const ClippedRay<Real>& ray,
   return Visit::SkipBrick;
 }
 
+/// Tests the shape of one occupied cell, of which `primitive` is the representative.
+template <class Real>
+Visit meetShape(const LeafQuery& query, const ClippedRay<Real>& ray, const StopCell<Real>& cell,
+  Primitive primitive, Real& tMax, LeafHit<Real>& hit)
+{
+  if (query.leaf.shape == CellShape::Plane)
+  {
+    return meetPlane(query, ray, cell, primitive, tMax, hit);
+  }
+  hit.t = cell.tEnter;
+  hit.primitive = primitive;
+  hit.cell = cell.cell;
+  return Visit::Stop;
+}
+
 /// Tests one occupied cell. tMax is the ray's end so far and is lowered to a hit.
 template <class Real>
 Visit meetCell(const LeafQuery& query, const ClippedRay<Real>& ray, const ShearedRay<Real>& sheared,
@@ -273,15 +288,8 @@ Visit meetCell(const LeafQuery& query, const ClippedRay<Real>& ray, const Sheare
 {
   if (!query.inBrick)
   {
-    const Primitive primitive = NodePrimitive | representativeNode(query, ray, cell);
-    if (query.leaf.planes)
-    {
-      return meetPlane(query, ray, cell, primitive, tMax, hit);
-    }
-    hit.t = cell.tEnter;
-    hit.primitive = primitive;
-    hit.cell = cell.cell;
-    return Visit::Stop;
+    const Primitive node = NodePrimitive | representativeNode(query, ray, cell);
+    return meetShape(query, ray, cell, node, tMax, hit);
   }
   if (query.leaf.exact())
   {
@@ -293,15 +301,8 @@ Visit meetCell(const LeafQuery& query, const ClippedRay<Real>& ray, const Sheare
       return meetTriangles(query, ray, sheared, list, count, tMax, hit);
     }
   }
-  const Primitive primitive = nearestPlaneTriangle<Real>(query, cell.node, cell.cell);
-  if (query.leaf.planes)
-  {
-    return meetPlane(query, ray, cell, primitive, tMax, hit);
-  }
-  hit.t = cell.tEnter;
-  hit.primitive = primitive;
-  hit.cell = cell.cell;
-  return Visit::Stop;
+  const Primitive triangle = nearestPlaneTriangle<Real>(query, cell.node, cell.cell);
+  return meetShape(query, ray, cell, triangle, tMax, hit);
 }
 
 /// To be called when the walk is over: a ray that hit nothing gets the first cell that refused it.

@@ -27,7 +27,7 @@ inline bool stopsAtNodes(const Instance& instance, int level)
 inline double leafError(const Instance& instance, LeafGeometry geometry, int level)
 {
   const LeafTraits traits = traitsOf(geometry);
-  if (!traits.planes)
+  if (traits.shape == CellShape::Cube)
   {
     return CubeError;
   }
@@ -65,7 +65,7 @@ inline double worldMapError(
 inline bool endsFreely(const Instance& instance, int level)
 {
   const LeafTraits traits = traitsOf(instance.leafGeometry);
-  if (!traits.planes || !instance.octree.surface())
+  if (traits.shape == CellShape::Cube || !instance.octree.surface())
   {
     return true;
   }
