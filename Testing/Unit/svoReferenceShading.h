@@ -30,22 +30,21 @@ inline Arriving arriving(const ViewLight& l, const glm::vec3& normal, const glm:
     const float df = std::max(0.0f, normal.z);
     return { df * l.light->color, shines ? std::pow(df, material.specularPower) : 0.0f };
   }
-  const Lane3 at(position), facing(normal);
-  ArrivingLane light{ Lane3(l.direction), 1.0f };
+  ArrivingLane light{ l.direction, 1.0f };
   if (!l.light->atInfinity())
   {
-    light = arriveLane(at, Lane3(l.position), Lane3(l.direction), Lane3(l.light->attenuation));
+    light = arriveLane(position, l.position, l.direction, l.light->attenuation);
     if (l.light->hasCone())
     {
-      const float cosine = dotLane(light.direction, Lane3(l.direction));
+      const float cosine = glm::dot(light.direction, l.direction);
       light.attenuation = cosine >= l.coneCosine
         ? light.attenuation * std::pow(cosine, static_cast<float>(l.light->exponent))
         : 0.0f;
     }
   }
-  const float df = diffuseLane(light.attenuation, facing, light.direction);
+  const float df = diffuseLane(light.attenuation, normal, light.direction);
   const float sf = shines && df > 0.0f ? light.attenuation *
-      std::pow(highlightLane(at, facing, light.direction), material.specularPower)
+      std::pow(highlightLane(position, normal, light.direction), material.specularPower)
                                        : 0.0f;
   return { df * l.light->color, sf };
 }

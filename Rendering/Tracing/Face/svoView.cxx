@@ -7,14 +7,6 @@
 
 namespace svo
 {
-double View::windowDepth(double t) const
-{
-  // View space has z = -t; the last two rows of the projection know nothing of x and y.
-  const double z = viewToClip[2][2] * -t + viewToClip[3][2];
-  const double w = viewToClip[2][3] * -t + viewToClip[3][3];
-  return 0.5 * z / w + 0.5;
-}
-
 double View::linearDepth(double windowDepth) const
 {
   const double ndc = 2.0 * windowDepth - 1.0;

@@ -47,7 +47,13 @@ struct VTKSVOTRACING_EXPORT View
   }
   /// OpenGL window depth, 0..1, of linear depth t. Depends on t only for every projection whose
   /// last row has no x and y terms (all of VTK's).
-  double windowDepth(double t) const;
+  double windowDepth(double t) const
+  {
+    // View space has z = -t; the last two rows of the projection know nothing of x and y.
+    const double z = viewToClip[2][2] * -t + viewToClip[3][2];
+    const double w = viewToClip[2][3] * -t + viewToClip[3][3];
+    return 0.5 * z / w + 0.5;
+  }
   /// The inverse: infinity where no ray is so deep.
   double linearDepth(double windowDepth) const;
 };

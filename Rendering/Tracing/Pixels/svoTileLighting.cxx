@@ -18,27 +18,26 @@ namespace HWY_NAMESPACE
 {
 constexpr int Step = TilePoints::Step;
 
-void begin(
-  const glm::mat3& r, const glm::dmat4& m, const TilePoints& p, int first, int last, TileLight& l)
+void begin(const glm::mat3& rotation, const glm::dmat4& worldToView, const TilePoints& p, int first,
+  int last, TileLight& l)
 {
+  const glm::mat3 turn = rotation;
+  const glm::dmat4 toView = worldToView;
   for (int i = first; i < last; i += Step)
   {
     for (int k = i; k < i + Step; ++k)
     {
-      const float x = p.normalX[k], y = p.normalY[k], z = p.normalZ[k];
-      l.normalX[k - first] = r[0].x * x + r[1].x * y + r[2].x * z;
-      l.normalY[k - first] = r[0].y * x + r[1].y * y + r[2].y * z;
-      l.normalZ[k - first] = r[0].z * x + r[1].z * y + r[2].z * z;
+      const glm::vec3 normal = turn * p.normal(k);
+      l.normalX[k - first] = normal.x;
+      l.normalY[k - first] = normal.y;
+      l.normalZ[k - first] = normal.z;
     }
     for (int k = i; k < i + Step; ++k)
     {
-      const double x = p.positionX[k], y = p.positionY[k], z = p.positionZ[k];
-      l.positionX[k - first] =
-        static_cast<float>((m[0].x * x + m[1].x * y) + (m[2].x * z + m[3].x * 1.0));
-      l.positionY[k - first] =
-        static_cast<float>((m[0].y * x + m[1].y * y) + (m[2].y * z + m[3].y * 1.0));
-      l.positionZ[k - first] =
-        static_cast<float>((m[0].z * x + m[1].z * y) + (m[2].z * z + m[3].z * 1.0));
+      const glm::vec3 position(toView * glm::dvec4(p.position(k), 1.0));
+      l.positionX[k - first] = position.x;
+      l.positionY[k - first] = position.y;
+      l.positionZ[k - first] = position.z;
     }
   }
   const int n = last - first;
@@ -69,7 +68,7 @@ void arriveFromEye(int n, TileLight& l)
 void arriveFromPosition(const ViewLight& from, int n, float* dx, float* dy, float* dz,
   float* attenuation, const TileLight& l)
 {
-  const Lane3 at(from.position), axis(from.direction), constants(from.light->attenuation);
+  const glm::vec3 at = from.position, axis = from.direction, constants = from.light->attenuation;
   for (int i = 0; i < n; i += Step)
   {
     for (int k = i; k < i + Step; ++k)
@@ -88,12 +87,12 @@ void arriveFromPosition(const ViewLight& from, int n, float* dx, float* dy, floa
 void towardsAxis(
   const ViewLight& from, int n, const float* dx, const float* dy, const float* dz, float* cosine)
 {
-  const Lane3 axis(from.direction);
+  const glm::vec3 axis = from.direction;
   for (int i = 0; i < n; i += Step)
   {
     for (int k = i; k < i + Step; ++k)
     {
-      cosine[k] = dotLane({ dx[k], dy[k], dz[k] }, axis);
+      cosine[k] = glm::dot(glm::vec3(dx[k], dy[k], dz[k]), axis);
     }
   }
 }

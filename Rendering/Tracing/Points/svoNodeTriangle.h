@@ -13,11 +13,10 @@
 #include "svoLeafGeometry.h"
 #include "svoNode.h"
 #include "svoOctree.h"
+#include "svoPointLane.h"
 #include "svoRay.h"
 #include "vtkSVOTracingModule.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -27,25 +26,6 @@
 
 namespace svo
 {
-/// Barycentric coordinates of the point of a triangle that is near another point, by Cramer's rule,
-/// clamped to at least 0 and scaled to sum 1.
-/// `p`, `e1`, `e2`: the other point and the second and third corner, from the first one.
-inline glm::vec3 nearWeights(const glm::vec3& p, const glm::vec3& e1, const glm::vec3& e2)
-{
-  const float d11 = glm::dot(e1, e1);
-  const float d12 = glm::dot(e1, e2);
-  const float d22 = glm::dot(e2, e2);
-  const float determinant = d11 * d22 - d12 * d12;
-  const float p1 = glm::dot(p, e1);
-  const float p2 = glm::dot(p, e2);
-  float v = determinant > 0.0f ? (d22 * p1 - d12 * p2) / determinant : 0.0f;
-  float w = determinant > 0.0f ? (d11 * p2 - d12 * p1) / determinant : 0.0f;
-  v = std::clamp(v, 0.0f, 1.0f);
-  w = std::clamp(w, 0.0f, 1.0f);
-  const float sum = std::max(v + w, 1.0f);
-  return { 1.0f - (v + w) / sum, v / sum, w / sum };
-}
-
 /// A triangle that stands for a node, and where on it.
 struct NodeTriangle
 {

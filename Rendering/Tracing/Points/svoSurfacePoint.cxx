@@ -2,19 +2,24 @@
 
 namespace svo
 {
-void turnAsShaders(const SurfaceMatrices& frame, const View& view, SurfacePoint& point)
+// Not inline: where two doubles that lie side by side become floats, and these doubles again, GCC
+// 12
+// (-ftree-slp-vectorize) leaves the rounding out. Here `towards` is read as the floats that it is,
+// whether they come from a tile or have just been computed.
+NodeTriangle triangleOfHit(const SurfaceMatrices& frame, const glm::dvec3& position,
+  const glm::vec3& towards, Primitive primitive)
 {
-  const Attributes& attributes = frame.instance->attributes;
-  bool other = view.mirrored;
-  if (!attributes.normals ||
-    (frame.instance->material.flat && attributes.normalAssociation != Association::Cell))
+  if (!(primitive & NodePrimitive))
   {
-    const glm::dvec3 along = view.facetsFaceAxis ? view.axis : point.position - view.eye;
-    other = glm::dot(glm::dvec3(point.facet), along) > 0.0;
+    return { primitive, frame.toOctree.point(position), true };
   }
-  if (other)
+  NodeTriangle picked = pickTriangle(frame, primitive & ~NodePrimitive, position, towards);
+  if (!picked.faces)
   {
-    point.normal = -point.normal;
+    NodeTriangle* one[] = { &picked };
+    const glm::dvec3 local = frame.toOctree.vector(glm::dvec3(towards));
+    settleTriangles(frame.instance->octree, one, &local, 1);
   }
+  return picked;
 }
 }

@@ -57,10 +57,9 @@ namespace detail
 {
 inline glm::vec3 normalized(const glm::vec3& v, const glm::vec3& otherwise)
 {
-  const float length2 = glm::dot(v, v);
-  if (length2 > 1e-30f && length2 < 1e30f)
+  if (hasUnitLane(v))
   {
-    return v / std::sqrt(length2);
+    return unitLane(v);
   }
   const double length = glm::length(glm::dvec3(v));
   return length > 0.0 && std::isfinite(length) ? glm::vec3(glm::dvec3(v) / length) : otherwise;
@@ -77,121 +76,118 @@ inline NodeTriangle pickTriangle(const SurfaceMatrices& frame, std::uint32_t nod
     { return glm::dot(detail::normalized(frame.windingMatrix * n, -towards), towards); });
 }
 
-/// A point of a triangle, with the attributes that the triangle has at `at`, octree coordinates.
-inline SurfacePoint pointOfTriangle(const SurfaceMatrices& frame, const glm::dvec3& position,
-  const glm::vec3& towards, Primitive primitive, const glm::dvec3& at)
+/// What the points of a triangle share; the octree of `frame` has a surface.
+struct TriangleLook
 {
-  const Instance& instance = *frame.instance;
-  const Attributes& attributes = instance.attributes;
-  const Surface* surface = instance.octree.surface();
-  SurfacePoint point;
-  point.position = position;
-  point.hasColor = false;
-  point.color = glm::vec3(1.0f);
-  if (!surface)
+  TriangleLook(const SurfaceMatrices& frame, Primitive primitive)
+    : attributes(frame.instance->attributes)
   {
-    point.facet = point.normal = glm::normalize(towards);
-    return point;
+    const Surface& surface = *frame.instance->octree.surface();
+    const glm::uvec3 triangle = surface.triangles[primitive];
+    const std::uint32_t cell = surface.cells.empty() ? primitive : surface.cells[primitive];
+    a = surface.points[triangle.x];
+    e1 = surface.points[triangle.y] - a;
+    e2 = surface.points[triangle.z] - a;
+    winding = frame.windingMatrix * glm::cross(e1, e2);
+    normal = attributes.normals && attributes.normalAssociation == Association::Cell
+      ? frame.normalMatrix * detail::vectorAt(attributes.normals, cell)
+      : winding;
+    smooth = !frame.instance->material.flat && attributes.normals &&
+      attributes.normalAssociation == Association::Point;
+    textured = attributes.colorCoordinates && attributes.colorTextureSize > 0;
+    const Association colored =
+      attributes.colors && !textured ? attributes.colorAssociation : Association::None;
+    coloredByPoints = colored == Association::Point;
+    hasColor = textured || colored != Association::None;
+    colors[0] =
+      colored == Association::Cell ? detail::colorAt(attributes.colors, cell) : glm::vec3(1.0f);
+    for (int i = 0; i < 3; ++i)
+    {
+      if (smooth)
+      {
+        normals[i] = detail::vectorAt(attributes.normals, triangle[i]);
+      }
+      if (textured)
+      {
+        coordinates[i] = detail::coordinatesAt(attributes, triangle[i]);
+      }
+      if (coloredByPoints)
+      {
+        colors[i] = detail::colorAt(attributes.colors, triangle[i]);
+      }
+    }
   }
-  const glm::uvec3 triangle = surface->triangles[primitive];
-  const glm::vec3 a = surface->points[triangle.x];
-  const glm::vec3 e1 = surface->points[triangle.y] - a;
-  const glm::vec3 e2 = surface->points[triangle.z] - a;
-  const glm::vec3 winding =
-    detail::normalized(frame.windingMatrix * glm::cross(e1, e2), glm::normalize(towards));
-  const bool front = glm::dot(winding, towards) > 0.0f;
-  point.facet = front ? winding : -winding;
-  point.normal = point.facet;
-  const bool pointNormals =
-    attributes.normals && attributes.normalAssociation == Association::Point;
-  const bool cellNormals = attributes.normals && attributes.normalAssociation == Association::Cell;
-  const bool smooth = !instance.material.flat && pointNormals;
-  const bool pointColors = attributes.colorCoordinates ||
-    (attributes.colors && attributes.colorAssociation == Association::Point);
-  glm::vec3 weight(1.0f, 0.0f, 0.0f);
-  if (smooth || pointColors)
+  /// True if points differ by more than the side that faces the viewer.
+  bool needsWeights() const { return smooth || textured || coloredByPoints; }
+  /// `at`: octree coordinates. A plane or voxel hit beside its triangle takes the nearest in it.
+  glm::vec3 weights(const glm::dvec3& at) const
   {
-    // Barycentric coordinates; a plane or voxel hit beside its triangle takes the nearest in it.
-    weight = nearWeights(glm::vec3(at - glm::dvec3(a)), e1, e2);
+    return nearWeights(glm::vec3(at - glm::dvec3(a)), e1, e2);
   }
-  const std::uint32_t cell = surface->cells.empty() ? primitive : surface->cells[primitive];
-  if (smooth || cellNormals)
+  glm::vec3 color(const glm::vec3& weight) const
   {
-    const glm::vec3 normal = smooth ? weight.x * detail::vectorAt(attributes.normals, triangle.x) +
-        weight.y * detail::vectorAt(attributes.normals, triangle.y) +
-        weight.z * detail::vectorAt(attributes.normals, triangle.z)
-                                    : detail::vectorAt(attributes.normals, cell);
-    point.normal = detail::normalized(frame.normalMatrix * normal, point.facet);
-    point.normal = front ? point.normal : -point.normal;
+    return textured     ? detail::colorAt(attributes.colorTexture,
+                            detail::texelAt(attributes, weighted(weight, coordinates)))
+      : coloredByPoints ? weighted(weight, colors)
+                        : colors[0];
   }
-  if (attributes.colorCoordinates && attributes.colorTextureSize > 0)
+
+  const Attributes& attributes;
+  glm::vec3 a, e1, e2;  // first corner and the others from there, octree coordinates
+  glm::vec3 winding;    // world, to a factor: the triangle's own
+  glm::vec3 normal;     // world, to a factor: of all points, unless smooth
+  glm::vec3 normals[3]; // local: of the corners, if smooth
+  glm::vec2 coordinates[3];
+  glm::vec3 colors[3];
+  bool smooth, textured, coloredByPoints, hasColor;
+};
+
+/// Whether the normal of a point is turned to the side that VTK's shaders light, which is not
+/// always the one that its ray sees: VTK's rule for facets without normals knows nothing of sheared
+/// projections, and the rule for others calls the front of a mirrored picture its back.
+inline bool shadersTurn(const SurfaceMatrices& frame, const View& view, const glm::dvec3& position,
+  const glm::vec3& facet)
+{
+  const Attributes& attributes = frame.instance->attributes;
+  if (view.plain)
   {
-    const glm::vec2 place = weight.x * detail::coordinatesAt(attributes, triangle.x) +
-      weight.y * detail::coordinatesAt(attributes, triangle.y) +
-      weight.z * detail::coordinatesAt(attributes, triangle.z);
-    point.color = detail::colorAt(attributes.colorTexture, detail::texelAt(attributes, place));
-    point.hasColor = true;
+    return false;
   }
-  else if (attributes.colors && attributes.colorAssociation == Association::Point)
+  if (attributes.normals &&
+    (!frame.instance->material.flat || attributes.normalAssociation == Association::Cell))
   {
-    point.color = weight.x * detail::colorAt(attributes.colors, triangle.x) +
-      weight.y * detail::colorAt(attributes.colors, triangle.y) +
-      weight.z * detail::colorAt(attributes.colors, triangle.z);
-    point.hasColor = true;
+    return view.mirrored;
   }
-  else if (attributes.colors && attributes.colorAssociation == Association::Cell)
-  {
-    point.color = detail::colorAt(attributes.colors, cell);
-    point.hasColor = true;
-  }
-  return point;
+  const glm::dvec3 along = view.facetsFaceAxis ? view.axis : position - view.eye;
+  return glm::dot(glm::dvec3(facet), along) > 0.0;
 }
 
-/// Turns the normal of a point to the side that VTK's shaders light, where that is not the one that
-/// its ray sees: VTK's rule for facets without normals knows nothing of sheared projections, and
-/// the rule for others calls the front of a mirrored picture its back. Only for views that are not
-/// plain, and not for points without a surface.
-VTKSVOTRACING_EXPORT void turnAsShaders(
-  const SurfaceMatrices& frame, const View& view, SurfacePoint& point);
+/// A point of a triangle, with the attributes that the triangle has at `at`, octree coordinates;
+/// without a surface whatever faces the viewer. `towards`: to the viewer; world.
+inline SurfacePoint pointOfTriangle(const SurfaceMatrices& frame, const View& view,
+  const glm::dvec3& position, const glm::vec3& towards, Primitive primitive, const glm::dvec3& at)
+{
+  const glm::vec3 forwards = glm::normalize(towards);
+  if (!frame.instance->octree.surface())
+  {
+    return { position, forwards, forwards, glm::vec3(1.0f), false };
+  }
+  const TriangleLook look(frame, primitive);
+  const glm::vec3 winding = detail::normalized(look.winding, forwards);
+  const glm::vec3 weight = look.needsWeights() ? look.weights(at) : glm::vec3(1.0f, 0.0f, 0.0f);
+  const float side = sideLane(winding, towards);
+  const glm::vec3 facet = side * winding;
+  const glm::vec3 normal = side *
+    detail::normalized(
+      look.smooth ? frame.normalMatrix * weighted(weight, look.normals) : look.normal, facet);
+  return { position, facet, shadersTurn(frame, view, position, facet) ? -normal : normal,
+    look.color(weight), look.hasColor };
+}
 
 /// The triangle of a hit at `position`, and where on it to interpolate; `towards`, to the viewer:
 /// world. The octree has a surface.
-inline NodeTriangle triangleOfHit(const SurfaceMatrices& frame, const glm::dvec3& position,
-  const glm::vec3& towards, Primitive primitive)
-{
-  if (!(primitive & NodePrimitive))
-  {
-    return { primitive, frame.toOctree.point(position), true };
-  }
-  NodeTriangle picked = pickTriangle(frame, primitive & ~NodePrimitive, position, towards);
-  if (!picked.faces)
-  {
-    NodeTriangle* one[] = { &picked };
-    const glm::dvec3 local = frame.toOctree.vector(glm::dvec3(towards));
-    settleTriangles(frame.instance->octree, one, &local, 1);
-  }
-  return picked;
-}
-
-/// `t` is the linear depth of the hit on the ray of pixel (x, y).
-inline SurfacePoint surfacePoint(
-  const SurfaceMatrices& frame, const View& view, double x, double y, double t, Primitive primitive)
-{
-  const glm::dvec3 ray = view.rayDirection(x, y);
-  const glm::dvec3 position = view.rayOrigin(x, y) + t * ray;
-  const glm::vec3 towards(-ray);
-  if (!frame.instance->octree.surface())
-  {
-    return pointOfTriangle(frame, position, towards, primitive, frame.toOctree.point(position));
-  }
-  const NodeTriangle hit = triangleOfHit(frame, position, towards, primitive);
-  SurfacePoint point = pointOfTriangle(frame, position, towards, hit.triangle, hit.at);
-  if (!view.plain)
-  {
-    turnAsShaders(frame, view, point);
-  }
-  return point;
-}
+VTKSVOTRACING_EXPORT NodeTriangle triangleOfHit(const SurfaceMatrices& frame,
+  const glm::dvec3& position, const glm::vec3& towards, Primitive primitive);
 }
 
 #endif

@@ -17,15 +17,15 @@ void lookAtNodes(
     {
       for (int i = p.runs[k].first; i < p.runs[k].last && p.primitive[i] & NodePrimitive; ++i)
       {
-        f(p.runs[k], i, glm::dvec3(p.positionX[i], p.positionY[i], p.positionZ[i]),
-          glm::vec3(p.towardsX[i], p.towardsY[i], p.towardsZ[i]));
+        f(p.runs[k], i);
       }
     }
   };
   each(
-    [&](const TilePoints::Run&, int i, const glm::dvec3& position, const glm::vec3& to)
+    [&](const TilePoints::Run&, int i)
     {
-      picked[i] = pickTriangle(frame, p.primitive[i] & ~NodePrimitive, position, to);
+      const glm::vec3 to = p.towards(i);
+      picked[i] = pickTriangle(frame, p.primitive[i] & ~NodePrimitive, p.position(i), to);
       if (!picked[i].faces)
       {
         towards[doubts] = frame.toOctree.vector(glm::dvec3(to));
@@ -36,16 +36,7 @@ void lookAtNodes(
   {
     settleTriangles(frame.instance->octree, doubtful, towards, doubts);
   }
-  each(
-    [&](TilePoints::Run& run, int i, const glm::dvec3& position, const glm::vec3& to)
-    {
-      SurfacePoint point = pointOfTriangle(frame, position, to, picked[i].triangle, picked[i].at);
-      if (!view.plain)
-      {
-        turnAsShaders(frame, view, point);
-      }
-      p.set(i, point);
-      run.hasColor = point.hasColor;
-    });
+  each([&](TilePoints::Run& run, int i)
+    { lookAtPoint(frame, view, picked[i].triangle, picked[i].at, run, i, p); });
 }
 }

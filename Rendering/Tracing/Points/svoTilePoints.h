@@ -2,8 +2,8 @@
 // neighbours: shared values are computed once, the rest in loops that the compiler turns into
 // vectors, for whatever instruction set the machine has.
 //
-// The operations and their order are those of surfacePoint() (svoSurfacePoint.h), the reference, so
-// that the results are the same bits.
+// The results are those of pointOfTriangle() (svoSurfacePoint.h), bit for bit: both call the
+// functions of svoPointLane.h.
 #ifndef svoTilePoints_h
 #define svoTilePoints_h
 
@@ -58,25 +58,46 @@ struct TilePoints
     }
     return last;
   }
+  glm::dvec3 position(int i) const { return { positionX[i], positionY[i], positionZ[i] }; }
+  glm::vec3 towards(int i) const { return { towardsX[i], towardsY[i], towardsZ[i] }; }
+  glm::vec3 facet(int i) const { return { facetX[i], facetY[i], facetZ[i] }; }
+  glm::vec3 normal(int i) const { return { normalX[i], normalY[i], normalZ[i] }; }
   SurfacePoint point(int i) const
   {
-    return { { positionX[i], positionY[i], positionZ[i] }, { facetX[i], facetY[i], facetZ[i] },
-      { normalX[i], normalY[i], normalZ[i] }, { colorR[i], colorG[i], colorB[i] }, false };
+    return { this->position(i), this->facet(i), this->normal(i),
+      { colorR[i], colorG[i], colorB[i] }, false };
   }
-  /// Facet, normal and colour.
-  void set(int i, const SurfacePoint& point)
+  void setFacet(int i, const glm::vec3& facet)
   {
-    facetX[i] = point.facet.x;
-    facetY[i] = point.facet.y;
-    facetZ[i] = point.facet.z;
-    normalX[i] = point.normal.x;
-    normalY[i] = point.normal.y;
-    normalZ[i] = point.normal.z;
-    colorR[i] = point.color.r;
-    colorG[i] = point.color.g;
-    colorB[i] = point.color.b;
+    facetX[i] = facet.x;
+    facetY[i] = facet.y;
+    facetZ[i] = facet.z;
+  }
+  void setNormal(int i, const glm::vec3& normal)
+  {
+    normalX[i] = normal.x;
+    normalY[i] = normal.y;
+    normalZ[i] = normal.z;
+  }
+  void setColor(int i, const glm::vec3& color)
+  {
+    colorR[i] = color.r;
+    colorG[i] = color.g;
+    colorB[i] = color.b;
   }
 };
+
+/// Facet, normal and colour of point i, which is on a triangle at `at`; see pointOfTriangle().
+inline void lookAtPoint(const SurfaceMatrices& frame, const View& view, Primitive triangle,
+  const glm::dvec3& at, TilePoints::Run& run, int i, TilePoints& points)
+{
+  const SurfacePoint point =
+    pointOfTriangle(frame, view, points.position(i), points.towards(i), triangle, at);
+  points.setFacet(i, point.facet);
+  points.setNormal(i, point.normal);
+  points.setColor(i, point.color);
+  run.hasColor = point.hasColor;
+}
 
 /// Takes the hits of a tile whose instance `wanted(instance)`, in the order of the tile's pixels.
 /// Sets everything up to and including `t`. Returns false if there is none.

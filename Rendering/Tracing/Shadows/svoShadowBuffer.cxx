@@ -3,6 +3,7 @@
 #include "svoLeafError.h"
 #include "svoSelectLevel.h"
 #include "svoShadowTest.h"
+#include "svoTexelPlace.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
@@ -84,19 +85,12 @@ bool ShadowBuffer::lookUp(const glm::dvec3& position, Place& place) const
 {
   for (const auto& candidate : this->Faces)
   {
-    const View& view = candidate->view;
-    const glm::dvec4 clip = candidate->worldToClip * glm::dvec4(position, 1.0);
-    const double border = MapBorder * clip.w;
-    if (!(clip.w > 0.0) || !(std::abs(clip.x) < border) || !(std::abs(clip.y) < border))
+    const TexelPlace at = texelPlace(candidate->view, candidate->worldToClip, position);
+    if (at.inside > 0.0)
     {
-      continue;
+      place = { candidate.get(), at.x, at.y, at.t };
+      return candidate->seesCasters;
     }
-    place.x = std::clamp((clip.x / clip.w + 1.0) * 0.5 * view.width, 0.0, view.width - 1e-9);
-    place.y = std::clamp((clip.y / clip.w + 1.0) * 0.5 * view.height, 0.0, view.height - 1e-9);
-    const glm::dmat4& m = view.worldToView;
-    place.t = -(m[0][2] * position.x + m[1][2] * position.y + m[2][2] * position.z + m[3][2]);
-    place.face = candidate.get();
-    return place.face->seesCasters;
   }
   return false;
 }
@@ -170,7 +164,7 @@ void ShadowBuffer::mark(const TilePoints& points)
   for (int i = 0; i < points.count; ++i)
   {
     Place place;
-    if (this->lookUp({ points.positionX[i], points.positionY[i], points.positionZ[i] }, place))
+    if (this->lookUp(points.position(i), place))
     {
       last = place.face == lastFace ? last : ~std::size_t(0);
       lastFace = place.face;
@@ -346,14 +340,13 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
   {
     return Answer::Lit;
   }
-  const auto vector = [](const auto& v) { return ShadowTestVector{ v.x, v.y, v.z }; };
   const double x = texel.x + 0.5;
   const double y = texel.y + 0.5;
   ShadowQuestion question;
-  question.facet = vector(point.facet);
-  question.normal = vector(point.normal);
-  question.to = vector(point.position - face->view.rayOrigin(x, y));
-  question.ray = vector(face->view.rayDirection(x, y));
+  question.facet = glm::dvec3(point.facet);
+  question.normal = glm::dvec3(point.normal);
+  question.to = point.position - face->view.rayOrigin(x, y);
+  question.ray = face->view.rayDirection(x, y);
   question.t = t;
   question.edge = edge;
   question.aspect = face->edge.aspect;

@@ -8,31 +8,23 @@
 
 #include <cmath>
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
 namespace svo
 {
-/// World coordinates. (GCC makes no vectors of loops over glm's, which are unions.)
-struct ShadowTestVector
-{
-  double x, y, z;
-};
-
-inline double dot(ShadowTestVector a, ShadowTestVector b)
-{
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-/// One point and one texel.
+/// One point and one texel; world coordinates.
 struct ShadowQuestion
 {
-  ShadowTestVector facet, normal; // the point's planes, as in SurfacePoint
-  ShadowTestVector to;            // to the point, from where the texel's ray has linear depth 0
-  ShadowTestVector ray;           // through the texel's centre; linear depth grows by 1
-  double t;                       // linear depth of the point
-  double edge;                    // of the texel at that depth, the shorter one, world
-  double aspect;                  // the longer edge, in shorter ones
-  double occluder;                // linear depth of what lies at the texel; infinity: nothing
-  double bias;                    // world, along the light
-  double error;                   // world, along the normal: see ShadowBuffer::shadows()
+  glm::dvec3 facet, normal; // the point's planes, as in SurfacePoint
+  glm::dvec3 to;            // to the point, from where the texel's ray has linear depth 0
+  glm::dvec3 ray;           // through the texel's centre; linear depth grows by 1
+  double t;                 // linear depth of the point
+  double edge;              // of the texel at that depth, the shorter one
+  double aspect;            // the longer edge, in shorter ones
+  double occluder;          // linear depth of what lies at the texel; infinity: nothing
+  double bias;              // along the light
+  double error;             // along the normal: see ShadowBuffer::shadows()
 };
 
 /// One of a point's planes, as the texel's ray meets it.
@@ -49,11 +41,11 @@ inline bool mayShadow(double t, double edge, double occluder, double bias)
 }
 
 /// `length`: of the ray.
-inline ShadowPlane followPlane(const ShadowQuestion& q, ShadowTestVector normal, double length)
+inline ShadowPlane followPlane(const ShadowQuestion& q, const glm::dvec3& normal, double length)
 {
-  const double along = dot(normal, q.ray);
+  const double along = glm::dot(normal, q.ray);
   const double slope = std::abs(along) / length;
-  const double met = dot(normal, q.to) / along;
+  const double met = glm::dot(normal, q.to) / along;
   const double most = NearbyReach * q.edge, high = q.t + most;
   // Inside a texel a plane in grazing light reaches far towards the light. Where it is edge-on it
   // says nothing.
@@ -68,7 +60,7 @@ inline ShadowPlane followPlane(const ShadowQuestion& q, ShadowTestVector normal,
 /// 0: lit; 1: dark by an occluder nearby, which other texels have to agree on; 2: dark.
 inline double shadowTest(const ShadowQuestion& q)
 {
-  const double length = std::sqrt(dot(q.ray, q.ray));
+  const double length = std::sqrt(glm::dot(q.ray, q.ray));
   const ShadowPlane facet = followPlane(q, q.facet, length);
   const ShadowPlane normal = followPlane(q, q.normal, length);
   const double most = NearbyReach * q.edge, low = q.t - most, high = q.t + most;

@@ -4,9 +4,9 @@
 
 #include "svoTileShadows.h"
 
-#include "svoShadowRules.h"
 #include "svoShadowTest.h"
 #include "svoTerminator.h"
+#include "svoTexelPlace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,29 +23,17 @@ constexpr int Step = TilePoints::Step;
 void lookUp(const View& light, const glm::dmat4& worldToClip, const TilePoints& p, int first,
   int last, TexelPlaces& places)
 {
-  const glm::dmat4 c = worldToClip, m = light.worldToView;
-  const double width = light.width, height = light.height;
-  const double lastX = width - 1e-9, lastY = height - 1e-9;
+  const View map = light;
+  const glm::dmat4 toClip = worldToClip;
   for (int i = first; i < last; i += Step)
   {
-    for (int k = 0; k < Step; ++k)
+    for (int k = i; k < i + Step; ++k)
     {
-      const double x = p.positionX[i + k], y = p.positionY[i + k], z = p.positionZ[i + k];
-      const double cx = (c[0].x * x + c[1].x * y) + (c[2].x * z + c[3].x * 1.0);
-      const double cy = (c[0].y * x + c[1].y * y) + (c[2].y * z + c[3].y * 1.0);
-      const double cw = (c[0].w * x + c[1].w * y) + (c[2].w * z + c[3].w * 1.0);
-      const int j = i - first + k;
-      const double border = MapBorder * cw;
-      const double insideX = std::abs(cx) < border ? 1.0 : 0.0;
-      const double insideY = std::abs(cy) < border ? insideX : 0.0;
-      places.inside[j] = cw > 0.0 ? insideY : 0.0;
-      const double px = (cx / cw + 1.0) * 0.5 * width;
-      const double py = (cy / cw + 1.0) * 0.5 * height;
-      const double x0 = px < 0.0 ? 0.0 : px;
-      const double y0 = py < 0.0 ? 0.0 : py;
-      places.x[j] = lastX < x0 ? lastX : x0;
-      places.y[j] = lastY < y0 ? lastY : y0;
-      places.t[j] = -(m[0].z * x + m[1].z * y + m[2].z * z + m[3].z);
+      const TexelPlace place = texelPlace(map, toClip, p.position(k));
+      places.x[k - first] = place.x;
+      places.y[k - first] = place.y;
+      places.t[k - first] = place.t;
+      places.inside[k - first] = place.inside;
     }
   }
 }
@@ -98,30 +86,27 @@ int turn(const glm::dvec3& from, const glm::vec3& along, bool far, float sine, f
   return any;
 }
 
-void test(const View& light, const TexelEdge& edge, const TilePoints& p, int first, int last,
+void test(const View& light, const TexelEdge& edges, const TilePoints& p, int first, int last,
   const TexelPlaces& places, TexelTests& tests)
 {
-  const double pixel0 = edge.constant, pixelPerDepth = edge.perDepth, aspect = edge.aspect;
-  const glm::dvec3 o = light.origin, oX = light.originX, oY = light.originY;
-  const glm::dvec3 d = light.direction, dX = light.directionX, dY = light.directionY;
+  const View map = light;
+  const TexelEdge edge = edges;
   for (int i = first; i < last; i += Step)
   {
-    for (int k = 0; k < Step; ++k)
+    for (int k = i; k < i + Step; ++k)
     {
-      const int j = i - first + k;
+      const int j = k - first;
       const double x = tests.x[j], y = tests.y[j];
       ShadowQuestion q;
       q.t = places.t[j];
-      q.edge = pixel0 + q.t * pixelPerDepth;
-      q.aspect = aspect;
+      q.edge = edge(q.t);
+      q.aspect = edge.aspect;
       q.occluder = tests.occluder[j];
       q.bias = tests.bias[j];
-      q.to = { p.positionX[i + k] - (o.x + x * oX.x + y * oY.x),
-        p.positionY[i + k] - (o.y + x * oX.y + y * oY.y),
-        p.positionZ[i + k] - (o.z + x * oX.z + y * oY.z) };
-      q.ray = { d.x + x * dX.x + y * dY.x, d.y + x * dX.y + y * dY.y, d.z + x * dX.z + y * dY.z };
-      q.facet = { p.facetX[i + k], p.facetY[i + k], p.facetZ[i + k] };
-      q.normal = { p.normalX[i + k], p.normalY[i + k], p.normalZ[i + k] };
+      q.to = p.position(k) - map.rayOrigin(x, y);
+      q.ray = map.rayDirection(x, y);
+      q.facet = glm::dvec3(p.facet(k));
+      q.normal = glm::dvec3(p.normal(k));
       q.error = tests.error[j];
       tests.dark[j] = shadowTest(q);
     }

@@ -1,6 +1,5 @@
 // The shadow test of the visible points of a tile against one map of a shadow buffer:
-// svoShadowTest.h, point by point, in vectors. Points are looked up by the operations that
-// ShadowBuffer::lookUp() has for one, in their order, so that the results are the same bits.
+// svoTexelPlace.h and svoShadowTest.h, point by point, in vectors.
 #ifndef svoTileShadows_h
 #define svoTileShadows_h
 
@@ -15,12 +14,11 @@
 
 namespace svo
 {
-/// Where points are looked up, by index of the point minus `first`.
+/// The TexelPlace of each point, by index of the point minus `first`.
 struct TexelPlaces
 {
-  alignas(64) double x[TilePoints::Room], y[TilePoints::Room]; // texels
-  alignas(64) double t[TilePoints::Room];                      // linear depth from the light
-  alignas(64) double inside[TilePoints::Room];                 // of the map: 1, or 0
+  alignas(64) double x[TilePoints::Room], y[TilePoints::Room];
+  alignas(64) double t[TilePoints::Room], inside[TilePoints::Room];
 };
 
 /// How large a map's texels are in the world.

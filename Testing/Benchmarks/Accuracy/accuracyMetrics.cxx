@@ -1,6 +1,6 @@
 #include "accuracyMetrics.h"
 
-#include "svoSurfacePoint.h"
+#include "svoReferencePoint.h"
 
 #include <algorithm>
 #include <cmath>

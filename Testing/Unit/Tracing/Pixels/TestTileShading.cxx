@@ -2,6 +2,7 @@
 // every instruction set of this machine.
 #include "svoInstructionSets.h"
 #include "svoLeafError.h"
+#include "svoReferencePoint.h"
 #include "svoReferenceShading.h"
 #include "svoShadowBuffer.h"
 #include "svoTileLighting.h"

@@ -1,5 +1,6 @@
 // What is shaded where rays stop at nodes above the bricks: faces that the viewer sees.
 #include "svoLayeredView.h"
+#include "svoReferencePoint.h"
 #include "svoTilePoints.h"
 #include "svoTracerScenes.h"
 #include "svoWorldSize.h"

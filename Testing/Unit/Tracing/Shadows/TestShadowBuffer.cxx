@@ -3,8 +3,8 @@
 #include "svoCasters.h"
 #include "svoLayeredView.h"
 #include "svoLeafGeometry.h"
+#include "svoReferencePoint.h"
 #include "svoShadowBuffer.h"
-#include "svoSurfacePoint.h"
 
 #include <gtest/gtest.h>
 

@@ -125,8 +125,8 @@ TEST(Terminator, ThePointThatIsAskedAboutLiesOnTheSmoothSurface)
     for (const double side : { 1.0, -1.0 })
     {
       const glm::vec3 towards(side * middle);
-      const svo::SurfacePoint point =
-        svo::pointOfTriangle(frame, position, towards, k, frame.toOctree.point(position));
+      const svo::SurfacePoint point = svo::pointOfTriangle(
+        frame, svo::View(), position, towards, k, frame.toOctree.point(position));
       svo::Light light = lightOf(svo::Light::Kind::Directional, { 1, 0, 0 });
       light.direction = glm::dvec3(point.facet); // from behind
       const svo::TerminatorPoint at =

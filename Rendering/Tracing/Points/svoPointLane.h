@@ -1,0 +1,59 @@
+// The arithmetic of a visible point on its triangle, for one point. The loops over the points of a
+// tile (svoTilePoints.cxx) call it, and become vectors; pointOfTriangle() calls it for one point.
+#ifndef svoPointLane_h
+#define svoPointLane_h
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+/// Barycentric coordinates of the point of a triangle that is near another point, by Cramer's rule,
+/// clamped to at least 0 and scaled to sum 1.
+/// `p`, `e1`, `e2`: the other point and the second and third corner, from the first one.
+inline glm::vec3 nearWeights(const glm::vec3& p, const glm::vec3& e1, const glm::vec3& e2)
+{
+  const float d11 = glm::dot(e1, e1);
+  const float d12 = glm::dot(e1, e2);
+  const float d22 = glm::dot(e2, e2);
+  const float determinant = d11 * d22 - d12 * d12;
+  const float p1 = glm::dot(p, e1);
+  const float p2 = glm::dot(p, e2);
+  float v = determinant > 0.0f ? (d22 * p1 - d12 * p2) / determinant : 0.0f;
+  float w = determinant > 0.0f ? (d11 * p2 - d12 * p1) / determinant : 0.0f;
+  v = std::clamp(v, 0.0f, 1.0f);
+  w = std::clamp(w, 0.0f, 1.0f);
+  const float sum = std::max(v + w, 1.0f);
+  return { 1.0f - (v + w) / sum, v / sum, w / sum };
+}
+
+/// What the corners of a triangle have, at barycentric coordinates.
+template <class Vector>
+Vector weighted(const glm::vec3& weight, const Vector (&corners)[3])
+{
+  return weight.x * corners[0] + weight.y * corners[1] + weight.z * corners[2];
+}
+
+/// 1 if the side that a triangle winds to faces the viewer, else -1.
+inline float sideLane(const glm::vec3& winding, const glm::vec3& towards)
+{
+  return glm::dot(winding, towards) > 0.0f ? 1.0f : -1.0f;
+}
+
+/// False if floats are too short or too long for unitLane().
+inline bool hasUnitLane(const glm::vec3& v)
+{
+  const float length2 = glm::dot(v, v);
+  return (length2 > 1e-30f) & (length2 < 1e30f);
+}
+
+inline glm::vec3 unitLane(const glm::vec3& v)
+{
+  return v / std::sqrt(glm::dot(v, v));
+}
+}
+
+#endif
