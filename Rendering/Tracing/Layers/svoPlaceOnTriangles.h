@@ -14,11 +14,24 @@
 namespace svo
 {
 /// How far placeOnTriangles() may move a hit, in t. Float rays are off by about 1e-7 of the cube
-/// across, and at a slant by a few times that along the ray; where it is more than this, a triangle
-/// is seen edge-on, and its plane says nothing.
+/// across, and at a slant by a few times that along the ray; on a triangle that is n times as long
+/// as wide by about n times that.
 inline double placingReach(const LocalView& local)
 {
+  return 1e-3 * local.tMax;
+}
+
+/// The same where a triangle is seen edge-on, so that its plane says nothing of what is farther.
+inline double edgeOnReach(const LocalView& local)
+{
   return 1e-5 * local.tMax;
+}
+
+/// True if the sine of a ray's angle to a triangle is less than 1e-3. `along`: the product of
+/// `normal` and `direction`.
+inline bool seenEdgeOn(const glm::dvec3& normal, const glm::dvec3& direction, double along)
+{
+  return !(along * along > 1e-6 * glm::dot(normal, normal) * glm::dot(direction, direction));
 }
 
 /// Moves the hits of a block of rays, through the points x, y of the image, onto the planes of
@@ -29,6 +42,7 @@ inline void placeOnTriangles(
   const Surface& surface, const LocalView& local, const double* x, const double* y, HitBlock& hits)
 {
   const double reach = placingReach(local);
+  const double nearReach = edgeOnReach(local);
   Primitive last = NoPrimitive; // neighbours often meet the same triangle
   glm::dvec3 p(0.0), normal(0.0);
   for (int k = 0; k < RayBlock::Size; ++k)
@@ -49,8 +63,11 @@ inline void placeOnTriangles(
     const glm::dvec3 origin = local.origin + y[k] * local.originY + x[k] * local.originX;
     const glm::dvec3 direction =
       local.direction + y[k] * local.directionY + x[k] * local.directionX;
-    const double t = glm::dot(normal, p - origin) / glm::dot(normal, direction);
-    if (std::abs(t - hits.t[k]) <= reach) // not where it is not a number
+    const double along = glm::dot(normal, direction);
+    const double t = glm::dot(normal, p - origin) / along;
+    const double move = std::abs(t - hits.t[k]);
+    // Not where it is not a number.
+    if (move <= nearReach || (move <= reach && !seenEdgeOn(normal, direction, along)))
     {
       hits.t[k] = std::clamp(static_cast<float>(t), 0.0f, local.tMax);
     }

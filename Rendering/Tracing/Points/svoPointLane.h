@@ -11,19 +11,16 @@
 
 namespace svo
 {
-/// Barycentric coordinates of the point of a triangle that is near another point, by Cramer's rule,
-/// clamped to at least 0 and scaled to sum 1.
+/// Barycentric coordinates of the point of a triangle that is near another point, as ratios of
+/// areas, clamped to at least 0 and scaled to sum 1. Of a triangle that is n times as long as wide
+/// they are off by n roundings; with dot products of the edges, by Cramer's rule, it were n squared.
 /// `p`, `e1`, `e2`: the other point and the second and third corner, from the first one.
 inline glm::vec3 nearWeights(const glm::vec3& p, const glm::vec3& e1, const glm::vec3& e2)
 {
-  const float d11 = glm::dot(e1, e1);
-  const float d12 = glm::dot(e1, e2);
-  const float d22 = glm::dot(e2, e2);
-  const float determinant = d11 * d22 - d12 * d12;
-  const float p1 = glm::dot(p, e1);
-  const float p2 = glm::dot(p, e2);
-  float v = determinant > 0.0f ? (d22 * p1 - d12 * p2) / determinant : 0.0f;
-  float w = determinant > 0.0f ? (d11 * p2 - d12 * p1) / determinant : 0.0f;
+  const glm::vec3 area = glm::cross(e1, e2);
+  const float area2 = glm::dot(area, area);
+  float v = area2 > 0.0f ? glm::dot(glm::cross(p, e2), area) / area2 : 0.0f;
+  float w = area2 > 0.0f ? glm::dot(glm::cross(e1, p), area) / area2 : 0.0f;
   v = std::clamp(v, 0.0f, 1.0f);
   w = std::clamp(w, 0.0f, 1.0f);
   const float sum = std::max(v + w, 1.0f);

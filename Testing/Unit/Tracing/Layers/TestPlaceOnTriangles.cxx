@@ -64,6 +64,48 @@ TEST(PlaceOnTriangles, APicturesDepthsAreThoseOfRaysInDouble)
   }
 }
 
+TEST(PlaceOnTriangles, HitsOnLongAndThinTrianglesAsWell)
+{
+  // A prism, 2000 times as long as it is wide, seen along from one side.
+  Mesh mesh;
+  const glm::dvec3 corners[3] = { { 0, 0.02, 0 }, { 0, -0.02, 0.02 }, { 0, -0.02, -0.02 } };
+  const glm::dvec3 half(40.0, 0, 0);
+  for (int i = 0; i < 3; ++i)
+  {
+    const glm::dvec3 a = corners[i], b = corners[(i + 1) % 3];
+    mesh.add(a - half, a + half, b + half);
+    mesh.add(a - half, b + half, b - half);
+  }
+  svo::Scene scene;
+  scene.instances = { instanceOf(makeOctree(mesh, 10), 1) };
+  const svo::View view = lookAt({ -8, 9, 4 }, 320, 240);
+  const svo::LocalView local =
+    svo::makeLocalView(scene.instances[0].octree, scene.instances[0].localToWorld, view);
+  svo::LayeredView layers;
+  svo::LayerBudget budget{ 0, 0 };
+  layers.prepare(
+    scene, view, [](const svo::Instance&) { return true; },
+    [](const svo::Instance& i, const svo::LocalView&) { return i.octree.level(); }, false, budget);
+  layers.trace(svo::serialFor, nullptr);
+  const svo::DepthBuffer& depth = layers.depthBuffer();
+  int hits = 0;
+  for (int y = 0; y < view.height; ++y)
+  {
+    for (int x = 0; x < view.width; ++x)
+    {
+      const std::size_t at = depth.at(x, y);
+      if (depth.hit[at >> 6] && depth.instance[at] != svo::NoInstance)
+      {
+        ++hits;
+        const double expected = trueDepth(
+          *scene.instances[0].octree.surface(), local, depth.primitive[at], x + 0.5, y + 0.5);
+        EXPECT_NEAR(depth.t[at], expected, 1.2e-7 * local.tMax) << x << ", " << y;
+      }
+    }
+  }
+  EXPECT_GT(hits, 100);
+}
+
 TEST(PlaceOnTriangles, HitsOnTrianglesSeenEdgeOnStayWhereTheyAre)
 {
   const svo::Octree octree = makeOctree(square(1.0), 6); // z = 0
@@ -81,6 +123,6 @@ TEST(PlaceOnTriangles, HitsOnTrianglesSeenEdgeOnStayWhereTheyAre)
   svo::placeOnTriangles(*octree.surface(), local, x, y, hits);
   for (int k = 0; k < 64; ++k)
   {
-    EXPECT_NEAR(hits.t[k], 0.25f * local.tMax, 1.01 * svo::placingReach(local)) << k;
+    EXPECT_NEAR(hits.t[k], 0.25f * local.tMax, 1.01 * svo::edgeOnReach(local)) << k;
   }
 }
