@@ -181,7 +181,8 @@ public:
    * Speed against accuracy: rays stop at the octree level whose voxels appear no larger than this
    * many pixels, 0..64; default 1. 0 always goes to the octree's full depth. Surfaces whose leaf
    * geometry is triangles or automatic and whose triangles are larger than about a pixel are
-   * traced to the triangles themselves whatever is set here: that is faster, and exact.
+   * traced to the triangles themselves whatever is set here: that is faster, and exact. So are
+   * those of smaller ones, up to about 64 in a voxel of this size.
    */
   virtual void SetPixelError(double pixels)
   {

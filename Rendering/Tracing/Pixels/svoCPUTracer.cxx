@@ -156,7 +156,7 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   self.Eye.prepare(
     scene, view, [](const Instance& instance) { return instance.visible; },
     [&](const Instance& instance, const LocalView& local)
-    { return selectLevel(instance, local, view, settings.pixelError); },
+    { return selectEyeLevel(instance, local, view, settings.pixelError); },
     settings.frameCoherence, budget);
   self.Eye.trace(parallelFor, nullptr);
   self.Tiles.find(self.Eye.depthBuffer(), view, settings, frame);

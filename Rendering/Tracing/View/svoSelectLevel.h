@@ -1,9 +1,13 @@
-// The octree level at which an instance's rays stop in a view: no deeper than pixels can show.
+// The octree level at which an instance's rays stop in a view: no deeper than pixels can show, or
+// at the triangles where these are few.
 #ifndef svoSelectLevel_h
 #define svoSelectLevel_h
 
+#include "svoLeafTraits.h"
 #include "svoLocalView.h"
 #include "svoWorldSize.h"
+
+#include <cmath>
 
 namespace svo
 {
@@ -31,6 +35,24 @@ inline int selectLevel(
     --level;
   }
   return level;
+}
+
+/// The level for the eye: selectLevel(), but the last one where leaves are exact and nodes of that
+/// level have few triangles, about. So an outline is the triangles' own, whatever depth else the
+/// octree needs, as for lights; tracing surfaces to few triangles takes no longer than their nodes.
+inline int selectEyeLevel(
+  const Instance& instance, const LocalView& local, const View& view, double pixelError)
+{
+  const int level = selectLevel(instance, local, view, pixelError);
+  if (!traitsOf(instance.leafGeometry).exact() || !instance.octree.surface())
+  {
+    return level;
+  }
+  constexpr double Few = 64.0;
+  const Header& h = instance.octree.header();
+  const int last = instance.octree.level();
+  const double nodes = std::ldexp(static_cast<double>(h.voxelCount), 2 * (level - last));
+  return static_cast<double>(h.triangleCount) <= Few * nodes ? last : level;
 }
 }
 

@@ -1,13 +1,17 @@
 // Octrees of the levels that a picture needs keep the promise of the pixel error: no visible point
-// is displaced on the screen by more than sqrt(3) times as many pixels.
+// is displaced on the screen by more than sqrt(3) times as many pixels. Deeper ones look the same.
 #include "svoTracerScenes.h"
 
 #include "svoNeededLevels.h"
+#include "svoSelectLevel.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iostream>
+#include <vector>
 
 using namespace svotest;
 
@@ -154,4 +158,54 @@ TEST(BuiltLevels, PlanesKeepThePromise)
 TEST(BuiltLevels, AutomaticLeavesKeepThePromise)
 {
   expectPromise(svo::LeafGeometry::Automatic);
+}
+
+TEST(BuiltLevels, WhereTrianglesAreFewADeeperOctreeChangesNoOutline)
+{
+  const Mesh mesh = torus(96, 64);
+  svo::FrameSettings settings;
+  settings.shadowTechnique = svo::ShadowTechnique::None;
+  for (const double distance : { 8.0, 25.0 })
+  {
+    const svo::View view = lookAt(distance * glm::normalize(glm::dvec3(0.3, -1.0, 0.7)), 96, 96);
+    const auto seen = [&](int level)
+    {
+      svo::Scene scene;
+      scene.instances = { instanceOf(
+        makeOctree(mesh, level), 1, glm::dmat4(1.0), svo::LeafGeometry::Automatic) };
+      return rendered(scene, view, settings).instance;
+    };
+    const std::vector<std::uint32_t> coarse = seen(7);
+    EXPECT_GT(std::count(coarse.begin(), coarse.end(), 0u), 50);
+    for (const int level : { 8, 9, 10, 11 })
+    {
+      const std::vector<std::uint32_t> deep = seen(level);
+      int different = 0;
+      for (std::size_t i = 0; i < deep.size(); ++i)
+      {
+        different += deep[i] != coarse[i];
+      }
+      EXPECT_LE(different, 2) << "level " << level << " from " << distance; // rays on an edge
+    }
+  }
+}
+
+TEST(BuiltLevels, WhereTrianglesAreManyRaysStopAtNodes)
+{
+  svo::Scene scene;
+  scene.instances = { instanceOf(makeOctree(torus(300, 200), 9), 1) };
+  scene.instances[0].leafGeometry = svo::LeafGeometry::Automatic;
+  const svo::Instance& instance = scene.instances[0];
+  const auto levelFrom = [&](double distance)
+  {
+    const svo::View view = lookAt({ 0.0, -distance, 0.0 }, 96, 96);
+    const svo::LocalView local = svo::makeLocalView(instance.octree, instance.localToWorld, view);
+    const int level = svo::selectEyeLevel(instance, local, view, 1.0);
+    EXPECT_TRUE(level == 9 || level == svo::selectLevel(instance, local, view, 1.0));
+    return level;
+  };
+  EXPECT_EQ(levelFrom(12.0), 9); // level 5: about 32 triangles a node
+  EXPECT_LT(levelFrom(100.0), 5);
+  scene.instances[0].leafGeometry = svo::LeafGeometry::Plane;
+  EXPECT_LT(levelFrom(12.0), 9);
 }
