@@ -161,7 +161,9 @@ OctreeStore::Answer OctreeStore::answer(
           .said.insert(built.octree ? "incomplete" : built.message)
           .second)
     {
-      options.complain(built.message);
+      options.complain(built.octree
+          ? built.message
+          : built.message + " (so a surface stays with VTK's rasteriser and casts no shadow)");
     }
     built.message.clear();
   }
