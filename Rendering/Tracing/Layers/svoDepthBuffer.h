@@ -6,6 +6,7 @@
 #include "svoRawArray.h"
 #include "svoRay.h"
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -38,6 +39,7 @@ struct DepthBuffer
   std::size_t tiles() const { return static_cast<std::size_t>(this->tilesX) * this->tilesY; }
   std::size_t at(int x, int y) const
   {
+    assert(x >= 0 && y >= 0 && x < 8 * this->tilesX && y < 8 * this->tilesY);
     return 64 * (static_cast<std::size_t>(y >> 3) * this->tilesX + (x >> 3)) + 8 * (y & 7) +
       (x & 7);
   }

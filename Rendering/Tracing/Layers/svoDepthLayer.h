@@ -8,6 +8,7 @@
 #include "svoTileIntervals.h"
 #include "svoView.h"
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -50,6 +51,7 @@ struct DepthLayer
   explicit DepthLayer(const PixelRect& r)
     : rect(r)
   {
+    assert(!r.empty() && ((r.x0 | r.y0 | r.x1 | r.y1) & 7) == 0);
     const std::size_t tiles = static_cast<std::size_t>((r.x1 - r.x0) / 8) * ((r.y1 - r.y0) / 8);
     this->traced.resize(tiles);
     this->t.resize(64 * tiles);
@@ -63,6 +65,7 @@ struct DepthLayer
   /// Index of a tile of the image, which must be one of the rectangle.
   std::size_t index(int tileX, int tileY) const
   {
+    assert(this->holds(tileX, tileY));
     return static_cast<std::size_t>(tileY - this->rect.y0 / 8) *
       ((this->rect.x1 - this->rect.x0) / 8) +
       (tileX - this->rect.x0 / 8);

@@ -10,6 +10,7 @@
 #include "svoScene.h"
 #include "svoVisibleInstances.h"
 
+#include <cassert>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -56,7 +57,11 @@ public:
 
   const DepthBuffer& depthBuffer() const { return this->Merged; }
   /// Base of an instance's t, by index into Scene::instances.
-  double base(std::uint32_t instance) const { return this->Bases[instance]; }
+  double base(std::uint32_t instance) const
+  {
+    assert(instance < this->Bases.size());
+    return this->Bases[instance];
+  }
   int level(std::uint32_t instance) const { return this->Levels[instance]; }
   /// What the instance's rays end on in this view.
   LeafGeometry leafGeometry(std::uint32_t instance) const { return this->Geometries[instance]; }

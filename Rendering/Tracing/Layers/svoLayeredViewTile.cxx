@@ -7,6 +7,7 @@
 #include "svoIntersect.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 namespace svo
@@ -266,6 +267,7 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
 
 void LayeredView::sample(int tileX, int tileY, TileSamples* samples, std::size_t count) const
 {
+  assert(tileX >= 0 && tileX < this->Merged.tilesX && tileY >= 0 && tileY < this->Merged.tilesY);
   for (std::size_t b = 0; b < count; ++b)
   {
     std::fill(samples[b].instance, samples[b].instance + 64, NoInstance);

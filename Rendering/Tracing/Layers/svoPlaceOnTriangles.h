@@ -6,6 +6,7 @@
 #include "svoSurface.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -54,6 +55,7 @@ inline void placeOnTriangles(
     }
     if (primitive != last)
     {
+      assert(primitive < surface.triangles.size());
       last = primitive;
       const glm::uvec3 triangle = surface.triangles[primitive];
       p = glm::dvec3(surface.points[triangle.x]);

@@ -10,6 +10,7 @@
 #include "svoView.h"
 #include "vtkSVOTracingModule.h"
 
+#include <cassert>
 #include <limits>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct TileIntervals
   /// Index of a tile of the image, which must be one of the rectangle.
   std::size_t index(int column, int row) const
   {
+    assert(column >= column0 && column < column0 + columns && row >= row0 && row < row0 + rows);
     return static_cast<std::size_t>(row - row0) * columns + (column - column0);
   }
 };

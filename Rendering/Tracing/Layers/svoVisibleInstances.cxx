@@ -2,6 +2,8 @@
 
 #include "svoLeafError.h"
 
+#include <cassert>
+
 namespace svo
 {
 namespace
@@ -17,6 +19,7 @@ bool worthTiles(const Instance& instance, const LocalView& local, const View& vi
   {
     return false;
   }
+  assert(!local.rect.empty() && octree.header().triangleCount > 0);
   const double pixel = worldPixel(view, local.base + 0.5 * local.tMax);
   const double voxel = worldVoxel(instance) / pixel;
   const Header& h = octree.header();

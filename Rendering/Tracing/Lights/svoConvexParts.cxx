@@ -1,6 +1,7 @@
 #include "svoConvexParts.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -81,6 +82,7 @@ void clip(Polygon& polygon, const HalfSpace& side, Polygon& scratch)
 
 ConvexBody pieceOf(const View& view, double nearest, double farthest)
 {
+  assert(nearest <= farthest);
   ConvexBody body;
   for (int i = 0; i < 8; ++i)
   {

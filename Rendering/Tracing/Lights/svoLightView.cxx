@@ -3,6 +3,7 @@
 #include "svoBox.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -194,6 +195,7 @@ std::vector<View> fitPositional(
 
 void roundOutwards(double& low, double& high)
 {
+  assert(low < high);
   const double step = powerOfTwo(high - low) / 16.0;
   low = std::floor(low / step) * step;
   high = std::ceil(high / step) * step;
@@ -202,6 +204,7 @@ void roundOutwards(double& low, double& high)
 std::vector<View> fitLight(const std::vector<Outline>& outlines,
   const std::vector<std::uint8_t>& casters, const Light& light, int resolution)
 {
+  assert(casters.size() <= outlines.size());
   const std::vector<glm::dvec3> corners = casterCorners(outlines, casters);
   if (corners.empty() || resolution < 1)
   {

@@ -6,6 +6,7 @@
 #include "svoWorldSize.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace svo
@@ -33,6 +34,7 @@ int builtLevel(int level, const Instance& instance, bool exact)
 /// Largest octree level that the rays of a view stop at; 0 if the view does not see the instance.
 int levelFor(const Instance& instance, const View& view, double pixelError)
 {
+  assert(instance.box.known());
   const glm::dvec3 size = instance.box.high - instance.box.low;
   const double edge = std::max({ size.x, size.y, size.z }) * (1.0 + 1.0 / 64.0);
   const double scale = worldScale(instance.localToWorld);
@@ -100,6 +102,7 @@ std::vector<NeededLevels> neededLevels(
       for (std::size_t i = 0; i < needed.size(); ++i)
       {
         const Instance& instance = scene.instances[i];
+        assert(i < maps.casters.size());
         if (maps.casters[i] && instance.box.known())
         {
           needed[i].lights =

@@ -50,7 +50,8 @@ double largestGap(const Scene& scene, const View& view)
     if (instance.visible && instance.receiveShadow && instance.octree)
     {
       const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
-      const double gap = worldLeafError(instance, LeafGeometry::Triangle, MaximumLevel, true);
+      const double gap =
+        worldLeafError(instance, LeafGeometry::Triangle, instance.octree.level(), true);
       if (!local.rect.empty())
       {
         largest = std::max(largest, gap / worldPixel(view, local.base));

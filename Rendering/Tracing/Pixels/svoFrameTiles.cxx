@@ -1,11 +1,13 @@
 #include "svoFrameTiles.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace svo
 {
 void wipeTile(Frame& frame, int x0, int y0)
 {
+  assert(x0 >= 0 && x0 < frame.width && y0 >= 0 && y0 < frame.height);
   const int x1 = std::min(x0 + 8, frame.width);
   for (int y = y0; y < std::min(y0 + 8, frame.height); ++y)
   {

@@ -7,6 +7,7 @@
 #include "svoLightingLane.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <hwy/highway.h>
@@ -238,12 +239,14 @@ HWY_EXPORT(pack);
 
 void packColors(const TileColors& colors, int count, std::uint32_t* rgba)
 {
+  assert(count > 0 && count <= TilePoints::Most);
   HWY_DYNAMIC_DISPATCH(pack)(colors, count, rgba);
 }
 
 void toViewSpace(
   const Lighting& lighting, const TilePoints& points, int first, int last, TileLight& light)
 {
+  assert(first >= 0 && first < last && last <= points.count);
   HWY_DYNAMIC_DISPATCH(begin)
   (lighting.rotation, lighting.worldToView, points, first, last, light);
 }
@@ -251,6 +254,7 @@ void toViewSpace(
 void arriveLight(
   const Lighting& lighting, std::size_t l, const Material& material, int count, TileLight& light)
 {
+  assert(l < lighting.lights.size() && count > 0 && count <= TilePoints::Most);
   const ViewLight& from = lighting.lights[l];
   const bool shines = material.specular > 0.0f;
   std::fill_n(light.specular, count + TilePoints::Step, 0.0f);
@@ -312,6 +316,7 @@ void addShares(const ViewLight& from, int count, TileLight& light)
 void finishLight(const Lighting& lighting, const Material& material, const TilePoints& points,
   int first, int last, bool hasColor, const TileLight& light, TileColors& colors)
 {
+  assert(first >= 0 && first < last && last <= points.count);
   const bool lit = material.lighting && !lighting.lights.empty();
   if (hasColor)
   {

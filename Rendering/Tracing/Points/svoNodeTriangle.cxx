@@ -2,11 +2,14 @@
 
 #include "svoIntersect.h"
 
+#include <cassert>
+
 namespace svo
 {
 void settleTriangles(
   const Octree& octree, NodeTriangle* const* picked, const glm::dvec3* towards, int count)
 {
+  assert(count > 0 && count <= RayBlock::Size);
   constexpr double FromOutside = 2.0; // more than the diagonal of the root cube
   RayBlock rays;
   for (int i = 0; i < RayBlock::Size; ++i)

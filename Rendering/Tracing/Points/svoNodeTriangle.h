@@ -17,6 +17,7 @@
 #include "svoRay.h"
 #include "vtkSVOTracingModule.h"
 
+#include <cassert>
 #include <cstdint>
 #include <limits>
 
@@ -44,6 +45,7 @@ inline std::uint32_t nearestBrick(
   // Cell indices in this order come nearest first along each axis.
   const int flip =
     (towards.x > 0.0 ? 011 : 0) | (towards.y > 0.0 ? 022 : 0) | (towards.z > 0.0 ? 044 : 0);
+  assert(node < octree.header().nodeCount);
   while (node < octree.brickBegin())
   {
     const Node& inner = octree.nodes()[node];
@@ -92,6 +94,7 @@ NodeTriangle pickTriangle(const Octree& octree, std::uint32_t node, const glm::d
   std::uint32_t count, inlineId;
   const std::uint32_t* list =
     octree.brickTriangles(detail::nearestBrick(octree, node, towards), count, inlineId);
+  assert(count > 0 && octree.surface());
   const Surface& surface = *octree.surface();
   const glm::vec3 along(glm::normalize(towards));
   NodeTriangle picked{ list[0], x, false };

@@ -9,6 +9,7 @@
 #include "svoWorldToOctree.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -82,7 +83,9 @@ struct TriangleLook
   TriangleLook(const SurfaceMatrices& frame, Primitive primitive)
     : attributes(frame.instance->attributes)
   {
+    assert(frame.instance->octree.surface());
     const Surface& surface = *frame.instance->octree.surface();
+    assert(primitive < surface.triangles.size());
     const glm::uvec3 triangle = surface.triangles[primitive];
     const std::uint32_t cell = surface.cells.empty() ? primitive : surface.cells[primitive];
     a = surface.points[triangle.x];

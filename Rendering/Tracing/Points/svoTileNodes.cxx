@@ -2,11 +2,14 @@
 
 #include "svoSurfacePoint.h"
 
+#include <cassert>
+
 namespace svo
 {
 void lookAtNodes(
   const SurfaceMatrices& frame, const View& view, int firstRun, int lastRun, TilePoints& p)
 {
+  assert(firstRun >= 0 && lastRun <= p.runCount && frame.instance->octree.surface());
   NodeTriangle picked[TilePoints::Most];
   NodeTriangle* doubtful[TilePoints::Most];
   glm::dvec3 towards[TilePoints::Most];

@@ -7,6 +7,7 @@
 #include "svoTileNodes.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -57,6 +58,7 @@ void place(const View& from, TilePoints& p)
 void faceViewer(
   const glm::vec3& unitWinding, const glm::vec3& unitNormal, int first, int last, TilePoints& p)
 {
+  assert(first < last && last <= p.count);
   const glm::vec3 winding = unitWinding, normal = unitNormal;
   for (int i = first; i < last; i += Step)
   {
@@ -122,6 +124,7 @@ namespace
 /// Orders the points by instance and primitive.
 void makeRuns(TilePoints& p)
 {
+  assert(p.count > 0 && p.count <= TilePoints::Most);
   // Few are different, and neighbours mostly alike: they are counted, not sorted.
   std::uint64_t keys[TilePoints::Most];
   int counts[TilePoints::Most];
@@ -194,6 +197,7 @@ void makeRuns(TilePoints& p)
 
 void pad(TilePoints& p)
 {
+  assert(p.count > 0 && p.count <= TilePoints::Most);
   for (int i = p.count; i < p.count + TilePoints::Step; ++i)
   {
     p.x[i] = p.x[p.count - 1];
@@ -275,6 +279,7 @@ void lookAtPoints(const std::vector<SurfaceMatrices>& frames, const View& view, 
   for (int k = 0; k < points.runCount;)
   {
     const std::uint32_t instance = points.runs[k].instance;
+    assert(instance < frames.size() && frames[instance].instance);
     const SurfaceMatrices& frame = frames[instance];
     const int first = k;
     bool nodes = false;

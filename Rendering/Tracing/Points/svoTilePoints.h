@@ -11,6 +11,7 @@
 #include "svoSurfacePoint.h"
 #include "svoView.h"
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -51,6 +52,7 @@ struct TilePoints
   /// Points [first, last) of one instance.
   int endOfInstance(int first) const
   {
+    assert(first >= 0 && first < count);
     int last = first + 1;
     while (last < count && instance[last] == instance[first])
     {
@@ -105,6 +107,7 @@ template <class Wanted, class BaseOf>
 bool takePoints(const DepthBuffer& depth, const View& view, int tileX, int tileY, Wanted&& wanted,
   BaseOf&& baseOf, TilePoints& points)
 {
+  assert(tileX >= 0 && tileX < depth.tilesX && tileY >= 0 && tileY < depth.tilesY);
   const std::size_t begin = 64 * (static_cast<std::size_t>(tileY) * depth.tilesX + tileX);
   points.count = 0;
   for (int k = 0; k < 64; ++k)

@@ -7,6 +7,7 @@
 #include "svoWorldSize.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -75,6 +76,7 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
 
 glm::ivec2 ShadowBuffer::Place::neighbour(int i) const
 {
+  assert(i >= 1 && i <= 3);
   const glm::ivec2 texel = this->nearest();
   const int dx = this->x - texel.x < 0.5 ? -1 : 1;
   const int dy = this->y - texel.y < 0.5 ? -1 : 1;
@@ -248,6 +250,7 @@ bool ShadowBuffer::shadows(const Place& place, const SurfacePoint& point, double
 void ShadowBuffer::shadows(const TilePoints& points, int first, int last, double error,
   const std::uint8_t* asked, std::uint8_t* dark) const
 {
+  assert(first >= 0 && first < last && last <= points.count);
   const int count = last - first;
   if (this->Faces.size() != 1 || !this->AutomaticBias)
   {
@@ -319,6 +322,7 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
   const SurfacePoint& point, double error, double span) const
 {
   const Face* face = place.face;
+  assert(face && span >= 1.0);
   const double t = place.t;
   if (texel.x < 0 || texel.y < 0 || texel.x >= face->view.width || texel.y >= face->view.height)
   {

@@ -14,6 +14,7 @@
 #include "svoTileShadows.h"
 
 #include <atomic>
+#include <cassert>
 #include <memory>
 #include <vector>
 
@@ -121,6 +122,7 @@ private:
         return this->shared.at(at, caster, t);
       }
       const DepthBuffer& depth = this->layers.depthBuffer();
+      assert(at >> 6 < depth.tiles());
       if (!depth.hit[at >> 6] || depth.instance[at] == NoInstance)
       {
         return false;

@@ -5,6 +5,7 @@
 #include "svoShadowRules.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace svo
@@ -27,10 +28,12 @@ public:
     : Place(place)
     , Width(width)
   {
+    assert(place >= 0.0 && place < size && width >= 1.0 && width <= WidestBox);
     const double half = 0.5 * (width + 1.0);
     const int last = static_cast<int>(place + half); // truncated: it is not negative
     this->first = place > half ? static_cast<int>(place - half) : 0;
     this->count = std::min({ last, size - 1, this->first + Most - 1 }) + 1 - this->first;
+    assert(this->count > 0);
   }
 
   void weigh()

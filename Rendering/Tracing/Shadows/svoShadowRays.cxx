@@ -5,6 +5,8 @@
 #include "svoWorldSize.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
@@ -18,6 +20,7 @@ constexpr double BeforeLight = 1.0 - 1e-9;
 /// The facet's normal on the light's side.
 glm::dvec3 sideOf(const Light& light, const glm::dvec3& position, const glm::vec3& facet)
 {
+  assert(std::abs(glm::dot(facet, facet) - 1.0f) < 1e-3f); // offsets are along it
   const glm::dvec3 normal(facet);
   return glm::dot(normal, light.along(position)) > 0.0 ? -normal : normal;
 }

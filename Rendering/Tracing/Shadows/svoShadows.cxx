@@ -1,6 +1,7 @@
 #include "svoShadows.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include <glm/geometric.hpp>
 
@@ -127,6 +128,7 @@ bool Shadows::knows(const glm::dvec3& position) const
 bool Shadows::dark(
   std::size_t light, const SurfacePoint& point, double error, std::uint64_t& rays) const
 {
+  assert(light < this->Buffers.size());
   if (this->UsesRays)
   {
     const Light& source = this->Tested->lights[light];
@@ -139,6 +141,7 @@ bool Shadows::dark(
 void Shadows::dark(std::size_t light, const TilePoints& points, int first, int last, double error,
   const std::uint8_t* asked, std::uint8_t* dark, std::uint64_t& rays) const
 {
+  assert(light < this->Buffers.size());
   if (this->Buffers[light] && !this->UsesRays)
   {
     this->Buffers[light]->shadows(points, first, last, error, asked, dark);
@@ -176,6 +179,7 @@ float Shadows::darkness(std::size_t light, const SurfacePoint& on, const Termina
   {
     return 1.0f;
   }
+  assert(light < this->Buffers.size() && at.kind != TerminatorPoint::Kind::Plain && this->Rays);
   const ShadowBuffer* buffer = this->UsesRays ? nullptr : this->Buffers[light];
   const glm::dvec3& raised = at.point.position;
   const Light& source = this->Tested->lights[light];

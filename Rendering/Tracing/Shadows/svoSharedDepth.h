@@ -6,6 +6,7 @@
 #include "svoProcesses.h"
 #include "svoView.h"
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -36,6 +37,7 @@ public:
   /// among the instances of all processes.
   bool at(std::size_t texel, std::uint32_t& caster, double& depth) const
   {
+    assert(texel >> 6 < this->TileBegin.size());
     const std::uint32_t begin = this->TileBegin[texel >> 6];
     if (begin == Nothing || this->Texels[begin + (texel & 63)] == Empty)
     {

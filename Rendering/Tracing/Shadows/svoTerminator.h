@@ -12,6 +12,7 @@
 #include "svoSurfacePoint.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -74,6 +75,7 @@ struct SmoothSurface
 inline SmoothSurface smoothSurfaceAt(const SurfaceMatrices& frame, const SurfacePoint& point,
   const glm::vec3& towards, Primitive primitive)
 {
+  assert(frame.instance->octree.surface() && frame.instance->attributes.normals);
   constexpr double LeastBend = 1e-5; // radians; rounding of normals is less
   SmoothSurface result;
   const Instance& instance = *frame.instance;

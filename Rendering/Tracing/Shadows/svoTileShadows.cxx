@@ -9,6 +9,7 @@
 #include "svoTexelPlace.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <hwy/highway.h>
@@ -126,12 +127,14 @@ HWY_EXPORT(test);
 void lookUpTexels(const View& light, const glm::dmat4& worldToClip, const TilePoints& points,
   int first, int last, TexelPlaces& places)
 {
+  assert(first >= 0 && first < last && last <= points.count);
   HWY_DYNAMIC_DISPATCH(lookUp)(light, worldToClip, points, first, last, places);
 }
 
 bool mayTurnAway(const Light& light, double grazing, const TilePoints& points, int first, int last,
   const std::uint8_t* asked, const std::uint8_t* dark, std::uint8_t* turned)
 {
+  assert(first >= 0 && first < last && last <= points.count);
   constexpr double Margin = 1e-4;
   return HWY_DYNAMIC_DISPATCH(turn)(light.position, glm::vec3(light.direction), light.atInfinity(),
            static_cast<float>(grazing + Margin), static_cast<float>(DoubtfulSine + Margin), points,
@@ -141,6 +144,7 @@ bool mayTurnAway(const Light& light, double grazing, const TilePoints& points, i
 void testTexels(const View& light, const TexelEdge& edge, const TilePoints& points, int first,
   int last, const TexelPlaces& places, TexelTests& tests)
 {
+  assert(first >= 0 && first < last && last <= points.count && edge.aspect >= 1.0);
   HWY_DYNAMIC_DISPATCH(test)(light, edge, points, first, last, places, tests);
 }
 }

@@ -6,6 +6,7 @@
 #include "svoWorldSize.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace svo
 {
@@ -19,6 +20,7 @@ constexpr double MeanPlaneError = 2.6;
 /// True if rays that stop at `level` meet mean planes of nodes: bricks are not reached.
 inline bool stopsAtNodes(const Instance& instance, int level)
 {
+  assert(level >= 0 && level <= instance.octree.level());
   return level < instance.octree.level() - 2;
 }
 

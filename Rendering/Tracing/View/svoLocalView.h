@@ -10,6 +10,7 @@
 #include "svoWorldToOctree.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -35,6 +36,7 @@ struct LocalView
   /// Ray k of a block: the one through point (x, y) of the image.
   void fill(double x, double y, int k, RayBlock& rays) const
   {
+    assert(k >= 0 && k < RayBlock::Size);
     rays.originX[k] =
       static_cast<float>(this->origin.x + y * this->originY.x + x * this->originX.x);
     rays.originY[k] =
@@ -69,6 +71,7 @@ struct SeenCube
 inline SeenCube seeCube(
   const glm::dvec3& low, double edge, const glm::dmat4& localToWorld, const View& view)
 {
+  assert(edge >= 0.0 && view.width >= 0 && view.height >= 0);
   SeenCube seen;
   double nearest = std::numeric_limits<double>::infinity();
   double farthest = -nearest;

@@ -6,6 +6,8 @@
 #include "svoOctree.h"
 #include "svoView.h"
 
+#include <cassert>
+
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 
@@ -46,6 +48,7 @@ inline Projection makeProjection(
 inline TilePyramid makePyramid(
   const Projection& projection, const View& view, int tileX, int tileY, int n = 1)
 {
+  assert(n > 0);
   const glm::dvec4 x = projection.row(0), y = projection.row(1), w = projection.row(2);
   const double x0 = 8.0 * tileX - 0.5 * view.width, x1 = x0 + 8.0 * n;
   const double y0 = 8.0 * tileY - 0.5 * view.height, y1 = y0 + 8.0 * n;

@@ -6,6 +6,7 @@
 #include "svoView.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -46,6 +47,7 @@ inline double widerWorldPixel(const View& view, double t)
 /// Edge of a voxel of a level in the world.
 inline double worldVoxel(const Instance& instance, int level)
 {
+  assert(level >= 0 && level <= instance.octree.level());
   return std::ldexp(worldVoxel(instance), instance.octree.level() - level);
 }
 }

@@ -5,6 +5,8 @@
 #include "svoInverse.h"
 #include "svoOctree.h"
 
+#include <cassert>
+
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -28,6 +30,7 @@ struct WorldToOctree
     , origin(octree.header().origin[0], octree.header().origin[1], octree.header().origin[2])
     , scale(1.0 / octree.rootEdge())
   {
+    assert(octree.rootEdge() > 0.0);
   }
   glm::dvec3 point(const glm::dvec3& x) const
   {
