@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 
-
 namespace svo
 {
 void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_t first,
