@@ -13,8 +13,8 @@ namespace svo
 {
 /// Barycentric coordinates of the point of a triangle that is near another point, as ratios of
 /// areas, clamped to at least 0 and scaled to sum 1. Of a triangle that is n times as long as wide
-/// they are off by n roundings; with dot products of the edges, by Cramer's rule, it were n squared.
-/// `p`, `e1`, `e2`: the other point and the second and third corner, from the first one.
+/// they are off by n roundings; with dot products of the edges, by Cramer's rule, it were n
+/// squared. `p`, `e1`, `e2`: the other point and the second and third corner, from the first one.
 inline glm::vec3 nearWeights(const glm::vec3& p, const glm::vec3& e1, const glm::vec3& e2)
 {
   const glm::vec3 area = glm::cross(e1, e2);
