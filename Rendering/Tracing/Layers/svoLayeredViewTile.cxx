@@ -184,8 +184,8 @@ bool LayeredView::cutRays(
 void LayeredView::merge(
   const Entry& entry, const float* t, const Primitive* primitive, MergedTile& merged) const
 {
-  // The least, the smaller index where equal: any order of merging gives the same buffer. A NaN
-  // compares false and never wins.
+  // The least, the larger index where equal, as VTK draws them: any order of merging gives the same
+  // buffer. A NaN compares false and never wins.
   for (int i = 0; i < 64; ++i)
   {
     if (primitive[i] == NoPrimitive)
@@ -202,7 +202,7 @@ void LayeredView::merge(
     const double mine = this->rank(entry.index, entry.local.base + t[i]);
     const double other =
       winner != NoInstance ? this->rank(winner, this->Bases[winner] + merged.t[i]) : 0.0;
-    if (winner == NoInstance || mine < other || (mine == other && entry.index < winner))
+    if (winner == NoInstance || mine < other || (mine == other && entry.index > winner))
     {
       merged.t[i] = t[i];
       merged.primitive[i] = primitive[i];
@@ -296,7 +296,7 @@ void LayeredView::sample(int tileX, int tileY, TileSamples* samples, std::size_t
         const std::uint32_t winner = s.instance[i];
         const double other = winner != NoInstance ? this->rank(winner, s.t[i]) : 0.0;
         const bool nearer =
-          winner == NoInstance || mine < other || (mine == other && entry.index < winner);
+          winner == NoInstance || mine < other || (mine == other && entry.index > winner);
         if (found.primitive[i] != NoPrimitive && nearer)
         {
           s.t[i] = t;
