@@ -256,6 +256,10 @@ void SceneCollector::collectActor(
         continue;
       }
     }
+    if (surface.traceable)
+    {
+      instance.points = pointsOf(part.mesh, frame.result.kept);
+    }
     instance.localToWorld = localToWorld;
     instance.pixelError = pixelErrorOf(actor, owner);
     instance.receiveShadow = flagOf(actor, owner, receiveShadowKey(), true);

@@ -41,6 +41,8 @@ struct Instance
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
   Material material;
   Attributes attributes;
+  /// With them surfaces of different octrees that have the same vertices are equally deep.
+  MeshPoints points;
   bool visible = true; // false: a rasterised object that only casts
   bool castShadow = true;
   bool receiveShadow = true;
