@@ -35,7 +35,7 @@ LayeredView::Again LayeredView::againOf(
 {
   const Octree& octree = instance.octree;
   const LeafTraits traits = traitsOf(visible.key.leafGeometry);
-  if (!this->Exact || !traits.planes || !octree.surface() ||
+  if (!this->Exact || !traits.planes || !octree.surface() || !instance.points ||
     instance.points.count != octree.header().pointCount)
   {
     return Again::Never;
@@ -86,10 +86,10 @@ double LayeredView::exactDepth(const SeenHit& hit) const
       local.direction + hit.y * local.directionY + hit.x * local.directionX,
       hit.t - local.base - error, hit.t - local.base + error };
     primitive = intersect(*entry.octree, ray, { LeafGeometry::Triangle }).primitive;
-  }
-  if (primitive & NodePrimitive) // or none
-  {
-    return hit.t;
+    if (primitive == NoPrimitive)
+    {
+      return hit.t + error; // nodes reach beyond the mesh's borders: what has triangles there wins
+    }
   }
   // In an order that does not depend on the triangle's winding.
   const glm::uvec3 triangle = entry.octree->surface()->triangles[primitive];
