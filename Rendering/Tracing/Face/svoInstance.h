@@ -53,6 +53,9 @@ struct Instance
   /// Coincident-topology offset, added to the window depth (0..1) before depths are compared; VTK's
   /// shaders know no slope. Shadows know nothing of it.
   float depthOffsetUnits = 0.0f;
+  /// Where the rasteriser draws the same vertices: 1, what it draws is seen; -1, this is seen; 0,
+  /// it does not. See svoShownDepth.h.
+  int givesWay = 0;
 
   // Where octrees are built no deeper than they are needed; see svoNeededLevels.h.
   Box box;                   // the mesh's own, local; stands for the octree until there is one
