@@ -129,7 +129,8 @@ inline svo::Octree makeOctree(const Mesh& mesh, int level)
   {
     return {};
   }
-  const auto& header = *reinterpret_cast<const svo::Header*>(built.data.get());
+  auto& header = *reinterpret_cast<svo::Header*>(built.data.get());
+  header.pointCount = mesh.points.size();
   auto surface = svo::makeSurface(mesh.view(), {}, header, svo::serialFor);
   std::string error;
   return svo::Octree::open(built.data, built.size, surface, error);
