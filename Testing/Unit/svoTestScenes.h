@@ -129,8 +129,7 @@ inline svo::Octree makeOctree(const Mesh& mesh, int level)
   {
     return {};
   }
-  auto& header = *reinterpret_cast<svo::Header*>(built.data.get());
-  header.pointCount = mesh.points.size();
+  const auto& header = *reinterpret_cast<const svo::Header*>(built.data.get());
   auto surface = svo::makeSurface(mesh.view(), {}, header, svo::serialFor);
   std::string error;
   return svo::Octree::open(built.data, built.size, surface, error);

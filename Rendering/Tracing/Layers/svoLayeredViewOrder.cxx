@@ -36,7 +36,7 @@ LayeredView::Again LayeredView::againOf(
   const Octree& octree = instance.octree;
   const LeafTraits traits = traitsOf(visible.key.leafGeometry);
   if (!this->Exact || !traits.planes || !octree.surface() || !instance.points ||
-    instance.points.count != octree.header().pointCount)
+    instance.points.count != octree.surface()->points.size())
   {
     return Again::Never;
   }
