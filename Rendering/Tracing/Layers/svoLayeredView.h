@@ -154,7 +154,15 @@ private:
   bool settle(const SeenHit& a, const SeenHit& b) const;
   double exactDepth(const SeenHit& hit) const;
   /// The linear depth beyond which a hit of `entry` cannot be in front of one of `other`.
-  double lastDepth(const Entry& entry, std::uint32_t other, double t) const;
+  double lastDepth(const Entry& entry, std::uint32_t other, double t) const
+  {
+    double last = t + this->Errors[other];
+    if (this->Shifted)
+    {
+      last = this->Seen.linearDepth(this->rank(other, last) - this->Offsets[entry.index]);
+    }
+    return last + this->Errors[entry.index];
+  }
   void merge(const Entry& entry, const float* t, const Primitive* primitive, const double* x,
     const double* y, MergedTile& merged) const;
   void traceTile(int tileX, int tileY, TileScratch& scratch);

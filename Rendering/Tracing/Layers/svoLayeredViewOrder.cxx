@@ -104,14 +104,4 @@ double LayeredView::exactDepth(const SeenHit& hit) const
   const double t = withoutNoise(glm::dot(normal, p[0] - origin) / glm::dot(normal, direction));
   return std::abs(t - hit.t) <= error ? t : hit.t; // t may be not a number
 }
-
-double LayeredView::lastDepth(const Entry& entry, std::uint32_t other, double t) const
-{
-  double last = t + this->Errors[other];
-  if (this->Shifted)
-  {
-    last = this->Seen.linearDepth(this->rank(other, last) - this->Offsets[entry.index]);
-  }
-  return last + this->Errors[entry.index];
-}
 }
