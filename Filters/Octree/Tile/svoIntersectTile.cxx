@@ -40,7 +40,7 @@ struct ShearedRays
   HWY_ALIGN std::int32_t id[64];
   float farthest; // of tEnd
 };
-constexpr std::int32_t NoId = 0x7fffffff;
+constexpr std::int32_t NoId = -1; // less than all
 
 /// Tests a triangle against all rays. True if any is hit.
 HWY_INLINE bool meetTriangle(
@@ -88,7 +88,7 @@ HWY_INLINE bool meetTriangle(
     const auto in = hn::And(hn::And(within, hn::Ne(determinant, zero)),
       hn::And(hn::Ge(t, hn::Load(df, rays.tMin + i)), hn::Le(t, tEnd)));
     const auto nearer =
-      hn::Or(hn::Lt(t, best), hn::RebindMask(df, hn::Lt(hn::Set(di, id), bestId)));
+      hn::Or(hn::Lt(t, best), hn::RebindMask(df, hn::Gt(hn::Set(di, id), bestId)));
     const auto hit = hn::And(in, nearer);
     if (hn::AllFalse(df, hit))
     {

@@ -256,7 +256,7 @@ Visit meetTriangles(const LeafQuery& query, const ClippedRay<Real>& ray,
     if (intersectTriangle(sheared, surface.points[triangle.x], surface.points[triangle.y],
           surface.points[triangle.z], t) &&
       t >= ray.tMin && t <= tMax &&
-      (hit.primitive == NoPrimitive || t < hit.t || list[k] < hit.primitive))
+      (hit.primitive == NoPrimitive || t < hit.t || list[k] > hit.primitive))
     {
       hit.t = t;
       hit.primitive = list[k];

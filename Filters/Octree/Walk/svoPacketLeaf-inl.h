@@ -245,9 +245,8 @@ HWY_INLINE void meetLists(
     const F t = hn::Div(hn::Mul(height, shear.z), determinant);
     const auto inside = hn::AndNot(hn::And(negative, positive), hn::Ne(determinant, zero));
     const auto within = hn::And(hn::Ge(t, p.tMin), hn::Le(t, p.tMax));
-    // Of equal depths the smaller id wins; NoPrimitive is -1.
-    const Lanes earlier = hn::Or(hn::Lt(hitId, hn::Zero(di)), hn::Lt(id, hitId));
-    const auto first = hn::Or(hn::RebindMask(df, earlier), hn::Lt(t, hitT));
+    // Of equal depths the larger id wins; NoPrimitive is -1.
+    const auto first = hn::Or(hn::RebindMask(df, hn::Gt(id, hitId)), hn::Lt(t, hitT));
     const auto take = hn::And(hn::And(inside, within), hn::And(first, hn::RebindMask(df, active)));
     hitT = hn::IfThenElse(take, t, hitT);
     hitId = hn::IfThenElse(hn::RebindMask(di, take), id, hitId);

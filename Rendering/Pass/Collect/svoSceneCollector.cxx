@@ -2,6 +2,7 @@
 
 #include "svoAffineMatrix.h"
 #include "svoCameraView.h"
+#include "svoGiveWay.h"
 #include "svoPropKeys.h"
 #include "svoSceneLights.h"
 
@@ -247,6 +248,7 @@ void SceneCollector::collectActor(
     if (surface.traceable)
     {
       surface.mesh = part.mesh;
+      instance.points = pointsOf(part.mesh, frame.result.kept);
     }
     else
     {
@@ -389,6 +391,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
     }
   }
   findOctrees(frame.props, result.scene.lights, settings.levels, store, options);
+  giveWay(frame.props);
   for (const PropSurfaces& prop : frame.props)
   {
     addProp(prop, result);

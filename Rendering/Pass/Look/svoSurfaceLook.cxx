@@ -4,12 +4,14 @@
 
 #include "vtkActor.h"
 #include "vtkCellData.h"
+#include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkLookupTable.h"
 #include "vtkMapper.h"
 #include "vtkPlaneCollection.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkSelection.h"
@@ -297,6 +299,26 @@ Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Mater
   normalsOf(mesh, flat, attributes, floats, kept);
   material.flat = attributes.normalAssociation == Association::None;
   return nullptr;
+}
+
+MeshPoints pointsOf(vtkPolyData* mesh, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+{
+  MeshPoints points;
+  vtkDataArray* array = mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr;
+  if (auto* floats = vtkFloatArray::FastDownCast(array))
+  {
+    points.floats = floats->GetPointer(0);
+  }
+  else if (auto* doubles = vtkDoubleArray::FastDownCast(array))
+  {
+    points.doubles = doubles->GetPointer(0);
+  }
+  if (points)
+  {
+    points.count = static_cast<std::size_t>(array->GetNumberOfTuples());
+    kept.emplace_back(array);
+  }
+  return points;
 }
 
 double coincidentDepthOffset(vtkMapper* mapper)

@@ -80,6 +80,9 @@ Reason mapColors(
 Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
   Attributes& attributes, FloatArrays& floats, std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
 
+/// The part's points as they are, kept in `kept`; unknown if they are neither floats nor doubles.
+MeshPoints pointsOf(vtkPolyData* mesh, std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
+
 /// VTK's offset of coincident polygons for this mapper, as its shaders apply it: the amount added
 /// to window depth.
 double coincidentDepthOffset(vtkMapper* mapper);

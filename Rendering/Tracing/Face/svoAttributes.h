@@ -32,6 +32,22 @@ struct Attributes
   int colorTextureSize = 0;                    // texels of a row
 };
 
+/// The mesh's own points, local frame, in the type that the mesh has them in. Neither: unknown.
+struct MeshPoints
+{
+  const float* floats = nullptr;
+  const double* doubles = nullptr;
+  std::size_t count = 0;
+
+  explicit operator bool() const { return this->floats || this->doubles; }
+  glm::dvec3 at(std::size_t i) const
+  {
+    return this->doubles
+      ? glm::dvec3(this->doubles[3 * i], this->doubles[3 * i + 1], this->doubles[3 * i + 2])
+      : glm::dvec3(this->floats[3 * i], this->floats[3 * i + 1], this->floats[3 * i + 2]);
+  }
+};
+
 namespace detail
 {
 inline glm::vec3 vectorAt(const float* array, std::size_t i)

@@ -41,6 +41,8 @@ struct Instance
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
   Material material;
   Attributes attributes;
+  /// With them surfaces of different octrees that have the same vertices are equally deep.
+  MeshPoints points;
   bool visible = true; // false: a rasterised object that only casts
   bool castShadow = true;
   bool receiveShadow = true;
@@ -51,6 +53,9 @@ struct Instance
   /// Coincident-topology offset, added to the window depth (0..1) before depths are compared; VTK's
   /// shaders know no slope. Shadows know nothing of it.
   float depthOffsetUnits = 0.0f;
+  /// Where the rasteriser draws the same vertices: 1, what it draws is seen; -1, this is seen; 0,
+  /// it does not. See svoShownDepth.h.
+  int givesWay = 0;
 
   // Where octrees are built no deeper than they are needed; see svoNeededLevels.h.
   Box box;                   // the mesh's own, local; stands for the octree until there is one

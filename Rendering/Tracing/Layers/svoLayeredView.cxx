@@ -21,6 +21,8 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   this->Bases.assign(count, 0.0);
   this->Levels.assign(count, 0);
   this->Placed.assign(count, 0);
+  this->Errors.assign(count, 0.0);
+  this->EntryOf.assign(count, 0);
   this->Geometries.clear();
   this->Offsets.clear();
   for (const Instance& instance : scene.instances)
@@ -39,7 +41,10 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
     this->Geometries[i] = visible.key.leafGeometry;
     this->Placed[i] = this->Exact && visible.tiles;
     DepthLayer* layer = this->Layers.layerOf(visible.id, visible.key, visible.local.rect, budget);
-    this->Instances.push_back({ std::move(visible), layer, {} });
+    const Instance& instance = scene.instances[i];
+    const Again again = this->againOf(instance, visible, this->Errors[i]);
+    this->EntryOf[i] = static_cast<std::uint32_t>(this->Instances.size());
+    this->Instances.push_back({ std::move(visible), instance.points, again, layer, {} });
   }
   this->Layers.endFrame(budget);
   this->Shifted = std::any_of(this->Instances.begin(), this->Instances.end(),

@@ -11,6 +11,7 @@
 #include "svoVisibleInstances.h"
 
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -76,8 +77,17 @@ private:
   /// Tiles along an edge of a group whose nodes are found together.
   static constexpr int GroupTiles = 4;
 
+  /// How the depth of an instance's hits is found once more, where it decides who is in front.
+  enum class Again : std::uint8_t
+  {
+    Never,
+    OnTriangle, // hits lie on the triangles that they name
+    Traced      // hits stand for triangles that have to be found
+  };
   struct Entry : VisibleInstance
   {
+    MeshPoints points;
+    Again again;
     DepthLayer* layer =
       nullptr;               // kept, or null: traced for this frame alone, cut at what is merged
     TileIntervals intervals; // where there is no layer
@@ -94,6 +104,13 @@ private:
     int groupX = -1, groupY = -1;
     bool groupFound = false;
     TileGroup group;
+  };
+  struct SeenHit
+  {
+    std::uint32_t instance;
+    Primitive primitive;
+    double t;    // linear depth
+    double x, y; // of the image
   };
   struct MergedTile
   {
@@ -126,8 +143,33 @@ private:
     return this->Shifted ? this->Seen.windowDepth(linearDepth) + this->Offsets[instance]
                          : linearDepth;
   }
-  void merge(
-    const Entry& entry, const float* t, const Primitive* primitive, MergedTile& merged) const;
+  /// How the depths of an instance's hits are found again, and how far off they can be.
+  Again againOf(const Instance& instance, const VisibleInstance& visible, double& error) const;
+  /// True if one hit of a ray is in front of another one: less deep, or as deep and of the larger
+  /// index. An order of all hits, whatever they are compared with first.
+  bool inFront(const SeenHit& a, const SeenHit& b) const
+  {
+    const double behind = a.t - b.t;
+    if (!this->Shifted && std::abs(behind) > this->Errors[a.instance] + this->Errors[b.instance])
+    {
+      return behind < 0.0;
+    }
+    return this->settle(a, b);
+  }
+  bool settle(const SeenHit& a, const SeenHit& b) const;
+  double exactDepth(const SeenHit& hit) const;
+  /// The linear depth beyond which a hit of `entry` cannot be in front of one of `other`.
+  double lastDepth(const Entry& entry, std::uint32_t other, double t) const
+  {
+    double last = t + this->Errors[other];
+    if (this->Shifted)
+    {
+      last = this->Seen.linearDepth(this->rank(other, last) - this->Offsets[entry.index]);
+    }
+    return last + this->Errors[entry.index];
+  }
+  void merge(const Entry& entry, const float* t, const Primitive* primitive, const double* x,
+    const double* y, MergedTile& merged) const;
   void traceTile(int tileX, int tileY, TileScratch& scratch);
   /// True if Merged is what a frame's instances give; notes what it will be.
   bool isMerged(const std::uint8_t* wanted);
@@ -142,6 +184,8 @@ private:
   std::vector<int> Levels;
   std::vector<LeafGeometry> Geometries;
   std::vector<std::uint8_t> Placed;
+  std::vector<double> Errors;         // of t; 0: who is in front follows from t as it is
+  std::vector<std::uint32_t> EntryOf; // index into Instances
   LayerCache Layers;
   DepthBuffer Merged;
   /// What Merged shows, seen by MergedView; true of all tiles if MergedWhole.

@@ -163,13 +163,9 @@ bool LayeredView::cutRays(
   {
     if (merged.instance[i] != NoInstance)
     {
-      double cut = this->Bases[merged.instance[i]] + merged.t[i];
-      if (this->Shifted)
-      {
-        cut =
-          this->Seen.linearDepth(this->rank(merged.instance[i], cut) - this->Offsets[entry.index]);
-      }
-      cut -= entry.local.base;
+      const std::uint32_t winner = merged.instance[i];
+      const double cut =
+        this->lastDepth(entry, winner, this->Bases[winner] + merged.t[i]) - entry.local.base;
       if (entry.cuttable || cut < candidate.tNear)
       {
         const bool moves = this->Placed[entry.index] || (this->Exact && this->Shifted);
@@ -182,11 +178,10 @@ bool LayeredView::cutRays(
   return alive;
 }
 
-void LayeredView::merge(
-  const Entry& entry, const float* t, const Primitive* primitive, MergedTile& merged) const
+void LayeredView::merge(const Entry& entry, const float* t, const Primitive* primitive,
+  const double* x, const double* y, MergedTile& merged) const
 {
-  // The least, the smaller index where equal: any order of merging gives the same buffer. A NaN
-  // compares false and never wins.
+  // Any order of merging gives the same buffer. A NaN compares false and never wins.
   for (int i = 0; i < 64; ++i)
   {
     if (primitive[i] == NoPrimitive)
@@ -200,10 +195,9 @@ void LayeredView::merge(
       std::fill(merged.primitive, merged.primitive + 64, NoPrimitive);
     }
     const std::uint32_t winner = merged.instance[i];
-    const double mine = this->rank(entry.index, entry.local.base + t[i]);
-    const double other =
-      winner != NoInstance ? this->rank(winner, this->Bases[winner] + merged.t[i]) : 0.0;
-    if (winner == NoInstance || mine < other || (mine == other && entry.index < winner))
+    if (winner == NoInstance ||
+      this->inFront({ entry.index, primitive[i], entry.local.base + t[i], x[i], y[i] },
+        { winner, merged.primitive[i], this->Bases[winner] + merged.t[i], x[i], y[i] }))
     {
       merged.t[i] = t[i];
       merged.primitive[i] = primitive[i];
@@ -244,7 +238,7 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
       }
       traceRays(candidate, xs, ys, block, found);
       scratch.rays[&entry - this->Instances.data()] += 64;
-      this->merge(entry, found.t, found.primitive, merged);
+      this->merge(entry, found.t, found.primitive, xs, ys, merged);
       continue;
     }
     // A layer is traced whole: it must stay true when what is before it goes away.
@@ -260,7 +254,7 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
       std::copy(found.primitive, found.primitive + 64, keptPrimitive);
       scratch.rays[&entry - this->Instances.data()] += 64;
     }
-    this->merge(entry, keptT, keptPrimitive, merged);
+    this->merge(entry, keptT, keptPrimitive, xs, ys, merged);
   }
   this->Merged.hit[tile] = merged.any;
 }
@@ -293,15 +287,13 @@ void LayeredView::sample(int tileX, int tileY, TileSamples* samples, std::size_t
       traceRays(candidate, s.x, s.y, block, found);
       for (int i = 0; i < 64; ++i)
       {
-        const double t = entry.local.base + found.t[i];
-        const double mine = this->rank(entry.index, t);
-        const std::uint32_t winner = s.instance[i];
-        const double other = winner != NoInstance ? this->rank(winner, s.t[i]) : 0.0;
-        const bool nearer =
-          winner == NoInstance || mine < other || (mine == other && entry.index < winner);
-        if (found.primitive[i] != NoPrimitive && nearer)
+        const SeenHit mine{ entry.index, found.primitive[i], entry.local.base + found.t[i], s.x[i],
+          s.y[i] };
+        if (mine.primitive != NoPrimitive &&
+          (s.instance[i] == NoInstance ||
+            this->inFront(mine, { s.instance[i], s.primitive[i], s.t[i], s.x[i], s.y[i] })))
         {
-          s.t[i] = t;
+          s.t[i] = mine.t;
           s.instance[i] = entry.index;
           s.primitive[i] = found.primitive[i];
         }

@@ -1,6 +1,7 @@
 #include "svoPixelShader.h"
 
 #include "svoLeafError.h"
+#include "svoShownDepth.h"
 #include "svoTerminator.h"
 #include "svoWorldSize.h"
 
@@ -163,7 +164,7 @@ void PixelShader::write(const Lit& lit, int tileX, int tileY, const Scratch& scr
   for (int run = 0; run < points.runCount; ++run)
   {
     const TilePoints::Run& r = points.runs[run];
-    const double offset = lit.shaded.scene.instances[r.instance].depthOffsetUnits;
+    const double offset = shownOffset(lit.shaded.scene.instances[r.instance], lit.shaded.view);
     for (int i = r.first; i < r.last; ++i)
     {
       const int k = points.pixel[i];

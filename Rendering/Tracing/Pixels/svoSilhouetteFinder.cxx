@@ -3,6 +3,7 @@
 #include "svoFrameEdges.h"
 #include "svoLayeredView.h"
 #include "svoPixelShader.h"
+#include "svoShownDepth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -233,7 +234,8 @@ private:
 
   float windowDepth(const Facet& facet) const
   {
-    const double offset = this->Lit.shaded.scene.instances[facet.instance].depthOffsetUnits;
+    const double offset =
+      shownOffset(this->Lit.shaded.scene.instances[facet.instance], this->EyeView);
     return static_cast<float>(std::clamp(this->EyeView.windowDepth(facet.t) + offset, 0.0, 1.0));
   }
 

@@ -25,6 +25,7 @@ struct LocalView
 {
   glm::dvec3 origin, originX, originY;
   glm::dvec3 direction, directionX, directionY;
+  WorldToOctree toOctree;
   double base = 0.0;
   float tMax = -1.0f; // far plane or farthest corner, whichever is nearer; minus base
   PixelRect rect;     // of whole tiles that can see the cube; empty if none
@@ -136,7 +137,8 @@ inline LocalView makeLocalView(
   local.tMax = roundUp(seen.farthest - local.base);
   local.rect = { local.rect.x0 & ~7, local.rect.y0 & ~7, (local.rect.x1 + 7) & ~7,
     (local.rect.y1 + 7) & ~7 };
-  const WorldToOctree toOctree(octree, localToWorld);
+  local.toOctree = WorldToOctree(octree, localToWorld);
+  const WorldToOctree& toOctree = local.toOctree;
   local.direction = toOctree.vector(view.direction);
   local.directionX = toOctree.vector(view.directionX);
   local.directionY = toOctree.vector(view.directionY);

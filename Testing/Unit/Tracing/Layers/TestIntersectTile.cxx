@@ -52,7 +52,7 @@ void bruteForce(const Octree& octree, const RayBlock& rays, int i, float& t, Pri
     float found;
     if (intersectTriangle(sheared, surface.points[triangle.x], surface.points[triangle.y],
           surface.points[triangle.z], found) &&
-      found >= rays.tMin[i] && found <= rays.tMax[i] && (primitive == NoPrimitive || found < t))
+      found >= rays.tMin[i] && found <= rays.tMax[i] && (primitive == NoPrimitive || found <= t))
     {
       t = found;
       primitive = id;

@@ -134,7 +134,7 @@ TEST(Tracer, WindowDepthsAreComparedWithTheirOffsets)
   expectNearest({ -0.002f, 0.0f, 0.0f });
 }
 
-TEST(Tracer, TheSameDepthIsTheFirstInstances)
+TEST(Tracer, TheSameDepthIsTheLastInstances)
 {
   svo::Scene scene = makeScene();
   scene.instances = { scene.instances[1], scene.instances[1], scene.instances[1] };
@@ -143,7 +143,7 @@ TEST(Tracer, TheSameDepthIsTheFirstInstances)
   const svo::Frame frame = rendered(scene, Eye, smallBuffers());
   for (std::uint32_t instance : frame.instance)
   {
-    EXPECT_TRUE(instance == 0 || instance == ~0u);
+    EXPECT_TRUE(instance == 2 || instance == ~0u);
   }
 }
 

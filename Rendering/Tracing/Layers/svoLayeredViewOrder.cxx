@@ -1,0 +1,107 @@
+// Who is in front: surfaces that have the same vertices, of whatever octrees, are equally deep, and
+// the later one is seen, as in VTK. Octrees round the vertices and stop at nodes; so where hits lie
+// within their errors of each other, their depths are found again from the mesh's own points.
+#include "svoLayeredView.h"
+
+#include "svoIntersect.h"
+#include "svoLeafError.h"
+#include "svoPlaceOnTriangles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace svo
+{
+namespace
+{
+/// t without the digits that rounding spoils on the way to it: 32 are left. Surfaces that are no
+/// further apart are equally deep; VTK's floats tell 24 digits.
+double withoutNoise(double t)
+{
+  const double big = t * 2097153.0; // 2^21 + 1: the splitting of Veltkamp, 1968
+  return big - (big - t);
+}
+
+bool lessInSpace(const glm::dvec3& a, const glm::dvec3& b)
+{
+  return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+}
+
+LayeredView::Again LayeredView::againOf(
+  const Instance& instance, const VisibleInstance& visible, double& error) const
+{
+  const Octree& octree = instance.octree;
+  const LeafTraits traits = traitsOf(visible.key.leafGeometry);
+  if (!this->Exact || !traits.planes || !octree.surface() || !instance.points ||
+    instance.points.count != octree.surface()->points.size())
+  {
+    return Again::Never;
+  }
+  const int level = visible.key.level;
+  const bool nodes = stopsAtNodes(instance, level);
+  error = placingReach(visible.local);
+  if (visible.tiles || (!nodes && octree.longestList() <= traits.longestExact))
+  {
+    return Again::OnTriangle;
+  }
+  error = std::max(error, (nodes ? MeanPlaneError : CubeError) * worldVoxel(instance, level));
+  return Again::Traced;
+}
+
+bool LayeredView::settle(const SeenHit& a, const SeenHit& b) const
+{
+  const double errorA = this->Errors[a.instance], errorB = this->Errors[b.instance];
+  if (this->Shifted)
+  {
+    if (this->rank(a.instance, a.t + errorA) < this->rank(b.instance, b.t - errorB))
+    {
+      return true;
+    }
+    if (this->rank(b.instance, b.t + errorB) < this->rank(a.instance, a.t - errorA))
+    {
+      return false;
+    }
+  }
+  const double rankA = this->rank(a.instance, this->exactDepth(a));
+  const double rankB = this->rank(b.instance, this->exactDepth(b));
+  return rankA < rankB || (rankA == rankB && a.instance > b.instance);
+}
+
+double LayeredView::exactDepth(const SeenHit& hit) const
+{
+  const Entry& entry = this->Instances[this->EntryOf[hit.instance]];
+  if (entry.again == Again::Never)
+  {
+    return hit.t;
+  }
+  const LocalView& local = entry.local;
+  const double error = this->Errors[hit.instance];
+  Primitive primitive = hit.primitive;
+  if (entry.again == Again::Traced)
+  {
+    const Ray ray{ local.origin + hit.y * local.originY + hit.x * local.originX,
+      local.direction + hit.y * local.directionY + hit.x * local.directionX,
+      hit.t - local.base - error, hit.t - local.base + error };
+    primitive = intersect(*entry.octree, ray, { LeafGeometry::Triangle }).primitive;
+    if (primitive == NoPrimitive)
+    {
+      return hit.t + error; // nodes reach beyond the mesh's borders: what has triangles there wins
+    }
+  }
+  // In an order that does not depend on the triangle's winding.
+  const glm::uvec3 triangle = entry.octree->surface()->triangles[primitive];
+  glm::dvec3 p[3] = { entry.points.at(triangle.x), entry.points.at(triangle.y),
+    entry.points.at(triangle.z) };
+  std::sort(p, p + 3, lessInSpace);
+  const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+  const glm::dmat3& toLocal = local.toOctree.inverse;
+  const glm::dvec3 origin =
+    toLocal * (this->Seen.rayOrigin(hit.x, hit.y) - local.toOctree.translation);
+  const glm::dvec3 direction = toLocal * this->Seen.rayDirection(hit.x, hit.y);
+  const double t = withoutNoise(glm::dot(normal, p[0] - origin) / glm::dot(normal, direction));
+  return std::abs(t - hit.t) <= error ? t : hit.t; // t may be not a number
+}
+}
