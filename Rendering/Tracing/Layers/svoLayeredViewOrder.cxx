@@ -35,14 +35,14 @@ LayeredView::Again LayeredView::againOf(
 {
   const Octree& octree = instance.octree;
   const LeafTraits traits = traitsOf(visible.key.leafGeometry);
-  if (!this->Exact || !traits.planes || !octree.surface() || !instance.points ||
+  if (!this->Exact || traits.shape == CellShape::Cube || !octree.surface() || !instance.points ||
     instance.points.count != octree.surface()->points.size())
   {
     return Again::Never;
   }
   const int level = visible.key.level;
   const bool nodes = stopsAtNodes(instance, level);
-  error = placingReach(visible.local);
+  error = edgeOnReach(visible.local);
   if (visible.tiles || (!nodes && octree.longestList() <= traits.longestExact))
   {
     return Again::OnTriangle;
