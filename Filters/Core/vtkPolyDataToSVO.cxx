@@ -106,8 +106,7 @@ vtkPolyDataToSVO::~vtkPolyDataToSVO() = default;
 //------------------------------------------------------------------------------
 const char* vtkPolyDataToSVO::GetLeafGeometryAsString()
 {
-  static const char* const names[] = { "Voxel", "Plane", "Triangle", "Automatic" };
-  return names[this->LeafGeometry];
+  return svo::traitsOf(static_cast<svo::LeafGeometry>(this->LeafGeometry)).name;
 }
 
 //------------------------------------------------------------------------------

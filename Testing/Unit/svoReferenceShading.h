@@ -37,9 +37,7 @@ inline Arriving arriving(const ViewLight& l, const glm::vec3& normal, const glm:
     if (l.light->hasCone())
     {
       const float cosine = glm::dot(light.direction, l.direction);
-      light.attenuation = cosine >= l.coneCosine
-        ? light.attenuation * std::pow(cosine, static_cast<float>(l.light->exponent))
-        : 0.0f;
+      light.attenuation *= coneLane(*l.light, l.coneCosine, cosine);
     }
   }
   const float df = diffuseLane(light.attenuation, normal, light.direction);

@@ -22,6 +22,7 @@ enum class CellShape
 
 struct LeafTraits
 {
+  const char* name;
   /// Bricks with lists of up to so many triangles are met exactly, triangle by triangle; fits in an
   /// int.
   std::uint32_t longestExact;
@@ -36,14 +37,17 @@ struct LeafTraits
   double mapError;
 
   bool exact() const { return this->longestExact > 0; }
+  /// A ray that finds nothing to its end is given the first cell that refused it; cells of other
+  /// shapes have the hits of their rays inside.
+  bool fallsBack() const { return this->shape == CellShape::Plane; }
 };
 
-/// By LeafGeometry.
+/// In the order of LeafGeometry.
 constexpr LeafTraits LeafTable[] = {
-  { 0, CellShape::Cube, 0.0, 0.0 },                                         // Voxel
-  { 0, CellShape::Plane, 1.0, 1.0 },                                        // Plane
-  { std::numeric_limits<std::int32_t>::max(), CellShape::Plane, 1.0, 0.0 }, // Triangle
-  { ShortList, CellShape::Plane, 1.0, 0.25 }                                // Automatic
+  { "Voxel", 0, CellShape::Cube, 0.0, 0.0 },
+  { "Plane", 0, CellShape::Plane, 1.0, 1.0 },
+  { "Triangle", std::numeric_limits<std::int32_t>::max(), CellShape::Plane, 1.0, 0.0 },
+  { "Automatic", ShortList, CellShape::Plane, 1.0, 0.25 },
 };
 constexpr std::uint32_t LeafGeometries = sizeof(LeafTable) / sizeof(LeafTable[0]);
 

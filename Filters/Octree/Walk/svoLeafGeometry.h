@@ -51,11 +51,11 @@ struct LeafQuery
     , level(std::clamp(options.level, 0, o.level()))
     , bits(rootBits(o, level))
     , inBrick(level >= o.level() - 2)
-    , leaf(traitsOf(o.surface() ? options.leafGeometry : LeafGeometry::Voxel))
+    , leaf(traitsOf(o.surface() || !inBrick ? options.leafGeometry : LeafGeometry::Voxel))
   {
-    if (!inBrick && options.leafGeometry != LeafGeometry::Voxel)
+    if (!inBrick)
     {
-      leaf = traitsOf(LeafGeometry::Plane);
+      leaf.longestExact = 0; // nodes have a shape, but no list
     }
     assert(!o.empty());
   }
@@ -65,7 +65,7 @@ struct LeafQuery
   int level;       // where rays stop
   int bits;        // of a cell's coordinate in the root cube
   bool inBrick;    // cells are parts of a brick, or a brick
-  LeafTraits leaf; // a voxel's without triangles
+  LeafTraits leaf; // in a brick without triangles: a voxel's
 };
 
 /// The nearest hit so far.

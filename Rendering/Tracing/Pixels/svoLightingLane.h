@@ -7,6 +7,8 @@
 #ifndef svoLightingLane_h
 #define svoLightingLane_h
 
+#include "svoLight.h"
+
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -23,7 +25,7 @@ inline float positiveLane(float value)
 struct ArrivingLane
 {
   glm::vec3 direction; // the way it goes, unit
-  float attenuation;   // without the spot's
+  float attenuation;   // without the cone's
 };
 
 /// `lamp`: the place; `axis`: the direction at the lamp's own place; `attenuation`: constant,
@@ -35,6 +37,14 @@ inline ArrivingLane arriveLane(const glm::vec3& point, const glm::vec3& lamp, co
   const float distance = std::sqrt(glm::dot(way, way));
   return { distance > 0.0f ? way / distance : axis,
     1.0f / (attenuation.x + attenuation.y * distance + attenuation.z * distance * distance) };
+}
+
+/// Share of the light of a lamp with a cone that it sends `cosine` off its axis. `coneCosine`: of
+/// the half angle.
+inline float coneLane(const Light& lamp, float coneCosine, float cosine)
+{
+  const float exponent = static_cast<float>(lamp.exponent);
+  return cosine >= coneCosine ? (exponent == 1.0f ? cosine : std::pow(cosine, exponent)) : 0.0f;
 }
 
 /// Share of the light that the surface scatters.

@@ -65,7 +65,7 @@ void arriveFromEye(int n, TileLight& l)
   }
 }
 
-/// Directions of the light that arrives and attenuation without the spot's; then the rest of it.
+/// Directions of the light that arrives and attenuation without the cone's; then the rest of it.
 void arriveFromPosition(const ViewLight& from, int n, float* dx, float* dy, float* dz,
   float* attenuation, const TileLight& l)
 {
@@ -84,7 +84,7 @@ void arriveFromPosition(const ViewLight& from, int n, float* dx, float* dy, floa
   }
 }
 
-/// Cosines to the axis of a spot.
+/// Cosines to the axis of a cone.
 void towardsAxis(
   const ViewLight& from, int n, const float* dx, const float* dy, const float* dz, float* cosine)
 {
@@ -284,12 +284,9 @@ void arriveLight(
     if (from.light->hasCone())
     {
       HWY_DYNAMIC_DISPATCH(towardsAxis)(from, count, dx, dy, dz, cosine);
-      const float exponent = static_cast<float>(from.light->exponent);
       for (int i = 0; i < count; ++i)
       {
-        attenuation[i] = cosine[i] >= from.coneCosine
-          ? attenuation[i] * (exponent == 1.0f ? cosine[i] : std::pow(cosine[i], exponent))
-          : 0.0f;
+        attenuation[i] *= coneLane(*from.light, from.coneCosine, cosine[i]);
       }
     }
     HWY_DYNAMIC_DISPATCH(arriveAtSurface)(count, shines, dx, dy, dz, attenuation, light);

@@ -54,15 +54,8 @@ public:
   /// True if a caster lies between the light and the point. `error`: how far the point may lie from
   /// the surface that it stands for, world units.
   ///
-  /// With the automatic bias the point is not compared itself: its tangent planes are, at the ray
-  /// of the texel's own centre (Dou et al., "Adaptive Depth Bias for Shadow Maps", JCGT 2014,
-  /// section 3), so that the slope of the receiver and the size of the texel cost nothing. Both its
-  /// planes, the facet's and the one that is shaded with, have to lie behind the occluder: where a
-  /// facet faces the light its own plane is exact, and near the terminator, where facets disagree
-  /// with the curved surface that they stand for about which way the light goes by, the other one
-  /// is right. What remains is the bend of the surface inside a texel and the leaf's own error,
-  /// both known. Without it the test is the paper's bare `distance > depth` plus `bias` voxels of
-  /// the caster.
+  /// With the automatic bias texels are asked by shadowTest(), which says why it asks as it does.
+  /// Without it the test is the paper's bare `distance > depth` plus `bias` voxels of the caster.
   bool shadows(const SurfacePoint& point, double error) const;
 
   /// The same for points [first, last) of one instance: dark[i - first] of those that are `asked`.

@@ -118,25 +118,14 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
   {
     return occluder + bias < t ? Answer::Dark : Answer::Lit;
   }
-  const double edge = span * face->edge(t);
-  if (!mayShadow(t, edge, occluder, bias))
+  if (!mayShadow(t, span * face->edge(t), occluder, bias))
   {
     return Answer::Lit;
   }
-  const double x = texel.x + 0.5;
-  const double y = texel.y + 0.5;
-  ShadowQuestion question;
-  question.facet = glm::dvec3(point.facet);
-  question.normal = glm::dvec3(point.normal);
-  question.to = point.position - face->view.rayOrigin(x, y);
-  question.ray = face->view.rayDirection(x, y);
-  question.t = t;
-  question.edge = edge;
-  question.aspect = face->edge.aspect;
-  question.occluder = occluder;
-  question.bias = bias;
-  question.error = std::max(this->CasterError[caster], error);
-  return static_cast<Answer>(static_cast<int>(shadowTest(question)));
+  const double answer = shadowTest(face->view, face->edge,
+    { point.position, glm::dvec3(point.facet), glm::dvec3(point.normal), t, texel.x + 0.5,
+      texel.y + 0.5, span, occluder, bias, std::max(this->CasterError[caster], error) });
+  return static_cast<Answer>(static_cast<int>(answer));
 }
 
 double ShadowBuffer::texelEdge(const glm::dvec3& position) const

@@ -1,10 +1,12 @@
-// Where a point is looked up in a shadow map. Whole tiles of points and single points call the same
-// function, so that they get the same bits; it has no branches, so that a loop becomes vectors.
+// Where a point is looked up in a shadow map, and how large texels are there. Whole tiles of points
+// and single points call the same function, so that they get the same bits; it has no branches, so
+// that a loop becomes vectors.
 #ifndef svoTexelPlace_h
 #define svoTexelPlace_h
 
 #include "svoShadowRules.h"
 #include "svoView.h"
+#include "svoWorldSize.h"
 
 #include <cmath>
 
@@ -13,6 +15,24 @@
 
 namespace svo
 {
+/// How large a map's texels are in the world.
+struct TexelEdge
+{
+  TexelEdge() = default;
+  explicit TexelEdge(const View& light)
+    : constant(light.parallel ? worldPixel(light, 0.0) : 0.0)
+    , perDepth(light.parallel ? 0.0 : worldPixel(light, 1.0))
+    , aspect(widerWorldPixel(light, 1.0) / worldPixel(light, 1.0))
+  {
+  }
+  /// The shorter edge, at linear depth t.
+  double operator()(double t) const { return this->constant + t * this->perDepth; }
+
+  double constant = 0.0;
+  double perDepth = 0.0;
+  double aspect = 1.0; // the longer edge, in shorter ones
+};
+
 struct TexelPlace
 {
   double x, y;   // texels, within the map

@@ -97,19 +97,9 @@ void test(const View& light, const TexelEdge& edges, const TilePoints& p, int fi
     for (int k = i; k < i + Step; ++k)
     {
       const int j = k - first;
-      const double x = tests.x[j], y = tests.y[j];
-      ShadowQuestion q;
-      q.t = places.t[j];
-      q.edge = edge(q.t);
-      q.aspect = edge.aspect;
-      q.occluder = tests.occluder[j];
-      q.bias = tests.bias[j];
-      q.to = p.position(k) - map.rayOrigin(x, y);
-      q.ray = map.rayDirection(x, y);
-      q.facet = glm::dvec3(p.facet(k));
-      q.normal = glm::dvec3(p.normal(k));
-      q.error = tests.error[j];
-      tests.dark[j] = shadowTest(q);
+      tests.dark[j] = shadowTest(map, edge,
+        { p.position(k), glm::dvec3(p.facet(k)), glm::dvec3(p.normal(k)), places.t[j], tests.x[j],
+          tests.y[j], 1.0, tests.occluder[j], tests.bias[j], tests.error[j] });
     }
   }
 }

@@ -4,9 +4,9 @@
 #define svoTileShadows_h
 
 #include "svoScene.h"
+#include "svoTexelPlace.h"
 #include "svoTilePoints.h"
 #include "svoView.h"
-#include "svoWorldSize.h"
 
 #include <cstdint>
 
@@ -19,24 +19,6 @@ struct TexelPlaces
 {
   alignas(64) double x[TilePoints::Room], y[TilePoints::Room];
   alignas(64) double t[TilePoints::Room], inside[TilePoints::Room];
-};
-
-/// How large a map's texels are in the world.
-struct TexelEdge
-{
-  TexelEdge() = default;
-  explicit TexelEdge(const View& light)
-    : constant(light.parallel ? worldPixel(light, 0.0) : 0.0)
-    , perDepth(light.parallel ? 0.0 : worldPixel(light, 1.0))
-    , aspect(widerWorldPixel(light, 1.0) / worldPixel(light, 1.0))
-  {
-  }
-  /// The shorter edge, at linear depth t.
-  double operator()(double t) const { return this->constant + t * this->perDepth; }
-
-  double constant = 0.0;
-  double perDepth = 0.0;
-  double aspect = 1.0; // the longer edge, in shorter ones
 };
 
 /// What a texel says to a point, and what it does not.

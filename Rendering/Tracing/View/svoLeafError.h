@@ -10,7 +10,8 @@
 
 namespace svo
 {
-/// How far a cube can lie from the surface that it stands for: the diagonal of a voxel.
+/// How far a cube, or what lies in it, can be from the surface that it stands for: the diagonal of
+/// a voxel.
 constexpr double CubeError = 1.75;
 
 /// How far a mean plane of a node above the bricks can lie from it: half the diagonal of the three
@@ -29,7 +30,7 @@ inline bool stopsAtNodes(const Instance& instance, int level)
 inline double leafError(const Instance& instance, LeafGeometry geometry, int level)
 {
   const LeafTraits traits = traitsOf(geometry);
-  if (traits.shape == CellShape::Cube)
+  if (!traits.fallsBack())
   {
     return CubeError;
   }
@@ -67,7 +68,7 @@ inline double worldMapError(
 inline bool endsFreely(const Instance& instance, int level)
 {
   const LeafTraits traits = traitsOf(instance.leafGeometry);
-  if (traits.shape == CellShape::Cube || !instance.octree.surface())
+  if (!traits.fallsBack() || !instance.octree.surface())
   {
     return true;
   }

@@ -1,5 +1,6 @@
 // Opening a layout buffer: what is damaged is refused, what is opened can be trusted.
 #include "svoIntersect.h"
+#include "svoLeafTraits.h"
 #include "svoReference.h"
 #include "svoTestScenes.h"
 
@@ -154,7 +155,7 @@ TEST(Octree, ADamagedHeaderIsRefused)
   EXPECT_TRUE(damage([](svo::Header& h) { h.level = 21; }));
   EXPECT_TRUE(damage([](svo::Header& h) { h.level = 5; }));
   EXPECT_TRUE(damage([](svo::Header& h) { h.depthCount = 1; }));
-  EXPECT_TRUE(damage([](svo::Header& h) { h.leafGeometry = 4; }));
+  EXPECT_TRUE(damage([](svo::Header& h) { h.leafGeometry = svo::LeafGeometries; }));
   EXPECT_TRUE(damage([](svo::Header& h) { h.nodeCount = 0; }));
   EXPECT_TRUE(damage([](svo::Header& h) { h.nodeCount += 1ull << 60; })); // 16 nodeCount overflows
   EXPECT_TRUE(damage([](svo::Header& h) { h.listWords += 1ull << 62; }));
