@@ -195,7 +195,7 @@ std::vector<View> fitPositional(
 
 void roundOutwards(double& low, double& high)
 {
-  assert(low < high);
+  assert(!(high < low)); // of forged octrees not numbers: makeView() refuses such views
   const double step = powerOfTwo(high - low) / 16.0;
   low = std::floor(low / step) * step;
   high = std::ceil(high / step) * step;
