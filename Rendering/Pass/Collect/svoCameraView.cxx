@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
@@ -95,7 +96,12 @@ bool viewOfCamera(vtkRenderer* renderer, int width, int height, View& view)
     return false;
   }
   vtkCamera* camera = renderer->GetActiveCamera();
-  const glm::dmat4 viewToClip =
+  // Where an edge runs exactly through pixels' centres, OpenGL gives the pixels to what lies to the
+  // right or above; so rays go that much beside the centres.
+  constexpr double Beside = 1.0 / (1 << 15); // pixels
+  const glm::dmat4 beside =
+    glm::translate(glm::dmat4(1.0), glm::dvec3(-2.0 * Beside / width, -2.0 * Beside / height, 0.0));
+  const glm::dmat4 viewToClip = beside *
     toGlm(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
   if (!makeView(matricesOf(camera).view, viewToClip, width, height, view))
   {
