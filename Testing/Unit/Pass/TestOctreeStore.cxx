@@ -1,5 +1,5 @@
 // The store of octrees: several levels of a mesh, built at once or in the background.
-#include "svoOctreeStore.h"
+#include "svoOctreeStoreCase.h"
 
 #include "svoMeshOctree.h"
 #include "svoOctreeBytes.h"
@@ -26,84 +26,11 @@
 using Answer = svo::OctreeStore::Answer;
 
 using svotest::bytesOf;
+using svotest::OctreeStore;
+using svotest::sphereMesh;
 
 namespace
 {
-/// Background builds that begin when the test says so, on threads of their own.
-class Gate
-{
-public:
-  svo::BackgroundBuild::Launcher launcher()
-  {
-    return [this](std::function<void()> run)
-    {
-      this->Started.emplace_back();
-      std::promise<void>& finished = this->Started.back();
-      return std::thread(
-        [run = std::move(run), open = this->Opened, &finished]
-        {
-          open.wait();
-          run();
-          finished.set_value();
-        });
-    };
-  }
-
-  /// Lets the builds that were started go on, and waits for the end of each.
-  void letThrough()
-  {
-    this->Open.set_value();
-    for (std::promise<void>& finished : this->Started)
-    {
-      finished.get_future().wait();
-    }
-    this->Open = std::promise<void>();
-    this->Opened = this->Open.get_future().share();
-    this->Started.clear();
-  }
-
-  int started() const { return static_cast<int>(this->Started.size()); }
-
-private:
-  std::promise<void> Open;
-  std::shared_future<void> Opened = Open.get_future().share();
-  std::list<std::promise<void>> Started; // and not let through yet
-};
-
-vtkSmartPointer<vtkPolyData> sphere(double radius, int resolution = 24)
-{
-  vtkNew<vtkSphereSource> source;
-  source->SetRadius(radius);
-  source->SetThetaResolution(resolution);
-  source->SetPhiResolution(resolution);
-  source->Update();
-  return source->GetOutput();
-}
-
-struct OctreeStore : ::testing::Test
-{
-  Gate gate;
-  svo::OctreeStore store{ gate.launcher() };
-  svo::StoreOptions options;
-  std::vector<std::string> said;
-  vtkSmartPointer<vtkPolyData> mesh = sphere(1.0);
-  svo::Octree octree;
-
-  OctreeStore()
-  {
-    options.complain = [this](const std::string& text) { this->said.push_back(text); };
-  }
-
-  Answer find(int level, bool wait)
-  {
-    options.wait = wait;
-    octree = svo::Octree();
-    return store.find(mesh, level, options, octree);
-  }
-
-  void endFrame() { store.endFrame(std::size_t(1) << 30); }
-};
-
 /// The bytes that a build at this level gives when nothing else is going on.
 std::vector<std::byte> builtAlone(vtkPolyData* mesh, int level)
 {
@@ -215,7 +142,7 @@ TEST_F(OctreeStore, AMeshMayChangeWhileItsOctreeIsBuilt)
   ASSERT_EQ(find(8, false), Answer::Found);
   EXPECT_EQ(bytesOf(octree), after);
   // But it is kept for when the mesh looks like that again.
-  mesh = sphere(1.0);
+  mesh = sphereMesh(1.0);
   ASSERT_EQ(find(8, false), Answer::Found);
   EXPECT_EQ(bytesOf(octree), before);
 }
@@ -235,14 +162,14 @@ TEST_F(OctreeStore, ABuildWhoseMeshIsGoneIsAbandoned)
   endFrame();
   EXPECT_EQ(store.built(), 0);
   // The same mesh again is built, not taken for one that cannot be.
-  mesh = sphere(1.0);
+  mesh = sphereMesh(1.0);
   EXPECT_EQ(find(8, true), Answer::Found);
 }
 
 TEST_F(OctreeStore, ABuildThatAnotherMeshNeedsIsNotAbandoned)
 {
   find(8, false);
-  const vtkSmartPointer<vtkPolyData> twin = sphere(1.0);
+  const vtkSmartPointer<vtkPolyData> twin = sphereMesh(1.0);
   mesh = twin;
   find(8, false);
   for (int frame = 0; frame < 20; ++frame)
@@ -280,7 +207,7 @@ TEST_F(OctreeStore, TheStoreMayGoWhileItBuilds)
 {
   auto own = std::make_unique<svo::OctreeStore>(); // with plain threads
   options.wait = false;
-  EXPECT_EQ(own->find(sphere(1.0, 200), 10, options, octree), Answer::Building);
+  EXPECT_EQ(own->find(sphereMesh(1.0, 200), 10, options, octree), Answer::Building);
   own.reset();
   EXPECT_FALSE(octree);
 }
@@ -319,7 +246,7 @@ TEST_F(OctreeStore, BuildsAtATimeAreLimited)
   std::vector<vtkSmartPointer<vtkPolyData>> meshes;
   for (int i = 0; i < 10; ++i)
   {
-    meshes.push_back(sphere(1.0 + i));
+    meshes.push_back(sphereMesh(1.0 + i));
   }
   int found = 0;
   for (int frame = 0; frame < 10 && found < 10; ++frame)
@@ -471,142 +398,20 @@ TEST_F(OctreeStore, TheBoxIsThatOfTheFinitePointsAndStripsCountAsTriangles)
   EXPECT_EQ(instance.triangles, 0u);
 }
 
-namespace
-{
-/// Frames that each show one of `count` poses of a mesh, `loops` times: how many octrees each loop
-/// builds. There is room for `room` of them. With `anew` each frame has a mesh of its own.
-std::vector<int> buildsOfLoops(
-  svo::OctreeStore& store, svo::StoreOptions options, int count, int room, int loops, bool anew)
-{
-  std::vector<vtkSmartPointer<vtkPolyData>> poses;
-  for (int i = 0; i < count; ++i)
-  {
-    poses.push_back(sphere(1.0 + 0.001 * i, 6));
-  }
-  svo::Octree octree;
-  options.wait = true;
-  store.find(poses[0], 4, options, octree);
-  const std::size_t limit = room * octree.bytes() + octree.bytes() / 2;
-  std::vector<int> builds;
-  for (int loop = 0; loop < loops; ++loop)
-  {
-    const int before = loop == 0 ? 0 : store.built();
-    for (const auto& pose : poses)
-    {
-      vtkSmartPointer<vtkPolyData> mesh = pose;
-      if (anew)
-      {
-        mesh = vtkSmartPointer<vtkPolyData>::New();
-        mesh->DeepCopy(pose);
-      }
-      EXPECT_EQ(store.find(mesh, 4, options, octree), Answer::Found);
-      octree = svo::Octree();
-      mesh = nullptr;
-      store.endFrame(limit);
-      EXPECT_LE(store.bytes(), limit);
-    }
-    builds.push_back(store.built() - before);
-  }
-  return builds;
-}
-}
-
-// Least recently used first out kept nothing of a loop that is longer than the cache: 300 builds
-// each time.
-TEST_F(OctreeStore, OfALoopThatIsTooLongAsManyPosesAreKeptAsThereIsRoomFor)
-{
-  const std::vector<int> builds = buildsOfLoops(store, options, 300, 100, 4, false);
-  EXPECT_EQ(builds[0], 300);
-  for (std::size_t loop = 1; loop < builds.size(); ++loop)
-  {
-    EXPECT_LE(builds[loop], 300 - 100 + 5) << "loop " << loop;
-  }
-}
-
-TEST_F(OctreeStore, AShortLoopIsBuiltOnceAndTheNextOneIsNotKeptOutForLong)
-{
-  EXPECT_EQ(buildsOfLoops(store, options, 90, 100, 3, false), (std::vector<int>{ 90, 0, 0 }));
-  buildsOfLoops(store, options, 300, 100, 2, false);
-  svo::OctreeStore other;
-  std::vector<vtkSmartPointer<vtkPolyData>> poses;
-  for (int i = 0; i < 90; ++i)
-  {
-    poses.push_back(sphere(5.0 + 0.001 * i, 6));
-  }
-  const std::size_t limit = store.bytes();
-  options.wait = true;
-  int last = 0;
-  for (int loop = 0; loop < 6; ++loop)
-  {
-    const int before = store.built();
-    for (const auto& pose : poses)
-    {
-      store.find(pose, 4, options, octree);
-      store.endFrame(limit);
-    }
-    last = store.built() - before;
-  }
-  EXPECT_EQ(last, 0);
-}
-
-TEST_F(OctreeStore, OctreesOfMeshesThatAreGoneAreFreed)
-{
-  std::size_t most = 0;
-  for (int frame = 0; frame < 200; ++frame)
-  {
-    mesh = sphere(1.0 + 0.01 * frame, 8);
-    find(6, true);
-    octree = svo::Octree();
-    endFrame();
-    most = std::max(most, store.bytes());
-  }
-  mesh = nullptr;
-  endFrame();
-  EXPECT_EQ(store.bytes(), 0u);
-  mesh = sphere(3.0, 8);
-  find(6, true);
-  EXPECT_LE(most, 3 * octree.bytes());
-}
-
-TEST_F(OctreeStore, OctreesOfEarlierPosesOfAMeshAreKeptWhileItLives)
-{
-  const auto other = sphere(2.0);
-  const auto own = vtkSmartPointer<vtkPolyData>::New();
-  own->DeepCopy(mesh);
-  mesh = own;
-  find(6, true);
-  endFrame();
-  own->GetPoints()->DeepCopy(other->GetPoints());
-  own->GetPoints()->Modified();
-  find(6, true);
-  endFrame();
-  const std::size_t both = store.bytes();
-  sphere(9.0); // a mesh that comes and goes
-  endFrame();
-  EXPECT_EQ(store.bytes(), both);
-  EXPECT_EQ(store.built(), 2);
-}
-
-// A reader that makes new meshes for each time step.
-TEST_F(OctreeStore, WhatNewMeshesHaveAgainIsKeptFromThenOn)
-{
-  EXPECT_EQ(buildsOfLoops(store, options, 20, 100, 4, true), (std::vector<int>{ 20, 19, 0, 0 }));
-}
-
 TEST_F(OctreeStore, StoresShareTheirOctrees)
 {
   ASSERT_EQ(find(7, true), Answer::Found);
   svo::OctreeStore another(gate.launcher());
   svo::Octree same;
   options.wait = true;
-  ASSERT_EQ(another.find(sphere(1.0), 7, options, same), Answer::Found);
+  ASSERT_EQ(another.find(sphereMesh(1.0), 7, options, same), Answer::Found);
   EXPECT_EQ(same.key(), octree.key());
   EXPECT_EQ(another.built(), 0);
   EXPECT_EQ(another.bytes(), store.bytes());
   // An interactive frame need not even wait.
   svo::OctreeStore third(gate.launcher());
   options.wait = false;
-  EXPECT_EQ(third.find(sphere(1.0), 7, options, same), Answer::Found);
+  EXPECT_EQ(third.find(sphereMesh(1.0), 7, options, same), Answer::Found);
   EXPECT_EQ(gate.started(), 0);
   // It stays with the others when one is through with it.
   octree = svo::Octree();
@@ -614,7 +419,7 @@ TEST_F(OctreeStore, StoresShareTheirOctrees)
   EXPECT_EQ(store.bytes(), 0u);
   another.endFrame(std::size_t(1) << 30);
   options.wait = true;
-  EXPECT_EQ(another.find(sphere(1.0), 7, options, same), Answer::Found);
+  EXPECT_EQ(another.find(sphereMesh(1.0), 7, options, same), Answer::Found);
   EXPECT_EQ(another.built(), 0);
 }
 
@@ -632,7 +437,7 @@ TEST_F(OctreeStore, AreSharedByManyThreads)
         for (int round = 0; round < 20; ++round)
         {
           svo::OctreeStore each;
-          each.find(sphere(1.0 + 0.1 * (round % 3), 12), 6, own, found[t]);
+          each.find(sphereMesh(1.0 + 0.1 * (round % 3), 12), 6, own, found[t]);
         }
       });
   }
