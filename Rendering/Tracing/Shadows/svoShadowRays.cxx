@@ -2,6 +2,7 @@
 
 #include "svoIntersect.h"
 #include "svoLeafError.h"
+#include "svoShadowBeam.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
@@ -24,7 +25,27 @@ glm::dvec3 sideOf(const Light& light, const glm::dvec3& position, const glm::vec
   const glm::dvec3 normal(facet);
   return glm::dot(normal, light.along(position)) > 0.0 ? -normal : normal;
 }
+
+/// False if no ray from a ball of points to the light meets another ball.
+bool mayBlock(const Light& light, const glm::dvec3& from, double radius, const glm::dvec3& centre,
+  double casterRadius)
+{
+  const glm::dvec3 way = -light.along(from);
+  const glm::dvec3 to = centre - from;
+  const double length2 = glm::dot(way, way);
+  const double along = glm::dot(to, way);
+  const double share = length2 > 0.0 ? along / length2 : 0.0;
+  const glm::dvec3 nearest = std::clamp(share, 0.0, light.atInfinity() ? 1e300 : 1.0) * way;
+  return !(glm::length(to - nearest) > 1.000001 * (radius + casterRadius));
 }
+}
+
+/// A point that asks, and its answer.
+struct ShadowRays::Start
+{
+  glm::dvec3 position, side; // world; side: unit, of its facet, towards the light
+  int index;
+};
 
 ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
 {
@@ -32,56 +53,133 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
   {
     if (instance.castShadow && instance.octree && !instance.octree.empty())
     {
+      const Octree& octree = instance.octree;
       const std::size_t index = &instance - scene.instances.data();
       const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(index));
       const LeafTraits traits = traitsOf(geometry);
-      const bool mixed = traits.exact() && instance.octree.longestList() > traits.longestExact;
+      const bool exact = traits.exact() && octree.surface();
+      const bool mixed = traits.exact() && octree.longestList() > traits.longestExact;
       const double planeError = mixed ? CubeError * worldVoxel(instance) : 0.0;
+      const Header& h = octree.header();
+      const double half = 0.5 * h.voxelSize * static_cast<double>(1u << h.level);
+      const glm::dvec3 centre(h.origin[0] + half, h.origin[1] + half, h.origin[2] + half);
+      const glm::dmat3 m(instance.localToWorld);
+      const double edges = glm::length(m[0]) + glm::length(m[1]) + glm::length(m[2]);
       this->Casters.push_back(
-        { &instance, geometry, WorldToOctree(instance.octree, instance.localToWorld), planeError,
-          std::max(planeError, worldLeafError(instance, geometry, instance.octree.level())) });
+        { &instance, geometry, WorldToOctree(octree, instance.localToWorld), planeError,
+          std::max(planeError, worldLeafError(instance, geometry, octree.level())), exact && !mixed,
+          glm::dvec3(instance.localToWorld * glm::dvec4(centre, 1.0)), half * edges });
     }
   }
+}
+
+bool ShadowRays::blocks(const Caster& caster, const Light& light, const glm::dvec3& position,
+  const glm::dvec3& side, double offset)
+{
+  const glm::dvec3 start = position + offset * side;
+  const glm::dvec3 direction = -light.along(start);
+  const Ray ray{ caster.toOctree.point(start), caster.toOctree.vector(direction), 0.0,
+    light.atInfinity() ? 1e300 : BeforeLight };
+  const TraceOptions options{ caster.geometry, MaximumLevel };
+  if (!occluded(caster.instance->octree, ray, options))
+  {
+    return false;
+  }
+  if (caster.planeError <= offset)
+  {
+    return true;
+  }
+  // Triangles and planes are mixed: the start may lie behind the planes of its own surface, or in
+  // cells that refuse the ray. What is met before the ray can have left them has to be met from
+  // outside of them too.
+  const double length = glm::length(direction);
+  const double slope = std::max(glm::dot(side, direction) / length, 0.05);
+  const Hit hit = intersect(caster.instance->octree, ray, options);
+  if (hit.t * length > caster.planeError / slope)
+  {
+    return true;
+  }
+  const Ray outer{ caster.toOctree.point(position + caster.planeError * side), ray.direction, 0.0,
+    ray.tMax };
+  return occluded(caster.instance->octree, outer, options);
 }
 
 bool ShadowRays::shadows(
   const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const
 {
-  const bool far = light.atInfinity();
   const glm::dvec3 side = sideOf(light, position, facet);
-  const glm::dvec3 start = position + offset * side;
-  const glm::dvec3 direction = -light.along(start);
-  for (const Caster& caster : this->Casters)
+  return std::any_of(this->Casters.begin(), this->Casters.end(),
+    [&](const Caster& caster) { return blocks(caster, light, position, side, offset); });
+}
+
+void ShadowRays::shadowBeam(const Caster& caster, const Light& light, const Start* starts,
+  int count, double offset, std::uint8_t* dark) const
+{
+  constexpr int Few = 4; // such a beam is no quicker than its rays
+  if (count > Few && caster.beams)
   {
-    const Ray ray{ caster.toOctree.point(start), caster.toOctree.vector(direction), 0.0,
-      far ? 1e300 : BeforeLight };
-    const TraceOptions options{ caster.geometry, MaximumLevel };
-    if (!occluded(caster.instance->octree, ray, options))
+    BeamPoints points;
+    points.count = count;
+    for (int i = 0; i < count; ++i)
     {
-      continue;
+      points.at[i] = caster.toOctree.point(starts[i].position + offset * starts[i].side);
     }
-    if (caster.planeError <= offset)
+    const bool far = light.atInfinity();
+    ShadowBeam::Answer answers[BeamPoints::Most];
+    const glm::dvec3 from =
+      far ? caster.toOctree.vector(light.direction) : caster.toOctree.point(light.position);
+    if (ShadowBeam(caster.instance->octree, from, far).trace(points, answers))
     {
-      return true;
+      for (int i = 0; i < count; ++i)
+      {
+        const Start& start = starts[i];
+        dark[start.index] |= answers[i] == ShadowBeam::Dark ||
+          (answers[i] == ShadowBeam::Undecided &&
+            blocks(caster, light, start.position, start.side, offset));
+      }
+      return;
     }
-    // Triangles and planes are mixed: the start may lie behind the planes of its own surface, or in
-    // cells that refuse the ray. What is met before the ray can have left them has to be met from
-    // outside of them too.
-    const double length = glm::length(direction);
-    const double slope = std::max(glm::dot(side, direction) / length, 0.05);
-    const Hit hit = intersect(caster.instance->octree, ray, options);
-    if (hit.t * length > caster.planeError / slope)
+    this->shadowBeam(caster, light, starts, count / 2, offset, dark);
+    this->shadowBeam(caster, light, starts + count / 2, count - count / 2, offset, dark);
+    return;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    dark[starts[i].index] |= blocks(caster, light, starts[i].position, starts[i].side, offset);
+  }
+}
+
+void ShadowRays::shadows(const Light& light, const TilePoints& points, int first, int last,
+  double offset, const std::uint8_t* asked, std::uint8_t* dark) const
+{
+  assert(first >= 0 && first < last && last <= points.count);
+  static_assert(BeamPoints::Most >= TilePoints::Most, "a tile's points fit");
+  Start starts[TilePoints::Most];
+  int count = 0;
+  glm::dvec3 low(0.0), high(0.0);
+  for (int i = first; i < last; ++i)
+  {
+    dark[i - first] = 0;
+    if (asked[i - first])
     {
-      return true;
-    }
-    const Ray outer{ caster.toOctree.point(position + caster.planeError * side), ray.direction, 0.0,
-      ray.tMax };
-    if (occluded(caster.instance->octree, outer, options))
-    {
-      return true;
+      const glm::dvec3 position = points.position(i);
+      low = count ? glm::min(low, position) : position;
+      high = count ? glm::max(high, position) : position;
+      starts[count++] = { position, sideOf(light, position, points.facet(i)), i - first };
     }
   }
-  return false;
+  const glm::dvec3 middle = 0.5 * (low + high);
+  const double radius = 0.5 * glm::length(high - low) + offset;
+  for (const Caster& caster : this->Casters)
+  {
+    if (count > 0 && mayBlock(light, middle, radius, caster.centre, caster.radius))
+    {
+      this->shadowBeam(caster, light, starts, count, offset, dark);
+      count = static_cast<int>(std::remove_if(starts, starts + count,
+                                 [&](const Start& start) { return dark[start.index] != 0; }) -
+        starts);
+    }
+  }
 }
 
 glm::dvec3 ShadowRays::start(

@@ -1,11 +1,14 @@
-// Exact shadows: one ray from a visible point to a light, through every caster.
+// Exact shadows: a ray from a visible point to a light, through every caster; rays of points that
+// lie close together go as a beam where a caster's leaves are triangles (svoShadowBeam.h).
 #ifndef svoShadowRays_h
 #define svoShadowRays_h
 
 #include "svoLayeredView.h"
 #include "svoScene.h"
+#include "svoTilePoints.h"
 #include "svoWorldToOctree.h"
 
+#include <cstdint>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -23,6 +26,11 @@ public:
   bool shadows(
     const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const;
 
+  /// The same for points [first, last) of a tile, of one instance: dark[i - first] of those that
+  /// are `asked`.
+  void shadows(const Light& light, const TilePoints& points, int first, int last, double offset,
+    const std::uint8_t* asked, std::uint8_t* dark) const;
+
   /// The start of that ray, world.
   static glm::dvec3 start(
     const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset);
@@ -39,7 +47,16 @@ private:
     WorldToOctree toOctree;
     double planeError; // world; how far plane leaves among triangles can be off, 0 without any
     double leafError;  // world; how far any leaf can be off
+    bool beams;        // all leaves are triangles
+    glm::dvec3 centre; // of a ball around the octree's cube, world
+    double radius;
   };
+  /// Close together, on the light's side of their surface.
+  struct Start;
+  static bool blocks(const Caster& caster, const Light& light, const glm::dvec3& position,
+    const glm::dvec3& side, double offset);
+  void shadowBeam(const Caster& caster, const Light& light, const Start* starts, int count,
+    double offset, std::uint8_t* dark) const;
   std::vector<Caster> Casters;
 };
 }

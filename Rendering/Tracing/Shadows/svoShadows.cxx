@@ -147,10 +147,14 @@ void Shadows::dark(std::size_t light, const TilePoints& points, int first, int l
     this->Buffers[light]->shadows(points, first, last, error, asked, dark);
     return;
   }
-  for (int i = first; i < last; ++i)
+  const bool casts = this->UsesRays && this->Tested->lights[light].castShadow;
+  if (!casts)
   {
-    dark[i - first] = asked[i - first] && this->dark(light, points.point(i), error, rays);
+    std::fill_n(dark, last - first, std::uint8_t(0));
+    return;
   }
+  rays += std::count(asked, asked + (last - first), std::uint8_t(1));
+  this->Rays->shadows(this->Tested->lights[light], points, first, last, error, asked, dark);
 }
 
 float Shadows::darkness(std::size_t light, const SurfacePoint& point, double error, double extent,

@@ -1,0 +1,176 @@
+#include "svoShadowBeam.h"
+
+#include "svoIntersectTile.h"
+#include "svoSurface.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+namespace svo
+{
+namespace
+{
+/// Where a beam sees more nodes than this it is divided.
+constexpr std::size_t MostNodes = 256;
+
+/// Where rays to a light end, the light itself being at 1: what the light lies on is not between.
+constexpr double BeforeLight = 1e-9;
+
+/// A beam's own frame: depth along the axis, and two directions across it.
+struct BeamFrame
+{
+  glm::dvec3 origin; // the light, or a point of the beam
+  glm::dvec3 axis, u, v;
+
+  BeamFrame(const glm::dvec3& from, const glm::dvec3& along)
+    : origin(from)
+    , axis(glm::normalize(along))
+  {
+    const glm::dvec3 size = glm::abs(this->axis);
+    const glm::dvec3 other = size.x <= size.y && size.x <= size.z ? glm::dvec3(1, 0, 0)
+      : size.y <= size.z                                          ? glm::dvec3(0, 1, 0)
+                                                                  : glm::dvec3(0, 0, 1);
+    this->u = glm::normalize(glm::cross(this->axis, other));
+    this->v = glm::cross(this->axis, this->u);
+  }
+  double depth(const glm::dvec3& x) const { return glm::dot(this->axis, x - this->origin); }
+};
+
+/// A ray in double: the point of depth t is origin + t direction.
+struct BeamRay
+{
+  glm::dvec3 origin, direction;
+  double end; // depth of the shadowed point
+};
+
+glm::dvec4 planeThrough(const glm::dvec3& normal, const glm::dvec3& point)
+{
+  return { normal, -glm::dot(normal, point) };
+}
+
+/// Where the line of a ray meets the plane of a triangle. NaN or infinite if it is parallel to it.
+double depthOfPlane(const BeamRay& ray, const Surface& surface, Primitive primitive)
+{
+  assert(primitive < surface.triangles.size());
+  const glm::uvec3 triangle = surface.triangles[primitive];
+  const glm::dvec3 p(surface.points[triangle.x]);
+  const glm::dvec3 normal = glm::cross(
+    glm::dvec3(surface.points[triangle.y]) - p, glm::dvec3(surface.points[triangle.z]) - p);
+  return glm::dot(normal, p - ray.origin) / glm::dot(normal, ray.direction);
+}
+}
+
+bool ShadowBeam::trace(const BeamPoints& points, Answer* answers)
+{
+  assert(points.count > 0 && points.count <= BeamPoints::Most && this->Tree.surface());
+  glm::dvec3 centre(0.0);
+  for (int i = 0; i < points.count; ++i)
+  {
+    centre += points.at[i] / static_cast<double>(points.count);
+  }
+  const BeamFrame frame(
+    this->Far ? centre : this->Light, this->Far ? this->Light : centre - this->Light);
+
+  // The cube's depths.
+  const double edge = std::ldexp(1.0, this->Tree.level() - 2 * this->Tree.depthCount());
+  const glm::dvec3 low(1.0);
+  const double half =
+    0.5 * edge * (std::abs(frame.axis.x) + std::abs(frame.axis.y) + std::abs(frame.axis.z));
+  const double middle = frame.depth(low + 0.5 * edge);
+  const double base = this->Far ? middle - half : std::max(middle - half, 0.0);
+  const double behind = middle + half;
+
+  // The beam's sides: slopes of rays from a light nearby, distances from the axis of others.
+  BeamRay rays[BeamPoints::Most];
+  const double infinity = std::numeric_limits<double>::infinity();
+  double lowU = infinity, highU = -infinity, lowV = infinity, highV = -infinity, last = base;
+  bool narrow = true;
+  for (int i = 0; i < points.count; ++i)
+  {
+    const glm::dvec3 to = points.at[i] - frame.origin;
+    const double end = glm::dot(frame.axis, to);
+    const double u = glm::dot(frame.u, to), v = glm::dot(frame.v, to);
+    const double slopeU = this->Far ? u : u / end, slopeV = this->Far ? v : v / end;
+    narrow =
+      narrow && (this->Far || (end > 0.0 && std::abs(slopeU) < 1.0 && std::abs(slopeV) < 1.0));
+    lowU = std::min(lowU, slopeU);
+    highU = std::max(highU, slopeU);
+    lowV = std::min(lowV, slopeV);
+    highV = std::max(highV, slopeV);
+    last = std::max(last, end);
+    rays[i].end = end;
+    rays[i].direction = this->Far ? frame.axis : frame.axis + slopeU * frame.u + slopeV * frame.v;
+    rays[i].origin = this->Far ? points.at[i] - end * frame.axis : frame.origin;
+  }
+  if (!narrow)
+  {
+    return false;
+  }
+  std::fill_n(answers, points.count, Lit);
+  if (!(last > base))
+  {
+    return true; // all points are nearer to the light than the octree
+  }
+  TilePyramid pyramid;
+  const auto side = [&](const glm::dvec3& across, double slope, double sign)
+  {
+    const glm::dvec3 normal = this->Far ? across : across - slope * frame.axis;
+    glm::dvec4 plane = planeThrough(normal, frame.origin);
+    plane.w -= this->Far ? slope : 0.0;
+    plane *= sign;
+    plane.w += 2.0 * BeamRounding;
+    return plane;
+  };
+  pyramid.side[0] = side(frame.u, lowU, 1.0);
+  pyramid.side[1] = side(frame.u, highU, -1.0);
+  pyramid.side[2] = side(frame.v, lowV, 1.0);
+  pyramid.side[3] = side(frame.v, highV, -1.0);
+  pyramid.t = planeThrough(frame.axis, frame.origin);
+  pyramid.t.w -= base;
+  const float tFar = static_cast<float>(std::min(last, behind) - base + BeamRounding);
+  if (!findTileNodes(this->Tree, pyramid, 0.0f, tFar, MostNodes, this->Nodes))
+  {
+    return false;
+  }
+  if (this->Nodes.empty())
+  {
+    return true;
+  }
+
+  RayBlock block;
+  for (int i = 0; i < RayBlock::Size; ++i)
+  {
+    const BeamRay& ray = rays[std::min(i, points.count - 1)];
+    const glm::dvec3 start = ray.origin + base * ray.direction;
+    block.originX[i] = static_cast<float>(start.x);
+    block.originY[i] = static_cast<float>(start.y);
+    block.originZ[i] = static_cast<float>(start.z);
+    block.directionX[i] = static_cast<float>(ray.direction.x);
+    block.directionY[i] = static_cast<float>(ray.direction.y);
+    block.directionZ[i] = static_cast<float>(ray.direction.z);
+    block.tMin[i] =
+      static_cast<float>(this->Far ? 0.0 : std::max(BeforeLight * ray.end - base, 0.0));
+    block.tMax[i] = i < points.count
+      ? static_cast<float>(std::min(ray.end, behind) - base + BeamRounding)
+      : -1.0f;
+  }
+  HitBlock hits;
+  intersectTile(this->Tree, pyramid, this->Nodes, block, hits);
+  const Surface& surface = *this->Tree.surface();
+  for (int i = 0; i < points.count; ++i)
+  {
+    if (hits.primitive[i] != NoPrimitive)
+    {
+      const double plane = depthOfPlane(rays[i], surface, hits.primitive[i]);
+      const double t = std::isfinite(plane) ? plane : base + hits.t[i];
+      const bool atLight = !this->Far && t < BeforeLight * rays[i].end;
+      answers[i] = atLight ? Undecided : t <= rays[i].end ? Dark : Lit;
+    }
+  }
+  return true;
+}
+}

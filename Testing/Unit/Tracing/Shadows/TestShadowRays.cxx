@@ -1,0 +1,212 @@
+// Exact shadows of a tile's points, asked for together, against rays alone.
+#include "svoLeafError.h"
+#include "svoSelectLevel.h"
+#include "svoShadowBeam.h"
+#include "svoShadowRays.h"
+#include "svoTracerScenes.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+using namespace svotest;
+
+namespace
+{
+/// Instances of a few meshes, and the octrees that they borrow.
+struct Objects
+{
+  std::vector<Mesh> meshes;
+  std::vector<svo::Octree> octrees;
+  svo::Scene scene;
+
+  void add(Mesh mesh, int level, const glm::dmat4& place,
+    svo::LeafGeometry leaves = svo::LeafGeometry::Triangle)
+  {
+    this->octrees.push_back(makeOctree(mesh, level));
+    this->scene.instances.push_back(
+      instanceOf(this->octrees.back(), this->scene.instances.size() + 1, place, leaves));
+  }
+};
+
+/// A torus over a ground, a mirrored one and a sheared ball in its hole.
+Objects rings()
+{
+  Objects all;
+  all.add(square(6.0), 6, movedTo(0, 0, -1.1));
+  all.add(torus(40, 24), 8, glm::rotate(glm::dmat4(1.0), 0.7, glm::dvec3(1, 2, 0)));
+  all.add(torus(24, 12), 6, glm::scale(movedTo(0.3, -0.2, 1.6), glm::dvec3(-0.4, 0.4, 0.3)));
+  glm::dmat4 shear(1.0);
+  shear[1][0] = 0.6;
+  all.add(sphere(20, 20), 7, glm::scale(movedTo(0, 0, -0.5) * shear, glm::dvec3(0.45)));
+  return all;
+}
+
+/// One mesh of a ground and of balls a thousandth as wide: each in very few bricks.
+Objects tinyParts()
+{
+  Mesh mesh = square(400.0);
+  const auto add = [&](double radius, const glm::dvec3& centre)
+  {
+    const Mesh ball = sphere(24, 24);
+    const auto first = static_cast<unsigned>(mesh.points.size());
+    for (const glm::dvec3& p : ball.points)
+    {
+      mesh.points.push_back(centre + radius * p);
+    }
+    for (const glm::uvec3& t : ball.triangles)
+    {
+      mesh.triangles.push_back(t + first);
+    }
+  };
+  add(0.3, { 0, 0, 0.3 });
+  add(0.6, { 1.2, 0.3, 0.6 });
+  add(100.0, { 0, 350, 0 });
+  Objects all;
+  all.add(mesh, 10, glm::dmat4(1.0));
+  return all;
+}
+
+struct Count
+{
+  int asked = 0, dark = 0, different = 0, unexplained = 0;
+};
+
+/// Asks for all visible points, tile by tile and one by one.
+Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& light)
+{
+  svo::LayeredView eye;
+  svo::LayerBudget budget{ 1 << 30, 0 };
+  eye.prepare(
+    scene, view, [](const svo::Instance&) { return true; },
+    [](const svo::Instance& instance, const svo::LocalView&) { return instance.octree.level(); },
+    false, budget);
+  eye.trace(svo::serialFor, nullptr);
+  const svo::ShadowRays rays(scene, eye);
+  std::vector<svo::SurfaceMatrices> frames;
+  double rounding = 0.0;
+  for (const svo::Instance& instance : scene.instances)
+  {
+    frames.emplace_back(instance);
+    rounding = std::max(rounding,
+      svo::BeamRounding * svo::worldScale(instance.localToWorld) * instance.octree.rootEdge());
+  }
+  Count count;
+  svo::TilePoints points;
+  const svo::DepthBuffer& depth = eye.depthBuffer();
+  for (int tile = 0; tile < depth.tilesX * depth.tilesY; ++tile)
+  {
+    if (!depth.hit[tile] ||
+      !svo::takePoints(
+        depth, view, tile % depth.tilesX, tile / depth.tilesX, [](std::uint32_t) { return true; },
+        [&](std::uint32_t i) { return eye.base(i); }, points))
+    {
+      continue;
+    }
+    svo::lookAtPoints(frames, view, points);
+    for (int first = 0; first < points.count;)
+    {
+      const int last = points.endOfInstance(first);
+      const svo::Instance& instance = scene.instances[points.instance[first]];
+      const double error = svo::worldLeafError(instance, eye.leafGeometry(points.instance[first]),
+        instance.octree.level(), eye.placed(points.instance[first]));
+      std::uint8_t asked[svo::TilePoints::Room], dark[svo::TilePoints::Room];
+      for (int i = first; i < last; ++i)
+      {
+        asked[i - first] = points.pixel[i] % 7 != 3;
+        dark[i - first] = 7;
+      }
+      rays.shadows(light, points, first, last, error, asked, dark);
+      for (int i = first; i < last; ++i)
+      {
+        const glm::dvec3 at = points.position(i);
+        if (!asked[i - first])
+        {
+          EXPECT_EQ(0, dark[i - first]);
+          continue;
+        }
+        ++count.asked;
+        count.dark += dark[i - first];
+        if (dark[i - first] == rays.shadows(light, at, points.facet(i), error))
+        {
+          continue;
+        }
+        ++count.different;
+        // A ray beside it has to have the tile's answer.
+        bool explained = false;
+        for (int k = 0; k < 27 && !explained; ++k)
+        {
+          const glm::dvec3 beside(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+          explained = rays.shadows(light, at + rounding * beside, points.facet(i), error) ==
+            (dark[i - first] != 0);
+        }
+        count.unexplained += !explained;
+      }
+      first = last;
+    }
+  }
+  return count;
+}
+
+void expectAlike(const Objects& objects, const glm::dvec3& eye, const glm::dvec3& at)
+{
+  const svo::View view = lookAt(eye, 200, 160, 40.0, at);
+  for (const LightCase& lit : everyLight())
+  {
+    SCOPED_TRACE(lit.name);
+    const Count count = compare(objects.scene, view, lit.light);
+    EXPECT_GT(count.asked, 10000);
+    EXPECT_GT(count.dark, 100);
+    EXPECT_LT(count.dark, count.asked - 100);
+    EXPECT_EQ(0, count.unexplained);
+    EXPECT_LE(count.different, count.asked / 10000);
+  }
+}
+}
+
+TEST(ShadowRays, TilesAsRaysAlone)
+{
+  const Objects objects = rings();
+  for (const glm::dvec3& eye :
+    { glm::dvec3(3, -5, 3), glm::dvec3(0.2, 0.3, 6), glm::dvec3(5, 4, 0) })
+  {
+    expectAlike(objects, eye, { 0, 0, 0 });
+  }
+}
+
+TEST(ShadowRays, TinyPartsOfALargeMesh)
+{
+  expectAlike(tinyParts(), { 1.5, -6, 4 }, { 0.8, 0, 0.3 });
+}
+
+TEST(ShadowRays, LightsAmongTheCasters)
+{
+  const Objects objects = rings();
+  const svo::View view = lookAt({ 3, -5, 3 }, 200, 160);
+  const auto compareWith = [&](const glm::dvec3& light)
+  { return compare(objects.scene, view, lightOf(svo::Light::Kind::Point, light)); };
+  for (const glm::dvec3& inside :
+    { glm::dvec3(0.1, 0.05, 0.3), glm::dvec3(0, 0, -0.5), glm::dvec3(1.0, 0.0, -1.05) })
+  {
+    const Count count = compareWith(inside);
+    EXPECT_GT(count.dark, 100);
+    EXPECT_EQ(0, count.unexplained);
+    EXPECT_LE(count.different, count.asked / 10000);
+  }
+  // On the ground, which it then lights or not.
+  EXPECT_EQ(0, compareWith({ 1.0, 0.0, -1.1 }).unexplained);
+}
+
+TEST(ShadowRays, OtherLeavesOneByOne)
+{
+  for (const auto leaves : { svo::LeafGeometry::Voxel, svo::LeafGeometry::Plane })
+  {
+    Objects objects = rings();
+    objects.scene.instances[1].leafGeometry = leaves;
+    const Count count = compare(objects.scene, lookAt({ 3, -5, 3 }, 200, 160),
+      lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }));
+    EXPECT_GT(count.dark, 100);
+    EXPECT_EQ(0, count.unexplained);
+  }
+}
