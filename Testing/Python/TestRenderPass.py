@@ -5,7 +5,8 @@ import unittest
 import vtkmodules.vtkInteractionStyle
 import vtkmodules.vtkRenderingOpenGL2
 import vtksvo
-from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+from vtkmodules.vtkCommonCore import vtkFloatArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow)
@@ -178,6 +179,84 @@ class RenderPass(unittest.TestCase):
         self.assertEqual(svo.GetMaximumLevel(), 20)
         convert = vtksvo.vtkPolyDataToSVO()
         self.assertEqual(convert.GetMaximumLevel(), 10)
+
+
+class KeptFrame(unittest.TestCase):
+    """A frame in which nothing has changed is shown once more; changes in place are seen."""
+
+    def setUp(self):
+        self.scene = Scene(False)
+        self.ball = self.scene.actors[0]
+        self.mapper = self.ball.GetMapper()
+        self.mapper.Update()
+        self.mesh = vtkPolyData()
+        self.mesh.DeepCopy(self.mapper.GetInput())
+        self.scalars = vtkFloatArray()
+        self.scalars.SetName("height")
+        for i in range(self.mesh.GetNumberOfPoints()):
+            self.scalars.InsertNextValue(self.mesh.GetPoint(i)[2])
+        self.mesh.GetPointData().SetScalars(self.scalars)
+        self.mapper.SetInputData(self.mesh)
+        self.mapper.SetScalarRange(0.5, 1.5)
+
+    def expect_change(self, change):
+        before = self.scene.pixels()
+        self.assertEqual(before, self.scene.pixels())
+        self.assertEqual(0, self.scene.svo.GetNumberOfPrimaryRays())
+        self.assertEqual(0, self.scene.svo.GetNumberOfShadowRays())
+        change()
+        after = self.scene.pixels()
+        self.assertNotEqual(before, after)
+        self.assertEqual(after, self.scene.pixels())
+        again = vtksvo.vtkSVORenderPass()  # knows nothing of what was before
+        again.SetMaximumLevel(7)
+        self.scene.renderer.SetPass(again)
+        self.assertEqual(after, self.scene.pixels())
+
+    def test_scalars(self):
+        def change():
+            for i in range(0, self.scalars.GetNumberOfTuples(), 2):
+                self.scalars.SetValue(i, 1.0)
+            self.scalars.Modified()
+        self.expect_change(change)
+
+    def test_table(self):
+        self.expect_change(lambda: self.mapper.GetLookupTable().SetHueRange(0.2, 0.4))
+
+    def test_texture_of_scalars(self):
+        self.mapper.InterpolateScalarsBeforeMappingOn()
+        self.expect_change(lambda: self.mapper.GetLookupTable().SetHueRange(0.2, 0.4))
+
+    def test_normals(self):
+        def change():
+            normals = self.mesh.GetPointData().GetNormals()
+            for i in range(normals.GetNumberOfTuples()):
+                x, y, z = normals.GetTuple3(i)
+                normals.SetTuple3(i, x, 0.6 * y + 0.8 * z, 0.6 * z - 0.8 * y)
+            normals.Modified()
+        self.expect_change(change)
+
+    def test_points(self):
+        def change():
+            points = self.mesh.GetPoints()
+            for i in range(points.GetNumberOfPoints()):
+                x, y, z = points.GetPoint(i)
+                points.SetPoint(i, 1.2 * x, y, z)
+            points.Modified()
+        self.expect_change(change)
+
+    def test_property(self):
+        self.mapper.ScalarVisibilityOff()
+        self.expect_change(lambda: self.ball.GetProperty().SetColor(1.0, 0.2, 0.1))
+
+    def test_actor(self):
+        self.expect_change(lambda: self.ball.RotateX(20.0))
+
+    def test_light(self):
+        self.expect_change(lambda: self.scene.light.SetIntensity(0.5))
+
+    def test_background(self):
+        self.expect_change(lambda: self.scene.renderer.SetBackground(0.3, 0.1, 0.1))
 
 
 if __name__ == "__main__":

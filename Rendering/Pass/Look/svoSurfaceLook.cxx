@@ -78,6 +78,15 @@ Reason beyondTracing(vtkActor* actor)
   return actor->HasTranslucentPolygonalGeometry() ? "is translucent" : nullptr;
 }
 
+/// An array that the look borrows.
+void keep(
+  vtkDataArray* array, Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+{
+  // Times are never given twice.
+  attributes.version = std::max<std::uint64_t>(attributes.version, array->GetMTime());
+  kept.emplace_back(array);
+}
+
 void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays& floats,
   std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
 {
@@ -97,7 +106,7 @@ void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays
     return;
   }
   attributes.normals = floats.values(normals);
-  kept.emplace_back(normals);
+  keep(normals, attributes, kept);
 }
 
 /// True if VTK's mapper looks the mapped colours up by cell.
@@ -133,8 +142,8 @@ bool coordinateColors(vtkMapper* mapper, vtkPolyData* mesh, Attributes& attribut
   attributes.colorCoordinates = coordinates->GetPointer(0);
   attributes.colorTexture = texels->GetPointer(0);
   attributes.colorTextureSize = texture->GetDimensions()[0];
-  kept.emplace_back(coordinates);
-  kept.emplace_back(texels);
+  keep(coordinates, attributes, kept);
+  keep(texels, attributes, kept);
   return true;
 }
 
@@ -182,7 +191,7 @@ bool scalarColors(
   }
   attributes.colorAssociation = cells ? Association::Cell : Association::Point;
   attributes.colors = colors->GetPointer(0);
-  kept.emplace_back(colors);
+  keep(colors, attributes, kept);
   return true;
 }
 }

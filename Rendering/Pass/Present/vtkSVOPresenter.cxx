@@ -38,9 +38,7 @@ void vtkSVOPresenter::SetFrame(
 {
   this->Frame = frame;
   this->FindSilhouettes = silhouettes;
-  this->Silhouettes.clear();
   this->Pass = pass;
-  this->Uploaded = false;
   this->PresentTime = 0.0;
 }
 
@@ -52,7 +50,7 @@ void vtkSVOPresenter::ReleaseGraphicsResources(vtkWindow* window)
   this->Normals = nullptr;
   this->Light = nullptr;
   this->Parts.release();
-  this->Uploaded = false;
+  this->Uploaded = 0;
   if (window)
   {
     this->QuadMapper->ReleaseGraphicsResources(window);
@@ -100,21 +98,16 @@ void send(vtkTextureObject* texture, const svo::Frame& frame, GLenum format, GLe
 }
 }
 
-void vtkSVOPresenter::DivideSilhouettes()
-{
-  this->Silhouettes.exchange(*this->Frame); // back, after another framebuffer
-  this->Silhouettes.clear();
-  if (!this->SamplePositions.empty() && this->FindSilhouettes)
-  {
-    this->FindSilhouettes(this->SamplePositions, this->Silhouettes);
-  }
-  this->Silhouettes.exchange(*this->Frame);
-  this->Parts.upload(this->Silhouettes.parts);
-}
-
 void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window)
 {
-  const svo::Frame& frame = *this->Frame;
+  svo::Frame& frame = *this->Frame;
+  svo::Silhouettes silhouettes;
+  if (!this->SamplePositions.empty() && this->FindSilhouettes)
+  {
+    this->FindSilhouettes(this->SamplePositions, silhouettes);
+  }
+  this->Parts.upload(silhouettes.parts);
+  silhouettes.exchange(frame);
   prepare(this->Colors, window, frame, 4, VTK_UNSIGNED_CHAR);
   prepare(this->Depths, window, frame, 1, VTK_FLOAT);
   send(this->Colors, frame, GL_RGBA, GL_UNSIGNED_BYTE, frame.color.data());
@@ -129,6 +122,7 @@ void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window)
     prepare(this->Light, window, frame, 3, VTK_FLOAT);
     send(this->Light, frame, GL_RGB, GL_FLOAT, frame.light.data());
   }
+  silhouettes.exchange(frame); // back
 }
 
 namespace
@@ -313,12 +307,13 @@ int vtkSVOPresenter::RenderOpaqueGeometry(vtkViewport* viewport)
   const double start = vtkTimerLog::GetUniversalTime();
   vtkOpenGLClearErrorMacro();
   std::vector<glm::vec2> positions = svo::samplePositions();
-  if (!this->Uploaded || positions != this->SamplePositions)
+  if (this->Frame->version == 0 || this->Uploaded != this->Frame->version ||
+    positions != this->SamplePositions ||
+    !this->Colors || this->Colors->GetContext() != window)
   {
     this->SamplePositions = std::move(positions);
-    this->DivideSilhouettes();
     this->Upload(window);
-    this->Uploaded = true;
+    this->Uploaded = this->Frame->version;
   }
   const bool drawn = this->Draw(renderer, window);
   vtkOpenGLCheckErrorMacro("failed in vtkSVOPresenter");

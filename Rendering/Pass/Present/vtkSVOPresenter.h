@@ -74,7 +74,6 @@ private:
   vtkSVOPresenter(const vtkSVOPresenter&) = delete;
   void operator=(const vtkSVOPresenter&) = delete;
 
-  void DivideSilhouettes();
   void Upload(vtkOpenGLRenderWindow* window);
   bool Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void SelectDrawBuffers();
@@ -83,10 +82,9 @@ private:
   svo::Frame* Frame = nullptr;
   SilhouetteFinder FindSilhouettes;
   vtkOpenGLRenderPass* Pass = nullptr;
-  bool Uploaded = false;
+  std::uint64_t Uploaded = 0; // svo::Frame::version of what the textures show
   double PresentTime = 0.0;
   std::vector<glm::vec2> SamplePositions; // that the upload was made for
-  svo::Silhouettes Silhouettes;
   svo::PixelParts Parts;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
   std::string QuadShader; // fragment shader that the quad was made with

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -30,6 +31,8 @@ struct Attributes
   const float* colorCoordinates = nullptr;
   const unsigned char* colorTexture = nullptr; // RGBA
   int colorTextureSize = 0;                    // texels of a row
+  /// Other than before where one of the arrays has other values than before, at the same address.
+  std::uint64_t version = 0;
 };
 
 /// The mesh's own points, local frame, in the type that the mesh has them in. Neither: unknown.

@@ -48,6 +48,8 @@ struct Frame
 {
   int width = 0;
   int height = 0;
+  /// Another one whenever a tracer has written to it; 0: the tracer does not say.
+  std::uint64_t version = 0;
   PixelRect covered;                   // smallest rectangle (8-pixel grid) with every hit
   std::vector<std::uint8_t> color;     // RGBA; alpha 255 on a hit, 0 elsewhere
   std::vector<float> depth;            // OpenGL window depth; 1 where nothing was hit

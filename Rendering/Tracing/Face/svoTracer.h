@@ -39,7 +39,7 @@ public:
     const Scene& scene, const View& view, const FrameSettings& settings) const = 0;
 
   /// Renders a frame. Layers kept from previous frames are used where the settings allow it, and
-  /// change no bit.
+  /// change no bit. A frame that would be as it is keeps its version, and may be left alone.
   virtual void render(const Scene& scene, const View& view, const FrameSettings& settings,
     const ParallelFor& parallelFor, Frame& frame) = 0;
 

@@ -1,6 +1,7 @@
 #include "svoCPUTracer.h"
 
 #include "svoFrameTiles.h"
+#include "svoKeptFrame.h"
 #include "svoLayeredView.h"
 #include "svoLeafError.h"
 #include "svoNeededLevels.h"
@@ -72,11 +73,15 @@ struct CPUTracer::Internals
   Scene AsLightsSee; // where that is not the frame's scene; for the length of a frame
   FrameTiles Tiles;
   PixelShader Shader;
+  KeptFrame Kept;
+  bool ViewsAreTraced = true; // of this frame; else they were not needed
   bool SharesBuffers = false; // shadow buffers are traced, for all processes
   double SharingTime = 0.0;   // s, that took
 
   const Scene& sceneOfLights(const Scene& scene, ShadowTechnique technique);
   void markLightTiles(const Scene& scene, const View& view, const ParallelFor& parallelFor);
+  double traceViews(const Scene& scene, const View& view, const FrameSettings& settings,
+    const ParallelFor& parallelFor, Frame* frame);
 };
 
 /// The scene with the octrees that shadow buffers are traced through.
@@ -141,49 +146,71 @@ std::vector<NeededLevels> CPUTracer::neededLevels(
   return svo::neededLevels(scene, view, settings);
 }
 
-void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings& settings,
-  const ParallelFor& parallelFor, Frame& frame)
+/// The depth buffers of the eye and of the lights, and all that shading needs besides. `frame`: to
+/// be prepared for shading, or null. Returns the seconds that the lights took.
+double CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
+  const FrameSettings& settings, const ParallelFor& parallelFor, Frame* frame)
 {
-  Internals& self = *this->Impl;
-  const double start = now();
-  self.Settings = settings;
-  self.Statistics = FrameStatistics();
-  self.Maps.clear();
-
+  this->Maps.clear();
   LayerBudget budget{ settings.layerMemoryLimit,
-    self.Eye.layerMemory() + self.LightShadows.layerMemory() };
+    this->Eye.layerMemory() + this->LightShadows.layerMemory() };
 
   // Depth layers of the eye, merged.
-  self.Eye.prepare(
+  this->Eye.prepare(
     scene, view, [](const Instance& instance) { return instance.visible; },
     [&](const Instance& instance, const LocalView& local)
     { return selectEyeLevel(instance, local, view, settings.pixelError); },
     settings.frameCoherence, budget);
-  self.Eye.trace(parallelFor, nullptr);
-  self.Tiles.find(self.Eye.depthBuffer(), view, settings, frame);
+  this->Eye.trace(parallelFor, nullptr);
+  if (frame)
+  {
+    this->Tiles.find(this->Eye.depthBuffer(), view, settings, *frame);
+  }
 
   // What visible points will look up of the lights.
-  self.Shader.prepare(scene, settings.shadowTechnique, self.Eye);
-  const bool shared = self.SharesBuffers && settings.shadowTechnique == ShadowTechnique::Buffer;
+  this->Shader.prepare(scene, settings.shadowTechnique, this->Eye);
+  const bool shared = this->SharesBuffers && settings.shadowTechnique == ShadowTechnique::Buffer;
   if (!shared)
   {
-    self.LightShadows.prepare(
-      self.sceneOfLights(scene, settings.shadowTechnique), view, settings, budget);
-    self.markLightTiles(scene, view, parallelFor);
+    this->LightShadows.prepare(
+      this->sceneOfLights(scene, settings.shadowTechnique), view, settings, budget);
+    this->markLightTiles(scene, view, parallelFor);
   }
-  self.LightShadows.prepareRays(scene, settings, self.Eye);
+  this->LightShadows.prepareRays(scene, settings, this->Eye);
 
   // Shadow layers, merged likewise.
   const double shadowStart = now();
   if (!shared)
   {
-    self.LightShadows.trace(parallelFor);
+    this->LightShadows.trace(parallelFor);
   }
   if (settings.wholeShadowBuffers)
   {
-    self.LightShadows.copyMaps(self.Maps);
+    this->LightShadows.copyMaps(this->Maps);
   }
-  double shadowTime = now() - shadowStart;
+  this->AsLightsSee = Scene();
+  return now() - shadowStart;
+}
+
+void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings& settings,
+  const ParallelFor& parallelFor, Frame& frame)
+{
+  Internals& self = *this->Impl;
+  const double start = now();
+  FrameStatistics& statistics = self.Statistics;
+  self.Settings = settings;
+  self.ViewsAreTraced = !settings.frameCoherence || self.SharesBuffers ||
+    !self.Kept.shows(scene, view, settings, frame);
+  if (!self.ViewsAreTraced)
+  {
+    frame.covered = self.Kept.covered();
+    statistics.primaryRays = statistics.shadowRays = statistics.retracedLayers = 0;
+    statistics.shadowTime = 0.0;
+    statistics.traceTime = now() - start;
+    return;
+  }
+  statistics = FrameStatistics();
+  double shadowTime = self.traceViews(scene, view, settings, parallelFor, &frame);
 
   // Shade and test.
   const double shadeStart = now();
@@ -198,8 +225,14 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
     shadowTime += now() - shadeStart; // the rays are nearly all of it
   }
 
-  self.AsLightsSee = Scene();
-  FrameStatistics& statistics = self.Statistics;
+  if (settings.frameCoherence && !self.SharesBuffers)
+  {
+    self.Kept.keep(scene, view, settings, frame);
+  }
+  else
+  {
+    self.Kept.forget();
+  }
   self.LightShadows.addStatistics(statistics);
   statistics.primaryRays += self.Eye.rays();
   statistics.retracedLayers += self.Eye.retracedLayers();
@@ -233,7 +266,12 @@ void CPUTracer::divideEdges(const Scene& scene, const View& view, const Frame& f
   const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor,
   Silhouettes& result) const
 {
-  const Internals& self = *this->Impl;
+  Internals& self = *this->Impl;
+  if (!self.ViewsAreTraced)
+  {
+    self.traceViews(scene, view, self.Settings, parallelFor, nullptr);
+    self.ViewsAreTraced = true;
+  }
   findSilhouettes({ scene, view, self.Settings, self.Eye, self.Tiles, self.LightShadows },
     self.Shader, frame, positions, parallelFor, result);
 }
@@ -253,5 +291,6 @@ void CPUTracer::releaseLayers()
   this->Impl->Eye.release();
   this->Impl->LightShadows.release();
   this->Impl->SharesBuffers = false;
+  this->Impl->Kept.forget();
 }
 }

@@ -31,7 +31,8 @@ void FrameTiles::find(
   this->TilesX = depth.tilesX;
   const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
   const bool same = frame.width == view.width && frame.height == view.height &&
-    this->WrittenTo == frame.color.data() && frame.color.size() == 4 * pixels &&
+    this->WrittenTo == frame.color.data() && this->Version == frame.version &&
+    frame.color.size() == 4 * pixels &&
     frame.normals.size() == (settings.writeNormals ? 3 * pixels : 0) &&
     frame.light.size() == (settings.writeLight ? 3 * pixels : 0);
   if (!same)
@@ -47,6 +48,7 @@ void FrameTiles::find(
     this->WrittenTo = frame.color.data();
     this->Written.clear();
   }
+  this->Version = ++frame.version;
   this->Written.resize(depth.tiles(), 0);
   this->Hits.clear();
   PixelRect covered{ frame.width, frame.height, 0, 0 };

@@ -19,8 +19,8 @@ void wipeTile(Frame& frame, int x0, int y0);
 class FrameTiles
 {
 public:
-  /// Makes the frame as large as the view, finds the tiles with hits and Frame::covered, and wipes
-  /// tiles that have none any more.
+  /// Begins a new version of the frame: makes it as large as the view, finds the tiles with hits
+  /// and Frame::covered, and wipes tiles that have none any more.
   void find(
     const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame);
 
@@ -49,6 +49,7 @@ private:
   std::vector<std::uint32_t> Hits;
   std::vector<std::uint8_t> Written; // per tile: the last frame wrote it
   const std::uint8_t* WrittenTo = nullptr;
+  std::uint64_t Version = 0; // Frame::version of what was written
 };
 }
 

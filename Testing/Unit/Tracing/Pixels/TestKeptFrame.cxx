@@ -1,0 +1,246 @@
+// A frame that is made of what the last one was made of is not made again; any other is.
+#include "svoSilhouettes.h"
+#include "svoTracerScenes.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace svotest;
+
+namespace
+{
+/// A smooth ball with colours over a ground, and all that a frame is made of.
+struct Stage
+{
+  Mesh ballMesh = sphere(16, 24), groundMesh = square(3.0);
+  svo::Octree ball = makeOctree(ballMesh, 7), deepBall = makeOctree(ballMesh, 8);
+  svo::Octree ground = makeOctree(groundMesh, 6);
+  std::vector<float> normals = radialNormals(ballMesh), others = normals;
+  std::vector<unsigned char> colors;
+  svo::Scene scene;
+  svo::View view = lookAt({ 3, -5, 4 }, 160, 120);
+  svo::FrameSettings settings;
+
+  Stage()
+  {
+    for (std::size_t i = 0; i < 4 * ballMesh.points.size(); ++i)
+    {
+      colors.push_back(i % 4 == 3 ? 255 : static_cast<unsigned char>(50 + i % 199));
+    }
+    for (float& n : others)
+    {
+      n = -0.8f * n + 0.1f;
+    }
+    scene.instances = { instanceOf(ground, 1, movedTo(0, 0, -1)), instanceOf(ball, 2) };
+    svo::Instance& body = scene.instances[1];
+    body.attributes.normals = normals.data();
+    body.attributes.normalAssociation = svo::Association::Point;
+    body.material.specular = 0.3f;
+    body.material.specularPower = 10.0f;
+    body.material.ambient = 0.1f;
+    scene.lights = { lightOf(svo::Light::Kind::Spot, { 2, -2, 6 }) };
+    scene.lights[0].coneAngle = 60.0;
+  }
+};
+
+struct Change
+{
+  std::string name;
+  std::function<void(Stage&)> make;
+};
+
+/// Changes of all that a frame depends on.
+std::vector<Change> everyChange()
+{
+  const auto ball = [](Stage& s) -> svo::Instance& { return s.scene.instances[1]; };
+  const auto light = [](Stage& s) -> svo::Light& { return s.scene.lights[0]; };
+  return {
+    { "matrix", [=](Stage& s) { ball(s).localToWorld = movedTo(0.1, 0, 0); } },
+    { "octree", [=](Stage& s) { ball(s).octree = s.deepBall; } },
+    { "caster's octree", [=](Stage& s) { ball(s).casterOctree = s.deepBall; } },
+    { "leaves", [=](Stage& s) { ball(s).leafGeometry = svo::LeafGeometry::Voxel; } },
+    { "ambient colour", [=](Stage& s) { ball(s).material.ambientColor.g = 0.2f; } },
+    { "diffuse colour", [=](Stage& s) { ball(s).material.diffuseColor.r = 0.4f; } },
+    { "specular colour", [=](Stage& s) { ball(s).material.specularColor.b = 0.1f; } },
+    { "ambient", [=](Stage& s) { ball(s).material.ambient = 0.4f; } },
+    { "diffuse", [=](Stage& s) { ball(s).material.diffuse = 0.5f; } },
+    { "specular", [=](Stage& s) { ball(s).material.specular = 0.9f; } },
+    { "power", [=](Stage& s) { ball(s).material.specularPower = 2.0f; } },
+    { "unlit", [=](Stage& s) { ball(s).material.lighting = false; } },
+    { "flat", [=](Stage& s) { ball(s).material.flat = true; } },
+    { "normals at another place", [=](Stage& s) { ball(s).attributes.normals = s.others.data(); } },
+    { "normals in their place",
+      [=](Stage& s)
+      {
+        s.normals = s.others;
+        ball(s).attributes.normals = s.normals.data();
+        ball(s).attributes.version = 5;
+      } },
+    { "colours",
+      [=](Stage& s)
+      {
+        ball(s).attributes.colors = s.colors.data();
+        ball(s).attributes.colorAssociation = svo::Association::Point;
+      } },
+    { "invisible", [=](Stage& s) { ball(s).visible = false; } },
+    { "casts not", [=](Stage& s) { ball(s).castShadow = false; } },
+    { "receives not", [=](Stage& s) { s.scene.instances[0].receiveShadow = false; } },
+    { "pixel error", [=](Stage& s) { ball(s).pixelError = 3.0; } },
+    { "depth offset", [=](Stage& s) { ball(s).depthOffsetUnits = 1e-3f; } },
+    { "gives way", [=](Stage& s) { ball(s).givesWay = 1; } },
+    { "identity", [=](Stage& s) { ball(s).id = 3; } },
+    { "order", [=](Stage& s) { std::swap(s.scene.instances[0], s.scene.instances[1]); } },
+    { "one less", [=](Stage& s) { s.scene.instances.pop_back(); } },
+    { "one more",
+      [=](Stage& s) { s.scene.instances.push_back(instanceOf(s.ball, 4, movedTo(1.5, 0, 0))); } },
+    { "receiver",
+      [=](Stage& s)
+      {
+        s.scene.receivers.emplace_back();
+        s.scene.receivers.back().add(glm::dvec3(-3, -3, -4));
+        s.scene.receivers.back().add(glm::dvec3(3, 3, -3));
+      } },
+    { "kind of light", [=](Stage& s) { light(s).kind = svo::Light::Kind::Directional; } },
+    { "light's position", [=](Stage& s) { light(s).position.x += 0.5; } },
+    { "light's direction",
+      [=](Stage& s) { light(s).direction = glm::normalize(glm::dvec3(0.1, 0.3, -1)); } },
+    { "cone", [=](Stage& s) { light(s).coneAngle = 14.0; } },
+    { "exponent", [=](Stage& s) { light(s).exponent = 9.0; } },
+    { "attenuation",
+      [=](Stage& s) {
+        light(s).attenuation = { 0.5f, 0.1f, 0.0f };
+      } },
+    { "light's colour", [=](Stage& s) { light(s).color.b = 0.3f; } },
+    { "light casts not", [=](Stage& s) { light(s).castShadow = false; } },
+    { "another light",
+      [=](Stage& s) {
+        s.scene.lights.push_back(lightOf(svo::Light::Kind::Directional, { -2, -1, 3 }));
+      } },
+    { "headlight", [=](Stage& s) { s.scene.onlyHeadlight = true; } },
+    { "camera",
+      [=](Stage& s) {
+        s.view = lookAt({ 3, -5, 4.1 }, 160, 120);
+      } },
+    { "window",
+      [=](Stage& s) {
+        s.view = lookAt({ 3, -5, 4 }, 200, 120);
+      } },
+    { "technique", [=](Stage& s) { s.settings.shadowTechnique = svo::ShadowTechnique::None; } },
+    { "rays", [=](Stage& s) { s.settings.shadowTechnique = svo::ShadowTechnique::Rays; } },
+    { "resolution", [=](Stage& s) { s.settings.shadowResolution = 256; } },
+    { "bias",
+      [=](Stage& s)
+      {
+        s.settings.automaticBias = false;
+        s.settings.bias = 8.0;
+      } },
+    { "intensity", [=](Stage& s) { s.settings.shadowIntensity = 0.5; } },
+    { "frame's pixel error", [=](Stage& s) { s.settings.pixelError = 4.0; } },
+    { "anti-aliasing", [=](Stage& s) { s.settings.antiAliasing = true; } },
+    { "filtered shadows", [=](Stage& s) { s.settings.filterShadows = true; } },
+    { "normals wanted", [=](Stage& s) { s.settings.writeNormals = true; } },
+    { "light wanted", [=](Stage& s) { s.settings.writeLight = true; } },
+    { "whole buffers", [=](Stage& s) { s.settings.wholeShadowBuffers = true; } },
+  };
+}
+
+void render(svo::Tracer& tracer, const Stage& stage, svo::Frame& frame)
+{
+  tracer.render(stage.scene, stage.view, stage.settings, svo::serialFor, frame);
+}
+}
+
+TEST(KeptFrame, NothingIsDoneTwice)
+{
+  const Stage stage;
+  svo::CPUTracer tracer;
+  svo::Frame frame;
+  render(tracer, stage, frame);
+  const svo::Frame first = frame;
+  EXPECT_GT(tracer.statistics().primaryRays, 0u);
+  EXPECT_GT(tracer.statistics().shadowRays, 0u);
+  for (int i = 0; i < 3; ++i)
+  {
+    frame.covered = svo::PixelRect(); // as those do who are not sure that there will be a frame
+    render(tracer, stage, frame);
+    EXPECT_EQ(first.version, frame.version);
+    EXPECT_TRUE(identical(first, frame));
+    EXPECT_EQ(0u, tracer.statistics().primaryRays);
+    EXPECT_EQ(0u, tracer.statistics().shadowRays);
+    EXPECT_EQ(0u, tracer.statistics().retracedLayers);
+    EXPECT_GT(tracer.statistics().layerMemory, 0u);
+  }
+}
+
+TEST(KeptFrame, EveryChangeIsSeen)
+{
+  for (const Change& change : everyChange())
+  {
+    SCOPED_TRACE(change.name);
+    Stage stage;
+    svo::CPUTracer tracer;
+    svo::Frame frame;
+    render(tracer, stage, frame);
+    const std::uint64_t version = frame.version;
+    change.make(stage);
+    render(tracer, stage, frame);
+    EXPECT_NE(version, frame.version);
+    EXPECT_TRUE(identical(rendered(stage.scene, stage.view, stage.settings), frame));
+  }
+}
+
+TEST(KeptFrame, IsOfOneFrameAndOneTracer)
+{
+  const Stage stage;
+  svo::CPUTracer tracer, other;
+  svo::Frame frame, another;
+  render(tracer, stage, frame);
+  render(tracer, stage, another);
+  EXPECT_TRUE(identical(frame, another));
+  // Written by somebody else in between.
+  Stage moved;
+  moved.view = lookAt({ -3, -5, 4 }, 160, 120);
+  render(other, moved, another);
+  render(tracer, stage, another);
+  EXPECT_TRUE(identical(frame, another));
+  // Not asked for.
+  Stage anew;
+  anew.settings.frameCoherence = false;
+  const std::uint64_t version = another.version;
+  render(tracer, anew, another);
+  render(tracer, anew, another);
+  EXPECT_EQ(version + 2, another.version);
+  EXPECT_GT(tracer.statistics().primaryRays, 0u);
+}
+
+TEST(KeptFrame, EdgesAreDividedAllTheSame)
+{
+  const std::vector<glm::vec2> positions{ { 0.4f, 0.1f }, { 0.9f, 0.4f }, { 0.1f, 0.6f },
+    { 0.6f, 0.9f } };
+  svo::CPUTracer tracer;
+  svo::Frame frame;
+  svo::Silhouettes first, second;
+  {
+    const Stage stage;
+    render(tracer, stage, frame);
+    tracer.divideEdges(stage.scene, stage.view, frame, positions, svo::serialFor, first);
+    render(tracer, stage, frame);
+    // Somebody else's copy of the same scene, as every frame of a renderer has it.
+    svo::Scene copy = stage.scene;
+    render(tracer, stage, frame);
+    tracer.divideEdges(copy, stage.view, frame, positions, svo::serialFor, second);
+  }
+  ASSERT_GT(first.parts.size(), 50u);
+  ASSERT_EQ(first.parts.size(), second.parts.size());
+  for (std::size_t i = 0; i < first.parts.size(); ++i)
+  {
+    const svo::PixelPart &a = first.parts[i], &b = second.parts[i];
+    EXPECT_TRUE(a.samples == b.samples && a.x == b.x && a.y == b.y && a.depth == b.depth &&
+      std::equal(a.color, a.color + 4, b.color));
+  }
+  EXPECT_EQ(first.pixels.size(), second.pixels.size());
+}
