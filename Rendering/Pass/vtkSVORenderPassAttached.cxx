@@ -44,6 +44,7 @@ void vtkSVORenderPass::Attach(vtkRenderer* renderer)
       {
         this->TraceFrame(*frame, width, height);
         frame->state->present(this);
+        frame->state->presenter()->SetFirst(!renderer->GetPass()); // else others may have drawn
       }
     });
   // Shadows must be known before the first surface that receives them is drawn.

@@ -56,7 +56,8 @@ class Scene:
     def pixels(self):
         self.window.Render()
         pixels = vtkUnsignedCharArray()
-        self.window.GetPixelData(0, 0, 199, 199, 1, pixels, 0)
+        width, height = self.window.GetSize()
+        self.window.GetPixelData(0, 0, width - 1, height - 1, 1, pixels, 0)
         return bytes(memoryview(pixels))
 
     def ground_brightness(self, x, y):
@@ -257,6 +258,55 @@ class KeptFrame(unittest.TestCase):
 
     def test_background(self):
         self.expect_change(lambda: self.scene.renderer.SetBackground(0.3, 0.1, 0.1))
+
+
+class Presentation(unittest.TestCase):
+    """What nothing was drawn before may come into the window another way; the picture is the same."""
+
+    @staticmethod
+    def picture(rasterized_first):
+        scene = Scene(False)
+        scene.window.SetSize(203, 197)  # no multiple of a tile's 8
+        # Behind the ground, and through the ball.
+        hidden, through = vtkSphereSource(), vtkSphereSource()
+        hidden.SetCenter(0.0, 0.0, -3.0)
+        through.SetCenter(0.4, 0.1, 1.2)
+        actors = []
+        for source in (hidden, through):
+            mapper = vtkPolyDataMapper()
+            mapper.SetInputConnection(source.GetOutputPort())
+            actor = vtkActor()
+            actor.SetMapper(mapper)
+            actor.GetProperty().SetColor(0.2, 0.4, 1.0)
+            vtksvo.vtkSVORenderPass.SetUseSVO(False, actor)
+            vtksvo.vtkSVORenderPass.SetCastShadow(False, actor)
+            actors.append(actor)
+        first = actors[:1] if rasterized_first else []
+        last = actors[len(first):]
+        for actor in scene.actors:
+            scene.renderer.RemoveActor(actor)
+        for actor in first + scene.actors + last:
+            scene.renderer.AddActor(actor)
+        scene.renderer.GradientBackgroundOn()
+        scene.renderer.SetBackground2(0.3, 0.5, 0.2)
+        scene.renderer.GetActiveCamera().SetPosition(1.0, -4.0, 6.0)
+        pictures = []
+        for turn in (0.0, 0.0, 20.0):  # the second one is the first once more
+            scene.renderer.GetActiveCamera().Azimuth(turn)
+            colors = scene.pixels()
+            depths = vtkFloatArray()
+            scene.window.GetZbufferData(0, 0, 202, 196, depths)
+            pictures.append((colors, bytes(memoryview(depths))))
+        assert scene.svo.GetNumberOfTracedActors() == 2
+        assert scene.svo.GetNumberOfRasterizedActors() == 2
+        scene.window.Finalize()
+        return pictures
+
+    def test_copies_are_what_is_drawn(self):
+        drawn, copied = self.picture(True), self.picture(False)
+        for one, other in zip(drawn, copied):
+            self.assertEqual(one[0], other[0])
+            self.assertEqual(one[1], other[1])
 
 
 if __name__ == "__main__":

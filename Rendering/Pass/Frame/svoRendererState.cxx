@@ -206,15 +206,19 @@ void RendererState::exchange(
   ExchangedProps& props, const vtkRenderState* state, vtkOpenGLRenderPass* pass)
 {
   this->present(pass);
+  bool first = this->Renderer->GetPass() == pass; // else others may have drawn
   std::size_t used = 0;
   for (int i = 0; i < state->GetPropArrayCount(); ++i)
   {
-    if (this->Collected.replaced.count(state->GetPropArray()[i]) == 0)
+    vtkProp* prop = state->GetPropArray()[i];
+    if (this->Collected.replaced.count(prop) == 0)
     {
+      first = first && prop->IsA("vtkActor2D"); // drawn later, over everything
       continue;
     }
     if (!props.any())
     {
+      this->Presenter->SetFirst(first);
       props.exchange(i, this->Presenter);
       continue;
     }

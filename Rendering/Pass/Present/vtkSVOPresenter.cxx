@@ -1,21 +1,25 @@
 #include "vtkSVOPresenter.h"
 
+#include "svoFrameCopy.h"
 #include "svoOpenGL.h"
 #include "svoPresentFS.h"
 #include "svoPresentVS.h"
+#include "svoSMPParallel.h"
+#include "svoTileRuns.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseVectorKey.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLCamera.h"
 #include "vtkOpenGLError.h"
-#include "vtkOpenGLQuadHelper.h"
 #include "vtkOpenGLRenderPass.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
+#include "vtkOpenGLVertexArrayObject.h"
 #include "vtkRenderer.h"
 #include "vtkSSAOPass.h"
 #include "vtkShaderProgram.h"
@@ -44,9 +48,11 @@ void vtkSVOPresenter::SetFrame(
 
 void vtkSVOPresenter::ReleaseGraphicsResources(vtkWindow* window)
 {
-  this->Quad.reset();
+  this->Corners = nullptr;
+  this->Array = nullptr;
   this->Colors = nullptr;
   this->Depths = nullptr;
+  this->DepthCopy = nullptr;
   this->Normals = nullptr;
   this->Light = nullptr;
   this->Parts.release();
@@ -61,8 +67,15 @@ void vtkSVOPresenter::ReleaseGraphicsResources(vtkWindow* window)
 namespace
 {
 /// A texture of the frame's size, made anew only when that changes.
+enum class Kind
+{
+  Bytes, // of RGBA
+  Float,
+  Floats, // of three components
+  Depth   // as a depth buffer has it
+};
 void prepare(vtkSmartPointer<vtkTextureObject>& texture, vtkOpenGLRenderWindow* window,
-  const svo::Frame& frame, int components, int type)
+  const svo::Frame& frame, Kind kind)
 {
   const auto width = static_cast<unsigned int>(frame.width);
   const auto height = static_cast<unsigned int>(frame.height);
@@ -75,7 +88,17 @@ void prepare(vtkSmartPointer<vtkTextureObject>& texture, vtkOpenGLRenderWindow* 
     texture->SetMagnificationFilter(vtkTextureObject::Nearest);
     texture->SetWrapS(vtkTextureObject::ClampToEdge);
     texture->SetWrapT(vtkTextureObject::ClampToEdge);
-    texture->Allocate2D(width, height, components, type);
+    switch (kind)
+    {
+      case Kind::Bytes:
+        texture->Allocate2D(width, height, 4, VTK_UNSIGNED_CHAR);
+        break;
+      case Kind::Depth:
+        texture->AllocateDepth(width, height, vtkTextureObject::Fixed32);
+        break;
+      default:
+        texture->Allocate2D(width, height, kind == Kind::Float ? 1 : 3, VTK_FLOAT);
+    }
   }
 }
 
@@ -98,7 +121,51 @@ void send(vtkTextureObject* texture, const svo::Frame& frame, GLenum format, GLe
 }
 }
 
-void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window)
+/// True if the frame's pixels, but those of tiles with holes, may be copied.
+bool vtkSVOPresenter::MayCopy(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+{
+  const svo::Frame& frame = *this->Frame;
+  int viewport[4];
+  window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+  return this->First && renderer->GetErase() && !renderer->GetPreserveDepthBuffer() &&
+    frame.width == viewport[2] && frame.height == viewport[3] && frame.normals.empty() &&
+    frame.light.empty() && svo::isWorthCopying();
+}
+
+void vtkSVOPresenter::UploadRectangles(const std::vector<svo::PixelRect>& rectangles)
+{
+  std::vector<glm::vec2> corners;
+  for (const svo::PixelRect& r : rectangles)
+  {
+    const glm::vec2 a(r.x0, r.y0), b(r.x1, r.y0), c(r.x1, r.y1), d(r.x0, r.y1);
+    corners.insert(corners.end(), { a, b, c, a, c, d });
+  }
+  this->Drawn = static_cast<int>(corners.size());
+  if (!this->Corners)
+  {
+    this->Corners = vtkSmartPointer<vtkOpenGLBufferObject>::New();
+    this->Array = vtkSmartPointer<vtkOpenGLVertexArrayObject>::New();
+  }
+  this->Corners->Upload(corners, vtkOpenGLBufferObject::ArrayBuffer);
+}
+
+void vtkSVOPresenter::UploadDepthCopy(vtkOpenGLRenderWindow* window)
+{
+  const svo::Frame& frame = *this->Frame;
+  const svo::PixelRect& rect = frame.covered;
+  this->DepthWords.resize(frame.depth.size());
+  svo::smpParallelFor()(rect.y0, rect.y1, 64,
+    [&](std::size_t first, std::size_t last)
+    {
+      const std::size_t at = first * frame.width;
+      svo::toDepthBuffer(
+        frame.depth.data() + at, (last - first) * frame.width, this->DepthWords.data() + at);
+    });
+  prepare(this->DepthCopy, window, frame, Kind::Depth);
+  send(this->DepthCopy, frame, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, this->DepthWords.data());
+}
+
+void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window, bool copy)
 {
   svo::Frame& frame = *this->Frame;
   svo::Silhouettes silhouettes;
@@ -108,18 +175,34 @@ void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window)
   }
   this->Parts.upload(silhouettes.parts);
   silhouettes.exchange(frame);
-  prepare(this->Colors, window, frame, 4, VTK_UNSIGNED_CHAR);
-  prepare(this->Depths, window, frame, 1, VTK_FLOAT);
+  this->Copies = copy;
+  this->Copied.clear();
+  if (copy)
+  {
+    svo::TileRuns runs = svo::tileRunsOf(frame);
+    this->Copied = std::move(runs.whole);
+    this->UploadRectangles(runs.mixed);
+  }
+  else
+  {
+    this->UploadRectangles({ frame.covered });
+  }
+  prepare(this->Colors, window, frame, Kind::Bytes);
+  prepare(this->Depths, window, frame, Kind::Float);
   send(this->Colors, frame, GL_RGBA, GL_UNSIGNED_BYTE, frame.color.data());
   send(this->Depths, frame, GL_RED, GL_FLOAT, frame.depth.data());
+  if (copy)
+  {
+    this->UploadDepthCopy(window);
+  }
   if (!frame.normals.empty())
   {
-    prepare(this->Normals, window, frame, 3, VTK_FLOAT);
+    prepare(this->Normals, window, frame, Kind::Floats);
     send(this->Normals, frame, GL_RGB, GL_FLOAT, frame.normals.data());
   }
   if (!frame.light.empty())
   {
-    prepare(this->Light, window, frame, 3, VTK_FLOAT);
+    prepare(this->Light, window, frame, Kind::Floats);
     send(this->Light, frame, GL_RGB, GL_FLOAT, frame.light.data());
   }
   silhouettes.exchange(frame); // back
@@ -186,14 +269,14 @@ bool vtkSVOPresenter::KeepsLight()
     ask(GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
 }
 
-void vtkSVOPresenter::SelectDrawBuffers()
+void vtkSVOPresenter::SelectDrawBuffers(vtkShaderProgram* program)
 {
   eachPass(this,
     [&](vtkOpenGLRenderPass* pass)
     {
       if (pass != this->Pass)
       {
-        pass->SetShaderParameters(this->Quad->Program, this->QuadMapper, this, nullptr);
+        pass->SetShaderParameters(program, this->QuadMapper, this, nullptr);
       }
     });
 }
@@ -208,28 +291,18 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
   shader.replace(shader.find(mark), mark.size(),
     mark + (writeNormals ? "#define SVO_WRITE_NORMALS\n" : "") +
       (writeLight ? "#define SVO_WRITE_LIGHT\n" : ""));
-  if (!this->Quad || this->QuadShader != shader)
-  {
-    this->Quad =
-      std::make_unique<vtkOpenGLQuadHelper>(window, svoPresentVS, shader.c_str(), nullptr);
-    this->QuadShader = shader;
-  }
-  else
-  {
-    window->GetShaderCache()->ReadyShaderProgram(this->Quad->Program);
-  }
-  vtkShaderProgram* program = this->Quad->Program;
+  vtkShaderProgram* program =
+    window->GetShaderCache()->ReadyShaderProgram(svoPresentVS, shader.c_str(), "");
   if (!program)
   {
     return false;
   }
 
-  const glm::vec2 size(frame.width, frame.height);
-  const svo::PixelRect& rect = frame.covered;
-  const glm::vec2 low = glm::vec2(rect.x0, rect.y0) / size;
-  const glm::vec2 high = glm::vec2(rect.x1, rect.y1) / size;
-  const float rectangle[4] = { low.x, low.y, high.x, high.y };
-  program->SetUniform4f("rectangle", rectangle);
+  const float size[2] = { static_cast<float>(frame.width), static_cast<float>(frame.height) };
+  program->SetUniform2f("frameSize", size);
+  this->Array->Bind();
+  this->Array->AddAttributeArray(
+    program, this->Corners, "corner", 0, sizeof(glm::vec2), VTK_FLOAT, 2, false);
   this->Colors->Activate();
   this->Depths->Activate();
   program->SetUniformi("colors", this->Colors->GetTextureUnit());
@@ -251,7 +324,7 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
     this->Light->Activate();
     program->SetUniformi("light", this->Light->GetTextureUnit());
   }
-  this->SelectDrawBuffers();
+  this->SelectDrawBuffers(program);
 
   bool drawn = false;
   vtkOpenGLState* state = window->GetState();
@@ -269,8 +342,9 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
       state->vtkglDisable(GL_BLEND);
     }
     state->vtkglDisable(GL_CULL_FACE);
-    this->Quad->Render();
-    drawn = this->Parts.draw(window, &size.x);
+    glDrawArrays(GL_TRIANGLES, 0, this->Drawn);
+    this->Array->Release();
+    drawn = this->Parts.draw(window, size);
   }
   this->Colors->Deactivate();
   this->Depths->Deactivate();
@@ -307,15 +381,21 @@ int vtkSVOPresenter::RenderOpaqueGeometry(vtkViewport* viewport)
   const double start = vtkTimerLog::GetUniversalTime();
   vtkOpenGLClearErrorMacro();
   std::vector<glm::vec2> positions = svo::samplePositions();
+  const bool copy = this->MayCopy(renderer, window);
   if (this->Frame->version == 0 || this->Uploaded != this->Frame->version ||
-    positions != this->SamplePositions ||
-    !this->Colors || this->Colors->GetContext() != window)
+    positions != this->SamplePositions || copy != this->Copies || !this->Colors ||
+    this->Colors->GetContext() != window)
   {
     this->SamplePositions = std::move(positions);
-    this->Upload(window);
+    this->Upload(window, copy);
     this->Uploaded = this->Frame->version;
   }
-  const bool drawn = this->Draw(renderer, window);
+  if (!this->Copied.empty() && !svo::copyRectangles(this->Colors, this->DepthCopy, this->Copied))
+  {
+    this->Copied.clear();
+    this->UploadRectangles({ this->Frame->covered });
+  }
+  const bool drawn = this->Drawn == 0 || this->Draw(renderer, window);
   vtkOpenGLCheckErrorMacro("failed in vtkSVOPresenter");
   this->PresentTime += vtkTimerLog::GetUniversalTime() - start;
   return drawn ? 1 : 0;

@@ -23,10 +23,12 @@
 #include <string>
 #include <vector>
 
-class vtkOpenGLQuadHelper;
+class vtkOpenGLBufferObject;
 class vtkOpenGLRenderPass;
 class vtkOpenGLRenderWindow;
+class vtkOpenGLVertexArrayObject;
 class vtkRenderer;
+class vtkShaderProgram;
 class vtkTextureObject;
 
 class vtkSVOPresenter : public vtkProp3D
@@ -53,6 +55,10 @@ public:
   /// itself.
   void StandFor(vtkProp* prop);
 
+  /// True if nothing can have been drawn before the presenter into the pixels that it shows: then
+  /// those of tiles without holes may be copied (svoFrameCopy.h). False until it is said.
+  void SetFirst(bool first) { this->First = first; }
+
   /// True if one of these passes wants positions and normals beside colours.
   bool WantsNormals();
 
@@ -74,9 +80,12 @@ private:
   vtkSVOPresenter(const vtkSVOPresenter&) = delete;
   void operator=(const vtkSVOPresenter&) = delete;
 
-  void Upload(vtkOpenGLRenderWindow* window);
+  bool MayCopy(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
+  void Upload(vtkOpenGLRenderWindow* window, bool copy);
+  void UploadDepthCopy(vtkOpenGLRenderWindow* window);
+  void UploadRectangles(const std::vector<svo::PixelRect>& rectangles);
   bool Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
-  void SelectDrawBuffers();
+  void SelectDrawBuffers(vtkShaderProgram* program);
 
   Prepare PrepareFrame;
   svo::Frame* Frame = nullptr;
@@ -86,8 +95,14 @@ private:
   double PresentTime = 0.0;
   std::vector<glm::vec2> SamplePositions; // that the upload was made for
   svo::PixelParts Parts;
-  std::unique_ptr<vtkOpenGLQuadHelper> Quad;
-  std::string QuadShader; // fragment shader that the quad was made with
+  bool First = false;
+  bool Copies = false;
+  vtkSmartPointer<vtkTextureObject> DepthCopy; // what is copied of depths
+  std::vector<std::uint32_t> DepthWords;
+  std::vector<svo::PixelRect> Copied;             // rectangles that are copied;
+  int Drawn = 0;                                  // and how many others are drawn
+  vtkSmartPointer<vtkOpenGLBufferObject> Corners; // two triangles for each
+  vtkSmartPointer<vtkOpenGLVertexArrayObject> Array;
   vtkSmartPointer<vtkTextureObject> Colors;
   vtkSmartPointer<vtkTextureObject> Depths;
   vtkSmartPointer<vtkTextureObject> Normals;
