@@ -34,10 +34,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using DF = hn::ScalableTag<float>;
 using DI = hn::ScalableTag<std::int32_t>;
 using DU = hn::ScalableTag<std::uint32_t>;
-using DU64 = hn::ScalableTag<std::uint64_t>;
-using DI64 = hn::ScalableTag<std::int64_t>;
-using DHalf = hn::Half<DU>;
-using DHalfI = hn::Half<DI>;
 using F = hn::Vec<DF>;
 using I = hn::Vec<DI>;
 using U = hn::Vec<DU>;
@@ -79,34 +75,27 @@ HWY_INLINE Probe probe(const std::uint64_t* nodes, const Packet& p)
 {
   const DI di;
   const DU du;
-  const DU64 d64;
-  const DI64 di64;
-  const DHalf dh;
-  const DHalfI dhi;
   const I cell =
     hn::Or(hn::Or(spreadCoordinate(p.x, p.size), hn::ShiftLeft<1>(spreadCoordinate(p.y, p.size))),
       hn::ShiftLeft<2>(spreadCoordinate(p.z, p.size)));
   // An empty block has no node to look at; any will do.
-  const I index = hn::ShiftLeft<1>(hn::Max(p.node, hn::Zero(di)));
-  const auto half = [&](hn::Vec<DHalfI> halfIndex, hn::Vec<DHalfI> halfCell)
-  {
-    const auto mask = hn::GatherIndex(d64, nodes, hn::PromoteTo(di64, halfIndex));
-    const auto c = hn::BitCast(d64, hn::PromoteTo(di64, halfCell));
-    const auto one = hn::Set(d64, 1);
-    const auto lower = hn::Sub(hn::Shl(one, c), one);
-    const auto count = hn::PopulationCount(hn::And(mask, lower));
-    const auto byte = hn::And(hn::Shr(mask, hn::And(c, hn::Set(d64, 56))), hn::Set(d64, 255));
-    return hn::TruncateTo(dh, hn::Or(count, hn::ShiftLeft<8>(byte)));
-  };
-  const auto lowerHalf = half(hn::LowerHalf(dhi, index), hn::LowerHalf(dhi, cell));
-  const auto upperHalf = half(hn::UpperHalf(dhi, index), hn::UpperHalf(dhi, cell));
-  const I seen = hn::BitCast(di, hn::Combine(du, upperHalf, lowerHalf));
-  const I bit = hn::Shl(hn::Set(di, 256), hn::And(cell, hn::Set(di, 7)));
+  const I index = hn::ShiftLeft<2>(hn::Max(p.node, hn::Zero(di)));
+  const auto* words = reinterpret_cast<const std::uint32_t*>(nodes);
+  const U low = hn::GatherIndex(du, words, index);
+  const U high = hn::GatherIndex(du, words + 1, index);
+  const auto upper = hn::Gt(cell, hn::Set(di, 31));
+  const U half = hn::IfThenElse(hn::RebindMask(du, upper), high, low);
+  const U at = hn::BitCast(du, hn::And(cell, hn::Set(di, 31)));
+  const U bit = hn::Shl(hn::Set(du, 1), at);
+  const U group = hn::And(hn::Shr(half, hn::And(at, hn::Set(du, 24))), hn::Set(du, 255));
+  const U lower = hn::PopulationCount(hn::And(half, hn::Sub(bit, hn::Set(du, 1))));
+  const U before = hn::IfThenElseZero(hn::RebindMask(du, upper), hn::PopulationCount(low));
   Probe result;
   result.nothing = hn::Lt(p.node, hn::Zero(di));
-  result.occupied = hn::AndNot(result.nothing, hn::Ne(hn::And(seen, bit), hn::Zero(di)));
-  result.group = hn::AndNot(result.nothing, hn::Gt(seen, hn::Set(di, 255)));
-  result.below = hn::And(seen, hn::Set(di, 255));
+  result.occupied =
+    hn::AndNot(result.nothing, hn::RebindMask(di, hn::Ne(hn::And(half, bit), hn::Zero(du))));
+  result.group = hn::AndNot(result.nothing, hn::RebindMask(di, hn::Ne(group, hn::Zero(du))));
+  result.below = hn::BitCast(di, hn::Add(lower, before));
   return result;
 }
 
@@ -195,15 +184,9 @@ HWY_INLINE I firstChild(const std::uint64_t* nodes, const Packet& p)
 {
   const DI di;
   const DU du;
-  const DU64 d64;
-  const DI64 di64;
-  const DHalf dh;
-  const DHalfI dhi;
-  const I index = hn::Add(hn::ShiftLeft<1>(hn::Max(p.node, hn::Zero(di))), hn::Set(di, 1));
-  const auto half = [&](hn::Vec<DHalfI> halfIndex)
-  { return hn::TruncateTo(dh, hn::GatherIndex(d64, nodes, hn::PromoteTo(di64, halfIndex))); };
-  return hn::BitCast(
-    di, hn::Combine(du, half(hn::UpperHalf(dhi, index)), half(hn::LowerHalf(dhi, index))));
+  const auto* words = reinterpret_cast<const std::uint32_t*>(nodes);
+  const I index = hn::ShiftLeft<2>(hn::Max(p.node, hn::Zero(di)));
+  return hn::BitCast(di, hn::GatherIndex(du, words + 2, index));
 }
 
 /// One turn. Returns the lanes that are still under way.
