@@ -9,7 +9,7 @@ void LayeredView::release()
 {
   this->Layers.clear();
   this->HasFrame = false;
-  this->MergedWhole = false;
+  this->Tiles.forget();
 }
 
 bool LayeredView::prepare(const Scene& scene, const View& view,
@@ -54,27 +54,6 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   return !this->Instances.empty();
 }
 
-bool LayeredView::isMerged(const std::uint8_t* wanted)
-{
-  const std::size_t tiles =
-    static_cast<std::size_t>((this->Seen.width + 7) / 8) * ((this->Seen.height + 7) / 8);
-  const bool whole =
-    !wanted || std::all_of(wanted, wanted + tiles, [](std::uint8_t w) { return w != 0; });
-  bool kept = true;
-  std::vector<Part> parts;
-  for (const Entry& entry : this->Instances)
-  {
-    kept = kept && entry.layer;
-    parts.push_back({ entry.index, entry.key, this->Offsets[entry.index] });
-  }
-  const bool same = kept && whole && this->MergedWhole && sameRays(this->Seen, this->MergedView) &&
-    parts == this->MergedParts;
-  this->MergedWhole = whole;
-  this->MergedView = this->Seen;
-  this->MergedParts = std::move(parts);
-  return same;
-}
-
 void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* wanted)
 {
   this->Rays = 0;
@@ -95,13 +74,23 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
         { entry.key.leafGeometry, entry.key.level }, entry.local.base, parallelFor, intervals);
     }
   }
-  this->Changed = !this->isMerged(wanted);
-  if (!this->Changed)
+  std::vector<MergedPart> parts;
+  for (const Entry& entry : this->Instances)
   {
-    return;
+    parts.push_back({ entry.index, entry.key, this->Offsets[entry.index], entry.local.rect });
   }
-  this->Merged.resize(this->Seen.width, this->Seen.height);
-  if (all.empty())
+  // What differs between offsets decides for all.
+  const bool keep = this->HasFrame && this->Shifted == this->WasShifted;
+  this->WasShifted = this->Shifted;
+  if (!this->Tiles.beginFrame(this->Seen, std::move(parts), keep, wanted))
+  {
+    this->Merged.resize(this->Seen.width, this->Seen.height);
+  }
+  for (std::size_t tile = 0; tile < this->Merged.tiles(); ++tile)
+  {
+    this->Merged.hit[tile] = this->Merged.hit[tile] && !this->Tiles.isStale(tile);
+  }
+  if (all.empty() || !this->Tiles.anyStale())
   {
     return;
   }
@@ -125,14 +114,19 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
       {
         const int x0 = GroupTiles * (gx0 + static_cast<int>(group % columns));
         const int y0 = GroupTiles * (gy0 + static_cast<int>(group / columns));
-        this->gather(x0, y0, mine);
+        bool gathered = false;
         for (int tileY = std::max(y0, ty0); tileY < std::min(y0 + GroupTiles, ty1); ++tileY)
         {
           for (int tileX = std::max(x0, tx0); tileX < std::min(x0 + GroupTiles, tx1); ++tileX)
           {
             const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
-            if (!wanted || wanted[tile])
+            if (this->Tiles.isMerged(tile))
             {
+              if (!gathered)
+              {
+                this->gather(x0, y0, mine);
+                gathered = true;
+              }
               this->traceTile(tileX, tileY, mine);
             }
           }

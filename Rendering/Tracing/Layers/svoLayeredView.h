@@ -6,6 +6,7 @@
 #include "svoDepthBuffer.h"
 #include "svoIntersectTile.h"
 #include "svoLayerCache.h"
+#include "svoMergedTiles.h"
 #include "svoParallel.h"
 #include "svoScene.h"
 #include "svoVisibleInstances.h"
@@ -46,12 +47,13 @@ public:
     const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf, bool keep,
     LayerBudget& budget);
 
-  /// Traces and merges. With `wanted` (one byte a tile) only tiles marked there; a tile that is not
-  /// wanted is left without hits. What was merged last, of all tiles, stays where it would be the
-  /// same.
+  /// Traces and merges. With `wanted` (one byte a tile) only tiles marked there; others are left
+  /// without hits, unless they are what they were.
   void trace(const ParallelFor& parallelFor, const std::uint8_t* wanted);
   /// False if the depth buffer is the one that it was before trace().
-  bool changed() const { return this->Changed; }
+  bool changed() const { return this->Tiles.anyStale(); }
+  /// Which of its tiles are.
+  const MergedTiles& tiles() const { return this->Tiles; }
 
   /// Traces points of a tile, `count` times 64, through all instances; to be called after trace().
   void sample(int tileX, int tileY, TileSamples* samples, std::size_t count) const;
@@ -171,8 +173,6 @@ private:
   void merge(const Entry& entry, const float* t, const Primitive* primitive, const double* x,
     const double* y, MergedTile& merged) const;
   void traceTile(int tileX, int tileY, TileScratch& scratch);
-  /// True if Merged is what a frame's instances give; notes what it will be.
-  bool isMerged(const std::uint8_t* wanted);
 
   const bool Exact;
   View Seen;
@@ -181,6 +181,7 @@ private:
   std::vector<double> Bases;
   std::vector<double> Offsets; // of window depths
   bool Shifted = false;        // offsets of visible instances differ
+  bool WasShifted = false;     // in the last frame
   std::vector<int> Levels;
   std::vector<LeafGeometry> Geometries;
   std::vector<std::uint8_t> Placed;
@@ -188,21 +189,7 @@ private:
   std::vector<std::uint32_t> EntryOf; // index into Instances
   LayerCache Layers;
   DepthBuffer Merged;
-  /// What Merged shows, seen by MergedView; true of all tiles if MergedWhole.
-  struct Part
-  {
-    std::uint32_t index;
-    LayerKey key;
-    double offset;
-    bool operator==(const Part& other) const
-    {
-      return index == other.index && key == other.key && offset == other.offset;
-    }
-  };
-  std::vector<Part> MergedParts;
-  View MergedView;
-  bool MergedWhole = false;
-  bool Changed = true;
+  MergedTiles Tiles; // of Merged
   std::uint64_t Rays = 0;
   std::uint64_t Retraced = 0;
 };

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -243,4 +244,84 @@ TEST(KeptFrame, EdgesAreDividedAllTheSame)
       std::equal(a.color, a.color + 4, b.color));
   }
   EXPECT_EQ(first.pixels.size(), second.pixels.size());
+}
+
+namespace
+{
+/// Changes one thing of a scene of balls over a ground, or a few.
+void changeAnything(std::mt19937& random, const svo::Octree& ball, Stage& stage)
+{
+  const auto number = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  const auto somewhere = [&] { return movedTo(number(50) * 0.1 - 2.5, number(50) * 0.1 - 2.5, 0); };
+  std::vector<svo::Instance>& all = stage.scene.instances;
+  const auto any = [&]() -> svo::Instance& { return all[number(static_cast<int>(all.size()))]; };
+  switch (number(12))
+  {
+    case 0:
+    case 1:
+    case 2:
+      any().localToWorld = somewhere() * glm::scale(glm::dmat4(1.0), glm::dvec3(0.4));
+      break;
+    case 3:
+      if (all.size() > 3)
+      {
+        all.erase(all.begin() + number(static_cast<int>(all.size())));
+      }
+      break;
+    case 4:
+      all.push_back(instanceOf(ball, random(), somewhere()));
+      break;
+    case 5:
+      std::swap(any(), any());
+      break;
+    case 6:
+      any().material.diffuseColor = { 0.3f + 0.1f * number(7), 0.5f, 0.7f };
+      break;
+    case 7:
+      any().castShadow = number(2) != 0;
+      break;
+    case 8:
+      any().receiveShadow = number(2) != 0;
+      break;
+    case 9:
+      any().depthOffsetUnits = 1e-4f * static_cast<float>(number(2));
+      break;
+    case 10:
+      stage.scene.lights[0].position += glm::dvec3(0.1 * number(3), 0, 0);
+      break;
+    default:
+      if (number(3) == 0)
+      {
+        stage.view = lookAt({ 3, -5, 4.0 + 0.1 * number(3) }, 160 + 8 * number(2), 120);
+      }
+  }
+}
+}
+
+TEST(KeptFrame, AnySequenceOfChanges)
+{
+  std::vector<svo::FrameSettings> settings(5);
+  settings[1].shadowTechnique = svo::ShadowTechnique::Rays;
+  settings[2].antiAliasing = settings[2].filterShadows = true;
+  settings[3].wholeShadowBuffers = settings[3].writeNormals = true;
+  settings[4].layerMemoryLimit = 200000; // of a few layers
+  for (std::size_t s = 0; s < settings.size(); ++s)
+  {
+    Stage stage;
+    stage.settings = settings[s];
+    stage.settings.shadowResolution = 512;
+    std::mt19937 random(static_cast<unsigned>(s));
+    svo::CPUTracer tracer;
+    svo::Frame frame;
+    for (int step = 0; step < 60; ++step)
+    {
+      render(tracer, stage, frame);
+      ASSERT_TRUE(identical(rendered(stage.scene, stage.view, stage.settings), frame))
+        << "settings " << s << ", step " << step;
+      for (int k = static_cast<int>(random() % 3); k >= 0; --k)
+      {
+        changeAnything(random, stage.ball, stage);
+      }
+    }
+  }
 }

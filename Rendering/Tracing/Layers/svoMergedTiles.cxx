@@ -1,0 +1,72 @@
+#include "svoMergedTiles.h"
+
+#include <algorithm>
+
+namespace svo
+{
+void MergedTiles::touch(const PixelRect& rect, int tilesX)
+{
+  assert(((rect.x0 | rect.y0 | rect.x1 | rect.y1) & 7) == 0);
+  for (int y = rect.y0 / 8; y < rect.y1 / 8; ++y)
+  {
+    const auto row = this->Touched.begin() + static_cast<std::ptrdiff_t>(y) * tilesX;
+    std::fill(row + rect.x0 / 8, row + rect.x1 / 8, std::uint8_t(1));
+  }
+}
+
+bool MergedTiles::beginFrame(
+  const View& view, std::vector<MergedPart> parts, bool keep, const std::uint8_t* wanted)
+{
+  const int tilesX = (view.width + 7) / 8;
+  const std::size_t tiles = static_cast<std::size_t>(tilesX) * ((view.height + 7) / 8);
+  ++this->Frame;
+  const bool known = keep && this->States.size() == tiles && sameRays(view, this->Seen);
+  if (!known)
+  {
+    this->States.assign(tiles, Unknown);
+    this->Changes.resize(tiles);
+  }
+  this->Touched.assign(tiles, !known);
+  if (known)
+  {
+    // Both are in the order of their indices.
+    auto old = this->Parts.begin();
+    auto now = parts.begin();
+    while (old != this->Parts.end() || now != parts.end())
+    {
+      if (now == parts.end() || (old != this->Parts.end() && old->index < now->index))
+      {
+        this->touch((old++)->rect, tilesX);
+      }
+      else if (old == this->Parts.end() || now->index < old->index)
+      {
+        this->touch((now++)->rect, tilesX);
+      }
+      else
+      {
+        if (!(*old == *now))
+        {
+          this->touch(old->rect, tilesX);
+          this->touch(now->rect, tilesX);
+        }
+        ++old;
+        ++now;
+      }
+    }
+  }
+  this->Any = false;
+  for (std::size_t tile = 0; tile < tiles; ++tile)
+  {
+    const bool wants = !wanted || wanted[tile];
+    if (this->Touched[tile] || (wants && this->States[tile] == Unknown))
+    {
+      this->States[tile] = wants ? Known : Unknown;
+      this->Changes[tile] = this->Frame;
+      this->Any = true;
+    }
+  }
+  this->Seen = view;
+  this->Parts = std::move(parts);
+  return known;
+}
+}
