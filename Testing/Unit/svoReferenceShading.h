@@ -3,11 +3,11 @@
 #define svoReferenceShading_h
 
 #include "svoLightingLane.h"
+#include "svoPowerLane.h"
 #include "svoSurfacePoint.h"
 #include "svoViewLights.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace svo
@@ -28,7 +28,7 @@ inline Arriving arriving(const ViewLight& l, const glm::vec3& normal, const glm:
   if (onlyHeadlight)
   {
     const float df = std::max(0.0f, normal.z);
-    return { df * l.light->color, shines ? std::pow(df, material.specularPower) : 0.0f };
+    return { df * l.light->color, shines ? powLane(df, material.specularPower) : 0.0f };
   }
   ArrivingLane light{ l.direction, 1.0f };
   if (!l.light->atInfinity())
@@ -42,7 +42,7 @@ inline Arriving arriving(const ViewLight& l, const glm::vec3& normal, const glm:
   }
   const float df = diffuseLane(light.attenuation, normal, light.direction);
   const float sf = shines && df > 0.0f ? light.attenuation *
-      std::pow(highlightLane(position, normal, light.direction), material.specularPower)
+      powLane(highlightLane(position, normal, light.direction), material.specularPower)
                                        : 0.0f;
   return { df * l.light->color, sf };
 }

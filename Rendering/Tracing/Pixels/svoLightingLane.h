@@ -8,6 +8,7 @@
 #define svoLightingLane_h
 
 #include "svoLight.h"
+#include "svoPowerLane.h"
 
 #include <cmath>
 
@@ -44,7 +45,7 @@ inline ArrivingLane arriveLane(const glm::vec3& point, const glm::vec3& lamp, co
 inline float coneLane(const Light& lamp, float coneCosine, float cosine)
 {
   const float exponent = static_cast<float>(lamp.exponent);
-  return cosine >= coneCosine ? (exponent == 1.0f ? cosine : std::pow(cosine, exponent)) : 0.0f;
+  return cosine >= coneCosine ? (exponent == 1.0f ? cosine : powLane(cosine, exponent)) : 0.0f;
 }
 
 /// Share of the light that the surface scatters.

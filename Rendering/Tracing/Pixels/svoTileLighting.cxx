@@ -119,6 +119,29 @@ void arriveAtSurface(int n, bool shines, const float* dx, const float* dy, const
   }
 }
 
+void shine(int n, float power, const float* base, TileLight& l)
+{
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      l.specular[k] = powLane(base[k], power);
+    }
+  }
+}
+
+void shineAttenuated(int n, float power, const float* attenuation, TileLight& l)
+{
+  for (int i = 0; i < n; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      const float shone = attenuation[k] * powLane(l.base[k], power);
+      l.specular[k] = l.diffuse[k] > 0.0f ? shone : 0.0f;
+    }
+  }
+}
+
 void reach(int n, TileLight& l)
 {
   for (int i = 0; i < n; i += Step)
@@ -230,6 +253,8 @@ HWY_EXPORT(arriveFromEye);
 HWY_EXPORT(arriveFromPosition);
 HWY_EXPORT(towardsAxis);
 HWY_EXPORT(arriveAtSurface);
+HWY_EXPORT(shine);
+HWY_EXPORT(shineAttenuated);
 HWY_EXPORT(reach);
 HWY_EXPORT(add);
 HWY_EXPORT(addParts);
@@ -261,9 +286,9 @@ void arriveLight(
   if (lighting.onlyHeadlight)
   {
     HWY_DYNAMIC_DISPATCH(arriveFromEye)(count, light);
-    for (int i = 0; shines && i < count; ++i)
+    if (shines)
     {
-      light.specular[i] = std::pow(light.base[i], material.specularPower);
+      HWY_DYNAMIC_DISPATCH(shine)(count, material.specularPower, light.base, light);
     }
   }
   else
@@ -290,11 +315,9 @@ void arriveLight(
       }
     }
     HWY_DYNAMIC_DISPATCH(arriveAtSurface)(count, shines, dx, dy, dz, attenuation, light);
-    for (int i = 0; shines && i < count; ++i)
+    if (shines)
     {
-      light.specular[i] = light.diffuse[i] > 0.0f
-        ? attenuation[i] * std::pow(light.base[i], material.specularPower)
-        : 0.0f;
+      HWY_DYNAMIC_DISPATCH(shineAttenuated)(count, material.specularPower, attenuation, light);
     }
   }
   HWY_DYNAMIC_DISPATCH(reach)(count, light);
