@@ -1,0 +1,28 @@
+// A tile's pixels of a frame, put together patch by patch and written all at once.
+#ifndef svoTileImage_h
+#define svoTileImage_h
+
+#include "svoFrame.h"
+#include "svoTileLighting.h"
+#include "svoTilePatch.h"
+
+namespace svo
+{
+class TileImage
+{
+public:
+  /// `gaps`: some pixels may be misses.
+  explicit TileImage(bool gaps);
+  /// `offset`: to be added to window depths.
+  void put(const TilePatch& patch, const TileColors& colors, double offset);
+  /// Writes colours, depths and names of all pixels of the tile that are in the frame. Normals of
+  /// misses as well, if there are any.
+  void write(const TileHits& hits, Frame& frame) const;
+
+private:
+  alignas(64) std::uint32_t Color[TileHits::Most];
+  alignas(64) float Depth[TileHits::Most];
+};
+}
+
+#endif
