@@ -49,7 +49,7 @@ void PixelShader::eachTerminator(std::size_t l, const Lit& lit, std::uint64_t re
     {
       const SurfacePoint point = patch.point(i);
       const TerminatorPoint at = atTerminator(frame, light, shadows.grazing(), dark >> i & 1, point,
-        patch.towards(i), patch.hits.primitive[i]);
+        patch.towards(i), patch.hits->primitive[i]);
       if (at.kind != TerminatorPoint::Kind::Plain)
       {
         each(i, point, at);
@@ -124,7 +124,7 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
 /// Shades a tile's hits and writes its pixels, hits or not, all at once.
 void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, Frame& frame)
 {
-  TileImage image(hits.mask != ~std::uint64_t(0));
+  TileImage image(hits, frame);
   const FrameSettings& settings = lit.shaded.settings;
   const std::size_t corner = static_cast<std::size_t>(hits.y0) * frame.width + hits.x0;
   const auto pixelOf = [&](int i)
@@ -165,7 +165,7 @@ void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, 
         eachBit(patch.mask, [&](int i) { pixels[i] = scratch.darkness[i]; });
       }
     });
-  image.write(hits, frame);
+  image.write();
 }
 
 void PixelShader::shade(const ShadedScene& shaded, const ParallelFor& parallelFor, Frame& frame,

@@ -29,7 +29,7 @@ void windowDepths(const TilePatch& p, double offset, float* HWY_RESTRICT depths)
     }
     for (int k = i; k < i + TilePatch::Step; ++k)
     {
-      const double depth = view.windowDepth(base + static_cast<double>(p.hits.t[k])) + offset;
+      const double depth = view.windowDepth(base + static_cast<double>(p.hits->t[k])) + offset;
       const double low = depth < 0.0 ? 0.0 : depth;
       depths[k] = static_cast<float>(1.0 < low ? 1.0 : low);
     }
@@ -70,9 +70,19 @@ namespace svo
 {
 HWY_EXPORT(put);
 
-TileImage::TileImage(bool gaps)
+TileImage::TileImage(const TileHits& hits, Frame& frame)
+  : Hits(hits)
+  , Picture(frame)
 {
-  if (gaps)
+  for (int row = 0; row < 8 && hits.y0 + row < frame.height; ++row)
+  {
+    const std::size_t at = static_cast<std::size_t>(hits.y0 + row) * frame.width + hits.x0;
+    __builtin_prefetch(frame.color.data() + 4 * at, 1);
+    __builtin_prefetch(frame.depth.data() + at, 1);
+    __builtin_prefetch(frame.instance.data() + at, 1);
+    __builtin_prefetch(frame.primitive.data() + at, 1);
+  }
+  if (hits.mask != ~std::uint64_t(0))
   {
     std::fill_n(this->Color, TileHits::Most, 0u);
     std::fill_n(this->Depth, TileHits::Most, 1.0f);
@@ -84,8 +94,10 @@ void TileImage::put(const TilePatch& patch, const TileColors& colors, double off
   HWY_DYNAMIC_DISPATCH(put)(patch, colors, offset, this->Depth, this->Color);
 }
 
-void TileImage::write(const TileHits& hits, Frame& frame) const
+void TileImage::write() const
 {
+  const TileHits& hits = this->Hits;
+  Frame& frame = this->Picture;
   const int columns = std::min(frame.width - hits.x0, 8);
   const int rows = std::min(frame.height - hits.y0, 8);
   for (int row = 0; row < rows; ++row)

@@ -11,15 +11,18 @@ namespace svo
 class TileImage
 {
 public:
-  /// `gaps`: some pixels may be misses.
-  explicit TileImage(bool gaps);
+  /// To be made before the tile is shaded: asks for the frame's memory, which nobody has read, so
+  /// that writing it later does not wait.
+  TileImage(const TileHits& hits, Frame& frame);
   /// `offset`: to be added to window depths.
   void put(const TilePatch& patch, const TileColors& colors, double offset);
   /// Writes colours, depths and names of all pixels of the tile that are in the frame. Normals of
   /// misses as well, if there are any.
-  void write(const TileHits& hits, Frame& frame) const;
+  void write() const;
 
 private:
+  const TileHits& Hits;
+  Frame& Picture;
   alignas(64) std::uint32_t Color[TileHits::Most];
   alignas(64) float Depth[TileHits::Most];
 };

@@ -79,36 +79,39 @@ void spread(const TileTriangles& triangles, int column, SpreadVector& out)
   spread(triangles, column + 2, out.z);
 }
 
-/// Facets, and normals that are one triangle's.
+/// Facets, and which side of their triangles they show.
 void faceViewer(const TileTriangles& triangles, float* HWY_RESTRICT sides, TilePatch& p)
 {
   const PointOrigin origin = p.origin;
-  SpreadVector windings, normals;
+  SpreadVector windings;
   spread(triangles, TileTriangles::Facet, windings);
-  const bool ownNormals = triangles.ownNormals && !triangles.smooth;
-  if (ownNormals)
-  {
-    spread(triangles, TileTriangles::Normal, normals);
-  }
-  const SpreadVector& from = ownNormals ? normals : windings;
   for (int i = 0; i < TilePatch::Most; i += Step)
   {
     if (!p.has(i))
     {
       continue;
     }
-    const float *x = p.hits.x + i, *y = p.hits.y + i;
-    float facing[Step];
+    const float *x = p.hits->x + i, *y = p.hits->y + i;
     for (int k = 0; k < Step; ++k)
     {
       const glm::vec3 winding = windings.at(i + k);
-      facing[k] = sideLane(winding, -origin.rayTo(x[k], y[k]));
-      p.setFacet(i + k, facing[k] * winding);
+      const float side = sideLane(winding, -origin.rayTo(x[k], y[k]));
+      sides[i + k] = side;
+      p.setFacet(i + k, side * winding);
     }
-    for (int k = 0; k < Step; ++k)
+  }
+}
+
+/// Normals that are one triangle's: its own, or its facet's.
+void takeNormals(const TileTriangles& triangles, const float* HWY_RESTRICT sides, TilePatch& p)
+{
+  SpreadVector normals;
+  spread(triangles, triangles.ownNormals ? TileTriangles::Normal : TileTriangles::Facet, normals);
+  for (int i = 0; i < TilePatch::Most; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
     {
-      p.setNormal(i + k, facing[k] * from.at(i + k));
-      sides[i + k] = facing[k];
+      p.setNormal(k, sides[k] * normals.at(k));
     }
   }
 }
@@ -153,18 +156,19 @@ std::uint64_t interpolateNormals(
     {
       continue;
     }
-    std::uint32_t good[Step];
+    alignas(64) std::uint32_t good[Step];
     for (int k = 0; k < Step; ++k)
     {
       const glm::vec3 each[3] = { corners[0].at(i + k), corners[1].at(i + k),
         corners[2].at(i + k) };
       const glm::vec3 normal = weighted(weights.at(i + k), each);
-      good[k] = hasUnitLane(normal);
+      good[k] = hasUnitLane(normal) ? 1u : 0u;
       p.setNormal(i + k, sides[i + k] * unitLane(normal));
     }
-    for (int k = 0; k < Step; ++k)
+    const Words words;
+    for (int k = 0; k < Step; k += width())
     {
-      odd |= std::uint64_t(good[k] ^ 1u) << (i + k);
+      odd |= bitsOf(words, hn::Eq(hn::Load(words, good + k), hn::Zero(words))) << (i + k);
     }
   }
   return odd;
@@ -207,7 +211,7 @@ void colorByTexture(const TileTriangles& triangles, const Attributes& attributes
 /// Returns points that have to be done one by one.
 std::uint64_t look(const TileTriangles& triangles, const Attributes& attributes, TilePatch& p)
 {
-  alignas(64) float sides[TilePatch::Most];
+  alignas(64) float sides[TilePatch::Most] = {};
   TileWeights weights;
   std::uint64_t odd = triangles.oddLanes;
   faceViewer(triangles, sides, p);
@@ -218,6 +222,10 @@ std::uint64_t look(const TileTriangles& triangles, const Attributes& attributes,
   if (triangles.smooth)
   {
     odd |= interpolateNormals(triangles, weights, sides, p);
+  }
+  else
+  {
+    takeNormals(triangles, sides, p);
   }
   p.hasColor = triangles.hasColor();
   if (triangles.textured)
@@ -271,7 +279,7 @@ void lookAtPatch(const SurfaceMatrices& frame, TilePatch& patch, TileTriangles& 
     [&](int i)
     {
       lookAtPoint(
-        frame, patch.hits.primitive[i], frame.toOctree.point(patch.position(i)), i, patch);
+        frame, patch.hits->primitive[i], frame.toOctree.point(patch.position(i)), i, patch);
     });
   if (nodes != 0)
   {

@@ -18,7 +18,7 @@ void lookAtNodes(const SurfaceMatrices& frame, std::uint64_t lanes, TilePatch& p
     [&](int i)
     {
       const glm::vec3 to = patch.towards(i);
-      const Primitive primitive = patch.hits.primitive[i];
+      const Primitive primitive = patch.hits->primitive[i];
       assert(primitive & NodePrimitive);
       picked[i] = pickTriangle(frame, primitive & ~NodePrimitive, patch.position(i), to);
       if (!picked[i].faces)

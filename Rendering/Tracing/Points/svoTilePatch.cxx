@@ -66,7 +66,7 @@ void place(const PointOrigin& from, TilePatch& p)
     {
       continue;
     }
-    const float *x = p.hits.x + i, *y = p.hits.y + i;
+    const float *x = p.hits->x + i, *y = p.hits->y + i;
     for (int k = 0; k < TilePatch::Step; ++k)
     {
       const glm::vec3 way = origin.wayTo(x[k], y[k], p.deeper[i + k]);
@@ -144,7 +144,7 @@ void takePatch(
   assert((left & hits.mask) != 0 && (left & ~hits.mask) == 0);
   const int first = __builtin_ctzll(left);
   patch.view = &view;
-  patch.hits = hits;
+  patch.hits = &hits;
   patch.instance = hits.instance[first];
   patch.base = base;
   patch.origin = PointOrigin(view, hits.x0, hits.y0, patch.t(first));

@@ -92,7 +92,7 @@ struct TilePatch
   static constexpr float Reach = 256.0f; // pixels' widths
 
   const View* view = nullptr;
-  TileHits hits;
+  const TileHits* hits = nullptr;
   std::uint32_t instance; // of all
   double base;            // of the depths
   std::uint64_t mask;     // the hits that are of the patch
@@ -111,9 +111,9 @@ struct TilePatch
 
   /// True if some of the pixels from i on, Step of them, are of the patch.
   bool has(int i) const { return (mask >> i & ((1u << Step) - 1)) != 0; }
-  double x(int i) const { return hits.x0 + static_cast<double>(hits.x[i]); }
-  double y(int i) const { return hits.y0 + static_cast<double>(hits.y[i]); }
-  double t(int i) const { return base + static_cast<double>(hits.t[i]); }
+  double x(int i) const { return hits->x0 + static_cast<double>(hits->x[i]); }
+  double y(int i) const { return hits->y0 + static_cast<double>(hits->y[i]); }
+  double t(int i) const { return base + static_cast<double>(hits->t[i]); }
   /// In double.
   glm::dvec3 position(int i) const
   {

@@ -105,7 +105,7 @@ void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::ui
   TileTriangles& triangles)
 {
   assert(lanes != 0 && (lanes & ~patch.mask) == 0 && frame.instance->octree.surface());
-  HWY_DYNAMIC_DISPATCH(findDifferent)(patch.hits.primitive, lanes, triangles);
+  HWY_DYNAMIC_DISPATCH(findDifferent)(patch.hits->primitive, lanes, triangles);
   for (int k = 0; k < triangles.count; ++k)
   {
     __builtin_prefetch(&frame.instance->octree.surface()->triangles[triangles.primitive[k]]);

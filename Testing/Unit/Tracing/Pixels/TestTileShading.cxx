@@ -185,9 +185,9 @@ TEST(TileShading, PointsAreThoseOfSurfacePoint)
             eachBit(patch.mask,
               [&](int i)
               {
-                ASSERT_EQ(patch.hits.instance[i], patch.instance);
+                ASSERT_EQ(patch.hits->instance[i], patch.instance);
                 ++seen[patch.instance];
-                const Primitive primitive = patch.hits.primitive[i];
+                const Primitive primitive = patch.hits->primitive[i];
                 const Instance& instance = stage.scene.instances[patch.instance];
                 const SurfacePoint expected = surfacePoint(stage.frames[patch.instance], stage.view,
                   patch.x(i), patch.y(i), patch.t(i), primitive);
@@ -235,7 +235,7 @@ TEST(TileShading, PatchesHaveEveryHitOnce)
           eachBit(patch.mask,
             [&](int i)
             {
-              ++times[patch.hits.instance - depth.instance.data() + i];
+              ++times[patch.hits->instance - depth.instance.data() + i];
               const double deeper = patch.t(i) - patch.t(__builtin_ctzll(patch.mask));
               const double width = worldPixel(stage.view, patch.t(i));
               deep += std::abs(deeper) > 30.0 * width;

@@ -61,7 +61,7 @@ void eachSeenPoint(const svo::Instance& instance, int level, const std::vector<g
       look(view, tile,
         [&](int i)
         {
-          const svo::Primitive primitive = patch.hits.primitive[i];
+          const svo::Primitive primitive = patch.hits->primitive[i];
           ASSERT_TRUE(primitive & svo::NodePrimitive);
           const svo::SurfacePoint point =
             svo::surfacePoint(frames[0], view, patch.x(i), patch.y(i), patch.t(i), primitive);
