@@ -3,12 +3,12 @@
 #define svoReferenceShading_h
 
 #include "svoLightingLane.h"
+#include "svoPowerLane.h"
 #include "svoSurfacePoint.h"
 #include "svoViewLights.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace svo
 {
@@ -19,40 +19,41 @@ struct Arriving
   float specular; // times the light's colour
 };
 
-/// `normal` and `position` in view space. `onlyHeadlight`: VTK shades the scene by its headlight
-/// alone, for which it has a shorter formula with another highlight.
-inline Arriving arriving(const ViewLight& l, const glm::vec3& normal, const glm::vec3& position,
-  const Material& material, bool onlyHeadlight)
+/// `origin`: a place in the world, and `way` to the point from there. `onlyHeadlight`: VTK shades
+/// the scene by its headlight alone, for which it has a shorter formula with another highlight.
+inline Arriving arriving(const Lighting& lighting, const ViewLight& l, const glm::vec3& normal,
+  const glm::dvec3& origin, const glm::vec3& way, const Material& material)
 {
   const bool shines = material.specular > 0.0f;
-  if (onlyHeadlight)
+  if (lighting.onlyHeadlight)
   {
-    const float df = std::max(0.0f, normal.z);
-    return { df * l.light->color, shines ? std::pow(df, material.specularPower) : 0.0f };
+    const float df = positiveLane(glm::dot(normal, lighting.towardsEye));
+    return { df * l.light->color, shines ? powLane(df, material.specularPower) : 0.0f };
   }
   ArrivingLane light{ l.direction, 1.0f };
   if (!l.light->atInfinity())
   {
-    light = arriveLane(position, l.position, l.direction, l.light->attenuation);
+    light = arriveLane(glm::vec3(origin - l.position) + way, l.direction, l.light->attenuation);
     if (l.light->hasCone())
     {
       const float cosine = glm::dot(light.direction, l.direction);
-      light.attenuation *= coneLane(*l.light, l.coneCosine, cosine);
+      light.attenuation *= coneLane(static_cast<float>(l.light->exponent), l.coneCosine, cosine);
     }
   }
+  const glm::vec3 fromEye = glm::vec3(origin - lighting.eye) + way;
   const float df = diffuseLane(light.attenuation, normal, light.direction);
-  const float sf = shines && df > 0.0f ? light.attenuation *
-      std::pow(highlightLane(position, normal, light.direction), material.specularPower)
-                                       : 0.0f;
+  const float base = highlightLane(fromEye, lighting.towardsEye, normal, light.direction);
+  const float sf =
+    shines && df > 0.0f ? light.attenuation * powLane(base, material.specularPower) : 0.0f;
   return { df * l.light->color, sf };
 }
 
 /// Colour of a visible point, 0..1 and beyond. dark(light) is asked for lights that reach the
 /// point only, and says which share of the light, 0..1, something between them takes, or whether
-/// something does; of what is taken `remaining` is left.
+/// something does; of what is taken `remaining` is left. The point is at `way` from `origin`.
 template <class Dark>
 glm::vec3 shade(const Lighting& lighting, const Instance& instance, const SurfacePoint& point,
-  float remaining, Dark&& dark)
+  const glm::dvec3& origin, const glm::vec3& way, float remaining, Dark&& dark)
 {
   const Material& material = instance.material;
   const glm::vec3 ambient =
@@ -75,13 +76,10 @@ glm::vec3 shade(const Lighting& lighting, const Instance& instance, const Surfac
   {
     return colored(false);
   }
-  const glm::vec3 normal = lighting.rotation * point.normal;
-  const glm::vec3 position(lighting.worldToView * glm::dvec4(point.position, 1.0));
   for (std::size_t l = 0; l < lighting.lights.size(); ++l)
   {
     const Light& light = *lighting.lights[l].light;
-    const Arriving a =
-      arriving(lighting.lights[l], normal, position, material, lighting.onlyHeadlight);
+    const Arriving a = arriving(lighting, lighting.lights[l], point.normal, origin, way, material);
     const bool reached = a.diffuse != glm::vec3(0.0f) || a.specular > 0.0f;
     const float share = reached && instance.receiveShadow && light.castShadow
       ? shareOfLight(static_cast<float>(dark(l)), remaining)
@@ -90,6 +88,15 @@ glm::vec3 shade(const Lighting& lighting, const Instance& instance, const Surfac
     specular += share * a.specular * light.color;
   }
   return colored(true);
+}
+
+/// The same of a point that is its own origin.
+template <class Dark>
+glm::vec3 shade(const Lighting& lighting, const Instance& instance, const SurfacePoint& point,
+  float remaining, Dark&& dark)
+{
+  return shade(lighting, instance, point, point.position, glm::vec3(0.0f), remaining,
+    std::forward<Dark>(dark));
 }
 }
 

@@ -9,7 +9,7 @@
 #include "svoSelectLevel.h"
 #include "svoShadows.h"
 #include "svoSilhouetteFinder.h"
-#include "svoTilePoints.h"
+#include "svoTilePatch.h"
 
 #include <algorithm>
 #include <chrono>
@@ -112,17 +112,15 @@ void CPUTracer::Internals::markLightTiles(
   {
     return;
   }
-  this->Tiles.each<TilePoints>(parallelFor,
-    [&](int tileX, int tileY, TilePoints& points)
+  this->Tiles.each<TilePatch>(parallelFor,
+    [&](int tileX, int tileY, TilePatch& patch)
     {
-      const auto receives = [&](std::uint32_t i)
-      { return scene.instances[i].receiveShadow && scene.instances[i].material.lighting; };
-      const auto baseOf = [&](std::uint32_t i) { return this->Eye.base(i); };
-      if (takePoints(this->Eye.depthBuffer(), view, tileX, tileY, receives, baseOf, points))
-      {
-        placePoints(view, points);
-        this->LightShadows.mark(points);
-      }
+      eachPatch(
+        view, hitsOfTile(this->Eye.depthBuffer(), view, tileX, tileY),
+        [&](std::uint32_t i)
+        { return scene.instances[i].receiveShadow && scene.instances[i].material.lighting; },
+        [&](std::uint32_t i) { return this->Eye.base(i); }, patch,
+        [&](const TilePatch&) { this->LightShadows.mark(patch); });
     });
 }
 

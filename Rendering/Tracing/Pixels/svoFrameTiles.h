@@ -35,7 +35,7 @@ public:
     parallelFor(0, this->Hits.size(), 32,
       [&](std::size_t first, std::size_t last)
       {
-        Scratch scratch{};
+        Scratch scratch;
         for (std::size_t k = first; k < last; ++k)
         {
           const int tile = static_cast<int>(this->Hits[k]);

@@ -3,11 +3,12 @@
 // points of a tile (svoTileLighting.cxx) call it, and become vectors; the tests' reference calls it
 // for one point.
 //
-// Frame of reference: view space; lengths in the world's unit.
+// Frame of reference: the world's axes and unit of length; points are ways from the eye, or from a
+// lamp, whose rounding does not grow with how far the world's origin is.
 #ifndef svoLightingLane_h
 #define svoLightingLane_h
 
-#include "svoLight.h"
+#include "svoPowerLane.h"
 
 #include <cmath>
 
@@ -21,6 +22,12 @@ inline float positiveLane(float value)
   return 0.0f < value ? value : 0.0f;
 }
 
+/// One of two vectors, by components: a choice between two objects were one between places.
+inline glm::vec3 chosenLane(bool first, const glm::vec3& a, const glm::vec3& b)
+{
+  return { first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z };
+}
+
 /// The light of a lamp at a place that arrives at a point.
 struct ArrivingLane
 {
@@ -28,23 +35,23 @@ struct ArrivingLane
   float attenuation;   // without the cone's
 };
 
-/// `lamp`: the place; `axis`: the direction at the lamp's own place; `attenuation`: constant,
-/// linear, quadratic.
-inline ArrivingLane arriveLane(const glm::vec3& point, const glm::vec3& lamp, const glm::vec3& axis,
-  const glm::vec3& attenuation)
+/// `way`: from the lamp to the point; `axis`: the direction at the lamp's own place; `attenuation`:
+/// constant, linear, quadratic.
+inline ArrivingLane arriveLane(
+  const glm::vec3& way, const glm::vec3& axis, const glm::vec3& attenuation)
 {
-  const glm::vec3 way = point - lamp;
   const float distance = std::sqrt(glm::dot(way, way));
-  return { distance > 0.0f ? way / distance : axis,
+  const glm::vec3 along = way * (1.0f / distance);
+  return { chosenLane(distance > 0.0f, along, axis),
     1.0f / (attenuation.x + attenuation.y * distance + attenuation.z * distance * distance) };
 }
 
 /// Share of the light of a lamp with a cone that it sends `cosine` off its axis. `coneCosine`: of
-/// the half angle.
-inline float coneLane(const Light& lamp, float coneCosine, float cosine)
+/// the half angle; `exponent`: of the fall-off.
+inline float coneLane(float exponent, float coneCosine, float cosine)
 {
-  const float exponent = static_cast<float>(lamp.exponent);
-  return cosine >= coneCosine ? (exponent == 1.0f ? cosine : std::pow(cosine, exponent)) : 0.0f;
+  const float share = exponent == 1.0f ? cosine : powLane(cosine, exponent);
+  return cosine >= coneCosine ? share : 0.0f;
 }
 
 /// Share of the light that the surface scatters.
@@ -54,11 +61,12 @@ inline float diffuseLane(float attenuation, const glm::vec3& normal, const glm::
 }
 
 /// The base of the highlight's power: the cosine between the mirrored light and the way to the eye.
-inline float highlightLane(
-  const glm::vec3& point, const glm::vec3& normal, const glm::vec3& direction)
+/// `point`: the way from there, `axis`: the eye's own, towards it.
+inline float highlightLane(const glm::vec3& point, const glm::vec3& axis, const glm::vec3& normal,
+  const glm::vec3& direction)
 {
   const float length = std::sqrt(glm::dot(point, point));
-  const glm::vec3 towards = length > 0.0f ? -point / length : glm::vec3(0.0f, 0.0f, 1.0f);
+  const glm::vec3 towards = chosenLane(length > 0.0f, point * (-1.0f / length), axis);
   const glm::vec3 mirrored = direction - normal * glm::dot(normal, direction) * 2.0f;
   return positiveLane(glm::dot(mirrored, towards));
 }

@@ -3,11 +3,11 @@
 #include "svoLeafError.h"
 #include "svoShownDepth.h"
 #include "svoTerminator.h"
+#include "svoTileImage.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 
 namespace svo
 {
@@ -30,176 +30,142 @@ void PixelShader::prepare(const Scene& scene, ShadowTechnique technique, const L
   }
 }
 
-/// Asks once more for those points first + i, of one instance, that light l reaches though their
-/// facets turn away from it, or are dark and nearly do. `darkness`: of point i, any number above 0
-/// where TileLight::dark is.
-template <class Number>
-void PixelShader::shadowTerminator(
-  std::size_t l, const Lit& lit, int first, int last, Scratch& scratch, Number* darkness) const
+/// Asks once more for those points that light l reaches though their facets turn away from it, or
+/// are dark and nearly do. each(i, darkness): of point i, what it takes in addition to what it has.
+template <class Each>
+void PixelShader::eachTerminator(std::size_t l, const Lit& lit, std::uint64_t reached,
+  std::uint64_t dark, Scratch& scratch, Each&& each) const
 {
-  const TilePoints& p = scratch.points;
+  const TilePatch& patch = scratch.patch;
   const Light& light = *lit.lighting.lights[l].light;
-  const Shadows& dark = lit.shaded.dark;
-  const SurfaceMatrices& frame = this->Frames[p.instance[first]];
-  std::uint8_t turned[TilePoints::Room];
-  if (!this->Smooth[p.instance[first]] || !dark.knowsTerminator(l) ||
-    !mayTurnAway(
-      light, dark.grazing(), p, first, last, scratch.light.reached, scratch.light.dark, turned))
+  const Shadows& shadows = lit.shaded.dark;
+  if (!this->Smooth[patch.instance] || !shadows.knowsTerminator(l))
   {
     return;
   }
-  for (int i = 0; i < last - first; ++i)
-  {
-    const int k = first + i;
-    if (turned[i])
+  const SurfaceMatrices& frame = this->Frames[patch.instance];
+  eachBit(mayTurnAway(light, shadows.grazing(), patch, reached, dark),
+    [&](int i)
     {
-      const TerminatorPoint at = atTerminator(frame, light, dark.grazing(), scratch.light.dark[i],
-        p.point(k), { p.towardsX[k], p.towardsY[k], p.towardsZ[k] }, p.primitive[k]);
+      const SurfacePoint point = patch.point(i);
+      const TerminatorPoint at = atTerminator(frame, light, shadows.grazing(), dark >> i & 1, point,
+        patch.towards(i), patch.hits->primitive[i]);
       if (at.kind != TerminatorPoint::Kind::Plain)
       {
-        const float plain = darkness[i];
-        darkness[i] = static_cast<Number>(dark.darkness(l, p.point(k), at, plain,
-          this->Errors[p.instance[k]], dark.filters() ? scratch.extents[i] : 0.0, scratch.rays));
+        each(i, point, at);
       }
-    }
-  }
+    });
 }
 
-/// Shadows of light l on points [first, last) of one instance that it reaches, and adds the light.
-void PixelShader::shadowAndAdd(
-  std::size_t l, const Lit& lit, int first, int last, Scratch& scratch) const
+/// Shadows of light l on points that it reaches: what they leave of it.
+void PixelShader::shadow(
+  std::size_t l, const Lit& lit, std::uint64_t reached, Scratch& scratch) const
 {
-  const Shadows& dark = lit.shaded.dark;
-  const TilePoints& points = scratch.points;
-  TileLight& light = scratch.light;
-  const int count = last - first;
-  const double error = this->Errors[points.instance[first]];
-  if (!dark.filters())
+  const Shadows& shadows = lit.shaded.dark;
+  const TilePatch& patch = scratch.patch;
+  const double error = this->Errors[patch.instance];
+  float* missed = scratch.missed;
+  std::fill_n(missed, TilePatch::Most, 0.0f);
+  std::uint64_t dark = 0;
+  if (shadows.filters())
   {
-    dark.dark(l, points, first, last, error, light.reached, light.dark, scratch.rays);
-    this->shadowTerminator(l, lit, first, last, scratch, light.dark);
-    for (int i = 0; i < count && this->FindsEdges; ++i)
+    eachBit(patch.mask,
+      [&](int i)
+      { scratch.extents[i] = lit.samples ? 0.5 * worldPixel(lit.shaded.view, patch.t(i)) : 0.0; });
+    shadows.darkness(l, patch, error, scratch.extents, reached, missed);
+    eachBit(reached, [&](int i) { dark |= std::uint64_t(missed[i] > 0.0f) << i; });
+  }
+  else
+  {
+    dark = shadows.dark(l, patch, error, reached, scratch.rays);
+    eachBit(dark, [&](int i) { missed[i] = 1.0f; });
+  }
+  std::uint64_t changed = dark;
+  this->eachTerminator(l, lit, reached, dark, scratch,
+    [&](int i, const SurfacePoint& point, const TerminatorPoint& at)
     {
-      darken(scratch.darkness[first + i], l, light.dark[i]);
-    }
-    addLight(lit.lighting.lights[l], lit.remaining, count, light);
-    return;
-  }
-  for (int i = 0; i < count; ++i)
+      missed[i] = shadows.darkness(
+        l, point, at, missed[i], error, shadows.filters() ? scratch.extents[i] : 0.0, scratch.rays);
+      changed |= std::uint64_t(1) << i;
+    });
+  std::fill_n(scratch.light.share, TilePatch::Most, 1.0f);
+  eachBit(changed, [&](int i) { scratch.light.share[i] = shareOfLight(missed[i], lit.remaining); });
+  if (this->FindsEdges)
   {
-    scratch.extents[i] = lit.samples ? 0.5 * worldPixel(lit.shaded.view, points.t[first + i]) : 0.0;
+    eachBit(patch.mask, [&](int i) { darken(scratch.darkness[i], l, missed[i]); });
   }
-  dark.darkness(l, points, first, last, error, scratch.extents, light.reached, scratch.missed);
-  for (int i = 0; i < count; ++i)
-  {
-    light.dark[i] = scratch.missed[i] > 0.0f;
-  }
-  this->shadowTerminator(l, lit, first, last, scratch, scratch.missed);
-  for (int i = 0; i < count; ++i)
-  {
-    light.share[i] = shareOfLight(scratch.missed[i], lit.remaining);
-  }
-  for (int i = 0; i < count && this->FindsEdges; ++i)
-  {
-    darken(scratch.darkness[first + i], l, scratch.missed[i]);
-  }
-  addShares(lit.lighting.lights[l], count, light);
 }
 
-/// Colours points [first, last) of one instance.
-void PixelShader::lightInstance(
-  const Lit& lit, int first, int last, bool hasColor, Scratch& scratch) const
+/// Colours the points of a patch.
+void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
 {
   const Lighting& lighting = lit.lighting;
-  const TilePoints& points = scratch.points;
-  TileLight& light = scratch.light;
-  const std::uint32_t index = points.instance[first];
-  const Instance& instance = lit.shaded.scene.instances[index];
-  const int count = last - first;
-  std::fill_n(scratch.darkness + first, count, Darkness(0));
-  if (instance.material.lighting && !lighting.lights.empty())
+  TilePatch& patch = scratch.patch;
+  const Instance& instance = lit.shaded.scene.instances[patch.instance];
+  lookAtPatch(this->Frames[patch.instance], patch, scratch.triangles);
+  std::fill_n(scratch.darkness, TilePatch::Most, Darkness(0));
+  const bool isLit = instance.material.lighting && !lighting.lights.empty();
+  for (std::size_t l = 0; isLit && l < lighting.lights.size(); ++l)
   {
-    toViewSpace(lighting, points, first, last, light);
-    for (std::size_t l = 0; l < lighting.lights.size(); ++l)
+    const std::uint64_t reached = arriveLight(lighting, l, instance.material, patch, scratch.light);
+    if (instance.receiveShadow && lighting.lights[l].light->castShadow)
     {
-      arriveLight(lighting, l, instance.material, count, light);
-      if (instance.receiveShadow && lighting.lights[l].light->castShadow)
-      {
-        this->shadowAndAdd(l, lit, first, last, scratch);
-      }
-      else
-      {
-        std::fill_n(light.dark, count, std::uint8_t(0));
-        addLight(lighting.lights[l], lit.remaining, count, light);
-      }
+      this->shadow(l, lit, reached, scratch);
     }
+    else
+    {
+      std::fill_n(scratch.light.share, TilePatch::Most, 1.0f);
+    }
+    addLight(lighting.lights[l], patch, l == 0, scratch.light);
   }
-  finishLight(lighting, instance.material, points, first, last, hasColor, light, scratch.colors);
+  finishLight(instance.material, isLit, patch, scratch.light, scratch.colors);
 }
 
-void PixelShader::shadePoints(const Lit& lit, Scratch& scratch) const
+/// Shades a tile's hits and writes its pixels, hits or not, all at once.
+void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, Frame& frame)
 {
-  TilePoints& points = scratch.points;
-  lookAtPoints(this->Frames, lit.shaded.view, points);
-  for (int run = 0; run < points.runCount;)
-  {
-    const int first = points.runs[run].first;
-    const std::uint32_t instance = points.runs[run].instance;
-    const bool hasColor = points.runs[run].hasColor;
-    int last = first;
-    for (; run < points.runCount && points.runs[run].instance == instance; ++run)
+  TileImage image(hits, frame);
+  const FrameSettings& settings = lit.shaded.settings;
+  const std::size_t corner = static_cast<std::size_t>(hits.y0) * frame.width + hits.x0;
+  const auto pixelOf = [&](int i)
+  { return corner + static_cast<std::size_t>(i >> 3) * frame.width + (i & 7); };
+  this->shadePatches(lit, hits, scratch,
+    [&]
     {
-      last = points.runs[run].last;
-    }
-    this->lightInstance(lit, first, last, hasColor, scratch);
-  }
-  packColors(scratch.colors, points.count, scratch.rgba);
-}
-
-/// Writes a tile's points into the frame.
-void PixelShader::write(const Lit& lit, int tileX, int tileY, const Scratch& scratch, Frame& frame)
-{
-  const TilePoints& points = scratch.points;
-  const std::size_t corner = static_cast<std::size_t>(8 * tileY) * frame.width + 8 * tileX;
-  for (int run = 0; run < points.runCount; ++run)
-  {
-    const TilePoints::Run& r = points.runs[run];
-    const double offset = shownOffset(lit.shaded.scene.instances[r.instance], lit.shaded.view);
-    for (int i = r.first; i < r.last; ++i)
-    {
-      const int k = points.pixel[i];
-      const std::size_t pixel = corner + static_cast<std::size_t>(k >> 3) * frame.width + (k & 7);
-      std::memcpy(frame.color.data() + 4 * pixel, scratch.rgba + i, 4);
-      frame.depth[pixel] = static_cast<float>(std::clamp(points.window[i] + offset, 0.0, 1.0));
-      frame.instance[pixel] = r.instance;
-      frame.primitive[pixel] = points.primitive[i];
-    }
-  }
-  for (int i = 0; lit.shaded.settings.writeNormals && i < points.count; ++i)
-  {
-    const int k = points.pixel[i];
-    const std::size_t pixel = corner + static_cast<std::size_t>(k >> 3) * frame.width + (k & 7);
-    const bool hasNormal = lit.shaded.scene.instances[points.instance[i]].material.lighting;
-    const glm::vec3 normal = hasNormal
-      ? lit.lighting.rotation * glm::vec3(points.normalX[i], points.normalY[i], points.normalZ[i])
-      : glm::vec3(0.0f);
-    std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixel);
-  }
-  const auto positive = [](float v) { return v > 0.0f ? v : 0.0f; }; // not a number: no light
-  for (int i = 0; lit.shaded.settings.writeLight && i < points.count; ++i)
-  {
-    const int k = points.pixel[i];
-    const std::size_t pixel = corner + static_cast<std::size_t>(k >> 3) * frame.width + (k & 7);
-    frame.light[3 * pixel] = positive(scratch.colors.r[i]);
-    frame.light[3 * pixel + 1] = positive(scratch.colors.g[i]);
-    frame.light[3 * pixel + 2] = positive(scratch.colors.b[i]);
-  }
-  const std::size_t tile =
-    static_cast<std::size_t>(tileY) * lit.shaded.eye.depthBuffer().tilesX + tileX;
-  for (int i = 0; this->FindsEdges && i < points.count; ++i)
-  {
-    this->DarkPixels[64 * tile + points.pixel[i]] = scratch.darkness[i];
-  }
+      const TilePatch& patch = scratch.patch;
+      const Instance& instance = lit.shaded.scene.instances[patch.instance];
+      image.put(patch, scratch.colors, shownOffset(instance, lit.shaded.view));
+      if (settings.writeNormals)
+      {
+        eachBit(patch.mask,
+          [&](int i)
+          {
+            const glm::vec3 normal = instance.material.lighting
+              ? lit.lighting.rotation * patch.normal(i)
+              : glm::vec3(0.0f);
+            std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixelOf(i));
+          });
+      }
+      if (settings.writeLight)
+      {
+        const auto positive = [](float v) { return v > 0.0f ? v : 0.0f; }; // NaN: no light
+        eachBit(patch.mask,
+          [&](int i)
+          {
+            float* light = frame.light.data() + 3 * pixelOf(i);
+            light[0] = positive(scratch.colors.r[i]);
+            light[1] = positive(scratch.colors.g[i]);
+            light[2] = positive(scratch.colors.b[i]);
+          });
+      }
+      if (this->FindsEdges)
+      {
+        Darkness* pixels =
+          this->DarkPixels.data() + (hits.instance - lit.shaded.eye.depthBuffer().instance.data());
+        eachBit(patch.mask, [&](int i) { pixels[i] = scratch.darkness[i]; });
+      }
+    });
+  image.write();
 }
 
 void PixelShader::shade(const ShadedScene& shaded, const ParallelFor& parallelFor, Frame& frame,
@@ -216,25 +182,12 @@ void PixelShader::shade(const ShadedScene& shaded, const ParallelFor& parallelFo
   shaded.tiles.each<Scratch>(parallelFor,
     [&](int tileX, int tileY, Scratch& scratch)
     {
-      TilePoints& points = scratch.points;
-      takePoints(
-        depth, shaded.view, tileX, tileY, [](std::uint32_t) { return true; },
-        [&](std::uint32_t i) { return shaded.eye.base(i); }, points);
-      if (points.count < TilePoints::Most)
-      {
-        wipeTile(frame, 8 * tileX, 8 * tileY);
-      }
-      if (points.count == 0) // hits beyond the border of the image only
-      {
-        return;
-      }
       scratch.rays = 0;
-      this->shadePoints(lit, scratch);
+      this->write(lit, hitsOfTile(depth, shaded.view, tileX, tileY), scratch, frame);
       if (scratch.rays > 0)
       {
         allRays.fetch_add(scratch.rays, std::memory_order_relaxed);
       }
-      this->write(lit, tileX, tileY, scratch, frame);
     });
   statistics.shadowRays += allRays;
 }

@@ -10,7 +10,8 @@
 #include "svoShadows.h"
 #include "svoSurfacePoint.h"
 #include "svoTileLighting.h"
-#include "svoTilePoints.h"
+#include "svoTileLook.h"
+#include "svoTilePatch.h"
 #include "svoViewLights.h"
 
 #include <cstddef>
@@ -65,27 +66,38 @@ public:
   /// What a thread needs to shade up to 64 points.
   struct Scratch
   {
-    TilePoints points;
+    TilePatch patch;
+    TileTriangles triangles;
     TileLight light;
     TileColors colors;
-    std::uint32_t rgba[TilePoints::Room];
-    double extents[TilePoints::Room];    // world, as `missed`: ShadowBuffer::darkness()
-    float missed[TilePoints::Room];      // by index of the point minus the first: of one light
-    Darkness darkness[TilePoints::Most]; // by index of the point
-    std::uint64_t rays;                  // of shadows
+    double extents[TilePatch::Most];    // world, as `missed`: ShadowBuffer::darkness()
+    float missed[TilePatch::Most];      // by pixel: of one light
+    Darkness darkness[TilePatch::Most]; // by pixel
+    std::uint64_t rays;                 // of shadows
   };
 
-  /// After shade(): colours points anywhere in the image, of which everything up to `t` is set.
-  /// Reorders them and sets `colors` and `rgba`, by index of the point. Adds to the rays.
-  void shadePoints(const Lit& lit, Scratch& scratch) const;
+  /// After shade(): colours the points of hits anywhere in a tile, patch by patch: sets `colors`
+  /// and `darkness` where the patch is and calls f(). Adds to the rays.
+  template <class F>
+  void shadePatches(const Lit& lit, const TileHits& hits, Scratch& scratch, F&& f) const
+  {
+    eachPatch(
+      lit.shaded.view, hits, [](std::uint32_t) { return true; },
+      [&](std::uint32_t i) { return lit.shaded.eye.base(i); }, scratch.patch,
+      [&](const TilePatch&)
+      {
+        this->shadePatch(lit, scratch);
+        f();
+      });
+  }
 
 private:
-  void shadowAndAdd(std::size_t l, const Lit& lit, int first, int last, Scratch& scratch) const;
-  template <class Number>
-  void shadowTerminator(
-    std::size_t l, const Lit& lit, int first, int last, Scratch& scratch, Number* darkness) const;
-  void lightInstance(const Lit& lit, int first, int last, bool hasColor, Scratch& scratch) const;
-  void write(const Lit& lit, int tileX, int tileY, const Scratch& scratch, Frame& frame);
+  void shadePatch(const Lit& lit, Scratch& scratch) const;
+  void shadow(std::size_t l, const Lit& lit, std::uint64_t reached, Scratch& scratch) const;
+  template <class Each>
+  void eachTerminator(std::size_t l, const Lit& lit, std::uint64_t reached, std::uint64_t dark,
+    Scratch& scratch, Each&& each) const;
+  void write(const Lit& lit, const TileHits& hits, Scratch& scratch, Frame& frame);
 
   // By index into Scene::instances.
   std::vector<SurfaceMatrices> Frames;

@@ -26,37 +26,35 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
   {
     int pixels[64];
     TileSamples samples;
+    TileHitList hits;
     glm::vec3 colors[64]; // of the samples
     PixelShader::Scratch shading;
   };
-  const auto color = [&](EdgeScratch& scratch)
+  const auto color = [&](int tileX, int tileY, EdgeScratch& scratch)
   {
     const TileSamples& samples = scratch.samples;
-    TilePoints& points = scratch.shading.points;
-    points.count = 0;
+    scratch.hits.start(8 * tileX, 8 * tileY);
     for (int k = 0; k < 64; ++k)
     {
-      if (samples.instance[k] != NoInstance)
+      const std::uint32_t instance = samples.instance[k];
+      if (instance != NoInstance)
       {
-        const int i = points.count++;
-        points.pixel[i] = static_cast<std::uint8_t>(k);
-        points.instance[i] = samples.instance[k];
-        points.primitive[i] = samples.primitive[k];
-        points.x[i] = samples.x[k];
-        points.y[i] = samples.y[k];
-        points.t[i] = samples.t[k];
+        scratch.hits.put(k, samples.x[k], samples.y[k],
+          static_cast<float>(samples.t[k] - shaded.eye.base(instance)), instance,
+          samples.primitive[k]);
       }
     }
-    if (points.count > 0)
-    {
-      this->shadePoints(lit, scratch.shading);
-    }
-    const TileColors& found = scratch.shading.colors;
-    for (int i = 0; i < points.count; ++i)
-    {
-      scratch.colors[points.pixel[i]] =
-        glm::clamp(glm::vec3(found.r[i], found.g[i], found.b[i]), 0.0f, brightest);
-    }
+    this->shadePatches(lit, scratch.hits.hits, scratch.shading,
+      [&]
+      {
+        const TileColors& found = scratch.shading.colors;
+        eachBit(scratch.shading.patch.mask,
+          [&](int i)
+          {
+            scratch.colors[i] =
+              glm::clamp(glm::vec3(found.r[i], found.g[i], found.b[i]), 0.0f, brightest);
+          });
+      });
   };
   const auto smoothTile = [&](int tileX, int tileY, EdgeScratch& scratch)
   {
@@ -76,7 +74,7 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
       primaryRays.fetch_add(64, std::memory_order_relaxed);
       std::fill(samples.instance + 4 * std::min(16, count - first), samples.instance + 64,
         NoInstance); // of no further pixel
-      color(scratch);
+      color(tileX, tileY, scratch);
       for (int p = 0; p < std::min(16, count - first); ++p)
       {
         glm::vec3 sum(0.0f);

@@ -44,6 +44,7 @@ struct TileScratch
   std::vector<TileSamples> samples;
   std::vector<Facet> facets;
   std::vector<std::size_t> shaded; // indices of facets
+  TileHitList hits;
   PixelShader::Scratch shading;
 };
 
@@ -72,7 +73,7 @@ public:
     }
     this->trace(tileX, tileY, scratch);
     this->findFacets(scratch);
-    this->color(scratch);
+    this->color(tileX, tileY, scratch);
     for (const EdgePixel& pixel : scratch.pixels)
     {
       this->divide(pixel, scratch.facets, result);
@@ -177,7 +178,7 @@ private:
 
   /// Colours all facets: those that the pixel's centre sees as the frame has it, others at the
   /// middle of their samples.
-  void color(TileScratch& scratch) const
+  void color(int tileX, int tileY, TileScratch& scratch) const
   {
     scratch.shaded.clear();
     for (const EdgePixel& pixel : scratch.pixels)
@@ -196,27 +197,29 @@ private:
         std::copy_n(this->Picture.color.data() + 4 * shownBy, 4, facet.color);
       }
     }
-    TilePoints& points = scratch.shading.points;
-    for (std::size_t first = 0; first < scratch.shaded.size(); first += TilePoints::Most)
+    TileHitList& list = scratch.hits;
+    for (std::size_t first = 0; first < scratch.shaded.size(); first += TileHits::Most)
     {
-      points.count =
-        static_cast<int>(std::min<std::size_t>(scratch.shaded.size() - first, TilePoints::Most));
-      for (int i = 0; i < points.count; ++i)
+      const std::size_t count =
+        std::min<std::size_t>(scratch.shaded.size() - first, TileHits::Most);
+      list.start(8 * tileX, 8 * tileY);
+      for (std::size_t i = 0; i < count; ++i)
       {
         const Facet& facet = scratch.facets[scratch.shaded[first + i]];
-        points.pixel[i] = static_cast<std::uint8_t>(i);
-        points.instance[i] = facet.instance;
-        points.primitive[i] = facet.primitive;
-        points.x[i] = facet.x;
-        points.y[i] = facet.y;
-        points.t[i] = facet.t;
+        const double base = this->Lit.shaded.eye.base(facet.instance);
+        list.put(static_cast<int>(i), facet.x, facet.y, static_cast<float>(facet.t - base),
+          facet.instance, facet.primitive);
       }
-      this->Shader.shadePoints(this->Lit, scratch.shading);
-      for (int i = 0; i < points.count; ++i)
-      {
-        Facet& facet = scratch.facets[scratch.shaded[first + points.pixel[i]]];
-        std::memcpy(facet.color, scratch.shading.rgba + i, 4);
-      }
+      this->Shader.shadePatches(this->Lit, list.hits, scratch.shading,
+        [&]
+        {
+          eachBit(scratch.shading.patch.mask,
+            [&](int i)
+            {
+              Facet& facet = scratch.facets[scratch.shaded[first + i]];
+              std::memcpy(facet.color, scratch.shading.colors.rgba + i, 4);
+            });
+        });
     }
   }
 

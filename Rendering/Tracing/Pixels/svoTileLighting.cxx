@@ -4,11 +4,10 @@
 
 #include "svoTileLighting.h"
 
+#include "svoLaneBits-inl.h"
 #include "svoLightingLane.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include <hwy/highway.h>
 
@@ -17,206 +16,245 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-constexpr int Step = TilePoints::Step;
+constexpr int Step = TilePatch::Step;
 
-void begin(const glm::mat3& rotation, const glm::dmat4& worldToView, const TilePoints& p, int first,
-  int last, TileLight& l)
+/// Calls f(i) for the first of each Step pixels that the patch has some of.
+template <class F>
+HWY_INLINE void eachStep(const TilePatch& patch, F&& f)
 {
-  const glm::mat3 turn = rotation;
-  const glm::dmat4 toView = worldToView;
-  for (int i = first; i < last; i += Step)
+  for (int i = 0; i < TilePatch::Most; i += Step)
   {
-    for (int k = i; k < i + Step; ++k)
+    if (patch.has(i))
     {
-      const glm::vec3 normal = turn * p.normal(k);
-      l.normalX[k - first] = normal.x;
-      l.normalY[k - first] = normal.y;
-      l.normalZ[k - first] = normal.z;
-    }
-    for (int k = i; k < i + Step; ++k)
-    {
-      const glm::vec3 position(toView * glm::dvec4(p.position(k), 1.0));
-      l.positionX[k - first] = position.x;
-      l.positionY[k - first] = position.y;
-      l.positionZ[k - first] = position.z;
-    }
-  }
-  const int n = last - first;
-  for (int i = 0; i < n; i += Step)
-  {
-    for (int k = i; k < i + Step; ++k)
-    {
-      l.diffuseR[k] = l.diffuseG[k] = l.diffuseB[k] = 0.0f;
-      l.specularR[k] = l.specularG[k] = l.specularB[k] = 0.0f;
+      f(i);
     }
   }
 }
 
 /// The one light is a headlight.
-void arriveFromEye(int n, TileLight& l)
+void arriveFromEye(
+  const glm::vec3& towards, const Material& material, const TilePatch& p, TileLight& l)
 {
-  for (int i = 0; i < n; i += Step)
+  const glm::vec3 axis = towards;
+  const float power = material.specularPower, shines = material.specular > 0.0f ? 1.0f : 0.0f;
+  eachStep(p,
+    [&](int i)
+    {
+      for (int k = i; k < i + Step; ++k)
+      {
+        const float cosine = positiveLane(glm::dot(p.normal(k), axis));
+        l.diffuse[k] = cosine;
+        l.specular[k] = shines * powLane(cosine, power);
+      }
+    });
+}
+
+/// The light of one lamp that arrives, by pixel.
+struct Arriving
+{
+  alignas(64) float x[TilePatch::Most], y[TilePatch::Most], z[TilePatch::Most]; // its direction
+  alignas(64) float attenuation[TilePatch::Most];
+  glm::vec3 direction(int i) const { return { x[i], y[i], z[i] }; }
+};
+
+void arriveFromInfinity(const glm::vec3& direction, Arriving& a)
+{
+  const glm::vec3 along = direction;
+  for (int k = 0; k < TilePatch::Most; ++k)
   {
+    a.x[k] = along.x;
+    a.y[k] = along.y;
+    a.z[k] = along.z;
+    a.attenuation[k] = 1.0f;
+  }
+}
+
+void arriveFromPosition(const ViewLight& from, const TilePatch& p, Arriving& a)
+{
+  const glm::vec3 lamp(p.origin.position - from.position), axis = from.direction;
+  const glm::vec3 constants = from.light->attenuation;
+  for (int i = 0; i < TilePatch::Most; i += Step)
+  {
+    if (!p.has(i))
+    {
+      continue;
+    }
     for (int k = i; k < i + Step; ++k)
     {
-      l.diffuse[k] = positiveLane(l.normalZ[k]);
-      l.base[k] = l.diffuse[k];
+      const ArrivingLane light = arriveLane(lamp + p.way(k), axis, constants);
+      a.x[k] = light.direction.x;
+      a.y[k] = light.direction.y;
+      a.z[k] = light.direction.z;
+      a.attenuation[k] = light.attenuation;
     }
   }
 }
 
-/// Directions of the light that arrives and attenuation without the cone's; then the rest of it.
-void arriveFromPosition(const ViewLight& from, int n, float* dx, float* dy, float* dz,
-  float* attenuation, const TileLight& l)
-{
-  const glm::vec3 at = from.position, axis = from.direction, constants = from.light->attenuation;
-  for (int i = 0; i < n; i += Step)
-  {
-    for (int k = i; k < i + Step; ++k)
-    {
-      const ArrivingLane light =
-        arriveLane({ l.positionX[k], l.positionY[k], l.positionZ[k] }, at, axis, constants);
-      dx[k] = light.direction.x;
-      dy[k] = light.direction.y;
-      dz[k] = light.direction.z;
-      attenuation[k] = light.attenuation;
-    }
-  }
-}
-
-/// Cosines to the axis of a cone.
-void towardsAxis(
-  const ViewLight& from, int n, const float* dx, const float* dy, const float* dz, float* cosine)
+void attenuateByCone(const ViewLight& from, const TilePatch& p, Arriving& a)
 {
   const glm::vec3 axis = from.direction;
-  for (int i = 0; i < n; i += Step)
+  const float exponent = static_cast<float>(from.light->exponent), coneCosine = from.coneCosine;
+  for (int i = 0; i < TilePatch::Most; i += Step)
   {
+    if (!p.has(i))
+    {
+      continue;
+    }
     for (int k = i; k < i + Step; ++k)
     {
-      cosine[k] = glm::dot(glm::vec3(dx[k], dy[k], dz[k]), axis);
+      a.attenuation[k] *= coneLane(exponent, coneCosine, glm::dot(a.direction(k), axis));
     }
   }
 }
 
-void arriveAtSurface(int n, bool shines, const float* dx, const float* dy, const float* dz,
-  const float* attenuation, TileLight& l)
+void arriveAtSurface(const Lighting& lighting, const Material& material, const TilePatch& p,
+  const Arriving& a, TileLight& l)
 {
-  for (int i = 0; i < n; i += Step)
+  const glm::vec3 origin(p.origin.position - lighting.eye), axis = lighting.towardsEye;
+  const float power = material.specularPower;
+  const bool shines = material.specular > 0.0f;
+  alignas(64) float base[TilePatch::Most];
+  for (int i = 0; i < TilePatch::Most; i += Step)
   {
-    for (int k = i; k < i + Step; ++k)
+    if (!p.has(i))
     {
-      l.diffuse[k] = diffuseLane(
-        attenuation[k], { l.normalX[k], l.normalY[k], l.normalZ[k] }, { dx[k], dy[k], dz[k] });
+      continue;
     }
-  }
-  for (int i = 0; shines && i < n; i += Step)
-  {
     for (int k = i; k < i + Step; ++k)
     {
-      l.base[k] = highlightLane({ l.positionX[k], l.positionY[k], l.positionZ[k] },
-        { l.normalX[k], l.normalY[k], l.normalZ[k] }, { dx[k], dy[k], dz[k] });
+      l.diffuse[k] = diffuseLane(a.attenuation[k], p.normal(k), a.direction(k));
+      l.specular[k] = 0.0f;
+    }
+    for (int k = i; shines && k < i + Step; ++k)
+    {
+      base[k] = highlightLane(origin + p.way(k), axis, p.normal(k), a.direction(k));
+    }
+    for (int k = i; shines && k < i + Step; ++k)
+    {
+      const float shone = a.attenuation[k] * powLane(base[k], power);
+      l.specular[k] = l.diffuse[k] > 0.0f ? shone : 0.0f;
     }
   }
 }
 
-void reach(int n, TileLight& l)
+std::uint64_t arrive(const Lighting& lighting, const ViewLight& from, const Material& material,
+  const TilePatch& p, TileLight& l)
 {
-  for (int i = 0; i < n; i += Step)
+  if (lighting.onlyHeadlight)
   {
-    for (int k = i; k < i + Step; ++k)
+    arriveFromEye(lighting.towardsEye, material, p, l);
+  }
+  else
+  {
+    Arriving arriving;
+    if (from.light->atInfinity())
     {
-      l.reached[k] = (l.diffuse[k] != 0.0f) | (l.specular[k] > 0.0f);
+      arriveFromInfinity(from.direction, arriving);
     }
+    else
+    {
+      arriveFromPosition(from, p, arriving);
+    }
+    if (from.light->hasCone())
+    {
+      attenuateByCone(from, p, arriving);
+    }
+    arriveAtSurface(lighting, material, p, arriving, l);
+  }
+  const Floats floats;
+  const auto zero = hn::Zero(floats);
+  std::uint64_t reached = 0;
+  for (int i = 0; i < TilePatch::Most; i += width())
+  {
+    const auto scatters = hn::Ne(hn::Load(floats, l.diffuse + i), zero);
+    const auto shines = hn::Gt(hn::Load(floats, l.specular + i), zero);
+    reached |= bitsOf(floats, hn::Or(scatters, shines)) << i;
+  }
+  return reached & p.mask;
+}
+
+/// `with`: how what is there already and what is added become one.
+template <class With>
+HWY_INLINE void addWith(const glm::vec3& color, const TilePatch& p, TileLight& l, With&& with)
+{
+  const glm::vec3 c = color;
+  eachStep(p,
+    [&](int i)
+    {
+      for (int k = i; k < i + Step; ++k)
+      {
+        const float share = l.share[k];
+        l.diffuseR[k] = with(l.diffuseR[k], share * (l.diffuse[k] * c.r));
+        l.diffuseG[k] = with(l.diffuseG[k], share * (l.diffuse[k] * c.g));
+        l.diffuseB[k] = with(l.diffuseB[k], share * (l.diffuse[k] * c.b));
+        const float specular = share * l.specular[k];
+        l.specularR[k] = with(l.specularR[k], specular * c.r);
+        l.specularG[k] = with(l.specularG[k], specular * c.g);
+        l.specularB[k] = with(l.specularB[k], specular * c.b);
+      }
+    });
+}
+
+void add(const glm::vec3& color, const TilePatch& p, bool first, TileLight& l)
+{
+  if (first)
+  {
+    addWith(color, p, l, [](float, float light) { return 0.0f + light; });
+  }
+  else
+  {
+    addWith(color, p, l, [](float before, float light) { return before + light; });
   }
 }
 
-void add(const glm::vec3& c, float remaining, int n, TileLight& l)
+/// A component of the colours: a + d * diffuse + s * specular. `own`: of each point's own colour,
+/// whose shares a and d are; null: a and d are colours.
+void mix(bool lit, const float* own, float a, float d, float s, const float* diffuse,
+  const float* specular, const TilePatch& p, float* HWY_RESTRICT out)
 {
-  for (int i = 0; i < n; i += Step)
-  {
-    for (int k = i; k < i + Step; ++k)
+  eachStep(p,
+    [&](int i)
     {
-      const float share = l.dark[k] ? remaining : 1.0f;
-      l.diffuseR[k] += share * (l.diffuse[k] * c.r);
-      l.diffuseG[k] += share * (l.diffuse[k] * c.g);
-      l.diffuseB[k] += share * (l.diffuse[k] * c.b);
-      const float specular = share * l.specular[k];
-      l.specularR[k] += specular * c.r;
-      l.specularG[k] += specular * c.g;
-      l.specularB[k] += specular * c.b;
-    }
-  }
+      for (int k = i; own && k < i + Step; ++k)
+      {
+        out[k] = colorLane(lit, a * own[k], diffuse[k], d * own[k], specular[k], s);
+      }
+      for (int k = i; !own && k < i + Step; ++k)
+      {
+        out[k] = colorLane(lit, a, diffuse[k], d, specular[k], s);
+      }
+    });
 }
 
-void addParts(const glm::vec3& c, int n, TileLight& l)
+/// toByte() of each.
+void pack(const TilePatch& p, TileColors& c)
 {
-  for (int i = 0; i < n; i += Step)
-  {
-    for (int k = i; k < i + Step; ++k)
+  eachStep(p,
+    [&](int i)
     {
-      const float share = l.share[k];
-      l.diffuseR[k] += share * (l.diffuse[k] * c.r);
-      l.diffuseG[k] += share * (l.diffuse[k] * c.g);
-      l.diffuseB[k] += share * (l.diffuse[k] * c.b);
-      const float specular = share * l.specular[k];
-      l.specularR[k] += specular * c.r;
-      l.specularG[k] += specular * c.g;
-      l.specularB[k] += specular * c.b;
-    }
-  }
+      for (int k = i; k < i + Step; ++k)
+      {
+        const float r = c.r[k] > 0.0f ? (c.r[k] < 1.0f ? c.r[k] : 1.0f) : 0.0f;
+        const float g = c.g[k] > 0.0f ? (c.g[k] < 1.0f ? c.g[k] : 1.0f) : 0.0f;
+        const float b = c.b[k] > 0.0f ? (c.b[k] < 1.0f ? c.b[k] : 1.0f) : 0.0f;
+        const auto red = static_cast<std::int32_t>(r * 255.0f + 0.5f);
+        const auto green = static_cast<std::int32_t>(g * 255.0f + 0.5f);
+        const auto blue = static_cast<std::int32_t>(b * 255.0f + 0.5f);
+        c.rgba[k] = static_cast<std::uint32_t>(red | green << 8 | blue << 16) | 0xff000000u;
+      }
+    });
 }
 
-/// a + d * diffuse + s * specular, of each point's own colour.
-void finish(const Material& m, bool lit, int n, const float* r, const float* g, const float* b,
-  const TileLight& l, float* HWY_RESTRICT outR, float* HWY_RESTRICT outG, float* HWY_RESTRICT outB)
+void finish(const Material& m, bool lit, const TilePatch& p, const TileLight& l, TileColors& c)
 {
-  const glm::vec3 shine = m.specular * m.specularColor;
-  const float ambient = m.ambient, diffuse = m.diffuse;
-  for (int i = 0; i < n; i += Step)
-  {
-    for (int k = i; k < i + Step; ++k)
-    {
-      const float dr = diffuse * r[k], dg = diffuse * g[k], db = diffuse * b[k];
-      const float ar = ambient * r[k], ag = ambient * g[k], ab = ambient * b[k];
-      outR[k] = colorLane(lit, ar, l.diffuseR[k], dr, l.specularR[k], shine.r);
-      outG[k] = colorLane(lit, ag, l.diffuseG[k], dg, l.specularG[k], shine.g);
-      outB[k] = colorLane(lit, ab, l.diffuseB[k], db, l.specularB[k], shine.b);
-    }
-  }
-}
-
-/// The same with one colour for all.
-void finishPlain(const glm::vec3& ambient, const glm::vec3& diffuse, const glm::vec3& shine,
-  bool lit, int n, const TileLight& l, float* HWY_RESTRICT outR, float* HWY_RESTRICT outG,
-  float* HWY_RESTRICT outB)
-{
-  for (int i = 0; i < n; i += Step)
-  {
-    for (int k = i; k < i + Step; ++k)
-    {
-      outR[k] = colorLane(lit, ambient.r, l.diffuseR[k], diffuse.r, l.specularR[k], shine.r);
-      outG[k] = colorLane(lit, ambient.g, l.diffuseG[k], diffuse.g, l.specularG[k], shine.g);
-      outB[k] = colorLane(lit, ambient.b, l.diffuseB[k], diffuse.b, l.specularB[k], shine.b);
-    }
-  }
-}
-
-void pack(const TileColors& c, int n, std::uint32_t* rgba)
-{
-  for (int i = 0; i < n; i += Step)
-  {
-    for (int k = i; k < i + Step; ++k)
-    {
-      // toByte()
-      const float r = c.r[k] > 0.0f ? (c.r[k] < 1.0f ? c.r[k] : 1.0f) : 0.0f;
-      const float g = c.g[k] > 0.0f ? (c.g[k] < 1.0f ? c.g[k] : 1.0f) : 0.0f;
-      const float b = c.b[k] > 0.0f ? (c.b[k] < 1.0f ? c.b[k] : 1.0f) : 0.0f;
-      const auto red = static_cast<std::int32_t>(r * 255.0f + 0.5f);
-      const auto green = static_cast<std::int32_t>(g * 255.0f + 0.5f);
-      const auto blue = static_cast<std::int32_t>(b * 255.0f + 0.5f);
-      rgba[k] = static_cast<std::uint32_t>(red | green << 8 | blue << 16) | 0xff000000u;
-    }
-  }
+  const bool own = p.hasColor;
+  const glm::vec3 a = m.ambient * (own ? glm::vec3(1.0f) : m.ambientColor);
+  const glm::vec3 d = m.diffuse * (own ? glm::vec3(1.0f) : m.diffuseColor);
+  const glm::vec3 s = m.specular * m.specularColor;
+  mix(lit, own ? p.colorR : nullptr, a.r, d.r, s.r, l.diffuseR, l.specularR, p, c.r);
+  mix(lit, own ? p.colorG : nullptr, a.g, d.g, s.g, l.diffuseG, l.specularG, p, c.g);
+  mix(lit, own ? p.colorB : nullptr, a.b, d.b, s.b, l.diffuseB, l.specularB, p, c.b);
+  pack(p, c);
 }
 }
 }
@@ -225,107 +263,26 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace svo
 {
-HWY_EXPORT(begin);
-HWY_EXPORT(arriveFromEye);
-HWY_EXPORT(arriveFromPosition);
-HWY_EXPORT(towardsAxis);
-HWY_EXPORT(arriveAtSurface);
-HWY_EXPORT(reach);
+HWY_EXPORT(arrive);
 HWY_EXPORT(add);
-HWY_EXPORT(addParts);
 HWY_EXPORT(finish);
-HWY_EXPORT(finishPlain);
-HWY_EXPORT(pack);
 
-void packColors(const TileColors& colors, int count, std::uint32_t* rgba)
+std::uint64_t arriveLight(const Lighting& lighting, std::size_t l, const Material& material,
+  const TilePatch& patch, TileLight& light)
 {
-  assert(count > 0 && count <= TilePoints::Most);
-  HWY_DYNAMIC_DISPATCH(pack)(colors, count, rgba);
+  assert(l < lighting.lights.size() && material.lighting);
+  return HWY_DYNAMIC_DISPATCH(arrive)(lighting, lighting.lights[l], material, patch, light);
 }
 
-void toViewSpace(
-  const Lighting& lighting, const TilePoints& points, int first, int last, TileLight& light)
+void addLight(const ViewLight& from, const TilePatch& patch, bool first, TileLight& light)
 {
-  assert(first >= 0 && first < last && last <= points.count);
-  HWY_DYNAMIC_DISPATCH(begin)
-  (lighting.rotation, lighting.worldToView, points, first, last, light);
+  HWY_DYNAMIC_DISPATCH(add)(from.light->color, patch, first, light);
 }
 
-void arriveLight(
-  const Lighting& lighting, std::size_t l, const Material& material, int count, TileLight& light)
+void finishLight(const Material& material, bool lit, const TilePatch& patch, const TileLight& light,
+  TileColors& colors)
 {
-  assert(l < lighting.lights.size() && count > 0 && count <= TilePoints::Most);
-  const ViewLight& from = lighting.lights[l];
-  const bool shines = material.specular > 0.0f;
-  std::fill_n(light.specular, count + TilePoints::Step, 0.0f);
-  if (lighting.onlyHeadlight)
-  {
-    HWY_DYNAMIC_DISPATCH(arriveFromEye)(count, light);
-    for (int i = 0; shines && i < count; ++i)
-    {
-      light.specular[i] = std::pow(light.base[i], material.specularPower);
-    }
-  }
-  else
-  {
-    alignas(64) float dx[TilePoints::Room], dy[TilePoints::Room], dz[TilePoints::Room];
-    alignas(64) float attenuation[TilePoints::Room], cosine[TilePoints::Room];
-    if (from.light->atInfinity())
-    {
-      std::fill_n(dx, count + TilePoints::Step, from.direction.x);
-      std::fill_n(dy, count + TilePoints::Step, from.direction.y);
-      std::fill_n(dz, count + TilePoints::Step, from.direction.z);
-      std::fill_n(attenuation, count + TilePoints::Step, 1.0f);
-    }
-    else
-    {
-      HWY_DYNAMIC_DISPATCH(arriveFromPosition)(from, count, dx, dy, dz, attenuation, light);
-    }
-    if (from.light->hasCone())
-    {
-      HWY_DYNAMIC_DISPATCH(towardsAxis)(from, count, dx, dy, dz, cosine);
-      for (int i = 0; i < count; ++i)
-      {
-        attenuation[i] *= coneLane(*from.light, from.coneCosine, cosine[i]);
-      }
-    }
-    HWY_DYNAMIC_DISPATCH(arriveAtSurface)(count, shines, dx, dy, dz, attenuation, light);
-    for (int i = 0; shines && i < count; ++i)
-    {
-      light.specular[i] = light.diffuse[i] > 0.0f
-        ? attenuation[i] * std::pow(light.base[i], material.specularPower)
-        : 0.0f;
-    }
-  }
-  HWY_DYNAMIC_DISPATCH(reach)(count, light);
-}
-
-void addLight(const ViewLight& from, float remaining, int count, TileLight& light)
-{
-  HWY_DYNAMIC_DISPATCH(add)(from.light->color, remaining, count, light);
-}
-
-void addShares(const ViewLight& from, int count, TileLight& light)
-{
-  HWY_DYNAMIC_DISPATCH(addParts)(from.light->color, count, light);
-}
-
-void finishLight(const Lighting& lighting, const Material& material, const TilePoints& points,
-  int first, int last, bool hasColor, const TileLight& light, TileColors& colors)
-{
-  assert(first >= 0 && first < last && last <= points.count);
-  const bool lit = material.lighting && !lighting.lights.empty();
-  if (hasColor)
-  {
-    HWY_DYNAMIC_DISPATCH(finish)
-    (material, lit, last - first, points.colorR + first, points.colorG + first,
-      points.colorB + first, light, colors.r + first, colors.g + first, colors.b + first);
-    return;
-  }
-  HWY_DYNAMIC_DISPATCH(finishPlain)
-  (material.ambient * material.ambientColor, material.diffuse * material.diffuseColor,
-    material.specular * material.specularColor, lit, last - first, light, colors.r + first,
-    colors.g + first, colors.b + first);
+  HWY_DYNAMIC_DISPATCH(finish)(material, lit, patch, light, colors);
 }
 }
 #endif

@@ -1,8 +1,8 @@
-// Lighting of the visible points of a tile, in loops over the arithmetic of svoLightingLane.h.
+// Lighting of the points of a patch, in loops over the arithmetic of svoLightingLane.h.
 #ifndef svoTileLighting_h
 #define svoTileLighting_h
 
-#include "svoTilePoints.h"
+#include "svoTilePatch.h"
 #include "svoViewLights.h"
 
 #include <algorithm>
@@ -10,59 +10,42 @@
 
 namespace svo
 {
-/// Colours of points, 0..1 and beyond, by index of the point.
-struct TileColors
-{
-  alignas(64) float r[TilePoints::Room], g[TilePoints::Room], b[TilePoints::Room];
-};
-
 /// A colour channel as a byte; NaN becomes 0.
 inline std::uint8_t toByte(float v)
 {
   return v > 0.0f ? static_cast<std::uint8_t>(std::min(v, 1.0f) * 255.0f + 0.5f) : 0;
 }
 
-/// Colours as RGBA in memory, alpha 255, by index of the point.
-void packColors(const TileColors& colors, int count, std::uint32_t* rgba);
-
-/// Points [first, last) of one instance in view space, and the light that arrives there.
+/// The light that arrives at the points of a patch. By pixel; valid where the patch has points.
 struct TileLight
 {
-  // By index of the point minus `first`.
-  alignas(64) float normalX[TilePoints::Room], normalY[TilePoints::Room], normalZ[TilePoints::Room];
-  alignas(64) float positionX[TilePoints::Room], positionY[TilePoints::Room],
-    positionZ[TilePoints::Room];
   // Of one light: before any shadow, to be multiplied by its colour.
-  alignas(64) float diffuse[TilePoints::Room], specular[TilePoints::Room];
-  alignas(64) float base[TilePoints::Room]; // of the highlight's power
+  alignas(64) float diffuse[TilePatch::Most], specular[TilePatch::Most];
+  /// Of the present light, what its shadow leaves of it, 0..1.
+  alignas(64) float share[TilePatch::Most];
   // Of all lights together.
-  alignas(64) float diffuseR[TilePoints::Room], diffuseG[TilePoints::Room],
-    diffuseB[TilePoints::Room];
-  alignas(64) float specularR[TilePoints::Room], specularG[TilePoints::Room],
-    specularB[TilePoints::Room];
-  /// A point that light reaches from the present one; and those of them that lie in its shadow.
-  std::uint8_t reached[TilePoints::Room], dark[TilePoints::Room];
-  /// Of the present light, what is left of it, 0..1; addShares() alone reads it.
-  alignas(64) float share[TilePoints::Room];
+  alignas(64) float diffuseR[TilePatch::Most], diffuseG[TilePatch::Most], diffuseB[TilePatch::Most];
+  alignas(64) float specularR[TilePatch::Most], specularG[TilePatch::Most],
+    specularB[TilePatch::Most];
 };
 
-/// To view space.
-void toViewSpace(
-  const Lighting& lighting, const TilePoints& points, int first, int last, TileLight& light);
+/// Colours of points, 0..1 and beyond; and as RGBA in memory, alpha 255. By pixel.
+struct TileColors
+{
+  alignas(64) float r[TilePatch::Most], g[TilePatch::Most], b[TilePatch::Most];
+  alignas(64) std::uint32_t rgba[TilePatch::Most];
+};
 
-/// Light number l: sets `diffuse`, `specular` and `reached`.
-void arriveLight(
-  const Lighting& lighting, std::size_t l, const Material& material, int count, TileLight& light);
+/// Light number l: sets `diffuse` and `specular`; returns the points that it reaches.
+std::uint64_t arriveLight(const Lighting& lighting, std::size_t l, const Material& material,
+  const TilePatch& patch, TileLight& light);
 
-/// Adds what arrived. Where it is `dark` a share of `remaining` is left.
-void addLight(const ViewLight& from, float remaining, int count, TileLight& light);
+/// Adds what arrived, of each point `share` times. `first`: to nothing.
+void addLight(const ViewLight& from, const TilePatch& patch, bool first, TileLight& light);
 
-/// The same; of every point its `share` is left.
-void addShares(const ViewLight& from, int count, TileLight& light);
-
-/// The colours of the points.
-void finishLight(const Lighting& lighting, const Material& material, const TilePoints& points,
-  int first, int last, bool hasColor, const TileLight& light, TileColors& colors);
+/// The colours of the points; `lit`: by what was added.
+void finishLight(const Material& material, bool lit, const TilePatch& patch, const TileLight& light,
+  TileColors& colors);
 }
 
 #endif

@@ -1,4 +1,4 @@
-// The lights of a frame in view space.
+// The lights of a frame, as shading needs them.
 #ifndef svoViewLights_h
 #define svoViewLights_h
 
@@ -9,44 +9,45 @@
 #include <vector>
 
 #include <glm/mat3x3.hpp>
-#include <glm/mat4x4.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vec3.hpp>
 
 namespace svo
 {
-/// A light in view space.
+/// A light, along the world's axes.
 struct ViewLight
 {
   glm::vec3 direction; // unit, the way it shines
-  glm::vec3 position;
+  glm::dvec3 position;
   const Light* light;
   float coneCosine;
 };
 
-inline ViewLight makeViewLight(const Light& light, const View& view)
+inline ViewLight makeViewLight(const Light& light)
 {
-  const glm::dmat3 rotation(view.worldToView);
-  return { glm::vec3(rotation * light.direction),
-    glm::vec3(view.worldToView * glm::dvec4(light.position, 1.0)), &light,
+  return { glm::vec3(light.direction), light.position, &light,
     static_cast<float>(std::cos(glm::radians(light.coneAngle))) };
 }
 
-/// The lights of a frame, as shading needs them.
+/// The lights of a frame, as shading needs them. VTK's shaders light in view space; nothing that
+/// they compute there depends on how its axes are turned, so here these are the world's.
 struct Lighting
 {
   std::vector<ViewLight> lights;
   bool onlyHeadlight = false;
-  glm::dmat4 worldToView{ 1.0 };
-  glm::mat3 rotation{ 1.0f };
+  glm::dvec3 eye{ 0.0 };           // the origin of view space
+  glm::vec3 towardsEye{ 0, 0, 1 }; // the view's axis, unit
+  glm::mat3 rotation{ 1.0f };      // to view space
 
   Lighting(const Scene& scene, const View& view)
     : onlyHeadlight(scene.onlyHeadlight)
-    , worldToView(view.worldToView)
+    , eye(view.eye)
+    , towardsEye(view.worldToView[0][2], view.worldToView[1][2], view.worldToView[2][2])
     , rotation(view.worldToView)
   {
     for (const Light& light : scene.lights)
     {
-      lights.push_back(makeViewLight(light, view));
+      lights.push_back(makeViewLight(light));
     }
   }
 };

@@ -1,9 +1,8 @@
 // The arithmetic of a visible point on its triangle, for one point. The loops over the points of a
-// tile (svoTilePoints.cxx) call it, and become vectors; pointOfTriangle() calls it for one point.
+// tile (svoTileLook.cxx) call it, and become vectors; pointOfTriangle() calls it for one point.
 #ifndef svoPointLane_h
 #define svoPointLane_h
 
-#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -11,6 +10,17 @@
 
 namespace svo
 {
+/// Barycentric coordinates from those of the second and the third corner, clamped to at least 0 and
+/// scaled to sum 1.
+inline glm::vec3 clampedWeights(float v, float w)
+{
+  const float v0 = v < 0.0f ? 0.0f : v, w0 = w < 0.0f ? 0.0f : w;
+  const float v1 = v0 < 1.0f ? v0 : 1.0f, w1 = w0 < 1.0f ? w0 : 1.0f;
+  const float sum = v1 + w1;
+  const float scale = 1.0f / (sum < 1.0f ? 1.0f : sum);
+  return { 1.0f - sum * scale, v1 * scale, w1 * scale };
+}
+
 /// Barycentric coordinates of the point of a triangle that is near another point, as ratios of
 /// areas, clamped to at least 0 and scaled to sum 1. Of a triangle that is n times as long as wide
 /// they are off by n roundings; with dot products of the edges, by Cramer's rule, it were n
@@ -19,12 +29,17 @@ inline glm::vec3 nearWeights(const glm::vec3& p, const glm::vec3& e1, const glm:
 {
   const glm::vec3 area = glm::cross(e1, e2);
   const float area2 = glm::dot(area, area);
-  float v = area2 > 0.0f ? glm::dot(glm::cross(p, e2), area) / area2 : 0.0f;
-  float w = area2 > 0.0f ? glm::dot(glm::cross(e1, p), area) / area2 : 0.0f;
-  v = std::clamp(v, 0.0f, 1.0f);
-  w = std::clamp(w, 0.0f, 1.0f);
-  const float sum = std::max(v + w, 1.0f);
-  return { 1.0f - (v + w) / sum, v / sum, w / sum };
+  const float v = area2 > 0.0f ? glm::dot(glm::cross(p, e2), area) / area2 : 0.0f;
+  const float w = area2 > 0.0f ? glm::dot(glm::cross(e1, p), area) / area2 : 0.0f;
+  return clampedWeights(v, w);
+}
+
+/// The same of a point whose two latter coordinates are affine in its way from an origin: at the
+/// origin they are `v` and `w`, and grow by `alongV` and `alongW`.
+inline glm::vec3 affineWeights(
+  const glm::vec3& way, float v, const glm::vec3& alongV, float w, const glm::vec3& alongW)
+{
+  return clampedWeights(v + glm::dot(alongV, way), w + glm::dot(alongW, way));
 }
 
 /// What the corners of a triangle have, at barycentric coordinates.
@@ -49,7 +64,7 @@ inline bool hasUnitLane(const glm::vec3& v)
 
 inline glm::vec3 unitLane(const glm::vec3& v)
 {
-  return v / std::sqrt(glm::dot(v, v));
+  return v * (1.0f / std::sqrt(glm::dot(v, v)));
 }
 }
 

@@ -1,34 +1,26 @@
 #include "svoTileNodes.h"
 
 #include "svoSurfacePoint.h"
+#include "svoTileLook.h"
 
 #include <cassert>
 
 namespace svo
 {
-void lookAtNodes(
-  const SurfaceMatrices& frame, const View& view, int firstRun, int lastRun, TilePoints& p)
+void lookAtNodes(const SurfaceMatrices& frame, std::uint64_t lanes, TilePatch& patch)
 {
-  assert(firstRun >= 0 && lastRun <= p.runCount && frame.instance->octree.surface());
-  NodeTriangle picked[TilePoints::Most];
-  NodeTriangle* doubtful[TilePoints::Most];
-  glm::dvec3 towards[TilePoints::Most];
+  assert((lanes & ~patch.mask) == 0 && frame.instance->octree.surface());
+  NodeTriangle picked[TilePatch::Most];
+  NodeTriangle* doubtful[TilePatch::Most];
+  glm::dvec3 towards[TilePatch::Most];
   int doubts = 0;
-  const auto each = [&](auto&& f)
-  {
-    for (int k = firstRun; k < lastRun; ++k)
+  eachBit(lanes,
+    [&](int i)
     {
-      for (int i = p.runs[k].first; i < p.runs[k].last && p.primitive[i] & NodePrimitive; ++i)
-      {
-        f(p.runs[k], i);
-      }
-    }
-  };
-  each(
-    [&](const TilePoints::Run&, int i)
-    {
-      const glm::vec3 to = p.towards(i);
-      picked[i] = pickTriangle(frame, p.primitive[i] & ~NodePrimitive, p.position(i), to);
+      const glm::vec3 to = patch.towards(i);
+      const Primitive primitive = patch.hits->primitive[i];
+      assert(primitive & NodePrimitive);
+      picked[i] = pickTriangle(frame, primitive & ~NodePrimitive, patch.position(i), to);
       if (!picked[i].faces)
       {
         towards[doubts] = frame.toOctree.vector(glm::dvec3(to));
@@ -39,7 +31,6 @@ void lookAtNodes(
   {
     settleTriangles(frame.instance->octree, doubtful, towards, doubts);
   }
-  each([&](TilePoints::Run& run, int i)
-    { lookAtPoint(frame, view, picked[i].triangle, picked[i].at, run, i, p); });
+  eachBit(lanes, [&](int i) { lookAtPoint(frame, picked[i].triangle, picked[i].at, i, patch); });
 }
 }

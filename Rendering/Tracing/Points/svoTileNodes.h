@@ -1,18 +1,19 @@
-// The visible points of a tile that lie on nodes above the bricks. Lines of sight to nodes without
+// The visible points of a patch that lie on nodes above the bricks. Lines of sight to nodes without
 // a triangle that faces the viewer are traced all at once.
 //
-// The results are those of surfacePoint() (svoSurfacePoint.h), bit for bit.
+// The results are those of surfacePoint() (svoReferencePoint.h), bit for bit.
 #ifndef svoTileNodes_h
 #define svoTileNodes_h
 
-#include "svoTilePoints.h"
+#include "svoTilePatch.h"
+
+#include <cstdint>
 
 namespace svo
 {
-/// Sets facets, normals and colours of the runs on nodes among runs [firstRun, lastRun), which are
-/// of one instance; its octree has a surface, and the points are placed.
-void lookAtNodes(
-  const SurfaceMatrices& frame, const View& view, int firstRun, int lastRun, TilePoints& points);
+/// Sets facets, normals and colours of those points of a patch that are in `lanes`, all on nodes;
+/// the octree has a surface.
+void lookAtNodes(const SurfaceMatrices& frame, std::uint64_t lanes, TilePatch& patch);
 }
 
 #endif

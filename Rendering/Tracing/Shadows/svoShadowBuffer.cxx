@@ -1,6 +1,7 @@
 #include "svoShadowBuffer.h"
 
 #include "svoLeafError.h"
+#include "svoLocalView.h"
 #include "svoSelectLevel.h"
 #include "svoTexelPlace.h"
 #include "svoWorldSize.h"
@@ -12,6 +13,15 @@
 
 namespace svo
 {
+namespace
+{
+/// Largest float that is not above x.
+float roundDown(double x)
+{
+  return -roundUp(-x);
+}
+}
+
 void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_t first,
   const FrameSettings& settings, LayerBudget& budget)
 {
@@ -112,19 +122,6 @@ void ShadowBuffer::tilesAround(const Place& place, Body&& body)
   }
 }
 
-void ShadowBuffer::markPlace(Face& face, const Place& place, std::size_t& last)
-{
-  tilesAround(place,
-    [&](std::size_t tile)
-    {
-      if (tile != last && !face.wanted[tile].load(std::memory_order_relaxed))
-      {
-        face.wanted[tile].store(1, std::memory_order_relaxed);
-      }
-      last = tile;
-    });
-}
-
 bool ShadowBuffer::knows(const glm::dvec3& position) const
 {
   bool known = true;
@@ -138,38 +135,60 @@ bool ShadowBuffer::knows(const glm::dvec3& position) const
   return known;
 }
 
-void ShadowBuffer::mark(const TilePoints& points)
+bool ShadowBuffer::Face::want(const MapPlaces& places)
 {
-  std::size_t last = ~std::size_t(0);
-  if (this->Faces.size() == 1)
+  constexpr float Around = 0.5f; // the test asks the four texels whose centres surround a point
+  const MapTiles box = tilesOf(places, this->view, Around);
+  if (!box.atMost(8))
   {
-    Face& face = *this->Faces.front();
-    if (!face.seesCasters)
+    return false;
+  }
+  const std::uint64_t tiles =
+    box.atMost(2) ? ~std::uint64_t(0) : svo::tilesAround(places, this->view, Around, box);
+  const std::size_t tilesAcross = (this->view.width + 7) / 8;
+  for (int y = box.y0; y <= box.y1; ++y)
+  {
+    for (int x = box.x0; x <= box.x1; ++x)
     {
-      return;
-    }
-    TexelPlaces places;
-    lookUpTexels(face.view, face.worldToClip, points, 0, points.count, places);
-    for (int i = 0; i < points.count; ++i)
-    {
-      if (places.inside[i] > 0.0)
+      std::atomic<std::uint8_t>& tile = this->wanted[y * tilesAcross + x];
+      if ((tiles >> (8 * (y - box.y0) + x - box.x0) & 1) && !tile.load(std::memory_order_relaxed))
       {
-        markPlace(face, { &face, places.x[i], places.y[i], places.t[i] }, last);
+        tile.store(1, std::memory_order_relaxed);
       }
     }
-    return;
   }
-  const Face* lastFace = nullptr;
-  for (int i = 0; i < points.count; ++i)
+  return true;
+}
+
+void ShadowBuffer::mark(const TilePatch& patch)
+{
+  std::uint64_t left = patch.mask, single = 0;
+  for (auto& face : this->Faces)
   {
-    Place place;
-    if (this->lookUp(points.position(i), place))
+    MapPlaces places;
+    placeInMap(face->view, face->worldToClip, patch, left, places);
+    single |= left & ~(places.inside | places.outside);
+    if (places.inside != 0 && face->seesCasters && !face->want(places))
     {
-      last = place.face == lastFace ? last : ~std::size_t(0);
-      lastFace = place.face;
-      markPlace(const_cast<Face&>(*place.face), place, last);
+      single |= places.inside;
+    }
+    left &= places.outside;
+    if (left == 0)
+    {
+      break;
     }
   }
+  eachBit(single,
+    [&](int i)
+    {
+      Place place;
+      if (this->lookUp(patch.position(i), place))
+      {
+        tilesAround(place,
+          [&](std::size_t tile)
+          { const_cast<Face*>(place.face)->wanted[tile].store(1, std::memory_order_relaxed); });
+      }
+    });
 }
 
 void ShadowBuffer::markAll()
@@ -193,6 +212,7 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
       wanted[i] = face->wanted[i].load(std::memory_order_relaxed);
     }
     face->layers.trace(parallelFor, wanted.data());
+    face->findNearest(parallelFor);
     if (face->layers.changed())
     {
       face->copied.reset();
@@ -223,9 +243,52 @@ void ShadowBuffer::merge(Processes& processes, std::size_t first)
   for (auto& face : this->Faces)
   {
     face->shared.merge(processes, face->view, face->layers, first);
+    face->nearest.clear();
     face->seesCasters = face->shared.bytes() > 0;
     face->copied.reset();
   }
+}
+
+void ShadowBuffer::Face::findNearest(const ParallelFor& parallelFor)
+{
+  const DepthBuffer& depth = this->layers.depthBuffer();
+  this->nearest.assign(depth.tiles(), std::numeric_limits<float>::infinity());
+  parallelFor(0, depth.tiles(), 256,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t tile = first; tile < last; ++tile)
+      {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 64 * tile; depth.hit[tile] && i < 64 * (tile + 1); ++i)
+        {
+          if (depth.instance[i] != NoInstance)
+          {
+            least = std::min(least, this->layers.base(depth.instance[i]) + depth.t[i]);
+          }
+        }
+        this->nearest[tile] = roundDown(least);
+      }
+    });
+}
+
+float ShadowBuffer::Face::nearestIn(const MapPlaces& box) const
+{
+  constexpr int Most = 4; // tiles along an edge of a box
+  const MapTiles tiles = tilesOf(box, this->view, 0.0f);
+  if (this->nearest.empty() || !tiles.atMost(Most))
+  {
+    return -std::numeric_limits<float>::infinity();
+  }
+  const std::size_t tilesAcross = (this->view.width + 7) / 8;
+  float least = std::numeric_limits<float>::infinity();
+  for (int y = tiles.y0; y <= tiles.y1; ++y)
+  {
+    for (int x = tiles.x0; x <= tiles.x1; ++x)
+    {
+      least = std::min(least, this->nearest[y * tilesAcross + x]);
+    }
+  }
+  return least;
 }
 
 std::shared_ptr<const std::vector<float>> ShadowBuffer::Face::copyDepth(double base) const

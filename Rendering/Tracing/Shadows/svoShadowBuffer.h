@@ -10,7 +10,7 @@
 #include "svoScene.h"
 #include "svoSharedDepth.h"
 #include "svoSurfacePoint.h"
-#include "svoTilePoints.h"
+#include "svoTilePatch.h"
 #include "svoTileShadows.h"
 
 #include <atomic>
@@ -37,8 +37,9 @@ public:
     this->Bias = settings.bias;
   }
 
-  /// Notes the 8x8 light tiles that the points will look up. Thread-safe.
-  void mark(const TilePoints& points);
+  /// Notes the 8x8 light tiles that the points of a patch will look up, and perhaps a few more.
+  /// Thread-safe.
+  void mark(const TilePatch& patch);
   /// Every tile will be looked up.
   void markAll();
 
@@ -58,9 +59,8 @@ public:
   /// Without it the test is the paper's bare `distance > depth` plus `bias` voxels of the caster.
   bool shadows(const SurfacePoint& point, double error) const;
 
-  /// The same for points [first, last) of one instance: dark[i - first] of those that are `asked`.
-  void shadows(const TilePoints& points, int first, int last, double error,
-    const std::uint8_t* asked, std::uint8_t* dark) const;
+  /// The same of a patch's points, by pixel: those that are `asked` and dark.
+  std::uint64_t shadows(const TilePatch& patch, double error, std::uint64_t asked) const;
 
   /// The share of the light that the point misses, 0..1: the test above, of every texel in a window
   /// around the point, weighted so that it changes smoothly with the point (percentage-closer
@@ -76,10 +76,9 @@ public:
   /// above has it.
   float darkness(const SurfacePoint& point, double error, double extent) const;
 
-  /// The same for points [first, last) of one instance: darkness[i - first] of those that are
-  /// `asked`, 0 of others. `extents`, too, from index 0 on.
-  void darkness(const TilePoints& points, int first, int last, double error, const double* extents,
-    const std::uint8_t* asked, float* darkness) const;
+  /// The same of a patch's points, by pixel: of those that are `asked`, 0 of others.
+  void darkness(const TilePatch& patch, double error, const double* extents, std::uint64_t asked,
+    float* darkness) const;
 
   /// Whether points are compared on their own planes, see setBias().
   bool automaticBias() const { return this->AutomaticBias; }
@@ -103,9 +102,18 @@ private:
     SharedDepth shared; // with other processes' casters; takes the place of the layers' depths
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile
     bool seesCasters = false;
+    /// Of each tile the least linear depth of what lies there, or a little less; infinity: nothing.
+    /// Empty: unknown.
+    std::vector<float> nearest;
     std::shared_ptr<const std::vector<float>> copied; // ShadowMap::depth; null: it has changed
 
     std::shared_ptr<const std::vector<float>> copyDepth(double base) const;
+    /// Notes the tiles around points that are inside: few, or one by one. False if there are too
+    /// many to be noted here.
+    bool want(const MapPlaces& places);
+    void findNearest(const ParallelFor& parallelFor);
+    /// No more than what lies at a box of texels; minus infinity if that is not known, or too many.
+    float nearestIn(const MapPlaces& box) const;
 
     /// What lies at a texel (index as DepthBuffer::at): false if nothing.
     bool occluder(std::size_t at, std::uint32_t& caster, double& t) const
@@ -147,7 +155,12 @@ private:
   /// two or four.
   template <class Body>
   static void tilesAround(const Place& place, Body&& body);
-  static void markPlace(Face& face, const Place& place, std::size_t& last);
+  /// Looks up what lies at the texels of points that are sure; returns those where something does.
+  std::uint64_t occluders(
+    const Face& face, const MapPlaces& places, double error, TexelTests& tests) const;
+  /// Tests these. Returns those that are dark; adds those that have to be tested in double.
+  std::uint64_t test(const Face& face, const TilePatch& patch, const MapPlaces& places,
+    double error, std::uint64_t& single) const;
   /// True if most of the other texels around the point find it dark as well.
   bool agreed(const Place& place, const SurfacePoint& point, double error) const;
   /// `span`: the size of the texel is taken for so many times what it is.

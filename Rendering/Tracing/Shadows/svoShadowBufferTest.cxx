@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
+#include <cmath>
 
 namespace svo
 {
@@ -26,65 +26,97 @@ bool ShadowBuffer::shadows(const Place& place, const SurfacePoint& point, double
   return this->agreed(place, point, error);
 }
 
-void ShadowBuffer::shadows(const TilePoints& points, int first, int last, double error,
-  const std::uint8_t* asked, std::uint8_t* dark) const
+std::uint64_t ShadowBuffer::shadows(const TilePatch& patch, double error, std::uint64_t asked) const
 {
-  assert(first >= 0 && first < last && last <= points.count);
-  const int count = last - first;
-  if (this->Faces.size() != 1 || !this->AutomaticBias)
+  assert((asked & ~patch.mask) == 0);
+  std::uint64_t left = asked, dark = 0, single = this->AutomaticBias ? 0 : asked;
+  for (std::size_t i = 0; i < this->Faces.size() && this->AutomaticBias && left != 0; ++i)
   {
-    for (int i = 0; i < count; ++i)
+    const Face& face = *this->Faces[i];
+    MapPlaces places;
+    placeInMap(face.view, face.worldToClip, patch, left, places);
+    single |= left & ~(places.sure | places.outside);
+    left &= places.outside;
+    if (face.seesCasters && places.sure != 0)
     {
-      dark[i] = asked[i] && this->shadows(points.point(first + i), error);
+      dark |= this->test(face, patch, places, error, single);
     }
-    return;
   }
-  std::fill_n(dark, count, std::uint8_t(0));
-  const Face& face = *this->Faces.front();
-  if (!face.seesCasters)
-  {
-    return;
-  }
-  TexelPlaces places;
-  lookUpTexels(face.view, face.worldToClip, points, first, last, places);
-  TexelTests tests;
+  eachBit(single, [&](int i) { dark |= std::uint64_t(this->shadows(patch.point(i), error)) << i; });
+  return dark;
+}
+
+std::uint64_t ShadowBuffer::occluders(
+  const Face& face, const MapPlaces& places, double error, TexelTests& tests) const
+{
+  const auto biasOf = [&](std::uint32_t caster)
+  { return static_cast<float>(this->Bias * this->CasterVoxel[caster]); };
+  const auto errorOf = [&](std::uint32_t caster)
+  { return static_cast<float>(std::max(this->CasterError[caster], error)); };
   const DepthBuffer& depth = face.layers.depthBuffer();
-  const double infinity = std::numeric_limits<double>::infinity();
-  bool any = false;
-  for (int i = 0; i < count + TilePoints::Step; ++i)
+  TexelOccluders occluders;
+  std::uint64_t found = 0, same = 0;
+  if (!face.nearest.empty())
   {
-    tests.x[i] = tests.y[i] = tests.bias[i] = tests.error[i] = 0.0;
-    tests.occluder[i] = infinity;
-    if (i >= count || !asked[i] || !(places.inside[i] > 0.0))
-    {
-      continue;
-    }
-    const int x = static_cast<int>(places.x[i]), y = static_cast<int>(places.y[i]);
-    std::uint32_t caster;
-    if (!face.occluder(depth.at(x, y), caster, tests.occluder[i]))
-    {
-      continue;
-    }
-    any = true;
-    tests.x[i] = x + 0.5;
-    tests.y[i] = y + 0.5;
-    tests.bias[i] = this->Bias * this->CasterVoxel[caster];
-    tests.error[i] = std::max(this->CasterError[caster], error);
+    found =
+      lookUpTexels({ depth.tilesX, face.nearest.data(), depth.t.data(), depth.instance.data() },
+        places, occluders, same);
   }
-  if (!any)
+  if (found != 0 && found == same)
   {
-    return;
+    const std::uint32_t caster = occluders.caster[__builtin_ctzll(found)];
+    setOccluders(face.layers.base(caster) - places.t0, occluders, tests);
+    std::fill_n(tests.bias, TilePatch::Most, biasOf(caster));
+    std::fill_n(tests.error, TilePatch::Most, errorOf(caster));
+    return found;
   }
-  testTexels(face.view, face.edge, points, first, last, places, tests);
-  for (int i = 0; i < count; ++i)
-  {
-    dark[i] = tests.dark[i] > 0.0;
-    if (tests.dark[i] == 1.0)
+  std::uint64_t something = 0;
+  eachBit(face.nearest.empty() ? places.sure : found,
+    [&](int i)
     {
-      const Place place{ &face, places.x[i], places.y[i], places.t[i] };
-      dark[i] = this->agreed(place, points.point(first + i), error);
-    }
+      std::uint32_t caster;
+      double occluder;
+      if (face.occluder(depth.at(places.column(i), places.row(i)), caster, occluder))
+      {
+        something |= std::uint64_t(1) << i;
+        tests.occluder[i] = static_cast<float>(occluder - places.t0);
+        tests.bias[i] = biasOf(caster);
+        tests.error[i] = errorOf(caster);
+      }
+    });
+  return something;
+}
+
+std::uint64_t ShadowBuffer::test(const Face& face, const TilePatch& patch, const MapPlaces& places,
+  double error, std::uint64_t& single) const
+{
+  // Where everything is farther from the light than the points' planes are followed to, no texel
+  // needs to be looked up. A thousandth is more than the rounding of these sums.
+  const double farthest = places.t0 + places.highT;
+  const double reach = 1.001 * NearbyReach * face.edge(farthest);
+  const double slack = 1e-5 * (std::abs(farthest) + std::abs(places.highT));
+  if (this->Bias >= 0.0 && face.nearestIn(places) > farthest + reach + slack)
+  {
+    return 0;
   }
+  TexelTests tests;
+  const std::uint64_t something = this->occluders(face, places, error, tests);
+  if (something == 0)
+  {
+    return 0;
+  }
+  testTexels(face.view, face.edge, patch, something, places, tests);
+  single |= tests.unsure;
+  std::uint64_t dark = tests.dark;
+  eachBit(tests.nearby,
+    [&](int i)
+    {
+      Place place;
+      const SurfacePoint point = patch.point(i);
+      const bool agreed = this->lookUp(point.position, place) && this->agreed(place, point, error);
+      dark |= std::uint64_t(agreed) << i;
+    });
+  return dark;
 }
 
 bool ShadowBuffer::agreed(const Place& place, const SurfacePoint& point, double error) const
@@ -118,14 +150,17 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
   {
     return occluder + bias < t ? Answer::Dark : Answer::Lit;
   }
-  if (!mayShadow(t, span * face->edge(t), occluder, bias))
+  const double edge = span * face->edge(t);
+  if (!(reachedBy(t, edge, occluder, bias) > 0.0))
   {
     return Answer::Lit;
   }
-  const double answer = shadowTest(face->view, face->edge,
-    { point.position, glm::dvec3(point.facet), glm::dvec3(point.normal), t, texel.x + 0.5,
-      texel.y + 0.5, span, occluder, bias, std::max(this->CasterError[caster], error) });
-  return static_cast<Answer>(static_cast<int>(answer));
+  const double x = texel.x + 0.5, y = texel.y + 0.5;
+  const ShadowAnswer<double> answer =
+    shadowTest<double>({ glm::dvec3(point.facet), glm::dvec3(point.normal),
+      point.position - face->view.rayOrigin(x, y), face->view.rayDirection(x, y), t, edge,
+      face->edge.aspect, occluder, bias, std::max(this->CasterError[caster], error) });
+  return static_cast<Answer>(answer.dark());
 }
 
 double ShadowBuffer::texelEdge(const glm::dvec3& position) const

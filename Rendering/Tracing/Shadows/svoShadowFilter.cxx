@@ -132,51 +132,26 @@ float ShadowBuffer::darkness(const SurfacePoint& point, double error, double ext
   return this->shadows(place, point, error) ? 1.0f : 0.0f;
 }
 
-void ShadowBuffer::darkness(const TilePoints& points, int first, int last, double error,
-  const double* extents, const std::uint8_t* asked, float* darkness) const
+void ShadowBuffer::darkness(const TilePatch& patch, double error, const double* extents,
+  std::uint64_t asked, float* darkness) const
 {
-  const int count = last - first;
-  std::uint8_t dark[TilePoints::Room];
-  this->shadows(points, first, last, error, asked, dark);
-  for (int i = 0; i < count; ++i)
+  const std::uint64_t dark = this->shadows(patch, error, asked);
+  for (int i = 0; i < TilePatch::Most; ++i)
   {
-    darkness[i] = dark[i] ? 1.0f : 0.0f;
+    darkness[i] = dark >> i & 1 ? 1.0f : 0.0f;
   }
-  if (!this->AutomaticBias || this->Faces.empty())
-  {
-    return;
-  }
-  const Face& face = *this->Faces.front();
-  const bool oneMap = this->Faces.size() == 1;
-  if (oneMap && !face.seesCasters)
-  {
-    return;
-  }
-  TexelPlaces places;
-  if (oneMap)
-  {
-    lookUpTexels(face.view, face.worldToClip, points, first, last, places);
-  }
-  for (int i = 0; i < count; ++i)
-  {
-    if (!asked[i])
+  eachBit(this->AutomaticBias ? asked : 0,
+    [&](int i)
     {
-      continue;
-    }
-    Place place;
-    if (oneMap)
-    {
-      place = { places.inside[i] > 0.0 ? &face : nullptr, places.x[i], places.y[i], places.t[i] };
-    }
-    else if (!this->lookUp(points.point(first + i).position, place))
-    {
-      place.face = nullptr;
-    }
-    const double width = place.face ? boxWidth(place, extents[i]) : 1.0;
-    if (place.face && !this->isFlat(place, width))
-    {
-      darkness[i] = this->filtered(place, width, points.point(first + i), error);
-    }
-  }
+      Place place;
+      if (this->lookUp(patch.position(i), place))
+      {
+        const double width = boxWidth(place, extents[i]);
+        if (!this->isFlat(place, width))
+        {
+          darkness[i] = this->filtered(place, width, patch.point(i), error);
+        }
+      }
+    });
 }
 }

@@ -44,7 +44,7 @@ bool mayBlock(const Light& light, const glm::dvec3& from, double radius, const g
 struct ShadowRays::Start
 {
   glm::dvec3 position, side; // world; side: unit, of its facet, towards the light
-  int index;
+  int pixel;
 };
 
 ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
@@ -112,74 +112,75 @@ bool ShadowRays::shadows(
     [&](const Caster& caster) { return blocks(caster, light, position, side, offset); });
 }
 
-void ShadowRays::shadowBeam(const Caster& caster, const Light& light, const Start* starts,
-  int count, double offset, std::uint8_t* dark) const
+/// The pixels of those that the caster shadows, one bit each.
+std::uint64_t ShadowRays::beam(
+  const Caster& caster, const Light& light, const Start* starts, int count, double offset) const
 {
+  std::uint64_t dark = 0;
+  const auto setIf = [&dark](bool isDark, const Start& start)
+  { dark |= std::uint64_t(isDark) << start.pixel; };
+  const auto alone = [&](const Start& start)
+  { return blocks(caster, light, start.position, start.side, offset); };
   constexpr int Few = 4; // such a beam is no quicker than its rays
-  if (count > Few && caster.beams)
+  if (count <= Few || !caster.beams)
   {
-    BeamPoints points;
-    points.count = count;
-    for (int i = 0; i < count; ++i)
-    {
-      points.at[i] = caster.toOctree.point(starts[i].position + offset * starts[i].side);
-    }
-    const bool far = light.atInfinity();
-    ShadowBeam::Answer answers[BeamPoints::Most];
-    const glm::dvec3 from =
-      far ? caster.toOctree.vector(light.direction) : caster.toOctree.point(light.position);
-    if (ShadowBeam(caster.instance->octree, from, far).trace(points, answers))
-    {
-      for (int i = 0; i < count; ++i)
-      {
-        const Start& start = starts[i];
-        dark[start.index] |= answers[i] == ShadowBeam::Dark ||
-          (answers[i] == ShadowBeam::Undecided &&
-            blocks(caster, light, start.position, start.side, offset));
-      }
-      return;
-    }
-    this->shadowBeam(caster, light, starts, count / 2, offset, dark);
-    this->shadowBeam(caster, light, starts + count / 2, count - count / 2, offset, dark);
-    return;
+    std::for_each(starts, starts + count, [&](const Start& start) { setIf(alone(start), start); });
+    return dark;
+  }
+  BeamPoints points;
+  points.count = count;
+  for (int i = 0; i < count; ++i)
+  {
+    points.at[i] = caster.toOctree.point(starts[i].position + offset * starts[i].side);
+  }
+  const bool far = light.atInfinity();
+  const glm::dvec3 from =
+    far ? caster.toOctree.vector(light.direction) : caster.toOctree.point(light.position);
+  ShadowBeam::Answer answers[BeamPoints::Most];
+  if (!ShadowBeam(caster.instance->octree, from, far).trace(points, answers))
+  {
+    const int half = count / 2;
+    return this->beam(caster, light, starts, half, offset) |
+      this->beam(caster, light, starts + half, count - half, offset);
   }
   for (int i = 0; i < count; ++i)
   {
-    dark[starts[i].index] |= blocks(caster, light, starts[i].position, starts[i].side, offset);
+    setIf(
+      answers[i] == ShadowBeam::Dark || (answers[i] == ShadowBeam::Undecided && alone(starts[i])),
+      starts[i]);
   }
+  return dark;
 }
 
-void ShadowRays::shadows(const Light& light, const TilePoints& points, int first, int last,
-  double offset, const std::uint8_t* asked, std::uint8_t* dark) const
+std::uint64_t ShadowRays::shadows(
+  const Light& light, const TilePatch& patch, double offset, std::uint64_t asked) const
 {
-  assert(first >= 0 && first < last && last <= points.count);
-  static_assert(BeamPoints::Most >= TilePoints::Most, "a tile's points fit");
-  Start starts[TilePoints::Most];
+  static_assert(BeamPoints::Most >= TilePatch::Most, "a tile's points fit");
+  Start starts[TilePatch::Most];
   int count = 0;
   glm::dvec3 low(0.0), high(0.0);
-  for (int i = first; i < last; ++i)
-  {
-    dark[i - first] = 0;
-    if (asked[i - first])
+  eachBit(asked & patch.mask,
+    [&](int i)
     {
-      const glm::dvec3 position = points.position(i);
+      const glm::dvec3 position = patch.position(i);
       low = count ? glm::min(low, position) : position;
       high = count ? glm::max(high, position) : position;
-      starts[count++] = { position, sideOf(light, position, points.facet(i)), i - first };
-    }
-  }
+      starts[count++] = { position, sideOf(light, position, patch.facet(i)), i };
+    });
   const glm::dvec3 middle = 0.5 * (low + high);
   const double radius = 0.5 * glm::length(high - low) + offset;
+  std::uint64_t dark = 0;
   for (const Caster& caster : this->Casters)
   {
     if (count > 0 && mayBlock(light, middle, radius, caster.centre, caster.radius))
     {
-      this->shadowBeam(caster, light, starts, count, offset, dark);
+      dark |= this->beam(caster, light, starts, count, offset);
       count = static_cast<int>(std::remove_if(starts, starts + count,
-                                 [&](const Start& start) { return dark[start.index] != 0; }) -
+                                 [&](const Start& start) { return dark >> start.pixel & 1; }) -
         starts);
     }
   }
+  return dark;
 }
 
 glm::dvec3 ShadowRays::start(

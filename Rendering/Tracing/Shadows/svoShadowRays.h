@@ -5,7 +5,7 @@
 
 #include "svoLayeredView.h"
 #include "svoScene.h"
-#include "svoTilePoints.h"
+#include "svoTilePatch.h"
 #include "svoWorldToOctree.h"
 
 #include <cstdint>
@@ -26,10 +26,9 @@ public:
   bool shadows(
     const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const;
 
-  /// The same for points [first, last) of a tile, of one instance: dark[i - first] of those that
-  /// are `asked`.
-  void shadows(const Light& light, const TilePoints& points, int first, int last, double offset,
-    const std::uint8_t* asked, std::uint8_t* dark) const;
+  /// The same for the points of a patch that are `asked`, one bit a pixel: those that are shadowed.
+  std::uint64_t shadows(
+    const Light& light, const TilePatch& patch, double offset, std::uint64_t asked) const;
 
   /// The start of that ray, world.
   static glm::dvec3 start(
@@ -55,8 +54,8 @@ private:
   struct Start;
   static bool blocks(const Caster& caster, const Light& light, const glm::dvec3& position,
     const glm::dvec3& side, double offset);
-  void shadowBeam(const Caster& caster, const Light& light, const Start* starts, int count,
-    double offset, std::uint8_t* dark) const;
+  std::uint64_t beam(
+    const Caster& caster, const Light& light, const Start* starts, int count, double offset) const;
   std::vector<Caster> Casters;
 };
 }

@@ -1,7 +1,8 @@
-// The shadow test: what one texel of a shadow map says of one point, with the automatic bias. Whole
-// tiles of points and single points call the same function, so that they get the same bits; it has
-// no branches, so that a loop over points becomes vectors. Callers say where the point and the
-// texel are; what the rule makes of that is known here alone.
+// The shadow test: what one texel of a shadow map says of one point, with the automatic bias.
+// Single points ask it in double; whole patches ask it in single precision, with depths from the
+// patch's origin, and in double once more where they cannot be sure (svoTileShadows.h). Either is
+// this one function, which has no branches, so that a loop over points becomes vectors. Callers say
+// where the point and the texel are; what the rule makes of that is known here alone.
 //
 // The point is not compared itself: its tangent planes are, at the ray of the texel's own centre
 // (Dou et al., "Adaptive Depth Bias for Shadow Maps", JCGT 2014, section 3), so that the slope of
@@ -14,8 +15,6 @@
 #define svoShadowTest_h
 
 #include "svoShadowRules.h"
-#include "svoTexelPlace.h"
-#include "svoView.h"
 
 #include <cmath>
 
@@ -24,78 +23,94 @@
 
 namespace svo
 {
-/// One point and one texel; world coordinates.
+/// One point and one texel; along the world's axes. Linear depths count from any depth that is the
+/// same for all of them.
+template <class Real>
 struct ShadowQuestion
 {
-  glm::dvec3 position;
-  glm::dvec3 facet, normal; // the point's planes, as in SurfacePoint
-  double t;                 // linear depth of the point
-  double x, y;              // the texel's centre
-  double span;              // the texel is taken for so many times as large as it is
-  double occluder;          // linear depth of what lies at the texel; infinity: nothing
-  double bias;              // along the light
-  double error;             // along the normal: of the point, or of what casts
-};
-
-/// The texel of a question in the world.
-struct ShadowTexel
-{
-  glm::dvec3 to;  // to the point, from where the texel's ray has linear depth 0
-  glm::dvec3 ray; // through the texel's centre; linear depth grows by 1
-  double length;  // of that
-  double edge;    // at the point's depth, the shorter one
-  double aspect;  // the longer edge, in shorter ones
+  using Vector = glm::vec<3, Real>;
+  Vector facet, normal; // the point's planes, as in SurfacePoint
+  Vector to;            // to the point, from where the ray of the texel's centre has depth 0
+  Vector ray;           // of the texel's centre; linear depth grows by 1
+  Real t;               // linear depth of the point
+  Real edge;            // of the texel at that depth, the shorter one
+  Real aspect;          // the longer edge, in shorter ones
+  Real occluder;        // linear depth of what lies at the texel; infinity: nothing
+  Real bias;            // along the light
+  Real error;           // along the normal: of the point, or of what casts
 };
 
 /// One of a point's planes, as the texel's ray meets it.
+template <class Real>
 struct ShadowPlane
 {
-  double t;     // linear depth where the ray meets the plane, as far as it is followed
-  double slope; // sine of the ray's angle to the plane
+  Real t;     // linear depth where the ray meets the plane, as far as it is followed
+  Real slope; // sine of the ray's angle to the plane
 };
 
-/// False if the texel leaves the point in the light whatever the point's planes are.
-inline bool mayShadow(double t, double edge, double occluder, double bias)
+/// What the answer hangs on: the point is dark if the first two are above 0.
+template <class Real>
+struct ShadowAnswer
 {
-  return occluder + bias < t + NearbyReach * edge;
+  Real reached;   // by how much the occluder lies before what the planes can be followed to
+  Real behind;    // ... and, with all that is allowed for, before them
+  Real farBefore; // ... and, if above 0, is not nearby
+  Real allowed;
+  Real slope;  // of the flatter plane
+  Real edgeOn; // by how much a plane's slope is other than EdgeOnSine
+  /// 0: lit; 1: dark by an occluder nearby, which other texels have to agree on; 2: dark.
+  int dark() const
+  {
+    const int which = farBefore > Real(0) ? 2 : 1;
+    return (reached > Real(0)) & (behind > Real(0)) ? which : 0;
+  }
+};
+
+/// By how much an occluder lies before what a point's planes can be followed to; if it does not,
+/// the point is lit whatever they are.
+template <class Real>
+Real reachedBy(Real t, Real edge, Real occluder, Real bias)
+{
+  return (t + Real(NearbyReach) * edge) - (occluder + bias);
 }
 
-inline ShadowPlane followPlane(
-  const ShadowQuestion& q, const ShadowTexel& texel, const glm::dvec3& normal)
+template <class Real>
+[[gnu::always_inline]] inline ShadowPlane<Real> followPlane(
+  const ShadowQuestion<Real>& q, Real length, const glm::vec<3, Real>& normal)
 {
-  const double along = glm::dot(normal, texel.ray);
-  const double slope = std::abs(along) / texel.length;
-  const double met = glm::dot(normal, texel.to) / along;
-  const double most = NearbyReach * texel.edge, high = q.t + most;
+  const Real along = glm::dot(normal, q.ray);
+  const Real slope = std::abs(along) / length;
+  const Real met = glm::dot(normal, q.to) / along;
+  const Real most = Real(NearbyReach) * q.edge, high = q.t + most;
   // Inside a texel a plane in grazing light reaches far towards the light. Where it is edge-on it
   // says nothing.
-  const double wide = texel.aspect * texel.edge, farthest = GrazingReach * wide;
-  const double reach = wide < farthest * slope ? wide / slope : farthest;
-  const double low = q.t - (most < reach ? reach : most);
-  const double capped = high < met ? high : met;
-  const double bounded = met < low ? low : capped;
-  return { slope > EdgeOnSine ? bounded : low, slope };
+  const Real wide = q.aspect * q.edge, farthest = Real(GrazingReach) * wide;
+  const Real steep = wide / slope;
+  const Real reach = wide < farthest * slope ? steep : farthest;
+  const Real low = q.t - (most < reach ? reach : most);
+  const Real capped = high < met ? high : met;
+  const Real bounded = met < low ? low : capped;
+  return { slope > Real(EdgeOnSine) ? bounded : low, slope };
 }
 
-/// `edges`: of the map's texels. 0: lit; 1: dark by an occluder nearby, which other texels have to
-/// agree on; 2: dark.
-inline double shadowTest(const View& map, const TexelEdge& edges, const ShadowQuestion& q)
+template <class Real>
+[[gnu::always_inline]] inline ShadowAnswer<Real> shadowTest(const ShadowQuestion<Real>& q)
 {
-  const glm::dvec3 ray = map.rayDirection(q.x, q.y);
-  const ShadowTexel texel{ q.position - map.rayOrigin(q.x, q.y), ray, std::sqrt(glm::dot(ray, ray)),
-    q.span * edges(q.t), edges.aspect };
-  const ShadowPlane facet = followPlane(q, texel, q.facet);
-  const ShadowPlane normal = followPlane(q, texel, q.normal);
-  const double most = NearbyReach * texel.edge, low = q.t - most, high = q.t + most;
-  const double nearer = facet.t < high ? facet.t : high;
-  const double receiver = normal.t < nearer ? normal.t : nearer;
-  const double steeper = LeastSteepness < facet.slope ? facet.slope : LeastSteepness;
-  const double steepest = steeper < normal.slope ? normal.slope : steeper;
+  const Real length = std::sqrt(glm::dot(q.ray, q.ray));
+  const ShadowPlane<Real> facet = followPlane(q, length, q.facet);
+  const ShadowPlane<Real> normal = followPlane(q, length, q.normal);
+  const Real most = Real(NearbyReach) * q.edge, low = q.t - most, high = q.t + most;
+  const Real nearer = facet.t < high ? facet.t : high;
+  const Real receiver = normal.t < nearer ? normal.t : nearer;
+  const Real steeper = Real(LeastSteepness) < facet.slope ? facet.slope : Real(LeastSteepness);
+  const Real steepest = steeper < normal.slope ? normal.slope : steeper;
   // Half a texel and the leaf's error, both along the normal.
-  const double allowed = q.bias + (TexelBend * texel.edge + q.error) / steepest;
-  const double front = q.occluder + allowed < receiver ? 1.0 : 0.0;
-  const double which = q.occluder < low ? 2.0 : 1.0;
-  return mayShadow(q.t, texel.edge, q.occluder, q.bias) ? front * which : 0.0;
+  const Real allowed = q.bias + (Real(TexelBend) * q.edge + q.error) / steepest;
+  const Real first = std::abs(facet.slope - Real(EdgeOnSine));
+  const Real second = std::abs(normal.slope - Real(EdgeOnSine));
+  return { reachedBy(q.t, q.edge, q.occluder, q.bias), receiver - (q.occluder + allowed),
+    low - q.occluder, allowed, facet.slope < normal.slope ? facet.slope : normal.slope,
+    first < second ? first : second };
 }
 }
 

@@ -93,7 +93,7 @@ void Shadows::release()
   this->SharedState.clear();
 }
 
-void Shadows::mark(const TilePoints& points)
+void Shadows::mark(const TilePatch& patch)
 {
   if (!this->TracesWhole)
   {
@@ -101,7 +101,7 @@ void Shadows::mark(const TilePoints& points)
     {
       if (buffer)
       {
-        buffer->mark(points);
+        buffer->mark(patch);
       }
     }
   }
@@ -138,23 +138,21 @@ bool Shadows::dark(
   return this->Buffers[light] && this->Buffers[light]->shadows(point, error);
 }
 
-void Shadows::dark(std::size_t light, const TilePoints& points, int first, int last, double error,
-  const std::uint8_t* asked, std::uint8_t* dark, std::uint64_t& rays) const
+std::uint64_t Shadows::dark(std::size_t light, const TilePatch& patch, double error,
+  std::uint64_t asked, std::uint64_t& rays) const
 {
   assert(light < this->Buffers.size());
   if (this->Buffers[light] && !this->UsesRays)
   {
-    this->Buffers[light]->shadows(points, first, last, error, asked, dark);
-    return;
+    return this->Buffers[light]->shadows(patch, error, asked);
   }
-  const bool casts = this->UsesRays && this->Tested->lights[light].castShadow;
-  if (!casts)
+  const Light& source = this->Tested->lights[light];
+  if (!this->UsesRays || !source.castShadow)
   {
-    std::fill_n(dark, last - first, std::uint8_t(0));
-    return;
+    return 0;
   }
-  rays += std::count(asked, asked + (last - first), std::uint8_t(1));
-  this->Rays->shadows(this->Tested->lights[light], points, first, last, error, asked, dark);
+  rays += static_cast<std::uint64_t>(countBits(asked));
+  return this->Rays->shadows(source, patch, error, asked);
 }
 
 float Shadows::darkness(std::size_t light, const SurfacePoint& point, double error, double extent,
@@ -165,15 +163,15 @@ float Shadows::darkness(std::size_t light, const SurfacePoint& point, double err
     : this->dark(light, point, error, rays);
 }
 
-void Shadows::darkness(std::size_t light, const TilePoints& points, int first, int last,
-  double error, const double* extents, const std::uint8_t* asked, float* darkness) const
+void Shadows::darkness(std::size_t light, const TilePatch& patch, double error,
+  const double* extents, std::uint64_t asked, float* darkness) const
 {
   if (this->Buffers[light])
   {
-    this->Buffers[light]->darkness(points, first, last, error, extents, asked, darkness);
+    this->Buffers[light]->darkness(patch, error, extents, asked, darkness);
     return;
   }
-  std::fill_n(darkness, last - first, 0.0f);
+  std::fill_n(darkness, TilePatch::Most, 0.0f);
 }
 
 float Shadows::darkness(std::size_t light, const SurfacePoint& on, const TerminatorPoint& at,

@@ -9,6 +9,7 @@
 #include "svoShadowRules.h"
 #include "svoSurfacePoint.h"
 #include "svoTerminator.h"
+#include "svoTilePatch.h"
 #include "svoTileShadows.h"
 
 #include <cstdint>
@@ -42,7 +43,7 @@ public:
 
   /// Notes what visible points will look up. Which side of them is lit does not matter: light tiles
   /// that only unlit sides look up are few. Thread-safe.
-  void mark(const TilePoints& points);
+  void mark(const TilePatch& patch);
   /// True if mark() does anything.
   bool wantsMarks() const { return !this->TracesWhole && this->Casting; }
 
@@ -56,9 +57,9 @@ public:
   /// ShadowBuffer::shadows. Counts the rays it casts in `rays`.
   bool dark(std::size_t light, const SurfacePoint& point, double error, std::uint64_t& rays) const;
 
-  /// The same for points [first, last) of one instance: dark[i - first] of those that are `asked`.
-  void dark(std::size_t light, const TilePoints& points, int first, int last, double error,
-    const std::uint8_t* asked, std::uint8_t* dark, std::uint64_t& rays) const;
+  /// The same of a patch's points, by pixel: those that are `asked` and dark.
+  std::uint64_t dark(std::size_t light, const TilePatch& patch, double error, std::uint64_t asked,
+    std::uint64_t& rays) const;
 
   /// True if darkness() should be asked instead of dark(): it knows more than yes and no.
   bool filters() const { return this->Filters; }
@@ -66,10 +67,10 @@ public:
   /// without a buffer 0 or 1, as dark() says.
   float darkness(std::size_t light, const SurfacePoint& point, double error, double extent,
     std::uint64_t& rays) const;
-  /// The same for points [first, last) of one instance: darkness[i - first] of those that are
-  /// `asked`; `extents` likewise. Only where there are buffers.
-  void darkness(std::size_t light, const TilePoints& points, int first, int last, double error,
-    const double* extents, const std::uint8_t* asked, float* darkness) const;
+  /// The same of a patch's points, by pixel: of those that are `asked`, 0 of others. Only where
+  /// there are buffers.
+  void darkness(std::size_t light, const TilePatch& patch, double error, const double* extents,
+    std::uint64_t asked, float* darkness) const;
 
   /// The same for points at the terminator, see svoTerminator.h. False where nothing is in shadow,
   /// or points are compared with a shadow map without the automatic bias.

@@ -4,9 +4,9 @@
 
 #include "svoTileShadows.h"
 
+#include "svoLaneBits-inl.h"
 #include "svoShadowTest.h"
 #include "svoTerminator.h"
-#include "svoTexelPlace.h"
 
 #include <algorithm>
 #include <cassert>
@@ -14,94 +14,134 @@
 
 #include <hwy/highway.h>
 
+#ifndef SVO_TILE_SHADOWS_ONCE
+#define SVO_TILE_SHADOWS_ONCE
+namespace svo
+{
+// How far off what shadowTest() compares is, with u = 2^-24. Let M be the sum of the sizes of what
+// is added up to the way from a texel's ray to a point, H the largest depth that a plane is
+// followed to, counted from the origin's, and s the sine of the light's angle to the plane.
+// - The way: 12 u M (the patch's 8 u, the coefficients, products and sums). Its product with a unit
+//   normal: 15 u M. That of the ray: its coefficients, products and sums 4 u, the product 3 u, of
+//   its components' sum, which is at most sqrt(3) times its length: 13 u. So s is off by 16 u.
+// - Where the ray meets the plane, a quotient: (15 M + 13 H) u / s and its rounding. (Where it is
+//   farther than H the plane is not followed, and the error of that is less than what is beyond.)
+//   How far planes are followed: H (16 / s + 3) u. Depths: 13 u H. Together less than 64 u (M + H)
+//   / s.
+// - What is allowed for is divided by s or 0.1, whichever is more: 16 u / 0.1 of it, and less than
+//   16 u for the rest.
+// - The occluder: rounded once, and once each in three sums.
+constexpr float OfPlanes = 64.0f * FloatRounding;
+constexpr float OfAllowed = 256.0f * FloatRounding;
+constexpr float OfOccluder = 8.0f * FloatRounding;
+constexpr float OfSlope = 32.0f * FloatRounding;
+
+/// A map's texels as the points of a patch see them, by texels from x0, y0.
+struct TexelsFromPatch
+{
+  glm::vec3 start, startX, startY; // from the patch's origin, where a texel's ray has depth t0
+  glm::vec3 ray, rayX, rayY;       // linear depth grows by 1
+  float edge, edgePerDepth, aspect;
+  float doubt; // what the answers are off by where the slope is 1, but for the occluder
+};
+}
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace svo
 {
 namespace HWY_NAMESPACE
 {
-constexpr int Step = TilePoints::Step;
+constexpr int Step = TilePatch::Step;
 
-void lookUp(const View& light, const glm::dmat4& worldToClip, const TilePoints& p, int first,
-  int last, TexelPlaces& places)
+void addInDouble(double base, const float* HWY_RESTRICT t, float* HWY_RESTRICT occluders)
 {
-  const View map = light;
-  const glm::dmat4 toClip = worldToClip;
-  for (int i = first; i < last; i += Step)
+  for (int k = 0; k < TilePatch::Most; ++k)
   {
-    for (int k = i; k < i + Step; ++k)
-    {
-      const TexelPlace place = texelPlace(map, toClip, p.position(k));
-      places.x[k - first] = place.x;
-      places.y[k - first] = place.y;
-      places.t[k - first] = place.t;
-      places.inside[k - first] = place.inside;
-    }
+    occluders[k] = static_cast<float>(base + static_cast<double>(t[k]));
   }
 }
 
-/// In single precision, with a margin that is more than its rounding. `far`: the light shines the
-/// way `along`, from no place in particular.
-int turn(const glm::dvec3& from, const glm::vec3& along, bool far, float sine, float sineIfDark,
-  const TilePoints& p, int first, int last, const std::uint8_t* asked, const std::uint8_t* dark,
-  std::uint8_t* turned)
+void test(const TexelsFromPatch& of, const TilePatch& p, std::uint64_t lanes,
+  const MapPlaces& places, TexelTests& tests)
 {
-  alignas(64) float x[TilePoints::Room], y[TilePoints::Room], z[TilePoints::Room];
-  const int n = last - first;
-  if (far)
+  const TexelsFromPatch map = of;
+  tests.dark = tests.nearby = tests.unsure = 0;
+  for (int i = 0; i < TilePatch::Most; i += Step)
   {
-    std::fill_n(x, n + Step, along.x);
-    std::fill_n(y, n + Step, along.y);
-    std::fill_n(z, n + Step, along.z);
-  }
-  else
-  {
-    for (int k = 0; k < (n + Step - 1) / Step * Step; ++k)
+    if ((lanes >> i & ((1u << Step) - 1)) == 0)
     {
-      x[k] = static_cast<float>(p.positionX[first + k] - from.x);
-      y[k] = static_cast<float>(p.positionY[first + k] - from.y);
-      z[k] = static_cast<float>(p.positionZ[first + k] - from.z);
+      continue;
+    }
+    alignas(64) std::uint32_t answers[Step];
+    for (int k = 0; k < Step; ++k)
+    {
+      const float x = places.centreX[i + k], y = places.centreY[i + k], t = places.t[i + k];
+      const float occluder = tests.occluder[i + k];
+      const ShadowAnswer<float> answer = shadowTest<float>({ p.facet(i + k), p.normal(i + k),
+        p.way(i + k) - (map.start + x * map.startX + y * map.startY),
+        map.ray + x * map.rayX + y * map.rayY, t, map.edge + t * map.edgePerDepth, map.aspect,
+        occluder, tests.bias[i + k], tests.error[i + k] });
+      const float flattest = static_cast<float>(EdgeOnSine);
+      const float slope = answer.slope < flattest ? flattest : answer.slope;
+      const float doubt =
+        map.doubt / slope + OfAllowed * answer.allowed + OfOccluder * std::abs(occluder);
+      const bool lit = (answer.reached < -doubt) | (answer.behind < -doubt);
+      const bool dark =
+        (answer.reached > doubt) & (answer.behind > doubt) & (std::abs(answer.farBefore) > doubt);
+      const std::uint32_t which = answer.farBefore > 0.0f ? 2u : 1u;
+      const std::uint32_t sure = lit ? 0u : which;
+      answers[k] = (lit | dark) & (answer.edgeOn > OfSlope) ? sure : 3u;
+    }
+    const Words words;
+    for (int k = 0; k < Step; k += width())
+    {
+      const auto answer = hn::Load(words, answers + k);
+      tests.nearby |= bitsOf(words, hn::Eq(answer, hn::Set(words, 1))) << (i + k);
+      tests.dark |= bitsOf(words, hn::Eq(answer, hn::Set(words, 2))) << (i + k);
+      tests.unsure |= bitsOf(words, hn::Eq(answer, hn::Set(words, 3))) << (i + k);
     }
   }
+  tests.nearby &= lanes;
+  tests.dark &= lanes;
+  tests.unsure &= lanes;
+}
+
+/// With a margin that is more than its rounding. `from`: the patch's origin, from the light; `far`:
+/// the light shines the way `from`, from no place in particular.
+std::uint64_t turn(const glm::vec3& way, bool far, float sine, float sineIfDark, const TilePatch& p,
+  std::uint64_t asked, std::uint64_t dark)
+{
+  const glm::vec3 from = way;
+  const float moves = far ? 0.0f : 1.0f;
   const float sine2 = sine * sine, sineIfDark2 = sineIfDark * sineIfDark;
-  alignas(64) std::uint32_t turns[TilePoints::Room];
-  for (int i = 0; i < n; i += Step)
+  std::uint64_t always = 0, ifDark = 0;
+  for (int i = 0; i < TilePatch::Most; i += Step)
   {
-    for (int k = i; k < i + Step; ++k)
+    if ((asked >> i & ((1u << Step) - 1)) == 0)
     {
-      const float behind =
-        p.facetX[first + k] * x[k] + p.facetY[first + k] * y[k] + p.facetZ[first + k] * z[k];
-      const float length2 = x[k] * x[k] + y[k] * y[k] + z[k] * z[k];
-      const float behind2 = behind * behind;
-      const std::uint32_t faces = behind2 > sine2 * length2 ? 1u : 0u;
-      const std::uint32_t facesIfDark = behind2 > sineIfDark2 * length2 ? 1u : 0u;
+      continue;
+    }
+    alignas(64) std::int32_t turns[Step];
+    for (int k = 0; k < Step; ++k)
+    {
+      const glm::vec3 along = from + moves * p.way(i + k);
+      const float behind = glm::dot(p.facet(i + k), along);
+      const float length2 = glm::dot(along, along), behind2 = behind * behind;
+      const std::int32_t flat = behind2 > sine2 * length2 ? 0 : 2;
+      const std::int32_t flatIfDark = behind2 > sineIfDark2 * length2 ? 0 : 1;
       // What is not a number turns away.
-      turns[k] = behind <= 0.0f ? (1u - faces) * 2u + (1u - facesIfDark) : 2u;
+      turns[k] = behind <= 0.0f ? flat + flatIfDark : 3;
     }
-  }
-  int any = 0;
-  for (int k = 0; k < n; ++k)
-  {
-    turned[k] = asked[k] && turns[k] + dark[k] > 1u;
-    any |= turned[k];
-  }
-  return any;
-}
-
-void test(const View& light, const TexelEdge& edges, const TilePoints& p, int first, int last,
-  const TexelPlaces& places, TexelTests& tests)
-{
-  const View map = light;
-  const TexelEdge edge = edges;
-  for (int i = first; i < last; i += Step)
-  {
-    for (int k = i; k < i + Step; ++k)
+    const Integers integers;
+    for (int k = 0; k < Step; k += width())
     {
-      const int j = k - first;
-      tests.dark[j] = shadowTest(map, edge,
-        { p.position(k), glm::dvec3(p.facet(k)), glm::dvec3(p.normal(k)), places.t[j], tests.x[j],
-          tests.y[j], 1.0, tests.occluder[j], tests.bias[j], tests.error[j] });
+      const auto turned = hn::Load(integers, turns + k);
+      always |= bitsOf(integers, hn::Gt(turned, hn::Set(integers, 1))) << (i + k);
+      ifDark |= bitsOf(integers, hn::Gt(turned, hn::Zero(integers))) << (i + k);
     }
   }
+  return asked & (always | (ifDark & dark));
 }
 }
 }
@@ -110,32 +150,54 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace svo
 {
-HWY_EXPORT(lookUp);
+HWY_EXPORT(addInDouble);
 HWY_EXPORT(turn);
 HWY_EXPORT(test);
 
-void lookUpTexels(const View& light, const glm::dmat4& worldToClip, const TilePoints& points,
-  int first, int last, TexelPlaces& places)
+namespace
 {
-  assert(first >= 0 && first < last && last <= points.count);
-  HWY_DYNAMIC_DISPATCH(lookUp)(light, worldToClip, points, first, last, places);
+float sizeOf(const glm::vec3& v)
+{
+  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
 }
 
-bool mayTurnAway(const Light& light, double grazing, const TilePoints& points, int first, int last,
-  const std::uint8_t* asked, const std::uint8_t* dark, std::uint8_t* turned)
+void setOccluders(double base, const TexelOccluders& occluders, TexelTests& tests)
 {
-  assert(first >= 0 && first < last && last <= points.count);
+  HWY_DYNAMIC_DISPATCH(addInDouble)(base, occluders.t, tests.occluder);
+}
+
+std::uint64_t mayTurnAway(const Light& light, double grazing, const TilePatch& patch,
+  std::uint64_t asked, std::uint64_t dark)
+{
   constexpr double Margin = 1e-4;
-  return HWY_DYNAMIC_DISPATCH(turn)(light.position, glm::vec3(light.direction), light.atInfinity(),
-           static_cast<float>(grazing + Margin), static_cast<float>(DoubtfulSine + Margin), points,
-           first, last, asked, dark, turned) != 0;
+  const bool far = light.atInfinity();
+  const glm::vec3 from(far ? light.direction : patch.origin.position - light.position);
+  return HWY_DYNAMIC_DISPATCH(turn)(from, far, static_cast<float>(grazing + Margin),
+    static_cast<float>(DoubtfulSine + Margin), patch, asked, dark);
 }
 
-void testTexels(const View& light, const TexelEdge& edge, const TilePoints& points, int first,
-  int last, const TexelPlaces& places, TexelTests& tests)
+void testTexels(const View& view, const TexelEdge& edge, const TilePatch& patch,
+  std::uint64_t lanes, const MapPlaces& places, TexelTests& tests)
 {
-  assert(first >= 0 && first < last && last <= points.count && edge.aspect >= 1.0);
-  HWY_DYNAMIC_DISPATCH(test)(light, edge, points, first, last, places, tests);
+  assert((lanes & ~places.sure) == 0 && edge.aspect >= 1.0);
+  const double x = places.x0, y = places.y0, t = places.t0;
+  const glm::dvec3 ray = view.rayDirection(x, y);
+  TexelsFromPatch map{ glm::vec3(view.rayOrigin(x, y) + t * ray - patch.origin.position),
+    glm::vec3(view.originX + t * view.directionX), glm::vec3(view.originY + t * view.directionY),
+    glm::vec3(ray), glm::vec3(view.directionX), glm::vec3(view.directionY),
+    static_cast<float>(edge(t)), static_cast<float>(edge.perDepth), static_cast<float>(edge.aspect),
+    0.0f };
+  const float wide = 1.0f +
+    std::max({ std::abs(places.lowX), std::abs(places.highX), std::abs(places.lowY),
+      std::abs(places.highY) });
+  const float deep = std::max(std::abs(places.lowT), std::abs(places.highT));
+  const float way =
+    sizeOf(patch.extent) + sizeOf(map.start) + wide * (sizeOf(map.startX) + sizeOf(map.startY));
+  const float reach = static_cast<float>(NearbyReach + GrazingReach * edge.aspect) *
+    (map.edge + deep * map.edgePerDepth);
+  map.doubt = OfPlanes * (way + deep + reach);
+  HWY_DYNAMIC_DISPATCH(test)(map, patch, lanes, places, tests);
 }
 }
 #endif

@@ -1,47 +1,41 @@
-// The shadow test of the visible points of a tile against one map of a shadow buffer:
-// svoTexelPlace.h and svoShadowTest.h, point by point, in vectors.
+// The shadow test of the points of a patch against one map of a shadow buffer: single points' rules
+// (svoTexelPlace.h, svoShadowTest.h) in single precision, counted from the patch's origin. Each
+// answer says how far off it may be; where that decides, it is left to the test of one point, in
+// double. So a patch gets the answers of its points, all of them, and asks for few.
 #ifndef svoTileShadows_h
 #define svoTileShadows_h
 
-#include "svoScene.h"
+#include "svoLight.h"
+#include "svoMapPlaces.h"
 #include "svoTexelPlace.h"
-#include "svoTilePoints.h"
+#include "svoTilePatch.h"
 #include "svoView.h"
 
 #include <cstdint>
 
-#include <glm/mat4x4.hpp>
-
 namespace svo
 {
-/// The TexelPlace of each point, by index of the point minus `first`.
-struct TexelPlaces
-{
-  alignas(64) double x[TilePoints::Room], y[TilePoints::Room];
-  alignas(64) double t[TilePoints::Room], inside[TilePoints::Room];
-};
-
-/// What a texel says to a point, and what it does not.
+/// What texels say to points, and what they do not. By pixel.
 struct TexelTests
 {
-  alignas(64) double x[TilePoints::Room], y[TilePoints::Room]; // the texel's centre
-  alignas(64) double occluder[TilePoints::Room];               // infinity: none
-  alignas(64) double bias[TilePoints::Room];                   // world, along the light
-  alignas(64) double error[TilePoints::Room];                  // world, along the normal
-  alignas(64) double dark[TilePoints::Room]; // answer: 0 lit, 1 dark by an occluder nearby, 2 dark
+  alignas(64) float occluder[TilePatch::Most]; // linear depth, less t0
+  alignas(64) float bias[TilePatch::Most];     // world, along the light
+  alignas(64) float error[TilePatch::Most];    // world, along the normal
+  /// Points that are dark; dark by an occluder nearby; and those whose answer is not certain.
+  std::uint64_t dark, nearby, unsure;
 };
 
-void lookUpTexels(const View& light, const glm::dmat4& worldToClip, const TilePoints& points,
-  int first, int last, TexelPlaces& places);
+/// Sets all occluders, of one caster: `base` plus each of the depths, in double.
+void setOccluders(double base, const TexelOccluders& occluders, TexelTests& tests);
 
-/// Which of the points first..last - 1 are `asked` about and may turnsAway() from the light, by
-/// `grazing`, or DoubtfulSine where they are `dark`; by index minus `first`. All that do are among
-/// them. False if there are none.
-bool mayTurnAway(const Light& light, double grazing, const TilePoints& points, int first, int last,
-  const std::uint8_t* asked, const std::uint8_t* dark, std::uint8_t* turned);
+/// Tests points of `lanes`, which are inside of the map and each in a texel that something lies at.
+void testTexels(const View& map, const TexelEdge& edge, const TilePatch& patch, std::uint64_t lanes,
+  const MapPlaces& places, TexelTests& tests);
 
-void testTexels(const View& light, const TexelEdge& edge, const TilePoints& points, int first,
-  int last, const TexelPlaces& places, TexelTests& tests);
+/// Which of the points in `asked` may turnsAway() from the light, by `grazing`, or DoubtfulSine
+/// where they are `dark`. All that do are among them.
+std::uint64_t mayTurnAway(const Light& light, double grazing, const TilePatch& patch,
+  std::uint64_t asked, std::uint64_t dark);
 }
 
 #endif

@@ -37,6 +37,8 @@ struct WorldToOctree
     return 1.0 + (this->inverse * (x - this->translation) - this->origin) * this->scale;
   }
   glm::dvec3 vector(const glm::dvec3& v) const { return this->inverse * v * this->scale; }
+  /// By how much what is linear in octree coordinates, as dot(g, x), grows along the world's axes.
+  glm::dvec3 gradient(const glm::dvec3& g) const { return g * this->inverse * this->scale; }
 };
 }
 

@@ -1,13 +1,15 @@
-// The visible points of a tile, side by side, against the functions for one point, bit for bit, on
-// every instruction set of this machine.
+// The visible points of a tile, all at once, against the functions for one point, on every
+// instruction set of this machine.
 #include "svoInstructionSets.h"
 #include "svoLeafError.h"
 #include "svoReferencePoint.h"
 #include "svoReferenceShading.h"
 #include "svoShadowBuffer.h"
 #include "svoTileLighting.h"
-#include "svoTilePoints.h"
+#include "svoTileLook.h"
+#include "svoTilePatch.h"
 #include "svoTracerScenes.h"
+#include "svoWorldSize.h"
 
 #include <gtest/gtest.h>
 
@@ -120,39 +122,51 @@ struct Stage
     }
   }
 
-  /// Calls f(points) for every tile with hits.
+  /// Calls f(patch) for every patch of every tile with hits.
   template <class F>
-  void eachTile(F&& f)
+  void eachPatch(F&& f)
   {
     const DepthBuffer& depth = eye.depthBuffer();
-    TilePoints points{};
+    TilePatch patch{};
     for (std::size_t tile = 0; tile < depth.tiles(); ++tile)
     {
-      if (depth.hit[tile] &&
-        takePoints(
-          depth, view, static_cast<int>(tile % depth.tilesX), static_cast<int>(tile / depth.tilesX),
-          [](std::uint32_t) { return true; }, [&](std::uint32_t i) { return eye.base(i); }, points))
+      if (depth.hit[tile])
       {
-        f(points);
+        svo::eachPatch(
+          view,
+          hitsOfTile(depth, view, static_cast<int>(tile % depth.tilesX),
+            static_cast<int>(tile / depth.tilesX)),
+          [](std::uint32_t) { return true; }, [&](std::uint32_t i) { return eye.base(i); }, patch,
+          f);
       }
     }
   }
+
+  /// The same of patches that have been looked at.
+  template <class F>
+  void eachSeenPatch(F&& f)
+  {
+    TileTriangles triangles{};
+    this->eachPatch(
+      [&](TilePatch& patch)
+      {
+        lookAtPatch(frames[patch.instance], patch, triangles);
+        f(patch);
+      });
+  }
 };
 
-/// Runs of points of one instance.
-template <class F>
-void eachInstance(const TilePoints& points, F&& f)
+/// Both look at the point in single precision, from different places: corners' normals of length 1,
+/// weighted, may differ by a hundred roundings.
+void expectSameNormal(const glm::vec3& found, const glm::vec3& expected, bool interpolated)
 {
-  for (int run = 0; run < points.runCount;)
+  if (!interpolated)
   {
-    const TilePoints::Run first = points.runs[run];
-    int last = first.last;
-    for (; run < points.runCount && points.runs[run].instance == first.instance; ++run)
-    {
-      last = points.runs[run].last;
-    }
-    f(first.instance, first.first, last, first.hasColor);
+    ASSERT_TRUE(sameBits(found, expected));
+    return;
   }
+  constexpr float ShortestSum = 0.02f; // of opposed normals; the rest is noise
+  ASSERT_LT(glm::distance(found, expected), 100.0f * FloatRounding / ShortestSum);
 }
 
 TEST(TileShading, PointsAreThoseOfSurfacePoint)
@@ -165,28 +179,36 @@ TEST(TileShading, PointsAreThoseOfSurfacePoint)
       [&]
       {
         std::vector<int> seen(stage.scene.instances.size());
-        stage.eachTile(
-          [&](TilePoints& points)
+        stage.eachSeenPatch(
+          [&](const TilePatch& patch)
           {
-            lookAtPoints(stage.frames, stage.view, points);
-            for (int run = 0; run < points.runCount; ++run)
-            {
-              const TilePoints::Run& r = points.runs[run];
-              for (int i = r.first; i < r.last; ++i)
+            eachBit(patch.mask,
+              [&](int i)
               {
-                ASSERT_EQ(points.instance[i], r.instance);
-                ++seen[r.instance];
-                const SurfacePoint expected = surfacePoint(stage.frames[r.instance], stage.view,
-                  points.x[i], points.y[i], points.t[i], points.primitive[i]);
-                const SurfacePoint point = points.point(i);
+                ASSERT_EQ(patch.hits->instance[i], patch.instance);
+                ++seen[patch.instance];
+                const Primitive primitive = patch.hits->primitive[i];
+                const Instance& instance = stage.scene.instances[patch.instance];
+                const SurfacePoint expected = surfacePoint(stage.frames[patch.instance], stage.view,
+                  patch.x(i), patch.y(i), patch.t(i), primitive);
+                const SurfacePoint point = patch.point(i);
                 ASSERT_TRUE(sameBits(point.position, expected.position));
-                ASSERT_TRUE(sameBits(point.facet, expected.facet)) << r.instance;
-                ASSERT_TRUE(sameBits(point.normal, expected.normal)) << r.instance;
-                ASSERT_EQ(r.hasColor, expected.hasColor);
-                ASSERT_TRUE(!r.hasColor || sameBits(point.color, expected.color)) << r.instance;
-                ASSERT_EQ(points.window[i], stage.view.windowDepth(points.t[i]));
-              }
-            }
+                const glm::dvec3 off =
+                  glm::abs(patch.origin.position + glm::dvec3(patch.way(i)) - point.position);
+                for (int k = 0; k < 3; ++k)
+                {
+                  ASSERT_LE(off[k], WayError * patch.extent[k]);
+                }
+                ASSERT_TRUE(sameBits(point.facet, expected.facet)) << patch.instance;
+                const bool smooth = instance.attributes.normals && !instance.material.flat &&
+                  instance.attributes.normalAssociation == Association::Point;
+                expectSameNormal(
+                  point.normal, expected.normal, smooth && !(primitive & NodePrimitive));
+                ASSERT_EQ(point.hasColor, expected.hasColor);
+                ASSERT_TRUE(!point.hasColor || instance.attributes.colorTexture ||
+                  glm::distance(point.color, expected.color) < 100.0f * FloatRounding)
+                  << patch.instance;
+              });
           });
         for (std::size_t i = 0; i < seen.size(); ++i)
         {
@@ -196,49 +218,87 @@ TEST(TileShading, PointsAreThoseOfSurfacePoint)
   }
 }
 
-/// Lights all points with shadows that are anywhere, and compares with shade().
-void compareLighting(Stage& stage)
+/// Every hit is in one patch, and patches are no deeper than they may be.
+TEST(TileShading, PatchesHaveEveryHitOnce)
 {
+  Stage stage;
+  stage.trace(7);
+  const DepthBuffer& depth = stage.eye.depthBuffer();
+  onEveryInstructionSet(
+    [&]
+    {
+      std::vector<int> times(depth.instance.size());
+      int deep = 0;
+      stage.eachPatch(
+        [&](const TilePatch& patch)
+        {
+          eachBit(patch.mask,
+            [&](int i)
+            {
+              ++times[patch.hits->instance - depth.instance.data() + i];
+              const double deeper = patch.t(i) - patch.t(__builtin_ctzll(patch.mask));
+              const double width = worldPixel(stage.view, patch.t(i));
+              deep += std::abs(deeper) > 30.0 * width;
+              ASSERT_LT(std::abs(deeper), 1.1 * TilePatch::Reach * width);
+            });
+        });
+      EXPECT_GT(deep, 10);
+      for (int y = 0; y < 8 * depth.tilesY; ++y)
+      {
+        for (int x = 0; x < 8 * depth.tilesX; ++x)
+        {
+          const std::size_t at = depth.at(x, y);
+          const bool hit = x < stage.view.width && y < stage.view.height && depth.hit[at >> 6] &&
+            depth.instance[at] != NoInstance;
+          ASSERT_EQ(times[at], hit ? 1 : 0) << x << ", " << y;
+        }
+      }
+    });
+}
+
+/// Lights all points with shadows that take anything, and compares with shade(), bit for bit.
+void compareLighting(Stage& stage, int steps)
+{
+  constexpr float Remaining = 0.3f;
   const Lighting lighting(stage.scene, stage.view);
   onEveryInstructionSet(
     [&]
     {
       TileLight light{};
       TileColors colors{};
-      stage.eachTile(
-        [&](TilePoints& points)
+      stage.eachSeenPatch(
+        [&](const TilePatch& patch)
         {
-          lookAtPoints(stage.frames, stage.view, points);
-          const auto isDark = [&](std::size_t l, int i)
-          { return (points.pixel[i] * 7 + l * 5) % 3 == 0; };
-          eachInstance(points,
-            [&](std::uint32_t index, int first, int last, bool hasColor)
+          const auto missed = [&](std::size_t l, int i)
+          { return static_cast<float>((i * 7 + l * 5) % steps) / static_cast<float>(steps - 1); };
+          const Instance& instance = stage.scene.instances[patch.instance];
+          const bool lit = instance.material.lighting;
+          for (std::size_t l = 0; lit && l < lighting.lights.size(); ++l)
+          {
+            const std::uint64_t reached = arriveLight(lighting, l, instance.material, patch, light);
+            ASSERT_EQ(reached & ~patch.mask, 0u);
+            for (int i = 0; i < TilePatch::Most; ++i)
             {
-              const Instance& instance = stage.scene.instances[index];
-              if (instance.material.lighting)
-              {
-                toViewSpace(lighting, points, first, last, light);
-                for (std::size_t l = 0; l < lighting.lights.size(); ++l)
-                {
-                  arriveLight(lighting, l, instance.material, last - first, light);
-                  for (int i = first; i < last; ++i)
-                  {
-                    light.dark[i - first] = light.reached[i - first] && isDark(l, i);
-                  }
-                  addLight(lighting.lights[l], 0.25f, last - first, light);
-                }
-              }
-              finishLight(
-                lighting, instance.material, points, first, last, hasColor, light, colors);
-              for (int i = first; i < last; ++i)
-              {
-                SurfacePoint point = points.point(i);
-                point.hasColor = hasColor;
-                const glm::vec3 expected = shade(
-                  lighting, instance, point, 0.25f, [&](std::size_t l) { return isDark(l, i); });
-                ASSERT_TRUE(sameBits(expected, glm::vec3(colors.r[i], colors.g[i], colors.b[i])))
-                  << "instance " << index << ": " << colors.r[i] << ", " << expected.r;
-              }
+              light.share[i] = reached >> i & 1 ? shareOfLight(missed(l, i), Remaining) : 1.0f;
+            }
+            addLight(lighting.lights[l], patch, l == 0, light);
+          }
+          finishLight(instance.material, lit, patch, light, colors);
+          eachBit(patch.mask,
+            [&](int i)
+            {
+              const glm::vec3 expected =
+                shade(lighting, instance, patch.point(i), patch.origin.position, patch.way(i),
+                  Remaining, [&](std::size_t l) { return missed(l, i); });
+              const glm::vec3 found(colors.r[i], colors.g[i], colors.b[i]);
+              ASSERT_TRUE(sameBits(expected, found))
+                << "instance " << patch.instance << ": " << found.r << ", " << expected.r;
+              std::uint8_t bytes[4];
+              std::memcpy(bytes, colors.rgba + i, 4);
+              ASSERT_EQ(bytes[0], toByte(found.r));
+              ASSERT_EQ(bytes[1], toByte(found.g));
+              ASSERT_EQ(bytes[2], toByte(found.b));
+              ASSERT_EQ(bytes[3], 255);
             });
         });
     });
@@ -248,59 +308,14 @@ TEST(TileShading, ColoursAreThoseOfShade)
 {
   Stage stage;
   stage.trace(7);
-  compareLighting(stage);
+  compareLighting(stage, 2);
 }
 
 TEST(TileShading, ColoursInPartialShadowsAreThoseOfShade)
 {
   Stage stage;
   stage.trace(7);
-  const Lighting lighting(stage.scene, stage.view);
-  constexpr float Remaining = 0.3f;
-  onEveryInstructionSet(
-    [&]
-    {
-      TileLight light{};
-      TileColors colors{};
-      stage.eachTile(
-        [&](TilePoints& points)
-        {
-          lookAtPoints(stage.frames, stage.view, points);
-          const auto missed = [&](std::size_t l, int i)
-          { return 0.125f * static_cast<float>((points.pixel[i] * 7 + l * 5) % 9); };
-          eachInstance(points,
-            [&](std::uint32_t index, int first, int last, bool hasColor)
-            {
-              const Instance& instance = stage.scene.instances[index];
-              if (!instance.material.lighting)
-              {
-                return;
-              }
-              toViewSpace(lighting, points, first, last, light);
-              for (std::size_t l = 0; l < lighting.lights.size(); ++l)
-              {
-                arriveLight(lighting, l, instance.material, last - first, light);
-                for (int i = first; i < last; ++i)
-                {
-                  light.share[i - first] =
-                    light.reached[i - first] ? shareOfLight(missed(l, i), Remaining) : 1.0f;
-                }
-                addShares(lighting.lights[l], last - first, light);
-              }
-              finishLight(
-                lighting, instance.material, points, first, last, hasColor, light, colors);
-              for (int i = first; i < last; ++i)
-              {
-                SurfacePoint point = points.point(i);
-                point.hasColor = hasColor;
-                const glm::vec3 expected = shade(lighting, instance, point, Remaining,
-                  [&](std::size_t l) { return missed(l, i); });
-                ASSERT_TRUE(sameBits(expected, glm::vec3(colors.r[i], colors.g[i], colors.b[i])))
-                  << "instance " << index << ": " << colors.r[i] << ", " << expected.r;
-              }
-            });
-        });
-    });
+  compareLighting(stage, 9);
 }
 
 TEST(TileShading, ColoursUnderAHeadlightAloneAreThoseOfShade)
@@ -309,7 +324,7 @@ TEST(TileShading, ColoursUnderAHeadlightAloneAreThoseOfShade)
   stage.trace(7);
   stage.scene.lights.resize(1);
   stage.scene.onlyHeadlight = true;
-  compareLighting(stage);
+  compareLighting(stage, 2);
 }
 
 TEST(TileShading, ShadowsAreThoseOfOnePoint)
@@ -339,39 +354,34 @@ TEST(TileShading, ShadowsAreThoseOfOnePoint)
         [&]
         {
           int dark = 0, lit = 0, partly = 0;
-          stage.eachTile(
-            [&](TilePoints& points)
+          stage.eachSeenPatch(
+            [&](const TilePatch& patch)
             {
-              lookAtPoints(stage.frames, stage.view, points);
-              eachInstance(points,
-                [&](std::uint32_t index, int first, int last, bool)
+              const Instance& instance = stage.scene.instances[patch.instance];
+              const double error = worldLeafError(instance, instance.leafGeometry, 7);
+              const std::uint64_t asked = patch.mask & 0xf7bdef7bdef7bdefu;
+              double extents[TilePatch::Most];
+              for (int i = 0; i < TilePatch::Most; ++i)
+              {
+                extents[i] = 0.02 * (i % 4);
+              }
+              const std::uint64_t found = buffer.shadows(patch, error, asked);
+              ASSERT_EQ(found & ~asked, 0u);
+              float missed[TilePatch::Most];
+              buffer.darkness(patch, error, extents, asked, missed);
+              eachBit(patch.mask,
+                [&](int i)
                 {
-                  const Instance& instance = stage.scene.instances[index];
-                  const double error = worldLeafError(instance, instance.leafGeometry, 7);
-                  std::uint8_t asked[TilePoints::Room], found[TilePoints::Room];
-                  double extents[TilePoints::Room];
-                  for (int i = first; i < last; ++i)
-                  {
-                    asked[i - first] = i % 5 != 0;
-                    extents[i - first] = 0.02 * (i % 4);
-                  }
-                  buffer.shadows(points, first, last, error, asked, found);
-                  float missed[TilePoints::Room];
-                  buffer.darkness(points, first, last, error, extents, asked, missed);
-                  for (int i = first; i < last; ++i)
-                  {
-                    const bool expected =
-                      asked[i - first] && buffer.shadows(points.point(i), error);
-                    ASSERT_EQ(found[i - first] != 0, expected) << "instance " << index;
-                    dark += expected;
-                    lit += asked[i - first] && !expected;
-                    const float share = asked[i - first]
-                      ? buffer.darkness(points.point(i), error, extents[i - first])
-                      : 0.0f;
-                    ASSERT_TRUE(sameBits(missed[i - first], share)) << "instance " << index;
-                    partly += share > 0.0f && share < 1.0f;
-                    ASSERT_TRUE(automatic || share == (expected ? 1.0f : 0.0f));
-                  }
+                  const bool isAsked = asked >> i & 1;
+                  const bool expected = isAsked && buffer.shadows(patch.point(i), error);
+                  ASSERT_EQ((found >> i & 1) != 0, expected) << "instance " << patch.instance;
+                  dark += expected;
+                  lit += isAsked && !expected;
+                  const float share =
+                    isAsked ? buffer.darkness(patch.point(i), error, extents[i]) : 0.0f;
+                  ASSERT_TRUE(sameBits(missed[i], share)) << "instance " << patch.instance;
+                  partly += share > 0.0f && share < 1.0f;
+                  ASSERT_TRUE(automatic || share == (expected ? 1.0f : 0.0f));
                 });
             });
           EXPECT_GT(dark, 100);
@@ -382,15 +392,16 @@ TEST(TileShading, ShadowsAreThoseOfOnePoint)
   }
 }
 
-TEST(TileShading, FilteredFramesAreTheSame)
+TEST(TileShading, FramesAreTheSame)
 {
   Stage stage;
-  for (const bool antiAliasing : { false, true })
+  for (const int kind : { 0, 1, 2 })
   {
     FrameSettings settings;
     settings.shadowResolution = 256;
-    settings.antiAliasing = antiAliasing;
-    settings.filterShadows = true;
+    settings.antiAliasing = kind == 2;
+    settings.filterShadows = kind > 0;
+    settings.writeNormals = settings.writeLight = true;
     const Frame expected = svotest::rendered(stage.scene, stage.view, settings);
     onEveryInstructionSet(
       [&]
@@ -424,22 +435,19 @@ TEST(TileShading, WhatIsMarkedIsWhatIsLookedUp)
     whole.markAll();
     whole.trace(serialFor);
     marked.prepare(stage.scene, maps, 0, settings, budget);
-    stage.eachTile(
-      [&](TilePoints& points)
-      {
-        placePoints(stage.view, points);
-        marked.mark(points);
-      });
+    stage.eachPatch([&](const TilePatch& patch) { marked.mark(patch); });
     marked.trace(serialFor);
     EXPECT_LT(marked.rays(), whole.rays());
-    stage.eachTile(
-      [&](TilePoints& points)
+    stage.eachSeenPatch(
+      [&](const TilePatch& patch)
       {
-        lookAtPoints(stage.frames, stage.view, points);
-        for (int i = 0; i < points.count; ++i)
-        {
-          ASSERT_EQ(marked.shadows(points.point(i), 0.0), whole.shadows(points.point(i), 0.0));
-        }
+        ASSERT_EQ(marked.shadows(patch, 0.0, patch.mask), whole.shadows(patch, 0.0, patch.mask));
+        eachBit(patch.mask,
+          [&](int i)
+          {
+            ASSERT_TRUE(marked.knows(patch.position(i)));
+            ASSERT_EQ(marked.shadows(patch.point(i), 0.0), whole.shadows(patch.point(i), 0.0));
+          });
       });
   }
 }

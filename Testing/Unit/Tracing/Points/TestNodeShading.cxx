@@ -1,7 +1,7 @@
 // What is shaded where rays stop at nodes above the bricks: faces that the viewer sees.
 #include "svoLayeredView.h"
 #include "svoReferencePoint.h"
-#include "svoTilePoints.h"
+#include "svoTileLook.h"
 #include "svoTracerScenes.h"
 #include "svoWorldSize.h"
 
@@ -36,39 +36,47 @@ void eachSeenPoint(const svo::Instance& instance, int level, const std::vector<g
       [&](const svo::Instance&, const svo::LocalView&) { return level; }, false, budget);
     layers.trace(svo::serialFor, nullptr);
     const svo::DepthBuffer& depth = layers.depthBuffer();
-    svo::TilePoints points{};
+    svo::TilePatch patch{};
+    svo::TileTriangles triangles{};
+    const auto look = [&](const svo::View& from, std::size_t tile, const auto& g)
+    {
+      svo::eachPatch(
+        from,
+        svo::hitsOfTile(depth, from, static_cast<int>(tile % depth.tilesX),
+          static_cast<int>(tile / depth.tilesX)),
+        [](std::uint32_t) { return true; }, [&](std::uint32_t i) { return layers.base(i); }, patch,
+        [&](svo::TilePatch& seen)
+        {
+          svo::lookAtPatch(frames[0], seen, triangles);
+          svo::eachBit(seen.mask, g);
+        });
+    };
     for (std::size_t tile = 0; tile < depth.tiles(); ++tile)
     {
-      if (!depth.hit[tile] ||
-        !svo::takePoints(
-          depth, view, static_cast<int>(tile % depth.tilesX), static_cast<int>(tile / depth.tilesX),
-          [](std::uint32_t) { return true; }, [&](std::uint32_t i) { return layers.base(i); },
-          points))
+      if (!depth.hit[tile])
       {
         continue;
       }
-      svo::lookAtPoints(frames, view, points);
-      for (int i = 0; i < points.count; ++i)
-      {
-        ASSERT_TRUE(points.primitive[i] & svo::NodePrimitive);
-        const svo::SurfacePoint point = svo::surfacePoint(
-          frames[0], view, points.x[i], points.y[i], points.t[i], points.primitive[i]);
-        const svo::SurfacePoint other = points.point(i);
-        ASSERT_EQ(std::memcmp(&point.position, &other.position, sizeof(glm::dvec3)), 0);
-        ASSERT_EQ(std::memcmp(&point.facet, &other.facet, sizeof(glm::vec3)), 0);
-        ASSERT_EQ(std::memcmp(&point.normal, &other.normal, sizeof(glm::vec3)), 0);
-        f(point, view.rayDirection(points.x[i], points.y[i]));
-      }
+      glm::vec3 normals[svo::TilePatch::Most];
+      look(view, tile,
+        [&](int i)
+        {
+          const svo::Primitive primitive = patch.hits->primitive[i];
+          ASSERT_TRUE(primitive & svo::NodePrimitive);
+          const svo::SurfacePoint point =
+            svo::surfacePoint(frames[0], view, patch.x(i), patch.y(i), patch.t(i), primitive);
+          const svo::SurfacePoint other = patch.point(i);
+          ASSERT_EQ(std::memcmp(&point.position, &other.position, sizeof(glm::dvec3)), 0);
+          ASSERT_EQ(std::memcmp(&point.facet, &other.facet, sizeof(glm::vec3)), 0);
+          ASSERT_EQ(std::memcmp(&point.normal, &other.normal, sizeof(glm::vec3)), 0);
+          normals[i] = point.normal;
+          f(point, view.rayDirection(patch.x(i), patch.y(i)));
+        });
       // A mirrored projection turns front faces into back ones.
       svo::View mirrored = view;
       mirrored.plain = false;
       mirrored.mirrored = true;
-      const svo::TilePoints plain = points;
-      svo::lookAtPoints(frames, mirrored, points);
-      for (int i = 0; i < points.count; ++i)
-      {
-        ASSERT_EQ(points.point(i).normal, -plain.point(i).normal);
-      }
+      look(mirrored, tile, [&](int i) { ASSERT_EQ(patch.normal(i), -normals[i]); });
     }
   }
 }

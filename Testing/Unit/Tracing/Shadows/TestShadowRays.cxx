@@ -3,6 +3,7 @@
 #include "svoSelectLevel.h"
 #include "svoShadowBeam.h"
 #include "svoShadowRays.h"
+#include "svoTileLook.h"
 #include "svoTracerScenes.h"
 
 #include <gtest/gtest.h>
@@ -93,58 +94,53 @@ Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& 
       svo::BeamRounding * svo::worldScale(instance.localToWorld) * instance.octree.rootEdge());
   }
   Count count;
-  svo::TilePoints points;
+  svo::TilePatch patch;
+  svo::TileTriangles triangles;
   const svo::DepthBuffer& depth = eye.depthBuffer();
   for (int tile = 0; tile < depth.tilesX * depth.tilesY; ++tile)
   {
-    if (!depth.hit[tile] ||
-      !svo::takePoints(
-        depth, view, tile % depth.tilesX, tile / depth.tilesX, [](std::uint32_t) { return true; },
-        [&](std::uint32_t i) { return eye.base(i); }, points))
+    if (!depth.hit[tile])
     {
       continue;
     }
-    svo::lookAtPoints(frames, view, points);
-    for (int first = 0; first < points.count;)
-    {
-      const int last = points.endOfInstance(first);
-      const svo::Instance& instance = scene.instances[points.instance[first]];
-      const double error = svo::worldLeafError(instance, eye.leafGeometry(points.instance[first]),
-        instance.octree.level(), eye.placed(points.instance[first]));
-      std::uint8_t asked[svo::TilePoints::Room], dark[svo::TilePoints::Room];
-      for (int i = first; i < last; ++i)
+    const svo::TileHits hits =
+      svo::hitsOfTile(depth, view, tile % depth.tilesX, tile / depth.tilesX);
+    svo::eachPatch(
+      view, hits, [](std::uint32_t) { return true; }, [&](std::uint32_t i) { return eye.base(i); },
+      patch,
+      [&](const svo::TilePatch&)
       {
-        asked[i - first] = points.pixel[i] % 7 != 3;
-        dark[i - first] = 7;
-      }
-      rays.shadows(light, points, first, last, error, asked, dark);
-      for (int i = first; i < last; ++i)
-      {
-        const glm::dvec3 at = points.position(i);
-        if (!asked[i - first])
-        {
-          EXPECT_EQ(0, dark[i - first]);
-          continue;
-        }
-        ++count.asked;
-        count.dark += dark[i - first];
-        if (dark[i - first] == rays.shadows(light, at, points.facet(i), error))
-        {
-          continue;
-        }
-        ++count.different;
-        // A ray beside it has to have the tile's answer.
-        bool explained = false;
-        for (int k = 0; k < 27 && !explained; ++k)
-        {
-          const glm::dvec3 beside(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-          explained = rays.shadows(light, at + rounding * beside, points.facet(i), error) ==
-            (dark[i - first] != 0);
-        }
-        count.unexplained += !explained;
-      }
-      first = last;
-    }
+        svo::lookAtPatch(frames[patch.instance], patch, triangles);
+        const svo::Instance& instance = scene.instances[patch.instance];
+        const double error = svo::worldLeafError(instance, eye.leafGeometry(patch.instance),
+          instance.octree.level(), eye.placed(patch.instance));
+        const std::uint64_t asked = patch.mask & 0xfbfdfeff7fbfdfefull;
+        const std::uint64_t dark = rays.shadows(light, patch, error, asked);
+        EXPECT_EQ(0u, dark & ~asked);
+        svo::eachBit(asked,
+          [&](int i)
+          {
+            const glm::dvec3 position = patch.position(i);
+            const auto alone = [&](const glm::dvec3& at)
+            { return rays.shadows(light, at, patch.facet(i), error); };
+            const bool isDark = dark >> i & 1;
+            ++count.asked;
+            count.dark += isDark;
+            if (isDark == alone(position))
+            {
+              return;
+            }
+            ++count.different;
+            // A ray beside it has to have the tile's answer.
+            bool explained = false;
+            for (int k = 0; k < 27 && !explained; ++k)
+            {
+              const glm::dvec3 beside(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+              explained = alone(position + rounding * beside) == isDark;
+            }
+            count.unexplained += !explained;
+          });
+      });
   }
   return count;
 }

@@ -1,0 +1,131 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "svoTileImage.cxx"
+#include <hwy/foreach_target.h>
+
+#include "svoTileImage.h"
+
+#include "svoLaneBits-inl.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace svo
+{
+namespace HWY_NAMESPACE
+{
+/// The window depths of a patch's points, in double as everybody who compares them has them.
+void windowDepths(const TilePatch& p, double offset, float* HWY_RESTRICT depths)
+{
+  const View view = *p.view;
+  const double base = p.base;
+  for (int i = 0; i < TilePatch::Most; i += TilePatch::Step)
+  {
+    if (!p.has(i))
+    {
+      continue;
+    }
+    for (int k = i; k < i + TilePatch::Step; ++k)
+    {
+      const double depth = view.windowDepth(base + static_cast<double>(p.hits->t[k])) + offset;
+      const double low = depth < 0.0 ? 0.0 : depth;
+      depths[k] = static_cast<float>(1.0 < low ? 1.0 : low);
+    }
+  }
+}
+
+void putWhere(std::uint64_t mask, const float* HWY_RESTRICT depths,
+  const std::uint32_t* HWY_RESTRICT colors, float* HWY_RESTRICT depthTo,
+  std::uint32_t* HWY_RESTRICT colorTo)
+{
+  const Floats floats;
+  const Words words;
+  for (int i = 0; i < TilePatch::Most; i += width())
+  {
+    const auto wanted = maskOf(floats, mask >> i);
+    const auto depth =
+      hn::IfThenElse(wanted, hn::Load(floats, depths + i), hn::Load(floats, depthTo + i));
+    const auto color = hn::IfThenElse(
+      hn::RebindMask(words, wanted), hn::Load(words, colors + i), hn::Load(words, colorTo + i));
+    hn::Store(depth, floats, depthTo + i);
+    hn::Store(color, words, colorTo + i);
+  }
+}
+
+void put(const TilePatch& patch, const TileColors& colors, double offset, float* depthTo,
+  std::uint32_t* colorTo)
+{
+  alignas(64) float depths[TilePatch::Most];
+  windowDepths(patch, offset, depths);
+  putWhere(patch.mask, depths, colors.rgba, depthTo, colorTo);
+}
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace svo
+{
+HWY_EXPORT(put);
+
+TileImage::TileImage(const TileHits& hits, Frame& frame)
+  : Hits(hits)
+  , Picture(frame)
+{
+  for (int row = 0; row < 8 && hits.y0 + row < frame.height; ++row)
+  {
+    const std::size_t at = static_cast<std::size_t>(hits.y0 + row) * frame.width + hits.x0;
+    __builtin_prefetch(frame.color.data() + 4 * at, 1);
+    __builtin_prefetch(frame.depth.data() + at, 1);
+    __builtin_prefetch(frame.instance.data() + at, 1);
+    __builtin_prefetch(frame.primitive.data() + at, 1);
+  }
+  if (hits.mask != ~std::uint64_t(0))
+  {
+    std::fill_n(this->Color, TileHits::Most, 0u);
+    std::fill_n(this->Depth, TileHits::Most, 1.0f);
+  }
+}
+
+void TileImage::put(const TilePatch& patch, const TileColors& colors, double offset)
+{
+  HWY_DYNAMIC_DISPATCH(put)(patch, colors, offset, this->Depth, this->Color);
+}
+
+void TileImage::write() const
+{
+  const TileHits& hits = this->Hits;
+  Frame& frame = this->Picture;
+  const int columns = std::min(frame.width - hits.x0, 8);
+  const int rows = std::min(frame.height - hits.y0, 8);
+  for (int row = 0; row < rows; ++row)
+  {
+    const std::size_t to = static_cast<std::size_t>(hits.y0 + row) * frame.width + hits.x0;
+    const int from = 8 * row;
+    if (columns == 8)
+    {
+      std::memcpy(frame.color.data() + 4 * to, this->Color + from, 32);
+      std::memcpy(frame.depth.data() + to, this->Depth + from, 32);
+      std::memcpy(frame.instance.data() + to, hits.instance + from, 32);
+      std::memcpy(frame.primitive.data() + to, hits.primitive + from, 32);
+      continue;
+    }
+    std::memcpy(frame.color.data() + 4 * to, this->Color + from, 4 * columns);
+    std::copy_n(this->Depth + from, columns, frame.depth.data() + to);
+    std::copy_n(hits.instance + from, columns, frame.instance.data() + to);
+    std::copy_n(hits.primitive + from, columns, frame.primitive.data() + to);
+  }
+  for (int i = 0; !frame.normals.empty() && i < TileHits::Most; ++i)
+  {
+    if (!(hits.mask >> i & 1) && (i & 7) < columns && (i >> 3) < rows)
+    {
+      const std::size_t pixel =
+        static_cast<std::size_t>(hits.y0 + (i >> 3)) * frame.width + hits.x0 + (i & 7);
+      std::fill_n(frame.normals.data() + 3 * pixel, 3, 0.0f);
+    }
+  }
+}
+}
+#endif

@@ -1,0 +1,53 @@
+// Per-target: masks of lanes as bits, and what they are counted with. Included by kernels before
+// their own namespace, anew for each instruction set.
+#if defined(svoLaneBits_inl_h) == defined(HWY_TARGET_TOGGLE)
+#ifdef svoLaneBits_inl_h
+#undef svoLaneBits_inl_h
+#else
+#define svoLaneBits_inl_h
+#endif
+
+#include <cstdint>
+#include <cstring>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace svo
+{
+namespace HWY_NAMESPACE
+{
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::CappedTag<float, 16>;
+using Words = hn::RebindToUnsigned<Floats>;
+using Integers = hn::RebindToSigned<Floats>;
+
+/// Lanes of a vector: 1, 4, 8 or 16.
+inline int width()
+{
+  return static_cast<int>(hn::Lanes(Floats()));
+}
+
+template <class Tag, class Mask>
+std::uint64_t bitsOf(Tag tag, Mask mask)
+{
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(tag, mask, bytes);
+  std::uint64_t bits;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+}
+
+/// The same from bits; those of further lanes do not matter.
+template <class Tag>
+hn::Mask<Tag> maskOf(Tag tag, std::uint64_t bits)
+{
+  std::uint8_t bytes[8];
+  std::memcpy(bytes, &bits, sizeof bits);
+  return hn::LoadMaskBits(tag, bytes);
+}
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#endif

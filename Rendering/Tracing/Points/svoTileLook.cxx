@@ -1,0 +1,290 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "svoTileLook.cxx"
+#include <hwy/foreach_target.h>
+
+#include "svoTileLook.h"
+
+#include "svoLaneBits-inl.h"
+#include "svoTileNodes.h"
+
+#include <cassert>
+
+#include <hwy/highway.h>
+
+#ifndef SVO_TILE_LOOK_ONCE
+#define SVO_TILE_LOOK_ONCE
+namespace svo
+{
+/// A vector of the triangle that each point is on.
+struct SpreadVector
+{
+  alignas(64) float x[TilePatch::Most], y[TilePatch::Most], z[TilePatch::Most];
+  glm::vec3 at(int i) const { return { x[i], y[i], z[i] }; }
+};
+
+/// Barycentric coordinates, by pixel.
+struct TileWeights
+{
+  alignas(64) float a[TilePatch::Most], b[TilePatch::Most], c[TilePatch::Most];
+  glm::vec3 at(int i) const { return { a[i], b[i], c[i] }; }
+};
+}
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace svo
+{
+namespace HWY_NAMESPACE
+{
+constexpr int Step = TilePatch::Step;
+
+/// Gives each point a number of the triangle that it is on.
+void spread(const TileTriangles& triangles, int column, float* HWY_RESTRICT out)
+{
+  const Floats floats;
+  const Integers indices;
+  const float* from = triangles.column[column];
+  const int lanes = width();
+  if (triangles.count == 1)
+  {
+    const auto value = hn::Set(floats, from[0]);
+    for (int i = 0; i < TilePatch::Most; i += lanes)
+    {
+      hn::Store(value, floats, out + i);
+    }
+  }
+  else if (triangles.count <= lanes)
+  {
+    const auto table = hn::Load(floats, from);
+    for (int i = 0; i < TilePatch::Most; i += lanes)
+    {
+      const auto which = hn::IndicesFromVec(floats, hn::Load(indices, triangles.which + i));
+      hn::Store(hn::TableLookupLanes(table, which), floats, out + i);
+    }
+  }
+  else
+  {
+    for (int i = 0; i < TilePatch::Most; i += lanes)
+    {
+      const auto which = hn::Load(indices, triangles.which + i);
+      hn::Store(hn::GatherIndex(floats, from, which), floats, out + i);
+    }
+  }
+}
+
+void spread(const TileTriangles& triangles, int column, SpreadVector& out)
+{
+  spread(triangles, column, out.x);
+  spread(triangles, column + 1, out.y);
+  spread(triangles, column + 2, out.z);
+}
+
+/// Facets, and which side of their triangles they show.
+void faceViewer(const TileTriangles& triangles, float* HWY_RESTRICT sides, TilePatch& p)
+{
+  const PointOrigin origin = p.origin;
+  SpreadVector windings;
+  spread(triangles, TileTriangles::Facet, windings);
+  for (int i = 0; i < TilePatch::Most; i += Step)
+  {
+    if (!p.has(i))
+    {
+      continue;
+    }
+    const float *x = p.hits->x + i, *y = p.hits->y + i;
+    for (int k = 0; k < Step; ++k)
+    {
+      const glm::vec3 winding = windings.at(i + k);
+      const float side = sideLane(winding, -origin.rayTo(x[k], y[k]));
+      sides[i + k] = side;
+      p.setFacet(i + k, side * winding);
+    }
+  }
+}
+
+/// Normals that are one triangle's: its own, or its facet's.
+void takeNormals(const TileTriangles& triangles, const float* HWY_RESTRICT sides, TilePatch& p)
+{
+  SpreadVector normals;
+  spread(triangles, triangles.ownNormals ? TileTriangles::Normal : TileTriangles::Facet, normals);
+  for (int i = 0; i < TilePatch::Most; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      p.setNormal(k, sides[k] * normals.at(k));
+    }
+  }
+}
+
+void weigh(const TileTriangles& triangles, const TilePatch& p, TileWeights& weights)
+{
+  alignas(64) float v[TilePatch::Most], w[TilePatch::Most];
+  SpreadVector alongV, alongW;
+  spread(triangles, TileTriangles::V, v);
+  spread(triangles, TileTriangles::AlongV, alongV);
+  spread(triangles, TileTriangles::W, w);
+  spread(triangles, TileTriangles::AlongW, alongW);
+  for (int i = 0; i < TilePatch::Most; i += Step)
+  {
+    if (!p.has(i))
+    {
+      continue;
+    }
+    for (int k = i; k < i + Step; ++k)
+    {
+      const glm::vec3 weight = affineWeights(p.way(k), v[k], alongV.at(k), w[k], alongW.at(k));
+      weights.a[k] = weight.x;
+      weights.b[k] = weight.y;
+      weights.c[k] = weight.z;
+    }
+  }
+}
+
+/// Returns those that cannot be made unit vectors this way.
+std::uint64_t interpolateNormals(
+  const TileTriangles& triangles, const TileWeights& weights, const float* sides, TilePatch& p)
+{
+  SpreadVector corners[3];
+  for (int c = 0; c < 3; ++c)
+  {
+    spread(triangles, TileTriangles::Normals + 3 * c, corners[c]);
+  }
+  std::uint64_t odd = 0;
+  for (int i = 0; i < TilePatch::Most; i += Step)
+  {
+    if (!p.has(i))
+    {
+      continue;
+    }
+    alignas(64) std::uint32_t good[Step];
+    for (int k = 0; k < Step; ++k)
+    {
+      const glm::vec3 each[3] = { corners[0].at(i + k), corners[1].at(i + k),
+        corners[2].at(i + k) };
+      const glm::vec3 normal = weighted(weights.at(i + k), each);
+      good[k] = hasUnitLane(normal) ? 1u : 0u;
+      p.setNormal(i + k, sides[i + k] * unitLane(normal));
+    }
+    const Words words;
+    for (int k = 0; k < Step; k += width())
+    {
+      odd |= bitsOf(words, hn::Eq(hn::Load(words, good + k), hn::Zero(words))) << (i + k);
+    }
+  }
+  return odd;
+}
+
+void colorByPoints(const TileTriangles& triangles, const TileWeights& weights, TilePatch& p)
+{
+  SpreadVector corners[3];
+  for (int c = 0; c < 3; ++c)
+  {
+    spread(triangles, TileTriangles::Colors + 3 * c, corners[c]);
+  }
+  for (int i = 0; i < TilePatch::Most; i += Step)
+  {
+    for (int k = i; k < i + Step; ++k)
+    {
+      const glm::vec3 each[3] = { corners[0].at(k), corners[1].at(k), corners[2].at(k) };
+      p.setColor(k, weighted(weights.at(k), each));
+    }
+  }
+}
+
+void colorByTexture(const TileTriangles& triangles, const Attributes& attributes,
+  const TileWeights& weights, TilePatch& p)
+{
+  eachBit(p.mask,
+    [&](int i)
+    {
+      glm::vec2 corners[3];
+      for (int c = 0; c < 3; ++c)
+      {
+        const int column = TileTriangles::Coordinates + 2 * c, which = triangles.which[i];
+        corners[c] = { triangles.column[column][which], triangles.column[column + 1][which] };
+      }
+      const int texel = detail::texelAt(attributes, weighted(weights.at(i), corners));
+      p.setColor(i, detail::colorAt(attributes.colorTexture, texel));
+    });
+}
+
+/// Returns points that have to be done one by one.
+std::uint64_t look(const TileTriangles& triangles, const Attributes& attributes, TilePatch& p)
+{
+  alignas(64) float sides[TilePatch::Most] = {};
+  TileWeights weights;
+  std::uint64_t odd = triangles.oddLanes;
+  faceViewer(triangles, sides, p);
+  if (triangles.needsWeights())
+  {
+    weigh(triangles, p, weights);
+  }
+  if (triangles.smooth)
+  {
+    odd |= interpolateNormals(triangles, weights, sides, p);
+  }
+  else
+  {
+    takeNormals(triangles, sides, p);
+  }
+  p.hasColor = triangles.hasColor();
+  if (triangles.textured)
+  {
+    colorByTexture(triangles, attributes, weights, p);
+  }
+  else if (triangles.coloredByPoints)
+  {
+    colorByPoints(triangles, weights, p);
+  }
+  else if (triangles.coloredByCells)
+  {
+    spread(triangles, TileTriangles::Colors, p.colorR);
+    spread(triangles, TileTriangles::Colors + 1, p.colorG);
+    spread(triangles, TileTriangles::Colors + 2, p.colorB);
+  }
+  return odd;
+}
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace svo
+{
+HWY_EXPORT(look);
+
+void lookAtPatch(const SurfaceMatrices& frame, TilePatch& patch, TileTriangles& triangles)
+{
+  const bool hasSurface = frame.instance->octree.surface() != nullptr;
+  const std::uint64_t nodes = hasSurface ? patch.nodes : 0;
+  std::uint64_t single = hasSurface ? 0 : patch.mask;
+  if (hasSurface && nodes != patch.mask)
+  {
+    const std::uint64_t lanes = patch.mask & ~nodes;
+    findTriangles(frame, patch, lanes, triangles);
+    single = HWY_DYNAMIC_DISPATCH(look)(triangles, frame.instance->attributes, patch) & lanes;
+    if (!patch.view->plain)
+    {
+      eachBit(lanes & ~single,
+        [&](int i)
+        {
+          if (shadersTurn(frame, *patch.view, patch.position(i), patch.facet(i)))
+          {
+            patch.setNormal(i, -patch.normal(i));
+          }
+        });
+    }
+  }
+  eachBit(single,
+    [&](int i)
+    {
+      lookAtPoint(
+        frame, patch.hits->primitive[i], frame.toOctree.point(patch.position(i)), i, patch);
+    });
+  if (nodes != 0)
+  {
+    lookAtNodes(frame, nodes, patch);
+  }
+}
+}
+#endif

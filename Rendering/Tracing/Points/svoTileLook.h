@@ -1,0 +1,33 @@
+// Facets, normals and colours of the points of a patch, all of them at once.
+//
+// The results are those of pointOfTriangle() (svoSurfacePoint.h) for each point, up to the rounding
+// of single precision: both call the functions of svoPointLane.h, there with a position in double,
+// here with the way from the patch's origin. Points that vectors cannot do, on nodes or with odd
+// normals, are pointOfTriangle()'s, bit for bit.
+#ifndef svoTileLook_h
+#define svoTileLook_h
+
+#include "svoSurfacePoint.h"
+#include "svoTilePatch.h"
+#include "svoTileTriangles.h"
+
+namespace svo
+{
+/// `frame`: of the patch's instance. `triangles`: for this function alone.
+VTKSVOTRACING_EXPORT void lookAtPatch(
+  const SurfaceMatrices& frame, TilePatch& patch, TileTriangles& triangles);
+
+/// Facet, normal and colour of one point, which is on a triangle at `at`; see pointOfTriangle().
+inline void lookAtPoint(
+  const SurfaceMatrices& frame, Primitive triangle, const glm::dvec3& at, int i, TilePatch& patch)
+{
+  const SurfacePoint point =
+    pointOfTriangle(frame, *patch.view, patch.position(i), patch.towards(i), triangle, at);
+  patch.setFacet(i, point.facet);
+  patch.setNormal(i, point.normal);
+  patch.setColor(i, point.color);
+  patch.hasColor = point.hasColor;
+}
+}
+
+#endif

@@ -1,0 +1,291 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "svoMapPlaces.cxx"
+#include <hwy/foreach_target.h>
+
+#include "svoMapPlaces.h"
+
+#include "svoLaneBits-inl.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include <hwy/highway.h>
+
+#ifndef SVO_MAP_PLACES_ONCE
+#define SVO_MAP_PLACES_ONCE
+namespace svo
+{
+/// A function of the way from a patch's origin.
+struct AffineOfWay
+{
+  float atOrigin;
+  glm::vec3 along;
+  float size(const glm::vec3& extent) const
+  {
+    return std::abs(atOrigin) + glm::dot(glm::abs(along), extent);
+  }
+};
+
+/// A map as the points of a patch see it; depths are linear ones from the light's view.
+struct MapFromPatch
+{
+  AffineOfWay x, y, w;            // (X - x0 W) / w, (Y - y0 W) / w, W / w; w at the origin
+  AffineOfWay t;                  // linear depth, less the origin's
+  float left, right, bottom, top; // borders of the map, texels from x0, y0
+};
+}
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace svo
+{
+namespace HWY_NAMESPACE
+{
+using Lanes = hn::Vec<Floats>;
+
+HWY_INLINE Lanes at(const AffineOfWay& f, Lanes x, Lanes y, Lanes z)
+{
+  const Floats d;
+  const Lanes a = hn::Add(hn::Mul(hn::Set(d, f.along.x), x), hn::Mul(hn::Set(d, f.along.y), y));
+  return hn::Add(hn::Add(a, hn::Mul(hn::Set(d, f.along.z), z)), hn::Set(d, f.atOrigin));
+}
+
+void place(const MapFromPatch& map, const TilePatch& p, std::uint64_t lanes, MapPlaces& places)
+{
+  const Floats d;
+  const auto one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
+  const auto error = hn::Set(d, places.error), less = hn::Set(d, 1.0f - places.error);
+  const auto far = hn::Set(d, 1e30f), near = hn::Set(d, -1e30f);
+  auto lowX = far, highX = near, lowY = far, highY = near, lowT = far, highT = near;
+  std::uint64_t insides = 0, outsides = 0, sures = 0;
+  for (int i = 0; i < TilePatch::Most; i += width())
+  {
+    const auto asked = maskOf(d, lanes >> i);
+    if (hn::AllFalse(d, asked))
+    {
+      continue;
+    }
+    const auto wayX = hn::Load(d, p.wayX + i), wayY = hn::Load(d, p.wayY + i);
+    const auto wayZ = hn::Load(d, p.wayZ + i);
+    const auto inverse = hn::Div(one, at(map.w, wayX, wayY, wayZ));
+    const auto x = hn::Mul(at(map.x, wayX, wayY, wayZ), inverse);
+    const auto y = hn::Mul(at(map.y, wayX, wayY, wayZ), inverse);
+    const auto t = at(map.t, wayX, wayY, wayZ);
+    const auto floorX = hn::Floor(x), floorY = hn::Floor(y);
+    const auto partX = hn::Sub(x, floorX), partY = hn::Sub(y, floorY);
+    const auto sure = hn::And(hn::And(hn::Gt(partX, error), hn::Lt(partX, less)),
+      hn::And(hn::Gt(partY, error), hn::Lt(partY, less)));
+    const auto within = [&](Lanes v, float from, float to)
+    {
+      return hn::And(
+        hn::Gt(v, hn::Set(d, from + places.error)), hn::Lt(v, hn::Set(d, to - places.error)));
+    };
+    const auto beyond = [&](Lanes v, float from, float to)
+    {
+      return hn::Or(
+        hn::Lt(v, hn::Set(d, from - places.error)), hn::Gt(v, hn::Set(d, to + places.error)));
+    };
+    const auto inside =
+      hn::And(asked, hn::And(within(x, map.left, map.right), within(y, map.bottom, map.top)));
+    const auto outside = hn::Or(beyond(x, map.left, map.right), beyond(y, map.bottom, map.top));
+    outsides |= bitsOf(d, hn::And(asked, outside)) << i;
+    insides |= bitsOf(d, inside) << i;
+    sures |= bitsOf(d, hn::And(inside, sure)) << i;
+    hn::Store(x, d, places.x + i);
+    hn::Store(y, d, places.y + i);
+    hn::Store(hn::Add(floorX, half), d, places.centreX + i);
+    hn::Store(hn::Add(floorY, half), d, places.centreY + i);
+    hn::Store(t, d, places.t + i);
+    lowX = hn::Min(lowX, hn::IfThenElse(inside, x, far));
+    lowY = hn::Min(lowY, hn::IfThenElse(inside, y, far));
+    lowT = hn::Min(lowT, hn::IfThenElse(inside, t, far));
+    highX = hn::Max(highX, hn::IfThenElse(inside, x, near));
+    highY = hn::Max(highY, hn::IfThenElse(inside, y, near));
+    highT = hn::Max(highT, hn::IfThenElse(inside, t, near));
+  }
+  places.inside = insides;
+  places.outside = outsides;
+  places.sure = sures;
+  if (insides != 0)
+  {
+    places.lowX = hn::GetLane(hn::MinOfLanes(d, lowX));
+    places.lowY = hn::GetLane(hn::MinOfLanes(d, lowY));
+    places.lowT = hn::GetLane(hn::MinOfLanes(d, lowT));
+    places.highX = hn::GetLane(hn::MaxOfLanes(d, highX));
+    places.highY = hn::GetLane(hn::MaxOfLanes(d, highY));
+    places.highT = hn::GetLane(hn::MaxOfLanes(d, highT));
+  }
+}
+
+/// `margin`: of the box around a point, texels; `lastX`, `lastY`: of the map.
+std::uint64_t around(
+  const MapPlaces& places, float margin, float lastX, float lastY, int tileX, int tileY)
+{
+  const float x0 = static_cast<float>(places.x0), y0 = static_cast<float>(places.y0);
+  // By point: its first tile among those 8x8, and by how much further bits have to be shifted.
+  alignas(64) std::int32_t first[TilePatch::Most], across[TilePatch::Most], up[TilePatch::Most];
+  const auto tile = [](float x, float last)
+  {
+    const float low = 0.0f < x ? x : 0.0f; // what is not a number is 0
+    return static_cast<std::int32_t>(low < last ? low : last) >> 3;
+  };
+  for (int k = 0; k < TilePatch::Most; ++k)
+  {
+    const float x = x0 + places.x[k], y = y0 + places.y[k];
+    const std::int32_t left = tile(x - margin, lastX), right = tile(x + margin, lastX);
+    const std::int32_t bottom = tile(y - margin, lastY), top = tile(y + margin, lastY);
+    first[k] = 8 * (bottom - tileY) + left - tileX;
+    across[k] = right - left;
+    up[k] = 8 * (top - bottom);
+  }
+  std::uint64_t tiles = 0;
+  eachBit(places.inside,
+    [&](int i)
+    {
+      const std::uint64_t row = 1u | std::uint64_t(1) << across[i];
+      tiles |= (row | row << up[i]) << first[i];
+    });
+  return tiles;
+}
+
+std::uint64_t gather(
+  const MapTexels& map, const MapPlaces& places, TexelOccluders& occluders, std::uint64_t& same)
+{
+  const Floats d;
+  const Words words;
+  const Integers integers;
+  const auto infinity = hn::Inf(d);
+  const auto x0 = hn::Set(integers, places.x0), y0 = hn::Set(integers, places.y0);
+  const auto tilesX = hn::Set(integers, map.tilesX), seven = hn::Set(integers, 7);
+  std::uint64_t found = 0;
+  for (int i = 0; i < TilePatch::Most; i += width())
+  {
+    const auto sure = maskOf(integers, places.sure >> i);
+    if (hn::AllFalse(integers, sure))
+    {
+      continue;
+    }
+    // Texel 0 for those that do not count.
+    const auto texel = [&](const float* centres, hn::Vec<Integers> from)
+    {
+      const auto way = hn::ConvertTo(integers, hn::Sub(hn::Load(d, centres + i), hn::Set(d, 0.5f)));
+      return hn::IfThenElseZero(sure, hn::Add(from, way));
+    };
+    const auto x = texel(places.centreX, x0), y = texel(places.centreY, y0);
+    const auto tile = hn::Add(hn::Mul(hn::ShiftRight<3>(y), tilesX), hn::ShiftRight<3>(x));
+    const auto inTile = hn::Add(hn::ShiftLeft<3>(hn::And(y, seven)), hn::And(x, seven));
+    const auto at = hn::Add(hn::ShiftLeft<6>(tile), inTile);
+    const auto known =
+      hn::And(hn::RebindMask(d, sure), hn::Lt(hn::GatherIndex(d, map.nearest, tile), infinity));
+    const auto where = hn::IfThenElseZero(hn::RebindMask(integers, known), at);
+    const auto nothing = hn::Set(words, NoInstance);
+    const auto caster = hn::IfThenElse(
+      hn::RebindMask(words, known), hn::GatherIndex(words, map.instance, where), nothing);
+    hn::Store(caster, words, occluders.caster + i);
+    hn::Store(hn::GatherIndex(d, map.t, where), d, occluders.t + i);
+    found |= bitsOf(words, hn::Ne(caster, nothing)) << i;
+  }
+  same = 0;
+  if (found != 0)
+  {
+    const auto first = hn::Set(words, occluders.caster[__builtin_ctzll(found)]);
+    for (int i = 0; i < TilePatch::Most; i += width())
+    {
+      same |= bitsOf(words, hn::Eq(hn::Load(words, occluders.caster + i), first)) << i;
+    }
+    same &= found;
+  }
+  return found;
+}
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace svo
+{
+HWY_EXPORT(place);
+HWY_EXPORT(around);
+HWY_EXPORT(gather);
+
+namespace
+{
+AffineOfWay rounded(double atOrigin, const glm::dvec3& along)
+{
+  return { static_cast<float>(atOrigin), glm::vec3(along) };
+}
+
+glm::dvec3 row(const glm::dmat4& m, int i)
+{
+  return { m[0][i], m[1][i], m[2][i] };
+}
+}
+
+void placeInMap(const View& view, const glm::dmat4& worldToClip, const TilePatch& patch,
+  std::uint64_t lanes, MapPlaces& places)
+{
+  constexpr float OfAffine = 14.0f * FloatRounding;
+  constexpr float OfDouble = 1e-5f; // texels: more than what double loses, and MapBorder
+  places.inside = places.outside = places.sure = 0;
+  const glm::dvec3& origin = patch.origin.position;
+  const glm::dvec4 clip = worldToClip * glm::dvec4(origin, 1.0);
+  const double width = 0.5 * view.width, height = 0.5 * view.height, scale = 1.0 / clip.w;
+  const double x = (clip.x * scale + 1.0) * width, y = (clip.y * scale + 1.0) * height;
+  constexpr double Farthest = 1e6; // texels beyond the map, of an origin that is looked at here
+  if (!(clip.w > 0.0 && std::abs(x) < Farthest && std::abs(y) < Farthest))
+  {
+    return;
+  }
+  const double x0 = std::floor(x), y0 = std::floor(y);
+  const glm::dvec3 rowW = row(worldToClip, 3) * scale;
+  const glm::dvec3 rowX = width * (row(worldToClip, 0) * scale + rowW) - x0 * rowW;
+  const glm::dvec3 rowY = height * (row(worldToClip, 1) * scale + rowW) - y0 * rowW;
+  const glm::dvec3 depth = -row(view.worldToView, 2);
+  const MapFromPatch map{ rounded(x - x0, rowX), rounded(y - y0, rowY), rounded(1.0, rowW),
+    rounded(0.0, depth), static_cast<float>(-x0), static_cast<float>(view.width - x0),
+    static_cast<float>(-y0), static_cast<float>(view.height - y0) };
+  places.x0 = static_cast<int>(x0);
+  places.y0 = static_cast<int>(y0);
+  places.t0 = glm::dot(depth, origin) - view.worldToView[3][2];
+  // Of a quotient a / b: (error of a + |a / b| error of b) / b, and its rounding.
+  const float largest = map.w.size(patch.extent), smallest = 2.0f - largest;
+  const float most = std::max(map.x.size(patch.extent), map.y.size(patch.extent)) / smallest;
+  places.error = OfAffine * most * (1.0f + largest / smallest) + OfDouble;
+  if (smallest > 0.0f && places.error < 0.25f)
+  {
+    HWY_DYNAMIC_DISPATCH(place)(map, patch, lanes, places);
+  }
+}
+
+MapTiles tilesOf(const MapPlaces& places, const View& map, float margin)
+{
+  assert(places.inside != 0);
+  // Truncated, once nothing is negative.
+  const auto tile = [](int from, float way, int size)
+  {
+    const float texel = static_cast<float>(from) + way;
+    return static_cast<int>(std::clamp(texel, 0.0f, static_cast<float>(size - 1))) >> 3;
+  };
+  const float most = margin + places.error;
+  return { tile(places.x0, places.lowX - most, map.width),
+    tile(places.y0, places.lowY - most, map.height),
+    tile(places.x0, places.highX + most, map.width),
+    tile(places.y0, places.highY + most, map.height) };
+}
+
+std::uint64_t tilesAround(
+  const MapPlaces& places, const View& map, float margin, const MapTiles& tiles)
+{
+  assert(tiles.atMost(8));
+  return HWY_DYNAMIC_DISPATCH(around)(places, margin + places.error,
+    static_cast<float>(map.width - 1), static_cast<float>(map.height - 1), tiles.x0, tiles.y0);
+}
+
+std::uint64_t lookUpTexels(
+  const MapTexels& map, const MapPlaces& places, TexelOccluders& occluders, std::uint64_t& same)
+{
+  return HWY_DYNAMIC_DISPATCH(gather)(map, places, occluders, same);
+}
+}
+#endif
