@@ -1,8 +1,10 @@
 // Digests of frames: of the same commit's on any machine, and of two commits' that should draw the
-// same, each line is the same; `--every 7` draws every seventh only. The paper's scenes, every leaf
-// geometry, technique, level of detail and look; colour, depth, instance, primitive, normals,
-// shadow maps and silhouettes of each.
+// same, each line is the same; `--every 7` draws every seventh only. With `--write <file>` the
+// frames go to a file, with `--against <file>` those of a file are compared with. The paper's
+// scenes, every leaf geometry, technique, level of detail and look; colour, depth, instance,
+// primitive, normals, shadow maps and silhouettes of each.
 #include "experiments.h"
+#include "framePictures.h"
 #include "meshes.h"
 #include "objects.h"
 #include "scenes.h"
@@ -219,10 +221,15 @@ std::vector<Way> ways()
 }
 
 void print(const std::string& name, svo::Tracer& tracer, const svo::Scene& scene,
-  const svo::View& view, const svo::FrameSettings& settings)
+  const svo::View& view, const svo::FrameSettings& settings, FramePictures& pictures)
 {
   svo::Frame frame;
   tracer.render(scene, view, settings, svo::smpParallelFor(), frame);
+  pictures.take(name, frame);
+  if (pictures.compares())
+  {
+    return;
+  }
   Digest maps, parts;
   for (const svo::ShadowMap& map : tracer.shadowMaps())
   {
@@ -253,6 +260,7 @@ struct Program
   svo::Scene sceneOf(paper::Scene& paperScene, int level, svo::LeafGeometry leaves, int look);
   void run(const paper::Experiment& experiment);
 
+  FramePictures pictures;
   int every = 1; // frames from one that is drawn to the next
 };
 
@@ -325,7 +333,7 @@ void Program::run(const paper::Experiment& experiment)
             print(experiment.name + ", level " + std::to_string(level) + ", " + leafName + ", " +
                 lamp.name + ", error " + std::to_string(static_cast<int>(pixelError)) + ", " +
                 way.name,
-              tracer, scene, view, settings);
+              tracer, scene, view, settings, this->pictures);
           }
         }
       }
@@ -340,18 +348,27 @@ int main(int argc, char* argv[])
   std::string error;
   Program program;
   int next = 1;
-  if (argc > 2 && std::string(argv[1]) == "--every")
+  bool good = true;
+  for (; argc > next + 1 && argv[next][0] == '-'; next += 2)
   {
-    program.every = std::max(std::atoi(argv[2]), 1);
-    next = 3;
+    const std::string option = argv[next];
+    const char* value = argv[next + 1];
+    program.every = option == "--every" ? std::max(std::atoi(value), 1) : program.every;
+    good = good &&
+      (option == "--write"        ? program.pictures.write(value)
+          : option == "--against" ? program.pictures.compareWith(value)
+                                  : option == "--every");
   }
-  if (argc == next)
+  if (good && argc == next)
   {
     meshes = paper::standInMeshes();
   }
-  else if (argc != next + 2 || !paper::readMeshes(argv[next], argv[next + 1], meshes, error))
+  else if (!good || argc != next + 2 ||
+    !paper::readMeshes(argv[next], argv[next + 1], meshes, error))
   {
-    std::fprintf(stderr, "%s\nFrameDigests [--every <frames>] [mesh of A, animated mesh of B]\n",
+    std::fprintf(stderr,
+      "%s\nFrameDigests [--every <frames>] [--write <file>] [--against <file>] "
+      "[mesh of A, animated mesh of B]\n",
       error.c_str());
     return 1;
   }
@@ -365,6 +382,10 @@ int main(int argc, char* argv[])
   for (const paper::Experiment& experiment : paper::experiments())
   {
     program.run(experiment);
+  }
+  if (program.pictures.compares())
+  {
+    program.pictures.report();
   }
   return 0;
 }

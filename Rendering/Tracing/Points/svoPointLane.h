@@ -10,15 +10,19 @@
 
 namespace svo
 {
-/// Barycentric coordinates from those of the second and the third corner, clamped to at least 0 and
-/// scaled to sum 1.
-inline glm::vec3 clampedWeights(float v, float w)
+/// The second and the third of three barycentric coordinates, clamped to 0..1, and what all three
+/// are to be divided by for their sum to be 1.
+struct ClampedWeights
+{
+  float v, w, sum;
+};
+
+inline ClampedWeights clampWeights(float v, float w)
 {
   const float v0 = v < 0.0f ? 0.0f : v, w0 = w < 0.0f ? 0.0f : w;
   const float v1 = v0 < 1.0f ? v0 : 1.0f, w1 = w0 < 1.0f ? w0 : 1.0f;
   const float sum = v1 + w1;
-  const float scale = 1.0f / (sum < 1.0f ? 1.0f : sum);
-  return { 1.0f - sum * scale, v1 * scale, w1 * scale };
+  return { v1, w1, sum < 1.0f ? 1.0f : sum };
 }
 
 /// Barycentric coordinates of the point of a triangle that is near another point, as ratios of
@@ -29,17 +33,20 @@ inline glm::vec3 nearWeights(const glm::vec3& p, const glm::vec3& e1, const glm:
 {
   const glm::vec3 area = glm::cross(e1, e2);
   const float area2 = glm::dot(area, area);
-  const float v = area2 > 0.0f ? glm::dot(glm::cross(p, e2), area) / area2 : 0.0f;
-  const float w = area2 > 0.0f ? glm::dot(glm::cross(e1, p), area) / area2 : 0.0f;
-  return clampedWeights(v, w);
+  const ClampedWeights c =
+    clampWeights(area2 > 0.0f ? glm::dot(glm::cross(p, e2), area) / area2 : 0.0f,
+      area2 > 0.0f ? glm::dot(glm::cross(e1, p), area) / area2 : 0.0f);
+  return { 1.0f - (c.v + c.w) / c.sum, c.v / c.sum, c.w / c.sum };
 }
 
-/// The same of a point whose two latter coordinates are affine in its way from an origin: at the
-/// origin they are `v` and `w`, and grow by `alongV` and `alongW`.
+/// The same of a point whose two latter coordinates are affine in its way from an origin: there they
+/// are `v` and `w`, and grow by `alongV` and `alongW`.
 inline glm::vec3 affineWeights(
   const glm::vec3& way, float v, const glm::vec3& alongV, float w, const glm::vec3& alongW)
 {
-  return clampedWeights(v + glm::dot(alongV, way), w + glm::dot(alongW, way));
+  const ClampedWeights c = clampWeights(v + glm::dot(alongV, way), w + glm::dot(alongW, way));
+  const float scale = 1.0f / c.sum;
+  return { 1.0f - (c.v + c.w) * scale, c.v * scale, c.w * scale };
 }
 
 /// What the corners of a triangle have, at barycentric coordinates.
@@ -64,7 +71,7 @@ inline bool hasUnitLane(const glm::vec3& v)
 
 inline glm::vec3 unitLane(const glm::vec3& v)
 {
-  return v * (1.0f / std::sqrt(glm::dot(v, v)));
+  return v / std::sqrt(glm::dot(v, v));
 }
 }
 

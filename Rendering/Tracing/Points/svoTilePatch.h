@@ -11,7 +11,7 @@
 //
 // Positions are floats from an origin that the patch has in double (svoPointOrigin.h). Points
 // of an instance that lie deeper than Reach pixels' widths apart go to different patches. So the
-// way to a point is off by less than WayError 2 Reach, a three-thousandth of a pixel's width, in
+// way to a point is off by less than WayError 2 Reach, a four-thousandth of a pixel's width, in
 // every view; today's scenes have such patches at the horizon and at few silhouettes only.
 #ifndef svoTilePatch_h
 #define svoTilePatch_h
