@@ -282,7 +282,7 @@ void sortByKey(
 }
 
 bool nearestInTile(const TriangleGroup::Slots& slots, const TilePixels& pixels, int column, int row,
-  NearestTriangles& found)
+  NearestTriangles& found, std::uint32_t* triangles, std::uint32_t* owners)
 {
   const DF df;
   const DI di;
@@ -344,7 +344,24 @@ bool nearestInTile(const TriangleGroup::Slots& slots, const TilePixels& pixels, 
     found.doubtful |= pixelBits(hn::And(hn::Le(rival, upper), hn::Lt(rival, none))) << i;
     any = any || !hn::AllTrue(df, hn::Eq(hn::Min(rival, upper), none));
   }
-  return any;
+  if (!any)
+  {
+    return false;
+  }
+  const auto* ids = reinterpret_cast<const std::int32_t*>(slots.id.data());
+  const auto* ownerOf = reinterpret_cast<const std::int32_t*>(slots.owner.data());
+  for (std::size_t i = 0; i < 64; i += hn::Lanes(df))
+  {
+    const I nobody = hn::Set(di, NearestTriangles::None);
+    const I slot = hn::Load(di, found.slot + i);
+    const auto some = hn::Ne(slot, nobody);
+    const I at = hn::IfThenElseZero(some, slot);
+    hn::StoreU(hn::IfThenElse(some, hn::GatherIndex(di, ids, at), nobody), di,
+      reinterpret_cast<std::int32_t*>(triangles) + i);
+    hn::StoreU(hn::IfThenElse(some, hn::GatherIndex(di, ownerOf, at), nobody), di,
+      reinterpret_cast<std::int32_t*>(owners) + i);
+  }
+  return true;
 }
 }
 }
@@ -355,11 +372,13 @@ namespace svo
 {
 HWY_EXPORT(nearestInTile);
 
-bool TriangleGroup::nearest(int column, int row, NearestTriangles& found) const
+bool TriangleGroup::nearest(int column, int row, NearestTriangles& found, std::uint32_t* triangles,
+  std::uint32_t* owners) const
 {
   assert(column >= 0 && column < GroupView::Tiles && row >= 0 && row < GroupView::Tiles);
   static const TilePixels pixels;
-  return HWY_DYNAMIC_DISPATCH(nearestInTile)(this->Arrays, pixels, column, row, found);
+  return HWY_DYNAMIC_DISPATCH(nearestInTile)(
+    this->Arrays, pixels, column, row, found, triangles, owners);
 }
 
 void TriangleGroup::candidates(int column, int row, int ray, const NearestTriangles& found,

@@ -310,21 +310,30 @@ bool TriangleGroup::add(const Octree& octree, const std::vector<TileNode>& nodes
   const ShortLists& lists = octree.shortLists();
   const std::uint32_t bricks = octree.brickBegin();
   this->Known.resize(std::max(this->Known.size(), surface.triangles.size() / 64 + 1), 0);
-  std::size_t count = 0;
-  for (const TileNode& node : nodes)
+  // Where lists lie is found first, so that they are on their way when they are read.
+  this->Lists.resize(nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k)
   {
-    std::uint32_t listed, inlineId;
-    const std::uint32_t* list;
-    if (node.node < bricks)
+    const std::uint32_t node = nodes[k].node;
+    NodeList& list = this->Lists[k];
+    if (node < bricks)
     {
-      assert(lists.begin[node.node] != ShortLists::None);
-      list = lists.words.data() + lists.begin[node.node];
-      listed = *list++;
+      assert(lists.begin[node] != ShortLists::None);
+      list.ids = lists.words.data() + lists.begin[node] + 1;
+      list.counted = true;
     }
     else
     {
-      list = octree.brickTriangles(node.node, listed, inlineId);
+      list.ids = octree.brickTriangles(node, list.count, list.inlineId);
+      list.counted = false;
     }
+    __builtin_prefetch(list.ids);
+  }
+  std::size_t count = 0;
+  for (const NodeList& node : this->Lists)
+  {
+    const std::uint32_t* list = node.ids;
+    const std::uint32_t listed = node.counted ? list[-1] : node.count;
     if (this->Ids.size() < count + listed + Room)
     {
       this->Ids.resize(2 * (count + listed + Room));

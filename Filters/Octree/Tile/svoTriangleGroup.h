@@ -42,14 +42,17 @@ class VTKSVOOCTREE_EXPORT TriangleGroup
 public:
   void clear() { this->Arrays.count = 0; }
   bool empty() const { return this->Arrays.count == 0; }
+  std::size_t size() const { return this->Arrays.count; }
 
   /// Adds the triangles of an octree's nodes. False if there are some that cannot be made ready,
   /// as those that cross the eye plane: then nothing is added.
   bool add(const Octree& octree, const std::vector<TileNode>& nodes, const GroupView& view,
     std::uint32_t owner);
 
-  /// What the rays through the pixels' centres of a tile of the group meet first. False if nothing.
-  bool nearest(int column, int row, NearestTriangles& found) const;
+  /// What the rays through the pixels' centres of a tile of the group meet first: slots, and their
+  /// triangles and owners, ~0 where there are none. False if nothing; then nothing is written.
+  bool nearest(int column, int row, NearestTriangles& found, std::uint32_t* triangles,
+    std::uint32_t* owners) const;
 
   /// The slots that a ray of the tile may meet first, after nearest().
   void candidates(int column, int row, int ray, const NearestTriangles& found,
@@ -89,7 +92,15 @@ public:
   const Slots& slots() const { return this->Arrays; }
 
 private:
+  /// The triangles of a node.
+  struct NodeList
+  {
+    const std::uint32_t* ids;
+    std::uint32_t count, inlineId;
+    bool counted; // the count stands before the ids
+  };
   Slots Arrays;
+  std::vector<NodeList> Lists;
   std::vector<std::uint32_t> Ids;   // of the octree that is added
   std::vector<std::uint64_t> Known; // triangles among Ids: one bit each, zero in between
 };

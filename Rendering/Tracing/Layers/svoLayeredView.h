@@ -102,7 +102,8 @@ private:
   struct FoundTriangles
   {
     TriangleGroup group;
-    /// Planes of slots that were seen so far, and where they lie (0: nowhere).
+    /// Planes of slots that were seen so far, and where among them a slot's lies, or -1; the first
+    /// is of no slot.
     std::vector<SeenPlane> planes;
     std::vector<std::int32_t> planeOf;
 
@@ -164,10 +165,6 @@ private:
     std::vector<std::size_t> counted; // by index into Instances: the tile that rays has last
     std::vector<std::int32_t> slots;
     std::vector<SeenHit> hits;
-  };
-  /// What a tile's rays meet first. t and instance are undefined where there is no primitive.
-  struct TileHits
-  {
     alignas(64) float t[64];
     alignas(64) std::uint32_t instance[64];
     alignas(64) Primitive primitive[64];
@@ -181,13 +178,13 @@ private:
   bool findTriangles(const Entry& entry, TileScratch& scratch, FoundTriangles& found) const;
   /// What the triangles of the group give for a tile of it; false if nothing.
   bool nearestHits(
-    int tileX, int tileY, FoundTriangles& found, TileScratch& scratch, TileHits& hits) const;
+    int tileX, int tileY, FoundTriangles& found, TileScratch& scratch, MergedTile& hits) const;
   /// Traces a tile of an instance's kept layer, unless that has to be done by rays.
   void traceLayer(int tileX, int tileY, TileEntry& candidate, TileScratch& scratch);
   void placeHits(int tileX, int tileY, FoundTriangles& found, std::uint64_t& doubtful,
-    const NearestTriangles& nearest, TileHits& hits) const;
+    const NearestTriangles& nearest, MergedTile& hits) const;
   void measureHits(int tileX, int tileY, const TriangleGroup& group,
-    const NearestTriangles& nearest, TileHits& hits) const;
+    const NearestTriangles& nearest, MergedTile& hits) const;
   /// What one ray meets first of the triangles in scratch.slots; false if nothing.
   bool traceDoubtful(
     double x, double y, const TriangleGroup& group, TileScratch& scratch, SeenHit& first) const;

@@ -103,23 +103,20 @@ void LayeredView::traceLayer(int tileX, int tileY, TileEntry& candidate, TileScr
   }
   DepthLayer& layer = *entry.layer;
   const std::size_t k = layer.index(tileX, tileY);
-  TileHits hits;
-  layer.traced[k] = DepthLayer::Empty;
-  if (this->nearestHits(tileX, tileY, candidate.alone, scratch, hits))
-  {
-    layer.traced[k] = DepthLayer::Traced;
-    std::copy(hits.t, hits.t + 64, layer.t.data() + 64 * k);
-    std::copy(hits.primitive, hits.primitive + 64, layer.primitive.data() + 64 * k);
-  }
+  MergedTile hits{ layer.t.data() + 64 * k, scratch.instance, layer.primitive.data() + 64 * k,
+    false };
+  layer.traced[k] = this->nearestHits(tileX, tileY, candidate.alone, scratch, hits)
+    ? DepthLayer::Traced
+    : DepthLayer::Empty;
 }
 
 bool LayeredView::nearestHits(
-  int tileX, int tileY, FoundTriangles& found, TileScratch& scratch, TileHits& hits) const
+  int tileX, int tileY, FoundTriangles& found, TileScratch& scratch, MergedTile& hits) const
 {
   const TriangleGroup& group = found.group;
   NearestTriangles& nearest = scratch.nearest;
   const int column = tileX - scratch.groupX, row = tileY - scratch.groupY;
-  if (group.empty() || !group.nearest(column, row, nearest))
+  if (group.empty() || !group.nearest(column, row, nearest, hits.primitive, hits.instance))
   {
     return false;
   }
@@ -133,21 +130,12 @@ bool LayeredView::nearestHits(
       scratch.rays[e] += 64;
     }
   }
-  bool any = false;
-  for (int i = 0; i < 64; ++i)
-  {
-    const std::int32_t slot = nearest.slot[i];
-    const bool hit = slot != NearestTriangles::None;
-    any = any || hit;
-    hits.primitive[i] = hit ? group.triangle(slot) : NoPrimitive;
-    hits.instance[i] = hit ? group.owner(slot) : NoInstance;
-  }
   std::uint64_t doubtful = nearest.doubtful;
-  if (any && this->Exact)
+  if (this->Exact)
   {
     this->placeHits(tileX, tileY, found, doubtful, nearest, hits);
   }
-  else if (any)
+  else
   {
     this->measureHits(tileX, tileY, group, nearest, hits);
   }
@@ -158,72 +146,73 @@ bool LayeredView::nearestHits(
     group.candidates(column, row, i, nearest, scratch.slots);
     SeenHit first;
     const bool hit = this->traceDoubtful(x, y, group, scratch, first);
-    any = any || hit;
     hits.primitive[i] = hit ? first.primitive : NoPrimitive;
     hits.instance[i] = hit ? first.instance : NoInstance;
     hits.t[i] = hit ? first.floatT : 0.0f;
   }
-  return any;
+  return std::any_of(
+    hits.primitive, hits.primitive + 64, [](Primitive p) { return p != NoPrimitive; });
 }
 
 void LayeredView::placeHits(int tileX, int tileY, FoundTriangles& found, std::uint64_t& doubtful,
-  const NearestTriangles& nearest, TileHits& hits) const
+  const NearestTriangles& nearest, MergedTile& hits) const
 {
   const TriangleGroup& group = found.group;
-  std::int32_t plane[64];
-  std::int32_t last = NearestTriangles::None, lastPlane = 0;
-  for (int i = 0; i < 64; ++i)
+  if (found.planes.empty())
   {
-    const std::int32_t slot = nearest.slot[i];
-    if (slot != NearestTriangles::None && slot != last)
-    {
-      last = slot;
-      found.planeOf.resize(std::max(found.planeOf.size(), static_cast<std::size_t>(slot) + 1), -1);
-      if (found.planeOf[slot] < 0)
-      {
-        const Entry& entry = this->Instances[this->EntryOf[group.owner(slot)]];
-        found.planeOf[slot] = static_cast<std::int32_t>(found.planes.size());
-        found.planes.emplace_back(
-          TrianglePlane(*entry.octree->surface(), group.triangle(slot)), entry.local, entry.sizes);
-      }
-      lastPlane = found.planeOf[slot];
-    }
-    plane[i] = lastPlane;
+    found.planes.emplace_back();
+    found.planeOf.assign(group.size() + 1, -1);
+    found.planeOf[0] = 0; // of no slot
   }
-  std::uint8_t doubts[64];
-  depthsOnPlanes(found.planes.data(), plane, 8.0 * tileX, 8.0 * tileY, hits.t, doubts);
+  static_assert(NearestTriangles::None == -1, "planes are counted from it");
+  std::int32_t* const planeOf = found.planeOf.data() + 1;
+  std::int32_t plane[64];
   for (int i = 0; i < 64; ++i)
   {
     const std::int32_t slot = nearest.slot[i];
-    if (slot == NearestTriangles::None || (doubtful >> i & 1))
+    if (planeOf[slot] < 0)
+    {
+      const Entry& entry = this->Instances[this->EntryOf[group.owner(slot)]];
+      planeOf[slot] = static_cast<std::int32_t>(found.planes.size());
+      found.planes.emplace_back(
+        TrianglePlane(*entry.octree->surface(), group.triangle(slot)), entry.local, entry.sizes);
+    }
+    plane[i] = planeOf[slot];
+  }
+  // No decided hit lies beyond the rays' ends.
+  std::uint64_t left =
+    depthsOnPlanes(found.planes.data(), plane, 8.0 * tileX, 8.0 * tileY, hits.t) & ~doubtful;
+  for (; left != 0; left &= left - 1)
+  {
+    const int i = lowest(left);
+    const std::int32_t slot = nearest.slot[i];
+    if (slot == NearestTriangles::None)
     {
       continue;
     }
-    const LocalView& local = this->Instances[this->EntryOf[hits.instance[i]]].local;
-    if ((doubts[i] & MayBeEdgeOn) && group.steep(slot))
+    const Entry& entry = this->Instances[this->EntryOf[group.owner(slot)]];
+    bool edgeOn;
+    const double t = meetPlane(TrianglePlane(*entry.octree->surface(), group.triangle(slot)),
+      entry.local, 8 * tileX + (i & 7) + 0.5, 8 * tileY + (i >> 3) + 0.5, edgeOn);
+    hits.t[i] = static_cast<float>(t);
+    if (edgeOn && group.steep(slot))
     {
       doubtful |= std::uint64_t(1) << i;
     }
-    else if (doubts[i] & CloseToNext)
-    {
-      const Entry& entry = this->Instances[this->EntryOf[hits.instance[i]]];
-      const TrianglePlane exact(*entry.octree->surface(), hits.primitive[i]);
-      bool edgeOn;
-      hits.t[i] = static_cast<float>(
-        meetPlane(exact, local, 8 * tileX + (i & 7) + 0.5, 8 * tileY + (i >> 3) + 0.5, edgeOn));
-    }
-    hits.t[i] = std::clamp(hits.t[i], 0.0f, local.tMax);
   }
 }
 
 void LayeredView::measureHits(int tileX, int tileY, const TriangleGroup& group,
-  const NearestTriangles& nearest, TileHits& hits) const
+  const NearestTriangles& nearest, MergedTile& hits) const
 {
   RayBlock block;
   HitBlock measured;
+  double x[64], y[64];
   std::uint64_t left = 0;
   for (int i = 0; i < 64; ++i)
   {
+    x[i] = 8 * tileX + (i & 7) + 0.5;
+    y[i] = 8 * tileY + (i >> 3) + 0.5;
     left |= std::uint64_t(nearest.slot[i] != NearestTriangles::None) << i;
   }
   while (left != 0)
@@ -231,19 +220,21 @@ void LayeredView::measureHits(int tileX, int tileY, const TriangleGroup& group,
     // Of one instance after the other.
     const std::uint32_t owner = group.owner(nearest.slot[lowest(left)]);
     const Entry& entry = this->Instances[this->EntryOf[owner]];
+    std::uint64_t mine = 0;
     for (int i = 0; i < 64; ++i)
     {
-      const bool mine = (left >> i & 1) && hits.instance[i] == owner;
-      measured.primitive[i] = mine ? hits.primitive[i] : NoPrimitive;
-      entry.local.fill(8 * tileX + (i & 7) + 0.5, 8 * tileY + (i >> 3) + 0.5, i, block);
+      const bool own = hits.instance[i] == owner;
+      measured.primitive[i] = own ? hits.primitive[i] : NoPrimitive;
+      mine |= std::uint64_t(own) << i;
     }
+    left &= ~mine;
+    fillRays(entry.local, x, y, block);
     depthsOnTriangles(*entry.octree, block, measured);
     for (int i = 0; i < 64; ++i)
     {
-      if (measured.primitive[i] != NoPrimitive)
+      if (mine >> i & 1)
       {
         hits.t[i] = measured.t[i];
-        left &= ~(std::uint64_t(1) << i);
       }
     }
   }

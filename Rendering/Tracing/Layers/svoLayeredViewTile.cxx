@@ -103,10 +103,7 @@ void LayeredView::traceRays(const TileEntry& candidate, const double* x, const d
     intersectStretched(*entry.octree, entry.local, x, y, block, options, found);
     return;
   }
-  for (int i = 0; i < 64; ++i)
-  {
-    entry.local.fill(x[i], y[i], i, block);
-  }
+  fillRays(entry.local, x, y, block);
   if (!candidate.nodes.empty())
   {
     intersectTile(*entry.octree, candidate.pyramid, candidate.nodes, block, found);
@@ -180,6 +177,13 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
   const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
   MergedTile merged{ this->Merged.t.data() + 64 * tile, this->Merged.instance.data() + 64 * tile,
     this->Merged.primitive.data() + 64 * tile, false };
+  merged.any = this->nearestHits(tileX, tileY, scratch.together, scratch, merged);
+  this->order(tileX, tileY, scratch);
+  this->Merged.hit[tile] = merged.any;
+  if (scratch.order.empty())
+  {
+    return;
+  }
   RayBlock block;
   HitBlock found;
   double xs[64], ys[64];
@@ -188,15 +192,6 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
     xs[i] = 8 * tileX + (i & 7) + 0.5;
     ys[i] = 8 * tileY + (i >> 3) + 0.5;
   }
-  TileHits hits;
-  if (this->nearestHits(tileX, tileY, scratch.together, scratch, hits))
-  {
-    merged.any = true;
-    std::copy(hits.t, hits.t + 64, merged.t);
-    std::copy(hits.instance, hits.instance + 64, merged.instance);
-    std::copy(hits.primitive, hits.primitive + 64, merged.primitive);
-  }
-  this->order(tileX, tileY, scratch);
   for (TileEntry* next : scratch.order)
   {
     TileEntry& candidate = *next;
@@ -208,9 +203,10 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
     };
     if (!entry.layer && candidate.way == Way::Alone)
     {
-      if (this->nearestHits(tileX, tileY, candidate.alone, scratch, hits))
+      MergedTile own{ scratch.t, scratch.instance, scratch.primitive, false };
+      if (this->nearestHits(tileX, tileY, candidate.alone, scratch, own))
       {
-        this->merge(entry, hits.t, hits.primitive, xs, ys, merged);
+        this->merge(entry, own.t, own.primitive, xs, ys, merged);
       }
       continue;
     }

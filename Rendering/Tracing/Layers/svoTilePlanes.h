@@ -38,10 +38,12 @@ struct RaySizes
 /// A triangle's plane as a view sees it: depths are (n + nx x + ny y) / (d + dx x + dy y).
 struct SeenPlane
 {
-  double n, nx, ny;
-  double d, dx, dy;
-  double slack;  // in parts of the denominator: what depths can be off by
-  double edgeOn; // the denominator's square, where the plane may be seen edge-on
+  double n = 0.0, nx = 0.0, ny = 0.0;
+  double d = 1.0, dx = 0.0, dy = 0.0;
+  double slack = 0.0;  // in parts of the denominator: what depths can be off by
+  double edgeOn = 0.0; // the denominator's square, where the plane may be seen edge-on
+
+  SeenPlane() = default;
 
   /// The sums of meetPlane() and those here have at most 8 roundings each, of what adds up to the
   /// size of the normal times that of rays.
@@ -60,19 +62,15 @@ struct SeenPlane
   }
 };
 
-/// What is not known of a depth on a plane: where none of this is said, it is as meetPlane() has
-/// it, rounded to float.
-enum PlaneDoubt : std::uint8_t
-{
-  CloseToNext = 1, // may be rounded to another float
-  MayBeEdgeOn = 2
-};
-
 /// For the pixels' centres of a tile of 8x8 whose lower left corner is (x, y): depths on the planes
-/// that `plane` names of each, and doubts about them. Depths without doubts do not depend on the
-/// instruction set.
-void depthsOnPlanes(const SeenPlane* planes, const std::int32_t* plane, double x, double y,
-  float* t, std::uint8_t* doubts);
+/// that `plane` names of each, as meetPlane() has them, rounded to float. One bit each for pixels
+/// where that is not certain: meetPlane() may be rounded to another float, or the plane be seen
+/// edge-on.
+std::uint64_t depthsOnPlanes(
+  const SeenPlane* planes, const std::int32_t* plane, double x, double y, float* t);
+
+/// LocalView::fill() for all rays of a block, through the points x, y of the image.
+void fillRays(const LocalView& local, const double* x, const double* y, RayBlock& rays);
 }
 
 #endif

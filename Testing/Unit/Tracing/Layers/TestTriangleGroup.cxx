@@ -95,7 +95,8 @@ void compareTile(const Stage& stage, const TriangleGroup& group, int tileX, int 
   }
   intersectTile(stage.octree, pyramid, nodes, rays, expected);
   NearestTriangles found;
-  const bool any = group.nearest(column, row, found);
+  std::uint32_t triangles[64], owners[64];
+  const bool any = group.nearest(column, row, found, triangles, owners);
   std::vector<std::int32_t> slots;
   for (int i = 0; i < 64; ++i)
   {
@@ -128,7 +129,9 @@ void compareTile(const Stage& stage, const TriangleGroup& group, int tileX, int 
     {
       first = group.triangle(found.slot[i]);
       ASSERT_EQ(group.owner(found.slot[i]), 7u);
+      ASSERT_EQ(owners[i], 7u);
     }
+    ASSERT_TRUE((found.doubtful >> i & 1) || triangles[i] == first);
     ASSERT_EQ(first, expected.primitive[i])
       << x[i] << ", " << y[i] << (found.doubtful >> i & 1 ? ", doubtful" : "");
   }
