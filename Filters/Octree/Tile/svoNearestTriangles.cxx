@@ -7,6 +7,7 @@
 #define HWY_TARGET_INCLUDE "svoNearestTriangles.cxx"
 #include <hwy/foreach_target.h>
 
+#include "svoPackLanes-inl.h"
 #include "svoTriangleGroup.h"
 
 #include <algorithm>
@@ -205,6 +206,7 @@ std::size_t selectSlots(
   const F half = hn::Set(df, HalfTile);
   const I tile = hn::Set(di, 1 << (GroupView::Tiles * row + column));
   const I thin = hn::Set(di, TriangleGroup::Thin);
+  const SetBits& bits = SetBits::get();
   std::size_t count = 0;
   for (std::size_t s = 0; s < slots.count; s += hn::Lanes(df))
   {
@@ -237,10 +239,10 @@ std::size_t selectSlots(
     // What is not a number comes first.
     const F known =
       hn::IfThenElse(hn::Eq(key, key), key, hn::Set(df, -std::numeric_limits<float>::infinity()));
-    hn::StoreU(hn::Compress(known, mine), df, keys + count);
-    hn::StoreU(hn::Compress(hn::Iota(di, static_cast<std::int32_t>(s)), hn::RebindMask(di, mine)),
-      di, selected + count);
-    count += hn::CountTrue(df, mine);
+    const LanePacker pack(bits, mine);
+    pack.store(known, keys + count);
+    pack.store(hn::Iota(di, static_cast<std::int32_t>(s)), selected + count);
+    count += pack.count;
   }
   return count;
 }

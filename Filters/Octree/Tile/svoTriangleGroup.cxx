@@ -23,6 +23,7 @@
 #include <hwy/foreach_target.h>
 
 #include "svoCrossingTriangle.h"
+#include "svoPackLanes-inl.h"
 #include "svoTriangleGroup.h"
 
 #include <algorithm>
@@ -133,6 +134,7 @@ void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t cou
   constexpr float FarthestCorner = 65536.0f; // pixels
   slots.makeRoom(slots.count + count + hn::Lanes(df));
   slots.crossingCount = 0;
+  const SetBits& bits = SetBits::get();
   for (std::size_t first = 0; first < count; first += hn::Lanes(df))
   {
     const std::size_t left = count - first;
@@ -158,8 +160,9 @@ void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t cou
     if (!hn::AllFalse(df, unknown))
     {
       const auto crossing = hn::AndNot(beside(view, a, b, c), unknown);
-      slots.crossingCount += hn::CompressStore(
-        triangle, hn::RebindMask(di, crossing), di, slots.crossing.data() + slots.crossingCount);
+      const LanePacker pack(bits, crossing);
+      pack.store(triangle, slots.crossing.data() + slots.crossingCount);
+      slots.crossingCount += pack.count;
     }
     const F nearest = most(ai, bi, ci);
     const F shift =
@@ -193,8 +196,9 @@ void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t cou
     const auto thin =
       hn::Not(hn::Gt(hn::Abs(area), hn::Mul(hn::Set(df, 12.0f), doubt))); // or not a number
     const F toDoubt = hn::Div(hn::CopySign(one, area), doubt);
+    const LanePacker pack(bits, kept);
     const auto store = [&](F v, std::vector<float>& array)
-    { hn::StoreU(hn::Compress(v, kept), df, array.data() + slots.count); };
+    { pack.store(v, array.data() + slots.count); };
     const auto storeEdge = [&](int e, F ex, F ey, F x, F y)
     {
       const F nx = hn::Mul(ex, toDoubt), ny = hn::Mul(ey, toDoubt);
@@ -246,10 +250,8 @@ void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t cou
       hn::Or(hn::Or(flag(thin, TriangleGroup::Thin), flag(clipped, TriangleGroup::Clipped)),
         hn::Or(flag(hn::Not(hn::Le(depthSlack, hn::Set(df, view.reach))), TriangleGroup::Unsure),
           flag(hn::Not(hn::Le(depthSlack, hn::Set(df, view.nearReach))), TriangleGroup::Steep)));
-    const auto keptI = hn::RebindMask(di, kept);
-    const auto storeI = [&](I v, auto& array) {
-      hn::CompressStore(v, keptI, di, reinterpret_cast<std::int32_t*>(array.data()) + slots.count);
-    };
+    const auto storeI = [&](I v, auto& array)
+    { pack.store(v, reinterpret_cast<std::int32_t*>(array.data()) + slots.count); };
     const I ix0 = hn::ConvertTo(di, px0), ix1 = hn::ConvertTo(di, px1);
     const I iy0 = hn::ConvertTo(di, py0), iy1 = hn::ConvertTo(di, py1);
     storeI(ix0, slots.x0);
@@ -260,7 +262,7 @@ void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t cou
     storeI(flags, slots.flags);
     storeI(triangle, slots.id);
     storeI(hn::Set(di, static_cast<std::int32_t>(owner)), slots.owner);
-    slots.count += hn::CountTrue(df, kept);
+    slots.count += pack.count;
   }
 }
 }
