@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -310,6 +311,67 @@ void traceTile(const Octree& octree, const TilePyramid& pyramid, const std::vect
     }
   }
 }
+
+/// Sets t of the rays of one kind, where each meets its triangle.
+void meetOwn(const Surface& surface, const ShearedRays& rays, const std::int32_t* kinds, int kind,
+  HitBlock& hits)
+{
+  const DF df;
+  const DI di;
+  const auto times3 = [](I v) { return hn::Add(v, hn::Add(v, v)); };
+  const auto* triangles = reinterpret_cast<const std::int32_t*>(&surface.triangles[0].x);
+  const float* points = &surface.points[0].x;
+  for (std::size_t i = 0; i < 64; i += hn::Lanes(df))
+  {
+    const I primitive = hn::Load(di, reinterpret_cast<const std::int32_t*>(hits.primitive) + i);
+    const auto mine = hn::And(
+      hn::Eq(hn::Load(di, kinds + i), hn::Set(di, kind)), hn::Gt(primitive, hn::Set(di, -1)));
+    if (hn::AllFalse(di, mine))
+    {
+      continue;
+    }
+    const I triangle = times3(hn::IfThenElseZero(mine, primitive));
+    F x[3], y[3], z[3]; // sheared; z is not
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      const I at = times3(hn::GatherIndex(di, triangles + corner, triangle));
+      z[corner] =
+        hn::Sub(hn::GatherIndex(df, points + rays.z, at), hn::Load(df, rays.origin[2] + i));
+      x[corner] =
+        hn::Sub(hn::Sub(hn::GatherIndex(df, points + rays.x, at), hn::Load(df, rays.origin[0] + i)),
+          hn::Mul(hn::Load(df, rays.shear[0] + i), z[corner]));
+      y[corner] =
+        hn::Sub(hn::Sub(hn::GatherIndex(df, points + rays.y, at), hn::Load(df, rays.origin[1] + i)),
+          hn::Mul(hn::Load(df, rays.shear[1] + i), z[corner]));
+    }
+    const F u = differenceOfProducts(x[2], y[1], y[2], x[1]);
+    const F v = differenceOfProducts(x[0], y[2], y[0], x[2]);
+    const F w = differenceOfProducts(x[1], y[0], y[1], x[0]);
+    const F determinant = hn::Add(hn::Add(u, v), w);
+    const F sum = hn::Add(hn::Add(hn::Mul(u, z[0]), hn::Mul(v, z[1])), hn::Mul(w, z[2]));
+    const F t = hn::Div(hn::Mul(sum, hn::Load(df, rays.shear[2] + i)), determinant);
+    const auto mineF = hn::RebindMask(df, mine);
+    hn::Store(hn::IfThenElse(mineF, t, hn::Load(df, hits.t + i)), df, hits.t + i);
+  }
+}
+
+void meetOwnTriangles(const Octree& octree, const RayBlock& block, HitBlock& hits)
+{
+  assert(octree.surface() != nullptr);
+  HWY_ALIGN float direction[3][64];
+  HWY_ALIGN std::int32_t kinds[64];
+  float* const directions[3] = { direction[0], direction[1], direction[2] };
+  const unsigned present = sortRays(block, directions, kinds);
+  ShearedRays rays;
+  for (int kind = 0; kind < 6; ++kind)
+  {
+    if (present >> kind & 1)
+    {
+      shear(block, directions, kinds, kind, rays);
+      meetOwn(*octree.surface(), rays, kinds, kind, hits);
+    }
+  }
+}
 }
 }
 HWY_AFTER_NAMESPACE();
@@ -318,6 +380,35 @@ HWY_AFTER_NAMESPACE();
 namespace svo
 {
 HWY_EXPORT(traceTile);
+HWY_EXPORT(meetOwnTriangles);
+
+bool rayMeetsTriangle(const Surface& surface, const glm::vec3& origin, const glm::vec3& direction,
+  std::uint32_t triangle, float& t)
+{
+  // As sortRays() has it.
+  const glm::vec3 size(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z));
+  const float largest = std::max(std::max(size.x, size.y), size.z);
+  constexpr float Smallest = std::numeric_limits<float>::min();
+  if (!(largest >= Smallest && largest < std::numeric_limits<float>::infinity()))
+  {
+    return false;
+  }
+  const float negligible =
+    std::max(largest * (std::numeric_limits<float>::epsilon() / 256.0f), Smallest);
+  glm::vec3 along;
+  for (int k = 0; k < 3; ++k)
+  {
+    along[k] = size[k] < negligible ? 0.0f : direction[k];
+  }
+  const glm::uvec3 points = surface.triangles[triangle];
+  return intersectTriangle(ShearedRay<float>(origin, along), surface.points[points.x],
+    surface.points[points.y], surface.points[points.z], t);
+}
+
+void depthsOnTriangles(const Octree& octree, const RayBlock& rays, HitBlock& hits)
+{
+  HWY_DYNAMIC_DISPATCH(meetOwnTriangles)(octree, rays, hits);
+}
 
 void intersectTile(const Octree& octree, const TilePyramid& pyramid,
   const std::vector<TileNode>& nodes, const RayBlock& rays, HitBlock& hits)

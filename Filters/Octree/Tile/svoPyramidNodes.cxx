@@ -20,9 +20,6 @@
 #define SVO_PYRAMID_NODES_ONCE
 namespace svo
 {
-/// What arrays of cubes have room for behind the last: a vector of any instruction set.
-constexpr std::size_t RoomBehind = 16;
-
 /// Lower corners of a node's 64 cells, for a node of edge 1, in the order of cellIndex().
 struct CellOffsets
 {
@@ -92,30 +89,8 @@ struct OpenNode
 {
   std::uint32_t node;
   float size;     // edge, octree coordinates
-  float x, y, z;  // lower corner, octree coordinates minus 1
   float value[5]; // of the sides and of t at its lower corner, rounding allowed for
 };
-
-inline void sortByDepth(std::vector<TileNode>& nodes)
-{
-  const auto nearer = [](const TileNode& a, const TileNode& b) { return a.tNear < b.tNear; };
-  constexpr std::size_t Few = 48;
-  if (nodes.size() > Few)
-  {
-    std::sort(nodes.begin(), nodes.end(), nearer);
-    return;
-  }
-  for (std::size_t i = 1; i < nodes.size(); ++i)
-  {
-    const TileNode node = nodes[i];
-    std::size_t k = i;
-    for (; k > 0 && nearer(node, nodes[k - 1]); --k)
-    {
-      nodes[k] = nodes[k - 1];
-    }
-    nodes[k] = node;
-  }
-}
 
 bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyramid& pyramid,
   float tMin, float tMax, std::size_t most, std::vector<TileNode>& nodes)
@@ -127,7 +102,6 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
   int count = 1;
   open[0].node = 0;
   open[0].size = 1.0f;
-  open[0].x = open[0].y = open[0].z = 0.0f;
   double tSlack = 0.0;
   for (int k = 0; k < 5; ++k)
   {
@@ -160,7 +134,7 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
   nodes.clear();
   if (bricks == 0 || lists.begin[0] != ShortLists::None)
   {
-    nodes.push_back({ -std::numeric_limits<float>::infinity(), 0, 0.0f, 0.0f, 0.0f, 1.0f });
+    nodes.push_back({ -std::numeric_limits<float>::infinity(), 0 });
     return true;
   }
   HWY_ALIGN float tNear[64];
@@ -196,21 +170,15 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
       const int i = lowestBit(left);
       const std::uint32_t index = child(node, i);
       assert(index < octree.header().nodeCount);
-      const float x = parent.x + parent.size * offsets.x[i];
-      const float y = parent.y + parent.size * offsets.y[i];
-      const float z = parent.z + parent.size * offsets.z[i];
       if (index >= bricks || lists.begin[index] != ShortLists::None)
       {
-        nodes.push_back({ tNear[i], index, x, y, z, 0.25f * parent.size });
+        nodes.push_back({ tNear[i], index });
         continue;
       }
       assert(count < 64 * MaximumDepths);
       OpenNode& next = open[count++];
       next.node = index;
       next.size = 0.25f * parent.size;
-      next.x = x;
-      next.y = y;
-      next.z = z;
       for (int k = 0; k < 4; ++k)
       {
         next.value[k] = parent.value[k] + parent.size * (tables.most[k][i] + tables.toCorner[k]);
@@ -218,41 +186,7 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
       next.value[4] = parent.value[4] + parent.size * (tables.near[i] + tables.toCorner[4]);
     }
   }
-  sortByDepth(nodes);
   return nodes.size() <= most;
-}
-
-/// Which of `count` cubes are inside: one bit each. The arrays have room for RoomBehind more.
-void cubesInside(const TilePyramid& pyramid, const float* x, const float* y, const float* z,
-  const float* size, std::size_t count, std::uint64_t* inside)
-{
-  const DF df;
-  const PyramidSides sides(pyramid);
-  assert(hn::Lanes(df) <= RoomBehind);
-  for (std::size_t first = 0; first < count; first += 64)
-  {
-    std::uint64_t bits = 0;
-    for (std::size_t i = first; i < std::min(first + 64, count); i += hn::Lanes(df))
-    {
-      const F vx = hn::LoadU(df, x + i);
-      const F vy = hn::LoadU(df, y + i);
-      const F vz = hn::LoadU(df, z + i);
-      const F edge = hn::LoadU(df, size + i);
-      auto in = hn::Eq(edge, edge);
-      for (int k = 0; k < 4; ++k)
-      {
-        const float grows =
-          std::max(sides.x[k], 0.0f) + std::max(sides.y[k], 0.0f) + std::max(sides.z[k], 0.0f);
-        const F best = hn::MulAdd(hn::Set(df, sides.x[k]), vx,
-          hn::MulAdd(hn::Set(df, sides.y[k]), vy,
-            hn::MulAdd(hn::Set(df, sides.z[k]), vz,
-              hn::MulAdd(hn::Set(df, grows), edge, hn::Set(df, sides.w[k])))));
-        in = hn::And(in, hn::Ge(best, hn::Zero(df)));
-      }
-      bits |= laneBits(df, in) << (i - first);
-    }
-    inside[first / 64] = bits;
-  }
 }
 }
 }
@@ -262,7 +196,6 @@ HWY_AFTER_NAMESPACE();
 namespace svo
 {
 HWY_EXPORT(findNodes);
-HWY_EXPORT(cubesInside);
 
 namespace
 {
@@ -276,68 +209,43 @@ bool findInside(const Octree& octree, const TilePyramid& pyramid, float tMin, fl
     HWY_DYNAMIC_DISPATCH(findNodes)(octree, offsets, pyramid, tMin, tMax, most, nodes);
 }
 
-void countTile([[maybe_unused]] const std::vector<TileNode>& nodes)
+void sortByDepth(std::vector<TileNode>& nodes)
 {
-  SVO_COUNT(TilesAccepted, nodes.empty() ? 0 : 1);
-  SVO_COUNT(TilesRejected, nodes.empty() ? 1 : 0);
+  const auto nearer = [](const TileNode& a, const TileNode& b) { return a.tNear < b.tNear; };
+  constexpr std::size_t Few = 48;
+  if (nodes.size() > Few)
+  {
+    std::sort(nodes.begin(), nodes.end(), nearer);
+    return;
+  }
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+  {
+    const TileNode node = nodes[i];
+    std::size_t k = i;
+    for (; k > 0 && nearer(node, nodes[k - 1]); --k)
+    {
+      nodes[k] = nodes[k - 1];
+    }
+    nodes[k] = node;
+  }
 }
+
 }
 
 bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax,
   std::size_t most, std::vector<TileNode>& nodes)
 {
   const bool all = findInside(octree, pyramid, tMin, tMax, most, nodes);
-  countTile(nodes);
+  sortByDepth(nodes);
+  SVO_COUNT(TilesAccepted, nodes.empty() ? 0 : 1);
+  SVO_COUNT(TilesRejected, nodes.empty() ? 1 : 0);
   return all;
 }
 
-bool TileGroup::find(
-  const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax, std::size_t most)
+bool findGroupNodes(const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax,
+  std::size_t most, std::vector<TileNode>& nodes)
 {
-  if (!findInside(octree, pyramid, tMin, tMax, most, this->Nodes))
-  {
-    return false;
-  }
-  for (std::vector<float>* array : { &this->X, &this->Y, &this->Z, &this->Size })
-  {
-    array->assign(this->Nodes.size() + RoomBehind, 0.0f);
-  }
-  for (std::size_t i = 0; i < this->Nodes.size(); ++i)
-  {
-    this->X[i] = this->Nodes[i].x;
-    this->Y[i] = this->Nodes[i].y;
-    this->Z[i] = this->Nodes[i].z;
-    this->Size[i] = this->Nodes[i].size;
-  }
-  return true;
-}
-
-void TileGroup::select(const TilePyramid& pyramid, std::vector<TileNode>& nodes) const
-{
-  nodes.clear();
-  assert(this->X.empty() ? this->Nodes.empty() : this->X.size() == this->Nodes.size() + RoomBehind);
-  constexpr std::size_t Chunk = 512;
-  std::uint64_t inside[Chunk / 64];
-  for (std::size_t first = 0; first < this->Nodes.size(); first += Chunk)
-  {
-    const std::size_t count = std::min(Chunk, this->Nodes.size() - first);
-    HWY_DYNAMIC_DISPATCH(cubesInside)
-    (pyramid, this->X.data() + first, this->Y.data() + first, this->Z.data() + first,
-      this->Size.data() + first, count, inside);
-    for (std::size_t k = 0; k < count; k += 64)
-    {
-      std::uint64_t bits = inside[k / 64];
-      if (count - k < 64)
-      {
-        bits &= (std::uint64_t(1) << (count - k)) - 1;
-      }
-      for (; bits != 0; bits &= bits - 1)
-      {
-        nodes.push_back(this->Nodes[first + k + lowestBit(bits)]);
-      }
-    }
-  }
-  countTile(nodes);
+  return findInside(octree, pyramid, tMin, tMax, most, nodes);
 }
 }
 #endif

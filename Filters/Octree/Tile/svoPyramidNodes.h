@@ -30,30 +30,16 @@ struct TileNode
 {
   float tNear; // not above the t of any hit inside
   std::uint32_t node;
-  float x, y, z, size; // its cube: lower corner, octree coordinates minus 1, and edge
-};
-
-/// The nodes of a group of tiles, found together; each tile then takes its own out of them.
-class VTKSVOOCTREE_EXPORT TileGroup
-{
-public:
-  /// Finds the nodes inside the group's pyramid; false if there are more than `most`.
-  bool find(
-    const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax, std::size_t most);
-  /// Those inside the pyramid of one of its tiles, nearest first: what rays of the tile can meet is
-  /// among them.
-  void select(const TilePyramid& pyramid, std::vector<TileNode>& nodes) const;
-
-private:
-  std::vector<TileNode> Nodes; // nearest first
-  /// Their cubes: lower corners, octree coordinates minus 1, and edges; room for a vector more.
-  std::vector<float> X, Y, Z, Size;
 };
 
 /// Finds the nodes inside the pyramid between tMin and tMax, nearest first. False if there are more
 /// than `most`: then they are not all there. The octree must have a surface.
 VTKSVOOCTREE_EXPORT bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin,
   float tMax, std::size_t most, std::vector<TileNode>& nodes);
+
+/// The same, in any order: for a group of tiles, whose triangles are sorted later.
+VTKSVOOCTREE_EXPORT bool findGroupNodes(const Octree& octree, const TilePyramid& pyramid,
+  float tMin, float tMax, std::size_t most, std::vector<TileNode>& nodes);
 }
 
 #endif

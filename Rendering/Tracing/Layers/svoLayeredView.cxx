@@ -1,6 +1,8 @@
 #include "svoLayeredView.h"
 
 #include <algorithm>
+#include <limits>
+#include <memory>
 #include <mutex>
 
 namespace svo
@@ -44,14 +46,43 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
     const Instance& instance = scene.instances[i];
     const Again again = this->againOf(instance, visible, this->Errors[i]);
     this->EntryOf[i] = static_cast<std::uint32_t>(this->Instances.size());
-    this->Instances.push_back({ std::move(visible), instance.points, again, layer, {} });
+    this->Instances.push_back({ std::move(visible), instance.points, again, layer, {}, {}, {} });
+    Entry& entry = this->Instances.back();
+    if (entry.tiles)
+    {
+      entry.functions = PixelFunctions(entry.local, view);
+      entry.sizes = RaySizes(entry.local, view);
+    }
   }
+  this->Keys = this->keyBase();
   this->Layers.endFrame(budget);
   this->Shifted = std::any_of(this->Instances.begin(), this->Instances.end(),
     [this](const Entry& entry) {
       return this->Exact && this->Offsets[entry.index] != this->Offsets[this->Instances[0].index];
     });
   return !this->Instances.empty();
+}
+
+KeyBase LayeredView::keyBase() const
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  double nearest = infinity, farthest = -infinity;
+  for (const Entry& entry : this->Instances)
+  {
+    if (entry.tiles && entry.functions.valid)
+    {
+      const double begin = this->Seen.parallel ? entry.local.base : entry.functions.wBase;
+      nearest = std::min(nearest, begin);
+      farthest = std::max(farthest, begin + entry.local.tMax);
+    }
+  }
+  if (nearest > farthest)
+  {
+    return {};
+  }
+  // Floats, so that they can be handed on without loss.
+  return this->Seen.parallel ? KeyBase{ static_cast<float>(0.5 * (nearest + farthest)), false }
+                             : KeyBase{ static_cast<float>(farthest), farthest > 2.0 * nearest };
 }
 
 void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* wanted)
@@ -102,19 +133,51 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
   const int gy0 = ty0 / GroupTiles;
   const std::size_t columns = (tx1 + GroupTiles - 1) / GroupTiles - gx0;
   const std::size_t rows = (ty1 + GroupTiles - 1) / GroupTiles - gy0;
-  std::vector<std::uint64_t> rays(this->Instances.size());
-  std::mutex raysMutex;
+  std::vector<std::unique_ptr<TileScratch>> idle; // no more than there are threads
+  std::mutex mutex;
+  const auto wantsAny = [&](int x0, int y0)
+  {
+    for (int y = std::max(y0, ty0); y < std::min(y0 + GroupTiles, ty1); ++y)
+    {
+      for (int x = std::max(x0, tx0); x < std::min(x0 + GroupTiles, tx1); ++x)
+      {
+        if (this->Tiles.isMerged(static_cast<std::size_t>(y) * this->Merged.tilesX + x))
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  };
   parallelFor(0, columns * rows, std::max<std::size_t>(columns / 8, 2),
     [&](std::size_t first, std::size_t last)
     {
-      TileScratch mine;
-      mine.entries.resize(this->Instances.size());
-      mine.rays.resize(this->Instances.size());
+      std::unique_ptr<TileScratch> taken;
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (!idle.empty())
+        {
+          taken = std::move(idle.back());
+          idle.pop_back();
+        }
+      }
+      if (!taken)
+      {
+        taken = std::make_unique<TileScratch>();
+        taken->entries.resize(this->Instances.size());
+        taken->rays.resize(this->Instances.size());
+        taken->counted.resize(this->Instances.size(), this->Merged.tiles());
+      }
+      TileScratch& mine = *taken;
       for (std::size_t group = first; group < last; ++group)
       {
         const int x0 = GroupTiles * (gx0 + static_cast<int>(group % columns));
         const int y0 = GroupTiles * (gy0 + static_cast<int>(group / columns));
-        bool gathered = false;
+        if (!wantsAny(x0, y0))
+        {
+          continue;
+        }
+        this->gather(x0, y0, mine);
         for (int tileY = std::max(y0, ty0); tileY < std::min(y0 + GroupTiles, ty1); ++tileY)
         {
           for (int tileX = std::max(x0, tx0); tileX < std::min(x0 + GroupTiles, tx1); ++tileX)
@@ -122,26 +185,23 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
             const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
             if (this->Tiles.isMerged(tile))
             {
-              if (!gathered)
-              {
-                this->gather(x0, y0, mine);
-                gathered = true;
-              }
               this->traceTile(tileX, tileY, mine);
             }
           }
         }
       }
-      const std::lock_guard<std::mutex> lock(raysMutex);
-      for (std::size_t e = 0; e < mine.rays.size(); ++e)
-      {
-        rays[e] += mine.rays[e];
-      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      idle.push_back(std::move(taken));
     });
-  for (std::uint64_t r : rays)
+  for (std::size_t e = 0; e < this->Instances.size(); ++e)
   {
-    this->Rays += r;
-    this->Retraced += r > 0;
+    std::uint64_t rays = 0;
+    for (const std::unique_ptr<TileScratch>& scratch : idle)
+    {
+      rays += scratch->rays[e];
+    }
+    this->Rays += rays;
+    this->Retraced += rays > 0;
   }
 }
 }

@@ -8,7 +8,10 @@
 #include "svoLayerCache.h"
 #include "svoMergedTiles.h"
 #include "svoParallel.h"
+#include "svoPixelFunctions.h"
 #include "svoScene.h"
+#include "svoTilePlanes.h"
+#include "svoTriangleGroup.h"
 #include "svoVisibleInstances.h"
 
 #include <cassert>
@@ -77,7 +80,7 @@ public:
 
 private:
   /// Tiles along an edge of a group whose nodes are found together.
-  static constexpr int GroupTiles = 4;
+  static constexpr int GroupTiles = GroupView::Tiles;
 
   /// How the depth of an instance's hits is found once more, where it decides who is in front.
   enum class Again : std::uint8_t
@@ -93,6 +96,33 @@ private:
     DepthLayer* layer =
       nullptr;               // kept, or null: traced for this frame alone, cut at what is merged
     TileIntervals intervals; // where there is no layer
+    // Of instances that are traced by tiles.
+    PixelFunctions functions;
+    RaySizes sizes;
+  };
+  /// The triangles of one or more instances in a group of tiles.
+  struct FoundTriangles
+  {
+    TriangleGroup group;
+    /// Planes of slots that were seen so far, and where among them a slot's lies, or -1; the first
+    /// is of no slot.
+    std::vector<SeenPlane> planes;
+    std::vector<std::int32_t> planeOf;
+
+    void clear()
+    {
+      this->group.clear();
+      this->planes.clear();
+      this->planeOf.clear();
+    }
+  };
+  /// How an instance is traced in a group of tiles.
+  enum class Way : std::uint8_t
+  {
+    Unknown,
+    Together, // with others
+    Alone,
+    Rays // tile by tile
   };
   /// An instance that a tile's rays may meet.
   struct TileEntry
@@ -102,17 +132,16 @@ private:
     float tNear, tFar;
     TilePyramid pyramid;
     std::vector<TileNode> nodes; // empty: the rays are walked one by one, or known already
-    // Of a group of tiles that this one is part of.
-    int groupX = -1, groupY = -1;
-    bool groupFound = false;
-    TileGroup group;
+    Way way = Way::Unknown;      // in the group
+    FoundTriangles alone;        // where this is the way
   };
   struct SeenHit
   {
     std::uint32_t instance;
     Primitive primitive;
-    double t;    // linear depth
-    double x, y; // of the image
+    double t;            // linear depth
+    double x, y;         // of the image
+    float floatT = 0.0f; // t minus the instance's base, where that is asked for
   };
   struct MergedTile
   {
@@ -128,12 +157,39 @@ private:
     std::vector<std::size_t> nearby; // of Instances: those that reach into the group of tiles
     std::vector<TileEntry*> order;   // those that the tile's rays may meet
     std::vector<std::uint64_t> rays; // by index into Instances
+
+    // The group of tiles.
+    int groupX, groupY;
+    FoundTriangles together;
+    std::vector<TileNode> nodes;
+    // The tile.
+    NearestTriangles nearest;
+    std::vector<std::size_t> counted; // by index into Instances: the tile that rays has last
+    std::vector<std::int32_t> slots;
+    std::vector<SeenHit> hits;
+    alignas(64) float t[64];
+    alignas(64) std::uint32_t instance[64];
+    alignas(64) Primitive primitive[64];
   };
   /// Where the rays of a tile can meet an instance; false if nowhere.
   bool meets(int tileX, int tileY, TileEntry& candidate) const;
-  bool findNodes(int tileX, int tileY, TileEntry& candidate) const;
-  /// Finds the instances that reach into a group of tiles.
+  /// Finds the instances that reach into a group of tiles, and the triangles of those that are
+  /// traced together.
   void gather(int firstTileX, int firstTileY, TileScratch& scratch) const;
+  /// Adds what a group of tiles may see of an instance; false if it has to be traced by rays.
+  bool findTriangles(const Entry& entry, TileScratch& scratch, FoundTriangles& found) const;
+  /// What the triangles of the group give for a tile of it; false if nothing.
+  bool nearestHits(
+    int tileX, int tileY, FoundTriangles& found, TileScratch& scratch, MergedTile& hits) const;
+  /// Traces a tile of an instance's kept layer, unless that has to be done by rays.
+  void traceLayer(int tileX, int tileY, TileEntry& candidate, TileScratch& scratch);
+  void placeHits(int tileX, int tileY, FoundTriangles& found, std::uint64_t& doubtful,
+    const NearestTriangles& nearest, MergedTile& hits) const;
+  void measureHits(int tileX, int tileY, const TriangleGroup& group,
+    const NearestTriangles& nearest, MergedTile& hits) const;
+  /// What one ray meets first of the triangles in scratch.slots; false if nothing.
+  bool traceDoubtful(
+    double x, double y, const TriangleGroup& group, TileScratch& scratch, SeenHit& first) const;
   void order(int tileX, int tileY, TileScratch& scratch);
   bool cutRays(const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const;
   /// Through points x, y of the image; tMin and tMax are set.
@@ -173,6 +229,7 @@ private:
   void merge(const Entry& entry, const float* t, const Primitive* primitive, const double* x,
     const double* y, MergedTile& merged) const;
   void traceTile(int tileX, int tileY, TileScratch& scratch);
+  KeyBase keyBase() const;
 
   const bool Exact;
   View Seen;
@@ -187,6 +244,7 @@ private:
   std::vector<std::uint8_t> Placed;
   std::vector<double> Errors;         // of t; 0: who is in front follows from t as it is
   std::vector<std::uint32_t> EntryOf; // index into Instances
+  KeyBase Keys;
   LayerCache Layers;
   DepthBuffer Merged;
   MergedTiles Tiles; // of Merged

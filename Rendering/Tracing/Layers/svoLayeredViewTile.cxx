@@ -18,28 +18,6 @@ namespace
 constexpr std::size_t MostTileNodes = 256;
 }
 
-bool LayeredView::findNodes(int tileX, int tileY, TileEntry& candidate) const
-{
-  const Entry& entry = *candidate.entry;
-  const int groupX = tileX / GroupTiles, groupY = tileY / GroupTiles;
-  if (groupX != candidate.groupX || groupY != candidate.groupY)
-  {
-    candidate.groupX = groupX;
-    candidate.groupY = groupY;
-    const TilePyramid all = makePyramid(
-      entry.projection, this->Seen, GroupTiles * groupX, GroupTiles * groupY, GroupTiles);
-    candidate.groupFound = candidate.group.find(
-      *entry.octree, all, candidate.tNear, candidate.tFar, GroupTiles * MostTileNodes);
-  }
-  if (candidate.groupFound)
-  {
-    candidate.group.select(candidate.pyramid, candidate.nodes);
-    return candidate.nodes.size() <= MostTileNodes;
-  }
-  return findTileNodes(*entry.octree, candidate.pyramid, candidate.tNear, candidate.tFar,
-    MostTileNodes, candidate.nodes);
-}
-
 bool LayeredView::meets(int tileX, int tileY, TileEntry& candidate) const
 {
   const Entry& entry = *candidate.entry;
@@ -62,7 +40,8 @@ bool LayeredView::meets(int tileX, int tileY, TileEntry& candidate) const
   candidate.tNear = 0.0f;
   candidate.tFar = entry.local.tMax;
   candidate.pyramid = makePyramid(entry.projection, this->Seen, tileX, tileY);
-  if (!this->findNodes(tileX, tileY, candidate))
+  if (!findTileNodes(*entry.octree, candidate.pyramid, candidate.tNear, candidate.tFar,
+        MostTileNodes, candidate.nodes))
   {
     candidate.nodes.clear();
     return true;
@@ -75,21 +54,6 @@ bool LayeredView::meets(int tileX, int tileY, TileEntry& candidate) const
   return true;
 }
 
-void LayeredView::gather(int firstTileX, int firstTileY, TileScratch& scratch) const
-{
-  const int x0 = 8 * firstTileX, y0 = 8 * firstTileY;
-  const int x1 = x0 + 8 * GroupTiles, y1 = y0 + 8 * GroupTiles;
-  scratch.nearby.clear();
-  for (std::size_t e = 0; e < this->Instances.size(); ++e)
-  {
-    const PixelRect& r = this->Instances[e].local.rect;
-    if (r.x0 < x1 && r.x1 > x0 && r.y0 < y1 && r.y1 > y0)
-    {
-      scratch.nearby.push_back(e);
-    }
-  }
-}
-
 void LayeredView::order(int tileX, int tileY, TileScratch& scratch)
 {
   scratch.order.clear();
@@ -97,11 +61,14 @@ void LayeredView::order(int tileX, int tileY, TileScratch& scratch)
   {
     const Entry& entry = this->Instances[e];
     TileEntry& candidate = scratch.entries[e];
-    candidate.entry = &entry;
     DepthLayer* layer = entry.layer;
     if (layer && layer->holds(tileX, tileY))
     {
       std::uint8_t& state = layer->traced[layer->index(tileX, tileY)];
+      if (state == DepthLayer::Unknown && entry.tiles)
+      {
+        this->traceLayer(tileX, tileY, candidate, scratch);
+      }
       if (state == DepthLayer::Unknown && !this->meets(tileX, tileY, candidate))
       {
         state = DepthLayer::Empty;
@@ -113,9 +80,11 @@ void LayeredView::order(int tileX, int tileY, TileScratch& scratch)
         scratch.order.push_back(&candidate);
       }
     }
-    else if (!layer && this->meets(tileX, tileY, candidate))
+    else if (!layer && candidate.way != Way::Together &&
+      (candidate.way == Way::Alone || this->meets(tileX, tileY, candidate)))
     {
-      candidate.key = entry.local.base + candidate.tNear;
+      candidate.key = candidate.way == Way::Alone ? -std::numeric_limits<double>::infinity()
+                                                  : entry.local.base + candidate.tNear;
       scratch.order.push_back(&candidate);
     }
   }
@@ -134,10 +103,7 @@ void LayeredView::traceRays(const TileEntry& candidate, const double* x, const d
     intersectStretched(*entry.octree, entry.local, x, y, block, options, found);
     return;
   }
-  for (int i = 0; i < 64; ++i)
-  {
-    entry.local.fill(x[i], y[i], i, block);
-  }
+  fillRays(entry.local, x, y, block);
   if (!candidate.nodes.empty())
   {
     intersectTile(*entry.octree, candidate.pyramid, candidate.nodes, block, found);
@@ -211,6 +177,13 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
   const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
   MergedTile merged{ this->Merged.t.data() + 64 * tile, this->Merged.instance.data() + 64 * tile,
     this->Merged.primitive.data() + 64 * tile, false };
+  merged.any = this->nearestHits(tileX, tileY, scratch.together, scratch, merged);
+  this->order(tileX, tileY, scratch);
+  this->Merged.hit[tile] = merged.any;
+  if (scratch.order.empty())
+  {
+    return;
+  }
   RayBlock block;
   HitBlock found;
   double xs[64], ys[64];
@@ -219,16 +192,24 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
     xs[i] = 8 * tileX + (i & 7) + 0.5;
     ys[i] = 8 * tileY + (i >> 3) + 0.5;
   }
-  this->order(tileX, tileY, scratch);
-  for (const TileEntry* next : scratch.order)
+  for (TileEntry* next : scratch.order)
   {
-    const TileEntry& candidate = *next;
+    TileEntry& candidate = *next;
     const Entry& entry = *candidate.entry;
     const auto fill = [&]
     {
       std::fill(block.tMin, block.tMin + 64, candidate.tNear);
       std::fill(block.tMax, block.tMax + 64, candidate.tFar);
     };
+    if (!entry.layer && candidate.way == Way::Alone)
+    {
+      MergedTile own{ scratch.t, scratch.instance, scratch.primitive, false };
+      if (this->nearestHits(tileX, tileY, candidate.alone, scratch, own))
+      {
+        this->merge(entry, own.t, own.primitive, xs, ys, merged);
+      }
+      continue;
+    }
     if (!entry.layer)
     {
       fill();
@@ -272,9 +253,6 @@ void LayeredView::sample(int tileX, int tileY, TileSamples* samples, std::size_t
   for (const Entry& entry : this->Instances)
   {
     candidate.entry = &entry;
-    candidate.groupX = tileX / GroupTiles; // no other tile of the group will ask
-    candidate.groupY = tileY / GroupTiles;
-    candidate.groupFound = false;
     if (!this->meets(tileX, tileY, candidate))
     {
       continue;

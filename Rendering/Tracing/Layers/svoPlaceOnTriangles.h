@@ -35,17 +35,55 @@ inline bool seenEdgeOn(const glm::dvec3& normal, const glm::dvec3& direction, do
   return !(along * along > 1e-6 * glm::dot(normal, normal) * glm::dot(direction, direction));
 }
 
-/// Moves the hits of a block of rays, through the points x, y of the image, onto the planes of
-/// their triangles, along the rays as they are in double: so that nothing is lost but the rounding
-/// of the triangles' own points. The error along a ray of a picture is then less than half of what
-/// it was.
+/// The plane of a triangle, octree coordinates.
+struct TrianglePlane
+{
+  glm::dvec3 p{ 0.0 }, normal{ 0.0 };
+
+  TrianglePlane() = default;
+  TrianglePlane(const Surface& surface, Primitive primitive)
+  {
+    assert(primitive < surface.triangles.size());
+    const glm::uvec3 triangle = surface.triangles[primitive];
+    p = glm::dvec3(surface.points[triangle.x]);
+    normal = glm::cross(
+      glm::dvec3(surface.points[triangle.y]) - p, glm::dvec3(surface.points[triangle.z]) - p);
+  }
+};
+
+/// Where a ray through the point (x, y) of the image, as it is in double, meets the plane.
+/// `edgeOn`: whether it does so edge-on.
+inline double meetPlane(
+  const TrianglePlane& plane, const LocalView& local, double x, double y, bool& edgeOn)
+{
+  const glm::dvec3 origin = local.origin + y * local.originY + x * local.originX;
+  const glm::dvec3 direction = local.direction + y * local.directionY + x * local.directionX;
+  const double along = glm::dot(plane.normal, direction);
+  edgeOn = seenEdgeOn(plane.normal, direction, along);
+  return glm::dot(plane.normal, plane.p - origin) / along;
+}
+
+/// Moves the hit of a ray onto the plane of its triangle, along the ray: so that nothing is lost
+/// but the rounding of the triangle's own points. The error along a ray of a picture is then less
+/// than half of what it was.
+inline float placeOnPlane(
+  const TrianglePlane& plane, const LocalView& local, double x, double y, float hit)
+{
+  bool edgeOn;
+  const double t = meetPlane(plane, local, x, y, edgeOn);
+  const double move = std::abs(t - hit);
+  // Not where it is not a number.
+  return move <= edgeOnReach(local) || (move <= placingReach(local) && !edgeOn)
+    ? std::clamp(static_cast<float>(t), 0.0f, local.tMax)
+    : hit;
+}
+
+/// The same for the hits of a block of rays through the points x, y of the image.
 inline void placeOnTriangles(
   const Surface& surface, const LocalView& local, const double* x, const double* y, HitBlock& hits)
 {
-  const double reach = placingReach(local);
-  const double nearReach = edgeOnReach(local);
   Primitive last = NoPrimitive; // neighbours often meet the same triangle
-  glm::dvec3 p(0.0), normal(0.0);
+  TrianglePlane plane;
   for (int k = 0; k < RayBlock::Size; ++k)
   {
     const Primitive primitive = hits.primitive[k];
@@ -55,24 +93,10 @@ inline void placeOnTriangles(
     }
     if (primitive != last)
     {
-      assert(primitive < surface.triangles.size());
       last = primitive;
-      const glm::uvec3 triangle = surface.triangles[primitive];
-      p = glm::dvec3(surface.points[triangle.x]);
-      normal = glm::cross(
-        glm::dvec3(surface.points[triangle.y]) - p, glm::dvec3(surface.points[triangle.z]) - p);
+      plane = TrianglePlane(surface, primitive);
     }
-    const glm::dvec3 origin = local.origin + y[k] * local.originY + x[k] * local.originX;
-    const glm::dvec3 direction =
-      local.direction + y[k] * local.directionY + x[k] * local.directionX;
-    const double along = glm::dot(normal, direction);
-    const double t = glm::dot(normal, p - origin) / along;
-    const double move = std::abs(t - hits.t[k]);
-    // Not where it is not a number.
-    if (move <= nearReach || (move <= reach && !seenEdgeOn(normal, direction, along)))
-    {
-      hits.t[k] = std::clamp(static_cast<float>(t), 0.0f, local.tMax);
-    }
+    hits.t[k] = placeOnPlane(plane, local, x[k], y[k], hits.t[k]);
   }
 }
 }

@@ -34,22 +34,31 @@ struct LocalView
   /// would lose the voxel. Such rays are traced by intersectStretched().
   bool stretched = false;
 
-  /// Ray k of a block: the one through point (x, y) of the image.
+  /// The ray through point (x, y) of the image.
+  void ray(double x, double y, glm::vec3& from, glm::vec3& along) const
+  {
+    from.x = static_cast<float>(this->origin.x + y * this->originY.x + x * this->originX.x);
+    from.y = static_cast<float>(this->origin.y + y * this->originY.y + x * this->originX.y);
+    from.z = static_cast<float>(this->origin.z + y * this->originY.z + x * this->originX.z);
+    along.x =
+      static_cast<float>(this->direction.x + y * this->directionY.x + x * this->directionX.x);
+    along.y =
+      static_cast<float>(this->direction.y + y * this->directionY.y + x * this->directionX.y);
+    along.z =
+      static_cast<float>(this->direction.z + y * this->directionY.z + x * this->directionX.z);
+  }
+  /// The same as ray k of a block.
   void fill(double x, double y, int k, RayBlock& rays) const
   {
     assert(k >= 0 && k < RayBlock::Size);
-    rays.originX[k] =
-      static_cast<float>(this->origin.x + y * this->originY.x + x * this->originX.x);
-    rays.originY[k] =
-      static_cast<float>(this->origin.y + y * this->originY.y + x * this->originX.y);
-    rays.originZ[k] =
-      static_cast<float>(this->origin.z + y * this->originY.z + x * this->originX.z);
-    rays.directionX[k] =
-      static_cast<float>(this->direction.x + y * this->directionY.x + x * this->directionX.x);
-    rays.directionY[k] =
-      static_cast<float>(this->direction.y + y * this->directionY.y + x * this->directionX.y);
-    rays.directionZ[k] =
-      static_cast<float>(this->direction.z + y * this->directionY.z + x * this->directionX.z);
+    glm::vec3 from, along;
+    this->ray(x, y, from, along);
+    rays.originX[k] = from.x;
+    rays.originY[k] = from.y;
+    rays.originZ[k] = from.z;
+    rays.directionX[k] = along.x;
+    rays.directionY[k] = along.y;
+    rays.directionZ[k] = along.z;
   }
 };
 

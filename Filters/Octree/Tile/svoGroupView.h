@@ -1,0 +1,33 @@
+// What a group of 4x4 tiles makes of an instance's octree coordinates: pixels and depth as linear
+// functions, and how far all that is computed from them can be off.
+#ifndef svoGroupView_h
+#define svoGroupView_h
+
+namespace svo
+{
+/// Functions f(v) = f[0] v.x + f[1] v.y + f[2] v.z + f[3] of octree coordinates minus 1, in which
+/// points of the cube lie in [0, 1]. Pixels are counted from the middle of the group.
+struct GroupView
+{
+  static constexpr int Tiles = 4;          // along an edge of the group
+  static constexpr int Pixels = 8 * Tiles; // likewise
+
+  float x[4], y[4], w[4]; // a point is seen at the pixel (x / w, y / w)
+  float k[4], scale;      // its key is scale k / w: it grows with the depth
+
+  /// How far a corner of a triangle can be from where it is computed, times w: `error`, and
+  /// `errorFar` more for each pixel of its distance from the middle.
+  float error, errorFar;
+  float depthError;  // how far depths of corners can be off
+  float apart;       // how far depths of hits have to be apart to be told apart, besides
+  float leastW;      // of points whose w is known to a 16th
+  float beforeRays;  // rays begin behind all points with a lesser w
+  float farW;        // w of where rays end
+  float kNear, kFar; // keys of where rays begin and end
+  /// Hits whose depth may be off by more than `reach` are doubtful, and named where it may be more
+  /// than `nearReach`.
+  float nearReach, reach;
+};
+}
+
+#endif

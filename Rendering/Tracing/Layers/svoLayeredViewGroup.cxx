@@ -1,0 +1,290 @@
+// What LayeredView does for a group of tiles: the triangles of all instances that are traced by
+// tiles are made ready once, and each tile finds the nearest of them in one pass. Rays about which
+// that leaves a doubt are tested one by one.
+#include "svoLayeredView.h"
+
+#include "svoPlaceOnTriangles.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace svo
+{
+namespace
+{
+/// Where a group sees more nodes than this its tiles look for their own.
+constexpr std::size_t MostGroupNodes = 4096;
+
+int lowest(std::uint64_t bits)
+{
+  return __builtin_ctzll(bits);
+}
+}
+
+bool LayeredView::findTriangles(
+  const Entry& entry, TileScratch& scratch, FoundTriangles& found) const
+{
+  // Keys are squares of depths.
+  constexpr double Farthest = 1e15, FarthestRatio = 1e9;
+  const double size = entry.functions.wBase + entry.local.tMax;
+  if (!entry.functions.valid || !(size + std::abs(this->Keys.far) < Farthest) ||
+    !(std::abs(this->Keys.far) < FarthestRatio * size))
+  {
+    return false;
+  }
+  const TilePyramid all =
+    makePyramid(entry.projection, this->Seen, scratch.groupX, scratch.groupY, GroupTiles);
+  if (!findGroupNodes(*entry.octree, all, 0.0f, entry.local.tMax, MostGroupNodes, scratch.nodes))
+  {
+    return false;
+  }
+  if (scratch.nodes.empty())
+  {
+    return true;
+  }
+  HitLimits limits;
+  if (this->Exact)
+  {
+    limits.error = this->Errors[entry.index];
+    // A little less than where placeOnPlane() changes its mind.
+    limits.nearReach = 0.999 * edgeOnReach(entry.local);
+    limits.reach = 0.999 * placingReach(entry.local);
+  }
+  return found.group.add(*entry.octree, scratch.nodes,
+    makeGroupView(entry.local, entry.functions, this->Keys, limits, scratch.groupX, scratch.groupY),
+    entry.index);
+}
+
+void LayeredView::gather(int firstTileX, int firstTileY, TileScratch& scratch) const
+{
+  const int x0 = 8 * firstTileX, y0 = 8 * firstTileY;
+  const int x1 = x0 + 8 * GroupTiles, y1 = y0 + 8 * GroupTiles;
+  scratch.nearby.clear();
+  scratch.groupX = firstTileX;
+  scratch.groupY = firstTileY;
+  scratch.together.clear();
+  for (std::size_t e = 0; e < this->Instances.size(); ++e)
+  {
+    const Entry& entry = this->Instances[e];
+    const PixelRect& r = entry.local.rect;
+    if (r.x0 >= x1 || r.x1 <= x0 || r.y0 >= y1 || r.y1 <= y0)
+    {
+      continue;
+    }
+    scratch.nearby.push_back(e);
+    TileEntry& candidate = scratch.entries[e];
+    candidate.entry = &entry;
+    candidate.way = entry.tiles ? Way::Unknown : Way::Rays;
+    if (entry.tiles && !entry.layer)
+    {
+      candidate.alone.clear();
+      const bool alone = this->Shifted;
+      candidate.way =
+        !this->findTriangles(entry, scratch, alone ? candidate.alone : scratch.together) ? Way::Rays
+        : alone ? Way::Alone
+                : Way::Together;
+    }
+  }
+}
+
+void LayeredView::traceLayer(int tileX, int tileY, TileEntry& candidate, TileScratch& scratch)
+{
+  const Entry& entry = *candidate.entry;
+  if (candidate.way == Way::Unknown)
+  {
+    candidate.alone.clear();
+    candidate.way = this->findTriangles(entry, scratch, candidate.alone) ? Way::Alone : Way::Rays;
+  }
+  if (candidate.way != Way::Alone)
+  {
+    return;
+  }
+  DepthLayer& layer = *entry.layer;
+  const std::size_t k = layer.index(tileX, tileY);
+  MergedTile hits{ layer.t.data() + 64 * k, scratch.instance, layer.primitive.data() + 64 * k,
+    false };
+  layer.traced[k] = this->nearestHits(tileX, tileY, candidate.alone, scratch, hits)
+    ? DepthLayer::Traced
+    : DepthLayer::Empty;
+}
+
+bool LayeredView::nearestHits(
+  int tileX, int tileY, FoundTriangles& found, TileScratch& scratch, MergedTile& hits) const
+{
+  const TriangleGroup& group = found.group;
+  NearestTriangles& nearest = scratch.nearest;
+  const int column = tileX - scratch.groupX, row = tileY - scratch.groupY;
+  if (group.empty() || !group.nearest(column, row, nearest, hits.primitive, hits.instance))
+  {
+    return false;
+  }
+  const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
+  for (const SeenTriangle& seen : nearest.seen)
+  {
+    const std::uint32_t e = this->EntryOf[group.owner(seen.slot)];
+    if (scratch.counted[e] != tile)
+    {
+      scratch.counted[e] = tile;
+      scratch.rays[e] += 64;
+    }
+  }
+  std::uint64_t doubtful = nearest.doubtful;
+  if (this->Exact)
+  {
+    this->placeHits(tileX, tileY, found, doubtful, nearest, hits);
+  }
+  else
+  {
+    this->measureHits(tileX, tileY, group, nearest, hits);
+  }
+  for (; doubtful != 0; doubtful &= doubtful - 1)
+  {
+    const int i = lowest(doubtful);
+    const double x = 8 * tileX + (i & 7) + 0.5, y = 8 * tileY + (i >> 3) + 0.5;
+    group.candidates(column, row, i, nearest, scratch.slots);
+    SeenHit first;
+    const bool hit = this->traceDoubtful(x, y, group, scratch, first);
+    hits.primitive[i] = hit ? first.primitive : NoPrimitive;
+    hits.instance[i] = hit ? first.instance : NoInstance;
+    hits.t[i] = hit ? first.floatT : 0.0f;
+  }
+  return std::any_of(
+    hits.primitive, hits.primitive + 64, [](Primitive p) { return p != NoPrimitive; });
+}
+
+void LayeredView::placeHits(int tileX, int tileY, FoundTriangles& found, std::uint64_t& doubtful,
+  const NearestTriangles& nearest, MergedTile& hits) const
+{
+  const TriangleGroup& group = found.group;
+  if (found.planes.empty())
+  {
+    found.planes.emplace_back();
+    found.planeOf.assign(group.size() + 1, -1);
+    found.planeOf[0] = 0; // of no slot
+  }
+  static_assert(NearestTriangles::None == -1, "planes are counted from it");
+  std::int32_t* const planeOf = found.planeOf.data() + 1;
+  std::int32_t plane[64];
+  for (int i = 0; i < 64; ++i)
+  {
+    const std::int32_t slot = nearest.slot[i];
+    if (planeOf[slot] < 0)
+    {
+      const Entry& entry = this->Instances[this->EntryOf[group.owner(slot)]];
+      planeOf[slot] = static_cast<std::int32_t>(found.planes.size());
+      found.planes.emplace_back(
+        TrianglePlane(*entry.octree->surface(), group.triangle(slot)), entry.local, entry.sizes);
+    }
+    plane[i] = planeOf[slot];
+  }
+  // No decided hit lies beyond the rays' ends.
+  std::uint64_t left =
+    depthsOnPlanes(found.planes.data(), plane, 8.0 * tileX, 8.0 * tileY, hits.t) & ~doubtful;
+  for (; left != 0; left &= left - 1)
+  {
+    const int i = lowest(left);
+    const std::int32_t slot = nearest.slot[i];
+    if (slot == NearestTriangles::None)
+    {
+      continue;
+    }
+    const Entry& entry = this->Instances[this->EntryOf[group.owner(slot)]];
+    bool edgeOn;
+    const double t = meetPlane(TrianglePlane(*entry.octree->surface(), group.triangle(slot)),
+      entry.local, 8 * tileX + (i & 7) + 0.5, 8 * tileY + (i >> 3) + 0.5, edgeOn);
+    hits.t[i] = static_cast<float>(t);
+    if (edgeOn && group.steep(slot))
+    {
+      doubtful |= std::uint64_t(1) << i;
+    }
+  }
+}
+
+void LayeredView::measureHits(int tileX, int tileY, const TriangleGroup& group,
+  const NearestTriangles& nearest, MergedTile& hits) const
+{
+  RayBlock block;
+  HitBlock measured;
+  double x[64], y[64];
+  std::uint64_t left = 0;
+  for (int i = 0; i < 64; ++i)
+  {
+    x[i] = 8 * tileX + (i & 7) + 0.5;
+    y[i] = 8 * tileY + (i >> 3) + 0.5;
+    left |= std::uint64_t(nearest.slot[i] != NearestTriangles::None) << i;
+  }
+  while (left != 0)
+  {
+    // Of one instance after the other.
+    const std::uint32_t owner = group.owner(nearest.slot[lowest(left)]);
+    const Entry& entry = this->Instances[this->EntryOf[owner]];
+    std::uint64_t mine = 0;
+    for (int i = 0; i < 64; ++i)
+    {
+      const bool own = hits.instance[i] == owner;
+      measured.primitive[i] = own ? hits.primitive[i] : NoPrimitive;
+      mine |= std::uint64_t(own) << i;
+    }
+    left &= ~mine;
+    fillRays(entry.local, x, y, block);
+    depthsOnTriangles(*entry.octree, block, measured);
+    for (int i = 0; i < 64; ++i)
+    {
+      if (mine >> i & 1)
+      {
+        hits.t[i] = measured.t[i];
+      }
+    }
+  }
+}
+
+bool LayeredView::traceDoubtful(
+  double x, double y, const TriangleGroup& group, TileScratch& scratch, SeenHit& first) const
+{
+  // The nearest of each instance by the float test, as intersectTile() has it.
+  scratch.hits.clear();
+  for (const std::int32_t slot : scratch.slots)
+  {
+    const std::uint32_t owner = group.owner(slot);
+    const Entry& entry = this->Instances[this->EntryOf[owner]];
+    glm::vec3 origin, direction;
+    entry.local.ray(x, y, origin, direction);
+    float t;
+    if (!rayMeetsTriangle(*entry.octree->surface(), origin, direction, group.triangle(slot), t) ||
+      !(t >= 0.0f && t <= entry.local.tMax))
+    {
+      continue;
+    }
+    const auto same = std::find_if(scratch.hits.begin(), scratch.hits.end(),
+      [&](const SeenHit& hit) { return hit.instance == owner; });
+    const SeenHit hit{ owner, group.triangle(slot), 0.0, x, y, t };
+    if (same == scratch.hits.end())
+    {
+      scratch.hits.push_back(hit);
+    }
+    else if (t < same->floatT || (t == same->floatT && hit.primitive > same->primitive))
+    {
+      *same = hit;
+    }
+  }
+  bool any = false;
+  for (SeenHit& hit : scratch.hits)
+  {
+    const Entry& entry = this->Instances[this->EntryOf[hit.instance]];
+    if (this->Exact)
+    {
+      hit.floatT = placeOnPlane(
+        TrianglePlane(*entry.octree->surface(), hit.primitive), entry.local, x, y, hit.floatT);
+    }
+    hit.t = entry.local.base + hit.floatT;
+    if (!any || this->inFront(hit, first))
+    {
+      any = true;
+      first = hit;
+    }
+  }
+  return any;
+}
+}
