@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 namespace svo
 {
@@ -21,6 +22,24 @@ double now()
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+/// Divides a frame into phases.
+class PhaseClock
+{
+public:
+  /// The phase that ends now began where the last one ended.
+  PhaseTime end()
+  {
+    const PhaseTime last{ now() - this->Wall,
+      static_cast<double>(std::clock() - this->Processor) / CLOCKS_PER_SEC };
+    *this = PhaseClock();
+    return last;
+  }
+
+private:
+  double Wall = now();
+  std::clock_t Processor = std::clock();
+};
 
 /// FrameStatistics::coarsestVoxel
 double coarsestVoxel(const Scene& scene, const View& view)
@@ -145,9 +164,10 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   const ParallelFor& parallelFor, Frame& frame)
 {
   Internals& self = *this->Impl;
-  const double start = now();
+  PhaseClock clock;
   self.Settings = settings;
   self.Statistics = FrameStatistics();
+  FrameStatistics& statistics = self.Statistics;
   self.Maps.clear();
 
   LayerBudget budget{ settings.layerMemoryLimit,
@@ -161,6 +181,7 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
     settings.frameCoherence, budget);
   self.Eye.trace(parallelFor, nullptr);
   self.Tiles.find(self.Eye.depthBuffer(), view, settings, frame);
+  statistics.eye = clock.end();
 
   // What visible points will look up of the lights.
   self.Shader.prepare(scene, settings.shadowTechnique, self.Eye);
@@ -172,9 +193,9 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
     self.markLightTiles(scene, view, parallelFor);
   }
   self.LightShadows.prepareRays(scene, settings, self.Eye);
+  statistics.mark = clock.end();
 
   // Shadow layers, merged likewise.
-  const double shadowStart = now();
   if (!shared)
   {
     self.LightShadows.trace(parallelFor);
@@ -183,23 +204,24 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   {
     self.LightShadows.copyMaps(self.Maps);
   }
-  double shadowTime = now() - shadowStart;
+  statistics.lights = clock.end();
 
   // Shade and test.
-  const double shadeStart = now();
   const ShadedScene shaded{ scene, view, settings, self.Eye, self.Tiles, self.LightShadows };
-  self.Shader.shade(shaded, parallelFor, frame, self.Statistics);
+  self.Shader.shade(shaded, parallelFor, frame, statistics);
   if (settings.antiAliasing)
   {
-    self.Shader.smoothEdges(shaded, parallelFor, frame, self.Statistics);
+    self.Shader.smoothEdges(shaded, parallelFor, frame, statistics);
   }
-  if (settings.shadowTechnique == ShadowTechnique::Rays)
-  {
-    shadowTime += now() - shadeStart; // the rays are nearly all of it
-  }
+  statistics.shade = clock.end();
+  // Where there are shadow rays, they are nearly all of it.
+  double& shadeTime = settings.shadowTechnique == ShadowTechnique::Rays ? statistics.shadowTime
+                                                                        : statistics.traceTime;
+  shadeTime = statistics.shade.wall;
+  statistics.traceTime += statistics.eye.wall + statistics.mark.wall;
+  statistics.shadowTime += statistics.lights.wall + self.SharingTime;
 
   self.AsLightsSee = Scene();
-  FrameStatistics& statistics = self.Statistics;
   self.LightShadows.addStatistics(statistics);
   statistics.primaryRays += self.Eye.rays();
   statistics.retracedLayers += self.Eye.retracedLayers();
@@ -209,8 +231,6 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
     statistics.largestGap = largestGap(scene, view);
   }
   statistics.layerMemory = self.Eye.layerMemory() + self.LightShadows.layerMemory();
-  statistics.shadowTime = shadowTime + self.SharingTime;
-  statistics.traceTime = now() - start - shadowTime;
   self.SharesBuffers = false;
   self.SharingTime = 0.0;
 }
