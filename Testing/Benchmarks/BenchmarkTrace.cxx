@@ -315,7 +315,7 @@ bool parse(int argc, char** argv, Settings& settings)
       settings.scalar = true;
       continue;
     }
-    if (a == "--a" || a == "--b" || a.compare(0, 2, "--") != 0)
+    if (a == "--a" || a == "--b" || a == "--ball" || a.compare(0, 2, "--") != 0)
     {
       std::string error;
       if (!svobench::readArgument(argc, argv, i, settings.meshes, error))

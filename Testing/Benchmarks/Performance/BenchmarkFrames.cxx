@@ -2,8 +2,9 @@
 // vtkShadowMapPass, in turn, frame by frame, in wall and processor time and by phase. Writes each
 // measurement to a JSON file; run-performance.sh makes tables and plots of it.
 //
-//   BenchmarkFrames [--a dragon.off --b sydney.md2] [--experiments name,...] [--output file.json]
-//                   [--frames n] [--seconds s] [--ours] [--short]
+//   BenchmarkFrames [--a dragon.off --b sydney.md2] [--experiments name,...]
+//                   [--scenes name,...] [--output file.json] [--frames n] [--seconds s] [--ours]
+//                   [--short]
 //
 // --frames: timed for each figure, of all viewpoints together. --seconds: for each figure; where
 // that is too short there are fewer frames.
@@ -30,6 +31,17 @@ void shorten(performance::Sweep& sweep)
   sweep.lights = 2;
   sweep.size = { 192, 108 };
   sweep.effort = { 3, 60.0 };
+}
+
+std::vector<std::string> namesIn(const std::string& list)
+{
+  std::vector<std::string> names;
+  std::istringstream text(list);
+  for (std::string name; std::getline(text, name, ',');)
+  {
+    names.push_back(name);
+  }
+  return names;
 }
 }
 
@@ -72,17 +84,17 @@ int main(int argc, char** argv)
     }
     else if (argument == "--experiments" && more)
     {
-      names.clear();
-      std::istringstream list(argv[++i]);
-      for (std::string name; std::getline(list, name, ',');)
-      {
-        names.push_back(name);
-      }
+      names = namesIn(argv[++i]);
+    }
+    else if (argument == "--scenes" && more)
+    {
+      sweep.scenes = namesIn(argv[++i]);
     }
     else
     {
       std::cerr << "usage: BenchmarkFrames [--a file --b file] [--experiments name,...] "
-                   "[--output file.json] [--frames n] [--seconds s] [--ours] [--short]\n";
+                   "[--scenes name,...] [--output file.json] [--frames n] [--seconds s] [--ours] "
+                   "[--short]\n";
       return 2;
     }
   }
@@ -99,13 +111,14 @@ int main(int argc, char** argv)
   svobench::Results results({ "experiment", "scene", "situation", "method", "triangles", "objects",
     "level", "lights", "width", "height", "threads", "instructionSet", "frames", "wallMs",
     "processorMs", "collectMs", "eyeMs", "markMs", "lightsMs", "shadeMs", "presentMs" });
-  bool good = true;
+  bool good = true, written = true;
   try
   {
     performance::Experiments experiments(sweep, results);
     for (const std::string& name : names)
     {
       good = experiments.run(name) && good;
+      written = output.empty() || results.writeJson(output); // of what there is so far
     }
   }
   catch (const std::exception& problem)
@@ -113,7 +126,7 @@ int main(int argc, char** argv)
     std::cerr << "BenchmarkFrames: " << problem.what() << "\n";
     good = false;
   }
-  if (!output.empty() && !results.writeJson(output))
+  if (!written)
   {
     std::cerr << "cannot write " << output << "\n";
     return 2;

@@ -184,6 +184,7 @@ bool run(
     }
   }
   const int views = static_cast<int>(contest.experiment->views.size());
+  const int enough = std::max(1, 3 / views); // for a median
   bool whole = true;
   for (const Situation situation : contest.situations)
   {
@@ -202,7 +203,8 @@ bool run(
         {
           entrant->draw(situation, view, i, frames);
         }
-        if (i >= WarmUpFrames && Moment::now().wall - start > 1e3 * effort.seconds / views)
+        if (i + 1 >= WarmUpFrames + enough &&
+          Moment::now().wall - start > 1e3 * effort.seconds / views)
         {
           break;
         }

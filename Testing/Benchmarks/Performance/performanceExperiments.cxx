@@ -26,9 +26,14 @@ using paper::Technique;
 
 const paper::Experiment& paperScene(const std::string& name)
 {
-  const auto& all = paper::experiments();
-  return *std::find_if(
-    all.begin(), all.end(), [&](const paper::Experiment& e) { return e.name == name; });
+  for (const paper::Experiment& experiment : paper::experiments())
+  {
+    if (experiment.name == name)
+    {
+      return experiment;
+    }
+  }
+  throw std::runtime_error("there is no scene " + name);
 }
 
 const Method Point{ "svo, point light", Technique::Octrees, LightKind::Point, {}, "" };
