@@ -50,13 +50,11 @@ packages_accuracy="
 libembree-dev|the exact reference that accuracy is measured against
 libcgal-demo|the meshes that it is measured on
 assimp-testmodels|the walking figure of the paper's scenes
-python3-matplotlib|draws the plots of Documentation/Accuracy.md"
+python3-matplotlib|draws the plots of Documentation/Accuracy.md and Performance.md"
 packages_performance="
-libembree-dev|rays and a builder to compare with
 libnanovdb-dev|another march through voxels to compare with
 libopenvdb-dev|another builder of voxels to compare with
-libtbb-dev|OpenVDB's threads
-python3-matplotlib|draws the plots of Documentation/Performance.md"
+libtbb-dev|OpenVDB's threads"
 packages_fresh="
 mmdebstrap|makes the root file system of a fresh Debian
 debian-archive-keyring|its releases' keys

@@ -75,14 +75,15 @@ private:
 
   /// As nanovdb::ZeroCrossing() does it, but for the first active voxel.
   template <class Ray, class Voxels>
-  static bool march(Ray& ray, Voxels& voxels, float& t)
+  bool march(Ray& ray, Voxels& voxels, float& t) const
   {
     if (!ray.clip(voxels.root().bbox()))
     {
       return false;
     }
-    // A little beyond the border that was met, in cells, so that the cell behind it is looked at.
-    const float beyond = 1e-3f / ray.dir().length();
+    // A little beyond the border that was met, so that the cell behind it is looked at: rays begin
+    // within two cubes, and origin + t direction is rounded three times.
+    const float beyond = 0x1p-20f * this->RootCells / ray.dir().length();
     nanovdb::Coord cell = nanovdb::RoundDown<nanovdb::Coord>(ray(ray.t0() + beyond));
     nanovdb::HDDA<Ray, nanovdb::Coord> walk(ray, static_cast<int>(voxels.getDim(cell, ray)));
     do

@@ -3,8 +3,11 @@ should be, whether it is what it is called, and whether a page can be filled fro
 
 usage: TestPerformance.py folder-of-programs output-folder
 """
+import importlib.util
 import json
 import os
+import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -16,19 +19,20 @@ SITUATIONS = {"retraced", "all", "one", "camera", "nothing"}
 
 
 def measure(program, name, *arguments):
+    """The rows, and what was printed."""
     path = os.path.join(OUTPUT, name)
     if os.path.exists(path):
         os.remove(path)
-    subprocess.run([os.path.join(PROGRAMS, program), *arguments, path], check=True,
-                   stdout=subprocess.DEVNULL)
+    run = subprocess.run([os.path.join(PROGRAMS, program), *arguments, path], check=True,
+                         stdout=subprocess.PIPE, text=True)
     with open(path, encoding="utf-8") as file:
-        return json.load(file)
+        return json.load(file), run.stdout
 
 
 class Frames(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.rows = measure("BenchmarkFrames", "frames.json", "--short", "--output")
+        cls.rows, _ = measure("BenchmarkFrames", "frames.json", "--short", "--output")
 
     def some(self, experiment, **wanted):
         rows = [r for r in self.rows if r["experiment"] == experiment
@@ -60,7 +64,8 @@ class Frames(unittest.TestCase):
 
     def test_figures_belong_together(self):
         for r in self.rows:
-            self.assertGreater(r["wallMs"], 0.0)
+            self.assertGreater(r["wallLeastMs"], 0.0)
+            self.assertLessEqual(r["wallLeastMs"], r["wallMs"])
             self.assertGreater(r["frames"], 0)
             self.assertLessEqual(r["processorLowMs"], r["processorMs"])
             self.assertLessEqual(r["processorMs"], r["processorHighMs"])
@@ -70,6 +75,8 @@ class Frames(unittest.TestCase):
             for suffix, whole in (("Ms", r["processorHighMs"]), ("WallMs", r["wallMs"])):
                 phases = [r[phase + suffix] for phase in PHASES]
                 self.assertGreaterEqual(min(phases), 0.0)
+                if r["situation"] == "retraced" and r["method"] not in ("none", "rays"):
+                    self.assertGreater(min(phases), 0.0, r)
                 # Medians of parts need not add up to that of the whole, nor does a busy machine's
                 # clock; but a phase that is counted twice, or not at all, shows.
                 self.assertLess(sum(phases), 2.0 * whole, r)
@@ -108,8 +115,9 @@ class Frames(unittest.TestCase):
 
 class Rays(unittest.TestCase):
     def test_rows(self):
-        rows = measure("BenchmarkTrace", "rays.json", "--levels", "6", "--size", "96x64",
-                       "--repeat", "1", "--instances", "4", "--isa", "AVX2", "--json")
+        rows, printed = measure("BenchmarkTrace", "rays.json", "--levels", "6", "--size", "96x64",
+                                "--repeat", "1", "--instances", "4", "--isa", "AVX2", "--json")
+        self.assertTrue(printed.startswith("AVX2, 8 lanes"), printed)  # what the kernels say
         self.assertEqual({r["camera"] for r in rows}, {"far", "near", "4 instances"})
         self.assertEqual({r["instructionSet"] for r in rows}, {"AVX2"})
         kernels = {r["kernel"] for r in rows}
@@ -121,12 +129,51 @@ class Rays(unittest.TestCase):
 
 class Build(unittest.TestCase):
     def test_rows(self):
-        rows = measure("BenchmarkBuild", "build.json", "--levels", "6,8", "--repeat", "1", "--json")
+        rows, _ = measure("BenchmarkBuild", "build.json", "--levels", "6,8", "--repeat", "1", "--json")
         ours = [r for r in rows if r["method"] == "octree"]
         self.assertEqual({r["level"] for r in ours}, {6, 8})
         self.assertEqual(len({r["mesh"] for r in ours}), 2)
         for r in rows:
             self.assertGreaterEqual(r["processorMs"], 0.0)
+
+
+class WrittenPage(unittest.TestCase):
+    """After the others: of their rows."""
+
+    def test_tables_and_plots(self):
+        page = os.path.join(OUTPUT, "Performance.md")
+        shutil.copy(PAGE, page)
+        rows = os.path.join(OUTPUT, "all", "performance.json")
+        os.makedirs(os.path.dirname(rows), exist_ok=True)
+        scripts = [["collect.py", OUTPUT, rows, "frames=3"], ["tables.py", rows, page]]
+        if importlib.util.find_spec("matplotlib"):
+            scripts.append(["plots.py", rows, OUTPUT])
+        for script, *arguments in scripts:
+            subprocess.run([sys.executable, os.path.join(HERE, script), *arguments], check=True,
+                           env={**os.environ, "PYTHONPATH": os.path.dirname(HERE)})
+        with open(page, encoding="utf-8") as file:
+            found = re.findall("<!-- begin (.*?) -->\n(.*?)<!-- end", file.read(), re.DOTALL)
+        sections = dict(found)
+        for name in ("scenes", "triangles", "objects", "refined", "sizes", "lights", "light-kit",
+                     "shadows", "levels", "threads", "builders", "overtakes"):
+            self.assertGreater(sections[name].count("\n"), 2, name)
+            self.assertNotIn("not measured", sections[name])
+        # Of what no short run measures the page says so.
+        self.assertIn("not measured", sections["paraview"])
+        bars = [line.split("|")[4:6] for line in sections["bars"].splitlines()[2:]]
+        for measured, verdict in bars:
+            self.assertEqual("not measured" in measured, not verdict.strip())
+        self.assertTrue(any("met" in verdict or "missed" in verdict for _, verdict in bars))
+
+
+class Arithmetic(unittest.TestCase):
+    def test_crossing(self):
+        sys.path.insert(0, HERE)
+        from measured import crossing
+        self.assertAlmostEqual(crossing([(10, 0.5), (1000, 2.0)]), 100.0)
+        self.assertAlmostEqual(crossing([(1, 2.0), (10, 0.5), (1000, 2.0)]), 100.0)  # the last one
+        self.assertEqual(crossing([(10, 1.5), (100, 2.0)]), 10)
+        self.assertIsNone(crossing([(10, 1.5), (100, 0.9)]))
 
 
 if __name__ == "__main__":

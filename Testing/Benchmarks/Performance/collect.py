@@ -36,7 +36,7 @@ def machine():
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         name = re.search(r"model name\s*: (.*)", file.read())
     return {"experiment": "machine", "processor": name[1] if name else "unknown",
-            "processors": os.cpu_count()}
+            "processors": os.cpu_count(), "load": round(os.getloadavg()[2], 1)}
 
 
 def median(group):

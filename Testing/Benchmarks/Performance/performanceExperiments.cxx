@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <stdexcept>
+#include <thread>
 
 #include <glm/trigonometric.hpp>
 
@@ -404,7 +405,8 @@ bool Experiments::threads()
     { Situation::Retraced, Situation::One }, {}, {} };
   const char* threads = std::getenv("VTK_SMP_MAX_THREADS");
   contest.row["experiment"] = "threads";
-  contest.row["threads"] = threads ? std::atoi(threads) : 0; // 0: all
+  contest.row["threads"] =
+    threads ? std::atoi(threads) : static_cast<int>(std::thread::hardware_concurrency());
   return this->contest(contest);
 }
 }

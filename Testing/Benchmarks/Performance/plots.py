@@ -16,13 +16,19 @@ NAMES = {SPOT: "ours", OURS: "ours", SHADOWS: "vtkShadowMapPass", PLAIN: "VTK, n
 PHASE_COLOURS = ["#bbbbbb", "#1b6ca8", "#8fc1e3", "#d9a400", "#3a8c3f", "#777777"]
 
 
-def logarithmic(axis, ticks=None):
+def logarithmic(axis, x_ticks=None):
     axis.set_xscale("log")
     axis.set_yscale("log")
-    axis.yaxis.set_major_formatter(lambda v, _: f"{v:g}")
-    if ticks:
-        axis.set_xticks(ticks, [f"{t:g}" for t in ticks])
-        axis.minorticks_off()
+    low, high = axis.get_ylim()
+    y_ticks = [d * 10 ** e for e in range(-2, 5) for d in (1, 2, 5) if low <= d * 10 ** e <= high]
+    axis.set_yticks(y_ticks, [f"{t:g}" for t in y_ticks])
+    if x_ticks:
+        axis.set_xticks(x_ticks, [f"{t:.2g}" for t in x_ticks])
+    axis.minorticks_off()
+
+
+def room_for_legend(axis):
+    axis.set_ylim(top=1.35 * axis.get_ylim()[1])
 
 
 def scenes(rows, folder):
@@ -40,6 +46,7 @@ def scenes(rows, folder):
                      color=COLOURS[method], label=NAMES[method])
         axis.set_xticks(range(len(situations)), situations)
         axis.grid(False, axis="x")
+        room_for_legend(axis)
         label(axis, "what moves", "ms", axis is axes[0])
     save(figure, folder, "performance-scenes.png")
 
@@ -62,17 +69,18 @@ def phases(rows, folder):
     if not (frames and sets and threads and shadows):
         return
     figure, axes = panels(["what moves", "instruction sets, everything retraced",
-                           "threads, everything retraced, time on the clock",
+                           "threads, everything retraced, on the clock, least",
                            "shadow technique, everything retraced"],
                           "paper4, point light: where the time of a frame goes", 2.9)
     stacked(axes[0], frames, [r["situation"] for r in frames], "Ms")
     stacked(axes[1], sets, [r["instructionSet"] for r in sets], "Ms")
-    stacked(axes[2], threads, [str(r["threads"]) for r in threads], "WallMs")
+    stacked(axes[2], threads, [str(r["threads"]) for r in threads], "WallLeastMs")
     stacked(axes[3], shadows, [r["method"] for r in shadows], "Ms")
     for axis, unit in zip(axes, ("processor time, ms", "processor time, ms", "ms",
                                  "processor time, ms")):
         label(axis, "", unit, legend=False)
-    axes[0].legend(fontsize=7, ncol=2)
+    room_for_legend(axes[0])
+    axes[0].legend(fontsize=7, ncol=3)
     save(figure, folder, "performance-phases.png")
 
 
@@ -80,36 +88,38 @@ def sweeps(rows, folder):
     panel = [("triangles", "triangles", "triangles of one object, the camera moves", "camera"),
              ("triangles", "triangles", "triangles of one object, it moves", "all"),
              ("objects", "objects", "objects of 17 000 triangles, the camera moves", "camera"),
-             ("sizes", "pixels", "pixels of the window, paper4 retraced", "retraced")]
+             ("sizes", "million pixels", "pixels of the window, paper4 retraced", "retraced")]
     panel = [p for p in panel if some(rows, p[0])]
     if not panel:
         return
     figure, axes = panels([p[2] for p in panel], "Processor time of a frame, a spot light", 2.9)
     for axis, (experiment, key, _, situation) in zip(axes, panel):
         for method in (SPOT, SHADOWS, PLAIN, EMPTY):
-            here = [{**r, "pixels": r["width"] * r["height"]}
+            here = [{**r, "million pixels": 1e-6 * r["width"] * r["height"]}
                     for r in some(rows, experiment, method=method, situation=situation)]
             here.sort(key=lambda r: r[key])
             if here:
                 axis.plot([r[key] for r in here], [r["processorMs"] for r in here], "o-",
                           color=COLOURS[method], label=NAMES[method], markersize=4, linewidth=1)
-        logarithmic(axis)
+        logarithmic(axis, [r[key] for r in here] if experiment == "sizes" else None)
         label(axis, key, "ms", experiment == "sizes" or axis is axes[0])
     save(figure, folder, "performance-sweeps.png")
 
 
 def overtakes(rows, folder):
     curves = overtaking(rows)
-    if not curves:
+    sides = [side for side in ("frames", "rays") if any(side in name for name in curves)]
+    if not sides:
         return
-    figure, axes = panels(["frames", "rays of one core, level 10"],
+    titles = {"frames": "frames", "rays": "rays of one core, level 10"}
+    figure, axes = panels([titles[side] for side in sides],
                           "How many times as fast as its peers ours is, by the triangles of one "
                           "object (above the line: faster)", 3.4)
     styles = {"far": "--", "near": "-", "only the camera moves": "-", "all objects move": "--"}
     colours = {"vtkShadowMapPass": "#888888", "VTK without shadows": "#d9a400",
                "exact rays": "#1b6ca8", "walked rays": "#c1440e", "NanoVDB": "#3a8c3f"}
     for name, points in curves.items():
-        axis = axes[0] if name.startswith("frames") else axes[1]
+        axis = next(a for a, side in zip(axes, sides) if side in name)
         colour = next(c for key, c in reversed(colours.items()) if key in name)
         style = next(s for key, s in styles.items() if key in name)
         axis.plot([x for x, _ in points], [y for _, y in points], "o" + style, color=colour,
@@ -146,6 +156,7 @@ def levels(rows, folder):
                      markersize=4, linewidth=1)
     axes[0].set_ylim(bottom=0)
     axes[1].set_ylim(bottom=0)
+    room_for_legend(axes[1])
     label(axes[0], "level", "processor time, ms")
     label(axes[1], "level", "million rays a second")
     save(figure, folder, "performance-levels.png")
