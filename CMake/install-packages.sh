@@ -1,7 +1,7 @@
 #!/bin/bash
 # Installs the Debian packages that a part of the project needs, and says what each is for.
 # Usage: install-packages.sh [--list] [--no-install] group...
-# Groups: build test paraview demo fuzz accuracy fresh user
+# Groups: build test paraview demo fuzz accuracy performance fresh user
 # Packages that are there already are left alone; with none missing nothing runs and nothing is
 # asked. --no-install only checks: it names what is missing and ends with 1. --list prints names.
 set -euo pipefail
@@ -50,7 +50,11 @@ packages_accuracy="
 libembree-dev|the exact reference that accuracy is measured against
 libcgal-demo|the meshes that it is measured on
 assimp-testmodels|the walking figure of the paper's scenes
-python3-matplotlib|draws the plots of Documentation/Accuracy.md"
+python3-matplotlib|draws the plots of Documentation/Accuracy.md and Performance.md"
+packages_performance="
+libnanovdb-dev|another march through voxels to compare with
+libopenvdb-dev|another builder of voxels to compare with
+libtbb-dev|OpenVDB's threads"
 packages_fresh="
 mmdebstrap|makes the root file system of a fresh Debian
 debian-archive-keyring|its releases' keys
@@ -70,12 +74,13 @@ for argument in "$@"; do
     demo) wanted+="$packages_demo" ;;
     fuzz) wanted+="$packages_fuzz" ;;
     accuracy) wanted+="$packages_accuracy" ;;
+    performance) wanted+="$packages_performance" ;;
     fresh) wanted+="$packages_fresh" ;;
     user) wanted+="$packages_user" ;;
     paraview) wanted+="$packages_paraview" ;;
     *)
       echo "install-packages.sh: unknown argument '$argument'" \
-        "(groups: build test paraview demo fuzz accuracy fresh user)" >&2
+        "(groups: build test paraview demo fuzz accuracy performance fresh user)" >&2
       exit 2
       ;;
   esac

@@ -22,23 +22,6 @@ namespace
 constexpr int warmUpFrames = 2;
 constexpr int coverageFrames = 8;
 
-struct Sample
-{
-  double milliseconds;
-  double processorMilliseconds;
-};
-
-Sample draw(vtkRenderWindow* window)
-{
-  const auto start = std::chrono::steady_clock::now();
-  const std::clock_t processorStart = std::clock();
-  window->Render();
-  window->WaitForCompletion();
-  const std::chrono::duration<double, std::milli> elapsed =
-    std::chrono::steady_clock::now() - start;
-  return { elapsed.count(), 1000.0 * (std::clock() - processorStart) / CLOCKS_PER_SEC };
-}
-
 double median(std::vector<double> values)
 {
   std::sort(values.begin(), values.end());
@@ -130,6 +113,20 @@ void removePass(vtkRenderer* renderer)
   }
 }
 
+vtkSmartPointer<vtkRenderPass> shadowMaps(int resolution)
+{
+  vtkNew<vtkShadowMapPass> shadows;
+  shadows->GetShadowMapBakerPass()->SetResolution(resolution);
+  vtkNew<vtkRenderPassCollection> passes;
+  passes->AddItem(shadows->GetShadowMapBakerPass());
+  passes->AddItem(shadows);
+  vtkNew<vtkSequencePass> sequence;
+  sequence->SetPasses(passes);
+  auto camera = vtkSmartPointer<vtkCameraPass>::New();
+  camera->SetDelegatePass(sequence);
+  return camera;
+}
+
 void useMethod(const Method& method, vtkRenderer* renderer, int shadowMapResolution)
 {
   removePass(renderer);
@@ -143,17 +140,19 @@ void useMethod(const Method& method, vtkRenderer* renderer, int shadowMapResolut
   }
   else if (method.technique == Technique::ShadowMaps)
   {
-    vtkNew<vtkShadowMapPass> shadows;
-    shadows->GetShadowMapBakerPass()->SetResolution(shadowMapResolution);
-    vtkNew<vtkRenderPassCollection> passes;
-    passes->AddItem(shadows->GetShadowMapBakerPass());
-    passes->AddItem(shadows);
-    vtkNew<vtkSequencePass> sequence;
-    sequence->SetPasses(passes);
-    vtkNew<vtkCameraPass> camera;
-    camera->SetDelegatePass(sequence);
-    renderer->SetPass(camera);
+    renderer->SetPass(shadowMaps(shadowMapResolution));
   }
+}
+
+Sample draw(vtkRenderWindow* window)
+{
+  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t processorStart = std::clock();
+  window->Render();
+  window->WaitForCompletion();
+  const std::chrono::duration<double, std::milli> elapsed =
+    std::chrono::steady_clock::now() - start;
+  return { elapsed.count(), 1000.0 * (std::clock() - processorStart) / CLOCKS_PER_SEC };
 }
 
 double Timing::framesPerSecond() const

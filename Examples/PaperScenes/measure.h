@@ -4,8 +4,10 @@
 
 #include "scenes.h"
 
+#include <vtkRenderPass.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 
 #include <functional>
 #include <map>
@@ -38,10 +40,21 @@ const std::vector<Method>& methods();
 
 /// Back to VTK's own way of drawing; the pass's OpenGL objects are freed.
 void removePass(vtkRenderer* renderer);
+/// VTK's shadow maps as a pass of a renderer.
+vtkSmartPointer<vtkRenderPass> shadowMaps(int resolution);
 /// Sets the renderer up for a method. @a shadowMapResolution is that of both shadow techniques.
 void useMethod(const Method& method, vtkRenderer* renderer, int shadowMapResolution);
 /// vtkSVORenderPass's default.
 int defaultShadowMapResolution();
+
+struct Sample
+{
+  double milliseconds;
+  double processorMilliseconds; ///< of all threads
+};
+
+/// Draws a frame; its time is that from Render() to the end of WaitForCompletion().
+Sample draw(vtkRenderWindow* window);
 
 struct Timing
 {
@@ -56,9 +69,8 @@ struct Timing
 };
 
 /**
- * Draws @a framesPerView frames of every viewpoint, spread over the whole animation, and takes the
- * time of each from Render() to the end of WaitForCompletion(). Two frames a viewpoint warm up,
- * untimed.
+ * Draws @a framesPerView frames of every viewpoint, spread over the whole animation, and times
+ * each. Two frames a viewpoint warm up, untimed.
  */
 Timing timeFrames(vtkRenderWindow* window, Scene& scene, int framesPerView,
   const std::function<void()>& afterFrame);

@@ -149,9 +149,7 @@ void Scene::setFrame(int frame)
 {
   if (!this->A.empty())
   {
-    const Placement& spinning = this->Setup->a.front();
-    place(this->A.front(), spinning.x, spinning.y, spinning.heading + degreesPerFrame * frame,
-      spinning.size);
+    this->turnA(0, degreesPerFrame * frame);
   }
   if (this->B)
   {
@@ -166,6 +164,12 @@ void Scene::setFrame(int frame)
     place(this->B, walk.center[0] + walk.radius * std::cos(radians),
       walk.center[1] + walk.radius * std::sin(radians), angle + 90, walk.size);
   }
+}
+
+void Scene::turnA(std::size_t i, double degrees)
+{
+  const Placement& placement = this->Setup->a[i];
+  place(this->A[i], placement.x, placement.y, placement.heading + degrees, placement.size);
 }
 
 void Scene::setView(const Viewpoint& view, double orbit)

@@ -30,6 +30,8 @@ public:
   static int period();
   /// Moves the spinning A and the walking B to frame @a frame of the animation, 25 a second.
   void setFrame(int frame);
+  /// Turns object A number @a i by @a degrees from where it looks at frame 0.
+  void turnA(std::size_t i, double degrees);
   /// Looks from a viewpoint, turned by @a orbit degrees around what it looks at.
   void setView(const Viewpoint& view, double orbit = 0);
   void setLight(LightKind kind);

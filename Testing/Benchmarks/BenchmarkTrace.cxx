@@ -5,9 +5,18 @@
 // VTKSVO_COUNTERS it says what each kernel did as well; then times mean nothing.
 //
 //   BenchmarkTrace [--levels 8,10,12] [--size 640x360] [--repeat n] [--scalar] [--json file]
-//                  [--a dragon.off] [--b sydney.md2] [mesh ...]
+//                  [--isa AVX-512|AVX2|SSE4|scalar] [--instances n] [--a dragon.off]
+//                  [--b sydney.md2] [mesh ...]
+//
+// --isa: of both, where Embree has it. --instances: a crowd of the mesh besides, as the eye's part
+// of a frame and through Embree's instances. Where NanoVDB was found it marches through the same
+// voxels.
 #include "svoBenchmarkMesh.h"
 #include "svoEmbreeScene.h"
+#include "svoInstructionSet.h"
+#include "svoTraceInstances.h"
+#include "svoTraceReport.h"
+#include "svoVDBScene.h"
 
 #include "svoBuild.h"
 #include "svoCounters.h"
@@ -21,7 +30,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <functional>
 #include <string>
 #include <vector>
@@ -39,31 +47,12 @@ struct Settings
   int width = 640;
   int height = 360;
   int repeat = 9;
+  int instances = 0;
   bool scalar = false;
+  std::string isa;
   std::string json;
   std::vector<svobench::Mesh> meshes;
 };
-
-double cpuSeconds()
-{
-  std::timespec time;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return time.tv_sec + 1e-9 * time.tv_nsec;
-}
-
-double medianSeconds(int repeat, const std::function<void()>& run)
-{
-  run(); // warm up
-  std::vector<double> times(repeat);
-  for (double& t : times)
-  {
-    const double begin = cpuSeconds();
-    run();
-    t = cpuSeconds() - begin;
-  }
-  std::nth_element(times.begin(), times.begin() + repeat / 2, times.end());
-  return times[repeat / 2];
-}
 
 /// The tiles of an image as blocks in octree coordinates, row by row.
 struct Tiles
@@ -216,59 +205,8 @@ void printCounts([[maybe_unused]] double rays)
 #endif
 }
 
-class Report
-{
-public:
-  explicit Report(const std::string& path)
-    : File(path.empty() ? nullptr : std::fopen(path.c_str(), "w"))
-  {
-    if (this->File)
-    {
-      std::fprintf(this->File, "[");
-    }
-  }
-  ~Report()
-  {
-    if (this->File)
-    {
-      std::fprintf(this->File, "\n]\n");
-      std::fclose(this->File);
-    }
-  }
-  void add(const std::string& mesh, int level, const char* camera, const std::string& kernel,
-    double raysPerSecond)
-  {
-    std::printf("    %-34s %7.1f Mrays/s\n", kernel.c_str(), raysPerSecond * 1e-6);
-    std::fflush(stdout);
-    if (this->File)
-    {
-      std::fprintf(this->File,
-        "%s\n{\"mesh\":\"%s\",\"level\":%d,\"camera\":\"%s\",\"kernel\":\"%s\","
-        "\"instructionSet\":\"%s\",\"raysPerSecond\":%.0f}",
-        this->First ? "" : ",", mesh.c_str(), level, camera, kernel.c_str(), instructionSet(),
-        raysPerSecond);
-      this->First = false;
-    }
-  }
-  /// Complains if more than `limit` of `rays` differ.
-  void check(const char* what, std::size_t different, std::size_t rays, double limit)
-  {
-    if (different > limit * rays)
-    {
-      std::printf("    FAILED: %s: %zu of %zu rays differ\n", what, different, rays);
-      this->Good = false;
-    }
-  }
-  bool good() const { return this->Good; }
-
-private:
-  std::FILE* File;
-  bool First = true;
-  bool Good = true;
-};
-
 void benchmark(const svobench::Mesh& mesh, const Octree& octree, const char* camera,
-  double distance, const Settings& settings, Report& report)
+  double distance, const Settings& settings, svobench::TraceReport& report)
 {
   constexpr const char* names[] = { "voxel", "plane", "triangle", "automatic" };
   const Tiles tiles = makeTiles(octree, distance, settings);
@@ -276,7 +214,8 @@ void benchmark(const svobench::Mesh& mesh, const Octree& octree, const char* cam
   const Header& header = octree.header();
   const double voxel = header.voxelSize; // t is depth in local units
   std::vector<HitBlock> hits(tiles.blocks.size());
-  const svobench::EmbreeScene embree(mesh);
+  const svobench::EmbreeScene embree(mesh, settings.isa);
+  const svobench::VDBScene vdb(octree);
   for (int g = 0; g < 4; ++g)
   {
     TraceOptions options;
@@ -300,8 +239,9 @@ void benchmark(const svobench::Mesh& mesh, const Octree& octree, const char* cam
     const auto time = [&](const std::string& kernel, const std::function<void()>& run)
     {
       startCounting();
-      const double seconds = medianSeconds(settings.repeat, run);
-      report.add(mesh.name, octree.level(), camera, names[g] + kernel, rays / seconds);
+      const double seconds = svobench::medianSeconds(settings.repeat, run);
+      report.add(mesh.name, mesh.triangles.size(), octree.level(), camera, names[g] + kernel,
+        rays / seconds);
       printCounts(static_cast<double>(rays) * (settings.repeat + 1)); // once to warm up
     };
     if (settings.scalar)
@@ -330,6 +270,13 @@ void benchmark(const svobench::Mesh& mesh, const Octree& octree, const char* cam
     time(", blocks in tile intervals", [&] { traceWithIntervals(octree, tiles, options, hits); });
     report.check(
       "tile intervals against full rays", countDifferent(hits, scalar, 0.01 * voxel), rays, 2e-3);
+    if (options.leafGeometry == LeafGeometry::Voxel && vdb.available())
+    {
+      time(", NanoVDB", [&] { vdb.trace(tiles.blocks, hits); });
+      // Where a ray grazes a voxel, roundings of another place decide.
+      report.check(
+        "NanoVDB against the scalar walk", countDifferent(hits, scalar, voxel), rays, 0.02);
+    }
     if (options.leafGeometry != LeafGeometry::Triangle)
     {
       continue;
@@ -349,9 +296,9 @@ void benchmark(const svobench::Mesh& mesh, const Octree& octree, const char* cam
   {
     if (embree.available())
     {
-      const double seconds =
-        medianSeconds(settings.repeat, [&] { embree.time(tiles.view, tiles.base, width, hits); });
-      report.add(mesh.name, octree.level(), camera,
+      const double seconds = svobench::medianSeconds(
+        settings.repeat, [&] { embree.time(tiles.view, tiles.base, width, hits); });
+      report.add(mesh.name, mesh.triangles.size(), octree.level(), camera,
         "Embree, " + std::to_string(width) + (width == 1 ? " ray" : " rays"), rays / seconds);
     }
   }
@@ -368,7 +315,7 @@ bool parse(int argc, char** argv, Settings& settings)
       settings.scalar = true;
       continue;
     }
-    if (a == "--a" || a == "--b" || a.compare(0, 2, "--") != 0)
+    if (a == "--a" || a == "--b" || a == "--ball" || a.compare(0, 2, "--") != 0)
     {
       std::string error;
       if (!svobench::readArgument(argc, argv, i, settings.meshes, error))
@@ -405,6 +352,14 @@ bool parse(int argc, char** argv, Settings& settings)
     {
       settings.repeat = std::max(std::atoi(value), 1);
     }
+    else if (a == "--instances")
+    {
+      settings.instances = std::max(std::atoi(value), 0);
+    }
+    else if (a == "--isa")
+    {
+      settings.isa = value;
+    }
     else if (a == "--json")
     {
       settings.json = value;
@@ -425,14 +380,20 @@ int main(int argc, char** argv)
   {
     std::fprintf(stderr,
       "usage: BenchmarkTrace [--levels 8,10,12] [--size 640x360] [--repeat n] "
-      "[--scalar] [--json file] [--a file] [--b file] [mesh ...]\n");
+      "[--scalar] [--json file] [--isa set] [--instances n] [--a file] [--b file] [mesh ...]\n");
     return 2;
   }
   if (settings.meshes.empty())
   {
     settings.meshes.push_back(svobench::torus(200, 120));
   }
-  Report report(settings.json);
+  if (!svobench::useInstructionSet(settings.isa))
+  {
+    std::fprintf(stderr, "BenchmarkTrace: this machine has no %s\n", settings.isa.c_str());
+    return 2;
+  }
+  svobench::TraceReport report(
+    settings.isa.empty() ? instructionSet() : settings.isa, settings.json);
   std::printf("%s, %d lanes, %dx%d rays, one thread\n", instructionSet(), vectorLanes(),
     settings.width, settings.height);
   for (const svobench::Mesh& mesh : settings.meshes)
@@ -454,6 +415,11 @@ int main(int argc, char** argv)
         built.data, built.size, makeSurface(mesh.view(), {}, header, serialFor), error);
       benchmark(mesh, octree, "far", 2.2, settings, report);
       benchmark(mesh, octree, "near", 1.05, settings, report);
+      if (settings.instances > 0)
+      {
+        svobench::traceInstances(mesh, octree, settings.instances, settings.width, settings.height,
+          settings.repeat, report);
+      }
     }
   }
   return report.good() ? 0 : 1;

@@ -53,6 +53,7 @@ result=0
 [ "$result" -le 1 ] || exit "$result"
 
 if [ "$check" = no ]; then
+  export PYTHONPATH=Testing/Benchmarks
   mkdir -p Documentation/Accuracy
   cp "$out/accuracy.json" "$out/accuracy.csv" Documentation/Accuracy/
   /usr/bin/python3 Testing/Benchmarks/Accuracy/plots.py \

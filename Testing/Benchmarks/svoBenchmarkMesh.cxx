@@ -6,6 +6,7 @@
 #include "svoMeshTriangles.h"
 
 #include <cmath>
+#include <cstdlib>
 
 namespace svobench
 {
@@ -33,6 +34,17 @@ bool readFile(const std::string& path, Mesh& mesh, std::string& error)
 bool readArgument(int argc, char** argv, int& i, std::vector<Mesh>& meshes, std::string& error)
 {
   const std::string first = argv[i];
+  if (first == "--ball")
+  {
+    const double triangles = i + 1 < argc ? std::atof(argv[++i]) : 0.0;
+    if (!(triangles >= 16.0 && triangles <= 1e8))
+    {
+      error = "--ball needs a number of triangles.";
+      return false;
+    }
+    meshes.push_back(bumpySphere(static_cast<unsigned>(std::lround(std::sqrt(triangles / 4.0)))));
+    return true;
+  }
   const bool paperObject = first == "--a" || first == "--b";
   if (paperObject && ++i == argc)
   {

@@ -26,8 +26,9 @@ bool readFile(const std::string& path, Mesh& mesh, std::string& error);
 
 /**
  * Reads the mesh that argument `i` of the command line names: `--a FILE` for the paper's object A,
- * `--b FILE` for the first pose of B (Examples/PaperMeshes), else the path of a file; `i` moves to
- * its last word. False, and one sentence in `error`, if it is unreadable.
+ * `--b FILE` for the first pose of B (Examples/PaperMeshes), `--ball N` for a bumpy sphere of about
+ * N triangles, else the path of a file; `i` moves to its last word. False, and one sentence in
+ * `error`, if it is unreadable.
  */
 bool readArgument(int argc, char** argv, int& i, std::vector<Mesh>& meshes, std::string& error);
 

@@ -6,7 +6,10 @@
 #include "svoRay.h"
 #include "svoView.h"
 
+#include <string>
 #include <vector>
+
+#include <glm/mat4x4.hpp>
 
 #ifdef SVO_EMBREE
 #include "svoEmbree.h"
@@ -15,13 +18,58 @@
 namespace svobench
 {
 #ifdef SVO_EMBREE
+/// A scene of one mesh, committed.
+inline RTCScene makeEmbreeScene(RTCDevice device, const Mesh& mesh, RTCSceneFlags flags,
+  RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM)
+{
+  RTCScene scene = rtcNewScene(device);
+  rtcSetSceneFlags(scene, flags);
+  rtcSetSceneBuildQuality(scene, quality);
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(
+    geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.points.size()));
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      points[3 * i + a] = static_cast<float>(mesh.points[i][a]);
+    }
+  }
+  auto* ids = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+    RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      ids[3 * i + a] = mesh.triangles[i][a];
+    }
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+  return scene;
+}
+
+/// For its time, on one thread.
+inline void buildWithEmbree(const Mesh& mesh, RTCBuildQuality quality)
+{
+  RTCDevice device = rtcNewDevice("threads=1");
+  rtcReleaseScene(makeEmbreeScene(device, mesh, RTC_SCENE_FLAG_NONE, quality));
+  rtcReleaseDevice(device);
+}
+
 class EmbreeScene
 {
 public:
-  explicit EmbreeScene(const Mesh& mesh)
-    : Device(rtcNewDevice("threads=1"))
-    , Fast(this->makeScene(mesh, RTC_SCENE_FLAG_NONE))
-    , Robust(this->makeScene(mesh, RTC_SCENE_FLAG_ROBUST))
+  /// One mesh, or instances of it where there are matrices. instructionSet: of those that
+  /// useInstructionSet() knows; Embree has no scalar one.
+  explicit EmbreeScene(const Mesh& mesh, const std::string& instructionSet = "",
+    const std::vector<glm::dmat4>& instances = {})
+    : Device(rtcNewDevice(("threads=1" + embreeIsa(instructionSet)).c_str()))
+    , Fast(this->makeScene(mesh, RTC_SCENE_FLAG_NONE, instances))
+    , Robust(this->makeScene(mesh, RTC_SCENE_FLAG_ROBUST, instances))
+    , Available(instructionSet != "scalar")
   {
   }
   ~EmbreeScene()
@@ -33,7 +81,7 @@ public:
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-  bool available() const { return true; }
+  bool available() const { return this->Available; }
 
   /// All tiles of a view; t is linear depth minus base. width: rays at a time, 0 for robust mode.
   std::vector<svo::HitBlock> trace(const svo::View& view, double base, int width) const
@@ -68,34 +116,37 @@ public:
   }
 
 private:
-  RTCScene makeScene(const Mesh& mesh, RTCSceneFlags flags) const
+  static std::string embreeIsa(const std::string& name)
   {
-    RTCScene scene = rtcNewScene(this->Device);
-    rtcSetSceneFlags(scene, flags);
-    RTCGeometry geometry = rtcNewGeometry(this->Device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-      RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.points.size()));
-    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    return name == "AVX-512" ? ",isa=avx512"
+      : name == "AVX2"       ? ",isa=avx2"
+      : name == "SSE4"       ? ",isa=sse4.2"
+                             : "";
+  }
+
+  RTCScene makeScene(
+    const Mesh& mesh, RTCSceneFlags flags, const std::vector<glm::dmat4>& instances) const
+  {
+    RTCScene scene = makeEmbreeScene(this->Device, mesh, flags);
+    if (instances.empty())
     {
-      for (int a = 0; a < 3; ++a)
-      {
-        points[3 * i + a] = static_cast<float>(mesh.points[i][a]);
-      }
+      return scene;
     }
-    auto* ids = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-      RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    RTCScene all = rtcNewScene(this->Device);
+    rtcSetSceneFlags(all, flags);
+    for (const glm::dmat4& toWorld : instances)
     {
-      for (int a = 0; a < 3; ++a)
-      {
-        ids[3 * i + a] = mesh.triangles[i][a];
-      }
+      const glm::mat4 matrix(toWorld);
+      RTCGeometry geometry = rtcNewGeometry(this->Device, RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcSetGeometryInstancedScene(geometry, scene);
+      rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &matrix[0][0]);
+      rtcCommitGeometry(geometry);
+      rtcAttachGeometry(all, geometry);
+      rtcReleaseGeometry(geometry);
     }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
-    return scene;
+    rtcReleaseScene(scene); // the instances hold it
+    rtcCommitScene(all);
+    return all;
   }
 
   template <class Directions>
@@ -159,12 +210,13 @@ private:
   RTCDevice Device;
   RTCScene Fast;
   RTCScene Robust;
+  bool Available;
 };
 #else
 class EmbreeScene
 {
 public:
-  explicit EmbreeScene(const Mesh&) {}
+  explicit EmbreeScene(const Mesh&, const std::string& = "", const std::vector<glm::dmat4>& = {}) {}
   bool available() const { return false; }
   std::vector<svo::HitBlock> trace(const svo::View&, double, int) const { return {}; }
   void time(const svo::View&, double, int, std::vector<svo::HitBlock>&) const {}

@@ -1,7 +1,7 @@
 """Figures for the documentation, not a test: first and second loop of an animated mesh, and a camera
 orbit beside the representation Surface. Runs in pvbatch.
 
-usage: measure.py mesh.md2
+usage: measure.py [mesh.md2]     without a mesh only the orbit
 """
 
 import math
@@ -71,7 +71,8 @@ for kit in (False, True):
         print(f"orbit, {'light kit' if kit else 'one light'}, {'still' if still else 'interactive'}: " +
               ", ".join(f"{kind} {orbit(kind, kit, still):.1f}" for kind in ("Surface", "SVO")) +
               " frames a second", flush=True)
-path = series.write(scene.output("poses"), series.md2(sys.argv[1]))
-for level in (8, 10):
-    animate(path, level)
+if len(sys.argv) > 1:
+    path = series.write(scene.output("poses"), series.md2(sys.argv[1]))
+    for level in (8, 10):
+        animate(path, level)
 print(f"peak memory of the process: {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MiB")

@@ -59,10 +59,21 @@ struct Frame
   std::vector<Primitive> primitive;
 };
 
+/// What a part of a frame took, seconds.
+struct PhaseTime
+{
+  double wall = 0.0;
+  double processor = 0.0; // of all threads of the program
+};
+
 struct FrameStatistics
 {
   double traceTime = 0.0;  // s, depth layers of the eye, merging, shading
   double shadowTime = 0.0; // s, shadow buffers or rays
+  PhaseTime eye;           // depth layers of the eye, merged
+  PhaseTime mark;          // what visible points will look up of the lights
+  PhaseTime lights;        // shadow buffers, those shared with other processes apart
+  PhaseTime shade;         // shading and shadow tests; shadow rays
   std::uint64_t primaryRays = 0;
   std::uint64_t shadowRays = 0;
   std::uint64_t retracedLayers = 0; // layers traced this frame, of the eye and of lights

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 namespace svo
 {
@@ -22,6 +23,24 @@ double now()
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+/// Divides a frame into phases.
+class PhaseClock
+{
+public:
+  /// The phase that ends now began where the last one ended.
+  PhaseTime end()
+  {
+    const PhaseTime last{ now() - this->Wall,
+      static_cast<double>(std::clock() - this->Processor) / CLOCKS_PER_SEC };
+    *this = PhaseClock();
+    return last;
+  }
+
+private:
+  double Wall = now();
+  std::clock_t Processor = std::clock();
+};
 
 /// FrameStatistics::coarsestVoxel
 double coarsestVoxel(const Scene& scene, const View& view)
@@ -80,8 +99,8 @@ struct CPUTracer::Internals
 
   const Scene& sceneOfLights(const Scene& scene, ShadowTechnique technique);
   void markLightTiles(const Scene& scene, const View& view, const ParallelFor& parallelFor);
-  double traceViews(const Scene& scene, const View& view, const FrameSettings& settings,
-    const ParallelFor& parallelFor, Frame* frame);
+  void traceViews(const Scene& scene, const View& view, const FrameSettings& settings,
+    const ParallelFor& parallelFor, Frame* frame, FrameStatistics& statistics);
 };
 
 /// The scene with the octrees that shadow buffers are traced through.
@@ -145,10 +164,12 @@ std::vector<NeededLevels> CPUTracer::neededLevels(
 }
 
 /// The depth buffers of the eye and of the lights, and all that shading needs besides. `frame`: to
-/// be prepared for shading, or null. Returns the seconds that the lights took.
-double CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
-  const FrameSettings& settings, const ParallelFor& parallelFor, Frame* frame)
+/// be prepared for shading, or null. Sets the phases' times.
+void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
+  const FrameSettings& settings, const ParallelFor& parallelFor, Frame* frame,
+  FrameStatistics& statistics)
 {
+  PhaseClock clock;
   this->Maps.clear();
   LayerBudget budget{ settings.layerMemoryLimit,
     this->Eye.layerMemory() + this->LightShadows.layerMemory() };
@@ -164,6 +185,7 @@ double CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
   {
     this->Tiles.find(this->Eye.depthBuffer(), view, settings, *frame);
   }
+  statistics.eye = clock.end();
 
   // What visible points will look up of the lights.
   this->Shader.prepare(scene, settings.shadowTechnique, this->Eye);
@@ -175,9 +197,9 @@ double CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     this->markLightTiles(scene, view, parallelFor);
   }
   this->LightShadows.prepareRays(scene, settings, this->Eye);
+  statistics.mark = clock.end();
 
   // Shadow layers, merged likewise.
-  const double shadowStart = now();
   if (!shared)
   {
     this->LightShadows.trace(parallelFor);
@@ -187,14 +209,14 @@ double CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     this->LightShadows.copyMaps(this->Maps);
   }
   this->AsLightsSee = Scene();
-  return now() - shadowStart;
+  statistics.lights = clock.end();
 }
 
 void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings& settings,
   const ParallelFor& parallelFor, Frame& frame)
 {
   Internals& self = *this->Impl;
-  const double start = now();
+  PhaseClock clock;
   FrameStatistics& statistics = self.Statistics;
   self.Settings = settings;
   self.ViewsAreTraced = !settings.frameCoherence || self.SharesBuffers ||
@@ -203,25 +225,30 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   {
     frame.covered = self.Kept.covered();
     statistics.primaryRays = statistics.shadowRays = statistics.retracedLayers = 0;
+    statistics.mark = statistics.lights = statistics.shade = PhaseTime();
     statistics.shadowTime = 0.0;
-    statistics.traceTime = now() - start;
+    statistics.eye = clock.end();
+    statistics.traceTime = statistics.eye.wall;
     return;
   }
   statistics = FrameStatistics();
-  double shadowTime = self.traceViews(scene, view, settings, parallelFor, &frame);
+  self.traceViews(scene, view, settings, parallelFor, &frame, statistics);
+  clock.end(); // its phases have been timed
 
   // Shade and test.
-  const double shadeStart = now();
   const ShadedScene shaded{ scene, view, settings, self.Eye, self.Tiles, self.LightShadows };
-  self.Shader.shade(shaded, parallelFor, frame, self.Statistics);
+  self.Shader.shade(shaded, parallelFor, frame, statistics);
   if (settings.antiAliasing)
   {
-    self.Shader.smoothEdges(shaded, parallelFor, frame, self.Statistics);
+    self.Shader.smoothEdges(shaded, parallelFor, frame, statistics);
   }
-  if (settings.shadowTechnique == ShadowTechnique::Rays)
-  {
-    shadowTime += now() - shadeStart; // the rays are nearly all of it
-  }
+  statistics.shade = clock.end();
+  // Where there are shadow rays, they are nearly all of it.
+  double& shadeTime = settings.shadowTechnique == ShadowTechnique::Rays ? statistics.shadowTime
+                                                                        : statistics.traceTime;
+  shadeTime = statistics.shade.wall;
+  statistics.traceTime += statistics.eye.wall + statistics.mark.wall;
+  statistics.shadowTime += statistics.lights.wall + self.SharingTime;
 
   if (settings.frameCoherence && !self.SharesBuffers)
   {
@@ -240,8 +267,6 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
     statistics.largestGap = largestGap(scene, view);
   }
   statistics.layerMemory = self.Eye.layerMemory() + self.LightShadows.layerMemory();
-  statistics.shadowTime = shadowTime + self.SharingTime;
-  statistics.traceTime = now() - start - shadowTime;
   self.SharesBuffers = false;
   self.SharingTime = 0.0;
 }
@@ -267,7 +292,8 @@ void CPUTracer::divideEdges(const Scene& scene, const View& view, const Frame& f
   Internals& self = *this->Impl;
   if (!self.ViewsAreTraced)
   {
-    self.traceViews(scene, view, self.Settings, parallelFor, nullptr);
+    FrameStatistics later; // the frame's own have been told
+    self.traceViews(scene, view, self.Settings, parallelFor, nullptr, later);
     self.ViewsAreTraced = true;
   }
   findSilhouettes({ scene, view, self.Settings, self.Eye, self.Tiles, self.LightShadows },

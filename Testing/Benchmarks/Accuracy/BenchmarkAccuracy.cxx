@@ -86,7 +86,11 @@ int main(int argc, char** argv)
     sweep.repeat = 1;
     sweep.size = 256;
   }
-  Results results;
+  Results results({ "experiment", "mesh", "light", "method", "level", "leaves", "technique",
+    "resolution", "bias", "pixelError", "rayMedian", "rayP95", "normalP99", "falseMisses",
+    "meshWrong", "meshWrongTolerant", "meshIoU", "mapWrong", "movedP99", "movedMax",
+    "beyondPromise", "selfShadowed", "toothed", "throughWall", "gapVoxels", "antiAliasing",
+    "filterShadows", "edgeRms", "shadowEdgeRms", "rms", "processorMs" });
   measureLeaves(sweep, results);
   measurePixelError(sweep, results);
   measureContact(sweep, results);

@@ -2,7 +2,7 @@
 #ifndef accuracyBars_h
 #define accuracyBars_h
 
-#include "accuracyResults.h"
+#include "accuracyMetrics.h"
 
 namespace accuracy
 {

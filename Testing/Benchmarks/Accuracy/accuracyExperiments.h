@@ -3,7 +3,7 @@
 #ifndef accuracyExperiments_h
 #define accuracyExperiments_h
 
-#include "accuracyResults.h"
+#include "accuracyMetrics.h"
 #include "accuracyStage.h"
 
 #include <memory>

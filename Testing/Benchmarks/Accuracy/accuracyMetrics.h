@@ -5,8 +5,7 @@
 #include "accuracyReference.h"
 
 #include "svoCPUTracer.h"
-
-#include <vtk_jsoncpp.h>
+#include "svoResults.h"
 
 #include <cstdint>
 #include <string>
@@ -14,8 +13,8 @@
 
 namespace accuracy
 {
-/// A row of the results: the settings of a measurement and its figures, one level deep.
-using Row = Json::Value;
+using svobench::Results;
+using svobench::Row;
 
 /// A finished picture of any method, row by row from the lower left. Depth is OpenGL's window
 /// depth, 1 where nothing is; `object` and `normal` are empty where the method does not tell.

@@ -2,32 +2,14 @@
 
     tables.py accuracy.json Accuracy.md
 
-What stands between <!-- begin NAME --> and <!-- end NAME --> is replaced; the rest of the text is
-left as it is.
 """
 import json
-import re
 import sys
+
+from pages import fill, number, percent, table
 
 KINDS = ["voxel", "plane", "triangle", "automatic"]
 LIGHTS = ["directional", "spot", "point", "near point"]
-
-
-def number(value):
-    if value == 0:
-        return "0"
-    if abs(value) < 1e-3:
-        return f"{value:.0e}".replace("e-0", "e-")
-    return f"{value:.3g}"
-
-
-def percent(value):
-    return "0" if value == 0 else f"{100 * value:.2g} %" if value < 0.1 else f"{100 * value:.0f} %"
-
-
-def table(head, lines):
-    out = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    return "\n".join(out + ["| " + " | ".join(line) + " |" for line in lines])
 
 
 def mean(rows, key):
@@ -301,19 +283,6 @@ SECTIONS = {"bars": bars, "leaves": leaves, "levels": levels, "shadows": shadows
             "pixel-error": pixel_errors, "anti-aliasing": anti_aliasing, "paper": paper, "passes": passes, "wishes": wishes}
 
 
-def main():
-    with open(sys.argv[1], encoding="utf-8") as file:
-        rows = json.load(file)
-    with open(sys.argv[2], encoding="utf-8") as file:
-        text = file.read()
-    for name, make in SECTIONS.items():
-        pattern = re.compile(f"(<!-- begin {name} -->\n).*?(<!-- end {name} -->)", re.DOTALL)
-        if not pattern.search(text):
-            sys.exit(f"{sys.argv[2]} has no place for the table {name}")
-        text = pattern.sub(lambda found: found[1] + make(rows) + "\n" + found[2], text)
-    with open(sys.argv[2], "w", encoding="utf-8") as file:
-        file.write(text)
-
-
 if __name__ == "__main__":
-    main()
+    with open(sys.argv[1], encoding="utf-8") as measurements:
+        fill(sys.argv[2], SECTIONS, json.load(measurements))

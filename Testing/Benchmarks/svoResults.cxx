@@ -1,11 +1,11 @@
-#include "accuracyResults.h"
+#include "svoResults.h"
 
 #include <cmath>
 #include <fstream>
 #include <iostream>
 #include <set>
 
-namespace accuracy
+namespace svobench
 {
 namespace
 {
@@ -51,11 +51,7 @@ void Results::add(const Row& row)
     }
   }
   this->Rows.append(kept);
-  for (const char* key : { "experiment", "mesh", "light", "method", "level", "leaves", "technique",
-         "resolution", "bias", "pixelError", "rayMedian", "rayP95", "normalP99", "falseMisses",
-         "meshWrong", "meshWrongTolerant", "meshIoU", "mapWrong", "movedP99", "movedMax",
-         "beyondPromise", "selfShadowed", "toothed", "throughWall", "gapVoxels", "antiAliasing",
-         "filterShadows", "edgeRms", "shadowEdgeRms", "rms", "processorMs" })
+  for (const std::string& key : this->Shown)
   {
     if (kept.isMember(key))
     {

@@ -1,0 +1,36 @@
+// vtkSVORenderPass with a stopwatch.
+#ifndef performancePass_h
+#define performancePass_h
+
+#include "vtkSVORenderPass.h"
+
+#include <vtkSmartPointer.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace performance
+{
+/// Milliseconds of the clock, and of processor time of all threads.
+struct Moment
+{
+  double wall;
+  double processor;
+  static Moment now();
+};
+
+/// Milliseconds by key: "eyeMs" is processor time, "eyeWallMs" that of the clock.
+using Phases = std::map<std::string, double>;
+
+/// What the phases of a frame took that was drawn between two moments. "collect" is what comes
+/// before the tracer, VTK's own beginning included, "present" what comes after it, VTK's own
+/// drawing included, so that the phases add up to the frame. Empty of a commit whose frames do not
+/// tell.
+using PhasesOfFrame = std::function<Phases(const Moment& begin, const Moment& end)>;
+
+vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases);
+}
+
+#endif
