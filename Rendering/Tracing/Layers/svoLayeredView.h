@@ -14,6 +14,7 @@
 #include "svoTriangleGroup.h"
 #include "svoVisibleInstances.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -69,6 +70,13 @@ public:
     return this->Bases[instance];
   }
   int level(std::uint32_t instance) const { return this->Levels[instance]; }
+  /// Whole tiles that may see the instance.
+  PixelRect rect(std::uint32_t instance) const
+  {
+    const auto entry = std::find_if(this->Instances.begin(), this->Instances.end(),
+      [instance](const Entry& e) { return e.index == instance; });
+    return entry != this->Instances.end() ? entry->local.rect : PixelRect();
+  }
   /// What the instance's rays end on in this view.
   LeafGeometry leafGeometry(std::uint32_t instance) const { return this->Geometries[instance]; }
   /// True if all hits of the instance are placed in double.

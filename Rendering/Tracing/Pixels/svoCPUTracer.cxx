@@ -2,6 +2,7 @@
 
 #include "svoFrameTiles.h"
 #include "svoKeptFrame.h"
+#include "svoKeptTiles.h"
 #include "svoLayeredView.h"
 #include "svoLeafError.h"
 #include "svoNeededLevels.h"
@@ -93,14 +94,18 @@ struct CPUTracer::Internals
   FrameTiles Tiles;
   PixelShader Shader;
   KeptFrame Kept;
+  KeptTiles Shaded;           // by tile of the eye
   bool ViewsAreTraced = true; // of this frame; else they were not needed
   bool SharesBuffers = false; // shadow buffers are traced, for all processes
   double SharingTime = 0.0;   // s, that took
 
   const Scene& sceneOfLights(const Scene& scene, ShadowTechnique technique);
+  void findStaleTiles(const FrameChanges& changes, bool sameFrame);
   void markLightTiles(const Scene& scene, const View& view, const ParallelFor& parallelFor);
+  void findDarkenedTiles();
   void traceViews(const Scene& scene, const View& view, const FrameSettings& settings,
-    const ParallelFor& parallelFor, Frame* frame, FrameStatistics& statistics);
+    const ParallelFor& parallelFor, const FrameChanges& changes, Frame* frame,
+    FrameStatistics& statistics);
 };
 
 /// The scene with the octrees that shadow buffers are traced through.
@@ -124,23 +129,60 @@ const Scene& CPUTracer::Internals::sceneOfLights(const Scene& scene, ShadowTechn
   return this->AsLightsSee;
 }
 
+/// Tiles whose hits, or the looks of them, are not what they were.
+void CPUTracer::Internals::findStaleTiles(const FrameChanges& changes, bool sameFrame)
+{
+  const DepthBuffer& depth = this->Eye.depthBuffer();
+  // Edges are smoothed over the tiles' borders.
+  const bool all = changes.all || !sameFrame || this->Settings.antiAliasing;
+  this->Shaded.beginFrame(depth.tilesX, depth.tilesY, all);
+  for (const std::uint32_t instance : changes.instances)
+  {
+    this->Shaded.touch(this->Eye.rect(instance));
+  }
+  for (std::size_t tile = 0; tile < this->Shaded.size(); ++tile)
+  {
+    this->Shaded[tile].stale = this->Shaded[tile].stale || this->Eye.tiles().isStale(tile);
+  }
+}
+
 void CPUTracer::Internals::markLightTiles(
   const Scene& scene, const View& view, const ParallelFor& parallelFor)
 {
-  if (!this->LightShadows.wantsMarks())
+  if (!this->LightShadows.wantsMarks() && !this->LightShadows.notesAll())
   {
     return;
   }
+  const bool sameMaps = this->LightShadows.sameMaps();
   this->Tiles.each<TilePatch>(parallelFor,
     [&](int tileX, int tileY, TilePatch& patch)
     {
+      KeptTiles::Tile& tile = this->Shaded.at(tileX, tileY);
+      if (sameMaps && !tile.stale)
+      {
+        this->LightShadows.mark(tile.looksUp);
+        return;
+      }
+      tile.looksUp.clear();
       eachPatch(
         view, hitsOfTile(this->Eye.depthBuffer(), view, tileX, tileY),
         [&](std::uint32_t i)
         { return scene.instances[i].receiveShadow && scene.instances[i].material.lighting; },
         [&](std::uint32_t i) { return this->Eye.base(i); }, patch,
-        [&](const TilePatch&) { this->LightShadows.mark(patch); });
+        [&](const TilePatch&) { this->LightShadows.mark(patch, tile.looksUp); });
     });
+}
+
+/// Tiles whose lights may not be what they were.
+void CPUTracer::Internals::findDarkenedTiles()
+{
+  const Shadows& shadows = this->LightShadows;
+  const bool all = !shadows.notesAll() || !shadows.sameMaps();
+  for (const std::uint32_t index : this->Tiles.hits())
+  {
+    KeptTiles::Tile& tile = this->Shaded[index];
+    tile.stale = tile.stale || all || tile.atTerminator || shadows.changed(tile.looksUp);
+  }
 }
 
 CPUTracer::CPUTracer()
@@ -166,8 +208,8 @@ std::vector<NeededLevels> CPUTracer::neededLevels(
 /// The depth buffers of the eye and of the lights, and all that shading needs besides. `frame`: to
 /// be prepared for shading, or null. Sets the phases' times.
 void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
-  const FrameSettings& settings, const ParallelFor& parallelFor, Frame* frame,
-  FrameStatistics& statistics)
+  const FrameSettings& settings, const ParallelFor& parallelFor, const FrameChanges& changes,
+  Frame* frame, FrameStatistics& statistics)
 {
   PhaseClock clock;
   this->Maps.clear();
@@ -181,10 +223,8 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     { return selectEyeLevel(instance, local, view, settings.pixelError); },
     settings.frameCoherence, budget);
   this->Eye.trace(parallelFor, nullptr);
-  if (frame)
-  {
-    this->Tiles.find(this->Eye.depthBuffer(), view, settings, *frame);
-  }
+  const bool sameFrame = frame && this->Tiles.find(this->Eye.depthBuffer(), view, settings, *frame);
+  this->findStaleTiles(changes, sameFrame);
   statistics.eye = clock.end();
 
   // What visible points will look up of the lights.
@@ -219,8 +259,9 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   PhaseClock clock;
   FrameStatistics& statistics = self.Statistics;
   self.Settings = settings;
-  self.ViewsAreTraced = !settings.frameCoherence || self.SharesBuffers ||
-    !self.Kept.shows(scene, view, settings, frame);
+  const FrameChanges changes = self.Kept.compare(scene, view, settings, frame);
+  const bool keeps = settings.frameCoherence && !self.SharesBuffers;
+  self.ViewsAreTraced = !keeps || !changes.none();
   if (!self.ViewsAreTraced)
   {
     frame.covered = self.Kept.covered();
@@ -232,12 +273,14 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
     return;
   }
   statistics = FrameStatistics();
-  self.traceViews(scene, view, settings, parallelFor, &frame, statistics);
+  self.traceViews(
+    scene, view, settings, parallelFor, keeps ? changes : FrameChanges(), &frame, statistics);
+  self.findDarkenedTiles();
   clock.end(); // its phases have been timed
 
   // Shade and test.
   const ShadedScene shaded{ scene, view, settings, self.Eye, self.Tiles, self.LightShadows };
-  self.Shader.shade(shaded, parallelFor, frame, statistics);
+  self.Shader.shade(shaded, parallelFor, self.Shaded, frame, statistics);
   if (settings.antiAliasing)
   {
     self.Shader.smoothEdges(shaded, parallelFor, frame, statistics);
@@ -250,9 +293,9 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   statistics.traceTime += statistics.eye.wall + statistics.mark.wall;
   statistics.shadowTime += statistics.lights.wall + self.SharingTime;
 
-  if (settings.frameCoherence && !self.SharesBuffers)
+  if (keeps)
   {
-    self.Kept.keep(scene, view, settings, frame);
+    self.Kept.keep(frame);
   }
   else
   {
@@ -293,7 +336,7 @@ void CPUTracer::divideEdges(const Scene& scene, const View& view, const Frame& f
   if (!self.ViewsAreTraced)
   {
     FrameStatistics later; // the frame's own have been told
-    self.traceViews(scene, view, self.Settings, parallelFor, nullptr, later);
+    self.traceViews(scene, view, self.Settings, parallelFor, FrameChanges(), nullptr, later);
     self.ViewsAreTraced = true;
   }
   findSilhouettes({ scene, view, self.Settings, self.Eye, self.Tiles, self.LightShadows },

@@ -25,7 +25,7 @@ void wipeTile(Frame& frame, int x0, int y0)
   }
 }
 
-void FrameTiles::find(
+bool FrameTiles::find(
   const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame)
 {
   this->TilesX = depth.tilesX;
@@ -74,5 +74,6 @@ void FrameTiles::find(
     frame.covered = { covered.x0, covered.y0, std::min(covered.x1, frame.width),
       std::min(covered.y1, frame.height) };
   }
+  return same;
 }
 }

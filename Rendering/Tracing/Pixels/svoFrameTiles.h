@@ -21,7 +21,8 @@ class FrameTiles
 public:
   /// Begins a new version of the frame: makes it as large as the view, finds the tiles with hits
   /// and Frame::covered, and wipes tiles that have none any more.
-  void find(
+  /// Returns true if the other tiles of the frame are as they were left.
+  bool find(
     const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame);
 
   /// Indices into the depth buffer's tiles, ascending.

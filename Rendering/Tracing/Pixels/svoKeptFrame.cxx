@@ -1,6 +1,9 @@
 #include "svoKeptFrame.h"
 
+#include <algorithm>
+#include <cstring>
 #include <type_traits>
+#include <utility>
 
 namespace svo
 {
@@ -77,19 +80,16 @@ void add(const FrameSettings& s, Bytes& bytes)
     s.shadowIntensity, s.pixelError, s.antiAliasing, s.filterShadows, s.wholeShadowBuffers,
     s.writeNormals, s.writeLight);
 }
+}
 
-void inputsOf(const Scene& scene, const View& view, const FrameSettings& settings,
-  std::vector<unsigned char>& inputs)
+void KeptFrame::inputsOf(
+  const Scene& scene, const View& view, const FrameSettings& settings, Inputs& inputs)
 {
-  Bytes bytes(inputs);
+  Bytes bytes(inputs.bytes);
   add(view, bytes);
   add(settings, bytes);
   bytes.add(scene.instances.size(), scene.receivers.size(), scene.lights.size());
   bytes.add(scene.onlyHeadlight);
-  for (const Instance& instance : scene.instances)
-  {
-    add(instance, bytes);
-  }
   for (const Box& box : scene.receivers)
   {
     bytes.add(box.low, box.high);
@@ -98,28 +98,45 @@ void inputsOf(const Scene& scene, const View& view, const FrameSettings& setting
   {
     add(light, bytes);
   }
-}
+  inputs.instances = inputs.bytes.size();
+  for (const Instance& instance : scene.instances)
+  {
+    add(instance, bytes);
+  }
+  inputs.size =
+    scene.instances.empty() ? 0 : (inputs.bytes.size() - inputs.instances) / scene.instances.size();
 }
 
-void KeptFrame::keep(
+FrameChanges KeptFrame::compare(
   const Scene& scene, const View& view, const FrameSettings& settings, const Frame& frame)
+{
+  inputsOf(scene, view, settings, this->Next);
+  FrameChanges changes;
+  const Inputs &now = this->Next, &last = this->Last;
+  if (this->Version == 0 || this->Version != frame.version || this->Pixels != frame.color.data() ||
+    now.bytes.size() != last.bytes.size() ||
+    !std::equal(now.bytes.begin(), now.bytes.begin() + static_cast<std::ptrdiff_t>(now.instances),
+      last.bytes.begin()))
+  {
+    return changes;
+  }
+  changes.all = false;
+  const unsigned char *a = now.bytes.data() + now.instances, *b = last.bytes.data() + now.instances;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i, a += now.size, b += now.size)
+  {
+    if (std::memcmp(a, b, now.size) != 0)
+    {
+      changes.instances.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return changes;
+}
+
+void KeptFrame::keep(const Frame& frame)
 {
   this->Version = frame.version;
   this->Pixels = frame.color.data();
   this->Covered = frame.covered;
-  inputsOf(scene, view, settings, this->Inputs);
-}
-
-bool KeptFrame::shows(
-  const Scene& scene, const View& view, const FrameSettings& settings, const Frame& frame) const
-{
-  if (this->Version == 0 || this->Version != frame.version || this->Pixels != frame.color.data())
-  {
-    return false;
-  }
-  std::vector<unsigned char> inputs;
-  inputs.reserve(this->Inputs.size());
-  inputsOf(scene, view, settings, inputs);
-  return inputs == this->Inputs;
+  std::swap(this->Last, this->Next);
 }
 }

@@ -11,27 +11,44 @@
 
 namespace svo
 {
+/// What is not what it was in the last frame.
+struct FrameChanges
+{
+  bool all = true;                      // nothing is known to be the same
+  std::vector<std::uint32_t> instances; // else: by index, those of which anything differs
+  bool none() const { return !this->all && this->instances.empty(); }
+};
+
 class KeptFrame
 {
 public:
-  /// Notes what `frame` has been made of.
-  void keep(
+  /// What of the inputs differs from those that `frame` was made of, if it is the one that was kept
+  /// last. Of octrees and arrays their names are compared: Octree::id(), and where an array lies
+  /// together with its version.
+  FrameChanges compare(
     const Scene& scene, const View& view, const FrameSettings& settings, const Frame& frame);
+  /// `frame` has been made of what was compared last.
+  void keep(const Frame& frame);
   void forget() { this->Version = 0; }
 
-  /// True if `frame` is the one that was kept last, and would be made of the same once more. Of
-  /// octrees and arrays their names are compared: Octree::id(), and where an array lies together
-  /// with its version.
-  bool shows(
-    const Scene& scene, const View& view, const FrameSettings& settings, const Frame& frame) const;
   /// Frame::covered of the kept frame.
   const PixelRect& covered() const { return this->Covered; }
 
 private:
+  /// Values as plain bytes.
+  struct Inputs
+  {
+    std::vector<unsigned char> bytes;
+    std::size_t instances = 0; // where those of the instances begin
+    std::size_t size = 0;      // of each
+  };
+  static void inputsOf(
+    const Scene& scene, const View& view, const FrameSettings& settings, Inputs& inputs);
+
   std::uint64_t Version = 0; // Frame::version
   const std::uint8_t* Pixels = nullptr;
   PixelRect Covered;
-  std::vector<unsigned char> Inputs;
+  Inputs Last, Next;
 };
 }
 

@@ -52,6 +52,7 @@ void PixelShader::eachTerminator(std::size_t l, const Lit& lit, std::uint64_t re
         patch.towards(i), patch.hits->primitive[i]);
       if (at.kind != TerminatorPoint::Kind::Plain)
       {
+        scratch.atTerminator = true;
         each(i, point, at);
       }
     });
@@ -168,8 +169,8 @@ void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, 
   image.write();
 }
 
-void PixelShader::shade(const ShadedScene& shaded, const ParallelFor& parallelFor, Frame& frame,
-  FrameStatistics& statistics)
+void PixelShader::shade(const ShadedScene& shaded, const ParallelFor& parallelFor, KeptTiles& kept,
+  Frame& frame, FrameStatistics& statistics)
 {
   const DepthBuffer& depth = shaded.eye.depthBuffer();
   const Lit lit(shaded);
@@ -182,8 +183,15 @@ void PixelShader::shade(const ShadedScene& shaded, const ParallelFor& parallelFo
   shaded.tiles.each<Scratch>(parallelFor,
     [&](int tileX, int tileY, Scratch& scratch)
     {
+      KeptTiles::Tile& tile = kept.at(tileX, tileY);
+      if (!tile.stale)
+      {
+        return;
+      }
       scratch.rays = 0;
+      scratch.atTerminator = false;
       this->write(lit, hitsOfTile(depth, shaded.view, tileX, tileY), scratch, frame);
+      tile.atTerminator = scratch.atTerminator;
       if (scratch.rays > 0)
       {
         allRays.fetch_add(scratch.rays, std::memory_order_relaxed);

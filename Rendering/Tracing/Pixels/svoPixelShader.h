@@ -5,6 +5,7 @@
 #include "svoDarkness.h"
 #include "svoFrame.h"
 #include "svoFrameTiles.h"
+#include "svoKeptTiles.h"
 #include "svoLayeredView.h"
 #include "svoParallel.h"
 #include "svoShadows.h"
@@ -39,9 +40,10 @@ public:
   /// To be called once the eye has traced the scene.
   void prepare(const Scene& scene, ShadowTechnique technique, const LayeredView& eye);
 
-  /// Writes the tiles with hits. Counts its shadow rays.
-  void shade(const ShadedScene& shaded, const ParallelFor& parallelFor, Frame& frame,
-    FrameStatistics& statistics);
+  /// Writes the tiles with hits that are stale, and notes which are at the terminator. Counts its
+  /// shadow rays.
+  void shade(const ShadedScene& shaded, const ParallelFor& parallelFor, KeptTiles& kept,
+    Frame& frame, FrameStatistics& statistics);
 
   /// After shade() with FrameSettings::antiAliasing. Counts its rays.
   void smoothEdges(const ShadedScene& shaded, const ParallelFor& parallelFor, Frame& frame,
@@ -74,6 +76,7 @@ public:
     float missed[TilePatch::Most];      // by pixel: of one light
     Darkness darkness[TilePatch::Most]; // by pixel
     std::uint64_t rays;                 // of shadows
+    bool atTerminator;                  // some points asked elsewhere, too
   };
 
   /// After shade(): colours the points of hits anywhere in a tile, patch by patch: sets `colors`

@@ -27,6 +27,9 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
 {
   const std::vector<View>& views = maps.views;
   const std::uint8_t* casters = maps.casters.data() + first; // this scene's
+  const bool sameBias =
+    this->AutomaticBias == settings.automaticBias && this->Bias == settings.bias;
+  this->SameMaps = sameBias && this->Faces.size() == views.size();
   this->setBias(settings);
   if (this->Faces.size() != views.size())
   {
@@ -37,11 +40,15 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
       this->Faces.push_back(std::make_unique<Face>());
     }
   }
+  const std::vector<double> voxels = std::move(this->CasterVoxel);
+  const std::vector<double> errors = std::move(this->CasterError);
   this->CasterVoxel.assign(scene.instances.size() + scene.receivers.size(), 0.0);
   this->CasterError.assign(this->CasterVoxel.size(), 0.0);
   for (std::size_t i = 0; i < views.size(); ++i)
   {
     Face& face = *this->Faces[i];
+    const bool sawCasters = face.seesCasters;
+    this->SameMaps = this->SameMaps && sameRays(face.view, views[i]);
     face.view = views[i];
     if (face.shared.merged() || !settings.wholeShadowBuffers)
     {
@@ -56,6 +63,7 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
       [&](const Instance& instance, const LocalView& local)
       { return selectLevel(instance, local, face.view, settings.pixelError); },
       settings.frameCoherence, budget);
+    this->SameMaps = this->SameMaps && sawCasters == face.seesCasters;
     for (std::size_t k = 0; k < scene.instances.size(); ++k)
     {
       const Instance& instance = scene.instances[k];
@@ -79,6 +87,7 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
       tile.store(0, std::memory_order_relaxed);
     }
   }
+  this->SameMaps = this->SameMaps && voxels == this->CasterVoxel && errors == this->CasterError;
 }
 
 glm::ivec2 ShadowBuffer::Place::neighbour(int i) const
@@ -135,7 +144,7 @@ bool ShadowBuffer::knows(const glm::dvec3& position) const
   return known;
 }
 
-bool ShadowBuffer::Face::want(const MapPlaces& places)
+bool ShadowBuffer::Face::want(const MapPlaces& places, LightTile name, LightTiles& noted)
 {
   constexpr float Around = 0.5f; // the test asks the four texels whose centres surround a point
   const MapTiles box = tilesOf(places, this->view, Around);
@@ -150,25 +159,32 @@ bool ShadowBuffer::Face::want(const MapPlaces& places)
   {
     for (int x = box.x0; x <= box.x1; ++x)
     {
-      std::atomic<std::uint8_t>& tile = this->wanted[y * tilesAcross + x];
-      if ((tiles >> (8 * (y - box.y0) + x - box.x0) & 1) && !tile.load(std::memory_order_relaxed))
+      if (tiles >> (8 * (y - box.y0) + x - box.x0) & 1)
       {
-        tile.store(1, std::memory_order_relaxed);
+        name.tile = static_cast<std::uint32_t>(y * tilesAcross + x);
+        noted.push_back(name);
+        std::atomic<std::uint8_t>& tile = this->wanted[name.tile];
+        if (!tile.load(std::memory_order_relaxed))
+        {
+          tile.store(1, std::memory_order_relaxed);
+        }
       }
     }
   }
   return true;
 }
 
-void ShadowBuffer::mark(const TilePatch& patch)
+void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles& noted)
 {
   std::uint64_t left = patch.mask, single = 0;
-  for (auto& face : this->Faces)
+  for (std::size_t f = 0; f < this->Faces.size(); ++f)
   {
+    const std::unique_ptr<Face>& face = this->Faces[f];
     MapPlaces places;
     placeInMap(face->view, face->worldToClip, patch, left, places);
     single |= left & ~(places.inside | places.outside);
-    if (places.inside != 0 && face->seesCasters && !face->want(places))
+    if (places.inside != 0 && face->seesCasters &&
+      !face->want(places, { light, static_cast<std::uint16_t>(f), 0 }, noted))
     {
       single |= places.inside;
     }
@@ -184,9 +200,15 @@ void ShadowBuffer::mark(const TilePatch& patch)
       Place place;
       if (this->lookUp(patch.position(i), place))
       {
+        const auto face = std::find_if(this->Faces.begin(), this->Faces.end(),
+          [&](const std::unique_ptr<Face>& f) { return f.get() == place.face; });
         tilesAround(place,
           [&](std::size_t tile)
-          { const_cast<Face*>(place.face)->wanted[tile].store(1, std::memory_order_relaxed); });
+          {
+            noted.push_back({ light, static_cast<std::uint16_t>(face - this->Faces.begin()),
+              static_cast<std::uint32_t>(tile) });
+            this->mark(noted.back());
+          });
       }
     });
 }

@@ -6,6 +6,7 @@
 #include "svoFrame.h"
 #include "svoLayeredView.h"
 #include "svoLightDetail.h"
+#include "svoLightTile.h"
 #include "svoProcesses.h"
 #include "svoScene.h"
 #include "svoSharedDepth.h"
@@ -39,7 +40,19 @@ public:
 
   /// Notes the 8x8 light tiles that the points of a patch will look up, and perhaps a few more.
   /// Thread-safe.
-  void mark(const TilePatch& patch);
+  void mark(const TilePatch& patch, std::uint16_t light, LightTiles& noted);
+  /// A tile that was noted in the last frame, when the maps were the same.
+  void mark(const LightTile& noted)
+  {
+    this->Faces[noted.map]->wanted[noted.tile].store(1, std::memory_order_relaxed);
+  }
+  /// True if the maps are those of the last frame, and what they show is tested alike.
+  bool sameMaps() const { return this->SameMaps; }
+  /// After trace(): true if the tile does not show what it showed.
+  bool changed(const LightTile& noted) const
+  {
+    return this->Faces[noted.map]->layers.tiles().isStale(noted.tile);
+  }
   /// Every tile will be looked up.
   void markAll();
 
@@ -110,7 +123,7 @@ private:
     std::shared_ptr<const std::vector<float>> copyDepth(double base) const;
     /// Notes the tiles around points that are inside: few, or one by one. False if there are too
     /// many to be noted here.
-    bool want(const MapPlaces& places);
+    bool want(const MapPlaces& places, LightTile name, LightTiles& noted);
     void findNearest(const ParallelFor& parallelFor);
     /// No more than what lies at a box of texels; minus infinity if that is not known, or too many.
     float nearestIn(const MapPlaces& box) const;
@@ -183,6 +196,7 @@ private:
   std::vector<double> CasterError; // world
   bool AutomaticBias = true;
   double Bias = 0.0;
+  bool SameMaps = false;
 };
 }
 

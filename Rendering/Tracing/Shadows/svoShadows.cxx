@@ -54,6 +54,7 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
   this->CoarsestTexel = 0.0;
   this->HasFewerTexels = false;
   this->Traced = true;
+  this->BuffersBefore.assign(this->Buffers.begin(), this->Buffers.end());
   this->Buffers.assign(lights.size(), nullptr);
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> kept;
   for (std::size_t i = 0; i < lights.size(); ++i)
@@ -93,18 +94,38 @@ void Shadows::release()
   this->SharedState.clear();
 }
 
-void Shadows::mark(const TilePatch& patch)
+void Shadows::mark(const TilePatch& patch, LightTiles& noted)
 {
-  if (!this->TracesWhole)
+  for (std::size_t l = 0; l < this->Buffers.size(); ++l)
   {
-    for (ShadowBuffer* buffer : this->Buffers)
+    if (this->Buffers[l])
     {
-      if (buffer)
-      {
-        buffer->mark(patch);
-      }
+      this->Buffers[l]->mark(patch, static_cast<std::uint16_t>(l), noted);
     }
   }
+}
+
+void Shadows::mark(const LightTiles& noted)
+{
+  for (const LightTile& tile : noted)
+  {
+    assert(this->Buffers[tile.light]);
+    this->Buffers[tile.light]->mark(tile);
+  }
+}
+
+bool Shadows::sameMaps() const
+{
+  return this->Buffers.size() == this->BuffersBefore.size() &&
+    std::equal(this->Buffers.begin(), this->Buffers.end(), this->BuffersBefore.begin(),
+      [](const ShadowBuffer* now, const ShadowBuffer* before)
+      { return now == before && (!now || now->sameMaps()); });
+}
+
+bool Shadows::changed(const LightTiles& noted) const
+{
+  return std::any_of(noted.begin(), noted.end(),
+    [this](const LightTile& tile) { return this->Buffers[tile.light]->changed(tile); });
 }
 
 void Shadows::trace(const ParallelFor& parallelFor)

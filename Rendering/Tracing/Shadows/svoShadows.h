@@ -43,9 +43,17 @@ public:
 
   /// Notes what visible points will look up. Which side of them is lit does not matter: light tiles
   /// that only unlit sides look up are few. Thread-safe.
-  void mark(const TilePatch& patch);
+  void mark(const TilePatch& patch, LightTiles& noted);
+  /// The same, of what was noted in the last frame, when the maps were the same.
+  void mark(const LightTiles& noted);
+  /// True if all maps are those of the last frame, and what they show is tested alike.
+  bool sameMaps() const;
+  /// After trace(): true if any of these tiles does not show what it showed in the last frame.
+  bool changed(const LightTiles& noted) const;
   /// True if mark() does anything.
   bool wantsMarks() const { return !this->TracesWhole && this->Casting; }
+  /// True if shading looks up nothing but what mark() notes, where points are no special ones.
+  bool notesAll() const { return !this->UsesRays && !this->Filters; }
 
   void trace(const ParallelFor& parallelFor);
 
@@ -105,7 +113,8 @@ private:
   bool TracesWhole = false;      // every tile is traced
   bool Casting = false;          // there are buffers
   bool Filters = false;
-  std::vector<ShadowBuffer*> Buffers; // by index into Scene::lights; null: no buffer
+  std::vector<ShadowBuffer*> Buffers;             // by index into Scene::lights; null: no buffer
+  std::vector<const ShadowBuffer*> BuffersBefore; // of the last frame
   std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> Kept; // by Light::id
   std::unique_ptr<ShadowRays> Rays;
   std::vector<unsigned char> SharedState; // inputs of the shared buffers in Kept; empty: not shared

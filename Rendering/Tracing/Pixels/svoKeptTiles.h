@@ -1,0 +1,70 @@
+// Which tiles of a frame need not be shaded again: those whose hits, looks and lights are what they
+// were, and the tiles of the lights' maps that they look up as well. Then their pixels are, to the
+// bit.
+#ifndef svoKeptTiles_h
+#define svoKeptTiles_h
+
+#include "svoLightTile.h"
+#include "svoView.h"
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace svo
+{
+class KeptTiles
+{
+public:
+  struct Tile
+  {
+    bool stale = true;         // its hits or their looks are not what they were
+    bool atTerminator = false; // some of its points ask elsewhere, too (svoTerminator.h)
+    LightTiles looksUp;
+  };
+
+  /// `all`: none is kept.
+  void beginFrame(int tilesX, int tilesY, bool all)
+  {
+    const std::size_t count = static_cast<std::size_t>(tilesX) * tilesY;
+    this->TilesX = tilesX;
+    if (this->Tiles.size() != count)
+    {
+      this->Tiles.assign(count, Tile());
+    }
+    for (Tile& tile : this->Tiles)
+    {
+      tile.stale = all;
+    }
+  }
+  /// What a rectangle, of whole tiles, shows has changed.
+  void touch(const PixelRect& rect)
+  {
+    assert(((rect.x0 | rect.y0 | rect.x1 | rect.y1) & 7) == 0);
+    for (int y = rect.y0 / 8; y < rect.y1 / 8; ++y)
+    {
+      for (int x = rect.x0 / 8; x < rect.x1 / 8; ++x)
+      {
+        this->at(x, y).stale = true;
+      }
+    }
+  }
+  Tile& at(int tileX, int tileY)
+  {
+    return (*this)[static_cast<std::size_t>(tileY) * this->TilesX + tileX];
+  }
+  Tile& operator[](std::size_t tile)
+  {
+    assert(tile < this->Tiles.size());
+    return this->Tiles[tile];
+  }
+  std::size_t size() const { return this->Tiles.size(); }
+
+private:
+  int TilesX = 0;
+  std::vector<Tile> Tiles;
+};
+}
+
+#endif

@@ -1,0 +1,19 @@
+// A tile of 8x8 texels of a light's map, by name.
+#ifndef svoLightTile_h
+#define svoLightTile_h
+
+#include <cstdint>
+#include <vector>
+
+namespace svo
+{
+struct LightTile
+{
+  std::uint16_t light; // index into Scene::lights
+  std::uint16_t map;   // of the light
+  std::uint32_t tile;  // of the map
+};
+using LightTiles = std::vector<LightTile>;
+}
+
+#endif
