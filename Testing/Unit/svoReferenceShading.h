@@ -37,7 +37,9 @@ inline Arriving arriving(const Lighting& lighting, const ViewLight& l, const glm
     if (l.light->hasCone())
     {
       const float cosine = glm::dot(light.direction, l.direction);
-      light.attenuation *= coneLane(static_cast<float>(l.light->exponent), l.coneCosine, cosine);
+      const float exponent = static_cast<float>(l.light->exponent);
+      light.attenuation *=
+        coneLane(exponent == 1.0f ? cosine : powLane(cosine, exponent), l.coneCosine, cosine);
     }
   }
   const glm::vec3 fromEye = glm::vec3(origin - lighting.eye) + way;

@@ -47,11 +47,10 @@ inline ArrivingLane arriveLane(
 }
 
 /// Share of the light of a lamp with a cone that it sends `cosine` off its axis. `coneCosine`: of
-/// the half angle; `exponent`: of the fall-off.
-inline float coneLane(float exponent, float coneCosine, float cosine)
+/// the half angle; `fallen`: the cosine to the power of the fall-off, which is mostly itself.
+inline float coneLane(float fallen, float coneCosine, float cosine)
 {
-  const float share = exponent == 1.0f ? cosine : powLane(cosine, exponent);
-  return cosine >= coneCosine ? share : 0.0f;
+  return cosine >= coneCosine ? fallen : 0.0f;
 }
 
 /// Share of the light that the surface scatters.

@@ -30,8 +30,8 @@ void PixelShader::prepare(const Scene& scene, ShadowTechnique technique, const L
   }
 }
 
-/// Asks once more for those points that light l reaches though their facets turn away from it, or
-/// are dark and nearly do. each(i, darkness): of point i, what it takes in addition to what it has.
+/// Calls each(i, point, at) for those points that have to be asked for once more, at another place:
+/// light l reaches them though their facets turn away from it, or they are dark and nearly do.
 template <class Each>
 void PixelShader::eachTerminator(std::size_t l, const Lit& lit, std::uint64_t reached,
   std::uint64_t dark, Scratch& scratch, Each&& each) const

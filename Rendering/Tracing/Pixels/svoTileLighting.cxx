@@ -94,6 +94,7 @@ void attenuateByCone(const ViewLight& from, const TilePatch& p, Arriving& a)
 {
   const glm::vec3 axis = from.direction;
   const float exponent = static_cast<float>(from.light->exponent), coneCosine = from.coneCosine;
+  alignas(64) float cosines[TilePatch::Most], fallen[TilePatch::Most];
   for (int i = 0; i < TilePatch::Most; i += Step)
   {
     if (!p.has(i))
@@ -102,7 +103,15 @@ void attenuateByCone(const ViewLight& from, const TilePatch& p, Arriving& a)
     }
     for (int k = i; k < i + Step; ++k)
     {
-      a.attenuation[k] *= coneLane(exponent, coneCosine, glm::dot(a.direction(k), axis));
+      cosines[k] = fallen[k] = glm::dot(a.direction(k), axis);
+    }
+    for (int k = i; exponent != 1.0f && k < i + Step; ++k)
+    {
+      fallen[k] = powLane(cosines[k], exponent);
+    }
+    for (int k = i; k < i + Step; ++k)
+    {
+      a.attenuation[k] *= coneLane(fallen[k], coneCosine, cosines[k]);
     }
   }
 }

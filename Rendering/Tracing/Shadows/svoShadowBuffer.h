@@ -125,6 +125,12 @@ private:
     /// many to be noted here.
     bool want(const MapPlaces& places, LightTile name, LightTiles& noted);
     void findNearest(const ParallelFor& parallelFor);
+    /// Where it is known what is nearest.
+    MapTexels texels() const
+    {
+      const DepthBuffer& depth = this->layers.depthBuffer();
+      return { depth.tilesX, this->nearest.data(), depth.t.data(), depth.instance.data() };
+    }
     /// No more than what lies at a box of texels; minus infinity if that is not known, or too many.
     float nearestIn(const MapPlaces& box) const;
 
@@ -185,6 +191,8 @@ private:
   static double boxWidth(const Place& place, double extent);
   /// The texels of the window hold nothing, or one surface without steps and creases.
   bool isFlat(const Place& place, double width) const;
+  /// Of points that are sure, those around which it is, as far as patches can tell.
+  std::uint64_t flat(const Face& face, const MapPlaces& places, const double* extents) const;
   /// What lies at a texel, followed to the point in the way that the map shows from the texel
   /// beyond, passes behind the point: it is the other side of a crease and no occluder.
   bool endsBefore(const Place& place, const glm::ivec2& texel, double error) const;

@@ -53,14 +53,11 @@ std::uint64_t ShadowBuffer::occluders(
   { return static_cast<float>(this->Bias * this->CasterVoxel[caster]); };
   const auto errorOf = [&](std::uint32_t caster)
   { return static_cast<float>(std::max(this->CasterError[caster], error)); };
-  const DepthBuffer& depth = face.layers.depthBuffer();
   TexelOccluders occluders;
   std::uint64_t found = 0, same = 0;
   if (!face.nearest.empty())
   {
-    found =
-      lookUpTexels({ depth.tilesX, face.nearest.data(), depth.t.data(), depth.instance.data() },
-        places, occluders, same);
+    found = lookUpTexels(face.texels(), places, occluders, same);
   }
   if (found != 0 && found == same)
   {
@@ -76,7 +73,8 @@ std::uint64_t ShadowBuffer::occluders(
     {
       std::uint32_t caster;
       double occluder;
-      if (face.occluder(depth.at(places.column(i), places.row(i)), caster, occluder))
+      if (face.occluder(
+            face.layers.depthBuffer().at(places.column(i), places.row(i)), caster, occluder))
       {
         something |= std::uint64_t(1) << i;
         tests.occluder[i] = static_cast<float>(occluder - places.t0);

@@ -140,7 +140,17 @@ void ShadowBuffer::darkness(const TilePatch& patch, double error, const double* 
   {
     darkness[i] = dark >> i & 1 ? 1.0f : 0.0f;
   }
-  eachBit(this->AutomaticBias ? asked : 0,
+  std::uint64_t left = asked, bent = 0;
+  for (std::size_t k = 0; k < this->Faces.size() && this->AutomaticBias && left != 0; ++k)
+  {
+    const Face& face = *this->Faces[k];
+    MapPlaces places;
+    placeInMap(face.view, face.worldToClip, patch, left, places);
+    bent |= left & ~(places.inside | places.outside);
+    left &= places.outside;
+    bent |= face.seesCasters ? places.inside & ~this->flat(face, places, extents) : 0;
+  }
+  eachBit(bent,
     [&](int i)
     {
       Place place;
@@ -153,5 +163,18 @@ void ShadowBuffer::darkness(const TilePatch& patch, double error, const double* 
         }
       }
     });
+}
+
+std::uint64_t ShadowBuffer::flat(
+  const Face& face, const MapPlaces& places, const double* extents) const
+{
+  // Wider windows are looked at one by one.
+  const double narrowest =
+    0.999 * std::min(face.edge(places.t0 + places.lowT), face.edge(places.t0 + places.highT));
+  std::uint64_t narrow = 0;
+  eachBit(places.sure, [&](int i) { narrow |= std::uint64_t(extents[i] < narrowest) << i; });
+  return face.nearest.empty() || narrow == 0
+    ? 0
+    : flatWindows(face.view, face.edge, face.texels(), places, narrow);
 }
 }

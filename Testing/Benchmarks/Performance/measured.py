@@ -95,4 +95,5 @@ def overtaking(rows):
                 if both:
                     points.append((count, both))
             result[name.format(camera)] = points
-    return {name: [p for p in points if p[1]] for name, points in result.items() if points}
+    result = {name: [p for p in points if p[1]] for name, points in result.items()}
+    return {name: points for name, points in result.items() if points}

@@ -76,7 +76,9 @@ public:
 
   void begin(Situation situation, const paper::Viewpoint& view)
   {
-    this->pose(Situation::Nothing, view, 0, 1);
+    this->Shown.setFrame(0);
+    this->turn(this->Shown.experiment().a.size(), 0.0);
+    this->Shown.setView(view);
     if (this->Pass)
     {
       this->Pass->SetFrameCoherence(situation != Situation::Retraced);
@@ -145,21 +147,37 @@ public:
   }
 
 private:
+  /// Sets what moves, and touches nothing else: whoever keeps something goes by what was modified.
   void pose(Situation situation, const paper::Viewpoint& view, int frame, int frames)
   {
     const std::size_t count = this->Shown.experiment().a.size();
-    const bool alone = count == 0; // B walks in place of an A that turns
-    const int step =
-      situation == Situation::Retraced ? frame * paper::Scene::period() / frames : frame;
-    const bool animated = situation == Situation::Retraced || situation == Situation::All ||
-      (situation == Situation::One && alone);
-    this->Shown.setFrame(animated ? step : 0);
-    for (std::size_t i = 0; i < count && situation != Situation::Retraced; ++i)
+    switch (situation)
     {
-      const bool turns = situation == Situation::All || (situation == Situation::One && i == 0);
-      this->Shown.turnA(i, turns ? DegreesPerFrame * frame : 0.0);
+      case Situation::Retraced:
+        this->Shown.setFrame(frame * paper::Scene::period() / frames);
+        break;
+      case Situation::All:
+        this->Shown.setFrame(frame);
+        this->turn(count, DegreesPerFrame * frame);
+        break;
+      case Situation::One:
+        this->turn(1, DegreesPerFrame * frame);
+        break;
+      case Situation::Camera:
+        this->Shown.setView(view, DegreesPerFrame * frame);
+        break;
+      case Situation::Nothing:
+        break;
     }
-    this->Shown.setView(view, situation == Situation::Camera ? DegreesPerFrame * frame : 0.0);
+  }
+
+  /// The first A's.
+  void turn(std::size_t count, double degrees)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      this->Shown.turnA(i, degrees);
+    }
   }
 
   const Method& How;

@@ -27,8 +27,8 @@ def logarithmic(axis, x_ticks=None):
     axis.minorticks_off()
 
 
-def room_for_legend(axis):
-    axis.set_ylim(top=1.35 * axis.get_ylim()[1])
+def room_for_legend(axis, factor=1.35):
+    axis.set_ylim(top=factor * axis.get_ylim()[1])
 
 
 def scenes(rows, folder):
@@ -125,6 +125,8 @@ def overtakes(rows, folder):
         axis.plot([x for x, _ in points], [y for _, y in points], "o" + style, color=colour,
                   label=name.replace("frames, ", ""), markersize=3.5, linewidth=1)
     for axis in axes:
+        axis.set_yscale("log")
+        room_for_legend(axis, 12.0)
         logarithmic(axis)
         axis.axhline(1.0, color="black", linewidth=0.8)
         label(axis, "triangles", "times as fast")

@@ -94,12 +94,15 @@ def bars(rows):
     lines = []
     for what, bar, aim, measured, more, form, *by_processor in bar_figures(rows):
         line = [what, ("at least " if more else "at most ") + form(bar), form(aim)]
+        alone = measured is None and by_processor
+        if alone:
+            measured = by_processor[0]
         if measured is None:
             lines.append(line + [MISSING, ""])
             continue
         met = measured >= bar if more else measured <= bar
         missed_by = bar / measured if more else measured / bar
-        note = f" (by processor time {form(by_processor[0])})" if by_processor else ""
+        note = " by processor time" if alone else f" (by processor time {form(by_processor[0])})" if by_processor else ""
         lines.append(line + [form(measured) + note,
                              "met" if met else f"**missed** by {missed_by:.2f}x"])
     return table(["what", "bar", "aim", "measured", ""], lines)
