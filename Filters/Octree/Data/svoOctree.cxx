@@ -167,8 +167,13 @@ void Octree::derive()
 {
   this->Upper =
     std::make_shared<UpperLevels>(makeUpperLevels(this->header(), this->nodes(), this->Size));
-  this->Lists =
-    std::make_shared<ShortLists>(this->Triangles ? makeShortLists(*this) : ShortLists());
+  auto lists = std::make_shared<FromLists>();
+  if (this->Triangles)
+  {
+    lists->shortLists = makeShortLists(*this);
+    lists->representatives = KeptRepresentatives(this->header(), this->nodes());
+  }
+  this->Lists = std::move(lists);
 }
 
 std::size_t Octree::bytes() const

@@ -2,6 +2,7 @@
 #ifndef svoOctree_h
 #define svoOctree_h
 
+#include "svoKeptRepresentatives.h"
 #include "svoLayout.h"
 #include "svoShortLists.h"
 #include "svoSurface.h"
@@ -58,8 +59,10 @@ public:
   /// Dense tables of the upper levels, for the block queries.
   const UpperLevels& upperLevels() const { return *this->Upper; }
   /// The highest nodes with few triangles, for the tile queries; only where there is a surface.
-  const ShortLists& shortLists() const { return *this->Lists; }
-  /// Bytes of the buffer, the surface, the tables of the upper levels and the short lists.
+  const ShortLists& shortLists() const { return this->Lists->shortLists; }
+  /// What rays have found out about voxels; keeps none where there is no surface.
+  const KeptRepresentatives& representatives() const { return this->Lists->representatives; }
+  /// Bytes of the buffer, the surface and all that is derived from them.
   std::size_t bytes() const;
 
   /// Edge of the root cube (octree coordinates [1, 2)) in the local frame.
@@ -103,6 +106,12 @@ public:
 
 private:
   friend class WeakOctree;
+  struct FromLists
+  {
+    ShortLists shortLists;
+    KeptRepresentatives representatives;
+    std::size_t bytes() const { return this->shortLists.bytes() + this->representatives.bytes(); }
+  };
   void derive(); // what is not stored
 
   std::shared_ptr<const std::byte> Data;
@@ -111,7 +120,7 @@ private:
   std::uint32_t Longest = 0;
   std::shared_ptr<const Surface> Triangles;
   std::shared_ptr<const UpperLevels> Upper;
-  std::shared_ptr<const ShortLists> Lists;
+  std::shared_ptr<const FromLists> Lists;
 };
 
 /// Finds an open octree that has a surface again, for as long as somebody keeps it.
@@ -151,7 +160,7 @@ private:
   std::uint32_t Longest = 0;
   std::weak_ptr<const Surface> Triangles;
   std::weak_ptr<const UpperLevels> Upper;
-  std::weak_ptr<const ShortLists> Lists;
+  std::weak_ptr<const Octree::FromLists> Lists;
 };
 }
 

@@ -11,6 +11,7 @@
 #include "svoIntersectBlock.h"
 #include "svoIntersectScalar.h"
 #include "svoLeafGeometry.h"
+#include "svoPacketCells-inl.h"
 #include "svoPacketLeaf-inl.h"
 #include "svoPacketWalk-inl.h"
 
@@ -115,7 +116,7 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
     const DI di;
     const DU du;
     const Lanes none = hn::Ne(p.size, p.size);
-    const Lists lists = findLists(target, p, arrived);
+    const Lists lists = findLists(target, p.node, arrived);
     Lanes triangles = none;
     if (query.leaf.exact())
     {
@@ -136,17 +137,13 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
     const bool anyOther = !hn::AllFalse(di, others);
     if (anyOther)
     {
-      const I found = representatives(target, p, lists, others);
-      hn::Store(hn::BitCast(du, found), du, primitives);
-      if (query.leaf.shape == CellShape::Cube)
-      {
-        hitT = hn::IfThenElse(hn::RebindMask(df, others), p.t, hitT);
-        hitId = hn::IfThenElse(others, found, hitId);
-      }
+      ArrivedCells cells;
+      note(target, p, others, 0, cells);
+      representatives(query, target, cells, primitives);
     }
     hn::Store(hitT, df, hits.out.t + first);
     hn::Store(hn::BitCast(du, hitId), du, hits.out.primitive + first);
-    if (anyOther && query.leaf.shape != CellShape::Cube)
+    if (anyOther)
     {
       const Verdict planes =
         meetOneByOne(query, target, rays, anyHit, first, others, leave, primitives, p, hits);
@@ -190,6 +187,45 @@ HWY_INLINE void walkBoth(const WalkTarget& walkTarget, Packet& first, Packet& se
   second = b;
 }
 
+#if SVO_PACKET_LEAVES
+/// Whether every cell ends its ray as a cube of which only the triangle is not known yet.
+bool onlyCubes(const LeafQuery& query, const WalkTarget& target)
+{
+  return target.points != nullptr && query.leaf.shape == CellShape::Cube && !query.leaf.exact();
+}
+
+/// The whole trace of a block where onlyCubes().
+template <bool Groups>
+HWY_INLINE void traceCubes(const LeafQuery& query, const WalkTarget& target, const RayBlock& rays,
+  bool anyHit, HitBlock& hits)
+{
+  const DF df;
+  const int n = static_cast<int>(hn::Lanes(df));
+  ArrivedCells cells;
+  for (int first = 0; first < RayBlock::Size; first += 2 * n)
+  {
+    Packet a = makePacket(target, rays, first);
+    Packet b = makePacket(target, rays, first + n);
+    walkBoth<Groups>(target, a, b);
+    const Lanes arrivedA = hn::Not(a.dead);
+    const Lanes arrivedB = hn::Not(b.dead);
+    hn::Store(hn::IfThenElseZero(hn::RebindMask(df, arrivedA), a.t), df, hits.t + first);
+    hn::Store(hn::IfThenElseZero(hn::RebindMask(df, arrivedB), b.t), df, hits.t + first + n);
+    note(target, a, arrivedA, first, cells);
+    note(target, b, arrivedB, first + n, cells);
+  }
+  if (anyHit)
+  {
+    for (int i = 0; i < cells.count; ++i)
+    {
+      hits.primitive[cells.ray[i]] = 0;
+    }
+    return;
+  }
+  representatives(query, target, cells, hits.primitive);
+}
+#endif
+
 template <bool Groups>
 HWY_INLINE void traceTwo(const LeafQuery& query, const WalkTarget& target, const RayBlock& rays,
   bool anyHit, int first, BlockHits& hits)
@@ -225,6 +261,14 @@ void traceBlock(const LeafQuery& query, const WalkTarget& target, const RayBlock
   HitBlock& hits)
 {
   BlockHits found(hits);
+#if SVO_PACKET_LEAVES
+  if (onlyCubes(query, target))
+  {
+    target.groups ? traceCubes<true>(query, target, rays, anyHit, hits)
+                  : traceCubes<false>(query, target, rays, anyHit, hits);
+    return;
+  }
+#endif
   const int n = static_cast<int>(hn::Lanes(DF()));
   assert(RayBlock::Size % (2 * n) == 0);
   for (int i = 0; i < RayBlock::Size; i += 2 * n)
@@ -286,6 +330,10 @@ WalkTarget walkTarget(const LeafQuery& query)
     target.points = &surface->points.data()->x;
     target.triangles = &surface->triangles.data()->x;
     target.listBegin = static_cast<int>(4 * octree.header().nodeCount);
+    if (!target.groups && octree.representatives())
+    {
+      target.kept = &octree.representatives();
+    }
   }
   assert(target.tableBits >= 0 && !upper.tables[table].empty());
   assert(target.cellSize == target.stopSize + target.groups);

@@ -2,6 +2,7 @@
 #ifndef svoIntersectBlock_h
 #define svoIntersectBlock_h
 
+#include "svoKeptRepresentatives.h"
 #include "svoLeafGeometry.h"
 #include "svoNode.h"
 #include "svoRay.h"
@@ -24,11 +25,12 @@ struct WalkTarget
   float high = 2.0f;                    // upper corner of the octree's cube; the lower one is 1
 
   // For leaves that are settled side by side; null pointers where they cannot be.
-  const float* points = nullptr;            // of the surface, 3 each
-  const std::uint32_t* triangles = nullptr; // likewise
-  int listBegin = 0;                        // index of the octree's lists, in words from `nodes`
-  int cellSize = 0;                         // of the cells where rays stop
-  float touchedHalf = 0.0f;                 // see touchedHalf()
+  const float* points = nullptr;             // of the surface, 3 each
+  const std::uint32_t* triangles = nullptr;  // likewise
+  int listBegin = 0;                         // index of the octree's lists, in words from `nodes`
+  int cellSize = 0;                          // of the cells where rays stop
+  float touchedHalf = 0.0f;                  // see touchedHalf()
+  const KeptRepresentatives* kept = nullptr; // if the cells are voxels
 };
 
 /// The hits of a block while it is traced, and what LeafHit keeps besides.

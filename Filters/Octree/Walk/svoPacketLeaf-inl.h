@@ -51,11 +51,11 @@ struct Lists
   I inlineId;
 };
 
-HWY_INLINE Lists findLists(const WalkTarget& target, const Packet& p, Lanes lanes)
+HWY_INLINE Lists findLists(const WalkTarget& target, I node, Lanes lanes)
 {
   const DI di;
   const DU du;
-  const I reference = firstChild(target.nodes, p);
+  const I reference = firstChild(target.nodes, node);
   const Lanes single = hn::Lt(reference, hn::Zero(di)); // InlineTriangle is the sign
   const I header = hn::IfThenZeroElse(single, hn::Add(reference, hn::Set(di, target.listBegin)));
   const auto* words = reinterpret_cast<const std::uint32_t*>(target.nodes);
@@ -107,8 +107,8 @@ HWY_INLINE void gatherTriangle(const WalkTarget& target, I id, Vec3& a, Vec3& b,
   c = gather(2);
 }
 
-/// Centres of the cells of 2^exponent where the lanes are.
-HWY_INLINE Vec3 cellCentres(const Packet& p, int exponent)
+/// Centres of the cells of 2^exponent at these positions.
+HWY_INLINE Vec3 cellCentres(I x, I y, I z, int exponent)
 {
   const DF df;
   const DI di;
@@ -116,24 +116,18 @@ HWY_INLINE Vec3 cellCentres(const Packet& p, int exponent)
   const I half = hn::Set(di, 1 << (exponent - 1));
   const auto centre = [&](I position)
   { return hn::BitCast(df, hn::Add(hn::AndNot(inside, position), half)); };
-  return { centre(p.x), centre(p.y), centre(p.z) };
+  return { centre(x), centre(y), centre(z) };
 }
 
-/// nearestPlaneTriangle() of svoLeafGeometry.h.
-HWY_INLINE I representatives(
-  const WalkTarget& target, const Packet& p, const Lists& lists, Lanes lanes)
+/// nearestPlaneTriangle() of svoLeafGeometry.h for the cells at these positions, as places in the
+/// lists.
+HWY_INLINE I representatives(const WalkTarget& target, I x, I y, I z, const Lists& lists)
 {
   const DF df;
   const DI di;
-  I best = triangleId(target, lists, 0, lanes);
-  const Lanes several = hn::And(lanes, hn::Gt(lists.count, hn::Set(di, 1)));
-  if (hn::AllFalse(di, several))
-  {
-    return best;
-  }
-  const I count = hn::IfThenElseZero(
-    several, hn::Min(lists.count, hn::Set(di, static_cast<int>(RepresentativeCandidates))));
-  const Vec3 centre = cellCentres(p, target.cellSize);
+  I best = hn::Zero(di);
+  const I count = hn::Min(lists.count, hn::Set(di, static_cast<int>(RepresentativeCandidates)));
+  const Vec3 centre = cellCentres(x, y, z, target.cellSize);
   const F half = hn::Set(df, target.touchedHalf);
   const F minusHalf = hn::Set(df, -target.touchedHalf);
   auto bestTouches = hn::RebindMask(df, hn::Ne(best, best));
@@ -166,7 +160,7 @@ HWY_INLINE I representatives(
     const auto better = hn::Or(hn::AndNot(bestTouches, touches), nearer);
     const auto take =
       hn::And(hn::And(better, hn::Gt(length2, hn::Zero(df))), hn::RebindMask(df, active));
-    best = hn::IfThenElse(hn::RebindMask(di, take), id, best);
+    best = hn::IfThenElse(hn::RebindMask(di, take), hn::Set(di, k), best);
     bestDistance = hn::IfThenElse(take, distance, bestDistance);
     bestTouches = hn::Or(hn::And(take, touches), hn::AndNot(take, bestTouches));
   }

@@ -180,12 +180,12 @@ HWY_INLINE void find(const WalkTarget& target, Packet& p, Lanes lost)
 }
 
 /// The first child of each lane's node.
-HWY_INLINE I firstChild(const std::uint64_t* nodes, const Packet& p)
+HWY_INLINE I firstChild(const std::uint64_t* nodes, I node)
 {
   const DI di;
   const DU du;
   const auto* words = reinterpret_cast<const std::uint32_t*>(nodes);
-  const I index = hn::ShiftLeft<2>(hn::Max(p.node, hn::Zero(di)));
+  const I index = hn::ShiftLeft<2>(hn::Max(node, hn::Zero(di)));
   return hn::BitCast(di, hn::GatherIndex(du, words + 2, index));
 }
 
@@ -204,7 +204,7 @@ HWY_INLINE Lanes turn(const WalkTarget& target, Packet& p)
   const Lanes still = hn::Or(hn::And(occupied, bottom), p.dead);
   const Lanes step = hn::Not(hn::Or(occupied, p.dead));
   const Lanes descend = hn::AndNot(still, occupied);
-  const I child = hn::Add(firstChild(target.nodes, p), seen.below);
+  const I child = hn::Add(firstChild(target.nodes, p.node), seen.below);
   const Lanes lost = advance(p, step, exponent);
   p.node = hn::IfThenElse(descend, child, p.node);
   p.size = hn::IfThenElse(descend, hn::Sub(p.size, hn::Set(di, 2)), p.size);
