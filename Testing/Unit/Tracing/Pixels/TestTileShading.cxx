@@ -435,8 +435,14 @@ TEST(TileShading, WhatIsMarkedIsWhatIsLookedUp)
     whole.markAll();
     whole.trace(serialFor);
     marked.prepare(stage.scene, maps, 0, settings, budget);
-    stage.eachPatch([&](const TilePatch& patch) { marked.mark(patch); });
+    svo::LightTiles noted;
+    stage.eachPatch([&](const TilePatch& patch) { marked.mark(patch, 7, noted); });
+    EXPECT_EQ(7, noted.at(0).light);
     marked.trace(serialFor);
+    for (const svo::LightTile& tile : noted)
+    {
+      EXPECT_TRUE(marked.changed(tile));
+    }
     EXPECT_LT(marked.rays(), whole.rays());
     stage.eachSeenPatch(
       [&](const TilePatch& patch)
