@@ -4,6 +4,7 @@
 #include "svoLayeredView.h"
 
 #include "svoPlaceOnTriangles.h"
+#include "svoRayMeetsTriangle.h"
 
 #include <algorithm>
 #include <cassert>

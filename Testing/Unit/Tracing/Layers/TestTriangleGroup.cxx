@@ -4,6 +4,7 @@
 #include "svoIntersectTile.h"
 #include "svoPixelFunctions.h"
 #include "svoProjection.h"
+#include "svoRayMeetsTriangle.h"
 #include "svoTestScenes.h"
 #include "svoTracerScenes.h"
 #include "svoTriangleGroup.h"
