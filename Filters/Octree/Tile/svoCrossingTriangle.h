@@ -128,7 +128,9 @@ inline bool addCrossing(const Surface& surface, std::uint32_t id, const GroupVie
     const glm::dvec3 edge = sign * glm::cross(a, b);
     const double size =
       0.5 * GroupView::Pixels * (std::abs(edge.x) + std::abs(edge.y)) + std::abs(edge.z);
-    const double doubt = error * (reachOf(a) + reachOf(b) + 2.0 * error) + 8.0 * u * size;
+    const double reachA = reachOf(a), reachB = reachOf(b);
+    const double doubt = error * (reachA + reachB + 2.0 * error) +
+      2.0 * view.rounding * reachA * reachB + 8.0 * u * size;
     slots.ex[e][s] = static_cast<float>(edge.x / doubt);
     slots.ey[e][s] = static_cast<float>(edge.y / doubt);
     slots.ec[e][s] = static_cast<float>(edge.z / doubt);

@@ -18,6 +18,7 @@ struct GroupView
   /// How far a corner of a triangle can be from where it is computed, times w: `error`, and
   /// `errorFar` more for each pixel of its distance from the middle.
   float error, errorFar;
+  float rounding;    // and by how much for each pixel of that distance, once w is divided by
   float depthError;  // how far depths of corners can be off
   float apart;       // how far depths of hits have to be apart to be told apart, besides
   float leastW;      // of points whose w is known to a 16th

@@ -24,10 +24,6 @@ namespace svo
 VTKSVOOCTREE_EXPORT void intersectTile(const Octree& octree, const TilePyramid& pyramid,
   const std::vector<TileNode>& nodes, const RayBlock& rays, HitBlock& hits);
 
-/// The same for one ray and one triangle, whatever the ends of the ray: false if it is missed.
-VTKSVOOCTREE_EXPORT bool rayMeetsTriangle(const Surface& surface, const glm::vec3& origin,
-  const glm::vec3& direction, std::uint32_t triangle, float& t);
-
 /// Sets t of rays that hit the triangles that `hits` names, to the same bits as intersectTile().
 VTKSVOOCTREE_EXPORT void depthsOnTriangles(
   const Octree& octree, const RayBlock& rays, HitBlock& hits);

@@ -116,9 +116,10 @@ struct DrawnTriangle
   }
 };
 
-/// `Odd`: of a triangle with flags that matter here.
+/// Returns the pixels where the triangle may be met first. `Odd`: of one with flags that matter
+/// here.
 template <bool Odd>
-HWY_NOINLINE void draw(const TriangleGroup::Slots& slots, const TilePixels& pixels,
+HWY_NOINLINE std::uint64_t draw(const TriangleGroup::Slots& slots, const TilePixels& pixels,
   const DrawnTriangle& t, std::uint64_t box, DrawnTile& tile, std::int32_t* nearest)
 {
   const DF df;
@@ -127,6 +128,7 @@ HWY_NOINLINE void draw(const TriangleGroup::Slots& slots, const TilePixels& pixe
   const F slack = hn::Set(df, t.slack);
   const F infinity = hn::Set(df, std::numeric_limits<float>::infinity());
   constexpr std::size_t Step = hn::MaxLanes(DF());
+  std::uint64_t met = 0;
   for (std::size_t i = 0; i < 64; i += Step)
   {
     if (((box >> i) & (~std::uint64_t(0) >> (64 - Step))) == 0)
@@ -167,10 +169,12 @@ HWY_NOINLINE void draw(const TriangleGroup::Slots& slots, const TilePixels& pixe
     }
     const F upper = hn::Load(df, tile.upper + i);
     maybe = hn::And(maybe, hn::Le(low, upper));
-    if (hn::AllFalse(df, maybe))
+    const std::uint64_t bits = pixelBits(maybe);
+    if (bits == 0)
     {
       continue;
     }
+    met |= bits << i;
     high = hn::IfThenElse(surely, high, infinity);
     const F lower = hn::Load(df, tile.lower + i);
     const F rival = hn::Load(df, tile.rival + i);
@@ -183,6 +187,7 @@ HWY_NOINLINE void draw(const TriangleGroup::Slots& slots, const TilePixels& pixe
       hn::IfThenElse(hn::RebindMask(di, first), hn::Set(di, t.slot), hn::Load(di, nearest + i)), di,
       nearest + i);
   }
+  return met;
 }
 
 HWY_INLINE float highest(const float* v)
@@ -252,12 +257,12 @@ void sortByKey(
   const std::int32_t* selected, float* keys, std::size_t count, std::vector<SeenTriangle>& seen)
 {
   const DF df;
-  constexpr std::size_t Few = 64;
+  constexpr std::size_t Few = 256;
   if (count > Few)
   {
     for (std::size_t k = 0; k < count; ++k)
     {
-      seen[k] = { keys[k], selected[k] };
+      seen[k] = { keys[k], selected[k], 0 };
     }
     std::sort(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count),
       [](const SeenTriangle& a, const SeenTriangle& b) { return a.key < b.key; });
@@ -265,7 +270,7 @@ void sortByKey(
   }
   // Behind the last there is room for a vector.
   hn::StoreU(hn::Set(df, std::numeric_limits<float>::infinity()), df, keys + count);
-  std::uint64_t taken = 0;
+  std::uint64_t taken[Few / 64] = {};
   for (std::size_t k = 0; k < count; ++k)
   {
     const F key = hn::Set(df, keys[k]);
@@ -274,12 +279,12 @@ void sortByKey(
     {
       nearer += hn::CountTrue(df, hn::Lt(hn::LoadU(df, keys + i), key));
     }
-    while (taken >> nearer & 1) // equal keys
+    while (taken[nearer / 64] >> nearer % 64 & 1) // equal keys
     {
       ++nearer;
     }
-    taken |= std::uint64_t(1) << nearer;
-    seen[nearer] = { keys[k], selected[k] };
+    taken[nearer / 64] |= std::uint64_t(1) << nearer % 64;
+    seen[nearer] = { keys[k], selected[k], 0 };
   }
 }
 
@@ -323,11 +328,11 @@ bool nearestInTile(const TriangleGroup::Slots& slots, const TilePixels& pixels, 
     const DrawnTriangle triangle(slots, slot, x, y);
     if (slots.flags[slot] & OddFlags)
     {
-      draw<true>(slots, pixels, triangle, box, tile, found.slot);
+      found.seen[k].pixels = draw<true>(slots, pixels, triangle, box, tile, found.slot);
     }
     else
     {
-      draw<false>(slots, pixels, triangle, box, tile, found.slot);
+      found.seen[k].pixels = draw<false>(slots, pixels, triangle, box, tile, found.slot);
     }
     covered |= box;
     if (~covered == 0 && (k % 4 == 0 || ~box == 0))
@@ -342,7 +347,6 @@ bool nearestInTile(const TriangleGroup::Slots& slots, const TilePixels& pixels, 
     const F upper = hn::Load(df, tile.upper + i);
     const F rival = hn::Load(df, tile.rival + i);
     const F none = hn::Set(df, infinity);
-    hn::Store(upper, df, found.upper + i);
     found.doubtful |= pixelBits(hn::And(hn::Le(rival, upper), hn::Lt(rival, none))) << i;
     any = any || !hn::AllTrue(df, hn::Eq(hn::Min(rival, upper), none));
   }
@@ -381,42 +385,6 @@ bool TriangleGroup::nearest(int column, int row, NearestTriangles& found, std::u
   static const TilePixels pixels;
   return HWY_DYNAMIC_DISPATCH(nearestInTile)(
     this->Arrays, pixels, column, row, found, triangles, owners);
-}
-
-void TriangleGroup::candidates(int column, int row, int ray, const NearestTriangles& found,
-  std::vector<std::int32_t>& slots) const
-{
-  // As draw() does; what rounds differently here is allowed for.
-  const Slots& all = this->Arrays;
-  const float x = tileMiddle(column) + static_cast<float>(ray & 7) - HalfTile;
-  const float y = tileMiddle(row) + static_cast<float>(ray >> 3) - HalfTile;
-  const int px = 8 * column + (ray & 7), py = 8 * row + (ray >> 3);
-  slots.clear();
-  for (const SeenTriangle& seen : found.seen)
-  {
-    if (seen.key > found.upper[ray])
-    {
-      break;
-    }
-    const std::int32_t s = seen.slot;
-    if (px < all.x0[s] || px > all.x1[s] || py < all.y0[s] || py > all.y1[s])
-    {
-      continue;
-    }
-    float least = std::numeric_limits<float>::infinity(), most = -least;
-    for (int e = 0; e < 3; ++e)
-    {
-      const float edge = all.ex[e][s] * x + (all.ey[e][s] * y + all.ec[e][s]);
-      least = std::min(least, edge);
-      most = std::max(most, edge);
-    }
-    const bool maybe = least >= -1.0f || ((all.flags[s] & Thin) && most <= 1.0f);
-    const float low = all.kx[s] * x + (all.ky[s] * y + all.kc[s]) - all.slack[s];
-    if (maybe && low <= found.upper[ray])
-    {
-      slots.push_back(s);
-    }
-  }
 }
 }
 #endif

@@ -5,10 +5,10 @@
 // differently. Whatever either is off by can be put down to corners that are not where they should
 // be. Ray and corner as the test computes them differ from the true ones by the same vectors that a
 // corner a little aside would bring about (svoPixelFunctions.h says how far); from there on its
-// signs are exact. The pixel of a corner is off by the roundings of its projection, and by 16 more
-// that stand for those of the edge functions. Together these are a corner's `shift`, of the order
-// of 1e-4 pixels. Shifting both ends of an edge by so much changes its function, at a point of the
-// box around the triangle, by no more than
+// signs are exact. The pixel of a corner is off by the roundings of its projection, and as if by
+// those of the edge functions, which are relative to how far away corners are. Together these are a
+// corner's `shift`, of the order of 1e-3 pixels. Shifting both ends of an edge by so much changes
+// its function, at a point of the box around the triangle, by no more than
 //
 //   doubt = 2 shift (width + height of the box + 4 shift).
 //
@@ -167,7 +167,7 @@ void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t cou
     const F nearest = most(ai, bi, ci);
     const F shift =
       hn::MulAdd(nearest, hn::MulAdd(far, hn::Set(df, view.errorFar), hn::Set(df, view.error)),
-        hn::Mul(far, hn::Set(df, 16.0f * Rounding)));
+        hn::Mul(far, hn::Set(df, view.rounding)));
 
     // The pixels whose centres lie in the box around it.
     const F middle = hn::Set(df, 0.5f * (GroupView::Pixels - 1));

@@ -20,6 +20,7 @@ struct SeenTriangle
 {
   float key; // no point of it in the tile has a lesser one
   std::int32_t slot;
+  std::uint64_t pixels = 0; // whose rays may meet it first, as far as was known when it was drawn
 };
 
 /// What a tile's 64 rays meet first, as far as that is beyond doubt.
@@ -29,7 +30,6 @@ struct NearestTriangles
 
   alignas(64) std::int32_t slot[64]; // in the group, or None
   std::uint64_t doubtful = 0;        // rays, one bit each, whose slot means nothing
-  alignas(64) float upper[64];       // what a ray meets first has no greater key
   std::vector<SeenTriangle> seen;    // nearest first
 
   // Scratch memory.
@@ -53,10 +53,6 @@ public:
   /// triangles and owners, ~0 where there are none. False if nothing; then nothing is written.
   bool nearest(int column, int row, NearestTriangles& found, std::uint32_t* triangles,
     std::uint32_t* owners) const;
-
-  /// The slots that a ray of the tile may meet first, after nearest().
-  void candidates(int column, int row, int ray, const NearestTriangles& found,
-    std::vector<std::int32_t>& slots) const;
 
   std::uint32_t triangle(std::int32_t slot) const { return this->Arrays.id[slot]; }
   std::uint32_t owner(std::int32_t slot) const { return this->Arrays.owner[slot]; }

@@ -173,7 +173,6 @@ private:
     // The tile.
     NearestTriangles nearest;
     std::vector<std::size_t> counted; // by index into Instances: the tile that rays has last
-    std::vector<std::int32_t> slots;
     std::vector<SeenHit> hits;
     alignas(64) float t[64];
     alignas(64) std::uint32_t instance[64];
@@ -195,9 +194,9 @@ private:
     const NearestTriangles& nearest, MergedTile& hits) const;
   void measureHits(int tileX, int tileY, const TriangleGroup& group,
     const NearestTriangles& nearest, MergedTile& hits) const;
-  /// What one ray meets first of the triangles in scratch.slots; false if nothing.
-  bool traceDoubtful(
-    double x, double y, const TriangleGroup& group, TileScratch& scratch, SeenHit& first) const;
+  /// What a ray of the tile in scratch.nearest meets first, by the float test; false if nothing.
+  bool traceDoubtful(double x, double y, int ray, const TriangleGroup& group, TileScratch& scratch,
+    SeenHit& first) const;
   void order(int tileX, int tileY, TileScratch& scratch);
   bool cutRays(const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const;
   /// Through points x, y of the image; tMin and tMax are set.

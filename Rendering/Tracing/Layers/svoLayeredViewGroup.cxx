@@ -4,6 +4,7 @@
 #include "svoLayeredView.h"
 
 #include "svoPlaceOnTriangles.h"
+#include "svoRayMeetsTriangle.h"
 
 #include <algorithm>
 #include <cassert>
@@ -143,9 +144,8 @@ bool LayeredView::nearestHits(
   {
     const int i = lowest(doubtful);
     const double x = 8 * tileX + (i & 7) + 0.5, y = 8 * tileY + (i >> 3) + 0.5;
-    group.candidates(column, row, i, nearest, scratch.slots);
     SeenHit first;
-    const bool hit = this->traceDoubtful(x, y, group, scratch, first);
+    const bool hit = this->traceDoubtful(x, y, i, group, scratch, first);
     hits.primitive[i] = hit ? first.primitive : NoPrimitive;
     hits.instance[i] = hit ? first.instance : NoInstance;
     hits.t[i] = hit ? first.floatT : 0.0f;
@@ -240,26 +240,31 @@ void LayeredView::measureHits(int tileX, int tileY, const TriangleGroup& group,
   }
 }
 
-bool LayeredView::traceDoubtful(
-  double x, double y, const TriangleGroup& group, TileScratch& scratch, SeenHit& first) const
+bool LayeredView::traceDoubtful(double x, double y, int ray, const TriangleGroup& group,
+  TileScratch& scratch, SeenHit& first) const
 {
   // The nearest of each instance by the float test, as intersectTile() has it.
   scratch.hits.clear();
-  for (const std::int32_t slot : scratch.slots)
+  for (const SeenTriangle& seen : scratch.nearest.seen)
   {
-    const std::uint32_t owner = group.owner(slot);
+    if (!(seen.pixels >> ray & 1))
+    {
+      continue;
+    }
+    const std::uint32_t owner = group.owner(seen.slot);
     const Entry& entry = this->Instances[this->EntryOf[owner]];
     glm::vec3 origin, direction;
     entry.local.ray(x, y, origin, direction);
     float t;
-    if (!rayMeetsTriangle(*entry.octree->surface(), origin, direction, group.triangle(slot), t) ||
+    if (!rayMeetsTriangle(
+          *entry.octree->surface(), origin, direction, group.triangle(seen.slot), t) ||
       !(t >= 0.0f && t <= entry.local.tMax))
     {
       continue;
     }
     const auto same = std::find_if(scratch.hits.begin(), scratch.hits.end(),
       [&](const SeenHit& hit) { return hit.instance == owner; });
-    const SeenHit hit{ owner, group.triangle(slot), 0.0, x, y, t };
+    const SeenHit hit{ owner, group.triangle(seen.slot), 0.0, x, y, t };
     if (same == scratch.hits.end())
     {
       scratch.hits.push_back(hit);

@@ -106,20 +106,22 @@ struct HitLimits
 /// How the group whose lower left tile is (tileX, tileY) sees the cube.
 ///
 /// A float ray and what svoIntersectTile.h makes of it are off like this. u is 2^-24, all numbers
-/// are largest absolute values: m of where rays start, a of a corner minus that, which is 2 a where
-/// it is sheared. Before it is sheared a coordinate of a corner minus the start is off by u m, from
-/// rounding the start, and by u a. The shear, a quotient of two rounded numbers at most 1, is off
-/// by 3 u, and 0.01 u where it was negligible and is cleared. The sheared coordinate is the
-/// difference of one coordinate and of a product, which is rounded as well: it is off by
+/// are largest absolute values: m of where rays start, a of a corner minus that, s of the shear.
+/// Before it is sheared a coordinate of a corner minus the start is off by u m, from rounding the
+/// start, and by u a. The shear, a quotient of two rounded numbers, is off by 3 u s, and 0.01 u
+/// where it was negligible and is cleared. The product of a coordinate and the shear is rounded as
+/// well. So the sheared coordinate, from which that is subtracted, is off by
 ///
-///   u (m + a) + u (m + a + 3.01 a + a) + 2 u a = u (2 m + 8.01 a).
+///   aside = u (m + a) + s u (m + a) + (3 s + 0.01) u a + s u a
+///
+/// and by its own rounding, which is relative to how far the corner lies beside the ray; so are
+/// those of the products of such coordinates by which the weights of the corners are found
+/// (GroupView::rounding).
 ///
 /// As if the corner were so far aside, across the axis along which the ray is longest, the test
-/// decides exactly who is hit. The weights of the corners, by which t is found, are off by the
-/// rounding of products of such coordinates, as if by another 4 u a. That makes u (2 m + 13 a),
-/// with some to spare; and t itself, a weighted mean of the corners' distances along that axis over
-/// the ray's direction, by u (m + 9 a) times what t changes along the axis, and by as much as
-/// corners aside lie deeper.
+/// decides exactly who is hit. t, a weighted mean of the corners' distances along that axis over
+/// the ray's direction, is off by u (m + 9 a) times what t changes along the axis, and by as much
+/// as corners aside lie deeper.
 inline GroupView makeGroupView(const LocalView& local, const PixelFunctions& functions,
   const KeyBase& keys, const HitLimits& limits, int tileX, int tileY)
 {
@@ -140,7 +142,8 @@ inline GroupView makeGroupView(const LocalView& local, const PixelFunctions& fun
     }
   };
 
-  double m = 0.0, a = 0.0;
+  double m = 0.0, a = 0.0, s = 0.0;
+  int axis = 0;
   for (int corner = 0; corner < 4; ++corner)
   {
     const double cx = x + (corner & 1 ? half : -half), cy = y + (corner & 2 ? half : -half);
@@ -150,8 +153,16 @@ inline GroupView makeGroupView(const LocalView& local, const PixelFunctions& fun
       m = std::max(m, std::abs(start[k]));
       a = std::max({ a, std::abs(start[k] - 1.0), std::abs(start[k] - 2.0) });
     }
+    // Quotients of linear functions are largest at corners, unless the divisor may be 0 in between.
+    const glm::dvec3 d = local.direction + cy * local.directionY + cx * local.directionX;
+    const glm::dvec3 size = glm::abs(d);
+    const int longest = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+    const int along = 2 * longest + (d[longest] < 0.0);
+    const double second = std::max(size[(longest + 1) % 3], size[(longest + 2) % 3]);
+    s = corner > 0 && along != axis ? 1.0 : std::max(s, second / size[longest]);
+    axis = along;
   }
-  const double aside = u * (2.0 * m + 13.0 * a) + 2.0 * functions.beside;
+  const double aside = u * ((1.0 + s) * (m + a) + (4.0 * s + 0.01) * a) + 2.0 * functions.beside;
 
   GroupView view;
   const glm::dvec4 gx = functions.x - x * functions.w, gy = functions.y - y * functions.w;
@@ -175,7 +186,18 @@ inline GroupView makeGroupView(const LocalView& local, const PixelFunctions& fun
        roundings(gy) + functions.errors.y + std::abs(y) * farther) +
       aside * std::max(gradient(gx), gradient(gy))));
   view.errorFar = roundUp(OverW * (errorW + aside * gradient(functions.w)));
-  const double hits = 2.0 * aside * gradient(functions.t) + functions.errors.z;
+  // Roundings that are relative to a distance in octree coordinates are so in pixels, but for how
+  // skewed pixels are there: at most 4 of a distance that is at most twice that from the middle. Of
+  // the edge functions' own there are 16.
+  const auto largest = [](const glm::dvec3& v) {
+    return std::max({ std::abs(v.x), std::abs(v.y), std::abs(v.z) });
+  };
+  const double pixel = functions.parallel ? largest(local.originX) + largest(local.originY)
+                                          : largest(local.directionX) + largest(local.directionY);
+  const double skew =
+    2.0 * pixel * (std::max(gradient(gx), gradient(gy)) + half * gradient(functions.w));
+  view.rounding = roundUp(u * (16.0 + 8.0 * skew));
+  const double hits = (aside + u * (m + 9.0 * a)) * gradient(functions.t) + functions.errors.z;
   view.depthError = roundUp(OverW * (roundings(k) + errorW + hits));
   view.apart = roundUp(OverW * (limits.error + 2.0 * u * local.tMax));
   view.leastW = functions.parallel ? 0.5f : roundUp(16.0 * errorW);

@@ -6,6 +6,7 @@
 #include "svoLocalView.h"
 #include "svoNode.h"
 #include "svoProjection.h"
+#include "svoRayMeetsTriangle.h"
 #include "svoTestScenes.h"
 #include "svoTracerScenes.h"
 #include "svoTriangle.h"

@@ -4,6 +4,7 @@
 #include "svoIntersectTile.h"
 #include "svoPixelFunctions.h"
 #include "svoProjection.h"
+#include "svoRayMeetsTriangle.h"
 #include "svoTestScenes.h"
 #include "svoTracerScenes.h"
 #include "svoTriangleGroup.h"
@@ -97,7 +98,6 @@ void compareTile(const Stage& stage, const TriangleGroup& group, int tileX, int 
   NearestTriangles found;
   std::uint32_t triangles[64], owners[64];
   const bool any = group.nearest(column, row, found, triangles, owners);
-  std::vector<std::int32_t> slots;
   for (int i = 0; i < 64; ++i)
   {
     ++tally.rays;
@@ -111,13 +111,12 @@ void compareTile(const Stage& stage, const TriangleGroup& group, int tileX, int 
     if (found.doubtful >> i & 1)
     {
       ++tally.doubtful;
-      group.candidates(column, row, i, found, slots);
       float t = 0.0f;
-      for (const std::int32_t slot : slots)
+      for (const SeenTriangle& seen : found.seen)
       {
         float other;
-        const std::uint32_t triangle = group.triangle(slot);
-        if (stage.meets(x[i], y[i], triangle, other) &&
+        const std::uint32_t triangle = group.triangle(seen.slot);
+        if ((seen.pixels >> i & 1) && stage.meets(x[i], y[i], triangle, other) &&
           (first == NoPrimitive || other < t || (other == t && triangle > first)))
         {
           t = other;
