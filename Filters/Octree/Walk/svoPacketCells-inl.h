@@ -73,6 +73,16 @@ HWY_INLINE void representatives(
   const Node* nodes = query.octree.nodes();
   const std::uint32_t* lists = query.octree.lists();
   const int n = static_cast<int>(hn::Lanes(DI()));
+  // The loads miss the nearest caches, and each list is known only after its node: all are sent for
+  // before the first is waited for.
+  std::size_t voxels[RayBlock::Size];
+  for (int i = 0; target.kept && i < cells.count; ++i)
+  {
+    const auto brick = static_cast<std::uint32_t>(cells.node[i]);
+    voxels[i] = target.kept->voxel(brick, cells.before[i]);
+    target.kept->prefetch(voxels[i]);
+    __builtin_prefetch(lists + (nodes[brick].first & ~InlineTriangle));
+  }
   HWY_ALIGN std::int32_t unknown[ArrivedCells::Most];
   int unknowns = 0;
   for (int i = 0; i < cells.count; ++i)
@@ -84,8 +94,7 @@ HWY_INLINE void representatives(
       found[cells.ray[i]] = reference & ~InlineTriangle;
       continue;
     }
-    const int place =
-      target.kept ? target.kept->place(target.kept->voxel(brick, cells.before[i])) : -1;
+    const int place = target.kept ? target.kept->place(voxels[i]) : -1;
     if (place < 0)
     {
       unknown[unknowns++] = i;
@@ -105,7 +114,7 @@ HWY_INLINE void representatives(
       found[cells.ray[i]] = lists[nodes[brick].first + 1 + static_cast<std::uint32_t>(places[k])];
       if (target.kept)
       {
-        target.kept->keep(target.kept->voxel(brick, cells.before[i]), places[k]);
+        target.kept->keep(voxels[i], places[k]);
       }
     }
   }
