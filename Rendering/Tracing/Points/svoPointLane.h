@@ -39,8 +39,8 @@ inline glm::vec3 nearWeights(const glm::vec3& p, const glm::vec3& e1, const glm:
   return { 1.0f - (c.v + c.w) / c.sum, c.v / c.sum, c.w / c.sum };
 }
 
-/// The same of a point whose two latter coordinates are affine in its way from an origin: there they
-/// are `v` and `w`, and grow by `alongV` and `alongW`.
+/// The same of a point whose two latter coordinates are affine in its way from an origin: there
+/// they are `v` and `w`, and grow by `alongV` and `alongW`.
 inline glm::vec3 affineWeights(
   const glm::vec3& way, float v, const glm::vec3& alongV, float w, const glm::vec3& alongW)
 {
