@@ -14,7 +14,6 @@
 #include "svoTriangleGroup.h"
 #include "svoVisibleInstances.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -73,9 +72,9 @@ public:
   /// Whole tiles that may see the instance.
   PixelRect rect(std::uint32_t instance) const
   {
-    const auto entry = std::find_if(this->Instances.begin(), this->Instances.end(),
-      [instance](const Entry& e) { return e.index == instance; });
-    return entry != this->Instances.end() ? entry->local.rect : PixelRect();
+    const std::uint32_t entry = this->EntryOf[instance];
+    const bool seen = entry < this->Instances.size() && this->Instances[entry].index == instance;
+    return seen ? this->Instances[entry].local.rect : PixelRect();
   }
   /// What the instance's rays end on in this view.
   LeafGeometry leafGeometry(std::uint32_t instance) const { return this->Geometries[instance]; }

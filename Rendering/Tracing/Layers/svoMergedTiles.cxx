@@ -9,7 +9,7 @@ void MergedTiles::touch(const PixelRect& rect, int tilesX)
   assert(((rect.x0 | rect.y0 | rect.x1 | rect.y1) & 7) == 0);
   for (int y = rect.y0 / 8; y < rect.y1 / 8; ++y)
   {
-    const auto row = this->Touched.begin() + static_cast<std::ptrdiff_t>(y) * tilesX;
+    const auto row = this->Stale.begin() + static_cast<std::ptrdiff_t>(y) * tilesX;
     std::fill(row + rect.x0 / 8, row + rect.x1 / 8, std::uint8_t(1));
   }
 }
@@ -19,14 +19,12 @@ bool MergedTiles::beginFrame(
 {
   const int tilesX = (view.width + 7) / 8;
   const std::size_t tiles = static_cast<std::size_t>(tilesX) * ((view.height + 7) / 8);
-  ++this->Frame;
   const bool known = keep && this->States.size() == tiles && sameRays(view, this->Seen);
   if (!known)
   {
     this->States.assign(tiles, Unknown);
-    this->Changes.resize(tiles);
   }
-  this->Touched.assign(tiles, !known);
+  this->Stale.assign(tiles, !known);
   if (known)
   {
     // Both are in the order of their indices.
@@ -58,10 +56,10 @@ bool MergedTiles::beginFrame(
   for (std::size_t tile = 0; tile < tiles; ++tile)
   {
     const bool wants = !wanted || wanted[tile];
-    if (this->Touched[tile] || (wants && this->States[tile] == Unknown))
+    if (this->Stale[tile] || (wants && this->States[tile] == Unknown))
     {
       this->States[tile] = wants ? Known : Unknown;
-      this->Changes[tile] = this->Frame;
+      this->Stale[tile] = 1;
       this->Any = true;
     }
   }

@@ -39,20 +39,17 @@ public:
   void forget() { this->States.clear(); }
 
   /// True if the tile is to be emptied, and merged if it is wanted.
-  bool isStale(std::size_t tile) const { return this->Changes[tile] == this->Frame; }
+  bool isStale(std::size_t tile) const
+  {
+    assert(tile < this->Stale.size());
+    return this->Stale[tile] != 0;
+  }
   bool isMerged(std::size_t tile) const
   {
     return this->isStale(tile) && this->States[tile] == Known;
   }
   /// True if any tile is.
   bool anyStale() const { return this->Any; }
-  /// The frame that the tile changed in last: tells versions of a tile apart.
-  std::uint32_t change(std::size_t tile) const
-  {
-    assert(tile < this->Changes.size());
-    return this->Changes[tile];
-  }
-  std::uint32_t frame() const { return this->Frame; }
 
 private:
   enum State : std::uint8_t
@@ -64,9 +61,7 @@ private:
 
   View Seen;
   std::vector<MergedPart> Parts;
-  std::vector<std::uint8_t> States, Touched;
-  std::vector<std::uint32_t> Changes;
-  std::uint32_t Frame = 0;
+  std::vector<std::uint8_t> States, Stale; // per tile
   bool Any = true;
 };
 }

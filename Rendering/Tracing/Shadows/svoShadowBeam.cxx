@@ -17,7 +17,7 @@ namespace
 /// Where a beam sees more nodes than this it is divided.
 constexpr std::size_t MostNodes = 256;
 
-/// Where rays to a light end, the light itself being at 1: what the light lies on is not between.
+/// Where rays from a light begin, the point being at 1: what the light lies on is not between.
 constexpr double BeforeLight = 1e-9;
 
 /// A beam's own frame: depth along the axis, and two directions across it.
