@@ -43,6 +43,19 @@ struct DepthBuffer
     return 64 * (static_cast<std::size_t>(y >> 3) * this->tilesX + (x >> 3)) + 8 * (y & 7) +
       (x & 7);
   }
+  /// True if a pixel of the tile is the instance's.
+  bool shows(int tileX, int tileY, std::uint32_t wanted) const
+  {
+    assert(tileX >= 0 && tileY >= 0 && tileX < this->tilesX && tileY < this->tilesY);
+    const std::size_t tile = static_cast<std::size_t>(tileY) * this->tilesX + tileX;
+    const std::uint32_t* const first = this->instance.data() + 64 * tile;
+    bool any = false;
+    for (int i = 0; i < 64 && this->hit[tile]; ++i)
+    {
+      any |= first[i] == wanted;
+    }
+    return any;
+  }
 };
 }
 

@@ -117,6 +117,7 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
   {
     this->Merged.resize(this->Seen.width, this->Seen.height);
   }
+  this->LastHit = this->Merged.hit;
   for (std::size_t tile = 0; tile < this->Merged.tiles(); ++tile)
   {
     this->Merged.hit[tile] = this->Merged.hit[tile] && !this->Tiles.isStale(tile);
@@ -185,7 +186,7 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
             const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
             if (this->Tiles.isMerged(tile))
             {
-              this->traceTile(tileX, tileY, mine);
+              this->traceAgain(tileX, tileY, mine);
             }
           }
         }

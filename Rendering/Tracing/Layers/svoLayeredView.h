@@ -176,6 +176,10 @@ private:
     alignas(64) float t[64];
     alignas(64) std::uint32_t instance[64];
     alignas(64) Primitive primitive[64];
+    // What the tile was in the last frame.
+    float lastT[64];
+    std::uint32_t lastInstance[64];
+    Primitive lastPrimitive[64];
   };
   /// Where the rays of a tile can meet an instance; false if nowhere.
   bool meets(int tileX, int tileY, TileEntry& candidate) const;
@@ -235,6 +239,8 @@ private:
   void merge(const Entry& entry, const float* t, const Primitive* primitive, const double* x,
     const double* y, MergedTile& merged) const;
   void traceTile(int tileX, int tileY, TileScratch& scratch);
+  /// Traces a tile again, and sees whether it is what it was.
+  void traceAgain(int tileX, int tileY, TileScratch& scratch);
   KeyBase keyBase() const;
 
   const bool Exact;
@@ -253,7 +259,8 @@ private:
   KeyBase Keys;
   LayerCache Layers;
   DepthBuffer Merged;
-  MergedTiles Tiles; // of Merged
+  MergedTiles Tiles;                 // of Merged
+  std::vector<std::uint8_t> LastHit; // DepthBuffer::hit of the last frame
   std::uint64_t Rays = 0;
   std::uint64_t Retraced = 0;
 };

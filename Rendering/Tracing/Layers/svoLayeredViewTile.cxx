@@ -240,6 +240,39 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
   this->Merged.hit[tile] = merged.any;
 }
 
+void LayeredView::traceAgain(int tileX, int tileY, TileScratch& scratch)
+{
+  const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
+  const float* t = this->Merged.t.data() + 64 * tile;
+  const std::uint32_t* instance = this->Merged.instance.data() + 64 * tile;
+  const Primitive* primitive = this->Merged.primitive.data() + 64 * tile;
+  const bool compares = this->Tiles.mayBeSame(tile);
+  const bool hadHits = compares && this->LastHit[tile];
+  if (hadHits)
+  {
+    std::copy(t, t + 64, scratch.lastT);
+    std::copy(instance, instance + 64, scratch.lastInstance);
+    std::copy(primitive, primitive + 64, scratch.lastPrimitive);
+  }
+  this->traceTile(tileX, tileY, scratch);
+  if (!compares || hadHits != (this->Merged.hit[tile] != 0))
+  {
+    return;
+  }
+  bool same = true;
+  for (int i = 0; i < 64 && same && hadHits; ++i)
+  {
+    same = instance[i] == scratch.lastInstance[i] &&
+      (instance[i] == NoInstance ||
+        (primitive[i] == scratch.lastPrimitive[i] && t[i] == scratch.lastT[i] &&
+          !this->Tiles.partChanged(instance[i])));
+  }
+  if (same)
+  {
+    this->Tiles.settle(tile);
+  }
+}
+
 void LayeredView::sample(int tileX, int tileY, TileSamples* samples, std::size_t count) const
 {
   assert(tileX >= 0 && tileX < this->Merged.tilesX && tileY >= 0 && tileY < this->Merged.tilesY);

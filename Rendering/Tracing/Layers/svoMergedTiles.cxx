@@ -4,14 +4,17 @@
 
 namespace svo
 {
-void MergedTiles::touch(const PixelRect& rect, int tilesX)
+void MergedTiles::touch(const MergedPart& part, int tilesX)
 {
+  const PixelRect& rect = part.rect;
   assert(((rect.x0 | rect.y0 | rect.x1 | rect.y1) & 7) == 0);
   for (int y = rect.y0 / 8; y < rect.y1 / 8; ++y)
   {
-    const auto row = this->Stale.begin() + static_cast<std::ptrdiff_t>(y) * tilesX;
-    std::fill(row + rect.x0 / 8, row + rect.x1 / 8, std::uint8_t(1));
+    const auto row = this->Changes.begin() + static_cast<std::ptrdiff_t>(y) * tilesX;
+    std::fill(row + rect.x0 / 8, row + rect.x1 / 8, Change::Touched);
   }
+  this->ChangedParts.resize(std::max<std::size_t>(this->ChangedParts.size(), part.index + 1), 0);
+  this->ChangedParts[part.index] = 1;
 }
 
 bool MergedTiles::beginFrame(
@@ -24,7 +27,8 @@ bool MergedTiles::beginFrame(
   {
     this->States.assign(tiles, Unknown);
   }
-  this->Stale.assign(tiles, !known);
+  this->Changes.assign(tiles, known ? Change::None : Change::New);
+  this->ChangedParts.clear();
   if (known)
   {
     // Both are in the order of their indices.
@@ -34,18 +38,18 @@ bool MergedTiles::beginFrame(
     {
       if (now == parts.end() || (old != this->Parts.end() && old->index < now->index))
       {
-        this->touch((old++)->rect, tilesX);
+        this->touch(*old++, tilesX);
       }
       else if (old == this->Parts.end() || now->index < old->index)
       {
-        this->touch((now++)->rect, tilesX);
+        this->touch(*now++, tilesX);
       }
       else
       {
         if (!(*old == *now))
         {
-          this->touch(old->rect, tilesX);
-          this->touch(now->rect, tilesX);
+          this->touch(*old, tilesX);
+          this->touch(*now, tilesX);
         }
         ++old;
         ++now;
@@ -56,10 +60,14 @@ bool MergedTiles::beginFrame(
   for (std::size_t tile = 0; tile < tiles; ++tile)
   {
     const bool wants = !wanted || wanted[tile];
-    if (this->Stale[tile] || (wants && this->States[tile] == Unknown))
+    Change& change = this->Changes[tile];
+    if (change != Change::None || (wants && this->States[tile] == Unknown))
     {
+      if (!wants || this->States[tile] == Unknown)
+      {
+        change = Change::New;
+      }
       this->States[tile] = wants ? Known : Unknown;
-      this->Stale[tile] = 1;
       this->Any = true;
     }
   }

@@ -39,16 +39,28 @@ public:
   void forget() { this->States.clear(); }
 
   /// True if the tile is to be emptied, and merged if it is wanted.
-  bool isStale(std::size_t tile) const
-  {
-    assert(tile < this->Stale.size());
-    return this->Stale[tile] != 0;
-  }
+  bool isStale(std::size_t tile) const { return this->changeOf(tile) != Change::None; }
   bool isMerged(std::size_t tile) const
   {
     return this->isStale(tile) && this->States[tile] == Known;
   }
-  /// True if any tile is.
+  /// True if the tile held a stale one's last hits, so that the new ones can be compared.
+  bool mayBeSame(std::size_t tile) const { return this->changeOf(tile) == Change::Touched; }
+  /// Its new hits are its last ones, and none is of a part that changed. Threads may settle
+  /// different tiles.
+  void settle(std::size_t tile)
+  {
+    assert(this->mayBeSame(tile));
+    this->Changes[tile] = Change::Same;
+  }
+  /// True if the tile may not be what it was in the last frame.
+  bool changed(std::size_t tile) const { return this->changeOf(tile) >= Change::Touched; }
+  /// True if the part (by index in Scene::instances) is not what it was.
+  bool partChanged(std::uint32_t index) const
+  {
+    return index < this->ChangedParts.size() && this->ChangedParts[index] != 0;
+  }
+  /// True if any tile is stale.
   bool anyStale() const { return this->Any; }
 
 private:
@@ -57,11 +69,25 @@ private:
     Unknown, // and empty
     Known
   };
-  void touch(const PixelRect& rect, int tilesX);
+  enum class Change : std::uint8_t
+  {
+    None,
+    Same,    // merged again, with the same result
+    Touched, // by a part that changed
+    New      // what it was is not known
+  };
+  Change changeOf(std::size_t tile) const
+  {
+    assert(tile < this->Changes.size());
+    return this->Changes[tile];
+  }
+  void touch(const MergedPart& part, int tilesX);
 
   View Seen;
   std::vector<MergedPart> Parts;
-  std::vector<std::uint8_t> States, Stale; // per tile
+  std::vector<std::uint8_t> States; // per tile
+  std::vector<Change> Changes;      // per tile
+  std::vector<std::uint8_t> ChangedParts;
   bool Any = true;
 };
 }

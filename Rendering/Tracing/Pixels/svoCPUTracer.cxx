@@ -136,13 +136,22 @@ void CPUTracer::Internals::findStaleTiles(const FrameChanges& changes, bool same
   // Edges are smoothed over the tiles' borders.
   const bool all = changes.all || !sameFrame || this->Settings.antiAliasing;
   this->Shaded.beginFrame(depth.tilesX, depth.tilesY, all);
-  for (const std::uint32_t instance : changes.instances)
-  {
-    this->Shaded.touch(this->Eye.rect(instance));
-  }
   for (std::size_t tile = 0; tile < this->Shaded.size(); ++tile)
   {
-    this->Shaded[tile].stale = this->Shaded[tile].stale || this->Eye.tiles().isStale(tile);
+    this->Shaded[tile].stale = this->Shaded[tile].stale || this->Eye.tiles().changed(tile);
+  }
+  // Where an instance is not seen it does not matter how it looks.
+  for (const std::uint32_t instance : changes.instances)
+  {
+    const PixelRect rect = this->Eye.rect(instance);
+    for (int y = rect.y0 / 8; y < rect.y1 / 8; ++y)
+    {
+      for (int x = rect.x0 / 8; x < rect.x1 / 8; ++x)
+      {
+        KeptTiles::Tile& tile = this->Shaded.at(x, y);
+        tile.stale = tile.stale || depth.shows(x, y, instance);
+      }
+    }
   }
 }
 

@@ -38,18 +38,6 @@ public:
       tile.stale = all;
     }
   }
-  /// What a rectangle, of whole tiles, shows has changed.
-  void touch(const PixelRect& rect)
-  {
-    assert(((rect.x0 | rect.y0 | rect.x1 | rect.y1) & 7) == 0);
-    for (int y = rect.y0 / 8; y < rect.y1 / 8; ++y)
-    {
-      for (int x = rect.x0 / 8; x < rect.x1 / 8; ++x)
-      {
-        this->at(x, y).stale = true;
-      }
-    }
-  }
   Tile& at(int tileX, int tileY)
   {
     return (*this)[static_cast<std::size_t>(tileY) * this->TilesX + tileX];

@@ -51,7 +51,7 @@ public:
   /// After trace(): true if the tile does not show what it showed.
   bool changed(const LightTile& noted) const
   {
-    return this->Faces[noted.map]->layers.tiles().isStale(noted.tile);
+    return this->Faces[noted.map]->layers.tiles().changed(noted.tile);
   }
   /// Every tile will be looked up.
   void markAll();
