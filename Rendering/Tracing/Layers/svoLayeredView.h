@@ -176,10 +176,6 @@ private:
     alignas(64) float t[64];
     alignas(64) std::uint32_t instance[64];
     alignas(64) Primitive primitive[64];
-    // What the tile was in the last frame.
-    float lastT[64];
-    std::uint32_t lastInstance[64];
-    Primitive lastPrimitive[64];
   };
   /// Where the rays of a tile can meet an instance; false if nowhere.
   bool meets(int tileX, int tileY, TileEntry& candidate) const;
@@ -200,7 +196,7 @@ private:
   /// What a ray of the tile in scratch.nearest meets first, by the float test; false if nothing.
   bool traceDoubtful(double x, double y, int ray, const TriangleGroup& group, TileScratch& scratch,
     SeenHit& first) const;
-  void order(int tileX, int tileY, TileScratch& scratch);
+  void order(int tileX, int tileY, bool onlyChanged, TileScratch& scratch);
   bool cutRays(const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const;
   /// Through points x, y of the image; tMin and tMax are set.
   void traceRays(const TileEntry& candidate, const double* x, const double* y, RayBlock& block,
@@ -238,8 +234,9 @@ private:
   }
   void merge(const Entry& entry, const float* t, const Primitive* primitive, const double* x,
     const double* y, MergedTile& merged) const;
-  void traceTile(int tileX, int tileY, TileScratch& scratch);
-  /// Traces a tile again, and sees whether it is what it was.
+  /// `onlyChanged`: those instances are merged into what the tile was in the last frame.
+  void traceTile(int tileX, int tileY, bool onlyChanged, TileScratch& scratch);
+  /// Does no more than what changed since the last frame asks for, and notes whether it is seen.
   void traceAgain(int tileX, int tileY, TileScratch& scratch);
   KeyBase keyBase() const;
 

@@ -54,12 +54,16 @@ bool LayeredView::meets(int tileX, int tileY, TileEntry& candidate) const
   return true;
 }
 
-void LayeredView::order(int tileX, int tileY, TileScratch& scratch)
+void LayeredView::order(int tileX, int tileY, bool onlyChanged, TileScratch& scratch)
 {
   scratch.order.clear();
   for (const std::size_t e : scratch.nearby)
   {
     const Entry& entry = this->Instances[e];
+    if (onlyChanged && !this->Tiles.partChanged(entry.index))
+    {
+      continue;
+    }
     TileEntry& candidate = scratch.entries[e];
     DepthLayer* layer = entry.layer;
     if (layer && layer->holds(tileX, tileY))
@@ -172,13 +176,15 @@ void LayeredView::merge(const Entry& entry, const float* t, const Primitive* pri
   }
 }
 
-void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
+void LayeredView::traceTile(int tileX, int tileY, bool onlyChanged, TileScratch& scratch)
 {
   const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
   MergedTile merged{ this->Merged.t.data() + 64 * tile, this->Merged.instance.data() + 64 * tile,
     this->Merged.primitive.data() + 64 * tile, false };
-  merged.any = this->nearestHits(tileX, tileY, scratch.together, scratch, merged);
-  this->order(tileX, tileY, scratch);
+  merged.any = onlyChanged
+    ? this->LastHit[tile] != 0
+    : this->nearestHits(tileX, tileY, scratch.together, scratch, merged);
+  this->order(tileX, tileY, onlyChanged, scratch);
   this->Merged.hit[tile] = merged.any;
   if (scratch.order.empty())
   {
@@ -243,31 +249,17 @@ void LayeredView::traceTile(int tileX, int tileY, TileScratch& scratch)
 void LayeredView::traceAgain(int tileX, int tileY, TileScratch& scratch)
 {
   const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
-  const float* t = this->Merged.t.data() + 64 * tile;
-  const std::uint32_t* instance = this->Merged.instance.data() + 64 * tile;
-  const Primitive* primitive = this->Merged.primitive.data() + 64 * tile;
-  const bool compares = this->Tiles.mayBeSame(tile);
-  const bool hadHits = compares && this->LastHit[tile];
-  if (hadHits)
+  if (!this->Tiles.wasMerged(tile))
   {
-    std::copy(t, t + 64, scratch.lastT);
-    std::copy(instance, instance + 64, scratch.lastInstance);
-    std::copy(primitive, primitive + 64, scratch.lastPrimitive);
-  }
-  this->traceTile(tileX, tileY, scratch);
-  if (!compares || hadHits != (this->Merged.hit[tile] != 0))
-  {
+    this->traceTile(tileX, tileY, false, scratch);
     return;
   }
-  bool same = true;
-  for (int i = 0; i < 64 && same && hadHits; ++i)
-  {
-    same = instance[i] == scratch.lastInstance[i] &&
-      (instance[i] == NoInstance ||
-        (primitive[i] == scratch.lastPrimitive[i] && t[i] == scratch.lastT[i] &&
-          !this->Tiles.partChanged(instance[i])));
-  }
-  if (same)
+  // Where no changed instance was seen the last hits are those of the others, which any order of
+  // merging gives again.
+  const std::uint32_t* instance = this->Merged.instance.data() + 64 * tile;
+  const bool wasSeen = this->LastHit[tile] && this->Tiles.anyChanged(instance);
+  this->traceTile(tileX, tileY, !wasSeen && scratch.together.group.empty(), scratch);
+  if (!wasSeen && !(this->Merged.hit[tile] && this->Tiles.anyChanged(instance)))
   {
     this->Tiles.settle(tile);
   }

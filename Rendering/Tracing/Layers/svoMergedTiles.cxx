@@ -13,7 +13,7 @@ void MergedTiles::touch(const MergedPart& part, int tilesX)
     const auto row = this->Changes.begin() + static_cast<std::ptrdiff_t>(y) * tilesX;
     std::fill(row + rect.x0 / 8, row + rect.x1 / 8, Change::Touched);
   }
-  this->ChangedParts.resize(std::max<std::size_t>(this->ChangedParts.size(), part.index + 1), 0);
+  this->ChangedParts.resize(std::max<std::size_t>(this->ChangedParts.size(), part.index + 2), 0);
   this->ChangedParts[part.index] = 1;
 }
 
@@ -28,7 +28,7 @@ bool MergedTiles::beginFrame(
     this->States.assign(tiles, Unknown);
   }
   this->Changes.assign(tiles, known ? Change::None : Change::New);
-  this->ChangedParts.clear();
+  this->ChangedParts.assign(1, 0);
   if (known)
   {
     // Both are in the order of their indices.

@@ -6,6 +6,7 @@
 #include "svoDepthLayer.h"
 #include "svoView.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -44,21 +45,31 @@ public:
   {
     return this->isStale(tile) && this->States[tile] == Known;
   }
-  /// True if the tile held a stale one's last hits, so that the new ones can be compared.
-  bool mayBeSame(std::size_t tile) const { return this->changeOf(tile) == Change::Touched; }
-  /// Its new hits are its last ones, and none is of a part that changed. Threads may settle
-  /// different tiles.
+  /// True if what the stale tile was in the last frame is what the same parts gave, but for those
+  /// that changed.
+  bool wasMerged(std::size_t tile) const { return this->changeOf(tile) == Change::Touched; }
+  /// The stale tile is what it was. Threads may settle different tiles.
   void settle(std::size_t tile)
   {
-    assert(this->mayBeSame(tile));
+    assert(this->wasMerged(tile));
     this->Changes[tile] = Change::Same;
   }
   /// True if the tile may not be what it was in the last frame.
   bool changed(std::size_t tile) const { return this->changeOf(tile) >= Change::Touched; }
-  /// True if the part (by index in Scene::instances) is not what it was.
+  /// True if the part (by index in Scene::instances) is not what it was, or is gone.
   bool partChanged(std::uint32_t index) const
   {
-    return index < this->ChangedParts.size() && this->ChangedParts[index] != 0;
+    return this->ChangedParts[std::min<std::size_t>(index, this->ChangedParts.size() - 1)] != 0;
+  }
+  /// True if such a part is one of a tile's 64 hits.
+  bool anyChanged(const std::uint32_t* instances) const
+  {
+    std::uint8_t any = 0;
+    for (int i = 0; i < 64; ++i)
+    {
+      any |= static_cast<std::uint8_t>(this->partChanged(instances[i]));
+    }
+    return any != 0;
   }
   /// True if any tile is stale.
   bool anyStale() const { return this->Any; }
@@ -72,7 +83,7 @@ private:
   enum class Change : std::uint8_t
   {
     None,
-    Same,    // merged again, with the same result
+    Same,    // looked at again: no changed part was or is seen
     Touched, // by a part that changed
     New      // what it was is not known
   };
@@ -87,7 +98,7 @@ private:
   std::vector<MergedPart> Parts;
   std::vector<std::uint8_t> States; // per tile
   std::vector<Change> Changes;      // per tile
-  std::vector<std::uint8_t> ChangedParts;
+  std::vector<std::uint8_t> ChangedParts{ 0 }; // by index, and a last one for all others
   bool Any = true;
 };
 }
