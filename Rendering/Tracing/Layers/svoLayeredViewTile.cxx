@@ -181,9 +181,8 @@ void LayeredView::traceTile(int tileX, int tileY, bool onlyChanged, TileScratch&
   const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
   MergedTile merged{ this->Merged.t.data() + 64 * tile, this->Merged.instance.data() + 64 * tile,
     this->Merged.primitive.data() + 64 * tile, false };
-  merged.any = onlyChanged
-    ? this->LastHit[tile] != 0
-    : this->nearestHits(tileX, tileY, scratch.together, scratch, merged);
+  merged.any = onlyChanged ? this->LastHit[tile] != 0
+                           : this->nearestHits(tileX, tileY, scratch.together, scratch, merged);
   this->order(tileX, tileY, onlyChanged, scratch);
   this->Merged.hit[tile] = merged.any;
   if (scratch.order.empty())

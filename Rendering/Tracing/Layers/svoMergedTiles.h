@@ -96,8 +96,8 @@ private:
 
   View Seen;
   std::vector<MergedPart> Parts;
-  std::vector<std::uint8_t> States; // per tile
-  std::vector<Change> Changes;      // per tile
+  std::vector<std::uint8_t> States;            // per tile
+  std::vector<Change> Changes;                 // per tile
   std::vector<std::uint8_t> ChangedParts{ 0 }; // by index, and a last one for all others
   bool Any = true;
 };

@@ -94,15 +94,17 @@ struct CPUTracer::Internals
   FrameTiles Tiles;
   PixelShader Shader;
   KeptFrame Kept;
-  KeptTiles Shaded;           // by tile of the eye
-  bool ViewsAreTraced = true; // of this frame; else they were not needed
-  bool SharesBuffers = false; // shadow buffers are traced, for all processes
-  double SharingTime = 0.0;   // s, that took
+  KeptTiles Shaded;               // by tile of the eye
+  std::vector<CasterBox> Casters; // by index into Scene::instances
+  bool ViewsAreTraced = true;     // of this frame; else they were not needed
+  bool SharesBuffers = false;     // shadow buffers are traced, for all processes
+  double SharingTime = 0.0;       // s, that took
 
   const Scene& sceneOfLights(const Scene& scene, ShadowTechnique technique);
   void findStaleTiles(const FrameChanges& changes, bool sameFrame);
   void markLightTiles(const Scene& scene, const View& view, const ParallelFor& parallelFor);
-  void findDarkenedTiles();
+  void findDarkenedTiles(
+    const Scene& scene, const FrameChanges& changes, const ParallelFor& parallelFor);
   void traceViews(const Scene& scene, const View& view, const FrameSettings& settings,
     const ParallelFor& parallelFor, const FrameChanges& changes, Frame* frame,
     FrameStatistics& statistics);
@@ -158,8 +160,15 @@ void CPUTracer::Internals::findStaleTiles(const FrameChanges& changes, bool same
 void CPUTracer::Internals::markLightTiles(
   const Scene& scene, const View& view, const ParallelFor& parallelFor)
 {
-  if (!this->LightShadows.wantsMarks() && !this->LightShadows.notesAll())
+  if (!this->LightShadows.wantsMarks())
   {
+    for (const std::uint32_t index : this->Tiles.hits())
+    {
+      if (this->Shaded[index].stale)
+      {
+        this->Shaded[index].looksUp.clear();
+      }
+    }
     return;
   }
   const bool sameMaps = this->LightShadows.sameMaps();
@@ -183,15 +192,41 @@ void CPUTracer::Internals::markLightTiles(
 }
 
 /// Tiles whose lights may not be what they were.
-void CPUTracer::Internals::findDarkenedTiles()
+void CPUTracer::Internals::findDarkenedTiles(
+  const Scene& scene, const FrameChanges& changes, const ParallelFor& parallelFor)
 {
   const Shadows& shadows = this->LightShadows;
-  const bool all = !shadows.notesAll() || !shadows.sameMaps();
-  for (const std::uint32_t index : this->Tiles.hits())
+  const bool all = changes.all || !shadows.notesAll() || !shadows.sameMaps();
+  const std::vector<CasterBox> before = std::move(this->Casters);
+  this->Casters.clear();
+  for (const Instance& instance : scene.instances)
   {
-    KeptTiles::Tile& tile = this->Shaded[index];
-    tile.stale = tile.stale || all || tile.atTerminator || shadows.changed(tile.looksUp);
+    this->Casters.emplace_back(instance);
   }
+  const auto mayCross = [&](const PointBox& starts)
+  {
+    return std::any_of(changes.instances.begin(), changes.instances.end(),
+      [&](std::uint32_t i)
+      {
+        return std::any_of(scene.lights.begin(), scene.lights.end(),
+          [&](const Light& light)
+          {
+            return light.castShadow &&
+              (before[i].mayBlock(light, starts) || this->Casters[i].mayBlock(light, starts));
+          });
+      });
+  };
+  const std::vector<std::uint32_t>& hits = this->Tiles.hits();
+  parallelFor(0, hits.size(), 512,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t k = first; k < last; ++k)
+      {
+        KeptTiles::Tile& tile = this->Shaded[hits[k]];
+        tile.stale = tile.stale || all || shadows.changed(tile.looksUp) ||
+          shadows.changed(tile.raised) || mayCross(tile.raysToLights);
+      }
+    });
 }
 
 CPUTracer::CPUTracer()
@@ -243,9 +278,12 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
   {
     this->LightShadows.prepare(
       this->sceneOfLights(scene, settings.shadowTechnique), view, settings, budget);
-    this->markLightTiles(scene, view, parallelFor);
   }
   this->LightShadows.prepareRays(scene, settings, this->Eye);
+  if (!shared)
+  {
+    this->markLightTiles(scene, view, parallelFor);
+  }
   statistics.mark = clock.end();
 
   // Shadow layers, merged likewise.
@@ -284,7 +322,7 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   statistics = FrameStatistics();
   self.traceViews(
     scene, view, settings, parallelFor, keeps ? changes : FrameChanges(), &frame, statistics);
-  self.findDarkenedTiles();
+  self.findDarkenedTiles(scene, keeps ? changes : FrameChanges(), parallelFor);
   clock.end(); // its phases have been timed
 
   // Shade and test.

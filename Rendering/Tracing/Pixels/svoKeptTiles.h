@@ -1,9 +1,10 @@
 // Which tiles of a frame need not be shaded again: those whose hits, looks and lights are what they
-// were, and the tiles of the lights' maps that they look up as well. Then their pixels are, to the
-// bit.
+// were, the tiles of the lights' maps that they look up as well, and the casters that their rays to
+// the lights can meet. Then their pixels are, to the bit.
 #ifndef svoKeptTiles_h
 #define svoKeptTiles_h
 
+#include "svoCasterBox.h"
 #include "svoLightTile.h"
 #include "svoView.h"
 
@@ -19,9 +20,10 @@ class KeptTiles
 public:
   struct Tile
   {
-    bool stale = true;         // its hits or their looks are not what they were
-    bool atTerminator = false; // some of its points ask elsewhere, too (svoTerminator.h)
+    bool stale = true; // its hits or their looks are not what they were
     LightTiles looksUp;
+    RaisedTiles raised;    // of points at the terminator (svoTerminator.h)
+    PointBox raysToLights; // world; where they begin
   };
 
   /// `all`: none is kept.

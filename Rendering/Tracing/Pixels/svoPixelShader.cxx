@@ -52,7 +52,13 @@ void PixelShader::eachTerminator(std::size_t l, const Lit& lit, std::uint64_t re
         patch.towards(i), patch.hits->primitive[i]);
       if (at.kind != TerminatorPoint::Kind::Plain)
       {
-        scratch.atTerminator = true;
+        if (scratch.noted && at.kind != TerminatorPoint::Kind::Hidden)
+        {
+          const glm::dvec3 reach(this->Errors[patch.instance]);
+          scratch.noted->raysToLights.add(point.position, reach);
+          scratch.noted->raysToLights.add(at.point.position, reach);
+          shadows.note(l, at, scratch.noted->raised);
+        }
         each(i, point, at);
       }
     });
@@ -78,6 +84,11 @@ void PixelShader::shadow(
   }
   else
   {
+    if (scratch.noted && shadows.usesRays())
+    {
+      scratch.noted->raysToLights.add(
+        patch.origin.position, (1.0 + 1e-6) * glm::dvec3(patch.extent) + error);
+    }
     dark = shadows.dark(l, patch, error, reached, scratch.rays);
     eachBit(dark, [&](int i) { missed[i] = 1.0f; });
   }
@@ -189,9 +200,10 @@ void PixelShader::shade(const ShadedScene& shaded, const ParallelFor& parallelFo
         return;
       }
       scratch.rays = 0;
-      scratch.atTerminator = false;
+      tile.raised.clear();
+      tile.raysToLights = PointBox();
+      scratch.noted = shaded.settings.frameCoherence ? &tile : nullptr;
       this->write(lit, hitsOfTile(depth, shaded.view, tileX, tileY), scratch, frame);
-      tile.atTerminator = scratch.atTerminator;
       if (scratch.rays > 0)
       {
         allRays.fetch_add(scratch.rays, std::memory_order_relaxed);

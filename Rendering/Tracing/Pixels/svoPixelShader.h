@@ -76,7 +76,7 @@ public:
     float missed[TilePatch::Most];      // by pixel: of one light
     Darkness darkness[TilePatch::Most]; // by pixel
     std::uint64_t rays;                 // of shadows
-    bool atTerminator;                  // some points asked elsewhere, too
+    KeptTiles::Tile* noted = nullptr;   // takes down what is asked; or null
   };
 
   /// After shade(): colours the points of hits anywhere in a tile, patch by patch: sets `colors`

@@ -14,6 +14,14 @@ struct LightTile
   std::uint32_t tile;  // of the map
 };
 using LightTiles = std::vector<LightTile>;
+
+/// One that is only looked up if others want it.
+struct RaisedTile
+{
+  LightTile tile;
+  bool wanted;
+};
+using RaisedTiles = std::vector<RaisedTile>;
 }
 
 #endif

@@ -131,17 +131,37 @@ void ShadowBuffer::tilesAround(const Place& place, Body&& body)
   }
 }
 
+template <class Body>
+void ShadowBuffer::namesAround(const glm::dvec3& position, std::uint16_t light, Body&& body) const
+{
+  Place place;
+  if (!this->lookUp(position, place))
+  {
+    return;
+  }
+  const auto face = std::find_if(this->Faces.begin(), this->Faces.end(),
+    [&](const std::unique_ptr<Face>& f) { return f.get() == place.face; });
+  const auto map = static_cast<std::uint16_t>(face - this->Faces.begin());
+  tilesAround(place,
+    [&](std::size_t tile) {
+      body(LightTile{ light, map, static_cast<std::uint32_t>(tile) });
+    });
+}
+
 bool ShadowBuffer::knows(const glm::dvec3& position) const
 {
   bool known = true;
-  Place place;
-  if (this->lookUp(position, place))
-  {
-    tilesAround(place,
-      [&](std::size_t tile)
-      { known = known && place.face->wanted[tile].load(std::memory_order_relaxed); });
-  }
+  this->namesAround(
+    position, 0, [&](const LightTile& name) { known = known && this->wants(name); });
   return known;
+}
+
+void ShadowBuffer::note(const glm::dvec3& position, std::uint16_t light, RaisedTiles& noted) const
+{
+  this->namesAround(position, light,
+    [&](const LightTile& name) {
+      noted.push_back({ name, this->wants(name) });
+    });
 }
 
 bool ShadowBuffer::Face::want(const MapPlaces& places, LightTile name, LightTiles& noted)
@@ -197,19 +217,12 @@ void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles&
   eachBit(single,
     [&](int i)
     {
-      Place place;
-      if (this->lookUp(patch.position(i), place))
-      {
-        const auto face = std::find_if(this->Faces.begin(), this->Faces.end(),
-          [&](const std::unique_ptr<Face>& f) { return f.get() == place.face; });
-        tilesAround(place,
-          [&](std::size_t tile)
-          {
-            noted.push_back({ light, static_cast<std::uint16_t>(face - this->Faces.begin()),
-              static_cast<std::uint32_t>(tile) });
-            this->mark(noted.back());
-          });
-      }
+      this->namesAround(patch.position(i), light,
+        [&](const LightTile& name)
+        {
+          noted.push_back(name);
+          this->mark(name);
+        });
     });
 }
 

@@ -53,6 +53,12 @@ public:
   {
     return this->Faces[noted.map]->layers.tiles().changed(noted.tile);
   }
+  bool wants(const LightTile& noted) const
+  {
+    return this->Faces[noted.map]->wanted[noted.tile].load(std::memory_order_relaxed) != 0;
+  }
+  /// Notes the tiles that knows() asks about a point.
+  void note(const glm::dvec3& position, std::uint16_t light, RaisedTiles& noted) const;
   /// Every tile will be looked up.
   void markAll();
 
@@ -174,6 +180,9 @@ private:
   /// two or four.
   template <class Body>
   static void tilesAround(const Place& place, Body&& body);
+  /// Calls body(name) for those around a point; not if it is outside of what is seen.
+  template <class Body>
+  void namesAround(const glm::dvec3& position, std::uint16_t light, Body&& body) const;
   /// Looks up what lies at the texels of points that are sure; returns those where something does.
   std::uint64_t occluders(
     const Face& face, const MapPlaces& places, double error, TexelTests& tests) const;

@@ -25,19 +25,6 @@ glm::dvec3 sideOf(const Light& light, const glm::dvec3& position, const glm::vec
   const glm::dvec3 normal(facet);
   return glm::dot(normal, light.along(position)) > 0.0 ? -normal : normal;
 }
-
-/// False if no ray from a ball of points to the light meets another ball.
-bool mayBlock(const Light& light, const glm::dvec3& from, double radius, const glm::dvec3& centre,
-  double casterRadius)
-{
-  const glm::dvec3 way = -light.along(from);
-  const glm::dvec3 to = centre - from;
-  const double length2 = glm::dot(way, way);
-  const double along = glm::dot(to, way);
-  const double share = length2 > 0.0 ? along / length2 : 0.0;
-  const glm::dvec3 nearest = std::clamp(share, 0.0, light.atInfinity() ? 1e300 : 1.0) * way;
-  return !(glm::length(to - nearest) > 1.000001 * (radius + casterRadius));
-}
 }
 
 /// A point that asks, and its answer.
@@ -60,15 +47,9 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
       const bool exact = traits.exact() && octree.surface();
       const bool mixed = traits.exact() && octree.longestList() > traits.longestExact;
       const double planeError = mixed ? CubeError * worldVoxel(instance) : 0.0;
-      const Header& h = octree.header();
-      const double half = 0.5 * h.voxelSize * static_cast<double>(1u << h.level);
-      const glm::dvec3 centre(h.origin[0] + half, h.origin[1] + half, h.origin[2] + half);
-      const glm::dmat3 m(instance.localToWorld);
-      const double edges = glm::length(m[0]) + glm::length(m[1]) + glm::length(m[2]);
-      this->Casters.push_back(
-        { &instance, geometry, WorldToOctree(octree, instance.localToWorld), planeError,
-          std::max(planeError, worldLeafError(instance, geometry, octree.level())), exact && !mixed,
-          glm::dvec3(instance.localToWorld * glm::dvec4(centre, 1.0)), half * edges });
+      this->Casters.push_back({ &instance, geometry, WorldToOctree(octree, instance.localToWorld),
+        planeError, std::max(planeError, worldLeafError(instance, geometry, octree.level())),
+        exact && !mixed, CasterBox(instance) });
     }
   }
 }
@@ -158,21 +139,18 @@ std::uint64_t ShadowRays::shadows(
   static_assert(BeamPoints::Most >= TilePatch::Most, "a tile's points fit");
   Start starts[TilePatch::Most];
   int count = 0;
-  glm::dvec3 low(0.0), high(0.0);
+  PointBox box;
   eachBit(asked & patch.mask,
     [&](int i)
     {
       const glm::dvec3 position = patch.position(i);
-      low = count ? glm::min(low, position) : position;
-      high = count ? glm::max(high, position) : position;
+      box.add(position, glm::dvec3(offset));
       starts[count++] = { position, sideOf(light, position, patch.facet(i)), i };
     });
-  const glm::dvec3 middle = 0.5 * (low + high);
-  const double radius = 0.5 * glm::length(high - low) + offset;
   std::uint64_t dark = 0;
   for (const Caster& caster : this->Casters)
   {
-    if (count > 0 && mayBlock(light, middle, radius, caster.centre, caster.radius))
+    if (count > 0 && caster.box.mayBlock(light, box))
     {
       dark |= this->beam(caster, light, starts, count, offset);
       count = static_cast<int>(std::remove_if(starts, starts + count,

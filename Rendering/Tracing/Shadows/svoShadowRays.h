@@ -3,6 +3,7 @@
 #ifndef svoShadowRays_h
 #define svoShadowRays_h
 
+#include "svoCasterBox.h"
 #include "svoLayeredView.h"
 #include "svoScene.h"
 #include "svoTilePatch.h"
@@ -47,8 +48,7 @@ private:
     double planeError; // world; how far plane leaves among triangles can be off, 0 without any
     double leafError;  // world; how far any leaf can be off
     bool beams;        // all leaves are triangles
-    glm::dvec3 centre; // of a ball around the octree's cube, world
-    double radius;
+    CasterBox box;
   };
   /// Close together, on the light's side of their surface.
   struct Start;

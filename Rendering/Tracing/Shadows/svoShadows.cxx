@@ -24,6 +24,7 @@ void Shadows::prepare(
   const Scene& scene, const View& eye, const FrameSettings& settings, LayerBudget& budget)
 {
   this->Filters = canFilter(settings);
+  this->UsesRays = settings.shadowTechnique == ShadowTechnique::Rays;
   // Subsamples of a pixel, and filters, may look up what no pixel's centre does.
   this->TracesWhole = settings.wholeShadowBuffers || settings.antiAliasing || this->Filters;
   this->SharedState.clear();
@@ -126,6 +127,25 @@ bool Shadows::changed(const LightTiles& noted) const
 {
   return std::any_of(noted.begin(), noted.end(),
     [this](const LightTile& tile) { return this->Buffers[tile.light]->changed(tile); });
+}
+
+void Shadows::note(std::size_t light, const TerminatorPoint& at, RaisedTiles& noted) const
+{
+  if (this->Buffers[light] && !this->UsesRays)
+  {
+    this->Buffers[light]->note(at.point.position, static_cast<std::uint16_t>(light), noted);
+  }
+}
+
+bool Shadows::changed(const RaisedTiles& noted) const
+{
+  return std::any_of(noted.begin(), noted.end(),
+    [this](const RaisedTile& raised)
+    {
+      const ShadowBuffer& buffer = *this->Buffers[raised.tile.light];
+      return buffer.wants(raised.tile) != raised.wanted ||
+        (raised.wanted && buffer.changed(raised.tile));
+    });
 }
 
 void Shadows::trace(const ParallelFor& parallelFor)

@@ -50,10 +50,20 @@ public:
   bool sameMaps() const;
   /// After trace(): true if any of these tiles does not show what it showed in the last frame.
   bool changed(const LightTiles& noted) const;
-  /// True if mark() does anything.
-  bool wantsMarks() const { return !this->TracesWhole && this->Casting; }
-  /// True if shading looks up nothing but what mark() notes, where points are no special ones.
-  bool notesAll() const { return !this->UsesRays && !this->Filters; }
+  /// True if it matters what mark() notes.
+  bool wantsMarks() const
+  {
+    return this->Casting && !this->UsesRays && (!this->TracesWhole || this->notesAll());
+  }
+  /// True if shading looks up nothing but what mark() notes, and what note() does of points that
+  /// are raised. Rays go to the lights from where they say.
+  bool notesAll() const { return !this->Filters; }
+  /// Notes what darkness() looks up of a raised point.
+  void note(std::size_t light, const TerminatorPoint& at, RaisedTiles& noted) const;
+  /// After trace(): true if darkness() may look up something else about such points.
+  bool changed(const RaisedTiles& noted) const;
+  /// True if plain points ask the light by rays.
+  bool usesRays() const { return this->UsesRays; }
 
   void trace(const ParallelFor& parallelFor);
 

@@ -278,6 +278,10 @@ void changeAnything(std::mt19937& random, const svo::Octree& ball, Stage& stage)
     case 4:
       all.push_back(
         instanceOf(ball, random(), somewhere() * glm::scale(glm::dmat4(1.0), glm::dvec3(0.3))));
+      if (number(2) != 0) // has a terminator
+      {
+        all.back().attributes = all[1].attributes;
+      }
       break;
     case 5:
       std::swap(any(), any());
@@ -298,6 +302,13 @@ void changeAnything(std::mt19937& random, const svo::Octree& ball, Stage& stage)
       if (number(3) == 0)
       {
         stage.scene.lights[0].position += glm::dvec3(0.1 * number(3), 0, 0);
+      }
+      break;
+    case 11:
+      if (number(3) == 0)
+      {
+        stage.settings.shadowTechnique =
+          number(2) ? svo::ShadowTechnique::Buffer : svo::ShadowTechnique::Rays;
       }
       break;
     case 13:
@@ -332,6 +343,7 @@ TEST(KeptFrame, AnySequenceOfChanges)
       const glm::dmat4 corner = movedTo(i & 1 ? -3.2 : 3.2, i & 2 ? -3.2 : 3.2, 1.4);
       stage.scene.instances.push_back(
         instanceOf(stage.ball, 100 + i, corner * glm::scale(glm::dmat4(1.0), glm::dvec3(0.3))));
+      stage.scene.instances.back().attributes = stage.scene.instances[1].attributes;
     }
     stage.scene.lights[0] = everyLight()[s % 4].light;
     stage.settings = settings[s];
