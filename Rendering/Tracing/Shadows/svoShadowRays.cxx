@@ -26,17 +26,33 @@ glm::dvec3 sideOf(const Light& light, const glm::dvec3& position, const glm::vec
   return glm::dot(normal, light.along(position)) > 0.0 ? -normal : normal;
 }
 
+/// False if all of the way from a point, `share` times `way` at most, is farther than `radius` from
+/// another point.
+bool mayPass(
+  const glm::dvec3& from, const glm::dvec3& way, double share, const glm::dvec3& by, double radius)
+{
+  const glm::dvec3 to = by - from;
+  const double length2 = glm::dot(way, way), along = glm::dot(to, way);
+  const double nearest = length2 > 0.0 ? std::clamp(along / length2, 0.0, share) : 0.0;
+  const glm::dvec3 beside = to - nearest * way;
+  const double most = 1.000001 * radius;
+  return !(glm::dot(beside, beside) > most * most); // what is not a number may
+}
+
 /// False if no ray from a ball of points to the light meets another ball.
 bool mayBlock(const Light& light, const glm::dvec3& from, double radius, const glm::dvec3& centre,
   double casterRadius)
 {
-  const glm::dvec3 way = -light.along(from);
-  const glm::dvec3 to = centre - from;
-  const double length2 = glm::dot(way, way);
-  const double along = glm::dot(to, way);
-  const double share = length2 > 0.0 ? along / length2 : 0.0;
-  const glm::dvec3 nearest = std::clamp(share, 0.0, light.atInfinity() ? 1e300 : 1.0) * way;
-  return !(glm::length(to - nearest) > 1.000001 * (radius + casterRadius));
+  return mayPass(
+    from, -light.along(from), light.atInfinity() ? 1e300 : 1.0, centre, radius + casterRadius);
+}
+
+/// Half of the longest diagonal of a cube whose edges have become those of a matrix.
+double halfDiagonal(const glm::dmat3& edges)
+{
+  const glm::dvec3 a = edges[0] + edges[1], b = edges[0] - edges[1], c = edges[2];
+  return 0.5 *
+    std::max({ glm::length(a + c), glm::length(a - c), glm::length(b + c), glm::length(b - c) });
 }
 }
 
@@ -61,14 +77,12 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
       const bool mixed = traits.exact() && octree.longestList() > traits.longestExact;
       const double planeError = mixed ? CubeError * worldVoxel(instance) : 0.0;
       const Header& h = octree.header();
-      const double half = 0.5 * h.voxelSize * static_cast<double>(1u << h.level);
+      const double edge = h.voxelSize * static_cast<double>(1u << h.level), half = 0.5 * edge;
       const glm::dvec3 centre(h.origin[0] + half, h.origin[1] + half, h.origin[2] + half);
-      const glm::dmat3 m(instance.localToWorld);
-      const double edges = glm::length(m[0]) + glm::length(m[1]) + glm::length(m[2]);
-      this->Casters.push_back(
-        { &instance, geometry, WorldToOctree(octree, instance.localToWorld), planeError,
-          std::max(planeError, worldLeafError(instance, geometry, octree.level())), exact && !mixed,
-          glm::dvec3(instance.localToWorld * glm::dvec4(centre, 1.0)), half * edges });
+      this->Casters.push_back({ &instance, geometry, WorldToOctree(octree, instance.localToWorld),
+        planeError, std::max(planeError, worldLeafError(instance, geometry, octree.level())),
+        exact && !mixed, glm::dvec3(instance.localToWorld * glm::dvec4(centre, 1.0)),
+        halfDiagonal(edge * glm::dmat3(instance.localToWorld)) });
     }
   }
 }
@@ -109,7 +123,11 @@ bool ShadowRays::shadows(
 {
   const glm::dvec3 side = sideOf(light, position, facet);
   return std::any_of(this->Casters.begin(), this->Casters.end(),
-    [&](const Caster& caster) { return blocks(caster, light, position, side, offset); });
+    [&](const Caster& caster)
+    {
+      return mayBlock(light, position, offset, caster.centre, caster.radius) &&
+        blocks(caster, light, position, side, offset);
+    });
 }
 
 /// The pixels of those that the caster shadows, one bit each.
@@ -196,7 +214,7 @@ bool ShadowRays::between(const glm::dvec3& from, const glm::dvec3& to, double of
   for (const Caster& caster : this->Casters)
   {
     const double first = std::max(offset, caster.leafError);
-    if (first < length)
+    if (first < length && mayPass(from, direction, 1.0, caster.centre, caster.radius))
     {
       const Ray ray{ caster.toOctree.point(from), caster.toOctree.vector(direction), first / length,
         1.0 };
