@@ -43,13 +43,18 @@ void PixelShader::eachTerminator(std::size_t l, const Lit& lit, std::uint64_t re
   {
     return;
   }
-  const SurfaceMatrices& frame = this->Frames[patch.instance];
-  eachBit(mayTurnAway(light, shadows.grazing(), patch, reached, dark),
+  const std::uint64_t asked = mayTurnAway(light, shadows.grazing(), patch, reached, dark);
+  if (asked == 0)
+  {
+    return;
+  }
+  SmoothTriangles triangles(this->Frames[patch.instance]);
+  eachBit(asked,
     [&](int i)
     {
       const SurfacePoint point = patch.point(i);
-      const TerminatorPoint at = atTerminator(frame, light, shadows.grazing(), dark >> i & 1, point,
-        patch.towards(i), patch.hits->primitive[i]);
+      const TerminatorPoint at = atTerminator(triangles, light, shadows.grazing(), dark >> i & 1,
+        point, patch.towards(i), patch.hits->primitive[i]);
       if (at.kind != TerminatorPoint::Kind::Plain)
       {
         if (scratch.noted && at.kind != TerminatorPoint::Kind::Hidden)

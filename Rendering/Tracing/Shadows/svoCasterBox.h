@@ -68,16 +68,24 @@ public:
   /// False if no way from a point of `from` to the light meets the box.
   bool mayBlock(const Light& light, const PointBox& from) const
   {
-    if (!this->Casts || from.empty())
+    // The way of the middle, and all others' within a box that gets narrower towards the light.
+    const glm::dvec3 middle = 0.5 * (from.low + from.high);
+    return !from.empty() &&
+      this->mayMeet(middle, 0.5 * (from.high - from.low), -light.along(middle),
+        light.atInfinity() ? 1e300 : 1.0);
+  }
+  /// False if the box is not on the way from a point, `share` times `along` at most, nor nearer to
+  /// it than `half` of another box.
+  bool mayMeet(
+    const glm::dvec3& from, const glm::dvec3& half, const glm::dvec3& along, double share) const
+  {
+    if (!this->Casts)
     {
       return false;
     }
-    const glm::dvec3 middle = 0.5 * (from.low + from.high);
-    const glm::dvec3 half = 0.5 * (from.high - from.low);
-    const glm::dvec3 begin = this->Inverse * (middle - this->Centre);
-    const glm::dvec3 way = this->Inverse * -light.along(middle);
-    // The way of the middle, and all others' within a box that gets narrower towards the light.
-    double first = 0.0, last = light.atInfinity() ? 1e300 : 1.0;
+    const glm::dvec3 begin = this->Inverse * (from - this->Centre);
+    const glm::dvec3 way = this->Inverse * along;
+    double first = 0.0, last = share;
     for (int i = 0; i < 3; ++i)
     {
       const double others = std::abs(this->Inverse[0][i]) * half.x +

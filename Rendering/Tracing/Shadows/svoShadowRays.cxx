@@ -89,8 +89,11 @@ bool ShadowRays::shadows(
   const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const
 {
   const glm::dvec3 side = sideOf(light, position, facet);
+  PointBox from;
+  from.add(position, glm::dvec3(offset));
   return std::any_of(this->Casters.begin(), this->Casters.end(),
-    [&](const Caster& caster) { return blocks(caster, light, position, side, offset); });
+    [&](const Caster& caster)
+    { return caster.box.mayBlock(light, from) && blocks(caster, light, position, side, offset); });
 }
 
 /// The pixels of those that the caster shadows, one bit each.
@@ -174,7 +177,7 @@ bool ShadowRays::between(const glm::dvec3& from, const glm::dvec3& to, double of
   for (const Caster& caster : this->Casters)
   {
     const double first = std::max(offset, caster.leafError);
-    if (first < length)
+    if (first < length && caster.box.mayMeet(from, glm::dvec3(0.0), direction, 1.0))
     {
       const Ray ray{ caster.toOctree.point(from), caster.toOctree.vector(direction), first / length,
         1.0 };

@@ -71,43 +71,105 @@ struct SmoothSurface
   bool hollow = false;    // the smooth surface bends away from the viewer only
 };
 
-/// `towards`: to the viewer; `primitive`: of the hit. The instance isSmooth().
-inline SmoothSurface smoothSurfaceAt(const SurfaceMatrices& frame, const SurfacePoint& point,
+/// What the points of a triangle share of the smooth surface: most of what it takes to know where
+/// that is. The instance isSmooth().
+struct SmoothTriangle
+{
+  SmoothTriangle() = default;
+  SmoothTriangle(const SurfaceMatrices& frame, Primitive primitive)
+  {
+    const Instance& instance = *frame.instance;
+    assert(instance.octree.surface() && instance.attributes.normals);
+    const Surface& surface = *instance.octree.surface();
+    const glm::uvec3 corners = surface.triangles[primitive];
+    a = surface.points[corners.x];
+    e1 = surface.points[corners.y] - a;
+    e2 = surface.points[corners.z] - a;
+    winding = frame.windingMatrix * glm::cross(e1, e2);
+    for (int i = 0; i < 3; ++i)
+    {
+      // Unit unless it is not finite, or 0.
+      normals[i] = detail::normalized(
+        frame.normalMatrix * detail::vectorAt(instance.attributes.normals, corners[i]),
+        glm::vec3(0.0f));
+    }
+  }
+
+  glm::vec3 a, e1, e2;  // first corner and the others from there, octree coordinates
+  glm::vec3 winding;    // world, to a factor
+  glm::vec3 normals[3]; // of the corners, world; 0: none
+};
+
+/// The triangles of an instance that isSmooth(): made once where points of few triangles ask in
+/// turn.
+class SmoothTriangles
+{
+public:
+  explicit SmoothTriangles(const SurfaceMatrices& frame)
+    : Frame(frame)
+    , ToWorld(glm::dmat3(frame.instance->localToWorld) * frame.instance->octree.rootEdge())
+  {
+    std::fill_n(this->Primitives, Slots, NoPrimitive);
+  }
+  const SurfaceMatrices& frame() const { return this->Frame; }
+  /// Octree coordinates -> world, of directions.
+  const glm::dmat3& toWorld() const { return this->ToWorld; }
+  const SmoothTriangle& operator[](Primitive triangle)
+  {
+    const Primitive slot = triangle % Slots;
+    if (this->Primitives[slot] != triangle)
+    {
+      this->Primitives[slot] = triangle;
+      this->Triangles[slot] = SmoothTriangle(this->Frame, triangle);
+    }
+    return this->Triangles[slot];
+  }
+
+private:
+  static constexpr Primitive Slots = 16;
+  const SurfaceMatrices& Frame;
+  const glm::dmat3 ToWorld;
+  Primitive Primitives[Slots];
+  SmoothTriangle Triangles[Slots];
+};
+
+/// `towards`: to the viewer; `primitive`: of the hit.
+inline SmoothSurface smoothSurfaceAt(SmoothTriangles& triangles, const SurfacePoint& point,
   const glm::vec3& towards, Primitive primitive)
 {
-  assert(frame.instance->octree.surface() && frame.instance->attributes.normals);
   constexpr double LeastBend = 1e-5; // radians; rounding of normals is less
   SmoothSurface result;
-  const Instance& instance = *frame.instance;
   if (!(glm::dot(point.facet, point.normal) > 0.0f))
   {
     return result; // no normal of this facet
   }
-  const NodeTriangle hit = triangleOfHit(frame, point.position, towards, primitive);
-  const Surface& surface = *instance.octree.surface();
-  const glm::uvec3 triangle = surface.triangles[hit.triangle];
-  const glm::vec3 a = surface.points[triangle.x];
-  const glm::vec3 e1 = surface.points[triangle.y] - a;
-  const glm::vec3 e2 = surface.points[triangle.z] - a;
-  const glm::vec3 weight = nearWeights(glm::vec3(hit.at - glm::dvec3(a)), e1, e2);
-  const bool front = glm::dot(frame.windingMatrix * glm::cross(e1, e2), towards) > 0.0f;
-  const glm::dmat3 toWorld = glm::dmat3(instance.localToWorld) * instance.octree.rootEdge();
+  const NodeTriangle hit = triangleOfHit(triangles.frame(), point.position, towards, primitive);
+  const SmoothTriangle& triangle = triangles[hit.triangle];
+  const glm::vec3 &e1 = triangle.e1, &e2 = triangle.e2;
+  const glm::vec3 weight = nearWeights(glm::vec3(hit.at - glm::dvec3(triangle.a)), e1, e2);
+  const float side = sideLane(triangle.winding, towards);
   const glm::vec3 at = weight.y * e1 + weight.z * e2; // from the first corner
   const glm::vec3 corners[3] = { glm::vec3(0.0f), e1, e2 };
-  double away = 0.0, below = 0.0;
+  glm::dvec3 from[3];
+  double below = 0.0;
   for (int i = 0; i < 3; ++i)
   {
-    const glm::vec3 normal = detail::normalized(
-      frame.normalMatrix * detail::vectorAt(instance.attributes.normals, triangle[i]),
-      front ? point.facet : -point.facet);
-    const glm::dvec3 outwards(front ? normal : -normal);
-    const glm::dvec3 from = toWorld * glm::dvec3(at - corners[i]);
-    const double over = glm::dot(from, outwards); // of the point over the plane of this corner
+    const glm::vec3& normal = triangle.normals[i];
+    const glm::dvec3 outwards(normal == glm::vec3(0.0f) ? point.facet : side * normal);
+    from[i] = triangles.toWorld() * glm::dvec3(at - corners[i]);
+    const double over = glm::dot(from[i], outwards); // of the point over the plane of this corner
     result.lift += weight[i] * std::max(0.0, -over) * outwards;
     below += weight[i] * std::max(0.0, over);
-    away += weight[i] * glm::length(from);
   }
-  result.hollow = result.lift == glm::dvec3(0.0) && below > LeastBend * away;
+  if (result.lift == glm::dvec3(0.0) && below > 0.0)
+  {
+    double away = 0.0;
+    for (int i = 0; i < 3; ++i)
+    {
+      away += weight[i] * glm::length(from[i]);
+    }
+    result.hollow = below > LeastBend * away;
+  }
   return result;
 }
 
@@ -129,10 +191,9 @@ struct TerminatorPoint
   SurfacePoint point{};
 };
 
-/// `grazing`: see turnsAway(). `dark`: the mesh itself shadows the point. The instance isSmooth().
-inline TerminatorPoint atTerminator(const SurfaceMatrices& frame, const Light& light,
-  double grazing, bool dark, const SurfacePoint& point, const glm::vec3& towards,
-  Primitive primitive)
+/// `grazing`: see turnsAway(). `dark`: the mesh itself shadows the point.
+inline TerminatorPoint atTerminator(SmoothTriangles& triangles, const Light& light, double grazing,
+  bool dark, const SurfacePoint& point, const glm::vec3& towards, Primitive primitive)
 {
   TerminatorPoint result;
   const bool turned = turnsAway(light, point.position, point.facet, grazing);
@@ -141,7 +202,7 @@ inline TerminatorPoint atTerminator(const SurfaceMatrices& frame, const Light& l
     return result;
   }
   const bool behind = turnsAway(light, point.position, point.facet, 0.0);
-  const SmoothSurface smooth = smoothSurfaceAt(frame, point, towards, primitive);
+  const SmoothSurface smooth = smoothSurfaceAt(triangles, point, towards, primitive);
   if (smooth.lift != glm::dvec3(0.0) || (behind && !smooth.hollow))
   {
     result.kind = turned ? TerminatorPoint::Kind::Raised : TerminatorPoint::Kind::Doubted;
@@ -149,7 +210,7 @@ inline TerminatorPoint atTerminator(const SurfaceMatrices& frame, const Light& l
     result.point.position += smooth.lift;
     result.point.facet = point.normal;
   }
-  else if (behind && frame.instance->castShadow)
+  else if (behind && triangles.frame().instance->castShadow)
   {
     result.kind = TerminatorPoint::Kind::Hidden;
   }

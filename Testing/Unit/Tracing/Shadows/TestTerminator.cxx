@@ -112,6 +112,7 @@ TEST(Terminator, ThePointThatIsAskedAboutLiesOnTheSmoothSurface)
   const Ball ball(8, 8);
   const svo::Instance instance = ball.instance(1, movedTo(3, 0, 0));
   const svo::SurfaceMatrices frame(instance);
+  svo::SmoothTriangles triangles(frame);
   const svo::Surface& surface = *ball.octree.surface();
   for (std::uint32_t k = 0; k < surface.triangles.size(); ++k)
   {
@@ -130,7 +131,7 @@ TEST(Terminator, ThePointThatIsAskedAboutLiesOnTheSmoothSurface)
       svo::Light light = lightOf(svo::Light::Kind::Directional, { 1, 0, 0 });
       light.direction = glm::dvec3(point.facet); // from behind
       const svo::TerminatorPoint at =
-        svo::atTerminator(frame, light, 0.0, false, point, towards, k);
+        svo::atTerminator(triangles, light, 0.0, false, point, towards, k);
       ASSERT_EQ(at.kind,
         side > 0.0 ? svo::TerminatorPoint::Kind::Raised : svo::TerminatorPoint::Kind::Hidden);
       if (side > 0.0)
@@ -141,7 +142,7 @@ TEST(Terminator, ThePointThatIsAskedAboutLiesOnTheSmoothSurface)
         EXPECT_EQ(at.point.facet, point.normal);
       }
       light.direction = -light.direction;
-      EXPECT_EQ(svo::atTerminator(frame, light, 0.0, false, point, towards, k).kind,
+      EXPECT_EQ(svo::atTerminator(triangles, light, 0.0, false, point, towards, k).kind,
         svo::TerminatorPoint::Kind::Plain);
     }
   }
