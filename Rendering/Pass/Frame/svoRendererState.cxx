@@ -167,6 +167,7 @@ void RendererState::trace(int width, int height, double distance, FrameSettings 
   const bool occlusion = this->Renderer->GetUseSSAO(); // into a framebuffer that is not bound yet
   settings.writeNormals = occlusion || this->Presenter->WantsNormals();
   settings.writeLight = occlusion || vtkSVOPresenter::KeepsLight();
+  settings.writeNames = false;
   this->Trace->render(scene, view, settings, smpParallelFor(), this->Picture);
   this->Statistics.tracer = this->Trace->statistics();
   this->Statistics.coarseOctreeError = distance * this->Statistics.tracer.coarsestVoxel;

@@ -16,7 +16,8 @@ struct TileRuns
 };
 
 /// Rectangles of tiles of 8x8 pixels, as long as they are alike; those of the frame's border may be
-/// smaller. Together they have every hit, each once.
+/// smaller. Together they have every hit, each once. Where a tracer does not say what tiles are,
+/// Frame::covered is one rectangle of the second list.
 TileRuns tileRunsOf(const Frame& frame);
 }
 

@@ -4,7 +4,6 @@
 #include "svoOpenGL.h"
 #include "svoPresentFS.h"
 #include "svoPresentVS.h"
-#include "svoSMPParallel.h"
 #include "svoTileRuns.h"
 
 #include "vtkInformation.h"
@@ -50,11 +49,7 @@ void vtkSVOPresenter::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Corners = nullptr;
   this->Array = nullptr;
-  this->Colors = nullptr;
-  this->Depths = nullptr;
-  this->DepthCopy = nullptr;
-  this->Normals = nullptr;
-  this->Light = nullptr;
+  this->Textures.release();
   this->Parts.release();
   this->Uploaded = 0;
   if (window)
@@ -64,72 +59,16 @@ void vtkSVOPresenter::ReleaseGraphicsResources(vtkWindow* window)
   }
 }
 
-namespace
-{
-/// A texture of the frame's size, made anew only when that changes.
-enum class Kind
-{
-  Bytes, // of RGBA
-  Float,
-  Floats, // of three components
-  Depth   // as a depth buffer has it
-};
-void prepare(vtkSmartPointer<vtkTextureObject>& texture, vtkOpenGLRenderWindow* window,
-  const svo::Frame& frame, Kind kind)
-{
-  const auto width = static_cast<unsigned int>(frame.width);
-  const auto height = static_cast<unsigned int>(frame.height);
-  if (!texture || texture->GetContext() != window || texture->GetWidth() != width ||
-    texture->GetHeight() != height)
-  {
-    texture = vtkSmartPointer<vtkTextureObject>::New();
-    texture->SetContext(window);
-    texture->SetMinificationFilter(vtkTextureObject::Nearest);
-    texture->SetMagnificationFilter(vtkTextureObject::Nearest);
-    texture->SetWrapS(vtkTextureObject::ClampToEdge);
-    texture->SetWrapT(vtkTextureObject::ClampToEdge);
-    switch (kind)
-    {
-      case Kind::Bytes:
-        texture->Allocate2D(width, height, 4, VTK_UNSIGNED_CHAR);
-        break;
-      case Kind::Depth:
-        texture->AllocateDepth(width, height, vtkTextureObject::Fixed32);
-        break;
-      default:
-        texture->Allocate2D(width, height, kind == Kind::Float ? 1 : 3, VTK_FLOAT);
-    }
-  }
-}
-
-/// Sends the covered rectangle of an image with rows of the frame's width. VTK knows the alignment
-/// that it has set, and relies on the other three being 0.
-void send(vtkTextureObject* texture, const svo::Frame& frame, GLenum format, GLenum type,
-  const void* pixels)
-{
-  const svo::PixelRect& rect = frame.covered;
-  texture->Bind();
-  texture->GetContext()->GetState()->vtkglPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, frame.width);
-  glPixelStorei(GL_UNPACK_SKIP_PIXELS, rect.x0);
-  glPixelStorei(GL_UNPACK_SKIP_ROWS, rect.y0);
-  glTexSubImage2D(
-    GL_TEXTURE_2D, 0, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, format, type, pixels);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-  glPixelStorei(GL_UNPACK_SKIP_PIXELS, 0);
-  glPixelStorei(GL_UNPACK_SKIP_ROWS, 0);
-}
-}
-
 /// True if the frame's pixels, but those of tiles with holes, may be copied.
 bool vtkSVOPresenter::MayCopy(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   const svo::Frame& frame = *this->Frame;
   int viewport[4];
   window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
-  return this->First && renderer->GetErase() && !renderer->GetPreserveDepthBuffer() &&
-    frame.width == viewport[2] && frame.height == viewport[3] && frame.normals.empty() &&
-    frame.light.empty() && svo::isWorthCopying();
+  return this->First && !this->CannotCopy && renderer->GetErase() &&
+    !renderer->GetPreserveDepthBuffer() && frame.width == viewport[2] &&
+    frame.height == viewport[3] && frame.normals.empty() && frame.light.empty() &&
+    svo::isWorthCopying();
 }
 
 void vtkSVOPresenter::UploadRectangles(const std::vector<svo::PixelRect>& rectangles)
@@ -149,22 +88,6 @@ void vtkSVOPresenter::UploadRectangles(const std::vector<svo::PixelRect>& rectan
   this->Corners->Upload(corners, vtkOpenGLBufferObject::ArrayBuffer);
 }
 
-void vtkSVOPresenter::UploadDepthCopy(vtkOpenGLRenderWindow* window)
-{
-  const svo::Frame& frame = *this->Frame;
-  const svo::PixelRect& rect = frame.covered;
-  this->DepthWords.resize(frame.depth.size());
-  svo::smpParallelFor()(rect.y0, rect.y1, 64,
-    [&](std::size_t first, std::size_t last)
-    {
-      const std::size_t at = first * frame.width;
-      svo::toDepthBuffer(
-        frame.depth.data() + at, (last - first) * frame.width, this->DepthWords.data() + at);
-    });
-  prepare(this->DepthCopy, window, frame, Kind::Depth);
-  send(this->DepthCopy, frame, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, this->DepthWords.data());
-}
-
 void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window, bool copy)
 {
   svo::Frame& frame = *this->Frame;
@@ -176,35 +99,20 @@ void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window, bool copy)
   this->Parts.upload(silhouettes.parts);
   silhouettes.exchange(frame);
   this->Copies = copy;
-  this->Copied.clear();
-  if (copy)
+  svo::TileRuns runs = svo::tileRunsOf(frame);
+  this->Copied = copy ? runs.whole : std::vector<svo::PixelRect>();
+  if (!copy)
   {
-    svo::TileRuns runs = svo::tileRunsOf(frame);
-    this->Copied = std::move(runs.whole);
-    this->UploadRectangles(runs.mixed);
+    runs.mixed.insert(runs.mixed.end(), runs.whole.begin(), runs.whole.end());
   }
-  else
+  this->UploadRectangles(runs.mixed);
+  // Pixels that are exchanged are not what the tracer wrote.
+  if (this->HasParts || !silhouettes.pixels.empty())
   {
-    this->UploadRectangles({ frame.covered });
+    this->Textures.invalidate();
   }
-  prepare(this->Colors, window, frame, Kind::Bytes);
-  prepare(this->Depths, window, frame, Kind::Float);
-  send(this->Colors, frame, GL_RGBA, GL_UNSIGNED_BYTE, frame.color.data());
-  send(this->Depths, frame, GL_RED, GL_FLOAT, frame.depth.data());
-  if (copy)
-  {
-    this->UploadDepthCopy(window);
-  }
-  if (!frame.normals.empty())
-  {
-    prepare(this->Normals, window, frame, Kind::Floats);
-    send(this->Normals, frame, GL_RGB, GL_FLOAT, frame.normals.data());
-  }
-  if (!frame.light.empty())
-  {
-    prepare(this->Light, window, frame, Kind::Floats);
-    send(this->Light, frame, GL_RGB, GL_FLOAT, frame.light.data());
-  }
+  this->HasParts = !silhouettes.pixels.empty();
+  this->Textures.upload(frame, copy, window);
   silhouettes.exchange(frame); // back
 }
 
@@ -303,10 +211,10 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
   this->Array->Bind();
   this->Array->AddAttributeArray(
     program, this->Corners, "corner", 0, sizeof(glm::vec2), VTK_FLOAT, 2, false);
-  this->Colors->Activate();
-  this->Depths->Activate();
-  program->SetUniformi("colors", this->Colors->GetTextureUnit());
-  program->SetUniformi("depths", this->Depths->GetTextureUnit());
+  this->Textures.colors()->Activate();
+  this->Textures.depths()->Activate();
+  program->SetUniformi("colors", this->Textures.colors()->GetTextureUnit());
+  program->SetUniformi("depths", this->Textures.depths()->GetTextureUnit());
   if (writeNormals)
   {
     vtkMatrix4x4 *worldToView, *viewToClip, *worldToClip;
@@ -316,13 +224,13 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
     vtkNew<vtkMatrix4x4> clipToView; // transposed, as the key matrices are
     vtkMatrix4x4::Invert(viewToClip, clipToView);
     program->SetUniformMatrix("clipToView", clipToView);
-    this->Normals->Activate();
-    program->SetUniformi("normals", this->Normals->GetTextureUnit());
+    this->Textures.normals()->Activate();
+    program->SetUniformi("normals", this->Textures.normals()->GetTextureUnit());
   }
   if (writeLight)
   {
-    this->Light->Activate();
-    program->SetUniformi("light", this->Light->GetTextureUnit());
+    this->Textures.light()->Activate();
+    program->SetUniformi("light", this->Textures.light()->GetTextureUnit());
   }
   this->SelectDrawBuffers(program);
 
@@ -346,15 +254,15 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
     this->Array->Release();
     drawn = this->Parts.draw(window, size);
   }
-  this->Colors->Deactivate();
-  this->Depths->Deactivate();
+  this->Textures.colors()->Deactivate();
+  this->Textures.depths()->Deactivate();
   if (writeNormals)
   {
-    this->Normals->Deactivate();
+    this->Textures.normals()->Deactivate();
   }
   if (writeLight)
   {
-    this->Light->Deactivate();
+    this->Textures.light()->Deactivate();
   }
   return drawn;
 }
@@ -383,17 +291,17 @@ int vtkSVOPresenter::RenderOpaqueGeometry(vtkViewport* viewport)
   std::vector<glm::vec2> positions = svo::samplePositions();
   const bool copy = this->MayCopy(renderer, window);
   if (this->Frame->version == 0 || this->Uploaded != this->Frame->version ||
-    positions != this->SamplePositions || copy != this->Copies || !this->Colors ||
-    this->Colors->GetContext() != window)
+    positions != this->SamplePositions || copy != this->Copies || !this->Textures.isOf(window))
   {
     this->SamplePositions = std::move(positions);
     this->Upload(window, copy);
     this->Uploaded = this->Frame->version;
   }
-  if (!this->Copied.empty() && !svo::copyRectangles(this->Colors, this->DepthCopy, this->Copied))
+  if (!this->Copied.empty() &&
+    !svo::copyRectangles(this->Textures.colors(), this->Textures.depthCopy(), this->Copied))
   {
-    this->Copied.clear();
-    this->UploadRectangles({ this->Frame->covered });
+    this->CannotCopy = true;
+    this->Upload(window, false);
   }
   const bool drawn = this->Drawn == 0 || this->Draw(renderer, window);
   vtkOpenGLCheckErrorMacro("failed in vtkSVOPresenter");

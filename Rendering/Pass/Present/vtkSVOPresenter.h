@@ -9,6 +9,7 @@
 #ifndef vtkSVOPresenter_h
 #define vtkSVOPresenter_h
 
+#include "svoFrameTextures.h"
 #include "svoPixelParts.h"
 #include "svoSilhouettes.h"
 #include "svoTracer.h"
@@ -29,7 +30,6 @@ class vtkOpenGLRenderWindow;
 class vtkOpenGLVertexArrayObject;
 class vtkRenderer;
 class vtkShaderProgram;
-class vtkTextureObject;
 
 class vtkSVOPresenter : public vtkProp3D
 {
@@ -82,7 +82,6 @@ private:
 
   bool MayCopy(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void Upload(vtkOpenGLRenderWindow* window, bool copy);
-  void UploadDepthCopy(vtkOpenGLRenderWindow* window);
   void UploadRectangles(const std::vector<svo::PixelRect>& rectangles);
   bool Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void SelectDrawBuffers(vtkShaderProgram* program);
@@ -95,18 +94,15 @@ private:
   double PresentTime = 0.0;
   std::vector<glm::vec2> SamplePositions; // that the upload was made for
   svo::PixelParts Parts;
+  bool HasParts = false; // the upload has pixels that were exchanged
   bool First = false;
   bool Copies = false;
-  vtkSmartPointer<vtkTextureObject> DepthCopy; // what is copied of depths
-  std::vector<std::uint32_t> DepthWords;
+  bool CannotCopy = false;                        // OpenGL did not take it
   std::vector<svo::PixelRect> Copied;             // rectangles that are copied;
   int Drawn = 0;                                  // and how many others are drawn
   vtkSmartPointer<vtkOpenGLBufferObject> Corners; // two triangles for each
   vtkSmartPointer<vtkOpenGLVertexArrayObject> Array;
-  vtkSmartPointer<vtkTextureObject> Colors;
-  vtkSmartPointer<vtkTextureObject> Depths;
-  vtkSmartPointer<vtkTextureObject> Normals;
-  vtkSmartPointer<vtkTextureObject> Light;
+  svo::FrameTextures Textures;
   /// The mapper that other passes are given when they set up the quad's shader.
   vtkNew<vtkOpenGLPolyDataMapper> QuadMapper;
 };

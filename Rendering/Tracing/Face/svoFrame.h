@@ -41,11 +41,27 @@ struct FrameSettings
   bool wholeShadowBuffers = false; // rasterised receivers look up texels unknown to the tracer
   bool writeNormals = false;       // Frame::normals is wanted (SSAO)
   bool writeLight = false;         // Frame::light is wanted (tone mapping)
+  bool writeNames = true;          // Frame::instance and Frame::primitive are wanted
+};
+
+/// What a tile of 8x8 pixels of a frame holds; those of its border may be smaller.
+struct FrameTile
+{
+  enum class Kind : std::uint8_t
+  {
+    Empty,
+    Mixed, // some pixels are hits
+    Whole  // all are
+  };
+  Kind kind = Kind::Empty;
+  std::uint64_t version = 0; // Frame::version when it was written last
 };
 
 /// The picture, row by row from the lower left, one entry a pixel.
 struct Frame
 {
+  static constexpr int TileSize = 8; // pixels
+
   int width = 0;
   int height = 0;
   /// Another one whenever a tracer has written to it; 0: the tracer does not say.
@@ -55,8 +71,10 @@ struct Frame
   std::vector<float> depth;            // OpenGL window depth; 1 where nothing was hit
   std::vector<float> normals;          // xyz, view space, if asked for; 0 of unlit surfaces
   std::vector<float> light;            // RGB that `color` has cut to 0..1, on hits, if asked for
-  std::vector<std::uint32_t> instance; // index into Scene::instances, or ~0u
-  std::vector<Primitive> primitive;
+  std::vector<std::uint32_t> instance; // index into Scene::instances, or ~0u; if asked for
+  std::vector<Primitive> primitive;    // if asked for
+  /// Tile by tile, row by row from the lower left; empty: the tracer does not say.
+  std::vector<FrameTile> tiles;
 };
 
 /// What a part of a frame took, seconds.

@@ -43,6 +43,16 @@ struct DepthBuffer
     return 64 * (static_cast<std::size_t>(y >> 3) * this->tilesX + (x >> 3)) + 8 * (y & 7) +
       (x & 7);
   }
+  std::uint32_t instanceAt(int x, int y) const
+  {
+    const std::size_t i = this->at(x, y);
+    return this->hit[i / 64] ? this->instance[i] : NoInstance;
+  }
+  Primitive primitiveAt(int x, int y) const
+  {
+    const std::size_t i = this->at(x, y);
+    return this->hit[i / 64] && this->instance[i] != NoInstance ? this->primitive[i] : NoPrimitive;
+  }
   /// True if a pixel of the tile is the instance's.
   bool shows(int tileX, int tileY, std::uint32_t wanted) const
   {

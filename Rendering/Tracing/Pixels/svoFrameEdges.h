@@ -2,6 +2,7 @@
 #ifndef svoFrameEdges_h
 #define svoFrameEdges_h
 
+#include "svoDepthBuffer.h"
 #include "svoEdges.h"
 #include "svoFrame.h"
 #include "svoView.h"
@@ -42,8 +43,10 @@ struct PixelDepth
 class FrameEdges
 {
 public:
-  FrameEdges(const Frame& frame, const View& view)
+  /// `seen`: what the frame shows.
+  FrameEdges(const Frame& frame, const DepthBuffer& seen, const View& view)
     : Picture(frame)
+    , Seen(seen)
     , Columns(view.width)
     , Rows(view.height)
     , Width(view)
@@ -52,15 +55,14 @@ public:
 
   std::uint32_t instance(int x, int y) const
   {
-    return x >= 0 && y >= 0 && x < this->Columns && y < this->Rows
-      ? this->Picture.instance[this->at(x, y)]
-      : NoInstance;
+    return x >= 0 && y >= 0 && x < this->Columns && y < this->Rows ? this->Seen.instanceAt(x, y)
+                                                                   : NoInstance;
   }
 
   bool changes(int x, int y) const
   {
     const std::size_t pixel = this->at(x, y);
-    return this->steps(pixel) || this->creases(pixel);
+    return this->steps(pixel) || (this->touches(x, y) && this->bends(pixel));
   }
 
   /// Of a pixel in window depth, where the window depth is `depth`.
@@ -78,17 +80,19 @@ private:
       depthSteps(depth[-up], *depth, depth[up], width);
   }
 
-  /// True if the colour bends from one triangle to another, more than its rounding does.
-  bool creases(std::size_t pixel) const
+  /// True if a pixel beside this one shows another primitive.
+  bool touches(int x, int y) const
+  {
+    const Primitive own = this->Seen.primitiveAt(x, y);
+    return this->Seen.primitiveAt(x - 1, y) != own || this->Seen.primitiveAt(x + 1, y) != own ||
+      this->Seen.primitiveAt(x, y - 1) != own || this->Seen.primitiveAt(x, y + 1) != own;
+  }
+
+  /// True if the colour bends more than its rounding does.
+  bool bends(std::size_t pixel) const
   {
     constexpr int Most = 4; // grey levels
-    const Primitive* primitive = this->Picture.primitive.data() + pixel;
     const std::ptrdiff_t up = this->Columns;
-    if (primitive[-1] == *primitive && primitive[1] == *primitive && primitive[-up] == *primitive &&
-      primitive[up] == *primitive)
-    {
-      return false;
-    }
     const std::uint8_t* color = this->Picture.color.data() + 4 * pixel;
     const auto bends = [&](std::ptrdiff_t away)
     {
@@ -100,6 +104,7 @@ private:
   }
 
   const Frame& Picture;
+  const DepthBuffer& Seen;
   int Columns, Rows;
   PixelDepth Width;
 };

@@ -16,8 +16,11 @@ void wipeTile(Frame& frame, int x0, int y0)
     const std::size_t b = row + x1;
     std::fill(frame.color.begin() + 4 * a, frame.color.begin() + 4 * b, std::uint8_t(0));
     std::fill(frame.depth.begin() + a, frame.depth.begin() + b, 1.0f);
-    std::fill(frame.instance.begin() + a, frame.instance.begin() + b, NoInstance);
-    std::fill(frame.primitive.begin() + a, frame.primitive.begin() + b, NoPrimitive);
+    if (!frame.instance.empty())
+    {
+      std::fill(frame.instance.begin() + a, frame.instance.begin() + b, NoInstance);
+      std::fill(frame.primitive.begin() + a, frame.primitive.begin() + b, NoPrimitive);
+    }
     if (!frame.normals.empty())
     {
       std::fill(frame.normals.begin() + 3 * a, frame.normals.begin() + 3 * b, 0.0f);
@@ -34,15 +37,17 @@ bool FrameTiles::find(
     this->WrittenTo == frame.color.data() && this->Version == frame.version &&
     frame.color.size() == 4 * pixels &&
     frame.normals.size() == (settings.writeNormals ? 3 * pixels : 0) &&
-    frame.light.size() == (settings.writeLight ? 3 * pixels : 0);
+    frame.light.size() == (settings.writeLight ? 3 * pixels : 0) &&
+    frame.instance.size() == (settings.writeNames ? pixels : 0);
   if (!same)
   {
     frame.width = view.width;
     frame.height = view.height;
     frame.color.assign(4 * pixels, 0);
     frame.depth.assign(pixels, 1.0f);
-    frame.instance.assign(pixels, NoInstance);
-    frame.primitive.assign(pixels, NoPrimitive);
+    frame.instance.assign(settings.writeNames ? pixels : 0, NoInstance);
+    frame.primitive.assign(settings.writeNames ? pixels : 0, NoPrimitive);
+    frame.tiles.assign(depth.tiles(), FrameTile());
     frame.normals.assign(settings.writeNormals ? 3 * pixels : 0, 0.0f);
     frame.light.assign(settings.writeLight ? 3 * pixels : 0, 0.0f);
     this->WrittenTo = frame.color.data();
@@ -65,6 +70,7 @@ bool FrameTiles::find(
     else if (this->Written[tile])
     {
       wipeTile(frame, x, y);
+      frame.tiles[tile] = { FrameTile::Kind::Empty, frame.version };
     }
     this->Written[tile] = depth.hit[tile];
   }

@@ -78,7 +78,7 @@ void add(const FrameSettings& s, Bytes& bytes)
 {
   bytes.add(s.shadowTechnique, s.shadowResolution, s.shadowMemoryLimit, s.automaticBias, s.bias,
     s.shadowIntensity, s.pixelError, s.antiAliasing, s.filterShadows, s.wholeShadowBuffers,
-    s.writeNormals, s.writeLight);
+    s.writeNormals, s.writeLight, s.writeNames);
 }
 }
 

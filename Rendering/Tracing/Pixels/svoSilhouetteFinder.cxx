@@ -59,7 +59,7 @@ public:
     , Picture(frame)
     , Positions(positions)
     , SampleCount(std::min(static_cast<int>(positions.size()), MostSamples))
-    , Edges(frame, shaded.view)
+    , Edges(frame, shaded.eye.depthBuffer(), shaded.view)
   {
   }
 
@@ -187,7 +187,7 @@ private:
       {
         Facet& facet = scratch.facets[f];
         std::size_t shownBy = this->at(pixel.x, pixel.y);
-        if (!this->shows(shownBy, facet) &&
+        if (!this->shows(pixel, facet) &&
           (this->Lit.shaded.dark.knows(this->position(facet)) ||
             !this->nearby(pixel, facet, shownBy)))
         {
@@ -223,10 +223,12 @@ private:
     }
   }
 
-  bool shows(std::size_t pixel, const Facet& facet) const
+  const DepthBuffer& seen() const { return this->Lit.shaded.eye.depthBuffer(); }
+
+  bool shows(const EdgePixel& pixel, const Facet& facet) const
   {
-    return this->Picture.instance[pixel] == facet.instance &&
-      this->Picture.primitive[pixel] == facet.primitive;
+    return this->seen().instanceAt(pixel.x, pixel.y) == facet.instance &&
+      this->seen().primitiveAt(pixel.x, pixel.y) == facet.primitive;
   }
 
   glm::dvec3 position(const Facet& facet) const
@@ -266,10 +268,10 @@ private:
   void divide(const EdgePixel& pixel, const std::vector<Facet>& facets, Silhouettes& result) const
   {
     const std::size_t own = this->at(pixel.x, pixel.y);
-    const bool hit = this->Picture.instance[own] != NoInstance;
+    const bool hit = this->seen().instanceAt(pixel.x, pixel.y) != NoInstance;
     const std::size_t count = pixel.lastFacet - pixel.firstFacet;
     const bool whole = pixel.hits == this->SampleCount;
-    if (count == 0 ? !hit : count == 1 && whole && this->shows(own, facets[pixel.firstFacet]))
+    if (count == 0 ? !hit : count == 1 && whole && this->shows(pixel, facets[pixel.firstFacet]))
     {
       return;
     }
@@ -285,7 +287,7 @@ private:
       }
     }
     if (result.parts.size() == firstPart + 1 && whole && hit &&
-      this->sameSurface(result.parts.back(), facets[pixel.firstFacet].instance, own))
+      this->sameSurface(result.parts.back(), facets[pixel.firstFacet].instance))
     {
       std::copy_n(result.parts.back().color, 4, replaced.color);
       result.parts.pop_back();
@@ -296,10 +298,12 @@ private:
     }
   }
 
-  bool sameSurface(const PixelPart& part, std::uint32_t instance, std::size_t pixel) const
+  /// True if the pixel of a part shows the instance about there.
+  bool sameSurface(const PixelPart& part, std::uint32_t instance) const
   {
-    return this->Picture.instance[pixel] == instance &&
-      std::abs(this->Picture.depth[pixel] - part.depth) <= 3.0f * this->Edges.width(part.depth);
+    return this->seen().instanceAt(part.x, part.y) == instance &&
+      std::abs(this->Picture.depth[this->at(part.x, part.y)] - part.depth) <=
+      3.0f * this->Edges.width(part.depth);
   }
 
   /// The facets of the instance that are about as deep as number f.

@@ -79,8 +79,11 @@ TileImage::TileImage(const TileHits& hits, Frame& frame)
     const std::size_t at = static_cast<std::size_t>(hits.y0 + row) * frame.width + hits.x0;
     __builtin_prefetch(frame.color.data() + 4 * at, 1);
     __builtin_prefetch(frame.depth.data() + at, 1);
-    __builtin_prefetch(frame.instance.data() + at, 1);
-    __builtin_prefetch(frame.primitive.data() + at, 1);
+    if (!frame.instance.empty())
+    {
+      __builtin_prefetch(frame.instance.data() + at, 1);
+      __builtin_prefetch(frame.primitive.data() + at, 1);
+    }
   }
   if (hits.mask != ~std::uint64_t(0))
   {
@@ -108,15 +111,29 @@ void TileImage::write() const
     {
       std::memcpy(frame.color.data() + 4 * to, this->Color + from, 32);
       std::memcpy(frame.depth.data() + to, this->Depth + from, 32);
-      std::memcpy(frame.instance.data() + to, hits.instance + from, 32);
-      std::memcpy(frame.primitive.data() + to, hits.primitive + from, 32);
-      continue;
     }
-    std::memcpy(frame.color.data() + 4 * to, this->Color + from, 4 * columns);
-    std::copy_n(this->Depth + from, columns, frame.depth.data() + to);
-    std::copy_n(hits.instance + from, columns, frame.instance.data() + to);
-    std::copy_n(hits.primitive + from, columns, frame.primitive.data() + to);
+    else
+    {
+      std::memcpy(frame.color.data() + 4 * to, this->Color + from, 4 * columns);
+      std::copy_n(this->Depth + from, columns, frame.depth.data() + to);
+    }
+    if (!frame.instance.empty())
+    {
+      std::copy_n(hits.instance + from, columns, frame.instance.data() + to);
+      std::copy_n(hits.primitive + from, columns, frame.primitive.data() + to);
+    }
   }
+  // All pixels of the tile that are in the frame.
+  const std::uint64_t inRow = (std::uint64_t(1) << columns) - 1;
+  std::uint64_t whole = 0;
+  for (int row = 0; row < rows; ++row)
+  {
+    whole |= inRow << 8 * row;
+  }
+  const std::size_t tilesX = (frame.width + 7) / 8;
+  frame.tiles[hits.y0 / 8 * tilesX + hits.x0 / 8] = {
+    (hits.mask & whole) == whole ? FrameTile::Kind::Whole : FrameTile::Kind::Mixed, frame.version
+  };
   for (int i = 0; !frame.normals.empty() && i < TileHits::Most; ++i)
   {
     if (!(hits.mask >> i & 1) && (i & 7) < columns && (i >> 3) < rows)

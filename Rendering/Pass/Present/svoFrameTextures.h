@@ -1,0 +1,47 @@
+// A frame's images as textures. Only tiles that a tracer has written since the last upload are
+// sent, band by band: in each the rectangle around them.
+#ifndef svoFrameTextures_h
+#define svoFrameTextures_h
+
+#include "svoFrame.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+
+namespace svo
+{
+class FrameTextures
+{
+public:
+  /// `copies`: tiles that are covered whole will be copied (svoFrameCopy.h), so of them depths are
+  /// sent as a depth buffer has them; of others, or of all, as floats.
+  void upload(const Frame& frame, bool copies, vtkOpenGLRenderWindow* window);
+  /// The next upload sends all tiles.
+  void invalidate() { this->Sent = 0; }
+  void release();
+
+  bool isOf(vtkOpenGLRenderWindow* window) const;
+
+  // Null before an upload that needs them. Pixels of tiles without hits are not defined.
+  vtkTextureObject* colors() const { return this->Colors; }
+  vtkTextureObject* depths() const { return this->Depths; }
+  vtkTextureObject* depthCopy() const { return this->DepthCopy; }
+  vtkTextureObject* normals() const { return this->Normals; }
+  vtkTextureObject* light() const { return this->Light; }
+
+private:
+  void sendDepthCopy(const Frame& frame, const PixelRect& rect);
+
+  std::uint64_t Sent = 0; // Frame::version; 0: nothing, or not to be relied on
+  bool Copies = false;
+  vtkSmartPointer<vtkTextureObject> Colors, Depths, DepthCopy, Normals, Light;
+  std::vector<std::uint32_t> DepthWords; // of a band
+};
+}
+
+#endif
