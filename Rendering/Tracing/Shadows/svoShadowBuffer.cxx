@@ -122,17 +122,19 @@ void ShadowBuffer::tilesAround(const Place& place, Body&& body)
   }
 }
 
+bool ShadowBuffer::isTraced(const Place& place)
+{
+  bool traced = true;
+  tilesAround(place,
+    [&](std::size_t tile)
+    { traced = traced && place.face->wanted[tile].load(std::memory_order_relaxed); });
+  return traced;
+}
+
 bool ShadowBuffer::knows(const glm::dvec3& position) const
 {
-  bool known = true;
   Place place;
-  if (this->lookUp(position, place))
-  {
-    tilesAround(place,
-      [&](std::size_t tile)
-      { known = known && place.face->wanted[tile].load(std::memory_order_relaxed); });
-  }
-  return known;
+  return !this->lookUp(position, place) || isTraced(place);
 }
 
 bool ShadowBuffer::Face::want(const MapPlaces& places, LightTile name, LightTiles& noted)

@@ -96,8 +96,16 @@ public:
 
   /// Whether points are compared on their own planes, see setBias().
   bool automaticBias() const { return this->AutomaticBias; }
-  /// The shorter edge of a texel at a point, world; 0 outside of the map.
-  double texelEdge(const glm::dvec3& position) const;
+
+  /// What the buffer says of a point that nobody may have marked.
+  struct Told
+  {
+    bool known = false;
+    float dark = 0.0f;  // if known
+    double texel = 0.0; // the shorter edge of a texel there, world; 0 outside of the map
+  };
+  /// `extent`: of darkness(), or null: dark is 0 or 1, by shadows().
+  Told tell(const SurfacePoint& point, double error, const double* extent) const;
 
   void copyMaps(int light, std::vector<ShadowMap>& maps);
   void release();
@@ -166,6 +174,8 @@ private:
   };
   /// False if the point is outside of all faces, or its face sees no caster.
   bool lookUp(const glm::dvec3& position, Place& place) const;
+  /// True if the texels around the place are.
+  static bool isTraced(const Place& place);
   /// Calls body(tile) for the light tiles of the four texels whose centres surround the point: one,
   /// two or four.
   template <class Body>

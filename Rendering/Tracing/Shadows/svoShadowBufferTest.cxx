@@ -169,9 +169,21 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
   return static_cast<Answer>(answer.dark());
 }
 
-double ShadowBuffer::texelEdge(const glm::dvec3& position) const
+ShadowBuffer::Told ShadowBuffer::tell(
+  const SurfacePoint& point, double error, const double* extent) const
 {
   Place place;
-  return this->lookUp(position, place) ? place.face->edge(place.t) : 0.0;
+  if (!this->lookUp(point.position, place))
+  {
+    return { true, 0.0f, 0.0 };
+  }
+  Told told{ isTraced(place), 0.0f, place.face->edge(place.t) };
+  if (told.known)
+  {
+    told.dark = extent                     ? this->darkness(point, error, *extent)
+      : this->shadows(place, point, error) ? 1.0f
+                                           : 0.0f;
+  }
+  return told;
 }
 }

@@ -203,24 +203,26 @@ float Shadows::darkness(std::size_t light, const SurfacePoint& on, const Termina
     return 1.0f;
   }
   assert(light < this->Buffers.size() && at.kind != TerminatorPoint::Kind::Plain && this->Rays);
-  const ShadowBuffer* buffer = this->UsesRays ? nullptr : this->Buffers[light];
+  // A map says that a point is dark for less than it takes rays to say that ways are free.
+  const bool looksUp = !this->UsesRays && this->Buffers[light];
+  const ShadowBuffer::Told told = looksUp
+    ? this->Buffers[light]->tell(at.point, error, this->Filters ? &extent : nullptr)
+    : ShadowBuffer::Told();
   const glm::dvec3& raised = at.point.position;
   const Light& source = this->Tested->lights[light];
   const glm::dvec3 start = ShadowRays::start(source, raised, at.point.facet, error);
   if (at.kind == TerminatorPoint::Kind::Doubted)
   {
-    const bool known = buffer && buffer->knows(raised);
-    const float dark = known ? this->darkness(light, at.point, error, extent, rays) : 0.0f;
-    if (dark >= plain)
+    if (told.dark >= plain)
     {
       return plain;
     }
     ++rays;
     const bool blocked = this->Rays->between(on.position, start, error) ||
       this->Rays->shadows(source, raised, at.point.facet, error);
-    return blocked ? plain : dark;
+    return blocked ? plain : told.dark;
   }
-  if (glm::distance(on.position, raised) > (buffer ? buffer->texelEdge(raised) : 0.0))
+  if (told.dark < 1.0f && glm::distance(on.position, raised) > told.texel)
   {
     ++rays;
     if (this->Rays->between(on.position, start, error))
@@ -228,9 +230,9 @@ float Shadows::darkness(std::size_t light, const SurfacePoint& on, const Termina
       return 1.0f;
     }
   }
-  if (buffer && buffer->knows(raised))
+  if (told.known)
   {
-    return this->darkness(light, at.point, error, extent, rays);
+    return told.dark;
   }
   ++rays;
   const bool dark = this->Rays->shadows(source, raised, at.point.facet, error);
