@@ -2,7 +2,6 @@
 
 #include "svoLeafError.h"
 #include "svoShownDepth.h"
-#include "svoTerminator.h"
 #include "svoTileImage.h"
 #include "svoWorldSize.h"
 
@@ -30,15 +29,15 @@ void PixelShader::prepare(const Scene& scene, ShadowTechnique technique, const L
   }
 }
 
-/// Calls each(i, point, at) for those points that have to be asked for once more, at another place:
-/// light l reaches them though their facets turn away from it, or they are dark and nearly do.
-template <class Each>
-void PixelShader::eachTerminator(std::size_t l, const Lit& lit, std::uint64_t reached,
-  std::uint64_t dark, Scratch& scratch, Each&& each) const
+/// Finds those points that have to be asked for once more, at another place: light l reaches them
+/// though their facets turn away from it, or they are dark and nearly do.
+void PixelShader::findTerminator(
+  std::size_t l, const Lit& lit, std::uint64_t reached, std::uint64_t dark, Scratch& scratch) const
 {
   const TilePatch& patch = scratch.patch;
   const Light& light = *lit.lighting.lights[l].light;
   const Shadows& shadows = lit.shaded.dark;
+  scratch.terminator.clear();
   if (!this->Smooth[patch.instance] || !shadows.knowsTerminator(l))
   {
     return;
@@ -52,19 +51,19 @@ void PixelShader::eachTerminator(std::size_t l, const Lit& lit, std::uint64_t re
   eachBit(asked,
     [&](int i)
     {
-      const SurfacePoint point = patch.point(i);
-      const TerminatorPoint at = atTerminator(triangles, light, shadows.grazing(), dark >> i & 1,
-        point, patch.towards(i), patch.hits->primitive[i]);
+      TerminatorPoint at = atTerminator(triangles, light, shadows.grazing(), dark >> i & 1,
+        patch.point(i), patch.towards(i), patch.hits->primitive[i]);
       if (at.kind != TerminatorPoint::Kind::Plain)
       {
+        at.pixel = i;
         if (scratch.noted && at.kind != TerminatorPoint::Kind::Hidden)
         {
           const glm::dvec3 reach(this->Errors[patch.instance]);
-          scratch.noted->raysToLights.add(point.position, reach);
+          scratch.noted->raysToLights.add(patch.position(i), reach);
           scratch.noted->raysToLights.add(at.point.position, reach);
           shadows.note(l, at, scratch.noted->raised);
         }
-        each(i, point, at);
+        scratch.terminator.push_back(at);
       }
     });
 }
@@ -98,13 +97,15 @@ void PixelShader::shadow(
     eachBit(dark, [&](int i) { missed[i] = 1.0f; });
   }
   std::uint64_t changed = dark;
-  this->eachTerminator(l, lit, reached, dark, scratch,
-    [&](int i, const SurfacePoint& point, const TerminatorPoint& at)
+  this->findTerminator(l, lit, reached, dark, scratch);
+  if (!scratch.terminator.empty())
+  {
+    shadows.darkness(l, patch, scratch.terminator, error, scratch.extents, missed, scratch.rays);
+    for (const TerminatorPoint& at : scratch.terminator)
     {
-      missed[i] = shadows.darkness(
-        l, point, at, missed[i], error, shadows.filters() ? scratch.extents[i] : 0.0, scratch.rays);
-      changed |= std::uint64_t(1) << i;
-    });
+      changed |= std::uint64_t(1) << at.pixel;
+    }
+  }
   std::fill_n(scratch.light.share, TilePatch::Most, 1.0f);
   eachBit(changed, [&](int i) { scratch.light.share[i] = shareOfLight(missed[i], lit.remaining); });
   if (this->FindsEdges)

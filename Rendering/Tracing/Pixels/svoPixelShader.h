@@ -10,6 +10,7 @@
 #include "svoParallel.h"
 #include "svoShadows.h"
 #include "svoSurfacePoint.h"
+#include "svoTerminator.h"
 #include "svoTileLighting.h"
 #include "svoTileLook.h"
 #include "svoTilePatch.h"
@@ -72,11 +73,12 @@ public:
     TileTriangles triangles;
     TileLight light;
     TileColors colors;
-    double extents[TilePatch::Most];    // world, as `missed`: ShadowBuffer::darkness()
-    float missed[TilePatch::Most];      // by pixel: of one light
-    Darkness darkness[TilePatch::Most]; // by pixel
-    std::uint64_t rays;                 // of shadows
-    KeptTiles::Tile* noted = nullptr;   // takes down what is asked; or null
+    double extents[TilePatch::Most];         // world, as `missed`: ShadowBuffer::darkness()
+    float missed[TilePatch::Most];           // by pixel: of one light
+    Darkness darkness[TilePatch::Most];      // by pixel
+    std::vector<TerminatorPoint> terminator; // of one light
+    std::uint64_t rays;                      // of shadows
+    KeptTiles::Tile* noted = nullptr;        // takes down what is asked; or null
   };
 
   /// After shade(): colours the points of hits anywhere in a tile, patch by patch: sets `colors`
@@ -97,9 +99,8 @@ public:
 private:
   void shadePatch(const Lit& lit, Scratch& scratch) const;
   void shadow(std::size_t l, const Lit& lit, std::uint64_t reached, Scratch& scratch) const;
-  template <class Each>
-  void eachTerminator(std::size_t l, const Lit& lit, std::uint64_t reached, std::uint64_t dark,
-    Scratch& scratch, Each&& each) const;
+  void findTerminator(std::size_t l, const Lit& lit, std::uint64_t reached, std::uint64_t dark,
+    Scratch& scratch) const;
   void write(const Lit& lit, const TileHits& hits, Scratch& scratch, Frame& frame);
 
   // By index into Scene::instances.

@@ -13,7 +13,6 @@
 #ifndef svoMapPlaces_h
 #define svoMapPlaces_h
 
-#include "svoTexelPlace.h"
 #include "svoTilePatch.h"
 #include "svoView.h"
 
@@ -58,32 +57,6 @@ std::uint64_t tilesAround(
 /// Places those points of a patch that are in `lanes`.
 void placeInMap(const View& map, const glm::dmat4& worldToClip, const TilePatch& patch,
   std::uint64_t lanes, MapPlaces& places);
-
-/// The texels of a map, tile by tile as in a DepthBuffer.
-struct MapTexels
-{
-  int tilesX;
-  const float* nearest; // of each tile; infinity: nothing lies there, and nothing is known further
-  const float* t;
-  const std::uint32_t* instance;
-};
-
-/// What lies at the texels of points, by pixel.
-struct TexelOccluders
-{
-  alignas(64) std::uint32_t caster[TilePatch::Most]; // instance; NoInstance: nothing
-  alignas(64) float t[TilePatch::Most];              // linear depth, less the caster's base
-};
-
-/// Looks up what lies at the texels of points that are `sure`. Returns points that something lies
-/// at; `same`: whose caster is the first one's.
-std::uint64_t lookUpTexels(
-  const MapTexels& map, const MapPlaces& places, TexelOccluders& occluders, std::uint64_t& same);
-
-/// Those of the points in `lanes` that are sure and around which 3x3 texels hold nothing, or one
-/// caster without steps and creases, as ShadowBuffer::isFlat() has it; some of the others may, too.
-std::uint64_t flatWindows(const View& view, const TexelEdge& edge, const MapTexels& map,
-  const MapPlaces& places, std::uint64_t lanes);
 }
 
 #endif

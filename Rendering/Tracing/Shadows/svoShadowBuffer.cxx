@@ -13,15 +13,6 @@
 
 namespace svo
 {
-namespace
-{
-/// Largest float that is not above x.
-float roundDown(double x)
-{
-  return -roundUp(-x);
-}
-}
-
 void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_t first,
   const FrameSettings& settings, LayerBudget& budget)
 {
@@ -148,12 +139,19 @@ void ShadowBuffer::namesAround(const glm::dvec3& position, std::uint16_t light, 
     });
 }
 
+bool ShadowBuffer::isTraced(const Place& place)
+{
+  bool traced = true;
+  tilesAround(place,
+    [&](std::size_t tile)
+    { traced = traced && place.face->wanted[tile].load(std::memory_order_relaxed); });
+  return traced;
+}
+
 bool ShadowBuffer::knows(const glm::dvec3& position) const
 {
-  bool known = true;
-  this->namesAround(
-    position, 0, [&](const LightTile& name) { known = known && this->wants(name); });
-  return known;
+  Place place;
+  return !this->lookUp(position, place) || isTraced(place);
 }
 
 void ShadowBuffer::note(const glm::dvec3& position, std::uint16_t light, RaisedTiles& noted) const
@@ -247,7 +245,7 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
       wanted[i] = face->wanted[i].load(std::memory_order_relaxed);
     }
     face->layers.trace(parallelFor, wanted.data());
-    face->findNearest(parallelFor);
+    face->occluders.find(face->layers, parallelFor);
     if (face->layers.changed())
     {
       face->copied.reset();
@@ -278,52 +276,10 @@ void ShadowBuffer::merge(Processes& processes, std::size_t first)
   for (auto& face : this->Faces)
   {
     face->shared.merge(processes, face->view, face->layers, first);
-    face->nearest.clear();
+    face->occluders.forget();
     face->seesCasters = face->shared.bytes() > 0;
     face->copied.reset();
   }
-}
-
-void ShadowBuffer::Face::findNearest(const ParallelFor& parallelFor)
-{
-  const DepthBuffer& depth = this->layers.depthBuffer();
-  this->nearest.assign(depth.tiles(), std::numeric_limits<float>::infinity());
-  parallelFor(0, depth.tiles(), 256,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t tile = first; tile < last; ++tile)
-      {
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 64 * tile; depth.hit[tile] && i < 64 * (tile + 1); ++i)
-        {
-          if (depth.instance[i] != NoInstance)
-          {
-            least = std::min(least, this->layers.base(depth.instance[i]) + depth.t[i]);
-          }
-        }
-        this->nearest[tile] = roundDown(least);
-      }
-    });
-}
-
-float ShadowBuffer::Face::nearestIn(const MapPlaces& box) const
-{
-  constexpr int Most = 4; // tiles along an edge of a box
-  const MapTiles tiles = tilesOf(box, this->view, 0.0f);
-  if (this->nearest.empty() || !tiles.atMost(Most))
-  {
-    return -std::numeric_limits<float>::infinity();
-  }
-  const std::size_t tilesAcross = (this->view.width + 7) / 8;
-  float least = std::numeric_limits<float>::infinity();
-  for (int y = tiles.y0; y <= tiles.y1; ++y)
-  {
-    for (int x = tiles.x0; x <= tiles.x1; ++x)
-    {
-      least = std::min(least, this->nearest[y * tilesAcross + x]);
-    }
-  }
-  return least;
 }
 
 std::shared_ptr<const std::vector<float>> ShadowBuffer::Face::copyDepth(double base) const

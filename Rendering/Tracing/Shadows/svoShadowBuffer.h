@@ -11,6 +11,7 @@
 #include "svoScene.h"
 #include "svoSharedDepth.h"
 #include "svoSurfacePoint.h"
+#include "svoTileOccluders.h"
 #include "svoTilePatch.h"
 #include "svoTileShadows.h"
 
@@ -101,8 +102,16 @@ public:
 
   /// Whether points are compared on their own planes, see setBias().
   bool automaticBias() const { return this->AutomaticBias; }
-  /// The shorter edge of a texel at a point, world; 0 outside of the map.
-  double texelEdge(const glm::dvec3& position) const;
+
+  /// What the buffer says of a point that nobody may have marked.
+  struct Told
+  {
+    bool known = false;
+    float dark = 0.0f;  // if known
+    double texel = 0.0; // the shorter edge of a texel there, world; 0 outside of the map
+  };
+  /// `extent`: of darkness(), or null: dark is 0 or 1, by shadows().
+  Told tell(const SurfacePoint& point, double error, const double* extent) const;
 
   void copyMaps(int light, std::vector<ShadowMap>& maps);
   void release();
@@ -121,24 +130,19 @@ private:
     SharedDepth shared; // with other processes' casters; takes the place of the layers' depths
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile
     bool seesCasters = false;
-    /// Of each tile the least linear depth of what lies there, or a little less; infinity: nothing.
-    /// Empty: unknown.
-    std::vector<float> nearest;
+    MapOccluders occluders; // of the layers; unknown where depths are shared
     std::shared_ptr<const std::vector<float>> copied; // ShadowMap::depth; null: it has changed
 
     std::shared_ptr<const std::vector<float>> copyDepth(double base) const;
     /// Notes the tiles around points that are inside: few, or one by one. False if there are too
     /// many to be noted here.
     bool want(const MapPlaces& places, LightTile name, LightTiles& noted);
-    void findNearest(const ParallelFor& parallelFor);
-    /// Where it is known what is nearest.
+    /// Where its occluders are known.
     MapTexels texels() const
     {
       const DepthBuffer& depth = this->layers.depthBuffer();
-      return { depth.tilesX, this->nearest.data(), depth.t.data(), depth.instance.data() };
+      return { depth.tilesX, this->occluders.nearest(), depth.t.data(), depth.instance.data() };
     }
-    /// No more than what lies at a box of texels; minus infinity if that is not known, or too many.
-    float nearestIn(const MapPlaces& box) const;
 
     /// What lies at a texel (index as DepthBuffer::at): false if nothing.
     bool occluder(std::size_t at, std::uint32_t& caster, double& t) const
@@ -176,6 +180,8 @@ private:
   };
   /// False if the point is outside of all faces, or its face sees no caster.
   bool lookUp(const glm::dvec3& position, Place& place) const;
+  /// True if the texels around the place are.
+  static bool isTraced(const Place& place);
   /// Calls body(tile) for the light tiles of the four texels whose centres surround the point: one,
   /// two or four.
   template <class Body>
@@ -184,8 +190,9 @@ private:
   template <class Body>
   void namesAround(const glm::dvec3& position, std::uint16_t light, Body&& body) const;
   /// Looks up what lies at the texels of points that are sure; returns those where something does.
-  std::uint64_t occluders(
-    const Face& face, const MapPlaces& places, double error, TexelTests& tests) const;
+  /// `theirs`: whose these texels are, all of them, or TileOccluders::Several.
+  std::uint64_t occluders(const Face& face, const MapPlaces& places, std::uint32_t theirs,
+    double error, TexelTests& tests) const;
   /// Tests these. Returns those that are dark; adds those that have to be tested in double.
   std::uint64_t test(const Face& face, const TilePatch& patch, const MapPlaces& places,
     double error, std::uint64_t& single) const;

@@ -46,8 +46,8 @@ std::uint64_t ShadowBuffer::shadows(const TilePatch& patch, double error, std::u
   return dark;
 }
 
-std::uint64_t ShadowBuffer::occluders(
-  const Face& face, const MapPlaces& places, double error, TexelTests& tests) const
+std::uint64_t ShadowBuffer::occluders(const Face& face, const MapPlaces& places,
+  std::uint32_t theirs, double error, TexelTests& tests) const
 {
   const auto biasOf = [&](std::uint32_t caster)
   { return static_cast<float>(this->Bias * this->CasterVoxel[caster]); };
@@ -55,20 +55,25 @@ std::uint64_t ShadowBuffer::occluders(
   { return static_cast<float>(std::max(this->CasterError[caster], error)); };
   TexelOccluders occluders;
   std::uint64_t found = 0, same = 0;
-  if (!face.nearest.empty())
+  if (theirs != TileOccluders::Several)
+  {
+    lookUpDepths(face.texels(), places, occluders);
+    found = same = places.sure;
+  }
+  else if (face.occluders.known())
   {
     found = lookUpTexels(face.texels(), places, occluders, same);
+    theirs = found != 0 ? occluders.caster[__builtin_ctzll(found)] : NoInstance;
   }
   if (found != 0 && found == same)
   {
-    const std::uint32_t caster = occluders.caster[__builtin_ctzll(found)];
-    setOccluders(face.layers.base(caster) - places.t0, occluders, tests);
-    std::fill_n(tests.bias, TilePatch::Most, biasOf(caster));
-    std::fill_n(tests.error, TilePatch::Most, errorOf(caster));
+    setOccluders(face.layers.base(theirs) - places.t0, occluders, tests);
+    std::fill_n(tests.bias, TilePatch::Most, biasOf(theirs));
+    std::fill_n(tests.error, TilePatch::Most, errorOf(theirs));
     return found;
   }
   std::uint64_t something = 0;
-  eachBit(face.nearest.empty() ? places.sure : found,
+  eachBit(face.occluders.known() ? found : places.sure,
     [&](int i)
     {
       std::uint32_t caster;
@@ -93,12 +98,15 @@ std::uint64_t ShadowBuffer::test(const Face& face, const TilePatch& patch, const
   const double farthest = places.t0 + places.highT;
   const double reach = 1.001 * NearbyReach * face.edge(farthest);
   const double slack = 1e-5 * (std::abs(farthest) + std::abs(places.highT));
-  if (this->Bias >= 0.0 && face.nearestIn(places) > farthest + reach + slack)
+  const TileOccluders around =
+    face.occluders.in(tilesOf(places, face.view, 0.0f), face.layers.depthBuffer().tilesX);
+  if (around.caster == NoInstance ||
+    (this->Bias >= 0.0 && around.nearest > farthest + reach + slack))
   {
     return 0;
   }
   TexelTests tests;
-  const std::uint64_t something = this->occluders(face, places, error, tests);
+  const std::uint64_t something = this->occluders(face, places, around.caster, error, tests);
   if (something == 0)
   {
     return 0;
@@ -161,9 +169,21 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
   return static_cast<Answer>(answer.dark());
 }
 
-double ShadowBuffer::texelEdge(const glm::dvec3& position) const
+ShadowBuffer::Told ShadowBuffer::tell(
+  const SurfacePoint& point, double error, const double* extent) const
 {
   Place place;
-  return this->lookUp(position, place) ? place.face->edge(place.t) : 0.0;
+  if (!this->lookUp(point.position, place))
+  {
+    return { true, 0.0f, 0.0 };
+  }
+  Told told{ isTraced(place), 0.0f, place.face->edge(place.t) };
+  if (told.known)
+  {
+    told.dark = extent                     ? this->darkness(point, error, *extent)
+      : this->shadows(place, point, error) ? 1.0f
+                                           : 0.0f;
+  }
+  return told;
 }
 }

@@ -173,7 +173,7 @@ std::uint64_t ShadowBuffer::flat(
     0.999 * std::min(face.edge(places.t0 + places.lowT), face.edge(places.t0 + places.highT));
   std::uint64_t narrow = 0;
   eachBit(places.sure, [&](int i) { narrow |= std::uint64_t(extents[i] < narrowest) << i; });
-  return face.nearest.empty() || narrow == 0
+  return !face.occluders.known() || narrow == 0
     ? 0
     : flatWindows(face.view, face.edge, face.texels(), places, narrow);
 }

@@ -2,7 +2,6 @@
 
 #include "svoIntersect.h"
 #include "svoLeafError.h"
-#include "svoShadowBeam.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
@@ -31,7 +30,7 @@ glm::dvec3 sideOf(const Light& light, const glm::dvec3& position, const glm::vec
 struct ShadowRays::Start
 {
   glm::dvec3 position, side; // world; side: unit, of its facet, towards the light
-  int pixel;
+  int number;                // of the answer's bit
 };
 
 ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
@@ -96,13 +95,13 @@ bool ShadowRays::shadows(
     { return caster.box.mayBlock(light, from) && blocks(caster, light, position, side, offset); });
 }
 
-/// The pixels of those that the caster shadows, one bit each.
+/// Those that the caster shadows, one bit each.
 std::uint64_t ShadowRays::beam(
   const Caster& caster, const Light& light, const Start* starts, int count, double offset) const
 {
   std::uint64_t dark = 0;
   const auto setIf = [&dark](bool isDark, const Start& start)
-  { dark |= std::uint64_t(isDark) << start.pixel; };
+  { dark |= std::uint64_t(isDark) << start.number; };
   const auto alone = [&](const Start& start)
   { return blocks(caster, light, start.position, start.side, offset); };
   constexpr int Few = 4; // such a beam is no quicker than its rays
@@ -136,20 +135,13 @@ std::uint64_t ShadowRays::beam(
   return dark;
 }
 
-std::uint64_t ShadowRays::shadows(
-  const Light& light, const TilePatch& patch, double offset, std::uint64_t asked) const
+std::uint64_t ShadowRays::shadows(const Light& light, Start* starts, int count, double offset) const
 {
-  static_assert(BeamPoints::Most >= TilePatch::Most, "a tile's points fit");
-  Start starts[TilePatch::Most];
-  int count = 0;
   PointBox box;
-  eachBit(asked & patch.mask,
-    [&](int i)
-    {
-      const glm::dvec3 position = patch.position(i);
-      box.add(position, glm::dvec3(offset));
-      starts[count++] = { position, sideOf(light, position, patch.facet(i)), i };
-    });
+  for (int i = 0; i < count; ++i)
+  {
+    box.add(starts[i].position, glm::dvec3(offset));
+  }
   std::uint64_t dark = 0;
   for (const Caster& caster : this->Casters)
   {
@@ -157,11 +149,39 @@ std::uint64_t ShadowRays::shadows(
     {
       dark |= this->beam(caster, light, starts, count, offset);
       count = static_cast<int>(std::remove_if(starts, starts + count,
-                                 [&](const Start& start) { return dark >> start.pixel & 1; }) -
+                                 [&](const Start& start) { return dark >> start.number & 1; }) -
         starts);
     }
   }
   return dark;
+}
+
+std::uint64_t ShadowRays::shadows(
+  const Light& light, const TilePatch& patch, double offset, std::uint64_t asked) const
+{
+  static_assert(Most >= TilePatch::Most, "a tile's points fit");
+  Start starts[Most];
+  int count = 0;
+  eachBit(asked & patch.mask,
+    [&](int i)
+    {
+      const glm::dvec3 position = patch.position(i);
+      starts[count++] = { position, sideOf(light, position, patch.facet(i)), i };
+    });
+  return this->shadows(light, starts, count, offset);
+}
+
+std::uint64_t ShadowRays::shadows(
+  const Light& light, const SurfacePoint* const* points, int count, double offset) const
+{
+  assert(count >= 0 && count <= Most);
+  Start starts[Most];
+  for (int i = 0; i < count; ++i)
+  {
+    const SurfacePoint& point = *points[i];
+    starts[i] = { point.position, sideOf(light, point.position, point.facet), i };
+  }
+  return this->shadows(light, starts, count, offset);
 }
 
 glm::dvec3 ShadowRays::start(

@@ -6,6 +6,8 @@
 #include "svoCasterBox.h"
 #include "svoLayeredView.h"
 #include "svoScene.h"
+#include "svoShadowBeam.h"
+#include "svoSurfacePoint.h"
 #include "svoTilePatch.h"
 #include "svoWorldToOctree.h"
 
@@ -31,6 +33,12 @@ public:
   std::uint64_t shadows(
     const Light& light, const TilePatch& patch, double offset, std::uint64_t asked) const;
 
+  /// The same for points anywhere, of which those close together are the quicker ones, bit i for
+  /// number i; at most Most.
+  static constexpr int Most = BeamPoints::Most;
+  std::uint64_t shadows(
+    const Light& light, const SurfacePoint* const* points, int count, double offset) const;
+
   /// The start of that ray, world.
   static glm::dvec3 start(
     const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset);
@@ -54,6 +62,8 @@ private:
   struct Start;
   static bool blocks(const Caster& caster, const Light& light, const glm::dvec3& position,
     const glm::dvec3& side, double offset);
+  /// Changes the order of the starts.
+  std::uint64_t shadows(const Light& light, Start* starts, int count, double offset) const;
   std::uint64_t beam(
     const Caster& caster, const Light& light, const Start* starts, int count, double offset) const;
   std::vector<Caster> Casters;

@@ -215,46 +215,64 @@ void Shadows::darkness(std::size_t light, const TilePatch& patch, double error,
   std::fill_n(darkness, TilePatch::Most, 0.0f);
 }
 
-float Shadows::darkness(std::size_t light, const SurfacePoint& on, const TerminatorPoint& at,
-  float plain, double error, double extent, std::uint64_t& rays) const
+void Shadows::darkness(std::size_t light, const TilePatch& patch,
+  const std::vector<TerminatorPoint>& points, double error, const double* extents, float* missed,
+  std::uint64_t& rays) const
 {
-  if (at.kind == TerminatorPoint::Kind::Hidden)
-  {
-    return 1.0f;
-  }
-  assert(light < this->Buffers.size() && at.kind != TerminatorPoint::Kind::Plain && this->Rays);
+  assert(light < this->Buffers.size() && points.size() <= ShadowRays::Most);
   const ShadowBuffer* buffer = this->UsesRays ? nullptr : this->Buffers[light];
-  const glm::dvec3& raised = at.point.position;
   const Light& source = this->Tested->lights[light];
-  const glm::dvec3 start = ShadowRays::start(source, raised, at.point.facet, error);
-  if (at.kind == TerminatorPoint::Kind::Doubted)
+  const SurfacePoint* asked[ShadowRays::Most]; // by rays to the light, after all else
+  float* answers[ShadowRays::Most];
+  float ifLit[ShadowRays::Most];
+  int count = 0;
+  for (const TerminatorPoint& at : points)
   {
-    const bool known = buffer && buffer->knows(raised);
-    const float dark = known ? this->darkness(light, at.point, error, extent, rays) : 0.0f;
-    if (dark >= plain)
+    float& answer = missed[at.pixel];
+    if (at.kind == TerminatorPoint::Kind::Hidden)
     {
-      return plain;
+      answer = 1.0f;
+      continue;
     }
-    ++rays;
-    const bool blocked = this->Rays->between(on.position, start, error) ||
-      this->Rays->shadows(source, raised, at.point.facet, error);
-    return blocked ? plain : dark;
-  }
-  if (glm::distance(on.position, raised) > (buffer ? buffer->texelEdge(raised) : 0.0))
-  {
-    ++rays;
-    if (this->Rays->between(on.position, start, error))
+    assert(at.kind != TerminatorPoint::Kind::Plain && this->Rays);
+    // A map says that a point is dark for less than it takes rays to say that ways are free.
+    const double* extent = this->Filters ? extents + at.pixel : nullptr;
+    const ShadowBuffer::Told told =
+      buffer ? buffer->tell(at.point, error, extent) : ShadowBuffer::Told();
+    const bool doubted = at.kind == TerminatorPoint::Kind::Doubted;
+    if (!doubted)
     {
-      return 1.0f;
+      answer = 1.0f; // unless all is free
     }
+    if (told.dark >= answer)
+    {
+      continue;
+    }
+    const glm::dvec3 on = patch.position(at.pixel);
+    if (doubted || glm::distance(on, at.point.position) > told.texel)
+    {
+      ++rays;
+      const glm::dvec3 start = ShadowRays::start(source, at.point.position, at.point.facet, error);
+      if (this->Rays->between(on, start, error))
+      {
+        continue;
+      }
+    }
+    if (!doubted && told.known)
+    {
+      answer = told.dark;
+      continue;
+    }
+    rays += !doubted;
+    asked[count] = &at.point;
+    answers[count] = &answer;
+    ifLit[count++] = told.dark;
   }
-  if (buffer && buffer->knows(raised))
+  const std::uint64_t dark = this->Rays ? this->Rays->shadows(source, asked, count, error) : 0;
+  for (int i = 0; i < count; ++i)
   {
-    return this->darkness(light, at.point, error, extent, rays);
+    *answers[i] = dark >> i & 1 ? *answers[i] : ifLit[i];
   }
-  ++rays;
-  const bool dark = this->Rays->shadows(source, raised, at.point.facet, error);
-  return dark ? 1.0f : 0.0f;
 }
 
 std::size_t Shadows::layerMemory() const

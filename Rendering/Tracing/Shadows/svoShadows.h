@@ -99,11 +99,13 @@ public:
   }
   /// The `grazing` of atTerminator(): rays need no margin.
   double grazing() const { return this->UsesRays ? 0.0 : 1.0 / GrazingReach; }
-  /// `at` is not plain; `plain`: the answer of the point `on` the mesh. A raised point is lit if
-  /// the way from the one on the mesh to it and on to the light is free; the first part is not
-  /// looked at where it is shorter than a texel. A doubted one has to be lit by rays as well.
-  float darkness(std::size_t light, const SurfacePoint& on, const TerminatorPoint& at, float plain,
-    double error, double extent, std::uint64_t& rays) const;
+  /// Changes what points of a patch miss, by pixel, to what those at the terminator do. A raised
+  /// point is lit if the way from the one on the mesh to it and on to the light is free; the first
+  /// part is not looked at where it is shorter than a texel. A doubted one has to be lit by rays as
+  /// well. `extents`: by pixel, where lights filter.
+  void darkness(std::size_t light, const TilePatch& patch,
+    const std::vector<TerminatorPoint>& points, double error, const double* extents, float* missed,
+    std::uint64_t& rays) const;
 
   void addStatistics(FrameStatistics& statistics) const;
   void copyMaps(std::vector<ShadowMap>& maps);

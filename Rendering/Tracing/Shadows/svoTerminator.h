@@ -188,6 +188,7 @@ struct TerminatorPoint
     Hidden   // light would have to come through its facet
   };
   Kind kind = Kind::Plain;
+  int pixel = 0; // of its patch
   SurfacePoint point{};
 };
 

@@ -6,7 +6,7 @@
 #define svoTileShadows_h
 
 #include "svoLight.h"
-#include "svoMapPlaces.h"
+#include "svoMapTexels.h"
 #include "svoTexelPlace.h"
 #include "svoTilePatch.h"
 #include "svoView.h"

@@ -1,0 +1,129 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "svoTileOccluders.cxx"
+#include <hwy/foreach_target.h>
+
+#include "svoTileOccluders.h"
+
+#include "svoLaneBits-inl.h"
+#include "svoLocalView.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace svo
+{
+namespace HWY_NAMESPACE
+{
+/// The texels of a tile that are an instance's, and the least of their depths.
+std::uint64_t lanesOfCaster(
+  const float* t, const std::uint32_t* instances, std::uint32_t instance, float& least)
+{
+  const Words words;
+  const Floats floats;
+  const auto wanted = hn::Set(words, instance);
+  auto nearest = hn::Inf(floats);
+  std::uint64_t mask = 0;
+  for (int i = 0; i < 64; i += width())
+  {
+    const auto mine = hn::Eq(hn::LoadU(words, instances + i), wanted);
+    const auto depth =
+      hn::IfThenElse(hn::RebindMask(floats, mine), hn::LoadU(floats, t + i), hn::Inf(floats));
+    nearest = hn::Min(nearest, depth);
+    mask |= bitsOf(words, mine) << i;
+  }
+  least = hn::GetLane(hn::MinOfLanes(floats, nearest));
+  return mask;
+}
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace svo
+{
+HWY_EXPORT(lanesOfCaster);
+
+namespace
+{
+/// Largest float that is not above x.
+float roundDown(double x)
+{
+  return -roundUp(-x);
+}
+
+TileOccluders occludersIn(const LayeredView& map, std::size_t tile)
+{
+  const DepthBuffer& depth = map.depthBuffer();
+  double nearest = std::numeric_limits<double>::infinity();
+  if (!depth.hit[tile])
+  {
+    return { static_cast<float>(nearest), NoInstance };
+  }
+  const float* t = depth.t.data() + 64 * tile;
+  const std::uint32_t* instances = depth.instance.data() + 64 * tile;
+  std::uint32_t caster = TileOccluders::Several;
+  for (std::uint64_t left = ~std::uint64_t(0); left != 0;)
+  {
+    const std::uint32_t instance = instances[__builtin_ctzll(left)];
+    float least;
+    const std::uint64_t mine = HWY_DYNAMIC_DISPATCH(lanesOfCaster)(t, instances, instance, least);
+    if (mine == ~std::uint64_t(0))
+    {
+      caster = instance;
+    }
+    if (instance != NoInstance)
+    {
+      nearest = std::min(nearest, map.base(instance) + static_cast<double>(least));
+    }
+    left &= ~mine;
+  }
+  return { roundDown(nearest), caster };
+}
+}
+
+void MapOccluders::find(const LayeredView& map, const ParallelFor& parallelFor)
+{
+  const std::size_t tiles = map.depthBuffer().tiles();
+  const bool all = this->Nearest.size() != tiles;
+  this->Nearest.resize(tiles);
+  this->Casters.resize(tiles);
+  parallelFor(0, tiles, 256,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t tile = first; tile < last; ++tile)
+      {
+        if (all || map.tiles().isStale(tile))
+        {
+          const TileOccluders found = occludersIn(map, tile);
+          this->Nearest[tile] = found.nearest;
+          this->Casters[tile] = found.caster;
+        }
+      }
+    });
+}
+
+TileOccluders MapOccluders::in(const MapTiles& tiles, int tilesX) const
+{
+  constexpr int Most = 4; // tiles along an edge of a box
+  if (!this->known() || !tiles.atMost(Most))
+  {
+    return { -std::numeric_limits<float>::infinity(), TileOccluders::Several };
+  }
+  const std::size_t first = static_cast<std::size_t>(tiles.y0) * tilesX + tiles.x0;
+  TileOccluders all{ this->Nearest[first], this->Casters[first] };
+  for (int y = tiles.y0; y <= tiles.y1; ++y)
+  {
+    for (int x = tiles.x0; x <= tiles.x1; ++x)
+    {
+      const std::size_t tile = static_cast<std::size_t>(y) * tilesX + x;
+      all.nearest = std::min(all.nearest, this->Nearest[tile]);
+      all.caster = this->Casters[tile] == all.caster ? all.caster : TileOccluders::Several;
+    }
+  }
+  return all;
+}
+}
+#endif

@@ -1,0 +1,52 @@
+// What lies in each tile of 8x8 texels of a shadow buffer's map: how near to the light, and whose,
+// where all of it is one caster's. Found once when the map is traced, this answers most patches
+// before any texel is looked up: those that are nearer to the light than all of it are lit, and of
+// those in one caster's tiles only depths are looked up.
+#ifndef svoTileOccluders_h
+#define svoTileOccluders_h
+
+#include "svoDepthBuffer.h"
+#include "svoLayeredView.h"
+#include "svoMapPlaces.h"
+#include "svoParallel.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace svo
+{
+/// What lies in one or more tiles.
+struct TileOccluders
+{
+  static constexpr std::uint32_t Several = NoInstance - 1;
+
+  float nearest;        // linear depth; nothing lies nearer. Infinity: nothing lies there
+  std::uint32_t caster; // all texels are this one's; NoInstance: nobody's; or Several
+};
+
+class MapOccluders
+{
+public:
+  /// After LayeredView::trace(), each time: of the tiles that are not what they were.
+  void find(const LayeredView& map, const ParallelFor& parallelFor);
+  /// The map is not what shadows are looked up in.
+  void forget()
+  {
+    this->Nearest.clear();
+    this->Casters.clear();
+  }
+  bool known() const { return !this->Nearest.empty(); }
+  /// Of each tile. known().
+  const float* nearest() const { return this->Nearest.data(); }
+  /// Of a box of tiles; of large ones, and if it is not known, minus infinity and Several.
+  /// `tilesX`: of the map.
+  TileOccluders in(const MapTiles& tiles, int tilesX) const;
+
+private:
+  // By tile; TileOccluders.
+  std::vector<float> Nearest;
+  std::vector<std::uint32_t> Casters;
+};
+}
+
+#endif
