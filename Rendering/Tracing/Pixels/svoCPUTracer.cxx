@@ -322,8 +322,8 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   statistics = FrameStatistics();
   self.traceViews(
     scene, view, settings, parallelFor, keeps ? changes : FrameChanges(), &frame, statistics);
-  self.findDarkenedTiles(scene, keeps ? changes : FrameChanges(), parallelFor);
   clock.end(); // its phases have been timed
+  self.findDarkenedTiles(scene, keeps ? changes : FrameChanges(), parallelFor);
 
   // Shade and test.
   const ShadedScene shaded{ scene, view, settings, self.Eye, self.Tiles, self.LightShadows };

@@ -62,6 +62,20 @@ class Frames(unittest.TestCase):
                          {"none", "512", "1024", "2048", "4096", "rays"})
         self.assertIn("scalar", {r["instructionSet"] for r in self.some("instructionSets")})
 
+    def test_more_cores_are_no_slower_and_at_most_as_many_times_as_fast(self):
+        rows = self.some("cores")
+        self.assertEqual({r["situation"] for r in rows}, {"retraced", "one", "camera"})
+        for r in rows:
+            for phase in ("eye", "mark", "lights", "shade", "tracer"):
+                alone = r[f"{phase}Cores1Ms"]
+                slower = alone
+                for cores in (2, 16, 64):
+                    time = r[f"{phase}Cores{cores}Ms"]
+                    self.assertLessEqual(time, slower)
+                    self.assertGreaterEqual(time, alone / cores)
+                    slower = time
+                self.assertLessEqual(r[f"{phase}SerialMs"], slower)
+
     def test_figures_belong_together(self):
         for r in self.rows:
             self.assertGreater(r["wallLeastMs"], 0.0)
@@ -161,7 +175,7 @@ class WrittenPage(unittest.TestCase):
             found = re.findall("<!-- begin (.*?) -->\n(.*?)<!-- end", file.read(), re.DOTALL)
         sections = dict(found)
         for name in ("scenes", "triangles", "objects", "refined", "sizes", "lights", "light-kit",
-                     "shadows", "levels", "threads", "builders", "overtakes"):
+                     "shadows", "levels", "threads", "cores", "builders", "overtakes"):
             self.assertGreater(sections[name].count("\n"), 2, name)
             self.assertNotIn("not measured", sections[name])
         # Of what no short run measures the page says so.

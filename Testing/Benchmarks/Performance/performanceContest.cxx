@@ -50,7 +50,7 @@ public:
     }
     if (method.technique == paper::Technique::Octrees)
     {
-      this->Pass = makePass(this->PhasesOf);
+      this->Pass = makePass(this->PhasesOf, method.simulatesCores);
       if (method.settings)
       {
         method.settings(this->Pass);

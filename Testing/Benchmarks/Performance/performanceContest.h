@@ -35,6 +35,7 @@ struct Method
   paper::LightKind light;
   std::function<void(vtkSVORenderPass*)> settings; ///< may be empty
   std::string instructionSet;                      ///< svobench::useInstructionSet()
+  bool simulatesCores = false;                     ///< makePass()
 };
 
 struct Contest

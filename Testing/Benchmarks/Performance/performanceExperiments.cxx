@@ -140,7 +140,7 @@ const std::vector<std::pair<std::string, Experiments::Experiment>>& Experiments:
     { "lights", &Experiments::lights }, { "lightKit", &Experiments::lightKit },
     { "sizes", &Experiments::sizes }, { "levels", &Experiments::levels },
     { "objects", &Experiments::objects }, { "triangles", &Experiments::triangles },
-    { "threads", &Experiments::threads }
+    { "threads", &Experiments::threads }, { "cores", &Experiments::cores }
   };
   return experiments;
 }
@@ -407,6 +407,15 @@ bool Experiments::threads()
   contest.row["experiment"] = "threads";
   contest.row["threads"] =
     threads ? std::atoi(threads) : static_cast<int>(std::thread::hardware_concurrency());
+  return this->contest(contest);
+}
+
+bool Experiments::cores()
+{
+  Contest contest{ &paperScene("paper4"), &this->paperObjects(), { Point },
+    { Situation::Retraced, Situation::One, Situation::Camera }, {}, {} };
+  contest.methods.front().simulatesCores = true;
+  contest.row["experiment"] = "cores";
   return this->contest(contest);
 }
 }

@@ -48,6 +48,7 @@ private:
   bool levels();
   bool sizes();
   bool threads();
+  bool cores();
   bool instructionSets();
   bool lights();
   bool lightKit();

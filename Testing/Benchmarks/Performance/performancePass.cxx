@@ -1,6 +1,7 @@
 #include "performancePass.h"
 
 #ifdef SVO_PHASES
+#include "performanceCores.h"
 #include "svoTracer.h"
 
 #include <vtkObjectFactory.h>
@@ -25,7 +26,37 @@ struct Traced
 {
   Moment begin, end;
   svo::FrameStatistics statistics;
+  bool simulatesCores = false;
+  Phases cores;
 };
+
+/// What the phases that were recorded take on other numbers of cores.
+Phases onCores(const RecordedLoops& recorded, const svo::FrameStatistics& traced)
+{
+  static const double launch = RecordedLoops::launch();
+  const std::pair<const char*, double> phases[] = { { "eye", traced.eye.wall },
+    { "mark", traced.mark.wall }, { "lights", traced.lights.wall },
+    { "shade", traced.shade.wall } };
+  Phases result;
+  const auto add = [&](const std::string& name, double first, double last)
+  {
+    result[name + "SerialMs"] = recorded.serial(first, last);
+    for (const int cores : SimulatedCores)
+    {
+      result[name + "Cores" + std::to_string(cores) + "Ms"] =
+        recorded.time(first, last, cores, launch);
+    }
+  };
+  // They follow each other; what is left is behind the last one.
+  double first = 0.0;
+  for (const auto& phase : phases)
+  {
+    add(phase.first, first, first + 1e3 * phase.second);
+    first += 1e3 * phase.second;
+  }
+  add("tracer", 0.0, recorded.now());
+  return result;
+}
 
 /// The tracer of the processor, timed from outside.
 class TimedTracer : public svo::Tracer
@@ -44,7 +75,13 @@ public:
     const svo::ParallelFor& parallelFor, svo::Frame& frame) override
   {
     this->Last->begin = Moment::now();
-    this->Timed->render(scene, view, settings, parallelFor, frame);
+    this->Recorded.begin();
+    this->Timed->render(scene, view, settings,
+      this->Last->simulatesCores ? this->Recorded.loops() : parallelFor, frame);
+    if (this->Last->simulatesCores)
+    {
+      this->Last->cores = onCores(this->Recorded, this->Timed->statistics());
+    }
     this->Last->end = Moment::now();
     this->Last->statistics = this->Timed->statistics();
   }
@@ -70,6 +107,7 @@ public:
 private:
   std::unique_ptr<svo::Tracer> Timed = svo::makeCPUTracer();
   std::shared_ptr<Traced> Last;
+  RecordedLoops Recorded;
 };
 
 class TimedPass : public vtkSVORenderPass
@@ -94,12 +132,13 @@ void add(Phases& phases, const std::string& name, double wall, double processor)
 }
 }
 
-vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases)
+vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases, bool simulatesCores)
 {
   auto pass = vtkSmartPointer<TimedPass>::New();
+  pass->Last->simulatesCores = simulatesCores;
   phases = [last = pass->Last](const Moment& begin, const Moment& end)
   {
-    Phases result;
+    Phases result = last->cores;
     const svo::FrameStatistics& traced = last->statistics;
     add(result, "collect", last->begin.wall - begin.wall, last->begin.processor - begin.processor);
     add(result, "eye", 1e3 * traced.eye.wall, 1e3 * traced.eye.processor);
@@ -112,7 +151,7 @@ vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases)
   return pass;
 }
 #else
-vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases)
+vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases, bool)
 {
   phases = [](const Moment&, const Moment&) { return Phases(); };
   return vtkSmartPointer<vtkSVORenderPass>::New();

@@ -30,7 +30,11 @@ using Phases = std::map<std::string, double>;
 /// tell.
 using PhasesOfFrame = std::function<Phases(const Moment& begin, const Moment& end)>;
 
-vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases);
+/// With `simulatesCores` frames are traced on one core, and there is "eyeCores16Ms" besides, what
+/// the phase would take on 16 (performanceCores.h), for each of SimulatedCores, and "eyeSerialMs",
+/// what of it one core does alone; likewise for "tracer", all of the tracer.
+vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases, bool simulatesCores);
+constexpr int SimulatedCores[] = { 1, 2, 16, 64 };
 }
 
 #endif

@@ -175,6 +175,21 @@ def threads(rows):
     return rows_or_missing(["`paper4`, threads"] + PHASES + ["frame"], lines)
 
 
+def cores(rows):
+    lines = []
+    for situation, text in SITUATIONS.items():
+        for row in some(rows, "cores", situation=situation):
+            alone = row["tracerCores1Ms"]
+            for name, key in [("1 core", "Cores1"), ("in no loop", "Serial")] + [
+                    (f"{n} cores", f"Cores{n}") for n in (2, 16, 64)]:
+                whole = row[f"tracer{key}Ms"]
+                lines.append([f"{text}, {name}"]
+                             + [ms(row[f"{phase}{key}Ms"]) for phase in PHASES[1:-1]] + [ms(whole)]
+                             + ["" if key == "Cores1" else f"{100.0 * whole / alone:.1f} %"
+                                if key == "Serial" else times(alone / whole)])
+    return rows_or_missing(["`paper4`, the tracer"] + PHASES[1:-1] + ["tracer", "by one core"], lines)
+
+
 def instruction_sets(rows):
     lines = []
     for name in SETS:
@@ -328,7 +343,7 @@ def against(rows):
 
 SECTIONS = {
     "machine": machine, "bars": bars, "overtakes": overtakes, "scenes": scenes, "phases": phases,
-    "threads": threads, "instruction-sets": instruction_sets,
+    "threads": threads, "cores": cores, "instruction-sets": instruction_sets,
     "triangles": peers("triangles", "triangles", count),
     "objects": peers("objects", "objects", str), "refined": refined,
     "sizes": peers("sizes", "width", str, (SPOT, SHADOWS, PLAIN, EMPTY), ("retraced",)),
