@@ -124,11 +124,7 @@ void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::ui
       (look.smooth || frame.instance->attributes.normalAssociation == Association::Cell);
     const bool bends =
       look.smooth && (look.normals[0] != look.normals[1] || look.normals[0] != look.normals[2]);
-    const glm::vec3 normal = look.smooth ? frame.normalMatrix * look.normals[0] : look.normal;
-    if (!hasUnitLane(look.winding) || (!bends && !hasUnitLane(normal)))
-    {
-      triangles.oddLanes |= triangles.lanes[k];
-    }
+    bool odd = !hasUnitLane(look.winding);
     triangles.smooth = triangles.smooth || bends;
     writer.put(TileTriangles::Facet, unitLane(look.winding));
     if (bends || look.textured || look.coloredByPoints)
@@ -139,9 +135,18 @@ void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::ui
     {
       putNoWeights(writer);
     }
-    if (triangles.ownNormals)
+    if (!bends) // else normals are interpolated, of all triangles
     {
-      writer.put(TileTriangles::Normal, unitLane(normal));
+      const glm::vec3 normal = look.smooth ? frame.normalMatrix * look.normals[0] : look.normal;
+      odd = odd || !hasUnitLane(normal);
+      if (triangles.ownNormals)
+      {
+        writer.put(TileTriangles::Normal, unitLane(normal));
+      }
+    }
+    if (odd)
+    {
+      triangles.oddLanes |= triangles.lanes[k];
     }
     for (int i = 0; i < 3; ++i)
     {
