@@ -14,6 +14,7 @@ struct GroupView
 
   float x[4], y[4], w[4]; // a point is seen at the pixel (x / w, y / w)
   float k[4], scale;      // its key is scale k / w: it grows with the depth
+  float kOfT[2], wOfT[2]; // k and w where a ray's t is so much: f[0] t + f[1]
 
   /// How far a corner of a triangle can be from where it is computed, times w: `error`, and
   /// `errorFar` more for each pixel of its distance from the middle.
@@ -28,6 +29,8 @@ struct GroupView
   /// Hits whose depth may be off by more than `reach` are doubtful, and named where it may be more
   /// than `nearReach`.
   float nearReach, reach;
+  /// Nodes that begin further behind what is met for certain hold nothing that could be met first.
+  float behind;
 };
 }
 

@@ -7,7 +7,7 @@
 #define HWY_TARGET_INCLUDE "svoNearestTriangles.cxx"
 #include <hwy/foreach_target.h>
 
-#include "svoPackLanes-inl.h"
+#include "svoSelectSlots-inl.h"
 #include "svoTriangleGroup.h"
 
 #include <algorithm>
@@ -21,14 +21,6 @@
 #define SVO_NEAREST_TRIANGLES_ONCE
 namespace svo
 {
-constexpr float HalfTile = 3.5f; // from the middle of a tile to the centres of its outer pixels
-
-/// From the middle of a group to that of a tile, pixels.
-inline float tileMiddle(int column)
-{
-  return 8.0f * static_cast<float>(column) + 4.0f - 0.5f * GroupView::Pixels;
-}
-
 /// Pixel i of a tile, from the tile's middle.
 struct TilePixels
 {
@@ -201,98 +193,98 @@ HWY_INLINE float highest(const float* v)
   return hn::GetLane(hn::MaxOfLanes(df, most));
 }
 
-/// The slots that may be seen in a tile, and the least key of each there; their number.
-std::size_t selectSlots(
-  const TriangleGroup::Slots& slots, int column, int row, std::int32_t* selected, float* keys)
+/// The numbers of a tile among those of a group's pixels, which are row by row.
+template <class T>
+HWY_INLINE void copyTile(const T* from, int column, int row, T* to)
 {
-  const DF df;
-  const DI di;
-  const F x = hn::Set(df, tileMiddle(column)), y = hn::Set(df, tileMiddle(row));
-  const F half = hn::Set(df, HalfTile);
-  const I tile = hn::Set(di, 1 << (GroupView::Tiles * row + column));
-  const I thin = hn::Set(di, TriangleGroup::Thin);
-  const SetBits& bits = SetBits::get();
-  std::size_t count = 0;
-  for (std::size_t s = 0; s < slots.count; s += hn::Lanes(df))
+  const hn::CappedTag<T, 8> d;
+  from += GroupView::Pixels * 8 * row + 8 * column;
+  for (int y = 0; y < 8; ++y)
   {
-    const I tiles = hn::LoadU(di, slots.tiles.data() + s);
-    auto mine = hn::RebindMask(df, hn::Eq(hn::And(tiles, tile), tile));
-    if (slots.count - s < hn::Lanes(df))
+    for (std::size_t x = 0; x < 8; x += hn::Lanes(d))
     {
-      mine = hn::And(mine, hn::FirstN(df, slots.count - s));
+      hn::Store(hn::LoadU(d, from + GroupView::Pixels * y + x), d, to + 8 * y + x);
     }
-    if (hn::AllFalse(df, mine))
-    {
-      continue;
-    }
-    auto out = hn::Ne(x, x);
-    for (int e = 0; e < 3; ++e)
-    {
-      const F ex = hn::LoadU(df, slots.ex[e].data() + s);
-      const F ey = hn::LoadU(df, slots.ey[e].data() + s);
-      const F middle = hn::MulAdd(ex, x, hn::MulAdd(ey, y, hn::LoadU(df, slots.ec[e].data() + s)));
-      const F best = hn::MulAdd(half, hn::Add(hn::Abs(ex), hn::Abs(ey)), middle);
-      out = hn::Or(out, hn::Lt(best, hn::Set(df, -1.0f)));
-    }
-    const I flags = hn::LoadU(di, slots.flags.data() + s);
-    out = hn::And(out, hn::RebindMask(df, hn::Ne(hn::And(flags, thin), thin)));
-    mine = hn::AndNot(out, mine);
-    const F kx = hn::LoadU(df, slots.kx.data() + s), ky = hn::LoadU(df, slots.ky.data() + s);
-    const F middle = hn::MulAdd(kx, x, hn::MulAdd(ky, y, hn::LoadU(df, slots.kc.data() + s)));
-    const F key = hn::Sub(hn::Sub(middle, hn::Mul(half, hn::Add(hn::Abs(kx), hn::Abs(ky)))),
-      hn::LoadU(df, slots.slack.data() + s));
-    // What is not a number comes first.
-    const F known =
-      hn::IfThenElse(hn::Eq(key, key), key, hn::Set(df, -std::numeric_limits<float>::infinity()));
-    const LanePacker pack(bits, mine);
-    pack.store(known, keys + count);
-    pack.store(hn::Iota(di, static_cast<std::int32_t>(s)), selected + count);
-    count += pack.count;
-  }
-  return count;
-}
-
-/// Sorts by key: where there are few, each counts how many are nearer.
-void sortByKey(
-  const std::int32_t* selected, float* keys, std::size_t count, std::vector<SeenTriangle>& seen)
-{
-  const DF df;
-  constexpr std::size_t Few = 256;
-  if (count > Few)
-  {
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      seen[k] = { keys[k], selected[k], 0 };
-    }
-    std::sort(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count),
-      [](const SeenTriangle& a, const SeenTriangle& b) { return a.key < b.key; });
-    return;
-  }
-  // Behind the last there is room for a vector.
-  hn::StoreU(hn::Set(df, std::numeric_limits<float>::infinity()), df, keys + count);
-  std::uint64_t taken[Few / 64] = {};
-  for (std::size_t k = 0; k < count; ++k)
-  {
-    const F key = hn::Set(df, keys[k]);
-    std::size_t nearer = 0;
-    for (std::size_t i = 0; i < count; i += hn::Lanes(df))
-    {
-      nearer += hn::CountTrue(df, hn::Lt(hn::LoadU(df, keys + i), key));
-    }
-    while (taken[nearer / 64] >> nearer % 64 & 1) // equal keys
-    {
-      ++nearer;
-    }
-    taken[nearer / 64] |= std::uint64_t(1) << nearer % 64;
-    seen[nearer] = { keys[k], selected[k], 0 };
   }
 }
 
-bool nearestInTile(const TriangleGroup::Slots& slots, const TilePixels& pixels, int column, int row,
-  NearestTriangles& found, std::uint32_t* triangles, std::uint32_t* owners)
+/// What small triangles leave of a tile; the pixels that they cover for certain.
+HWY_INLINE std::uint64_t begin(
+  const GroupPixels& small, int column, int row, DrawnTile& tile, std::int32_t* nearest)
 {
   const DF df;
   const DI di;
+  const F infinity = hn::Set(df, std::numeric_limits<float>::infinity());
+  const I none = hn::Set(di, NearestTriangles::None);
+  if (!small.empty())
+  {
+    copyTile(small.upper(), column, row, tile.upper);
+    copyTile(small.lower(), column, row, tile.lower);
+    copyTile(small.rival(), column, row, tile.rival);
+    std::uint64_t covered = 0;
+    for (std::size_t i = 0; i < 64; i += hn::Lanes(df))
+    {
+      const auto met = hn::Lt(hn::Load(df, tile.upper + i), infinity);
+      covered |= pixelBits(met) << i;
+      hn::Store(hn::IfThenElse(hn::RebindMask(di, met), hn::Set(di, NearestTriangles::Small), none),
+        di, nearest + i);
+    }
+    return covered;
+  }
+  for (std::size_t i = 0; i < 64; i += hn::Lanes(df))
+  {
+    hn::Store(infinity, df, tile.upper + i);
+    hn::Store(infinity, df, tile.lower + i);
+    hn::Store(infinity, df, tile.rival + i);
+    hn::Store(none, di, nearest + i);
+  }
+  return 0;
+}
+
+/// What the slots of a tile stand for.
+HWY_INLINE void name(const TriangleGroup::Slots& slots, const GroupPixels& small, int column,
+  int row, NearestTriangles& found, std::uint32_t* triangles, std::uint32_t* owners)
+{
+  const DI di;
+  const auto* ids = reinterpret_cast<const std::int32_t*>(slots.id.data());
+  const auto* ownerOf = reinterpret_cast<const std::int32_t*>(slots.owner.data());
+  HWY_ALIGN std::int32_t smallIds[64];
+  HWY_ALIGN std::int32_t smallOwners[64];
+  if (!small.empty())
+  {
+    copyTile(reinterpret_cast<const std::int32_t*>(small.triangle()), column, row, smallIds);
+    copyTile(reinterpret_cast<const std::int32_t*>(small.owner()), column, row, smallOwners);
+  }
+  const I nobody = hn::Set(di, NearestTriangles::None);
+  for (std::size_t i = 0; i < 64; i += hn::Lanes(di))
+  {
+    const I slot = hn::Load(di, found.slot + i);
+    const auto some = hn::Gt(slot, nobody);
+    I id = nobody, owner = nobody;
+    if (!hn::AllFalse(di, some))
+    {
+      const I at = hn::IfThenElseZero(some, slot);
+      id = hn::IfThenElse(some, hn::GatherIndex(di, ids, at), nobody);
+      owner = hn::IfThenElse(some, hn::GatherIndex(di, ownerOf, at), nobody);
+    }
+    const auto few = hn::Eq(slot, hn::Set(di, NearestTriangles::Small));
+    if (!hn::AllFalse(di, few))
+    {
+      const I named = hn::Load(di, smallIds + i);
+      const I triangle = hn::And(named, hn::Set(di, static_cast<std::int32_t>(~SeenPoints::Steep)));
+      id = hn::IfThenElse(few, triangle, id);
+      owner = hn::IfThenElse(few, hn::Load(di, smallOwners + i), owner);
+    }
+    hn::StoreU(id, di, reinterpret_cast<std::int32_t*>(triangles) + i);
+    hn::StoreU(owner, di, reinterpret_cast<std::int32_t*>(owners) + i);
+  }
+}
+
+bool nearestInTile(const TriangleGroup::Slots& slots, const GroupPixels& small,
+  const TilePixels& pixels, int column, int row, NearestTriangles& found, std::uint32_t* triangles,
+  std::uint32_t* owners)
+{
+  const DF df;
   const float infinity = std::numeric_limits<float>::infinity();
   const std::size_t room = slots.count + 2 * hn::Lanes(df);
   if (found.selected.size() < room)
@@ -303,24 +295,17 @@ bool nearestInTile(const TriangleGroup::Slots& slots, const TilePixels& pixels, 
   const std::size_t count =
     selectSlots(slots, column, row, found.selected.data(), found.keys.data());
   found.seen.resize(count);
-  if (count == 0)
+  if (count == 0 && small.empty())
   {
     return false;
   }
   sortByKey(found.selected.data(), found.keys.data(), count, found.seen);
   DrawnTile tile;
-  for (std::size_t i = 0; i < 64; i += hn::Lanes(df))
-  {
-    hn::Store(hn::Set(df, infinity), df, tile.upper + i);
-    hn::Store(hn::Set(df, infinity), df, tile.lower + i);
-    hn::Store(hn::Set(df, infinity), df, tile.rival + i);
-    hn::Store(hn::Set(di, NearestTriangles::None), di, found.slot + i);
-  }
   constexpr std::int32_t OddFlags =
     TriangleGroup::Thin | TriangleGroup::Unsure | TriangleGroup::Clipped;
   const float x = tileMiddle(column), y = tileMiddle(row);
-  std::uint64_t covered = 0; // by boxes
-  float deepest = infinity;
+  std::uint64_t covered = begin(small, column, row, tile, found.slot); // others by boxes
+  float deepest = ~covered == 0 ? highest(tile.upper) : infinity;
   for (std::size_t k = 0; k < count && found.seen[k].key <= deepest; ++k)
   {
     const std::int32_t slot = found.seen[k].slot;
@@ -354,19 +339,7 @@ bool nearestInTile(const TriangleGroup::Slots& slots, const TilePixels& pixels, 
   {
     return false;
   }
-  const auto* ids = reinterpret_cast<const std::int32_t*>(slots.id.data());
-  const auto* ownerOf = reinterpret_cast<const std::int32_t*>(slots.owner.data());
-  for (std::size_t i = 0; i < 64; i += hn::Lanes(df))
-  {
-    const I nobody = hn::Set(di, NearestTriangles::None);
-    const I slot = hn::Load(di, found.slot + i);
-    const auto some = hn::Ne(slot, nobody);
-    const I at = hn::IfThenElseZero(some, slot);
-    hn::StoreU(hn::IfThenElse(some, hn::GatherIndex(di, ids, at), nobody), di,
-      reinterpret_cast<std::int32_t*>(triangles) + i);
-    hn::StoreU(hn::IfThenElse(some, hn::GatherIndex(di, ownerOf, at), nobody), di,
-      reinterpret_cast<std::int32_t*>(owners) + i);
-  }
+  name(slots, small, column, row, found, triangles, owners);
   return true;
 }
 }
@@ -384,7 +357,7 @@ bool TriangleGroup::nearest(int column, int row, NearestTriangles& found, std::u
   assert(column >= 0 && column < GroupView::Tiles && row >= 0 && row < GroupView::Tiles);
   static const TilePixels pixels;
   return HWY_DYNAMIC_DISPATCH(nearestInTile)(
-    this->Arrays, pixels, column, row, found, triangles, owners);
+    this->Arrays, this->Small, pixels, column, row, found, triangles, owners);
 }
 }
 #endif

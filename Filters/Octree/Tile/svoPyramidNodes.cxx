@@ -3,6 +3,7 @@
 #include <hwy/foreach_target.h>
 
 #include "svoCounters.h"
+#include "svoGroupView.h"
 #include "svoMorton.h"
 #include "svoNode.h"
 #include "svoPyramidNodes.h"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include <hwy/highway.h>
 
@@ -65,7 +67,8 @@ struct ChildTables
 {
   HWY_ALIGN float most[4][64]; // to the best corner of child i, of each side of the pyramid
   HWY_ALIGN float near[64];    // to the least t of child i
-  float toCorner[5];           // from there to the child's lower corner; 4: of t
+  HWY_ALIGN float least[64];   // to the least w of child i, in pixels' widths of the group's sides
+  float toCorner[6];           // from there to the child's lower corner; 4: of t; 5: of w
   float deep;                  // from the least to the greatest t of a child
 };
 
@@ -89,12 +92,63 @@ struct OpenNode
 {
   std::uint32_t node;
   float size;     // edge, octree coordinates
-  float value[5]; // of the sides and of t at its lower corner, rounding allowed for
+  float value[6]; // of the sides, t and w at its lower corner, rounding allowed for
 };
 
-bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyramid& pyramid,
-  float tMin, float tMax, std::size_t most, std::vector<TileNode>& nodes)
+/// The pixels of a group whose centres cells may cover: x0, x1, y0 and y1, a byte each. `most`: the
+/// greatest values of the group's sides, which are w times the distance in pixels.
+HWY_INLINE hn::Vec<hn::ScalableTag<std::int32_t>> pixelsOf(
+  const F* most, F leastW, hn::Mask<DF>& any)
 {
+  // A pixel lies at x / w from one side and at Pixels - x / w from the other one.
+  const DF df;
+  const hn::ScalableTag<std::int32_t> di;
+  constexpr float Slack = 0.01f; // besides what the sides allow for
+  const F zero = hn::Zero(df), last = hn::Set(df, GroupView::Pixels - 1.0f);
+  const auto known = hn::Gt(leastW, zero);
+  const F inverse = hn::Div(hn::Set(df, 1.0f), leastW);
+  const F toLast = hn::Set(df, Slack - 0.5f);
+  const F toFirst = hn::Set(df, GroupView::Pixels - 0.5f - Slack);
+  const auto lastOf = [&](F greatest)
+  {
+    const F pixel = hn::Floor(hn::MulAdd(greatest, inverse, toLast));
+    return hn::IfThenElse(known, hn::Max(hn::Min(pixel, last), hn::Set(df, -1.0f)), last);
+  };
+  const auto firstOf = [&](F greatest)
+  {
+    const F pixel = hn::Ceil(hn::NegMulAdd(greatest, inverse, toFirst));
+    return hn::IfThenElse(
+      known, hn::Min(hn::Max(pixel, zero), hn::Set(df, GroupView::Pixels)), zero);
+  };
+  const F x1 = lastOf(most[0]), x0 = firstOf(most[1]);
+  const F y1 = lastOf(most[2]), y0 = firstOf(most[3]);
+  any = hn::And(any, hn::And(hn::Le(x0, x1), hn::Le(y0, y1)));
+  const auto byte = [&](F v, int k) { return hn::ShiftLeftSame(hn::ConvertTo(di, v), k); };
+  return hn::Or(hn::Or(byte(x0, 0), byte(x1, 8)), hn::Or(byte(y0, 16), byte(y1, 24)));
+}
+
+/// Bits where bit i of `bits` is bit i ^ flip.
+inline std::uint64_t flipped(std::uint64_t bits, int flip)
+{
+  constexpr std::uint64_t Even[6] = { 0x5555555555555555u, 0x3333333333333333u, 0x0f0f0f0f0f0f0f0fu,
+    0x00ff00ff00ff00ffu, 0x0000ffff0000ffffu, 0x00000000ffffffffu };
+  for (int k = 0; k < 6; ++k)
+  {
+    if (flip >> k & 1)
+    {
+      const int by = 1 << k;
+      bits = (bits & Even[k]) << by | (bits >> by & Even[k]);
+    }
+  }
+  return bits;
+}
+
+/// Found: TileNode or GroupNode.
+template <class Found>
+HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
+  const TilePyramid& pyramid, float tMin, float tMax, std::size_t most, std::vector<Found>& nodes)
+{
+  constexpr bool Group = std::is_same<Found, GroupNode>::value;
   assert(octree.surface() != nullptr && octree.shortLists().begin.size() == octree.brickBegin());
   const DF df;
   ChildTables tables;
@@ -103,6 +157,16 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
   open[0].node = 0;
   open[0].size = 1.0f;
   double tSlack = 0.0;
+  if (Group)
+  {
+    const glm::dvec4 f = (pyramid.side[0] + pyramid.side[1]) / double(GroupView::Pixels);
+    const double corner = f.x + f.y + f.z + f.w;
+    const double least = 0.25 * (std::min(f.x, 0.0) + std::min(f.y, 0.0) + std::min(f.z, 0.0));
+    fillTable(f, least, offsets.x, offsets.y, offsets.z, tables.least);
+    tables.toCorner[5] = static_cast<float>(-least);
+    open[0].value[5] = static_cast<float>(
+      corner - RoundingSlack * (std::abs(f.x) + std::abs(f.y) + std::abs(f.z) + std::abs(corner)));
+  }
   for (int k = 0; k < 5; ++k)
   {
     const glm::dvec4& f = k < 4 ? pyramid.side[k] : pyramid.t;
@@ -134,10 +198,21 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
   nodes.clear();
   if (bricks == 0 || lists.begin[0] != ShortLists::None)
   {
-    nodes.push_back({ -std::numeric_limits<float>::infinity(), 0 });
+    Found root{};
+    root.tNear = -std::numeric_limits<float>::infinity();
+    if constexpr (Group)
+    {
+      root.x1 = root.y1 = GroupView::Pixels - 1;
+    }
+    nodes.push_back(root);
     return true;
   }
+  // Nearer cells first, where all rays go the way of those in the middle.
+  const int octant =
+    Group ? int(pyramid.t.x < 0.0) | int(pyramid.t.y < 0.0) << 1 | int(pyramid.t.z < 0.0) << 2 : 0;
+  const int flip = octant | octant << 3;
   HWY_ALIGN float tNear[64];
+  HWY_ALIGN std::int32_t pixels[64];
   while (count > 0)
   {
     const OpenNode parent = open[--count];
@@ -153,11 +228,16 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
       hn::Store(near, df, tNear + i);
       auto in =
         hn::And(hn::Le(near, hn::Set(df, tMax)), hn::Ge(hn::Add(near, deep), hn::Set(df, tFrom)));
+      F best[4];
       for (int k = 0; k < 4; ++k)
       {
-        const F best =
-          hn::MulAdd(size, hn::Load(df, tables.most[k] + i), hn::Set(df, parent.value[k]));
-        in = hn::And(in, hn::Ge(best, hn::Zero(df)));
+        best[k] = hn::MulAdd(size, hn::Load(df, tables.most[k] + i), hn::Set(df, parent.value[k]));
+        in = hn::And(in, hn::Ge(best[k], hn::Zero(df)));
+      }
+      if (Group)
+      {
+        const F w = hn::MulAdd(size, hn::Load(df, tables.least + i), hn::Set(df, parent.value[5]));
+        hn::Store(pixelsOf(best, w, in), hn::ScalableTag<std::int32_t>(), pixels + i);
       }
       inside |= laneBits(df, in) << i;
     }
@@ -165,28 +245,62 @@ bool findNodes(const Octree& octree, const CellOffsets& offsets, const TilePyram
     {
       return false;
     }
-    for (std::uint64_t left = inside & node.mask; left != 0; left &= left - 1)
+    int inner[64], inners = 0;
+    for (std::uint64_t left = flipped(inside & node.mask, flip); left != 0; left &= left - 1)
     {
-      const int i = lowestBit(left);
+      const int i = lowestBit(left) ^ flip;
       const std::uint32_t index = child(node, i);
       assert(index < octree.header().nodeCount);
-      if (index >= bricks || lists.begin[index] != ShortLists::None)
+      if (index < bricks && lists.begin[index] == ShortLists::None)
       {
-        nodes.push_back({ tNear[i], index });
+        inner[inners++] = i;
         continue;
       }
+      Found found{};
+      found.tNear = tNear[i];
+      found.node = index;
+      if constexpr (Group)
+      {
+        __builtin_prefetch(all + index);
+        const auto box = static_cast<std::uint32_t>(pixels[i]);
+        found.x0 = static_cast<std::uint8_t>(box);
+        found.x1 = static_cast<std::uint8_t>(box >> 8);
+        found.y0 = static_cast<std::uint8_t>(box >> 16);
+        found.y1 = static_cast<std::uint8_t>(box >> 24);
+      }
+      nodes.push_back(found);
+    }
+    while (inners > 0)
+    {
+      const int i = inner[--inners];
       assert(count < 64 * MaximumDepths);
       OpenNode& next = open[count++];
-      next.node = index;
+      next.node = child(node, i);
       next.size = 0.25f * parent.size;
       for (int k = 0; k < 4; ++k)
       {
         next.value[k] = parent.value[k] + parent.size * (tables.most[k][i] + tables.toCorner[k]);
       }
       next.value[4] = parent.value[4] + parent.size * (tables.near[i] + tables.toCorner[4]);
+      if (Group)
+      {
+        next.value[5] = parent.value[5] + parent.size * (tables.least[i] + tables.toCorner[5]);
+      }
     }
   }
   return nodes.size() <= most;
+}
+
+bool findInTile(const Octree& octree, const CellOffsets& offsets, const TilePyramid& pyramid,
+  float tMin, float tMax, std::size_t most, std::vector<TileNode>& nodes)
+{
+  return findNodes(octree, offsets, pyramid, tMin, tMax, most, nodes);
+}
+
+bool findInGroup(const Octree& octree, const CellOffsets& offsets, const TilePyramid& pyramid,
+  float tMin, float tMax, std::size_t most, std::vector<GroupNode>& nodes)
+{
+  return findNodes(octree, offsets, pyramid, tMin, tMax, most, nodes);
 }
 }
 }
@@ -195,18 +309,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace svo
 {
-HWY_EXPORT(findNodes);
+HWY_EXPORT(findInTile);
+HWY_EXPORT(findInGroup);
 
 namespace
 {
-/// findTileNodes() of a tile or of a group of them.
-bool findInside(const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax,
-  std::size_t most, std::vector<TileNode>& nodes)
+const CellOffsets& cellOffsets()
 {
   static const CellOffsets offsets;
-  nodes.clear();
-  return !octree || octree.empty() ||
-    HWY_DYNAMIC_DISPATCH(findNodes)(octree, offsets, pyramid, tMin, tMax, most, nodes);
+  return offsets;
 }
 
 void sortByDepth(std::vector<TileNode>& nodes)
@@ -235,7 +346,9 @@ void sortByDepth(std::vector<TileNode>& nodes)
 bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax,
   std::size_t most, std::vector<TileNode>& nodes)
 {
-  const bool all = findInside(octree, pyramid, tMin, tMax, most, nodes);
+  nodes.clear();
+  const bool all = !octree || octree.empty() ||
+    HWY_DYNAMIC_DISPATCH(findInTile)(octree, cellOffsets(), pyramid, tMin, tMax, most, nodes);
   sortByDepth(nodes);
   SVO_COUNT(TilesAccepted, nodes.empty() ? 0 : 1);
   SVO_COUNT(TilesRejected, nodes.empty() ? 1 : 0);
@@ -243,9 +356,11 @@ bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin,
 }
 
 bool findGroupNodes(const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax,
-  std::size_t most, std::vector<TileNode>& nodes)
+  std::size_t most, std::vector<GroupNode>& nodes)
 {
-  return findInside(octree, pyramid, tMin, tMax, most, nodes);
+  nodes.clear();
+  return !octree || octree.empty() ||
+    HWY_DYNAMIC_DISPATCH(findInGroup)(octree, cellOffsets(), pyramid, tMin, tMax, most, nodes);
 }
 }
 #endif

@@ -32,14 +32,23 @@ struct TileNode
   std::uint32_t node;
 };
 
+/// A node that the rays of a group of 4x4 tiles may meet.
+struct GroupNode
+{
+  float tNear; // likewise
+  std::uint32_t node;
+  std::uint8_t x0, x1, y0, y1; // pixels of the group whose centres it may cover
+};
+
 /// Finds the nodes inside the pyramid between tMin and tMax, nearest first. False if there are more
 /// than `most`: then they are not all there. The octree must have a surface.
 VTKSVOOCTREE_EXPORT bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin,
   float tMax, std::size_t most, std::vector<TileNode>& nodes);
 
-/// The same, in any order: for a group of tiles, whose triangles are sorted later.
+/// The same for a group of 4x4 tiles: nearer ones first, by and large, and none that lies between
+/// the centres of pixels.
 VTKSVOOCTREE_EXPORT bool findGroupNodes(const Octree& octree, const TilePyramid& pyramid,
-  float tMin, float tMax, std::size_t most, std::vector<TileNode>& nodes);
+  float tMin, float tMax, std::size_t most, std::vector<GroupNode>& nodes);
 }
 
 #endif

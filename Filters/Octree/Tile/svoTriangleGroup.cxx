@@ -1,278 +1,24 @@
-// Corners are projected onto pixels, many triangles at a time; then edges and depth are linear in
-// the pixel. Floats are enough, since what they leave open is known:
-//
-// What float rays hit (svoIntersectTile.h) is what counts, and rays and pixels are computed
-// differently. Whatever either is off by can be put down to corners that are not where they should
-// be. Ray and corner as the test computes them differ from the true ones by the same vectors that a
-// corner a little aside would bring about (svoPixelFunctions.h says how far); from there on its
-// signs are exact. The pixel of a corner is off by the roundings of its projection, and as if by
-// those of the edge functions, which are relative to how far away corners are. Together these are a
-// corner's `shift`, of the order of 1e-3 pixels. Shifting both ends of an edge by so much changes
-// its function, at a point of the box around the triangle, by no more than
-//
-//   doubt = 2 shift (width + height of the box + 4 shift).
-//
-// So edge functions are divided by that: beyond 1 and -1 the test agrees. Likewise, weights of the
-// corners are off by 2.5 of `share`, the sum of the three edges' doubts in parts of the area;
-// depths by 3 share of the triangle's own range, and by what its corners' depths are off.
-//
-// A triangle of less area than four times its doubts may as well be wound the other way round. A
-// ray can miss it for certain only where edges disagree with either winding.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "svoTriangleGroup.cxx"
-#include <hwy/foreach_target.h>
+// Lists of triangles are read front to back, a hundred triangles at a time. What is made ready may
+// hide nodes that come later: where triangles are small, those are most of what lies behind a
+// surface, and their triangles are never looked at.
+#include "svoTriangleGroup.h"
 
 #include "svoCrossingTriangle.h"
-#include "svoPackLanes-inl.h"
-#include "svoTriangleGroup.h"
+#include "svoReadyTriangles.h"
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 
-#include <hwy/highway.h>
-
-HWY_BEFORE_NAMESPACE();
 namespace svo
 {
-namespace HWY_NAMESPACE
+namespace
 {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DF = hn::ScalableTag<float>;
-using DI = hn::ScalableTag<std::int32_t>;
-using F = hn::Vec<DF>;
-using I = hn::Vec<DI>;
-
-HWY_INLINE F linear(const float* f, F x, F y, F z)
+/// Pixel i of a tile among those of the group.
+int groupPixel(int column, int row, int i)
 {
-  const DF d;
-  return hn::MulAdd(hn::Set(d, f[0]), x,
-    hn::MulAdd(hn::Set(d, f[1]), y, hn::MulAdd(hn::Set(d, f[2]), z, hn::Set(d, f[3]))));
-}
-
-HWY_INLINE F least(F a, F b, F c)
-{
-  return hn::Min(hn::Min(a, b), c);
-}
-
-HWY_INLINE F most(F a, F b, F c)
-{
-  return hn::Max(hn::Max(a, b), c);
-}
-
-/// Corners of as many triangles as there are lanes.
-struct ProjectedCorners
-{
-  F x, y, w; // times w
-  F k;
-
-  HWY_INLINE ProjectedCorners(const Surface& surface, const GroupView& view, I triangle, int corner)
-  {
-    const DF df;
-    const DI di;
-    const auto times3 = [](I v) { return hn::Add(v, hn::Add(v, v)); };
-    const I point = hn::GatherIndex(di,
-      reinterpret_cast<const std::int32_t*>(&surface.triangles[0].x) + corner, times3(triangle));
-    const I at = times3(point);
-    const float* points = &surface.points[0].x;
-    const F one = hn::Set(df, 1.0f);
-    const F vx = hn::Sub(hn::GatherIndex(df, points, at), one);
-    const F vy = hn::Sub(hn::GatherIndex(df, points + 1, at), one);
-    const F vz = hn::Sub(hn::GatherIndex(df, points + 2, at), one);
-    x = linear(view.x, vx, vy, vz);
-    y = linear(view.y, vx, vy, vz);
-    w = linear(view.w, vx, vy, vz);
-    k = linear(view.k, vx, vy, vz);
-  }
-};
-
-/// Of triangles that are not known well enough to be made ready: true where all of one lies beside
-/// the group, or before the rays begin.
-HWY_INLINE hn::Mask<DF> beside(const GroupView& view, const ProjectedCorners& a,
-  const ProjectedCorners& b, const ProjectedCorners& c)
-{
-  // A side of the group, and a pixel more, is linear in the corners as long as w is not divided by.
-  const DF df;
-  const F side = hn::Set(df, 0.5f * GroupView::Pixels + 1.0f);
-  const F error = hn::Set(df, view.error + (0.5f * GroupView::Pixels + 1.0f) * view.errorFar);
-  const auto beyond = [&](F p, F q, F r) { return hn::Gt(least(p, q, r), error); };
-  const F aw = hn::Mul(side, a.w), bw = hn::Mul(side, b.w), cw = hn::Mul(side, c.w);
-  auto out = hn::Lt(most(a.w, b.w, c.w), hn::Set(df, view.beforeRays));
-  out = hn::Or(out, beyond(hn::Sub(a.x, aw), hn::Sub(b.x, bw), hn::Sub(c.x, cw)));
-  out = hn::Or(out, beyond(hn::Sub(a.y, aw), hn::Sub(b.y, bw), hn::Sub(c.y, cw)));
-  const auto other = [](F v, F w) { return hn::Neg(hn::Add(v, w)); };
-  out = hn::Or(out, beyond(other(a.x, aw), other(b.x, bw), other(c.x, cw)));
-  return hn::Or(out, beyond(other(a.y, aw), other(b.y, bw), other(c.y, cw)));
-}
-
-/// One bit for each of 4x4 tiles: those of columns and rows of pixels.
-HWY_INLINE I tilesOf(I x0, I x1, I y0, I y1)
-{
-  const DI d;
-  const I one = hn::Set(d, 1), two = hn::Set(d, 2);
-  const auto range = [&](I first, I last) {
-    return hn::Sub(hn::Shl(two, hn::ShiftRight<3>(last)), hn::Shl(one, hn::ShiftRight<3>(first)));
-  };
-  const I columns = range(x0, x1);
-  const I rows = range(y0, y1);
-  // Bit r of rows becomes bit 4 r.
-  const I spread = hn::And(hn::Set(d, 0x1111),
-    hn::Or(hn::Or(rows, hn::ShiftLeft<3>(rows)),
-      hn::Or(hn::ShiftLeft<6>(rows), hn::ShiftLeft<9>(rows))));
-  return hn::Mul(columns, spread);
-}
-
-/// But for triangles that slots.crossing names then.
-void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t count,
-  const GroupView& view, std::uint32_t owner, TriangleGroup::Slots& slots)
-{
-  const DF df;
-  const DI di;
-  const F zero = hn::Zero(df), one = hn::Set(df, 1.0f);
-  constexpr float Rounding = 1.0f / (1 << 24);
-  constexpr float FarthestCorner = 65536.0f; // pixels
-  slots.makeRoom(slots.count + count + hn::Lanes(df));
-  slots.crossingCount = 0;
-  const SetBits& bits = SetBits::get();
-  for (std::size_t first = 0; first < count; first += hn::Lanes(df))
-  {
-    const std::size_t left = count - first;
-    const auto mine = left >= hn::Lanes(df) ? hn::Eq(zero, zero) : hn::FirstN(df, left);
-    // Behind the last id there are zeros.
-    const I triangle = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(ids) + first);
-    const ProjectedCorners a(surface, view, triangle, 0);
-    const ProjectedCorners b(surface, view, triangle, 1);
-    const ProjectedCorners c(surface, view, triangle, 2);
-
-    // Pixels.
-    const auto seen = hn::Ge(least(a.w, b.w, c.w), hn::Set(df, view.leastW));
-    const F ai = hn::Div(one, a.w), bi = hn::Div(one, b.w), ci = hn::Div(one, c.w);
-    const F ax = hn::Mul(a.x, ai), ay = hn::Mul(a.y, ai);
-    const F bx = hn::Mul(b.x, bi), by = hn::Mul(b.y, bi);
-    const F cx = hn::Mul(c.x, ci), cy = hn::Mul(c.y, ci);
-    const F x0 = least(ax, bx, cx), x1 = most(ax, bx, cx);
-    const F y0 = least(ay, by, cy), y1 = most(ay, by, cy);
-    const F far = most(
-      hn::Max(hn::Neg(x0), x1), hn::Max(hn::Neg(y0), y1), hn::Set(df, 0.5f * GroupView::Pixels));
-    const auto known = hn::And(seen, hn::Le(far, hn::Set(df, FarthestCorner)));
-    const auto unknown = hn::AndNot(known, mine);
-    if (!hn::AllFalse(df, unknown))
-    {
-      const auto crossing = hn::AndNot(beside(view, a, b, c), unknown);
-      const LanePacker pack(bits, crossing);
-      pack.store(triangle, slots.crossing.data() + slots.crossingCount);
-      slots.crossingCount += pack.count;
-    }
-    const F nearest = most(ai, bi, ci);
-    const F shift =
-      hn::MulAdd(nearest, hn::MulAdd(far, hn::Set(df, view.errorFar), hn::Set(df, view.error)),
-        hn::Mul(far, hn::Set(df, view.rounding)));
-
-    // The pixels whose centres lie in the box around it.
-    const F middle = hn::Set(df, 0.5f * (GroupView::Pixels - 1));
-    const F end = hn::Set(df, static_cast<float>(GroupView::Pixels));
-    const auto firstOf = [&](F v)
-    { return hn::Min(hn::Max(hn::Ceil(hn::Add(hn::Sub(v, shift), middle)), zero), end); };
-    const auto lastOf = [&](F v)
-    {
-      return hn::Max(
-        hn::Min(hn::Floor(hn::Add(hn::Add(v, shift), middle)), hn::Sub(end, one)), hn::Neg(one));
-    };
-    const F px0 = firstOf(x0), px1 = lastOf(x1), py0 = firstOf(y0), py1 = lastOf(y1);
-    const auto kept = hn::And(hn::And(mine, known), hn::And(hn::Le(px0, px1), hn::Le(py0, py1)));
-    if (hn::AllFalse(df, kept))
-    {
-      continue;
-    }
-
-    // Edges, each across from a corner.
-    const F aex = hn::Sub(by, cy), aey = hn::Sub(cx, bx);
-    const F bex = hn::Sub(cy, ay), bey = hn::Sub(ax, cx);
-    const F cex = hn::Sub(ay, by), cey = hn::Sub(bx, ax);
-    const F area = hn::MulAdd(cex, hn::Sub(cx, ax), hn::Mul(cey, hn::Sub(cy, ay)));
-    const F box = hn::Add(hn::Sub(x1, x0), hn::Sub(y1, y0));
-    const F doubt = hn::Mul(hn::Add(shift, shift), hn::MulAdd(hn::Set(df, 4.0f), shift, box));
-    const auto thin =
-      hn::Not(hn::Gt(hn::Abs(area), hn::Mul(hn::Set(df, 12.0f), doubt))); // or not a number
-    const F toDoubt = hn::Div(hn::CopySign(one, area), doubt);
-    const LanePacker pack(bits, kept);
-    const auto store = [&](F v, std::vector<float>& array)
-    { pack.store(v, array.data() + slots.count); };
-    const auto storeEdge = [&](int e, F ex, F ey, F x, F y)
-    {
-      const F nx = hn::Mul(ex, toDoubt), ny = hn::Mul(ey, toDoubt);
-      store(nx, slots.ex[e]);
-      store(ny, slots.ey[e]);
-      store(hn::Neg(hn::MulAdd(nx, x, hn::Mul(ny, y))), slots.ec[e]);
-    };
-    storeEdge(0, aex, aey, bx, by);
-    storeEdge(1, bex, bey, cx, cy);
-    storeEdge(2, cex, cey, ax, ay);
-
-    // Depth.
-    const F scale = hn::Set(df, view.scale);
-    const F ak = hn::Mul(a.k, hn::Mul(scale, ai));
-    const F bk = hn::Mul(b.k, hn::Mul(scale, bi));
-    const F ck = hn::Mul(c.k, hn::Mul(scale, ci));
-    const F k0 = least(ak, bk, ck), k1 = most(ak, bk, ck);
-    const F perArea = hn::Div(one, area);
-    const F share = hn::Mul(hn::Set(df, 3.0f), hn::Abs(hn::Mul(doubt, perArea)));
-    const F toKey = hn::Mul(scale, nearest); // of a depth; squared: of a change of depth
-    const F farthest = hn::Mul(scale, least(ai, bi, ci));
-    const F largest = most(hn::Abs(a.k), hn::Abs(b.k), hn::Abs(c.k));
-    const F ofCorners = hn::Mul(toKey,
-      hn::MulAdd(
-        toKey, hn::Set(df, view.depthError), hn::Mul(hn::Set(df, 4.0f * Rounding), largest)));
-    const F three = hn::Set(df, 3.0f);
-    const F weights = hn::Mul(three, share);
-    const F ofHits = hn::IfThenElse(thin, ofCorners,
-      hn::MulAdd(
-        weights, hn::Sub(k1, k0), hn::MulAdd(hn::Add(weights, weights), ofCorners, ofCorners)));
-    const F slack = hn::MulAdd(hn::Mul(toKey, toKey), hn::Set(df, view.apart), ofHits);
-    const F ab = hn::Mul(hn::Sub(bk, ak), perArea), ac = hn::Mul(hn::Sub(ck, ak), perArea);
-    const F kx = hn::IfThenZeroElse(thin, hn::MulAdd(bex, ab, hn::Mul(cex, ac)));
-    const F ky = hn::IfThenZeroElse(thin, hn::MulAdd(bey, ab, hn::Mul(cey, ac)));
-    store(kx, slots.kx);
-    store(ky, slots.ky);
-    store(hn::IfThenElse(thin, k0, hn::Sub(ak, hn::MulAdd(kx, ax, hn::Mul(ky, ay)))), slots.kc);
-    store(slack, slots.slack);
-    store(hn::Set(df, view.kNear), slots.kNear);
-    store(hn::Set(df, view.kFar), slots.kFar);
-
-    // What else there is to know.
-    const F depthSlack = hn::Div(ofHits, hn::Mul(farthest, farthest));
-    const auto flag = [&](hn::Mask<DF> mask, std::int32_t value)
-    { return hn::IfThenElseZero(hn::RebindMask(di, mask), hn::Set(di, value)); };
-    const auto clipped = hn::Or(hn::Lt(hn::Sub(k0, slack), hn::Set(df, view.kNear)),
-      hn::Gt(hn::Add(k1, slack), hn::Set(df, view.kFar)));
-    const I flags =
-      hn::Or(hn::Or(flag(thin, TriangleGroup::Thin), flag(clipped, TriangleGroup::Clipped)),
-        hn::Or(flag(hn::Not(hn::Le(depthSlack, hn::Set(df, view.reach))), TriangleGroup::Unsure),
-          flag(hn::Not(hn::Le(depthSlack, hn::Set(df, view.nearReach))), TriangleGroup::Steep)));
-    const auto storeI = [&](I v, auto& array)
-    { pack.store(v, reinterpret_cast<std::int32_t*>(array.data()) + slots.count); };
-    const I ix0 = hn::ConvertTo(di, px0), ix1 = hn::ConvertTo(di, px1);
-    const I iy0 = hn::ConvertTo(di, py0), iy1 = hn::ConvertTo(di, py1);
-    storeI(ix0, slots.x0);
-    storeI(ix1, slots.x1);
-    storeI(iy0, slots.y0);
-    storeI(iy1, slots.y1);
-    storeI(tilesOf(ix0, ix1, iy0, iy1), slots.tiles);
-    storeI(flags, slots.flags);
-    storeI(triangle, slots.id);
-    storeI(hn::Set(di, static_cast<std::int32_t>(owner)), slots.owner);
-    slots.count += pack.count;
-  }
+  return GroupView::Pixels * (8 * row + (i >> 3)) + 8 * column + (i & 7);
 }
 }
-}
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace svo
-{
-HWY_EXPORT(makeReady);
 
 void TriangleGroup::Slots::makeRoom(std::size_t size)
 {
@@ -301,39 +47,85 @@ void TriangleGroup::Slots::makeRoom(std::size_t size)
   this->owner.resize(size);
 }
 
-bool TriangleGroup::add(const Octree& octree, const std::vector<TileNode>& nodes,
+bool TriangleGroup::add(const Octree& octree, const std::vector<GroupNode>& nodes,
   const GroupView& view, std::uint32_t owner)
 {
   assert(octree.surface() != nullptr);
-  constexpr std::size_t Room = 16; // behind the last, a vector of any instruction set
   const Surface& surface = *octree.surface();
   assert(surface.triangles.size() < (1u << 29) && surface.points.size() < (1u << 29));
-  // Each triangle once.
-  const ShortLists& lists = octree.shortLists();
-  const std::uint32_t bricks = octree.brickBegin();
   this->Known.resize(std::max(this->Known.size(), surface.triangles.size() / 64 + 1), 0);
-  // Where lists lie is found first, so that they are on their way when they are read.
-  this->Lists.resize(nodes.size());
-  for (std::size_t k = 0; k < nodes.size(); ++k)
+  this->Count = 0;
+  std::size_t ready = 0;
+  bool good = true;
+  const auto makeReady = [&]
   {
-    const std::uint32_t node = nodes[k].node;
-    NodeList& list = this->Lists[k];
-    if (node < bricks)
+    good = this->makeReady(surface, view, owner, ready);
+    ready = this->Count;
+  };
+  for (const GroupNode& node : nodes)
+  {
+    if (this->hidden(node, view))
     {
-      assert(lists.begin[node] != ShortLists::None);
-      list.ids = lists.words.data() + lists.begin[node] + 1;
-      list.counted = true;
+      continue;
     }
-    else
+    findList(octree, node.node, this->Lists[this->ListCount++]);
+    if (this->ListCount == ListsAtOnce)
     {
-      list.ids = octree.brickTriangles(node, list.count, list.inlineId);
-      list.counted = false;
+      this->readLists(surface);
+      // As soon as there are some, since they may hide what comes later.
+      if (this->Count - ready >= TrianglesAtOnce)
+      {
+        makeReady();
+        if (!good)
+        {
+          break;
+        }
+      }
     }
-    __builtin_prefetch(list.ids);
   }
-  std::size_t count = 0;
-  for (const NodeList& node : this->Lists)
+  this->readLists(surface);
+  if (good && this->Count > ready)
   {
+    makeReady();
+  }
+  for (std::size_t k = 0; k < this->Count; ++k)
+  {
+    this->Known[this->Ids[k] / 64] = 0;
+  }
+  return good;
+}
+
+bool TriangleGroup::hidden(const GroupNode& node, const GroupView& view) const
+{
+  const float t = node.tNear - view.behind;
+  const float w = view.wOfT[0] * t + view.wOfT[1];
+  const float key = view.scale * (view.kOfT[0] * t + view.kOfT[1]) / w;
+  return w > 0.0f && this->Small.hides(node.x0, node.x1, node.y0, node.y1, key);
+}
+
+void TriangleGroup::findList(const Octree& octree, std::uint32_t node, NodeList& list)
+{
+  const ShortLists& lists = octree.shortLists();
+  list.counted = node < octree.brickBegin();
+  if (list.counted)
+  {
+    assert(lists.begin[node] != ShortLists::None);
+    list.ids = lists.words.data() + lists.begin[node] + 1;
+  }
+  else
+  {
+    list.ids = octree.brickTriangles(node, list.count, list.inlineId);
+  }
+  __builtin_prefetch(list.ids);
+}
+
+void TriangleGroup::readLists(const Surface& surface)
+{
+  constexpr std::size_t Room = 16; // behind the last, a vector of any instruction set
+  std::size_t count = this->Count;
+  for (std::size_t l = 0; l < this->ListCount; ++l)
+  {
+    const NodeList& node = this->Lists[l];
     const std::uint32_t* list = node.ids;
     const std::uint32_t listed = node.counted ? list[-1] : node.count;
     if (this->Ids.size() < count + listed + Room)
@@ -349,32 +141,72 @@ bool TriangleGroup::add(const Octree& octree, const std::vector<TileNode>& nodes
       assert(id < surface.triangles.size());
       const std::uint64_t word = known[id / 64];
       known[id / 64] = word | std::uint64_t(1) << id % 64;
+      __builtin_prefetch(&surface.triangles[id]);
       ids[count] = id;
       count += ~(word >> id % 64) & 1;
     }
   }
-  if (count == 0)
-  {
-    return true;
-  }
-  for (std::size_t k = 0; k < count; ++k)
-  {
-    this->Known[this->Ids[k] / 64] = 0;
-  }
-  std::fill_n(this->Ids.begin() + static_cast<std::ptrdiff_t>(count), Room, 0u);
+  this->ListCount = 0;
+  this->Count = count;
+}
+
+bool TriangleGroup::makeReady(
+  const Surface& surface, const GroupView& view, std::uint32_t owner, std::size_t first)
+{
+  constexpr std::size_t Room = 16;
+  std::fill_n(this->Ids.begin() + static_cast<std::ptrdiff_t>(this->Count), Room, 0u);
   Slots& slots = this->Arrays;
-  const std::size_t before = slots.count;
-  HWY_DYNAMIC_DISPATCH(makeReady)(surface, this->Ids.data(), count, view, owner, slots);
+  readyTriangles(surface, this->Ids.data() + first, this->Count - first, view, owner, slots,
+    this->Small.points());
   for (std::size_t k = 0; k < slots.crossingCount; ++k)
   {
     const auto id = static_cast<std::uint32_t>(slots.crossing[k]);
     if (!addCrossing(surface, id, view, owner, slots))
     {
-      slots.count = before;
       return false;
     }
   }
+  this->Small.merge(owner);
   return true;
 }
+
+bool TriangleGroup::steep(int column, int row, int pixel, const NearestTriangles& found) const
+{
+  const std::int32_t slot = found.slot[pixel];
+  assert(slot != NearestTriangles::None);
+  return slot == NearestTriangles::Small
+    ? (this->Small.triangle()[groupPixel(column, row, pixel)] & SeenPoints::Steep) != 0
+    : (this->Arrays.flags[static_cast<std::size_t>(slot)] & Steep) != 0;
 }
-#endif
+
+void TriangleGroup::findCandidates(
+  int column, int row, std::uint64_t rays, NearestTriangles& found) const
+{
+  found.candidates.clear();
+  if (rays == 0)
+  {
+    return;
+  }
+  for (const SeenTriangle& seen : found.seen)
+  {
+    if (seen.pixels & rays)
+    {
+      found.candidates.push_back(
+        { this->triangle(seen.slot), this->owner(seen.slot), seen.pixels });
+    }
+  }
+  const SeenPoints& points = this->Small.points();
+  for (; rays != 0; rays &= rays - 1)
+  {
+    const int i = __builtin_ctzll(rays);
+    for (std::int32_t k = this->Small.firstPoint(groupPixel(column, row, i));
+         k != GroupPixels::NoPoint; k = this->Small.nextPoint(k))
+    {
+      found.candidates.push_back(
+        { static_cast<std::uint32_t>(points.triangle[static_cast<std::size_t>(k)]) &
+            ~SeenPoints::Steep,
+          this->Small.ownerOf(k), std::uint64_t(1) << i });
+    }
+  }
+}
+}

@@ -3,6 +3,7 @@
 #ifndef svoTriangleGroup_h
 #define svoTriangleGroup_h
 
+#include "svoGroupPixels.h"
 #include "svoGroupView.h"
 #include "svoOctree.h"
 #include "svoPyramidNodes.h"
@@ -23,14 +24,23 @@ struct SeenTriangle
   std::uint64_t pixels = 0; // whose rays may meet it first, as far as was known when it was drawn
 };
 
+/// A triangle that rays may meet first of which that has to be asked.
+struct CandidateTriangle
+{
+  std::uint32_t triangle, owner;
+  std::uint64_t pixels; // whose rays those are
+};
+
 /// What a tile's 64 rays meet first, as far as that is beyond doubt.
 struct NearestTriangles
 {
-  static constexpr std::int32_t None = -1;
+  static constexpr std::int32_t None = -1, Small = -2;
 
-  alignas(64) std::int32_t slot[64]; // in the group, or None
-  std::uint64_t doubtful = 0;        // rays, one bit each, whose slot means nothing
-  std::vector<SeenTriangle> seen;    // nearest first
+  /// In the group; None; or Small: a triangle of a few pixels, which has no slot.
+  alignas(64) std::int32_t slot[64];
+  std::uint64_t doubtful = 0;                // rays, one bit each, whose slot means nothing
+  std::vector<SeenTriangle> seen;            // that have slots, nearest first
+  std::vector<CandidateTriangle> candidates; // see findCandidates()
 
   // Scratch memory.
   std::vector<std::int32_t> selected;
@@ -40,13 +50,18 @@ struct NearestTriangles
 class VTKSVOOCTREE_EXPORT TriangleGroup
 {
 public:
-  void clear() { this->Arrays.count = 0; }
-  bool empty() const { return this->Arrays.count == 0; }
+  void clear()
+  {
+    this->Arrays.count = 0;
+    this->Small.clear();
+  }
+  bool empty() const { return this->Arrays.count == 0 && this->Small.empty(); }
   std::size_t size() const { return this->Arrays.count; }
 
-  /// Adds the triangles of an octree's nodes. False if there are some that cannot be made ready,
-  /// as those that cross the eye plane: then nothing is added.
-  bool add(const Octree& octree, const std::vector<TileNode>& nodes, const GroupView& view,
+  /// Adds the triangles of an octree's nodes, but of those that what there is hides: nearer ones
+  /// are to come first. False if there are some that cannot be made ready, as those that cross the
+  /// eye plane: then the group is good for nothing until it is cleared.
+  bool add(const Octree& octree, const std::vector<GroupNode>& nodes, const GroupView& view,
     std::uint32_t owner);
 
   /// What the rays through the pixels' centres of a tile of the group meet first: slots, and their
@@ -54,10 +69,14 @@ public:
   bool nearest(int column, int row, NearestTriangles& found, std::uint32_t* triangles,
     std::uint32_t* owners) const;
 
+  /// True if the depth of what a ray of that tile meets may be off by more than
+  /// GroupView::nearReach.
+  bool steep(int column, int row, int pixel, const NearestTriangles& found) const;
+  /// All that these rays of that tile may meet first.
+  void findCandidates(int column, int row, std::uint64_t rays, NearestTriangles& found) const;
+
   std::uint32_t triangle(std::int32_t slot) const { return this->Arrays.id[slot]; }
   std::uint32_t owner(std::int32_t slot) const { return this->Arrays.owner[slot]; }
-  /// True if the depth of a hit may be off by more than GroupView::nearReach.
-  bool steep(std::int32_t slot) const { return (this->Arrays.flags[slot] & Steep) != 0; }
 
   enum Flags : std::int32_t
   {
@@ -86,6 +105,7 @@ public:
   };
 
   const Slots& slots() const { return this->Arrays; }
+  const GroupPixels& small() const { return this->Small; }
 
 private:
   /// The triangles of a node.
@@ -95,9 +115,26 @@ private:
     std::uint32_t count, inlineId;
     bool counted; // the count stands before the ids
   };
+  /// So many lists are on their way at a time.
+  static constexpr std::size_t ListsAtOnce = 16;
+  /// Fewer would leave lanes empty, more be made ready before what hides them.
+  static constexpr std::size_t TrianglesAtOnce = 128;
+
+  bool hidden(const GroupNode& node, const GroupView& view) const;
+  static void findList(const Octree& octree, std::uint32_t node, NodeList& list);
+  /// Adds the triangles of Lists to Ids, each once.
+  void readLists(const Surface& surface);
+  /// Makes ready those from `first` on.
+  bool makeReady(
+    const Surface& surface, const GroupView& view, std::uint32_t owner, std::size_t first);
+
   Slots Arrays;
-  std::vector<NodeList> Lists;
-  std::vector<std::uint32_t> Ids;   // of the octree that is added
+  GroupPixels Small;
+  // Of the octree that is added.
+  std::array<NodeList, ListsAtOnce> Lists;
+  std::size_t ListCount = 0;
+  std::vector<std::uint32_t> Ids;
+  std::size_t Count = 0;
   std::vector<std::uint64_t> Known; // triangles among Ids: one bit each, zero in between
 };
 }

@@ -115,9 +115,11 @@ private:
     /// is of no slot.
     std::vector<SeenPlane> planes;
     std::vector<std::int32_t> planeOf;
+    bool spoilt = false; // by an instance that could not be made ready
 
     void clear()
     {
+      this->spoilt = false;
       this->group.clear();
       this->planes.clear();
       this->planeOf.clear();
@@ -168,7 +170,7 @@ private:
     // The group of tiles.
     int groupX, groupY;
     FoundTriangles together;
-    std::vector<TileNode> nodes;
+    std::vector<GroupNode> nodes;
     // The tile.
     NearestTriangles nearest;
     std::vector<std::size_t> counted; // by index into Instances: the tile that rays has last
@@ -182,6 +184,9 @@ private:
   /// Finds the instances that reach into a group of tiles, and the triangles of those that are
   /// traced together.
   void gather(int firstTileX, int firstTileY, TileScratch& scratch) const;
+  /// Adds what a group of tiles may see of those that are traced together. False, and all is to be
+  /// done once more, if one of them turned out to have to be traced by rays.
+  bool findTogether(TileScratch& scratch) const;
   /// Adds what a group of tiles may see of an instance; false if it has to be traced by rays.
   bool findTriangles(const Entry& entry, TileScratch& scratch, FoundTriangles& found) const;
   /// What the triangles of the group give for a tile of it; false if nothing.
@@ -190,12 +195,10 @@ private:
   /// Traces a tile of an instance's kept layer, unless that has to be done by rays.
   void traceLayer(int tileX, int tileY, TileEntry& candidate, TileScratch& scratch);
   void placeHits(int tileX, int tileY, FoundTriangles& found, std::uint64_t& doubtful,
-    const NearestTriangles& nearest, MergedTile& hits) const;
-  void measureHits(int tileX, int tileY, const TriangleGroup& group,
-    const NearestTriangles& nearest, MergedTile& hits) const;
+    const TileScratch& scratch, MergedTile& hits) const;
+  void measureHits(int tileX, int tileY, const NearestTriangles& nearest, MergedTile& hits) const;
   /// What a ray of the tile in scratch.nearest meets first, by the float test; false if nothing.
-  bool traceDoubtful(double x, double y, int ray, const TriangleGroup& group, TileScratch& scratch,
-    SeenHit& first) const;
+  bool traceDoubtful(double x, double y, int ray, TileScratch& scratch, SeenHit& first) const;
   void order(int tileX, int tileY, bool onlyChanged, TileScratch& scratch);
   bool cutRays(const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const;
   /// Through points x, y of the image; tMin and tMax are set.

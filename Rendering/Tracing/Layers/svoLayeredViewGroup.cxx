@@ -53,9 +53,29 @@ bool LayeredView::findTriangles(
     limits.nearReach = 0.999 * edgeOnReach(entry.local);
     limits.reach = 0.999 * placingReach(entry.local);
   }
-  return found.group.add(*entry.octree, scratch.nodes,
+  found.spoilt = !found.group.add(*entry.octree, scratch.nodes,
     makeGroupView(entry.local, entry.functions, this->Keys, limits, scratch.groupX, scratch.groupY),
     entry.index);
+  return !found.spoilt;
+}
+
+bool LayeredView::findTogether(TileScratch& scratch) const
+{
+  scratch.together.clear();
+  for (const std::size_t e : scratch.nearby)
+  {
+    TileEntry& candidate = scratch.entries[e];
+    if (candidate.way == Way::Together &&
+      !this->findTriangles(*candidate.entry, scratch, scratch.together))
+    {
+      candidate.way = Way::Rays;
+      if (scratch.together.spoilt)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
 }
 
 void LayeredView::gather(int firstTileX, int firstTileY, TileScratch& scratch) const
@@ -65,7 +85,6 @@ void LayeredView::gather(int firstTileX, int firstTileY, TileScratch& scratch) c
   scratch.nearby.clear();
   scratch.groupX = firstTileX;
   scratch.groupY = firstTileY;
-  scratch.together.clear();
   for (std::size_t e = 0; e < this->Instances.size(); ++e)
   {
     const Entry& entry = this->Instances[e];
@@ -80,13 +99,17 @@ void LayeredView::gather(int firstTileX, int firstTileY, TileScratch& scratch) c
     candidate.way = entry.tiles ? Way::Unknown : Way::Rays;
     if (entry.tiles && !entry.layer)
     {
-      candidate.alone.clear();
-      const bool alone = this->Shifted;
-      candidate.way =
-        !this->findTriangles(entry, scratch, alone ? candidate.alone : scratch.together) ? Way::Rays
-        : alone ? Way::Alone
-                : Way::Together;
+      candidate.way = Way::Together;
+      if (this->Shifted)
+      {
+        candidate.alone.clear();
+        candidate.way =
+          this->findTriangles(entry, scratch, candidate.alone) ? Way::Alone : Way::Rays;
+      }
     }
+  }
+  while (!this->findTogether(scratch))
+  {
   }
 }
 
@@ -122,30 +145,42 @@ bool LayeredView::nearestHits(
     return false;
   }
   const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
-  for (const SeenTriangle& seen : nearest.seen)
+  const auto count = [&](std::uint32_t owner)
   {
-    const std::uint32_t e = this->EntryOf[group.owner(seen.slot)];
+    const std::uint32_t e = this->EntryOf[owner];
     if (scratch.counted[e] != tile)
     {
       scratch.counted[e] = tile;
       scratch.rays[e] += 64;
     }
+  };
+  for (const SeenTriangle& seen : nearest.seen)
+  {
+    count(group.owner(seen.slot));
+  }
+  for (const GroupPixels::Part& part : group.small().parts())
+  {
+    if (part.tiles >> (GroupTiles * row + column) & 1)
+    {
+      count(part.owner);
+    }
   }
   std::uint64_t doubtful = nearest.doubtful;
   if (this->Exact)
   {
-    this->placeHits(tileX, tileY, found, doubtful, nearest, hits);
+    this->placeHits(tileX, tileY, found, doubtful, scratch, hits);
   }
   else
   {
-    this->measureHits(tileX, tileY, group, nearest, hits);
+    this->measureHits(tileX, tileY, nearest, hits);
   }
+  group.findCandidates(column, row, doubtful, nearest);
   for (; doubtful != 0; doubtful &= doubtful - 1)
   {
     const int i = lowest(doubtful);
     const double x = 8 * tileX + (i & 7) + 0.5, y = 8 * tileY + (i >> 3) + 0.5;
     SeenHit first;
-    const bool hit = this->traceDoubtful(x, y, i, group, scratch, first);
+    const bool hit = this->traceDoubtful(x, y, i, scratch, first);
     hits.primitive[i] = hit ? first.primitive : NoPrimitive;
     hits.instance[i] = hit ? first.instance : NoInstance;
     hits.t[i] = hit ? first.floatT : 0.0f;
@@ -155,8 +190,9 @@ bool LayeredView::nearestHits(
 }
 
 void LayeredView::placeHits(int tileX, int tileY, FoundTriangles& found, std::uint64_t& doubtful,
-  const NearestTriangles& nearest, MergedTile& hits) const
+  const TileScratch& scratch, MergedTile& hits) const
 {
+  const NearestTriangles& nearest = scratch.nearest;
   const TriangleGroup& group = found.group;
   if (found.planes.empty())
   {
@@ -167,43 +203,59 @@ void LayeredView::placeHits(int tileX, int tileY, FoundTriangles& found, std::ui
   static_assert(NearestTriangles::None == -1, "planes are counted from it");
   std::int32_t* const planeOf = found.planeOf.data() + 1;
   std::int32_t plane[64];
+  const auto add = [&](int i)
+  {
+    const Entry& entry = this->Instances[this->EntryOf[hits.instance[i]]];
+    found.planes.emplace_back(
+      TrianglePlane(*entry.octree->surface(), hits.primitive[i]), entry.local, entry.sizes);
+    return static_cast<std::int32_t>(found.planes.size()) - 1;
+  };
+  std::uint64_t small = 0;
   for (int i = 0; i < 64; ++i)
   {
     const std::int32_t slot = nearest.slot[i];
+    if (slot == NearestTriangles::Small)
+    {
+      small |= std::uint64_t(1) << i;
+      continue;
+    }
     if (planeOf[slot] < 0)
     {
-      const Entry& entry = this->Instances[this->EntryOf[group.owner(slot)]];
-      planeOf[slot] = static_cast<std::int32_t>(found.planes.size());
-      found.planes.emplace_back(
-        TrianglePlane(*entry.octree->surface(), group.triangle(slot)), entry.local, entry.sizes);
+      planeOf[slot] = add(i);
     }
     plane[i] = planeOf[slot];
+  }
+  const std::size_t shared = found.planes.size();
+  for (; small != 0; small &= small - 1)
+  {
+    const int i = lowest(small);
+    plane[i] = add(i);
   }
   // No decided hit lies beyond the rays' ends.
   std::uint64_t left =
     depthsOnPlanes(found.planes.data(), plane, 8.0 * tileX, 8.0 * tileY, hits.t) & ~doubtful;
+  found.planes.resize(shared);
   for (; left != 0; left &= left - 1)
   {
     const int i = lowest(left);
-    const std::int32_t slot = nearest.slot[i];
-    if (slot == NearestTriangles::None)
+    if (nearest.slot[i] == NearestTriangles::None)
     {
       continue;
     }
-    const Entry& entry = this->Instances[this->EntryOf[group.owner(slot)]];
+    const Entry& entry = this->Instances[this->EntryOf[hits.instance[i]]];
     bool edgeOn;
-    const double t = meetPlane(TrianglePlane(*entry.octree->surface(), group.triangle(slot)),
+    const double t = meetPlane(TrianglePlane(*entry.octree->surface(), hits.primitive[i]),
       entry.local, 8 * tileX + (i & 7) + 0.5, 8 * tileY + (i >> 3) + 0.5, edgeOn);
     hits.t[i] = static_cast<float>(t);
-    if (edgeOn && group.steep(slot))
+    if (edgeOn && group.steep(tileX - scratch.groupX, tileY - scratch.groupY, i, nearest))
     {
       doubtful |= std::uint64_t(1) << i;
     }
   }
 }
 
-void LayeredView::measureHits(int tileX, int tileY, const TriangleGroup& group,
-  const NearestTriangles& nearest, MergedTile& hits) const
+void LayeredView::measureHits(
+  int tileX, int tileY, const NearestTriangles& nearest, MergedTile& hits) const
 {
   RayBlock block;
   HitBlock measured;
@@ -218,7 +270,7 @@ void LayeredView::measureHits(int tileX, int tileY, const TriangleGroup& group,
   while (left != 0)
   {
     // Of one instance after the other.
-    const std::uint32_t owner = group.owner(nearest.slot[lowest(left)]);
+    const std::uint32_t owner = hits.instance[lowest(left)];
     const Entry& entry = this->Instances[this->EntryOf[owner]];
     std::uint64_t mine = 0;
     for (int i = 0; i < 64; ++i)
@@ -240,31 +292,30 @@ void LayeredView::measureHits(int tileX, int tileY, const TriangleGroup& group,
   }
 }
 
-bool LayeredView::traceDoubtful(double x, double y, int ray, const TriangleGroup& group,
-  TileScratch& scratch, SeenHit& first) const
+bool LayeredView::traceDoubtful(
+  double x, double y, int ray, TileScratch& scratch, SeenHit& first) const
 {
   // The nearest of each instance by the float test, as intersectTile() has it.
   scratch.hits.clear();
-  for (const SeenTriangle& seen : scratch.nearest.seen)
+  for (const CandidateTriangle& candidate : scratch.nearest.candidates)
   {
-    if (!(seen.pixels >> ray & 1))
+    if (!(candidate.pixels >> ray & 1))
     {
       continue;
     }
-    const std::uint32_t owner = group.owner(seen.slot);
+    const std::uint32_t owner = candidate.owner;
     const Entry& entry = this->Instances[this->EntryOf[owner]];
     glm::vec3 origin, direction;
     entry.local.ray(x, y, origin, direction);
     float t;
-    if (!rayMeetsTriangle(
-          *entry.octree->surface(), origin, direction, group.triangle(seen.slot), t) ||
+    if (!rayMeetsTriangle(*entry.octree->surface(), origin, direction, candidate.triangle, t) ||
       !(t >= 0.0f && t <= entry.local.tMax))
     {
       continue;
     }
     const auto same = std::find_if(scratch.hits.begin(), scratch.hits.end(),
       [&](const SeenHit& hit) { return hit.instance == owner; });
-    const SeenHit hit{ owner, group.triangle(seen.slot), 0.0, x, y, t };
+    const SeenHit hit{ owner, candidate.triangle, 0.0, x, y, t };
     if (same == scratch.hits.end())
     {
       scratch.hits.push_back(hit);

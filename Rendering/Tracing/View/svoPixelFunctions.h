@@ -176,6 +176,11 @@ inline GroupView makeGroupView(const LocalView& local, const PixelFunctions& fun
   store(gy, view.y);
   store(functions.w, view.w);
   store(k, view.k);
+  // Of t itself, which is the functions' own but for its float.
+  view.kOfT[0] = keys.deep ? 0.0f : 1.0f;
+  view.kOfT[1] = static_cast<float>(k.w - (keys.deep ? 0.0 : functions.t.w));
+  view.wOfT[0] = functions.parallel ? 0.0f : 1.0f;
+  view.wOfT[1] = functions.parallel ? 1.0f : static_cast<float>(functions.wBase);
   view.scale = functions.parallel ? 1.0f : static_cast<float>(keys.far);
   // w is off by up to a 16th of itself.
   constexpr double OverW = 16.0 / 15.0;
@@ -206,6 +211,10 @@ inline GroupView makeGroupView(const LocalView& local, const PixelFunctions& fun
   view.farW = functions.parallel ? 1.0f : roundUp(functions.wBase + local.tMax);
   view.kNear = static_cast<float>(functions.key(0.0, keys));
   view.kFar = static_cast<float>(functions.key(local.tMax, keys));
+  // Float hits that lie as far from their node as placing moves none are none (svoIntersectTile.h
+  // leaves them out as well). What is computed here is off by a few roundings of the sums.
+  view.behind = roundUp(1e-3 * local.tMax + view.apart +
+    32.0 * u * (local.tMax + std::abs(view.kOfT[1]) + std::abs(view.wOfT[1])));
   view.nearReach = static_cast<float>(limits.nearReach);
   view.reach = static_cast<float>(limits.reach);
   return view;

@@ -14,7 +14,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,7 +53,7 @@ struct Stage
   /// False if the group cannot be made ready.
   bool makeReady(int tileX, int tileY, TriangleGroup& group) const
   {
-    std::vector<TileNode> nodes;
+    std::vector<GroupNode> nodes;
     EXPECT_TRUE(functions.valid);
     EXPECT_TRUE(findGroupNodes(
       octree, makePyramid(projection, view, tileX, tileY, 4), 0.0f, local.tMax, 1 << 20, nodes));
@@ -71,7 +73,8 @@ struct Stage
 struct Tally
 {
   int groups = 0, refused = 0;
-  long rays = 0, hits = 0, doubtful = 0;
+  long rays = 0, hits = 0, doubtful = 0, small = 0;
+  long points = 0, undecided = 0, hidden = 0;
   double worstKey = 0.0;  // of what is allowed
   double worstEdge = 0.0; // likewise, where a decision hung on it
 };
@@ -98,6 +101,7 @@ void compareTile(const Stage& stage, const TriangleGroup& group, int tileX, int 
   NearestTriangles found;
   std::uint32_t triangles[64], owners[64];
   const bool any = group.nearest(column, row, found, triangles, owners);
+  group.findCandidates(column, row, any ? found.doubtful : 0, found);
   for (int i = 0; i < 64; ++i)
   {
     ++tally.rays;
@@ -112,11 +116,12 @@ void compareTile(const Stage& stage, const TriangleGroup& group, int tileX, int 
     {
       ++tally.doubtful;
       float t = 0.0f;
-      for (const SeenTriangle& seen : found.seen)
+      for (const CandidateTriangle& candidate : found.candidates)
       {
         float other;
-        const std::uint32_t triangle = group.triangle(seen.slot);
-        if ((seen.pixels >> i & 1) && stage.meets(x[i], y[i], triangle, other) &&
+        ASSERT_EQ(candidate.owner, 7u);
+        const std::uint32_t triangle = candidate.triangle;
+        if ((candidate.pixels >> i & 1) && stage.meets(x[i], y[i], triangle, other) &&
           (first == NoPrimitive || other < t || (other == t && triangle > first)))
         {
           t = other;
@@ -126,9 +131,17 @@ void compareTile(const Stage& stage, const TriangleGroup& group, int tileX, int 
     }
     else if (found.slot[i] != NearestTriangles::None)
     {
-      first = group.triangle(found.slot[i]);
-      ASSERT_EQ(group.owner(found.slot[i]), 7u);
+      first = triangles[i];
       ASSERT_EQ(owners[i], 7u);
+      if (found.slot[i] == NearestTriangles::Small)
+      {
+        ++tally.small;
+      }
+      else
+      {
+        ASSERT_EQ(group.triangle(found.slot[i]), first);
+        ASSERT_EQ(group.owner(found.slot[i]), 7u);
+      }
     }
     ASSERT_TRUE((found.doubtful >> i & 1) || triangles[i] == first);
     ASSERT_EQ(first, expected.primitive[i])
@@ -187,6 +200,54 @@ void checkBounds(const Stage& stage, const TriangleGroup& group, int tileX, int 
   }
 }
 
+/// The same of triangles of a few pixels, at the pixels where they are said to be met.
+void checkPoints(const Stage& stage, const TriangleGroup& group, int tileX, int tileY, Tally& tally)
+{
+  const TriangleGroup::Slots& slots = group.slots();
+  const SeenPoints& points = group.small().points();
+  const std::set<std::uint32_t> drawn(slots.id.begin(), slots.id.begin() + slots.count);
+  std::map<std::uint32_t, std::map<int, std::size_t>> seen;
+  for (std::size_t k = 0; k < points.count; ++k)
+  {
+    const std::uint32_t triangle = points.triangle[k] & ~SeenPoints::Steep;
+    ASSERT_EQ(drawn.count(triangle), 0u) << "drawn twice";
+    ASSERT_TRUE(seen[triangle].emplace(points.pixel[k], k).second) << "drawn twice";
+  }
+  for (std::uint32_t triangle = 0; triangle < stage.octree.surface()->triangles.size(); ++triangle)
+  {
+    if (drawn.count(triangle))
+    {
+      continue;
+    }
+    for (int pixel = 0; pixel < GroupPixels::Count; ++pixel)
+    {
+      const double x = 8 * tileX + pixel % GroupView::Pixels + 0.5;
+      const double y = 8 * tileY + pixel / GroupView::Pixels + 0.5;
+      float t;
+      const bool hit = stage.meets(x, y, triangle, t);
+      const auto known = seen.find(triangle);
+      const bool maybe = known != seen.end() && known->second.count(pixel);
+      if (!maybe)
+      {
+        // Not looked at, perhaps: then something else is certainly nearer.
+        const bool hides = !group.small().empty() &&
+          stage.functions.key(t, stage.keys) > group.small().upper()[pixel];
+        ASSERT_TRUE(!hit || hides) << "not seen";
+        tally.hidden += hit;
+        continue;
+      }
+      const std::size_t k = known->second[pixel];
+      const bool surely = std::isfinite(points.high[k]);
+      ASSERT_TRUE(hit || !surely) << "not met";
+      const double key = hit ? stage.functions.key(t, stage.keys) : points.low[k];
+      ASSERT_LE(points.low[k], key);
+      ASSERT_GE(points.high[k], key);
+      ++tally.points;
+      tally.undecided += !surely;
+    }
+  }
+}
+
 void compareGroups(const Stage& stage, int groups, unsigned seed, bool bounds, Tally& tally)
 {
   if (stage.local.rect.empty() || stage.local.stretched)
@@ -212,6 +273,7 @@ void compareGroups(const Stage& stage, int groups, unsigned seed, bool bounds, T
     if (bounds)
     {
       checkBounds(stage, group, tileX, tileY, tally);
+      checkPoints(stage, group, tileX, tileY, tally);
     }
     for (int tile = 0; tile < 16 && !testing::Test::HasFailure(); ++tile)
     {

@@ -1,0 +1,337 @@
+// Corners are projected onto pixels, many triangles at a time; then edges and depth are linear in
+// the pixel. Floats are enough, since what they leave open is known:
+//
+// What float rays hit (svoIntersectTile.h) is what counts, and rays and pixels are computed
+// differently. Whatever either is off by can be put down to corners that are not where they should
+// be. Ray and corner as the test computes them differ from the true ones by the same vectors that a
+// corner a little aside would bring about (svoPixelFunctions.h says how far); from there on its
+// signs are exact. The pixel of a corner is off by the roundings of its projection, and as if by
+// those of the edge functions, which are relative to how far away corners are. Together these are a
+// corner's `shift`, of the order of 1e-3 pixels. Shifting both ends of an edge by so much changes
+// its function, at a point of the box around the triangle, by no more than
+//
+//   doubt = 2 shift (width + height of the box + 4 shift).
+//
+// So edge functions are divided by that: beyond 1 and -1 the test agrees. Likewise, weights of the
+// corners are off by 2.5 of `share`, the sum of the three edges' doubts in parts of the area;
+// depths by 3 share of the triangle's own range, and by what its corners' depths are off.
+//
+// A triangle of less area than four times its doubts may as well be wound the other way round. A
+// ray can miss it for certain only where edges disagree with either winding.
+//
+// Triangles of a few pixels are looked at at once (svoSmallTriangles-inl.h). Others become slots,
+// which the tiles draw (svoNearestTriangles.cxx).
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "svoReadyTriangles.cxx"
+#include <hwy/foreach_target.h>
+
+#include "svoPackLanes-inl.h"
+#include "svoReadyTriangles.h"
+#include "svoSmallTriangles-inl.h"
+
+#include <algorithm>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace svo
+{
+namespace HWY_NAMESPACE
+{
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DF = hn::ScalableTag<float>;
+using DI = hn::ScalableTag<std::int32_t>;
+using F = hn::Vec<DF>;
+using I = hn::Vec<DI>;
+
+HWY_INLINE F linear(const float* f, F x, F y, F z)
+{
+  const DF d;
+  return hn::MulAdd(hn::Set(d, f[0]), x,
+    hn::MulAdd(hn::Set(d, f[1]), y, hn::MulAdd(hn::Set(d, f[2]), z, hn::Set(d, f[3]))));
+}
+
+HWY_INLINE F least(F a, F b, F c)
+{
+  return hn::Min(hn::Min(a, b), c);
+}
+
+HWY_INLINE F most(F a, F b, F c)
+{
+  return hn::Max(hn::Max(a, b), c);
+}
+
+/// Corners of as many triangles as there are lanes.
+struct ProjectedCorners
+{
+  F x, y, w; // times w
+  F k;
+
+  HWY_INLINE ProjectedCorners(const Surface& surface, const GroupView& view, I triangle, int corner)
+  {
+    const DF df;
+    const DI di;
+    const auto times3 = [](I v) { return hn::Add(v, hn::Add(v, v)); };
+    const I point = hn::GatherIndex(di,
+      reinterpret_cast<const std::int32_t*>(&surface.triangles[0].x) + corner, times3(triangle));
+    const I at = times3(point);
+    const float* points = &surface.points[0].x;
+    const F one = hn::Set(df, 1.0f);
+    const F vx = hn::Sub(hn::GatherIndex(df, points, at), one);
+    const F vy = hn::Sub(hn::GatherIndex(df, points + 1, at), one);
+    const F vz = hn::Sub(hn::GatherIndex(df, points + 2, at), one);
+    x = linear(view.x, vx, vy, vz);
+    y = linear(view.y, vx, vy, vz);
+    w = linear(view.w, vx, vy, vz);
+    k = linear(view.k, vx, vy, vz);
+  }
+};
+
+/// Of triangles that are not known well enough to be made ready: true where all of one lies beside
+/// the group, or before the rays begin.
+HWY_INLINE hn::Mask<DF> beside(const GroupView& view, const ProjectedCorners& a,
+  const ProjectedCorners& b, const ProjectedCorners& c)
+{
+  // A side of the group, and a pixel more, is linear in the corners as long as w is not divided by.
+  const DF df;
+  const F side = hn::Set(df, 0.5f * GroupView::Pixels + 1.0f);
+  const F error = hn::Set(df, view.error + (0.5f * GroupView::Pixels + 1.0f) * view.errorFar);
+  const auto beyond = [&](F p, F q, F r) { return hn::Gt(least(p, q, r), error); };
+  const F aw = hn::Mul(side, a.w), bw = hn::Mul(side, b.w), cw = hn::Mul(side, c.w);
+  auto out = hn::Lt(most(a.w, b.w, c.w), hn::Set(df, view.beforeRays));
+  out = hn::Or(out, beyond(hn::Sub(a.x, aw), hn::Sub(b.x, bw), hn::Sub(c.x, cw)));
+  out = hn::Or(out, beyond(hn::Sub(a.y, aw), hn::Sub(b.y, bw), hn::Sub(c.y, cw)));
+  const auto other = [](F v, F w) { return hn::Neg(hn::Add(v, w)); };
+  out = hn::Or(out, beyond(other(a.x, aw), other(b.x, bw), other(c.x, cw)));
+  return hn::Or(out, beyond(other(a.y, aw), other(b.y, bw), other(c.y, cw)));
+}
+
+/// One bit for each of 4x4 tiles: those of columns and rows of pixels.
+HWY_INLINE I tilesOf(I x0, I x1, I y0, I y1)
+{
+  const DI d;
+  const I one = hn::Set(d, 1), two = hn::Set(d, 2);
+  const auto range = [&](I first, I last) {
+    return hn::Sub(hn::Shl(two, hn::ShiftRight<3>(last)), hn::Shl(one, hn::ShiftRight<3>(first)));
+  };
+  const I columns = range(x0, x1);
+  const I rows = range(y0, y1);
+  // Bit r of rows becomes bit 4 r.
+  const I spread = hn::And(hn::Set(d, 0x1111),
+    hn::Or(hn::Or(rows, hn::ShiftLeft<3>(rows)),
+      hn::Or(hn::ShiftLeft<6>(rows), hn::ShiftLeft<9>(rows))));
+  return hn::Mul(columns, spread);
+}
+
+/// Triangles of a group of which each is drawn on its own.
+HWY_INLINE void storeSlots(const ReadyLanes& t, hn::Mask<DF> mask, I triangle, std::uint32_t owner,
+  TriangleGroup::Slots& slots)
+{
+  const DI di;
+  const LanePacker pack(SetBits::get(), mask);
+  const auto store = [&](F v, std::vector<float>& array)
+  { pack.store(v, array.data() + slots.count); };
+  for (int e = 0; e < 3; ++e)
+  {
+    store(t.nx[e], slots.ex[e]);
+    store(t.ny[e], slots.ey[e]);
+    store(hn::Neg(hn::MulAdd(t.nx[e], t.x[e], hn::Mul(t.ny[e], t.y[e]))), slots.ec[e]);
+  }
+  store(t.kx, slots.kx);
+  store(t.ky, slots.ky);
+  store(hn::Sub(t.k, hn::MulAdd(t.kx, t.x[0], hn::Mul(t.ky, t.y[0]))), slots.kc);
+  store(t.slack, slots.slack);
+  store(t.kNear, slots.kNear);
+  store(t.kFar, slots.kFar);
+  const auto flag = [&](hn::Mask<DF> lanes, std::int32_t value)
+  { return hn::IfThenElseZero(hn::RebindMask(di, lanes), hn::Set(di, value)); };
+  const I flags =
+    hn::Or(hn::Or(flag(t.thin, TriangleGroup::Thin), flag(t.clipped, TriangleGroup::Clipped)),
+      hn::Or(flag(t.unsure, TriangleGroup::Unsure), flag(t.steep, TriangleGroup::Steep)));
+  const auto storeI = [&](I v, auto& array)
+  { pack.store(v, reinterpret_cast<std::int32_t*>(array.data()) + slots.count); };
+  const I ix0 = hn::ConvertTo(di, t.px0), ix1 = hn::ConvertTo(di, t.px1);
+  const I iy0 = hn::ConvertTo(di, t.py0), iy1 = hn::ConvertTo(di, t.py1);
+  storeI(ix0, slots.x0);
+  storeI(ix1, slots.x1);
+  storeI(iy0, slots.y0);
+  storeI(iy1, slots.y1);
+  storeI(tilesOf(ix0, ix1, iy0, iy1), slots.tiles);
+  storeI(flags, slots.flags);
+  storeI(triangle, slots.id);
+  storeI(hn::Set(di, static_cast<std::int32_t>(owner)), slots.owner);
+  slots.count += pack.count;
+}
+
+/// Asks for the corners of as many triangles as there are lanes, so that they are there when they
+/// are read: a mesh of many small triangles lies far from the processor.
+HWY_INLINE void fetchCorners(
+  const Surface& surface, const std::uint32_t* id, const std::uint32_t* end)
+{
+  const std::uint32_t* last = std::min(end, id + hn::Lanes(DF()));
+  for (; id < last; ++id)
+  {
+    const glm::uvec3& triangle = surface.triangles[*id];
+    __builtin_prefetch(&surface.points[triangle.x]);
+    __builtin_prefetch(&surface.points[triangle.y]);
+    __builtin_prefetch(&surface.points[triangle.z]);
+  }
+}
+
+/// But for triangles that slots.crossing names then.
+void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t count,
+  const GroupView& view, std::uint32_t owner, TriangleGroup::Slots& slots, SeenPoints& points)
+{
+  const DF df;
+  const DI di;
+  const F zero = hn::Zero(df), one = hn::Set(df, 1.0f);
+  constexpr float Rounding = 1.0f / (1 << 24);
+  constexpr float FarthestCorner = 65536.0f; // pixels
+  constexpr std::size_t Ahead = 2;           // vectors
+  slots.makeRoom(slots.count + count + hn::Lanes(df));
+  slots.crossingCount = 0;
+  const SetBits& bits = SetBits::get();
+  for (std::size_t first = 0; first < count; first += hn::Lanes(df))
+  {
+    fetchCorners(surface, ids + first + Ahead * hn::Lanes(df), ids + count);
+    const std::size_t left = count - first;
+    const auto mine = left >= hn::Lanes(df) ? hn::Eq(zero, zero) : hn::FirstN(df, left);
+    // Behind the last id there are zeros.
+    const I triangle = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(ids) + first);
+    const ProjectedCorners a(surface, view, triangle, 0);
+    const ProjectedCorners b(surface, view, triangle, 1);
+    const ProjectedCorners c(surface, view, triangle, 2);
+
+    // Pixels.
+    const auto seen = hn::Ge(least(a.w, b.w, c.w), hn::Set(df, view.leastW));
+    const F ai = hn::Div(one, a.w), bi = hn::Div(one, b.w), ci = hn::Div(one, c.w);
+    const F ax = hn::Mul(a.x, ai), ay = hn::Mul(a.y, ai);
+    const F bx = hn::Mul(b.x, bi), by = hn::Mul(b.y, bi);
+    const F cx = hn::Mul(c.x, ci), cy = hn::Mul(c.y, ci);
+    const F x0 = least(ax, bx, cx), x1 = most(ax, bx, cx);
+    const F y0 = least(ay, by, cy), y1 = most(ay, by, cy);
+    const F far = most(
+      hn::Max(hn::Neg(x0), x1), hn::Max(hn::Neg(y0), y1), hn::Set(df, 0.5f * GroupView::Pixels));
+    const auto known = hn::And(seen, hn::Le(far, hn::Set(df, FarthestCorner)));
+    const auto unknown = hn::AndNot(known, mine);
+    if (!hn::AllFalse(df, unknown))
+    {
+      const auto crossing = hn::AndNot(beside(view, a, b, c), unknown);
+      const LanePacker pack(bits, crossing);
+      pack.store(triangle, slots.crossing.data() + slots.crossingCount);
+      slots.crossingCount += pack.count;
+    }
+    const F nearest = most(ai, bi, ci);
+    const F shift =
+      hn::MulAdd(nearest, hn::MulAdd(far, hn::Set(df, view.errorFar), hn::Set(df, view.error)),
+        hn::Mul(far, hn::Set(df, view.rounding)));
+
+    // The pixels whose centres lie in the box around it.
+    const F middle = hn::Set(df, 0.5f * (GroupView::Pixels - 1));
+    const F end = hn::Set(df, static_cast<float>(GroupView::Pixels));
+    const auto firstOf = [&](F v)
+    { return hn::Min(hn::Max(hn::Ceil(hn::Add(hn::Sub(v, shift), middle)), zero), end); };
+    const auto lastOf = [&](F v)
+    {
+      return hn::Max(
+        hn::Min(hn::Floor(hn::Add(hn::Add(v, shift), middle)), hn::Sub(end, one)), hn::Neg(one));
+    };
+    const F px0 = firstOf(x0), px1 = lastOf(x1), py0 = firstOf(y0), py1 = lastOf(y1);
+    const auto kept = hn::And(hn::And(mine, known), hn::And(hn::Le(px0, px1), hn::Le(py0, py1)));
+    if (hn::AllFalse(df, kept))
+    {
+      continue;
+    }
+
+    // Edges, each across from a corner.
+    ReadyLanes ready;
+    const F aex = hn::Sub(by, cy), aey = hn::Sub(cx, bx);
+    const F bex = hn::Sub(cy, ay), bey = hn::Sub(ax, cx);
+    const F cex = hn::Sub(ay, by), cey = hn::Sub(bx, ax);
+    const F area = hn::MulAdd(cex, hn::Sub(cx, ax), hn::Mul(cey, hn::Sub(cy, ay)));
+    const F box = hn::Add(hn::Sub(x1, x0), hn::Sub(y1, y0));
+    const F doubt = hn::Mul(hn::Add(shift, shift), hn::MulAdd(hn::Set(df, 4.0f), shift, box));
+    const auto thin =
+      hn::Not(hn::Gt(hn::Abs(area), hn::Mul(hn::Set(df, 12.0f), doubt))); // or not a number
+    const F toDoubt = hn::Div(hn::CopySign(one, area), doubt);
+    const auto setEdge = [&](int e, F ex, F ey, F x, F y)
+    {
+      ready.nx[e] = hn::Mul(ex, toDoubt);
+      ready.ny[e] = hn::Mul(ey, toDoubt);
+      ready.x[e] = x;
+      ready.y[e] = y;
+    };
+    setEdge(0, cex, cey, ax, ay);
+    setEdge(1, aex, aey, bx, by);
+    setEdge(2, bex, bey, cx, cy);
+
+    // Depth.
+    const F scale = hn::Set(df, view.scale);
+    const F ak = hn::Mul(a.k, hn::Mul(scale, ai));
+    const F bk = hn::Mul(b.k, hn::Mul(scale, bi));
+    const F ck = hn::Mul(c.k, hn::Mul(scale, ci));
+    const F k0 = least(ak, bk, ck), k1 = most(ak, bk, ck);
+    const F perArea = hn::Div(one, area);
+    const F share = hn::Mul(hn::Set(df, 3.0f), hn::Abs(hn::Mul(doubt, perArea)));
+    const F toKey = hn::Mul(scale, nearest); // of a depth; squared: of a change of depth
+    const F farthest = hn::Mul(scale, least(ai, bi, ci));
+    const F largest = most(hn::Abs(a.k), hn::Abs(b.k), hn::Abs(c.k));
+    const F ofCorners = hn::Mul(toKey,
+      hn::MulAdd(
+        toKey, hn::Set(df, view.depthError), hn::Mul(hn::Set(df, 4.0f * Rounding), largest)));
+    const F three = hn::Set(df, 3.0f);
+    const F weights = hn::Mul(three, share);
+    const F ofHits = hn::IfThenElse(thin, ofCorners,
+      hn::MulAdd(
+        weights, hn::Sub(k1, k0), hn::MulAdd(hn::Add(weights, weights), ofCorners, ofCorners)));
+    const F slack = hn::MulAdd(hn::Mul(toKey, toKey), hn::Set(df, view.apart), ofHits);
+    const F ab = hn::Mul(hn::Sub(bk, ak), perArea), ac = hn::Mul(hn::Sub(ck, ak), perArea);
+    ready.kx = hn::IfThenZeroElse(thin, hn::MulAdd(bex, ab, hn::Mul(cex, ac)));
+    ready.ky = hn::IfThenZeroElse(thin, hn::MulAdd(bey, ab, hn::Mul(cey, ac)));
+    ready.k = hn::IfThenElse(thin, k0, ak);
+    ready.slack = slack;
+    ready.kNear = hn::Set(df, view.kNear);
+    ready.kFar = hn::Set(df, view.kFar);
+
+    // What else there is to know.
+    const F depthSlack = hn::Div(ofHits, hn::Mul(farthest, farthest));
+    ready.thin = thin;
+    ready.clipped =
+      hn::Or(hn::Lt(hn::Sub(k0, slack), ready.kNear), hn::Gt(hn::Add(k1, slack), ready.kFar));
+    ready.unsure = hn::Not(hn::Le(depthSlack, hn::Set(df, view.reach)));
+    ready.steep = hn::Not(hn::Le(depthSlack, hn::Set(df, view.nearReach)));
+    ready.px0 = px0;
+    ready.px1 = px1;
+    ready.py0 = py0;
+    ready.py1 = py1;
+    const F few = hn::Set(df, SmallPixels - 1.0f);
+    const auto small =
+      hn::And(kept, hn::And(hn::Le(hn::Sub(px1, px0), few), hn::Le(hn::Sub(py1, py0), few)));
+    if (!hn::AllFalse(df, small))
+    {
+      drawSmall(ready, small, triangle, points);
+    }
+    const auto large = hn::AndNot(small, kept);
+    if (!hn::AllFalse(df, large))
+    {
+      storeSlots(ready, large, triangle, owner, slots);
+    }
+  }
+}
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace svo
+{
+HWY_EXPORT(makeReady);
+
+void readyTriangles(const Surface& surface, const std::uint32_t* ids, std::size_t count,
+  const GroupView& view, std::uint32_t owner, TriangleGroup::Slots& slots, SeenPoints& points)
+{
+  HWY_DYNAMIC_DISPATCH(makeReady)(surface, ids, count, view, owner, slots, points);
+}
+}
+#endif
