@@ -11,11 +11,12 @@
 
 namespace svo
 {
-void PixelShader::prepare(const Scene& scene, ShadowTechnique technique, const LayeredView& eye)
+void PixelShader::prepare(const Scene& scene, const LayeredView& eye)
 {
   this->Frames.clear();
   this->Smooth.clear();
-  this->Errors.clear();
+  this->MapErrors.clear();
+  this->RayErrors.clear();
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {
     const Instance& instance = scene.instances[i];
@@ -24,9 +25,10 @@ void PixelShader::prepare(const Scene& scene, ShadowTechnique technique, const L
     const bool placed = eye.placed(static_cast<std::uint32_t>(i));
     this->Frames.push_back(instance.octree ? SurfaceMatrices(instance) : SurfaceMatrices());
     this->Smooth.push_back(instance.octree && isSmooth(instance));
-    this->Errors.push_back(!instance.octree  ? 0.0
-        : technique == ShadowTechnique::Rays ? worldLeafError(instance, geometry, level, placed)
-                                             : worldMapError(instance, geometry, level, placed));
+    this->MapErrors.push_back(
+      instance.octree ? worldMapError(instance, geometry, level, placed) : 0.0);
+    this->RayErrors.push_back(
+      instance.octree ? worldLeafError(instance, geometry, level, placed) : 0.0);
   }
 }
 
@@ -44,12 +46,12 @@ void PixelShader::eachTerminator(std::size_t l, const Lit& lit, std::uint64_t re
     return;
   }
   const SurfaceMatrices& frame = this->Frames[patch.instance];
-  eachBit(mayTurnAway(light, shadows.grazing(), patch, reached, dark),
+  eachBit(mayTurnAway(light, shadows.grazing(l), patch, reached, dark),
     [&](int i)
     {
       const SurfacePoint point = patch.point(i);
-      const TerminatorPoint at = atTerminator(frame, light, shadows.grazing(), dark >> i & 1, point,
-        patch.towards(i), patch.hits->primitive[i]);
+      const TerminatorPoint at = atTerminator(frame, light, shadows.grazing(l), dark >> i & 1,
+        point, patch.towards(i), patch.hits->primitive[i]);
       if (at.kind != TerminatorPoint::Kind::Plain)
       {
         scratch.atTerminator = true;
@@ -64,11 +66,11 @@ void PixelShader::shadow(
 {
   const Shadows& shadows = lit.shaded.dark;
   const TilePatch& patch = scratch.patch;
-  const double error = this->Errors[patch.instance];
+  const double error = (shadows.usesRays(l) ? this->RayErrors : this->MapErrors)[patch.instance];
   float* missed = scratch.missed;
   std::fill_n(missed, TilePatch::Most, 0.0f);
   std::uint64_t dark = 0;
-  if (shadows.filters())
+  if (shadows.filters(l))
   {
     eachBit(patch.mask,
       [&](int i)
@@ -85,8 +87,8 @@ void PixelShader::shadow(
   this->eachTerminator(l, lit, reached, dark, scratch,
     [&](int i, const SurfacePoint& point, const TerminatorPoint& at)
     {
-      missed[i] = shadows.darkness(
-        l, point, at, missed[i], error, shadows.filters() ? scratch.extents[i] : 0.0, scratch.rays);
+      missed[i] = shadows.darkness(l, point, at, missed[i], error,
+        shadows.filters(l) ? scratch.extents[i] : 0.0, scratch.rays);
       changed |= std::uint64_t(1) << i;
     });
   std::fill_n(scratch.light.share, TilePatch::Most, 1.0f);

@@ -132,6 +132,8 @@ std::vector<Change> everyChange()
       } },
     { "technique", [=](Stage& s) { s.settings.shadowTechnique = svo::ShadowTechnique::None; } },
     { "rays", [=](Stage& s) { s.settings.shadowTechnique = svo::ShadowTechnique::Rays; } },
+    { "automatic technique",
+      [=](Stage& s) { s.settings.shadowTechnique = svo::ShadowTechnique::Automatic; } },
     { "resolution", [=](Stage& s) { s.settings.shadowResolution = 256; } },
     { "bias",
       [=](Stage& s)
