@@ -83,7 +83,8 @@ public:
   {
     SHADOW_NONE = 0,
     SHADOW_BUFFER = 1,
-    SHADOW_RAYS = 2
+    SHADOW_RAYS = 2,
+    SHADOW_AUTOMATIC = 3
   };
 
   enum LeafGeometryType
@@ -116,12 +117,19 @@ public:
    * How shadows are found: not at all, by a shadow buffer per light that is traced like the picture
    * itself (the default), or by one ray to each light from each visible point, the exact reference.
    * With rays, rasterised surfaces still receive from shadow buffers.
+   * Automatic takes, light by light and frame by frame, whichever of buffer and rays is cheaper by
+   * a count of what either has to do, never by a clock: of a still frame the same scene always
+   * gives the same picture. Rays are taken only where they meet the triangles of all that casts, so
+   * that no shadow is less exact than a buffer's. Where rasterised surfaces receive, with
+   * AntiAliasing, with a ShadowBias and where several processes share a scene it takes buffers. See
+   * GetNumberOfLightsWithShadowRays().
    */
-  vtkSetClampMacro(ShadowTechnique, int, SHADOW_NONE, SHADOW_RAYS);
+  vtkSetClampMacro(ShadowTechnique, int, SHADOW_NONE, SHADOW_AUTOMATIC);
   vtkGetMacro(ShadowTechnique, int);
   void SetShadowTechniqueToNone() { this->SetShadowTechnique(SHADOW_NONE); }
   void SetShadowTechniqueToShadowBuffer() { this->SetShadowTechnique(SHADOW_BUFFER); }
   void SetShadowTechniqueToShadowRays() { this->SetShadowTechnique(SHADOW_RAYS); }
+  void SetShadowTechniqueToAutomatic() { this->SetShadowTechnique(SHADOW_AUTOMATIC); }
   //@}
 
   //@{
@@ -423,6 +431,15 @@ public:
   vtkIdType GetNumberOfPrimaryRays() const;
   vtkIdType GetNumberOfShadowRays() const;
   vtkIdType GetNumberOfRetracedLayers() const;
+  //@}
+
+  //@{
+  /**
+   * How the shadows of the last frame's casting lights were found: for so many of them by buffers,
+   * for so many by rays.
+   */
+  int GetNumberOfLightsWithShadowBuffers() const;
+  int GetNumberOfLightsWithShadowRays() const;
   //@}
 
   //@{

@@ -142,7 +142,7 @@ void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void
   if (controller && controller->GetNumberOfProcesses() > 1)
   {
     // Here, and not when something is drawn: a process that shows nothing may not draw at all.
-    if (this->ShadowTechnique == SHADOW_BUFFER)
+    if (frame.settings.shadowTechnique == svo::ShadowTechnique::Buffer)
     {
       frame.state->shareShadows(controller, width, height, frame.sampleDistance, frame.settings);
     }

@@ -175,6 +175,14 @@ void vtkSVORenderPass::DecideSettings(svo::PassFrame& frame)
   svo::FrameSettings& settings = frame.settings;
   settings = Internals::settingsOf(*this);
   vtkRenderer* renderer = frame.renderer;
+  const auto processes = this->Impl->controller;
+  if (settings.shadowTechnique == svo::ShadowTechnique::Automatic && processes &&
+    processes->GetNumberOfProcesses() > 1)
+  {
+    settings.shadowTechnique = svo::ShadowTechnique::Buffer; // they share these
+  }
+  settings.mayDependOnLastFrame =
+    settings.shadowTechnique == svo::ShadowTechnique::Automatic && isInteractive(renderer);
   if (this->AutoAdjustSampleDistances && isInteractive(renderer))
   {
     frame.sampleDistance =

@@ -40,6 +40,16 @@ vtkIdType vtkSVORenderPass::GetNumberOfRetracedLayers() const
   return static_cast<vtkIdType>(this->Impl->statistics.tracer.retracedLayers);
 }
 
+int vtkSVORenderPass::GetNumberOfLightsWithShadowBuffers() const
+{
+  return this->Impl->statistics.tracer.lightsWithBuffers;
+}
+
+int vtkSVORenderPass::GetNumberOfLightsWithShadowRays() const
+{
+  return this->Impl->statistics.tracer.lightsWithRays;
+}
+
 int vtkSVORenderPass::GetNumberOfTracedActors() const
 {
   return this->Impl->statistics.tracedActors;

@@ -126,7 +126,7 @@ bool RendererState::shows(int width, int height) const
 /// Which shadows small things cannot have, in words; empty if all is well.
 std::string RendererState::lostShadows(const FrameSettings& settings) const
 {
-  if (settings.shadowTechnique == ShadowTechnique::Buffer &&
+  if (settings.shadowTechnique != ShadowTechnique::Rays &&
     this->Statistics.tracer.coarsestTexel > CoarseShadow)
   {
     return "The texels of a shadow map look more than 32 pixels wide, even where it is fitted to "

@@ -2,6 +2,7 @@
 #ifndef svoFrame_h
 #define svoFrame_h
 
+#include "svoLight.h"
 #include "svoRay.h"
 #include "svoView.h"
 
@@ -12,13 +13,6 @@
 
 namespace svo
 {
-enum class ShadowTechnique
-{
-  None,
-  Buffer, // shadow buffers, merged from layers like the depth buffer
-  Rays    // one exact ray to the light per visible point and light; buffers for receivers
-};
-
 struct FrameSettings
 {
   ShadowTechnique shadowTechnique = ShadowTechnique::Buffer;
@@ -39,9 +33,11 @@ struct FrameSettings
   /// bias only. Shadow buffers are traced whole.
   bool filterShadows = false;
   bool wholeShadowBuffers = false; // rasterised receivers look up texels unknown to the tracer
-  bool writeNormals = false;       // Frame::normals is wanted (SSAO)
-  bool writeLight = false;         // Frame::light is wanted (tone mapping)
-  bool writeNames = true;          // Frame::instance and Frame::primitive are wanted
+  /// An automatic technique may depend on what the frame before was like.
+  bool mayDependOnLastFrame = false;
+  bool writeNormals = false; // Frame::normals is wanted (SSAO)
+  bool writeLight = false;   // Frame::light is wanted (tone mapping)
+  bool writeNames = true;    // Frame::instance and Frame::primitive are wanted
 };
 
 /// What a tile of 8x8 pixels of a frame holds; those of its border may be smaller.
@@ -94,6 +90,8 @@ struct FrameStatistics
   PhaseTime shade;         // shading and shadow tests; shadow rays
   std::uint64_t primaryRays = 0;
   std::uint64_t shadowRays = 0;
+  int lightsWithBuffers = 0; // casting lights whose shadows were found so
+  int lightsWithRays = 0;
   std::uint64_t retracedLayers = 0; // layers traced this frame, of the eye and of lights
   std::uint64_t layerMemory = 0;    // bytes held by kept layers
   /// How wide texels look at most in the shadow maps that were fitted to the eye's view, pixels; 0:

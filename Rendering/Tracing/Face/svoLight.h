@@ -8,6 +8,15 @@
 
 namespace svo
 {
+/// How the shadows of a light are found.
+enum class ShadowTechnique
+{
+  None,
+  Buffer,   // shadow buffers, merged from layers like the depth buffer
+  Rays,     // one exact ray to the light per visible point and light; buffers for receivers
+  Automatic // light by light whichever of the two is cheaper, and no less exact than a buffer
+};
+
 struct Light
 {
   enum class Kind
@@ -25,6 +34,8 @@ struct Light
   glm::vec3 attenuation{ 1, 0, 0 }; // constant, linear, quadratic
   glm::vec3 color{ 1.0f };          // diffuse colour times intensity
   bool castShadow = true;
+  /// Where the frame's technique is automatic: this light's; automatic: what is cheaper.
+  ShadowTechnique shadowTechnique = ShadowTechnique::Automatic;
   std::uint64_t id = 0; // stable from frame to frame
 
   bool atInfinity() const { return this->kind == Kind::Directional; }

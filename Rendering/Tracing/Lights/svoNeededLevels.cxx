@@ -91,7 +91,8 @@ std::vector<NeededLevels> neededLevels(
   const bool casting = std::any_of(
     scene.lights.begin(), scene.lights.end(), [](const Light& light) { return light.castShadow; });
   std::vector<LightMaps> lights;
-  if (settings.shadowTechnique == ShadowTechnique::Buffer)
+  if (settings.shadowTechnique == ShadowTechnique::Buffer ||
+    settings.shadowTechnique == ShadowTechnique::Automatic)
   {
     lights = mapsOfLights(outlines, scene.lights, settings, eye);
   }

@@ -115,8 +115,9 @@ const Scene& CPUTracer::Internals::sceneOfLights(const Scene& scene, ShadowTechn
 {
   const auto differs = [](const Instance& instance)
   { return instance.casterOctree && instance.casterOctree.key() != instance.octree.key(); };
-  if (technique != ShadowTechnique::Buffer ||
-    std::none_of(scene.instances.begin(), scene.instances.end(), differs))
+  const bool buffers =
+    technique == ShadowTechnique::Buffer || technique == ShadowTechnique::Automatic;
+  if (!buffers || std::none_of(scene.instances.begin(), scene.instances.end(), differs))
   {
     return scene;
   }
@@ -272,14 +273,22 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
   statistics.eye = clock.end();
 
   // What visible points will look up of the lights.
-  this->Shader.prepare(scene, settings.shadowTechnique, this->Eye);
+  this->Shader.prepare(scene, this->Eye);
   const bool shared = this->SharesBuffers && settings.shadowTechnique == ShadowTechnique::Buffer;
   if (!shared)
   {
-    this->LightShadows.prepare(
-      this->sceneOfLights(scene, settings.shadowTechnique), view, settings, budget);
+    const Scene& seen = this->sceneOfLights(scene, settings.shadowTechnique);
+    if (frame)
+    {
+      this->LightShadows.choose(scene, seen, view, settings, this->Eye);
+    }
+    else
+    {
+      this->LightShadows.chooseAsBefore(seen, view, settings);
+    }
+    this->LightShadows.prepare(seen, settings, budget);
   }
-  this->LightShadows.prepareRays(scene, settings, this->Eye);
+  this->LightShadows.prepareRays(scene, this->Eye);
   if (!shared)
   {
     this->markLightTiles(scene, view, parallelFor);
@@ -334,8 +343,7 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   }
   statistics.shade = clock.end();
   // Where there are shadow rays, they are nearly all of it.
-  double& shadeTime = settings.shadowTechnique == ShadowTechnique::Rays ? statistics.shadowTime
-                                                                        : statistics.traceTime;
+  double& shadeTime = self.LightShadows.usesRays() ? statistics.shadowTime : statistics.traceTime;
   shadeTime = statistics.shade.wall;
   statistics.traceTime += statistics.eye.wall + statistics.mark.wall;
   statistics.shadowTime += statistics.lights.wall + self.SharingTime;

@@ -64,7 +64,7 @@ void add(const Instance& i, Bytes& bytes)
 void add(const Light& l, Bytes& bytes)
 {
   bytes.add(l.kind, l.headlight, l.position, l.direction, l.coneAngle, l.exponent, l.attenuation,
-    l.color, l.castShadow, l.id);
+    l.color, l.castShadow, l.shadowTechnique, l.id);
 }
 
 /// Rays and shading; what else a view has follows from these.
@@ -78,7 +78,7 @@ void add(const FrameSettings& s, Bytes& bytes)
 {
   bytes.add(s.shadowTechnique, s.shadowResolution, s.shadowMemoryLimit, s.automaticBias, s.bias,
     s.shadowIntensity, s.pixelError, s.antiAliasing, s.filterShadows, s.wholeShadowBuffers,
-    s.writeNormals, s.writeLight, s.writeNames);
+    s.mayDependOnLastFrame, s.writeNormals, s.writeLight, s.writeNames);
 }
 }
 

@@ -10,11 +10,12 @@
 
 namespace svo
 {
-void PixelShader::prepare(const Scene& scene, ShadowTechnique technique, const LayeredView& eye)
+void PixelShader::prepare(const Scene& scene, const LayeredView& eye)
 {
   this->Frames.clear();
   this->Smooth.clear();
-  this->Errors.clear();
+  this->MapErrors.clear();
+  this->RayErrors.clear();
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {
     const Instance& instance = scene.instances[i];
@@ -23,9 +24,10 @@ void PixelShader::prepare(const Scene& scene, ShadowTechnique technique, const L
     const bool placed = eye.placed(static_cast<std::uint32_t>(i));
     this->Frames.push_back(instance.octree ? SurfaceMatrices(instance) : SurfaceMatrices());
     this->Smooth.push_back(instance.octree && isSmooth(instance));
-    this->Errors.push_back(!instance.octree  ? 0.0
-        : technique == ShadowTechnique::Rays ? worldLeafError(instance, geometry, level, placed)
-                                             : worldMapError(instance, geometry, level, placed));
+    this->MapErrors.push_back(
+      instance.octree ? worldMapError(instance, geometry, level, placed) : 0.0);
+    this->RayErrors.push_back(
+      instance.octree ? worldLeafError(instance, geometry, level, placed) : 0.0);
   }
 }
 
@@ -42,7 +44,7 @@ void PixelShader::findTerminator(
   {
     return;
   }
-  const std::uint64_t asked = mayTurnAway(light, shadows.grazing(), patch, reached, dark);
+  const std::uint64_t asked = mayTurnAway(light, shadows.grazing(l), patch, reached, dark);
   if (asked == 0)
   {
     return;
@@ -51,14 +53,14 @@ void PixelShader::findTerminator(
   eachBit(asked,
     [&](int i)
     {
-      TerminatorPoint at = atTerminator(triangles, light, shadows.grazing(), dark >> i & 1,
+      TerminatorPoint at = atTerminator(triangles, light, shadows.grazing(l), dark >> i & 1,
         patch.point(i), patch.towards(i), patch.hits->primitive[i]);
       if (at.kind != TerminatorPoint::Kind::Plain)
       {
         at.pixel = i;
         if (scratch.noted && at.kind != TerminatorPoint::Kind::Hidden)
         {
-          const glm::dvec3 reach(this->Errors[patch.instance]);
+          const glm::dvec3 reach(this->error(l, lit, patch.instance));
           scratch.noted->raysToLights.add(patch.position(i), reach);
           scratch.noted->raysToLights.add(at.point.position, reach);
           shadows.note(l, at, scratch.noted->raised);
@@ -74,11 +76,11 @@ void PixelShader::shadow(
 {
   const Shadows& shadows = lit.shaded.dark;
   const TilePatch& patch = scratch.patch;
-  const double error = this->Errors[patch.instance];
+  const double error = this->error(l, lit, patch.instance);
   float* missed = scratch.missed;
   std::fill_n(missed, TilePatch::Most, 0.0f);
   std::uint64_t dark = 0;
-  if (shadows.filters())
+  if (shadows.filters(l))
   {
     eachBit(patch.mask,
       [&](int i)
@@ -88,7 +90,7 @@ void PixelShader::shadow(
   }
   else
   {
-    if (scratch.noted && shadows.usesRays())
+    if (scratch.noted && shadows.usesRays(l))
     {
       scratch.noted->raysToLights.add(
         patch.origin.position, (1.0 + 1e-6) * glm::dvec3(patch.extent) + error);

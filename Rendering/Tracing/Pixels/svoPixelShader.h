@@ -39,7 +39,7 @@ class PixelShader
 {
 public:
   /// To be called once the eye has traced the scene.
-  void prepare(const Scene& scene, ShadowTechnique technique, const LayeredView& eye);
+  void prepare(const Scene& scene, const LayeredView& eye);
 
   /// Writes the tiles with hits that are stale, and notes which are at the terminator. Counts its
   /// shadow rays.
@@ -97,6 +97,11 @@ public:
   }
 
 private:
+  /// World; of the instance's leaves as far as it matters to the shadows of light l.
+  double error(std::size_t l, const Lit& lit, std::uint32_t instance) const
+  {
+    return (lit.shaded.dark.usesRays(l) ? this->RayErrors : this->MapErrors)[instance];
+  }
   void shadePatch(const Lit& lit, Scratch& scratch) const;
   void shadow(std::size_t l, const Lit& lit, std::uint64_t reached, Scratch& scratch) const;
   void findTerminator(std::size_t l, const Lit& lit, std::uint64_t reached, std::uint64_t dark,
@@ -106,7 +111,8 @@ private:
   // By index into Scene::instances.
   std::vector<SurfaceMatrices> Frames;
   std::vector<std::uint8_t> Smooth; // isSmooth()
-  std::vector<double> Errors;       // world; of the instance's leaves as the eye sees them
+  // World; of the instance's leaves as the eye sees them, for shadow buffers and for rays.
+  std::vector<double> MapErrors, RayErrors;
   bool FindsEdges = false;
   std::vector<Darkness> DarkPixels; // per pixel, as the depth buffer, where edges are to be found
 };

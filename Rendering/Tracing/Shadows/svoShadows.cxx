@@ -1,47 +1,137 @@
 #include "svoShadows.h"
 
+#include "svoShadowChoice.h"
+
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 
 #include <glm/geometric.hpp>
 
 namespace svo
 {
-/// Rasterised surfaces look up buffers whatever is traced.
-bool Shadows::usesBuffers(const FrameSettings& settings)
+namespace
 {
-  return settings.shadowTechnique == ShadowTechnique::Buffer ||
-    (settings.shadowTechnique == ShadowTechnique::Rays && settings.wholeShadowBuffers);
+bool sameViews(const LightMaps& a, const LightMaps& b)
+{
+  return a.casters == b.casters && a.views.size() == b.views.size() &&
+    std::equal(a.views.begin(), a.views.end(), b.views.begin(), sameRays);
+}
+
+/// One byte an outline: 1 if it is what it was.
+std::vector<std::uint8_t> sameOutlines(
+  const std::vector<Outline>& now, const std::vector<Outline>& before)
+{
+  std::vector<std::uint8_t> same(now.size(), 0);
+  for (std::size_t i = 0; i < now.size() && now.size() == before.size(); ++i)
+  {
+    same[i] = std::memcmp(&now[i], &before[i], sizeof(Outline)) == 0;
+  }
+  return same;
+}
+}
+
+/// Rasterised surfaces look up buffers whatever is traced.
+bool Shadows::usesBuffer(std::size_t light, const FrameSettings& settings) const
+{
+  return this->Techniques[light] == ShadowTechnique::Buffer ||
+    (this->usesRays(light) && settings.wholeShadowBuffers);
+}
+
+bool Shadows::usesRays() const
+{
+  return std::count(this->Techniques.begin(), this->Techniques.end(), ShadowTechnique::Rays) > 0;
 }
 
 bool Shadows::canFilter(const FrameSettings& settings)
 {
   return settings.filterShadows && settings.automaticBias &&
-    settings.shadowTechnique == ShadowTechnique::Buffer;
+    (settings.shadowTechnique == ShadowTechnique::Buffer ||
+      settings.shadowTechnique == ShadowTechnique::Automatic);
 }
 
-void Shadows::prepare(
-  const Scene& scene, const View& eye, const FrameSettings& settings, LayerBudget& budget)
+void Shadows::chooseAll(const Scene& scene, ShadowTechnique technique)
+{
+  this->TechniquesBefore = std::move(this->Techniques);
+  this->Techniques.clear();
+  for (const Light& light : scene.lights)
+  {
+    this->Techniques.push_back(light.castShadow ? technique : ShadowTechnique::None);
+  }
+}
+
+void Shadows::choose(const Scene& scene, const Scene& seen, const View& view,
+  const FrameSettings& settings, const LayeredView& eye)
+{
+  const bool automatic = settings.shadowTechnique == ShadowTechnique::Automatic;
+  this->chooseAll(scene, automatic ? ShadowTechnique::Buffer : settings.shadowTechnique);
+  const std::vector<Outline> outlinesBefore = std::move(this->Fitted);
+  const std::vector<LightMaps> mapsBefore = std::move(this->Maps);
+  this->fitMaps(seen, view, settings);
+  if (!automatic)
+  {
+    return;
+  }
+  const bool mayTakeRays = svo::mayTakeRays(scene, settings, eye);
+  for (std::size_t l = 0; l < scene.lights.size(); ++l)
+  {
+    const Light& light = scene.lights[l];
+    if (light.castShadow && light.shadowTechnique != ShadowTechnique::Automatic)
+    {
+      this->Techniques[l] = light.shadowTechnique;
+    }
+    else if (light.castShadow && mayTakeRays)
+    {
+      std::vector<std::uint8_t> kept(this->Fitted.size(), 0);
+      if (settings.mayDependOnLastFrame && settings.frameCoherence && l < mapsBefore.size() &&
+        sameViews(this->Maps[l], mapsBefore[l]))
+      {
+        kept = sameOutlines(this->Fitted, outlinesBefore);
+      }
+      const ShadowWork work = shadowWork(scene, view, eye, this->Maps[l], kept);
+      if (work.rayTime() < work.bufferTime())
+      {
+        this->Techniques[l] = ShadowTechnique::Rays;
+      }
+    }
+  }
+}
+
+void Shadows::chooseAsBefore(const Scene& seen, const View& view, const FrameSettings& settings)
+{
+  this->TechniquesBefore = this->Techniques;
+  this->fitMaps(seen, view, settings);
+}
+
+void Shadows::fitMaps(const Scene& seen, const View& view, const FrameSettings& settings)
+{
+  this->Fitted.clear();
+  this->Maps.assign(seen.lights.size(), {});
+  for (std::size_t l = 0; l < seen.lights.size(); ++l)
+  {
+    if (this->usesBuffer(l, settings))
+    {
+      this->Fitted = outlinesOf(seen);
+      this->Maps = mapsOfLights(this->Fitted, seen.lights, settings, view);
+      return;
+    }
+  }
+}
+
+void Shadows::prepare(const Scene& scene, const FrameSettings& settings, LayerBudget& budget)
 {
   this->Filters = canFilter(settings);
-  this->UsesRays = settings.shadowTechnique == ShadowTechnique::Rays;
   // Subsamples of a pixel, and filters, may look up what no pixel's centre does.
   this->TracesWhole = settings.wholeShadowBuffers || settings.antiAliasing || this->Filters;
   this->SharedState.clear();
-  std::vector<LightMaps> maps(scene.lights.size());
-  if (usesBuffers(settings))
-  {
-    maps = mapsOfLights(outlinesOf(scene), scene.lights, settings, eye);
-  }
-  this->prepareBuffers(scene, scene.lights, maps, 0, settings, budget);
+  this->prepareBuffers(scene, scene.lights, this->Maps, 0, settings, budget);
 }
 
-void Shadows::prepareRays(const Scene& scene, const FrameSettings& settings, const LayeredView& eye)
+void Shadows::prepareRays(const Scene& scene, const LayeredView& eye)
 {
   this->Tested = &scene;
-  this->UsesRays = settings.shadowTechnique == ShadowTechnique::Rays;
   this->Rays.reset();
-  if (this->UsesRays ||
+  if (this->usesRays() ||
     (this->Casting && std::any_of(scene.instances.begin(), scene.instances.end(), isSmooth)))
   {
     this->Rays = std::make_unique<ShadowRays>(scene, eye);
@@ -61,7 +151,7 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
     const Light& light = lights[i];
-    if (!usesBuffers(settings) || !light.castShadow)
+    if (!light.castShadow || !this->usesBuffer(i, settings))
     {
       continue;
     }
@@ -118,6 +208,7 @@ void Shadows::mark(const LightTiles& noted)
 bool Shadows::sameMaps() const
 {
   return this->Buffers.size() == this->BuffersBefore.size() &&
+    this->Techniques == this->TechniquesBefore &&
     std::equal(this->Buffers.begin(), this->Buffers.end(), this->BuffersBefore.begin(),
       [](const ShadowBuffer* now, const ShadowBuffer* before)
       { return now == before && (!now || now->sameMaps()); });
@@ -131,7 +222,7 @@ bool Shadows::changed(const LightTiles& noted) const
 
 void Shadows::note(std::size_t light, const TerminatorPoint& at, RaisedTiles& noted) const
 {
-  if (this->Buffers[light] && !this->UsesRays)
+  if (this->Buffers[light] && !this->usesRays(light))
   {
     this->Buffers[light]->note(at.point.position, static_cast<std::uint16_t>(light), noted);
   }
@@ -170,7 +261,7 @@ bool Shadows::dark(
   std::size_t light, const SurfacePoint& point, double error, std::uint64_t& rays) const
 {
   assert(light < this->Buffers.size());
-  if (this->UsesRays)
+  if (this->usesRays(light))
   {
     const Light& source = this->Tested->lights[light];
     rays += source.castShadow;
@@ -183,14 +274,10 @@ std::uint64_t Shadows::dark(std::size_t light, const TilePatch& patch, double er
   std::uint64_t asked, std::uint64_t& rays) const
 {
   assert(light < this->Buffers.size());
-  if (this->Buffers[light] && !this->UsesRays)
-  {
-    return this->Buffers[light]->shadows(patch, error, asked);
-  }
   const Light& source = this->Tested->lights[light];
-  if (!this->UsesRays || !source.castShadow)
+  if (!this->usesRays(light) || !source.castShadow)
   {
-    return 0;
+    return this->Buffers[light] ? this->Buffers[light]->shadows(patch, error, asked) : 0;
   }
   rays += static_cast<std::uint64_t>(countBits(asked));
   return this->Rays->shadows(source, patch, error, asked);
@@ -199,7 +286,7 @@ std::uint64_t Shadows::dark(std::size_t light, const TilePatch& patch, double er
 float Shadows::darkness(std::size_t light, const SurfacePoint& point, double error, double extent,
   std::uint64_t& rays) const
 {
-  return this->Filters && this->Buffers[light]
+  return this->filters(light) && this->Buffers[light]
     ? this->Buffers[light]->darkness(point, error, extent)
     : this->dark(light, point, error, rays);
 }
@@ -220,7 +307,7 @@ void Shadows::darkness(std::size_t light, const TilePatch& patch,
   std::uint64_t& rays) const
 {
   assert(light < this->Buffers.size() && points.size() <= ShadowRays::Most);
-  const ShadowBuffer* buffer = this->UsesRays ? nullptr : this->Buffers[light];
+  const ShadowBuffer* buffer = this->usesRays(light) ? nullptr : this->Buffers[light];
   const Light& source = this->Tested->lights[light];
   const SurfacePoint* asked[ShadowRays::Most]; // by rays to the light, after all else
   float* answers[ShadowRays::Most];
@@ -236,7 +323,7 @@ void Shadows::darkness(std::size_t light, const TilePatch& patch,
     }
     assert(at.kind != TerminatorPoint::Kind::Plain && this->Rays);
     // A map says that a point is dark for less than it takes rays to say that ways are free.
-    const double* extent = this->Filters ? extents + at.pixel : nullptr;
+    const double* extent = this->filters(light) ? extents + at.pixel : nullptr;
     const ShadowBuffer::Told told =
       buffer ? buffer->tell(at.point, error, extent) : ShadowBuffer::Told();
     const bool doubted = at.kind == TerminatorPoint::Kind::Doubted;
@@ -289,6 +376,11 @@ void Shadows::addStatistics(FrameStatistics& statistics) const
 {
   statistics.coarsestTexel = this->CoarsestTexel;
   statistics.fewerTexels = this->HasFewerTexels;
+  for (const ShadowTechnique technique : this->Techniques)
+  {
+    statistics.lightsWithBuffers += technique == ShadowTechnique::Buffer;
+    statistics.lightsWithRays += technique == ShadowTechnique::Rays;
+  }
   for (const ShadowBuffer* buffer : this->Buffers)
   {
     if (buffer && this->Traced)

@@ -22,15 +22,22 @@ namespace svo
 class Shadows
 {
 public:
+  /// Begins a frame, before prepare() or after traceShared(): decides how each light's shadows are
+  /// found. `scene`: of the points to be tested; `seen`: with the octrees that lights see; `eye`:
+  /// has traced the scene, seen through `view`.
+  void choose(const Scene& scene, const Scene& seen, const View& view,
+    const FrameSettings& settings, const LayeredView& eye);
+  /// The same, for a frame that is traced once more: as it was decided.
+  void chooseAsBefore(const Scene& seen, const View& view, const FrameSettings& settings);
+
   /// Fits the lights' buffers and keeps those of their layers that are still true. `scene`: with
-  /// the octrees that lights see; `eye`: the view of the frame.
-  void prepare(
-    const Scene& scene, const View& eye, const FrameSettings& settings, LayerBudget& budget);
+  /// the octrees that lights see.
+  void prepare(const Scene& scene, const FrameSettings& settings, LayerBudget& budget);
 
   /// To be called in every frame, after prepare() or traceShared(). `scene` and `eye`: those of the
   /// points to be tested; rays to the light meet the same geometry, or surfaces would shadow
   /// themselves.
-  void prepareRays(const Scene& scene, const FrameSettings& settings, const LayeredView& eye);
+  void prepareRays(const Scene& scene, const LayeredView& eye);
 
   /// Instead of prepare() and trace() where other processes hold parts of the scene: traces the
   /// buffers whole and merges them with the others', so that all have the same. A collective call.
@@ -51,10 +58,7 @@ public:
   /// After trace(): true if any of these tiles does not show what it showed in the last frame.
   bool changed(const LightTiles& noted) const;
   /// True if it matters what mark() notes.
-  bool wantsMarks() const
-  {
-    return this->Casting && !this->UsesRays && (!this->TracesWhole || this->notesAll());
-  }
+  bool wantsMarks() const { return this->Casting && (!this->TracesWhole || this->notesAll()); }
   /// True if shading looks up nothing but what mark() notes, and what note() does of points that
   /// are raised. Rays go to the lights from where they say.
   bool notesAll() const { return !this->Filters; }
@@ -62,8 +66,12 @@ public:
   void note(std::size_t light, const TerminatorPoint& at, RaisedTiles& noted) const;
   /// After trace(): true if darkness() may look up something else about such points.
   bool changed(const RaisedTiles& noted) const;
-  /// True if plain points ask the light by rays.
-  bool usesRays() const { return this->UsesRays; }
+  /// True if shadows of some light, or of this one, are found by rays.
+  bool usesRays() const;
+  bool usesRays(std::size_t light) const
+  {
+    return this->Techniques[light] == ShadowTechnique::Rays;
+  }
 
   void trace(const ParallelFor& parallelFor);
 
@@ -80,9 +88,9 @@ public:
     std::uint64_t& rays) const;
 
   /// True if darkness() should be asked instead of dark(): it knows more than yes and no.
-  bool filters() const { return this->Filters; }
+  bool filters(std::size_t light) const { return this->Filters && !this->usesRays(light); }
   /// The share of the light that the point misses, 0..1; see ShadowBuffer::darkness(). Of lights
-  /// without a buffer 0 or 1, as dark() says.
+  /// that are not filtered 0 or 1, as dark() says.
   float darkness(std::size_t light, const SurfacePoint& point, double error, double extent,
     std::uint64_t& rays) const;
   /// The same of a patch's points, by pixel: of those that are `asked`, 0 of others. Only where
@@ -94,11 +102,14 @@ public:
   /// or points are compared with a shadow map without the automatic bias.
   bool knowsTerminator(std::size_t light) const
   {
-    return this->UsesRays ? this->Tested->lights[light].castShadow
-                          : this->Buffers[light] && this->Buffers[light]->automaticBias();
+    return this->usesRays(light) ? this->Tested->lights[light].castShadow
+                                 : this->Buffers[light] && this->Buffers[light]->automaticBias();
   }
   /// The `grazing` of atTerminator(): rays need no margin.
-  double grazing() const { return this->UsesRays ? 0.0 : 1.0 / GrazingReach; }
+  double grazing(std::size_t light) const
+  {
+    return this->usesRays(light) ? 0.0 : 1.0 / GrazingReach;
+  }
   /// Changes what points of a patch miss, by pixel, to what those at the terminator do. A raised
   /// point is lit if the way from the one on the mesh to it and on to the light is free; the first
   /// part is not looked at where it is shorter than a texel. A doubted one has to be lit by rays as
@@ -114,16 +125,20 @@ public:
   void release();
 
 private:
-  static bool usesBuffers(const FrameSettings& settings);
+  bool usesBuffer(std::size_t light, const FrameSettings& settings) const;
   static bool canFilter(const FrameSettings& settings);
+  void chooseAll(const Scene& scene, ShadowTechnique technique);
+  void fitMaps(const Scene& seen, const View& view, const FrameSettings& settings);
   void prepareBuffers(const Scene& scene, const std::vector<Light>& lights,
     const std::vector<LightMaps>& maps, std::size_t first, const FrameSettings& settings,
     LayerBudget& budget);
 
-  const Scene* Tested = nullptr; // the frame's
-  bool UsesRays = false;         // rays; buffers are for others
-  bool TracesWhole = false;      // every tile is traced
-  bool Casting = false;          // there are buffers
+  const Scene* Tested = nullptr;                             // the frame's
+  std::vector<ShadowTechnique> Techniques, TechniquesBefore; // by light; of the last frame
+  std::vector<LightMaps> Maps;                               // by light
+  std::vector<Outline> Fitted;                               // what they were fitted to
+  bool TracesWhole = false;                                  // every tile is traced
+  bool Casting = false;                                      // there are buffers
   bool Filters = false;
   std::vector<ShadowBuffer*> Buffers;             // by index into Scene::lights; null: no buffer
   std::vector<const ShadowBuffer*> BuffersBefore; // of the last frame

@@ -58,7 +58,7 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
   LayerBudget& budget, const ParallelFor& parallelFor, Processes& processes)
 {
   this->Filters = canFilter(own);
-  this->UsesRays = own.shadowTechnique == ShadowTechnique::Rays;
+  this->chooseAll(scene, ShadowTechnique::Buffer);
   std::vector<SharedSettings> settingsOfAll;
   SharedSettings mine = settingsOf(own, eye);
   mine.lights = static_cast<std::int32_t>(scene.lights.size());

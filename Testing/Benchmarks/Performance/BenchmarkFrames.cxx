@@ -3,8 +3,8 @@
 // measurement to a JSON file; run-performance.sh makes tables and plots of it.
 //
 //   BenchmarkFrames [--a dragon.off --b sydney.md2] [--experiments name,...]
-//                   [--scenes name,...] [--output file.json] [--frames n] [--seconds s] [--ours]
-//                   [--short]
+//                   [--scenes name,...] [--triangles n,...] [--output file.json] [--frames n]
+//                   [--seconds s] [--ours] [--short]
 //
 // --frames: timed for each figure, of all viewpoints together. --seconds: for each figure; where
 // that is too short there are fewer frames.
@@ -86,6 +86,14 @@ int main(int argc, char** argv)
     {
       names = namesIn(argv[++i]);
     }
+    else if (argument == "--triangles" && more)
+    {
+      sweep.triangles.clear();
+      for (const std::string& count : namesIn(argv[++i]))
+      {
+        sweep.triangles.push_back(std::atoi(count.c_str()));
+      }
+    }
     else if (argument == "--scenes" && more)
     {
       sweep.scenes = namesIn(argv[++i]);
@@ -93,8 +101,8 @@ int main(int argc, char** argv)
     else
     {
       std::cerr << "usage: BenchmarkFrames [--a file --b file] [--experiments name,...] "
-                   "[--scenes name,...] [--output file.json] [--frames n] [--seconds s] [--ours] "
-                   "[--short]\n";
+                   "[--scenes name,...] [--triangles n,...] [--output file.json] [--frames n] "
+                   "[--seconds s] [--ours] [--short]\n";
       return 2;
     }
   }

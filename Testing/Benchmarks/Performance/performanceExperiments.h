@@ -53,6 +53,7 @@ private:
   bool lights();
   bool lightKit();
   bool shadows();
+  bool shadowChoice();
 
   /// Octrees of the paper's objects, built when first asked for.
   const paper::Objects& paperObjects();

@@ -132,6 +132,8 @@ std::vector<Change> everyChange()
       } },
     { "technique", [=](Stage& s) { s.settings.shadowTechnique = svo::ShadowTechnique::None; } },
     { "rays", [=](Stage& s) { s.settings.shadowTechnique = svo::ShadowTechnique::Rays; } },
+    { "automatic technique",
+      [=](Stage& s) { s.settings.shadowTechnique = svo::ShadowTechnique::Automatic; } },
     { "resolution", [=](Stage& s) { s.settings.shadowResolution = 256; } },
     { "bias",
       [=](Stage& s)
@@ -307,8 +309,9 @@ void changeAnything(std::mt19937& random, const svo::Octree& ball, Stage& stage)
     case 11:
       if (number(3) == 0)
       {
-        stage.settings.shadowTechnique =
-          number(2) ? svo::ShadowTechnique::Buffer : svo::ShadowTechnique::Rays;
+        constexpr svo::ShadowTechnique all[] = { svo::ShadowTechnique::Buffer,
+          svo::ShadowTechnique::Rays, svo::ShadowTechnique::Automatic };
+        stage.settings.shadowTechnique = all[number(3)];
       }
       break;
     case 13:
