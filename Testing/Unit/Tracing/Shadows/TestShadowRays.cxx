@@ -194,7 +194,23 @@ TEST(ShadowRays, TilesAsRaysAlone)
 
 TEST(ShadowRays, CastersThatAreLeftOutAreNotMet)
 {
-  const Objects objects = rings();
+  Objects objects = rings();
+  // To the corners of the cubes of these, where their balls end.
+  Mesh corners;
+  for (int i = 0; i < 8; ++i)
+  {
+    const glm::dvec3 corner(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    for (const glm::dvec3& p : { corner, 0.7 * corner, glm::dvec3(0.8, 0.9, 0.8) * corner })
+    {
+      corners.points.push_back(p);
+    }
+    corners.triangles.push_back(glm::uvec3(0, 1, 2) + 3u * i);
+  }
+  glm::dmat4 sheared = movedTo(0.5, 0.3, 0.2);
+  sheared[0][1] = 0.8;
+  sheared[2][0] = -0.5;
+  objects.add(corners, 6, movedTo(-0.4, 0.2, 0.1));
+  objects.add(corners, 6, sheared);
   const svo::Scene& scene = objects.scene;
   const svo::View view = lookAt({ 3, -5, 3 }, 16, 16);
   svo::LayeredView eye;
