@@ -162,7 +162,8 @@ void ShadowBuffer::note(const glm::dvec3& position, std::uint16_t light, RaisedT
     });
 }
 
-bool ShadowBuffer::Face::want(const MapPlaces& places, LightTile name, LightTiles& noted)
+bool ShadowBuffer::Face::want(
+  const MapPlaces& places, std::uint16_t light, std::uint16_t map, LightTiles& noted)
 {
   constexpr float Around = 0.5f; // the test asks the four texels whose centres surround a point
   const MapTiles box = tilesOf(places, this->view, Around);
@@ -179,9 +180,13 @@ bool ShadowBuffer::Face::want(const MapPlaces& places, LightTile name, LightTile
     {
       if (tiles >> (8 * (y - box.y0) + x - box.x0) & 1)
       {
-        name.tile = static_cast<std::uint32_t>(y * tilesAcross + x);
-        noted.push_back(name);
-        std::atomic<std::uint8_t>& tile = this->wanted[name.tile];
+        // Written part by part where it stays: a whole that was just put together from parts
+        // could be copied only when they have reached the cache.
+        LightTile& note = noted.emplace_back();
+        note.light = light;
+        note.map = map;
+        note.tile = static_cast<std::uint32_t>(y * tilesAcross + x);
+        std::atomic<std::uint8_t>& tile = this->wanted[note.tile];
         if (!tile.load(std::memory_order_relaxed))
         {
           tile.store(1, std::memory_order_relaxed);
@@ -202,7 +207,7 @@ void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles&
     placeInMap(face->view, face->worldToClip, patch, left, places);
     single |= left & ~(places.inside | places.outside);
     if (places.inside != 0 && face->seesCasters &&
-      !face->want(places, { light, static_cast<std::uint16_t>(f), 0 }, noted))
+      !face->want(places, light, static_cast<std::uint16_t>(f), noted))
     {
       single |= places.inside;
     }

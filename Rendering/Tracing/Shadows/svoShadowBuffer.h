@@ -134,9 +134,9 @@ private:
     std::shared_ptr<const std::vector<float>> copied; // ShadowMap::depth; null: it has changed
 
     std::shared_ptr<const std::vector<float>> copyDepth(double base) const;
-    /// Notes the tiles around points that are inside: few, or one by one. False if there are too
-    /// many to be noted here.
-    bool want(const MapPlaces& places, LightTile name, LightTiles& noted);
+    /// Notes the tiles around points that are inside, of this map: few, or one by one. False if
+    /// there are too many to be noted here.
+    bool want(const MapPlaces& places, std::uint16_t light, std::uint16_t map, LightTiles& noted);
     /// Where its occluders are known.
     MapTexels texels() const
     {

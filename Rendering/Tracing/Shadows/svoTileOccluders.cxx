@@ -95,7 +95,7 @@ void MapOccluders::find(const LayeredView& map, const ParallelFor& parallelFor)
     {
       for (std::size_t tile = first; tile < last; ++tile)
       {
-        if (all || map.tiles().isStale(tile))
+        if (all || map.tiles().changed(tile))
         {
           const TileOccluders found = occludersIn(map, tile);
           this->Nearest[tile] = found.nearest;

@@ -1,4 +1,5 @@
 // Exact shadows of a tile's points, asked for together, against rays alone.
+#include "svoIntersect.h"
 #include "svoLeafError.h"
 #include "svoSelectLevel.h"
 #include "svoShadowBeam.h"
@@ -8,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <string>
 #include <vector>
 
@@ -74,6 +76,24 @@ struct Count
   int asked = 0, dark = 0, different = 0, unexplained = 0;
 };
 
+/// Points that are listed have the answers that they have as points of a patch.
+void expectListAlike(const svo::ShadowRays& rays, const svo::Light& light,
+  const svo::TilePatch& patch, double error, std::uint64_t asked, std::uint64_t dark)
+{
+  std::vector<svo::SurfacePoint> points;
+  std::vector<const svo::SurfacePoint*> list;
+  points.reserve(svo::ShadowRays::Most);
+  std::uint64_t expected = 0;
+  svo::eachBit(asked,
+    [&](int i)
+    {
+      expected |= (dark >> i & 1) << points.size();
+      points.push_back(patch.point(i));
+      list.push_back(&points.back());
+    });
+  ASSERT_EQ(rays.shadows(light, list.data(), static_cast<int>(list.size()), error), expected);
+}
+
 /// Asks for all visible points, tile by tile and one by one.
 Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& light)
 {
@@ -117,6 +137,7 @@ Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& 
         const std::uint64_t asked = patch.mask & 0xfbfdfeff7fbfdfefull;
         const std::uint64_t dark = rays.shadows(light, patch, error, asked);
         EXPECT_EQ(0u, dark & ~asked);
+        expectListAlike(rays, light, patch, error, asked, dark);
         svo::eachBit(asked,
           [&](int i)
           {
@@ -169,6 +190,71 @@ TEST(ShadowRays, TilesAsRaysAlone)
   {
     expectAlike(objects, eye, { 0, 0, 0 });
   }
+}
+
+TEST(ShadowRays, CastersThatAreLeftOutAreNotMet)
+{
+  Objects objects = rings();
+  // To the corners of the cubes of these, where their balls end.
+  Mesh corners;
+  for (int i = 0; i < 8; ++i)
+  {
+    const glm::dvec3 corner(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    for (const glm::dvec3& p : { corner, 0.7 * corner, glm::dvec3(0.8, 0.9, 0.8) * corner })
+    {
+      corners.points.push_back(p);
+    }
+    corners.triangles.push_back(glm::uvec3(0, 1, 2) + 3u * i);
+  }
+  glm::dmat4 sheared = movedTo(0.5, 0.3, 0.2);
+  sheared[0][1] = 0.8;
+  sheared[2][0] = -0.5;
+  objects.add(corners, 6, movedTo(-0.4, 0.2, 0.1));
+  objects.add(corners, 6, sheared);
+  const svo::Scene& scene = objects.scene;
+  const svo::View view = lookAt({ 3, -5, 3 }, 16, 16);
+  svo::LayeredView eye;
+  svo::LayerBudget budget{ 1 << 30, 0 };
+  eye.prepare(
+    scene, view, [](const svo::Instance&) { return true; },
+    [](const svo::Instance& instance, const svo::LocalView&) { return instance.octree.level(); },
+    false, budget);
+  const svo::ShadowRays rays(scene, eye);
+  // Through every caster, wherever it is.
+  const auto met = [&](const glm::dvec3& from, const glm::dvec3& way, double tMin, double tMax)
+  {
+    bool any = false;
+    for (const svo::Instance& instance : scene.instances)
+    {
+      const svo::WorldToOctree toOctree(instance.octree, instance.localToWorld);
+      const svo::Ray ray{ toOctree.point(from), toOctree.vector(way), tMin, tMax };
+      any = any ||
+        svo::occluded(instance.octree, ray, { svo::LeafGeometry::Triangle, svo::MaximumLevel });
+    }
+    return any;
+  };
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto anywhere = [&](double size)
+  { return size * glm::dvec3(unit(random), unit(random), unit(random)); };
+  int between = 0, dark = 0;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const glm::dvec3 from = anywhere(2.5), to = from + anywhere(i % 2 ? 0.2 : 4.0);
+    const bool blocked = rays.between(from, to, 0.0);
+    ASSERT_EQ(blocked, met(from, to - from, 0.0, 1.0)) << i;
+    between += blocked;
+    const svo::Light light =
+      i % 4 < 2 ? lightOf(svo::Light::Kind::Point, to) : lightOf(svo::Light::Kind::Directional, to);
+    const bool shadowed = rays.shadows(light, from, glm::vec3(0, 0, 1), 0.0);
+    const double last = light.atInfinity() ? 1e300 : 1.0 - 1e-9;
+    ASSERT_EQ(shadowed, met(from, -light.along(from), 0.0, last)) << i;
+    dark += shadowed;
+  }
+  EXPECT_GT(between, 1000);
+  EXPECT_LT(between, 19000);
+  EXPECT_GT(dark, 1000);
+  EXPECT_LT(dark, 19000);
 }
 
 TEST(ShadowRays, TinyPartsOfALargeMesh)

@@ -148,6 +148,33 @@ TEST(Terminator, ThePointThatIsAskedAboutLiesOnTheSmoothSurface)
   }
 }
 
+TEST(Terminator, TrianglesThatAreRememberedAreTheirOwn)
+{
+  const Ball ball(16, 16);
+  const svo::Instance instance = ball.instance(1);
+  const svo::SurfaceMatrices frame(instance);
+  svo::SmoothTriangles remembered(frame);
+  const auto count = static_cast<std::uint32_t>(ball.octree.surface()->triangles.size());
+  int raised = 0;
+  for (std::uint32_t i = 0; i < 4 * count; ++i)
+  {
+    const std::uint32_t k = (i & 1 ? 37 * i : i / 2) % count; // in turn, some again at once
+    const glm::uvec3 corners = ball.octree.surface()->triangles[k];
+    const glm::dvec3 position = 0.5 * ball.mesh.points[corners.x] +
+      0.3 * ball.mesh.points[corners.y] + 0.2 * ball.mesh.points[corners.z];
+    const glm::vec3 towards(position);
+    const svo::SurfacePoint point = svo::pointOfTriangle(
+      frame, svo::View(), position, towards, k, frame.toOctree.point(position));
+    svo::SmoothTriangles fresh(frame);
+    const svo::SmoothSurface expected = svo::smoothSurfaceAt(fresh, point, towards, k);
+    const svo::SmoothSurface found = svo::smoothSurfaceAt(remembered, point, towards, k);
+    ASSERT_EQ(found.lift, expected.lift) << k;
+    ASSERT_EQ(found.hollow, expected.hollow) << k;
+    raised += found.lift != glm::dvec3(0.0);
+  }
+  EXPECT_GT(raised, 1000);
+}
+
 TEST(Terminator, AConvexBodyHasNoShadowOnItself)
 {
   const glm::dmat4 squeezed(
