@@ -445,6 +445,24 @@ TEST(TriangleGroup, BoundsHoldWhereEdgesPassThroughPixelsCentres)
     tally.worstEdge, tally.worstKey, tally.doubtful, tally.rays);
 }
 
+TEST(TriangleGroup, TrianglesOfAPixelHideWhatLiesBehind)
+{
+  const Octree octree = svotest::makeOctree(svotest::sphere(60, 80), 9);
+  Tally tally;
+  unsigned seed = 0;
+  for (const View& view : { svotest::lookAt({ 3.0, -2.0, 2.5 }, 96, 72),
+         svotest::lookAtParallel({ 2.0, 1.0, 3.0 }, 96, 72, 1.5) })
+  {
+    for (const bool deep : { false, true })
+    {
+      compareGroups(Stage(octree, view, glm::dmat4(1.0), deep), 3, ++seed, true, tally);
+    }
+  }
+  EXPECT_GT(tally.small, 1000);
+  EXPECT_GT(tally.hidden, 1000);
+  EXPECT_LT(tally.undecided, tally.points / 4);
+}
+
 TEST(TriangleGroup, LeavesFewRaysInDoubt)
 {
   const Octree octree = svotest::makeOctree(svotest::torus(80, 60), 9);
