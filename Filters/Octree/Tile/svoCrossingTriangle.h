@@ -3,7 +3,7 @@
 //
 // Before w is divided by, edges are linear in the pixel all the same: the determinant of two
 // corners and the pixel, each as (x, y, w). Its sign is right wherever the triangle is in front of
-// the eye; the bounds are those of svoTriangleGroup.cxx in homogeneous coordinates. A corner that
+// the eye; the bounds are those of svoReadyTriangles.cxx in homogeneous coordinates. A corner that
 // is off by e changes the determinant at a pixel by no more than e times the distance of the other
 // corner from the pixel, |x - px w| + |y - py w|; and what rays hit is off, in w, by the changes of
 // the edges' sum and of the whole triangle's determinant, relative to these.

@@ -1,5 +1,5 @@
 // Triangles of a few pixels, a triangle a lane: looked at at each pixel of the box around them.
-// The bounds are those of svoTriangleGroup.cxx. Their functions are computed from a corner on,
+// The bounds are those of svoReadyTriangles.cxx. Their functions are computed from a corner on,
 // which is no further away than the box is wide: that rounds less than what is allowed for.
 #if defined(SVO_SMALL_TRIANGLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SVO_SMALL_TRIANGLES_INL

@@ -211,8 +211,9 @@ inline GroupView makeGroupView(const LocalView& local, const PixelFunctions& fun
   view.farW = functions.parallel ? 1.0f : roundUp(functions.wBase + local.tMax);
   view.kNear = static_cast<float>(functions.key(0.0, keys));
   view.kFar = static_cast<float>(functions.key(local.tMax, keys));
-  // Float hits that lie as far from their node as placing moves none are none (svoIntersectTile.h
-  // leaves them out as well). What is computed here is off by a few roundings of the sums.
+  // A float hit that lies further before its node than placing would move it is none:
+  // svoIntersectTile.h leaves such hits out as well. k and w are off by a few roundings of their
+  // sums, and depths of hits count as equal where they are no further apart than `apart`.
   view.behind = roundUp(1e-3 * local.tMax + view.apart +
     32.0 * u * (local.tMax + std::abs(view.kOfT[1]) + std::abs(view.wOfT[1])));
   view.nearReach = static_cast<float>(limits.nearReach);

@@ -445,6 +445,78 @@ TEST(TriangleGroup, BoundsHoldWhereEdgesPassThroughPixelsCentres)
     tally.worstEdge, tally.worstKey, tally.doubtful, tally.rays);
 }
 
+TEST(TriangleGroup, TrianglesOfAPixelHideWhatLiesBehind)
+{
+  const Octree octree = svotest::makeOctree(svotest::sphere(60, 80), 9);
+  Tally tally;
+  unsigned seed = 0;
+  for (const View& view : { svotest::lookAt({ 3.0, -2.0, 2.5 }, 96, 72),
+         svotest::lookAtParallel({ 2.0, 1.0, 3.0 }, 96, 72, 1.5) })
+  {
+    for (const bool deep : { false, true })
+    {
+      compareGroups(Stage(octree, view, glm::dmat4(1.0), deep), 3, ++seed, true, tally);
+    }
+  }
+  EXPECT_GT(tally.small, 1000);
+  EXPECT_GT(tally.hidden, 1000);
+  EXPECT_LT(tally.undecided, tally.points / 4);
+}
+
+TEST(TriangleGroup, WhatLiesBehindHidesNothing)
+{
+  // The nearer of two comes later: none of its nodes may be left out.
+  const Octree octree = svotest::makeOctree(svotest::sphere(60, 80), 9);
+  const glm::dvec3 eye(3.0, -2.0, 2.5);
+  const View view = svotest::lookAt(eye, 96, 72);
+  Stage far(octree, view, glm::dmat4(1.0), false);
+  Stage near(octree, view, glm::translate(glm::dmat4(1.0), 0.05 * glm::normalize(eye)), false);
+  near.keys = far.keys;
+  long decided = 0;
+  for (int g = 0; g < 9; ++g)
+  {
+    const int tileX = 4 * (g % 3), tileY = 4 * (g / 3);
+    TriangleGroup group;
+    for (const Stage* stage : { &far, &near })
+    {
+      std::vector<GroupNode> nodes;
+      ASSERT_TRUE(findGroupNodes(octree, makePyramid(stage->projection, view, tileX, tileY, 4),
+        0.0f, stage->local.tMax, 1 << 20, nodes));
+      ASSERT_TRUE(group.add(octree, nodes,
+        makeGroupView(stage->local, stage->functions, stage->keys, HitLimits(), tileX, tileY),
+        stage == &near));
+    }
+    for (int tile = 0; tile < 16; ++tile)
+    {
+      NearestTriangles found;
+      std::uint32_t triangles[64], owners[64];
+      if (!group.nearest(tile % 4, tile / 4, found, triangles, owners))
+      {
+        continue;
+      }
+      for (int i = 0; i < 64; ++i)
+      {
+        if ((found.doubtful >> i & 1) || found.slot[i] == NearestTriangles::None)
+        {
+          continue;
+        }
+        const double x = 8 * (tileX + tile % 4) + i % 8 + 0.5;
+        const double y = 8 * (tileY + tile / 4) + i / 8 + 0.5;
+        bool nearMet = false;
+        for (std::uint32_t t = 0; t < octree.surface()->triangles.size() && !nearMet; ++t)
+        {
+          float at;
+          nearMet = near.meets(x, y, t, at);
+        }
+        // Both are convex, and so far apart.
+        ASSERT_EQ(owners[i], nearMet ? 1u : 0u) << x << ", " << y;
+        ++decided;
+      }
+    }
+  }
+  EXPECT_GT(decided, 500);
+}
+
 TEST(TriangleGroup, LeavesFewRaysInDoubt)
 {
   const Octree octree = svotest::makeOctree(svotest::torus(80, 60), 9);
