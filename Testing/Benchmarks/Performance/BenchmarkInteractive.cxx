@@ -1,8 +1,8 @@
-// What interactive frames lose to keep to their time: a ball above a ground in ParaView's light kit,
-// 1920x1080, the camera in orbit, and beside each interactive frame the still picture of the same
-// camera. One line for each rate: the median time of a frame (processor time of two cores, which
-// the pass goes by as well), the mean difference of a channel, and the share of pixels that differ
-// by more than 8 of 255 in some channel.
+// What interactive frames lose to keep to their time: a ball above a ground in ParaView's light
+// kit, 1920x1080, the camera in orbit, and beside each interactive frame the still picture of the
+// same camera. One line for each rate: the median time of a frame (processor time of two cores,
+// which the pass goes by as well), the mean difference of a channel, and the share of pixels that
+// differ by more than 8 of 255 in some channel.
 //
 //   BenchmarkInteractive [triangles] [none | buffer | rays | automatic] [Hz ...]
 #include "svoBenchmarkMesh.h"
