@@ -61,7 +61,8 @@ struct PassFrame
   /// VTK's renderer has an array of them and does not own them.
   std::vector<vtkSmartPointer<vtkProp>> props;
   FrameSettings settings;
-  double sampleDistance = 1.0; // pixels
+  FramePace pace;
+  bool pacedShadows = false; // PassStatistics
   bool traced = false;
   std::vector<std::string> messages; // said when the frame is done
 

@@ -306,8 +306,9 @@ public:
    * While the user interacts (the render window's desired update rate is 1 Hz or more): whether
    * rays are as far apart as it takes to keep to half of the time for a frame, up to
    * MaximumImageSampleDistance pixels. Default on, and 8 (1..64). All of a window's renderers with
-   * a pass share that time, with rays equally far apart. Shadow maps of camera lights get
-   * coarser alike. Other frames have a ray for each pixel and do not depend on the time that
+   * a pass share that time, with rays equally far apart. Shadow maps of camera lights, which are
+   * traced in every frame, get coarser first, by at most as much; rays follow where that does not
+   * save enough. Other frames have a ray for each pixel and do not depend on the time that
    * anything takes. Named as in vtkGPUVolumeRayCastMapper.
    */
   vtkSetMacro(AutoAdjustSampleDistances, bool);
@@ -340,8 +341,9 @@ public:
 
   /**
    * The pixel error that the last frame accepted, in pixels of the window: PixelError, or where
-   * rays were more than a pixel apart to save time, at least the distance from ray to ray, and at
-   * least the voxels of octrees that were shown while deeper ones were built.
+   * rays were more than a pixel apart to save time, at least the distance from ray to ray; at
+   * least the texels, as wide as they look, of shadow maps that were made coarser to save time; and
+   * at least the voxels of octrees that were shown while deeper ones were built.
    */
   double GetAcceptedPixelError() const;
 
@@ -534,11 +536,12 @@ protected:
   ~vtkSVORenderPass() override;
 
   /**
-   * What the last frame took, in seconds, and which part of it fewer rays would not shorten. It is
-   * all that AutoAdjustSampleDistances goes by, so a subclass that answers otherwise than by the
-   * clock has interactive pictures that can be reproduced.
+   * What the last frame took, in seconds, which part of it neither fewer rays nor coarser shadow
+   * maps would shorten, and which part only the latter would. It is all that
+   * AutoAdjustSampleDistances goes by, so a subclass that answers otherwise than by the clock has
+   * interactive pictures that can be reproduced.
    */
-  virtual void MeasureFrame(double& seconds, double& fixedSeconds) const;
+  virtual void MeasureFrame(double& seconds, double& fixedSeconds, double& shadowSeconds) const;
 
   /**
    * Texts of the pass that a host puts into its own words, because they ask users to do something

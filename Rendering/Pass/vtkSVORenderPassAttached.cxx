@@ -144,7 +144,7 @@ void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void
     // Here, and not when something is drawn: a process that shows nothing may not draw at all.
     if (frame.settings.shadowTechnique == svo::ShadowTechnique::Buffer)
     {
-      frame.state->shareShadows(controller, width, height, frame.sampleDistance, frame.settings);
+      frame.state->shareShadows(controller, width, height, frame.pace.distance, frame.settings);
     }
     else if (this->ShadowTechnique == SHADOW_RAYS)
     {

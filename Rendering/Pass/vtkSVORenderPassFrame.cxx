@@ -183,15 +183,19 @@ void vtkSVORenderPass::DecideSettings(svo::PassFrame& frame)
   }
   settings.mayDependOnLastFrame =
     settings.shadowTechnique == svo::ShadowTechnique::Automatic && isInteractive(renderer);
+  frame.pacedShadows = hasCameraLight(renderer);
   if (this->AutoAdjustSampleDistances && isInteractive(renderer))
   {
-    frame.sampleDistance =
-      frame.state->chooseDistance(OwnShare / renderer->GetRenderWindow()->GetDesiredUpdateRate(),
+    frame.pace =
+      frame.state->choosePace(OwnShare / renderer->GetRenderWindow()->GetDesiredUpdateRate(),
         std::max(this->MaximumImageSampleDistance / this->ImageReductionFactor, 1.0));
-    if (hasCameraLight(renderer))
+    if (frame.pacedShadows)
     {
-      settings.shadowResolution =
-        std::max(static_cast<int>(settings.shadowResolution / frame.sampleDistance), 16);
+      settings.shadowCoarseness = frame.pace.coarseness;
+    }
+    else
+    {
+      frame.pace.coarseness = 1.0;
     }
   }
 }
@@ -201,7 +205,7 @@ void vtkSVORenderPass::TraceFrame(svo::PassFrame& frame, int width, int height)
 {
   Internals& impl = *this->Impl;
   frame.traced = true;
-  frame.state->trace(width, height, frame.sampleDistance, frame.settings);
+  frame.state->trace(width, height, frame.pace, frame.settings);
   const std::string& complaint = frame.state->complaint();
   if (!complaint.empty() && impl.said.insert(complaint).second)
   {
@@ -232,11 +236,12 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   frame.state->finish();
   impl.statistics = frame.state->statistics();
   impl.statistics.imageReduction = this->ImageReductionFactor;
+  impl.statistics.pacedShadows = frame.pacedShadows;
   if (impl.statistics.tracer.retracedLayers > 0)
   {
-    double seconds, fixedSeconds;
-    this->MeasureFrame(seconds, fixedSeconds);
-    frame.state->measured(seconds, fixedSeconds);
+    double seconds, fixedSeconds, shadowSeconds;
+    this->MeasureFrame(seconds, fixedSeconds, shadowSeconds);
+    frame.state->measured(seconds, fixedSeconds, shadowSeconds);
   }
   const std::size_t beyond =
     impl.store.endFrame(static_cast<std::size_t>(this->OctreeMemoryLimit) * svo::BytesOfKiB);

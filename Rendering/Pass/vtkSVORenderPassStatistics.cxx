@@ -72,7 +72,7 @@ const char* vtkSVORenderPass::GetCastingLights() const
 
 double vtkSVORenderPass::GetImageSampleDistance() const
 {
-  return this->Impl->statistics.sampleDistance * this->Impl->statistics.imageReduction;
+  return this->Impl->statistics.pace.distance * this->Impl->statistics.imageReduction;
 }
 
 double vtkSVORenderPass::GetAcceptedPixelError() const
@@ -82,7 +82,8 @@ double vtkSVORenderPass::GetAcceptedPixelError() const
   const double ofRays =
     distance > 1.0 ? distance * std::max(this->PixelError, 1.0) : this->PixelError;
   const svo::PassStatistics& frame = this->Impl->statistics;
-  return std::max(ofRays, frame.coarseOctreeError * frame.imageReduction);
+  const double ofShadows = frame.pace.coarseness > 1.0 ? distance * frame.tracer.widestTexel : 0.0;
+  return std::max({ ofRays, ofShadows, frame.coarseOctreeError * frame.imageReduction });
 }
 
 int vtkSVORenderPass::GetNumberOfOctreesBuilt() const

@@ -3,6 +3,7 @@
 // error it accepted; a still frame does not know the clock.
 #include "svoTestStage.h"
 
+#include "vtkLight.h"
 #include "vtkObjectFactory.h"
 
 #include <cmath>
@@ -27,15 +28,17 @@ public:
 
   double rays = 0.0;
   double fixed = 0.0;
+  double shadows = 0.0;
 
   double seconds() const
   {
-    return this->fixed + this->rays / std::pow(this->GetImageSampleDistance(), 2);
+    return this->fixed + this->shadows + this->rays / std::pow(this->GetImageSampleDistance(), 2);
   }
 
 protected:
-  void MeasureFrame(double& seconds, double& fixedSeconds) const override
+  void MeasureFrame(double& seconds, double& fixedSeconds, double& shadowSeconds) const override
   {
+    shadowSeconds = this->shadows;
     seconds = this->seconds();
     fixedSeconds = this->fixed;
   }
@@ -119,6 +122,38 @@ void testOneRenderer(Checks& checks)
   checks.expect(pass->GetAcceptedPixelError() == 1.0, "and says so");
 }
 
+/// Shadow maps of lights that move with the camera are the first to become coarser.
+void testShadowMaps(Checks& checks)
+{
+  Stage stage(160, 120);
+  vtkNew<ScriptedPass> pass;
+  prepare(stage, pass);
+  vtkNew<vtkLight> light;
+  pass->SetShadowBufferResolution(128); // else coarse texels are no larger than pixels
+  light->SetLightTypeToCameraLight();
+  light->SetPosition(1.0, 1.0, 1.0);
+  stage.renderer->AddLight(light);
+  const auto frame = [&](double rate, double rays, double shadows)
+  {
+    pass->rays = rays;
+    pass->shadows = shadows;
+    stage.window->SetDesiredUpdateRate(rate);
+    return capture(stage.window);
+  };
+  const Picture still = frame(Still, 0.1 * Budget, 30.0 * Budget);
+  checks.expect(pass->GetAcceptedPixelError() == 1.0, "still maps have all their texels");
+  const Picture coarse = frame(Interactive, 0.1 * Budget, 30.0 / 36.0 * Budget);
+  std::cout << "accepted: " << pass->GetAcceptedPixelError() << " pixels, of maps\n";
+  checks.expect(pass->GetImageSampleDistance() == 1.0, "rays stay where they are");
+  checks.expect(pass->GetAcceptedPixelError() > 1.0, "but it says how wide texels look");
+  checks.expect(coarse.rgb != still.rgb && coarse.depth == still.depth, "shadows are coarser");
+  frame(Interactive, 4.0 * Budget, 0.9 * Budget);
+  frame(Interactive, 4.0 * Budget, 0.5 * Budget);
+  checks.expect(pass->GetImageSampleDistance() > 1.0, "rays are the last");
+  const Picture after = frame(Still, 4.0 * Budget, 30.0 * Budget);
+  checks.expect(after.rgb == still.rgb, "a still frame has all texels again");
+}
+
 /// `shared`: one pass for both renderers.
 void testTwoRenderers(Checks& checks, bool shared)
 {
@@ -190,6 +225,7 @@ int TestSVOFrameBudget(int, char*[])
 {
   Checks checks;
   testOneRenderer(checks);
+  testShadowMaps(checks);
   testTwoRenderers(checks, false);
   testTwoRenderers(checks, true);
   testUnequalRenderers(checks);

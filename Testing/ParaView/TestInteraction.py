@@ -53,8 +53,10 @@ class TestInteraction(unittest.TestCase):
         traced = self.median("SVO")
         self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 2)
         distance = scene.statistic(self.view, "SVOImageSampleDistance")
-        self.assertGreater(distance, 1.0)
-        self.assertEqual(scene.statistic(self.view, "SVOAcceptedPixelError"), distance)
+        # Coarser shadow maps may do, and may look coarser than rays are apart.
+        accepted = scene.statistic(self.view, "SVOAcceptedPixelError")
+        self.assertGreater(accepted, 1.0)
+        self.assertGreaterEqual(accepted, distance)
         # On a busy machine not even the rasteriser may keep to it.
         self.assertLess(traced, max(0.2, 1.5 * surface))
         self.view.CameraPosition = position

@@ -56,15 +56,15 @@ RendererState::~RendererState()
   }
 }
 
-double RendererState::chooseDistance(double budget, double maximum)
+FramePace RendererState::choosePace(double budget, double maximum)
 {
   return this->Distance.choose(
     budget, maximum, this->Window ? this->Window->others(this) : FrameCost());
 }
 
-void RendererState::measured(double seconds, double fixed)
+void RendererState::measured(double seconds, double fixed, double shadows)
 {
-  this->Distance.measured(this->Statistics.sampleDistance, seconds, fixed);
+  this->Distance.measured(this->Statistics.pace, seconds, fixed, shadows);
   const std::shared_ptr<WindowTime> window = WindowTime::of(this->Renderer->GetRenderWindow());
   if (this->Window && this->Window != window)
   {
@@ -118,7 +118,7 @@ View RendererState::aim(int width, int height, double distance) const
 
 bool RendererState::shows(int width, int height) const
 {
-  const View view = this->aim(width, height, this->Statistics.sampleDistance);
+  const View view = this->aim(width, height, this->Statistics.pace.distance);
   return view.width == this->Eye.width && view.height == this->Eye.height &&
     view.worldToView == this->Eye.worldToView && view.viewToClip == this->Eye.viewToClip;
 }
@@ -145,15 +145,15 @@ std::string RendererState::lostShadows(const FrameSettings& settings) const
   return {};
 }
 
-void RendererState::trace(int width, int height, double distance, FrameSettings settings)
+void RendererState::trace(int width, int height, const FramePace& pace, FrameSettings settings)
 {
-  this->Statistics.sampleDistance = distance;
+  this->Statistics.pace = pace;
   Scene& scene = this->Collected.scene;
   // By now the renderer has counted its lights, by rules of its own, for the mappers.
   auto* counted = vtkOpenGLRenderer::SafeDownCast(this->Renderer);
   scene.onlyHeadlight = counted && counted->GetLightingComplexity() == 1;
   View& view = this->Eye;
-  view = this->aim(width, height, distance);
+  view = this->aim(width, height, pace.distance);
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow());
   if (!this->hasSomething() || view.width == 0)
   {
@@ -170,7 +170,7 @@ void RendererState::trace(int width, int height, double distance, FrameSettings 
   settings.writeNames = false;
   this->Trace->render(scene, view, settings, smpParallelFor(), this->Picture);
   this->Statistics.tracer = this->Trace->statistics();
-  this->Statistics.coarseOctreeError = distance * this->Statistics.tracer.coarsestVoxel;
+  this->Statistics.coarseOctreeError = pace.distance * this->Statistics.tracer.coarsestVoxel;
   this->Complaint =
     this->Receivers.update(window, this->Trace->shadowMaps(), scene.lights, view, settings);
   if (this->Complaint.empty() && settings.shadowTechnique != ShadowTechnique::None)
@@ -185,7 +185,7 @@ void RendererState::present(vtkOpenGLRenderPass* pass)
     &this->Picture,
     [this](const std::vector<glm::vec2>& positions, Silhouettes& silhouettes)
     {
-      if (this->Statistics.sampleDistance == 1.0) // else the frame's pixels are not the window's
+      if (this->Statistics.pace.distance == 1.0) // else the frame's pixels are not the window's
       {
         this->Trace->divideEdges(this->Collected.scene, this->Eye, this->Picture, positions,
           smpParallelFor(), silhouettes);

@@ -38,9 +38,10 @@ struct PassStatistics
   int tracedActors = 0;
   int rasterizedActors = 0;
   int instances = 0;
-  int octreesBuilt = 0;        // or taken over from a background build
-  double sampleDistance = 1.0; // pixels of the frame
-  int imageReduction = 1;      // pixels of the window that one of the frame becomes
+  int octreesBuilt = 0;      // or taken over from a background build
+  FramePace pace;            // in pixels of the frame
+  bool pacedShadows = false; // shadow maps take as long as they have texels
+  int imageReduction = 1;    // pixels of the window that one of the frame becomes
   /// Largest voxel of the octrees that are shown while they are deepened; pixels of the frame.
   double coarseOctreeError = 0.0;
 };
@@ -98,20 +99,20 @@ public:
   /// replaces.
   void joinPasses(const vtkRenderState* state);
 
-  /// Traces the collected scene, `width` by `height` pixels, with rays `distance` pixels apart.
+  /// Traces the collected scene, `width` by `height` pixels, at a pace that `settings` know of.
   /// Nothing is drawn yet.
-  void trace(int width, int height, double distance, FrameSettings settings);
+  void trace(int width, int height, const FramePace& pace, FrameSettings settings);
 
   /// True if what has been traced is what the renderer's camera sees now. Passes that show several
   /// directions, as a panorama does, draw the props once for each.
   bool shows(int width, int height) const;
 
-  /// Pixels from ray to ray, up to `maximum`, of a frame whose window has `budget` seconds for all
-  /// of its renderers.
-  double chooseDistance(double budget, double maximum);
+  /// The pace of a frame whose window has `budget` seconds for all of its renderers.
+  FramePace choosePace(double budget, double maximum);
 
-  /// The frame's time, and its part that does not depend on the number of rays.
-  void measured(double seconds, double fixed);
+  /// The frame's time, its part that does not depend on the number of rays or texels, and that of
+  /// shadow maps that are made coarser to save time.
+  void measured(double seconds, double fixed, double shadows);
 
   /// The prop that shows what was traced.
   vtkSVOPresenter* presenter() { return this->Presenter; }

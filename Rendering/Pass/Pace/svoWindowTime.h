@@ -54,6 +54,7 @@ public:
       {
         sum.fixed += entry.second.cost.fixed;
         sum.rays += entry.second.cost.rays;
+        sum.shadows += entry.second.cost.shadows;
       }
     }
     return sum;

@@ -17,6 +17,9 @@ struct FrameSettings
 {
   ShadowTechnique shadowTechnique = ShadowTechnique::Buffer;
   int shadowResolution = 2048;                          // texels along an edge of one map
+  /// Of those so many along an edge become one, and may look so many times as wide: the same maps,
+  /// coarser, in less time.
+  double shadowCoarseness = 1.0;
   std::size_t shadowMemoryLimit = std::size_t(4) << 30; // bytes, of the maps of all lights
   bool automaticBias = true;    // compare on the receiver's plane, at the texel's own ray
   double bias = 0.0;            // voxels of the caster, added
@@ -97,6 +100,7 @@ struct FrameStatistics
   /// How wide texels look at most in the shadow maps that were fitted to the eye's view, pixels; 0:
   /// no map was.
   double coarsestTexel = 0.0;
+  double widestTexel = 0.0; // no texel of any map looks wider, pixels
   bool fewerTexels = false; // than were asked for, by all processes alike, for lack of memory
   /// Largest voxel, pixels, of visible octrees that are coarser than the frame needs, where they
   /// are not traced exactly.

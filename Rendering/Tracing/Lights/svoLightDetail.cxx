@@ -6,6 +6,7 @@
 #include "svoWorldSize.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -169,9 +170,10 @@ double refine(const View& light, const Part& all, const std::vector<Seen>& recei
 }
 }
 
-LightMaps mapsOfLight(
-  const std::vector<Outline>& outlines, const Light& light, int resolution, const View& eye)
+LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, int resolution,
+  const View& eye, double coarseness)
 {
+  const double widestTexel = coarseness * WidestTexel;
   LightMaps maps{ castersOf(outlines, light), {}, 0.0 };
   maps.views = fitLight(outlines, maps.casters, light, resolution);
   if (eye.width < 1 || eye.height < 1 || maps.views.empty())
@@ -188,24 +190,27 @@ LightMaps mapsOfLight(
     farthest = std::max(farthest, receiver.farthest);
   }
   const double pixel = worldPixel(eye, nearest);
-  const auto mayBeCoarse = [&](const View& view)
-  { return widerWorldPixel(view, view.parallel ? 0.0 : view.tFar) > WidestTexel * pixel; };
-  if (!std::isfinite(nearest) || std::none_of(fitted.begin(), fitted.end(), mayBeCoarse))
+  for (const View& view : fitted)
+  {
+    const double texel = widerWorldPixel(view, view.parallel ? 0.0 : view.tFar);
+    maps.widest = std::max(maps.widest, texel / pixel);
+  }
+  if (!std::isfinite(nearest) || !(maps.widest > widestTexel))
   {
     return maps;
   }
+  maps.widest = 0.0;
   std::vector<Part> parts;
-  bool coarse = false;
   for (const View& view : fitted)
   {
     parts.push_back(seenPart(receivers, eye, farthest, view));
-    coarse = coarse || parts.back().widest > WidestTexel;
+    maps.widest = std::max(maps.widest, parts.back().widest);
   }
-  if (!coarse)
+  if (!(maps.widest > widestTexel))
   {
     return maps;
   }
-  for (double widest = WantedTexel;; widest *= 2.0)
+  for (double widest = coarseness * WantedTexel;; widest *= 2.0)
   {
     maps.views.clear();
     maps.coarsest = 0.0;
@@ -220,8 +225,9 @@ LightMaps mapsOfLight(
         left -= static_cast<int>(maps.views.size() - before) - 1;
       }
     }
-    if (maps.coarsest <= 1.25 * widest || widest >= WidestDetail)
+    if (maps.coarsest <= 1.25 * widest || widest >= coarseness * WidestDetail)
     {
+      maps.widest = maps.coarsest;
       return maps;
     }
   }
@@ -233,14 +239,17 @@ std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
   // Depth, instance and primitive of the buffer; for receivers a copy, and OpenGL's.
   const double bytes = settings.wholeShadowBuffers ? 20.0 : 12.0;
   std::vector<LightMaps> maps(lights.size());
-  for (int resolution = settings.shadowResolution;; resolution = (resolution + 1) / 2)
+  const double coarseness = settings.shadowCoarseness;
+  assert(coarseness >= 1.0);
+  const int wanted = static_cast<int>(settings.shadowResolution / coarseness);
+  for (int resolution = std::max(wanted, 16);; resolution = (resolution + 1) / 2)
   {
     std::size_t count = 0;
     for (std::size_t i = 0; i < lights.size(); ++i)
     {
       if (lights[i].castShadow)
       {
-        maps[i] = mapsOfLight(outlines, lights[i], resolution, eye);
+        maps[i] = mapsOfLight(outlines, lights[i], resolution, eye, coarseness);
         count += maps[i].views.size();
       }
     }

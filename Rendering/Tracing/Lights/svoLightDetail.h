@@ -20,6 +20,7 @@ struct LightMaps
   /// How wide texels of maps that are fitted to the eye's view look there at most, pixels; 0 where
   /// the maps are fitted to casters.
   double coarsest = 0.0;
+  double widest = 0.0; // no texel looks wider, pixels
 };
 
 /// The maps of a light: those that fit its casters (fitLight()), of resolution^2 texels, unless a
@@ -27,12 +28,12 @@ struct LightMaps
 /// eye sees a small part only. Then a map covers the receivers in the eye's view and no more; where
 /// that is still too coarse nearby, further maps inside of it cover what lies nearer to the eye.
 /// Outlines and views alone decide: processes that agree on these agree on the maps. An eye without
-/// pixels sees nothing.
-LightMaps mapsOfLight(
-  const std::vector<Outline>& outlines, const Light& light, int resolution, const View& eye);
+/// pixels sees nothing. `coarseness`: texels may look so many times as wide.
+LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, int resolution,
+  const View& eye, double coarseness = 1.0);
 
 /// The maps of all lights that cast, by index of the light, of FrameSettings::shadowResolution
-/// texels, or of half as many, and so on, until all of them fit into
+/// texels, by its shadowCoarseness fewer, or of half as many, and so on, until all of them fit into
 /// FrameSettings::shadowMemoryLimit.
 std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
   const std::vector<Light>& lights, const FrameSettings& settings, const View& eye);

@@ -11,7 +11,7 @@ namespace
 {
 // Who adds a member to one of these adds it below.
 static_assert(sizeof(Material) == 56 && sizeof(Attributes) == 64 && sizeof(Light) == 112 &&
-    sizeof(Instance) == 560 && sizeof(View) == 480 && sizeof(FrameSettings) == 72,
+    sizeof(Instance) == 560 && sizeof(View) == 480 && sizeof(FrameSettings) == 80,
   "all that pictures depend on is compared");
 
 /// Values as plain bytes, one behind the other.
@@ -76,7 +76,7 @@ void add(const View& v, Bytes& bytes)
 
 void add(const FrameSettings& s, Bytes& bytes)
 {
-  bytes.add(s.shadowTechnique, s.shadowResolution, s.shadowMemoryLimit, s.automaticBias, s.bias,
+  bytes.add(s.shadowTechnique, s.shadowResolution, s.shadowCoarseness, s.shadowMemoryLimit, s.automaticBias, s.bias,
     s.shadowIntensity, s.pixelError, s.antiAliasing, s.filterShadows, s.wholeShadowBuffers,
     s.mayDependOnLastFrame, s.writeNormals, s.writeLight, s.writeNames);
 }

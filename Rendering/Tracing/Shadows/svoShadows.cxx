@@ -143,6 +143,7 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
   LayerBudget& budget)
 {
   this->CoarsestTexel = 0.0;
+  this->WidestTexel = 0.0;
   this->HasFewerTexels = false;
   this->Traced = true;
   this->BuffersBefore.assign(this->Buffers.begin(), this->Buffers.end());
@@ -166,8 +167,10 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
       found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
     buffer->prepare(scene, maps[i], first, settings, budget);
     this->CoarsestTexel = std::max(this->CoarsestTexel, maps[i].coarsest);
+    this->WidestTexel = std::max(this->WidestTexel, maps[i].widest);
     this->HasFewerTexels = this->HasFewerTexels ||
-      (!maps[i].views.empty() && maps[i].views.front().width < settings.shadowResolution);
+      (!maps[i].views.empty() && settings.shadowCoarseness == 1.0 &&
+        maps[i].views.front().width < settings.shadowResolution);
     this->Buffers[i] = buffer.get();
     if (this->TracesWhole)
     {
@@ -375,6 +378,7 @@ std::size_t Shadows::layerMemory() const
 void Shadows::addStatistics(FrameStatistics& statistics) const
 {
   statistics.coarsestTexel = this->CoarsestTexel;
+  statistics.widestTexel = this->WidestTexel;
   statistics.fewerTexels = this->HasFewerTexels;
   for (const ShadowTechnique technique : this->Techniques)
   {

@@ -148,6 +148,7 @@ private:
   bool Traced = false;                    // buffers were, in this frame
   bool HasFewerTexels = false;            // texels than were asked for, by all processes alike
   double CoarsestTexel = 0.0;             // LightMaps::coarsest, of all lights
+  double WidestTexel = 0.0;               // LightMaps::widest, of all lights
 };
 }
 

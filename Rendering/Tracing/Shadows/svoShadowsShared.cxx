@@ -1,6 +1,7 @@
 // Shadow buffers that several processes trace together, each of its own part of the scene.
 #include "svoShadows.h"
 
+#include <cmath>
 #include <cstring>
 
 namespace svo
@@ -15,8 +16,8 @@ struct SharedSettings
   std::int32_t width, height;
   std::int32_t resolution;
   std::int32_t lights;
-  std::int32_t canKeep; // the last frame's buffers are there
-  std::int32_t unused;
+  std::int32_t canKeep;    // the last frame's buffers are there
+  std::int32_t coarseness; // in hundredths
 };
 struct SharedLight
 {
@@ -34,6 +35,7 @@ SharedSettings settingsOf(const FrameSettings& settings, const View& eye)
   shared.width = eye.width;
   shared.height = eye.height;
   shared.resolution = settings.shadowResolution;
+  shared.coarseness = static_cast<std::int32_t>(std::lround(100.0 * settings.shadowCoarseness));
   return shared;
 }
 
@@ -91,6 +93,7 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
   FrameSettings settings = own;
   settings.pixelError = agreed.pixelError;
   settings.shadowResolution = agreed.resolution;
+  settings.shadowCoarseness = 0.01 * agreed.coarseness;
   std::vector<Light> lights = scene.lights;
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
@@ -105,7 +108,9 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
   const std::vector<LightMaps> maps = mapsOfLights(outlines.all, lights, settings, eyeOf(agreed));
 
   std::vector<unsigned char> state;
-  append(state, std::vector<double>{ agreed.pixelError, static_cast<double>(agreed.resolution) });
+  append(state,
+    std::vector<double>{ agreed.pixelError, static_cast<double>(agreed.resolution),
+      static_cast<double>(agreed.coarseness) });
   append(state, lightsOfAll);
   append(state, outlines.all);
   for (const LightMaps& light : maps)

@@ -135,6 +135,7 @@ std::vector<Change> everyChange()
     { "automatic technique",
       [=](Stage& s) { s.settings.shadowTechnique = svo::ShadowTechnique::Automatic; } },
     { "resolution", [=](Stage& s) { s.settings.shadowResolution = 256; } },
+    { "coarser maps", [=](Stage& s) { s.settings.shadowCoarseness = 2.5; } },
     { "bias",
       [=](Stage& s)
       {
