@@ -8,6 +8,7 @@
 #define svoGroupPixels_h
 
 #include "svoGroupView.h"
+#include "vtkSVOOctreeModule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +30,7 @@ struct SeenPoints
   void makeRoom(std::size_t size);
 };
 
-class GroupPixels
+class VTKSVOOCTREE_EXPORT GroupPixels
 {
 public:
   /// Row by row.
