@@ -234,19 +234,21 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
         best[k] = hn::MulAdd(size, hn::Load(df, tables.most[k] + i), hn::Set(df, parent.value[k]));
         in = hn::And(in, hn::Ge(best[k], hn::Zero(df)));
       }
-      if (Group)
+      std::uint64_t bits = laneBits(df, in) & node.mask >> i;
+      if (Group && bits != 0)
       {
         const F w = hn::MulAdd(size, hn::Load(df, tables.least + i), hn::Set(df, parent.value[5]));
         hn::Store(pixelsOf(best, w, in), hn::ScalableTag<std::int32_t>(), pixels + i);
+        bits &= laneBits(df, in);
       }
-      inside |= laneBits(df, in) << i;
+      inside |= bits << i;
     }
     if (nodes.size() > most)
     {
       return false;
     }
     int inner[64], inners = 0;
-    for (std::uint64_t left = flipped(inside & node.mask, flip); left != 0; left &= left - 1)
+    for (std::uint64_t left = flipped(inside, flip); left != 0; left &= left - 1)
     {
       const int i = lowestBit(left) ^ flip;
       const std::uint32_t index = child(node, i);
