@@ -33,6 +33,12 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
   }
   const std::vector<double> voxels = std::move(this->CasterVoxel);
   const std::vector<double> errors = std::move(this->CasterError);
+  const std::vector<glm::dmat4> places = std::move(this->CasterPlace);
+  this->CasterPlace.clear();
+  for (const Instance& instance : scene.instances)
+  {
+    this->CasterPlace.push_back(instance.localToWorld);
+  }
   this->CasterVoxel.assign(scene.instances.size() + scene.receivers.size(), 0.0);
   this->CasterError.assign(this->CasterVoxel.size(), 0.0);
   for (std::size_t i = 0; i < views.size(); ++i)
@@ -78,7 +84,14 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
       tile.store(0, std::memory_order_relaxed);
     }
   }
-  this->SameMaps = this->SameMaps && voxels == this->CasterVoxel && errors == this->CasterError;
+  this->SameMaps = this->SameMaps && voxels.size() == this->CasterVoxel.size() &&
+    errors.size() == voxels.size() && places.size() == this->CasterPlace.size();
+  for (std::size_t k = 0; k < scene.instances.size() && this->SameMaps; ++k)
+  {
+    // Tiles that show a caster that has moved have changed: what else is new of it does not matter.
+    this->SameMaps = places[k] != this->CasterPlace[k] ||
+      (voxels[k] == this->CasterVoxel[k] && errors[k] == this->CasterError[k]);
+  }
 }
 
 glm::ivec2 ShadowBuffer::Place::neighbour(int i) const

@@ -218,6 +218,7 @@ private:
   // By index of the outline: of the instance, among those of all processes where depths are shared.
   std::vector<double> CasterVoxel; // world, of the level that is traced
   std::vector<double> CasterError; // world
+  std::vector<glm::dmat4> CasterPlace;
   bool AutomaticBias = true;
   double Bias = 0.0;
   bool SameMaps = false;

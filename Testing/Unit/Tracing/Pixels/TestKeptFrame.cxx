@@ -269,7 +269,6 @@ void changeAnything(std::mt19937& random, const svo::Octree& ball, Stage& stage)
     case 0:
     case 1:
     case 2:
-    case 12:
       any().localToWorld = somewhere() * glm::scale(glm::dmat4(1.0), glm::dvec3(0.25));
       break;
     case 3:
@@ -315,6 +314,12 @@ void changeAnything(std::mt19937& random, const svo::Octree& ball, Stage& stage)
         stage.settings.shadowTechnique = all[number(3)];
       }
       break;
+    case 12:
+    {
+      glm::dmat4& matrix = any().localToWorld; // of another scale, by rounding
+      matrix = matrix * glm::rotate(glm::dmat4(1.0), 0.035, glm::dvec3(0.2, 0.3, 1.0));
+      break;
+    }
     case 13:
       if (number(3) == 0) // other maps
       {
