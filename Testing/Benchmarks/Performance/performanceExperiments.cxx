@@ -303,7 +303,7 @@ bool Experiments::shadowChoice()
   methods[1].name = "rays";
   methods[1].settings = [](vtkSVORenderPass* pass) { pass->SetShadowTechniqueToShadowRays(); };
   methods[2].name = "automatic";
-  methods[2].settings = [](vtkSVORenderPass* pass) { pass->SetShadowTechniqueToAutomatic(); };
+  methods[2].settings = chooseShadows;
   bool good = true;
   const auto add = [&](const paper::Experiment& scene, const paper::Objects& objects,
                      std::size_t triangles, bool lightKit)

@@ -157,4 +157,21 @@ vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases, bool)
   return vtkSmartPointer<vtkSVORenderPass>::New();
 }
 #endif
+
+#ifdef SVO_AUTOMATIC_SHADOWS
+void chooseShadows(vtkSVORenderPass* pass)
+{
+  pass->SetShadowTechniqueToAutomatic();
+}
+int lightsWithRays(vtkSVORenderPass* pass)
+{
+  return pass->GetNumberOfLightsWithShadowRays();
+}
+#else
+void chooseShadows(vtkSVORenderPass*) {}
+int lightsWithRays(vtkSVORenderPass*)
+{
+  return 0;
+}
+#endif
 }
