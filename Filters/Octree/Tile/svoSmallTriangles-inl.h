@@ -37,8 +37,9 @@ struct ReadyLanes
   M thin, unsure, clipped, steep;
 };
 
-/// Columns, and rows, of pixels in the box around what is a small triangle.
-constexpr float SmallPixels = 4.0f;
+/// Columns, and rows, of pixels in the box around what is a small triangle. With 4 ordinary meshes
+/// take 3 % longer, with 2 meshes of triangles smaller than pixels 5 %.
+constexpr float SmallPixels = 3.0f;
 
 /// What may be met of the triangles of `mask`, whose boxes are that small.
 HWY_INLINE void drawSmall(const ReadyLanes& t, ReadyLanes::M mask,
