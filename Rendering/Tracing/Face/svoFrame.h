@@ -16,7 +16,7 @@ namespace svo
 struct FrameSettings
 {
   ShadowTechnique shadowTechnique = ShadowTechnique::Buffer;
-  int shadowResolution = 2048;                          // texels along an edge of one map
+  int shadowResolution = 2048; // texels along an edge of one map
   /// Of those so many along an edge become one, and may look so many times as wide: the same maps,
   /// coarser, in less time.
   double shadowCoarseness = 1.0;

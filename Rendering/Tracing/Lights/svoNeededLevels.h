@@ -20,10 +20,10 @@ namespace svo
 /// The level for lights comes from the texels of the shadow buffers alone. It does not depend on
 /// the eye, unless the light is bound to it. Where the technique is automatic that is all that rays
 /// get, too: of triangles that are met exactly they meet the same ones. The level for the eye is
-/// never less: the lights' octree is built anyway, and a deeper one looks the same where pixels have
-/// few triangles (selectEyeLevel()). Rays to lights (ShadowTechnique::Rays) are the exact reference and need the
-/// deepest octrees of everything that casts. So does a view without pixels, one that is not known
-/// yet, of what is visible.
+/// never less: the lights' octree is built anyway, and a deeper one looks the same where pixels
+/// have few triangles (selectEyeLevel()). Rays to lights (ShadowTechnique::Rays) are the exact
+/// reference and need the deepest octrees of everything that casts. So does a view without pixels,
+/// one that is not known yet, of what is visible.
 ///
 /// No octree is coarser than its mesh: where many triangles share a brick, none of them stands well
 /// for a voxel (coarsestLevel()). None is much finer either: triangles that look larger than voxels

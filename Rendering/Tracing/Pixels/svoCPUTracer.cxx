@@ -1,10 +1,10 @@
 #include "svoCPUTracer.h"
 
+#include "svoFrameErrors.h"
 #include "svoFrameTiles.h"
 #include "svoKeptFrame.h"
 #include "svoKeptTiles.h"
 #include "svoLayeredView.h"
-#include "svoLeafError.h"
 #include "svoNeededLevels.h"
 #include "svoPixelShader.h"
 #include "svoSelectLevel.h"
@@ -42,45 +42,6 @@ private:
   double Wall = now();
   std::clock_t Processor = std::clock();
 };
-
-/// FrameStatistics::coarsestVoxel
-double coarsestVoxel(const Scene& scene, const View& view)
-{
-  double largest = 0.0;
-  for (const Instance& instance : scene.instances)
-  {
-    if (!instance.visible || !instance.octree || instance.octree.level() >= instance.neededLevel)
-    {
-      continue;
-    }
-    const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
-    if (!local.rect.empty() && !worthTiles(instance, local, view))
-    {
-      largest = std::max(largest, worldVoxel(instance) / worldPixel(view, local.base));
-    }
-  }
-  return largest;
-}
-
-/// FrameStatistics::largestGap
-double largestGap(const Scene& scene, const View& view)
-{
-  double largest = 0.0;
-  for (const Instance& instance : scene.instances)
-  {
-    if (instance.visible && instance.receiveShadow && instance.octree)
-    {
-      const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
-      const double gap =
-        worldLeafError(instance, LeafGeometry::Triangle, instance.octree.level(), true);
-      if (!local.rect.empty())
-      {
-        largest = std::max(largest, gap / worldPixel(view, local.base));
-      }
-    }
-  }
-  return largest;
-}
 }
 
 struct CPUTracer::Internals

@@ -76,9 +76,9 @@ void add(const View& v, Bytes& bytes)
 
 void add(const FrameSettings& s, Bytes& bytes)
 {
-  bytes.add(s.shadowTechnique, s.shadowResolution, s.shadowCoarseness, s.shadowMemoryLimit, s.automaticBias, s.bias,
-    s.shadowIntensity, s.pixelError, s.antiAliasing, s.filterShadows, s.wholeShadowBuffers,
-    s.mayDependOnLastFrame, s.writeNormals, s.writeLight, s.writeNames);
+  bytes.add(s.shadowTechnique, s.shadowResolution, s.shadowCoarseness, s.shadowMemoryLimit,
+    s.automaticBias, s.bias, s.shadowIntensity, s.pixelError, s.antiAliasing, s.filterShadows,
+    s.wholeShadowBuffers, s.mayDependOnLastFrame, s.writeNormals, s.writeLight, s.writeNames);
 }
 }
 

@@ -1,0 +1,48 @@
+#include "svoFrameErrors.h"
+
+#include "svoLeafError.h"
+#include "svoLocalView.h"
+#include "svoVisibleInstances.h"
+#include "svoWorldSize.h"
+
+#include <algorithm>
+
+namespace svo
+{
+double coarsestVoxel(const Scene& scene, const View& view)
+{
+  double largest = 0.0;
+  for (const Instance& instance : scene.instances)
+  {
+    if (!instance.visible || !instance.octree || instance.octree.level() >= instance.neededLevel)
+    {
+      continue;
+    }
+    const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
+    if (!local.rect.empty() && !worthTiles(instance, local, view))
+    {
+      largest = std::max(largest, worldVoxel(instance) / worldPixel(view, local.base));
+    }
+  }
+  return largest;
+}
+
+double largestGap(const Scene& scene, const View& view)
+{
+  double largest = 0.0;
+  for (const Instance& instance : scene.instances)
+  {
+    if (instance.visible && instance.receiveShadow && instance.octree)
+    {
+      const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
+      const double gap =
+        worldLeafError(instance, LeafGeometry::Triangle, instance.octree.level(), true);
+      if (!local.rect.empty())
+      {
+        largest = std::max(largest, gap / worldPixel(view, local.base));
+      }
+    }
+  }
+  return largest;
+}
+}
