@@ -88,7 +88,8 @@ class Frames(unittest.TestCase):
                 continue
             phases = [r[phase + "Ms"] for phase in PHASES]
             self.assertGreaterEqual(min(phases), 0.0)
-            lightless = r["method"] == "none" or "rays" in r["method"]  # no maps are traced
+            lightless = (r["method"] == "none" or "rays" in r["method"]
+                         or r.get("lightsWithRays", 0) > 0)  # no maps are traced
             if r["situation"] == "retraced" and not lightless:
                 self.assertGreater(min(phases), 0.0, r)
             # Medians of parts need not add up to that of the whole; but a phase that is counted
