@@ -55,8 +55,9 @@ class TestInteraction(unittest.TestCase):
         distance = scene.statistic(self.view, "SVOImageSampleDistance")
         # Coarser shadow maps may do, and may look coarser than rays are apart.
         accepted = scene.statistic(self.view, "SVOAcceptedPixelError")
-        self.assertGreater(accepted, 1.0)
         self.assertGreaterEqual(accepted, distance)
+        # Nothing gets coarser where frames are quick enough as they are.
+        self.assertTrue(accepted > 1.0 or traced < 0.2, (accepted, traced))
         # On a busy machine not even the rasteriser may keep to it.
         self.assertLess(traced, max(0.2, 1.5 * surface))
         self.view.CameraPosition = position
