@@ -2,11 +2,15 @@
 picture that follows does not depend on what came before."""
 
 import math
+import os
 import time
 import unittest
 
 import paraview.simple as pv
 import scene
+
+# With all processors frames may be quick enough as they are, and nothing gets coarser.
+os.environ["VTK_SMP_MAX_THREADS"] = "1"
 
 SIZE = (3840, 2160)
 FRAMES = 12
@@ -29,9 +33,11 @@ class TestInteraction(unittest.TestCase):
         for i in range(FRAMES):
             angle = 0.05 * i
             self.view.CameraPosition = [8 * math.sin(angle), -8 * math.cos(angle), 4.0]
+            self.displays[0].Orientation = [0, 0, 5 * i]  # no buffer can be kept
             start = time.perf_counter()
             self.view.SMProxy.InteractiveRender()
             seconds.append(time.perf_counter() - start)
+        self.displays[0].Orientation = [0, 0, 0]
         return seconds
 
     def median(self, kind):
@@ -55,9 +61,8 @@ class TestInteraction(unittest.TestCase):
         distance = scene.statistic(self.view, "SVOImageSampleDistance")
         # Coarser shadow maps may do, and may look coarser than rays are apart.
         accepted = scene.statistic(self.view, "SVOAcceptedPixelError")
+        self.assertGreater(accepted, 1.0)
         self.assertGreaterEqual(accepted, distance)
-        # Nothing gets coarser where frames are quick enough as they are.
-        self.assertTrue(accepted > 1.0 or traced < 0.2, (accepted, traced))
         # On a busy machine not even the rasteriser may keep to it.
         self.assertLess(traced, max(0.2, 1.5 * surface))
         self.view.CameraPosition = position
