@@ -181,7 +181,7 @@ HWY_INLINE void fetchCorners(
 
 /// But for triangles that slots.crossing names then.
 void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t count,
-  const GroupView& view, std::uint32_t owner, TriangleGroup::Slots& slots, SeenPoints& points)
+  const GroupView& view, std::uint32_t owner, TriangleGroup::Slots& slots, SeenPoints* points)
 {
   const DF df;
   const DI di;
@@ -305,14 +305,18 @@ void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t cou
     ready.px1 = px1;
     ready.py0 = py0;
     ready.py1 = py1;
-    const F few = hn::Set(df, SmallPixels - 1.0f);
-    const auto small =
-      hn::And(kept, hn::And(hn::Le(hn::Sub(px1, px0), few), hn::Le(hn::Sub(py1, py0), few)));
-    if (!hn::AllFalse(df, small))
+    auto large = kept;
+    if (points)
     {
-      drawSmall(ready, small, triangle, points);
+      const F few = hn::Set(df, SmallPixels - 1.0f);
+      const auto small =
+        hn::And(kept, hn::And(hn::Le(hn::Sub(px1, px0), few), hn::Le(hn::Sub(py1, py0), few)));
+      if (!hn::AllFalse(df, small))
+      {
+        drawSmall(ready, small, triangle, *points);
+      }
+      large = hn::AndNot(small, kept);
     }
-    const auto large = hn::AndNot(small, kept);
     if (!hn::AllFalse(df, large))
     {
       storeSlots(ready, large, triangle, owner, slots);
@@ -329,7 +333,7 @@ namespace svo
 HWY_EXPORT(makeReady);
 
 void readyTriangles(const Surface& surface, const std::uint32_t* ids, std::size_t count,
-  const GroupView& view, std::uint32_t owner, TriangleGroup::Slots& slots, SeenPoints& points)
+  const GroupView& view, std::uint32_t owner, TriangleGroup::Slots& slots, SeenPoints* points)
 {
   HWY_DYNAMIC_DISPATCH(makeReady)(surface, ids, count, view, owner, slots, points);
 }

@@ -6,11 +6,11 @@
 
 namespace svo
 {
-/// Projects triangles of one owner, each of them once. Those of a few pixels become points, larger
-/// ones slots, and those that have to be made ready alone are named in slots.crossing. Behind the
-/// last id there is room for a vector of zeros.
+/// Projects triangles of one owner, each of them once. They become slots, or, if there are
+/// `points`, points where they have a few pixels; those that have to be made ready alone are named
+/// in slots.crossing. Behind the last id there is room for a vector of zeros.
 void readyTriangles(const Surface& surface, const std::uint32_t* ids, std::size_t count,
-  const GroupView& view, std::uint32_t owner, TriangleGroup::Slots& slots, SeenPoints& points);
+  const GroupView& view, std::uint32_t owner, TriangleGroup::Slots& slots, SeenPoints* points);
 }
 
 #endif

@@ -48,7 +48,7 @@ void TriangleGroup::Slots::makeRoom(std::size_t size)
 }
 
 bool TriangleGroup::add(const Octree& octree, const std::vector<GroupNode>& nodes,
-  const GroupView& view, std::uint32_t owner)
+  const GroupView& view, SmallTriangles small, std::uint32_t owner)
 {
   assert(octree.surface() != nullptr);
   const Surface& surface = *octree.surface();
@@ -59,7 +59,7 @@ bool TriangleGroup::add(const Octree& octree, const std::vector<GroupNode>& node
   bool good = true;
   const auto makeReady = [&]
   {
-    good = this->makeReady(surface, view, owner, ready);
+    good = this->makeReady(surface, view, small, owner, ready);
     ready = this->Count;
   };
   for (const GroupNode& node : nodes)
@@ -150,14 +150,14 @@ void TriangleGroup::readLists(const Surface& surface)
   this->Count = count;
 }
 
-bool TriangleGroup::makeReady(
-  const Surface& surface, const GroupView& view, std::uint32_t owner, std::size_t first)
+bool TriangleGroup::makeReady(const Surface& surface, const GroupView& view, SmallTriangles small,
+  std::uint32_t owner, std::size_t first)
 {
   constexpr std::size_t Room = 16;
   std::fill_n(this->Ids.begin() + static_cast<std::ptrdiff_t>(this->Count), Room, 0u);
   Slots& slots = this->Arrays;
   readyTriangles(surface, this->Ids.data() + first, this->Count - first, view, owner, slots,
-    this->Small.points());
+    small == SmallTriangles::AsPoints ? &this->Small.points() : nullptr);
   for (std::size_t k = 0; k < slots.crossingCount; ++k)
   {
     const auto id = static_cast<std::uint32_t>(slots.crossing[k]);

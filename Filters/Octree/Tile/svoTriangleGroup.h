@@ -47,6 +47,14 @@ struct NearestTriangles
   std::vector<float> keys;
 };
 
+/// What triangles of a few pixels become. Points are cheaper where there are so many that they hide
+/// each other, slots elsewhere; what is met is the same.
+enum class SmallTriangles
+{
+  AsPoints,
+  AsSlots
+};
+
 class VTKSVOOCTREE_EXPORT TriangleGroup
 {
 public:
@@ -62,7 +70,7 @@ public:
   /// are to come first. False if there are some that cannot be made ready, as those that cross the
   /// eye plane: then the group is good for nothing until it is cleared.
   bool add(const Octree& octree, const std::vector<GroupNode>& nodes, const GroupView& view,
-    std::uint32_t owner);
+    SmallTriangles small, std::uint32_t owner);
 
   /// What the rays through the pixels' centres of a tile of the group meet first: slots, and their
   /// triangles and owners, ~0 where there are none. False if nothing; then nothing is written.
@@ -125,8 +133,8 @@ private:
   /// Adds the triangles of Lists to Ids, each once.
   void readLists(const Surface& surface);
   /// Makes ready those from `first` on.
-  bool makeReady(
-    const Surface& surface, const GroupView& view, std::uint32_t owner, std::size_t first);
+  bool makeReady(const Surface& surface, const GroupView& view, SmallTriangles small,
+    std::uint32_t owner, std::size_t first);
 
   Slots Arrays;
   GroupPixels Small;

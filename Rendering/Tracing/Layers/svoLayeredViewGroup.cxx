@@ -17,6 +17,9 @@ namespace
 {
 /// Where a group sees more nodes than this its tiles look for their own.
 constexpr std::size_t MostGroupNodes = 4096;
+/// Where it sees fewer of an instance there are not enough triangles for one to hide another. With
+/// 0 ordinary meshes take 5 % longer, meshes of triangles smaller than pixels 2 % less.
+constexpr std::size_t FewGroupNodes = 400;
 
 int lowest(std::uint64_t bits)
 {
@@ -55,6 +58,7 @@ bool LayeredView::findTriangles(
   }
   found.spoilt = !found.group.add(*entry.octree, scratch.nodes,
     makeGroupView(entry.local, entry.functions, this->Keys, limits, scratch.groupX, scratch.groupY),
+    scratch.nodes.size() < FewGroupNodes ? SmallTriangles::AsSlots : SmallTriangles::AsPoints,
     entry.index);
   return !found.spoilt;
 }
