@@ -261,7 +261,13 @@ HWY_INLINE void name(const TriangleGroup::Slots& slots, const GroupPixels& small
     const I slot = hn::Load(di, found.slot + i);
     const auto some = hn::Gt(slot, nobody);
     I id = nobody, owner = nobody;
-    if (!hn::AllFalse(di, some))
+    const std::int32_t first = found.slot[i];
+    if (first >= 0 && hn::AllTrue(di, hn::Eq(slot, hn::Set(di, first))))
+    {
+      id = hn::Set(di, ids[first]);
+      owner = hn::Set(di, ownerOf[first]);
+    }
+    else if (!hn::AllFalse(di, some))
     {
       const I at = hn::IfThenElseZero(some, slot);
       id = hn::IfThenElse(some, hn::GatherIndex(di, ids, at), nobody);

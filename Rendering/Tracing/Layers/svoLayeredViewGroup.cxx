@@ -264,34 +264,33 @@ void LayeredView::measureHits(
   RayBlock block;
   HitBlock measured;
   double x[64], y[64];
-  std::uint64_t left = 0;
+  std::int32_t decided[64];
   for (int i = 0; i < 64; ++i)
   {
     x[i] = 8 * tileX + (i & 7) + 0.5;
     y[i] = 8 * tileY + (i >> 3) + 0.5;
-    left |= std::uint64_t(nearest.slot[i] != NearestTriangles::None) << i;
+    decided[i] = nearest.slot[i] != NearestTriangles::None;
   }
-  while (left != 0)
+  // Of one instance after the other; mostly there is one.
+  for (int first = 0; first < 64; ++first)
   {
-    // Of one instance after the other.
-    const std::uint32_t owner = hits.instance[lowest(left)];
+    if (!decided[first])
+    {
+      continue;
+    }
+    const std::uint32_t owner = hits.instance[first];
     const Entry& entry = this->Instances[this->EntryOf[owner]];
-    std::uint64_t mine = 0;
     for (int i = 0; i < 64; ++i)
     {
       const bool own = hits.instance[i] == owner;
       measured.primitive[i] = own ? hits.primitive[i] : NoPrimitive;
-      mine |= std::uint64_t(own) << i;
+      decided[i] = own ? 0 : decided[i];
     }
-    left &= ~mine;
     fillRays(entry.local, x, y, block);
     depthsOnTriangles(*entry.octree, block, measured);
     for (int i = 0; i < 64; ++i)
     {
-      if (mine >> i & 1)
-      {
-        hits.t[i] = measured.t[i];
-      }
+      hits.t[i] = measured.primitive[i] != NoPrimitive ? measured.t[i] : hits.t[i];
     }
   }
 }

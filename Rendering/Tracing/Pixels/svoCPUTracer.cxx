@@ -102,7 +102,7 @@ void CPUTracer::Internals::findStaleTiles(const FrameChanges& changes, bool same
   this->Shaded.beginFrame(depth.tilesX, depth.tilesY, all);
   for (std::size_t tile = 0; tile < this->Shaded.size(); ++tile)
   {
-    this->Shaded[tile].stale = this->Shaded[tile].stale || this->Eye.tiles().changed(tile);
+    this->Shaded.setStale(tile, this->Eye.tiles().changed(tile));
   }
   // Where an instance is not seen it does not matter how it looks.
   for (const std::uint32_t instance : changes.instances)
@@ -112,8 +112,8 @@ void CPUTracer::Internals::findStaleTiles(const FrameChanges& changes, bool same
     {
       for (int x = rect.x0 / 8; x < rect.x1 / 8; ++x)
       {
-        KeptTiles::Tile& tile = this->Shaded.at(x, y);
-        tile.stale = tile.stale || depth.shows(x, y, instance);
+        const std::size_t tile = this->Shaded.index(x, y);
+        this->Shaded.setStale(tile, !this->Shaded.stale(tile) && depth.shows(x, y, instance));
       }
     }
   }
@@ -126,7 +126,7 @@ void CPUTracer::Internals::markLightTiles(
   {
     for (const std::uint32_t index : this->Tiles.hits())
     {
-      if (this->Shaded[index].stale)
+      if (this->Shaded.stale(index))
       {
         this->Shaded[index].looksUp.clear();
       }
@@ -137,8 +137,9 @@ void CPUTracer::Internals::markLightTiles(
   this->Tiles.each<TilePatch>(parallelFor,
     [&](int tileX, int tileY, TilePatch& patch)
     {
-      KeptTiles::Tile& tile = this->Shaded.at(tileX, tileY);
-      if (sameMaps && !tile.stale)
+      const std::size_t index = this->Shaded.index(tileX, tileY);
+      KeptTiles::Tile& tile = this->Shaded[index];
+      if (sameMaps && !this->Shaded.stale(index))
       {
         this->LightShadows.mark(tile.looksUp);
         return;
@@ -184,9 +185,14 @@ void CPUTracer::Internals::findDarkenedTiles(
     {
       for (std::size_t k = first; k < last; ++k)
       {
-        KeptTiles::Tile& tile = this->Shaded[hits[k]];
-        tile.stale = tile.stale || all || shadows.changed(tile.looksUp) ||
-          shadows.changed(tile.raised) || mayCross(tile.raysToLights);
+        if (this->Shaded.stale(hits[k]))
+        {
+          continue;
+        }
+        const KeptTiles::Tile& tile = this->Shaded[hits[k]];
+        this->Shaded.setStale(hits[k],
+          all || shadows.changed(tile.looksUp) || shadows.changed(tile.raised) ||
+            mayCross(tile.raysToLights));
       }
     });
 }

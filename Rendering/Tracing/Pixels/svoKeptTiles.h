@@ -20,7 +20,6 @@ class KeptTiles
 public:
   struct Tile
   {
-    bool stale = true; // its hits or their looks are not what they were
     LightTiles looksUp;
     RaisedTiles raised;    // of points at the terminator (svoTerminator.h)
     PointBox raysToLights; // world; where they begin
@@ -34,26 +33,32 @@ public:
     if (this->Tiles.size() != count)
     {
       this->Tiles.assign(count, Tile());
+      all = true;
     }
-    for (Tile& tile : this->Tiles)
-    {
-      tile.stale = all;
-    }
+    this->Stale.assign(count, all);
   }
-  Tile& at(int tileX, int tileY)
+  std::size_t index(int tileX, int tileY) const
   {
-    return (*this)[static_cast<std::size_t>(tileY) * this->TilesX + tileX];
+    assert(tileX >= 0 && tileX < this->TilesX && tileY >= 0);
+    return static_cast<std::size_t>(tileY) * this->TilesX + tileX;
   }
   Tile& operator[](std::size_t tile)
   {
     assert(tile < this->Tiles.size());
     return this->Tiles[tile];
   }
+  /// Its hits, or their looks or lights, are not what they were. Threads may mark different tiles.
+  bool stale(std::size_t tile) const { return this->Stale[tile] != 0; }
+  void setStale(std::size_t tile, bool stale)
+  {
+    this->Stale[tile] |= static_cast<std::uint8_t>(stale);
+  }
   std::size_t size() const { return this->Tiles.size(); }
 
 private:
   int TilesX = 0;
   std::vector<Tile> Tiles;
+  std::vector<std::uint8_t> Stale; // apart, since each frame looks at all of them
 };
 }
 

@@ -202,11 +202,12 @@ void PixelShader::shade(const ShadedScene& shaded, const ParallelFor& parallelFo
   shaded.tiles.each<Scratch>(parallelFor,
     [&](int tileX, int tileY, Scratch& scratch)
     {
-      KeptTiles::Tile& tile = kept.at(tileX, tileY);
-      if (!tile.stale)
+      const std::size_t index = kept.index(tileX, tileY);
+      if (!kept.stale(index))
       {
         return;
       }
+      KeptTiles::Tile& tile = kept[index];
       scratch.rays = 0;
       tile.raised.clear();
       tile.raysToLights = PointBox();
