@@ -15,6 +15,17 @@ namespace svo
 {
 constexpr std::uint32_t NoInstance = ~0u;
 
+/// True if one of a tile's 64 instances is this one. A sum, which becomes vectors.
+inline bool anyOf(const std::uint32_t* instances, std::uint32_t wanted)
+{
+  std::uint32_t count = 0;
+  for (int i = 0; i < 64; ++i)
+  {
+    count += instances[i] == wanted ? 1u : 0u;
+  }
+  return count != 0;
+}
+
 /// Stored tile by tile (8x8 pixels, row by row inside), so that a tile is one stretch of memory.
 struct DepthBuffer
 {
@@ -58,13 +69,7 @@ struct DepthBuffer
   {
     assert(tileX >= 0 && tileY >= 0 && tileX < this->tilesX && tileY < this->tilesY);
     const std::size_t tile = static_cast<std::size_t>(tileY) * this->tilesX + tileX;
-    const std::uint32_t* const first = this->instance.data() + 64 * tile;
-    bool any = false;
-    for (int i = 0; i < 64 && this->hit[tile]; ++i)
-    {
-      any |= first[i] == wanted;
-    }
-    return any;
+    return this->hit[tile] && anyOf(this->instance.data() + 64 * tile, wanted);
   }
 };
 }

@@ -152,17 +152,30 @@ void LayeredView::merge(const Entry& entry, const float* t, const Primitive* pri
   const double* x, const double* y, MergedTile& merged) const
 {
   // Any order of merging gives the same buffer. A NaN compares false and never wins.
+  if (!merged.any)
+  {
+    std::uint32_t any = 0;
+    for (int i = 0; i < 64; ++i)
+    {
+      any |= static_cast<std::uint32_t>(primitive[i] != NoPrimitive);
+    }
+    if (any)
+    {
+      merged.any = true;
+      for (int i = 0; i < 64; ++i)
+      {
+        merged.t[i] = t[i];
+        merged.primitive[i] = primitive[i];
+        merged.instance[i] = primitive[i] == NoPrimitive ? NoInstance : entry.index;
+      }
+    }
+    return;
+  }
   for (int i = 0; i < 64; ++i)
   {
     if (primitive[i] == NoPrimitive)
     {
       continue;
-    }
-    if (!merged.any)
-    {
-      merged.any = true;
-      std::fill(merged.instance, merged.instance + 64, NoInstance);
-      std::fill(merged.primitive, merged.primitive + 64, NoPrimitive);
     }
     const std::uint32_t winner = merged.instance[i];
     if (winner == NoInstance ||

@@ -14,7 +14,11 @@ void MergedTiles::touch(const MergedPart& part, int tilesX)
     std::fill(row + rect.x0 / 8, row + rect.x1 / 8, Change::Touched);
   }
   this->ChangedParts.resize(std::max<std::size_t>(this->ChangedParts.size(), part.index + 2), 0);
-  this->ChangedParts[part.index] = 1;
+  if (!this->ChangedParts[part.index])
+  {
+    this->ChangedParts[part.index] = 1;
+    this->ChangedIndices.push_back(part.index);
+  }
 }
 
 bool MergedTiles::beginFrame(
@@ -29,6 +33,7 @@ bool MergedTiles::beginFrame(
   }
   this->Changes.assign(tiles, known ? Change::None : Change::New);
   this->ChangedParts.assign(1, 0);
+  this->ChangedIndices.clear();
   if (known)
   {
     // Both are in the order of their indices.

@@ -3,6 +3,7 @@
 #ifndef svoMergedTiles_h
 #define svoMergedTiles_h
 
+#include "svoDepthBuffer.h"
 #include "svoDepthLayer.h"
 #include "svoView.h"
 
@@ -64,12 +65,12 @@ public:
   /// True if such a part is one of a tile's 64 hits.
   bool anyChanged(const std::uint32_t* instances) const
   {
-    std::uint8_t any = 0;
-    for (int i = 0; i < 64; ++i)
-    {
-      any |= static_cast<std::uint8_t>(this->partChanged(instances[i]));
-    }
-    return any != 0;
+    const std::vector<std::uint32_t>& all = this->ChangedIndices;
+    constexpr std::size_t Few = 8;
+    return all.size() <= Few ? std::any_of(all.begin(), all.end(),
+                                 [=](std::uint32_t one) { return anyOf(instances, one); })
+                             : std::any_of(instances, instances + 64,
+                                 [this](std::uint32_t i) { return this->partChanged(i); });
   }
   /// True if any tile is stale.
   bool anyStale() const { return this->Any; }
@@ -99,6 +100,7 @@ private:
   std::vector<std::uint8_t> States;            // per tile
   std::vector<Change> Changes;                 // per tile
   std::vector<std::uint8_t> ChangedParts{ 0 }; // by index, and a last one for all others
+  std::vector<std::uint32_t> ChangedIndices;   // the same ones
   bool Any = true;
 };
 }
