@@ -197,7 +197,7 @@ HWY_INLINE void traceTwo(const LeafQuery& query, const WalkTarget& target, const
     {
       const Verdict verdict = meet(query, target, rays, anyHit, firstRay, leave, p, hits);
       p.dead = hn::Not(verdict.again);
-      const Lanes lost = advance(p, verdict.again, hn::IfThenElse(verdict.skip, skip, leave));
+      const Lanes lost = advance(p, p.dead, hn::IfThenElse(verdict.skip, skip, leave));
       find(target, p, lost);
       return hn::AllTrue(di, p.dead);
     };

@@ -50,11 +50,11 @@ HWY_INLINE LaneNodes loadNodes(const std::uint64_t* nodes, I node)
 /// the vector that they come from, and taking a vector to pieces is slower than loading them.
 template <class D>
 HWY_INLINE hn::Vec<D> loadEveryFourth(
-  D d, const std::uint64_t* nodes, const volatile std::int32_t* index)
+  D d, const std::uint64_t* nodes, const volatile std::uint32_t* index)
 {
   if constexpr (hn::MaxLanes(D()) == 2)
   {
-    return hn::LoadU(d, nodes + 2 * static_cast<std::size_t>(*index));
+    return hn::LoadU(d, nodes + *index);
   }
   else
   {
@@ -71,8 +71,8 @@ HWY_INLINE LaneNodes loadNodes(const std::uint64_t* nodes, I node)
   const DI di;
   const DU du;
   const hn::RepartitionToWide<DU> wide;
-  HWY_ALIGN std::int32_t index[hn::MaxLanes(DI())];
-  hn::Store(hn::Max(node, hn::Zero(di)), di, index);
+  HWY_ALIGN std::uint32_t index[hn::MaxLanes(DI())]; // in words of 64 bits
+  hn::Store(hn::BitCast(du, hn::ShiftLeft<1>(hn::Max(node, hn::Zero(di)))), du, index);
   const auto load = [&](int lane)
   { return hn::BitCast(du, loadEveryFourth(wide, nodes, index + lane)); };
   const U a = load(0);

@@ -84,9 +84,9 @@ struct Probe
 {
   Lanes nothing; // the whole block is empty
   Lanes occupied;
-  Lanes group; // the group of eight cells has any
-  I below;     // occupied cells before this one in the node
-  I first;     // the node's first child
+  Lanes gap; // nor has the group of eight cells any
+  I below;   // occupied cells before this one in the node
+  I first;   // the node's first child
 };
 
 HWY_INLINE Probe probe(const std::uint64_t* nodes, const Packet& p)
@@ -102,20 +102,30 @@ HWY_INLINE Probe probe(const std::uint64_t* nodes, const Packet& p)
   const U group = hn::And(hn::Shr(half, hn::And(at, hn::Set(du, 24))), hn::Set(du, 255));
   Probe result;
   result.nothing = hn::Lt(p.node, hn::Zero(di));
-  result.occupied =
-    hn::AndNot(result.nothing, hn::RebindMask(di, hn::Ne(hn::And(half, bit), hn::Zero(du))));
-  result.group = hn::AndNot(result.nothing, hn::RebindMask(di, hn::Ne(group, hn::Zero(du))));
+  result.occupied = hn::AndNot(result.nothing, hn::RebindMask(di, hn::Eq(hn::And(half, bit), bit)));
+  result.gap = hn::Or(result.nothing, hn::RebindMask(di, hn::Eq(group, hn::Zero(du))));
   result.below = hn::BitCast(di,
     countBoth(hn::And(half, hn::Sub(bit, hn::Set(du, 1))), hn::IfThenElseZero(upper, node.low)));
   result.first = hn::BitCast(di, node.first);
   return result;
 }
 
+/// -v where `negative` is -1, v where it is 0: `there` - 1, inverted, is as much as -there, and the
+/// face of a mirrored end, which is inverted, is its inverse + 1.
+HWY_INLINE I turned(I v, I negative)
+{
+#if HWY_TARGET == HWY_AVX2
+  return I{ _mm256_sign_epi32(v.raw, hn::Or(negative, hn::Set(DI(), 1)).raw) };
+#else
+  return hn::Sub(hn::Xor(v, negative), negative);
+#endif
+}
+
 /// The plane, along one axis, through which lanes leave their cells: `end` is the mirrored position
 /// behind it.
 HWY_INLINE F faceAt(I end, I negative)
 {
-  return hn::BitCast(DF(), hn::Sub(hn::Xor(end, negative), negative));
+  return hn::BitCast(DF(), turned(end, negative));
 }
 
 /// Where the lanes leave the cell of 2^exponent that they are in.
@@ -132,15 +142,26 @@ HWY_INLINE F exitOf(const Packet& p, I exponent)
   return hn::Max(p.t, t);
 }
 
-/// Moves the lanes of `step` over the cell of 2^exponent that they are in, exactly as walk() of
-/// svoTraverse.h does. Returns those that left their node.
-HWY_INLINE Lanes advance(Packet& p, Lanes step, I exponent)
+HWY_INLINE F notANumberWhere(Lanes lanes, F v)
+{
+  const DF df;
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  return hn::IfThenElse(
+    hn::RebindMask(df, lanes), hn::Set(df, std::numeric_limits<float>::quiet_NaN()), v);
+#else
+  return hn::Or(v, hn::VecFromMask(df, hn::RebindMask(df, lanes))); // all bits set
+#endif
+}
+
+/// Moves the lanes but those of `stays` over the cell of 2^exponent that they are in, exactly as
+/// walk() of svoTraverse.h does. Returns those that left their node.
+HWY_INLINE Lanes advance(Packet& p, Lanes stays, I exponent)
 {
   const DF df;
   const DI di;
   const I one = hn::Set(di, 1);
   // A lane that does not step is in a cell of its own position alone, which it does not leave.
-  const I inside = hn::IfThenElseZero(step, hn::Sub(hn::Shl(one, exponent), one));
+  const I inside = hn::IfThenZeroElse(stays, hn::Sub(hn::Shl(one, exponent), one));
   const I lastX = hn::Or(p.x, inside);
   const I lastY = hn::Or(p.y, inside);
   const I lastZ = hn::Or(p.z, inside);
@@ -151,16 +172,17 @@ HWY_INLINE Lanes advance(Packet& p, Lanes step, I exponent)
   const F ty = hn::Mul(hn::Sub(faceAt(endY, p.ny), p.oy), p.iy);
   const F tz = hn::Mul(hn::Sub(faceAt(endZ, p.nz), p.oz), p.iz);
   const F tFirst = hn::Min(hn::Min(tx, ty), tz);
-  const F t = hn::Max(p.t, tFirst);
-  const F notANumber = hn::Set(df, std::numeric_limits<float>::quiet_NaN());
-  const F tExit = hn::IfThenElse(hn::RebindMask(df, step), tFirst, notANumber);
-  // On a face the ray is in the cell that it heads for, hence `negative`; between the faces it
+  // Not a number, which is equal to nothing and greater than nothing. Of such, x86's maximum is its
+  // second operand.
+  const F tExit = notANumberWhere(stays, tFirst);
+  const F t = hn::Max(tExit, p.t);
+  // On a face the ray is in the cell that it heads for, hence turned(); between the faces it
   // stays between them, and never turns back.
   const auto move = [&](F o, F d, F tFace, I position, I last, I end, I negative)
   {
-    const I there = hn::Add(hn::BitCast(di, hn::Add(o, hn::Mul(t, d))), negative);
-    const I stays = hn::Min(hn::Max(hn::Xor(there, negative), position), last);
-    return hn::IfThenElse(hn::RebindMask(di, hn::Eq(tFace, tExit)), end, stays);
+    const I there = turned(hn::BitCast(di, hn::Add(o, hn::Mul(t, d))), negative);
+    const I between = hn::Min(hn::Max(there, position), last);
+    return hn::IfThenElse(hn::RebindMask(di, hn::Eq(tFace, tExit)), end, between);
   };
   const I x = move(p.ox, p.dx, tx, p.x, lastX, endX, p.nx);
   const I y = move(p.oy, p.dy, ty, p.y, lastY, endY, p.ny);
@@ -169,11 +191,11 @@ HWY_INLINE Lanes advance(Packet& p, Lanes step, I exponent)
   p.x = x;
   p.y = y;
   p.z = z;
-  p.t = hn::IfThenElse(hn::RebindMask(df, step), t, p.t);
+  p.t = t;
   const Lanes past = hn::RebindMask(di, hn::Gt(tExit, p.tMax));
   const Lanes outside = hn::Gt(changed, hn::Set(di, (1 << MantissaBits) - 1));
   p.dead = hn::Or(p.dead, hn::Or(past, outside));
-  return hn::Ne(hn::Shr(changed, hn::Add(p.size, hn::Set(di, 2))), hn::Zero(di));
+  return hn::Gt(hn::Shr(changed, hn::Add(p.size, hn::Set(di, 2))), hn::Zero(di));
 }
 
 /// Looks up the nodes of the lanes of `lost`.
@@ -216,18 +238,17 @@ HWY_INLINE Lanes turn(const WalkTarget& target, Packet& p)
   const Probe seen = probe(target.nodes, p);
   const Lanes bottom = hn::Eq(p.size, hn::Set(di, target.stopSize));
   // An empty group of eight, or a whole empty block, is left at once.
-  const I beyond = hn::IfThenElse(seen.nothing, hn::Set(di, 2), hn::Set(di, 1));
-  const I exponent = hn::Add(p.size, hn::IfThenZeroElse(seen.group, beyond));
+  const I beyond = hn::Sub(hn::Set(di, 1), hn::VecFromMask(di, seen.nothing));
+  const I exponent = hn::Add(p.size, hn::IfThenElseZero(seen.gap, beyond));
   const Lanes occupied =
-    Groups ? hn::Or(seen.occupied, hn::And(bottom, seen.group)) : seen.occupied;
+    Groups ? hn::Or(seen.occupied, hn::AndNot(seen.gap, bottom)) : seen.occupied;
   const Lanes still = hn::Or(hn::And(occupied, bottom), p.dead);
-  const Lanes step = hn::Not(hn::Or(occupied, p.dead));
   const Lanes descend = hn::AndNot(still, occupied);
   const I child = hn::Add(seen.first, seen.below);
-  const Lanes lost = advance(p, step, exponent);
+  const Lanes lost = advance(p, hn::Or(occupied, p.dead), exponent);
   p.below = seen.below;
   p.node = hn::IfThenElse(descend, child, p.node);
-  p.size = hn::IfThenElse(descend, hn::Sub(p.size, hn::Set(di, 2)), p.size);
+  p.size = hn::Sub(p.size, hn::IfThenElseZero(descend, hn::Set(di, 2)));
   find(target, p, lost);
   return hn::Not(hn::Or(still, p.dead));
 }
