@@ -50,7 +50,7 @@ HWY_INLINE hn::Vec<D> gather(D d, const T* base, hn::Vec<hn::RebindToSigned<D>> 
 
 /// A mask as bits, lane 0 lowest.
 template <class D>
-HWY_INLINE std::uint32_t bitsOf(D d, hn::Mask<D> lanes)
+HWY_INLINE std::uint32_t maskBits(D d, hn::Mask<D> lanes)
 {
   HWY_ALIGN std::uint8_t bytes[8] = {}; // as many as StoreMaskBits() may write
   hn::StoreMaskBits(d, lanes, bytes);
@@ -70,7 +70,7 @@ public:
     , count(hn::CountTrue(DI(), lanes))
 #if HWY_TARGET == HWY_AVX2
     , order(hn::Shr(
-        hn::Set(DI(), CompressTable[bitsOf(DI(), lanes)]), hn::ShiftLeft<2>(hn::Iota(DI(), 0))))
+        hn::Set(DI(), CompressTable[maskBits(DI(), lanes)]), hn::ShiftLeft<2>(hn::Iota(DI(), 0))))
 #endif
   {
   }
