@@ -6,12 +6,12 @@
 #define HWY_TARGET_INCLUDE "svoIntersectBlock.cxx"
 #include <hwy/foreach_target.h>
 
-#include "svoCounters.h"
 #include "svoIntersect.h"
 #include "svoIntersectBlock.h"
 #include "svoIntersectScalar.h"
 #include "svoLeafGeometry.h"
 #include "svoPacketCells-inl.h"
+#include "svoPacketCubes-inl.h"
 #include "svoPacketLeaf-inl.h"
 #include "svoPacketWalk-inl.h"
 
@@ -66,9 +66,9 @@ HWY_INLINE Verdict meetOneByOne(const LeafQuery& query, const WalkTarget& target
   hn::Store(p.tMax, df, tMax);
   hn::Store(p.tClip, df, tClip);
   hn::Store(exitOf(p, leave), df, tExit);
-  hn::Store(p.x, di, position[0]);
-  hn::Store(p.y, di, position[1]);
-  hn::Store(p.z, di, position[2]);
+  hn::Store(p.atX(), di, position[0]);
+  hn::Store(p.atY(), di, position[1]);
+  hn::Store(p.atZ(), di, position[2]);
   hn::Store(p.node, di, node);
   hn::Store(hn::VecFromMask(di, arrived), di, alive);
   hn::Store(hn::Zero(di), di, answer);
@@ -138,8 +138,8 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
     if (anyOther)
     {
       ArrivedCells cells;
-      note(target, p, others, 0, cells);
-      representatives(query, target, cells, primitives);
+      note(p, others, cells);
+      representatives(query, target, cells, first, primitives);
     }
     hn::Store(hitT, df, hits.out.t + first);
     hn::Store(hn::BitCast(du, hitId), du, hits.out.primitive + first);
@@ -153,14 +153,6 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
   }
 #endif
   return meetOneByOne(query, target, rays, anyHit, first, arrived, leave, nullptr, p, hits);
-}
-
-/// Counts a turn of two packets, of which these lanes are under way.
-HWY_INLINE void countTurn([[maybe_unused]] Lanes first, [[maybe_unused]] Lanes second)
-{
-  SVO_COUNT(NodesVisited, hn::CountTrue(DI(), first) + hn::CountTrue(DI(), second));
-  SVO_COUNT(
-    IdleLanes, 2 * hn::Lanes(DI()) - hn::CountTrue(DI(), first) - hn::CountTrue(DI(), second));
 }
 
 /// Walks until every lane has arrived or died.
@@ -187,45 +179,6 @@ HWY_INLINE void walkBoth(const WalkTarget& walkTarget, Packet& first, Packet& se
   second = b;
 }
 
-#if SVO_PACKET_LEAVES
-/// Whether every cell ends its ray as a cube of which only the triangle is not known yet.
-bool onlyCubes(const LeafQuery& query, const WalkTarget& target)
-{
-  return target.points != nullptr && query.leaf.shape == CellShape::Cube && !query.leaf.exact();
-}
-
-/// The whole trace of a block where onlyCubes().
-template <bool Groups>
-HWY_INLINE void traceCubes(const LeafQuery& query, const WalkTarget& target, const RayBlock& rays,
-  bool anyHit, HitBlock& hits)
-{
-  const DF df;
-  const int n = static_cast<int>(hn::Lanes(df));
-  ArrivedCells cells;
-  for (int first = 0; first < RayBlock::Size; first += 2 * n)
-  {
-    Packet a = makePacket(target, rays, first);
-    Packet b = makePacket(target, rays, first + n);
-    walkBoth<Groups>(target, a, b);
-    const Lanes arrivedA = hn::Not(a.dead);
-    const Lanes arrivedB = hn::Not(b.dead);
-    hn::Store(hn::IfThenElseZero(hn::RebindMask(df, arrivedA), a.t), df, hits.t + first);
-    hn::Store(hn::IfThenElseZero(hn::RebindMask(df, arrivedB), b.t), df, hits.t + first + n);
-    note(target, a, arrivedA, first, cells);
-    note(target, b, arrivedB, first + n, cells);
-  }
-  if (anyHit)
-  {
-    for (int i = 0; i < cells.count; ++i)
-    {
-      hits.primitive[cells.ray[i]] = 0;
-    }
-    return;
-  }
-  representatives(query, target, cells, hits.primitive);
-}
-#endif
-
 template <bool Groups>
 HWY_INLINE void traceTwo(const LeafQuery& query, const WalkTarget& target, const RayBlock& rays,
   bool anyHit, int first, BlockHits& hits)
@@ -244,7 +197,7 @@ HWY_INLINE void traceTwo(const LeafQuery& query, const WalkTarget& target, const
     {
       const Verdict verdict = meet(query, target, rays, anyHit, firstRay, leave, p, hits);
       p.dead = hn::Not(verdict.again);
-      const Lanes lost = advance(p, verdict.again, hn::IfThenElse(verdict.skip, skip, leave));
+      const Lanes lost = advance(p, p.dead, hn::IfThenElse(verdict.skip, skip, leave));
       find(target, p, lost);
       return hn::AllTrue(di, p.dead);
     };

@@ -30,6 +30,7 @@ struct ArrivedCells
   static constexpr int Most = RayBlock::Size + 16;
   int count = 0;
   HWY_ALIGN std::int32_t ray[Most];
+  HWY_ALIGN float t[Most];
   HWY_ALIGN std::int32_t node[Most];
   HWY_ALIGN std::int32_t before[Most]; // voxels before this one in the brick
   HWY_ALIGN std::int32_t x[Most];
@@ -37,20 +38,20 @@ struct ArrivedCells
   HWY_ALIGN std::int32_t z[Most];
 };
 
-/// Notes the cells where the lanes of `arrived` are. Lane i is ray first + i.
-HWY_INLINE void note(
-  const WalkTarget& target, const Packet& p, Lanes arrived, int first, ArrivedCells& cells)
+/// Notes the cells where the lanes of `arrived` are.
+HWY_INLINE void note(const Packet& p, Lanes arrived, ArrivedCells& cells)
 {
-  const DI di;
+  const LaneCompressor lanes(arrived);
   const int n = cells.count;
-  cells.count += static_cast<int>(hn::CountTrue(di, arrived));
+  cells.count += static_cast<int>(lanes.size());
   assert(cells.count <= RayBlock::Size);
-  hn::CompressStore(hn::Iota(di, first), arrived, di, cells.ray + n);
-  hn::CompressStore(p.node, arrived, di, cells.node + n);
-  hn::CompressStore(probe(target.nodes, p).below, arrived, di, cells.before + n);
-  hn::CompressStore(p.x, arrived, di, cells.x + n);
-  hn::CompressStore(p.y, arrived, di, cells.y + n);
-  hn::CompressStore(p.z, arrived, di, cells.z + n);
+  lanes.store(p.ray, cells.ray + n);
+  lanes.store(p.t, cells.t + n);
+  lanes.store(p.node, cells.node + n);
+  lanes.store(p.below, cells.before + n);
+  lanes.store(p.atX(), cells.x + n);
+  lanes.store(p.atY(), cells.y + n);
+  lanes.store(p.atZ(), cells.z + n);
 }
 
 /// Finds the places in their lists of a vector of cells at `at`, of which there are `count`.
@@ -60,15 +61,14 @@ HWY_INLINE void findPlaces(const WalkTarget& target, const ArrivedCells& cells,
   const DI di;
   const Lanes lanes = hn::Lt(hn::Iota(di, 0), hn::Set(di, count));
   const I index = hn::IfThenElseZero(lanes, hn::LoadU(di, at));
-  const auto gather = [&](const std::int32_t* from) { return hn::GatherIndex(di, from, index); };
-  const Lists lists = findLists(target, gather(cells.node), lanes);
-  hn::Store(
-    representatives(target, gather(cells.x), gather(cells.y), gather(cells.z), lists), di, places);
+  const auto of = [&](const std::int32_t* from) { return gather(di, from, index); };
+  const Lists lists = findLists(target, of(cells.node), lanes);
+  hn::Store(representatives(target, of(cells.x), of(cells.y), of(cells.z), lists), di, places);
 }
 
-/// Writes the representative triangle of each cell to its ray's place in `found`.
-HWY_INLINE void representatives(
-  const LeafQuery& query, const WalkTarget& target, const ArrivedCells& cells, Primitive* found)
+/// Writes the representative triangle of each cell to found[ray - first].
+HWY_INLINE void representatives(const LeafQuery& query, const WalkTarget& target,
+  const ArrivedCells& cells, int first, Primitive* found)
 {
   const Node* nodes = query.octree.nodes();
   const std::uint32_t* lists = query.octree.lists();
@@ -91,7 +91,7 @@ HWY_INLINE void representatives(
     const std::uint32_t reference = nodes[brick].first;
     if (reference & InlineTriangle)
     {
-      found[cells.ray[i]] = reference & ~InlineTriangle;
+      found[cells.ray[i] - first] = reference & ~InlineTriangle;
       continue;
     }
     const int place = target.kept ? target.kept->place(voxels[i]) : -1;
@@ -100,18 +100,19 @@ HWY_INLINE void representatives(
       unknown[unknowns++] = i;
       continue;
     }
-    found[cells.ray[i]] = lists[reference + 1 + static_cast<std::uint32_t>(place)];
+    found[cells.ray[i] - first] = lists[reference + 1 + static_cast<std::uint32_t>(place)];
   }
-  for (int first = 0; first < unknowns; first += n)
+  for (int begin = 0; begin < unknowns; begin += n)
   {
     HWY_ALIGN std::int32_t places[16];
-    const int count = std::min(n, unknowns - first);
-    findPlaces(target, cells, unknown + first, count, places);
+    const int count = std::min(n, unknowns - begin);
+    findPlaces(target, cells, unknown + begin, count, places);
     for (int k = 0; k < count; ++k)
     {
-      const int i = unknown[first + k];
+      const int i = unknown[begin + k];
       const auto brick = static_cast<std::uint32_t>(cells.node[i]);
-      found[cells.ray[i]] = lists[nodes[brick].first + 1 + static_cast<std::uint32_t>(places[k])];
+      found[cells.ray[i] - first] =
+        lists[nodes[brick].first + 1 + static_cast<std::uint32_t>(places[k])];
       if (target.kept)
       {
         target.kept->keep(voxels[i], places[k]);

@@ -59,7 +59,7 @@ HWY_INLINE Lists findLists(const WalkTarget& target, I node, Lanes lanes)
   const Lanes single = hn::Lt(reference, hn::Zero(di)); // InlineTriangle is the sign
   const I header = hn::IfThenZeroElse(single, hn::Add(reference, hn::Set(di, target.listBegin)));
   const auto* words = reinterpret_cast<const std::uint32_t*>(target.nodes);
-  const I listed = hn::BitCast(di, hn::GatherIndex(du, words, hn::IfThenElseZero(lanes, header)));
+  const I listed = hn::BitCast(di, gather(du, words, hn::IfThenElseZero(lanes, header)));
   const I one = hn::Set(di, 1);
   Lists lists;
   lists.words = hn::IfThenZeroElse(single, hn::Add(header, one));
@@ -82,7 +82,7 @@ HWY_INLINE I triangleId(const WalkTarget& target, const Lists& lists, int k, Lan
   const Lanes single = hn::Eq(lists.words, hn::Zero(di));
   const I index =
     hn::IfThenElseZero(hn::AndNot(single, lanes), hn::Add(lists.words, hn::Set(di, k)));
-  const I listed = hn::BitCast(di, hn::GatherIndex(du, words, index));
+  const I listed = hn::BitCast(di, gather(du, words, index));
   return hn::IfThenElseZero(lanes, hn::IfThenElse(single, lists.inlineId, listed));
 }
 
@@ -93,18 +93,18 @@ HWY_INLINE void gatherTriangle(const WalkTarget& target, I id, Vec3& a, Vec3& b,
   const DU du;
   const I three = hn::Set(di, 3);
   const I corner = hn::Mul(id, three);
-  const auto gather = [&](int k)
+  const auto corners = [&](int k)
   {
     const I at = hn::Add(corner, hn::Set(di, k));
-    const I point = hn::BitCast(di, hn::GatherIndex(du, target.triangles, at));
+    const I point = hn::BitCast(di, gather(du, target.triangles, at));
     const I x = hn::Mul(point, three);
-    return Vec3{ hn::GatherIndex(df, target.points, x),
-      hn::GatherIndex(df, target.points, hn::Add(x, hn::Set(di, 1))),
-      hn::GatherIndex(df, target.points, hn::Add(x, hn::Set(di, 2))) };
+    return Vec3{ gather(df, target.points, x),
+      gather(df, target.points, hn::Add(x, hn::Set(di, 1))),
+      gather(df, target.points, hn::Add(x, hn::Set(di, 2))) };
   };
-  a = gather(0);
-  b = gather(1);
-  c = gather(2);
+  a = corners(0);
+  b = corners(1);
+  c = corners(2);
 }
 
 /// Centres of the cells of 2^exponent at these positions.

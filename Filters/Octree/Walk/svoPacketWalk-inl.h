@@ -4,9 +4,11 @@
 //
 // A lane's position is kept as the bit patterns of its three octree coordinates. Those lie in
 // [1, 2), so the mantissa's upper bits are the integer coordinates of the cell at any level, and
-// leaving a cell is an integer addition. One turn of the loop probes the cell, descends into it if
-// it is occupied, else steps over it, and if that leaves the node looks the new node up in the
-// table of upper levels. Lanes that have arrived or died keep turning without effect.
+// leaving a cell is an integer addition. Where the direction is negative all bits are inverted, so
+// that positions grow along every ray and no operation has to ask for the direction's sign; what is
+// compared and computed stays the same to the bit. One turn of the loop probes the cell, descends
+// into it if it is occupied, else steps over it, and if that leaves the node looks the new node up
+// in the table of upper levels. Lanes that have arrived or died keep turning without effect.
 #if defined(SVO_PACKET_WALK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SVO_PACKET_WALK_INL
 #undef SVO_PACKET_WALK_INL
@@ -14,7 +16,10 @@
 #define SVO_PACKET_WALK_INL
 #endif
 
+#include "svoCounters.h"
 #include "svoIntersectBlock.h"
+#include "svoLaneNodes-inl.h"
+#include "svoMorton.h"
 #include "svoRay.h"
 
 #include <cassert>
@@ -31,14 +36,6 @@ namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using DF = hn::ScalableTag<float>;
-using DI = hn::ScalableTag<std::int32_t>;
-using DU = hn::ScalableTag<std::uint32_t>;
-using F = hn::Vec<DF>;
-using I = hn::Vec<DI>;
-using U = hn::Vec<DU>;
-using Lanes = hn::Mask<DI>;
-
 struct Packet
 {
   F ox, oy, oz;  // origin
@@ -48,116 +45,157 @@ struct Packet
   F tMin, tClip; // the part of the ray inside the cube
   F tMax;        // at most tClip: where the lane need not go beyond
   F t;           // where the lane entered the cell that it is in
-  I x, y, z;     // position, bit patterns of octree coordinates
+  I x, y, z;     // position, bit patterns of octree coordinates, mirrored by nx, ny, nz
+  I cellMirror;  // what that does to cellIndex(),
+  I tableMirror; // and to places in the table of upper levels
   I size;        // exponent of the node's cells, in mantissa bits
   I node;        // index; negative: the block is empty
+  I below;       // occupied cells of the node before the one that it was in at its last turn
+  I ray;         // of the block
   Lanes dead;    // left the cube or passed tMax
+
+  /// Positions as they are.
+  HWY_INLINE I atX() const { return hn::Xor(this->x, this->nx); }
+  HWY_INLINE I atY() const { return hn::Xor(this->y, this->ny); }
+  HWY_INLINE I atZ() const { return hn::Xor(this->z, this->nz); }
 };
 
-/// The bits of a 2-bit coordinate, two places apart, of cellIndex().
-HWY_INLINE I spreadCoordinate(I position, I size)
+/// cellIndex() of the cells of 2^p.size where the lanes are.
+HWY_INLINE I cellOf(const Packet& p)
 {
   const DI di;
-  const I v = hn::Shr(position, size);
-  return hn::Or(hn::And(v, hn::Set(di, 1)), hn::And(hn::ShiftLeft<2>(v), hn::Set(di, 8)));
+  const hn::Repartition<std::uint8_t, DI> bytes;
+  // What x and y give, and what z gives; the lanes' upper bytes are 0 and stay it.
+  alignas(16) constexpr std::uint8_t fromXY[16] = { 0, 1, 8, 9, 2, 3, 10, 11, 16, 17, 24, 25, 18,
+    19, 26, 27 };
+  alignas(16) constexpr std::uint8_t fromZ[16] = { 0, 4, 32, 36 };
+  const auto part = [&](I position) { return hn::And(hn::Shr(position, p.size), hn::Set(di, 3)); };
+  const auto look = [&](const std::uint8_t* table, I index)
+  {
+    return hn::BitCast(
+      di, hn::TableLookupBytes(hn::LoadDup128(bytes, table), hn::BitCast(bytes, index)));
+  };
+  const I xy = hn::Or(part(p.x), hn::ShiftLeft<2>(part(p.y)));
+  return hn::Xor(hn::Or(look(fromXY, xy), look(fromZ, part(p.z))), p.cellMirror);
 }
 
-/// What a lane sees where it is: hasChild(), groupCells() and childrenBefore() of svoNode.h.
+/// What a lane sees where it is: hasChild(), groupCells() and child() of svoNode.h.
 struct Probe
 {
   Lanes nothing; // the whole block is empty
   Lanes occupied;
-  Lanes group; // the group of eight cells has any
-  I below;     // occupied cells before this one in the node
+  Lanes gap; // nor has the group of eight cells any
+  I below;   // occupied cells before this one in the node
+  I first;   // the node's first child
 };
 
 HWY_INLINE Probe probe(const std::uint64_t* nodes, const Packet& p)
 {
   const DI di;
   const DU du;
-  const I cell =
-    hn::Or(hn::Or(spreadCoordinate(p.x, p.size), hn::ShiftLeft<1>(spreadCoordinate(p.y, p.size))),
-      hn::ShiftLeft<2>(spreadCoordinate(p.z, p.size)));
-  // An empty block has no node to look at; any will do.
-  const I index = hn::ShiftLeft<2>(hn::Max(p.node, hn::Zero(di)));
-  const auto* words = reinterpret_cast<const std::uint32_t*>(nodes);
-  const U low = hn::GatherIndex(du, words, index);
-  const U high = hn::GatherIndex(du, words + 1, index);
-  const auto upper = hn::Gt(cell, hn::Set(di, 31));
-  const U half = hn::IfThenElse(hn::RebindMask(du, upper), high, low);
+  const LaneNodes node = loadNodes(nodes, p.node);
+  const I cell = cellOf(p);
+  const auto upper = hn::RebindMask(du, hn::Gt(cell, hn::Set(di, 31)));
+  const U half = hn::IfThenElse(upper, node.high, node.low);
   const U at = hn::BitCast(du, hn::And(cell, hn::Set(di, 31)));
   const U bit = hn::Shl(hn::Set(du, 1), at);
   const U group = hn::And(hn::Shr(half, hn::And(at, hn::Set(du, 24))), hn::Set(du, 255));
-  const U lower = hn::PopulationCount(hn::And(half, hn::Sub(bit, hn::Set(du, 1))));
-  const U before = hn::IfThenElseZero(hn::RebindMask(du, upper), hn::PopulationCount(low));
   Probe result;
   result.nothing = hn::Lt(p.node, hn::Zero(di));
-  result.occupied =
-    hn::AndNot(result.nothing, hn::RebindMask(di, hn::Ne(hn::And(half, bit), hn::Zero(du))));
-  result.group = hn::AndNot(result.nothing, hn::RebindMask(di, hn::Ne(group, hn::Zero(du))));
-  result.below = hn::BitCast(di, hn::Add(lower, before));
+  result.occupied = hn::AndNot(result.nothing, hn::RebindMask(di, hn::Eq(hn::And(half, bit), bit)));
+  result.gap = hn::Or(result.nothing, hn::RebindMask(di, hn::Eq(group, hn::Zero(du))));
+  result.below = hn::BitCast(di,
+    countBoth(hn::And(half, hn::Sub(bit, hn::Set(du, 1))), hn::IfThenElseZero(upper, node.low)));
+  result.first = hn::BitCast(di, node.first);
   return result;
+}
+
+/// -v where `negative` is -1, v where it is 0: `there` - 1, inverted, is as much as -there, and the
+/// face of a mirrored end, which is inverted, is its inverse + 1.
+HWY_INLINE I turned(I v, I negative)
+{
+#if HWY_TARGET == HWY_AVX2
+  return I{ _mm256_sign_epi32(v.raw, hn::Or(negative, hn::Set(DI(), 1)).raw) };
+#else
+  return hn::Sub(hn::Xor(v, negative), negative);
+#endif
+}
+
+/// The plane, along one axis, through which lanes leave their cells: `end` is the mirrored position
+/// behind it.
+HWY_INLINE F faceAt(I end, I negative)
+{
+  return hn::BitCast(DF(), turned(end, negative));
 }
 
 /// Where the lanes leave the cell of 2^exponent that they are in.
 HWY_INLINE F exitOf(const Packet& p, I exponent)
 {
-  const DF df;
   const DI di;
-  const I size = hn::Shl(hn::Set(di, 1), exponent);
-  const I inside = hn::Sub(size, hn::Set(di, 1));
-  const auto face = [&](F o, F inverse, I negative, I position)
-  {
-    const I at = hn::Add(hn::AndNot(inside, position), hn::AndNot(negative, size));
-    return hn::Mul(hn::Sub(hn::BitCast(df, at), o), inverse);
+  const I one = hn::Set(di, 1);
+  const I inside = hn::Sub(hn::Shl(one, exponent), one);
+  const auto face = [&](F o, F inverse, I negative, I position) {
+    return hn::Mul(hn::Sub(faceAt(hn::Add(hn::Or(position, inside), one), negative), o), inverse);
   };
   const F t = hn::Min(
     hn::Min(face(p.ox, p.ix, p.nx, p.x), face(p.oy, p.iy, p.ny, p.y)), face(p.oz, p.iz, p.nz, p.z));
   return hn::Max(p.t, t);
 }
 
-/// Moves the lanes of `step` over the cell of 2^exponent that they are in, exactly as walk() of
-/// svoTraverse.h does. Returns those that left their node.
-HWY_INLINE Lanes advance(Packet& p, Lanes step, I exponent)
+HWY_INLINE F notANumberWhere(Lanes lanes, F v)
+{
+  const DF df;
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  return hn::IfThenElse(
+    hn::RebindMask(df, lanes), hn::Set(df, std::numeric_limits<float>::quiet_NaN()), v);
+#else
+  return hn::Or(v, hn::VecFromMask(df, hn::RebindMask(df, lanes))); // all bits set
+#endif
+}
+
+/// Moves the lanes but those of `stays` over the cell of 2^exponent that they are in, exactly as
+/// walk() of svoTraverse.h does. Returns those that left their node.
+HWY_INLINE Lanes advance(Packet& p, Lanes stays, I exponent)
 {
   const DF df;
   const DI di;
-  const I size = hn::Shl(hn::Set(di, 1), exponent);
-  const I inside = hn::Sub(size, hn::Set(di, 1));
-  const I lowX = hn::AndNot(inside, p.x);
-  const I lowY = hn::AndNot(inside, p.y);
-  const I lowZ = hn::AndNot(inside, p.z);
-  const I faceX = hn::Add(lowX, hn::AndNot(p.nx, size));
-  const I faceY = hn::Add(lowY, hn::AndNot(p.ny, size));
-  const I faceZ = hn::Add(lowZ, hn::AndNot(p.nz, size));
-  const F tx = hn::Mul(hn::Sub(hn::BitCast(df, faceX), p.ox), p.ix);
-  const F ty = hn::Mul(hn::Sub(hn::BitCast(df, faceY), p.oy), p.iy);
-  const F tz = hn::Mul(hn::Sub(hn::BitCast(df, faceZ), p.oz), p.iz);
-  const F tExit = hn::Min(hn::Min(tx, ty), tz);
-  const F t = hn::Max(p.t, tExit);
-  // On a face the ray is in the cell that it heads for, hence `negative`; between the faces it
+  const I one = hn::Set(di, 1);
+  // A lane that does not step is in a cell of its own position alone, which it does not leave.
+  const I inside = hn::IfThenZeroElse(stays, hn::Sub(hn::Shl(one, exponent), one));
+  const I lastX = hn::Or(p.x, inside);
+  const I lastY = hn::Or(p.y, inside);
+  const I lastZ = hn::Or(p.z, inside);
+  const I endX = hn::Add(lastX, one);
+  const I endY = hn::Add(lastY, one);
+  const I endZ = hn::Add(lastZ, one);
+  const F tx = hn::Mul(hn::Sub(faceAt(endX, p.nx), p.ox), p.ix);
+  const F ty = hn::Mul(hn::Sub(faceAt(endY, p.ny), p.oy), p.iy);
+  const F tz = hn::Mul(hn::Sub(faceAt(endZ, p.nz), p.oz), p.iz);
+  const F tFirst = hn::Min(hn::Min(tx, ty), tz);
+  // Not a number, which is equal to nothing and greater than nothing. Of such, x86's maximum is its
+  // second operand.
+  const F tExit = notANumberWhere(stays, tFirst);
+  const F t = hn::Max(tExit, p.t);
+  // On a face the ray is in the cell that it heads for, hence turned(); between the faces it
   // stays between them, and never turns back.
-  const auto move = [&](F o, F d, F tFace, I low, I face, I negative, I position)
+  const auto move = [&](F o, F d, F tFace, I position, I last, I end, I negative)
   {
-    const I there = hn::Add(hn::BitCast(di, hn::Add(o, hn::Mul(t, d))), negative);
-    const I lower = hn::IfVecThenElse(negative, low, position);
-    const I upper = hn::IfVecThenElse(negative, position, hn::Or(low, inside));
-    const I stays = hn::Min(hn::Max(there, lower), upper);
-    const Lanes leaves = hn::RebindMask(di, hn::Eq(tFace, tExit));
-    return hn::IfThenElse(step, hn::IfThenElse(leaves, hn::Add(face, negative), stays), position);
+    const I there = turned(hn::BitCast(di, hn::Add(o, hn::Mul(t, d))), negative);
+    const I between = hn::Min(hn::Max(there, position), last);
+    return hn::IfThenElse(hn::RebindMask(di, hn::Eq(tFace, tExit)), end, between);
   };
-  const I x = move(p.ox, p.dx, tx, lowX, faceX, p.nx, p.x);
-  const I y = move(p.oy, p.dy, ty, lowY, faceY, p.ny, p.y);
-  const I z = move(p.oz, p.dz, tz, lowZ, faceZ, p.nz, p.z);
+  const I x = move(p.ox, p.dx, tx, p.x, lastX, endX, p.nx);
+  const I y = move(p.oy, p.dy, ty, p.y, lastY, endY, p.ny);
+  const I z = move(p.oz, p.dz, tz, p.z, lastZ, endZ, p.nz);
   const I changed = hn::Or(hn::Or(hn::Xor(x, p.x), hn::Xor(y, p.y)), hn::Xor(z, p.z));
   p.x = x;
   p.y = y;
   p.z = z;
-  p.t = hn::IfThenElse(hn::RebindMask(df, step), t, p.t);
+  p.t = t;
   const Lanes past = hn::RebindMask(di, hn::Gt(tExit, p.tMax));
   const Lanes outside = hn::Gt(changed, hn::Set(di, (1 << MantissaBits) - 1));
-  p.dead = hn::Or(p.dead, hn::And(step, hn::Or(past, outside)));
-  return hn::Ne(hn::Shr(changed, hn::Add(p.size, hn::Set(di, 2))), hn::Zero(di));
+  p.dead = hn::Or(p.dead, hn::Or(past, outside));
+  return hn::Gt(hn::Shr(changed, hn::Add(p.size, hn::Set(di, 2))), hn::Zero(di));
 }
 
 /// Looks up the nodes of the lanes of `lost`.
@@ -165,14 +203,17 @@ HWY_INLINE void find(const WalkTarget& target, Packet& p, Lanes lost)
 {
   const DI di;
   const DU du;
-  const I shift = hn::Set(di, MantissaBits - target.tableBits);
-  const I edge = hn::Set(di, (1 << target.tableBits) - 1);
-  const I tx = hn::And(hn::Shr(p.x, shift), edge);
-  const I ty = hn::And(hn::Shr(p.y, shift), edge);
-  const I tz = hn::And(hn::Shr(p.z, shift), edge);
-  const I bits = hn::Set(di, target.tableBits);
-  const I index = hn::Or(tx, hn::Shl(hn::Or(ty, hn::Shl(tz, bits)), bits));
-  const I entry = hn::BitCast(di, hn::GatherIndex(du, target.table, index));
+  const int bits = target.tableBits;
+  const int edge = (1 << bits) - 1;
+  // The uppermost bits of each coordinate, brought to where they are in the index at once.
+  const auto part = [&](I position, int axis)
+  {
+    const I there = hn::Shr(position, hn::Set(di, MantissaBits - (axis + 1) * bits));
+    return hn::And(there, hn::Set(di, edge << (axis * bits)));
+  };
+  const I mirrored = hn::Or(hn::Or(part(p.x, 0), part(p.y, 1)), part(p.z, 2));
+  const I index = hn::Xor(mirrored, p.tableMirror);
+  const I entry = hn::BitCast(di, gather(du, target.table, index));
   const I size = hn::And(entry, hn::Set(di, 31));
   // The sign of an empty entry stays: any negative index says so.
   p.size = hn::IfThenElse(lost, size, p.size);
@@ -186,7 +227,7 @@ HWY_INLINE I firstChild(const std::uint64_t* nodes, I node)
   const DU du;
   const auto* words = reinterpret_cast<const std::uint32_t*>(nodes);
   const I index = hn::ShiftLeft<2>(hn::Max(node, hn::Zero(di)));
-  return hn::BitCast(di, hn::GatherIndex(du, words + 2, index));
+  return hn::BitCast(di, gather(du, words + 2, index));
 }
 
 /// One turn. Returns the lanes that are still under way.
@@ -197,19 +238,27 @@ HWY_INLINE Lanes turn(const WalkTarget& target, Packet& p)
   const Probe seen = probe(target.nodes, p);
   const Lanes bottom = hn::Eq(p.size, hn::Set(di, target.stopSize));
   // An empty group of eight, or a whole empty block, is left at once.
-  const I beyond = hn::IfThenElse(seen.nothing, hn::Set(di, 2), hn::Set(di, 1));
-  const I exponent = hn::Add(p.size, hn::IfThenZeroElse(seen.group, beyond));
+  const I beyond = hn::Sub(hn::Set(di, 1), hn::VecFromMask(di, seen.nothing));
+  const I exponent = hn::Add(p.size, hn::IfThenElseZero(seen.gap, beyond));
   const Lanes occupied =
-    Groups ? hn::Or(seen.occupied, hn::And(bottom, seen.group)) : seen.occupied;
+    Groups ? hn::Or(seen.occupied, hn::AndNot(seen.gap, bottom)) : seen.occupied;
   const Lanes still = hn::Or(hn::And(occupied, bottom), p.dead);
-  const Lanes step = hn::Not(hn::Or(occupied, p.dead));
   const Lanes descend = hn::AndNot(still, occupied);
-  const I child = hn::Add(firstChild(target.nodes, p.node), seen.below);
-  const Lanes lost = advance(p, step, exponent);
+  const I child = hn::Add(seen.first, seen.below);
+  const Lanes lost = advance(p, hn::Or(occupied, p.dead), exponent);
+  p.below = seen.below;
   p.node = hn::IfThenElse(descend, child, p.node);
-  p.size = hn::IfThenElse(descend, hn::Sub(p.size, hn::Set(di, 2)), p.size);
+  p.size = hn::Sub(p.size, hn::IfThenElseZero(descend, hn::Set(di, 2)));
   find(target, p, lost);
   return hn::Not(hn::Or(still, p.dead));
+}
+
+/// Counts a turn of two packets, of which these lanes are under way.
+HWY_INLINE void countTurn([[maybe_unused]] Lanes first, [[maybe_unused]] Lanes second)
+{
+  SVO_COUNT(NodesVisited, hn::CountTrue(DI(), first) + hn::CountTrue(DI(), second));
+  SVO_COUNT(
+    IdleLanes, 2 * hn::Lanes(DI()) - hn::CountTrue(DI(), first) - hn::CountTrue(DI(), second));
 }
 
 /// Clips the rays to the octree's cube, exactly as clip() of svoTraverse.h does, and puts every
@@ -268,18 +317,29 @@ HWY_INLINE Packet makePacket(const WalkTarget& target, const RayBlock& rays, int
   const auto enter = [&](F o, F d, I negative)
   {
     const I there = hn::Add(hn::BitCast(di, hn::Add(o, hn::Mul(tMin, d))), negative);
-    return hn::Min(hn::Max(there, low), last);
+    return hn::Xor(hn::Min(hn::Max(there, low), last), negative);
   };
   p.x = enter(p.ox, p.dx, p.nx);
   p.y = enter(p.oy, p.dy, p.ny);
   p.z = enter(p.oz, p.dz, p.nz);
+  const auto mirror = [&](int x, int y, int z)
+  {
+    return hn::Or(hn::Or(hn::And(p.nx, hn::Set(di, x)), hn::And(p.ny, hn::Set(di, y))),
+      hn::And(p.nz, hn::Set(di, z)));
+  };
+  p.cellMirror = mirror(cellIndex(3, 0, 0), cellIndex(0, 3, 0), cellIndex(0, 0, 3));
+  const int bits = target.tableBits;
+  const int edge = (1 << bits) - 1;
+  p.tableMirror = mirror(edge, edge << bits, edge << (2 * bits));
+  p.below = hn::Zero(di);
+  p.ray = hn::Iota(di, first);
   p.node = hn::Zero(di);
   p.size = hn::Zero(di);
   find(target, p, hn::Eq(p.node, p.node));
   // Every lane, dead or not, is inside the cube and has a size to turn with.
-  assert(hn::AllTrue(di, hn::Eq(hn::ShiftRight<MantissaBits>(p.x), hn::Set(di, 127))));
-  assert(hn::AllTrue(di, hn::Eq(hn::ShiftRight<MantissaBits>(p.y), hn::Set(di, 127))));
-  assert(hn::AllTrue(di, hn::Eq(hn::ShiftRight<MantissaBits>(p.z), hn::Set(di, 127))));
+  assert(hn::AllTrue(di, hn::Eq(hn::ShiftRight<MantissaBits>(p.atX()), hn::Set(di, 127))));
+  assert(hn::AllTrue(di, hn::Eq(hn::ShiftRight<MantissaBits>(p.atY()), hn::Set(di, 127))));
+  assert(hn::AllTrue(di, hn::Eq(hn::ShiftRight<MantissaBits>(p.atZ()), hn::Set(di, 127))));
   assert(hn::AllFalse(di, hn::Lt(p.size, hn::Set(di, target.stopSize))));
   return p;
 }

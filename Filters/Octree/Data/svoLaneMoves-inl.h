@@ -1,0 +1,109 @@
+// Loads and stores of single lanes, where Highway's own are slow.
+//
+// A gather of AVX-512 reads the register that it writes to: lanes that are masked out keep what was
+// there. GatherIndex() leaves the choice of that register to the compiler. No lane is masked out,
+// but the processor waits all the same for whatever was computed there last, and code that is laid
+// out to have two computations side by side has them one after the other. A register that was just
+// cleared has nothing to wait for.
+//
+// CompressStore() of AVX2 copies its table of a kilobyte to the stack whenever it is called.
+#if defined(SVO_LANE_MOVES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SVO_LANE_MOVES_INL
+#undef SVO_LANE_MOVES_INL
+#else
+#define SVO_LANE_MOVES_INL
+#endif
+
+#include "svoCompressTable.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace svo
+{
+namespace HWY_NAMESPACE
+{
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// base[index] of every lane; T has 32 bits.
+template <class D, class T = hn::TFromD<D>>
+HWY_INLINE hn::Vec<D> gather(D d, const T* base, hn::Vec<hn::RebindToSigned<D>> index)
+{
+  static_assert(sizeof(T) == 4);
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  if constexpr (hn::MaxLanes(D()) == 16)
+  {
+    const hn::RebindToSigned<D> di;
+    const __m512i cleared = _mm512_setzero_si512();
+    __mmask16 all = 0xffff;
+    asm("" : "+Yk"(all)); // a compiler that knew what it is would drop `cleared`
+    return hn::BitCast(
+      d, hn::Vec<decltype(di)>{ _mm512_mask_i32gather_epi32(cleared, all, index.raw, base, 4) });
+  }
+#endif
+  return hn::GatherIndex(d, base, index);
+}
+
+/// A mask as bits, lane 0 lowest.
+template <class D>
+HWY_INLINE std::uint32_t maskBits(D d, hn::Mask<D> lanes)
+{
+  HWY_ALIGN std::uint8_t bytes[8] = {}; // as many as StoreMaskBits() may write
+  hn::StoreMaskBits(d, lanes, bytes);
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+}
+
+/// Stores lanes of several vectors one behind the other.
+class LaneCompressor
+{
+public:
+  using DI = hn::ScalableTag<std::int32_t>;
+
+  HWY_INLINE explicit LaneCompressor(hn::Mask<DI> lanes)
+    : lanes(lanes)
+    , count(hn::CountTrue(DI(), lanes))
+#if HWY_TARGET == HWY_AVX2
+    , order(hn::Shr(
+        hn::Set(DI(), CompressTable[maskBits(DI(), lanes)]), hn::ShiftLeft<2>(hn::Iota(DI(), 0))))
+#endif
+  {
+  }
+
+  std::size_t size() const
+  {
+    return this->count;
+  }
+
+  /// Writes a whole vector, of which the lanes are the first.
+  template <class V, class T>
+  HWY_INLINE void store(V values, T* to) const
+  {
+    const hn::DFromV<V> d;
+#if HWY_TARGET == HWY_AVX2
+    const DI di;
+    const auto raw = hn::BitCast(di, values);
+    hn::StoreU(
+      hn::BitCast(d, hn::Vec<DI>{ _mm256_permutevar8x32_epi32(raw.raw, this->order.raw) }), d, to);
+#else
+    hn::CompressStore(values, hn::RebindMask(d, this->lanes), d, to);
+#endif
+  }
+
+private:
+  hn::Mask<DI> lanes;
+  std::size_t count;
+#if HWY_TARGET == HWY_AVX2
+  hn::Vec<DI> order; // each lane's source in its lowest three bits; the others do not count
+#endif
+};
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#endif

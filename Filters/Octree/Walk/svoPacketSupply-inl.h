@@ -1,0 +1,117 @@
+// Rays that wait for a lane.
+//
+// The rays of a packet walk differently far, and a block has more rays than two packets have lanes.
+// So lanes whose rays have arrived or died take the block's next ones: not one by one, since each
+// exchange costs about as much as half a turn, but when a packet has several of them.
+#if defined(SVO_PACKET_SUPPLY_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SVO_PACKET_SUPPLY_INL
+#undef SVO_PACKET_SUPPLY_INL
+#else
+#define SVO_PACKET_SUPPLY_INL
+#endif
+
+#include "svoPacketWalk-inl.h"
+
+#include <cassert>
+#include <cstdint>
+#include <type_traits>
+
+#if HWY_TARGET != HWY_SCALAR
+HWY_BEFORE_NAMESPACE();
+namespace svo
+{
+namespace HWY_NAMESPACE
+{
+/// The rays of a block from one on, each ready to walk.
+struct RaySupply
+{
+  static constexpr int Parts = 23; // of a packet, see forEachPart()
+  static constexpr int Width = hn::MaxLanes(DI());
+
+  HWY_INLINE RaySupply(const WalkTarget& target, const RayBlock& rays, int first)
+    : next(first)
+  {
+    for (int ray = first; ray < RayBlock::Size; ray += Width)
+    {
+      Packet p = makePacket(target, rays, ray);
+      this->keep(p, ray);
+    }
+    // Who takes more rays than there are gets dead ones.
+    Packet none = makePacket(target, rays, RayBlock::Size - Width);
+    none.dead = hn::Eq(none.ray, none.ray);
+    this->keep(none, RayBlock::Size);
+  }
+
+  bool empty() const { return this->next >= RayBlock::Size; }
+
+  /// Puts the next rays into these lanes of a packet.
+  HWY_INLINE void take(Packet& p, Lanes lanes)
+  {
+    const DF df;
+    const DI di;
+    const DU du;
+    assert(!this->empty());
+    // Each lane takes the ray behind those of the lanes before it.
+    const std::uint32_t bits = maskBits(di, lanes);
+    const U before = hn::Sub(hn::Shl(hn::Set(du, 1), hn::Iota(du, 0)), hn::Set(du, 1));
+    const I place = hn::BitCast(di, countBoth(hn::And(hn::Set(du, bits), before), hn::Zero(du)));
+    const auto index = hn::IndicesFromVec(df, place);
+    forEachPart(p,
+      [&](int k, auto& part)
+      {
+        const hn::DFromV<std::decay_t<decltype(part)>> d;
+        const F fresh = hn::TableLookupLanes(hn::LoadU(df, this->parts[k] + this->next), index);
+        part = hn::IfThenElse(hn::RebindMask(d, lanes), hn::BitCast(d, fresh), part);
+      });
+    this->next += static_cast<int>(hn::CountTrue(di, lanes));
+  }
+
+private:
+  /// Calls visit(k, part) for all that a ray takes with it into another lane.
+  template <class Visit>
+  static HWY_INLINE void forEachPart(Packet& p, const Visit& visit)
+  {
+    const DI di;
+    I dead = hn::VecFromMask(di, p.dead);
+    visit(0, p.ox);
+    visit(1, p.oy);
+    visit(2, p.oz);
+    visit(3, p.dx);
+    visit(4, p.dy);
+    visit(5, p.dz);
+    visit(6, p.ix);
+    visit(7, p.iy);
+    visit(8, p.iz);
+    visit(9, p.nx);
+    visit(10, p.ny);
+    visit(11, p.nz);
+    visit(12, p.tMax);
+    visit(13, p.t);
+    visit(14, p.x);
+    visit(15, p.y);
+    visit(16, p.z);
+    visit(17, p.cellMirror);
+    visit(18, p.tableMirror);
+    visit(19, p.size);
+    visit(20, p.node);
+    visit(21, p.ray);
+    visit(22, dead);
+    p.dead = hn::Lt(dead, hn::Zero(di));
+  }
+
+  HWY_INLINE void keep(Packet& p, int ray)
+  {
+    const DF df;
+    forEachPart(
+      p, [&](int k, auto& part) { hn::StoreU(hn::BitCast(df, part), df, this->parts[k] + ray); });
+  }
+
+  int next;
+  HWY_ALIGN float parts[Parts][RayBlock::Size + Width];
+};
+}
+}
+HWY_AFTER_NAMESPACE();
+#endif
+
+#endif
