@@ -6,7 +6,8 @@
 // out to have two computations side by side has them one after the other. A register that was just
 // cleared has nothing to wait for.
 //
-// CompressStore() of AVX2 copies its table of a kilobyte to the stack whenever it is called.
+// Compress() copies a table to the stack whenever it is called where there is no instruction for
+// it.
 #if defined(SVO_LANE_MOVES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SVO_LANE_MOVES_INL
 #undef SVO_LANE_MOVES_INL
@@ -59,20 +60,30 @@ HWY_INLINE std::uint32_t maskBits(D d, hn::Mask<D> lanes)
   return bits;
 }
 
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
+#define SVO_COMPRESS_BY_TABLE 1
+#else
+#define SVO_COMPRESS_BY_TABLE 0
+#endif
+
 /// Stores lanes of several vectors one behind the other.
 class LaneCompressor
 {
 public:
   using DI = hn::ScalableTag<std::int32_t>;
 
-  HWY_INLINE explicit LaneCompressor(hn::Mask<DI> lanes)
-    : lanes(lanes)
-    , count(hn::CountTrue(DI(), lanes))
-#if HWY_TARGET == HWY_AVX2
-    , order(hn::Shr(
-        hn::Set(DI(), CompressTable[maskBits(DI(), lanes)]), hn::ShiftLeft<2>(hn::Iota(DI(), 0))))
+  template <class M>
+  HWY_INLINE explicit LaneCompressor(M mask)
+    : lanes(hn::RebindMask(DI(), mask))
+    , count(hn::CountTrue(DI(), this->lanes))
+#if SVO_COMPRESS_BY_TABLE
+    , order(hn::Shr(hn::Set(DI(), CompressTable[maskBits(DI(), this->lanes)]),
+        hn::ShiftLeft<2>(hn::Iota(DI(), 0))))
 #endif
   {
+#if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
+    this->order = hn::And(this->order, hn::Set(DI(), 3));
+#endif
   }
 
   std::size_t size() const
@@ -80,26 +91,28 @@ public:
     return this->count;
   }
 
-  /// Writes a whole vector, of which the lanes are the first.
+  /// Writes a whole vector of 32-bit numbers, of which the lanes are the first.
   template <class V, class T>
   HWY_INLINE void store(V values, T* to) const
   {
     const hn::DFromV<V> d;
+    static_assert(sizeof(T) == 4);
 #if HWY_TARGET == HWY_AVX2
-    const DI di;
-    const auto raw = hn::BitCast(di, values);
+    const auto raw = hn::BitCast(DI(), values).raw;
     hn::StoreU(
-      hn::BitCast(d, hn::Vec<DI>{ _mm256_permutevar8x32_epi32(raw.raw, this->order.raw) }), d, to);
+      hn::BitCast(d, hn::Vec<DI>{ _mm256_permutevar8x32_epi32(raw, this->order.raw) }), d, to);
+#elif SVO_COMPRESS_BY_TABLE
+    hn::StoreU(hn::TableLookupLanes(values, hn::IndicesFromVec(d, this->order)), d, to);
 #else
-    hn::CompressStore(values, hn::RebindMask(d, this->lanes), d, to);
+    hn::StoreU(hn::Compress(values, hn::RebindMask(d, this->lanes)), d, to);
 #endif
   }
 
 private:
   hn::Mask<DI> lanes;
   std::size_t count;
-#if HWY_TARGET == HWY_AVX2
-  hn::Vec<DI> order; // each lane's source in its lowest three bits; the others do not count
+#if SVO_COMPRESS_BY_TABLE
+  hn::Vec<DI> order; // each lane's source, in the bits that say which
 #endif
 };
 }

@@ -25,7 +25,7 @@
 #define HWY_TARGET_INCLUDE "svoReadyTriangles.cxx"
 #include <hwy/foreach_target.h>
 
-#include "svoPackLanes-inl.h"
+#include "svoLaneMoves-inl.h"
 #include "svoReadyTriangles.h"
 #include "svoSmallTriangles-inl.h"
 
@@ -129,7 +129,7 @@ HWY_INLINE void storeSlots(const ReadyLanes& t, hn::Mask<DF> mask, I triangle, s
   TriangleGroup::Slots& slots)
 {
   const DI di;
-  const LanePacker pack(SetBits::get(), mask);
+  const LaneCompressor pack(mask);
   const auto store = [&](F v, std::vector<float>& array)
   { pack.store(v, array.data() + slots.count); };
   for (int e = 0; e < 3; ++e)
@@ -161,7 +161,7 @@ HWY_INLINE void storeSlots(const ReadyLanes& t, hn::Mask<DF> mask, I triangle, s
   storeI(flags, slots.flags);
   storeI(triangle, slots.id);
   storeI(hn::Set(di, static_cast<std::int32_t>(owner)), slots.owner);
-  slots.count += pack.count;
+  slots.count += pack.size();
 }
 
 /// Asks for the corners of as many triangles as there are lanes, so that they are there when they
@@ -191,7 +191,6 @@ void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t cou
   constexpr std::size_t Ahead = 2;           // vectors
   slots.makeRoom(slots.count + count + hn::Lanes(df));
   slots.crossingCount = 0;
-  const SetBits& bits = SetBits::get();
   for (std::size_t first = 0; first < count; first += hn::Lanes(df))
   {
     fetchCorners(surface, ids + first + Ahead * hn::Lanes(df), ids + count);
@@ -218,9 +217,9 @@ void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t cou
     if (!hn::AllFalse(df, unknown))
     {
       const auto crossing = hn::AndNot(beside(view, a, b, c), unknown);
-      const LanePacker pack(bits, crossing);
+      const LaneCompressor pack(crossing);
       pack.store(triangle, slots.crossing.data() + slots.crossingCount);
-      slots.crossingCount += pack.count;
+      slots.crossingCount += pack.size();
     }
     const F nearest = most(ai, bi, ci);
     const F shift =

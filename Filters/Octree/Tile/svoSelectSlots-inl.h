@@ -6,7 +6,7 @@
 #define SVO_SELECT_SLOTS_INL
 #endif
 
-#include "svoPackLanes-inl.h"
+#include "svoLaneMoves-inl.h"
 #include "svoTriangleGroup.h"
 
 #include <algorithm>
@@ -51,7 +51,6 @@ std::size_t selectSlots(
   const F half = hn::Set(df, HalfTile);
   const I tile = hn::Set(di, 1 << (GroupView::Tiles * row + column));
   const I thin = hn::Set(di, TriangleGroup::Thin);
-  const SetBits& bits = SetBits::get();
   std::size_t count = 0;
   for (std::size_t s = 0; s < slots.count; s += hn::Lanes(df))
   {
@@ -84,10 +83,10 @@ std::size_t selectSlots(
     // What is not a number comes first.
     const F known =
       hn::IfThenElse(hn::Eq(key, key), key, hn::Set(df, -std::numeric_limits<float>::infinity()));
-    const LanePacker pack(bits, mine);
+    const LaneCompressor pack(mine);
     pack.store(known, keys + count);
     pack.store(hn::Iota(di, static_cast<std::int32_t>(s)), selected + count);
-    count += pack.count;
+    count += pack.size();
   }
   return count;
 }

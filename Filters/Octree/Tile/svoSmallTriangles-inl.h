@@ -9,7 +9,7 @@
 #endif
 
 #include "svoGroupPixels.h"
-#include "svoPackLanes-inl.h"
+#include "svoLaneMoves-inl.h"
 
 #include <limits>
 
@@ -70,7 +70,6 @@ HWY_INLINE void drawSmall(const ReadyLanes& t, ReadyLanes::M mask,
   const float columns = most(width), rows = most(height);
   points.makeRoom(points.count +
     static_cast<std::size_t>((columns + 1.0f) * (rows + 1.0f) + 1.0f) * hn::Lanes(df));
-  const SetBits& bits = SetBits::get();
   for (float r = 0.0f; r <= rows; r += 1.0f)
   {
     const F row = hn::Set(df, r);
@@ -108,12 +107,12 @@ HWY_INLINE void drawSmall(const ReadyLanes& t, ReadyLanes::M mask,
       const auto pixel = hn::ConvertTo(di,
         hn::MulAdd(hn::Set(df, static_cast<float>(GroupView::Pixels)), hn::Add(t.py0, row),
           hn::Add(t.px0, column)));
-      const LanePacker pack(bits, maybe);
+      const LaneCompressor pack(maybe);
       pack.store(pixel, points.pixel.data() + points.count);
       pack.store(low, points.low.data() + points.count);
       pack.store(hn::IfThenElse(surely, high, infinity), points.high.data() + points.count);
       pack.store(named, points.triangle.data() + points.count);
-      points.count += pack.count;
+      points.count += pack.size();
     }
   }
 }
