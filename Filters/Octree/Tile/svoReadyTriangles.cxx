@@ -274,7 +274,6 @@ void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t cou
     const F perArea = hn::Div(one, area);
     const F share = hn::Mul(hn::Set(df, 3.0f), hn::Abs(hn::Mul(doubt, perArea)));
     const F toKey = hn::Mul(scale, nearest); // of a depth; squared: of a change of depth
-    const F farthest = hn::Mul(scale, least(ai, bi, ci));
     const F largest = most(hn::Abs(a.k), hn::Abs(b.k), hn::Abs(c.k));
     const F ofCorners = hn::Mul(toKey,
       hn::MulAdd(
@@ -293,7 +292,23 @@ void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t cou
     ready.kNear = hn::Set(df, view.kNear);
     ready.kFar = hn::Set(df, view.kFar);
 
-    // What else there is to know.
+    // What else there is to know. Errors of keys are larger ones of depths where it is deeper: hits
+    // lie in the box of pixels, over which 1 / w is as linear, and as well known, as the key.
+    const F wb = hn::Mul(hn::Sub(bi, ai), perArea), wc = hn::Mul(hn::Sub(ci, ai), perArea);
+    const F wx = hn::MulAdd(bex, wb, hn::Mul(cex, wc));
+    const F wy = hn::MulAdd(bey, wb, hn::Mul(cey, wc));
+    const auto leastOver = [&](F slope, F low, F high, F from)
+    {
+      const F offset = hn::Add(middle, from);
+      return hn::Min(hn::Mul(slope, hn::Sub(low, offset)), hn::Mul(slope, hn::Sub(high, offset)));
+    };
+    const F farthestCorner = least(ai, bi, ci);
+    const F atLeast =
+      hn::Sub(hn::Add(ai, hn::Add(leastOver(wx, px0, px1, ax), leastOver(wy, py0, py1, ay))),
+        hn::MulAdd(weights, hn::Sub(nearest, farthestCorner),
+          hn::Mul(hn::Set(df, 8.0f * Rounding), nearest)));
+    const F farthest =
+      hn::Mul(scale, hn::IfThenElse(thin, farthestCorner, hn::Max(farthestCorner, atLeast)));
     const F depthSlack = hn::Div(ofHits, hn::Mul(farthest, farthest));
     ready.thin = thin;
     ready.clipped =
