@@ -1,5 +1,6 @@
 #include "vtkSVOViewPass.h"
 
+#include "vtkCollection.h"
 #include "vtkCommand.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseKey.h"
@@ -8,6 +9,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
 #include "vtkPVSynchronizedRenderer.h"
+#include "vtkPropCollection.h"
 #include "vtkRenderer.h"
 #include "vtkSVOViewRenderPass.h"
 #include "vtkSynchronizedRenderers.h"
@@ -58,6 +60,17 @@ void vtkSVOViewPass::AddUser(vtkView* view)
       self->View = renderView;
       self->Observer = renderView->GetRenderer()->AddObserver(
         vtkCommand::StartEvent, self, &vtkSVOViewPass::BeginFrame);
+      // The axes at the centre of rotation are part of the view, not of what it shows.
+      vtkCollectionSimpleIterator iterator;
+      vtkPropCollection* props = renderView->GetRenderer()->GetViewProps();
+      props->InitTraversal(iterator);
+      while (vtkProp* prop = props->GetNextProp(iterator))
+      {
+        if (prop->IsA("vtkPVCenterAxesActor"))
+        {
+          vtkSVORenderPass::SetReceiveShadow(false, prop);
+        }
+      }
       self->Pass->Attach(renderView->GetRenderer());
     }
   }

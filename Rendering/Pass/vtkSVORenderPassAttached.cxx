@@ -3,16 +3,33 @@
 
 #include "svoPassInternals.h"
 
+#include "vtkCameraPass.h"
 #include "vtkCommand.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderState.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
+#include <string>
+
 namespace
 {
 /// Hosts that spread a frame over several processes do so in the same events, before us.
 constexpr float AfterHosts = -1.0f;
+
+/// True if the first that a renderer with this pass draws into its cleared framebuffer are its
+/// props, in their order. ParaView's views have such a pass, unless they have effects.
+bool drawsPropsFirst(vtkRenderPass* pass)
+{
+  const auto isA = [](vtkObject* object, const char* name)
+  { return object && std::string(object->GetClassName()) == name; };
+  if (!isA(pass, "vtkCameraPass"))
+  {
+    return !pass;
+  }
+  vtkRenderPass* inner = static_cast<vtkCameraPass*>(pass)->GetDelegatePass();
+  return isA(inner, "vtkDefaultPass") || isA(inner, "vtkPVDefaultPass");
+}
 }
 
 void vtkSVORenderPass::Attach(vtkRenderer* renderer)
@@ -44,7 +61,7 @@ void vtkSVORenderPass::Attach(vtkRenderer* renderer)
       {
         this->TraceFrame(*frame, width, height);
         frame->state->present(this);
-        frame->state->presenter()->SetFirst(!renderer->GetPass()); // else others may have drawn
+        frame->state->presenter()->SetFirst(drawsPropsFirst(renderer->GetPass()));
       }
     });
   // Shadows must be known before the first surface that receives them is drawn.

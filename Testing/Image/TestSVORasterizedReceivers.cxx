@@ -33,12 +33,54 @@ vtkSmartPointer<vtkTexture> checkerboard()
   texture->SetInputData(image);
   return texture;
 }
+
+/// For surfaces that no light changes no shadow map is traced whole, copied and sent. Applications
+/// keep such in their views: ParaView an outline and a selection for all that it shows.
+void testUnlit(svotest::Checks& checks)
+{
+  svotest::Stage stage(200, 200);
+  stage.addGround();
+  stage.add(svotest::ball(0.7, 0.2, 0.0, 1.0), 0.9, 0.5, 0.3);
+  stage.addSun(2.0, -1.5, 4.0);
+  stage.pass->SetFrameCoherence(false);
+  const auto rays = [&]
+  {
+    svotest::capture(stage.window);
+    return stage.pass->GetNumberOfShadowRays();
+  };
+  const vtkIdType alone = rays();
+  vtkActor* frame = stage.add(svotest::box(0.5, -0.8, 0.0, 0.5), 1.0, 1.0, 0.0);
+  vtkSVORenderPass::SetCastShadow(false, frame);
+  vtkProperty* property = frame->GetProperty();
+  property->SetRepresentationToWireframe();
+  property->SetAmbient(1.0);
+  property->SetDiffuse(0.0);
+  checks.expect(rays() == alone, "what only shines by itself receives nothing");
+  checks.expect(stage.pass->GetNumberOfRasterizedActors() == 1, "the rasteriser draws it");
+  property->SetSpecular(0.5);
+  checks.expect(rays() > alone, "gloss receives");
+  property->SetSpecular(0.0);
+  property->SetDiffuse(0.5);
+  checks.expect(rays() > alone, "diffuse light receives");
+  property->LightingOff();
+  checks.expect(rays() == alone, "without lighting there is nothing to receive");
+  property->LightingOn();
+  property->SetDiffuse(0.0);
+  property->SetInterpolationToPBR();
+  checks.expect(rays() > alone, "physically based surfaces have no such coefficients");
+  property->SetInterpolationToGouraud();
+  vtkNew<vtkProperty> back;
+  back->SetDiffuse(0.5);
+  frame->SetBackfaceProperty(back);
+  checks.expect(rays() > alone, "back faces receive");
+}
 }
 
 int TestSVORasterizedReceivers(int argc, char* argv[])
 {
   using namespace svotest;
   Checks checks;
+  testUnlit(checks);
   std::array<std::unique_ptr<Stage>, 3> stages;
   std::array<ShadowOracle, 3> oracles;
   const char* const names[3] = { "textured floor", "physically based floor", "floor with edges" };

@@ -55,6 +55,26 @@ class TestShadows(unittest.TestCase):
         self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 1)
         self.check_shadow(picture)
 
+    def test_what_the_view_adds_receives_nothing(self):
+        """The selections of representations, and the axes of the view: for them the maps of lights would be traced
+        whole, where only what traced surfaces look up is."""
+        self.view.AdditionalLights = []
+        self.view.UseLight = 1  # moves with the camera, so that nothing is kept
+        self.view.CenterAxesVisibility = 0
+
+        def shadow_rays():
+            for x in (6.0, 5.0):
+                self.view.CameraPosition = [x, -6.0, 4.0]
+                pv.Render(self.view)
+            return scene.statistic(self.view, "SVONumberOfShadowRays")
+
+        self.show("SVO", "SVO")
+        alone = shadow_rays()
+        self.view.CenterAxesVisibility = 1
+        self.assertEqual(shadow_rays(), alone)
+        scene.show(pv.Sphere(Center=list(scene.CENTER), Radius=0.1), self.view, "Surface")
+        self.assertGreater(shadow_rays(), alone)
+
     def test_ordinary_surfaces_cast_nothing(self):
         self.show("Surface", "SVO")
         ordinary = scene.picture(self.view, "ordinary-ball")

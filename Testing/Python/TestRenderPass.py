@@ -264,8 +264,9 @@ class Presentation(unittest.TestCase):
     """What nothing was drawn before may come into the window another way; the picture is the same."""
 
     @staticmethod
-    def picture(rasterized_first):
+    def picture(rasterized_first, stencil=False):
         scene = Scene(False)
+        scene.window.SetStencilCapable(stencil)
         scene.window.SetSize(203, 197)  # no multiple of a tile's 8
         # Behind the ground, and through the ball.
         hidden, through = vtkSphereSource(), vtkSphereSource()
@@ -302,11 +303,17 @@ class Presentation(unittest.TestCase):
         scene.window.Finalize()
         return pictures
 
-    def test_copies_are_what_is_drawn(self):
-        drawn, copied = self.picture(True), self.picture(False)
+    def check_copies(self, **settings):
+        drawn, copied = self.picture(True, **settings), self.picture(False, **settings)
         for one, other in zip(drawn, copied):
             self.assertEqual(one[0], other[0])
             self.assertEqual(one[1], other[1])
+
+    def test_copies_are_what_is_drawn(self):
+        self.check_copies()
+
+    def test_copies_beside_a_stencil_are_what_is_drawn(self):
+        self.check_copies(stencil=True)
 
 
 if __name__ == "__main__":

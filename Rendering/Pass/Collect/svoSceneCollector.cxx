@@ -277,8 +277,7 @@ bool SceneCollector::collectProp(PropSurfaces& found, Frame& frame)
   {
     this->collectActor(actor, matrix, found, frame);
     found.receives = found.receives ||
-      (actor->GetMapper() && actor->GetProperty()->GetLighting() &&
-        flagOf(actor, prop, receiveShadowKey(), true));
+      (actor->GetMapper() && showsLights(actor) && flagOf(actor, prop, receiveShadowKey(), true));
     ++found.actors;
   };
 

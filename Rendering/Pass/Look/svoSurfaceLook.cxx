@@ -203,6 +203,18 @@ bool isPlainActor(vtkActor* actor)
     name == "vtkPVLODActor";
 }
 
+bool showsLights(vtkActor* actor)
+{
+  const auto reflects = [&](vtkProperty* property)
+  {
+    // Physically based surfaces reflect light whatever their coefficients are.
+    return property && property->GetLighting() &&
+      (property->GetInterpolation() == VTK_PBR || property->GetDiffuse() != 0.0 ||
+        property->GetSpecular() != 0.0 || hasCustomShaders(actor));
+  };
+  return reflects(actor->GetProperty()) || reflects(actor->GetBackfaceProperty());
+}
+
 bool isUnknownSurface(vtkActor* actor)
 {
   // What these draw (splats, points and lines, labels) has no surface.

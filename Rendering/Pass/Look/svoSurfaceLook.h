@@ -43,6 +43,10 @@ bool isUnknownSurface(vtkActor* actor);
 /// any opacity.
 Treatment treatmentOf(vtkActor* actor);
 
+/// True if lights change what the actor looks like. What only shines by itself, as the outlines and
+/// selections that applications keep in their views do, shows no shadow.
+bool showsLights(vtkActor* actor);
+
 /// The texture that colours an actor; nullptr if there is none.
 vtkTexture* textureOf(vtkActor* actor);
 

@@ -17,19 +17,28 @@ class vtkTextureObject;
 
 namespace svo
 {
-/// True if the framebuffer that is bound has one sample a pixel, colours of four bytes and depths
-/// of 32 bits, as VTK's has, and OpenGL runs on the processor.
-bool isWorthCopying();
+/// The depth buffers that can be copied to.
+enum class DepthFormat
+{
+  None,
+  Bits32, // as VTK's framebuffers have them,
+  Bits24  // and where windows have a stencil: in words with its bits, which are cleared
+};
 
-/// Window depths, 0..1, as software OpenGL writes them into a depth buffer of 32 bits, which are
-/// not those that it takes from an image of floats.
-void toDepthBuffer(const float* depths, std::size_t count, std::uint32_t* words);
+/// That of the framebuffer that is bound, if it has one sample a pixel and colours of four bytes,
+/// and OpenGL runs on the processor; else none.
+DepthFormat formatForCopies();
+
+/// Window depths, 0..1, as software OpenGL writes them into such a depth buffer, which are not
+/// those that it takes from an image of floats.
+void toDepthBuffer(
+  const float* depths, std::size_t count, DepthFormat format, std::uint32_t* words);
 
 /// Copies rectangles, in pixels of the textures, from textures of these formats and of the
 /// viewport's size into the viewport that is set. Returns false, and nothing is drawn, if OpenGL
 /// does not take them.
-bool copyRectangles(
-  vtkTextureObject* colors, vtkTextureObject* depths, const std::vector<PixelRect>& rectangles);
+bool copyRectangles(vtkTextureObject* colors, vtkTextureObject* depths, DepthFormat format,
+  const std::vector<PixelRect>& rectangles);
 }
 
 #endif

@@ -19,8 +19,9 @@ enum class Kind
 {
   Bytes, // of RGBA
   Float,
-  Floats, // of three components
-  Depth   // as a depth buffer has it
+  Floats,      // of three components
+  Depth,       // as a depth buffer of 32 bits has it,
+  DepthStencil // or one of 24
 };
 
 /// A texture of the frame's size, made anew only when that changes; returns true if it was.
@@ -47,6 +48,9 @@ bool prepare(vtkSmartPointer<vtkTextureObject>& texture, vtkOpenGLRenderWindow* 
       break;
     case Kind::Depth:
       texture->AllocateDepth(width, height, vtkTextureObject::Fixed32);
+      break;
+    case Kind::DepthStencil:
+      texture->AllocateDepthStencil(width, height);
       break;
     default:
       texture->Allocate2D(width, height, kind == Kind::Float ? 1 : 3, VTK_FLOAT);
@@ -131,21 +135,31 @@ void FrameTextures::sendDepthCopy(const Frame& frame, const PixelRect& rect)
       for (std::size_t row = first; row < last; ++row)
       {
         toDepthBuffer(frame.depth.data() + (rect.y0 + row) * frame.width + rect.x0, width,
-          this->DepthWords.data() + row * width);
+          this->Copies, this->DepthWords.data() + row * width);
       }
     });
-  send(this->DepthCopy, rect, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, this->DepthWords.data(), 0);
+  const bool stencil = this->Copies == DepthFormat::Bits24;
+  send(this->DepthCopy, rect, stencil ? GL_DEPTH_STENCIL : GL_DEPTH_COMPONENT,
+    stencil ? GL_UNSIGNED_INT_24_8 : GL_UNSIGNED_INT, this->DepthWords.data(), 0);
 }
 
-void FrameTextures::upload(const Frame& frame, bool copies, vtkOpenGLRenderWindow* window)
+void FrameTextures::upload(const Frame& frame, DepthFormat format, vtkOpenGLRenderWindow* window)
 {
+  const bool copies = format != DepthFormat::None;
+  bool anew = format != this->Copies || frame.version < this->Sent;
+  if (format != this->Copies)
+  {
+    this->DepthCopy = nullptr;
+    this->Copies = format;
+  }
   constexpr int Band = 8 * Frame::TileSize; // rows
-  bool anew = prepare(this->Colors, window, frame, Kind::Bytes);
+  anew |= prepare(this->Colors, window, frame, Kind::Bytes);
   anew |= prepare(this->Depths, window, frame, Kind::Float);
-  anew |= copies && prepare(this->DepthCopy, window, frame, Kind::Depth);
+  anew |= copies &&
+    prepare(this->DepthCopy, window, frame,
+      format == DepthFormat::Bits24 ? Kind::DepthStencil : Kind::Depth);
   anew |= !frame.normals.empty() && prepare(this->Normals, window, frame, Kind::Floats);
   anew |= !frame.light.empty() && prepare(this->Light, window, frame, Kind::Floats);
-  anew |= copies != this->Copies || frame.version < this->Sent;
   const std::uint64_t since = anew ? 0 : this->Sent;
   for (int y = frame.covered.y0; y < frame.covered.y1; y += Band)
   {
@@ -181,6 +195,5 @@ void FrameTextures::upload(const Frame& frame, bool copies, vtkOpenGLRenderWindo
     }
   }
   this->Sent = frame.version;
-  this->Copies = copies;
 }
 }

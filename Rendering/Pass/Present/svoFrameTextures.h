@@ -4,6 +4,7 @@
 #define svoFrameTextures_h
 
 #include "svoFrame.h"
+#include "svoFrameCopy.h"
 
 #include "vtkSmartPointer.h"
 
@@ -18,9 +19,9 @@ namespace svo
 class FrameTextures
 {
 public:
-  /// `copies`: tiles that are covered whole will be copied (svoFrameCopy.h), so of them depths are
-  /// sent as a depth buffer has them; of others, or of all, as floats.
-  void upload(const Frame& frame, bool copies, vtkOpenGLRenderWindow* window);
+  /// `copies`: unless none, tiles that are covered whole will be copied (svoFrameCopy.h), so of
+  /// them depths are sent as such a depth buffer has them; of others, or of all, as floats.
+  void upload(const Frame& frame, DepthFormat copies, vtkOpenGLRenderWindow* window);
   /// The next upload sends all tiles.
   void invalidate() { this->Sent = 0; }
   void release();
@@ -38,7 +39,7 @@ private:
   void sendDepthCopy(const Frame& frame, const PixelRect& rect);
 
   std::uint64_t Sent = 0; // Frame::version; 0: nothing, or not to be relied on
-  bool Copies = false;
+  DepthFormat Copies = DepthFormat::None;
   vtkSmartPointer<vtkTextureObject> Colors, Depths, DepthCopy, Normals, Light;
   std::vector<std::uint32_t> DepthWords; // of a band
 };

@@ -59,16 +59,17 @@ void vtkSVOPresenter::ReleaseGraphicsResources(vtkWindow* window)
   }
 }
 
-/// True if the frame's pixels, but those of tiles with holes, may be copied.
-bool vtkSVOPresenter::MayCopy(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+/// None unless the frame's pixels, but those of tiles with holes, may be copied.
+svo::DepthFormat vtkSVOPresenter::FormatForCopies(
+  vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   const svo::Frame& frame = *this->Frame;
   int viewport[4];
   window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
-  return this->First && !this->CannotCopy && renderer->GetErase() &&
+  const bool may = this->First && !this->CannotCopy && renderer->GetErase() &&
     !renderer->GetPreserveDepthBuffer() && frame.width == viewport[2] &&
-    frame.height == viewport[3] && frame.normals.empty() && frame.light.empty() &&
-    svo::isWorthCopying();
+    frame.height == viewport[3] && frame.normals.empty() && frame.light.empty();
+  return may ? svo::formatForCopies() : svo::DepthFormat::None;
 }
 
 void vtkSVOPresenter::UploadRectangles(const std::vector<svo::PixelRect>& rectangles)
@@ -88,8 +89,9 @@ void vtkSVOPresenter::UploadRectangles(const std::vector<svo::PixelRect>& rectan
   this->Corners->Upload(corners, vtkOpenGLBufferObject::ArrayBuffer);
 }
 
-void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window, bool copy)
+void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window, svo::DepthFormat copies)
 {
+  const bool copy = copies != svo::DepthFormat::None;
   svo::Frame& frame = *this->Frame;
   svo::Silhouettes silhouettes;
   if (!this->SamplePositions.empty() && this->FindSilhouettes)
@@ -98,7 +100,7 @@ void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window, bool copy)
   }
   this->Parts.upload(silhouettes.parts);
   silhouettes.exchange(frame);
-  this->Copies = copy;
+  this->Copies = copies;
   svo::TileRuns runs = svo::tileRunsOf(frame);
   this->Copied = copy ? runs.whole : std::vector<svo::PixelRect>();
   if (!copy)
@@ -112,7 +114,7 @@ void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window, bool copy)
     this->Textures.invalidate();
   }
   this->HasParts = !silhouettes.pixels.empty();
-  this->Textures.upload(frame, copy, window);
+  this->Textures.upload(frame, copies, window);
   silhouettes.exchange(frame); // back
 }
 
@@ -289,19 +291,20 @@ int vtkSVOPresenter::RenderOpaqueGeometry(vtkViewport* viewport)
   const double start = vtkTimerLog::GetUniversalTime();
   vtkOpenGLClearErrorMacro();
   std::vector<glm::vec2> positions = svo::samplePositions();
-  const bool copy = this->MayCopy(renderer, window);
+  const svo::DepthFormat copies = this->FormatForCopies(renderer, window);
   if (this->Frame->version == 0 || this->Uploaded != this->Frame->version ||
-    positions != this->SamplePositions || copy != this->Copies || !this->Textures.isOf(window))
+    positions != this->SamplePositions || copies != this->Copies || !this->Textures.isOf(window))
   {
     this->SamplePositions = std::move(positions);
-    this->Upload(window, copy);
+    this->Upload(window, copies);
     this->Uploaded = this->Frame->version;
   }
   if (!this->Copied.empty() &&
-    !svo::copyRectangles(this->Textures.colors(), this->Textures.depthCopy(), this->Copied))
+    !svo::copyRectangles(
+      this->Textures.colors(), this->Textures.depthCopy(), this->Copies, this->Copied))
   {
     this->CannotCopy = true;
-    this->Upload(window, false);
+    this->Upload(window, svo::DepthFormat::None);
   }
   const bool drawn = this->Drawn == 0 || this->Draw(renderer, window);
   vtkOpenGLCheckErrorMacro("failed in vtkSVOPresenter");

@@ -80,8 +80,8 @@ private:
   vtkSVOPresenter(const vtkSVOPresenter&) = delete;
   void operator=(const vtkSVOPresenter&) = delete;
 
-  bool MayCopy(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
-  void Upload(vtkOpenGLRenderWindow* window, bool copy);
+  svo::DepthFormat FormatForCopies(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
+  void Upload(vtkOpenGLRenderWindow* window, svo::DepthFormat copies);
   void UploadRectangles(const std::vector<svo::PixelRect>& rectangles);
   bool Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void SelectDrawBuffers(vtkShaderProgram* program);
@@ -96,7 +96,7 @@ private:
   svo::PixelParts Parts;
   bool HasParts = false; // the upload has pixels that were exchanged
   bool First = false;
-  bool Copies = false;
+  svo::DepthFormat Copies = svo::DepthFormat::None;
   bool CannotCopy = false;                        // OpenGL did not take it
   std::vector<svo::PixelRect> Copied;             // rectangles that are copied;
   int Drawn = 0;                                  // and how many others are drawn

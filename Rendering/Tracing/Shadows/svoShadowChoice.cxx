@@ -159,11 +159,10 @@ ShadowWork shadowWork(const Scene& scene, const View& view, const LayeredView& e
 // Fitted to the processor time of 222 frames with AVX-512: one and ten objects of 10 000 to 3 000
 // 000 triangles, and the paper's scenes, everything retraced, under a point light and under
 // ParaView's light kit, 640x360 and 1920x1080, maps of 2048 texels (BenchmarkFrames --experiments
-// shadowChoice). For eight of ten frames a buffer takes 0.8 to 1.3 of what is said here, rays 0.8
-// to 1.7. The cheaper of the two is chosen for 93 % of the frames; all together take 3 % longer
-// than with the better choice each time, where with buffers alone they take 35 % longer and with
-// rays alone 66 %. Walked texels, of which these frames have few, are taken for what walks take
-// elsewhere.
+// shadowChoice). Walked texels, of which these frames have few, are taken for what walks take
+// elsewhere. Since then all of it got quicker, by much the same: both sums are too large, but of
+// frames that they were and were not fitted to they choose the cheaper technique nine times in ten,
+// and no fit anew chooses better on the latter (Documentation/Measurements.md, Automatic shadows).
 double ShadowWork::bufferTime() const
 {
   return 1e-3 *

@@ -322,6 +322,7 @@ bool Experiments::shadowChoice()
         {} };
       contest.row["experiment"] = "shadowChoice";
       contest.row["lightKit"] = lightKit;
+      contest.row["objects"] = Json::Int64(scene.a.size());
       contest.row["triangles"] = Json::Int64(triangles);
       if (lightKit)
       {
