@@ -16,9 +16,11 @@
 //   automatic  triangle in bricks with a list of at most ShortList triangles, plane in the others.
 //
 // An octree of planes has a plane of its own in each voxel: all leaves but `voxel` are that plane,
-// where it passes the voxel widened by one voxel on all sides. Neighbouring planes are those of one
-// smooth surface, so a ray that all of them refuse has passed beside it: such rays get nothing, and
-// outlines are the surface's own. Rays that reach bricks go on to their voxels.
+// where it passes the voxel widened by half a voxel on all sides. Neighbouring planes are tangents
+// of one smooth surface: at the voxels' border they are apart by less than the bend of the surface
+// within a voxel, so they overlap there, and reach little beyond an edge. A ray that all of them
+// refuse has passed beside the surface: it gets nothing, and outlines are the surface's own. Rays
+// that reach bricks go on to their voxels.
 //
 // Where a ray stops above the bricks (TraceOptions::level below octree.level() - 2) plane, triangle
 // and automatic are the mean plane of the node that is the cell, with the rule of `plane`; at an
@@ -236,7 +238,8 @@ Visit meetPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const StopC
   const Real t = intersectPlane(query, ray, cell, primitive);
   const Vector<Real> x =
     glm::abs(ray.origin + t * ray.direction - cellCentre<Real>(cell.cell, query.bits));
-  const Real reach = static_cast<Real>(3.0 * cellHalf(query.bits));
+  const bool own = query.planes && !(primitive & NodePrimitive);
+  const Real reach = static_cast<Real>((own ? 2.0 : 3.0) * cellHalf(query.bits));
   const bool near = x.x <= reach && x.y <= reach && x.z <= reach; // false for NaN
   // A plane may pass the cell on the outside of the octree's cube, where the ray has begun.
   if (near && t >= ray.tStart && t <= tMax)
@@ -248,7 +251,6 @@ Visit meetPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const StopC
     return Visit::Stop;
   }
   const bool leftBehind = near && t < ray.tStart && cell.tEnter <= ray.tMin;
-  const bool own = query.planes && !(primitive & NodePrimitive);
   if (hit.refused == NoPrimitive && !leftBehind && !own)
   {
     hit.refusedT = cell.tEnter;

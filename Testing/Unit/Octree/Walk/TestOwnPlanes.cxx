@@ -48,8 +48,8 @@ TEST(OwnPlanes, RaysMeetTheSphere)
     const svo::Octree octree = sphereAt(level);
     const OctreeSphere sphere(octree);
     const double voxel = octree.header().voxelSize / octree.rootEdge();
-    // A hit lies on a tangent plane, at most 1.5 voxels along each axis from its voxel's middle.
-    const double bulge = 3.0 * 2.25 * voxel * voxel / (2.0 * sphere.radius) + 2.5e-3 * voxel;
+    // A hit lies on a tangent plane, at most a voxel along each axis from its voxel's middle.
+    const double bulge = 3.0 * voxel * voxel / (2.0 * sphere.radius) + 2.5e-3 * voxel;
     RandomRays random(octree, 5);
     int hits = 0;
     for (int i = 0; i < 20000; ++i)
