@@ -42,7 +42,8 @@ svo::Octree carriedOctree(vtkPolyData* mesh, const svo::MeshOctreeOptions& optio
   const bool same = octree.level() == options.level &&
     octree.header().leafGeometry == static_cast<std::uint32_t>(options.leafGeometry) &&
     svo::fitsModel(octree, options.modelBounds);
-  return same || any ? octree : svo::Octree();
+  // What an octree of planes travels on is a hull, not the surface.
+  return same || any || octree.hasPlanes() ? octree : svo::Octree();
 }
 
 /// The octree that a mesh goes out with until its own is there: another of its octrees, else any

@@ -165,6 +165,11 @@ int vtkSparseVoxelOctree::IntersectWithLine(
   {
     x[i] = from[i] + hit.t * along[i];
   }
+  if (octree.hasPlanes())
+  {
+    cellId = -1;
+    return 1;
+  }
   const std::uint32_t triangle = hit.primitive & svo::NodePrimitive
     ? svo::firstTriangle(octree, hit.primitive & ~svo::NodePrimitive)
     : hit.primitive;

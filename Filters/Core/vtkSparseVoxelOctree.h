@@ -90,7 +90,8 @@ public:
   /**
    * Intersects the line from `p1` to `p2` with the octree's leaves, as VTK's cell locators do.
    * Returns 1 if something is hit, and then the nearest hit: `t` in [0, 1] along the line, the
-   * point `x`, and the id of the mesh's cell, as in vtkPolyData. Returns 0, and leaves the
+   * point `x`, and the id of the mesh's cell, as in vtkPolyData (-1 where the octree is that of a
+   * surface that is no mesh). Returns 0, and leaves the
    * arguments as they are, if nothing is hit. What a leaf looks like is the leaf geometry that was
    * chosen in vtkPolyDataToSVO: exact for triangles, and within voxels for the others. From Python
    * pass vtkmodules.vtkCommonCore.reference objects for `t` and `cellId`, and a list for `x`.

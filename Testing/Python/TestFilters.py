@@ -7,7 +7,7 @@ import unittest
 
 import vtksvo
 from vtkmodules.vtkCommonCore import reference
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkSphere
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkPolyDataWriter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
@@ -84,6 +84,25 @@ class Filters(unittest.TestCase):
         self.assertEqual(octree.IntersectWithLine([3, 2, 0], [-1, 2, 0], t, x, cell), 0)
         # The line ends before the surface.
         self.assertEqual(octree.IntersectWithLine([3, 0, 0], [2, 0, 0], t, x, cell), 0)
+
+    def test_an_implicit_function_has_an_octree(self):
+        function = vtkSphere()
+        function.SetRadius(0.8)
+        convert = vtksvo.vtkImplicitFunctionToSVO()
+        convert.SetImplicitFunction(function)
+        convert.SetModelBounds(-1, 1, -1, 1, -1, 1)
+        convert.SetMaximumLevel(6)
+        convert.SetGradientBound(4.0)
+        convert.Update()
+        octree = vtksvo.vtkSparseVoxelOctree()
+        self.assertTrue(octree.Initialize(convert.GetOutput()))
+        self.assertEqual(octree.GetNumberOfVoxels(), convert.GetNumberOfVoxels())
+        voxels = 1.5 * math.pi * (0.8 * 2**6) ** 2
+        self.assertAlmostEqual(octree.GetNumberOfVoxels(), voxels, delta=0.05 * voxels)
+        t, x, cell = reference(-1.0), [0.0, 0.0, 0.0], reference(7)
+        self.assertEqual(octree.IntersectWithLine([3, 0.1, 0.2], [-1, 0.1, 0.2], t, x, cell), 1)
+        self.assertAlmostEqual(sum(c * c for c in x) ** 0.5, 0.8, delta=1e-4)
+        self.assertEqual(int(cell), -1)
 
     def test_octree_travels_in_a_file(self):
         mesh = sphere_with_octree(5).GetOutput()

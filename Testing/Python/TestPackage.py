@@ -10,7 +10,8 @@ import unittest
 import vtksvo
 from vtkmodules.vtkCommonCore import vtkObject, vtkObjectBase
 
-PUBLIC = ["vtkPolyDataToSVO", "vtkSVORenderPass", "vtkSVOToPolyData", "vtkSparseVoxelOctree"]
+PUBLIC = ["vtkImageToSVO", "vtkImplicitFunctionToSVO", "vtkPolyDataToSVO", "vtkSVORenderPass",
+          "vtkSVOToPolyData", "vtkSparseVoxelOctree"]
 
 
 def help_without_signatures(method):

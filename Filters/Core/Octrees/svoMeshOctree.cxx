@@ -262,9 +262,13 @@ Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& mess
       return Attached::Found;
     }
     // A surface made from a damaged header is of no use, but harmless: open() refuses both.
-    MeshTriangles triangles(mesh);
-    const auto surface =
-      makeSurface(triangles.view(), std::move(triangles.cells()), header, smpParallelFor());
+    std::shared_ptr<const Surface> surface;
+    if (header.leafWords == 0)
+    {
+      MeshTriangles triangles(mesh);
+      surface =
+        makeSurface(triangles.view(), std::move(triangles.cells()), header, smpParallelFor());
+    }
     octree = Octree::open(ownBytes(theirs, size), size, surface, message);
     if (octree)
     {

@@ -12,24 +12,7 @@ namespace svo
 {
 namespace
 {
-constexpr std::size_t LargestIndex = 0x7fffffffu;
 constexpr std::size_t NodeBlock = 16384;
-
-/// The nodes of one depth, in ascending order of their keys.
-struct Depth
-{
-  RawArray<std::uint64_t> keys; // Morton keys of the blocks
-  RawArray<Node> nodes;         // `first` of an inner node: index in the next depth's own array
-  RawArray<SurfaceMoment> moments;
-
-  explicit Depth(std::size_t size)
-    : keys(size)
-    , nodes(size)
-    , moments(size)
-  {
-  }
-  std::size_t size() const { return this->nodes.size(); }
-};
 
 /// What a bucket of records or a block of nodes contributes, and after a sum where it starts.
 struct Share
@@ -78,7 +61,7 @@ Share countBucket(const BrickRecord* records, std::size_t count)
 
 /// Returns the occupied voxels of a bucket's bricks.
 std::size_t fillBucket(const BrickRecord* records, std::size_t count, Share at,
-  const TriangleShape* shapes, Depth& bricks, std::uint32_t* lists)
+  const TriangleShape* shapes, NodeDepth& bricks, std::uint32_t* lists)
 {
   std::size_t voxels = 0;
   for (std::size_t i = 0, end = 0; i < count; i = end, ++at.nodes)
@@ -113,8 +96,8 @@ std::size_t fillBucket(const BrickRecord* records, std::size_t count, Share at,
   return voxels;
 }
 
-Depth makeBricks(const SortedRecords& sorted, const RawArray<TriangleShape>& shapes, Header& header,
-  RawArray<std::uint32_t>& lists, Executor& executor)
+NodeDepth makeBricks(const SortedRecords& sorted, const RawArray<TriangleShape>& shapes,
+  Header& header, RawArray<std::uint32_t>& lists, Executor& executor)
 {
   std::vector<Share> shares(sorted.bucketCount());
   const auto cost = [&](std::size_t i) { return static_cast<double>(sorted.bucketSize(i)); };
@@ -132,7 +115,7 @@ Depth makeBricks(const SortedRecords& sorted, const RawArray<TriangleShape>& sha
   {
     throw LayoutOverflow{ all.nodes > LargestIndex ? "nodes" : "words of triangle lists" };
   }
-  Depth bricks(all.nodes);
+  NodeDepth bricks(all.nodes);
   lists = RawArray<std::uint32_t>(all.listWords);
   std::vector<std::size_t> voxels(shares.size());
   executor.run(shares.size(), 16, 0.1, 4e5, cost,
@@ -154,7 +137,7 @@ Depth makeBricks(const SortedRecords& sorted, const RawArray<TriangleShape>& sha
 }
 
 /// The parents of a depth whose blocks have an edge of `childEdge` voxels.
-Depth makeParents(const Depth& children, float childEdge, Executor& executor)
+NodeDepth makeParents(const NodeDepth& children, float childEdge, Executor& executor)
 {
   const std::size_t count = children.size();
   const std::size_t blocks = (count + NodeBlock - 1) / NodeBlock;
@@ -174,7 +157,7 @@ Depth makeParents(const Depth& children, float childEdge, Executor& executor)
         }
       }
     });
-  Depth parents(prefixSum(shares).nodes);
+  NodeDepth parents(prefixSum(shares).nodes);
   executor.run(blocks, 1, 0.0, 1e6, cost,
     [&](std::size_t first, std::size_t last)
     {
@@ -209,16 +192,16 @@ Depth makeParents(const Depth& children, float childEdge, Executor& executor)
 }
 
 /// The root of an empty octree.
-Depth emptyRoot(bool brick)
+NodeDepth emptyRoot(bool brick)
 {
-  Depth root(1);
+  NodeDepth root(1);
   root.keys[0] = 0;
   root.nodes[0] = { 0, brick ? InlineTriangle : 1u, 0 };
   root.moments[0] = {};
   return root;
 }
 
-std::shared_ptr<std::byte> writeBuffer(const std::vector<Depth>& depths,
+std::shared_ptr<std::byte> writeBuffer(const std::vector<NodeDepth>& depths,
   const RawArray<std::uint32_t>& lists, Header& header, std::size_t& size, Executor& executor)
 {
   header.nodeCount = 0;
@@ -243,7 +226,7 @@ std::shared_ptr<std::byte> writeBuffer(const std::vector<Depth>& depths,
   const auto cost = [](std::size_t) { return static_cast<double>(NodeBlock); };
   for (std::size_t d = 0; d < depths.size(); ++d)
   {
-    const Depth& depth = depths[d];
+    const NodeDepth& depth = depths[d];
     const bool inner = d + 1 < header.depthCount;
     const std::size_t blocks = (depth.size() + NodeBlock - 1) / NodeBlock;
     executor.run(blocks, 1, 0.0, 5e6, cost,
@@ -267,15 +250,39 @@ std::shared_ptr<std::byte> writeBuffer(const std::vector<Depth>& depths,
 }
 }
 
+Header makeHeader(const BuildOptions& options, const Cube& cube)
+{
+  Header header{};
+  std::memcpy(header.magic, LayoutMagic, sizeof(LayoutMagic));
+  header.version = LayoutVersion;
+  header.level = static_cast<std::uint32_t>(options.level);
+  header.depthCount = (header.level + 1) / 2;
+  header.leafGeometry = static_cast<std::uint32_t>(options.leafGeometry);
+  header.voxelSize = std::ldexp(cube.edge, -options.level);
+  for (int i = 0; i < 3; ++i)
+  {
+    header.origin[i] = cube.origin[i];
+  }
+  return header;
+}
+
 std::shared_ptr<std::byte> assemble(SortedRecords&& records, const RawArray<TriangleShape>& shapes,
   Header& header, std::size_t& size, Executor& executor)
 {
-  std::vector<Depth> depths;
   RawArray<std::uint32_t> lists;
+  NodeDepth bricks(0);
   {
     const SortedRecords own = std::move(records);
-    depths.push_back(makeBricks(own, shapes, header, lists, executor));
+    bricks = makeBricks(own, shapes, header, lists, executor);
   }
+  return assembleBricks(std::move(bricks), lists, header, size, executor);
+}
+
+std::shared_ptr<std::byte> assembleBricks(NodeDepth&& bricks, const RawArray<std::uint32_t>& lists,
+  Header& header, std::size_t& size, Executor& executor)
+{
+  std::vector<NodeDepth> depths;
+  depths.push_back(std::move(bricks));
   if (depths.back().size() == 0)
   {
     depths.clear();

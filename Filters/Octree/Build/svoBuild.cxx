@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <new>
 
 namespace svo
@@ -43,23 +42,6 @@ std::string tooLargeMessage(const MeshMeasure& measure, int level, double limit)
                   : std::string("; no level fits"));
 }
 
-Header makeHeader(const TriangleMesh& mesh, const BuildOptions& options, const Cube& cube)
-{
-  Header header{};
-  std::memcpy(header.magic, LayoutMagic, sizeof(LayoutMagic));
-  header.version = LayoutVersion;
-  header.level = static_cast<std::uint32_t>(options.level);
-  header.depthCount = (header.level + 1) / 2;
-  header.leafGeometry = static_cast<std::uint32_t>(options.leafGeometry);
-  header.triangleCount = mesh.triangleCount;
-  header.voxelSize = std::ldexp(cube.edge, -options.level);
-  for (int i = 0; i < 3; ++i)
-  {
-    header.origin[i] = cube.origin[i];
-  }
-  return header;
-}
-
 void buildStages(
   const TriangleMesh& mesh, const BuildOptions& options, MeshMeasure& measure, BuildResult& result)
 {
@@ -80,7 +62,8 @@ void buildStages(
   const std::vector<WorkPiece> pieces = cutWork(recordsOfTriangle);
   recordsOfTriangle = {};
   RawArray<TriangleShape> shapes(mesh.triangleCount);
-  Header header = makeHeader(mesh, options, cube);
+  Header header = makeHeader(options, cube);
+  header.triangleCount = mesh.triangleCount;
   SortedRecords records = sortRecords(
     voxelizeMesh(mesh, cube, options.level, pieces, shapes, executor), options.level, executor);
   result.data = assemble(std::move(records), shapes, header, result.size, executor);

@@ -29,7 +29,8 @@
 //   +------------------------+ 256 + 16 * nodeCount
 //   | lists   4 bytes a word |  triangle lists of the bricks that more than one triangle touches:
 //   |                        |  count, id, id, ... (ascending); in the order of their bricks, none
-//   |                        |  shared
+//   |                        |  shared. Of an octree of planes instead the plane of every voxel,
+//   |                        |  in the order of the voxels
 //   +------------------------+ 256 + 16 * nodeCount + 4 * listWords
 //
 //   Node, 16 bytes:
@@ -37,7 +38,12 @@
 //     8  first  4  inner node: index of the first child node
 //                  brick (last depth): a single triangle's id with InlineTriangle set, else the
 //                  index in `lists` of the count that starts its list
+//                  brick of an octree of planes: the index in `lists` of its first voxel's plane
 //    12  plane  4  the mean plane of the surface in this node's block, see svoPlane.h
+//
+// OCTREES OF PLANES
+//   A surface that is no mesh (where a function or an image takes a value) has no triangles to
+//   refer to. Each of its voxels has a plane of its own instead, whose block is the voxel.
 #ifndef svoLayout_h
 #define svoLayout_h
 
@@ -87,12 +93,15 @@ struct Header
   std::uint64_t cellCount;     // of that mesh
   double meshBounds[6];        // of that mesh, or of what it is a part of
   std::uint32_t depthBegin[MaximumDepths + 1]; // first node of each depth; [depthCount] = nodeCount
-  std::uint32_t reserved[13];
+  std::uint32_t leafWords; // words of `lists` that a voxel has; 0: an octree of triangles
+  std::uint32_t reserved[12];
 };
 static_assert(sizeof(Header) == 256, "the header is part of the file format");
 
 constexpr char LayoutMagic[8] = { 'v', 't', 'k', 'S', 'V', 'O', 0, 0 };
 constexpr std::uint32_t LayoutVersion = 1;
+/// Header::leafWords of an octree of planes.
+constexpr std::uint32_t PlaneWords = 1;
 }
 
 #endif

@@ -21,6 +21,7 @@ bool headerIsSane(const Header& h, std::size_t size)
     h.level < 1 || h.level > static_cast<std::uint32_t>(MaximumLevel) ||
     h.depthCount != (h.level + 1) / 2 || h.nodeCount < 1 || h.nodeCount > 0x7fffffffu ||
     h.listWords > 0x7fffffffu || h.triangleCount > 0x7fffffffu ||
+    (h.leafWords != 0 && (h.leafWords != PlaneWords || h.triangleCount != 0)) ||
     size != sizeof(Header) + h.nodeCount * sizeof(Node) + h.listWords * sizeof(std::uint32_t))
   {
     return false;
@@ -74,7 +75,8 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
     error = "the octree's header is damaged, or of another version";
     return {};
   }
-  if (octree.Triangles && octree.Triangles->triangles.size() != h.triangleCount)
+  if (octree.Triangles &&
+    (octree.hasPlanes() || octree.Triangles->triangles.size() != h.triangleCount))
   {
     error = "the octree was built from another number of triangles";
     return {};
@@ -116,6 +118,12 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
     {
       good = good && node.first == next;
       next += childCount(node);
+    }
+    else if (octree.hasPlanes())
+    {
+      const std::uint64_t words = PlaneWords * static_cast<std::uint64_t>(childCount(node));
+      good = good && node.first == nextList && words <= h.listWords - nextList;
+      nextList += good ? words : 0;
     }
     else if (node.first & InlineTriangle)
     {

@@ -1,9 +1,11 @@
-// A sparse voxel octree, ready to be traced: a layout buffer and the triangles it refers to.
+// A sparse voxel octree, ready to be traced: a layout buffer and the triangles it refers to, if it
+// does.
 #ifndef svoOctree_h
 #define svoOctree_h
 
 #include "svoKeptRepresentatives.h"
 #include "svoLayout.h"
+#include "svoNode.h"
 #include "svoShortLists.h"
 #include "svoSurface.h"
 #include "svoUpperLevels.h"
@@ -28,8 +30,9 @@ public:
 
   /// Opens `size` bytes at `data` (8-byte aligned). Every index is checked, so that a corrupt or
   /// hostile buffer is refused here and traversal needs no checks. On failure the result is empty
-  /// and `error` says why. `surface` may be null for an octree that is only queried, not traced
-  /// with plane or triangle leaves. `data`'s owner stays alive as long as any copy does.
+  /// and `error` says why. `surface` is null for an octree of planes, and may be null for one that
+  /// is only queried, not traced with plane or triangle leaves. `data`'s owner stays alive as long
+  /// as any copy does.
   static Octree open(std::shared_ptr<const std::byte> data, std::size_t size,
     std::shared_ptr<const Surface> surface, std::string& error);
 
@@ -48,6 +51,8 @@ public:
     return reinterpret_cast<const std::uint32_t*>(this->nodes() + this->header().nodeCount);
   }
   const Surface* surface() const { return this->Triangles.get(); }
+  /// True if it has a plane for each voxel instead of triangles; it never has a surface then.
+  bool hasPlanes() const { return this->header().leafWords != 0; }
 
   int level() const { return static_cast<int>(this->header().level); }
   int depthCount() const { return static_cast<int>(this->header().depthCount); }
@@ -76,11 +81,21 @@ public:
   /// True if `cell` (integer coordinates at `level`, 0..level()) is occupied. False outside.
   bool occupied(glm::ivec3 cell, int level) const;
 
+  /// Index in lists() of the plane of voxel `i` of a brick; of an octree of planes.
+  std::uint32_t planeOf(std::uint32_t brick, int i) const
+  {
+    assert(this->hasPlanes() && brick >= this->brickBegin() && brick < this->header().nodeCount);
+    const Node& node = this->nodes()[brick];
+    assert(hasChild(node, i));
+    return node.first + PlaneWords * static_cast<std::uint32_t>(childrenBefore(node, i));
+  }
+
   /// The triangles of a brick (index of a node of the last depth): begin and count. A single
-  /// inline id is written to `inlineId` and pointed at.
+  /// inline id is written to `inlineId` and pointed at. Not of an octree of planes.
   const std::uint32_t* brickTriangles(
     std::uint32_t brick, std::uint32_t& count, std::uint32_t& inlineId) const
   {
+    assert(!this->hasPlanes());
     assert(brick >= this->brickBegin() && brick < this->header().nodeCount);
     const std::uint32_t reference = this->nodes()[brick].first;
     if (reference & InlineTriangle)
@@ -123,7 +138,7 @@ private:
   std::shared_ptr<const FromLists> Lists;
 };
 
-/// Finds an open octree that has a surface again, for as long as somebody keeps it.
+/// Finds an open octree that has a surface, or planes, again, for as long as somebody keeps it.
 class WeakOctree
 {
 public:
@@ -150,7 +165,9 @@ public:
     octree.Triangles = this->Triangles.lock();
     octree.Upper = this->Upper.lock();
     octree.Lists = this->Lists.lock();
-    return octree.Data && octree.Triangles && octree.Upper && octree.Lists ? octree : Octree();
+    const bool whole =
+      octree.Data && octree.Upper && octree.Lists && (octree.Triangles || octree.hasPlanes());
+    return whole ? octree : Octree();
   }
 
 private:

@@ -20,8 +20,9 @@ struct Ray
   double tMax = 1e300;
 };
 
-/// Names what was hit, in 32 bits: a triangle id (below NodePrimitive), or NodePrimitive | index of
-/// the node whose mean plane stands for the surface where a ray stopped above the bricks.
+/// Names what was hit, in 32 bits: a triangle id (below NodePrimitive), or of an octree of planes
+/// the index of the plane in its lists, or NodePrimitive | index of the node whose mean plane
+/// stands for the surface where a ray stopped above the bricks.
 using Primitive = std::uint32_t;
 constexpr Primitive NodePrimitive = 0x80000000u;
 constexpr Primitive NoPrimitive = 0xffffffffu;

@@ -15,6 +15,13 @@
 //              brick is kept as the new end of the ray.
 //   automatic  triangle in bricks with a list of at most ShortList triangles, plane in the others.
 //
+// An octree of planes has a plane of its own in each voxel: all leaves but `voxel` are that plane,
+// where it passes the voxel widened by half a voxel on all sides. Neighbouring planes are tangents
+// of one smooth surface: at the voxels' border they are apart by less than the bend of the surface
+// within a voxel, so they overlap there, and reach little beyond an edge. A ray that all of them
+// refuse has passed beside the surface: it gets nothing, and outlines are the surface's own. Rays
+// that reach bricks go on to their voxels.
+//
 // Where a ray stops above the bricks (TraceOptions::level below octree.level() - 2) plane, triangle
 // and automatic are the mean plane of the node that is the cell, with the rule of `plane`; at an
 // octree level between two depths, of the child node that the ray passes in the middle of the cell,
@@ -48,20 +55,28 @@ struct LeafQuery
   LeafQuery(const Octree& o, const TraceOptions& asked)
     : octree(o)
     , options(asked)
-    , level(std::clamp(options.level, 0, o.level()))
+    , planes(o.hasPlanes())
+    , level(stopLevel(o, options.level))
     , bits(rootBits(o, level))
     , inBrick(level >= o.level() - 2)
-    , leaf(traitsOf(o.surface() || !inBrick ? options.leafGeometry : LeafGeometry::Voxel))
+    , leaf(traitsOf(o.surface() || planes || !inBrick ? options.leafGeometry : LeafGeometry::Voxel))
   {
-    if (!inBrick)
+    if (!inBrick || planes)
     {
       leaf.longestExact = 0; // nodes have a shape, but no list
     }
     assert(!o.empty());
   }
 
+  static int stopLevel(const Octree& octree, int asked)
+  {
+    const int level = std::clamp(asked, 0, octree.level());
+    return octree.hasPlanes() && level >= octree.level() - 2 ? octree.level() : level;
+  }
+
   const Octree& octree;
   TraceOptions options;
+  bool planes;     // of its own, see Octree::hasPlanes()
   int level;       // where rays stop
   int bits;        // of a cell's coordinate in the root cube
   bool inBrick;    // cells are parts of a brick, or a brick
@@ -177,7 +192,8 @@ template <class Real>
 Real intersectPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const StopCell<Real>& cell,
   Primitive primitive)
 {
-  if (!(primitive & NodePrimitive))
+  const bool ofNode = primitive & NodePrimitive;
+  if (!ofNode && !query.planes)
   {
     const Surface& surface = *query.octree.surface();
     assert(primitive < surface.triangles.size());
@@ -187,9 +203,10 @@ Real intersectPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const S
       Vector<Real>(surface.points[triangle.y]) - a, Vector<Real>(surface.points[triangle.z]) - a);
     return glm::dot(normal, a - ray.origin) / glm::dot(normal, ray.direction);
   }
-  // The node's block is the cell, or (at a level in between) one of the cell's eight children.
+  // The block is the voxel, or the node's: the cell, or (at a level in between) one of the cell's
+  // eight children.
   const std::uint32_t index = primitive & ~NodePrimitive;
-  assert(index < query.octree.header().nodeCount);
+  assert(index < (ofNode ? query.octree.header().nodeCount : query.octree.header().listWords));
   glm::ivec3 block = cell.cell;
   int bits = query.bits;
   if (cell.bitCount == GroupSize)
@@ -205,7 +222,8 @@ Real intersectPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const S
     block = 2 * block + glm::ivec3(bit & 1, bit >> 1 & 1, bit >> 2);
     ++bits;
   }
-  const MeanPlane plane = decodePlane(query.octree.nodes()[index].plane);
+  const MeanPlane plane =
+    decodePlane(ofNode ? query.octree.nodes()[index].plane : query.octree.lists()[index]);
   const Vector<Real> normal(plane.normal);
   const Real halfDiagonal = static_cast<Real>(std::sqrt(3.0) * cellHalf(bits));
   const Vector<Real> toCentre = cellCentre<Real>(block, bits) - ray.origin;
@@ -220,7 +238,8 @@ Visit meetPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const StopC
   const Real t = intersectPlane(query, ray, cell, primitive);
   const Vector<Real> x =
     glm::abs(ray.origin + t * ray.direction - cellCentre<Real>(cell.cell, query.bits));
-  const Real reach = static_cast<Real>(3.0 * cellHalf(query.bits));
+  const bool own = query.planes && !(primitive & NodePrimitive);
+  const Real reach = static_cast<Real>((own ? 2.0 : 3.0) * cellHalf(query.bits));
   const bool near = x.x <= reach && x.y <= reach && x.z <= reach; // false for NaN
   // A plane may pass the cell on the outside of the octree's cube, where the ray has begun.
   if (near && t >= ray.tStart && t <= tMax)
@@ -232,7 +251,7 @@ Visit meetPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const StopC
     return Visit::Stop;
   }
   const bool leftBehind = near && t < ray.tStart && cell.tEnter <= ray.tMin;
-  if (hit.refused == NoPrimitive && !leftBehind)
+  if (hit.refused == NoPrimitive && !leftBehind && !own)
   {
     hit.refusedT = cell.tEnter;
     hit.refused = primitive;
@@ -290,6 +309,11 @@ Visit meetCell(const LeafQuery& query, const ClippedRay<Real>& ray, const Sheare
   {
     const Primitive node = NodePrimitive | representativeNode(query, ray, cell);
     return meetShape(query, ray, cell, node, tMax, hit);
+  }
+  if (query.planes)
+  {
+    assert(cell.bitCount == 1);
+    return meetShape(query, ray, cell, query.octree.planeOf(cell.node, cell.firstBit), tMax, hit);
   }
   if (query.leaf.exact())
   {

@@ -29,8 +29,8 @@ bool worthTiles(const Instance& instance, const LocalView& local, const View& vi
 
 int deepened(const Instance& instance, int level)
 {
-  return traitsOf(instance.leafGeometry).exact() && instance.octree.surface() &&
-      !stopsAtNodes(instance, level)
+  const bool exact = traitsOf(instance.leafGeometry).exact() && instance.octree.surface();
+  return (exact || instance.octree.hasPlanes()) && !stopsAtNodes(instance, level)
     ? instance.octree.level()
     : level;
 }

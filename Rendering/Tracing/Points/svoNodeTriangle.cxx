@@ -6,11 +6,23 @@
 
 namespace svo
 {
+namespace
+{
+constexpr double FromOutside = 2.0; // more than the diagonal of the root cube
+}
+
+Primitive planeInSight(const Octree& octree, const glm::dvec3& x, const glm::dvec3& towards)
+{
+  assert(octree.hasPlanes());
+  const glm::dvec3 direction = -glm::normalize(towards);
+  const Ray ray{ x - FromOutside * direction, direction, 0.0, 2.0 * FromOutside };
+  return intersect(octree, ray, { LeafGeometry::Plane }).primitive;
+}
+
 void settleTriangles(
   const Octree& octree, NodeTriangle* const* picked, const glm::dvec3* towards, int count)
 {
   assert(count > 0 && count <= RayBlock::Size);
-  constexpr double FromOutside = 2.0; // more than the diagonal of the root cube
   RayBlock rays;
   for (int i = 0; i < RayBlock::Size; ++i)
   {

@@ -1,4 +1,5 @@
-// The triangle that stands for a node above the bricks, where a ray stopped for level of detail.
+// The triangle, or plane, that stands for a node above the bricks, where a ray stopped for level of
+// detail.
 //
 // The point that is shaded lies on the node's mean plane, which is no normal to shade with: the
 // node has faces in it that the viewer does not see. So a triangle of the node is taken that faces
@@ -128,6 +129,11 @@ NodeTriangle pickTriangle(const Octree& octree, std::uint32_t node, const glm::d
   }
   return picked;
 }
+
+/// Of an octree of planes: what the line of sight through `x` meets first, or NoPrimitive.
+/// `towards`: to the viewer, of any length; both in octree coordinates.
+VTKSVOTRACING_EXPORT Primitive planeInSight(
+  const Octree& octree, const glm::dvec3& x, const glm::dvec3& towards);
 
 /// Settles up to 64 triangles that do not face the viewer: each becomes the first hit of the line
 /// of sight that passes through it. The answer to one does not depend on the others. `towards`: as

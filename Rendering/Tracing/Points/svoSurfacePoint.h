@@ -3,6 +3,7 @@
 #define svoSurfacePoint_h
 
 #include "svoNodeTriangle.h"
+#include "svoPlane.h"
 #include "svoRay.h"
 #include "svoScene.h"
 #include "svoView.h"
@@ -165,11 +166,43 @@ inline bool shadersTurn(const SurfaceMatrices& frame, const View& view, const gl
   return glm::dot(glm::dvec3(facet), along) > 0.0;
 }
 
+/// A point of an octree of planes: on the plane that was hit, of a voxel or of a node. Where a
+/// node's mean plane faces away, the line of sight tells a surface that is seen from behind from a
+/// node that reaches beyond the outline: there it meets nothing, and the outline's normal is across
+/// it.
+inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
+  const glm::dvec3& position, const glm::vec3& towards, Primitive primitive)
+{
+  const Octree& octree = frame.instance->octree;
+  const glm::vec3 forwards = glm::normalize(towards);
+  const auto inWorld = [&](const glm::vec3& normal)
+  { return detail::normalized(frame.normalMatrix * normal, forwards); };
+  const bool node = primitive & NodePrimitive;
+  glm::vec3 outwards = inWorld(
+    decodePlane(node ? octree.nodes()[primitive & ~NodePrimitive].plane : octree.lists()[primitive])
+      .normal);
+  if (const float away = glm::dot(outwards, forwards); node && away < 0.0f)
+  {
+    const Primitive seen = planeInSight(
+      octree, frame.toOctree.point(position), frame.toOctree.vector(glm::dvec3(towards)));
+    outwards = seen != NoPrimitive ? inWorld(decodePlane(octree.lists()[seen]).normal)
+                                   : detail::normalized(outwards - away * forwards, forwards);
+  }
+  const glm::vec3 facet = sideLane(outwards, towards) * outwards;
+  return { position, facet, shadersTurn(frame, view, position, facet) ? -facet : facet,
+    glm::vec3(1.0f), false };
+}
+
 /// A point of a triangle, with the attributes that the triangle has at `at`, octree coordinates;
-/// without a surface whatever faces the viewer. `towards`: to the viewer; world.
+/// without a surface of the octree's own plane, or whatever faces the viewer. `towards`: to the
+/// viewer; world.
 inline SurfacePoint pointOfTriangle(const SurfaceMatrices& frame, const View& view,
   const glm::dvec3& position, const glm::vec3& towards, Primitive primitive, const glm::dvec3& at)
 {
+  if (frame.instance->octree.hasPlanes())
+  {
+    return pointOfPlane(frame, view, position, towards, primitive);
+  }
   const glm::vec3 forwards = glm::normalize(towards);
   if (!frame.instance->octree.surface())
   {

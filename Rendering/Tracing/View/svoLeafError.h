@@ -58,16 +58,22 @@ inline double worldMapError(
   const Instance& instance, LeafGeometry geometry, int level, bool placed = false)
 {
   const double error = traitsOf(geometry).mapError;
-  return error > 0.0 && !stopsAtNodes(instance, level) && instance.octree.surface()
+  const bool planes = instance.octree.surface() || instance.octree.hasPlanes();
+  return error > 0.0 && !stopsAtNodes(instance, level) && planes
     ? error * worldVoxel(instance, level)
     : worldLeafError(instance, geometry, level, placed);
 }
 
 /// True if the hit of a ray that stops at `level` does not depend on where the ray ends, so that it
-/// may be cut short: all leaves but planes, whose rays fall back on a refused cell at their end.
+/// may be cut short: all leaves but planes, whose rays fall back on a refused cell at their end. An
+/// octree's own planes have no such end, but their nodes have.
 inline bool endsFreely(const Instance& instance, int level)
 {
   const LeafTraits traits = traitsOf(instance.leafGeometry);
+  if (instance.octree.hasPlanes())
+  {
+    return !traits.fallsBack() || !stopsAtNodes(instance, level);
+  }
   if (!traits.fallsBack() || !instance.octree.surface())
   {
     return true;

@@ -1,0 +1,89 @@
+#include "svoCellSurface.h"
+
+#include "vtkCellArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace svo
+{
+const CellFace FacesOfCell[CellFaces] = {
+  { { -1, 0, 0 }, { { 0, 0, 0 }, { 0, 0, 1 }, { 0, 1, 1 }, { 0, 1, 0 } } },
+  { { 1, 0, 0 }, { { 1, 0, 0 }, { 1, 1, 0 }, { 1, 1, 1 }, { 1, 0, 1 } } },
+  { { 0, -1, 0 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 1 }, { 0, 0, 1 } } },
+  { { 0, 1, 0 }, { { 0, 1, 0 }, { 0, 1, 1 }, { 1, 1, 1 }, { 1, 1, 0 } } },
+  { { 0, 0, -1 }, { { 0, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { 1, 0, 0 } } },
+  { { 0, 0, 1 }, { { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } } },
+};
+
+namespace
+{
+/// Corners have up to 2^20 + 1 coordinates on an axis, so 21 bits each.
+std::uint64_t cornerKey(const glm::ivec3& corner)
+{
+  return static_cast<std::uint64_t>(corner.z) << 42 | static_cast<std::uint64_t>(corner.y) << 21 |
+    static_cast<std::uint64_t>(corner.x);
+}
+}
+
+bool isOccupied(const Octree& octree, const OctreeCell& cell, const glm::ivec3& at, int level)
+{
+  // Most neighbours are in the same block, where its mask is the answer.
+  const glm::ivec3 difference = (at ^ cell.cell) >> (cell.bitCount == 1 ? 2 : 1);
+  if (cell.bitCount < 64 && difference == glm::ivec3(0))
+  {
+    const Node& node = octree.nodes()[cell.node];
+    return cell.bitCount == 1
+      ? hasChild(node, cellIndex(at.x & 3, at.y & 3, at.z & 3))
+      : groupCells(node, GroupSize * cellIndex(at.x & 1, at.y & 1, at.z & 1)) != 0;
+  }
+  return octree.occupied(at, level);
+}
+
+void CellQuads::add(const glm::ivec3& cell, const CellFace& face)
+{
+  for (const glm::ivec3& corner : face.corners)
+  {
+    this->Corners.push_back(cornerKey(cell + corner));
+  }
+}
+
+void CellQuads::write(const Octree& octree, int level, int pointType, vtkPolyData* mesh,
+  const std::function<void()>& sorted) const
+{
+  std::vector<std::uint64_t> points = this->Corners;
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  sorted();
+
+  const Header& header = octree.header();
+  const double edge = std::ldexp(header.voxelSize, octree.level() - level);
+  vtkNew<vtkPoints> outPoints;
+  outPoints->SetDataType(pointType);
+  outPoints->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const std::uint64_t key = points[i];
+    outPoints->SetPoint(static_cast<vtkIdType>(i),
+      header.origin[0] + static_cast<double>(key & 0x1fffff) * edge,
+      header.origin[1] + static_cast<double>(key >> 21 & 0x1fffff) * edge,
+      header.origin[2] + static_cast<double>(key >> 42) * edge);
+  }
+
+  vtkNew<vtkIdTypeArray> connectivity;
+  connectivity->SetNumberOfValues(static_cast<vtkIdType>(this->Corners.size()));
+  for (std::size_t i = 0; i < this->Corners.size(); ++i)
+  {
+    const auto found = std::lower_bound(points.begin(), points.end(), this->Corners[i]);
+    connectivity->SetValue(static_cast<vtkIdType>(i), found - points.begin());
+  }
+  vtkNew<vtkCellArray> polys;
+  polys->SetData(4, connectivity);
+  mesh->SetPoints(outPoints);
+  mesh->SetPolys(polys);
+}
+}

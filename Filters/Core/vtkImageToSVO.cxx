@@ -1,0 +1,189 @@
+#include "vtkImageToSVO.h"
+
+#include "svoAbort.h"
+#include "svoImageSource.h"
+#include "svoMeshOctree.h"
+#include "svoSMPParallel.h"
+#include "svoSourceOctree.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMatrix4x4.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkTimerLog.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <new>
+#include <string>
+
+vtkStandardNewMacro(vtkImageToSVO);
+
+namespace
+{
+/// Why an image has no surface to convert; nullptr if it may have one.
+const char* unfit(vtkImageData* image, vtkDataArray* scalars)
+{
+  const int* n = image->GetDimensions();
+  if (!scalars)
+  {
+    return "the image has no such point scalars";
+  }
+  if (scalars->GetNumberOfComponents() != 1)
+  {
+    return "the scalars have more than one component";
+  }
+  if (n[0] < 2 || n[1] < 2 || n[2] < 2)
+  {
+    return "the image has fewer than two points along an axis";
+  }
+  if (scalars->GetNumberOfTuples() != image->GetNumberOfPoints() ||
+    !scalars->HasStandardMemoryLayout())
+  {
+    return "the scalars are not one for each point, in one block of memory";
+  }
+  return nullptr;
+}
+
+svo::ImageGrid gridOf(vtkImageData* image)
+{
+  svo::ImageGrid grid;
+  const int* extent = image->GetExtent();
+  const int* n = image->GetDimensions();
+  grid.points = { n[0], n[1], n[2] };
+  for (int row = 0; row < 4; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      grid.toIndex[column][row] = image->GetPhysicalToIndexMatrix()->GetElement(row, column);
+    }
+  }
+  grid.toIndex[3] -= glm::dvec4(extent[0], extent[2], extent[4], 0.0);
+  return grid;
+}
+
+/// The level whose voxels are as small as the image's smallest spacing.
+int levelOf(vtkImageData* image, double extent)
+{
+  const double* spacing = image->GetSpacing();
+  const double least =
+    std::min({ std::abs(spacing[0]), std::abs(spacing[1]), std::abs(spacing[2]) });
+  const double cells = extent / least;
+  return cells >= 2.0 && std::isfinite(cells)
+    ? std::min(static_cast<int>(std::ceil(std::log2(cells * (1.0 - 1e-9)))), svo::MaximumLevel)
+    : 1;
+}
+
+template <class T>
+svo::BuildStatus convert(const T* values, const svo::ImageGrid& grid, double value,
+  const svo::BuildOptions& options, vtkPolyData* hull, std::string& message)
+{
+  const svo::ImageField<T> field(grid, values);
+  const svo::ValuePyramid pyramid(grid, field, options.parallelFor);
+  const svo::ImageSource source(field, grid, pyramid, value);
+  return svo::buildSourceOctree(source, options, hull, message);
+}
+}
+
+//------------------------------------------------------------------------------
+vtkImageToSVO::vtkImageToSVO()
+{
+  this->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+}
+
+//------------------------------------------------------------------------------
+int vtkImageToSVO::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkImageToSVO::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->NumberOfVoxels = 0;
+  this->BuildTime = 0.0;
+  vtkImageData* image = vtkImageData::GetData(inputVector[0]);
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  output->Initialize();
+  int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  vtkDataArray* scalars = this->GetInputArrayToProcess(0, inputVector, association);
+  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
+  {
+    scalars = nullptr;
+  }
+  if (const char* reason = unfit(image, scalars))
+  {
+    vtkErrorMacro("The octree is not built: " << reason << ".");
+    return 1;
+  }
+  constexpr std::size_t Kibi = 1024;
+  const double* b = image->GetBounds();
+  svo::BuildOptions options;
+  options.leafGeometry = svo::LeafGeometry::Plane;
+  options.modelLow = { b[0], b[2], b[4] };
+  options.modelHigh = { b[1], b[3], b[5] };
+  options.level = this->MaximumLevel > 0
+    ? this->MaximumLevel
+    : levelOf(image, std::max({ b[1] - b[0], b[3] - b[2], b[5] - b[4] }));
+  options.memoryLimit = this->MemoryLimit * Kibi;
+  options.parallelFor = svo::smpParallelFor();
+  options.progress = [this](double progress)
+  {
+    this->UpdateProgress(progress);
+    return !svo::isAborted(this);
+  };
+  std::string message = "scalars of this type are not known";
+  svo::BuildStatus status = svo::BuildStatus::BadInput;
+  const double start = vtkTimerLog::GetUniversalTime();
+  try
+  {
+    switch (scalars->GetDataType())
+    {
+      vtkTemplateMacro(status = convert(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0)),
+                         gridOf(image), this->Value, options, output, message));
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+    message = "there is not enough memory for what has to be known of the image";
+  }
+  this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
+  if (status == svo::BuildStatus::Aborted)
+  {
+    return 1;
+  }
+  svo::Octree octree;
+  if (status == svo::BuildStatus::Built &&
+    svo::openAttachedOctree(output, octree, message) == svo::Attached::Found)
+  {
+    this->NumberOfVoxels = static_cast<vtkIdType>(octree.header().voxelCount);
+    if (octree.empty())
+    {
+      vtkWarningMacro(
+        "No surface was found: the image does not take the value " << this->Value << ".");
+    }
+    return 1;
+  }
+  vtkErrorMacro("The octree is not built: " << message << ".");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkImageToSVO::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Value: " << this->Value << "\n";
+  os << indent << "MaximumLevel: " << this->MaximumLevel << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
+  os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
+  os << indent << "BuildTime: " << this->BuildTime << " s\n";
+}

@@ -1,0 +1,86 @@
+/**
+ * @class vtkImageToSVO
+ * @brief converts an isosurface of an image into a sparse voxel octree, without triangles
+ *
+ * The surface is where the point scalars of a three-dimensional image take a value: those of the
+ * array chosen with SetInputArrayToProcess(), by default the active ones. The image is trilinear
+ * between its points; spacing, origin and direction matrix count. Each voxel that the surface
+ * touches keeps a plane.
+ *
+ * The output is a coarse hull of the surface that carries the octree in its field data, as that of
+ * vtkImplicitFunctionToSVO is. What cannot be converted leads to one message and an output without
+ * cells: no scalars, more than one component, an image with fewer than two points along an axis, an
+ * octree that needs more memory than there is (errors), a value that the image does not take
+ * (warning). Points whose values are not finite have no surface near them. The build reports
+ * progress and can be aborted.
+ *
+ * @sa vtkImplicitFunctionToSVO vtkPolyDataToSVO vtkFlyingEdges3D
+ */
+#ifndef vtkImageToSVO_h
+#define vtkImageToSVO_h
+
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkSVOCoreModule.h" // for the export macro
+
+class VTKSVOCORE_EXPORT vtkImageToSVO : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkImageToSVO* New();
+  vtkTypeMacro(vtkImageToSVO, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  //@{
+  /**
+   * The value that the scalars take on the surface; default 0.
+   */
+  vtkSetMacro(Value, double);
+  vtkGetMacro(Value, double);
+  //@}
+
+  //@{
+  /**
+   * Depth of the octree: 2^level voxels along the image's longest edge. 0 to 20, values outside are
+   * clamped. 0 (default): the first level whose voxels are no larger than the image's smallest
+   * spacing.
+   */
+  vtkSetClampMacro(MaximumLevel, int, 0, 20);
+  vtkGetMacro(MaximumLevel, int);
+  //@}
+
+  //@{
+  /**
+   * Memory that the build may use at its peak, in KiB; default 0: what the machine has available.
+   */
+  vtkSetMacro(MemoryLimit, unsigned long);
+  vtkGetMacro(MemoryLimit, unsigned long);
+  //@}
+
+  //@{
+  /**
+   * Occupied voxels of the last execution's octree, 0 if none, and how long it took to build, in
+   * seconds.
+   */
+  vtkGetMacro(NumberOfVoxels, vtkIdType);
+  vtkGetMacro(BuildTime, double);
+  //@}
+
+protected:
+  vtkImageToSVO();
+  ~vtkImageToSVO() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkImageToSVO(const vtkImageToSVO&) = delete;
+  void operator=(const vtkImageToSVO&) = delete;
+
+  double Value = 0.0;
+  int MaximumLevel = 0;
+  unsigned long MemoryLimit = 0;
+  vtkIdType NumberOfVoxels = 0;
+  double BuildTime = 0.0;
+};
+
+#endif

@@ -1,0 +1,142 @@
+#include "vtkImplicitFunctionToSVO.h"
+
+#include "svoAbort.h"
+#include "svoFieldSource.h"
+#include "svoMeshOctree.h"
+#include "svoSMPParallel.h"
+#include "svoSourceOctree.h"
+
+#include "vtkAbstractTransform.h"
+#include "vtkImplicitFunction.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkTimerLog.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include <glm/vec3.hpp>
+
+vtkStandardNewMacro(vtkImplicitFunctionToSVO);
+vtkCxxSetObjectMacro(vtkImplicitFunctionToSVO, ImplicitFunction, vtkImplicitFunction);
+
+namespace
+{
+class FunctionField : public svo::ScalarField
+{
+public:
+  explicit FunctionField(vtkImplicitFunction* function)
+    : Function(function)
+  {
+    if (vtkAbstractTransform* transform = function->GetTransform())
+    {
+      transform->Update(); // before several threads find that it has to be
+    }
+  }
+  double value(const glm::dvec3& at) const override { return this->Function->FunctionValue(&at.x); }
+  glm::dvec3 gradient(const glm::dvec3& at) const override
+  {
+    glm::dvec3 g;
+    this->Function->FunctionGradient(&at.x, &g.x);
+    return g;
+  }
+
+private:
+  vtkImplicitFunction* Function;
+};
+}
+
+//------------------------------------------------------------------------------
+vtkImplicitFunctionToSVO::vtkImplicitFunctionToSVO()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkImplicitFunctionToSVO::~vtkImplicitFunctionToSVO()
+{
+  this->SetImplicitFunction(nullptr);
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkImplicitFunctionToSVO::GetMTime()
+{
+  const vtkMTimeType time = this->Superclass::GetMTime();
+  return this->ImplicitFunction ? std::max(time, this->ImplicitFunction->GetMTime()) : time;
+}
+
+//------------------------------------------------------------------------------
+int vtkImplicitFunctionToSVO::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  this->NumberOfVoxels = 0;
+  this->BuildTime = 0.0;
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  output->Initialize();
+  if (!this->ImplicitFunction)
+  {
+    vtkErrorMacro("The octree is not built: there is no implicit function.");
+    return 1;
+  }
+  constexpr std::size_t Kibi = 1024;
+  const double* b = this->ModelBounds;
+  svo::BuildOptions options;
+  options.level = this->MaximumLevel;
+  options.leafGeometry = svo::LeafGeometry::Plane;
+  options.modelLow = { b[0], b[2], b[4] };
+  options.modelHigh = { b[1], b[3], b[5] };
+  options.memoryLimit = this->MemoryLimit * Kibi;
+  options.parallelFor = this->Parallel ? svo::smpParallelFor() : svo::serialFor;
+  options.progress = [this](double progress)
+  {
+    this->UpdateProgress(progress);
+    return !svo::isAborted(this);
+  };
+  const double extent = std::max({ b[1] - b[0], b[3] - b[2], b[5] - b[4] });
+  // The octree's cube is a trifle larger than the box.
+  const double coarsest = std::ldexp(extent, -this->MinimumLevel - 1) * 1.1;
+  const FunctionField field(this->ImplicitFunction);
+  const svo::FieldSource source(field, { this->Value, this->GradientBound, coarsest });
+  std::string message;
+  const double start = vtkTimerLog::GetUniversalTime();
+  const svo::BuildStatus status = svo::buildSourceOctree(source, options, output, message);
+  this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
+  if (status == svo::BuildStatus::Aborted)
+  {
+    return 1;
+  }
+  svo::Octree octree;
+  if (status == svo::BuildStatus::Built &&
+    svo::openAttachedOctree(output, octree, message) == svo::Attached::Found)
+  {
+    this->NumberOfVoxels = static_cast<vtkIdType>(octree.header().voxelCount);
+    if (octree.empty())
+    {
+      vtkWarningMacro("No surface was found: the function does not take the value "
+        << this->Value << " in the box of ModelBounds.");
+    }
+    return 1;
+  }
+  vtkErrorMacro("The octree is not built: " << message << ".");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkImplicitFunctionToSVO::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ImplicitFunction: " << this->ImplicitFunction << "\n";
+  os << indent << "Value: " << this->Value << "\n";
+  os << indent << "ModelBounds: (" << this->ModelBounds[0] << ", " << this->ModelBounds[1] << ", "
+     << this->ModelBounds[2] << ", " << this->ModelBounds[3] << ", " << this->ModelBounds[4] << ", "
+     << this->ModelBounds[5] << ")\n";
+  os << indent << "MaximumLevel: " << this->MaximumLevel << "\n";
+  os << indent << "GradientBound: " << this->GradientBound << "\n";
+  os << indent << "MinimumLevel: " << this->MinimumLevel << "\n";
+  os << indent << "Parallel: " << (this->Parallel ? "On\n" : "Off\n");
+  os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
+  os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
+  os << indent << "BuildTime: " << this->BuildTime << " s\n";
+}

@@ -1,0 +1,154 @@
+/**
+ * @class vtkImplicitFunctionToSVO
+ * @brief converts the surface of an implicit function into a sparse voxel octree, without triangles
+ *
+ * The surface is where the function takes a value, within a box of interest. The box is cut into
+ * eight, again and again, only where the surface may be, so that the function is never sampled on a
+ * dense grid: time and memory go with the surface. Each voxel of the last level that the surface
+ * touches keeps a plane, from the function's value and gradient.
+ *
+ * The output is a coarse hull of the surface (quads around the cells of an upper level) that
+ * carries the octree in its field data. So bounds, outlines, pickers and files work as they do with
+ * any mesh; vtkSVORenderPass traces the surface itself, and VTK's rasteriser, where it has to draw,
+ * shows the hull. A filter downstream that changes points or cells of the hull leaves an octree
+ * that is recognised as foreign.
+ *
+ * Where the function's gradient has a known bound, see SetGradientBound(), nothing is missed. Else
+ * the function is sampled nine times in each cube, from the cubes of MinimumLevel on, and parts of
+ * a surface that are smaller than those and do not show in the samples can be missed.
+ *
+ * The function is asked by several threads at a time, see SetParallel(). Values that are not finite
+ * are no part of any surface. What cannot be converted leads to one message and an output without
+ * cells: no function, a box that is empty or not finite, an octree that needs more memory than
+ * there is (errors), no surface in the box (warning). The build reports progress and can be
+ * aborted; the output then has no cells.
+ *
+ * @sa vtkPolyDataToSVO vtkSparseVoxelOctree vtkSVORenderPass vtkSampleFunction
+ */
+#ifndef vtkImplicitFunctionToSVO_h
+#define vtkImplicitFunctionToSVO_h
+
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkSVOCoreModule.h" // for the export macro
+
+class vtkImplicitFunction;
+
+class VTKSVOCORE_EXPORT vtkImplicitFunctionToSVO : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkImplicitFunctionToSVO* New();
+  vtkTypeMacro(vtkImplicitFunctionToSVO, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The time of the function counts, too.
+   */
+  vtkMTimeType GetMTime() override;
+
+  //@{
+  /**
+   * The function. Its gradient should point to the outside.
+   */
+  virtual void SetImplicitFunction(vtkImplicitFunction* function);
+  vtkGetObjectMacro(ImplicitFunction, vtkImplicitFunction);
+  //@}
+
+  //@{
+  /**
+   * The value that the function takes on the surface; default 0.
+   */
+  vtkSetMacro(Value, double);
+  vtkGetMacro(Value, double);
+  //@}
+
+  //@{
+  /**
+   * The box that the surface is looked for in: xmin, xmax, ymin, ymax, zmin, zmax; default -1 to 1
+   * on each axis. The octree's cube has its longest edge. A surface that leaves the box is cut off
+   * there, within a voxel.
+   */
+  vtkSetVector6Macro(ModelBounds, double);
+  vtkGetVector6Macro(ModelBounds, double);
+  //@}
+
+  //@{
+  /**
+   * Depth of the octree: 2^level voxels along an edge of its cube. 1 to 20, values outside are
+   * clamped; default 8.
+   */
+  vtkSetClampMacro(MaximumLevel, int, 1, 20);
+  vtkGetMacro(MaximumLevel, int);
+  //@}
+
+  //@{
+  /**
+   * A length that no gradient of the function exceeds in the box: 1 for a distance. It need not be
+   * the least such length, but the closer, the less is examined. With one that is too short parts
+   * of the surface are missed. 0 (default): not known.
+   */
+  vtkSetClampMacro(GradientBound, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(GradientBound, double);
+  //@}
+
+  //@{
+  /**
+   * Without a bound: the level down to which all cubes are cut before samples decide. One level
+   * more finds parts of the surface of half the size, and takes eight times the samples. 0 to 10,
+   * default 5.
+   */
+  vtkSetClampMacro(MinimumLevel, int, 0, 10);
+  vtkGetMacro(MinimumLevel, int);
+  //@}
+
+  //@{
+  /**
+   * Whether several threads ask the function at a time. Default on, as in vtkSampleFunction. To be
+   * turned off for functions that keep something from call to call, as vtkImplicitDataSet does.
+   */
+  vtkSetMacro(Parallel, bool);
+  vtkGetMacro(Parallel, bool);
+  vtkBooleanMacro(Parallel, bool);
+  //@}
+
+  //@{
+  /**
+   * Memory that the build may use at its peak, in KiB; default 0: what the machine has available. A
+   * build that needs more ends with an error.
+   */
+  vtkSetMacro(MemoryLimit, unsigned long);
+  vtkGetMacro(MemoryLimit, unsigned long);
+  //@}
+
+  //@{
+  /**
+   * Occupied voxels of the last execution's octree, 0 if none, and how long it took to build, in
+   * seconds.
+   */
+  vtkGetMacro(NumberOfVoxels, vtkIdType);
+  vtkGetMacro(BuildTime, double);
+  //@}
+
+protected:
+  vtkImplicitFunctionToSVO();
+  ~vtkImplicitFunctionToSVO() override;
+
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkImplicitFunctionToSVO(const vtkImplicitFunctionToSVO&) = delete;
+  void operator=(const vtkImplicitFunctionToSVO&) = delete;
+
+  vtkImplicitFunction* ImplicitFunction = nullptr;
+  double Value = 0.0;
+  double ModelBounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
+  int MaximumLevel = 8;
+  double GradientBound = 0.0;
+  int MinimumLevel = 5;
+  bool Parallel = true;
+  unsigned long MemoryLimit = 0;
+  vtkIdType NumberOfVoxels = 0;
+  double BuildTime = 0.0;
+};
+
+#endif

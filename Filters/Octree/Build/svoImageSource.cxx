@@ -1,0 +1,102 @@
+#include "svoImageSource.h"
+
+#include <glm/vector_relational.hpp>
+
+namespace svo
+{
+void ValuePyramid::addLevels()
+{
+  while (this->Levels.back().blocks != glm::ivec3(1))
+  {
+    const Level& fine = this->Levels.back();
+    Level coarse((fine.blocks + 1) / 2);
+    for (int z = 0; z < fine.blocks.z; ++z)
+    {
+      for (int y = 0; y < fine.blocks.y; ++y)
+      {
+        for (int x = 0; x < fine.blocks.x; ++x)
+        {
+          coarse.at(glm::ivec3(x, y, z) / 2).add(fine.at({ x, y, z }));
+        }
+      }
+    }
+    this->Levels.push_back(std::move(coarse));
+  }
+}
+
+bool ValuePyramid::reaches(const glm::dvec3& low, const glm::dvec3& high, double value) const
+{
+  const glm::dvec3 last(this->Cells);
+  if (!glm::all(glm::lessThanEqual(low, last)) ||
+    !glm::all(glm::greaterThanEqual(high, glm::dvec3(0.0))))
+  {
+    return false;
+  }
+  const glm::ivec3 first(glm::clamp(glm::floor(low), glm::dvec3(0.0), last - 1.0));
+  const glm::ivec3 end(glm::clamp(glm::floor(high), glm::dvec3(0.0), last - 1.0));
+  // At most two blocks along each axis.
+  std::size_t level = 0;
+  glm::ivec3 a = first / BlockCells, b = end / BlockCells;
+  while (level + 1 < this->Levels.size() && glm::any(glm::greaterThan(b - a, glm::ivec3(1))))
+  {
+    a /= 2;
+    b /= 2;
+    ++level;
+  }
+  Range range;
+  for (int z = a.z; z <= b.z; ++z)
+  {
+    for (int y = a.y; y <= b.y; ++y)
+    {
+      for (int x = a.x; x <= b.x; ++x)
+      {
+        range.add(this->Levels[level].at({ x, y, z }));
+      }
+    }
+  }
+  // Where all are the same there is no surface, whatever the value.
+  return range.low <= value && value <= range.high && range.low < range.high;
+}
+
+bool ImageSource::mayPass(const glm::dvec3& centre, double half) const
+{
+  const glm::dmat3 linear(this->Grid.toIndex);
+  const glm::dvec3 middle(this->Grid.toIndex * glm::dvec4(centre, 1.0));
+  const glm::dvec3 reach =
+    half * (glm::abs(linear[0]) + glm::abs(linear[1]) + glm::abs(linear[2])) + 1e-6;
+  const glm::dvec3 low = middle - reach, high = middle + reach;
+  if (!this->Pyramid.reaches(low, high, this->Value))
+  {
+    return false;
+  }
+  const bool small = glm::all(glm::lessThanEqual(reach, glm::dvec3(0.5)));
+  return !small || this->reachesIn(low, high);
+}
+
+/// A field that is trilinear has its extremes in a part of a cell at the part's corners.
+bool ImageSource::reachesIn(const glm::dvec3& low, const glm::dvec3& high) const
+{
+  const glm::dvec3 last(this->Grid.points - 1);
+  const glm::dvec3 from = glm::clamp(low, glm::dvec3(0.0), last);
+  const glm::dvec3 to = glm::clamp(high, glm::dvec3(0.0), last);
+  const glm::dvec3 border = glm::clamp(glm::floor(to), from, to); // between at most two cells
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (int i = 0; i < 27; ++i)
+  {
+    const glm::ivec3 which(i % 3, i / 3 % 3, i / 9);
+    glm::dvec3 at;
+    for (int a = 0; a < 3; ++a)
+    {
+      at[a] = which[a] == 0 ? from[a] : which[a] == 1 ? border[a] : to[a];
+    }
+    const double value = this->Field.value(glm::dvec3(this->ToLocal * glm::dvec4(at, 1.0)));
+    if (std::isfinite(value))
+    {
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  }
+  return least <= this->Value && this->Value <= most && least < most;
+}
+}

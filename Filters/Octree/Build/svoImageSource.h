@@ -1,0 +1,228 @@
+// The surface where an image of three dimensions takes a value, as a source.
+//
+// Between its points the image is trilinear, so in a cell no value is beyond those of its corners:
+// whether a surface may pass through a cube is read off a pyramid of least and largest values; and
+// in a part of a cell the extremes are at the part's corners, so cubes smaller than a cell are
+// judged by those. Nothing is missed. Normals are those of differences between neighbouring points,
+// interpolated as well: the trilinear field's own gradient jumps from cell to cell, and its jumps
+// would be seen.
+#ifndef svoImageSource_h
+#define svoImageSource_h
+
+#include "svoFieldSource.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+/// The points of an image and where they lie.
+struct ImageGrid
+{
+  glm::ivec3 points;  // at least 2 along each axis
+  glm::dmat4 toIndex; // local frame -> continuous indices from 0; affine
+
+  std::size_t index(int x, int y, int z) const
+  {
+    return (static_cast<std::size_t>(z) * points.y + y) * points.x + x;
+  }
+};
+
+/// An image of scalars of a type, which are borrowed.
+template <class T>
+class ImageField : public ScalarField
+{
+public:
+  ImageField(const ImageGrid& grid, const T* values)
+    : Grid(grid)
+    , Values(values)
+  {
+  }
+  double at(int x, int y, int z) const
+  {
+    return static_cast<double>(this->Values[this->Grid.index(x, y, z)]);
+  }
+  /// NaN outside of the image.
+  double value(const glm::dvec3& local) const override
+  {
+    return this->interpolated(local, std::numeric_limits<double>::quiet_NaN(),
+      [this](int x, int y, int z) { return this->at(x, y, z); });
+  }
+  glm::dvec3 gradient(const glm::dvec3& local) const override
+  {
+    const glm::dvec3 none(std::numeric_limits<double>::quiet_NaN());
+    const glm::dvec3 inIndices = this->interpolated(
+      local, none, [this](int x, int y, int z) { return this->difference(x, y, z); });
+    return glm::transpose(glm::dmat3(this->Grid.toIndex)) * inIndices;
+  }
+
+private:
+  /// Of neighbours, an index apart; one-sided at the image's ends.
+  glm::dvec3 difference(int x, int y, int z) const
+  {
+    const glm::ivec3 last = this->Grid.points - 1;
+    const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, last.x);
+    const int y0 = std::max(y - 1, 0), y1 = std::min(y + 1, last.y);
+    const int z0 = std::max(z - 1, 0), z1 = std::min(z + 1, last.z);
+    return { (this->at(x1, y, z) - this->at(x0, y, z)) / (x1 - x0),
+      (this->at(x, y1, z) - this->at(x, y0, z)) / (y1 - y0),
+      (this->at(x, y, z1) - this->at(x, y, z0)) / (z1 - z0) };
+  }
+  template <class V, class At>
+  V interpolated(const glm::dvec3& local, const V& outside, const At& at) const
+  {
+    constexpr double Rounding = 1e-9; // of indices
+    const glm::dvec3 p(this->Grid.toIndex * glm::dvec4(local, 1.0));
+    V sum(0.0);
+    glm::ivec3 cell;
+    glm::dvec3 t;
+    for (int i = 0; i < 3; ++i)
+    {
+      const double last = this->Grid.points[i] - 1;
+      if (!(p[i] >= -Rounding && p[i] <= last + Rounding))
+      {
+        return outside;
+      }
+      cell[i] = std::clamp(static_cast<int>(p[i]), 0, this->Grid.points[i] - 2);
+      t[i] = std::clamp(p[i] - cell[i], 0.0, 1.0);
+    }
+    for (int i = 0; i < 8; ++i)
+    {
+      const glm::ivec3 upper(i & 1, i >> 1 & 1, i >> 2);
+      const double weight =
+        (upper.x ? t.x : 1.0 - t.x) * (upper.y ? t.y : 1.0 - t.y) * (upper.z ? t.z : 1.0 - t.z);
+      const glm::ivec3 c = cell + upper;
+      sum += weight * at(c.x, c.y, c.z);
+    }
+    return sum;
+  }
+
+  const ImageGrid Grid;
+  const T* Values;
+};
+
+/// Least and largest values of blocks of cells; each level has blocks of twice the edge. Values
+/// that are not finite do not count.
+class VTKSVOOCTREE_EXPORT ValuePyramid
+{
+public:
+  static constexpr int BlockCells = 4; // along an edge of the finest blocks
+
+  template <class T>
+  ValuePyramid(const ImageGrid& grid, const ImageField<T>& field, const ParallelFor& parallelFor)
+    : Cells(grid.points - 1)
+  {
+    Level level((this->Cells + (BlockCells - 1)) / BlockCells);
+    parallelFor(0, static_cast<std::size_t>(level.blocks.z), 1,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (int z = static_cast<int>(first); z < static_cast<int>(last); ++z)
+        {
+          for (int y = 0; y < level.blocks.y; ++y)
+          {
+            for (int x = 0; x < level.blocks.x; ++x)
+            {
+              level.at({ x, y, z }) = this->rangeOf(field, BlockCells * glm::ivec3(x, y, z));
+            }
+          }
+        }
+      });
+    this->Levels.push_back(std::move(level));
+    this->addLevels();
+  }
+
+  /// Whether some cell that the box touches, continuous indices, has values on both sides of
+  /// `value` or equal to it; or one close by.
+  bool reaches(const glm::dvec3& low, const glm::dvec3& high, double value) const;
+
+private:
+  struct Range
+  {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+    void add(const Range& other)
+    {
+      low = std::min(low, other.low);
+      high = std::max(high, other.high);
+    }
+  };
+  struct Level
+  {
+    explicit Level(const glm::ivec3& size)
+      : blocks(size)
+      , ranges(static_cast<std::size_t>(size.x) * size.y * size.z)
+    {
+    }
+    Range& at(const glm::ivec3& b)
+    {
+      return ranges[(static_cast<std::size_t>(b.z) * blocks.y + b.y) * blocks.x + b.x];
+    }
+    const Range& at(const glm::ivec3& b) const { return const_cast<Level*>(this)->at(b); }
+    glm::ivec3 blocks;
+    std::vector<Range> ranges;
+  };
+  template <class T>
+  Range rangeOf(const ImageField<T>& field, const glm::ivec3& first) const
+  {
+    const glm::ivec3 last = glm::min(first + BlockCells, this->Cells); // points, inclusive
+    Range range;
+    for (int z = first.z; z <= last.z; ++z)
+    {
+      for (int y = first.y; y <= last.y; ++y)
+      {
+        for (int x = first.x; x <= last.x; ++x)
+        {
+          const double v = field.at(x, y, z);
+          if (std::isfinite(v))
+          {
+            range.add({ v, v });
+          }
+        }
+      }
+    }
+    return range;
+  }
+  void addLevels();
+
+  glm::ivec3 Cells;
+  std::vector<Level> Levels;
+};
+
+/// The field is that of the grid, and both are borrowed, as the pyramid is.
+class VTKSVOOCTREE_EXPORT ImageSource : public FieldSource
+{
+public:
+  ImageSource(
+    const ScalarField& field, const ImageGrid& grid, const ValuePyramid& pyramid, double value)
+    : FieldSource(field, { value, 0.0, 0.0 })
+    , Field(field)
+    , Grid(grid)
+    , ToLocal(glm::inverse(grid.toIndex))
+    , Pyramid(pyramid)
+    , Value(value)
+  {
+  }
+  bool mayPass(const glm::dvec3& centre, double half) const override;
+
+private:
+  bool reachesIn(const glm::dvec3& low, const glm::dvec3& high) const;
+
+  const ScalarField& Field;
+  const ImageGrid& Grid;
+  const glm::dmat4 ToLocal;
+  const ValuePyramid& Pyramid;
+  const double Value;
+};
+}
+
+#endif

@@ -1,0 +1,310 @@
+#include "svoSource.h"
+
+#include "svoAssemble.h"
+#include "svoExecutor.h"
+#include "svoMorton.h"
+#include "svoNode.h"
+#include "svoPlane.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <cmath>
+#include <new>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace svo
+{
+namespace
+{
+constexpr float Sqrt3 = 1.7320508f;
+
+/// Cells are handed out at this many levels above the voxels: some milliseconds of work each.
+constexpr int TaskLevels = 6;
+
+/// Peak bytes of a brick and of a voxel: what a task has noted, and the buffer and its parts, of
+/// which both are there at once.
+constexpr std::size_t BrickBytes =
+  2 * (sizeof(Node) + sizeof(std::uint64_t) + sizeof(SurfaceMoment)) + sizeof(Node);
+constexpr std::size_t VoxelBytes = 3 * sizeof(std::uint32_t);
+
+/// What one task has found, in Morton order.
+struct Found
+{
+  std::vector<std::uint64_t> keys;
+  std::vector<std::uint64_t> masks;
+  std::vector<SurfaceMoment> moments;
+  std::vector<std::uint32_t> planes; // of all voxels
+};
+
+class Subdivision
+{
+public:
+  Subdivision(const SurfaceSource& source, const BuildOptions& options, const Cube& cube)
+    : Source(source)
+    , Low(options.modelLow)
+    , High(options.modelHigh)
+    , Origin(cube.origin)
+    , Edge(cube.edge)
+    , Level(options.level)
+    , Limit(options.memoryLimit)
+  {
+  }
+
+  bool mayPass(const glm::ivec3& cell, int level) const
+  {
+    const double half = this->half(level);
+    const glm::dvec3 centre = this->centre(cell, level);
+    return this->touchesBox(centre, half) && this->Source.mayPass(centre, half);
+  }
+
+  /// Visits what lies below a cell of `level` that mayPass().
+  void visit(const glm::ivec3& cell, int level, Found& found)
+  {
+    if (level >= this->Level - 2)
+    {
+      this->visitBrick(cell, level, found);
+      return;
+    }
+    for (int i = 0; i < 8; ++i)
+    {
+      const glm::ivec3 child = 2 * cell + glm::ivec3(i & 1, i >> 1 & 1, i >> 2);
+      if (this->mayPass(child, level + 1))
+      {
+        this->visit(child, level + 1, found);
+      }
+    }
+  }
+
+private:
+  double half(int level) const { return std::ldexp(this->Edge, -level - 1); }
+  glm::dvec3 centre(const glm::ivec3& cell, int level) const
+  {
+    return this->Origin + (2.0 * glm::dvec3(cell) + 1.0) * this->half(level);
+  }
+  bool touchesBox(const glm::dvec3& centre, double half) const
+  {
+    return glm::all(glm::lessThanEqual(this->Low, centre + half)) &&
+      glm::all(glm::lessThanEqual(centre - half, this->High));
+  }
+
+  /// A brick is a cell two levels above the voxels; where there are fewer levels, its lower corner
+  /// is the cube.
+  void visitBrick(const glm::ivec3& cell, int level, Found& found)
+  {
+    assert(level == std::max(this->Level - 2, 0));
+    const int groups = this->Level - 1 > level ? 8 : 1;
+    const std::size_t first = found.planes.size();
+    std::uint64_t mask = 0;
+    SurfaceMoment moment{ glm::vec3(0.0f), 0.0f, glm::vec3(0.0f) };
+    for (int g = 0; g < groups; ++g)
+    {
+      const glm::ivec3 group =
+        groups == 1 ? cell : 2 * cell + glm::ivec3(g & 1, g >> 1 & 1, g >> 2);
+      if (!this->mayPass(group, this->Level - 1))
+      {
+        continue;
+      }
+      for (int i = GroupSize * g; i < GroupSize * (g + 1); ++i)
+      {
+        const glm::ivec3 voxel = 2 * group + glm::ivec3(i & 1, i >> 1 & 1, i >> 2 & 1);
+        if (this->visitVoxel(voxel, cellOfIndex(i), moment, found))
+        {
+          mask |= cellBit(i);
+        }
+      }
+    }
+    if (mask == 0)
+    {
+      return;
+    }
+    moment.centre /= moment.area;
+    const glm::uvec3 brick(this->Level == 1 ? glm::ivec3(0) : cell);
+    found.keys.push_back(mortonKey(brick.x, brick.y, brick.z));
+    found.masks.push_back(mask);
+    found.moments.push_back(moment);
+    const std::size_t bytes = BrickBytes + VoxelBytes * (found.planes.size() - first);
+    if (this->Taken.fetch_add(bytes, std::memory_order_relaxed) + bytes > this->Limit &&
+      this->Limit > 0)
+    {
+      throw std::bad_alloc();
+    }
+  }
+
+  /// `inBrick`: its cell there.
+  bool visitVoxel(
+    const glm::ivec3& voxel, const glm::ivec3& inBrick, SurfaceMoment& moment, Found& found) const
+  {
+    const double half = this->half(this->Level);
+    const glm::dvec3 centre = this->centre(voxel, this->Level);
+    SourcePlane plane;
+    if (!this->touchesBox(centre, half) || !this->Source.planeIn(centre, half, plane))
+    {
+      return false;
+    }
+    const glm::vec3 normal(plane.normal);
+    const float offset = static_cast<float>(plane.offset * 0.5 / half); // in voxels
+    found.planes.push_back(encodePlane({ normal, std::clamp(offset * 2.0f / Sqrt3, -1.0f, 1.0f) }));
+    // The area of a plane through the middle of a voxel, about.
+    const glm::vec3 along = glm::abs(normal);
+    const float area = 1.0f / std::max({ along.x, along.y, along.z });
+    moment.normal += area * normal;
+    moment.area += area;
+    moment.centre += area * (glm::vec3(inBrick) - 1.5f + offset * normal);
+    return true;
+  }
+
+  const SurfaceSource& Source;
+  const glm::dvec3 Low, High, Origin;
+  const double Edge;
+  const int Level;
+  const std::size_t Limit;
+  std::atomic<std::size_t> Taken{ 0 };
+};
+
+/// The cells that tasks start from, in Morton order; `level` gets less deep where they are many.
+std::vector<glm::ivec3> startCells(const Subdivision& cut, int& level, Executor& executor)
+{
+  constexpr std::size_t Many = 1 << 17;
+  const double share = 0.1 / std::max(level, 1);
+  std::vector<glm::ivec3> cells{ glm::ivec3(0) };
+  for (int l = 1; l <= level; ++l)
+  {
+    if (cells.size() > Many)
+    {
+      level = l - 1;
+      break;
+    }
+    std::vector<glm::ivec3> children(8 * cells.size());
+    std::vector<char> passes(children.size());
+    executor.run(
+      children.size(), 64, share, 4096.0, [](std::size_t) { return 1.0; },
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          children[i] = 2 * cells[i / 8] + glm::ivec3(i & 1, i >> 1 & 1, i >> 2 & 1);
+          passes[i] = cut.mayPass(children[i], l);
+        }
+      });
+    cells.clear();
+    for (std::size_t i = 0; i < children.size(); ++i)
+    {
+      if (passes[i])
+      {
+        cells.push_back(children[i]);
+      }
+    }
+  }
+  return cells;
+}
+
+/// All that was found in one; frees the parts.
+NodeDepth joinBricks(std::vector<Found>& parts, Header& header, RawArray<std::uint32_t>& planes)
+{
+  std::size_t bricks = 0, voxels = 0;
+  for (const Found& part : parts)
+  {
+    bricks += part.keys.size();
+    voxels += part.planes.size();
+  }
+  if (bricks > LargestIndex || voxels * PlaneWords > LargestIndex)
+  {
+    throw LayoutOverflow{ bricks > LargestIndex ? "nodes" : "planes" };
+  }
+  header.voxelCount = voxels;
+  header.leafWords = PlaneWords;
+  header.listWords = voxels * PlaneWords;
+  NodeDepth all(bricks);
+  planes = RawArray<std::uint32_t>(voxels);
+  std::size_t brick = 0;
+  std::uint32_t first = 0;
+  for (Found& part : parts)
+  {
+    std::copy(part.planes.begin(), part.planes.end(), planes.data() + first);
+    for (std::size_t i = 0; i < part.keys.size(); ++i, ++brick)
+    {
+      all.keys[brick] = part.keys[i];
+      all.moments[brick] = part.moments[i];
+      all.nodes[brick] = { part.masks[i], first, planeOfMoment(part.moments[i], 4.0f) };
+      first += static_cast<std::uint32_t>(countBits(part.masks[i]));
+    }
+    part = Found();
+  }
+  assert(first == voxels);
+  return all;
+}
+
+void buildStages(const SurfaceSource& source, const BuildOptions& options, BuildResult& result)
+{
+  Executor executor(options.parallelFor, options.progress);
+  executor.report();
+  const Cube cube = boundingCube(options.modelLow, options.modelHigh, options.level);
+  Subdivision cut(source, options, cube);
+  int level = std::max(options.level - TaskLevels, 0);
+  const std::vector<glm::ivec3> starts = startCells(cut, level, executor);
+  std::vector<Found> parts(starts.size());
+  executor.run(
+    starts.size(), 1, 0.8, 16.0, [](std::size_t) { return 1.0; },
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        cut.visit(starts[i], level, parts[i]);
+      }
+    });
+  Header header = makeHeader(options, cube);
+  RawArray<std::uint32_t> planes;
+  NodeDepth bricks = joinBricks(parts, header, planes);
+  result.data = assembleBricks(std::move(bricks), planes, header, result.size, executor);
+  result.status = BuildStatus::Built;
+}
+}
+
+BuildResult build(const SurfaceSource& source, const BuildOptions& options)
+{
+  BuildResult result;
+  const glm::dvec3 size = options.modelHigh - options.modelLow;
+  if (options.level < 1 || options.level > MaximumLevel)
+  {
+    result.message = "the level must be 1 to 20, and is " + std::to_string(options.level);
+    return result;
+  }
+  if (!glm::all(glm::greaterThanEqual(size, glm::dvec3(0.0))) || size == glm::dvec3(0.0) ||
+    !std::isfinite(size.x + size.y + size.z))
+  {
+    result.message = "the box to look for a surface in is empty, or not finite";
+    return result;
+  }
+  const std::string level = "level " + std::to_string(options.level);
+  try
+  {
+    buildStages(source, options, result);
+    return result;
+  }
+  catch (const BuildAborted&)
+  {
+    result = {};
+    result.status = BuildStatus::Aborted;
+    result.message = "the build was aborted";
+  }
+  catch (const LayoutOverflow& overflow)
+  {
+    result = {};
+    result.status = BuildStatus::TooLarge;
+    result.message =
+      level + " would need more " + overflow.what + " than an index can name; choose a lower level";
+  }
+  catch (const std::bad_alloc&)
+  {
+    result = {};
+    result.status = BuildStatus::TooLarge;
+    result.message = level + " needs more memory than there is; choose a lower level";
+  }
+  return result;
+}
+}

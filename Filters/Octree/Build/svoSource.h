@@ -1,0 +1,45 @@
+// Building from anything that has a surface: a source says where it passes, an octree of planes
+// comes out.
+//
+// The cube is cut into eight, again and again, wherever the source cannot rule the surface out,
+// down to the voxels. So time and memory go with the surface. Cells are visited in Morton order,
+// which is the order of the buffer: nothing has to be sorted.
+#ifndef svoSource_h
+#define svoSource_h
+
+#include "svoBuild.h"
+
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+/// A plane that stands for the surface in a voxel.
+struct SourcePlane
+{
+  glm::dvec3 normal; // unit, outwards
+  double offset;     // from the voxel's centre along the normal, in the source's units
+};
+
+/// A surface that is no mesh. Both functions are called by several threads at a time, unless the
+/// executor of the build is serial.
+class SurfaceSource
+{
+public:
+  virtual ~SurfaceSource() = default;
+
+  /// False if no surface passes through the cube, faces included. True is always right, and costs
+  /// time. `half`: of the cube's edge.
+  virtual bool mayPass(const glm::dvec3& centre, double half) const = 0;
+
+  /// Whether a surface passes through a voxel, and then as which plane.
+  virtual bool planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const = 0;
+};
+
+/// The octree of planes of what of a source lies in the box of modelLow and modelHigh, which has to
+/// be finite and somewhere larger than 0. The cube is the box's bounding cube as of a mesh of those
+/// bounds; voxels that the box does not touch stay empty. Deterministic for any executor, if the
+/// source is. The build stops with TooLarge where it takes more memory than there is.
+VTKSVOOCTREE_EXPORT BuildResult build(const SurfaceSource& source, const BuildOptions& options);
+}
+
+#endif

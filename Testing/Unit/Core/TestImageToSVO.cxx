@@ -1,0 +1,198 @@
+// Isosurfaces of images to octrees: distances and densities, spacing, directions and origins, and
+// what cannot be converted.
+#include "vtkImageToSVO.h"
+
+#include "svoConversion.h"
+#include "vtkSparseVoxelOctree.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
+#include "vtkPointData.h"
+#include "vtkShortArray.h"
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+const double Centre[3] = { 10.2, -4.1, 3.3 };
+constexpr double Radius = 2.0;
+
+/// Distances from a sphere in the middle of an image whose box is about 6 wide.
+vtkSmartPointer<vtkImageData> distances(bool turned, int extentFrom = 0)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetSpacing(0.1, 0.15, 0.2);
+  image->SetExtent(extentFrom, extentFrom + 60, 0, 40, -3, 27);
+  if (turned)
+  {
+    const double c = std::cos(0.5), s = std::sin(0.5);
+    image->SetDirectionMatrix(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);
+  }
+  double middle[3];
+  image->TransformContinuousIndexToPhysicalPoint(extentFrom + 30.0, 20.0, 12.0, middle);
+  image->SetOrigin(Centre[0] - middle[0], Centre[1] - middle[1], Centre[2] - middle[2]);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("Distance");
+  values->SetNumberOfValues(image->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    image->GetPoint(i, x);
+    values->SetValue(i, std::hypot(x[0] - Centre[0], x[1] - Centre[1], x[2] - Centre[2]) - Radius);
+  }
+  image->GetPointData()->SetScalars(values);
+  return image;
+}
+
+struct ImageConversion
+{
+  vtkNew<vtkImageToSVO> filter;
+  svo::TestMessages messages{ filter };
+  explicit ImageConversion(vtkImageData* image) { this->filter->SetInputData(image); }
+  vtkPolyData* output()
+  {
+    this->filter->Update();
+    return this->filter->GetOutput();
+  }
+  void expectNothing(const std::string& error)
+  {
+    vtkPolyData* hull = this->output();
+    EXPECT_EQ(hull->GetNumberOfCells(), 0);
+    EXPECT_FALSE(octreeOf(hull));
+    ASSERT_EQ(this->messages.errors.size(), 1u);
+    EXPECT_NE(this->messages.all().find(error), std::string::npos) << this->messages.all();
+  }
+};
+
+/// Shoots at the sphere from all sides.
+void expectSphere(vtkPolyData* hull, double radius, double error)
+{
+  vtkNew<vtkSparseVoxelOctree> octree;
+  ASSERT_TRUE(octree->Initialize(hull));
+  for (int i = 0; i < 500; ++i)
+  {
+    const double z = -0.999 + i * 0.004, a = 2.4 * i, r = std::sqrt(1.0 - z * z);
+    const double d[3] = { r * std::cos(a), r * std::sin(a), z };
+    double from[3], to[3], x[3], t;
+    vtkIdType cell;
+    for (int k = 0; k < 3; ++k)
+    {
+      from[k] = Centre[k] + 9.0 * d[k];
+      to[k] = Centre[k] + 0.1 * d[(k + 1) % 3];
+    }
+    ASSERT_EQ(octree->IntersectWithLine(from, to, t, x, cell), 1) << i;
+    ASSERT_NEAR(std::hypot(x[0] - Centre[0], x[1] - Centre[1], x[2] - Centre[2]), radius, error);
+  }
+}
+
+/// What a trilinear field of such distances is off by: a bend of 1 / Radius in half a cell along
+/// each axis; and a tangent plane of voxels of up to 0.1, see TestOwnPlanes.
+constexpr double Trilinear = (0.01 + 0.0225 + 0.04) / (8.0 * 1.5);
+constexpr double Plane = 3.0 * 0.01 / (2.0 * 1.5);
+}
+
+TEST(ImageToSVO, DistancesInTurnedAndShiftedImages)
+{
+  for (const bool turned : { false, true })
+  {
+    for (const int from : { 0, 7 })
+    {
+      SCOPED_TRACE(testing::Message() << turned << " " << from);
+      ImageConversion conversion(distances(turned, from));
+      vtkPolyData* hull = conversion.output();
+      EXPECT_TRUE(conversion.messages.all().empty()) << conversion.messages.all();
+      const svo::Octree octree = octreeOf(hull);
+      ASSERT_TRUE(octree);
+      EXPECT_LE(octree.header().voxelSize, 0.1 * 1.001);
+      EXPECT_GT(octree.header().voxelSize, 0.05);
+      expectSphere(hull, Radius, Trilinear + Plane);
+    }
+  }
+}
+
+TEST(ImageToSVO, ValuesAndArraysAreChosen)
+{
+  const auto image = distances(false);
+  vtkNew<vtkShortArray> density; // larger inside
+  density->SetName("Density");
+  density->SetNumberOfValues(image->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double distance = image->GetPointData()->GetScalars()->GetTuple1(i);
+    density->SetValue(i, static_cast<short>(std::lround(-5000.0 * distance)));
+  }
+  image->GetPointData()->AddArray(density);
+  ImageConversion conversion(image);
+  conversion.filter->SetMaximumLevel(8);
+  conversion.filter->SetValue(-0.5);
+  expectSphere(conversion.output(), Radius - 0.5, Trilinear + Plane);
+  EXPECT_EQ(octreeOf(conversion.filter->GetOutput()).level(), 8);
+  conversion.filter->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+  conversion.filter->SetValue(1250.0);
+  expectSphere(conversion.output(), Radius - 0.25, Trilinear + Plane + 1e-4);
+}
+
+TEST(ImageToSVO, NothingOfTheSurfaceIsMissed)
+{
+  // One point of 8000 is inside: a surface smaller than a cell on each side of it.
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(20, 20, 20);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  image->GetPointData()->GetScalars()->Fill(1.0);
+  image->SetScalarComponentFromDouble(11, 7, 13, 0, -0.2);
+  ImageConversion conversion(image);
+  conversion.filter->SetMaximumLevel(9);
+  const double* b = conversion.output()->GetBounds();
+  const double cell = 19.0 / 32.0;
+  const double at[3] = { 11.0, 7.0, 13.0 };
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_LT(b[2 * i], at[i]);
+    EXPECT_GT(b[2 * i + 1], at[i]);
+    EXPECT_LT(b[2 * i + 1] - b[2 * i], 2.0 + 2.0 * cell);
+  }
+  EXPECT_GT(conversion.filter->GetNumberOfVoxels(), 100);
+}
+
+TEST(ImageToSVO, OneMessageForWhatCannotBeConverted)
+{
+  {
+    const auto image = distances(false);
+    image->GetPointData()->Initialize();
+    ImageConversion(image).expectNothing("no such point scalars");
+  }
+  {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(1, 1, 1);
+    image->AllocateScalars(VTK_FLOAT, 1);
+    ImageConversion(image).expectNothing("fewer than two points");
+  }
+  {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(4, 4, 4);
+    image->AllocateScalars(VTK_FLOAT, 3);
+    ImageConversion(image).expectNothing("more than one component");
+  }
+  {
+    ImageConversion conversion(distances(false));
+    conversion.filter->SetMaximumLevel(20);
+    conversion.filter->SetMemoryLimit(20000);
+    conversion.expectNothing("level 20 needs more memory");
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double constant : { 0.0, 1.0, nan })
+  {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(9, 9, 9);
+    image->AllocateScalars(VTK_DOUBLE, 1);
+    image->GetPointData()->GetScalars()->Fill(constant);
+    ImageConversion conversion(image);
+    conversion.filter->SetMaximumLevel(16);
+    EXPECT_EQ(conversion.output()->GetNumberOfCells(), 0);
+    EXPECT_TRUE(conversion.messages.errors.empty()) << conversion.messages.all();
+    EXPECT_EQ(conversion.messages.warnings.size(), 1u);
+  }
+}

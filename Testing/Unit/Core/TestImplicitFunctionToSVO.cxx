@@ -1,0 +1,241 @@
+// Implicit functions to octrees: what the hull and the octree are, what other filters make of them,
+// and what cannot be converted.
+#include "vtkImplicitFunctionToSVO.h"
+
+#include "svoConversion.h"
+#include "vtkSVOToPolyData.h"
+#include "vtkSparseVoxelOctree.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
+#include "vtkElevationFilter.h"
+#include "vtkImplicitBoolean.h"
+#include "vtkPlane.h"
+#include "vtkSphere.h"
+#include "vtkTransform.h"
+#include "vtkTransformPolyDataFilter.h"
+#include "vtkXMLPolyDataReader.h"
+#include "vtkXMLPolyDataWriter.h"
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+/// A sphere beside the origin of a frame far away.
+struct SphereConversion
+{
+  vtkNew<vtkSphere> function;
+  vtkNew<vtkImplicitFunctionToSVO> filter;
+  svo::TestMessages messages{ filter };
+
+  explicit SphereConversion(int level = 6)
+  {
+    this->function->SetCenter(100.0, 0.2, -0.1);
+    this->function->SetRadius(1.5);
+    this->filter->SetImplicitFunction(this->function);
+    this->filter->SetModelBounds(98.0, 102.0, -2.0, 2.0, -2.0, 2.0);
+    this->filter->SetMaximumLevel(level);
+  }
+  vtkPolyData* output()
+  {
+    this->filter->Update();
+    return this->filter->GetOutput();
+  }
+  void expectNothing(const std::string& error)
+  {
+    vtkPolyData* hull = this->output();
+    EXPECT_EQ(hull->GetNumberOfCells(), 0);
+    EXPECT_FALSE(octreeOf(hull));
+    ASSERT_EQ(this->messages.errors.size(), 1u);
+    EXPECT_NE(this->messages.all().find(error), std::string::npos) << this->messages.all();
+  }
+};
+}
+
+TEST(ImplicitFunctionToSVO, AHullCarriesTheOctree)
+{
+  for (const int level : { 1, 2, 5, 6, 9 })
+  {
+    SphereConversion sphere(level);
+    vtkPolyData* hull = sphere.output();
+    EXPECT_TRUE(sphere.messages.all().empty()) << sphere.messages.all();
+    const svo::Octree octree = octreeOf(hull);
+    ASSERT_TRUE(octree);
+    EXPECT_TRUE(octree.hasPlanes());
+    EXPECT_EQ(octree.level(), level);
+    EXPECT_EQ(sphere.filter->GetNumberOfVoxels(), vtkIdType(octree.header().voxelCount));
+    EXPECT_LT(hull->GetNumberOfCells(), 12000) << "it is coarse";
+    const double* b = hull->GetBounds();
+    const double c[3] = { 100.0, 0.2, -0.1 };
+    for (int i = 0; i < 3; ++i)
+    {
+      const double cell = std::ldexp(4.1, -std::min(level, 5));
+      EXPECT_LE(b[2 * i], c[i] - 1.5);
+      EXPECT_GE(b[2 * i], c[i] - 1.5 - cell);
+      EXPECT_GE(b[2 * i + 1], c[i] + 1.5);
+      EXPECT_LE(b[2 * i + 1], c[i] + 1.5 + cell);
+    }
+  }
+}
+
+TEST(ImplicitFunctionToSVO, LinesMeetTheSurface)
+{
+  SphereConversion sphere(8);
+  vtkNew<vtkSparseVoxelOctree> octree;
+  ASSERT_TRUE(octree->Initialize(sphere.output()));
+  const double from[3] = { 103.0, 0.5, 0.3 }, to[3] = { 97.0, 0.1, -0.2 };
+  double t = -1.0, x[3];
+  vtkIdType cell = 7;
+  ASSERT_EQ(octree->IntersectWithLine(from, to, t, x, cell), 1);
+  EXPECT_EQ(cell, -1);
+  // On a quantised tangent plane, at most a voxel along each axis from where it touches.
+  const double h = octree->GetVoxelSize();
+  const double error = 3.0 * h * h / (2.0 * 1.5) + std::sqrt(0.75) * (1.0 / 1023.0 + 2.5e-3) * h;
+  EXPECT_NEAR(std::hypot(x[0] - 100.0, x[1] - 0.2, x[2] + 0.1), 1.5, error);
+  EXPECT_GT(x[0], 100.0);
+  EXPECT_NEAR(x[0], 103.0 - 6.0 * t, 1e-9);
+}
+
+TEST(ImplicitFunctionToSVO, ABoundFindsTheSameSurface)
+{
+  SphereConversion sampled(7), bounded(7);
+  bounded.filter->SetGradientBound(2.0 * 4.0 * std::sqrt(3.0));
+  const svo::Octree a = octreeOf(sampled.output()), b = octreeOf(bounded.output());
+  EXPECT_EQ(a.header().voxelCount, b.header().voxelCount);
+}
+
+TEST(ImplicitFunctionToSVO, TransformsAndValuesCount)
+{
+  SphereConversion sphere(6);
+  const vtkIdType before = (sphere.output(), sphere.filter->GetNumberOfVoxels());
+  sphere.function->SetRadius(1.0); // the filter follows its function
+  const vtkIdType smaller = (sphere.output(), sphere.filter->GetNumberOfVoxels());
+  EXPECT_LT(smaller, before);
+  sphere.filter->SetValue(1.25); // r^2 - 1 = 1.25
+  EXPECT_EQ((sphere.output(), sphere.filter->GetNumberOfVoxels()), before);
+  vtkNew<vtkTransform> transform;
+  transform->Translate(-0.5, 0.0, 0.0);
+  sphere.function->SetTransform(transform);
+  const double* bounds = sphere.output()->GetBounds();
+  EXPECT_NEAR(0.5 * (bounds[0] + bounds[1]), 100.5, 0.15);
+}
+
+TEST(ImplicitFunctionToSVO, ALargePlaneIsCutAtTheBox)
+{
+  vtkNew<vtkPlane> plane;
+  plane->SetNormal(0.0, 0.6, 0.8);
+  vtkNew<vtkImplicitFunctionToSVO> filter;
+  filter->SetImplicitFunction(plane);
+  filter->SetModelBounds(-1.0, 1.0, -0.5, 0.5, -1.0, 1.0);
+  filter->SetMaximumLevel(6);
+  filter->Update();
+  const double* b = filter->GetOutput()->GetBounds();
+  const double cell = 2.0 / 32.0 * 1.01;
+  EXPECT_NEAR(b[0], -1.0, cell);
+  EXPECT_NEAR(b[3], 0.5, cell);
+  EXPECT_NEAR(b[5], 0.5 * 0.6 / 0.8, 2.0 * cell);
+}
+
+TEST(ImplicitFunctionToSVO, TheOctreeTravelsAndOtherFiltersKnowIt)
+{
+  SphereConversion sphere(6);
+  vtkPolyData* hull = sphere.output();
+
+  vtkNew<vtkPolyDataToSVO> again;
+  again->SetInputData(hull);
+  again->SetMaximumLevel(4);
+  again->Update();
+  EXPECT_EQ(again->GetNumberOfBuilds(), 0) << "the hull is not the surface";
+  EXPECT_TRUE(octreeOf(again->GetOutput()).hasPlanes());
+
+  vtkNew<vtkSVOToPolyData> cells;
+  cells->SetInputData(hull);
+  cells->Update();
+  EXPECT_GT(cells->GetOutput()->GetNumberOfCells(), hull->GetNumberOfCells());
+  EXPECT_FALSE(cells->GetOutput()->GetCellData()->HasArray("CellId"));
+  EXPECT_TRUE(cells->GetOutput()->GetCellData()->HasArray("Level"));
+
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->WriteToOutputStringOn();
+  writer->SetInputData(hull);
+  ASSERT_EQ(writer->Write(), 1);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->ReadFromInputStringOn();
+  reader->SetInputString(writer->GetOutputString());
+  reader->Update();
+  const svo::Octree read = octreeOf(reader->GetOutput());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read.header().voxelCount, octreeOf(hull).header().voxelCount);
+  EXPECT_EQ(octreeOf(reader->GetOutput()).id(), read.id()) << "opened once";
+
+  vtkNew<vtkTransform> transform;
+  transform->Scale(2.0, 2.0, 2.0);
+  vtkNew<vtkTransformPolyDataFilter> moved;
+  moved->SetTransform(transform);
+  moved->SetInputData(hull);
+  moved->Update();
+  EXPECT_FALSE(octreeOf(moved->GetOutput())) << "it is foreign";
+}
+
+TEST(ImplicitFunctionToSVO, OneMessageForWhatCannotBeConverted)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  {
+    SphereConversion sphere;
+    sphere.filter->SetImplicitFunction(nullptr);
+    sphere.expectNothing("no implicit function");
+  }
+  for (const double high : { 90.0, nan, std::numeric_limits<double>::infinity() })
+  {
+    SphereConversion sphere;
+    sphere.filter->SetModelBounds(98.0, high, -2.0, 2.0, -2.0, 2.0);
+    sphere.expectNothing("empty, or not finite");
+  }
+  {
+    SphereConversion sphere(20);
+    sphere.filter->SetMemoryLimit(10000);
+    sphere.expectNothing("level 20 needs more memory");
+  }
+  {
+    SphereConversion sphere(20); // it never crosses
+    sphere.function->SetRadius(20.0);
+    EXPECT_EQ(sphere.output()->GetNumberOfCells(), 0);
+    EXPECT_TRUE(octreeOf(sphere.output()).empty());
+    EXPECT_TRUE(sphere.messages.errors.empty());
+    EXPECT_EQ(sphere.messages.warnings.size(), 1u);
+  }
+}
+
+TEST(ImplicitFunctionToSVO, ProgressAndAbort)
+{
+  SphereConversion sphere(9);
+  struct Watch
+  {
+    double last = 0.0;
+    int reports = 0;
+    int abortAt = 0;
+  } watch;
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetClientData(&watch);
+  observer->SetCallback(
+    [](vtkObject* caller, unsigned long, void* client, void* data)
+    {
+      auto& w = *static_cast<Watch*>(client);
+      const double progress = *static_cast<double*>(data);
+      EXPECT_GE(progress, w.last);
+      w.last = progress;
+      if (++w.reports == w.abortAt)
+      {
+        static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+      }
+    });
+  sphere.filter->AddObserver(vtkCommand::ProgressEvent, observer);
+  EXPECT_GT(sphere.output()->GetNumberOfCells(), 0);
+  EXPECT_GT(watch.reports, 20);
+  EXPECT_EQ(watch.last, 1.0);
+  watch = { 0.0, 0, 10 };
+  sphere.filter->Modified();
+  EXPECT_EQ(sphere.output()->GetNumberOfCells(), 0);
+  EXPECT_TRUE(sphere.messages.all().empty()) << sphere.messages.all();
+}

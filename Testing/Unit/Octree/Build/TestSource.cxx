@@ -1,0 +1,293 @@
+// Octrees of planes: their voxels and planes against what is known of the surface, and sources that
+// have none.
+#include "svoBuildMeshes.h"
+#include "svoOctreeBytes.h"
+#include "svoPlane.h"
+#include "svoTestFields.h"
+
+#include <limits>
+
+namespace
+{
+using namespace svotest;
+
+/// Calls visit(cell, plane) for every voxel.
+template <class Visit>
+void visitPlanes(const svo::Octree& octree, const Visit& visit)
+{
+  for (const Brick& brick : bricksOf(octree))
+  {
+    for (std::uint64_t mask = octree.nodes()[brick.node].mask; mask != 0; mask &= mask - 1)
+    {
+      const int i = svo::lowestBit(mask);
+      visit(brick.corner + svo::cellOfIndex(i),
+        svo::decodePlane(octree.lists()[octree.planeOf(brick.node, i)]));
+    }
+  }
+}
+
+glm::dvec3 centreOf(const svo::Octree& octree, const glm::ivec3& cell)
+{
+  const svo::Header& h = octree.header();
+  return glm::dvec3(h.origin[0], h.origin[1], h.origin[2]) + (glm::dvec3(cell) + 0.5) * h.voxelSize;
+}
+
+/// A box as the largest distance from a face: its gradient jumps, and is no longer than 1.
+struct BoxField : svo::ScalarField
+{
+  glm::dvec3 half{ 0.5, 0.3, 0.2 };
+  double value(const glm::dvec3& at) const override
+  {
+    const glm::dvec3 d = glm::abs(at) - half;
+    return std::max({ d.x, d.y, d.z });
+  }
+  glm::dvec3 gradient(const glm::dvec3& at) const override
+  {
+    const glm::dvec3 d = glm::abs(at) - half;
+    const int axis = d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
+    glm::dvec3 g(0.0);
+    g[axis] = at[axis] < 0.0 ? -1.0 : 1.0;
+    return g;
+  }
+};
+
+/// The same everywhere.
+struct ConstantField : svo::ScalarField
+{
+  explicit ConstantField(double c)
+    : constant(c)
+  {
+  }
+  double value(const glm::dvec3&) const override { return constant; }
+  glm::dvec3 gradient(const glm::dvec3&) const override { return glm::dvec3(0.0); }
+  double constant;
+};
+
+/// Counts what it is asked.
+struct CountingSphere : SphereField
+{
+  using SphereField::SphereField;
+  double value(const glm::dvec3& at) const override
+  {
+    ++asked;
+    return SphereField::value(at);
+  }
+  mutable std::atomic<std::size_t> asked{ 0 };
+};
+}
+
+TEST(Source, ASphereFillsTheVoxelsThatItTouches)
+{
+  const SphereField sphere(0.73, glm::dvec3(0.031, -0.02, 0.057));
+  for (const double bound : { 0.0, 2.0 * std::sqrt(3.0) * 1.1 })
+  {
+    for (int level = 1; level <= 7; ++level)
+    {
+      SCOPED_TRACE(testing::Message() << "level " << level << ", bound " << bound);
+      const svo::Octree octree = octreeOfField(sphere, boxOfInterest(level), bound);
+      ASSERT_TRUE(octree);
+      ASSERT_EQ(octree.level(), level);
+      const double h = octree.header().voxelSize;
+      // A tangent plane leaves its sphere by no more than this within a voxel and its diagonal.
+      const double bulge = 3.0 * h * h / (2.0 * sphere.radius);
+      const int n = 1 << level;
+      std::size_t voxels = 0, beyond = 0;
+      for (int z = 0; z < n; ++z)
+      {
+        for (int y = 0; y < n; ++y)
+        {
+          for (int x = 0; x < n; ++x)
+          {
+            const glm::ivec3 cell(x, y, z);
+            const glm::dvec3 to = glm::abs(centreOf(octree, cell) - sphere.centre);
+            const double nearest = glm::length(glm::max(to - 0.5 * h, glm::dvec3(0.0)));
+            const double farthest = glm::length(to + 0.5 * h);
+            const bool touched = nearest <= sphere.radius && sphere.radius <= farthest;
+            const bool occupied = octree.occupied(cell, level);
+            voxels += occupied;
+            beyond += occupied && !touched;
+            ASSERT_TRUE(occupied || !touched) << x << " " << y << " " << z;
+            ASSERT_TRUE(
+              !occupied || (nearest <= sphere.radius + bulge && sphere.radius - bulge <= farthest))
+              << x << " " << y << " " << z;
+          }
+        }
+      }
+      EXPECT_EQ(voxels, octree.header().voxelCount);
+      if (level >= 5)
+      {
+        EXPECT_LT(beyond, voxels / 20) << "planes reach little beyond their sphere";
+      }
+    }
+  }
+}
+
+TEST(Source, PlanesAreTangentToTheSphere)
+{
+  const SphereField sphere(0.8, glm::dvec3(0.01, 0.02, 0.03));
+  const svo::Octree octree = octreeOfField(sphere, boxOfInterest(7));
+  const double h = octree.header().voxelSize;
+  // A step of the quantised offset and of the normal, and what the foot's second order leaves out.
+  const double steps = (std::sqrt(0.75) / 1023.0 + std::sqrt(0.75) * 2.5e-3) * h;
+  const double rest = 3.0 * h * h * h / (sphere.radius * sphere.radius);
+  std::size_t seen = 0;
+  visitPlanes(octree,
+    [&](const glm::ivec3& cell, const svo::MeanPlane& plane)
+    {
+      ++seen;
+      const glm::dvec3 from = centreOf(octree, cell) - sphere.centre;
+      const glm::dvec3 outwards = glm::normalize(from);
+      ASSERT_GT(glm::dot(outwards, glm::dvec3(plane.normal)), 1.0 - 1e-5);
+      const double distance = sphere.radius - glm::length(from); // from the voxel's centre
+      ASSERT_NEAR(plane.offset * std::sqrt(0.75) * h, distance, steps + rest);
+    });
+  EXPECT_EQ(seen, octree.header().voxelCount);
+}
+
+TEST(Source, NodesHaveMeanPlanesOfTheSphere)
+{
+  const SphereField sphere(0.8);
+  const svo::Octree octree = octreeOfField(sphere, boxOfInterest(8));
+  for (std::uint32_t i = octree.brickBegin(); i < octree.header().nodeCount; ++i)
+  {
+    const svo::MeanPlane mean = svo::decodePlane(octree.nodes()[i].plane);
+    const svo::MeanPlane one =
+      svo::decodePlane(octree.lists()[octree.planeOf(i, svo::lowestBit(octree.nodes()[i].mask))]);
+    ASSERT_GT(glm::dot(mean.normal, one.normal), 0.99f);
+  }
+}
+
+TEST(Source, ABoxWithEdgesHasNoGapsAndEndsAtItsFaces)
+{
+  const BoxField box;
+  const svo::Octree octree = octreeOfField(box, boxOfInterest(6), 1.0);
+  const double h = octree.header().voxelSize;
+  const int n = 1 << 6;
+  for (int z = 0; z < n; ++z)
+  {
+    for (int y = 0; y < n; ++y)
+    {
+      for (int x = 0; x < n; ++x)
+      {
+        const glm::dvec3 at = glm::abs(centreOf(octree, { x, y, z }));
+        const bool inside = glm::all(glm::lessThan(at + 0.5 * h, box.half));
+        const bool outside = glm::any(glm::greaterThan(at - 0.5 * h, box.half));
+        ASSERT_EQ(octree.occupied({ x, y, z }, 6), !inside && !outside)
+          << x << " " << y << " " << z;
+      }
+    }
+  }
+}
+
+TEST(Source, TheSameBytesForAnyExecutor)
+{
+  const SphereField sphere(0.7);
+  svo::BuildOptions options = boxOfInterest(8);
+  const auto serial = bytesOf(octreeOfField(sphere, options));
+  options.parallelFor = raggedExecutor(3, 7);
+  EXPECT_EQ(bytesOf(octreeOfField(sphere, options)), serial);
+  options.progress = [](double) { return true; };
+  EXPECT_EQ(bytesOf(octreeOfField(sphere, options)), serial);
+}
+
+TEST(Source, WorkGoesWithTheSurface)
+{
+  std::size_t asked[2];
+  for (int i = 0; i < 2; ++i)
+  {
+    const CountingSphere sphere(0.7);
+    octreeOfField(sphere, boxOfInterest(7 + i));
+    asked[i] = sphere.asked;
+  }
+  EXPECT_LT(asked[1], 5 * asked[0]) << "a level more is four times the surface";
+}
+
+TEST(Source, OnlyTheBoxOfInterest)
+{
+  const SphereField sphere(0.9);
+  svo::BuildOptions options = boxOfInterest(6);
+  options.modelLow.z = 0.0;
+  const svo::Octree octree = octreeOfField(sphere, options);
+  EXPECT_GT(octree.header().voxelCount, 0u);
+  visitPlanes(octree,
+    [&](const glm::ivec3& cell, const svo::MeanPlane&)
+    { ASSERT_GE(centreOf(octree, cell).z + 0.51 * octree.header().voxelSize, 0.0); });
+}
+
+TEST(Source, FieldsWithoutASurfaceAreEmptyAndQuick)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double constant : { 1.0, -1.0, 0.0, nan, infinity })
+  {
+    for (const double bound : { 0.0, 1.0 })
+    {
+      const svo::Octree octree = octreeOfField(ConstantField(constant), boxOfInterest(12), bound);
+      ASSERT_TRUE(octree) << constant;
+      EXPECT_TRUE(octree.empty()) << constant << " " << bound;
+      EXPECT_TRUE(octree.hasPlanes());
+    }
+  }
+  EXPECT_TRUE(octreeOfField(SphereField(9.0), boxOfInterest(12)).empty()) << "it never crosses";
+}
+
+TEST(Source, WhatCannotBeBuiltIsSaid)
+{
+  const SphereField sphere(0.7);
+  const svo::FieldSource source(sphere, { 0.0, 0.0, 0.1 });
+  svo::BuildOptions options = boxOfInterest(10);
+  options.memoryLimit = 100000;
+  svo::BuildResult result = svo::build(source, options);
+  EXPECT_EQ(result.status, svo::BuildStatus::TooLarge);
+  EXPECT_NE(result.message.find("level 10"), std::string::npos);
+  EXPECT_EQ(result.data, nullptr);
+
+  options = boxOfInterest(21);
+  EXPECT_EQ(svo::build(source, options).status, svo::BuildStatus::BadInput);
+  options = boxOfInterest(5);
+  options.modelHigh.x = -2.0;
+  EXPECT_EQ(svo::build(source, options).status, svo::BuildStatus::BadInput);
+  options.modelHigh.x = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(svo::build(source, options).status, svo::BuildStatus::BadInput);
+
+  options = boxOfInterest(10);
+  int reports = 0;
+  double last = 0.0;
+  options.progress = [&](double progress)
+  {
+    EXPECT_GE(progress, last);
+    last = progress;
+    return ++reports < 20;
+  };
+  EXPECT_EQ(svo::build(source, options).status, svo::BuildStatus::Aborted);
+  EXPECT_EQ(reports, 20);
+}
+
+TEST(Source, DamagedPlanesAreRefused)
+{
+  const SphereField sphere(0.7);
+  const svo::FieldSource source(sphere, { 0.0, 0.0, 0.1 });
+  const svo::BuildResult good = svo::build(source, boxOfInterest(5));
+  std::string error;
+  const auto opensAfter = [&](const std::function<void(svo::Header&, svo::Node*)>& damage)
+  {
+    std::shared_ptr<std::byte> copy(static_cast<std::byte*>(::operator new(good.size)),
+      [](std::byte* p) { ::operator delete(p); });
+    std::copy(good.data.get(), good.data.get() + good.size, copy.get());
+    auto& header = *reinterpret_cast<svo::Header*>(copy.get());
+    damage(header, reinterpret_cast<svo::Node*>(copy.get() + sizeof(svo::Header)));
+    return static_cast<bool>(svo::Octree::open(copy, good.size, nullptr, error));
+  };
+  EXPECT_TRUE(opensAfter([](svo::Header&, svo::Node*) {}));
+  EXPECT_FALSE(opensAfter([](svo::Header& h, svo::Node*) { h.leafWords = 2; }));
+  EXPECT_FALSE(opensAfter([](svo::Header& h, svo::Node*) { h.leafWords = 0; }));
+  EXPECT_FALSE(opensAfter([](svo::Header& h, svo::Node*) { h.triangleCount = 1; }));
+  EXPECT_FALSE(opensAfter(
+    [](svo::Header& h, svo::Node* nodes) { nodes[h.nodeCount - 1].first = 0x7fffffffu; }));
+  EXPECT_FALSE(
+    opensAfter([](svo::Header& h, svo::Node* nodes) { nodes[h.nodeCount - 1].first += 1; }));
+  EXPECT_FALSE(
+    opensAfter([](svo::Header& h, svo::Node* nodes) { nodes[h.nodeCount - 1].mask |= ~0ull; }));
+  const auto surface = std::make_shared<svo::Surface>();
+  EXPECT_FALSE(svo::Octree::open(good.data, good.size, surface, error)) << "planes need no surface";
+}
