@@ -2,7 +2,6 @@
 
 #include "svoFrameCopy.h"
 #include "svoOpenGL.h"
-#include "svoSMPParallel.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -129,15 +128,11 @@ void FrameTextures::sendDepthCopy(const Frame& frame, const PixelRect& rect)
 {
   const std::size_t width = rect.x1 - rect.x0;
   this->DepthWords.resize(width * (rect.y1 - rect.y0));
-  smpParallelFor()(0, rect.y1 - rect.y0, 16,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t row = first; row < last; ++row)
-      {
-        toDepthBuffer(frame.depth.data() + (rect.y0 + row) * frame.width + rect.x0, width,
-          this->Copies, this->DepthWords.data() + row * width);
-      }
-    });
+  for (int y = rect.y0; y < rect.y1; ++y)
+  {
+    toDepthBuffer(frame.depth.data() + static_cast<std::size_t>(y) * frame.width + rect.x0, width,
+      this->Copies, this->DepthWords.data() + (y - rect.y0) * width);
+  }
   const bool stencil = this->Copies == DepthFormat::Bits24;
   send(this->DepthCopy, rect, stencil ? GL_DEPTH_STENCIL : GL_DEPTH_COMPONENT,
     stencil ? GL_UNSIGNED_INT_24_8 : GL_UNSIGNED_INT, this->DepthWords.data(), 0);
