@@ -104,9 +104,14 @@ void CPUTracer::Internals::findStaleTiles(const FrameChanges& changes, bool same
   {
     this->Shaded.setStale(tile, this->Eye.tiles().changed(tile));
   }
-  // Where an instance is not seen it does not matter how it looks.
+  // Where an instance is not seen it does not matter how it looks; where one has moved, tiles that
+  // show it have changed.
   for (const std::uint32_t instance : changes.instances)
   {
+    if (this->Eye.tiles().partChanged(instance))
+    {
+      continue;
+    }
     const PixelRect rect = this->Eye.rect(instance);
     for (int y = rect.y0 / 8; y < rect.y1 / 8; ++y)
     {
