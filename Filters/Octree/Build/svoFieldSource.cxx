@@ -19,6 +19,16 @@ bool usableGradient(const glm::dvec3& g)
   const double square = glm::dot(g, g);
   return square > 0.0 && std::isfinite(square);
 }
+
+/// -1 where values fall along what is said to be the gradient, as in vtkImplicitBoolean's
+/// differences; else 1. Near the point, so that edges do not matter.
+double signOfGradient(const ScalarField& field, const glm::dvec3& at, double half)
+{
+  const glm::dvec3 gradient = field.gradient(at);
+  const double length = glm::length(gradient);
+  constexpr double Near = 0.01; // of half a voxel
+  return field.value(at + Near * half / length * gradient) < field.value(at) ? -1.0 : 1.0;
+}
 }
 
 /// Values at the corners of a cube, less the surface's.
@@ -94,7 +104,8 @@ bool FieldSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& pl
   {
     return false;
   }
-  glm::dvec3 gradient = this->Field.gradient(centre);
+  const double sign = signOfGradient(this->Field, centre, half);
+  glm::dvec3 gradient = sign * this->Field.gradient(centre);
   gradient = usableGradient(gradient) ? gradient : s.gradient() / (8.0 * half);
   if (!usableGradient(gradient))
   {
@@ -109,7 +120,7 @@ bool FieldSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& pl
   {
     const glm::dvec3 step = plane.offset * plane.normal;
     const double rest = this->Field.value(centre + step) - this->Options.value;
-    const glm::dvec3 there = this->Field.gradient(centre + step);
+    const glm::dvec3 there = sign * this->Field.gradient(centre + step);
     settled = std::abs(rest) <= 0.5 * std::abs(middle);
     // Beyond an edge the foot has the plane of the other side, which is not there.
     constexpr double SameSide = 0.7;

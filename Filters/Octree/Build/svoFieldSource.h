@@ -30,6 +30,7 @@ class ScalarField
 public:
   virtual ~ScalarField() = default;
   virtual double value(const glm::dvec3& at) const = 0;
+  /// Or the opposite: values tell.
   virtual glm::dvec3 gradient(const glm::dvec3& at) const = 0;
 };
 

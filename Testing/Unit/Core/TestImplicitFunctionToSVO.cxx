@@ -105,6 +105,41 @@ TEST(ImplicitFunctionToSVO, ABoundFindsTheSameSurface)
   EXPECT_EQ(a.header().voxelCount, b.header().voxelCount);
 }
 
+TEST(ImplicitFunctionToSVO, DifferencesAreAsTheirFirstFunctionWhereTheOthersAreFarAway)
+{
+  // VTK gives the gradient of a difference's first function with the opposite sign.
+  SphereConversion sphere, difference;
+  vtkNew<vtkSphere> small;
+  small->SetCenter(98.4, 0.2, -0.1);
+  small->SetRadius(0.3);
+  vtkNew<vtkImplicitBoolean> boolean;
+  boolean->SetOperationTypeToDifference();
+  boolean->AddFunction(sphere.function);
+  boolean->AddFunction(small);
+  difference.filter->SetImplicitFunction(boolean);
+  const svo::Octree whole = octreeOf(sphere.output()), cut = octreeOf(difference.output());
+  ASSERT_TRUE(whole && cut);
+  EXPECT_TRUE(difference.messages.all().empty()) << difference.messages.all();
+  vtkNew<vtkSparseVoxelOctree> a, b;
+  ASSERT_TRUE(a->Initialize(sphere.output()) && b->Initialize(difference.output()));
+  int met = 0;
+  for (int i = 0; i < 400; ++i)
+  {
+    const double angle = 0.1 + 0.031 * i, height = 0.9 * std::sin(0.37 * i);
+    // Not from the side that is cut out.
+    const double from[3] = { 100.0 + 5.0 * std::abs(std::cos(angle)), 0.2 + 5.0 * std::sin(angle),
+      -0.1 + height };
+    const double to[3] = { 100.0, 0.2, -0.1 + height };
+    double t = 0.0, other = 1.0, x[3], y[3];
+    vtkIdType cell;
+    ASSERT_EQ(a->IntersectWithLine(from, to, t, x, cell), 1);
+    ASSERT_EQ(b->IntersectWithLine(from, to, other, y, cell), 1) << i;
+    ASSERT_NEAR(t, other, 1e-6) << i;
+    ++met;
+  }
+  EXPECT_EQ(met, 400);
+}
+
 TEST(ImplicitFunctionToSVO, TransformsAndValuesCount)
 {
   SphereConversion sphere(6);
