@@ -2,7 +2,6 @@
 
 #include "svoAbort.h"
 #include "svoImageSource.h"
-#include "svoMeshOctree.h"
 #include "svoSMPParallel.h"
 #include "svoSourceOctree.h"
 
@@ -21,7 +20,6 @@
 #include <cmath>
 #include <cstddef>
 #include <new>
-#include <string>
 
 vtkStandardNewMacro(vtkImageToSVO);
 
@@ -81,13 +79,13 @@ int levelOf(vtkImageData* image, double extent)
 }
 
 template <class T>
-svo::BuildStatus convert(const T* values, const svo::ImageGrid& grid, double value,
-  const svo::BuildOptions& options, vtkPolyData* hull, std::string& message)
+svo::SourceOctree convert(const T* values, const svo::ImageGrid& grid, double value,
+  const svo::BuildOptions& options, vtkPolyData* hull)
 {
   const svo::ImageField<T> field(grid, values);
   const svo::ValuePyramid pyramid(grid, field, options.parallelFor);
   const svo::ImageSource source(field, grid, pyramid, value);
-  return svo::buildSourceOctree(source, options, hull, message);
+  return svo::buildSourceOctree(source, options, hull);
 }
 }
 
@@ -141,39 +139,31 @@ int vtkImageToSVO::RequestData(
     this->UpdateProgress(progress);
     return !svo::isAborted(this);
   };
-  std::string message = "scalars of this type are not known";
-  svo::BuildStatus status = svo::BuildStatus::BadInput;
+  svo::SourceOctree built{ svo::BuildStatus::BadInput, 0, "scalars of this type are not known" };
   const double start = vtkTimerLog::GetUniversalTime();
   try
   {
     switch (scalars->GetDataType())
     {
-      vtkTemplateMacro(status = convert(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0)),
-                         gridOf(image), this->Value, options, output, message));
+      vtkTemplateMacro(built = convert(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0)),
+                         gridOf(image), this->Value, options, output));
     }
   }
   catch (const std::bad_alloc&)
   {
-    message = "there is not enough memory for what has to be known of the image";
+    built.message = "there is not enough memory for what has to be known of the image";
   }
   this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
-  if (status == svo::BuildStatus::Aborted)
+  this->NumberOfVoxels = static_cast<vtkIdType>(built.voxels);
+  if (!built.message.empty())
   {
-    return 1;
+    vtkErrorMacro("The octree is not built: " << built.message << ".");
   }
-  svo::Octree octree;
-  if (status == svo::BuildStatus::Built &&
-    svo::openAttachedOctree(output, octree, message) == svo::Attached::Found)
+  else if (built.status == svo::BuildStatus::Built && built.voxels == 0)
   {
-    this->NumberOfVoxels = static_cast<vtkIdType>(octree.header().voxelCount);
-    if (octree.empty())
-    {
-      vtkWarningMacro(
-        "No surface was found: the image does not take the value " << this->Value << ".");
-    }
-    return 1;
+    vtkWarningMacro(
+      "No surface was found: the image does not take the value " << this->Value << ".");
   }
-  vtkErrorMacro("The octree is not built: " << message << ".");
   return 1;
 }
 

@@ -2,7 +2,6 @@
 
 #include "svoAbort.h"
 #include "svoFieldSource.h"
-#include "svoMeshOctree.h"
 #include "svoSMPParallel.h"
 #include "svoSourceOctree.h"
 
@@ -16,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 
 #include <glm/vec3.hpp>
 
@@ -99,27 +97,19 @@ int vtkImplicitFunctionToSVO::RequestData(
   const double coarsest = std::ldexp(extent, -this->MinimumLevel - 1) * 1.1;
   const FunctionField field(this->ImplicitFunction);
   const svo::FieldSource source(field, { this->Value, this->GradientBound, coarsest });
-  std::string message;
   const double start = vtkTimerLog::GetUniversalTime();
-  const svo::BuildStatus status = svo::buildSourceOctree(source, options, output, message);
+  const svo::SourceOctree built = svo::buildSourceOctree(source, options, output);
   this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
-  if (status == svo::BuildStatus::Aborted)
+  this->NumberOfVoxels = static_cast<vtkIdType>(built.voxels);
+  if (!built.message.empty())
   {
-    return 1;
+    vtkErrorMacro("The octree is not built: " << built.message << ".");
   }
-  svo::Octree octree;
-  if (status == svo::BuildStatus::Built &&
-    svo::openAttachedOctree(output, octree, message) == svo::Attached::Found)
+  else if (built.status == svo::BuildStatus::Built && built.voxels == 0)
   {
-    this->NumberOfVoxels = static_cast<vtkIdType>(octree.header().voxelCount);
-    if (octree.empty())
-    {
-      vtkWarningMacro("No surface was found: the function does not take the value "
-        << this->Value << " in the box of ModelBounds.");
-    }
-    return 1;
+    vtkWarningMacro("No surface was found: the function does not take the value "
+      << this->Value << " in the box of ModelBounds.");
   }
-  vtkErrorMacro("The octree is not built: " << message << ".");
   return 1;
 }
 

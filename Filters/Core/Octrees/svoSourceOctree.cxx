@@ -32,19 +32,20 @@ void makeHull(const Octree& octree, vtkPolyData* hull)
   quads.write(octree, level, VTK_DOUBLE, hull);
 }
 
-BuildStatus buildUnguarded(
-  const SurfaceSource& source, const BuildOptions& options, vtkPolyData* hull, std::string& message)
+SourceOctree buildUnguarded(
+  const SurfaceSource& source, const BuildOptions& options, vtkPolyData* hull)
 {
   BuildResult result = build(source, options);
   if (result.status != BuildStatus::Built)
   {
-    message = result.status == BuildStatus::Aborted ? std::string() : result.message;
-    return result.status;
+    return { result.status, 0,
+      result.status == BuildStatus::Aborted ? std::string() : result.message };
   }
+  std::string message;
   Octree octree = Octree::open(result.data, result.size, nullptr, message);
   if (!octree)
   {
-    return BuildStatus::BadInput;
+    return { BuildStatus::BadInput, 0, message };
   }
   makeHull(octree, hull);
   Header& header = *reinterpret_cast<Header*>(result.data.get());
@@ -53,25 +54,23 @@ BuildStatus buildUnguarded(
   header.cellCount = static_cast<std::uint64_t>(hull->GetNumberOfCells());
   hull->GetBounds(header.meshBounds);
   attachOctree(hull, octree);
-  return BuildStatus::Built;
+  return { BuildStatus::Built, header.voxelCount, std::string() };
 }
 }
 
-BuildStatus buildSourceOctree(
-  const SurfaceSource& source, BuildOptions options, vtkPolyData* hull, std::string& message)
+SourceOctree buildSourceOctree(const SurfaceSource& source, BuildOptions options, vtkPolyData* hull)
 {
   hull->Initialize();
-  message.clear();
   options.memoryLimit = options.memoryLimit != 0 ? options.memoryLimit : availableMemory();
   try
   {
-    return buildUnguarded(source, options, hull, message);
+    return buildUnguarded(source, options, hull);
   }
   catch (const std::bad_alloc&)
   {
     hull->Initialize();
-    message = "there is not enough memory for an octree of level " + std::to_string(options.level);
-    return BuildStatus::TooLarge;
+    return { BuildStatus::TooLarge, 0,
+      "there is not enough memory for an octree of level " + std::to_string(options.level) };
   }
 }
 }

@@ -4,6 +4,7 @@
 
 #include "svoSource.h"
 
+#include <cstdint>
 #include <string>
 
 class vtkPolyData;
@@ -13,13 +14,20 @@ namespace svo
 /// The deepest octree level whose cells the hull is made of: some thousand quads.
 constexpr int HullLevel = 5;
 
+struct SourceOctree
+{
+  BuildStatus status;
+  std::uint64_t voxels = 0;
+  std::string message; // why there is no octree; else, and if the build was aborted, empty
+};
+
 /// Builds the octree of a source and makes `hull` the surface of its cells of level HullLevel, or
 /// of the voxels where there are fewer levels, with the octree in its field data. Where the memory
-/// limit is 0 it is what the machine has available. `message` says why there is no octree; it is
-/// empty otherwise and when the build was aborted. On failure, and of a source without a surface in
-/// its box, the hull has no cells; in the latter case it carries an empty octree. Throws nothing.
-BuildStatus buildSourceOctree(
-  const SurfaceSource& source, BuildOptions options, vtkPolyData* hull, std::string& message);
+/// limit is 0 it is what the machine has available. On failure, and of a source without a surface
+/// in its box, the hull has no cells; in the latter case it carries an empty octree. Throws
+/// nothing.
+SourceOctree buildSourceOctree(
+  const SurfaceSource& source, BuildOptions options, vtkPolyData* hull);
 }
 
 #endif
