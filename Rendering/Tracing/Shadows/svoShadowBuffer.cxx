@@ -84,6 +84,12 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
       tile.store(0, std::memory_order_relaxed);
     }
   }
+  this->LargestVoxel = this->LargestError = 0.0;
+  for (std::size_t k = 0; k < this->CasterVoxel.size(); ++k)
+  {
+    this->LargestVoxel = std::max(this->LargestVoxel, this->CasterVoxel[k]);
+    this->LargestError = std::max(this->LargestError, this->CasterError[k]);
+  }
   this->SameMaps = this->SameMaps && voxels.size() == this->CasterVoxel.size() &&
     errors.size() == voxels.size() && places.size() == this->CasterPlace.size();
   for (std::size_t k = 0; k < scene.instances.size() && this->SameMaps; ++k)

@@ -219,6 +219,7 @@ private:
   std::vector<double> CasterVoxel; // world, of the level that is traced
   std::vector<double> CasterError; // world
   std::vector<glm::dmat4> CasterPlace;
+  double LargestVoxel = 0.0, LargestError = 0.0; // of them
   bool AutomaticBias = true;
   double Bias = 0.0;
   bool SameMaps = false;

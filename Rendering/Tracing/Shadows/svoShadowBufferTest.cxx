@@ -93,17 +93,27 @@ std::uint64_t ShadowBuffer::occluders(const Face& face, const MapPlaces& places,
 std::uint64_t ShadowBuffer::test(const Face& face, const TilePatch& patch, const MapPlaces& places,
   double error, std::uint64_t& single) const
 {
-  // Where everything is farther from the light than the points' planes are followed to, no texel
+  // Where everything is farther from the light than the points' planes are followed to, or all
+  // texels hold something that lies before what shadowTest() follows and allows at most, no texel
   // needs to be looked up. A thousandth is more than the rounding of these sums.
-  const double farthest = places.t0 + places.highT;
-  const double reach = 1.001 * NearbyReach * face.edge(farthest);
-  const double slack = 1e-5 * (std::abs(farthest) + std::abs(places.highT));
+  const double nearest = places.t0 + places.lowT, farthest = places.t0 + places.highT;
+  const double edge = 1.001 * face.edge(farthest);
+  const double reach = NearbyReach * edge;
+  const double slack = 1e-5 *
+    (std::abs(farthest) + std::abs(places.highT) + std::abs(nearest) + std::abs(places.lowT));
   const TileOccluders around =
     face.occluders.in(tilesOf(places, face.view, 0.0f), face.layers.depthBuffer().tilesX);
   if (around.caster == NoInstance ||
     (this->Bias >= 0.0 && around.nearest > farthest + reach + slack))
   {
     return 0;
+  }
+  const double allowed = this->Bias * this->LargestVoxel +
+    (TexelBend * edge + std::max(this->LargestError, error)) / LeastSteepness;
+  const double followed = std::max(NearbyReach, GrazingReach * face.edge.aspect) * edge;
+  if (this->Bias >= 0.0 && nearest - followed - 1.001 * allowed - slack > around.farthest)
+  {
+    return places.sure;
   }
   TexelTests tests;
   const std::uint64_t something = this->occluders(face, places, around.caster, error, tests);

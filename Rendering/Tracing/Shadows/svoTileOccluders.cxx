@@ -17,24 +17,26 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-/// The texels of a tile that are an instance's, and the least of their depths.
-std::uint64_t lanesOfCaster(
-  const float* t, const std::uint32_t* instances, std::uint32_t instance, float& least)
+/// The texels of a tile that are an instance's, and the least and the greatest of their depths.
+std::uint64_t lanesOfCaster(const float* t, const std::uint32_t* instances, std::uint32_t instance,
+  float& least, float& greatest)
 {
   const Words words;
   const Floats floats;
   const auto wanted = hn::Set(words, instance);
-  auto nearest = hn::Inf(floats);
+  auto nearest = hn::Inf(floats), farthest = hn::Neg(nearest);
   std::uint64_t mask = 0;
   for (int i = 0; i < 64; i += width())
   {
     const auto mine = hn::Eq(hn::LoadU(words, instances + i), wanted);
-    const auto depth =
-      hn::IfThenElse(hn::RebindMask(floats, mine), hn::LoadU(floats, t + i), hn::Inf(floats));
-    nearest = hn::Min(nearest, depth);
+    const auto depth = hn::LoadU(floats, t + i);
+    const auto lanes = hn::RebindMask(floats, mine);
+    nearest = hn::Min(nearest, hn::IfThenElse(lanes, depth, hn::Inf(floats)));
+    farthest = hn::Max(farthest, hn::IfThenElse(lanes, depth, hn::Neg(hn::Inf(floats))));
     mask |= bitsOf(words, mine) << i;
   }
   least = hn::GetLane(hn::MinOfLanes(floats, nearest));
+  greatest = hn::GetLane(hn::MaxOfLanes(floats, farthest));
   return mask;
 }
 }
@@ -57,10 +59,11 @@ float roundDown(double x)
 TileOccluders occludersIn(const LayeredView& map, std::size_t tile)
 {
   const DepthBuffer& depth = map.depthBuffer();
-  double nearest = std::numeric_limits<double>::infinity();
+  constexpr double Infinity = std::numeric_limits<double>::infinity();
+  double nearest = Infinity, farthest = -Infinity;
   if (!depth.hit[tile])
   {
-    return { static_cast<float>(nearest), NoInstance };
+    return { static_cast<float>(Infinity), static_cast<float>(Infinity), NoInstance };
   }
   const float* t = depth.t.data() + 64 * tile;
   const std::uint32_t* instances = depth.instance.data() + 64 * tile;
@@ -68,8 +71,9 @@ TileOccluders occludersIn(const LayeredView& map, std::size_t tile)
   for (std::uint64_t left = ~std::uint64_t(0); left != 0;)
   {
     const std::uint32_t instance = instances[__builtin_ctzll(left)];
-    float least;
-    const std::uint64_t mine = HWY_DYNAMIC_DISPATCH(lanesOfCaster)(t, instances, instance, least);
+    float least, greatest;
+    const std::uint64_t mine =
+      HWY_DYNAMIC_DISPATCH(lanesOfCaster)(t, instances, instance, least, greatest);
     if (mine == ~std::uint64_t(0))
     {
       caster = instance;
@@ -77,10 +81,15 @@ TileOccluders occludersIn(const LayeredView& map, std::size_t tile)
     if (instance != NoInstance)
     {
       nearest = std::min(nearest, map.base(instance) + static_cast<double>(least));
+      farthest = std::max(farthest, map.base(instance) + static_cast<double>(greatest));
+    }
+    else
+    {
+      farthest = Infinity;
     }
     left &= ~mine;
   }
-  return { roundDown(nearest), caster };
+  return { roundDown(nearest), roundUp(farthest), caster };
 }
 }
 
@@ -89,6 +98,7 @@ void MapOccluders::find(const LayeredView& map, const ParallelFor& parallelFor)
   const std::size_t tiles = map.depthBuffer().tiles();
   const bool all = this->Nearest.size() != tiles;
   this->Nearest.resize(tiles);
+  this->Farthest.resize(tiles);
   this->Casters.resize(tiles);
   parallelFor(0, tiles, 256,
     [&](std::size_t first, std::size_t last)
@@ -99,6 +109,7 @@ void MapOccluders::find(const LayeredView& map, const ParallelFor& parallelFor)
         {
           const TileOccluders found = occludersIn(map, tile);
           this->Nearest[tile] = found.nearest;
+          this->Farthest[tile] = found.farthest;
           this->Casters[tile] = found.caster;
         }
       }
@@ -110,16 +121,18 @@ TileOccluders MapOccluders::in(const MapTiles& tiles, int tilesX) const
   constexpr int Most = 4; // tiles along an edge of a box
   if (!this->known() || !tiles.atMost(Most))
   {
-    return { -std::numeric_limits<float>::infinity(), TileOccluders::Several };
+    constexpr float Infinity = std::numeric_limits<float>::infinity();
+    return { -Infinity, Infinity, TileOccluders::Several };
   }
   const std::size_t first = static_cast<std::size_t>(tiles.y0) * tilesX + tiles.x0;
-  TileOccluders all{ this->Nearest[first], this->Casters[first] };
+  TileOccluders all{ this->Nearest[first], this->Farthest[first], this->Casters[first] };
   for (int y = tiles.y0; y <= tiles.y1; ++y)
   {
     for (int x = tiles.x0; x <= tiles.x1; ++x)
     {
       const std::size_t tile = static_cast<std::size_t>(y) * tilesX + x;
       all.nearest = std::min(all.nearest, this->Nearest[tile]);
+      all.farthest = std::max(all.farthest, this->Farthest[tile]);
       all.caster = this->Casters[tile] == all.caster ? all.caster : TileOccluders::Several;
     }
   }

@@ -1,7 +1,8 @@
-// What lies in each tile of 8x8 texels of a shadow buffer's map: how near to the light, and whose,
-// where all of it is one caster's. Found once when the map is traced, this answers most patches
-// before any texel is looked up: those that are nearer to the light than all of it are lit, and of
-// those in one caster's tiles only depths are looked up.
+// What lies in each tile of 8x8 texels of a shadow buffer's map: how near to the light and how far
+// from it, and whose, where all of it is one caster's. Found once when the map is traced, this
+// answers most patches before any texel is looked up: those that are nearer to the light than all
+// of it are lit, those that are much farther dark, and of those in one caster's tiles only depths
+// are looked up.
 #ifndef svoTileOccluders_h
 #define svoTileOccluders_h
 
@@ -21,6 +22,7 @@ struct TileOccluders
   static constexpr std::uint32_t Several = NoInstance - 1;
 
   float nearest;        // linear depth; nothing lies nearer. Infinity: nothing lies there
+  float farthest;       // ... nothing lies farther; infinity if there is a texel without anything
   std::uint32_t caster; // all texels are this one's; NoInstance: nobody's; or Several
 };
 
@@ -38,13 +40,14 @@ public:
   bool known() const { return !this->Nearest.empty(); }
   /// Of each tile. known().
   const float* nearest() const { return this->Nearest.data(); }
-  /// Of a box of tiles; of large ones, and if it is not known, minus infinity and Several.
+  /// Of a box of tiles; of large ones, and if it is not known, minus and plus
+  /// infinity, and Several.
   /// `tilesX`: of the map.
   TileOccluders in(const MapTiles& tiles, int tilesX) const;
 
 private:
   // By tile; TileOccluders.
-  std::vector<float> Nearest;
+  std::vector<float> Nearest, Farthest;
   std::vector<std::uint32_t> Casters;
 };
 }

@@ -19,7 +19,7 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 struct Expected
 {
-  double nearest = Infinity;
+  double nearest = Infinity, farthest = -Infinity;
   std::uint32_t caster = NoInstance;
 };
 
@@ -40,6 +40,11 @@ Expected lookAtEachTexel(const LayeredView& map, const MapTiles& tiles)
       if (caster != NoInstance)
       {
         expected.nearest = std::min(expected.nearest, map.base(caster) + depth.t[at]);
+        expected.farthest = std::max(expected.farthest, map.base(caster) + depth.t[at]);
+      }
+      else
+      {
+        expected.farthest = Infinity;
       }
     }
   }
@@ -48,7 +53,7 @@ Expected lookAtEachTexel(const LayeredView& map, const MapTiles& tiles)
 
 struct Count
 {
-  int nobody = 0, one = 0, several = 0;
+  int nobody = 0, one = 0, several = 0, full = 0;
 };
 
 /// Boxes of tiles all over the map.
@@ -70,6 +75,13 @@ Count compare(const LayeredView& map, const MapOccluders& occluders)
       if (!std::isinf(expected.nearest))
       {
         EXPECT_GT(found.nearest, expected.nearest - 1e-6 * std::abs(expected.nearest));
+      }
+      EXPECT_GE(static_cast<double>(found.farthest), expected.farthest);
+      EXPECT_EQ(std::isinf(found.farthest), std::isinf(expected.farthest));
+      if (!std::isinf(expected.farthest))
+      {
+        EXPECT_LT(found.farthest, expected.farthest + 1e-6 * std::abs(expected.farthest));
+        ++count.full;
       }
       ++(found.caster == NoInstance                ? count.nobody
           : found.caster == TileOccluders::Several ? count.several
@@ -111,6 +123,7 @@ void compareFrames()
   EXPECT_GT(first.nobody, 100);
   EXPECT_GT(first.one, 100);
   EXPECT_GT(first.several, 100);
+  EXPECT_GT(first.full, 100);
   // Of the next frames only what has changed is looked at.
   for (int frame = 0; frame < 4; ++frame)
   {
