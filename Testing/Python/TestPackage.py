@@ -10,8 +10,8 @@ import unittest
 import vtksvo
 from vtkmodules.vtkCommonCore import vtkObject, vtkObjectBase
 
-PUBLIC = ["vtkImageToSVO", "vtkImplicitFunctionToSVO", "vtkPolyDataToSVO", "vtkSVORenderPass",
-          "vtkSVOToPolyData", "vtkSparseVoxelOctree"]
+PUBLIC = ["vtkImageToSVO", "vtkImplicitFunctionToSVO", "vtkMandelbulbFunction", "vtkPolyDataToSVO",
+          "vtkSVORenderPass", "vtkSVOToHyperTreeGrid", "vtkSVOToPolyData", "vtkSparseVoxelOctree"]
 
 
 def help_without_signatures(method):

@@ -22,12 +22,12 @@ bool usableGradient(const glm::dvec3& g)
 
 /// -1 where values fall along what is said to be the gradient, as in vtkImplicitBoolean's
 /// differences; else 1. Near the point, so that edges do not matter.
-double signOfGradient(const ScalarField& field, const glm::dvec3& at, double half)
+double signOfGradient(const ScalarField& field, const glm::dvec3& at, double half, double value,
+  const glm::dvec3& gradient)
 {
-  const glm::dvec3 gradient = field.gradient(at);
   const double length = glm::length(gradient);
   constexpr double Near = 0.01; // of half a voxel
-  return field.value(at + Near * half / length * gradient) < field.value(at) ? -1.0 : 1.0;
+  return field.value(at + Near * half / length * gradient) < value ? -1.0 : 1.0;
 }
 }
 
@@ -69,6 +69,12 @@ FieldSource::Samples FieldSource::sample(const glm::dvec3& centre, double half) 
   return s;
 }
 
+bool FieldSource::tooFar(double value, double half) const
+{
+  const double bound = this->Options.gradientBound;
+  return bound > 0.0 && std::abs(value) > bound * Sqrt3 * half * Rounding;
+}
+
 bool FieldSource::mayPass(const glm::dvec3& centre, double half) const
 {
   const bool large = half > this->Options.coarsest;
@@ -80,7 +86,7 @@ bool FieldSource::mayPass(const glm::dvec3& centre, double half) const
   const bool finite = std::isfinite(middle);
   if (this->Options.gradientBound > 0.0 && finite && middle != 0.0)
   {
-    return std::abs(middle) <= this->Options.gradientBound * Sqrt3 * half * Rounding;
+    return !this->tooFar(middle, half);
   }
   if (large)
   {
@@ -98,18 +104,25 @@ bool FieldSource::mayPass(const glm::dvec3& centre, double half) const
 
 bool FieldSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const
 {
-  const Samples s = this->sample(centre, half);
-  const double middle = this->Field.value(centre) - this->Options.value;
-  if (!std::isfinite(middle))
+  const double value = this->Field.value(centre), middle = value - this->Options.value;
+  if (!std::isfinite(middle) || this->tooFar(middle, half))
   {
     return false;
   }
-  const double sign = signOfGradient(this->Field, centre, half);
-  glm::dvec3 gradient = sign * this->Field.gradient(centre);
-  gradient = usableGradient(gradient) ? gradient : s.gradient() / (8.0 * half);
-  if (!usableGradient(gradient))
+  glm::dvec3 gradient = this->Field.gradient(centre);
+  double sign = 1.0;
+  if (usableGradient(gradient))
   {
-    return false;
+    sign = signOfGradient(this->Field, centre, half, value, gradient);
+    gradient *= sign;
+  }
+  else
+  {
+    gradient = this->sample(centre, half).gradient() / (8.0 * half);
+    if (!usableGradient(gradient))
+    {
+      return false;
+    }
   }
   const double square = glm::dot(gradient, gradient);
   plane.normal = gradient / std::sqrt(square);
@@ -120,8 +133,8 @@ bool FieldSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& pl
   {
     const glm::dvec3 step = plane.offset * plane.normal;
     const double rest = this->Field.value(centre + step) - this->Options.value;
-    const glm::dvec3 there = sign * this->Field.gradient(centre + step);
     settled = std::abs(rest) <= 0.5 * std::abs(middle);
+    const glm::dvec3 there = settled ? sign * this->Field.gradient(centre + step) : gradient;
     // Beyond an edge the foot has the plane of the other side, which is not there.
     constexpr double SameSide = 0.7;
     const double length = glm::length(there);
@@ -133,6 +146,6 @@ bool FieldSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& pl
   }
   const glm::dvec3 n = glm::abs(plane.normal);
   const bool passes = settled && std::abs(plane.offset) <= half * (n.x + n.y + n.z) * Rounding;
-  return passes || s.crosses();
+  return passes || this->sample(centre, half).crosses();
 }
 }

@@ -55,6 +55,8 @@ public:
 private:
   struct Samples;
   Samples sample(const glm::dvec3& centre, double half) const;
+  /// True if, for certain, the cube's middle has a value too far from the surface's.
+  bool tooFar(double value, double half) const;
 
   const ScalarField& Field;
   FieldOptions Options;

@@ -1,0 +1,268 @@
+#include "vtkSVOToHyperTreeGrid.h"
+
+#include "svoAbort.h"
+#include "svoMeshOctree.h"
+#include "svoNode.h"
+#include "svoOctreeCells.h"
+#include "svoRepresentative.h"
+
+#include "vtkBitArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkHyperTreeGrid.h"
+#include "vtkHyperTreeGridNonOrientedCursor.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <new>
+#include <string>
+
+#include <glm/vec3.hpp>
+
+vtkStandardNewMacro(vtkSVOToHyperTreeGrid);
+
+namespace
+{
+/// Cells of a grid down to a level: the root, and the eight of each occupied cell above it.
+std::size_t countCells(const svo::Octree& octree, int level)
+{
+  std::size_t count = 1;
+  for (int l = 0; l < level; ++l)
+  {
+    svo::forEachCell(octree, l,
+      [&](const svo::OctreeCell&)
+      {
+        count += 8;
+        return true;
+      });
+  }
+  return count;
+}
+
+/// Goes down octree and grid side by side.
+class TreeWriter
+{
+public:
+  TreeWriter(const svo::Octree& octree, int level, std::size_t cells, std::function<bool()> goOn)
+    : Octree(octree)
+    , Level(level)
+    , GoOn(std::move(goOn))
+  {
+    this->Mask->SetNumberOfValues(static_cast<vtkIdType>(cells));
+    this->Levels->SetName("Level");
+    this->Levels->SetNumberOfValues(static_cast<vtkIdType>(cells));
+    if (octree.surface())
+    {
+      this->CellIds->SetName("CellId");
+      this->CellIds->SetNumberOfValues(static_cast<vtkIdType>(cells));
+    }
+  }
+
+  /// False if it was stopped.
+  bool write(vtkHyperTreeGrid* grid)
+  {
+    vtkNew<vtkHyperTreeGridNonOrientedCursor> cursor;
+    cursor->Initialize(grid, 0, true);
+    cursor->SetGlobalIndexStart(0);
+    if (this->Octree.empty())
+    {
+      this->set(cursor->GetGlobalNodeIndex(), 0, nullptr);
+    }
+    else
+    {
+      const bool half = this->Octree.level() < 2 * this->Octree.depthCount();
+      this->descend(cursor, { glm::ivec3(0), 0, 0, half ? svo::GroupSize : 64 }, 0);
+    }
+    grid->SetMask(this->Mask);
+    grid->GetCellData()->AddArray(this->Levels);
+    if (this->Octree.surface())
+    {
+      grid->GetCellData()->AddArray(this->CellIds);
+    }
+    return !this->Stopped;
+  }
+
+private:
+  void set(vtkIdType index, int level, const svo::OctreeCell* cell)
+  {
+    this->Mask->SetValue(index, cell ? 0 : 1);
+    this->Levels->SetValue(index, static_cast<unsigned char>(level));
+    if (this->Octree.surface())
+    {
+      this->CellIds->SetValue(index, cell ? this->cellOf(*cell, level) : -1);
+    }
+  }
+
+  vtkIdType cellOf(const svo::OctreeCell& cell, int level) const
+  {
+    return this->Octree.surface()->cells[svo::nearestTriangle(this->Octree, cell, level)];
+  }
+
+  /// Child i of a cell, one that is occupied or not.
+  svo::OctreeCell child(const svo::OctreeCell& cell, int i, bool& occupied) const
+  {
+    const svo::Node* nodes = this->Octree.nodes();
+    const glm::ivec3 at = 2 * cell.cell + glm::ivec3(i & 1, i >> 1 & 1, i >> 2);
+    svo::OctreeCell below{ at, cell.node, 0, svo::GroupSize };
+    if (cell.bitCount == svo::GroupSize)
+    {
+      below.firstBit = cell.firstBit + i;
+      below.bitCount = 1;
+      occupied = svo::hasChild(nodes[below.node], below.firstBit);
+      return below;
+    }
+    if (cell.bitCount == 1)
+    {
+      below.node = svo::child(nodes[cell.node], cell.firstBit);
+    }
+    below.firstBit = svo::GroupSize * i;
+    occupied = svo::groupCells(nodes[below.node], below.firstBit) != 0;
+    return below;
+  }
+
+  void descend(vtkHyperTreeGridNonOrientedCursor* cursor, const svo::OctreeCell& cell, int level)
+  {
+    this->set(cursor->GetGlobalNodeIndex(), level, &cell);
+    if (level == this->Level || this->Stopped)
+    {
+      return;
+    }
+    cursor->SubdivideLeaf();
+    for (int i = 0; i < 8; ++i)
+    {
+      bool occupied = false;
+      const svo::OctreeCell below = this->child(cell, i, occupied);
+      cursor->ToChild(static_cast<unsigned char>(i));
+      if (occupied)
+      {
+        this->descend(cursor, below, level + 1);
+      }
+      else
+      {
+        this->set(cursor->GetGlobalNodeIndex(), level + 1, nullptr);
+      }
+      cursor->ToParent();
+    }
+    this->Stopped = this->Stopped || !this->GoOn();
+  }
+
+  const svo::Octree& Octree;
+  const int Level;
+  const std::function<bool()> GoOn;
+  bool Stopped = false;
+  vtkNew<vtkBitArray> Mask;
+  vtkNew<vtkUnsignedCharArray> Levels;
+  vtkNew<vtkIdTypeArray> CellIds;
+};
+
+void setCube(const svo::Octree& octree, vtkHyperTreeGrid* grid)
+{
+  const svo::Header& h = octree.header();
+  const double edge = std::ldexp(h.voxelSize, octree.level());
+  grid->SetDimensions(2, 2, 2);
+  grid->SetBranchFactor(2);
+  void (vtkHyperTreeGrid::*const setters[3])(vtkDataArray*) = { &vtkHyperTreeGrid::SetXCoordinates,
+    &vtkHyperTreeGrid::SetYCoordinates, &vtkHyperTreeGrid::SetZCoordinates };
+  for (int i = 0; i < 3; ++i)
+  {
+    vtkNew<vtkDoubleArray> coordinates;
+    coordinates->InsertNextValue(h.origin[i]);
+    coordinates->InsertNextValue(h.origin[i] + edge);
+    (grid->*setters[i])(coordinates);
+  }
+}
+}
+
+//------------------------------------------------------------------------------
+int vtkSVOToHyperTreeGrid::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSVOToHyperTreeGrid::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkHyperTreeGrid");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSVOToHyperTreeGrid::ProcessTrees(vtkHyperTreeGrid*, vtkDataObject*)
+{
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSVOToHyperTreeGrid::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
+  vtkHyperTreeGrid* output = vtkHyperTreeGrid::GetData(outputVector);
+  output->Initialize();
+  svo::Octree octree;
+  std::string message;
+  const svo::Attached attached = svo::openAttachedOctree(input, octree, message);
+  if (attached != svo::Attached::Found)
+  {
+    vtkErrorMacro(<< svo::describe(attached, message));
+    return 1;
+  }
+  const int level = this->Level < 0 ? octree.level() : std::min(this->Level, octree.level());
+  const std::size_t cells = countCells(octree, level);
+  // Of a cell its arrays, and of the eight together VTK's indices of parent and children, twice
+  // while they grow.
+  const std::size_t needed = cells * (1 + (octree.surface() ? 8 : 0) + 2 * 6);
+  const std::size_t available = svo::availableMemory();
+  const auto refuse = [&]
+  {
+    output->Initialize();
+    vtkErrorMacro("The hyper tree grid of level "
+      << level << " has " << cells << " cells and needs about " << (needed >> 20)
+      << " MiB, which is more than there is. Choose a lower Level.");
+    return 1;
+  };
+  if (available != 0 && needed > available)
+  {
+    return refuse();
+  }
+  try
+  {
+    std::size_t visited = 0;
+    TreeWriter writer(octree, level, cells,
+      [&]
+      {
+        if ((++visited & 0xffff) == 0)
+        {
+          this->UpdateProgress(
+            std::min(1.0, 8.0 * static_cast<double>(visited) / static_cast<double>(cells)));
+        }
+        return !svo::isAborted(this);
+      });
+    setCube(octree, output);
+    if (!writer.write(output))
+    {
+      output->Initialize();
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+    return refuse();
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSVOToHyperTreeGrid::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Level: " << this->Level << "\n";
+}
