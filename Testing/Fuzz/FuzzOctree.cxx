@@ -11,6 +11,7 @@
 #include "svoIntersectScalar.h"
 #include "svoMeshOctree.h"
 #include "svoTraverse.h"
+#include "vtkSVOToHyperTreeGrid.h"
 #include "vtkSVOToPolyData.h"
 #include "vtkSparseVoxelOctree.h"
 
@@ -104,8 +105,10 @@ RayBlock someRays(unsigned seed)
 
 void checkPrimitive(const Octree& octree, Primitive primitive)
 {
-  const std::uint64_t count =
-    primitive & NodePrimitive ? octree.header().nodeCount : octree.header().triangleCount;
+  const Header& h = octree.header();
+  const std::uint64_t count = primitive & NodePrimitive ? h.nodeCount
+    : octree.hasPlanes()                                ? h.listWords
+                                                        : h.triangleCount;
   if (primitive != NoPrimitive && (primitive & ~NodePrimitive) >= count)
   {
     fail("a hit names something that does not exist");
@@ -192,7 +195,8 @@ void useHandle(vtkSparseVoxelOctree* handle)
   {
     const double from[3] = { 2.0, 0.3 * i - 2.0, 1.0 }, to[3] = { -2.0, 0.2, 0.1 * i - 1.0 };
     if (handle->IntersectWithLine(from, to, t, x, cell) &&
-      (cell < 0 || cell >= svofuzz::mesh()->GetNumberOfCells()))
+      (handle->GetOctree().hasPlanes() ? cell != -1
+                                       : cell < 0 || cell >= svofuzz::mesh()->GetNumberOfCells()))
     {
       fail("a line hits a cell that does not exist");
     }
@@ -239,5 +243,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     surface->SetLevel(level);
     surface->Update();
   }
+  vtkNew<vtkSVOToHyperTreeGrid> grid;
+  grid->SetInputData(mesh);
+  grid->SetLevel(6);
+  grid->Update();
   return 0;
 }

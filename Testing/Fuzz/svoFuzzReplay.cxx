@@ -8,6 +8,7 @@
 // printed with the way to run that input alone. An input may take ten seconds.
 #include "svoFuzzMesh.h"
 
+#include "svoFieldSource.h"
 #include "svoLayout.h"
 #include "svoMeshOctree.h"
 
@@ -142,6 +143,37 @@ void run(const Bytes& bytes, const std::string& what)
   alarm(0);
 }
 
+void writeOctree(const svo::Header& h, const fs::path& file)
+{
+  std::ofstream out(file, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(&h),
+    static_cast<std::streamsize>(sizeof(h) + 16 * h.nodeCount + 4 * h.listWords));
+}
+
+/// A plane across the cube of the mesh.
+struct Slope : svo::ScalarField
+{
+  double value(const glm::dvec3& at) const override { return at.x + 0.4 * at.y - 0.3 * at.z; }
+  glm::dvec3 gradient(const glm::dvec3&) const override { return { 1.0, 0.4, -0.3 }; }
+};
+
+/// An octree of planes whose hull is said to be the mesh.
+void writePlanes(int level, const fs::path& folder)
+{
+  svo::BuildOptions options;
+  options.level = level;
+  options.leafGeometry = svo::LeafGeometry::Plane;
+  options.modelLow = glm::dvec3(-0.5);
+  options.modelHigh = glm::dvec3(0.5);
+  const Slope slope;
+  const svo::BuildResult built = svo::build(svo::FieldSource(slope, { 0.0, 1.2, 0.0 }), options);
+  svo::Header& h = *reinterpret_cast<svo::Header*>(built.data.get());
+  h.pointCount = static_cast<std::uint64_t>(svofuzz::mesh()->GetNumberOfPoints());
+  h.cellCount = static_cast<std::uint64_t>(svofuzz::mesh()->GetNumberOfCells());
+  svofuzz::mesh()->GetBounds(h.meshBounds);
+  writeOctree(h, folder / ("planes-" + std::to_string(level)));
+}
+
 int writeSeeds(const fs::path& folder)
 {
   fs::create_directories(folder);
@@ -156,10 +188,8 @@ int writeSeeds(const fs::path& folder)
       std::fprintf(stderr, "%s\n", message.c_str());
       return 1;
     }
-    const svo::Header& h = octree.header();
-    std::ofstream out(folder / ("level-" + std::to_string(level)), std::ios::binary);
-    out.write(reinterpret_cast<const char*>(octree.key()),
-      static_cast<std::streamsize>(sizeof(h) + 16 * h.nodeCount + 4 * h.listWords));
+    writeOctree(octree.header(), folder / ("level-" + std::to_string(level)));
+    writePlanes(level, folder);
   }
   return 0;
 }
