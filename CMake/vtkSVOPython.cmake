@@ -19,6 +19,11 @@ mark_as_advanced(VTKSVO_PYTHON_INSTALL_DIR)
 
 # The modules carry the interpreter's tag in their names, so that no other one loads them.
 set(vtksvo_wrapped SVO::SVOCore SVO::SVOParallel SVO::SVOPass)
+set(VTKSVO_IMPORT_OPENVDB "")
+if (VTKSVO_HAS_OPENVDB)
+  list(APPEND vtksvo_wrapped SVO::SVOOpenVDB)
+  set(VTKSVO_IMPORT_OPENVDB "from .vtkSVOOpenVDB import *\n")
+endif ()
 vtk_module_wrap_python(
   MODULES ${vtksvo_wrapped}
   TARGET SVO::Python

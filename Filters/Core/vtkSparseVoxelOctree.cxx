@@ -4,7 +4,7 @@
 #include "svoMeshOctree.h"
 #include "svoRepresentative.h"
 
-#include "vtkMath.h"
+#include "vtkBoundingBox.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
@@ -13,6 +13,9 @@
 #include <cstdint>
 #include <string>
 
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
 vtkStandardNewMacro(vtkSparseVoxelOctree);
@@ -21,7 +24,14 @@ class vtkSparseVoxelOctree::vtkInternals
 {
 public:
   svo::Octree Octree;
+  glm::dmat4 FromLocal{ 1.0 }; // to the octree's own frame
   double Bounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+
+  glm::dvec3 toOwnFrame(const double x[3]) const
+  {
+    const glm::dvec4 p(x[0], x[1], x[2], 1.0);
+    return glm::dvec3(this->Octree.hasFrame() ? this->FromLocal * p : p);
+  }
 };
 
 //------------------------------------------------------------------------------
@@ -46,6 +56,7 @@ bool vtkSparseVoxelOctree::Initialize(vtkPolyData* mesh)
   const svo::Attached attached = svo::openAttachedOctree(mesh, this->Internals->Octree, message);
   if (attached == svo::Attached::Found)
   {
+    this->Internals->FromLocal = glm::inverse(this->Internals->Octree.frame());
     return true;
   }
   vtkErrorMacro(<< svo::describe(attached, message));
@@ -90,6 +101,18 @@ void vtkSparseVoxelOctree::GetBounds(double bounds[6])
     bounds[2 * i + 1] =
       octree ? bounds[2 * i] + std::ldexp(octree.header().voxelSize, octree.level()) : -1.0;
   }
+  if (octree && octree.hasFrame())
+  {
+    const glm::dmat4 frame = octree.frame();
+    vtkBoundingBox box;
+    for (int i = 0; i < 8; ++i)
+    {
+      const glm::dvec4 p =
+        frame * glm::dvec4(bounds[i & 1], bounds[2 + (i >> 1 & 1)], bounds[4 + (i >> 2)], 1.0);
+      box.AddPoint(p.x, p.y, p.z);
+    }
+    box.GetBounds(bounds);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -103,7 +126,12 @@ double* vtkSparseVoxelOctree::GetBounds()
 double vtkSparseVoxelOctree::GetVoxelSize()
 {
   const svo::Octree& octree = this->Internals->Octree;
-  return octree ? octree.header().voxelSize : 0.0;
+  if (!octree)
+  {
+    return 0.0;
+  }
+  const double volume = std::abs(glm::determinant(glm::dmat3(octree.frame())));
+  return octree.header().voxelSize * (octree.hasFrame() ? std::cbrt(volume) : 1.0);
 }
 
 //------------------------------------------------------------------------------
@@ -116,10 +144,11 @@ bool vtkSparseVoxelOctree::IsOccupied(const double x[3], int level)
   }
   const int l = std::min(std::max(level, 0), octree.level());
   const double edge = std::ldexp(octree.header().voxelSize, octree.level() - l);
+  const glm::dvec3 at = this->Internals->toOwnFrame(x);
   glm::ivec3 cell;
   for (int i = 0; i < 3; ++i)
   {
-    const double c = std::floor((x[i] - octree.header().origin[i]) / edge);
+    const double c = std::floor((at[i] - octree.header().origin[i]) / edge);
     if (!(c >= 0.0 && c < static_cast<double>(1 << l))) // NaN is outside, too
     {
       return false;
@@ -142,8 +171,8 @@ int vtkSparseVoxelOctree::IntersectWithLine(
   const svo::Header& h = octree.header();
   const glm::dvec3 origin(h.origin[0], h.origin[1], h.origin[2]);
   const double scale = 1.0 / octree.rootEdge();
-  const glm::dvec3 from(p1[0], p1[1], p1[2]);
-  const glm::dvec3 along = glm::dvec3(p2[0], p2[1], p2[2]) - from;
+  const glm::dvec3 from = this->Internals->toOwnFrame(p1);
+  const glm::dvec3 along = this->Internals->toOwnFrame(p2) - from;
   svo::Ray ray;
   ray.origin = 1.0 + (from - origin) * scale;
   ray.direction = along * scale;
@@ -163,7 +192,7 @@ int vtkSparseVoxelOctree::IntersectWithLine(
   t = hit.t;
   for (int i = 0; i < 3; ++i)
   {
-    x[i] = from[i] + hit.t * along[i];
+    x[i] = p1[i] + hit.t * (p2[i] - p1[i]);
   }
   if (octree.hasPlanes())
   {

@@ -68,15 +68,18 @@ public:
   //@{
   /**
    * The octree's cube: xmin, xmax, ymin, ymax, zmin, zmax, in the mesh's frame. It encloses the
-   * mesh, which lies in its middle. An uninitialized handle has VTK's empty bounds (1, -1, 1, -1,
-   * 1, -1). The form that returns a pointer points into the handle, valid until it is next called.
+   * mesh, which lies in its middle. Where the octree is that of a grid whose voxels are stretched,
+   * turned or sheared (vtkSVOVDBReader), the bounds of what that makes of the cube. An
+   * uninitialized handle has VTK's empty bounds (1, -1, 1, -1, 1, -1). The form that returns a
+   * pointer points into the handle, valid until it is next called.
    */
   void GetBounds(double bounds[6]);
   double* GetBounds() VTK_SIZEHINT(6);
   //@}
 
   /**
-   * Edge of a voxel in the mesh's frame. 0 before Initialize().
+   * Edge of a voxel in the mesh's frame; of a stretched or sheared one the cube root of its volume.
+   * 0 before Initialize().
    */
   double GetVoxelSize();
 

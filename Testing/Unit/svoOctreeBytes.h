@@ -13,9 +13,7 @@ namespace svotest
 inline std::vector<std::byte> bytesOf(const svo::Octree& octree)
 {
   const auto* first = reinterpret_cast<const std::byte*>(octree.key());
-  const std::size_t size = sizeof(svo::Header) + octree.header().nodeCount * sizeof(svo::Node) +
-    octree.header().listWords * sizeof(std::uint32_t);
-  return { first, first + size };
+  return { first, first + svo::bufferSize(octree.header()) };
 }
 }
 

@@ -9,6 +9,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+
 namespace svo
 {
 const CellFace FacesOfCell[CellFaces] = {
@@ -62,23 +66,28 @@ void CellQuads::write(const Octree& octree, int level, int pointType, vtkPolyDat
 
   const Header& header = octree.header();
   const double edge = std::ldexp(header.voxelSize, octree.level() - level);
+  const glm::dmat4 frame = octree.frame();
   vtkNew<vtkPoints> outPoints;
   outPoints->SetDataType(pointType);
   outPoints->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const std::uint64_t key = points[i];
-    outPoints->SetPoint(static_cast<vtkIdType>(i),
-      header.origin[0] + static_cast<double>(key & 0x1fffff) * edge,
+    glm::dvec4 p(header.origin[0] + static_cast<double>(key & 0x1fffff) * edge,
       header.origin[1] + static_cast<double>(key >> 21 & 0x1fffff) * edge,
-      header.origin[2] + static_cast<double>(key >> 42) * edge);
+      header.origin[2] + static_cast<double>(key >> 42) * edge, 1.0);
+    p = octree.hasFrame() ? frame * p : p;
+    outPoints->SetPoint(static_cast<vtkIdType>(i), p.x, p.y, p.z);
   }
+  // A frame that mirrors turns quads inside out.
+  const bool mirrored = glm::determinant(glm::dmat3(frame)) < 0.0;
 
   vtkNew<vtkIdTypeArray> connectivity;
   connectivity->SetNumberOfValues(static_cast<vtkIdType>(this->Corners.size()));
   for (std::size_t i = 0; i < this->Corners.size(); ++i)
   {
-    const auto found = std::lower_bound(points.begin(), points.end(), this->Corners[i]);
+    const std::size_t from = mirrored ? i / 4 * 4 + (3 - i % 4) : i;
+    const auto found = std::lower_bound(points.begin(), points.end(), this->Corners[from]);
     connectivity->SetValue(static_cast<vtkIdType>(i), found - points.begin());
   }
   vtkNew<vtkCellArray> polys;

@@ -46,12 +46,6 @@ void tellRange(vtkUnsignedCharArray* array)
   }
 }
 
-std::size_t bufferSize(const Header& header)
-{
-  return sizeof(Header) + header.nodeCount * sizeof(Node) +
-    header.listWords * sizeof(std::uint32_t);
-}
-
 /// Bytes of an octree's own, aligned as Octree::open() wants them.
 std::shared_ptr<const std::byte> ownBytes(const void* bytes, std::size_t size)
 {

@@ -6,20 +6,28 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <new>
+
+#include <glm/common.hpp>
 
 namespace svo
 {
 namespace
 {
-/// Double precision: bounds of the hull have to hold the surface wherever it lies.
-void makeHull(const Octree& octree, vtkPolyData* hull)
+/// Double precision: bounds of the hull have to hold the surface wherever it lies. `bounds`: of the
+/// hull in the octree's own frame, as VTK orders them.
+void makeHull(const Octree& octree, vtkPolyData* hull, double bounds[6])
 {
   const int level = std::min(octree.level(), HullLevel);
   CellQuads quads;
+  glm::ivec3 low(std::numeric_limits<int>::max()), high(-1);
   forEachVisibleCell(octree, level, false,
     [&](const OctreeCell& cell, int faces)
     {
+      low = glm::min(low, cell.cell);
+      high = glm::max(high, cell.cell + 1);
       for (int f = 0; f < CellFaces; ++f)
       {
         if (faces >> f & 1)
@@ -30,12 +38,19 @@ void makeHull(const Octree& octree, vtkPolyData* hull)
       return true;
     });
   quads.write(octree, level, VTK_DOUBLE, hull);
+  const double edge = std::ldexp(octree.header().voxelSize, octree.level() - level);
+  for (int i = 0; i < 3; ++i)
+  {
+    const bool any = high[i] >= 0;
+    bounds[2 * i] = any ? octree.header().origin[i] + low[i] * edge : 1.0;
+    bounds[2 * i + 1] = any ? octree.header().origin[i] + high[i] * edge : -1.0;
+  }
 }
 
 SourceOctree buildUnguarded(
-  const SurfaceSource& source, const BuildOptions& options, vtkPolyData* hull)
+  const SurfaceSource& source, const BuildOptions& options, vtkPolyData* hull, const Cube* cube)
 {
-  BuildResult result = build(source, options);
+  BuildResult result = cube ? build(source, *cube, options) : build(source, options);
   if (result.status != BuildStatus::Built)
   {
     return { result.status, 0,
@@ -47,24 +62,24 @@ SourceOctree buildUnguarded(
   {
     return { BuildStatus::BadInput, 0, message };
   }
-  makeHull(octree, hull);
   Header& header = *reinterpret_cast<Header*>(result.data.get());
+  makeHull(octree, hull, header.meshBounds);
   header.signature = meshSignature(hull);
   header.pointCount = static_cast<std::uint64_t>(hull->GetNumberOfPoints());
   header.cellCount = static_cast<std::uint64_t>(hull->GetNumberOfCells());
-  hull->GetBounds(header.meshBounds);
   attachOctree(hull, octree);
   return { BuildStatus::Built, header.voxelCount, std::string() };
 }
 }
 
-SourceOctree buildSourceOctree(const SurfaceSource& source, BuildOptions options, vtkPolyData* hull)
+SourceOctree buildSourceOctree(
+  const SurfaceSource& source, BuildOptions options, vtkPolyData* hull, const Cube* cube)
 {
   hull->Initialize();
   options.memoryLimit = options.memoryLimit != 0 ? options.memoryLimit : availableMemory();
   try
   {
-    return buildUnguarded(source, options, hull);
+    return buildUnguarded(source, options, hull, cube);
   }
   catch (const std::bad_alloc&)
   {

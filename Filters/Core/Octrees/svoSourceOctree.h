@@ -3,6 +3,7 @@
 #define svoSourceOctree_h
 
 #include "svoSource.h"
+#include "vtkSVOCoreModule.h"
 
 #include <cstdint>
 #include <string>
@@ -26,8 +27,9 @@ struct SourceOctree
 /// limit is 0 it is what the machine has available. On failure, and of a source without a surface
 /// in its box, the hull has no cells; in the latter case it carries an empty octree. Throws
 /// nothing.
-SourceOctree buildSourceOctree(
-  const SurfaceSource& source, BuildOptions options, vtkPolyData* hull);
+/// `cube`: where the source has one already.
+VTKSVOCORE_EXPORT SourceOctree buildSourceOctree(
+  const SurfaceSource& source, BuildOptions options, vtkPolyData* hull, const Cube* cube = nullptr);
 }
 
 #endif

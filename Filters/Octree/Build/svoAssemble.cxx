@@ -218,7 +218,7 @@ std::shared_ptr<std::byte> writeBuffer(const std::vector<NodeDepth>& depths,
   {
     header.depthBegin[d + 1] = static_cast<std::uint32_t>(header.nodeCount);
   }
-  size = sizeof(Header) + header.nodeCount * sizeof(Node) + lists.size() * sizeof(std::uint32_t);
+  size = bufferSize(header);
   std::shared_ptr<std::byte> data(
     static_cast<std::byte*>(::operator new(size)), [](std::byte* p) { ::operator delete(p); });
   std::memcpy(data.get(), &header, sizeof(Header));
@@ -246,6 +246,8 @@ std::shared_ptr<std::byte> writeBuffer(const std::vector<NodeDepth>& depths,
   {
     std::memcpy(words, lists.data(), lists.size() * sizeof(std::uint32_t));
   }
+  std::byte* rest = words + lists.size() * sizeof(std::uint32_t); // the caller's, if there is any
+  std::fill(rest, data.get() + size, std::byte(0));
   return data;
 }
 }

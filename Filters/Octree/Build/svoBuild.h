@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 namespace svo
@@ -37,6 +38,9 @@ struct BuildOptions
   /// all parts have the same voxels. Low above high: the mesh is all there is.
   glm::dvec3 modelLow{ 1.0 };
   glm::dvec3 modelHigh{ -1.0 };
+  /// From the octree's own frame to the local frame, see FRAMES in svoLayout.h; isFrame() has to
+  /// hold. 1: they are the same. Only where the octree is one of planes.
+  glm::dmat4 frame{ 1.0 };
   /// The build is refused before it allocates if it is expected to need more than this at its
   /// peak. 0: no limit.
   std::size_t memoryLimit = 0; // bytes

@@ -4,17 +4,21 @@
 #include "svoExecutor.h"
 #include "svoMorton.h"
 #include "svoNode.h"
+#include "svoOctree.h"
 #include "svoPlane.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <new>
+#include <string>
 #include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 
 namespace svo
@@ -239,11 +243,11 @@ NodeDepth joinBricks(std::vector<Found>& parts, Header& header, RawArray<std::ui
   return all;
 }
 
-void buildStages(const SurfaceSource& source, const BuildOptions& options, BuildResult& result)
+void buildStages(
+  const SurfaceSource& source, const Cube& cube, const BuildOptions& options, BuildResult& result)
 {
   Executor executor(options.parallelFor, options.progress);
   executor.report();
-  const Cube cube = boundingCube(options.modelLow, options.modelHigh, options.level);
   Subdivision cut(source, options, cube);
   int level = std::max(options.level - TaskLevels, 0);
   const std::vector<glm::ivec3> starts = startCells(cut, level, executor);
@@ -258,32 +262,60 @@ void buildStages(const SurfaceSource& source, const BuildOptions& options, Build
       }
     });
   Header header = makeHeader(options, cube);
+  header.framed = options.frame != glm::dmat4(1.0);
   RawArray<std::uint32_t> planes;
   NodeDepth bricks = joinBricks(parts, header, planes);
   result.data = assembleBricks(std::move(bricks), planes, header, result.size, executor);
+  if (header.framed != 0)
+  {
+    const glm::dmat4 rows = glm::transpose(options.frame);
+    std::memcpy(result.data.get() + frameOffset(header), &rows[0][0], FrameBytes);
+  }
   result.status = BuildStatus::Built;
+}
+
+/// Why nothing can be built; empty if something can.
+std::string refusal(const BuildOptions& options)
+{
+  const glm::dvec3 size = options.modelHigh - options.modelLow;
+  if (options.level < 1 || options.level > MaximumLevel)
+  {
+    return "the level must be 1 to 20, and is " + std::to_string(options.level);
+  }
+  if (!glm::all(glm::greaterThanEqual(size, glm::dvec3(0.0))) || size == glm::dvec3(0.0) ||
+    !std::isfinite(size.x + size.y + size.z))
+  {
+    return "the box to look for a surface in is empty, or not finite";
+  }
+  if (!isFrame(options.frame))
+  {
+    return "the octree's frame is not affine, or nearly singular";
+  }
+  return {};
 }
 }
 
 BuildResult build(const SurfaceSource& source, const BuildOptions& options)
 {
   BuildResult result;
-  const glm::dvec3 size = options.modelHigh - options.modelLow;
-  if (options.level < 1 || options.level > MaximumLevel)
+  result.message = refusal(options);
+  return result.message.empty()
+    ? build(source, boundingCube(options.modelLow, options.modelHigh, options.level), options)
+    : result;
+}
+
+BuildResult build(const SurfaceSource& source, const Cube& cube, const BuildOptions& options)
+{
+  BuildResult result;
+  result.message = refusal(options);
+  if (!result.message.empty())
   {
-    result.message = "the level must be 1 to 20, and is " + std::to_string(options.level);
-    return result;
-  }
-  if (!glm::all(glm::greaterThanEqual(size, glm::dvec3(0.0))) || size == glm::dvec3(0.0) ||
-    !std::isfinite(size.x + size.y + size.z))
-  {
-    result.message = "the box to look for a surface in is empty, or not finite";
     return result;
   }
   const std::string level = "level " + std::to_string(options.level);
   try
   {
-    buildStages(source, options, result);
+    buildStages(source, cube, options, result);
     return result;
   }
   catch (const BuildAborted&)

@@ -40,6 +40,11 @@ public:
 /// bounds; voxels that the box does not touch stay empty. Deterministic for any executor, if the
 /// source is. The build stops with TooLarge where it takes more memory than there is.
 VTKSVOOCTREE_EXPORT BuildResult build(const SurfaceSource& source, const BuildOptions& options);
+
+/// The same in a cube that is given, so that its voxels are those that the source has already. The
+/// source's units and options' box are those of the octree's own frame, see options.frame.
+VTKSVOOCTREE_EXPORT BuildResult build(
+  const SurfaceSource& source, const Cube& cube, const BuildOptions& options);
 }
 
 #endif

@@ -2,7 +2,8 @@
 // builder writes, a .vtp file carries, and both the CPU and a shader read.
 //
 // SPACE
-//   The octree's cube is a cube in the object's local frame, `2^level` voxels along an edge.
+//   The octree's cube is a cube in the object's local frame, or in a frame of its own (FRAMES,
+//   below), `2^level` voxels along an edge.
 //   A node is a 4x4x4 block: it spans two octree levels at once. Where `level` is odd, the root
 //   block would span half a level too much, so the root cube is twice the octree's cube and only
 //   its lower octant is used. The root cube is mapped to *octree coordinates* [1, 2)^3, where a
@@ -32,6 +33,8 @@
 //   |                        |  shared. Of an octree of planes instead the plane of every voxel,
 //   |                        |  in the order of the voxels
 //   +------------------------+ 256 + 16 * nodeCount + 4 * listWords
+//   | frame       128 bytes  |  only if framed is 1, from the next multiple of 8 on
+//   +------------------------+
 //
 //   Node, 16 bytes:
 //     0  mask   8  bit i: cell i is occupied. Never 0, but in the root of an empty octree
@@ -44,9 +47,18 @@
 // OCTREES OF PLANES
 //   A surface that is no mesh (where a function or an image takes a value) has no triangles to
 //   refer to. Each of its voxels has a plane of its own instead, whose block is the voxel.
+//
+// FRAMES
+//   Voxels of other programs need not be cubes: a grid may be stretched, turned, mirrored or
+//   sheared where it lies. Its octree is one of planes, and stays a cube in a frame of its own,
+//   which the 16 doubles of `frame`, a 4x4 matrix row by row, take to the object's local frame. It
+//   is affine (last row 0 0 0 1), finite and invertible, of a condition of up to
+//   LargestFrameCondition. origin, voxelSize, meshBounds and the planes are in the octree's own
+//   frame then. Where framed is 0 the two frames are one; so it is in files older than frames.
 #ifndef svoLayout_h
 #define svoLayout_h
 
+#include <cstddef>
 #include <cstdint>
 
 namespace svo
@@ -86,15 +98,16 @@ struct Header
   std::uint64_t listWords;     // 32-bit words in `lists`
   std::uint64_t voxelCount;    // occupied voxels of the last level
   std::uint64_t triangleCount; // of the triangulated mesh; every id in a list is below it
-  double origin[3];            // the cube's lower corner, local frame
-  double voxelSize;            // edge of a voxel, local frame
+  double origin[3];            // the cube's lower corner, octree's own frame
+  double voxelSize;            // edge of a voxel, octree's own frame
   std::uint64_t signature;     // of the mesh it was built from; 0: not bound to one
   std::uint64_t pointCount;    // of that mesh
   std::uint64_t cellCount;     // of that mesh
-  double meshBounds[6];        // of that mesh, or of what it is a part of
+  double meshBounds[6];        // of that mesh, or of what it is a part of; octree's own frame
   std::uint32_t depthBegin[MaximumDepths + 1]; // first node of each depth; [depthCount] = nodeCount
   std::uint32_t leafWords; // words of `lists` that a voxel has; 0: an octree of triangles
-  std::uint32_t reserved[12];
+  std::uint32_t framed;    // 1: there is a frame; else 0. Of octrees of planes only
+  std::uint32_t reserved[11];
 };
 static_assert(sizeof(Header) == 256, "the header is part of the file format");
 
@@ -102,6 +115,25 @@ constexpr char LayoutMagic[8] = { 'v', 't', 'k', 'S', 'V', 'O', 0, 0 };
 constexpr std::uint32_t LayoutVersion = 1;
 /// Header::leafWords of an octree of planes.
 constexpr std::uint32_t PlaneWords = 1;
+
+constexpr std::size_t FrameBytes = 16 * sizeof(double);
+constexpr double LargestFrameCondition = 1e9;
+
+/// Where the frame is, or would be.
+constexpr std::size_t frameOffset(const Header& header)
+{
+  const std::size_t end =
+    sizeof(Header) + header.nodeCount * sizeof(Node) + header.listWords * sizeof(std::uint32_t);
+  return (end + sizeof(double) - 1) / sizeof(double) * sizeof(double);
+}
+
+/// Bytes of the whole buffer.
+constexpr std::size_t bufferSize(const Header& header)
+{
+  return header.framed != 0
+    ? frameOffset(header) + FrameBytes
+    : sizeof(Header) + header.nodeCount * sizeof(Node) + header.listWords * sizeof(std::uint32_t);
+}
 }
 
 #endif

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <cstring>
 
-#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 namespace svo
 {
@@ -22,7 +24,7 @@ bool headerIsSane(const Header& h, std::size_t size)
     h.depthCount != (h.level + 1) / 2 || h.nodeCount < 1 || h.nodeCount > 0x7fffffffu ||
     h.listWords > 0x7fffffffu || h.triangleCount > 0x7fffffffu ||
     (h.leafWords != 0 && (h.leafWords != PlaneWords || h.triangleCount != 0)) ||
-    size != sizeof(Header) + h.nodeCount * sizeof(Node) + h.listWords * sizeof(std::uint32_t))
+    h.framed > (h.leafWords != 0 ? 1u : 0u) || size != bufferSize(h))
   {
     return false;
   }
@@ -47,12 +49,49 @@ bool headerIsSane(const Header& h, std::size_t size)
   return h.depthBegin[1] == 1 || h.nodeCount == 1;
 }
 
+double frobeniusNorm(const glm::dmat3& m)
+{
+  double sum = 0.0;
+  for (int i = 0; i < 9; ++i)
+  {
+    sum += m[i / 3][i % 3] * m[i / 3][i % 3];
+  }
+  return std::sqrt(sum);
+}
+
+glm::dmat4 frameAt(const std::byte* at)
+{
+  double rows[16];
+  std::memcpy(rows, at, FrameBytes);
+  return glm::transpose(glm::make_mat4(rows));
+}
+
 bool surfaceIsSane(const Surface& surface)
 {
   const std::size_t points = surface.points.size();
   return std::all_of(surface.triangles.begin(), surface.triangles.end(),
     [points](const glm::uvec3& t) { return t.x < points && t.y < points && t.z < points; });
 }
+}
+
+bool isFrame(const glm::dmat4& m)
+{
+  for (int i = 0; i < 16; ++i)
+  {
+    if (!std::isfinite(m[i / 4][i % 4]))
+    {
+      return false;
+    }
+  }
+  const glm::dmat3 linear(m);
+  const double scale = frobeniusNorm(linear);
+  if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0 || !(scale > 0.0) ||
+    !std::isfinite(scale) || !std::isfinite(1.0 / scale))
+  {
+    return false;
+  }
+  // Scaled first: neither tiny nor huge frames are singular.
+  return frobeniusNorm(glm::inverse(linear / scale)) <= LargestFrameCondition;
 }
 
 Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
@@ -73,6 +112,11 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
   if (!headerIsSane(h, size))
   {
     error = "the octree's header is damaged, or of another version";
+    return {};
+  }
+  if (h.framed != 0 && !isFrame(frameAt(octree.Data.get() + frameOffset(h))))
+  {
+    error = "the octree's frame is not affine and invertible";
     return {};
   }
   if (octree.Triangles &&
@@ -198,6 +242,12 @@ glm::dmat4 Octree::localToOctree() const
   glm::dmat4 m(scale);
   m[3] = glm::dvec4(1.0 - origin * scale, 1.0);
   return m;
+}
+
+glm::dmat4 Octree::frame() const
+{
+  return this->hasFrame() ? frameAt(this->Data.get() + frameOffset(this->header()))
+                          : glm::dmat4(1.0);
 }
 
 bool Octree::occupied(glm::ivec3 cell, int level) const

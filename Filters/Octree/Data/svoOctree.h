@@ -22,6 +22,9 @@
 
 namespace svo
 {
+/// Whether a matrix may be an octree's frame: see svoLayout.h.
+VTKSVOOCTREE_EXPORT bool isFrame(const glm::dmat4& matrix);
+
 /// An immutable view; copying it is cheap. It keeps the memory it points into alive.
 class VTKSVOOCTREE_EXPORT Octree
 {
@@ -75,6 +78,11 @@ public:
   {
     return this->header().voxelSize * static_cast<double>(1u << (2 * this->header().depthCount));
   }
+  /// True if the octree has a frame of its own: what is said below of the local frame holds there.
+  bool hasFrame() const { return this->header().framed != 0; }
+  /// The octree's own frame -> the local frame of the object; affine, invertible, 1 without a
+  /// frame of its own. Whoever leaves octree coordinates for the object's applies it.
+  glm::dmat4 frame() const;
   /// local frame -> octree coordinates: x -> 1 + (x - origin) / rootEdge. Affine.
   glm::dmat4 localToOctree() const;
 

@@ -26,6 +26,11 @@ void findAttached(SceneSurface& surface, OctreeStore& store, const StoreOptions&
     store.measure(surface.mesh, options, instance);
     instance.deepestLevel = options.level;
   }
+  else if (instance.octree.hasFrame())
+  {
+    // To the tracer the octree's own frame is the object's.
+    instance.localToWorld = instance.localToWorld * instance.octree.frame();
+  }
 }
 
 void findOctree(SceneSurface& surface, const NeededLevels& needed, OctreeStore& store,

@@ -1,0 +1,35 @@
+// The plane of a voxel from values at the centres of the voxels around it: of a level set.
+//
+// The field is trilinear between the centres. The normal is that of the differences of neighbours;
+// where the surface is, one step of Newton's method says from the voxel's centre, and the field at
+// the foot corrects. The voxel is occupied where its plane passes it, or where its corners lie on
+// both sides: what svoFieldSource.h says of fields, and why that misses next to nothing.
+#ifndef svoLevelSetPlane_h
+#define svoLevelSetPlane_h
+
+#include "svoSource.h"
+#include "vtkSVOOctreeModule.h"
+
+namespace svo
+{
+/// Values less the surface's at the centres of the 3x3x3 voxels around one, x fastest.
+struct VoxelValues
+{
+  static constexpr int Count = 27;
+  double at[Count];
+
+  /// Of a neighbour, -1..1 along each axis.
+  double& operator()(int x, int y, int z) { return at[(z + 1) * 9 + (y + 1) * 3 + x + 1]; }
+  double operator()(int x, int y, int z) const { return at[(z + 1) * 9 + (y + 1) * 3 + x + 1]; }
+
+  /// False where no voxel around has a value on the other side than another, or on the surface:
+  /// then the voxel is not occupied. Or where one is not finite.
+  VTKSVOOCTREE_EXPORT bool change() const;
+};
+
+/// Whether the surface passes the voxel in the middle, and then as which plane: the normal towards
+/// larger values, the offset in voxels. False where values are not finite, or all the same.
+VTKSVOOCTREE_EXPORT bool levelSetPlane(const VoxelValues& values, SourcePlane& plane);
+}
+
+#endif

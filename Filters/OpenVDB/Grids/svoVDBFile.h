@@ -1,0 +1,41 @@
+// .vdb files: what is in them, and one grid of them.
+#ifndef svoVDBFile_h
+#define svoVDBFile_h
+
+#include "vtkSVOOpenVDBModule.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <openvdb/Grid.h>
+
+namespace svo
+{
+using VDBMetadata = std::vector<std::pair<std::string, std::string>>; // name, value as text
+
+struct VDBContents
+{
+  std::vector<std::string> grids; // names; of several with the same one, OpenVDB's "name[1]"
+  VDBMetadata metadata;           // of the file
+};
+
+/// Why the contents could not be read; empty if they were. Throws nothing.
+VTKSVOOPENVDB_EXPORT std::string readVDBContents(
+  const std::string& fileName, VDBContents& contents);
+
+/// Reads one grid, all of it: by its name, or the first of the contents if the name is empty. Why
+/// it could not be read; empty if it was. Throws nothing.
+VTKSVOOPENVDB_EXPORT std::string readVDBGrid(const std::string& fileName, const std::string& name,
+  openvdb::GridBase::ConstPtr& grid, VDBContents& contents);
+
+/// Of a grid: its own, and its type, class and transform as text.
+VTKSVOOPENVDB_EXPORT VDBMetadata metadataOf(const openvdb::GridBase& grid);
+
+/// Writes grids in the place of a file, which stays as it was if this fails. Why it failed; empty
+/// if it did not. Throws nothing.
+VTKSVOOPENVDB_EXPORT std::string writeVDBFile(
+  const std::string& fileName, const openvdb::GridCPtrVec& grids, const openvdb::MetaMap& metadata);
+}
+
+#endif

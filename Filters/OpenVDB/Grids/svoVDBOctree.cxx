@@ -1,0 +1,278 @@
+#include "svoVDBOctree.h"
+
+#include "svoLevelSetPlane.h"
+#include "svoMeshOctree.h"
+#include "svoMorton.h"
+#include "svoVDBBlocks.h"
+#include "svoVDBTransform.h"
+
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <new>
+#include <type_traits>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <openvdb/openvdb.h>
+
+namespace svo
+{
+namespace
+{
+using openvdb::Coord;
+constexpr std::int64_t Edge = VoxelBlock::Edge;
+
+/// The grid's values, asked by several threads. Accessors that are not registered with the tree are
+/// made where they are used: nobody changes the tree.
+template <class GridT>
+class GridSource : public BlockSource
+{
+public:
+  using ValueT = typename GridT::ValueType;
+
+  /// `first`: index of the voxel in the cube's lower corner.
+  GridSource(const GridT& grid, bool surface, double value, bool levelSet, const Coord& first,
+    std::vector<VoxelBlock> blocks, const Cube& cube, int level)
+    : BlockSource(std::move(blocks), cube, level)
+    , Grid(grid)
+    , Surface(surface)
+    , Value(value)
+    , Outwards(levelSet ? 1.0 : -1.0)
+    , First(first)
+  {
+  }
+
+protected:
+  bool planeOf(const glm::ivec3& voxel, SourcePlane& plane) const override
+  {
+    const typename GridT::ConstUnsafeAccessor values(this->Grid.tree());
+    const Coord at = this->First.offsetBy(voxel.x, voxel.y, voxel.z);
+    if constexpr (!std::is_same_v<ValueT, bool>)
+    {
+      VoxelValues near;
+      for (int i = 0; i < VoxelValues::Count; ++i)
+      {
+        near.at[i] = this->Outwards *
+          (static_cast<double>(values.getValue(at.offsetBy(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1))) -
+            this->Value);
+      }
+      if (this->Surface)
+      {
+        return levelSetPlane(near, plane);
+      }
+      const glm::dvec3 out(near(1, 0, 0) - near(-1, 0, 0), near(0, 1, 0) - near(0, -1, 0),
+        near(0, 0, 1) - near(0, 0, -1));
+      if (this->set(out, plane))
+      {
+        return true;
+      }
+    }
+    plane = { this->fromNeighbours(values, voxel, at), 0.0 };
+    return true;
+  }
+
+private:
+  /// False if the vector has no direction.
+  static bool set(const glm::dvec3& out, SourcePlane& plane)
+  {
+    const double length = glm::length(out);
+    if (!(length > 0.0) || !std::isfinite(length) || !std::isfinite(1.0 / length))
+    {
+      return false;
+    }
+    plane = { out / length, 0.0 };
+    return true;
+  }
+
+  /// Away from the voxels that are occupied. In the midst of them there is no such direction: these
+  /// get one and its opposite by turns, so that they say nothing in the mean of a block.
+  template <class Accessor>
+  glm::dvec3 fromNeighbours(const Accessor& values, const glm::ivec3& voxel, const Coord& at) const
+  {
+    constexpr int Reach = 2;
+    glm::dvec3 out(0.0);
+    for (int z = -Reach; z <= Reach; ++z)
+    {
+      for (int y = -Reach; y <= Reach; ++y)
+      {
+        for (int x = -Reach; x <= Reach; ++x)
+        {
+          ValueT value;
+          if (values.probeValue(at.offsetBy(x, y, z), value) && isAbove<ValueT>(value, this->Value))
+          {
+            const glm::dvec3 way(x, y, z);
+            out -= way / std::max(glm::dot(way, way), 1.0);
+          }
+        }
+      }
+    }
+    const double length = glm::length(out);
+    constexpr double Least = 1e-6;
+    if (length > Least)
+    {
+      return out / length;
+    }
+    return { 0.0, 0.0, (voxel.x + voxel.y + voxel.z) % 2 ? 1.0 : -1.0 };
+  }
+
+  const GridT& Grid;
+  const bool Surface;
+  const double Value;
+  const double Outwards; // -1: values fall towards the outside, as of fog
+  const Coord First;
+};
+
+/// The cube of an octree around blocks: its first block and its level.
+void boundBlocks(const openvdb::GridBase& grid, const std::vector<PlacedBlock>& blocks,
+  glm::i64vec3& first, int& level)
+{
+  first = glm::i64vec3(0);
+  glm::i64vec3 last(0);
+  if (!blocks.empty())
+  {
+    first = last = blocks.front().place;
+  }
+  for (const PlacedBlock& block : blocks)
+  {
+    first = glm::min(first, block.place);
+    last = glm::max(last, block.place);
+  }
+  level = levelOfVoxels((last - first + std::int64_t(1)) * Edge);
+  const auto own = grid.getMetadata<openvdb::Int32Metadata>(LevelMetadata);
+  if (own && own->value() >= 3 && own->value() <= MaximumLevel &&
+    first == glm::max(first, glm::i64vec3(0)) &&
+    levelOfVoxels((last + std::int64_t(1)) * Edge) <= own->value())
+  {
+    level = own->value();
+    first = glm::i64vec3(0);
+  }
+}
+
+template <class GridT>
+SourceOctree convert(const GridT& grid, const VDBOptions& options, vtkPolyData* hull)
+{
+  const bool levelSet = grid.getGridClass() == openvdb::GRID_LEVEL_SET;
+  const bool surface = isSurface(grid, options.conversion);
+  const double value = surface && levelSet ? 0.0 : options.threshold;
+  glm::dmat4 world;
+  if (!indexToWorld(grid.transform(), world))
+  {
+    return { BuildStatus::BadInput, 0, "the grid has a frustum map, and that is not affine" };
+  }
+  if (!isFrame(world))
+  {
+    return { BuildStatus::BadInput, 0, "the grid's map is not finite, or cannot be inverted" };
+  }
+  std::vector<PlacedBlock> placed = GridBlocks<GridT>(grid, surface, value, options).gather();
+  glm::i64vec3 first;
+  BuildOptions build;
+  boundBlocks(grid, placed, first, build.level);
+  if (build.level > MaximumLevel)
+  {
+    return { BuildStatus::TooLarge, 0,
+      "the grid's occupied voxels are spread over more than 2^20 along an axis" };
+  }
+  std::vector<VoxelBlock> blocks(placed.size());
+  for (std::size_t i = 0; i < placed.size(); ++i)
+  {
+    const glm::uvec3 at(placed[i].place - first);
+    blocks[i] = placed[i].block;
+    blocks[i].key = mortonKey(at.x, at.y, at.z);
+  }
+  placed = {};
+  std::sort(blocks.begin(), blocks.end(),
+    [](const VoxelBlock& a, const VoxelBlock& b) { return a.key < b.key; });
+
+  const glm::dvec3 corner = glm::dvec3(first * Edge) - 0.5; // of the first voxel, in index space
+  Cube cube{ corner, std::ldexp(1.0, build.level) };
+  if (onlyMovesAndScales(world))
+  {
+    cube = { glm::dvec3(world * glm::dvec4(corner, 1.0)), world[0][0] * cube.edge };
+  }
+  else
+  {
+    build.frame = world;
+  }
+  build.modelLow = cube.origin;
+  build.modelHigh = cube.origin + cube.edge;
+  build.leafGeometry = surface ? LeafGeometry::Plane : LeafGeometry::Voxel;
+  build.memoryLimit = options.memoryLimit;
+  build.parallelFor = options.parallelFor;
+  build.progress = options.progress;
+  const auto index = [&](int i) { return static_cast<std::int32_t>(first[i] * Edge); };
+  const GridSource<GridT> source(grid, surface, value, levelSet,
+    Coord(index(0), index(1), index(2)), std::move(blocks), cube, build.level);
+  return buildSourceOctree(source, build, hull, &cube);
+}
+
+SourceOctree convertKnown(
+  const openvdb::GridBase& grid, const VDBOptions& options, vtkPolyData* hull)
+{
+  SourceOctree built{ BuildStatus::BadInput, 0, {} };
+  bool known = false;
+  const auto as = [&](const auto* typed)
+  {
+    using GridT = std::remove_cv_t<std::remove_pointer_t<decltype(typed)>>;
+    if (!known && grid.isType<GridT>())
+    {
+      known = true;
+      built = convert(static_cast<const GridT&>(grid), options, hull);
+    }
+  };
+  as(static_cast<const openvdb::FloatGrid*>(nullptr));
+  as(static_cast<const openvdb::DoubleGrid*>(nullptr));
+  as(static_cast<const openvdb::Int32Grid*>(nullptr));
+  as(static_cast<const openvdb::Int64Grid*>(nullptr));
+  as(static_cast<const openvdb::BoolGrid*>(nullptr));
+  as(static_cast<const openvdb::MaskGrid*>(nullptr));
+  if (!known)
+  {
+    built.message = "grids of " + grid.valueType() +
+      " have no surface; those of float, double, int32, int64, bool and mask have";
+  }
+  return built;
+}
+}
+
+bool isSurface(const openvdb::GridBase& grid, VDBConversion conversion)
+{
+  const bool mask = grid.isType<openvdb::BoolGrid>() || grid.isType<openvdb::MaskGrid>();
+  return !mask &&
+    (conversion == VDBConversion::Surface ||
+      (conversion == VDBConversion::Automatic && grid.getGridClass() == openvdb::GRID_LEVEL_SET));
+}
+
+SourceOctree octreeOfGrid(const openvdb::GridBase& grid, const VDBOptions& asked, vtkPolyData* hull)
+{
+  VDBOptions options = asked;
+  options.memoryLimit = asked.memoryLimit != 0 ? asked.memoryLimit : availableMemory();
+  options.memoryLimit =
+    options.memoryLimit != 0 ? options.memoryLimit : std::numeric_limits<std::size_t>::max();
+  hull->Initialize();
+  SourceOctree failed{ BuildStatus::BadInput, 0, {} };
+  try
+  {
+    return convertKnown(grid, options, hull);
+  }
+  catch (const Refused& refused)
+  {
+    failed = { refused.status, 0, refused.message };
+  }
+  catch (const std::bad_alloc&)
+  {
+    failed = { BuildStatus::TooLarge, 0, "there is not enough memory for the grid's voxels" };
+  }
+  catch (const std::exception& failure)
+  {
+    failed.message = failure.what();
+  }
+  hull->Initialize();
+  return failed;
+}
+}

@@ -1,0 +1,86 @@
+#include "svoVDBTransform.h"
+
+#include "svoOctree.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+namespace svo
+{
+bool indexToWorld(const openvdb::math::Transform& transform, glm::dmat4& matrix)
+{
+  if (!transform.isLinear())
+  {
+    return false;
+  }
+  // OpenVDB's vectors are rows, GLM's columns.
+  const openvdb::math::Mat4d rows = transform.baseMap()->getAffineMap()->getMat4();
+  for (int i = 0; i < 4; ++i)
+  {
+    for (int j = 0; j < 4; ++j)
+    {
+      matrix[i][j] = rows(i, j);
+    }
+  }
+  return true;
+}
+
+bool onlyMovesAndScales(const glm::dmat4& matrix)
+{
+  const double scale = matrix[0][0];
+  for (int column = 0; column < 3; ++column)
+  {
+    for (int row = 0; row < 3; ++row)
+    {
+      if (matrix[column][row] != (column == row ? scale : 0.0))
+      {
+        return false;
+      }
+    }
+  }
+  return scale > 0.0;
+}
+
+bool keepsAngles(const glm::dmat4& matrix)
+{
+  constexpr double Tolerance = 1e-6;
+  const glm::dmat3 linear(matrix);
+  const double length = glm::length(linear[0]);
+  bool keeps = length > 0.0 && std::isfinite(length);
+  for (int i = 0; i < 3; ++i)
+  {
+    const glm::dvec3 a = linear[i] / length, b = linear[(i + 1) % 3] / length;
+    keeps =
+      keeps && std::abs(glm::dot(a, b)) < Tolerance && std::abs(glm::dot(a, a) - 1.0) < Tolerance;
+  }
+  return keeps;
+}
+
+openvdb::math::Transform::Ptr transformOf(const Octree& octree)
+{
+  using openvdb::math::Transform;
+  const Header& h = octree.header();
+  const glm::dvec3 first = glm::dvec3(h.origin[0], h.origin[1], h.origin[2]) + 0.5 * h.voxelSize;
+  if (!octree.hasFrame())
+  {
+    Transform::Ptr transform = Transform::createLinearTransform(h.voxelSize);
+    transform->postTranslate({ first.x, first.y, first.z });
+    return transform;
+  }
+  glm::dmat4 own(h.voxelSize);
+  own[3] = glm::dvec4(first, 1.0);
+  const glm::dmat4 matrix = octree.frame() * own;
+  openvdb::math::Mat4d rows;
+  for (int i = 0; i < 4; ++i)
+  {
+    for (int j = 0; j < 4; ++j)
+    {
+      rows(i, j) = matrix[i][j];
+    }
+  }
+  return Transform::createLinearTransform(rows);
+}
+}

@@ -1,0 +1,341 @@
+#include "vtkSVOVDBReader.h"
+
+#include "svoAbort.h"
+#include "svoSMPParallel.h"
+#include "svoVDBFile.h"
+#include "svoVDBOctree.h"
+
+#include "vtkDataObject.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
+#include "vtkTimerLog.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkSVOVDBReader);
+
+namespace
+{
+constexpr char MetadataArray[] = "VDBMetadata";
+
+std::vector<std::string> linesOf(const svo::VDBMetadata& metadata)
+{
+  std::vector<std::string> lines;
+  for (const auto& [name, value] : metadata)
+  {
+    lines.push_back(name + ": " + value);
+  }
+  return lines;
+}
+}
+
+class vtkSVOVDBReader::vtkInternals
+{
+public:
+  std::vector<std::string> Files;
+  std::string GridName;
+  svo::VDBContents Contents; // of the first file
+  vtkNew<vtkStringArray> GridNames;
+  std::string Known; // the file whose contents these are
+  vtkTimeStamp ChangedTime, KnownTime;
+  std::string MetaData;
+
+  void changed()
+  {
+    this->ChangedTime.Modified();
+    this->Known.clear();
+  }
+};
+
+//------------------------------------------------------------------------------
+vtkSVOVDBReader::vtkSVOVDBReader()
+  : Internals(new vtkInternals)
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkSVOVDBReader::~vtkSVOVDBReader() = default;
+
+//------------------------------------------------------------------------------
+void vtkSVOVDBReader::SetFileName(const char* fileName)
+{
+  std::vector<std::string> files;
+  if (fileName && *fileName)
+  {
+    files.emplace_back(fileName);
+  }
+  if (files != this->Internals->Files)
+  {
+    this->Internals->Files = files;
+    this->Internals->changed();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSVOVDBReader::GetFileName()
+{
+  return this->GetFileName(0);
+}
+
+//------------------------------------------------------------------------------
+void vtkSVOVDBReader::AddFileName(const char* fileName)
+{
+  if (fileName && *fileName)
+  {
+    this->Internals->Files.emplace_back(fileName);
+    this->Internals->changed();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSVOVDBReader::RemoveAllFileNames()
+{
+  this->SetFileName(nullptr);
+}
+
+//------------------------------------------------------------------------------
+int vtkSVOVDBReader::GetNumberOfFileNames()
+{
+  return static_cast<int>(this->Internals->Files.size());
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSVOVDBReader::GetFileName(int i)
+{
+  return i >= 0 && i < this->GetNumberOfFileNames()
+    ? this->Internals->Files[static_cast<std::size_t>(i)].c_str()
+    : nullptr;
+}
+
+//------------------------------------------------------------------------------
+int vtkSVOVDBReader::CanReadFile(const char* fileName)
+{
+  // OPENVDB_MAGIC, as 64 bits
+  constexpr char Magic[8] = { 0x20, 0x42, 0x44, 0x56, 0, 0, 0, 0 };
+  char first[sizeof(Magic)] = {};
+  std::ifstream in(fileName ? fileName : "", std::ios::binary);
+  return in.read(first, sizeof(first)) && std::memcmp(first, Magic, sizeof(Magic)) == 0 ? 1 : 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkSVOVDBReader::SetGridName(const char* name)
+{
+  const std::string wanted = name ? name : "";
+  if (wanted != this->Internals->GridName)
+  {
+    this->Internals->GridName = wanted;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSVOVDBReader::GetGridName()
+{
+  return this->Internals->GridName.c_str();
+}
+
+//------------------------------------------------------------------------------
+void vtkSVOVDBReader::ReadContents()
+{
+  vtkInternals& own = *this->Internals;
+  if (own.Files.empty() || own.Known == own.Files.front())
+  {
+    return;
+  }
+  own.Known = own.Files.front();
+  const std::string reason = svo::readVDBContents(own.Known, own.Contents);
+  own.GridNames->Initialize();
+  for (const std::string& name : own.Contents.grids)
+  {
+    own.GridNames->InsertNextValue(name);
+  }
+  if (!reason.empty())
+  {
+    vtkErrorMacro("The file " << own.Known << " cannot be read: " << reason << ".");
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkSVOVDBReader::GetNumberOfGrids()
+{
+  return static_cast<int>(this->GetGridNames()->GetNumberOfValues());
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSVOVDBReader::GetGridName(int i)
+{
+  return i >= 0 && i < this->GetNumberOfGrids()
+    ? this->Internals->Contents.grids[static_cast<std::size_t>(i)].c_str()
+    : nullptr;
+}
+
+//------------------------------------------------------------------------------
+vtkStringArray* vtkSVOVDBReader::GetGridNames()
+{
+  this->ReadContents();
+  if (this->Internals->Files.empty())
+  {
+    this->Internals->GridNames->Initialize();
+  }
+  return this->Internals->GridNames;
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSVOVDBReader::GetMetaData()
+{
+  return this->Internals->MetaData.c_str();
+}
+
+//------------------------------------------------------------------------------
+int vtkSVOVDBReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkInformation* information = outputVector->GetInformationObject(0);
+  information->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+  information->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+  const int count = this->GetNumberOfFileNames();
+  if (count > 1)
+  {
+    std::vector<double> times(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i)
+    {
+      times[static_cast<std::size_t>(i)] = i;
+    }
+    const double range[2] = { times.front(), times.back() };
+    information->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(), count);
+    information->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+/// The file of the time that is asked for: that of the last step which is not later.
+const char* vtkSVOVDBReader::FileOfStep(vtkInformationVector* outputVector)
+{
+  vtkInformation* information = outputVector->GetInformationObject(0);
+  const int count = this->GetNumberOfFileNames();
+  int step = 0;
+  if (count > 1 && information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  {
+    const double time = information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+    const double last = count - 1;
+    step = time >= 0.0 ? static_cast<int>(std::floor(std::min(time, last))) : 0;
+  }
+  if (count > 1)
+  {
+    information->Get(vtkDataObject::DATA_OBJECT())
+      ->GetInformation()
+      ->Set(vtkDataObject::DATA_TIME_STEP(), step);
+  }
+  return this->GetFileName(step);
+}
+
+//------------------------------------------------------------------------------
+int vtkSVOVDBReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  this->NumberOfVoxels = 0;
+  this->ReadTime = 0.0;
+  this->BuildTime = 0.0;
+  this->Internals->MetaData.clear();
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  output->Initialize();
+  const char* file = this->FileOfStep(outputVector);
+  if (!file)
+  {
+    vtkErrorMacro("There is no file to read: its name is not set.");
+    return 1;
+  }
+  this->UpdateProgress(0.0);
+  const double start = vtkTimerLog::GetUniversalTime();
+  openvdb::GridBase::ConstPtr grid;
+  svo::VDBContents contents;
+  const std::string reason = svo::readVDBGrid(file, this->Internals->GridName, grid, contents);
+  if (!reason.empty())
+  {
+    vtkErrorMacro("The file " << file << " cannot be read: " << reason << ".");
+    return 1;
+  }
+  const double read = vtkTimerLog::GetUniversalTime();
+  constexpr double ReadShare = 0.3; // of the progress, about
+  constexpr std::size_t Kibi = 1024;
+  svo::VDBOptions options;
+  options.conversion = static_cast<svo::VDBConversion>(this->Conversion);
+  options.threshold = this->Threshold;
+  options.memoryLimit = this->MemoryLimit * Kibi;
+  options.parallelFor = svo::smpParallelFor();
+  options.progress = [this](double progress)
+  {
+    this->UpdateProgress(ReadShare + (1.0 - ReadShare) * progress);
+    return !svo::isAborted(this);
+  };
+  const svo::SourceOctree built = svo::octreeOfGrid(*grid, options, output);
+  this->ReadTime = read - start;
+  this->BuildTime = vtkTimerLog::GetUniversalTime() - read;
+  this->NumberOfVoxels = static_cast<vtkIdType>(built.voxels);
+  if (!built.message.empty())
+  {
+    vtkErrorMacro("The grid \"" << grid->getName() << "\" of " << file
+                                << " has no octree: " << built.message << ".");
+    return 1;
+  }
+  if (built.status != svo::BuildStatus::Built)
+  {
+    return 1; // aborted
+  }
+  if (built.voxels == 0)
+  {
+    const bool surface = svo::isSurface(*grid, options.conversion);
+    vtkWarningMacro("The grid \"" << grid->getName() << "\" of " << file << " is empty: it has no "
+                                  << (surface ? "active voxel that its surface passes."
+                                              : "active voxel above the threshold."));
+  }
+  std::vector<std::string> lines = linesOf(svo::metadataOf(*grid));
+  const std::vector<std::string> ofFile = linesOf(contents.metadata);
+  lines.insert(lines.begin(), "grid: " + grid->getName());
+  lines.insert(lines.end(), ofFile.begin(), ofFile.end());
+  vtkNew<vtkStringArray> array;
+  array->SetName(MetadataArray);
+  for (const std::string& line : lines)
+  {
+    array->InsertNextValue(line);
+    this->Internals->MetaData += line + "\n";
+  }
+  output->GetFieldData()->AddArray(array);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSVOVDBReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileNames:";
+  for (const std::string& name : this->Internals->Files)
+  {
+    os << " " << name;
+  }
+  os << "\n";
+  constexpr const char* Names[] = { "Automatic", "Surface", "Voxels" };
+  os << indent << "GridName: " << this->Internals->GridName << "\n";
+  os << indent << "Conversion: " << Names[this->Conversion] << "\n";
+  os << indent << "Threshold: " << this->Threshold << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
+  os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
+  os << indent << "ReadTime: " << this->ReadTime << " s\n";
+  os << indent << "BuildTime: " << this->BuildTime << " s\n";
+  os << indent << "MetaData: " << this->Internals->MetaData << "\n";
+}

@@ -1,0 +1,164 @@
+/**
+ * @class vtkSVOVDBReader
+ * @brief reads a grid of an OpenVDB file as a sparse voxel octree
+ *
+ * Each leaf of the octree is a voxel of the grid: nothing is resampled. As in OpenVDB, voxel (i, j,
+ * k) is the cube of index space from i - 1/2 to i + 1/2. The grid's map, any affine one, takes it
+ * to where it lies: stretched, turned, mirrored and sheared grids stay what they are.
+ *
+ * Level sets become surfaces: voxels that the surface passes, each with a plane. All other grids
+ * become voxels: the active ones above a threshold, inner ones as well. SetConversion() chooses
+ * otherwise. Grids of float (also stored as half), double, int32, int64, bool and mask can be
+ * read. Constant tiles count as the voxels that they stand for.
+ *
+ * The output is a coarse hull of the surface that carries the octree in its field data, as that of
+ * vtkImplicitFunctionToSVO is; the string array "VDBMetadata" beside it has the grid's and the
+ * file's metadata, a "name: value" each.
+ *
+ * Several files are time steps, 0, 1, 2 and so on, in the order in which they were added.
+ *
+ * What cannot be read leads to one message and an output without cells: a file that is missing,
+ * truncated or no OpenVDB file, a grid that it does not have (the message names those that it has),
+ * a frustum map, grids of points and vectors, more voxels than there is memory for (errors); a grid
+ * without anything that is occupied (warning).
+ *
+ * @sa vtkSVOVDBWriter vtkImageToSVO vtkSparseVoxelOctree
+ */
+#ifndef vtkSVOVDBReader_h
+#define vtkSVOVDBReader_h
+
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkSVOOpenVDBModule.h" // for the export macro
+
+#include <memory> // for std::unique_ptr
+
+class vtkStringArray;
+
+class VTKSVOOPENVDB_EXPORT vtkSVOVDBReader : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkSVOVDBReader* New();
+  vtkTypeMacro(vtkSVOVDBReader, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  //@{
+  /**
+   * The file to read, in the place of all that were set or added. Get: the first one; nullptr if
+   * there is none.
+   */
+  void SetFileName(const char* fileName);
+  const char* GetFileName();
+  //@}
+
+  //@{
+  /**
+   * Files that are time steps, in this order.
+   */
+  void AddFileName(const char* fileName);
+  void RemoveAllFileNames();
+  int GetNumberOfFileNames();
+  const char* GetFileName(int i);
+  //@}
+
+  /**
+   * 1 if the file can be opened and is OpenVDB's by its first bytes, else 0.
+   */
+  int CanReadFile(const char* fileName);
+
+  //@{
+  /**
+   * The grid to read. Empty (default): the first one, by name. Of several grids of one name the
+   * second is called "name[1]".
+   */
+  void SetGridName(const char* name);
+  const char* GetGridName();
+  //@}
+
+  //@{
+  /**
+   * The grids of the (first) file, in the order of their names. The file is looked at when this is
+   * asked, without a pipeline. 0 grids, and one error, if it cannot be read; nullptr for an index
+   * out of range.
+   */
+  int GetNumberOfGrids();
+  const char* GetGridName(int i);
+  vtkStringArray* GetGridNames();
+  //@}
+
+  /// What a grid is taken for.
+  enum ConversionType
+  {
+    AUTOMATIC = 0,
+    SURFACE = 1,
+    VOXELS = 2
+  };
+
+  //@{
+  /**
+   * Automatic (default): level sets become surfaces, all other grids voxels. Surface: any grid of
+   * numbers is a surface where it takes the threshold (level sets: 0). Voxels: all are voxels.
+   */
+  vtkSetClampMacro(Conversion, int, AUTOMATIC, VOXELS);
+  vtkGetMacro(Conversion, int);
+  void SetConversionToAutomatic() { this->SetConversion(AUTOMATIC); }
+  void SetConversionToSurface() { this->SetConversion(SURFACE); }
+  void SetConversionToVoxels() { this->SetConversion(VOXELS); }
+  //@}
+
+  //@{
+  /**
+   * Active voxels with values above this are occupied; default 0. Bools and masks have none: active
+   * and true is occupied. It is also where other grids than level sets have their surface.
+   */
+  vtkSetMacro(Threshold, double);
+  vtkGetMacro(Threshold, double);
+  //@}
+
+  //@{
+  /**
+   * Memory that the octree may take while it is built, in KiB; default 0: what the machine has
+   * available.
+   */
+  vtkSetMacro(MemoryLimit, unsigned long);
+  vtkGetMacro(MemoryLimit, unsigned long);
+  //@}
+
+  //@{
+  /**
+   * Of the last execution: occupied voxels of the octree, 0 if none; how long it took to read the
+   * grid and to build the octree, in seconds; the metadata of the grid and of the file, a "name:
+   * value" a line.
+   */
+  vtkGetMacro(NumberOfVoxels, vtkIdType);
+  vtkGetMacro(ReadTime, double);
+  vtkGetMacro(BuildTime, double);
+  const char* GetMetaData();
+  //@}
+
+protected:
+  vtkSVOVDBReader();
+  ~vtkSVOVDBReader() override;
+
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkSVOVDBReader(const vtkSVOVDBReader&) = delete;
+  void operator=(const vtkSVOVDBReader&) = delete;
+
+  void ReadContents();
+  const char* FileOfStep(vtkInformationVector* outputVector);
+
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+  int Conversion = AUTOMATIC;
+  double Threshold = 0.0;
+  unsigned long MemoryLimit = 0;
+  vtkIdType NumberOfVoxels = 0;
+  double ReadTime = 0.0;
+  double BuildTime = 0.0;
+};
+
+#endif

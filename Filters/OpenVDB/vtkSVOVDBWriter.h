@@ -1,0 +1,80 @@
+/**
+ * @class vtkSVOVDBWriter
+ * @brief writes a sparse voxel octree as grids of an OpenVDB file
+ *
+ * The input is any polydata that carries an octree: of vtkPolyDataToSVO, or of a source without
+ * triangles. The file has a mask grid "leaves" with the octree's leaves, which lies where the
+ * octree does in the polydata's frame (not the actor's). vtkSVOVDBReader reads the same leaves
+ * again, and any program that uses OpenVDB can.
+ *
+ * On request there is a level set "surface" as well: a narrow band of distances, negative inside,
+ * measured from the mesh's triangles where there are any, else from the planes of the leaves, or
+ * from the faces of voxels. What encloses nothing has no inside (a warning); voxels that are
+ * stretched or sheared have no level set (a warning, and the leaves are written alone).
+ *
+ * Both say in their metadata which program and which level they come from. An octree that is
+ * missing or does not fit, and a file that cannot be written, lead to one error; the file stays as
+ * it was then, and GetErrorCode() is not 0.
+ *
+ * @sa vtkSVOVDBReader vtkPolyDataToSVO
+ */
+#ifndef vtkSVOVDBWriter_h
+#define vtkSVOVDBWriter_h
+
+#include "vtkSVOOpenVDBModule.h" // for the export macro
+#include "vtkWriter.h"
+
+class vtkPolyData;
+
+class VTKSVOOPENVDB_EXPORT vtkSVOVDBWriter : public vtkWriter
+{
+public:
+  static vtkSVOVDBWriter* New();
+  vtkTypeMacro(vtkSVOVDBWriter, vtkWriter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  //@{
+  /**
+   * The file to write. One that is there is replaced when the new one is complete.
+   */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  //@}
+
+  //@{
+  /**
+   * Whether to write a level set, too; default off.
+   */
+  vtkSetMacro(WriteLevelSet, bool);
+  vtkGetMacro(WriteLevelSet, bool);
+  vtkBooleanMacro(WriteLevelSet, bool);
+  //@}
+
+  //@{
+  /**
+   * Half of the width of the level set's band, in voxels: 1 to 100, values outside are clamped;
+   * default 3, as is usual with OpenVDB.
+   */
+  vtkSetClampMacro(HalfWidth, double, 1.0, 100.0);
+  vtkGetMacro(HalfWidth, double);
+  //@}
+
+protected:
+  vtkSVOVDBWriter() = default;
+  ~vtkSVOVDBWriter() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  void WriteData() override;
+
+private:
+  vtkSVOVDBWriter(const vtkSVOVDBWriter&) = delete;
+  void operator=(const vtkSVOVDBWriter&) = delete;
+
+  void WriteOctree(vtkPolyData* mesh);
+
+  char* FileName = nullptr;
+  bool WriteLevelSet = false;
+  double HalfWidth = 3.0;
+};
+
+#endif
