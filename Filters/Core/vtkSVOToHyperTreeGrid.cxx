@@ -25,6 +25,7 @@
 #include <new>
 #include <string>
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 vtkStandardNewMacro(vtkSVOToHyperTreeGrid);
@@ -163,8 +164,22 @@ private:
   vtkNew<vtkIdTypeArray> CellIds;
 };
 
+/// True if cells are boxes along the axes of the mesh's frame.
+bool liesAlongAxes(const glm::dmat4& frame)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    if (!(frame[i][i] > 0.0) || frame[i][(i + 1) % 3] != 0.0 || frame[i][(i + 2) % 3] != 0.0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 void setCube(const svo::Octree& octree, vtkHyperTreeGrid* grid)
 {
+  const glm::dmat4 frame = octree.frame();
   const svo::Header& h = octree.header();
   const double edge = std::ldexp(h.voxelSize, octree.level());
   grid->SetDimensions(2, 2, 2);
@@ -174,8 +189,10 @@ void setCube(const svo::Octree& octree, vtkHyperTreeGrid* grid)
   for (int i = 0; i < 3; ++i)
   {
     vtkNew<vtkDoubleArray> coordinates;
-    coordinates->InsertNextValue(h.origin[i]);
-    coordinates->InsertNextValue(h.origin[i] + edge);
+    for (const double at : { h.origin[i], h.origin[i] + edge })
+    {
+      coordinates->InsertNextValue(octree.hasFrame() ? frame[i][i] * at + frame[3][i] : at);
+    }
     (grid->*setters[i])(coordinates);
   }
 }
@@ -214,6 +231,12 @@ int vtkSVOToHyperTreeGrid::RequestData(
   if (attached != svo::Attached::Found)
   {
     vtkErrorMacro(<< svo::describe(attached, message));
+    return 1;
+  }
+  if (!liesAlongAxes(octree.frame()))
+  {
+    vtkErrorMacro("The octree's cells are turned, mirrored or sheared, which those of a hyper tree "
+                  "grid cannot be. vtkSVOToPolyData shows them.");
     return 1;
   }
   const int level = this->Level < 0 ? octree.level() : std::min(this->Level, octree.level());

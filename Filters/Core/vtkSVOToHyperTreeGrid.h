@@ -11,10 +11,14 @@
  * that a cell stands for, as of vtkSVOToPolyData; masked cells have -1. The octree of a surface
  * that is no mesh (vtkImplicitFunctionToSVO) has no "CellId".
  *
+ * Cells of a grid that was stretched are boxes; where a grid was turned, mirrored or sheared
+ * (vtkSVOVDBReader), the octree cannot be converted.
+ *
  * A hyper tree grid takes about 10 to 25 bytes a cell, masked ones included, of which there are
- * some five for a voxel of a surface; the octree itself has about 5. So choose a Level: an input
- * without an octree, or with one that does not belong to it, and an output that would not fit in
- * memory are errors, and the output is empty. Progress and abort work.
+ * some three for a voxel of a surface; the octree itself has about 5. So choose a Level.
+ *
+ * An input without an octree, or with one that does not belong to it, and an output that would not
+ * fit in memory are errors, and the output is empty. Progress and abort work.
  *
  * @sa vtkSVOToPolyData vtkPolyDataToSVO vtkHyperTreeGrid
  */

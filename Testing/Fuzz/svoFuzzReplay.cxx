@@ -146,8 +146,7 @@ void run(const Bytes& bytes, const std::string& what)
 void writeOctree(const svo::Header& h, const fs::path& file)
 {
   std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(&h),
-    static_cast<std::streamsize>(sizeof(h) + 16 * h.nodeCount + 4 * h.listWords));
+  out.write(reinterpret_cast<const char*>(&h), static_cast<std::streamsize>(svo::bufferSize(h)));
 }
 
 /// A plane across the cube of the mesh.
@@ -157,21 +156,27 @@ struct Slope : svo::ScalarField
   glm::dvec3 gradient(const glm::dvec3&) const override { return { 1.0, 0.4, -0.3 }; }
 };
 
-/// An octree of planes whose hull is said to be the mesh.
-void writePlanes(int level, const fs::path& folder)
+/// An octree of planes whose hull is said to be the mesh; framed: sheared and mirrored.
+void writePlanes(int level, bool framed, const fs::path& folder)
 {
   svo::BuildOptions options;
   options.level = level;
   options.leafGeometry = svo::LeafGeometry::Plane;
   options.modelLow = glm::dvec3(-0.5);
   options.modelHigh = glm::dvec3(0.5);
+  if (framed)
+  {
+    options.frame[0][0] = -2.0;
+    options.frame[1][0] = 0.5;
+    options.frame[3][2] = 0.1;
+  }
   const Slope slope;
   const svo::BuildResult built = svo::build(svo::FieldSource(slope, { 0.0, 1.2, 0.0 }), options);
   svo::Header& h = *reinterpret_cast<svo::Header*>(built.data.get());
   h.pointCount = static_cast<std::uint64_t>(svofuzz::mesh()->GetNumberOfPoints());
   h.cellCount = static_cast<std::uint64_t>(svofuzz::mesh()->GetNumberOfCells());
   svofuzz::mesh()->GetBounds(h.meshBounds);
-  writeOctree(h, folder / ("planes-" + std::to_string(level)));
+  writeOctree(h, folder / ((framed ? "framed-" : "planes-") + std::to_string(level)));
 }
 
 int writeSeeds(const fs::path& folder)
@@ -189,8 +194,9 @@ int writeSeeds(const fs::path& folder)
       return 1;
     }
     writeOctree(octree.header(), folder / ("level-" + std::to_string(level)));
-    writePlanes(level, folder);
+    writePlanes(level, false, folder);
   }
+  writePlanes(4, true, folder);
   return 0;
 }
 }

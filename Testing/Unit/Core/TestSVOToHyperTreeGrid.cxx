@@ -3,6 +3,8 @@
 
 #include "svoConversion.h"
 #include "svoOctreeCells.h"
+#include "svoSourceOctree.h"
+#include "svoTestFields.h"
 #include "vtkImplicitFunctionToSVO.h"
 
 #include "vtkBitArray.h"
@@ -138,6 +140,36 @@ TEST(SVOToHyperTreeGrid, TakesOctreesOfPlanes)
   const svo::Octree octree = octreeOf(source->GetOutput());
   EXPECT_EQ(cellsOf(grid.output(), octree), cellsOf(octree, 6));
   EXPECT_EQ(grid.output()->GetCellData()->GetArray("CellId"), nullptr);
+}
+
+// Of stretched voxels the boxes, and of turned ones a message.
+TEST(SVOToHyperTreeGrid, StretchesWithTheFrame)
+{
+  svo::BuildOptions options = svotest::boxOfInterest(5);
+  options.frame[0][0] = 3.0;
+  options.frame[3] = glm::dvec4(10.0, 0.0, -2.0, 1.0);
+  const svotest::SphereField sphere(0.8);
+  const svo::FieldSource source(sphere, { 0.0, 0.0, 0.05 });
+  vtkNew<vtkPolyData> hull;
+  ASSERT_EQ(svo::buildSourceOctree(source, options, hull).status, svo::BuildStatus::Built);
+  GridOf grid(hull);
+  const double* b = grid.output()->GetBounds();
+  const svo::Header& h = octreeOf(hull).header();
+  const double low = h.origin[0], high = low + std::ldexp(h.voxelSize, 5);
+  const double expected[6] = { 10.0 + 3.0 * low, 10.0 + 3.0 * high, low, high, low - 2.0,
+    high - 2.0 };
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_NEAR(b[i], expected[i], 1e-12);
+  }
+  EXPECT_TRUE(grid.messages.all().empty()) << grid.messages.all();
+
+  options.frame[1][0] = 0.1;
+  ASSERT_EQ(svo::buildSourceOctree(source, options, hull).status, svo::BuildStatus::Built);
+  GridOf sheared(hull);
+  EXPECT_EQ(sheared.output()->GetNumberOfNonEmptyTrees(), 0);
+  ASSERT_EQ(sheared.messages.errors.size(), 1u);
+  EXPECT_NE(sheared.messages.all().find("sheared"), std::string::npos);
 }
 
 TEST(SVOToHyperTreeGrid, SaysWhatItCannotConvert)
