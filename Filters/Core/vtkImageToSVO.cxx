@@ -2,6 +2,7 @@
 
 #include "svoAbort.h"
 #include "svoImageSource.h"
+#include "svoLeafValues.h"
 #include "svoSMPParallel.h"
 #include "svoSourceOctree.h"
 
@@ -13,7 +14,9 @@
 #include "vtkInformationVector.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkTimerLog.h"
 
 #include <algorithm>
@@ -78,6 +81,64 @@ int levelOf(vtkImageData* image, double extent)
     : 1;
 }
 
+/// The values that the leaves of an octree have in an array of the image.
+template <class T>
+bool sample(const T* from, const svo::ImageGrid& grid, const svo::Octree& octree,
+  const svo::BuildOptions& options, vtkDataArray* values)
+{
+  const int components = values->GetNumberOfComponents();
+  const double rounding = values->GetDataType() == VTK_UNSIGNED_CHAR ? 0.5 : 0.0;
+  return svo::forEachLeaf(octree, options.parallelFor, options.progress,
+    [&](std::size_t leaf, const glm::dvec3& at)
+    {
+      glm::ivec3 cell;
+      glm::dvec3 in;
+      grid.locate(at, cell, in);
+      for (int c = 0; c < components; ++c)
+      {
+        const double value = svo::trilinear(cell, in, rounding,
+          [&](int x, int y, int z)
+          { return static_cast<double>(from[components * grid.index(x, y, z) + c]); });
+        values->SetComponent(static_cast<vtkIdType>(leaf), c, value);
+      }
+    });
+}
+
+/// Colours of bytes stay bytes, all else becomes floats.
+vtkSmartPointer<vtkDataArray> makeValues(vtkDataArray* from, vtkIdType count)
+{
+  const int components = from->GetNumberOfComponents(), type = from->GetDataType();
+  const bool colors = type == VTK_UNSIGNED_CHAR && (components == 3 || components == 4);
+  auto values = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(colors || type == VTK_DOUBLE ? type : VTK_FLOAT));
+  values->SetName(from->GetName());
+  values->SetNumberOfComponents(components);
+  for (int c = 0; c < components && from->HasAComponentName(); ++c)
+  {
+    values->SetComponentName(c, from->GetComponentName(c));
+  }
+  values->SetNumberOfTuples(count);
+  return values;
+}
+
+/// False if it was aborted.
+bool colorBy(vtkDataArray* from, const svo::ImageGrid& grid, const svo::Octree& octree,
+  const svo::BuildOptions& options, vtkPolyData* hull)
+{
+  const auto values = makeValues(from, static_cast<vtkIdType>(octree.header().voxelCount));
+  bool done = true;
+  switch (from->GetDataType())
+  {
+    vtkTemplateMacro(done = sample(static_cast<const VTK_TT*>(from->GetVoidPointer(0)), grid,
+                       octree, options, values.Get()));
+  }
+  if (done)
+  {
+    svo::attachLeafValues(hull, octree, values);
+  }
+  return done;
+}
+
 template <class T>
 svo::SourceOctree convert(const T* values, const svo::ImageGrid& grid, double value,
   const svo::BuildOptions& options, vtkPolyData* hull)
@@ -94,6 +155,11 @@ vtkImageToSVO::vtkImageToSVO()
 {
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+}
+
+vtkImageToSVO::~vtkImageToSVO()
+{
+  this->SetColorArrayName(nullptr);
 }
 
 //------------------------------------------------------------------------------
@@ -134,9 +200,17 @@ int vtkImageToSVO::RequestData(
     : levelOf(image, std::max({ b[1] - b[0], b[3] - b[2], b[5] - b[4] }));
   options.memoryLimit = this->MemoryLimit * Kibi;
   options.parallelFor = svo::smpParallelFor();
-  options.progress = [this](double progress)
+  vtkDataArray* colors = this->ColorArrayName && *this->ColorArrayName
+    ? image->GetPointData()->GetArray(this->ColorArrayName)
+    : nullptr;
+  const bool unfitColors = colors &&
+    (colors->GetNumberOfTuples() != image->GetNumberOfPoints() ||
+      !colors->HasStandardMemoryLayout());
+  colors = unfitColors ? nullptr : colors;
+  double begun = 0.0, share = colors ? 0.8 : 1.0;
+  options.progress = [&](double progress)
   {
-    this->UpdateProgress(progress);
+    this->UpdateProgress(begun + share * progress);
     return !svo::isAborted(this);
   };
   svo::SourceOctree built{ svo::BuildStatus::BadInput, 0, "scalars of this type are not known" };
@@ -148,9 +222,22 @@ int vtkImageToSVO::RequestData(
       vtkTemplateMacro(built = convert(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0)),
                          gridOf(image), this->Value, options, output));
     }
+    if (built.voxels > 0 && colors)
+    {
+      begun = 0.8;
+      share = 0.2;
+      if (!colorBy(colors, gridOf(image), built.octree, options, output))
+      {
+        output->Initialize();
+        built.voxels = 0;
+        built.status = svo::BuildStatus::Aborted;
+      }
+    }
   }
   catch (const std::bad_alloc&)
   {
+    output->Initialize();
+    built.voxels = 0;
     built.message = "there is not enough memory for what has to be known of the image";
   }
   this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
@@ -164,6 +251,11 @@ int vtkImageToSVO::RequestData(
     vtkWarningMacro(
       "No surface was found: the image does not take the value " << this->Value << ".");
   }
+  if (built.voxels > 0 && !colors && this->ColorArrayName && *this->ColorArrayName)
+  {
+    vtkWarningMacro("The surface has no colours: the image has no array of its points named "
+      << this->ColorArrayName << ".");
+  }
   return 1;
 }
 
@@ -173,6 +265,8 @@ void vtkImageToSVO::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Value: " << this->Value << "\n";
   os << indent << "MaximumLevel: " << this->MaximumLevel << "\n";
+  os << indent << "ColorArrayName: " << (this->ColorArrayName ? this->ColorArrayName : "(none)")
+     << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
   os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
   os << indent << "BuildTime: " << this->BuildTime << " s\n";

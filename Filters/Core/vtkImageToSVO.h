@@ -7,6 +7,8 @@
  * between its points; spacing, origin and direction matrix count. Each voxel that the surface
  * touches keeps a plane.
  *
+ * Another array of the image can colour the surface, see SetColorArrayName().
+ *
  * The output is a coarse hull of the surface that carries the octree in its field data, as that of
  * vtkImplicitFunctionToSVO is. What cannot be converted leads to one message and an output without
  * cells: no scalars, more than one component, an image with fewer than two points along an axis, an
@@ -49,6 +51,19 @@ public:
 
   //@{
   /**
+   * Name of an array of the image's points, of any number of components, that the surface is to be
+   * coloured by; default none. Each voxel keeps its value at the surface: the output has field data
+   * of that name with a tuple for each voxel, and cell data of the same name, so that mappers can
+   * be told to colour by it: vtkSVORenderPass shows the voxels' values, VTK's rasteriser means of
+   * the hull's cells. Unsigned bytes of 3 or 4 components stay colours, other integers become
+   * floats. An array that is not there is a warning.
+   */
+  vtkSetStringMacro(ColorArrayName);
+  vtkGetStringMacro(ColorArrayName);
+  //@}
+
+  //@{
+  /**
    * Memory that the build may use at its peak, in KiB; default 0: what the machine has available.
    */
   vtkSetMacro(MemoryLimit, unsigned long);
@@ -66,7 +81,7 @@ public:
 
 protected:
   vtkImageToSVO();
-  ~vtkImageToSVO() override = default;
+  ~vtkImageToSVO() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
@@ -78,6 +93,7 @@ private:
 
   double Value = 0.0;
   int MaximumLevel = 0;
+  char* ColorArrayName = nullptr;
   unsigned long MemoryLimit = 0;
   vtkIdType NumberOfVoxels = 0;
   double BuildTime = 0.0;

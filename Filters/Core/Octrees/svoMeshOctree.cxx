@@ -2,6 +2,7 @@
 
 #include "svoMeshTriangles.h"
 #include "svoOpenOctrees.h"
+#include "svoToldRange.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -28,24 +29,6 @@ namespace svo
 {
 namespace
 {
-/// Tells the array the range of its values, so that nobody (ParaView's Information panel, writers)
-/// goes through all the bytes for it: it means nothing, and any byte may be there.
-void tellRange(vtkUnsignedCharArray* array)
-{
-  vtkInformation* information = array->GetInformation();
-  for (auto* key : { vtkAbstractArray::PER_COMPONENT(), vtkAbstractArray::PER_FINITE_COMPONENT() })
-  {
-    if (!information->Has(key))
-    {
-      const double range[2] = { 0.0, 255.0 };
-      vtkNew<vtkInformationVector> components;
-      components->SetNumberOfInformationObjects(1);
-      components->GetInformationObject(0)->Set(vtkDataArray::COMPONENT_RANGE(), range, 2);
-      information->Set(key, components);
-    }
-  }
-}
-
 /// Bytes of an octree's own, aligned as Octree::open() wants them.
 std::shared_ptr<const std::byte> ownBytes(const void* bytes, std::size_t size)
 {
@@ -209,7 +192,9 @@ void attachOctree(vtkPolyData* mesh, const Octree& octree)
   array->SetName(OctreeArrayName);
   array->SetNumberOfValues(static_cast<vtkIdType>(size));
   std::memcpy(array->GetPointer(0), octree.key(), size);
-  tellRange(array);
+  // It means nothing, and any byte may be there: ParaView's Information panel and writers ask.
+  const double range[2] = { 0.0, 255.0 };
+  tellRange(array, range, range);
   mesh->GetFieldData()->AddArray(array); // replaces an array of the same name
   OpenOctrees::instance().add(array, octree);
 }

@@ -54,13 +54,13 @@ SourceOctree buildUnguarded(
   if (result.status != BuildStatus::Built)
   {
     return { result.status, 0,
-      result.status == BuildStatus::Aborted ? std::string() : result.message };
+      result.status == BuildStatus::Aborted ? std::string() : result.message, {} };
   }
   std::string message;
   Octree octree = Octree::open(result.data, result.size, nullptr, message);
   if (!octree)
   {
-    return { BuildStatus::BadInput, 0, message };
+    return { BuildStatus::BadInput, 0, message, {} };
   }
   Header& header = *reinterpret_cast<Header*>(result.data.get());
   makeHull(octree, hull, header.meshBounds);
@@ -68,7 +68,7 @@ SourceOctree buildUnguarded(
   header.pointCount = static_cast<std::uint64_t>(hull->GetNumberOfPoints());
   header.cellCount = static_cast<std::uint64_t>(hull->GetNumberOfCells());
   attachOctree(hull, octree);
-  return { BuildStatus::Built, header.voxelCount, std::string() };
+  return { BuildStatus::Built, header.voxelCount, std::string(), octree };
 }
 }
 

@@ -2,6 +2,7 @@
 #ifndef svoSourceOctree_h
 #define svoSourceOctree_h
 
+#include "svoOctree.h"
 #include "svoSource.h"
 #include "vtkSVOCoreModule.h"
 
@@ -20,6 +21,7 @@ struct SourceOctree
   BuildStatus status;
   std::uint64_t voxels = 0;
   std::string message; // why there is no octree; else, and if the build was aborted, empty
+  Octree octree{};     // as the hull carries it
 };
 
 /// Builds the octree of a source and makes `hull` the surface of its cells of level HullLevel, or

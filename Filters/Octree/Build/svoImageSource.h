@@ -36,7 +36,40 @@ struct ImageGrid
   {
     return (static_cast<std::size_t>(z) * points.y + y) * points.x + x;
   }
+  /// The cell that a point is in and where there, 0..1 along each axis. False outside of the image
+  /// (or with NaN): then the nearest place in it.
+  bool locate(const glm::dvec3& local, glm::ivec3& cell, glm::dvec3& in) const
+  {
+    constexpr double Rounding = 1e-9; // of indices
+    const glm::dvec3 p(this->toIndex * glm::dvec4(local, 1.0));
+    bool inside = true;
+    for (int i = 0; i < 3; ++i)
+    {
+      const double last = this->points[i] - 1;
+      inside = inside && p[i] >= -Rounding && p[i] <= last + Rounding;
+      const double at = p[i] > 0.0 ? std::min(p[i], last) : 0.0;
+      cell[i] = std::min(static_cast<int>(at), this->points[i] - 2);
+      in[i] = at - cell[i];
+    }
+    return inside;
+  }
 };
+
+/// The trilinear mean of the values that at(x, y, z) has at the corners of a cell; starts from a
+/// `sum` of 0.
+template <class V, class At>
+V trilinear(const glm::ivec3& cell, const glm::dvec3& in, V sum, const At& at)
+{
+  for (int i = 0; i < 8; ++i)
+  {
+    const glm::ivec3 upper(i & 1, i >> 1 & 1, i >> 2);
+    const double weight =
+      (upper.x ? in.x : 1.0 - in.x) * (upper.y ? in.y : 1.0 - in.y) * (upper.z ? in.z : 1.0 - in.z);
+    const glm::ivec3 c = cell + upper;
+    sum += weight * at(c.x, c.y, c.z);
+  }
+  return sum;
+}
 
 /// An image of scalars of a type, which are borrowed.
 template <class T>
@@ -81,30 +114,9 @@ private:
   template <class V, class At>
   V interpolated(const glm::dvec3& local, const V& outside, const At& at) const
   {
-    constexpr double Rounding = 1e-9; // of indices
-    const glm::dvec3 p(this->Grid.toIndex * glm::dvec4(local, 1.0));
-    V sum(0.0);
     glm::ivec3 cell;
-    glm::dvec3 t;
-    for (int i = 0; i < 3; ++i)
-    {
-      const double last = this->Grid.points[i] - 1;
-      if (!(p[i] >= -Rounding && p[i] <= last + Rounding))
-      {
-        return outside;
-      }
-      cell[i] = std::clamp(static_cast<int>(p[i]), 0, this->Grid.points[i] - 2);
-      t[i] = std::clamp(p[i] - cell[i], 0.0, 1.0);
-    }
-    for (int i = 0; i < 8; ++i)
-    {
-      const glm::ivec3 upper(i & 1, i >> 1 & 1, i >> 2);
-      const double weight =
-        (upper.x ? t.x : 1.0 - t.x) * (upper.y ? t.y : 1.0 - t.y) * (upper.z ? t.z : 1.0 - t.z);
-      const glm::ivec3 c = cell + upper;
-      sum += weight * at(c.x, c.y, c.z);
-    }
-    return sum;
+    glm::dvec3 in;
+    return this->Grid.locate(local, cell, in) ? trilinear(cell, in, V(0.0), at) : outside;
   }
 
   const ImageGrid Grid;

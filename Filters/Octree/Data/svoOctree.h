@@ -89,13 +89,25 @@ public:
   /// True if `cell` (integer coordinates at `level`, 0..level()) is occupied. False outside.
   bool occupied(glm::ivec3 cell, int level) const;
 
-  /// Index in lists() of the plane of voxel `i` of a brick; of an octree of planes.
+  /// Index in lists() of the plane of voxel `i` of a brick, which is the voxel's number; of an
+  /// octree of planes.
   std::uint32_t planeOf(std::uint32_t brick, int i) const
   {
     assert(this->hasPlanes() && brick >= this->brickBegin() && brick < this->header().nodeCount);
     const Node& node = this->nodes()[brick];
     assert(hasChild(node, i));
     return node.first + PlaneWords * static_cast<std::uint32_t>(childrenBefore(node, i));
+  }
+
+  /// The same of the first voxel below a node.
+  std::uint32_t firstPlane(std::uint32_t node) const
+  {
+    assert(this->hasPlanes() && !this->empty());
+    while (node < this->brickBegin())
+    {
+      node = this->nodes()[node].first;
+    }
+    return this->nodes()[node].first;
   }
 
   /// The triangles of a brick (index of a node of the last depth): begin and count. A single

@@ -230,7 +230,7 @@ void SceneCollector::collectActor(
     Reason reason = beyond;
     if (!beyond || !hasOpaqueTable(part))
     {
-      const Reason unmapped = mapColors(part, instance.attributes, frame.result.kept);
+      const Reason unmapped = mapColors(part, this->Leaves, instance.attributes, frame.result.kept);
       reason = beyond ? beyond : unmapped;
     }
     const OpaqueCells::Answer opaque = this->Opaque.of(part, instance.attributes);
@@ -401,6 +401,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   }
   this->Surfaces.endFrame();
   this->Floats.endFrame();
+  this->Leaves.endFrame();
   this->Blocks.endFrame();
   this->Opaque.endFrame();
 }

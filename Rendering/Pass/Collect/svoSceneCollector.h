@@ -89,6 +89,7 @@ private:
   DataSetSurfaces Surfaces;
   OpaqueCells Opaque;
   FloatArrays Floats;
+  LeafMeshes Leaves;
   std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>>
     GivenMessages; // by object
 };

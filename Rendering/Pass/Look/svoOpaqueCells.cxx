@@ -147,6 +147,15 @@ vtkSmartPointer<vtkCellArray> opaqueOf(
   return found;
 }
 
+/// Leaves are no cells of the mesh: either all of it is opaque, or nothing.
+OpaqueCells::Answer sortLeaves(
+  vtkPolyData* mesh, const Attributes& attributes, vtkUnsignedCharArray* colors)
+{
+  const auto count = static_cast<std::size_t>(colors->GetNumberOfTuples());
+  const bool opaque = allOpaque(attributes.colors, count);
+  return { opaque ? mesh : nullptr, !opaque };
+}
+
 OpaqueCells::Answer sort(
   vtkPolyData* mesh, const Attributes& attributes, vtkSmartPointer<vtkPolyData>& made)
 {
@@ -203,7 +212,9 @@ OpaqueCells::Answer OpaqueCells::of(const SurfacePart& part, const Attributes& a
   if (entry.times != times)
   {
     entry.times = times;
-    entry.answer = sort(mesh, attributes, entry.made);
+    entry.answer = attributes.colorAssociation == Association::Leaf
+      ? sortLeaves(mesh, attributes, colors->GetColorMapColors())
+      : sort(mesh, attributes, entry.made);
   }
   return entry.answer;
 }

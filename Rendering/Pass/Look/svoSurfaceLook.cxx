@@ -161,13 +161,33 @@ bool colorOfTuple(vtkUnsignedCharArray* colors, vtkIdType tuple, SurfacePart& pa
   return true;
 }
 
-bool scalarColors(
-  SurfacePart& part, Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+/// Colours of the octree's leaves.
+bool leafColors(vtkPolyData* leaves, vtkMapper* mapper, Attributes& attributes,
+  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+{
+  vtkUnsignedCharArray* colors = mapper->MapScalars(leaves, 1.0);
+  if (!colors || colors->GetNumberOfComponents() != 4 ||
+    colors->GetNumberOfTuples() != leaves->GetCellData()->GetScalars()->GetNumberOfTuples())
+  {
+    return false;
+  }
+  attributes.colorAssociation = Association::Leaf;
+  attributes.colors = colors->GetPointer(0);
+  keep(colors, attributes, kept);
+  return true;
+}
+
+bool scalarColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes,
+  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
 {
   vtkMapper* mapper = part.colors;
   if (!mapper->GetScalarVisibility() || part.overridesColor)
   {
     return true;
+  }
+  if (vtkPolyData* ofLeaves = leaves.of(part.mesh, mapper))
+  {
+    return leafColors(ofLeaves, mapper, attributes, kept);
   }
   vtkUnsignedCharArray* colors = mapper->MapScalars(part.mesh, 1.0);
   if (!colors)
@@ -281,10 +301,10 @@ bool hasOpaqueTable(const SurfacePart& part)
       !part.colors->HasTranslucentPolygonalGeometry());
 }
 
-Reason mapColors(
-  SurfacePart& part, Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes,
+  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
 {
-  return scalarColors(part, attributes, kept)
+  return scalarColors(part, leaves, attributes, kept)
     ? nullptr
     : "has colours that do not belong to its cells or points";
 }

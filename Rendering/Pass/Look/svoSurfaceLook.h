@@ -3,6 +3,7 @@
 #define svoSurfaceLook_h
 
 #include "svoFloatArrays.h"
+#include "svoLeafMeshes.h"
 #include "svoScene.h"
 
 #include "vtkSmartPointer.h"
@@ -75,10 +76,10 @@ struct SurfacePart
 /// looked up. False says nothing: then its colours have to be mapped.
 bool hasOpaqueTable(const SurfacePart& part);
 
-/// Maps the part's scalars; one colour for all of it becomes the part's own. Colours of points and
-/// cells lie in arrays that are added to `kept`.
-Reason mapColors(
-  SurfacePart& part, Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
+/// Maps the part's scalars; one colour for all of it becomes the part's own. Colours of points,
+/// cells and leaves lie in arrays that are added to `kept`.
+Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes,
+  std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
 
 /// Material and normals of a part. Arrays of normals are kept in `floats` and `kept`.
 Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,

@@ -11,12 +11,13 @@
 
 namespace svo
 {
-/// The element of the mesh that an array has one value for.
+/// The element of the mesh, or of its octree, that an array has one value for.
 enum class Association
 {
   None,
   Point,
-  Cell
+  Cell,
+  Leaf // the voxel, of an octree of planes
 };
 
 /// Arrays of the mesh that the look needs. Null where there are none.

@@ -166,6 +166,13 @@ inline bool shadersTurn(const SurfaceMatrices& frame, const View& view, const gl
   return glm::dot(glm::dvec3(facet), along) > 0.0;
 }
 
+/// The colour of a hit on an octree of planes: of a node that of the first voxel in it.
+inline glm::vec3 colorOfPlane(const Octree& octree, const Attributes& attributes, Primitive hit)
+{
+  return detail::colorAt(attributes.colors,
+    hit & NodePrimitive ? octree.firstPlane(hit & ~NodePrimitive) : hit);
+}
+
 /// A point of an octree of planes: on the plane that was hit, of a voxel or of a node. Where a
 /// node's mean plane faces away, the line of sight tells a surface that is seen from behind from a
 /// node that reaches beyond the outline: there it meets nothing, and the outline's normal is across
@@ -189,8 +196,10 @@ inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
                                    : detail::normalized(outwards - away * forwards, forwards);
   }
   const glm::vec3 facet = sideLane(outwards, towards) * outwards;
+  const Attributes& attributes = frame.instance->attributes;
+  const bool colored = attributes.colors && attributes.colorAssociation == Association::Leaf;
   return { position, facet, shadersTurn(frame, view, position, facet) ? -facet : facet,
-    glm::vec3(1.0f), false };
+    colored ? colorOfPlane(octree, attributes, primitive) : glm::vec3(1.0f), colored };
 }
 
 /// A point of a triangle, with the attributes that the triangle has at `at`, octree coordinates;

@@ -3,16 +3,23 @@
 #include "vtkImageToSVO.h"
 
 #include "svoConversion.h"
+#include "svoOctreeCells.h"
 #include "vtkSparseVoxelOctree.h"
 
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
 #include "vtkPointData.h"
 #include "vtkShortArray.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <cmath>
 #include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 namespace
 {
@@ -195,4 +202,85 @@ TEST(ImageToSVO, OneMessageForWhatCannotBeConverted)
     EXPECT_TRUE(conversion.messages.errors.empty()) << conversion.messages.all();
     EXPECT_EQ(conversion.messages.warnings.size(), 1u);
   }
+}
+
+// Every voxel keeps the other array's value at the surface in it, in the octree's order.
+TEST(ImageToSVO, LeavesHaveValues)
+{
+  const auto image = distances(true);
+  const glm::dvec3 slope(0.5, -2.0, 1.0);
+  vtkNew<vtkShortArray> linear;
+  linear->SetName("Linear");
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetName("Colors");
+  colors->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    glm::dvec3 x;
+    image->GetPoint(i, &x.x);
+    linear->InsertNextValue(static_cast<short>(std::lround(1000.0 * glm::dot(slope, x))));
+    const unsigned char color[3] = { 200, static_cast<unsigned char>(i % 2 ? 0 : 255), 7 };
+    colors->InsertNextTypedTuple(color);
+  }
+  image->GetPointData()->AddArray(linear);
+  image->GetPointData()->AddArray(colors);
+  ImageConversion conversion(image);
+  for (const int level : { 1, 2, 5, 6, 7 })
+  {
+    conversion.filter->SetMaximumLevel(level);
+    conversion.filter->SetColorArrayName("Linear");
+    vtkPolyData* hull = conversion.output();
+    const svo::Octree octree = octreeOf(hull);
+    ASSERT_TRUE(octree);
+    vtkDataArray* values = hull->GetFieldData()->GetArray("Linear");
+    ASSERT_NE(values, nullptr);
+    EXPECT_EQ(values->GetDataType(), VTK_FLOAT);
+    ASSERT_EQ(values->GetNumberOfTuples(), vtkIdType(octree.header().voxelCount));
+    const double voxel = octree.header().voxelSize;
+    vtkIdType i = 0;
+    svo::forEachCell(octree, level,
+      [&](const svo::OctreeCell& c)
+      {
+        const double* o = octree.header().origin;
+        const glm::dvec3 centre = glm::dvec3(o[0], o[1], o[2]) + voxel * (glm::dvec3(c.cell) + 0.5);
+        const double most = 500.0 * voxel * (0.5 + 2.0 + 1.0) + 1.0;
+        // Of a voxel that reaches beyond the image, values are those of its edge.
+        if (level >= 5)
+        {
+          EXPECT_NEAR(values->GetComponent(i, 0), 1000.0 * glm::dot(slope, centre), most);
+        }
+        ++i;
+        return true;
+      });
+    vtkDataArray* ofHull = hull->GetCellData()->GetArray("Linear");
+    ASSERT_NE(ofHull, nullptr);
+    EXPECT_EQ(ofHull->GetNumberOfTuples(), hull->GetNumberOfCells());
+    EXPECT_EQ(ofHull->GetRange()[0], values->GetRange()[0]);
+    EXPECT_EQ(ofHull->GetRange()[1], values->GetRange()[1]);
+    for (vtkIdType k = 0; k < hull->GetNumberOfCells(); k += 7)
+    {
+      const double value = ofHull->GetComponent(k, 0);
+      EXPECT_TRUE(value >= values->GetRange()[0] && value <= values->GetRange()[1]);
+    }
+  }
+  conversion.filter->SetColorArrayName("Colors");
+  vtkDataArray* bytes = conversion.output()->GetFieldData()->GetArray("Colors");
+  ASSERT_NE(bytes, nullptr);
+  EXPECT_EQ(bytes->GetDataType(), VTK_UNSIGNED_CHAR);
+  EXPECT_EQ(bytes->GetNumberOfComponents(), 3);
+  EXPECT_EQ(bytes->GetRange(0)[0], 200.0);
+  EXPECT_EQ(bytes->GetRange(0)[1], 200.0);
+  EXPECT_LT(bytes->GetRange(1)[0], 100.0);
+  EXPECT_GT(bytes->GetRange(1)[1], 155.0);
+  EXPECT_TRUE(conversion.messages.all().empty()) << conversion.messages.all();
+}
+
+TEST(ImageToSVO, SaysThatThereIsNoSuchArrayOfColors)
+{
+  ImageConversion conversion(distances(false));
+  conversion.filter->SetColorArrayName("Nothing");
+  vtkPolyData* hull = conversion.output();
+  EXPECT_TRUE(octreeOf(hull));
+  EXPECT_TRUE(conversion.messages.errors.empty());
+  EXPECT_NE(conversion.messages.all().find("Nothing"), std::string::npos);
 }

@@ -1,0 +1,192 @@
+#include "svoLeafValues.h"
+
+#include "svoCellSurface.h"
+#include "svoMeshOctree.h"
+#include "svoNode.h"
+#include "svoOctreeCells.h"
+#include "svoPlane.h"
+#include "svoSourceOctree.h"
+#include "svoToldRange.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <glm/common.hpp>
+
+namespace svo
+{
+namespace
+{
+constexpr float Sqrt3 = 1.7320508f;
+
+struct Brick
+{
+  glm::ivec3 firstVoxel;
+  std::uint32_t node;
+};
+
+std::vector<Brick> bricksOf(const Octree& octree)
+{
+  if (octree.level() == 1)
+  {
+    return { { glm::ivec3(0), 0 } };
+  }
+  std::vector<Brick> bricks;
+  bricks.reserve(octree.header().nodeCount - octree.brickBegin());
+  forEachCell(octree, octree.level() - 2,
+    [&](const OctreeCell& c)
+    {
+      bricks.push_back(
+        { 4 * c.cell, c.bitCount == 1 ? child(octree.nodes()[c.node], c.firstBit) : c.node });
+      return true;
+    });
+  return bricks;
+}
+
+/// Means over the cells of `level`, in the order of the cells.
+std::vector<double> meansOf(const Octree& octree, int level, vtkDataArray* values)
+{
+  const int components = values->GetNumberOfComponents();
+  const int below = octree.level() - level;
+  std::vector<double> sums;
+  glm::ivec3 current(-1);
+  vtkIdType count = 0, leaf = 0;
+  const auto finish = [&]
+  {
+    for (int c = 0; c < components && count > 0; ++c)
+    {
+      sums[sums.size() - components + c] /= static_cast<double>(count);
+    }
+  };
+  std::vector<double> tuple(components);
+  forEachCell(octree, octree.level(),
+    [&](const OctreeCell& voxel)
+    {
+      const glm::ivec3 cell = voxel.cell >> below;
+      if (cell != current)
+      {
+        finish();
+        current = cell;
+        count = 0;
+        sums.resize(sums.size() + components, 0.0);
+      }
+      values->GetTuple(leaf++, tuple.data());
+      ++count;
+      for (int c = 0; c < components; ++c)
+      {
+        sums[sums.size() - components + c] += tuple[c];
+      }
+      return true;
+    });
+  finish();
+  return sums;
+}
+
+/// Cell data for the quads of makeHull(), in their order.
+vtkSmartPointer<vtkDataArray> hullValues(
+  vtkPolyData* hull, const Octree& octree, vtkDataArray* values)
+{
+  const int level = std::min(octree.level(), HullLevel);
+  const int components = values->GetNumberOfComponents();
+  const std::vector<double> means = meansOf(octree, level, values);
+  auto array = vtkSmartPointer<vtkDataArray>::Take(values->NewInstance());
+  array->SetName(values->GetName());
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(hull->GetNumberOfCells());
+  vtkIdType quad = 0;
+  std::size_t index = 0;
+  forEachCell(octree, level,
+    [&](const OctreeCell& cell)
+    {
+      for (const CellFace& face : FacesOfCell)
+      {
+        if (!isOccupied(octree, cell, cell.cell + face.neighbour, level))
+        {
+          array->SetTuple(quad++, means.data() + index);
+        }
+      }
+      index += static_cast<std::size_t>(components);
+      return true;
+    });
+  return array;
+}
+}
+
+bool forEachLeaf(const Octree& octree, const ParallelFor& parallelFor,
+  const std::function<bool(double)>& progress,
+  const std::function<void(std::size_t, const glm::dvec3&)>& visit)
+{
+  constexpr std::size_t Chunk = 1 << 16;
+  if (octree.empty())
+  {
+    return true;
+  }
+  const Header& h = octree.header();
+  const glm::dvec3 origin(h.origin[0], h.origin[1], h.origin[2]);
+  const std::vector<Brick> bricks = bricksOf(octree);
+  for (std::size_t begin = 0; begin < bricks.size(); begin += Chunk)
+  {
+    parallelFor(begin, std::min(begin + Chunk, bricks.size()), 16,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t b = first; b < last; ++b)
+        {
+          const std::uint64_t mask = octree.nodes()[bricks[b].node].mask;
+          for (std::uint64_t left = mask; left != 0; left &= left - 1)
+          {
+            const int i = lowestBit(left);
+            const std::uint32_t leaf = octree.planeOf(bricks[b].node, i);
+            const MeanPlane plane = decodePlane(octree.lists()[leaf]);
+            const glm::vec3 foot = 0.5f * Sqrt3 * plane.offset * plane.normal;
+            const glm::dvec3 inVoxel(glm::clamp(foot, -0.5f, 0.5f) + 0.5f);
+            visit(leaf,
+              origin + h.voxelSize * (glm::dvec3(bricks[b].firstVoxel + cellOfIndex(i)) + inVoxel));
+          }
+        }
+      });
+    if (!progress(static_cast<double>(begin) / static_cast<double>(bricks.size())))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void attachLeafValues(vtkPolyData* hull, const Octree& octree, vtkDataArray* values)
+{
+  const vtkSmartPointer<vtkDataArray> ofHull = hullValues(hull, octree, values);
+  if (values->GetNumberOfComponents() == 1)
+  {
+    double range[2], finite[2];
+    values->GetRange(range);
+    values->GetFiniteRange(finite);
+    tellRange(ofHull, range, finite);
+  }
+  hull->GetFieldData()->AddArray(values);
+  hull->GetCellData()->AddArray(ofHull);
+}
+
+vtkDataArray* leafValues(vtkPolyData* hull, const char* name)
+{
+  vtkDataArray* values = name ? hull->GetFieldData()->GetArray(name) : nullptr;
+  if (!values || values->GetNumberOfTuples() == 0 || std::string(name) == OctreeArrayName)
+  {
+    return nullptr;
+  }
+  Octree octree;
+  std::string message;
+  const bool found = openAttachedOctree(hull, octree, message) == Attached::Found;
+  return found && octree.hasPlanes() &&
+      static_cast<std::uint64_t>(values->GetNumberOfTuples()) == octree.header().voxelCount
+    ? values
+    : nullptr;
+}
+}

@@ -1,0 +1,41 @@
+// Values of an octree's leaves: a field-data array of the hull, of any type, with a tuple for each
+// voxel in the octree's order. Colour maps, files and ParaView take it as the array that it is.
+//
+// The hull has cell data of the same name, means of what lies below its cells, so that a mapper can
+// be told to colour by it, and whoever draws the hull shows about the same.
+#ifndef svoLeafValues_h
+#define svoLeafValues_h
+
+#include "svoOctree.h"
+#include "svoParallel.h"
+#include "vtkSVOCoreModule.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include <glm/vec3.hpp>
+
+class vtkDataArray;
+class vtkPolyData;
+
+namespace svo
+{
+/// Calls visit(voxel, point) for each voxel of an octree of planes, by several threads: its number
+/// in the octree's order and the point of its plane that is nearest to its centre, as far as that
+/// lies in the voxel; octree's own frame. `progress`, 0..1, is called on the calling thread;
+/// returns false where it does.
+bool forEachLeaf(const Octree& octree, const ParallelFor& parallelFor,
+  const std::function<bool(double)>& progress,
+  const std::function<void(std::size_t, const glm::dvec3&)>& visit);
+
+/// Gives the hull of an octree of planes an array that has a name and a tuple for each voxel. The
+/// hull's cell data of that name tells the range of all voxels as its own.
+VTKSVOCORE_EXPORT void attachLeafValues(
+  vtkPolyData* hull, const Octree& octree, vtkDataArray* values);
+
+/// The values of that name of the octree that a hull carries; nullptr if there are none.
+VTKSVOCORE_EXPORT vtkDataArray* leafValues(vtkPolyData* hull, const char* name);
+}
+
+#endif

@@ -1,0 +1,81 @@
+#include "svoLeafMeshes.h"
+
+#include "svoLeafValues.h"
+
+#include "vtkAbstractMapper.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkFloatArray.h"
+#include "vtkMapper.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <iterator>
+#include <string>
+#include <utility>
+
+namespace svo
+{
+namespace
+{
+/// The name of the cell data that a mapper colours by; nullptr: it colours by something else.
+const char* nameOfCellData(vtkPolyData* hull, vtkMapper* mapper)
+{
+  int association = 0;
+  vtkAbstractArray* array = vtkAbstractMapper::GetAbstractScalars(hull, mapper->GetScalarMode(),
+    mapper->GetArrayAccessMode(), mapper->GetArrayId(), mapper->GetArrayName(), association);
+  constexpr int Cells = 1;
+  return array && association == Cells ? array->GetName() : nullptr;
+}
+
+vtkSmartPointer<vtkPolyData> meshOf(vtkPolyData* hull, vtkDataArray* values)
+{
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  // By index or by name, a mapper finds the array where it is in the hull.
+  vtkCellData* from = hull->GetCellData();
+  for (int i = 0; i < from->GetNumberOfArrays(); ++i)
+  {
+    const char* name = from->GetArrayName(i);
+    if (name && std::string(name) == values->GetName())
+    {
+      mesh->GetCellData()->AddArray(values);
+      continue;
+    }
+    vtkNew<vtkFloatArray> other;
+    other->SetName(name);
+    mesh->GetCellData()->AddArray(other);
+  }
+  mesh->GetCellData()->SetActiveScalars(values->GetName());
+  return mesh;
+}
+}
+
+vtkPolyData* LeafMeshes::of(vtkPolyData* hull, vtkMapper* mapper)
+{
+  const char* name = nameOfCellData(hull, mapper);
+  vtkDataArray* values = name ? leafValues(hull, name) : nullptr;
+  if (!values)
+  {
+    return nullptr;
+  }
+  Entry& entry = this->Entries[values];
+  entry.asked = true;
+  // Times are never given twice, so a new hull in an old one's place is noticed, too.
+  if (!entry.mesh || entry.time != hull->GetMTime())
+  {
+    entry.time = hull->GetMTime();
+    entry.mesh = meshOf(hull, values);
+  }
+  return entry.mesh;
+}
+
+void LeafMeshes::endFrame()
+{
+  for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
+  {
+    entry =
+      std::exchange(entry->second.asked, false) ? std::next(entry) : this->Entries.erase(entry);
+  }
+}
+}
