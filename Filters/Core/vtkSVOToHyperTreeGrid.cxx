@@ -1,6 +1,7 @@
 #include "vtkSVOToHyperTreeGrid.h"
 
 #include "svoAbort.h"
+#include "svoLeafValues.h"
 #include "svoMeshOctree.h"
 #include "svoNode.h"
 #include "svoOctreeCells.h"
@@ -52,9 +53,11 @@ std::size_t countCells(const svo::Octree& octree, int level)
 class TreeWriter
 {
 public:
-  TreeWriter(const svo::Octree& octree, int level, std::size_t cells, std::function<bool()> goOn)
+  TreeWriter(const svo::Octree& octree, int level, std::size_t cells, svo::LeafArrays arrays,
+    std::function<bool()> goOn)
     : Octree(octree)
     , Level(level)
+    , Arrays(std::move(arrays))
     , GoOn(std::move(goOn))
   {
     this->Mask->SetNumberOfValues(static_cast<vtkIdType>(cells));
@@ -64,6 +67,10 @@ public:
     {
       this->CellIds->SetName("CellId");
       this->CellIds->SetNumberOfValues(static_cast<vtkIdType>(cells));
+    }
+    for (auto& [values, copy] : this->Arrays)
+    {
+      copy->SetNumberOfTuples(static_cast<vtkIdType>(cells));
     }
   }
 
@@ -88,6 +95,10 @@ public:
     {
       grid->GetCellData()->AddArray(this->CellIds);
     }
+    for (auto& [values, copy] : this->Arrays)
+    {
+      grid->GetCellData()->AddArray(copy);
+    }
     return !this->Stopped;
   }
 
@@ -99,6 +110,10 @@ private:
     if (this->Octree.surface())
     {
       this->CellIds->SetValue(index, cell ? this->cellOf(*cell, level) : -1);
+    }
+    for (auto& [values, copy] : this->Arrays)
+    {
+      copy->SetTuple(index, cell ? svo::firstLeaf(this->Octree, *cell) : 0, values);
     }
   }
 
@@ -157,6 +172,7 @@ private:
 
   const svo::Octree& Octree;
   const int Level;
+  svo::LeafArrays Arrays;
   const std::function<bool()> GoOn;
   bool Stopped = false;
   vtkNew<vtkBitArray> Mask;
@@ -260,7 +276,7 @@ int vtkSVOToHyperTreeGrid::RequestData(
   try
   {
     std::size_t visited = 0;
-    TreeWriter writer(octree, level, cells,
+    TreeWriter writer(octree, level, cells, svo::emptyCopiesOfLeafValues(input),
       [&]
       {
         if ((++visited & 0xffff) == 0)

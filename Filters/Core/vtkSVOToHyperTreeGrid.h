@@ -9,7 +9,8 @@
  *
  * Cell data: "Level" (unsigned char), 0 for the cube; and "CellId" (vtkIdType), the input's cell
  * that a cell stands for, as of vtkSVOToPolyData; masked cells have -1. The octree of a surface
- * that is no mesh (vtkImplicitFunctionToSVO) has no "CellId".
+ * that is no mesh (vtkImplicitFunctionToSVO) has no "CellId"; where its voxels have values
+ * (vtkImageToSVO's ColorArrayName), cells have those of the first voxel in them.
  *
  * Cells of a grid that was stretched are boxes; where a grid was turned, mirrored or sheared
  * (vtkSVOVDBReader), the octree cannot be converted.

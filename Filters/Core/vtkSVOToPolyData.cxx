@@ -2,12 +2,14 @@
 
 #include "svoAbort.h"
 #include "svoCellSurface.h"
+#include "svoLeafValues.h"
 #include "svoMeshOctree.h"
 #include "svoNode.h"
 #include "svoOctreeCells.h"
 #include "svoRepresentative.h"
 
 #include "vtkCellData.h"
+#include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -86,6 +88,11 @@ int vtkSVOToPolyData::RequestData(
     vtkNew<vtkIdTypeArray> cellIds; // stays empty of an octree of planes
     cellIds->SetName("CellId");
     cellIds->Allocate(octree.surface() ? static_cast<vtkIdType>(count) : 0);
+    svo::LeafArrays leafArrays = svo::emptyCopiesOfLeafValues(input);
+    for (auto& [values, copy] : leafArrays)
+    {
+      copy->Allocate(static_cast<vtkIdType>(count) * copy->GetNumberOfComponents());
+    }
     visited = 0;
     svo::forEachVisibleCell(octree, level, this->InteriorFaces,
       [&](const svo::OctreeCell& cell, int faces)
@@ -101,6 +108,10 @@ int vtkSVOToPolyData::RequestData(
             if (octree.surface())
             {
               cellIds->InsertNextValue(id);
+            }
+            for (auto& [values, copy] : leafArrays)
+            {
+              copy->InsertNextTuple(svo::firstLeaf(octree, cell), values);
             }
           }
         }
@@ -121,6 +132,11 @@ int vtkSVOToPolyData::RequestData(
     if (octree.surface())
     {
       output->GetCellData()->AddArray(cellIds);
+    }
+    for (auto& [values, copy] : leafArrays)
+    {
+      output->GetFieldData()->RemoveArray(copy->GetName());
+      output->GetCellData()->AddArray(copy);
     }
     return 1;
   }

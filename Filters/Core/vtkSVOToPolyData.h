@@ -9,7 +9,8 @@
  *
  * Cell data of the output: "Level" (int), the octree level that was shown, and "CellId"
  * (vtkIdType), the input's cell that a voxel stands for: of the cells near it the nearest one. The
- * octree of a surface that is no mesh (vtkImplicitFunctionToSVO) has no "CellId".
+ * octree of a surface that is no mesh (vtkImplicitFunctionToSVO) has no "CellId"; where its voxels
+ * have values (vtkImageToSVO's ColorArrayName), cells have those of the first voxel in them.
  *
  * An input without an octree, or with one that does not belong to it, is an error, and the output
  * is empty. So is an output that would not fit in memory. Progress and abort work.

@@ -174,6 +174,36 @@ void attachLeafValues(vtkPolyData* hull, const Octree& octree, vtkDataArray* val
   hull->GetCellData()->AddArray(ofHull);
 }
 
+LeafArrays emptyCopiesOfLeafValues(vtkPolyData* hull)
+{
+  LeafArrays arrays;
+  vtkFieldData* all = hull->GetFieldData();
+  for (int i = 0; i < all->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* values = leafValues(hull, all->GetArrayName(i));
+    if (values)
+    {
+      auto copy = vtkSmartPointer<vtkDataArray>::Take(values->NewInstance());
+      copy->SetName(values->GetName());
+      copy->SetNumberOfComponents(values->GetNumberOfComponents());
+      copy->CopyComponentNames(values);
+      arrays.emplace_back(values, copy);
+    }
+  }
+  return arrays;
+}
+
+vtkIdType firstLeaf(const Octree& octree, const OctreeCell& cell)
+{
+  const Node& node = octree.nodes()[cell.node];
+  const int bit = cell.bitCount == GroupSize
+    ? cell.firstBit + lowestBit(groupCells(node, cell.firstBit))
+    : cell.bitCount == 1 ? cell.firstBit
+                         : lowestBit(node.mask);
+  return cell.node >= octree.brickBegin() ? octree.planeOf(cell.node, bit)
+                                          : octree.firstPlane(child(node, bit));
+}
+
 vtkDataArray* leafValues(vtkPolyData* hull, const char* name)
 {
   vtkDataArray* values = name ? hull->GetFieldData()->GetArray(name) : nullptr;

@@ -7,12 +7,17 @@
 #define svoLeafValues_h
 
 #include "svoOctree.h"
+#include "svoOctreeCells.h"
 #include "svoParallel.h"
 #include "vtkSVOCoreModule.h"
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -33,6 +38,14 @@ bool forEachLeaf(const Octree& octree, const ParallelFor& parallelFor,
 /// hull's cell data of that name tells the range of all voxels as its own.
 VTKSVOCORE_EXPORT void attachLeafValues(
   vtkPolyData* hull, const Octree& octree, vtkDataArray* values);
+
+/// Copies of all values of the octree that a hull carries, of the same types and names, without
+/// tuples yet, each with what it is copied from.
+using LeafArrays = std::vector<std::pair<vtkDataArray*, vtkSmartPointer<vtkDataArray>>>;
+LeafArrays emptyCopiesOfLeafValues(vtkPolyData* hull);
+
+/// The number of the first voxel in a cell of an octree of planes, whose values stand for it.
+vtkIdType firstLeaf(const Octree& octree, const OctreeCell& cell);
 
 /// The values of that name of the octree that a hull carries; nullptr if there are none.
 VTKSVOCORE_EXPORT vtkDataArray* leafValues(vtkPolyData* hull, const char* name);

@@ -4,11 +4,16 @@
 
 #include "svoConversion.h"
 #include "svoOctreeCells.h"
+#include "vtkSVOToHyperTreeGrid.h"
+#include "vtkSVOToPolyData.h"
 #include "vtkSparseVoxelOctree.h"
 
+#include "vtkBitArray.h"
+#include "vtkCell.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkHyperTreeGrid.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
 #include "vtkPointData.h"
@@ -273,6 +278,65 @@ TEST(ImageToSVO, LeavesHaveValues)
   EXPECT_LT(bytes->GetRange(1)[0], 100.0);
   EXPECT_GT(bytes->GetRange(1)[1], 155.0);
   EXPECT_TRUE(conversion.messages.all().empty()) << conversion.messages.all();
+}
+
+TEST(ImageToSVO, CellsHandValuesOn)
+{
+  const auto image = distances(false);
+  vtkNew<vtkDoubleArray> height;
+  height->SetName("Height");
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    height->InsertNextValue(image->GetPoint(i)[2]);
+  }
+  image->GetPointData()->AddArray(height);
+  ImageConversion conversion(image);
+  constexpr int Level = 6;
+  conversion.filter->SetMaximumLevel(Level);
+  conversion.filter->SetColorArrayName("Height");
+  vtkPolyData* hull = conversion.output();
+  const svo::Octree octree = octreeOf(hull);
+
+  vtkNew<vtkSVOToPolyData> surface;
+  surface->SetInputData(hull);
+  for (const int level : { Level, Level - 1, Level - 2, 3 })
+  {
+    surface->SetLevel(level);
+    surface->Update();
+    vtkPolyData* cells = surface->GetOutput();
+    vtkDataArray* values = cells->GetCellData()->GetArray("Height");
+    ASSERT_NE(values, nullptr);
+    ASSERT_EQ(values->GetNumberOfTuples(), cells->GetNumberOfCells());
+    EXPECT_EQ(cells->GetFieldData()->GetArray("Height"), nullptr);
+    const double edge = std::ldexp(octree.header().voxelSize, Level - level);
+    for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i)
+    {
+      const double* b = cells->GetCell(i)->GetBounds();
+      ASSERT_NEAR(values->GetComponent(i, 0), 0.5 * (b[4] + b[5]), 1.001 * edge);
+    }
+  }
+
+  vtkNew<vtkSVOToHyperTreeGrid> tree;
+  tree->SetInputData(hull);
+  tree->Update();
+  vtkHyperTreeGrid* grid = tree->GetHyperTreeGridOutput();
+  vtkDataArray* values = grid->GetCellData()->GetArray("Height");
+  vtkDataArray* levels = grid->GetCellData()->GetArray("Level");
+  ASSERT_NE(values, nullptr);
+  double expected = 0.0, sum = 0.0;
+  vtkDataArray* leaves = hull->GetFieldData()->GetArray("Height");
+  for (vtkIdType i = 0; i < leaves->GetNumberOfTuples(); ++i)
+  {
+    expected += leaves->GetComponent(i, 0);
+  }
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+  {
+    if (levels->GetComponent(i, 0) == Level && !grid->GetMask()->GetValue(i))
+    {
+      sum += values->GetComponent(i, 0);
+    }
+  }
+  EXPECT_NEAR(sum, expected, 1e-6 * std::abs(expected));
 }
 
 TEST(ImageToSVO, SaysThatThereIsNoSuchArrayOfColors)
