@@ -338,6 +338,7 @@ Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Mater
   }
   const bool flat = property->GetInterpolation() == VTK_FLAT;
   normalsOf(mesh, flat, attributes, floats, kept);
+  material.flatPlanes = flat;
   material.flat = attributes.normalAssociation == Association::None;
   return nullptr;
 }

@@ -25,8 +25,9 @@ struct Material
   float diffuse = 1.0f;
   float specular = 0.0f;
   float specularPower = 1.0f;
-  bool lighting = true; // false: the colour as it is
-  bool flat = false;    // facet normals even where there are point normals
+  bool lighting = true;    // false: the colour as it is
+  bool flat = false;       // facet normals even where there are point normals
+  bool flatPlanes = false; // of octrees of planes: normals are those of the planes
 };
 
 /// One octree placed in the world.

@@ -55,7 +55,7 @@ void add(const Instance& i, Bytes& bytes)
   bytes.add(i.localToWorld, i.leafGeometry, i.pixelError, i.id, i.depthOffsetUnits, i.givesWay,
     i.neededLevel, i.visible, i.castShadow, i.receiveShadow);
   bytes.add(m.ambientColor, m.diffuseColor, m.specularColor, m.ambient, m.diffuse, m.specular,
-    m.specularPower, m.lighting, m.flat);
+    m.specularPower, m.lighting, m.flat, m.flatPlanes);
   bytes.add(a.normals, a.normalAssociation, a.colors, a.colorAssociation, a.colorCoordinates,
     a.colorTexture, a.colorTextureSize, a.version);
   bytes.add(i.points.floats, i.points.doubles, i.points.count);

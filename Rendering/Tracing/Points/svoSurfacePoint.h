@@ -7,6 +7,7 @@
 #include "svoRay.h"
 #include "svoScene.h"
 #include "svoView.h"
+#include "svoVoxelLook.h"
 #include "svoWorldToOctree.h"
 
 #include <algorithm>
@@ -166,17 +167,11 @@ inline bool shadersTurn(const SurfaceMatrices& frame, const View& view, const gl
   return glm::dot(glm::dvec3(facet), along) > 0.0;
 }
 
-/// The colour of a hit on an octree of planes: of a node that of the first voxel in it.
-inline glm::vec3 colorOfPlane(const Octree& octree, const Attributes& attributes, Primitive hit)
-{
-  return detail::colorAt(attributes.colors,
-    hit & NodePrimitive ? octree.firstPlane(hit & ~NodePrimitive) : hit);
-}
-
 /// A point of an octree of planes: on the plane that was hit, of a voxel or of a node. Where a
 /// node's mean plane faces away, the line of sight tells a surface that is seen from behind from a
 /// node that reaches beyond the outline: there it meets nothing, and the outline's normal is across
-/// it.
+/// it. The normal to shade with is interpolated between voxels, where the material wants it; colours
+/// are those of the voxel, of a node those of the nearest one in it.
 inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
   const glm::dvec3& position, const glm::vec3& towards, Primitive primitive)
 {
@@ -185,21 +180,37 @@ inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
   const auto inWorld = [&](const glm::vec3& normal)
   { return detail::normalized(frame.normalMatrix * normal, forwards); };
   const bool node = primitive & NodePrimitive;
-  glm::vec3 outwards = inWorld(
+  const glm::vec3 own =
     decodePlane(node ? octree.nodes()[primitive & ~NodePrimitive].plane : octree.lists()[primitive])
-      .normal);
+      .normal;
+  const glm::dvec3 at = frame.toOctree.point(position);
+  glm::vec3 outwards = inWorld(own);
   if (const float away = glm::dot(outwards, forwards); node && away < 0.0f)
   {
-    const Primitive seen = planeInSight(
-      octree, frame.toOctree.point(position), frame.toOctree.vector(glm::dvec3(towards)));
+    const Primitive seen = planeInSight(octree, at, frame.toOctree.vector(glm::dvec3(towards)));
     outwards = seen != NoPrimitive ? inWorld(decodePlane(octree.lists()[seen]).normal)
                                    : detail::normalized(outwards - away * forwards, forwards);
   }
-  const glm::vec3 facet = sideLane(outwards, towards) * outwards;
+  const float side = sideLane(outwards, towards);
+  const glm::vec3 facet = side * outwards;
+  glm::vec3 normal = facet;
+  if (!node && !frame.instance->material.flatPlanes)
+  {
+    normal = side * inWorld(smoothNormal(octree, at, own));
+    // On an outline it may turn away although its plane does not.
+    if (const float away = glm::dot(normal, forwards); away < 0.0f)
+    {
+      normal = detail::normalized(normal - away * forwards, facet);
+    }
+  }
   const Attributes& attributes = frame.instance->attributes;
   const bool colored = attributes.colors && attributes.colorAssociation == Association::Leaf;
-  return { position, facet, shadersTurn(frame, view, position, facet) ? -facet : facet,
-    colored ? colorOfPlane(octree, attributes, primitive) : glm::vec3(1.0f), colored };
+  const glm::vec3 color = colored
+    ? detail::colorAt(attributes.colors,
+        node ? nearestVoxel(octree, primitive & ~NodePrimitive, at) : primitive)
+    : glm::vec3(1.0f);
+  return { position, facet, shadersTurn(frame, view, position, facet) ? -normal : normal, color,
+    colored };
 }
 
 /// A point of a triangle, with the attributes that the triangle has at `at`, octree coordinates;
