@@ -1,4 +1,5 @@
-// The blocks of 8x8x8 voxels of a grid that may be occupied: its leaf nodes, and its active tiles.
+// The blocks of 8x8x8 voxels of a grid that are occupied: of its leaf nodes, and of its active
+// tiles.
 #ifndef svoVDBBlocks_h
 #define svoVDBBlocks_h
 
@@ -128,7 +129,7 @@ private:
     }
   }
 
-  /// Those around which values change: which of them have the surface in them is asked later.
+  /// Those that the surface passes.
   void fillSurface(const LeafT& leaf, VoxelBlock& block) const
   {
     if constexpr (!std::is_same_v<ValueT, bool>)
@@ -156,7 +157,8 @@ private:
         {
           near.at[i] = around[at.z + i / 9][at.y + i / 3 % 3][at.x + i % 3];
         }
-        if (near.change())
+        SourcePlane plane;
+        if (levelSetPlane(near, plane))
         {
           block.add(at);
         }
