@@ -30,11 +30,17 @@ struct Refused
   std::string message;
 };
 
-/// Which values are occupied.
-template <class Value>
-bool isAbove([[maybe_unused]] const Value& value, [[maybe_unused]] double threshold)
+/// Which active values are occupied: of masks, which have none, all.
+template <class GridT>
+bool isAbove(
+  [[maybe_unused]] const typename GridT::ValueType& value, [[maybe_unused]] double threshold)
 {
-  if constexpr (std::is_same_v<Value, bool>)
+  if constexpr (std::is_same_v<typename GridT::TreeType::LeafNodeType::BuildType,
+                  openvdb::ValueMask>)
+  {
+    return true;
+  }
+  else if constexpr (std::is_same_v<typename GridT::ValueType, bool>)
   {
     return value;
   }
@@ -122,7 +128,7 @@ private:
     }
     for (auto voxel = leaf.cbeginValueOn(); voxel; ++voxel)
     {
-      if (isAbove<ValueT>(*voxel, this->Value))
+      if (isAbove<GridT>(*voxel, this->Value))
       {
         block.add(inBlock(voxel.getCoord()));
       }
@@ -174,7 +180,7 @@ private:
     tile.setMaxDepth(decltype(tile)::LEAF_DEPTH - 1);
     for (; tile; ++tile)
     {
-      if (isAbove<ValueT>(*tile, this->Value))
+      if (isAbove<GridT>(*tile, this->Value))
       {
         tiles.push_back(tile.getBoundingBox());
         const openvdb::CoordBBox& box = tiles.back();

@@ -104,7 +104,7 @@ private:
         for (int x = -Reach; x <= Reach; ++x)
         {
           ValueT value;
-          if (values.probeValue(at.offsetBy(x, y, z), value) && isAbove<ValueT>(value, this->Value))
+          if (values.probeValue(at.offsetBy(x, y, z), value) && isAbove<GridT>(value, this->Value))
           {
             const glm::dvec3 way(x, y, z);
             out -= way / std::max(glm::dot(way, way), 1.0);

@@ -14,6 +14,7 @@
 #include <map>
 #include <random>
 
+#include <openvdb/tools/Interpolation.h>
 #include <openvdb/tools/RayIntersector.h>
 
 namespace

@@ -21,13 +21,13 @@
 namespace
 {
 using namespace svotest;
-using Voxel = std::tuple<int, int, int>;
+using VoxelAt = std::tuple<int, int, int>;
 
 /// All voxels with a bit are occupied, but for those of `holes`.
 struct KnownVoxels : svo::BlockSource
 {
   using BlockSource::BlockSource;
-  std::set<Voxel> holes;
+  std::set<VoxelAt> holes;
   bool planeOf(const glm::ivec3& voxel, svo::SourcePlane& plane) const override
   {
     plane = { glm::dvec3(0.0, 0.0, 1.0), 0.25 };
@@ -35,7 +35,7 @@ struct KnownVoxels : svo::BlockSource
   }
 };
 
-std::vector<svo::VoxelBlock> blocksOf(const std::set<Voxel>& voxels)
+std::vector<svo::VoxelBlock> blocksOf(const std::set<VoxelAt>& voxels)
 {
   std::map<std::uint64_t, svo::VoxelBlock> blocks;
   for (const auto& [x, y, z] : voxels)
@@ -53,11 +53,11 @@ std::vector<svo::VoxelBlock> blocksOf(const std::set<Voxel>& voxels)
   return sorted;
 }
 
-std::set<Voxel> someVoxels(int level, int count, unsigned seed)
+std::set<VoxelAt> someVoxels(int level, int count, unsigned seed)
 {
   std::mt19937 random(seed);
   std::uniform_int_distribution<int> at(0, (1 << level) - 1);
-  std::set<Voxel> voxels;
+  std::set<VoxelAt> voxels;
   for (int i = 0; i < count; ++i)
   {
     voxels.insert({ at(random), at(random), at(random) });
@@ -85,11 +85,11 @@ TEST(BlockSource, TheVoxelsAreThoseOfTheBlocks)
   {
     // An edge that is no power of two, far away: voxels are found by rounding.
     const svo::Cube cube{ { 1e4 + 0.1, -3e3 - 0.7, 0.3 }, std::ldexp(0.1, level) };
-    const std::set<Voxel> voxels = someVoxels(level, 700, static_cast<unsigned>(level));
+    const std::set<VoxelAt> voxels = someVoxels(level, 700, static_cast<unsigned>(level));
     KnownVoxels source(blocksOf(voxels), cube, level);
     EXPECT_EQ(source.count(), voxels.size());
     int i = 0;
-    for (const Voxel& voxel : voxels)
+    for (const VoxelAt& voxel : voxels)
     {
       if (++i % 5 == 0)
       {
@@ -98,7 +98,7 @@ TEST(BlockSource, TheVoxelsAreThoseOfTheBlocks)
     }
     const svo::Octree octree = openPlanes(buildOf(source, cube, level));
     ASSERT_EQ(octree.header().voxelCount, voxels.size() - source.holes.size());
-    for (const Voxel& voxel : voxels)
+    for (const VoxelAt& voxel : voxels)
     {
       const auto& [x, y, z] = voxel;
       ASSERT_EQ(octree.occupied({ x, y, z }, level), source.holes.count(voxel) == 0);
@@ -220,8 +220,17 @@ TEST(BlockSource, ValuesWithoutASurfaceHaveNoPlane)
   {
     EXPECT_FALSE(svo::levelSetPlane(filled(value), plane));
   }
+  // The surface around a single voxel ends in the middle of its way to the next one.
   svo::VoxelValues values = filled(1.0);
-  values(1, 0, 0) = -1.0;
+  values(1, 0, 0) = -0.99;
+  EXPECT_FALSE(svo::levelSetPlane(values, plane));
+  values(1, 0, 0) = -1.01;
+  EXPECT_TRUE(svo::levelSetPlane(values, plane));
+  EXPECT_GT(plane.normal.x, -1.01);
+  EXPECT_LT(plane.normal.x, -0.99);
+  EXPECT_LE(std::abs(plane.offset), 0.5);
+  values = filled(1.0);
+  values(0, 0, 0) = -0.1;
   EXPECT_TRUE(svo::levelSetPlane(values, plane));
   values(-1, -1, 1) = std::nan("");
   EXPECT_FALSE(svo::levelSetPlane(values, plane));
