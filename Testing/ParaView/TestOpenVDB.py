@@ -75,10 +75,12 @@ class TestOpenVDB(unittest.TestCase):
         path = self.write("kinds.vdb")
         reader = pv.SVOVDBReader(FileNames=[path], GridName="surface", Conversion="Voxels", Threshold=-1.0)
         reader.UpdatePipeline()
+        reader.UpdatePropertyInformation()
         all_voxels = reader.GetProperty("NumberOfVoxels").GetData()
         reader.Threshold = 0.0
         reader.UpdatePipeline()
         reader.UpdatePropertyInformation()
+        self.assertGreater(reader.GetProperty("NumberOfVoxels").GetData(), 0)
         self.assertLess(reader.GetProperty("NumberOfVoxels").GetData(), all_voxels)
 
     def test_missing_file_is_one_message(self):

@@ -373,7 +373,12 @@ TEST(VDBReader, WhatIsNoFileOfOpenVDBIsOneError)
   Reading none("");
   none.expectError("its name is not set");
   Reading missing("/nowhere/missing.vdb");
+  EXPECT_EQ(missing.reader->GetGridNames()->GetNumberOfValues(), 0);
   missing.expectError("it cannot be opened");
+  Reading asked("/nowhere/asked.vdb");
+  EXPECT_EQ(asked.reader->GetNumberOfGrids(), 0);
+  EXPECT_EQ(asked.reader->GetNumberOfGrids(), 0);
+  EXPECT_EQ(asked.messages.errors.size(), 1u);
   EXPECT_EQ(missing.reader->CanReadFile("/nowhere/missing.vdb"), 0);
   const TemporaryFile text("text.vdb"), empty("empty.vdb"), whole("whole.vdb");
   std::ofstream(text.name()) << "this is not a file of OpenVDB, but of letters only, and of many";
