@@ -32,7 +32,7 @@ public:
   }
 
   /// The distance of a point from the nearest triangle that is nearer than `bound`; else the bound.
-  /// distanceOf(triangle, point) is a triangle's.
+  /// distanceOf(triangle, point, bound) is a triangle's, or more than the bound.
   template <class DistanceOf>
   double distance(const glm::dvec3& point, double bound, const DistanceOf& distanceOf)
   {
@@ -61,7 +61,7 @@ public:
       const std::uint32_t* ids = this->Tree.brickTriangles(brick.node, count, alone);
       for (std::uint32_t i = 0; i < count; ++i)
       {
-        bound = std::min(bound, distanceOf(ids[i], point));
+        bound = std::min(bound, distanceOf(ids[i], point, bound));
       }
     }
     return bound;

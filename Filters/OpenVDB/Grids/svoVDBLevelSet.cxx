@@ -48,10 +48,22 @@ struct Polygons
   {
     at = points[corners[n][v]];
   }
-  /// Of a point from a triangle.
-  double distance(std::size_t n, const glm::dvec3& p) const
+  /// Of a point from a triangle; the bound, if that is less.
+  double distance(std::size_t n, const glm::dvec3& p, double bound) const
   {
     const auto& c = corners[n];
+    double square = 0.0; // of the distance from the triangle's box
+    for (int i = 0; i < 3; ++i)
+    {
+      const double x = points[c[0]][i], y = points[c[1]][i], z = points[c[2]][i];
+      const double away =
+        std::max({ std::min({ x, y, z }) - p[i], p[i] - std::max({ x, y, z }), 0.0 });
+      square += away * away;
+    }
+    if (square >= bound * bound)
+    {
+      return bound;
+    }
     openvdb::Vec3d weights;
     const openvdb::Vec3d at(p.x, p.y, p.z);
     return (openvdb::math::closestPointOnTriangleToPoint(
@@ -232,8 +244,8 @@ void measure(const Octree& octree, const Polygons& polygons, float halfWidth, do
           const openvdb::Coord at = value.getCoord();
           const double exact =
             near.distance({ at.x(), at.y(), at.z() }, std::abs(static_cast<double>(*value)) / voxel,
-              [&](std::uint32_t triangle, const glm::dvec3& p)
-              { return polygons.distance(polygons.ofTriangle[triangle], p); });
+              [&](std::uint32_t triangle, const glm::dvec3& p, double bound)
+              { return polygons.distance(polygons.ofTriangle[triangle], p, bound); });
           const auto distance = static_cast<float>(exact * voxel);
           if (distance < end)
           {
