@@ -8,7 +8,12 @@ import unittest
 
 import vtksvo
 from vtkmodules.vtkCommonCore import reference
-from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
+from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingCore import (
+    vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter)
 
 try:
     import pyopenvdb as openvdb  # up to OpenVDB 10
@@ -122,6 +127,64 @@ class OpenVDB(unittest.TestCase):
         self.assertFalse(octree.IsOccupied(outside, 20))
         bounds = octree.GetBounds()
         self.assertTrue(all(bounds[2 * i] < inside[i] < bounds[2 * i + 1] for i in range(3)))
+
+    @unittest.skipUnless(openvdb, "python3-openvdb is not installed")
+    def test_a_sheared_grid_looks_as_the_sheared_mesh(self):
+        rows = [[0.1, 0, 0.02, 0], [0.05, 0.2, 0, 0], [0, 0.03, 0.15, 0], [7, 8, 9, 1]]
+        ball = openvdb.createLevelSetSphere(radius=30.0, voxelSize=1.0)
+        ball.transform = openvdb.createLinearTransform(rows)
+        openvdb.write(self.path, grids=[ball])
+        reader = vtksvo.vtkSVOVDBReader()
+        reader.SetFileName(self.path)
+        source, transform, sheared = vtkSphereSource(), vtkTransform(), vtkTransformPolyDataFilter()
+        source.SetRadius(30.0)
+        source.SetThetaResolution(200)
+        source.SetPhiResolution(200)
+        transform.SetMatrix([rows[column][row] for row in range(4) for column in range(4)])
+        sheared.SetTransform(transform)
+        sheared.SetInputConnection(source.GetOutputPort())
+        pictures = []
+        for shape in reader, sheared:
+            mapper, actor, ground = vtkPolyDataMapper(), vtkActor(), vtkPlaneSource()
+            mapper.SetInputConnection(shape.GetOutputPort())
+            mapper.ScalarVisibilityOff()
+            actor.SetMapper(mapper)
+            actor.SetScale(1.0, 1.3, 0.8)
+            actor.RotateZ(30.0)
+            ground.SetOrigin(-40, -40, -2)
+            ground.SetPoint1(60, -40, -2)
+            ground.SetPoint2(-40, 60, -2)
+            below, floor = vtkPolyDataMapper(), vtkActor()
+            below.SetInputConnection(ground.GetOutputPort())
+            floor.SetMapper(below)
+            renderer, light, window = vtkRenderer(), vtkLight(), vtkRenderWindow()
+            light.SetLightTypeToSceneLight()
+            light.SetPosition(20, -10, 40)
+            light.SetFocalPoint(2, 10, 7)
+            renderer.AddLight(light)
+            renderer.AddActor(actor)
+            renderer.AddActor(floor)
+            renderer.SetPass(vtksvo.vtkSVORenderPass())
+            renderer.GetActiveCamera().SetPosition(30, -35, 30)
+            renderer.GetActiveCamera().SetFocalPoint(4, 10, 4)
+            renderer.GetActiveCamera().SetViewUp(0, 0, 1)
+            renderer.ResetCameraClippingRange()
+            window.SetOffScreenRendering(True)
+            window.SetSize(300, 200)
+            window.AddRenderer(renderer)
+            window.Render()
+            grab = vtkWindowToImageFilter()
+            grab.SetInput(window)
+            grab.Update()
+            pictures.append(bytes(memoryview(grab.GetOutput().GetPointData().GetScalars())))
+            if "VTKSVO_PICTURES" in os.environ:
+                writer = vtkPNGWriter()
+                writer.SetInputConnection(grab.GetOutputPort())
+                writer.SetFileName(os.path.join(os.environ["VTKSVO_PICTURES"], f"sheared-{len(pictures)}.png"))
+                writer.Write()
+        differing = sum(abs(a - b) > 32 for a, b in zip(*pictures))
+        self.assertGreater(len(set(pictures[1])), 20)
+        self.assertLess(differing, 0.01 * len(pictures[0]))
 
 
 if __name__ == "__main__":
