@@ -14,13 +14,17 @@ ccache|makes the next build from scratch quick
 libvtk9-dev|VTK: headers, libraries, Python wrapping
 python3-vtk9|VTK's own Python package, which vtksvo stands beside
 libglm-dev|vectors and matrices of the engine
-libhwy-dev|Highway: SIMD, the instruction set chosen at run time"
+libhwy-dev|Highway: SIMD, the instruction set chosen at run time
+libopenvdb-dev|reads and writes OpenVDB's files; without it the build leaves that out
+libtbb-dev|OpenVDB's threads"
 packages_test="
 libgtest-dev|unit tests
 xvfb|a display for machines without one
 xauth|access to that display
 libgl1-mesa-dri|software OpenGL
 libembree-dev|the ray tracer that the benchmark compares with
+libopenvdb-tools|vdb_print, which has to open the OpenVDB files that we write
+python3-openvdb|so has OpenVDB's Python module
 dpkg-dev|finds out what our own packages depend on
 file|tells it which of their files are programs"
 # ParaView's window is made with Qt 5 in Debian 12 and with Qt 6 since.

@@ -5,7 +5,12 @@ option(VTKSVO_OPENVDB "Build what reads and writes OpenVDB's files, if OpenVDB i
 find_path(OPENVDB_INCLUDE_DIR openvdb/openvdb.h)
 find_library(OPENVDB_LIBRARY openvdb)
 find_library(TBB_LIBRARY tbb)
-mark_as_advanced(OPENVDB_INCLUDE_DIR OPENVDB_LIBRARY TBB_LIBRARY)
+find_library(IMATH_LIBRARY NAMES Imath Imath-3_1 Imath-3_2) # its half floats; where OpenVDB has none of its own
+mark_as_advanced(OPENVDB_INCLUDE_DIR OPENVDB_LIBRARY TBB_LIBRARY IMATH_LIBRARY)
+set(VTKSVO_OPENVDB_LIBRARIES "${OPENVDB_LIBRARY}" "${TBB_LIBRARY}")
+if (IMATH_LIBRARY)
+  list(APPEND VTKSVO_OPENVDB_LIBRARIES "${IMATH_LIBRARY}")
+endif ()
 set(VTKSVO_HAS_OPENVDB OFF)
 if (OPENVDB_INCLUDE_DIR AND OPENVDB_LIBRARY AND TBB_LIBRARY)
   set(VTKSVO_HAS_OPENVDB ${VTKSVO_OPENVDB})

@@ -20,8 +20,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 vtkStandardNewMacro(vtkSVOVDBReader);
@@ -48,15 +50,9 @@ public:
   std::string GridName;
   svo::VDBContents Contents; // of the first file
   vtkNew<vtkStringArray> GridNames;
-  std::string Known; // the file whose contents these are
-  vtkTimeStamp ChangedTime, KnownTime;
+  std::string Known; // the file whose contents these are, and when it was written
+  std::filesystem::file_time_type KnownTime;
   std::string MetaData;
-
-  void changed()
-  {
-    this->ChangedTime.Modified();
-    this->Known.clear();
-  }
 };
 
 //------------------------------------------------------------------------------
@@ -79,7 +75,6 @@ void vtkSVOVDBReader::SetFileName(const char* fileName)
   if (files != this->Internals->Files)
   {
     this->Internals->Files = files;
-    this->Internals->changed();
     this->Modified();
   }
 }
@@ -96,7 +91,6 @@ void vtkSVOVDBReader::AddFileName(const char* fileName)
   if (fileName && *fileName)
   {
     this->Internals->Files.emplace_back(fileName);
-    this->Internals->changed();
     this->Modified();
   }
 }
@@ -149,29 +143,39 @@ const char* vtkSVOVDBReader::GetGridName()
 }
 
 //------------------------------------------------------------------------------
-void vtkSVOVDBReader::ReadContents()
+/// Why they could not be read, if that was tried now.
+std::string vtkSVOVDBReader::ReadContents()
 {
   vtkInternals& own = *this->Internals;
-  if (own.Files.empty() || own.Known == own.Files.front())
+  if (own.Files.empty())
   {
-    return;
+    return {};
+  }
+  std::error_code ignored; // what cannot be opened says so below
+  const auto written = std::filesystem::last_write_time(own.Files.front(), ignored);
+  if (own.Known == own.Files.front() && own.KnownTime == written)
+  {
+    return {};
   }
   own.Known = own.Files.front();
+  own.KnownTime = written;
   const std::string reason = svo::readVDBContents(own.Known, own.Contents);
   own.GridNames->Initialize();
   for (const std::string& name : own.Contents.grids)
   {
     own.GridNames->InsertNextValue(name);
   }
-  if (!reason.empty())
-  {
-    vtkErrorMacro("The file " << own.Known << " cannot be read: " << reason << ".");
-  }
+  return reason;
 }
 
 //------------------------------------------------------------------------------
 int vtkSVOVDBReader::GetNumberOfGrids()
 {
+  const std::string reason = this->ReadContents();
+  if (!reason.empty())
+  {
+    vtkErrorMacro("The file " << this->GetFileName() << " cannot be read: " << reason << ".");
+  }
   return static_cast<int>(this->GetGridNames()->GetNumberOfValues());
 }
 

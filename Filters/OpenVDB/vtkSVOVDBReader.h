@@ -31,6 +31,7 @@
 #include "vtkSVOOpenVDBModule.h" // for the export macro
 
 #include <memory> // for std::unique_ptr
+#include <string> // for what only this class sees
 
 class vtkStringArray;
 
@@ -78,7 +79,7 @@ public:
   /**
    * The grids of the (first) file, in the order of their names. The file is looked at when this is
    * asked, without a pipeline. 0 grids, and one error, if it cannot be read; nullptr for an index
-   * out of range.
+   * out of range. GetGridNames() leaves the error to the execution.
    */
   int GetNumberOfGrids();
   const char* GetGridName(int i);
@@ -148,7 +149,7 @@ private:
   vtkSVOVDBReader(const vtkSVOVDBReader&) = delete;
   void operator=(const vtkSVOVDBReader&) = delete;
 
-  void ReadContents();
+  std::string ReadContents();
   const char* FileOfStep(vtkInformationVector* outputVector);
 
   class vtkInternals;

@@ -3,9 +3,9 @@
  * @brief writes a sparse voxel octree as grids of an OpenVDB file
  *
  * The input is any polydata that carries an octree: of vtkPolyDataToSVO, or of a source without
- * triangles. The file has a mask grid "leaves" with the octree's leaves, which lies where the
- * octree does in the polydata's frame (not the actor's). vtkSVOVDBReader reads the same leaves
- * again, and any program that uses OpenVDB can.
+ * triangles. The file has a grid "leaves" that masks the octree's leaves (bools, active and true
+ * there), which lies where the octree does in the polydata's frame (not the actor's).
+ * vtkSVOVDBReader reads the same leaves again, and any program that uses OpenVDB can.
  *
  * On request there is a level set "surface" as well: a narrow band of distances, negative inside,
  * measured from the mesh's triangles where there are any, else from the planes of the leaves, or

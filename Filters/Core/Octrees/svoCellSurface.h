@@ -3,6 +3,7 @@
 #define svoCellSurface_h
 
 #include "svoOctreeCells.h"
+#include "vtkSVOCoreModule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -23,10 +24,18 @@ struct CellFace
   glm::ivec3 corners[4];
 };
 constexpr int CellFaces = 6;
-extern const CellFace FacesOfCell[CellFaces];
+inline const CellFace FacesOfCell[CellFaces] = {
+  { { -1, 0, 0 }, { { 0, 0, 0 }, { 0, 0, 1 }, { 0, 1, 1 }, { 0, 1, 0 } } },
+  { { 1, 0, 0 }, { { 1, 0, 0 }, { 1, 1, 0 }, { 1, 1, 1 }, { 1, 0, 1 } } },
+  { { 0, -1, 0 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 1 }, { 0, 0, 1 } } },
+  { { 0, 1, 0 }, { { 0, 1, 0 }, { 0, 1, 1 }, { 1, 1, 1 }, { 1, 1, 0 } } },
+  { { 0, 0, -1 }, { { 0, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { 1, 0, 0 } } },
+  { { 0, 0, 1 }, { { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } } },
+};
 
 /// False if the neighbour `at` of a cell of the level is empty.
-bool isOccupied(const Octree& octree, const OctreeCell& cell, const glm::ivec3& at, int level);
+VTKSVOCORE_EXPORT bool isOccupied(
+  const Octree& octree, const OctreeCell& cell, const glm::ivec3& at, int level);
 
 /// Calls visit(cell, faces), a bit for each face that is shown, for every cell that shows any,
 /// until it returns false. `interior`: faces between two occupied cells are shown, too.

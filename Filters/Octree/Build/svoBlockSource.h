@@ -16,7 +16,7 @@
 
 namespace svo
 {
-struct VoxelBlock
+struct VTKSVOOCTREE_EXPORT VoxelBlock
 {
   static constexpr int Edge = 8; // voxels
 

@@ -11,8 +11,6 @@ namespace svo
 {
 namespace
 {
-constexpr double Rounding = 1.0 + 1e-9; // touching counts
-
 /// The trilinear field at a point of [-1, 1]^3, 0 being the middle voxel's centre.
 double interpolated(const VoxelValues& values, const glm::dvec3& at)
 {
@@ -29,18 +27,25 @@ double interpolated(const VoxelValues& values, const glm::dvec3& at)
   return sum;
 }
 
-/// Whether the voxel's corners lie on both sides.
+/// Whether the surface passes the voxel. In each of its octants the field is trilinear, so that its
+/// extremes lie at the corners of the octants: means of two, four and eight values.
 bool crosses(const VoxelValues& values)
 {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (int i = 0; i < 8; ++i)
+  double half[VoxelValues::Count];
+  std::copy(values.at, values.at + VoxelValues::Count, half);
+  for (const int step : { 1, 3, 9 })
   {
-    const double value =
-      interpolated(values, { i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5 });
-    low = std::min(low, value);
-    high = std::max(high, value);
+    for (int i = 0; i < VoxelValues::Count; ++i)
+    {
+      if (i / step % 3 == 1)
+      {
+        half[i - step] = 0.5 * (half[i - step] + half[i]);
+        half[i + step] = 0.5 * (half[i] + half[i + step]);
+      }
+    }
   }
-  return low <= 0.0 && high >= 0.0 && low < high;
+  const auto [low, high] = std::minmax_element(half, half + VoxelValues::Count);
+  return *low <= 0.0 && *high >= 0.0 && *low < *high;
 }
 
 /// Differences of neighbours; where they cancel, as in a thin sheet, of all that is around.
@@ -77,7 +82,7 @@ bool VoxelValues::change() const
 
 bool levelSetPlane(const VoxelValues& values, SourcePlane& plane)
 {
-  if (!values.change())
+  if (!values.change() || !crosses(values))
   {
     return false;
   }
@@ -87,27 +92,23 @@ bool levelSetPlane(const VoxelValues& values, SourcePlane& plane)
   const double scale = std::max({ size.x, size.y, size.z });
   if (!(scale > 0.0) || !std::isfinite(scale) || !std::isfinite(1.0 / scale))
   {
-    return false;
+    plane = { glm::dvec3(0.0, 0.0, 1.0), 0.0 };
+    return true;
   }
   const double length = scale * glm::length(gradient / scale);
   plane.normal = glm::normalize(gradient / scale);
   plane.offset = -values(0, 0, 0) / length;
-  // The foot, if it is near enough to be one, and if the field is flat enough there.
-  bool settled = false;
+  // What the field is at the foot corrects, if that is near enough to be one, and the field is flat
+  // enough there.
   if (std::abs(plane.offset) <= 1.0)
   {
     const double rest = interpolated(values, plane.offset * plane.normal);
-    settled = std::abs(rest) <= 0.5 * std::abs(values(0, 0, 0));
+    const bool settled = std::abs(rest) <= 0.5 * std::abs(values(0, 0, 0));
     plane.offset -= settled ? rest / length : 0.0;
   }
-  const glm::dvec3 n = glm::abs(plane.normal);
-  const bool passes = settled && std::abs(plane.offset) <= 0.5 * (n.x + n.y + n.z) * Rounding;
-  if (!passes && !crosses(values))
-  {
-    return false;
-  }
-  // Where edges bend the surface away its plane need not pass.
-  plane.offset = std::clamp(plane.offset, -0.5 * (n.x + n.y + n.z), 0.5 * (n.x + n.y + n.z));
+  // Where the field bends, its plane need not pass.
+  const double reach = 0.5 * (size.x + size.y + size.z) / length;
+  plane.offset = std::clamp(plane.offset, -reach, reach);
   return std::isfinite(plane.offset);
 }
 }

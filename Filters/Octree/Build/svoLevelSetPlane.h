@@ -1,9 +1,9 @@
 // The plane of a voxel from values at the centres of the voxels around it: of a level set.
 //
-// The field is trilinear between the centres. The normal is that of the differences of neighbours;
-// where the surface is, one step of Newton's method says from the voxel's centre, and the field at
-// the foot corrects. The voxel is occupied where its plane passes it, or where its corners lie on
-// both sides: what svoFieldSource.h says of fields, and why that misses next to nothing.
+// The field is trilinear between the centres, and the voxel is occupied where it takes the
+// surface's value in the voxel, faces included: nothing is missed. The plane is that of the
+// differences of neighbours; where it lies, one step of Newton's method says from the voxel's
+// centre, and the field at the foot corrects.
 #ifndef svoLevelSetPlane_h
 #define svoLevelSetPlane_h
 
@@ -28,7 +28,8 @@ struct VoxelValues
 };
 
 /// Whether the surface passes the voxel in the middle, and then as which plane: the normal towards
-/// larger values, the offset in voxels. False where values are not finite, or all the same.
+/// larger values, the offset in voxels. Where differences cancel, as around a single voxel, it
+/// looks upwards. False where values are not finite, or all the same.
 VTKSVOOCTREE_EXPORT bool levelSetPlane(const VoxelValues& values, SourcePlane& plane);
 }
 

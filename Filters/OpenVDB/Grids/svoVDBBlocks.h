@@ -1,4 +1,5 @@
-// The blocks of 8x8x8 voxels of a grid that may be occupied: its leaf nodes, and its active tiles.
+// The blocks of 8x8x8 voxels of a grid that are occupied: of its leaf nodes, and of its active
+// tiles.
 #ifndef svoVDBBlocks_h
 #define svoVDBBlocks_h
 
@@ -29,11 +30,17 @@ struct Refused
   std::string message;
 };
 
-/// Which values are occupied.
-template <class Value>
-bool isAbove([[maybe_unused]] const Value& value, [[maybe_unused]] double threshold)
+/// Which active values are occupied: of masks, which have none, all.
+template <class GridT>
+bool isAbove(
+  [[maybe_unused]] const typename GridT::ValueType& value, [[maybe_unused]] double threshold)
 {
-  if constexpr (std::is_same_v<Value, bool>)
+  if constexpr (std::is_same_v<typename GridT::TreeType::LeafNodeType::BuildType,
+                  openvdb::ValueMask>)
+  {
+    return true;
+  }
+  else if constexpr (std::is_same_v<typename GridT::ValueType, bool>)
   {
     return value;
   }
@@ -121,14 +128,14 @@ private:
     }
     for (auto voxel = leaf.cbeginValueOn(); voxel; ++voxel)
     {
-      if (isAbove<ValueT>(*voxel, this->Value))
+      if (isAbove<GridT>(*voxel, this->Value))
       {
         block.add(inBlock(voxel.getCoord()));
       }
     }
   }
 
-  /// Those around which values change: which of them have the surface in them is asked later.
+  /// Those that the surface passes.
   void fillSurface(const LeafT& leaf, VoxelBlock& block) const
   {
     if constexpr (!std::is_same_v<ValueT, bool>)
@@ -156,7 +163,8 @@ private:
         {
           near.at[i] = around[at.z + i / 9][at.y + i / 3 % 3][at.x + i % 3];
         }
-        if (near.change())
+        SourcePlane plane;
+        if (levelSetPlane(near, plane))
         {
           block.add(at);
         }
@@ -172,7 +180,7 @@ private:
     tile.setMaxDepth(decltype(tile)::LEAF_DEPTH - 1);
     for (; tile; ++tile)
     {
-      if (isAbove<ValueT>(*tile, this->Value))
+      if (isAbove<GridT>(*tile, this->Value))
       {
         tiles.push_back(tile.getBoundingBox());
         const openvdb::CoordBBox& box = tiles.back();

@@ -12,11 +12,11 @@
 
 namespace svo
 {
-openvdb::MaskGrid::Ptr leavesOf(const Octree& octree)
+openvdb::BoolGrid::Ptr leavesOf(const Octree& octree)
 {
-  using LeafT = openvdb::MaskTree::LeafNodeType;
+  using LeafT = openvdb::BoolTree::LeafNodeType;
   static_assert(LeafT::DIM == 8, "eight bricks are a leaf node");
-  const openvdb::MaskGrid::Ptr grid = openvdb::MaskGrid::create();
+  const openvdb::BoolGrid::Ptr grid = openvdb::BoolGrid::create(false);
   LeafT* leaf = nullptr;
   forEachCell(octree, octree.level(),
     [&](const OctreeCell& cell)
@@ -27,7 +27,7 @@ openvdb::MaskGrid::Ptr leavesOf(const Octree& octree)
       {
         leaf = grid->tree().touchLeaf(at);
       }
-      leaf->setValueOn(LeafT::coordToOffset(at));
+      leaf->setValueOn(LeafT::coordToOffset(at), true);
       return true;
     });
   openvdb::tools::prune(grid->tree());

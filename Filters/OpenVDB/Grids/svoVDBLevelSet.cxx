@@ -3,6 +3,7 @@
 #include "svoCellSurface.h"
 #include "svoMeshTriangles.h"
 #include "svoMorton.h"
+#include "svoNearTriangles.h"
 #include "svoOctree.h"
 #include "svoOctreeCells.h"
 #include "svoPlane.h"
@@ -20,7 +21,12 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <openvdb/math/Proximity.h>
+#include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/MeshToVolume.h>
+#include <openvdb/tools/Prune.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 namespace svo
 {
@@ -33,6 +39,7 @@ struct Polygons
 {
   std::vector<Vec3d> points;
   std::vector<std::array<std::uint32_t, 4>> corners; // of a triangle the last two are the same
+  std::vector<std::uint32_t> ofTriangle;             // of the octree's, where it has any
 
   std::size_t polygonCount() const { return corners.size(); }
   std::size_t pointCount() const { return points.size(); }
@@ -40,6 +47,29 @@ struct Polygons
   void getIndexSpacePoint(std::size_t n, std::size_t v, Vec3d& at) const
   {
     at = points[corners[n][v]];
+  }
+  /// Of a point from a triangle; the bound, if that is less.
+  double distance(std::size_t n, const glm::dvec3& p, double bound) const
+  {
+    const auto& c = corners[n];
+    double square = 0.0; // of the distance from the triangle's box
+    for (int i = 0; i < 3; ++i)
+    {
+      const double x = points[c[0]][i], y = points[c[1]][i], z = points[c[2]][i];
+      const double away =
+        std::max({ std::min({ x, y, z }) - p[i], p[i] - std::max({ x, y, z }), 0.0 });
+      square += away * away;
+    }
+    if (square >= bound * bound)
+    {
+      return bound;
+    }
+    openvdb::Vec3d weights;
+    const openvdb::Vec3d at(p.x, p.y, p.z);
+    return (openvdb::math::closestPointOnTriangleToPoint(
+              points[c[0]], points[c[1]], points[c[2]], at, weights) -
+      at)
+      .length();
   }
 };
 
@@ -57,7 +87,7 @@ void addPolygon(const std::vector<glm::dvec3>& ring, Polygons& to)
   }
 }
 
-/// The mesh's triangles; those that the octree left out, with points that are not finite, as well.
+/// The mesh's triangles, but for those that the octree left out, with points that are not finite.
 void addTriangles(const Octree& octree, vtkPolyData* mesh, Polygons& to)
 {
   const MeshTriangles triangles(mesh);
@@ -76,6 +106,7 @@ void addTriangles(const Octree& octree, vtkPolyData* mesh, Polygons& to)
   for (std::size_t i = 0; i < view.triangleCount; ++i)
   {
     const glm::uvec3& t = view.triangles[i];
+    to.ofTriangle.push_back(static_cast<std::uint32_t>(to.corners.size()));
     if (finite[t.x] && finite[t.y] && finite[t.z])
     {
       to.corners.push_back({ t.x, t.y, t.z, t.z });
@@ -191,6 +222,47 @@ private:
   std::atomic<bool> Stopped{ false };
 };
 
+/// Makes distances exact, of which OpenVDB knows an upper bound from the triangles of neighbours,
+/// and ends the band where they say so.
+void measure(const Octree& octree, const Polygons& polygons, float halfWidth, double voxel,
+  openvdb::FloatGrid& grid)
+{
+  using LeafT = openvdb::FloatTree::LeafNodeType;
+  std::vector<LeafT*> leaves;
+  grid.tree().getNodes(leaves);
+  const auto end = static_cast<float>(halfWidth * voxel);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves.size()),
+    [&](const tbb::blocked_range<std::size_t>& range)
+    {
+      for (std::size_t i = range.begin(); i < range.end(); ++i)
+      {
+        LeafT& leaf = *leaves[i];
+        const openvdb::Coord& corner = leaf.origin();
+        NearTriangles near(octree, { corner.x(), corner.y(), corner.z() }, halfWidth + 1.0);
+        for (auto value = leaf.beginValueOn(); value; ++value)
+        {
+          const openvdb::Coord at = value.getCoord();
+          const double exact =
+            near.distance({ at.x(), at.y(), at.z() }, std::abs(static_cast<double>(*value)) / voxel,
+              [&](std::uint32_t triangle, const glm::dvec3& p, double bound)
+              { return polygons.distance(polygons.ofTriangle[triangle], p, bound); });
+          const auto distance = static_cast<float>(exact * voxel);
+          if (distance < end)
+          {
+            value.setValue(*value < 0.0f ? -distance : distance);
+          }
+          else
+          {
+            value.setValue(*value < 0.0f ? -end : end);
+            value.setValueOff();
+          }
+        }
+      }
+    });
+  openvdb::tools::changeLevelSetBackground(grid.tree(), end);
+  openvdb::tools::pruneLevelSet(grid.tree());
+}
+
 bool anyInside(const openvdb::FloatGrid& grid)
 {
   for (auto value = grid.cbeginValueAll(); value; ++value)
@@ -226,13 +298,23 @@ openvdb::FloatGrid::Ptr levelSetOf(const Octree& octree, vtkPolyData* mesh, doub
   {
     addPlanes(octree, polygons);
   }
+  // Renormalised, distances would be smoother than the mesh is.
+  constexpr int flags = openvdb::tools::DISABLE_RENORMALIZATION;
   Interrupter interrupter(progress);
   const auto band = static_cast<float>(std::max(halfWidth, 1.0));
-  openvdb::FloatGrid::Ptr grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
-    interrupter, polygons, *transformOf(octree), band, band);
+  const openvdb::math::Transform::Ptr place = transformOf(octree);
+  const openvdb::math::Transform& transform = *place;
+  // A voxel more, since OpenVDB takes some distances for larger than they are.
+  const bool measured = octree.surface() != nullptr && !octree.empty();
+  openvdb::FloatGrid::Ptr grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(interrupter,
+    polygons, transform, measured ? band + 1.0f : band, measured ? band + 1.0f : band, flags);
   if (interrupter.wasInterrupted() || !grid)
   {
     return nullptr;
+  }
+  if (measured)
+  {
+    measure(octree, polygons, band, transform.voxelSize()[0], *grid);
   }
   grid->setName(LevelSetName);
   grid->setGridClass(openvdb::GRID_LEVEL_SET);

@@ -19,6 +19,8 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <openvdb/openvdb.h>
 
 namespace svo
@@ -90,35 +92,51 @@ private:
     return true;
   }
 
-  /// Away from the voxels that are occupied. In the midst of them there is no such direction: these
-  /// get one and its opposite by turns, so that they say nothing in the mean of a block.
+  /// Of the occupied voxels around one: across the sheet that they are, and away from them. In the
+  /// midst of a solid there is no such direction: its voxels get one and its opposite by turns, so
+  /// that they say nothing in the mean of a block.
   template <class Accessor>
   glm::dvec3 fromNeighbours(const Accessor& values, const glm::ivec3& voxel, const Coord& at) const
   {
-    constexpr int Reach = 2;
-    glm::dvec3 out(0.0);
-    for (int z = -Reach; z <= Reach; ++z)
+    const auto occupied = [&](int x, int y, int z)
     {
-      for (int y = -Reach; y <= Reach; ++y)
+      ValueT value;
+      return values.probeValue(at.offsetBy(x, y, z), value) && isAbove<GridT>(value, this->Value);
+    };
+    const glm::dvec3 inner(0.0, 0.0, (voxel.x + voxel.y + voxel.z) % 2 ? 1.0 : -1.0);
+    if (occupied(-1, 0, 0) && occupied(1, 0, 0) && occupied(0, -1, 0) && occupied(0, 1, 0) &&
+      occupied(0, 0, -1) && occupied(0, 0, 1))
+    {
+      return inner;
+    }
+    constexpr int Reach = 2;
+    double count = 0.0;
+    glm::dvec3 sum(0.0);
+    glm::dmat3 products(0.0);
+    for (int i = 0; i < 125; ++i)
+    {
+      const glm::ivec3 step(i % 5 - Reach, i / 5 % 5 - Reach, i / 25 - Reach);
+      if (occupied(step.x, step.y, step.z))
       {
-        for (int x = -Reach; x <= Reach; ++x)
-        {
-          ValueT value;
-          if (values.probeValue(at.offsetBy(x, y, z), value) && isAbove<ValueT>(value, this->Value))
-          {
-            const glm::dvec3 way(x, y, z);
-            out -= way / std::max(glm::dot(way, way), 1.0);
-          }
-        }
+        const glm::dvec3 way(step);
+        count += 1.0;
+        sum += way;
+        products += glm::outerProduct(way, way);
       }
     }
-    const double length = glm::length(out);
-    constexpr double Least = 1e-6;
-    if (length > Least)
+    // Powers of the covariance's inverse turn a vector to where the voxels spread least: across a
+    // sheet, however thin. Where several directions are alike, as at a solid's edges, it stays
+    // between them.
+    const glm::dvec3 mean = sum / count;
+    const glm::dmat3 spread = products / count - glm::outerProduct(mean, mean) + glm::dmat3(0.05);
+    const glm::dmat3 turn = glm::inverse(spread);
+    glm::dvec3 out = -mean + 0.01 * glm::dvec3(1.0, 1.1, 1.3); // symmetric ones have no mean
+    for (int k = 0; k < 4; ++k)
     {
-      return out / length;
+      out = turn * glm::normalize(out);
     }
-    return { 0.0, 0.0, (voxel.x + voxel.y + voxel.z) % 2 ? 1.0 : -1.0 };
+    const double length = glm::length(out);
+    return length > 0.0 && std::isfinite(length) ? out / length : inner;
   }
 
   const GridT& Grid;

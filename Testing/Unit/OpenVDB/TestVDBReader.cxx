@@ -1,0 +1,522 @@
+// Grids of all kinds to octrees: where their voxels lie, which are occupied, and what cannot be
+// read.
+#include "svoPlane.h"
+#include "svoVDBOctree.h"
+#include "svoVDBTest.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkInformation.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include <openvdb/points/PointDataGrid.h>
+
+namespace
+{
+using namespace svotest;
+constexpr double Radius = 20.0;
+const glm::dvec3 Centre(3.3, -8.4, 40.1); // index space
+
+/// Shoots from all sides at what a sphere in index space is in the world.
+void expectSphere(vtkPolyData* hull, const glm::dmat4& world, double error)
+{
+  vtkNew<vtkSparseVoxelOctree> octree;
+  ASSERT_TRUE(octree->Initialize(hull));
+  const glm::dmat4 back = glm::inverse(world);
+  double bounds[6];
+  octree->GetBounds(bounds);
+  for (int i = 0; i < 500; ++i)
+  {
+    const double z = -0.999 + i * 0.004, a = 2.4 * i, r = std::sqrt(1.0 - z * z);
+    const glm::dvec3 d(r * std::cos(a), r * std::sin(a), z);
+    const glm::dvec3 from(world * glm::dvec4(Centre + 3.0 * Radius * d, 1.0));
+    const glm::dvec3 to(world * glm::dvec4(Centre, 1.0));
+    double t, x[3];
+    vtkIdType cell = 0;
+    ASSERT_EQ(octree->IntersectWithLine(&from[0], &to[0], t, x, cell), 1) << i;
+    EXPECT_EQ(cell, -1);
+    const glm::dvec3 hit(back * glm::dvec4(x[0], x[1], x[2], 1.0));
+    EXPECT_NEAR(glm::length(hit - Centre), Radius, error) << i;
+    for (int k = 0; k < 3; ++k)
+    {
+      EXPECT_GE(x[k], bounds[2 * k]);
+      EXPECT_LE(x[k], bounds[2 * k + 1]);
+    }
+    const glm::dvec3 inside(world * glm::dvec4(glm::round(Centre + (Radius - 0.1) * d), 1.0));
+    octree->IsOccupied(&inside[0], 20);
+    EXPECT_FALSE(octree->IsOccupied(&to[0], 20));
+  }
+}
+
+/// Six times the volume that quads enclose; negative where they look inwards.
+double volumeOf(vtkPolyData* quads)
+{
+  double sum = 0.0;
+  for (vtkIdType i = 0; i < quads->GetNumberOfCells(); ++i)
+  {
+    vtkNew<vtkIdList> ids;
+    quads->GetCellPoints(i, ids);
+    glm::dvec3 p[4];
+    for (int k = 0; k < 4; ++k)
+    {
+      quads->GetPoint(ids->GetId(k), &p[k][0]);
+      p[k] -= glm::dvec3(quads->GetPoint(0)[0], quads->GetPoint(0)[1], quads->GetPoint(0)[2]);
+    }
+    sum += glm::dot(p[0], glm::cross(p[1], p[2])) + glm::dot(p[0], glm::cross(p[2], p[3]));
+  }
+  return sum;
+}
+
+/// Voxels (i, j, k) of the grid that the octree has, by where they lie.
+std::vector<Cell> indicesOf(const svo::Octree& octree, const openvdb::math::Transform& transform)
+{
+  std::vector<Cell> indices;
+  for (const Cell& cell : cellsOf(octree))
+  {
+    const glm::dvec3 p = placeOf(octree, cell);
+    const openvdb::Vec3d i = transform.worldToIndex({ p.x, p.y, p.z });
+    EXPECT_NEAR(i.x(), std::round(i.x()), 1e-6) << "a leaf is a voxel";
+    EXPECT_NEAR(i.y(), std::round(i.y()), 1e-6);
+    EXPECT_NEAR(i.z(), std::round(i.z()), 1e-6);
+    indices.emplace_back(static_cast<int>(std::lround(i.x())), static_cast<int>(std::lround(i.y())),
+      static_cast<int>(std::lround(i.z())));
+  }
+  std::sort(indices.begin(), indices.end());
+  return indices;
+}
+
+template <class GridT>
+std::vector<Cell> activeAbove(const GridT& grid, double threshold)
+{
+  std::vector<Cell> cells;
+  for (auto value = grid.cbeginValueOn(); value; ++value)
+  {
+    const openvdb::CoordBBox box = value.getBoundingBox();
+    for (auto at = box.begin(); at && static_cast<double>(*value) > threshold; ++at)
+    {
+      cells.emplace_back((*at).x(), (*at).y(), (*at).z());
+    }
+  }
+  std::sort(cells.begin(), cells.end());
+  return cells;
+}
+
+svo::SourceOctree convert(const openvdb::GridBase& grid, vtkPolyData* hull, double threshold = 0.0,
+  svo::VDBConversion conversion = svo::VDBConversion::Automatic)
+{
+  openvdb::initialize();
+  svo::VDBOptions options;
+  options.threshold = threshold;
+  options.conversion = conversion;
+  return svo::octreeOfGrid(grid, options, hull);
+}
+}
+
+TEST(VDBReader, LevelSetsStandWhereTheirMapPutsThem)
+{
+  glm::dmat4 uniform(0.25);
+  uniform[3] = { 100.0, -50.0, 3.0, 1.0 };
+  glm::dmat4 mirroredAxis(0.25);
+  mirroredAxis[0][0] = -0.25;
+  mirroredAxis[3] = { 1.0, 2.0, 3.0, 1.0 };
+  int framed = 0;
+  for (const glm::dmat4& world : { glm::dmat4(1.0), uniform, mirroredAxis, affine(), affine(true) })
+  {
+    const TemporaryFile file("sphere.vdb");
+    const auto grid = sphereGrid(Radius, Centre);
+    grid->setTransform(transformOfMatrix(world));
+    file.write({ grid });
+    Reading reading(file.name());
+    const svo::Octree octree = reading.octree();
+    EXPECT_EQ(reading.messages.all(), "");
+    EXPECT_EQ(octree.header().leafGeometry, std::uint32_t(svo::LeafGeometry::Plane));
+    framed += octree.hasFrame();
+    expectSphere(reading.output(), world, 0.02);
+    for (const auto& [x, y, z] : indicesOf(octree, grid->transform()))
+    {
+      ASSERT_LT(std::abs(glm::length(glm::dvec3(x, y, z) - Centre) - Radius), 0.87);
+    }
+    // The hull looks outwards, mirrored or not: its volume is not negative.
+    EXPECT_GT(volumeOf(reading.output()), 0.0);
+  }
+  EXPECT_EQ(framed, 3);
+}
+
+TEST(VDBReader, PlanesAreThoseOfTheField)
+{
+  const auto grid = sphereGrid(Radius, Centre);
+  vtkNew<vtkPolyData> hull;
+  convert(*grid, hull);
+  const svo::Octree octree = octreeOf(hull);
+  ASSERT_TRUE(octree);
+  const std::vector<Cell> cells = indicesOf(octree, grid->transform());
+  // No voxel that the sphere passes is missed: those with corners on both sides.
+  std::size_t passed = 0;
+  for (auto value = grid->cbeginValueOn(); value; ++value)
+  {
+    const openvdb::Coord at = value.getCoord();
+    int inside = 0;
+    for (int i = 0; i < 8; ++i)
+    {
+      const glm::dvec3 corner =
+        glm::dvec3(at.x(), at.y(), at.z()) + glm::dvec3(i & 1, i >> 1 & 1, i >> 2) - 0.5;
+      inside += glm::length(corner - Centre) < Radius - 0.01;
+      inside += glm::length(corner - Centre) < Radius + 0.01;
+    }
+    if (inside > 1 && inside < 15)
+    {
+      ++passed;
+      ASSERT_TRUE(std::binary_search(cells.begin(), cells.end(), Cell(at.x(), at.y(), at.z())));
+    }
+  }
+  EXPECT_GT(passed, 0.9 * cells.size());
+  constexpr double Bend = 0.5 / Radius; // of the sphere in a voxel: of second order
+  svo::forEachCell(octree, octree.level(),
+    [&](const svo::OctreeCell& c)
+    {
+      const svo::MeanPlane plane =
+        svo::decodePlane(octree.lists()[octree.planeOf(c.node, c.firstBit)]);
+      const glm::dvec3 centre = placeOf(octree, { c.cell.x, c.cell.y, c.cell.z });
+      const glm::dvec3 out = glm::normalize(centre - Centre);
+      EXPECT_GT(glm::dot(out, glm::dvec3(plane.normal)), 0.999);
+      EXPECT_NEAR(glm::length(centre - Centre) + 0.8660254 * plane.offset, Radius, Bend);
+      return true;
+    });
+}
+
+TEST(VDBReader, FogIsOccupiedAboveTheThreshold)
+{
+  for (const glm::dmat4& world : { glm::dmat4(1.0), affine() })
+  {
+    auto grid = openvdb::FloatGrid::create(0.0f);
+    auto values = grid->getAccessor();
+    for (int i = 0; i < 20 * 20 * 20; ++i)
+    {
+      const openvdb::Coord at(i % 20 - 13, i / 20 % 20, i / 400 + 3);
+      values.setValue(at, 0.01f * static_cast<float>((i * 37) % 101));
+    }
+    values.setValue({ 100, 3, -70 }, 0.7f);
+    values.setValue({ 101, 3, -70 }, std::numeric_limits<float>::quiet_NaN());
+    values.setValueOff({ 102, 3, -70 }, 5.0f);
+    grid->setTransform(transformOfMatrix(world));
+    const TemporaryFile file("fog.vdb");
+    file.write({ grid });
+    for (const double threshold : { 0.0, 0.5, 0.995 })
+    {
+      Reading reading(file.name());
+      reading.reader->SetThreshold(threshold);
+      const svo::Octree octree = reading.octree();
+      EXPECT_EQ(octree.header().leafGeometry, std::uint32_t(svo::LeafGeometry::Voxel));
+      EXPECT_EQ(indicesOf(octree, grid->transform()), activeAbove(*grid, threshold));
+      EXPECT_EQ(
+        reading.reader->GetNumberOfVoxels(), static_cast<vtkIdType>(octree.header().voxelCount));
+    }
+    Reading nothing(file.name());
+    nothing.reader->SetThreshold(5.0);
+    EXPECT_EQ(nothing.output()->GetNumberOfCells(), 0);
+    EXPECT_EQ(nothing.messages.warnings.size(), 1u);
+    EXPECT_EQ(nothing.messages.errors.size(), 0u) << nothing.messages.all();
+  }
+}
+
+TEST(VDBReader, TilesAreTheVoxelsThatTheyStandFor)
+{
+  auto grid = openvdb::BoolGrid::create(false);
+  grid->fill(openvdb::CoordBBox({ -5, 0, 3 }, { 300, 20, 150 }), true, true);
+  grid->tree().prune();
+  grid->tree().setValueOff({ 130, 10, 60 });
+  ASSERT_GT(grid->tree().activeTileCount(), 0u);
+  vtkNew<vtkPolyData> hull;
+  EXPECT_EQ(convert(*grid, hull).message, "");
+  const svo::Octree octree = octreeOf(hull);
+  ASSERT_TRUE(octree);
+  EXPECT_EQ(octree.level(), 9);
+  EXPECT_EQ(octree.header().voxelCount, 306u * 21u * 148u - 1u);
+  EXPECT_EQ(indicesOf(octree, grid->transform()), activeAbove(*grid, 0.5));
+}
+
+TEST(VDBReader, AllKindsOfNumbers)
+{
+  const auto sphere = sphereGrid(8.0, Centre);
+  const auto doubles = sphereGrid<openvdb::DoubleGrid>(8.0, Centre);
+  vtkNew<vtkPolyData> hull;
+  convert(*sphere, hull);
+  const std::vector<Cell> expected = indicesOf(octreeOf(hull), sphere->transform());
+  convert(*doubles, hull);
+  EXPECT_EQ(indicesOf(octreeOf(hull), sphere->transform()), expected);
+
+  const TemporaryFile file("half.vdb");
+  const auto half = sphere->deepCopy();
+  half->setSaveFloatAsHalf(true);
+  file.write({ half });
+  Reading reading(file.name());
+  EXPECT_NEAR(static_cast<double>(cellsOf(reading.octree()).size()),
+    static_cast<double>(expected.size()), 0.02 * static_cast<double>(expected.size()));
+
+  const openvdb::MaskGrid::Ptr mask = openvdb::MaskGrid::create();
+  mask->topologyUnion(*sphere);
+  convert(*mask, hull);
+  EXPECT_EQ(indicesOf(octreeOf(hull), sphere->transform()), activeAbove(*mask, 0.5));
+
+  auto ints = openvdb::Int32Grid::create(0);
+  auto longs = openvdb::Int64Grid::create(0);
+  for (int i = 0; i < 50; ++i)
+  {
+    ints->getAccessor().setValue({ i, 2 * i, -i }, i);
+    longs->getAccessor().setValue({ i, 2 * i, -i }, i);
+  }
+  convert(*ints, hull, 25.0);
+  EXPECT_EQ(octreeOf(hull).header().voxelCount, 24u);
+  convert(*longs, hull, 25.0);
+  EXPECT_EQ(octreeOf(hull).header().voxelCount, 24u);
+}
+
+TEST(VDBReader, ConversionOnRequest)
+{
+  // Fog that falls from the middle is a surface where it takes the threshold, and looks outwards.
+  const auto fog = sphereGrid(10.0, Centre);
+  for (auto value = fog->beginValueAll(); value; ++value)
+  {
+    value.setValue(-*value);
+  }
+  fog->setGridClass(openvdb::GRID_FOG_VOLUME);
+  vtkNew<vtkPolyData> hull;
+  convert(*fog, hull, 1.0, svo::VDBConversion::Surface);
+  const svo::Octree octree = octreeOf(hull);
+  ASSERT_TRUE(octree);
+  for (const Cell& cell : cellsOf(octree))
+  {
+    ASSERT_LT(std::abs(glm::length(placeOf(octree, cell) - Centre) - 9.0), 0.8661 + 0.5 / 9.0);
+  }
+  svo::forEachCell(octree, octree.level(),
+    [&](const svo::OctreeCell& c)
+    {
+      const svo::MeanPlane plane =
+        svo::decodePlane(octree.lists()[octree.planeOf(c.node, c.firstBit)]);
+      const glm::dvec3 out = placeOf(octree, { c.cell.x, c.cell.y, c.cell.z }) - Centre;
+      EXPECT_GT(glm::dot(out, glm::dvec3(plane.normal)), 0.0);
+      return true;
+    });
+  const auto level = sphereGrid(10.0, Centre);
+  convert(*level, hull, -100.0, svo::VDBConversion::Voxels);
+  EXPECT_EQ(indicesOf(octreeOf(hull), level->transform()), activeAbove(*level, -100.0));
+}
+
+TEST(VDBReader, GridsAreChosenByName)
+{
+  const TemporaryFile file("several.vdb");
+  const auto small = sphereGrid(5.0, Centre), large = sphereGrid(9.0, Centre);
+  small->setName("small");
+  large->setName("large");
+  large->insertMeta("note", openvdb::StringMetadata("hello"));
+  file.write({ small, large, small });
+  Reading reading(file.name());
+  ASSERT_EQ(reading.reader->GetNumberOfGrids(), 3);
+  EXPECT_STREQ(reading.reader->GetGridName(0), "large");
+  EXPECT_STREQ(reading.reader->GetGridName(1), "small[0]");
+  EXPECT_STREQ(reading.reader->GetGridName(2), "small[1]");
+  EXPECT_EQ(reading.reader->GetGridName(3), nullptr);
+  EXPECT_EQ(reading.reader->GetGridNames()->GetNumberOfValues(), 3);
+  const std::uint64_t first = reading.octree().header().voxelCount;
+  EXPECT_NE(std::string(reading.reader->GetMetaData()).find("note: hello"), std::string::npos);
+  auto* metadata =
+    vtkStringArray::SafeDownCast(reading.output()->GetFieldData()->GetAbstractArray("VDBMetadata"));
+  ASSERT_TRUE(metadata);
+  EXPECT_EQ(metadata->GetValue(0), "grid: large");
+  reading.reader->SetGridName("small[1]");
+  EXPECT_LT(reading.octree().header().voxelCount, first);
+  EXPECT_EQ(reading.messages.all(), "");
+  reading.reader->SetGridName("huge");
+  reading.expectError("it has no grid \"huge\", but \"large\", \"small[0]\", \"small[1]\"");
+}
+
+TEST(VDBReader, FilesAreTimeSteps)
+{
+  const TemporaryFile a("a.vdb"), b("b.vdb"), c("c.vdb");
+  a.write({ sphereGrid(5.0, Centre) });
+  b.write({ sphereGrid(8.0, Centre) });
+  c.write({ sphereGrid(11.0, Centre) });
+  vtkNew<vtkSVOVDBReader> reader;
+  for (const TemporaryFile* file : { &a, &b, &c })
+  {
+    reader->AddFileName(file->name());
+  }
+  EXPECT_EQ(reader->GetNumberOfFileNames(), 3);
+  EXPECT_STREQ(reader->GetFileName(1), b.name());
+  reader->UpdateInformation();
+  vtkInformation* info = reader->GetOutputInformation(0);
+  ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 3);
+  const double times[] = { 0.0, 1.0, 1.7, 2.0, 99.0, -3.0 };
+  const double radii[] = { 5.0, 8.0, 8.0, 11.0, 11.0, 5.0 };
+  for (int i = 0; i < 6; ++i)
+  {
+    reader->UpdateTimeStep(times[i]);
+    const svo::Octree octree = octreeOf(reader->GetOutput());
+    ASSERT_TRUE(octree);
+    const double far = glm::length(placeOf(octree, cellsOf(octree).front()) - Centre);
+    EXPECT_NEAR(far, radii[i], 0.87) << times[i];
+  }
+  reader->SetFileName(b.name());
+  reader->UpdateInformation();
+  EXPECT_FALSE(
+    reader->GetOutputInformation(0)->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
+}
+
+TEST(VDBReader, WhatIsNoFileOfOpenVDBIsOneError)
+{
+  Reading none("");
+  none.expectError("its name is not set");
+  Reading missing("/nowhere/missing.vdb");
+  EXPECT_EQ(missing.reader->GetGridNames()->GetNumberOfValues(), 0);
+  missing.expectError("it cannot be opened");
+  Reading asked("/nowhere/asked.vdb");
+  EXPECT_EQ(asked.reader->GetNumberOfGrids(), 0);
+  EXPECT_EQ(asked.reader->GetNumberOfGrids(), 0);
+  EXPECT_EQ(asked.messages.errors.size(), 1u);
+  EXPECT_EQ(missing.reader->CanReadFile("/nowhere/missing.vdb"), 0);
+  const TemporaryFile text("text.vdb"), empty("empty.vdb"), whole("whole.vdb");
+  std::ofstream(text.name()) << "this is not a file of OpenVDB, but of letters only, and of many";
+  Reading letters(text.name());
+  letters.expectError("cannot be read");
+  EXPECT_EQ(letters.reader->CanReadFile(text.name()), 0);
+  std::ofstream(empty.name()).flush();
+  Reading noBytes(empty.name());
+  noBytes.expectError("cannot be read");
+  whole.write({});
+  Reading noGrids(whole.name());
+  EXPECT_EQ(noGrids.reader->CanReadFile(whole.name()), 1);
+  noGrids.expectError("it has no grids");
+}
+
+TEST(VDBReader, TruncatedFilesAreOneErrorEach)
+{
+  const TemporaryFile whole("whole.vdb"), cut("cut.vdb");
+  whole.write({ sphereGrid(6.0, Centre), sphereGrid(4.0, Centre) });
+  std::stringstream bytes;
+  bytes << std::ifstream(whole.name(), std::ios::binary).rdbuf();
+  const std::string all = bytes.str();
+  std::size_t tried = 0;
+  for (std::size_t size = 8; size < all.size(); size += 1 + size / 16)
+  {
+    std::ofstream(cut.name(), std::ios::binary | std::ios::trunc)
+      .write(all.data(), static_cast<std::streamsize>(size));
+    Reading reading(cut.name());
+    reading.expectError("cannot be read");
+    ++tried;
+  }
+  EXPECT_GT(tried, 50u);
+}
+
+TEST(VDBReader, WhatHasNoSurfaceIsOneMessage)
+{
+  const auto expect = [](const openvdb::GridBase::Ptr& grid, const std::string& text)
+  {
+    const TemporaryFile file("unfit.vdb");
+    file.write({ grid });
+    Reading reading(file.name());
+    reading.expectError(text);
+  };
+  openvdb::initialize();
+  expect(openvdb::Vec3SGrid::create(), "grids of vec3s have no surface");
+  expect(openvdb::points::PointDataGrid::create(), "have no surface");
+  const auto frustum = sphereGrid(5.0, Centre);
+  frustum->setTransform(openvdb::math::Transform::createFrustumTransform(
+    openvdb::BBoxd(openvdb::Vec3d(0.0), openvdb::Vec3d(100.0)), 0.5, 10.0, 1.0));
+  expect(frustum, "frustum");
+  auto huge = openvdb::MaskGrid::create();
+  huge->tree().addTile(2, openvdb::Coord(0), true, true); // 4096^3
+  huge->tree().addTile(3, openvdb::Coord(8192), true, true);
+  expect(huge, "more than there is");
+  auto wide = openvdb::MaskGrid::create();
+  wide->tree().setValueOn({ -2000000, 0, 0 });
+  wide->tree().setValueOn({ 2000000000, 0, 0 });
+  expect(wide, "2^20");
+
+  const TemporaryFile file("empty-grid.vdb");
+  file.write({ openvdb::FloatGrid::create() });
+  Reading reading(file.name());
+  EXPECT_EQ(reading.output()->GetNumberOfCells(), 0);
+  EXPECT_EQ(reading.messages.warnings.size(), 1u) << reading.messages.all();
+  EXPECT_EQ(reading.messages.errors.size(), 0u) << reading.messages.all();
+  EXPECT_NE(reading.messages.all().find("is empty"), std::string::npos);
+}
+
+TEST(VDBReader, ValuesThatAreNoneHaveNoSurface)
+{
+  const auto grid = sphereGrid(8.0, Centre);
+  for (auto value = grid->beginValueOn(); value; ++value)
+  {
+    if (value.getCoord().x() > 3)
+    {
+      value.setValue(value.getCoord().x() % 2 ? std::numeric_limits<float>::quiet_NaN()
+                                              : std::numeric_limits<float>::infinity());
+    }
+  }
+  vtkNew<vtkPolyData> hull;
+  EXPECT_EQ(convert(*grid, hull).message, "");
+  const svo::Octree octree = octreeOf(hull);
+  ASSERT_TRUE(octree);
+  EXPECT_GT(octree.header().voxelCount, 100u);
+  for (const Cell& cell : indicesOf(octree, grid->transform()))
+  {
+    ASSERT_LE(std::get<0>(cell), 3);
+  }
+}
+
+TEST(VDBReader, MemoryIsLimited)
+{
+  const TemporaryFile file("limit.vdb");
+  file.write({ sphereGrid(40.0, Centre) });
+  Reading reading(file.name());
+  reading.reader->SetMemoryLimit(10);
+  reading.expectError("more memory than there is");
+}
+
+TEST(VDBReader, ReportsProgressAndCanBeAborted)
+{
+  const TemporaryFile file("progress.vdb");
+  file.write({ sphereGrid(40.0, Centre) });
+  vtkNew<vtkSVOVDBReader> reader;
+  reader->SetFileName(file.name());
+  std::vector<double> progress;
+  vtkNew<vtkCallbackCommand> note;
+  note->SetClientData(&progress);
+  note->SetCallback([](vtkObject*, unsigned long, void* to, void* share)
+    { static_cast<std::vector<double>*>(to)->push_back(*static_cast<double*>(share)); });
+  reader->AddObserver(vtkCommand::ProgressEvent, note);
+  reader->Update();
+  EXPECT_GT(progress.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
+  reader->RemoveAllObservers();
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
+  reader->AddObserver(vtkCommand::ProgressEvent, stop);
+  svo::TestMessages messages(reader);
+  reader->Modified();
+  reader->Update();
+  EXPECT_EQ(messages.all(), "");
+  EXPECT_FALSE(octreeOf(reader->GetOutput()));
+}
+
+TEST(VDBReader, ThreadsChangeNothing)
+{
+  const auto grid = sphereGrid(30.0, Centre);
+  openvdb::initialize();
+  vtkNew<vtkPolyData> serial, parallel;
+  svo::VDBOptions options;
+  svo::octreeOfGrid(*grid, options, serial);
+  options.parallelFor = svo::smpParallelFor();
+  svo::octreeOfGrid(*grid, options, parallel);
+  const svo::Octree a = octreeOf(serial), b = octreeOf(parallel);
+  ASSERT_TRUE(a && b);
+  const std::size_t size = svo::bufferSize(a.header());
+  ASSERT_EQ(size, svo::bufferSize(b.header()));
+  EXPECT_EQ(std::memcmp(a.key(), b.key(), size), 0);
+}
