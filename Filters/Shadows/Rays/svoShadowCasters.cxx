@@ -1,0 +1,172 @@
+#include "svoShadowCasters.h"
+
+#include "svoIntersect.h"
+#include "svoOccludedByOthers.h"
+#include "svoShadowBeam.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace svo
+{
+namespace
+{
+/// How far the points of an octree's triangles can be from the mesh's, of the edge of the root
+/// cube: half of a float's last place in [1, 2) along each axis, and as much again for the
+/// roundings of products that start from there.
+constexpr double FloatError = 2.0 * 1.7320508075688772 / 16777216.0;
+
+/// Where rays to a light end, the light itself being at 1: what the light lies on is not between.
+constexpr double BeforeLight = 1.0 - 1e-9;
+
+/// Longest way that an edge of local length 1 becomes: the matrix's norm is at most this.
+double norm(const glm::dmat3& m)
+{
+  return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+}
+
+struct ShadowCasters::Start
+{
+  glm::dvec3 at; // world
+  std::uint32_t own;
+  int number; // of the answer's bit
+};
+
+bool ShadowCasters::add(const Octree& octree, const glm::dmat4& toWorld, Own own)
+{
+  if (!placesSomething(toWorld))
+  {
+    return false;
+  }
+  if (!octree || octree.empty())
+  {
+    return true;
+  }
+  Instance instance;
+  instance.octree = octree;
+  instance.localToWorld = toWorld;
+  const double error = FloatError * octree.rootEdge() * norm(glm::dmat3(toWorld));
+  const bool named = octree.surface() != nullptr;
+  this->Casters.push_back({ octree, WorldToOctree(octree, toWorld), CasterBox(instance), error,
+    named ? own : Own::Nothing });
+  this->OwnError = own != Own::Nothing ? std::max(this->OwnError, error) : this->OwnError;
+  return true;
+}
+
+bool ShadowCasters::skips(const Caster& caster, std::uint32_t own, Primitive triangle)
+{
+  if (caster.own == Own::Nothing || own == NoOwn)
+  {
+    return false;
+  }
+  if (caster.own == Own::Triangles)
+  {
+    return triangle == own;
+  }
+  // By place, not by id: meshes may have a point once for each of its cells.
+  const Surface& surface = *caster.octree.surface();
+  const glm::uvec3 corners = surface.triangles[triangle];
+  const glm::vec3& x = surface.points[own];
+  return surface.points[corners.x] == x || surface.points[corners.y] == x ||
+    surface.points[corners.z] == x;
+}
+
+bool ShadowCasters::ray(const Caster& caster, const Light& light, const Start& start)
+{
+  const Ray ray{ caster.toOctree.point(start.at), caster.toOctree.vector(-light.along(start.at)),
+    0.0, light.atInfinity() ? 1e300 : BeforeLight };
+  if (!caster.octree.surface())
+  {
+    return occluded(caster.octree, ray, { LeafGeometry::Plane, MaximumLevel });
+  }
+  return occludedByOthers(
+    caster.octree, ray, [&](Primitive triangle) { return skips(caster, start.own, triangle); });
+}
+
+std::uint64_t ShadowCasters::beam(
+  const Caster& caster, const Light& light, const Start* starts, int count)
+{
+  std::uint64_t dark = 0;
+  constexpr int Few = 4; // such a beam is no quicker than its rays
+  const auto alone = [&](const Start& start)
+  { dark |= std::uint64_t(ray(caster, light, start)) << start.number; };
+  if (count <= Few || !caster.octree.surface())
+  {
+    std::for_each(starts, starts + count, alone);
+    return dark;
+  }
+  BeamPoints points;
+  points.count = count;
+  for (int i = 0; i < count; ++i)
+  {
+    points.at[i] = caster.toOctree.point(starts[i].at);
+  }
+  const bool far = light.atInfinity();
+  const glm::dvec3 from =
+    far ? caster.toOctree.vector(light.direction) : caster.toOctree.point(light.position);
+  ShadowBeam::Answer answers[BeamPoints::Most];
+  Primitive nearest[BeamPoints::Most];
+  if (!ShadowBeam(caster.octree, from, far).trace(points, answers, nearest))
+  {
+    const int half = count / 2;
+    return beam(caster, light, starts, half) | beam(caster, light, starts + half, count - half);
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    if (answers[i] == ShadowBeam::Undecided ||
+      (answers[i] == ShadowBeam::Dark && skips(caster, starts[i].own, nearest[i])))
+    {
+      alone(starts[i]);
+    }
+    else
+    {
+      dark |= std::uint64_t(answers[i] == ShadowBeam::Dark) << starts[i].number;
+    }
+  }
+  return dark;
+}
+
+std::uint64_t ShadowCasters::hidden(
+  const Light& light, const Sample* samples, int count, std::uint64_t asked, bool singleRays) const
+{
+  assert(count >= 0 && count <= BeamPoints::Most);
+  std::uint64_t dark = 0;
+  for (const Caster& caster : this->Casters)
+  {
+    const double offset = this->OwnError + (caster.own == Own::Nothing ? caster.error : 0.0);
+    Start starts[BeamPoints::Most];
+    PointBox box;
+    int begun = 0;
+    for (int i = 0; i < count; ++i)
+    {
+      if ((asked & ~dark) >> i & 1)
+      {
+        const Sample& sample = samples[i];
+        const double side =
+          glm::dot(sample.normal, light.along(sample.position)) > 0.0 ? -offset : offset;
+        const glm::dvec3 at = sample.position + side * sample.normal;
+        starts[begun++] = { at, sample.own, i };
+        box.add(at, glm::dvec3(0.0));
+      }
+    }
+    if (begun == 0 || !caster.box.mayBlock(light, box))
+    {
+      continue;
+    }
+    if (singleRays)
+    {
+      for (int i = 0; i < begun; ++i)
+      {
+        dark |= std::uint64_t(ray(caster, light, starts[i])) << starts[i].number;
+      }
+      continue;
+    }
+    dark |= beam(caster, light, starts, begun);
+  }
+  return dark;
+}
+}
