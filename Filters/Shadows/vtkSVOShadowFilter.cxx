@@ -15,6 +15,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
+#include "vtkInformationDoubleVectorKey.h"
 #include "vtkInformationVector.h"
 #include "vtkLight.h"
 #include "vtkMatrix4x4.h"
@@ -23,13 +24,14 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTimerLog.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <new>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +43,8 @@ vtkCxxSetObjectMacro(vtkSVOShadowFilter, MeshMatrix, vtkMatrix4x4);
 
 namespace
 {
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
 constexpr double BuildShare = 0.3; // of the progress
 
 /// A mesh that casts, and where it stands.
@@ -216,6 +220,44 @@ int vtkSVOShadowFilter::FillInputPortInformation(int port, vtkInformation* info)
     info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
     info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSVOShadowFilter::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  std::set<double> steps;
+  double range[2] = { 0.0, 0.0 };
+  bool changes = false;
+  for (int port = 0; port < 2; ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* info = inputVector[port]->GetInformationObject(i);
+      if (vtkInformationDoubleVectorKey* key = Pipeline::TIME_STEPS(); info->Has(key))
+      {
+        steps.insert(info->Get(key), info->Get(key) + info->Length(key));
+      }
+      if (info->Has(Pipeline::TIME_RANGE()))
+      {
+        const double* own = info->Get(Pipeline::TIME_RANGE());
+        range[0] = changes ? std::min(range[0], own[0]) : own[0];
+        range[1] = changes ? std::max(range[1], own[1]) : own[1];
+        changes = true;
+      }
+    }
+  }
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  if (!steps.empty())
+  {
+    const std::vector<double> all(steps.begin(), steps.end());
+    info->Set(Pipeline::TIME_STEPS(), all.data(), static_cast<int>(all.size()));
+  }
+  if (changes)
+  {
+    info->Set(Pipeline::TIME_RANGE(), range, 2);
   }
   return 1;
 }

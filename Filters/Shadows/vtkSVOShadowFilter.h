@@ -16,10 +16,10 @@
  *
  * Rays are exact: in each caster's own frame, in double precision, against the triangles
  * themselves, which the octree keeps as floats in its cube. Answers can differ from those of exact
- * arithmetic only where a ray passes an edge of a triangle, or ends at a surface, within 1e-6 of
- * the edge of that caster's cube. Octrees of planes are met at their planes. The ray of a point
- * starts off its surface by what those floats resolve, and never meets the triangle that it starts
- * on. The result does not depend on the number of threads.
+ * arithmetic only where a ray passes an edge of a triangle, or ends at a surface, within 2e-6 of
+ * the longest side of that caster's bounds. Octrees of planes are met at their planes. The ray of a
+ * point starts off its surface by what those floats resolve, and never meets the triangle that it
+ * starts on. The result does not depend on the number of threads.
  *
  * Nothing arrives, so that a place counts as in shadow, of a light that is switched off, of a spot
  * light outside of its cone, and where the surface faces away from the light, see SetTwoSided().
@@ -214,6 +214,11 @@ protected:
   ~vtkSVOShadowFilter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  /**
+   * The time steps of the mesh and of all casters.
+   */
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
