@@ -222,6 +222,19 @@ TEST(SVOShadowFilterInput, PointsThatAreNotFinite)
   }
 }
 
+TEST(SVOShadowFilterInput, CastersWithPointsThatAreNotFinite)
+{
+  MeshPointer board = level(-0.5, 0.5, -0.5, 0.5, 1, 2);
+  board->GetPoints()->SetPoint(0, std::nan(""), 0, 0);
+  Ground ground;
+  ground.filter->AddCasterData(board);
+  EXPECT_NEAR(ground.shadow(0), 0.75 / 16.0, 2e-3) << "three of four quads are whole";
+  ASSERT_EQ(ground.messages.warnings.size(), 1u);
+  EXPECT_NE(
+    ground.messages.all().find("Of a caster: The octree is not complete: 2 of"), std::string::npos)
+    << ground.messages.all();
+}
+
 TEST(SVOShadowFilterInput, CellsWithoutArea)
 {
   MeshPointer mesh = level(-1, 1, -1, 1, 0);
