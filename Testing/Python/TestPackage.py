@@ -10,8 +10,9 @@ import unittest
 import vtksvo
 from vtkmodules.vtkCommonCore import vtkObject, vtkObjectBase
 
-PUBLIC = ["vtkImageToSVO", "vtkImplicitFunctionToSVO", "vtkPolyDataToSVO", "vtkSVORenderPass",
-          "vtkSVOToPolyData", "vtkSparseVoxelOctree"]
+PUBLIC = ["vtkImageToSVO", "vtkImplicitFunctionToSVO", "vtkPolyDataToSVO", "vtkSVOExposureFilter",
+          "vtkSVORenderPass", "vtkSVOShadowFilter", "vtkSVOSky", "vtkSVOSunPath", "vtkSVOToPolyData",
+          "vtkSparseVoxelOctree"]
 
 
 def help_without_signatures(method):
