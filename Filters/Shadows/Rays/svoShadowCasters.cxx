@@ -1,8 +1,10 @@
 #include "svoShadowCasters.h"
 
 #include "svoIntersect.h"
+#include "svoLocalRay.h"
 #include "svoOccludedByOthers.h"
 #include "svoShadowBeam.h"
+#include "svoTriangle.h"
 
 #include <algorithm>
 #include <cassert>
@@ -87,6 +89,67 @@ bool ShadowCasters::ray(const Caster& caster, const Light& light, const Start& s
     caster.octree, ray, [&](Primitive triangle) { return skips(caster, start.own, triangle); });
 }
 
+std::uint64_t ShadowCasters::block(
+  const Caster& caster, const Light& light, const Start* starts, int count)
+{
+  std::uint64_t dark = 0;
+  RayBlock rays;
+  LocalRay locals[RayBlock::Size];
+  int ofRay[RayBlock::Size];
+  int begun = 0;
+  const double end = light.atInfinity() ? 1e300 : BeforeLight;
+  for (int i = 0; i < count; ++i)
+  {
+    const Ray ray{ caster.toOctree.point(starts[i].at),
+      caster.toOctree.vector(-light.along(starts[i].at)), 0.0, end };
+    LocalRay& local = locals[begun];
+    if (prepareRay(caster.octree, ray, local))
+    {
+      rays.originX[begun] = static_cast<float>(local.ray.origin.x);
+      rays.originY[begun] = static_cast<float>(local.ray.origin.y);
+      rays.originZ[begun] = static_cast<float>(local.ray.origin.z);
+      rays.directionX[begun] = static_cast<float>(local.ray.direction.x);
+      rays.directionY[begun] = static_cast<float>(local.ray.direction.y);
+      rays.directionZ[begun] = static_cast<float>(local.ray.direction.z);
+      rays.tMin[begun] = 0.0f;
+      rays.tMax[begun] = static_cast<float>(local.ray.tMax);
+      ofRay[begun++] = i;
+    }
+  }
+  if (begun == 0)
+  {
+    return 0;
+  }
+  for (int i = begun; i < RayBlock::Size; ++i)
+  {
+    rays.originX[i] = rays.originY[i] = rays.originZ[i] = 1.5f;
+    rays.directionX[i] = rays.directionY[i] = rays.directionZ[i] = 1.0f;
+    rays.tMin[i] = 1.0f;
+    rays.tMax[i] = 0.0f;
+  }
+  HitBlock hits;
+  intersect(caster.octree, rays, { LeafGeometry::Triangle, MaximumLevel }, hits);
+  const Surface& surface = *caster.octree.surface();
+  for (int i = 0; i < begun; ++i)
+  {
+    if (hits.primitive[i] != NoPrimitive)
+    {
+      // What floats say is dark has to be so in double; else, as where a ray starts on its own
+      // surface, the ray alone knows.
+      const Start& start = starts[ofRay[i]];
+      const ClippedRay<double>& ray = locals[i].ray;
+      const glm::uvec3 triangle = surface.triangles[hits.primitive[i]];
+      double t;
+      const bool met =
+        intersectTriangle(ShearedRay<double>(ray.origin, ray.direction), surface.points[triangle.x],
+          surface.points[triangle.y], surface.points[triangle.z], t) &&
+        t >= 0.0 && t <= ray.tMax && !skips(caster, start.own, hits.primitive[i]);
+      dark |= std::uint64_t(met || ShadowCasters::ray(caster, light, start)) << start.number;
+    }
+  }
+  return dark;
+}
+
 std::uint64_t ShadowCasters::beam(
   const Caster& caster, const Light& light, const Start* starts, int count)
 {
@@ -135,6 +198,11 @@ std::uint64_t ShadowCasters::hidden(
 {
   assert(count >= 0 && count <= BeamPoints::Most);
   std::uint64_t dark = 0;
+  int triangles = 0; // that the samples lie on; each has its samples in a row
+  for (int i = 0; i < count; ++i)
+  {
+    triangles += i == 0 || samples[i].own != samples[i - 1].own;
+  }
   for (const Caster& caster : this->Casters)
   {
     const double offset = this->OwnError + (caster.own == Own::Nothing ? caster.error : 0.0);
@@ -165,7 +233,11 @@ std::uint64_t ShadowCasters::hidden(
       }
       continue;
     }
-    dark |= beam(caster, light, starts, begun);
+    // Triangles that have many of the samples look large from the light: few are in the beam.
+    constexpr int Triangles = 8;
+    const bool large = triangles <= Triangles;
+    dark |= large || !caster.octree.surface() ? beam(caster, light, starts, begun)
+                                              : block(caster, light, starts, begun);
   }
   return dark;
 }
