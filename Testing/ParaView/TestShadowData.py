@@ -90,7 +90,7 @@ class TestShadowData(unittest.TestCase):
     def test_a_picture(self):
         view = scene.make_view()
         filtered = pv.ShadowsAsData(Input=pv.Sphere(ThetaResolution=64, PhiResolution=64, Radius=0.8),
-                                    LightSource="Directions", Directions=[1, -1, 0.2])
+                                    LightSource="Directions", Directions=[1, 1, 0.2])
         display = pv.Show(filtered, view)
         pv.ColorBy(display, ("CELLS", "Exposure"))
         pv.ResetCamera(view)
