@@ -316,7 +316,8 @@ int main(int argc, char** argv)
   vtkSMPTools::Initialize(1);
   svobench::Results results({ "mesh", "triangles", "lights", "rays", "dark", "filter Mrays/s",
     "single rays Mrays/s", "locator Mrays/s", "times the locator", "Embree Mrays/s", "times Embree",
-    "differ from locator", "differ from Embree", "octree s", "locator s", "Embree s" });
+    "differ from locator", "single differ", "differ from Embree", "octree s", "locator s",
+    "Embree s" });
   bool good = true;
   for (const Mesh& mesh : meshes)
   {

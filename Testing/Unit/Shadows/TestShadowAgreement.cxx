@@ -246,8 +246,37 @@ TEST(ShadowAgreement, WithTheStaticCellLocator)
     EXPECT_LT(counts.dark, counts.rays * 9 / 10);
     EXPECT_EQ(counts.beyond, 0u) << "of " << counts.rays << " rays";
     contest.shadows.expectQuiet();
-    std::cout << (single ? "single rays: " : "beams: ") << counts.rays << " rays, " << counts.dark
+    std::cout << (single ? "single rays: " : "blocks: ") << counts.rays << " rays, " << counts.dark
               << " dark, " << counts.disagree << " disagree, " << counts.beyond
               << " of them beyond the tolerance\n";
   }
+}
+
+TEST(ShadowAgreement, OnABodyWithManyHollows)
+{
+  vtkNew<vtkSphereSource> source;
+  source->SetThetaResolution(120);
+  source->SetPhiResolution(120);
+  source->SetRadius(1.0);
+  source->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  source->Update();
+  MeshPointer body = source->GetOutput();
+  for (vtkIdType i = 0; i < body->GetNumberOfPoints(); ++i)
+  {
+    Vec p = pointOf(body, i);
+    p *= 1.0 + 0.15 * std::sin(17.0 * p.x) * std::sin(15.0 * p.y + 1.0) * std::cos(16.0 * p.z);
+    body->GetPoints()->SetPoint(i, p.x, p.y, p.z);
+  }
+  Contest contest(body);
+  const auto cells = static_cast<std::size_t>(body->GetNumberOfCells());
+  for (std::size_t l = 0; l * cells < askedRays(); ++l)
+  {
+    const double turn = 2.4 * static_cast<double>(l), z = 0.3 * std::sin(static_cast<double>(l));
+    contest.shadows.filter->AddLight(sun(std::cos(turn), std::sin(turn), z));
+  }
+  const Counts counts = contest.compare();
+  EXPECT_GT(counts.dark, counts.rays / 20);
+  EXPECT_EQ(counts.beyond, 0u) << "of " << counts.rays << " rays";
+  std::cout << "body: " << counts.rays << " rays, " << counts.dark << " dark, " << counts.disagree
+            << " disagree, " << counts.beyond << " of them beyond the tolerance\n";
 }
