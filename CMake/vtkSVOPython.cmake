@@ -18,7 +18,7 @@ set(VTKSVO_PYTHON_INSTALL_DIR "${vtksvo_python_default}"
 mark_as_advanced(VTKSVO_PYTHON_INSTALL_DIR)
 
 # The modules carry the interpreter's tag in their names, so that no other one loads them.
-set(vtksvo_wrapped SVO::SVOCore SVO::SVOParallel SVO::SVOPass)
+set(vtksvo_wrapped SVO::SVOCore SVO::SVOParallel SVO::SVOShadows SVO::SVOPass)
 set(VTKSVO_IMPORT_OPENVDB "")
 if (VTKSVO_HAS_OPENVDB)
   list(APPEND vtksvo_wrapped SVO::SVOOpenVDB)

@@ -123,6 +123,26 @@ class Defaults(unittest.TestCase):
                     self.assertIsInstance(getattr(to_octree, command)(), (int, float))
         self.assertGreater(settings, 5)
 
+    def test_the_shadow_filter_is_its_class(self):
+        settings = 0
+        for prop in properties_of("Shadows.xml", "SourceProxy"):
+            command = prop.attrib["command"]
+            shadows = vtksvo.vtkSVOExposureFilter()
+            with self.subTest(command):
+                if is_setting(prop) and prop.attrib["number_of_elements"] == "1":
+                    settings += 1
+                    self.assertEqual(prop.attrib["name"], command[len("Set"):])
+                    self.check(prop, Setting(shadows, command[len("Set"):]))
+                elif is_setting(prop):
+                    settings += 1
+                    default = tuple(map(float, prop.attrib["default_values"].split()))
+                    self.assertEqual(getattr(shadows, "Get" + command[len("Set"):])(), default)
+                elif "information_only" in prop.attrib:
+                    self.assertIsInstance(getattr(shadows, command)(), (int, float))
+                else:
+                    self.assertTrue(hasattr(shadows, command))
+        self.assertGreater(settings, 15)
+
     def test_the_representation_is_its_filter_and_its_actor(self):
         render_pass, actor = vtksvo.vtkSVORenderPass, surface()
 

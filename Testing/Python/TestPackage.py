@@ -11,7 +11,8 @@ import vtksvo
 from vtkmodules.vtkCommonCore import vtkObject, vtkObjectBase
 
 PUBLIC = ["vtkImageToSVO", "vtkImplicitFunctionToSVO", "vtkMandelbulbFunction", "vtkPolyDataToSVO",
-          "vtkSVORenderPass", "vtkSVOToHyperTreeGrid", "vtkSVOToPolyData", "vtkSparseVoxelOctree"]
+          "vtkSVOExposureFilter", "vtkSVORenderPass", "vtkSVOShadowFilter", "vtkSVOSky", "vtkSVOSunPath",
+          "vtkSVOToHyperTreeGrid", "vtkSVOToPolyData", "vtkSparseVoxelOctree"]
 
 
 def help_without_signatures(method):

@@ -64,7 +64,7 @@ double depthOfPlane(const BeamRay& ray, const Surface& surface, Primitive primit
 }
 }
 
-bool ShadowBeam::trace(const BeamPoints& points, Answer* answers)
+bool ShadowBeam::trace(const BeamPoints& points, Answer* answers, Primitive* nearest)
 {
   assert(points.count > 0 && points.count <= BeamPoints::Most && this->Tree.surface());
   glm::dvec3 centre(0.0);
@@ -169,6 +169,10 @@ bool ShadowBeam::trace(const BeamPoints& points, Answer* answers)
       const double t = std::isfinite(plane) ? plane : base + hits.t[i];
       const bool atLight = !this->Far && t < BeforeLight * rays[i].end;
       answers[i] = atLight ? Undecided : t <= rays[i].end ? Dark : Lit;
+      if (nearest && answers[i] == Dark)
+      {
+        nearest[i] = hits.primitive[i];
+      }
     }
   }
   return true;

@@ -14,6 +14,8 @@
 
 #include "svoOctree.h"
 #include "svoPyramidNodes.h"
+#include "svoRay.h"
+#include "vtkSVOTracingModule.h"
 
 #include <cstdint>
 #include <vector>
@@ -34,7 +36,7 @@ struct BeamPoints
   glm::dvec3 at[Most];
 };
 
-class ShadowBeam
+class VTKSVOTRACING_EXPORT ShadowBeam
 {
 public:
   /// `light`: its position, or the way that it shines if it is `far` away; octree coordinates.
@@ -52,8 +54,9 @@ public:
     Undecided // the light lies on a triangle: a ray alone knows what is behind
   };
   /// False, and nothing is answered, where the beam is too wide to have few triangles in it: ask
-  /// for fewer points.
-  bool trace(const BeamPoints& points, Answer* answers);
+  /// for fewer points. `nearest`: where not null, the triangles that make points dark, those
+  /// nearest to the light.
+  bool trace(const BeamPoints& points, Answer* answers, Primitive* nearest = nullptr);
 
 private:
   const Octree& Tree;

@@ -1,0 +1,244 @@
+#include "svoShadowCasters.h"
+
+#include "svoIntersect.h"
+#include "svoLocalRay.h"
+#include "svoOccludedByOthers.h"
+#include "svoShadowBeam.h"
+#include "svoTriangle.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace svo
+{
+namespace
+{
+/// How far the points of an octree's triangles can be from the mesh's, of the edge of the root
+/// cube: half of a float's last place in [1, 2) along each axis, and as much again for the
+/// roundings of products that start from there.
+constexpr double FloatError = 2.0 * 1.7320508075688772 / 16777216.0;
+
+/// Where rays to a light end, the light itself being at 1: what the light lies on is not between.
+constexpr double BeforeLight = 1.0 - 1e-9;
+
+/// Longest way that an edge of local length 1 becomes: the matrix's norm is at most this.
+double norm(const glm::dmat3& m)
+{
+  return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+}
+
+struct ShadowCasters::Start
+{
+  glm::dvec3 at; // world
+  std::uint32_t own;
+  int number; // of the answer's bit
+};
+
+bool ShadowCasters::add(const Octree& octree, const glm::dmat4& toWorld, Own own)
+{
+  if (!placesSomething(toWorld))
+  {
+    return false;
+  }
+  if (!octree || octree.empty())
+  {
+    return true;
+  }
+  Instance instance;
+  instance.octree = octree;
+  instance.localToWorld = toWorld;
+  const double error = FloatError * octree.rootEdge() * norm(glm::dmat3(toWorld));
+  const bool named = octree.surface() != nullptr;
+  this->Casters.push_back({ octree, WorldToOctree(octree, toWorld), CasterBox(instance), error,
+    named ? own : Own::Nothing });
+  this->OwnError = own != Own::Nothing ? std::max(this->OwnError, error) : this->OwnError;
+  return true;
+}
+
+bool ShadowCasters::skips(const Caster& caster, std::uint32_t own, Primitive triangle)
+{
+  if (caster.own == Own::Nothing || own == NoOwn)
+  {
+    return false;
+  }
+  if (caster.own == Own::Triangles)
+  {
+    return triangle == own;
+  }
+  // By place, not by id: meshes may have a point once for each of its cells.
+  const Surface& surface = *caster.octree.surface();
+  const glm::uvec3 corners = surface.triangles[triangle];
+  const glm::vec3& x = surface.points[own];
+  return surface.points[corners.x] == x || surface.points[corners.y] == x ||
+    surface.points[corners.z] == x;
+}
+
+bool ShadowCasters::ray(const Caster& caster, const Light& light, const Start& start)
+{
+  const Ray ray{ caster.toOctree.point(start.at), caster.toOctree.vector(-light.along(start.at)),
+    0.0, light.atInfinity() ? 1e300 : BeforeLight };
+  if (!caster.octree.surface())
+  {
+    return occluded(caster.octree, ray, { LeafGeometry::Plane, MaximumLevel });
+  }
+  return occludedByOthers(
+    caster.octree, ray, [&](Primitive triangle) { return skips(caster, start.own, triangle); });
+}
+
+std::uint64_t ShadowCasters::block(
+  const Caster& caster, const Light& light, const Start* starts, int count)
+{
+  std::uint64_t dark = 0;
+  RayBlock rays;
+  LocalRay locals[RayBlock::Size];
+  int ofRay[RayBlock::Size];
+  int begun = 0;
+  const double end = light.atInfinity() ? 1e300 : BeforeLight;
+  for (int i = 0; i < count; ++i)
+  {
+    const Ray ray{ caster.toOctree.point(starts[i].at),
+      caster.toOctree.vector(-light.along(starts[i].at)), 0.0, end };
+    LocalRay& local = locals[begun];
+    if (prepareRay(caster.octree, ray, local))
+    {
+      rays.originX[begun] = static_cast<float>(local.ray.origin.x);
+      rays.originY[begun] = static_cast<float>(local.ray.origin.y);
+      rays.originZ[begun] = static_cast<float>(local.ray.origin.z);
+      rays.directionX[begun] = static_cast<float>(local.ray.direction.x);
+      rays.directionY[begun] = static_cast<float>(local.ray.direction.y);
+      rays.directionZ[begun] = static_cast<float>(local.ray.direction.z);
+      rays.tMin[begun] = 0.0f;
+      rays.tMax[begun] = static_cast<float>(local.ray.tMax);
+      ofRay[begun++] = i;
+    }
+  }
+  if (begun == 0)
+  {
+    return 0;
+  }
+  for (int i = begun; i < RayBlock::Size; ++i)
+  {
+    rays.originX[i] = rays.originY[i] = rays.originZ[i] = 1.5f;
+    rays.directionX[i] = rays.directionY[i] = rays.directionZ[i] = 1.0f;
+    rays.tMin[i] = 1.0f;
+    rays.tMax[i] = 0.0f;
+  }
+  HitBlock hits;
+  intersect(caster.octree, rays, { LeafGeometry::Triangle, MaximumLevel }, hits);
+  const Surface& surface = *caster.octree.surface();
+  for (int i = 0; i < begun; ++i)
+  {
+    if (hits.primitive[i] != NoPrimitive)
+    {
+      // What floats say is dark has to be so in double; else, as where a ray starts on its own
+      // surface, the ray alone knows.
+      const Start& start = starts[ofRay[i]];
+      const ClippedRay<double>& ray = locals[i].ray;
+      const glm::uvec3 triangle = surface.triangles[hits.primitive[i]];
+      double t;
+      const bool met =
+        intersectTriangle(ShearedRay<double>(ray.origin, ray.direction), surface.points[triangle.x],
+          surface.points[triangle.y], surface.points[triangle.z], t) &&
+        t >= 0.0 && t <= ray.tMax && !skips(caster, start.own, hits.primitive[i]);
+      dark |= std::uint64_t(met || ShadowCasters::ray(caster, light, start)) << start.number;
+    }
+  }
+  return dark;
+}
+
+std::uint64_t ShadowCasters::beam(
+  const Caster& caster, const Light& light, const Start* starts, int count)
+{
+  std::uint64_t dark = 0;
+  constexpr int Few = 4; // such a beam is no quicker than its rays
+  const auto alone = [&](const Start& start)
+  { dark |= std::uint64_t(ray(caster, light, start)) << start.number; };
+  if (count <= Few || !caster.octree.surface())
+  {
+    std::for_each(starts, starts + count, alone);
+    return dark;
+  }
+  BeamPoints points;
+  points.count = count;
+  for (int i = 0; i < count; ++i)
+  {
+    points.at[i] = caster.toOctree.point(starts[i].at);
+  }
+  const bool far = light.atInfinity();
+  const glm::dvec3 from =
+    far ? caster.toOctree.vector(light.direction) : caster.toOctree.point(light.position);
+  ShadowBeam::Answer answers[BeamPoints::Most];
+  Primitive nearest[BeamPoints::Most];
+  if (!ShadowBeam(caster.octree, from, far).trace(points, answers, nearest))
+  {
+    const int half = count / 2;
+    return beam(caster, light, starts, half) | beam(caster, light, starts + half, count - half);
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    if (answers[i] == ShadowBeam::Undecided ||
+      (answers[i] == ShadowBeam::Dark && skips(caster, starts[i].own, nearest[i])))
+    {
+      alone(starts[i]);
+    }
+    else
+    {
+      dark |= std::uint64_t(answers[i] == ShadowBeam::Dark) << starts[i].number;
+    }
+  }
+  return dark;
+}
+
+std::uint64_t ShadowCasters::hidden(
+  const Light& light, const Sample* samples, int count, std::uint64_t asked, bool singleRays) const
+{
+  assert(count >= 0 && count <= BeamPoints::Most);
+  std::uint64_t dark = 0;
+  int triangles = 0; // that the samples lie on; each has its samples in a row
+  for (int i = 0; i < count; ++i)
+  {
+    triangles += i == 0 || samples[i].own != samples[i - 1].own;
+  }
+  for (const Caster& caster : this->Casters)
+  {
+    const double offset = this->OwnError + (caster.own == Own::Nothing ? caster.error : 0.0);
+    Start starts[BeamPoints::Most];
+    PointBox box;
+    int begun = 0;
+    for (int i = 0; i < count; ++i)
+    {
+      if ((asked & ~dark) >> i & 1)
+      {
+        const Sample& sample = samples[i];
+        const double side =
+          glm::dot(sample.normal, light.along(sample.position)) > 0.0 ? -offset : offset;
+        const glm::dvec3 at = sample.position + side * sample.normal;
+        starts[begun++] = { at, sample.own, i };
+        box.add(at, glm::dvec3(0.0));
+      }
+    }
+    if (begun == 0 || !caster.box.mayBlock(light, box))
+    {
+      continue;
+    }
+    if (singleRays)
+    {
+      for (int i = 0; i < begun; ++i)
+      {
+        dark |= std::uint64_t(ray(caster, light, starts[i])) << starts[i].number;
+      }
+      continue;
+    }
+    // Triangles that have many of the samples look large from the light: few are in the beam.
+    constexpr int Triangles = 8;
+    const bool large = triangles <= Triangles;
+    dark |= large || !caster.octree.surface() ? beam(caster, light, starts, begun)
+                                              : block(caster, light, starts, begun);
+  }
+  return dark;
+}
+}

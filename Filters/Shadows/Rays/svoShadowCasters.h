@@ -1,0 +1,72 @@
+// Octrees with their matrices that may stand between samples and lights.
+//
+// Octrees of meshes are met at their triangles, exactly, in double, whatever leaf geometry they are
+// for; octrees of planes at their planes. Samples that lie on few triangles go to a light as one
+// beam (svoShadowBeam.h), others as a block of rays (svoIntersect.h). Either is told from rays in
+// double by floats' rounding at edges only: what is dark is so in double, and what a beam or a
+// block leaves open, or says of a sample's own surface, is asked for by a ray in double.
+#ifndef svoShadowCasters_h
+#define svoShadowCasters_h
+
+#include "svoCasterBox.h"
+#include "svoLight.h"
+#include "svoOctree.h"
+#include "svoRay.h"
+#include "svoSamples.h"
+#include "svoWorldToOctree.h"
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+namespace svo
+{
+class ShadowCasters
+{
+public:
+  /// What the samples lie on, of a caster.
+  enum class Own
+  {
+    Nothing,
+    Triangles, // Sample::own names a triangle of it
+    Points     // Sample::own names a point of it
+  };
+
+  /// False, and nothing is added, if the matrix is not finite or has no inverse. An octree that is
+  /// empty is no caster.
+  bool add(const Octree& octree, const glm::dmat4& toWorld, Own own);
+
+  std::size_t size() const { return this->Casters.size(); }
+
+  /// Of up to 64 samples those, of `asked`, that a caster hides from the light; one bit each. A ray
+  /// starts off its surface, along the normal on the light's side, by what the floats of the caster
+  /// and of the samples' own mesh resolve, and never meets the sample's own triangle, or a triangle
+  /// that has a corner in the sample's point. Single rays: no beams, for comparison.
+  std::uint64_t hidden(const Light& light, const Sample* samples, int count, std::uint64_t asked,
+    bool singleRays = false) const;
+
+private:
+  struct Caster
+  {
+    Octree octree;
+    WorldToOctree toOctree;
+    CasterBox box;
+    double error; // world; how far a triangle may be from where the mesh has it
+    Own own;
+  };
+  struct Start;
+  static bool skips(const Caster& caster, std::uint32_t own, Primitive triangle);
+  static bool ray(const Caster& caster, const Light& light, const Start& start);
+  /// Of at most 64, those that are hidden: side by side in float, what is dark confirmed in double.
+  static std::uint64_t block(
+    const Caster& caster, const Light& light, const Start* starts, int count);
+  /// The same for those that lie on few triangles.
+  static std::uint64_t beam(
+    const Caster& caster, const Light& light, const Start* starts, int count);
+  std::vector<Caster> Casters;
+  double OwnError = 0.0;
+};
+}
+
+#endif
