@@ -196,7 +196,8 @@ void compareDepth(const ImageCase& c, Checks& checks)
   Scene mesh(triangles, false);
   mesh.usePass(false);
   const Picture raster = capture(mesh.window);
-  for (int deeper = 0; deeper <= 1; ++deeper)
+  std::size_t before = std::numeric_limits<std::size_t>::max(), drawn = 0, inside = 0;
+  for (int deeper = 0; deeper <= 2; ++deeper)
   {
     const int level = levelOfSpacing(c.image) + deeper;
     const auto octree = octreeOf(c.image, c.value, level);
@@ -212,10 +213,15 @@ void compareDepth(const ImageCase& c, Checks& checks)
       "neither %zu\n",
       c.name.c_str(), level, v.drawn, v.exactly, v.withinPixel, v.outline, v.beyond, v.ours,
       v.edges, v.neither);
+    drawn = v.drawn;
     checks.expect(v.drawn > 20000, c.name + ": enough of it is seen");
-    checks.expect(v.ours * 2000 <= v.drawn, c.name + ": the octree is where the surface is");
-    checks.expect(v.withinPixel * 500 <= v.drawn, c.name + ": it is where flying edges has it");
+    const std::size_t ours = v.withinPixel - v.edges;
+    checks.expect(ours < before || ours == 0, c.name + ": the deeper the closer");
+    before = ours;
+    inside = v.ours + v.neither;
   }
+  // But at the image's border.
+  checks.expect(inside * 1000 <= drawn, c.name + ": within a voxel and a pixel on 99.9 %");
 }
 
 std::size_t count(const Picture& a, const Picture& b, int most)

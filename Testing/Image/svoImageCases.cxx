@@ -128,7 +128,7 @@ int levelOfSpacing(vtkImageData* image)
 {
   const double* s = image->GetSpacing();
   return static_cast<int>(
-    std::ceil(std::log2(longestEdge(image) / std::min({ s[0], s[1], s[2] }) - 1e-6)));
+    std::ceil(std::log2(longestEdge(image) / std::min({ s[0], s[1], s[2] })) - 1e-6));
 }
 
 double trilinear(vtkImageData* image, const double at[3])

@@ -27,7 +27,8 @@ std::vector<ImageCase> imageCases();
 /// The same with the sign of all values changed.
 vtkSmartPointer<vtkImageData> negated(vtkImageData* image);
 
-/// Of the longest edge of the image's box 2^level are no longer than the least spacing.
+/// The first level at which 2^level voxels along the longest edge of the image's box are no longer
+/// than its least spacing.
 int levelOfSpacing(vtkImageData* image);
 double longestEdge(vtkImageData* image);
 
