@@ -38,9 +38,18 @@ struct ImageGrid
   }
 };
 
+/// A field that is known at the points of a grid.
+class GriddedField : public ScalarField
+{
+public:
+  /// Whether finite values at points first to last, inclusive, lie on both sides of `value` or are
+  /// it; and are not all the same.
+  virtual bool crosses(const glm::ivec3& first, const glm::ivec3& last, double value) const = 0;
+};
+
 /// An image of scalars of a type, which are borrowed.
 template <class T>
-class ImageField : public ScalarField
+class ImageField : public GriddedField
 {
 public:
   ImageField(const ImageGrid& grid, const T* values)
@@ -55,56 +64,103 @@ public:
   /// NaN outside of the image.
   double value(const glm::dvec3& local) const override
   {
-    return this->interpolated(local, std::numeric_limits<double>::quiet_NaN(),
-      [this](int x, int y, int z) { return this->at(x, y, z); });
+    Place place;
+    if (!this->find(local, place))
+    {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    const std::size_t row = this->Grid.points.x, slice = row * this->Grid.points.y;
+    const T* v = this->Values + this->Grid.index(place.cell.x, place.cell.y, place.cell.z);
+    const auto along = [&](std::size_t at)
+    { return mix(static_cast<double>(v[at]), static_cast<double>(v[at + 1]), place.t.x); };
+    return mix(mix(along(0), along(row), place.t.y),
+      mix(along(slice), along(slice + row), place.t.y), place.t.z);
   }
   glm::dvec3 gradient(const glm::dvec3& local) const override
   {
-    const glm::dvec3 none(std::numeric_limits<double>::quiet_NaN());
-    const glm::dvec3 inIndices = this->interpolated(
-      local, none, [this](int x, int y, int z) { return this->difference(x, y, z); });
+    Place place;
+    if (!this->find(local, place))
+    {
+      return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+    }
+    const glm::ivec3 c = place.cell;
+    const auto along = [&](int y, int z)
+    {
+      return mix(this->difference(c.x, c.y + y, c.z + z),
+        this->difference(c.x + 1, c.y + y, c.z + z), place.t.x);
+    };
+    const glm::dvec3 inIndices = mix(mix(along(0, 0), along(1, 0), place.t.y),
+      mix(along(0, 1), along(1, 1), place.t.y), place.t.z);
     return glm::transpose(glm::dmat3(this->Grid.toIndex)) * inIndices;
+  }
+  bool crosses(const glm::ivec3& first, const glm::ivec3& last, double value) const override
+  {
+    bool below = false, above = false, at = false;
+    for (int z = first.z; z <= last.z; ++z)
+    {
+      for (int y = first.y; y <= last.y; ++y)
+      {
+        const T* row = this->Values + this->Grid.index(0, y, z);
+        for (int x = first.x; x <= last.x; ++x)
+        {
+          const double v = static_cast<double>(row[x]);
+          below = below || (v < value && std::isfinite(v));
+          above = above || (v > value && std::isfinite(v));
+          at = at || v == value;
+        }
+      }
+      if (below && above)
+      {
+        return true;
+      }
+    }
+    return at && (below || above);
   }
 
 private:
+  /// A place in a cell, 0 to 1 along each axis.
+  struct Place
+  {
+    glm::ivec3 cell;
+    glm::dvec3 t;
+  };
+  /// False outside of the image.
+  bool find(const glm::dvec3& local, Place& place) const
+  {
+    constexpr double Rounding = 1e-9; // of indices
+    const glm::dmat4& m = this->Grid.toIndex;
+    for (int i = 0; i < 3; ++i)
+    {
+      const double p = m[0][i] * local.x + m[1][i] * local.y + m[2][i] * local.z + m[3][i];
+      const double last = this->Grid.points[i] - 1;
+      if (!(p >= -Rounding && p <= last + Rounding))
+      {
+        return false;
+      }
+      place.cell[i] = std::clamp(static_cast<int>(p), 0, this->Grid.points[i] - 2);
+      place.t[i] = std::clamp(p - place.cell[i], 0.0, 1.0);
+    }
+    return true;
+  }
+  template <class V>
+  static V mix(const V& low, const V& high, double t)
+  {
+    return (1.0 - t) * low + t * high;
+  }
   /// Of neighbours, an index apart; one-sided at the image's ends.
   glm::dvec3 difference(int x, int y, int z) const
   {
+    const std::ptrdiff_t row = this->Grid.points.x, slice = row * this->Grid.points.y;
+    const T* v = this->Values + this->Grid.index(x, y, z);
     const glm::ivec3 last = this->Grid.points - 1;
-    const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, last.x);
-    const int y0 = std::max(y - 1, 0), y1 = std::min(y + 1, last.y);
-    const int z0 = std::max(z - 1, 0), z1 = std::min(z + 1, last.z);
-    return { (this->at(x1, y, z) - this->at(x0, y, z)) / (x1 - x0),
-      (this->at(x, y1, z) - this->at(x, y0, z)) / (y1 - y0),
-      (this->at(x, y, z1) - this->at(x, y, z0)) / (z1 - z0) };
+    return { difference(v, 1, x, last.x), difference(v, row, y, last.y),
+      difference(v, slice, z, last.z) };
   }
-  template <class V, class At>
-  V interpolated(const glm::dvec3& local, const V& outside, const At& at) const
+  static double difference(const T* v, std::ptrdiff_t step, int at, int last)
   {
-    constexpr double Rounding = 1e-9; // of indices
-    const glm::dvec3 p(this->Grid.toIndex * glm::dvec4(local, 1.0));
-    V sum(0.0);
-    glm::ivec3 cell;
-    glm::dvec3 t;
-    for (int i = 0; i < 3; ++i)
-    {
-      const double last = this->Grid.points[i] - 1;
-      if (!(p[i] >= -Rounding && p[i] <= last + Rounding))
-      {
-        return outside;
-      }
-      cell[i] = std::clamp(static_cast<int>(p[i]), 0, this->Grid.points[i] - 2);
-      t[i] = std::clamp(p[i] - cell[i], 0.0, 1.0);
-    }
-    for (int i = 0; i < 8; ++i)
-    {
-      const glm::ivec3 upper(i & 1, i >> 1 & 1, i >> 2);
-      const double weight =
-        (upper.x ? t.x : 1.0 - t.x) * (upper.y ? t.y : 1.0 - t.y) * (upper.z ? t.z : 1.0 - t.z);
-      const glm::ivec3 c = cell + upper;
-      sum += weight * at(c.x, c.y, c.z);
-    }
-    return sum;
+    const std::ptrdiff_t before = at > 0 ? -step : 0, after = at < last ? step : 0;
+    const double change = static_cast<double>(v[after]) - static_cast<double>(v[before]);
+    return at > 0 && at < last ? 0.5 * change : change;
   }
 
   const ImageGrid Grid;
@@ -203,7 +259,7 @@ class VTKSVOOCTREE_EXPORT ImageSource : public FieldSource
 {
 public:
   ImageSource(
-    const ScalarField& field, const ImageGrid& grid, const ValuePyramid& pyramid, double value)
+    const GriddedField& field, const ImageGrid& grid, const ValuePyramid& pyramid, double value)
     : FieldSource(field, { value, 0.0, 0.0 })
     , Field(field)
     , Grid(grid)
@@ -213,11 +269,18 @@ public:
   {
   }
   bool mayPass(const glm::dvec3& centre, double half) const override;
+  bool planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const override;
 
 private:
+  struct Box
+  {
+    glm::dvec3 low, high;
+  };
+  /// Of a cube, in continuous indices, a trifle larger.
+  Box boxOf(const glm::dvec3& centre, double half) const;
   bool reachesIn(const glm::dvec3& low, const glm::dvec3& high) const;
 
-  const ScalarField& Field;
+  const GriddedField& Field;
   const ImageGrid& Grid;
   const glm::dmat4 ToLocal;
   const ValuePyramid& Pyramid;
