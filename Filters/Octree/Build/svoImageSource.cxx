@@ -67,10 +67,21 @@ ImageSource::Box ImageSource::boxOf(const glm::dvec3& centre, double half) const
   return { middle - reach, middle + reach };
 }
 
+/// False if no surface passes through the cells that the box touches, where these are few.
+bool ImageSource::cellsReach(const Box& box) const
+{
+  constexpr int Few = 4; // points along an axis; the pyramid judges larger boxes
+  const glm::dvec3 last(this->Grid.points - 1);
+  const glm::ivec3 from(glm::clamp(glm::floor(box.low), glm::dvec3(0.0), last));
+  const glm::ivec3 to(glm::clamp(glm::ceil(box.high), glm::dvec3(0.0), last));
+  return glm::any(glm::greaterThanEqual(to - from, glm::ivec3(Few))) ||
+    this->Field.crosses(from, to, this->Value);
+}
+
 bool ImageSource::mayPass(const glm::dvec3& centre, double half) const
 {
   const Box box = this->boxOf(centre, half);
-  if (!this->Pyramid.reaches(box.low, box.high, this->Value))
+  if (!this->Pyramid.reaches(box.low, box.high, this->Value) || !this->cellsReach(box))
   {
     return false;
   }
@@ -81,18 +92,8 @@ bool ImageSource::mayPass(const glm::dvec3& centre, double half) const
 /// A tangent plane may pass where the surface does not: cells that the voxel touches tell.
 bool ImageSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const
 {
-  const Box box = this->boxOf(centre, half);
-  const glm::dvec3 last(this->Grid.points - 1);
-  const glm::ivec3 from(glm::clamp(glm::floor(box.low), glm::dvec3(0.0), last));
-  const glm::ivec3 to(glm::clamp(glm::ceil(box.high), glm::dvec3(0.0), last));
-  constexpr int Few = 4; // along an axis; larger voxels have been judged by the pyramid
-  const glm::ivec3 points = to - from + 1;
-  if (glm::all(glm::lessThanEqual(points, glm::ivec3(Few))) &&
-    !this->Field.crosses(from, to, this->Value))
-  {
-    return false;
-  }
-  return this->FieldSource::planeIn(centre, half, plane);
+  return this->cellsReach(this->boxOf(centre, half)) &&
+    this->FieldSource::planeIn(centre, half, plane);
 }
 
 /// A field that is trilinear has its extremes in a part of a cell at the part's corners.

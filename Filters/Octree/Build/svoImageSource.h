@@ -95,18 +95,19 @@ public:
   }
   bool crosses(const glm::ivec3& first, const glm::ivec3& last, double value) const override
   {
+    constexpr double Infinity = std::numeric_limits<double>::infinity();
     bool below = false, above = false, at = false;
     for (int z = first.z; z <= last.z; ++z)
     {
       for (int y = first.y; y <= last.y; ++y)
       {
-        const T* row = this->Values + this->Grid.index(0, y, z);
-        for (int x = first.x; x <= last.x; ++x)
+        const T* row = this->Values + this->Grid.index(first.x, y, z);
+        for (int x = 0; x <= last.x - first.x; ++x)
         {
           const double v = static_cast<double>(row[x]);
-          below = below || (v < value && std::isfinite(v));
-          above = above || (v > value && std::isfinite(v));
-          at = at || v == value;
+          below |= (v < value) & (v > -Infinity);
+          above |= (v > value) & (v < Infinity);
+          at |= v == value;
         }
       }
       if (below && above)
@@ -278,6 +279,7 @@ private:
   };
   /// Of a cube, in continuous indices, a trifle larger.
   Box boxOf(const glm::dvec3& centre, double half) const;
+  bool cellsReach(const Box& box) const;
   bool reachesIn(const glm::dvec3& low, const glm::dvec3& high) const;
 
   const GriddedField& Field;
