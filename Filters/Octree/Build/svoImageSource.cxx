@@ -58,19 +58,42 @@ bool ValuePyramid::reaches(const glm::dvec3& low, const glm::dvec3& high, double
   return range.low <= value && value <= range.high && range.low < range.high;
 }
 
-bool ImageSource::mayPass(const glm::dvec3& centre, double half) const
+ImageSource::Box ImageSource::boxOf(const glm::dvec3& centre, double half) const
 {
   const glm::dmat3 linear(this->Grid.toIndex);
   const glm::dvec3 middle(this->Grid.toIndex * glm::dvec4(centre, 1.0));
   const glm::dvec3 reach =
     half * (glm::abs(linear[0]) + glm::abs(linear[1]) + glm::abs(linear[2])) + 1e-6;
-  const glm::dvec3 low = middle - reach, high = middle + reach;
-  if (!this->Pyramid.reaches(low, high, this->Value))
+  return { middle - reach, middle + reach };
+}
+
+/// False if no surface passes through the cells that the box touches, where these are few.
+bool ImageSource::cellsReach(const Box& box) const
+{
+  constexpr int Few = 4; // points along an axis; the pyramid judges larger boxes
+  const glm::dvec3 last(this->Grid.points - 1);
+  const glm::ivec3 from(glm::clamp(glm::floor(box.low), glm::dvec3(0.0), last));
+  const glm::ivec3 to(glm::clamp(glm::ceil(box.high), glm::dvec3(0.0), last));
+  return glm::any(glm::greaterThanEqual(to - from, glm::ivec3(Few))) ||
+    this->Field.crosses(from, to, this->Value);
+}
+
+bool ImageSource::mayPass(const glm::dvec3& centre, double half) const
+{
+  const Box box = this->boxOf(centre, half);
+  if (!this->Pyramid.reaches(box.low, box.high, this->Value) || !this->cellsReach(box))
   {
     return false;
   }
-  const bool small = glm::all(glm::lessThanEqual(reach, glm::dvec3(0.5)));
-  return !small || this->reachesIn(low, high);
+  const bool small = glm::all(glm::lessThanEqual(box.high - box.low, glm::dvec3(1.0)));
+  return !small || this->reachesIn(box.low, box.high);
+}
+
+/// A tangent plane may pass where the surface does not: cells that the voxel touches tell.
+bool ImageSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const
+{
+  return this->cellsReach(this->boxOf(centre, half)) &&
+    this->FieldSource::planeIn(centre, half, plane);
 }
 
 /// A field that is trilinear has its extremes in a part of a cell at the part's corners.

@@ -41,13 +41,14 @@ struct ImageGrid
   bool locate(const glm::dvec3& local, glm::ivec3& cell, glm::dvec3& in) const
   {
     constexpr double Rounding = 1e-9; // of indices
-    const glm::dvec3 p(this->toIndex * glm::dvec4(local, 1.0));
+    const glm::dmat4& m = this->toIndex;
     bool inside = true;
     for (int i = 0; i < 3; ++i)
     {
+      const double p = m[0][i] * local.x + m[1][i] * local.y + m[2][i] * local.z + m[3][i];
       const double last = this->points[i] - 1;
-      inside = inside && p[i] >= -Rounding && p[i] <= last + Rounding;
-      const double at = p[i] > 0.0 ? std::min(p[i], last) : 0.0;
+      inside = inside && p >= -Rounding && p <= last + Rounding;
+      const double at = p > 0.0 ? std::min(p, last) : 0.0;
       cell[i] = std::min(static_cast<int>(at), this->points[i] - 2);
       in[i] = at - cell[i];
     }
@@ -71,9 +72,18 @@ V trilinear(const glm::ivec3& cell, const glm::dvec3& in, V sum, const At& at)
   return sum;
 }
 
+/// A field that is known at the points of a grid.
+class GriddedField : public ScalarField
+{
+public:
+  /// Whether finite values at points first to last, inclusive, lie on both sides of `value` or are
+  /// it; and are not all the same.
+  virtual bool crosses(const glm::ivec3& first, const glm::ivec3& last, double value) const = 0;
+};
+
 /// An image of scalars of a type, which are borrowed.
 template <class T>
-class ImageField : public ScalarField
+class ImageField : public GriddedField
 {
 public:
   ImageField(const ImageGrid& grid, const T* values)
@@ -88,35 +98,80 @@ public:
   /// NaN outside of the image.
   double value(const glm::dvec3& local) const override
   {
-    return this->interpolated(local, std::numeric_limits<double>::quiet_NaN(),
-      [this](int x, int y, int z) { return this->at(x, y, z); });
+    glm::ivec3 c;
+    glm::dvec3 t;
+    if (!this->Grid.locate(local, c, t))
+    {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    const std::size_t row = this->Grid.points.x, slice = row * this->Grid.points.y;
+    const T* v = this->Values + this->Grid.index(c.x, c.y, c.z);
+    const auto along = [&](std::size_t at)
+    { return mix(static_cast<double>(v[at]), static_cast<double>(v[at + 1]), t.x); };
+    return mix(mix(along(0), along(row), t.y), mix(along(slice), along(slice + row), t.y), t.z);
   }
   glm::dvec3 gradient(const glm::dvec3& local) const override
   {
-    const glm::dvec3 none(std::numeric_limits<double>::quiet_NaN());
-    const glm::dvec3 inIndices = this->interpolated(
-      local, none, [this](int x, int y, int z) { return this->difference(x, y, z); });
+    glm::ivec3 c;
+    glm::dvec3 t;
+    if (!this->Grid.locate(local, c, t))
+    {
+      return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+    }
+    const auto along = [&](int y, int z)
+    {
+      return mix(
+        this->difference(c.x, c.y + y, c.z + z), this->difference(c.x + 1, c.y + y, c.z + z), t.x);
+    };
+    const glm::dvec3 inIndices =
+      mix(mix(along(0, 0), along(1, 0), t.y), mix(along(0, 1), along(1, 1), t.y), t.z);
     return glm::transpose(glm::dmat3(this->Grid.toIndex)) * inIndices;
+  }
+  bool crosses(const glm::ivec3& first, const glm::ivec3& last, double value) const override
+  {
+    constexpr double Infinity = std::numeric_limits<double>::infinity();
+    bool below = false, above = false, at = false;
+    for (int z = first.z; z <= last.z; ++z)
+    {
+      for (int y = first.y; y <= last.y; ++y)
+      {
+        const T* row = this->Values + this->Grid.index(first.x, y, z);
+        for (int x = 0; x <= last.x - first.x; ++x)
+        {
+          const double v = static_cast<double>(row[x]);
+          below |= (v < value) & (v > -Infinity);
+          above |= (v > value) & (v < Infinity);
+          at |= v == value;
+        }
+      }
+      if (below && above)
+      {
+        return true;
+      }
+    }
+    return at && (below || above);
   }
 
 private:
+  template <class V>
+  static V mix(const V& low, const V& high, double t)
+  {
+    return (1.0 - t) * low + t * high;
+  }
   /// Of neighbours, an index apart; one-sided at the image's ends.
   glm::dvec3 difference(int x, int y, int z) const
   {
+    const std::ptrdiff_t row = this->Grid.points.x, slice = row * this->Grid.points.y;
+    const T* v = this->Values + this->Grid.index(x, y, z);
     const glm::ivec3 last = this->Grid.points - 1;
-    const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, last.x);
-    const int y0 = std::max(y - 1, 0), y1 = std::min(y + 1, last.y);
-    const int z0 = std::max(z - 1, 0), z1 = std::min(z + 1, last.z);
-    return { (this->at(x1, y, z) - this->at(x0, y, z)) / (x1 - x0),
-      (this->at(x, y1, z) - this->at(x, y0, z)) / (y1 - y0),
-      (this->at(x, y, z1) - this->at(x, y, z0)) / (z1 - z0) };
+    return { difference(v, 1, x, last.x), difference(v, row, y, last.y),
+      difference(v, slice, z, last.z) };
   }
-  template <class V, class At>
-  V interpolated(const glm::dvec3& local, const V& outside, const At& at) const
+  static double difference(const T* v, std::ptrdiff_t step, int at, int last)
   {
-    glm::ivec3 cell;
-    glm::dvec3 in;
-    return this->Grid.locate(local, cell, in) ? trilinear(cell, in, V(0.0), at) : outside;
+    const std::ptrdiff_t before = at > 0 ? -step : 0, after = at < last ? step : 0;
+    const double change = static_cast<double>(v[after]) - static_cast<double>(v[before]);
+    return at > 0 && at < last ? 0.5 * change : change;
   }
 
   const ImageGrid Grid;
@@ -215,7 +270,7 @@ class VTKSVOOCTREE_EXPORT ImageSource : public FieldSource
 {
 public:
   ImageSource(
-    const ScalarField& field, const ImageGrid& grid, const ValuePyramid& pyramid, double value)
+    const GriddedField& field, const ImageGrid& grid, const ValuePyramid& pyramid, double value)
     : FieldSource(field, { value, 0.0, 0.0 })
     , Field(field)
     , Grid(grid)
@@ -225,11 +280,19 @@ public:
   {
   }
   bool mayPass(const glm::dvec3& centre, double half) const override;
+  bool planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const override;
 
 private:
+  struct Box
+  {
+    glm::dvec3 low, high;
+  };
+  /// Of a cube, in continuous indices, a trifle larger.
+  Box boxOf(const glm::dvec3& centre, double half) const;
+  bool cellsReach(const Box& box) const;
   bool reachesIn(const glm::dvec3& low, const glm::dvec3& high) const;
 
-  const ScalarField& Field;
+  const GriddedField& Field;
   const ImageGrid& Grid;
   const glm::dmat4 ToLocal;
   const ValuePyramid& Pyramid;
