@@ -5,6 +5,8 @@
 #include "vtkPolyDataNormals.h"
 #include "vtkSphereSource.h"
 
+#include <algorithm>
+
 using namespace svotest;
 
 namespace
@@ -188,6 +190,36 @@ TEST(SVOShadowFilter, PointsInAValleyAreOnTheirOwnFacets)
   EXPECT_EQ(shadows.shadow(1), 0.0) << "the facets that have the point are left out";
   shadows.filter->AddCasterData(level(-3, -0.5, -2, 2, 0.5));
   EXPECT_EQ(shadows.shadow(1), 1.0);
+}
+
+TEST(SVOShadowFilter, SamplesTogetherGetWhatTheyGetAlone)
+{
+  // As beams where many of them are on one triangle, else as blocks.
+  for (const int samples : { 0, 1, 64 })
+  {
+    vtkSmartPointer<vtkDataArray> answers[2];
+    for (const bool alone : { false, true })
+    {
+      Shadows shadows(hills(samples == 64 ? 12 : 60), samples == 0);
+      shadows.filter->SetSamplesPerCell(std::max(samples, 1));
+      shadows.filter->SetSingleRays(alone);
+      shadows.filter->SetTwoSided(true);
+      for (int i = 0; i < 20; ++i)
+      {
+        shadows.filter->AddLight(sun(std::cos(i), std::sin(i), 0.02 * i));
+        shadows.filter->AddLight(lamp(0.9 * std::cos(i), 0.9 * std::sin(i), 0.25));
+      }
+      answers[alone] = shadows.array("Shadow");
+    }
+    const vtkIdType values = answers[0]->GetNumberOfTuples() * 40;
+    vtkIdType differ = 0;
+    for (vtkIdType i = 0; i < values; ++i)
+    {
+      differ +=
+        answers[0]->GetComponent(i / 40, i % 40) != answers[1]->GetComponent(i / 40, i % 40);
+    }
+    EXPECT_LE(differ, values / 20000) << "of " << values << " with " << samples << " samples";
+  }
 }
 
 TEST(SVOShadowFilter, WeightsAndCosines)
