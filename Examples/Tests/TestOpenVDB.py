@@ -40,7 +40,7 @@ class TestOpenVDB(unittest.TestCase):
         ball.SetThetaResolution(40)
         ball.SetPhiResolution(40)
         convert.SetInputConnection(ball.GetOutputPort())
-        convert.SetMaximumLevel(5)
+        convert.SetMaximumLevel(7)
         writer.SetInputConnection(convert.GetOutputPort())
         writer.WriteLevelSetOn()
         writer.SetFileName(str(self.folder / "ball.vdb"))

@@ -5,6 +5,7 @@
 #include "svoConversion.h"
 #include "svoOctreeCells.h"
 #include "svoVDBFile.h"
+#include "svoVDBOctree.h"
 #include "vtkSVOVDBReader.h"
 #include "vtkSVOVDBWriter.h"
 #include "vtkSparseVoxelOctree.h"
@@ -152,6 +153,35 @@ inline glm::dvec3 placeOf(const svo::Octree& octree, const Cell& cell)
   const glm::dvec3 own = glm::dvec3(h.origin[0], h.origin[1], h.origin[2]) +
     (glm::dvec3(std::get<0>(cell), std::get<1>(cell), std::get<2>(cell)) + 0.5) * h.voxelSize;
   return glm::dvec3(octree.frame() * glm::dvec4(own, 1.0));
+}
+
+/// Voxels (i, j, k) of the grid that the octree has, by where they lie.
+inline std::vector<Cell> indicesOf(
+  const svo::Octree& octree, const openvdb::math::Transform& transform)
+{
+  std::vector<Cell> indices;
+  for (const Cell& cell : cellsOf(octree))
+  {
+    const glm::dvec3 p = placeOf(octree, cell);
+    const openvdb::Vec3d i = transform.worldToIndex({ p.x, p.y, p.z });
+    EXPECT_NEAR(i.x(), std::round(i.x()), 1e-6) << "a leaf is a voxel";
+    EXPECT_NEAR(i.y(), std::round(i.y()), 1e-6);
+    EXPECT_NEAR(i.z(), std::round(i.z()), 1e-6);
+    indices.emplace_back(static_cast<int>(std::lround(i.x())), static_cast<int>(std::lround(i.y())),
+      static_cast<int>(std::lround(i.z())));
+  }
+  std::sort(indices.begin(), indices.end());
+  return indices;
+}
+
+inline svo::SourceOctree convert(const openvdb::GridBase& grid, vtkPolyData* hull,
+  double threshold = 0.0, svo::VDBConversion conversion = svo::VDBConversion::Automatic)
+{
+  openvdb::initialize();
+  svo::VDBOptions options;
+  options.threshold = threshold;
+  options.conversion = conversion;
+  return svo::octreeOfGrid(grid, options, hull);
 }
 }
 
