@@ -15,7 +15,7 @@ def arguments():
     parser.add_argument("--value", type=float, help="default: the middle of the range")
     parser.add_argument("--to", type=float, help="the last frame's value")
     parser.add_argument("--frames", type=int, default=25, help="from --value to --to")
-    parser.add_argument("--level", type=int, default=0, help="of the octree; 0: voxels as small as cells")
+    parser.add_argument("--level", type=int, help="of the octree; default: voxels as small as cells, at least 8")
     parser.add_argument("--output", default="isosurface", help="folder for the pictures")
     return parser.parse_args()
 
@@ -52,9 +52,9 @@ def add_actor(renderer, port, color):
 def make_scene(image, surface):
     (x, y, z), size, bottom = image.GetCenter(), image.GetLength(), image.GetBounds()[4]
     ground = vtk.vtkPlaneSource()
-    ground.SetOrigin(x - 9 * size, y - 9 * size, bottom)
-    ground.SetPoint1(x + 9 * size, y - 9 * size, bottom)
-    ground.SetPoint2(x - 9 * size, y + 9 * size, bottom)
+    ground.SetOrigin(x - 3 * size, y - 3 * size, bottom)
+    ground.SetPoint1(x + 3 * size, y - 3 * size, bottom)
+    ground.SetPoint2(x - 3 * size, y + 3 * size, bottom)
     renderer, window, light = vtk.vtkRenderer(), vtk.vtkRenderWindow(), vtk.vtkLight()
     add_actor(renderer, surface.GetOutputPort(), (0.9, 0.62, 0.42))
     add_actor(renderer, ground.GetOutputPort(), (0.75, 0.76, 0.8))
@@ -96,7 +96,7 @@ def main():
     first = (low + high) / 2 if options.value is None else options.value
     surface = vtksvo.vtkImageToSVO()
     surface.SetInputData(image)
-    surface.SetMaximumLevel(options.level)
+    surface.SetMaximumLevel(options.level or max(8, (max(image.GetDimensions()) - 2).bit_length()))
     surface.SetValue(first)
     window = make_scene(image, surface)
     os.makedirs(options.output, exist_ok=True)
