@@ -71,12 +71,12 @@ def first_hit(shape, origin, direction):
 
 
 def near_edge(shape, origin, direction, exact, voxel):
-    """Whether a ray a voxel to the side sees nothing, or something more than 30 voxels off: more than a slope of facing 0.1 explains."""
+    """Whether a ray a voxel to the side sees nothing, or something more than 12 voxels off: more than a slope explains."""
     side = numpy.cross(direction, [0.3, 0.5, 0.8])
     side *= voxel / numpy.linalg.norm(side)
     for beside in (side, -side, numpy.cross(direction, side), -numpy.cross(direction, side)):
         t = first_hit(shape, origin + beside, direction)
-        if not abs(t - exact) < 30 * voxel:
+        if not abs(t - exact) < 12 * voxel:
             return True
     return False
 
