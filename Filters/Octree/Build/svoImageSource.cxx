@@ -103,23 +103,29 @@ bool ImageSource::reachesIn(const glm::dvec3& low, const glm::dvec3& high) const
   const glm::dvec3 from = glm::clamp(low, glm::dvec3(0.0), last);
   const glm::dvec3 to = glm::clamp(high, glm::dvec3(0.0), last);
   const glm::dvec3 border = glm::clamp(glm::floor(to), from, to); // between at most two cells
+  glm::dvec3 at[3] = { from, to, border };
+  glm::ivec3 count(2);
+  for (int a = 0; a < 3; ++a)
+  {
+    count[a] += border[a] > from[a] && border[a] < to[a];
+  }
   double least = std::numeric_limits<double>::infinity();
   double most = -least;
-  for (int i = 0; i < 27; ++i)
+  for (int i = 0; i < count.x * count.y * count.z; ++i)
   {
-    const glm::ivec3 which(i % 3, i / 3 % 3, i / 9);
-    glm::dvec3 at;
-    for (int a = 0; a < 3; ++a)
-    {
-      at[a] = which[a] == 0 ? from[a] : which[a] == 1 ? border[a] : to[a];
-    }
-    const double value = this->Field.value(glm::dvec3(this->ToLocal * glm::dvec4(at, 1.0)));
+    const glm::ivec3 which(i % count.x, i / count.x % count.y, i / (count.x * count.y));
+    const glm::dvec4 corner(at[which.x].x, at[which.y].y, at[which.z].z, 1.0);
+    const double value = this->Field.value(glm::dvec3(this->ToLocal * corner));
     if (std::isfinite(value))
     {
       least = std::min(least, value);
       most = std::max(most, value);
     }
+    if (least <= this->Value && this->Value <= most && least < most)
+    {
+      return true;
+    }
   }
-  return least <= this->Value && this->Value <= most && least < most;
+  return false;
 }
 }
