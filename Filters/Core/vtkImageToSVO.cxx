@@ -23,6 +23,7 @@
 #include <cmath>
 #include <cstddef>
 #include <new>
+#include <string>
 
 vtkStandardNewMacro(vtkImageToSVO);
 
@@ -102,6 +103,11 @@ bool sample(const T* from, const svo::ImageGrid& grid, const svo::Octree& octree
         values->SetComponent(static_cast<vtkIdType>(leaf), c, value);
       }
     });
+}
+
+bool isName(const char* name)
+{
+  return name && *name && std::string(name) != "None";
 }
 
 /// Colours of bytes stay bytes, all else becomes floats.
@@ -200,9 +206,8 @@ int vtkImageToSVO::RequestData(
     : levelOf(image, std::max({ b[1] - b[0], b[3] - b[2], b[5] - b[4] }));
   options.memoryLimit = this->MemoryLimit * Kibi;
   options.parallelFor = svo::smpParallelFor();
-  vtkDataArray* colors = this->ColorArrayName && *this->ColorArrayName
-    ? image->GetPointData()->GetArray(this->ColorArrayName)
-    : nullptr;
+  vtkDataArray* colors =
+    isName(this->ColorArrayName) ? image->GetPointData()->GetArray(this->ColorArrayName) : nullptr;
   const bool unfitColors = colors &&
     (colors->GetNumberOfTuples() != image->GetNumberOfPoints() ||
       !colors->HasStandardMemoryLayout());
@@ -251,7 +256,7 @@ int vtkImageToSVO::RequestData(
     vtkWarningMacro(
       "No surface was found: the image does not take the value " << this->Value << ".");
   }
-  if (built.voxels > 0 && !colors && this->ColorArrayName && *this->ColorArrayName)
+  if (built.voxels > 0 && !colors && isName(this->ColorArrayName))
   {
     vtkWarningMacro("The surface has no colours: the image has no array of its points named "
       << this->ColorArrayName << ".");

@@ -56,7 +56,7 @@ public:
    * of that name with a tuple for each voxel, and cell data of the same name, so that mappers can
    * be told to colour by it: vtkSVORenderPass shows the voxels' values, VTK's rasteriser means of
    * the hull's cells. Unsigned bytes of 3 or 4 components stay colours, other integers become
-   * floats. An array that is not there is a warning.
+   * floats. An array that is not there is a warning, but for the name "None", which is none, too.
    */
   vtkSetStringMacro(ColorArrayName);
   vtkGetStringMacro(ColorArrayName);

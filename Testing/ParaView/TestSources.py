@@ -267,6 +267,27 @@ output.GetPointData().SetScalars(array)
         for a, b in zip(first, again):
             self.assertEqual(scene.differing(a, b, 0), 0)
 
+    def test_another_array_colors_it(self):
+        height = pv.Calculator(Input=wavelet(), ResultArrayName="height", Function="coordsZ")
+        height.UpdatePipeline()
+        octree = pv.ImageToSVO(Input=height, Value=140.0, MaximumLevel=7, Colors="height")
+        octree.ContourBy = ["POINTS", "RTData"]
+        octree.UpdatePipeline()
+        low, high = octree.CellData["height"].GetRange()
+        self.assertLess(low, -20)
+        self.assertGreater(high, 20)
+        display = scene.show(octree, self.view)
+        pv.ColorBy(display, ("CELLS", "height"))
+        display.RescaleTransferFunctionToDataRange()
+        self.view.ResetCamera()
+        picture = self.picture("height")
+        self.assertEqual(self.traced, 1)
+        # Cool below, warm above.
+        red, blue = picture[..., 0].astype(int), picture[..., 2].astype(int)
+        middle = picture.shape[0] // 2
+        self.assertGreater((red - blue)[:middle].sum() * (blue - red)[middle:].sum(), 0)
+        self.assertGreater(abs((red - blue)[:middle].sum() - (red - blue)[middle:].sum()), 1e6)
+
     def test_one_message(self):
         octree = pv.ImageToSVO(Input=wavelet(), Value=1e6)
         with Output() as output:
