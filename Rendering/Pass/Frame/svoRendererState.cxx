@@ -139,8 +139,9 @@ std::string RendererState::lostShadows(const FrameSettings& settings) const
   }
   if (this->Statistics.tracer.largestGap > CoarseShadow)
   {
-    return "A surface is so vast that octrees do not resolve the shadows of small things on it. "
-           "Divide it, or make it smaller.";
+    return "Shadows of small things on a surface are lost: what its octree tells apart looks more "
+           "than 32 pixels wide. Give the octree of a surface that is no mesh a higher level; divide "
+           "a mesh that is so vast, or make it smaller.";
   }
   return {};
 }

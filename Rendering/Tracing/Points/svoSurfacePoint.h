@@ -170,8 +170,8 @@ inline bool shadersTurn(const SurfaceMatrices& frame, const View& view, const gl
 /// A point of an octree of planes: on the plane that was hit, of a voxel or of a node. Where a
 /// node's mean plane faces away, the line of sight tells a surface that is seen from behind from a
 /// node that reaches beyond the outline: there it meets nothing, and the outline's normal is across
-/// it. The normal to shade with is interpolated between voxels, where the material wants it; colours
-/// are those of the voxel, of a node those of the nearest one in it.
+/// it. The normal to shade with is interpolated between voxels, where the material wants it;
+/// colours are those of the voxel, of a node those of the nearest one in it.
 inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
   const glm::dvec3& position, const glm::vec3& towards, Primitive primitive)
 {
@@ -206,8 +206,8 @@ inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
   const Attributes& attributes = frame.instance->attributes;
   const bool colored = attributes.colors && attributes.colorAssociation == Association::Leaf;
   const glm::vec3 color = colored
-    ? detail::colorAt(attributes.colors,
-        node ? nearestVoxel(octree, primitive & ~NodePrimitive, at) : primitive)
+    ? detail::colorAt(
+        attributes.colors, node ? nearestVoxel(octree, primitive & ~NodePrimitive, at) : primitive)
     : glm::vec3(1.0f);
   return { position, facet, shadersTurn(frame, view, position, facet) ? -normal : normal, color,
     colored };
