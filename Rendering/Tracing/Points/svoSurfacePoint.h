@@ -194,7 +194,9 @@ inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
   const float side = sideLane(outwards, towards);
   const glm::vec3 facet = side * outwards;
   glm::vec3 normal = facet;
-  if (!node && !frame.instance->material.flatPlanes)
+  // Hits on cubes lie beside the planes, in places where the neighbours' say little.
+  if (!node && !frame.instance->material.flatPlanes &&
+    frame.instance->leafGeometry != LeafGeometry::Voxel)
   {
     normal = side * inWorld(smoothNormal(octree, at, own));
     // On an outline it may turn away although its plane does not.
