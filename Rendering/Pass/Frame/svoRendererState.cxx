@@ -141,8 +141,7 @@ std::string RendererState::lostShadows(const FrameSettings& settings) const
   {
     return "Shadows of small things on a surface are lost: what its octree tells apart looks more "
            "than 32 pixels wide. Give the octree of a surface that is no mesh a higher level; "
-           "divide "
-           "a mesh that is so vast, or make it smaller.";
+           "divide a mesh that is so vast, or make it smaller.";
   }
   return {};
 }

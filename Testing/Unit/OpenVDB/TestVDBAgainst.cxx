@@ -42,15 +42,6 @@ vtkSmartPointer<vtkPolyData> waves(int resolution)
   return source->GetOutput();
 }
 
-vtkSmartPointer<vtkPolyData> converted(vtkPolyData* mesh, int level)
-{
-  vtkNew<vtkPolyDataToSVO> filter;
-  filter->SetInputData(mesh);
-  filter->SetMaximumLevel(level);
-  filter->Update();
-  return filter->GetOutput();
-}
-
 /// Whether a triangle touches a voxel, told apart by exact integers: the builder's definition, by
 /// another way (svoSeparatingAxes.h).
 class Touches
@@ -202,7 +193,7 @@ TEST(VDBAgainst, RaysMeetALevelSetWhereOpenVDBsDo)
     const glm::dvec3 along = glm::normalize(to - from);
     const openvdb::math::Ray<double> ray(
       openvdb::Vec3d(from.x, from.y, from.z), openvdb::Vec3d(along.x, along.y, along.z));
-    openvdb::Vec3d point;
+    openvdb::Vec3d point(0.0);
     const bool hitTheirs = theirs.intersectsWS(ray, point);
     svo::Ray own;
     own.origin = glm::dvec3(toOctree * glm::dvec4(from, 1.0));

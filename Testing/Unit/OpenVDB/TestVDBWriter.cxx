@@ -50,15 +50,6 @@ vtkSmartPointer<vtkPolyData> waves()
   return source->GetOutput();
 }
 
-vtkSmartPointer<vtkPolyData> converted(vtkPolyData* mesh, int level)
-{
-  vtkNew<vtkPolyDataToSVO> filter;
-  filter->SetInputData(mesh);
-  filter->SetMaximumLevel(level);
-  filter->Update();
-  return filter->GetOutput();
-}
-
 vtkSmartPointer<vtkPolyData> ball(int level)
 {
   vtkNew<vtkSphere> sphere;

@@ -25,6 +25,15 @@
 
 namespace svotest
 {
+inline vtkSmartPointer<vtkPolyData> converted(vtkPolyData* mesh, int level)
+{
+  vtkNew<vtkPolyDataToSVO> filter;
+  filter->SetInputData(mesh);
+  filter->SetMaximumLevel(level);
+  filter->Update();
+  return filter->GetOutput();
+}
+
 /// A file of one test, which is removed at its end.
 class TemporaryFile
 {
