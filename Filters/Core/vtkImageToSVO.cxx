@@ -12,7 +12,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMatrix4x4.h"
+#include "vtkMatrix3x3.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -53,30 +53,68 @@ const char* unfit(vtkImageData* image, vtkDataArray* scalars)
   return nullptr;
 }
 
+bool isTurned(vtkImageData* image)
+{
+  return !image->GetDirectionMatrix()->IsIdentity();
+}
+
+/// An image with axes of its own gets an octree along these: its cells are those of no other one,
+/// and the surface ends where the image does.
+glm::dmat4 frameOf(vtkImageData* image)
+{
+  glm::dmat4 frame(1.0);
+  if (isTurned(image))
+  {
+    for (int row = 0; row < 3; ++row)
+    {
+      for (int column = 0; column < 3; ++column)
+      {
+        frame[column][row] = image->GetDirectionMatrix()->GetElement(row, column);
+      }
+      frame[3][row] = image->GetOrigin()[row];
+    }
+  }
+  return frame;
+}
+
+/// In the frame of the octree.
 svo::ImageGrid gridOf(vtkImageData* image)
 {
   svo::ImageGrid grid;
   const int* extent = image->GetExtent();
   const int* n = image->GetDimensions();
   grid.points = { n[0], n[1], n[2] };
-  for (int row = 0; row < 4; ++row)
+  grid.toIndex = glm::dmat4(1.0);
+  for (int i = 0; i < 3; ++i)
   {
-    for (int column = 0; column < 4; ++column)
-    {
-      grid.toIndex[column][row] = image->GetPhysicalToIndexMatrix()->GetElement(row, column);
-    }
+    const double origin = isTurned(image) ? 0.0 : image->GetOrigin()[i];
+    grid.toIndex[i][i] = 1.0 / image->GetSpacing()[i];
+    grid.toIndex[3][i] = -origin / image->GetSpacing()[i] - extent[2 * i];
   }
-  grid.toIndex[3] -= glm::dvec4(extent[0], extent[2], extent[4], 0.0);
   return grid;
 }
 
+/// Of the image's points, in the frame of the octree.
+void boundsOf(vtkImageData* image, glm::dvec3& low, glm::dvec3& high)
+{
+  const int* extent = image->GetExtent();
+  for (int i = 0; i < 3; ++i)
+  {
+    const double origin = isTurned(image) ? 0.0 : image->GetOrigin()[i];
+    const double first = origin + extent[2 * i] * image->GetSpacing()[i];
+    const double last = origin + extent[2 * i + 1] * image->GetSpacing()[i];
+    low[i] = std::min(first, last);
+    high[i] = std::max(first, last);
+  }
+}
+
 /// The level whose voxels are as small as the image's smallest spacing.
-int levelOf(vtkImageData* image, double extent)
+int levelOf(vtkImageData* image, const glm::dvec3& size)
 {
   const double* spacing = image->GetSpacing();
   const double least =
     std::min({ std::abs(spacing[0]), std::abs(spacing[1]), std::abs(spacing[2]) });
-  const double cells = extent / least;
+  const double cells = std::max({ size.x, size.y, size.z }) / least;
   return cells >= 2.0 && std::isfinite(cells)
     ? std::min(static_cast<int>(std::ceil(std::log2(cells * (1.0 - 1e-9)))), svo::MaximumLevel)
     : 1;
@@ -196,14 +234,12 @@ int vtkImageToSVO::RequestData(
     return 1;
   }
   constexpr std::size_t Kibi = 1024;
-  const double* b = image->GetBounds();
   svo::BuildOptions options;
   options.leafGeometry = svo::LeafGeometry::Plane;
-  options.modelLow = { b[0], b[2], b[4] };
-  options.modelHigh = { b[1], b[3], b[5] };
-  options.level = this->MaximumLevel > 0
-    ? this->MaximumLevel
-    : levelOf(image, std::max({ b[1] - b[0], b[3] - b[2], b[5] - b[4] }));
+  options.frame = frameOf(image);
+  boundsOf(image, options.modelLow, options.modelHigh);
+  options.level = this->MaximumLevel > 0 ? this->MaximumLevel
+                                         : levelOf(image, options.modelHigh - options.modelLow);
   options.memoryLimit = this->MemoryLimit * Kibi;
   options.parallelFor = svo::smpParallelFor();
   vtkDataArray* colors =

@@ -120,8 +120,9 @@ vtkSmartPointer<vtkImageData> negated(vtkImageData* image)
 
 double longestEdge(vtkImageData* image)
 {
-  const double* b = image->GetBounds();
-  return std::max({ b[1] - b[0], b[3] - b[2], b[5] - b[4] });
+  const int* n = image->GetDimensions();
+  const double* s = image->GetSpacing();
+  return std::max({ (n[0] - 1) * s[0], (n[1] - 1) * s[1], (n[2] - 1) * s[2] });
 }
 
 int levelOfSpacing(vtkImageData* image)

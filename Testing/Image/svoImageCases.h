@@ -27,8 +27,8 @@ std::vector<ImageCase> imageCases();
 /// The same with the sign of all values changed.
 vtkSmartPointer<vtkImageData> negated(vtkImageData* image);
 
-/// The first level at which 2^level voxels along the longest edge of the image's box are no longer
-/// than its least spacing.
+/// The first level at which 2^level voxels along the image's longest edge are no longer than its
+/// least spacing.
 int levelOfSpacing(vtkImageData* image);
 double longestEdge(vtkImageData* image);
 

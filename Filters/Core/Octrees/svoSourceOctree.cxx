@@ -17,7 +17,7 @@ namespace svo
 namespace
 {
 /// Double precision: bounds of the hull have to hold the surface wherever it lies. `bounds`: of the
-/// hull in the octree's own frame, as VTK orders them.
+/// planes, which pass their voxels by half a voxel, in the octree's own frame, as VTK orders them.
 void makeHull(const Octree& octree, vtkPolyData* hull, double bounds[6])
 {
   const int level = std::min(octree.level(), HullLevel);
@@ -38,12 +38,27 @@ void makeHull(const Octree& octree, vtkPolyData* hull, double bounds[6])
       return true;
     });
   quads.write(octree, level, VTK_DOUBLE, hull);
-  const double edge = std::ldexp(octree.header().voxelSize, octree.level() - level);
+  const Header& header = octree.header();
+  const double edge = std::ldexp(header.voxelSize, octree.level() - level);
   for (int i = 0; i < 3; ++i)
   {
     const bool any = high[i] >= 0;
-    bounds[2 * i] = any ? octree.header().origin[i] + low[i] * edge : 1.0;
-    bounds[2 * i + 1] = any ? octree.header().origin[i] + high[i] * edge : -1.0;
+    bounds[2 * i] = any ? header.origin[i] + low[i] * edge - 0.5 * header.voxelSize : 1.0;
+    bounds[2 * i + 1] = any ? header.origin[i] + high[i] * edge + 0.5 * header.voxelSize : -1.0;
+  }
+}
+
+/// Cuts bounds that are not empty down to the box that a surface was looked for in.
+void cutBounds(const BuildOptions& options, double bounds[6])
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    const double low = options.modelLow[i], high = options.modelHigh[i];
+    if (low < high && bounds[2 * i] <= high && low <= bounds[2 * i + 1])
+    {
+      bounds[2 * i] = std::max(bounds[2 * i], low);
+      bounds[2 * i + 1] = std::min(bounds[2 * i + 1], high);
+    }
   }
 }
 
@@ -64,6 +79,10 @@ SourceOctree buildUnguarded(
   }
   Header& header = *reinterpret_cast<Header*>(result.data.get());
   makeHull(octree, hull, header.meshBounds);
+  if (!cube) // else these are voxels of a grid, and end where they do
+  {
+    cutBounds(options, header.meshBounds);
+  }
   header.signature = meshSignature(hull);
   header.pointCount = static_cast<std::uint64_t>(hull->GetNumberOfPoints());
   header.cellCount = static_cast<std::uint64_t>(hull->GetNumberOfCells());

@@ -103,7 +103,7 @@ struct Header
   std::uint64_t signature;     // of the mesh it was built from; 0: not bound to one
   std::uint64_t pointCount;    // of that mesh
   std::uint64_t cellCount;     // of that mesh
-  double meshBounds[6];        // of that mesh, or of what it is a part of; octree's own frame
+  double meshBounds[6]; // of that mesh, or of what it is a part of; own frame; planes end there
   std::uint32_t depthBegin[MaximumDepths + 1]; // first node of each depth; [depthCount] = nodeCount
   std::uint32_t leafWords; // words of `lists` that a voxel has; 0: an octree of triangles
   std::uint32_t framed;    // 1: there is a frame; else 0. Of octrees of planes only

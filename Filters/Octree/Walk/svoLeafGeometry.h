@@ -20,7 +20,8 @@
 // of one smooth surface: at the voxels' border they are apart by less than the bend of the surface
 // within a voxel, so they overlap there, and reach little beyond an edge. A ray that all of them
 // refuse has passed beside the surface: it gets nothing, and outlines are the surface's own. Rays
-// that reach bricks go on to their voxels.
+// that reach bricks go on to their voxels. Planes end at Header::meshBounds: what a source has
+// beyond the border of an image is not known.
 //
 // Where a ray stops above the bricks (TraceOptions::level below octree.level() - 2) plane, triangle
 // and automatic are the mean plane of the node that is the cell, with the rule of `plane`; at an
@@ -65,6 +66,10 @@ struct LeafQuery
     {
       leaf.longestExact = 0; // nodes have a shape, but no list
     }
+    if (planes)
+    {
+      findBox();
+    }
     assert(!o.empty());
   }
 
@@ -74,8 +79,34 @@ struct LeafQuery
     return octree.hasPlanes() && level >= octree.level() - 2 ? octree.level() : level;
   }
 
+  /// Header::meshBounds in octree coordinates. A box without thickness leaves out nothing along
+  /// that axis, and neither does one that is not finite.
+  void findBox()
+  {
+    const Header& h = octree.header();
+    const double scale = 1.0 / std::ldexp(h.voxelSize, rootBits(octree, octree.level()));
+    constexpr double Rounding = 0x1p-20; // of floats in [1, 2), and of a hit's
+    for (int a = 0; a < 3; ++a)
+    {
+      if (h.meshBounds[2 * a] < h.meshBounds[2 * a + 1])
+      {
+        low[a] = 1.0 + (h.meshBounds[2 * a] - h.origin[a]) * scale - Rounding;
+        high[a] = 1.0 + (h.meshBounds[2 * a + 1] - h.origin[a]) * scale + Rounding;
+      }
+    }
+  }
+  template <class Real>
+  bool inBox(const Vector<Real>& x) const
+  {
+    return !planes ||
+      !(x.x < Real(low.x) || x.y < Real(low.y) || x.z < Real(low.z) || x.x > Real(high.x) ||
+        x.y > Real(high.y) || x.z > Real(high.z));
+  }
+
   const Octree& octree;
   TraceOptions options;
+  glm::dvec3 low{ 0.0 }; // of an octree of planes: where its surface ends, octree coordinates
+  glm::dvec3 high{ 3.0 };
   bool planes;     // of its own, see Octree::hasPlanes()
   int level;       // where rays stop
   int bits;        // of a cell's coordinate in the root cube
@@ -236,11 +267,15 @@ Visit meetPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const StopC
   Primitive primitive, Real& tMax, LeafHit<Real>& hit)
 {
   const Real t = intersectPlane(query, ray, cell, primitive);
-  const Vector<Real> x =
-    glm::abs(ray.origin + t * ray.direction - cellCentre<Real>(cell.cell, query.bits));
+  const Vector<Real> at = ray.origin + t * ray.direction;
+  const Vector<Real> x = glm::abs(at - cellCentre<Real>(cell.cell, query.bits));
   const bool own = query.planes && !(primitive & NodePrimitive);
   const Real reach = static_cast<Real>((own ? 2.0 : 3.0) * cellHalf(query.bits));
   const bool near = x.x <= reach && x.y <= reach && x.z <= reach; // false for NaN
+  if (near && !query.inBox(at))
+  {
+    return Visit::Continue;
+  }
   // A plane may pass the cell on the outside of the octree's cube, where the ray has begun.
   if (near && t >= ray.tStart && t <= tMax)
   {
