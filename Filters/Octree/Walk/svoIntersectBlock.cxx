@@ -13,6 +13,7 @@
 #include "svoPacketCells-inl.h"
 #include "svoPacketCubes-inl.h"
 #include "svoPacketLeaf-inl.h"
+#include "svoPacketPlanes-inl.h"
 #include "svoPacketWalk-inl.h"
 
 #include <algorithm>
@@ -109,6 +110,11 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
   bool anyHit, int first, I leave, Packet& p, BlockHits& hits)
 {
   const Lanes arrived = hn::Not(p.dead);
+  if (target.ownPlanes)
+  {
+    const Lanes again = meetOwnPlanes(query, target, rays, first, arrived, leave, p, hits);
+    return { again, hn::Ne(p.size, p.size) };
+  }
 #if SVO_PACKET_LEAVES
   if (target.points != nullptr)
   {
@@ -287,6 +293,14 @@ WalkTarget walkTarget(const LeafQuery& query)
     {
       target.kept = &octree.representatives();
     }
+  }
+  // Words are indexed with 32 bits and a sign.
+  const Header& h = octree.header();
+  if (query.leaf.shape == CellShape::Plane && (!query.inBrick || query.planes) &&
+    4 * h.nodeCount + h.listWords < std::uint64_t(1) << 31)
+  {
+    target.ownPlanes = true;
+    target.listBegin = static_cast<int>(4 * h.nodeCount);
   }
   assert(target.tableBits >= 0 && !upper.tables[table].empty());
   assert(target.cellSize == target.stopSize + target.groups);

@@ -24,6 +24,8 @@ struct WalkTarget
   int brickSize = 0;                    // of a brick
   float high = 2.0f;                    // upper corner of the octree's cube; the lower one is 1
 
+  bool ownPlanes = false; // all cells where rays arrive have planes of their own
+
   // For leaves that are settled side by side; null pointers where they cannot be.
   const float* points = nullptr;             // of the surface, 3 each
   const std::uint32_t* triangles = nullptr;  // likewise

@@ -154,7 +154,8 @@ TEST(SVOToHyperTreeGrid, StretchesWithTheFrame)
   ASSERT_EQ(svo::buildSourceOctree(source, options, hull).status, svo::BuildStatus::Built);
   GridOf grid(hull);
   const double* b = grid.output()->GetBounds();
-  const svo::Header& h = octreeOf(hull).header();
+  const svo::Octree octree = octreeOf(hull);
+  const svo::Header& h = octree.header();
   const double low = h.origin[0], high = low + std::ldexp(h.voxelSize, 5);
   const double expected[6] = { 10.0 + 3.0 * low, 10.0 + 3.0 * high, low, high, low - 2.0,
     high - 2.0 };
