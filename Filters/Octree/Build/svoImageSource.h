@@ -97,7 +97,7 @@ public:
 /// known, the other.
 inline glm::dvec3 turnedTowards(const glm::dvec3& own, const glm::dvec3& smooth)
 {
-  constexpr double LargestTurn = 0.35; // tangent: 19 degrees
+  constexpr double LargestTurn = 0.5; // tangent: 27 degrees
   const double square = glm::dot(own, own), along = glm::dot(own, smooth);
   if (!(square > 0.0) || !std::isfinite(square))
   {
