@@ -198,13 +198,32 @@ int vtkImageToSVO::RequestData(
   }
   else if (built.status == svo::BuildStatus::Built && built.voxels == 0 && !isPart)
   {
-    double range[2];
-    asked->GetFiniteRange(range);
+    this->WarnOfNothing(image, asked, built.octree.header().voxelSize);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkImageToSVO::WarnOfNothing(vtkImageData* image, vtkDataArray* scalars, double voxel)
+{
+  double range[2];
+  scalars->GetFiniteRange(range);
+  if (range[0] > range[1])
+  {
+    vtkWarningMacro("No surface was found: the image has no finite values.");
+  }
+  else if (range[0] < this->Value && this->Value < range[1] &&
+    voxel > svo::boxOfExtent(image, image->GetExtent()).thickness())
+  {
+    vtkWarningMacro("No surface was found: the image is thinner than a voxel, which has an edge of "
+      << voxel << "; choose a higher level, or more even spacings.");
+  }
+  else
+  {
     vtkWarningMacro("No surface was found: the image does not take the value "
       << this->Value << " between points on both sides of it; its finite values are " << range[0]
       << " to " << range[1] << ".");
   }
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -55,7 +55,7 @@ public:
   /**
    * Depth of the octree: 2^level voxels along the image's longest edge. 0 to 20, values outside are
    * clamped. 0 (default): the first level whose voxels are no larger than the image's smallest
-   * spacing; but at least 8, which looks like a surface, and no more than 2 beyond the one with a
+   * spacing; but at least 8, which looks like a surface, and about 2 beyond the one with a
    * voxel for each cell along the axis with most cells, where spacings are very uneven.
    */
   vtkSetClampMacro(MaximumLevel, int, 0, 20);
@@ -119,6 +119,7 @@ private:
 
   vtkDataArray* FindScalars(vtkInformationVector** inputVector, vtkImageData* image);
   vtkDataArray* FindColors(vtkImageData* image);
+  void WarnOfNothing(vtkImageData* image, vtkDataArray* scalars, double voxel);
   svo::SourceOctree Convert(
     vtkImageData* image, vtkDataArray* asked, const int whole[6], vtkPolyData* output);
 

@@ -53,6 +53,12 @@ double ImageBox::extent() const
   return std::max({ size.x, size.y, size.z });
 }
 
+double ImageBox::thickness() const
+{
+  const glm::dvec3 size = this->high - this->low;
+  return std::min({ size.x, size.y, size.z });
+}
+
 const char* unfitImage(vtkImageData* image, vtkDataArray* scalars)
 {
   const int* n = image->GetDimensions();
@@ -170,7 +176,10 @@ int levelOfImage(vtkImageData* image, const int extent[6])
     std::max({ extent[1] - extent[0], extent[3] - extent[2], extent[5] - extent[4] });
   const auto levelFor = [](double cells)
   { return static_cast<int>(std::ceil(std::log2(std::max(cells * (1.0 - 1e-9), 1.0)))); };
-  const int fine = levelFor(std::min(boxOfExtent(image, extent).extent() / least, 1e9));
-  return std::min(std::max(std::min(fine, levelFor(most) + MostBeyond), Least), MaximumLevel);
+  const ImageBox box = boxOfExtent(image, extent);
+  const int fine = levelFor(std::min(box.extent() / least, 1e9));
+  const int thick = levelFor(std::min(4.0 * box.extent() / box.thickness(), 1e9));
+  const int enough = std::min(fine, std::max(levelFor(most) + MostBeyond, thick));
+  return std::min(std::max(enough, Least), MaximumLevel);
 }
 }

@@ -17,7 +17,8 @@ namespace svo
 struct ImageBox
 {
   glm::dvec3 low, high;
-  double extent() const;
+  double extent() const; // along the longest edge
+  double thickness() const;
 };
 
 /// Why the surface of an image cannot be looked for; nullptr if it can.
@@ -33,9 +34,10 @@ ImageBox boxOfExtent(vtkImageData* image, const int extent[6]);
 /// The scalars, or, where points are blanked, doubles in which these are NaN.
 vtkSmartPointer<vtkDataArray> visibleScalars(vtkImageData* image, vtkDataArray* scalars);
 
-/// The first level whose voxels are no larger than the smallest spacing, but no less than 8, and no
-/// more than two beyond the one that has a voxel for each cell along the axis with most cells:
-/// where spacings are very uneven, voxels of the smallest would be far too many.
+/// The first level whose voxels are no larger than the smallest spacing, but no less than 8. Where
+/// spacings are very uneven, voxels of the smallest would be far too many: then two levels beyond
+/// the one that has a voxel for each cell along the axis with most cells, or as many as the image
+/// is four voxels thick with.
 int levelOfImage(vtkImageData* image, const int extent[6]);
 }
 

@@ -181,7 +181,33 @@ TEST(ImageParts, LevelsByDefault)
   EXPECT_EQ(defaultLevel(makeImage<vtkImageData>(65), 1.2), 8);
   EXPECT_EQ(defaultLevel(makeImage<vtkImageData>(65, { 1.0, 1.0, 0.2 }), 1.2), 8)
     << "an edge of 64 and spacings of 0.2 would be 9, but 64 cells are no more than 8";
-  EXPECT_EQ(defaultLevel(makeImage<vtkImageData>(130, { 1.0, 1.0, 0.01 }), 0.6), 10);
+  EXPECT_EQ(defaultLevel(makeImage<vtkImageData>(130, { 1.0, 1.0, 0.1 }), 0.6), 10);
+  EXPECT_EQ(defaultLevel(makeImage<vtkImageData>(33, { 1.0, 1.0, 50.0 }), 60.0), 8);
+  EXPECT_EQ(defaultLevel(makeImage<vtkImageData>(17, { 1.0, 1.0, 100.0 }), 60.0), 9)
+    << "at least four voxels across its 16 units";
+}
+
+TEST(ImageParts, WhyNothingWasFound)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto noValues = makeImage<vtkImageData>(9);
+  noValues->GetPointData()->GetScalars()->Fill(nan);
+  const std::pair<vtkSmartPointer<vtkImageData>, const char*> cases[] = {
+    { noValues, "no finite values" },
+    { makeImage<vtkImageData>(9), "its finite values are 0 to 8" },
+    { makeImage<vtkImageData>(9, { 1.0, 1.0, 1e8 }), "thinner than a voxel" },
+  };
+  for (const auto& [image, message] : cases)
+  {
+    vtkNew<vtkImageToSVO> filter;
+    svo::TestMessages messages{ filter };
+    filter->SetInputData(image);
+    filter->SetValue(30.3);
+    filter->Update();
+    EXPECT_EQ(filter->GetNumberOfVoxels(), 0) << message;
+    ASSERT_EQ(messages.warnings.size(), 1u) << message;
+    EXPECT_NE(messages.all().find(message), std::string::npos) << messages.all();
+  }
 }
 
 TEST(ImageParts, WithoutANameItIsTheActiveArray)
