@@ -1,8 +1,10 @@
 #include "vtkImageToSVO.h"
 
 #include "svoAbort.h"
+#include "svoImageInput.h"
 #include "svoImageSource.h"
 #include "svoLeafValues.h"
+#include "svoMeshOctree.h"
 #include "svoSMPParallel.h"
 #include "svoSourceOctree.h"
 
@@ -12,15 +14,14 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMatrix3x3.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTimerLog.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <new>
 #include <string>
@@ -29,97 +30,6 @@ vtkStandardNewMacro(vtkImageToSVO);
 
 namespace
 {
-/// Why an image has no surface to convert; nullptr if it may have one.
-const char* unfit(vtkImageData* image, vtkDataArray* scalars)
-{
-  const int* n = image->GetDimensions();
-  if (!scalars)
-  {
-    return "the image has no such point scalars";
-  }
-  if (scalars->GetNumberOfComponents() != 1)
-  {
-    return "the scalars have more than one component";
-  }
-  if (n[0] < 2 || n[1] < 2 || n[2] < 2)
-  {
-    return "the image has fewer than two points along an axis";
-  }
-  if (scalars->GetNumberOfTuples() != image->GetNumberOfPoints() ||
-    !scalars->HasStandardMemoryLayout())
-  {
-    return "the scalars are not one for each point, in one block of memory";
-  }
-  return nullptr;
-}
-
-bool isTurned(vtkImageData* image)
-{
-  return !image->GetDirectionMatrix()->IsIdentity();
-}
-
-/// An image with axes of its own gets an octree along these: its cells are those of no other one,
-/// and the surface ends where the image does.
-glm::dmat4 frameOf(vtkImageData* image)
-{
-  glm::dmat4 frame(1.0);
-  if (isTurned(image))
-  {
-    for (int row = 0; row < 3; ++row)
-    {
-      for (int column = 0; column < 3; ++column)
-      {
-        frame[column][row] = image->GetDirectionMatrix()->GetElement(row, column);
-      }
-      frame[3][row] = image->GetOrigin()[row];
-    }
-  }
-  return frame;
-}
-
-/// In the frame of the octree.
-svo::ImageGrid gridOf(vtkImageData* image)
-{
-  svo::ImageGrid grid;
-  const int* extent = image->GetExtent();
-  const int* n = image->GetDimensions();
-  grid.points = { n[0], n[1], n[2] };
-  grid.toIndex = glm::dmat4(1.0);
-  for (int i = 0; i < 3; ++i)
-  {
-    const double origin = isTurned(image) ? 0.0 : image->GetOrigin()[i];
-    grid.toIndex[i][i] = 1.0 / image->GetSpacing()[i];
-    grid.toIndex[3][i] = -origin / image->GetSpacing()[i] - extent[2 * i];
-  }
-  return grid;
-}
-
-/// Of the image's points, in the frame of the octree.
-void boundsOf(vtkImageData* image, glm::dvec3& low, glm::dvec3& high)
-{
-  const int* extent = image->GetExtent();
-  for (int i = 0; i < 3; ++i)
-  {
-    const double origin = isTurned(image) ? 0.0 : image->GetOrigin()[i];
-    const double first = origin + extent[2 * i] * image->GetSpacing()[i];
-    const double last = origin + extent[2 * i + 1] * image->GetSpacing()[i];
-    low[i] = std::min(first, last);
-    high[i] = std::max(first, last);
-  }
-}
-
-/// The level whose voxels are as small as the image's smallest spacing.
-int levelOf(vtkImageData* image, const glm::dvec3& size)
-{
-  const double* spacing = image->GetSpacing();
-  const double least =
-    std::min({ std::abs(spacing[0]), std::abs(spacing[1]), std::abs(spacing[2]) });
-  const double cells = std::max({ size.x, size.y, size.z }) / least;
-  return cells >= 2.0 && std::isfinite(cells)
-    ? std::min(static_cast<int>(std::ceil(std::log2(cells * (1.0 - 1e-9)))), svo::MaximumLevel)
-    : 1;
-}
-
 /// The values that the leaves of an octree have in an array of the image.
 template <class T>
 bool sample(const T* from, const svo::ImageGrid& grid, const svo::Octree& octree,
@@ -185,12 +95,12 @@ bool colorBy(vtkDataArray* from, const svo::ImageGrid& grid, const svo::Octree& 
 
 template <class T>
 svo::SourceOctree convert(const T* values, const svo::ImageGrid& grid, double value,
-  const svo::BuildOptions& options, vtkPolyData* hull)
+  const svo::Cube& cube, const svo::BuildOptions& options, vtkPolyData* hull)
 {
   const svo::ImageField<T> field(grid, values);
   const svo::ValuePyramid pyramid(grid, field, options.parallelFor);
   const svo::ImageSource source(field, grid, pyramid, value);
-  return svo::buildSourceOctree(source, options, hull);
+  return svo::buildSourceOctree(source, options, hull, &cube);
 }
 }
 
@@ -214,40 +124,126 @@ int vtkImageToSVO::FillInputPortInformation(int, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
+int vtkImageToSVO::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* in = inputVector[0]->GetInformationObject(0);
+  vtkInformation* out = outputVector->GetInformationObject(0);
+  // Normals at the border of a part are those of the whole: they are asked for at the surface near
+  // a voxel, and go with differences of the points beyond.
+  constexpr int Ghosts = 2;
+  const int ghosts = out->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
+  if (out->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) > 1)
+  {
+    in->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), std::max(ghosts, Ghosts));
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+/// The array that the surface is of. ParaView names none ("") before it has seen the image.
+vtkDataArray* vtkImageToSVO::FindScalars(vtkInformationVector** inputVector, vtkImageData* image)
+{
+  vtkInformation* asked = this->GetInputArrayInformation(0);
+  const char* name = asked->Get(vtkDataObject::FIELD_NAME());
+  if (name && !*name)
+  {
+    return image->GetPointData()->GetScalars();
+  }
+  int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  vtkDataArray* scalars = this->GetInputArrayToProcess(0, inputVector, association);
+  return association == vtkDataObject::FIELD_ASSOCIATION_POINTS ? scalars : nullptr;
+}
+
+//------------------------------------------------------------------------------
 int vtkImageToSVO::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
   this->NumberOfVoxels = 0;
   this->BuildTime = 0.0;
   vtkImageData* image = vtkImageData::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   output->Initialize();
-  int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-  vtkDataArray* scalars = this->GetInputArrayToProcess(0, inputVector, association);
-  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
+  const bool isPart =
+    outputVector->GetInformationObject(0)->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) > 1;
+  if (isPart && image->GetNumberOfPoints() == 0)
   {
-    scalars = nullptr;
+    return 1; // there are more processes than parts
   }
-  if (const char* reason = unfit(image, scalars))
+  const vtkSmartPointer<vtkDataArray> asked = this->FindScalars(inputVector, image);
+  if (const char* reason = svo::unfitImage(image, asked))
   {
     vtkErrorMacro("The octree is not built: " << reason << ".");
     return 1;
   }
+  const double start = vtkTimerLog::GetUniversalTime();
+  int whole[6];
+  image->GetExtent(whole);
+  if (isPart && inputVector[0]->GetInformationObject(0)->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    inputVector[0]->GetInformationObject(0)->Get(Pipeline::WHOLE_EXTENT(), whole);
+  }
+  const svo::SourceOctree built = this->Convert(image, asked, whole, output);
+  this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
+  this->NumberOfVoxels = static_cast<vtkIdType>(built.voxels);
+  if (built.octree && this->WriteStatistics)
+  {
+    svo::attachStatistics(output, built.octree, this->BuildTime);
+  }
+  if (!built.message.empty())
+  {
+    vtkErrorMacro("The octree is not built: " << built.message << ".");
+  }
+  else if (built.status == svo::BuildStatus::Built && built.voxels == 0 && !isPart)
+  {
+    this->WarnOfNothing(image, asked, built.octree.header().voxelSize);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkImageToSVO::WarnOfNothing(vtkImageData* image, vtkDataArray* scalars, double voxel)
+{
+  double range[2];
+  scalars->GetFiniteRange(range);
+  if (range[0] > range[1])
+  {
+    vtkWarningMacro("No surface was found: the image has no finite values.");
+  }
+  else if (range[0] < this->Value && this->Value < range[1] &&
+    voxel > svo::boxOfExtent(image, image->GetExtent()).thickness())
+  {
+    vtkWarningMacro("No surface was found: the image is thinner than a voxel, which has an edge of "
+      << voxel << "; choose a higher level, or more even spacings.");
+  }
+  else
+  {
+    vtkWarningMacro("No surface was found: the image does not take the value "
+      << this->Value << " between points on both sides of it; its finite values are " << range[0]
+      << " to " << range[1] << ".");
+  }
+}
+
+//------------------------------------------------------------------------------
+/// `whole`: the extent that the image is a part of.
+svo::SourceOctree vtkImageToSVO::Convert(
+  vtkImageData* image, vtkDataArray* asked, const int whole[6], vtkPolyData* output)
+{
   constexpr std::size_t Kibi = 1024;
+  const svo::ImageBox box = svo::boxOfExtent(image, image->GetExtent());
+  const svo::ImageBox all = svo::boxOfExtent(image, whole);
   svo::BuildOptions options;
   options.leafGeometry = svo::LeafGeometry::Plane;
-  options.frame = frameOf(image);
-  boundsOf(image, options.modelLow, options.modelHigh);
-  options.level = this->MaximumLevel > 0 ? this->MaximumLevel
-                                         : levelOf(image, options.modelHigh - options.modelLow);
+  options.frame = svo::frameOfImage(image);
+  options.modelLow = box.low;
+  options.modelHigh = box.high;
+  options.level = this->MaximumLevel > 0 ? this->MaximumLevel : svo::levelOfImage(image, whole);
   options.memoryLimit = this->MemoryLimit * Kibi;
   options.parallelFor = svo::smpParallelFor();
-  vtkDataArray* colors =
-    isName(this->ColorArrayName) ? image->GetPointData()->GetArray(this->ColorArrayName) : nullptr;
-  const bool unfitColors = colors &&
-    (colors->GetNumberOfTuples() != image->GetNumberOfPoints() ||
-      !colors->HasStandardMemoryLayout());
-  colors = unfitColors ? nullptr : colors;
+  const svo::Cube cube = svo::boundingCube(all.low, all.high, options.level);
+  vtkDataArray* colors = this->FindColors(image);
   double begun = 0.0, share = colors ? 0.8 : 1.0;
   options.progress = [&](double progress)
   {
@@ -255,49 +251,49 @@ int vtkImageToSVO::RequestData(
     return !svo::isAborted(this);
   };
   svo::SourceOctree built{ svo::BuildStatus::BadInput, 0, "scalars of this type are not known" };
-  const double start = vtkTimerLog::GetUniversalTime();
   try
   {
+    const vtkSmartPointer<vtkDataArray> scalars = svo::visibleScalars(image, asked);
+    const svo::ImageGrid grid = svo::gridOfImage(image);
     switch (scalars->GetDataType())
     {
-      vtkTemplateMacro(built = convert(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0)),
-                         gridOf(image), this->Value, options, output));
+      vtkTemplateMacro(built = convert(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0)), grid,
+                         this->Value, cube, options, output));
     }
-    if (built.voxels > 0 && colors)
+    begun = 0.8;
+    share = 0.2;
+    if (built.voxels > 0 && colors && !colorBy(colors, grid, built.octree, options, output))
     {
-      begun = 0.8;
-      share = 0.2;
-      if (!colorBy(colors, gridOf(image), built.octree, options, output))
-      {
-        output->Initialize();
-        built.voxels = 0;
-        built.status = svo::BuildStatus::Aborted;
-      }
+      output->Initialize();
+      built = { svo::BuildStatus::Aborted, 0, {} };
     }
   }
   catch (const std::bad_alloc&)
   {
     output->Initialize();
-    built.voxels = 0;
-    built.message = "there is not enough memory for what has to be known of the image";
+    built = { svo::BuildStatus::TooLarge, 0,
+      "there is not enough memory for what has to be known of the image" };
   }
-  this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
-  this->NumberOfVoxels = static_cast<vtkIdType>(built.voxels);
-  if (!built.message.empty())
+  return built;
+}
+
+//------------------------------------------------------------------------------
+/// nullptr, and a warning, if there is no array of that name.
+vtkDataArray* vtkImageToSVO::FindColors(vtkImageData* image)
+{
+  if (!isName(this->ColorArrayName))
   {
-    vtkErrorMacro("The octree is not built: " << built.message << ".");
+    return nullptr;
   }
-  else if (built.status == svo::BuildStatus::Built && built.voxels == 0)
-  {
-    vtkWarningMacro(
-      "No surface was found: the image does not take the value " << this->Value << ".");
-  }
-  if (built.voxels > 0 && !colors && isName(this->ColorArrayName))
+  vtkDataArray* colors = image->GetPointData()->GetArray(this->ColorArrayName);
+  if (!colors || colors->GetNumberOfTuples() != image->GetNumberOfPoints() ||
+    !colors->HasStandardMemoryLayout())
   {
     vtkWarningMacro("The surface has no colours: the image has no array of its points named "
       << this->ColorArrayName << ".");
+    return nullptr;
   }
-  return 1;
+  return colors;
 }
 
 //------------------------------------------------------------------------------
@@ -309,6 +305,7 @@ void vtkImageToSVO::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ColorArrayName: " << (this->ColorArrayName ? this->ColorArrayName : "(none)")
      << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
+  os << indent << "WriteStatistics: " << (this->WriteStatistics ? "On\n" : "Off\n");
   os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
   os << indent << "BuildTime: " << this->BuildTime << " s\n";
 }

@@ -11,10 +11,14 @@
  *
  * The output is a coarse hull of the surface that carries the octree in its field data, as that of
  * vtkImplicitFunctionToSVO is. What cannot be converted leads to one message and an output without
- * cells: no scalars, more than one component, an image with fewer than two points along an axis, an
- * octree that needs more memory than there is (errors), a value that the image does not take
- * (warning). Points whose values are not finite have no surface near them. The build reports
- * progress and can be aborted.
+ * cells: no scalars, more than one component, an image with fewer than two points along an axis, a
+ * spacing or direction matrix without an inverse, an octree that needs more memory than there is
+ * (errors), a value that the image does not take (warning). Points whose values are not finite, and
+ * blanked points, have no surface near them, blanked cells none in them. The build reports progress
+ * and can be aborted.
+ *
+ * Of an image that is spread over processes each converts its part, with voxels of the whole, so
+ * that the parts fit together. A part without any surface is no reason for a warning.
  *
  * @sa vtkImplicitFunctionToSVO vtkPolyDataToSVO vtkFlyingEdges3D
  */
@@ -23,6 +27,14 @@
 
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSVOCoreModule.h" // for the export macro
+
+class vtkDataArray;
+class vtkImageData;
+
+namespace svo
+{
+struct SourceOctree;
+}
 
 class VTKSVOCORE_EXPORT vtkImageToSVO : public vtkPolyDataAlgorithm
 {
@@ -43,7 +55,8 @@ public:
   /**
    * Depth of the octree: 2^level voxels along the image's longest edge. 0 to 20, values outside are
    * clamped. 0 (default): the first level whose voxels are no larger than the image's smallest
-   * spacing.
+   * spacing; but at least 8, which looks like a surface, and about 2 beyond the one with a
+   * voxel for each cell along the axis with most cells, where spacings are very uneven.
    */
   vtkSetClampMacro(MaximumLevel, int, 0, 20);
   vtkGetMacro(MaximumLevel, int);
@@ -72,6 +85,17 @@ public:
 
   //@{
   /**
+   * Whether the output's field data also says, in arrays of one value, what the octree is like:
+   * "SVO Level", "SVO Voxels", "SVO Memory" (KiB) and "SVO Build Time" (s). For programs that show
+   * field data to people. Default off.
+   */
+  vtkSetMacro(WriteStatistics, bool);
+  vtkGetMacro(WriteStatistics, bool);
+  vtkBooleanMacro(WriteStatistics, bool);
+  //@}
+
+  //@{
+  /**
    * Occupied voxels of the last execution's octree, 0 if none, and how long it took to build, in
    * seconds.
    */
@@ -84,6 +108,8 @@ protected:
   ~vtkImageToSVO() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -91,10 +117,17 @@ private:
   vtkImageToSVO(const vtkImageToSVO&) = delete;
   void operator=(const vtkImageToSVO&) = delete;
 
+  vtkDataArray* FindScalars(vtkInformationVector** inputVector, vtkImageData* image);
+  vtkDataArray* FindColors(vtkImageData* image);
+  void WarnOfNothing(vtkImageData* image, vtkDataArray* scalars, double voxel);
+  svo::SourceOctree Convert(
+    vtkImageData* image, vtkDataArray* asked, const int whole[6], vtkPolyData* output);
+
   double Value = 0.0;
   int MaximumLevel = 0;
   char* ColorArrayName = nullptr;
   unsigned long MemoryLimit = 0;
+  bool WriteStatistics = false;
   vtkIdType NumberOfVoxels = 0;
   double BuildTime = 0.0;
 };

@@ -2,6 +2,7 @@
 
 #include "svoAbort.h"
 #include "svoFieldSource.h"
+#include "svoMeshOctree.h"
 #include "svoSMPParallel.h"
 #include "svoSourceOctree.h"
 
@@ -101,6 +102,10 @@ int vtkImplicitFunctionToSVO::RequestData(
   const svo::SourceOctree built = svo::buildSourceOctree(source, options, output);
   this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
   this->NumberOfVoxels = static_cast<vtkIdType>(built.voxels);
+  if (built.octree && this->WriteStatistics)
+  {
+    svo::attachStatistics(output, built.octree, this->BuildTime);
+  }
   if (!built.message.empty())
   {
     vtkErrorMacro("The octree is not built: " << built.message << ".");
@@ -127,6 +132,7 @@ void vtkImplicitFunctionToSVO::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumLevel: " << this->MinimumLevel << "\n";
   os << indent << "Parallel: " << (this->Parallel ? "On\n" : "Off\n");
   os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
+  os << indent << "WriteStatistics: " << (this->WriteStatistics ? "On\n" : "Off\n");
   os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
   os << indent << "BuildTime: " << this->BuildTime << " s\n";
 }

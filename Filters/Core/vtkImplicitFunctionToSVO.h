@@ -121,6 +121,17 @@ public:
 
   //@{
   /**
+   * Whether the output's field data also says, in arrays of one value, what the octree is like:
+   * "SVO Level", "SVO Voxels", "SVO Memory" (KiB) and "SVO Build Time" (s). For programs that show
+   * field data to people. Default off.
+   */
+  vtkSetMacro(WriteStatistics, bool);
+  vtkGetMacro(WriteStatistics, bool);
+  vtkBooleanMacro(WriteStatistics, bool);
+  //@}
+
+  //@{
+  /**
    * Occupied voxels of the last execution's octree, 0 if none, and how long it took to build, in
    * seconds.
    */
@@ -147,6 +158,7 @@ private:
   int MinimumLevel = 5;
   bool Parallel = true;
   unsigned long MemoryLimit = 0;
+  bool WriteStatistics = false;
   vtkIdType NumberOfVoxels = 0;
   double BuildTime = 0.0;
 };

@@ -7,8 +7,6 @@
 #include "svoOctreeCache.h"
 
 #include "vtkBoundingBox.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -178,20 +176,9 @@ void vtkPolyDataToSVO::Finish(vtkPolyData* output)
     return;
   }
   this->NumberOfVoxels = static_cast<vtkIdType>(octree.header().voxelCount);
-  if (!this->WriteStatistics)
+  if (this->WriteStatistics)
   {
-    return;
-  }
-  const std::pair<const char*, double> statistics[] = { { "SVO Level", octree.level() },
-    { "SVO Voxels", static_cast<double>(octree.header().voxelCount) },
-    { "SVO Memory", std::ceil(static_cast<double>(octree.bytes()) / static_cast<double>(Kibi)) },
-    { "SVO Build Time", this->BuildTime } };
-  for (const auto& statistic : statistics)
-  {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(statistic.first);
-    array->InsertNextValue(statistic.second);
-    output->GetFieldData()->AddArray(array);
+    svo::attachStatistics(output, octree, this->BuildTime);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "vtkSVOVDBReader.h"
 
 #include "svoAbort.h"
+#include "svoMeshOctree.h"
 #include "svoSMPParallel.h"
 #include "svoVDBFile.h"
 #include "svoVDBOctree.h"
@@ -320,6 +321,10 @@ int vtkSVOVDBReader::RequestData(
     this->Internals->MetaData += line + "\n";
   }
   output->GetFieldData()->AddArray(array);
+  if (this->WriteStatistics)
+  {
+    svo::attachStatistics(output, built.octree, this->BuildTime);
+  }
   return 1;
 }
 
@@ -338,6 +343,7 @@ void vtkSVOVDBReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Conversion: " << Names[this->Conversion] << "\n";
   os << indent << "Threshold: " << this->Threshold << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
+  os << indent << "WriteStatistics: " << (this->WriteStatistics ? "On\n" : "Off\n");
   os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
   os << indent << "ReadTime: " << this->ReadTime << " s\n";
   os << indent << "BuildTime: " << this->BuildTime << " s\n";

@@ -126,6 +126,17 @@ public:
 
   //@{
   /**
+   * Whether the output's field data also says, in arrays of one value, what the octree is like:
+   * "SVO Level", "SVO Voxels", "SVO Memory" (KiB) and "SVO Build Time" (s). For programs that show
+   * field data to people. Default off.
+   */
+  vtkSetMacro(WriteStatistics, bool);
+  vtkGetMacro(WriteStatistics, bool);
+  vtkBooleanMacro(WriteStatistics, bool);
+  //@}
+
+  //@{
+  /**
    * Of the last execution: occupied voxels of the octree, 0 if none; how long it took to read the
    * grid and to build the octree, in seconds; the metadata of the grid and of the file, a "name:
    * value" a line.
@@ -157,6 +168,7 @@ private:
   int Conversion = AUTOMATIC;
   double Threshold = 0.0;
   unsigned long MemoryLimit = 0;
+  bool WriteStatistics = false;
   vtkIdType NumberOfVoxels = 0;
   double ReadTime = 0.0;
   double BuildTime = 0.0;

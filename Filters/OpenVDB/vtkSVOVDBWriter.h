@@ -12,6 +12,11 @@
  * from the faces of voxels. What encloses nothing has no inside (a warning); voxels that are
  * stretched or sheared have no level set (a warning, and the leaves are written alone).
  *
+ * On several processes the first one writes what all of them have: the leaves of a surface whose
+ * parts they hold, with voxels in common (vtkPPolyDataToSVO, vtkImageToSVO). Then all have to call
+ * Write(). A level set is written where one process has all of the surface; else a warning says
+ * that it is left out.
+ *
  * Both say in their metadata which program and which level they come from. An octree that is
  * missing or does not fit, and a file that cannot be written, lead to one error; the file stays as
  * it was then, and GetErrorCode() is not 0.
@@ -24,7 +29,7 @@
 #include "vtkSVOOpenVDBModule.h" // for the export macro
 #include "vtkWriter.h"
 
-class vtkPolyData;
+class vtkMultiProcessController;
 
 class VTKSVOOPENVDB_EXPORT vtkSVOVDBWriter : public vtkWriter
 {
@@ -59,8 +64,20 @@ public:
   vtkGetMacro(HalfWidth, double);
   //@}
 
+  //@{
+  /**
+   * The processes that write one file together; default the global controller, nullptr for a file
+   * of this process alone.
+   */
+  void SetController(vtkMultiProcessController* controller);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  //@}
+
+  int ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
 protected:
-  vtkSVOVDBWriter() = default;
+  vtkSVOVDBWriter();
   ~vtkSVOVDBWriter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
@@ -70,8 +87,14 @@ private:
   vtkSVOVDBWriter(const vtkSVOVDBWriter&) = delete;
   void operator=(const vtkSVOVDBWriter&) = delete;
 
-  void WriteOctree(vtkPolyData* mesh);
+  class vtkInternals; // grids, and what they are made of
+  bool IsParallel();
+  void WriteAlone(vtkInternals& own);
+  void WriteParts(vtkInternals& own);
+  void MakeGrids(vtkInternals& own, bool levelSet);
+  void WriteGrids(vtkInternals& own);
 
+  vtkMultiProcessController* Controller = nullptr;
   char* FileName = nullptr;
   bool WriteLevelSet = false;
   double HalfWidth = 3.0;

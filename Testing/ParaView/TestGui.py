@@ -52,6 +52,9 @@ class TestGui(unittest.TestCase):
     def test_session(self):
         self.play("session", gui_events.SESSION, PV_PLUGIN_PATH=os.path.dirname(PLUGIN))
 
+    def test_sources(self):
+        self.play("sources", gui_events.SOURCES, PV_PLUGIN_PATH=os.path.dirname(PLUGIN))
+
     def test_plugin_manager(self):
         self.play("plugin-manager", gui_events.load(PLUGIN) + gui_events.LATE)
 

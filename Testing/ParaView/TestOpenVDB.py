@@ -52,6 +52,9 @@ class TestOpenVDB(unittest.TestCase):
         self.assertGreater(scene.differing(leaves, surface), 0.001)
         field = reader.GetFieldDataInformation()
         self.assertIn("VDBMetadata", field.keys())
+        # For the Information panel.
+        self.assertEqual(field["SVO Voxels"].GetRange()[0], scene.statistic(reader, "NumberOfVoxels"))
+        self.assertGreater(field["SVO Memory"].GetRange()[0], 0)
 
     def test_opened_by_extension(self):
         paths = [self.write(f"series_{i}.vdb", 0.2 + 0.1 * i) for i in range(3)]
@@ -63,7 +66,8 @@ class TestOpenVDB(unittest.TestCase):
         self.assertEqual(list(reader.TimestepValues), [0.0, 1.0, 2.0])
         animation = pv.GetAnimationScene()
         animation.UpdateAnimationUsingDataTimeSteps()
-        scene.show(reader, self.view)
+        # The representation that it is shown as by default.
+        self.assertEqual(pv.Show(reader, self.view).Representation, "SVO")
         seen = []
         for time in range(3):
             animation.AnimationTime = time

@@ -170,6 +170,10 @@ class Images(Traced):
         voxels, seconds = statistics(octree)
         self.assertGreater(voxels, 1000)
         self.assertGreater(seconds, 0)
+        # For the Information panel.
+        field = octree.GetFieldDataInformation()
+        self.assertEqual(field["SVO Voxels"].GetRange()[0], voxels)
+        self.assertEqual(field["SVO Level"].GetRange()[0], 8)
         self.assertEqual(pv.Show(octree, self.view).Representation, "SVO")
 
     def test_looks_as_the_contour_does(self):

@@ -231,6 +231,21 @@ LATE = [
 ]
 
 
+# Surfaces that are no meshes: shown as SVO from the beginning, without a message.
+SOURCES = [
+    python("import gui_session"),
+    check("make_sources"),
+    wait(500),
+    shown(REPRESENTATION, "currentText", "SVO"),
+    check("traced", 2),
+    check("window", "sources"),
+    check("select", "Function"),
+    wait(500),
+    shown(REPRESENTATION, "currentText", "SVO"),
+    check("window", "sources-function"),
+]
+
+
 def write(path, events):
     with open(path, "w") as file:
         file.write('<?xml version="1.0" ?>\n<pqevents>\n' + "\n".join(events) + "\n</pqevents>\n")

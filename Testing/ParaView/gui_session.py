@@ -62,6 +62,21 @@ def make_scene():
 
 
 @check
+def make_sources():
+    """Surfaces that are no meshes, as a user adds them: with the settings that they come with."""
+    render_view = pv.GetActiveViewOrCreate("RenderView")
+    wavelet = pv.Wavelet(registrationName="Wavelet")
+    wavelet.UpdatePipeline()
+    isosurface = pv.ImageToSVO(registrationName="Isosurface", Input=wavelet)
+    ball = pv.ImplicitFunctionToSVO(registrationName="Function")
+    for source in isosurface, ball:
+        pv.Show(source, render_view)
+    render_view.ResetCamera()
+    pv.SetActiveSource(isosurface)
+    pv.Render(render_view)
+
+
+@check
 def select(name):
     pv.SetActiveSource(pv.FindSource(name))
 

@@ -207,7 +207,9 @@ vtkIdType firstLeaf(const Octree& octree, const OctreeCell& cell)
 vtkDataArray* leafValues(vtkPolyData* hull, const char* name)
 {
   vtkDataArray* values = name ? hull->GetFieldData()->GetArray(name) : nullptr;
-  if (!values || values->GetNumberOfTuples() == 0 || std::string(name) == OctreeArrayName)
+  // Field data of other kinds has no means on the hull.
+  if (!values || values->GetNumberOfTuples() == 0 || std::string(name) == OctreeArrayName ||
+    !hull->GetCellData()->HasArray(name))
   {
     return nullptr;
   }

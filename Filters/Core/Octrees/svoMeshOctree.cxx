@@ -4,6 +4,7 @@
 #include "svoOpenOctrees.h"
 #include "svoToldRange.h"
 
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationDoubleVectorKey.h"
@@ -21,6 +22,7 @@
 #include <fstream>
 #include <memory>
 #include <new>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -197,6 +199,22 @@ void attachOctree(vtkPolyData* mesh, const Octree& octree)
   tellRange(array, range, range);
   mesh->GetFieldData()->AddArray(array); // replaces an array of the same name
   OpenOctrees::instance().add(array, octree);
+}
+
+void attachStatistics(vtkPolyData* mesh, const Octree& octree, double buildTime)
+{
+  constexpr double Kibi = 1024.0;
+  const std::pair<const char*, double> statistics[] = { { "SVO Level", octree.level() },
+    { "SVO Voxels", static_cast<double>(octree.header().voxelCount) },
+    { "SVO Memory", std::ceil(static_cast<double>(octree.bytes()) / Kibi) },
+    { "SVO Build Time", buildTime } };
+  for (const auto& [name, value] : statistics)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name);
+    array->InsertNextValue(value);
+    mesh->GetFieldData()->AddArray(array);
+  }
 }
 
 void detachOctree(vtkPolyData* mesh)

@@ -55,6 +55,10 @@ constexpr char OctreeArrayName[] = "SparseVoxelOctree";
 /// Puts a copy of the octree's bytes into the mesh's field data in place of any other.
 VTKSVOCORE_EXPORT void attachOctree(vtkPolyData* mesh, const Octree& octree);
 
+/// Field data of one value each that says what an octree is like, for people: "SVO Level", "SVO
+/// Voxels", "SVO Memory" (KiB) and "SVO Build Time" (s).
+VTKSVOCORE_EXPORT void attachStatistics(vtkPolyData* mesh, const Octree& octree, double buildTime);
+
 /// Takes the octree off the mesh's field data, if there is one.
 VTKSVOCORE_EXPORT void detachOctree(vtkPolyData* mesh);
 

@@ -79,10 +79,7 @@ SourceOctree buildUnguarded(
   }
   Header& header = *reinterpret_cast<Header*>(result.data.get());
   makeHull(octree, hull, header.meshBounds);
-  if (!cube) // else these are voxels of a grid, and end where they do
-  {
-    cutBounds(options, header.meshBounds);
-  }
+  cutBounds(options, header.meshBounds);
   header.signature = meshSignature(hull);
   header.pointCount = static_cast<std::uint64_t>(hull->GetNumberOfPoints());
   header.cellCount = static_cast<std::uint64_t>(hull->GetNumberOfCells());

@@ -6,30 +6,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <new>
 
 namespace svo
 {
 namespace
 {
-std::string gibibytes(double bytes)
-{
-  char text[32];
-  std::snprintf(text, sizeof(text), bytes < 0.095 * (1 << 30) ? "%.1f MiB" : "%.1f GiB",
-    bytes < 0.095 * (1 << 30) ? bytes / (1 << 20) : bytes / (1 << 30));
-  return text;
-}
-
 /// Why a level is too deep, and which one is not. `limit` is in bytes.
 std::string tooLargeMessage(const MeshMeasure& measure, int level, double limit)
 {
   const auto fits = [&](int l)
   { return measure.expectedMemory(l) <= limit && measure.fitsIndices(l); };
   std::string text = "level " + std::to_string(level) + " would need about " +
-    gibibytes(measure.expectedMemory(level));
+    bytesAsText(measure.expectedMemory(level));
   text += measure.expectedMemory(level) > limit
-    ? ", more than the limit of " + gibibytes(limit)
+    ? ", more than the limit of " + bytesAsText(limit)
     : std::string(", with more nodes than an index can name");
   int deepest = level - 1;
   while (deepest >= 1 && !fits(deepest))
@@ -38,7 +29,7 @@ std::string tooLargeMessage(const MeshMeasure& measure, int level, double limit)
   }
   return text +
     (deepest >= 1 ? "; level " + std::to_string(deepest) + " would need about " +
-          gibibytes(measure.expectedMemory(deepest))
+          bytesAsText(measure.expectedMemory(deepest))
                   : std::string("; no level fits"));
 }
 
@@ -114,7 +105,7 @@ BuildResult build(const TriangleMesh& mesh, const BuildOptions& options)
   {
     result.status = BuildStatus::TooLarge;
     result.message = level + " would need about " +
-      gibibytes(measure.expectedMemory(options.level)) +
+      bytesAsText(measure.expectedMemory(options.level)) +
       ", more than there is; choose a lower level";
   }
   if (result.status != BuildStatus::Built)

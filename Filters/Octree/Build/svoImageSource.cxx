@@ -92,8 +92,10 @@ bool ImageSource::mayPass(const glm::dvec3& centre, double half) const
 /// A tangent plane may pass where the surface does not: cells that the voxel touches tell.
 bool ImageSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const
 {
-  return this->cellsReach(this->boxOf(centre, half)) &&
-    this->FieldSource::planeIn(centre, half, plane);
+  glm::ivec3 cell;
+  glm::dvec3 in;
+  return this->Grid.locate(centre, cell, in) && !this->Grid.isHidden(cell) &&
+    this->cellsReach(this->boxOf(centre, half)) && this->FieldSource::planeIn(centre, half, plane);
 }
 
 /// A field that is trilinear has its extremes in a part of a cell at the part's corners.

@@ -5,7 +5,7 @@
 // in a part of a cell the extremes are at the part's corners, so cubes smaller than a cell are
 // judged by those. Nothing is missed. Normals are those of differences between neighbouring points,
 // interpolated as well: the trilinear field's own gradient jumps from cell to cell, and its jumps
-// would be seen.
+// would be seen. They stay close to it, though.
 #ifndef svoImageSource_h
 #define svoImageSource_h
 
@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
@@ -31,7 +32,16 @@ struct ImageGrid
 {
   glm::ivec3 points;  // at least 2 along each axis
   glm::dmat4 toIndex; // local frame -> continuous indices from 0; affine
+  /// Of each cell, borrowed: those with one of the hidden marks have no surface. nullptr: none.
+  const unsigned char* cellMarks = nullptr;
+  unsigned char hiddenMarks = 0;
 
+  bool isHidden(const glm::ivec3& cell) const
+  {
+    const std::size_t row = this->points.x - 1, slice = row * (this->points.y - 1);
+    return this->cellMarks &&
+      (this->cellMarks[cell.z * slice + cell.y * row + cell.x] & this->hiddenMarks) != 0;
+  }
   std::size_t index(int x, int y, int z) const
   {
     return (static_cast<std::size_t>(z) * points.y + y) * points.x + x;
@@ -81,6 +91,31 @@ public:
   virtual bool crosses(const glm::ivec3& first, const glm::ivec3& last, double value) const = 0;
 };
 
+/// The direction of the smooth gradient, but no further than LargestTurn from the field's own:
+/// where an image has few points for what it shows, planes that are turned further leave gaps
+/// between voxels. As long as the field changes in that direction. Where one of the two is not
+/// known, the other.
+inline glm::dvec3 turnedTowards(const glm::dvec3& own, const glm::dvec3& smooth)
+{
+  constexpr double LargestTurn = 0.5; // tangent: 27 degrees
+  const double square = glm::dot(own, own), along = glm::dot(own, smooth);
+  if (!(square > 0.0) || !std::isfinite(square))
+  {
+    return smooth;
+  }
+  const glm::dvec3 aside = smooth - along / square * own; // at right angles to own
+  const double turn = glm::dot(aside, aside);
+  if (!std::isfinite(turn))
+  {
+    return own;
+  }
+  const double most = LargestTurn * along / std::sqrt(square);
+  const bool close = along > 0.0 && turn <= most * most;
+  const glm::dvec3 direction =
+    close ? smooth : own + LargestTurn * std::sqrt(square / turn) * aside;
+  return glm::dot(own, direction) / glm::dot(direction, direction) * direction;
+}
+
 /// An image of scalars of a type, which are borrowed.
 template <class T>
 class ImageField : public GriddedField
@@ -123,9 +158,10 @@ public:
       return mix(
         this->difference(c.x, c.y + y, c.z + z), this->difference(c.x + 1, c.y + y, c.z + z), t.x);
     };
-    const glm::dvec3 inIndices =
+    const glm::dvec3 smooth =
       mix(mix(along(0, 0), along(1, 0), t.y), mix(along(0, 1), along(1, 1), t.y), t.z);
-    return glm::transpose(glm::dmat3(this->Grid.toIndex)) * inIndices;
+    const glm::dmat3 toLocal = glm::transpose(glm::dmat3(this->Grid.toIndex));
+    return turnedTowards(toLocal * this->ownGradient(c, t), toLocal * smooth);
   }
   bool crosses(const glm::ivec3& first, const glm::ivec3& last, double value) const override
   {
@@ -157,6 +193,19 @@ private:
   static V mix(const V& low, const V& high, double t)
   {
     return (1.0 - t) * low + t * high;
+  }
+  /// Of the trilinear field in a cell, in indices.
+  glm::dvec3 ownGradient(const glm::ivec3& c, const glm::dvec3& t) const
+  {
+    const std::size_t row = this->Grid.points.x, slice = row * this->Grid.points.y;
+    const T* v = this->Values + this->Grid.index(c.x, c.y, c.z);
+    const auto of = [&](std::size_t at) { return static_cast<double>(v[at]); };
+    const double v00 = mix(of(0), of(1), t.x), v10 = mix(of(row), of(row + 1), t.x);
+    const double v01 = mix(of(slice), of(slice + 1), t.x);
+    const double v11 = mix(of(slice + row), of(slice + row + 1), t.x);
+    const auto step = [&](std::size_t at) { return of(at + 1) - of(at); };
+    return { mix(mix(step(0), step(row), t.y), mix(step(slice), step(slice + row), t.y), t.z),
+      mix(v10 - v00, v11 - v01, t.z), mix(v01, v11, t.y) - mix(v00, v10, t.y) };
   }
   /// Of neighbours, an index apart; one-sided at the image's ends.
   glm::dvec3 difference(int x, int y, int z) const
@@ -280,6 +329,8 @@ public:
   {
   }
   bool mayPass(const glm::dvec3& centre, double half) const override;
+  /// A voxel is part of the cell that its centre is in: hidden cells have none, and of two images
+  /// that share a border one has those on it.
   bool planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const override;
 
 private:

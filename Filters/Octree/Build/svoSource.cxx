@@ -6,6 +6,7 @@
 #include "svoNode.h"
 #include "svoOctree.h"
 #include "svoPlane.h"
+#include "svoSourceMemory.h"
 
 #include <algorithm>
 #include <atomic>
@@ -207,6 +208,35 @@ std::vector<glm::ivec3> startCells(const Subdivision& cut, int& level, Executor&
   return cells;
 }
 
+struct Refused
+{
+  std::string message;
+};
+
+/// Throws where the octree would certainly take more than there is, instead of after minutes.
+void refuseTooLarge(const Subdivision& cut, const std::vector<glm::ivec3>& starts, int startLevel,
+  const BuildOptions& options, Executor& executor)
+{
+  // Fewer than that fit for certain, or are counted quickly enough as they are built.
+  constexpr double Doubtful = 1.0 / 16.0;
+  constexpr double Certain = 1.5; // what is expected is about a tenth off
+  const double limit = static_cast<double>(options.memoryLimit);
+  const double smooth =
+    std::ldexp(static_cast<double>(starts.size()), 2 * (options.level - startLevel));
+  if (limit == 0.0 || smooth * VoxelBytes < Doubtful * limit)
+  {
+    return;
+  }
+  const SourceMemory memory(
+    starts, startLevel, options.level,
+    [&](const glm::ivec3& cell, int l) { return cut.mayPass(cell, l); },
+    { static_cast<double>(BrickBytes), static_cast<double>(VoxelBytes) }, 0.05, executor);
+  if (memory.expected(options.level) > Certain * limit)
+  {
+    throw Refused{ memory.tooLarge(options.level, limit) };
+  }
+}
+
 /// All that was found in one; frees the parts.
 NodeDepth joinBricks(std::vector<Found>& parts, Header& header, RawArray<std::uint32_t>& planes)
 {
@@ -251,9 +281,10 @@ void buildStages(
   Subdivision cut(source, options, cube);
   int level = std::max(options.level - TaskLevels, 0);
   const std::vector<glm::ivec3> starts = startCells(cut, level, executor);
+  refuseTooLarge(cut, starts, level, options, executor);
   std::vector<Found> parts(starts.size());
   executor.run(
-    starts.size(), 1, 0.8, 16.0, [](std::size_t) { return 1.0; },
+    starts.size(), 1, 0.75, 16.0, [](std::size_t) { return 1.0; },
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t i = first; i < last; ++i)
@@ -323,6 +354,12 @@ BuildResult build(const SurfaceSource& source, const Cube& cube, const BuildOpti
     result = {};
     result.status = BuildStatus::Aborted;
     result.message = "the build was aborted";
+  }
+  catch (const Refused& refused)
+  {
+    result = {};
+    result.status = BuildStatus::TooLarge;
+    result.message = refused.message;
   }
   catch (const LayoutOverflow& overflow)
   {

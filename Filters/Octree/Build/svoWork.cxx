@@ -5,6 +5,7 @@
 #include "svoMeanPlanes.h"
 
 #include <cassert>
+#include <cstdio>
 #include <limits>
 
 #include <glm/geometric.hpp>
@@ -25,6 +26,14 @@ double bricksOfEdge(int level)
 {
   return std::ldexp(1.0, std::max(level - 2, 0));
 }
+}
+
+std::string bytesAsText(double bytes)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), bytes < 0.095 * (1 << 30) ? "%.1f MiB" : "%.1f GiB",
+    bytes < 0.095 * (1 << 30) ? bytes / (1 << 20) : bytes / (1 << 30));
+  return text;
 }
 
 Cube boundingCube(const glm::dvec3& low, const glm::dvec3& high, int level)

@@ -170,8 +170,8 @@ inline bool shadersTurn(const SurfaceMatrices& frame, const View& view, const gl
 /// A point of an octree of planes: on the plane that was hit, of a voxel or of a node. Where a
 /// node's mean plane faces away, the line of sight tells a surface that is seen from behind from a
 /// node that reaches beyond the outline: there it meets nothing, and the outline's normal is across
-/// it. The normal to shade with is interpolated between voxels, where the material wants it;
-/// colours are those of the voxel, of a node those of the nearest one in it.
+/// it. The normal to shade with and the colour are interpolated between voxels, where the material
+/// wants it; else they are those of the voxel, colours of a node those of the nearest one in it.
 inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
   const glm::dvec3& position, const glm::vec3& towards, Primitive primitive)
 {
@@ -193,24 +193,27 @@ inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
   }
   const float side = sideLane(outwards, towards);
   const glm::vec3 facet = side * outwards;
+  const Attributes& attributes = frame.instance->attributes;
+  const bool colored = attributes.colors && attributes.colorAssociation == Association::Leaf;
+  const auto colorOf = [&](std::uint32_t plane)
+  { return detail::colorAt(attributes.colors, plane); };
+  glm::vec3 color = colored
+    ? colorOf(node ? nearestVoxel(octree, primitive & ~NodePrimitive, at) : primitive)
+    : glm::vec3(1.0f);
   glm::vec3 normal = facet;
   // Hits on cubes lie beside the planes, in places where the neighbours' say little.
   if (!node && !frame.instance->material.flatPlanes &&
     frame.instance->leafGeometry != LeafGeometry::Voxel)
   {
-    normal = side * inWorld(smoothNormal(octree, at, own));
+    const VoxelsAround around = voxelsAround(octree, at, own);
+    normal = side * inWorld(smoothNormal(around, own));
+    color = colored ? smoothColor(around, color, colorOf) : color;
     // On an outline it may turn away although its plane does not.
     if (const float away = glm::dot(normal, forwards); away < 0.0f)
     {
       normal = detail::normalized(normal - away * forwards, facet);
     }
   }
-  const Attributes& attributes = frame.instance->attributes;
-  const bool colored = attributes.colors && attributes.colorAssociation == Association::Leaf;
-  const glm::vec3 color = colored
-    ? detail::colorAt(
-        attributes.colors, node ? nearestVoxel(octree, primitive & ~NodePrimitive, at) : primitive)
-    : glm::vec3(1.0f);
   return { position, facet, shadersTurn(frame, view, position, facet) ? -normal : normal, color,
     colored };
 }

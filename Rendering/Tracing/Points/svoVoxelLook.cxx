@@ -34,7 +34,7 @@ std::uint32_t brickAt(const Octree& octree, const glm::ivec3& voxel)
 }
 }
 
-glm::vec3 smoothNormal(const Octree& octree, const glm::dvec3& at, const glm::vec3& own)
+VoxelsAround voxelsAround(const Octree& octree, const glm::dvec3& at, const glm::vec3& own)
 {
   assert(octree.hasPlanes());
   constexpr float SameSide = 0.5f; // cosine
@@ -43,7 +43,7 @@ glm::vec3 smoothNormal(const Octree& octree, const glm::dvec3& at, const glm::ve
   const glm::dvec3 corner = glm::floor(place);
   const glm::ivec3 low(corner);
   const glm::vec3 upper(place - corner);
-  glm::vec3 sum(0.0f);
+  VoxelsAround around;
   // The eight are in up to eight bricks; most often in one.
   std::uint32_t bricks[8];
   for (int i = 0; i < 8; ++i)
@@ -70,13 +70,26 @@ glm::vec3 smoothNormal(const Octree& octree, const glm::dvec3& at, const glm::ve
     {
       continue;
     }
-    const glm::vec3 normal = decodePlane(octree.lists()[octree.planeOf(bricks[i], cell)]).normal;
+    const std::uint32_t plane = octree.planeOf(bricks[i], cell);
+    const glm::vec3 normal = decodePlane(octree.lists()[plane]).normal;
     if (glm::dot(normal, own) > SameSide)
     {
       const glm::vec3 share(step.x ? upper.x : 1.0f - upper.x, step.y ? upper.y : 1.0f - upper.y,
         step.z ? upper.z : 1.0f - upper.z);
-      sum += share.x * share.y * share.z * normal;
+      around.planes[around.count] = plane;
+      around.normals[around.count] = normal;
+      around.shares[around.count++] = share.x * share.y * share.z;
     }
+  }
+  return around;
+}
+
+glm::vec3 smoothNormal(const VoxelsAround& around, const glm::vec3& own)
+{
+  glm::vec3 sum(0.0f);
+  for (int i = 0; i < around.count; ++i)
+  {
+    sum += around.shares[i] * around.normals[i];
   }
   const float square = glm::dot(sum, sum);
   return square > 1e-12f ? sum / std::sqrt(square) : own;

@@ -118,7 +118,6 @@ TEST(ImageToSVO, DistancesInTurnedAndShiftedImages)
       const svo::Octree octree = octreeOf(hull);
       ASSERT_TRUE(octree);
       EXPECT_LE(octree.header().voxelSize, 0.1 * 1.001);
-      EXPECT_GT(octree.header().voxelSize, 0.05);
       expectSphere(hull, Radius, Trilinear + Plane);
     }
   }
@@ -192,7 +191,7 @@ TEST(ImageToSVO, OneMessageForWhatCannotBeConverted)
     ImageConversion conversion(distances(false));
     conversion.filter->SetMaximumLevel(20);
     conversion.filter->SetMemoryLimit(20000);
-    conversion.expectNothing("level 20 needs more memory");
+    conversion.expectNothing("level 20 would need about");
   }
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double constant : { 0.0, 1.0, nan })

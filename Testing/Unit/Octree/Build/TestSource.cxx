@@ -1,8 +1,10 @@
 // Octrees of planes: their voxels and planes against what is known of the surface, and sources that
 // have none.
 #include "svoBuildMeshes.h"
+#include "svoExecutor.h"
 #include "svoOctreeBytes.h"
 #include "svoPlane.h"
+#include "svoSourceMemory.h"
 #include "svoTestFields.h"
 
 #include <limits>
@@ -261,6 +263,69 @@ TEST(Source, WhatCannotBeBuiltIsSaid)
   };
   EXPECT_EQ(svo::build(source, options).status, svo::BuildStatus::Aborted);
   EXPECT_EQ(reports, 20);
+}
+
+/// The level that a message names as one that fits.
+int namedLevel(const std::string& message)
+{
+  const std::size_t at = message.find("; level ");
+  return at == std::string::npos ? 0 : std::stoi(message.substr(at + 8));
+}
+
+TEST(Source, WhatIsTooDeepIsSaidBeforeItIsBuilt)
+{
+  const CountingSphere sphere(0.9);
+  for (const double bound : { 0.0, 1.0 })
+  {
+    const svo::FieldSource source(sphere, { 0.0, bound, 0.05 });
+    svo::BuildOptions options = boxOfInterest(20);
+    options.memoryLimit = std::size_t(20) << 20;
+    sphere.asked = 0;
+    const svo::BuildResult deep = svo::build(source, options);
+    EXPECT_EQ(deep.status, svo::BuildStatus::TooLarge);
+    EXPECT_NE(deep.message.find("level 20 would need about "), std::string::npos) << deep.message;
+    EXPECT_LT(sphere.asked, 15000000u) << "of more than 10^12 voxels";
+    // The level that it names can be built, and none much deeper.
+    options.level = namedLevel(deep.message);
+    EXPECT_EQ(svo::build(source, options).status, svo::BuildStatus::Built) << deep.message;
+    options.level += 2;
+    const svo::BuildResult deeper = svo::build(source, options);
+    EXPECT_EQ(deeper.status, svo::BuildStatus::TooLarge);
+    EXPECT_EQ(namedLevel(deeper.message), options.level - 2) << deeper.message;
+  }
+}
+
+TEST(Source, ExpectedMemoryIsThatOfTheVoxels)
+{
+  const SphereField sphere(0.9);
+  const svo::FieldSource source(sphere, { 0.0, 0.0, 0.05 });
+  constexpr int Start = 5, Level = 9;
+  const svo::Cube cube = svo::boundingCube(glm::dvec3(-1.0), glm::dvec3(1.0), Level);
+  const auto mayPass = [&](const glm::ivec3& cell, int level)
+  {
+    const double half = std::ldexp(cube.edge, -level - 1);
+    return source.mayPass(cube.origin + (2.0 * glm::dvec3(cell) + 1.0) * half, half);
+  };
+  std::vector<glm::ivec3> starts;
+  for (int i = 0; i < 1 << 3 * Start; ++i)
+  {
+    const glm::ivec3 cell(i & 31, i >> 5 & 31, i >> 10);
+    if (mayPass(cell, Start))
+    {
+      starts.push_back(cell);
+    }
+  }
+  const svo::ParallelFor serial = svo::serialFor;
+  const std::function<bool(double)> none;
+  svo::Executor executor(serial, none);
+  const svo::SourceMemory memory(starts, Start, Level, mayPass, { 0.0, 1.0 }, 0.1, executor);
+  for (int level = Start + 1; level <= Level; ++level)
+  {
+    const double voxels =
+      static_cast<double>(octreeOfField(sphere, boxOfInterest(level)).header().voxelCount);
+    EXPECT_GT(memory.expected(level), 0.9 * voxels) << level;
+    EXPECT_LT(memory.expected(level), 2.2 * voxels) << level;
+  }
 }
 
 TEST(Source, DamagedPlanesAreRefused)

@@ -1,5 +1,5 @@
-// Normals between the middles of voxels: against a plain sum over all voxels around, against the
-// surfaces' own, and continuity; the voxel below a node that is nearest to a point.
+// Normals and colours between the middles of voxels: against a plain sum over all voxels around,
+// against the surfaces' own, and continuity; the voxel below a node that is nearest to a point.
 #include "svoVoxelLook.h"
 
 #include "svoIntersect.h"
@@ -91,6 +91,11 @@ glm::vec3 plainNormal(
   return glm::length(sum) > 1e-6 ? glm::vec3(glm::normalize(sum)) : own;
 }
 
+glm::vec3 normalAt(const svo::Octree& octree, const glm::dvec3& at, const glm::vec3& own)
+{
+  return svo::smoothNormal(svo::voxelsAround(octree, at, own), own);
+}
+
 struct Shot
 {
   glm::dvec3 at; // octree coordinates
@@ -140,8 +145,7 @@ void compareNormals(const svo::ScalarField& field, int level, double bar)
     {
       const glm::dvec3 truth = glm::normalize(field.gradient(shot.local));
       const double a = degrees(glm::dot(truth, glm::dvec3(shot.own)));
-      const double b =
-        degrees(glm::dot(truth, glm::dvec3(svo::smoothNormal(octree, shot.at, shot.own))));
+      const double b = degrees(glm::dot(truth, glm::dvec3(normalAt(octree, shot.at, shot.own))));
       own += a * a;
       smooth += b * b;
       largest[0] = std::max(largest[0], a);
@@ -173,7 +177,7 @@ TEST(VoxelLook, NormalsAreThoseOfAPlainSum)
         [&](const Shot& shot)
         {
           const glm::vec3 expected = plainNormal(octree, all, shot.at, shot.own);
-          const glm::vec3 normal = svo::smoothNormal(octree, shot.at, shot.own);
+          const glm::vec3 normal = normalAt(octree, shot.at, shot.own);
           ASSERT_LT(glm::length(normal - expected), 1e-4f) << level;
         });
     }
@@ -197,7 +201,7 @@ TEST(VoxelLook, EdgesStaySharp)
     [&](const Shot& shot)
     {
       // Voxels of a face alone, and those on an edge that were met as that face's.
-      const glm::vec3 normal = svo::smoothNormal(octree, shot.at, shot.own);
+      const glm::vec3 normal = normalAt(octree, shot.at, shot.own);
       if (std::max({ std::abs(shot.own.x), std::abs(shot.own.y), std::abs(shot.own.z) }) > 0.999f)
       {
         ASSERT_GT(glm::dot(normal, shot.own), 0.86f);
@@ -217,7 +221,7 @@ TEST(VoxelLook, NoJumpsOnASmoothSurface)
     const double angle = 6.283185307179586 * i / Steps;
     const glm::dvec3 out = glm::normalize(glm::dvec3(std::cos(angle), std::sin(angle), 0.37));
     const glm::vec3 normal =
-      svo::smoothNormal(octree, glm::dvec3(toOctree * glm::dvec4(0.7 * out, 1.0)), glm::vec3(out));
+      normalAt(octree, glm::dvec3(toOctree * glm::dvec4(0.7 * out, 1.0)), glm::vec3(out));
     if (i > 0)
     {
       // Planes of neighbours are some 3 degrees apart: a step is a hundredth of a voxel.
@@ -225,6 +229,60 @@ TEST(VoxelLook, NoJumpsOnASmoothSurface)
     }
     before = normal;
   }
+}
+
+/// The middles of all voxels, by the indices of their planes; octree coordinates.
+std::vector<glm::dvec3> middlesOf(const svo::Octree& octree)
+{
+  std::vector<glm::dvec3> middles(octree.header().voxelCount);
+  const auto visit = [&](const auto& self, std::uint32_t node, const glm::ivec3& block) -> void
+  {
+    for (std::uint64_t mask = octree.nodes()[node].mask; mask != 0; mask &= mask - 1)
+    {
+      const int i = svo::lowestBit(mask);
+      const glm::ivec3 cell = 4 * block + svo::cellOfIndex(i);
+      if (node < octree.brickBegin())
+      {
+        self(self, svo::child(octree.nodes()[node], i), cell);
+      }
+      else
+      {
+        middles[octree.planeOf(node, i)] =
+          1.0 + std::ldexp(1.0, -2 * octree.depthCount()) * (glm::dvec3(cell) + 0.5);
+      }
+    }
+  };
+  visit(visit, 0, glm::ivec3(0));
+  return middles;
+}
+
+TEST(VoxelLook, ColorsHaveNoStepsBetweenVoxels)
+{
+  const SphereField sphere(0.7);
+  const svo::Octree octree = octreeOfField(sphere, boxOfInterest(5));
+  const glm::dmat4 toOctree = octree.localToOctree();
+  const std::vector<glm::dvec3> middles = middlesOf(octree);
+  const double voxel = std::ldexp(1.0, -2 * octree.depthCount());
+  const auto colorOf = [&](std::uint32_t plane) { return glm::vec3(middles[plane] - 1.0); };
+  glm::vec3 before(0.0f);
+  constexpr int Steps = 20000;
+  for (int i = 0; i <= Steps; ++i)
+  {
+    const double angle = 6.283185307179586 * i / Steps;
+    const glm::dvec3 out = glm::normalize(glm::dvec3(std::cos(angle), std::sin(angle), 0.37));
+    const glm::dvec3 at(toOctree * glm::dvec4(0.7 * out, 1.0));
+    const svo::VoxelsAround around = svo::voxelsAround(octree, at, glm::vec3(out));
+    ASSERT_GT(around.count, 0);
+    // A colour that is the place: that of the voxels around is near, and moves with the point.
+    const glm::vec3 color = svo::smoothColor(around, glm::vec3(9.0f), colorOf);
+    ASSERT_LT(glm::length(glm::dvec3(color) + 1.0 - at), 0.9 * voxel) << i;
+    if (i > 0)
+    {
+      ASSERT_LT(glm::length(color - before), 0.1 * voxel) << i;
+    }
+    before = color;
+  }
+  EXPECT_EQ(svo::smoothColor({}, glm::vec3(9.0f), colorOf), glm::vec3(9.0f));
 }
 
 TEST(VoxelLook, OfAPointBelowANodeTheVoxelThatItIsIn)

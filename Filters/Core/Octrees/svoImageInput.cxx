@@ -1,0 +1,203 @@
+#include "svoImageInput.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+namespace svo
+{
+namespace
+{
+/// Steps of a point's index -> local frame.
+glm::dmat3 stepsOf(vtkImageData* image)
+{
+  glm::dmat3 steps;
+  for (int column = 0; column < 3; ++column)
+  {
+    for (int row = 0; row < 3; ++row)
+    {
+      steps[column][row] =
+        image->GetDirectionMatrix()->GetElement(row, column) * image->GetSpacing()[column];
+    }
+  }
+  return steps;
+}
+
+bool isTurned(vtkImageData* image)
+{
+  return !image->GetDirectionMatrix()->IsIdentity();
+}
+
+/// Whether neighbouring points are different points.
+bool canTellPointsApart(vtkImageData* image, const glm::dmat3& steps)
+{
+  const ImageBox box = boxOfExtent(image, image->GetExtent());
+  const double* origin = image->GetOrigin();
+  const glm::dvec3 far = glm::max(glm::max(glm::abs(box.low), glm::abs(box.high)),
+    glm::abs(glm::dvec3(origin[0], origin[1], origin[2])));
+  const double step =
+    std::min({ glm::length(steps[0]), glm::length(steps[1]), glm::length(steps[2]) });
+  return step > 8.0 * std::numeric_limits<double>::epsilon() * std::max({ far.x, far.y, far.z });
+}
+}
+
+double ImageBox::extent() const
+{
+  const glm::dvec3 size = this->high - this->low;
+  return std::max({ size.x, size.y, size.z });
+}
+
+double ImageBox::thickness() const
+{
+  const glm::dvec3 size = this->high - this->low;
+  return std::min({ size.x, size.y, size.z });
+}
+
+const char* unfitImage(vtkImageData* image, vtkDataArray* scalars)
+{
+  const int* n = image->GetDimensions();
+  if (image->GetNumberOfPoints() == 0)
+  {
+    return "the image is empty";
+  }
+  if (!scalars)
+  {
+    return "the image has no such point scalars";
+  }
+  if (scalars->GetNumberOfComponents() != 1)
+  {
+    return "the scalars have more than one component";
+  }
+  if (n[0] < 2 || n[1] < 2 || n[2] < 2)
+  {
+    return "the image has fewer than two points along an axis";
+  }
+  if (scalars->GetNumberOfTuples() != image->GetNumberOfPoints() ||
+    !scalars->HasStandardMemoryLayout())
+  {
+    return "the scalars are not one for each point, in one block of memory";
+  }
+  const glm::dmat3 steps = stepsOf(image);
+  const double volume = std::abs(glm::determinant(steps));
+  const double* origin = image->GetOrigin();
+  if (!std::isfinite(volume) || !std::isfinite(origin[0] + origin[1] + origin[2]) ||
+    !std::isfinite(boxOfExtent(image, image->GetExtent()).extent()))
+  {
+    return "the image's origin, spacing or direction matrix is not finite";
+  }
+  const double edges = glm::length(steps[0]) * glm::length(steps[1]) * glm::length(steps[2]);
+  if (!(volume > 1e-12 * edges))
+  {
+    return "the image is flat: its spacing, or its direction matrix, has no inverse";
+  }
+  return canTellPointsApart(image, steps)
+    ? nullptr
+    : "the image's spacing is too small to tell points apart so far from the origin";
+}
+
+glm::dmat4 frameOfImage(vtkImageData* image)
+{
+  glm::dmat4 frame(1.0);
+  for (int row = 0; row < 3 && isTurned(image); ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      frame[column][row] = image->GetDirectionMatrix()->GetElement(row, column);
+    }
+    frame[3][row] = image->GetOrigin()[row];
+  }
+  return frame;
+}
+
+ImageGrid gridOfImage(vtkImageData* image)
+{
+  ImageGrid grid;
+  const int* extent = image->GetExtent();
+  const int* n = image->GetDimensions();
+  grid.points = { n[0], n[1], n[2] };
+  grid.toIndex = glm::dmat4(1.0);
+  for (int i = 0; i < 3; ++i)
+  {
+    const double origin = isTurned(image) ? 0.0 : image->GetOrigin()[i];
+    grid.toIndex[i][i] = 1.0 / image->GetSpacing()[i];
+    grid.toIndex[3][i] = -origin / image->GetSpacing()[i] - extent[2 * i];
+  }
+  if (vtkUnsignedCharArray* marks = image->GetCellGhostArray())
+  {
+    grid.cellMarks = marks->GetPointer(0);
+    grid.hiddenMarks = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
+      vtkDataSetAttributes::HIDDENCELL;
+  }
+  return grid;
+}
+
+ImageBox boxOfExtent(vtkImageData* image, const int extent[6])
+{
+  ImageBox box;
+  for (int i = 0; i < 3; ++i)
+  {
+    const double origin = isTurned(image) ? 0.0 : image->GetOrigin()[i];
+    const double first = origin + extent[2 * i] * image->GetSpacing()[i];
+    const double last = origin + extent[2 * i + 1] * image->GetSpacing()[i];
+    box.low[i] = std::min(first, last);
+    box.high[i] = std::max(first, last);
+  }
+  return box;
+}
+
+vtkSmartPointer<vtkDataArray> visibleScalars(vtkImageData* image, vtkDataArray* scalars)
+{
+  vtkUnsignedCharArray* marks = image->GetPointGhostArray();
+  const vtkIdType count = scalars->GetNumberOfTuples();
+  const auto isHidden = [&](vtkIdType i)
+  { return (marks->GetValue(i) & vtkDataSetAttributes::HIDDENPOINT) != 0; };
+  vtkIdType i = 0;
+  while (marks && i < count && !isHidden(i))
+  {
+    ++i;
+  }
+  if (!marks || i == count)
+  {
+    return scalars;
+  }
+  const auto visible = vtkSmartPointer<vtkDoubleArray>::New();
+  visible->SetName(scalars->GetName());
+  visible->SetNumberOfValues(count);
+  for (i = 0; i < count; ++i)
+  {
+    visible->SetValue(
+      i, isHidden(i) ? std::numeric_limits<double>::quiet_NaN() : scalars->GetComponent(i, 0));
+  }
+  return visible;
+}
+
+int levelOfImage(vtkImageData* image, const int extent[6])
+{
+  constexpr int Least = 8; // what looks like a surface in a window
+  constexpr int MostBeyond = 2;
+  const double* spacing = image->GetSpacing();
+  const double least =
+    std::min({ std::abs(spacing[0]), std::abs(spacing[1]), std::abs(spacing[2]) });
+  const int most =
+    std::max({ extent[1] - extent[0], extent[3] - extent[2], extent[5] - extent[4] });
+  const auto levelFor = [](double cells)
+  { return static_cast<int>(std::ceil(std::log2(std::max(cells * (1.0 - 1e-9), 1.0)))); };
+  const ImageBox box = boxOfExtent(image, extent);
+  const int fine = levelFor(std::min(box.extent() / least, 1e9));
+  const int thick = levelFor(std::min(4.0 * box.extent() / box.thickness(), 1e9));
+  const int enough = std::min(fine, std::max(levelFor(most) + MostBeyond, thick));
+  return std::min(std::max(enough, Least), MaximumLevel);
+}
+}
