@@ -20,6 +20,7 @@ vtkInformationKeyMacro(vtkSVOViewPass, VIEW_PASS, ObjectBase);
 vtkSVOViewPass::vtkSVOViewPass()
   : Pass(vtkSVOViewRenderPass::New())
 {
+  this->Pass->AddObserver(vtkCommand::ModifiedEvent, this, &vtkSVOViewPass::UpdateAttachment);
 }
 
 vtkSVOViewPass::~vtkSVOViewPass()
@@ -27,8 +28,15 @@ vtkSVOViewPass::~vtkSVOViewPass()
   this->Pass->Delete();
 }
 
-vtkSVOViewPass* vtkSVOViewPass::OfRenderer(vtkRenderer* renderer)
+/// Null if the view is no render view.
+vtkSVOViewPass* vtkSVOViewPass::OfView(vtkObjectBase* view)
 {
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  if (!renderView)
+  {
+    return nullptr;
+  }
+  vtkRenderer* renderer = renderView->GetRenderer();
   if (!renderer->GetInformation())
   {
     vtkNew<vtkInformation> information;
@@ -38,6 +46,7 @@ vtkSVOViewPass* vtkSVOViewPass::OfRenderer(vtkRenderer* renderer)
   if (!found)
   {
     vtkNew<vtkSVOViewPass> made;
+    made->View = renderView;
     renderer->GetInformation()->Set(VIEW_PASS(), made);
     found = made;
   }
@@ -46,47 +55,57 @@ vtkSVOViewPass* vtkSVOViewPass::OfRenderer(vtkRenderer* renderer)
 
 vtkSVORenderPass* vtkSVOViewPass::Of(vtkObjectBase* view)
 {
-  auto* renderView = vtkPVRenderView::SafeDownCast(view);
-  return renderView ? OfRenderer(renderView->GetRenderer())->Pass : nullptr;
+  vtkSVOViewPass* self = OfView(view);
+  return self ? self->Pass : nullptr;
 }
 
 void vtkSVOViewPass::AddUser(vtkView* view)
 {
-  if (auto* renderView = vtkPVRenderView::SafeDownCast(view))
+  if (vtkSVOViewPass* self = OfView(view))
   {
-    vtkSVOViewPass* self = OfRenderer(renderView->GetRenderer());
-    if (self->Users++ == 0)
-    {
-      self->View = renderView;
-      self->Observer = renderView->GetRenderer()->AddObserver(
-        vtkCommand::StartEvent, self, &vtkSVOViewPass::BeginFrame);
-      // The axes at the centre of rotation are part of the view, not of what it shows.
-      vtkCollectionSimpleIterator iterator;
-      vtkPropCollection* props = renderView->GetRenderer()->GetViewProps();
-      props->InitTraversal(iterator);
-      while (vtkProp* prop = props->GetNextProp(iterator))
-      {
-        if (prop->IsA("vtkPVCenterAxesActor"))
-        {
-          vtkSVORenderPass::SetReceiveShadow(false, prop);
-        }
-      }
-      self->Pass->Attach(renderView->GetRenderer());
-    }
+    ++self->Users;
+    self->UpdateAttachment();
   }
 }
 
 void vtkSVOViewPass::RemoveUser(vtkView* view)
 {
-  if (auto* renderView = vtkPVRenderView::SafeDownCast(view))
+  if (vtkSVOViewPass* self = OfView(view))
   {
-    vtkSVOViewPass* self = OfRenderer(renderView->GetRenderer());
-    if (self->Users > 0 && --self->Users == 0)
+    self->Users -= self->Users > 0 ? 1 : 0;
+    self->UpdateAttachment();
+  }
+}
+
+/// Attaches the pass to the view's renderer, or detaches it.
+void vtkSVOViewPass::UpdateAttachment()
+{
+  const bool needed = this->Users > 0 || this->Pass->GetShadowsForEverything();
+  if (!this->View || needed == (this->Observer != 0))
+  {
+    return;
+  }
+  vtkRenderer* renderer = this->View->GetRenderer();
+  if (!needed)
+  {
+    this->Pass->Detach(renderer);
+    renderer->RemoveObserver(this->Observer);
+    this->Observer = 0;
+    return;
+  }
+  this->Observer = renderer->AddObserver(vtkCommand::StartEvent, this, &vtkSVOViewPass::BeginFrame);
+  // The axes at the centre of rotation are part of the view, not of what it shows.
+  vtkCollectionSimpleIterator iterator;
+  vtkPropCollection* props = renderer->GetViewProps();
+  props->InitTraversal(iterator);
+  while (vtkProp* prop = props->GetNextProp(iterator))
+  {
+    if (prop->IsA("vtkPVCenterAxesActor"))
     {
-      self->Pass->Detach(renderView->GetRenderer());
-      renderView->GetRenderer()->RemoveObserver(self->Observer);
+      vtkSVORenderPass::SetReceiveShadow(false, prop);
     }
   }
+  this->Pass->Attach(renderer);
 }
 
 void vtkSVOViewPass::BeginFrame()

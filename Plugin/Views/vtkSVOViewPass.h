@@ -4,7 +4,7 @@
  *
  * Every view has one vtkSVORenderPass, which lives as long as the view's renderer. It holds the
  * settings that belong to the view, and is attached to the renderer while there is a representation
- * to trace.
+ * to trace, or while everything is to cast shadows.
  */
 #ifndef vtkSVOViewPass_h
 #define vtkSVOViewPass_h
@@ -33,8 +33,7 @@ public:
 
   //@{
   /**
-   * A representation comes or goes: with the first one the pass is attached to the view's renderer,
-   * with the last one it is detached.
+   * A representation that is traced comes or goes.
    */
   static void AddUser(vtkView* view);
   static void RemoveUser(vtkView* view);
@@ -49,12 +48,13 @@ private:
   void operator=(const vtkSVOViewPass&) = delete;
 
   static vtkInformationObjectBaseKey* VIEW_PASS();
-  static vtkSVOViewPass* OfRenderer(vtkRenderer* renderer);
+  static vtkSVOViewPass* OfView(vtkObjectBase* view);
+  void UpdateAttachment();
   void BeginFrame();
 
   vtkSVORenderPass* Pass;
   vtkWeakPointer<vtkPVRenderView> View;
-  unsigned long Observer = 0; // of the renderer, while there are users
+  unsigned long Observer = 0; // of the renderer, while the pass is attached to it
   int Users = 0;
 };
 

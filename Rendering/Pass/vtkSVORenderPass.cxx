@@ -238,6 +238,7 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "AcceptedPixelError: " << this->GetAcceptedPixelError() << " pixels\n"
      << indent << "CastingLights:\n"
      << this->GetCastingLights() << indent << "Controller: " << this->GetController() << '\n'
+     << indent << "ShadowsForEverything: " << this->ShadowsForEverything << '\n'
      << indent << "Tracing: " << this->Tracing << '\n'
      << indent << "CollectTime: " << this->GetCollectTime() << " s\n"
      << indent << "TraceTime: " << this->GetTraceTime() << " s\n"

@@ -486,11 +486,24 @@ public:
    * put first in the renderer's list draws it. In the midst of a frame Detach() takes effect when
    * the frame is done. Only props with an explicit SetUseSVO(true) are traced and cast shadows;
    * those must draw nothing while IsTraced() says that they are (a selector's frames are never
-   * traced). All other surfaces are drawn as ever, and receive shadows.
+   * traced). All other surfaces are drawn as ever, and receive shadows; with ShadowsForEverything
+   * they cast as well.
    */
   void Attach(vtkRenderer* renderer);
   void Detach(vtkRenderer* renderer);
   bool IsTraced(vtkProp* prop) const;
+  //@}
+
+  //@{
+  /**
+   * Whether in attached renderers all surfaces cast shadows, and not only those that are traced;
+   * default off. The octrees of the others are built by the pass. There are no messages about them:
+   * GetReason() says what of them casts nothing. (Where the pass is set on a renderer everything
+   * casts in any case.)
+   */
+  vtkSetMacro(ShadowsForEverything, bool);
+  vtkGetMacro(ShadowsForEverything, bool);
+  vtkBooleanMacro(ShadowsForEverything, bool);
   //@}
 
   //@{
@@ -585,6 +598,7 @@ protected:
   bool FrameCoherence = true;
   vtkIdType LayerMemoryLimit = 512 * 1024;
   bool AntiAliasing = false;
+  bool ShadowsForEverything = false;
   bool Tracing = true;
   bool AutoAdjustSampleDistances = true;
   double MaximumImageSampleDistance = 8.0;

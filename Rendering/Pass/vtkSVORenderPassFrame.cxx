@@ -121,6 +121,7 @@ bool vtkSVORenderPass::CollectFrame(
     svo::CollectSettings collect;
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
+    collect.unmarkedCast = this->ShadowsForEverything;
     collect.said = &impl.said;
     collect.translucentSurfaceText = this->GetText(TEXT_TRANSLUCENT_SURFACE, nullptr);
     collect.translucentText = this->GetText(TEXT_TRANSLUCENT, nullptr);

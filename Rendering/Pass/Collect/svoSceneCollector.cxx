@@ -35,10 +35,13 @@ struct SceneCollector::Frame
   CollectedScene& result;
   glm::dmat4 world; // see sceneTransform()
   std::vector<PropSurfaces> props;
+  bool quiet = false; // about the actor that is being collected
 };
 
 namespace
 {
+constexpr Reason NotChosen = "was not chosen with SetUseSVO";
+
 std::uint64_t combine(std::uint64_t a, std::uint64_t b)
 {
   return a ^ (b + 0x9e3779b97f4a7c15ull + (a << 6) + (a >> 2));
@@ -59,7 +62,7 @@ bool hasSurface(vtkPolyData* mesh)
 /// About an object, or about nothing in particular (null): then once for all renderers.
 void SceneCollector::complainOnce(vtkObject* about, const std::string& text, const Frame& frame)
 {
-  if (!frame.options.complain)
+  if (!frame.options.complain || frame.quiet)
   {
     return;
   }
@@ -156,11 +159,13 @@ void SceneCollector::collectActor(
   {
     return;
   }
-  if (frame.settings.onlyMarked && !isMarked(actor, owner))
+  const bool unmarked = frame.settings.onlyMarked && !isMarked(actor, owner);
+  if (unmarked && !frame.settings.unmarkedCast)
   {
-    found.leaveAlone("was not chosen with SetUseSVO");
+    found.leaveAlone(NotChosen);
     return;
   }
+  frame.quiet = unmarked;
   if (!mapper->GetStatic())
   {
     mapper->GetInputAlgorithm()->Update();
@@ -205,7 +210,11 @@ void SceneCollector::collectActor(
       break;
   }
 
-  if (!beyond && !flagOf(actor, owner, useSVOKey(), true))
+  if (unmarked)
+  {
+    beyond = NotChosen;
+  }
+  else if (!beyond && !flagOf(actor, owner, useSVOKey(), true))
   {
     beyond = "was told so";
   }

@@ -35,9 +35,10 @@ namespace svo
 struct CollectSettings
 {
   bool shadows = true; // casters are wanted
-  /// Only props that say explicitly that they use octrees (vtkSVORenderPass::SetUseSVO) are traced
-  /// or cast; the others only receive.
+  /// Only props that say explicitly that they use octrees (vtkSVORenderPass::SetUseSVO) are traced.
+  /// The others only receive, or cast as well; about them there are no messages.
   bool onlyMarked = false;
+  bool unmarkedCast = false;
   LevelSettings levels;
   std::set<std::string>* said = nullptr; // messages of the pass, about no object in particular
   /// Messages about surfaces and cells that cast nothing, or more than they show; empty: none.
