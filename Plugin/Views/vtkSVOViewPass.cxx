@@ -1,14 +1,20 @@
 #include "vtkSVOViewPass.h"
 
+#include "vtkActor.h"
 #include "vtkCollection.h"
 #include "vtkCommand.h"
+#include "vtkCompositeRepresentation.h"
+#include "vtkGeometryRepresentation.h"
+#include "vtkImageSliceRepresentation.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseKey.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVLODActor.h"
 #include "vtkPVRenderView.h"
 #include "vtkPVSynchronizedRenderer.h"
+#include "vtkPointGaussianRepresentation.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderer.h"
 #include "vtkSVOViewRenderPass.h"
@@ -57,6 +63,47 @@ vtkSVORenderPass* vtkSVOViewPass::Of(vtkObjectBase* view)
 {
   vtkSVOViewPass* self = OfView(view);
   return self ? self->Pass : nullptr;
+}
+
+namespace
+{
+/// The actor by which a representation shows surfaces; null if it does not.
+vtkActor* actorOf(vtkPVDataRepresentation* shown)
+{
+  struct Asking : public vtkPointGaussianRepresentation
+  {
+    using vtkPointGaussianRepresentation::Actor;
+  };
+  if (auto* surface = vtkGeometryRepresentation::SafeDownCast(shown))
+  {
+    return surface->GetActor();
+  }
+  if (auto* slice = vtkImageSliceRepresentation::SafeDownCast(shown))
+  {
+    return slice->GetActor();
+  }
+  auto* points = vtkPointGaussianRepresentation::SafeDownCast(shown);
+  return points ? (points->*(&Asking::Actor)).Get() : nullptr;
+}
+}
+
+std::string vtkSVOViewPass::GetReason(vtkPVDataRepresentation* shown)
+{
+  vtkSVOViewPass* self = shown && shown->GetVisibility() ? OfView(shown->GetView()) : nullptr;
+  if (!self)
+  {
+    return std::string();
+  }
+  auto* choice = vtkCompositeRepresentation::SafeDownCast(shown);
+  vtkPVDataRepresentation* active = choice ? choice->GetActiveRepresentation() : shown;
+  vtkActor* actor = actorOf(active);
+  if (!actor)
+  {
+    const char* key = choice ? choice->GetActiveRepresentationKey() : nullptr;
+    return key ? std::string("Casts no shadow: it is shown as ") + key + "." : std::string();
+  }
+  return self->Observer ? self->Pass->GetReasonInLastFrame(actor)
+                        : "Left to the rasteriser and casts no shadow: it is not shown as SVO.";
 }
 
 void vtkSVOViewPass::AddUser(vtkView* view)

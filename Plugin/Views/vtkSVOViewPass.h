@@ -13,7 +13,10 @@
 #include "vtkSVOViewsModule.h" // for the export macro
 #include "vtkWeakPointer.h"    // for vtkWeakPointer
 
+#include <string> // for the reason
+
 class vtkInformationObjectBaseKey;
+class vtkPVDataRepresentation;
 class vtkPVRenderView;
 class vtkRenderer;
 class vtkSVORenderPass;
@@ -30,6 +33,14 @@ public:
    * The pass of a view, made when it is first asked for. Null if the view is no render view.
    */
   static vtkSVORenderPass* Of(vtkObjectBase* view);
+
+  /**
+   * Why what a representation shows in its view is left to the rasteriser, or casts no shadow or
+   * less than its whole one, for people: as vtkSVORenderPass::GetReasonInLastFrame(), in the words
+   * of ParaView's panels. Empty if all is as it was asked for, if it is not visible, or in another
+   * kind of view.
+   */
+  static std::string GetReason(vtkPVDataRepresentation* shown);
 
   //@{
   /**

@@ -86,6 +86,8 @@ std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
       return "A surface casts the shadow of its whole cells although its texture hides parts of "
              "them. SetCastShadow(true, prop) says that this is meant, false takes the shadow "
              "away.";
+    case TEXT_NOT_CHOSEN:
+      return "was not chosen with SetUseSVO";
     default:
       return std::string();
   }

@@ -498,13 +498,19 @@ public:
   /**
    * Whether in attached renderers all surfaces cast shadows, and not only those that are traced;
    * default off. The octrees of the others are built by the pass. There are no messages about them:
-   * GetReason() says what of them casts nothing. (Where the pass is set on a renderer everything
-   * casts in any case.)
+   * GetReasonInLastFrame() says what of them casts nothing. (Where the pass is set on a renderer
+   * everything casts in any case.)
    */
   vtkSetMacro(ShadowsForEverything, bool);
   vtkGetMacro(ShadowsForEverything, bool);
   vtkBooleanMacro(ShadowsForEverything, bool);
   //@}
+
+  /**
+   * As GetReason(), but of a prop of an attached renderer in the last frame: empty if it cast its
+   * shadow and was traced, or did not have to be, or if it was not there.
+   */
+  std::string GetReasonInLastFrame(vtkProp* prop) const;
 
   //@{
   /**
@@ -566,7 +572,8 @@ protected:
     TEXT_ONLY_HEADLIGHTS = 1,     // there are no shadows, because no other lights are on
     TEXT_TRANSLUCENT = 2,         // cells of a surface cast none, because they are translucent
     TEXT_TRANSLUCENT_SURFACE = 3, // a surface casts none, because its opacity makes it translucent
-    TEXT_CUT_OUT = 4              // cells cast their whole shadows, although a texture hides parts
+    TEXT_CUT_OUT = 4,             // cells cast their whole shadows, although a texture hides parts
+    TEXT_NOT_CHOSEN = 5           // a reason, the end of a sentence that begins with "it"
   };
 
   /**

@@ -134,6 +134,18 @@ bool vtkSVORenderPass::IsTraced(vtkProp* prop) const
   return current && current->collected().replaced.count(prop) > 0;
 }
 
+std::string vtkSVORenderPass::GetReasonInLastFrame(vtkProp* prop) const
+{
+  for (const auto& [about, text] : this->Impl->reasons)
+  {
+    if (about == prop && prop)
+    {
+      return text;
+    }
+  }
+  return std::string();
+}
+
 void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void*)
 {
   const vtkSmartPointer<vtkSVORenderPass> alive(this);

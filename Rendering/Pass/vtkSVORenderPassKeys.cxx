@@ -57,22 +57,7 @@ bool vtkSVORenderPass::GetCastShadow(vtkProp* prop)
 
 std::string vtkSVORenderPass::GetReason(vtkProp* prop)
 {
-  std::string text;
-  if (prop)
-  {
-    const svo::PropSurfaces judged = svo::SceneCollector().judge(prop);
-    if (judged.rasterized)
-    {
-      text += std::string("Left to the rasteriser: it ") + judged.rasterized + ".";
-    }
-    if (judged.castsNone)
-    {
-      text += (text.empty() ? "" : " ");
-      text += judged.casts() ? "Casts less than its whole shadow: it " : "Casts no shadow: it ";
-      text += std::string(judged.castsNone) + ".";
-    }
-  }
-  return text;
+  return prop ? svo::SceneCollector().judge(prop).reasons() : std::string();
 }
 
 void vtkSVORenderPass::SetCastShadow(bool cast, vtkLight* light)

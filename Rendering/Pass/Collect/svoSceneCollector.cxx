@@ -40,8 +40,6 @@ struct SceneCollector::Frame
 
 namespace
 {
-constexpr Reason NotChosen = "was not chosen with SetUseSVO";
-
 std::uint64_t combine(std::uint64_t a, std::uint64_t b)
 {
   return a ^ (b + 0x9e3779b97f4a7c15ull + (a << 6) + (a >> 2));
@@ -162,7 +160,7 @@ void SceneCollector::collectActor(
   const bool unmarked = frame.settings.onlyMarked && !isMarked(actor, owner);
   if (unmarked && !frame.settings.unmarkedCast)
   {
-    found.leaveAlone(NotChosen);
+    found.leaveAlone(frame.settings.notMarked);
     return;
   }
   frame.quiet = unmarked;
@@ -212,7 +210,7 @@ void SceneCollector::collectActor(
 
   if (unmarked)
   {
-    beyond = NotChosen;
+    beyond = frame.settings.notMarked;
   }
   else if (!beyond && !flagOf(actor, owner, useSVOKey(), true))
   {
@@ -403,6 +401,11 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   for (const PropSurfaces& prop : frame.props)
   {
     addProp(prop, result);
+    const bool asChosen = !prop.castsNone && prop.rasterized == settings.notMarked;
+    if (settings.onlyMarked && !asChosen && !prop.reasons().empty())
+    {
+      result.reasons.emplace_back(prop.prop, prop.reasons());
+    }
   }
   for (auto said = this->GivenMessages.begin(); said != this->GivenMessages.end();)
   {

@@ -12,6 +12,7 @@
 #include "svoSceneOctrees.h"
 #include "svoSurfaceLook.h"
 
+#include "vtkProp.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
@@ -26,7 +27,6 @@ class vtkMatrix4x4;
 class vtkObject;
 class vtkObjectBase;
 class vtkPolyData;
-class vtkProp;
 class vtkRenderer;
 
 namespace svo
@@ -39,6 +39,7 @@ struct CollectSettings
   /// The others only receive, or cast as well; about them there are no messages.
   bool onlyMarked = false;
   bool unmarkedCast = false;
+  Reason notMarked = "was not chosen with SetUseSVO";
   LevelSettings levels;
   std::set<std::string>* said = nullptr; // messages of the pass, about no object in particular
   /// Messages about surfaces and cells that cast nothing, or more than they show; empty: none.
@@ -61,6 +62,8 @@ struct CollectedScene
   bool rasterizedReceivers = false; // lit surfaces that the rasteriser draws and shadows fall on
   bool headlightOnly = false;       // SceneLights
   std::string lightsText;
+  /// With `onlyMarked`: why marked props are not traced, and what casts nothing. Others are not in.
+  std::vector<std::pair<vtkWeakPointer<vtkProp>, std::string>> reasons;
   /// Owners of the arrays that the scene points into.
   std::vector<vtkSmartPointer<vtkObjectBase>> kept;
 };
