@@ -150,7 +150,7 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
   {
     svo::ExchangedProps props(state->GetPropArray());
     frame.state->exchange(props, state, this);
-    const bool receiving = !frame.state->receivers().empty();
+    const bool receiving = !frame.state->receivers().idle();
     if (receiving)
     {
       this->PreRender(state);
@@ -204,7 +204,7 @@ bool vtkSVORenderPass::SetShaderParameters(
 {
   if (svo::RendererState* current = this->Impl->current())
   {
-    current->receivers().setUniforms(program, GetReceiveShadow(prop));
+    current->receivers().setUniforms(program, GetReceiveShadow(prop), GetShadowCatcher(prop));
   }
   return true;
 }

@@ -386,6 +386,21 @@ public:
 
   //@{
   /**
+   * Whether nothing is seen of an actor but the shadows on it; default false. What is behind it,
+   * the background in most cases, is darkened by the share of the light that shadows take from a
+   * white surface in its place, times the opacity of the actor's property; where no shadow falls
+   * nothing is changed. In pictures with a transparent background a shadow is black, and
+   * transparent where it is light. It is drawn among translucent surfaces (ForceTranslucent of the
+   * actor is switched on, and off again), takes part in depth peeling as they do, and casts
+   * nothing. Its colours and specular light do not matter; a physically based material hides it,
+   * and so do lights that cast nothing. Without this pass it is an ordinary surface.
+   */
+  static void SetShadowCatcher(bool catches, vtkProp* actor);
+  static bool GetShadowCatcher(vtkProp* actor);
+  //@}
+
+  //@{
+  /**
    * Whether a prop may be traced at all; default true. False leaves it to the rasteriser; it casts
    * and receives shadows as before.
    */
@@ -410,6 +425,7 @@ public:
   static vtkInformationIntegerKey* CAST_SHADOW();
   static vtkInformationIntegerKey* RECEIVE_SHADOW();
   static vtkInformationIntegerKey* USE_SVO();
+  static vtkInformationIntegerKey* SHADOW_CATCHER();
   static vtkInformationDoubleKey* PIXEL_ERROR();
   //@}
 

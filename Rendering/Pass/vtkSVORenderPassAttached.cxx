@@ -181,7 +181,8 @@ void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void
         controller, static_cast<std::size_t>(this->OctreeMemoryLimit) * svo::BytesOfKiB);
     }
   }
-  if (frame.state->collected().rasterizedReceivers && frame.state->hasSomething())
+  const svo::CollectedScene& collected = frame.state->collected();
+  if ((collected.rasterizedReceivers && frame.state->hasSomething()) || collected.shadowCatchers)
   {
     for (vtkProp* prop : frame.props)
     {

@@ -147,6 +147,14 @@ void SceneCollector::collectActor(
   vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, Frame& frame)
 {
   vtkProp* owner = found.prop;
+  if (flagOf(actor, owner, shadowCatcherKey(), false))
+  {
+    found.leaveAlone(actor->GetProperty()->GetInterpolation() == VTK_PBR
+        ? "is a shadow catcher, and not seen as such with a physically based material"
+        : "is a shadow catcher");
+    frame.result.shadowCatchers = true;
+    return;
+  }
   if (!isPlainActor(actor) && !isMarked(actor, owner))
   {
     found.leaveAlone("is of a class that may draw anything"); // without a mapper, even

@@ -61,6 +61,7 @@ struct CollectedScene
   int rasterizedActors = 0;
   bool rasterizedReceivers = false; // lit surfaces that the rasteriser draws and shadows fall on
   bool headlightOnly = false;       // SceneLights
+  bool shadowCatchers = false;      // there are some; they are rasterised
   std::string lightsText;
   /// With `onlyMarked`: why marked props are not traced, and what casts nothing. Others are not in.
   std::vector<std::pair<vtkWeakPointer<vtkProp>, std::string>> reasons;

@@ -23,6 +23,7 @@ namespace
 {
 const char DeclarationMark[] = "//SVO::Dec\n";
 const char ImplementationMark[] = "//SVO::Impl\n";
+const char LitMark[] = "//SVO::Lit\n"; // after VTK's lighting
 constexpr std::size_t MapsOfLight = 6; // that there is room for, where most have fewer
 
 /// Maps that a shader has room for beside what VTK tells it of so many lights.
@@ -117,6 +118,52 @@ bool sendCorner(std::string& vertexShader, std::string& geometryShader)
       "flat out vec3 svoCornerGSOutput;\nflat out vec3 svoCornerNormalGSOutput;\n");
   }
   return true;
+}
+
+/// True if `text` has `name` as a whole token.
+bool declares(const std::string& text, const std::string& name)
+{
+  std::string copy = text;
+  return rename(copy, name, name);
+}
+
+/// Has surfaces with svoCatch show nothing but shadows, black and as dense as they take light away.
+/// VTK's own lighting adds up, as red, the light that arrives and, as green, what would arrive
+/// without shadows (svoWeigh), both on white. `lit`: the shader knows of shadows.
+void catchShadows(std::string& declarations, std::string& body, bool lit)
+{
+  vtkShaderProgram::Substitute(declarations, DeclarationMark,
+    "uniform float svoCatch; // 1: of this surface shadows alone are seen\n"
+    "vec3 svoWeigh(vec3 color, float share)\n"
+    "{\n"
+    "  float light = color.r + color.g + color.b;\n"
+    "  return svoCatch > 0.0 ? vec3(light * share, light, 0.0) : color * share;\n"
+    "}\n" +
+      std::string(DeclarationMark),
+    false);
+  // A physically based material weighs light by rules of its own.
+  if (!lit || body.find("albedo") != std::string::npos)
+  {
+    vtkShaderProgram::Substitute(body, LitMark, "  if (svoCatch > 0.0) discard;\n", false);
+    return;
+  }
+  vtkShaderProgram::Substitute(body, ImplementationMark,
+    std::string(ImplementationMark) +
+      "  if (svoCatch > 0.0)\n"
+      "  {\n"
+      "    ambientColor = specularColor = vec3(0.0);\n"
+      "    diffuseColor = vec3(1.0);\n"
+      "  }\n",
+    false);
+  vtkShaderProgram::Substitute(body, LitMark,
+    "  if (svoCatch > 0.0)\n"
+    "  {\n"
+    "    vec2 svoSums = gl_FragData[0].rg;\n"
+    "    float svoDark = svoSums.g > 0.0 ? 1.0 - svoSums.r / svoSums.g : 0.0;\n"
+    "    if (!(svoDark > 0.0)) discard;\n"
+    "    gl_FragData[0] = vec4(0.0, 0.0, 0.0, svoDark * gl_FragData[0].a);\n"
+    "  }\n",
+    false);
 }
 
 /// The numbers of svoShadowRules.h, in GLSL.
@@ -265,7 +312,8 @@ void ShadowReceivers::release()
 std::string ShadowReceivers::signature() const
 {
   std::ostringstream text;
-  text << this->Capacity << ' ' << this->PlaneBias << ' ' << this->Filter << ": ";
+  text << this->Capacity << ' ' << this->PlaneBias << ' ' << this->Filter << ' ' << this->Catchers
+       << ": ";
   for (const int light : this->Lights)
   {
     text << light << ' ';
@@ -278,7 +326,7 @@ void ShadowReceivers::markShader(std::string& fragmentShader)
   vtkShaderProgram::Substitute(
     fragmentShader, "//VTK::Light::Dec", std::string(DeclarationMark) + "//VTK::Light::Dec", false);
   vtkShaderProgram::Substitute(fragmentShader, "//VTK::Light::Impl",
-    std::string(ImplementationMark) + "  //VTK::Light::Impl", false);
+    std::string(ImplementationMark) + "  //VTK::Light::Impl\n" + LitMark, false);
 }
 
 std::string ShadowReceivers::declarations() const
@@ -308,20 +356,35 @@ void ShadowReceivers::completeShader(
   const bool hasNormal = body.find("normalVCVSOutput") != std::string::npos &&
     fragmentShader.find("normalTex") == std::string::npos;
   std::ostringstream code;
+  const auto weigh = [&](int light, const std::string& share)
+  {
+    const std::string number = std::to_string(light);
+    const std::string color = "lightColor" + number;
+    if (rename(body, color, "svoColor" + number))
+    {
+      code << "  vec3 svoColor" << number << " = "
+           << (this->Catchers ? "svoWeigh(" + color + ", " + share + ")" : color + " * " + share)
+           << ";\n";
+    }
+  };
   // Unlit surfaces have no position to ask about.
   if (body.find("vec4 vertexVC =") != std::string::npos)
   {
     for (std::size_t i = 0; i < this->Lights.size(); ++i)
     {
-      const std::string number = std::to_string(this->Lights[i]);
-      const std::string color = "lightColor" + number;
-      if (rename(body, color, "svoColor" + number))
-      {
-        code << "  vec3 svoColor" << number << " = " << color << " * svoShare[" << i << "];\n";
-      }
+      weigh(this->Lights[i], "svoShare[" + std::to_string(i) + "]");
     }
   }
   const bool any = !code.str().empty();
+  if (this->Catchers)
+  {
+    // Those that cast nothing.
+    for (int i = 0; any && declares(declarations, "lightColor" + std::to_string(i)); ++i)
+    {
+      weigh(i, "1.0");
+    }
+    catchShadows(declarations, body, any);
+  }
   const bool smooth = any && hasNormal && sendCorner(vertexShader, geometryShader);
   // One loop, since compilers copy the function to wherever it is called.
   const std::string count = std::to_string(this->Lights.size());
@@ -353,8 +416,12 @@ void ShadowReceivers::completeShader(
   fragmentShader = declarations + body;
 }
 
-void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives) const
+void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives, bool catches) const
 {
+  if (program->IsUniformUsed("svoCatch"))
+  {
+    program->SetUniformf("svoCatch", catches ? 1.0f : 0.0f);
+  }
   if (this->empty() || !program->IsUniformUsed("svoMaps"))
   {
     return;
