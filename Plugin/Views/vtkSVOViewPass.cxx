@@ -1,5 +1,7 @@
 #include "vtkSVOViewPass.h"
 
+#include "svoShadowGround.h"
+
 #include "vtkActor.h"
 #include "vtkCollection.h"
 #include "vtkCommand.h"
@@ -25,6 +27,7 @@ vtkInformationKeyMacro(vtkSVOViewPass, VIEW_PASS, ObjectBase);
 
 vtkSVOViewPass::vtkSVOViewPass()
   : Pass(vtkSVOViewRenderPass::New())
+  , Ground(new svo::ShadowGround)
 {
   this->Pass->AddObserver(vtkCommand::ModifiedEvent, this, &vtkSVOViewPass::UpdateAttachment);
 }
@@ -127,7 +130,8 @@ void vtkSVOViewPass::RemoveUser(vtkView* view)
 /// Attaches the pass to the view's renderer, or detaches it.
 void vtkSVOViewPass::UpdateAttachment()
 {
-  const bool needed = this->Users > 0 || this->Pass->GetShadowsForEverything();
+  const bool needed =
+    this->Users > 0 || this->Pass->GetShadowsForEverything() || this->Pass->GetShadowGround() > 0;
   if (!this->View || needed == (this->Observer != 0))
   {
     return;
@@ -136,6 +140,7 @@ void vtkSVOViewPass::UpdateAttachment()
   if (!needed)
   {
     this->Pass->Detach(renderer);
+    this->Ground->remove(renderer);
     renderer->RemoveObserver(this->Observer);
     this->Observer = 0;
     return;
@@ -161,6 +166,7 @@ void vtkSVOViewPass::BeginFrame()
   // ordinary frames, for their depth.
   struct Asking : public vtkPVRenderView
   {
+    using vtkPVRenderView::GeometryBounds;
     using vtkPVRenderView::GetMakingSelection;
     using vtkPVRenderView::SynchronizedRenderers;
   };
@@ -169,6 +175,8 @@ void vtkSVOViewPass::BeginFrame()
   {
     return;
   }
+  this->Ground->place(
+    view->GetRenderer(), view->*(&Asking::GeometryBounds), this->Pass->GetShadowGround() - 1);
   this->Pass->SetTracing(!(view->*(&Asking::GetMakingSelection))());
   // Enabled for this frame if all processes render it.
   vtkPVSynchronizedRenderer* together = view->*(&Asking::SynchronizedRenderers);

@@ -4,7 +4,7 @@
  *
  * Every view has one vtkSVORenderPass, which lives as long as the view's renderer. It holds the
  * settings that belong to the view, and is attached to the renderer while there is a representation
- * to trace, or while everything is to cast shadows.
+ * to trace, while everything is to cast shadows, or while there is a ground for shadows.
  */
 #ifndef vtkSVOViewPass_h
 #define vtkSVOViewPass_h
@@ -13,6 +13,7 @@
 #include "vtkSVOViewsModule.h" // for the export macro
 #include "vtkWeakPointer.h"    // for vtkWeakPointer
 
+#include <memory> // for std::unique_ptr
 #include <string> // for the reason
 
 class vtkInformationObjectBaseKey;
@@ -20,7 +21,14 @@ class vtkPVDataRepresentation;
 class vtkPVRenderView;
 class vtkRenderer;
 class vtkSVORenderPass;
+class vtkSVOViewRenderPass;
 class vtkView;
+#ifndef __VTK_WRAP__
+namespace svo
+{
+class ShadowGround;
+}
+#endif
 
 class VTKSVOVIEWS_EXPORT vtkSVOViewPass : public vtkObject
 {
@@ -63,7 +71,10 @@ private:
   void UpdateAttachment();
   void BeginFrame();
 
-  vtkSVORenderPass* Pass;
+  vtkSVOViewRenderPass* Pass;
+#ifndef __VTK_WRAP__
+  std::unique_ptr<svo::ShadowGround> Ground;
+#endif
   vtkWeakPointer<vtkPVRenderView> View;
   unsigned long Observer = 0; // of the renderer, while the pass is attached to it
   int Users = 0;

@@ -38,4 +38,5 @@ std::string vtkSVOViewRenderPass::GetText(int text, vtkLight* about) const
 void vtkSVOViewRenderPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "ShadowGround: " << this->ShadowGround << '\n';
 }
