@@ -1,6 +1,8 @@
 #include "svoShadowReceivers.h"
 
 #include "svoOpenGL.h"
+#include "svoShaderTokens.h"
+#include "svoShadowCatcher.h"
 #include "svoShadowReceiver.h"
 #include "svoShadowRules.h"
 
@@ -8,7 +10,6 @@
 #include "vtkShaderProgram.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iomanip>
 #include <locale>
 #include <map>
@@ -57,34 +58,6 @@ glm::mat4 receiverMatrix(const ShadowMap& map, const View& eye)
   return glm::mat4(result);
 }
 
-bool isIdentifier(char c)
-{
-  return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
-}
-
-/// Renames a whole token; true if it was there.
-bool rename(std::string& text, const std::string& from, const std::string& to)
-{
-  bool found = false;
-  std::size_t at = 0;
-  while ((at = text.find(from, at)) != std::string::npos)
-  {
-    const std::size_t end = at + from.size();
-    if ((at == 0 || !isIdentifier(text[at - 1])) &&
-      (end >= text.size() || !isIdentifier(text[end])))
-    {
-      text.replace(at, from.size(), to);
-      at += to.size();
-      found = true;
-    }
-    else
-    {
-      at = end;
-    }
-  }
-  return found;
-}
-
 /// Has the vertex shader, and the geometry shader if there is one, send each facet one of its
 /// corners with its normal; false if they know none. (VTK's shader cache changes VSOut in fragment
 /// shaders to GSOut where there are geometry shaders.)
@@ -120,50 +93,16 @@ bool sendCorner(std::string& vertexShader, std::string& geometryShader)
   return true;
 }
 
-/// True if `text` has `name` as a whole token.
-bool declares(const std::string& text, const std::string& name)
-{
-  std::string copy = text;
-  return rename(copy, name, name);
-}
-
-/// Has surfaces with svoCatch show nothing but shadows, black and as dense as they take light away.
-/// VTK's own lighting adds up, as red, the light that arrives and, as green, what would arrive
-/// without shadows (svoWeigh), both on white. `lit`: the shader knows of shadows.
+/// Adds the code of shadow catchers. `lit`: the shader knows of shadows.
 void catchShadows(std::string& declarations, std::string& body, bool lit)
 {
-  vtkShaderProgram::Substitute(declarations, DeclarationMark,
-    "uniform float svoCatch; // 1: of this surface shadows alone are seen\n"
-    "vec3 svoWeigh(vec3 color, float share)\n"
-    "{\n"
-    "  float light = color.r + color.g + color.b;\n"
-    "  return svoCatch > 0.0 ? vec3(light * share, light, 0.0) : color * share;\n"
-    "}\n" +
-      std::string(DeclarationMark),
-    false);
   // A physically based material weighs light by rules of its own.
-  if (!lit || body.find("albedo") != std::string::npos)
-  {
-    vtkShaderProgram::Substitute(body, LitMark, "  if (svoCatch > 0.0) discard;\n", false);
-    return;
-  }
+  const bool seen = lit && body.find("albedo") == std::string::npos;
+  vtkShaderProgram::Substitute(
+    declarations, DeclarationMark, std::string(CatcherDeclarations) + DeclarationMark, false);
   vtkShaderProgram::Substitute(body, ImplementationMark,
-    std::string(ImplementationMark) +
-      "  if (svoCatch > 0.0)\n"
-      "  {\n"
-      "    ambientColor = specularColor = vec3(0.0);\n"
-      "    diffuseColor = vec3(1.0);\n"
-      "  }\n",
-    false);
-  vtkShaderProgram::Substitute(body, LitMark,
-    "  if (svoCatch > 0.0)\n"
-    "  {\n"
-    "    vec2 svoSums = gl_FragData[0].rg;\n"
-    "    float svoDark = svoSums.g > 0.0 ? 1.0 - svoSums.r / svoSums.g : 0.0;\n"
-    "    if (!(svoDark > 0.0)) discard;\n"
-    "    gl_FragData[0] = vec4(0.0, 0.0, 0.0, svoDark * gl_FragData[0].a);\n"
-    "  }\n",
-    false);
+    std::string(ImplementationMark) + (seen ? CatcherBeforeLighting : ""), false);
+  vtkShaderProgram::Substitute(body, LitMark, seen ? CatcherAfterLighting : CatcherUnseen, false);
 }
 
 /// The numbers of svoShadowRules.h, in GLSL.
@@ -360,7 +299,7 @@ void ShadowReceivers::completeShader(
   {
     const std::string number = std::to_string(light);
     const std::string color = "lightColor" + number;
-    if (rename(body, color, "svoColor" + number))
+    if (renameToken(body, color, "svoColor" + number))
     {
       code << "  vec3 svoColor" << number << " = "
            << (this->Catchers ? "svoWeigh(" + color + ", " + share + ")" : color + " * " + share)
@@ -379,7 +318,7 @@ void ShadowReceivers::completeShader(
   if (this->Catchers)
   {
     // Those that cast nothing.
-    for (int i = 0; any && declares(declarations, "lightColor" + std::to_string(i)); ++i)
+    for (int i = 0; any && hasToken(declarations, "lightColor" + std::to_string(i)); ++i)
     {
       weigh(i, "1.0");
     }
