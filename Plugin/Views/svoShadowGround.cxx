@@ -2,10 +2,16 @@
 
 #include "vtkActor.h"
 #include "vtkBoundingBox.h"
+#include "vtkCommunicator.h"
+#include "vtkMath.h"
+#include "vtkMultiProcessController.h"
 #include "vtkPlaneSource.h"
 #include "vtkPolyDataMapper.h"
+#include "vtkPropCollection.h"
 #include "vtkRenderer.h"
 #include "vtkSVORenderPass.h"
+
+#include <string>
 
 namespace svo
 {
@@ -13,6 +19,42 @@ namespace
 {
 constexpr double Reach = 2.0;  // beyond the data, diagonals
 constexpr double Below = 1e-3; // the same; a face of the data that lies on a ground hides nothing
+}
+
+namespace
+{
+/// World coordinates. What ParaView knows of them is a frame late.
+vtkBoundingBox boundsOfData(vtkRenderer* renderer, vtkMultiProcessController* processes)
+{
+  vtkBoundingBox box;
+  vtkCollectionSimpleIterator iterator;
+  vtkPropCollection* props = renderer->GetViewProps();
+  props->InitTraversal(iterator);
+  while (vtkProp* prop = props->GetNextProp(iterator))
+  {
+    // What representations show; axes, annotations and widgets are other classes.
+    const bool data = prop->IsA("vtkPVLODActor") || prop->IsA("vtkVolume") ||
+      std::string(prop->GetClassName()) == "vtkOpenGLActor";
+    const double* bounds =
+      data && prop->GetVisibility() && prop->GetUseBounds() ? prop->GetBounds() : nullptr;
+    if (bounds && vtkMath::AreBoundsInitialized(bounds))
+    {
+      box.AddBounds(bounds);
+    }
+  }
+  if (processes && processes->GetNumberOfProcesses() > 1)
+  {
+    double local[6], all[6]; // the largest of all, with the lower bounds turned round
+    for (int i = 0; i < 3; ++i)
+    {
+      local[i] = box.IsValid() ? -box.GetMinPoint()[i] : VTK_DOUBLE_MIN;
+      local[3 + i] = box.IsValid() ? box.GetMaxPoint()[i] : VTK_DOUBLE_MIN;
+    }
+    processes->AllReduce(local, all, 6, vtkCommunicator::MAX_OP);
+    box = vtkBoundingBox(-all[0], all[3], -all[1], all[4], -all[2], all[5]);
+  }
+  return box;
+}
 }
 
 ShadowGround::ShadowGround()
@@ -30,9 +72,14 @@ ShadowGround::ShadowGround()
 
 ShadowGround::~ShadowGround() = default;
 
-void ShadowGround::place(vtkRenderer* renderer, const vtkBoundingBox& data, int axis)
+void ShadowGround::place(vtkRenderer* renderer, int axis, vtkMultiProcessController* processes)
 {
-  if (axis < 0 || axis > 2 || !data.IsValid())
+  vtkBoundingBox data;
+  if (axis >= 0 && axis < 3)
+  {
+    data = boundsOfData(renderer, processes);
+  }
+  if (!data.IsValid())
   {
     this->remove(renderer);
     return;

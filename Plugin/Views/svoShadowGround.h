@@ -5,7 +5,7 @@
 #include "vtkNew.h"
 
 class vtkActor;
-class vtkBoundingBox;
+class vtkMultiProcessController;
 class vtkRenderer;
 
 namespace svo
@@ -18,10 +18,11 @@ public:
   ShadowGround(const ShadowGround&) = delete;
   ShadowGround& operator=(const ShadowGround&) = delete;
 
-  /// Before each frame: puts it below `data` (world coordinates) along an axis, 0, 1 or 2, twice as
-  /// far to all sides as the diagonal is long: room for shadows from 20 degrees above the horizon.
-  /// Widens the camera's clipping range to show it. An empty box, or axis -1: there is none.
-  void place(vtkRenderer* renderer, const vtkBoundingBox& data, int axis);
+  /// Before each frame: puts it below the data along an axis, 0, 1 or 2, twice as far to all sides
+  /// as the data's diagonal is long: room for shadows from 20 degrees above the horizon. Widens the
+  /// camera's clipping range to show it. Axis -1, or no data: there is none.
+  /// `processes` hold the data together, and all of them call this; null: this one has all.
+  void place(vtkRenderer* renderer, int axis, vtkMultiProcessController* processes);
 
   /// Takes it out of the renderer.
   void remove(vtkRenderer* renderer);

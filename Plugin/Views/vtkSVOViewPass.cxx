@@ -166,7 +166,6 @@ void vtkSVOViewPass::BeginFrame()
   // ordinary frames, for their depth.
   struct Asking : public vtkPVRenderView
   {
-    using vtkPVRenderView::GeometryBounds;
     using vtkPVRenderView::GetMakingSelection;
     using vtkPVRenderView::SynchronizedRenderers;
   };
@@ -175,8 +174,6 @@ void vtkSVOViewPass::BeginFrame()
   {
     return;
   }
-  this->Ground->place(
-    view->GetRenderer(), view->*(&Asking::GeometryBounds), this->Pass->GetShadowGround() - 1);
   this->Pass->SetTracing(!(view->*(&Asking::GetMakingSelection))());
   // Enabled for this frame if all processes render it.
   vtkPVSynchronizedRenderer* together = view->*(&Asking::SynchronizedRenderers);
@@ -184,6 +181,8 @@ void vtkSVOViewPass::BeginFrame()
     together->GetEnabled() ? together->GetParallelSynchronizer() : nullptr;
   this->Pass->SetController(
     together->GetEnabled() ? vtkMultiProcessController::GetGlobalController() : nullptr);
+  this->Ground->place(
+    view->GetRenderer(), this->Pass->GetShadowGround() - 1, this->Pass->GetController());
   this->Pass->SetImageReductionFactor(ofServers ? ofServers->GetImageReductionFactor() : 1);
 }
 

@@ -14,7 +14,7 @@ import pictures
 PROGRAMS = sys.argv.pop(1)
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "several_processes.py")
 NAMES = ("full-depth", "shadow", "drawn-by-the-client", "drawn-by-the-server", "moved", "turned", "rays",
-         "ordinary-ground", "everything", "light-kit")
+         "ordinary-ground", "everything", "shadow-ground", "light-kit")
 # With triangles smaller than pixels, at pixel errors 1 (the default) and 2.
 LEVELS = {"level-of-detail": 1e-4, "coarse": 1e-3}
 # Open MPI refuses to run as root, and more processes than cores, unless told to.
