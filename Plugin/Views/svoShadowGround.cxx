@@ -95,6 +95,17 @@ void ShadowGround::place(vtkRenderer* renderer, int axis, vtkMultiProcessControl
   this->Actor->SetPosition(center);
   this->Actor->SetScale(size[(axis + 1) % 3] + 2.0 * Reach * diagonal,
     size[(axis + 2) % 3] + 2.0 * Reach * diagonal, 1.0);
+  // Pictures of several processes are composed by depth, which translucent surfaces do not write.
+  // So there it is the last of the opaque ones: what is behind it has been drawn by then. And they
+  // are cut off at the bounds of what is drawn.
+  const bool together = processes && processes->GetNumberOfProcesses() > 1;
+  this->Actor->SetForceOpaque(together);
+  this->Actor->SetForceTranslucent(!together);
+  this->Actor->SetUseBounds(together);
+  if (together)
+  {
+    renderer->RemoveViewProp(this->Actor);
+  }
   if (!renderer->HasViewProp(this->Actor))
   {
     renderer->AddViewProp(this->Actor);
@@ -104,6 +115,11 @@ void ShadowGround::place(vtkRenderer* renderer, int axis, vtkMultiProcessControl
   double bounds[6];
   all.GetBounds(bounds);
   renderer->ResetCameraClippingRange(bounds);
+}
+
+void ShadowGround::endFrame()
+{
+  this->Actor->SetUseBounds(false);
 }
 
 void ShadowGround::remove(vtkRenderer* renderer)

@@ -24,6 +24,9 @@ public:
   /// `processes` hold the data together, and all of them call this; null: this one has all.
   void place(vtkRenderer* renderer, int axis, vtkMultiProcessController* processes);
 
+  /// After each frame: it is not part of what the view shows.
+  void endFrame();
+
   /// Takes it out of the renderer.
   void remove(vtkRenderer* renderer);
 

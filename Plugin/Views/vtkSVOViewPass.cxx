@@ -105,8 +105,8 @@ std::string vtkSVOViewPass::GetReason(vtkPVDataRepresentation* shown)
     const char* key = choice ? choice->GetActiveRepresentationKey() : nullptr;
     return key ? std::string("Casts no shadow: it is shown as ") + key + "." : std::string();
   }
-  return self->Observer ? self->Pass->GetReasonInLastFrame(actor)
-                        : "Left to the rasteriser and casts no shadow: it is not shown as SVO.";
+  return self->Observers[0] ? self->Pass->GetReasonInLastFrame(actor)
+                            : "Left to the rasteriser and casts no shadow: it is not shown as SVO.";
 }
 
 void vtkSVOViewPass::AddUser(vtkView* view)
@@ -132,7 +132,7 @@ void vtkSVOViewPass::UpdateAttachment()
 {
   const bool needed =
     this->Users > 0 || this->Pass->GetShadowsForEverything() || this->Pass->GetShadowGround() > 0;
-  if (!this->View || needed == (this->Observer != 0))
+  if (!this->View || needed == (this->Observers[0] != 0))
   {
     return;
   }
@@ -141,11 +141,16 @@ void vtkSVOViewPass::UpdateAttachment()
   {
     this->Pass->Detach(renderer);
     this->Ground->remove(renderer);
-    renderer->RemoveObserver(this->Observer);
-    this->Observer = 0;
+    for (unsigned long& observer : this->Observers)
+    {
+      renderer->RemoveObserver(observer);
+      observer = 0;
+    }
     return;
   }
-  this->Observer = renderer->AddObserver(vtkCommand::StartEvent, this, &vtkSVOViewPass::BeginFrame);
+  this->Observers[0] =
+    renderer->AddObserver(vtkCommand::StartEvent, this, &vtkSVOViewPass::BeginFrame);
+  this->Observers[1] = renderer->AddObserver(vtkCommand::EndEvent, this, &vtkSVOViewPass::EndFrame);
   // The axes at the centre of rotation are part of the view, not of what it shows.
   vtkCollectionSimpleIterator iterator;
   vtkPropCollection* props = renderer->GetViewProps();
@@ -184,6 +189,11 @@ void vtkSVOViewPass::BeginFrame()
   this->Ground->place(
     view->GetRenderer(), this->Pass->GetShadowGround() - 1, this->Pass->GetController());
   this->Pass->SetImageReductionFactor(ofServers ? ofServers->GetImageReductionFactor() : 1);
+}
+
+void vtkSVOViewPass::EndFrame()
+{
+  this->Ground->endFrame();
 }
 
 void vtkSVOViewPass::PrintSelf(ostream& os, vtkIndent indent)

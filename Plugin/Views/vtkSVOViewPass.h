@@ -70,13 +70,14 @@ private:
   static vtkSVOViewPass* OfView(vtkObjectBase* view);
   void UpdateAttachment();
   void BeginFrame();
+  void EndFrame();
 
   vtkSVOViewRenderPass* Pass;
 #ifndef __VTK_WRAP__
   std::unique_ptr<svo::ShadowGround> Ground;
 #endif
   vtkWeakPointer<vtkPVRenderView> View;
-  unsigned long Observer = 0; // of the renderer, while the pass is attached to it
+  unsigned long Observers[2] = { 0, 0 }; // of the renderer, while the pass is attached to it
   int Users = 0;
 };
 
