@@ -209,6 +209,31 @@ class TestShadowCatcher(unittest.TestCase):
         vtkSVORenderPass.SetShadowCatcher(True, None)
         self.assertFalse(vtkSVORenderPass.GetShadowCatcher(None))
 
+    def test_attached(self):
+        """To a renderer whose surfaces were not chosen: they cast if everything does."""
+        self.renderer.SetPass(None)
+        self.ground.GetPropertyKeys().Remove(vtkSVORenderPass.USE_SVO())
+        plain = self.pixels()
+        self.svo.Attach(self.renderer)
+        self.assertTrue((self.pixels() == plain).all())
+        not_chosen = "Left to the rasteriser and casts no shadow: it was not chosen with SetUseSVO."
+        self.assertEqual(self.svo.GetReasonInLastFrame(self.ball), not_chosen)
+        self.svo.ShadowsForEverythingOn()
+        shadowed = self.pixels()
+        self.assertEqual(self.svo.GetNumberOfTracedActors(), 0)
+        self.assertEqual(self.svo.GetReasonInLastFrame(self.ball), "")
+        self.assertGreater((shadowed[..., 0] < plain[..., 0] - 0.1).sum(), 300)
+        self.assertFalse((shadowed > plain).any())
+        self.catch()
+        self.renderer.SetBackground(0.8, 0.9, 1.0)
+        self.assertGreater((self.pixels()[..., 2] == 0.0).sum(), 300)
+        self.assertEqual(self.svo.GetReasonInLastFrame(self.ground),
+                         "Left to the rasteriser and casts no shadow: it is a shadow catcher.")
+        self.catch(False)
+        self.renderer.SetBackground(0.0, 0.0, 0.0)
+        self.svo.Detach(self.renderer)
+        self.assertTrue((self.pixels() == plain).all())
+
     def test_a_mapper_of_two_actors(self):
         """One shows the ground, the other its shadows alone: the shader is the same."""
         other = vtkActor()
@@ -220,6 +245,8 @@ class TestShadowCatcher(unittest.TestCase):
         plain = self.pixels()
         vtkSVORenderPass.SetShadowCatcher(True, other)
         self.assertTrue((self.pixels() == plain).all())
+        self.ground.VisibilityOff()
+        self.assertFalse((self.pixels() == plain).all())
 
 
 if __name__ == "__main__":
