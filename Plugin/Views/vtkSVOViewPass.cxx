@@ -1,14 +1,22 @@
 #include "vtkSVOViewPass.h"
 
+#include "svoShadowGround.h"
+
+#include "vtkActor.h"
 #include "vtkCollection.h"
 #include "vtkCommand.h"
+#include "vtkCompositeRepresentation.h"
+#include "vtkGeometryRepresentation.h"
+#include "vtkImageSliceRepresentation.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseKey.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVLODActor.h"
 #include "vtkPVRenderView.h"
 #include "vtkPVSynchronizedRenderer.h"
+#include "vtkPointGaussianRepresentation.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderer.h"
 #include "vtkSVOViewRenderPass.h"
@@ -19,7 +27,9 @@ vtkInformationKeyMacro(vtkSVOViewPass, VIEW_PASS, ObjectBase);
 
 vtkSVOViewPass::vtkSVOViewPass()
   : Pass(vtkSVOViewRenderPass::New())
+  , Ground(new svo::ShadowGround)
 {
+  this->Pass->AddObserver(vtkCommand::ModifiedEvent, this, &vtkSVOViewPass::UpdateAttachment);
 }
 
 vtkSVOViewPass::~vtkSVOViewPass()
@@ -27,8 +37,15 @@ vtkSVOViewPass::~vtkSVOViewPass()
   this->Pass->Delete();
 }
 
-vtkSVOViewPass* vtkSVOViewPass::OfRenderer(vtkRenderer* renderer)
+/// Null if the view is no render view.
+vtkSVOViewPass* vtkSVOViewPass::OfView(vtkObjectBase* view)
 {
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  if (!renderView)
+  {
+    return nullptr;
+  }
+  vtkRenderer* renderer = renderView->GetRenderer();
   if (!renderer->GetInformation())
   {
     vtkNew<vtkInformation> information;
@@ -38,6 +55,7 @@ vtkSVOViewPass* vtkSVOViewPass::OfRenderer(vtkRenderer* renderer)
   if (!found)
   {
     vtkNew<vtkSVOViewPass> made;
+    made->View = renderView;
     renderer->GetInformation()->Set(VIEW_PASS(), made);
     found = made;
   }
@@ -46,47 +64,105 @@ vtkSVOViewPass* vtkSVOViewPass::OfRenderer(vtkRenderer* renderer)
 
 vtkSVORenderPass* vtkSVOViewPass::Of(vtkObjectBase* view)
 {
-  auto* renderView = vtkPVRenderView::SafeDownCast(view);
-  return renderView ? OfRenderer(renderView->GetRenderer())->Pass : nullptr;
+  vtkSVOViewPass* self = OfView(view);
+  return self ? self->Pass : nullptr;
+}
+
+namespace
+{
+/// The actor by which a representation shows surfaces; null if it does not.
+vtkActor* actorOf(vtkPVDataRepresentation* shown)
+{
+  struct Asking : public vtkPointGaussianRepresentation
+  {
+    using vtkPointGaussianRepresentation::Actor;
+  };
+  if (auto* surface = vtkGeometryRepresentation::SafeDownCast(shown))
+  {
+    return surface->GetActor();
+  }
+  if (auto* slice = vtkImageSliceRepresentation::SafeDownCast(shown))
+  {
+    return slice->GetActor();
+  }
+  auto* points = vtkPointGaussianRepresentation::SafeDownCast(shown);
+  return points ? (points->*(&Asking::Actor)).Get() : nullptr;
+}
+}
+
+std::string vtkSVOViewPass::GetReason(vtkPVDataRepresentation* shown)
+{
+  vtkSVOViewPass* self = shown && shown->GetVisibility() ? OfView(shown->GetView()) : nullptr;
+  if (!self)
+  {
+    return std::string();
+  }
+  auto* choice = vtkCompositeRepresentation::SafeDownCast(shown);
+  vtkPVDataRepresentation* active = choice ? choice->GetActiveRepresentation() : shown;
+  vtkActor* actor = actorOf(active);
+  if (!actor)
+  {
+    const char* key = choice ? choice->GetActiveRepresentationKey() : nullptr;
+    return key ? std::string("Casts no shadow: it is shown as ") + key + "." : std::string();
+  }
+  return self->Observers[0] ? self->Pass->GetReasonInLastFrame(actor)
+                            : "Left to the rasteriser and casts no shadow: it is not shown as SVO.";
 }
 
 void vtkSVOViewPass::AddUser(vtkView* view)
 {
-  if (auto* renderView = vtkPVRenderView::SafeDownCast(view))
+  if (vtkSVOViewPass* self = OfView(view))
   {
-    vtkSVOViewPass* self = OfRenderer(renderView->GetRenderer());
-    if (self->Users++ == 0)
-    {
-      self->View = renderView;
-      self->Observer = renderView->GetRenderer()->AddObserver(
-        vtkCommand::StartEvent, self, &vtkSVOViewPass::BeginFrame);
-      // The axes at the centre of rotation are part of the view, not of what it shows.
-      vtkCollectionSimpleIterator iterator;
-      vtkPropCollection* props = renderView->GetRenderer()->GetViewProps();
-      props->InitTraversal(iterator);
-      while (vtkProp* prop = props->GetNextProp(iterator))
-      {
-        if (prop->IsA("vtkPVCenterAxesActor"))
-        {
-          vtkSVORenderPass::SetReceiveShadow(false, prop);
-        }
-      }
-      self->Pass->Attach(renderView->GetRenderer());
-    }
+    ++self->Users;
+    self->UpdateAttachment();
   }
 }
 
 void vtkSVOViewPass::RemoveUser(vtkView* view)
 {
-  if (auto* renderView = vtkPVRenderView::SafeDownCast(view))
+  if (vtkSVOViewPass* self = OfView(view))
   {
-    vtkSVOViewPass* self = OfRenderer(renderView->GetRenderer());
-    if (self->Users > 0 && --self->Users == 0)
+    self->Users -= self->Users > 0 ? 1 : 0;
+    self->UpdateAttachment();
+  }
+}
+
+/// Attaches the pass to the view's renderer, or detaches it.
+void vtkSVOViewPass::UpdateAttachment()
+{
+  const bool needed =
+    this->Users > 0 || this->Pass->GetShadowsForEverything() || this->Pass->GetShadowGround() > 0;
+  if (!this->View || needed == (this->Observers[0] != 0))
+  {
+    return;
+  }
+  vtkRenderer* renderer = this->View->GetRenderer();
+  if (!needed)
+  {
+    this->Pass->Detach(renderer);
+    this->Ground->remove(renderer);
+    for (unsigned long& observer : this->Observers)
     {
-      self->Pass->Detach(renderView->GetRenderer());
-      renderView->GetRenderer()->RemoveObserver(self->Observer);
+      renderer->RemoveObserver(observer);
+      observer = 0;
+    }
+    return;
+  }
+  this->Observers[0] =
+    renderer->AddObserver(vtkCommand::StartEvent, this, &vtkSVOViewPass::BeginFrame);
+  this->Observers[1] = renderer->AddObserver(vtkCommand::EndEvent, this, &vtkSVOViewPass::EndFrame);
+  // The axes at the centre of rotation are part of the view, not of what it shows.
+  vtkCollectionSimpleIterator iterator;
+  vtkPropCollection* props = renderer->GetViewProps();
+  props->InitTraversal(iterator);
+  while (vtkProp* prop = props->GetNextProp(iterator))
+  {
+    if (prop->IsA("vtkPVCenterAxesActor"))
+    {
+      vtkSVORenderPass::SetReceiveShadow(false, prop);
     }
   }
+  this->Pass->Attach(renderer);
 }
 
 void vtkSVOViewPass::BeginFrame()
@@ -110,7 +186,14 @@ void vtkSVOViewPass::BeginFrame()
     together->GetEnabled() ? together->GetParallelSynchronizer() : nullptr;
   this->Pass->SetController(
     together->GetEnabled() ? vtkMultiProcessController::GetGlobalController() : nullptr);
+  this->Ground->place(
+    view->GetRenderer(), this->Pass->GetShadowGround() - 1, this->Pass->GetController());
   this->Pass->SetImageReductionFactor(ofServers ? ofServers->GetImageReductionFactor() : 1);
+}
+
+void vtkSVOViewPass::EndFrame()
+{
+  this->Ground->endFrame();
 }
 
 void vtkSVOViewPass::PrintSelf(ostream& os, vtkIndent indent)

@@ -28,6 +28,8 @@ std::string vtkSVOViewRenderPass::GetText(int text, vtkLight* about) const
     case TEXT_CUT_OUT:
       return "A surface casts the shadow of its whole cells although its texture hides parts of "
              "them. Cast Shadows, of the surface's properties, switches the shadow off.";
+    case TEXT_NOT_CHOSEN:
+      return "is not shown as SVO";
     default:
       return this->Superclass::GetText(text, about);
   }
@@ -36,4 +38,5 @@ std::string vtkSVOViewRenderPass::GetText(int text, vtkLight* about) const
 void vtkSVOViewRenderPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "ShadowGround: " << this->ShadowGround << '\n';
 }

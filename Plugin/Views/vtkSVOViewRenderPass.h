@@ -17,6 +17,15 @@ public:
   vtkTypeMacro(vtkSVOViewRenderPass, vtkSVORenderPass);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  //@{
+  /**
+   * Along which axis a ground that shows nothing but shadows is put below the data of the view:
+   * 0 (the default) there is none, 1, 2, 3: x, y, z.
+   */
+  vtkSetClampMacro(ShadowGround, int, 0, 3);
+  vtkGetMacro(ShadowGround, int);
+  //@}
+
 protected:
   vtkSVOViewRenderPass();
   ~vtkSVOViewRenderPass() override;
@@ -26,6 +35,8 @@ protected:
 private:
   vtkSVOViewRenderPass(const vtkSVOViewRenderPass&) = delete;
   void operator=(const vtkSVOViewRenderPass&) = delete;
+
+  int ShadowGround = 0;
 };
 
 #endif

@@ -18,6 +18,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace svo
@@ -49,6 +50,7 @@ struct vtkSVORenderPass::Internals
   vtkSmartPointer<vtkMultiProcessController> controller;
   svo::PassStatistics statistics;
   std::string castingLights;
+  std::vector<std::pair<vtkWeakPointer<vtkProp>, std::string>> reasons; // of the last frame
   std::string shaderSignature; // of the shaders that mappers have built last
   vtkTimeStamp shaderTime;
   std::set<std::string> said; // messages about no object in particular

@@ -86,6 +86,8 @@ std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
       return "A surface casts the shadow of its whole cells although its texture hides parts of "
              "them. SetCastShadow(true, prop) says that this is meant, false takes the shadow "
              "away.";
+    case TEXT_NOT_CHOSEN:
+      return "was not chosen with SetUseSVO";
     default:
       return std::string();
   }
@@ -148,7 +150,7 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
   {
     svo::ExchangedProps props(state->GetPropArray());
     frame.state->exchange(props, state, this);
-    const bool receiving = !frame.state->receivers().empty();
+    const bool receiving = !frame.state->receivers().idle();
     if (receiving)
     {
       this->PreRender(state);
@@ -202,7 +204,7 @@ bool vtkSVORenderPass::SetShaderParameters(
 {
   if (svo::RendererState* current = this->Impl->current())
   {
-    current->receivers().setUniforms(program, GetReceiveShadow(prop));
+    current->receivers().setUniforms(program, GetReceiveShadow(prop), GetShadowCatcher(prop));
   }
   return true;
 }
@@ -238,6 +240,7 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "AcceptedPixelError: " << this->GetAcceptedPixelError() << " pixels\n"
      << indent << "CastingLights:\n"
      << this->GetCastingLights() << indent << "Controller: " << this->GetController() << '\n'
+     << indent << "ShadowsForEverything: " << this->ShadowsForEverything << '\n'
      << indent << "Tracing: " << this->Tracing << '\n'
      << indent << "CollectTime: " << this->GetCollectTime() << " s\n"
      << indent << "TraceTime: " << this->GetTraceTime() << " s\n"

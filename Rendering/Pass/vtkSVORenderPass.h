@@ -386,6 +386,21 @@ public:
 
   //@{
   /**
+   * Whether nothing is seen of an actor but the shadows on it; default false. What is behind it,
+   * the background in most cases, is darkened by the share of the light that shadows take from a
+   * white surface in its place, times the opacity of the actor's property; where no shadow falls
+   * nothing is changed. In pictures with a transparent background a shadow is black, and
+   * transparent where it is light. It is drawn among translucent surfaces (ForceTranslucent of the
+   * actor is switched on, and off again), takes part in depth peeling as they do, and casts
+   * nothing. Its colours and specular light do not matter; a physically based material hides it,
+   * and so do lights that cast nothing. Without this pass it is an ordinary surface.
+   */
+  static void SetShadowCatcher(bool catches, vtkProp* actor);
+  static bool GetShadowCatcher(vtkProp* actor);
+  //@}
+
+  //@{
+  /**
    * Whether a prop may be traced at all; default true. False leaves it to the rasteriser; it casts
    * and receives shadows as before.
    */
@@ -410,6 +425,7 @@ public:
   static vtkInformationIntegerKey* CAST_SHADOW();
   static vtkInformationIntegerKey* RECEIVE_SHADOW();
   static vtkInformationIntegerKey* USE_SVO();
+  static vtkInformationIntegerKey* SHADOW_CATCHER();
   static vtkInformationDoubleKey* PIXEL_ERROR();
   //@}
 
@@ -486,12 +502,31 @@ public:
    * put first in the renderer's list draws it. In the midst of a frame Detach() takes effect when
    * the frame is done. Only props with an explicit SetUseSVO(true) are traced and cast shadows;
    * those must draw nothing while IsTraced() says that they are (a selector's frames are never
-   * traced). All other surfaces are drawn as ever, and receive shadows.
+   * traced). All other surfaces are drawn as ever, and receive shadows; with ShadowsForEverything
+   * they cast as well.
    */
   void Attach(vtkRenderer* renderer);
   void Detach(vtkRenderer* renderer);
   bool IsTraced(vtkProp* prop) const;
   //@}
+
+  //@{
+  /**
+   * Whether in attached renderers all surfaces cast shadows, and not only those that are traced;
+   * default off. The octrees of the others are built by the pass. There are no messages about them:
+   * GetReasonInLastFrame() says what of them casts nothing. (Where the pass is set on a renderer
+   * everything casts in any case.)
+   */
+  vtkSetMacro(ShadowsForEverything, bool);
+  vtkGetMacro(ShadowsForEverything, bool);
+  vtkBooleanMacro(ShadowsForEverything, bool);
+  //@}
+
+  /**
+   * As GetReason(), but of a prop of an attached renderer in the last frame: empty if it cast its
+   * shadow and was traced, or did not have to be, or if it was not there.
+   */
+  std::string GetReasonInLastFrame(vtkProp* prop) const;
 
   //@{
   /**
@@ -553,7 +588,8 @@ protected:
     TEXT_ONLY_HEADLIGHTS = 1,     // there are no shadows, because no other lights are on
     TEXT_TRANSLUCENT = 2,         // cells of a surface cast none, because they are translucent
     TEXT_TRANSLUCENT_SURFACE = 3, // a surface casts none, because its opacity makes it translucent
-    TEXT_CUT_OUT = 4              // cells cast their whole shadows, although a texture hides parts
+    TEXT_CUT_OUT = 4,             // cells cast their whole shadows, although a texture hides parts
+    TEXT_NOT_CHOSEN = 5           // a reason, the end of a sentence that begins with "it"
   };
 
   /**
@@ -585,6 +621,7 @@ protected:
   bool FrameCoherence = true;
   vtkIdType LayerMemoryLimit = 512 * 1024;
   bool AntiAliasing = false;
+  bool ShadowsForEverything = false;
   bool Tracing = true;
   bool AutoAdjustSampleDistances = true;
   double MaximumImageSampleDistance = 8.0;

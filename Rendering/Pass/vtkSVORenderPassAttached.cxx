@@ -134,6 +134,18 @@ bool vtkSVORenderPass::IsTraced(vtkProp* prop) const
   return current && current->collected().replaced.count(prop) > 0;
 }
 
+std::string vtkSVORenderPass::GetReasonInLastFrame(vtkProp* prop) const
+{
+  for (const auto& [about, text] : this->Impl->reasons)
+  {
+    if (about == prop && prop)
+    {
+      return text;
+    }
+  }
+  return std::string();
+}
+
 void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void*)
 {
   const vtkSmartPointer<vtkSVORenderPass> alive(this);
@@ -169,7 +181,8 @@ void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void
         controller, static_cast<std::size_t>(this->OctreeMemoryLimit) * svo::BytesOfKiB);
     }
   }
-  if (frame.state->collected().rasterizedReceivers && frame.state->hasSomething())
+  const svo::CollectedScene& collected = frame.state->collected();
+  if ((collected.rasterizedReceivers && frame.state->hasSomething()) || collected.shadowCatchers)
   {
     for (vtkProp* prop : frame.props)
     {

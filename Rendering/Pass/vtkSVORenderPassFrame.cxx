@@ -121,6 +121,9 @@ bool vtkSVORenderPass::CollectFrame(
     svo::CollectSettings collect;
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
+    collect.unmarkedCast = this->ShadowsForEverything;
+    const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
+    collect.notMarked = notMarked.c_str();
     collect.said = &impl.said;
     collect.translucentSurfaceText = this->GetText(TEXT_TRANSLUCENT_SURFACE, nullptr);
     collect.translucentText = this->GetText(TEXT_TRANSLUCENT, nullptr);
@@ -233,6 +236,7 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   {
     frame.state->receivers().deactivate();
   }
+  impl.reasons = frame.state->collected().reasons;
   frame.state->finish();
   impl.statistics = frame.state->statistics();
   impl.statistics.imageReduction = this->ImageReductionFactor;

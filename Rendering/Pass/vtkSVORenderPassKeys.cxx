@@ -5,6 +5,7 @@
 #include "svoSceneCollector.h"
 #include "svoSceneLights.h"
 
+#include "vtkActor.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkLight.h"
@@ -27,6 +28,11 @@ vtkInformationIntegerKey* vtkSVORenderPass::RECEIVE_SHADOW()
 vtkInformationIntegerKey* vtkSVORenderPass::USE_SVO()
 {
   return svo::useSVOKey();
+}
+
+vtkInformationIntegerKey* vtkSVORenderPass::SHADOW_CATCHER()
+{
+  return svo::shadowCatcherKey();
 }
 
 vtkInformationDoubleKey* vtkSVORenderPass::PIXEL_ERROR()
@@ -57,22 +63,7 @@ bool vtkSVORenderPass::GetCastShadow(vtkProp* prop)
 
 std::string vtkSVORenderPass::GetReason(vtkProp* prop)
 {
-  std::string text;
-  if (prop)
-  {
-    const svo::PropSurfaces judged = svo::SceneCollector().judge(prop);
-    if (judged.rasterized)
-    {
-      text += std::string("Left to the rasteriser: it ") + judged.rasterized + ".";
-    }
-    if (judged.castsNone)
-    {
-      text += (text.empty() ? "" : " ");
-      text += judged.casts() ? "Casts less than its whole shadow: it " : "Casts no shadow: it ";
-      text += std::string(judged.castsNone) + ".";
-    }
-  }
-  return text;
+  return prop ? svo::SceneCollector().judge(prop).reasons() : std::string();
 }
 
 void vtkSVORenderPass::SetCastShadow(bool cast, vtkLight* light)
@@ -107,6 +98,24 @@ void vtkSVORenderPass::SetReceiveShadow(bool receive, vtkProp* prop)
 bool vtkSVORenderPass::GetReceiveShadow(vtkProp* prop)
 {
   return svo::flagOf(prop, nullptr, svo::receiveShadowKey(), true);
+}
+
+void vtkSVORenderPass::SetShadowCatcher(bool catches, vtkProp* prop)
+{
+  if (catches == GetShadowCatcher(prop))
+  {
+    return;
+  }
+  svo::setFlag(prop, svo::shadowCatcherKey(), catches);
+  if (auto* actor = vtkActor::SafeDownCast(prop))
+  {
+    actor->SetForceTranslucent(catches);
+  }
+}
+
+bool vtkSVORenderPass::GetShadowCatcher(vtkProp* prop)
+{
+  return svo::flagOf(prop, nullptr, svo::shadowCatcherKey(), false);
 }
 
 void vtkSVORenderPass::SetUseSVO(bool use, vtkProp* prop)

@@ -81,7 +81,7 @@ public:
       "  gl_FragData[0] = vec4(1.0 - svoLit(svoFirst[0], svoFirst[1], position.xyz,\n"
       "    texelFetch(input1, at, 0).xyz, texelFetch(input2, at, 0).xyz, vec3(0.0), position.w));\n"
       "  gl_FragData[0].a = 1.0;\n", // blending writes it all
-      [this](vtkShaderProgram* program) { this->Receivers.setUniforms(program, true); });
+      [this](vtkShaderProgram* program) { this->Receivers.setUniforms(program, true, false); });
     this->Receivers.deactivate();
     return lit;
   }

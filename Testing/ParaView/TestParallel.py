@@ -14,7 +14,7 @@ import pictures
 PROGRAMS = sys.argv.pop(1)
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "several_processes.py")
 NAMES = ("full-depth", "shadow", "drawn-by-the-client", "drawn-by-the-server", "moved", "turned", "rays",
-         "ordinary-ground", "light-kit")
+         "ordinary-ground", "everything", "shadow-ground", "light-kit")
 # With triangles smaller than pixels, at pixel errors 1 (the default) and 2.
 LEVELS = {"level-of-detail": 1e-4, "coarse": 1e-3}
 # Open MPI refuses to run as root, and more processes than cores, unless told to.
@@ -86,6 +86,9 @@ class TestParallel(unittest.TestCase):
 
     def check_figures(self, output):
         self.assertIn("traced: 2 instances: 2 sample distance: 1.0 time: known\n", output)
+        self.assertIn("casts nothing: nobody\n", output)
+        self.assertIn("casts nothing: Sphere1: Left to the rasteriser: it is not shown as SVO. "
+                      "Casts no shadow: it is translucent.\n", output)
         self.assertIn("octrees built before a level changed: 1 and by the next interactive frame: 0\n", output)
 
     def test_two_processes(self):

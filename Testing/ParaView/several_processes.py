@@ -88,7 +88,21 @@ picture("rays")
 view.SVOShadowTechnique = "Shadow Buffer"
 displays[1].Representation = "Surface"
 picture("ordinary-ground")
-displays[1].Representation = "SVO"
+displays[0].Representation = "Surface"
+view.SVOShadowsForEverything = 1
+picture("everything")
+print("casts nothing:", scene.statistic(view, "SVOReasons").strip() or "nobody")
+displays[0].Opacity = 0.5
+pv.Render(view)
+print("casts nothing:", scene.statistic(view, "SVOReasons").strip())
+displays[0].Opacity = 1.0
+pv.Hide(ground, view)
+view.SVOShadowCatcher = "Below Z"
+picture("shadow-ground")
+view.SVOShadowCatcher = "None"
+pv.Show(ground, view)
+view.SVOShadowsForEverything = 0
+displays[0].Representation = displays[1].Representation = "SVO"
 view.UseLight = 1
 pv.RemoveLight(view.AdditionalLights[0])
 picture("light-kit")

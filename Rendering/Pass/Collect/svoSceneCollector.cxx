@@ -35,6 +35,7 @@ struct SceneCollector::Frame
   CollectedScene& result;
   glm::dmat4 world; // see sceneTransform()
   std::vector<PropSurfaces> props;
+  bool quiet = false; // about the actor that is being collected
 };
 
 namespace
@@ -59,7 +60,7 @@ bool hasSurface(vtkPolyData* mesh)
 /// About an object, or about nothing in particular (null): then once for all renderers.
 void SceneCollector::complainOnce(vtkObject* about, const std::string& text, const Frame& frame)
 {
-  if (!frame.options.complain)
+  if (!frame.options.complain || frame.quiet)
   {
     return;
   }
@@ -146,6 +147,14 @@ void SceneCollector::collectActor(
   vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, Frame& frame)
 {
   vtkProp* owner = found.prop;
+  if (flagOf(actor, owner, shadowCatcherKey(), false))
+  {
+    found.leaveAlone(actor->GetProperty()->GetInterpolation() == VTK_PBR
+        ? "is a shadow catcher, and not seen as such with a physically based material"
+        : "is a shadow catcher");
+    frame.result.shadowCatchers = true;
+    return;
+  }
   if (!isPlainActor(actor) && !isMarked(actor, owner))
   {
     found.leaveAlone("is of a class that may draw anything"); // without a mapper, even
@@ -156,11 +165,13 @@ void SceneCollector::collectActor(
   {
     return;
   }
-  if (frame.settings.onlyMarked && !isMarked(actor, owner))
+  const bool unmarked = frame.settings.onlyMarked && !isMarked(actor, owner);
+  if (unmarked && !frame.settings.unmarkedCast)
   {
-    found.leaveAlone("was not chosen with SetUseSVO");
+    found.leaveAlone(frame.settings.notMarked);
     return;
   }
+  frame.quiet = unmarked;
   if (!mapper->GetStatic())
   {
     mapper->GetInputAlgorithm()->Update();
@@ -205,7 +216,11 @@ void SceneCollector::collectActor(
       break;
   }
 
-  if (!beyond && !flagOf(actor, owner, useSVOKey(), true))
+  if (unmarked)
+  {
+    beyond = frame.settings.notMarked;
+  }
+  else if (!beyond && !flagOf(actor, owner, useSVOKey(), true))
   {
     beyond = "was told so";
   }
@@ -394,6 +409,11 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   for (const PropSurfaces& prop : frame.props)
   {
     addProp(prop, result);
+    const bool asChosen = !prop.castsNone && prop.rasterized == settings.notMarked;
+    if (settings.onlyMarked && !asChosen && !prop.reasons().empty())
+    {
+      result.reasons.emplace_back(prop.prop, prop.reasons());
+    }
   }
   for (auto said = this->GivenMessages.begin(); said != this->GivenMessages.end();)
   {

@@ -12,6 +12,7 @@
 #include "svoSceneOctrees.h"
 #include "svoSurfaceLook.h"
 
+#include "vtkProp.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
@@ -26,7 +27,6 @@ class vtkMatrix4x4;
 class vtkObject;
 class vtkObjectBase;
 class vtkPolyData;
-class vtkProp;
 class vtkRenderer;
 
 namespace svo
@@ -35,9 +35,11 @@ namespace svo
 struct CollectSettings
 {
   bool shadows = true; // casters are wanted
-  /// Only props that say explicitly that they use octrees (vtkSVORenderPass::SetUseSVO) are traced
-  /// or cast; the others only receive.
+  /// Only props that say explicitly that they use octrees (vtkSVORenderPass::SetUseSVO) are traced.
+  /// The others only receive, or cast as well; about them there are no messages.
   bool onlyMarked = false;
+  bool unmarkedCast = false;
+  Reason notMarked = "was not chosen with SetUseSVO";
   LevelSettings levels;
   std::set<std::string>* said = nullptr; // messages of the pass, about no object in particular
   /// Messages about surfaces and cells that cast nothing, or more than they show; empty: none.
@@ -59,7 +61,10 @@ struct CollectedScene
   int rasterizedActors = 0;
   bool rasterizedReceivers = false; // lit surfaces that the rasteriser draws and shadows fall on
   bool headlightOnly = false;       // SceneLights
+  bool shadowCatchers = false;      // there are some; they are rasterised
   std::string lightsText;
+  /// With `onlyMarked`: why marked props are not traced, and what casts nothing. Others are not in.
+  std::vector<std::pair<vtkWeakPointer<vtkProp>, std::string>> reasons;
   /// Owners of the arrays that the scene points into.
   std::vector<vtkSmartPointer<vtkObjectBase>> kept;
 };

@@ -149,6 +149,7 @@ std::string RendererState::lostShadows(const FrameSettings& settings) const
 void RendererState::trace(int width, int height, const FramePace& pace, FrameSettings settings)
 {
   this->Statistics.pace = pace;
+  this->Receivers.setCatchers(this->Collected.shadowCatchers);
   Scene& scene = this->Collected.scene;
   // By now the renderer has counted its lights, by rules of its own, for the mappers.
   auto* counted = vtkOpenGLRenderer::SafeDownCast(this->Renderer);

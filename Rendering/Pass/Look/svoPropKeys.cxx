@@ -40,6 +40,12 @@ vtkInformationIntegerKey* useSVOKey()
   return key;
 }
 
+vtkInformationIntegerKey* shadowCatcherKey()
+{
+  static auto* key = vtkInformationIntegerKey::MakeKey("SHADOW_CATCHER", "vtkSVORenderPass");
+  return key;
+}
+
 vtkInformationDoubleKey* pixelErrorKey()
 {
   static auto* key = vtkInformationDoubleKey::MakeKey("PIXEL_ERROR", "vtkSVORenderPass");

@@ -1,5 +1,5 @@
-// Information keys of props and lights: casts, receives, uses octrees, pixel error. The static
-// methods of vtkSVORenderPass set and read them.
+// Information keys of props and lights: casts, receives, shows shadows alone, uses octrees, pixel
+// error. The static methods of vtkSVORenderPass set and read them.
 #ifndef svoPropKeys_h
 #define svoPropKeys_h
 
@@ -12,6 +12,7 @@ namespace svo
 vtkInformationIntegerKey* castShadowKey(); // of lights as well
 vtkInformationIntegerKey* receiveShadowKey();
 vtkInformationIntegerKey* useSVOKey();
+vtkInformationIntegerKey* shadowCatcherKey();
 vtkInformationDoubleKey* pixelErrorKey();
 
 /// The key's value of a prop, else of the assembly that owns the prop; `otherwise` if neither has

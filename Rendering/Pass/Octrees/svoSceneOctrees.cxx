@@ -71,6 +71,26 @@ void prepareOctrees(std::vector<PropSurfaces>& props, const std::vector<NeededLe
   store.prepare(wanted, options);
 }
 
+std::string PropSurfaces::reasons() const
+{
+  std::string text;
+  if (this->rasterized && this->rasterized == this->castsNone && !this->casts())
+  {
+    return std::string("Left to the rasteriser and casts no shadow: it ") + this->rasterized + ".";
+  }
+  if (this->rasterized)
+  {
+    text += std::string("Left to the rasteriser: it ") + this->rasterized + ".";
+  }
+  if (this->castsNone)
+  {
+    text += (text.empty() ? "" : " ");
+    text += this->casts() ? "Casts less than its whole shadow: it " : "Casts no shadow: it ";
+    text += std::string(this->castsNone) + ".";
+  }
+  return text;
+}
+
 void addReceiver(const PropSurfaces& prop, Scene& scene)
 {
   const double* b = !prop.traced && prop.receives ? prop.prop->GetBounds() : nullptr;
@@ -127,6 +147,7 @@ void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lig
       {
         surface.traceable = false;
         surface.casts = false;
+        prop.leaveAlone(options.convert ? "has no octree, or none yet" : "comes without an octree");
       }
       else
       {

@@ -13,6 +13,7 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 namespace svo
@@ -55,6 +56,8 @@ struct PropSurfaces
     this->rasterize(reason);
     this->castNothing(reason);
   }
+  /// Both reasons as sentences for people; empty if the prop is traced and casts.
+  std::string reasons() const;
 };
 
 /// The inputs of Tracer::neededLevels() for octrees that are built here.

@@ -1,6 +1,8 @@
 #include "svoShadowReceivers.h"
 
 #include "svoOpenGL.h"
+#include "svoShaderTokens.h"
+#include "svoShadowCatcher.h"
 #include "svoShadowReceiver.h"
 #include "svoShadowRules.h"
 
@@ -8,7 +10,6 @@
 #include "vtkShaderProgram.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iomanip>
 #include <locale>
 #include <map>
@@ -23,6 +24,7 @@ namespace
 {
 const char DeclarationMark[] = "//SVO::Dec\n";
 const char ImplementationMark[] = "//SVO::Impl\n";
+const char LitMark[] = "//SVO::Lit\n"; // after VTK's lighting
 constexpr std::size_t MapsOfLight = 6; // that there is room for, where most have fewer
 
 /// Maps that a shader has room for beside what VTK tells it of so many lights.
@@ -54,34 +56,6 @@ glm::mat4 receiverMatrix(const ShadowMap& map, const View& eye)
   }
   result[3][2] -= map.base;
   return glm::mat4(result);
-}
-
-bool isIdentifier(char c)
-{
-  return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
-}
-
-/// Renames a whole token; true if it was there.
-bool rename(std::string& text, const std::string& from, const std::string& to)
-{
-  bool found = false;
-  std::size_t at = 0;
-  while ((at = text.find(from, at)) != std::string::npos)
-  {
-    const std::size_t end = at + from.size();
-    if ((at == 0 || !isIdentifier(text[at - 1])) &&
-      (end >= text.size() || !isIdentifier(text[end])))
-    {
-      text.replace(at, from.size(), to);
-      at += to.size();
-      found = true;
-    }
-    else
-    {
-      at = end;
-    }
-  }
-  return found;
 }
 
 /// Has the vertex shader, and the geometry shader if there is one, send each facet one of its
@@ -117,6 +91,18 @@ bool sendCorner(std::string& vertexShader, std::string& geometryShader)
       "flat out vec3 svoCornerGSOutput;\nflat out vec3 svoCornerNormalGSOutput;\n");
   }
   return true;
+}
+
+/// Adds the code of shadow catchers. `lit`: the shader knows of shadows.
+void catchShadows(std::string& declarations, std::string& body, bool lit)
+{
+  // A physically based material weighs light by rules of its own.
+  const bool seen = lit && body.find("albedo") == std::string::npos;
+  vtkShaderProgram::Substitute(
+    declarations, DeclarationMark, std::string(CatcherDeclarations) + DeclarationMark, false);
+  vtkShaderProgram::Substitute(body, ImplementationMark,
+    std::string(ImplementationMark) + (seen ? CatcherBeforeLighting : ""), false);
+  vtkShaderProgram::Substitute(body, LitMark, seen ? CatcherAfterLighting : CatcherUnseen, false);
 }
 
 /// The numbers of svoShadowRules.h, in GLSL.
@@ -265,7 +251,8 @@ void ShadowReceivers::release()
 std::string ShadowReceivers::signature() const
 {
   std::ostringstream text;
-  text << this->Capacity << ' ' << this->PlaneBias << ' ' << this->Filter << ": ";
+  text << this->Capacity << ' ' << this->PlaneBias << ' ' << this->Filter << ' ' << this->Catchers
+       << ": ";
   for (const int light : this->Lights)
   {
     text << light << ' ';
@@ -278,7 +265,7 @@ void ShadowReceivers::markShader(std::string& fragmentShader)
   vtkShaderProgram::Substitute(
     fragmentShader, "//VTK::Light::Dec", std::string(DeclarationMark) + "//VTK::Light::Dec", false);
   vtkShaderProgram::Substitute(fragmentShader, "//VTK::Light::Impl",
-    std::string(ImplementationMark) + "  //VTK::Light::Impl", false);
+    std::string(ImplementationMark) + "  //VTK::Light::Impl\n" + LitMark, false);
 }
 
 std::string ShadowReceivers::declarations() const
@@ -308,20 +295,35 @@ void ShadowReceivers::completeShader(
   const bool hasNormal = body.find("normalVCVSOutput") != std::string::npos &&
     fragmentShader.find("normalTex") == std::string::npos;
   std::ostringstream code;
+  const auto weigh = [&](int light, const std::string& share)
+  {
+    const std::string number = std::to_string(light);
+    const std::string color = "lightColor" + number;
+    if (renameToken(body, color, "svoColor" + number))
+    {
+      code << "  vec3 svoColor" << number << " = "
+           << (this->Catchers ? "svoWeigh(" + color + ", " + share + ")" : color + " * " + share)
+           << ";\n";
+    }
+  };
   // Unlit surfaces have no position to ask about.
   if (body.find("vec4 vertexVC =") != std::string::npos)
   {
     for (std::size_t i = 0; i < this->Lights.size(); ++i)
     {
-      const std::string number = std::to_string(this->Lights[i]);
-      const std::string color = "lightColor" + number;
-      if (rename(body, color, "svoColor" + number))
-      {
-        code << "  vec3 svoColor" << number << " = " << color << " * svoShare[" << i << "];\n";
-      }
+      weigh(this->Lights[i], "svoShare[" + std::to_string(i) + "]");
     }
   }
   const bool any = !code.str().empty();
+  if (this->Catchers)
+  {
+    // Those that cast nothing.
+    for (int i = 0; any && hasToken(declarations, "lightColor" + std::to_string(i)); ++i)
+    {
+      weigh(i, "1.0");
+    }
+    catchShadows(declarations, body, any);
+  }
   const bool smooth = any && hasNormal && sendCorner(vertexShader, geometryShader);
   // One loop, since compilers copy the function to wherever it is called.
   const std::string count = std::to_string(this->Lights.size());
@@ -353,8 +355,12 @@ void ShadowReceivers::completeShader(
   fragmentShader = declarations + body;
 }
 
-void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives) const
+void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives, bool catches) const
 {
+  if (program->IsUniformUsed("svoCatch"))
+  {
+    program->SetUniformf("svoCatch", catches ? 1.0f : 0.0f);
+  }
   if (this->empty() || !program->IsUniformUsed("svoMaps"))
   {
     return;

@@ -32,7 +32,12 @@ public:
   std::string update(vtkOpenGLRenderWindow* window, const std::vector<ShadowMap>& maps,
     const std::vector<Light>& lights, const View& eye, const FrameSettings& settings);
 
-  bool empty() const { return this->Lights.empty(); }
+  /// Whether the frame has shadow catchers, surfaces of which the shadows alone are seen.
+  void setCatchers(bool catchers) { this->Catchers = catchers; }
+
+  /// True if shaders need nothing of this.
+  bool idle() const { return this->Lights.empty() && !this->Catchers; }
+
   void activate();
   void deactivate();
   void release();
@@ -44,12 +49,14 @@ public:
   static void markShader(std::string& fragmentShader);
   void completeShader(
     std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const;
-  void setUniforms(vtkShaderProgram* program, bool receives) const;
+  void setUniforms(vtkShaderProgram* program, bool receives, bool catches) const;
 
   /// What completeShader() puts before a fragment shader's main(): constants, uniforms, functions.
   std::string declarations() const;
 
 private:
+  bool empty() const { return this->Lights.empty(); }
+
   std::vector<int> Lights; // that have maps: their numbers in VTK's shaders
   std::vector<int> First;  // map of each of them; then the number of all maps
   std::vector<float> Rows; // 16 floats a map, row by row
@@ -61,6 +68,7 @@ private:
   float ManualBias = 0.0f; // world
   bool PlaneBias = true;
   bool Filter = false;
+  bool Catchers = false;
 };
 }
 

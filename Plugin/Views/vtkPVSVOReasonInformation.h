@@ -1,0 +1,46 @@
+/**
+ * @class vtkPVSVOReasonInformation
+ * @brief why surfaces of a view are not traced, or cast no shadow
+ *
+ * Gathered of a render view, or of one representation, from all processes: which of them draw a
+ * surface depends on its size.
+ */
+#ifndef vtkPVSVOReasonInformation_h
+#define vtkPVSVOReasonInformation_h
+
+#include "vtkPVInformation.h"
+#include "vtkSVOViewsModule.h" // for the export macro
+
+#include <map>    // for the reasons
+#include <string> // for the reasons
+
+class VTKSVOVIEWS_EXPORT vtkPVSVOReasonInformation : public vtkPVInformation
+{
+public:
+  static vtkPVSVOReasonInformation* New();
+  vtkTypeMacro(vtkPVSVOReasonInformation, vtkPVInformation);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * Of a view a line for each source that is shown and has a reason, with its name; of a
+   * representation its reason. See vtkSVOViewPass::GetReason().
+   */
+  std::string GetText() const;
+
+  void CopyFromObject(vtkObject* viewOrRepresentation) override;
+  void AddInformation(vtkPVInformation* other) override;
+  void CopyToStream(vtkClientServerStream* stream) override;
+  void CopyFromStream(const vtkClientServerStream* stream) override;
+
+protected:
+  vtkPVSVOReasonInformation();
+  ~vtkPVSVOReasonInformation() override;
+
+private:
+  vtkPVSVOReasonInformation(const vtkPVSVOReasonInformation&) = delete;
+  void operator=(const vtkPVSVOReasonInformation&) = delete;
+
+  std::map<std::string, std::string> Reasons; // by name; without one: of a representation
+};
+
+#endif
