@@ -1,327 +1,26 @@
 #include "svoSceneCollector.h"
 
-#include "svoAffineMatrix.h"
 #include "svoCameraView.h"
 #include "svoGiveWay.h"
-#include "svoPropKeys.h"
 #include "svoSceneLights.h"
 
-#include "vtkActor.h"
-#include "vtkAlgorithm.h"
-#include "vtkAssembly.h"
-#include "vtkAssemblyNode.h"
-#include "vtkAssemblyPath.h"
-#include "vtkDataSetMapper.h"
-#include "vtkInformation.h"
-#include "vtkInformationIntegerKey.h"
-#include "vtkMatrix4x4.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataMapper.h"
-#include "vtkPropAssembly.h"
 #include "vtkPropCollection.h"
-#include "vtkProperty.h"
 #include "vtkRenderer.h"
-
-#include <iterator>
 
 namespace svo
 {
-/// What one frame's collection hands around.
-struct SceneCollector::Frame
-{
-  const StoreOptions& options;
-  CollectSettings settings;
-  CollectedScene& result;
-  glm::dmat4 world; // see sceneTransform()
-  std::vector<PropSurfaces> props;
-};
-
-namespace
-{
-std::uint64_t combine(std::uint64_t a, std::uint64_t b)
-{
-  return a ^ (b + 0x9e3779b97f4a7c15ull + (a << 6) + (a >> 2));
-}
-
-/// True if the prop or its assembly says explicitly that it uses octrees.
-bool isMarked(vtkProp* prop, vtkProp* owner)
-{
-  return flagOf(prop, owner, useSVOKey(), false);
-}
-
-bool hasSurface(vtkPolyData* mesh)
-{
-  return mesh->GetNumberOfPolys() > 0 || mesh->GetNumberOfStrips() > 0;
-}
-}
-
-/// About an object, or about nothing in particular (null): then once for all renderers.
-void SceneCollector::complainOnce(vtkObject* about, const std::string& text, const Frame& frame)
-{
-  if (!frame.options.complain)
-  {
-    return;
-  }
-  if (!about)
-  {
-    if (!frame.settings.said || frame.settings.said->insert(text).second)
-    {
-      frame.options.complain(text);
-    }
-    return;
-  }
-  const auto [said, isNew] = this->GivenMessages.try_emplace({ about, text }, about);
-  if (isNew || said->second != about) // another one is in its place now
-  {
-    said->second = about;
-    frame.options.complain(text);
-  }
-}
-
-std::vector<SurfacePart> SceneCollector::partsOf(vtkActor* actor)
-{
-  vtkMapper* mapper = actor->GetMapper();
-  const double opacity = actor->GetProperty()->GetOpacity();
-  if (isCompositeMapper(mapper))
-  {
-    return this->Blocks.partsOf(mapper, opacity);
-  }
-  auto* dataSet = vtkDataSetMapper::SafeDownCast(mapper);
-  vtkPolyDataMapper* plain =
-    dataSet ? this->Surfaces.mapperOf(dataSet) : vtkPolyDataMapper::SafeDownCast(mapper);
-  if (!plain || !plain->GetInput())
-  {
-    return {};
-  }
-  SurfacePart whole;
-  whole.mesh = plain->GetInput();
-  whole.colors = plain;
-  whole.opacity = opacity;
-  return { whole };
-}
-
-/// What of a part casts a shadow; nullptr if nothing does.
-vtkPolyData* SceneCollector::casterOf(const SurfacePart& part, OpaqueCells::Answer opaque,
-  vtkActor* actor, PropSurfaces& found, const Frame& frame)
-{
-  const auto answer = [&](bool otherwise)
-  { return flagOf(actor, found.prop, castShadowKey(), otherwise); };
-  if (answer(false))
-  {
-    return part.mesh;
-  }
-  if (!answer(true))
-  {
-    found.castNothing("was told so");
-    return nullptr;
-  }
-  const bool mapped = part.mesh->GetPointData()->GetTCoords() != nullptr;
-  const TextureAlpha texture = mapped ? alphaOf(part.texture) : TextureAlpha::Opaque;
-  if (opaque.mesh && (actor->GetForceTranslucent() || texture == TextureAlpha::Translucent))
-  {
-    opaque = { nullptr, true };
-  }
-  if (opaque.mesh != part.mesh)
-  {
-    found.castNothing(opaque.translucent ? "is translucent"
-        : opaque.mesh                    ? "is invisible in parts"
-                                         : "is invisible");
-  }
-  if (opaque.translucent)
-  {
-    const bool whole = part.opacity < 1.0 || actor->GetForceTranslucent();
-    this->complainOnce(nullptr,
-      whole ? frame.settings.translucentSurfaceText : frame.settings.translucentText, frame);
-  }
-  else if (opaque.mesh && texture == TextureAlpha::CutOut)
-  {
-    this->complainOnce(nullptr, frame.settings.cutOutText, frame);
-  }
-  return opaque.mesh;
-}
-
-/// Adds the actor's surfaces.
-void SceneCollector::collectActor(
-  vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, Frame& frame)
-{
-  vtkProp* owner = found.prop;
-  if (!isPlainActor(actor) && !isMarked(actor, owner))
-  {
-    found.leaveAlone("is of a class that may draw anything"); // without a mapper, even
-    return;
-  }
-  vtkMapper* mapper = actor->GetMapper();
-  if (!mapper || mapper->GetNumberOfInputConnections(0) == 0)
-  {
-    return;
-  }
-  if (frame.settings.onlyMarked && !isMarked(actor, owner))
-  {
-    found.leaveAlone("was not chosen with SetUseSVO");
-    return;
-  }
-  if (!mapper->GetStatic())
-  {
-    mapper->GetInputAlgorithm()->Update();
-  }
-  if (frame.settings.shadows && isUnknownSurface(actor) &&
-    flagOf(actor, owner, castShadowKey(), true))
-  {
-    this->complainOnce(nullptr,
-      std::string("What a ") + mapper->GetClassName() +
-        " draws is left to the rasteriser and casts no shadow: this pass does not know that "
-        "mapper. SetCastShadow(false, prop) says that this is meant.",
-      frame);
-  }
-  const Treatment treatment = treatmentOf(actor);
-  if (treatment.castsNone)
-  {
-    found.leaveAlone(treatment.castsNone);
-    return;
-  }
-  Reason beyond = treatment.rasterized;
-  glm::dmat4 localToWorld = frame.world * toGlm(matrix);
-  switch (kindOf(localToWorld))
-  {
-    case MatrixKind::Nowhere:
-      found.castNothing("has a matrix that is not finite");
-      this->complainOnce(actor, "An actor is not drawn: its matrix is not finite.", frame);
-      return;
-    case MatrixKind::Flat:
-      beyond = "is flattened by its matrix";
-      if (!thicken(localToWorld))
-      {
-        found.leaveAlone(beyond);
-        return;
-      }
-      break;
-    case MatrixKind::Projective:
-      found.leaveAlone("has a matrix that is not affine");
-      this->complainOnce(actor,
-        "An actor casts no shadow and is left to the rasteriser: its matrix is not affine.", frame);
-      return;
-    case MatrixKind::Affine:
-      break;
-  }
-
-  if (!beyond && !flagOf(actor, owner, useSVOKey(), true))
-  {
-    beyond = "was told so";
-  }
-  if (beyond)
-  {
-    found.rasterize(beyond);
-  }
-  vtkProperty* property = actor->GetProperty();
-  for (SurfacePart& part : this->partsOf(actor))
-  {
-    if (!hasSurface(part.mesh))
-    {
-      if (part.mesh->GetNumberOfCells() > 0)
-      {
-        found.leaveAlone("has lines or vertices");
-      }
-      continue;
-    }
-    SceneSurface surface;
-    Instance& instance = surface.instance;
-    part.texture = part.texture ? part.texture : textureOf(actor);
-    Reason reason = beyond;
-    if (!beyond || !hasOpaqueTable(part))
-    {
-      const Reason unmapped = mapColors(part, this->Leaves, instance.attributes, frame.result.kept);
-      reason = beyond ? beyond : unmapped;
-    }
-    const OpaqueCells::Answer opaque = this->Opaque.of(part, instance.attributes);
-    surface.mesh =
-      frame.settings.shadows ? this->casterOf(part, opaque, actor, found, frame) : nullptr;
-    surface.casts = surface.mesh != nullptr;
-    if (!reason)
-    {
-      reason = opaque.mesh != part.mesh
-        ? "is translucent"
-        : lookOf(part, property, !frame.result.scene.lights.empty(), instance.material,
-            instance.attributes, this->Floats, frame.result.kept);
-    }
-    surface.traceable = !reason;
-    if (surface.traceable)
-    {
-      surface.mesh = part.mesh;
-      instance.points = pointsOf(part.mesh, frame.result.kept);
-    }
-    else
-    {
-      found.rasterize(reason);
-      if (!surface.casts)
-      {
-        continue;
-      }
-    }
-    instance.localToWorld = localToWorld;
-    instance.pixelError = pixelErrorOf(actor, owner);
-    instance.receiveShadow = flagOf(actor, owner, receiveShadowKey(), true);
-    instance.id = combine(
-      combine(reinterpret_cast<std::uintptr_t>(actor), part.block), std::uint64_t(found.actors));
-    instance.depthOffsetUnits = static_cast<float>(coincidentDepthOffset(mapper));
-    found.surfaces.push_back(surface);
-  }
-}
-
-/// False if the prop cannot have any.
-bool SceneCollector::collectProp(PropSurfaces& found, Frame& frame)
-{
-  vtkProp* prop = found.prop;
-  found.world = frame.world;
-  const auto collect = [&](vtkActor* actor, const vtkMatrix4x4* matrix)
-  {
-    this->collectActor(actor, matrix, found, frame);
-    found.receives = found.receives ||
-      (actor->GetMapper() && showsLights(actor) && flagOf(actor, prop, receiveShadowKey(), true));
-    ++found.actors;
-  };
-
-  if (auto* actor = vtkActor::SafeDownCast(prop))
-  {
-    collect(actor, actor->GetMatrix());
-    return true;
-  }
-  if (!vtkAssembly::SafeDownCast(prop) && !vtkPropAssembly::SafeDownCast(prop))
-  {
-    return false;
-  }
-  prop->InitPathTraversal();
-  while (vtkAssemblyPath* path = prop->GetNextPath())
-  {
-    vtkProp* leaf = path->GetLastNode()->GetViewProp();
-    if (!leaf->GetVisibility())
-    {
-      continue;
-    }
-    if (auto* part = vtkActor::SafeDownCast(leaf))
-    {
-      collect(part, path->GetLastNode()->GetMatrix());
-    }
-    else if (leaf != prop)
-    {
-      found.leaveAlone("has parts that are no actors");
-    }
-  }
-  return true;
-}
-
 PropSurfaces SceneCollector::judge(vtkProp* prop)
 {
-  CollectedScene scene;
   const StoreOptions silent{};
-  Frame frame{ silent, CollectSettings(), scene, glm::dmat4(1.0), {} };
+  const CollectProps frame{ silent, true, false, false, nullptr, {}, {}, {}, glm::dmat4(1.0) };
   PropSurfaces found;
   found.prop = prop;
   if (!prop->GetVisibility())
   {
     found.castNothing("is not visible");
   }
-  else if (!this->collectProp(found, frame))
+  else if (!this->Props.collect(found, frame))
   {
     found.leaveAlone("is neither an actor nor an assembly");
   }
@@ -331,7 +30,7 @@ PropSurfaces SceneCollector::judge(vtkProp* prop)
 namespace
 {
 /// Adds a prop, whose surfaces have their octrees, to the scene.
-void addProp(const PropSurfaces& prop, CollectedScene& result)
+void addProp(PropSurfaces& prop, CollectedScene& result)
 {
   if (prop.traced)
   {
@@ -344,13 +43,14 @@ void addProp(const PropSurfaces& prop, CollectedScene& result)
     result.rasterizedReceivers = result.rasterizedReceivers || prop.receives;
     addReceiver(prop, result.scene);
   }
-  for (const SceneSurface& surface : prop.surfaces)
+  result.kept.insert(result.kept.end(), prop.kept.begin(), prop.kept.end());
+  for (SceneSurface& surface : prop.surfaces)
   {
+    surface.instance.visible = prop.traced;
     if (surface.instance.octree && (prop.traced || surface.casts))
     {
-      result.scene.instances.push_back(surface.instance);
-      result.scene.instances.back().visible = prop.traced;
-      result.meshes.push_back(surface.mesh);
+      surface.addTo(result.scene.instances);
+      result.meshes.resize(result.scene.instances.size(), surface.mesh);
     }
   }
 }
@@ -369,8 +69,10 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   {
     casting = casting || light.castShadow;
   }
-  Frame frame{ options, settings, result, world, {} };
-  frame.settings.shadows = settings.shadows && casting;
+  const CollectProps frame{ options, settings.shadows && casting, !result.scene.lights.empty(),
+    settings.onlyMarked, settings.said, settings.translucentSurfaceText, settings.translucentText,
+    settings.cutOutText, world };
+  std::vector<PropSurfaces> found;
   // Updating a prop may change the renderer's list.
   std::vector<vtkSmartPointer<vtkProp>> props;
   vtkCollectionSimpleIterator iterator;
@@ -382,27 +84,19 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   }
   for (vtkProp* prop : props)
   {
-    PropSurfaces found;
-    found.prop = prop;
-    if (prop->GetVisibility() && this->collectProp(found, frame))
+    PropSurfaces surfaces;
+    surfaces.prop = prop;
+    if (prop->GetVisibility() && this->Props.collect(surfaces, frame))
     {
-      frame.props.push_back(std::move(found));
+      found.push_back(std::move(surfaces));
     }
   }
-  findOctrees(frame.props, result.scene.lights, settings.levels, store, options);
-  giveWay(frame.props);
-  for (const PropSurfaces& prop : frame.props)
+  findOctrees(found, result.scene.lights, settings.levels, store, options);
+  giveWay(found);
+  for (PropSurfaces& prop : found)
   {
     addProp(prop, result);
   }
-  for (auto said = this->GivenMessages.begin(); said != this->GivenMessages.end();)
-  {
-    said = said->second ? std::next(said) : this->GivenMessages.erase(said);
-  }
-  this->Surfaces.endFrame();
-  this->Floats.endFrame();
-  this->Leaves.endFrame();
-  this->Blocks.endFrame();
-  this->Opaque.endFrame();
+  this->Props.endFrame();
 }
 }

@@ -2,28 +2,18 @@
 #ifndef svoSceneCollector_h
 #define svoSceneCollector_h
 
-#include "svoCompositeBlocks.h"
-#include "svoDataSetSurfaces.h"
-#include "svoFloatArrays.h"
 #include "svoOctreeStore.h"
-#include "svoOpaqueCells.h"
+#include "svoPropCollector.h"
 #include "svoScene.h"
 #include "svoSceneLights.h"
 #include "svoSceneOctrees.h"
-#include "svoSurfaceLook.h"
 
 #include "vtkSmartPointer.h"
-#include "vtkWeakPointer.h"
 
-#include <map>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
-class vtkActor;
-class vtkMatrix4x4;
-class vtkObject;
 class vtkObjectBase;
 class vtkPolyData;
 class vtkProp;
@@ -77,21 +67,7 @@ public:
   PropSurfaces judge(vtkProp* prop);
 
 private:
-  struct Frame;
-  bool collectProp(PropSurfaces& found, Frame& frame);
-  void collectActor(vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, Frame& frame);
-  std::vector<SurfacePart> partsOf(vtkActor* actor);
-  vtkPolyData* casterOf(const SurfacePart& part, OpaqueCells::Answer opaque, vtkActor* actor,
-    PropSurfaces& found, const Frame& frame);
-  void complainOnce(vtkObject* about, const std::string& text, const Frame& frame);
-
-  CompositeBlocks Blocks;
-  DataSetSurfaces Surfaces;
-  OpaqueCells Opaque;
-  FloatArrays Floats;
-  LeafMeshes Leaves;
-  std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>>
-    GivenMessages; // by object
+  PropCollector Props;
 };
 }
 

@@ -1,6 +1,7 @@
 #include "svoSurfaceLook.h"
 
 #include "svoCompositeBlocks.h"
+#include "svoGlyphCopies.h"
 
 #include "vtkActor.h"
 #include "vtkCellData.h"
@@ -27,12 +28,12 @@ namespace svo
 {
 namespace
 {
-/// Glyph mappers and the like are mappers too.
+/// Labels and the like have mappers, too.
 bool isPlainMapper(vtkMapper* mapper)
 {
   const std::string name = mapper->GetClassName();
   return name == "vtkOpenGLPolyDataMapper" || name == "vtkDataSetMapper" ||
-    isCompositeMapper(mapper);
+    isCompositeMapper(mapper) || isGlyphMapper(mapper);
 }
 
 bool hasCustomShaders(vtkActor* actor)

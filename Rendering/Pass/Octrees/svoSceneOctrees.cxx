@@ -17,6 +17,15 @@ void eachSurface(std::vector<PropSurfaces>& props, const Visit& visit)
   }
 }
 
+std::uint64_t scatter(std::uint64_t a)
+{
+  // The finalizer of SplitMix64 (Steele, Lea, Flood 2014): ids of neighbours have nothing in
+  // common.
+  a = (a ^ (a >> 30)) * 0xbf58476d1ce4e5b9ull;
+  a = (a ^ (a >> 27)) * 0x94d049bb133111ebull;
+  return a ^ (a >> 31);
+}
+
 /// What the surface brings, else what is known without an octree.
 void findAttached(SceneSurface& surface, OctreeStore& store, const StoreOptions& options)
 {
@@ -26,7 +35,7 @@ void findAttached(SceneSurface& surface, OctreeStore& store, const StoreOptions&
     store.measure(surface.mesh, options, instance);
     instance.deepestLevel = options.level;
   }
-  else if (instance.octree.hasFrame())
+  else if (instance.octree.hasFrame() && !surface.copies)
   {
     // To the tracer the octree's own frame is the object's.
     instance.localToWorld = instance.localToWorld * instance.octree.frame();
@@ -49,6 +58,26 @@ void findOctree(SceneSurface& surface, const NeededLevels& needed, OctreeStore& 
 }
 }
 
+/// Of each surface; of copies what the most demanding one needs.
+std::vector<NeededLevels> ofSurfaces(
+  std::vector<PropSurfaces>& props, const std::vector<NeededLevels>& ofInstances)
+{
+  std::vector<NeededLevels> needed;
+  auto next = ofInstances.begin();
+  eachSurface(props,
+    [&](const PropSurfaces&, const SceneSurface& surface)
+    {
+      NeededLevels most;
+      for (std::size_t i = 0; i < surface.count(); ++i, ++next)
+      {
+        most.eye = std::max(most.eye, next->eye);
+        most.lights = std::max(most.lights, next->lights);
+      }
+      needed.push_back(most);
+    });
+  return needed;
+}
+
 /// Has what findOctree() will ask for built, where that is faster for all together.
 void prepareOctrees(std::vector<PropSurfaces>& props, const std::vector<NeededLevels>& needed,
   OctreeStore& store, const StoreOptions& options)
@@ -69,6 +98,31 @@ void prepareOctrees(std::vector<PropSurfaces>& props, const std::vector<NeededLe
       }
     });
   store.prepare(wanted, options);
+}
+
+void SceneSurface::addTo(std::vector<Instance>& instances) const
+{
+  if (!this->copies)
+  {
+    instances.push_back(this->instance);
+    return;
+  }
+  const Octree& octree = this->instance.octree;
+  const bool framed = octree && octree.hasFrame();
+  const glm::dmat4 frame = framed ? octree.frame() : glm::dmat4(1.0);
+  for (const GlyphCopy& copy : this->copies->copies)
+  {
+    Instance& one = instances.emplace_back(this->instance);
+    one.localToWorld = one.localToWorld * glm::dmat4(copy.place);
+    if (framed)
+    {
+      one.localToWorld = one.localToWorld * frame;
+    }
+    const glm::vec3 color = glm::vec3(copy.color[0], copy.color[1], copy.color[2]) / 255.0f;
+    one.material.ambientColor = color;
+    one.material.diffuseColor = color;
+    one.id = scatter(one.id + static_cast<std::uint64_t>(copy.point));
+  }
 }
 
 void addReceiver(const PropSurfaces& prop, Scene& scene)
@@ -99,15 +153,15 @@ void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lig
     [&](const PropSurfaces& prop, SceneSurface& surface)
     {
       findAttached(surface, store, options);
-      scene.instances.push_back(surface.instance);
-      scene.instances.back().visible = prop.traced;
-      scene.instances.back().castShadow = surface.casts;
+      surface.instance.visible = prop.traced;
+      surface.instance.castShadow = surface.casts;
+      surface.addTo(scene.instances);
       building = building || (!surface.instance.octree && options.convert);
     });
-  std::vector<NeededLevels> needed(scene.instances.size());
+  std::vector<NeededLevels> needed;
   if (building)
   {
-    needed = settings.tracer->neededLevels(scene, settings.eye, settings.frame);
+    needed = ofSurfaces(props, settings.tracer->neededLevels(scene, settings.eye, settings.frame));
     if (options.wait)
     {
       prepareOctrees(props, needed, store, options);
@@ -118,7 +172,7 @@ void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lig
     [&](PropSurfaces& prop, SceneSurface& surface)
     {
       Instance& instance = surface.instance;
-      const NeededLevels& levels = *next++;
+      const NeededLevels levels = building ? *next++ : NeededLevels();
       if (!instance.octree)
       {
         findOctree(surface, levels, store, options);

@@ -2,6 +2,7 @@
 #ifndef svoSceneOctrees_h
 #define svoSceneOctrees_h
 
+#include "svoGlyphCopies.h"
 #include "svoOctreeStore.h"
 #include "svoScene.h"
 #include "svoSurfaceLook.h"
@@ -13,17 +14,24 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace svo
 {
-/// An instance in the making.
+/// An instance in the making, or one for each copy of a glyph.
 struct SceneSurface
 {
-  Instance instance;
+  Instance instance; // of copies all but place, colour and id; its matrix is the actor's
+  std::shared_ptr<const GlyphSet> copies; // none: it is there once, as it is
   vtkSmartPointer<vtkPolyData> mesh; // the mesh that only casts, where the surface is not traceable
   bool traceable = false;
   bool casts = false;
+
+  std::size_t count() const { return this->copies ? this->copies->copies.size() : 1; }
+  /// Adds the instances to a scene's.
+  void addTo(std::vector<Instance>& instances) const;
 };
 
 /// The surfaces of a prop, and how they are shown.
@@ -33,10 +41,11 @@ struct PropSurfaces
   glm::dmat4 world{ 1.0 };            // from VTK's world to the scene's; see sceneTransform()
   std::vector<SceneSurface> surfaces; // those that are traceable or cast
   int actors = 0;
-  bool traced = true;          // all that the prop shows is traced
-  bool receives = false;       // shadows fall on it
-  Reason rasterized = nullptr; // why it is not traced
-  Reason castsNone = nullptr;  // why something of it casts nothing
+  bool traced = true;                               // all that the prop shows is traced
+  bool receives = false;                            // shadows fall on it
+  Reason rasterized = nullptr;                      // why it is not traced
+  Reason castsNone = nullptr;                       // why something of it casts nothing
+  std::vector<vtkSmartPointer<vtkObjectBase>> kept; // owners of arrays that the surfaces point into
 
   /// Leaves the prop to the rasteriser.
   void rasterize(Reason reason)
