@@ -83,17 +83,17 @@ void PropCollector::complainOnce(
   }
 }
 
-std::vector<SurfacePart> PropCollector::partsOf(vtkActor* actor)
+std::vector<SurfacePart> PropCollector::partsOf(vtkActor* actor, Kept& kept)
 {
   vtkMapper* mapper = actor->GetMapper();
   const double opacity = actor->GetProperty()->GetOpacity();
   if (isCompositeMapper(mapper))
   {
-    return this->Blocks.partsOf(mapper, opacity);
+    return this->Blocks.partsOf(mapper, opacity, kept);
   }
   auto* dataSet = vtkDataSetMapper::SafeDownCast(mapper);
   vtkPolyDataMapper* plain =
-    dataSet ? this->Surfaces.mapperOf(dataSet) : vtkPolyDataMapper::SafeDownCast(mapper);
+    dataSet ? this->Surfaces.mapperOf(dataSet, kept) : vtkPolyDataMapper::SafeDownCast(mapper);
   if (!plain || !plain->GetInput())
   {
     return {};
@@ -219,6 +219,10 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
   }
   SceneSurface surface;
   Instance& instance = surface.instance;
+  if (part.texture)
+  {
+    found.kept.addUnknown(); // a block's own
+  }
   part.texture = part.texture ? part.texture : textureOf(actor);
   Reason reason = beyond;
   if (!beyond || !hasOpaqueTable(part))
@@ -226,7 +230,7 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
     const Reason unmapped = mapColors(part, this->Leaves, instance.attributes, found.kept);
     reason = beyond ? beyond : unmapped;
   }
-  const OpaqueCells::Answer opaque = this->Opaque.of(part, instance.attributes);
+  const OpaqueCells::Answer opaque = this->Opaque.of(part, instance.attributes, found.kept);
   surface.mesh = frame.shadows ? this->casterOf(part, opaque, actor, found, frame) : nullptr;
   surface.casts = surface.mesh != nullptr;
   if (!reason)
@@ -296,13 +300,19 @@ void PropCollector::collectActor(
     this->collectGlyphs(actor, localToWorld, beyond, found, frame);
     return;
   }
-  for (SurfacePart& part : this->partsOf(actor))
+  for (SurfacePart& part : this->partsOf(actor, found.kept))
   {
     this->collectPart(actor, part, localToWorld, beyond, found, frame);
   }
 }
 
-bool PropCollector::collect(PropSurfaces& found, const CollectProps& frame)
+bool canCollect(vtkProp* prop)
+{
+  return vtkActor::SafeDownCast(prop) || vtkAssembly::SafeDownCast(prop) ||
+    vtkPropAssembly::SafeDownCast(prop);
+}
+
+void PropCollector::collect(PropSurfaces& found, const CollectProps& frame)
 {
   vtkProp* prop = found.prop;
   found.world = frame.world;
@@ -317,11 +327,7 @@ bool PropCollector::collect(PropSurfaces& found, const CollectProps& frame)
   if (auto* actor = vtkActor::SafeDownCast(prop))
   {
     collect(actor, actor->GetMatrix());
-    return true;
-  }
-  if (!vtkAssembly::SafeDownCast(prop) && !vtkPropAssembly::SafeDownCast(prop))
-  {
-    return false;
+    return;
   }
   prop->InitPathTraversal();
   while (vtkAssemblyPath* path = prop->GetNextPath())
@@ -340,20 +346,19 @@ bool PropCollector::collect(PropSurfaces& found, const CollectProps& frame)
       found.leaveAlone("has parts that are no actors");
     }
   }
-  return true;
 }
 
-void PropCollector::endFrame()
+void PropCollector::sweep()
 {
   for (auto said = this->GivenMessages.begin(); said != this->GivenMessages.end();)
   {
     said = said->second ? std::next(said) : this->GivenMessages.erase(said);
   }
-  this->Surfaces.endFrame();
-  this->Floats.endFrame();
-  this->Leaves.endFrame();
-  this->Blocks.endFrame();
-  this->Copies.endFrame();
-  this->Opaque.endFrame();
+  this->Surfaces.sweep();
+  this->Floats.sweep();
+  this->Leaves.sweep();
+  this->Blocks.sweep();
+  this->Copies.sweep();
+  this->Opaque.sweep();
 }
 }

@@ -24,7 +24,6 @@
 class vtkActor;
 class vtkMatrix4x4;
 class vtkObject;
-class vtkObjectBase;
 class vtkPolyData;
 class vtkProp;
 
@@ -47,22 +46,25 @@ struct CollectProps
   glm::dmat4 world; // see sceneTransform()
 };
 
-/// Keeps from frame to frame what is computed of the props' data.
+/// Whether a prop can have surfaces: actors and assemblies of them.
+bool canCollect(vtkProp* prop);
+
+/// Has what was computed of the props' data for as long as one of them keeps it.
 class PropCollector
 {
 public:
-  /// Fills in the surfaces of `found.prop`, without octrees. False if the prop cannot have any.
-  bool collect(PropSurfaces& found, const CollectProps& frame);
+  /// Fills in the surfaces of `found.prop`, without octrees. The prop can have some.
+  void collect(PropSurfaces& found, const CollectProps& frame);
 
-  /// Forgets what no prop has asked for since the last call.
-  void endFrame();
+  /// Forgets what no collected prop keeps any more.
+  void sweep();
 
 private:
   void collectActor(
     vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, const CollectProps& frame);
   bool placeOf(vtkActor* actor, const vtkMatrix4x4* matrix, glm::dmat4& localToWorld,
     Reason& beyond, PropSurfaces& found, const CollectProps& frame);
-  std::vector<SurfacePart> partsOf(vtkActor* actor);
+  std::vector<SurfacePart> partsOf(vtkActor* actor, Kept& kept);
   void collectPart(vtkActor* actor, SurfacePart& part, const glm::dmat4& localToWorld,
     Reason beyond, PropSurfaces& found, const CollectProps& frame);
   void collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,

@@ -55,7 +55,7 @@ void PropCollector::collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorl
     found.leaveAlone("has lines or vertices"); // VTK draws a line in the place of a source
     return;
   }
-  const Glyphs glyphs = this->Copies.of(mapper, actor->GetProperty());
+  const Glyphs glyphs = this->Copies.of(mapper, actor->GetProperty(), found.kept);
   if (glyphs.beyond)
   {
     found.leaveAlone(glyphs.beyond);

@@ -2,14 +2,74 @@
 
 #include "svoCameraView.h"
 #include "svoGiveWay.h"
-#include "svoSceneLights.h"
+#include "svoSceneInstances.h"
 
 #include "vtkPolyData.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderer.h"
 
+#include <algorithm>
+#include <tuple>
+#include <unordered_map>
+
 namespace svo
 {
+namespace
+{
+bool sameLights(const std::vector<Light>& a, const std::vector<Light>& b)
+{
+  const auto values = [](const Light& l)
+  {
+    return std::tie(l.kind, l.headlight, l.position, l.direction, l.coneAngle, l.exponent,
+      l.attenuation, l.color, l.castShadow, l.shadowTechnique, l.id);
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+    [&](const Light& x, const Light& y) { return values(x) == values(y); });
+}
+
+/// True if both ask for the same octrees.
+bool sameLevels(const LevelSettings& a, const LevelSettings& b)
+{
+  const auto values = [](const LevelSettings& s)
+  {
+    const FrameSettings& f = s.frame;
+    return std::tie(s.tracer, s.eye.width, s.eye.height, s.eye.worldToView, s.eye.viewToClip,
+      f.shadowTechnique, f.shadowResolution, f.shadowCoarseness, f.shadowMemoryLimit,
+      f.automaticBias, f.bias, f.pixelError, f.antiAliasing, f.filterShadows,
+      f.mayDependOnLastFrame);
+  };
+  return values(a) == values(b);
+}
+
+bool sameStore(const StoreOptions& a, const StoreOptions& b)
+{
+  return std::tie(a.convert, a.level, a.leafGeometry, a.wait) ==
+    std::tie(b.convert, b.level, b.leafGeometry, b.wait);
+}
+
+/// What a prop without surfaces says to a frame is the same.
+bool saysTheSame(const PropSurfaces& a, const PropSurfaces& b)
+{
+  return a.surfaces.empty() && b.surfaces.empty() && a.bounds == b.bounds &&
+    std::tie(a.traced, a.receives, a.actors) == std::tie(b.traced, b.receives, b.actors);
+}
+
+/// Updating a prop may change the renderer's list, or let props go.
+std::vector<vtkSmartPointer<vtkProp>> propsOf(vtkRenderer* renderer)
+{
+  std::vector<vtkSmartPointer<vtkProp>> props;
+  vtkCollectionSimpleIterator iterator;
+  vtkPropCollection* collection = renderer->GetViewProps();
+  props.reserve(static_cast<std::size_t>(collection->GetNumberOfItems()));
+  collection->InitTraversal(iterator);
+  while (vtkProp* prop = collection->GetNextProp(iterator))
+  {
+    props.emplace_back(prop);
+  }
+  return props;
+}
+}
+
 PropSurfaces SceneCollector::judge(vtkProp* prop)
 {
   const StoreOptions silent{};
@@ -20,47 +80,140 @@ PropSurfaces SceneCollector::judge(vtkProp* prop)
   {
     found.castNothing("is not visible");
   }
-  else if (!this->Props.collect(found, frame))
+  else if (canCollect(prop))
+  {
+    this->Props.collect(found, frame);
+  }
+  else
   {
     found.leaveAlone("is neither an actor nor an assembly");
   }
   return found;
 }
 
-namespace
+/// Collects the props that are not what they were. True if that is any, or if some are gone.
+bool SceneCollector::collectProps(
+  const std::vector<vtkSmartPointer<vtkProp>>& props, const CollectProps& frame, bool all)
 {
-/// Adds a prop, whose surfaces have their octrees, to the scene.
-void addProp(PropSurfaces& prop, CollectedScene& result)
-{
-  if (prop.traced)
+  bool changed = all;
+  bool reordered = false;
+  std::unordered_map<vtkProp*, PropSurfaces> others; // of the last frame, from where that differs
+  std::size_t place = 0;
+  vtkAlgorithm* updated = nullptr;
+  for (vtkProp* prop : props)
   {
-    result.replaced.insert(prop.prop);
-    result.tracedActors += prop.surfaces.empty() ? 0 : prop.actors;
-  }
-  else
-  {
-    result.rasterizedActors += prop.actors;
-    result.rasterizedReceivers = result.rasterizedReceivers || prop.receives;
-    addReceiver(prop, result.scene);
-  }
-  result.kept.insert(result.kept.end(), prop.kept.begin(), prop.kept.end());
-  for (SceneSurface& surface : prop.surfaces)
-  {
-    surface.instance.visible = prop.traced;
-    if (surface.instance.octree && (prop.traced || surface.casts))
+    if (!prop->GetVisibility())
     {
-      surface.addTo(result.scene.instances);
-      result.meshes.resize(result.scene.instances.size(), surface.mesh);
+      continue;
+    }
+    if (place == this->Found.size() || this->Found[place].prop != prop)
+    {
+      if (!canCollect(prop))
+      {
+        continue;
+      }
+      if (!reordered)
+      {
+        reordered = changed = true;
+        for (std::size_t i = place; i < this->Found.size(); ++i)
+        {
+          others.emplace(this->Found[i].prop, std::move(this->Found[i]));
+        }
+        this->Found.resize(place);
+      }
+      const auto other = others.find(prop);
+      this->Found.push_back(other != others.end() ? std::move(other->second) : PropSurfaces());
+    }
+    PropSurfaces& known = this->Found[place++];
+    if (!all && known.prop && known.kept.inPlace() && known.state.holds(prop, updated))
+    {
+      continue;
+    }
+    PropSurfaces found;
+    found.prop = prop;
+    this->Props.collect(found, frame);
+    found.state.note(prop);
+    if (found.surfaces.empty())
+    {
+      if (const double* bounds = prop->GetBounds())
+      {
+        std::copy_n(bounds, 6, found.bounds.begin());
+      }
+    }
+    changed = changed || !known.prop || !saysTheSame(known, found);
+    known = std::move(found);
+  }
+  changed = changed || place < this->Found.size();
+  this->Found.resize(place);
+  others.clear();
+  if (changed)
+  {
+    this->Props.sweep();
+  }
+  return changed;
+}
+
+/// Makes the scene of what was found.
+void SceneCollector::assemble(CollectedScene& result)
+{
+  result.meshes.clear();
+  result.scene.receivers.clear();
+  result.replaced.clear();
+  result.tracedActors = result.rasterizedActors = 0;
+  result.rasterizedReceivers = false;
+  SceneInstances::write(this->Found, Stage::Shown, this->Instances);
+  bool complete = true;
+  for (const PropSurfaces& prop : this->Found)
+  {
+    if (prop.shown)
+    {
+      result.replaced.insert(prop.prop);
+      result.tracedActors += prop.surfaces.empty() ? 0 : prop.actors;
+    }
+    else
+    {
+      result.rasterizedActors += prop.actors;
+      result.rasterizedReceivers = result.rasterizedReceivers || prop.receives;
+      addReceiver(prop, false, result.scene);
+    }
+    for (const SceneSurface& surface : prop.surfaces)
+    {
+      const bool used = surface.instance.octree && (prop.shown || surface.casts);
+      complete = complete && used;
+      if (used)
+      {
+        result.meshes.resize(result.meshes.size() + surface.count(), surface.mesh);
+      }
     }
   }
-}
+  result.own = result.meshes.size();
+  this->Lent = complete;
+  if (complete)
+  {
+    result.scene.instances.swap(this->Instances);
+    return;
+  }
+  result.scene.instances.clear();
+  for (const PropSurfaces& prop : this->Found)
+  {
+    for (const SceneSurface& surface : prop.surfaces)
+    {
+      if (surface.instance.octree && (prop.shown || surface.casts))
+      {
+        const auto first = this->Instances.begin() + surface.written.place;
+        result.scene.instances.insert(result.scene.instances.end(), first, first + surface.count());
+      }
+    }
+  }
 }
 
 void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options,
   const CollectSettings& settings, CollectedScene& result)
 {
+  result.current = false;
   const glm::dmat4 world = sceneTransform(renderer);
   SceneLights lights = lightsOf(renderer, world, settings.nameOfHeadlight);
+  const bool otherLights = !sameLights(lights.lights, result.scene.lights);
   result.scene.lights = std::move(lights.lights);
   result.lightsText = std::move(lights.text);
   result.headlightOnly = lights.headlightOnly;
@@ -72,31 +225,58 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   const CollectProps frame{ options, settings.shadows && casting, !result.scene.lights.empty(),
     settings.onlyMarked, settings.said, settings.translucentSurfaceText, settings.translucentText,
     settings.cutOutText, world };
-  std::vector<PropSurfaces> found;
-  // Updating a prop may change the renderer's list.
-  std::vector<vtkSmartPointer<vtkProp>> props;
-  vtkCollectionSimpleIterator iterator;
-  vtkPropCollection* collection = renderer->GetViewProps();
-  collection->InitTraversal(iterator);
-  while (vtkProp* prop = collection->GetNextProp(iterator))
+  const std::vector<vtkSmartPointer<vtkProp>> props = propsOf(renderer);
+  const bool all = !this->Collected ||
+    std::tie(this->Shadows, this->Lights, this->OnlyMarked, this->World) !=
+      std::tie(frame.shadows, frame.lights, frame.onlyMarked, world);
+  this->Collected = true;
+  this->Shadows = frame.shadows;
+  this->Lights = frame.lights;
+  this->OnlyMarked = frame.onlyMarked;
+  this->World = world;
+  const bool changed = this->collectProps(props, frame, all);
+
+  if (this->Lent)
   {
-    props.emplace_back(prop);
+    result.scene.instances.resize(result.own); // without those of other processes
   }
-  for (vtkProp* prop : props)
+  const bool same = !changed && !otherLights && this->Complete &&
+    sameLevels(settings.levels, this->Levels) && sameStore(options, this->Options) &&
+    store.version() == this->StoreVersion && store.building() == 0;
+  if (same && this->Lent)
   {
-    PropSurfaces surfaces;
-    surfaces.prop = prop;
-    if (prop->GetVisibility() && this->Props.collect(surfaces, frame))
+    result.current = true;
+    return;
+  }
+  if (this->Lent)
+  {
+    this->Instances.swap(result.scene.instances);
+    this->Lent = false;
+  }
+  findOctrees(this->Found, result.scene.lights, settings.levels, store, options, this->Instances);
+  giveWay(this->Found);
+  this->assemble(result);
+  result.current = true;
+  this->Levels = settings.levels;
+  this->Options.convert = options.convert;
+  this->Options.level = options.level;
+  this->Options.leafGeometry = options.leafGeometry;
+  this->Options.wait = options.wait;
+  this->StoreVersion = store.version();
+  this->Complete = std::all_of(this->Found.begin(), this->Found.end(),
+    [](const PropSurfaces& prop)
     {
-      found.push_back(std::move(surfaces));
-    }
-  }
-  findOctrees(found, result.scene.lights, settings.levels, store, options);
-  giveWay(found);
-  for (PropSurfaces& prop : found)
-  {
-    addProp(prop, result);
-  }
-  this->Props.endFrame();
+      return std::all_of(prop.surfaces.begin(), prop.surfaces.end(),
+        [](const SceneSurface& surface) { return static_cast<bool>(surface.instance.octree); });
+    });
+}
+
+void SceneCollector::forget()
+{
+  this->Collected = false;
+  this->Lent = false;
+  this->Found.clear();
+  this->Instances = std::vector<Instance>();
+  this->Props.sweep();
 }
 }

@@ -10,11 +10,11 @@
 
 #include "vtkSmartPointer.h"
 
+#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
 
-class vtkObjectBase;
 class vtkPolyData;
 class vtkProp;
 class vtkRenderer;
@@ -41,7 +41,9 @@ struct CollectSettings
 struct CollectedScene
 {
   Scene scene;
-  std::vector<vtkSmartPointer<vtkPolyData>> meshes; // of the scene's instances, by index
+  bool current = false; // of this frame; what is kept of an earlier one is not to be used
+  std::size_t own = 0;  // number of instances that come from this renderer
+  std::vector<vtkPolyData*> meshes; // of the scene's own instances, by index
   /// Props that the rasteriser must leave alone: every surface of theirs is traced, or must not be
   /// shown.
   std::set<vtkProp*> replaced;
@@ -50,15 +52,16 @@ struct CollectedScene
   bool rasterizedReceivers = false; // lit surfaces that the rasteriser draws and shadows fall on
   bool headlightOnly = false;       // SceneLights
   std::string lightsText;
-  /// Owners of the arrays that the scene points into.
-  std::vector<vtkSmartPointer<vtkObjectBase>> kept;
 };
 
-/// Collects frame after frame from one renderer. Casters outside of the picture are in.
+/// Collects frame after frame from one renderer. Casters outside of the picture are in. Whatever is
+/// as it was in the last frame is neither collected nor written again: props (svoPropState.h),
+/// octrees, and the scene's instances.
 class SceneCollector
 {
 public:
-  /// Octrees come from `store`; messages go to `options.complain`, each once.
+  /// Octrees come from `store`; messages go to `options.complain`, each once. `result` is what the
+  /// last call has made, or new after forget().
   void collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options,
     const CollectSettings& settings, CollectedScene& result);
 
@@ -66,8 +69,27 @@ public:
   /// messages.
   PropSurfaces judge(vtkProp* prop);
 
+  /// Frees what is kept for the next frame. What was collected must not be used any more.
+  void forget();
+
 private:
+  bool collectProps(
+    const std::vector<vtkSmartPointer<vtkProp>>& props, const CollectProps& frame, bool all);
+  void assemble(CollectedScene& result);
+
   PropCollector Props;
+  std::vector<PropSurfaces> Found; // of the last frame's visible props, in their order
+  /// Of all surfaces of those props; where all are in the scene they are lent to it.
+  std::vector<Instance> Instances;
+  bool Lent = false;
+  // The rest of what they depend on.
+  bool Collected = false;
+  bool Shadows = false, Lights = false, OnlyMarked = false;
+  glm::dmat4 World{ 1.0 };
+  LevelSettings Levels;
+  StoreOptions Options;
+  std::uint64_t StoreVersion = 0;
+  bool Complete = false; // all surfaces have octrees
 };
 }
 

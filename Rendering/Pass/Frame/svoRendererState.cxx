@@ -77,7 +77,7 @@ void RendererState::measured(double seconds, double fixed, double shadows)
 void RendererState::beginFrame()
 {
   this->Statistics = PassStatistics();
-  this->Collected = CollectedScene();
+  this->Collected.current = false;
   this->Picture.covered = PixelRect();
   this->Complaint.clear();
   this->SharesShadows = false;
@@ -87,7 +87,6 @@ void RendererState::collect(
   OctreeStore& store, const StoreOptions& options, CollectSettings settings)
 {
   settings.levels.tracer = this->Trace.get();
-  this->Collected = CollectedScene();
   const double start = vtkTimerLog::GetUniversalTime();
   const int built = store.built();
   this->Collector.collect(this->Renderer, store, options, settings, this->Collected);
@@ -237,6 +236,13 @@ void RendererState::finish()
 {
   this->Statistics.presentTime = this->Presenter->GetPresentTime();
   this->Presenter->SetFrame(nullptr, nullptr, nullptr);
+  this->Collected.current = false;
+}
+
+void RendererState::releaseLayers()
+{
+  this->Trace->releaseLayers();
+  this->Collector.forget();
   this->Collected = CollectedScene();
 }
 

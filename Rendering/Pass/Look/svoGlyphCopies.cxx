@@ -1,5 +1,7 @@
 #include "svoGlyphCopies.h"
 
+#include "svoGlyphPlaces.h"
+
 #include "vtkBitArray.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCompositeDataIterator.h"
@@ -13,16 +15,11 @@
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
-#include "vtkQuaternion.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVersion.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <string>
-
-#include <glm/geometric.hpp>
 
 namespace svo
 {
@@ -32,12 +29,8 @@ namespace
 struct Asking : public vtkGlyph3DMapper
 {
   using vtkGlyph3DMapper::GetMaskArray;
-  using vtkGlyph3DMapper::GetOrientationArray;
-  using vtkGlyph3DMapper::GetScaleArray;
   using vtkGlyph3DMapper::GetSourceIndexArray;
 };
-
-constexpr Reason BadOrientation = "has orientations with the wrong number of components";
 
 /// The table's entries; null where there is none.
 std::vector<vtkDataObject*> sourcesOf(vtkGlyph3DMapper* mapper)
@@ -96,159 +89,6 @@ std::array<unsigned char, 4> bytesOf(const glm::dvec3& color, double opacity)
   const auto byte = [](double value) { return static_cast<unsigned char>(value * 255.0 + 0.5); };
   return { byte(color.x), byte(color.y), byte(color.z), byte(opacity) };
 }
-
-/// The places of an input's copies, by the mapper's settings.
-class Placement
-{
-public:
-  Placement(vtkGlyph3DMapper* mapper, vtkDataSet* input)
-    : Input(input)
-    , Scales((mapper->*(&Asking::GetScaleArray))(input))
-    , Orientations((mapper->*(&Asking::GetOrientationArray))(input))
-    , ScaleMode(mapper->GetScaleMode())
-    , OrientationMode(mapper->GetOrientationMode())
-    , Scaling(mapper->GetScaling())
-    , Clamping(mapper->GetClamping() && this->ScaleMode != vtkGlyph3DMapper::NO_DATA_SCALING)
-    , Factor(mapper->GetScaleFactor())
-    , Low(mapper->GetRange()[0])
-    , High(mapper->GetRange()[1])
-  {
-  }
-
-  /// Why the mapper draws nothing, or nothing certain; null if all is well.
-  Reason fault() const
-  {
-    const int components = this->Orientations ? this->Orientations->GetNumberOfComponents() : 0;
-    const int wanted = this->OrientationMode == vtkGlyph3DMapper::QUATERNION ? 4 : 3;
-    if (this->Orientations && components != wanted)
-    {
-      return BadOrientation;
-    }
-    const vtkIdType points = this->Input->GetNumberOfPoints();
-    return tooShort(this->Orientations, points) || tooShort(this->Scales, points)
-      ? "has arrays with fewer values than points"
-      : nullptr;
-  }
-
-  static bool tooShort(vtkAbstractArray* array, vtkIdType points)
-  {
-    return array && array->GetNumberOfTuples() < points;
-  }
-
-  /// False if the copy cannot be seen: nowhere, or a point. `condition` is raised to at least that
-  /// of the matrix.
-  bool at(vtkIdType point, glm::dmat4x3& place, double& condition) const
-  {
-    glm::dmat3 turn(1.0);
-    if (this->Orientations)
-    {
-      double matrix[3][3];
-      this->orientation(point).ToMatrix3x3(matrix);
-      for (int i = 0; i < 9; ++i)
-      {
-        turn[i % 3][i / 3] = matrix[i / 3][i % 3];
-      }
-    }
-    const glm::dvec3 scale = this->Scaling ? this->scaleOf(point) : glm::dvec3(1.0);
-    double x[3];
-    this->Input->GetPoint(point, x);
-    place = glm::dmat4x3(
-      turn[0] * scale.x, turn[1] * scale.y, turn[2] * scale.z, glm::dvec3(x[0], x[1], x[2]));
-    double sum = 0.0;
-    for (int i = 0; i < 12; ++i)
-    {
-      sum += std::abs(place[i / 3][i % 3]);
-    }
-    if (!std::isfinite(sum) || turn[0] == glm::dvec3(0.0))
-    {
-      return false; // a quaternion of zeros makes a matrix of zeros
-    }
-    // In the Frobenius norm; a turn has none.
-    condition = std::max(condition, glm::length(scale) * glm::length(1.0 / scale));
-    return true;
-  }
-
-private:
-  vtkQuaterniond orientation(vtkIdType point) const
-  {
-    double o[4] = { 0.0, 0.0, 0.0, 0.0 };
-    this->Orientations->GetTuple(point, o);
-    switch (this->OrientationMode)
-    {
-      case vtkGlyph3DMapper::ROTATION:
-      {
-        const auto about = [](int axis, double degrees)
-        {
-          const double half = 0.5 * vtkMath::RadiansFromDegrees(degrees);
-          vtkQuaterniond turn(std::cos(half), 0.0, 0.0, 0.0);
-          turn[axis] = std::sin(half);
-          return turn;
-        };
-        return about(3, o[2]) * about(1, o[0]) * about(2, o[1]);
-      }
-      case vtkGlyph3DMapper::QUATERNION:
-        return vtkQuaterniond(o);
-      default:
-        break;
-    }
-    if (o[1] == 0.0 && o[2] == 0.0)
-    {
-      return o[0] < 0.0 ? vtkQuaterniond(0.0, 0.0, 1.0, 0.0) : vtkQuaterniond();
-    }
-    // Half a turn about what is halfway between the x axis and the direction.
-    const glm::dvec3 direction(o[0], o[1], o[2]);
-    const glm::dvec3 axis =
-      glm::normalize(0.5 * (direction + glm::dvec3(glm::length(direction), 0.0, 0.0)));
-    return vtkQuaterniond(0.0, axis.x, axis.y, axis.z);
-  }
-
-  glm::dvec3 scaleOf(vtkIdType point) const
-  {
-    glm::dvec3 scale(1.0);
-    if (this->Scales)
-    {
-      const int components = this->Scales->GetNumberOfComponents();
-      if (this->ScaleMode == vtkGlyph3DMapper::SCALE_BY_MAGNITUDE)
-      {
-        double squares = 0.0;
-        for (int i = 0; i < components; ++i)
-        {
-          const double value = this->Scales->GetComponent(point, i);
-          squares += value * value;
-        }
-        scale = glm::dvec3(std::sqrt(squares));
-      }
-      else if (this->ScaleMode == vtkGlyph3DMapper::SCALE_BY_COMPONENTS && components == 3)
-      {
-        this->Scales->GetTuple(point, &scale.x);
-      }
-      if (this->Clamping)
-      {
-        const double length = this->High - this->Low;
-        for (int i = 0; i < 3; ++i)
-        {
-          const double clamped = scale[i] < this->Low ? this->Low
-            : scale[i] > this->High                   ? this->High
-                                                      : scale[i];
-          scale[i] = (clamped - this->Low) / (length == 0.0 ? 1.0 : length);
-        }
-      }
-    }
-    scale *= this->Factor;
-    for (int i = 0; i < 3; ++i)
-    {
-      scale[i] = scale[i] == 0.0 ? 1e-10 : scale[i]; // so the mapper does
-    }
-    return scale;
-  }
-
-  vtkDataSet* Input;
-  vtkDataArray* Scales;
-  vtkDataArray* Orientations;
-  int ScaleMode, OrientationMode;
-  bool Scaling, Clamping;
-  double Factor, Low, High;
-};
 }
 
 bool isGlyphMapper(vtkMapper* mapper)
@@ -266,7 +106,7 @@ void GlyphCopies::compute(
   entry.sets.clear();
   entry.beyond = nullptr;
   const vtkIdType points = input->GetNumberOfPoints();
-  const Placement placement(mapper, input);
+  const GlyphPlaces places(mapper, input);
   vtkDataArray* indices = (mapper->*(&Asking::GetSourceIndexArray))(input);
   auto* mask = vtkBitArray::SafeDownCast((mapper->*(&Asking::GetMaskArray))(input));
   if (!entry.colors)
@@ -276,16 +116,16 @@ void GlyphCopies::compute(
   entry.colors->vtkMapper::ShallowCopy(mapper);
   // Null also where scalars would be interpolated before they are mapped, as in VTK.
   vtkUnsignedCharArray* colors = entry.colors->MapScalars(input, block.opacity);
-  entry.beyond = placement.fault();
+  entry.beyond = places.fault();
   if (mask && mask->GetNumberOfComponents() != 1)
   {
     entry.beyond = "has a mask with more than one component";
   }
-  else if (Placement::tooShort(mask, points) || Placement::tooShort(indices, points))
+  else if (isTooShort(mask, points) || isTooShort(indices, points))
   {
     entry.beyond = "has arrays with fewer values than points";
   }
-  else if (colors && (colors->GetNumberOfComponents() != 4 || Placement::tooShort(colors, points)))
+  else if (colors && (colors->GetNumberOfComponents() != 4 || isTooShort(colors, points)))
   {
     entry.beyond = "has colours that do not belong to its points";
   }
@@ -321,7 +161,7 @@ void GlyphCopies::compute(
     }
     GlyphSet& set = *sets[source];
     GlyphCopy copy;
-    if (!placement.at(point, copy.place, set.condition))
+    if (!places.at(point, copy.place, set.condition))
     {
       continue;
     }
@@ -350,8 +190,7 @@ void GlyphCopies::add(vtkDataSet* input, const Block& block, Looking& looking)
   {
     return;
   }
-  Entry& entry = this->Entries[{ mapper, input }];
-  entry.asked = true;
+  Entry& entry = this->Entries.of({ mapper, input }, looking.kept);
   // What was made since the last frame is later than all that was looked at then.
   const std::uint64_t time = std::max(mapper->GetMTime(), input->GetMTime());
   const auto color = bytesOf(block.color, block.opacity);
@@ -420,9 +259,9 @@ void GlyphCopies::visit(vtkDataObject* input, Block block, Looking& looking)
   }
 }
 
-Glyphs GlyphCopies::of(vtkGlyph3DMapper* mapper, vtkProperty* property)
+Glyphs GlyphCopies::of(vtkGlyph3DMapper* mapper, vtkProperty* property, Kept& kept)
 {
-  Looking looking{ mapper, {}, 0, {} };
+  Looking looking{ mapper, kept, {}, 0, {} };
   for (vtkDataObject* source : sourcesOf(mapper))
   {
     looking.sources.push_back(leavesOf(source));
@@ -445,14 +284,5 @@ Glyphs GlyphCopies::of(vtkGlyph3DMapper* mapper, vtkProperty* property)
     looking.result.drawn.clear();
   }
   return looking.result;
-}
-
-void GlyphCopies::endFrame()
-{
-  for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
-  {
-    const bool asked = std::exchange(entry->second.asked, false);
-    entry = asked ? std::next(entry) : this->Entries.erase(entry);
-  }
 }
 }

@@ -2,13 +2,13 @@
 #ifndef svoGlyphCopies_h
 #define svoGlyphCopies_h
 
+#include "svoKept.h"
 #include "svoSurfaceLook.h"
 
 #include "vtkSmartPointer.h"
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -71,10 +71,10 @@ public:
   ~GlyphCopies();
 
   /// The mapper's input and sources are up to date. `property` is the actor's.
-  Glyphs of(vtkGlyph3DMapper* mapper, vtkProperty* property);
+  Glyphs of(vtkGlyph3DMapper* mapper, vtkProperty* property, Kept& kept);
 
-  /// Drops entries that were not asked for since the last call.
-  void endFrame();
+  /// Drops what nobody keeps.
+  void sweep() { this->Entries.sweep(); }
 
   /// How often copies have been computed, for tests.
   int computed() const { return this->Computed; }
@@ -98,12 +98,12 @@ private:
     std::vector<std::shared_ptr<const GlyphSet>> sets;
     Reason beyond = nullptr;
     vtkSmartPointer<vtkPolyDataMapper> colors;
-    bool asked = false;
   };
   /// A mapper while it is looked at.
   struct Looking
   {
     vtkGlyph3DMapper* mapper;
+    Kept& kept;
     std::vector<std::vector<vtkPolyData*>> sources; // all meshes of each entry of the table
     unsigned int flatIndex = 0;                     // of what is visited next
     Glyphs result;
@@ -112,7 +112,7 @@ private:
   void add(vtkDataSet* input, const Block& block, Looking& looking);
   void compute(vtkGlyph3DMapper* mapper, vtkDataSet* input, const Block& block, Entry& entry);
 
-  std::map<std::pair<vtkGlyph3DMapper*, vtkDataSet*>, Entry> Entries;
+  KeptValues<std::pair<vtkGlyph3DMapper*, vtkDataSet*>, Entry> Entries;
   int Computed = 0;
 };
 }

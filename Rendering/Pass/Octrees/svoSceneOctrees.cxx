@@ -1,5 +1,9 @@
 #include "svoSceneOctrees.h"
 
+#include "svoSceneInstances.h"
+
+#include <utility>
+
 namespace svo
 {
 namespace
@@ -17,28 +21,19 @@ void eachSurface(std::vector<PropSurfaces>& props, const Visit& visit)
   }
 }
 
-std::uint64_t scatter(std::uint64_t a)
-{
-  // The finalizer of SplitMix64 (Steele, Lea, Flood 2014): ids of neighbours have nothing in
-  // common.
-  a = (a ^ (a >> 30)) * 0xbf58476d1ce4e5b9ull;
-  a = (a ^ (a >> 27)) * 0x94d049bb133111ebull;
-  return a ^ (a >> 31);
-}
-
 /// What the surface brings, else what is known without an octree.
 void findAttached(SceneSurface& surface, OctreeStore& store, const StoreOptions& options)
 {
   Instance& instance = surface.instance;
-  if (!store.attached(surface.mesh, options, instance.octree))
+  surface.bringsOctree = store.attached(surface.mesh, options, instance.octree);
+  instance.casterOctree = Octree();
+  instance.leafGeometry = LeafGeometry::Automatic;
+  instance.neededLevel = 0;
+  instance.givesWay = 0;
+  if (!surface.bringsOctree)
   {
     store.measure(surface.mesh, options, instance);
     instance.deepestLevel = options.level;
-  }
-  else if (instance.octree.hasFrame() && !surface.copies)
-  {
-    // To the tracer the octree's own frame is the object's.
-    instance.localToWorld = instance.localToWorld * instance.octree.frame();
   }
 }
 
@@ -55,7 +50,6 @@ void findOctree(SceneSurface& surface, const NeededLevels& needed, OctreeStore& 
   {
     store.find(surface.mesh, needed.lights, options, instance.casterOctree);
   }
-}
 }
 
 /// Of each surface; of copies what the most demanding one needs.
@@ -88,7 +82,7 @@ void prepareOctrees(std::vector<PropSurfaces>& props, const std::vector<NeededLe
     [&](const PropSurfaces&, const SceneSurface& surface)
     {
       const NeededLevels& levels = *next++;
-      if (!surface.instance.octree)
+      if (!surface.bringsOctree)
       {
         wanted.emplace_back(surface.mesh, levels.eye);
         if (levels.lights > 0 && levels.lights != levels.eye)
@@ -99,35 +93,11 @@ void prepareOctrees(std::vector<PropSurfaces>& props, const std::vector<NeededLe
     });
   store.prepare(wanted, options);
 }
-
-void SceneSurface::addTo(std::vector<Instance>& instances) const
-{
-  if (!this->copies)
-  {
-    instances.push_back(this->instance);
-    return;
-  }
-  const Octree& octree = this->instance.octree;
-  const bool framed = octree && octree.hasFrame();
-  const glm::dmat4 frame = framed ? octree.frame() : glm::dmat4(1.0);
-  for (const GlyphCopy& copy : this->copies->copies)
-  {
-    Instance& one = instances.emplace_back(this->instance);
-    one.localToWorld = one.localToWorld * glm::dmat4(copy.place);
-    if (framed)
-    {
-      one.localToWorld = one.localToWorld * frame;
-    }
-    const glm::vec3 color = glm::vec3(copy.color[0], copy.color[1], copy.color[2]) / 255.0f;
-    one.material.ambientColor = color;
-    one.material.diffuseColor = color;
-    one.id = scatter(one.id + static_cast<std::uint64_t>(copy.point));
-  }
 }
 
-void addReceiver(const PropSurfaces& prop, Scene& scene)
+void addReceiver(const PropSurfaces& prop, bool shown, Scene& scene)
 {
-  const double* b = !prop.traced && prop.receives ? prop.prop->GetBounds() : nullptr;
+  const double* b = !shown && prop.receives ? prop.prop->GetBounds() : nullptr;
   if (b && b[0] <= b[1] && b[2] <= b[3] && b[4] <= b[5])
   {
     Box receiver;
@@ -140,54 +110,54 @@ void addReceiver(const PropSurfaces& prop, Scene& scene)
 }
 
 void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lights,
-  const LevelSettings& settings, OctreeStore& store, const StoreOptions& options)
+  const LevelSettings& settings, OctreeStore& store, const StoreOptions& options,
+  std::vector<Instance>& instances)
 {
-  Scene scene;
-  scene.lights = lights;
   bool building = false;
-  for (const PropSurfaces& prop : props)
-  {
-    addReceiver(prop, scene);
-  }
   eachSurface(props,
-    [&](const PropSurfaces& prop, SceneSurface& surface)
+    [&](const PropSurfaces&, SceneSurface& surface)
     {
       findAttached(surface, store, options);
-      surface.instance.visible = prop.traced;
-      surface.instance.castShadow = surface.casts;
-      surface.addTo(scene.instances);
-      building = building || (!surface.instance.octree && options.convert);
+      building = building || (!surface.bringsOctree && options.convert);
     });
   std::vector<NeededLevels> needed;
   if (building)
   {
+    Scene scene;
+    scene.lights = lights;
+    for (const PropSurfaces& prop : props)
+    {
+      addReceiver(prop, prop.traced, scene);
+    }
+    SceneInstances::write(props, Stage::Planned, instances);
+    scene.instances.swap(instances);
     needed = ofSurfaces(props, settings.tracer->neededLevels(scene, settings.eye, settings.frame));
+    scene.instances.swap(instances);
     if (options.wait)
     {
       prepareOctrees(props, needed, store, options);
     }
   }
   auto next = needed.begin();
+  for (PropSurfaces& prop : props)
+  {
+    prop.shown = prop.traced;
+  }
   eachSurface(props,
     [&](PropSurfaces& prop, SceneSurface& surface)
     {
       Instance& instance = surface.instance;
       const NeededLevels levels = building ? *next++ : NeededLevels();
-      if (!instance.octree)
+      if (!surface.bringsOctree)
       {
+        instance.octree = Octree();
         findOctree(surface, levels, store, options);
       }
-      if (!instance.octree)
-      {
-        surface.traceable = false;
-        surface.casts = false;
-      }
-      else
+      if (instance.octree)
       {
         instance.leafGeometry = static_cast<LeafGeometry>(instance.octree.header().leafGeometry);
       }
-      instance.castShadow = surface.casts;
-      prop.traced = prop.traced && surface.traceable;
+      prop.shown = prop.shown && surface.traceable && instance.octree;
     });
 }
 }
