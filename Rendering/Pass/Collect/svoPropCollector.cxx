@@ -287,6 +287,7 @@ void PropCollector::collectActor(
   {
     return;
   }
+  found.hasPlainMatrix = beyond == treatment.rasterized;
   if (!beyond && !flagOf(actor, owner, useSVOKey(), true))
   {
     beyond = "was told so";
@@ -346,6 +347,31 @@ void PropCollector::collect(PropSurfaces& found, const CollectProps& frame)
       found.leaveAlone("has parts that are no actors");
     }
   }
+}
+
+bool PropCollector::move(PropSurfaces& found, const CollectProps& frame)
+{
+  const glm::dmat4 localToWorld =
+    frame.world * toGlm(static_cast<vtkActor*>(found.prop)->GetMatrix());
+  // Others have had their treatment. Who has no surfaces has bounds, which have moved, too.
+  if (found.surfaces.empty() || !found.hasPlainMatrix || kindOf(localToWorld) != MatrixKind::Affine)
+  {
+    return false;
+  }
+  const double condition = frobeniusCondition(localToWorld);
+  for (const SceneSurface& surface : found.surfaces)
+  {
+    if (surface.copies && condition * surface.copies->condition > MaximumCondition)
+    {
+      return false;
+    }
+  }
+  for (SceneSurface& surface : found.surfaces)
+  {
+    surface.instance.localToWorld = localToWorld;
+  }
+  found.moved = true;
+  return true;
 }
 
 void PropCollector::sweep()

@@ -56,6 +56,10 @@ public:
   /// Fills in the surfaces of `found.prop`, without octrees. The prop can have some.
   void collect(PropSurfaces& found, const CollectProps& frame);
 
+  /// Of an actor that has moved since it was collected, and else is what it was, sets the matrices.
+  /// False if it has to be collected again: nothing has been done then.
+  static bool move(PropSurfaces& found, const CollectProps& frame);
+
   /// Forgets what no collected prop keeps any more.
   void sweep();
 

@@ -125,9 +125,19 @@ bool SceneCollector::collectProps(
       this->Found.push_back(other != others.end() ? std::move(other->second) : PropSurfaces());
     }
     PropSurfaces& known = this->Found[place++];
-    if (!all && known.prop && known.kept.inPlace() && known.state.holds(prop, updated))
+    if (!all && known.prop && known.kept.inPlace())
     {
-      continue;
+      const Held held = known.state.holds(prop, updated);
+      if (held == Held::Yes)
+      {
+        continue;
+      }
+      if (held == Held::Moved && PropCollector::move(known, frame))
+      {
+        known.state.noteMove(prop);
+        changed = true;
+        continue;
+      }
     }
     PropSurfaces found;
     found.prop = prop;

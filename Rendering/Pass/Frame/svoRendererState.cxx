@@ -78,6 +78,7 @@ void RendererState::beginFrame()
 {
   this->Statistics = PassStatistics();
   this->Collected.current = false;
+  this->InFrame = true;
   this->Picture.covered = PixelRect();
   this->Complaint.clear();
   this->SharesShadows = false;
@@ -237,18 +238,34 @@ void RendererState::finish()
   this->Statistics.presentTime = this->Presenter->GetPresentTime();
   this->Presenter->SetFrame(nullptr, nullptr, nullptr);
   this->Collected.current = false;
+  this->InFrame = false;
+  if (this->ForgetsScene)
+  {
+    this->forgetScene();
+  }
+}
+
+/// In a frame, whose observers may ask for it: as soon as that has ended.
+void RendererState::forgetScene()
+{
+  this->ForgetsScene = this->InFrame;
+  if (!this->InFrame)
+  {
+    this->Collector.forget();
+    this->Collected = CollectedScene();
+  }
 }
 
 void RendererState::releaseLayers()
 {
   this->Trace->releaseLayers();
-  this->Collector.forget();
-  this->Collected = CollectedScene();
+  this->forgetScene();
 }
 
 void RendererState::releaseGraphicsResources(vtkWindow* window)
 {
   this->Presenter->ReleaseGraphicsResources(window);
   this->Receivers.release();
+  this->forgetScene(); // who releases these does not draw soon
 }
 }

@@ -142,6 +142,7 @@ private:
   /// Of the renderer's camera; without pixels if there is none to be had.
   View aim(int width, int height, double distance) const;
   std::string lostShadows(const FrameSettings& settings) const;
+  void forgetScene();
 
   vtkWeakPointer<vtkRenderer> Renderer;
   SceneCollector Collector;
@@ -150,7 +151,9 @@ private:
   SampleDistance Distance;
   std::shared_ptr<WindowTime> Window; // of the window that it was measured in last
   std::unique_ptr<Tracer> Trace;
-  View Eye;                   // of the frame
+  View Eye; // of the frame
+  bool InFrame = false;
+  bool ForgetsScene = false;  // as soon as the frame has ended
   bool SharesShadows = false; // this frame's shadow buffers are those of all processes
   struct Frame Picture;
   ShadowReceivers Receivers;

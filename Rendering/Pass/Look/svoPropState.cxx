@@ -102,6 +102,15 @@ void update(vtkAlgorithm* algorithm, int port, vtkAlgorithm*& updated)
 }
 }
 
+/// What an actor has of its own that is no matrix.
+Numbers PropState::lookOf(vtkActor* actor)
+{
+  return { numberOf(actor->GetProperty()), timeOf(actor->GetProperty()),
+    numberOf(actor->GetBackfaceProperty()), timeOf(actor->GetBackfaceProperty()),
+    static_cast<std::uint64_t>(actor->GetForceOpaque()),
+    static_cast<std::uint64_t>(actor->GetForceTranslucent()) };
+}
+
 bool PropState::noteActor(vtkActor* actor, vtkProp* owner, Actor& state)
 {
   state.keys = actor->GetPropertyKeys();
@@ -114,6 +123,7 @@ bool PropState::noteActor(vtkActor* actor, vtkProp* owner, Actor& state)
   {
     return false;
   }
+  state.look = lookOf(actor);
   state.textures = texturesOf(actor);
   state.customShaders = hasCustomShaders(actor);
   if (!mapper)
@@ -173,38 +183,41 @@ bool PropState::holds(const Input& input, bool isStatic, vtkAlgorithm*& updated)
   return blocks == input.blocks;
 }
 
-bool PropState::holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& updated)
+Held PropState::holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& updated)
 {
   vtkInformation* keys = actor->GetPropertyKeys();
-  if (actor->GetMTime() != state.time || keys != state.keys || timeOf(keys) != state.timeOfKeys ||
-    hasTextures(actor) == state.textures.empty() ||
+  const bool sameTime = actor->GetMTime() == state.time;
+  if ((!sameTime && lookOf(actor) != state.look) || keys != state.keys ||
+    timeOf(keys) != state.timeOfKeys || hasTextures(actor) == state.textures.empty() ||
     (!state.textures.empty() && texturesOf(actor) != state.textures) ||
     hasCustomShaders(actor) != state.customShaders || actor->GetMapper() != state.mapper)
   {
-    return false;
+    return Held::No;
   }
+  const Held held = sameTime ? Held::Yes : Held::Moved;
   vtkMapper* mapper = state.mapper;
   if (!mapper)
   {
-    return true;
+    return held;
   }
   if (mapper->GetMTime() != state.timeOfMapper || selectedOf(mapper) != state.selected ||
     coincidentDepthOffset(mapper) != state.depthOffset ||
     (state.timeOfAttributes != 0 && timeOf(attributesOf(mapper)) != state.timeOfAttributes))
   {
-    return false;
+    return Held::No;
   }
   const bool isStatic = mapper->GetStatic() != 0;
   for (const Input& input : state.inputs)
   {
     if (!holds(input, isStatic, updated))
     {
-      return false;
+      return Held::No;
     }
   }
   // Who was told of an update may have changed what had been looked at.
-  return state.inputs.empty() || state.inputs.front().handsOn ||
+  const bool quiet = state.inputs.empty() || state.inputs.front().handsOn ||
     mapper->GetMTime() == state.timeOfMapper;
+  return quiet ? held : Held::No;
 }
 
 /// The leaves of an assembly that are seen, and where they are.
@@ -257,11 +270,16 @@ void PropState::note(vtkProp* prop)
   }
 }
 
-bool PropState::holds(vtkProp* prop, vtkAlgorithm*& updated) const
+void PropState::noteMove(vtkProp* actor)
+{
+  this->Actors.front().time = actor->GetMTime();
+}
+
+Held PropState::holds(vtkProp* prop, vtkAlgorithm*& updated) const
 {
   if (!this->Known)
   {
-    return false;
+    return Held::No;
   }
   if (this->IsActor)
   {
@@ -273,8 +291,8 @@ bool PropState::holds(vtkProp* prop, vtkAlgorithm*& updated) const
   bool same = parts == this->Parts && actors.size() == this->Actors.size();
   for (std::size_t i = 0; same && i < actors.size(); ++i)
   {
-    same = holds(actors[i], this->Actors[i], updated);
+    same = holds(actors[i], this->Actors[i], updated) == Held::Yes;
   }
-  return same;
+  return same ? Held::Yes : Held::No;
 }
 }

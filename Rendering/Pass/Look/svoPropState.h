@@ -14,6 +14,13 @@ class vtkProp;
 
 namespace svo
 {
+enum class Held
+{
+  No,
+  Moved, // an actor that is elsewhere, and else what it was
+  Yes
+};
+
 /// The addresses and times of an actor with its property, keys and textures, of its mapper with
 /// lookup table and attributes of blocks, of that one's inputs and sources, and the matrices of an
 /// assembly. Times are never given twice, so another object in an old one's place is noticed, too.
@@ -24,10 +31,13 @@ public:
   /// Notes a prop that was looked at just now: its pipelines are up to date.
   void note(vtkProp* prop);
 
-  /// False if the prop is not what it was when it was noted, or if that cannot be told, as of
-  /// classes that may draw anything. Brings its pipelines up to date; `updated` is the algorithm
-  /// that this was last done of in this frame.
-  bool holds(vtkProp* prop, vtkAlgorithm*& updated) const;
+  /// Whether the prop is what it was when it was noted. No if that cannot be told, as of classes
+  /// that may draw anything. Brings its pipelines up to date; `updated` is the algorithm that this
+  /// was last done of in this frame.
+  Held holds(vtkProp* prop, vtkAlgorithm*& updated) const;
+
+  /// Notes that an actor has moved.
+  void noteMove(vtkProp* actor);
 
 private:
   /// What a mapper reads.
@@ -44,6 +54,7 @@ private:
   {
     const void* keys = nullptr;
     std::uint64_t time = 0, timeOfKeys = 0;
+    std::vector<std::uint64_t> look; // all of it but place and visibility
     std::vector<std::uint64_t> textures;
     bool customShaders = false;
     vtkMapper* mapper = nullptr;
@@ -53,7 +64,8 @@ private:
     std::vector<Input> inputs;
   };
   static bool noteActor(vtkActor* actor, vtkProp* owner, Actor& state);
-  static bool holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& updated);
+  static std::vector<std::uint64_t> lookOf(vtkActor* actor);
+  static Held holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& updated);
   static bool holds(const Input& input, bool isStatic, vtkAlgorithm*& updated);
   static void noteParts(
     vtkProp* assembly, std::vector<std::uint64_t>& numbers, std::vector<vtkActor*>& actors);

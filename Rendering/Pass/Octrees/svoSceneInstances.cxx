@@ -66,14 +66,17 @@ void writeFrame(
 }
 
 /// What comes from the prop, and from the octree's own frame.
-void writeProp(const SceneSurface& surface, Instance* first)
+void writeProp(const SceneSurface& surface, bool onlyMatrices, Instance* first)
 {
   const Instance& from = surface.instance;
   const bool framed = from.octree && from.octree.hasFrame();
   const glm::dmat4 frame = framed ? from.octree.frame() : glm::dmat4(1.0);
   if (!surface.copies)
   {
-    *first = from;
+    if (!onlyMatrices)
+    {
+      *first = from;
+    }
     // To the tracer the octree's own frame is the object's.
     first->localToWorld = framed ? from.localToWorld * frame : from.localToWorld;
     return;
@@ -81,13 +84,16 @@ void writeProp(const SceneSurface& surface, Instance* first)
   for (const GlyphCopy& copy : surface.copies->copies)
   {
     Instance& one = *first++;
-    one = from;
+    if (!onlyMatrices)
+    {
+      one = from;
+      const glm::vec3 color = glm::vec3(copy.color[0], copy.color[1], copy.color[2]) / 255.0f;
+      one.material.ambientColor = color;
+      one.material.diffuseColor = color;
+      one.id = scatter(from.id + static_cast<std::uint64_t>(copy.point));
+    }
     one.localToWorld = from.localToWorld * glm::dmat4(copy.place);
     one.localToWorld = framed ? one.localToWorld * frame : one.localToWorld;
-    const glm::vec3 color = glm::vec3(copy.color[0], copy.color[1], copy.color[2]) / 255.0f;
-    one.material.ambientColor = color;
-    one.material.diffuseColor = color;
-    one.id = scatter(from.id + static_cast<std::uint64_t>(copy.point));
   }
 }
 }
@@ -116,9 +122,9 @@ void SceneInstances::write(
       // Another octree may have another frame.
       const bool whole = prop.fresh || surface.written.place != place || place + many > before ||
         (surface.bringsOctree && surface.written.octree != now.octree);
-      if (whole)
+      if (whole || prop.moved)
       {
-        writeProp(surface, instances.data() + place);
+        writeProp(surface, !whole, instances.data() + place);
       }
       if (whole || !(surface.written == now))
       {
@@ -128,6 +134,7 @@ void SceneInstances::write(
       place += many;
     }
     prop.fresh = false;
+    prop.moved = false;
   }
 }
 }

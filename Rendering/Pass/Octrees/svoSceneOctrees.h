@@ -69,6 +69,7 @@ struct PropSurfaces
   int actors = 0;
   bool traced = true;          // all that the prop shows can be traced
   bool receives = false;       // shadows fall on it
+  bool hasPlainMatrix = false; // of a single actor: it has not changed what is made of it
   Reason rasterized = nullptr; // why it is not traced
   Reason castsNone = nullptr;  // why something of it casts nothing
   Kept kept;
@@ -77,7 +78,8 @@ struct PropSurfaces
   std::array<double, 6> bounds{ 1, -1, 1, -1, 1, -1 }; // of what has no surfaces; VTK's world
 
   // Of a frame:
-  bool fresh = true;  // collected anew
+  bool fresh = true;  // collected anew: nothing of its instances has been written
+  bool moved = false; // their matrices have not
   bool shown = false; // all of it is traced, with octrees
 
   /// Leaves the prop to the rasteriser.
