@@ -96,6 +96,7 @@ bool SceneCollector::collectProps(
   const std::vector<vtkSmartPointer<vtkProp>>& props, const CollectProps& frame, bool all)
 {
   bool changed = all;
+  this->Anew = 0;
   bool reordered = false;
   std::unordered_map<vtkProp*, PropSurfaces> others; // of the last frame, from where that differs
   std::size_t place = 0;
@@ -139,6 +140,7 @@ bool SceneCollector::collectProps(
         continue;
       }
     }
+    ++this->Anew;
     PropSurfaces found;
     found.prop = prop;
     this->Props.collect(found, frame);

@@ -69,6 +69,9 @@ public:
   /// messages.
   PropSurfaces judge(vtkProp* prop);
 
+  /// Props that the last frame had to look at anew, for tests.
+  int collectedAnew() const { return this->Anew; }
+
   /// Frees what is kept for the next frame. What was collected must not be used any more.
   void forget();
 
@@ -90,6 +93,7 @@ private:
   StoreOptions Options;
   std::uint64_t StoreVersion = 0;
   bool Complete = false; // all surfaces have octrees
+  int Anew = 0;
 };
 }
 

@@ -220,10 +220,10 @@ Held PropState::holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& update
   return quiet ? held : Held::No;
 }
 
-/// The leaves of an assembly that are seen, and where they are.
+/// The leaves of an assembly that are seen, and where they are. Its own time, and theirs, say
+/// nothing: VTK modifies the leaves when it draws them.
 void PropState::noteParts(vtkProp* assembly, Numbers& numbers, std::vector<vtkActor*>& actors)
 {
-  numbers.push_back(assembly->GetMTime());
   numbers.push_back(numberOf(assembly->GetPropertyKeys()));
   numbers.push_back(timeOf(assembly->GetPropertyKeys()));
   assembly->InitPathTraversal();
@@ -291,7 +291,7 @@ Held PropState::holds(vtkProp* prop, vtkAlgorithm*& updated) const
   bool same = parts == this->Parts && actors.size() == this->Actors.size();
   for (std::size_t i = 0; same && i < actors.size(); ++i)
   {
-    same = holds(actors[i], this->Actors[i], updated) == Held::Yes;
+    same = holds(actors[i], this->Actors[i], updated) != Held::No;
   }
   return same ? Held::Yes : Held::No;
 }
