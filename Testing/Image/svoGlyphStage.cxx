@@ -2,9 +2,11 @@
 
 #include "vtkAppendPolyData.h"
 #include "vtkBitArray.h"
+#include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyDataNormals.h"
@@ -27,6 +29,30 @@ vtkSmartPointer<Array> add(vtkPolyData* mesh, const char* name, int components)
   array->SetNumberOfTuples(mesh->GetNumberOfPoints());
   mesh->GetPointData()->AddArray(array);
   return array;
+}
+
+/// Half of the points in a block, the others in a tree below.
+vtkSmartPointer<vtkMultiBlockDataSet> pointTree(vtkPolyData* points)
+{
+  const auto part = [&](int first)
+  {
+    auto mesh = vtkSmartPointer<vtkPolyData>::New();
+    vtkNew<vtkPoints> places;
+    mesh->GetPointData()->CopyAllocate(points->GetPointData());
+    for (vtkIdType i = first; i < points->GetNumberOfPoints(); i += 2)
+    {
+      mesh->GetPointData()->CopyData(
+        points->GetPointData(), i, places->InsertNextPoint(points->GetPoint(i)));
+    }
+    mesh->SetPoints(places);
+    return mesh;
+  };
+  vtkNew<vtkMultiBlockDataSet> inner;
+  inner->SetBlock(1, part(1));
+  auto tree = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  tree->SetBlock(0, part(0));
+  tree->SetBlock(3, inner);
+  return tree;
 }
 }
 
@@ -95,5 +121,36 @@ GlyphStage::GlyphStage(int width, int height)
   this->actor->SetMapper(this->mapper);
   this->actor->GetProperty()->SetColor(0.9, 0.7, 0.5);
   this->renderer->AddActor(this->actor);
+}
+
+void scaleBy(GlyphStage& stage, const char* array, bool components)
+{
+  stage.mapper->SetScaleArray(array);
+  stage.mapper->SetScaleMode(
+    components ? vtkGlyph3DMapper::SCALE_BY_COMPONENTS : vtkGlyph3DMapper::SCALE_BY_MAGNITUDE);
+}
+
+void orientBy(GlyphStage& stage, const char* array, int mode)
+{
+  stage.mapper->OrientOn();
+  stage.mapper->SetOrientationArray(array);
+  stage.mapper->SetOrientationMode(mode);
+}
+
+void colorBy(GlyphStage& stage, const char* array, int mode)
+{
+  stage.mapper->ScalarVisibilityOn();
+  stage.mapper->SetScalarModeToUsePointFieldData();
+  stage.mapper->SelectColorArray(array);
+  stage.mapper->SetColorMode(mode);
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> useTree(GlyphStage& stage)
+{
+  const auto tree = pointTree(stage.points);
+  stage.mapper->SetInputDataObject(tree);
+  vtkNew<vtkCompositeDataDisplayAttributes> attributes;
+  stage.mapper->SetBlockAttributes(attributes);
+  return tree;
 }
 }

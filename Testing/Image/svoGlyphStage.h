@@ -5,6 +5,7 @@
 #include "svoTestStage.h"
 
 #include "vtkGlyph3DMapper.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkPolyData.h"
 
 namespace svotest
@@ -28,6 +29,14 @@ public:
   vtkNew<vtkActor> actor;
   vtkSmartPointer<vtkPolyData> points = glyphPoints();
 };
+
+// Settings of the mapper, by names of arrays.
+void scaleBy(GlyphStage& stage, const char* array, bool components);
+void orientBy(GlyphStage& stage, const char* array, int mode);
+void colorBy(GlyphStage& stage, const char* array, int mode);
+
+/// Half of the points in a block, the others in a tree below.
+vtkSmartPointer<vtkMultiBlockDataSet> useTree(GlyphStage& stage);
 }
 
 #endif
