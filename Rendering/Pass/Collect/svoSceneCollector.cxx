@@ -252,8 +252,9 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   {
     result.scene.instances.resize(result.own); // without those of other processes
   }
+  const bool sameOptions = sameStore(options, this->Options);
   const bool same = !changed && !otherLights && this->Complete &&
-    sameLevels(settings.levels, this->Levels) && sameStore(options, this->Options) &&
+    sameLevels(settings.levels, this->Levels) && sameOptions &&
     store.version() == this->StoreVersion && store.building() == 0;
   if (same && this->Lent)
   {
@@ -265,7 +266,8 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
     this->Instances.swap(result.scene.instances);
     this->Lent = false;
   }
-  findOctrees(this->Found, result.scene.lights, settings.levels, store, options, this->Instances);
+  findOctrees(this->Found, result.scene.lights, settings.levels, store, options, sameOptions,
+    this->Instances);
   giveWay(this->Found);
   this->assemble(result);
   result.current = true;

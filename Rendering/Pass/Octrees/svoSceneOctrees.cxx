@@ -21,15 +21,22 @@ void eachSurface(std::vector<PropSurfaces>& props, const Visit& visit)
   }
 }
 
-/// What the surface brings, else what is known without an octree.
-void findAttached(SceneSurface& surface, OctreeStore& store, const StoreOptions& options)
+/// What the surface brings, else what is known without an octree. `known`: that was asked in the
+/// last frame, with the same answer.
+void findAttached(
+  SceneSurface& surface, bool known, OctreeStore& store, const StoreOptions& options)
 {
   Instance& instance = surface.instance;
-  surface.bringsOctree = store.attached(surface.mesh, options, instance.octree);
   instance.casterOctree = Octree();
   instance.leafGeometry = LeafGeometry::Automatic;
   instance.neededLevel = 0;
   instance.givesWay = 0;
+  if (known)
+  {
+    instance.octree = surface.bringsOctree ? instance.octree : Octree();
+    return;
+  }
+  surface.bringsOctree = store.attached(surface.mesh, options, instance.octree);
   if (!surface.bringsOctree)
   {
     store.measure(surface.mesh, options, instance);
@@ -110,14 +117,14 @@ void addReceiver(const PropSurfaces& prop, bool shown, Scene& scene)
 }
 
 void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lights,
-  const LevelSettings& settings, OctreeStore& store, const StoreOptions& options,
+  const LevelSettings& settings, OctreeStore& store, const StoreOptions& options, bool sameOptions,
   std::vector<Instance>& instances)
 {
   bool building = false;
   eachSurface(props,
-    [&](const PropSurfaces&, SceneSurface& surface)
+    [&](const PropSurfaces& prop, SceneSurface& surface)
     {
-      findAttached(surface, store, options);
+      findAttached(surface, sameOptions && !prop.fresh, store, options);
       building = building || (!surface.bringsOctree && options.convert);
     });
   std::vector<NeededLevels> needed;

@@ -116,8 +116,9 @@ void addReceiver(const PropSurfaces& prop, bool shown, Scene& scene);
 /// Gives each surface its octrees: those that it brings, or from the store those that the frame
 /// needs (Tracer::neededLevels()). Where the store has none, the surface is neither traced nor
 /// casts. `instances` are those of the last frame's surfaces; they become this one's.
+/// `sameOptions`: those of the last frame.
 void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lights,
-  const LevelSettings& settings, OctreeStore& store, const StoreOptions& options,
+  const LevelSettings& settings, OctreeStore& store, const StoreOptions& options, bool sameOptions,
   std::vector<Instance>& instances);
 }
 
