@@ -352,7 +352,7 @@ void PropCollector::collect(PropSurfaces& found, const CollectProps& frame)
 bool PropCollector::move(PropSurfaces& found, const CollectProps& frame)
 {
   const glm::dmat4 localToWorld =
-    frame.world * toGlm(static_cast<vtkActor*>(found.prop)->GetMatrix());
+    frame.world * toGlm(vtkActor::SafeDownCast(found.prop)->GetMatrix());
   // Others have had their treatment. Who has no surfaces has bounds, which have moved, too.
   if (found.surfaces.empty() || !found.hasPlainMatrix || kindOf(localToWorld) != MatrixKind::Affine)
   {

@@ -118,7 +118,8 @@ bool SceneCollector::collectProps(
         reordered = changed = true;
         for (std::size_t i = place; i < this->Found.size(); ++i)
         {
-          others.emplace(this->Found[i].prop, std::move(this->Found[i]));
+          vtkProp* former = this->Found[i].prop;
+          others.emplace(former, std::move(this->Found[i]));
         }
         this->Found.resize(place);
       }

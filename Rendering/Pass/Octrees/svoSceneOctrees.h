@@ -14,6 +14,7 @@
 #include "vtkPolyData.h"
 #include "vtkProp.h"
 #include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <array>
@@ -63,7 +64,7 @@ struct SceneSurface
 /// The surfaces of a prop, and how they are shown.
 struct PropSurfaces
 {
-  vtkProp* prop = nullptr;
+  vtkWeakPointer<vtkProp> prop;       // another one may come into its place
   glm::dmat4 world{ 1.0 };            // from VTK's world to the scene's; see sceneTransform()
   std::vector<SceneSurface> surfaces; // those that are traceable or cast
   int actors = 0;

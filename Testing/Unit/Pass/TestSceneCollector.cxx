@@ -520,3 +520,28 @@ TEST_F(Kept, AMovedActorOfGlyphsComputesNoCopies)
   }
   EXPECT_EQ(moved, 5);
 }
+
+/// The allocator gives a place at once to what asks for as much next.
+TEST_F(Kept, AnotherPropInTheSamePlaceIsAnotherProp)
+{
+  collect(collector, scene);
+  for (int i = 0; i < 20; ++i)
+  {
+    renderer->RemoveAllViewProps();
+    vtkSmartPointer<vtkProp> one;
+    if (i % 2 == 0)
+    {
+      auto ball = vtkSmartPointer<vtkActor>::New();
+      ball->SetMapper(smoothMapper);
+      one = ball;
+    }
+    else
+    {
+      one = vtkSmartPointer<vtkAssembly>::New();
+    }
+    renderer->AddViewProp(one);
+    one = nullptr;
+    collect(collector, scene);
+    EXPECT_EQ(scene.scene.instances.size(), i % 2 == 0 ? 1u : 0u);
+  }
+}
