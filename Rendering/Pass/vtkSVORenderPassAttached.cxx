@@ -131,7 +131,7 @@ vtkMultiProcessController* vtkSVORenderPass::GetController() const
 bool vtkSVORenderPass::IsTraced(vtkProp* prop) const
 {
   const svo::RendererState* current = this->Impl->current();
-  return current && current->collected().replaced.count(prop) > 0;
+  return current && current->collected().current && current->collected().replaced.count(prop) > 0;
 }
 
 std::string vtkSVORenderPass::GetReasonInLastFrame(vtkProp* prop) const

@@ -63,7 +63,12 @@ bool vtkSVORenderPass::GetCastShadow(vtkProp* prop)
 
 std::string vtkSVORenderPass::GetReason(vtkProp* prop)
 {
-  return prop ? svo::SceneCollector().judge(prop).reasons() : std::string();
+  if (!prop)
+  {
+    return {};
+  }
+  const svo::PropSurfaces judged = svo::SceneCollector().judge(prop);
+  return svo::reasons(judged.rasterized, judged.castsNone, judged.casts());
 }
 
 void vtkSVORenderPass::SetCastShadow(bool cast, vtkLight* light)

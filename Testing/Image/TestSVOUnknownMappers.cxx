@@ -7,8 +7,9 @@
 #include "vtkCompositePolyDataMapper.h"
 #include "vtkElevationFilter.h"
 #include "vtkFollower.h"
-#include "vtkGlyph3DMapper.h"
 #include "vtkMultiBlockDataSet.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLPolyDataMapper.h"
 #include "vtkOpenGLSphereMapper.h"
 #include "vtkPointGaussianMapper.h"
 #include "vtkPolyData.h"
@@ -25,6 +26,15 @@
 namespace
 {
 using namespace svotest;
+
+/// May draw anything.
+class StrangeMapper : public vtkOpenGLPolyDataMapper
+{
+public:
+  static StrangeMapper* New();
+  vtkTypeMacro(StrangeMapper, vtkOpenGLPolyDataMapper);
+};
+vtkStandardNewMacro(StrangeMapper);
 
 vtkSmartPointer<vtkMultiBlockDataSet> coloredBlocks()
 {
@@ -77,17 +87,15 @@ vtkSmartPointer<vtkActor> actorOf(vtkMapper* mapper)
 void expectNames(Checks& checks)
 {
   const auto points = ball(0.5, 0.0, 0.0, 1.0);
-  const auto shape = box(0.1, 0.0, 0.0, 0.0);
-  vtkNew<vtkGlyph3DMapper> glyphs;
-  glyphs->SetInputConnection(points->GetOutputPort());
-  glyphs->SetSourceConnection(shape->GetOutputPort());
   vtkNew<vtkOpenGLSphereMapper> spheres;
   spheres->SetInputConnection(points->GetOutputPort());
   spheres->SetRadius(0.1f);
+  vtkNew<StrangeMapper> strange;
+  strange->SetInputConnection(points->GetOutputPort());
   vtkNew<vtkPointGaussianMapper> splats;
   splats->SetInputConnection(points->GetOutputPort());
   vtkNew<vtkFollower> follower;
-  follower->SetMapper(glyphs);
+  follower->SetMapper(spheres);
 
   Stage stage;
   stage.addGround();
@@ -101,38 +109,38 @@ void expectNames(Checks& checks)
   };
   stage.renderer->AddActor(actorOf(splats));
   stage.renderer->AddActor(follower);
-  const auto quiet = actorOf(glyphs);
+  const auto quiet = actorOf(spheres);
   vtkSVORenderPass::SetCastShadow(false, quiet);
-  const auto hidden = actorOf(glyphs);
+  const auto hidden = actorOf(spheres);
   hidden->VisibilityOff();
-  const auto glass = actorOf(glyphs);
+  const auto glass = actorOf(spheres);
   glass->GetProperty()->SetOpacity(0.5);
-  const auto wires = actorOf(glyphs);
+  const auto wires = actorOf(spheres);
   wires->GetProperty()->SetRepresentationToWireframe();
   for (const auto& actor : { quiet, hidden, glass, wires })
   {
     stage.renderer->AddActor(actor);
   }
   expect(0, "nobody misses a shadow of these");
-  stage.renderer->AddActor(actorOf(glyphs));
+  stage.renderer->AddActor(actorOf(spheres));
   stage.pass->SetShadowTechniqueToNone();
   expect(0, "without shadows none is missed");
   stage.pass->SetShadowTechniqueToShadowBuffer();
   vtkSVORenderPass::SetCastShadow(false, sun);
   expect(0, "nor is one while no light casts");
   vtkSVORenderPass::SetCastShadow(true, sun);
-  stage.renderer->AddActor(actorOf(glyphs));
+  stage.renderer->AddActor(actorOf(spheres));
   expect(1, "a class is named once, not for each actor");
   checks.expect(
-    messages.all().find(glyphs->GetClassName()) != std::string::npos, "it is named indeed");
-  stage.renderer->AddActor(actorOf(spheres));
+    messages.all().find(spheres->GetClassName()) != std::string::npos, "it is named indeed");
+  stage.renderer->AddActor(actorOf(strange));
   expect(2, "another class is another message");
   expect(2, "nor is it named in every frame");
 
   Stage other(stage, 0.5, 0.5, 1.0, 1.0);
   other.addGround();
   other.addSun(2.0, -1.5, 4.0);
-  other.renderer->AddActor(actorOf(glyphs));
+  other.renderer->AddActor(actorOf(spheres));
   other.renderer->SetPass(stage.pass);
   expect(2, "nor for each renderer");
 }

@@ -5,6 +5,7 @@
 #include "svoInverse.h"
 
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -34,6 +35,17 @@ inline double frobeniusNorm(const glm::dmat3& m)
   return std::sqrt(sum);
 }
 
+/// Condition number of the linear part, in the Frobenius norm; infinite or NaN where there is no
+/// inverse. That of a product is at most the product of both.
+inline double frobeniusCondition(const glm::dmat4& m)
+{
+  // Scaled first: neither tiny nor huge worlds are singular.
+  const glm::dmat3 linear(m);
+  const double scale = frobeniusNorm(linear);
+  return scale > 0.0 ? frobeniusNorm(stableInverse(linear / scale))
+                     : std::numeric_limits<double>::infinity();
+}
+
 inline MatrixKind kindOf(const glm::dmat4& m)
 {
   for (int i = 0; i < 16; ++i)
@@ -49,15 +61,7 @@ inline MatrixKind kindOf(const glm::dmat4& m)
       ? MatrixKind::Nowhere
       : MatrixKind::Projective;
   }
-  // Scaled first: neither tiny nor huge worlds are singular.
-  const glm::dmat3 linear(m);
-  const double scale = frobeniusNorm(linear);
-  if (!(scale > 0.0))
-  {
-    return MatrixKind::Flat;
-  }
-  const double condition = frobeniusNorm(stableInverse(linear / scale));
-  return condition <= MaximumCondition ? MatrixKind::Affine : MatrixKind::Flat;
+  return frobeniusCondition(m) <= MaximumCondition ? MatrixKind::Affine : MatrixKind::Flat;
 }
 
 /// A flat matrix with a thickness of a millionth, so that the sheet can be traced by lights. False

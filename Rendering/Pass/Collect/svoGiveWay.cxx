@@ -67,7 +67,7 @@ void giveWay(std::vector<PropSurfaces>& props)
   {
     vtkProp* prop = props[i].prop;
     Drawn one{ i, false, {} };
-    if (!props[i].traced && hasSurfaces(prop) && hasBounds(prop, one.bounds))
+    if (!props[i].shown && hasSurfaces(prop) && hasBounds(prop, one.bounds))
     {
       one.last = prop->HasTranslucentPolygonalGeometry() != 0;
       drawn.push_back(one);
@@ -80,7 +80,7 @@ void giveWay(std::vector<PropSurfaces>& props)
   for (std::size_t i = 0; i < props.size(); ++i)
   {
     double bounds[6];
-    if (!props[i].traced || !hasBounds(props[i].prop, bounds))
+    if (!props[i].shown || !hasBounds(props[i].prop, bounds))
     {
       continue;
     }

@@ -2,30 +2,22 @@
 #ifndef svoSceneCollector_h
 #define svoSceneCollector_h
 
-#include "svoCompositeBlocks.h"
-#include "svoDataSetSurfaces.h"
-#include "svoFloatArrays.h"
 #include "svoOctreeStore.h"
-#include "svoOpaqueCells.h"
+#include "svoPropCollector.h"
 #include "svoScene.h"
 #include "svoSceneLights.h"
 #include "svoSceneOctrees.h"
-#include "svoSurfaceLook.h"
 
 #include "vtkProp.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
-#include <map>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-class vtkActor;
-class vtkMatrix4x4;
-class vtkObject;
-class vtkObjectBase;
 class vtkPolyData;
 class vtkRenderer;
 
@@ -35,8 +27,7 @@ namespace svo
 struct CollectSettings
 {
   bool shadows = true; // casters are wanted
-  /// Only props that say explicitly that they use octrees (vtkSVORenderPass::SetUseSVO) are traced.
-  /// The others only receive, or cast as well; about them there are no messages.
+  /// See CollectProps.
   bool onlyMarked = false;
   bool unmarkedCast = false;
   Reason notMarked = "was not chosen with SetUseSVO";
@@ -53,7 +44,9 @@ struct CollectSettings
 struct CollectedScene
 {
   Scene scene;
-  std::vector<vtkSmartPointer<vtkPolyData>> meshes; // of the scene's instances, by index
+  bool current = false; // of this frame; what is kept of an earlier one is not to be used
+  std::size_t own = 0;  // number of instances that come from this renderer
+  std::vector<vtkPolyData*> meshes; // of the scene's own instances, by index
   /// Props that the rasteriser must leave alone: every surface of theirs is traced, or must not be
   /// shown.
   std::set<vtkProp*> replaced;
@@ -65,15 +58,16 @@ struct CollectedScene
   std::string lightsText;
   /// With `onlyMarked`: why marked props are not traced, and what casts nothing. Others are not in.
   std::vector<std::pair<vtkWeakPointer<vtkProp>, std::string>> reasons;
-  /// Owners of the arrays that the scene points into.
-  std::vector<vtkSmartPointer<vtkObjectBase>> kept;
 };
 
-/// Collects frame after frame from one renderer. Casters outside of the picture are in.
+/// Collects frame after frame from one renderer. Casters outside of the picture are in. Whatever is
+/// as it was in the last frame is neither collected nor written again: props (svoPropState.h),
+/// octrees, and the scene's instances.
 class SceneCollector
 {
 public:
-  /// Octrees come from `store`; messages go to `options.complain`, each once.
+  /// Octrees come from `store`; messages go to `options.complain`, each once. `result` is what the
+  /// last call has made, or new after forget().
   void collect(vtkRenderer* renderer, OctreeStore& store, const StoreOptions& options,
     const CollectSettings& settings, CollectedScene& result);
 
@@ -81,22 +75,34 @@ public:
   /// messages.
   PropSurfaces judge(vtkProp* prop);
 
-private:
-  struct Frame;
-  bool collectProp(PropSurfaces& found, Frame& frame);
-  void collectActor(vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, Frame& frame);
-  std::vector<SurfacePart> partsOf(vtkActor* actor);
-  vtkPolyData* casterOf(const SurfacePart& part, OpaqueCells::Answer opaque, vtkActor* actor,
-    PropSurfaces& found, const Frame& frame);
-  void complainOnce(vtkObject* about, const std::string& text, const Frame& frame);
+  /// Props that the last frame had to look at anew, for tests.
+  int collectedAnew() const { return this->Anew; }
 
-  CompositeBlocks Blocks;
-  DataSetSurfaces Surfaces;
-  OpaqueCells Opaque;
-  FloatArrays Floats;
-  LeafMeshes Leaves;
-  std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>>
-    GivenMessages; // by object
+  /// Frees what is kept for the next frame. What was collected must not be used any more.
+  void forget();
+
+private:
+  bool collectProps(
+    const std::vector<vtkSmartPointer<vtkProp>>& props, const CollectProps& frame, bool all);
+  void assemble(CollectedScene& result);
+  void explain(
+    const CollectSettings& settings, const StoreOptions& options, CollectedScene& result) const;
+
+  PropCollector Props;
+  std::vector<PropSurfaces> Found; // of the last frame's visible props, in their order
+  /// Of all surfaces of those props; where all are in the scene they are lent to it.
+  std::vector<Instance> Instances;
+  bool Lent = false;
+  // The rest of what they depend on.
+  bool Collected = false;
+  bool Shadows = false, Lights = false, OnlyMarked = false, UnmarkedCast = false;
+  Reason NotMarked = nullptr;
+  glm::dmat4 World{ 1.0 };
+  LevelSettings Levels;
+  StoreOptions Options;
+  std::uint64_t StoreVersion = 0;
+  bool Complete = false; // all surfaces have octrees
+  int Anew = 0;
 };
 }
 

@@ -112,7 +112,6 @@ void SharedCasters::exchange(
       instance.receiveShadow = false;
       instance.id = record.id ^ (0x9e3779b97f4a7c15ull * (owner + 1));
       collected.scene.instances.push_back(instance);
-      collected.meshes.push_back(known.mesh);
     }
   }
   this->forget(memoryLimit);

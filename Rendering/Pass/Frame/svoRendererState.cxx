@@ -77,7 +77,8 @@ void RendererState::measured(double seconds, double fixed, double shadows)
 void RendererState::beginFrame()
 {
   this->Statistics = PassStatistics();
-  this->Collected = CollectedScene();
+  this->Collected.current = false;
+  this->InFrame = true;
   this->Picture.covered = PixelRect();
   this->Complaint.clear();
   this->SharesShadows = false;
@@ -87,7 +88,6 @@ void RendererState::collect(
   OctreeStore& store, const StoreOptions& options, CollectSettings settings)
 {
   settings.levels.tracer = this->Trace.get();
-  this->Collected = CollectedScene();
   const double start = vtkTimerLog::GetUniversalTime();
   const int built = store.built();
   this->Collector.collect(this->Renderer, store, options, settings, this->Collected);
@@ -238,12 +238,35 @@ void RendererState::finish()
 {
   this->Statistics.presentTime = this->Presenter->GetPresentTime();
   this->Presenter->SetFrame(nullptr, nullptr, nullptr);
-  this->Collected = CollectedScene();
+  this->Collected.current = false;
+  this->InFrame = false;
+  if (this->ForgetsScene)
+  {
+    this->forgetScene();
+  }
+}
+
+/// In a frame, whose observers may ask for it: as soon as that has ended.
+void RendererState::forgetScene()
+{
+  this->ForgetsScene = this->InFrame;
+  if (!this->InFrame)
+  {
+    this->Collector.forget();
+    this->Collected = CollectedScene();
+  }
+}
+
+void RendererState::releaseLayers()
+{
+  this->Trace->releaseLayers();
+  this->forgetScene();
 }
 
 void RendererState::releaseGraphicsResources(vtkWindow* window)
 {
   this->Presenter->ReleaseGraphicsResources(window);
   this->Receivers.release();
+  this->forgetScene(); // who releases these does not draw soon
 }
 }

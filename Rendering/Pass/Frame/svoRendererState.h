@@ -92,7 +92,8 @@ public:
   /// True if there is anything to trace, here or, with shadows to be seen here, elsewhere.
   bool hasSomething() const
   {
-    return !this->Collected.scene.instances.empty() || this->SharesShadows;
+    return (this->Collected.current && !this->Collected.scene.instances.empty()) ||
+      this->SharesShadows;
   }
 
   /// Before tracing: the presenter is to write what outer passes expect of the props that it
@@ -123,10 +124,10 @@ public:
   /// Has the presenter, which is in the renderer's own list, show what was traced.
   void present(vtkOpenGLRenderPass* pass);
 
-  /// Frees the depth layers that are kept for the next frame.
-  void releaseLayers() { this->Trace->releaseLayers(); }
+  /// Between frames: frees the depth layers and the scene that are kept for the next frame.
+  void releaseLayers();
 
-  /// To be called when the frame has been drawn: lets go of the borrowed scene.
+  /// To be called when the frame has been drawn: nothing is traced any more.
   void finish();
 
   /// A message about the traced frame; empty if all is well.
@@ -141,6 +142,7 @@ private:
   /// Of the renderer's camera; without pixels if there is none to be had.
   View aim(int width, int height, double distance) const;
   std::string lostShadows(const FrameSettings& settings) const;
+  void forgetScene();
 
   vtkWeakPointer<vtkRenderer> Renderer;
   SceneCollector Collector;
@@ -149,7 +151,9 @@ private:
   SampleDistance Distance;
   std::shared_ptr<WindowTime> Window; // of the window that it was measured in last
   std::unique_ptr<Tracer> Trace;
-  View Eye;                   // of the frame
+  View Eye; // of the frame
+  bool InFrame = false;
+  bool ForgetsScene = false;  // as soon as the frame has ended
   bool SharesShadows = false; // this frame's shadow buffers are those of all processes
   struct Frame Picture;
   ShadowReceivers Receivers;

@@ -4,6 +4,7 @@
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeRange.h"
+#include "vtkGlyph3DMapper.h"
 #include "vtkLookupTable.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
@@ -33,13 +34,6 @@ using AttributedMapper = vtkCompositePolyDataMapper2;
 constexpr const char* CompositeMappers[] = { "vtkCompositePolyDataMapper2",
   "vtkCompositePolyDataMapper", "vtkHierarchicalPolyDataMapper" };
 #endif
-
-/// What a mapper says of single blocks; nullptr if it says nothing.
-vtkCompositeDataDisplayAttributes* attributesOf(vtkMapper* mapper)
-{
-  auto* attributed = AttributedMapper::SafeDownCast(mapper);
-  return attributed ? attributed->GetCompositeDataDisplayAttributes() : nullptr;
-}
 
 /// The block, else the nearest tree around it, that has a value of its own; nullptr if none has.
 template <typename Has>
@@ -153,6 +147,16 @@ void overrideColor(const Color& color, SurfacePart& part)
 }
 }
 
+vtkCompositeDataDisplayAttributes* attributesOf(vtkMapper* mapper)
+{
+  if (auto* attributed = AttributedMapper::SafeDownCast(mapper))
+  {
+    return attributed->GetCompositeDataDisplayAttributes();
+  }
+  auto* glyphs = vtkGlyph3DMapper::SafeDownCast(mapper);
+  return glyphs ? glyphs->GetBlockAttributes() : nullptr;
+}
+
 bool isCompositeMapper(vtkMapper* mapper)
 {
   const std::string name = mapper->GetClassName();
@@ -160,10 +164,9 @@ bool isCompositeMapper(vtkMapper* mapper)
     std::end(CompositeMappers);
 }
 
-vtkPolyDataMapper* CompositeBlocks::colorsOf(vtkMapper* mapper, const Path& path)
+vtkPolyDataMapper* CompositeBlocks::colorsOf(vtkMapper* mapper, const Path& path, Kept& kept)
 {
-  Colors& colors = this->Blocks[{ mapper, path.back() }];
-  colors.used = true;
+  Colors& colors = this->Blocks.of({ mapper, path.back() }, kept);
   if (!colors.mapper)
   {
     colors.mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
@@ -184,12 +187,12 @@ vtkPolyDataMapper* CompositeBlocks::colorsOf(vtkMapper* mapper, const Path& path
   return colors.mapper;
 }
 
-SurfacePart CompositeBlocks::partOf(vtkMapper* mapper, const Path& path, double opacity)
+SurfacePart CompositeBlocks::partOf(vtkMapper* mapper, const Path& path, double opacity, Kept& kept)
 {
   SurfacePart part;
   part.mesh = vtkPolyData::SafeDownCast(path.back());
   part.opacity = opacity;
-  vtkPolyDataMapper* colors = this->colorsOf(mapper, path);
+  vtkPolyDataMapper* colors = this->colorsOf(mapper, path, kept);
   part.colors = colors;
   const bool hasScalars = scalarsOf(colors, part.mesh) != nullptr;
   if (auto* own = attributesOf(mapper))
@@ -218,7 +221,7 @@ SurfacePart CompositeBlocks::partOf(vtkMapper* mapper, const Path& path, double 
 }
 
 void CompositeBlocks::visit(vtkMapper* mapper, Path& path, unsigned int& flatIndex, double opacity,
-  std::vector<SurfacePart>& parts)
+  std::vector<SurfacePart>& parts, Kept& kept)
 {
   const unsigned int index = flatIndex++;
   if (auto* tree = vtkDataObjectTree::SafeDownCast(path.back()))
@@ -231,7 +234,7 @@ void CompositeBlocks::visit(vtkMapper* mapper, Path& path, unsigned int& flatInd
         continue;
       }
       path.push_back(child);
-      this->visit(mapper, path, flatIndex, opacity, parts);
+      this->visit(mapper, path, flatIndex, opacity, parts, kept);
       path.pop_back();
     }
   }
@@ -242,30 +245,21 @@ void CompositeBlocks::visit(vtkMapper* mapper, Path& path, unsigned int& flatInd
       own ? nearest(path, [&](vtkDataObject* o) { return own->HasBlockVisibility(o); }) : nullptr;
     if (!object || own->GetBlockVisibility(object))
     {
-      parts.push_back(this->partOf(mapper, path, opacity));
+      parts.push_back(this->partOf(mapper, path, opacity, kept));
       parts.back().block = index;
     }
   }
 }
 
-std::vector<SurfacePart> CompositeBlocks::partsOf(vtkMapper* mapper, double opacity)
+std::vector<SurfacePart> CompositeBlocks::partsOf(vtkMapper* mapper, double opacity, Kept& kept)
 {
   std::vector<SurfacePart> parts;
   if (vtkDataObject* root = mapper->GetInputDataObject(0, 0))
   {
     Path path{ root };
     unsigned int flatIndex = 0;
-    this->visit(mapper, path, flatIndex, opacity, parts);
+    this->visit(mapper, path, flatIndex, opacity, parts, kept);
   }
   return parts;
-}
-
-void CompositeBlocks::endFrame()
-{
-  for (auto block = this->Blocks.begin(); block != this->Blocks.end();)
-  {
-    const bool used = std::exchange(block->second.used, false);
-    block = used ? std::next(block) : this->Blocks.erase(block);
-  }
 }
 }

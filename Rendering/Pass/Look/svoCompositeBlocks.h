@@ -2,15 +2,16 @@
 #ifndef svoCompositeBlocks_h
 #define svoCompositeBlocks_h
 
+#include "svoKept.h"
 #include "svoSurfaceLook.h"
 
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
-#include <map>
 #include <utility>
 #include <vector>
 
+class vtkCompositeDataDisplayAttributes;
 class vtkDataObject;
 class vtkMapper;
 class vtkPolyDataMapper;
@@ -20,33 +21,35 @@ namespace svo
 /// Whether a mapper is of a class that draws the blocks of a tree by known rules.
 bool isCompositeMapper(vtkMapper* mapper);
 
+/// What a mapper, composite or of glyphs, says of single blocks; null if it says nothing.
+vtkCompositeDataDisplayAttributes* attributesOf(vtkMapper* mapper);
+
 /// A composite mapper has one set of colours, but blocks need theirs at the same time: each gets a
-/// mapper of its own, kept from frame to frame.
+/// mapper of its own, for as long as somebody keeps it.
 class CompositeBlocks
 {
 public:
   /// The mapper's visible blocks, in the order of their flat indices. `opacity` is the property's.
   /// Attributes are those of the block, else of the nearest tree around it that has some, else the
   /// mapper's (vtkCompositePolyDataMapper::BuildRenderValues).
-  std::vector<SurfacePart> partsOf(vtkMapper* mapper, double opacity);
+  std::vector<SurfacePart> partsOf(vtkMapper* mapper, double opacity, Kept& kept);
 
-  /// Drops entries that were not asked for since the last call.
-  void endFrame();
+  /// Drops what nobody keeps.
+  void sweep() { this->Blocks.sweep(); }
 
 private:
   using Path = std::vector<vtkDataObject*>; // from the root to a block
   void visit(vtkMapper* mapper, Path& path, unsigned int& flatIndex, double opacity,
-    std::vector<SurfacePart>& parts);
-  SurfacePart partOf(vtkMapper* mapper, const Path& path, double opacity);
-  vtkPolyDataMapper* colorsOf(vtkMapper* mapper, const Path& path);
+    std::vector<SurfacePart>& parts, Kept& kept);
+  SurfacePart partOf(vtkMapper* mapper, const Path& path, double opacity, Kept& kept);
+  vtkPolyDataMapper* colorsOf(vtkMapper* mapper, const Path& path, Kept& kept);
 
   struct Colors
   {
     vtkSmartPointer<vtkPolyDataMapper> mapper;
     std::uint64_t time = 0;
-    bool used = false;
   };
-  std::map<std::pair<vtkMapper*, vtkDataObject*>, Colors> Blocks;
+  KeptValues<std::pair<vtkMapper*, vtkDataObject*>, Colors> Blocks;
 };
 }
 

@@ -5,22 +5,19 @@
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 
-#include <iterator>
-
 namespace svo
 {
 DataSetSurfaces::DataSetSurfaces() = default;
 DataSetSurfaces::~DataSetSurfaces() = default;
 
-vtkPolyDataMapper* DataSetSurfaces::mapperOf(vtkDataSetMapper* mapper)
+vtkPolyDataMapper* DataSetSurfaces::mapperOf(vtkDataSetMapper* mapper, Kept& kept)
 {
   vtkDataSet* input = mapper->GetInput();
   if (!input)
   {
     return nullptr;
   }
-  Entry& entry = this->Entries[mapper];
-  entry.asked = true;
+  Entry& entry = this->Entries.of(mapper, kept);
   if (!entry.mapper)
   {
     entry.mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
@@ -40,15 +37,5 @@ vtkPolyDataMapper* DataSetSurfaces::mapperOf(vtkDataSetMapper* mapper)
   }
   entry.mapper->SetInputData(mesh);
   return entry.mapper;
-}
-
-void DataSetSurfaces::endFrame()
-{
-  for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
-  {
-    const bool asked = entry->second.asked;
-    entry->second.asked = false;
-    entry = asked ? std::next(entry) : this->Entries.erase(entry);
-  }
 }
 }

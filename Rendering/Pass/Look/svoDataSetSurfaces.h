@@ -2,10 +2,10 @@
 #ifndef svoDataSetSurfaces_h
 #define svoDataSetSurfaces_h
 
+#include "svoKept.h"
+
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
-
-#include <map>
 
 class vtkDataSetMapper;
 class vtkDataSetSurfaceFilter;
@@ -23,10 +23,10 @@ public:
 
   /// A mapper of the surface with the settings of the given one; its input is up to date. Null if
   /// there is no data set.
-  vtkPolyDataMapper* mapperOf(vtkDataSetMapper* mapper);
+  vtkPolyDataMapper* mapperOf(vtkDataSetMapper* mapper, Kept& kept);
 
-  /// Drops entries that were not asked for since the last call.
-  void endFrame();
+  /// Drops what nobody keeps.
+  void sweep() { this->Entries.sweep(); }
 
 private:
   struct Entry
@@ -34,9 +34,8 @@ private:
     vtkSmartPointer<vtkDataSetSurfaceFilter> filter;
     vtkSmartPointer<vtkPolyDataMapper> mapper;
     vtkMTimeType time = 0; // of the settings
-    bool asked = false;
   };
-  std::map<vtkDataSetMapper*, Entry> Entries;
+  KeptValues<vtkDataSetMapper*, Entry> Entries;
 };
 }
 

@@ -11,9 +11,7 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
-#include <iterator>
 #include <string>
-#include <utility>
 
 namespace svo
 {
@@ -51,7 +49,7 @@ vtkSmartPointer<vtkPolyData> meshOf(vtkPolyData* hull, vtkDataArray* values)
 }
 }
 
-vtkPolyData* LeafMeshes::of(vtkPolyData* hull, vtkMapper* mapper)
+vtkPolyData* LeafMeshes::of(vtkPolyData* hull, vtkMapper* mapper, Kept& kept)
 {
   const char* name = nameOfCellData(hull, mapper);
   vtkDataArray* values = name ? leafValues(hull, name) : nullptr;
@@ -59,8 +57,7 @@ vtkPolyData* LeafMeshes::of(vtkPolyData* hull, vtkMapper* mapper)
   {
     return nullptr;
   }
-  Entry& entry = this->Entries[values];
-  entry.asked = true;
+  Entry& entry = this->Entries.of(values, kept);
   // Times are never given twice, so a new hull in an old one's place is noticed, too.
   if (!entry.mesh || entry.time != hull->GetMTime())
   {
@@ -68,14 +65,5 @@ vtkPolyData* LeafMeshes::of(vtkPolyData* hull, vtkMapper* mapper)
     entry.mesh = meshOf(hull, values);
   }
   return entry.mesh;
-}
-
-void LeafMeshes::endFrame()
-{
-  for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
-  {
-    entry =
-      std::exchange(entry->second.asked, false) ? std::next(entry) : this->Entries.erase(entry);
-  }
 }
 }

@@ -3,10 +3,10 @@
 #ifndef svoLeafMeshes_h
 #define svoLeafMeshes_h
 
+#include "svoKept.h"
+
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
-
-#include <map>
 
 class vtkDataArray;
 class vtkMapper;
@@ -14,26 +14,25 @@ class vtkPolyData;
 
 namespace svo
 {
-/// Kept for as long as every frame asks for them: a mapper maps colours again only of a data set
+/// Kept for as long as somebody has them: a mapper maps colours again only of a data set
 /// that is new or has changed.
 class LeafMeshes
 {
 public:
   /// What has the values of leaves as cell data, in the place of the hull's of that name, where the
   /// mapper colours the hull by such; else nullptr.
-  vtkPolyData* of(vtkPolyData* hull, vtkMapper* mapper);
+  vtkPolyData* of(vtkPolyData* hull, vtkMapper* mapper, Kept& kept);
 
-  /// Drops entries that were not asked for since the last call.
-  void endFrame();
+  /// Drops what nobody keeps.
+  void sweep() { this->Entries.sweep(); }
 
 private:
   struct Entry
   {
     vtkSmartPointer<vtkPolyData> mesh;
     vtkMTimeType time = 0; // of the hull
-    bool asked = false;
   };
-  std::map<vtkDataArray*, Entry> Entries;
+  KeptValues<vtkDataArray*, Entry> Entries;
 };
 }
 

@@ -13,7 +13,6 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -192,7 +191,8 @@ OpaqueCells::Answer sort(
 }
 }
 
-OpaqueCells::Answer OpaqueCells::of(const SurfacePart& part, const Attributes& attributes)
+OpaqueCells::Answer OpaqueCells::of(
+  const SurfacePart& part, const Attributes& attributes, Kept& kept)
 {
   vtkPolyData* mesh = part.mesh;
   vtkMapper* colors = part.colors;
@@ -204,8 +204,7 @@ OpaqueCells::Answer OpaqueCells::of(const SurfacePart& part, const Attributes& a
   {
     return { mesh, false };
   }
-  Entry& entry = this->Entries[{ mesh, colors }];
-  entry.asked = true;
+  Entry& entry = this->Entries.of({ mesh, colors }, kept);
   // Times are never given twice, so a new object in an old one's place is noticed, too.
   const Times times{ mesh->GetMTime(), timeOf(colors->GetColorMapColors()),
     timeOf(colors->GetColorCoordinates()), timeOf(colors->GetColorTextureMap()) };
@@ -217,14 +216,5 @@ OpaqueCells::Answer OpaqueCells::of(const SurfacePart& part, const Attributes& a
       : sort(mesh, attributes, entry.made);
   }
   return entry.answer;
-}
-
-void OpaqueCells::endFrame()
-{
-  for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
-  {
-    const bool asked = std::exchange(entry->second.asked, false);
-    entry = asked ? std::next(entry) : this->Entries.erase(entry);
-  }
 }
 }

@@ -2,6 +2,7 @@
 #ifndef svoOpaqueCells_h
 #define svoOpaqueCells_h
 
+#include "svoKept.h"
 #include "svoScene.h"
 #include "svoSurfaceLook.h"
 
@@ -9,7 +10,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <utility>
 
 class vtkMapper;
@@ -17,7 +17,7 @@ class vtkPolyData;
 
 namespace svo
 {
-/// Kept from frame to frame until the mesh or its colours change.
+/// Kept until the mesh or its colours change, or nobody has them.
 class OpaqueCells
 {
 public:
@@ -29,10 +29,10 @@ public:
 
   /// The part's scalars have been mapped to `attributes`. A cell is opaque if all of its points
   /// are, and all colours between them.
-  Answer of(const SurfacePart& part, const Attributes& attributes);
+  Answer of(const SurfacePart& part, const Attributes& attributes, Kept& kept);
 
-  /// Drops entries that were not asked for since the last call.
-  void endFrame();
+  /// Drops what nobody keeps.
+  void sweep() { this->Entries.sweep(); }
 
 private:
   using Times = std::array<std::uint64_t, 4>; // of the mesh and of what its colours are made of
@@ -41,9 +41,8 @@ private:
     Times times{};
     Answer answer;
     vtkSmartPointer<vtkPolyData> made;
-    bool asked = false;
   };
-  std::map<std::pair<vtkPolyData*, vtkMapper*>, Entry> Entries;
+  KeptValues<std::pair<vtkPolyData*, vtkMapper*>, Entry> Entries;
 };
 }
 

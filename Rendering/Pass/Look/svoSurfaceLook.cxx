@@ -1,6 +1,7 @@
 #include "svoSurfaceLook.h"
 
 #include "svoCompositeBlocks.h"
+#include "svoGlyphCopies.h"
 
 #include "vtkActor.h"
 #include "vtkCellData.h"
@@ -27,21 +28,6 @@ namespace svo
 {
 namespace
 {
-/// Glyph mappers and the like are mappers too.
-bool isPlainMapper(vtkMapper* mapper)
-{
-  const std::string name = mapper->GetClassName();
-  return name == "vtkOpenGLPolyDataMapper" || name == "vtkDataSetMapper" ||
-    isCompositeMapper(mapper);
-}
-
-bool hasCustomShaders(vtkActor* actor)
-{
-  vtkShaderProperty* shaders = actor->GetShaderProperty();
-  return shaders->GetNumberOfShaderReplacements() > 0 || shaders->HasVertexShaderCode() ||
-    shaders->HasFragmentShaderCode() || shaders->HasGeometryShaderCode();
-}
-
 /// What of a plain actor with a plain mapper cannot be reproduced, whatever the mesh.
 Reason beyondTracing(vtkActor* actor)
 {
@@ -79,16 +65,15 @@ Reason beyondTracing(vtkActor* actor)
 }
 
 /// An array that the look borrows.
-void keep(
-  vtkDataArray* array, Attributes& attributes, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+void keep(vtkDataArray* array, Attributes& attributes, Kept& kept)
 {
   // Times are never given twice.
   attributes.version = std::max<std::uint64_t>(attributes.version, array->GetMTime());
-  kept.emplace_back(array);
+  kept.add(array);
 }
 
-void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays& floats,
-  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+void normalsOf(
+  vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays& floats, Kept& kept)
 {
   vtkDataArray* normals = flat ? nullptr : mesh->GetPointData()->GetNormals();
   attributes.normalAssociation = Association::Point;
@@ -105,7 +90,7 @@ void normalsOf(vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays
     attributes.normalAssociation = Association::None;
     return;
   }
-  attributes.normals = floats.values(normals);
+  attributes.normals = floats.values(normals, kept);
   keep(normals, attributes, kept);
 }
 
@@ -125,8 +110,7 @@ void setColor(Material& material, const glm::vec3& color)
 }
 
 /// Scalars that are interpolated before they are mapped.
-bool coordinateColors(vtkMapper* mapper, vtkPolyData* mesh, Attributes& attributes,
-  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+bool coordinateColors(vtkMapper* mapper, vtkPolyData* mesh, Attributes& attributes, Kept& kept)
 {
   auto* coordinates = vtkFloatArray::SafeDownCast(mapper->GetColorCoordinates());
   vtkImageData* texture = mapper->GetColorTextureMap();
@@ -162,8 +146,7 @@ bool colorOfTuple(vtkUnsignedCharArray* colors, vtkIdType tuple, SurfacePart& pa
 }
 
 /// Colours of the octree's leaves.
-bool leafColors(vtkPolyData* leaves, vtkMapper* mapper, Attributes& attributes,
-  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+bool leafColors(vtkPolyData* leaves, vtkMapper* mapper, Attributes& attributes, Kept& kept)
 {
   vtkUnsignedCharArray* colors = mapper->MapScalars(leaves, 1.0);
   if (!colors || colors->GetNumberOfComponents() != 4 ||
@@ -177,15 +160,14 @@ bool leafColors(vtkPolyData* leaves, vtkMapper* mapper, Attributes& attributes,
   return true;
 }
 
-bool scalarColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes,
-  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+bool scalarColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes, Kept& kept)
 {
   vtkMapper* mapper = part.colors;
   if (!mapper->GetScalarVisibility() || part.overridesColor)
   {
     return true;
   }
-  if (vtkPolyData* ofLeaves = leaves.of(part.mesh, mapper))
+  if (vtkPolyData* ofLeaves = leaves.of(part.mesh, mapper, kept))
   {
     return leafColors(ofLeaves, mapper, attributes, kept);
   }
@@ -214,6 +196,20 @@ bool scalarColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes,
   keep(colors, attributes, kept);
   return true;
 }
+}
+
+bool isPlainMapper(vtkMapper* mapper)
+{
+  const std::string name = mapper->GetClassName();
+  return name == "vtkOpenGLPolyDataMapper" || name == "vtkDataSetMapper" ||
+    isCompositeMapper(mapper) || isGlyphMapper(mapper);
+}
+
+bool hasCustomShaders(vtkActor* actor)
+{
+  vtkShaderProperty* shaders = actor->GetShaderProperty();
+  return shaders->GetNumberOfShaderReplacements() > 0 || shaders->HasVertexShaderCode() ||
+    shaders->HasFragmentShaderCode() || shaders->HasGeometryShaderCode();
 }
 
 bool isPlainActor(vtkActor* actor)
@@ -301,8 +297,7 @@ bool hasOpaqueTable(const SurfacePart& part)
       !part.colors->HasTranslucentPolygonalGeometry());
 }
 
-Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes,
-  std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes, Kept& kept)
 {
   return scalarColors(part, leaves, attributes, kept)
     ? nullptr
@@ -310,7 +305,7 @@ Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes,
 }
 
 Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
-  Attributes& attributes, FloatArrays& floats, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+  Attributes& attributes, FloatArrays& floats, Kept& kept)
 {
   vtkPolyData* mesh = part.mesh;
   if (part.texture)
@@ -343,7 +338,7 @@ Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Mater
   return nullptr;
 }
 
-MeshPoints pointsOf(vtkPolyData* mesh, std::vector<vtkSmartPointer<vtkObjectBase>>& kept)
+MeshPoints pointsOf(vtkPolyData* mesh, Kept& kept)
 {
   MeshPoints points;
   vtkDataArray* array = mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr;
@@ -358,7 +353,7 @@ MeshPoints pointsOf(vtkPolyData* mesh, std::vector<vtkSmartPointer<vtkObjectBase
   if (points)
   {
     points.count = static_cast<std::size_t>(array->GetNumberOfTuples());
-    kept.emplace_back(array);
+    kept.add(array);
   }
   return points;
 }

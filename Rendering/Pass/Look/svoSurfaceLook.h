@@ -3,10 +3,9 @@
 #define svoSurfaceLook_h
 
 #include "svoFloatArrays.h"
+#include "svoKept.h"
 #include "svoLeafMeshes.h"
 #include "svoScene.h"
-
-#include "vtkSmartPointer.h"
 
 #include <vector>
 
@@ -14,7 +13,6 @@
 
 class vtkActor;
 class vtkMapper;
-class vtkObjectBase;
 class vtkPolyData;
 class vtkProperty;
 class vtkTexture;
@@ -35,6 +33,11 @@ struct Treatment
 /// True for classes whose drawing is known to the letter. A subclass may draw anything: followers,
 /// axes and sky boxes are actors too.
 bool isPlainActor(vtkActor* actor);
+
+/// The same of mappers.
+bool isPlainMapper(vtkMapper* mapper);
+
+bool hasCustomShaders(vtkActor* actor);
 
 /// True for opaque surfaces, spheres of a molecule for one, whose mapper's class is not known here:
 /// they are rasterised and cast nothing, and the pass gives a message that names the class.
@@ -78,15 +81,14 @@ bool hasOpaqueTable(const SurfacePart& part);
 
 /// Maps the part's scalars; one colour for all of it becomes the part's own. Colours of points,
 /// cells and leaves lie in arrays that are added to `kept`.
-Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes,
-  std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
+Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes, Kept& kept);
 
 /// Material and normals of a part. Arrays of normals are kept in `floats` and `kept`.
 Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
-  Attributes& attributes, FloatArrays& floats, std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
+  Attributes& attributes, FloatArrays& floats, Kept& kept);
 
 /// The part's points as they are, kept in `kept`; unknown if they are neither floats nor doubles.
-MeshPoints pointsOf(vtkPolyData* mesh, std::vector<vtkSmartPointer<vtkObjectBase>>& kept);
+MeshPoints pointsOf(vtkPolyData* mesh, Kept& kept);
 
 /// VTK's offset of coincident polygons for this mapper, as its shaders apply it: the amount added
 /// to window depth.

@@ -44,6 +44,7 @@ KeptOctree* KeptOctrees::substitute(const OctreeKey& key)
 
 void KeptOctrees::keep(const OctreeKey& key, KeptOctree octree)
 {
+  ++this->Version;
   const auto same = this->Octrees.find(key); // built in between, by a frame that an observer drew
   if (same != this->Octrees.end())
   {
@@ -55,6 +56,7 @@ void KeptOctrees::keep(const OctreeKey& key, KeptOctree octree)
 
 KeptOctrees::Iterator KeptOctrees::erase(Iterator octree)
 {
+  ++this->Version;
   this->Bytes -= octree->second.octree ? octree->second.octree.bytes() : 0;
   return this->Octrees.erase(octree);
 }
@@ -105,6 +107,7 @@ void KeptOctrees::endFrame()
 
 void KeptOctrees::clear()
 {
+  ++this->Version;
   this->Octrees.clear();
   this->Bytes = 0;
   this->Orphaned.clear();

@@ -48,6 +48,8 @@ public:
   void endFrame();
 
   std::size_t bytes() const { return this->Bytes; }
+  /// Another number whenever an octree has come or gone.
+  std::uint64_t version() const { return this->Version; }
   void clear();
 
 private:
@@ -56,6 +58,7 @@ private:
 
   std::map<OctreeKey, KeptOctree> Octrees;
   std::size_t Bytes = 0;
+  std::uint64_t Version = 0;
   ReuseHistory History;
   std::set<OctreeKey> Asked, AskedLast; // in this frame and in the one before
   std::set<OctreeKey> Orphaned;         // that were freed because their meshes were gone

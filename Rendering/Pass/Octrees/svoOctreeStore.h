@@ -92,6 +92,10 @@ public:
   /// Background builds whose result no frame has had yet.
   int building() const;
 
+  /// The same number as long as find() has the same answers for the same meshes, of which none is
+  /// being built.
+  std::uint64_t version() const { return this->Octrees.version(); }
+
   /// Octrees built here so far, kept or not.
   int built() const { return this->BuiltSoFar; }
 

@@ -1,5 +1,9 @@
 #include "svoSceneOctrees.h"
 
+#include "svoSceneInstances.h"
+
+#include <utility>
+
 namespace svo
 {
 namespace
@@ -17,19 +21,26 @@ void eachSurface(std::vector<PropSurfaces>& props, const Visit& visit)
   }
 }
 
-/// What the surface brings, else what is known without an octree.
-void findAttached(SceneSurface& surface, OctreeStore& store, const StoreOptions& options)
+/// What the surface brings, else what is known without an octree. `known`: that was asked in the
+/// last frame, with the same answer.
+void findAttached(
+  SceneSurface& surface, bool known, OctreeStore& store, const StoreOptions& options)
 {
   Instance& instance = surface.instance;
-  if (!store.attached(surface.mesh, options, instance.octree))
+  instance.casterOctree = Octree();
+  instance.leafGeometry = LeafGeometry::Automatic;
+  instance.neededLevel = 0;
+  instance.givesWay = 0;
+  if (known)
+  {
+    instance.octree = surface.bringsOctree ? instance.octree : Octree();
+    return;
+  }
+  surface.bringsOctree = store.attached(surface.mesh, options, instance.octree);
+  if (!surface.bringsOctree)
   {
     store.measure(surface.mesh, options, instance);
     instance.deepestLevel = options.level;
-  }
-  else if (instance.octree.hasFrame())
-  {
-    // To the tracer the octree's own frame is the object's.
-    instance.localToWorld = instance.localToWorld * instance.octree.frame();
   }
 }
 
@@ -47,6 +58,25 @@ void findOctree(SceneSurface& surface, const NeededLevels& needed, OctreeStore& 
     store.find(surface.mesh, needed.lights, options, instance.casterOctree);
   }
 }
+
+/// Of each surface; of copies what the most demanding one needs.
+std::vector<NeededLevels> ofSurfaces(
+  std::vector<PropSurfaces>& props, const std::vector<NeededLevels>& ofInstances)
+{
+  std::vector<NeededLevels> needed;
+  auto next = ofInstances.begin();
+  eachSurface(props,
+    [&](const PropSurfaces&, const SceneSurface& surface)
+    {
+      NeededLevels most;
+      for (std::size_t i = 0; i < surface.count(); ++i, ++next)
+      {
+        most.eye = std::max(most.eye, next->eye);
+        most.lights = std::max(most.lights, next->lights);
+      }
+      needed.push_back(most);
+    });
+  return needed;
 }
 
 /// Has what findOctree() will ask for built, where that is faster for all together.
@@ -59,7 +89,7 @@ void prepareOctrees(std::vector<PropSurfaces>& props, const std::vector<NeededLe
     [&](const PropSurfaces&, const SceneSurface& surface)
     {
       const NeededLevels& levels = *next++;
-      if (!surface.instance.octree)
+      if (!surface.bringsOctree)
       {
         wanted.emplace_back(surface.mesh, levels.eye);
         if (levels.lights > 0 && levels.lights != levels.eye)
@@ -70,30 +100,31 @@ void prepareOctrees(std::vector<PropSurfaces>& props, const std::vector<NeededLe
     });
   store.prepare(wanted, options);
 }
+}
 
-std::string PropSurfaces::reasons() const
+std::string reasons(Reason rasterized, Reason castsNone, bool casts)
 {
   std::string text;
-  if (this->rasterized && this->rasterized == this->castsNone && !this->casts())
+  if (rasterized && rasterized == castsNone && !casts)
   {
-    return std::string("Left to the rasteriser and casts no shadow: it ") + this->rasterized + ".";
+    return std::string("Left to the rasteriser and casts no shadow: it ") + rasterized + ".";
   }
-  if (this->rasterized)
+  if (rasterized)
   {
-    text += std::string("Left to the rasteriser: it ") + this->rasterized + ".";
+    text += std::string("Left to the rasteriser: it ") + rasterized + ".";
   }
-  if (this->castsNone)
+  if (castsNone)
   {
     text += (text.empty() ? "" : " ");
-    text += this->casts() ? "Casts less than its whole shadow: it " : "Casts no shadow: it ";
-    text += std::string(this->castsNone) + ".";
+    text += casts ? "Casts less than its whole shadow: it " : "Casts no shadow: it ";
+    text += std::string(castsNone) + ".";
   }
   return text;
 }
 
-void addReceiver(const PropSurfaces& prop, Scene& scene)
+void addReceiver(const PropSurfaces& prop, bool shown, Scene& scene)
 {
-  const double* b = !prop.traced && prop.receives ? prop.prop->GetBounds() : nullptr;
+  const double* b = !shown && prop.receives ? prop.prop->GetBounds() : nullptr;
   if (b && b[0] <= b[1] && b[2] <= b[3] && b[4] <= b[5])
   {
     Box receiver;
@@ -106,55 +137,54 @@ void addReceiver(const PropSurfaces& prop, Scene& scene)
 }
 
 void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lights,
-  const LevelSettings& settings, OctreeStore& store, const StoreOptions& options)
+  const LevelSettings& settings, OctreeStore& store, const StoreOptions& options, bool sameOptions,
+  std::vector<Instance>& instances)
 {
-  Scene scene;
-  scene.lights = lights;
   bool building = false;
-  for (const PropSurfaces& prop : props)
-  {
-    addReceiver(prop, scene);
-  }
   eachSurface(props,
     [&](const PropSurfaces& prop, SceneSurface& surface)
     {
-      findAttached(surface, store, options);
-      scene.instances.push_back(surface.instance);
-      scene.instances.back().visible = prop.traced;
-      scene.instances.back().castShadow = surface.casts;
-      building = building || (!surface.instance.octree && options.convert);
+      findAttached(surface, sameOptions && !prop.fresh, store, options);
+      building = building || (!surface.bringsOctree && options.convert);
     });
-  std::vector<NeededLevels> needed(scene.instances.size());
+  std::vector<NeededLevels> needed;
   if (building)
   {
-    needed = settings.tracer->neededLevels(scene, settings.eye, settings.frame);
+    Scene scene;
+    scene.lights = lights;
+    for (const PropSurfaces& prop : props)
+    {
+      addReceiver(prop, prop.traced, scene);
+    }
+    SceneInstances::write(props, Stage::Planned, instances);
+    scene.instances.swap(instances);
+    needed = ofSurfaces(props, settings.tracer->neededLevels(scene, settings.eye, settings.frame));
+    scene.instances.swap(instances);
     if (options.wait)
     {
       prepareOctrees(props, needed, store, options);
     }
   }
   auto next = needed.begin();
+  for (PropSurfaces& prop : props)
+  {
+    prop.shown = prop.traced;
+  }
   eachSurface(props,
     [&](PropSurfaces& prop, SceneSurface& surface)
     {
       Instance& instance = surface.instance;
-      const NeededLevels& levels = *next++;
-      if (!instance.octree)
+      const NeededLevels levels = building ? *next++ : NeededLevels();
+      if (!surface.bringsOctree)
       {
+        instance.octree = Octree();
         findOctree(surface, levels, store, options);
       }
-      if (!instance.octree)
-      {
-        surface.traceable = false;
-        surface.casts = false;
-        prop.leaveAlone(options.convert ? "has no octree, or none yet" : "comes without an octree");
-      }
-      else
+      if (instance.octree)
       {
         instance.leafGeometry = static_cast<LeafGeometry>(instance.octree.header().leafGeometry);
       }
-      instance.castShadow = surface.casts;
-      prop.traced = prop.traced && surface.traceable;
+      prop.shown = prop.shown && surface.traceable && instance.octree;
     });
 }
 }

@@ -2,7 +2,10 @@
 #ifndef svoSceneOctrees_h
 #define svoSceneOctrees_h
 
+#include "svoGlyphCopies.h"
+#include "svoKept.h"
 #include "svoOctreeStore.h"
+#include "svoPropState.h"
 #include "svoScene.h"
 #include "svoSurfaceLook.h"
 #include "svoTracer.h"
@@ -11,33 +14,79 @@
 #include "vtkPolyData.h"
 #include "vtkProp.h"
 #include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace svo
 {
-/// An instance in the making.
+/// What was written last of a surface's instances, apart from what its prop says.
+struct WrittenSurface
+{
+  std::size_t place = ~std::size_t(0);  // of the first
+  std::uint64_t octree = 0, caster = 0; // ids; 0: none
+  int neededLevel = 0, givesWay = 0, deepestLevel = 0, detailLevel = 0;
+  LeafGeometry leafGeometry = LeafGeometry::Automatic;
+  bool visible = false, casts = false;
+
+  bool operator==(const WrittenSurface& o) const
+  {
+    return std::tie(this->place, this->octree, this->caster, this->neededLevel, this->givesWay,
+             this->deepestLevel, this->detailLevel, this->leafGeometry, this->visible,
+             this->casts) ==
+      std::tie(o.place, o.octree, o.caster, o.neededLevel, o.givesWay, o.deepestLevel,
+        o.detailLevel, o.leafGeometry, o.visible, o.casts);
+  }
+};
+
+/// An instance in the making, or one for each copy of a glyph.
 struct SceneSurface
 {
-  Instance instance;
+  Instance instance; // of copies all but place, colour and id; its matrix is the actor's
+  std::shared_ptr<const GlyphSet> copies; // none: it is there once, as it is
   vtkSmartPointer<vtkPolyData> mesh; // the mesh that only casts, where the surface is not traceable
   bool traceable = false;
   bool casts = false;
+
+  // Of a frame:
+  bool bringsOctree = false; // `instance.octree` is not the store's
+  WrittenSurface written;
+
+  std::size_t count() const { return this->copies ? this->copies->copies.size() : 1; }
 };
+
+/// Why something is not traced, or casts nothing, as sentences for people.
+std::string reasons(Reason rasterized, Reason castsNone, bool casts);
 
 /// The surfaces of a prop, and how they are shown.
 struct PropSurfaces
 {
-  vtkSmartPointer<vtkProp> prop;
+  vtkWeakPointer<vtkProp> prop;       // another one may come into its place
   glm::dmat4 world{ 1.0 };            // from VTK's world to the scene's; see sceneTransform()
   std::vector<SceneSurface> surfaces; // those that are traceable or cast
   int actors = 0;
-  bool traced = true;          // all that the prop shows is traced
+  bool traced = true;          // all that the prop shows can be traced
   bool receives = false;       // shadows fall on it
+  bool catchesShadows = false; // of it nothing but these is seen
+  bool hasPlainMatrix = false; // of a single actor: it has not changed what is made of it
   Reason rasterized = nullptr; // why it is not traced
   Reason castsNone = nullptr;  // why something of it casts nothing
+  Kept kept;
+  PropState state; // when it was collected
+
+  std::array<double, 6> bounds{ 1, -1, 1, -1, 1, -1 }; // of what has no surfaces; VTK's world
+
+  // Of a frame:
+  bool fresh = true;  // collected anew: nothing of its instances has been written
+  bool moved = false; // their matrices have not
+  bool shown = false; // all of it is traced, with octrees
 
   /// Leaves the prop to the rasteriser.
   void rasterize(Reason reason)
@@ -56,8 +105,6 @@ struct PropSurfaces
     this->rasterize(reason);
     this->castNothing(reason);
   }
-  /// Both reasons as sentences for people; empty if the prop is traced and casts.
-  std::string reasons() const;
 };
 
 /// The inputs of Tracer::neededLevels() for octrees that are built here.
@@ -68,14 +115,17 @@ struct LevelSettings
   const Tracer* tracer = nullptr; // asked where octrees have to be built
 };
 
-/// Where the rasteriser draws something that shadows fall on: says so to the scene.
-void addReceiver(const PropSurfaces& prop, Scene& scene);
+/// Where the rasteriser draws something that shadows fall on, as `shown` says: says so to the
+/// scene.
+void addReceiver(const PropSurfaces& prop, bool shown, Scene& scene);
 
 /// Gives each surface its octrees: those that it brings, or from the store those that the frame
 /// needs (Tracer::neededLevels()). Where the store has none, the surface is neither traced nor
-/// casts.
+/// casts. `instances` are those of the last frame's surfaces; they become this one's.
+/// `sameOptions`: those of the last frame.
 void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lights,
-  const LevelSettings& settings, OctreeStore& store, const StoreOptions& options);
+  const LevelSettings& settings, OctreeStore& store, const StoreOptions& options, bool sameOptions,
+  std::vector<Instance>& instances);
 }
 
 #endif

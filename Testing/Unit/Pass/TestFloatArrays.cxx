@@ -10,7 +10,8 @@ TEST(FloatArrays, FloatsAreNotCopied)
   vtkNew<vtkFloatArray> array;
   array->InsertNextValue(1.5f);
   svo::FloatArrays floats;
-  EXPECT_EQ(floats.values(array), array->GetPointer(0));
+  svo::Kept kept;
+  EXPECT_EQ(floats.values(array, kept), array->GetPointer(0));
   EXPECT_EQ(floats.size(), 0u);
 }
 
@@ -20,25 +21,31 @@ TEST(FloatArrays, DoublesAreConvertedOncePerChange)
   array->SetNumberOfComponents(3);
   array->InsertNextTuple3(1.0, 2.0, 3.0);
   svo::FloatArrays floats;
-  const float* first = floats.values(array);
+  svo::Kept kept;
+  const float* first = floats.values(array, kept);
   EXPECT_EQ(first[2], 3.0f);
-  floats.endFrame();
-  EXPECT_EQ(floats.values(array), first);
+  floats.sweep();
+  EXPECT_EQ(floats.values(array, kept), first);
   array->SetComponent(0, 2, 5.0);
-  EXPECT_EQ(floats.values(array)[2], 3.0f) << "nobody has said that the array changed";
+  EXPECT_EQ(floats.values(array, kept)[2], 3.0f) << "nobody has said that the array changed";
   array->Modified();
-  EXPECT_EQ(floats.values(array)[2], 5.0f);
+  EXPECT_EQ(floats.values(array, kept)[2], 5.0f);
   EXPECT_EQ(floats.size(), 1u);
 }
 
-TEST(FloatArrays, CopiesThatNobodyAsksForAreForgotten)
+TEST(FloatArrays, CopiesThatNobodyKeepsAreForgotten)
 {
   vtkNew<vtkDoubleArray> array;
   array->InsertNextValue(1.0);
   svo::FloatArrays floats;
-  floats.values(array);
-  floats.endFrame();
-  EXPECT_EQ(floats.size(), 1u);
-  floats.endFrame();
+  {
+    svo::Kept kept, another;
+    floats.values(array, kept);
+    floats.values(array, another);
+    kept = svo::Kept();
+    floats.sweep();
+    EXPECT_EQ(floats.size(), 1u);
+  }
+  floats.sweep();
   EXPECT_EQ(floats.size(), 0u);
 }

@@ -1,0 +1,404 @@
+#include "svoPropCollector.h"
+
+#include "svoAffineMatrix.h"
+#include "svoCameraView.h"
+#include "svoPropKeys.h"
+
+#include "vtkActor.h"
+#include "vtkAlgorithm.h"
+#include "vtkAssembly.h"
+#include "vtkAssemblyNode.h"
+#include "vtkAssemblyPath.h"
+#include "vtkDataSetMapper.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkMatrix4x4.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkPropAssembly.h"
+#include "vtkProperty.h"
+
+#include <iterator>
+
+namespace svo
+{
+namespace
+{
+std::uint64_t combine(std::uint64_t a, std::uint64_t b)
+{
+  return a ^ (b + 0x9e3779b97f4a7c15ull + (a << 6) + (a >> 2));
+}
+
+/// True if the prop or its assembly says explicitly that it uses octrees.
+bool isMarked(vtkProp* prop, vtkProp* owner)
+{
+  return flagOf(prop, owner, useSVOKey(), false);
+}
+
+bool hasSurface(vtkPolyData* mesh)
+{
+  return mesh->GetNumberOfPolys() > 0 || mesh->GetNumberOfStrips() > 0;
+}
+
+/// Brings all that a mapper draws up to date.
+void update(vtkMapper* mapper)
+{
+  if (mapper->GetStatic())
+  {
+    return;
+  }
+  if (isGlyphMapper(mapper))
+  {
+    mapper->Update(); // its sources, too
+  }
+  else
+  {
+    mapper->GetInputAlgorithm()->Update();
+  }
+}
+}
+
+/// About an object, or about nothing in particular (null): then once for all renderers.
+void PropCollector::complainOnce(
+  vtkObject* about, const std::string& text, const CollectProps& frame)
+{
+  if (!frame.options.complain || this->Quiet)
+  {
+    return;
+  }
+  if (!about)
+  {
+    if (!frame.said || frame.said->insert(text).second)
+    {
+      frame.options.complain(text);
+    }
+    return;
+  }
+  const auto [said, isNew] = this->GivenMessages.try_emplace({ about, text }, about);
+  if (isNew || said->second != about) // another one is in its place now
+  {
+    said->second = about;
+    frame.options.complain(text);
+  }
+}
+
+std::vector<SurfacePart> PropCollector::partsOf(vtkActor* actor, Kept& kept)
+{
+  vtkMapper* mapper = actor->GetMapper();
+  const double opacity = actor->GetProperty()->GetOpacity();
+  if (isCompositeMapper(mapper))
+  {
+    return this->Blocks.partsOf(mapper, opacity, kept);
+  }
+  auto* dataSet = vtkDataSetMapper::SafeDownCast(mapper);
+  vtkPolyDataMapper* plain =
+    dataSet ? this->Surfaces.mapperOf(dataSet, kept) : vtkPolyDataMapper::SafeDownCast(mapper);
+  if (!plain || !plain->GetInput())
+  {
+    return {};
+  }
+  SurfacePart whole;
+  whole.mesh = plain->GetInput();
+  whole.colors = plain;
+  whole.opacity = opacity;
+  return { whole };
+}
+
+/// What of a part casts a shadow; nullptr if nothing does.
+vtkPolyData* PropCollector::casterOf(const SurfacePart& part, OpaqueCells::Answer opaque,
+  vtkActor* actor, PropSurfaces& found, const CollectProps& frame)
+{
+  const auto answer = [&](bool otherwise)
+  { return flagOf(actor, found.prop, castShadowKey(), otherwise); };
+  if (answer(false))
+  {
+    return part.mesh;
+  }
+  if (!answer(true))
+  {
+    found.castNothing("was told so");
+    return nullptr;
+  }
+  const bool mapped = part.mesh->GetPointData()->GetTCoords() != nullptr;
+  const TextureAlpha texture = mapped ? alphaOf(part.texture) : TextureAlpha::Opaque;
+  if (opaque.mesh && (actor->GetForceTranslucent() || texture == TextureAlpha::Translucent))
+  {
+    opaque = { nullptr, true };
+  }
+  if (opaque.mesh != part.mesh)
+  {
+    found.castNothing(opaque.translucent ? "is translucent"
+        : opaque.mesh                    ? "is invisible in parts"
+                                         : "is invisible");
+  }
+  if (opaque.translucent)
+  {
+    const bool whole = part.opacity < 1.0 || actor->GetForceTranslucent();
+    this->complainOnce(
+      nullptr, whole ? frame.translucentSurfaceText : frame.translucentText, frame);
+  }
+  else if (opaque.mesh && texture == TextureAlpha::CutOut)
+  {
+    this->complainOnce(nullptr, frame.cutOutText, frame);
+  }
+  return opaque.mesh;
+}
+
+/// The matrix of an actor, fit for tracing. False if nothing of it is collected; `beyond` says why
+/// it can only cast.
+bool PropCollector::placeOf(vtkActor* actor, const vtkMatrix4x4* matrix, glm::dmat4& localToWorld,
+  Reason& beyond, PropSurfaces& found, const CollectProps& frame)
+{
+  localToWorld = frame.world * toGlm(matrix);
+  switch (kindOf(localToWorld))
+  {
+    case MatrixKind::Nowhere:
+      found.castNothing("has a matrix that is not finite");
+      this->complainOnce(actor, "An actor is not drawn: its matrix is not finite.", frame);
+      return false;
+    case MatrixKind::Flat:
+      beyond = "is flattened by its matrix";
+      if (!thicken(localToWorld))
+      {
+        found.leaveAlone(beyond);
+        return false;
+      }
+      return true;
+    case MatrixKind::Projective:
+      found.leaveAlone("has a matrix that is not affine");
+      this->complainOnce(actor,
+        "An actor casts no shadow and is left to the rasteriser: its matrix is not affine.", frame);
+      return false;
+    case MatrixKind::Affine:
+      break;
+  }
+  return true;
+}
+
+/// What a surface that is traced, or else casts, has of its actor. False if it does neither.
+bool PropCollector::finish(vtkActor* actor, const SurfacePart& part, const glm::dmat4& localToWorld,
+  Reason reason, SceneSurface& surface, PropSurfaces& found)
+{
+  Instance& instance = surface.instance;
+  surface.traceable = !reason;
+  if (surface.traceable)
+  {
+    surface.mesh = part.mesh;
+    instance.points = pointsOf(part.mesh, found.kept);
+  }
+  else
+  {
+    found.rasterize(reason);
+    if (!surface.casts)
+    {
+      return false;
+    }
+  }
+  vtkProp* owner = found.prop;
+  instance.localToWorld = localToWorld;
+  instance.pixelError = pixelErrorOf(actor, owner);
+  instance.receiveShadow = flagOf(actor, owner, receiveShadowKey(), true);
+  instance.id = combine(
+    combine(reinterpret_cast<std::uintptr_t>(actor), part.block), std::uint64_t(found.actors));
+  instance.depthOffsetUnits = static_cast<float>(coincidentDepthOffset(actor->GetMapper()));
+  return true;
+}
+
+/// Adds a mesh of an actor.
+void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::dmat4& localToWorld,
+  Reason beyond, PropSurfaces& found, const CollectProps& frame)
+{
+  if (!hasSurface(part.mesh))
+  {
+    if (part.mesh->GetNumberOfCells() > 0)
+    {
+      found.leaveAlone("has lines or vertices");
+    }
+    return;
+  }
+  SceneSurface surface;
+  Instance& instance = surface.instance;
+  if (part.texture)
+  {
+    found.kept.addUnknown(); // a block's own
+  }
+  part.texture = part.texture ? part.texture : textureOf(actor);
+  Reason reason = beyond;
+  if (!beyond || !hasOpaqueTable(part))
+  {
+    const Reason unmapped = mapColors(part, this->Leaves, instance.attributes, found.kept);
+    reason = beyond ? beyond : unmapped;
+  }
+  const OpaqueCells::Answer opaque = this->Opaque.of(part, instance.attributes, found.kept);
+  surface.mesh = frame.shadows ? this->casterOf(part, opaque, actor, found, frame) : nullptr;
+  surface.casts = surface.mesh != nullptr;
+  if (!reason)
+  {
+    reason = opaque.mesh != part.mesh
+      ? "is translucent"
+      : lookOf(part, actor->GetProperty(), frame.lights, instance.material, instance.attributes,
+          this->Floats, found.kept);
+  }
+  if (this->finish(actor, part, localToWorld, reason, surface, found))
+  {
+    found.surfaces.push_back(surface);
+  }
+}
+
+/// Adds the actor's surfaces.
+void PropCollector::collectActor(
+  vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, const CollectProps& frame)
+{
+  vtkProp* owner = found.prop;
+  if (flagOf(actor, owner, shadowCatcherKey(), false))
+  {
+    found.leaveAlone(actor->GetProperty()->GetInterpolation() == VTK_PBR
+        ? "is a shadow catcher, and not seen as such with a physically based material"
+        : "is a shadow catcher");
+    found.catchesShadows = true;
+    return;
+  }
+  if (!isPlainActor(actor) && !isMarked(actor, owner))
+  {
+    found.leaveAlone("is of a class that may draw anything"); // without a mapper, even
+    return;
+  }
+  vtkMapper* mapper = actor->GetMapper();
+  if (!mapper || mapper->GetNumberOfInputConnections(0) == 0)
+  {
+    return;
+  }
+  const bool unmarked = frame.onlyMarked && !isMarked(actor, owner);
+  if (unmarked && !frame.unmarkedCast)
+  {
+    found.leaveAlone(frame.notMarked);
+    return;
+  }
+  this->Quiet = unmarked;
+  update(mapper);
+  if (frame.shadows && isUnknownSurface(actor) && flagOf(actor, owner, castShadowKey(), true))
+  {
+    this->complainOnce(nullptr,
+      std::string("What a ") + mapper->GetClassName() +
+        " draws is left to the rasteriser and casts no shadow: this pass does not know that "
+        "mapper. SetCastShadow(false, prop) says that this is meant.",
+      frame);
+  }
+  const Treatment treatment = treatmentOf(actor);
+  if (treatment.castsNone)
+  {
+    found.leaveAlone(treatment.castsNone);
+    return;
+  }
+  Reason beyond = treatment.rasterized;
+  glm::dmat4 localToWorld;
+  if (!this->placeOf(actor, matrix, localToWorld, beyond, found, frame))
+  {
+    return;
+  }
+  found.hasPlainMatrix = beyond == treatment.rasterized;
+  if (unmarked)
+  {
+    beyond = frame.notMarked;
+  }
+  else if (!beyond && !flagOf(actor, owner, useSVOKey(), true))
+  {
+    beyond = "was told so";
+  }
+  if (beyond)
+  {
+    found.rasterize(beyond);
+  }
+  if (isGlyphMapper(mapper))
+  {
+    this->collectGlyphs(actor, localToWorld, beyond, found, frame);
+    return;
+  }
+  for (SurfacePart& part : this->partsOf(actor, found.kept))
+  {
+    this->collectPart(actor, part, localToWorld, beyond, found, frame);
+  }
+}
+
+bool canCollect(vtkProp* prop)
+{
+  return vtkActor::SafeDownCast(prop) || vtkAssembly::SafeDownCast(prop) ||
+    vtkPropAssembly::SafeDownCast(prop);
+}
+
+void PropCollector::collect(PropSurfaces& found, const CollectProps& frame)
+{
+  vtkProp* prop = found.prop;
+  found.world = frame.world;
+  const auto collect = [&](vtkActor* actor, const vtkMatrix4x4* matrix)
+  {
+    this->collectActor(actor, matrix, found, frame);
+    found.receives = found.receives ||
+      (actor->GetMapper() && showsLights(actor) && flagOf(actor, prop, receiveShadowKey(), true));
+    ++found.actors;
+  };
+
+  if (auto* actor = vtkActor::SafeDownCast(prop))
+  {
+    collect(actor, actor->GetMatrix());
+    return;
+  }
+  prop->InitPathTraversal();
+  while (vtkAssemblyPath* path = prop->GetNextPath())
+  {
+    vtkProp* leaf = path->GetLastNode()->GetViewProp();
+    if (!leaf->GetVisibility())
+    {
+      continue;
+    }
+    if (auto* part = vtkActor::SafeDownCast(leaf))
+    {
+      collect(part, path->GetLastNode()->GetMatrix());
+    }
+    else if (leaf != prop)
+    {
+      found.leaveAlone("has parts that are no actors");
+    }
+  }
+}
+
+bool PropCollector::move(PropSurfaces& found, const CollectProps& frame)
+{
+  const glm::dmat4 localToWorld =
+    frame.world * toGlm(vtkActor::SafeDownCast(found.prop)->GetMatrix());
+  // Others have had their treatment. Who has no surfaces has bounds, which have moved, too.
+  if (found.surfaces.empty() || !found.hasPlainMatrix || kindOf(localToWorld) != MatrixKind::Affine)
+  {
+    return false;
+  }
+  const double condition = frobeniusCondition(localToWorld);
+  for (const SceneSurface& surface : found.surfaces)
+  {
+    if (surface.copies && condition * surface.copies->condition > MaximumCondition)
+    {
+      return false;
+    }
+  }
+  for (SceneSurface& surface : found.surfaces)
+  {
+    surface.instance.localToWorld = localToWorld;
+  }
+  found.moved = true;
+  return true;
+}
+
+void PropCollector::sweep()
+{
+  for (auto said = this->GivenMessages.begin(); said != this->GivenMessages.end();)
+  {
+    said = said->second ? std::next(said) : this->GivenMessages.erase(said);
+  }
+  this->Surfaces.sweep();
+  this->Floats.sweep();
+  this->Leaves.sweep();
+  this->Blocks.sweep();
+  this->Copies.sweep();
+  this->Opaque.sweep();
+}
+}

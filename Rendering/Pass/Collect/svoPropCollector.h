@@ -1,0 +1,96 @@
+// The surfaces of a renderer's props, and how each is shown: traced, rasterised, casting.
+#ifndef svoPropCollector_h
+#define svoPropCollector_h
+
+#include "svoCompositeBlocks.h"
+#include "svoDataSetSurfaces.h"
+#include "svoFloatArrays.h"
+#include "svoGlyphCopies.h"
+#include "svoLeafMeshes.h"
+#include "svoOctreeStore.h"
+#include "svoOpaqueCells.h"
+#include "svoSceneOctrees.h"
+#include "svoSurfaceLook.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkActor;
+class vtkMatrix4x4;
+class vtkObject;
+class vtkPolyData;
+class vtkProp;
+
+namespace svo
+{
+/// What a frame's collection of its props depends on, apart from the props.
+struct CollectProps
+{
+  const StoreOptions& options; // messages go to its `complain`, each once
+  bool shadows;                // casters are wanted, and a light casts
+  bool lights;                 // there are lights at all
+  /// Only props that say explicitly that they use octrees (vtkSVORenderPass::SetUseSVO) are traced.
+  /// The others only receive, or cast as well; about them there are no messages.
+  bool onlyMarked;
+  bool unmarkedCast;
+  Reason notMarked;            // why the others are not traced
+  std::set<std::string>* said; // messages of the pass, about no object in particular
+  /// Messages about surfaces and cells that cast nothing, or more than they show; empty: none.
+  std::string translucentSurfaceText;
+  std::string translucentText;
+  std::string cutOutText;
+  glm::dmat4 world; // see sceneTransform()
+};
+
+/// Whether a prop can have surfaces: actors and assemblies of them.
+bool canCollect(vtkProp* prop);
+
+/// Has what was computed of the props' data for as long as one of them keeps it.
+class PropCollector
+{
+public:
+  /// Fills in the surfaces of `found.prop`, without octrees. The prop can have some.
+  void collect(PropSurfaces& found, const CollectProps& frame);
+
+  /// Of an actor that has moved since it was collected, and else is what it was, sets the matrices.
+  /// False if it has to be collected again: nothing has been done then.
+  static bool move(PropSurfaces& found, const CollectProps& frame);
+
+  /// Forgets what no collected prop keeps any more.
+  void sweep();
+
+private:
+  void collectActor(
+    vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, const CollectProps& frame);
+  bool placeOf(vtkActor* actor, const vtkMatrix4x4* matrix, glm::dmat4& localToWorld,
+    Reason& beyond, PropSurfaces& found, const CollectProps& frame);
+  std::vector<SurfacePart> partsOf(vtkActor* actor, Kept& kept);
+  void collectPart(vtkActor* actor, SurfacePart& part, const glm::dmat4& localToWorld,
+    Reason beyond, PropSurfaces& found, const CollectProps& frame);
+  void collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
+    PropSurfaces& found, const CollectProps& frame);
+  bool finish(vtkActor* actor, const SurfacePart& part, const glm::dmat4& localToWorld,
+    Reason reason, SceneSurface& surface, PropSurfaces& found);
+  vtkPolyData* casterOf(const SurfacePart& part, OpaqueCells::Answer opaque, vtkActor* actor,
+    PropSurfaces& found, const CollectProps& frame);
+  void complainOnce(vtkObject* about, const std::string& text, const CollectProps& frame);
+
+  CompositeBlocks Blocks;
+  DataSetSurfaces Surfaces;
+  GlyphCopies Copies;
+  OpaqueCells Opaque;
+  FloatArrays Floats;
+  LeafMeshes Leaves;
+  std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>>
+    GivenMessages;    // by object
+  bool Quiet = false; // about the actor that is being collected
+};
+}
+
+#endif

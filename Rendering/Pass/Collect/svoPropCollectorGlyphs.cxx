@@ -1,0 +1,135 @@
+// The copies of glyphs as surfaces.
+#include "svoAffineMatrix.h"
+#include "svoPropCollector.h"
+#include "svoPropKeys.h"
+
+#include "vtkActor.h"
+#include "vtkCellData.h"
+#include "vtkGlyph3DMapper.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+
+#include <algorithm>
+
+namespace svo
+{
+namespace
+{
+/// Of these copies those that `wanted` is true of.
+template <class Wanted>
+std::shared_ptr<const GlyphSet> select(const GlyphSet& set, const Wanted& wanted)
+{
+  auto selected = std::make_shared<GlyphSet>();
+  selected->source = set.source;
+  selected->opaque = set.opaque;
+  selected->condition = set.condition;
+  std::copy_if(set.copies.begin(), set.copies.end(), std::back_inserter(selected->copies), wanted);
+  return selected;
+}
+
+/// What the mapper draws of a source otherwise than the tracer would; null if nothing.
+Reason beyondGlyph(vtkGlyph3DMapper* mapper, vtkPolyData* source)
+{
+  if (source->GetNumberOfVerts() > 0 || source->GetNumberOfLines() > 0)
+  {
+    return "has lines or vertices";
+  }
+  if (mapper->GetCullingAndLOD())
+  {
+    return "shows coarser copies far away";
+  }
+  // The mapper's shader does not turn them.
+  return !source->GetPointData()->GetNormals() && source->GetCellData()->GetNormals()
+    ? "has sources with normals of cells"
+    : nullptr;
+}
+}
+
+void PropCollector::collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
+  PropSurfaces& found, const CollectProps& frame)
+{
+  auto* mapper = vtkGlyph3DMapper::SafeDownCast(actor->GetMapper());
+  if (mapper->GetNumberOfInputConnections(1) == 0)
+  {
+    found.leaveAlone("has lines or vertices"); // VTK draws a line in the place of a source
+    return;
+  }
+  const Glyphs glyphs = this->Copies.of(mapper, actor->GetProperty(), found.kept);
+  if (glyphs.beyond)
+  {
+    found.leaveAlone(glyphs.beyond);
+    return;
+  }
+  const double condition = frobeniusCondition(localToWorld);
+  std::uint64_t number = 0;
+  for (const Glyphs::Drawn& drawn : glyphs.drawn)
+  {
+    ++number;
+    vtkPolyData* mesh = drawn.mesh;
+    if (mesh->GetNumberOfPolys() == 0 && mesh->GetNumberOfStrips() == 0)
+    {
+      if (mesh->GetNumberOfCells() > 0)
+      {
+        found.leaveAlone("has lines or vertices");
+      }
+      continue;
+    }
+    SceneSurface surface;
+    surface.copies = drawn.set;
+    Reason reason = beyond ? beyond : beyondGlyph(mapper, mesh);
+    if (condition * drawn.set->condition > MaximumCondition)
+    {
+      // Thin copies may be traced, but sheets may not.
+      const auto isAffine = [&](const GlyphCopy& copy)
+      { return kindOf(localToWorld * glm::dmat4(copy.place)) == MatrixKind::Affine; };
+      surface.copies = select(*drawn.set, isAffine);
+      if (surface.copies->copies.size() < drawn.set->copies.size())
+      {
+        reason = reason ? reason : "has copies that are flattened";
+        found.castNothing("has copies that are flattened");
+      }
+    }
+    SurfacePart part;
+    part.mesh = mesh;
+    part.block = drawn.block;
+    part.overridesColor = true;
+    part.opacity = actor->GetProperty()->GetOpacity();
+    part.texture = textureOf(actor);
+    if (frame.shadows)
+    {
+      const bool all = surface.copies->opaque;
+      const bool some = all ||
+        std::any_of(surface.copies->copies.begin(), surface.copies->copies.end(),
+          [](const GlyphCopy& copy) { return copy.color[3] == 255; });
+      const OpaqueCells::Answer opaque{ some ? mesh : nullptr, !all };
+      surface.mesh = this->casterOf(part, opaque, actor, found, frame);
+      surface.casts = surface.mesh != nullptr;
+      if (surface.casts && !all && !flagOf(actor, found.prop, castShadowKey(), false))
+      {
+        found.castNothing("is translucent");
+        surface.copies =
+          select(*surface.copies, [](const GlyphCopy& copy) { return copy.color[3] == 255; });
+      }
+    }
+    if (!reason)
+    {
+      reason = !drawn.set->opaque
+        ? "is translucent"
+        : lookOf(part, actor->GetProperty(), frame.lights, surface.instance.material,
+            surface.instance.attributes, this->Floats, found.kept);
+    }
+    if (drawn.overridesSpecular)
+    {
+      surface.instance.material.specularColor = drawn.specular;
+    }
+    if (!surface.copies->copies.empty() &&
+      this->finish(actor, part, localToWorld, reason, surface, found))
+    {
+      // Copies of several sources may be at the same point.
+      surface.instance.id ^= number * 0x9e3779b97f4a7c15ull;
+      found.surfaces.push_back(surface);
+    }
+  }
+}
+}

@@ -1,0 +1,101 @@
+// What a collected prop keeps for as long as it is kept itself: the arrays that its surfaces point
+// into, and what was computed for them.
+#ifndef svoKept_h
+#define svoKept_h
+
+#include "vtkAOSDataArrayTemplate.h"
+#include "vtkDataArray.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace svo
+{
+class Kept
+{
+public:
+  /// An array whose values are pointed at, unless they are of a type that nobody points at.
+  void add(vtkDataArray* array)
+  {
+    this->Arrays.push_back({ array, valuesOf(array), array->GetNumberOfTuples() });
+  }
+
+  /// What a cache keeps for as long as somebody has it.
+  void add(std::shared_ptr<const void> computed) { this->Computed.push_back(std::move(computed)); }
+
+  /// Something that is not noticed when it changes.
+  void addUnknown() { this->Unknown = true; }
+
+  /// False if an array lies elsewhere than when it was added, which its time may not tell, or
+  /// something unknown was added.
+  bool inPlace() const
+  {
+    return !this->Unknown &&
+      std::all_of(this->Arrays.begin(), this->Arrays.end(),
+        [](const Borrowed& one)
+        {
+          return !one.values ||
+            (one.array->GetVoidPointer(0) == one.values &&
+              one.array->GetNumberOfTuples() == one.tuples);
+        });
+  }
+
+private:
+  struct Borrowed
+  {
+    vtkSmartPointer<vtkDataArray> array;
+    const void* values;
+    vtkIdType tuples;
+  };
+
+  /// Null for arrays of other types, which may have to make what is asked for.
+  static const void* valuesOf(vtkDataArray* array)
+  {
+    const bool plain = vtkAOSDataArrayTemplate<float>::FastDownCast(array) ||
+      vtkAOSDataArrayTemplate<double>::FastDownCast(array) ||
+      vtkAOSDataArrayTemplate<unsigned char>::FastDownCast(array);
+    return plain && array->GetNumberOfTuples() > 0 ? array->GetVoidPointer(0) : nullptr;
+  }
+
+  bool Unknown = false;
+  std::vector<Borrowed> Arrays;
+  std::vector<std::shared_ptr<const void>> Computed;
+};
+
+/// Values by key, for as long as somebody keeps them.
+template <class Key, class Value>
+class KeptValues
+{
+public:
+  /// The key's value, made by default if there is none, which `kept` keeps from now on.
+  Value& of(const Key& key, Kept& kept)
+  {
+    std::shared_ptr<Value>& value = this->Values[key];
+    if (!value)
+    {
+      value = std::make_shared<Value>();
+    }
+    kept.add(value);
+    return *value;
+  }
+
+  /// Drops what nobody keeps.
+  void sweep()
+  {
+    for (auto entry = this->Values.begin(); entry != this->Values.end();)
+    {
+      entry = entry->second.use_count() > 1 ? std::next(entry) : this->Values.erase(entry);
+    }
+  }
+
+  std::size_t size() const { return this->Values.size(); }
+
+private:
+  std::map<Key, std::shared_ptr<Value>> Values;
+};
+}
+
+#endif
