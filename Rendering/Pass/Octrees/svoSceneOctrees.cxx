@@ -74,10 +74,6 @@ void prepareOctrees(std::vector<PropSurfaces>& props, const std::vector<NeededLe
 std::string PropSurfaces::reasons() const
 {
   std::string text;
-  if (this->rasterized && this->rasterized == this->castsNone && !this->casts())
-  {
-    return std::string("Left to the rasteriser and casts no shadow: it ") + this->rasterized + ".";
-  }
   if (this->rasterized)
   {
     text += std::string("Left to the rasteriser: it ") + this->rasterized + ".";
