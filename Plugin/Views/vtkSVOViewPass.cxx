@@ -106,7 +106,8 @@ std::string vtkSVOViewPass::GetReason(vtkPVDataRepresentation* shown)
     return key ? std::string("Casts no shadow: it is shown as ") + key + "." : std::string();
   }
   return self->Observers[0] ? self->Pass->GetReasonInLastFrame(actor)
-                            : "Left to the rasteriser and casts no shadow: it is not shown as SVO.";
+                            : "Left to the rasteriser: it is not shown as SVO. "
+                              "Casts no shadow: it is not shown as SVO.";
 }
 
 void vtkSVOViewPass::AddUser(vtkView* view)

@@ -160,8 +160,9 @@ class TestEverything(unittest.TestCase):
         kinds = ["SVO", "Surface", "Surface With Edges", "Wireframe", "Points", "Outline"]
         displays = [scene.show(pv.Sphere(Center=[i, 0, 1], registrationName=f"Ball{i}"), self.view, kind)
                     for i, kind in enumerate(kinds)]
-        not_chosen = "Left to the rasteriser and casts no shadow: it is not shown as SVO."
-        lines = "Left to the rasteriser and casts no shadow: it is shown as wireframe or points."
+        not_chosen = "Left to the rasteriser: it is not shown as SVO. Casts no shadow: it is not shown as SVO."
+        lines = ("Left to the rasteriser: it is shown as wireframe or points. "
+                 "Casts no shadow: it is shown as wireframe or points.")
         pv.Render(self.view)
         self.assertEqual(scene.statistic(self.view, "SVOReasons"),
                          "".join(f"Ball{i}: {not_chosen}\n" for i in range(1, 6)))

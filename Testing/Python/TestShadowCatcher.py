@@ -201,7 +201,7 @@ class TestShadowCatcher(unittest.TestCase):
         self.assertTrue(self.ground.GetForceTranslucent())
         self.assertFalse(vtkSVORenderPass.GetCastShadow(self.ground))
         self.assertEqual(vtkSVORenderPass.GetReason(self.ground),
-                         "Left to the rasteriser and casts no shadow: it is a shadow catcher.")
+                         "Left to the rasteriser: it is a shadow catcher. Casts no shadow: it is a shadow catcher.")
         self.catch(False)
         self.assertFalse(vtkSVORenderPass.GetShadowCatcher(self.ground))
         self.assertFalse(self.ground.GetForceTranslucent())
@@ -216,7 +216,8 @@ class TestShadowCatcher(unittest.TestCase):
         plain = self.pixels()
         self.svo.Attach(self.renderer)
         self.assertTrue((self.pixels() == plain).all())
-        not_chosen = "Left to the rasteriser and casts no shadow: it was not chosen with SetUseSVO."
+        not_chosen = ("Left to the rasteriser: it was not chosen with SetUseSVO. "
+                      "Casts no shadow: it was not chosen with SetUseSVO.")
         self.assertEqual(self.svo.GetReasonInLastFrame(self.ball), not_chosen)
         self.svo.ShadowsForEverythingOn()
         shadowed = self.pixels()
@@ -228,7 +229,7 @@ class TestShadowCatcher(unittest.TestCase):
         self.renderer.SetBackground(0.8, 0.9, 1.0)
         self.assertGreater((self.pixels()[..., 2] == 0.0).sum(), 300)
         self.assertEqual(self.svo.GetReasonInLastFrame(self.ground),
-                         "Left to the rasteriser and casts no shadow: it is a shadow catcher.")
+                         "Left to the rasteriser: it is a shadow catcher. Casts no shadow: it is a shadow catcher.")
         self.catch(False)
         self.renderer.SetBackground(0.0, 0.0, 0.0)
         self.svo.Detach(self.renderer)

@@ -105,10 +105,6 @@ void prepareOctrees(std::vector<PropSurfaces>& props, const std::vector<NeededLe
 std::string reasons(Reason rasterized, Reason castsNone, bool casts)
 {
   std::string text;
-  if (rasterized && rasterized == castsNone && !casts)
-  {
-    return std::string("Left to the rasteriser and casts no shadow: it ") + rasterized + ".";
-  }
   if (rasterized)
   {
     text += std::string("Left to the rasteriser: it ") + rasterized + ".";
