@@ -276,7 +276,12 @@ SourceOctree octreeOfGrid(const openvdb::GridBase& grid, const VDBOptions& asked
   SourceOctree failed{ BuildStatus::BadInput, 0, {} };
   try
   {
-    return convertKnown(grid, options, hull);
+    SourceOctree built = convertKnown(grid, options, hull);
+    if (built.status == BuildStatus::TooLarge)
+    {
+      built.message = "its voxels need more memory than there is"; // the level is the grid's
+    }
+    return built;
   }
   catch (const Refused& refused)
   {
