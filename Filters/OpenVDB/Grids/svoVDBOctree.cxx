@@ -226,7 +226,12 @@ SourceOctree convert(const GridT& grid, const VDBOptions& options, vtkPolyData* 
   const auto index = [&](int i) { return static_cast<std::int32_t>(first[i] * Edge); };
   const GridSource<GridT> source(grid, surface, value, levelSet,
     Coord(index(0), index(1), index(2)), std::move(blocks), cube, build.level);
-  return buildSourceOctree(source, build, hull, &cube);
+  SourceOctree built = buildSourceOctree(source, build, hull, &cube);
+  if (built.status == BuildStatus::TooLarge)
+  {
+    built.message = "its voxels need more memory than there is"; // the level is the grid's
+  }
+  return built;
 }
 
 SourceOctree convertKnown(

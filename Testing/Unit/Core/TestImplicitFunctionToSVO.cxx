@@ -230,7 +230,7 @@ TEST(ImplicitFunctionToSVO, OneMessageForWhatCannotBeConverted)
   {
     SphereConversion sphere(20);
     sphere.filter->SetMemoryLimit(10000);
-    sphere.expectNothing("level 20 needs more memory");
+    sphere.expectNothing("level 20 would need about");
   }
   {
     SphereConversion sphere(20); // it never crosses
