@@ -138,7 +138,8 @@ bool PropState::noteActor(vtkActor* actor, vtkProp* owner, Actor& state)
       Input input{};
       input.producer = connection->GetProducer();
       input.port = connection->GetIndex();
-      input.handsOn = typeid(*input.producer) == typeid(vtkTrivialProducer);
+      const vtkAlgorithm& producer = *input.producer;
+      input.handsOn = typeid(producer) == typeid(vtkTrivialProducer);
       input.data = input.producer->GetOutputDataObject(input.port);
       input.time = input.handsOn ? timeOf(input.producer) : timeOf(input.data);
       addBlocks(input.data, input.blocks);
