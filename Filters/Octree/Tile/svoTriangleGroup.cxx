@@ -64,7 +64,7 @@ bool TriangleGroup::add(const Octree& octree, const std::vector<GroupNode>& node
   };
   for (const GroupNode& node : nodes)
   {
-    if (this->hidden(node, view))
+    if (this->hides(node, view))
     {
       continue;
     }
@@ -95,7 +95,7 @@ bool TriangleGroup::add(const Octree& octree, const std::vector<GroupNode>& node
   return good;
 }
 
-bool TriangleGroup::hidden(const GroupNode& node, const GroupView& view) const
+bool TriangleGroup::hides(const GroupNode& node, const GroupView& view) const
 {
   const float t = node.tNear - view.behind;
   const float w = view.wOfT[0] * t + view.wOfT[1];

@@ -72,6 +72,10 @@ public:
   bool add(const Octree& octree, const std::vector<GroupNode>& nodes, const GroupView& view,
     SmallTriangles small, std::uint32_t owner);
 
+  /// True if what there is hides all that lies in a node's box, or in any other one, from its
+  /// `tNear` on.
+  bool hides(const GroupNode& node, const GroupView& view) const;
+
   /// What the rays through the pixels' centres of a tile of the group meet first: slots, and their
   /// triangles and owners, ~0 where there are none. False if nothing; then nothing is written.
   bool nearest(int column, int row, NearestTriangles& found, std::uint32_t* triangles,
@@ -128,7 +132,6 @@ private:
   /// Fewer would leave lanes empty, more be made ready before what hides them.
   static constexpr std::size_t TrianglesAtOnce = 128;
 
-  bool hidden(const GroupNode& node, const GroupView& view) const;
   static void findList(const Octree& octree, std::uint32_t node, NodeList& list);
   /// Adds the triangles of Lists to Ids, each once.
   void readLists(const Surface& surface);

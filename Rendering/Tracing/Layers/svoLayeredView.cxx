@@ -35,7 +35,7 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   this->Layers.beginFrame(keep, this->HasFrame && !sameRays(view, this->Seen), budget);
   this->Seen = view;
   this->HasFrame = keep;
-  for (VisibleInstance& visible : findVisible(scene, view, takesPart, levelOf))
+  for (VisibleInstance& visible : findVisible(scene, view, takesPart, levelOf, this->Exact))
   {
     const std::uint32_t i = visible.index;
     this->Bases[i] = visible.local.base;
@@ -85,10 +85,49 @@ KeyBase LayeredView::keyBase() const
                              : KeyBase{ static_cast<float>(farthest), farthest > 2.0 * nearest };
 }
 
+/// Of instances whose rays are walked.
+void LayeredView::findIntervals(const ParallelFor& parallelFor)
+{
+  const auto find = [this](Entry& entry, const ParallelFor& loops)
+  {
+    TileIntervals& intervals = entry.layer ? entry.layer->intervals : entry.intervals;
+    if (!entry.tiles && intervals.tNear.empty())
+    {
+      computeTileIntervals(*entry.octree, entry.key.localToWorld, this->Seen, entry.local.rect,
+        { entry.key.leafGeometry, entry.key.level }, entry.local.base, loops, intervals);
+    }
+  };
+  constexpr int Small = 64; // pixels
+  const auto isSmall = [](const Entry& entry)
+  { return entry.local.rect.y1 - entry.local.rect.y0 <= Small; };
+  const auto serial = [](std::size_t begin, std::size_t end, std::size_t grain,
+                        const std::function<void(std::size_t, std::size_t)>& body)
+  { serialFor(begin, end, grain, body); };
+  parallelFor(0, this->Instances.size(), 32,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t e = first; e < last; ++e)
+      {
+        if (isSmall(this->Instances[e]))
+        {
+          find(this->Instances[e], serial);
+        }
+      }
+    });
+  for (Entry& entry : this->Instances)
+  {
+    if (!isSmall(entry))
+    {
+      find(entry, parallelFor);
+    }
+  }
+}
+
 void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* wanted)
 {
   this->Rays = 0;
   this->Retraced = 0;
+  this->Hidden = 0;
   PixelRect all{ this->Seen.width, this->Seen.height, 0, 0 };
   for (const Entry& entry : this->Instances)
   {
@@ -96,15 +135,7 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
     all = { std::min(all.x0, r.x0), std::min(all.y0, r.y0), std::max(all.x1, r.x1),
       std::max(all.y1, r.y1) };
   }
-  for (Entry& entry : this->Instances)
-  {
-    TileIntervals& intervals = entry.layer ? entry.layer->intervals : entry.intervals;
-    if (!entry.tiles && intervals.tNear.empty())
-    {
-      computeTileIntervals(*entry.octree, entry.key.localToWorld, this->Seen, entry.local.rect,
-        { entry.key.leafGeometry, entry.key.level }, entry.local.base, parallelFor, intervals);
-    }
-  }
+  this->findIntervals(parallelFor);
   std::vector<MergedPart> parts;
   for (const Entry& entry : this->Instances)
   {
@@ -130,10 +161,8 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
   const int tx1 = (all.x1 + 7) / 8;
   const int ty0 = all.y0 / 8;
   const int ty1 = (all.y1 + 7) / 8;
-  const int gx0 = tx0 / GroupTiles;
-  const int gy0 = ty0 / GroupTiles;
-  const std::size_t columns = (tx1 + GroupTiles - 1) / GroupTiles - gx0;
-  const std::size_t rows = (ty1 + GroupTiles - 1) / GroupTiles - gy0;
+  this->Groups.fill(all, 8 * GroupTiles, static_cast<std::uint32_t>(this->Instances.size()),
+    [this](std::uint32_t e) -> const PixelRect& { return this->Instances[e].local.rect; });
   std::vector<std::unique_ptr<TileScratch>> idle; // no more than there are threads
   std::mutex mutex;
   const auto wantsAny = [&](int x0, int y0)
@@ -150,7 +179,7 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
     }
     return false;
   };
-  parallelFor(0, columns * rows, std::max<std::size_t>(columns / 8, 2),
+  parallelFor(0, this->Groups.groups(), std::max<std::size_t>(this->Groups.columns() / 8, 2),
     [&](std::size_t first, std::size_t last)
     {
       std::unique_ptr<TileScratch> taken;
@@ -165,20 +194,19 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
       if (!taken)
       {
         taken = std::make_unique<TileScratch>();
-        taken->entries.resize(this->Instances.size());
         taken->rays.resize(this->Instances.size());
         taken->counted.resize(this->Instances.size(), this->Merged.tiles());
       }
       TileScratch& mine = *taken;
       for (std::size_t group = first; group < last; ++group)
       {
-        const int x0 = GroupTiles * (gx0 + static_cast<int>(group % columns));
-        const int y0 = GroupTiles * (gy0 + static_cast<int>(group / columns));
+        const int x0 = GroupTiles * this->Groups.x(group);
+        const int y0 = GroupTiles * this->Groups.y(group);
         if (!wantsAny(x0, y0))
         {
           continue;
         }
-        this->gather(x0, y0, mine);
+        this->gather(group, mine);
         for (int tileY = std::max(y0, ty0); tileY < std::min(y0 + GroupTiles, ty1); ++tileY)
         {
           for (int tileX = std::max(x0, tx0); tileX < std::min(x0 + GroupTiles, tx1); ++tileX)
@@ -194,6 +222,10 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
       const std::lock_guard<std::mutex> lock(mutex);
       idle.push_back(std::move(taken));
     });
+  for (const std::unique_ptr<TileScratch>& scratch : idle)
+  {
+    this->Hidden += scratch->hidden;
+  }
   for (std::size_t e = 0; e < this->Instances.size(); ++e)
   {
     std::uint64_t rays = 0;

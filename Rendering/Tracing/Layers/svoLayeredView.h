@@ -4,6 +4,7 @@
 #define svoLayeredView_h
 
 #include "svoDepthBuffer.h"
+#include "svoGroupLists.h"
 #include "svoIntersectTile.h"
 #include "svoLayerCache.h"
 #include "svoMergedTiles.h"
@@ -60,6 +61,12 @@ public:
 
   /// Traces points of a tile, `count` times 64, through all instances; to be called after trace().
   void sample(int tileX, int tileY, TileSamples* samples, std::size_t count) const;
+
+  /// Whether instances are left out of groups of tiles where others hide all of them: on by
+  /// default. It changes no bit.
+  void setOcclusionCulling(bool culling) { this->Culling = culling; }
+  /// How often one was, in the last frame: instances times groups.
+  std::uint64_t hiddenInstances() const { return this->Hidden; }
 
   const DepthBuffer& depthBuffer() const { return this->Merged; }
   /// Base of an instance's t, by index into Scene::instances.
@@ -162,14 +169,16 @@ private:
   /// What a thread keeps from tile to tile.
   struct TileScratch
   {
-    std::vector<TileEntry> entries;  // by index into Instances
-    std::vector<std::size_t> nearby; // of Instances: those that reach into the group of tiles
-    std::vector<TileEntry*> order;   // those that the tile's rays may meet
-    std::vector<std::uint64_t> rays; // by index into Instances
+    std::vector<TileEntry> entries;   // at least those that reach into the group of tiles ...
+    std::size_t nearby = 0;           // ... which are so many, in the order of Instances
+    std::vector<TileEntry*> together; // of these, front to back
+    std::vector<TileEntry*> order;    // those that the tile's rays may meet
+    std::vector<std::uint64_t> rays;  // by index into Instances
+    std::uint64_t hidden = 0;         // see hiddenInstances()
 
     // The group of tiles.
     int groupX, groupY;
-    FoundTriangles together;
+    FoundTriangles found; // of those
     std::vector<GroupNode> nodes;
     // The tile.
     NearestTriangles nearest;
@@ -179,11 +188,12 @@ private:
     alignas(64) std::uint32_t instance[64];
     alignas(64) Primitive primitive[64];
   };
+  void findIntervals(const ParallelFor& parallelFor);
   /// Where the rays of a tile can meet an instance; false if nowhere.
   bool meets(int tileX, int tileY, TileEntry& candidate) const;
   /// Finds the instances that reach into a group of tiles, and the triangles of those that are
   /// traced together.
-  void gather(int firstTileX, int firstTileY, TileScratch& scratch) const;
+  void gather(std::size_t group, TileScratch& scratch) const;
   /// Adds what a group of tiles may see of those that are traced together. False, and all is to be
   /// done once more, if one of them turned out to have to be traced by rays.
   bool findTogether(TileScratch& scratch) const;
@@ -259,7 +269,10 @@ private:
   KeyBase Keys;
   LayerCache Layers;
   DepthBuffer Merged;
-  MergedTiles Tiles;                 // of Merged
+  MergedTiles Tiles; // of Merged
+  GroupLists Groups; // of Instances
+  bool Culling = true;
+  std::uint64_t Hidden = 0;
   std::vector<std::uint8_t> LastHit; // DepthBuffer::hit of the last frame
   std::uint64_t Rays = 0;
   std::uint64_t Retraced = 0;

@@ -20,6 +20,8 @@ constexpr std::size_t MostGroupNodes = 4096;
 /// Where it sees fewer of an instance there are not enough triangles for one to hide another. With
 /// 0 ordinary meshes take 5 % longer, meshes of triangles smaller than pixels 2 % less.
 constexpr std::size_t FewGroupNodes = 400;
+/// But where so many instances are together they hide each other.
+constexpr std::size_t Crowd = 8;
 
 int lowest(std::uint64_t bits)
 {
@@ -38,6 +40,33 @@ bool LayeredView::findTriangles(
   {
     return false;
   }
+  HitLimits limits;
+  if (this->Exact)
+  {
+    limits.error = this->Errors[entry.index];
+    // A little less than where placeOnPlane() changes its mind.
+    limits.nearReach = 0.999 * edgeOnReach(entry.local);
+    limits.reach = 0.999 * placingReach(entry.local);
+  }
+  const GroupView view =
+    makeGroupView(entry.local, entry.functions, this->Keys, limits, scratch.groupX, scratch.groupY);
+  if (this->Culling && !found.group.empty())
+  {
+    const PixelRect& r = entry.local.rect;
+    const auto inGroup = [](int pixel, int firstTile, int last)
+    {
+      return static_cast<std::uint8_t>(
+        std::clamp(pixel - 8 * firstTile - last, 0, GroupView::Pixels - 1));
+    };
+    if (found.group.hides(
+          { 0.0f, 0, inGroup(r.x0, scratch.groupX, 0), inGroup(r.x1, scratch.groupX, 1),
+            inGroup(r.y0, scratch.groupY, 0), inGroup(r.y1, scratch.groupY, 1) },
+          view))
+    {
+      ++scratch.hidden;
+      return true;
+    }
+  }
   const TilePyramid all =
     makePyramid(entry.projection, this->Seen, scratch.groupX, scratch.groupY, GroupTiles);
   if (!findGroupNodes(*entry.octree, all, 0.0f, entry.local.tMax, MostGroupNodes, scratch.nodes))
@@ -48,32 +77,24 @@ bool LayeredView::findTriangles(
   {
     return true;
   }
-  HitLimits limits;
-  if (this->Exact)
-  {
-    limits.error = this->Errors[entry.index];
-    // A little less than where placeOnPlane() changes its mind.
-    limits.nearReach = 0.999 * edgeOnReach(entry.local);
-    limits.reach = 0.999 * placingReach(entry.local);
-  }
-  found.spoilt = !found.group.add(*entry.octree, scratch.nodes,
-    makeGroupView(entry.local, entry.functions, this->Keys, limits, scratch.groupX, scratch.groupY),
-    scratch.nodes.size() < FewGroupNodes ? SmallTriangles::AsSlots : SmallTriangles::AsPoints,
+  found.spoilt = !found.group.add(*entry.octree, scratch.nodes, view,
+    scratch.nodes.size() < FewGroupNodes && scratch.together.size() < Crowd
+      ? SmallTriangles::AsSlots
+      : SmallTriangles::AsPoints,
     entry.index);
   return !found.spoilt;
 }
 
 bool LayeredView::findTogether(TileScratch& scratch) const
 {
-  scratch.together.clear();
-  for (const std::size_t e : scratch.nearby)
+  scratch.found.clear();
+  for (TileEntry* const candidate : scratch.together)
   {
-    TileEntry& candidate = scratch.entries[e];
-    if (candidate.way == Way::Together &&
-      !this->findTriangles(*candidate.entry, scratch, scratch.together))
+    if (candidate->way == Way::Together &&
+      !this->findTriangles(*candidate->entry, scratch, scratch.found))
     {
-      candidate.way = Way::Rays;
-      if (scratch.together.spoilt)
+      candidate->way = Way::Rays;
+      if (scratch.found.spoilt)
       {
         return false;
       }
@@ -82,23 +103,22 @@ bool LayeredView::findTogether(TileScratch& scratch) const
   return true;
 }
 
-void LayeredView::gather(int firstTileX, int firstTileY, TileScratch& scratch) const
+void LayeredView::gather(std::size_t group, TileScratch& scratch) const
 {
-  const int x0 = 8 * firstTileX, y0 = 8 * firstTileY;
-  const int x1 = x0 + 8 * GroupTiles, y1 = y0 + 8 * GroupTiles;
-  scratch.nearby.clear();
-  scratch.groupX = firstTileX;
-  scratch.groupY = firstTileY;
-  for (std::size_t e = 0; e < this->Instances.size(); ++e)
+  const GroupLists::List nearby = this->Groups.of(group);
+  scratch.groupX = GroupTiles * this->Groups.x(group);
+  scratch.groupY = GroupTiles * this->Groups.y(group);
+  scratch.nearby = static_cast<std::size_t>(nearby.end() - nearby.begin());
+  scratch.together.clear();
+  if (scratch.entries.size() < scratch.nearby)
+  {
+    scratch.entries.resize(scratch.nearby);
+  }
+  TileEntry* next = scratch.entries.data();
+  for (const std::uint32_t e : nearby)
   {
     const Entry& entry = this->Instances[e];
-    const PixelRect& r = entry.local.rect;
-    if (r.x0 >= x1 || r.x1 <= x0 || r.y0 >= y1 || r.y1 <= y0)
-    {
-      continue;
-    }
-    scratch.nearby.push_back(e);
-    TileEntry& candidate = scratch.entries[e];
+    TileEntry& candidate = *next++;
     candidate.entry = &entry;
     candidate.way = entry.tiles ? Way::Unknown : Way::Rays;
     if (entry.tiles && !entry.layer)
@@ -110,8 +130,16 @@ void LayeredView::gather(int firstTileX, int firstTileY, TileScratch& scratch) c
         candidate.way =
           this->findTriangles(entry, scratch, candidate.alone) ? Way::Alone : Way::Rays;
       }
+      else
+      {
+        scratch.together.push_back(&candidate);
+      }
     }
   }
+  // What is near hides what is behind it.
+  std::stable_sort(scratch.together.begin(), scratch.together.end(),
+    [](const TileEntry* a, const TileEntry* b)
+    { return a->entry->local.base < b->entry->local.base; });
   while (!this->findTogether(scratch))
   {
   }

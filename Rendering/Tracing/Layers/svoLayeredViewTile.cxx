@@ -57,14 +57,14 @@ bool LayeredView::meets(int tileX, int tileY, TileEntry& candidate) const
 void LayeredView::order(int tileX, int tileY, bool onlyChanged, TileScratch& scratch)
 {
   scratch.order.clear();
-  for (const std::size_t e : scratch.nearby)
+  for (std::size_t k = 0; k < scratch.nearby; ++k)
   {
-    const Entry& entry = this->Instances[e];
+    TileEntry& candidate = scratch.entries[k];
+    const Entry& entry = *candidate.entry;
     if (onlyChanged && !this->Tiles.partChanged(entry.index))
     {
       continue;
     }
-    TileEntry& candidate = scratch.entries[e];
     DepthLayer* layer = entry.layer;
     if (layer && layer->holds(tileX, tileY))
     {
@@ -195,7 +195,7 @@ void LayeredView::traceTile(int tileX, int tileY, bool onlyChanged, TileScratch&
   MergedTile merged{ this->Merged.t.data() + 64 * tile, this->Merged.instance.data() + 64 * tile,
     this->Merged.primitive.data() + 64 * tile, false };
   merged.any = onlyChanged ? this->LastHit[tile] != 0
-                           : this->nearestHits(tileX, tileY, scratch.together, scratch, merged);
+                           : this->nearestHits(tileX, tileY, scratch.found, scratch, merged);
   this->order(tileX, tileY, onlyChanged, scratch);
   this->Merged.hit[tile] = merged.any;
   if (scratch.order.empty())
@@ -270,7 +270,7 @@ void LayeredView::traceAgain(int tileX, int tileY, TileScratch& scratch)
   // merging gives again.
   const std::uint32_t* instance = this->Merged.instance.data() + 64 * tile;
   const bool wasSeen = this->LastHit[tile] && this->Tiles.anyChanged(instance);
-  this->traceTile(tileX, tileY, !wasSeen && scratch.together.group.empty(), scratch);
+  this->traceTile(tileX, tileY, !wasSeen && scratch.found.group.empty(), scratch);
   if (!wasSeen && !(this->Merged.hit[tile] && this->Tiles.anyChanged(instance)))
   {
     this->Tiles.settle(tile);

@@ -9,16 +9,18 @@ namespace svo
 {
 namespace
 {
-/// Area of a triangle in the image, pixels, from which on tracing by tiles is quicker. Triangles of
-/// small meshes are made ready in caches, those of large ones wait for memory: measured for 20 000,
-/// 60 000 and 200 000, at as many pixels a triangle as there are in views of 100 to 1000 objects.
-double leastTrianglePixels(std::uint64_t triangles)
+/// Area of a triangle in the image, pixels, from which on tracing by tiles is quicker. Small meshes
+/// are made ready in caches, triangles of large ones wait for memory; and where few tiles are
+/// wanted much is made ready in vain. Measured for 20 000, 60 000 and 200 000 triangles, at as many
+/// pixels a triangle as there are in views of 100 to 4000 objects.
+double leastTrianglePixels(std::uint64_t triangles, bool allTiles)
 {
-  return std::clamp(static_cast<double>(triangles) * (0.5 / 200000.0), 0.05, 0.5);
+  constexpr double Most = 0.5, MostAt = 200000.0;
+  return std::clamp(static_cast<double>(triangles) * (Most / MostAt), allTiles ? 0.05 : 0.25, Most);
 }
 }
 
-bool worthTiles(const Instance& instance, const LocalView& local, const View& view)
+bool worthTiles(const Instance& instance, const LocalView& local, const View& view, bool allTiles)
 {
   const Octree& octree = instance.octree;
   if (!traitsOf(instance.leafGeometry).exact() || !octree.surface() || local.stretched)
@@ -30,7 +32,7 @@ bool worthTiles(const Instance& instance, const LocalView& local, const View& vi
   const double voxel = worldVoxel(instance) / pixel;
   const Header& h = octree.header();
   const double voxels = static_cast<double>(h.voxelCount) / static_cast<double>(h.triangleCount);
-  return voxels * voxel * voxel >= leastTrianglePixels(h.triangleCount);
+  return voxels * voxel * voxel >= leastTrianglePixels(h.triangleCount, allTiles);
 }
 
 int deepened(const Instance& instance, int level)
@@ -42,7 +44,7 @@ int deepened(const Instance& instance, int level)
 }
 
 std::vector<VisibleInstance> findVisible(const Scene& scene, const View& view,
-  const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf)
+  const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf, bool allTiles)
 {
   std::vector<VisibleInstance> visible;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
@@ -55,7 +57,7 @@ std::vector<VisibleInstance> findVisible(const Scene& scene, const View& view,
     const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
     if (!local.rect.empty())
     {
-      const bool tiles = worthTiles(instance, local, view);
+      const bool tiles = worthTiles(instance, local, view, allTiles);
       const int level =
         tiles ? instance.octree.level() : deepened(instance, levelOf(instance, local));
       const LeafGeometry geometry = tiles ? LeafGeometry::Triangle : instance.leafGeometry;

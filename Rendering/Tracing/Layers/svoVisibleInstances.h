@@ -15,10 +15,10 @@
 namespace svo
 {
 /// True if an instance is to be traced tile by tile, to its triangles: those that its leaf geometry
-/// leaves exact anyway, and no smaller in the image than about a pixel. Of `level` the tiles know
-/// nothing: they are more accurate than any, and faster.
+/// leaves exact anyway, where that is quicker. Of levels the tiles know nothing: they are more
+/// accurate than any. `allTiles`: false of lights' views, where few may be wanted.
 VTKSVOTRACING_EXPORT bool worthTiles(
-  const Instance& instance, const LocalView& local, const View& view);
+  const Instance& instance, const LocalView& local, const View& view, bool allTiles);
 
 /// The level that rays of an instance really stop at: the last one where they would stop inside of
 /// bricks whose triangles they test. They meet the same triangles, but pass bricks by that they
@@ -44,7 +44,8 @@ using LevelOf = std::function<int(const Instance&, const LocalView&)>;
 /// The instances that `takesPart` and whose cubes lie in the view, in the scene's order. All that a
 /// ray of the view can hit is among them. Octrees are borrowed from the scene.
 VTKSVOTRACING_EXPORT std::vector<VisibleInstance> findVisible(const Scene& scene, const View& view,
-  const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf);
+  const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf,
+  bool allTiles = true);
 }
 
 #endif

@@ -1,6 +1,9 @@
 #include "svoCasters.h"
 
+#include "svoBox.h"
 #include "svoWorldToOctree.h"
+
+#include <optional>
 
 #include <glm/mat3x3.hpp>
 
@@ -8,8 +11,27 @@ namespace svo
 {
 namespace
 {
-/// True if `caster` is flat and the light and all receivers are on one side of it.
-bool isOnlyBackdrop(const std::vector<Outline>& outlines, const Outline& caster, const Light& light)
+/// Around all receivers, world. Empty if there are none.
+Box boxOfReceivers(const std::vector<Outline>& outlines)
+{
+  Box box;
+  for (const Outline& receiver : outlines)
+  {
+    for (const glm::dvec3& corner : worldCorners(receiver, 0.0))
+    {
+      if (receiver.receives)
+      {
+        box.add(corner);
+      }
+    }
+  }
+  return box;
+}
+
+/// True if `caster` is flat and the light and all receivers are on one side of it. `all`: around
+/// them, once it was asked for.
+bool isOnlyBackdrop(const std::vector<Outline>& outlines, std::optional<Box>& all,
+  const Outline& caster, const Light& light)
 {
   int axis = 0;
   while (axis < 3 && caster.meshLow[axis] != caster.meshHigh[axis])
@@ -28,6 +50,19 @@ bool isOnlyBackdrop(const std::vector<Outline>& outlines, const Outline& caster,
   const double lightSide =
     light.atInfinity() ? -(inverse * light.direction)[axis] : height(light.position) - plane;
   const double side = lightSide < 0.0 ? -1.0 : 1.0;
+  // Of many flat casters, glyphs for instance, each would ask all receivers.
+  all = all ? all : boxOfReceivers(outlines);
+  bool allOnOneSide = true;
+  for (int i = 0; i < 8; ++i)
+  {
+    const glm::dvec3 corner(i & 1 ? all->high.x : all->low.x, i & 2 ? all->high.y : all->low.y,
+      i & 4 ? all->high.z : all->low.z);
+    allOnOneSide = allOnOneSide && side * (height(corner) - plane) >= -0.5 * caster.smallestVoxel;
+  }
+  if (allOnOneSide)
+  {
+    return true;
+  }
   for (const Outline& receiver : outlines)
   {
     if (&receiver == &caster || !receiver.receives)
@@ -49,10 +84,11 @@ bool isOnlyBackdrop(const std::vector<Outline>& outlines, const Outline& caster,
 
 std::vector<std::uint8_t> castersOf(const std::vector<Outline>& outlines, const Light& light)
 {
+  std::optional<Box> all;
   std::vector<std::uint8_t> casters;
   for (const Outline& outline : outlines)
   {
-    casters.push_back(outline.casts && !isOnlyBackdrop(outlines, outline, light));
+    casters.push_back(outline.casts && !isOnlyBackdrop(outlines, all, outline, light));
   }
   return casters;
 }

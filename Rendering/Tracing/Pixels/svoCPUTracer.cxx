@@ -173,16 +173,17 @@ void CPUTracer::Internals::findDarkenedTiles(
   }
   const auto mayCross = [&](const PointBox& starts)
   {
-    return std::any_of(changes.instances.begin(), changes.instances.end(),
-      [&](std::uint32_t i)
-      {
-        return std::any_of(scene.lights.begin(), scene.lights.end(),
-          [&](const Light& light)
-          {
-            return light.castShadow &&
-              (before[i].mayBlock(light, starts) || this->Casters[i].mayBlock(light, starts));
-          });
-      });
+    return !starts.empty() &&
+      std::any_of(changes.instances.begin(), changes.instances.end(),
+        [&](std::uint32_t i)
+        {
+          return std::any_of(scene.lights.begin(), scene.lights.end(),
+            [&](const Light& light)
+            {
+              return light.castShadow &&
+                (before[i].mayBlock(light, starts) || this->Casters[i].mayBlock(light, starts));
+            });
+        });
   };
   const std::vector<std::uint32_t>& hits = this->Tiles.hits();
   parallelFor(0, hits.size(), 512,

@@ -19,7 +19,7 @@ double coarsestVoxel(const Scene& scene, const View& view)
       continue;
     }
     const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
-    if (!local.rect.empty() && !worthTiles(instance, local, view))
+    if (!local.rect.empty() && !worthTiles(instance, local, view, true))
     {
       largest = std::max(largest, worldVoxel(instance) / worldPixel(view, local.base));
     }

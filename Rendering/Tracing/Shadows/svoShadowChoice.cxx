@@ -63,7 +63,7 @@ Map makeMap(const Scene& scene, const View& view, const std::vector<std::uint8_t
         const PixelRect& r = local.rect;
         map.casters.push_back({ r, static_cast<double>(r.x1 - r.x0) * (r.y1 - r.y0),
           static_cast<double>(instance.octree.header().triangleCount),
-          !worthTiles(instance, local, view), kept[i] != 0 });
+          !worthTiles(instance, local, view, false), kept[i] != 0 });
       }
     }
   }

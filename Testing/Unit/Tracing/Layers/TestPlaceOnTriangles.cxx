@@ -39,7 +39,8 @@ TEST(PlaceOnTriangles, APicturesDepthsAreThoseOfRaysInDouble)
       budget);
     layers.trace(svo::serialFor, nullptr);
     ASSERT_TRUE(svo::worthTiles(scene.instances[0],
-      svo::makeLocalView(scene.instances[0].octree, scene.instances[0].localToWorld, view), view));
+      svo::makeLocalView(scene.instances[0].octree, scene.instances[0].localToWorld, view), view,
+      true));
     const svo::LocalView local =
       svo::makeLocalView(scene.instances[0].octree, scene.instances[0].localToWorld, view);
     const svo::DepthBuffer& depth = layers.depthBuffer();
