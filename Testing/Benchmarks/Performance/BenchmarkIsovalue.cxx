@@ -7,32 +7,25 @@
 //
 //   BenchmarkIsovalue [--sizes 128,256] [--values n] [--size 1280x720] [--json file] [--pictures
 //   prefix]
+#include "performanceWindow.h"
 #include "svoResults.h"
 #include "vtkImageToSVO.h"
 #include "vtkSVORenderPass.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkCameraPass.h>
 #include <vtkFloatArray.h>
 #include <vtkFlyingEdges3D.h>
 #include <vtkImageData.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
-#include <vtkOpaquePass.h>
-#include <vtkPNGWriter.h>
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
-#include <vtkRenderPassCollection.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkSequencePass.h>
-#include <vtkShadowMapBakerPass.h>
-#include <vtkShadowMapPass.h>
 #include <vtkUnsignedCharArray.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
 #include <chrono>
@@ -56,12 +49,6 @@ struct Moment
     return std::chrono::duration<double, std::milli>(this->clock - since.clock).count();
   }
 };
-
-double median(std::vector<double> values)
-{
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0.0 : values[values.size() / 2];
-}
 
 /// Of a ball with waves all over, 2 wide: values fall outwards, as densities do.
 vtkSmartPointer<vtkImageData> density(int points)
@@ -189,26 +176,17 @@ public:
     }
     return static_cast<double>(pixels) / static_cast<double>(n);
   }
-  void write(const std::string& path)
-  {
-    vtkNew<vtkWindowToImageFilter> picture;
-    picture->SetInput(this->Window);
-    picture->ReadFrontBufferOff();
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetInputConnection(picture->GetOutputPort());
-    writer->SetFileName(path.c_str());
-    writer->Write();
-  }
+  void write(const std::string& path) { performance::writePicture(this->Window, path); }
   svobench::Row row(int points, double worst) const
   {
     svobench::Row row;
     row["experiment"] = "isovalue";
     row["points"] = points;
     row["method"] = this->Name;
-    row["processorMs"] = median(this->Processor);
-    row["wallMs"] = median(this->Wall);
-    row["surfaceProcessorMs"] = median(this->SurfaceProcessor);
-    row["surfaceWallMs"] = median(this->SurfaceWall);
+    row["processorMs"] = performance::median(this->Processor);
+    row["wallMs"] = performance::median(this->Wall);
+    row["surfaceProcessorMs"] = performance::median(this->SurfaceProcessor);
+    row["surfaceWallMs"] = performance::median(this->SurfaceWall);
     row["differingShare"] = worst;
     return row;
   }
@@ -224,19 +202,7 @@ private:
   {
     if (look == Look::ShadowMaps)
     {
-      vtkNew<vtkShadowMapBakerPass> baker;
-      baker->SetResolution(2048);
-      vtkNew<vtkShadowMapPass> maps;
-      maps->SetShadowMapBakerPass(baker);
-      vtkNew<vtkOpaquePass> opaque;
-      vtkNew<vtkRenderPassCollection> passes;
-      passes->AddItem(baker);
-      passes->AddItem(maps);
-      vtkNew<vtkSequencePass> sequence;
-      sequence->SetPasses(passes);
-      vtkNew<vtkCameraPass> camera;
-      camera->SetDelegatePass(sequence);
-      this->Renderer->SetPass(camera);
+      performance::useShadowMaps(this->Renderer);
     }
     else if (look != Look::Raster)
     {
