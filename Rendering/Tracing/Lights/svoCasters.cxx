@@ -3,6 +3,8 @@
 #include "svoBox.h"
 #include "svoWorldToOctree.h"
 
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include <glm/mat3x3.hpp>
@@ -11,18 +13,24 @@ namespace svo
 {
 namespace
 {
-/// Around all receivers, world. Empty if there are none.
+/// Around all receivers, world. Infinite if one may be anywhere, empty if there are none.
 Box boxOfReceivers(const std::vector<Outline>& outlines)
 {
   Box box;
   for (const Outline& receiver : outlines)
   {
+    if (!receiver.receives)
+    {
+      continue;
+    }
     for (const glm::dvec3& corner : worldCorners(receiver, 0.0))
     {
-      if (receiver.receives)
+      if (!std::isfinite(corner.x + corner.y + corner.z))
       {
-        box.add(corner);
+        constexpr double Infinity = std::numeric_limits<double>::infinity();
+        return { glm::dvec3(-Infinity), glm::dvec3(Infinity) };
       }
+      box.add(corner);
     }
   }
   return box;
