@@ -23,7 +23,7 @@ cmake --build build/fuzz -j "${VTKSVO_JOBS:-2}" --target FuzzOctree FuzzVDB
 mkdir -p build/fuzz/corpus build/fuzz/corpus-vdb
 export ASAN_OPTIONS="detect_leaks=1:detect_stack_use_after_return=1"
 export LSAN_OPTIONS="suppressions=$PWD/Testing/sanitizers.supp:print_suppressions=0"
-export UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1"
+export UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1:suppressions=$PWD/Testing/undefined.supp"
 fuzz() {
   "build/fuzz/bin/$1" -timeout=10 -rss_limit_mb=2048 -max_total_time="$seconds" \
     -artifact_prefix=build/fuzz/ "${@:2}"

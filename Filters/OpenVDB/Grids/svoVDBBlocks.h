@@ -30,6 +30,18 @@ struct Refused
   std::string message;
 };
 
+/// A voxel's neighbour. Indices end at those of 32 bits: beyond them there is the last one again.
+inline openvdb::Coord beside(const openvdb::Coord& at, int x, int y, int z)
+{
+  const auto moved = [](std::int32_t from, int by)
+  {
+    const std::int64_t to = std::int64_t(from) + by;
+    return static_cast<std::int32_t>(
+      std::clamp<std::int64_t>(to, openvdb::Coord::min().x(), openvdb::Coord::max().x()));
+  };
+  return { moved(at.x(), x), moved(at.y(), y), moved(at.z(), z) };
+}
+
 /// Which active values are occupied: of masks, which have none, all.
 template <class GridT>
 bool isAbove(
@@ -150,7 +162,7 @@ private:
           for (int x = 0; x < Wide; ++x)
           {
             around[z][y][x] =
-              static_cast<double>(values.getValue(leaf.origin().offsetBy(x - 1, y - 1, z - 1))) -
+              static_cast<double>(values.getValue(beside(leaf.origin(), x - 1, y - 1, z - 1))) -
               this->Value;
           }
         }

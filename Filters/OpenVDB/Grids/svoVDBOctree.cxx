@@ -61,7 +61,7 @@ protected:
       for (int i = 0; i < VoxelValues::Count; ++i)
       {
         near.at[i] = this->Outwards *
-          (static_cast<double>(values.getValue(at.offsetBy(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1))) -
+          (static_cast<double>(values.getValue(beside(at, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1))) -
             this->Value);
       }
       if (this->Surface)
@@ -101,7 +101,7 @@ private:
     const auto occupied = [&](int x, int y, int z)
     {
       ValueT value;
-      return values.probeValue(at.offsetBy(x, y, z), value) && isAbove<GridT>(value, this->Value);
+      return values.probeValue(beside(at, x, y, z), value) && isAbove<GridT>(value, this->Value);
     };
     const glm::dvec3 inner(0.0, 0.0, (voxel.x + voxel.y + voxel.z) % 2 ? 1.0 : -1.0);
     if (occupied(-1, 0, 0) && occupied(1, 0, 0) && occupied(0, -1, 0) && occupied(0, 1, 0) &&
