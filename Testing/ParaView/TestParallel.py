@@ -5,38 +5,16 @@ usage: TestParallel.py folder of ParaView's programs
 
 import glob
 import os
-import subprocess
-import sys
 import unittest
 
 import pictures
+from processes import MPIRUN, file_of, program, run, run_with_server, script
 
-PROGRAMS = sys.argv.pop(1)
-SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "several_processes.py")
+SCRIPT = script("several_processes.py")
 NAMES = ("full-depth", "shadow", "drawn-by-the-client", "drawn-by-the-server", "moved", "turned", "rays",
          "ordinary-ground", "everything", "shadow-ground", "light-kit")
 # With triangles smaller than pixels, at pixel errors 1 (the default) and 2.
 LEVELS = {"level-of-detail": 1e-4, "coarse": 1e-3}
-# Open MPI refuses to run as root, and more processes than cores, unless told to.
-os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-MPIRUN = ["mpirun", "--map-by", ":OVERSUBSCRIBE", "-np"]
-
-
-def program(name):
-    return os.path.join(PROGRAMS, name)
-
-
-def run(command):
-    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                            timeout=240)
-    print(result.stdout)
-    if result.returncode != 0 or "ERR|" in result.stdout:
-        raise AssertionError(f"{command} ended with {result.returncode}")
-    return result.stdout
-
-
-def file_of(prefix, name):
-    return os.path.join(os.environ["VTKSVO_OUTPUT"], f"{prefix}-{name}.png")
 
 
 def read(prefix, name):
@@ -98,18 +76,7 @@ class TestParallel(unittest.TestCase):
         self.check_processes(3)
 
     def check_server(self, prefix, command, port):
-        server = subprocess.Popen(command + [f"--server-port={port}"], stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, text=True)
-        try:
-            for line in server.stdout:
-                if "Accepting connection" in line:
-                    break
-            self.check_figures(run([program("pvpython"), SCRIPT, prefix, str(port)]))
-            said = server.communicate(timeout=60)[0]
-            self.assertNotIn("ERR|", said)
-        finally:
-            server.kill()
-            server.wait()
+        self.check_figures(run_with_server(command, [program("pvpython"), SCRIPT, prefix], port))
         self.check(prefix)
 
     def test_server(self):

@@ -45,6 +45,20 @@ def make_view(size=(600, 400)):
     return view
 
 
+def make_parallel_view(port=None):
+    """In the client of a server at this port of this machine, or without one: a view with a sun that the processes that
+    have the data draw."""
+    if port is not None:
+        pv.Connect("localhost", port)
+    load_plugin()
+    if port is not None:
+        load_plugin(remote=True)
+    view = make_view((400, 300))
+    view.RemoteRenderThreshold = 0.0
+    add_sun(view)
+    return view
+
+
 def add_sun(view):
     """A directional light of the scene."""
     light = pv.AddLight(view=view)

@@ -11,15 +11,7 @@ import scene
 
 prefix = sys.argv[1]
 served = len(sys.argv) > 2
-if served:
-    pv.Connect("localhost", int(sys.argv[2]))
-scene.load_plugin()
-if served:
-    scene.load_plugin(remote=True)
-
-view = scene.make_view((400, 300))
-view.RemoteRenderThreshold = 0.0
-scene.add_sun(view)
+view = scene.make_parallel_view(int(sys.argv[2]) if served else None)
 ball, ground = scene.make_ball(), scene.make_ground()
 displays = [scene.show(source, view) for source in (ball, ground)]
 # ParaView 5.12 renamed the filter and its array.

@@ -227,19 +227,17 @@ void SceneCollector::explain(
   const CollectSettings& settings, const StoreOptions& options, CollectedScene& result) const
 {
   result.reasons.clear();
+  if (!settings.onlyMarked)
+  {
+    return;
+  }
   for (const PropSurfaces& prop : this->Found)
   {
-    if (!settings.onlyMarked)
-    {
-      return;
-    }
-    const bool complete = std::all_of(prop.surfaces.begin(), prop.surfaces.end(),
-      [](const SceneSurface& surface) { return static_cast<bool>(surface.instance.octree); });
     const bool casts = std::any_of(prop.surfaces.begin(), prop.surfaces.end(),
       [](const SceneSurface& surface) { return surface.casts && surface.instance.octree; });
-    const Reason missing = complete ? nullptr
-      : options.convert             ? "has no octree, or none yet"
-                                    : "comes without an octree";
+    const Reason missing = prop.hasOctrees() ? nullptr
+      : options.convert                      ? "has no octree, or none yet"
+                                             : "comes without an octree";
     const Reason rasterized = prop.rasterized ? prop.rasterized : missing;
     const Reason castsNone = prop.castsNone ? prop.castsNone : missing;
     const bool asChosen = !castsNone && rasterized == settings.notMarked;
@@ -315,11 +313,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   this->Options.wait = options.wait;
   this->StoreVersion = store.version();
   this->Complete = std::all_of(this->Found.begin(), this->Found.end(),
-    [](const PropSurfaces& prop)
-    {
-      return std::all_of(prop.surfaces.begin(), prop.surfaces.end(),
-        [](const SceneSurface& surface) { return static_cast<bool>(surface.instance.octree); });
-    });
+    [](const PropSurfaces& prop) { return prop.hasOctrees(); });
 }
 
 void SceneCollector::forget()

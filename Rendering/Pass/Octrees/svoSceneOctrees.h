@@ -100,6 +100,12 @@ struct PropSurfaces
     return std::any_of(this->surfaces.begin(), this->surfaces.end(),
       [](const SceneSurface& surface) { return surface.casts; });
   }
+  /// False of a surface whose octree is not there, or not yet.
+  bool hasOctrees() const
+  {
+    return std::all_of(this->surfaces.begin(), this->surfaces.end(),
+      [](const SceneSurface& surface) { return static_cast<bool>(surface.instance.octree); });
+  }
   void leaveAlone(Reason reason)
   {
     this->rasterize(reason);

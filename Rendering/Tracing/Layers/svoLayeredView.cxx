@@ -100,9 +100,6 @@ void LayeredView::findIntervals(const ParallelFor& parallelFor)
   constexpr int Small = 64; // pixels
   const auto isSmall = [](const Entry& entry)
   { return entry.local.rect.y1 - entry.local.rect.y0 <= Small; };
-  const auto serial = [](std::size_t begin, std::size_t end, std::size_t grain,
-                        const std::function<void(std::size_t, std::size_t)>& body)
-  { serialFor(begin, end, grain, body); };
   parallelFor(0, this->Instances.size(), 32,
     [&](std::size_t first, std::size_t last)
     {
@@ -110,7 +107,7 @@ void LayeredView::findIntervals(const ParallelFor& parallelFor)
       {
         if (isSmall(this->Instances[e]))
         {
-          find(this->Instances[e], serial);
+          find(this->Instances[e], serialFor);
         }
       }
     });

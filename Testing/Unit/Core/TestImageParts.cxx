@@ -65,6 +65,17 @@ int defaultLevel(vtkImageData* image, double value)
   const svo::Octree octree = octreeOf(filter->GetOutput());
   return octree ? octree.level() : 0;
 }
+
+/// The surface where the image is 5.3.
+svo::Octree planeOfLevel6(vtkImageData* image)
+{
+  vtkNew<vtkImageToSVO> filter;
+  filter->SetInputData(image);
+  filter->SetValue(5.3);
+  filter->SetMaximumLevel(6);
+  filter->Update();
+  return octreeOf(filter->GetOutput());
+}
 }
 
 TEST(ImageParts, PiecesHaveTheVoxelsOfTheWhole)
@@ -133,12 +144,7 @@ TEST(ImageParts, BlankedCellsHaveNoSurface)
       grid->BlankCell(cell);
     }
   }
-  vtkNew<vtkImageToSVO> filter;
-  filter->SetInputData(grid);
-  filter->SetValue(5.3);
-  filter->SetMaximumLevel(6);
-  filter->Update();
-  const svo::Octree octree = octreeOf(filter->GetOutput());
+  const svo::Octree octree = planeOfLevel6(grid);
   ASSERT_TRUE(octree);
   const double voxel = octree.header().voxelSize;
   double least = 99.0;
@@ -156,12 +162,7 @@ TEST(ImageParts, BlankedPointsHaveNoSurfaceAroundThem)
   const auto grid = makeImage<vtkUniformGrid>(17);
   grid->GetPointData()->GetScalars()->SetComponent(grid->FindPoint(8.0, 8.0, 5.0), 0, 1e30);
   grid->BlankPoint(grid->FindPoint(8.0, 8.0, 5.0));
-  vtkNew<vtkImageToSVO> filter;
-  filter->SetInputData(grid);
-  filter->SetValue(5.3);
-  filter->SetMaximumLevel(6);
-  filter->Update();
-  const svo::Octree octree = octreeOf(filter->GetOutput());
+  const svo::Octree octree = planeOfLevel6(grid);
   ASSERT_TRUE(octree);
   const double voxel = octree.header().voxelSize;
   for (const auto& [cell, plane] : planesOf(octree))

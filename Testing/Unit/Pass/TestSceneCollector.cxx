@@ -1,277 +1,8 @@
 // What is kept of unchanged props: after any change a scene is what a fresh collection makes of it,
 // and where nothing changes nothing is looked at.
-#include "svoCameraView.h"
-#include "svoPropKeys.h"
-#include "svoSceneCollector.h"
+#include "svoKeptProps.h"
 
-#include "vtkActor.h"
-#include "vtkAssembly.h"
-#include "vtkBitArray.h"
-#include "vtkCamera.h"
-#include "vtkCellData.h"
-#include "vtkCompositeDataDisplayAttributes.h"
-#include "vtkCubeSource.h"
-#include "vtkDataSetMapper.h"
-#include "vtkDoubleArray.h"
-#include "vtkElevationFilter.h"
-#include "vtkFloatArray.h"
-#include "vtkGlyph3DMapper.h"
-#include "vtkImageData.h"
-#include "vtkLight.h"
-#include "vtkLookupTable.h"
-#include "vtkMatrix4x4.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkNew.h"
-#include "vtkPlaneSource.h"
-#include "vtkPointData.h"
-#include "vtkPolyData.h"
-#include "vtkPolyDataMapper.h"
-#include "vtkProperty.h"
-#include "vtkRenderer.h"
-#include "vtkSphereSource.h"
-#include "vtkTexture.h"
-#include "vtkVersion.h"
-
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
-#include "vtkCompositePolyDataMapper.h"
-using CompositeMapper = vtkCompositePolyDataMapper;
-#else
-#include "vtkCompositePolyDataMapper2.h"
-using CompositeMapper = vtkCompositePolyDataMapper2;
-#endif
-
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <functional>
-#include <memory>
-#include <string>
-#include <tuple>
-#include <vector>
-
-namespace
-{
-using svo::CollectedScene;
-using svo::Instance;
-
-vtkSmartPointer<vtkPolyData> ball(double x)
-{
-  vtkNew<vtkSphereSource> source;
-  source->SetCenter(x, 0.0, 0.0);
-  vtkNew<vtkElevationFilter> colors;
-  colors->SetInputConnection(source->GetOutputPort());
-  colors->Update();
-  auto mesh = vtkSmartPointer<vtkPolyData>::New();
-  mesh->DeepCopy(colors->GetOutput());
-  return mesh;
-}
-
-vtkSmartPointer<vtkPolyData> copyOf(vtkPolyData* mesh)
-{
-  auto copy = vtkSmartPointer<vtkPolyData>::New();
-  copy->DeepCopy(mesh);
-  return copy;
-}
-
-/// Points with what glyphs need.
-vtkSmartPointer<vtkPolyData> places(int count)
-{
-  auto mesh = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkFloatArray> size;
-  size->SetName("size");
-  for (int i = 0; i < count; ++i)
-  {
-    points->InsertNextPoint(2.0 * i, 5.0, 0.0);
-    size->InsertNextValue(0.5f + 0.1f * static_cast<float>(i));
-  }
-  mesh->SetPoints(points);
-  mesh->GetPointData()->SetScalars(size);
-  return mesh;
-}
-
-/// A renderer with a prop of each kind, and a collector that sees it change.
-class Kept : public ::testing::Test
-{
-protected:
-  Kept()
-    : tracer(svo::makeCPUTracer())
-  {
-    this->options.level = 6;
-    this->light->SetLightTypeToSceneLight();
-    this->light->SetPosition(3.0, 4.0, 5.0);
-    this->renderer->AddLight(this->light);
-    this->renderer->GetActiveCamera()->SetPosition(0.0, -20.0, 10.0);
-    this->renderer->GetActiveCamera()->SetClippingRange(1.0, 100.0);
-
-    this->plain->SetInputData(ball(0.0));
-    this->plain->SetScalarRange(0.0, 1.0);
-    this->show(this->actor, this->plain);
-
-    // Normals that are no floats.
-    vtkNew<vtkDoubleArray> normals;
-    normals->DeepCopy(this->smooth->GetPointData()->GetNormals());
-    this->smooth->GetPointData()->SetNormals(normals);
-    this->smoothMapper->SetInputData(this->smooth);
-    this->smoothMapper->ScalarVisibilityOff();
-    this->show(this->smoothActor, this->smoothMapper);
-
-    vtkNew<vtkPolyDataMapper> ofSource;
-    ofSource->SetInputConnection(this->source->GetOutputPort());
-    this->show(this->filtered, ofSource);
-
-    this->blocks->SetBlock(0, ball(6.0));
-    vtkNew<vtkMultiBlockDataSet> inner;
-    inner->SetBlock(0, ball(8.0));
-    this->blocks->SetBlock(1, inner);
-    this->composite->SetInputDataObject(this->blocks);
-    this->composite->SetCompositeDataDisplayAttributes(this->attributes);
-    this->show(this->blockActor, this->composite);
-
-    this->image->SetDimensions(3, 3, 3);
-    this->image->AllocateScalars(VTK_FLOAT, 1);
-    this->image->GetPointData()->GetScalars()->Fill(0.3);
-    this->grid->SetInputData(this->image);
-    this->show(this->gridActor, this->grid);
-
-    this->glyphs->SetInputData(this->points);
-    this->glyphs->SetSourceData(this->shape);
-    this->show(this->glyphActor, this->glyphs);
-
-    vtkNew<vtkPolyDataMapper> ofPart;
-    ofPart->SetInputData(ball(12.0));
-    this->part->SetMapper(ofPart);
-    this->assembly->AddPart(this->part);
-    this->renderer->AddViewProp(this->assembly);
-
-    vtkNew<vtkPolyDataMapper> ofWires;
-    ofWires->SetInputData(ball(14.0));
-    this->show(this->wires, ofWires);
-    this->wires->GetProperty()->SetRepresentationToWireframe();
-
-    this->texels->SetDimensions(2, 2, 1);
-    this->texels->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-    this->texels->GetPointData()->GetScalars()->Fill(255);
-    this->texture->SetInputData(this->texels);
-    this->plane->Update();
-    vtkNew<vtkPolyDataMapper> ofPlane;
-    ofPlane->SetInputConnection(this->plane->GetOutputPort());
-    this->show(this->textured, ofPlane);
-    this->textured->SetTexture(this->texture);
-  }
-
-  void show(vtkActor* one, vtkMapper* mapper)
-  {
-    one->SetMapper(mapper);
-    this->renderer->AddActor(one);
-  }
-
-  void collect(svo::SceneCollector& collector, CollectedScene& scene)
-  {
-    svo::CollectSettings settings;
-    settings.levels.tracer = this->tracer.get();
-    ASSERT_TRUE(svo::viewOfCamera(this->renderer, 300, 200, settings.levels.eye));
-    collector.collect(this->renderer, this->store, this->options, settings, scene);
-    this->store.endFrame(std::size_t(1) << 30);
-  }
-
-  /// Both have the same, at the same places or with the same values.
-  static void expectSame(const CollectedScene& a, const CollectedScene& b, const std::string& what)
-  {
-    ASSERT_EQ(a.scene.instances.size(), b.scene.instances.size()) << what;
-    EXPECT_EQ(a.replaced, b.replaced) << what;
-    EXPECT_EQ(a.meshes.size(), b.meshes.size()) << what;
-    EXPECT_EQ(a.rasterizedReceivers, b.rasterizedReceivers) << what;
-    EXPECT_EQ(a.tracedActors, b.tracedActors) << what;
-    EXPECT_EQ(a.rasterizedActors, b.rasterizedActors) << what;
-    ASSERT_EQ(a.scene.receivers.size(), b.scene.receivers.size()) << what;
-    for (std::size_t i = 0; i < a.scene.receivers.size(); ++i)
-    {
-      EXPECT_EQ(a.scene.receivers[i].low, b.scene.receivers[i].low) << what;
-      EXPECT_EQ(a.scene.receivers[i].high, b.scene.receivers[i].high) << what;
-    }
-    for (std::size_t i = 0; i < a.scene.instances.size(); ++i)
-    {
-      const std::string which = what + ", instance " + std::to_string(i);
-      const Instance &x = a.scene.instances[i], &y = b.scene.instances[i];
-      const auto octrees = [](const Instance& n)
-      {
-        return std::make_tuple(n.octree.key(), n.casterOctree.key(), n.leafGeometry, n.neededLevel,
-          n.box.low, n.box.high, n.triangles, n.deepestLevel, n.detailLevel);
-      };
-      const auto places = [](const Instance& n)
-      { return std::make_tuple(n.localToWorld, n.id, n.depthOffsetUnits, n.givesWay); };
-      const auto ways = [](const Instance& n)
-      { return std::make_tuple(n.visible, n.castShadow, n.receiveShadow, n.pixelError); };
-      const auto looks = [](const Instance& n)
-      {
-        const svo::Material& m = n.material;
-        const svo::Attributes& at = n.attributes;
-        return std::make_tuple(m.ambientColor, m.diffuseColor, m.specularColor, m.ambient,
-          m.diffuse, m.specular, m.specularPower, m.lighting, m.flat, m.flatPlanes,
-          at.normalAssociation, at.colorAssociation, at.colorTextureSize, n.points.count);
-      };
-      EXPECT_TRUE(octrees(x) == octrees(y)) << which;
-      EXPECT_TRUE(places(x) == places(y)) << which;
-      EXPECT_TRUE(ways(x) == ways(y)) << which;
-      EXPECT_TRUE(looks(x) == looks(y)) << which;
-      vtkPolyData* mesh = b.meshes[i];
-      const auto same = [&](const auto* p, const auto* q, svo::Association of, int components)
-      {
-        const auto count = static_cast<std::size_t>(
-          of == svo::Association::Cell ? mesh->GetNumberOfCells() : mesh->GetNumberOfPoints());
-        return (!p && !q) || (p && q && std::memcmp(p, q, sizeof(*p) * count * components) == 0);
-      };
-      const svo::Attributes &p = x.attributes, &q = y.attributes;
-      EXPECT_TRUE(same(x.points.floats, y.points.floats, svo::Association::Point, 3)) << which;
-      EXPECT_TRUE(same(p.normals, q.normals, q.normalAssociation, 3)) << which;
-      EXPECT_TRUE(same(p.colors, q.colors, q.colorAssociation, 4)) << which;
-    }
-  }
-
-  /// After a change, which `anew` props or more have to be looked at for.
-  void expectNoticed(const std::string& what, int anew, const std::function<void()>& change)
-  {
-    change();
-    this->collect(this->collector, this->scene);
-    EXPECT_GE(this->collector.collectedAnew(), anew) << what;
-    EXPECT_LE(this->collector.collectedAnew(), anew + 1) << what;
-    svo::SceneCollector fresh;
-    CollectedScene other;
-    this->collect(fresh, other);
-    expectSame(this->scene, other, what);
-    // What is mapped anew may change a lookup table once.
-    this->collect(this->collector, this->scene);
-    this->collect(this->collector, this->scene);
-    EXPECT_EQ(this->collector.collectedAnew(), 0) << what;
-    expectSame(this->scene, other, what + ", once more");
-  }
-
-  std::unique_ptr<svo::Tracer> tracer;
-  svo::OctreeStore store;
-  svo::StoreOptions options;
-  svo::SceneCollector collector;
-  CollectedScene scene;
-
-  vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkLight> light;
-  vtkNew<vtkActor> actor, smoothActor, filtered, blockActor, gridActor, glyphActor, part, wires,
-    textured;
-  vtkNew<vtkPolyDataMapper> plain, smoothMapper;
-  vtkNew<CompositeMapper> composite;
-  vtkNew<vtkCompositeDataDisplayAttributes> attributes;
-  vtkNew<vtkDataSetMapper> grid;
-  vtkNew<vtkGlyph3DMapper> glyphs;
-  vtkSmartPointer<vtkPolyData> smooth = ball(2.0);
-  vtkSmartPointer<vtkPolyData> points = places(5), shape = ball(0.0);
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  vtkNew<vtkImageData> image, texels;
-  vtkNew<vtkTexture> texture;
-  vtkNew<vtkSphereSource> source;
-  vtkNew<vtkPlaneSource> plane;
-  vtkNew<vtkAssembly> assembly;
-};
-}
+using namespace svotest;
 
 TEST_F(Kept, EveryChangeIsNoticed)
 {
@@ -406,71 +137,6 @@ TEST_F(Kept, EveryChangeIsNoticed)
   expectNoticed("no texture", 1, [&] { textured->SetTexture(nullptr); });
 }
 
-TEST_F(Kept, EveryChangeOfGlyphsIsNoticed)
-{
-  collect(collector, scene);
-  collect(collector, scene);
-  expectNoticed("the actor's place", 0, [&] { glyphActor->SetPosition(0.0, 1.0, 0.0); });
-  expectNoticed("factor", 1, [&] { glyphs->SetScaleFactor(0.8); });
-  expectNoticed("sizes", 1, [&] { glyphs->SetScaleModeToScaleByMagnitude(); });
-  expectNoticed("a size", 1,
-    [&]
-    {
-      points->GetPointData()->GetScalars()->SetComponent(1, 0, 2.0);
-      points->GetPointData()->GetScalars()->Modified();
-    });
-  expectNoticed("a point", 1,
-    [&]
-    {
-      points->GetPoints()->SetPoint(2, 1.0, 1.0, 1.0);
-      points->GetPoints()->Modified();
-    });
-  expectNoticed("one more point", 1,
-    [&]
-    {
-      points->GetPoints()->InsertNextPoint(3.0, 3.0, 3.0);
-      points->GetPointData()->GetScalars()->InsertComponent(5, 0, 1.0);
-      points->GetPoints()->Modified();
-      points->Modified();
-    });
-  expectNoticed("a range of colours", 1, [&] { glyphs->SetScalarRange(0.0, 3.0); });
-  expectNoticed("no colours", 1, [&] { glyphs->ScalarVisibilityOff(); });
-  expectNoticed("a colour", 1, [&] { glyphActor->GetProperty()->SetColor(0.1, 0.5, 0.9); });
-  expectNoticed("points of the source", 1,
-    [&]
-    {
-      shape->GetPoints()->SetPoint(3, 0.0, 0.0, 1.5);
-      shape->GetPoints()->Modified();
-    });
-  expectNoticed("another source", 1, [&] { glyphs->SetSourceData(ball(0.4)); });
-  expectNoticed(
-    "a source from a pipeline", 1, [&] { glyphs->SetSourceConnection(source->GetOutputPort()); });
-  expectNoticed("which changes, as an actor's does", 2, [&] { source->SetRadius(0.4); });
-  vtkNew<vtkMultiBlockDataSet> table;
-  vtkNew<vtkMultiBlockDataSet> pair;
-  pair->SetBlock(0, ball(0.1));
-  table->SetBlock(0, pair);
-  expectNoticed("a tree of sources", 1,
-    [&]
-    {
-      glyphs->SetSourceTableTree(table);
-      glyphs->UseSourceTableTreeOn();
-    });
-  expectNoticed("one more in it", 1, [&] { pair->SetBlock(1, ball(0.9)); });
-  vtkNew<vtkMultiBlockDataSet> inputs;
-  inputs->SetBlock(0, places(3));
-  expectNoticed("blocks", 1, [&] { glyphs->SetInputDataObject(inputs); });
-  expectNoticed("one more block", 1, [&] { inputs->SetBlock(1, places(4)); });
-  vtkNew<vtkCompositeDataDisplayAttributes> ofBlocks;
-  glyphs->SetBlockAttributes(ofBlocks);
-  expectNoticed("a hidden block", 1,
-    [&]
-    {
-      ofBlocks->SetBlockVisibility(inputs->GetBlock(0), false);
-      ofBlocks->Modified();
-    });
-}
-
 TEST_F(Kept, WhatIsAroundThePropsIsNoticed)
 {
   collect(collector, scene);
@@ -493,6 +159,28 @@ TEST_F(Kept, WhatIsAroundThePropsIsNoticed)
   expectNoticed("what was forgotten", 9, [] {});
 }
 
+TEST_F(Kept, WhatIsMadeOfPropsThatWereNotChosenIsNoticed)
+{
+  collect(collector, scene);
+  collect(collector, scene);
+  expectNoticed("only chosen props", 9, [&] { settings.onlyMarked = true; });
+  EXPECT_TRUE(scene.scene.instances.empty());
+  EXPECT_FALSE(scene.reasons.empty());
+  expectNoticed("others cast", 9, [&] { settings.unmarkedCast = true; });
+  EXPECT_FALSE(scene.scene.instances.empty());
+  expectNoticed("in other words", 9, [&] { settings.notMarked = "is somebody else's"; });
+  const std::size_t before = scene.reasons.size();
+  expectNoticed("one is chosen", 1, [&] { svo::setFlag(wires, svo::useSVOKey(), true); });
+  EXPECT_EQ(scene.reasons.size(), before); // of wires there is one as before
+  EXPECT_FALSE(scene.shadowCatchers);
+  expectNoticed("a catcher", 1, [&] { svo::setFlag(actor, svo::shadowCatcherKey(), true); });
+  EXPECT_TRUE(scene.shadowCatchers);
+  expectNoticed("none", 1, [&] { svo::setFlag(actor, svo::shadowCatcherKey(), false); });
+  EXPECT_FALSE(scene.shadowCatchers);
+  expectNoticed("all props", 9, [&] { settings.onlyMarked = false; });
+  EXPECT_TRUE(scene.reasons.empty());
+}
+
 /// VTK's convention has it that arrays are modified; what crashes otherwise must not.
 TEST_F(Kept, ArraysThatHaveMovedAreNotRead)
 {
@@ -503,22 +191,6 @@ TEST_F(Kept, ArraysThatHaveMovedAreNotRead)
   normals->Resize(100000);
   ASSERT_EQ(plain->GetInput()->GetMTime(), before);
   expectNoticed("an array that lies elsewhere", 1, [] {});
-}
-
-TEST_F(Kept, AMovedActorOfGlyphsComputesNoCopies)
-{
-  collect(collector, scene);
-  collect(collector, scene);
-  glyphActor->SetPosition(0.0, 0.0, 4.0);
-  const std::vector<Instance> before = scene.scene.instances;
-  collect(collector, scene);
-  EXPECT_EQ(collector.collectedAnew(), 0);
-  int moved = 0;
-  for (std::size_t i = 0; i < before.size(); ++i)
-  {
-    moved += before[i].localToWorld != scene.scene.instances[i].localToWorld;
-  }
-  EXPECT_EQ(moved, 5);
 }
 
 /// The allocator gives a place at once to what asks for as much next.

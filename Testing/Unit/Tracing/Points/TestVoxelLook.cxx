@@ -231,28 +231,31 @@ TEST(VoxelLook, NoJumpsOnASmoothSurface)
   }
 }
 
+/// Calls visit(brick, voxel's plane, its middle in octree coordinates) for all voxels.
+template <class Visit>
+void eachVoxel(const svo::Octree& octree, const Visit& visit, std::uint32_t node = 0,
+  const glm::ivec3& block = glm::ivec3(0))
+{
+  for (std::uint64_t mask = octree.nodes()[node].mask; mask != 0; mask &= mask - 1)
+  {
+    const int i = svo::lowestBit(mask);
+    const glm::ivec3 cell = 4 * block + svo::cellOfIndex(i);
+    if (node < octree.brickBegin())
+    {
+      eachVoxel(octree, visit, svo::child(octree.nodes()[node], i), cell);
+      continue;
+    }
+    visit(node, octree.planeOf(node, i),
+      1.0 + std::ldexp(1.0, -2 * octree.depthCount()) * (glm::dvec3(cell) + 0.5));
+  }
+}
+
 /// The middles of all voxels, by the indices of their planes; octree coordinates.
 std::vector<glm::dvec3> middlesOf(const svo::Octree& octree)
 {
   std::vector<glm::dvec3> middles(octree.header().voxelCount);
-  const auto visit = [&](const auto& self, std::uint32_t node, const glm::ivec3& block) -> void
-  {
-    for (std::uint64_t mask = octree.nodes()[node].mask; mask != 0; mask &= mask - 1)
-    {
-      const int i = svo::lowestBit(mask);
-      const glm::ivec3 cell = 4 * block + svo::cellOfIndex(i);
-      if (node < octree.brickBegin())
-      {
-        self(self, svo::child(octree.nodes()[node], i), cell);
-      }
-      else
-      {
-        middles[octree.planeOf(node, i)] =
-          1.0 + std::ldexp(1.0, -2 * octree.depthCount()) * (glm::dvec3(cell) + 0.5);
-      }
-    }
-  };
-  visit(visit, 0, glm::ivec3(0));
+  eachVoxel(octree,
+    [&](std::uint32_t, std::uint32_t plane, const glm::dvec3& middle) { middles[plane] = middle; });
   return middles;
 }
 
@@ -291,28 +294,14 @@ TEST(VoxelLook, OfAPointBelowANodeTheVoxelThatItIsIn)
   for (const int level : { 6, 7 })
   {
     const svo::Octree octree = octreeOfField(sphere, boxOfInterest(level));
-    Voxels all;
-    collect(octree, 0, glm::ivec3(0), all);
     std::uint32_t voxel = 0;
-    const auto visit = [&](const auto& self, std::uint32_t node, const glm::ivec3& block) -> void
-    {
-      for (std::uint64_t mask = octree.nodes()[node].mask; mask != 0; mask &= mask - 1)
+    eachVoxel(octree,
+      [&](std::uint32_t brick, std::uint32_t, const glm::dvec3& middle)
       {
-        const int i = svo::lowestBit(mask);
-        const glm::ivec3 cell = 4 * block + svo::cellOfIndex(i);
-        if (node < octree.brickBegin())
-        {
-          self(self, svo::child(octree.nodes()[node], i), cell);
-          continue;
-        }
-        const glm::dvec3 at =
-          1.0 + std::ldexp(1.0, -2 * octree.depthCount()) * (glm::dvec3(cell) + 0.5);
-        ASSERT_EQ(svo::nearestVoxel(octree, node, at), voxel);
-        ASSERT_EQ(svo::nearestVoxel(octree, 0, at), voxel);
+        ASSERT_EQ(svo::nearestVoxel(octree, brick, middle), voxel);
+        ASSERT_EQ(svo::nearestVoxel(octree, 0, middle), voxel);
         ++voxel;
-      }
-    };
-    visit(visit, 0, glm::ivec3(0));
+      });
     EXPECT_EQ(voxel, octree.header().voxelCount);
   }
 }
