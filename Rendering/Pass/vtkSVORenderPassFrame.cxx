@@ -122,8 +122,8 @@ bool vtkSVORenderPass::CollectFrame(
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
     collect.unmarkedCast = this->ShadowsForEverything;
-    const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
-    collect.notMarked = notMarked.c_str();
+    collect.notMarked =
+      impl.reasonTexts.insert(this->GetText(TEXT_NOT_CHOSEN, nullptr)).first->c_str();
     collect.said = &impl.said;
     collect.translucentSurfaceText = this->GetText(TEXT_TRANSLUCENT_SURFACE, nullptr);
     collect.translucentText = this->GetText(TEXT_TRANSLUCENT, nullptr);

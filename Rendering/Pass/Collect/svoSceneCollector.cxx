@@ -9,6 +9,8 @@
 #include "vtkRenderer.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <tuple>
 #include <unordered_map>
 
@@ -52,6 +54,13 @@ bool saysTheSame(const PropSurfaces& a, const PropSurfaces& b)
 {
   return a.surfaces.empty() && b.surfaces.empty() && a.bounds == b.bounds &&
     std::tie(a.traced, a.receives, a.actors) == std::tie(b.traced, b.receives, b.actors);
+}
+
+/// One that no scene has had.
+std::uint64_t newVersion()
+{
+  static std::atomic<std::uint64_t> last{ 0 };
+  return ++last;
 }
 
 /// Updating a prop may change the renderer's list, or let props go.
@@ -176,6 +185,7 @@ void SceneCollector::assemble(CollectedScene& result)
   result.tracedActors = result.rasterizedActors = 0;
   result.rasterizedReceivers = result.shadowCatchers = false;
   SceneInstances::write(this->Found, Stage::Shown, this->Instances);
+  result.scene.version = newVersion();
   bool complete = true;
   for (const PropSurfaces& prop : this->Found)
   {

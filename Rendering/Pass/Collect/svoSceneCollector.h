@@ -30,6 +30,7 @@ struct CollectSettings
   /// See CollectProps.
   bool onlyMarked = false;
   bool unmarkedCast = false;
+  /// Outlives the collector, and is another one only at another address.
   Reason notMarked = "was not chosen with SetUseSVO";
   LevelSettings levels;
   std::set<std::string>* said = nullptr; // messages of the pass, about no object in particular

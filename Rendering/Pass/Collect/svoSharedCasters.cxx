@@ -112,6 +112,7 @@ void SharedCasters::exchange(
       instance.receiveShadow = false;
       instance.id = record.id ^ (0x9e3779b97f4a7c15ull * (owner + 1));
       collected.scene.instances.push_back(instance);
+      collected.scene.version = 0;
     }
   }
   this->forget(memoryLimit);

@@ -1,5 +1,5 @@
 // A scene: instances of octrees with their look, receivers, and lights. Plain data, collected anew
-// for every frame.
+// where something changed.
 #ifndef svoScene_h
 #define svoScene_h
 
@@ -7,6 +7,7 @@
 #include "svoInstance.h"
 #include "svoLight.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace svo
@@ -14,6 +15,8 @@ namespace svo
 struct Scene
 {
   std::vector<Instance> instances;
+  /// Another one whenever `instances` are not what they were; 0: they may be.
+  std::uint64_t version = 0;
   /// Of surfaces that are no instances but receive shadows of instances; world.
   std::vector<Box> receivers;
   std::vector<Light> lights;  // only those that are switched on, in the renderer's order

@@ -16,10 +16,9 @@ void LayeredView::release()
 
 bool LayeredView::prepare(const Scene& scene, const View& view,
   const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf, bool keep,
-  LayerBudget& budget)
+  LayerBudget& budget, const ParallelFor& parallelFor)
 {
   const std::size_t count = scene.instances.size();
-  this->Instances.clear();
   this->Bases.assign(count, 0.0);
   this->Levels.assign(count, 0);
   this->Placed.assign(count, 0);
@@ -35,24 +34,23 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   this->Layers.beginFrame(keep, this->HasFrame && !sameRays(view, this->Seen), budget);
   this->Seen = view;
   this->HasFrame = keep;
-  for (VisibleInstance& visible : findVisible(scene, view, takesPart, levelOf, this->Exact))
-  {
-    const std::uint32_t i = visible.index;
-    this->Bases[i] = visible.local.base;
-    this->Levels[i] = visible.key.level;
-    this->Geometries[i] = visible.key.leafGeometry;
-    this->Placed[i] = this->Exact && visible.tiles;
-    DepthLayer* layer = this->Layers.layerOf(visible.id, visible.key, visible.local.rect, budget);
-    const Instance& instance = scene.instances[i];
-    const Again again = this->againOf(instance, visible, this->Errors[i]);
-    this->EntryOf[i] = static_cast<std::uint32_t>(this->Instances.size());
-    this->Instances.push_back({ std::move(visible), instance.points, again, layer, {}, {}, {} });
-    Entry& entry = this->Instances.back();
-    if (entry.tiles)
+  findVisible(scene, view, takesPart, parallelFor, this->Visible);
+  this->Instances.resize(this->Visible.size()); // what others have allocated is of use to these
+  parallelFor(0, this->Visible.size(), 64,
+    [&](std::size_t first, std::size_t last)
     {
-      entry.functions = PixelFunctions(entry.local, view);
-      entry.sizes = RaySizes(entry.local, view);
-    }
+      for (std::size_t e = first; e < last; ++e)
+      {
+        this->EntryOf[this->Visible[e]] = static_cast<std::uint32_t>(e);
+        this->fill(scene, levelOf, this->Instances[e], this->Visible[e]);
+      }
+    });
+  for (Entry& entry : this->Instances)
+  {
+    const PixelRect& r = entry.local.rect;
+    const bool large = (r.x1 - r.x0) * (r.y1 - r.y0) >= SmallestLayer;
+    entry.layer =
+      large ? this->Layers.layerOf(entry.id, entry.key, entry.local.rect, budget) : nullptr;
   }
   this->Keys = this->keyBase();
   this->Layers.endFrame(budget);
@@ -61,6 +59,27 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
       return this->Exact && this->Offsets[entry.index] != this->Offsets[this->Instances[0].index];
     });
   return !this->Instances.empty();
+}
+
+/// Makes an instance's entry.
+void LayeredView::fill(
+  const Scene& scene, const LevelOf& levelOf, Entry& entry, std::uint32_t index)
+{
+  static_cast<VisibleInstance&>(entry) =
+    seenInstance(scene, index, this->Seen, levelOf, this->Exact);
+  const Instance& instance = scene.instances[index];
+  this->Bases[index] = entry.local.base;
+  this->Levels[index] = entry.key.level;
+  this->Geometries[index] = entry.key.leafGeometry;
+  this->Placed[index] = this->Exact && entry.tiles;
+  entry.points = instance.points;
+  entry.again = this->againOf(instance, entry, this->Errors[index]);
+  entry.intervals.tNear.clear();
+  if (entry.tiles)
+  {
+    entry.functions = PixelFunctions(entry.local, this->Seen);
+    entry.sizes = RaySizes(entry.local, this->Seen);
+  }
 }
 
 KeyBase LayeredView::keyBase() const

@@ -49,7 +49,7 @@ public:
   /// them that are still true. Returns false if no instance can be seen.
   bool prepare(const Scene& scene, const View& view,
     const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf, bool keep,
-    LayerBudget& budget);
+    LayerBudget& budget, const ParallelFor& parallelFor = serialFor);
 
   /// Traces and merges. With `wanted` (one byte a tile) only tiles marked there; others are left
   /// without hits, unless they are what they were.
@@ -95,6 +95,10 @@ public:
 private:
   /// Tiles along an edge of a group whose nodes are found together.
   static constexpr int GroupTiles = GroupView::Tiles;
+  /// Pixels of the rectangle of an instance from which on its layer may be kept. Smaller ones are
+  /// traced again wherever something changes, so that what is kept goes with the picture and not
+  /// with their number.
+  static constexpr int SmallestLayer = 16 * 64;
 
   /// How the depth of an instance's hits is found once more, where it decides who is in front.
   enum class Again : std::uint8_t
@@ -188,6 +192,7 @@ private:
     alignas(64) std::uint32_t instance[64];
     alignas(64) Primitive primitive[64];
   };
+  void fill(const Scene& scene, const LevelOf& levelOf, Entry& entry, std::uint32_t index);
   void findIntervals(const ParallelFor& parallelFor);
   /// Where the rays of a tile can meet an instance; false if nowhere.
   bool meets(int tileX, int tileY, TileEntry& candidate) const;
@@ -255,7 +260,8 @@ private:
 
   const bool Exact;
   View Seen;
-  bool HasFrame = false; // Seen and Layers are those of a frame that keeps layers
+  bool HasFrame = false;              // Seen and Layers are those of a frame that keeps layers
+  std::vector<std::uint32_t> Visible; // indices of Instances
   std::vector<Entry> Instances;
   std::vector<double> Bases;
   std::vector<double> Offsets; // of window depths

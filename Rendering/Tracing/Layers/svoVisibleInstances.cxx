@@ -43,30 +43,53 @@ int deepened(const Instance& instance, int level)
     : level;
 }
 
-std::vector<VisibleInstance> findVisible(const Scene& scene, const View& view,
-  const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf, bool allTiles)
+void findVisible(const Scene& scene, const View& view,
+  const std::function<bool(const Instance&)>& takesPart, const ParallelFor& parallelFor,
+  std::vector<std::uint32_t>& visible)
 {
-  std::vector<VisibleInstance> visible;
-  for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+  constexpr std::size_t Together = 256; // instances, whose indices are found by one thread
+  const std::size_t count = scene.instances.size();
+  visible.resize(count);
+  std::vector<std::size_t> found((count + Together - 1) / Together, 0);
+  parallelFor(0, found.size(), 4,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t part = first; part < last; ++part)
+      {
+        std::uint32_t* next = visible.data() + part * Together;
+        const std::size_t end = std::min(count, (part + 1) * Together);
+        for (std::size_t i = part * Together; i < end; ++i)
+        {
+          const Instance& instance = scene.instances[i];
+          if (instance.octree && !instance.octree.empty() && takesPart(instance) &&
+            !seeOctree(instance.octree, instance.localToWorld, view).rect.empty())
+          {
+            *next++ = static_cast<std::uint32_t>(i);
+          }
+        }
+        found[part] = static_cast<std::size_t>(next - visible.data()) - part * Together;
+      }
+    });
+  auto end = visible.begin();
+  for (std::size_t part = 0; part < found.size(); ++part)
   {
-    const Instance& instance = scene.instances[i];
-    if (!takesPart(instance) || !instance.octree || instance.octree.empty())
-    {
-      continue;
-    }
-    const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
-    if (!local.rect.empty())
-    {
-      const bool tiles = worthTiles(instance, local, view, allTiles);
-      const int level =
-        tiles ? instance.octree.level() : deepened(instance, levelOf(instance, local));
-      const LeafGeometry geometry = tiles ? LeafGeometry::Triangle : instance.leafGeometry;
-      visible.push_back({ i, instance.id, &instance.octree, local,
-        makeProjection(instance.octree, instance.localToWorld, view, local.base),
-        { instance.octree.id(), instance.localToWorld, geometry, level },
-        tiles || endsFreely(instance, level), tiles });
-    }
+    const auto begin = visible.begin() + static_cast<std::ptrdiff_t>(part * Together);
+    end = std::copy(begin, begin + static_cast<std::ptrdiff_t>(found[part]), end);
   }
-  return visible;
+  visible.erase(end, visible.end());
+}
+
+VisibleInstance seenInstance(
+  const Scene& scene, std::uint32_t index, const View& view, const LevelOf& levelOf, bool allTiles)
+{
+  const Instance& instance = scene.instances[index];
+  const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
+  const bool tiles = worthTiles(instance, local, view, allTiles);
+  const int level = tiles ? instance.octree.level() : deepened(instance, levelOf(instance, local));
+  const LeafGeometry geometry = tiles ? LeafGeometry::Triangle : instance.leafGeometry;
+  return { index, instance.id, &instance.octree, local,
+    makeProjection(instance.octree, instance.localToWorld, view, local.base),
+    { instance.octree.id(), instance.localToWorld, geometry, level },
+    tiles || endsFreely(instance, level), tiles };
 }
 }

@@ -4,6 +4,7 @@
 
 #include "svoDepthLayer.h"
 #include "svoLocalView.h"
+#include "svoParallel.h"
 #include "svoProjection.h"
 #include "svoScene.h"
 #include "vtkSVOTracingModule.h"
@@ -41,11 +42,16 @@ struct VisibleInstance
 /// The octree level that an instance's rays stop at.
 using LevelOf = std::function<int(const Instance&, const LocalView&)>;
 
-/// The instances that `takesPart` and whose cubes lie in the view, in the scene's order. All that a
-/// ray of the view can hit is among them. Octrees are borrowed from the scene.
-VTKSVOTRACING_EXPORT std::vector<VisibleInstance> findVisible(const Scene& scene, const View& view,
-  const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf,
-  bool allTiles = true);
+/// Indices of the instances that `takesPart` and whose cubes lie in the view, in the scene's order.
+/// All that a ray of the view can hit is among them. The functions are asked by several threads.
+VTKSVOTRACING_EXPORT void findVisible(const Scene& scene, const View& view,
+  const std::function<bool(const Instance&)>& takesPart, const ParallelFor& parallelFor,
+  std::vector<std::uint32_t>& visible);
+
+/// One of these, as the view sees it. Its octree is borrowed from the scene. `allTiles`: see
+/// worthTiles().
+VTKSVOTRACING_EXPORT VisibleInstance seenInstance(
+  const Scene& scene, std::uint32_t index, const View& view, const LevelOf& levelOf, bool allTiles);
 }
 
 #endif

@@ -239,7 +239,7 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     scene, view, [](const Instance& instance) { return instance.visible; },
     [&](const Instance& instance, const LocalView& local)
     { return selectEyeLevel(instance, local, view, settings.pixelError); },
-    settings.frameCoherence, budget);
+    settings.frameCoherence, budget, parallelFor);
   this->Eye.trace(parallelFor, nullptr);
   const bool sameFrame = frame && this->Tiles.find(this->Eye.depthBuffer(), view, settings, *frame);
   this->findStaleTiles(changes, sameFrame);
@@ -259,7 +259,7 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     {
       this->LightShadows.chooseAsBefore(seen, view, settings);
     }
-    this->LightShadows.prepare(seen, settings, budget);
+    this->LightShadows.prepare(seen, settings, budget, parallelFor);
   }
   this->LightShadows.prepareRays(scene, this->Eye);
   if (!shared)
@@ -335,7 +335,7 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   statistics.coarsestVoxel = coarsestVoxel(scene, view);
   if (settings.shadowTechnique != ShadowTechnique::None)
   {
-    statistics.largestGap = largestGap(scene, view);
+    statistics.largestGap = largestGap(scene, view, self.Eye);
   }
   statistics.layerMemory = self.Eye.layerMemory() + self.LightShadows.layerMemory();
   self.SharesBuffers = false;

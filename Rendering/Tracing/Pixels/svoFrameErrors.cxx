@@ -27,20 +27,17 @@ double coarsestVoxel(const Scene& scene, const View& view)
   return largest;
 }
 
-double largestGap(const Scene& scene, const View& view)
+double largestGap(const Scene& scene, const View& view, const LayeredView& eye)
 {
   double largest = 0.0;
-  for (const Instance& instance : scene.instances)
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
   {
-    if (instance.visible && instance.receiveShadow && instance.octree)
+    const Instance& instance = scene.instances[i];
+    if (instance.visible && instance.receiveShadow && !eye.rect(i).empty())
     {
-      const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
       const double gap =
         worldLeafError(instance, LeafGeometry::Triangle, instance.octree.level(), true);
-      if (!local.rect.empty())
-      {
-        largest = std::max(largest, gap / worldPixel(view, local.base));
-      }
+      largest = std::max(largest, gap / worldPixel(view, eye.base(i)));
     }
   }
   return largest;

@@ -2,6 +2,7 @@
 #ifndef svoFrameErrors_h
 #define svoFrameErrors_h
 
+#include "svoLayeredView.h"
 #include "svoScene.h"
 #include "svoView.h"
 
@@ -11,7 +12,7 @@ namespace svo
 double coarsestVoxel(const Scene& scene, const View& view);
 
 /// FrameStatistics::largestGap
-double largestGap(const Scene& scene, const View& view);
+double largestGap(const Scene& scene, const View& view, const LayeredView& eye);
 }
 
 #endif

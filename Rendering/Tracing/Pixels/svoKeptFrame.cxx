@@ -1,6 +1,6 @@
 #include "svoKeptFrame.h"
 
-#include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <type_traits>
 #include <utility>
@@ -82,10 +82,10 @@ void add(const FrameSettings& s, Bytes& bytes)
 }
 }
 
-void KeptFrame::inputsOf(
-  const Scene& scene, const View& view, const FrameSettings& settings, Inputs& inputs)
+void KeptFrame::valuesOf(
+  const Scene& scene, const View& view, const FrameSettings& settings, Values& values)
 {
-  Bytes bytes(inputs.bytes);
+  Bytes bytes(values);
   add(view, bytes);
   add(settings, bytes);
   bytes.add(scene.instances.size(), scene.receivers.size(), scene.lights.size());
@@ -98,33 +98,45 @@ void KeptFrame::inputsOf(
   {
     add(light, bytes);
   }
-  inputs.instances = inputs.bytes.size();
+}
+
+void KeptFrame::valuesOf(const Scene& scene, Instances& instances)
+{
+  instances.version = scene.version;
+  Bytes bytes(instances.all);
   for (const Instance& instance : scene.instances)
   {
     add(instance, bytes);
   }
-  inputs.size =
-    scene.instances.empty() ? 0 : (inputs.bytes.size() - inputs.instances) / scene.instances.size();
+  instances.size = scene.instances.empty() ? 0 : instances.all.size() / scene.instances.size();
 }
 
 FrameChanges KeptFrame::compare(
   const Scene& scene, const View& view, const FrameSettings& settings, const Frame& frame)
 {
-  inputsOf(scene, view, settings, this->Next);
+  valuesOf(scene, view, settings, this->NextFrame);
+  this->SameInstances = scene.version != 0 && scene.version == this->Last.version;
+  if (!this->SameInstances)
+  {
+    valuesOf(scene, this->Next);
+  }
   FrameChanges changes;
-  const Inputs &now = this->Next, &last = this->Last;
   if (this->Version == 0 || this->Version != frame.version || this->Pixels != frame.color.data() ||
-    now.bytes.size() != last.bytes.size() ||
-    !std::equal(now.bytes.begin(), now.bytes.begin() + static_cast<std::ptrdiff_t>(now.instances),
-      last.bytes.begin()))
+    this->NextFrame != this->LastFrame)
   {
     return changes;
   }
   changes.all = false;
-  const unsigned char *a = now.bytes.data() + now.instances, *b = last.bytes.data() + now.instances;
-  for (std::size_t i = 0; i < scene.instances.size(); ++i, a += now.size, b += now.size)
+  if (this->SameInstances)
   {
-    if (std::memcmp(a, b, now.size) != 0)
+    return changes;
+  }
+  assert(this->Next.size == this->Last.size || scene.instances.empty());
+  const unsigned char *a = this->Next.all.data(), *b = this->Last.all.data();
+  const std::size_t size = this->Next.size;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i, a += size, b += size)
+  {
+    if (std::memcmp(a, b, size) != 0)
     {
       changes.instances.push_back(static_cast<std::uint32_t>(i));
     }
@@ -137,6 +149,10 @@ void KeptFrame::keep(const Frame& frame)
   this->Version = frame.version;
   this->Pixels = frame.color.data();
   this->Covered = frame.covered;
-  std::swap(this->Last, this->Next);
+  std::swap(this->LastFrame, this->NextFrame);
+  if (!this->SameInstances)
+  {
+    std::swap(this->Last, this->Next);
+  }
 }
 }

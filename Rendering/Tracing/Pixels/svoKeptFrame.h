@@ -36,19 +36,23 @@ public:
 
 private:
   /// Values as plain bytes.
-  struct Inputs
+  using Values = std::vector<unsigned char>;
+  struct Instances
   {
-    std::vector<unsigned char> bytes;
-    std::size_t instances = 0; // where those of the instances begin
-    std::size_t size = 0;      // of each
+    std::uint64_t version = 0; // Scene::version
+    Values all;
+    std::size_t size = 0; // of each
   };
-  static void inputsOf(
-    const Scene& scene, const View& view, const FrameSettings& settings, Inputs& inputs);
+  static void valuesOf(
+    const Scene& scene, const View& view, const FrameSettings& settings, Values& values);
+  static void valuesOf(const Scene& scene, Instances& instances);
 
   std::uint64_t Version = 0; // Frame::version
   const std::uint8_t* Pixels = nullptr;
   PixelRect Covered;
-  Inputs Last, Next;
+  Values LastFrame, NextFrame; // all but the instances
+  Instances Last, Next;
+  bool SameInstances = false; // by their version: Last is what Next would be
 };
 }
 

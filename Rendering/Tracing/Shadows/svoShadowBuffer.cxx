@@ -14,7 +14,7 @@
 namespace svo
 {
 void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_t first,
-  const FrameSettings& settings, LayerBudget& budget)
+  const FrameSettings& settings, LayerBudget& budget, const ParallelFor& parallelFor)
 {
   const std::vector<View>& views = maps.views;
   const std::uint8_t* casters = maps.casters.data() + first; // this scene's
@@ -59,7 +59,7 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
       [&](const Instance& instance) { return casters[&instance - scene.instances.data()] != 0; },
       [&](const Instance& instance, const LocalView& local)
       { return selectLevel(instance, local, face.view, settings.pixelError); },
-      settings.frameCoherence, budget);
+      settings.frameCoherence, budget, parallelFor);
     this->SameMaps = this->SameMaps && sawCasters == face.seesCasters;
     for (std::size_t k = 0; k < scene.instances.size(); ++k)
     {

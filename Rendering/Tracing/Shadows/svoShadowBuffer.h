@@ -30,7 +30,7 @@ public:
   /// Prepares the layers of the light's maps, which are of the scene's outlines and those of other
   /// processes; `first`: of this scene's instances among all.
   void prepare(const Scene& scene, const LightMaps& maps, std::size_t first,
-    const FrameSettings& settings, LayerBudget& budget);
+    const FrameSettings& settings, LayerBudget& budget, const ParallelFor& parallelFor = serialFor);
 
   /// How points are tested; prepare() does this, too.
   void setBias(const FrameSettings& settings)

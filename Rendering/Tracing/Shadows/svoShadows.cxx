@@ -118,13 +118,14 @@ void Shadows::fitMaps(const Scene& seen, const View& view, const FrameSettings& 
   }
 }
 
-void Shadows::prepare(const Scene& scene, const FrameSettings& settings, LayerBudget& budget)
+void Shadows::prepare(const Scene& scene, const FrameSettings& settings, LayerBudget& budget,
+  const ParallelFor& parallelFor)
 {
   this->Filters = canFilter(settings);
   // Subsamples of a pixel, and filters, may look up what no pixel's centre does.
   this->TracesWhole = settings.wholeShadowBuffers || settings.antiAliasing || this->Filters;
   this->SharedState.clear();
-  this->prepareBuffers(scene, scene.lights, this->Maps, 0, settings, budget);
+  this->prepareBuffers(scene, scene.lights, this->Maps, 0, settings, budget, parallelFor);
 }
 
 void Shadows::prepareRays(const Scene& scene, const LayeredView& eye)
@@ -140,7 +141,7 @@ void Shadows::prepareRays(const Scene& scene, const LayeredView& eye)
 
 void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& lights,
   const std::vector<LightMaps>& maps, std::size_t first, const FrameSettings& settings,
-  LayerBudget& budget)
+  LayerBudget& budget, const ParallelFor& parallelFor)
 {
   this->CoarsestTexel = 0.0;
   this->WidestTexel = 0.0;
@@ -165,7 +166,7 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
     const auto found = this->Kept.find(id);
     buffer =
       found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
-    buffer->prepare(scene, maps[i], first, settings, budget);
+    buffer->prepare(scene, maps[i], first, settings, budget, parallelFor);
     this->CoarsestTexel = std::max(this->CoarsestTexel, maps[i].coarsest);
     this->WidestTexel = std::max(this->WidestTexel, maps[i].widest);
     this->HasFewerTexels = this->HasFewerTexels ||

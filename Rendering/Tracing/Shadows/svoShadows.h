@@ -32,7 +32,8 @@ public:
 
   /// Fits the lights' buffers and keeps those of their layers that are still true. `scene`: with
   /// the octrees that lights see.
-  void prepare(const Scene& scene, const FrameSettings& settings, LayerBudget& budget);
+  void prepare(const Scene& scene, const FrameSettings& settings, LayerBudget& budget,
+    const ParallelFor& parallelFor);
 
   /// To be called in every frame, after prepare() or traceShared(). `scene` and `eye`: those of the
   /// points to be tested; rays to the light meet the same geometry, or surfaces would shadow
@@ -131,7 +132,7 @@ private:
   void fitMaps(const Scene& seen, const View& view, const FrameSettings& settings);
   void prepareBuffers(const Scene& scene, const std::vector<Light>& lights,
     const std::vector<LightMaps>& maps, std::size_t first, const FrameSettings& settings,
-    LayerBudget& budget);
+    LayerBudget& budget, const ParallelFor& parallelFor);
 
   const Scene* Tested = nullptr;                             // the frame's
   std::vector<ShadowTechnique> Techniques, TechniquesBefore; // by light; of the last frame

@@ -134,7 +134,7 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
   }
 
   this->TracesWhole = true; // what the others' visible points look up is not known here
-  this->prepareBuffers(scene, lights, maps, outlines.first, settings, budget);
+  this->prepareBuffers(scene, lights, maps, outlines.first, settings, budget, parallelFor);
   this->trace(parallelFor);
   for (ShadowBuffer* buffer : this->Buffers)
   {

@@ -130,13 +130,19 @@ inline SeenCube seeCube(
   return seen;
 }
 
+/// The cube of an octree's voxels.
+inline SeenCube seeOctree(const Octree& octree, const glm::dmat4& localToWorld, const View& view)
+{
+  const Header& h = octree.header();
+  return seeCube({ h.origin[0], h.origin[1], h.origin[2] },
+    h.voxelSize * static_cast<double>(1u << h.level), localToWorld, view);
+}
+
 inline LocalView makeLocalView(
   const Octree& octree, const glm::dmat4& localToWorld, const View& view)
 {
   LocalView local;
-  const Header& h = octree.header();
-  const SeenCube seen = seeCube({ h.origin[0], h.origin[1], h.origin[2] },
-    h.voxelSize * static_cast<double>(1u << h.level), localToWorld, view);
+  const SeenCube seen = seeOctree(octree, localToWorld, view);
   local.rect = seen.rect;
   if (local.rect.empty())
   {

@@ -3,7 +3,8 @@
 // their own. Medians over the frames of processor time and wall time, ms, and of ours the phases.
 // Objects of both have to cover the same pixels.
 //
-//   BenchmarkCrowd [--scene field|plain|small|layers] [--objects n,n] [--motion none|orbit|all]
+//   BenchmarkCrowd [--scene field|plain|small|layers|glyphs] [--objects n,n] [--motion
+//   none|orbit|all]
 //     [--frames n] [--size 1920x1080] [--maps 1] [--complexity n] [--triangles n]
 //     [--json file] [--pictures prefix]
 //
@@ -14,8 +15,11 @@
 // small   objects of 480 triangles in a grid on a ground
 // layers  100 objects of 20 000 triangles in `complexity` layers behind each other, each of which
 //         fills the view but for a tenth
+// glyphs  copies of a sphere of 1000 triangles by one vtkGlyph3DMapper, in a grid on a ground;
+//         beside it the window with nothing in it
 //
-// none: nothing moves; orbit: the camera does; all: every object turns and bobs.
+// none: nothing moves; orbit: the camera does; all: every object turns and bobs (of copies: the
+// points that they are at bob).
 #include "performancePass.h"
 #include "performanceWindow.h"
 #include "svoResults.h"
@@ -23,9 +27,13 @@
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
+#include <vtkFloatArray.h>
+#include <vtkGlyph3DMapper.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkPlaneSource.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -62,6 +70,7 @@ constexpr int Background[3] = { 51, 77, 102 };
 
 enum class Look
 {
+  Empty, // nothing is there to be drawn
   Raster,
   ShadowMaps,
   Traced
@@ -106,8 +115,8 @@ public:
     this->Window->AddRenderer(this->Renderer);
     this->Renderer->SetBackground(
       Background[0] / 255.0, Background[1] / 255.0, Background[2] / 255.0);
-    const double half = this->addObjects(objects);
-    if (options.scene != "layers")
+    const double half = look == Look::Empty ? this->Half : this->addObjects(objects);
+    if (options.scene != "layers" && look != Look::Empty)
     {
       this->addGround(half);
     }
@@ -230,6 +239,11 @@ private:
       return 10.0;
     }
     const int side = static_cast<int>(std::ceil(std::sqrt(objects)));
+    if (this->Asked.scene == "glyphs")
+    {
+      this->addCopies(objects, side);
+      return 1.5 * side;
+    }
     for (int i = 0; i < objects; ++i)
     {
       vtkActor* actor = this->add(mapper(i), random);
@@ -239,6 +253,27 @@ private:
       actor->RotateWXYZ(360.0 * unit(random), unit(random), unit(random), 1.0);
     }
     return 1.5 * side;
+  }
+  void addCopies(int objects, int side)
+  {
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkFloatArray> values;
+    for (int i = 0; i < objects; ++i)
+    {
+      points->InsertNextPoint(
+        3.0 * (i % side - 0.5 * (side - 1)), 3.0 * (i / side - 0.5 * (side - 1)), 1.2);
+      values->InsertNextValue(static_cast<float>(i % 97) / 96.0f);
+    }
+    this->Places->SetPoints(points);
+    this->Places->GetPointData()->SetScalars(values);
+    vtkNew<vtkGlyph3DMapper> mapper;
+    mapper->SetInputData(this->Places);
+    mapper->SetSourceData(meshOf(0, 1000));
+    mapper->ScalingOff();
+    mapper->OrientOff();
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    this->Renderer->AddActor(actor);
   }
   void addGround(double half)
   {
@@ -288,6 +323,18 @@ private:
       this->Actors[i]->RotateZ(1.0);
       this->Actors[i]->AddPosition(0.0, 0.0, (this->Moves + i) % 8 < 4 ? 0.02 : -0.02);
     }
+    if (vtkPoints* points = this->Places->GetPoints())
+    {
+      for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+      {
+        double x[3];
+        points->GetPoint(i, x);
+        x[2] += (this->Moves + i) % 8 < 4 ? 0.02 : -0.02;
+        points->SetPoint(i, x);
+      }
+      points->Modified();
+      this->Places->Modified();
+    }
     ++this->Moves;
   }
   void setLook(Look look)
@@ -310,6 +357,7 @@ private:
   vtkSmartPointer<vtkSVORenderPass> Pass;
   performance::PhasesOfFrame Phases;
   std::vector<vtkSmartPointer<vtkActor>> Actors;
+  vtkNew<vtkPolyData> Places; // of copies
   std::size_t Moves = 0;
   double Half = 10.0;
   std::map<std::string, std::vector<double>> Times;
@@ -338,6 +386,10 @@ bool measure(
     methods.push_back(
       std::make_unique<Method>("vtkShadowMapPass", Look::ShadowMaps, options, objects));
   }
+  if (options.scene == "glyphs")
+  {
+    methods.push_back(std::make_unique<Method>("empty", Look::Empty, options, objects));
+  }
   constexpr int Warm = 2; // octrees are built, and layers of still objects kept
   for (int k = -Warm; k < options.frames; ++k)
   {
@@ -350,7 +402,9 @@ bool measure(
       }
     }
   }
-  const int expected = options.scene == "layers" ? 100 * options.complexity : objects + 1;
+  const int expected = options.scene == "layers" ? 100 * options.complexity
+    : options.scene == "glyphs"                  ? 2
+                                                 : objects + 1;
   for (const auto& method : methods)
   {
     results.add(method->row(objects));

@@ -63,6 +63,19 @@ bool meets(const svo::Instance& instance, const svo::View& view, int x, int y)
     toOctree.vector(view.rayDirection(x + 0.5, y + 0.5)), view.tNear, view.tFar };
   return svo::occluded(instance.octree, ray, { instance.leafGeometry, svo::MaximumLevel });
 }
+
+std::vector<svo::VisibleInstance> seenBy(const svo::Scene& scene, const svo::View& view,
+  const std::function<bool(const svo::Instance&)>& takesPart, const svo::LevelOf& levelOf)
+{
+  std::vector<std::uint32_t> indices;
+  svo::findVisible(scene, view, takesPart, svo::serialFor, indices);
+  std::vector<svo::VisibleInstance> visible;
+  for (const std::uint32_t i : indices)
+  {
+    visible.push_back(svo::seenInstance(scene, i, view, levelOf, true));
+  }
+  return visible;
+}
 }
 
 TEST(VisibleInstances, AllThatARayMeetsIsAmongThem)
@@ -70,8 +83,7 @@ TEST(VisibleInstances, AllThatARayMeetsIsAmongThem)
   const svo::Scene scene = manyBalls(60);
   for (const svo::View& view : everyProjection())
   {
-    const std::vector<svo::VisibleInstance> visible =
-      svo::findVisible(scene, view, everybody, lastLevel);
+    const std::vector<svo::VisibleInstance> visible = seenBy(scene, view, everybody, lastLevel);
     EXPECT_LT(visible.size(), scene.instances.size()) << "none is culled";
     std::size_t next = 0, met = 0;
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
@@ -106,7 +118,7 @@ TEST(VisibleInstances, WhatTakesNoPartOrHasNoOctreeIsNotAmongThem)
   }
   scene.instances[0].octree = svo::Octree();
   scene.instances[1].visible = false;
-  const std::vector<svo::VisibleInstance> visible = svo::findVisible(
+  const std::vector<svo::VisibleInstance> visible = seenBy(
     scene, lookAt({ 0, -9, 3 }, 48, 40), [](const svo::Instance& i) { return i.visible; },
     lastLevel);
   ASSERT_EQ(visible.size(), 1u);
@@ -123,7 +135,7 @@ TEST(VisibleInstances, TheKeyNamesAllThatALayerDependsOn)
   const svo::View view = lookAt({ 0, -9, 3 }, 48, 40);
   const auto keyOf = [&](int level)
   {
-    const auto visible = svo::findVisible(scene, view, everybody,
+    const auto visible = seenBy(scene, view, everybody,
       [level](const svo::Instance&, const svo::LocalView&) { return level; });
     return visible.at(0).key;
   };
