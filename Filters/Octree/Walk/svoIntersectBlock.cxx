@@ -232,6 +232,12 @@ void traceBlock(const LeafQuery& query, const WalkTarget& target, const RayBlock
   assert(RayBlock::Size % (2 * n) == 0);
   for (int i = 0; i < RayBlock::Size; i += 2 * n)
   {
+    const auto ends = [&](int first)
+    { return hn::Le(hn::Load(DF(), rays.tMin + first), hn::Load(DF(), rays.tMax + first)); };
+    if (hn::AllFalse(DF(), hn::Or(ends(i), ends(i + n))))
+    {
+      continue;
+    }
     if (target.groups)
     {
       traceTwo<true>(query, target, rays, anyHit, i, found);

@@ -216,7 +216,7 @@ private:
   bool traceDoubtful(double x, double y, int ray, TileScratch& scratch, SeenHit& first) const;
   void order(int tileX, int tileY, bool onlyChanged, TileScratch& scratch);
   bool cutRays(const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const;
-  /// Through points x, y of the image; tMin and tMax are set.
+  /// Through points x, y of the image; tMin and tMax are set, and those with tMin > tMax are none.
   void traceRays(const TileEntry& candidate, const double* x, const double* y, RayBlock& block,
     HitBlock& found) const;
   /// By what it is decided who is in front: an instance's linear depth, but where offsets differ.

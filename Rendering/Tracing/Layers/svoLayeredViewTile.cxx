@@ -16,6 +16,53 @@ namespace
 {
 /// Where a tile sees more nodes than this its rays are walked one by one after all.
 constexpr std::size_t MostTileNodes = 256;
+
+bool isAlive(const RayBlock& rays, int i)
+{
+  return rays.tMin[i] <= rays.tMax[i];
+}
+
+/// As intersect(), where only some of the rays are any: these go together.
+void intersectFew(const Octree& octree, const LocalView& local, const double* x, const double* y,
+  const RayBlock& rays, const TraceOptions& options, HitBlock& hits)
+{
+  RayBlock few;
+  HitBlock found;
+  double fewX[RayBlock::Size], fewY[RayBlock::Size];
+  int ray[RayBlock::Size];
+  int count = 0;
+  for (int i = 0; i < RayBlock::Size; ++i)
+  {
+    hits.primitive[i] = NoPrimitive;
+    hits.t[i] = 0.0f;
+    if (isAlive(rays, i))
+    {
+      fewX[count] = x[i];
+      fewY[count] = y[i];
+      few.tMin[count] = rays.tMin[i];
+      few.tMax[count] = rays.tMax[i];
+      ray[count++] = i;
+    }
+  }
+  if (count == 0)
+  {
+    return;
+  }
+  for (int i = count; i < RayBlock::Size; ++i)
+  {
+    fewX[i] = fewX[0];
+    fewY[i] = fewY[0];
+    few.tMin[i] = 1.0f;
+    few.tMax[i] = 0.0f;
+  }
+  fillRays(local, fewX, fewY, few);
+  intersect(octree, few, options, found);
+  for (int i = 0; i < count; ++i)
+  {
+    hits.t[ray[i]] = found.t[i];
+    hits.primitive[ray[i]] = found.primitive[i];
+  }
+}
 }
 
 bool LayeredView::meets(int tileX, int tileY, TileEntry& candidate) const
@@ -107,14 +154,14 @@ void LayeredView::traceRays(const TileEntry& candidate, const double* x, const d
     intersectStretched(*entry.octree, entry.local, x, y, block, options, found);
     return;
   }
-  fillRays(entry.local, x, y, block);
   if (!candidate.nodes.empty())
   {
+    fillRays(entry.local, x, y, block);
     intersectTile(*entry.octree, candidate.pyramid, candidate.nodes, block, found);
   }
   else
   {
-    intersect(*entry.octree, block, options, found);
+    intersectFew(*entry.octree, entry.local, x, y, block, options, found);
   }
   if (this->Placed[entry.index])
   {
@@ -216,8 +263,14 @@ void LayeredView::traceTile(int tileX, int tileY, bool onlyChanged, TileScratch&
     const Entry& entry = *candidate.entry;
     const auto fill = [&]
     {
+      const PixelRect& pixels = entry.local.pixels;
       std::fill(block.tMin, block.tMin + 64, candidate.tNear);
-      std::fill(block.tMax, block.tMax + 64, candidate.tFar);
+      for (int i = 0; i < 64; ++i)
+      {
+        const bool sees =
+          xs[i] >= pixels.x0 && xs[i] < pixels.x1 && ys[i] >= pixels.y0 && ys[i] < pixels.y1;
+        block.tMax[i] = sees ? candidate.tFar : -std::numeric_limits<float>::infinity();
+      }
     };
     if (!entry.layer && candidate.way == Way::Alone)
     {

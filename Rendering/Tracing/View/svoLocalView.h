@@ -28,7 +28,8 @@ struct LocalView
   WorldToOctree toOctree;
   double base = 0.0;
   float tMax = -1.0f; // far plane or farthest corner, whichever is nearer; minus base
-  PixelRect rect;     // of whole tiles that can see the cube; empty if none
+  PixelRect pixels;   // that can see the cube; empty if none
+  PixelRect rect;     // whole tiles of these
   /// On the plane of `base` rays may start many cubes away from where they meet the cube, as where
   /// an object is flat or long and seen at a slant, or at the border of a very wide view: a float
   /// would lose the voxel. Such rays are traced by intersectStretched().
@@ -143,15 +144,15 @@ inline LocalView makeLocalView(
 {
   LocalView local;
   const SeenCube seen = seeOctree(octree, localToWorld, view);
-  local.rect = seen.rect;
-  if (local.rect.empty())
+  local.pixels = seen.rect;
+  if (local.pixels.empty())
   {
     return local;
   }
   local.base = seen.nearest;
   local.tMax = roundUp(seen.farthest - local.base);
-  local.rect = { local.rect.x0 & ~7, local.rect.y0 & ~7, (local.rect.x1 + 7) & ~7,
-    (local.rect.y1 + 7) & ~7 };
+  const PixelRect& p = local.pixels;
+  local.rect = { p.x0 & ~7, p.y0 & ~7, (p.x1 + 7) & ~7, (p.y1 + 7) & ~7 };
   local.toOctree = WorldToOctree(octree, localToWorld);
   const WorldToOctree& toOctree = local.toOctree;
   local.direction = toOctree.vector(view.direction);
