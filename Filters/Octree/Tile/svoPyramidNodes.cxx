@@ -95,33 +95,33 @@ struct OpenNode
   float value[6]; // of the sides, t and w at its lower corner, rounding allowed for
 };
 
-/// The pixels of a group whose centres cells may cover: x0, x1, y0 and y1, a byte each. `most`: the
-/// greatest values of the group's sides, which are w times the distance in pixels.
+/// The pixels of a group's window whose centres cells may cover: x0, x1, y0 and y1, a byte each.
+/// `most`: the greatest values of the group's sides, which are w times the distance in pixels.
 HWY_INLINE hn::Vec<hn::ScalableTag<std::int32_t>> pixelsOf(
-  const F* most, F leastW, hn::Mask<DF>& any)
+  const F* most, F leastW, const GroupWindow& window, hn::Mask<DF>& any)
 {
   // A pixel lies at x / w from one side and at Pixels - x / w from the other one.
   const DF df;
   const hn::ScalableTag<std::int32_t> di;
   constexpr float Slack = 0.01f; // besides what the sides allow for
-  const F zero = hn::Zero(df), last = hn::Set(df, GroupView::Pixels - 1.0f);
-  const auto known = hn::Gt(leastW, zero);
+  const auto known = hn::Gt(leastW, hn::Zero(df));
   const F inverse = hn::Div(hn::Set(df, 1.0f), leastW);
   const F toLast = hn::Set(df, Slack - 0.5f);
   const F toFirst = hn::Set(df, GroupView::Pixels - 0.5f - Slack);
-  const auto lastOf = [&](F greatest)
+  const auto lastOf = [&](F greatest, float begin, float end)
   {
     const F pixel = hn::Floor(hn::MulAdd(greatest, inverse, toLast));
-    return hn::IfThenElse(known, hn::Max(hn::Min(pixel, last), hn::Set(df, -1.0f)), last);
+    const F last = hn::Set(df, end);
+    return hn::IfThenElse(known, hn::Max(hn::Min(pixel, last), hn::Set(df, begin - 1.0f)), last);
   };
-  const auto firstOf = [&](F greatest)
+  const auto firstOf = [&](F greatest, float begin, float end)
   {
     const F pixel = hn::Ceil(hn::NegMulAdd(greatest, inverse, toFirst));
-    return hn::IfThenElse(
-      known, hn::Min(hn::Max(pixel, zero), hn::Set(df, GroupView::Pixels)), zero);
+    const F first = hn::Set(df, begin);
+    return hn::IfThenElse(known, hn::Min(hn::Max(pixel, first), hn::Set(df, end + 1.0f)), first);
   };
-  const F x1 = lastOf(most[0]), x0 = firstOf(most[1]);
-  const F y1 = lastOf(most[2]), y0 = firstOf(most[3]);
+  const F x1 = lastOf(most[0], window.x0, window.x1), x0 = firstOf(most[1], window.x0, window.x1);
+  const F y1 = lastOf(most[2], window.y0, window.y1), y0 = firstOf(most[3], window.y0, window.y1);
   any = hn::And(any, hn::And(hn::Le(x0, x1), hn::Le(y0, y1)));
   const auto byte = [&](F v, int k) { return hn::ShiftLeftSame(hn::ConvertTo(di, v), k); };
   return hn::Or(hn::Or(byte(x0, 0), byte(x1, 8)), hn::Or(byte(y0, 16), byte(y1, 24)));
@@ -146,7 +146,8 @@ inline std::uint64_t flipped(std::uint64_t bits, int flip)
 /// Found: TileNode or GroupNode.
 template <class Found>
 HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
-  const TilePyramid& pyramid, float tMin, float tMax, std::size_t most, std::vector<Found>& nodes)
+  const TilePyramid& pyramid, float tMin, float tMax, std::size_t most, const GroupWindow& window,
+  std::vector<Found>& nodes)
 {
   constexpr bool Group = std::is_same<Found, GroupNode>::value;
   assert(octree.surface() != nullptr && octree.shortLists().begin.size() == octree.brickBegin());
@@ -202,7 +203,10 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
     root.tNear = -std::numeric_limits<float>::infinity();
     if constexpr (Group)
     {
-      root.x1 = root.y1 = GroupView::Pixels - 1;
+      root.x0 = window.x0;
+      root.x1 = window.x1;
+      root.y0 = window.y0;
+      root.y1 = window.y1;
     }
     nodes.push_back(root);
     return true;
@@ -238,7 +242,7 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
       if (Group && bits != 0)
       {
         const F w = hn::MulAdd(size, hn::Load(df, tables.least + i), hn::Set(df, parent.value[5]));
-        hn::Store(pixelsOf(best, w, in), hn::ScalableTag<std::int32_t>(), pixels + i);
+        hn::Store(pixelsOf(best, w, window, in), hn::ScalableTag<std::int32_t>(), pixels + i);
         bits &= laneBits(df, in);
       }
       inside |= bits << i;
@@ -296,13 +300,14 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
 bool findInTile(const Octree& octree, const CellOffsets& offsets, const TilePyramid& pyramid,
   float tMin, float tMax, std::size_t most, std::vector<TileNode>& nodes)
 {
-  return findNodes(octree, offsets, pyramid, tMin, tMax, most, nodes);
+  return findNodes(octree, offsets, pyramid, tMin, tMax, most, {}, nodes);
 }
 
 bool findInGroup(const Octree& octree, const CellOffsets& offsets, const TilePyramid& pyramid,
-  float tMin, float tMax, std::size_t most, std::vector<GroupNode>& nodes)
+  float tMin, float tMax, std::size_t most, const GroupWindow& window,
+  std::vector<GroupNode>& nodes)
 {
-  return findNodes(octree, offsets, pyramid, tMin, tMax, most, nodes);
+  return findNodes(octree, offsets, pyramid, tMin, tMax, most, window, nodes);
 }
 }
 }
@@ -358,11 +363,13 @@ bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin,
 }
 
 bool findGroupNodes(const Octree& octree, const TilePyramid& pyramid, float tMin, float tMax,
-  std::size_t most, std::vector<GroupNode>& nodes)
+  std::size_t most, std::vector<GroupNode>& nodes, const GroupWindow& window)
 {
+  assert(window.x1 < GroupView::Pixels && window.y1 < GroupView::Pixels);
   nodes.clear();
   return !octree || octree.empty() ||
-    HWY_DYNAMIC_DISPATCH(findInGroup)(octree, cellOffsets(), pyramid, tMin, tMax, most, nodes);
+    HWY_DYNAMIC_DISPATCH(findInGroup)(
+      octree, cellOffsets(), pyramid, tMin, tMax, most, window, nodes);
 }
 }
 #endif

@@ -40,15 +40,22 @@ struct GroupNode
   std::uint8_t x0, x1, y0, y1; // pixels of the group whose centres it may cover
 };
 
+/// Pixels of a group, the last ones included.
+struct GroupWindow
+{
+  std::uint8_t x0 = 0, x1 = 31, y0 = 0, y1 = 31;
+};
+
 /// Finds the nodes inside the pyramid between tMin and tMax, nearest first. False if there are more
 /// than `most`: then they are not all there. The octree must have a surface.
 VTKSVOOCTREE_EXPORT bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin,
   float tMax, std::size_t most, std::vector<TileNode>& nodes);
 
 /// The same for a group of 4x4 tiles: nearer ones first, by and large, and none that lies between
-/// the centres of pixels.
+/// the centres of pixels. The pyramid is that of the group; nodes are those of the `window`.
 VTKSVOOCTREE_EXPORT bool findGroupNodes(const Octree& octree, const TilePyramid& pyramid,
-  float tMin, float tMax, std::size_t most, std::vector<GroupNode>& nodes);
+  float tMin, float tMax, std::size_t most, std::vector<GroupNode>& nodes,
+  const GroupWindow& window = {});
 }
 
 #endif

@@ -173,28 +173,10 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
   {
     return;
   }
-  const int tx0 = all.x0 / 8;
-  const int tx1 = (all.x1 + 7) / 8;
-  const int ty0 = all.y0 / 8;
-  const int ty1 = (all.y1 + 7) / 8;
   this->Groups.fill(all, 8 * GroupTiles, static_cast<std::uint32_t>(this->Instances.size()),
     [this](std::uint32_t e) -> const PixelRect& { return this->Instances[e].local.rect; });
   std::vector<std::unique_ptr<TileScratch>> idle; // no more than there are threads
   std::mutex mutex;
-  const auto wantsAny = [&](int x0, int y0)
-  {
-    for (int y = std::max(y0, ty0); y < std::min(y0 + GroupTiles, ty1); ++y)
-    {
-      for (int x = std::max(x0, tx0); x < std::min(x0 + GroupTiles, tx1); ++x)
-      {
-        if (this->Tiles.isMerged(static_cast<std::size_t>(y) * this->Merged.tilesX + x))
-        {
-          return true;
-        }
-      }
-    }
-    return false;
-  };
   parallelFor(0, this->Groups.groups(), std::max<std::size_t>(this->Groups.columns() / 8, 2),
     [&](std::size_t first, std::size_t last)
     {
@@ -216,17 +198,16 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
       TileScratch& mine = *taken;
       for (std::size_t group = first; group < last; ++group)
       {
-        const int x0 = GroupTiles * this->Groups.x(group);
-        const int y0 = GroupTiles * this->Groups.y(group);
-        if (!wantsAny(x0, y0))
+        if (!this->findWindow(group, mine))
         {
           continue;
         }
         this->gather(group, mine);
-        for (int tileY = std::max(y0, ty0); tileY < std::min(y0 + GroupTiles, ty1); ++tileY)
+        for (int row = mine.window.y0 / 8; row <= mine.window.y1 / 8; ++row)
         {
-          for (int tileX = std::max(x0, tx0); tileX < std::min(x0 + GroupTiles, tx1); ++tileX)
+          for (int column = mine.window.x0 / 8; column <= mine.window.x1 / 8; ++column)
           {
+            const int tileX = mine.groupX + column, tileY = mine.groupY + row;
             const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
             if (this->Tiles.isMerged(tile))
             {

@@ -181,7 +181,8 @@ private:
     std::uint64_t hidden = 0;         // see hiddenInstances()
 
     // The group of tiles.
-    int groupX, groupY;
+    int groupX, groupY;   // in tiles
+    GroupWindow window;   // around those of its tiles that are asked for
     FoundTriangles found; // of those
     std::vector<GroupNode> nodes;
     // The tile.
@@ -191,13 +192,31 @@ private:
     alignas(64) float t[64];
     alignas(64) std::uint32_t instance[64];
     alignas(64) Primitive primitive[64];
+
+    /// What a rectangle of pixels, of which the window has some, has of the group.
+    GroupWindow windowOf(const PixelRect& r) const
+    {
+      const auto inGroup = [](int pixel, int firstTile, int low, int high)
+      { return static_cast<std::uint8_t>(std::clamp(pixel - 8 * firstTile, low, high)); };
+      const GroupWindow& w = this->window;
+      return { inGroup(r.x0, this->groupX, w.x0, w.x1), inGroup(r.x1 - 1, this->groupX, w.x0, w.x1),
+        inGroup(r.y0, this->groupY, w.y0, w.y1), inGroup(r.y1 - 1, this->groupY, w.y0, w.y1) };
+    }
+    bool wants(const PixelRect& r) const
+    {
+      const int x = 8 * this->groupX, y = 8 * this->groupY;
+      return r.x0 <= x + this->window.x1 && r.x1 > x + this->window.x0 &&
+        r.y0 <= y + this->window.y1 && r.y1 > y + this->window.y0;
+    }
   };
   void fill(const Scene& scene, const LevelOf& levelOf, Entry& entry, std::uint32_t index);
   void findIntervals(const ParallelFor& parallelFor);
   /// Where the rays of a tile can meet an instance; false if nowhere.
   bool meets(int tileX, int tileY, TileEntry& candidate) const;
-  /// Finds the instances that reach into a group of tiles, and the triangles of those that are
-  /// traced together.
+  /// Finds which tiles of a group are asked for; false if none.
+  bool findWindow(std::size_t group, TileScratch& scratch) const;
+  /// Finds the instances that reach into the window of a group of tiles, and the triangles of those
+  /// that are traced together.
   void gather(std::size_t group, TileScratch& scratch) const;
   /// Adds what a group of tiles may see of those that are traced together. False, and all is to be
   /// done once more, if one of them turned out to have to be traced by rays.

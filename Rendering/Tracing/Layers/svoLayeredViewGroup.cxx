@@ -52,16 +52,8 @@ bool LayeredView::findTriangles(
     makeGroupView(entry.local, entry.functions, this->Keys, limits, scratch.groupX, scratch.groupY);
   if (this->Culling && !found.group.empty())
   {
-    const PixelRect& r = entry.local.rect;
-    const auto inGroup = [](int pixel, int firstTile, int last)
-    {
-      return static_cast<std::uint8_t>(
-        std::clamp(pixel - 8 * firstTile - last, 0, GroupView::Pixels - 1));
-    };
-    if (found.group.hides(
-          { 0.0f, 0, inGroup(r.x0, scratch.groupX, 0), inGroup(r.x1, scratch.groupX, 1),
-            inGroup(r.y0, scratch.groupY, 0), inGroup(r.y1, scratch.groupY, 1) },
-          view))
+    const GroupWindow box = scratch.windowOf(entry.local.pixels);
+    if (found.group.hides({ 0.0f, 0, box.x0, box.x1, box.y0, box.y1 }, view))
     {
       ++scratch.hidden;
       return true;
@@ -69,7 +61,8 @@ bool LayeredView::findTriangles(
   }
   const TilePyramid all =
     makePyramid(entry.projection, this->Seen, scratch.groupX, scratch.groupY, GroupTiles);
-  if (!findGroupNodes(*entry.octree, all, 0.0f, entry.local.tMax, MostGroupNodes, scratch.nodes))
+  if (!findGroupNodes(
+        *entry.octree, all, 0.0f, entry.local.tMax, MostGroupNodes, scratch.nodes, scratch.window))
   {
     return false;
   }
@@ -103,22 +96,50 @@ bool LayeredView::findTogether(TileScratch& scratch) const
   return true;
 }
 
+bool LayeredView::findWindow(std::size_t group, TileScratch& scratch) const
+{
+  scratch.groupX = GroupTiles * this->Groups.x(group);
+  scratch.groupY = GroupTiles * this->Groups.y(group);
+  int x0 = GroupTiles, y0 = GroupTiles, x1 = -1, y1 = -1;
+  for (int y = 0; y < std::min(GroupTiles, this->Merged.tilesY - scratch.groupY); ++y)
+  {
+    for (int x = 0; x < std::min(GroupTiles, this->Merged.tilesX - scratch.groupX); ++x)
+    {
+      const std::size_t tile =
+        static_cast<std::size_t>(scratch.groupY + y) * this->Merged.tilesX + scratch.groupX + x;
+      if (this->Tiles.isMerged(tile))
+      {
+        x0 = std::min(x0, x);
+        y0 = std::min(y0, y);
+        x1 = std::max(x1, x);
+        y1 = y;
+      }
+    }
+  }
+  const auto pixel = [](int tile) { return static_cast<std::uint8_t>(8 * tile); };
+  const auto last = [](int tile) { return static_cast<std::uint8_t>(8 * tile + 7); };
+  scratch.window = { pixel(x0), last(x1), pixel(y0), last(y1) };
+  return x1 >= 0;
+}
+
 void LayeredView::gather(std::size_t group, TileScratch& scratch) const
 {
   const GroupLists::List nearby = this->Groups.of(group);
-  scratch.groupX = GroupTiles * this->Groups.x(group);
-  scratch.groupY = GroupTiles * this->Groups.y(group);
-  scratch.nearby = static_cast<std::size_t>(nearby.end() - nearby.begin());
+  scratch.nearby = 0;
   scratch.together.clear();
-  if (scratch.entries.size() < scratch.nearby)
+  const auto most = static_cast<std::size_t>(nearby.end() - nearby.begin());
+  if (scratch.entries.size() < most)
   {
-    scratch.entries.resize(scratch.nearby);
+    scratch.entries.resize(most);
   }
-  TileEntry* next = scratch.entries.data();
   for (const std::uint32_t e : nearby)
   {
     const Entry& entry = this->Instances[e];
-    TileEntry& candidate = *next++;
+    if (!scratch.wants(entry.local.pixels))
+    {
+      continue;
+    }
+    TileEntry& candidate = scratch.entries[scratch.nearby++];
     candidate.entry = &entry;
     candidate.way = entry.tiles ? Way::Unknown : Way::Rays;
     if (entry.tiles && !entry.layer)

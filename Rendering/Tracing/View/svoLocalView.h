@@ -28,8 +28,9 @@ struct LocalView
   WorldToOctree toOctree;
   double base = 0.0;
   float tMax = -1.0f; // far plane or farthest corner, whichever is nearer; minus base
-  PixelRect pixels;   // that can see the cube; empty if none
-  PixelRect rect;     // whole tiles of these
+  /// That can see the cube; empty if none. With those of the last tiles beyond the image.
+  PixelRect pixels;
+  PixelRect rect; // whole tiles of these
   /// On the plane of `base` rays may start many cubes away from where they meet the cube, as where
   /// an object is flat or long and seen at a slant, or at the border of a very wide view: a float
   /// would lose the voxel. Such rays are traced by intersectStretched().
@@ -151,8 +152,10 @@ inline LocalView makeLocalView(
   }
   local.base = seen.nearest;
   local.tMax = roundUp(seen.farthest - local.base);
-  const PixelRect& p = local.pixels;
+  PixelRect& p = local.pixels;
   local.rect = { p.x0 & ~7, p.y0 & ~7, (p.x1 + 7) & ~7, (p.y1 + 7) & ~7 };
+  p.x1 = p.x1 < view.width ? p.x1 : local.rect.x1;
+  p.y1 = p.y1 < view.height ? p.y1 : local.rect.y1;
   local.toOctree = WorldToOctree(octree, localToWorld);
   const WorldToOctree& toOctree = local.toOctree;
   local.direction = toOctree.vector(view.direction);
