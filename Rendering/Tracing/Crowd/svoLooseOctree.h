@@ -1,0 +1,306 @@
+// A loose octree over the objects of a scene: T. Ulrich, "Loose Octrees", Game Programming Gems 1
+// (2000), with a looseness below 2 as well. It knows balls with names, nothing of what they
+// enclose.
+//
+// The cube of edge W is divided into cells of edge W / 2^d at depth d. The loose cell is k times as
+// wide about the same middle, so a ball whose centre lies in the cell, and whose radius is at most
+// (k - 1) / 2 W / 2^d, lies in the loose cell: depth and cell follow from radius and centre alone,
+// without a look at the tree. That cell is the deepest place of an object. It is kept in the first
+// node on the way there below which there are no more than `Bucket` objects, so sparse regions have
+// few nodes. Where an object is kept depends on the set of objects only, not on how it came about.
+//
+//   records   one for each object, by name, 32 bytes:
+//             | x y z  4 + 4 + 4 | radius 4 | node 4 | place 4 | depth 1 | .. |
+//             coordinates are 32-bit fractions of the cube, so the cell at depth d is their first d
+//             bits; a move that keeps its node writes the record and reads nothing else
+//   nodes     24 bytes, eight children side by side; node 0 is the root
+//   chunks    64 bytes, 15 names each, in a list for each node: the place of an object is its chunk
+//             and where in it, so it is taken out by putting the last one into its place
+//
+// What is freed is used again, so memory stays at what the largest crowd needed.
+#ifndef svoLooseOctree_h
+#define svoLooseOctree_h
+
+#include "svoView.h"
+#include "vtkSVOTracingModule.h"
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+/// A ball, world.
+struct Ball
+{
+  glm::dvec3 centre{ 0.0 };
+  double radius = 0.0;
+};
+
+/// A node as visitors see it.
+struct LooseNode
+{
+  glm::dvec3 centre;   // of its cell, world
+  double half;         // half the edge of its loose cell, world; all balls below lie in that cube
+  int depth;           // 0 at the root
+  std::size_t objects; // kept in it and below
+};
+
+/// What a visitor says to a node.
+enum class NodeVisit
+{
+  Skip,  // nothing below it
+  Below, // its objects and its children
+  All    // the same, and asks no more below: everything there is wanted
+};
+
+/// What front to back means: from an eye, or along the direction of parallel rays.
+class VisitOrder
+{
+public:
+  /// From the eye of a view, or along its rays if they are parallel.
+  explicit VisitOrder(const View& view)
+    : VisitOrder(view.parallel ? along(view.direction) : from(view.origin))
+  {
+  }
+  static VisitOrder from(const glm::dvec3& eye) { return VisitOrder(eye); }
+  /// The eye is far away, against the direction.
+  static VisitOrder along(const glm::dvec3& direction)
+  {
+    constexpr double Far = std::numeric_limits<double>::infinity();
+    return VisitOrder(glm::dvec3(direction.x < 0.0 ? Far : -Far, direction.y < 0.0 ? Far : -Far,
+      direction.z < 0.0 ? Far : -Far));
+  }
+  /// World.
+  const glm::dvec3& eye() const { return this->Eye; }
+
+private:
+  explicit VisitOrder(const glm::dvec3& eye)
+    : Eye(eye)
+  {
+  }
+  glm::dvec3 Eye;
+};
+
+/// Objects are named by numbers, dense from 0 on: memory goes with the largest. Changes are made by
+/// one thread; any number of threads may look while there are none.
+class VTKSVOTRACING_EXPORT LooseOctree
+{
+public:
+  static constexpr int MostDepth = 20;
+  /// Of objects that a node keeps though they have deeper cells.
+  static constexpr std::uint32_t Bucket = 15;
+
+  /// The cube: its middle and its edge, world. `looseness`: k, of which what lies outside of
+  /// [LeastLooseness, 2] is clamped into it. `maximumDepth`: 0 to MostDepth, clamped as well. With
+  /// a cube that is not finite, or has no edge, all objects are outsiders.
+  LooseOctree(
+    const glm::dvec3& centre, double edge, double looseness = 2.0, int maximumDepth = MostDepth);
+  /// Below it hardly anything fits a loose cell.
+  static constexpr double LeastLooseness = 1.0 + 1.0 / 1024.0;
+
+  double looseness() const { return this->Looseness; }
+  int maximumDepth() const { return this->Depths; }
+
+  /// Adds an object, or moves it if it is there. Centre and radius, world, of a ball around it. One
+  /// that does not fit the cube is an outsider: its centre lies outside of the cube, its radius is
+  /// more than (k - 1) / 2 edges or negative, or one of them is not finite.
+  void insert(std::uint32_t object, const glm::dvec3& centre, double radius);
+  /// Moves an object that is there, and nothing else. False if it is not there.
+  bool move(std::uint32_t object, const glm::dvec3& centre, double radius);
+  /// False if it was not there.
+  bool remove(std::uint32_t object);
+  void clear();
+  /// Memory for objects below `count` at once.
+  void reserve(std::size_t count) { this->Records.reserve(count); }
+
+  bool contains(std::uint32_t object) const
+  {
+    return object < this->Records.size() && this->Records[object].node != Absent;
+  }
+  /// Outsiders included.
+  std::size_t size() const { return this->Nodes[0].total + this->Outsiders.size(); }
+  /// In no order. They are visited always, before all others.
+  const std::vector<std::uint32_t>& outsiders() const { return this->Outsiders; }
+
+  /// What is kept of an object that is there: a ball that encloses that which was given. Its radius
+  /// is larger by at most 2^-31 of the cube's edge, 2^-23 of itself, and rounding; infinite for
+  /// outsiders.
+  Ball ball(std::uint32_t object) const;
+
+  /// Visits nodes front to back, depth first, children in the order of their code exclusive-or the
+  /// code of the eye's side of the node's middle: of two children whose cells a plane of the node
+  /// separates, that on the eye's side first. A node's objects come before its children, in no
+  /// order. Nodes that keep nothing, below them neither, are left out.
+  ///
+  ///   NodeVisit onNode(const LooseNode&, std::uint8_t& known)    before what is in it, in that
+  ///   order void onObject(std::uint32_t object, bool all)          `all`: below a node that said
+  ///   All
+  ///
+  /// `known` is the visitor's own: 0 at the root, and what a node leaves in it its children find.
+  /// Allocates nothing.
+  template <class OnNode, class OnObject>
+  void visit(const VisitOrder& order, OnNode&& onNode, OnObject&& onObject) const;
+
+  /// Nodes that there is memory in use for: the root, and eight below each node that has children.
+  std::size_t nodes() const { return this->Nodes.size() - 7 - 8 * this->FreeGroups.size(); }
+  /// Bytes, what is kept for later included.
+  std::size_t memory() const;
+
+private:
+  static constexpr std::uint32_t Absent = 0xffffffffu;  // of Record::node
+  static constexpr std::uint32_t Outside = 0xfffffffeu; // the same; its place is that in Outsiders
+  static constexpr double Units = 4294967296.0;         // along an edge of the cube
+
+  struct alignas(32) Record
+  {
+    std::uint32_t x = 0, y = 0, z = 0; // the unit that the centre lies in
+    float radius = 0.0f;               // units, rounded up
+    std::uint32_t node = Absent;
+    std::uint32_t place = 0; // 16 times its chunk, and where in it
+    std::uint8_t depth = 0;  // of the node
+  };
+  struct Node
+  {
+    std::uint32_t parent = 0;
+    std::uint32_t children = 0; // the first of eight; 0: none
+    std::uint32_t chunk = 0;    // the one that is filled; 0: none
+    std::uint32_t count = 0;    // of its own objects
+    std::uint32_t total = 0;    // those below it as well
+    std::uint8_t depth = 0;
+    std::uint8_t mask = 0; // of children that keep something, themselves or below
+  };
+  static constexpr std::uint32_t ChunkSize = 15;
+  struct alignas(64) Chunk
+  {
+    std::uint32_t next = 0; // full
+    std::uint32_t objects[ChunkSize];
+  };
+  static_assert(Bucket <= ChunkSize, "sink() and collapse() count on one chunk");
+
+  /// Where an object belongs.
+  struct Spot
+  {
+    std::uint32_t x, y, z;
+    float radius;
+    bool inside;
+  };
+  Spot spotOf(const glm::dvec3& centre, double radius) const;
+  /// The depth of the cell of a radius in units, at most the reach of the root.
+  int depthOf(float radius) const;
+  void put(std::uint32_t object, const Spot& spot);
+  void append(std::uint32_t node, std::uint32_t object);
+  void takeOut(std::uint32_t object);
+  void enter(std::uint32_t node, std::uint32_t object);
+  void sink(std::uint32_t node);
+  void leave(std::uint32_t node, std::uint32_t end);
+  void collapse(std::uint32_t node);
+  std::uint32_t gather(std::uint32_t node, std::uint32_t* objects);
+  std::uint32_t childFor(std::uint32_t node, const Record& record);
+  std::uint32_t newChunk();
+  void freeGroup(Node& node);
+
+  double Looseness;
+  int Depths;
+  glm::dvec3 Low;     // lower corner of the cube, world
+  double PerUnit;     // units in the world's unit of length
+  double Unit;        // the inverse
+  double Noise;       // how far what is computed here may be off by rounding, world
+  std::int32_t Reach; // (k - 1) / 2 edges, in units: the bits of a float
+
+  std::vector<Record> Records;
+  std::vector<Node> Nodes;
+  std::vector<Chunk> Chunks; // the first is none
+  std::vector<std::uint32_t> Outsiders, FreeGroups, FreeChunks;
+};
+
+inline Ball LooseOctree::ball(std::uint32_t object) const
+{
+  assert(this->contains(object));
+  const Record& r = this->Records[object];
+  if (r.node == Outside)
+  {
+    return { glm::dvec3(0.0), std::numeric_limits<double>::infinity() };
+  }
+  // The centre lies in its unit, whose half diagonal is less than one.
+  return { this->Low + this->Unit * glm::dvec3(r.x + 0.5, r.y + 0.5, r.z + 0.5),
+    (static_cast<double>(r.radius) + 1.0) * this->Unit + this->Noise };
+}
+
+template <class OnNode, class OnObject>
+void LooseOctree::visit(const VisitOrder& order, OnNode&& onNode, OnObject&& onObject) const
+{
+  for (const std::uint32_t object : this->Outsiders)
+  {
+    onObject(object, false);
+  }
+  if (this->Nodes[0].total == 0)
+  {
+    return;
+  }
+  struct Waiting
+  {
+    std::uint32_t node;
+    std::uint32_t x, y, z; // lower corner, units
+    std::uint8_t known;
+    bool all;
+  };
+  Waiting stack[7 * MostDepth + 8];
+  int waiting = 0;
+  stack[waiting++] = { 0, 0, 0, 0, 0, false };
+  const glm::dvec3 eye = (order.eye() - this->Low) * this->PerUnit;
+  while (waiting > 0)
+  {
+    Waiting at = stack[--waiting];
+    const Node& node = this->Nodes[at.node];
+    const std::uint32_t half = 0x80000000u >> node.depth; // of the cell's edge
+    const double halfCell = half;
+    const glm::dvec3 middle(at.x + halfCell, at.y + halfCell, at.z + halfCell);
+    if (!at.all)
+    {
+      const NodeVisit said = onNode(
+        LooseNode{ this->Low + this->Unit * middle,
+          this->Unit * (this->Looseness * halfCell + 1.0) + this->Noise, node.depth, node.total },
+        at.known);
+      if (said == NodeVisit::Skip)
+      {
+        continue;
+      }
+      at.all = said == NodeVisit::All;
+    }
+    std::uint32_t inChunk = node.count > 0 ? (node.count - 1) % ChunkSize + 1 : 0;
+    for (std::uint32_t c = node.chunk; c != 0; c = this->Chunks[c].next)
+    {
+      const Chunk& chunk = this->Chunks[c];
+      for (std::uint32_t i = 0; i < inChunk; ++i)
+      {
+        onObject(chunk.objects[i], at.all);
+      }
+      inChunk = ChunkSize;
+    }
+    if (node.mask == 0)
+    {
+      continue;
+    }
+    const unsigned side =
+      (eye.x >= middle.x ? 1u : 0u) | (eye.y >= middle.y ? 2u : 0u) | (eye.z >= middle.z ? 4u : 0u);
+    // The last one first: it waits longest.
+    for (int i = 7; i >= 0; --i)
+    {
+      const unsigned child = static_cast<unsigned>(i) ^ side;
+      if (node.mask >> child & 1)
+      {
+        assert(waiting < 7 * MostDepth + 8);
+        stack[waiting++] = { node.children + child, at.x + (child & 1) * half,
+          at.y + (child >> 1 & 1) * half, at.z + (child >> 2) * half, at.known, at.all };
+      }
+    }
+  }
+}
+}
+
+#endif
