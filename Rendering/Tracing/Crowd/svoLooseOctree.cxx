@@ -96,7 +96,7 @@ LooseOctree::Spot LooseOctree::spotOf(const glm::dvec3& centre, double radius) c
   spot.inside = bitsOf(spot.radius) <= this->Reach;
   // The upper sides of the cube belong to it.
   const auto unit = [](double x)
-  { return static_cast<std::uint32_t>(std::min<std::uint64_t>(x, 0xffffffffu)); };
+  { return static_cast<std::uint32_t>(std::min(x, static_cast<double>(0xffffffffu))); };
   spot.x = unit(at.x);
   spot.y = unit(at.y);
   spot.z = unit(at.z);
