@@ -17,6 +17,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace svo
 {
@@ -87,6 +88,9 @@ public:
   }
   /// Planes in use: six at most. Fewer where a view has no far end, or rays that part.
   int planes() const { return this->Count; }
+  /// Its normal, of length 1, and its offset: dot(normal, p) + offset is the distance of a point of
+  /// the world, positive inside.
+  glm::dvec4 plane(int i) const { return glm::dvec4(this->Normal[i], this->Offset[i]); }
 
 private:
   static constexpr double Rounding = 0x1p-49;

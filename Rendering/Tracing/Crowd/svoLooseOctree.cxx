@@ -169,6 +169,7 @@ bool LooseOctree::move(std::uint32_t object, const glm::dvec3& centre, double ra
   record.radius = spot.radius;
   if (sameDepth && static_cast<std::uint64_t>(changed) >> (32 - record.depth) == 0)
   {
+    this->writeBall(record);
     return true;
   }
   // Up to the deepest node that both places have above them: it keeps as many as before.
@@ -217,6 +218,39 @@ bool LooseOctree::remove(std::uint32_t object)
   return true;
 }
 
+/// The ball of a record into its chunk.
+void LooseOctree::writeBall(const Record& record)
+{
+  Chunk& chunk = this->Chunks[record.place / 16];
+  const std::uint32_t i = record.place % 16;
+  const int d = record.depth;
+  chunk.x[i] = static_cast<std::uint16_t>(record.x << d >> 16);
+  chunk.y[i] = static_cast<std::uint16_t>(record.y << d >> 16);
+  chunk.z[i] = static_cast<std::uint16_t>(record.z << d >> 16);
+  // A centre is known to lie in a cube of these steps, or of units where they are wider; the radius
+  // has half its diagonal more, or all of it. At most half a cell, and those.
+  const float perUnit = static_cast<float>(1u << d) / 65536.0f;
+  const float radius = std::ceil(record.radius * perUnit) + (d <= 16 ? 1.0f : 2.0f * perUnit);
+  chunk.radius[i] = static_cast<std::uint16_t>(radius);
+}
+
+Ball LooseOctree::ball(std::uint32_t object) const
+{
+  assert(this->contains(object));
+  const Record& r = this->Records[object];
+  if (r.node == Outside)
+  {
+    return LooseObjects{ &object, 1 }.ball(0);
+  }
+  const Chunk& chunk = this->Chunks[r.place / 16];
+  const std::uint32_t i = r.place % 16;
+  const std::uint32_t cell = ~static_cast<std::uint32_t>(0xffffffffull >> r.depth);
+  const LooseObjects one{ &object, 1, chunk.x + i, chunk.y + i, chunk.z + i, chunk.radius + i,
+    this->Low + this->Unit * glm::dvec3(r.x & cell, r.y & cell, r.z & cell),
+    this->Unit * (0x80000000u >> r.depth) * 0x1p-15, this->Noise };
+  return one.ball(0);
+}
+
 /// Into the node's own list. Its total counts it already.
 void LooseOctree::append(std::uint32_t node, std::uint32_t object)
 {
@@ -234,6 +268,7 @@ void LooseOctree::append(std::uint32_t node, std::uint32_t object)
   record.node = node;
   record.place = 16 * n.chunk + place;
   record.depth = n.depth;
+  this->writeBall(record);
 }
 
 /// Out of its node's own list; totals stay.
@@ -241,16 +276,38 @@ void LooseOctree::takeOut(std::uint32_t object)
 {
   const Record& record = this->Records[object];
   Node& n = this->Nodes[record.node];
-  const std::uint32_t chunk = n.chunk;
   const std::uint32_t place = --n.count % ChunkSize;
-  const std::uint32_t last = this->Chunks[chunk].objects[place];
-  this->Chunks[record.place / 16].objects[record.place % 16] = last;
-  this->Records[last].place = record.place;
+  const Chunk& from = this->Chunks[n.chunk];
+  Chunk& to = this->Chunks[record.place / 16];
+  const std::uint32_t i = record.place % 16;
+  to.objects[i] = from.objects[place];
+  to.x[i] = from.x[place];
+  to.y[i] = from.y[place];
+  to.z[i] = from.z[place];
+  to.radius[i] = from.radius[place];
+  this->Records[to.objects[i]].place = record.place;
   if (place == 0)
   {
-    n.chunk = this->Chunks[chunk].next;
-    this->FreeChunks.push_back(chunk);
+    this->FreeChunks.push_back(n.chunk);
+    n.chunk = from.next;
   }
+}
+
+/// Takes all objects out of a node's own list, which are no more than a bucket.
+std::uint32_t LooseOctree::takeAll(Node& node, std::uint32_t* objects)
+{
+  assert(node.count <= Bucket);
+  const std::uint32_t count = node.count;
+  while (node.count > 0)
+  {
+    const Chunk& chunk = this->Chunks[node.chunk];
+    const std::uint32_t some = (node.count - 1) % ChunkSize + 1;
+    objects = std::copy_n(chunk.objects, some, objects);
+    this->FreeChunks.push_back(node.chunk);
+    node.chunk = chunk.next;
+    node.count -= some;
+  }
+  return count;
 }
 
 /// Adds an object, whose record has its coordinates, to a node that has its cell or one below it.
@@ -276,18 +333,10 @@ void LooseOctree::enter(std::uint32_t node, std::uint32_t object)
 /// Objects of a node that had no more than a bucket go to their cells below it.
 void LooseOctree::sink(std::uint32_t node)
 {
+  assert(this->Nodes[node].children == 0);
   std::uint32_t objects[Bucket];
-  Node& n = this->Nodes[node];
-  const std::uint32_t count = n.count;
-  assert(count <= Bucket && n.children == 0);
-  if (count > 0)
-  {
-    std::copy_n(this->Chunks[n.chunk].objects, count, objects);
-    this->FreeChunks.push_back(n.chunk);
-    n.chunk = 0;
-    n.count = 0;
-  }
-  const int depth = n.depth;
+  const std::uint32_t count = this->takeAll(this->Nodes[node], objects);
+  const int depth = this->Nodes[node].depth;
   for (std::uint32_t i = 0; i < count; ++i)
   {
     const Record& record = this->Records[objects[i]];
@@ -359,14 +408,7 @@ std::uint32_t LooseOctree::gather(std::uint32_t node, std::uint32_t* objects)
   }
   for (std::uint32_t i = 0; i < 8; ++i)
   {
-    Node& child = this->Nodes[n.children + i];
-    assert(child.count <= ChunkSize);
-    if (child.count > 0)
-    {
-      std::copy_n(this->Chunks[child.chunk].objects, child.count, objects + count);
-      count += child.count;
-      this->FreeChunks.push_back(child.chunk);
-    }
+    count += this->takeAll(this->Nodes[n.children + i], objects + count);
     count += this->gather(n.children + i, objects + count);
   }
   this->freeGroup(n);

@@ -12,12 +12,14 @@
 //   records   one for each object, by name, 32 bytes:
 //             | x y z  4 + 4 + 4 | radius 4 | node 4 | place 4 | depth 1 | .. |
 //             coordinates are 32-bit fractions of the cube, so the cell at depth d is their first d
-//             bits; a move that keeps its node writes the record and reads nothing else
+//             bits; the place is a chunk and where in it
 //   nodes     24 bytes, eight children side by side; node 0 is the root
-//   chunks    64 bytes, 15 names each, in a list for each node: the place of an object is its chunk
-//             and where in it, so it is taken out by putting the last one into its place
+//   chunks    192 bytes, in a list for each node: 15 names, and their balls in 65536ths of the
+//             node's cell, 8 bytes each. What a view asks lies together, whatever the names.
 //
-// What is freed is used again, so memory stays at what the largest crowd needed.
+// A move that keeps its node writes the record and the ball. An object is taken out by putting the
+// last one into its place. What is freed is used again, so memory stays at what the largest crowd
+// needed.
 #ifndef svoLooseOctree_h
 #define svoLooseOctree_h
 
@@ -48,6 +50,27 @@ struct LooseNode
   double half;         // half the edge of its loose cell, world; all balls below lie in that cube
   int depth;           // 0 at the root
   std::size_t objects; // kept in it and below
+};
+
+/// Objects of a node as visitors see them, 15 at most.
+struct LooseObjects
+{
+  const std::uint32_t* objects;
+  std::uint32_t count;
+  /// The balls, in `unit`s from `low`; `radius` has what coordinates lack. Of 16, but those beyond
+  /// `count` mean nothing. Null of outsiders: there may be any number of these.
+  const std::uint16_t *x = nullptr, *y = nullptr, *z = nullptr, *radius = nullptr;
+  glm::dvec3 low{ 0.0 };
+  double unit = 0.0, noise = 0.0; // `noise`: to be added to radii; world
+
+  /// A ball that encloses that of object i; of outsiders one without an end.
+  Ball ball(std::uint32_t i) const
+  {
+    return this->x ? Ball{ this->low +
+        this->unit * glm::dvec3(this->x[i] + 0.5, this->y[i] + 0.5, this->z[i] + 0.5),
+      this->unit * this->radius[i] + this->noise }
+                   : Ball{ glm::dvec3(0.0), std::numeric_limits<double>::infinity() };
+  }
 };
 
 /// What a visitor says to a node.
@@ -93,7 +116,7 @@ class VTKSVOTRACING_EXPORT LooseOctree
 public:
   static constexpr int MostDepth = 20;
   /// Of objects that a node keeps though they have deeper cells.
-  static constexpr std::uint32_t Bucket = 15;
+  static constexpr std::uint32_t Bucket = 60;
 
   /// The cube: its middle and its edge, world. `looseness`: k, of which what lies outside of
   /// [LeastLooseness, 2] is clamped into it. `maximumDepth`: 0 to MostDepth, clamped as well. With
@@ -128,8 +151,8 @@ public:
   const std::vector<std::uint32_t>& outsiders() const { return this->Outsiders; }
 
   /// What is kept of an object that is there: a ball that encloses that which was given. Its radius
-  /// is larger by at most 2^-31 of the cube's edge, 2^-23 of itself, and rounding; infinite for
-  /// outsiders.
+  /// is larger by at most 2^-15 of the edge of its node's cell, 2^-31 of the cube's, and rounding;
+  /// infinite for outsiders.
   Ball ball(std::uint32_t object) const;
 
   /// Visits nodes front to back, depth first, children in the order of their code exclusive-or the
@@ -137,14 +160,28 @@ public:
   /// separates, that on the eye's side first. A node's objects come before its children, in no
   /// order. Nodes that keep nothing, below them neither, are left out.
   ///
-  ///   NodeVisit onNode(const LooseNode&, std::uint8_t& known)    before what is in it, in that
-  ///   order void onObject(std::uint32_t object, bool all)          `all`: below a node that said
-  ///   All
+  ///   NodeVisit onNode(const LooseNode&, std::uint8_t& known)     before its objects
+  ///   void onObject(std::uint32_t object, bool all)               `all`: a node above said All
   ///
   /// `known` is the visitor's own: 0 at the root, and what a node leaves in it its children find.
   /// Allocates nothing.
   template <class OnNode, class OnObject>
-  void visit(const VisitOrder& order, OnNode&& onNode, OnObject&& onObject) const;
+  void visit(const VisitOrder& order, OnNode&& onNode, OnObject&& onObject) const
+  {
+    this->visitGroups(order, onNode,
+      [&](const LooseObjects& some, bool all, std::uint8_t)
+      {
+        for (std::uint32_t i = 0; i < some.count; ++i)
+        {
+          onObject(some.objects[i], all);
+        }
+      });
+  }
+  /// The same with the objects of a node in groups:
+  ///
+  ///   void onObjects(const LooseObjects&, bool all, std::uint8_t known)   as their node left it
+  template <class OnNode, class OnObjects>
+  void visitGroups(const VisitOrder& order, OnNode&& onNode, OnObjects&& onObjects) const;
 
   /// Nodes that there is memory in use for: the root, and eight below each node that has children.
   std::size_t nodes() const { return this->Nodes.size() - 7 - 8 * this->FreeGroups.size(); }
@@ -178,9 +215,11 @@ private:
   struct alignas(64) Chunk
   {
     std::uint32_t next = 0; // full
-    std::uint32_t objects[ChunkSize];
+    std::uint32_t objects[ChunkSize] = {};
+    // 65536ths of the node's cell; the radius is rounded up, and has what they lack.
+    std::uint16_t x[16] = {}, y[16] = {}, z[16] = {}, radius[16] = {};
   };
-  static_assert(Bucket <= ChunkSize, "sink() and collapse() count on one chunk");
+  static_assert(sizeof(Record) == 32 && sizeof(Node) == 24 && sizeof(Chunk) == 192, "");
 
   /// Where an object belongs.
   struct Spot
@@ -192,7 +231,31 @@ private:
   Spot spotOf(const glm::dvec3& centre, double radius) const;
   /// The depth of the cell of a radius in units, at most the reach of the root.
   int depthOf(float radius) const;
+  /// What visitors of a node will read comes from memory while others are visited.
+  void prefetch(std::uint32_t chunk, bool namesOnly) const
+  {
+    const Chunk* c = this->Chunks.data() + chunk;
+    __builtin_prefetch(c);
+    if (!namesOnly)
+    {
+      __builtin_prefetch(c->x);
+      __builtin_prefetch(c->z);
+    }
+  }
+  void prefetch(const Node& node, bool namesOnly) const
+  {
+    this->prefetch(node.chunk, namesOnly);
+    if (node.children != 0)
+    {
+      const Node* children = this->Nodes.data() + node.children;
+      __builtin_prefetch(children);
+      __builtin_prefetch(children + 3);
+      __builtin_prefetch(children + 6);
+    }
+  }
   void put(std::uint32_t object, const Spot& spot);
+  void writeBall(const Record& record);
+  std::uint32_t takeAll(Node& node, std::uint32_t* objects);
   void append(std::uint32_t node, std::uint32_t object);
   void takeOut(std::uint32_t object);
   void enter(std::uint32_t node, std::uint32_t object);
@@ -218,25 +281,14 @@ private:
   std::vector<std::uint32_t> Outsiders, FreeGroups, FreeChunks;
 };
 
-inline Ball LooseOctree::ball(std::uint32_t object) const
+template <class OnNode, class OnObjects>
+void LooseOctree::visitGroups(const VisitOrder& order, OnNode&& onNode, OnObjects&& onObjects) const
 {
-  assert(this->contains(object));
-  const Record& r = this->Records[object];
-  if (r.node == Outside)
+  if (!this->Outsiders.empty())
   {
-    return { glm::dvec3(0.0), std::numeric_limits<double>::infinity() };
-  }
-  // The centre lies in its unit, whose half diagonal is less than one.
-  return { this->Low + this->Unit * glm::dvec3(r.x + 0.5, r.y + 0.5, r.z + 0.5),
-    (static_cast<double>(r.radius) + 1.0) * this->Unit + this->Noise };
-}
-
-template <class OnNode, class OnObject>
-void LooseOctree::visit(const VisitOrder& order, OnNode&& onNode, OnObject&& onObject) const
-{
-  for (const std::uint32_t object : this->Outsiders)
-  {
-    onObject(object, false);
+    onObjects(
+      LooseObjects{ this->Outsiders.data(), static_cast<std::uint32_t>(this->Outsiders.size()) },
+      false, std::uint8_t{ 0 });
   }
   if (this->Nodes[0].total == 0)
   {
@@ -258,13 +310,13 @@ void LooseOctree::visit(const VisitOrder& order, OnNode&& onNode, OnObject&& onO
     Waiting at = stack[--waiting];
     const Node& node = this->Nodes[at.node];
     const std::uint32_t half = 0x80000000u >> node.depth; // of the cell's edge
-    const double halfCell = half;
-    const glm::dvec3 middle(at.x + halfCell, at.y + halfCell, at.z + halfCell);
+    const glm::dvec3 middle(static_cast<double>(at.x) + half, static_cast<double>(at.y) + half,
+      static_cast<double>(at.z) + half);
     if (!at.all)
     {
       const NodeVisit said = onNode(
         LooseNode{ this->Low + this->Unit * middle,
-          this->Unit * (this->Looseness * halfCell + 1.0) + this->Noise, node.depth, node.total },
+          this->Unit * (this->Looseness * half + 1.0) + this->Noise, node.depth, node.total },
         at.known);
       if (said == NodeVisit::Skip)
       {
@@ -276,10 +328,11 @@ void LooseOctree::visit(const VisitOrder& order, OnNode&& onNode, OnObject&& onO
     for (std::uint32_t c = node.chunk; c != 0; c = this->Chunks[c].next)
     {
       const Chunk& chunk = this->Chunks[c];
-      for (std::uint32_t i = 0; i < inChunk; ++i)
-      {
-        onObject(chunk.objects[i], at.all);
-      }
+      this->prefetch(chunk.next, at.all);
+      onObjects(LooseObjects{ chunk.objects, inChunk, chunk.x, chunk.y, chunk.z, chunk.radius,
+                  this->Low + this->Unit * glm::dvec3(at.x, at.y, at.z),
+                  this->Unit * half * 0x1p-15, this->Noise },
+        at.all, at.known);
       inChunk = ChunkSize;
     }
     if (node.mask == 0)
@@ -289,12 +342,13 @@ void LooseOctree::visit(const VisitOrder& order, OnNode&& onNode, OnObject&& onO
     const unsigned side =
       (eye.x >= middle.x ? 1u : 0u) | (eye.y >= middle.y ? 2u : 0u) | (eye.z >= middle.z ? 4u : 0u);
     // The last one first: it waits longest.
-    for (int i = 7; i >= 0; --i)
+    for (unsigned i = 8; i-- > 0;)
     {
-      const unsigned child = static_cast<unsigned>(i) ^ side;
+      const unsigned child = i ^ side;
       if (node.mask >> child & 1)
       {
         assert(waiting < 7 * MostDepth + 8);
+        this->prefetch(this->Nodes[node.children + child], at.all);
         stack[waiting++] = { node.children + child, at.x + (child & 1) * half,
           at.y + (child >> 1 & 1) * half, at.z + (child >> 2) * half, at.known, at.all };
       }

@@ -7,13 +7,54 @@
 
 namespace svo
 {
+/// Bits of the objects of a node that are not outside of the frustum: of one of its planes but
+/// those `within` which all of the node lies. In floats, in the steps of the objects' balls: what
+/// they round is less than a tenth of a step, and a step is allowed for.
+inline std::uint32_t seenOf(
+  const Frustum& frustum, std::uint8_t within, const LooseObjects& objects)
+{
+  const glm::dvec3 first = objects.low + 0.5 * objects.unit;
+  const glm::dvec3 size = glm::abs(objects.low) + 65536.0 * objects.unit;
+  const double slack = objects.noise + 0x1p-48 * glm::max(glm::max(size.x, size.y), size.z);
+  float least[16];
+  for (float& l : least)
+  {
+    l = 0.0f;
+  }
+  for (int p = 0; p < frustum.planes(); ++p)
+  {
+    if (within >> p & 1)
+    {
+      continue;
+    }
+    const glm::dvec4 plane = frustum.plane(p);
+    const float a = static_cast<float>(plane.x), b = static_cast<float>(plane.y),
+                c = static_cast<float>(plane.z);
+    const double at = glm::dot(glm::dvec3(plane), first) + plane.w + slack;
+    const float d = static_cast<float>(at / objects.unit) + 1.0f;
+    for (int i = 0; i < 16; ++i)
+    {
+      const float distance = (a * static_cast<float>(objects.x[i]) + d) +
+        (b * static_cast<float>(objects.y[i]) + c * static_cast<float>(objects.z[i])) +
+        static_cast<float>(objects.radius[i]);
+      least[i] = distance < least[i] ? distance : least[i];
+    }
+  }
+  std::uint32_t seen = 0;
+  for (int i = 0; i < 16; ++i)
+  {
+    seen |= static_cast<std::uint32_t>(!(least[i] < 0.0f)) << i;
+  }
+  return seen & ((1u << objects.count) - 1u);
+}
+
 /// onObject(object) for outsiders first, then for every object whose node and whose ball are not
 /// outside of the frustum, in the order of LooseOctree::visit(). Allocates nothing.
 template <class OnObject>
 void eachSeen(const LooseOctree& objects, const Frustum& frustum, const VisitOrder& order,
   const OnObject& onObject)
 {
-  objects.visit(
+  objects.visitGroups(
     order,
     [&](const LooseNode& node, std::uint8_t& within)
     {
@@ -22,17 +63,23 @@ void eachSeen(const LooseOctree& objects, const Frustum& frustum, const VisitOrd
         : side == Frustum::Side::Inside     ? NodeVisit::All
                                             : NodeVisit::Below;
     },
-    [&](std::uint32_t object, bool all)
+    [&](const LooseObjects& some, bool all, std::uint8_t within)
     {
-      if (all)
+      if (all || !some.x)
       {
-        onObject(object);
+        for (std::uint32_t i = 0; i < some.count; ++i)
+        {
+          onObject(some.objects[i]);
+        }
         return;
       }
-      const Ball ball = objects.ball(object);
-      if (!frustum.outside(ball.centre, ball.radius))
+      const std::uint32_t seen = seenOf(frustum, within, some);
+      for (std::uint32_t i = 0; i < some.count; ++i)
       {
-        onObject(object);
+        if (seen >> i & 1)
+        {
+          onObject(some.objects[i]);
+        }
       }
     });
 }

@@ -61,7 +61,8 @@ void expectEnclosed(const svo::LooseOctree& tree, const Crowd& crowd)
         EXPECT_EQ(kept.radius, Infinity);
         return;
       }
-      EXPECT_LE(kept.radius, given.radius * (1.0 + 0x1p-22) + 16.0 * 0x1p-31);
+      EXPECT_LE(
+        kept.radius, given.radius + std::ldexp(16.0, -15 - path.back().depth) + 16.0 * 0x1p-31);
       for (const svo::LooseNode& node : path)
       {
         const glm::dvec3 reach = glm::abs(given.centre - node.centre) + given.radius;
