@@ -1,0 +1,472 @@
+#include "svoLooseOctree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <glm/common.hpp>
+
+namespace svo
+{
+namespace
+{
+std::int32_t bitsOf(float x)
+{
+  std::int32_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
+/// The smallest float that is not below x, which is not negative; beyond 1e30 that.
+float floatAbove(double x)
+{
+  x = std::min(x, 1e30);
+  float f = static_cast<float>(x);
+  if (f < x)
+  {
+    const std::int32_t bits = bitsOf(f) + 1;
+    std::memcpy(&f, &bits, sizeof f);
+  }
+  return f;
+}
+
+/// The largest float that is not above x > 0.
+float floatBelow(double x)
+{
+  const float f = static_cast<float>(x);
+  return f > x ? std::nextafter(f, 0.0f) : f;
+}
+
+/// Leading bits that are all 0; 32 for 0.
+int leadingZeros(std::uint32_t bits)
+{
+  int zeros = 0;
+  for (int step = 16; step > 0; step /= 2)
+  {
+    if (bits >> (32 - zeros - step) == 0)
+    {
+      zeros += step;
+    }
+  }
+  return zeros + (bits == 0);
+}
+}
+
+LooseOctree::LooseOctree(const glm::dvec3& centre, double edge, double looseness, int maximumDepth)
+  : Looseness(looseness >= LeastLooseness ? std::min(looseness, 2.0) : LeastLooseness)
+  , Depths(std::clamp(maximumDepth, 0, MostDepth))
+  , Low(centre - 0.5 * edge)
+  , PerUnit(Units / edge)
+  , Unit(edge / Units)
+{
+  // Products and sums of numbers of this size, a few roundings each.
+  const glm::dvec3 size = glm::abs(this->Low) + edge;
+  this->Noise = 0x1p-50 * std::max({ size.x, size.y, size.z });
+  const bool valid =
+    std::isfinite(this->Noise) && std::isfinite(this->PerUnit) && edge > 0.0 && this->Unit > 0.0;
+  if (!valid)
+  {
+    this->Low = glm::dvec3(std::numeric_limits<double>::quiet_NaN()); // nothing lies there
+  }
+  this->Reach = bitsOf(floatBelow(0.5 * (this->Looseness - 1.0) * Units));
+  this->clear();
+}
+
+void LooseOctree::clear()
+{
+  this->Records.clear();
+  this->Nodes.assign(8, Node()); // groups of eight, of which the root has a place in the first
+  this->Chunks.assign(1, Chunk());
+  this->Outsiders.clear();
+  this->FreeGroups.clear();
+  this->FreeChunks.clear();
+}
+
+LooseOctree::Spot LooseOctree::spotOf(const glm::dvec3& centre, double radius) const
+{
+  const glm::dvec3 at = (centre - this->Low) * this->PerUnit;
+  Spot spot{ 0, 0, 0, 0.0f, false };
+  // False for what is not a number.
+  if (!(at.x >= 0.0 && at.x <= Units && at.y >= 0.0 && at.y <= Units && at.z >= 0.0 &&
+        at.z <= Units && radius >= 0.0))
+  {
+    return spot;
+  }
+  spot.radius = floatAbove(radius * this->PerUnit);
+  spot.inside = bitsOf(spot.radius) <= this->Reach;
+  // The upper sides of the cube belong to it.
+  const auto unit = [](double x)
+  { return static_cast<std::uint32_t>(std::min(x, static_cast<double>(0xffffffffu))); };
+  spot.x = unit(at.x);
+  spot.y = unit(at.y);
+  spot.z = unit(at.z);
+  return spot;
+}
+
+int LooseOctree::depthOf(float radius) const
+{
+  // Floats above 0 are ordered as their bits; a step of 2^23 is a power of two. So this is the
+  // largest d with radius <= reach / 2^d, without a rounding.
+  const std::int32_t d = (this->Reach - bitsOf(radius)) >> 23;
+  assert(d >= 0);
+  return std::min(d, static_cast<std::int32_t>(this->Depths));
+}
+
+void LooseOctree::insert(std::uint32_t object, const glm::dvec3& centre, double radius)
+{
+  assert(object < Outside);
+  if (object >= this->Records.size())
+  {
+    this->Records.resize(object + std::size_t{ 1 });
+  }
+  else if (this->move(object, centre, radius))
+  {
+    return;
+  }
+  this->put(object, this->spotOf(centre, radius));
+}
+
+void LooseOctree::put(std::uint32_t object, const Spot& spot)
+{
+  Record& record = this->Records[object];
+  if (!spot.inside)
+  {
+    record.node = Outside;
+    record.place = static_cast<std::uint32_t>(this->Outsiders.size());
+    this->Outsiders.push_back(object);
+    return;
+  }
+  record.x = spot.x;
+  record.y = spot.y;
+  record.z = spot.z;
+  record.radius = spot.radius;
+  this->enter(0, object);
+}
+
+bool LooseOctree::move(std::uint32_t object, const glm::dvec3& centre, double radius)
+{
+  if (!this->contains(object))
+  {
+    return false;
+  }
+  const Spot spot = this->spotOf(centre, radius);
+  Record& record = this->Records[object];
+  if (!spot.inside || record.node == Outside)
+  {
+    if (spot.inside || record.node != Outside)
+    {
+      this->remove(object);
+      this->put(object, spot);
+    }
+    return true;
+  }
+  const std::uint32_t changed = (record.x ^ spot.x) | (record.y ^ spot.y) | (record.z ^ spot.z);
+  const int deepest = this->depthOf(spot.radius);
+  const bool sameDepth = deepest == this->depthOf(record.radius);
+  record.x = spot.x;
+  record.y = spot.y;
+  record.z = spot.z;
+  record.radius = spot.radius;
+  if (sameDepth && static_cast<std::uint64_t>(changed) >> (32 - record.depth) == 0)
+  {
+    this->writeBall(record);
+    return true;
+  }
+  // Up to the deepest node that both places have above them: it keeps as many as before.
+  const int depth = record.depth;
+  const int shared = std::min({ depth, deepest, leadingZeros(changed) });
+  const std::uint32_t from = record.node;
+  std::uint32_t above = from;
+  for (int d = depth; d > shared; --d)
+  {
+    above = this->Nodes[above].parent;
+  }
+  this->takeOut(object);
+  this->leave(from, above);
+  if (deepest == shared || this->Nodes[above].total <= Bucket)
+  {
+    this->append(above, object);
+  }
+  else
+  {
+    this->enter(this->childFor(above, record), object);
+  }
+  return true;
+}
+
+bool LooseOctree::remove(std::uint32_t object)
+{
+  if (!this->contains(object))
+  {
+    return false;
+  }
+  Record& record = this->Records[object];
+  if (record.node == Outside)
+  {
+    const std::uint32_t last = this->Outsiders.back();
+    this->Outsiders[record.place] = last;
+    this->Records[last].place = record.place;
+    this->Outsiders.pop_back();
+  }
+  else
+  {
+    const std::uint32_t from = record.node;
+    this->takeOut(object);
+    this->leave(from, Absent);
+  }
+  record.node = Absent;
+  return true;
+}
+
+/// The ball of a record into its chunk.
+void LooseOctree::writeBall(const Record& record)
+{
+  Chunk& chunk = this->Chunks[record.place / 16];
+  const std::uint32_t i = record.place % 16;
+  const int d = record.depth;
+  chunk.x[i] = static_cast<std::uint16_t>(record.x << d >> 16);
+  chunk.y[i] = static_cast<std::uint16_t>(record.y << d >> 16);
+  chunk.z[i] = static_cast<std::uint16_t>(record.z << d >> 16);
+  // A centre is known to lie in a cube of these steps, or of units where they are wider; the radius
+  // has half its diagonal more, or all of it. At most half a cell, and those.
+  const float perUnit = static_cast<float>(1u << d) / 65536.0f;
+  const float radius = std::ceil(record.radius * perUnit) + (d <= 16 ? 1.0f : 2.0f * perUnit);
+  chunk.radius[i] = static_cast<std::uint16_t>(radius);
+}
+
+Ball LooseOctree::ball(std::uint32_t object) const
+{
+  assert(this->contains(object));
+  const Record& r = this->Records[object];
+  if (r.node == Outside)
+  {
+    return LooseObjects{ &object, 1 }.ball(0);
+  }
+  const Chunk& chunk = this->Chunks[r.place / 16];
+  const std::uint32_t i = r.place % 16;
+  const std::uint32_t cell = ~static_cast<std::uint32_t>(0xffffffffull >> r.depth);
+  const LooseObjects one{ &object, 1, chunk.x + i, chunk.y + i, chunk.z + i, chunk.radius + i,
+    this->Low + this->Unit * glm::dvec3(r.x & cell, r.y & cell, r.z & cell),
+    this->Unit * (0x80000000u >> r.depth) * 0x1p-15, this->Noise };
+  return one.ball(0);
+}
+
+/// Into the node's own list. Its total counts it already.
+void LooseOctree::append(std::uint32_t node, std::uint32_t object)
+{
+  const std::uint32_t place = this->Nodes[node].count % ChunkSize;
+  if (place == 0)
+  {
+    const std::uint32_t chunk = this->newChunk();
+    this->Chunks[chunk].next = this->Nodes[node].chunk;
+    this->Nodes[node].chunk = chunk;
+  }
+  Node& n = this->Nodes[node];
+  this->Chunks[n.chunk].objects[place] = object;
+  ++n.count;
+  Record& record = this->Records[object];
+  record.node = node;
+  record.place = 16 * n.chunk + place;
+  record.depth = n.depth;
+  this->writeBall(record);
+}
+
+/// Out of its node's own list; totals stay.
+void LooseOctree::takeOut(std::uint32_t object)
+{
+  const Record& record = this->Records[object];
+  Node& n = this->Nodes[record.node];
+  const std::uint32_t place = --n.count % ChunkSize;
+  const Chunk& from = this->Chunks[n.chunk];
+  Chunk& to = this->Chunks[record.place / 16];
+  const std::uint32_t i = record.place % 16;
+  to.objects[i] = from.objects[place];
+  to.x[i] = from.x[place];
+  to.y[i] = from.y[place];
+  to.z[i] = from.z[place];
+  to.radius[i] = from.radius[place];
+  this->Records[to.objects[i]].place = record.place;
+  if (place == 0)
+  {
+    this->FreeChunks.push_back(n.chunk);
+    n.chunk = from.next;
+  }
+}
+
+/// Takes all objects out of a node's own list, which are no more than a bucket.
+std::uint32_t LooseOctree::takeAll(Node& node, std::uint32_t* objects)
+{
+  assert(node.count <= Bucket);
+  const std::uint32_t count = node.count;
+  while (node.count > 0)
+  {
+    const Chunk& chunk = this->Chunks[node.chunk];
+    const std::uint32_t some = (node.count - 1) % ChunkSize + 1;
+    objects = std::copy_n(chunk.objects, some, objects);
+    this->FreeChunks.push_back(node.chunk);
+    node.chunk = chunk.next;
+    node.count -= some;
+  }
+  return count;
+}
+
+/// Adds an object, whose record has its coordinates, to a node that has its cell or one below it.
+void LooseOctree::enter(std::uint32_t node, std::uint32_t object)
+{
+  const int deepest = this->depthOf(this->Records[object].radius);
+  for (;;)
+  {
+    const std::uint32_t total = ++this->Nodes[node].total;
+    if (total == Bucket + 1)
+    {
+      this->sink(node);
+    }
+    if (total <= Bucket || this->Nodes[node].depth == deepest)
+    {
+      this->append(node, object);
+      return;
+    }
+    node = this->childFor(node, this->Records[object]);
+  }
+}
+
+/// Objects of a node that had no more than a bucket go to their cells below it.
+void LooseOctree::sink(std::uint32_t node)
+{
+  assert(this->Nodes[node].children == 0);
+  std::uint32_t objects[Bucket];
+  const std::uint32_t count = this->takeAll(this->Nodes[node], objects);
+  const int depth = this->Nodes[node].depth;
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    const Record& record = this->Records[objects[i]];
+    if (this->depthOf(record.radius) == depth)
+    {
+      this->append(node, objects[i]);
+    }
+    else
+    {
+      this->enter(this->childFor(node, record), objects[i]);
+    }
+  }
+}
+
+/// Counts one less in a node and in those above it, below `end` (Absent: the root as well), and
+/// reclaims what is too empty there.
+void LooseOctree::leave(std::uint32_t node, std::uint32_t end)
+{
+  std::uint32_t sparse = Absent;
+  while (node != end)
+  {
+    Node& n = this->Nodes[node];
+    --n.total;
+    if (n.total == Bucket && n.children != 0)
+    {
+      sparse = node;
+    }
+    if (node == 0)
+    {
+      break;
+    }
+    const std::uint32_t parent = n.parent;
+    if (n.total == 0)
+    {
+      Node& p = this->Nodes[parent];
+      p.mask &= static_cast<std::uint8_t>(~(1u << (node - p.children)));
+      if (p.mask == 0)
+      {
+        this->freeGroup(p);
+      }
+    }
+    node = parent;
+  }
+  if (sparse != Absent)
+  {
+    this->collapse(sparse); // the uppermost one
+  }
+}
+
+/// Takes up all objects below a node: no more than a bucket.
+void LooseOctree::collapse(std::uint32_t node)
+{
+  std::uint32_t objects[Bucket];
+  const std::uint32_t count = this->gather(node, objects);
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    this->append(node, objects[i]);
+  }
+}
+
+/// Writes the objects below a node and frees all of it; returns how many they are.
+std::uint32_t LooseOctree::gather(std::uint32_t node, std::uint32_t* objects)
+{
+  Node& n = this->Nodes[node];
+  std::uint32_t count = 0;
+  if (n.children == 0)
+  {
+    return count;
+  }
+  for (std::uint32_t i = 0; i < 8; ++i)
+  {
+    count += this->takeAll(this->Nodes[n.children + i], objects + count);
+    count += this->gather(n.children + i, objects + count);
+  }
+  this->freeGroup(n);
+  return count;
+}
+
+/// The child that a record's coordinates lie in, made if it is not there; its total is not changed.
+std::uint32_t LooseOctree::childFor(std::uint32_t node, const Record& record)
+{
+  if (this->Nodes[node].children == 0)
+  {
+    std::uint32_t group = static_cast<std::uint32_t>(this->Nodes.size());
+    if (this->FreeGroups.empty())
+    {
+      this->Nodes.resize(this->Nodes.size() + 8);
+    }
+    else
+    {
+      group = this->FreeGroups.back();
+      this->FreeGroups.pop_back();
+    }
+    Node fresh;
+    fresh.parent = node;
+    fresh.depth = static_cast<std::uint8_t>(this->Nodes[node].depth + 1);
+    std::fill_n(this->Nodes.begin() + group, 8, fresh);
+    this->Nodes[node].children = group;
+  }
+  Node& n = this->Nodes[node];
+  const int shift = 31 - n.depth;
+  const std::uint32_t child =
+    (record.x >> shift & 1) | (record.y >> shift & 1) << 1 | (record.z >> shift & 1) << 2;
+  n.mask |= static_cast<std::uint8_t>(1u << child);
+  return n.children + child;
+}
+
+void LooseOctree::freeGroup(Node& node)
+{
+  this->FreeGroups.push_back(node.children);
+  node.children = 0;
+  node.mask = 0;
+}
+
+std::uint32_t LooseOctree::newChunk()
+{
+  if (this->FreeChunks.empty())
+  {
+    this->Chunks.emplace_back();
+    return static_cast<std::uint32_t>(this->Chunks.size() - 1);
+  }
+  const std::uint32_t chunk = this->FreeChunks.back();
+  this->FreeChunks.pop_back();
+  return chunk;
+}
+
+std::size_t LooseOctree::memory() const
+{
+  const auto bytes = [](const auto& v) { return v.capacity() * sizeof v[0]; };
+  return sizeof *this + bytes(this->Records) + bytes(this->Nodes) + bytes(this->Chunks) +
+    bytes(this->Outsiders) + bytes(this->FreeGroups) + bytes(this->FreeChunks);
+}
+}

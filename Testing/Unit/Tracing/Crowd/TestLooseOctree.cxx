@@ -1,0 +1,477 @@
+#include "svoCrowdFixtures.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numeric>
+#include <thread>
+
+using namespace svotest;
+
+namespace
+{
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+PlainTree plainly(double looseness, int maximumDepth = svo::LooseOctree::MostDepth)
+{
+  return { glm::dvec3(-8.0), 16.0, looseness, maximumDepth };
+}
+
+svo::LooseOctree treeLike(const PlainTree& plain)
+{
+  return svo::LooseOctree(
+    plain.low + 0.5 * plain.edge, plain.edge, plain.looseness, plain.maximumDepth);
+}
+
+svo::LooseOctree treeOf(const PlainTree& plain, const Crowd& crowd)
+{
+  svo::LooseOctree tree = treeLike(plain);
+  for (const auto& [name, ball] : crowd)
+  {
+    tree.insert(name, ball.centre, ball.radius);
+  }
+  return tree;
+}
+
+/// Everything that a tree keeps lies in the loose cubes of its node and of all above it, and nodes
+/// know how many they are.
+void expectEnclosed(const svo::LooseOctree& tree, const Crowd& crowd)
+{
+  std::vector<svo::LooseNode> path;
+  std::vector<std::size_t> left;
+  std::size_t objects = 0, nodes = 0;
+  tree.visit(
+    svo::VisitOrder::from({ 1, 2, 3 }),
+    [&](const svo::LooseNode& node, std::uint8_t&)
+    {
+      path.resize(node.depth);
+      path.push_back(node);
+      objects += node.depth == 0 ? node.objects : 0;
+      ++nodes;
+      return svo::NodeVisit::Below;
+    },
+    [&](std::uint32_t object, bool all)
+    {
+      EXPECT_FALSE(all);
+      const svo::Ball &given = crowd.at(object), kept = tree.ball(object);
+      EXPECT_LE(glm::distance(kept.centre, given.centre) + given.radius, kept.radius);
+      if (path.empty())
+      {
+        EXPECT_EQ(kept.radius, Infinity);
+        return;
+      }
+      EXPECT_LE(
+        kept.radius, given.radius + std::ldexp(16.0, -15 - path.back().depth) + 16.0 * 0x1p-31);
+      for (const svo::LooseNode& node : path)
+      {
+        const glm::dvec3 reach = glm::abs(given.centre - node.centre) + given.radius;
+        EXPECT_LE(std::max({ reach.x, reach.y, reach.z }), node.half);
+      }
+    });
+  EXPECT_EQ(objects + tree.outsiders().size(), crowd.size());
+  EXPECT_EQ(tree.size(), crowd.size());
+  EXPECT_LE(nodes, tree.nodes());
+}
+}
+
+TEST(LooseOctree, WhereAnObjectIsKeptFollowsFromRadiusCentreAndTheCrowd)
+{
+  RandomBalls random(1);
+  for (const double looseness : { 2.0, 1.5, 1.25, 1.0625 })
+  {
+    for (const int maximumDepth : { 20, 7, 0 })
+    {
+      const PlainTree plain = plainly(looseness, maximumDepth);
+      Crowd crowd;
+      for (std::uint32_t i = 0; i < 3000; ++i)
+      {
+        crowd[i] = random.ball();
+      }
+      const svo::LooseOctree tree = treeOf(plain, crowd);
+      const std::vector<KeptNode> expected = plain.written(crowd), found = written(tree);
+      EXPECT_TRUE(expected == found) << looseness << ", depth " << maximumDepth;
+      EXPECT_GT(found.size(), maximumDepth > 0 ? 100u : 1u);
+      expectEnclosed(tree, crowd);
+    }
+  }
+}
+
+TEST(LooseOctree, AfterAnySequenceOfChangesItEqualsOneBuiltAfresh)
+{
+  for (const double looseness : { 2.0, 1.25 })
+  {
+    const PlainTree plain = plainly(looseness);
+    RandomBalls random(2);
+    svo::LooseOctree tree = treeLike(plain);
+    Crowd crowd;
+    for (int step = 1; step <= 40000; ++step)
+    {
+      // Crowds grow and shrink again.
+      const std::uint32_t name = random.below(step % 20000 < 10000 ? 2000 : 200);
+      const std::uint32_t kind = random.below(8);
+      const bool there = crowd.count(name) > 0;
+      ASSERT_EQ(tree.contains(name), there);
+      svo::Ball ball = random.ball();
+      if (kind == 0 || (kind < 4 && step % 20000 > 10000))
+      {
+        const std::uint32_t gone = random.below(2000);
+        ASSERT_EQ(tree.remove(gone), crowd.erase(gone) > 0);
+        continue;
+      }
+      if (there && kind < 6)
+      {
+        // A little, or another size at the same place.
+        ball.centre = crowd[name].centre +
+          glm::dvec3(random.between(-0.1, 0.1), random.between(-1e-4, 1e-4), 0.0);
+        ball.radius = kind == 5 ? ball.radius : crowd[name].radius;
+      }
+      if (kind == 7)
+      {
+        tree.insert(name, ball.centre, ball.radius);
+        crowd[name] = ball;
+      }
+      else
+      {
+        ASSERT_EQ(tree.move(name, ball.centre, ball.radius), there);
+        if (there)
+        {
+          crowd[name] = ball;
+        }
+      }
+      if (step % 2000 == 0)
+      {
+        const svo::LooseOctree fresh = treeOf(plain, crowd);
+        ASSERT_TRUE(written(tree) == written(fresh)) << "step " << step;
+        ASSERT_TRUE(written(tree) == plain.written(crowd)) << "step " << step;
+        ASSERT_EQ(tree.nodes(), fresh.nodes());
+        expectEnclosed(tree, crowd);
+      }
+    }
+    EXPECT_GT(tree.outsiders().size(), 0u);
+    while (!crowd.empty())
+    {
+      ASSERT_TRUE(tree.remove(crowd.begin()->first));
+      crowd.erase(crowd.begin());
+    }
+    EXPECT_EQ(tree.size(), 0u);
+    EXPECT_EQ(tree.nodes(), 1u) << "empty nodes are reclaimed";
+    EXPECT_EQ(written(tree).size(), 1u);
+  }
+}
+
+TEST(LooseOctree, MemoryStaysBoundedWhileObjectsMove)
+{
+  constexpr std::uint32_t Count = 5000;
+  RandomBalls random(3);
+  svo::LooseOctree tree(glm::dvec3(0.0), 16.0);
+  const auto moveAll = [&](int times)
+  {
+    for (std::uint32_t i = 0; i < Count * times; ++i)
+    {
+      const svo::Ball ball = random.ball();
+      tree.insert(i % Count, ball.centre, ball.radius);
+    }
+  };
+  moveAll(10);
+  const std::size_t before = tree.memory();
+  moveAll(90);
+  EXPECT_LE(tree.memory(), 2 * before); // vectors double
+  EXPECT_LT(tree.memory(), Count * 200);
+  for (std::uint32_t i = 0; i < Count; ++i)
+  {
+    tree.remove(i);
+  }
+  EXPECT_EQ(tree.nodes(), 1u);
+  const std::size_t empty = tree.memory();
+  moveAll(10);
+  EXPECT_LE(tree.memory(), 2 * empty);
+}
+
+namespace
+{
+/// Where a cell lies of a plane through the middle of a node, along an axis: -1, 1, or 0: across.
+int sideOf(const KeptNode& cell, double edge, const std::array<double, 3>& middle, int axis)
+{
+  const double half = std::ldexp(edge, -cell.depth - 1);
+  return cell.centre[axis] - half >= middle[axis] ? 1
+    : cell.centre[axis] + half <= middle[axis]    ? -1
+                                                  : 0;
+}
+}
+
+TEST(LooseOctree, OfTwoCellsThatAPlaneOfANodeSeparatesTheNearerIsFirst)
+{
+  const PlainTree plain = plainly(1.5, 5);
+  RandomBalls random(4);
+  Crowd crowd;
+  for (std::uint32_t i = 0; i < 1500; ++i)
+  {
+    crowd[i] = random.ball();
+  }
+  const svo::LooseOctree tree = treeOf(plain, crowd);
+  const std::vector<glm::dvec3> eyes = { { 20, 3, 1 }, { -0.7, 0.3, 5.2 }, { -9, -30, 14 },
+    { 1.3, -2.7, 5.1 }, { 0, 0, 0 } };
+  for (std::size_t e = 0; e < 2 * eyes.size(); ++e)
+  {
+    const bool parallel = e >= eyes.size();
+    const glm::dvec3 eye = eyes[e % eyes.size()];
+    std::vector<KeptNode> nodes;
+    tree.visit(
+      parallel ? svo::VisitOrder::along(-eye) : svo::VisitOrder::from(eye),
+      [&](const svo::LooseNode& node, std::uint8_t&)
+      {
+        nodes.push_back({ node.depth, { node.centre.x, node.centre.y, node.centre.z }, {} });
+        return svo::NodeVisit::Below;
+      },
+      [&](std::uint32_t, bool) {});
+    ASSERT_GT(nodes.size(), 100u);
+    std::size_t pairs = 0;
+    for (const KeptNode& node : nodes)
+    {
+      const double half = std::ldexp(plain.edge, -node.depth - 1);
+      const auto inside = [&](const KeptNode& other)
+      {
+        bool is = other.depth > node.depth;
+        for (int a = 0; a < 3; ++a)
+        {
+          is = is && std::abs(other.centre[a] - node.centre[a]) < half;
+        }
+        return is;
+      };
+      std::vector<const KeptNode*> below;
+      for (const KeptNode& other : nodes)
+      {
+        if (inside(other))
+        {
+          below.push_back(&other);
+        }
+      }
+      if (below.size() > 200) // the upper nodes: enough of all pairs
+      {
+        std::vector<const KeptNode*> some;
+        for (std::size_t i = 0; i < below.size(); i += below.size() / 200 + 1)
+        {
+          some.push_back(below[i]);
+        }
+        below = some;
+      }
+      for (std::size_t i = 0; i < below.size(); ++i)
+      {
+        for (std::size_t j = i + 1; j < below.size(); ++j)
+        {
+          int differ = 0, nearerFirst = 0;
+          for (int a = 0; a < 3; ++a)
+          {
+            const int first = sideOf(*below[i], plain.edge, node.centre, a);
+            const int second = sideOf(*below[j], plain.edge, node.centre, a);
+            if (first * second == -1)
+            {
+              ++differ;
+              const double towards = parallel ? eye[a] : eye[a] - node.centre[a];
+              nearerFirst += towards == 0.0 || (towards > 0.0) == (first > 0);
+            }
+          }
+          ASSERT_TRUE(differ == 0 || nearerFirst > 0);
+          pairs += differ == 1;
+        }
+      }
+    }
+    EXPECT_GT(pairs, 1000u);
+  }
+}
+
+TEST(LooseOctree, WhatANodeIsToldHoldsForAllThatIsBelowIt)
+{
+  RandomBalls random(5);
+  svo::LooseOctree tree(glm::dvec3(0.0), 16.0);
+  for (std::uint32_t i = 0; i < 2000; ++i)
+  {
+    const svo::Ball ball = random.ball();
+    tree.insert(i, ball.centre, ball.radius);
+  }
+  for (const svo::NodeVisit said : { svo::NodeVisit::Skip, svo::NodeVisit::All })
+  {
+    // The first node of depth 2 that has children is told so, its children were told 7.
+    std::size_t expected = 0, all = 0, others = 0;
+    bool asked = false;
+    tree.visit(
+      svo::VisitOrder::from({ 9, 9, 9 }),
+      [&](const svo::LooseNode& node, std::uint8_t& known)
+      {
+        EXPECT_EQ(known, node.depth > 1 ? 2 : node.depth) << "handed down, to no neighbour";
+        known = static_cast<std::uint8_t>(std::min(node.depth + 1, 2));
+        if (!asked && node.depth == 2 && node.objects > 50)
+        {
+          asked = true;
+          expected = node.objects;
+          return said;
+        }
+        return svo::NodeVisit::Below;
+      },
+      [&](std::uint32_t, bool isAll) { ++(isAll ? all : others); });
+    ASSERT_GT(expected, 0u);
+    EXPECT_EQ(all, said == svo::NodeVisit::All ? expected : 0u);
+    EXPECT_EQ(others, 2000 - expected);
+  }
+}
+
+TEST(LooseOctree, WhatFitsNowhereIsHeldApartAndCanComeBack)
+{
+  svo::LooseOctree tree(glm::dvec3(1.0), 2.0, 1.5);
+  const std::vector<svo::Ball> outside = { { { NaN, 1, 1 }, 0.1 }, { { 1, Infinity, 1 }, 0.1 },
+    { { 1, 1, -Infinity }, 0.1 }, { { 1, 1, 1 }, NaN }, { { 1, 1, 1 }, Infinity },
+    { { 1, 1, 1 }, -1.0 }, { { -1e-9, 1, 1 }, 0.1 }, { { 1, 2.0 + 1e-9, 1 }, 0.1 },
+    { { 1e300, 1, 1 }, 0.1 }, { { 1, 1, 1 }, 0.5 + 1e-7 }, { { 1, 1, 1 }, 1e300 } };
+  const std::vector<svo::Ball> inside = { { { 0, 0, 0 }, 0.0 }, { { 2, 2, 2 }, 0.0 },
+    { { 1, 1, 1 }, 0.5 }, { { 2, 0, 1 }, 5e-324 }, { { 0.3, 1.2, 1.9 }, 1e-300 } };
+  for (int round = 0; round < 3; ++round)
+  {
+    for (std::uint32_t i = 0; i < 40; ++i)
+    {
+      const bool out = (i + round) % 2 == 0;
+      const svo::Ball& ball =
+        out ? outside[(i / 2) % outside.size()] : inside[(i / 2) % inside.size()];
+      tree.insert(i, ball.centre, ball.radius);
+      const std::vector<std::uint32_t>& held = tree.outsiders();
+      EXPECT_EQ(std::count(held.begin(), held.end(), i), out ? 1 : 0) << i << ", round " << round;
+      EXPECT_EQ(tree.ball(i).radius == Infinity, out);
+    }
+    EXPECT_EQ(tree.size(), 40u);
+    EXPECT_EQ(tree.outsiders().size(), 20u);
+    std::size_t visited = 0;
+    tree.visit(
+      svo::VisitOrder::from({ 0, 0, 0 }),
+      [](const svo::LooseNode&, std::uint8_t&) { return svo::NodeVisit::Skip; },
+      [&](std::uint32_t, bool) { ++visited; });
+    EXPECT_EQ(visited, 20u) << "outsiders are visited whatever nodes are told";
+  }
+  for (std::uint32_t i = 0; i < 40; ++i)
+  {
+    EXPECT_TRUE(tree.remove(i));
+    EXPECT_FALSE(tree.remove(i));
+    EXPECT_FALSE(tree.move(i, glm::dvec3(1.0), 0.1));
+  }
+  EXPECT_EQ(tree.size(), 0u);
+  EXPECT_FALSE(tree.contains(1000000));
+  EXPECT_FALSE(tree.remove(1000000));
+}
+
+TEST(LooseOctree, ACubeThatIsNoneHoldsEverybodyApart)
+{
+  for (const double edge : { 0.0, -1.0, NaN, Infinity, 5e-324 })
+  {
+    svo::LooseOctree tree(glm::dvec3(0.0), edge);
+    tree.insert(3, glm::dvec3(0.0), 0.0);
+    EXPECT_EQ(tree.outsiders().size(), 1u) << edge;
+    EXPECT_TRUE(tree.remove(3));
+  }
+  svo::LooseOctree tree(glm::dvec3(0.0, NaN, 0.0), 1.0);
+  tree.insert(0, glm::dvec3(0.0), 0.0);
+  EXPECT_EQ(tree.outsiders().size(), 1u);
+}
+
+TEST(LooseOctree, SettingsBeyondTheirRangesAreClamped)
+{
+  EXPECT_EQ(svo::LooseOctree(glm::dvec3(0.0), 1.0, 3.0, 99).looseness(), 2.0);
+  EXPECT_EQ(svo::LooseOctree(glm::dvec3(0.0), 1.0, 3.0, 99).maximumDepth(), 20);
+  EXPECT_EQ(
+    svo::LooseOctree(glm::dvec3(0.0), 1.0, NaN, -1).looseness(), svo::LooseOctree::LeastLooseness);
+  EXPECT_EQ(svo::LooseOctree(glm::dvec3(0.0), 1.0, 1.0, -1).maximumDepth(), 0);
+  EXPECT_EQ(svo::LooseOctree(glm::dvec3(0.0), 1.0, 1.3, 9).looseness(), 1.3);
+}
+
+TEST(LooseOctree, CubesOfAnySizeAnywhere)
+{
+  for (const double edge : { 1e-6, 1e-3, 1.0, 1e6, 1e100, 1e-100 })
+  {
+    for (const double far : { 0.0, 1.0, 1e6 })
+    {
+      const glm::dvec3 middle = far * edge * glm::dvec3(1.0, -0.3, 0.7);
+      svo::LooseOctree tree(middle, edge, 1.7);
+      Crowd crowd;
+      RandomBalls random(6);
+      for (std::uint32_t i = 0; i < 500; ++i)
+      {
+        svo::Ball ball = random.ball();
+        ball.centre = middle + edge / 16.0 * ball.centre;
+        ball.radius *= edge / 16.0;
+        crowd[i] = ball;
+        tree.insert(i, ball.centre, ball.radius);
+      }
+      EXPECT_LT(tree.outsiders().size(), 200u);
+      std::vector<svo::LooseNode> path;
+      tree.visit(
+        svo::VisitOrder::from(middle),
+        [&](const svo::LooseNode& node, std::uint8_t&)
+        {
+          path.resize(node.depth);
+          path.push_back(node);
+          return svo::NodeVisit::Below;
+        },
+        [&](std::uint32_t object, bool)
+        {
+          const svo::Ball& ball = crowd[object];
+          const svo::Ball kept = tree.ball(object);
+          EXPECT_LE(
+            glm::length((kept.centre - ball.centre) / edge) * edge + ball.radius, kept.radius);
+          for (const svo::LooseNode& node : path)
+          {
+            const glm::dvec3 reach = glm::abs(ball.centre - node.centre) + ball.radius;
+            EXPECT_LE(std::max({ reach.x, reach.y, reach.z }), node.half);
+          }
+        });
+    }
+  }
+}
+
+TEST(LooseOctree, ManyObjectsAtOnePlaceComeAndGo)
+{
+  constexpr std::uint32_t Count = 100000;
+  svo::LooseOctree tree(glm::dvec3(0.0), 16.0);
+  for (std::uint32_t i = 0; i < Count; ++i)
+  {
+    tree.insert(i, glm::dvec3(1.0, 2.0, 3.0), i % 2 ? 0.0 : 1e-9);
+  }
+  EXPECT_EQ(written(tree).back().depth, 20);
+  EXPECT_EQ(written(tree).back().objects.size(), Count);
+  // From the front, the back and the middle.
+  std::vector<std::uint32_t> names(Count);
+  std::iota(names.begin(), names.end(), 0u);
+  std::shuffle(names.begin(), names.end(), std::mt19937(7));
+  for (std::uint32_t i = 0; i + 5 < Count; ++i)
+  {
+    ASSERT_TRUE(tree.remove(names[i]));
+  }
+  std::vector<std::uint32_t> left(names.end() - 5, names.end());
+  std::sort(left.begin(), left.end());
+  ASSERT_EQ(written(tree).size(), 2u);
+  EXPECT_EQ(written(tree).back().depth, 0) << "five need no node but the root";
+  EXPECT_TRUE(written(tree).back().objects == left);
+}
+
+TEST(LooseOctree, ManyMayLookAtOnce)
+{
+  RandomBalls random(8);
+  svo::LooseOctree tree(glm::dvec3(0.0), 16.0);
+  for (std::uint32_t i = 0; i < 3000; ++i)
+  {
+    const svo::Ball ball = random.ball();
+    tree.insert(i, ball.centre, ball.radius);
+  }
+  const std::vector<KeptNode> alone = written(tree);
+  std::vector<std::vector<KeptNode>> together(4);
+  std::vector<std::thread> readers;
+  for (std::vector<KeptNode>& nodes : together)
+  {
+    readers.emplace_back([&] { nodes = written(tree); });
+  }
+  for (std::thread& reader : readers)
+  {
+    reader.join();
+  }
+  for (const std::vector<KeptNode>& nodes : together)
+  {
+    EXPECT_TRUE(nodes == alone);
+  }
+}
