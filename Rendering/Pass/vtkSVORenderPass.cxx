@@ -235,6 +235,10 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "AntiAliasing: " << this->AntiAliasing << '\n'
      << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << '\n'
      << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << " pixels\n"
+     << indent << "ViewCulling: " << this->ViewCulling << '\n'
+     << indent << "OcclusionCulling: " << this->OcclusionCulling << '\n'
+     << indent << "DetailCullingThreshold: " << this->DetailCullingThreshold << " pixels\n"
+     << indent << "NumberOfCulledInstances: " << this->GetNumberOfCulledInstances() << '\n'
      << indent << "ImageReductionFactor: " << this->ImageReductionFactor << '\n'
      << indent << "ImageSampleDistance: " << this->GetImageSampleDistance() << " pixels\n"
      << indent << "AcceptedPixelError: " << this->GetAcceptedPixelError() << " pixels\n"

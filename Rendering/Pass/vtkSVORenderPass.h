@@ -334,6 +334,36 @@ public:
   vtkGetMacro(ImageReductionFactor, int);
   //@}
 
+  //@{
+  /**
+   * Whether instances that lie outside of a view are found together, by a loose octree of all
+   * instances, instead of one by one, and whether those that others hide are left out before they
+   * are traced. Both default to on. The picture is the same to the bit.
+   */
+  vtkSetMacro(ViewCulling, bool);
+  vtkGetMacro(ViewCulling, bool);
+  vtkBooleanMacro(ViewCulling, bool);
+  vtkSetMacro(OcclusionCulling, bool);
+  vtkGetMacro(OcclusionCulling, bool);
+  vtkBooleanMacro(OcclusionCulling, bool);
+  //@}
+
+  //@{
+  /**
+   * While the user interacts (the window asks for at least a frame a second), instances the
+   * rectangles around which have fewer pixels of the window than this are not drawn; they still
+   * cast. 0 or more; default 0: all are drawn. Other frames show all in any case.
+   * GetAcceptedPixelError() says how long the edges of what was left out were.
+   */
+  virtual void SetDetailCullingThreshold(double pixels)
+  {
+    this->SetNumber("DetailCullingThreshold", pixels, 0.0, 1e6, this->DetailCullingThreshold);
+  }
+  virtual double GetDetailCullingThresholdMinValue() { return 0.0; }
+  virtual double GetDetailCullingThresholdMaxValue() { return 1e6; }
+  vtkGetMacro(DetailCullingThreshold, double);
+  //@}
+
   /**
    * Pixels of the window from ray to ray in the last frame.
    */
@@ -342,8 +372,9 @@ public:
   /**
    * The pixel error that the last frame accepted, in pixels of the window: PixelError, or where
    * rays were more than a pixel apart to save time, at least the distance from ray to ray; at
-   * least the texels, as wide as they look, of shadow maps that were made coarser to save time; and
-   * at least the voxels of octrees that were shown while deeper ones were built.
+   * least the texels, as wide as they look, of shadow maps that were made coarser to save time; at
+   * least the voxels of octrees that were shown while deeper ones were built; and at least what
+   * DetailCullingThreshold left out.
    */
   double GetAcceptedPixelError() const;
 
@@ -469,6 +500,23 @@ public:
   int GetNumberOfTracedActors() const;
   int GetNumberOfRasterizedActors() const;
   int GetNumberOfInstances() const;
+  //@}
+
+  enum CullingSteps
+  {
+    CULLED_BY_VIEW = 0,      // they lie outside of the view
+    CULLED_BY_OCCLUSION = 1, // others hide them
+    CULLED_BY_DETAIL = 2,    // they are too small: DetailCullingThreshold
+    CULLED_CASTERS = 3       // of lights' maps, once a map: what they shadow is not seen
+  };
+
+  //@{
+  /**
+   * Instances that the last frame that was traced did not have to look at, by step; without one,
+   * those of the first three together, which are the eye's.
+   */
+  vtkIdType GetNumberOfCulledInstances(int step) const;
+  vtkIdType GetNumberOfCulledInstances() const;
   //@}
 
   /**
@@ -626,6 +674,9 @@ protected:
   bool AutoAdjustSampleDistances = true;
   double MaximumImageSampleDistance = 8.0;
   int ImageReductionFactor = 1;
+  bool ViewCulling = true;
+  bool OcclusionCulling = true;
+  double DetailCullingThreshold = 0.0;
 
 private:
   vtkSVORenderPass(const vtkSVORenderPass&) = delete;

@@ -57,6 +57,8 @@ svo::FrameSettings vtkSVORenderPass::Internals::settingsOf(const vtkSVORenderPas
   settings.pixelError = pass.PixelError;
   settings.frameCoherence = pass.FrameCoherence;
   settings.layerMemoryLimit = static_cast<std::size_t>(pass.LayerMemoryLimit) * svo::BytesOfKiB;
+  settings.viewCulling = pass.ViewCulling;
+  settings.occlusionCulling = pass.OcclusionCulling;
   settings.antiAliasing = pass.AntiAliasing;
   settings.filterShadows = pass.AntiAliasing;
   return settings;
@@ -200,6 +202,11 @@ void vtkSVORenderPass::DecideSettings(svo::PassFrame& frame)
     {
       frame.pace.coarseness = 1.0;
     }
+  }
+  if (isInteractive(renderer))
+  {
+    const double distance = frame.pace.distance * this->ImageReductionFactor;
+    settings.detailThreshold = this->DetailCullingThreshold / (distance * distance);
   }
 }
 

@@ -65,6 +65,31 @@ int vtkSVORenderPass::GetNumberOfInstances() const
   return this->Impl->statistics.instances;
 }
 
+vtkIdType vtkSVORenderPass::GetNumberOfCulledInstances(int step) const
+{
+  const svo::FrameStatistics& frame = this->Impl->statistics.tracer;
+  switch (step)
+  {
+    case CULLED_BY_VIEW:
+      return static_cast<vtkIdType>(frame.outsideInstances);
+    case CULLED_BY_OCCLUSION:
+      return static_cast<vtkIdType>(frame.hiddenInstances);
+    case CULLED_BY_DETAIL:
+      return static_cast<vtkIdType>(frame.smallInstances);
+    case CULLED_CASTERS:
+      return static_cast<vtkIdType>(frame.sparedCasters);
+    default:
+      return 0;
+  }
+}
+
+vtkIdType vtkSVORenderPass::GetNumberOfCulledInstances() const
+{
+  return this->GetNumberOfCulledInstances(CULLED_BY_VIEW) +
+    this->GetNumberOfCulledInstances(CULLED_BY_OCCLUSION) +
+    this->GetNumberOfCulledInstances(CULLED_BY_DETAIL);
+}
+
 const char* vtkSVORenderPass::GetCastingLights() const
 {
   return this->Impl->castingLights.c_str();
@@ -83,7 +108,8 @@ double vtkSVORenderPass::GetAcceptedPixelError() const
     distance > 1.0 ? distance * std::max(this->PixelError, 1.0) : this->PixelError;
   const svo::PassStatistics& frame = this->Impl->statistics;
   const double ofShadows = frame.pace.coarseness > 1.0 ? distance * frame.tracer.widestTexel : 0.0;
-  return std::max({ ofRays, ofShadows, frame.coarseOctreeError * frame.imageReduction });
+  return std::max({ ofRays, ofShadows, frame.coarseOctreeError * frame.imageReduction,
+    distance * frame.tracer.largestSmallInstance });
 }
 
 int vtkSVORenderPass::GetNumberOfOctreesBuilt() const

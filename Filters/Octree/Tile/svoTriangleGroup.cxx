@@ -100,7 +100,37 @@ bool TriangleGroup::hides(const GroupNode& node, const GroupView& view) const
   const float t = node.tNear - view.behind;
   const float w = view.wOfT[0] * t + view.wOfT[1];
   const float key = view.scale * (view.kOfT[0] * t + view.kOfT[1]) / w;
-  return w > 0.0f && this->Small.hides(node.x0, node.x1, node.y0, node.y1, key);
+  return w > 0.0f && this->hides({ node.x0, node.x1, node.y0, node.y1 }, key);
+}
+
+void TriangleGroup::findCover(std::size_t first)
+{
+  constexpr int Last = GroupView::Pixels - 1;
+  constexpr float Corner = 0.5f * Last; // from the middle
+  const Slots& s = this->Arrays;
+  for (std::size_t slot = first; slot < s.count; ++slot)
+  {
+    if (s.x0[slot] > 0 || s.y0[slot] > 0 || s.x1[slot] < Last || s.y1[slot] < Last ||
+      (s.flags[slot] & (Thin | Unsure | Clipped)) != 0)
+    {
+      continue;
+    }
+    bool inside = true;
+    float key = -std::numeric_limits<float>::infinity();
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      const float x = corner & 1 ? Corner : -Corner, y = corner & 2 ? Corner : -Corner;
+      for (std::size_t e = 0; e < 3; ++e)
+      {
+        inside = inside && s.ex[e][slot] * x + s.ey[e][slot] * y + s.ec[e][slot] > 2.0f;
+      }
+      key = std::max(key, s.kx[slot] * x + s.ky[slot] * y + s.kc[slot]);
+    }
+    if (inside)
+    {
+      this->Cover = std::min(this->Cover, key + 2.0f * s.slack[slot]);
+    }
+  }
 }
 
 void TriangleGroup::findList(const Octree& octree, std::uint32_t node, NodeList& list)
@@ -156,6 +186,7 @@ bool TriangleGroup::makeReady(const Surface& surface, const GroupView& view, Sma
   constexpr std::size_t Room = 16;
   std::fill_n(this->Ids.begin() + static_cast<std::ptrdiff_t>(this->Count), Room, 0u);
   Slots& slots = this->Arrays;
+  const std::size_t before = slots.count;
   readyTriangles(surface, this->Ids.data() + first, this->Count - first, view, owner, slots,
     small == SmallTriangles::AsPoints ? &this->Small.points() : nullptr);
   for (std::size_t k = 0; k < slots.crossingCount; ++k)
@@ -166,6 +197,7 @@ bool TriangleGroup::makeReady(const Surface& surface, const GroupView& view, Sma
       return false;
     }
   }
+  this->findCover(before);
   this->Small.merge(owner);
   return true;
 }

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace svo
@@ -62,6 +63,7 @@ public:
   {
     this->Arrays.count = 0;
     this->Small.clear();
+    this->Cover = std::numeric_limits<float>::infinity();
   }
   bool empty() const { return this->Arrays.count == 0 && this->Small.empty(); }
   std::size_t size() const { return this->Arrays.count; }
@@ -75,6 +77,11 @@ public:
   /// True if what there is hides all that lies in a node's box, or in any other one, from its
   /// `tNear` on.
   bool hides(const GroupNode& node, const GroupView& view) const;
+  /// The same of these pixels of the group, from a key on.
+  bool hides(const GroupWindow& box, float key) const
+  {
+    return key > this->Cover || this->Small.hides(box.x0, box.x1, box.y0, box.y1, key);
+  }
 
   /// What the rays through the pixels' centres of a tile of the group meet first: slots, and their
   /// triangles and owners, ~0 where there are none. False if nothing; then nothing is written.
@@ -138,8 +145,11 @@ private:
   /// Makes ready those from `first` on.
   bool makeReady(const Surface& surface, const GroupView& view, SmallTriangles small,
     std::uint32_t owner, std::size_t first);
+  /// Looks for triangles before all pixels of the group among slots from `first` on.
+  void findCover(std::size_t first);
 
   Slots Arrays;
+  float Cover = std::numeric_limits<float>::infinity(); // hits of greater keys come second
   GroupPixels Small;
   // Of the octree that is added.
   std::array<NodeList, ListsAtOnce> Lists;

@@ -36,6 +36,10 @@ struct FrameSettings
   /// bias only. Shadow buffers are traced whole.
   bool filterShadows = false;
   bool wholeShadowBuffers = false; // rasterised receivers look up texels unknown to the tracer
+  bool viewCulling = true;      // instances outside of a view are found together, by a tree of them
+  bool occlusionCulling = true; // those that others hide are left out; neither changes a bit
+  /// Instances whose rectangle has fewer pixels are not drawn; they cast. 0: all are.
+  double detailThreshold = 0.0;
   /// An automatic technique may depend on what the frame before was like.
   bool mayDependOnLastFrame = false;
   bool writeNormals = false; // Frame::normals is wanted (SSAO)
@@ -97,6 +101,13 @@ struct FrameStatistics
   int lightsWithRays = 0;
   std::uint64_t retracedLayers = 0; // layers traced this frame, of the eye and of lights
   std::uint64_t layerMemory = 0;    // bytes held by kept layers
+  /// Visible instances that the eye's layers were made without: outside of the view, hidden by
+  /// others, or below the detailThreshold.
+  std::uint64_t outsideInstances = 0, hiddenInstances = 0, smallInstances = 0;
+  /// Casters in the lights' maps, once a map, that were not looked at: their shadows fall on
+  /// nothing that is seen, or into others'.
+  std::uint64_t sparedCasters = 0;
+  double largestSmallInstance = 0.0; // pixels, the longest edge of a rectangle that was left out
   /// How wide texels look at most in the shadow maps that were fitted to the eye's view, pixels; 0:
   /// no map was.
   double coarsestTexel = 0.0;

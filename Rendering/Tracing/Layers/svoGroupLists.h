@@ -24,10 +24,11 @@ public:
     const std::uint32_t* end() const { return this->last; }
   };
 
-  /// Groups of `pixels` x `pixels`, of which `all` covers some. rectOf(i) of i below `count` lies
+  /// Groups of `pixels` x `pixels`, of which `all` covers some. rectOf(i) of each i of `order` lies
   /// inside of `all` and is not empty.
   template <class RectOf>
-  void fill(const PixelRect& all, int pixels, std::uint32_t count, const RectOf& rectOf)
+  void fill(
+    const PixelRect& all, int pixels, const std::vector<std::uint32_t>& order, const RectOf& rectOf)
   {
     this->X0 = all.x0 / pixels;
     this->Y0 = all.y0 / pixels;
@@ -36,7 +37,7 @@ public:
     this->Begin.assign(this->groups() + 1, 0);
     const auto each = [&](const auto& visit)
     {
-      for (std::uint32_t i = 0; i < count; ++i)
+      for (const std::uint32_t i : order)
       {
         const PixelRect& r = rectOf(i);
         assert(r.x0 >= all.x0 && r.y0 >= all.y0 && r.x1 <= all.x1 && r.y1 <= all.y1);
@@ -64,7 +65,7 @@ public:
   /// Where a group is, in groups.
   int x(std::size_t group) const { return this->X0 + static_cast<int>(group % this->Columns); }
   int y(std::size_t group) const { return this->Y0 + static_cast<int>(group / this->Columns); }
-  /// Of a group, in ascending order.
+  /// Of a group, in the order that was given.
   List of(std::size_t group) const
   {
     assert(group < this->groups());

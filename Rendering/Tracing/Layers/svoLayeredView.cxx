@@ -34,17 +34,30 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   this->Layers.beginFrame(keep, this->HasFrame && !sameRays(view, this->Seen), budget);
   this->Seen = view;
   this->HasFrame = keep;
-  findVisible(scene, view, takesPart, parallelFor, this->Visible);
-  this->Instances.resize(this->Visible.size()); // what others have allocated is of use to these
-  parallelFor(0, this->Visible.size(), 64,
+  findVisible(scene, view, this->Cull, takesPart, parallelFor, this->InSight);
+  const std::vector<std::uint32_t>& visible = this->InSight.visible;
+  this->Instances.resize(visible.size()); // what others have allocated is of use to these
+  parallelFor(0, visible.size(), 64,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t e = first; e < last; ++e)
       {
-        this->EntryOf[this->Visible[e]] = static_cast<std::uint32_t>(e);
-        this->fill(scene, levelOf, this->Instances[e], this->Visible[e]);
+        this->EntryOf[visible[e]] = static_cast<std::uint32_t>(e);
+        this->fill(scene, levelOf, this->Instances[e], visible[e]);
       }
     });
+  this->Order.resize(visible.size());
+  this->NodeOf.resize(visible.size());
+  for (std::size_t k = 0; k < visible.size(); ++k)
+  {
+    this->Order[k] = this->EntryOf[this->InSight.order[k]];
+    this->NodeOf[this->Order[k]] = this->InSight.nodeOf[k];
+  }
+  this->LargestError = 0.0;
+  for (const Entry& entry : this->Instances)
+  {
+    this->LargestError = std::max(this->LargestError, this->Errors[entry.index]);
+  }
   for (Entry& entry : this->Instances)
   {
     const PixelRect& r = entry.local.rect;
@@ -143,7 +156,7 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
 {
   this->Rays = 0;
   this->Retraced = 0;
-  this->Hidden = 0;
+  this->NotLookedAt = { this->Instances.size(), 0 };
   PixelRect all{ this->Seen.width, this->Seen.height, 0, 0 };
   for (const Entry& entry : this->Instances)
   {
@@ -173,7 +186,7 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
   {
     return;
   }
-  this->Groups.fill(all, 8 * GroupTiles, static_cast<std::uint32_t>(this->Instances.size()),
+  this->Groups.fill(all, 8 * GroupTiles, this->Order,
     [this](std::uint32_t e) -> const PixelRect& { return this->Instances[e].local.rect; });
   std::vector<std::unique_ptr<TileScratch>> idle; // no more than there are threads
   std::mutex mutex;
@@ -193,6 +206,8 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
       {
         taken = std::make_unique<TileScratch>();
         taken->rays.resize(this->Instances.size());
+        taken->regards.resize(this->Instances.size());
+        taken->nodes.resize(this->InSight.nodes.size());
         taken->counted.resize(this->Instances.size(), this->Merged.tiles());
       }
       TileScratch& mine = *taken;
@@ -219,17 +234,17 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
       const std::lock_guard<std::mutex> lock(mutex);
       idle.push_back(std::move(taken));
     });
-  for (const std::unique_ptr<TileScratch>& scratch : idle)
-  {
-    this->Hidden += scratch->hidden;
-  }
   for (std::size_t e = 0; e < this->Instances.size(); ++e)
   {
     std::uint64_t rays = 0;
+    std::uint8_t regard = 0;
     for (const std::unique_ptr<TileScratch>& scratch : idle)
     {
       rays += scratch->rays[e];
+      regard |= scratch->regards[e];
     }
+    this->NotLookedAt.unasked -= regard != 0;
+    this->NotLookedAt.hidden += regard == Asked;
     this->Rays += rays;
     this->Retraced += rays > 0;
   }

@@ -62,11 +62,18 @@ public:
   /// Traces points of a tile, `count` times 64, through all instances; to be called after trace().
   void sample(int tileX, int tileY, TileSamples* samples, std::size_t count) const;
 
-  /// Whether instances are left out of groups of tiles where others hide all of them: on by
-  /// default. It changes no bit.
-  void setOcclusionCulling(bool culling) { this->Culling = culling; }
-  /// How often one was, in the last frame: instances times groups.
-  std::uint64_t hiddenInstances() const { return this->Hidden; }
+  /// Of the frames to come. The tree is to be that of the scene that prepare() gets. But for
+  /// Culling::leastPixels it changes no bit.
+  void setCulling(const Culling& culling) { this->Cull = culling; }
+  /// The instances that the view sees.
+  const Sight& sight() const { return this->InSight; }
+  /// Of these, how many the last trace() did not have to look at: no tile was asked for that they
+  /// reach into, or others hid them wherever one was.
+  struct Spared
+  {
+    std::size_t unasked = 0, hidden = 0;
+  };
+  const Spared& spared() const { return this->NotLookedAt; }
 
   const DepthBuffer& depthBuffer() const { return this->Merged; }
   /// Base of an instance's t, by index into Scene::instances.
@@ -144,6 +151,12 @@ private:
     Alone,
     Rays // tile by tile
   };
+  /// What became of an instance, bits.
+  enum Regard : std::uint8_t
+  {
+    Asked = 1, // tiles are traced that it reaches into
+    Looked = 2 // and it was not hidden there
+  };
   /// An instance that a tile's rays may meet.
   struct TileEntry
   {
@@ -153,6 +166,7 @@ private:
     TilePyramid pyramid;
     std::vector<TileNode> nodes; // empty: the rays are walked one by one, or known already
     Way way = Way::Unknown;      // in the group
+    bool hidden = false;         // others hide all that the group sees of it
     FoundTriangles alone;        // where this is the way
   };
   struct SeenHit
@@ -173,19 +187,24 @@ private:
   /// What a thread keeps from tile to tile.
   struct TileScratch
   {
-    std::vector<TileEntry> entries;   // at least those that reach into the group of tiles ...
-    std::size_t nearby = 0;           // ... which are so many, in the order of Instances
-    std::vector<TileEntry*> together; // of these, front to back
-    std::vector<TileEntry*> order;    // those that the tile's rays may meet
-    std::vector<std::uint64_t> rays;  // by index into Instances
-    std::uint64_t hidden = 0;         // see hiddenInstances()
+    std::vector<TileEntry> entries;    // at least those that reach into the group of tiles ...
+    std::size_t nearby = 0;            // ... which are so many, front to back
+    std::vector<TileEntry*> together;  // of these, in the same order
+    std::vector<TileEntry*> order;     // those that the tile's rays may meet
+    std::vector<std::uint64_t> rays;   // by index into Instances
+    std::vector<std::uint8_t> regards; // by index into Instances: Regard
+    /// By index into Sight::nodes: twice what `asking` was when it was asked about, and 1 if it was
+    /// hidden.
+    std::vector<std::uint64_t> nodes;
+    std::uint64_t asking = 0;
 
     // The group of tiles.
     int groupX, groupY;   // in tiles
     GroupWindow window;   // around those of its tiles that are asked for
     FoundTriangles found; // of those
-    std::vector<GroupNode> nodes;
+    std::vector<GroupNode> groupNodes;
     // The tile.
+    double deepest = 0.0; // of it, linear depth: nothing beyond is seen
     NearestTriangles nearest;
     std::vector<std::size_t> counted; // by index into Instances: the tile that rays has last
     std::vector<SeenHit> hits;
@@ -218,6 +237,18 @@ private:
   /// Finds the instances that reach into the window of a group of tiles, and the triangles of those
   /// that are traced together.
   void gather(std::size_t group, TileScratch& scratch) const;
+  /// True if what there is in the group of tiles hides all that lies in a rectangle of the image
+  /// beyond a linear depth.
+  bool hides(const TileScratch& scratch, const PixelRect& rect, double depth) const;
+  bool hidesNode(std::uint32_t node, TileScratch& scratch) const;
+  /// True if it hides all that an instance has there.
+  bool isHidden(const Entry& entry, TileScratch& scratch) const;
+  /// How much nearer than its nearest corner a hit of an instance may be found, and by how much
+  /// that of another one may be off.
+  double slackOf(const Entry& entry) const
+  {
+    return 2e-3 * entry.local.tMax + 1e-5 * std::abs(entry.local.base) + this->LargestError;
+  }
   /// Adds what a group of tiles may see of those that are traced together. False, and all is to be
   /// done once more, if one of them turned out to have to be traced by rays.
   bool findTogether(TileScratch& scratch) const;
@@ -234,6 +265,8 @@ private:
   /// What a ray of the tile in scratch.nearest meets first, by the float test; false if nothing.
   bool traceDoubtful(double x, double y, int ray, TileScratch& scratch, SeenHit& first) const;
   void order(int tileX, int tileY, bool onlyChanged, TileScratch& scratch);
+  /// Linear depth beyond which nothing of a tile is seen; infinity if there is no such.
+  double deepest(const MergedTile& merged) const;
   bool cutRays(const TileEntry& candidate, const MergedTile& merged, RayBlock& block) const;
   /// Through points x, y of the image; tMin and tMax are set, and those with tMin > tMax are none.
   void traceRays(const TileEntry& candidate, const double* x, const double* y, RayBlock& block,
@@ -279,8 +312,10 @@ private:
 
   const bool Exact;
   View Seen;
-  bool HasFrame = false;              // Seen and Layers are those of a frame that keeps layers
-  std::vector<std::uint32_t> Visible; // indices of Instances
+  bool HasFrame = false; // Seen and Layers are those of a frame that keeps layers
+  Sight InSight;
+  std::vector<std::uint32_t> Order;  // indices into Instances, front to back
+  std::vector<std::uint32_t> NodeOf; // by index into Instances: index into Sight::nodes
   std::vector<Entry> Instances;
   std::vector<double> Bases;
   std::vector<double> Offsets; // of window depths
@@ -290,14 +325,15 @@ private:
   std::vector<LeafGeometry> Geometries;
   std::vector<std::uint8_t> Placed;
   std::vector<double> Errors;         // of t; 0: who is in front follows from t as it is
+  double LargestError = 0.0;          // of them
   std::vector<std::uint32_t> EntryOf; // index into Instances
   KeyBase Keys;
   LayerCache Layers;
   DepthBuffer Merged;
   MergedTiles Tiles; // of Merged
   GroupLists Groups; // of Instances
-  bool Culling = true;
-  std::uint64_t Hidden = 0;
+  Culling Cull;
+  Spared NotLookedAt;
   std::vector<std::uint8_t> LastHit; // DepthBuffer::hit of the last frame
   std::uint64_t Rays = 0;
   std::uint64_t Retraced = 0;

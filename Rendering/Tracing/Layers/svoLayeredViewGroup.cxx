@@ -50,28 +50,19 @@ bool LayeredView::findTriangles(
   }
   const GroupView view =
     makeGroupView(entry.local, entry.functions, this->Keys, limits, scratch.groupX, scratch.groupY);
-  if (this->Culling && !found.group.empty())
-  {
-    const GroupWindow box = scratch.windowOf(entry.local.pixels);
-    if (found.group.hides({ 0.0f, 0, box.x0, box.x1, box.y0, box.y1 }, view))
-    {
-      ++scratch.hidden;
-      return true;
-    }
-  }
   const TilePyramid all =
     makePyramid(entry.projection, this->Seen, scratch.groupX, scratch.groupY, GroupTiles);
-  if (!findGroupNodes(
-        *entry.octree, all, 0.0f, entry.local.tMax, MostGroupNodes, scratch.nodes, scratch.window))
+  if (!findGroupNodes(*entry.octree, all, 0.0f, entry.local.tMax, MostGroupNodes,
+        scratch.groupNodes, scratch.window))
   {
     return false;
   }
-  if (scratch.nodes.empty())
+  if (scratch.groupNodes.empty())
   {
     return true;
   }
-  found.spoilt = !found.group.add(*entry.octree, scratch.nodes, view,
-    scratch.nodes.size() < FewGroupNodes && scratch.together.size() < Crowd
+  found.spoilt = !found.group.add(*entry.octree, scratch.groupNodes, view,
+    scratch.groupNodes.size() < FewGroupNodes && scratch.together.size() < Crowd
       ? SmallTriangles::AsSlots
       : SmallTriangles::AsPoints,
     entry.index);
@@ -81,9 +72,12 @@ bool LayeredView::findTriangles(
 bool LayeredView::findTogether(TileScratch& scratch) const
 {
   scratch.found.clear();
+  ++scratch.asking;
   for (TileEntry* const candidate : scratch.together)
   {
-    if (candidate->way == Way::Together &&
+    candidate->hidden =
+      candidate->way == Way::Together && this->isHidden(*candidate->entry, scratch);
+    if (candidate->way == Way::Together && !candidate->hidden &&
       !this->findTriangles(*candidate->entry, scratch, scratch.found))
     {
       candidate->way = Way::Rays;
@@ -141,6 +135,7 @@ void LayeredView::gather(std::size_t group, TileScratch& scratch) const
     }
     TileEntry& candidate = scratch.entries[scratch.nearby++];
     candidate.entry = &entry;
+    candidate.hidden = false;
     candidate.way = entry.tiles ? Way::Unknown : Way::Rays;
     if (entry.tiles && !entry.layer)
     {
@@ -157,13 +152,65 @@ void LayeredView::gather(std::size_t group, TileScratch& scratch) const
       }
     }
   }
-  // What is near hides what is behind it.
-  std::stable_sort(scratch.together.begin(), scratch.together.end(),
-    [](const TileEntry* a, const TileEntry* b)
-    { return a->entry->local.base < b->entry->local.base; });
   while (!this->findTogether(scratch))
   {
   }
+  for (std::size_t k = 0; k < scratch.nearby; ++k)
+  {
+    TileEntry& candidate = scratch.entries[k];
+    if (candidate.way == Way::Rays && !candidate.entry->layer)
+    {
+      candidate.hidden = this->isHidden(*candidate.entry, scratch);
+    }
+    scratch.regards[static_cast<std::size_t>(candidate.entry - this->Instances.data())] |=
+      candidate.hidden ? Asked : Asked | Looked;
+  }
+}
+
+bool LayeredView::hides(const TileScratch& scratch, const PixelRect& rect, double depth) const
+{
+  // As PixelFunctions::key().
+  double key = depth - this->Keys.far;
+  if (!this->Seen.parallel)
+  {
+    if (!(depth > 0.0))
+    {
+      return false;
+    }
+    key = (this->Keys.deep ? -this->Keys.far : key) * this->Keys.far / depth;
+  }
+  return scratch.wants(rect) &&
+    scratch.found.group.hides(scratch.windowOf(rect), static_cast<float>(key));
+}
+
+bool LayeredView::hidesNode(std::uint32_t node, TileScratch& scratch) const
+{
+  if (node == SeenNode::None)
+  {
+    return false;
+  }
+  std::uint64_t& known = scratch.nodes[node];
+  if (known / 2 != scratch.asking)
+  {
+    const SeenNode& n = this->InSight.nodes[node];
+    const double slack = 2e-3 * (n.cube.farthest - n.cube.nearest) +
+      1e-5 * std::abs(n.cube.nearest) + this->LargestError;
+    const bool hidden = this->hidesNode(n.parent, scratch) ||
+      this->hides(scratch, n.cube.rect, n.cube.nearest - slack);
+    known = 2 * scratch.asking + hidden;
+  }
+  return known % 2 != 0;
+}
+
+bool LayeredView::isHidden(const Entry& entry, TileScratch& scratch) const
+{
+  if (!this->Cull.occlusion || this->Shifted || scratch.found.group.empty())
+  {
+    return false;
+  }
+  const auto e = static_cast<std::size_t>(&entry - this->Instances.data());
+  return this->hidesNode(this->NodeOf[e], scratch) ||
+    this->hides(scratch, entry.local.pixels, entry.local.base - this->slackOf(entry));
 }
 
 void LayeredView::traceLayer(int tileX, int tileY, TileEntry& candidate, TileScratch& scratch)

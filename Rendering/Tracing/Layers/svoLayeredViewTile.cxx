@@ -131,8 +131,10 @@ void LayeredView::order(int tileX, int tileY, bool onlyChanged, TileScratch& scr
         scratch.order.push_back(&candidate);
       }
     }
-    else if (!layer && candidate.way != Way::Together &&
-      (candidate.way == Way::Alone || this->meets(tileX, tileY, candidate)))
+    else if (!layer && candidate.way != Way::Together && !candidate.hidden &&
+      (candidate.way == Way::Alone ||
+        (!(entry.local.base - this->slackOf(entry) > scratch.deepest) &&
+          this->meets(tileX, tileY, candidate))))
     {
       candidate.key = candidate.way == Way::Alone ? -std::numeric_limits<double>::infinity()
                                                   : entry.local.base + candidate.tNear;
@@ -236,6 +238,25 @@ void LayeredView::merge(const Entry& entry, const float* t, const Primitive* pri
   }
 }
 
+double LayeredView::deepest(const MergedTile& merged) const
+{
+  constexpr double Infinity = std::numeric_limits<double>::infinity();
+  if (!merged.any || !this->Cull.occlusion || this->Shifted)
+  {
+    return Infinity;
+  }
+  double deepest = -Infinity;
+  for (int i = 0; i < 64; ++i)
+  {
+    if (merged.instance[i] == NoInstance)
+    {
+      return Infinity;
+    }
+    deepest = std::max(deepest, this->Bases[merged.instance[i]] + merged.t[i]);
+  }
+  return deepest + this->LargestError;
+}
+
 void LayeredView::traceTile(int tileX, int tileY, bool onlyChanged, TileScratch& scratch)
 {
   const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
@@ -243,6 +264,7 @@ void LayeredView::traceTile(int tileX, int tileY, bool onlyChanged, TileScratch&
     this->Merged.primitive.data() + 64 * tile, false };
   merged.any = onlyChanged ? this->LastHit[tile] != 0
                            : this->nearestHits(tileX, tileY, scratch.found, scratch, merged);
+  scratch.deepest = this->deepest(merged);
   this->order(tileX, tileY, onlyChanged, scratch);
   this->Merged.hit[tile] = merged.any;
   if (scratch.order.empty())

@@ -1,9 +1,13 @@
 #include "svoVisibleInstances.h"
 
+#include "svoFrustum.h"
 #include "svoLeafError.h"
+#include "svoSeenObjects.h"
 
 #include <algorithm>
 #include <cassert>
+#include <mutex>
+#include <numeric>
 
 namespace svo
 {
@@ -43,40 +47,146 @@ int deepened(const Instance& instance, int level)
     : level;
 }
 
-void findVisible(const Scene& scene, const View& view,
-  const std::function<bool(const Instance&)>& takesPart, const ParallelFor& parallelFor,
-  std::vector<std::uint32_t>& visible)
+namespace
 {
-  constexpr std::size_t Together = 256; // instances, whose indices are found by one thread
-  const std::size_t count = scene.instances.size();
-  visible.resize(count);
-  std::vector<std::size_t> found((count + Together - 1) / Together, 0);
-  parallelFor(0, found.size(), 4,
-    [&](std::size_t first, std::size_t last)
+/// What the tree knows of a view: `sight.order` is all that may be seen.
+void askTree(const LooseOctree& tree, const View& view, Sight& sight)
+{
+  const Frustum frustum(view);
+  const auto allPlanes = static_cast<std::uint8_t>((1u << frustum.planes()) - 1u);
+  std::uint32_t nodeAt[LooseOctree::MostDepth + 1]; // on the way to the one that is visited
+  std::uint32_t current = SeenNode::None;
+  const auto add = [&](std::uint32_t object)
+  {
+    sight.order.push_back(object);
+    sight.nodeOf.push_back(current);
+  };
+  tree.visitGroups(
+    VisitOrder(view),
+    [&](const LooseNode& node, std::uint8_t& within)
     {
-      for (std::size_t part = first; part < last; ++part)
+      if (within != allPlanes &&
+        frustum.box(node.centre, glm::dvec3(node.half), within) == Frustum::Side::Outside)
       {
-        std::uint32_t* next = visible.data() + part * Together;
-        const std::size_t end = std::min(count, (part + 1) * Together);
-        for (std::size_t i = part * Together; i < end; ++i)
+        return NodeVisit::Skip;
+      }
+      const std::uint32_t parent = node.depth > 0 ? nodeAt[node.depth - 1] : SeenNode::None;
+      current = parent;
+      if (node.objects >= SeenNode::Fewest)
+      {
+        const SeenCube cube =
+          seeCube(node.centre - node.half, 2.0 * node.half, glm::dmat4(1.0), view);
+        current = static_cast<std::uint32_t>(sight.nodes.size());
+        sight.nodes.push_back({ parent, cube });
+      }
+      nodeAt[node.depth] = current;
+      return NodeVisit::Below; // for the nodes' sake, also where all is inside
+    },
+    [&](const LooseObjects& some, bool, std::uint8_t within)
+    {
+      const bool each = some.x && within != allPlanes;
+      const std::uint32_t seen = each ? seenOf(frustum, within, some) : 0;
+      for (std::uint32_t i = 0; i < some.count; ++i)
+      {
+        if (!each || (seen >> i & 1))
         {
-          const Instance& instance = scene.instances[i];
-          if (instance.octree && !instance.octree.empty() && takesPart(instance) &&
-            !seeOctree(instance.octree, instance.localToWorld, view).rect.empty())
-          {
-            *next++ = static_cast<std::uint32_t>(i);
-          }
+          add(some.objects[i]);
         }
-        found[part] = static_cast<std::size_t>(next - visible.data()) - part * Together;
       }
     });
-  auto end = visible.begin();
-  for (std::size_t part = 0; part < found.size(); ++part)
+}
+}
+
+void findVisible(const Scene& scene, const View& view, const Culling& culling,
+  const std::function<bool(const Instance&)>& takesPart, const ParallelFor& parallelFor,
+  Sight& sight)
+{
+  sight.order.clear();
+  sight.nodes.clear();
+  sight.nodeOf.clear();
+  if (culling.tree)
   {
-    const auto begin = visible.begin() + static_cast<std::ptrdiff_t>(part * Together);
-    end = std::copy(begin, begin + static_cast<std::ptrdiff_t>(found[part]), end);
+    askTree(*culling.tree, view, sight);
   }
-  visible.erase(end, visible.end());
+  else
+  {
+    sight.order.resize(scene.instances.size());
+    std::iota(sight.order.begin(), sight.order.end(), 0u);
+    sight.nodeOf.assign(sight.order.size(), SeenNode::None);
+  }
+  enum State : std::uint8_t
+  {
+    Unseen,
+    Seen,
+    Small
+  };
+  std::vector<std::uint8_t> states(scene.instances.size(), Unseen);
+  std::vector<double> nearest(scene.instances.size());
+  std::mutex mutex;
+  sight.largestSmall = 0.0;
+  parallelFor(0, sight.order.size(), 256,
+    [&](std::size_t first, std::size_t last)
+    {
+      double largestSmall = 0.0;
+      for (std::size_t k = first; k < last; ++k)
+      {
+        const std::uint32_t i = sight.order[k];
+        const Instance& instance = scene.instances[i];
+        if (!instance.octree || instance.octree.empty() || !takesPart(instance))
+        {
+          continue;
+        }
+        const SeenCube cube = seeOctree(instance.octree, instance.localToWorld, view);
+        if (cube.rect.empty())
+        {
+          continue;
+        }
+        // A pixel on each side is for rounding.
+        const double width = std::max(cube.rect.x1 - cube.rect.x0 - 2, 1);
+        const double height = std::max(cube.rect.y1 - cube.rect.y0 - 2, 1);
+        const bool small = width * height < culling.leastPixels;
+        states[i] = small ? Small : Seen;
+        largestSmall = small ? std::max({ largestSmall, width, height }) : largestSmall;
+        nearest[i] = cube.nearest;
+      }
+      if (largestSmall > 0.0)
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        sight.largestSmall = std::max(sight.largestSmall, largestSmall);
+      }
+    });
+  sight.visible.clear();
+  for (std::uint32_t i = 0; i < states.size(); ++i)
+  {
+    if (states[i] == Seen)
+    {
+      sight.visible.push_back(i);
+    }
+  }
+  sight.small = static_cast<std::size_t>(std::count(states.begin(), states.end(), Small));
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < sight.order.size(); ++k)
+  {
+    if (states[sight.order[k]] == Seen)
+    {
+      sight.order[kept] = sight.order[k];
+      sight.nodeOf[kept++] = sight.nodeOf[k];
+    }
+  }
+  sight.order.resize(kept);
+  sight.nodeOf.resize(kept);
+  // Those of a node; without a tree, all.
+  for (std::size_t first = 0, last; first < kept; first = last)
+  {
+    last = first + 1;
+    while (last < kept && sight.nodeOf[last] == sight.nodeOf[first])
+    {
+      ++last;
+    }
+    std::stable_sort(sight.order.begin() + static_cast<std::ptrdiff_t>(first),
+      sight.order.begin() + static_cast<std::ptrdiff_t>(last),
+      [&](std::uint32_t a, std::uint32_t b) { return nearest[a] < nearest[b]; });
+  }
 }
 
 VisibleInstance seenInstance(

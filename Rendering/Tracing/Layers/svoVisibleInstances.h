@@ -4,6 +4,7 @@
 
 #include "svoDepthLayer.h"
 #include "svoLocalView.h"
+#include "svoLooseOctree.h"
 #include "svoParallel.h"
 #include "svoProjection.h"
 #include "svoScene.h"
@@ -42,11 +43,44 @@ struct VisibleInstance
 /// The octree level that an instance's rays stop at.
 using LevelOf = std::function<int(const Instance&, const LocalView&)>;
 
-/// Indices of the instances that `takesPart` and whose cubes lie in the view, in the scene's order.
-/// All that a ray of the view can hit is among them. The functions are asked by several threads.
-VTKSVOTRACING_EXPORT void findVisible(const Scene& scene, const View& view,
+/// How instances are culled.
+struct Culling
+{
+  const LooseOctree* tree = nullptr; // of the scene's instances (svoInstanceTree.h); null: none
+  bool occlusion = true;             // those that others hide are left out
+  /// Pixels of its rectangle from which on an instance is worth being drawn.
+  double leastPixels = 0.0;
+};
+
+/// A node of the tree that a view may see, with several instances in it.
+struct SeenNode
+{
+  static constexpr std::uint32_t None = ~0u;
+  /// Instances below it from which on it is worth being asked about.
+  static constexpr std::size_t Fewest = 8;
+
+  std::uint32_t parent; // None at the top
+  SeenCube cube;        // around all below it
+};
+
+/// The instances that a view sees.
+struct Sight
+{
+  std::vector<std::uint32_t> visible; // indices, in the scene's order
+  /// The same, front to back by the nodes of the tree; without one, by their nearest corners.
+  std::vector<std::uint32_t> order;
+  std::vector<SeenNode> nodes;       // those above come first
+  std::vector<std::uint32_t> nodeOf; // the lowest around an instance, in the order of `order`
+  std::size_t small = 0;             // left out for Culling::leastPixels ...
+  double largestSmall = 0.0;         // ... pixels, the longest edge of the rectangle of one
+};
+
+/// Finds the instances that `takesPart` and whose cubes lie in the view. All that a ray of the view
+/// can hit is among them, but for those that are too small. `takesPart` is asked by several
+/// threads.
+VTKSVOTRACING_EXPORT void findVisible(const Scene& scene, const View& view, const Culling& culling,
   const std::function<bool(const Instance&)>& takesPart, const ParallelFor& parallelFor,
-  std::vector<std::uint32_t>& visible);
+  Sight& sight);
 
 /// One of these, as the view sees it. Its octree is borrowed from the scene. `allTiles`: see
 /// worthTiles().

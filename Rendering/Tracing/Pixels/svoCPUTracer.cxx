@@ -2,6 +2,7 @@
 
 #include "svoFrameErrors.h"
 #include "svoFrameTiles.h"
+#include "svoInstanceTree.h"
 #include "svoKeptFrame.h"
 #include "svoKeptTiles.h"
 #include "svoLayeredView.h"
@@ -49,6 +50,7 @@ struct CPUTracer::Internals
   FrameSettings Settings; // of the last frame
   FrameStatistics Statistics;
   std::vector<ShadowMap> Maps;
+  InstanceTree Tree;
   LayeredView Eye;
   Shadows LightShadows;
   Scene AsLightsSee; // where that is not the frame's scene; for the length of a frame
@@ -61,6 +63,7 @@ struct CPUTracer::Internals
   bool SharesBuffers = false;     // shadow buffers are traced, for all processes
   double SharingTime = 0.0;       // s, that took
 
+  void cull(const Scene& scene, const FrameSettings& settings, const ParallelFor& parallelFor);
   const Scene& sceneOfLights(const Scene& scene, ShadowTechnique technique);
   void findStaleTiles(const FrameChanges& changes, bool sameFrame);
   void markLightTiles(const Scene& scene, const View& view, const ParallelFor& parallelFor);
@@ -70,6 +73,19 @@ struct CPUTracer::Internals
     const ParallelFor& parallelFor, const FrameChanges& changes, Frame* frame,
     FrameStatistics& statistics);
 };
+
+/// Says how the instances of a frame are culled.
+void CPUTracer::Internals::cull(
+  const Scene& scene, const FrameSettings& settings, const ParallelFor& parallelFor)
+{
+  this->Tree.follow(scene, parallelFor);
+  Culling culling;
+  culling.tree = settings.viewCulling ? this->Tree.tree() : nullptr;
+  culling.occlusion = settings.occlusionCulling;
+  this->LightShadows.setCulling(culling);
+  culling.leastPixels = settings.detailThreshold;
+  this->Eye.setCulling(culling);
+}
 
 /// The scene with the octrees that shadow buffers are traced through.
 const Scene& CPUTracer::Internals::sceneOfLights(const Scene& scene, ShadowTechnique technique)
@@ -235,6 +251,7 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     this->Eye.layerMemory() + this->LightShadows.layerMemory() };
 
   // Depth layers of the eye, merged.
+  this->cull(scene, settings, parallelFor);
   this->Eye.prepare(
     scene, view, [](const Instance& instance) { return instance.visible; },
     [&](const Instance& instance, const LocalView& local)
@@ -332,6 +349,11 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   self.LightShadows.addStatistics(statistics);
   statistics.primaryRays += self.Eye.rays();
   statistics.retracedLayers += self.Eye.retracedLayers();
+  const Sight& sight = self.Eye.sight();
+  statistics.outsideInstances = self.Tree.shown() - sight.visible.size() - sight.small;
+  statistics.hiddenInstances = self.Eye.spared().hidden;
+  statistics.smallInstances = sight.small;
+  statistics.largestSmallInstance = sight.largestSmall;
   statistics.coarsestVoxel = coarsestVoxel(scene, view);
   if (settings.shadowTechnique != ShadowTechnique::None)
   {
@@ -349,6 +371,7 @@ bool CPUTracer::shareShadows(const Scene& scene, const View& view, const FrameSe
   const double start = now();
   LayerBudget budget{ settings.layerMemoryLimit,
     self.Eye.layerMemory() + self.LightShadows.layerMemory() };
+  self.cull(scene, settings, parallelFor);
   self.SharesBuffers =
     self.LightShadows.traceShared(self.sceneOfLights(scene, settings.shadowTechnique), view,
       settings, budget, parallelFor, processes);

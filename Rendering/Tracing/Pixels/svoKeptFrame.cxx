@@ -11,7 +11,7 @@ namespace
 {
 // Who adds a member to one of these adds it below.
 static_assert(sizeof(Material) == 56 && sizeof(Attributes) == 64 && sizeof(Light) == 112 &&
-    sizeof(Instance) == 560 && sizeof(View) == 480 && sizeof(FrameSettings) == 80,
+    sizeof(Instance) == 560 && sizeof(View) == 480 && sizeof(FrameSettings) == 96,
   "all that pictures depend on is compared");
 
 /// Values as plain bytes, one behind the other.
@@ -78,7 +78,8 @@ void add(const FrameSettings& s, Bytes& bytes)
 {
   bytes.add(s.shadowTechnique, s.shadowResolution, s.shadowCoarseness, s.shadowMemoryLimit,
     s.automaticBias, s.bias, s.shadowIntensity, s.pixelError, s.antiAliasing, s.filterShadows,
-    s.wholeShadowBuffers, s.mayDependOnLastFrame, s.writeNormals, s.writeLight, s.writeNames);
+    s.wholeShadowBuffers, s.detailThreshold, s.mayDependOnLastFrame, s.writeNormals, s.writeLight,
+    s.writeNames);
 }
 }
 

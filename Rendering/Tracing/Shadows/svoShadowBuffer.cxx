@@ -54,6 +54,7 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
     face.shared.clear();
     face.worldToClip = face.view.viewToClip * face.view.worldToView;
     face.edge = TexelEdge(face.view);
+    face.layers.setCulling(this->Cull);
     face.seesCasters = face.layers.prepare(
       scene, face.view,
       [&](const Instance& instance) { return casters[&instance - scene.instances.data()] != 0; },
@@ -98,6 +99,16 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
     this->SameMaps = places[k] != this->CasterPlace[k] ||
       (voxels[k] == this->CasterVoxel[k] && errors[k] == this->CasterError[k]);
   }
+}
+
+std::size_t ShadowBuffer::sparedCasters() const
+{
+  std::size_t spared = 0;
+  for (const auto& face : this->Faces)
+  {
+    spared += face->layers.spared().unasked + face->layers.spared().hidden;
+  }
+  return spared;
 }
 
 glm::ivec2 ShadowBuffer::Place::neighbour(int i) const

@@ -32,6 +32,11 @@ public:
   void prepare(const Scene& scene, const LightMaps& maps, std::size_t first,
     const FrameSettings& settings, LayerBudget& budget, const ParallelFor& parallelFor = serialFor);
 
+  /// Of its layers, from prepare() on.
+  void setCulling(const Culling& culling) { this->Cull = culling; }
+  /// Casters of its maps, each once a map, that trace() did not look at.
+  std::size_t sparedCasters() const;
+
   /// How points are tested; prepare() does this, too.
   void setBias(const FrameSettings& settings)
   {
@@ -214,6 +219,7 @@ private:
   bool endsBefore(const Place& place, const glm::ivec2& texel, double error) const;
   float filtered(const Place& place, double width, const SurfacePoint& point, double error) const;
 
+  Culling Cull;
   std::vector<std::unique_ptr<Face>> Faces;
   // By index of the outline: of the instance, among those of all processes where depths are shared.
   std::vector<double> CasterVoxel; // world, of the level that is traced

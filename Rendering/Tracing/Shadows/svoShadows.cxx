@@ -166,6 +166,7 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
     const auto found = this->Kept.find(id);
     buffer =
       found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
+    buffer->setCulling(this->Cull);
     buffer->prepare(scene, maps[i], first, settings, budget, parallelFor);
     this->CoarsestTexel = std::max(this->CoarsestTexel, maps[i].coarsest);
     this->WidestTexel = std::max(this->WidestTexel, maps[i].widest);
@@ -313,6 +314,7 @@ void Shadows::addStatistics(FrameStatistics& statistics) const
     {
       statistics.shadowRays += buffer->rays();
       statistics.retracedLayers += buffer->retracedLayers();
+      statistics.sparedCasters += buffer->sparedCasters();
     }
   }
 }

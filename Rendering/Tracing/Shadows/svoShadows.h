@@ -30,6 +30,9 @@ public:
   /// The same, for a frame that is traced once more: as it was decided.
   void chooseAsBefore(const Scene& seen, const View& view, const FrameSettings& settings);
 
+  /// Of the buffers, in frames to come.
+  void setCulling(const Culling& culling) { this->Cull = culling; }
+
   /// Fits the lights' buffers and keeps those of their layers that are still true. `scene`: with
   /// the octrees that lights see.
   void prepare(const Scene& scene, const FrameSettings& settings, LayerBudget& budget,
@@ -134,6 +137,7 @@ private:
     const std::vector<LightMaps>& maps, std::size_t first, const FrameSettings& settings,
     LayerBudget& budget, const ParallelFor& parallelFor);
 
+  Culling Cull;
   const Scene* Tested = nullptr;                             // the frame's
   std::vector<ShadowTechnique> Techniques, TechniquesBefore; // by light; of the last frame
   std::vector<LightMaps> Maps;                               // by light

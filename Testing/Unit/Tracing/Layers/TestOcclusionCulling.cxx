@@ -1,6 +1,9 @@
-// Instances that are left out of groups of tiles because others hide them: every hit is what it is
-// without that, to the bit, in random crowds with awkward places, matrices and views.
+// Instances that a loose octree finds outside of a view, or that are left out of groups of tiles
+// because others hide them: every hit, and every picture, is what it is without that, to the bit,
+// in random crowds with awkward places, matrices and views.
+#include "svoInstanceTree.h"
 #include "svoLayeredView.h"
+#include "svoTracer.h"
 #include "svoTracerScenes.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +12,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -70,6 +75,10 @@ glm::dmat4 place(Random& random, double size)
   {
     scale *= random.once(2) ? 1e-6 : 1e6;
   }
+  if (random.once(60))
+  {
+    scale[random.upTo(2)] = random.once(2) ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  }
   m = glm::scale(m, size * scale);
   if (random.once(5))
   {
@@ -81,7 +90,7 @@ glm::dmat4 place(Random& random, double size)
 svo::Scene crowd(Random& random, const Shapes& shapes, double size)
 {
   svo::Scene scene;
-  const int count = 5 + random.upTo(60);
+  const int count = 5 + random.upTo(random.once(3) ? 200 : 60);
   for (int i = 0; i < count; ++i)
   {
     const int shape = random.upTo(static_cast<int>(shapes.meshes.size()) - 1);
@@ -120,10 +129,20 @@ svo::View viewOf(Random& random, double size)
   return view;
 }
 
-void trace(const svo::Scene& scene, const svo::View& view, bool culling, svo::LayeredView& layers)
+unsigned scenesOr(unsigned few)
+{
+  const char* asked = std::getenv("SVO_RANDOM_SCENES");
+  return asked ? static_cast<unsigned>(std::atoi(asked)) : few;
+}
+
+void trace(const svo::Scene& scene, const svo::View& view, const svo::LooseOctree* tree,
+  bool culling, svo::LayeredView& layers)
 {
   svo::LayerBudget budget{ std::size_t(1) << 28, 0 };
-  layers.setOcclusionCulling(culling);
+  svo::Culling cull;
+  cull.tree = tree;
+  cull.occlusion = culling;
+  layers.setCulling(cull);
   layers.prepare(
     scene, view, [](const svo::Instance&) { return true; },
     [](const svo::Instance& i, const svo::LocalView&) { return i.octree.level(); }, false, budget);
@@ -134,9 +153,8 @@ void trace(const svo::Scene& scene, const svo::View& view, bool culling, svo::La
 TEST(OcclusionCulling, ChangesNoBit)
 {
   const Shapes shapes;
-  const char* asked = std::getenv("SVO_RANDOM_SCENES");
-  const unsigned scenes = asked ? static_cast<unsigned>(std::atoi(asked)) : 400;
-  std::size_t hits = 0, fewer = 0;
+  const unsigned scenes = scenesOr(400);
+  std::size_t hits = 0, fewer = 0, trees = 0;
   for (unsigned seed = 0; seed < scenes; ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -146,8 +164,11 @@ TEST(OcclusionCulling, ChangesNoBit)
     const svo::View view = viewOf(random, size);
     const bool exact = !random.once(3); // or as for lights
     svo::LayeredView with(exact), without(exact);
-    trace(scene, view, true, with);
-    trace(scene, view, false, without);
+    svo::InstanceTree tree;
+    tree.follow(scene, svo::serialFor);
+    trees += tree.tree() != nullptr;
+    trace(scene, view, tree.tree(), true, with);
+    trace(scene, view, nullptr, false, without);
     const svo::DepthBuffer &a = with.depthBuffer(), &b = without.depthBuffer();
     ASSERT_EQ(a.hit, b.hit);
     for (std::size_t tile = 0; tile < a.tiles(); ++tile)
@@ -167,10 +188,145 @@ TEST(OcclusionCulling, ChangesNoBit)
         }
       }
     }
-    fewer += with.hiddenInstances() > 0;
-    ASSERT_EQ(without.hiddenInstances(), 0u);
+    fewer += with.spared().hidden > 0;
+    ASSERT_EQ(without.spared().hidden, 0u);
   }
   // Else nothing would have been tested.
   EXPECT_GT(hits, 1000u * scenes);
   EXPECT_GT(10 * fewer, scenes);
+  EXPECT_GT(10 * trees, scenes);
+}
+
+namespace
+{
+svo::Light lightOf(Random& random, double size)
+{
+  svo::Light light;
+  light.kind = random.once(2) ? svo::Light::Kind::Point : svo::Light::Kind::Directional;
+  light.position = size * (random.point(2.0) + glm::dvec3(0.0, 0.0, 6.0));
+  light.direction = glm::normalize(random.point(1.0) - glm::dvec3(0.0, 0.0, 1.5));
+  light.castShadow = true;
+  light.id = 1 + static_cast<std::uint64_t>(random.upTo(1));
+  return light;
+}
+
+template <class T>
+bool same(const std::vector<T>& a, const std::vector<T>& b)
+{
+  return a.size() == b.size() &&
+    (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+}
+
+TEST(OcclusionCulling, ChangesNoBitOfPicturesShadowsAndNames)
+{
+  const Shapes shapes;
+  const unsigned scenes = scenesOr(120);
+  std::uint64_t outside = 0, hidden = 0, casters = 0;
+  std::size_t covered = 0;
+  for (unsigned seed = 0; seed < scenes; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(1000000 + seed);
+    const double size = random.once(6) ? std::pow(10.0, random.in(-6.0, 6.0)) : 1.0;
+    svo::Scene scene = crowd(random, shapes, size);
+    scene.lights.push_back(lightOf(random, size));
+    svo::View view = viewOf(random, size);
+    svo::FrameSettings settings;
+    settings.shadowResolution = 128;
+    settings.antiAliasing = random.once(5);
+    settings.shadowTechnique =
+      random.once(4) ? svo::ShadowTechnique::Rays : svo::ShadowTechnique::Buffer;
+    const auto with = svo::makeCPUTracer(), without = svo::makeCPUTracer();
+    svo::Frame a, b;
+    // Layers, buffers and the tree are kept from frame to frame.
+    for (int frame = 0; frame < 4; ++frame)
+    {
+      if (frame == 2)
+      {
+        for (svo::Instance& instance : scene.instances)
+        {
+          instance.localToWorld[3] += glm::dvec4(size * random.point(0.5), 0.0);
+        }
+      }
+      else if (frame == 3)
+      {
+        view = viewOf(random, size);
+        scene.instances.erase(scene.instances.begin() + random.upTo(3));
+        scene.instances.back().localToWorld[3].x += 100.0 * size;
+      }
+      settings.viewCulling = settings.occlusionCulling = true;
+      with->render(scene, view, settings, svo::serialFor, a);
+      settings.viewCulling = settings.occlusionCulling = false;
+      without->render(scene, view, settings, svo::serialFor, b);
+      ASSERT_TRUE(same(a.color, b.color)) << "frame " << frame;
+      ASSERT_TRUE(same(a.depth, b.depth)) << "frame " << frame;
+      ASSERT_TRUE(same(a.instance, b.instance)) << "frame " << frame;
+      ASSERT_TRUE(same(a.primitive, b.primitive)) << "frame " << frame;
+      outside += with->statistics().outsideInstances;
+      hidden += with->statistics().hiddenInstances;
+      casters += with->statistics().sparedCasters;
+      covered += static_cast<std::size_t>(std::count_if(
+        a.instance.begin(), a.instance.end(), [](std::uint32_t i) { return i != ~0u; }));
+    }
+  }
+  EXPECT_GT(outside, scenes);
+  EXPECT_GT(hidden, scenes / 4);
+  EXPECT_GT(casters, scenes);
+  EXPECT_GT(covered, 1000u * scenes);
+}
+
+TEST(OcclusionCulling, SmallInstancesAreLeftOutWhereThatIsAskedForAndCastAllTheSame)
+{
+  svo::Scene scene;
+  const svo::Octree ball = makeOctree(sphere(20, 30), 6);
+  for (int i = 0; i < 100; ++i)
+  {
+    const double radius = i < 10 ? 0.5 : 0.01;
+    const glm::dmat4 at =
+      glm::translate(glm::dmat4(1.0), glm::dvec3(i % 10 - 4.5, 0.0, i / 10 - 4.5));
+    scene.instances.push_back(instanceOf(ball, i + 1, glm::scale(at, glm::dvec3(radius))));
+  }
+  // A wall behind them, which gets all of their shadows.
+  const Mesh wall = square(20.0);
+  const glm::dmat4 upright = glm::rotate(
+    glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 3.0, 0.0)), 1.5707963, glm::dvec3(1, 0, 0));
+  scene.instances.push_back(instanceOf(makeOctree(wall, 6), 1000, upright));
+  svo::Light light;
+  light.direction = glm::normalize(glm::dvec3(0.2, 1.0, -0.3));
+  light.castShadow = true;
+  scene.lights.push_back(light);
+  const svo::View view = lookAt({ 0.0, -20.0, 0.0 }, 200, 200);
+  svo::FrameSettings settings;
+  const auto tracer = svo::makeCPUTracer();
+  svo::Frame all, large;
+  tracer->render(scene, view, settings, svo::serialFor, all);
+  EXPECT_EQ(tracer->statistics().smallInstances, 0u);
+  EXPECT_EQ(tracer->statistics().largestSmallInstance, 0.0);
+  settings.detailThreshold = 16.0;
+  tracer->render(scene, view, settings, svo::serialFor, large);
+  EXPECT_EQ(tracer->statistics().smallInstances, 90u);
+  EXPECT_GE(tracer->statistics().largestSmallInstance, 1.0);
+  EXPECT_LE(tracer->statistics().largestSmallInstance, 4.0);
+  for (svo::Instance& instance : scene.instances)
+  {
+    instance.castShadow = instance.id <= 10;
+  }
+  svo::Frame fewerShadows;
+  tracer->render(scene, view, settings, svo::serialFor, fewerShadows);
+  std::size_t behind = 0, shadows = 0;
+  for (std::size_t i = 0; i < all.instance.size(); ++i)
+  {
+    const std::uint32_t instance = all.instance[i];
+    const bool small = instance >= 10 && instance < 100;
+    EXPECT_EQ(large.instance[i], small ? 100u : instance);
+    behind += small;
+    if (instance == 100)
+    {
+      EXPECT_EQ(large.color[4 * i], all.color[4 * i]) << "the shadow of what is left out";
+      shadows += fewerShadows.color[4 * i] != all.color[4 * i];
+    }
+  }
+  EXPECT_GT(behind, 50u);
+  EXPECT_GT(shadows, 50u);
 }

@@ -67,10 +67,10 @@ bool meets(const svo::Instance& instance, const svo::View& view, int x, int y)
 std::vector<svo::VisibleInstance> seenBy(const svo::Scene& scene, const svo::View& view,
   const std::function<bool(const svo::Instance&)>& takesPart, const svo::LevelOf& levelOf)
 {
-  std::vector<std::uint32_t> indices;
-  svo::findVisible(scene, view, takesPart, svo::serialFor, indices);
+  svo::Sight sight;
+  svo::findVisible(scene, view, {}, takesPart, svo::serialFor, sight);
   std::vector<svo::VisibleInstance> visible;
-  for (const std::uint32_t i : indices)
+  for (const std::uint32_t i : sight.visible)
   {
     visible.push_back(svo::seenInstance(scene, i, view, levelOf, true));
   }
