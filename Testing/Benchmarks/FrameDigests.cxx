@@ -122,7 +122,7 @@ const std::vector<unsigned char> Table = someColors(16);
 /// Several looks, one after the other.
 void giveLook(svo::Instance& instance, const Arrays& arrays, int look)
 {
-  svo::Attributes& attributes = instance.attributes;
+  svo::Attributes& attributes = instance.body.own().attributes;
   instance.material = svo::Material();
   attributes = svo::Attributes();
   instance.material.specular = look % 2 ? 0.4f : 0.0f;
@@ -282,8 +282,8 @@ svo::Scene Program::sceneOf(paper::Scene& paperScene, int level, svo::LeafGeomet
       this->arrays[mesh] = arraysOf(mesh);
     }
     svo::Instance instance;
-    instance.octree = octree;
-    instance.leafGeometry = leaves;
+    instance.body.own().octree = octree;
+    instance.body.own().leafGeometry = leaves;
     instance.id = scene.instances.size() + 1;
     for (int row = 0; row < 4; ++row)
     {

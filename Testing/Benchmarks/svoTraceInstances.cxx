@@ -21,13 +21,13 @@ svo::Scene crowd(const svo::Octree& octree, int count)
   {
     const double x = i % columns - 0.5 * (columns - 1), y = i / columns - 0.5 * (columns - 1);
     svo::Instance instance;
-    instance.octree = octree;
+    instance.body.own().octree = octree;
     instance.localToWorld =
       glm::rotate(glm::translate(glm::dmat4(1.0), 0.9 * edge * glm::dvec3(x, 0.0, y)), 0.6 * i,
         glm::dvec3(0.0, 1.0, 0.0)) *
       glm::translate(
         glm::dmat4(1.0), -glm::dvec3(h.origin[0], h.origin[1], h.origin[2]) - 0.5 * edge);
-    instance.leafGeometry = svo::LeafGeometry::Triangle;
+    instance.body.own().leafGeometry = svo::LeafGeometry::Triangle;
     instance.id = static_cast<std::uint64_t>(i) + 1;
     scene.instances.push_back(instance);
   }

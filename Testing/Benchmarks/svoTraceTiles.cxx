@@ -8,8 +8,8 @@ TracedTiles::TracedTiles(const svo::Octree& octree, const svo::View& view)
   : View(view)
 {
   svo::Instance instance;
-  instance.octree = octree;
-  instance.leafGeometry = svo::LeafGeometry::Triangle;
+  instance.body.own().octree = octree;
+  instance.body.own().leafGeometry = svo::LeafGeometry::Triangle;
   instance.id = 1;
   this->Scene.instances = { instance };
 }
@@ -19,7 +19,7 @@ void TracedTiles::trace()
   svo::LayerBudget budget;
   const auto all = [](const svo::Instance&) { return true; };
   const auto last = [](const svo::Instance& instance, const svo::LocalView&)
-  { return instance.octree.level(); };
+  { return instance.body->octree.level(); };
   if (this->Layers.prepare(this->Scene, this->View, all, last, false, budget))
   {
     this->Layers.trace(svo::serialFor, nullptr);

@@ -44,7 +44,7 @@ struct Seen
 
 svo::Ray pixelRay(const svo::Instance& instance, const svo::View& view, double x, double y)
 {
-  const svo::WorldToOctree toOctree(instance.octree, instance.localToWorld);
+  const svo::WorldToOctree toOctree(instance.body->octree, instance.localToWorld);
   svo::Ray ray;
   ray.origin = toOctree.point(view.rayOrigin(x, y));
   ray.direction = toOctree.vector(view.rayDirection(x, y));
@@ -60,8 +60,8 @@ Seen see(const svo::Scene& scene, const svo::View& view, double x, double y)
   {
     const svo::Instance& instance = scene.instances[i];
     const svo::Ray ray = pixelRay(instance, view, x, y);
-    const svo::Hit hit =
-      svo::intersect(instance.octree, ray, { instance.leafGeometry, svo::MaximumLevel });
+    const svo::Hit hit = svo::intersect(
+      instance.body->octree, ray, { instance.body->leafGeometry, svo::MaximumLevel });
     if (hit && (seen.instance == ~0u || hit.t < seen.hit.t))
     {
       seen = { i, hit, ray };
@@ -81,7 +81,8 @@ bool nearlyHits(const svo::Instance& instance, const svo::View& view, double x, 
     {
       svo::Ray ray = pixelRay(instance, view, x + dx, y + dy);
       ray.tMin -= 1e-6 * std::abs(ray.tMin);
-      if (svo::intersect(instance.octree, ray, { instance.leafGeometry, svo::MaximumLevel }))
+      if (svo::intersect(
+            instance.body->octree, ray, { instance.body->leafGeometry, svo::MaximumLevel }))
       {
         return true;
       }

@@ -106,10 +106,10 @@ struct World
         any().localToWorld = randomPlace(chance);
         return "move an instance";
       case 5:
-        any().octree = octrees()[chance.below(static_cast<int>(octrees().size()))];
+        any().body.own().octree = octrees()[chance.below(static_cast<int>(octrees().size()))];
         return "another octree";
       case 6:
-        any().leafGeometry = static_cast<svo::LeafGeometry>(chance.below(4));
+        any().body.own().leafGeometry = static_cast<svo::LeafGeometry>(chance.below(4));
         return "another leaf geometry";
       case 7:
       {

@@ -161,8 +161,8 @@ void render(const Octree& octree)
 {
   Scene scene;
   Instance instance;
-  instance.octree = octree;
-  instance.leafGeometry = static_cast<LeafGeometry>(octree.header().leafGeometry);
+  instance.body.own().octree = octree;
+  instance.body.own().leafGeometry = static_cast<LeafGeometry>(octree.header().leafGeometry);
   scene.instances = { instance };
   scene.lights.resize(1);
   scene.lights[0].direction = glm::normalize(glm::dvec3(-1, 2, -3));

@@ -38,7 +38,7 @@ public:
     frame.depth.assign(pixels, 0.25f);
     frame.instance.assign(pixels, 0);
     frame.primitive.assign(pixels, 0);
-    Level = scene.instances.empty() ? 0 : scene.instances[0].octree.level();
+    Level = scene.instances.empty() ? 0 : scene.instances[0].body->octree.level();
     ++Frames;
   }
   bool shareShadows(const svo::Scene&, const svo::View&, const svo::FrameSettings&,

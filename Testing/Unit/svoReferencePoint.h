@@ -13,7 +13,7 @@ inline SurfacePoint surfacePoint(
   const glm::dvec3 ray = view.rayDirection(x, y);
   const glm::dvec3 position = view.rayOrigin(x, y) + t * ray;
   const glm::vec3 towards(-ray);
-  const NodeTriangle hit = frame.instance->octree.surface()
+  const NodeTriangle hit = frame.instance->body->octree.surface()
     ? triangleOfHit(frame, position, towards, primitive)
     : NodeTriangle{};
   return pointOfTriangle(frame, view, position, towards, hit.triangle, hit.at);

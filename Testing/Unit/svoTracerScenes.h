@@ -28,10 +28,10 @@ inline svo::Instance instanceOf(const svo::Octree& octree, std::uint64_t id,
   svo::LeafGeometry leafGeometry = svo::LeafGeometry::Triangle)
 {
   svo::Instance instance;
-  instance.octree = octree;
+  instance.body.own().octree = octree;
   instance.id = id;
   instance.localToWorld = localToWorld;
-  instance.leafGeometry = leafGeometry;
+  instance.body.own().leafGeometry = leafGeometry;
   return instance;
 }
 

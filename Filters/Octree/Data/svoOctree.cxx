@@ -103,33 +103,44 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
     return {};
   }
   static std::atomic<std::uint64_t> opened{ 0 };
+  const auto parts = std::make_shared<Parts>();
+  parts->id = ++opened;
+  parts->data = std::move(data);
+  parts->size = size;
+  parts->surface = std::move(surface);
   Octree octree;
-  octree.Id = ++opened;
-  octree.Data = std::move(data);
-  octree.Size = size;
-  octree.Triangles = std::move(surface);
+  octree.Whole = parts;
+  octree.Buffer = parts->data.get();
   const Header& h = octree.header();
   if (!headerIsSane(h, size))
   {
     error = "the octree's header is damaged, or of another version";
     return {};
   }
-  if (h.framed != 0 && !isFrame(frameAt(octree.Data.get() + frameOffset(h))))
+  if (h.framed != 0 && !isFrame(frameAt(octree.Buffer + frameOffset(h))))
   {
     error = "the octree's frame is not affine and invertible";
     return {};
   }
-  if (octree.Triangles &&
-    (octree.hasPlanes() || octree.Triangles->triangles.size() != h.triangleCount))
+  if (parts->surface && (octree.hasPlanes() || parts->surface->triangles.size() != h.triangleCount))
   {
     error = "the octree was built from another number of triangles";
     return {};
   }
-  if (octree.Triangles && !surfaceIsSane(*octree.Triangles))
+  if (parts->surface && !surfaceIsSane(*parts->surface))
   {
     error = "a triangle of the octree's surface has a point that is not there";
     return {};
   }
+  const auto derive = [&parts, &octree]
+  {
+    parts->upper = makeUpperLevels(octree.header(), octree.nodes(), parts->size);
+    if (parts->surface)
+    {
+      parts->shortLists = makeShortLists(octree);
+      parts->representatives = KeptRepresentatives(octree.header(), octree.nodes());
+    }
+  };
   if (octree.empty())
   {
     if (h.nodeCount != 1 || h.listWords != 0 || h.voxelCount != 0)
@@ -137,7 +148,7 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
       error = "the octree's nodes are damaged";
       return {};
     }
-    octree.derive();
+    derive();
     return octree;
   }
   const std::uint32_t bricks = octree.brickBegin();
@@ -172,7 +183,7 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
     else if (node.first & InlineTriangle)
     {
       good = good && (node.first & ~InlineTriangle) < h.triangleCount;
-      octree.Longest = std::max(octree.Longest, 1u);
+      parts->longest = std::max(parts->longest, 1u);
     }
     else
     {
@@ -182,7 +193,7 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
       {
         good = lists[node.first + k] < h.triangleCount;
       }
-      octree.Longest = std::max(octree.Longest, good ? lists[node.first] : 0u);
+      parts->longest = std::max(parts->longest, good ? lists[node.first] : 0u);
       nextList += good ? lists[node.first] + std::uint64_t(1) : 0;
     }
     voxels += i < bricks ? 0 : childCount(node);
@@ -211,27 +222,19 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
     error = "the octree's header counts other lists or voxels than there are";
     return {};
   }
-  octree.derive();
+  derive();
   return octree;
-}
-
-void Octree::derive()
-{
-  this->Upper =
-    std::make_shared<UpperLevels>(makeUpperLevels(this->header(), this->nodes(), this->Size));
-  auto lists = std::make_shared<FromLists>();
-  if (this->Triangles)
-  {
-    lists->shortLists = makeShortLists(*this);
-    lists->representatives = KeptRepresentatives(this->header(), this->nodes());
-  }
-  this->Lists = std::move(lists);
 }
 
 std::size_t Octree::bytes() const
 {
-  return this->Size + (this->Triangles ? this->Triangles->bytes() : 0) +
-    (this->Upper ? this->Upper->bytes() : 0) + (this->Lists ? this->Lists->bytes() : 0);
+  if (!this->Whole)
+  {
+    return 0;
+  }
+  const Parts& parts = *this->Whole;
+  return parts.size + (parts.surface ? parts.surface->bytes() : 0) + parts.upper.bytes() +
+    parts.shortLists.bytes() + parts.representatives.bytes();
 }
 
 glm::dmat4 Octree::localToOctree() const
@@ -246,8 +249,7 @@ glm::dmat4 Octree::localToOctree() const
 
 glm::dmat4 Octree::frame() const
 {
-  return this->hasFrame() ? frameAt(this->Data.get() + frameOffset(this->header()))
-                          : glm::dmat4(1.0);
+  return this->hasFrame() ? frameAt(this->Buffer + frameOffset(this->header())) : glm::dmat4(1.0);
 }
 
 bool Octree::occupied(glm::ivec3 cell, int level) const

@@ -25,7 +25,7 @@ namespace svo
 /// Whether a matrix may be an octree's frame: see svoLayout.h.
 VTKSVOOCTREE_EXPORT bool isFrame(const glm::dmat4& matrix);
 
-/// An immutable view; copying it is cheap. It keeps the memory it points into alive.
+/// A handle to an immutable octree: copies share it, and keep the memory that it points into alive.
 class VTKSVOOCTREE_EXPORT Octree
 {
 public:
@@ -39,21 +39,18 @@ public:
   static Octree open(std::shared_ptr<const std::byte> data, std::size_t size,
     std::shared_ptr<const Surface> surface, std::string& error);
 
-  explicit operator bool() const { return this->Data != nullptr; }
+  explicit operator bool() const { return this->Whole != nullptr; }
   const Header& header() const
   {
-    assert(this->Data);
-    return *reinterpret_cast<const Header*>(this->Data.get());
+    assert(this->Whole);
+    return *reinterpret_cast<const Header*>(this->Buffer);
   }
-  const Node* nodes() const
-  {
-    return reinterpret_cast<const Node*>(this->Data.get() + sizeof(Header));
-  }
+  const Node* nodes() const { return reinterpret_cast<const Node*>(this->Buffer + sizeof(Header)); }
   const std::uint32_t* lists() const
   {
     return reinterpret_cast<const std::uint32_t*>(this->nodes() + this->header().nodeCount);
   }
-  const Surface* surface() const { return this->Triangles.get(); }
+  const Surface* surface() const { return this->Whole ? this->Whole->surface.get() : nullptr; }
   /// True if it has a plane for each voxel instead of triangles; it never has a surface then.
   bool hasPlanes() const { return this->header().leafWords != 0; }
 
@@ -65,12 +62,12 @@ public:
     return this->header().depthBegin[this->header().depthCount - 1];
   }
   /// Dense tables of the upper levels, for the block queries.
-  const UpperLevels& upperLevels() const { return *this->Upper; }
+  const UpperLevels& upperLevels() const { return this->Whole->upper; }
   /// The highest nodes with few triangles, for the tile queries; only where there is a surface.
-  const ShortLists& shortLists() const { return this->Lists->shortLists; }
+  const ShortLists& shortLists() const { return this->Whole->shortLists; }
   /// What rays have found out about voxels; keeps none where there is no surface.
-  const KeptRepresentatives& representatives() const { return this->Lists->representatives; }
-  /// Bytes of the buffer, the surface and all that is derived from them.
+  const KeptRepresentatives& representatives() const { return this->Whole->representatives; }
+  /// Bytes of the buffer, the surface and all that is derived from them; 0 of no octree.
   std::size_t bytes() const;
 
   /// Edge of the root cube (octree coordinates [1, 2)) in the local frame.
@@ -130,32 +127,33 @@ public:
   }
 
   /// Triangles of the brick that has most; 0 in an empty octree.
-  std::uint32_t longestList() const { return this->Longest; }
+  std::uint32_t longestList() const { return this->Whole ? this->Whole->longest : 0; }
 
   /// Where the buffer lies: of two octrees that are open, those with the same key are the same.
-  const void* key() const { return this->Data.get(); }
+  const void* key() const { return this->Whole ? this->Buffer : nullptr; }
   /// Identity for caches that may outlive the octree: copies share it, and it is never given twice.
-  std::uint64_t id() const { return this->Id; }
-  /// The buffer and its owner, to share them.
-  const std::shared_ptr<const std::byte>& data() const { return this->Data; }
+  /// 0 of no octree.
+  std::uint64_t id() const { return this->Whole ? this->Whole->id : 0; }
+  /// The buffer and its owner, to share them. Not of no octree.
+  const std::shared_ptr<const std::byte>& data() const { return this->Whole->data; }
 
 private:
   friend class WeakOctree;
-  struct FromLists
+  struct Parts
   {
+    std::shared_ptr<const std::byte> data;
+    std::size_t size = 0; // of the data
+    std::uint64_t id = 0;
+    std::uint32_t longest = 0;
+    std::shared_ptr<const Surface> surface;
+    // What is not stored.
+    UpperLevels upper;
     ShortLists shortLists;
     KeptRepresentatives representatives;
-    std::size_t bytes() const { return this->shortLists.bytes() + this->representatives.bytes(); }
   };
-  void derive(); // what is not stored
 
-  std::shared_ptr<const std::byte> Data;
-  std::size_t Size = 0;
-  std::uint64_t Id = 0;
-  std::uint32_t Longest = 0;
-  std::shared_ptr<const Surface> Triangles;
-  std::shared_ptr<const UpperLevels> Upper;
-  std::shared_ptr<const FromLists> Lists;
+  std::shared_ptr<const Parts> Whole;
+  const std::byte* Buffer = nullptr; // of the whole; rays ask for nothing else as often
 };
 
 /// Finds an open octree that has a surface, or planes, again, for as long as somebody keeps it.
@@ -164,40 +162,25 @@ class WeakOctree
 public:
   WeakOctree() = default;
   explicit WeakOctree(const Octree& octree)
-    : Data(octree.Data)
-    , Size(octree.Size)
-    , Id(octree.Id)
-    , Longest(octree.Longest)
-    , Triangles(octree.Triangles)
-    , Upper(octree.Upper)
-    , Lists(octree.Lists)
+    : Whole(octree.Whole)
   {
   }
-  bool expired() const { return this->Data.expired(); }
+  bool expired() const { return this->Whole.expired(); }
   /// Empty once no copy of the octree is left.
   Octree lock() const
   {
     Octree octree;
-    octree.Data = this->Data.lock();
-    octree.Size = this->Size;
-    octree.Id = this->Id;
-    octree.Longest = this->Longest;
-    octree.Triangles = this->Triangles.lock();
-    octree.Upper = this->Upper.lock();
-    octree.Lists = this->Lists.lock();
-    const bool whole =
-      octree.Data && octree.Upper && octree.Lists && (octree.Triangles || octree.hasPlanes());
-    return whole ? octree : Octree();
+    octree.Whole = this->Whole.lock();
+    if (!octree.Whole)
+    {
+      return {};
+    }
+    octree.Buffer = octree.Whole->data.get();
+    return octree.Whole->surface || octree.hasPlanes() ? octree : Octree();
   }
 
 private:
-  std::weak_ptr<const std::byte> Data;
-  std::size_t Size = 0;
-  std::uint64_t Id = 0;
-  std::uint32_t Longest = 0;
-  std::weak_ptr<const Surface> Triangles;
-  std::weak_ptr<const UpperLevels> Upper;
-  std::weak_ptr<const Octree::FromLists> Lists;
+  std::weak_ptr<const Octree::Parts> Whole;
 };
 }
 

@@ -49,7 +49,7 @@ bool ShadowCasters::add(const Octree& octree, const glm::dmat4& toWorld, Own own
     return true;
   }
   Instance instance;
-  instance.octree = octree;
+  instance.body.own().octree = octree;
   instance.localToWorld = toWorld;
   const double error = FloatError * octree.rootEdge() * norm(glm::dmat3(toWorld));
   const bool named = octree.surface() != nullptr;

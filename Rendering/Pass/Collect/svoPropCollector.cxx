@@ -185,7 +185,7 @@ bool PropCollector::finish(vtkActor* actor, const SurfacePart& part, const glm::
   if (surface.traceable)
   {
     surface.mesh = part.mesh;
-    instance.points = pointsOf(part.mesh, found.kept);
+    instance.body.own().points = pointsOf(part.mesh, found.kept);
   }
   else
   {
@@ -219,6 +219,7 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
   }
   SceneSurface surface;
   Instance& instance = surface.instance;
+  Attributes& attributes = instance.body.own().attributes;
   if (part.texture)
   {
     found.kept.addUnknown(); // a block's own
@@ -227,18 +228,17 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
   Reason reason = beyond;
   if (!beyond || !hasOpaqueTable(part))
   {
-    const Reason unmapped = mapColors(part, this->Leaves, instance.attributes, found.kept);
+    const Reason unmapped = mapColors(part, this->Leaves, attributes, found.kept);
     reason = beyond ? beyond : unmapped;
   }
-  const OpaqueCells::Answer opaque = this->Opaque.of(part, instance.attributes, found.kept);
+  const OpaqueCells::Answer opaque = this->Opaque.of(part, attributes, found.kept);
   surface.mesh = frame.shadows ? this->casterOf(part, opaque, actor, found, frame) : nullptr;
   surface.casts = surface.mesh != nullptr;
   if (!reason)
   {
-    reason = opaque.mesh != part.mesh
-      ? "is translucent"
-      : lookOf(part, actor->GetProperty(), frame.lights, instance.material, instance.attributes,
-          this->Floats, found.kept);
+    reason = opaque.mesh != part.mesh ? "is translucent"
+                                      : lookOf(part, actor->GetProperty(), frame.lights,
+                                          instance.material, attributes, this->Floats, found.kept);
   }
   if (this->finish(actor, part, localToWorld, reason, surface, found))
   {

@@ -117,7 +117,7 @@ void PropCollector::collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorl
       reason = !drawn.set->opaque
         ? "is translucent"
         : lookOf(part, actor->GetProperty(), frame.lights, surface.instance.material,
-            surface.instance.attributes, this->Floats, found.kept);
+            surface.instance.body.own().attributes, this->Floats, found.kept);
     }
     if (drawn.overridesSpecular)
     {

@@ -203,7 +203,7 @@ void SceneCollector::assemble(CollectedScene& result)
     }
     for (const SceneSurface& surface : prop.surfaces)
     {
-      const bool used = surface.instance.octree && (prop.shown || surface.casts);
+      const bool used = surface.instance.body->octree && (prop.shown || surface.casts);
       complete = complete && used;
       if (used)
       {
@@ -223,7 +223,7 @@ void SceneCollector::assemble(CollectedScene& result)
   {
     for (const SceneSurface& surface : prop.surfaces)
     {
-      if (surface.instance.octree && (prop.shown || surface.casts))
+      if (surface.instance.body->octree && (prop.shown || surface.casts))
       {
         const auto first = this->Instances.begin() + surface.written.place;
         result.scene.instances.insert(result.scene.instances.end(), first, first + surface.count());
@@ -244,7 +244,7 @@ void SceneCollector::explain(
   for (const PropSurfaces& prop : this->Found)
   {
     const bool casts = std::any_of(prop.surfaces.begin(), prop.surfaces.end(),
-      [](const SceneSurface& surface) { return surface.casts && surface.instance.octree; });
+      [](const SceneSurface& surface) { return surface.casts && surface.instance.body->octree; });
     const Reason missing = prop.hasOctrees() ? nullptr
       : options.convert                      ? "has no octree, or none yet"
                                              : "comes without an octree";

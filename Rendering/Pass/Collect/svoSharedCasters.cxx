@@ -42,7 +42,7 @@ void SharedCasters::receive(vtkMultiProcessController* controller, int owner, co
     mesh->SetLines(own->GetLines());
     mesh->SetPolys(own->GetPolys());
     mesh->SetStrips(own->GetStrips());
-    attachOctree(mesh, collected.scene.instances[record.instance].octree);
+    attachOctree(mesh, collected.scene.instances[record.instance].body->octree);
   }
   vtkTypeInt64 bytes =
     static_cast<vtkTypeInt64>(mesh->GetActualMemorySize()) * 1024; // GetActualMemorySize: KiB
@@ -51,7 +51,7 @@ void SharedCasters::receive(vtkMultiProcessController* controller, int owner, co
   controller->Broadcast(mesh.GetPointer(), owner);
   if (controller->GetLocalProcessId() == owner)
   {
-    known.octree = collected.scene.instances[record.instance].octree;
+    known.octree = collected.scene.instances[record.instance].body->octree;
     return;
   }
   known.mesh = mesh;
@@ -73,9 +73,9 @@ void SharedCasters::exchange(
       continue;
     }
     Record record{};
-    record.signature = instance.octree.header().signature;
-    record.level = instance.octree.level();
-    record.leafGeometry = static_cast<int>(instance.octree.header().leafGeometry);
+    record.signature = instance.body->octree.header().signature;
+    record.level = instance.body->octree.level();
+    record.leafGeometry = static_cast<int>(instance.body->octree.header().leafGeometry);
     record.id = instance.id;
     record.instance = static_cast<int>(i);
     std::memcpy(record.localToWorld, &instance.localToWorld[0][0], sizeof(record.localToWorld));
@@ -105,9 +105,10 @@ void SharedCasters::exchange(
         continue;
       }
       Instance instance;
-      instance.octree = known.octree;
+      Body& body = instance.body.own();
+      body.octree = known.octree;
+      body.leafGeometry = static_cast<LeafGeometry>(record.leafGeometry);
       std::memcpy(&instance.localToWorld[0][0], record.localToWorld, sizeof(record.localToWorld));
-      instance.leafGeometry = static_cast<LeafGeometry>(record.leafGeometry);
       instance.visible = false;
       instance.receiveShadow = false;
       instance.id = record.id ^ (0x9e3779b97f4a7c15ull * (owner + 1));

@@ -37,7 +37,7 @@ bool OctreeStore::attached(vtkPolyData* mesh, const StoreOptions& options, Octre
   return static_cast<bool>(octree);
 }
 
-void OctreeStore::measure(vtkPolyData* mesh, const StoreOptions& options, Instance& instance)
+void OctreeStore::measure(vtkPolyData* mesh, const StoreOptions& options, Body& body)
 {
   KnownMesh& known = this->Meshes.of(mesh, options.complain);
   const bool exact = traitsOf(options.leafGeometry).exact();
@@ -45,9 +45,9 @@ void OctreeStore::measure(vtkPolyData* mesh, const StoreOptions& options, Instan
   {
     known.detailLevel = detailLevel(mesh);
   }
-  instance.box = known.box;
-  instance.triangles = known.triangles;
-  instance.detailLevel = exact ? known.detailLevel : 0;
+  body.box = known.box;
+  body.triangles = known.triangles;
+  body.detailLevel = exact ? known.detailLevel : 0;
 }
 
 /// Notes that the frame asks for an octree.

@@ -64,7 +64,7 @@ public:
 
   /// Sets properties of a mesh that brings no octree: the box of its finite points, its number
   /// of triangles and, where they will be exact, its level of detail.
-  void measure(vtkPolyData* mesh, const StoreOptions& options, Instance& instance);
+  void measure(vtkPolyData* mesh, const StoreOptions& options, Body& body);
 
   /// Before find() is asked for octrees that are waited for, each of a mesh and of a level: builds
   /// those of small meshes side by side. Whatever is not there then is built by find().

@@ -1,5 +1,7 @@
 #include "svoSceneInstances.h"
 
+#include <tuple>
+
 #include <glm/mat4x4.hpp>
 
 namespace svo
@@ -21,61 +23,78 @@ std::uint64_t idOf(const Octree& octree)
 
 WrittenSurface wanted(const PropSurfaces& prop, const SceneSurface& surface, Stage stage)
 {
-  const Instance& instance = surface.instance;
+  const Body& body = *surface.instance.body;
   WrittenSurface result;
-  result.deepestLevel = instance.deepestLevel;
-  result.detailLevel = instance.detailLevel;
-  result.leafGeometry = instance.leafGeometry;
+  result.deepestLevel = body.deepestLevel;
+  result.detailLevel = body.detailLevel;
+  result.leafGeometry = body.leafGeometry;
   if (stage == Stage::Shown)
   {
-    result.octree = idOf(instance.octree);
-    result.caster = idOf(instance.casterOctree);
-    result.neededLevel = instance.neededLevel;
-    result.givesWay = instance.givesWay;
+    result.octree = idOf(body.octree);
+    result.caster = idOf(body.casterOctree);
+    result.neededLevel = body.neededLevel;
+    result.givesWay = surface.instance.givesWay;
     result.visible = prop.shown;
-    result.casts = surface.casts && instance.octree;
+    result.casts = surface.casts && body.octree;
   }
   else
   {
-    result.octree = surface.bringsOctree ? idOf(instance.octree) : 0;
+    result.octree = surface.bringsOctree ? idOf(body.octree) : 0;
     result.visible = prop.traced;
     result.casts = surface.casts;
   }
   return result;
 }
 
-/// What does not come from the prop.
-void writeFrame(
-  const SceneSurface& surface, const WrittenSurface& as, Instance* first, std::size_t count)
+Body bodyOf(const SceneSurface& surface, const WrittenSurface& as)
 {
-  const Instance& from = surface.instance;
-  for (Instance* one = first; one != first + count; ++one)
+  Body body = *surface.instance.body;
+  body.octree = as.octree ? body.octree : Octree();
+  body.casterOctree = as.caster ? body.casterOctree : Octree();
+  body.neededLevel = as.neededLevel;
+  return body;
+}
+
+/// What does not come from the prop: what copies have in common, and the flags of each.
+void writeFrame(SceneSurface& surface, const WrittenSurface& as, Instance* first, std::size_t count)
+{
+  // Once for all of them, unless somebody has copied one.
+  if (surface.body.holders() == count + 1 && first->body.same(surface.body))
   {
-    one->octree = as.octree ? from.octree : Octree();
-    one->casterOctree = as.caster ? from.casterOctree : Octree();
-    one->leafGeometry = from.leafGeometry;
-    one->neededLevel = as.neededLevel;
-    one->givesWay = as.givesWay;
-    one->visible = as.visible;
-    one->castShadow = as.casts;
-    one->box = from.box;
-    one->triangles = from.triangles;
-    one->deepestLevel = from.deepestLevel;
-    one->detailLevel = from.detailLevel;
+    surface.body.all() = bodyOf(surface, as);
+  }
+  else
+  {
+    surface.body = Shared<Body>(bodyOf(surface, as));
+    for (Instance* one = first; one != first + count; ++one)
+    {
+      one->body = surface.body;
+    }
+  }
+  const WrittenSurface& was = surface.written;
+  if (std::tie(as.givesWay, as.visible, as.casts) != std::tie(was.givesWay, was.visible, was.casts))
+  {
+    for (Instance* one = first; one != first + count; ++one)
+    {
+      one->givesWay = as.givesWay;
+      one->visible = as.visible;
+      one->castShadow = as.casts;
+    }
   }
 }
 
 /// What comes from the prop, and from the octree's own frame.
-void writeProp(const SceneSurface& surface, bool onlyMatrices, Instance* first)
+void writeProp(const SceneSurface& surface, const Instance* whole, Instance* first)
 {
   const Instance& from = surface.instance;
-  const bool framed = from.octree && from.octree.hasFrame();
-  const glm::dmat4 frame = framed ? from.octree.frame() : glm::dmat4(1.0);
+  const Octree& octree = from.body->octree;
+  const bool framed = octree && octree.hasFrame();
+  const glm::dmat4 frame = framed ? octree.frame() : glm::dmat4(1.0);
   if (!surface.copies)
   {
-    if (!onlyMatrices)
+    if (whole)
     {
-      *first = from;
+      *first = *whole;
     }
     // To the tracer the octree's own frame is the object's.
     first->localToWorld = framed ? from.localToWorld * frame : from.localToWorld;
@@ -84,9 +103,9 @@ void writeProp(const SceneSurface& surface, bool onlyMatrices, Instance* first)
   for (const GlyphCopy& copy : surface.copies->copies)
   {
     Instance& one = *first++;
-    if (!onlyMatrices)
+    if (whole)
     {
-      one = from;
+      one = *whole;
       const glm::vec3 color = glm::vec3(copy.color[0], copy.color[1], copy.color[2]) / 255.0f;
       one.material.ambientColor = color;
       one.material.diffuseColor = color;
@@ -95,6 +114,17 @@ void writeProp(const SceneSurface& surface, bool onlyMatrices, Instance* first)
     one.localToWorld = from.localToWorld * glm::dmat4(copy.place);
     one.localToWorld = framed ? one.localToWorld * frame : one.localToWorld;
   }
+}
+
+void writeWhole(SceneSurface& surface, const WrittenSurface& as, Instance* first)
+{
+  surface.body = Shared<Body>(bodyOf(surface, as));
+  Instance whole = surface.instance;
+  whole.body = surface.body;
+  whole.givesWay = as.givesWay;
+  whole.visible = as.visible;
+  whole.castShadow = as.casts;
+  writeProp(surface, &whole, first);
 }
 }
 
@@ -122,13 +152,18 @@ void SceneInstances::write(
       // Another octree may have another frame.
       const bool whole = prop.fresh || surface.written.place != place || place + many > before ||
         (surface.bringsOctree && surface.written.octree != now.octree);
-      if (whole || prop.moved)
+      Instance* const first = instances.data() + place;
+      if (whole)
       {
-        writeProp(surface, !whole, instances.data() + place);
+        writeWhole(surface, now, first);
       }
-      if (whole || !(surface.written == now))
+      else if (prop.moved)
       {
-        writeFrame(surface, now, instances.data() + place, many);
+        writeProp(surface, nullptr, first);
+      }
+      if (!whole && !(surface.written == now))
+      {
+        writeFrame(surface, now, first, many);
       }
       surface.written = now;
       place += many;

@@ -26,36 +26,36 @@ void eachSurface(std::vector<PropSurfaces>& props, const Visit& visit)
 void findAttached(
   SceneSurface& surface, bool known, OctreeStore& store, const StoreOptions& options)
 {
-  Instance& instance = surface.instance;
-  instance.casterOctree = Octree();
-  instance.leafGeometry = LeafGeometry::Automatic;
-  instance.neededLevel = 0;
-  instance.givesWay = 0;
+  Body& body = surface.instance.body.own();
+  body.casterOctree = Octree();
+  body.leafGeometry = LeafGeometry::Automatic;
+  body.neededLevel = 0;
+  surface.instance.givesWay = 0;
   if (known)
   {
-    instance.octree = surface.bringsOctree ? instance.octree : Octree();
+    body.octree = surface.bringsOctree ? body.octree : Octree();
     return;
   }
-  surface.bringsOctree = store.attached(surface.mesh, options, instance.octree);
+  surface.bringsOctree = store.attached(surface.mesh, options, body.octree);
   if (!surface.bringsOctree)
   {
-    store.measure(surface.mesh, options, instance);
-    instance.deepestLevel = options.level;
+    store.measure(surface.mesh, options, body);
+    body.deepestLevel = options.level;
   }
 }
 
 void findOctree(SceneSurface& surface, const NeededLevels& needed, OctreeStore& store,
   const StoreOptions& options)
 {
-  Instance& instance = surface.instance;
-  instance.neededLevel = needed.eye;
-  if (store.find(surface.mesh, needed.eye, options, instance.octree) != OctreeStore::Answer::Found)
+  Body& body = surface.instance.body.own();
+  body.neededLevel = needed.eye;
+  if (store.find(surface.mesh, needed.eye, options, body.octree) != OctreeStore::Answer::Found)
   {
     return;
   }
   if (needed.lights > 0 && needed.lights != needed.eye)
   {
-    store.find(surface.mesh, needed.lights, options, instance.casterOctree);
+    store.find(surface.mesh, needed.lights, options, body.casterOctree);
   }
 }
 
@@ -169,18 +169,18 @@ void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lig
   eachSurface(props,
     [&](PropSurfaces& prop, SceneSurface& surface)
     {
-      Instance& instance = surface.instance;
+      Body& body = surface.instance.body.own();
       const NeededLevels levels = building ? *next++ : NeededLevels();
       if (!surface.bringsOctree)
       {
-        instance.octree = Octree();
+        body.octree = Octree();
         findOctree(surface, levels, store, options);
       }
-      if (instance.octree)
+      if (body.octree)
       {
-        instance.leafGeometry = static_cast<LeafGeometry>(instance.octree.header().leafGeometry);
+        body.leafGeometry = static_cast<LeafGeometry>(body.octree.header().leafGeometry);
       }
-      prop.shown = prop.shown && surface.traceable && instance.octree;
+      prop.shown = prop.shown && surface.traceable && body.octree;
     });
 }
 }

@@ -56,8 +56,9 @@ struct SceneSurface
   bool casts = false;
 
   // Of a frame:
-  bool bringsOctree = false; // `instance.octree` is not the store's
+  bool bringsOctree = false; // `instance.body->octree` is not the store's
   WrittenSurface written;
+  Shared<Body> body; // as written: that of all its instances, and not `instance.body`
 
   std::size_t count() const { return this->copies ? this->copies->copies.size() : 1; }
 };
@@ -104,7 +105,7 @@ struct PropSurfaces
   bool hasOctrees() const
   {
     return std::all_of(this->surfaces.begin(), this->surfaces.end(),
-      [](const SceneSurface& surface) { return static_cast<bool>(surface.instance.octree); });
+      [](const SceneSurface& surface) { return static_cast<bool>(surface.instance.body->octree); });
   }
   void leaveAlone(Reason reason)
   {

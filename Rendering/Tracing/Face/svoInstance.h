@@ -1,13 +1,11 @@
-// An octree placed in the world, with its look. Arrays are borrowed and must live as long as the
-// frame.
+// An octree placed in the world, with its look. There may be very many: what the copies of an
+// object have in common lies in a record that they share.
 #ifndef svoInstance_h
 #define svoInstance_h
 
-#include "svoAttributes.h"
-#include "svoBox.h"
-#include "svoOctree.h"
+#include "svoBody.h"
+#include "svoShared.h"
 
-#include <cstddef>
 #include <cstdint>
 
 #include <glm/mat4x4.hpp>
@@ -33,20 +31,9 @@ struct Material
 /// One octree placed in the world.
 struct Instance
 {
-  Octree octree;
-  /// The octree that shadow buffers are traced through instead of `octree`, if it is not empty. The
-  /// eye may need a deeper octree than the lights do; through that one, shadows would change when
-  /// the camera comes closer.
-  Octree casterOctree;
+  Shared<Body> body;              // its copies have the same
   glm::dmat4 localToWorld{ 1.0 }; // affine, invertible; the caller has checked
-  LeafGeometry leafGeometry = LeafGeometry::Automatic;
   Material material;
-  Attributes attributes;
-  /// With them surfaces of different octrees that have the same vertices are equally deep.
-  MeshPoints points;
-  bool visible = true; // false: a rasterised object that only casts
-  bool castShadow = true;
-  bool receiveShadow = true;
   /// Largest projected edge of its voxels, pixels (0: full depth); negative: the frame's.
   double pixelError = -1.0;
   /// Stable identity of the instance from frame to frame (actor, block, path).
@@ -57,13 +44,9 @@ struct Instance
   /// Where the rasteriser draws the same vertices: 1, what it draws is seen; -1, this is seen; 0,
   /// it does not. See svoShownDepth.h.
   int givesWay = 0;
-
-  // Where octrees are built no deeper than they are needed; see svoNeededLevels.h.
-  Box box;                   // the mesh's own, local; stands for the octree until there is one
-  std::size_t triangles = 0; // of the mesh, or about as many
-  int deepestLevel = 0;      // that the mesh's octree may have; 0: the one that `octree` has
-  int detailLevel = 0;       // from which on its bricks have few triangles, all exact; 0: unknown
-  int neededLevel = 0; // that this frame needs: `octree` is coarser while it is being deepened
+  bool visible = true; // false: a rasterised object that only casts
+  bool castShadow = true;
+  bool receiveShadow = true;
 };
 }
 

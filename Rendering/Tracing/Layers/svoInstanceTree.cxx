@@ -35,14 +35,14 @@ Ball ballOf(const Octree& octree, const glm::dmat4& localToWorld)
 
 Ball ballOf(const Instance& instance)
 {
-  if (!instance.octree)
+  if (!instance.body->octree)
   {
     return { glm::dvec3(0.0), -1.0 };
   }
-  Ball ball = ballOf(instance.octree, instance.localToWorld);
-  if (instance.casterOctree)
+  Ball ball = ballOf(instance.body->octree, instance.localToWorld);
+  if (instance.body->casterOctree)
   {
-    const Ball other = ballOf(instance.casterOctree, instance.localToWorld);
+    const Ball other = ballOf(instance.body->casterOctree, instance.localToWorld);
     const double apart = glm::length(other.centre - ball.centre) + other.radius;
     ball.radius = apart > ball.radius ? apart * (1.0 + 0x1p-40) : ball.radius;
   }
@@ -102,7 +102,7 @@ void InstanceTree::follow(const Scene& scene, const ParallelFor& parallelFor)
       for (std::size_t i = first; i < last; ++i)
       {
         const Instance& instance = scene.instances[i];
-        mine += instance.visible && instance.octree && !instance.octree.empty();
+        mine += instance.visible && instance.body->octree && !instance.body->octree.empty();
         if (!balls.empty())
         {
           balls[i] = ballOf(instance);

@@ -28,7 +28,7 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   this->Offsets.clear();
   for (const Instance& instance : scene.instances)
   {
-    this->Geometries.push_back(instance.leafGeometry);
+    this->Geometries.push_back(instance.body->leafGeometry);
     this->Offsets.push_back(instance.depthOffsetUnits);
   }
   this->Layers.beginFrame(keep, this->HasFrame && !sameRays(view, this->Seen), budget);
@@ -85,7 +85,7 @@ void LayeredView::fill(
   this->Levels[index] = entry.key.level;
   this->Geometries[index] = entry.key.leafGeometry;
   this->Placed[index] = this->Exact && entry.tiles;
-  entry.points = instance.points;
+  entry.points = instance.body->points;
   entry.again = this->againOf(instance, entry, this->Errors[index]);
   entry.intervals.tNear.clear();
   if (entry.tiles)

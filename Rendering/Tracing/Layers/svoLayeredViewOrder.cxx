@@ -33,10 +33,10 @@ bool lessInSpace(const glm::dvec3& a, const glm::dvec3& b)
 LayeredView::Again LayeredView::againOf(
   const Instance& instance, const VisibleInstance& visible, double& error) const
 {
-  const Octree& octree = instance.octree;
+  const Octree& octree = instance.body->octree;
   const LeafTraits traits = traitsOf(visible.key.leafGeometry);
-  if (!this->Exact || traits.shape == CellShape::Cube || !octree.surface() || !instance.points ||
-    instance.points.count != octree.surface()->points.size())
+  if (!this->Exact || traits.shape == CellShape::Cube || !octree.surface() ||
+    !instance.body->points || instance.body->points.count != octree.surface()->points.size())
   {
     return Again::Never;
   }

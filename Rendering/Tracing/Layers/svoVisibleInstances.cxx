@@ -26,8 +26,8 @@ double leastTrianglePixels(std::uint64_t triangles, bool allTiles)
 
 bool worthTiles(const Instance& instance, const LocalView& local, const View& view, bool allTiles)
 {
-  const Octree& octree = instance.octree;
-  if (!traitsOf(instance.leafGeometry).exact() || !octree.surface() || local.stretched)
+  const Octree& octree = instance.body->octree;
+  if (!traitsOf(instance.body->leafGeometry).exact() || !octree.surface() || local.stretched)
   {
     return false;
   }
@@ -41,9 +41,10 @@ bool worthTiles(const Instance& instance, const LocalView& local, const View& vi
 
 int deepened(const Instance& instance, int level)
 {
-  const bool exact = traitsOf(instance.leafGeometry).exact() && instance.octree.surface();
-  return (exact || instance.octree.hasPlanes()) && !stopsAtNodes(instance, level)
-    ? instance.octree.level()
+  const bool exact =
+    traitsOf(instance.body->leafGeometry).exact() && instance.body->octree.surface();
+  return (exact || instance.body->octree.hasPlanes()) && !stopsAtNodes(instance, level)
+    ? instance.body->octree.level()
     : level;
 }
 
@@ -132,11 +133,11 @@ void findVisible(const Scene& scene, const View& view, const Culling& culling,
       {
         const std::uint32_t i = sight.order[k];
         const Instance& instance = scene.instances[i];
-        if (!instance.octree || instance.octree.empty() || !takesPart(instance))
+        if (!instance.body->octree || instance.body->octree.empty() || !takesPart(instance))
         {
           continue;
         }
-        const SeenCube cube = seeOctree(instance.octree, instance.localToWorld, view);
+        const SeenCube cube = seeOctree(instance.body->octree, instance.localToWorld, view);
         if (cube.rect.empty())
         {
           continue;
@@ -193,13 +194,14 @@ VisibleInstance seenInstance(
   const Scene& scene, std::uint32_t index, const View& view, const LevelOf& levelOf, bool allTiles)
 {
   const Instance& instance = scene.instances[index];
-  const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
+  const LocalView local = makeLocalView(instance.body->octree, instance.localToWorld, view);
   const bool tiles = worthTiles(instance, local, view, allTiles);
-  const int level = tiles ? instance.octree.level() : deepened(instance, levelOf(instance, local));
-  const LeafGeometry geometry = tiles ? LeafGeometry::Triangle : instance.leafGeometry;
-  return { index, instance.id, &instance.octree, local,
-    makeProjection(instance.octree, instance.localToWorld, view, local.base),
-    { instance.octree.id(), instance.localToWorld, geometry, level },
+  const int level =
+    tiles ? instance.body->octree.level() : deepened(instance, levelOf(instance, local));
+  const LeafGeometry geometry = tiles ? LeafGeometry::Triangle : instance.body->leafGeometry;
+  return { index, instance.id, &instance.body->octree, local,
+    makeProjection(instance.body->octree, instance.localToWorld, view, local.base),
+    { instance.body->octree.id(), instance.localToWorld, geometry, level },
     tiles || endsFreely(instance, level), tiles };
 }
 }

@@ -24,25 +24,25 @@ constexpr double LargestEdge = 1e140;
 /// takes to tell them apart.
 int builtLevel(int level, const Instance& instance, bool exact)
 {
-  const int coarsest = coarsestLevel(instance.box, instance.triangles);
-  const int deepest = exact && instance.detailLevel > 0
-    ? std::min(instance.deepestLevel, std::max(instance.detailLevel, coarsest))
-    : instance.deepestLevel;
+  const int coarsest = coarsestLevel(instance.body->box, instance.body->triangles);
+  const int deepest = exact && instance.body->detailLevel > 0
+    ? std::min(instance.body->deepestLevel, std::max(instance.body->detailLevel, coarsest))
+    : instance.body->deepestLevel;
   return std::min(std::max(level, coarsest), deepest);
 }
 
 /// Largest octree level that the rays of a view stop at; 0 if the view does not see the instance.
 int levelFor(const Instance& instance, const View& view, double pixelError)
 {
-  assert(instance.box.known());
-  const glm::dvec3 size = instance.box.high - instance.box.low;
+  assert(instance.body->box.known());
+  const glm::dvec3 size = instance.body->box.high - instance.body->box.low;
   const double edge = std::max({ size.x, size.y, size.z }) * (1.0 + 1.0 / 64.0);
   const double scale = worldScale(instance.localToWorld);
   if (!(scale * edge < LargestEdge))
   {
-    return instance.deepestLevel;
+    return instance.body->deepestLevel;
   }
-  const glm::dvec3 low = 0.5 * (instance.box.low + instance.box.high) - 0.5 * edge;
+  const glm::dvec3 low = 0.5 * (instance.body->box.low + instance.body->box.high) - 0.5 * edge;
   const SeenCube seen = seeCube(low, edge, instance.localToWorld, view);
   if (seen.rect.empty())
   {
@@ -51,10 +51,10 @@ int levelFor(const Instance& instance, const View& view, double pixelError)
   const double allowed = HeadRoom * pixelError * worldPixel(view, seen.nearest);
   if (!(allowed > 0.0))
   {
-    return instance.deepestLevel;
+    return instance.body->deepestLevel;
   }
   int level = 1;
-  while (level < instance.deepestLevel && std::ldexp(scale * edge, -level) > allowed)
+  while (level < instance.body->deepestLevel && std::ldexp(scale * edge, -level) > allowed)
   {
     ++level;
   }
@@ -104,7 +104,7 @@ std::vector<NeededLevels> neededLevels(
       {
         const Instance& instance = scene.instances[i];
         assert(i < maps.casters.size());
-        if (maps.casters[i] && instance.box.known())
+        if (maps.casters[i] && instance.body->box.known())
         {
           needed[i].lights =
             std::max({ needed[i].lights, 1, levelFor(instance, view, errorOf(instance)) });
@@ -115,9 +115,9 @@ std::vector<NeededLevels> neededLevels(
   for (std::size_t i = 0; i < needed.size(); ++i)
   {
     const Instance& instance = scene.instances[i];
-    const int deepest = instance.deepestLevel;
+    const int deepest = instance.body->deepestLevel;
     const bool unknown =
-      !instance.box.known() || (instance.visible && (eye.width <= 0 || eye.height <= 0));
+      !instance.body->box.known() || (instance.visible && (eye.width <= 0 || eye.height <= 0));
     const bool rays =
       casting && instance.castShadow && settings.shadowTechnique == ShadowTechnique::Rays;
     // Who asks for no error at all, or gives a bias in voxels, has the voxels' size in mind.

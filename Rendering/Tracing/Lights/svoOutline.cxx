@@ -16,26 +16,26 @@ Outline outlineOf(const Instance& instance)
   Outline outline{};
   std::memcpy(outline.localToWorld, &instance.localToWorld[0][0], sizeof(outline.localToWorld));
   outline.pixelError = instance.pixelError;
-  outline.leafGeometry = static_cast<std::int32_t>(instance.leafGeometry);
+  outline.leafGeometry = static_cast<std::int32_t>(instance.body->leafGeometry);
   const bool placed = placesSomething(instance.localToWorld);
-  if (!instance.octree)
+  if (!instance.body->octree)
   {
-    const Box& box = instance.box;
+    const Box& box = instance.body->box;
     if (box.known())
     {
       for (int i = 0; i < 3; ++i)
       {
         outline.cubeLow[i] = outline.meshLow[i] = box.low[i];
         outline.cubeHigh[i] = outline.meshHigh[i] = box.high[i];
-        outline.smallestVoxel = std::max(
-          outline.smallestVoxel, std::ldexp(box.high[i] - box.low[i], -instance.deepestLevel));
+        outline.smallestVoxel = std::max(outline.smallestVoxel,
+          std::ldexp(box.high[i] - box.low[i], -instance.body->deepestLevel));
       }
       outline.casts = instance.castShadow && placed;
       outline.receives = instance.visible && instance.receiveShadow && placed;
     }
     return outline;
   }
-  const Header& h = instance.octree.header();
+  const Header& h = instance.body->octree.header();
   for (int i = 0; i < 3; ++i)
   {
     outline.cubeLow[i] = h.origin[i];
@@ -47,13 +47,13 @@ Outline outlineOf(const Instance& instance)
   // of how far it reaches beyond the mesh.
   constexpr int FineEnough = 10;
   const int level = static_cast<int>(h.level);
-  const bool exact = traitsOf(instance.leafGeometry).exact();
+  const bool exact = traitsOf(instance.body->leafGeometry).exact();
   outline.voxelSize = std::ldexp(h.voxelSize, exact ? std::min(level - FineEnough, 0) : 0);
   outline.smallestVoxel = std::min(
-    outline.voxelSize, std::ldexp(h.voxelSize, std::min(level - instance.deepestLevel, 0)));
+    outline.voxelSize, std::ldexp(h.voxelSize, std::min(level - instance.body->deepestLevel, 0)));
   outline.signature = h.signature;
   outline.level = static_cast<std::int32_t>(h.level);
-  outline.casts = instance.castShadow && !instance.octree.empty() && placed;
+  outline.casts = instance.castShadow && !instance.body->octree.empty() && placed;
   outline.receives = instance.visible && instance.receiveShadow && placed;
   return outline;
 }

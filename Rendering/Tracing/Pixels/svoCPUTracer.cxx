@@ -91,7 +91,10 @@ void CPUTracer::Internals::cull(
 const Scene& CPUTracer::Internals::sceneOfLights(const Scene& scene, ShadowTechnique technique)
 {
   const auto differs = [](const Instance& instance)
-  { return instance.casterOctree && instance.casterOctree.key() != instance.octree.key(); };
+  {
+    return instance.body->casterOctree &&
+      instance.body->casterOctree.key() != instance.body->octree.key();
+  };
   const bool buffers =
     technique == ShadowTechnique::Buffer || technique == ShadowTechnique::Automatic;
   if (!buffers || std::none_of(scene.instances.begin(), scene.instances.end(), differs))
@@ -99,11 +102,17 @@ const Scene& CPUTracer::Internals::sceneOfLights(const Scene& scene, ShadowTechn
     return scene;
   }
   this->AsLightsSee = scene;
+  Shared<Body> seen, lit; // once for all copies
   for (Instance& instance : this->AsLightsSee.instances)
   {
-    if (instance.casterOctree)
+    if (instance.body->casterOctree)
     {
-      instance.octree = instance.casterOctree;
+      if (!instance.body.same(seen))
+      {
+        seen = lit = instance.body;
+        lit.own().octree = seen->casterOctree;
+      }
+      instance.body = lit;
     }
   }
   return this->AsLightsSee;

@@ -14,11 +14,12 @@ double coarsestVoxel(const Scene& scene, const View& view)
   double largest = 0.0;
   for (const Instance& instance : scene.instances)
   {
-    if (!instance.visible || !instance.octree || instance.octree.level() >= instance.neededLevel)
+    if (!instance.visible || !instance.body->octree ||
+      instance.body->octree.level() >= instance.body->neededLevel)
     {
       continue;
     }
-    const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
+    const LocalView local = makeLocalView(instance.body->octree, instance.localToWorld, view);
     if (!local.rect.empty() && !worthTiles(instance, local, view, true))
     {
       largest = std::max(largest, worldVoxel(instance) / worldPixel(view, local.base));
@@ -36,7 +37,7 @@ double largestGap(const Scene& scene, const View& view, const LayeredView& eye)
     if (instance.visible && instance.receiveShadow && !eye.rect(i).empty())
     {
       const double gap =
-        worldLeafError(instance, LeafGeometry::Triangle, instance.octree.level(), true);
+        worldLeafError(instance, LeafGeometry::Triangle, instance.body->octree.level(), true);
       largest = std::max(largest, gap / worldPixel(view, eye.base(i)));
     }
   }

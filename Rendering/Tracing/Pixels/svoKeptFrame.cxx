@@ -11,7 +11,8 @@ namespace
 {
 // Who adds a member to one of these adds it below.
 static_assert(sizeof(Material) == 56 && sizeof(Attributes) == 64 && sizeof(Light) == 112 &&
-    sizeof(Instance) == 560 && sizeof(View) == 480 && sizeof(FrameSettings) == 96,
+    sizeof(Body) == 216 && sizeof(Instance) == 232 && sizeof(View) == 480 &&
+    sizeof(FrameSettings) == 96,
   "all that pictures depend on is compared");
 
 /// Values as plain bytes, one behind the other.
@@ -46,19 +47,25 @@ void add(const Octree& octree, Bytes& bytes)
   bytes.add(octree ? octree.id() : std::uint64_t(0));
 }
 
+void add(const Body& b, Bytes& bytes)
+{
+  const Attributes& a = b.attributes;
+  add(b.octree, bytes);
+  add(b.casterOctree, bytes);
+  bytes.add(b.leafGeometry, b.neededLevel);
+  bytes.add(a.normals, a.normalAssociation, a.colors, a.colorAssociation, a.colorCoordinates,
+    a.colorTexture, a.colorTextureSize, a.version);
+  bytes.add(b.points.floats, b.points.doubles, b.points.count);
+}
+
+/// Without its body.
 void add(const Instance& i, Bytes& bytes)
 {
   const Material& m = i.material;
-  const Attributes& a = i.attributes;
-  add(i.octree, bytes);
-  add(i.casterOctree, bytes);
-  bytes.add(i.localToWorld, i.leafGeometry, i.pixelError, i.id, i.depthOffsetUnits, i.givesWay,
-    i.neededLevel, i.visible, i.castShadow, i.receiveShadow);
+  bytes.add(i.localToWorld, i.pixelError, i.id, i.depthOffsetUnits, i.givesWay, i.visible,
+    i.castShadow, i.receiveShadow);
   bytes.add(m.ambientColor, m.diffuseColor, m.specularColor, m.ambient, m.diffuse, m.specular,
     m.specularPower, m.lighting, m.flat, m.flatPlanes);
-  bytes.add(a.normals, a.normalAssociation, a.colors, a.colorAssociation, a.colorCoordinates,
-    a.colorTexture, a.colorTextureSize, a.version);
-  bytes.add(i.points.floats, i.points.doubles, i.points.count);
 }
 
 void add(const Light& l, Bytes& bytes)
@@ -104,12 +111,47 @@ void KeptFrame::valuesOf(
 void KeptFrame::valuesOf(const Scene& scene, Instances& instances)
 {
   instances.version = scene.version;
-  Bytes bytes(instances.all);
+  instances.body.clear();
+  Bytes own(instances.own), bodies(instances.bodies);
+  std::uint32_t count = 0;
+  const Shared<Body>* last = nullptr;
   for (const Instance& instance : scene.instances)
   {
-    add(instance, bytes);
+    add(instance, own);
+    if (!last || !last->same(instance.body))
+    {
+      add(*instance.body, bodies);
+      ++count;
+    }
+    last = &instance.body;
+    instances.body.push_back(count - 1);
   }
-  instances.size = scene.instances.empty() ? 0 : instances.all.size() / scene.instances.size();
+  instances.ownSize = count == 0 ? 0 : instances.own.size() / scene.instances.size();
+  instances.bodySize = count == 0 ? 0 : instances.bodies.size() / count;
+}
+
+/// Of as many instances, those that differ.
+std::vector<std::uint32_t> KeptFrame::differences() const
+{
+  const Instances &a = this->Next, &b = this->Last;
+  assert(a.ownSize == b.ownSize && a.bodySize == b.bodySize && a.body.size() == b.body.size());
+  const auto differ =
+    [](const Values& x, std::size_t i, const Values& y, std::size_t k, std::size_t size)
+  { return std::memcmp(x.data() + i * size, y.data() + k * size, size) != 0; };
+  std::vector<std::uint32_t> result;
+  bool bodyDiffers = false;
+  for (std::size_t i = 0; i < a.body.size(); ++i)
+  {
+    if (i == 0 || a.body[i] != a.body[i - 1] || b.body[i] != b.body[i - 1])
+    {
+      bodyDiffers = differ(a.bodies, a.body[i], b.bodies, b.body[i], a.bodySize);
+    }
+    if (bodyDiffers || differ(a.own, i, b.own, i, a.ownSize))
+    {
+      result.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return result;
 }
 
 FrameChanges KeptFrame::compare(
@@ -128,19 +170,9 @@ FrameChanges KeptFrame::compare(
     return changes;
   }
   changes.all = false;
-  if (this->SameInstances)
+  if (!this->SameInstances)
   {
-    return changes;
-  }
-  assert(this->Next.size == this->Last.size || scene.instances.empty());
-  const unsigned char *a = this->Next.all.data(), *b = this->Last.all.data();
-  const std::size_t size = this->Next.size;
-  for (std::size_t i = 0; i < scene.instances.size(); ++i, a += size, b += size)
-  {
-    if (std::memcmp(a, b, size) != 0)
-    {
-      changes.instances.push_back(static_cast<std::uint32_t>(i));
-    }
+    changes.instances = this->differences();
   }
   return changes;
 }

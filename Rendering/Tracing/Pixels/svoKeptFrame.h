@@ -40,9 +40,12 @@ private:
   struct Instances
   {
     std::uint64_t version = 0; // Scene::version
-    Values all;
-    std::size_t size = 0; // of each
+    Values own;                // of each, without its body
+    Values bodies;
+    std::vector<std::uint32_t> body; // of each, in bodies; copies side by side have one
+    std::size_t ownSize = 0, bodySize = 0;
   };
+  std::vector<std::uint32_t> differences() const;
   static void valuesOf(
     const Scene& scene, const View& view, const FrameSettings& settings, Values& values);
   static void valuesOf(const Scene& scene, Instances& instances);

@@ -22,12 +22,12 @@ void PixelShader::prepare(const Scene& scene, const LayeredView& eye)
     const int level = eye.level(static_cast<std::uint32_t>(i));
     const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(i));
     const bool placed = eye.placed(static_cast<std::uint32_t>(i));
-    this->Frames.push_back(instance.octree ? SurfaceMatrices(instance) : SurfaceMatrices());
-    this->Smooth.push_back(instance.octree && isSmooth(instance));
+    this->Frames.push_back(instance.body->octree ? SurfaceMatrices(instance) : SurfaceMatrices());
+    this->Smooth.push_back(instance.body->octree && isSmooth(instance));
     this->MapErrors.push_back(
-      instance.octree ? worldMapError(instance, geometry, level, placed) : 0.0);
+      instance.body->octree ? worldMapError(instance, geometry, level, placed) : 0.0);
     this->RayErrors.push_back(
-      instance.octree ? worldLeafError(instance, geometry, level, placed) : 0.0);
+      instance.body->octree ? worldLeafError(instance, geometry, level, placed) : 0.0);
   }
 }
 

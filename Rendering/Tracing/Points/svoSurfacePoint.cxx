@@ -18,7 +18,7 @@ NodeTriangle triangleOfHit(const SurfaceMatrices& frame, const glm::dvec3& posit
   {
     NodeTriangle* one[] = { &picked };
     const glm::dvec3 local = frame.toOctree.vector(glm::dvec3(towards));
-    settleTriangles(frame.instance->octree, one, &local, 1);
+    settleTriangles(frame.instance->body->octree, one, &local, 1);
   }
   return picked;
 }

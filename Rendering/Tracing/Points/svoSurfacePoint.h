@@ -35,7 +35,7 @@ struct SurfaceMatrices
   SurfaceMatrices() = default; // of an instance without an octree, which is never seen
   explicit SurfaceMatrices(const Instance& i)
     : instance(&i)
-    , toOctree(i.octree, i.localToWorld)
+    , toOctree(i.body->octree, i.localToWorld)
   {
     // Only directions of normals matter: without the scale a tiny object's overflow a float.
     glm::dmat3 linear(i.localToWorld);
@@ -73,7 +73,7 @@ inline glm::vec3 normalized(const glm::vec3& v, const glm::vec3& otherwise)
 inline NodeTriangle pickTriangle(const SurfaceMatrices& frame, std::uint32_t node,
   const glm::dvec3& position, const glm::vec3& towards)
 {
-  return pickTriangle(frame.instance->octree, node, frame.toOctree.point(position),
+  return pickTriangle(frame.instance->body->octree, node, frame.toOctree.point(position),
     frame.toOctree.vector(glm::dvec3(towards)),
     [&](const glm::vec3& n)
     { return glm::dot(detail::normalized(frame.windingMatrix * n, -towards), towards); });
@@ -83,10 +83,10 @@ inline NodeTriangle pickTriangle(const SurfaceMatrices& frame, std::uint32_t nod
 struct TriangleLook
 {
   TriangleLook(const SurfaceMatrices& frame, Primitive primitive)
-    : attributes(frame.instance->attributes)
+    : attributes(frame.instance->body->attributes)
   {
-    assert(frame.instance->octree.surface());
-    const Surface& surface = *frame.instance->octree.surface();
+    assert(frame.instance->body->octree.surface());
+    const Surface& surface = *frame.instance->body->octree.surface();
     assert(primitive < surface.triangles.size());
     const glm::uvec3 triangle = surface.triangles[primitive];
     const std::uint32_t cell = surface.cells.empty() ? primitive : surface.cells[primitive];
@@ -153,7 +153,7 @@ struct TriangleLook
 inline bool shadersTurn(const SurfaceMatrices& frame, const View& view, const glm::dvec3& position,
   const glm::vec3& facet)
 {
-  const Attributes& attributes = frame.instance->attributes;
+  const Attributes& attributes = frame.instance->body->attributes;
   if (view.plain)
   {
     return false;
@@ -175,7 +175,7 @@ inline bool shadersTurn(const SurfaceMatrices& frame, const View& view, const gl
 inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
   const glm::dvec3& position, const glm::vec3& towards, Primitive primitive)
 {
-  const Octree& octree = frame.instance->octree;
+  const Octree& octree = frame.instance->body->octree;
   const glm::vec3 forwards = glm::normalize(towards);
   const auto inWorld = [&](const glm::vec3& normal)
   { return detail::normalized(frame.normalMatrix * normal, forwards); };
@@ -193,7 +193,7 @@ inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
   }
   const float side = sideLane(outwards, towards);
   const glm::vec3 facet = side * outwards;
-  const Attributes& attributes = frame.instance->attributes;
+  const Attributes& attributes = frame.instance->body->attributes;
   const bool colored = attributes.colors && attributes.colorAssociation == Association::Leaf;
   const auto colorOf = [&](std::uint32_t plane)
   { return detail::colorAt(attributes.colors, plane); };
@@ -203,7 +203,7 @@ inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
   glm::vec3 normal = facet;
   // Hits on cubes lie beside the planes, in places where the neighbours' say little.
   if (!node && !frame.instance->material.flatPlanes &&
-    frame.instance->leafGeometry != LeafGeometry::Voxel)
+    frame.instance->body->leafGeometry != LeafGeometry::Voxel)
   {
     const VoxelsAround around = voxelsAround(octree, at, own);
     normal = side * inWorld(smoothNormal(around, own));
@@ -224,12 +224,12 @@ inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
 inline SurfacePoint pointOfTriangle(const SurfaceMatrices& frame, const View& view,
   const glm::dvec3& position, const glm::vec3& towards, Primitive primitive, const glm::dvec3& at)
 {
-  if (frame.instance->octree.hasPlanes())
+  if (frame.instance->body->octree.hasPlanes())
   {
     return pointOfPlane(frame, view, position, towards, primitive);
   }
   const glm::vec3 forwards = glm::normalize(towards);
-  if (!frame.instance->octree.surface())
+  if (!frame.instance->body->octree.surface())
   {
     return { position, forwards, forwards, glm::vec3(1.0f), false };
   }

@@ -255,14 +255,14 @@ HWY_EXPORT(look);
 
 void lookAtPatch(const SurfaceMatrices& frame, TilePatch& patch, TileTriangles& triangles)
 {
-  const bool hasSurface = frame.instance->octree.surface() != nullptr;
+  const bool hasSurface = frame.instance->body->octree.surface() != nullptr;
   const std::uint64_t nodes = hasSurface ? patch.nodes : 0;
   std::uint64_t single = hasSurface ? 0 : patch.mask;
   if (hasSurface && nodes != patch.mask)
   {
     const std::uint64_t lanes = patch.mask & ~nodes;
     findTriangles(frame, patch, lanes, triangles);
-    single = HWY_DYNAMIC_DISPATCH(look)(triangles, frame.instance->attributes, patch) & lanes;
+    single = HWY_DYNAMIC_DISPATCH(look)(triangles, frame.instance->body->attributes, patch) & lanes;
     if (!patch.view->plain)
     {
       eachBit(lanes & ~single,

@@ -9,7 +9,7 @@ namespace svo
 {
 void lookAtNodes(const SurfaceMatrices& frame, std::uint64_t lanes, TilePatch& patch)
 {
-  assert((lanes & ~patch.mask) == 0 && frame.instance->octree.surface());
+  assert((lanes & ~patch.mask) == 0 && frame.instance->body->octree.surface());
   NodeTriangle picked[TilePatch::Most];
   NodeTriangle* doubtful[TilePatch::Most];
   glm::dvec3 towards[TilePatch::Most];
@@ -29,7 +29,7 @@ void lookAtNodes(const SurfaceMatrices& frame, std::uint64_t lanes, TilePatch& p
     });
   if (doubts > 0)
   {
-    settleTriangles(frame.instance->octree, doubtful, towards, doubts);
+    settleTriangles(frame.instance->body->octree, doubtful, towards, doubts);
   }
   eachBit(lanes, [&](int i) { lookAtPoint(frame, picked[i].triangle, picked[i].at, i, patch); });
 }

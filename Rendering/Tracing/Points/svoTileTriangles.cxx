@@ -104,11 +104,11 @@ void putNoWeights(Writer& writer)
 void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::uint64_t lanes,
   TileTriangles& triangles)
 {
-  assert(lanes != 0 && (lanes & ~patch.mask) == 0 && frame.instance->octree.surface());
+  assert(lanes != 0 && (lanes & ~patch.mask) == 0 && frame.instance->body->octree.surface());
   HWY_DYNAMIC_DISPATCH(findDifferent)(patch.hits->primitive, lanes, triangles);
   for (int k = 0; k < triangles.count; ++k)
   {
-    __builtin_prefetch(&frame.instance->octree.surface()->triangles[triangles.primitive[k]]);
+    __builtin_prefetch(&frame.instance->body->octree.surface()->triangles[triangles.primitive[k]]);
   }
   const glm::dvec3 from = frame.toOctree.point(patch.origin.position);
   triangles.oddLanes = 0;
@@ -120,8 +120,8 @@ void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::ui
     triangles.textured = look.textured;
     triangles.coloredByPoints = look.coloredByPoints;
     triangles.coloredByCells = look.hasColor && !look.textured && !look.coloredByPoints;
-    triangles.ownNormals = frame.instance->attributes.normals &&
-      (look.smooth || frame.instance->attributes.normalAssociation == Association::Cell);
+    triangles.ownNormals = frame.instance->body->attributes.normals &&
+      (look.smooth || frame.instance->body->attributes.normalAssociation == Association::Cell);
     const bool bends =
       look.smooth && (look.normals[0] != look.normals[1] || look.normals[0] != look.normals[2]);
     bool odd = !hasUnitLane(look.winding);

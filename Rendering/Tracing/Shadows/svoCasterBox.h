@@ -38,12 +38,12 @@ public:
   /// Around nothing if the instance casts no shadow.
   explicit CasterBox(const Instance& instance)
   {
-    this->Casts = instance.castShadow && instance.octree && !instance.octree.empty();
+    this->Casts = instance.castShadow && instance.body->octree && !instance.body->octree.empty();
     if (!this->Casts)
     {
       return;
     }
-    const Header& h = instance.octree.header();
+    const Header& h = instance.body->octree.header();
     glm::dvec3 low, high;
     for (int i = 0; i < 3; ++i)
     {

@@ -45,7 +45,7 @@ struct Map
 
 bool casts(const Instance& instance)
 {
-  return instance.castShadow && instance.octree && !instance.octree.empty();
+  return instance.castShadow && instance.body->octree && !instance.body->octree.empty();
 }
 
 Map makeMap(const Scene& scene, const View& view, const std::vector<std::uint8_t>& casters,
@@ -57,12 +57,12 @@ Map makeMap(const Scene& scene, const View& view, const std::vector<std::uint8_t
     const Instance& instance = scene.instances[i];
     if (casters[i] && casts(instance))
     {
-      const LocalView local = makeLocalView(instance.octree, instance.localToWorld, view);
+      const LocalView local = makeLocalView(instance.body->octree, instance.localToWorld, view);
       if (!local.rect.empty())
       {
         const PixelRect& r = local.rect;
         map.casters.push_back({ r, static_cast<double>(r.x1 - r.x0) * (r.y1 - r.y0),
-          static_cast<double>(instance.octree.header().triangleCount),
+          static_cast<double>(instance.body->octree.header().triangleCount),
           !worthTiles(instance, local, view, false), kept[i] != 0 });
       }
     }
@@ -188,12 +188,12 @@ bool raysAreExact(const Scene& scene, const LayeredView& eye)
       if (!casts(instance))
       {
         // Without an octree yet, or only one for lights.
-        return !instance.castShadow || !instance.casterOctree;
+        return !instance.castShadow || !instance.body->casterOctree;
       }
       const auto index = static_cast<std::uint32_t>(&instance - scene.instances.data());
       const LeafTraits traits = traitsOf(eye.leafGeometry(index));
-      return traits.exact() && instance.octree.surface() &&
-        instance.octree.longestList() <= traits.longestExact;
+      return traits.exact() && instance.body->octree.surface() &&
+        instance.body->octree.longestList() <= traits.longestExact;
     });
 }
 }

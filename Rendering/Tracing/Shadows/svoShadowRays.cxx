@@ -37,9 +37,9 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
 {
   for (const Instance& instance : scene.instances)
   {
-    if (instance.castShadow && instance.octree && !instance.octree.empty())
+    if (instance.castShadow && instance.body->octree && !instance.body->octree.empty())
     {
-      const Octree& octree = instance.octree;
+      const Octree& octree = instance.body->octree;
       const std::size_t index = &instance - scene.instances.data();
       const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(index));
       const LeafTraits traits = traitsOf(geometry);
@@ -61,7 +61,7 @@ bool ShadowRays::blocks(const Caster& caster, const Light& light, const glm::dve
   const Ray ray{ caster.toOctree.point(start), caster.toOctree.vector(direction), 0.0,
     light.atInfinity() ? 1e300 : BeforeLight };
   const TraceOptions options{ caster.geometry, MaximumLevel };
-  if (!occluded(caster.instance->octree, ray, options))
+  if (!occluded(caster.instance->body->octree, ray, options))
   {
     return false;
   }
@@ -74,14 +74,14 @@ bool ShadowRays::blocks(const Caster& caster, const Light& light, const glm::dve
   // outside of them too.
   const double length = glm::length(direction);
   const double slope = std::max(glm::dot(side, direction) / length, 0.05);
-  const Hit hit = intersect(caster.instance->octree, ray, options);
+  const Hit hit = intersect(caster.instance->body->octree, ray, options);
   if (hit.t * length > caster.planeError / slope)
   {
     return true;
   }
   const Ray outer{ caster.toOctree.point(position + caster.planeError * side), ray.direction, 0.0,
     ray.tMax };
-  return occluded(caster.instance->octree, outer, options);
+  return occluded(caster.instance->body->octree, outer, options);
 }
 
 bool ShadowRays::shadows(
@@ -120,7 +120,7 @@ std::uint64_t ShadowRays::beam(
   const glm::dvec3 from =
     far ? caster.toOctree.vector(light.direction) : caster.toOctree.point(light.position);
   ShadowBeam::Answer answers[BeamPoints::Most];
-  if (!ShadowBeam(caster.instance->octree, from, far).trace(points, answers))
+  if (!ShadowBeam(caster.instance->body->octree, from, far).trace(points, answers))
   {
     const int half = count / 2;
     return this->beam(caster, light, starts, half, offset) |
@@ -201,7 +201,7 @@ bool ShadowRays::between(const glm::dvec3& from, const glm::dvec3& to, double of
     {
       const Ray ray{ caster.toOctree.point(from), caster.toOctree.vector(direction), first / length,
         1.0 };
-      if (occluded(caster.instance->octree, ray, { caster.geometry, MaximumLevel }))
+      if (occluded(caster.instance->body->octree, ray, { caster.geometry, MaximumLevel }))
       {
         return true;
       }

@@ -26,8 +26,8 @@ inline bool isSmooth(const Instance& instance)
 {
   constexpr std::size_t Few = 256; // triangles: few enough to be examined in every frame
   constexpr double Flat = 1e-5;    // radians; rounding of normals is less
-  const Attributes& attributes = instance.attributes;
-  const Surface* surface = instance.octree.surface();
+  const Attributes& attributes = instance.body->attributes;
+  const Surface* surface = instance.body->octree.surface();
   if (instance.material.flat || !attributes.normals ||
     attributes.normalAssociation != Association::Point || !surface)
   {
@@ -79,8 +79,8 @@ struct SmoothTriangle
   SmoothTriangle(const SurfaceMatrices& frame, Primitive primitive)
   {
     const Instance& instance = *frame.instance;
-    assert(instance.octree.surface() && instance.attributes.normals);
-    const Surface& surface = *instance.octree.surface();
+    assert(instance.body->octree.surface() && instance.body->attributes.normals);
+    const Surface& surface = *instance.body->octree.surface();
     const glm::uvec3 corners = surface.triangles[primitive];
     a = surface.points[corners.x];
     e1 = surface.points[corners.y] - a;
@@ -90,7 +90,7 @@ struct SmoothTriangle
     {
       // Unit unless it is not finite, or 0.
       normals[i] = detail::normalized(
-        frame.normalMatrix * detail::vectorAt(instance.attributes.normals, corners[i]),
+        frame.normalMatrix * detail::vectorAt(instance.body->attributes.normals, corners[i]),
         glm::vec3(0.0f));
     }
   }
@@ -107,7 +107,7 @@ class SmoothTriangles
 public:
   explicit SmoothTriangles(const SurfaceMatrices& frame)
     : Frame(frame)
-    , ToWorld(glm::dmat3(frame.instance->localToWorld) * frame.instance->octree.rootEdge())
+    , ToWorld(glm::dmat3(frame.instance->localToWorld) * frame.instance->body->octree.rootEdge())
   {
     std::fill_n(this->Primitives, Slots, NoPrimitive);
   }

@@ -21,8 +21,8 @@ constexpr double MeanPlaneError = 2.6;
 /// True if rays that stop at `level` meet mean planes of nodes: bricks are not reached.
 inline bool stopsAtNodes(const Instance& instance, int level)
 {
-  assert(level >= 0 && level <= instance.octree.level());
-  return level < instance.octree.level() - 2;
+  assert(level >= 0 && level <= instance.body->octree.level());
+  return level < instance.body->octree.level() - 2;
 }
 
 /// The error of a hit in voxels of the level that rays stop at. Cubes, and planes where a ray is
@@ -39,7 +39,7 @@ inline double leafError(const Instance& instance, LeafGeometry geometry, int lev
     return MeanPlaneError;
   }
   // Of automatic leaves that holds where lists are short; see worldMapError() and ShadowRays.
-  return traits.exact() && instance.octree.surface() ? 0.0 : CubeError;
+  return traits.exact() && instance.body->octree.surface() ? 0.0 : CubeError;
 }
 
 /// The same in the world, and never less than what floats resolve in the octree's cube: where hits
@@ -58,7 +58,7 @@ inline double worldMapError(
   const Instance& instance, LeafGeometry geometry, int level, bool placed = false)
 {
   const double error = traitsOf(geometry).mapError;
-  const bool planes = instance.octree.surface() || instance.octree.hasPlanes();
+  const bool planes = instance.body->octree.surface() || instance.body->octree.hasPlanes();
   return error > 0.0 && !stopsAtNodes(instance, level) && planes
     ? error * worldVoxel(instance, level)
     : worldLeafError(instance, geometry, level, placed);
@@ -69,17 +69,17 @@ inline double worldMapError(
 /// octree's own planes have no such end, but their nodes have.
 inline bool endsFreely(const Instance& instance, int level)
 {
-  const LeafTraits traits = traitsOf(instance.leafGeometry);
-  if (instance.octree.hasPlanes())
+  const LeafTraits traits = traitsOf(instance.body->leafGeometry);
+  if (instance.body->octree.hasPlanes())
   {
     return !traits.fallsBack() || !stopsAtNodes(instance, level);
   }
-  if (!traits.fallsBack() || !instance.octree.surface())
+  if (!traits.fallsBack() || !instance.body->octree.surface())
   {
     return true;
   }
   return !stopsAtNodes(instance, level) && traits.exact() &&
-    instance.octree.longestList() <= traits.longestExact;
+    instance.body->octree.longestList() <= traits.longestExact;
 }
 }
 

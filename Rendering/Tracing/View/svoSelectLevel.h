@@ -17,7 +17,7 @@ namespace svo
 inline int selectLevel(
   const Instance& instance, const LocalView& local, const View& view, double pixelError)
 {
-  const int last = instance.octree.level();
+  const int last = instance.body->octree.level();
   if (instance.pixelError >= 0.0)
   {
     pixelError = instance.pixelError;
@@ -44,13 +44,13 @@ inline int selectEyeLevel(
   const Instance& instance, const LocalView& local, const View& view, double pixelError)
 {
   const int level = selectLevel(instance, local, view, pixelError);
-  if (!traitsOf(instance.leafGeometry).exact() || !instance.octree.surface())
+  if (!traitsOf(instance.body->leafGeometry).exact() || !instance.body->octree.surface())
   {
     return level;
   }
   constexpr double Few = 64.0;
-  const Header& h = instance.octree.header();
-  const int last = instance.octree.level();
+  const Header& h = instance.body->octree.header();
+  const int last = instance.body->octree.level();
   const double nodes = std::ldexp(static_cast<double>(h.voxelCount), 2 * (level - last));
   return static_cast<double>(h.triangleCount) <= Few * nodes ? last : level;
 }

@@ -28,7 +28,7 @@ inline double rasterError(const Instance& instance, const View& view)
 {
   constexpr double Step = 1.0 / (1 << 24);
   constexpr double Most = 256.0;
-  const double* b = instance.octree.header().meshBounds;
+  const double* b = instance.body->octree.header().meshBounds;
   const glm::dvec3 low(b[0], b[2], b[4]), high(b[1], b[3], b[5]);
   // -linear depth of a point of the mesh.
   glm::dvec4 z;

@@ -27,7 +27,7 @@ inline double worldScale(const glm::dmat4& localToWorld)
 /// Longest edge of a voxel of the octree's last level, in the world.
 inline double worldVoxel(const Instance& instance)
 {
-  return worldScale(instance.localToWorld) * instance.octree.header().voxelSize;
+  return worldScale(instance.localToWorld) * instance.body->octree.header().voxelSize;
 }
 
 /// Edge of the smaller side of a pixel, in the world, at linear depth t.
@@ -47,8 +47,8 @@ inline double widerWorldPixel(const View& view, double t)
 /// Edge of a voxel of a level in the world.
 inline double worldVoxel(const Instance& instance, int level)
 {
-  assert(level >= 0 && level <= instance.octree.level());
-  return std::ldexp(worldVoxel(instance), instance.octree.level() - level);
+  assert(level >= 0 && level <= instance.body->octree.level());
+  return std::ldexp(worldVoxel(instance), instance.body->octree.level() - level);
 }
 }
 

@@ -85,7 +85,8 @@ void measurePixelError(const Sweep& sweep, Results& results)
       }
       const svo::Scene scene = sceneOf(stage, shelf, deepest, leaves);
       const svo::Instance& instance = scene.instances[0];
-      const svo::LocalView local = svo::makeLocalView(instance.octree, instance.localToWorld, view);
+      const svo::LocalView local =
+        svo::makeLocalView(instance.body->octree, instance.localToWorld, view);
       for (const double pixels : sweep.pixelErrors)
       {
         const int level = svo::selectLevel(instance, local, view, pixels);

@@ -111,9 +111,9 @@ svo::Scene sceneOf(const Stage& stage, OctreeShelf& shelf, int level, svo::LeafG
   for (const Object& object : stage.objects)
   {
     svo::Instance instance;
-    instance.octree = shelf.get(*object.shape, level).octree;
+    instance.body.own().octree = shelf.get(*object.shape, level).octree;
     instance.localToWorld = object.toWorld;
-    instance.leafGeometry = leaves;
+    instance.body.own().leafGeometry = leaves;
     instance.material.flat = true;
     instance.id = scene.instances.size() + 1;
     scene.instances.push_back(instance);

@@ -78,8 +78,8 @@ void measureTerminator(const Sweep& sweep, Results& results)
         for (svo::Instance& instance : scene.instances)
         {
           instance.material.flat = false;
-          instance.attributes.normals = normals.data();
-          instance.attributes.normalAssociation = svo::Association::Point;
+          instance.body.own().attributes.normals = normals.data();
+          instance.body.own().attributes.normalAssociation = svo::Association::Point;
         }
         scene.instances[1].visible = false;
         svo::FrameSettings settings;

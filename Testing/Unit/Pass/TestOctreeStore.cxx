@@ -386,16 +386,16 @@ TEST_F(OctreeStore, TheBoxIsThatOfTheFinitePointsAndStripsCountAsTriangles)
   polys->InsertNextCell({ 0, 1, 2, 0 });
   polys->InsertNextCell({ 0, 1, 2 });
   few->SetPolys(polys);
-  svo::Instance instance;
-  store.measure(few, options, instance);
-  EXPECT_TRUE(instance.box.known());
-  EXPECT_EQ(instance.box.low, glm::dvec3(-1.0, -2.0, 3.0));
-  EXPECT_EQ(instance.box.high, glm::dvec3(1.0, 5.0, 3.5));
-  EXPECT_EQ(instance.triangles, 3u + 2u + 1u);
+  svo::Body body;
+  store.measure(few, options, body);
+  EXPECT_TRUE(body.box.known());
+  EXPECT_EQ(body.box.low, glm::dvec3(-1.0, -2.0, 3.0));
+  EXPECT_EQ(body.box.high, glm::dvec3(1.0, 5.0, 3.5));
+  EXPECT_EQ(body.triangles, 3u + 2u + 1u);
   vtkNew<vtkPolyData> none;
-  store.measure(none, options, instance);
-  EXPECT_FALSE(instance.box.known());
-  EXPECT_EQ(instance.triangles, 0u);
+  store.measure(none, options, body);
+  EXPECT_FALSE(body.box.known());
+  EXPECT_EQ(body.triangles, 0u);
 }
 
 TEST_F(OctreeStore, StoresShareTheirOctrees)

@@ -1,6 +1,8 @@
 // The same of glyphs.
 #include "svoKeptProps.h"
 
+#include <vector>
+
 using namespace svotest;
 
 TEST_F(Kept, EveryChangeOfGlyphsIsNoticed)
@@ -82,4 +84,51 @@ TEST_F(Kept, AMovedActorOfGlyphsComputesNoCopies)
     moved += before[i].localToWorld != scene.scene.instances[i].localToWorld;
   }
   EXPECT_EQ(moved, 5);
+}
+
+TEST_F(Kept, CopiesShareOneBodyThatIsWrittenOnce)
+{
+  const auto copies = [this]
+  {
+    std::vector<const Instance*> found;
+    for (std::size_t i = 0; i < scene.scene.instances.size(); ++i)
+    {
+      if (scene.meshes[i] == shape)
+      {
+        found.push_back(&scene.scene.instances[i]);
+      }
+    }
+    return found;
+  };
+  const auto expectOneBody = [&](int level)
+  {
+    ASSERT_EQ(copies().size(), 5u);
+    for (const Instance* one : copies())
+    {
+      EXPECT_TRUE(one->body.same(copies()[0]->body));
+      EXPECT_EQ(one->body->octree.level(), level);
+    }
+  };
+  options.level = 4; // as deep as they are needed
+  collect(collector, scene);
+  expectOneBody(4);
+  const svo::Shared<svo::Body> first = copies()[0]->body;
+  for (std::size_t i = 0; i < scene.scene.instances.size(); ++i)
+  {
+    EXPECT_EQ(scene.scene.instances[i].body.same(first), scene.meshes[i] == shape);
+  }
+
+  // What somebody has copied stays as it was.
+  options.level = 3;
+  collect(collector, scene);
+  expectOneBody(3);
+  EXPECT_EQ(first->octree.level(), 4);
+  EXPECT_FALSE(first.same(copies()[0]->body));
+
+  // Else all have another octree where the first one was.
+  const svo::Body* const body = &*copies()[0]->body;
+  options.level = 2;
+  collect(collector, scene);
+  expectOneBody(2);
+  EXPECT_EQ(body, &*copies()[0]->body);
 }

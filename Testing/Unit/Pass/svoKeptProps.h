@@ -200,8 +200,9 @@ protected:
       const Instance &x = a.scene.instances[i], &y = b.scene.instances[i];
       const auto octrees = [](const Instance& n)
       {
-        return std::make_tuple(n.octree.key(), n.casterOctree.key(), n.leafGeometry, n.neededLevel,
-          n.box.low, n.box.high, n.triangles, n.deepestLevel, n.detailLevel);
+        return std::make_tuple(n.body->octree.key(), n.body->casterOctree.key(),
+          n.body->leafGeometry, n.body->neededLevel, n.body->box.low, n.body->box.high,
+          n.body->triangles, n.body->deepestLevel, n.body->detailLevel);
       };
       const auto places = [](const Instance& n)
       { return std::make_tuple(n.localToWorld, n.id, n.depthOffsetUnits, n.givesWay); };
@@ -210,10 +211,10 @@ protected:
       const auto looks = [](const Instance& n)
       {
         const svo::Material& m = n.material;
-        const svo::Attributes& at = n.attributes;
+        const svo::Attributes& at = n.body->attributes;
         return std::make_tuple(m.ambientColor, m.diffuseColor, m.specularColor, m.ambient,
           m.diffuse, m.specular, m.specularPower, m.lighting, m.flat, m.flatPlanes,
-          at.normalAssociation, at.colorAssociation, at.colorTextureSize, n.points.count);
+          at.normalAssociation, at.colorAssociation, at.colorTextureSize, n.body->points.count);
       };
       EXPECT_TRUE(octrees(x) == octrees(y)) << which;
       EXPECT_TRUE(places(x) == places(y)) << which;
@@ -226,8 +227,9 @@ protected:
           of == svo::Association::Cell ? mesh->GetNumberOfCells() : mesh->GetNumberOfPoints());
         return (!p && !q) || (p && q && std::memcmp(p, q, sizeof(*p) * count * components) == 0);
       };
-      const svo::Attributes &p = x.attributes, &q = y.attributes;
-      EXPECT_TRUE(same(x.points.floats, y.points.floats, svo::Association::Point, 3)) << which;
+      const svo::Attributes &p = x.body->attributes, &q = y.body->attributes;
+      EXPECT_TRUE(same(x.body->points.floats, y.body->points.floats, svo::Association::Point, 3))
+        << which;
       EXPECT_TRUE(same(p.normals, q.normals, q.normalAssociation, 3)) << which;
       EXPECT_TRUE(same(p.colors, q.colors, q.colorAssociation, 4)) << which;
     }

@@ -126,6 +126,55 @@ TEST(Octree, KeepsItsMemoryAlive)
   EXPECT_GE(copy.bytes(), 256u);
 }
 
+TEST(Octree, IsAHandleThatIsFoundAgainAsLongAsThereIsACopy)
+{
+  static_assert(sizeof(svo::Octree) == 24 && sizeof(svo::WeakOctree) == 16, "copies are cheap");
+  svo::Octree octree = makeOctree(sphere(9, 12), 4);
+  const svo::Octree copy = octree;
+  EXPECT_EQ(copy.key(), octree.key());
+  EXPECT_EQ(copy.id(), octree.id());
+  EXPECT_EQ(copy.surface(), octree.surface());
+  EXPECT_EQ(&copy.representatives(), &octree.representatives());
+  EXPECT_EQ(copy.longestList(), octree.longestList());
+  EXPECT_GT(copy.longestList(), 0u);
+  EXPECT_NE(makeOctree(sphere(9, 12), 4).id(), octree.id());
+
+  svo::WeakOctree weak(copy);
+  const svo::Octree found = weak.lock();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found.id(), copy.id());
+  EXPECT_EQ(&found.header(), &copy.header());
+  EXPECT_EQ(found.surface(), copy.surface());
+
+  svo::Octree other = makeOctree(sphere(9, 12), 4);
+  const std::shared_ptr<const std::byte> data = other.data(); // somebody else may keep that
+  weak = svo::WeakOctree(other);
+  svo::Octree moved = std::move(other);
+  EXPECT_FALSE(other);
+  EXPECT_EQ(other.key(), nullptr);
+  EXPECT_EQ(moved.key(), data.get());
+  EXPECT_TRUE(weak.lock());
+  moved = svo::Octree();
+  EXPECT_TRUE(weak.expired());
+  EXPECT_FALSE(weak.lock());
+
+  const svo::Octree none;
+  EXPECT_EQ(none.id(), 0u);
+  EXPECT_EQ(none.key(), nullptr);
+  EXPECT_EQ(none.surface(), nullptr);
+  EXPECT_EQ(none.bytes(), 0u);
+  EXPECT_FALSE(svo::WeakOctree(none).lock());
+}
+
+TEST(Octree, OneWithNeitherASurfaceNorPlanesIsNotFoundAgain)
+{
+  std::string error;
+  const svo::Octree octree = openBuffer(sample(), error);
+  ASSERT_TRUE(octree) << error;
+  EXPECT_EQ(octree.surface(), nullptr);
+  EXPECT_FALSE(svo::WeakOctree(octree).lock());
+}
+
 TEST(Octree, ATruncatedBufferIsRefused)
 {
   const auto whole = sample();

@@ -113,9 +113,9 @@ Displaced measure(svo::LeafGeometry leaves, double pixelError, double distance)
   const Mesh mesh = torus(48, 24);
   svo::Scene unbuilt;
   unbuilt.instances.resize(1);
-  unbuilt.instances[0].box = { { -1.4, -1.4, -0.4 }, { 1.4, 1.4, 0.4 } };
-  unbuilt.instances[0].triangles = mesh.triangles.size();
-  unbuilt.instances[0].deepestLevel = Deepest;
+  unbuilt.instances[0].body.own().box = { { -1.4, -1.4, -0.4 }, { 1.4, 1.4, 0.4 } };
+  unbuilt.instances[0].body.own().triangles = mesh.triangles.size();
+  unbuilt.instances[0].body.own().deepestLevel = Deepest;
   svo::FrameSettings settings;
   settings.shadowTechnique = svo::ShadowTechnique::None;
   settings.pixelError = pixelError;
@@ -194,18 +194,19 @@ TEST(BuiltLevels, WhereTrianglesAreManyRaysStopAtNodes)
 {
   svo::Scene scene;
   scene.instances = { instanceOf(makeOctree(torus(300, 200), 9), 1) };
-  scene.instances[0].leafGeometry = svo::LeafGeometry::Automatic;
+  scene.instances[0].body.own().leafGeometry = svo::LeafGeometry::Automatic;
   const svo::Instance& instance = scene.instances[0];
   const auto levelFrom = [&](double distance)
   {
     const svo::View view = lookAt({ 0.0, -distance, 0.0 }, 96, 96);
-    const svo::LocalView local = svo::makeLocalView(instance.octree, instance.localToWorld, view);
+    const svo::LocalView local =
+      svo::makeLocalView(instance.body->octree, instance.localToWorld, view);
     const int level = svo::selectEyeLevel(instance, local, view, 1.0);
     EXPECT_TRUE(level == 9 || level == svo::selectLevel(instance, local, view, 1.0));
     return level;
   };
   EXPECT_EQ(levelFrom(12.0), 9); // level 5: about 32 triangles a node
   EXPECT_LT(levelFrom(100.0), 5);
-  scene.instances[0].leafGeometry = svo::LeafGeometry::Plane;
+  scene.instances[0].body.own().leafGeometry = svo::LeafGeometry::Plane;
   EXPECT_LT(levelFrom(12.0), 9);
 }

@@ -57,8 +57,8 @@ std::vector<SceneCase> scenes()
   {
     for (std::size_t i = 0; i < c.meshes.size(); ++i)
     {
-      c.scene.instances[i].points.doubles = &c.meshes[i].points.data()->x;
-      c.scene.instances[i].points.count = c.meshes[i].points.size();
+      c.scene.instances[i].body.own().points.doubles = &c.meshes[i].points.data()->x;
+      c.scene.instances[i].body.own().points.count = c.meshes[i].points.size();
     }
   }
   return all;
@@ -82,7 +82,8 @@ void prepare(svo::LayeredView& layers, const svo::Scene& scene, const svo::View&
   svo::LayerBudget budget{ std::size_t(1) << 28, 0 };
   layers.prepare(
     scene, view, [](const svo::Instance&) { return true; },
-    [](const svo::Instance& i, const svo::LocalView&) { return i.octree.level(); }, keep, budget);
+    [](const svo::Instance& i, const svo::LocalView&) { return i.body->octree.level(); }, keep,
+    budget);
 }
 
 /// Returns the number of hits.

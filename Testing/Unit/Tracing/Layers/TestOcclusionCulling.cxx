@@ -97,8 +97,8 @@ svo::Scene crowd(Random& random, const Shapes& shapes, double size)
     const bool again = i > 0 && random.once(10); // the same place once more
     const glm::dmat4 m = again ? scene.instances.back().localToWorld : place(random, size);
     scene.instances.push_back(instanceOf(shapes.octrees[shape], i + 1, m));
-    scene.instances.back().points.doubles = &shapes.meshes[shape].points.data()->x;
-    scene.instances.back().points.count = shapes.meshes[shape].points.size();
+    scene.instances.back().body.own().points.doubles = &shapes.meshes[shape].points.data()->x;
+    scene.instances.back().body.own().points.count = shapes.meshes[shape].points.size();
   }
   return scene;
 }
@@ -145,7 +145,8 @@ void trace(const svo::Scene& scene, const svo::View& view, const svo::LooseOctre
   layers.setCulling(cull);
   layers.prepare(
     scene, view, [](const svo::Instance&) { return true; },
-    [](const svo::Instance& i, const svo::LocalView&) { return i.octree.level(); }, false, budget);
+    [](const svo::Instance& i, const svo::LocalView&) { return i.body->octree.level(); }, false,
+    budget);
   layers.trace(svo::serialFor, nullptr);
 }
 }

@@ -35,14 +35,14 @@ TEST(PlaceOnTriangles, APicturesDepthsAreThoseOfRaysInDouble)
     svo::LayerBudget budget{ 0, 0 };
     layers.prepare(
       scene, view, [](const svo::Instance&) { return true; },
-      [](const svo::Instance& i, const svo::LocalView&) { return i.octree.level(); }, false,
+      [](const svo::Instance& i, const svo::LocalView&) { return i.body->octree.level(); }, false,
       budget);
     layers.trace(svo::serialFor, nullptr);
     ASSERT_TRUE(svo::worthTiles(scene.instances[0],
-      svo::makeLocalView(scene.instances[0].octree, scene.instances[0].localToWorld, view), view,
-      true));
+      svo::makeLocalView(scene.instances[0].body->octree, scene.instances[0].localToWorld, view),
+      view, true));
     const svo::LocalView local =
-      svo::makeLocalView(scene.instances[0].octree, scene.instances[0].localToWorld, view);
+      svo::makeLocalView(scene.instances[0].body->octree, scene.instances[0].localToWorld, view);
     const svo::DepthBuffer& depth = layers.depthBuffer();
     int hits = 0;
     for (int y = 0; y < view.height; ++y)
@@ -56,7 +56,7 @@ TEST(PlaceOnTriangles, APicturesDepthsAreThoseOfRaysInDouble)
         }
         ++hits;
         const double expected = trueDepth(
-          *scene.instances[0].octree.surface(), local, depth.primitive[at], x + 0.5, y + 0.5);
+          *scene.instances[0].body->octree.surface(), local, depth.primitive[at], x + 0.5, y + 0.5);
         // The rounding of the float that it is stored in, and no more.
         ASSERT_NEAR(depth.t[at], expected, 1.2e-7 * local.tMax) << x << ", " << y;
       }
@@ -81,12 +81,13 @@ TEST(PlaceOnTriangles, HitsOnLongAndThinTrianglesAsWell)
   scene.instances = { instanceOf(makeOctree(mesh, 10), 1) };
   const svo::View view = lookAt({ -8, 9, 4 }, 320, 240);
   const svo::LocalView local =
-    svo::makeLocalView(scene.instances[0].octree, scene.instances[0].localToWorld, view);
+    svo::makeLocalView(scene.instances[0].body->octree, scene.instances[0].localToWorld, view);
   svo::LayeredView layers;
   svo::LayerBudget budget{ 0, 0 };
   layers.prepare(
     scene, view, [](const svo::Instance&) { return true; },
-    [](const svo::Instance& i, const svo::LocalView&) { return i.octree.level(); }, false, budget);
+    [](const svo::Instance& i, const svo::LocalView&) { return i.body->octree.level(); }, false,
+    budget);
   layers.trace(svo::serialFor, nullptr);
   const svo::DepthBuffer& depth = layers.depthBuffer();
   int hits = 0;
@@ -99,7 +100,7 @@ TEST(PlaceOnTriangles, HitsOnLongAndThinTrianglesAsWell)
       {
         ++hits;
         const double expected = trueDepth(
-          *scene.instances[0].octree.surface(), local, depth.primitive[at], x + 0.5, y + 0.5);
+          *scene.instances[0].body->octree.surface(), local, depth.primitive[at], x + 0.5, y + 0.5);
         EXPECT_NEAR(depth.t[at], expected, 1.2e-7 * local.tMax) << x << ", " << y;
       }
     }

@@ -33,8 +33,8 @@ Mesh above(const Mesh& mesh, double height)
 svo::Instance placed(const Mesh& mesh, int level, std::uint64_t id)
 {
   svo::Instance instance = instanceOf(makeOctree(mesh, level), id, movedTo(0.3, 0.1, 0.2));
-  instance.points.doubles = &mesh.points.data()->x;
-  instance.points.count = mesh.points.size();
+  instance.body.own().points.doubles = &mesh.points.data()->x;
+  instance.body.own().points.count = mesh.points.size();
   return instance;
 }
 
@@ -45,8 +45,8 @@ std::vector<std::uint32_t> seen(
   svo::LayerBudget budget{ std::size_t(1) << 28, 0 };
   layers.prepare(
     scene, view, [](const svo::Instance&) { return true; },
-    [&](const svo::Instance& i, const svo::LocalView&) { return i.octree.level() - coarser; }, keep,
-    budget);
+    [&](const svo::Instance& i, const svo::LocalView&) { return i.body->octree.level() - coarser; },
+    keep, budget);
   layers.trace(svo::serialFor, nullptr);
   const svo::DepthBuffer& depth = layers.depthBuffer();
   std::vector<std::uint32_t> instances;

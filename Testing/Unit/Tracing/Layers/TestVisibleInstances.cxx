@@ -21,7 +21,7 @@ bool everybody(const svo::Instance&)
 
 int lastLevel(const svo::Instance& instance, const svo::LocalView&)
 {
-  return instance.octree.level();
+  return instance.body->octree.level();
 }
 
 /// Balls all around the origin, turned, squeezed, mirrored, of many sizes.
@@ -58,10 +58,11 @@ std::vector<svo::View> everyProjection()
 /// True if the ray through a pixel's centre meets the instance between the clipping planes.
 bool meets(const svo::Instance& instance, const svo::View& view, int x, int y)
 {
-  const svo::WorldToOctree toOctree(instance.octree, instance.localToWorld);
+  const svo::WorldToOctree toOctree(instance.body->octree, instance.localToWorld);
   const svo::Ray ray{ toOctree.point(view.rayOrigin(x + 0.5, y + 0.5)),
     toOctree.vector(view.rayDirection(x + 0.5, y + 0.5)), view.tNear, view.tFar };
-  return svo::occluded(instance.octree, ray, { instance.leafGeometry, svo::MaximumLevel });
+  return svo::occluded(
+    instance.body->octree, ray, { instance.body->leafGeometry, svo::MaximumLevel });
 }
 
 std::vector<svo::VisibleInstance> seenBy(const svo::Scene& scene, const svo::View& view,
@@ -116,7 +117,7 @@ TEST(VisibleInstances, WhatTakesNoPartOrHasNoOctreeIsNotAmongThem)
   {
     instance.localToWorld = glm::dmat4(1.0);
   }
-  scene.instances[0].octree = svo::Octree();
+  scene.instances[0].body.own().octree = svo::Octree();
   scene.instances[1].visible = false;
   const std::vector<svo::VisibleInstance> visible = seenBy(
     scene, lookAt({ 0, -9, 3 }, 48, 40), [](const svo::Instance& i) { return i.visible; },
@@ -124,13 +125,13 @@ TEST(VisibleInstances, WhatTakesNoPartOrHasNoOctreeIsNotAmongThem)
   ASSERT_EQ(visible.size(), 1u);
   EXPECT_EQ(visible[0].index, 2u);
   EXPECT_EQ(visible[0].id, scene.instances[2].id);
-  EXPECT_EQ(visible[0].octree, &scene.instances[2].octree);
+  EXPECT_EQ(visible[0].octree, &scene.instances[2].body->octree);
 }
 
 TEST(VisibleInstances, TheKeyNamesAllThatALayerDependsOn)
 {
   svo::Scene scene = manyBalls(1);
-  scene.instances[0].leafGeometry = svo::LeafGeometry::Plane;
+  scene.instances[0].body.own().leafGeometry = svo::LeafGeometry::Plane;
   scene.instances[0].localToWorld = glm::dmat4(1.0);
   const svo::View view = lookAt({ 0, -9, 3 }, 48, 40);
   const auto keyOf = [&](int level)
@@ -144,12 +145,12 @@ TEST(VisibleInstances, TheKeyNamesAllThatALayerDependsOn)
   EXPECT_FALSE(key == keyOf(3));
   scene.instances[0].id = 1000;
   EXPECT_TRUE(key == keyOf(4)) << "an identity is no look";
-  scene.instances[0].leafGeometry = svo::LeafGeometry::Voxel;
+  scene.instances[0].body.own().leafGeometry = svo::LeafGeometry::Voxel;
   EXPECT_FALSE(key == keyOf(4));
-  scene.instances[0].leafGeometry = svo::LeafGeometry::Plane;
+  scene.instances[0].body.own().leafGeometry = svo::LeafGeometry::Plane;
   scene.instances[0].localToWorld[3][0] = 1e-9;
   EXPECT_FALSE(key == keyOf(4));
   scene.instances[0].localToWorld = glm::dmat4(1.0);
-  scene.instances[0].octree = makeOctree(sphere(9, 12), 5); // the same, opened once more
+  scene.instances[0].body.own().octree = makeOctree(sphere(9, 12), 5); // the same, opened once more
   EXPECT_FALSE(key == keyOf(4)) << "another octree in the same place";
 }

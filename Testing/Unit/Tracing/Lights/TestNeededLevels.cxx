@@ -24,8 +24,8 @@ svo::Instance unbuilt(std::uint64_t id, double half, const glm::dmat4& localToWo
   svo::Instance instance;
   instance.id = id;
   instance.localToWorld = localToWorld;
-  instance.box = { glm::dvec3(-half), glm::dvec3(half) };
-  instance.deepestLevel = Deepest;
+  instance.body.own().box = { glm::dvec3(-half), glm::dvec3(half) };
+  instance.body.own().deepestLevel = Deepest;
   return instance;
 }
 
@@ -130,7 +130,7 @@ TEST(NeededLevels, AnUnknownViewAndAnUnknownBoxNeedTheDeepest)
 {
   svo::Scene scene = oneThing();
   EXPECT_EQ(eyeLevel(scene, svo::View(), noShadows()), Deepest);
-  scene.instances[0].box = svo::Box();
+  scene.instances[0].body.own().box = svo::Box();
   EXPECT_EQ(eyeLevel(scene, seenFrom(300.0), noShadows()), Deepest);
 }
 
@@ -229,11 +229,11 @@ TEST(NeededLevels, NoOctreeIsCoarserThanItsMesh)
   svo::FrameSettings settings;
   settings.shadowResolution = 16;
   EXPECT_EQ(svo::neededLevels(scene, seenFrom(400.0), settings)[0].lights, Coarsest);
-  scene.instances[0].triangles = 100000; // level 8
+  scene.instances[0].body.own().triangles = 100000; // level 8
   const auto needed = svo::neededLevels(scene, seenFrom(400.0), settings);
   EXPECT_EQ(needed[0].lights, 8);
   EXPECT_EQ(needed[0].eye, 8);
-  scene.instances[0].triangles = 100000000;
+  scene.instances[0].body.own().triangles = 100000000;
   EXPECT_EQ(eyeLevel(scene, seenFrom(400.0), settings), Deepest);
 }
 
@@ -242,12 +242,12 @@ TEST(NeededLevels, NoOctreeIsFinerThanItsMeshWhereTrianglesAreExact)
   svo::Scene scene = oneThing();
   const svo::View close = seenFrom(1.5);
   ASSERT_GT(eyeLevel(scene, close, noShadows()), 6);
-  scene.instances[0].detailLevel = 6;
+  scene.instances[0].body.own().detailLevel = 6;
   EXPECT_EQ(eyeLevel(scene, close, noShadows()), 6);
   EXPECT_EQ(eyeLevel(scene, seenFrom(390.0), noShadows()), Coarsest); // where less will do
-  scene.instances[0].triangles = 1000000; // no coarser than the mesh all the same
+  scene.instances[0].body.own().triangles = 1000000; // no coarser than the mesh all the same
   EXPECT_GT(eyeLevel(scene, close, noShadows()), 6);
-  scene.instances[0].triangles = 0;
+  scene.instances[0].body.own().triangles = 0;
   // Those who have the size of voxels in mind get it.
   EXPECT_EQ(eyeLevel(scene, close, noShadows(0.0)), Deepest);
   svo::FrameSettings biased = noShadows();

@@ -37,12 +37,12 @@ struct Stage
       n = -0.8f * n + 0.1f;
     }
     scene.instances = { instanceOf(ground, 1, movedTo(0, 0, -1)), instanceOf(ball, 2) };
-    svo::Instance& body = scene.instances[1];
-    body.attributes.normals = normals.data();
-    body.attributes.normalAssociation = svo::Association::Point;
-    body.material.specular = 0.3f;
-    body.material.specularPower = 10.0f;
-    body.material.ambient = 0.1f;
+    svo::Instance& smooth = scene.instances[1];
+    smooth.body.own().attributes.normals = normals.data();
+    smooth.body.own().attributes.normalAssociation = svo::Association::Point;
+    smooth.material.specular = 0.3f;
+    smooth.material.specularPower = 10.0f;
+    smooth.material.ambient = 0.1f;
     scene.lights = { lightOf(svo::Light::Kind::Spot, { 2, -2, 6 }) };
     scene.lights[0].coneAngle = 60.0;
   }
@@ -61,9 +61,16 @@ std::vector<Change> everyChange()
   const auto light = [](Stage& s) -> svo::Light& { return s.scene.lights[0]; };
   return {
     { "matrix", [=](Stage& s) { ball(s).localToWorld = movedTo(0.1, 0, 0); } },
-    { "octree", [=](Stage& s) { ball(s).octree = s.deepBall; } },
-    { "caster's octree", [=](Stage& s) { ball(s).casterOctree = s.deepBall; } },
-    { "leaves", [=](Stage& s) { ball(s).leafGeometry = svo::LeafGeometry::Voxel; } },
+    { "octree", [=](Stage& s) { ball(s).body.own().octree = s.deepBall; } },
+    { "caster's octree", [=](Stage& s) { ball(s).body.own().casterOctree = s.deepBall; } },
+    { "leaves", [=](Stage& s) { ball(s).body.own().leafGeometry = svo::LeafGeometry::Voxel; } },
+    { "points",
+      [=](Stage& s)
+      {
+        ball(s).body.own().points.doubles = &s.ballMesh.points.data()->x;
+        ball(s).body.own().points.count = s.ballMesh.points.size();
+      } },
+    { "needed level", [=](Stage& s) { ball(s).body.own().neededLevel = 9; } },
     { "ambient colour", [=](Stage& s) { ball(s).material.ambientColor.g = 0.2f; } },
     { "diffuse colour", [=](Stage& s) { ball(s).material.diffuseColor.r = 0.4f; } },
     { "specular colour", [=](Stage& s) { ball(s).material.specularColor.b = 0.1f; } },
@@ -73,19 +80,20 @@ std::vector<Change> everyChange()
     { "power", [=](Stage& s) { ball(s).material.specularPower = 2.0f; } },
     { "unlit", [=](Stage& s) { ball(s).material.lighting = false; } },
     { "flat", [=](Stage& s) { ball(s).material.flat = true; } },
-    { "normals at another place", [=](Stage& s) { ball(s).attributes.normals = s.others.data(); } },
+    { "normals at another place",
+      [=](Stage& s) { ball(s).body.own().attributes.normals = s.others.data(); } },
     { "normals in their place",
       [=](Stage& s)
       {
         s.normals = s.others;
-        ball(s).attributes.normals = s.normals.data();
-        ball(s).attributes.version = 5;
+        ball(s).body.own().attributes.normals = s.normals.data();
+        ball(s).body.own().attributes.version = 5;
       } },
     { "colours",
       [=](Stage& s)
       {
-        ball(s).attributes.colors = s.colors.data();
-        ball(s).attributes.colorAssociation = svo::Association::Point;
+        ball(s).body.own().attributes.colors = s.colors.data();
+        ball(s).body.own().attributes.colorAssociation = svo::Association::Point;
       } },
     { "invisible", [=](Stage& s) { ball(s).visible = false; } },
     { "casts not", [=](Stage& s) { ball(s).castShadow = false; } },
@@ -282,7 +290,7 @@ void changeAnything(std::mt19937& random, const svo::Octree& ball, Stage& stage)
         instanceOf(ball, random(), somewhere() * glm::scale(glm::dmat4(1.0), glm::dvec3(0.3))));
       if (number(2) != 0) // has a terminator
       {
-        all.back().attributes = all[1].attributes;
+        all.back().body.own().attributes = all[1].body->attributes;
       }
       break;
     case 5:
@@ -352,7 +360,8 @@ TEST(KeptFrame, AnySequenceOfChanges)
       const glm::dmat4 corner = movedTo(i & 1 ? -3.2 : 3.2, i & 2 ? -3.2 : 3.2, 1.4);
       stage.scene.instances.push_back(
         instanceOf(stage.ball, 100 + i, corner * glm::scale(glm::dmat4(1.0), glm::dvec3(0.3))));
-      stage.scene.instances.back().attributes = stage.scene.instances[1].attributes;
+      stage.scene.instances.back().body.own().attributes =
+        stage.scene.instances[1].body->attributes;
     }
     stage.scene.lights[0] = everyLight()[s % 4].light;
     stage.settings = settings[s];

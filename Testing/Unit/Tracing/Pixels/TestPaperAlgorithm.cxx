@@ -17,7 +17,7 @@ constexpr double Nothing = std::numeric_limits<double>::infinity();
 /// Depths of one object as a view sees it: E' = M^-1 E, V' = M^-1 V, pixel by pixel.
 std::vector<double> zTable(const svo::Instance& instance, const svo::View& view)
 {
-  const glm::dmat4 m = instance.octree.localToOctree() * glm::inverse(instance.localToWorld);
+  const glm::dmat4 m = instance.body->octree.localToOctree() * glm::inverse(instance.localToWorld);
   std::vector<double> table;
   for (int y = 0; y < view.height; ++y)
   {
@@ -28,8 +28,8 @@ std::vector<double> zTable(const svo::Instance& instance, const svo::View& view)
       ray.direction = glm::dvec3(m * glm::dvec4(view.rayDirection(x + 0.5, y + 0.5), 0.0));
       ray.tMin = view.tNear;
       ray.tMax = view.tFar;
-      const svo::Hit hit =
-        svo::intersect(instance.octree, ray, { instance.leafGeometry, svo::MaximumLevel });
+      const svo::Hit hit = svo::intersect(
+        instance.body->octree, ray, { instance.body->leafGeometry, svo::MaximumLevel });
       table.push_back(hit ? hit.t : Nothing);
     }
   }

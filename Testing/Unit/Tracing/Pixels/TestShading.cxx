@@ -199,8 +199,8 @@ TEST(Shading, NormalsFollowTheMeshAndFaceTheViewer)
   const svo::View view = lookAtParallel({ 0, -5, 0 }, 48, 48, 1.2);
   for (bool smooth : { false, true })
   {
-    scene.instances[0].attributes.normals = smooth ? normals.data() : nullptr;
-    scene.instances[0].attributes.normalAssociation =
+    scene.instances[0].body.own().attributes.normals = smooth ? normals.data() : nullptr;
+    scene.instances[0].body.own().attributes.normalAssociation =
       smooth ? svo::Association::Point : svo::Association::None;
     const svo::Frame frame = rendered(scene, view, settings);
     double worst = 0.0;
@@ -233,7 +233,7 @@ TEST(Shading, NormalsFollowTheMeshAndFaceTheViewer)
     }
   }
   // From inside: the other side, still facing the viewer, so still lit.
-  scene.instances[0].attributes = svo::Attributes();
+  scene.instances[0].body.own().attributes = svo::Attributes();
   const svo::Frame inside = rendered(scene, lookAt({ 0.0, -0.5, 0.0 }, 16, 16, 30.0), settings);
   EXPECT_GT(inside.color[4 * (8 * 16 + 8)], 200);
 }
@@ -258,7 +258,7 @@ TEST(Shading, CellAndPointColoursAreLookedUpByCellAndInterpolatedByPoint)
     glm::ortho(-1.0, 1.0, -1.0, 1.0, 0.1, 9.0), 32, 32, view);
   const auto pixel = [](const svo::Frame& frame, int x, int y)
   { return frame.color.data() + 4 * (32 * y + x); };
-  svo::Attributes& attributes = scene.instances[0].attributes;
+  svo::Attributes& attributes = scene.instances[0].body.own().attributes;
 
   const unsigned char cells[] = { 255, 0, 0, 255, 0, 255, 0, 255 };
   attributes.colors = cells;

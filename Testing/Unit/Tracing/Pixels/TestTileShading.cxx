@@ -72,7 +72,7 @@ struct Stage
       instance.material.specularPower = 7.0f;
       instance.material.flat = i == 5;
       instance.material.lighting = i != 6;
-      Attributes& a = instance.attributes;
+      Attributes& a = instance.body.own().attributes;
       a.normals = i == 0 ? nullptr : normals.data();
       a.normalAssociation = i == 2 ? Association::Cell : Association::Point;
       if (i == 1 || i == 2 || i == 6)
@@ -91,7 +91,7 @@ struct Stage
       glm::dmat4(glm::dmat3(glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)));
     scene.instances[3].localToWorld = scene.instances[3].localToWorld *
       glm::dmat4(glm::dmat3(glm::dvec3(1, 0.4, 0), glm::dvec3(0, 1, 0.3), glm::dvec3(0.2, 0, 1)));
-    scene.instances[7].leafGeometry = LeafGeometry::Plane;
+    scene.instances[7].body.own().leafGeometry = LeafGeometry::Plane;
 
     using Kind = Light::Kind;
     for (Kind kind : { Kind::Directional, Kind::Point, Kind::Spot, Kind::Spot })
@@ -112,7 +112,7 @@ struct Stage
     eye.prepare(
       scene, view, [](const Instance& i) { return i.visible; },
       [&](const Instance& i, const LocalView&)
-      { return &i == &scene.instances[7] ? level : i.octree.level(); },
+      { return &i == &scene.instances[7] ? level : i.body->octree.level(); },
       false, budget);
     eye.trace(serialFor, nullptr);
     frames.clear();
@@ -200,12 +200,12 @@ TEST(TileShading, PointsAreThoseOfSurfacePoint)
                   ASSERT_LE(off[k], WayError * patch.extent[k]);
                 }
                 ASSERT_TRUE(sameBits(point.facet, expected.facet)) << patch.instance;
-                const bool smooth = instance.attributes.normals && !instance.material.flat &&
-                  instance.attributes.normalAssociation == Association::Point;
+                const bool smooth = instance.body->attributes.normals && !instance.material.flat &&
+                  instance.body->attributes.normalAssociation == Association::Point;
                 expectSameNormal(
                   point.normal, expected.normal, smooth && !(primitive & NodePrimitive));
                 ASSERT_EQ(point.hasColor, expected.hasColor);
-                ASSERT_TRUE(!point.hasColor || instance.attributes.colorTexture ||
+                ASSERT_TRUE(!point.hasColor || instance.body->attributes.colorTexture ||
                   glm::distance(point.color, expected.color) < 100.0f * FloatRounding)
                   << patch.instance;
               });
@@ -358,7 +358,7 @@ TEST(TileShading, ShadowsAreThoseOfOnePoint)
             [&](const TilePatch& patch)
             {
               const Instance& instance = stage.scene.instances[patch.instance];
-              const double error = worldLeafError(instance, instance.leafGeometry, 7);
+              const double error = worldLeafError(instance, instance.body->leafGeometry, 7);
               const std::uint64_t asked = patch.mask & 0xf7bdef7bdef7bdefu;
               double extents[TilePatch::Most];
               for (int i = 0; i < TilePatch::Most; ++i)

@@ -84,14 +84,14 @@ void expectNearest(const float (&offsets)[3])
         {
           const svo::Instance& instance = scene.instances[i];
           const glm::dmat4 m =
-            instance.octree.localToOctree() * glm::inverse(instance.localToWorld);
+            instance.body->octree.localToOctree() * glm::inverse(instance.localToWorld);
           svo::Ray ray;
           ray.origin = glm::dvec3(m * glm::dvec4(view.rayOrigin(x + 0.5, y + 0.5), 1.0));
           ray.direction = glm::dvec3(m * glm::dvec4(view.rayDirection(x + 0.5, y + 0.5), 0.0));
           ray.tMin = view.tNear;
           ray.tMax = view.tFar;
-          const svo::Hit hit =
-            svo::intersect(instance.octree, ray, { instance.leafGeometry, svo::MaximumLevel });
+          const svo::Hit hit = svo::intersect(
+            instance.body->octree, ray, { instance.body->leafGeometry, svo::MaximumLevel });
           const double depth = view.windowDepth(hit.t) + offsets[i];
           if (hit && depth < nearest)
           {
@@ -231,11 +231,11 @@ TEST(Tracer, AnOctreeInAnotherOnesPlaceIsAnotherOctree)
     std::string error;
     svo::Scene scene = makeScene();
     scene.instances.resize(1);
-    scene.instances[0].octree =
+    scene.instances[0].body->octree =
       svo::Octree::open(std::shared_ptr<const std::byte>(
                           reinterpret_cast<const std::byte*>(place.data()), [](const void*) {}),
         8 * next.size(), nullptr, error);
-    ASSERT_TRUE(scene.instances[0].octree) << error;
+    ASSERT_TRUE(scene.instances[0].body->octree) << error;
     EXPECT_TRUE(
       identical(rendered(tracer, scene, Eye, smallBuffers()), rendered(scene, Eye, smallBuffers())))
       << "step " << step;
@@ -402,10 +402,10 @@ TEST(Tracer, BadInputIsAPictureWithoutIt)
   bad.localToWorld = glm::dmat4(std::numeric_limits<double>::infinity());
   scene.instances.push_back(bad);
   bad.localToWorld = glm::dmat4(1.0);
-  bad.octree = svo::Octree();
+  bad.body.own().octree = svo::Octree();
   scene.instances.push_back(bad);
-  bad.octree = makeOctree(Mesh(), 5);
-  ASSERT_TRUE(bool(bad.octree));
+  bad.body.own().octree = makeOctree(Mesh(), 5);
+  ASSERT_TRUE(bool(bad.body->octree));
   scene.instances.push_back(bad);
   const svo::Frame frame = rendered(scene, Eye, smallBuffers());
   EXPECT_EQ(frame.instance, expected.instance);

@@ -95,8 +95,8 @@ TEST(NodeShading, OfABallTheSideThatIsTurnedHereIsSeen)
   const svo::Octree octree = makeOctree(mesh, Level);
   const std::vector<float> normals = radialNormals(mesh);
   svo::Instance instance = instanceOf(octree, 1, glm::dmat4(1.0), svo::LeafGeometry::Plane);
-  instance.attributes.normals = normals.data();
-  instance.attributes.normalAssociation = svo::Association::Point;
+  instance.body.own().attributes.normals = normals.data();
+  instance.body.own().attributes.normalAssociation = svo::Association::Point;
   for (int level : Coarse)
   {
     const double beside = 2.0 * std::sqrt(3.0) * svo::worldVoxel(instance, level);
@@ -145,8 +145,8 @@ TEST(NodeShading, OfASheetSeenFromBehindTheBackIsSeen)
     normals.insert(normals.end(), { 0.0f, 0.6f, 0.8f });
   }
   svo::Instance instance = instanceOf(octree, 1, glm::dmat4(1.0), svo::LeafGeometry::Plane);
-  instance.attributes.normals = normals.data();
-  instance.attributes.normalAssociation = svo::Association::Point;
+  instance.body.own().attributes.normals = normals.data();
+  instance.body.own().attributes.normalAssociation = svo::Association::Point;
   for (int level : Coarse)
   {
     for (const float side : { 1.0f, -1.0f })

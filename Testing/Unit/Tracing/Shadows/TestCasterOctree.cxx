@@ -18,7 +18,7 @@ struct LitRing
   {
     scene.instances = { instanceOf(coarse, 1, movedTo(0, 0, 1.5), leaves),
       instanceOf(makeOctree(square(3.0), 6), 2) };
-    scene.instances[0].casterOctree = coarse;
+    scene.instances[0].body.own().casterOctree = coarse;
     scene.lights = { lightOf(svo::Light::Kind::Point, { 2, -1, 8 }) };
   }
 };
@@ -73,7 +73,7 @@ TEST(CasterOctree, MapsStayWhenTheEyesOctreeIsDeepened)
   {
     LitRing lit(leaves);
     const auto before = mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120));
-    lit.scene.instances[0].octree = lit.fine;
+    lit.scene.instances[0].body.own().octree = lit.fine;
     expectSame(before, mapsOf(lit.scene, lookAt({ 1, -4, 3 }, 160, 120)));
   }
 }
@@ -82,9 +82,9 @@ TEST(CasterOctree, WithoutOneTheLightsSeeWhatTheEyeSees)
 {
   LitRing lit(svo::LeafGeometry::Voxel);
   const auto given = mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120));
-  lit.scene.instances[0].casterOctree = svo::Octree();
+  lit.scene.instances[0].body.own().casterOctree = svo::Octree();
   expectSame(given, mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120)));
-  lit.scene.instances[0].octree = lit.fine;
+  lit.scene.instances[0].body.own().octree = lit.fine;
   EXPECT_NE(*given[0].depth, *mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120))[0].depth);
 }
 
@@ -97,7 +97,7 @@ TEST(CasterOctree, DeepeningRetracesTheEyesLayerAlone)
   rendered(tracer, lit.scene, view, settings);
   rendered(tracer, lit.scene, view, settings);
   EXPECT_EQ(tracer.statistics().retracedLayers, 0u);
-  lit.scene.instances[0].octree = lit.fine;
+  lit.scene.instances[0].body.own().octree = lit.fine;
   rendered(tracer, lit.scene, view, settings);
   EXPECT_EQ(tracer.statistics().retracedLayers, 1u);
 }
@@ -107,9 +107,37 @@ TEST(CasterOctree, RaysToLightsMeetWhatTheEyeSees)
   LitRing lit(svo::LeafGeometry::Automatic);
   svo::FrameSettings settings;
   settings.shadowTechnique = svo::ShadowTechnique::Rays;
-  lit.scene.instances[0].octree = lit.fine;
+  lit.scene.instances[0].body.own().octree = lit.fine;
   const svo::View view = lookAt({ 1, -7, 4 }, 160, 120);
   const svo::Frame given = rendered(lit.scene, view, settings);
-  lit.scene.instances[0].casterOctree = svo::Octree();
+  lit.scene.instances[0].body.own().casterOctree = svo::Octree();
   EXPECT_TRUE(identical(given, rendered(lit.scene, view, settings)));
+}
+
+TEST(CasterOctree, OfCopiesThatShareABodyItIsThatOfEach)
+{
+  LitRing lit(svo::LeafGeometry::Automatic);
+  lit.scene.instances[0].body.own().octree = lit.fine;
+  for (std::uint64_t i = 0; i < 3; ++i)
+  {
+    lit.scene.instances.push_back(lit.scene.instances[0]);
+    lit.scene.instances.back().id = 10 + i;
+    lit.scene.instances.back().localToWorld = movedTo(0.4, 0.3, 1.8 + 0.3 * double(i));
+  }
+  ASSERT_EQ(lit.scene.instances[0].body.holders(), 4u);
+  const svo::View view = lookAt({ 1, -7, 4 }, 160, 120);
+  const auto together = mapsOf(lit.scene, view);
+  EXPECT_EQ(lit.scene.instances[0].body->octree.id(), lit.fine.id());
+  for (svo::Instance& one : lit.scene.instances)
+  {
+    one.body = svo::Shared<svo::Body>(*one.body);
+  }
+  expectSame(together, mapsOf(lit.scene, view));
+  for (svo::Instance& one : lit.scene.instances)
+  {
+    svo::Body& body = one.body.own();
+    body.octree = body.casterOctree ? body.casterOctree : body.octree;
+    body.casterOctree = svo::Octree();
+  }
+  expectSame(together, mapsOf(lit.scene, view));
 }

@@ -229,7 +229,7 @@ TEST(ShadowBuffer, AContactShadowStartsWithinTwoVoxels)
                           makeOctree(square(3.0), level), 1, glm::dmat4(1.0), leafGeometry),
       instanceOf(makeOctree(wall, level), 2, glm::dmat4(1.0), leafGeometry) };
     scene.lights = { lightOf(svo::Light::Kind::Directional, { 0.0, 2.0, 3.0 }) };
-    const double voxel = scene.instances[0].octree.header().voxelSize;
+    const double voxel = scene.instances[0].body->octree.header().voxelSize;
     svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
     settings.shadowResolution = 2048;
     settings.pixelError = 0.0;
@@ -409,8 +409,8 @@ TEST(ShadowBuffer, AConvexBodyInGrazingLightDoesNotShadowItself)
     Scene scene;
     scene.instances = { svotest::instanceOf(octree, 1,
       glm::rotate(glm::dmat4(1.0), angle, glm::dvec3(0.3, 1.0, 0.2)), LeafGeometry::Automatic) };
-    scene.instances[0].attributes.normals = normals.data();
-    scene.instances[0].attributes.normalAssociation = Association::Point;
+    scene.instances[0].body.own().attributes.normals = normals.data();
+    scene.instances[0].body.own().attributes.normalAssociation = Association::Point;
     scene.lights = { svotest::lightOf(Light::Kind::Point, { 1.0, -4.0, 1.5 }) };
     const View view = svotest::lookAt({ 3.0, 1.0, 0.5 }, 256, 256, 50.0);
     FrameSettings settings;
@@ -420,7 +420,7 @@ TEST(ShadowBuffer, AConvexBodyInGrazingLightDoesNotShadowItself)
     LayeredView eye;
     eye.prepare(
       scene, view, [](const Instance&) { return true; },
-      [](const Instance& i, const LocalView&) { return i.octree.level(); }, false, budget);
+      [](const Instance& i, const LocalView&) { return i.body->octree.level(); }, false, budget);
     eye.trace(serialFor, nullptr);
     ShadowBuffer buffer;
     buffer.prepare(scene,
@@ -503,8 +503,8 @@ TEST(ShadowBuffer, FacetsThatTurnTheirBacksOnALightAreNotSpeckled)
   }
   svo::Scene scene;
   scene.instances = { instanceOf(makeOctree(sheet, 8), 1) };
-  scene.instances[0].attributes.normals = normals.data();
-  scene.instances[0].attributes.normalAssociation = svo::Association::Cell;
+  scene.instances[0].body.own().attributes.normals = normals.data();
+  scene.instances[0].body.own().attributes.normalAssociation = svo::Association::Cell;
   int lit = 0;
   for (const glm::dvec3& from :
     { glm::dvec3(2, -2, 5), glm::dvec3(-2, 3, -1), glm::dvec3(4, 1, -3) })

@@ -199,7 +199,8 @@ TEST(ShadowChoice, WorkIsCounted)
   svo::LayerBudget budget{ std::size_t(1) << 30, 0 };
   eye.prepare(
     scene, Eye, [](const svo::Instance&) { return true; },
-    [](const svo::Instance& instance, const svo::LocalView&) { return instance.octree.level(); },
+    [](const svo::Instance& instance, const svo::LocalView&)
+    { return instance.body->octree.level(); },
     true, budget);
   eye.trace(svo::serialFor, nullptr);
   double hits = 0.0;

@@ -101,7 +101,8 @@ Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& 
   svo::LayerBudget budget{ 1 << 30, 0 };
   eye.prepare(
     scene, view, [](const svo::Instance&) { return true; },
-    [](const svo::Instance& instance, const svo::LocalView&) { return instance.octree.level(); },
+    [](const svo::Instance& instance, const svo::LocalView&)
+    { return instance.body->octree.level(); },
     false, budget);
   eye.trace(svo::serialFor, nullptr);
   const svo::ShadowRays rays(scene, eye);
@@ -111,7 +112,8 @@ Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& 
   {
     frames.emplace_back(instance);
     rounding = std::max(rounding,
-      svo::BeamRounding * svo::worldScale(instance.localToWorld) * instance.octree.rootEdge());
+      svo::BeamRounding * svo::worldScale(instance.localToWorld) *
+        instance.body->octree.rootEdge());
   }
   Count count;
   svo::TilePatch patch;
@@ -133,7 +135,7 @@ Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& 
         svo::lookAtPatch(frames[patch.instance], patch, triangles);
         const svo::Instance& instance = scene.instances[patch.instance];
         const double error = svo::worldLeafError(instance, eye.leafGeometry(patch.instance),
-          instance.octree.level(), eye.placed(patch.instance));
+          instance.body->octree.level(), eye.placed(patch.instance));
         const std::uint64_t asked = patch.mask & 0xfbfdfeff7fbfdfefull;
         const std::uint64_t dark = rays.shadows(light, patch, error, asked);
         EXPECT_EQ(0u, dark & ~asked);
@@ -217,7 +219,8 @@ TEST(ShadowRays, CastersThatAreLeftOutAreNotMet)
   svo::LayerBudget budget{ 1 << 30, 0 };
   eye.prepare(
     scene, view, [](const svo::Instance&) { return true; },
-    [](const svo::Instance& instance, const svo::LocalView&) { return instance.octree.level(); },
+    [](const svo::Instance& instance, const svo::LocalView&)
+    { return instance.body->octree.level(); },
     false, budget);
   const svo::ShadowRays rays(scene, eye);
   // Through every caster, wherever it is.
@@ -226,10 +229,11 @@ TEST(ShadowRays, CastersThatAreLeftOutAreNotMet)
     bool any = false;
     for (const svo::Instance& instance : scene.instances)
     {
-      const svo::WorldToOctree toOctree(instance.octree, instance.localToWorld);
+      const svo::WorldToOctree toOctree(instance.body->octree, instance.localToWorld);
       const svo::Ray ray{ toOctree.point(from), toOctree.vector(way), tMin, tMax };
       any = any ||
-        svo::occluded(instance.octree, ray, { svo::LeafGeometry::Triangle, svo::MaximumLevel });
+        svo::occluded(
+          instance.body->octree, ray, { svo::LeafGeometry::Triangle, svo::MaximumLevel });
     }
     return any;
   };
@@ -285,7 +289,7 @@ TEST(ShadowRays, OtherLeavesOneByOne)
   for (const auto leaves : { svo::LeafGeometry::Voxel, svo::LeafGeometry::Plane })
   {
     Objects objects = rings();
-    objects.scene.instances[1].leafGeometry = leaves;
+    objects.scene.instances[1].body.own().leafGeometry = leaves;
     const Count count = compare(objects.scene, lookAt({ 3, -5, 3 }, 200, 160),
       lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }));
     EXPECT_GT(count.dark, 100);

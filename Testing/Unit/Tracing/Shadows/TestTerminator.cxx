@@ -53,8 +53,8 @@ struct Ball
   svo::Instance instance(std::uint64_t id, const glm::dmat4& place = glm::dmat4(1.0)) const
   {
     svo::Instance result = instanceOf(this->octree, id, place, svo::LeafGeometry::Automatic);
-    result.attributes.normals = this->normals.data();
-    result.attributes.normalAssociation = svo::Association::Point;
+    result.body.own().attributes.normals = this->normals.data();
+    result.body.own().attributes.normalAssociation = svo::Association::Point;
     return result;
   }
 };
@@ -262,7 +262,8 @@ TEST(Terminator, AThinWallStaysTightWhereLeavesAreCoarse)
         technique.settings.pixelError = 0.0; // leaves, not nodes as large as pixels
         svo::Scene scene;
         scene.instances = { ball.instance(1), ball.instance(2, glm::dmat4(glm::dmat3(1.02))) };
-        scene.instances[0].leafGeometry = scene.instances[1].leafGeometry = leaves;
+        scene.instances[0].body.own().leafGeometry = scene.instances[1].body.own().leafGeometry =
+          leaves;
         scene.instances[1].visible = false;
         scene.lights = { light.light };
         expectDark(scene, fromEyes(), technique, light.name);
@@ -336,8 +337,8 @@ TEST(Terminator, RidgesOfSmoothTerrainHaveNoStreaks)
       svo::Scene scene;
       scene.instances = { instanceOf(
         this->octree, 1, glm::dmat4(1.0), svo::LeafGeometry::Triangle) };
-      scene.instances[0].attributes.normals = this->normals.data();
-      scene.instances[0].attributes.normalAssociation = svo::Association::Point;
+      scene.instances[0].body.own().attributes.normals = this->normals.data();
+      scene.instances[0].body.own().attributes.normalAssociation = svo::Association::Point;
       scene.lights = { lightOf(svo::Light::Kind::Directional, { 300, -200, 120 }) };
       return scene;
     }

@@ -96,7 +96,7 @@ Count compareFrame(const Scene& scene, const View& view, LayeredView& map, MapOc
   LayerBudget budget{ 1 << 30, 0 };
   map.prepare(
     scene, view, [](const Instance&) { return true; },
-    [](const Instance& instance, const LocalView&) { return instance.octree.level(); }, true,
+    [](const Instance& instance, const LocalView&) { return instance.body->octree.level(); }, true,
     budget);
   map.trace(serialFor, nullptr);
   occluders.find(map, serialFor);
