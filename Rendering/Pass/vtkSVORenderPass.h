@@ -186,6 +186,21 @@ public:
 
   //@{
   /**
+   * Whether what is translucent casts shadows as light as it is: by the opacity of properties and
+   * blocks, and by the alpha of lookup tables, opacity arrays and colour arrays. Each such surface
+   * takes from a ray of light the share of its opacity where the ray meets it first, so that a
+   * closed body counts once and opacities of 0 and 1 are what invisible and opaque surfaces are.
+   * Several surfaces multiply what they leave; SetCastShadow(true, prop) has all of a surface cast
+   * like an opaque one. The alpha of textures does not count. Default on. Off, what is translucent
+   * casts nothing, and a message says so.
+   */
+  vtkSetMacro(TranslucentShadows, bool);
+  vtkGetMacro(TranslucentShadows, bool);
+  vtkBooleanMacro(TranslucentShadows, bool);
+  //@}
+
+  //@{
+  /**
    * Speed against accuracy: rays stop at the octree level whose voxels appear no larger than this
    * many pixels, 0..64; default 1. 0 always goes to the octree's full depth. Surfaces whose leaf
    * geometry is triangles or automatic and whose triangles are larger than about a pixel are
@@ -612,6 +627,7 @@ protected:
   bool AutomaticShadowBias = true;
   double ShadowBias = 0.0;
   double ShadowIntensity = 1.0;
+  bool TranslucentShadows = true;
   double PixelError = 1.0;
   bool ConvertPolyData = true;
   int MaximumLevel = 10;

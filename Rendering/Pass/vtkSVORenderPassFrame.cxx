@@ -122,6 +122,7 @@ bool vtkSVORenderPass::CollectFrame(
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
     collect.unmarkedCast = this->ShadowsForEverything;
+    collect.translucentShadows = this->TranslucentShadows;
     const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
     collect.notMarked = notMarked.c_str();
     collect.said = &impl.said;

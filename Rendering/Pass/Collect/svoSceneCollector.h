@@ -30,6 +30,7 @@ struct CollectSettings
   /// See CollectProps.
   bool onlyMarked = false;
   bool unmarkedCast = false;
+  bool translucentShadows = false;
   Reason notMarked = "was not chosen with SetUseSVO";
   LevelSettings levels;
   std::set<std::string>* said = nullptr; // messages of the pass, about no object in particular
@@ -96,6 +97,7 @@ private:
   // The rest of what they depend on.
   bool Collected = false;
   bool Shadows = false, Lights = false, OnlyMarked = false, UnmarkedCast = false;
+  bool TranslucentShadows = false;
   Reason NotMarked = nullptr;
   glm::dmat4 World{ 1.0 };
   LevelSettings Levels;

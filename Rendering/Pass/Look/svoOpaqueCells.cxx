@@ -146,22 +146,53 @@ vtkSmartPointer<vtkCellArray> opaqueOf(
   return found;
 }
 
+/// The cells whose ids begin at `base`; in the place of those that are invisible, cells without an
+/// area.
+vtkSmartPointer<vtkCellArray> visibleOf(
+  vtkCellArray* cells, vtkIdType base, vtkIdType points, const CellAlpha& alpha)
+{
+  auto found = vtkSmartPointer<vtkCellArray>::New();
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i)
+  {
+    cells->GetCellAtId(i, ids);
+    const vtkIdType* id = ids->GetPointer(0);
+    const bool broken = std::any_of(
+      id, id + ids->GetNumberOfIds(), [&](vtkIdType p) { return p < 0 || p >= points; });
+    if (broken || ids->GetNumberOfIds() < 3 || alpha.of(base + i, ids).invisible)
+    {
+      constexpr vtkIdType nothing[] = { 0, 0 };
+      found->InsertNextCell(2, nothing);
+    }
+    else
+    {
+      found->InsertNextCell(ids);
+    }
+  }
+  return found;
+}
+
 /// Leaves are no cells of the mesh: either all of it is opaque, or nothing.
 OpaqueCells::Answer sortLeaves(
   vtkPolyData* mesh, const Attributes& attributes, vtkUnsignedCharArray* colors)
 {
   const auto count = static_cast<std::size_t>(colors->GetNumberOfTuples());
   const bool opaque = allOpaque(attributes.colors, count);
-  return { opaque ? mesh : nullptr, !opaque };
+  return { opaque ? mesh : nullptr, !opaque, opaque ? nullptr : mesh, !opaque };
 }
 
-OpaqueCells::Answer sort(
-  vtkPolyData* mesh, const Attributes& attributes, vtkSmartPointer<vtkPolyData>& made)
+/// `madeVisible`: null if it is not asked for.
+OpaqueCells::Answer sort(vtkPolyData* mesh, const Attributes& attributes,
+  vtkSmartPointer<vtkPolyData>& made, vtkSmartPointer<vtkPolyData>* madeVisible)
 {
   const std::size_t count = attributes.colorCoordinates ? 2 * attributes.colorTextureSize
     : attributes.colorAssociation == Association::Cell  ? mesh->GetNumberOfCells()
                                                         : mesh->GetNumberOfPoints();
   made = nullptr;
+  if (madeVisible)
+  {
+    *madeVisible = nullptr;
+  }
   if (allOpaque(attributes.colorCoordinates ? attributes.colorTexture : attributes.colors, count))
   {
     return { mesh, false };
@@ -187,34 +218,59 @@ OpaqueCells::Answer sort(
     made->SetStrips(opaqueStrips);
     answer.mesh = made;
   }
+  answer.mapped = answer.translucent;
+  if (answer.translucent && madeVisible)
+  {
+    answer.visible = mesh;
+    if (counts.invisible > 0)
+    {
+      *madeVisible = vtkSmartPointer<vtkPolyData>::New();
+      answer.visible = *madeVisible;
+      answer.visible->SetPoints(mesh->GetPoints());
+      answer.visible->SetVerts(mesh->GetVerts());
+      answer.visible->SetLines(mesh->GetLines());
+      answer.visible->SetPolys(visibleOf(mesh->GetPolys(), polys, points, alpha));
+      answer.visible->SetStrips(
+        visibleOf(mesh->GetStrips(), polys + mesh->GetNumberOfPolys(), points, alpha));
+    }
+  }
   return answer;
 }
 }
 
 OpaqueCells::Answer OpaqueCells::of(
-  const SurfacePart& part, const Attributes& attributes, Kept& kept)
+  const SurfacePart& part, const Attributes& attributes, bool visible, Kept& kept)
 {
   vtkPolyData* mesh = part.mesh;
   vtkMapper* colors = part.colors;
-  if (part.opacity < 1.0)
+  const bool whole = part.opacity >= 1.0;
+  if (!whole && (part.opacity <= 0.0 || !visible))
   {
     return { nullptr, part.opacity > 0.0 };
   }
   if (!attributes.colors && !attributes.colorCoordinates)
   {
-    return { mesh, false };
+    return { whole ? mesh : nullptr, !whole, whole ? nullptr : mesh };
   }
   Entry& entry = this->Entries.of({ mesh, colors }, kept);
   // Times are never given twice, so a new object in an old one's place is noticed, too.
   const Times times{ mesh->GetMTime(), timeOf(colors->GetColorMapColors()),
     timeOf(colors->GetColorCoordinates()), timeOf(colors->GetColorTextureMap()) };
-  if (entry.times != times)
+  if (entry.times != times || entry.visible != visible)
   {
     entry.times = times;
+    entry.visible = visible;
     entry.answer = attributes.colorAssociation == Association::Leaf
       ? sortLeaves(mesh, attributes, colors->GetColorMapColors())
-      : sort(mesh, attributes, entry.made);
+      : sort(mesh, attributes, entry.made, visible ? &entry.madeVisible : nullptr);
   }
-  return entry.answer;
+  const Answer& answer = entry.answer;
+  if (whole)
+  {
+    return answer;
+  }
+  // Nothing of it is opaque.
+  vtkPolyData* rest = answer.translucent ? answer.visible : answer.mesh;
+  return { nullptr, rest != nullptr, rest, answer.mapped };
 }
 }

@@ -46,7 +46,11 @@ struct Instance
   MeshPoints points;
   bool visible = true; // false: a rasterised object that only casts
   bool castShadow = true;
+  /// The alpha of mapped colours counts in what it takes away of a light; see translucent().
+  bool mappedOpacity = false;
   bool receiveShadow = true;
+  /// As a caster: the share of a light that it takes away, 0..1.
+  float opacity = 1.0f;
   /// Largest projected edge of its voxels, pixels (0: full depth); negative: the frame's.
   double pixelError = -1.0;
   /// Stable identity of the instance from frame to frame (actor, block, path).
@@ -64,6 +68,11 @@ struct Instance
   int deepestLevel = 0;      // that the mesh's octree may have; 0: the one that `octree` has
   int detailLevel = 0;       // from which on its bricks have few triangles, all exact; 0: unknown
   int neededLevel = 0; // that this frame needs: `octree` is coarser while it is being deepened
+
+  /// True of what lets light through as a caster. Of each ray from a light it takes the share that
+  /// its opacity, times that alpha, has where the ray meets it first, whatever lies behind: a
+  /// closed body counts once. Several of them multiply what they leave.
+  bool translucent() const { return this->opacity < 1.0f || this->mappedOpacity; }
 };
 }
 

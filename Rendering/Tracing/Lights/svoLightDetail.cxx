@@ -3,6 +3,7 @@
 #include "svoCasters.h"
 #include "svoConvexParts.h"
 #include "svoLightView.h"
+#include "svoTranslucentGroups.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
@@ -174,8 +175,9 @@ LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, 
   const View& eye, double coarseness)
 {
   const double widestTexel = coarseness * WidestTexel;
-  LightMaps maps{ castersOf(outlines, light), {}, 0.0 };
+  LightMaps maps{ castersOf(outlines, light), {} };
   maps.views = fitLight(outlines, maps.casters, light, resolution);
+  maps.translucentGroups = groupTranslucent(outlines, maps.views, maps.casters);
   if (eye.width < 1 || eye.height < 1 || maps.views.empty())
   {
     return maps;
@@ -250,7 +252,7 @@ std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
       if (lights[i].castShadow)
       {
         maps[i] = mapsOfLight(outlines, lights[i], resolution, eye, coarseness);
-        count += maps[i].views.size();
+        count += maps[i].views.size() * (1 + maps[i].translucentGroups);
       }
     }
     const double taken = bytes * static_cast<double>(count) * resolution * resolution;

@@ -53,7 +53,7 @@ void add(const Instance& i, Bytes& bytes)
   add(i.octree, bytes);
   add(i.casterOctree, bytes);
   bytes.add(i.localToWorld, i.leafGeometry, i.pixelError, i.id, i.depthOffsetUnits, i.givesWay,
-    i.neededLevel, i.visible, i.castShadow, i.receiveShadow);
+    i.neededLevel, i.visible, i.castShadow, i.receiveShadow, i.mappedOpacity, i.opacity);
   bytes.add(m.ambientColor, m.diffuseColor, m.specularColor, m.ambient, m.diffuse, m.specular,
     m.specularPower, m.lighting, m.flat, m.flatPlanes);
   bytes.add(a.normals, a.normalAssociation, a.colors, a.colorAssociation, a.colorCoordinates,

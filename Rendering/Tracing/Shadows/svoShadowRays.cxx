@@ -2,6 +2,7 @@
 
 #include "svoIntersect.h"
 #include "svoLeafError.h"
+#include "svoSurfaceAlpha.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
@@ -46,7 +47,8 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
       const bool exact = traits.exact() && octree.surface();
       const bool mixed = traits.exact() && octree.longestList() > traits.longestExact;
       const double planeError = mixed ? CubeError * worldVoxel(instance) : 0.0;
-      this->Casters.push_back({ &instance, geometry, WorldToOctree(octree, instance.localToWorld),
+      std::vector<Caster>& casters = instance.translucent() ? this->Translucent : this->Casters;
+      casters.push_back({ &instance, geometry, WorldToOctree(octree, instance.localToWorld),
         planeError, std::max(planeError, worldLeafError(instance, geometry, octree.level())),
         exact && !mixed, CasterBox(instance) });
     }
@@ -82,6 +84,69 @@ bool ShadowRays::blocks(const Caster& caster, const Light& light, const glm::dve
   const Ray outer{ caster.toOctree.point(position + caster.planeError * side), ray.direction, 0.0,
     ray.tMax };
   return occluded(caster.instance->octree, outer, options);
+}
+
+float ShadowRays::opacityMet(const Caster& caster, const Light& light, const glm::dvec3& position,
+  const glm::dvec3& side, double offset)
+{
+  const Instance& instance = *caster.instance;
+  if (!instance.mappedOpacity)
+  {
+    return instance.opacity;
+  }
+  const TraceOptions options{ caster.geometry, MaximumLevel };
+  glm::dvec3 start = position + offset * side;
+  const glm::dvec3 direction = -light.along(start);
+  Ray ray{ caster.toOctree.point(start), caster.toOctree.vector(direction), 0.0,
+    light.atInfinity() ? 1e300 : BeforeLight };
+  Hit hit = intersect(instance.octree, ray, options);
+  const double length = glm::length(direction);
+  const double slope = std::max(glm::dot(side, direction) / length, 0.05);
+  if (caster.planeError > offset && !(hit.t * length > caster.planeError / slope))
+  {
+    start = position + caster.planeError * side; // as blocks() does
+    ray.origin = caster.toOctree.point(start);
+    hit = intersect(instance.octree, ray, options);
+  }
+  const SurfaceMatrices frame(instance);
+  return !hit ? 0.0f
+              : instance.opacity *
+      surfaceAlpha(
+        frame, start + hit.t * direction, -glm::vec3(glm::normalize(direction)), hit.primitive);
+}
+
+void ShadowRays::taken(const Light& light, const TilePatch& patch, double offset,
+  std::uint64_t asked, float* taken) const
+{
+  Start starts[Most];
+  PointBox box;
+  int count = 0;
+  eachBit(asked & patch.mask,
+    [&](int i)
+    {
+      const glm::dvec3 position = patch.position(i);
+      box.add(position, glm::dvec3(offset));
+      starts[count++] = { position, sideOf(light, position, patch.facet(i)), i };
+    });
+  std::fill_n(taken, TilePatch::Most, 0.0f);
+  for (const Caster& caster : this->Translucent)
+  {
+    if (count == 0 || !caster.box.mayBlock(light, box))
+    {
+      continue;
+    }
+    const std::uint64_t met = this->beam(caster, light, starts, count, offset);
+    for (int k = 0; k < count; ++k)
+    {
+      const Start& at = starts[k];
+      if (met >> at.number & 1)
+      {
+        float& all = taken[at.number];
+        const float one = opacityMet(caster, light, at.position, at.side, offset);
+        all = all > 0.0f ? 1.0f - (1.0f - all) * (1.0f - one) : one;
+      }
+    }
+  }
 }
 
 bool ShadowRays::shadows(
