@@ -123,6 +123,8 @@ bool vtkSVORenderPass::CollectFrame(
     collect.onlyMarked = attached;
     collect.unmarkedCast = this->ShadowsForEverything;
     collect.translucentShadows = this->TranslucentShadows;
+    // What processes tell each other of their casters does not include colours.
+    collect.meanOpacity = impl.controller && impl.controller->GetNumberOfProcesses() > 1;
     const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
     collect.notMarked = notMarked.c_str();
     collect.said = &impl.said;

@@ -212,8 +212,9 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
     SceneSurface translucent;
     translucent.mesh = casters.translucent;
     translucent.instance.attributes = surface.instance.attributes;
-    translucent.instance.opacity = static_cast<float>(part.opacity);
-    translucent.instance.mappedOpacity = opaque.mapped;
+    translucent.instance.mappedOpacity = opaque.mapped && !frame.meanOpacity;
+    translucent.instance.opacity =
+      static_cast<float>(part.opacity * (frame.meanOpacity ? opaque.alpha : 1.0));
     this->addTranslucent(actor, part, localToWorld, translucent, found);
   }
 }

@@ -40,6 +40,7 @@ struct CollectProps
   bool onlyMarked;
   bool unmarkedCast;
   bool translucentShadows;     // what is translucent casts as well, as light as it is
+  bool meanOpacity;            // ... each surface equally all over
   Reason notMarked;            // why the others are not traced
   std::set<std::string>* said; // messages of the pass, about no object in particular
   /// Messages about surfaces and cells that cast nothing, or more than they show; empty: none.

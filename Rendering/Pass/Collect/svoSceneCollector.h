@@ -31,6 +31,7 @@ struct CollectSettings
   bool onlyMarked = false;
   bool unmarkedCast = false;
   bool translucentShadows = false;
+  bool meanOpacity = false;
   Reason notMarked = "was not chosen with SetUseSVO";
   LevelSettings levels;
   std::set<std::string>* said = nullptr; // messages of the pass, about no object in particular
@@ -97,7 +98,7 @@ private:
   // The rest of what they depend on.
   bool Collected = false;
   bool Shadows = false, Lights = false, OnlyMarked = false, UnmarkedCast = false;
-  bool TranslucentShadows = false;
+  bool TranslucentShadows = false, MeanOpacity = false;
   Reason NotMarked = nullptr;
   glm::dmat4 World{ 1.0 };
   LevelSettings Levels;

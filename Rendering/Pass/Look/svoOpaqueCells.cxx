@@ -54,6 +54,7 @@ public:
   struct Range
   {
     bool opaque, invisible;
+    double mean = 0.0; // of the corners, 0..1
   };
 
   Range of(vtkIdType cell, vtkIdList* points) const
@@ -63,6 +64,7 @@ public:
     {
       range.opaque = range.opaque && alpha == 255;
       range.invisible = range.invisible && alpha == 0;
+      range.mean += alpha / 255.0;
     };
     if (this->Colors.colorCoordinates)
     {
@@ -77,6 +79,7 @@ public:
     {
       add(this->Colors.colors[4 * points->GetId(i) + 3]);
     }
+    range.mean /= static_cast<double>(points->GetNumberOfIds());
     return range;
   }
 
@@ -87,10 +90,12 @@ private:
     const int size = this->Colors.colorTextureSize;
     int first = size, last = -1;
     bool none = false; // a point has no value
+    double sum = 0.0;
     for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
     {
       const int texel = detail::texelAt(this->Colors,
         detail::coordinatesAt(this->Colors, static_cast<std::size_t>(points->GetId(i))));
+      sum += this->Colors.colorTexture[4 * texel + 3] / 255.0;
       none = none || texel >= size;
       first = texel < size ? std::min(first, texel) : first;
       last = texel < size ? std::max(last, texel) : last;
@@ -101,6 +106,7 @@ private:
       const unsigned char alpha = this->Colors.colorTexture[4 * size + 3];
       range = { alpha == 255, alpha == 0 };
     }
+    range.mean = sum / static_cast<double>(points->GetNumberOfIds());
     if (first <= last)
     {
       range.opaque = range.opaque && this->Clear[last + 1] == this->Clear[first];
@@ -116,6 +122,7 @@ private:
 struct Counts
 {
   vtkIdType opaque = 0, invisible = 0, all = 0;
+  double alpha = 0.0; // the sum of visible ones' means
 };
 
 /// The opaque ones of cells whose ids begin at `base`.
@@ -138,6 +145,7 @@ vtkSmartPointer<vtkCellArray> opaqueOf(
     ++counts.all;
     counts.invisible += range.invisible;
     counts.opaque += range.opaque;
+    counts.alpha += range.invisible ? 0.0 : range.mean;
     if (range.opaque)
     {
       found->InsertNextCell(ids);
@@ -178,7 +186,13 @@ OpaqueCells::Answer sortLeaves(
 {
   const auto count = static_cast<std::size_t>(colors->GetNumberOfTuples());
   const bool opaque = allOpaque(attributes.colors, count);
-  return { opaque ? mesh : nullptr, !opaque, opaque ? nullptr : mesh, !opaque };
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    sum += attributes.colors[4 * i + 3] / 255.0;
+  }
+  return { opaque ? mesh : nullptr, !opaque, opaque ? nullptr : mesh, !opaque,
+    opaque ? 1.0 : sum / static_cast<double>(count) };
 }
 
 /// `madeVisible`: null if it is not asked for.
@@ -219,6 +233,8 @@ OpaqueCells::Answer sort(vtkPolyData* mesh, const Attributes& attributes,
     answer.mesh = made;
   }
   answer.mapped = answer.translucent;
+  answer.alpha =
+    answer.mapped ? counts.alpha / static_cast<double>(counts.all - counts.invisible) : 1.0;
   if (answer.translucent && madeVisible)
   {
     answer.visible = mesh;
@@ -271,6 +287,6 @@ OpaqueCells::Answer OpaqueCells::of(
   }
   // Nothing of it is opaque.
   vtkPolyData* rest = answer.translucent ? answer.visible : answer.mesh;
-  return { nullptr, rest != nullptr, rest, answer.mapped };
+  return { nullptr, rest != nullptr, rest, answer.mapped, answer.alpha };
 }
 }

@@ -29,6 +29,7 @@ public:
     /// mesh if none is. Cells and points have the numbers that they have there.
     vtkPolyData* visible = nullptr;
     bool mapped = false; // colours make these cells translucent, perhaps the part's opacity, too
+    double alpha = 1.0;  // if mapped: the mean of what they have at the corners of visible cells
   };
 
   /// The part's scalars have been mapped to `attributes`. A cell is opaque if all of its points

@@ -23,17 +23,14 @@ bool sameColors(const Attributes& a, const Attributes& b)
 
 void ShadowBuffer::findSameOpacity()
 {
-  float same = this->MappedColors.empty() ? 0.0f : -1.0f;
+  this->SameOpacity = 0.0f;
+  bool same = this->MappedColors.empty();
   for (const float opacity : this->CasterOpacity)
   {
-    const bool fits = opacity == 0.0f || same == 0.0f || opacity == same;
-    same = fits ? std::max(same, opacity) : -1.0f;
-    if (same < 0.0f)
-    {
-      break;
-    }
+    same = same && (opacity == 0.0f || this->SameOpacity == 0.0f || opacity == this->SameOpacity);
+    this->SameOpacity = std::max(this->SameOpacity, opacity);
   }
-  this->SameOpacity = same;
+  this->SameOpacity = same ? this->SameOpacity : -1.0f;
 }
 
 /// Of the group's casters; of opaque ones there is nothing to note.

@@ -95,24 +95,26 @@ float ShadowRays::opacityMet(const Caster& caster, const Light& light, const glm
     return instance.opacity;
   }
   const TraceOptions options{ caster.geometry, MaximumLevel };
-  glm::dvec3 start = position + offset * side;
-  const glm::dvec3 direction = -light.along(start);
-  Ray ray{ caster.toOctree.point(start), caster.toOctree.vector(direction), 0.0,
-    light.atInfinity() ? 1e300 : BeforeLight };
-  Hit hit = intersect(instance.octree, ray, options);
-  const double length = glm::length(direction);
-  const double slope = std::max(glm::dot(side, direction) / length, 0.05);
-  if (caster.planeError > offset && !(hit.t * length > caster.planeError / slope))
-  {
-    start = position + caster.planeError * side; // as blocks() does
-    ray.origin = caster.toOctree.point(start);
-    hit = intersect(instance.octree, ray, options);
-  }
   const SurfaceMatrices frame(instance);
-  return !hit ? 0.0f
-              : instance.opacity *
-      surfaceAlpha(
-        frame, start + hit.t * direction, -glm::vec3(glm::normalize(direction)), hit.primitive);
+  // From the light, or where that is nowhere from beyond the caster, to where blocks() began.
+  for (const double above : { std::max(offset, caster.planeError), offset })
+  {
+    const glm::dvec3 end = position + above * side;
+    const glm::dvec3 towards = -light.along(end);
+    const glm::dvec3 localEnd = caster.toOctree.point(end);
+    const glm::dvec3 local = caster.toOctree.vector(towards);
+    const double beyond = glm::distance(localEnd, glm::dvec3(1.5)) + 1.0; // the cube is 1..2
+    const double length = light.atInfinity() ? beyond / glm::length(local) : BeforeLight;
+    const Hit hit =
+      intersect(instance.octree, { localEnd + length * local, -local, 0.0, length }, options);
+    if (hit)
+    {
+      return instance.opacity *
+        surfaceAlpha(frame, end + (length - hit.t) * towards, glm::vec3(glm::normalize(towards)),
+          hit.primitive);
+    }
+  }
+  return 0.0f; // the ray only grazes it
 }
 
 void ShadowRays::taken(const Light& light, const TilePatch& patch, double offset,

@@ -42,7 +42,7 @@ public:
   /// Those rays, and these points, know nothing of translucent casters. True if there are some.
   bool translucent() const { return !this->Translucent.empty(); }
   /// The share of the light that they take from the points of a patch that are `asked`, by pixel,
-  /// 0..1; 0 of others. Of each it is what the ray meets first that counts.
+  /// 0..1; 0 of others. Of each caster it is what the ray from the light meets first that counts.
   void taken(const Light& light, const TilePatch& patch, double offset, std::uint64_t asked,
     float* taken) const;
 
@@ -69,7 +69,7 @@ private:
   struct Start;
   static bool blocks(const Caster& caster, const Light& light, const glm::dvec3& position,
     const glm::dvec3& side, double offset);
-  /// What a ray that is blocked meets first: how opaque it is there.
+  /// How opaque the caster is where the light of a point that it blocks() meets it first.
   static float opacityMet(const Caster& caster, const Light& light, const glm::dvec3& position,
     const glm::dvec3& side, double offset);
   /// Changes the order of the starts.
