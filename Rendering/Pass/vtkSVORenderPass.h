@@ -364,11 +364,12 @@ public:
 
   //@{
   /**
-   * Whether a prop casts shadows; without an answer every opaque surface does and a translucent one
-   * does not. Of surfaces whose colours, by lookup table, opacity array or block, are translucent
-   * or invisible in places, the opaque cells do. An answer of true has all of a surface cast,
-   * however translucent. Get says what the next frame will do as far as it depends on the prop, and
-   * false of what never casts: wireframes, volumes, widgets, props that are not visible.
+   * Whether a prop casts shadows; without an answer every surface does that is to be seen, and what
+   * is translucent as light as it is: see SetTranslucentShadows(). Of surfaces whose colours, by
+   * lookup table, opacity array or block, are invisible in places, the other cells do. An answer of
+   * true has all of a surface cast, like an opaque one. Get says what the next frame will do as far
+   * as it depends on the prop, and false of what never casts: wireframes, volumes, widgets, props
+   * that are not visible.
    */
   static void SetCastShadow(bool cast, vtkProp* prop);
   static bool GetCastShadow(vtkProp* prop);
@@ -376,7 +377,8 @@ public:
 
   /**
    * Why a prop is left to the rasteriser, or casts no shadow or less than its whole one: sentences
-   * for people. Empty if it is traced and casts. Like GetCastShadow() it goes by the prop alone.
+   * for people. Empty if it is traced and casts. Like GetCastShadow() it goes by the prop alone,
+   * and takes it for granted that TranslucentShadows is on.
    */
   static std::string GetReason(vtkProp* prop);
 
@@ -599,8 +601,9 @@ protected:
    */
   enum TextType
   {
-    TEXT_HEADLIGHT = 0,           // what a headlight is called, in GetCastingLights()
-    TEXT_ONLY_HEADLIGHTS = 1,     // there are no shadows, because no other lights are on
+    TEXT_HEADLIGHT = 0,       // what a headlight is called, in GetCastingLights()
+    TEXT_ONLY_HEADLIGHTS = 1, // there are no shadows, because no other lights are on
+    // Without TranslucentShadows, and of textures:
     TEXT_TRANSLUCENT = 2,         // cells of a surface cast none, because they are translucent
     TEXT_TRANSLUCENT_SURFACE = 3, // a surface casts none, because its opacity makes it translucent
     TEXT_CUT_OUT = 4,             // cells cast their whole shadows, although a texture hides parts

@@ -297,26 +297,29 @@ void ShadowBuffer::merge(Processes& processes, std::size_t first)
 {
   struct Caster
   {
-    double voxel, error, opacity;
+    double voxel, error;
   };
   std::vector<Caster> own;
   for (std::size_t i = 0; i < this->CasterVoxel.size(); ++i)
   {
-    own.push_back({ this->CasterVoxel[i], this->CasterError[i],
-      this->Translucent ? this->CasterOpacity[i] : 1.0 });
+    own.push_back({ this->CasterVoxel[i], this->CasterError[i] });
   }
   std::vector<Caster> all;
   gatherRecords(processes, own, all);
   this->CasterVoxel.clear();
   this->CasterError.clear();
-  this->CasterOpacity.clear();
   for (const Caster& caster : all)
   {
-    this->CasterOpacity.push_back(static_cast<float>(caster.opacity));
     this->CasterVoxel.push_back(caster.voxel);
     this->CasterError.push_back(caster.error);
   }
-  this->findSameOpacity();
+  if (this->Translucent)
+  {
+    const std::vector<float> opacities = std::move(this->CasterOpacity);
+    gatherRecords(processes, opacities, this->CasterOpacity);
+    this->MappedColors.clear();
+    this->findSameOpacity();
+  }
   for (auto& face : this->Faces)
   {
     face->shared.merge(processes, face->view, face->layers, first);

@@ -69,7 +69,8 @@ public:
   void trace(const ParallelFor& parallelFor);
 
   /// Merges what was traced, whole, with the other processes'. A collective call; `first`: index of
-  /// this process's first instance among all.
+  /// this process's first instance among all. Of translucent casters the alpha of colours does not
+  /// count any more.
   void merge(Processes& processes, std::size_t first);
 
   /// True if the texels around the point are traced: those of marked points are.
@@ -123,7 +124,8 @@ public:
   /// `extent`: of darkness(), or null: dark is 0 or 1, by shadows().
   Told tell(const SurfacePoint& point, double error, const double* extent) const;
 
-  void copyMaps(int light, int group, std::vector<ShadowMap>& maps);
+  /// `group`: ShadowMap::group.
+  void copyMaps(int light, std::vector<ShadowMap>& maps, int group = 0);
   void release();
 
   std::uint64_t rays() const;

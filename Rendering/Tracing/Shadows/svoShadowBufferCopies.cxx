@@ -29,7 +29,7 @@ std::shared_ptr<const std::vector<float>> ShadowBuffer::Face::copyDepth(double b
   return copy;
 }
 
-void ShadowBuffer::copyMaps(int light, int group, std::vector<ShadowMap>& maps)
+void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps, int group)
 {
   for (const auto& face : this->Faces)
   {

@@ -335,12 +335,12 @@ void Shadows::copyMaps(std::vector<ShadowMap>& maps)
   {
     if (this->Buffers[l])
     {
-      this->Buffers[l]->copyMaps(static_cast<int>(l), 0, maps);
+      this->Buffers[l]->copyMaps(static_cast<int>(l), maps);
     }
     for (std::size_t b = this->FirstTranslucent[l]; b < this->FirstTranslucent[l + 1]; ++b)
     {
       this->Buffers[b]->copyMaps(
-        static_cast<int>(l), 1 + static_cast<int>(b - this->FirstTranslucent[l]), maps);
+        static_cast<int>(l), maps, 1 + static_cast<int>(b - this->FirstTranslucent[l]));
     }
   }
 }

@@ -192,13 +192,25 @@ TEST(RenderPassSettings, PropsAnswerForThemselves)
   EXPECT_FALSE(vtkSVORenderPass::GetUseSVO(actor));
 }
 
-TEST(RenderPassSettings, ATranslucentPropCastsOnlyWhenAsked)
+TEST(RenderPassSettings, ATranslucentPropCastsAnInvisibleOneDoesNot)
 {
+  vtkNew<vtkSphereSource> ball;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(ball->GetOutputPort());
   vtkNew<vtkActor> actor;
   actor->GetProperty()->SetOpacity(0.5);
+  EXPECT_TRUE(vtkSVORenderPass::GetCastShadow(actor));
+  actor->SetMapper(mapper);
+  EXPECT_TRUE(vtkSVORenderPass::GetCastShadow(actor));
+  EXPECT_EQ(vtkSVORenderPass::GetReason(actor), "Left to the rasteriser: it is translucent.");
+  actor->GetProperty()->SetOpacity(0.0);
   EXPECT_FALSE(vtkSVORenderPass::GetCastShadow(actor));
   vtkSVORenderPass::SetCastShadow(true, actor);
   EXPECT_TRUE(vtkSVORenderPass::GetCastShadow(actor));
+  vtkNew<vtkSVORenderPass> pass;
+  EXPECT_TRUE(pass->GetTranslucentShadows());
+  pass->TranslucentShadowsOff();
+  EXPECT_FALSE(pass->GetTranslucentShadows());
 }
 
 TEST(RenderPassSettings, AHeadlightCastsOnlyWhenAsked)
