@@ -31,6 +31,7 @@ TEST(RenderPassSettings, DefaultsAreThoseOfTheManual)
   EXPECT_TRUE(pass->GetAutomaticShadowBias());
   EXPECT_EQ(pass->GetShadowBias(), 0.0);
   EXPECT_EQ(pass->GetShadowIntensity(), 1.0);
+  EXPECT_TRUE(pass->GetTranslucentShadows());
   EXPECT_EQ(pass->GetPixelError(), 1.0);
   EXPECT_TRUE(pass->GetConvertPolyData());
   EXPECT_EQ(pass->GetMaximumLevel(), 10);
@@ -278,11 +279,12 @@ TEST(RenderPassSettings, PrintsEverySetting)
   vtkNew<vtkSVORenderPass> pass;
   std::ostringstream text;
   pass->Print(text);
-  for (const char* name : { "Backend", "ShadowTechnique", "ShadowBufferResolution",
-         "AutomaticShadowBias", "ShadowBias", "ShadowIntensity", "PixelError", "ConvertPolyData",
-         "MaximumLevel", "LeafGeometry", "OctreeMemoryLimit", "BuildInBackground", "FrameCoherence",
-         "LayerMemoryLimit", "AntiAliasing", "NumberOfRasterizedActors", "AcceptedPixelError",
-         "NumberOfOctreesBuilt", "NumberOfOctreesInProgress" })
+  for (const char* name :
+    { "Backend", "ShadowTechnique", "ShadowBufferResolution", "AutomaticShadowBias", "ShadowBias",
+      "ShadowIntensity", "TranslucentShadows", "PixelError", "ConvertPolyData", "MaximumLevel",
+      "LeafGeometry", "OctreeMemoryLimit", "BuildInBackground", "FrameCoherence",
+      "LayerMemoryLimit", "AntiAliasing", "NumberOfRasterizedActors", "AcceptedPixelError",
+      "NumberOfOctreesBuilt", "NumberOfOctreesInProgress" })
   {
     EXPECT_NE(text.str().find(name), std::string::npos) << name;
   }
