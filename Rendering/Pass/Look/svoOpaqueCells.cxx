@@ -169,8 +169,8 @@ vtkSmartPointer<vtkCellArray> visibleOf(
       id, id + ids->GetNumberOfIds(), [&](vtkIdType p) { return p < 0 || p >= points; });
     if (broken || ids->GetNumberOfIds() < 3 || alpha.of(base + i, ids).invisible)
     {
-      constexpr vtkIdType nothing[] = { 0, 0 };
-      found->InsertNextCell(2, nothing);
+      constexpr vtkIdType nothing[] = { 0, 0, 0 };
+      found->InsertNextCell(3, nothing);
     }
     else
     {
