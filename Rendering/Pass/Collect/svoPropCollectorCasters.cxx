@@ -40,7 +40,8 @@ PropCollector::Casters PropCollector::castersOf(const SurfacePart& part, OpaqueC
   }
   if (opaque.translucent && !translucent)
   {
-    const bool whole = part.opacity < 1.0 || actor->GetForceTranslucent();
+    const bool whole =
+      !frame.translucentShadows && (part.opacity < 1.0 || actor->GetForceTranslucent());
     this->complainOnce(
       nullptr, whole ? frame.translucentSurfaceText : frame.translucentText, frame);
   }
