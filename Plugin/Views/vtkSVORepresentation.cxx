@@ -224,7 +224,7 @@ vtkIdType vtkSVORepresentation::GetCacheMemoryLimit()
 
 void vtkSVORepresentation::SetCastShadows(bool cast)
 {
-  // Without an answer opaque surfaces cast and translucent ones do not.
+  // Without an answer surfaces cast as opaque as they are, with one of true like opaque ones.
   this->Actor->GetPropertyKeys()->Remove(vtkSVORenderPass::CAST_SHADOW());
   if (!cast)
   {

@@ -40,8 +40,8 @@ public:
 
   //@{
   /**
-   * Whether the surface casts shadows, and whether shadows fall on it. Default on. Translucent
-   * surfaces never cast.
+   * Whether the surface casts shadows, and whether shadows fall on it. Default on. Of translucent
+   * surfaces see vtkSVORenderPass::SetTranslucentShadows(), which is the view's.
    */
   void SetCastShadows(bool cast);
   bool GetCastShadows();

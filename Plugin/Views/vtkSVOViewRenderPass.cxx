@@ -23,8 +23,9 @@ std::string vtkSVOViewRenderPass::GetText(int text, vtkLight* about) const
       return std::string(); // a window for each opacity that is lowered would be too much
     case TEXT_TRANSLUCENT:
       return "A surface, or some cells of it, cast no shadow because colours or texture make them "
-             "translucent. Cast Shadows, of the surface's properties, switches the others' shadow "
-             "and this message off.";
+             "translucent. SVO Translucent Shadows, of the view, has what colours make translucent "
+             "cast as light as it is; Cast Shadows, of the surface's properties, switches the "
+             "others' shadow and this message off.";
     case TEXT_CUT_OUT:
       return "A surface casts the shadow of its whole cells although its texture hides parts of "
              "them. Cast Shadows, of the surface's properties, switches the shadow off.";

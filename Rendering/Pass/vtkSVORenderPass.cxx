@@ -77,7 +77,8 @@ std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
              "Add a vtkLight with SetLightTypeToSceneLight().";
     case TEXT_TRANSLUCENT_SURFACE:
       return "A surface casts no shadow because its opacity makes it translucent. "
-             "SetCastShadow(true, prop) has it cast, false makes it cast none in silence.";
+             "SetTranslucentShadows(true) has it cast one as light as it is, SetCastShadow(true, "
+             "prop) a whole one; SetCastShadow(false, prop) makes it cast none in silence.";
     case TEXT_TRANSLUCENT:
       return "A surface, or some cells of it, cast no shadow because colours or texture make them "
              "translucent. SetCastShadow(true, prop) has all of it cast, false none and in "
@@ -224,6 +225,7 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "AutomaticShadowBias: " << this->AutomaticShadowBias << '\n'
      << indent << "ShadowBias: " << this->ShadowBias << " voxels\n"
      << indent << "ShadowIntensity: " << this->ShadowIntensity << '\n'
+     << indent << "TranslucentShadows: " << this->TranslucentShadows << '\n'
      << indent << "PixelError: " << this->PixelError << " pixels\n"
      << indent << "ConvertPolyData: " << this->ConvertPolyData << '\n'
      << indent << "MaximumLevel: " << this->MaximumLevel << '\n'

@@ -186,6 +186,21 @@ public:
 
   //@{
   /**
+   * Whether what is translucent casts shadows as light as it is: by the opacity of properties and
+   * blocks, and by the alpha of lookup tables, opacity arrays and colour arrays. Each such surface
+   * takes from a ray of light the share of its opacity where the ray meets it first, so that a
+   * closed body counts once and opacities of 0 and 1 are what invisible and opaque surfaces are.
+   * Several surfaces multiply what they leave; SetCastShadow(true, prop) has all of a surface cast
+   * like an opaque one. The alpha of textures does not count. Default on. Off, what is translucent
+   * casts nothing, and a message says so.
+   */
+  vtkSetMacro(TranslucentShadows, bool);
+  vtkGetMacro(TranslucentShadows, bool);
+  vtkBooleanMacro(TranslucentShadows, bool);
+  //@}
+
+  //@{
+  /**
    * Speed against accuracy: rays stop at the octree level whose voxels appear no larger than this
    * many pixels, 0..64; default 1. 0 always goes to the octree's full depth. Surfaces whose leaf
    * geometry is triangles or automatic and whose triangles are larger than about a pixel are
@@ -380,11 +395,12 @@ public:
 
   //@{
   /**
-   * Whether a prop casts shadows; without an answer every opaque surface does and a translucent one
-   * does not. Of surfaces whose colours, by lookup table, opacity array or block, are translucent
-   * or invisible in places, the opaque cells do. An answer of true has all of a surface cast,
-   * however translucent. Get says what the next frame will do as far as it depends on the prop, and
-   * false of what never casts: wireframes, volumes, widgets, props that are not visible.
+   * Whether a prop casts shadows; without an answer every surface does that is to be seen, and what
+   * is translucent as light as it is: see SetTranslucentShadows(). Of surfaces whose colours, by
+   * lookup table, opacity array or block, are invisible in places, the other cells do. An answer of
+   * true has all of a surface cast, like an opaque one. Get says what the next frame will do as far
+   * as it depends on the prop, and false of what never casts: wireframes, volumes, widgets, props
+   * that are not visible.
    */
   static void SetCastShadow(bool cast, vtkProp* prop);
   static bool GetCastShadow(vtkProp* prop);
@@ -392,7 +408,8 @@ public:
 
   /**
    * Why a prop is left to the rasteriser, or casts no shadow or less than its whole one: sentences
-   * for people. Empty if it is traced and casts. Like GetCastShadow() it goes by the prop alone.
+   * for people. Empty if it is traced and casts. Like GetCastShadow() it goes by the prop alone,
+   * and takes it for granted that TranslucentShadows is on.
    */
   static std::string GetReason(vtkProp* prop);
 
@@ -632,8 +649,9 @@ protected:
    */
   enum TextType
   {
-    TEXT_HEADLIGHT = 0,           // what a headlight is called, in GetCastingLights()
-    TEXT_ONLY_HEADLIGHTS = 1,     // there are no shadows, because no other lights are on
+    TEXT_HEADLIGHT = 0,       // what a headlight is called, in GetCastingLights()
+    TEXT_ONLY_HEADLIGHTS = 1, // there are no shadows, because no other lights are on
+    // Without TranslucentShadows, and of textures:
     TEXT_TRANSLUCENT = 2,         // cells of a surface cast none, because they are translucent
     TEXT_TRANSLUCENT_SURFACE = 3, // a surface casts none, because its opacity makes it translucent
     TEXT_CUT_OUT = 4,             // cells cast their whole shadows, although a texture hides parts
@@ -660,6 +678,7 @@ protected:
   bool AutomaticShadowBias = true;
   double ShadowBias = 0.0;
   double ShadowIntensity = 1.0;
+  bool TranslucentShadows = true;
   double PixelError = 1.0;
   bool ConvertPolyData = true;
   int MaximumLevel = 10;

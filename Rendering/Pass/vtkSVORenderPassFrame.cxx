@@ -124,6 +124,9 @@ bool vtkSVORenderPass::CollectFrame(
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
     collect.unmarkedCast = this->ShadowsForEverything;
+    collect.translucentShadows = this->TranslucentShadows;
+    // What processes tell each other of their casters does not include colours.
+    collect.meanOpacity = impl.controller && impl.controller->GetNumberOfProcesses() > 1;
     collect.notMarked =
       impl.reasonTexts.insert(this->GetText(TEXT_NOT_CHOSEN, nullptr)).first->c_str();
     collect.said = &impl.said;

@@ -57,8 +57,7 @@ bool vtkSVORenderPass::GetCastShadow(vtkProp* prop)
     return true;
   }
   // Nothing to be seen yet is no reason.
-  return !judged.castsNone &&
-    svo::flagOf(prop, nullptr, svo::castShadowKey(), !prop->HasTranslucentPolygonalGeometry());
+  return !judged.castsNone && svo::flagOf(prop, nullptr, svo::castShadowKey(), true);
 }
 
 std::string vtkSVORenderPass::GetReason(vtkProp* prop)

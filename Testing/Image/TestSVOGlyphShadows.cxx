@@ -37,7 +37,7 @@ struct Left
 std::vector<Left> left()
 {
   return {
-    { "translucent copies", "is translucent", 16,
+    { "translucent copies", "is translucent", 20,
       [](GlyphStage& s) { colorBy(s, "rgba", VTK_COLOR_MODE_DIRECT_SCALARS); } },
     { "translucent copies that were told to", "is translucent", 20,
       [](GlyphStage& s)
@@ -45,8 +45,20 @@ std::vector<Left> left()
         colorBy(s, "rgba", VTK_COLOR_MODE_DIRECT_SCALARS);
         vtkSVORenderPass::SetCastShadow(true, s.actor);
       } },
-    { "a translucent property", "is translucent", 0,
+    { "translucent copies, where these cast nothing", "is translucent", 16,
+      [](GlyphStage& s)
+      {
+        colorBy(s, "rgba", VTK_COLOR_MODE_DIRECT_SCALARS);
+        s.pass->TranslucentShadowsOff();
+      } },
+    { "a translucent property", "is translucent", 20,
       [](GlyphStage& s) { s.actor->GetProperty()->SetOpacity(0.5); } },
+    { "a translucent property, where that casts nothing", "is translucent", 0,
+      [](GlyphStage& s)
+      {
+        s.actor->GetProperty()->SetOpacity(0.5);
+        s.pass->TranslucentShadowsOff();
+      } },
     { "culling and levels of detail", "shows coarser copies far away", 20,
       [](GlyphStage& s) { s.mapper->SetCullingAndLOD(true); } },
     { "edges", "shows its edges or vertices", 20,

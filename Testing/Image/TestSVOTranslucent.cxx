@@ -9,6 +9,7 @@ int TestSVOTranslucent(int argc, char* argv[])
   using namespace svotest;
   Checks checks;
   Stage stage;
+  stage.pass->TranslucentShadowsOff(); // TestSVOTranslucentShadows has them
   ShadowOracle oracle;
   oracle.add(stage.addGround());
   oracle.add(stage.add(ball(0.7, 0.3, 0.4, 0.9), 0.9, 0.5, 0.3));

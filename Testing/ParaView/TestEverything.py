@@ -145,9 +145,13 @@ class TestEverything(unittest.TestCase):
         lit, _ = scene.exact_shadow(self.view, self.view.ViewSize)
         lit &= ~scene.border(lit, 3)
         ball.Opacity = 0.5
+        self.view.SVOTranslucentShadows = 0
         self.assertGreater(self.everything("translucent")[lit].min(), 60)
         self.assertEqual(scene.statistic(ball, "SVOReason"),
                          "Left to the rasteriser: it is not shown as SVO. Casts no shadow: it is translucent.")
+        self.view.SVOTranslucentShadows = 1
+        self.assertGreater(self.everything("translucent-casts")[lit].min(), 60)
+        self.assertEqual(scene.statistic(ball, "SVOReason"), "")
         ball.Opacity = 1.0
         self.check_shadow(self.everything("opaque-again"))
         self.assertEqual(scene.statistic(ball, "SVOReason"), "")

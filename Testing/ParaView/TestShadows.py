@@ -75,6 +75,72 @@ class TestShadows(unittest.TestCase):
         scene.show(pv.Sphere(Center=list(scene.CENTER), Radius=0.1), self.view, "Surface")
         self.assertGreater(shadow_rays(), alone)
 
+    def shares(self, picture, without):
+        """What is left of the light inside of the exact shadow, and beside it, on the ground."""
+        ground, dark = scene.exact_shadow(self.view, self.view.ViewSize)
+        inside, beside = dark & ~scene.border(dark, 3), ground & ~dark & ~scene.border(dark, 3)
+        share = picture[..., 0] / numpy.maximum(without[..., 0], 1.0)
+        return share[inside & ground], share[beside & ~scene.border(ground, 3)]
+
+    def test_translucent_surfaces_cast_lighter_shadows(self):
+        for kind in "SVO", "Surface":  # of the ground
+            with self.subTest(ground=kind):
+                ball, ground = self.show("SVO", kind)
+                self.view.SVOShadowTechnique = "None"
+                without = scene.picture(self.view, f"translucent-{kind}-none").astype(float)
+                self.view.SVOShadowTechnique = "Shadow Buffer"
+                for opacity in (0.2, 0.4, 0.99, 1.0):
+                    ball.Opacity = opacity
+                    picture = scene.picture(self.view, f"translucent-{kind}-{opacity}").astype(float)
+                    inside, beside = self.shares(picture, without)
+                    self.assertGreater(len(inside), 500)
+                    self.assertLess(abs(inside - (1.0 - opacity)).max(), 0.015)
+                    self.assertEqual(abs(beside - 1.0).max(), 0.0)
+                    self.assertNotIn("Casts", scene.statistic(self.view, "SVOReasons").replace(
+                        "Casts no shadow: it is not shown as SVO", ""))
+                ball.Opacity = 0.4
+                self.view.SVOTranslucentShadows = 0
+                inside, _ = self.shares(scene.picture(self.view, f"translucent-{kind}-off").astype(float), without)
+                self.assertEqual(abs(inside - 1.0).max(), 0.0)
+                self.view.SVOTranslucentShadows = 1
+                ball.Opacity = 1.0
+
+    def test_opacity_mapping(self):
+        """The ball is invisible on the one side, opaque on the other, and so is its shadow."""
+        ball, ground = self.show("SVO", "SVO")
+        pv.Hide(self.ball, self.view)
+        colored = pv.Elevation(Input=self.ball, LowPoint=[-0.5, 0, 0.8], HighPoint=[0.5, 0, 0.8])
+        ball = scene.show(colored, self.view)
+        pv.ColorBy(ball, ("POINTS", "Elevation"))
+        table, opacity = pv.GetColorTransferFunction("Elevation"), pv.GetOpacityTransferFunction("Elevation")
+        for function in table, opacity:
+            function.RescaleTransferFunction(0.0, 1.0)
+        opacity.Points = [0.0, 0.0, 0.5, 0.0, 1.0, 1.0, 0.5, 0.0]
+        self.view.SVOShadowTechnique = "None"
+        without = scene.picture(self.view, "mapped-none").astype(float)
+        # Where the light meets the ball first.
+        _, points, _ = scene.ground_points(self.view, self.view.ViewSize)
+        way = points - scene.CENTER
+        along = -(way * scene.TO_LIGHT).sum(axis=-1)
+        reach = numpy.sqrt(numpy.maximum(scene.RADIUS ** 2 - ((way ** 2).sum(axis=-1) - along ** 2), 0.0))
+        left = 0.5 - (points + (along + reach)[..., None] * scene.TO_LIGHT)[..., 0]
+        for technique in "Shadow Buffer", "Shadow Rays":
+            table.EnableOpacityMapping = 1
+            self.view.SVOShadowTechnique = technique
+            inside, beside = self.shares(scene.picture(self.view, "mapped").astype(float), without)
+            self.assertEqual(abs(beside - 1.0).max(), 0.0)
+            expected, _ = self.shares(255.0 * left[..., None], numpy.full_like(without, 255.0))
+            self.assertLess(expected.min(), 0.1)
+            self.assertGreater(expected.max(), 0.6)
+            self.assertLess(abs(inside - expected).max(), 0.05)
+            self.assertLess(abs(inside - expected).mean(), 0.01)
+            self.assertEqual(scene.statistic(self.view, "SVOReasons"),
+                             "Elevation1: Left to the rasteriser: it is translucent. "
+                             "Casts less than its whole shadow: it is invisible in parts.\n")
+            table.EnableOpacityMapping = 0
+            inside, _ = self.shares(scene.picture(self.view, "mapped-off").astype(float), without)
+            self.assertLess(inside.max(), 0.05)
+
     def test_ordinary_surfaces_cast_nothing(self):
         self.show("Surface", "SVO")
         ordinary = scene.picture(self.view, "ordinary-ball")

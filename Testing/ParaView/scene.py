@@ -134,9 +134,8 @@ def baseline_difference(actual, name):
     return differing(actual, read(os.path.join(os.environ["VTKSVO_BASELINE"], name + ".png")))
 
 
-def exact_shadow(view, size):
-    """What the scene's ball does to the ground, by arithmetic: for each pixel whether it shows the
-    ground, and whether the ball is between that place and the light."""
+def ground_points(view, size):
+    """For each pixel the way of its ray, and where that meets the ground's plane, and how far away in such ways."""
     width, height = size
     eye = numpy.array(view.CameraPosition)
     ahead = numpy.array(view.CameraFocalPoint) - eye
@@ -148,6 +147,15 @@ def exact_shadow(view, size):
     x = ((numpy.arange(width) + 0.5) / width * 2 - 1) * slope * width / height
     y = ((numpy.arange(height) + 0.5) / height * 2 - 1) * slope
     rays = ahead + x[None, :, None] * right + y[:, None, None] * above
+    t = -eye[2] / rays[..., 2]
+    return rays, eye + t[..., None] * rays, t
+
+
+def exact_shadow(view, size):
+    """What the scene's ball does to the ground, by arithmetic: for each pixel whether it shows the
+    ground, and whether the ball is between that place and the light."""
+    eye = numpy.array(view.CameraPosition)
+    rays, points, t = ground_points(view, size)
 
     def meets_ball(origins, directions):
         to_center = CENTER - origins
@@ -155,8 +163,6 @@ def exact_shadow(view, size):
         nearest = origins + along[..., None] * directions
         return (along > 0) & (((nearest - CENTER) ** 2).sum(axis=-1) < RADIUS ** 2)
 
-    t = -eye[2] / rays[..., 2]
-    points = eye + t[..., None] * rays
     ground = (t > 0) & (abs(points[..., :2]) < 2).all(axis=-1)
     ground &= ~meets_ball(numpy.broadcast_to(eye, rays.shape), rays)
     dark = ground & meets_ball(points, numpy.broadcast_to(TO_LIGHT, points.shape))

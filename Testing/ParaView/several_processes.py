@@ -85,8 +85,10 @@ view.SVOShadowsForEverything = 1
 picture("everything")
 print("casts nothing:", scene.statistic(view, "SVOReasons").strip() or "nobody")
 displays[0].Opacity = 0.5
+view.SVOTranslucentShadows = 0
 pv.Render(view)
 print("casts nothing:", scene.statistic(view, "SVOReasons").strip())
+view.SVOTranslucentShadows = 1
 displays[0].Opacity = 1.0
 pv.Hide(ground, view)
 view.SVOShadowCatcher = "Below Z"
@@ -100,7 +102,7 @@ pv.RemoveLight(view.AdditionalLights[0])
 picture("light-kit")
 # ParaView orders translucent surfaces by sending parts of them as XML with appended data.
 if scene.reads_appended_data():
-    displays[0].SVOCastShadows = 0  # or it would be said that it casts none
+    displays[0].SVOCastShadows = 0  # as nothing does that is shown as Surface
     displays[0].Opacity = 0.5
     picture("translucent")
     for display in displays:

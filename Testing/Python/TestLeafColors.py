@@ -8,8 +8,9 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, makes render windows
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkLookupTable, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
+from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkRenderingCore import (
-    vtkActor, vtkColorTransferFunction, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
+    vtkActor, vtkColorTransferFunction, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
     vtkWindowToImageFilter)
 
 EDGE = 41
@@ -199,6 +200,64 @@ class LeafColors(unittest.TestCase):
         view = self.view(self.octree("slope"), True, "slope", table(SetAlphaRange=(0.3, 1.0)))
         view.pixels()
         self.assertEqual(view.tracer.GetNumberOfRasterizedActors(), 1)
+
+    def test_translucent_colors_cast_as_light_as_they_are(self):
+        """A ball 2 above a ground, the light from aside: of each place the nearer side of the ball counts."""
+        renderer, window, tracer = vtkRenderer(), vtkRenderWindow(), vtksvo.vtkSVORenderPass()
+        window.SetOffScreenRendering(True)
+        window.SetMultiSamples(0)
+        window.SetSize(120, 60)
+        window.AddRenderer(renderer)
+        renderer.SetPass(tracer)
+        alphas = table(SetNumberOfTableValues=(256,), SetTableRange=(0.4, 2.6), SetAlphaRange=(0.0, 1.0))
+        mapper, ball = vtkPolyDataMapper(), vtkActor()
+        mapper.SetInputConnection(self.octree("slope"))
+        mapper.SetScalarModeToUseCellFieldData()
+        mapper.SelectColorArray("slope")
+        mapper.SetLookupTable(alphas)
+        mapper.UseLookupTableScalarRangeOn()
+        ball.SetMapper(mapper)
+        ball.SetPosition(0, 0, 2)
+        source, ground, ofGround = vtkPlaneSource(), vtkActor(), vtkPolyDataMapper()
+        source.SetOrigin(-4, -2, 0)
+        source.SetPoint1(4, -2, 0)
+        source.SetPoint2(-4, 2, 0)
+        ofGround.SetInputConnection(source.GetOutputPort())
+        ground.SetMapper(ofGround)
+        light = vtkLight()
+        light.SetLightTypeToSceneLight()
+        light.SetPosition(1, 0, 1)
+        renderer.AddLight(light)
+        camera = renderer.GetActiveCamera()
+        camera.ParallelProjectionOn()
+        camera.SetParallelScale(1)
+        camera.SetPosition(-2, 0, 9)
+        camera.SetFocalPoint(-2, 0, 0)
+        camera.SetClippingRange(1, 12)
+        renderer.AddActor(ground)
+        lit = None
+        for technique in None, tracer.SHADOW_BUFFER, tracer.SHADOW_RAYS:
+            if technique is not None:
+                renderer.AddActor(ball)
+                tracer.SetShadowTechnique(technique)
+            grab = vtkWindowToImageFilter()
+            grab.SetInput(window)
+            grab.ReadFrontBufferOff()
+            grab.Update()
+            pixels = grab.GetOutput().GetPointData().GetScalars()
+            grey = [pixels.GetComponent(i, 0) for i in range(pixels.GetNumberOfTuples())]
+            lit = lit or grey
+            asked = 0
+            for i, value in enumerate(grey if technique is not None else []):
+                x, y = (i % 120 + 0.5) / 30 - 4, (i // 120 + 0.5) / 30 - 1
+                along = (2 - x) / math.sqrt(2)
+                squared = 0.64 - (x * x + y * y + 4 - along * along)
+                if x < -1 and squared > 0.06:
+                    step = (along + math.sqrt(squared)) / math.sqrt(2)
+                    slope = 1.5 + (x + step) + 0.3 * (step - 2)
+                    asked += 1
+                    self.assertAlmostEqual(value / lit[i], 1 - (slope - 0.4) / 2.2, delta=0.06)
+            self.assertTrue(technique is None or asked > 700, asked)
 
 
 if __name__ == "__main__":

@@ -105,46 +105,6 @@ std::vector<SurfacePart> PropCollector::partsOf(vtkActor* actor, Kept& kept)
   return { whole };
 }
 
-/// What of a part casts a shadow; nullptr if nothing does.
-vtkPolyData* PropCollector::casterOf(const SurfacePart& part, OpaqueCells::Answer opaque,
-  vtkActor* actor, PropSurfaces& found, const CollectProps& frame)
-{
-  const auto answer = [&](bool otherwise)
-  { return flagOf(actor, found.prop, castShadowKey(), otherwise); };
-  if (answer(false))
-  {
-    return part.mesh;
-  }
-  if (!answer(true))
-  {
-    found.castNothing("was told so");
-    return nullptr;
-  }
-  const bool mapped = part.mesh->GetPointData()->GetTCoords() != nullptr;
-  const TextureAlpha texture = mapped ? alphaOf(part.texture) : TextureAlpha::Opaque;
-  if (opaque.mesh && (actor->GetForceTranslucent() || texture == TextureAlpha::Translucent))
-  {
-    opaque = { nullptr, true };
-  }
-  if (opaque.mesh != part.mesh)
-  {
-    found.castNothing(opaque.translucent ? "is translucent"
-        : opaque.mesh                    ? "is invisible in parts"
-                                         : "is invisible");
-  }
-  if (opaque.translucent)
-  {
-    const bool whole = part.opacity < 1.0 || actor->GetForceTranslucent();
-    this->complainOnce(
-      nullptr, whole ? frame.translucentSurfaceText : frame.translucentText, frame);
-  }
-  else if (opaque.mesh && texture == TextureAlpha::CutOut)
-  {
-    this->complainOnce(nullptr, frame.cutOutText, frame);
-  }
-  return opaque.mesh;
-}
-
 /// The matrix of an actor, fit for tracing. False if nothing of it is collected; `beyond` says why
 /// it can only cast.
 bool PropCollector::placeOf(vtkActor* actor, const vtkMatrix4x4* matrix, glm::dmat4& localToWorld,
@@ -231,8 +191,11 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
     const Reason unmapped = mapColors(part, this->Leaves, attributes, found.kept);
     reason = beyond ? beyond : unmapped;
   }
-  const OpaqueCells::Answer opaque = this->Opaque.of(part, attributes, found.kept);
-  surface.mesh = frame.shadows ? this->casterOf(part, opaque, actor, found, frame) : nullptr;
+  const OpaqueCells::Answer opaque =
+    this->Opaque.of(part, attributes, frame.shadows && frame.translucentShadows, found.kept);
+  const Casters casters =
+    frame.shadows ? this->castersOf(part, opaque, actor, found, frame) : Casters();
+  surface.mesh = casters.opaque;
   surface.casts = surface.mesh != nullptr;
   if (!reason)
   {
@@ -243,6 +206,16 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
   if (this->finish(actor, part, localToWorld, reason, surface, found))
   {
     found.surfaces.push_back(surface);
+  }
+  if (casters.translucent)
+  {
+    SceneSurface translucent;
+    translucent.mesh = casters.translucent;
+    translucent.instance.body.own().attributes = surface.instance.body->attributes;
+    translucent.instance.mappedOpacity = opaque.mapped && !frame.meanOpacity;
+    translucent.instance.opacity =
+      static_cast<float>(part.opacity * (frame.meanOpacity ? opaque.alpha : 1.0));
+    this->addTranslucent(actor, part, localToWorld, translucent, found);
   }
 }
 

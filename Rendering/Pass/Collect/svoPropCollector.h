@@ -39,6 +39,8 @@ struct CollectProps
   /// The others only receive, or cast as well; about them there are no messages.
   bool onlyMarked;
   bool unmarkedCast;
+  bool translucentShadows;     // what is translucent casts as well, as light as it is
+  bool meanOpacity;            // ... each surface equally all over
   Reason notMarked;            // why the others are not traced
   std::set<std::string>* said; // messages of the pass, about no object in particular
   /// Messages about surfaces and cells that cast nothing, or more than they show; empty: none.
@@ -77,8 +79,16 @@ private:
     PropSurfaces& found, const CollectProps& frame);
   bool finish(vtkActor* actor, const SurfacePart& part, const glm::dmat4& localToWorld,
     Reason reason, SceneSurface& surface, PropSurfaces& found);
-  vtkPolyData* casterOf(const SurfacePart& part, OpaqueCells::Answer opaque, vtkActor* actor,
+  /// What of a part casts; null: nothing.
+  struct Casters
+  {
+    vtkPolyData* opaque = nullptr;
+    vtkPolyData* translucent = nullptr;
+  };
+  Casters castersOf(const SurfacePart& part, OpaqueCells::Answer opaque, vtkActor* actor,
     PropSurfaces& found, const CollectProps& frame);
+  void addTranslucent(vtkActor* actor, const SurfacePart& part, const glm::dmat4& localToWorld,
+    SceneSurface& surface, PropSurfaces& found);
   void complainOnce(vtkObject* about, const std::string& text, const CollectProps& frame);
 
   CompositeBlocks Blocks;

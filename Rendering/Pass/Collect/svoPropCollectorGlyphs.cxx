@@ -96,18 +96,28 @@ void PropCollector::collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorl
     part.overridesColor = true;
     part.opacity = actor->GetProperty()->GetOpacity();
     part.texture = textureOf(actor);
+    std::shared_ptr<const GlyphSet> translucent;
     if (frame.shadows)
     {
       const bool all = surface.copies->opaque;
       const bool some = all ||
         std::any_of(surface.copies->copies.begin(), surface.copies->copies.end(),
           [](const GlyphCopy& copy) { return copy.color[3] == 255; });
-      const OpaqueCells::Answer opaque{ some ? mesh : nullptr, !all };
-      surface.mesh = this->casterOf(part, opaque, actor, found, frame);
+      const OpaqueCells::Answer opaque{ some ? mesh : nullptr, !all, all ? nullptr : mesh };
+      const Casters casters = this->castersOf(part, opaque, actor, found, frame);
+      surface.mesh = casters.opaque;
       surface.casts = surface.mesh != nullptr;
+      if (casters.translucent)
+      {
+        translucent = select(*surface.copies,
+          [](const GlyphCopy& copy) { return copy.color[3] > 0 && copy.color[3] < 255; });
+      }
       if (surface.casts && !all && !flagOf(actor, found.prop, castShadowKey(), false))
       {
-        found.castNothing("is translucent");
+        if (!translucent)
+        {
+          found.castNothing("is translucent");
+        }
         surface.copies =
           select(*surface.copies, [](const GlyphCopy& copy) { return copy.color[3] == 255; });
       }
@@ -129,6 +139,18 @@ void PropCollector::collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorl
       // Copies of several sources may be at the same point.
       surface.instance.id ^= number * 0x9e3779b97f4a7c15ull;
       found.surfaces.push_back(surface);
+    }
+    if (translucent && !translucent->copies.empty())
+    {
+      SceneSurface lighter;
+      lighter.mesh = mesh;
+      lighter.copies = translucent;
+      const std::size_t before = found.surfaces.size();
+      this->addTranslucent(actor, part, localToWorld, lighter, found);
+      if (found.surfaces.size() > before)
+      {
+        found.surfaces.back().instance.id ^= number * 0x9e3779b97f4a7c15ull;
+      }
     }
   }
 }

@@ -82,8 +82,8 @@ std::vector<vtkSmartPointer<vtkProp>> propsOf(vtkRenderer* renderer)
 PropSurfaces SceneCollector::judge(vtkProp* prop)
 {
   const StoreOptions silent{};
-  const CollectProps frame{ silent, true, false, false, false, nullptr, nullptr, {}, {}, {},
-    glm::dmat4(1.0) };
+  const CollectProps frame{ silent, true, false, false, false, true, false, nullptr, nullptr, {},
+    {}, {}, glm::dmat4(1.0) };
   PropSurfaces found;
   found.prop = prop;
   if (!prop->GetVisibility())
@@ -275,19 +275,22 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
     casting = casting || light.castShadow;
   }
   const CollectProps frame{ options, settings.shadows && casting, !result.scene.lights.empty(),
-    settings.onlyMarked, settings.unmarkedCast, settings.notMarked, settings.said,
-    settings.translucentSurfaceText, settings.translucentText, settings.cutOutText, world };
+    settings.onlyMarked, settings.unmarkedCast, settings.translucentShadows, settings.meanOpacity,
+    settings.notMarked, settings.said, settings.translucentSurfaceText, settings.translucentText,
+    settings.cutOutText, world };
   const std::vector<vtkSmartPointer<vtkProp>> props = propsOf(renderer);
   const bool all = !this->Collected ||
-    std::tie(this->Shadows, this->Lights, this->OnlyMarked, this->UnmarkedCast, this->NotMarked,
-      this->World) !=
-      std::tie(
-        frame.shadows, frame.lights, frame.onlyMarked, frame.unmarkedCast, frame.notMarked, world);
+    std::tie(this->Shadows, this->Lights, this->OnlyMarked, this->UnmarkedCast,
+      this->TranslucentShadows, this->MeanOpacity, this->NotMarked, this->World) !=
+      std::tie(frame.shadows, frame.lights, frame.onlyMarked, frame.unmarkedCast,
+        frame.translucentShadows, frame.meanOpacity, frame.notMarked, world);
   this->Collected = true;
   this->Shadows = frame.shadows;
   this->Lights = frame.lights;
   this->OnlyMarked = frame.onlyMarked;
   this->UnmarkedCast = frame.unmarkedCast;
+  this->TranslucentShadows = frame.translucentShadows;
+  this->MeanOpacity = frame.meanOpacity;
   this->NotMarked = frame.notMarked;
   this->World = world;
   const bool changed = this->collectProps(props, frame, all);

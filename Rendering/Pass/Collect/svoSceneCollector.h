@@ -30,6 +30,8 @@ struct CollectSettings
   /// See CollectProps.
   bool onlyMarked = false;
   bool unmarkedCast = false;
+  bool translucentShadows = false;
+  bool meanOpacity = false;
   /// Outlives the collector, and is another one only at another address.
   Reason notMarked = "was not chosen with SetUseSVO";
   LevelSettings levels;
@@ -97,6 +99,7 @@ private:
   // The rest of what they depend on.
   bool Collected = false;
   bool Shadows = false, Lights = false, OnlyMarked = false, UnmarkedCast = false;
+  bool TranslucentShadows = false, MeanOpacity = false;
   Reason NotMarked = nullptr;
   glm::dmat4 World{ 1.0 };
   LevelSettings Levels;

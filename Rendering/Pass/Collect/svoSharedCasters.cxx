@@ -23,8 +23,8 @@ struct SharedCasters::Record
   int leafGeometry;
   std::uint64_t id;
   double localToWorld[16];
-  int instance; // index on the process that it comes from
-  int unused = 0;
+  int instance;  // index on the process that it comes from
+  float opacity; // Instance::opacity
 
   Key key() const { return { this->signature, this->level, this->leafGeometry }; }
 };
@@ -78,6 +78,7 @@ void SharedCasters::exchange(
     record.leafGeometry = static_cast<int>(instance.body->octree.header().leafGeometry);
     record.id = instance.id;
     record.instance = static_cast<int>(i);
+    record.opacity = instance.opacity;
     std::memcpy(record.localToWorld, &instance.localToWorld[0][0], sizeof(record.localToWorld));
     own.push_back(record);
   }
@@ -111,6 +112,7 @@ void SharedCasters::exchange(
       std::memcpy(&instance.localToWorld[0][0], record.localToWorld, sizeof(record.localToWorld));
       instance.visible = false;
       instance.receiveShadow = false;
+      instance.opacity = record.opacity;
       instance.id = record.id ^ (0x9e3779b97f4a7c15ull * (owner + 1));
       collected.scene.instances.push_back(instance);
       collected.scene.version = 0;

@@ -54,6 +54,7 @@ public:
   struct Range
   {
     bool opaque, invisible;
+    double mean = 0.0; // of the corners, 0..1
   };
 
   Range of(vtkIdType cell, vtkIdList* points) const
@@ -63,6 +64,7 @@ public:
     {
       range.opaque = range.opaque && alpha == 255;
       range.invisible = range.invisible && alpha == 0;
+      range.mean += alpha / 255.0;
     };
     if (this->Colors.colorCoordinates)
     {
@@ -77,6 +79,7 @@ public:
     {
       add(this->Colors.colors[4 * points->GetId(i) + 3]);
     }
+    range.mean /= static_cast<double>(points->GetNumberOfIds());
     return range;
   }
 
@@ -87,10 +90,12 @@ private:
     const int size = this->Colors.colorTextureSize;
     int first = size, last = -1;
     bool none = false; // a point has no value
+    double sum = 0.0;
     for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
     {
       const int texel = detail::texelAt(this->Colors,
         detail::coordinatesAt(this->Colors, static_cast<std::size_t>(points->GetId(i))));
+      sum += this->Colors.colorTexture[4 * texel + 3] / 255.0;
       none = none || texel >= size;
       first = texel < size ? std::min(first, texel) : first;
       last = texel < size ? std::max(last, texel) : last;
@@ -101,6 +106,7 @@ private:
       const unsigned char alpha = this->Colors.colorTexture[4 * size + 3];
       range = { alpha == 255, alpha == 0 };
     }
+    range.mean = sum / static_cast<double>(points->GetNumberOfIds());
     if (first <= last)
     {
       range.opaque = range.opaque && this->Clear[last + 1] == this->Clear[first];
@@ -116,6 +122,7 @@ private:
 struct Counts
 {
   vtkIdType opaque = 0, invisible = 0, all = 0;
+  double alpha = 0.0; // the sum of visible ones' means
 };
 
 /// The opaque ones of cells whose ids begin at `base`.
@@ -138,7 +145,34 @@ vtkSmartPointer<vtkCellArray> opaqueOf(
     ++counts.all;
     counts.invisible += range.invisible;
     counts.opaque += range.opaque;
+    counts.alpha += range.invisible ? 0.0 : range.mean;
     if (range.opaque)
+    {
+      found->InsertNextCell(ids);
+    }
+  }
+  return found;
+}
+
+/// The cells whose ids begin at `base`; in the place of those that are invisible, cells without an
+/// area.
+vtkSmartPointer<vtkCellArray> visibleOf(
+  vtkCellArray* cells, vtkIdType base, vtkIdType points, const CellAlpha& alpha)
+{
+  auto found = vtkSmartPointer<vtkCellArray>::New();
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i)
+  {
+    cells->GetCellAtId(i, ids);
+    const vtkIdType* id = ids->GetPointer(0);
+    const bool broken = std::any_of(
+      id, id + ids->GetNumberOfIds(), [&](vtkIdType p) { return p < 0 || p >= points; });
+    if (broken || ids->GetNumberOfIds() < 3 || alpha.of(base + i, ids).invisible)
+    {
+      constexpr vtkIdType nothing[] = { 0, 0, 0 };
+      found->InsertNextCell(3, nothing);
+    }
+    else
     {
       found->InsertNextCell(ids);
     }
@@ -152,16 +186,27 @@ OpaqueCells::Answer sortLeaves(
 {
   const auto count = static_cast<std::size_t>(colors->GetNumberOfTuples());
   const bool opaque = allOpaque(attributes.colors, count);
-  return { opaque ? mesh : nullptr, !opaque };
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    sum += attributes.colors[4 * i + 3] / 255.0;
+  }
+  return { opaque ? mesh : nullptr, !opaque, opaque ? nullptr : mesh, !opaque,
+    opaque ? 1.0 : sum / static_cast<double>(count) };
 }
 
-OpaqueCells::Answer sort(
-  vtkPolyData* mesh, const Attributes& attributes, vtkSmartPointer<vtkPolyData>& made)
+/// `madeVisible`: null if it is not asked for.
+OpaqueCells::Answer sort(vtkPolyData* mesh, const Attributes& attributes,
+  vtkSmartPointer<vtkPolyData>& made, vtkSmartPointer<vtkPolyData>* madeVisible)
 {
   const std::size_t count = attributes.colorCoordinates ? 2 * attributes.colorTextureSize
     : attributes.colorAssociation == Association::Cell  ? mesh->GetNumberOfCells()
                                                         : mesh->GetNumberOfPoints();
   made = nullptr;
+  if (madeVisible)
+  {
+    *madeVisible = nullptr;
+  }
   if (allOpaque(attributes.colorCoordinates ? attributes.colorTexture : attributes.colors, count))
   {
     return { mesh, false };
@@ -187,34 +232,61 @@ OpaqueCells::Answer sort(
     made->SetStrips(opaqueStrips);
     answer.mesh = made;
   }
+  answer.mapped = answer.translucent;
+  answer.alpha =
+    answer.mapped ? counts.alpha / static_cast<double>(counts.all - counts.invisible) : 1.0;
+  if (answer.translucent && madeVisible)
+  {
+    answer.visible = mesh;
+    if (counts.invisible > 0)
+    {
+      *madeVisible = vtkSmartPointer<vtkPolyData>::New();
+      answer.visible = *madeVisible;
+      answer.visible->SetPoints(mesh->GetPoints());
+      answer.visible->SetVerts(mesh->GetVerts());
+      answer.visible->SetLines(mesh->GetLines());
+      answer.visible->SetPolys(visibleOf(mesh->GetPolys(), polys, points, alpha));
+      answer.visible->SetStrips(
+        visibleOf(mesh->GetStrips(), polys + mesh->GetNumberOfPolys(), points, alpha));
+    }
+  }
   return answer;
 }
 }
 
 OpaqueCells::Answer OpaqueCells::of(
-  const SurfacePart& part, const Attributes& attributes, Kept& kept)
+  const SurfacePart& part, const Attributes& attributes, bool visible, Kept& kept)
 {
   vtkPolyData* mesh = part.mesh;
   vtkMapper* colors = part.colors;
-  if (part.opacity < 1.0)
+  const bool whole = part.opacity >= 1.0;
+  if (!whole && (part.opacity <= 0.0 || !visible))
   {
     return { nullptr, part.opacity > 0.0 };
   }
   if (!attributes.colors && !attributes.colorCoordinates)
   {
-    return { mesh, false };
+    return { whole ? mesh : nullptr, !whole, whole ? nullptr : mesh };
   }
   Entry& entry = this->Entries.of({ mesh, colors }, kept);
   // Times are never given twice, so a new object in an old one's place is noticed, too.
   const Times times{ mesh->GetMTime(), timeOf(colors->GetColorMapColors()),
     timeOf(colors->GetColorCoordinates()), timeOf(colors->GetColorTextureMap()) };
-  if (entry.times != times)
+  if (entry.times != times || entry.visible != visible)
   {
     entry.times = times;
+    entry.visible = visible;
     entry.answer = attributes.colorAssociation == Association::Leaf
       ? sortLeaves(mesh, attributes, colors->GetColorMapColors())
-      : sort(mesh, attributes, entry.made);
+      : sort(mesh, attributes, entry.made, visible ? &entry.madeVisible : nullptr);
   }
-  return entry.answer;
+  const Answer& answer = entry.answer;
+  if (whole)
+  {
+    return answer;
+  }
+  // Nothing of it is opaque.
+  vtkPolyData* rest = answer.translucent ? answer.visible : answer.mesh;
+  return { nullptr, rest != nullptr, rest, answer.mapped, answer.alpha };
 }
 }

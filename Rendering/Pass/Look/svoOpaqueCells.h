@@ -25,11 +25,16 @@ public:
   {
     vtkPolyData* mesh = nullptr; // of the opaque cells: the surface's own if all are; none if none
     bool translucent = false;    // there are cells that are neither opaque nor invisible
+    /// Where there are, and it was asked for: all cells but the invisible ones, the surface's own
+    /// mesh if none is. Cells and points have the numbers that they have there.
+    vtkPolyData* visible = nullptr;
+    bool mapped = false; // colours make these cells translucent, perhaps the part's opacity, too
+    double alpha = 1.0;  // if mapped: the mean of what they have at the corners of visible cells
   };
 
   /// The part's scalars have been mapped to `attributes`. A cell is opaque if all of its points
-  /// are, and all colours between them.
-  Answer of(const SurfacePart& part, const Attributes& attributes, Kept& kept);
+  /// are, and all colours between them. `visible`: what is visible is asked for.
+  Answer of(const SurfacePart& part, const Attributes& attributes, bool visible, Kept& kept);
 
   /// Drops what nobody keeps.
   void sweep() { this->Entries.sweep(); }
@@ -39,8 +44,9 @@ private:
   struct Entry
   {
     Times times{};
+    bool visible = false;
     Answer answer;
-    vtkSmartPointer<vtkPolyData> made;
+    vtkSmartPointer<vtkPolyData> made, madeVisible;
   };
   KeptValues<std::pair<vtkPolyData*, vtkMapper*>, Entry> Entries;
 };

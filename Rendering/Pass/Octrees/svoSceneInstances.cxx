@@ -109,6 +109,8 @@ void writeProp(const SceneSurface& surface, const Instance* whole, Instance* fir
       const glm::vec3 color = glm::vec3(copy.color[0], copy.color[1], copy.color[2]) / 255.0f;
       one.material.ambientColor = color;
       one.material.diffuseColor = color;
+      // Where copies are opaque, or cast as if they were, this is another surface.
+      one.opacity = surface.translucent ? static_cast<float>(copy.color[3]) / 255.0f : 1.0f;
       one.id = scatter(from.id + static_cast<std::uint64_t>(copy.point));
     }
     one.localToWorld = from.localToWorld * glm::dmat4(copy.place);

@@ -54,6 +54,7 @@ struct SceneSurface
   vtkSmartPointer<vtkPolyData> mesh; // the mesh that only casts, where the surface is not traceable
   bool traceable = false;
   bool casts = false;
+  bool translucent = false; // it casts as light as it is
 
   // Of a frame:
   bool bringsOctree = false; // `instance.body->octree` is not the store's

@@ -7,7 +7,9 @@
 //
 // Constants are put before it: svoCapacity, maps that there is room for; svoPlaneBias, to compare
 // at the texel's own ray, on the planes of the receiver; svoFilter, to weigh the texels around the
-// point, with svoPlaneBias only. They are not asked while it runs, since software OpenGL walks
+// point, with svoPlaneBias only; svoTranslucent, if some maps, from svoFirstTranslucent on, are of
+// translucent casters: so many layers further, svoTranslucentMaps, lies how opaque these are. They
+// are not asked while it runs, since software OpenGL walks
 // through branches that are not taken. And the numbers of svoShadowRules.h, by the same names:
 // svoNearbyReach, svoGrazingReach, svoEdgeOnSine, svoLeastSteepness, svoTexelBend, svoTexelsToAgree,
 // svoWidestBox, svoMapBorder.
@@ -20,6 +22,8 @@ uniform float svoErrors[svoCapacity]; // of what casts, world units
 uniform float svoReceive; // 0: no shadow falls on this surface
 uniform float svoIntensity;
 uniform float svoManualBias; // world units, added
+uniform int svoFirstTranslucent; // with svoTranslucent only
+uniform int svoTranslucentMaps;
 
 // The shorter and the longer edge of a texel in the world, at the depth of a point whose w is given.
 vec2 svoTexelEdges(mat4 rows, float w, float size)
@@ -34,6 +38,16 @@ vec2 svoTexelEdges(mat4 rows, float w, float size)
 float svoOccluder(int map, ivec2 texel)
 {
   return texelFetch(svoMaps, ivec3(texel, map), 0).r;
+}
+
+// The share of the light that what lies at a texel takes; 0 if nothing does.
+float svoOpacity(int map, ivec2 texel)
+{
+  if (!svoTranslucent || map < svoFirstTranslucent)
+  {
+    return 1.0;
+  }
+  return texelFetch(svoMaps, ivec3(texel, map + svoTranslucentMaps), 0).r;
 }
 
 // What one texel says of the point: 0 lit, 1 dark by an occluder within a few texels' depth, 2 dark.
@@ -183,12 +197,33 @@ float svoFiltered(int map, mat4 rows, float error, vec4 point, vec2 place,
         (answer == 1 &&
           !svoEndsBefore(map, ivec2(x, y), offset, depth, pixel, error)))
       {
-        dark += weight;
+        dark += svoTranslucent ? weight * svoOpacity(map, ivec2(x, y)) : weight;
       }
       all += weight;
     }
   }
   return dark / all;
+}
+
+// The share that is taken where all that lies in texels first..last is before the point.
+float svoTaken(int map, vec2 place, ivec2 first, ivec2 last, float width)
+{
+  float sum = 0.0;
+  float all = 0.0;
+  for (int y = first.y; y <= last.y; ++y)
+  {
+    float below = float(y) - place.y;
+    float row = svoCovered(below + 1.0, width) - svoCovered(below, width);
+    for (int x = first.x; x <= last.x; ++x)
+    {
+      float left = float(x) - place.x;
+      float weight = svoOccluder(map, ivec2(x, y)) < 1e30
+        ? row * (svoCovered(left + 1.0, width) - svoCovered(left, width)) : 0.0;
+      sum += weight * svoOpacity(map, ivec2(x, y));
+      all += weight;
+    }
+  }
+  return all > 0.0 ? sum / all : 0.0;
 }
 
 // How far the smooth surface that the normals stand for lies over a point of a facet, as
@@ -201,9 +236,10 @@ vec3 svoSmoothLift(vec3 position, vec3 facet, vec3 normal, vec3 corner, vec3 cor
   return dot(facet, normal) > 0.0 ? max(height, 0.0) * normal : vec3(0.0);
 }
 
-// Of the light whose maps are first..beyond - 1: the first one that holds the point is asked.
-// `lift`: how far the smooth surface lies over the facet; 0 where it does not.
-float svoLit(
+// What casters leave of a light, before svoIntensity, of which the maps are first..beyond - 1: the
+// first one that holds the point is asked. `lift`: how far the smooth surface lies over the facet; 0
+// where it does not.
+float svoLeft(
   int first, int beyond, vec3 position, vec3 plane, vec3 normal, vec3 lift, float extent)
 {
   float size = float(textureSize(svoMaps, 0).x);
@@ -236,6 +272,7 @@ float svoLit(
     }
     vec2 place = clamp((at * 0.5 + 0.5) * size, vec2(0.0), vec2(size));
     vec2 texel = min(floor(place), vec2(size - 1.0));
+    float taken = svoOpacity(i, ivec2(texel));
     if (svoFilter && svoPlaneBias)
     {
       float pixel = svoTexelEdges(rows, w, size).x;
@@ -246,6 +283,10 @@ float svoLit(
       {
         lit = 1.0 - svoFiltered(i, rows, error, point, place, low, high, width, facet, normal);
         break;
+      }
+      if (svoTranslucent && i >= svoFirstTranslucent)
+      {
+        taken = svoTaken(i, place, low, high, width);
       }
     }
     int answer = svoAsk(i, rows, error, point, texel, facet, normal, 1.0);
@@ -261,8 +302,21 @@ float svoLit(
       }
       answer = float(dark) >= svoTexelsToAgree ? 2 : 0;
     }
-    lit = answer == 2 ? 0.0 : 1.0;
+    lit = answer == 2 ? (svoTranslucent ? 1.0 - taken : 0.0) : 1.0;
     break;
   }
-  return 1.0 - svoReceive * svoIntensity * (1.0 - lit);
+  return lit;
+}
+
+// The share of a light that is shown where so much of it is left.
+float svoShown(float left)
+{
+  return 1.0 - svoReceive * svoIntensity * (1.0 - left);
+}
+
+// Of a light without translucent casters.
+float svoLit(
+  int first, int beyond, vec3 position, vec3 plane, vec3 normal, vec3 lift, float extent)
+{
+  return svoShown(svoLeft(first, beyond, position, plane, normal, lift, extent));
 }

@@ -1,5 +1,6 @@
 #include "svoShadowReceivers.h"
 
+#include "svoMapGroups.h"
 #include "svoOpenGL.h"
 #include "svoShaderTokens.h"
 #include "svoShadowCatcher.h"
@@ -37,11 +38,6 @@ std::size_t mostMaps(std::size_t lights)
   const std::size_t left = std::max<std::size_t>(components, taken) - taken;
   return std::clamp<std::size_t>(
     left / OfMap, MapsOfLight, static_cast<std::size_t>(TextureArray::mostLayers()));
-}
-
-double brightness(const Light& light)
-{
-  return light.color.r + light.color.g + light.color.b;
 }
 
 /// View coordinates of the eye -> (x, y, linear depth - base, w) of a map. Composed in double, so
@@ -117,31 +113,6 @@ std::string shadowRules()
   }
   return text.str();
 }
-
-/// Leaves maps of the faintest lights out until no more than `most` are left; true if there were
-/// more.
-bool keepBrightest(std::map<int, std::vector<const ShadowMap*>>& byLight,
-  const std::vector<Light>& lights, std::size_t most)
-{
-  std::size_t count = 0;
-  for (const auto& entry : byLight)
-  {
-    count += entry.second.size();
-  }
-  if (count <= most)
-  {
-    return false;
-  }
-  const auto fainter = [&](const auto& a, const auto& b)
-  { return brightness(lights[a.first]) < brightness(lights[b.first]); };
-  while (count > most)
-  {
-    const auto faintest = std::min_element(byLight.begin(), byLight.end(), fainter);
-    count -= faintest->second.size();
-    byLight.erase(faintest);
-  }
-  return true;
-}
 }
 
 std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
@@ -162,27 +133,27 @@ std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
   this->Intensity = static_cast<float>(settings.shadowIntensity);
   this->PlaneBias = settings.automaticBias;
   this->Filter = settings.filterShadows;
-  std::map<int, std::vector<const ShadowMap*>> byLight;
-  for (const ShadowMap& map : maps)
-  {
-    byLight[map.light].push_back(&map);
-  }
+  MapGroups groups = groupsOf(maps);
   std::string complaint;
   const std::size_t most = mostMaps(lights.size());
-  if (keepBrightest(byLight, lights, most))
+  if (keepBrightest(groups, lights, most))
   {
     complaint = "Rasterised surfaces receive shadows of the brightest lights only: OpenGL takes no "
                 "more shadow maps.";
   }
 
   std::vector<const ShadowMap*> layers;
-  this->Lights.clear();
+  this->Groups.clear();
   this->First.clear();
   this->Rows.clear();
   this->Errors.clear();
-  for (const auto& entry : byLight)
+  for (const auto& entry : groups)
   {
-    this->Lights.push_back(entry.first);
+    if (!entry.first.translucent)
+    {
+      this->FirstTranslucent = static_cast<int>(layers.size() + entry.second.size());
+    }
+    this->Groups.push_back(entry.first);
     this->First.push_back(static_cast<int>(layers.size()));
     for (const ShadowMap* map : entry.second)
     {
@@ -192,10 +163,19 @@ std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
       layers.push_back(map);
     }
   }
-  const auto count = static_cast<int>(layers.size());
-  this->First.push_back(count);
+  this->First.push_back(static_cast<int>(layers.size()));
   // Shaders are not built anew because a light has other maps than before.
-  this->Capacity = std::min(std::max(layers.size(), MapsOfLight * byLight.size()), most);
+  this->Capacity = std::min(std::max(layers.size(), MapsOfLight * groups.size()), most);
+  std::vector<std::shared_ptr<const std::vector<float>>> texels;
+  for (const ShadowMap* map : layers)
+  {
+    texels.push_back(map->depth);
+  }
+  for (std::size_t i = this->FirstTranslucent; i < layers.size(); ++i)
+  {
+    texels.push_back(layers[i]->opacity);
+  }
+  const auto count = static_cast<int>(texels.size());
 
   const int size = maps.front().view.width;
   if (!this->Maps || !this->Maps->fits(window, size, count))
@@ -214,11 +194,10 @@ std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
   this->Sent.resize(count);
   for (int i = 0; i < count; ++i)
   {
-    const std::shared_ptr<const std::vector<float>>& depth = layers[i]->depth;
-    if (this->Sent[i].lock() != depth)
+    if (this->Sent[i].lock() != texels[i])
     {
-      this->Maps->send(i, depth->data());
-      this->Sent[i] = depth;
+      this->Maps->send(i, texels[i]->data());
+      this->Sent[i] = texels[i];
     }
   }
   return complaint;
@@ -242,8 +221,10 @@ void ShadowReceivers::deactivate()
 
 void ShadowReceivers::release()
 {
-  this->Lights.clear();
+  this->Groups.clear();
   this->First.clear();
+  this->Errors.clear();
+  this->FirstTranslucent = 0;
   this->Capacity = 0;
   this->Maps = nullptr;
 }
@@ -253,9 +234,9 @@ std::string ShadowReceivers::signature() const
   std::ostringstream text;
   text << this->Capacity << ' ' << this->PlaneBias << ' ' << this->Filter << ' ' << this->Catchers
        << ": ";
-  for (const int light : this->Lights)
+  for (const MapGroup& group : this->Groups)
   {
-    text << light << ' ';
+    text << group.light << (group.group > 0 ? "t " : " ");
   }
   return text.str();
 }
@@ -276,7 +257,8 @@ std::string ShadowReceivers::declarations() const
   text << "const int svoCapacity = " << this->Capacity << ";\n"
        << "const bool svoPlaneBias = " << boolean(this->PlaneBias) << ";\n"
        << "const bool svoFilter = " << boolean(this->Filter) << ";\n"
-       << shadowRules() << svoShadowReceiver << "uniform int svoFirst[" << this->Lights.size()
+       << "const bool svoTranslucent = " << boolean(this->translucent()) << ";\n"
+       << shadowRules() << svoShadowReceiver << "uniform int svoFirst[" << this->Groups.size()
        << " + 1];\n";
   return text.str();
 }
@@ -309,9 +291,15 @@ void ShadowReceivers::completeShader(
   // Unlit surfaces have no position to ask about.
   if (body.find("vec4 vertexVC =") != std::string::npos)
   {
-    for (std::size_t i = 0; i < this->Lights.size(); ++i)
+    std::map<int, std::string> shares; // by light
+    for (std::size_t i = 0; i < this->Groups.size(); ++i)
     {
-      weigh(this->Lights[i], "svoShare[" + std::to_string(i) + "]");
+      std::string& share = shares[this->Groups[i].light];
+      share += (share.empty() ? "svoShare[" : " * svoShare[") + std::to_string(i) + "]";
+    }
+    for (const auto& [light, share] : shares)
+    {
+      weigh(light, this->translucent() ? "svoShown(" + share + ")" : share);
     }
   }
   const bool any = !code.str().empty();
@@ -326,7 +314,8 @@ void ShadowReceivers::completeShader(
   }
   const bool smooth = any && hasNormal && sendCorner(vertexShader, geometryShader);
   // One loop, since compilers copy the function to wherever it is called.
-  const std::string count = std::to_string(this->Lights.size());
+  const std::string count = std::to_string(this->Groups.size());
+  const std::string lit = this->translucent() ? "svoLeft" : "svoLit";
   vtkShaderProgram::Substitute(declarations, DeclarationMark,
     any ? this->declarations() +
         (smooth ? "flat in vec3 svoCornerVSOutput;\nflat in vec3 svoCornerNormalVSOutput;\n" : "")
@@ -345,7 +334,8 @@ void ShadowReceivers::completeShader(
         count +
         "; ++i)\n"
         "  {\n"
-        "    svoShare[i] = svoLit(svoFirst[i], svoFirst[i + 1], vertexVC.xyz, svoFacet, " +
+        "    svoShare[i] = " +
+        lit + "(svoFirst[i], svoFirst[i + 1], vertexVC.xyz, svoFacet, " +
         (hasNormal ? "normalVCVSOutput" : "svoFacet") +
         ", svoLift, svoExtent);\n"
         "  }\n" +
@@ -372,6 +362,11 @@ void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives, bool
   program->SetUniformMatrix4x4v("svoRows", count, const_cast<float*>(this->Rows.data()));
   program->SetUniform1fv("svoErrors", count, this->Errors.data());
   program->SetUniform1iv("svoFirst", static_cast<int>(this->First.size()), this->First.data());
+  if (this->translucent())
+  {
+    program->SetUniformi("svoFirstTranslucent", this->FirstTranslucent);
+    program->SetUniformi("svoTranslucentMaps", count - this->FirstTranslucent);
+  }
   program->SetUniformf("svoReceive", receives ? 1.0f : 0.0f);
   program->SetUniformf("svoIntensity", this->Intensity);
   program->SetUniformf("svoManualBias", this->ManualBias);

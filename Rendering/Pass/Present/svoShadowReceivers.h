@@ -2,6 +2,7 @@
 #ifndef svoShadowReceivers_h
 #define svoShadowReceivers_h
 
+#include "svoMapGroups.h"
 #include "svoScene.h"
 #include "svoTextureArray.h"
 #include "svoTracer.h"
@@ -36,7 +37,7 @@ public:
   void setCatchers(bool catchers) { this->Catchers = catchers; }
 
   /// True if shaders need nothing of this.
-  bool idle() const { return this->Lights.empty() && !this->Catchers; }
+  bool idle() const { return this->Groups.empty() && !this->Catchers; }
 
   void activate();
   void deactivate();
@@ -55,15 +56,20 @@ public:
   std::string declarations() const;
 
 private:
-  bool empty() const { return this->Lights.empty(); }
+  bool empty() const { return this->Groups.empty(); }
+  bool translucent() const
+  {
+    return this->FirstTranslucent < static_cast<int>(this->Errors.size());
+  }
 
-  std::vector<int> Lights; // that have maps: their numbers in VTK's shaders
-  std::vector<int> First;  // map of each of them; then the number of all maps
-  std::vector<float> Rows; // 16 floats a map, row by row
+  std::vector<MapGroup> Groups; // those of opaque casters, then all others
+  std::vector<int> First;       // map of each of them; then the number of all maps
+  int FirstTranslucent = 0;     // map; the number of all maps if there is none
+  std::vector<float> Rows;      // 16 floats a map, row by row
   std::vector<float> Errors;
   std::size_t Capacity = 0; // maps that the shaders have room for
   vtkSmartPointer<TextureArray> Maps;
-  std::vector<std::weak_ptr<const std::vector<float>>> Sent; // depths in each layer of Maps
+  std::vector<std::weak_ptr<const std::vector<float>>> Sent; // what each layer of Maps holds
   float Intensity = 1.0f;
   float ManualBias = 0.0f; // world
   bool PlaneBias = true;

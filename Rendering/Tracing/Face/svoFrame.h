@@ -122,7 +122,8 @@ struct FrameStatistics
 };
 
 /// A finished shadow buffer, for rasterised receivers. One per map: a point light whose casters
-/// subtend more than 120 degrees has six.
+/// subtend more than 120 degrees has six, and so has each group of its translucent casters. What
+/// reaches a point is the product of what the opaque ones and each of those groups leave.
 struct ShadowMap
 {
   int light = 0; // index into Scene::lights
@@ -131,6 +132,10 @@ struct ShadowMap
   /// From frame to frame the same object as long as the values are the same.
   double base = 0.0;
   std::shared_ptr<const std::vector<float>> depth;
+  int group = 0; // 0: of opaque casters; else the number of a group of translucent ones
+  /// The share of the light that what lies there takes, 0..1, likewise row by row. Null where all
+  /// is opaque. The same object as long as the values are the same.
+  std::shared_ptr<const std::vector<float>> opacity;
   double worldBias = 0.0;   // for receivers that do not know the caster of a texel, world units
   double casterVoxel = 0.0; // of the coarsest caster, world units
 };

@@ -44,9 +44,18 @@ struct Instance
   /// Where the rasteriser draws the same vertices: 1, what it draws is seen; -1, this is seen; 0,
   /// it does not. See svoShownDepth.h.
   int givesWay = 0;
+  /// As a caster: the share of a light that it takes away, 0..1.
+  float opacity = 1.0f;
   bool visible = true; // false: a rasterised object that only casts
   bool castShadow = true;
+  /// The alpha of mapped colours counts in what it takes away of a light; see translucent().
+  bool mappedOpacity = false;
   bool receiveShadow = true;
+
+  /// True of what lets light through as a caster. Of each ray from a light it takes the share that
+  /// its opacity, times that alpha, has where the ray meets it first, whatever lies behind: a
+  /// closed body counts once. Several of them multiply what they leave.
+  bool translucent() const { return this->opacity < 1.0f || this->mappedOpacity; }
 };
 }
 

@@ -3,6 +3,7 @@
 #include "svoCasters.h"
 #include "svoConvexParts.h"
 #include "svoLightView.h"
+#include "svoTranslucentGroups.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
@@ -174,8 +175,9 @@ LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, 
   const View& eye, double coarseness)
 {
   const double widestTexel = coarseness * WidestTexel;
-  LightMaps maps{ castersOf(outlines, light), {}, 0.0 };
+  LightMaps maps{ castersOf(outlines, light), {} };
   maps.views = fitLight(outlines, maps.casters, light, resolution);
+  maps.translucentGroups = groupTranslucent(outlines, maps.views, maps.casters);
   if (eye.width < 1 || eye.height < 1 || maps.views.empty())
   {
     return maps;
@@ -236,24 +238,26 @@ LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, 
 std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
   const std::vector<Light>& lights, const FrameSettings& settings, const View& eye)
 {
-  // Depth, instance and primitive of the buffer; for receivers a copy, and OpenGL's.
+  // Depth, instance and primitive of the buffer; for receivers a copy, and OpenGL's. Where casters
+  // are translucent how opaque they are as well.
   const double bytes = settings.wholeShadowBuffers ? 20.0 : 12.0;
+  const double translucentBytes = settings.wholeShadowBuffers ? 32.0 : 16.0;
   std::vector<LightMaps> maps(lights.size());
   const double coarseness = settings.shadowCoarseness;
   assert(coarseness >= 1.0);
   const int wanted = static_cast<int>(settings.shadowResolution / coarseness);
   for (int resolution = std::max(wanted, 16);; resolution = (resolution + 1) / 2)
   {
-    std::size_t count = 0;
+    double taken = 0.0;
     for (std::size_t i = 0; i < lights.size(); ++i)
     {
       if (lights[i].castShadow)
       {
         maps[i] = mapsOfLight(outlines, lights[i], resolution, eye, coarseness);
-        count += maps[i].views.size();
+        const double texels = static_cast<double>(maps[i].views.size()) * resolution * resolution;
+        taken += texels * (bytes + translucentBytes * maps[i].translucentGroups);
       }
     }
-    const double taken = bytes * static_cast<double>(count) * resolution * resolution;
     if (taken <= static_cast<double>(settings.shadowMemoryLimit) || resolution <= 16)
     {
       return maps;

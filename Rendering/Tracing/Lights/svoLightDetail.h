@@ -15,12 +15,13 @@ namespace svo
 /// The maps of a light's shadow buffer.
 struct LightMaps
 {
-  std::vector<std::uint8_t> casters; // castersOf()
+  std::vector<std::uint8_t> casters; // castersOf(); of translucent ones the group
   std::vector<View> views;           // a point is looked up in the first one that holds it
   /// How wide texels of maps that are fitted to the eye's view look there at most, pixels; 0 where
   /// the maps are fitted to casters.
   double coarsest = 0.0;
-  double widest = 0.0; // no texel looks wider, pixels
+  double widest = 0.0;       // no texel looks wider, pixels
+  int translucentGroups = 0; // see svoTranslucentGroups.h; each has a buffer with these views
 };
 
 /// The maps of a light: those that fit its casters (fitLight()), of resolution^2 texels, unless a

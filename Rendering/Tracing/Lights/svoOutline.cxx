@@ -17,6 +17,8 @@ Outline outlineOf(const Instance& instance)
   std::memcpy(outline.localToWorld, &instance.localToWorld[0][0], sizeof(outline.localToWorld));
   outline.pixelError = instance.pixelError;
   outline.leafGeometry = static_cast<std::int32_t>(instance.body->leafGeometry);
+  outline.opacity = instance.opacity;
+  outline.translucent = instance.translucent();
   const bool placed = placesSomething(instance.localToWorld);
   if (!instance.body->octree)
   {
@@ -68,6 +70,7 @@ Outline outlineOf(const Box& receiver)
     outline.cubeHigh[i] = outline.meshHigh[i] = receiver.high[i];
   }
   outline.localToWorld[15] = 1.0;
+  outline.opacity = 1.0f;
   outline.receives = 1;
   return outline;
 }

@@ -30,8 +30,10 @@ struct Outline
   std::int32_t leafGeometry; // LeafGeometry
   std::int32_t casts;        // the instance is allowed to cast, and has voxels
   std::int32_t receives;     // the instance is visible, and shows shadows
+  float opacity;             // Instance::opacity
+  std::int32_t translucent;  // Instance::translucent()
 };
-static_assert(sizeof(Outline) == 16 * 8 + 12 * 8 + 4 * 8 + 4 * 4, "no gaps");
+static_assert(sizeof(Outline) == 16 * 8 + 12 * 8 + 4 * 8 + 6 * 4, "no gaps");
 
 /// Outlines of the instances of a scene, then of its receivers; or of the scenes of all processes,
 /// one scene after the other.

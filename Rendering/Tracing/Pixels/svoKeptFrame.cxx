@@ -63,7 +63,7 @@ void add(const Instance& i, Bytes& bytes)
 {
   const Material& m = i.material;
   bytes.add(i.localToWorld, i.pixelError, i.id, i.depthOffsetUnits, i.givesWay, i.visible,
-    i.castShadow, i.receiveShadow);
+    i.castShadow, i.receiveShadow, i.mappedOpacity, i.opacity);
   bytes.add(m.ambientColor, m.diffuseColor, m.specularColor, m.ambient, m.diffuse, m.specular,
     m.specularPower, m.lighting, m.flat, m.flatPlanes);
 }

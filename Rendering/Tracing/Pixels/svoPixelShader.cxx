@@ -108,6 +108,11 @@ void PixelShader::shadow(
       changed |= std::uint64_t(1) << at.pixel;
     }
   }
+  if (shadows.dims(l))
+  {
+    shadows.dim(l, patch, error, scratch.extents, reached, missed, scratch.rays);
+    changed |= reached;
+  }
   std::fill_n(scratch.light.share, TilePatch::Most, 1.0f);
   eachBit(changed, [&](int i) { scratch.light.share[i] = shareOfLight(missed[i], lit.remaining); });
   if (this->FindsEdges)

@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 namespace svo
 {
 void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_t first,
-  const FrameSettings& settings, LayerBudget& budget, const ParallelFor& parallelFor)
+  const FrameSettings& settings, LayerBudget& budget, std::uint8_t group,
+  const ParallelFor& parallelFor)
 {
   const std::vector<View>& views = maps.views;
   const std::uint8_t* casters = maps.casters.data() + first; // this scene's
@@ -50,6 +50,7 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
     if (face.shared.merged() || !settings.wholeShadowBuffers)
     {
       face.copied.reset();
+      face.copiedOpacity.reset();
     }
     face.shared.clear();
     face.worldToClip = face.view.viewToClip * face.view.worldToView;
@@ -57,7 +58,8 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
     face.layers.setCulling(this->Cull);
     face.seesCasters = face.layers.prepare(
       scene, face.view,
-      [&](const Instance& instance) { return casters[&instance - scene.instances.data()] != 0; },
+      [&](const Instance& instance)
+      { return casters[&instance - scene.instances.data()] == group; },
       [&](const Instance& instance, const LocalView& local)
       { return selectLevel(instance, local, face.view, settings.pixelError); },
       settings.frameCoherence, budget, parallelFor);
@@ -67,7 +69,7 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
       const Instance& instance = scene.instances[k];
       const int level = face.layers.level(static_cast<std::uint32_t>(k));
       const LeafGeometry geometry = face.layers.leafGeometry(static_cast<std::uint32_t>(k));
-      if (casters[k] && level > 0)
+      if (casters[k] == group && level > 0)
       {
         this->CasterVoxel[k] = std::max(this->CasterVoxel[k], worldVoxel(instance, level));
         this->CasterError[k] =
@@ -99,6 +101,7 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
     this->SameMaps = places[k] != this->CasterPlace[k] ||
       (voxels[k] == this->CasterVoxel[k] && errors[k] == this->CasterError[k]);
   }
+  this->noteOpacities(scene, casters, group);
 }
 
 std::size_t ShadowBuffer::sparedCasters() const
@@ -281,11 +284,25 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
     }
     face->layers.trace(parallelFor, wanted.data());
     face->occluders.find(face->layers, parallelFor);
+    if (this->MappedColors.empty())
+    {
+      face->opacities.forget();
+    }
+    else
+    {
+      face->opacities.find(
+        *this->Traced, face->view, face->layers, this->OtherOpacities, parallelFor);
+    }
     if (face->layers.changed())
     {
       face->copied.reset();
     }
+    if (face->layers.changed() || this->OtherOpacities)
+    {
+      face->copiedOpacity.reset();
+    }
   }
+  this->Traced = nullptr;
 }
 
 void ShadowBuffer::merge(Processes& processes, std::size_t first)
@@ -308,59 +325,21 @@ void ShadowBuffer::merge(Processes& processes, std::size_t first)
     this->CasterVoxel.push_back(caster.voxel);
     this->CasterError.push_back(caster.error);
   }
+  if (this->Translucent)
+  {
+    const std::vector<float> opacities = std::move(this->CasterOpacity);
+    gatherRecords(processes, opacities, this->CasterOpacity);
+    this->MappedColors.clear();
+    this->findSameOpacity();
+  }
   for (auto& face : this->Faces)
   {
     face->shared.merge(processes, face->view, face->layers, first);
     face->occluders.forget();
+    face->opacities.forget();
     face->seesCasters = face->shared.bytes() > 0;
     face->copied.reset();
-  }
-}
-
-std::shared_ptr<const std::vector<float>> ShadowBuffer::Face::copyDepth(double base) const
-{
-  auto copy = std::make_shared<std::vector<float>>(
-    static_cast<std::size_t>(this->view.width) * this->view.height,
-    std::numeric_limits<float>::infinity());
-  const DepthBuffer& depth = this->layers.depthBuffer();
-  for (int y = 0; this->seesCasters && y < this->view.height; ++y)
-  {
-    float* row = copy->data() + static_cast<std::size_t>(y) * this->view.width;
-    for (int x = 0; x < this->view.width; ++x)
-    {
-      std::uint32_t caster;
-      double t;
-      if (this->occluder(depth.at(x, y), caster, t))
-      {
-        row[x] = static_cast<float>(t - base);
-      }
-    }
-  }
-  return copy;
-}
-
-void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps)
-{
-  for (const auto& face : this->Faces)
-  {
-    ShadowMap map;
-    map.light = light;
-    map.view = face->view;
-    map.base = std::max(face->view.tNear, 0.0);
-    if (!face->copied)
-    {
-      face->copied = face->copyDepth(map.base);
-    }
-    map.depth = face->copied;
-    for (double error : this->CasterError)
-    {
-      map.worldBias = std::max(map.worldBias, error);
-    }
-    for (double voxel : this->CasterVoxel)
-    {
-      map.casterVoxel = std::max(map.casterVoxel, voxel);
-    }
-    maps.push_back(std::move(map));
+    face->copiedOpacity.reset();
   }
 }
 

@@ -7,6 +7,7 @@
 #include "svoLayeredView.h"
 #include "svoLightDetail.h"
 #include "svoLightTile.h"
+#include "svoMapOpacities.h"
 #include "svoProcesses.h"
 #include "svoScene.h"
 #include "svoSharedDepth.h"
@@ -14,6 +15,7 @@
 #include "svoTileOccluders.h"
 #include "svoTilePatch.h"
 #include "svoTileShadows.h"
+#include "svoTranslucentGroups.h"
 
 #include <atomic>
 #include <cassert>
@@ -28,9 +30,11 @@ class ShadowBuffer
 {
 public:
   /// Prepares the layers of the light's maps, which are of the scene's outlines and those of other
-  /// processes; `first`: of this scene's instances among all.
+  /// processes; `first`: of this scene's instances among all. `group`: of its casters, those that
+  /// this is the buffer of; svoTranslucentGroups.h. The scene is borrowed until trace() is over.
   void prepare(const Scene& scene, const LightMaps& maps, std::size_t first,
-    const FrameSettings& settings, LayerBudget& budget, const ParallelFor& parallelFor = serialFor);
+    const FrameSettings& settings, LayerBudget& budget, std::uint8_t group = OpaqueCasters,
+    const ParallelFor& parallelFor = serialFor);
 
   /// Of its layers, from prepare() on.
   void setCulling(const Culling& culling) { this->Cull = culling; }
@@ -71,7 +75,8 @@ public:
   void trace(const ParallelFor& parallelFor);
 
   /// Merges what was traced, whole, with the other processes'. A collective call; `first`: index of
-  /// this process's first instance among all.
+  /// this process's first instance among all. Of translucent casters the alpha of colours does not
+  /// count any more.
   void merge(Processes& processes, std::size_t first);
 
   /// True if the texels around the point are traced: those of marked points are.
@@ -105,6 +110,13 @@ public:
   void darkness(const TilePatch& patch, double error, const double* extents, std::uint64_t asked,
     float* darkness) const;
 
+  /// Of a buffer of translucent casters: the share of the light that these take from a patch's
+  /// points, by pixel, 0..1; of those that are `asked`, 0 of others. The test is that of shadows(),
+  /// or of darkness() where there are `extents`, and each texel counts as much as what lies there
+  /// is opaque.
+  void taken(const TilePatch& patch, double error, const double* extents, std::uint64_t asked,
+    float* taken) const;
+
   /// Whether points are compared on their own planes, see setBias().
   bool automaticBias() const { return this->AutomaticBias; }
 
@@ -118,7 +130,8 @@ public:
   /// `extent`: of darkness(), or null: dark is 0 or 1, by shadows().
   Told tell(const SurfacePoint& point, double error, const double* extent) const;
 
-  void copyMaps(int light, std::vector<ShadowMap>& maps);
+  /// `group`: ShadowMap::group.
+  void copyMaps(int light, std::vector<ShadowMap>& maps, int group = 0);
   void release();
 
   std::uint64_t rays() const;
@@ -136,9 +149,14 @@ private:
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile
     bool seesCasters = false;
     MapOccluders occluders; // of the layers; unknown where depths are shared
+    MapOpacities opacities; // unknown where each caster is equally opaque all over
     std::shared_ptr<const std::vector<float>> copied; // ShadowMap::depth; null: it has changed
+    std::shared_ptr<const std::vector<float>> copiedOpacity; // likewise, ShadowMap::opacity
 
     std::shared_ptr<const std::vector<float>> copyDepth(double base) const;
+    /// `ofCasters`: see CasterOpacity.
+    std::shared_ptr<const std::vector<float>> copyOpacity(
+      const std::vector<float>& ofCasters) const;
     /// Notes the tiles around points that are inside, of this map: few, or one by one. False if
     /// there are too many to be noted here.
     bool want(const MapPlaces& places, std::uint16_t light, std::uint16_t map, LightTiles& noted);
@@ -183,6 +201,12 @@ private:
     DarkNearby = 1, // by an occluder within NearbyReach texels' depth
     Dark = 2
   };
+  /// What a texel's caster takes, 0..1; 0 where there is none.
+  float opacity(const Face& face, const glm::ivec2& texel) const;
+  /// The mean of that over what lies in a window.
+  float opacity(const Place& place, double width) const;
+  void findSameOpacity();
+  void noteOpacities(const Scene& scene, const std::uint8_t* casters, std::uint8_t group);
   /// False if the point is outside of all faces, or its face sees no caster.
   bool lookUp(const glm::dvec3& position, Place& place) const;
   /// True if the texels around the place are.
@@ -217,7 +241,9 @@ private:
   /// What lies at a texel, followed to the point in the way that the map shows from the texel
   /// beyond, passes behind the point: it is the other side of a crease and no occluder.
   bool endsBefore(const Place& place, const glm::ivec2& texel, double error) const;
-  float filtered(const Place& place, double width, const SurfacePoint& point, double error) const;
+  /// `weighed`: by how opaque what lies at each texel is.
+  float filtered(const Place& place, double width, const SurfacePoint& point, double error,
+    bool weighed = false) const;
 
   Culling Cull;
   std::vector<std::unique_ptr<Face>> Faces;
@@ -226,6 +252,13 @@ private:
   std::vector<double> CasterError; // world
   std::vector<glm::dmat4> CasterPlace;
   double LargestVoxel = 0.0, LargestError = 0.0; // of them
+  // Of translucent casters.
+  bool Translucent = false;
+  std::vector<float> CasterOpacity;     // likewise by index; without the alpha of colours
+  float SameOpacity = -1.0f;            // of all casters, if it is; else negative
+  std::vector<Attributes> MappedColors; // of those whose alpha counts
+  bool OtherOpacities = false;          // they are not what they were
+  const Scene* Traced = nullptr;        // with these, until trace() is over
   bool AutomaticBias = true;
   double Bias = 0.0;
   bool SameMaps = false;

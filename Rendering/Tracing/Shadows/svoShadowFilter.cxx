@@ -91,7 +91,7 @@ bool ShadowBuffer::endsBefore(const Place& place, const glm::ivec2& texel, doubl
 }
 
 float ShadowBuffer::filtered(
-  const Place& place, double width, const SurfacePoint& point, double error) const
+  const Place& place, double width, const SurfacePoint& point, double error, bool weighed) const
 {
   TexelWindow x(place.x, width, place.face->view.width);
   TexelWindow y(place.y, width, place.face->view.height);
@@ -109,12 +109,14 @@ float ShadowBuffer::filtered(
       const Answer answer = this->ask(place, texel, point, error, std::max(1.0, 2.0 * away));
       const bool dark = answer == Answer::Dark ||
         (answer == Answer::DarkNearby && !this->endsBefore(place, texel, error));
-      sum += dark ? x.weight[i] * y.weight[j] : 0.0;
+      const double weight = x.weight[i] * y.weight[j];
+      sum += !dark ? 0.0 : weighed ? weight * this->opacity(*place.face, texel) : weight;
       anyDark = anyDark || dark;
       anyLit = anyLit || !dark;
     }
   }
-  return !anyDark ? 0.0f : !anyLit ? 1.0f : static_cast<float>(std::clamp(sum, 0.0, 1.0));
+  const bool whole = !anyLit && !weighed;
+  return !anyDark ? 0.0f : whole ? 1.0f : static_cast<float>(std::clamp(sum, 0.0, 1.0));
 }
 
 float ShadowBuffer::darkness(const SurfacePoint& point, double error, double extent) const

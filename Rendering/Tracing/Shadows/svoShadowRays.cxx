@@ -2,6 +2,7 @@
 
 #include "svoIntersect.h"
 #include "svoLeafError.h"
+#include "svoSurfaceAlpha.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
@@ -46,7 +47,8 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
       const bool exact = traits.exact() && octree.surface();
       const bool mixed = traits.exact() && octree.longestList() > traits.longestExact;
       const double planeError = mixed ? CubeError * worldVoxel(instance) : 0.0;
-      this->Casters.push_back({ &instance, geometry, WorldToOctree(octree, instance.localToWorld),
+      std::vector<Caster>& casters = instance.translucent() ? this->Translucent : this->Casters;
+      casters.push_back({ &instance, geometry, WorldToOctree(octree, instance.localToWorld),
         planeError, std::max(planeError, worldLeafError(instance, geometry, octree.level())),
         exact && !mixed, CasterBox(instance) });
     }
@@ -82,6 +84,71 @@ bool ShadowRays::blocks(const Caster& caster, const Light& light, const glm::dve
   const Ray outer{ caster.toOctree.point(position + caster.planeError * side), ray.direction, 0.0,
     ray.tMax };
   return occluded(caster.instance->body->octree, outer, options);
+}
+
+float ShadowRays::opacityMet(const Caster& caster, const Light& light, const glm::dvec3& position,
+  const glm::dvec3& side, double offset)
+{
+  const Instance& instance = *caster.instance;
+  if (!instance.mappedOpacity)
+  {
+    return instance.opacity;
+  }
+  const TraceOptions options{ caster.geometry, MaximumLevel };
+  const SurfaceMatrices frame(instance);
+  // From the light, or where that is nowhere from beyond the caster, to where blocks() began.
+  for (const double above : { std::max(offset, caster.planeError), offset })
+  {
+    const glm::dvec3 end = position + above * side;
+    const glm::dvec3 towards = -light.along(end);
+    const glm::dvec3 localEnd = caster.toOctree.point(end);
+    const glm::dvec3 local = caster.toOctree.vector(towards);
+    const double beyond = glm::distance(localEnd, glm::dvec3(1.5)) + 1.0; // the cube is 1..2
+    const double length = light.atInfinity() ? beyond / glm::length(local) : BeforeLight;
+    const Hit hit =
+      intersect(instance.body->octree, { localEnd + length * local, -local, 0.0, length }, options);
+    if (hit)
+    {
+      return instance.opacity *
+        surfaceAlpha(frame, end + (length - hit.t) * towards, glm::vec3(glm::normalize(towards)),
+          hit.primitive);
+    }
+  }
+  return 0.0f; // the ray only grazes it
+}
+
+void ShadowRays::taken(const Light& light, const TilePatch& patch, double offset,
+  std::uint64_t asked, float* taken) const
+{
+  Start starts[Most];
+  PointBox box;
+  int count = 0;
+  eachBit(asked & patch.mask,
+    [&](int i)
+    {
+      const glm::dvec3 position = patch.position(i);
+      box.add(position, glm::dvec3(offset));
+      starts[count++] = { position, sideOf(light, position, patch.facet(i)), i };
+    });
+  std::fill_n(taken, TilePatch::Most, 0.0f);
+  for (const Caster& caster : this->Translucent)
+  {
+    if (count == 0 || !caster.box.mayBlock(light, box))
+    {
+      continue;
+    }
+    const std::uint64_t met = this->beam(caster, light, starts, count, offset);
+    for (int k = 0; k < count; ++k)
+    {
+      const Start& at = starts[k];
+      if (met >> at.number & 1)
+      {
+        float& all = taken[at.number];
+        const float one = opacityMet(caster, light, at.position, at.side, offset);
+        all = all > 0.0f ? 1.0f - (1.0f - all) * (1.0f - one) : one;
+      }
+    }
+  }
 }
 
 bool ShadowRays::shadows(

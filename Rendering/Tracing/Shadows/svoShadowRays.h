@@ -39,6 +39,13 @@ public:
   std::uint64_t shadows(
     const Light& light, const SurfacePoint* const* points, int count, double offset) const;
 
+  /// Those rays, and these points, know nothing of translucent casters. True if there are some.
+  bool translucent() const { return !this->Translucent.empty(); }
+  /// The share of the light that they take from the points of a patch that are `asked`, by pixel,
+  /// 0..1; 0 of others. Of each caster it is what the ray from the light meets first that counts.
+  void taken(const Light& light, const TilePatch& patch, double offset, std::uint64_t asked,
+    float* taken) const;
+
   /// The start of that ray, world.
   static glm::dvec3 start(
     const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset);
@@ -62,11 +69,14 @@ private:
   struct Start;
   static bool blocks(const Caster& caster, const Light& light, const glm::dvec3& position,
     const glm::dvec3& side, double offset);
+  /// How opaque the caster is where the light of a point that it blocks() meets it first.
+  static float opacityMet(const Caster& caster, const Light& light, const glm::dvec3& position,
+    const glm::dvec3& side, double offset);
   /// Changes the order of the starts.
   std::uint64_t shadows(const Light& light, Start* starts, int count, double offset) const;
   std::uint64_t beam(
     const Caster& caster, const Light& light, const Start* starts, int count, double offset) const;
-  std::vector<Caster> Casters;
+  std::vector<Caster> Casters, Translucent;
 };
 }
 

@@ -149,36 +149,48 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
   this->Traced = true;
   this->BuffersBefore.assign(this->Buffers.begin(), this->Buffers.end());
   this->Buffers.assign(lights.size(), nullptr);
-  std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> kept;
+  std::map<std::pair<std::uint64_t, std::uint8_t>, std::unique_ptr<ShadowBuffer>> kept;
+  const auto bufferOf = [&](std::uint64_t id, std::uint8_t group, const LightMaps& views)
+  {
+    std::unique_ptr<ShadowBuffer>& buffer = kept[{ id, group }];
+    const auto found = this->Kept.find({ id, group });
+    buffer =
+      found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
+    buffer->setCulling(this->Cull);
+    buffer->prepare(scene, views, first, settings, budget, group, parallelFor);
+    if (this->TracesWhole)
+    {
+      buffer->markAll();
+    }
+    return buffer.get();
+  };
+  this->FirstTranslucent.assign(lights.size() + 1, lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
     const Light& light = lights[i];
+    this->FirstTranslucent[i] = this->Buffers.size();
     if (!light.castShadow || !this->usesBuffer(i, settings))
     {
       continue;
     }
     std::uint64_t id = light.id;
-    while (kept.count(id)) // two lights of one id are still two lights
+    while (kept.count({ id, OpaqueCasters })) // two lights of one id are still two lights
     {
       ++id;
     }
-    std::unique_ptr<ShadowBuffer>& buffer = kept[id];
-    const auto found = this->Kept.find(id);
-    buffer =
-      found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
-    buffer->setCulling(this->Cull);
-    buffer->prepare(scene, maps[i], first, settings, budget, parallelFor);
+    this->Buffers[i] = bufferOf(id, OpaqueCasters, maps[i]);
+    for (int group = 1; group <= maps[i].translucentGroups; ++group)
+    {
+      this->Buffers.push_back(
+        bufferOf(id, static_cast<std::uint8_t>(OpaqueCasters + group), maps[i]));
+    }
     this->CoarsestTexel = std::max(this->CoarsestTexel, maps[i].coarsest);
     this->WidestTexel = std::max(this->WidestTexel, maps[i].widest);
     this->HasFewerTexels = this->HasFewerTexels ||
       (!maps[i].views.empty() && settings.shadowCoarseness == 1.0 &&
         maps[i].views.front().width < settings.shadowResolution);
-    this->Buffers[i] = buffer.get();
-    if (this->TracesWhole)
-    {
-      buffer->markAll();
-    }
   }
+  this->FirstTranslucent.back() = this->Buffers.size();
   this->Kept = std::move(kept);
   this->Casting = !this->Kept.empty();
 }
@@ -187,6 +199,7 @@ void Shadows::release()
 {
   this->Kept.clear();
   this->Buffers.clear();
+  this->FirstTranslucent.clear();
   this->SharedState.clear();
 }
 
@@ -321,11 +334,16 @@ void Shadows::addStatistics(FrameStatistics& statistics) const
 
 void Shadows::copyMaps(std::vector<ShadowMap>& maps)
 {
-  for (std::size_t i = 0; i < this->Buffers.size(); ++i)
+  for (std::size_t l = 0; l + 1 < this->FirstTranslucent.size(); ++l)
   {
-    if (this->Buffers[i])
+    if (this->Buffers[l])
     {
-      this->Buffers[i]->copyMaps(static_cast<int>(i), maps);
+      this->Buffers[l]->copyMaps(static_cast<int>(l), maps);
+    }
+    for (std::size_t b = this->FirstTranslucent[l]; b < this->FirstTranslucent[l + 1]; ++b)
+    {
+      this->Buffers[b]->copyMaps(
+        static_cast<int>(l), maps, 1 + static_cast<int>(b - this->FirstTranslucent[l]));
     }
   }
 }

@@ -13,8 +13,9 @@
 #include "svoTileShadows.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace svo
@@ -102,6 +103,20 @@ public:
   void darkness(std::size_t light, const TilePatch& patch, double error, const double* extents,
     std::uint64_t asked, float* darkness) const;
 
+  /// True if translucent casters may take something of the light, which dark() and darkness() know
+  /// nothing of.
+  bool dims(std::size_t light) const
+  {
+    return this->usesRays(light)
+      ? this->Tested->lights[light].castShadow && this->Rays->translucent()
+      : this->FirstTranslucent[light] < this->FirstTranslucent[light + 1];
+  }
+  /// Adds to what a patch's points that are `asked` miss of the light, by pixel, what translucent
+  /// casters take of the rest; Instance::translucent(). `extents`: where lights filter. Terminators
+  /// do not matter: these casters are no surfaces that points are on.
+  void dim(std::size_t light, const TilePatch& patch, double error, const double* extents,
+    std::uint64_t asked, float* missed, std::uint64_t& rays) const;
+
   /// The same for points at the terminator, see svoTerminator.h. False where nothing is in shadow,
   /// or points are compared with a shadow map without the automatic bias.
   bool knowsTerminator(std::size_t light) const
@@ -145,9 +160,13 @@ private:
   bool TracesWhole = false;                                  // every tile is traced
   bool Casting = false;                                      // there are buffers
   bool Filters = false;
-  std::vector<ShadowBuffer*> Buffers;             // by index into Scene::lights; null: no buffer
+  /// By index into Scene::lights, null: no buffer; then those of groups of translucent casters,
+  /// light by light: of each light from where its first one is.
+  std::vector<ShadowBuffer*> Buffers;
+  std::vector<std::size_t> FirstTranslucent;      // by light; and the number of buffers
   std::vector<const ShadowBuffer*> BuffersBefore; // of the last frame
-  std::unordered_map<std::uint64_t, std::unique_ptr<ShadowBuffer>> Kept; // by Light::id
+  /// By Light::id and group.
+  std::map<std::pair<std::uint64_t, std::uint8_t>, std::unique_ptr<ShadowBuffer>> Kept;
   std::unique_ptr<ShadowRays> Rays;
   std::vector<unsigned char> SharedState; // inputs of the shared buffers in Kept; empty: not shared
   bool Traced = false;                    // buffers were, in this frame

@@ -31,6 +31,7 @@ TEST(RenderPassSettings, DefaultsAreThoseOfTheManual)
   EXPECT_TRUE(pass->GetAutomaticShadowBias());
   EXPECT_EQ(pass->GetShadowBias(), 0.0);
   EXPECT_EQ(pass->GetShadowIntensity(), 1.0);
+  EXPECT_TRUE(pass->GetTranslucentShadows());
   EXPECT_EQ(pass->GetPixelError(), 1.0);
   EXPECT_TRUE(pass->GetConvertPolyData());
   EXPECT_EQ(pass->GetMaximumLevel(), 10);
@@ -192,13 +193,25 @@ TEST(RenderPassSettings, PropsAnswerForThemselves)
   EXPECT_FALSE(vtkSVORenderPass::GetUseSVO(actor));
 }
 
-TEST(RenderPassSettings, ATranslucentPropCastsOnlyWhenAsked)
+TEST(RenderPassSettings, ATranslucentPropCastsAnInvisibleOneDoesNot)
 {
+  vtkNew<vtkSphereSource> ball;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(ball->GetOutputPort());
   vtkNew<vtkActor> actor;
   actor->GetProperty()->SetOpacity(0.5);
+  EXPECT_TRUE(vtkSVORenderPass::GetCastShadow(actor));
+  actor->SetMapper(mapper);
+  EXPECT_TRUE(vtkSVORenderPass::GetCastShadow(actor));
+  EXPECT_EQ(vtkSVORenderPass::GetReason(actor), "Left to the rasteriser: it is translucent.");
+  actor->GetProperty()->SetOpacity(0.0);
   EXPECT_FALSE(vtkSVORenderPass::GetCastShadow(actor));
   vtkSVORenderPass::SetCastShadow(true, actor);
   EXPECT_TRUE(vtkSVORenderPass::GetCastShadow(actor));
+  vtkNew<vtkSVORenderPass> pass;
+  EXPECT_TRUE(pass->GetTranslucentShadows());
+  pass->TranslucentShadowsOff();
+  EXPECT_FALSE(pass->GetTranslucentShadows());
 }
 
 TEST(RenderPassSettings, AHeadlightCastsOnlyWhenAsked)
@@ -266,11 +279,12 @@ TEST(RenderPassSettings, PrintsEverySetting)
   vtkNew<vtkSVORenderPass> pass;
   std::ostringstream text;
   pass->Print(text);
-  for (const char* name : { "Backend", "ShadowTechnique", "ShadowBufferResolution",
-         "AutomaticShadowBias", "ShadowBias", "ShadowIntensity", "PixelError", "ConvertPolyData",
-         "MaximumLevel", "LeafGeometry", "OctreeMemoryLimit", "BuildInBackground", "FrameCoherence",
-         "LayerMemoryLimit", "AntiAliasing", "NumberOfRasterizedActors", "AcceptedPixelError",
-         "NumberOfOctreesBuilt", "NumberOfOctreesInProgress" })
+  for (const char* name :
+    { "Backend", "ShadowTechnique", "ShadowBufferResolution", "AutomaticShadowBias", "ShadowBias",
+      "ShadowIntensity", "TranslucentShadows", "PixelError", "ConvertPolyData", "MaximumLevel",
+      "LeafGeometry", "OctreeMemoryLimit", "BuildInBackground", "FrameCoherence",
+      "LayerMemoryLimit", "AntiAliasing", "NumberOfRasterizedActors", "AcceptedPixelError",
+      "NumberOfOctreesBuilt", "NumberOfOctreesInProgress" })
   {
     EXPECT_NE(text.str().find(name), std::string::npos) << name;
   }

@@ -207,7 +207,10 @@ protected:
       const auto places = [](const Instance& n)
       { return std::make_tuple(n.localToWorld, n.id, n.depthOffsetUnits, n.givesWay); };
       const auto ways = [](const Instance& n)
-      { return std::make_tuple(n.visible, n.castShadow, n.receiveShadow, n.pixelError); };
+      {
+        return std::make_tuple(
+          n.visible, n.castShadow, n.receiveShadow, n.pixelError, n.opacity, n.mappedOpacity);
+      };
       const auto looks = [](const Instance& n)
       {
         const svo::Material& m = n.material;

@@ -126,6 +126,43 @@ TEST(SharedShadows, SeveralProcessesHaveThePictureOfOne)
   }
 }
 
+// Translucent casters of all processes, while one of them fades.
+TEST(SharedShadows, TranslucentCastersAreThoseOfOneProcess)
+{
+  const svo::View eye = lookAt({ 1, -6, 4 }, 160, 120);
+  for (const LightCase& test : everyLight())
+  {
+    svo::Scene scene = ballsOnGround();
+    scene.lights = { test.light };
+    scene.instances.push_back(scene.instances[1]);
+    scene.instances.back().id = 5;
+    scene.instances.back().localToWorld = movedTo(0.3, 0.2, 3.0);
+    for (std::size_t i = 2; i < scene.instances.size(); ++i)
+    {
+      scene.instances[i].visible = scene.instances[i].receiveShadow = false;
+      scene.instances[i].opacity = 0.2f * static_cast<float>(i);
+    }
+    const svo::Frame opaqueOnly = [&]
+    {
+      svo::Scene others = scene;
+      others.instances.resize(2);
+      return rendered(others, eye, smallBuffers());
+    }();
+    for (int count : { 2, 3 })
+    {
+      Group group(count);
+      for (const float opacity : { 0.3f, 0.7f, 1.0f })
+      {
+        scene.instances[3].opacity = opacity;
+        const svo::Frame expected = rendered(scene, eye, smallBuffers());
+        EXPECT_GT(differing(expected, opaqueOnly), 500u) << test.name;
+        EXPECT_EQ(differing(group.picture(scene, eye, smallBuffers()), expected), 0u)
+          << test.name << ", " << count << " processes, opacity " << opacity;
+      }
+    }
+  }
+}
+
 // Maps that are fitted to what is seen are the same on all processes, whoever holds the ground.
 TEST(SharedShadows, MapsOfAVastGroundAreFittedAlike)
 {

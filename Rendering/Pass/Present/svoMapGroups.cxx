@@ -1,0 +1,55 @@
+#include "svoMapGroups.h"
+
+#include <algorithm>
+
+namespace svo
+{
+namespace
+{
+double brightness(const Light& light)
+{
+  return light.color.r + light.color.g + light.color.b;
+}
+
+std::size_t layersOf(const MapGroups::value_type& entry)
+{
+  return entry.second.size() * (entry.first.translucent ? 2 : 1);
+}
+}
+
+MapGroups groupsOf(const std::vector<ShadowMap>& maps)
+{
+  MapGroups groups;
+  for (const ShadowMap& map : maps)
+  {
+    groups[{ map.group > 0, map.light, map.group }].push_back(&map);
+  }
+  return groups;
+}
+
+bool keepBrightest(MapGroups& groups, const std::vector<Light>& lights, std::size_t most)
+{
+  std::size_t count = 0;
+  for (const auto& entry : groups)
+  {
+    count += layersOf(entry);
+  }
+  if (count <= most)
+  {
+    return false;
+  }
+  const auto rank = [&](const MapGroup& group)
+  {
+    // Of equally bright lights the first one.
+    return std::make_tuple(brightness(lights[group.light]), group.light, -group.group);
+  };
+  while (count > most)
+  {
+    const auto faintest = std::min_element(groups.begin(), groups.end(),
+      [&](const auto& a, const auto& b) { return rank(a.first) < rank(b.first); });
+    count -= layersOf(*faintest);
+    groups.erase(faintest);
+  }
+  return true;
+}
+}

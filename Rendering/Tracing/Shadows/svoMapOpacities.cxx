@@ -1,0 +1,56 @@
+#include "svoMapOpacities.h"
+
+#include "svoSurfaceAlpha.h"
+
+#include <cstdint>
+
+namespace svo
+{
+void MapOpacities::find(const Scene& scene, const View& view, const LayeredView& map, bool all,
+  const ParallelFor& parallelFor)
+{
+  const DepthBuffer& depth = map.depthBuffer();
+  all = all || this->Texels.size() != 64 * depth.tiles();
+  this->Texels.resize(64 * depth.tiles(), 1.0f);
+  std::vector<SurfaceMatrices> frames(scene.instances.size());
+  for (std::size_t i = 0; i < scene.instances.size(); ++i)
+  {
+    const Instance& instance = scene.instances[i];
+    if (instance.castShadow && instance.mappedOpacity && instance.body->octree)
+    {
+      frames[i] = SurfaceMatrices(instance);
+    }
+  }
+  const auto opacityAt = [&](std::size_t tile, int i)
+  {
+    const std::uint32_t caster = depth.instance[64 * tile + i];
+    if (caster == NoInstance)
+    {
+      return 0.0f;
+    }
+    const Instance& instance = scene.instances[caster];
+    if (!instance.mappedOpacity)
+    {
+      return instance.opacity;
+    }
+    const double x = 8.0 * static_cast<double>(tile % depth.tilesX) + (i & 7) + 0.5;
+    const double y = 8.0 * static_cast<double>(tile / depth.tilesX) + (i >> 3) + 0.5;
+    const glm::dvec3 ray = view.rayDirection(x, y);
+    const double t = map.base(caster) + static_cast<double>(depth.t[64 * tile + i]);
+    return instance.opacity *
+      surfaceAlpha(frames[caster], view.rayOrigin(x, y) + t * ray, -glm::vec3(ray),
+        depth.primitive[64 * tile + i]);
+  };
+  parallelFor(0, depth.tiles(), 64,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t tile = first; tile < last; ++tile)
+      {
+        for (int i = 0; depth.hit[tile] && (all || map.tiles().changed(tile)) && i < 64; ++i)
+        {
+          this->Texels[64 * tile + i] = opacityAt(tile, i);
+        }
+      }
+    });
+}
+}

@@ -1,0 +1,33 @@
+// How opaque a map's translucent casters are, texel by texel, where that is not the same all over
+// them.
+#ifndef svoMapOpacities_h
+#define svoMapOpacities_h
+
+#include "svoLayeredView.h"
+#include "svoParallel.h"
+#include "svoScene.h"
+#include "svoView.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace svo
+{
+class MapOpacities
+{
+public:
+  /// After LayeredView::trace(), each time: of tiles that are not what they were, or of all. Of a
+  /// texel it is that of the place on the caster that the ray of the texel's centre meets.
+  void find(const Scene& scene, const View& view, const LayeredView& map, bool all,
+    const ParallelFor& parallelFor);
+  void forget() { this->Texels.clear(); }
+  bool known() const { return !this->Texels.empty(); }
+  /// 0..1; `texel`: as DepthBuffer::at, of those that a caster lies at.
+  float at(std::size_t texel) const { return this->Texels[texel]; }
+
+private:
+  std::vector<float> Texels;
+};
+}
+
+#endif
