@@ -3,6 +3,7 @@
 #include "svoAffineMatrix.h"
 #include "svoCameraView.h"
 #include "svoPropKeys.h"
+#include "svoSplats.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
@@ -209,14 +210,6 @@ bool PropCollector::finish(vtkActor* actor, const SurfacePart& part, const glm::
 void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::dmat4& localToWorld,
   Reason beyond, PropSurfaces& found, const CollectProps& frame)
 {
-  if (!hasSurface(part.mesh))
-  {
-    if (part.mesh->GetNumberOfCells() > 0)
-    {
-      found.leaveAlone("has lines or vertices");
-    }
-    return;
-  }
   SceneSurface surface;
   Instance& instance = surface.instance;
   if (part.texture)
@@ -229,6 +222,17 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
   {
     const Reason unmapped = mapColors(part, this->Leaves, instance.attributes, found.kept);
     reason = beyond ? beyond : unmapped;
+  }
+  const bool round =
+    this->collectTubes(actor, part, instance.attributes, localToWorld, beyond, found, frame);
+  if (!hasSurface(part.mesh) || actor->GetProperty()->GetRepresentation() != VTK_SURFACE)
+  {
+    if (!round && part.mesh->GetNumberOfCells() > 0)
+    {
+      found.rasterize(beyond ? beyond : "has lines or vertices");
+      found.castNothing("has lines or vertices, none of them as tubes or spheres");
+    }
+    return;
   }
   const OpaqueCells::Answer opaque = this->Opaque.of(part, instance.attributes, found.kept);
   surface.mesh = frame.shadows ? this->casterOf(part, opaque, actor, found, frame) : nullptr;
@@ -315,6 +319,11 @@ void PropCollector::collectActor(
     this->collectGlyphs(actor, localToWorld, beyond, found, frame);
     return;
   }
+  if (isSplatMapper(mapper))
+  {
+    this->collectSplats(actor, localToWorld, beyond, found, frame);
+    return;
+  }
   for (SurfacePart& part : this->partsOf(actor, found.kept))
   {
     this->collectPart(actor, part, localToWorld, beyond, found, frame);
@@ -375,14 +384,15 @@ bool PropCollector::move(PropSurfaces& found, const CollectProps& frame)
   const double condition = frobeniusCondition(localToWorld);
   for (const SceneSurface& surface : found.surfaces)
   {
-    if (surface.copies && condition * surface.copies->condition > MaximumCondition)
+    if (surface.copies && !surface.placed &&
+      condition * surface.copies->condition > MaximumCondition)
     {
       return false;
     }
   }
   for (SceneSurface& surface : found.surfaces)
   {
-    surface.instance.localToWorld = localToWorld;
+    (surface.placed ? surface.placed->localToWorld : surface.instance.localToWorld) = localToWorld;
   }
   found.moved = true;
   return true;

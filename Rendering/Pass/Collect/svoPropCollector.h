@@ -11,11 +11,14 @@
 #include "svoOpaqueCells.h"
 #include "svoSceneOctrees.h"
 #include "svoSurfaceLook.h"
+#include "svoUnitShapes.h"
+#include "svoView.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -62,6 +65,10 @@ public:
   /// False if it has to be collected again: nothing has been done then.
   static bool move(PropSurfaces& found, const CollectProps& frame);
 
+  /// Puts the bodies of collected props in their places: of props that are fresh or have moved, and
+  /// unless `sameEye` those with a width in pixels.
+  static void place(std::vector<PropSurfaces>& props, const View& eye, bool sameEye);
+
   /// Forgets what no collected prop keeps any more.
   void sweep();
 
@@ -75,6 +82,13 @@ private:
     Reason beyond, PropSurfaces& found, const CollectProps& frame);
   void collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
     PropSurfaces& found, const CollectProps& frame);
+  void collectSplats(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
+    PropSurfaces& found, const CollectProps& frame);
+  bool collectTubes(vtkActor* actor, const SurfacePart& part, const Attributes& attributes,
+    const glm::dmat4& localToWorld, Reason beyond, PropSurfaces& found, const CollectProps& frame);
+  void addBodies(vtkActor* actor, const std::shared_ptr<Bodies>& bodies, bool translucent,
+    const SurfacePart& of, const glm::dmat4& localToWorld, Reason reason, PropSurfaces& found,
+    const CollectProps& frame);
   bool finish(vtkActor* actor, const SurfacePart& part, const glm::dmat4& localToWorld,
     Reason reason, SceneSurface& surface, PropSurfaces& found);
   vtkPolyData* casterOf(const SurfacePart& part, OpaqueCells::Answer opaque, vtkActor* actor,
@@ -87,6 +101,7 @@ private:
   OpaqueCells Opaque;
   FloatArrays Floats;
   LeafMeshes Leaves;
+  UnitShapes Shapes;
   std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>>
     GivenMessages;    // by object
   bool Quiet = false; // about the actor that is being collected

@@ -41,6 +41,13 @@ bool sameLevels(const LevelSettings& a, const LevelSettings& b)
   return values(a) == values(b);
 }
 
+/// True if a length looks as many pixels wide to both.
+bool sameWidths(const View& a, const View& b)
+{
+  return std::tie(a.width, a.worldToView, a.viewToClip) ==
+    std::tie(b.width, b.worldToView, b.viewToClip);
+}
+
 bool sameStore(const StoreOptions& a, const StoreOptions& b)
 {
   return std::tie(a.convert, a.level, a.leafGeometry, a.wait) ==
@@ -281,6 +288,20 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   this->NotMarked = frame.notMarked;
   this->World = world;
   const bool changed = this->collectProps(props, frame, all);
+  if (changed)
+  {
+    const auto places = [](const PropSurfaces& prop)
+    {
+      return std::any_of(prop.surfaces.begin(), prop.surfaces.end(),
+        [](const SceneSurface& surface) { return surface.placed != nullptr; });
+    };
+    this->Placed = std::any_of(this->Found.begin(), this->Found.end(), places);
+  }
+  const View& eye = settings.levels.eye;
+  if (this->Placed)
+  {
+    PropCollector::place(this->Found, eye, sameWidths(eye, this->Levels.eye));
+  }
 
   if (this->Lent)
   {

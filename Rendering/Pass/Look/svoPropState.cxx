@@ -2,6 +2,7 @@
 
 #include "svoCompositeBlocks.h"
 #include "svoPropKeys.h"
+#include "svoSplats.h"
 #include "svoSurfaceLook.h"
 
 #include "vtkActor.h"
@@ -23,6 +24,7 @@
 #include "vtkTexture.h"
 #include "vtkTrivialProducer.h"
 
+#include <algorithm>
 #include <cstring>
 #include <typeinfo>
 
@@ -86,6 +88,12 @@ bool hasTextures(vtkActor* actor)
   return actor->GetTexture() || actor->GetProperty()->GetNumberOfTextures() > 0;
 }
 
+/// Of what a mapper looks up and its own time does not tell of.
+std::uint64_t timeOfParts(vtkMapper* mapper)
+{
+  return std::max<std::uint64_t>(timeOf(attributesOf(mapper)), timeOfSplats(mapper));
+}
+
 int selectedOf(vtkMapper* mapper)
 {
   vtkSelection* selection = mapper->GetSelection();
@@ -147,7 +155,7 @@ bool PropState::noteActor(vtkActor* actor, vtkProp* owner, Actor& state)
     }
   }
   state.timeOfMapper = mapper->GetMTime();
-  state.timeOfAttributes = timeOf(attributesOf(mapper));
+  state.timeOfParts = timeOfParts(mapper);
   state.selected = selectedOf(mapper);
   state.depthOffset = coincidentDepthOffset(mapper);
   return true;
@@ -203,7 +211,7 @@ Held PropState::holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& update
   }
   if (mapper->GetMTime() != state.timeOfMapper || selectedOf(mapper) != state.selected ||
     coincidentDepthOffset(mapper) != state.depthOffset ||
-    (state.timeOfAttributes != 0 && timeOf(attributesOf(mapper)) != state.timeOfAttributes))
+    (state.timeOfParts != 0 && timeOfParts(mapper) != state.timeOfParts))
   {
     return Held::No;
   }

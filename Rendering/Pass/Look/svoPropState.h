@@ -22,9 +22,10 @@ enum class Held
 };
 
 /// The addresses and times of an actor with its property, keys and textures, of its mapper with
-/// lookup table and attributes of blocks, of that one's inputs and sources, and the matrices of an
-/// assembly. Times are never given twice, so another object in an old one's place is noticed, too.
-/// What is changed in place without Modified() does not show, as in VTK's own mappers.
+/// lookup table, functions and attributes of blocks, of that one's inputs and sources, and the
+/// matrices of an assembly. Times are never given twice, so another object in an old one's place is
+/// noticed, too. What is changed in place without Modified() does not show, as in VTK's own
+/// mappers.
 class PropState
 {
 public:
@@ -58,7 +59,7 @@ private:
     std::vector<std::uint64_t> textures;
     bool customShaders = false;
     vtkMapper* mapper = nullptr;
-    std::uint64_t timeOfMapper = 0, timeOfAttributes = 0;
+    std::uint64_t timeOfMapper = 0, timeOfParts = 0;
     int selected = 0;
     double depthOffset = 0.0;
     std::vector<Input> inputs;

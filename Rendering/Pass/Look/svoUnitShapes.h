@@ -1,0 +1,30 @@
+// The ball and the rod that bodies are copies of, with their octrees.
+#ifndef svoUnitShapes_h
+#define svoUnitShapes_h
+
+#include "svoBodies.h"
+
+#include "vtkSmartPointer.h"
+
+class vtkPolyData;
+
+namespace svo
+{
+class UnitShapes
+{
+public:
+  UnitShapes();
+  ~UnitShapes();
+
+  /// Ball: radius 1, around 0. Rod: radius 1, along z from 0 to 1, closed at both ends. All of
+  /// their points lie on the true shape, so flat facets lie inside of it, by up to 0.12 % of the
+  /// radius: what VTK draws as a true ball or tube is never inside of its own caster. The octree is
+  /// in the mesh's field data, so that nothing is built for any frame.
+  vtkPolyData* of(Bodies::Shape shape);
+
+private:
+  vtkSmartPointer<vtkPolyData> Ball, Rod; // null until they are asked for
+};
+}
+
+#endif
