@@ -3,8 +3,6 @@
 #include "svoAffineMatrix.h"
 #include "svoCameraView.h"
 #include "svoPropKeys.h"
-#include "svoSplats.h"
-
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkAssembly.h"
@@ -319,9 +317,9 @@ void PropCollector::collectActor(
     this->collectGlyphs(actor, localToWorld, beyond, found, frame);
     return;
   }
-  if (isSplatMapper(mapper))
+  if (drawsBodies(mapper))
   {
-    this->collectSplats(actor, localToWorld, beyond, found, frame);
+    this->collectBodies(actor, localToWorld, beyond, found, frame);
     return;
   }
   for (SurfacePart& part : this->partsOf(actor, found.kept))

@@ -82,6 +82,8 @@ private:
     Reason beyond, PropSurfaces& found, const CollectProps& frame);
   void collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
     PropSurfaces& found, const CollectProps& frame);
+  void collectBodies(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
+    PropSurfaces& found, const CollectProps& frame);
   void collectSplats(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
     PropSurfaces& found, const CollectProps& frame);
   bool collectTubes(vtkActor* actor, const SurfacePart& part, const Attributes& attributes,
@@ -101,7 +103,7 @@ private:
   OpaqueCells Opaque;
   FloatArrays Floats;
   LeafMeshes Leaves;
-  UnitShapes Shapes;
+  std::shared_ptr<UnitShapes> Shapes = UnitShapes::ofAll();
   std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>>
     GivenMessages;    // by object
   bool Quiet = false; // about the actor that is being collected

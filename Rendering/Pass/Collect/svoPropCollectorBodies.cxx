@@ -1,4 +1,5 @@
-// Splats, tubes and spheres as casters. VTK goes on drawing them.
+// Splats, impostors, tubes and spheres as casters. VTK goes on drawing them.
+#include "svoImpostors.h"
 #include "svoPropCollector.h"
 #include "svoPropKeys.h"
 #include "svoSplats.h"
@@ -26,7 +27,7 @@ void PropCollector::addBodies(vtkActor* actor, const std::shared_ptr<Bodies>& bo
     return;
   }
   SurfacePart part = of;
-  part.mesh = this->Shapes.of(bodies ? bodies->shape : Bodies::Shape::Ball);
+  part.mesh = this->Shapes->of(bodies ? bodies->shape : Bodies::Shape::Ball);
   SceneSurface surface;
   surface.mesh =
     this->casterOf(part, { bodies ? part.mesh : nullptr, translucent }, actor, found, frame);
@@ -120,6 +121,29 @@ void PropCollector::collectSplats(vtkActor* actor, const glm::dmat4& localToWorl
   for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
   {
     add(vtkPolyData::SafeDownCast(leaves->GetCurrentDataObject()), leaves->GetCurrentFlatIndex());
+  }
+}
+
+/// Adds what an actor's mapper draws that draws nothing else.
+void PropCollector::collectBodies(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
+  PropSurfaces& found, const CollectProps& frame)
+{
+  if (isSplatMapper(actor->GetMapper()))
+  {
+    this->collectSplats(actor, localToWorld, beyond, found, frame);
+    return;
+  }
+  const Impostors impostors = impostorsOf(actor->GetMapper());
+  SurfacePart part;
+  part.opacity = actor->GetProperty()->GetOpacity();
+  const bool opaque =
+    (impostors.opaque && part.opacity >= 1.0) || flagOf(actor, found.prop, castShadowKey(), false);
+  found.rasterize(beyond ? beyond : "is drawn without polygons");
+  for (const std::shared_ptr<Bodies>& bodies : impostors.bodies)
+  {
+    ++part.block;
+    this->addBodies(actor, opaque ? bodies : nullptr, !opaque, part, localToWorld, found.rasterized,
+      found, frame);
   }
 }
 

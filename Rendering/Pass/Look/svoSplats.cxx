@@ -235,6 +235,11 @@ double discOf(const char* splatShader)
   return squared ? std::sqrt(limit) : limit;
 }
 
+bool actorsScaleSplats()
+{
+  return Version::value;
+}
+
 Reason beyondSplats(vtkPointGaussianMapper* mapper)
 {
   const char* code = mapper->GetSplatShaderCode();
@@ -263,7 +268,7 @@ Splats splatsOf(vtkPointGaussianMapper* mapper, vtkPolyData* input, bool all)
   result.bodies = std::make_shared<Bodies>();
   Bodies& bodies = *result.bodies;
   bodies.shape = Bodies::Shape::Ball;
-  bodies.width = Version::value ? Bodies::Width::Local : Bodies::Width::World;
+  bodies.width = actorsScaleSplats() ? Bodies::Width::Local : Bodies::Width::World;
   // Beyond the edge nothing is drawn.
   const double disc = std::min(discOf(mapper->GetSplatShaderCode()), Version::edge(mapper));
   const double factor = mapper->GetScaleFactor() * disc;

@@ -26,6 +26,9 @@ std::uint64_t timeOfSplats(vtkMapper* mapper);
 /// Black-edged circle and Plain circle do, and PyVista's.
 double discOf(const char* splatShader);
 
+/// True if an actor's matrix scales its splats, as it does from VTK 9.4 on.
+bool actorsScaleSplats();
+
 /// Why the mapper's splats stand for no opaque bodies, whatever the points are; null if they do.
 Reason beyondSplats(vtkPointGaussianMapper* mapper);
 

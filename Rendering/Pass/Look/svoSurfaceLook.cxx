@@ -2,6 +2,7 @@
 
 #include "svoCompositeBlocks.h"
 #include "svoGlyphCopies.h"
+#include "svoImpostors.h"
 #include "svoSplats.h"
 #include "svoTubes.h"
 
@@ -200,11 +201,16 @@ bool scalarColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes,
 }
 }
 
+bool drawsBodies(vtkMapper* mapper)
+{
+  return isSplatMapper(mapper) || isImpostorMapper(mapper);
+}
+
 bool isPlainMapper(vtkMapper* mapper)
 {
   const std::string name = mapper->GetClassName();
   return name == "vtkOpenGLPolyDataMapper" || name == "vtkDataSetMapper" ||
-    isCompositeMapper(mapper) || isGlyphMapper(mapper) || isSplatMapper(mapper);
+    isCompositeMapper(mapper) || isGlyphMapper(mapper) || drawsBodies(mapper);
 }
 
 bool hasCustomShaders(vtkActor* actor)
@@ -258,7 +264,7 @@ Treatment treatmentOf(vtkActor* actor)
   {
     treatment.castsNone = "has a mapper of a class that is not known here";
   }
-  else if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE && !isSplatMapper(mapper))
+  else if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE && !drawsBodies(mapper))
   {
     treatment.rasterized = "is shown as wireframe or points";
     const bool round = !isGlyphMapper(mapper) && roundLookOf(actor->GetProperty()).any();

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,6 +78,17 @@ void attachOwnOctree(vtkPolyData* mesh)
 
 UnitShapes::UnitShapes() = default;
 UnitShapes::~UnitShapes() = default;
+
+std::shared_ptr<UnitShapes> UnitShapes::ofAll()
+{
+  static std::weak_ptr<UnitShapes> known;
+  std::shared_ptr<UnitShapes> shapes = known.lock();
+  if (!shapes)
+  {
+    known = shapes = std::make_shared<UnitShapes>();
+  }
+  return shapes;
+}
 
 vtkPolyData* UnitShapes::of(Bodies::Shape shape)
 {

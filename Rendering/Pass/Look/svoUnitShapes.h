@@ -6,15 +6,21 @@
 
 #include "vtkSmartPointer.h"
 
+#include <memory>
+
 class vtkPolyData;
 
 namespace svo
 {
+/// Used by one thread.
 class UnitShapes
 {
 public:
   UnitShapes();
   ~UnitShapes();
+
+  /// Those that all have who have any.
+  static std::shared_ptr<UnitShapes> ofAll();
 
   /// Ball: radius 1, around 0. Rod: radius 1, along z from 0 to 1, closed at both ends. All of
   /// their points lie on the true shape, so flat facets lie inside of it, by up to 0.12 % of the
