@@ -247,7 +247,7 @@ void SceneCollector::explain(
                                              : "comes without an octree";
     const Reason rasterized = prop.rasterized ? prop.rasterized : missing;
     const Reason castsNone = prop.castsNone ? prop.castsNone : missing;
-    const bool asChosen = !castsNone && rasterized == settings.notMarked;
+    const bool asChosen = !castsNone && rasterized == this->NotMarked.c_str();
     const std::string text = reasons(rasterized, castsNone, casts);
     if (!asChosen && !text.empty())
     {
@@ -271,21 +271,23 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   {
     casting = casting || light.castShadow;
   }
+  const bool sameReason = this->NotMarked == settings.notMarked;
+  if (!sameReason)
+  {
+    this->NotMarked = settings.notMarked;
+  }
   const CollectProps frame{ options, settings.shadows && casting, !result.scene.lights.empty(),
-    settings.onlyMarked, settings.unmarkedCast, settings.notMarked, settings.said,
+    settings.onlyMarked, settings.unmarkedCast, this->NotMarked.c_str(), settings.said,
     settings.translucentSurfaceText, settings.translucentText, settings.cutOutText, world };
   const std::vector<vtkSmartPointer<vtkProp>> props = propsOf(renderer);
-  const bool all = !this->Collected ||
-    std::tie(this->Shadows, this->Lights, this->OnlyMarked, this->UnmarkedCast, this->NotMarked,
-      this->World) !=
-      std::tie(
-        frame.shadows, frame.lights, frame.onlyMarked, frame.unmarkedCast, frame.notMarked, world);
+  const bool all = !this->Collected || !sameReason ||
+    std::tie(this->Shadows, this->Lights, this->OnlyMarked, this->UnmarkedCast, this->World) !=
+      std::tie(frame.shadows, frame.lights, frame.onlyMarked, frame.unmarkedCast, world);
   this->Collected = true;
   this->Shadows = frame.shadows;
   this->Lights = frame.lights;
   this->OnlyMarked = frame.onlyMarked;
   this->UnmarkedCast = frame.unmarkedCast;
-  this->NotMarked = frame.notMarked;
   this->World = world;
   const bool changed = this->collectProps(props, frame, all);
   if (changed)

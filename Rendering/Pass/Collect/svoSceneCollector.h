@@ -30,7 +30,7 @@ struct CollectSettings
   /// See CollectProps.
   bool onlyMarked = false;
   bool unmarkedCast = false;
-  Reason notMarked = "was not chosen with SetUseSVO";
+  Reason notMarked = "was not chosen with SetUseSVO"; // need not outlive the call
   LevelSettings levels;
   std::set<std::string>* said = nullptr; // messages of the pass, about no object in particular
   /// Messages about surfaces and cells that cast nothing, or more than they show; empty: none.
@@ -96,7 +96,7 @@ private:
   // The rest of what they depend on.
   bool Collected = false;
   bool Shadows = false, Lights = false, OnlyMarked = false, UnmarkedCast = false;
-  Reason NotMarked = nullptr;
+  std::string NotMarked; // what reasons of kept props point to
   glm::dmat4 World{ 1.0 };
   LevelSettings Levels;
   StoreOptions Options;

@@ -124,6 +124,7 @@ bool PropState::noteActor(vtkActor* actor, vtkProp* owner, Actor& state)
   state.keys = actor->GetPropertyKeys();
   state.time = actor->GetMTime();
   state.timeOfKeys = timeOf(actor->GetPropertyKeys());
+  state.answers = answersOf(actor);
   vtkMapper* mapper = state.mapper = actor->GetMapper();
   // Who says that an actor of another class uses octrees knows what it draws.
   const bool known = isPlainActor(actor) || flagOf(actor, owner, useSVOKey(), false);
@@ -196,8 +197,10 @@ Held PropState::holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& update
 {
   vtkInformation* keys = actor->GetPropertyKeys();
   const bool sameTime = actor->GetMTime() == state.time;
-  if ((!sameTime && lookOf(actor) != state.look) || keys != state.keys ||
-    timeOf(keys) != state.timeOfKeys || hasTextures(actor) == state.textures.empty() ||
+  const bool sameKeys = keys == state.keys && timeOf(keys) == state.timeOfKeys;
+  if ((!sameTime && lookOf(actor) != state.look) ||
+    (!sameKeys && answersOf(actor) != state.answers) ||
+    hasTextures(actor) == state.textures.empty() ||
     (!state.textures.empty() && texturesOf(actor) != state.textures) ||
     hasCustomShaders(actor) != state.customShaders || actor->GetMapper() != state.mapper)
   {
@@ -233,8 +236,11 @@ Held PropState::holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& update
 /// nothing: VTK modifies the leaves when it draws them.
 void PropState::noteParts(vtkProp* assembly, Numbers& numbers, std::vector<vtkActor*>& actors)
 {
-  numbers.push_back(numberOf(assembly->GetPropertyKeys()));
-  numbers.push_back(timeOf(assembly->GetPropertyKeys()));
+  const auto [flags, error] = answersOf(assembly);
+  std::uint64_t bits;
+  std::memcpy(&bits, &error, sizeof(bits));
+  numbers.push_back(flags);
+  numbers.push_back(bits);
   assembly->InitPathTraversal();
   while (vtkAssemblyPath* path = assembly->GetNextPath())
   {

@@ -3,6 +3,8 @@
 #ifndef svoPropState_h
 #define svoPropState_h
 
+#include "svoPropKeys.h"
+
 #include <cstdint>
 #include <vector>
 
@@ -55,6 +57,7 @@ private:
   {
     const void* keys = nullptr;
     std::uint64_t time = 0, timeOfKeys = 0;
+    PropAnswers answers;
     std::vector<std::uint64_t> look; // all of it but place and visibility
     std::vector<std::uint64_t> textures;
     bool customShaders = false;
