@@ -27,7 +27,7 @@ void PropCollector::addBodies(vtkActor* actor, const std::shared_ptr<Bodies>& bo
     return;
   }
   SurfacePart part = of;
-  part.mesh = this->Shapes->of(bodies ? bodies->shape : Bodies::Shape::Ball);
+  part.mesh = this->Shapes->of(bodies ? *bodies : Bodies());
   SceneSurface surface;
   surface.mesh =
     this->casterOf(part, { bodies ? part.mesh : nullptr, translucent }, actor, found, frame);

@@ -20,11 +20,12 @@ namespace svo
 {
 namespace
 {
-constexpr int Around = 64; // facets
+constexpr int MostFacets = 64;
 
-/// A surface of revolution about z: `profile` has radii and heights, from below to above; it begins
-/// and ends on the axis.
-vtkSmartPointer<vtkPolyData> turned(const std::vector<std::pair<double, double>>& profile)
+/// A surface of revolution about z, of so many facets around: `profile` has radii and heights, from
+/// below to above; it begins and ends on the axis.
+vtkSmartPointer<vtkPolyData> turned(
+  const std::vector<std::pair<double, double>>& profile, int around)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -33,25 +34,25 @@ vtkSmartPointer<vtkPolyData> turned(const std::vector<std::pair<double, double>>
   points->InsertNextPoint(0.0, 0.0, profile.front().second);
   for (vtkIdType ring = 1; ring <= rings; ++ring)
   {
-    for (int i = 0; i < Around; ++i)
+    for (int i = 0; i < around; ++i)
     {
-      const double angle = 2.0 * vtkMath::Pi() * i / Around;
+      const double angle = 2.0 * vtkMath::Pi() * i / around;
       const double radius = profile[ring].first;
       points->InsertNextPoint(
         radius * std::cos(angle), radius * std::sin(angle), profile[ring].second);
     }
   }
   const vtkIdType top = points->InsertNextPoint(0.0, 0.0, profile.back().second);
-  for (int i = 0; i < Around; ++i)
+  for (int i = 0; i < around; ++i)
   {
-    const int next = (i + 1) % Around;
-    const vtkIdType last = 1 + (rings - 1) * Around;
+    const int next = (i + 1) % around;
+    const vtkIdType last = 1 + (rings - 1) * around;
     const vtkIdType below[3] = { 0, 1 + next, 1 + i };
     const vtkIdType above[3] = { top, last + i, last + next };
     polygons->InsertNextCell(3, below);
     for (vtkIdType ring = 0; ring + 1 < rings; ++ring)
     {
-      const vtkIdType low = 1 + ring * Around, high = low + Around;
+      const vtkIdType low = 1 + ring * around, high = low + around;
       const vtkIdType quad[4] = { low + i, low + next, high + next, high + i };
       polygons->InsertNextCell(4, quad);
     }
@@ -90,29 +91,40 @@ std::shared_ptr<UnitShapes> UnitShapes::ofAll()
   return shapes;
 }
 
-vtkPolyData* UnitShapes::of(Bodies::Shape shape)
+int UnitShapes::facetsOf(const Bodies& bodies)
 {
-  const bool rod = shape == Bodies::Shape::Rod;
-  vtkSmartPointer<vtkPolyData>& mesh = rod ? this->Rod : this->Ball;
+  constexpr double Inside = 0.1; // pixels
+  int facets = bodies.width == Bodies::Width::Pixels && bodies.radii.empty() ? 8 : MostFacets;
+  while (facets < MostFacets && bodies.radius * (1.0 - std::cos(vtkMath::Pi() / facets)) > Inside)
+  {
+    facets *= 2;
+  }
+  return facets;
+}
+
+vtkPolyData* UnitShapes::of(const Bodies& bodies)
+{
+  const int around = facetsOf(bodies);
+  vtkSmartPointer<vtkPolyData>& mesh = this->Meshes[{ bodies.shape, around }];
   if (mesh)
   {
     return mesh;
   }
   std::vector<std::pair<double, double>> profile;
-  if (rod)
+  if (bodies.shape == Bodies::Shape::Rod)
   {
     profile = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 1.0, 1.0 }, { 0.0, 1.0 } };
   }
   else
   {
-    constexpr int Rings = Around / 2;
-    for (int i = 0; i <= Rings; ++i)
+    const int rings = around / 2;
+    for (int i = 0; i <= rings; ++i)
     {
-      const double angle = vtkMath::Pi() * i / Rings;
+      const double angle = vtkMath::Pi() * i / rings;
       profile.emplace_back(std::sin(angle), -std::cos(angle));
     }
   }
-  mesh = turned(profile);
+  mesh = turned(profile, around);
   attachOwnOctree(mesh);
   return mesh;
 }

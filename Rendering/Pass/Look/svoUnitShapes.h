@@ -6,7 +6,9 @@
 
 #include "vtkSmartPointer.h"
 
+#include <map>
 #include <memory>
+#include <utility>
 
 class vtkPolyData;
 
@@ -23,13 +25,17 @@ public:
   static std::shared_ptr<UnitShapes> ofAll();
 
   /// Ball: radius 1, around 0. Rod: radius 1, along z from 0 to 1, closed at both ends. All of
-  /// their points lie on the true shape, so flat facets lie inside of it, by up to 0.12 % of the
-  /// radius: what VTK draws as a true ball or tube is never inside of its own caster. The octree is
-  /// in the mesh's field data, so that nothing is built for any frame.
-  vtkPolyData* of(Bodies::Shape shape);
+  /// their points lie on the true shape, so flat facets lie inside of it, and what VTK draws as a
+  /// true ball or tube is never inside of its own caster. The octree is in the mesh's field data,
+  /// so that nothing is built for any frame.
+  vtkPolyData* of(const Bodies& bodies);
+
+  /// Facets around, 8 to 64: so many that they lie no more than a tenth of a pixel inside, if the
+  /// bodies have a width in pixels; else the most, 0.12 % of the radius.
+  static int facetsOf(const Bodies& bodies);
 
 private:
-  vtkSmartPointer<vtkPolyData> Ball, Rod; // null until they are asked for
+  std::map<std::pair<Bodies::Shape, int>, vtkSmartPointer<vtkPolyData>> Meshes; // and facets
 };
 }
 

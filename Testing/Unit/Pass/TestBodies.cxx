@@ -22,8 +22,10 @@ TEST(Bodies, UnitShapesAreInsideOfTheTrueOnes)
   UnitShapes shapes;
   for (const Bodies::Shape shape : { Bodies::Shape::Ball, Bodies::Shape::Rod })
   {
-    vtkPolyData* mesh = shapes.of(shape);
-    EXPECT_EQ(mesh, shapes.of(shape)) << "made once";
+    Bodies bodies;
+    bodies.shape = shape;
+    vtkPolyData* mesh = shapes.of(bodies);
+    EXPECT_EQ(mesh, shapes.of(bodies)) << "made once";
     double most = 0.0;
     for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
     {
@@ -38,6 +40,20 @@ TEST(Bodies, UnitShapesAreInsideOfTheTrueOnes)
     std::string message;
     EXPECT_EQ(openAttachedOctree(mesh, octree, message), Attached::Found);
     EXPECT_EQ(message, "");
+  }
+}
+
+TEST(Bodies, FacetsByPixels)
+{
+  Bodies bodies;
+  EXPECT_EQ(UnitShapes::facetsOf(bodies), 64) << "of any length";
+  bodies.width = Bodies::Width::Pixels;
+  const std::pair<double, int> wanted[] = { { 0.5, 8 }, { 1.3, 8 }, { 1.5, 16 }, { 5.0, 16 },
+    { 6.0, 32 }, { 50.0, 64 }, { 5000.0, 64 } };
+  for (const auto& [radius, facets] : wanted)
+  {
+    bodies.radius = radius;
+    EXPECT_EQ(UnitShapes::facetsOf(bodies), facets) << radius;
   }
 }
 
