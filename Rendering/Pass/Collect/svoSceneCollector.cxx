@@ -9,6 +9,7 @@
 #include "vtkRenderer.h"
 
 #include <algorithm>
+#include <string_view>
 #include <tuple>
 #include <unordered_map>
 
@@ -57,8 +58,11 @@ bool sameStore(const StoreOptions& a, const StoreOptions& b)
 /// What a prop without surfaces says to a frame is the same.
 bool saysTheSame(const PropSurfaces& a, const PropSurfaces& b)
 {
+  const auto text = [](Reason reason) { return std::string_view(reason ? reason : ""); };
   return a.surfaces.empty() && b.surfaces.empty() && a.bounds == b.bounds &&
-    std::tie(a.traced, a.receives, a.actors) == std::tie(b.traced, b.receives, b.actors);
+    std::tie(a.traced, a.receives, a.actors, a.catchesShadows) ==
+    std::tie(b.traced, b.receives, b.actors, b.catchesShadows) &&
+    text(a.rasterized) == text(b.rasterized) && text(a.castsNone) == text(b.castsNone);
 }
 
 /// Updating a prop may change the renderer's list, or let props go.
