@@ -157,8 +157,10 @@ void PropCollector::place(std::vector<PropSurfaces>& props, const View& eye, boo
       const bool follows = placed && placed->bodies->width == Bodies::Width::Pixels && !sameEye;
       if (placed && (prop.fresh || prop.moved || follows))
       {
+        const std::size_t before = placed->copies->copies.size();
         placeBodies(*placed->bodies, placed->localToWorld, eye, *placed->copies);
         prop.moved = true;
+        prop.fresh = prop.fresh || placed->copies->copies.size() != before;
       }
     }
   }

@@ -27,7 +27,7 @@ struct Bodies
   {
     Local, // a length in the frame of the input, which the actor's matrix scales
     World, // a length in the world, whatever the actor's matrix is
-    Pixels // so many pixels at the body's place; a rod has the mean of its ends
+    Pixels // so many pixels at the body's place
   };
   Shape shape = Shape::Ball;
   Width width = Width::Local;
@@ -40,7 +40,9 @@ struct Bodies
 
 /// Where copies of the unit ball, or of the unit rod (UnitShapes), are these bodies: `copies` get
 /// their places in what `localToWorld` leads to. `eye` is asked for what is Pixels wide only; with
-/// a size of 0 it is not known, and radii are taken for lengths.
+/// a size of 0 it is not known, and radii are taken for lengths. A rod has the mean width of its
+/// ends; where one end is more than a quarter farther from the eye than the other, it is more than
+/// one copy, each with the mean of its own: no more than an eighth off.
 void placeBodies(
   const Bodies& bodies, const glm::dmat4& localToWorld, const View& eye, GlyphSet& copies);
 

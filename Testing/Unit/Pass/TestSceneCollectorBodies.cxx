@@ -261,9 +261,57 @@ TEST_F(KeptBodies, AtTheEyeAndBehindIt)
   lines->GetPoints()->SetPoint(1, 0.0, -40.0, 20.0); // behind it
   lines->GetPoints()->Modified();
   collect(collector, scene);
+  EXPECT_GT(scene.scene.instances.size(), Splats + Rods + 3) << "in pieces";
   for (const Instance& one : scene.scene.instances)
   {
     const double size = std::abs(glm::determinant(glm::dmat3(one.localToWorld)));
     EXPECT_TRUE(std::isfinite(size) && size > 0.0);
   }
+}
+
+TEST_F(KeptBodies, LongLinesAreAsWideAsTheyLookAllAlong)
+{
+  renderer->RemoveAllViewProps();
+  renderer->AddActor(tubeActor);
+  vtkNew<vtkPolyData> line;
+  vtkNew<vtkPoints> ends;
+  const glm::dvec3 from(0.5, -16.0, 7.0), to(-3.0, 40.0, -20.0);
+  ends->SetDataTypeToDouble();
+  ends->InsertNextPoint(&from.x);
+  ends->InsertNextPoint(&to.x);
+  vtkNew<vtkCellArray> cells;
+  const vtkIdType segment[] = { 0, 1 };
+  cells->InsertNextCell(2, segment);
+  line->SetPoints(ends);
+  line->SetLines(cells);
+  tubes->SetInputData(line);
+  const auto check = [&]
+  {
+    glm::dvec3 at = from;
+    for (std::size_t i = 0; i < scene.scene.instances.size(); ++i)
+    {
+      EXPECT_NEAR(glm::distance(glm::dvec3(matrix(i)[3]), at), 0.0, 1e-9) << "no gap";
+      EXPECT_NEAR(radius(i) / length(4.0, at), 1.0, 0.126) << i;
+      at = glm::dvec3(matrix(i) * glm::dvec4(0, 0, 1, 1));
+      EXPECT_NEAR(radius(i) / length(4.0, at), 1.0, 0.126) << i;
+    }
+    EXPECT_NEAR(glm::distance(at, to), 0.0, 1e-9);
+  };
+  collect(collector, scene);
+  const std::size_t many = scene.scene.instances.size();
+  EXPECT_GT(many, 5u);
+  check();
+  renderer->GetActiveCamera()->Dolly(0.3);
+  collect(collector, scene);
+  EXPECT_EQ(collector.collectedAnew(), 0);
+  EXPECT_LT(scene.scene.instances.size(), many);
+  check();
+  svo::SceneCollector fresh;
+  CollectedScene other;
+  collect(fresh, other);
+  expectSame(scene, other, "with fewer pieces");
+  renderer->GetActiveCamera()->Dolly(1.0 / 0.3);
+  collect(collector, scene);
+  EXPECT_EQ(scene.scene.instances.size(), many);
+  check();
 }
