@@ -51,8 +51,7 @@ struct vtkSVORenderPass::Internals
   svo::PassStatistics statistics;
   std::string castingLights;
   std::vector<std::pair<vtkWeakPointer<vtkProp>, std::string>> reasons; // of the last frame
-  std::set<std::string> reasonTexts; // stay where they are: others know them by address
-  std::string shaderSignature;       // of the shaders that mappers have built last
+  std::string shaderSignature; // of the shaders that mappers have built last
   vtkTimeStamp shaderTime;
   std::set<std::string> said; // messages about no object in particular
   bool saidHeadlight = false;

@@ -127,8 +127,8 @@ bool vtkSVORenderPass::CollectFrame(
     collect.translucentShadows = this->TranslucentShadows;
     // What processes tell each other of their casters does not include colours.
     collect.meanOpacity = impl.controller && impl.controller->GetNumberOfProcesses() > 1;
-    collect.notMarked =
-      impl.reasonTexts.insert(this->GetText(TEXT_NOT_CHOSEN, nullptr)).first->c_str();
+    const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
+    collect.notMarked = notMarked.c_str();
     collect.said = &impl.said;
     collect.translucentSurfaceText = this->GetText(TEXT_TRANSLUCENT_SURFACE, nullptr);
     collect.translucentText = this->GetText(TEXT_TRANSLUCENT, nullptr);

@@ -10,7 +10,6 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLPolyDataMapper.h"
-#include "vtkOpenGLSphereMapper.h"
 #include "vtkPointGaussianMapper.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
@@ -35,6 +34,14 @@ public:
   vtkTypeMacro(StrangeMapper, vtkOpenGLPolyDataMapper);
 };
 vtkStandardNewMacro(StrangeMapper);
+
+class OddMapper : public vtkOpenGLPolyDataMapper
+{
+public:
+  static OddMapper* New();
+  vtkTypeMacro(OddMapper, vtkOpenGLPolyDataMapper);
+};
+vtkStandardNewMacro(OddMapper);
 
 vtkSmartPointer<vtkMultiBlockDataSet> coloredBlocks()
 {
@@ -87,15 +94,14 @@ vtkSmartPointer<vtkActor> actorOf(vtkMapper* mapper)
 void expectNames(Checks& checks)
 {
   const auto points = ball(0.5, 0.0, 0.0, 1.0);
-  vtkNew<vtkOpenGLSphereMapper> spheres;
-  spheres->SetInputConnection(points->GetOutputPort());
-  spheres->SetRadius(0.1f);
+  vtkNew<OddMapper> odd;
+  odd->SetInputConnection(points->GetOutputPort());
   vtkNew<StrangeMapper> strange;
   strange->SetInputConnection(points->GetOutputPort());
   vtkNew<vtkPointGaussianMapper> splats;
   splats->SetInputConnection(points->GetOutputPort());
   vtkNew<vtkFollower> follower;
-  follower->SetMapper(spheres);
+  follower->SetMapper(odd);
 
   Stage stage;
   stage.addGround();
@@ -109,30 +115,30 @@ void expectNames(Checks& checks)
   };
   stage.renderer->AddActor(actorOf(splats));
   stage.renderer->AddActor(follower);
-  const auto quiet = actorOf(spheres);
+  const auto quiet = actorOf(odd);
   vtkSVORenderPass::SetCastShadow(false, quiet);
-  const auto hidden = actorOf(spheres);
+  const auto hidden = actorOf(odd);
   hidden->VisibilityOff();
-  const auto glass = actorOf(spheres);
+  const auto glass = actorOf(odd);
   glass->GetProperty()->SetOpacity(0.5);
-  const auto wires = actorOf(spheres);
+  const auto wires = actorOf(odd);
   wires->GetProperty()->SetRepresentationToWireframe();
   for (const auto& actor : { quiet, hidden, glass, wires })
   {
     stage.renderer->AddActor(actor);
   }
   expect(0, "nobody misses a shadow of these");
-  stage.renderer->AddActor(actorOf(spheres));
+  stage.renderer->AddActor(actorOf(odd));
   stage.pass->SetShadowTechniqueToNone();
   expect(0, "without shadows none is missed");
   stage.pass->SetShadowTechniqueToShadowBuffer();
   vtkSVORenderPass::SetCastShadow(false, sun);
   expect(0, "nor is one while no light casts");
   vtkSVORenderPass::SetCastShadow(true, sun);
-  stage.renderer->AddActor(actorOf(spheres));
+  stage.renderer->AddActor(actorOf(odd));
   expect(1, "a class is named once, not for each actor");
   checks.expect(
-    messages.all().find(spheres->GetClassName()) != std::string::npos, "it is named indeed");
+    messages.all().find(odd->GetClassName()) != std::string::npos, "it is named indeed");
   stage.renderer->AddActor(actorOf(strange));
   expect(2, "another class is another message");
   expect(2, "nor is it named in every frame");
@@ -140,7 +146,7 @@ void expectNames(Checks& checks)
   Stage other(stage, 0.5, 0.5, 1.0, 1.0);
   other.addGround();
   other.addSun(2.0, -1.5, 4.0);
-  other.renderer->AddActor(actorOf(spheres));
+  other.renderer->AddActor(actorOf(odd));
   other.renderer->SetPass(stage.pass);
   expect(2, "nor for each renderer");
 }

@@ -3,7 +3,6 @@
 #include "svoAffineMatrix.h"
 #include "svoCameraView.h"
 #include "svoPropKeys.h"
-
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkAssembly.h"
@@ -169,14 +168,6 @@ bool PropCollector::finish(vtkActor* actor, const SurfacePart& part, const glm::
 void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::dmat4& localToWorld,
   Reason beyond, PropSurfaces& found, const CollectProps& frame)
 {
-  if (!hasSurface(part.mesh))
-  {
-    if (part.mesh->GetNumberOfCells() > 0)
-    {
-      found.leaveAlone("has lines or vertices");
-    }
-    return;
-  }
   SceneSurface surface;
   Instance& instance = surface.instance;
   Attributes& attributes = instance.body.own().attributes;
@@ -190,6 +181,17 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
   {
     const Reason unmapped = mapColors(part, this->Leaves, attributes, found.kept);
     reason = beyond ? beyond : unmapped;
+  }
+  const bool round =
+    this->collectTubes(actor, part, attributes, localToWorld, beyond, found, frame);
+  if (!hasSurface(part.mesh) || actor->GetProperty()->GetRepresentation() != VTK_SURFACE)
+  {
+    if (!round && part.mesh->GetNumberOfCells() > 0)
+    {
+      found.rasterize(beyond ? beyond : "has lines or vertices");
+      found.castNothing("has lines or vertices, none of them as tubes or spheres");
+    }
+    return;
   }
   const OpaqueCells::Answer opaque =
     this->Opaque.of(part, attributes, frame.shadows && frame.translucentShadows, found.kept);
@@ -288,6 +290,11 @@ void PropCollector::collectActor(
     this->collectGlyphs(actor, localToWorld, beyond, found, frame);
     return;
   }
+  if (drawsBodies(mapper))
+  {
+    this->collectBodies(actor, localToWorld, beyond, found, frame);
+    return;
+  }
   for (SurfacePart& part : this->partsOf(actor, found.kept))
   {
     this->collectPart(actor, part, localToWorld, beyond, found, frame);
@@ -348,14 +355,15 @@ bool PropCollector::move(PropSurfaces& found, const CollectProps& frame)
   const double condition = frobeniusCondition(localToWorld);
   for (const SceneSurface& surface : found.surfaces)
   {
-    if (surface.copies && condition * surface.copies->condition > MaximumCondition)
+    if (surface.copies && !surface.placed &&
+      condition * surface.copies->condition > MaximumCondition)
     {
       return false;
     }
   }
   for (SceneSurface& surface : found.surfaces)
   {
-    surface.instance.localToWorld = localToWorld;
+    (surface.placed ? surface.placed->localToWorld : surface.instance.localToWorld) = localToWorld;
   }
   found.moved = true;
   return true;

@@ -11,11 +11,14 @@
 #include "svoOpaqueCells.h"
 #include "svoSceneOctrees.h"
 #include "svoSurfaceLook.h"
+#include "svoUnitShapes.h"
+#include "svoView.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -64,6 +67,10 @@ public:
   /// False if it has to be collected again: nothing has been done then.
   static bool move(PropSurfaces& found, const CollectProps& frame);
 
+  /// Puts the bodies of collected props in their places: of props that are fresh or have moved, and
+  /// unless `sameEye` those with a width in pixels.
+  static void place(std::vector<PropSurfaces>& props, const View& eye, bool sameEye);
+
   /// Forgets what no collected prop keeps any more.
   void sweep();
 
@@ -77,6 +84,15 @@ private:
     Reason beyond, PropSurfaces& found, const CollectProps& frame);
   void collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
     PropSurfaces& found, const CollectProps& frame);
+  void collectBodies(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
+    PropSurfaces& found, const CollectProps& frame);
+  void collectSplats(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
+    PropSurfaces& found, const CollectProps& frame);
+  bool collectTubes(vtkActor* actor, const SurfacePart& part, const Attributes& attributes,
+    const glm::dmat4& localToWorld, Reason beyond, PropSurfaces& found, const CollectProps& frame);
+  void addBodies(vtkActor* actor, const std::shared_ptr<Bodies>& bodies, bool translucent,
+    const SurfacePart& of, const glm::dmat4& localToWorld, Reason reason, PropSurfaces& found,
+    const CollectProps& frame);
   bool finish(vtkActor* actor, const SurfacePart& part, const glm::dmat4& localToWorld,
     Reason reason, SceneSurface& surface, PropSurfaces& found);
   /// What of a part casts; null: nothing.
@@ -97,6 +113,7 @@ private:
   OpaqueCells Opaque;
   FloatArrays Floats;
   LeafMeshes Leaves;
+  std::shared_ptr<UnitShapes> Shapes = UnitShapes::ofAll();
   std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>>
     GivenMessages;    // by object
   bool Quiet = false; // about the actor that is being collected

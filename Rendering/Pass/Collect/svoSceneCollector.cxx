@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <string_view>
 #include <tuple>
 #include <unordered_map>
 
@@ -43,6 +44,13 @@ bool sameLevels(const LevelSettings& a, const LevelSettings& b)
   return values(a) == values(b);
 }
 
+/// True if a length looks as many pixels wide to both.
+bool sameWidths(const View& a, const View& b)
+{
+  return std::tie(a.width, a.worldToView, a.viewToClip) ==
+    std::tie(b.width, b.worldToView, b.viewToClip);
+}
+
 bool sameStore(const StoreOptions& a, const StoreOptions& b)
 {
   return std::tie(a.convert, a.level, a.leafGeometry, a.wait) ==
@@ -52,8 +60,11 @@ bool sameStore(const StoreOptions& a, const StoreOptions& b)
 /// What a prop without surfaces says to a frame is the same.
 bool saysTheSame(const PropSurfaces& a, const PropSurfaces& b)
 {
+  const auto text = [](Reason reason) { return std::string_view(reason ? reason : ""); };
   return a.surfaces.empty() && b.surfaces.empty() && a.bounds == b.bounds &&
-    std::tie(a.traced, a.receives, a.actors) == std::tie(b.traced, b.receives, b.actors);
+    std::tie(a.traced, a.receives, a.actors, a.catchesShadows) ==
+    std::tie(b.traced, b.receives, b.actors, b.catchesShadows) &&
+    text(a.rasterized) == text(b.rasterized) && text(a.castsNone) == text(b.castsNone);
 }
 
 /// One that no scene has had.
@@ -250,7 +261,7 @@ void SceneCollector::explain(
                                              : "comes without an octree";
     const Reason rasterized = prop.rasterized ? prop.rasterized : missing;
     const Reason castsNone = prop.castsNone ? prop.castsNone : missing;
-    const bool asChosen = !castsNone && rasterized == settings.notMarked;
+    const bool asChosen = !castsNone && rasterized == this->NotMarked.c_str();
     const std::string text = reasons(rasterized, castsNone, casts);
     if (!asChosen && !text.empty())
     {
@@ -274,16 +285,21 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   {
     casting = casting || light.castShadow;
   }
+  const bool sameReason = this->NotMarked == settings.notMarked;
+  if (!sameReason)
+  {
+    this->NotMarked = settings.notMarked;
+  }
   const CollectProps frame{ options, settings.shadows && casting, !result.scene.lights.empty(),
     settings.onlyMarked, settings.unmarkedCast, settings.translucentShadows, settings.meanOpacity,
-    settings.notMarked, settings.said, settings.translucentSurfaceText, settings.translucentText,
-    settings.cutOutText, world };
+    this->NotMarked.c_str(), settings.said, settings.translucentSurfaceText,
+    settings.translucentText, settings.cutOutText, world };
   const std::vector<vtkSmartPointer<vtkProp>> props = propsOf(renderer);
-  const bool all = !this->Collected ||
+  const bool all = !this->Collected || !sameReason ||
     std::tie(this->Shadows, this->Lights, this->OnlyMarked, this->UnmarkedCast,
-      this->TranslucentShadows, this->MeanOpacity, this->NotMarked, this->World) !=
+      this->TranslucentShadows, this->MeanOpacity, this->World) !=
       std::tie(frame.shadows, frame.lights, frame.onlyMarked, frame.unmarkedCast,
-        frame.translucentShadows, frame.meanOpacity, frame.notMarked, world);
+        frame.translucentShadows, frame.meanOpacity, world);
   this->Collected = true;
   this->Shadows = frame.shadows;
   this->Lights = frame.lights;
@@ -291,9 +307,22 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   this->UnmarkedCast = frame.unmarkedCast;
   this->TranslucentShadows = frame.translucentShadows;
   this->MeanOpacity = frame.meanOpacity;
-  this->NotMarked = frame.notMarked;
   this->World = world;
   const bool changed = this->collectProps(props, frame, all);
+  if (changed)
+  {
+    const auto places = [](const PropSurfaces& prop)
+    {
+      return std::any_of(prop.surfaces.begin(), prop.surfaces.end(),
+        [](const SceneSurface& surface) { return surface.placed != nullptr; });
+    };
+    this->Placed = std::any_of(this->Found.begin(), this->Found.end(), places);
+  }
+  const View& eye = settings.levels.eye;
+  if (this->Placed)
+  {
+    PropCollector::place(this->Found, eye, sameWidths(eye, this->Levels.eye));
+  }
 
   if (this->Lent)
   {

@@ -32,8 +32,7 @@ struct CollectSettings
   bool unmarkedCast = false;
   bool translucentShadows = false;
   bool meanOpacity = false;
-  /// Outlives the collector, and is another one only at another address.
-  Reason notMarked = "was not chosen with SetUseSVO";
+  Reason notMarked = "was not chosen with SetUseSVO"; // need not outlive the call
   LevelSettings levels;
   std::set<std::string>* said = nullptr; // messages of the pass, about no object in particular
   /// Messages about surfaces and cells that cast nothing, or more than they show; empty: none.
@@ -100,12 +99,13 @@ private:
   bool Collected = false;
   bool Shadows = false, Lights = false, OnlyMarked = false, UnmarkedCast = false;
   bool TranslucentShadows = false, MeanOpacity = false;
-  Reason NotMarked = nullptr;
+  std::string NotMarked; // what reasons of kept props point to
   glm::dmat4 World{ 1.0 };
   LevelSettings Levels;
   StoreOptions Options;
   std::uint64_t StoreVersion = 0;
   bool Complete = false; // all surfaces have octrees
+  bool Placed = false;   // some have bodies that are put in their places
   int Anew = 0;
 };
 }

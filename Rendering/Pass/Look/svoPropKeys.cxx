@@ -78,6 +78,27 @@ double pixelErrorOf(vtkProp* prop, vtkProp* owner)
   return -1.0;
 }
 
+PropAnswers answersOf(vtkProp* prop)
+{
+  PropAnswers answers(0, -1.0);
+  vtkInformation* keys = prop->GetPropertyKeys();
+  if (!keys)
+  {
+    return answers;
+  }
+  for (vtkInformationIntegerKey* key :
+    { castShadowKey(), receiveShadowKey(), useSVOKey(), shadowCatcherKey() })
+  {
+    const unsigned int answer = !keys->Has(key) ? 0 : keys->Get(key) == 0 ? 1 : 2;
+    answers.first = 3 * answers.first + answer;
+  }
+  if (keys->Has(pixelErrorKey()))
+  {
+    answers.second = keys->Get(pixelErrorKey());
+  }
+  return answers;
+}
+
 void setFlag(vtkProp* prop, vtkInformationIntegerKey* key, bool value)
 {
   if (prop)

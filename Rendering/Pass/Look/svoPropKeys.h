@@ -3,6 +3,8 @@
 #ifndef svoPropKeys_h
 #define svoPropKeys_h
 
+#include <utility>
+
 class vtkInformationDoubleKey;
 class vtkInformationIntegerKey;
 class vtkProp;
@@ -20,6 +22,11 @@ vtkInformationDoubleKey* pixelErrorKey();
 bool flagOf(vtkProp* prop, vtkProp* owner, vtkInformationIntegerKey* key, bool otherwise);
 /// The same of the pixel error, pixels; negative if neither has one.
 double pixelErrorOf(vtkProp* prop, vtkProp* owner);
+
+/// All answers that a prop carries, as numbers. (The time of its keys says little: VTK's render
+/// passes write to them in every frame.)
+using PropAnswers = std::pair<unsigned int, double>;
+PropAnswers answersOf(vtkProp* prop);
 
 /// A prop that is null is ignored.
 void setFlag(vtkProp* prop, vtkInformationIntegerKey* key, bool value);

@@ -2,6 +2,7 @@
 
 #include "svoCompositeBlocks.h"
 #include "svoPropKeys.h"
+#include "svoSplats.h"
 #include "svoSurfaceLook.h"
 
 #include "vtkActor.h"
@@ -23,6 +24,7 @@
 #include "vtkTexture.h"
 #include "vtkTrivialProducer.h"
 
+#include <algorithm>
 #include <cstring>
 #include <typeinfo>
 
@@ -86,6 +88,12 @@ bool hasTextures(vtkActor* actor)
   return actor->GetTexture() || actor->GetProperty()->GetNumberOfTextures() > 0;
 }
 
+/// Of what a mapper looks up and its own time does not tell of.
+std::uint64_t timeOfParts(vtkMapper* mapper)
+{
+  return std::max<std::uint64_t>(timeOf(attributesOf(mapper)), timeOfSplats(mapper));
+}
+
 int selectedOf(vtkMapper* mapper)
 {
   vtkSelection* selection = mapper->GetSelection();
@@ -116,6 +124,7 @@ bool PropState::noteActor(vtkActor* actor, vtkProp* owner, Actor& state)
   state.keys = actor->GetPropertyKeys();
   state.time = actor->GetMTime();
   state.timeOfKeys = timeOf(actor->GetPropertyKeys());
+  state.answers = answersOf(actor);
   vtkMapper* mapper = state.mapper = actor->GetMapper();
   // Who says that an actor of another class uses octrees knows what it draws.
   const bool known = isPlainActor(actor) || flagOf(actor, owner, useSVOKey(), false);
@@ -147,7 +156,7 @@ bool PropState::noteActor(vtkActor* actor, vtkProp* owner, Actor& state)
     }
   }
   state.timeOfMapper = mapper->GetMTime();
-  state.timeOfAttributes = timeOf(attributesOf(mapper));
+  state.timeOfParts = timeOfParts(mapper);
   state.selected = selectedOf(mapper);
   state.depthOffset = coincidentDepthOffset(mapper);
   return true;
@@ -188,8 +197,10 @@ Held PropState::holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& update
 {
   vtkInformation* keys = actor->GetPropertyKeys();
   const bool sameTime = actor->GetMTime() == state.time;
-  if ((!sameTime && lookOf(actor) != state.look) || keys != state.keys ||
-    timeOf(keys) != state.timeOfKeys || hasTextures(actor) == state.textures.empty() ||
+  const bool sameKeys = keys == state.keys && timeOf(keys) == state.timeOfKeys;
+  if ((!sameTime && lookOf(actor) != state.look) ||
+    (!sameKeys && answersOf(actor) != state.answers) ||
+    hasTextures(actor) == state.textures.empty() ||
     (!state.textures.empty() && texturesOf(actor) != state.textures) ||
     hasCustomShaders(actor) != state.customShaders || actor->GetMapper() != state.mapper)
   {
@@ -203,7 +214,7 @@ Held PropState::holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& update
   }
   if (mapper->GetMTime() != state.timeOfMapper || selectedOf(mapper) != state.selected ||
     coincidentDepthOffset(mapper) != state.depthOffset ||
-    (state.timeOfAttributes != 0 && timeOf(attributesOf(mapper)) != state.timeOfAttributes))
+    (state.timeOfParts != 0 && timeOfParts(mapper) != state.timeOfParts))
   {
     return Held::No;
   }
@@ -225,8 +236,11 @@ Held PropState::holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& update
 /// nothing: VTK modifies the leaves when it draws them.
 void PropState::noteParts(vtkProp* assembly, Numbers& numbers, std::vector<vtkActor*>& actors)
 {
-  numbers.push_back(numberOf(assembly->GetPropertyKeys()));
-  numbers.push_back(timeOf(assembly->GetPropertyKeys()));
+  const auto [flags, error] = answersOf(assembly);
+  std::uint64_t bits;
+  std::memcpy(&bits, &error, sizeof(bits));
+  numbers.push_back(flags);
+  numbers.push_back(bits);
   assembly->InitPathTraversal();
   while (vtkAssemblyPath* path = assembly->GetNextPath())
   {

@@ -3,6 +3,8 @@
 #ifndef svoPropState_h
 #define svoPropState_h
 
+#include "svoPropKeys.h"
+
 #include <cstdint>
 #include <vector>
 
@@ -22,9 +24,10 @@ enum class Held
 };
 
 /// The addresses and times of an actor with its property, keys and textures, of its mapper with
-/// lookup table and attributes of blocks, of that one's inputs and sources, and the matrices of an
-/// assembly. Times are never given twice, so another object in an old one's place is noticed, too.
-/// What is changed in place without Modified() does not show, as in VTK's own mappers.
+/// lookup table, functions and attributes of blocks, of that one's inputs and sources, and the
+/// matrices of an assembly. Times are never given twice, so another object in an old one's place is
+/// noticed, too. What is changed in place without Modified() does not show, as in VTK's own
+/// mappers.
 class PropState
 {
 public:
@@ -54,11 +57,12 @@ private:
   {
     const void* keys = nullptr;
     std::uint64_t time = 0, timeOfKeys = 0;
+    PropAnswers answers;
     std::vector<std::uint64_t> look; // all of it but place and visibility
     std::vector<std::uint64_t> textures;
     bool customShaders = false;
     vtkMapper* mapper = nullptr;
-    std::uint64_t timeOfMapper = 0, timeOfAttributes = 0;
+    std::uint64_t timeOfMapper = 0, timeOfParts = 0;
     int selected = 0;
     double depthOffset = 0.0;
     std::vector<Input> inputs;

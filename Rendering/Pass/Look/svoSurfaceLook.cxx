@@ -2,6 +2,9 @@
 
 #include "svoCompositeBlocks.h"
 #include "svoGlyphCopies.h"
+#include "svoImpostors.h"
+#include "svoSplats.h"
+#include "svoTubes.h"
 
 #include "vtkActor.h"
 #include "vtkCellData.h"
@@ -198,11 +201,16 @@ bool scalarColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes,
 }
 }
 
+bool drawsBodies(vtkMapper* mapper)
+{
+  return isSplatMapper(mapper) || isImpostorMapper(mapper);
+}
+
 bool isPlainMapper(vtkMapper* mapper)
 {
   const std::string name = mapper->GetClassName();
   return name == "vtkOpenGLPolyDataMapper" || name == "vtkDataSetMapper" ||
-    isCompositeMapper(mapper) || isGlyphMapper(mapper);
+    isCompositeMapper(mapper) || isGlyphMapper(mapper) || drawsBodies(mapper);
 }
 
 bool hasCustomShaders(vtkActor* actor)
@@ -221,6 +229,10 @@ bool isPlainActor(vtkActor* actor)
 
 bool showsLights(vtkActor* actor)
 {
+  if (actor->GetMapper() && isSplatMapper(actor->GetMapper()))
+  {
+    return false; // whatever the property says
+  }
   const auto reflects = [&](vtkProperty* property)
   {
     // Physically based surfaces reflect light whatever their coefficients are.
@@ -233,9 +245,8 @@ bool showsLights(vtkActor* actor)
 
 bool isUnknownSurface(vtkActor* actor)
 {
-  // What these draw (splats, points and lines, labels) has no surface.
-  constexpr const char* others[] = { "vtkPointGaussianMapper", "vtkGraphMapper",
-    "vtkLabeledContourMapper" };
+  // What these draw (points and lines, labels) has no surface.
+  constexpr const char* others[] = { "vtkGraphMapper", "vtkLabeledContourMapper" };
   vtkMapper* mapper = actor->GetMapper();
   vtkProperty* property = actor->GetProperty();
   return !isPlainMapper(mapper) && property->GetRepresentation() == VTK_SURFACE &&
@@ -253,15 +264,20 @@ Treatment treatmentOf(vtkActor* actor)
   {
     treatment.castsNone = "has a mapper of a class that is not known here";
   }
-  else if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE)
+  else if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE && !drawsBodies(mapper))
   {
-    treatment.castsNone = "is shown as wireframe or points";
+    treatment.rasterized = "is shown as wireframe or points";
+    const bool round = !isGlyphMapper(mapper) && roundLookOf(actor->GetProperty()).any();
+    treatment.castsNone = round ? nullptr : treatment.rasterized;
   }
-  else if (planes && planes->GetNumberOfItems() > 0)
+  if (!treatment.castsNone && planes && planes->GetNumberOfItems() > 0)
   {
     treatment.castsNone = "has clipping planes on its mapper";
   }
-  treatment.rasterized = treatment.castsNone ? treatment.castsNone : beyondTracing(actor);
+  if (!treatment.rasterized)
+  {
+    treatment.rasterized = treatment.castsNone ? treatment.castsNone : beyondTracing(actor);
+  }
   return treatment;
 }
 

@@ -37,10 +37,14 @@ bool isPlainActor(vtkActor* actor);
 /// The same of mappers.
 bool isPlainMapper(vtkMapper* mapper);
 
+/// True for mappers that draw splats, spheres and sticks (svoSplats.h, svoImpostors.h), which are
+/// never traced. No representation changes what they draw.
+bool drawsBodies(vtkMapper* mapper);
+
 bool hasCustomShaders(vtkActor* actor);
 
-/// True for opaque surfaces, spheres of a molecule for one, whose mapper's class is not known here:
-/// they are rasterised and cast nothing, and the pass gives a message that names the class.
+/// True for opaque surfaces whose mapper's class is not known here: they are rasterised and cast
+/// nothing, and the pass gives a message that names the class.
 bool isUnknownSurface(vtkActor* actor);
 
 /// The treatment that a plain actor, its property and its mapper's settings allow, for any mesh and

@@ -89,6 +89,24 @@ bool sendCorner(std::string& vertexShader, std::string& geometryShader)
   return true;
 }
 
+/// Where a fragment lies, and its own plane.
+constexpr char FragmentOfFacet[] =
+  "  vec3 svoPosition = vertexVC.xyz;\n"
+  "  vec3 svoFacet = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));\n";
+
+/// The same on lines as tubes and points as spheres: VTK leaves vertexVC on the axis, or at the
+/// centre. Its normals of tubes are not quite perpendicular to them in windows that are not square.
+constexpr char FragmentOfTube[] =
+  "  vec3 svoAcross = dFdx(vertexVC.xyz);\n"
+  "  vec3 svoUp = dFdy(vertexVC.xyz);\n"
+  "  vec3 svoAxis = dot(svoAcross, svoAcross) < dot(svoUp, svoUp) ? svoUp : svoAcross;\n"
+  "  float svoAxisSquare = dot(svoAxis, svoAxis);\n"
+  "  vec3 svoFacet = svoAxisSquare > 0.0\n"
+  "    ? normalize(normalVCVSOutput - dot(normalVCVSOutput, svoAxis) / svoAxisSquare * svoAxis)\n"
+  "    : normalVCVSOutput;\n"
+  "  vec3 svoPosition =\n"
+  "    vertexVC.xyz + ZCalcR * (cameraParallel == 0 ? -vertexVC.z : 1.0) * svoFacet;\n";
+
 /// Adds the code of shadow catchers. `lit`: the shader knows of shadows.
 void catchShadows(std::string& declarations, std::string& body, bool lit)
 {
@@ -303,6 +321,7 @@ void ShadowReceivers::completeShader(
     }
   }
   const bool any = !code.str().empty();
+  const bool round = hasNormal && hasToken(declarations, "ZCalcR");
   if (this->Catchers)
   {
     // Those that cast nothing.
@@ -322,10 +341,10 @@ void ShadowReceivers::completeShader(
         : std::string(),
     false);
   vtkShaderProgram::Substitute(body, ImplementationMark,
-    any ? "  vec3 svoFacet = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));\n"
-          "  float svoExtent = min(length(dFdx(vertexVC.xyz)), length(dFdy(vertexVC.xyz)));\n"
-          "  vec3 svoLift = " +
-        std::string(smooth ? "svoSmoothLift(vertexVC.xyz, svoFacet, normalVCVSOutput, "
+    any ? std::string(round ? FragmentOfTube : FragmentOfFacet) +
+        "  float svoExtent = min(length(dFdx(svoPosition)), length(dFdy(svoPosition)));\n"
+        "  vec3 svoLift = " +
+        std::string(smooth ? "svoSmoothLift(svoPosition, svoFacet, normalVCVSOutput, "
                              "svoCornerVSOutput, normalize(svoCornerNormalVSOutput));\n"
                            : "vec3(0.0);\n") +
         "  float svoShare[" + count +
@@ -335,7 +354,7 @@ void ShadowReceivers::completeShader(
         "; ++i)\n"
         "  {\n"
         "    svoShare[i] = " +
-        lit + "(svoFirst[i], svoFirst[i + 1], vertexVC.xyz, svoFacet, " +
+        lit + "(svoFirst[i], svoFirst[i + 1], svoPosition, svoFacet, " +
         (hasNormal ? "normalVCVSOutput" : "svoFacet") +
         ", svoLift, svoExtent);\n"
         "  }\n" +

@@ -2,7 +2,24 @@
 // and where nothing changes nothing is looked at.
 #include "svoKeptProps.h"
 
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+
 using namespace svotest;
+
+namespace
+{
+/// Writes something of somebody else's to the keys of a prop, or takes it off.
+void touchKeys(vtkProp* prop, bool has)
+{
+  static auto* key = vtkInformationIntegerKey::MakeKey("TOUCH", "TestSceneCollector");
+  if (!prop->GetPropertyKeys())
+  {
+    prop->SetPropertyKeys(vtkNew<vtkInformation>());
+  }
+  has ? prop->GetPropertyKeys()->Set(key, 1) : prop->GetPropertyKeys()->Remove(key);
+}
+}
 
 TEST_F(Kept, EveryChangeIsNoticed)
 {
@@ -216,4 +233,23 @@ TEST_F(Kept, AnotherPropInTheSamePlaceIsAnotherProp)
     collect(collector, scene);
     EXPECT_EQ(scene.scene.instances.size(), i % 2 == 0 ? 1u : 0u);
   }
+}
+
+TEST_F(Kept, WhatSaysNothingNewIsNoChange)
+{
+  const std::string reason = "was not chosen", sameReason = reason;
+  settings.notMarked = reason.c_str();
+  touchKeys(actor, true);
+  collect(collector, scene);
+  collect(collector, scene);
+  settings.notMarked = sameReason.c_str();
+  touchKeys(actor, false); // as VTK's render passes do in every frame
+  touchKeys(glyphActor, true);
+  touchKeys(assembly, true);
+  collect(collector, scene);
+  EXPECT_EQ(collector.collectedAnew(), 0);
+  svo::setFlag(assembly, svo::receiveShadowKey(), false);
+  svo::setPixelError(actor, 3.0);
+  collect(collector, scene);
+  EXPECT_EQ(collector.collectedAnew(), 2);
 }

@@ -96,7 +96,7 @@ TEST_F(Translucent, ColoursWithAlphaCastBesideTheOpaqueCells)
   const vtkIdType cells = plain->GetInput()->GetNumberOfCells();
   EXPECT_LT(meshes[0]->GetNumberOfCells(), cells);
   ASSERT_EQ(meshes[1]->GetNumberOfCells(), cells); // numbers are those of the colours
-  EXPECT_NE(found[1]->attributes.colors, nullptr);
+  EXPECT_NE(found[1]->body->attributes.colors, nullptr);
   vtkIdType invisible = 0;
   for (vtkIdType i = 0; i < cells; ++i)
   {

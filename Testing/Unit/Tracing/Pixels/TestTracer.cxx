@@ -231,7 +231,7 @@ TEST(Tracer, AnOctreeInAnotherOnesPlaceIsAnotherOctree)
     std::string error;
     svo::Scene scene = makeScene();
     scene.instances.resize(1);
-    scene.instances[0].body->octree =
+    scene.instances[0].body.own().octree =
       svo::Octree::open(std::shared_ptr<const std::byte>(
                           reinterpret_cast<const std::byte*>(place.data()), [](const void*) {}),
         8 * next.size(), nullptr, error);

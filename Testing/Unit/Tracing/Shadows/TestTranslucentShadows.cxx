@@ -62,13 +62,13 @@ struct Objects
         this->byPoint.end(), { 9, 8, 7, static_cast<unsigned char>(127.5 + 127.0 * z) });
     }
     points.mappedOpacity = true;
-    points.attributes.colors = this->byPoint.data();
-    points.attributes.colorAssociation = svo::Association::Point;
+    points.body.own().attributes.colors = this->byPoint.data();
+    points.body.own().attributes.colorAssociation = svo::Association::Point;
     svo::Instance& cells = this->add(square(0.6), movedTo(-1.2, 0.9, 0.8), 1.0f);
     this->byCell = { 1, 2, 3, 40, 1, 2, 3, 200 };
     cells.mappedOpacity = true;
-    cells.attributes.colors = this->byCell.data();
-    cells.attributes.colorAssociation = svo::Association::Cell;
+    cells.body.own().attributes.colors = this->byCell.data();
+    cells.body.own().attributes.colorAssociation = svo::Association::Cell;
     svo::Instance& texels = this->add(ring, small(-1.3, -0.9, 1.1, 0.5), 1.0f);
     for (const glm::dvec3& p : ring.points)
     {
@@ -80,10 +80,10 @@ struct Objects
       this->table.insert(this->table.end(), { 5, 5, 5, alpha(i) });
     }
     texels.mappedOpacity = true;
-    texels.attributes.colorAssociation = svo::Association::Point;
-    texels.attributes.colorCoordinates = this->coordinates.data();
-    texels.attributes.colorTexture = this->table.data();
-    texels.attributes.colorTextureSize = 8;
+    texels.body.own().attributes.colorAssociation = svo::Association::Point;
+    texels.body.own().attributes.colorCoordinates = this->coordinates.data();
+    texels.body.own().attributes.colorTexture = this->table.data();
+    texels.body.own().attributes.colorTextureSize = 8;
   }
 };
 
@@ -124,8 +124,8 @@ double reached(const svo::Scene& scene, const svo::Light& light, const glm::dvec
       light.atInfinity() ? point - 50.0 * glm::normalize(light.direction) : light.position;
     const svo::WorldToOctree toOctree(instance.body->octree, instance.localToWorld);
     const svo::Ray ray{ toOctree.point(from), toOctree.vector(point - from), 0.0, 1.0 - 1e-6 };
-    const svo::Hit hit =
-      svo::intersect(instance.body->octree, ray, { svo::LeafGeometry::Triangle, svo::MaximumLevel });
+    const svo::Hit hit = svo::intersect(
+      instance.body->octree, ray, { svo::LeafGeometry::Triangle, svo::MaximumLevel });
     if (hit)
     {
       left *= 1.0 -

@@ -1,0 +1,169 @@
+// Splats, impostors, tubes and spheres as casters. VTK goes on drawing them.
+#include "svoImpostors.h"
+#include "svoPropCollector.h"
+#include "svoPropKeys.h"
+#include "svoSplats.h"
+#include "svoTubes.h"
+
+#include "vtkActor.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
+#include "vtkPointGaussianMapper.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+
+#include <algorithm>
+
+namespace svo
+{
+/// Adds copies of a unit shape. `translucent`: what is, and is not in `bodies`, casts nothing.
+void PropCollector::addBodies(vtkActor* actor, const std::shared_ptr<Bodies>& bodies,
+  bool translucent, const SurfacePart& of, const glm::dmat4& localToWorld, Reason reason,
+  PropSurfaces& found, const CollectProps& frame)
+{
+  found.rasterize(reason);
+  if (!frame.shadows || (!bodies && !translucent))
+  {
+    return;
+  }
+  SurfacePart part = of;
+  part.mesh = this->Shapes->of(bodies ? *bodies : Bodies());
+  SceneSurface surface;
+  surface.mesh =
+    this->castersOf(part, { bodies ? part.mesh : nullptr, translucent }, actor, found, frame)
+      .opaque;
+  surface.casts = bodies && surface.mesh;
+  if (translucent && surface.casts)
+  {
+    found.castNothing("is translucent");
+  }
+  if (!surface.casts)
+  {
+    return;
+  }
+  const auto copies = std::make_shared<GlyphSet>();
+  surface.copies = copies;
+  const bool local = bodies->width == Bodies::Width::Local;
+  this->finish(actor, part, local ? localToWorld : glm::dmat4(1.0), reason, surface, found);
+  placeBodies(*bodies, local ? glm::dmat4(1.0) : localToWorld, View(), *copies);
+  if (!local)
+  {
+    surface.placed = std::make_shared<PlacedBodies>(PlacedBodies{ bodies, localToWorld, copies });
+  }
+  // Others of the actor's are not the same.
+  surface.instance.id ^= (found.surfaces.size() + 1) * 0x9e3779b97f4a7c15ull;
+  found.surfaces.push_back(surface);
+}
+
+/// Adds the tubes and spheres of a part whose scalars have been mapped to `attributes`. True if it
+/// draws any.
+bool PropCollector::collectTubes(vtkActor* actor, const SurfacePart& part,
+  const Attributes& attributes, const glm::dmat4& localToWorld, Reason beyond, PropSurfaces& found,
+  const CollectProps& frame)
+{
+  vtkProperty* property = actor->GetProperty();
+  if (!roundLookOf(property).any())
+  {
+    return false;
+  }
+  const bool told = flagOf(actor, found.prop, castShadowKey(), false);
+  // One opacity for all, or colours that are looked up between points.
+  const bool whole =
+    !told && (part.opacity < 1.0 || (attributes.colorTexture && !hasOpaqueTable(part)));
+  Tubes tubes = tubesOf(part.mesh, property, told ? OpaqueColors() : OpaqueColors(attributes));
+  const Reason reason = beyond ? beyond : "has lines or vertices";
+  const bool any = tubes.rods || tubes.balls || tubes.translucent;
+  for (const std::shared_ptr<Bodies>& bodies : { tubes.rods, tubes.balls })
+  {
+    if (bodies || (tubes.translucent && !tubes.rods && !tubes.balls))
+    {
+      this->addBodies(actor, whole ? nullptr : bodies, whole || tubes.translucent, part,
+        localToWorld, reason, found, frame);
+    }
+  }
+  return any;
+}
+
+/// Adds the splats of an actor.
+void PropCollector::collectSplats(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
+  PropSurfaces& found, const CollectProps& frame)
+{
+  auto* mapper = static_cast<vtkPointGaussianMapper*>(actor->GetMapper());
+  if (const Reason none = beyondSplats(mapper))
+  {
+    found.leaveAlone(none);
+    return;
+  }
+  const bool told = flagOf(actor, found.prop, castShadowKey(), false);
+  const auto add = [&](vtkPolyData* input, unsigned int block)
+  {
+    if (!input || input->GetNumberOfPoints() == 0)
+    {
+      return;
+    }
+    SurfacePart part;
+    part.mesh = input;
+    part.block = block;
+    part.opacity = actor->GetProperty()->GetOpacity();
+    const bool whole = !told && part.opacity < 1.0;
+    const Splats splats = splatsOf(mapper, input, told);
+    const bool none = whole || splats.bodies->ends.empty();
+    this->addBodies(actor, none ? nullptr : splats.bodies, whole || splats.translucent, part,
+      localToWorld, beyond ? beyond : "shows its points as splats", found, frame);
+  };
+  vtkDataObject* input = mapper->GetInputDataObject(0, 0);
+  auto* tree = vtkDataObjectTree::SafeDownCast(input);
+  if (!tree)
+  {
+    add(vtkPolyData::SafeDownCast(input), 0);
+    return;
+  }
+  auto leaves = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+  {
+    add(vtkPolyData::SafeDownCast(leaves->GetCurrentDataObject()), leaves->GetCurrentFlatIndex());
+  }
+}
+
+/// Adds what an actor's mapper draws that draws nothing else.
+void PropCollector::collectBodies(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
+  PropSurfaces& found, const CollectProps& frame)
+{
+  if (isSplatMapper(actor->GetMapper()))
+  {
+    this->collectSplats(actor, localToWorld, beyond, found, frame);
+    return;
+  }
+  const Impostors impostors = impostorsOf(actor->GetMapper());
+  SurfacePart part;
+  part.opacity = actor->GetProperty()->GetOpacity();
+  const bool opaque =
+    (impostors.opaque && part.opacity >= 1.0) || flagOf(actor, found.prop, castShadowKey(), false);
+  found.rasterize(beyond ? beyond : "is drawn without polygons");
+  for (const std::shared_ptr<Bodies>& bodies : impostors.bodies)
+  {
+    ++part.block;
+    this->addBodies(actor, opaque ? bodies : nullptr, !opaque, part, localToWorld, found.rasterized,
+      found, frame);
+  }
+}
+
+void PropCollector::place(std::vector<PropSurfaces>& props, const View& eye, bool sameEye)
+{
+  for (PropSurfaces& prop : props)
+  {
+    for (SceneSurface& surface : prop.surfaces)
+    {
+      PlacedBodies* placed = surface.placed.get();
+      const bool follows = placed && placed->bodies->width == Bodies::Width::Pixels && !sameEye;
+      if (placed && (prop.fresh || prop.moved || follows))
+      {
+        const std::size_t before = placed->copies->copies.size();
+        placeBodies(*placed->bodies, placed->localToWorld, eye, *placed->copies);
+        prop.moved = true;
+        prop.fresh = prop.fresh || placed->copies->copies.size() != before;
+      }
+    }
+  }
+}
+}

@@ -1,0 +1,66 @@
+// The tubes and spheres that VTK draws for the lines and points of a mesh
+// (vtkProperty::RenderLinesAsTubes, RenderPointsAsSpheres).
+#ifndef svoTubes_h
+#define svoTubes_h
+
+#include "svoAttributes.h"
+#include "svoBodies.h"
+
+#include <memory>
+
+class vtkPolyData;
+class vtkProperty;
+
+namespace svo
+{
+/// What a property has VTK draw as tubes and spheres.
+struct RoundLook
+{
+  bool lines = false;    // of cells that are lines
+  bool edges = false;    // and of all others
+  bool vertices = false; // points of cells that are vertices
+  bool points = false;   // and of all others
+
+  bool any() const { return this->lines || this->vertices || this->points; }
+};
+RoundLook roundLookOf(vtkProperty* property);
+
+/// Which cells and points of a mesh are opaque, by its mapped colours.
+class OpaqueColors
+{
+public:
+  /// Everything is.
+  OpaqueColors() = default;
+  /// By the colours of `attributes`, by point or by cell; those of other associations say nothing.
+  explicit OpaqueColors(const Attributes& attributes)
+    : Colors(attributes.colors)
+    , Of(attributes.colorAssociation)
+  {
+  }
+
+  bool at(std::int64_t point, std::int64_t cell) const
+  {
+    const bool known =
+      this->Colors && (this->Of == Association::Point || this->Of == Association::Cell);
+    return !known || this->Colors[4 * (this->Of == Association::Point ? point : cell) + 3] == 255;
+  }
+
+private:
+  const unsigned char* Colors = nullptr;
+  Association Of = Association::None;
+};
+
+/// Bodies of a mesh; none: null. `translucent`: some would be, and are not in it.
+struct Tubes
+{
+  std::shared_ptr<Bodies> rods, balls;
+  bool translucent = false;
+};
+
+/// Rods have the property's line width for their diameter, balls its point size, both in pixels.
+/// Segments without a length, and points that are not finite, have none; an edge of several cells
+/// has one.
+Tubes tubesOf(vtkPolyData* mesh, vtkProperty* property, const OpaqueColors& opaque);
+}
+
+#endif

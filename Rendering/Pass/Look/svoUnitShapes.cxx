@@ -1,0 +1,131 @@
+#include "svoUnitShapes.h"
+
+#include "svoMeshDetail.h"
+#include "svoMeshOctree.h"
+
+#include "vtkCellArray.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace svo
+{
+namespace
+{
+constexpr int MostFacets = 64;
+
+/// A surface of revolution about z, of so many facets around: `profile` has radii and heights, from
+/// below to above; it begins and ends on the axis.
+vtkSmartPointer<vtkPolyData> turned(
+  const std::vector<std::pair<double, double>>& profile, int around)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> polygons;
+  const auto rings = static_cast<vtkIdType>(profile.size()) - 2;
+  points->InsertNextPoint(0.0, 0.0, profile.front().second);
+  for (vtkIdType ring = 1; ring <= rings; ++ring)
+  {
+    for (int i = 0; i < around; ++i)
+    {
+      const double angle = 2.0 * vtkMath::Pi() * i / around;
+      const double radius = profile[ring].first;
+      points->InsertNextPoint(
+        radius * std::cos(angle), radius * std::sin(angle), profile[ring].second);
+    }
+  }
+  const vtkIdType top = points->InsertNextPoint(0.0, 0.0, profile.back().second);
+  for (int i = 0; i < around; ++i)
+  {
+    const int next = (i + 1) % around;
+    const vtkIdType last = 1 + (rings - 1) * around;
+    const vtkIdType below[3] = { 0, 1 + next, 1 + i };
+    const vtkIdType above[3] = { top, last + i, last + next };
+    polygons->InsertNextCell(3, below);
+    for (vtkIdType ring = 0; ring + 1 < rings; ++ring)
+    {
+      const vtkIdType low = 1 + ring * around, high = low + around;
+      const vtkIdType quad[4] = { low + i, low + next, high + next, high + i };
+      polygons->InsertNextCell(4, quad);
+    }
+    polygons->InsertNextCell(3, above);
+  }
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->SetPoints(points);
+  mesh->SetPolys(polygons);
+  return mesh;
+}
+
+void attachOwnOctree(vtkPolyData* mesh)
+{
+  MeshOctreeOptions options;
+  options.level = std::clamp(detailLevel(mesh), 1, 6);
+  Octree octree;
+  std::string message;
+  if (buildMeshOctree(mesh, options, octree, message) == BuildStatus::Built)
+  {
+    attachOctree(mesh, octree);
+  }
+}
+}
+
+UnitShapes::UnitShapes() = default;
+UnitShapes::~UnitShapes() = default;
+
+std::shared_ptr<UnitShapes> UnitShapes::ofAll()
+{
+  static std::weak_ptr<UnitShapes> known;
+  std::shared_ptr<UnitShapes> shapes = known.lock();
+  if (!shapes)
+  {
+    known = shapes = std::make_shared<UnitShapes>();
+  }
+  return shapes;
+}
+
+int UnitShapes::facetsOf(const Bodies& bodies)
+{
+  constexpr double Inside = 0.1; // pixels
+  int facets = bodies.width == Bodies::Width::Pixels && bodies.radii.empty() ? 8 : MostFacets;
+  while (facets < MostFacets && bodies.radius * (1.0 - std::cos(vtkMath::Pi() / facets)) > Inside)
+  {
+    facets *= 2;
+  }
+  return facets;
+}
+
+vtkPolyData* UnitShapes::of(const Bodies& bodies)
+{
+  const int around = facetsOf(bodies);
+  vtkSmartPointer<vtkPolyData>& mesh = this->Meshes[{ bodies.shape, around }];
+  if (mesh)
+  {
+    return mesh;
+  }
+  std::vector<std::pair<double, double>> profile;
+  if (bodies.shape == Bodies::Shape::Rod)
+  {
+    profile = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 1.0, 1.0 }, { 0.0, 1.0 } };
+  }
+  else
+  {
+    const int rings = around / 2;
+    for (int i = 0; i <= rings; ++i)
+    {
+      const double angle = vtkMath::Pi() * i / rings;
+      profile.emplace_back(std::sin(angle), -std::cos(angle));
+    }
+  }
+  mesh = turned(profile, around);
+  attachOwnOctree(mesh);
+  return mesh;
+}
+}
