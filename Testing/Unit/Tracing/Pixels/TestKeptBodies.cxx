@@ -59,6 +59,14 @@ TEST(KeptFrame, ChangesOfABodyThatCopiesShareAreSeen)
     { "that of another one", [&] { all[6].body = all[4].body; } },
     { "in turn", [&] { std::swap(all[5].body, all[6].body); } },
     { "for those that still share it", [&] { all[1].body.all().octree = copies.octree; } },
+    { "for those that have others, that of the first one",
+      [&]
+      {
+        for (std::size_t i = 2; i < all.size(); ++i)
+        {
+          all[i].body = all[1].body;
+        }
+      } },
     { "for all, another one",
       [&]
       {
