@@ -133,8 +133,8 @@ struct ShadowMap
   double base = 0.0;
   std::shared_ptr<const std::vector<float>> depth;
   int group = 0; // 0: of opaque casters; else the number of a group of translucent ones
-  /// The share of the light that what lies there takes, 0..1, likewise row by row. Null where all
-  /// is opaque. The same object as long as the values are the same.
+  /// The share of the light that what lies there takes, 0..1, likewise row by row, anything where
+  /// nothing lies. Null where all is opaque. The same object as long as the values are the same.
   std::shared_ptr<const std::vector<float>> opacity;
   double worldBias = 0.0;   // for receivers that do not know the caster of a texel, world units
   double casterVoxel = 0.0; // of the coarsest caster, world units

@@ -297,7 +297,7 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
     {
       face->copied.reset();
     }
-    if (face->layers.changed() || this->OtherOpacities)
+    if ((face->layers.changed() && this->SameOpacity < 0.0f) || this->OtherOpacities)
     {
       face->copiedOpacity.reset();
     }

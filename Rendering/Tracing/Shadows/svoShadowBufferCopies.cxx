@@ -45,9 +45,11 @@ void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps, int group)
     map.depth = face->copied;
     if (this->Translucent)
     {
-      if (!face->copiedOpacity)
+      if (!face->copiedOpacity || face->copiedOpacity->size() != face->copied->size())
       {
-        face->copiedOpacity = face->copyOpacity(this->CasterOpacity);
+        face->copiedOpacity = this->SameOpacity >= 0.0f
+          ? std::make_shared<std::vector<float>>(face->copied->size(), this->SameOpacity)
+          : face->copyOpacity(this->CasterOpacity);
       }
       map.opacity = face->copiedOpacity;
     }
