@@ -314,10 +314,10 @@ void LooseOctree::visitGroups(const VisitOrder& order, OnNode&& onNode, OnObject
       static_cast<double>(at.z) + half);
     if (!at.all)
     {
-      const NodeVisit said = onNode(
-        LooseNode{ this->Low + this->Unit * middle,
-          this->Unit * (this->Looseness * half + 1.0) + this->Noise, node.depth, node.total },
-        at.known);
+      const NodeVisit said =
+        onNode(LooseNode{ this->Low + this->Unit * middle,
+                 this->Unit * this->Looseness * half + this->Noise, node.depth, node.total },
+          at.known);
       if (said == NodeVisit::Skip)
       {
         continue;
