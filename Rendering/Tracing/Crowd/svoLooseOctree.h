@@ -52,13 +52,15 @@ struct LooseNode
   std::size_t objects; // kept in it and below
 };
 
-/// Objects of a node as visitors see them, 15 at most.
+/// Objects of a node as visitors see them.
 struct LooseObjects
 {
+  static constexpr std::uint32_t Most = 15; // but there may be any number of outsiders
+
   const std::uint32_t* objects;
   std::uint32_t count;
-  /// The balls, in `unit`s from `low`; `radius` has what coordinates lack. Of 16, but those beyond
-  /// `count` mean nothing. Null of outsiders: there may be any number of these.
+  /// The balls, in `unit`s from `low`; `radius` has what coordinates lack. Most + 1 can be read,
+  /// but those beyond `count` mean nothing. Null of outsiders.
   const std::uint16_t *x = nullptr, *y = nullptr, *z = nullptr, *radius = nullptr;
   glm::dvec3 low{ 0.0 };
   double unit = 0.0, noise = 0.0; // `noise`: to be added to radii; world
@@ -211,7 +213,7 @@ private:
     std::uint8_t depth = 0;
     std::uint8_t mask = 0; // of children that keep something, themselves or below
   };
-  static constexpr std::uint32_t ChunkSize = 15;
+  static constexpr std::uint32_t ChunkSize = LooseObjects::Most;
   struct alignas(64) Chunk
   {
     std::uint32_t next = 0; // full

@@ -391,15 +391,23 @@ TEST(LooseOctree, CubesOfAnySizeAnywhere)
       svo::LooseOctree tree(middle, edge, 1.7);
       Crowd crowd;
       RandomBalls random(6);
-      for (std::uint32_t i = 0; i < 500; ++i)
+      for (std::uint32_t i = 0; i < 1000; ++i)
       {
         svo::Ball ball = random.ball();
         ball.centre = middle + edge / 16.0 * ball.centre;
         ball.radius *= edge / 16.0;
+        if (i % 2 == 0)
+        {
+          // As large as its cell takes, about the cell's corner: it touches the loose cell.
+          const double cell = std::ldexp(edge, -static_cast<int>(i % 16));
+          ball.centre = middle - 0.5 * edge +
+            cell * glm::dvec3(random.below(1u << i % 16), random.below(1u << i % 16), 0.0);
+          ball.radius = 0.5 * (1.7 - 1.0) * cell;
+        }
         crowd[i] = ball;
         tree.insert(i, ball.centre, ball.radius);
       }
-      EXPECT_LT(tree.outsiders().size(), 200u);
+      EXPECT_LT(tree.outsiders().size(), 300u);
       std::vector<svo::LooseNode> path;
       tree.visit(
         svo::VisitOrder::from(middle),
@@ -454,6 +462,23 @@ TEST(LooseOctree, ManyObjectsAtOnePlaceComeAndGo)
   ASSERT_EQ(written(tree).size(), 2u);
   EXPECT_EQ(written(tree).back().depth, 0) << "they need no node but the root";
   EXPECT_TRUE(written(tree).back().objects == left);
+}
+
+TEST(LooseOctree, ChildrenAreReclaimedWhereAllThatIsLeftIsLarge)
+{
+  svo::LooseOctree tree(glm::dvec3(0.0), 16.0);
+  for (std::uint32_t i = 1; i <= 200; ++i)
+  {
+    tree.insert(i, glm::dvec3(1.0), 7.0);
+  }
+  EXPECT_EQ(tree.nodes(), 1u);
+  tree.insert(0, glm::dvec3(1.0), 0.1);
+  EXPECT_EQ(tree.nodes(), 9u);
+  tree.move(0, glm::dvec3(-1.0), 0.1);
+  EXPECT_EQ(tree.nodes(), 9u);
+  EXPECT_EQ(written(tree).size(), 3u);
+  tree.move(0, glm::dvec3(1.0), 7.0);
+  EXPECT_EQ(tree.nodes(), 1u);
 }
 
 TEST(LooseOctree, ManyMayLookAtOnce)
