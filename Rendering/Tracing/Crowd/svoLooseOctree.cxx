@@ -463,6 +463,56 @@ std::uint32_t LooseOctree::newChunk()
   return chunk;
 }
 
+void LooseOctree::arrange()
+{
+  std::vector<Node> nodes(8);
+  std::vector<Chunk> chunks(1);
+  nodes.reserve(this->Nodes.size() - 8 * this->FreeGroups.size());
+  chunks.reserve(this->Chunks.size() - this->FreeChunks.size());
+  this->arrange(0, 0, nodes, chunks);
+  this->Nodes.swap(nodes);
+  this->Chunks.swap(chunks);
+  this->FreeGroups.clear();
+  this->FreeChunks.clear();
+}
+
+/// Copies a node and all below it behind what has been copied, depth first.
+void LooseOctree::arrange(
+  std::uint32_t from, std::uint32_t to, std::vector<Node>& nodes, std::vector<Chunk>& chunks)
+{
+  const Node& node = this->Nodes[from];
+  nodes[to].count = node.count;
+  nodes[to].total = node.total;
+  nodes[to].depth = node.depth;
+  nodes[to].mask = node.mask;
+  std::uint32_t inChunk = node.count > 0 ? (node.count - 1) % ChunkSize + 1 : 0;
+  for (std::uint32_t c = node.chunk; c != 0; c = this->Chunks[c].next)
+  {
+    const std::uint32_t chunk = static_cast<std::uint32_t>(chunks.size());
+    (c == node.chunk ? nodes[to].chunk : chunks.back().next) = chunk;
+    chunks.push_back(this->Chunks[c]);
+    for (std::uint32_t i = 0; i < inChunk; ++i)
+    {
+      Record& record = this->Records[chunks.back().objects[i]];
+      record.node = to;
+      record.place = 16 * chunk + i;
+    }
+    inChunk = ChunkSize;
+  }
+  if (node.children == 0)
+  {
+    return;
+  }
+  const std::uint32_t group = static_cast<std::uint32_t>(nodes.size());
+  nodes[to].children = group;
+  nodes.resize(nodes.size() + 8);
+  for (std::uint32_t i = 0; i < 8; ++i)
+  {
+    nodes[group + i].parent = to;
+    this->arrange(node.children + i, group + i, nodes, chunks);
+  }
+}
+
 std::size_t LooseOctree::memory() const
 {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof v[0]; };

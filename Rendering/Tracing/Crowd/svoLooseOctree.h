@@ -140,6 +140,10 @@ public:
   /// False if it was not there.
   bool remove(std::uint32_t object);
   void clear();
+  /// Puts what is near in space side by side in memory; what is kept where stays as it is. Where
+  /// many objects came in without an order of space, queries are several times as fast after it.
+  /// Takes about as long as inserting a fifth of the objects.
+  void arrange();
   /// Memory for objects below `count` at once.
   void reserve(std::size_t count) { this->Records.reserve(count); }
 
@@ -266,6 +270,8 @@ private:
   void collapse(std::uint32_t node);
   std::uint32_t gather(std::uint32_t node, std::uint32_t* objects);
   std::uint32_t childFor(std::uint32_t node, const Record& record);
+  void arrange(
+    std::uint32_t from, std::uint32_t to, std::vector<Node>& nodes, std::vector<Chunk>& chunks);
   std::uint32_t newChunk();
   void freeGroup(Node& node);
 

@@ -139,6 +139,12 @@ TEST(LooseOctree, AfterAnySequenceOfChangesItEqualsOneBuiltAfresh)
           crowd[name] = ball;
         }
       }
+      if (step % 10000 == 5000)
+      {
+        const std::vector<KeptNode> before = written(tree);
+        tree.arrange();
+        ASSERT_TRUE(written(tree) == before);
+      }
       if (step % 4000 == 0)
       {
         const svo::LooseOctree fresh = treeOf(plain, crowd);
