@@ -6,8 +6,9 @@
 // wide about the same middle, so a ball whose centre lies in the cell, and whose radius is at most
 // (k - 1) / 2 W / 2^d, lies in the loose cell: depth and cell follow from radius and centre alone,
 // without a look at the tree. That cell is the deepest place of an object. It is kept in the first
-// node on the way there below which there are no more than `Bucket` objects, so sparse regions have
-// few nodes. Where an object is kept depends on the set of objects only, not on how it came about.
+// node on the way there that has no more than `Bucket` objects in it and below, so sparse regions
+// have few nodes. Where an object is kept depends on the set of objects only, not on how that came
+// about.
 //
 //   records   one for each object, by name, 32 bytes:
 //             | x y z  4 + 4 + 4 | radius 4 | node 4 | place 4 | depth 1 | .. |

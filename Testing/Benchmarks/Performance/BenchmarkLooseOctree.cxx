@@ -6,8 +6,8 @@
 // Objects lie in a cube, one in a unit of volume on average, their names in no order of space:
 // uniform, with radii of 0.1 to 0.3, or mixed, with radii from 1e-3 to 1, as many of one size as of
 // another. Eyes stand outside at the eight corners, a quarter of the cube away from it; their angle
-// is such that they see 1, 10, 50 and 100 % of the balls; once as the tree is after inserting and
-// once arranged. The methods take turns; medians of processor time on one thread.
+// is such that they see 0.1, 1, 10, 50 and 100 % of the balls; once as the tree is after inserting
+// and once arranged. The methods take turns; medians of processor time on one thread.
 //
 // All balls that a test in double does not find outside have to be found by both, or the exit code
 // is 1; `extra` is what they find besides, in percent of those.
@@ -110,8 +110,8 @@ std::vector<std::uint32_t> seenExactly(const Scene& scene, const svo::Frustum& f
 /// The frustum from a corner that sees a share of the balls.
 svo::View viewOf(const Scene& scene, int corner, double share)
 {
-  double low = 1e-3, high = 2.5;
-  for (int i = 0; i < 14; ++i)
+  double low = 1e-4, high = 2.5;
+  for (int i = 0; i < 16; ++i)
   {
     const double middle = 0.5 * (low + high);
     const std::size_t seen =
@@ -378,7 +378,7 @@ int main(int argc, char* argv[])
       for (const bool arranged : { false, true })
       {
         arranged ? measured.arrange() : measured.insertAnew();
-        for (const double share : { 0.01, 0.1, 0.5, 1.0 })
+        for (const double share : { 0.001, 0.01, 0.1, 0.5, 1.0 })
         {
           svobench::Row query = row;
           query["experiment"] = arranged ? "query, arranged" : "query";
