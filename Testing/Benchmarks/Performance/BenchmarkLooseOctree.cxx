@@ -1,7 +1,7 @@
 // What a loose octree over many objects takes: inserting, moving, asking what a frustum sees;
 // beside a flat test of all balls against six planes with all lanes of the machine.
 //
-//   BenchmarkLooseOctree [--objects 100000,1000000] [--repeat 9] [--looseness 2] [--json file]
+//   BenchmarkLooseOctree [--objects 100000,1000000] [--repeat 9] [--looseness 1.25] [--json file]
 //
 // Objects lie in a cube, one in a unit of volume on average, their names in no order of space:
 // uniform, with radii of 0.1 to 0.3, or mixed, with radii from 1e-3 to 1, as many of one size as of
@@ -39,7 +39,7 @@ struct Options
 {
   std::vector<std::uint32_t> objects{ 100000, 1000000 };
   int repeat = 9;
-  double looseness = 2.0;
+  double looseness = 1.25;
 };
 
 /// s

@@ -322,7 +322,7 @@ TEST(LooseOctree, ManyObjectsAtOnePlaceComeAndGo)
 
 TEST(LooseOctree, ChildrenAreReclaimedWhereAllThatIsLeftIsLarge)
 {
-  svo::LooseOctree tree(glm::dvec3(0.0), 16.0);
+  svo::LooseOctree tree(glm::dvec3(0.0), 16.0, 2.0);
   for (std::uint32_t i = 1; i <= 200; ++i)
   {
     tree.insert(i, glm::dvec3(1.0), 7.0);
