@@ -244,7 +244,7 @@ TEST(LooseOctree, CubesOfAnySizeAnywhere)
     for (const double far : { 0.0, 1.0, 1e6 })
     {
       const glm::dvec3 middle = far * edge * glm::dvec3(1.0, -0.3, 0.7);
-      svo::LooseOctree tree(middle, edge, 1.7);
+      svo::LooseOctree tree(middle, edge, 1.5);
       Crowd crowd;
       RandomBalls random(6);
       for (std::uint32_t i = 0; i < 1000; ++i)
@@ -258,7 +258,7 @@ TEST(LooseOctree, CubesOfAnySizeAnywhere)
           const double cell = std::ldexp(edge, -static_cast<int>(i % 16));
           ball.centre = middle - 0.5 * edge +
             cell * glm::dvec3(random.below(1u << i % 16), random.below(1u << i % 16), 0.0);
-          ball.radius = 0.5 * (1.7 - 1.0) * cell;
+          ball.radius = 0.5 * (1.5 - 1.0) * cell;
         }
         crowd[i] = ball;
         tree.insert(i, ball.centre, ball.radius);
