@@ -45,12 +45,11 @@ Bundle bundleOf(const View& view, double x0, double y0, double x1, double y1)
   return rays;
 }
 
-/// The largest offset of a plane that all rays are inside of with; not finite where there is none.
+/// The largest offset of a plane that all rays are inside of with; not finite where there is none:
+/// numbers without an end have a noise without one.
 double offsetFor(const Bundle& rays, const glm::dvec3& normal)
 {
   double lowest = std::numeric_limits<double>::infinity();
-  const auto add = [&](double distance)
-  { lowest = distance < lowest || std::isnan(distance) ? distance : lowest; };
   for (const Corner& corner : rays.corners)
   {
     const double start = glm::dot(normal, corner.origin);
@@ -61,15 +60,11 @@ double offsetFor(const Bundle& rays, const glm::dvec3& normal)
         0x1p-50 * (std::abs(start) + std::abs(t * slope));
       return start + t * slope - noise;
     };
-    add(at(rays.tNear));
+    lowest = std::min(lowest, at(rays.tNear));
     // A ray that certainly goes away is nearest where it starts, at whatever depth it ends.
     if (!(slope >= 2.0 * rays.directionNoise))
     {
-      add(at(rays.tFar));
-    }
-    if (std::isnan(lowest))
-    {
-      break;
+      lowest = std::min(lowest, at(rays.tFar));
     }
   }
   return -lowest;

@@ -6,8 +6,9 @@
 // wide about the same middle, so a ball whose centre lies in the cell, and whose radius is at most
 // (k - 1) / 2 W / 2^d, lies in the loose cell: depth and cell follow from radius and centre alone,
 // without a look at the tree. That cell is the deepest place of an object. It is kept in the first
-// node on the way there below which there are no more than `Bucket` objects, so sparse regions have
-// few nodes. Where an object is kept depends on the set of objects only, not on how it came about.
+// node on the way there that has no more than `Bucket` objects in it and below, so sparse regions
+// have few nodes. Where an object is kept depends on the set of objects only, not on how that came
+// about.
 //
 //   records   one for each object, by name, 32 bytes:
 //             | x y z  4 + 4 + 4 | radius 4 | node 4 | place 4 | depth 1 | .. |
@@ -52,13 +53,15 @@ struct LooseNode
   std::size_t objects; // kept in it and below
 };
 
-/// Objects of a node as visitors see them, 15 at most.
+/// Objects of a node as visitors see them.
 struct LooseObjects
 {
+  static constexpr std::uint32_t Most = 15; // but there may be any number of outsiders
+
   const std::uint32_t* objects;
   std::uint32_t count;
-  /// The balls, in `unit`s from `low`; `radius` has what coordinates lack. Of 16, but those beyond
-  /// `count` mean nothing. Null of outsiders: there may be any number of these.
+  /// The balls, in `unit`s from `low`; `radius` has what coordinates lack. Most + 1 can be read,
+  /// but those beyond `count` mean nothing. Null of outsiders.
   const std::uint16_t *x = nullptr, *y = nullptr, *z = nullptr, *radius = nullptr;
   glm::dvec3 low{ 0.0 };
   double unit = 0.0, noise = 0.0; // `noise`: to be added to radii; world
@@ -118,11 +121,12 @@ public:
   /// Of objects that a node keeps though they have deeper cells.
   static constexpr std::uint32_t Bucket = 60;
 
-  /// The cube: its middle and its edge, world. `looseness`: k, of which what lies outside of
-  /// [LeastLooseness, 2] is clamped into it. `maximumDepth`: 0 to MostDepth, clamped as well. With
+  /// The cube: its middle and its edge, world. `looseness`: k; what lies outside of
+  /// [LeastLooseness, 2] is clamped. The smaller it is, the fewer nodes a view crosses, and the
+  /// smaller is what still has a place. `maximumDepth`: 0 to MostDepth, clamped as well. With
   /// a cube that is not finite, or has no edge, all objects are outsiders.
   LooseOctree(
-    const glm::dvec3& centre, double edge, double looseness = 2.0, int maximumDepth = MostDepth);
+    const glm::dvec3& centre, double edge, double looseness = 1.25, int maximumDepth = MostDepth);
   /// Below it hardly anything fits a loose cell.
   static constexpr double LeastLooseness = 1.0 + 1.0 / 1024.0;
 
@@ -138,6 +142,10 @@ public:
   /// False if it was not there.
   bool remove(std::uint32_t object);
   void clear();
+  /// Puts what is near in space side by side in memory; what is kept where stays as it is. Where
+  /// many objects came in without an order of space, queries take half the time after it. It
+  /// takes about as long as inserting a tenth of them.
+  void arrange();
   /// Memory for objects below `count` at once.
   void reserve(std::size_t count) { this->Records.reserve(count); }
 
@@ -211,7 +219,7 @@ private:
     std::uint8_t depth = 0;
     std::uint8_t mask = 0; // of children that keep something, themselves or below
   };
-  static constexpr std::uint32_t ChunkSize = 15;
+  static constexpr std::uint32_t ChunkSize = LooseObjects::Most;
   struct alignas(64) Chunk
   {
     std::uint32_t next = 0; // full
@@ -264,6 +272,8 @@ private:
   void collapse(std::uint32_t node);
   std::uint32_t gather(std::uint32_t node, std::uint32_t* objects);
   std::uint32_t childFor(std::uint32_t node, const Record& record);
+  void arrange(
+    std::uint32_t from, std::uint32_t to, std::vector<Node>& nodes, std::vector<Chunk>& chunks);
   std::uint32_t newChunk();
   void freeGroup(Node& node);
 
@@ -314,10 +324,10 @@ void LooseOctree::visitGroups(const VisitOrder& order, OnNode&& onNode, OnObject
       static_cast<double>(at.z) + half);
     if (!at.all)
     {
-      const NodeVisit said = onNode(
-        LooseNode{ this->Low + this->Unit * middle,
-          this->Unit * (this->Looseness * half + 1.0) + this->Noise, node.depth, node.total },
-        at.known);
+      const NodeVisit said =
+        onNode(LooseNode{ this->Low + this->Unit * middle,
+                 this->Unit * this->Looseness * half + this->Noise, node.depth, node.total },
+          at.known);
       if (said == NodeVisit::Skip)
       {
         continue;

@@ -82,6 +82,7 @@ void InstanceTree::build()
   {
     this->put(i, this->Balls[i]);
   }
+  this->Tree->arrange();
   this->OutsidersAtFirst = this->Tree->outsiders().size();
 }
 

@@ -58,6 +58,33 @@ TEST(Frustum, NothingThatARayMeetsIsOutside)
   }
 }
 
+TEST(Frustum, NoBallThatTouchesItFromOutsideIsOutside)
+{
+  RandomBalls random(16);
+  for (int i = 0; i < 50000; ++i)
+  {
+    const svo::View view = randomView(random, 1.0, glm::dvec3(0.0));
+    const svo::Frustum frustum(view, 0.0);
+    const double y = random.between(0.0, view.height);
+    const double t = random.between(view.tNear, std::min(view.tFar, view.tNear + 10.0));
+    const glm::dvec3 p = pointOf(view, 0.0, y, t);
+    // Large ones need all the digits of their centres.
+    const double size = std::exp2(random.between(-10.0, 60.0));
+    const glm::dvec3 centre = p - size * glm::dvec3(frustum.plane(0));
+    long double sum = 0.0;
+    for (int a = 0; a < 3; ++a)
+    {
+      const long double d = static_cast<long double>(centre[a]) - p[a];
+      sum += d * d;
+    }
+    const double radius = std::nextafter(static_cast<double>(std::sqrt(sum)), 1e300);
+    ASSERT_FALSE(frustum.outside(centre, radius)) << "view " << i << ", size " << size;
+    const glm::dvec3 half = glm::abs(centre - p);
+    std::uint8_t within = 0;
+    ASSERT_NE(frustum.box(centre, half * (1.0 + 0x1p-52), within), svo::Frustum::Side::Outside);
+  }
+}
+
 TEST(Frustum, WhatIsAHundredthOfAPixelBesideIsOutside)
 {
   RandomBalls random(12);
@@ -165,6 +192,10 @@ TEST(Frustum, OfNoViewNothingIsOutside)
   bad.directionX.x = nan;
   bad.tNear = nan;
   EXPECT_FALSE(svo::Frustum(bad).outside({ 1e9, 3, 4 }, 0.0));
+  svo::View huge;
+  ASSERT_TRUE(svo::makeView(glm::dmat4(1.0), glm::ortho(-1.0, 1.0, -1.0, 1.0), 9, 9, huge));
+  huge.originX = { 1e308, 0, 0 };
+  EXPECT_FALSE(svo::Frustum(huge).outside({ 0, 0, 1e9 }, 0.0)) << "corners that overflow";
   // Nor is what is nowhere, or everywhere.
   RandomBalls random(15);
   const svo::Frustum frustum(randomView(random, 1.0, glm::dvec3(0.0)));

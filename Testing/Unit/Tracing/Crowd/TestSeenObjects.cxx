@@ -18,7 +18,7 @@ struct Placed
   Placed(RandomBalls& random, double scale, const glm::dvec3& middle, double looseness)
     : tree(middle, 16.0 * scale, looseness)
   {
-    for (std::uint32_t i = 0; i < 1500; ++i)
+    for (std::uint32_t i = 0; i < 4000; ++i)
     {
       svo::Ball ball = random.ball();
       ball.centre = middle + scale * ball.centre;
@@ -45,14 +45,14 @@ TEST(SeenObjects, AreThoseOfAFlatTestAndAmongThemAllThatAreSeen)
 {
   RandomBalls random(21);
   std::size_t flatly = 0, reallySeen = 0, hidden = 0;
-  for (int round = 0; round < 60; ++round)
+  for (int round = 0; round < 40; ++round)
   {
     const double scale = std::pow(10.0, random.between(-6.0, 6.0));
     const glm::dvec3 middle = random.below(2)
       ? glm::dvec3(0.0)
       : scale * std::pow(10.0, random.between(0.0, 5.0)) * glm::dvec3(1.0, -0.3, 0.6);
     const Placed placed(random, scale, middle, round % 2 ? 2.0 : 1.2);
-    for (int v = 0; v < 20; ++v)
+    for (int v = 0; v < 12; ++v)
     {
       const svo::View view = randomView(random, scale, middle);
       const svo::PixelRect rect = randomRect(random, view);
@@ -120,4 +120,41 @@ TEST(SeenObjects, OfAllGroupsOfTilesAreThoseOfTheImage)
       EXPECT_TRUE(together.count(object)) << object;
     }
   }
+}
+
+TEST(SeenObjects, BallsThatTouchTheFrustumFromOutsideAreAmongThem)
+{
+  RandomBalls random(23);
+  int touching = 0, beside = 0;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const svo::View view = randomView(random, 1.0, glm::dvec3(0.0));
+    const svo::Frustum frustum(view, 0.0);
+    const double y = random.between(0.0, view.height);
+    const double t = random.between(view.tNear, std::min(view.tFar, view.tNear + 10.0));
+    const glm::dvec3 p = view.rayOrigin(0.0, y) + t * view.rayDirection(0.0, y);
+    const double radius = std::exp2(random.between(-20.0, 1.0));
+    const glm::dvec3 centre = p - radius * (1.0 - 1e-9) * glm::dvec3(frustum.plane(0));
+    const std::uint32_t others = random.below(2) ? 0 : 100;
+    svo::LooseOctree tree(glm::dvec3(0.0), 32.0);
+    for (std::uint32_t k = 1; k <= others; ++k)
+    {
+      // Small ones, so that the cell becomes a smaller one, too.
+      tree.insert(k, centre + 1e-3 * glm::dvec3(k % 10, k / 10, 0.0), 1e-9);
+    }
+    const auto isSeen = [&](const glm::dvec3& at)
+    {
+      bool seen = false;
+      tree.insert(0, at, radius);
+      svo::eachSeen(tree, frustum, svo::VisitOrder(view),
+        [&](std::uint32_t object) { seen = seen || object == 0; });
+      return seen;
+    };
+    ASSERT_TRUE(isSeen(centre)) << "view " << i;
+    ++touching;
+    // Three steps of the root's cell are more than what is allowed for.
+    const glm::dvec3 away = centre - 3.0 * 32.0 / 65536.0 * glm::dvec3(frustum.plane(0));
+    beside += !isSeen(away) && tree.outsiders().empty();
+  }
+  EXPECT_GT(beside, touching / 4);
 }

@@ -121,6 +121,28 @@ struct PlainTree
   }
 };
 
+/// The cube [-8, 8]^3.
+inline PlainTree plainly(double looseness, int maximumDepth = svo::LooseOctree::MostDepth)
+{
+  return { glm::dvec3(-8.0), 16.0, looseness, maximumDepth };
+}
+
+inline svo::LooseOctree treeLike(const PlainTree& plain)
+{
+  return svo::LooseOctree(
+    plain.low + 0.5 * plain.edge, plain.edge, plain.looseness, plain.maximumDepth);
+}
+
+inline svo::LooseOctree treeOf(const PlainTree& plain, const Crowd& crowd)
+{
+  svo::LooseOctree tree = treeLike(plain);
+  for (const auto& [name, ball] : crowd)
+  {
+    tree.insert(name, ball.centre, ball.radius);
+  }
+  return tree;
+}
+
 /// Balls in the cube [-8, 8]^3 and a few beyond it, in clusters and alone, from points to balls
 /// that fit no cell.
 class RandomBalls
