@@ -57,11 +57,12 @@ struct CPUTracer::Internals
   FrameTiles Tiles;
   PixelShader Shader;
   KeptFrame Kept;
-  KeptTiles Shaded;               // by tile of the eye
-  std::vector<CasterBox> Casters; // by index into Scene::instances
-  bool ViewsAreTraced = true;     // of this frame; else they were not needed
-  bool SharesBuffers = false;     // shadow buffers are traced, for all processes
-  double SharingTime = 0.0;       // s, that took
+  KeptTiles Shaded;                 // by tile of the eye
+  std::vector<CasterBox> Casters;   // by index into Scene::instances ...
+  std::uint64_t CastersVersion = 0; // ... of this Scene::version
+  bool ViewsAreTraced = true;       // of this frame; else they were not needed
+  bool SharesBuffers = false;       // shadow buffers are traced, for all processes
+  double SharingTime = 0.0;         // s, that took
 
   void cull(const Scene& scene, const FrameSettings& settings, const ParallelFor& parallelFor);
   const Scene& sceneOfLights(const Scene& scene, ShadowTechnique technique);
@@ -102,6 +103,7 @@ const Scene& CPUTracer::Internals::sceneOfLights(const Scene& scene, ShadowTechn
     return scene;
   }
   this->AsLightsSee = scene;
+  this->AsLightsSee.version = 0;
   Shared<Body> seen, lit; // once for all copies
   for (Instance& instance : this->AsLightsSee.instances)
   {
@@ -190,11 +192,20 @@ void CPUTracer::Internals::findDarkenedTiles(
 {
   const Shadows& shadows = this->LightShadows;
   const bool all = changes.all || !shadows.notesAll() || !shadows.sameMaps();
-  const std::vector<CasterBox> before = std::move(this->Casters);
-  this->Casters.clear();
-  for (const Instance& instance : scene.instances)
+  std::vector<CasterBox> before; // of no use where the scene is the same
+  if (scene.version == 0 || scene.version != this->CastersVersion)
   {
-    this->Casters.emplace_back(instance);
+    before = std::move(this->Casters);
+    this->Casters.resize(scene.instances.size());
+    this->CastersVersion = scene.version;
+    parallelFor(0, this->Casters.size(), 256,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          this->Casters[i] = CasterBox(scene.instances[i]);
+        }
+      });
   }
   const auto mayCross = [&](const PointBox& starts)
   {

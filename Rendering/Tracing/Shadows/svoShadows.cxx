@@ -65,7 +65,7 @@ void Shadows::choose(const Scene& scene, const Scene& seen, const View& view,
 {
   const bool automatic = settings.shadowTechnique == ShadowTechnique::Automatic;
   this->chooseAll(scene, automatic ? ShadowTechnique::Buffer : settings.shadowTechnique);
-  const std::vector<Outline> outlinesBefore = std::move(this->Fitted);
+  const std::vector<Outline> outlinesBefore = automatic ? this->Fitted : std::vector<Outline>();
   const std::vector<LightMaps> mapsBefore = std::move(this->Maps);
   this->fitMaps(seen, view, settings);
   if (!automatic)
@@ -105,17 +105,24 @@ void Shadows::chooseAsBefore(const Scene& seen, const View& view, const FrameSet
 
 void Shadows::fitMaps(const Scene& seen, const View& view, const FrameSettings& settings)
 {
-  this->Fitted.clear();
   this->Maps.assign(seen.lights.size(), {});
+  bool uses = false;
   for (std::size_t l = 0; l < seen.lights.size(); ++l)
   {
-    if (this->usesBuffer(l, settings))
-    {
-      this->Fitted = outlinesOf(seen);
-      this->Maps = mapsOfLights(this->Fitted, seen.lights, settings, view);
-      return;
-    }
+    uses = uses || this->usesBuffer(l, settings);
   }
+  if (!uses)
+  {
+    this->Fitted.clear();
+    this->FittedVersion = 0;
+    return;
+  }
+  if (seen.version == 0 || seen.version != this->FittedVersion)
+  {
+    this->Fitted = outlinesOf(seen);
+    this->FittedVersion = seen.version;
+  }
+  this->Maps = mapsOfLights(this->Fitted, seen.lights, settings, view);
 }
 
 void Shadows::prepare(const Scene& scene, const FrameSettings& settings, LayerBudget& budget,

@@ -157,6 +157,7 @@ private:
   std::vector<ShadowTechnique> Techniques, TechniquesBefore; // by light; of the last frame
   std::vector<LightMaps> Maps;                               // by light
   std::vector<Outline> Fitted;                               // what they were fitted to
+  std::uint64_t FittedVersion = 0;                           // of the scene that they are of
   bool TracesWhole = false;                                  // every tile is traced
   bool Casting = false;                                      // there are buffers
   bool Filters = false;

@@ -5,8 +5,11 @@
 //
 //   BenchmarkCrowd [--scene field|plain|small|layers|glyphs] [--objects n,n] [--motion
 //   none|orbit|all]
-//     [--frames n] [--size 1920x1080] [--maps 1] [--complexity n] [--triangles n]
+//     [--frames n] [--size 1920x1080] [--maps 1] [--culling 1] [--complexity n] [--triangles n]
 //     [--json file] [--pictures prefix]
+//
+// --culling: beside it the same without the culling of what others hide, and without any, and how
+// many objects each step left out, of those that it could have: all that no pixel shows.
 //
 // field   objects of `triangles` (20 000), four meshes, strewn over a square ground as wide as the
 //         view, whatever their number; the eye stands in front of it, a little higher than they
@@ -26,9 +29,11 @@
 #include "vtkSVORenderPass.h"
 
 #include <vtkActor.h>
+#include <vtkActorCollection.h>
 #include <vtkCamera.h>
 #include <vtkFloatArray.h>
 #include <vtkGlyph3DMapper.h>
+#include <vtkHardwareSelector.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkPlaneSource.h>
@@ -50,6 +55,7 @@
 #include <map>
 #include <memory>
 #include <random>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -61,7 +67,7 @@ struct Options
   std::string scene = "field", motion = "all";
   std::vector<int> objects{ 1000 };
   int frames = 9, size[2] = { 1920, 1080 };
-  bool maps = false;
+  bool maps = false, culling = false;
   int complexity = 8, triangles = 20000;
 };
 
@@ -73,7 +79,9 @@ enum class Look
   Empty, // nothing is there to be drawn
   Raster,
   ShadowMaps,
-  Traced
+  Traced,
+  NotOccluded, // traced, without culling of what others hide
+  NotCulled    // without any
 };
 
 /// Of about so many triangles and a radius of 1.
@@ -174,6 +182,11 @@ public:
     {
       row["primaryRays"] = static_cast<Json::Int64>(this->Pass->GetNumberOfPrimaryRays());
       row["shadowRays"] = static_cast<Json::Int64>(this->Pass->GetNumberOfShadowRays());
+      const auto culled = [&](int step)
+      { return static_cast<Json::Int64>(this->Pass->GetNumberOfCulledInstances(step)); };
+      row["outside"] = culled(vtkSVORenderPass::CULLED_BY_VIEW);
+      row["hidden"] = culled(vtkSVORenderPass::CULLED_BY_OCCLUSION);
+      row["casters"] = culled(vtkSVORenderPass::CULLED_CASTERS);
     }
     return row;
   }
@@ -195,6 +208,33 @@ public:
       covered.push_back(differs);
     }
     return covered;
+  }
+  /// Of all actors, how many no pixel shows, by exact identities.
+  std::size_t unseen()
+  {
+    vtkNew<vtkHardwareSelector> selector;
+    selector->SetRenderer(this->Renderer);
+    selector->SetFieldAssociation(vtkDataObject::FIELD_ASSOCIATION_POINTS);
+    const int width = this->Asked.size[0], height = this->Asked.size[1];
+    selector->SetArea(0, 0, static_cast<unsigned>(width - 1), static_cast<unsigned>(height - 1));
+    std::set<vtkProp*> seen;
+    if (selector->CaptureBuffers())
+    {
+      for (int y = 0; y < height; ++y)
+      {
+        for (int x = 0; x < width; ++x)
+        {
+          const unsigned pixel[2] = { static_cast<unsigned>(x), static_cast<unsigned>(y) };
+          const auto found = selector->GetPixelInformation(pixel, 0);
+          if (found.Valid)
+          {
+            seen.insert(found.Prop);
+          }
+        }
+      }
+      selector->ClearBuffers();
+    }
+    return static_cast<std::size_t>(this->Renderer->GetActors()->GetNumberOfItems()) - seen.size();
   }
   int tracedActors() const { return this->Pass ? this->Pass->GetNumberOfTracedActors() : 0; }
   const std::string Name;
@@ -343,9 +383,11 @@ private:
     {
       performance::useShadowMaps(this->Renderer);
     }
-    else if (look == Look::Traced)
+    else if (look != Look::Raster && look != Look::Empty)
     {
       this->Pass = performance::makePass(this->Phases, false);
+      this->Pass->SetOcclusionCulling(look == Look::Traced);
+      this->Pass->SetViewCulling(look != Look::NotCulled);
       this->Renderer->SetPass(this->Pass);
     }
   }
@@ -390,6 +432,13 @@ bool measure(
   {
     methods.push_back(std::make_unique<Method>("empty", Look::Empty, options, objects));
   }
+  if (options.culling)
+  {
+    methods.push_back(
+      std::make_unique<Method>("traced, what is hidden too", Look::NotOccluded, options, objects));
+    methods.push_back(
+      std::make_unique<Method>("traced, nothing culled", Look::NotCulled, options, objects));
+  }
   constexpr int Warm = 2; // octrees are built, and layers of still objects kept
   for (int k = -Warm; k < options.frames; ++k)
   {
@@ -413,6 +462,10 @@ bool measure(
       method->write(pictures + options.scene + std::to_string(objects) + "-" +
         method->Name.substr(0, 6) + ".png");
     }
+  }
+  if (options.culling && options.scene != "glyphs")
+  {
+    std::printf("%zu of the objects are not seen\n", methods[0]->unseen());
   }
   const double wrong = differing(methods[0]->covered(), methods[1]->covered());
   std::printf("%.5f of the pixels are covered by one of the two only\n", wrong);
@@ -462,6 +515,10 @@ int main(int argc, char** argv)
     {
       options.maps = argument == "1";
     }
+    else if (name == "--culling")
+    {
+      options.culling = argument == "1";
+    }
     else if (name == "--size")
     {
       std::sscanf(argument.c_str(), "%dx%d", &options.size[0], &options.size[1]);
@@ -480,9 +537,9 @@ int main(int argc, char** argv)
       return 1;
     }
   }
-  svobench::Results results(
-    { "scene", "motion", "objects", "complexity", "method", "processorMs", "wallMs", "collectMs",
-      "eyeMs", "markMs", "lightsMs", "shadeMs", "presentMs", "primaryRays", "shadowRays" });
+  svobench::Results results({ "scene", "motion", "objects", "complexity", "method", "processorMs",
+    "wallMs", "collectMs", "eyeMs", "markMs", "lightsMs", "shadeMs", "presentMs", "primaryRays",
+    "shadowRays", "outside", "hidden", "casters" });
   bool good = true;
   for (const int n : options.objects)
   {
