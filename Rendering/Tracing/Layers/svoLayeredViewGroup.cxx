@@ -90,32 +90,6 @@ bool LayeredView::findTogether(TileScratch& scratch) const
   return true;
 }
 
-bool LayeredView::findWindow(std::size_t group, TileScratch& scratch) const
-{
-  scratch.groupX = GroupTiles * this->Groups.x(group);
-  scratch.groupY = GroupTiles * this->Groups.y(group);
-  int x0 = GroupTiles, y0 = GroupTiles, x1 = -1, y1 = -1;
-  for (int y = 0; y < std::min(GroupTiles, this->Merged.tilesY - scratch.groupY); ++y)
-  {
-    for (int x = 0; x < std::min(GroupTiles, this->Merged.tilesX - scratch.groupX); ++x)
-    {
-      const std::size_t tile =
-        static_cast<std::size_t>(scratch.groupY + y) * this->Merged.tilesX + scratch.groupX + x;
-      if (this->Tiles.isMerged(tile))
-      {
-        x0 = std::min(x0, x);
-        y0 = std::min(y0, y);
-        x1 = std::max(x1, x);
-        y1 = y;
-      }
-    }
-  }
-  const auto pixel = [](int tile) { return static_cast<std::uint8_t>(8 * tile); };
-  const auto last = [](int tile) { return static_cast<std::uint8_t>(8 * tile + 7); };
-  scratch.window = { pixel(x0), last(x1), pixel(y0), last(y1) };
-  return x1 >= 0;
-}
-
 void LayeredView::gather(std::size_t group, TileScratch& scratch) const
 {
   const GroupLists::List nearby = this->Groups.of(group);
@@ -165,52 +139,6 @@ void LayeredView::gather(std::size_t group, TileScratch& scratch) const
     scratch.regards[static_cast<std::size_t>(candidate.entry - this->Instances.data())] |=
       candidate.hidden ? Asked : Asked | Looked;
   }
-}
-
-bool LayeredView::hides(const TileScratch& scratch, const PixelRect& rect, double depth) const
-{
-  // As PixelFunctions::key().
-  double key = depth - this->Keys.far;
-  if (!this->Seen.parallel)
-  {
-    if (!(depth > 0.0))
-    {
-      return false;
-    }
-    key = (this->Keys.deep ? -this->Keys.far : key) * this->Keys.far / depth;
-  }
-  return scratch.wants(rect) &&
-    scratch.found.group.hides(scratch.windowOf(rect), static_cast<float>(key));
-}
-
-bool LayeredView::hidesNode(std::uint32_t node, TileScratch& scratch) const
-{
-  if (node == SeenNode::None)
-  {
-    return false;
-  }
-  std::uint64_t& known = scratch.nodes[node];
-  if (known / 2 != scratch.asking)
-  {
-    const SeenNode& n = this->InSight.nodes[node];
-    const double slack = 2e-3 * (n.cube.farthest - n.cube.nearest) +
-      1e-5 * std::abs(n.cube.nearest) + this->LargestError;
-    const bool hidden = this->hidesNode(n.parent, scratch) ||
-      this->hides(scratch, n.cube.rect, n.cube.nearest - slack);
-    known = 2 * scratch.asking + hidden;
-  }
-  return known % 2 != 0;
-}
-
-bool LayeredView::isHidden(const Entry& entry, TileScratch& scratch) const
-{
-  if (!this->Cull.occlusion || this->Shifted || scratch.found.group.empty())
-  {
-    return false;
-  }
-  const auto e = static_cast<std::size_t>(&entry - this->Instances.data());
-  return this->hidesNode(this->NodeOf[e], scratch) ||
-    this->hides(scratch, entry.local.pixels, entry.local.base - this->slackOf(entry));
 }
 
 void LayeredView::traceLayer(int tileX, int tileY, TileEntry& candidate, TileScratch& scratch)

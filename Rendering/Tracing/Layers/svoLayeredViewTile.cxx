@@ -238,25 +238,6 @@ void LayeredView::merge(const Entry& entry, const float* t, const Primitive* pri
   }
 }
 
-double LayeredView::deepest(const MergedTile& merged) const
-{
-  constexpr double Infinity = std::numeric_limits<double>::infinity();
-  if (!merged.any || !this->Cull.occlusion || this->Shifted)
-  {
-    return Infinity;
-  }
-  double deepest = -Infinity;
-  for (int i = 0; i < 64; ++i)
-  {
-    if (merged.instance[i] == NoInstance)
-    {
-      return Infinity;
-    }
-    deepest = std::max(deepest, this->Bases[merged.instance[i]] + merged.t[i]);
-  }
-  return deepest + this->LargestError;
-}
-
 void LayeredView::traceTile(int tileX, int tileY, bool onlyChanged, TileScratch& scratch)
 {
   const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
