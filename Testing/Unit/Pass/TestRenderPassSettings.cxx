@@ -41,6 +41,10 @@ TEST(RenderPassSettings, DefaultsAreThoseOfTheManual)
   EXPECT_TRUE(pass->GetFrameCoherence());
   EXPECT_EQ(pass->GetLayerMemoryLimit(), 512 * 1024);
   EXPECT_FALSE(pass->GetAntiAliasing());
+  EXPECT_TRUE(pass->GetViewCulling());
+  EXPECT_TRUE(pass->GetOcclusionCulling());
+  EXPECT_EQ(pass->GetDetailCullingThreshold(), 0.0);
+  EXPECT_EQ(pass->GetNumberOfCulledInstances(), 0);
 }
 
 // The manual of the pass says them once more; a tracer takes the scene without a pass, too.
@@ -60,6 +64,9 @@ TEST(RenderPassSettings, DefaultsAreThoseOfTheTracer)
   EXPECT_EQ(pass->GetAntiAliasing(), settings.antiAliasing);
   EXPECT_EQ(pass->GetAntiAliasing(), settings.filterShadows);
   EXPECT_EQ(settings.shadowMemoryLimit, std::size_t(4) << 30); // SetShadowBufferResolution()
+  EXPECT_EQ(pass->GetViewCulling(), settings.viewCulling);
+  EXPECT_EQ(pass->GetOcclusionCulling(), settings.occlusionCulling);
+  EXPECT_EQ(pass->GetDetailCullingThreshold(), settings.detailThreshold);
   // What only the pass knows when to ask for.
   EXPECT_FALSE(settings.wholeShadowBuffers);
   EXPECT_FALSE(settings.writeNormals);
