@@ -165,15 +165,15 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
       std::max(all.y1, r.y1) };
   }
   this->findIntervals(parallelFor);
-  std::vector<MergedPart> parts;
+  this->Parts.clear();
   for (const Entry& entry : this->Instances)
   {
-    parts.push_back({ entry.index, entry.key, this->Offsets[entry.index], entry.local.rect });
+    this->Parts.push_back({ entry.index, entry.key, this->Offsets[entry.index], entry.local.rect });
   }
   // What differs between offsets decides for all.
   const bool keep = this->HasFrame && this->Shifted == this->WasShifted;
   this->WasShifted = this->Shifted;
-  if (!this->Tiles.beginFrame(this->Seen, std::move(parts), keep, wanted))
+  if (!this->Tiles.beginFrame(this->Seen, this->Parts, keep, wanted))
   {
     this->Merged.resize(this->Seen.width, this->Seen.height);
   }

@@ -330,8 +330,9 @@ private:
   KeyBase Keys;
   LayerCache Layers;
   DepthBuffer Merged;
-  MergedTiles Tiles; // of Merged
-  GroupLists Groups; // of Instances
+  MergedTiles Tiles;             // of Merged
+  std::vector<MergedPart> Parts; // memory for those of the next frame
+  GroupLists Groups;             // of Instances
   Culling Cull;
   Spared NotLookedAt;
   std::vector<std::uint8_t> LastHit; // DepthBuffer::hit of the last frame

@@ -22,7 +22,7 @@ void MergedTiles::touch(const MergedPart& part, int tilesX)
 }
 
 bool MergedTiles::beginFrame(
-  const View& view, std::vector<MergedPart> parts, bool keep, const std::uint8_t* wanted)
+  const View& view, std::vector<MergedPart>& parts, bool keep, const std::uint8_t* wanted)
 {
   const int tilesX = (view.width + 7) / 8;
   const std::size_t tiles = static_cast<std::size_t>(tilesX) * ((view.height + 7) / 8);
@@ -77,7 +77,7 @@ bool MergedTiles::beginFrame(
     }
   }
   this->Seen = view;
-  this->Parts = std::move(parts);
+  this->Parts.swap(parts);
   return known;
 }
 }

@@ -32,12 +32,13 @@ struct MergedPart
 class MergedTiles
 {
 public:
-  /// Prepares a frame of these parts, in the order of their indices. `keep`: tiles that no changed
+  /// Prepares a frame of these parts, in the order of their indices; their memory is exchanged for
+  /// that of the last frame's. `keep`: tiles that no changed
   /// part touches are what they were, if the view is the same. `wanted`: one byte a tile, or null
   /// for all; tiles that are not wanted are empty unless they are known. Returns false if all tiles
   /// are new.
   bool beginFrame(
-    const View& view, std::vector<MergedPart> parts, bool keep, const std::uint8_t* wanted);
+    const View& view, std::vector<MergedPart>& parts, bool keep, const std::uint8_t* wanted);
   void forget() { this->States.clear(); }
 
   /// True if the tile is to be emptied, and merged if it is wanted.

@@ -30,7 +30,7 @@ constexpr double Margin = 4.0;
 /// A surface that receives, in the world.
 struct Seen
 {
-  ConvexBody body;
+  const Outline* outline;
   double nearest, farthest; // linear depth from the eye, between its near and far plane
 };
 
@@ -51,8 +51,8 @@ std::vector<Seen> receiversOf(const std::vector<Outline>& outlines, const View& 
       continue;
     }
     constexpr double Infinity = std::numeric_limits<double>::infinity();
-    Seen seen{ worldCorners(outline, 0.0), Infinity, -Infinity };
-    for (const glm::dvec3& corner : seen.body)
+    Seen seen{ &outline, Infinity, -Infinity };
+    for (const glm::dvec3& corner : worldCorners(outline, 0.0))
     {
       const double depth = depthFrom(eye, corner);
       seen.nearest = std::min(seen.nearest, depth);
@@ -91,7 +91,7 @@ Part seenPart(
     if (receiver.nearest < farthest)
     {
       points.clear();
-      addCommonPart({ receiver.body, pieceOf(eye, eye.tNear, farthest),
+      addCommonPart({ worldCorners(*receiver.outline, 0.0), pieceOf(eye, eye.tNear, farthest),
                       pieceOf(light, light.tNear, light.tFar) },
         points);
       for (const glm::dvec3& p : points)

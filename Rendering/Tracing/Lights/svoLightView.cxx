@@ -20,6 +20,8 @@ std::vector<glm::dvec3> casterCorners(
   const std::vector<Outline>& outlines, const std::vector<std::uint8_t>& casters)
 {
   std::vector<glm::dvec3> corners;
+  corners.reserve(
+    8 * (casters.size() - static_cast<std::size_t>(std::count(casters.begin(), casters.end(), 0))));
   for (std::size_t i = 0; i < outlines.size(); ++i)
   {
     if (casters[i])

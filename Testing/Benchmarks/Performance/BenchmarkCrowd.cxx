@@ -3,7 +3,7 @@
 // their own. Medians over the frames of processor time and wall time, ms, and of ours the phases.
 // Objects of both have to cover the same pixels.
 //
-//   BenchmarkCrowd [--scene field|plain|small|layers|glyphs] [--objects n,n] [--motion
+//   BenchmarkCrowd [--scene field|plain|small|inside|layers|glyphs] [--objects n,n] [--motion
 //   none|orbit|all]
 //     [--frames n] [--size 1920x1080] [--maps 1] [--culling 1] [--complexity n] [--triangles n]
 //     [--json file] [--pictures prefix]
@@ -16,6 +16,7 @@
 //         are, so that most are hidden or tiny
 // plain   the same seen from high above, so that few are
 // small   objects of 480 triangles in a grid on a ground
+// inside  the same from among them: most lie outside of the view
 // layers  100 objects of 20 000 triangles in `complexity` layers behind each other, each of which
 //         fills the view but for a tenth
 // glyphs  copies of a sphere of 1000 triangles by one vtkGlyph3DMapper, in a grid on a ground;
@@ -256,7 +257,7 @@ private:
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     std::vector<vtkSmartPointer<vtkPolyDataMapper>> mappers;
-    const bool small = this->Asked.scene == "small";
+    const bool small = this->Asked.scene == "small" || this->Asked.scene == "inside";
     for (int kind = 0; kind < (small ? 1 : 4); ++kind)
     {
       auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
@@ -337,6 +338,14 @@ private:
       camera->SetFocalPoint(0.0, 0.0, 0.0);
       camera->SetViewUp(0.0, 0.0, 1.0);
       camera->SetViewAngle(30.0);
+    }
+    else if (this->Asked.scene == "inside")
+    {
+      const double turn = 0.02 * k + 0.3;
+      camera->SetPosition(1.5, 1.5, 4.0);
+      camera->SetFocalPoint(1.5 + 20.0 * std::sin(turn), 1.5 + 20.0 * std::cos(turn), 2.0);
+      camera->SetViewUp(0.0, 0.0, 1.0);
+      camera->SetViewAngle(40.0);
     }
     else if (this->Asked.scene == "field")
     {
