@@ -65,6 +65,14 @@ public:
     this->Inverse = stableInverse(edges);
   }
 
+  /// Around a cube along the world's axes.
+  CasterBox(const glm::dvec3& centre, double half)
+    : Casts(true)
+    , Centre(centre)
+    , Inverse(1.0 / half)
+  {
+  }
+
   /// False if no way from a point of `from` to the light meets the box.
   bool mayBlock(const Light& light, const PointBox& from) const
   {

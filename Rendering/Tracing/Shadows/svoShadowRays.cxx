@@ -34,7 +34,9 @@ struct ShadowRays::Start
   int number;                // of the answer's bit
 };
 
-ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
+ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye, const LooseOctree* tree)
+  : Tree(tree)
+  , Casting(tree ? scene.instances.size() : 0, None)
 {
   for (const Instance& instance : scene.instances)
   {
@@ -48,11 +50,57 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye)
       const bool mixed = traits.exact() && octree.longestList() > traits.longestExact;
       const double planeError = mixed ? CubeError * worldVoxel(instance) : 0.0;
       std::vector<Caster>& casters = instance.translucent() ? this->Translucent : this->Casters;
+      if (tree && !instance.translucent())
+      {
+        this->Casting[index] = static_cast<std::uint32_t>(casters.size());
+      }
       casters.push_back({ &instance, geometry, WorldToOctree(octree, instance.localToWorld),
         planeError, std::max(planeError, worldLeafError(instance, geometry, octree.level())),
         exact && !mixed, CasterBox(instance) });
     }
   }
+}
+
+template <class Visit>
+bool ShadowRays::anyOnTheWay(
+  const PointBox& from, const glm::dvec3& along, double share, const Visit& visit) const
+{
+  if (from.empty())
+  {
+    return false;
+  }
+  const glm::dvec3 middle = 0.5 * (from.low + from.high), half = 0.5 * (from.high - from.low);
+  if (!this->Tree)
+  {
+    return std::any_of(this->Casters.begin(), this->Casters.end(),
+      [&](const Caster& caster)
+      { return caster.box.mayMeet(middle, half, along, share) && visit(caster); });
+  }
+  bool found = false;
+  this->Tree->visit(
+    VisitOrder::from(middle),
+    [&](const LooseNode& node, std::uint8_t&)
+    {
+      const bool may =
+        !found && CasterBox(node.centre, node.half).mayMeet(middle, half, along, share);
+      return may ? NodeVisit::Below : NodeVisit::Skip;
+    },
+    [&](std::uint32_t object, bool)
+    {
+      const std::uint32_t k = this->Casting[object];
+      found = found ||
+        (k != None && this->Casters[k].box.mayMeet(middle, half, along, share) &&
+          visit(this->Casters[k]));
+    });
+  return found;
+}
+
+template <class Visit>
+bool ShadowRays::anyBeforeLight(const Light& light, const PointBox& from, const Visit& visit) const
+{
+  // As CasterBox::mayBlock().
+  return this->anyOnTheWay(
+    from, -light.along(0.5 * (from.low + from.high)), light.atInfinity() ? 1e300 : 1.0, visit);
 }
 
 bool ShadowRays::blocks(const Caster& caster, const Light& light, const glm::dvec3& position,
@@ -157,9 +205,8 @@ bool ShadowRays::shadows(
   const glm::dvec3 side = sideOf(light, position, facet);
   PointBox from;
   from.add(position, glm::dvec3(offset));
-  return std::any_of(this->Casters.begin(), this->Casters.end(),
-    [&](const Caster& caster)
-    { return caster.box.mayBlock(light, from) && blocks(caster, light, position, side, offset); });
+  return this->anyBeforeLight(light, from,
+    [&](const Caster& caster) { return blocks(caster, light, position, side, offset); });
 }
 
 /// Those that the caster shadows, one bit each.
@@ -210,16 +257,15 @@ std::uint64_t ShadowRays::shadows(const Light& light, Start* starts, int count, 
     box.add(starts[i].position, glm::dvec3(offset));
   }
   std::uint64_t dark = 0;
-  for (const Caster& caster : this->Casters)
-  {
-    if (count > 0 && caster.box.mayBlock(light, box))
+  this->anyBeforeLight(light, box,
+    [&](const Caster& caster)
     {
       dark |= this->beam(caster, light, starts, count, offset);
       count = static_cast<int>(std::remove_if(starts, starts + count,
                                  [&](const Start& start) { return dark >> start.number & 1; }) -
         starts);
-    }
-  }
+      return count == 0;
+    });
   return dark;
 }
 
@@ -261,19 +307,16 @@ bool ShadowRays::between(const glm::dvec3& from, const glm::dvec3& to, double of
 {
   const glm::dvec3 direction = to - from;
   const double length = glm::length(direction);
-  for (const Caster& caster : this->Casters)
-  {
-    const double first = std::max(offset, caster.leafError);
-    if (first < length && caster.box.mayMeet(from, glm::dvec3(0.0), direction, 1.0))
+  PointBox box;
+  box.add(from, glm::dvec3(0.0));
+  return this->anyOnTheWay(box, direction, 1.0,
+    [&](const Caster& caster)
     {
+      const double first = std::max(offset, caster.leafError);
       const Ray ray{ caster.toOctree.point(from), caster.toOctree.vector(direction), first / length,
         1.0 };
-      if (occluded(caster.instance->body->octree, ray, { caster.geometry, MaximumLevel }))
-      {
-        return true;
-      }
-    }
-  }
-  return false;
+      return first < length &&
+        occluded(caster.instance->body->octree, ray, { caster.geometry, MaximumLevel });
+    });
 }
 }

@@ -21,8 +21,9 @@ namespace svo
 class ShadowRays
 {
 public:
-  /// `eye`: of its leaf geometries.
-  ShadowRays(const Scene& scene, const LayeredView& eye);
+  /// `eye`: of its leaf geometries. `tree`: of the scene's instances (svoInstanceTree.h), borrowed;
+  /// null: each ray looks at each caster. The answers are the same.
+  ShadowRays(const Scene& scene, const LayeredView& eye, const LooseOctree* tree = nullptr);
 
   /// True if a caster lies between the point and the light. The ray starts off the point's own
   /// surface, along the facet on the light's side, by `offset` (world): the error of its leaf.
@@ -76,7 +77,18 @@ private:
   std::uint64_t shadows(const Light& light, Start* starts, int count, double offset) const;
   std::uint64_t beam(
     const Caster& caster, const Light& light, const Start* starts, int count, double offset) const;
+  /// Calls visit(caster) for those that may lie on the way from points of `from`, at most `share`
+  /// times `along`, until one of them says true; that is the answer.
+  template <class Visit>
+  bool anyOnTheWay(
+    const PointBox& from, const glm::dvec3& along, double share, const Visit& visit) const;
+  template <class Visit>
+  bool anyBeforeLight(const Light& light, const PointBox& from, const Visit& visit) const;
+
   std::vector<Caster> Casters, Translucent;
+  const LooseOctree* Tree;
+  std::vector<std::uint32_t> Casting; // by index of the instance: index into Casters, or None
+  static constexpr std::uint32_t None = ~0u;
 };
 }
 

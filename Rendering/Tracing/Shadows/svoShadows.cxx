@@ -142,7 +142,7 @@ void Shadows::prepareRays(const Scene& scene, const LayeredView& eye)
   if (this->usesRays() ||
     (this->Casting && std::any_of(scene.instances.begin(), scene.instances.end(), isSmooth)))
   {
-    this->Rays = std::make_unique<ShadowRays>(scene, eye);
+    this->Rays = std::make_unique<ShadowRays>(scene, eye, this->Cull.tree);
   }
 }
 

@@ -472,12 +472,12 @@ bool measure(
         method->Name.substr(0, 6) + ".png");
     }
   }
+  const double wrong = differing(methods[0]->covered(), methods[1]->covered());
+  std::printf("%.5f of the pixels are covered by one of the two only\n", wrong);
   if (options.culling && options.scene != "glyphs")
   {
     std::printf("%zu of the objects are not seen\n", methods[0]->unseen());
   }
-  const double wrong = differing(methods[0]->covered(), methods[1]->covered());
-  std::printf("%.5f of the pixels are covered by one of the two only\n", wrong);
   constexpr double Outlines = 0.002;
   return methods[1]->tracedActors() == expected && wrong <= Outlines;
 }
