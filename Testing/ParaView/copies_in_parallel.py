@@ -23,6 +23,7 @@ def picture(name):
 glyphs = scene.show(points, view, "3D Glyphs")
 glyphs.Orient = 1
 glyphs.SelectOrientationVectors = "Normals"
+glyphs.Scaling = 1
 glyphs.ScaleFactor = 0.3
 picture("glyphs")
 for step in range(1, 4):  # an animation
