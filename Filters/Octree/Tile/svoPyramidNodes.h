@@ -6,6 +6,7 @@
 #ifndef svoPyramidNodes_h
 #define svoPyramidNodes_h
 
+#include "svoGroupView.h"
 #include "svoOctree.h"
 #include "vtkSVOOctreeModule.h"
 
@@ -43,7 +44,7 @@ struct GroupNode
 /// Pixels of a group, the last ones included.
 struct GroupWindow
 {
-  std::uint8_t x0 = 0, x1 = 31, y0 = 0, y1 = 31;
+  std::uint8_t x0 = 0, x1 = GroupView::Pixels - 1, y0 = 0, y1 = GroupView::Pixels - 1;
 };
 
 /// Finds the nodes inside the pyramid between tMin and tMax, nearest first. False if there are more

@@ -17,23 +17,28 @@ VTKSVOTRACING_EXPORT std::uint32_t seenOf(
   const Frustum& frustum, std::uint8_t within, const LooseObjects& objects);
 
 /// onObject(object) for outsiders first, then for every object whose node and whose ball are not
-/// outside of the frustum, in the order of LooseOctree::visit(). Allocates nothing.
-template <class OnObject>
+/// outside of the frustum, in the order of LooseOctree::visit(). Before its objects,
+/// onNode(const LooseNode&) for every such node, unless it said false of one above it that lies
+/// inside as a whole. Allocates nothing.
+template <class OnNode, class OnObject>
 void eachSeen(const LooseOctree& objects, const Frustum& frustum, const VisitOrder& order,
-  const OnObject& onObject)
+  const OnNode& onNode, const OnObject& onObject)
 {
+  const auto allPlanes = static_cast<std::uint8_t>((1u << frustum.planes()) - 1u);
   objects.visitGroups(
     order,
     [&](const LooseNode& node, std::uint8_t& within)
     {
       const Frustum::Side side = frustum.box(node.centre, glm::dvec3(node.half), within);
-      return side == Frustum::Side::Outside ? NodeVisit::Skip
-        : side == Frustum::Side::Inside     ? NodeVisit::All
-                                            : NodeVisit::Below;
+      if (side == Frustum::Side::Outside)
+      {
+        return NodeVisit::Skip;
+      }
+      return onNode(node) || side != Frustum::Side::Inside ? NodeVisit::Below : NodeVisit::All;
     },
     [&](const LooseObjects& some, bool all, std::uint8_t within)
     {
-      if (all || !some.x)
+      if (all || within == allPlanes || !some.x)
       {
         for (std::uint32_t i = 0; i < some.count; ++i)
         {
@@ -46,6 +51,13 @@ void eachSeen(const LooseOctree& objects, const Frustum& frustum, const VisitOrd
         onObject(some.objects[__builtin_ctz(seen)]);
       }
     });
+}
+template <class OnObject>
+void eachSeen(const LooseOctree& objects, const Frustum& frustum, const VisitOrder& order,
+  const OnObject& onObject)
+{
+  eachSeen(
+    objects, frustum, order, [](const LooseNode&) { return false; }, onObject);
 }
 }
 

@@ -5,6 +5,8 @@
 #include <memory>
 #include <mutex>
 
+#include <glm/geometric.hpp>
+
 namespace svo
 {
 void LayeredView::release()
@@ -53,6 +55,9 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
     this->Order[k] = this->EntryOf[this->InSight.order[k]];
     this->NodeOf[this->Order[k]] = this->InSight.nodeOf[k];
   }
+  this->FromEye = view.parallel
+    ? 0.0
+    : glm::dot(view.originX, view.directionX) / glm::dot(view.directionX, view.directionX);
   this->LargestError = 0.0;
   for (const Entry& entry : this->Instances)
   {

@@ -243,11 +243,16 @@ private:
   bool hidesNode(std::uint32_t node, TileScratch& scratch) const;
   /// True if it hides all that an instance has there.
   bool isHidden(const Entry& entry, TileScratch& scratch) const;
-  /// How much nearer than its nearest corner a hit of an instance may be found, and by how much
-  /// that of another one may be off.
-  double slackOf(const Entry& entry) const
+  /// How much nearer than its nearest corner a hit in what is `deep` from there on may be found,
+  /// and by how much that of another instance may be off.
+  double slack(double nearest, double deep) const
   {
-    return 2e-3 * entry.local.tMax + 1e-5 * std::abs(entry.local.base) + this->LargestError;
+    return 2e-3 * deep + 1e-5 * (std::abs(nearest) + std::abs(this->FromEye)) + this->LargestError;
+  }
+  /// Linear depth before which an instance has no hits.
+  double before(const Entry& entry) const
+  {
+    return entry.local.base - this->slack(entry.local.base, entry.local.tMax);
   }
   /// Adds what a group of tiles may see of those that are traced together. False, and all is to be
   /// done once more, if one of them turned out to have to be traced by rays.
@@ -324,8 +329,9 @@ private:
   std::vector<int> Levels;
   std::vector<LeafGeometry> Geometries;
   std::vector<std::uint8_t> Placed;
-  std::vector<double> Errors;         // of t; 0: who is in front follows from t as it is
-  double LargestError = 0.0;          // of them
+  std::vector<double> Errors; // of t; 0: who is in front follows from t as it is
+  double LargestError = 0.0;  // of them
+  double FromEye = 0.0;       // to where linear depths begin, of a view that is not parallel
   std::vector<std::uint32_t> EntryOf; // index into Instances
   KeyBase Keys;
   LayerCache Layers;

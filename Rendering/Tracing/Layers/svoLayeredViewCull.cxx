@@ -36,15 +36,16 @@ bool LayeredView::findWindow(std::size_t group, TileScratch& scratch) const
 
 bool LayeredView::hides(const TileScratch& scratch, const PixelRect& rect, double depth) const
 {
-  // As PixelFunctions::key().
-  double key = depth - this->Keys.far;
+  // As PixelFunctions::key(); a view may count depths from elsewhere than where its rays meet.
+  const double at = depth + this->FromEye;
+  double key = at - this->Keys.far;
   if (!this->Seen.parallel)
   {
-    if (!(depth > 0.0))
+    if (!(at > 0.0))
     {
       return false;
     }
-    key = (this->Keys.deep ? -this->Keys.far : key) * this->Keys.far / depth;
+    key = (this->Keys.deep ? -this->Keys.far : key) * this->Keys.far / at;
   }
   return scratch.wants(rect) &&
     scratch.found.group.hides(scratch.windowOf(rect), static_cast<float>(key));
@@ -60,10 +61,10 @@ bool LayeredView::hidesNode(std::uint32_t node, TileScratch& scratch) const
   if (known / 2 != scratch.asking)
   {
     const SeenNode& n = this->InSight.nodes[node];
-    const double slack = 2e-3 * (n.cube.farthest - n.cube.nearest) +
-      1e-5 * std::abs(n.cube.nearest) + this->LargestError;
-    const bool hidden = this->hidesNode(n.parent, scratch) ||
-      this->hides(scratch, n.cube.rect, n.cube.nearest - slack);
+    const double before =
+      n.cube.nearest - this->slack(n.cube.nearest, n.cube.farthest - n.cube.nearest);
+    const bool hidden =
+      this->hidesNode(n.parent, scratch) || this->hides(scratch, n.cube.rect, before);
     known = 2 * scratch.asking + hidden;
   }
   return known % 2 != 0;
@@ -77,7 +78,7 @@ bool LayeredView::isHidden(const Entry& entry, TileScratch& scratch) const
   }
   const auto e = static_cast<std::size_t>(&entry - this->Instances.data());
   return this->hidesNode(this->NodeOf[e], scratch) ||
-    this->hides(scratch, entry.local.pixels, entry.local.base - this->slackOf(entry));
+    this->hides(scratch, entry.local.pixels, this->before(entry));
 }
 
 double LayeredView::deepest(const MergedTile& merged) const

@@ -133,8 +133,7 @@ void LayeredView::order(int tileX, int tileY, bool onlyChanged, TileScratch& scr
     }
     else if (!layer && candidate.way != Way::Together && !candidate.hidden &&
       (candidate.way == Way::Alone ||
-        (!(entry.local.base - this->slackOf(entry) > scratch.deepest) &&
-          this->meets(tileX, tileY, candidate))))
+        (!(this->before(entry) > scratch.deepest) && this->meets(tileX, tileY, candidate))))
     {
       candidate.key = candidate.way == Way::Alone ? -std::numeric_limits<double>::infinity()
                                                   : entry.local.base + candidate.tNear;

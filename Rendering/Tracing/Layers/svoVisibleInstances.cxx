@@ -1,6 +1,5 @@
 #include "svoVisibleInstances.h"
 
-#include "svoFrustum.h"
 #include "svoLeafError.h"
 #include "svoSeenObjects.h"
 
@@ -53,47 +52,27 @@ namespace
 /// What the tree knows of a view: `sight.order` is all that may be seen.
 void askTree(const LooseOctree& tree, const View& view, Sight& sight)
 {
-  const Frustum frustum(view);
-  const auto allPlanes = static_cast<std::uint8_t>((1u << frustum.planes()) - 1u);
   std::uint32_t nodeAt[LooseOctree::MostDepth + 1]; // on the way to the one that is visited
   std::uint32_t current = SeenNode::None;
-  const auto add = [&](std::uint32_t object)
-  {
-    sight.order.push_back(object);
-    sight.nodeOf.push_back(current);
-  };
-  tree.visitGroups(
-    VisitOrder(view),
-    [&](const LooseNode& node, std::uint8_t& within)
+  eachSeen(
+    tree, Frustum(view), VisitOrder(view),
+    [&](const LooseNode& node)
     {
-      if (within != allPlanes &&
-        frustum.box(node.centre, glm::dvec3(node.half), within) == Frustum::Side::Outside)
-      {
-        return NodeVisit::Skip;
-      }
-      const std::uint32_t parent = node.depth > 0 ? nodeAt[node.depth - 1] : SeenNode::None;
-      current = parent;
+      current = node.depth > 0 ? nodeAt[node.depth - 1] : SeenNode::None;
       if (node.objects >= SeenNode::Fewest)
       {
-        const SeenCube cube =
-          seeCube(node.centre - node.half, 2.0 * node.half, glm::dmat4(1.0), view);
+        const std::uint32_t parent = current;
         current = static_cast<std::uint32_t>(sight.nodes.size());
-        sight.nodes.push_back({ parent, cube });
+        sight.nodes.push_back(
+          { parent, seeCube(node.centre - node.half, 2.0 * node.half, glm::dmat4(1.0), view) });
       }
       nodeAt[node.depth] = current;
-      return NodeVisit::Below; // for the nodes' sake, also where all is inside
+      return true; // for the nodes' sake, also where all is inside
     },
-    [&](const LooseObjects& some, bool, std::uint8_t within)
+    [&](std::uint32_t object)
     {
-      const bool each = some.x && within != allPlanes;
-      const std::uint32_t seen = each ? seenOf(frustum, within, some) : 0;
-      for (std::uint32_t i = 0; i < some.count; ++i)
-      {
-        if (!each || (seen >> i & 1))
-        {
-          add(some.objects[i]);
-        }
-      }
+      sight.order.push_back(object);
+      sight.nodeOf.push_back(current);
     });
 }
 }

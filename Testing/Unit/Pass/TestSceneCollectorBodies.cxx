@@ -112,8 +112,8 @@ TEST_F(KeptBodies, AreWhereTheyAreSeen)
     EXPECT_TRUE(one.castShadow) << i;
     EXPECT_FALSE(one.visible) << i;
     const bool another = i == Splats || i == Splats + Rods; // shape, or number of facets
-    EXPECT_EQ(
-      i > 0 && one.body->octree.id() == scene.scene.instances[i - 1].body->octree.id(), i > 0 && !another)
+    EXPECT_EQ(i > 0 && one.body->octree.id() == scene.scene.instances[i - 1].body->octree.id(),
+      i > 0 && !another)
       << i;
   }
   EXPECT_EQ(store.built(), 2) << "the triangle's and the ball's";

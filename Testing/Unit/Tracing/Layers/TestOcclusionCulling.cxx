@@ -122,9 +122,13 @@ svo::View viewOf(Random& random, double size)
   {
     const double near = size * random.in(0.01, 1.0), half = near * random.in(0.2, 1.0);
     const double x = random.in(-half, half), y = random.in(-half, half); // off centre, as of tiles
-    svo::makeView(camera,
-      glm::frustum(x - half * aspect, x + half * aspect, y - half, y + half, near, far), width,
-      height, view);
+    // Depths are not counted from the eye, as with explicit projections.
+    const double apart = random.once(3) ? size * random.in(-3.0, 3.0) : 0.0;
+    const glm::dvec3 along(0.0, 0.0, apart);
+    svo::makeView(glm::translate(glm::dmat4(1.0), -along) * camera,
+      glm::frustum(x - half * aspect, x + half * aspect, y - half, y + half, near, far) *
+        glm::translate(glm::dmat4(1.0), along),
+      width, height, view);
   }
   return view;
 }
