@@ -17,9 +17,10 @@ class Octree;
 
 struct ShortLists
 {
-  /// Most triangles of a list. Longer ones test triangles that a tile does not see; shorter ones
-  /// descend to more nodes.
-  static constexpr std::uint32_t Most = 16;
+  /// Most triangles of a list. Longer ones test triangles that are not seen; shorter ones descend
+  /// to more nodes, and name a triangle more often. With 16 views of 10^5 triangles take 30 %
+  /// longer, with 128 lights of small triangles 10 %; ordinary meshes take the same with all three.
+  static constexpr std::uint32_t Most = 64;
   /// A node that has no list: its children are to be looked at, or it lies below one that has.
   static constexpr std::uint32_t None = 0xffffffffu;
 

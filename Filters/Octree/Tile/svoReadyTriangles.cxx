@@ -62,25 +62,44 @@ HWY_INLINE F most(F a, F b, F c)
   return hn::Max(hn::Max(a, b), c);
 }
 
-/// Corners of as many triangles as there are lanes.
+/// Corners of some triangles. They are written here number by number: vectors that gather theirs
+/// all over the mesh take longer.
+struct ReadCorners
+{
+  static constexpr std::size_t Most = 64; // a multiple of the lanes
+
+  HWY_ALIGN float x[3][Most], y[3][Most], z[3][Most];
+
+  HWY_INLINE void read(const Surface& surface, const std::uint32_t* ids, std::size_t count)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const glm::uvec3& triangle = surface.triangles[ids[i]];
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        const glm::vec3& point = surface.points[triangle[corner]];
+        this->x[corner][i] = point.x;
+        this->y[corner][i] = point.y;
+        this->z[corner][i] = point.z;
+      }
+    }
+  }
+};
+
+/// One corner of as many triangles as there are lanes.
 struct ProjectedCorners
 {
   F x, y, w; // times w
   F k;
 
-  HWY_INLINE ProjectedCorners(const Surface& surface, const GroupView& view, I triangle, int corner)
+  HWY_INLINE ProjectedCorners(
+    const GroupView& view, const ReadCorners& read, int corner, std::size_t first)
   {
     const DF df;
-    const DI di;
-    const auto times3 = [](I v) { return hn::Add(v, hn::Add(v, v)); };
-    const I point = hn::GatherIndex(di,
-      reinterpret_cast<const std::int32_t*>(&surface.triangles[0].x) + corner, times3(triangle));
-    const I at = times3(point);
-    const float* points = &surface.points[0].x;
     const F one = hn::Set(df, 1.0f);
-    const F vx = hn::Sub(hn::GatherIndex(df, points, at), one);
-    const F vy = hn::Sub(hn::GatherIndex(df, points + 1, at), one);
-    const F vz = hn::Sub(hn::GatherIndex(df, points + 2, at), one);
+    const F vx = hn::Sub(hn::Load(df, read.x[corner] + first), one);
+    const F vy = hn::Sub(hn::Load(df, read.y[corner] + first), one);
+    const F vz = hn::Sub(hn::Load(df, read.z[corner] + first), one);
     x = linear(view.x, vx, vy, vz);
     y = linear(view.y, vx, vy, vz);
     w = linear(view.w, vx, vy, vz);
@@ -164,21 +183,6 @@ HWY_INLINE void storeSlots(const ReadyLanes& t, hn::Mask<DF> mask, I triangle, s
   slots.count += pack.size();
 }
 
-/// Asks for the corners of as many triangles as there are lanes, so that they are there when they
-/// are read: a mesh of many small triangles lies far from the processor.
-HWY_INLINE void fetchCorners(
-  const Surface& surface, const std::uint32_t* id, const std::uint32_t* end)
-{
-  const std::uint32_t* last = std::min(end, id + hn::Lanes(DF()));
-  for (; id < last; ++id)
-  {
-    const glm::uvec3& triangle = surface.triangles[*id];
-    __builtin_prefetch(&surface.points[triangle.x]);
-    __builtin_prefetch(&surface.points[triangle.y]);
-    __builtin_prefetch(&surface.points[triangle.z]);
-  }
-}
-
 /// But for triangles that slots.crossing names then.
 void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t count,
   const GroupView& view, std::uint32_t owner, TriangleGroup::Slots& slots, SeenPoints* points)
@@ -188,19 +192,23 @@ void makeReady(const Surface& surface, const std::uint32_t* ids, std::size_t cou
   const F zero = hn::Zero(df), one = hn::Set(df, 1.0f);
   constexpr float Rounding = 1.0f / (1 << 24);
   constexpr float FarthestCorner = 65536.0f; // pixels
-  constexpr std::size_t Ahead = 2;           // vectors
+  ReadCorners corners;
   slots.makeRoom(slots.count + count + hn::Lanes(df));
   slots.crossingCount = 0;
   for (std::size_t first = 0; first < count; first += hn::Lanes(df))
   {
-    fetchCorners(surface, ids + first + Ahead * hn::Lanes(df), ids + count);
     const std::size_t left = count - first;
+    if (first % ReadCorners::Most == 0)
+    {
+      // Behind the last id there are zeros.
+      corners.read(surface, ids + first,
+        std::min(ReadCorners::Most, (left + hn::Lanes(df) - 1) / hn::Lanes(df) * hn::Lanes(df)));
+    }
     const auto mine = left >= hn::Lanes(df) ? hn::Eq(zero, zero) : hn::FirstN(df, left);
-    // Behind the last id there are zeros.
     const I triangle = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(ids) + first);
-    const ProjectedCorners a(surface, view, triangle, 0);
-    const ProjectedCorners b(surface, view, triangle, 1);
-    const ProjectedCorners c(surface, view, triangle, 2);
+    const ProjectedCorners a(view, corners, 0, first % ReadCorners::Most);
+    const ProjectedCorners b(view, corners, 1, first % ReadCorners::Most);
+    const ProjectedCorners c(view, corners, 2, first % ReadCorners::Most);
 
     // Pixels.
     const auto seen = hn::Ge(least(a.w, b.w, c.w), hn::Set(df, view.leastW));

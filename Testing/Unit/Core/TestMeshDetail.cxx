@@ -59,9 +59,10 @@ svo::Octree built(vtkPolyData* mesh, int level)
   return octree;
 }
 
-/// Share of the bricks that have more triangles than a tile's rays test side by side.
+/// Share of the bricks that have more triangles than a ray's lanes test side by side.
 double longLists(const svo::Octree& octree)
 {
+  constexpr std::uint32_t Few = 16;
   const std::uint32_t first = octree.brickBegin();
   const auto end = static_cast<std::uint32_t>(octree.header().nodeCount);
   std::uint32_t lists = 0;
@@ -69,7 +70,7 @@ double longLists(const svo::Octree& octree)
   {
     std::uint32_t count, inlineId;
     octree.brickTriangles(brick, count, inlineId);
-    lists += count > svo::ShortLists::Most;
+    lists += count > Few;
   }
   return static_cast<double>(lists) / (end - first);
 }
