@@ -76,23 +76,27 @@ bool ShadowRays::anyOnTheWay(
       [&](const Caster& caster)
       { return caster.box.mayMeet(middle, half, along, share) && visit(caster); });
   }
-  bool found = false;
+  // In the order in which they are asked without a tree: where a beam passes an edge as closely as
+  // floats tell, the answer is that of the points which are asked together.
+  std::vector<std::uint32_t> asked;
   this->Tree->visit(
     VisitOrder::from(middle),
     [&](const LooseNode& node, std::uint8_t&)
     {
-      const bool may =
-        !found && CasterBox(node.centre, node.half).mayMeet(middle, half, along, share);
+      const bool may = CasterBox(node.centre, node.half).mayMeet(middle, half, along, share);
       return may ? NodeVisit::Below : NodeVisit::Skip;
     },
     [&](std::uint32_t object, bool)
     {
       const std::uint32_t k = this->Casting[object];
-      found = found ||
-        (k != None && this->Casters[k].box.mayMeet(middle, half, along, share) &&
-          visit(this->Casters[k]));
+      if (k != None && this->Casters[k].box.mayMeet(middle, half, along, share))
+      {
+        asked.push_back(k);
+      }
     });
-  return found;
+  std::sort(asked.begin(), asked.end());
+  return std::any_of(
+    asked.begin(), asked.end(), [&](std::uint32_t k) { return visit(this->Casters[k]); });
 }
 
 template <class Visit>
