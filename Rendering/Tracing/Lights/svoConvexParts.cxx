@@ -13,28 +13,14 @@ namespace
 {
 using Polygon = std::vector<glm::dvec3>;
 
-/// The half-space dot(normal, x) >= offset.
-struct HalfSpace
-{
-  glm::dvec3 normal;
-  double offset;
-};
-
-struct Face
-{
-  Polygon polygon;
-  HalfSpace inside;
-  bool flat; // the whole body lies in its plane
-};
-
-std::vector<Face> facesOf(const ConvexBody& body)
+std::vector<ConvexFace> facesOf(const ConvexBody& body)
 {
   glm::dvec3 middle(0.0);
   for (const glm::dvec3& corner : body)
   {
     middle += 0.125 * corner;
   }
-  std::vector<Face> faces;
+  std::vector<ConvexFace> faces;
   for (int axis = 0; axis < 3; ++axis)
   {
     const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
@@ -52,13 +38,18 @@ std::vector<Face> facesOf(const ConvexBody& body)
       const double side = glm::dot(normal, middle - polygon[0]);
       normal = side < 0.0 ? -normal : normal;
       const bool flat = std::abs(side) <= 1e-12 * glm::length(diagonal);
-      faces.push_back({ polygon, { normal, glm::dot(normal, polygon[0]) }, flat });
+      faces.push_back({ polygon, normal, glm::dot(normal, polygon[0]), flat });
     }
   }
   return faces;
 }
 
-void clip(Polygon& polygon, const HalfSpace& side, Polygon& scratch)
+bool isFlat(const std::vector<ConvexFace>& faces)
+{
+  return std::any_of(faces.begin(), faces.end(), [](const ConvexFace& face) { return face.flat; });
+}
+
+void clip(Polygon& polygon, const ConvexFace& side, Polygon& scratch)
 {
   scratch.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -93,37 +84,65 @@ ConvexBody pieceOf(const View& view, double nearest, double farthest)
   return body;
 }
 
-void addCommonPart(const std::vector<ConvexBody>& bodies, std::vector<glm::dvec3>& points)
+CommonPart::CommonPart(const std::vector<ConvexBody>& bodies)
 {
-  std::vector<std::vector<Face>> faces;
-  std::size_t flat = bodies.size(); // a flat one, if there is one, holds all of the common part
   for (const ConvexBody& body : bodies)
   {
-    faces.push_back(facesOf(body));
-    const auto isFlat = [](const Face& face) { return face.flat; };
-    if (std::any_of(faces.back().begin(), faces.back().end(), isFlat))
+    this->Faces.push_back(facesOf(body));
+    this->Flat = this->Flat || isFlat(this->Faces.back());
+  }
+}
+
+void CommonPart::add(const ConvexBody& body, std::vector<glm::dvec3>& points) const
+{
+  // Nearly all bodies lie beyond one face, or before all of them.
+  bool within = !this->Flat;
+  for (const std::vector<ConvexFace>& faces : this->Faces)
+  {
+    for (const ConvexFace& face : faces)
     {
-      flat = faces.size() - 1;
+      int before = 0, beyond = 0;
+      for (const glm::dvec3& corner : body)
+      {
+        const double side = glm::dot(face.normal, corner) - face.offset;
+        before += side >= 0.0;
+        beyond += side < 0.0;
+      }
+      if (beyond == 8 && !face.flat)
+      {
+        return;
+      }
+      within = within && before == 8;
     }
   }
+  if (within)
+  {
+    points.insert(points.end(), body.begin(), body.end());
+    return;
+  }
+  std::vector<std::vector<ConvexFace>> all = this->Faces;
+  all.push_back(facesOf(body));
+  // A flat one, if there is one, holds all of the common part.
+  const auto flat = static_cast<std::size_t>(
+    std::find_if(all.rbegin(), all.rend(), isFlat).base() - all.begin() - 1);
   // The corners of the common part lie on faces of some body, inside of all others.
   Polygon scratch;
-  for (std::size_t i = 0; i < faces.size(); ++i)
+  for (std::size_t i = 0; i < all.size(); ++i)
   {
-    for (const Face& face : faces[i])
+    for (const ConvexFace& face : all[i])
     {
-      if (flat < faces.size() && (i != flat || !face.flat))
+      if (flat < all.size() && (i != flat || !face.flat))
       {
         continue;
       }
       Polygon polygon = face.polygon;
-      for (std::size_t k = 0; k < faces.size() && !polygon.empty(); ++k)
+      for (std::size_t k = 0; k < all.size() && !polygon.empty(); ++k)
       {
-        for (const Face& other : faces[k])
+        for (const ConvexFace& other : all[k])
         {
           if (k != i && !other.flat)
           {
-            clip(polygon, other.inside, scratch);
+            clip(polygon, other, scratch);
           }
         }
       }

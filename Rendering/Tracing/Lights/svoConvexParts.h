@@ -18,8 +18,29 @@ using ConvexBody = std::array<glm::dvec3, 8>;
 /// The piece of a view between two linear depths.
 ConvexBody pieceOf(const View& view, double nearest, double farthest);
 
-/// Adds points whose convex hull is the intersection of all bodies; none if it is empty.
-void addCommonPart(const std::vector<ConvexBody>& bodies, std::vector<glm::dvec3>& points);
+/// A face of a body, and the half-space dot(normal, x) >= offset that the body lies in.
+struct ConvexFace
+{
+  std::vector<glm::dvec3> polygon;
+  glm::dvec3 normal;
+  double offset;
+  bool flat; // the whole body lies in its plane
+};
+
+/// What some bodies have in common with one body after the other.
+class CommonPart
+{
+public:
+  explicit CommonPart(const std::vector<ConvexBody>& bodies);
+
+  /// Adds points whose convex hull is the intersection of `body` and all of them; none if it is
+  /// empty.
+  void add(const ConvexBody& body, std::vector<glm::dvec3>& points) const;
+
+private:
+  std::vector<std::vector<ConvexFace>> Faces; // of a body
+  bool Flat = false;                          // one of them is
+};
 }
 
 #endif

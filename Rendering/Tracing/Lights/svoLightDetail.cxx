@@ -84,16 +84,20 @@ Part seenPart(
   const std::vector<Seen>& receivers, const View& eye, double farthest, const View& light)
 {
   Part part;
+  if (!(eye.tNear < farthest))
+  {
+    return part;
+  }
   std::vector<glm::dvec3> points;
   const glm::dmat4 toClip = light.viewToClip * light.worldToView;
+  const CommonPart seenByBoth(
+    { pieceOf(eye, eye.tNear, farthest), pieceOf(light, light.tNear, light.tFar) });
   for (const Seen& receiver : receivers)
   {
     if (receiver.nearest < farthest)
     {
       points.clear();
-      addCommonPart({ worldCorners(*receiver.outline, 0.0), pieceOf(eye, eye.tNear, farthest),
-                      pieceOf(light, light.tNear, light.tFar) },
-        points);
+      seenByBoth.add(worldCorners(*receiver.outline, 0.0), points);
       for (const glm::dvec3& p : points)
       {
         const glm::dvec4 clip = toClip * glm::dvec4(p, 1.0);

@@ -37,6 +37,11 @@ public:
   CasterBox() = default;
   /// Around nothing if the instance casts no shadow.
   explicit CasterBox(const Instance& instance)
+    : CasterBox(instance, stableInverse(glm::dmat3(instance.localToWorld)))
+  {
+  }
+  /// `inverse`: of its matrix' linear part.
+  CasterBox(const Instance& instance, const glm::dmat3& inverse)
   {
     this->Casts = instance.castShadow && instance.body->octree && !instance.body->octree.empty();
     if (!this->Casts)
@@ -56,13 +61,14 @@ public:
         high[i] = std::min(high[i], h.meshBounds[2 * i + 1] + 2.0 * h.voxelSize);
       }
     }
-    glm::dmat3 edges(instance.localToWorld);
     for (int i = 0; i < 3; ++i)
     {
-      edges[i] *= 0.5 * (high[i] - low[i]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        this->Inverse[axis][i] = inverse[axis][i] / (0.5 * (high[i] - low[i]));
+      }
     }
     this->Centre = glm::dvec3(instance.localToWorld * glm::dvec4(0.5 * (low + high), 1.0));
-    this->Inverse = stableInverse(edges);
   }
 
   /// Around a cube along the world's axes.

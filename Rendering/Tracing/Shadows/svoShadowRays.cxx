@@ -54,9 +54,10 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye, const LooseOc
       {
         this->Casting[index] = static_cast<std::uint32_t>(casters.size());
       }
-      casters.push_back({ &instance, geometry, WorldToOctree(octree, instance.localToWorld),
-        planeError, std::max(planeError, worldLeafError(instance, geometry, octree.level())),
-        exact && !mixed, CasterBox(instance) });
+      const WorldToOctree toOctree(octree, instance.localToWorld);
+      casters.push_back({ &instance, geometry, toOctree, planeError,
+        std::max(planeError, worldLeafError(instance, geometry, octree.level())), exact && !mixed,
+        CasterBox(instance, toOctree.inverse) });
     }
   }
 }
