@@ -336,6 +336,10 @@ int main(int argc, char** argv)
     else if (name == "--culling")
     {
       options.culling = argument == "1";
+#ifndef SVO_CULLING
+      std::fprintf(stderr, "BenchmarkCrowd: this commit's pass culls nothing\n");
+      return 1;
+#endif
     }
     else if (name == "--size")
     {
