@@ -89,14 +89,13 @@ CommonPart::CommonPart(const std::vector<ConvexBody>& bodies)
   for (const ConvexBody& body : bodies)
   {
     this->Faces.push_back(facesOf(body));
-    this->Flat = this->Flat || isFlat(this->Faces.back());
   }
 }
 
 void CommonPart::add(const ConvexBody& body, std::vector<glm::dvec3>& points) const
 {
   // Nearly all bodies lie beyond one face, or before all of them.
-  bool within = !this->Flat;
+  bool within = true;
   for (const std::vector<ConvexFace>& faces : this->Faces)
   {
     for (const ConvexFace& face : faces)
@@ -112,7 +111,7 @@ void CommonPart::add(const ConvexBody& body, std::vector<glm::dvec3>& points) co
       {
         return;
       }
-      within = within && before == 8;
+      within = within && before == 8 && !face.flat;
     }
   }
   if (within)
@@ -120,11 +119,11 @@ void CommonPart::add(const ConvexBody& body, std::vector<glm::dvec3>& points) co
     points.insert(points.end(), body.begin(), body.end());
     return;
   }
-  std::vector<std::vector<ConvexFace>> all = this->Faces;
-  all.push_back(facesOf(body));
+  std::vector<std::vector<ConvexFace>> all{ facesOf(body) };
+  all.insert(all.end(), this->Faces.begin(), this->Faces.end());
   // A flat one, if there is one, holds all of the common part.
-  const auto flat = static_cast<std::size_t>(
-    std::find_if(all.rbegin(), all.rend(), isFlat).base() - all.begin() - 1);
+  const auto flat =
+    static_cast<std::size_t>(std::find_if(all.begin(), all.end(), isFlat) - all.begin());
   // The corners of the common part lie on faces of some body, inside of all others.
   Polygon scratch;
   for (std::size_t i = 0; i < all.size(); ++i)

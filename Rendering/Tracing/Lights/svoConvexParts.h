@@ -39,7 +39,6 @@ public:
 
 private:
   std::vector<std::vector<ConvexFace>> Faces; // of a body
-  bool Flat = false;                          // one of them is
 };
 }
 
