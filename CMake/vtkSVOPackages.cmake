@@ -1,6 +1,6 @@
 # Debian packages: `cpack` in a build tree leaves them in its folder packages, for the release of Debian
 # that it was built on. From build/vtk:
-#   libvtksvo0.1      the libraries, called after their soname as Debian's policy wants it
+#   libvtksvo0.2      the libraries, called after their soname as Debian's policy wants it
 #   libvtksvo-dev     headers and find_package(vtkSVO)
 #   python3-vtksvo    `import vtksvo`
 # and from build/paraview:
@@ -20,8 +20,8 @@ set(CPACK_PACKAGE_CONTACT "The vtkSVO authors <vtksvo@users.noreply.invalid>")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-# To apt the packages for a newer Debian are newer: 0.1.0-1~deb12, 0.1.0-1~deb13, and for unstable, which
-# has no number, 0.1.0-1.
+# To apt the packages for a newer Debian are newer: 0.2.0-1~deb12, 0.2.0-1~deb13, and for unstable, which
+# has no number, 0.2.0-1.
 execute_process(
   COMMAND sh -c ". /etc/os-release && echo $ID$VERSION_ID"
   OUTPUT_VARIABLE vtksvo_release OUTPUT_STRIP_TRAILING_WHITESPACE)
