@@ -26,7 +26,8 @@ libembree-dev|the ray tracer that the benchmark compares with
 libopenvdb-tools|vdb_print, which has to open the OpenVDB files that we write
 python3-openvdb|so has OpenVDB's Python module
 dpkg-dev|finds out what our own packages depend on
-file|tells it which of their files are programs"
+file|tells it which of their files are programs
+lintian|finds what Debian would not have in them"
 # ParaView's window is made with Qt 5 in Debian 12 and with Qt 6 since.
 svg_icons=qt6-svg-plugins
 if grep -qs '^VERSION_ID="12"' /etc/os-release; then

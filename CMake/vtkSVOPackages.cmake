@@ -54,13 +54,15 @@ endif ()
 # The last touches to what was installed for a package.
 set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_LIST_DIR}/vtkSVOPackagesLayout.cmake")
 set(CPACK_VTKSVO_LICENSE "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE")
+set(CPACK_VTKSVO_CHANGELOG "${CMAKE_CURRENT_SOURCE_DIR}/CHANGELOG.md")
+set(CPACK_VTKSVO_DEBIAN_VERSION "${vtksvo_debian_version}")
 
 if (VTKSVO_PARAVIEW)
   set(CPACK_PACKAGE_NAME paraview-vtksvo)
   set(CPACK_DEBIAN_PACKAGE_NAME paraview-vtksvo)
   set(CPACK_DEBIAN_PACKAGE_SECTION science)
   set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "sparse voxel octrees with shadows - ParaView plugin")
-  set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "${PROJECT_DESCRIPTION}: the plugin SparseVoxelOctree.")
+  set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "The plugin SparseVoxelOctree: a representation with shadows, filters, sources.")
   set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${vtksvo_prerm})
   # Everything but headers. ParaView 5.11 gives the plugin itself no component.
   set(CPACK_DEB_COMPONENT_INSTALL OFF)
@@ -85,10 +87,23 @@ else ()
   set(CPACK_COMPONENTS_ALL runtime development)
   set(vtksvo_library "libvtksvo${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
 
+  # Whose libraries they are, for packages of programs that are linked with them, and that the system's list
+  # of libraries is made anew.
+  set(vtksvo_shlibs "")
+  foreach (module IN LISTS vtksvo_modules)
+    get_target_property(vtksvo_name "${module}" OUTPUT_NAME)
+    string(APPEND vtksvo_shlibs "lib${vtksvo_name} ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} "
+      "${vtksvo_library} (>= ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}.0)\n")
+  endforeach ()
+  file(WRITE "${CMAKE_BINARY_DIR}/CMakeFiles/shlibs" "${vtksvo_shlibs}")
+  file(WRITE "${CMAKE_BINARY_DIR}/CMakeFiles/triggers" "activate-noawait ldconfig\n")
+
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME "${vtksvo_library}")
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA
+    "${CMAKE_BINARY_DIR}/CMakeFiles/shlibs" "${CMAKE_BINARY_DIR}/CMakeFiles/triggers")
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_MULTIARCH same)
-  set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "${PROJECT_DESCRIPTION}: the libraries.")
+  set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "The libraries of vtkSVO, which programs and the other packages use.")
 
   vtksvo_only_minor(vtksvo_vtk_dev libvtk9-dev "${VTK_VERSION}")
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libvtksvo-dev)
@@ -96,7 +111,7 @@ else ()
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "${vtksvo_library} (= ${vtksvo_debian_version}), ${vtksvo_vtk_dev}, libglm-dev, libhwy-dev")
-  set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}: headers and CMake package.")
+  set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers and CMake package of vtkSVO, for programs of one's own.")
 
   if (VTKSVO_PYTHON)
     list(APPEND CPACK_COMPONENTS_ALL python)
@@ -105,7 +120,7 @@ else ()
     set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${vtksvo_prerm}")
     set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "${vtksvo_library} (= ${vtksvo_debian_version}), python3-vtk9, ${vtksvo_python_depends}")
-    set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION}: the Python package vtksvo.")
+    set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The classes of vtkSVO for Python: import vtksvo.")
   endif ()
 endif ()
 include(CPack)

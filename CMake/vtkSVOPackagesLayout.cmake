@@ -1,8 +1,16 @@
 # Called by cpack between installing and packing: what a package of Debian has beyond an installation.
 function (vtksvo_finish folder package)
+  set(doc "${folder}/usr/share/doc/${package}")
   file(REMOVE_RECURSE "${folder}/usr/share/doc")
-  file(MAKE_DIRECTORY "${folder}/usr/share/doc/${package}")
-  configure_file("${CPACK_VTKSVO_LICENSE}" "${folder}/usr/share/doc/${package}/copyright" COPYONLY)
+  file(MAKE_DIRECTORY "${doc}")
+  configure_file("${CPACK_VTKSVO_LICENSE}" "${doc}/copyright" COPYONLY)
+  # What is new, and, in Debian's words, of which version these packages are.
+  configure_file("${CPACK_VTKSVO_CHANGELOG}" "${doc}/changelog" COPYONLY)
+  execute_process(COMMAND date -R -r "${CPACK_VTKSVO_CHANGELOG}"
+    OUTPUT_VARIABLE date OUTPUT_STRIP_TRAILING_WHITESPACE)
+  file(WRITE "${doc}/changelog.Debian" "vtksvo (${CPACK_VTKSVO_DEBIAN_VERSION}) unstable; urgency=medium\n\n"
+    "  * Packages of this version; changelog.gz says what is new.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
+  execute_process(COMMAND gzip -9n "${doc}/changelog" "${doc}/changelog.Debian")
 
   # Below /usr Python packages lie in python3, not in a folder for each minor version.
   file(GLOB python "${folder}/usr/lib/python3.*")

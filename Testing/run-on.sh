@@ -8,7 +8,7 @@
 #   --folder DIR   where roots, packages and logs lie, in place of build/fresh
 #   --cache DIR    a compiler cache to be used and kept. Without it everything is compiled, as on a
 #                  fresh machine
-#   --mirror URL   in place of http://deb.debian.org/debian
+#   --mirror URL   in place of the one that mmdebstrap takes by itself
 #   --no-install   never installs on this machine: names what is missing and stops
 # The exit code is 0 only if everything succeeded. Without --keep the roots are removed, those that
 # were kept before as well. What is not committed is not tested.
@@ -32,7 +32,7 @@ steps="demo tests packages"
 keep=no
 folder="$PWD/build/fresh"
 cache=""
-mirror=http://deb.debian.org/debian
+mirror=""
 check_only=()
 while [ $# -gt 0 ]; do
   case "$1" in
@@ -149,7 +149,7 @@ make_root() {
   isolated rm -rf --one-file-system "$1.part"
   # A root that is thrown away need not be safe from a loss of power.
   isolated mmdebstrap --quiet --mode=root --variant=minbase --dpkgopt=force-unsafe-io "${settings[@]}" \
-    "$release" "$1.part" "$mirror" || fail "mmdebstrap could not make $release"
+    "$release" "$1.part" ${mirror:+"$mirror"} || fail "mmdebstrap could not make $release"
   # What the installer of a real machine writes.
   isolated sh -c 'echo "127.0.0.1 localhost $(uname -n)" >"$1/etc/hosts"' hosts "$1.part"
   mv "$1.part" "$1"

@@ -44,7 +44,7 @@ struct Experiment
   /// The timed ones. The objects cover at least 30 % of the pixels, on average over the animation.
   std::vector<Viewpoint> views;
   double light[3];
-  /// Frames per second that are known to be printed in the paper, "-" where not known to us.
+  /// Frames per second, as the paper's table 2 gives them: a range.
   std::string paperFramesPerSecond;
   /// Further ones, for the movie only: a slim figure fills 30 % of a wide picture in close-ups
   /// alone.

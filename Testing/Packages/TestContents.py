@@ -1,5 +1,5 @@
 """What cpack makes of a build tree: the packages that are expected, each with what Debian asks for, and
-nothing in them that points back to where they were built.
+nothing in them that points back to where they were built. Where lintian is installed it finds no error.
 
 usage: TestContents.py cpack, build folder, source folder, name of a package...
 """
@@ -54,3 +54,11 @@ for name, file in found.items():
                     # The sources that a library names in its messages are no matter; paths in text are.
                     for where in (build, source):
                         assert where.encode() not in content, f"{inside} names {where}"
+
+if shutil.which("lintian"):
+    said = subprocess.run(["lintian", "--fail-on", "error", "--tag-display-limit", "0", *found.values()],
+                          stdout=subprocess.PIPE, text=True)
+    print(said.stdout)
+    assert said.returncode == 0, "lintian found errors"
+else:
+    print("Debian's rules for packages were not checked: lintian is not installed.")
