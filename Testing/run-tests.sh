@@ -3,7 +3,9 @@
 # run again.
 # Usage: run-tests.sh [--long] [--no-install]
 #   --long        also the tests labelled "long" (real meshes, big ray counts), the sanitizers, and
-#                 all of this on each fresh Debian that is supported: hours, see run-on.sh
+#                 all of this on each fresh Debian that is supported: hours, see run-on.sh.
+#                 VTKSVO_SCRIPTS in the environment: a folder of scripts that VTK's pictures are
+#                 compared on, with the pass and without
 #   --no-install  never installs: names what is missing and stops
 # VTKSVO_CMAKE_ARGUMENTS in the environment goes to CMake: -D options of one's own.
 # The exit code is 0 only if everything was built and every test passed.
@@ -18,7 +20,7 @@ for argument in "$@"; do
     --long) long=yes; groups+=(demo accuracy fresh) ;;
     --no-install) check_only=(--no-install) ;;
     *)
-      sed -n '4,9s/^# //p' "${BASH_SOURCE[0]}"
+      sed -n '4,11s/^# //p' "${BASH_SOURCE[0]}"
       exit 2
       ;;
   esac
@@ -63,6 +65,8 @@ xvfb-run -a -s "-noreset -screen 0 1920x1200x24" bash -c '
   exit $result' tests "${selection[@]}" || result=$?
 
 if [ "$long" = yes ]; then
+  [ -n "${VTKSVO_SCRIPTS:-}" ] ||
+    echo "VTKSVO_SCRIPTS names no folder of scripts: they were not compared with the pass and without."
   step "Sanitizers"
   Testing/run-sanitizers.sh "${check_only[@]}" || result=$?
   step "Thread sanitizer"

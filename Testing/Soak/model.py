@@ -1,0 +1,284 @@
+"""Scenes as data: everything of a scene that can be set stands in plain dictionaries, and what is shown is made of
+them. So a scene that was edited a thousand times can be made afresh."""
+
+import random
+
+from vtkmodules.vtkCommonCore import vtkFloatArray, vtkLookupTable, vtkPoints, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import vtkPlane, vtkPolyData
+from vtkmodules.vtkCommonMath import vtkMatrix4x4
+from vtkmodules.vtkFiltersSources import (
+    vtkConeSource, vtkCubeSource, vtkLineSource, vtkPlaneSource, vtkPlatonicSolidSource, vtkSphereSource,
+    vtkSuperquadricSource)
+from vtkmodules.vtkRenderingCore import (
+    vtkActor, vtkGlyph3DMapper, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow)
+from vtksvo import vtkSVORenderPass
+
+
+def sphere(size):
+    source = vtkSphereSource()
+    source.SetThetaResolution(3 + size)
+    source.SetPhiResolution(3 + size // 2)
+    return source
+
+
+def cone(size):
+    source = vtkConeSource()
+    source.SetResolution(3 + size)
+    return source
+
+
+def quadric(size):
+    source = vtkSuperquadricSource()
+    source.ToroidalOn()
+    source.SetThetaResolution(8 + size)
+    source.SetPhiResolution(8 + size // 2)
+    return source
+
+
+def plane(size):
+    source = vtkPlaneSource()
+    source.SetResolution(1 + size // 8, 1 + size // 6)
+    return source
+
+
+def line(size):
+    source = vtkLineSource()
+    source.SetResolution(1 + size // 4)
+    return source
+
+
+def solid(size):
+    source = vtkPlatonicSolidSource()
+    source.SetSolidType(size % 5)
+    return source
+
+
+SOURCES = {"sphere": sphere, "cone": cone, "quadric": quadric, "plane": plane, "line": line, "solid": solid,
+           "cube": lambda size: vtkCubeSource()}
+
+
+def shift_points(mesh, seed):
+    """Points are moved in place; by how much depends on the seed and on nothing before."""
+    original = mesh.original_points
+    rng = random.Random(seed)
+    shift, points = [rng.uniform(-0.1, 0.1) for _ in range(9)], mesh.GetPoints()
+    for i in range(points.GetNumberOfPoints()):
+        place = original.GetPoint(i)
+        points.SetPoint(i, *(place[k] + sum(shift[3 * k + m] * place[m] for m in range(3)) for k in range(3)))
+    points.Modified()
+    mesh.Modified()
+
+
+def mesh_of(data):
+    """A mesh of its own, with scalars at points and cells; None of an empty one."""
+    source = SOURCES[data["kind"]](data["size"])
+    source.Update()
+    mesh = vtkPolyData()
+    mesh.DeepCopy(source.GetOutput())
+    if not data["normals"]:
+        mesh.GetPointData().SetNormals(None)
+    for attributes, number in ((mesh.GetPointData(), mesh.GetNumberOfPoints()),
+                               (mesh.GetCellData(), mesh.GetNumberOfCells())):
+        values = vtkFloatArray()
+        values.SetName("values")
+        values.SetNumberOfValues(number)
+        for i in range(number):
+            values.SetValue(i, (7 * i % 11) / 10)
+        attributes.SetScalars(values)
+    mesh.original_points = vtkPoints()
+    mesh.original_points.DeepCopy(mesh.GetPoints())
+    if data["shift"] is not None:
+        shift_points(mesh, data["shift"])
+    return mesh
+
+
+def set_mapper(actor, data, meshes):
+    """The mapper by its kind; glyphs are copies of the mesh at the points of a small one."""
+    if data["glyphs"]:
+        mapper = vtkGlyph3DMapper()
+        mapper.SetInputData(mesh_of({"kind": "solid", "size": 1, "normals": False, "shift": None}))
+        mapper.SetSourceData(meshes[data["mesh"]])
+        mapper.ScalingOff()
+        mapper.SetScaleFactor(0.4)
+    else:
+        mapper = vtkPolyDataMapper()
+        mapper.SetInputData(meshes[data["mesh"]])
+    actor.SetMapper(mapper)
+
+
+def matrix_of(values):
+    if values is None:
+        return None
+    matrix = vtkMatrix4x4()
+    for i in range(3):
+        for j in range(3):
+            matrix.SetElement(i, j, values[3 * i + j])
+    return matrix
+
+
+def set_colors(actor, kind):
+    mapper = actor.GetMapper()
+    mapper.SetScalarVisibility(kind != "none")
+    if kind == "cells":
+        mapper.SetScalarModeToUseCellData()
+    else:
+        mapper.SetScalarModeToUsePointData()
+    mapper.SetInterpolateScalarsBeforeMapping(kind == "table")
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(6 if kind == "table" else 256)
+    if kind == "holes":
+        table.SetAlphaRange(0.2, 1)
+    table.Build()
+    mapper.SetLookupTable(table)
+
+
+def set_clipping(actor, height):
+    actor.GetMapper().RemoveAllClippingPlanes()
+    if height is not None:
+        cut = vtkPlane()
+        cut.SetOrigin(0, 0, height)
+        cut.SetNormal(0, 0, -1)
+        actor.GetMapper().AddClippingPlane(cut)
+
+
+def set_glyphs_look(actor, set_value, value):
+    # VTK's glyphs take the property's color when they are made, and are not made anew for another one.
+    set_value(value)
+    if actor.GetMapper().IsA("vtkGlyph3DMapper"):
+        actor.GetMapper().Modified()
+
+
+def set_light_type(light, kind):
+    # VTK moves headlights and camera lights; what they become next begins where its data says.
+    light.SetLightType(kind)
+    light.SetTransformMatrix(None)
+
+
+# What is set of an actor after its mapper, by name.
+ACTOR = {
+    "position": lambda a, v: a.SetPosition(v),
+    "orientation": lambda a, v: a.SetOrientation(v),
+    "scale": lambda a, v: a.SetScale(v),
+    "matrix": lambda a, v: a.SetUserMatrix(matrix_of(v)),
+    "visible": lambda a, v: a.SetVisibility(v),
+    "color": lambda a, v: set_glyphs_look(a, a.GetProperty().SetColor, v),
+    "opacity": lambda a, v: set_glyphs_look(a, a.GetProperty().SetOpacity, v),
+    "ambient": lambda a, v: a.GetProperty().SetAmbient(v),
+    "specular": lambda a, v: a.GetProperty().SetSpecular(v),
+    "power": lambda a, v: a.GetProperty().SetSpecularPower(v),
+    "lighting": lambda a, v: a.GetProperty().SetLighting(v),
+    "interpolation": lambda a, v: a.GetProperty().SetInterpolation(v),
+    "representation": lambda a, v: a.GetProperty().SetRepresentation(v),
+    "edges": lambda a, v: a.GetProperty().SetEdgeVisibility(v),
+    "width": lambda a, v: a.GetProperty().SetLineWidth(v),
+    "tubes": lambda a, v: a.GetProperty().SetRenderLinesAsTubes(v),
+    "culled": lambda a, v: a.GetProperty().SetBackfaceCulling(v),
+    "colors": set_colors,
+    "clipped": set_clipping,
+    "casts": lambda a, v: vtkSVORenderPass.SetCastShadow(v, a),
+    "receives": lambda a, v: vtkSVORenderPass.SetReceiveShadow(v, a),
+    "traced": lambda a, v: vtkSVORenderPass.SetUseSVO(v, a),
+    "catcher": lambda a, v: vtkSVORenderPass.SetShadowCatcher(v, a),
+    "pixel error": lambda a, v: vtkSVORenderPass.SetPropPixelError(v, a),
+}
+LIGHT = {
+    "type": set_light_type,
+    "position": lambda l, v: l.SetPosition(v),
+    "focus": lambda l, v: l.SetFocalPoint(v),
+    "positional": lambda l, v: l.SetPositional(v),
+    "cone": lambda l, v: l.SetConeAngle(v),
+    "exponent": lambda l, v: l.SetExponent(v),
+    "color": lambda l, v: l.SetDiffuseColor(v),
+    "intensity": lambda l, v: l.SetIntensity(v),
+    "on": lambda l, v: l.SetSwitch(v),
+    "casts": lambda l, v: vtkSVORenderPass.SetCastShadow(v, l),
+}
+CAMERA = {
+    "position": lambda c, v: c.SetPosition(v),
+    "focus": lambda c, v: c.SetFocalPoint(v),
+    "up": lambda c, v: c.SetViewUp(v),
+    "angle": lambda c, v: c.SetViewAngle(v),
+    "parallel": lambda c, v: c.SetParallelProjection(v),
+    "scale": lambda c, v: c.SetParallelScale(v),
+    "range": lambda c, v: c.SetClippingRange(v),
+}
+PASS = {name: lambda p, v, name=name: getattr(p, "Set" + name)(v) for name in (
+    "ShadowTechnique", "ShadowBufferResolution", "AutomaticShadowBias", "ShadowBias", "ShadowIntensity",
+    "TranslucentShadows", "PixelError", "ConvertPolyData", "MaximumLevel", "LeafGeometry", "OctreeMemoryLimit",
+    "FrameCoherence", "LayerMemoryLimit", "AntiAliasing", "ViewCulling", "OcclusionCulling",
+    "ShadowsForEverything")}
+
+
+def apply(table, target, data):
+    for name, set_value in table.items():
+        set_value(target, data[name])
+
+
+class View:
+    """A window with its renderer, pass, actors and lights, made of a dictionary."""
+
+    def __init__(self, data, meshes):
+        self.data, self.meshes = data, meshes
+        self.renderer, self.svo = vtkRenderer(), vtkSVORenderPass()
+        self.renderer.AutomaticLightCreationOff()
+        self.actors, self.lights = [], []
+        apply(PASS, self.svo, data["pass"])
+        apply(CAMERA, self.renderer.GetActiveCamera(), data["camera"])
+        for one in data["actors"]:
+            self.add_actor(one)
+        for one in data["lights"]:
+            self.add_light(one)
+        self.set_background(data["background"])
+        self.set_traced(data["traced"])
+        self.open()
+
+    def open(self):
+        self.window = vtkRenderWindow()
+        self.window.SetOffScreenRendering(1)
+        self.window.SetMultiSamples(self.data["samples"])
+        self.window.SetSize(self.data["size"])
+        self.window.AddRenderer(self.renderer)
+
+    def close(self):
+        self.window.RemoveRenderer(self.renderer)
+        self.window.Finalize()
+        self.window = None
+
+    def set_traced(self, traced):
+        self.renderer.SetPass(self.svo if traced else None)
+
+    def set_background(self, color):
+        self.renderer.SetBackground(color)
+
+    def add_actor(self, data):
+        actor = vtkActor()
+        set_mapper(actor, data, self.meshes)
+        apply(ACTOR, actor, data)
+        self.renderer.AddActor(actor)
+        self.actors.append(actor)
+
+    def add_light(self, data):
+        light = vtkLight()
+        apply(LIGHT, light, data)
+        self.renderer.AddLight(light)
+        self.lights.append(light)
+
+    def set_mesh(self, i):
+        """Actor i shows another mesh, or shows it in another way."""
+        data = self.data["actors"][i]
+        set_mapper(self.actors[i], data, self.meshes)
+        for name in ("colors", "clipped"):
+            ACTOR[name](self.actors[i], data[name])
+
+    def remove_actor(self, i):
+        self.renderer.RemoveActor(self.actors.pop(i))
+
+    def remove_light(self, i):
+        self.renderer.RemoveLight(self.lights.pop(i))
+
+    def picture(self):
+        self.window.Render()
+        width, height = self.data["size"]
+        pixels = vtkUnsignedCharArray()
+        self.window.GetPixelData(0, 0, width - 1, height - 1, 0, pixels, 0)
+        return bytes(memoryview(pixels))
