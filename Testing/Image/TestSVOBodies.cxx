@@ -4,6 +4,7 @@
 
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
+#include "vtkColorTransferFunction.h"
 #include "vtkFloatArray.h"
 #include "vtkMath.h"
 #include "vtkOpenGLSphereMapper.h"
@@ -163,6 +164,18 @@ std::vector<Case> cases()
     actor->GetProperty()->RenderLinesAsTubesOn();
     actor->GetProperty()->SetLineWidth(12.0);
   };
+  const auto coloredTubes = [=](Stage& s, vtkActor* actor)
+  {
+    tubes(s, actor);
+    vtkNew<vtkColorTransferFunction> colors;
+    colors->AddRGBPoint(0.5, 0.9, 0.5, 0.2);
+    colors->AddRGBPoint(1.5, 0.9, 0.9, 0.2);
+    vtkMapper* mapper = actor->GetMapper();
+    mapper->SetLookupTable(colors);
+    mapper->InterpolateScalarsBeforeMappingOn();
+    mapper->SetScalarModeToUsePointFieldData();
+    mapper->SelectColorArray("size");
+  };
   const auto spheres = [](Stage&, vtkActor* actor)
   {
     setMesh(actor, points());
@@ -208,6 +221,8 @@ std::vector<Case> cases()
       },
       true, 0.01 },
     { "lines as tubes", tubes, [](Stage& s) { addTube(s, line(), 12.0); }, true, 0.02 },
+    { "lines as tubes, colours between points", coloredTubes,
+      [](Stage& s) { addTube(s, line(), 12.0); }, true, 0.02 },
     { "lines as tubes, parallel",
       [=](Stage& s, vtkActor* a)
       {

@@ -67,10 +67,9 @@ bool PropCollector::collectTubes(vtkActor* actor, const SurfacePart& part,
     return false;
   }
   const bool told = flagOf(actor, found.prop, castShadowKey(), false);
-  // One opacity for all, or colours that are looked up between points.
-  const bool whole =
-    !told && (part.opacity < 1.0 || (attributes.colorTexture && !hasOpaqueTable(part)));
-  Tubes tubes = tubesOf(part.mesh, property, told ? OpaqueColors() : OpaqueColors(attributes));
+  const bool whole = !told && part.opacity < 1.0;
+  const Attributes uncolored;
+  Tubes tubes = tubesOf(part.mesh, property, CellAlpha(told ? uncolored : attributes));
   const Reason reason = beyond ? beyond : "has lines or vertices";
   const bool any = tubes.rods || tubes.balls || tubes.translucent;
   for (const std::shared_ptr<Bodies>& bodies : { tubes.rods, tubes.balls })

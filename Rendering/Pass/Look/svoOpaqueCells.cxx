@@ -1,6 +1,6 @@
 #include "svoOpaqueCells.h"
 
-#include "svoAttributes.h"
+#include "svoCellAlpha.h"
 
 #include "vtkCellArray.h"
 #include "vtkFloatArray.h"
@@ -36,89 +36,6 @@ bool allOpaque(const unsigned char* colors, std::size_t count)
   return all == 255;
 }
 
-/// The least and the most alpha of a mesh's cells, 0..255.
-class CellAlpha
-{
-public:
-  explicit CellAlpha(const Attributes& attributes)
-    : Colors(attributes)
-  {
-    for (int i = 0; attributes.colorCoordinates && i < attributes.colorTextureSize; ++i)
-    {
-      const unsigned char alpha = attributes.colorTexture[4 * i + 3];
-      this->Clear.push_back(this->Clear.back() + (alpha < 255));
-      this->Visible.push_back(this->Visible.back() + (alpha > 0));
-    }
-  }
-
-  struct Range
-  {
-    bool opaque, invisible;
-    double mean = 0.0; // of the corners, 0..1
-  };
-
-  Range of(vtkIdType cell, vtkIdList* points) const
-  {
-    Range range{ true, true };
-    const auto add = [&](unsigned char alpha)
-    {
-      range.opaque = range.opaque && alpha == 255;
-      range.invisible = range.invisible && alpha == 0;
-      range.mean += alpha / 255.0;
-    };
-    if (this->Colors.colorCoordinates)
-    {
-      return this->between(points);
-    }
-    if (this->Colors.colorAssociation == Association::Cell)
-    {
-      add(this->Colors.colors[4 * cell + 3]);
-      return range;
-    }
-    for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
-    {
-      add(this->Colors.colors[4 * points->GetId(i) + 3]);
-    }
-    range.mean /= static_cast<double>(points->GetNumberOfIds());
-    return range;
-  }
-
-private:
-  /// Of all texels between those of the points.
-  Range between(vtkIdList* points) const
-  {
-    const int size = this->Colors.colorTextureSize;
-    int first = size, last = -1;
-    bool none = false; // a point has no value
-    double sum = 0.0;
-    for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
-    {
-      const int texel = detail::texelAt(this->Colors,
-        detail::coordinatesAt(this->Colors, static_cast<std::size_t>(points->GetId(i))));
-      sum += this->Colors.colorTexture[4 * texel + 3] / 255.0;
-      none = none || texel >= size;
-      first = texel < size ? std::min(first, texel) : first;
-      last = texel < size ? std::max(last, texel) : last;
-    }
-    Range range{ true, true };
-    if (none)
-    {
-      const unsigned char alpha = this->Colors.colorTexture[4 * size + 3];
-      range = { alpha == 255, alpha == 0 };
-    }
-    range.mean = sum / static_cast<double>(points->GetNumberOfIds());
-    if (first <= last)
-    {
-      range.opaque = range.opaque && this->Clear[last + 1] == this->Clear[first];
-      range.invisible = range.invisible && this->Visible[last + 1] == this->Visible[first];
-    }
-    return range;
-  }
-
-  const Attributes& Colors;
-  std::vector<int> Clear{ 0 }, Visible{ 0 }; // such texels among the first i
-};
-
 struct Counts
 {
   vtkIdType opaque = 0, invisible = 0, all = 0;
@@ -141,7 +58,7 @@ vtkSmartPointer<vtkCellArray> opaqueOf(
     {
       continue;
     }
-    const CellAlpha::Range range = alpha.of(base + i, ids);
+    const CellAlpha::Range range = alpha.of(base + i, id, ids->GetNumberOfIds());
     ++counts.all;
     counts.invisible += range.invisible;
     counts.opaque += range.opaque;
@@ -167,7 +84,8 @@ vtkSmartPointer<vtkCellArray> visibleOf(
     const vtkIdType* id = ids->GetPointer(0);
     const bool broken = std::any_of(
       id, id + ids->GetNumberOfIds(), [&](vtkIdType p) { return p < 0 || p >= points; });
-    if (broken || ids->GetNumberOfIds() < 3 || alpha.of(base + i, ids).invisible)
+    if (broken || ids->GetNumberOfIds() < 3 ||
+      alpha.of(base + i, id, ids->GetNumberOfIds()).invisible)
     {
       constexpr vtkIdType nothing[] = { 0, 0, 0 };
       found->InsertNextCell(3, nothing);

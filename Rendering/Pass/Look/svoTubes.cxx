@@ -36,9 +36,9 @@ vtkIdType eachCell(vtkCellArray* cells, vtkIdType cell, const Visit& visit)
 class Gathering
 {
 public:
-  Gathering(vtkPolyData* mesh, const OpaqueColors& opaque)
+  Gathering(vtkPolyData* mesh, const CellAlpha& alpha)
     : Mesh(mesh)
-    , Opaque(opaque)
+    , Alpha(alpha)
     , Rods(std::make_shared<Bodies>())
     , Balls(std::make_shared<Bodies>())
     , Taken(static_cast<std::size_t>(mesh->GetNumberOfPoints()), false)
@@ -52,7 +52,8 @@ public:
     {
       return;
     }
-    if (!this->Opaque.at(from, cell) || !this->Opaque.at(to, cell))
+    const vtkIdType points[] = { from, to };
+    if (!this->Alpha.of(cell, points, 2).opaque)
     {
       this->Translucent = true;
       return;
@@ -72,7 +73,7 @@ public:
     {
       return;
     }
-    if (!this->Opaque.at(point, cell))
+    if (!this->Alpha.of(cell, &point, 1).opaque)
     {
       this->Translucent = true;
       return;
@@ -121,7 +122,7 @@ private:
   }
 
   vtkPolyData* Mesh;
-  const OpaqueColors& Opaque;
+  const CellAlpha& Alpha;
   std::shared_ptr<Bodies> Rods, Balls;
   std::vector<bool> Taken; // points that have a ball
   std::vector<Edge> Edges;
@@ -143,10 +144,10 @@ RoundLook roundLookOf(vtkProperty* property)
   return look;
 }
 
-Tubes tubesOf(vtkPolyData* mesh, vtkProperty* property, const OpaqueColors& opaque)
+Tubes tubesOf(vtkPolyData* mesh, vtkProperty* property, const CellAlpha& alpha)
 {
   const RoundLook look = roundLookOf(property);
-  Gathering gathering(mesh, opaque);
+  Gathering gathering(mesh, alpha);
   const auto balls = [&](vtkIdType cell, vtkIdType count, const vtkIdType* points)
   {
     for (vtkIdType i = 0; i < count; ++i)

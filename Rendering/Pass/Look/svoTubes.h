@@ -3,8 +3,8 @@
 #ifndef svoTubes_h
 #define svoTubes_h
 
-#include "svoAttributes.h"
 #include "svoBodies.h"
+#include "svoCellAlpha.h"
 
 #include <memory>
 
@@ -25,31 +25,6 @@ struct RoundLook
 };
 RoundLook roundLookOf(vtkProperty* property);
 
-/// Which cells and points of a mesh are opaque, by its mapped colours.
-class OpaqueColors
-{
-public:
-  /// Everything is.
-  OpaqueColors() = default;
-  /// By the colours of `attributes`, by point or by cell; those of other associations say nothing.
-  explicit OpaqueColors(const Attributes& attributes)
-    : Colors(attributes.colors)
-    , Of(attributes.colorAssociation)
-  {
-  }
-
-  bool at(std::int64_t point, std::int64_t cell) const
-  {
-    const bool known =
-      this->Colors && (this->Of == Association::Point || this->Of == Association::Cell);
-    return !known || this->Colors[4 * (this->Of == Association::Point ? point : cell) + 3] == 255;
-  }
-
-private:
-  const unsigned char* Colors = nullptr;
-  Association Of = Association::None;
-};
-
 /// Bodies of a mesh; none: null. `translucent`: some would be, and are not in it.
 struct Tubes
 {
@@ -60,7 +35,7 @@ struct Tubes
 /// Rods have the property's line width for their diameter, balls its point size, both in pixels.
 /// Segments without a length, and points that are not finite, have none; an edge of several cells
 /// has one.
-Tubes tubesOf(vtkPolyData* mesh, vtkProperty* property, const OpaqueColors& opaque);
+Tubes tubesOf(vtkPolyData* mesh, vtkProperty* property, const CellAlpha& alpha);
 }
 
 #endif

@@ -3,11 +3,13 @@
 #include "svoSplats.h"
 
 #include "vtkCellArray.h"
+#include "vtkColorTransferFunction.h"
 #include "vtkMath.h"
 #include "vtkOpenGLSphereMapper.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointGaussianMapper.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -229,6 +231,49 @@ TEST_F(KeptBodies, TheTranslucentCastNothing)
   splatActor->GetProperty()->SetOpacity(0.5);
   collect(collector, scene);
   EXPECT_EQ(scene.scene.instances.size(), 1u);
+}
+
+TEST_F(KeptBodies, OfColoursBetweenPointsOnlyTheTranslucentCastNothing)
+{
+  vtkNew<vtkColorTransferFunction> opaque; // what it answers for NaN nobody is asked
+  opaque->AddRGBPoint(0.5, 0.2, 0.3, 0.8);
+  opaque->AddRGBPoint(1.0, 0.8, 0.3, 0.2);
+  tubes->SetLookupTable(opaque);
+  tubes->InterpolateScalarsBeforeMappingOn();
+  tubes->ScalarVisibilityOn();
+  collect(collector, scene);
+  EXPECT_EQ(scene.scene.instances.size(), Splats + Rods + 1 + 1 + 1);
+  EXPECT_EQ(collector.judge(tubeActor).castsNone, nullptr);
+  vtkProperty* property = tubeActor->GetProperty();
+  property->SetRepresentationToWireframe();
+  collect(collector, scene);
+  EXPECT_EQ(scene.scene.instances.size(), Splats + Rods + 3 + 1 + 1) << "edges of the triangle";
+  property->SetRepresentationToSurface();
+
+  vtkNew<vtkLookupTable> table; // clear but for its ends
+  table->SetNumberOfTableValues(8);
+  for (int i = 0; i < 8; ++i)
+  {
+    table->SetTableValue(i, 1.0, 1.0, 1.0, i == 0 || i == 7 ? 1.0 : 0.5);
+  }
+  table->SetRange(0.5, 0.9);
+  tubes->SetLookupTable(table);
+  tubes->UseLookupTableScalarRangeOn();
+  const auto rods = [this]
+  {
+    const auto& instances = scene.scene.instances;
+    return std::count_if(instances.begin() + Splats, instances.end(),
+      [](const Instance& one) { return one.localToWorld[3].y == 5.0; });
+  };
+  // From 0.5 to 0.6 and from 0.8 to 0.9 colours between the points are clear.
+  collect(collector, scene);
+  EXPECT_EQ(rods(), 0);
+  table->SetTableValue(1, 1.0, 1.0, 1.0, 1.0);
+  table->SetTableValue(2, 1.0, 1.0, 1.0, 1.0);
+  tubes->Modified();
+  collect(collector, scene);
+  EXPECT_EQ(rods(), 1) << "one is opaque all along";
+  EXPECT_NE(collector.judge(tubeActor).castsNone, nullptr);
 }
 
 TEST_F(KeptBodies, RepresentationsAndBadInput)
