@@ -17,6 +17,14 @@ libglm-dev|vectors and matrices of the engine
 libhwy-dev|Highway: SIMD, the instruction set chosen at run time
 libopenvdb-dev|reads and writes OpenVDB's files; without it the build leaves that out
 libtbb-dev|OpenVDB's threads"
+# Debian 12 has no PyVista, and Debian 13 no Mayavi.
+plotting=python3-pyvista
+# ParaView's window is made with Qt 5 in Debian 12 and with Qt 6 since.
+svg_icons=qt6-svg-plugins
+if grep -qs '^VERSION_ID="12"' /etc/os-release; then
+  plotting=mayavi2
+  svg_icons=libqt5svg5
+fi
 packages_test="
 libgtest-dev|unit tests
 xvfb|a display for machines without one
@@ -25,14 +33,11 @@ libgl1-mesa-dri|software OpenGL
 libembree-dev|the ray tracer that the benchmark compares with
 libopenvdb-tools|vdb_print, which has to open the OpenVDB files that we write
 python3-openvdb|so has OpenVDB's Python module
+python3-vedo|draws its meshes with the pass, as the documentation's recipes say
+$plotting|so does this
 dpkg-dev|finds out what our own packages depend on
 file|tells it which of their files are programs
 lintian|finds what Debian would not have in them"
-# ParaView's window is made with Qt 5 in Debian 12 and with Qt 6 since.
-svg_icons=qt6-svg-plugins
-if grep -qs '^VERSION_ID="12"' /etc/os-release; then
-  svg_icons=libqt5svg5
-fi
 packages_paraview="
 paraview|ParaView and what it depends on
 paraview-dev|its headers and CMake package

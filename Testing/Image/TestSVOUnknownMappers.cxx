@@ -6,9 +6,9 @@
 
 #include "vtkCompositePolyDataMapper.h"
 #include "vtkElevationFilter.h"
-#include "vtkFollower.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenGLActor.h"
 #include "vtkOpenGLPolyDataMapper.h"
 #include "vtkPointGaussianMapper.h"
 #include "vtkPolyData.h"
@@ -42,6 +42,14 @@ public:
   vtkTypeMacro(OddMapper, vtkOpenGLPolyDataMapper);
 };
 vtkStandardNewMacro(OddMapper);
+
+class StrangeActor : public vtkOpenGLActor
+{
+public:
+  static StrangeActor* New();
+  vtkTypeMacro(StrangeActor, vtkOpenGLActor);
+};
+vtkStandardNewMacro(StrangeActor);
 
 vtkSmartPointer<vtkMultiBlockDataSet> coloredBlocks()
 {
@@ -100,8 +108,8 @@ void expectNames(Checks& checks)
   strange->SetInputConnection(points->GetOutputPort());
   vtkNew<vtkPointGaussianMapper> splats;
   splats->SetInputConnection(points->GetOutputPort());
-  vtkNew<vtkFollower> follower;
-  follower->SetMapper(odd);
+  vtkNew<StrangeActor> unknown;
+  unknown->SetMapper(odd);
 
   Stage stage;
   stage.addGround();
@@ -114,7 +122,7 @@ void expectNames(Checks& checks)
     checks.expect(messages.warnings.size() == count, what);
   };
   stage.renderer->AddActor(actorOf(splats));
-  stage.renderer->AddActor(follower);
+  stage.renderer->AddActor(unknown);
   const auto quiet = actorOf(odd);
   vtkSVORenderPass::SetCastShadow(false, quiet);
   const auto hidden = actorOf(odd);

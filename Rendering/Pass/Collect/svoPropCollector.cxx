@@ -334,7 +334,7 @@ void PropCollector::collect(PropSurfaces& found, const CollectProps& frame)
     }
     if (auto* part = vtkActor::SafeDownCast(leaf))
     {
-      collect(part, path->GetLastNode()->GetMatrix());
+      collect(part, matrixOfPart(part, path->GetLastNode()->GetMatrix()));
     }
     else if (leaf != prop)
     {

@@ -11,9 +11,11 @@
 #include "vtkAssembly.h"
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"
+#include "vtkCamera.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeRange.h"
+#include "vtkFollower.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkMapper.h"
@@ -43,6 +45,12 @@ template <class Object>
 std::uint64_t timeOf(Object* object)
 {
   return object ? object->GetMTime() : 0;
+}
+
+/// Of an actor and, if it is a follower, of the camera that it turns to.
+std::uint64_t timeOf(vtkActor* actor, vtkFollower* follower)
+{
+  return std::max(timeOf(actor), follower ? timeOf(follower->GetCamera()) : 0);
 }
 
 /// All that is in a tree.
@@ -110,6 +118,20 @@ void update(vtkAlgorithm* algorithm, int port, vtkAlgorithm*& updated)
 }
 }
 
+vtkSmartPointer<vtkMatrix4x4> matrixOfPart(vtkProp* part, vtkMatrix4x4* ofPath)
+{
+  auto* follower = vtkFollower::SafeDownCast(part);
+  if (!follower || !follower->GetCamera())
+  {
+    return ofPath;
+  }
+  auto turned = vtkSmartPointer<vtkMatrix4x4>::New();
+  follower->PokeMatrix(ofPath);
+  follower->GetMatrix(turned);
+  follower->PokeMatrix(nullptr);
+  return turned;
+}
+
 /// What an actor has of its own that is no matrix.
 Numbers PropState::lookOf(vtkActor* actor)
 {
@@ -122,7 +144,8 @@ Numbers PropState::lookOf(vtkActor* actor)
 bool PropState::noteActor(vtkActor* actor, vtkProp* owner, Actor& state)
 {
   state.keys = actor->GetPropertyKeys();
-  state.time = actor->GetMTime();
+  state.follower = vtkFollower::SafeDownCast(actor);
+  state.time = timeOf(actor, state.follower);
   state.timeOfKeys = timeOf(actor->GetPropertyKeys());
   state.answers = answersOf(actor);
   vtkMapper* mapper = state.mapper = actor->GetMapper();
@@ -196,7 +219,7 @@ bool PropState::holds(const Input& input, bool isStatic, vtkAlgorithm*& updated)
 Held PropState::holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& updated)
 {
   vtkInformation* keys = actor->GetPropertyKeys();
-  const bool sameTime = actor->GetMTime() == state.time;
+  const bool sameTime = timeOf(actor, state.follower) == state.time;
   const bool sameKeys = keys == state.keys && timeOf(keys) == state.timeOfKeys;
   if ((!sameTime && lookOf(actor) != state.look) ||
     (!sameKeys && answersOf(actor) != state.answers) ||
@@ -252,7 +275,7 @@ void PropState::noteParts(vtkProp* assembly, Numbers& numbers, std::vector<vtkAc
     {
       continue;
     }
-    if (const vtkMatrix4x4* matrix = node->GetMatrix())
+    if (const auto matrix = matrixOfPart(leaf, node->GetMatrix()))
     {
       std::uint64_t elements[16];
       static_assert(sizeof(elements) == sizeof(matrix->Element), "as they are");
@@ -287,7 +310,8 @@ void PropState::note(vtkProp* prop)
 
 void PropState::noteMove(vtkProp* actor)
 {
-  this->Actors.front().time = actor->GetMTime();
+  Actor& state = this->Actors.front();
+  state.time = timeOf(static_cast<vtkActor*>(actor), state.follower);
 }
 
 Held PropState::holds(vtkProp* prop, vtkAlgorithm*& updated) const

@@ -5,17 +5,25 @@
 
 #include "svoPropKeys.h"
 
+#include "vtkSmartPointer.h"
+
 #include <cstdint>
 #include <vector>
 
 class vtkActor;
 class vtkAlgorithm;
 class vtkDataObject;
+class vtkFollower;
 class vtkMapper;
+class vtkMatrix4x4;
 class vtkProp;
 
 namespace svo
 {
+/// The matrix by which VTK draws a part of an assembly: that of its path in the place of its own,
+/// with which a follower turns to its camera all the same.
+vtkSmartPointer<vtkMatrix4x4> matrixOfPart(vtkProp* part, vtkMatrix4x4* ofPath);
+
 enum class Held
 {
   No,
@@ -23,11 +31,11 @@ enum class Held
   Yes
 };
 
-/// The addresses and times of an actor with its property, keys and textures, of its mapper with
-/// lookup table, functions and attributes of blocks, of that one's inputs and sources, and the
-/// matrices of an assembly. Times are never given twice, so another object in an old one's place is
-/// noticed, too. What is changed in place without Modified() does not show, as in VTK's own
-/// mappers.
+/// The addresses and times of an actor with its property, keys and textures, of the camera that it
+/// follows, of its mapper with lookup table, functions and attributes of blocks, of that one's
+/// inputs and sources, and the matrices of an assembly. Times are never given twice, so another
+/// object in an old one's place is noticed, too. What is changed in place without Modified() does
+/// not show, as in VTK's own mappers.
 class PropState
 {
 public:
@@ -56,6 +64,7 @@ private:
   struct Actor
   {
     const void* keys = nullptr;
+    vtkFollower* follower = nullptr; // the actor, if it is one
     std::uint64_t time = 0, timeOfKeys = 0;
     PropAnswers answers;
     std::vector<std::uint64_t> look; // all of it but place and visibility

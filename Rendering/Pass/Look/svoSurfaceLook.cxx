@@ -223,8 +223,8 @@ bool hasCustomShaders(vtkActor* actor)
 bool isPlainActor(vtkActor* actor)
 {
   const std::string name = actor->GetClassName();
-  return name == "vtkOpenGLActor" || name == "vtkLODActor" || name == "vtkQuadricLODActor" ||
-    name == "vtkPVLODActor";
+  return name == "vtkOpenGLActor" || name == "vtkFollower" || name == "vtkLODActor" ||
+    name == "vtkQuadricLODActor" || name == "vtkPVLODActor";
 }
 
 bool showsLights(vtkActor* actor)

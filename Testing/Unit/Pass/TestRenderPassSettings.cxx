@@ -7,11 +7,11 @@
 #include "svoLayout.h"
 
 #include "vtkActor.h"
-#include "vtkFollower.h"
 #include "vtkLight.h"
 #include "vtkNew.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
+#include "vtkSkybox.h"
 #include "vtkSphereSource.h"
 #include "vtkVolume.h"
 
@@ -263,9 +263,9 @@ TEST(RenderPassSettings, WhatNeverCastsSaysSoAndWhy)
   vtkNew<vtkVolume> volume;
   EXPECT_FALSE(Pass::GetCastShadow(volume));
   EXPECT_NE(Pass::GetReason(volume).find("neither an actor"), std::string::npos);
-  vtkNew<vtkFollower> follower;
-  follower->SetMapper(mapper);
-  EXPECT_FALSE(Pass::GetCastShadow(follower));
+  vtkNew<vtkSkybox> sky; // an actor, too
+  sky->SetMapper(mapper);
+  EXPECT_FALSE(Pass::GetCastShadow(sky));
   EXPECT_EQ(Pass::GetReason(nullptr), "");
 
   vtkNew<vtkLight> light;
