@@ -31,6 +31,8 @@ std::string vtkSVOViewRenderPass::GetText(int text, vtkLight* about) const
              "them. Cast Shadows, of the surface's properties, switches the shadow off.";
     case TEXT_NOT_CHOSEN:
       return "is not shown as SVO";
+    case TEXT_NOTHING_CASTS:
+      return "No shadows: nothing casts any, and SVO Reasons, of the view, says why. ";
     default:
       return this->Superclass::GetText(text, about);
   }

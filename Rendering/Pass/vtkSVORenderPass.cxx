@@ -89,6 +89,10 @@ std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
              "away.";
     case TEXT_NOT_CHOSEN:
       return "was not chosen with SetUseSVO";
+    case TEXT_NOTHING_CASTS:
+      return "No shadows: nothing casts any, and GetReason(prop) says why. ";
+    case TEXT_NOTHING_RECEIVES:
+      return "No shadows: there is nothing for them to fall on. ";
     default:
       return std::string();
   }

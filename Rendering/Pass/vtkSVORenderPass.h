@@ -655,7 +655,9 @@ protected:
     TEXT_TRANSLUCENT = 2,         // cells of a surface cast none, because they are translucent
     TEXT_TRANSLUCENT_SURFACE = 3, // a surface casts none, because its opacity makes it translucent
     TEXT_CUT_OUT = 4,             // cells cast their whole shadows, although a texture hides parts
-    TEXT_NOT_CHOSEN = 5           // a reason, the end of a sentence that begins with "it"
+    TEXT_NOT_CHOSEN = 5,          // a reason, the end of a sentence that begins with "it"
+    TEXT_NOTHING_CASTS = 6,       // there are no shadows, ... ; what follows says why
+    TEXT_NOTHING_RECEIVES = 7     // the same
   };
 
   /**

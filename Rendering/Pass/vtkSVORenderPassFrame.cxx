@@ -78,11 +78,12 @@ bool vtkSVORenderPass::CollectFrame(
   svo::PassFrame& frame, int width, int height, const svo::OwnCamera* camera)
 {
   const bool attached = !camera;
+  Internals& impl = *this->Impl;
+  const bool severalProcesses = impl.controller && impl.controller->GetNumberOfProcesses() > 1;
   // What is collected is borrowed, and who observes the progress of a build may change it. So all
   // is collected once more after that, when nothing is left to be built. Of the last collection
   // nobody is told, so that it ends even for those who change something every time.
   constexpr int MostCollections = 4;
-  Internals& impl = *this->Impl;
   vtkRenderer* renderer = frame.renderer;
   frame.state->beginFrame();
   bool disturbed = true;
@@ -126,7 +127,7 @@ bool vtkSVORenderPass::CollectFrame(
     collect.unmarkedCast = this->ShadowsForEverything;
     collect.translucentShadows = this->TranslucentShadows;
     // What processes tell each other of their casters does not include colours.
-    collect.meanOpacity = impl.controller && impl.controller->GetNumberOfProcesses() > 1;
+    collect.meanOpacity = severalProcesses;
     const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
     collect.notMarked = notMarked.c_str();
     collect.said = &impl.said;
@@ -154,6 +155,22 @@ bool vtkSVORenderPass::CollectFrame(
     impl.saidHeadlight = true;
     frame.messages.push_back(this->GetText(TEXT_ONLY_HEADLIGHTS, nullptr));
   }
+  const auto miss = [&](const std::string& why, int text)
+  {
+    // A process does not know what others have. What has been said of this frame was why.
+    if (why.empty() || this->ShadowIntensity <= 0.0 || severalProcesses ||
+      !impl.said.insert(why).second || !frame.messages.empty())
+    {
+      return;
+    }
+    const std::string start = this->GetText(text, nullptr);
+    const std::string of = collected.withoutShadows == 1
+      ? "The only object "
+      : "Each of " + std::to_string(collected.withoutShadows) + " objects ";
+    frame.messages.push_back(start.empty() ? start : start + of + why + ".");
+  };
+  miss(collected.nothingCasts, TEXT_NOTHING_CASTS);
+  miss(collected.nothingReceives, TEXT_NOTHING_RECEIVES);
   this->DecideSettings(frame);
   return true;
 }

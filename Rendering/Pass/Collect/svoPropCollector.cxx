@@ -189,7 +189,7 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
     if (!round && part.mesh->GetNumberOfCells() > 0)
     {
       found.rasterize(beyond ? beyond : "has lines or vertices");
-      found.castNothing("has lines or vertices, none of them as tubes or spheres");
+      found.castNothing(HasNoPolygons);
     }
     return;
   }
@@ -236,7 +236,7 @@ void PropCollector::collectActor(
   }
   if (!isPlainActor(actor) && !isMarked(actor, owner))
   {
-    found.leaveAlone("is of a class that may draw anything"); // without a mapper, even
+    found.leaveAlone(MayDrawAnything); // without a mapper, even
     return;
   }
   vtkMapper* mapper = actor->GetMapper();

@@ -2,6 +2,7 @@
 
 #include "svoCameraView.h"
 #include "svoGiveWay.h"
+#include "svoPropKeys.h"
 #include "svoSceneInstances.h"
 
 #include "vtkPolyData.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <set>
 #include <string_view>
 #include <tuple>
 #include <unordered_map>
@@ -67,6 +69,14 @@ bool saysTheSame(const PropSurfaces& a, const PropSurfaces& b)
     text(a.rasterized) == text(b.rasterized) && text(a.castsNone) == text(b.castsNone);
 }
 
+constexpr Reason NoActor = "is neither an actor nor an assembly";
+
+/// Why octrees are missing.
+Reason withoutOctree(const StoreOptions& options)
+{
+  return options.convert ? "has no octree, or none yet" : "comes without an octree";
+}
+
 /// One that no scene has had.
 std::uint64_t newVersion()
 {
@@ -107,7 +117,7 @@ PropSurfaces SceneCollector::judge(vtkProp* prop)
   }
   else
   {
-    found.leaveAlone("is neither an actor nor an assembly");
+    found.leaveAlone(NoActor);
   }
   return found;
 }
@@ -117,7 +127,7 @@ bool SceneCollector::collectProps(
   const std::vector<vtkSmartPointer<vtkProp>>& props, const CollectProps& frame, bool all)
 {
   bool changed = all;
-  this->Anew = 0;
+  this->Anew = this->Others = 0;
   bool reordered = false;
   std::unordered_map<vtkProp*, PropSurfaces> others; // of the last frame, from where that differs
   std::size_t place = 0;
@@ -132,6 +142,7 @@ bool SceneCollector::collectProps(
     {
       if (!canCollect(prop))
       {
+        this->Others += vtkProp3D::SafeDownCast(prop) != nullptr;
         continue;
       }
       if (!reordered)
@@ -256,9 +267,7 @@ void SceneCollector::explain(
   {
     const bool casts = std::any_of(prop.surfaces.begin(), prop.surfaces.end(),
       [](const SceneSurface& surface) { return surface.casts && surface.instance.body->octree; });
-    const Reason missing = prop.hasOctrees() ? nullptr
-      : options.convert                      ? "has no octree, or none yet"
-                                             : "comes without an octree";
+    const Reason missing = prop.hasOctrees() ? nullptr : withoutOctree(options);
     const Reason rasterized = prop.rasterized ? prop.rasterized : missing;
     const Reason castsNone = prop.castsNone ? prop.castsNone : missing;
     const bool asChosen = !castsNone && rasterized == this->NotMarked.c_str();
@@ -267,6 +276,59 @@ void SceneCollector::explain(
     {
       result.reasons.emplace_back(prop.prop, text);
     }
+  }
+}
+
+/// Says why no shadow can be seen, if that is so.
+void SceneCollector::missShadows(const StoreOptions& options, CollectedScene& result) const
+{
+  result.nothingCasts.clear();
+  result.nothingReceives.clear();
+  int casters = 0, receivers = 0; // that could be, and are none
+  bool casts = !this->Shadows, receives = casts;
+  std::set<std::string_view> reasons;
+  for (const PropSurfaces& prop : this->Found)
+  {
+    const bool ready = options.convert || prop.hasOctrees(); // or will be
+    casts = casts || (prop.casts() && ready);
+    receives = receives || prop.receives;
+    if (casts && receives)
+    {
+      return;
+    }
+    const Reason reason = prop.castsNone ? prop.castsNone
+      : ready                            ? nullptr
+                                         : withoutOctree(options);
+    // Hosts' views have outlines, axes and the like as well.
+    const bool meant = this->OnlyMarked &&
+      (prop.catchesShadows || reason == this->NotMarked.c_str() || reason == ShowsNoPolygons ||
+        reason == HasNoPolygons || reason == MayDrawAnything);
+    if (reason && !meant && flagOf(prop.prop, nullptr, castShadowKey(), true))
+    {
+      ++casters;
+      reasons.insert(reason);
+    }
+    const bool shows = prop.rasterized || !prop.surfaces.empty();
+    receivers += shows && flagOf(prop.prop, nullptr, receiveShadowKey(), true);
+  }
+  if (this->Others > 0 && !this->OnlyMarked)
+  {
+    casters += this->Others;
+    reasons.insert(NoActor);
+  }
+  if (!casts && casters > 0)
+  {
+    result.withoutShadows = casters;
+    for (std::string_view reason : reasons)
+    {
+      result.nothingCasts.append(result.nothingCasts.empty() ? "" : ", or ").append(reason);
+    }
+  }
+  else if (casts && receivers > 0)
+  {
+    result.withoutShadows = receivers;
+    result.nothingReceives =
+      "looks the same in every light: lighting is off, or nothing is diffuse or specular";
   }
 }
 
@@ -347,6 +409,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   giveWay(this->Found);
   this->assemble(result);
   this->explain(settings, options, result);
+  this->missShadows(options, result);
   result.current = true;
   this->Levels = settings.levels;
   this->Options.convert = options.convert;

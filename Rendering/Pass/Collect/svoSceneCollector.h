@@ -57,6 +57,11 @@ struct CollectedScene
   bool rasterizedReceivers = false; // lit surfaces that the rasteriser draws and shadows fall on
   bool headlightOnly = false;       // SceneLights
   bool shadowCatchers = false;      // there are some; they are rasterised
+  /// Where lights cast and yet no shadow can be seen: why, as ends of sentences that begin with
+  /// "it", and of how many props. Empty where some can, where there is nothing, and where somebody
+  /// asked for that.
+  std::string nothingCasts, nothingReceives;
+  int withoutShadows = 0;
   std::string lightsText;
   /// With `onlyMarked`: why marked props are not traced, and what casts nothing. Others are not in.
   std::vector<std::pair<vtkWeakPointer<vtkProp>, std::string>> reasons;
@@ -89,9 +94,11 @@ private:
   void assemble(CollectedScene& result);
   void explain(
     const CollectSettings& settings, const StoreOptions& options, CollectedScene& result) const;
+  void missShadows(const StoreOptions& options, CollectedScene& result) const;
 
   PropCollector Props;
   std::vector<PropSurfaces> Found; // of the last frame's visible props, in their order
+  int Others = 0;                  // its visible props in space that can have no surfaces
   /// Of all surfaces of those props; where all are in the scene they are lent to it.
   std::vector<Instance> Instances;
   bool Lent = false;

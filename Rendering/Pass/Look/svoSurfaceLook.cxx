@@ -266,7 +266,7 @@ Treatment treatmentOf(vtkActor* actor)
   }
   else if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE && !drawsBodies(mapper))
   {
-    treatment.rasterized = "is shown as wireframe or points";
+    treatment.rasterized = ShowsNoPolygons;
     const bool round = !isGlyphMapper(mapper) && roundLookOf(actor->GetProperty()).any();
     treatment.castsNone = round ? nullptr : treatment.rasterized;
   }

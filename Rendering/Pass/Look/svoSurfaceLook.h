@@ -23,15 +23,20 @@ namespace svo
 /// "it". Nullptr: it is traced, or casts.
 using Reason = const char*;
 
+/// Reasons of what shows no surface, or is no data.
+inline constexpr Reason ShowsNoPolygons = "is shown as wireframe or points";
+inline constexpr Reason HasNoPolygons = "has lines or vertices, none of them as tubes or spheres";
+inline constexpr Reason MayDrawAnything = "is of a class that may draw anything";
+
 /// Whether a visible actor is traced, rasterised or left out of shadows.
 struct Treatment
 {
   Reason rasterized = nullptr; // its look cannot be reproduced
-  Reason castsNone = nullptr;  // nor its silhouette (lines, followers, glyphs, clipped surfaces)
+  Reason castsNone = nullptr;  // nor its silhouette (lines, clipped surfaces)
 };
 
-/// True for classes whose drawing is known to the letter. A subclass may draw anything: followers,
-/// axes and sky boxes are actors too.
+/// True for classes whose drawing is known to the letter. A subclass may draw anything: axes and
+/// sky boxes are actors too.
 bool isPlainActor(vtkActor* actor);
 
 /// The same of mappers.
