@@ -3,15 +3,23 @@ them. So a scene that was edited a thousand times can be made afresh."""
 
 import random
 
-from vtkmodules.vtkCommonCore import vtkFloatArray, vtkLookupTable, vtkPoints, vtkUnsignedCharArray
-from vtkmodules.vtkCommonDataModel import vtkPlane, vtkPolyData
+from vtkmodules.vtkCommonCore import (
+    VTK_UNSIGNED_CHAR, vtkFloatArray, vtkLookupTable, vtkPoints, vtkUnsignedCharArray)
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkPlane, vtkPolyData, vtkSphere
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkFiltersSources import (
     vtkConeSource, vtkCubeSource, vtkLineSource, vtkPlaneSource, vtkPlatonicSolidSource, vtkSphereSource,
     vtkSuperquadricSource)
 from vtkmodules.vtkRenderingCore import (
-    vtkActor, vtkGlyph3DMapper, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow)
-from vtksvo import vtkSVORenderPass
+    vtkActor, vtkGlyph3DMapper, vtkLight, vtkPointGaussianMapper, vtkPolyDataMapper, vtkProperty, vtkRenderer,
+    vtkRenderWindow, vtkTexture)
+from vtksvo import vtkImplicitFunctionToSVO, vtkSVORenderPass
+
+try:
+    # Its name up to VTK 9.4.
+    from vtkmodules.vtkRenderingOpenGL2 import vtkCompositePolyDataMapper2 as CompositeMapper
+except ImportError:
+    from vtkmodules.vtkRenderingCore import vtkCompositePolyDataMapper as CompositeMapper
 
 
 def sphere(size):
@@ -53,13 +61,25 @@ def solid(size):
     return source
 
 
-SOURCES = {"sphere": sphere, "cone": cone, "quadric": quadric, "plane": plane, "line": line, "solid": solid,
+def surface(size):
+    """An octree of a function, in a hull."""
+    function, source = vtkSphere(), vtkImplicitFunctionToSVO()
+    function.SetRadius(0.3 + size / 200)
+    source.SetImplicitFunction(function)
+    source.SetModelBounds(-0.7, 0.7, -0.7, 0.7, -0.7, 0.7 if size % 2 else 0.1)
+    source.SetMaximumLevel(6)
+    return source
+
+
+SOURCES = {"surface": surface, "sphere": sphere, "cone": cone, "quadric": quadric, "plane": plane, "line": line, "solid": solid,
            "cube": lambda size: vtkCubeSource()}
 
 
 def shift_points(mesh, seed):
-    """Points are moved in place; by how much depends on the seed and on nothing before."""
+    """Points are moved in place; by how much depends on the seed and on nothing before. A hull's stay."""
     original = mesh.original_points
+    if not original:
+        return
     rng = random.Random(seed)
     shift, points = [rng.uniform(-0.1, 0.1) for _ in range(9)], mesh.GetPoints()
     for i in range(points.GetNumberOfPoints()):
@@ -75,6 +95,9 @@ def mesh_of(data):
     source.Update()
     mesh = vtkPolyData()
     mesh.DeepCopy(source.GetOutput())
+    if data["kind"] == "surface":
+        mesh.original_points = None
+        return mesh
     if not data["normals"]:
         mesh.GetPointData().SetNormals(None)
     for attributes, number in ((mesh.GetPointData(), mesh.GetNumberOfPoints()),
@@ -93,17 +116,44 @@ def mesh_of(data):
 
 
 def set_mapper(actor, data, meshes):
-    """The mapper by its kind; glyphs are copies of the mesh at the points of a small one."""
-    if data["glyphs"]:
+    """The mapper by its kind; glyphs are copies of the mesh at the points of a small one, blocks are the mesh beside
+    one of its own."""
+    if data["mapper"] == "glyphs":
         mapper = vtkGlyph3DMapper()
         mapper.SetInputData(mesh_of({"kind": "solid", "size": 1, "normals": False, "shift": None}))
         mapper.SetSourceData(meshes[data["mesh"]])
         mapper.ScalingOff()
         mapper.SetScaleFactor(0.4)
+    elif data["mapper"] == "blocks":
+        mapper = CompositeMapper()
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, meshes[data["mesh"]])
+        blocks.SetBlock(1, mesh_of({"kind": "cone", "size": 9, "normals": False, "shift": 3}))
+        mapper.SetInputDataObject(blocks)
     else:
-        mapper = vtkPolyDataMapper()
+        mapper = vtkPolyDataMapper() if data["mapper"] == "mesh" else vtkPointGaussianMapper()
         mapper.SetInputData(meshes[data["mesh"]])
     actor.SetMapper(mapper)
+
+
+def texture_of(color):
+    if color is None:
+        return None
+    image, texture = vtkImageData(), vtkTexture()
+    image.SetDimensions(2, 2, 1)
+    image.AllocateScalars(VTK_UNSIGNED_CHAR, 3)
+    for i in range(12):
+        image.GetPointData().GetScalars().SetValue(i, int(255 * color[i % 3]) // (1 + i // 6))
+    texture.SetInputData(image)
+    return texture
+
+
+def backface_of(color):
+    if color is None:
+        return None
+    backface = vtkProperty()
+    backface.SetColor(color)
+    return backface
 
 
 def matrix_of(values):
@@ -142,10 +192,16 @@ def set_clipping(actor, height):
 
 
 def set_glyphs_look(actor, set_value, value):
-    # VTK's glyphs take the property's color when they are made, and are not made anew for another one.
+    # VTK's glyphs take the looks when they are made, and are not made anew for others.
     set_value(value)
     if actor.GetMapper().IsA("vtkGlyph3DMapper"):
         actor.GetMapper().Modified()
+
+
+def set_lit(actor, how):
+    # Not both: VTK's shader of edges as tubes does not compile without lighting, and VTK crashes.
+    actor.GetProperty().SetLighting(how != "flat")
+    actor.GetProperty().SetRenderLinesAsTubes(how == "tubes")
 
 
 def set_light_type(light, kind):
@@ -166,13 +222,14 @@ ACTOR = {
     "ambient": lambda a, v: a.GetProperty().SetAmbient(v),
     "specular": lambda a, v: a.GetProperty().SetSpecular(v),
     "power": lambda a, v: a.GetProperty().SetSpecularPower(v),
-    "lighting": lambda a, v: a.GetProperty().SetLighting(v),
+    "lit": set_lit,
     "interpolation": lambda a, v: a.GetProperty().SetInterpolation(v),
     "representation": lambda a, v: a.GetProperty().SetRepresentation(v),
     "edges": lambda a, v: a.GetProperty().SetEdgeVisibility(v),
     "width": lambda a, v: a.GetProperty().SetLineWidth(v),
-    "tubes": lambda a, v: a.GetProperty().SetRenderLinesAsTubes(v),
     "culled": lambda a, v: a.GetProperty().SetBackfaceCulling(v),
+    "texture": lambda a, v: a.SetTexture(texture_of(v)),
+    "backface": lambda a, v: set_glyphs_look(a, a.SetBackfaceProperty, backface_of(v)),
     "colors": set_colors,
     "clipped": set_clipping,
     "casts": lambda a, v: vtkSVORenderPass.SetCastShadow(v, a),

@@ -47,9 +47,12 @@ class Values:
                 "visible": lambda: flag(0.9), "color": lambda: point(0.2, 1),
                 "opacity": lambda: rng.choice((1, 1, 1, 0.5, 0.2)), "ambient": lambda: rng.choice((0, 0, 0.3)),
                 "specular": lambda: rng.choice((0, 0, 0.5)), "power": lambda: rng.choice((1, 10, 60)),
-                "lighting": lambda: flag(0.9), "interpolation": lambda: rng.randrange(3),
+                "lit": lambda: rng.choice(("lit", "lit", "lit", "tubes", "flat")),
+                "interpolation": lambda: rng.choice((0, 1, 2, 2, 3)),
                 "representation": lambda: rng.choice((2, 2, 2, 2, 1, 0)), "edges": lambda: flag(0.1),
-                "width": lambda: rng.choice((1, 1, 4)), "tubes": lambda: flag(0.3), "culled": lambda: flag(0.1),
+                "width": lambda: rng.choice((1, 1, 4)), "culled": lambda: flag(0.1),
+                "texture": lambda: None if flag(0.9) else point(0.2, 1),
+                "backface": lambda: None if flag(0.9) else point(0.2, 1),
                 "colors": lambda: rng.choice(("none", "none", "points", "cells", "table", "holes")),
                 "clipped": lambda: None if flag(0.9) else rng.uniform(-1, 1),
                 "casts": lambda: flag(0.8), "receives": lambda: flag(0.9), "traced": lambda: flag(0.9),
@@ -89,7 +92,10 @@ class Values:
                 "normals": self.rng.random() < 0.6, "shift": None}
 
     def actor(self, meshes):
-        return dict(self.all("actor"), mesh=self.rng.randrange(meshes), glyphs=self.rng.random() < 0.1)
+        return dict(self.all("actor"), mesh=self.rng.randrange(meshes), mapper=self.mapper())
+
+    def mapper(self):
+        return self.rng.choices(("mesh", "glyphs", "blocks", "splats"), (20, 2, 2, 1))[0]
 
     def view(self, meshes):
         return {"size": self.size(), "samples": self.rng.choice((0, 0, 4)),
@@ -140,9 +146,9 @@ class World:
             if rng.random() < 0.3 and not any(one["mesh"] == m for each in self.views for one in each.data["actors"]):
                 self.mesh_data[m] = values.mesh()
                 self.meshes[m] = mesh_of(self.mesh_data[m])
-            data["actors"][i].update(mesh=m, glyphs=rng.random() < 0.1)
+            data["actors"][i].update(mesh=m, mapper=values.mapper())
             view.set_mesh(i)
-            return where + f"actor {i} has mesh {m}, glyphs: {data['actors'][i]['glyphs']}"
+            return where + f"actor {i} has mesh {m} as {data['actors'][i]['mapper']}"
         if kind == "add" and len(data["actors"]) < 12:
             data["actors"].append(values.actor(len(self.meshes)))
             view.add_actor(data["actors"][-1])
