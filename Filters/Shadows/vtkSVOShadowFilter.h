@@ -104,8 +104,8 @@ public:
 
   //@{
   /**
-   * Points of a cell that are asked for, spread over its area. 1 to 65536, default 16. Cells of
-   * several triangles have at least one in each triangle.
+   * Points of a cell that are asked for, spread over its area, whatever its corners; of one alone,
+   * the middle. 1 to 65536, default 16. Time grows with them.
    */
   vtkSetClampMacro(SamplesPerCell, int, 1, 65536);
   vtkGetMacro(SamplesPerCell, int);

@@ -173,10 +173,11 @@ std::uint64_t ShadowCasters::beam(
     far ? caster.toOctree.vector(light.direction) : caster.toOctree.point(light.position);
   ShadowBeam::Answer answers[BeamPoints::Most];
   Primitive nearest[BeamPoints::Most];
-  if (!ShadowBeam(caster.octree, from, far).trace(points, answers, nearest))
+  // A beam that sees more is slower than its rays side by side, whatever they lie on.
+  constexpr std::size_t MostNodes = 64;
+  if (!ShadowBeam(caster.octree, from, far).trace(points, answers, nearest, MostNodes))
   {
-    const int half = count / 2;
-    return beam(caster, light, starts, half) | beam(caster, light, starts + half, count - half);
+    return block(caster, light, starts, count);
   }
   for (int i = 0; i < count; ++i)
   {
@@ -198,11 +199,6 @@ std::uint64_t ShadowCasters::hidden(
 {
   assert(count >= 0 && count <= BeamPoints::Most);
   std::uint64_t dark = 0;
-  int triangles = 0; // that the samples lie on; each has its samples in a row
-  for (int i = 0; i < count; ++i)
-  {
-    triangles += i == 0 || samples[i].own != samples[i - 1].own;
-  }
   for (const Caster& caster : this->Casters)
   {
     const double offset = this->OwnError + (caster.own == Own::Nothing ? caster.error : 0.0);
@@ -225,19 +221,11 @@ std::uint64_t ShadowCasters::hidden(
     {
       continue;
     }
-    if (singleRays)
+    for (int i = 0; singleRays && i < begun; ++i)
     {
-      for (int i = 0; i < begun; ++i)
-      {
-        dark |= std::uint64_t(ray(caster, light, starts[i])) << starts[i].number;
-      }
-      continue;
+      dark |= std::uint64_t(ray(caster, light, starts[i])) << starts[i].number;
     }
-    // Triangles that have many of the samples look large from the light: few are in the beam.
-    constexpr int Triangles = 8;
-    const bool large = triangles <= Triangles;
-    dark |= large || !caster.octree.surface() ? beam(caster, light, starts, begun)
-                                              : block(caster, light, starts, begun);
+    dark |= singleRays ? 0 : beam(caster, light, starts, begun);
   }
   return dark;
 }

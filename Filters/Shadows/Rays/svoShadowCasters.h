@@ -1,8 +1,8 @@
 // Octrees with their matrices that may stand between samples and lights.
 //
 // Octrees of meshes are met at their triangles, exactly, in double, whatever leaf geometry they are
-// for; octrees of planes at their planes. Samples that lie on few triangles go to a light as one
-// beam (svoShadowBeam.h), others as a block of rays (svoIntersect.h). Either is told from rays in
+// for; octrees of planes at their planes. Samples go to a light as one beam (svoShadowBeam.h), or,
+// where that sees too much, as a block of rays (svoIntersect.h). Either is told from rays in
 // double by floats' rounding at edges only: what is dark is so in double, and what a beam or a
 // block leaves open, or says of a sample's own surface, is asked for by a ray in double.
 #ifndef svoShadowCasters_h
@@ -58,11 +58,11 @@ private:
   struct Start;
   static bool skips(const Caster& caster, std::uint32_t own, Primitive triangle);
   static bool ray(const Caster& caster, const Light& light, const Start& start);
-  /// Of at most 64, those that are hidden: side by side in float, what is dark confirmed in double.
-  static std::uint64_t block(
-    const Caster& caster, const Light& light, const Start* starts, int count);
-  /// The same for those that lie on few triangles.
+  /// Of at most 64, those that are hidden: together, or where that is slower as a block.
   static std::uint64_t beam(
+    const Caster& caster, const Light& light, const Start* starts, int count);
+  /// The same side by side in float, what is dark confirmed in double.
+  static std::uint64_t block(
     const Caster& caster, const Light& light, const Start* starts, int count);
   std::vector<Caster> Casters;
   double OwnError = 0.0;

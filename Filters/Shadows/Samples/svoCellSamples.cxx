@@ -11,24 +11,19 @@
 
 namespace svo
 {
-glm::dvec3 trianglePoint(std::size_t index, std::size_t count)
+namespace
 {
-  constexpr double Golden = 0.61803398874989485;
-  if (count == 1)
-  {
-    return glm::dvec3(1.0 / 3.0);
-  }
-  const double along = (static_cast<double>(index) + 0.5) / static_cast<double>(count);
-  const double turns = (static_cast<double>(index) + 0.5) * Golden;
-  const double across = turns - std::floor(turns);
-  const double root = std::sqrt(along);
-  return { 1.0 - root, root * (1.0 - across), root * across };
+/// Whether a point of the unit square is on a quad's first triangle.
+bool onFirst(const glm::dvec2& p)
+{
+  return p.x >= p.y;
+}
 }
 
 CellSamples::CellSamples(const TriangleMesh& mesh, const std::vector<std::uint32_t>& cells,
   int samplesPerCell, const glm::dmat4& toWorld)
   : Mesh(mesh)
-  , PerCell(samplesPerCell)
+  , PerCell(static_cast<std::size_t>(samplesPerCell))
   , ToWorld(toWorld)
   , Outside(glm::determinant(glm::dmat3(toWorld)) < 0.0 ? -1.0 : 1.0)
 {
@@ -55,20 +50,29 @@ CellSamples::CellSamples(const TriangleMesh& mesh, const std::vector<std::uint32
         (this->corner(with, 0) + this->corner(with, 1) + this->corner(with, 2)) / 3.0);
     }
   }
+  this->OnSquares.prepare(this->PerCell);
+  for (std::size_t k = 0; k < this->PerCell; ++k)
+  {
+    this->OnHalf += onFirst(this->OnSquares.at(k, this->PerCell));
+  }
   this->Cells.reserve(found.size());
   this->Begins.push_back(0);
-  std::size_t samples = 0;
+  std::vector<Part> parts;
+  const std::size_t cellsAPiece = std::max<std::size_t>(1, PieceSamples / this->PerCell);
   for (const std::uint32_t i : mortonOrder(middles))
   {
-    // Cells of several triangles may have more; pieces need not be equal.
-    const auto own = std::max<std::size_t>(this->PerCell, found[i].end - found[i].first);
-    if (samples > 0 && samples + own > PieceSamples)
+    if (this->Cells.size() == this->Begins.back() + cellsAPiece)
     {
       this->Begins.push_back(static_cast<std::uint32_t>(this->Cells.size()));
-      samples = 0;
     }
-    samples += own;
     this->Cells.push_back(found[i]);
+    if (!this->partsOf(found[i], parts))
+    {
+      for (const Part& part : parts)
+      {
+        this->OnTriangles.prepare(part.count);
+      }
+    }
   }
   if (!this->Cells.empty())
   {
@@ -100,9 +104,67 @@ double CellSamples::area(const Cell& cell) const
   return sum;
 }
 
-std::size_t CellSamples::samplesOf(double part) const
+bool CellSamples::isQuad(std::vector<Part>& parts) const
 {
-  return part > 0.0 ? std::max<std::size_t>(1, std::lround(part * this->PerCell)) : 0;
+  if (parts.size() != 2 || parts[0].share > 2.0 * parts[1].share ||
+    parts[1].share > 2.0 * parts[0].share)
+  {
+    return false;
+  }
+  for (std::size_t p = 0; p < 2; ++p)
+  {
+    const glm::uvec3 own = this->Mesh.triangles[parts[p].triangle];
+    const glm::uvec3 other = this->Mesh.triangles[parts[1 - p].triangle];
+    int apart = 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      if (own[i] != other.x && own[i] != other.y && own[i] != other.z)
+      {
+        parts[p].apex = i;
+        ++apart;
+      }
+    }
+    if (apart != 1)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool CellSamples::partsOf(const Cell& cell, std::vector<Part>& parts) const
+{
+  parts.clear();
+  const double whole = this->area(cell);
+  for (std::uint32_t t = cell.first; t < cell.end; ++t)
+  {
+    if (const double share = this->area(t) / whole; share > 0.0)
+    {
+      parts.push_back({ t, 0, 0, share });
+    }
+  }
+  const bool quad = this->isQuad(parts);
+  const auto points = static_cast<double>(this->PerCell);
+  double before = 0.0, sampled = 0.0; // areas
+  std::size_t given = 0;
+  for (Part& part : parts)
+  {
+    before += part.share;
+    const bool last = &part == &parts.back();
+    const auto upToHere = last ? this->PerCell
+      : quad                   ? this->OnHalf
+                               : static_cast<std::size_t>(std::lround(before * points));
+    part.count = std::max(upToHere, given) - given;
+    given += part.count;
+    sampled += part.count == 0 ? 0.0
+      : quad                   ? part.share * static_cast<double>(part.count)
+                               : part.share;
+  }
+  for (Part& part : parts)
+  {
+    part.share /= quad ? sampled : sampled * static_cast<double>(part.count);
+  }
+  return quad;
 }
 
 void CellSamples::piece(
@@ -110,24 +172,35 @@ void CellSamples::piece(
 {
   places.clear();
   samples.clear();
+  std::vector<Part> parts;
   for (std::uint32_t i = this->Begins[index]; i < this->Begins[index + 1]; ++i)
   {
-    const Cell& cell = this->Cells[i];
-    const double whole = this->area(cell);
     const auto place = static_cast<std::uint32_t>(places.size());
-    places.push_back(cell.id);
-    for (std::uint32_t t = cell.first; t < cell.end; ++t)
+    places.push_back(this->Cells[i].id);
+    const bool quad = this->partsOf(this->Cells[i], parts);
+    for (std::size_t p = 0; p < parts.size(); ++p)
     {
-      const double part = this->area(t) / whole;
-      const glm::dvec3 a = this->corner(t, 0), b = this->corner(t, 1), c = this->corner(t, 2);
-      const std::size_t count = this->samplesOf(part);
-      const glm::dvec3 normal =
-        count > 0 ? this->Outside * glm::normalize(glm::cross(b - a, c - a)) : glm::dvec3(0.0);
-      for (std::size_t k = 0; k < count; ++k)
+      const Part& part = parts[p];
+      const glm::dvec3 a = this->corner(part.triangle, part.apex);
+      const glm::dvec3 toB = this->corner(part.triangle, (part.apex + 1) % 3) - a;
+      const glm::dvec3 toC = this->corner(part.triangle, (part.apex + 2) % 3) - a;
+      const glm::dvec3 normal = this->Outside * glm::normalize(glm::cross(toB, toC));
+      const auto add = [&](double b, double c) {
+        samples.push_back({ a + b * toB + c * toC, normal, part.triangle, place, part.share });
+      };
+      for (std::size_t k = 0; !quad && k < part.count; ++k)
       {
-        const glm::dvec3 w = trianglePoint(k, count);
-        samples.push_back({ a + w.y * (b - a) + w.z * (c - a), normal, t, place,
-          part / static_cast<double>(count) });
+        const glm::dvec2 at = this->OnTriangles.at(k, part.count);
+        add(at.x, at.y);
+      }
+      for (std::size_t k = 0; quad && k < this->PerCell; ++k)
+      {
+        // The apices are (1, 0) and (0, 1); edges go round in the same sense in both triangles.
+        const glm::dvec2 at = this->OnSquares.at(k, this->PerCell);
+        if (onFirst(at) == (p == 0))
+        {
+          p == 0 ? add(at.y, 1.0 - at.x) : add(1.0 - at.y, at.x);
+        }
       }
     }
   }

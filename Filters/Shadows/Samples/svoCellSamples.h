@@ -1,14 +1,14 @@
 // Points spread over cells, each with its share of the cell's area.
 //
-// A cell is cut into triangles as octrees are built from it. Each has a share of the samples that
-// goes with its area, and at least one: a lattice of the golden ratio (J. H. Hannay, J. F. Nye,
-// "Fibonacci numerical integration on a sphere", J. Phys. A 37, 2004) on a square that a square
-// root takes to the triangle (P. Shirley, Graphics Gems III, 1992), which leaves no straight rows:
-// edges of shadows that run along edges of cells are counted as well as any.
+// A cell is cut into triangles as octrees are built from it. Two triangles that make a quad have
+// their points as a square has them (svoEvenPoints.h); other cells of several triangles have in
+// each as many as go with its area, which may be none. A point's share of its cell is what it
+// stands for.
 #ifndef svoCellSamples_h
 #define svoCellSamples_h
 
 #include "svoBuild.h"
+#include "svoEvenPoints.h"
 #include "svoSamples.h"
 
 #include <cstdint>
@@ -39,21 +39,31 @@ private:
   {
     std::uint32_t id, first, end; // of its triangles
   };
+  /// The points that a cell has in one of its triangles.
+  struct Part
+  {
+    std::uint32_t triangle;
+    int apex; // of a quad: the corner that the other triangle has not
+    std::size_t count;
+    double share; // of each point
+  };
   glm::dvec3 corner(std::uint32_t triangle, int i) const;
   double area(std::uint32_t triangle) const; // 0 of one that is not finite
   double area(const Cell& cell) const;
-  std::size_t samplesOf(double part) const;
+  /// Of the triangles with an area; true if they are the halves of a quad.
+  bool partsOf(const Cell& cell, std::vector<Part>& parts) const;
+  bool isQuad(std::vector<Part>& parts) const;
 
   TriangleMesh Mesh;
-  int PerCell;
+  std::size_t PerCell;
   glm::dmat4 ToWorld;
   double Outside;                    // -1 where the matrix mirrors: normals keep to the outside
   std::vector<Cell> Cells;           // in the order of the pieces
   std::vector<std::uint32_t> Begins; // of the pieces in Cells; one more than there are pieces
+  EvenPoints OnTriangles{ EvenPoints::Shape::Triangle };
+  EvenPoints OnSquares{ EvenPoints::Shape::Square };
+  std::size_t OnHalf = 0; // of a quad's points, those on its first triangle
 };
-
-/// Barycentric coordinates of point `index` of `count` in a triangle; of one alone, the middle.
-glm::dvec3 trianglePoint(std::size_t index, std::size_t count);
 }
 
 #endif

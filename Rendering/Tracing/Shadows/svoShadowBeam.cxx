@@ -14,9 +14,6 @@ namespace svo
 {
 namespace
 {
-/// Where a beam sees more nodes than this it is divided.
-constexpr std::size_t MostNodes = 256;
-
 /// Where rays from a light begin, the point being at 1: what the light lies on is not between.
 constexpr double BeforeLight = 1e-9;
 
@@ -64,7 +61,8 @@ double depthOfPlane(const BeamRay& ray, const Surface& surface, Primitive primit
 }
 }
 
-bool ShadowBeam::trace(const BeamPoints& points, Answer* answers, Primitive* nearest)
+bool ShadowBeam::trace(
+  const BeamPoints& points, Answer* answers, Primitive* nearest, std::size_t mostNodes)
 {
   assert(points.count > 0 && points.count <= BeamPoints::Most && this->Tree.surface());
   glm::dvec3 centre(0.0);
@@ -132,7 +130,7 @@ bool ShadowBeam::trace(const BeamPoints& points, Answer* answers, Primitive* nea
   pyramid.t = planeThrough(frame.axis, frame.origin);
   pyramid.t.w -= base;
   const float tFar = static_cast<float>(std::min(last, behind) - base + BeamRounding);
-  if (!findTileNodes(this->Tree, pyramid, 0.0f, tFar, MostNodes, this->Nodes))
+  if (!findTileNodes(this->Tree, pyramid, 0.0f, tFar, mostNodes, this->Nodes))
   {
     return false;
   }

@@ -17,6 +17,7 @@
 #include "svoRay.h"
 #include "vtkSVOTracingModule.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -53,10 +54,11 @@ public:
     Dark,     // a triangle is between the point and the light
     Undecided // the light lies on a triangle: a ray alone knows what is behind
   };
-  /// False, and nothing is answered, where the beam is too wide to have few triangles in it: ask
-  /// for fewer points. `nearest`: where not null, the triangles that make points dark, those
+  /// False, and nothing is answered, where the beam is too wide to see at most `mostNodes` nodes:
+  /// ask for fewer points. `nearest`: where not null, the triangles that make points dark, those
   /// nearest to the light.
-  bool trace(const BeamPoints& points, Answer* answers, Primitive* nearest = nullptr);
+  bool trace(const BeamPoints& points, Answer* answers, Primitive* nearest = nullptr,
+    std::size_t mostNodes = 256);
 
 private:
   const Octree& Tree;

@@ -194,7 +194,7 @@ TEST(SVOShadowFilter, PointsInAValleyAreOnTheirOwnFacets)
 
 TEST(SVOShadowFilter, SamplesTogetherGetWhatTheyGetAlone)
 {
-  // As beams where many of them are on one triangle, else as blocks.
+  // As beams, or as blocks where beams see too much.
   for (const int samples : { 0, 1, 64 })
   {
     vtkSmartPointer<vtkDataArray> answers[2];
@@ -218,7 +218,8 @@ TEST(SVOShadowFilter, SamplesTogetherGetWhatTheyGetAlone)
       differ +=
         answers[0]->GetComponent(i / 40, i % 40) != answers[1]->GetComponent(i / 40, i % 40);
     }
-    EXPECT_LE(differ, values / 20000) << "of " << values << " with " << samples << " samples";
+    // Of rays of 1 among edges 0.03 apart, those that pass one within 1e-6.
+    EXPECT_LE(differ, values / 10000) << "of " << values << " with " << samples << " samples";
   }
 }
 
