@@ -229,6 +229,7 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "AutomaticShadowBias: " << this->AutomaticShadowBias << '\n'
      << indent << "ShadowBias: " << this->ShadowBias << " voxels\n"
      << indent << "ShadowIntensity: " << this->ShadowIntensity << '\n'
+     << indent << "FilterShadows: " << this->FilterShadows << '\n'
      << indent << "TranslucentShadows: " << this->TranslucentShadows << '\n'
      << indent << "PixelError: " << this->PixelError << " pixels\n"
      << indent << "ConvertPolyData: " << this->ConvertPolyData << '\n'

@@ -60,7 +60,7 @@ svo::FrameSettings vtkSVORenderPass::Internals::settingsOf(const vtkSVORenderPas
   settings.viewCulling = pass.ViewCulling;
   settings.occlusionCulling = pass.OcclusionCulling;
   settings.antiAliasing = pass.AntiAliasing;
-  settings.filterShadows = pass.AntiAliasing;
+  settings.filterShadows = pass.FilterShadows || pass.AntiAliasing;
   return settings;
 }
 

@@ -33,7 +33,7 @@ struct FrameSettings
   bool antiAliasing = false;
   /// Shadow buffers say which share of a light a point misses, instead of yes or no, so that the
   /// edges of shadows do not show the buffer's texels: ShadowBuffer::darkness(). With the automatic
-  /// bias only. Shadow buffers are traced whole.
+  /// bias only.
   bool filterShadows = false;
   bool wholeShadowBuffers = false; // rasterised receivers look up texels unknown to the tracer
   bool viewCulling = true;      // instances outside of a view are found together, by a tree of them
@@ -45,6 +45,14 @@ struct FrameSettings
   bool writeNormals = false; // Frame::normals is wanted (SSAO)
   bool writeLight = false;   // Frame::light is wanted (tone mapping)
   bool writeNames = true;    // Frame::instance and Frame::primitive are wanted
+
+  /// Where filterShadows has an effect.
+  bool filters() const
+  {
+    return this->filterShadows && this->automaticBias &&
+      (this->shadowTechnique == ShadowTechnique::Buffer ||
+        this->shadowTechnique == ShadowTechnique::Automatic);
+  }
 };
 
 /// What a tile of 8x8 pixels of a frame holds; those of its border may be smaller.

@@ -191,7 +191,7 @@ void CPUTracer::Internals::findDarkenedTiles(
   const Scene& scene, const FrameChanges& changes, const ParallelFor& parallelFor)
 {
   const Shadows& shadows = this->LightShadows;
-  const bool all = changes.all || !shadows.notesAll() || !shadows.sameMaps();
+  const bool all = changes.all || !shadows.sameMaps();
   std::vector<CasterBox> before; // of no use where the scene is the same
   if (scene.version == 0 || scene.version != this->CastersVersion)
   {

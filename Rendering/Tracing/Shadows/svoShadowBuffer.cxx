@@ -138,14 +138,14 @@ bool ShadowBuffer::lookUp(const glm::dvec3& position, Place& place) const
 }
 
 template <class Body>
-void ShadowBuffer::tilesAround(const Place& place, Body&& body)
+void ShadowBuffer::tilesAround(const Place& place, Body&& body) const
 {
   const View& view = place.face->view;
   const int tilesAcross = (view.width + 7) / 8;
-  const int x0 = std::max(static_cast<int>(place.x - 0.5), 0) >> 3;
-  const int y0 = std::max(static_cast<int>(place.y - 0.5), 0) >> 3;
-  const int x1 = std::min(static_cast<int>(place.x + 0.5), view.width - 1) >> 3;
-  const int y1 = std::min(static_cast<int>(place.y + 0.5), view.height - 1) >> 3;
+  const int x0 = std::max(static_cast<int>(place.x - this->Around), 0) >> 3;
+  const int y0 = std::max(static_cast<int>(place.y - this->Around), 0) >> 3;
+  const int x1 = std::min(static_cast<int>(place.x + this->Around), view.width - 1) >> 3;
+  const int y1 = std::min(static_cast<int>(place.y + this->Around), view.height - 1) >> 3;
   for (int y = y0; y <= y1; ++y)
   {
     for (int x = x0; x <= x1; ++x)
@@ -166,16 +166,16 @@ void ShadowBuffer::namesAround(const glm::dvec3& position, std::uint16_t light, 
   const auto face = std::find_if(this->Faces.begin(), this->Faces.end(),
     [&](const std::unique_ptr<Face>& f) { return f.get() == place.face; });
   const auto map = static_cast<std::uint16_t>(face - this->Faces.begin());
-  tilesAround(place,
+  this->tilesAround(place,
     [&](std::size_t tile) {
       body(LightTile{ light, map, static_cast<std::uint32_t>(tile) });
     });
 }
 
-bool ShadowBuffer::isTraced(const Place& place)
+bool ShadowBuffer::isTraced(const Place& place) const
 {
   bool traced = true;
-  tilesAround(place,
+  this->tilesAround(place,
     [&](std::size_t tile)
     { traced = traced && place.face->wanted[tile].load(std::memory_order_relaxed); });
   return traced;
@@ -196,16 +196,15 @@ void ShadowBuffer::note(const glm::dvec3& position, std::uint16_t light, RaisedT
 }
 
 bool ShadowBuffer::Face::want(
-  const MapPlaces& places, std::uint16_t light, std::uint16_t map, LightTiles& noted)
+  const MapPlaces& places, float around, std::uint16_t light, std::uint16_t map, LightTiles& noted)
 {
-  constexpr float Around = 0.5f; // the test asks the four texels whose centres surround a point
-  const MapTiles box = tilesOf(places, this->view, Around);
+  const MapTiles box = tilesOf(places, this->view, around);
   if (!box.atMost(8))
   {
     return false;
   }
   const std::uint64_t tiles =
-    box.atMost(2) ? ~std::uint64_t(0) : svo::tilesAround(places, this->view, Around, box);
+    box.atMost(2) ? ~std::uint64_t(0) : svo::tilesAround(places, this->view, around, box);
   const std::size_t tilesAcross = (this->view.width + 7) / 8;
   for (int y = box.y0; y <= box.y1; ++y)
   {
@@ -240,7 +239,7 @@ void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles&
     placeInMap(face->view, face->worldToClip, patch, left, places);
     single |= left & ~(places.inside | places.outside);
     if (places.inside != 0 && face->seesCasters &&
-      !face->want(places, light, static_cast<std::uint16_t>(f), noted))
+      !face->want(places, this->Around, light, static_cast<std::uint16_t>(f), noted))
     {
       single |= places.inside;
     }

@@ -46,6 +46,7 @@ public:
   {
     this->AutomaticBias = settings.automaticBias;
     this->Bias = settings.bias;
+    this->Around = settings.filters() ? AroundFilter : AroundTest;
   }
 
   /// Notes the 8x8 light tiles that the points of a patch will look up, and perhaps a few more.
@@ -159,12 +160,20 @@ private:
       const std::vector<float>& ofCasters) const;
     /// Notes the tiles around points that are inside, of this map: few, or one by one. False if
     /// there are too many to be noted here.
-    bool want(const MapPlaces& places, std::uint16_t light, std::uint16_t map, LightTiles& noted);
+    bool want(const MapPlaces& places, float around, std::uint16_t light, std::uint16_t map,
+      LightTiles& noted);
     /// Where its occluders are known.
     MapTexels texels() const
     {
       const DepthBuffer& depth = this->layers.depthBuffer();
       return { depth.tilesX, this->occluders.nearest(), depth.t.data(), depth.instance.data() };
+    }
+
+    /// What lies in the tiles around points that are inside.
+    TileOccluders around(const MapPlaces& places, float margin) const
+    {
+      return this->occluders.in(
+        tilesOf(places, this->view, margin), this->layers.depthBuffer().tilesX);
     }
 
     /// What lies at a texel (index as DepthBuffer::at): false if nothing.
@@ -201,6 +210,18 @@ private:
     DarkNearby = 1, // by an occluder within NearbyReach texels' depth
     Dark = 2
   };
+  /// What all texels say of all points of a patch: where everything is farther from the light than
+  /// the points' planes are followed to, or all texels hold something that lies before what
+  /// shadowTest() follows and allows at most, none of them needs to be looked up.
+  enum class TileAnswer
+  {
+    Lit,
+    Dark,
+    Unknown
+  };
+  /// `around`: what lies there. `span`: of ask(), at most.
+  TileAnswer answer(const Face& face, const MapPlaces& places, const TileOccluders& around,
+    double error, double span = 1.0) const;
   /// What a texel's caster takes, 0..1; 0 where there is none.
   float opacity(const Face& face, const glm::ivec2& texel) const;
   /// The mean of that over what lies in a window.
@@ -210,11 +231,10 @@ private:
   /// False if the point is outside of all faces, or its face sees no caster.
   bool lookUp(const glm::dvec3& position, Place& place) const;
   /// True if the texels around the place are.
-  static bool isTraced(const Place& place);
-  /// Calls body(tile) for the light tiles of the four texels whose centres surround the point: one,
-  /// two or four.
+  bool isTraced(const Place& place) const;
+  /// Calls body(tile) for the light tiles of the texels that a point asks: one, two or four.
   template <class Body>
-  static void tilesAround(const Place& place, Body&& body);
+  void tilesAround(const Place& place, Body&& body) const;
   /// Calls body(name) for those around a point; not if it is outside of what is seen.
   template <class Body>
   void namesAround(const glm::dvec3& position, std::uint16_t light, Body&& body) const;
@@ -245,6 +265,10 @@ private:
   float filtered(const Place& place, double width, const SurfacePoint& point, double error,
     bool weighed = false) const;
 
+  /// How far from a point texels are asked, in texels: the test asks the four whose centres
+  /// surround it; the filter's narrowest window reaches as far, and endsBefore() asks one beyond.
+  static constexpr float AroundTest = 0.5f, AroundFilter = 2.0f;
+
   Culling Cull;
   std::vector<std::unique_ptr<Face>> Faces;
   // By index of the outline: of the instance, among those of all processes where depths are shared.
@@ -261,6 +285,7 @@ private:
   const Scene* Traced = nullptr;        // with these, until trace() is over
   bool AutomaticBias = true;
   double Bias = 0.0;
+  float Around = AroundTest;
   bool SameMaps = false;
 };
 }

@@ -90,30 +90,36 @@ std::uint64_t ShadowBuffer::occluders(const Face& face, const MapPlaces& places,
   return something;
 }
 
-std::uint64_t ShadowBuffer::test(const Face& face, const TilePatch& patch, const MapPlaces& places,
-  double error, std::uint64_t& single) const
+ShadowBuffer::TileAnswer ShadowBuffer::answer(const Face& face, const MapPlaces& places,
+  const TileOccluders& around, double error, double span) const
 {
-  // Where everything is farther from the light than the points' planes are followed to, or all
-  // texels hold something that lies before what shadowTest() follows and allows at most, no texel
-  // needs to be looked up. A thousandth is more than the rounding of these sums.
+  // A thousandth is more than the rounding of these sums.
   const double nearest = places.t0 + places.lowT, farthest = places.t0 + places.highT;
-  const double edge = 1.001 * face.edge(farthest);
+  const double edge = 1.001 * span * face.edge(farthest);
   const double reach = NearbyReach * edge;
   const double slack = 1e-5 *
     (std::abs(farthest) + std::abs(places.highT) + std::abs(nearest) + std::abs(places.lowT));
-  const TileOccluders around =
-    face.occluders.in(tilesOf(places, face.view, 0.0f), face.layers.depthBuffer().tilesX);
   if (around.caster == NoInstance ||
     (this->Bias >= 0.0 && around.nearest > farthest + reach + slack))
   {
-    return 0;
+    return TileAnswer::Lit;
   }
   const double allowed = this->Bias * this->LargestVoxel +
     (TexelBend * edge + std::max(this->LargestError, error)) / LeastSteepness;
   const double followed = std::max(NearbyReach, GrazingReach * face.edge.aspect) * edge;
-  if (this->Bias >= 0.0 && nearest - followed - 1.001 * allowed - slack > around.farthest)
+  return this->Bias >= 0.0 && nearest - followed - 1.001 * allowed - slack > around.farthest
+    ? TileAnswer::Dark
+    : TileAnswer::Unknown;
+}
+
+std::uint64_t ShadowBuffer::test(const Face& face, const TilePatch& patch, const MapPlaces& places,
+  double error, std::uint64_t& single) const
+{
+  const TileOccluders around = face.around(places, 0.0f);
+  const TileAnswer answer = this->answer(face, places, around, error);
+  if (answer != TileAnswer::Unknown)
   {
-    return places.sure;
+    return answer == TileAnswer::Dark ? places.sure : 0;
   }
   TexelTests tests;
   const std::uint64_t something = this->occluders(face, places, around.caster, error, tests);

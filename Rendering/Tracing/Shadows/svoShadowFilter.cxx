@@ -142,6 +142,7 @@ void ShadowBuffer::darkness(const TilePatch& patch, double error, const double* 
   {
     darkness[i] = dark >> i & 1 ? 1.0f : 0.0f;
   }
+  constexpr float Beyond = 0.5f * static_cast<float>(WidestBox + 1.0); // of the widest window
   std::uint64_t left = asked, bent = 0;
   for (std::size_t k = 0; k < this->Faces.size() && this->AutomaticBias && left != 0; ++k)
   {
@@ -150,7 +151,12 @@ void ShadowBuffer::darkness(const TilePatch& patch, double error, const double* 
     placeInMap(face.view, face.worldToClip, patch, left, places);
     bent |= left & ~(places.inside | places.outside);
     left &= places.outside;
-    bent |= face.seesCasters ? places.inside & ~this->flat(face, places, extents) : 0;
+    if (face.seesCasters && places.inside != 0 &&
+      this->answer(face, places, face.around(places, Beyond), error, 2.0 * Beyond + 1.0) ==
+        TileAnswer::Unknown)
+    {
+      bent |= places.inside & ~this->flat(face, places, extents);
+    }
   }
   eachBit(bent,
     [&](int i)

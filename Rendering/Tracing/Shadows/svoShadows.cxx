@@ -43,13 +43,6 @@ bool Shadows::usesRays() const
   return std::count(this->Techniques.begin(), this->Techniques.end(), ShadowTechnique::Rays) > 0;
 }
 
-bool Shadows::canFilter(const FrameSettings& settings)
-{
-  return settings.filterShadows && settings.automaticBias &&
-    (settings.shadowTechnique == ShadowTechnique::Buffer ||
-      settings.shadowTechnique == ShadowTechnique::Automatic);
-}
-
 void Shadows::chooseAll(const Scene& scene, ShadowTechnique technique)
 {
   this->TechniquesBefore = std::move(this->Techniques);
@@ -128,9 +121,9 @@ void Shadows::fitMaps(const Scene& seen, const View& view, const FrameSettings& 
 void Shadows::prepare(const Scene& scene, const FrameSettings& settings, LayerBudget& budget,
   const ParallelFor& parallelFor)
 {
-  this->Filters = canFilter(settings);
-  // Subsamples of a pixel, and filters, may look up what no pixel's centre does.
-  this->TracesWhole = settings.wholeShadowBuffers || settings.antiAliasing || this->Filters;
+  this->Filters = settings.filters();
+  this->Samples = settings.antiAliasing;
+  this->TracesWhole = settings.wholeShadowBuffers || this->Samples;
   this->SharedState.clear();
   this->prepareBuffers(scene, scene.lights, this->Maps, 0, settings, budget, parallelFor);
 }

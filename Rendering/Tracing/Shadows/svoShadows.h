@@ -63,10 +63,7 @@ public:
   /// After trace(): true if any of these tiles does not show what it showed in the last frame.
   bool changed(const LightTiles& noted) const;
   /// True if it matters what mark() notes.
-  bool wantsMarks() const { return this->Casting && (!this->TracesWhole || this->notesAll()); }
-  /// True if shading looks up nothing but what mark() notes, and what note() does of points that
-  /// are raised. Rays go to the lights from where they say.
-  bool notesAll() const { return !this->Filters; }
+  bool wantsMarks() const { return this->Casting && !this->Samples; }
   /// Notes what darkness() looks up of a raised point.
   void note(std::size_t light, const TerminatorPoint& at, RaisedTiles& noted) const;
   /// After trace(): true if darkness() may look up something else about such points.
@@ -145,7 +142,6 @@ public:
 
 private:
   bool usesBuffer(std::size_t light, const FrameSettings& settings) const;
-  static bool canFilter(const FrameSettings& settings);
   void chooseAll(const Scene& scene, ShadowTechnique technique);
   void fitMaps(const Scene& seen, const View& view, const FrameSettings& settings);
   void prepareBuffers(const Scene& scene, const std::vector<Light>& lights,
@@ -161,6 +157,7 @@ private:
   bool TracesWhole = false;                                  // every tile is traced
   bool Casting = false;                                      // there are buffers
   bool Filters = false;
+  bool Samples = false; // points beside pixels' centres look up what nobody has marked
   /// By index into Scene::lights, null: no buffer; then those of groups of translucent casters,
   /// light by light: of each light from where its first one is.
   std::vector<ShadowBuffer*> Buffers;

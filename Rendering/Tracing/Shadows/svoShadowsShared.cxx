@@ -59,7 +59,7 @@ void append(std::vector<unsigned char>& bytes, const std::vector<T>& values)
 bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettings& own,
   LayerBudget& budget, const ParallelFor& parallelFor, Processes& processes)
 {
-  this->Filters = canFilter(own);
+  this->Filters = own.filters();
   this->chooseAll(scene, ShadowTechnique::Buffer);
   std::vector<SharedSettings> settingsOfAll;
   SharedSettings mine = settingsOf(own, eye);

@@ -31,6 +31,7 @@ TEST(RenderPassSettings, DefaultsAreThoseOfTheManual)
   EXPECT_TRUE(pass->GetAutomaticShadowBias());
   EXPECT_EQ(pass->GetShadowBias(), 0.0);
   EXPECT_EQ(pass->GetShadowIntensity(), 1.0);
+  EXPECT_FALSE(pass->GetFilterShadows());
   EXPECT_TRUE(pass->GetTranslucentShadows());
   EXPECT_EQ(pass->GetPixelError(), 1.0);
   EXPECT_TRUE(pass->GetConvertPolyData());
@@ -62,7 +63,7 @@ TEST(RenderPassSettings, DefaultsAreThoseOfTheTracer)
   EXPECT_EQ(
     static_cast<std::size_t>(pass->GetLayerMemoryLimit()) * 1024, settings.layerMemoryLimit);
   EXPECT_EQ(pass->GetAntiAliasing(), settings.antiAliasing);
-  EXPECT_EQ(pass->GetAntiAliasing(), settings.filterShadows);
+  EXPECT_EQ(pass->GetFilterShadows(), settings.filterShadows);
   EXPECT_EQ(settings.shadowMemoryLimit, std::size_t(4) << 30); // SetShadowBufferResolution()
   EXPECT_EQ(pass->GetViewCulling(), settings.viewCulling);
   EXPECT_EQ(pass->GetOcclusionCulling(), settings.occlusionCulling);
@@ -288,8 +289,8 @@ TEST(RenderPassSettings, PrintsEverySetting)
   pass->Print(text);
   for (const char* name :
     { "Backend", "ShadowTechnique", "ShadowBufferResolution", "AutomaticShadowBias", "ShadowBias",
-      "ShadowIntensity", "TranslucentShadows", "PixelError", "ConvertPolyData", "MaximumLevel",
-      "LeafGeometry", "OctreeMemoryLimit", "BuildInBackground", "FrameCoherence",
+      "ShadowIntensity", "FilterShadows", "TranslucentShadows", "PixelError", "ConvertPolyData",
+      "MaximumLevel", "LeafGeometry", "OctreeMemoryLimit", "BuildInBackground", "FrameCoherence",
       "LayerMemoryLimit", "AntiAliasing", "NumberOfRasterizedActors", "AcceptedPixelError",
       "NumberOfOctreesBuilt", "NumberOfOctreesInProgress" })
   {

@@ -136,3 +136,29 @@ TEST(AntiAliasing, DoesNotDependOnThreadsOrKeptLayers)
   rendered(tracer, scene, view, settings);
   EXPECT_TRUE(identical(one, rendered(tracer, scene, view, settings, raggedFor(2))));
 }
+
+// Points mark the tiles that their filters look up; all others of a map are not traced. At the
+// borders of small pictures nobody else marks them.
+TEST(AntiAliasing, FiltersLookUpNothingThatNobodyMarked)
+{
+  svo::FrameSettings settings;
+  settings.filterShadows = true;
+  for (const int resolution : { 64, 256, 1024 })
+  {
+    settings.shadowResolution = resolution;
+    svo::CPUTracer tracer, whole; // which keep what they can
+    svo::Scene scene = ballAndRing();
+    for (int frame = 0; frame < 60; ++frame)
+    {
+      const double turned = 0.4 * (frame / 2);
+      const glm::dvec3 from(2.5 * std::cos(turned), 2.5 * std::sin(turned), 3.0);
+      const svo::View view = lookAt(from, 24, 16);
+      scene.instances.back().localToWorld[3].x += frame % 2 ? 0.02 : 0.0;
+      settings.wholeShadowBuffers = false;
+      const svo::Frame marked = rendered(tracer, scene, view, settings);
+      settings.wholeShadowBuffers = true;
+      EXPECT_TRUE(identical(marked, rendered(whole, scene, view, settings)))
+        << resolution << " texels, frame " << frame;
+    }
+  }
+}
