@@ -124,14 +124,14 @@ def set_mapper(actor, data, meshes):
         mapper.SetSourceData(meshes[data["mesh"]])
         mapper.ScalingOff()
         mapper.SetScaleFactor(0.4)
-    elif data["mapper"] == "blocks":
+    elif data["mapper"] == "blocks" and meshes[data["mesh"]].GetNumberOfPolys():
         mapper = CompositeMapper()
         blocks = vtkMultiBlockDataSet()
         blocks.SetBlock(0, meshes[data["mesh"]])
         blocks.SetBlock(1, mesh_of({"kind": "cone", "size": 9, "normals": False, "shift": 3}))
         mapper.SetInputDataObject(blocks)
     else:
-        mapper = vtkPolyDataMapper() if data["mapper"] == "mesh" else vtkPointGaussianMapper()
+        mapper = vtkPointGaussianMapper() if data["mapper"] == "splats" else vtkPolyDataMapper()
         mapper.SetInputData(meshes[data["mesh"]])
     actor.SetMapper(mapper)
 
