@@ -7,6 +7,7 @@ import vtkmodules.vtkRenderingOpenGL2
 import vtksvo
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkFiltersParallel import vtkExtractPolyDataPiece
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow)
@@ -92,6 +93,22 @@ class RenderPass(unittest.TestCase):
         plain.window.Render()
         self.assertEqual(plain.svo.GetNumberOfTracedActors(), 0)
         plain.window.Finalize()
+
+    def test_a_mesh_that_is_drawn_piece_by_piece_is_there_as_a_whole(self):
+        scene = Scene(with_filter=False)
+        scene.svo.SetShadowTechniqueToNone()
+        ball = scene.actors[0]
+        # The filter hands on the piece that it is asked for, and holds the last one after a frame.
+        extract = vtkExtractPolyDataPiece()
+        extract.SetInputConnection(ball.GetMapper().GetInputConnection(0, 0))
+        ball.GetMapper().SetInputConnection(extract.GetOutputPort())
+        ball.GetMapper().SetNumberOfSubPieces(5)
+        traced = scene.pixels()
+        self.assertIn("piece by piece", scene.svo.GetReason(ball))
+        scene.renderer.SetPass(None)
+        plain = scene.pixels()
+        self.assertLess(sum(abs(a - b) > 8 for a, b in zip(traced, plain)), 0.001 * len(plain))
+        scene.window.Finalize()
 
     def test_static_helpers_take_the_value_first(self):
         scene = Scene(with_filter=False)

@@ -17,6 +17,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkSelection.h"
 #include "vtkShaderProperty.h"
@@ -273,6 +274,11 @@ Treatment treatmentOf(vtkActor* actor)
   if (!treatment.castsNone && planes && planes->GetNumberOfItems() > 0)
   {
     treatment.castsNone = "has clipping planes on its mapper";
+  }
+  auto* streamed = vtkPolyDataMapper::SafeDownCast(mapper);
+  if (!treatment.castsNone && streamed && streamed->GetNumberOfSubPieces() > 1)
+  {
+    treatment.castsNone = "is drawn piece by piece by its mapper";
   }
   if (!treatment.rasterized)
   {
