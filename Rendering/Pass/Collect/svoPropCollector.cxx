@@ -195,8 +195,12 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
   }
   const OpaqueCells::Answer opaque =
     this->Opaque.of(part, attributes, frame.shadows && frame.translucentShadows, found.kept);
-  const Casters casters =
-    frame.shadows ? this->castersOf(part, opaque, actor, found, frame) : Casters();
+  Casters casters;
+  if (frame.shadows)
+  {
+    casters = this->castersOf(part, opaque, actor, found, frame);
+    casters = this->seenOf(casters, actor, localToWorld, found, frame);
+  }
   surface.mesh = casters.opaque;
   surface.casts = surface.mesh != nullptr;
   if (!reason)
@@ -381,5 +385,6 @@ void PropCollector::sweep()
   this->Blocks.sweep();
   this->Copies.sweep();
   this->Opaque.sweep();
+  this->Seen.sweep();
 }
 }

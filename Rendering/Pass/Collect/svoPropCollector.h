@@ -10,6 +10,7 @@
 #include "svoOctreeStore.h"
 #include "svoOpaqueCells.h"
 #include "svoSceneOctrees.h"
+#include "svoSeenFaces.h"
 #include "svoSurfaceLook.h"
 #include "svoUnitShapes.h"
 #include "svoView.h"
@@ -50,7 +51,8 @@ struct CollectProps
   std::string translucentSurfaceText;
   std::string translucentText;
   std::string cutOutText;
-  glm::dmat4 world; // see sceneTransform()
+  glm::dmat4 world;          // see sceneTransform()
+  const View* eye = nullptr; // null: not known
 };
 
 /// Whether a prop can have surfaces: actors and assemblies of them.
@@ -103,6 +105,8 @@ private:
   };
   Casters castersOf(const SurfacePart& part, OpaqueCells::Answer opaque, vtkActor* actor,
     PropSurfaces& found, const CollectProps& frame);
+  Casters seenOf(const Casters& casters, vtkActor* actor, const glm::dmat4& localToWorld,
+    PropSurfaces& found, const CollectProps& frame);
   void addTranslucent(vtkActor* actor, const SurfacePart& part, const glm::dmat4& localToWorld,
     SceneSurface& surface, PropSurfaces& found);
   void complainOnce(vtkObject* about, const std::string& text, const CollectProps& frame);
@@ -113,6 +117,7 @@ private:
   OpaqueCells Opaque;
   FloatArrays Floats;
   LeafMeshes Leaves;
+  SeenFaces Seen;
   std::shared_ptr<UnitShapes> Shapes = UnitShapes::ofAll();
   std::map<std::pair<vtkObject*, std::string>, vtkWeakPointer<vtkObject>>
     GivenMessages;    // by object

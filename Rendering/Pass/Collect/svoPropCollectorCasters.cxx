@@ -5,6 +5,7 @@
 #include "vtkActor.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkProperty.h"
 
 namespace svo
 {
@@ -50,6 +51,28 @@ PropCollector::Casters PropCollector::castersOf(const SurfacePart& part, OpaqueC
     this->complainOnce(nullptr, frame.cutOutText, frame);
   }
   return { opaque.mesh, translucent };
+}
+
+/// What is left of casters where their front faces are culled: light enters where the eye looks in.
+/// Of culled back faces all are left, since they are the ones that a light behind a body sees.
+PropCollector::Casters PropCollector::seenOf(const Casters& casters, vtkActor* actor,
+  const glm::dmat4& localToWorld, PropSurfaces& found, const CollectProps& frame)
+{
+  vtkProperty* property = actor->GetProperty();
+  const bool culled = property->GetFrontfaceCulling() && !property->GetBackfaceCulling(); // as VTK
+  if (!culled || !frame.eye || flagOf(actor, found.prop, castShadowKey(), false))
+  {
+    return casters;
+  }
+  found.kept.addUnknown(); // where the eye is
+  const auto left = [&](vtkPolyData* mesh)
+  { return mesh ? this->Seen.of(mesh, actor, localToWorld, *frame.eye, found.kept) : nullptr; };
+  const Casters seen{ left(casters.opaque), left(casters.translucent) };
+  if (seen.opaque != casters.opaque || seen.translucent != casters.translucent)
+  {
+    found.castNothing("has culled front faces");
+  }
+  return seen;
 }
 
 /// Adds what of an actor casts as light as it is, which is never traced itself.

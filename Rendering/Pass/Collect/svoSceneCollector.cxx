@@ -355,7 +355,8 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   const CollectProps frame{ options, settings.shadows && casting, !result.scene.lights.empty(),
     settings.onlyMarked, settings.unmarkedCast, settings.translucentShadows, settings.meanOpacity,
     this->NotMarked.c_str(), settings.said, settings.translucentSurfaceText,
-    settings.translucentText, settings.cutOutText, world };
+    settings.translucentText, settings.cutOutText, world,
+    settings.levels.eye.width > 0 ? &settings.levels.eye : nullptr };
   const std::vector<vtkSmartPointer<vtkProp>> props = propsOf(renderer);
   const bool all = !this->Collected || !sameReason ||
     std::tie(this->Shadows, this->Lights, this->OnlyMarked, this->UnmarkedCast,

@@ -1,0 +1,45 @@
+// What the eye sees of surfaces whose front faces are culled, as meshes that cast.
+#ifndef svoSeenFaces_h
+#define svoSeenFaces_h
+
+#include "svoKept.h"
+#include "svoView.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+class vtkActor;
+class vtkPolyData;
+
+namespace svo
+{
+/// Kept until the mesh changes, or another of its polygons turns to the eye, or nobody has them.
+class SeenFaces
+{
+public:
+  /// A mesh of an actor without the polygons that turn their front to the eye, in whose places are
+  /// cells without an area; strips, and surfaces that are no meshes, stay whole. The mesh itself if
+  /// no polygon does; null if all do.
+  vtkPolyData* of(vtkPolyData* mesh, vtkActor* actor, const glm::dmat4& localToWorld,
+    const View& eye, Kept& kept);
+
+  /// Drops what nobody keeps.
+  void sweep() { this->Entries.sweep(); }
+
+private:
+  struct Entry
+  {
+    std::uint64_t time = 0; // of the mesh
+    std::vector<bool> culled;
+    vtkSmartPointer<vtkPolyData> made;
+  };
+  KeptValues<std::pair<vtkPolyData*, vtkActor*>, Entry> Entries;
+};
+}
+
+#endif
