@@ -5,21 +5,14 @@ import random
 
 from vtkmodules.vtkCommonCore import (
     VTK_UNSIGNED_CHAR, vtkFloatArray, vtkLookupTable, vtkPoints, vtkUnsignedCharArray)
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkPlane, vtkPolyData, vtkSphere
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPlane, vtkPolyData, vtkSphere
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkFiltersSources import (
     vtkConeSource, vtkCubeSource, vtkLineSource, vtkPlaneSource, vtkPlatonicSolidSource, vtkSphereSource,
     vtkSuperquadricSource)
 from vtkmodules.vtkRenderingCore import (
-    vtkActor, vtkGlyph3DMapper, vtkLight, vtkPointGaussianMapper, vtkPolyDataMapper, vtkProperty, vtkRenderer,
-    vtkRenderWindow, vtkTexture)
+    vtkActor, vtkLight, vtkPolyDataMapper, vtkProperty, vtkRenderer, vtkRenderWindow, vtkTexture)
 from vtksvo import vtkImplicitFunctionToSVO, vtkSVORenderPass
-
-try:
-    # Its name up to VTK 9.4.
-    from vtkmodules.vtkRenderingOpenGL2 import vtkCompositePolyDataMapper2 as CompositeMapper
-except ImportError:
-    from vtkmodules.vtkRenderingCore import vtkCompositePolyDataMapper as CompositeMapper
 
 
 def sphere(size):
@@ -116,23 +109,9 @@ def mesh_of(data):
 
 
 def set_mapper(actor, data, meshes):
-    """The mapper by its kind; glyphs are copies of the mesh at the points of a small one, blocks are the mesh beside
-    one of its own."""
-    if data["mapper"] == "glyphs":
-        mapper = vtkGlyph3DMapper()
-        mapper.SetInputData(mesh_of({"kind": "solid", "size": 1, "normals": False, "shift": None}))
-        mapper.SetSourceData(meshes[data["mesh"]])
-        mapper.ScalingOff()
-        mapper.SetScaleFactor(0.4)
-    elif data["mapper"] == "blocks" and meshes[data["mesh"]].GetNumberOfPolys():
-        mapper = CompositeMapper()
-        blocks = vtkMultiBlockDataSet()
-        blocks.SetBlock(0, meshes[data["mesh"]])
-        blocks.SetBlock(1, mesh_of({"kind": "cone", "size": 9, "normals": False, "shift": 3}))
-        mapper.SetInputDataObject(blocks)
-    else:
-        mapper = vtkPointGaussianMapper() if data["mapper"] == "splats" else vtkPolyDataMapper()
-        mapper.SetInputData(meshes[data["mesh"]])
+    # VTK's other mappers (glyphs, blocks) crash now and then while they are edited, also without a pass.
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(meshes[data["mesh"]])
     actor.SetMapper(mapper)
 
 
@@ -191,11 +170,10 @@ def set_clipping(actor, height):
         actor.GetMapper().AddClippingPlane(cut)
 
 
-def set_glyphs_look(actor, set_value, value):
-    # VTK's glyphs take the looks when they are made, and are not made anew for others.
-    set_value(value)
-    if actor.GetMapper().IsA("vtkGlyph3DMapper"):
-        actor.GetMapper().Modified()
+def set_texture(actor, color):
+    # VTK may draw with a texture and buffers that were made without its coordinates, and crash.
+    actor.SetTexture(texture_of(color))
+    actor.GetMapper().Modified()
 
 
 def set_lit(actor, how):
@@ -217,8 +195,8 @@ ACTOR = {
     "scale": lambda a, v: a.SetScale(v),
     "matrix": lambda a, v: a.SetUserMatrix(matrix_of(v)),
     "visible": lambda a, v: a.SetVisibility(v),
-    "color": lambda a, v: set_glyphs_look(a, a.GetProperty().SetColor, v),
-    "opacity": lambda a, v: set_glyphs_look(a, a.GetProperty().SetOpacity, v),
+    "color": lambda a, v: a.GetProperty().SetColor(v),
+    "opacity": lambda a, v: a.GetProperty().SetOpacity(v),
     "ambient": lambda a, v: a.GetProperty().SetAmbient(v),
     "specular": lambda a, v: a.GetProperty().SetSpecular(v),
     "power": lambda a, v: a.GetProperty().SetSpecularPower(v),
@@ -228,8 +206,8 @@ ACTOR = {
     "edges": lambda a, v: a.GetProperty().SetEdgeVisibility(v),
     "width": lambda a, v: a.GetProperty().SetLineWidth(v),
     "culled": lambda a, v: a.GetProperty().SetBackfaceCulling(v),
-    "texture": lambda a, v: a.SetTexture(texture_of(v)),
-    "backface": lambda a, v: set_glyphs_look(a, a.SetBackfaceProperty, backface_of(v)),
+    "texture": set_texture,
+    "backface": lambda a, v: a.SetBackfaceProperty(backface_of(v)),
     "colors": set_colors,
     "clipped": set_clipping,
     "casts": lambda a, v: vtkSVORenderPass.SetCastShadow(v, a),

@@ -92,10 +92,7 @@ class Values:
                 "normals": self.rng.random() < 0.6, "shift": None}
 
     def actor(self, meshes):
-        return dict(self.all("actor"), mesh=self.rng.randrange(meshes), mapper=self.mapper())
-
-    def mapper(self):
-        return self.rng.choices(("mesh", "glyphs", "blocks", "splats"), (20, 2, 2, 1))[0]
+        return dict(self.all("actor"), mesh=self.rng.randrange(meshes))
 
     def view(self, meshes):
         return {"size": self.size(), "samples": self.rng.choice((0, 0, 4)),
@@ -146,9 +143,9 @@ class World:
             if rng.random() < 0.3 and not any(one["mesh"] == m for each in self.views for one in each.data["actors"]):
                 self.mesh_data[m] = values.mesh()
                 self.meshes[m] = mesh_of(self.mesh_data[m])
-            data["actors"][i].update(mesh=m, mapper=values.mapper())
+            data["actors"][i]["mesh"] = m
             view.set_mesh(i)
-            return where + f"actor {i} has mesh {m} as {data['actors'][i]['mapper']}"
+            return where + f"actor {i} has mesh {m}"
         if kind == "add" and len(data["actors"]) < 12:
             data["actors"].append(values.actor(len(self.meshes)))
             view.add_actor(data["actors"][-1])
