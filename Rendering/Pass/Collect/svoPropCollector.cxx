@@ -230,6 +230,11 @@ void PropCollector::collectActor(
   vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, const CollectProps& frame)
 {
   vtkProp* owner = found.prop;
+  vtkMapper* mapper = actor->GetMapper();
+  if (mapper)
+  {
+    found.mappers.push_back(mapper);
+  }
   if (flagOf(actor, owner, shadowCatcherKey(), false))
   {
     found.leaveAlone(actor->GetProperty()->GetInterpolation() == VTK_PBR
@@ -243,7 +248,6 @@ void PropCollector::collectActor(
     found.leaveAlone(MayDrawAnything); // without a mapper, even
     return;
   }
-  vtkMapper* mapper = actor->GetMapper();
   if (!mapper || mapper->GetNumberOfInputConnections(0) == 0)
   {
     return;
@@ -256,6 +260,10 @@ void PropCollector::collectActor(
   }
   this->Quiet = unmarked;
   update(mapper);
+  if (isCompositeMapper(mapper) && !hasMeshes(mapper))
+  {
+    return; // VTK does not draw it either: asked about anything, the mapper would complain
+  }
   if (frame.shadows && isUnknownSurface(actor) && flagOf(actor, owner, castShadowKey(), true))
   {
     this->complainOnce(nullptr,

@@ -4,6 +4,7 @@
 #include "svoGiveWay.h"
 #include "svoPropKeys.h"
 #include "svoSceneInstances.h"
+#include "svoSharedMappers.h"
 
 #include "vtkPolyData.h"
 #include "vtkPropCollection.h"
@@ -64,6 +65,7 @@ bool saysTheSame(const PropSurfaces& a, const PropSurfaces& b)
 {
   const auto text = [](Reason reason) { return std::string_view(reason ? reason : ""); };
   return a.surfaces.empty() && b.surfaces.empty() && a.bounds == b.bounds &&
+    a.mappers == b.mappers &&
     std::tie(a.traced, a.receives, a.actors, a.catchesShadows) ==
     std::tie(b.traced, b.receives, b.actors, b.catchesShadows) &&
     text(a.rasterized) == text(b.rasterized) && text(a.castsNone) == text(b.castsNone);
@@ -268,7 +270,8 @@ void SceneCollector::explain(
     const bool casts = std::any_of(prop.surfaces.begin(), prop.surfaces.end(),
       [](const SceneSurface& surface) { return surface.casts && surface.instance.body->octree; });
     const Reason missing = prop.hasOctrees() ? nullptr : withoutOctree(options);
-    const Reason rasterized = prop.rasterized ? prop.rasterized : missing;
+    const Reason left = missing ? missing : reasonOfSharing(prop);
+    const Reason rasterized = prop.rasterized ? prop.rasterized : left;
     const Reason castsNone = prop.castsNone ? prop.castsNone : missing;
     const bool asChosen = !castsNone && rasterized == this->NotMarked.c_str();
     const std::string text = reasons(rasterized, castsNone, casts);
@@ -407,6 +410,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   }
   findOctrees(this->Found, result.scene.lights, settings.levels, store, options, sameOptions,
     this->Instances);
+  leaveShared(this->Found);
   giveWay(this->Found);
   this->assemble(result);
   this->explain(settings, options, result);

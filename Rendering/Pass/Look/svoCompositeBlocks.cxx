@@ -2,6 +2,8 @@
 
 #include "vtkColorTransferFunction.h"
 #include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkCompositeDataSetRange.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeRange.h"
 #include "vtkGlyph3DMapper.h"
@@ -162,6 +164,22 @@ bool isCompositeMapper(vtkMapper* mapper)
   const std::string name = mapper->GetClassName();
   return std::find(std::begin(CompositeMappers), std::end(CompositeMappers), name) !=
     std::end(CompositeMappers);
+}
+
+bool hasMeshes(vtkMapper* mapper)
+{
+  vtkDataObject* root = mapper->GetInputDataObject(0, 0);
+  if (auto* tree = vtkCompositeDataSet::SafeDownCast(root))
+  {
+    for (vtkDataObject* block : vtk::Range(tree))
+    {
+      if (vtkPolyData::SafeDownCast(block))
+      {
+        return true;
+      }
+    }
+  }
+  return vtkPolyData::SafeDownCast(root) != nullptr;
 }
 
 vtkPolyDataMapper* CompositeBlocks::colorsOf(vtkMapper* mapper, const Path& path, Kept& kept)

@@ -21,6 +21,9 @@ namespace svo
 /// Whether a mapper is of a class that draws the blocks of a tree by known rules.
 bool isCompositeMapper(vtkMapper* mapper);
 
+/// Whether there is a mesh among the blocks of a composite mapper. Of others VTK draws nothing.
+bool hasMeshes(vtkMapper* mapper);
+
 /// What a mapper, composite or of glyphs, says of single blocks; null if it says nothing.
 vtkCompositeDataDisplayAttributes* attributesOf(vtkMapper* mapper);
 

@@ -216,9 +216,16 @@ bool isPlainMapper(vtkMapper* mapper)
 
 bool hasCustomShaders(vtkActor* actor)
 {
-  vtkShaderProperty* shaders = actor->GetShaderProperty();
-  return shaders->GetNumberOfShaderReplacements() > 0 || shaders->HasVertexShaderCode() ||
-    shaders->HasFragmentShaderCode() || shaders->HasGeometryShaderCode();
+  // GetShaderProperty() makes one where there is none. Its time is what tells a mapper that several
+  // actors share to build its shader anew when the next of them is drawn.
+  struct Known : vtkProp
+  {
+    static vtkShaderProperty* of(vtkProp* prop) { return prop->*&Known::ShaderProperty; }
+  };
+  vtkShaderProperty* shaders = Known::of(actor);
+  return shaders &&
+    (shaders->GetNumberOfShaderReplacements() > 0 || shaders->HasVertexShaderCode() ||
+      shaders->HasFragmentShaderCode() || shaders->HasGeometryShaderCode());
 }
 
 bool isPlainActor(vtkActor* actor)

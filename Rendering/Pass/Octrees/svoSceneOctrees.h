@@ -26,6 +26,8 @@
 #include <tuple>
 #include <vector>
 
+class vtkMapper;
+
 namespace svo
 {
 /// What was written last of a surface's instances, apart from what its prop says.
@@ -76,12 +78,13 @@ struct PropSurfaces
   glm::dmat4 world{ 1.0 };            // from VTK's world to the scene's; see sceneTransform()
   std::vector<SceneSurface> surfaces; // those that are traceable or cast
   int actors = 0;
-  bool traced = true;          // all that the prop shows can be traced
-  bool receives = false;       // shadows fall on it
-  bool catchesShadows = false; // of it nothing but these is seen
-  bool hasPlainMatrix = false; // of a single actor: it has not changed what is made of it
-  Reason rasterized = nullptr; // why it is not traced
-  Reason castsNone = nullptr;  // why something of it casts nothing
+  bool traced = true;                    // all that the prop shows can be traced
+  bool receives = false;                 // shadows fall on it
+  bool catchesShadows = false;           // of it nothing but these is seen
+  bool hasPlainMatrix = false;           // of a single actor: it has not changed what is made of it
+  Reason rasterized = nullptr;           // why it is not traced
+  Reason castsNone = nullptr;            // why something of it casts nothing
+  std::vector<const vtkMapper*> mappers; // that VTK draws it with; only compared
   Kept kept;
   PropState state; // when it was collected
 

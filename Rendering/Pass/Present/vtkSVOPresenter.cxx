@@ -66,8 +66,10 @@ svo::DepthFormat vtkSVOPresenter::FormatForCopies(
   const svo::Frame& frame = *this->Frame;
   int viewport[4];
   window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
-  const bool may = this->First && !this->CannotCopy && renderer->GetErase() &&
-    !renderer->GetPreserveDepthBuffer() && frame.width == viewport[2] &&
+  // What the window, the renderer or a layer below has kept is before what is shown now.
+  const bool cleared =
+    window->GetErase() && renderer->GetErase() && !renderer->GetPreserveDepthBuffer();
+  const bool may = this->First && !this->CannotCopy && cleared && frame.width == viewport[2] &&
     frame.height == viewport[3] && frame.normals.empty() && frame.light.empty();
   return may ? svo::formatForCopies() : svo::DepthFormat::None;
 }

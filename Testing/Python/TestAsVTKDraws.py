@@ -1,0 +1,290 @@
+"""What the rasteriser has drawn, draws next to traced surfaces, or draws with what it shares with
+them is in the picture as it is without the pass."""
+import unittest
+
+import vtk
+import vtksvo
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+
+def new_window(*renderers, samples=0):
+    window = vtk.vtkRenderWindow()
+    window.SetOffScreenRendering(True)
+    window.SetMultiSamples(samples)
+    for renderer in renderers:
+        window.AddRenderer(renderer)
+    return window
+
+
+def new_renderer(traced):
+    renderer = vtk.vtkRenderer()
+    renderer.SetBackground(0.2, 0.3, 0.5)
+    if traced:
+        svo = vtksvo.vtkSVORenderPass()
+        svo.SetShadowTechniqueToNone()
+        renderer.SetPass(svo)
+    return renderer
+
+
+def new_actor(mapper):
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    return actor
+
+
+def mapper_of(source):
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputConnection(source.GetOutputPort())
+    return mapper
+
+
+def picture(window):
+    reader = vtk.vtkWindowToImageFilter()
+    reader.SetInput(window)
+    reader.ShouldRerenderOff()
+    reader.ReadFrontBufferOff()
+    reader.Update()
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(int)
+
+
+def depths(window):
+    values = vtk.vtkFloatArray()
+    width, height = window.GetSize()
+    window.GetZbufferData(0, 0, width - 1, height - 1, values)
+    return vtk_to_numpy(values).copy()
+
+
+def share(a, b):
+    """Of the pixels that differ by more than 8 levels."""
+    return (abs(a - b).max(axis=1) > 8).mean()
+
+
+class KeptDepth(unittest.TestCase):
+    """Where the framebuffer is not cleared, what it has kept hides and is hidden."""
+
+    def pictures(self, prepare, before=None):
+        result = []
+        for traced in (False, True):
+            renderer = new_renderer(traced)
+            renderer.AddActor(new_actor(mapper_of(vtk.vtkConeSource())))
+            window = new_window(*([before()] if before else []), renderer)
+            prepare(window, renderer)
+            result.append(picture(window))
+        return result
+
+    def expect_same(self, prepare, before=None):
+        plain, traced = self.pictures(prepare, before)
+        self.assertLess(share(plain, traced), 0.001)
+
+    @staticmethod
+    def turn(window, renderer):
+        renderer.GetActiveCamera().Azimuth(60)
+        window.Render()
+
+    def test_window_without_erase(self):
+        def prepare(window, renderer):
+            window.Render()
+            window.EraseOff()
+            self.turn(window, renderer)
+        self.expect_same(prepare)
+
+    def test_renderer_without_erase(self):
+        def prepare(window, renderer):
+            window.Render()
+            renderer.EraseOff()
+            self.turn(window, renderer)
+        self.expect_same(prepare)
+
+    def test_preserved_depth(self):
+        def prepare(window, renderer):
+            window.Render()
+            renderer.PreserveDepthBufferOn()
+            self.turn(window, renderer)
+        self.expect_same(prepare)
+
+    def test_erased_again(self):
+        def prepare(window, renderer):
+            window.EraseOff()
+            self.turn(window, renderer)
+            window.EraseOn()
+            self.turn(window, renderer)
+        self.expect_same(prepare)
+
+    def test_layers(self):
+        for depth_is_kept in (False, True):
+            def below():
+                renderer = vtk.vtkRenderer()
+                ball = vtk.vtkSphereSource()
+                ball.SetRadius(0.45)
+                renderer.AddActor(new_actor(mapper_of(ball)))
+                return renderer
+
+            def prepare(window, renderer):
+                window.SetNumberOfLayers(2)
+                renderer.SetLayer(1)
+                renderer.SetPreserveDepthBuffer(depth_is_kept)
+                other = window.GetRenderers().GetFirstRenderer()
+                other.ResetCamera()
+                renderer.SetActiveCamera(other.GetActiveCamera())
+                window.Render()
+            with self.subTest(depth_is_kept=depth_is_kept):
+                self.expect_same(prepare, below)
+
+
+class SharedMapper(unittest.TestCase):
+    """VTK's mapper keeps a shader from one actor to the next."""
+
+    LOOKS = {
+        "surface": lambda p: None,
+        "wireframe": lambda p: (p.SetRepresentationToWireframe(), p.SetColor(0, 0, 0)),
+        "edges": lambda p: p.EdgeVisibilityOn(),
+        "points": lambda p: (p.SetRepresentationToPoints(), p.SetPointSize(5)),
+        "culled": lambda p: (p.BackfaceCullingOn(), p.SetColor(0, 1, 0)),
+        "translucent": lambda p: (p.SetOpacity(0.5), p.SetColor(1, 0, 0)),
+    }
+
+    def frames(self, looks, traced, change):
+        """Three frames of actors next to each other, with one mapper."""
+        cube = vtk.vtkCubeSource()
+        cube.Update()
+        cube.GetOutput().GetPointData().SetNormals(None)
+        mapper = vtk.vtkPolyDataMapper()
+        mapper.SetInputData(cube.GetOutput())
+        renderer = new_renderer(traced)
+        actors = []
+        for i, look in enumerate(looks):
+            actor = new_actor(mapper)
+            actor.SetPosition(0.7 * i, 0, 0)
+            self.LOOKS[look](actor.GetProperty())
+            change(look, actor)
+            renderer.AddActor(actor)
+            actors.append(actor)
+        renderer.GetActiveCamera().SetPosition(4, 3, 6)
+        renderer.ResetCamera()
+        window = new_window(renderer)
+        result = []
+        for i in range(3):
+            window.Render()
+            result.append(picture(window))
+        return result
+
+    def expect_same(self, looks, change=lambda look, actor: None):
+        with self.subTest(looks=looks):
+            plain = self.frames(looks, False, change)
+            for i, frame in enumerate(self.frames(looks, True, change)):
+                self.assertLess(share(plain[i], frame), 0.002, "frame %d" % i)
+
+    def test_two_actors(self):
+        for other in ("wireframe", "edges", "points", "culled", "translucent"):
+            self.expect_same(("surface", other))
+            self.expect_same((other, "surface"))
+            self.expect_same(("wireframe", other))
+            self.expect_same((other, "wireframe"))
+
+    def test_three_actors(self):
+        for looks in (("surface", "wireframe", "edges"), ("edges", "wireframe", "surface"),
+                      ("wireframe", "surface", "points"), ("surface", "surface", "wireframe"),
+                      ("culled", "surface", "translucent")):
+            self.expect_same(looks)
+
+    def test_backface_property(self):
+        def change(look, actor):
+            if look == "surface":
+                back = vtk.vtkProperty()
+                back.SetColor(1, 0, 0)
+                actor.SetBackfaceProperty(back)
+        # VTK itself crashes with the other order.
+        self.expect_same(("surface", "wireframe"), change)
+
+    def test_told_not_to_be_traced(self):
+        def change(look, actor):
+            if look == "surface":
+                vtksvo.vtkSVORenderPass.SetUseSVO(False, actor)
+        self.expect_same(("wireframe", "surface"), change)
+        self.expect_same(("surface", "wireframe"), change)
+
+    def test_only_those_that_draw_count(self):
+        cube = vtk.vtkCubeSource()
+        mapper = mapper_of(cube)
+        renderer = new_renderer(True)
+        surface, other = new_actor(mapper), new_actor(mapper)
+        other.SetPosition(1.5, 0, 0)
+        renderer.AddActor(surface)
+        renderer.AddActor(other)
+        window = new_window(renderer)
+        svo = renderer.GetPass()
+
+        def traced():
+            window.Render()
+            return svo.GetNumberOfTracedActors()
+        self.assertEqual(traced(), 2)
+        other.GetProperty().SetRepresentationToWireframe()
+        self.assertEqual(traced(), 0)
+        other.VisibilityOff()
+        self.assertEqual(traced(), 1)
+        other.VisibilityOn()
+        self.assertEqual(traced(), 0)
+        other.SetMapper(mapper_of(cube))
+        self.assertEqual(traced(), 1)
+        other.SetMapper(mapper)
+        self.assertEqual(traced(), 0)
+        # An assembly is drawn as a whole.
+        parts = vtk.vtkAssembly()
+        second = mapper_of(cube)
+        for each in (mapper, second):
+            parts.AddPart(new_actor(each))
+        renderer.AddActor(parts)
+        third = new_actor(second)
+        renderer.AddActor(third)
+        self.assertEqual(traced(), 0)
+        renderer.RemoveActor(other)
+        self.assertEqual(traced(), 4)
+
+
+class NoMeshes(unittest.TestCase):
+    """A composite mapper is asked nothing about what VTK does not draw either."""
+
+    @staticmethod
+    def inputs():
+        cells = vtk.vtkCellTypeSource()
+        cells.Update()
+        grid = cells.GetOutput()
+        ball = vtk.vtkSphereSource()
+        ball.Update()
+        image = vtk.vtkImageData()
+        image.SetDimensions(3, 3, 3)
+        tree = vtk.vtkMultiBlockDataSet()
+        tree.SetBlock(0, grid)
+        nested = vtk.vtkMultiBlockDataSet()
+        nested.SetBlock(1, tree)
+        mixed = vtk.vtkMultiBlockDataSet()
+        mixed.SetBlock(0, ball.GetOutput())
+        mixed.SetBlock(1, nested)
+        return {"grid": grid, "image": image, "table": vtk.vtkTable(), "tree": tree,
+                "nested": nested, "mixed": mixed, "nothing": vtk.vtkMultiBlockDataSet()}
+
+    def test_as_silent_as_vtk(self):
+        for name in ("vtkCompositePolyDataMapper", "vtkCompositePolyDataMapper2",
+                     "vtkHierarchicalPolyDataMapper"):
+            if not hasattr(vtk, name):
+                continue
+            for kind, data in self.inputs().items():
+                said, pictures = [], []
+                for traced in (False, True):
+                    mapper = getattr(vtk, name)()
+                    mapper.SetInputDataObject(data)
+                    said.append([])
+                    mapper.AddObserver("ErrorEvent", lambda *_: said[-1].append(1))
+                    renderer = new_renderer(traced)
+                    renderer.AddActor(new_actor(mapper))
+                    window = new_window(renderer)
+                    window.Render()
+                    window.Render()
+                    pictures.append(picture(window))
+                with self.subTest(mapper=name, data=kind):
+                    self.assertEqual(len(said[0]), len(said[1]))
+                    self.assertLess(share(*pictures), 0.002)
+
+
+if __name__ == "__main__":
+    unittest.main()
