@@ -144,7 +144,7 @@ class SharedMapper(unittest.TestCase):
     }
 
     def frames(self, looks, traced, change):
-        """Three frames of actors next to each other, with one mapper."""
+        """Two frames of actors next to each other, with one mapper."""
         cube = vtk.vtkCubeSource()
         cube.Update()
         cube.GetOutput().GetPointData().SetNormals(None)
@@ -163,7 +163,7 @@ class SharedMapper(unittest.TestCase):
         renderer.ResetCamera()
         window = new_window(renderer)
         result = []
-        for i in range(3):
+        for i in range(2):
             window.Render()
             result.append(picture(window))
         return result
@@ -175,16 +175,15 @@ class SharedMapper(unittest.TestCase):
                 self.assertLess(share(plain[i], frame), 0.002, "frame %d" % i)
 
     def test_two_actors(self):
-        for other in ("wireframe", "edges", "points", "culled", "translucent"):
+        for other in ("wireframe", "edges", "culled"):
             self.expect_same(("surface", other))
             self.expect_same((other, "surface"))
-            self.expect_same(("wireframe", other))
-            self.expect_same((other, "wireframe"))
+        self.expect_same(("wireframe", "edges"))
+        self.expect_same(("edges", "wireframe"))
 
     def test_three_actors(self):
-        for looks in (("surface", "wireframe", "edges"), ("edges", "wireframe", "surface"),
-                      ("wireframe", "surface", "points"), ("surface", "surface", "wireframe"),
-                      ("culled", "surface", "translucent")):
+        for looks in (("surface", "wireframe", "edges"), ("wireframe", "surface", "points"),
+                      ("surface", "surface", "wireframe"), ("culled", "surface", "translucent")):
             self.expect_same(looks)
 
     def test_backface_property(self):
@@ -251,8 +250,6 @@ class NoMeshes(unittest.TestCase):
         grid = cells.GetOutput()
         ball = vtk.vtkSphereSource()
         ball.Update()
-        image = vtk.vtkImageData()
-        image.SetDimensions(3, 3, 3)
         tree = vtk.vtkMultiBlockDataSet()
         tree.SetBlock(0, grid)
         nested = vtk.vtkMultiBlockDataSet()
@@ -260,12 +257,10 @@ class NoMeshes(unittest.TestCase):
         mixed = vtk.vtkMultiBlockDataSet()
         mixed.SetBlock(0, ball.GetOutput())
         mixed.SetBlock(1, nested)
-        return {"grid": grid, "image": image, "table": vtk.vtkTable(), "tree": tree,
-                "nested": nested, "mixed": mixed, "nothing": vtk.vtkMultiBlockDataSet()}
+        return {"grid": grid, "table": vtk.vtkTable(), "nested": nested, "mixed": mixed}
 
     def test_as_silent_as_vtk(self):
-        for name in ("vtkCompositePolyDataMapper", "vtkCompositePolyDataMapper2",
-                     "vtkHierarchicalPolyDataMapper"):
+        for name in ("vtkCompositePolyDataMapper", "vtkCompositePolyDataMapper2"):
             if not hasattr(vtk, name):
                 continue
             for kind, data in self.inputs().items():
@@ -284,6 +279,140 @@ class NoMeshes(unittest.TestCase):
                 with self.subTest(mapper=name, data=kind):
                     self.assertEqual(len(said[0]), len(said[1]))
                     self.assertLess(share(*pictures), 0.002)
+
+
+class Multisampling(unittest.TestCase):
+    """Each sample of a pixel has the depth that it has on the facet."""
+
+    @staticmethod
+    def scene(source, traced, lines, change, samples):
+        renderer = new_renderer(traced)
+        for each, colour in [(source, (1, 1, 1))] + ([(lines, (0, 0, 0))] if lines else []):
+            mapper = mapper_of(each)
+            mapper.ScalarVisibilityOff()
+            actor = new_actor(mapper)
+            actor.GetProperty().SetColor(colour)
+            renderer.AddActor(actor)
+            if each is source:
+                change(actor)
+        renderer.ResetCamera()
+        renderer.GetActiveCamera().Elevation(30)
+        renderer.GetActiveCamera().Azimuth(20)
+        renderer.ResetCameraClippingRange()
+        window = new_window(renderer, samples=samples)
+        window.Render()
+        return window
+
+    def compare(self, source, lines=None, change=lambda actor: None):
+        """Share of pixels that differ, and of depths that do by more than 1e-6."""
+        windows = [self.scene(source, traced, lines, change, 4) for traced in (False, True)]
+        near = [depths(window) for window in windows]
+        both = (near[0] < 1) & (near[1] < 1)
+        apart = (abs(near[0] - near[1])[both] > 1e-6).mean()
+        return share(*(picture(window) for window in windows)), apart
+
+    def contoured(self, source):
+        heights = vtk.vtkElevationFilter()
+        heights.SetInputConnection(source.GetOutputPort())
+        heights.SetLowPoint(0, -0.5, 0)
+        heights.SetHighPoint(0, 0.5, 0)
+        lines = vtk.vtkContourFilter()
+        lines.SetInputConnection(heights.GetOutputPort())
+        lines.GenerateValues(12, 0.02, 0.98)
+        return heights, lines
+
+    def test_lines_on_a_plane(self):
+        plane = vtk.vtkPlaneSource()
+        plane.SetResolution(5, 5)
+        different, apart = self.compare(*self.contoured(plane))
+        self.assertLess(different, 0.002)
+        self.assertLess(apart, 0.002)
+
+    def test_lines_on_facets(self):
+        for resolution in (8, 24):
+            ball = vtk.vtkSphereSource()
+            ball.SetThetaResolution(resolution)
+            ball.SetPhiResolution(resolution)
+            for flat in (False, True):
+                def change(actor):
+                    if flat:
+                        actor.GetProperty().SetInterpolationToFlat()
+                with self.subTest(resolution=resolution, flat=flat):
+                    different, apart = self.compare(*self.contoured(ball), change)
+                    self.assertLess(different, 0.01)
+                    self.assertLess(apart, 0.02)
+
+    def test_depths_of_a_box(self):
+        """Creases, too, where no light shows them."""
+        different, apart = self.compare(
+            vtk.vtkCubeSource(), None, lambda actor: actor.GetProperty().LightingOff())
+        self.assertLess(different, 0.002)
+        self.assertLess(apart, 0.01)
+
+    def test_offsets(self):
+        """VTK adds them to the depth of the pixel's centre."""
+        mode = vtk.vtkMapper.GetResolveCoincidentTopology()
+        vtk.vtkMapper.SetResolveCoincidentTopologyToPolygonOffset()
+        try:
+            plane = vtk.vtkPlaneSource()
+            different, apart = self.compare(*self.contoured(plane))
+            self.assertLess(different, 0.01)
+            self.assertLess(apart, 0.01)
+        finally:
+            vtk.vtkMapper.SetResolveCoincidentTopology(mode)
+
+
+class OtherWindows(unittest.TestCase):
+    """What a pass has in OpenGL it has in one window, and nobody else's goes with it."""
+
+    @staticmethod
+    def balls(traced, samples, count):
+        renderer = new_renderer(traced)
+        for i in range(count):
+            ball = vtk.vtkSphereSource()
+            ball.SetCenter(i, 0, 0)
+            renderer.AddActor(new_actor(mapper_of(ball)))
+        window = new_window(renderer, samples=samples)
+        window.Render()
+        return renderer, window
+
+    def expect_untouched(self, let_go):
+        for samples in (0, 4):
+            with self.subTest(samples=samples):
+                renderer, window = self.balls(True, samples, 1)
+                other = self.balls(False, samples, 20)[1]
+                before = picture(other)
+                let_go(renderer, window, other)
+                other.Render()
+                self.assertEqual(abs(before - picture(other)).max(), 0)
+
+    def test_a_pass_that_goes(self):
+        def let_go(renderer, window, other):
+            renderer.SetPass(None)
+        self.expect_untouched(let_go)
+
+    def test_resources_that_are_released(self):
+        def let_go(renderer, window, other):
+            renderer.GetPass().ReleaseGraphicsResources(other)
+        self.expect_untouched(let_go)
+
+    def test_a_window_that_goes(self):
+        def let_go(renderer, window, other):
+            window.Finalize()
+        self.expect_untouched(let_go)
+
+    def test_one_pass_in_two_windows(self):
+        renderer, window = self.balls(True, 0, 1)
+        second, other = self.balls(False, 0, 2)
+        plain = picture(other)
+        second.SetPass(renderer.GetPass())
+        other.Render()
+        self.assertLess(share(plain, picture(other)), 0.001)
+        before = picture(window)
+        other.RemoveRenderer(second)
+        other.Finalize()
+        window.Render()
+        self.assertEqual(abs(before - picture(window)).max(), 0)
 
 
 if __name__ == "__main__":

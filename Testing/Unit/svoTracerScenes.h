@@ -143,8 +143,8 @@ inline bool identical(const svo::Frame& a, const svo::Frame& b)
 {
   return a.width == b.width && a.height == b.height && a.color == b.color && a.depth == b.depth &&
     a.instance == b.instance && a.primitive == b.primitive && a.normals == b.normals &&
-    a.covered.x0 == b.covered.x0 && a.covered.y0 == b.covered.y0 && a.covered.x1 == b.covered.x1 &&
-    a.covered.y1 == b.covered.y1;
+    a.slopes == b.slopes && a.covered.x0 == b.covered.x0 && a.covered.y0 == b.covered.y0 &&
+    a.covered.x1 == b.covered.x1 && a.covered.y1 == b.covered.y1;
 }
 }
 

@@ -169,6 +169,7 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   const bool occlusion = this->Renderer->GetUseSSAO(); // into a framebuffer that is not bound yet
   settings.writeNormals = occlusion || this->Presenter->WantsNormals();
   settings.writeLight = occlusion || vtkSVOPresenter::KeepsLight();
+  settings.writeSlopes = pace.distance == 1.0 && !samplePositions().empty();
   settings.writeNames = false;
   this->Trace->render(scene, view, settings, smpParallelFor(), this->Picture);
   this->Statistics.tracer = this->Trace->statistics();

@@ -18,7 +18,8 @@ enum class Kind
 {
   Bytes, // of RGBA
   Float,
-  Floats,      // of three components
+  TwoFloats,
+  ThreeFloats,
   Depth,       // as a depth buffer of 32 bits has it,
   DepthStencil // or one of 24
 };
@@ -52,7 +53,11 @@ bool prepare(vtkSmartPointer<vtkTextureObject>& texture, vtkOpenGLRenderWindow* 
       texture->AllocateDepthStencil(width, height);
       break;
     default:
-      texture->Allocate2D(width, height, kind == Kind::Float ? 1 : 3, VTK_FLOAT);
+      texture->Allocate2D(width, height,
+        kind == Kind::Float         ? 1
+          : kind == Kind::TwoFloats ? 2
+                                    : 3,
+        VTK_FLOAT);
   }
   return true;
 }
@@ -114,7 +119,8 @@ Written writtenIn(const Frame& frame, int y0, int y1, std::uint64_t since, bool 
 
 void FrameTextures::release()
 {
-  this->Colors = this->Depths = this->DepthCopy = this->Normals = this->Light = nullptr;
+  this->Colors = this->Depths = this->DepthCopy = this->Normals = this->Slopes = this->Light =
+    nullptr;
   this->Sent = 0;
 }
 
@@ -153,8 +159,9 @@ void FrameTextures::upload(const Frame& frame, DepthFormat format, vtkOpenGLRend
   anew |= copies &&
     prepare(this->DepthCopy, window, frame,
       format == DepthFormat::Bits24 ? Kind::DepthStencil : Kind::Depth);
-  anew |= !frame.normals.empty() && prepare(this->Normals, window, frame, Kind::Floats);
-  anew |= !frame.light.empty() && prepare(this->Light, window, frame, Kind::Floats);
+  anew |= !frame.normals.empty() && prepare(this->Normals, window, frame, Kind::ThreeFloats);
+  anew |= !frame.slopes.empty() && prepare(this->Slopes, window, frame, Kind::TwoFloats);
+  anew |= !frame.light.empty() && prepare(this->Light, window, frame, Kind::ThreeFloats);
   const std::uint64_t since = anew ? 0 : this->Sent;
   for (int y = frame.covered.y0; y < frame.covered.y1; y += Band)
   {
@@ -183,6 +190,10 @@ void FrameTextures::upload(const Frame& frame, DepthFormat format, vtkOpenGLRend
     {
       send(
         this->Normals, drawn, GL_RGB, GL_FLOAT, frame.normals.data() + 3 * at(drawn), frame.width);
+    }
+    if (!frame.slopes.empty())
+    {
+      send(this->Slopes, drawn, GL_RG, GL_FLOAT, frame.slopes.data() + 2 * at(drawn), frame.width);
     }
     if (!frame.light.empty())
     {

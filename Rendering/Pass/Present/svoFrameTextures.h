@@ -33,6 +33,7 @@ public:
   vtkTextureObject* depths() const { return this->Depths; }
   vtkTextureObject* depthCopy() const { return this->DepthCopy; }
   vtkTextureObject* normals() const { return this->Normals; }
+  vtkTextureObject* slopes() const { return this->Slopes; }
   vtkTextureObject* light() const { return this->Light; }
 
 private:
@@ -40,7 +41,7 @@ private:
 
   std::uint64_t Sent = 0; // Frame::version; 0: nothing, or not to be relied on
   DepthFormat Copies = DepthFormat::None;
-  vtkSmartPointer<vtkTextureObject> Colors, Depths, DepthCopy, Normals, Light;
+  vtkSmartPointer<vtkTextureObject> Colors, Depths, DepthCopy, Normals, Slopes, Light;
   std::vector<std::uint32_t> DepthWords; // of a band
 };
 }

@@ -1,16 +1,24 @@
 //VTK::System::Dec
+#if defined(SVO_WRITE_SLOPES) && defined(GL_ARB_sample_shading)
+#extension GL_ARB_sample_shading : enable
+#define SVO_EACH_SAMPLE
+#endif
 //VTK::Output::Dec
 // Pixels that were traced elsewhere: colour and window depth. With SVO_WRITE_NORMALS also what
 // VTK's ambient occlusion reads, the position and the normal in view coordinates; with
-// SVO_WRITE_LIGHT the colour is not cut to 0..1. Textures are as
-// large as the viewport, so that each fragment lies on the centre of its texel; filtered look-ups
-// cost software OpenGL less than texelFetch.
+// SVO_WRITE_LIGHT the colour is not cut to 0..1; with SVO_WRITE_SLOPES, where OpenGL can run a
+// shader for each sample of a pixel, all of these have depths of their own, as those of VTK's
+// surfaces have. Textures are as large as the viewport, so that each fragment lies on the centre of
+// its texel, or a sample in it; filtered look-ups cost software OpenGL less than texelFetch.
 in vec2 texCoord;
 uniform sampler2D colors;
 uniform sampler2D depths;
 #ifdef SVO_WRITE_NORMALS
 uniform sampler2D normals;
 uniform mat4 clipToView;
+#endif
+#ifdef SVO_EACH_SAMPLE
+uniform sampler2D slopes;
 #endif
 #ifdef SVO_WRITE_LIGHT
 uniform sampler2D light;
@@ -23,6 +31,9 @@ void main()
     discard;
   }
   float depth = texture(depths, texCoord).r;
+#ifdef SVO_EACH_SAMPLE
+  depth += dot(texture(slopes, texCoord).rg, gl_SamplePosition - 0.5);
+#endif
   gl_FragDepth = depth;
 #ifdef SVO_WRITE_LIGHT
   color.rgb = texture(light, texCoord).rgb;

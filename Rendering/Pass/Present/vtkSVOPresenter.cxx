@@ -33,8 +33,38 @@
 vtkStandardNewMacro(vtkSVOPresenter);
 vtkStandardNewMacro(vtkSVONothing);
 
-vtkSVOPresenter::vtkSVOPresenter() = default;
-vtkSVOPresenter::~vtkSVOPresenter() = default;
+namespace
+{
+/// Calls something in the context of a window before that goes, or is exchanged for another. A
+/// texture, since these alone of what VTK installs know about that: numbers of buffers mean others
+/// in other contexts, which may be the current ones.
+class ContextKeeper : public vtkTextureObject
+{
+public:
+  static ContextKeeper* New();
+  vtkTypeMacro(ContextKeeper, vtkTextureObject);
+  void ReleaseGraphicsResources(vtkWindow* window) override
+  {
+    // Calls this function once more in the context, unless this is that call.
+    this->Superclass::ReleaseGraphicsResources(window);
+    this->Release();
+  }
+  std::function<void()> Release;
+};
+vtkStandardNewMacro(ContextKeeper);
+}
+
+vtkSVOPresenter::vtkSVOPresenter()
+{
+  const auto keeper = vtkSmartPointer<ContextKeeper>::New();
+  keeper->Release = [this] { this->ReleaseAll(); };
+  this->Context = keeper;
+}
+
+vtkSVOPresenter::~vtkSVOPresenter()
+{
+  this->Context->ReleaseGraphicsResources(nullptr);
+}
 
 void vtkSVOPresenter::SetFrame(
   svo::Frame* frame, const SilhouetteFinder& silhouettes, vtkOpenGLRenderPass* pass)
@@ -47,16 +77,17 @@ void vtkSVOPresenter::SetFrame(
 
 void vtkSVOPresenter::ReleaseGraphicsResources(vtkWindow* window)
 {
+  this->Context->ReleaseGraphicsResources(window);
+  this->QuadMapper->ReleaseGraphicsResources(window);
+}
+
+void vtkSVOPresenter::ReleaseAll()
+{
   this->Corners = nullptr;
   this->Array = nullptr;
   this->Textures.release();
   this->Parts.release();
   this->Uploaded = 0;
-  if (window)
-  {
-    this->QuadMapper->ReleaseGraphicsResources(window);
-    this->Superclass::ReleaseGraphicsResources(window);
-  }
 }
 
 /// None unless the frame's pixels, but those of tiles with holes, may be copied.
@@ -197,11 +228,13 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   const svo::Frame& frame = *this->Frame;
   const bool writeNormals = !frame.normals.empty();
+  const bool writeSlopes = !frame.slopes.empty() && !this->SamplePositions.empty();
   const bool writeLight = !frame.light.empty();
   const std::string mark = "//VTK::System::Dec\n";
   std::string shader = svoPresentFS;
   shader.replace(shader.find(mark), mark.size(),
     mark + (writeNormals ? "#define SVO_WRITE_NORMALS\n" : "") +
+      (writeSlopes ? "#define SVO_WRITE_SLOPES\n" : "") +
       (writeLight ? "#define SVO_WRITE_LIGHT\n" : ""));
   vtkShaderProgram* program =
     window->GetShaderCache()->ReadyShaderProgram(svoPresentVS, shader.c_str(), "");
@@ -230,6 +263,11 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
     program->SetUniformMatrix("clipToView", clipToView);
     this->Textures.normals()->Activate();
     program->SetUniformi("normals", this->Textures.normals()->GetTextureUnit());
+  }
+  if (writeSlopes)
+  {
+    this->Textures.slopes()->Activate();
+    program->SetUniformi("slopes", this->Textures.slopes()->GetTextureUnit());
   }
   if (writeLight)
   {
@@ -264,6 +302,10 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
   {
     this->Textures.normals()->Deactivate();
   }
+  if (writeSlopes)
+  {
+    this->Textures.slopes()->Deactivate();
+  }
   if (writeLight)
   {
     this->Textures.light()->Deactivate();
@@ -292,6 +334,7 @@ int vtkSVOPresenter::RenderOpaqueGeometry(vtkViewport* viewport)
   }
   const double start = vtkTimerLog::GetUniversalTime();
   vtkOpenGLClearErrorMacro();
+  this->Context->SetContext(window);
   std::vector<glm::vec2> positions = svo::samplePositions();
   const svo::DepthFormat copies = this->FormatForCopies(renderer, window);
   if (this->Frame->version == 0 || this->Uploaded != this->Frame->version ||

@@ -30,6 +30,7 @@ class vtkOpenGLRenderWindow;
 class vtkOpenGLVertexArrayObject;
 class vtkRenderer;
 class vtkShaderProgram;
+class vtkTextureObject;
 
 class vtkSVOPresenter : public vtkProp3D
 {
@@ -70,6 +71,7 @@ public:
 
   double* GetBounds() override { return nullptr; }
   int RenderOpaqueGeometry(vtkViewport* viewport) override;
+  /// Of the window that it has drawn into last, whichever is named, in that window's context.
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
 protected:
@@ -86,6 +88,9 @@ private:
   bool Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void SelectDrawBuffers(vtkShaderProgram* program);
 
+  void ReleaseAll();
+
+  vtkSmartPointer<vtkTextureObject> Context; // has all released in the window's own context
   Prepare PrepareFrame;
   svo::Frame* Frame = nullptr;
   SilhouetteFinder FindSilhouettes;

@@ -44,6 +44,7 @@ struct FrameSettings
   bool mayDependOnLastFrame = false;
   bool writeNormals = false; // Frame::normals is wanted (SSAO)
   bool writeLight = false;   // Frame::light is wanted (tone mapping)
+  bool writeSlopes = false;  // Frame::slopes is wanted (multisampling)
   bool writeNames = true;    // Frame::instance and Frame::primitive are wanted
 
   /// Where filterShadows has an effect.
@@ -77,10 +78,13 @@ struct Frame
   int height = 0;
   /// Another one whenever a tracer has written to it; 0: the tracer does not say.
   std::uint64_t version = 0;
-  PixelRect covered;                   // smallest rectangle (8-pixel grid) with every hit
-  std::vector<std::uint8_t> color;     // RGBA; alpha 255 on a hit, 0 elsewhere
-  std::vector<float> depth;            // OpenGL window depth; 1 where nothing was hit
-  std::vector<float> normals;          // xyz, view space, if asked for; 0 of unlit surfaces
+  PixelRect covered;               // smallest rectangle (8-pixel grid) with every hit
+  std::vector<std::uint8_t> color; // RGBA; alpha 255 on a hit, 0 elsewhere
+  std::vector<float> depth;        // OpenGL window depth; 1 where nothing was hit
+  std::vector<float> normals;      // xyz, view space, if asked for; 0 of unlit surfaces
+  /// How `depth` grows on the facet that a pixel shows, to the right and upwards, a pixel, if asked
+  /// for; 0 where nothing was hit, or where VTK's mappers give a whole pixel one depth.
+  std::vector<float> slopes;
   std::vector<float> light;            // RGB that `color` has cut to 0..1, on hits, if asked for
   std::vector<std::uint32_t> instance; // index into Scene::instances, or ~0u; if asked for
   std::vector<Primitive> primitive;    // if asked for

@@ -16,14 +16,14 @@
 
 namespace svo
 {
-/// The samples of one pixel that one surface covers.
+/// Samples of one pixel that one surface covers at one depth.
 struct PixelPart
 {
   std::uint32_t samples = 0; // bit i: sample i
   std::uint16_t x = 0;       // pixel
   std::uint16_t y = 0;
-  float depth = 1.0f;      // window depth, mean of its samples
-  std::uint8_t color[4]{}; // RGBA, mean of its samples
+  float depth = 1.0f;      // window depth
+  std::uint8_t color[4]{}; // RGBA, mean of the samples that the surface covers
 };
 
 struct Silhouettes

@@ -62,7 +62,9 @@ public:
   bool changes(int x, int y) const
   {
     const std::size_t pixel = this->at(x, y);
-    return this->steps(pixel) || (this->touches(x, y) && this->bends(pixel));
+    const int same = this->neighboursOn(this->Seen.primitiveAt(x, y), x, y);
+    return this->steps(pixel) ||
+      (same < 4 && (this->bends(pixel) || (same > 0 && this->creases(pixel))));
   }
 
   /// Of a pixel in window depth, where the window depth is `depth`.
@@ -71,21 +73,24 @@ public:
 private:
   std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * this->Columns + x; }
 
-  bool steps(std::size_t pixel) const
+  bool steps(std::size_t pixel, float pixels = 1.0f) const
   {
     const float* depth = this->Picture.depth.data() + pixel;
     const std::ptrdiff_t up = this->Columns;
-    const float width = this->Width(*depth);
+    const float width = pixels * this->Width(*depth);
     return depthSteps(depth[-1], *depth, depth[1], width) ||
       depthSteps(depth[-up], *depth, depth[up], width);
   }
 
-  /// True if a pixel beside this one shows another primitive.
-  bool touches(int x, int y) const
+  /// True if facets meet at more than a few degrees, so that the samples on one of them lie off the
+  /// plane of the other. Of facets that are no larger than pixels one is as good as the next.
+  bool creases(std::size_t pixel) const { return this->steps(pixel, 0.02f); }
+
+  /// How many of the four pixels beside this one show a primitive.
+  int neighboursOn(Primitive own, int x, int y) const
   {
-    const Primitive own = this->Seen.primitiveAt(x, y);
-    return this->Seen.primitiveAt(x - 1, y) != own || this->Seen.primitiveAt(x + 1, y) != own ||
-      this->Seen.primitiveAt(x, y - 1) != own || this->Seen.primitiveAt(x, y + 1) != own;
+    return (this->Seen.primitiveAt(x - 1, y) == own) + (this->Seen.primitiveAt(x + 1, y) == own) +
+      (this->Seen.primitiveAt(x, y - 1) == own) + (this->Seen.primitiveAt(x, y + 1) == own);
   }
 
   /// True if the colour bends more than its rounding does.

@@ -25,6 +25,10 @@ void wipeTile(Frame& frame, int x0, int y0)
     {
       std::fill(frame.normals.begin() + 3 * a, frame.normals.begin() + 3 * b, 0.0f);
     }
+    if (!frame.slopes.empty())
+    {
+      std::fill(frame.slopes.begin() + 2 * a, frame.slopes.begin() + 2 * b, 0.0f);
+    }
   }
 }
 
@@ -37,6 +41,7 @@ bool FrameTiles::find(
     this->WrittenTo == frame.color.data() && this->Version == frame.version &&
     frame.color.size() == 4 * pixels &&
     frame.normals.size() == (settings.writeNormals ? 3 * pixels : 0) &&
+    frame.slopes.size() == (settings.writeSlopes ? 2 * pixels : 0) &&
     frame.light.size() == (settings.writeLight ? 3 * pixels : 0) &&
     frame.instance.size() == (settings.writeNames ? pixels : 0);
   if (!same)
@@ -49,6 +54,7 @@ bool FrameTiles::find(
     frame.primitive.assign(settings.writeNames ? pixels : 0, NoPrimitive);
     frame.tiles.assign(depth.tiles(), FrameTile());
     frame.normals.assign(settings.writeNormals ? 3 * pixels : 0, 0.0f);
+    frame.slopes.assign(settings.writeSlopes ? 2 * pixels : 0, 0.0f);
     frame.light.assign(settings.writeLight ? 3 * pixels : 0, 0.0f);
     this->WrittenTo = frame.color.data();
     this->Written.clear();

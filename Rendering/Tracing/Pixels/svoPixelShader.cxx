@@ -1,5 +1,6 @@
 #include "svoPixelShader.h"
 
+#include "svoDepthSlope.h"
 #include "svoLeafError.h"
 #include "svoShownDepth.h"
 #include "svoTileImage.h"
@@ -169,6 +170,19 @@ void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, 
               ? lit.lighting.rotation * patch.normal(i)
               : glm::vec3(0.0f);
             std::copy(&normal[0], &normal[0] + 3, frame.normals.data() + 3 * pixelOf(i));
+          });
+      }
+      if (settings.writeSlopes)
+      {
+        // VTK's mappers write the depth of a pixel's centre where they add an offset to it.
+        const bool tilted = instance.depthOffsetUnits == 0.0f;
+        eachBit(patch.mask,
+          [&](int i)
+          {
+            const glm::vec2 slope = tilted ? depthSlope(lit.shaded.view, patch.x(i), patch.y(i),
+                                               patch.t(i), glm::dvec3(patch.facet(i)))
+                                           : glm::dvec2(0.0);
+            std::copy(&slope[0], &slope[0] + 2, frame.slopes.data() + 2 * pixelOf(i));
           });
       }
       if (settings.writeLight)

@@ -35,6 +35,8 @@ struct EdgePixel
   int x, y;
   std::size_t firstFacet, lastFacet;
   int hits; // samples
+  const TileSamples* samples;
+  int lane; // of its first sample
 };
 
 /// What a thread needs, from tile to tile.
@@ -44,6 +46,7 @@ struct TileScratch
   std::vector<TileSamples> samples;
   std::vector<Facet> facets;
   std::vector<std::size_t> shaded; // indices of facets
+  std::vector<PixelPart> parts;    // of a pixel, one for each surface
   TileHitList hits;
   PixelShader::Scratch shading;
 };
@@ -76,7 +79,7 @@ public:
     this->color(tileX, tileY, scratch);
     for (const EdgePixel& pixel : scratch.pixels)
     {
-      this->divide(pixel, scratch.facets, result);
+      this->divide(pixel, scratch, result);
     }
   }
 
@@ -94,7 +97,7 @@ private:
       {
         if (isEdge(this->Edges, x, y))
         {
-          scratch.pixels.push_back({ x, y, 0, 0, 0 });
+          scratch.pixels.push_back({ x, y, 0, 0, 0, nullptr, 0 });
         }
       }
     }
@@ -140,6 +143,8 @@ private:
       EdgePixel& pixel = scratch.pixels[k];
       pixel.firstFacet = scratch.facets.size();
       const TileSamples& samples = scratch.samples[this->block(k)];
+      pixel.samples = &samples;
+      pixel.lane = this->lane(k);
       for (int s = 0; s < this->SampleCount; ++s)
       {
         const int lane = this->lane(k) + s;
@@ -237,12 +242,12 @@ private:
       facet.t * this->EyeView.rayDirection(facet.x, facet.y);
   }
 
-  float windowDepth(const Facet& facet) const
+  float windowDepth(std::uint32_t instance, double t) const
   {
-    const double offset =
-      shownOffset(this->Lit.shaded.scene.instances[facet.instance], this->EyeView);
-    return static_cast<float>(std::clamp(this->EyeView.windowDepth(facet.t) + offset, 0.0, 1.0));
+    const double offset = shownOffset(this->Lit.shaded.scene.instances[instance], this->EyeView);
+    return static_cast<float>(std::clamp(this->EyeView.windowDepth(t) + offset, 0.0, 1.0));
   }
+  float windowDepth(const Facet& facet) const { return this->windowDepth(facet.instance, facet.t); }
 
   /// The pixel in or around this one that shows the facet's instance nearest to its depth.
   bool nearby(const EdgePixel& pixel, const Facet& facet, std::size_t& best) const
@@ -265,8 +270,9 @@ private:
   }
 
   /// Adds an edge pixel's parts, or, where one surface fills it, its colour.
-  void divide(const EdgePixel& pixel, const std::vector<Facet>& facets, Silhouettes& result) const
+  void divide(const EdgePixel& pixel, TileScratch& scratch, Silhouettes& result) const
   {
+    const std::vector<Facet>& facets = scratch.facets;
     const std::size_t own = this->at(pixel.x, pixel.y);
     const bool hit = this->seen().instanceAt(pixel.x, pixel.y) != NoInstance;
     const std::size_t count = pixel.lastFacet - pixel.firstFacet;
@@ -277,20 +283,25 @@ private:
     }
     Silhouettes::Pixel replaced;
     replaced.index = own;
-    const std::size_t firstPart = result.parts.size();
+    std::vector<PixelPart>& parts = scratch.parts;
+    parts.clear();
     std::uint32_t taken = 0;
     for (std::size_t f = pixel.firstFacet; f < pixel.lastFacet; ++f)
     {
       if (!(facets[f].samples & taken))
       {
-        result.parts.push_back(this->partOf(pixel, facets, f, taken));
+        parts.push_back(this->partOf(pixel, facets, f, taken));
       }
     }
-    if (result.parts.size() == firstPart + 1 && whole && hit &&
-      this->sameSurface(result.parts.back(), facets[pixel.firstFacet].instance))
+    if (parts.size() == 1 && whole && hit &&
+      this->sameSurface(parts.front(), facets[pixel.firstFacet].instance) && this->isFlat(pixel))
     {
-      std::copy_n(result.parts.back().color, 4, replaced.color);
-      result.parts.pop_back();
+      std::copy_n(parts.front().color, 4, replaced.color);
+      parts.clear();
+    }
+    for (const PixelPart& part : parts)
+    {
+      this->addSamples(pixel, part, result.parts);
     }
     if (hit)
     {
@@ -304,6 +315,61 @@ private:
     return this->seen().instanceAt(part.x, part.y) == instance &&
       std::abs(this->Picture.depth[this->at(part.x, part.y)] - part.depth) <=
       3.0f * this->Edges.width(part.depth);
+  }
+
+  /// Window depth of sample number s, as it is shown.
+  float sampleDepth(const EdgePixel& pixel, int s) const
+  {
+    return this->windowDepth(
+      pixel.samples->instance[pixel.lane + s], pixel.samples->t[pixel.lane + s]);
+  }
+
+  /// True if VTK's mapper gives all of a fragment the depth of the pixel's centre.
+  bool isLevel(const EdgePixel& pixel, int s) const
+  {
+    const std::uint32_t instance = pixel.samples->instance[pixel.lane + s];
+    return this->Lit.shaded.scene.instances[instance].depthOffsetUnits != 0.0f;
+  }
+
+  /// True if the pixel shows a facet on whose plane all of its samples lie.
+  bool isFlat(const EdgePixel& pixel) const
+  {
+    if (this->Picture.slopes.empty() || this->isLevel(pixel, 0))
+    {
+      return true; // one depth is what it has
+    }
+    constexpr float Most = 1e-6f;
+    const std::size_t own = this->at(pixel.x, pixel.y);
+    const float* slope = this->Picture.slopes.data() + 2 * own;
+    bool flat = true;
+    for (int s = 0; s < this->SampleCount; ++s)
+    {
+      const glm::vec2 from = this->Positions[s] - 0.5f;
+      const float plane = this->Picture.depth[own] + slope[0] * from.x + slope[1] * from.y;
+      flat = flat && std::abs(this->sampleDepth(pixel, s) - plane) <= Most;
+    }
+    return flat;
+  }
+
+  /// A part's samples one by one, each at its own depth.
+  void addSamples(
+    const EdgePixel& pixel, const PixelPart& part, std::vector<PixelPart>& parts) const
+  {
+    for (int s = 0; s < this->SampleCount; ++s)
+    {
+      if (!(part.samples >> s & 1))
+      {
+        continue;
+      }
+      if (this->isLevel(pixel, s))
+      {
+        parts.push_back(part);
+        return;
+      }
+      parts.push_back(part);
+      parts.back().samples = 1u << s;
+      parts.back().depth = this->sampleDepth(pixel, s);
+    }
   }
 
   /// The facets of the instance that are about as deep as number f.

@@ -7,7 +7,9 @@
 #include "svoLaneBits-inl.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
+#include <vector>
 
 #include <hwy/highway.h>
 
@@ -134,15 +136,20 @@ void TileImage::write() const
   frame.tiles[hits.y0 / 8 * tilesX + hits.x0 / 8] = {
     (hits.mask & whole) == whole ? FrameTile::Kind::Whole : FrameTile::Kind::Mixed, frame.version
   };
-  for (int i = 0; !frame.normals.empty() && i < TileHits::Most; ++i)
+  const auto clear = [&](std::vector<float>& values, int components)
   {
-    if (!(hits.mask >> i & 1) && (i & 7) < columns && (i >> 3) < rows)
+    for (int i = 0; !values.empty() && i < TileHits::Most; ++i)
     {
-      const std::size_t pixel =
-        static_cast<std::size_t>(hits.y0 + (i >> 3)) * frame.width + hits.x0 + (i & 7);
-      std::fill_n(frame.normals.data() + 3 * pixel, 3, 0.0f);
+      if (!(hits.mask >> i & 1) && (i & 7) < columns && (i >> 3) < rows)
+      {
+        const std::size_t pixel =
+          static_cast<std::size_t>(hits.y0 + (i >> 3)) * frame.width + hits.x0 + (i & 7);
+        std::fill_n(values.data() + components * pixel, components, 0.0f);
+      }
     }
-  }
+  };
+  clear(frame.normals, 3);
+  clear(frame.slopes, 2);
 }
 }
 #endif

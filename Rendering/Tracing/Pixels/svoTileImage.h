@@ -16,8 +16,8 @@ public:
   TileImage(const TileHits& hits, Frame& frame);
   /// `offset`: to be added to window depths.
   void put(const TilePatch& patch, const TileColors& colors, double offset);
-  /// Writes colours, depths and names of all pixels of the tile that are in the frame. Normals of
-  /// misses as well, if there are any.
+  /// Writes colours, depths and names of all pixels of the tile that are in the frame. Normals and
+  /// slopes of misses as well, if there are any.
   void write() const;
 
 private:

@@ -155,6 +155,7 @@ std::vector<Change> everyChange()
     { "anti-aliasing", [=](Stage& s) { s.settings.antiAliasing = true; } },
     { "filtered shadows", [=](Stage& s) { s.settings.filterShadows = true; } },
     { "normals wanted", [=](Stage& s) { s.settings.writeNormals = true; } },
+    { "slopes wanted", [=](Stage& s) { s.settings.writeSlopes = true; } },
     { "light wanted", [=](Stage& s) { s.settings.writeLight = true; } },
     { "whole buffers", [=](Stage& s) { s.settings.wholeShadowBuffers = true; } },
   };

@@ -1,0 +1,33 @@
+// How a plane's window depth changes from pixel to pixel.
+#ifndef svoDepthSlope_h
+#define svoDepthSlope_h
+
+#include "svoView.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+/// By how much the window depth of a plane grows from pixel to pixel, to the right and upwards: all
+/// over the plane the same. The ray of the image's point (x, y) meets it at linear depth t;
+/// `normal` is the plane's, of any length, world. 0 of planes that are seen edge on.
+inline glm::dvec2 depthSlope(
+  const View& view, double x, double y, double t, const glm::dvec3& normal)
+{
+  const double along = glm::dot(normal, view.rayDirection(x, y));
+  const glm::dvec2 deeper(-(glm::dot(normal, view.originX) + t * glm::dot(normal, view.directionX)),
+    -(glm::dot(normal, view.originY) + t * glm::dot(normal, view.directionY)));
+  // The derivative of View::windowDepth().
+  const glm::dmat4& m = view.viewToClip;
+  const double z = m[3][2] - m[2][2] * t;
+  const double w = m[3][3] - m[2][3] * t;
+  const glm::dvec2 slope = 0.5 * (m[2][3] * z - m[2][2] * w) / (w * w) / along * deeper;
+  return std::abs(slope.x) + std::abs(slope.y) < 1.0 ? slope : glm::dvec2(0.0);
+}
+}
+
+#endif
