@@ -1,5 +1,6 @@
 #include "vtkSVOExposureFilter.h"
 
+#include "svoNumberSetting.h"
 #include "vtkSVOSky.h"
 #include "vtkSVOSunPath.h"
 
@@ -8,6 +9,7 @@
 #include "vtkObjectFactory.h"
 
 #include <array>
+#include <sstream>
 #include <vector>
 
 vtkStandardNewMacro(vtkSVOExposureFilter);
@@ -41,6 +43,42 @@ const char* vtkSVOExposureFilter::GetLightSourceAsString()
 {
   const char* const names[] = { "SunPath", "Sky", "Directions", "Positions" };
   return names[this->LightSource];
+}
+
+//------------------------------------------------------------------------------
+void vtkSVOExposureFilter::SetLongitude(double value)
+{
+  svo::setLongitude(this, value, this->Longitude);
+}
+
+void vtkSVOExposureFilter::SetLatitude(double value)
+{
+  svo::setNumber(this, "Latitude", value, -90.0, 90.0, this->Latitude);
+}
+
+void vtkSVOExposureFilter::SetTimeZone(double value)
+{
+  svo::setNumber(this, "TimeZone", value, -14.0, 14.0, this->TimeZone);
+}
+
+void vtkSVOExposureFilter::SetStartHour(double value)
+{
+  svo::setNumber(this, "StartHour", value, 0.0, 24.0, this->StartHour);
+}
+
+void vtkSVOExposureFilter::SetEndHour(double value)
+{
+  svo::setNumber(this, "EndHour", value, 0.0, 24.0, this->EndHour);
+}
+
+void vtkSVOExposureFilter::SetStep(double value)
+{
+  svo::setNumber(this, "Step", value, 0.1, 1440.0, this->Step);
+}
+
+void vtkSVOExposureFilter::SetBinWidth(double value)
+{
+  svo::setNumber(this, "BinWidth", value, 0.0, 30.0, this->BinWidth);
 }
 
 //------------------------------------------------------------------------------
@@ -110,6 +148,8 @@ void vtkSVOExposureFilter::PrepareLights()
     path->SetStartHour(this->StartHour);
     path->SetEndHour(this->EndHour);
     path->SetStep(this->Step);
+    path->SetNumberOfDays(this->NumberOfDays);
+    path->SetBinWidth(this->BinWidth);
     path->SetNorth(this->North);
     path->SetUp(this->Up);
     path->AddLights(this);
@@ -133,7 +173,10 @@ void vtkSVOExposureFilter::PrepareLights()
     light->SetFocalPoint(0.0, 0.0, 0.0);
     light->SetPositional(positional);
     light->SetConeAngle(180.0);
-    this->AddLight(light);
+    std::ostringstream name;
+    name << (positional ? "at (" : "from (") << place[0] << ", " << place[1] << ", " << place[2]
+         << ")";
+    this->SetLightName(this->AddLight(light), name.str().c_str());
   }
   if (this->GetNumberOfLights() == 0)
   {
@@ -154,6 +197,8 @@ void vtkSVOExposureFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "StartHour: " << this->StartHour << "\n";
   os << indent << "EndHour: " << this->EndHour << "\n";
   os << indent << "Step: " << this->Step << "\n";
+  os << indent << "NumberOfDays: " << this->NumberOfDays << "\n";
+  os << indent << "BinWidth: " << this->BinWidth << "\n";
   os << indent << "North: (" << this->North[0] << ", " << this->North[1] << ", " << this->North[2]
      << ")\n";
   os << indent << "Up: (" << this->Up[0] << ", " << this->Up[1] << ", " << this->Up[2] << ")\n";

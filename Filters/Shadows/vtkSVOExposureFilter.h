@@ -57,11 +57,11 @@ public:
   //@{
   /**
    * Place of the sun path in degrees: latitude -90 to 90, longitude -180 to 180, north and east
-   * positive; default 0, 0.
+   * positive; other longitudes are taken round the earth. Default 0, 0.
    */
-  vtkSetClampMacro(Latitude, double, -90.0, 90.0);
+  void SetLatitude(double value);
   vtkGetMacro(Latitude, double);
-  vtkSetClampMacro(Longitude, double, -180.0, 180.0);
+  void SetLongitude(double value);
   vtkGetMacro(Longitude, double);
   //@}
 
@@ -69,7 +69,7 @@ public:
   /**
    * Hours that local clocks are ahead of UTC: -14 to 14, default 0.
    */
-  vtkSetClampMacro(TimeZone, double, -14.0, 14.0);
+  void SetTimeZone(double value);
   vtkGetMacro(TimeZone, double);
   //@}
 
@@ -78,12 +78,23 @@ public:
    * The part of the day, local hours 0 to 24, and how far apart the sun's places are, in minutes,
    * 0.1 to 1440. Default 0, 24 and 30.
    */
-  vtkSetClampMacro(StartHour, double, 0.0, 24.0);
+  void SetStartHour(double value);
   vtkGetMacro(StartHour, double);
-  vtkSetClampMacro(EndHour, double, 0.0, 24.0);
+  void SetEndHour(double value);
   vtkGetMacro(EndHour, double);
-  vtkSetClampMacro(Step, double, 0.1, 1440.0);
+  void SetStep(double value);
   vtkGetMacro(Step, double);
+  //@}
+
+  //@{
+  /**
+   * Days from the date on, 1 to 36525, default 1; and the width in degrees of the bins in which
+   * suns become one light, 0 (none; default) to 30.
+   */
+  vtkSetClampMacro(NumberOfDays, int, 1, 36525);
+  vtkGetMacro(NumberOfDays, int);
+  void SetBinWidth(double value);
+  vtkGetMacro(BinWidth, double);
   //@}
 
   //@{
@@ -157,6 +168,8 @@ private:
   double StartHour = 0.0;
   double EndHour = 24.0;
   double Step = 30.0;
+  int NumberOfDays = 1;
+  double BinWidth = 0.0;
   double North[3] = { 0.0, 1.0, 0.0 };
   double Up[3] = { 0.0, 0.0, 1.0 };
   int SkyType = UNIFORM;

@@ -58,7 +58,7 @@ int vtkSVOShadowFilter::AddLight(vtkLight* light)
     vtkErrorMacro("There is no light to add.");
     return -1;
   }
-  this->Internals->Lights.push_back({ light, 1.0 });
+  this->Internals->Lights.push_back({ light, 1.0, 1.0, {} });
   this->Modified();
   return this->GetNumberOfLights() - 1;
 }
@@ -102,15 +102,22 @@ vtkLight* vtkSVOShadowFilter::GetLight(int index)
 //------------------------------------------------------------------------------
 void vtkSVOShadowFilter::SetWeight(int index, double weight)
 {
+  this->SetWeights(index, weight, weight);
+}
+
+//------------------------------------------------------------------------------
+void vtkSVOShadowFilter::SetWeights(int index, double weight, double withCosine)
+{
   if (!this->GetLight(index))
   {
     vtkErrorMacro("There is no light " << index << " to give a weight to.");
     return;
   }
   auto& weighted = this->Internals->Lights[static_cast<std::size_t>(index)];
-  if (weighted.weight != weight)
+  if (weighted.weight != weight || weighted.withCosine != withCosine)
   {
     weighted.weight = weight;
+    weighted.withCosine = withCosine;
     this->Modified();
   }
 }
@@ -123,7 +130,34 @@ double vtkSVOShadowFilter::GetWeight(int index)
     vtkErrorMacro("There is no light " << index << " that has a weight.");
     return 0.0;
   }
-  return this->Internals->Lights[static_cast<std::size_t>(index)].weight;
+  return this->Internals->Lights[static_cast<std::size_t>(index)].weightOf(this->CosineWeighted);
+}
+
+//------------------------------------------------------------------------------
+void vtkSVOShadowFilter::SetLightName(int index, const char* name)
+{
+  if (!this->GetLight(index))
+  {
+    vtkErrorMacro("There is no light " << index << " to give a name to.");
+    return;
+  }
+  std::string& own = this->Internals->Lights[static_cast<std::size_t>(index)].name;
+  if (own != (name ? name : ""))
+  {
+    own = name ? name : "";
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSVOShadowFilter::GetLightName(int index)
+{
+  if (!this->GetLight(index))
+  {
+    vtkErrorMacro("There is no light " << index << " that has a name.");
+    return nullptr;
+  }
+  return this->Internals->Lights[static_cast<std::size_t>(index)].name.c_str();
 }
 
 //------------------------------------------------------------------------------
@@ -202,7 +236,7 @@ void vtkSVOShadowFilter::PrintSelf(ostream& os, vtkIndent indent)
   for (int i = 0; i < this->GetNumberOfLights(); ++i)
   {
     os << indent << "Light " << i << ": " << this->GetLight(i) << ", weight " << this->GetWeight(i)
-       << "\n";
+       << ", name " << this->GetLightName(i) << "\n";
   }
   os << indent << "Association: " << this->GetAssociationAsString() << "\n";
   os << indent << "SamplesPerCell: " << this->SamplesPerCell << "\n";

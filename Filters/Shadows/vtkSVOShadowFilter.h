@@ -27,7 +27,7 @@
  * Lights are where they stand in the world. Camera lights and headlights have no place without a
  * camera: one warning, and nothing arrives of them. Cells without an area (vertices, lines), and
  * cells or points that are not finite, have NaN in both arrays; a warning tells the number of the
- * latter.
+ * latter. One warning tells where nothing faces any of the lights.
  *
  * Time goes with samples times lights. Memory is that of the octrees and the arrays: see
  * SetWriteShadow(). Progress is reported, and the filter can be aborted; the output is the mesh
@@ -75,10 +75,21 @@ public:
   //@{
   /**
    * What a light brings in "Exposure": any unit, hours for example. Default 1. An index that does
-   * not exist is an error; its weight is 0.
+   * not exist is an error; its weight is 0. SetWeights() gives another one for CosineWeighted; Get:
+   * the one that counts now.
    */
   void SetWeight(int index, double weight);
+  void SetWeights(int index, double weight, double withCosine);
   double GetWeight(int index);
+  //@}
+
+  //@{
+  /**
+   * The name of the light's component of "Shadow". Default: none. An index that does not exist is
+   * an error; nullptr then.
+   */
+  void SetLightName(int index, const char* name);
+  const char* GetLightName(int index);
   //@}
 
   /**

@@ -26,6 +26,7 @@
 #include "vtkTimerLog.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <set>
 #include <string>
@@ -85,13 +86,13 @@ void addMeshes(vtkDataObject* data, const glm::dmat4& place, std::vector<CasterM
 
 //------------------------------------------------------------------------------
 std::vector<svo::WeightedLight> vtkSVOShadowFilter::vtkInternals::lights(
-  std::map<std::string, std::string>& wrong) const
+  bool cosine, std::map<std::string, std::string>& wrong) const
 {
   std::vector<svo::WeightedLight> result;
   for (const Weighted& weighted : this->Lights)
   {
     std::string problem;
-    result.push_back(svo::shadowLight(weighted.light, weighted.weight, problem));
+    result.push_back(svo::shadowLight(weighted.light, weighted.weightOf(cosine), problem));
     if (!problem.empty())
     {
       std::string& who = wrong[problem];
@@ -156,7 +157,8 @@ int vtkSVOShadowFilter::RequestData(
   }
 
   std::map<std::string, std::string> wrong;
-  const std::vector<svo::WeightedLight> lights = this->Internals->lights(wrong);
+  const std::vector<svo::WeightedLight> lights =
+    this->Internals->lights(this->CosineWeighted, wrong);
   for (const auto& one : wrong)
   {
     vtkWarningMacro(
@@ -245,6 +247,14 @@ int vtkSVOShadowFilter::RequestData(
   if (withShadow)
   {
     shadow->SetNumberOfComponents(static_cast<int>(components));
+    for (vtkIdType i = 0; i < components; ++i)
+    {
+      if (const std::string& name = this->Internals->Lights[static_cast<std::size_t>(i)].name;
+          !name.empty())
+      {
+        shadow->SetComponentName(i, name.c_str());
+      }
+    }
     shadow->SetNumberOfTuples(count);
     std::fill_n(shadow->GetPointer(0), count * components, std::numeric_limits<float>::quiet_NaN());
   }
@@ -259,8 +269,9 @@ int vtkSVOShadowFilter::RequestData(
     this->UpdateProgress(BuildShare + (1.0 - BuildShare) * done);
     return !svo::isAborted(this);
   };
+  std::atomic<bool> faced{ false };
   const svo::ShareArrays arrays{ withShadow ? shadow->GetPointer(0) : nullptr,
-    exposure->GetPointer(0) };
+    exposure->GetPointer(0), &faced };
   start = vtkTimerLog::GetUniversalTime();
   vtkIdType answered = 0;
   vtkIdType asked = 0;
@@ -291,6 +302,15 @@ int vtkSVOShadowFilter::RequestData(
                     << (byPoint ? " are not finite"
                                 : " have no area, or points that are not finite")
                     << ": they have NaN in the arrays.");
+  }
+  if (!faced && answered > 0 &&
+    std::any_of(lights.begin(), lights.end(), [](const auto& light) { return light.on; }))
+  {
+    vtkWarningMacro("Nothing arrives: no "
+      << (byPoint ? "point" : "cell")
+      << " faces any of the lights, or lies in the cone of one. The order of a cell's points"
+      << (byPoint ? ", or point normals, tell" : " tells")
+      << " its outside; TwoSidedOn() asks for both sides.");
   }
   vtkDataSetAttributes* attributes = byPoint
     ? static_cast<vtkDataSetAttributes*>(output->GetPointData())

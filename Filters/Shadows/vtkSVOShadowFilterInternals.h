@@ -24,14 +24,18 @@ public:
   struct Weighted
   {
     vtkSmartPointer<vtkLight> light;
-    double weight = 1.0;
+    double weight = 1.0, withCosine = 1.0;
+    std::string name;
+
+    double weightOf(bool cosine) const { return cosine ? this->withCosine : this->weight; }
   };
   std::vector<Weighted> Lights;
   std::map<int, vtkSmartPointer<vtkMatrix4x4>> Matrices; // of casters
   svo::CasterOctrees Octrees;
 
   /// The lights as rays have them; `wrong`: of each problem the numbers of the lights that have it.
-  std::vector<svo::WeightedLight> lights(std::map<std::string, std::string>& wrong) const;
+  std::vector<svo::WeightedLight> lights(
+    bool cosine, std::map<std::string, std::string>& wrong) const;
 };
 
 #endif

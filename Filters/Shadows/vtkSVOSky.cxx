@@ -32,6 +32,7 @@ int vtkSVOSky::AddLights(vtkSVOShadowFilter* filter)
   }
   if (!filter)
   {
+    vtkErrorMacro("There is no filter to add lights to.");
     return 0;
   }
   const glm::dvec3 up = given / length;
@@ -41,10 +42,11 @@ int vtkSVOSky::AddLights(vtkSVOShadowFilter* filter)
   const std::vector<glm::dvec3> directions = svo::skyDirections(this->NumberOfDirections);
   const auto brightness = [this](double sine)
   { return this->Type == OVERCAST ? svo::overcastSky(sine) : 1.0; };
-  double whole = 0.0; // of a level place
+  double whole = 0.0, wholeCosine = 0.0; // of a level place
   for (const glm::dvec3& d : directions)
   {
-    whole += brightness(d.z) * (filter->GetCosineWeighted() ? d.z : 1.0);
+    whole += brightness(d.z);
+    wholeCosine += brightness(d.z) * d.z;
   }
   for (const glm::dvec3& d : directions)
   {
@@ -53,7 +55,8 @@ int vtkSVOSky::AddLights(vtkSVOShadowFilter* filter)
     light->SetLightTypeToSceneLight();
     light->SetPosition(to.x, to.y, to.z);
     light->SetFocalPoint(0.0, 0.0, 0.0);
-    filter->SetWeight(filter->AddLight(light), brightness(d.z) / whole);
+    filter->SetWeights(
+      filter->AddLight(light), brightness(d.z) / whole, brightness(d.z) / wholeCosine);
   }
   return static_cast<int>(directions.size());
 }

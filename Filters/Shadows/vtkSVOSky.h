@@ -62,8 +62,8 @@ public:
   //@}
 
   /**
-   * Adds directional lights to the filter, with weights for its CosineWeighted as it is now.
-   * Returns how many: 0 after an error, for an up that is zero or not finite.
+   * Adds directional lights to the filter, with a weight each for its CosineWeighted and without.
+   * Returns how many: 0 after an error, without a filter and for an up that is zero or not finite.
    */
   int AddLights(vtkSVOShadowFilter* filter);
 

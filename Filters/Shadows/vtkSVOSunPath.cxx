@@ -1,5 +1,7 @@
 #include "vtkSVOSunPath.h"
 
+#include "svoNumberSetting.h"
+#include "svoSunBins.h"
 #include "svoSunPosition.h"
 #include "vtkSVOShadowFilter.h"
 
@@ -41,6 +43,42 @@ void vtkSVOSunPath::SetDate(int year, int month, int day)
   this->SetYear(year);
   this->SetMonth(month);
   this->SetDay(day);
+}
+
+//------------------------------------------------------------------------------
+void vtkSVOSunPath::SetLongitude(double value)
+{
+  svo::setLongitude(this, value, this->Longitude);
+}
+
+void vtkSVOSunPath::SetLatitude(double value)
+{
+  svo::setNumber(this, "Latitude", value, -90.0, 90.0, this->Latitude);
+}
+
+void vtkSVOSunPath::SetTimeZone(double value)
+{
+  svo::setNumber(this, "TimeZone", value, -14.0, 14.0, this->TimeZone);
+}
+
+void vtkSVOSunPath::SetStartHour(double value)
+{
+  svo::setNumber(this, "StartHour", value, 0.0, 24.0, this->StartHour);
+}
+
+void vtkSVOSunPath::SetEndHour(double value)
+{
+  svo::setNumber(this, "EndHour", value, 0.0, 24.0, this->EndHour);
+}
+
+void vtkSVOSunPath::SetStep(double value)
+{
+  svo::setNumber(this, "Step", value, 0.1, 1440.0, this->Step);
+}
+
+void vtkSVOSunPath::SetBinWidth(double value)
+{
+  svo::setNumber(this, "BinWidth", value, 0.0, 30.0, this->BinWidth);
 }
 
 //------------------------------------------------------------------------------
@@ -120,30 +158,55 @@ double vtkSVOSunPath::GetAzimuth(double hour)
 //------------------------------------------------------------------------------
 int vtkSVOSunPath::AddLights(vtkSVOShadowFilter* filter)
 {
-  if (!filter || !this->IsValid())
+  if (!filter)
+  {
+    vtkErrorMacro("There is no filter to add lights to.");
+    return 0;
+  }
+  if (!this->IsValid())
   {
     return 0;
   }
-  int added = 0;
-  const double step = this->Step / 60.0;
-  const double hours = this->EndHour - this->StartHour;
-  const int steps = std::max(0, static_cast<int>(std::ceil(hours / step - 1e-9)));
-  for (int i = 0; i < steps; ++i)
+  if (!(this->StartHour < this->EndHour))
   {
-    const double begin = this->StartHour + i * step;
-    const double end = std::min(begin + step, this->EndHour);
-    double direction[3];
-    if (this->GetDirection(0.5 * (begin + end), direction))
+    vtkErrorMacro("There are no suns: hours from " << this->StartHour << " to " << this->EndHour
+                                                   << " are none.");
+    return 0;
+  }
+  glm::dvec3 frame[3];
+  frameOf(this->North, this->Up, frame);
+  svo::SunBins bins(this->BinWidth);
+  const double step = this->Step / 60.0;
+  const int steps =
+    std::max(1, static_cast<int>(std::ceil((this->EndHour - this->StartHour) / step - 1e-9)));
+  svo::Date date{ this->Year, this->Month, this->Day };
+  for (int day = 0; day < this->NumberOfDays; ++day, date = svo::nextDay(date))
+  {
+    for (int i = 0; i < steps; ++i)
     {
-      vtkNew<vtkLight> light;
-      light->SetLightTypeToSceneLight();
-      light->SetPosition(direction);
-      light->SetFocalPoint(0.0, 0.0, 0.0);
-      filter->SetWeight(filter->AddLight(light), end - begin);
-      ++added;
+      const double begin = this->StartHour + i * step;
+      const double end = std::min(begin + step, this->EndHour);
+      const double hour = 0.5 * (begin + end);
+      double local[3];
+      this->LocalDirection(24.0 * day + hour, local);
+      if (local[2] > 0.0)
+      {
+        bins.add({ local[0], local[1], local[2] }, end - begin, date, hour);
+      }
     }
   }
-  return added;
+  for (const svo::SunBins::Bin& bin : bins.all())
+  {
+    const glm::dvec3 to = bin.sum.x * frame[0] + bin.sum.y * frame[1] + bin.sum.z * frame[2];
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToSceneLight();
+    light->SetPosition(to.x, to.y, to.z);
+    light->SetFocalPoint(0.0, 0.0, 0.0);
+    const int index = filter->AddLight(light);
+    filter->SetWeight(index, bin.weight);
+    filter->SetLightName(index, bin.name().c_str());
+  }
+  return static_cast<int>(bins.all().size());
 }
 
 //------------------------------------------------------------------------------
@@ -163,4 +226,6 @@ void vtkSVOSunPath::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "StartHour: " << this->StartHour << "\n";
   os << indent << "EndHour: " << this->EndHour << "\n";
   os << indent << "Step: " << this->Step << "\n";
+  os << indent << "NumberOfDays: " << this->NumberOfDays << "\n";
+  os << indent << "BinWidth: " << this->BinWidth << "\n";
 }

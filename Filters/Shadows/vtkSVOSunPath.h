@@ -1,6 +1,6 @@
 /**
  * @class vtkSVOSunPath
- * @brief where the sun stands in the course of a day, as lights for vtkSVOShadowFilter
+ * @brief where the sun stands in the course of days, as lights for vtkSVOShadowFilter
  *
  * The sun's apparent place after J. Meeus, "Astronomical Algorithms" (1998), chapters 7, 12 and 25,
  * which is that of NOAA's solar calculator: within 0.01 degrees from 1900 to 2100, refraction
@@ -42,12 +42,12 @@ public:
 
   //@{
   /**
-   * The place in degrees: latitude -90 to 90, north positive; longitude -180 to 180, east positive.
-   * Default 0, 0.
+   * The place in degrees: latitude -90 to 90, north positive; longitude -180 to 180, east
+   * positive; others are taken round the earth. Default 0, 0.
    */
-  vtkSetClampMacro(Latitude, double, -90.0, 90.0);
+  void SetLatitude(double value);
   vtkGetMacro(Latitude, double);
-  vtkSetClampMacro(Longitude, double, -180.0, 180.0);
+  void SetLongitude(double value);
   vtkGetMacro(Longitude, double);
   //@}
 
@@ -55,7 +55,7 @@ public:
   /**
    * Hours that local clocks are ahead of UTC, summer time included: -14 to 14, default 0.
    */
-  vtkSetClampMacro(TimeZone, double, -14.0, 14.0);
+  void SetTimeZone(double value);
   vtkGetMacro(TimeZone, double);
   //@}
 
@@ -85,12 +85,32 @@ public:
    * The part of the day that AddLights() is for, local hours 0 to 24, and how far apart its lights
    * are, in minutes: 0.1 to 1440. Default 0, 24 and 30.
    */
-  vtkSetClampMacro(StartHour, double, 0.0, 24.0);
+  void SetStartHour(double value);
   vtkGetMacro(StartHour, double);
-  vtkSetClampMacro(EndHour, double, 0.0, 24.0);
+  void SetEndHour(double value);
   vtkGetMacro(EndHour, double);
-  vtkSetClampMacro(Step, double, 0.1, 1440.0);
+  void SetStep(double value);
   vtkGetMacro(Step, double);
+  //@}
+
+  //@{
+  /**
+   * How many days AddLights() is for, from the date on; 1 to 36525, default 1. 366 are the year
+   * 2024. TimeZone is that of all of them; the hours of sun of whole days do not depend on it.
+   */
+  vtkSetClampMacro(NumberOfDays, int, 1, 36525);
+  vtkGetMacro(NumberOfDays, int);
+  //@}
+
+  //@{
+  /**
+   * Suns whose directions lie in one bin of this width, in degrees of arc, become one light with
+   * the sum of their weights, from their mean direction: a year in far fewer lights. A sun is
+   * moved by 0.7 widths at most; ShadowsAsData.md has what that changes. 0 to 30; default 0: every
+   * sun is a light.
+   */
+  void SetBinWidth(double value);
+  vtkGetMacro(BinWidth, double);
   //@}
 
   /**
@@ -111,8 +131,10 @@ public:
 
   /**
    * Adds directional lights: one for each step in the middle of which the sun is up, with the
-   * step's hours as its weight, so that "Exposure" is in hours of sun. Returns how many, which is 0
-   * in a polar night.
+   * step's hours as its weight, so that "Exposure" is in hours of sun. Their names are the times in
+   * the middle of the steps, or, of several suns in a bin, azimuth and elevation. Returns how many,
+   * which is 0 in a polar night, and, after an error, without a filter and where EndHour is not
+   * after StartHour.
    */
   int AddLights(vtkSVOShadowFilter* filter);
 
@@ -140,6 +162,8 @@ private:
   double StartHour = 0.0;
   double EndHour = 24.0;
   double Step = 30.0;
+  int NumberOfDays = 1;
+  double BinWidth = 0.0;
 };
 
 #endif

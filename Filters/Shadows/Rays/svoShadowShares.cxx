@@ -24,6 +24,7 @@ struct Scratch
   std::vector<Sample> samples;
   std::vector<double> shadow;   // by place, then light
   std::vector<double> exposure; // by place
+  bool faced = false;
 };
 
 /// Adds up to 64 samples of a piece for one light.
@@ -45,6 +46,7 @@ void addSamples(const Sample* samples, int count, const WeightedLight& source, d
     const bool faces = cosine > 0.0 || (options.twoSided && cosine < 0.0);
     asked |= std::uint64_t(length > 0.0 && inCone && faces) << i;
   }
+  scratch.faced = scratch.faced || asked != 0;
   const std::uint64_t lit = asked == 0
     ? 0
     : asked & ~casters.hidden(source.light, samples, count, asked, options.singleRays);
@@ -114,6 +116,10 @@ bool computeShadowShares(const Samples& samples, const ShadowCasters& casters,
         for (std::size_t i = begin; i < end; ++i)
         {
           shadePiece(i, scratch);
+        }
+        if (scratch.faced && out.faced)
+        {
+          *out.faced = true;
         }
       });
   }

@@ -7,6 +7,7 @@
 #include "svoSamples.h"
 #include "svoShadowCasters.h"
 
+#include <atomic>
 #include <functional>
 #include <vector>
 
@@ -30,11 +31,13 @@ struct ShareOptions
 };
 
 /// Where the answers go, by the ids of places; those in no piece are left as they are. `shadow` has
-/// a value for each light, light by light for one place, then for the next; it may be null.
+/// a value for each light, light by light for one place, then for the next; it may be null, and so
+/// may `faced`.
 struct ShareArrays
 {
   float* shadow = nullptr;
   double* exposure = nullptr;
+  std::atomic<bool>* faced = nullptr; // set where a place faces a light that is on, in its cone
 };
 
 /// True unless it was aborted. The answers do not depend on the number of threads. A place gets

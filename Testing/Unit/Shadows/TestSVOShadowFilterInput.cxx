@@ -283,6 +283,26 @@ TEST(SVOShadowFilterInput, LightsWithoutAPlace)
   EXPECT_NE(ground.messages.all().find("light 1, 2 "), std::string::npos) << ground.messages.all();
 }
 
+TEST(SVOShadowFilterInput, NothingFacesTheSun)
+{
+  for (const bool byPoint : { false, true })
+  {
+    Shadows shadows(level(-1, 1, -1, 1, 0, 3), byPoint);
+    shadows.filter->AddLight(sun(0, 0, -1));
+    shadows.filter->AddLight(sun(0.3, 0, -1));
+    EXPECT_EQ(shadows.exposure(0), 0.0);
+    ASSERT_EQ(shadows.messages.warnings.size(), 1u);
+    EXPECT_NE(shadows.messages.all().find("faces any of the lights"), std::string::npos);
+    shadows.filter->TwoSidedOn();
+    EXPECT_EQ(shadows.exposure(0), 2.0);
+    EXPECT_EQ(shadows.messages.warnings.size(), 1u);
+    shadows.filter->TwoSidedOff();
+    shadows.filter->AddLight(sun(0, 0, 1));
+    EXPECT_EQ(shadows.exposure(0), 1.0);
+    EXPECT_EQ(shadows.messages.all().find("faces"), shadows.messages.all().rfind("faces"));
+  }
+}
+
 TEST(SVOShadowFilterInput, IndicesThatDoNotExist)
 {
   Ground ground;

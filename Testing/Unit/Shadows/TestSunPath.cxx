@@ -6,6 +6,8 @@
 #include "vtkSVOSky.h"
 #include "vtkSVOSunPath.h"
 
+#include <limits>
+
 #include <glm/geometric.hpp>
 
 using namespace svotest;
@@ -166,6 +168,150 @@ TEST(SunPath, FramesOfModels)
   EXPECT_EQ(messages.errors.size(), 2u);
 }
 
+TEST(SunPath, NumbersThatAreWrongAreSaidAndNotUsed)
+{
+  auto path = pathAt(48.1, 11.6, 1.0, 2024, 6, 21);
+  vtkNew<vtkSVOExposureFilter> filter;
+  filter->SetLatitude(48.1);
+  filter->SetLongitude(11.6);
+  svo::TestMessages ofPath(path), ofFilter(filter);
+  const double nan = std::nan("");
+  for (const double value : { nan, std::numeric_limits<double>::infinity() })
+  {
+    path->SetLatitude(value);
+    path->SetLongitude(value);
+    path->SetTimeZone(value);
+    path->SetStartHour(value);
+    path->SetEndHour(value);
+    path->SetStep(value);
+    path->SetBinWidth(value);
+    filter->SetLatitude(value);
+    filter->SetLongitude(value);
+    filter->SetTimeZone(value);
+    filter->SetStartHour(value);
+    filter->SetEndHour(value);
+    filter->SetStep(value);
+    filter->SetBinWidth(value);
+  }
+  EXPECT_EQ(ofPath.warnings.size(), 14u) << ofPath.all();
+  EXPECT_EQ(ofFilter.warnings.size(), 14u) << ofFilter.all();
+  EXPECT_EQ(path->GetLatitude(), 48.1);
+  EXPECT_EQ(path->GetLongitude(), 11.6);
+  EXPECT_EQ(path->GetStep(), 30.0);
+  EXPECT_EQ(filter->GetLatitude(), 48.1);
+  EXPECT_EQ(filter->GetEndHour(), 24.0);
+  path->SetLatitude(480.1);
+  EXPECT_EQ(path->GetLatitude(), 90.0);
+  EXPECT_EQ(ofPath.warnings.size(), 15u);
+}
+
+TEST(SunPath, LongitudesGoRound)
+{
+  auto path = pathAt(37.8, -122.4, -7.0, 2024, 6, 21);
+  vtkNew<vtkSVOExposureFilter> filter;
+  svo::TestMessages messages(path);
+  const double azimuth = path->GetAzimuth(13.0);
+  for (const double same : { 237.6, -482.4, 957.6 })
+  {
+    path->SetLongitude(same);
+    filter->SetLongitude(same);
+    EXPECT_NEAR(path->GetLongitude(), -122.4, 1e-9);
+    EXPECT_NEAR(filter->GetLongitude(), -122.4, 1e-9);
+    EXPECT_NEAR(path->GetAzimuth(13.0), azimuth, 1e-9);
+  }
+  path->SetLongitude(180.0);
+  EXPECT_EQ(path->GetLongitude(), 180.0);
+  path->SetLongitude(-180.0);
+  EXPECT_EQ(path->GetLongitude(), -180.0);
+  EXPECT_EQ(messages.all(), "");
+}
+
+TEST(SunPath, WhatAddsNoLightSaysWhy)
+{
+  auto path = pathAt(48.1, 11.6, 1.0, 2024, 6, 21);
+  vtkNew<vtkSVOSky> sky;
+  svo::TestMessages messages(path), ofSky(sky);
+  EXPECT_EQ(path->AddLights(nullptr), 0);
+  EXPECT_EQ(sky->AddLights(nullptr), 0);
+  vtkNew<vtkSVOShadowFilter> filter;
+  path->SetStartHour(20.0);
+  path->SetEndHour(4.0);
+  EXPECT_EQ(path->AddLights(filter), 0);
+  EXPECT_EQ(messages.errors.size(), 2u);
+  EXPECT_EQ(ofSky.errors.size(), 1u);
+}
+
+TEST(SunPath, LightsHaveTheirTimes)
+{
+  auto path = pathAt(48.1, 11.6, 1.0, 2024, 2, 28);
+  path->SetStartHour(12.0);
+  path->SetEndHour(13.0);
+  path->SetNumberOfDays(3);
+  Shadows ground(level(-1, 1, -1, 1, 0));
+  EXPECT_EQ(path->AddLights(ground.filter), 6);
+  EXPECT_STREQ(ground.filter->GetLightName(0), "2024-02-28 12:15");
+  EXPECT_STREQ(ground.filter->GetLightName(3), "2024-02-29 12:45");
+  vtkDataArray* shadow = ground.array("Shadow");
+  EXPECT_STREQ(shadow->GetComponentName(0), "2024-02-28 12:15");
+  EXPECT_STREQ(shadow->GetComponentName(5), "2024-03-01 12:45");
+  ground.filter->SetLightName(0, "noon");
+  EXPECT_STREQ(ground.array("Shadow")->GetComponentName(0), "noon");
+  ground.expectQuiet();
+  EXPECT_EQ(ground.filter->GetLightName(6), nullptr);
+  EXPECT_EQ(ground.messages.errors.size(), 1u);
+}
+
+TEST(SunPath, AYearInBins)
+{
+  // A wall south of a meadow, and all suns of a year beside those of bins.
+  const auto hours = [](double width, int& lights)
+  {
+    auto path = pathAt(48.1, 11.6, 1.0, 2024, 1, 1);
+    path->SetNumberOfDays(366);
+    path->SetStep(20.0);
+    path->SetBinWidth(width);
+    Shadows meadow(level(-10, 10, -10, 10, 0, 12));
+    meadow.filter->AddCasterData(
+      polygons({ { -4, -3, 0 }, { 4, -3, 0 }, { 4, -3, 5 }, { -4, -3, 5 } }, { { 0, 1, 2, 3 } }));
+    meadow.filter->WriteShadowOff();
+    lights = path->AddLights(meadow.filter);
+    double weights = 0.0;
+    for (int i = 0; i < lights; ++i)
+    {
+      weights += meadow.filter->GetWeight(i);
+    }
+    std::vector<double> result{ weights };
+    vtkDataArray* exposure = meadow.array("Exposure");
+    for (vtkIdType i = 0; i < exposure->GetNumberOfTuples(); ++i)
+    {
+      result.push_back(exposure->GetComponent(i, 0));
+    }
+    meadow.expectQuiet();
+    return result;
+  };
+  int all = 0;
+  const std::vector<double> exact = hours(0.0, all);
+  EXPECT_GT(all, 13000);
+  for (const double width : { 0.5, 1.0, 2.0, 4.0 })
+  {
+    int lights = 0;
+    const std::vector<double> binned = hours(width, lights);
+    EXPECT_NEAR(binned[0], exact[0], 1e-6) << "no sun is lost";
+    double most = 0.0, squares = 0.0;
+    for (std::size_t i = 1; i < exact.size(); ++i)
+    {
+      const double off = std::abs(binned[i] - exact[i]);
+      most = std::max(most, off);
+      squares += off * off / static_cast<double>(exact.size() - 1);
+    }
+    std::cout << all << " suns, bins of " << width << " degrees: " << lights << " lights, off by "
+              << std::sqrt(squares) << " h (root mean square), " << most << " h at most, of "
+              << exact[0] << "\n";
+    EXPECT_LT(lights, all / (width < 1.0 ? 1.2 : 3.0 * width * width / (1.0 + width)));
+    EXPECT_LT(most, 0.01 * width * exact[0]);
+  }
+}
+
 TEST(Sky, ALevelPlaceSeesAllOfIt)
 {
   for (const int type : { 0, 1 })
@@ -179,6 +325,23 @@ TEST(Sky, ALevelPlaceSeesAllOfIt)
       EXPECT_EQ(sky->AddLights(ground.filter), 256);
       EXPECT_NEAR(ground.exposure(0), 1.0, 1e-12);
     }
+  }
+}
+
+TEST(Sky, CosineWeightedMayBeSetLater)
+{
+  for (const int type : { 0, 1 })
+  {
+    Shadows ground(level(-1, 1, -1, 1, 0));
+    vtkNew<vtkSVOSky> sky;
+    sky->SetType(type);
+    sky->AddLights(ground.filter);
+    EXPECT_NEAR(ground.exposure(0), 1.0, 1e-12);
+    ground.filter->CosineWeightedOn();
+    EXPECT_NEAR(ground.exposure(0), 1.0, 1e-12);
+    ground.filter->SetWeight(0, 7.0);
+    EXPECT_EQ(ground.filter->GetWeight(0), 7.0);
+    ground.expectQuiet();
   }
 }
 
