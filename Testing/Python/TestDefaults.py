@@ -16,6 +16,8 @@ VIEWS = pathlib.Path(__file__).resolve().parents[2] / "Plugin" / "Views"
 
 # Properties of views that the pass has no setting for: the ground is ParaView's prop, reasons come from all processes.
 ONLY_IN_PARAVIEW = [("SVOShadowCatcher", "SetShadowGround"), ("SVOReasons", "GetClassName")]
+# Beyond one end of their range is before the other.
+GO_ROUND = ["SetLongitude"]
 # ParaView has an Information panel, which shows what VTK's programs need to be asked for.
 OTHER_IN_PARAVIEW = {"WriteStatistics": 1}
 
@@ -85,6 +87,10 @@ class Defaults(unittest.TestCase):
             if end in domain:
                 last = float(domain[end])
                 self.assertEqual(setting.after(last), last, f"{name} takes its {end}")
+                if name in GO_ROUND:
+                    other = float(domain["max" if end == "min" else "min"]) + beyond
+                    self.assertEqual(setting.after(last + beyond), other, f"{name} goes round")
+                    continue
                 self.assertIn(setting.after(last + beyond), (last, None), f"{name} ends at its {end}")
 
     def check_entries(self, name, setting, entries):
