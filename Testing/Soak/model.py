@@ -11,7 +11,7 @@ from vtkmodules.vtkFiltersSources import (
     vtkConeSource, vtkCubeSource, vtkLineSource, vtkPlaneSource, vtkPlatonicSolidSource, vtkSphereSource,
     vtkSuperquadricSource)
 from vtkmodules.vtkRenderingCore import (
-    vtkActor, vtkLight, vtkPolyDataMapper, vtkProperty, vtkRenderer, vtkRenderWindow, vtkTexture)
+    vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTexture)
 from vtksvo import vtkImplicitFunctionToSVO, vtkSVORenderPass
 
 
@@ -109,7 +109,8 @@ def mesh_of(data):
 
 
 def set_mapper(actor, data, meshes):
-    # VTK's other mappers (glyphs, blocks) crash now and then while they are edited, also without a pass.
+    # VTK's other mappers (glyphs, blocks) crash now and then while they are edited, also without a pass; so does an
+    # actor that loses its backface property.
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(meshes[data["mesh"]])
     actor.SetMapper(mapper)
@@ -125,14 +126,6 @@ def texture_of(color):
         image.GetPointData().GetScalars().SetValue(i, int(255 * color[i % 3]) // (1 + i // 6))
     texture.SetInputData(image)
     return texture
-
-
-def backface_of(color):
-    if color is None:
-        return None
-    backface = vtkProperty()
-    backface.SetColor(color)
-    return backface
 
 
 def matrix_of(values):
@@ -207,7 +200,6 @@ ACTOR = {
     "width": lambda a, v: a.GetProperty().SetLineWidth(v),
     "culled": lambda a, v: a.GetProperty().SetBackfaceCulling(v),
     "texture": set_texture,
-    "backface": lambda a, v: a.SetBackfaceProperty(backface_of(v)),
     "colors": set_colors,
     "clipped": set_clipping,
     "casts": lambda a, v: vtkSVORenderPass.SetCastShadow(v, a),

@@ -52,7 +52,6 @@ class Values:
                 "representation": lambda: rng.choice((2, 2, 2, 2, 1, 0)), "edges": lambda: flag(0.1),
                 "width": lambda: rng.choice((1, 1, 4)), "culled": lambda: flag(0.1),
                 "texture": lambda: None if flag(0.9) else point(0.2, 1),
-                "backface": lambda: None if flag(0.9) else point(0.2, 1),
                 "colors": lambda: rng.choice(("none", "none", "points", "cells", "table", "holes")),
                 "clipped": lambda: None if flag(0.9) else rng.uniform(-1, 1),
                 "casts": lambda: flag(0.8), "receives": lambda: flag(0.9), "traced": lambda: flag(0.9),
@@ -279,7 +278,7 @@ def main():
             print(f"frame {frame}: {closed[-1]:.0f} MiB with everything closed", flush=True)
             world, edits = World(rng, options.plain), []
     print(f"{compared} pictures compared, {failures} differ, and {vtk} of which VTK's own do, too")
-    if len(closed) >= 3:
+    if len(closed) >= 6:
         growth = closed[-1] - closed[len(closed) // 3]
         print(f"With everything closed memory grew by {growth:.0f} MiB after the first third; {GROWTH} may be")
         failures += growth > GROWTH
