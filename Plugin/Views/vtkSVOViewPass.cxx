@@ -10,6 +10,7 @@
 #include "vtkImageSliceRepresentation.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseKey.h"
+#include "vtkMoleculeRepresentation.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -84,6 +85,10 @@ vtkActor* actorOf(vtkPVDataRepresentation* shown)
   if (auto* slice = vtkImageSliceRepresentation::SafeDownCast(shown))
   {
     return slice->GetActor();
+  }
+  if (auto* molecule = vtkMoleculeRepresentation::SafeDownCast(shown))
+  {
+    return molecule->GetActor();
   }
   auto* points = vtkPointGaussianRepresentation::SafeDownCast(shown);
   return points ? (points->*(&Asking::Actor)).Get() : nullptr;

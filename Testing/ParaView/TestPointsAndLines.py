@@ -76,6 +76,11 @@ class TestPointsAndLines(unittest.TestCase):
         pv.Render(self.view)
         self.assertIn("none of them as tubes or spheres", scene.statistic(self.view, "SVOReasons"))
         display.RenderLinesAsTubes = 1
+        pv.ColorBy(display, ("POINTS", "Texture Coordinates", "X"))  # looked up between points
+        tubes = scene.picture(self.view, "tubes-colored")
+        self.assertEqual(scene.statistic(self.view, "SVOReasons"), "")
+        self.assertGreater((tubes[..., :3].max(axis=2) < 10).sum(), 1000)
+        display.ColorArrayName = [None, ""]
         tubes = scene.picture(self.view, "tubes")
         self.assertEqual(scene.statistic(self.view, "SVOReasons"), "")
         pv.Hide(line, self.view)
@@ -103,6 +108,7 @@ molecule.AppendBond(a, b, 1)
         # Two atoms, and a bond of two halves.
         self.assertEqual(scene.statistic(self.view, "SVONumberOfInstances"), 1 + 2 + 2)
         self.assertGreater((picture[..., :3].max(axis=2) < 10).sum(), 2000)
+        self.assertEqual(scene.statistic(self.view, "SVOReasons"), "")
 
 
 scene.load_plugin()
