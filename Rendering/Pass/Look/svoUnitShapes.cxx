@@ -20,7 +20,15 @@ namespace svo
 {
 namespace
 {
-constexpr int MostFacets = 64;
+constexpr int MostFacets = 64, FewestOfMany = 16;
+
+/// All bodies of a prop have no more, unless that leaves fewer than FewestOfMany facets around.
+constexpr double MostTriangles = 4e6;
+
+double trianglesOf(Bodies::Shape shape, int around)
+{
+  return shape == Bodies::Shape::Rod ? 4.0 * around : around * (around - 2.0);
+}
 
 /// A surface of revolution about z, of so many facets around: `profile` has radii and heights, from
 /// below to above; it begins and ends on the axis.
@@ -98,6 +106,11 @@ int UnitShapes::facetsOf(const Bodies& bodies)
   while (facets < MostFacets && bodies.radius * (1.0 - std::cos(vtkMath::Pi() / facets)) > Inside)
   {
     facets *= 2;
+  }
+  while (facets > FewestOfMany &&
+    static_cast<double>(bodies.count()) * trianglesOf(bodies.shape, facets) > MostTriangles)
+  {
+    facets /= 2;
   }
   return facets;
 }

@@ -31,7 +31,9 @@ public:
   vtkPolyData* of(const Bodies& bodies);
 
   /// Facets around, 8 to 64: so many that they lie no more than a tenth of a pixel inside, if the
-  /// bodies have a width in pixels; else the most, 0.12 % of the radius.
+  /// bodies have a width in pixels; else the most, 0.12 % of the radius. Of thousands of balls each
+  /// has fewer, 16 at least, 1.9 %: they are small, and a light goes through all of their
+  /// triangles.
   static int facetsOf(const Bodies& bodies);
 
 private:

@@ -9,6 +9,18 @@
 
 namespace svo
 {
+namespace
+{
+/// Rectangles with fewer pixels have layers only while all of these together have no more than
+/// twice the picture's: what is kept goes with the picture, not with the number of instances.
+constexpr int CrowdsLayer = 128 * 128;
+
+int pixelsOf(const PixelRect& r)
+{
+  return (r.x1 - r.x0) * (r.y1 - r.y0);
+}
+}
+
 void LayeredView::release()
 {
   this->Layers.clear();
@@ -63,10 +75,16 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   {
     this->LargestError = std::max(this->LargestError, this->Errors[entry.index]);
   }
+  double ofCrowd = 0.0;
+  for (const Entry& entry : this->Instances)
+  {
+    const int pixels = pixelsOf(entry.local.rect);
+    ofCrowd += pixels >= SmallestLayer && pixels < CrowdsLayer ? pixels : 0;
+  }
+  const int smallest = ofCrowd > 2.0 * view.width * view.height ? CrowdsLayer : SmallestLayer;
   for (Entry& entry : this->Instances)
   {
-    const PixelRect& r = entry.local.rect;
-    const bool large = (r.x1 - r.x0) * (r.y1 - r.y0) >= SmallestLayer;
+    const bool large = pixelsOf(entry.local.rect) >= smallest;
     entry.layer =
       large ? this->Layers.layerOf(entry.id, entry.key, entry.local.rect, budget) : nullptr;
   }
