@@ -289,17 +289,20 @@ float svoLeft(
         taken = svoTaken(i, place, low, high, width);
       }
     }
-    int answer = svoAsk(i, rows, error, point, texel, facet, normal, 1.0);
+    // An occluder nearby has to be one for most of the four texels around the point. The step keeps
+    // compilers from unrolling the loop: software OpenGL skips nothing else than turns of a loop.
+    vec2 other = vec2(place.x - texel.x < 0.5 ? -1.0 : 1.0, place.y - texel.y < 0.5 ? -1.0 : 1.0);
+    int answer = 1;
+    int dark = 0;
+    for (int k = 0; k < 4; k += answer == 1 ? 1 : 4)
+    {
+      vec2 neighbour = texel + other * vec2(float(k & 1), float(k >> 1));
+      int one = svoAsk(i, rows, error, point, neighbour, facet, normal, 1.0);
+      answer = k == 0 ? one : answer;
+      dark += k > 0 && one != 0 ? 1 : 0;
+    }
     if (answer == 1)
     {
-      // An occluder nearby has to be one for most of the four texels around the point.
-      vec2 other = vec2(place.x - texel.x < 0.5 ? -1.0 : 1.0, place.y - texel.y < 0.5 ? -1.0 : 1.0);
-      int dark = 0;
-      for (int k = 1; k < 4; ++k)
-      {
-        vec2 neighbour = texel + other * vec2(float(k & 1), float(k >> 1));
-        dark += svoAsk(i, rows, error, point, neighbour, facet, normal, 1.0) != 0 ? 1 : 0;
-      }
       answer = float(dark) >= svoTexelsToAgree ? 2 : 0;
     }
     lit = answer == 2 ? (svoTranslucent ? 1.0 - taken : 0.0) : 1.0;
