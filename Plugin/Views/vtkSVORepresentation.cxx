@@ -7,8 +7,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkPPolyDataToSVO.h"
 #include "vtkPVDataDeliveryManager.h"
+#include "vtkPVLODActor.h"
 #include "vtkPVRenderView.h"
-#include "vtkSVOActor.h"
 #include "vtkSVORenderPass.h"
 #include "vtkSVOViewPass.h"
 
@@ -31,8 +31,6 @@ vtkSVORepresentation::vtkSVORepresentation()
   this->ToOctree->SetAdaptLevel(true);
   this->ToOctree->AddObserver(
     vtkCommand::ProgressEvent, this, &vtkSVORepresentation::ForwardProgress);
-  this->Actor->Delete();
-  this->Actor = vtkSVOActor::New();
   this->SuppressLOD = true;
   this->SetupDefaults();
   vtkSVORenderPass::SetUseSVO(true, this->Actor);
@@ -181,7 +179,6 @@ void vtkSVORepresentation::UpdateUse(vtkView* view)
   {
     vtkSVOViewPass::AddUser(wanted);
   }
-  static_cast<vtkSVOActor*>(this->Actor)->SetPass(vtkSVOViewPass::Of(wanted));
 }
 
 void vtkSVORepresentation::SetMaximumLevel(int level)

@@ -9,10 +9,14 @@
 #include "vtkOpenGLState.h"
 #include "vtkProp.h"
 #include "vtkPropCollection.h"
+#include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +30,7 @@ struct PassFrame
   PassFrame(std::shared_ptr<RendererState> rendererState, vtkRenderer* drawn)
     : state(std::move(rendererState))
     , renderer(drawn)
+    , receivingState(drawn)
     , context(stateOf(windowOf(drawn)))
   {
     vtkCollectionSimpleIterator iterator;
@@ -56,6 +61,21 @@ struct PassFrame
     return window != nullptr;
   }
 
+  /// Those that carry the pass while the frame is drawn: what shadows fall on. Others may hand it
+  /// on to whatever they consist of, as grids of axes do to their labels.
+  const vtkRenderState& receivers()
+  {
+    if (this->receiving.empty())
+    {
+      const std::set<vtkProp*>& wanted = this->state->collected().receivers;
+      std::copy_if(this->props.begin(), this->props.end(), std::back_inserter(this->receiving),
+        [&wanted](vtkProp* prop) { return wanted.count(prop) > 0; });
+    }
+    this->receivingState.SetPropArrayAndCount(
+      this->receiving.data(), static_cast<int>(this->receiving.size()));
+    return this->receivingState;
+  }
+
   const std::shared_ptr<RendererState> state;
   vtkRenderer* const renderer;
   /// VTK's renderer has an array of them and does not own them.
@@ -68,7 +88,7 @@ struct PassFrame
 
   // Where the pass is attached:
   vtkSmartPointer<vtkSVORenderPass> pass; // until the frame ends
-  std::vector<vtkProp*> receivers;        // those that carry the pass while the frame is drawn
+  bool shadowed = false;                  // receivers() carry the pass
 
 private:
   static vtkOpenGLRenderWindow* windowOf(vtkRenderer* renderer)
@@ -81,6 +101,8 @@ private:
     return window ? window->GetState() : nullptr;
   }
 
+  std::vector<vtkProp*> receiving;
+  vtkRenderState receivingState;
   vtkSmartPointer<vtkOpenGLState> context; // kept, so that no other comes into its place
 };
 }

@@ -6,6 +6,7 @@
 #include "svoRendererState.h"
 #include "vtkSVORenderPass.h"
 
+#include "vtkCuller.h"
 #include "vtkMultiProcessController.h"
 #include "vtkSmartPointer.h"
 #include "vtkTimeStamp.h"
@@ -31,7 +32,8 @@ struct AttachedRenderer
 {
   vtkWeakPointer<vtkRenderer> renderer;
   std::vector<unsigned long> observers;
-  bool leaving = false; // detached in the midst of a frame: as soon as that ends
+  vtkSmartPointer<vtkCuller> culler; // takes what is traced from what the renderer draws
+  bool leaving = false;              // detached in the midst of a frame: as soon as that ends
 };
 }
 

@@ -158,12 +158,12 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
     const bool receiving = !frame.state->receivers().idle();
     if (receiving)
     {
-      this->PreRender(state);
+      this->PreRender(&frame.receivers());
     }
     this->UpdateGeometry(renderer, state->GetFrameBuffer());
     if (receiving)
     {
-      this->PostRender(state);
+      this->PostRender(&frame.receivers());
     }
   }
   frame.state->presenter()->StandFor(nullptr);

@@ -575,11 +575,11 @@ public:
   /**
    * For a host whose renderers have passes of their own: from Attach() to Detach() each frame of
    * the renderer shows what this pass traces, although the pass is not set on it. A prop that is
-   * put first in the renderer's list draws it. In the midst of a frame Detach() takes effect when
-   * the frame is done. Only props with an explicit SetUseSVO(true) are traced and cast shadows;
-   * those must draw nothing while IsTraced() says that they are (a selector's frames are never
-   * traced). All other surfaces are drawn as ever, and receive shadows; with ShadowsForEverything
-   * they cast as well.
+   * put first in the renderer's list draws it, and a culler takes the traced ones from what the
+   * renderer draws (a selector's frames are never traced). In the midst of a frame Detach() takes
+   * effect when the frame is done. Only props with an explicit SetUseSVO(true) are traced and cast
+   * shadows, with ShadowsForEverything all are. All other surfaces are drawn as ever, and receive
+   * shadows. IsTraced(): whether the frame that is drawn shows the prop.
    */
   void Attach(vtkRenderer* renderer);
   void Detach(vtkRenderer* renderer);
@@ -588,10 +588,10 @@ public:
 
   //@{
   /**
-   * Whether in attached renderers all surfaces cast shadows, and not only those that are traced;
-   * default off. The octrees of the others are built by the pass. There are no messages about them:
-   * GetReasonInLastFrame() says what of them casts nothing. (Where the pass is set on a renderer
-   * everything casts in any case.)
+   * Whether in attached renderers all surfaces are traced and cast shadows, as far as they can, and
+   * not only those with an explicit SetUseSVO(true); default off. The octrees of the others are
+   * built by the pass. There are no messages about them: GetReasonInLastFrame() says what of them
+   * casts nothing. (Where the pass is set on a renderer this is so in any case.)
    */
   vtkSetMacro(ShadowsForEverything, bool);
   vtkGetMacro(ShadowsForEverything, bool);

@@ -5,11 +5,17 @@
 
 #include "vtkCameraPass.h"
 #include "vtkCommand.h"
+#include "vtkCuller.h"
+#include "vtkCullerCollection.h"
+#include "vtkObjectFactory.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderState.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
+#include <algorithm>
+#include <functional>
+#include <numeric>
 #include <string>
 
 namespace
@@ -30,6 +36,30 @@ bool drawsPropsFirst(vtkRenderPass* pass)
   vtkRenderPass* inner = static_cast<vtkCameraPass*>(pass)->GetDelegatePass();
   return isA(inner, "vtkDefaultPass") || isA(inner, "vtkPVDefaultPass");
 }
+
+/// Takes what is traced out of what a renderer draws in a frame. The props stay visible and in the
+/// renderer's list, where bounds, pickers and selectors find them.
+class TracedCuller : public vtkCuller
+{
+public:
+  static TracedCuller* New();
+  vtkTypeMacro(TracedCuller, vtkCuller);
+
+  double Cull(vtkRenderer*, vtkProp** props, int& count, int& initialized) override
+  {
+    count = static_cast<int>(std::stable_partition(props, props + count,
+                               [this](vtkProp* prop) { return !this->IsTraced(prop); }) -
+      props);
+    // The times that cullers before this one have allotted; without one VTK gives each prop 1.
+    return !initialized
+      ? count
+      : std::accumulate(props, props + count, 0.0,
+          [](double sum, vtkProp* prop) { return sum + prop->GetRenderTimeMultiplier(); });
+  }
+
+  std::function<bool(vtkProp*)> IsTraced;
+};
+vtkStandardNewMacro(TracedCuller);
 }
 
 void vtkSVORenderPass::Attach(vtkRenderer* renderer)
@@ -51,6 +81,13 @@ void vtkSVORenderPass::Attach(vtkRenderer* renderer)
     renderer->AddObserver(
       vtkCommand::EndEvent, this, &vtkSVORenderPass::EndAttachedFrame, AfterHosts),
     renderer->AddObserver(vtkCommand::DeleteEvent, this, &vtkSVORenderPass::ForgetAttached) };
+  vtkNew<TracedCuller> culler;
+  culler->IsTraced = [this, renderer](vtkProp* prop)
+  {
+    const svo::PassFrame* frame = this->Impl->frameOf(renderer);
+    return frame && frame->state->traces(prop);
+  };
+  attached.culler = culler;
 
   vtkSVOPresenter* presenter = impl.stateOf(renderer)->presenter();
   presenter->SetPrepare(
@@ -93,6 +130,7 @@ void vtkSVORenderPass::Detach(vtkRenderer* renderer)
     {
       renderer->RemoveObserver(observer);
     }
+    renderer->RemoveCuller(found->second.culler);
     const std::shared_ptr<svo::RendererState> kept = impl.stateOf(renderer);
     kept->presenter()->SetPrepare(nullptr);
     renderer->RemoveViewProp(kept->presenter());
@@ -103,6 +141,10 @@ void vtkSVORenderPass::Detach(vtkRenderer* renderer)
   }
   impl.attached.erase(found);
   impl.renderers.erase(renderer);
+  // What is told of the last frame is about none that is seen any more.
+  impl.statistics = svo::PassStatistics();
+  impl.castingLights.clear();
+  impl.reasons.clear();
 }
 
 /// The renderer is being deleted.
@@ -131,7 +173,7 @@ vtkMultiProcessController* vtkSVORenderPass::GetController() const
 bool vtkSVORenderPass::IsTraced(vtkProp* prop) const
 {
   const svo::RendererState* current = this->Impl->current();
-  return current && current->collected().current && current->collected().replaced.count(prop) > 0;
+  return current && current->traces(prop);
 }
 
 std::string vtkSVORenderPass::GetReasonInLastFrame(vtkProp* prop) const
@@ -162,6 +204,12 @@ void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void
   renderer->GetTiledSizeAndOrigin(&width, &height, &left, &bottom);
   svo::PassFrame& frame = this->BeginFrame(renderer);
   frame.pass = this;
+  const auto attached = this->Impl->attached.find(renderer);
+  if (attached != this->Impl->attached.end() &&
+    !renderer->GetCullers()->IsItemPresent(attached->second.culler)) // some hosts remove them all
+  {
+    renderer->AddCuller(attached->second.culler);
+  }
   if (!this->CollectFrame(frame, width, height, nullptr))
   {
     this->FinishFrame(frame);
@@ -184,13 +232,8 @@ void vtkSVORenderPass::BeginAttachedFrame(vtkObject* caller, unsigned long, void
   const svo::CollectedScene& collected = frame.state->collected();
   if ((collected.rasterizedReceivers && frame.state->hasSomething()) || collected.shadowCatchers)
   {
-    for (vtkProp* prop : frame.props)
-    {
-      frame.receivers.push_back(prop);
-    }
-    vtkRenderState state(renderer);
-    state.SetPropArrayAndCount(frame.receivers.data(), static_cast<int>(frame.receivers.size()));
-    this->PreRender(&state);
+    frame.shadowed = true;
+    this->PreRender(&frame.receivers());
   }
 }
 
@@ -203,11 +246,9 @@ void vtkSVORenderPass::EndAttachedFrame(vtkObject* caller, unsigned long, void*)
   {
     return;
   }
-  if (!frame->receivers.empty())
+  if (frame->shadowed)
   {
-    vtkRenderState state(renderer);
-    state.SetPropArrayAndCount(frame->receivers.data(), static_cast<int>(frame->receivers.size()));
-    this->PostRender(&state);
+    this->PostRender(&frame->receivers());
   }
   this->FinishFrame(*frame);
   const auto attached = this->Impl->attached.find(renderer);

@@ -124,7 +124,7 @@ bool vtkSVORenderPass::CollectFrame(
     svo::CollectSettings collect;
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
-    collect.unmarkedCast = this->ShadowsForEverything;
+    collect.unmarkedToo = this->ShadowsForEverything;
     collect.translucentShadows = this->TranslucentShadows;
     // What processes tell each other of their casters does not include colours.
     collect.meanOpacity = severalProcesses;

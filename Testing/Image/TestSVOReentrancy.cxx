@@ -6,11 +6,11 @@
 #include "vtkCommand.h"
 #include "vtkCullerCollection.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLActor.h"
 #include "vtkOpenGLRenderer.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkProp.h"
 #include "vtkProperty.h"
 #include "vtkSphereSource.h"
 #include "vtkWeakPointer.h"
@@ -58,26 +58,23 @@ std::function<void()> once(std::function<void()> body)
   };
 }
 
-/// A surface that a host with passes of its own shows: it is quiet while the pass traces it.
-class HostActor : public vtkOpenGLActor
+/// Draws nothing, and calls something when it is to be drawn.
+class DrawnProp : public vtkProp
 {
 public:
-  static HostActor* New();
-  vtkTypeMacro(HostActor, vtkOpenGLActor);
-  int RenderOpaqueGeometry(vtkViewport* viewport) override
+  static DrawnProp* New();
+  vtkTypeMacro(DrawnProp, vtkProp);
+  int RenderOpaqueGeometry(vtkViewport*) override
   {
     if (this->whileDrawing)
     {
       this->whileDrawing();
     }
-    return this->pass && this->pass->IsTraced(this)
-      ? 0
-      : this->Superclass::RenderOpaqueGeometry(viewport);
+    return 0;
   }
-  vtkWeakPointer<vtkSVORenderPass> pass;
   std::function<void()> whileDrawing;
 };
-vtkStandardNewMacro(HostActor);
+vtkStandardNewMacro(DrawnProp);
 
 /// All renderers of this class have the same address, one after the other.
 class RendererOfOnePlace : public vtkOpenGLRenderer
@@ -280,16 +277,17 @@ struct HostScene
     this->scene.stage.usePass(false);
     this->actor->SetMapper(this->scene.mapper());
     this->actor->SetProperty(this->scene.actor->GetProperty());
-    this->actor->pass = this->scene.pass;
     this->scene.stage.renderer->RemoveActor(this->scene.actor);
     this->scene.stage.renderer->AddActor(this->actor);
+    this->scene.stage.renderer->AddViewProp(this->drawn);
     vtkSVORenderPass::SetUseSVO(true, this->actor);
   }
   vtkRenderer* renderer() { return this->scene.stage.renderer; }
   Picture picture() { return capture(this->scene.stage.window); }
 
   Scene scene;
-  vtkNew<HostActor> actor;
+  vtkNew<vtkActor> actor;
+  vtkNew<DrawnProp> drawn;
 };
 
 enum class When
@@ -337,14 +335,14 @@ void detached(Checks& checks, When when, bool drop, const std::string& name)
       at(pass, vtkCommand::ProgressEvent, act);
       break;
     case When::Drawing:
-      host.actor->whileDrawing = act;
+      host.drawn->whileDrawing = act;
       break;
   }
   const Picture during = host.picture();
   expectSame(checks, during, when == When::FrameBegins ? raster : traced, "detached " + name);
   expectSame(checks, host.picture(), raster, "the frame after that, " + name);
   checks.expect(!drop || !watched, "a dropped pass is gone, " + name);
-  host.actor->whileDrawing = {};
+  host.drawn->whileDrawing = {};
 }
 
 void attachments(Checks& checks)

@@ -65,7 +65,7 @@ class TestParallel(unittest.TestCase):
     def check_figures(self, output):
         self.assertIn("traced: 2 instances: 2 sample distance: 1.0 time: known\n", output)
         self.assertIn("casts nothing: nobody\n", output)
-        self.assertIn("casts nothing: Sphere1: Left to the rasteriser: it is not shown as SVO. "
+        self.assertIn("casts nothing: Sphere1: Left to the rasteriser: it is translucent. "
                       "Casts no shadow: it is translucent.\n", output)
         self.assertIn("octrees built before a level changed: 1 and by the next interactive frame: 0\n", output)
 

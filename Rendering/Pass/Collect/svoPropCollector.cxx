@@ -253,7 +253,8 @@ void PropCollector::collectActor(
     return;
   }
   const bool unmarked = frame.onlyMarked && !isMarked(actor, owner);
-  if (unmarked && !frame.unmarkedCast)
+  found.marked = found.marked || !unmarked;
+  if (unmarked && !frame.unmarkedToo)
   {
     found.leaveAlone(frame.notMarked);
     return;
@@ -285,11 +286,7 @@ void PropCollector::collectActor(
     return;
   }
   found.hasPlainMatrix = beyond == treatment.rasterized;
-  if (unmarked)
-  {
-    beyond = frame.notMarked;
-  }
-  else if (!beyond && !flagOf(actor, owner, useSVOKey(), true))
+  if (!beyond && !flagOf(actor, owner, useSVOKey(), true))
   {
     beyond = "was told so";
   }

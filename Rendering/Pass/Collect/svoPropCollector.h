@@ -39,10 +39,11 @@ struct CollectProps
   const StoreOptions& options; // messages go to its `complain`, each once
   bool shadows;                // casters are wanted, and a light casts
   bool lights;                 // there are lights at all
-  /// Only props that say explicitly that they use octrees (vtkSVORenderPass::SetUseSVO) are traced.
-  /// The others only receive, or cast as well; about them there are no messages.
+  /// Only props that say explicitly that they use octrees (vtkSVORenderPass::SetUseSVO) are traced
+  /// and cast. The others only receive, unless they are treated likewise; about them there are no
+  /// messages.
   bool onlyMarked;
-  bool unmarkedCast;
+  bool unmarkedToo;
   bool translucentShadows;     // what is translucent casts as well, as light as it is
   bool meanOpacity;            // ... each surface equally all over
   Reason notMarked;            // why the others are not traced

@@ -206,6 +206,7 @@ void SceneCollector::assemble(CollectedScene& result)
   result.meshes.clear();
   result.scene.receivers.clear();
   result.replaced.clear();
+  result.receivers.clear();
   result.tracedActors = result.rasterizedActors = 0;
   result.rasterizedReceivers = result.shadowCatchers = false;
   SceneInstances::write(this->Found, Stage::Shown, this->Instances);
@@ -223,6 +224,10 @@ void SceneCollector::assemble(CollectedScene& result)
       result.rasterizedActors += prop.actors;
       result.rasterizedReceivers = result.rasterizedReceivers || prop.receives;
       result.shadowCatchers = result.shadowCatchers || prop.catchesShadows;
+      if (prop.receives || prop.catchesShadows)
+      {
+        result.receivers.insert(prop.prop);
+      }
       addReceiver(prop, false, result.scene);
     }
     for (const SceneSurface& surface : prop.surfaces)
@@ -273,7 +278,7 @@ void SceneCollector::explain(
     const Reason left = missing ? missing : reasonOfSharing(prop);
     const Reason rasterized = prop.rasterized ? prop.rasterized : left;
     const Reason castsNone = prop.castsNone ? prop.castsNone : missing;
-    const bool asChosen = !castsNone && rasterized == this->NotMarked.c_str();
+    const bool asChosen = !castsNone && !prop.marked;
     const std::string text = reasons(rasterized, castsNone, casts);
     if (!asChosen && !text.empty())
     {
@@ -356,21 +361,21 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
     this->NotMarked = settings.notMarked;
   }
   const CollectProps frame{ options, settings.shadows && casting, !result.scene.lights.empty(),
-    settings.onlyMarked, settings.unmarkedCast, settings.translucentShadows, settings.meanOpacity,
+    settings.onlyMarked, settings.unmarkedToo, settings.translucentShadows, settings.meanOpacity,
     this->NotMarked.c_str(), settings.said, settings.translucentSurfaceText,
     settings.translucentText, settings.cutOutText, world,
     settings.levels.eye.width > 0 ? &settings.levels.eye : nullptr };
   const std::vector<vtkSmartPointer<vtkProp>> props = propsOf(renderer);
   const bool all = !this->Collected || !sameReason ||
-    std::tie(this->Shadows, this->Lights, this->OnlyMarked, this->UnmarkedCast,
+    std::tie(this->Shadows, this->Lights, this->OnlyMarked, this->UnmarkedToo,
       this->TranslucentShadows, this->MeanOpacity, this->World) !=
-      std::tie(frame.shadows, frame.lights, frame.onlyMarked, frame.unmarkedCast,
+      std::tie(frame.shadows, frame.lights, frame.onlyMarked, frame.unmarkedToo,
         frame.translucentShadows, frame.meanOpacity, world);
   this->Collected = true;
   this->Shadows = frame.shadows;
   this->Lights = frame.lights;
   this->OnlyMarked = frame.onlyMarked;
-  this->UnmarkedCast = frame.unmarkedCast;
+  this->UnmarkedToo = frame.unmarkedToo;
   this->TranslucentShadows = frame.translucentShadows;
   this->MeanOpacity = frame.meanOpacity;
   this->World = world;

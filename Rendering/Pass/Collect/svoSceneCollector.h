@@ -29,7 +29,7 @@ struct CollectSettings
   bool shadows = true; // casters are wanted
   /// See CollectProps.
   bool onlyMarked = false;
-  bool unmarkedCast = false;
+  bool unmarkedToo = false;
   bool translucentShadows = false;
   bool meanOpacity = false;
   Reason notMarked = "was not chosen with SetUseSVO"; // need not outlive the call
@@ -52,6 +52,8 @@ struct CollectedScene
   /// Props that the rasteriser must leave alone: every surface of theirs is traced, or must not be
   /// shown.
   std::set<vtkProp*> replaced;
+  /// Those that the rasteriser draws and shadows fall on, catchers of shadows among them.
+  std::set<vtkProp*> receivers;
   int tracedActors = 0;
   int rasterizedActors = 0;
   bool rasterizedReceivers = false; // lit surfaces that the rasteriser draws and shadows fall on
@@ -104,7 +106,7 @@ private:
   bool Lent = false;
   // The rest of what they depend on.
   bool Collected = false;
-  bool Shadows = false, Lights = false, OnlyMarked = false, UnmarkedCast = false;
+  bool Shadows = false, Lights = false, OnlyMarked = false, UnmarkedToo = false;
   bool TranslucentShadows = false, MeanOpacity = false;
   std::string NotMarked; // what reasons of kept props point to
   glm::dmat4 World{ 1.0 };

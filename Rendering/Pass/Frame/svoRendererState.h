@@ -96,6 +96,12 @@ public:
       this->SharesShadows;
   }
 
+  /// True if the prop is none for the rasteriser: it is shown by what is traced in this frame.
+  bool traces(vtkProp* prop) const
+  {
+    return this->Collected.current && this->Collected.replaced.count(prop) > 0;
+  }
+
   /// Before tracing: the presenter is to write what outer passes expect of the props that it
   /// replaces.
   void joinPasses(const vtkRenderState* state);

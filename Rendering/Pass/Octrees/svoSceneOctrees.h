@@ -81,6 +81,7 @@ struct PropSurfaces
   bool traced = true;                    // all that the prop shows can be traced
   bool receives = false;                 // shadows fall on it
   bool catchesShadows = false;           // of it nothing but these is seen
+  bool marked = false;                   // it is meant to be traced, by itself or by all being so
   bool hasPlainMatrix = false;           // of a single actor: it has not changed what is made of it
   Reason rasterized = nullptr;           // why it is not traced
   Reason castsNone = nullptr;            // why something of it casts nothing

@@ -183,7 +183,7 @@ TEST_F(Kept, WhatIsMadeOfPropsThatWereNotChosenIsNoticed)
   expectNoticed("only chosen props", 9, [&] { settings.onlyMarked = true; });
   EXPECT_TRUE(scene.scene.instances.empty());
   EXPECT_FALSE(scene.reasons.empty());
-  expectNoticed("others cast", 9, [&] { settings.unmarkedCast = true; });
+  expectNoticed("others cast", 9, [&] { settings.unmarkedToo = true; });
   EXPECT_FALSE(scene.scene.instances.empty());
   expectNoticed("in other words", 9, [&] { settings.notMarked = "is somebody else's"; });
   const std::size_t before = scene.reasons.size();

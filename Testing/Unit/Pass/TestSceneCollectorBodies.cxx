@@ -200,13 +200,13 @@ TEST_F(KeptBodies, EveryChangeIsNoticed)
   expectNoticed(
     "which draws who knows what", 1, [&] { splats->SetSplatShaderCode("opacity = 0.5;"); });
   EXPECT_EQ(scene.scene.instances.size(), Rods + 3);
-  settings.onlyMarked = settings.unmarkedCast = true;
+  settings.onlyMarked = settings.unmarkedToo = true;
   collect(collector, scene);
   const auto reasons = scene.reasons;
   splats->SetSplatShaderCode(nullptr);
   collect(collector, scene);
   EXPECT_NE(scene.reasons, reasons) << "another reason for the same";
-  settings.onlyMarked = settings.unmarkedCast = false;
+  settings.onlyMarked = settings.unmarkedToo = false;
   collect(collector, scene);
   expectNoticed("lines", 1, [&] { tubeActor->GetProperty()->RenderLinesAsTubesOff(); });
   EXPECT_EQ(scene.scene.instances.size(), 3u);
