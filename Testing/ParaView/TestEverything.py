@@ -158,7 +158,7 @@ class TestEverything(unittest.TestCase):
             pv.SelectSurfaceCells(Rectangle=[250, 150, 350, 250], View=self.view)
             for source in self.ball, self.ground:
                 selection = source.GetSelectionInput(source.Port)
-                found.append(list(selection.IDs) if selection else [])
+                found.append(sorted(selection.Input[0].IDs) if selection else [])
             pv.ClearSelection(self.ball), pv.ClearSelection(self.ground)
             return found
 

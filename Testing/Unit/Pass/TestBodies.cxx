@@ -57,6 +57,23 @@ TEST(Bodies, FacetsByPixels)
   }
 }
 
+TEST(Bodies, ThousandsOfBallsHaveFewerFacets)
+{
+  Bodies balls;
+  for (const auto& [count, facets] : { std::pair<std::size_t, int>{ 1, 64 }, { 1000, 64 },
+         { 3000, 32 }, { 20000, 16 }, { 1000000, 16 } })
+  {
+    balls.ends.assign(count, glm::dvec3(0.0));
+    EXPECT_EQ(UnitShapes::facetsOf(balls), facets) << count;
+  }
+  balls.width = Bodies::Width::Pixels;
+  EXPECT_EQ(UnitShapes::facetsOf(balls), 8) << "never more than pixels ask for";
+  Bodies rods;
+  rods.shape = Bodies::Shape::Rod;
+  rods.ends.assign(2 * 10000, glm::dvec3(0.0));
+  EXPECT_EQ(UnitShapes::facetsOf(rods), 64) << "a rod has few triangles";
+}
+
 TEST(Bodies, MatricesTakeTheUnitShapesThere)
 {
   std::mt19937 random(3);
