@@ -131,12 +131,18 @@ class TestEverything(unittest.TestCase):
 
     def test_labels_are_never_dark(self):
         """Those of the data's axes, in a shadow, beside a surface that is rasterised and receives."""
-        ball, ground = self.show_ball_on_ground(ground="Surface With Edges")
+        contour = pv.Contour(Input=pv.Wavelet(), ContourBy=["POINTS", "RTData"], Isosurfaces=[120.0, 180.0])
+        ground = pv.Plane(Origin=[-20, -20, -11], Point1=[20, -20, -11], Point2=[-20, 20, -11])
+        display = scene.show(contour, self.view, "Surface")
+        scene.show(ground, self.view, "Surface With Edges")
+        self.view.AdditionalLights[0].Position = [20, -20, 50]
+        self.view.CameraPosition, self.view.CameraFocalPoint = [54.77, 39.87, 94.37], [0, 0, -0.5]
+        self.view.CameraViewUp = [0, 1, 0]
         self.view.UseFXAA = 0
         self.view.SVOShadowsForEverything = 1
 
         def pictures(axes):
-            ground.DataAxesGrid.GridAxesVisibility = axes
+            display.DataAxesGrid.GridAxesVisibility = axes
             self.view.SVOShadowTechnique = "None"
             lit = scene.picture(self.view, f"labels-{axes}-lit")
             self.view.SVOShadowTechnique = "Shadow Buffer"
@@ -152,19 +158,14 @@ class TestEverything(unittest.TestCase):
         self.show_ball_on_ground()
 
         def selected():
-            found = []
-            for source in self.ball, self.ground:
-                pv.ClearSelection(source)
-            pv.SelectSurfaceCells(Rectangle=[250, 150, 350, 250], View=self.view)
-            for source in self.ball, self.ground:
-                selection = source.GetSelectionInput(source.Port)
-                found.append(sorted(selection.Input[0].IDs) if selection else [])
-            pv.ClearSelection(self.ball), pv.ClearSelection(self.ground)
-            return found
+            pv.SelectSurfaceCells(Rectangle=[280, 230, 320, 270], View=self.view)  # on the ball
+            ids = sorted(self.ball.GetSelectionInput(self.ball.Port).Input[0].IDs)
+            pv.ClearSelection(self.ball)
+            return ids
 
         pv.Render(self.view)
         without = selected()
-        self.assertGreater(len(without[0]), 100)
+        self.assertGreater(len(without), 100)
         self.check_shadow(self.everything("selection"))
         self.assertEqual(selected(), without)
         self.check_shadow(self.everything("selection-again"))
