@@ -306,7 +306,7 @@ int vtkSVOVDBReader::RequestData(
   {
     const bool surface = svo::isSurface(*grid, options.conversion);
     vtkWarningMacro("The grid \"" << grid->getName() << "\" of " << file << " is empty: it has no "
-                                  << (surface ? "active voxel that its surface passes."
+                                  << (surface ? "voxel that its surface passes."
                                               : "active voxel above the threshold."));
   }
   std::vector<std::string> lines = linesOf(svo::metadataOf(*grid));

@@ -9,7 +9,8 @@
  * Level sets become surfaces: voxels that the surface passes, each with a plane. All other grids
  * become voxels: the active ones above a threshold, inner ones as well. SetConversion() chooses
  * otherwise. Grids of float (also stored as half), double, int32, int64, bool and mask can be
- * read. Constant tiles count as the voxels that they stand for.
+ * read. Constant tiles count as the voxels that they stand for. A surface is that of the trilinear
+ * field of all values, active or not, tiles and the background included.
  *
  * The output is a coarse hull of the surface that carries the octree in its field data, as that of
  * vtkImplicitFunctionToSVO is; the string array "VDBMetadata" beside it has the grid's and the
@@ -118,7 +119,7 @@ public:
   //@{
   /**
    * Memory that the octree may take while it is built, in KiB; default 0: what the machine has
-   * available.
+   * available, but 4 GiB of voxels where constant tiles stand for them.
    */
   vtkSetMacro(MemoryLimit, unsigned long);
   vtkGetMacro(MemoryLimit, unsigned long);

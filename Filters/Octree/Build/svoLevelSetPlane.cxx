@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -27,25 +26,41 @@ double interpolated(const VoxelValues& values, const glm::dvec3& at)
   return sum;
 }
 
-/// Whether the surface passes the voxel. In each of its octants the field is trilinear, so that its
-/// extremes lie at the corners of the octants: means of two, four and eight values.
-bool crosses(const VoxelValues& values)
+/// Where along a way of that length the field is 0, if it has changed its sign at the end:
+/// Illinois' method, on what is a cubic polynomial in an octant.
+bool findZero(const VoxelValues& values, const glm::dvec3& way, double& share)
 {
-  double half[VoxelValues::Count];
-  std::copy(values.at, values.at + VoxelValues::Count, half);
-  for (const int step : { 1, 3, 9 })
+  constexpr int Most = 12;
+  constexpr double Close = 1e-4;
+  double a = 0.0, b = 1.0, atA = values(0, 0, 0), atB = interpolated(values, way);
+  if ((atA < 0.0) == (atB < 0.0))
   {
-    for (int i = 0; i < VoxelValues::Count; ++i)
-    {
-      if (i / step % 3 == 1)
-      {
-        half[i - step] = 0.5 * (half[i - step] + half[i]);
-        half[i + step] = 0.5 * (half[i] + half[i + step]);
-      }
-    }
+    return false;
   }
-  const auto [low, high] = std::minmax_element(half, half + VoxelValues::Count);
-  return *low <= 0.0 && *high >= 0.0 && *low < *high;
+  share = 1.0;
+  for (int i = 0; i < Most && atB != 0.0; ++i)
+  {
+    const double next = b - (b - a) * (atB / (atB - atA));
+    const double there = interpolated(values, next * way);
+    const bool close = std::abs(next - share) < Close;
+    share = next;
+    if (close)
+    {
+      break;
+    }
+    if ((there < 0.0) != (atB < 0.0))
+    {
+      a = b;
+      atA = atB;
+    }
+    else
+    {
+      atA *= 0.5;
+    }
+    b = next;
+    atB = there;
+  }
+  return true;
 }
 
 /// Differences of neighbours; where they cancel, as in a thin sheet, of all that is around.
@@ -65,24 +80,37 @@ glm::dvec3 gradientOf(const VoxelValues& v)
 }
 }
 
-bool VoxelValues::change() const
+/// In each of its octants the field is trilinear, so that its extremes lie at the corners of the
+/// octants: means of two, four and eight values.
+bool VoxelValues::passed() const
 {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const double value : this->at)
+  double half[Count];
+  std::copy(this->at, this->at + Count, half);
+  for (const int step : { 1, 3, 9 })
   {
-    if (!std::isfinite(value))
+    for (int i = 0; i < Count; ++i)
     {
-      return false;
+      if (i / step % 3 == 1)
+      {
+        half[i - step] = 0.5 * (half[i - step] + half[i]);
+        half[i + step] = 0.5 * (half[i] + half[i + step]);
+      }
     }
-    low = std::min(low, value);
-    high = std::max(high, value);
   }
-  return low <= 0.0 && high >= 0.0 && low < high;
+  double low = half[0], high = half[0];
+  bool finite = true;
+  for (int i = 0; i < Count; ++i)
+  {
+    finite = finite && std::isfinite(this->at[i]);
+    low = std::min(low, half[i]);
+    high = std::max(high, half[i]);
+  }
+  return finite && low <= 0.0 && high >= 0.0 && low < high;
 }
 
 bool levelSetPlane(const VoxelValues& values, SourcePlane& plane)
 {
-  if (!values.change() || !crosses(values))
+  if (!values.passed())
   {
     return false;
   }
@@ -98,17 +126,15 @@ bool levelSetPlane(const VoxelValues& values, SourcePlane& plane)
   const double length = scale * glm::length(gradient / scale);
   plane.normal = glm::normalize(gradient / scale);
   plane.offset = -values(0, 0, 0) / length;
-  // What the field is at the foot corrects, if that is near enough to be one, and the field is flat
-  // enough there.
-  if (std::abs(plane.offset) <= 1.0)
-  {
-    const double rest = interpolated(values, plane.offset * plane.normal);
-    const bool settled = std::abs(rest) <= 0.5 * std::abs(values(0, 0, 0));
-    plane.offset -= settled ? rest / length : 0.0;
-  }
-  // Where the field bends, its plane need not pass.
-  const double reach = 0.5 * (size.x + size.y + size.z) / length;
-  plane.offset = std::clamp(plane.offset, -reach, reach);
+  // Where the field bends, its plane need not pass. A trifle inside, or the plane's last digit
+  // could take it out of the octree.
+  constexpr double Inside = 2e-3;
+  const double reach = 0.5 * (size.x + size.y + size.z) / length - Inside;
+  const double side = values(0, 0, 0) < 0.0 ? reach : -reach;
+  double share = 0.0;
+  plane.offset = findZero(values, side * plane.normal, share)
+    ? share * side
+    : std::clamp(plane.offset, -reach, reach);
   return std::isfinite(plane.offset);
 }
 }

@@ -2,8 +2,7 @@
 //
 // The field is trilinear between the centres, and the voxel is occupied where it takes the
 // surface's value in the voxel, faces included: nothing is missed. The plane is that of the
-// differences of neighbours; where it lies, one step of Newton's method says from the voxel's
-// centre, and the field at the foot corrects.
+// differences of neighbours; it lies where the field is 0 along them from the voxel's centre.
 #ifndef svoLevelSetPlane_h
 #define svoLevelSetPlane_h
 
@@ -22,14 +21,13 @@ struct VoxelValues
   double& operator()(int x, int y, int z) { return at[(z + 1) * 9 + (y + 1) * 3 + x + 1]; }
   double operator()(int x, int y, int z) const { return at[(z + 1) * 9 + (y + 1) * 3 + x + 1]; }
 
-  /// False where no voxel around has a value on the other side than another, or on the surface:
-  /// then the voxel is not occupied. Or where one is not finite.
-  VTKSVOOCTREE_EXPORT bool change() const;
+  /// Whether the surface passes the voxel in the middle. False where a value is not finite.
+  VTKSVOOCTREE_EXPORT bool passed() const;
 };
 
 /// Whether the surface passes the voxel in the middle, and then as which plane: the normal towards
 /// larger values, the offset in voxels. Where differences cancel, as around a single voxel, it
-/// looks upwards. False where values are not finite, or all the same.
+/// looks upwards.
 VTKSVOOCTREE_EXPORT bool levelSetPlane(const VoxelValues& values, SourcePlane& plane);
 }
 

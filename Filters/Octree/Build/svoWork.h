@@ -13,7 +13,7 @@
 namespace svo
 {
 /// As people read it, in MiB or GiB.
-std::string bytesAsText(double bytes);
+VTKSVOOCTREE_EXPORT std::string bytesAsText(double bytes);
 
 /// What the expected number of bricks depends on. By Steiner's formula a triangle at a random
 /// place meets, of a unit grid's cells, as many as the sum of its three projected areas, its three

@@ -1,17 +1,18 @@
-// The blocks of 8x8x8 voxels of a grid that are occupied: of its leaf nodes, and of its active
-// tiles.
+// The blocks of 8x8x8 voxels of a grid that are active and above a threshold: of its leaf nodes,
+// and of its active tiles.
 #ifndef svoVDBBlocks_h
 #define svoVDBBlocks_h
 
 #include "svoBlockSource.h"
-#include "svoLevelSetPlane.h"
+#include "svoMeshOctree.h"
 #include "svoVDBOctree.h"
+#include "svoWork.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iomanip>
-#include <sstream>
+#include <cstdio>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -24,11 +25,49 @@ namespace svo
 /// What an octree and its build take of a voxel that is occupied, about: see svoSource.cxx.
 constexpr double BytesAVoxel = 16.0;
 
+/// A place in index space, and the block that has it.
+struct PlacedBlock
+{
+  glm::i64vec3 place; // in blocks
+  VoxelBlock block;
+};
+
 struct Refused
 {
   BuildStatus status;
   std::string message;
 };
+
+/// Throws where so many things of some bytes each are beyond a limit. `advice`: what else to do.
+inline void refuseTooMany(double count, const std::string& things, double bytesOfOne,
+  std::size_t limit, const std::string& advice = {})
+{
+  if (count > 0x7fffffff || count * bytesOfOne > static_cast<double>(limit))
+  {
+    char digits[32];
+    std::snprintf(digits, sizeof(digits), "%.0f ", count);
+    throw Refused{ BuildStatus::TooLarge,
+      "it has " + (digits + things) + ", and an octree of them needs about " +
+        bytesAsText(count * bytesOfOne) + ", more memory than the limit of " +
+        bytesAsText(static_cast<double>(limit)) + advice };
+  }
+}
+
+/// The limit that is set; else what there is, but no more than `most`.
+inline std::size_t memoryFor(
+  const VDBOptions& options, std::size_t most = std::numeric_limits<std::size_t>::max())
+{
+  const std::size_t available = availableMemory();
+  return options.memoryLimit != 0 ? options.memoryLimit
+                                  : std::min(available != 0 ? available : most, most);
+}
+
+inline void dropEmpty(std::vector<PlacedBlock>& blocks)
+{
+  blocks.erase(std::remove_if(blocks.begin(), blocks.end(),
+                 [](const PlacedBlock& b) { return b.block.empty(); }),
+    blocks.end());
+}
 
 /// A voxel's neighbour. Indices end at those of 32 bits: beyond them there is the last one again.
 inline openvdb::Coord beside(const openvdb::Coord& at, int x, int y, int z)
@@ -62,13 +101,6 @@ bool isAbove(
   }
 }
 
-/// A place in index space, and the block that has it.
-struct PlacedBlock
-{
-  glm::i64vec3 place; // in blocks
-  VoxelBlock block;
-};
-
 inline glm::i64vec3 blockOf(const openvdb::Coord& at)
 {
   const auto down = [](std::int64_t v) { return v >> 3; };
@@ -89,10 +121,9 @@ public:
   using LeafT = typename TreeT::LeafNodeType;
   using ValueT = typename GridT::ValueType;
 
-  GridBlocks(const GridT& grid, bool surface, double value, const VDBOptions& options)
+  GridBlocks(const GridT& grid, const VDBOptions& options)
     : Grid(grid)
-    , Surface(surface)
-    , Value(value)
+    , Value(options.threshold)
     , Options(options)
   {
   }
@@ -117,27 +148,14 @@ public:
     {
       voxels += block.block.count();
     }
-    blocks.erase(std::remove_if(blocks.begin(), blocks.end(),
-                   [](const PlacedBlock& b) { return b.block.empty(); }),
-      blocks.end());
-    if (!this->Surface)
-    {
-      this->addTiles(static_cast<double>(voxels), blocks);
-    }
+    dropEmpty(blocks);
+    this->addTiles(static_cast<double>(voxels), blocks);
     return blocks;
   }
 
 private:
   void fill(const LeafT& leaf, VoxelBlock& block) const
   {
-    if constexpr (!std::is_same_v<ValueT, bool>)
-    {
-      if (this->Surface)
-      {
-        this->fillSurface(leaf, block);
-        return;
-      }
-    }
     for (auto voxel = leaf.cbeginValueOn(); voxel; ++voxel)
     {
       if (isAbove<GridT>(*voxel, this->Value))
@@ -147,46 +165,11 @@ private:
     }
   }
 
-  /// Those that the surface passes.
-  void fillSurface(const LeafT& leaf, VoxelBlock& block) const
-  {
-    if constexpr (!std::is_same_v<ValueT, bool>)
-    {
-      constexpr int Wide = 10; // a voxel more on each side
-      double around[Wide][Wide][Wide];
-      const typename GridT::ConstUnsafeAccessor values(this->Grid.tree());
-      for (int z = 0; z < Wide; ++z)
-      {
-        for (int y = 0; y < Wide; ++y)
-        {
-          for (int x = 0; x < Wide; ++x)
-          {
-            around[z][y][x] =
-              static_cast<double>(values.getValue(beside(leaf.origin(), x - 1, y - 1, z - 1))) -
-              this->Value;
-          }
-        }
-      }
-      for (auto voxel = leaf.cbeginValueOn(); voxel; ++voxel)
-      {
-        const glm::ivec3 at = inBlock(voxel.getCoord());
-        VoxelValues near;
-        for (int i = 0; i < VoxelValues::Count; ++i)
-        {
-          near.at[i] = around[at.z + i / 9][at.y + i / 3 % 3][at.x + i % 3];
-        }
-        SourcePlane plane;
-        if (levelSetPlane(near, plane))
-        {
-          block.add(at);
-        }
-      }
-    }
-  }
-
-  /// Active tiles: all of their voxels have one value.
+  /// Active tiles: all of their voxels have one value. A few of them can stand for more voxels than
+  /// anybody waits for, so without a limit that is set there is one for them.
   void addTiles(double voxels, std::vector<PlacedBlock>& blocks) const
   {
+    constexpr std::size_t TileMemory = std::size_t(4) << 30;
     std::vector<openvdb::CoordBBox> tiles;
     auto tile = this->Grid.tree().cbeginValueOn();
     tile.setMaxDepth(decltype(tile)::LEAF_DEPTH - 1);
@@ -200,16 +183,10 @@ private:
           (1.0 + box.max().z() - box.min().z());
       }
     }
-    const double needed = voxels * BytesAVoxel;
-    if (voxels > 0x7fffffff || needed > static_cast<double>(this->Options.memoryLimit))
-    {
-      constexpr double Mebi = 1024.0 * 1024.0;
-      std::ostringstream text;
-      text << "the grid has " << std::fixed << std::setprecision(0) << voxels
-           << " occupied voxels, constant tiles included, and an octree of them needs about "
-           << needed / Mebi << " MiB, which is more than there is";
-      throw Refused{ BuildStatus::TooLarge, text.str() };
-    }
+    refuseTooMany(voxels, "occupied voxels, those of constant tiles included", BytesAVoxel,
+      tiles.empty() ? memoryFor(this->Options) : memoryFor(this->Options, TileMemory),
+      std::string(tiles.empty() ? "" : "; MemoryLimit can allow more") +
+        (std::is_same_v<ValueT, bool> ? "" : "; as a surface it has voxels at its border only"));
     for (const openvdb::CoordBBox& box : tiles)
     {
       const glm::i64vec3 low = blockOf(box.min()), high = blockOf(box.max());
@@ -231,7 +208,6 @@ private:
   }
 
   const GridT& Grid;
-  const bool Surface;
   const double Value;
   const VDBOptions& Options;
 };

@@ -4,6 +4,7 @@
 #include "svoMeshOctree.h"
 #include "svoMorton.h"
 #include "svoVDBBlocks.h"
+#include "svoVDBSurfaceBlocks.h"
 #include "svoVDBTransform.h"
 
 #include "vtkPolyData.h"
@@ -57,16 +58,19 @@ protected:
     const Coord at = this->First.offsetBy(voxel.x, voxel.y, voxel.z);
     if constexpr (!std::is_same_v<ValueT, bool>)
     {
-      VoxelValues near;
-      for (int i = 0; i < VoxelValues::Count; ++i)
+      const auto near = [&](int x, int y, int z)
       {
-        near.at[i] = this->Outwards *
-          (static_cast<double>(values.getValue(beside(at, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1))) -
-            this->Value);
-      }
+        return this->Outwards *
+          (static_cast<double>(values.getValue(beside(at, x, y, z))) - this->Value);
+      };
       if (this->Surface)
       {
-        return levelSetPlane(near, plane);
+        VoxelValues around;
+        for (int i = 0; i < VoxelValues::Count; ++i)
+        {
+          around.at[i] = near(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+        }
+        return levelSetPlane(around, plane);
       }
       const glm::dvec3 out(near(1, 0, 0) - near(-1, 0, 0), near(0, 1, 0) - near(0, -1, 0),
         near(0, 0, 1) - near(0, 0, -1));
@@ -146,9 +150,49 @@ private:
   const Coord First;
 };
 
+/// Whether a block has a voxel at a side: its last layer along an axis, or its first.
+bool reachesSide(const VoxelBlock& block, int axis, bool last)
+{
+  VoxelBlock layer;
+  for (int i = 0; i < VoxelBlock::Edge * VoxelBlock::Edge; ++i)
+  {
+    glm::ivec3 voxel(last ? VoxelBlock::Edge - 1 : 0);
+    voxel[(axis + 1) % 3] = i % VoxelBlock::Edge;
+    voxel[(axis + 2) % 3] = i / VoxelBlock::Edge;
+    layer.add(voxel);
+  }
+  bool any = false;
+  for (int i = 0; i < 8; ++i)
+  {
+    any = any || (layer.bricks[i] & block.bricks[i]) != 0;
+  }
+  return any;
+}
+
+/// Rays begin at the octree's cube, and planes reach a little beyond their voxels: so a surface
+/// gets a block more where it has voxels at the cube's sides.
+void leaveRoom(const std::vector<PlacedBlock>& blocks, glm::i64vec3& first, glm::i64vec3& last)
+{
+  const glm::i64vec3 low = first, high = last;
+  for (const PlacedBlock& block : blocks)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      if (block.place[i] == low[i] && first[i] == low[i] && reachesSide(block.block, i, false))
+      {
+        --first[i];
+      }
+      if (block.place[i] == high[i] && last[i] == high[i] && reachesSide(block.block, i, true))
+      {
+        ++last[i];
+      }
+    }
+  }
+}
+
 /// The cube of an octree around blocks: its first block and its level.
-void boundBlocks(const openvdb::GridBase& grid, const std::vector<PlacedBlock>& blocks,
-  glm::i64vec3& first, int& level)
+void boundBlocks(const openvdb::GridBase& grid, bool surface,
+  const std::vector<PlacedBlock>& blocks, glm::i64vec3& first, int& level)
 {
   first = glm::i64vec3(0);
   glm::i64vec3 last(0);
@@ -161,7 +205,6 @@ void boundBlocks(const openvdb::GridBase& grid, const std::vector<PlacedBlock>& 
     first = glm::min(first, block.place);
     last = glm::max(last, block.place);
   }
-  level = levelOfVoxels((last - first + std::int64_t(1)) * Edge);
   const auto own = grid.getMetadata<openvdb::Int32Metadata>(LevelMetadata);
   if (own && own->value() >= 3 && own->value() <= MaximumLevel &&
     first == glm::max(first, glm::i64vec3(0)) &&
@@ -169,7 +212,13 @@ void boundBlocks(const openvdb::GridBase& grid, const std::vector<PlacedBlock>& 
   {
     level = own->value();
     first = glm::i64vec3(0);
+    return;
   }
+  if (surface)
+  {
+    leaveRoom(blocks, first, last);
+  }
+  level = levelOfVoxels((last - first + std::int64_t(1)) * Edge);
 }
 
 template <class GridT>
@@ -187,10 +236,15 @@ SourceOctree convert(const GridT& grid, const VDBOptions& options, vtkPolyData* 
   {
     return { BuildStatus::BadInput, 0, "the grid's map is not finite, or cannot be inverted" };
   }
-  std::vector<PlacedBlock> placed = GridBlocks<GridT>(grid, surface, value, options).gather();
+  std::vector<PlacedBlock> placed;
+  if constexpr (!std::is_same_v<typename GridT::ValueType, bool>)
+  {
+    placed = surface ? SurfaceBlocks<GridT>(grid, value, options).gather() : placed;
+  }
+  placed = surface ? std::move(placed) : GridBlocks<GridT>(grid, options).gather();
   glm::i64vec3 first;
   BuildOptions build;
-  boundBlocks(grid, placed, first, build.level);
+  boundBlocks(grid, surface, placed, first, build.level);
   if (build.level > MaximumLevel)
   {
     return { BuildStatus::TooLarge, 0,
@@ -271,12 +325,9 @@ bool isSurface(const openvdb::GridBase& grid, VDBConversion conversion)
       (conversion == VDBConversion::Automatic && grid.getGridClass() == openvdb::GRID_LEVEL_SET));
 }
 
-SourceOctree octreeOfGrid(const openvdb::GridBase& grid, const VDBOptions& asked, vtkPolyData* hull)
+SourceOctree octreeOfGrid(
+  const openvdb::GridBase& grid, const VDBOptions& options, vtkPolyData* hull)
 {
-  VDBOptions options = asked;
-  options.memoryLimit = asked.memoryLimit != 0 ? asked.memoryLimit : availableMemory();
-  options.memoryLimit =
-    options.memoryLimit != 0 ? options.memoryLimit : std::numeric_limits<std::size_t>::max();
   hull->Initialize();
   SourceOctree failed{ BuildStatus::BadInput, 0, {} };
   try

@@ -79,7 +79,14 @@ TEST(VDBBadInput, WhatHasNoSurfaceIsOneMessage)
   auto huge = openvdb::MaskGrid::create();
   huge->tree().addTile(2, openvdb::Coord(0), true, true); // 4096^3
   huge->tree().addTile(3, openvdb::Coord(8192), true, true);
-  expect(huge, "more than there is");
+  expect(huge, "more memory than the limit of");
+  // Few tiles stand for many voxels: of what takes minutes it is said how much it is.
+  auto tile = openvdb::FloatGrid::create(0.0f);
+  tile->fill(openvdb::CoordBBox({ 0, 0, 0 }, { 1023, 1023, 1023 }), 1.0f, true);
+  expect(tile,
+    "1073741824 occupied voxels, those of constant tiles included, and an octree of them "
+    "needs about 16.0 GiB, more memory than the limit of 4.0 GiB; MemoryLimit can allow "
+    "more; as a surface it has voxels at its border only");
   auto wide = openvdb::MaskGrid::create();
   wide->tree().setValueOn({ -2000000, 0, 0 });
   wide->tree().setValueOn({ 2000000000, 0, 0 });

@@ -67,6 +67,61 @@ double volumeOf(vtkPolyData* quads)
   return sum;
 }
 
+/// Voxels of a box that the trilinear field of all values passes: its extremes in a voxel lie among
+/// the means of one, two, four and eight values there.
+std::vector<Cell> passedIn(
+  const openvdb::FloatGrid& grid, double value, const openvdb::CoordBBox& box)
+{
+  std::vector<Cell> cells;
+  const auto values = grid.getConstAccessor();
+  const auto wayOf = [](int i) { return glm::ivec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1); };
+  for (auto at = box.begin(); at; ++at)
+  {
+    double low = 1e300, high = -1e300;
+    bool same = true;
+    for (int i = 0; i < 27 && same; ++i)
+    {
+      const glm::ivec3 way = wayOf(i);
+      same = values.getValue((*at).offsetBy(way.x, way.y, way.z)) == values.getValue(*at);
+    }
+    for (int corner = 0; corner < 27 && !same; ++corner)
+    {
+      const glm::ivec3 way = wayOf(corner);
+      double sum = 0.0;
+      for (int i = 0; i < 8; ++i)
+      {
+        const glm::ivec3 step = way * glm::ivec3(i & 1, i >> 1 & 1, i >> 2);
+        sum += static_cast<double>(values.getValue((*at).offsetBy(step.x, step.y, step.z))) - value;
+      }
+      low = std::min(low, sum / 8.0);
+      high = std::max(high, sum / 8.0);
+    }
+    if (low <= 0.0 && high >= 0.0 && low < high)
+    {
+      cells.emplace_back((*at).x(), (*at).y(), (*at).z());
+    }
+  }
+  std::sort(cells.begin(), cells.end());
+  return cells;
+}
+
+/// How many of 300 rays from all sides to a point inside meet a surface.
+int raysThatHit(vtkPolyData* hull, const glm::dvec3& inside)
+{
+  vtkNew<vtkSparseVoxelOctree> octree;
+  EXPECT_TRUE(octree->Initialize(hull));
+  int hits = 0;
+  for (int i = 0; i < 300; ++i)
+  {
+    const double z = -0.997 + i * 0.00665, a = 2.4 * i, r = std::sqrt(1.0 - z * z);
+    const glm::dvec3 from = inside + 200.0 * glm::dvec3(r * std::cos(a), r * std::sin(a), z);
+    double t, x[3];
+    vtkIdType cell = 0;
+    hits += octree->IntersectWithLine(&from[0], &inside[0], t, x, cell);
+  }
+  return hits;
+}
+
 template <class GridT>
 std::vector<Cell> activeAbove(const GridT& grid, double threshold)
 {
@@ -273,6 +328,64 @@ TEST(VDBReader, ConversionOnRequest)
   const auto level = sphereGrid(10.0, Centre);
   convert(*level, hull, -100.0, svo::VDBConversion::Voxels);
   EXPECT_EQ(indicesOf(octreeOf(hull), level->transform()), activeAbove(*level, -100.0));
+}
+
+TEST(VDBReader, SurfacesAreThoseOfTheWholeField)
+{
+  // Active voxels in inactive ones; tiles of all sizes; tiles beside each other; values that are
+  // not active; a background on the surface.
+  std::vector<openvdb::FloatGrid::Ptr> grids;
+  for (int i = 0; i < 6; ++i)
+  {
+    grids.push_back(openvdb::FloatGrid::create(0.0f));
+  }
+  const openvdb::CoordBBox box({ -20, -20, -20 }, { 27, 27, 27 });
+  for (auto at = box.begin(); at; ++at)
+  {
+    const double r = glm::length(glm::dvec3((*at).x(), (*at).y(), (*at).z()) - 3.5);
+    if (r < 17.0)
+    {
+      grids[0]->tree().setValueOn(*at, 1.0f);
+      grids[1]->tree().setValueOff(*at, 1.0f);
+    }
+    if (r < 19.0)
+    {
+      grids[5]->tree().setValueOn(*at, static_cast<float>(1.0 - r / 20.0));
+    }
+  }
+  grids[2]->fill(openvdb::CoordBBox({ -8, -8, -8 }, { 15, 15, 15 }), 1.0f, true);
+  grids[3]->fill(openvdb::CoordBBox({ 0, 0, 0 }, { 7, 7, 7 }), 1.0f, true);
+  grids[3]->fill(openvdb::CoordBBox({ 8, 0, 0 }, { 15, 7, 7 }), 0.6f, true);
+  grids[4]->fill(openvdb::CoordBBox({ -5, 0, 2 }, { 140, 20, 12 }), 1.0f, true);
+  for (const auto& grid : grids)
+  {
+    const openvdb::CoordBBox all = grid == grids[4]
+      ? openvdb::CoordBBox({ -12, -12, -12 }, { 150, 30, 30 })
+      : openvdb::CoordBBox({ -30, -30, -30 }, { 37, 37, 37 });
+    for (const double value : { 0.0, 0.1, 0.51, 0.9 })
+    {
+      SCOPED_TRACE(testing::Message() << grid->activeVoxelCount() << " active, " << value);
+      vtkNew<vtkPolyData> hull;
+      EXPECT_EQ(convert(*grid, hull, value, svo::VDBConversion::Surface).message, "");
+      EXPECT_EQ(indicesOf(octreeOf(hull), grid->transform()), passedIn(*grid, value, all));
+      EXPECT_EQ(raysThatHit(hull, glm::dvec3(3.5, 3.5, 3.5)), 300);
+    }
+  }
+  // A tile of 128^3 is known by its borders.
+  auto large = openvdb::FloatGrid::create(0.0f);
+  large->tree().addTile(2, openvdb::Coord(0), 1.0f, true);
+  vtkNew<vtkPolyData> hull;
+  convert(*large, hull, 0.25, svo::VDBConversion::Surface);
+  ASSERT_TRUE(octreeOf(hull));
+  EXPECT_EQ(raysThatHit(hull, glm::dvec3(60.0)), 300);
+  const std::vector<Cell> cells = indicesOf(octreeOf(hull), large->transform());
+  EXPECT_GT(cells.size(), 6u * 128u * 128u);
+  for (const auto& [x, y, z] : cells)
+  {
+    const glm::ivec3 out = glm::abs(2 * glm::ivec3(x, y, z) - 127);
+    ASSERT_GE(std::max({ out.x, out.y, out.z }), 127);
+    ASSERT_LE(std::max({ out.x, out.y, out.z }), 129);
+  }
 }
 
 TEST(VDBReader, GridsAreChosenByName)
