@@ -20,14 +20,13 @@ bool usableGradient(const glm::dvec3& g)
   return square > 0.0 && std::isfinite(square);
 }
 
-/// -1 where values fall along what is said to be the gradient, as in vtkImplicitBoolean's
-/// differences; else 1. Near the point, so that edges do not matter.
-double signOfGradient(const ScalarField& field, const glm::dvec3& at, double half, double value,
-  const glm::dvec3& gradient)
+/// Whether a gradient is about what differences of values say. Not closer: they are those of a
+/// step, and some functions have smoother gradients than their own on purpose.
+bool agree(const glm::dvec3& gradient, const glm::dvec3& differences)
 {
-  const double length = glm::length(gradient);
-  constexpr double Near = 0.01; // of half a voxel
-  return field.value(at + Near * half / length * gradient) < value ? -1.0 : 1.0;
+  constexpr double Most = 0.35; // 20 degrees
+  const glm::dvec3 apart = gradient - differences;
+  return glm::dot(apart, apart) <= Most * Most * glm::dot(differences, differences);
 }
 }
 
@@ -102,6 +101,40 @@ bool FieldSource::mayPass(const glm::dvec3& centre, double half) const
   return std::abs(middle) <= 2.0 * most && most > 0.0;
 }
 
+/// VTK's own vtkImplicitBoolean has wrong ones (9.1), and not only by their sign. A short step
+/// tells right ones for three values more, edges close by or not. Where it does not, rounding may
+/// be to blame: then a wider one decides.
+glm::dvec3 FieldSource::gradientAt(const glm::dvec3& at, double value, double half) const
+{
+  constexpr double Short = 0.01, Wide = 0.25; // of half a voxel
+  const glm::dvec3 given = this->Field.gradient(at);
+  if (!this->Options.gradientsAreChecked)
+  {
+    return given;
+  }
+  const auto valueAside = [&](int axis, double step)
+  {
+    glm::dvec3 aside = at;
+    aside[axis] += step;
+    return this->Field.value(aside);
+  };
+  glm::dvec3 differences;
+  for (int i = 0; i < 3; ++i)
+  {
+    differences[i] = (valueAside(i, Short * half) - value) / (Short * half);
+  }
+  if (agree(given, differences))
+  {
+    return given;
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    differences[i] =
+      (valueAside(i, Wide * half) - valueAside(i, -Wide * half)) / (2.0 * Wide * half);
+  }
+  return agree(given, differences) || !usableGradient(differences) ? given : differences;
+}
+
 bool FieldSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const
 {
   const double value = this->Field.value(centre), middle = value - this->Options.value;
@@ -109,14 +142,8 @@ bool FieldSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& pl
   {
     return false;
   }
-  glm::dvec3 gradient = this->Field.gradient(centre);
-  double sign = 1.0;
-  if (usableGradient(gradient))
-  {
-    sign = signOfGradient(this->Field, centre, half, value, gradient);
-    gradient *= sign;
-  }
-  else
+  glm::dvec3 gradient = this->gradientAt(centre, value, half);
+  if (!usableGradient(gradient))
   {
     gradient = this->sample(centre, half).gradient() / (8.0 * half);
     if (!usableGradient(gradient))
@@ -132,9 +159,9 @@ bool FieldSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& pl
   if (std::abs(plane.offset) <= 2.0 * Sqrt3 * half)
   {
     const glm::dvec3 step = plane.offset * plane.normal;
-    const double rest = this->Field.value(centre + step) - this->Options.value;
+    const double foot = this->Field.value(centre + step), rest = foot - this->Options.value;
     settled = std::abs(rest) <= 0.5 * std::abs(middle);
-    const glm::dvec3 there = settled ? sign * this->Field.gradient(centre + step) : gradient;
+    const glm::dvec3 there = settled ? this->gradientAt(centre + step, foot, half) : gradient;
     // Beyond an edge the foot has the plane of the other side, which is not there.
     constexpr double SameSide = 0.7;
     const double length = glm::length(there);

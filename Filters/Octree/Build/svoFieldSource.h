@@ -30,7 +30,7 @@ class ScalarField
 public:
   virtual ~ScalarField() = default;
   virtual double value(const glm::dvec3& at) const = 0;
-  /// Or the opposite: values tell.
+  /// May be wrong where FieldOptions::gradientsAreChecked.
   virtual glm::dvec3 gradient(const glm::dvec3& at) const = 0;
 };
 
@@ -39,6 +39,8 @@ struct FieldOptions
   double value = 0.0;         // that the field takes on the surface
   double gradientBound = 0.0; // largest length of the gradient; 0: not known
   double coarsest = 0.0;      // half the edge of the largest cubes that are judged by nine samples
+  /// Whether differences of values decide where the field's gradient is another one than they say.
+  bool gradientsAreChecked = true;
 };
 
 class VTKSVOOCTREE_EXPORT FieldSource : public SurfaceSource
@@ -55,6 +57,8 @@ public:
 private:
   struct Samples;
   Samples sample(const glm::dvec3& centre, double half) const;
+  /// `value`: of the field at the point; `half`: of the voxel's edge.
+  glm::dvec3 gradientAt(const glm::dvec3& at, double value, double half) const;
   /// True if, for certain, the cube's middle has a value too far from the surface's.
   bool tooFar(double value, double half) const;
 

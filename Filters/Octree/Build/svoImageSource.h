@@ -320,7 +320,7 @@ class VTKSVOOCTREE_EXPORT ImageSource : public FieldSource
 public:
   ImageSource(
     const GriddedField& field, const ImageGrid& grid, const ValuePyramid& pyramid, double value)
-    : FieldSource(field, { value, 0.0, 0.0 })
+    : FieldSource(field, { value, 0.0, 0.0, false })
     , Field(field)
     , Grid(grid)
     , ToLocal(glm::inverse(grid.toIndex))

@@ -140,6 +140,62 @@ TEST(ImplicitFunctionToSVO, DifferencesAreAsTheirFirstFunctionWhereTheOthersAreF
   EXPECT_EQ(met, 400);
 }
 
+TEST(ImplicitFunctionToSVO, BooleansHaveNoHoles)
+{
+  // VTK 9.1 gives gradients of other functions than the one that counts.
+  vtkNew<vtkSphere> a, b;
+  a->SetCenter(-0.3, 0.0, 0.0);
+  b->SetCenter(0.3, 0.0, 0.0);
+  for (const int operation : { vtkImplicitBoolean::VTK_UNION, vtkImplicitBoolean::VTK_INTERSECTION,
+         vtkImplicitBoolean::VTK_DIFFERENCE, vtkImplicitBoolean::VTK_UNION_OF_MAGNITUDES })
+  {
+    SCOPED_TRACE(testing::Message() << "operation " << operation);
+    vtkNew<vtkImplicitBoolean> function;
+    function->SetOperationType(operation);
+    function->AddFunction(a);
+    function->AddFunction(b);
+    vtkNew<vtkImplicitFunctionToSVO> filter;
+    filter->SetImplicitFunction(function);
+    filter->SetMaximumLevel(8);
+    // A union of magnitudes is 0 on either sphere, but larger on both sides.
+    const double value = operation == vtkImplicitBoolean::VTK_UNION_OF_MAGNITUDES ? 0.05 : 0.0;
+    filter->SetValue(value);
+    filter->Update();
+    vtkNew<vtkSparseVoxelOctree> octree;
+    ASSERT_TRUE(octree->Initialize(filter->GetOutput()));
+    int inside = 0, missed = 0;
+    for (int i = 0; i < 4000 && inside < 400; ++i)
+    {
+      const auto spread = [i](double step) { return std::fmod(step * i, 1.0) - 0.5; };
+      const double to[3] = { 1.6 * spread(0.618034), 1.6 * spread(0.754878),
+        1.6 * spread(0.569840) };
+      if (function->FunctionValue(to) > value - 0.02)
+      {
+        continue;
+      }
+      ++inside;
+      const double angle = 2.4 * i, height = 1.9 * spread(0.324718);
+      const double r = std::sqrt(1.0 - height * height);
+      const double from[3] = { to[0] + 3.0 * r * std::cos(angle), to[1] + 3.0 * r * std::sin(angle),
+        to[2] + 3.0 * height };
+      double first = 0.0, x[3], t = 0.0;
+      do
+      {
+        first += 1e-3;
+        for (int k = 0; k < 3; ++k)
+        {
+          x[k] = from[k] + first * (to[k] - from[k]);
+        }
+      } while (first < 1.0 && function->FunctionValue(x) > value);
+      vtkIdType cell = 0;
+      const bool hit = octree->IntersectWithLine(from, to, t, x, cell) != 0;
+      missed += !hit || t > first + 0.02;
+    }
+    EXPECT_GT(inside, 50);
+    EXPECT_EQ(missed, 0) << "of " << inside;
+  }
+}
+
 TEST(ImplicitFunctionToSVO, TransformsAndValuesCount)
 {
   SphereConversion sphere(6);

@@ -65,6 +65,44 @@ struct ConstantField : svo::ScalarField
   double constant;
 };
 
+/// A sphere whose gradient is wrong: turned, of the other sign, of another length, of another
+/// sphere, none.
+struct MisledSphere : SphereField
+{
+  enum Mistake
+  {
+    Turned,
+    Opposite,
+    Short,
+    Other,
+    None,
+    Mistakes
+  };
+  MisledSphere(double r, Mistake m)
+    : SphereField(r)
+    , mistake(m)
+  {
+  }
+  glm::dvec3 gradient(const glm::dvec3& at) const override
+  {
+    const glm::dvec3 right = SphereField::gradient(at);
+    switch (mistake)
+    {
+      case Turned:
+        return right + glm::dvec3(right.y, -right.x, 0.0);
+      case Opposite:
+        return -right;
+      case Short:
+        return 0.1 * right;
+      case Other:
+        return 2.0 * (at - glm::dvec3(0.6, 0.0, 0.0));
+      default:
+        return glm::dvec3(0.0);
+    }
+  }
+  Mistake mistake;
+};
+
 /// Counts what it is asked.
 struct CountingSphere : SphereField
 {
@@ -144,6 +182,44 @@ TEST(Source, PlanesAreTangentToTheSphere)
       ASSERT_NEAR(plane.offset * std::sqrt(0.75) * h, distance, steps + rest);
     });
   EXPECT_EQ(seen, octree.header().voxelCount);
+}
+
+TEST(Source, WrongGradientsChangeNothing)
+{
+  const svo::Octree right = octreeOfField(SphereField(0.8), boxOfInterest(7));
+  const double h = right.header().voxelSize;
+  for (int mistake = 0; mistake < MisledSphere::Mistakes; ++mistake)
+  {
+    SCOPED_TRACE(testing::Message() << "mistake " << mistake);
+    const MisledSphere sphere(0.8, MisledSphere::Mistake(mistake));
+    const svo::Octree octree = octreeOfField(sphere, boxOfInterest(7));
+    EXPECT_EQ(octree.header().voxelCount, right.header().voxelCount);
+    visitPlanes(octree,
+      [&](const glm::ivec3& cell, const svo::MeanPlane& plane)
+      {
+        const glm::dvec3 from = centreOf(octree, cell);
+        ASSERT_GT(glm::dot(glm::normalize(from), glm::dvec3(plane.normal)), 1.0 - 1e-5);
+        ASSERT_NEAR(plane.offset * std::sqrt(0.75) * h, 0.8 - glm::length(from), 4e-3 * h);
+      });
+  }
+}
+
+TEST(Source, RightGradientsAreKept)
+{
+  struct Asked : SphereField
+  {
+    using SphereField::SphereField;
+    glm::dvec3 gradient(const glm::dvec3& at) const override
+    {
+      return 1.01 * SphereField::gradient(at); // differences would be the sphere's own
+    }
+  };
+  const Asked sphere(0.8);
+  const svo::FieldOptions trusting{ 0.0, 0.0, 0.03, false }, checking{ 0.0, 0.0, 0.03, true };
+  const svo::BuildOptions options = boxOfInterest(6);
+  const auto bytes = [&](const svo::FieldOptions& how)
+  { return bytesOf(openPlanes(svo::build(svo::FieldSource(sphere, how), options))); };
+  EXPECT_EQ(bytes(trusting), bytes(checking));
 }
 
 TEST(Source, NodesHaveMeanPlanesOfTheSphere)
