@@ -95,11 +95,15 @@ bool colorBy(vtkDataArray* from, const svo::ImageGrid& grid, const svo::Octree& 
 
 template <class T>
 svo::SourceOctree convert(const T* values, const svo::ImageGrid& grid, double value,
-  const svo::Cube& cube, const svo::BuildOptions& options, vtkPolyData* hull)
+  const svo::Cube& cube, const svo::BuildOptions& options, vtkPolyData* hull,
+  std::shared_ptr<const svo::ValuePyramid>& pyramid)
 {
   const svo::ImageField<T> field(grid, values);
-  const svo::ValuePyramid pyramid(grid, field, options.parallelFor);
-  const svo::ImageSource source(field, grid, pyramid, value);
+  if (!pyramid)
+  {
+    pyramid = std::make_shared<const svo::ValuePyramid>(grid, field, options.parallelFor);
+  }
+  const svo::ImageSource source(field, grid, *pyramid, value);
   return svo::buildSourceOctree(source, options, hull, &cube);
 }
 }
@@ -253,12 +257,20 @@ svo::SourceOctree vtkImageToSVO::Convert(
   svo::SourceOctree built{ svo::BuildStatus::BadInput, 0, "scalars of this type are not known" };
   try
   {
+    // The image's time counts its arrays' and what is blanked. Another value needs no new pyramid.
+    const vtkMTimeType time = std::max(image->GetMTime(), asked->GetMTime());
+    if (this->PyramidScalars != asked || this->PyramidTime != time)
+    {
+      this->Pyramid.reset();
+      this->PyramidScalars = asked;
+      this->PyramidTime = time;
+    }
     const vtkSmartPointer<vtkDataArray> scalars = svo::visibleScalars(image, asked);
     const svo::ImageGrid grid = svo::gridOfImage(image);
     switch (scalars->GetDataType())
     {
       vtkTemplateMacro(built = convert(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0)), grid,
-                         this->Value, cube, options, output));
+                         this->Value, cube, options, output, this->Pyramid));
     }
     begun = 0.8;
     share = 0.2;

@@ -28,12 +28,15 @@
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSVOCoreModule.h" // for the export macro
 
+#include <memory> // for what is kept of an image
+
 class vtkDataArray;
 class vtkImageData;
 
 namespace svo
 {
 struct SourceOctree;
+class ValuePyramid;
 }
 
 class VTKSVOCORE_EXPORT vtkImageToSVO : public vtkPolyDataAlgorithm
@@ -130,6 +133,11 @@ private:
   bool WriteStatistics = false;
   vtkIdType NumberOfVoxels = 0;
   double BuildTime = 0.0;
+
+  // What is known of the last image for any value, see svoImageSource.h.
+  std::shared_ptr<const svo::ValuePyramid> Pyramid;
+  const void* PyramidScalars = nullptr; // only compared
+  vtkMTimeType PyramidTime = 0;
 };
 
 #endif

@@ -21,6 +21,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include <glm/geometric.hpp>
@@ -144,6 +145,55 @@ TEST(ImageToSVO, ValuesAndArraysAreChosen)
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
   conversion.filter->SetValue(1250.0);
   expectSphere(conversion.output(), Radius - 0.25, Trilinear + Plane + 1e-4);
+}
+
+TEST(ImageToSVO, WhatIsKeptOfAnImageIsOfThatImage)
+{
+  // Values, other arrays, changes in place, other images: as a new filter sees them.
+  const vtkSmartPointer<vtkImageData> image = distances(false), other = distances(false, 7);
+  auto* values = vtkDoubleArray::SafeDownCast(image->GetPointData()->GetScalars());
+  vtkNew<vtkDoubleArray> squares;
+  squares->SetName("Squares");
+  for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
+  {
+    squares->InsertNextValue(100.0 + values->GetValue(i) * values->GetValue(i));
+  }
+  image->GetPointData()->AddArray(squares);
+  ImageConversion kept(image);
+  const auto expectSame = [&](vtkImageData* of, double value, const char* array)
+  {
+    SCOPED_TRACE(testing::Message() << array << " " << value);
+    ImageConversion fresh(of);
+    for (vtkImageToSVO* filter : { kept.filter.Get(), fresh.filter.Get() })
+    {
+      filter->SetInputData(of);
+      filter->SetValue(value);
+      filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, array);
+    }
+    const svo::Octree a = octreeOf(kept.output()), b = octreeOf(fresh.output());
+    ASSERT_TRUE(a && b);
+    EXPECT_GT(b.header().voxelCount, 100u);
+    ASSERT_EQ(svo::bufferSize(a.header()), svo::bufferSize(b.header()));
+    EXPECT_EQ(std::memcmp(a.key(), b.key(), svo::bufferSize(a.header())), 0);
+  };
+  expectSame(image, 0.0, "Distance");
+  expectSame(image, 0.3, "Distance");
+  expectSame(image, 100.04, "Squares");
+  expectSame(image, -0.3, "Distance");
+  for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
+  {
+    values->SetValue(i, values->GetValue(i) + 50.0);
+  }
+  values->Modified();
+  expectSame(image, 50.2, "Distance");
+  for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
+  {
+    values->SetValue(i, values->GetValue(i) + 50.0);
+  }
+  image->Modified(); // as programs say it that write through a pointer
+  expectSame(image, 100.2, "Distance");
+  expectSame(other, 0.2, "Distance");
+  EXPECT_EQ(kept.messages.all(), "");
 }
 
 TEST(ImageToSVO, NothingOfTheSurfaceIsMissed)
