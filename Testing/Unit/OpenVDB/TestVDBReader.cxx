@@ -368,7 +368,10 @@ TEST(VDBReader, SurfacesAreThoseOfTheWholeField)
       vtkNew<vtkPolyData> hull;
       EXPECT_EQ(convert(*grid, hull, value, svo::VDBConversion::Surface).message, "");
       EXPECT_EQ(indicesOf(octreeOf(hull), grid->transform()), passedIn(*grid, value, all));
-      EXPECT_EQ(raysThatHit(hull, glm::dvec3(3.5, 3.5, 3.5)), 300);
+      if (grid == grids[0] || grid == grids[2]) // a ball and a cube around that point
+      {
+        EXPECT_EQ(raysThatHit(hull, glm::dvec3(3.5, 3.5, 3.5)), 300);
+      }
     }
   }
   // A tile of 128^3 is known by its borders.
