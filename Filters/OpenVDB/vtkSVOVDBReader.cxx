@@ -7,6 +7,7 @@
 #include "svoVDBOctree.h"
 
 #include "vtkDataObject.h"
+#include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -41,6 +42,30 @@ std::vector<std::string> linesOf(const svo::VDBMetadata& metadata)
     lines.push_back(name + ": " + value);
   }
   return lines;
+}
+
+/// VTK's code for why a file that OpenVDB did not read could not be.
+unsigned long errorOf(const char* file, bool isOpenVDB, bool noSuchGrid, const std::string& reason)
+{
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+  {
+    return vtkErrorCode::FileNotFoundError;
+  }
+  if (!std::ifstream(file, std::ios::binary))
+  {
+    return vtkErrorCode::CannotOpenFileError;
+  }
+  if (!isOpenVDB)
+  {
+    return vtkErrorCode::UnrecognizedFileTypeError;
+  }
+  if (noSuchGrid)
+  {
+    return vtkErrorCode::UserError;
+  }
+  return reason == svo::EndsTooEarly ? vtkErrorCode::PrematureEndOfFileError
+                                     : vtkErrorCode::FileFormatError;
 }
 }
 
@@ -257,11 +282,13 @@ int vtkSVOVDBReader::RequestData(
   this->ReadTime = 0.0;
   this->BuildTime = 0.0;
   this->Internals->MetaData.clear();
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   output->Initialize();
   const char* file = this->FileOfStep(outputVector);
   if (!file)
   {
+    this->SetErrorCode(vtkErrorCode::NoFileNameError);
     vtkErrorMacro("There is no file to read: its name is not set.");
     return 1;
   }
@@ -272,6 +299,9 @@ int vtkSVOVDBReader::RequestData(
   const std::string reason = svo::readVDBGrid(file, this->Internals->GridName, grid, contents);
   if (!reason.empty())
   {
+    const bool noSuchGrid =
+      !contents.grids.empty() && svo::uniqueName(contents, this->Internals->GridName).empty();
+    this->SetErrorCode(errorOf(file, this->CanReadFile(file) != 0, noSuchGrid, reason));
     vtkErrorMacro("The file " << file << " cannot be read: " << reason << ".");
     return 1;
   }
@@ -294,6 +324,7 @@ int vtkSVOVDBReader::RequestData(
   this->NumberOfVoxels = static_cast<vtkIdType>(built.voxels);
   if (!built.message.empty())
   {
+    this->SetErrorCode(vtkErrorCode::UnknownError);
     vtkErrorMacro("The grid \"" << grid->getName() << "\" of " << file
                                 << " has no octree: " << built.message << ".");
     return 1;

@@ -21,7 +21,9 @@
  * What cannot be read leads to one message and an output without cells: a file that is missing,
  * truncated or no OpenVDB file, a grid that it does not have (the message names those that it has),
  * a frustum map, grids of points and vectors, more voxels than there is memory for (errors); a grid
- * without anything that is occupied (warning).
+ * without anything that is occupied (warning). After an error GetErrorCode() is one of
+ * vtkErrorCode, as of VTK's readers: UserError where the file has no grid of that name, UnknownError
+ * where a grid has no octree.
  *
  * @sa vtkSVOVDBWriter vtkImageToSVO vtkSparseVoxelOctree
  */
@@ -69,8 +71,8 @@ public:
 
   //@{
   /**
-   * The grid to read. Empty (default): the first one, by name. Of several grids of one name the
-   * second is called "name[1]".
+   * The grid to read. Empty (default): the first one, by name. Several grids of one name are
+   * called "name[0]", "name[1]" and so on; the name alone is the first of them.
    */
   void SetGridName(const char* name);
   const char* GetGridName();

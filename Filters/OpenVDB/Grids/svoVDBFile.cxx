@@ -66,7 +66,7 @@ std::string guarded(const std::function<std::string()>& run)
   }
   catch (const std::ios_base::failure&)
   {
-    return "it ends too early";
+    return EndsTooEarly;
   }
   catch (const std::exception& failure)
   {
@@ -83,7 +83,7 @@ std::string open(const std::string& fileName, openvdb::io::File& file)
   }
   if (!WholeFile().check(fileName))
   {
-    return "it ends too early";
+    return EndsTooEarly;
   }
   // Without delayed loading: what is missing is missed here, and not while rays are traced.
   file.open(false);
@@ -112,6 +112,23 @@ void list(const openvdb::io::File& file, VDBContents& contents)
     contents.metadata = textOf(*metadata);
   }
 }
+}
+
+std::string uniqueName(const VDBContents& contents, const std::string& name)
+{
+  const std::vector<std::string>& names = contents.grids;
+  if (name.empty())
+  {
+    return names.empty() ? std::string() : names.front();
+  }
+  for (const std::string& wanted : { name, name + "[0]" })
+  {
+    if (const auto found = std::find(names.begin(), names.end(), wanted); found != names.end())
+    {
+      return *found;
+    }
+  }
+  return {};
 }
 
 std::string readVDBContents(const std::string& fileName, VDBContents& contents)
@@ -150,7 +167,8 @@ std::string readVDBGrid(const std::string& fileName, const std::string& name,
       {
         return "it has no grids";
       }
-      if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+      const std::string unique = uniqueName(contents, name);
+      if (unique.empty())
       {
         std::string all;
         for (const std::string& other : names)
@@ -159,7 +177,7 @@ std::string readVDBGrid(const std::string& fileName, const std::string& name,
         }
         return "it has no grid \"" + name + "\", but " + all;
       }
-      grid = file.readGrid(name.empty() ? names.front() : name);
+      grid = file.readGrid(unique);
       return grid ? std::string() : std::string("the grid could not be read");
     });
 }

@@ -16,16 +16,24 @@ using VDBMetadata = std::vector<std::pair<std::string, std::string>>; // name, v
 
 struct VDBContents
 {
-  std::vector<std::string> grids; // names; of several with the same one, OpenVDB's "name[1]"
+  std::vector<std::string> grids; // names; several of one name are "name[0]", "name[1]"
   VDBMetadata metadata;           // of the file
 };
+
+/// The reason of both functions below for a file that is not whole.
+inline constexpr char EndsTooEarly[] = "it ends too early";
+
+/// The name by which OpenVDB has a grid; of several with the same name the first one's, if the
+/// name is asked for without a number; that of the first grid if the name is empty. Empty if there
+/// is none.
+VTKSVOOPENVDB_EXPORT std::string uniqueName(const VDBContents& contents, const std::string& name);
 
 /// Why the contents could not be read; empty if they were. Throws nothing.
 VTKSVOOPENVDB_EXPORT std::string readVDBContents(
   const std::string& fileName, VDBContents& contents);
 
-/// Reads one grid, all of it: by its name, or the first of the contents if the name is empty. Why
-/// it could not be read; empty if it was. Throws nothing.
+/// Reads one grid, all of it: by its name (see uniqueName()). Why it could not be read; empty if it
+/// was. Throws nothing.
 VTKSVOOPENVDB_EXPORT std::string readVDBGrid(const std::string& fileName, const std::string& name,
   openvdb::GridBase::ConstPtr& grid, VDBContents& contents);
 

@@ -1,6 +1,7 @@
 // Files and grids that cannot be read: one message each, nothing lost, no hang.
 #include "svoVDBTest.h"
 
+#include "vtkErrorCode.h"
 #include "vtkStringArray.h"
 
 #include <fstream>
@@ -39,6 +40,20 @@ TEST(VDBBadInput, WhatIsNoFileOfOpenVDBIsOneError)
   Reading noGrids(whole.name());
   EXPECT_EQ(noGrids.reader->CanReadFile(whole.name()), 1);
   noGrids.expectError("it has no grids");
+  EXPECT_EQ(none.reader->GetErrorCode(), vtkErrorCode::NoFileNameError);
+  EXPECT_EQ(missing.reader->GetErrorCode(), vtkErrorCode::FileNotFoundError);
+  EXPECT_EQ(letters.reader->GetErrorCode(), vtkErrorCode::UnrecognizedFileTypeError);
+  EXPECT_EQ(noBytes.reader->GetErrorCode(), vtkErrorCode::UnrecognizedFileTypeError);
+  EXPECT_EQ(noGrids.reader->GetErrorCode(), vtkErrorCode::FileFormatError);
+  whole.write({ sphereGrid(6.0, Centre) });
+  Reading other(whole.name());
+  other.reader->SetGridName("other");
+  other.expectError("it has no grid \"other\"");
+  EXPECT_EQ(other.reader->GetErrorCode(), vtkErrorCode::UserError);
+  other.reader->SetGridName("");
+  other.reader->Update();
+  EXPECT_EQ(other.reader->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_GT(other.reader->GetNumberOfVoxels(), 0);
 }
 
 TEST(VDBBadInput, TruncatedFilesAreOneErrorEach)
@@ -48,16 +63,19 @@ TEST(VDBBadInput, TruncatedFilesAreOneErrorEach)
   std::stringstream bytes;
   bytes << std::ifstream(whole.name(), std::ios::binary).rdbuf();
   const std::string all = bytes.str();
-  std::size_t tried = 0;
+  std::size_t tried = 0, premature = 0;
   for (std::size_t size = 8; size < all.size(); size += 1 + size / 16)
   {
     std::ofstream(cut.name(), std::ios::binary | std::ios::trunc)
       .write(all.data(), static_cast<std::streamsize>(size));
     Reading reading(cut.name());
     reading.expectError("cannot be read");
+    EXPECT_NE(reading.reader->GetErrorCode(), vtkErrorCode::NoError) << size;
+    premature += reading.reader->GetErrorCode() == vtkErrorCode::PrematureEndOfFileError;
     ++tried;
   }
   EXPECT_GT(tried, 50u);
+  EXPECT_GT(premature, tried / 2);
 }
 
 TEST(VDBBadInput, WhatHasNoSurfaceIsOneMessage)
