@@ -239,6 +239,7 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "BuildInBackground: " << this->BuildInBackground << '\n'
      << indent << "FrameCoherence: " << this->FrameCoherence << '\n'
      << indent << "LayerMemoryLimit: " << this->LayerMemoryLimit << " KiB\n"
+     << indent << "ShadowMemoryLimit: " << this->ShadowMemoryLimit << " KiB\n"
      << indent << "AntiAliasing: " << this->AntiAliasing << '\n'
      << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << '\n'
      << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << " pixels\n"
@@ -266,5 +267,6 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "NumberOfOctreesBuilt: " << this->GetNumberOfOctreesBuilt() << '\n'
      << indent << "NumberOfOctreesInProgress: " << this->GetNumberOfOctreesInProgress() << '\n'
      << indent << "LayerMemorySize: " << this->GetLayerMemorySize() << " KiB\n"
+     << indent << "ShadowMemorySize: " << this->GetShadowMemorySize() << " KiB\n"
      << indent << "OctreeMemorySize: " << this->GetOctreeMemorySize() << " KiB\n";
 }

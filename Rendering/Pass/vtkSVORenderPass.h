@@ -317,6 +317,19 @@ public:
 
   //@{
   /**
+   * Memory that shadow buffers may take together, in KiB; default 4 GiB. It counts the tiles of
+   * texels that casters lie in, of opaque casters and of groups of translucent ones, and where
+   * rasterised surfaces receive shadows the copies for them, OpenGL's included; layers that
+   * FrameCoherence keeps have LayerMemoryLimit. What the tiles will take at most follows from the
+   * casters' boxes. Where that is more, all maps have half as many texels along an edge, or a
+   * quarter, and so on, and a message says so once. A map has sixteen at least.
+   */
+  vtkSetClampMacro(ShadowMemoryLimit, vtkIdType, 0, VTK_ID_MAX / 1024);
+  vtkGetMacro(ShadowMemoryLimit, vtkIdType);
+  //@}
+
+  //@{
+  /**
    * Smooth edges inside and between traced surfaces, and those of shadows, with four rays in each
    * of their pixels; default off. It filters shadows as FilterShadows does, whether that is on or
    * off. Silhouettes and edges between facets follow the render window's SetMultiSamples instead,
@@ -565,9 +578,11 @@ public:
 
   //@{
   /**
-   * Memory in KiB: kept layers, and the octrees that the pass built itself.
+   * Memory in KiB: kept layers, shadow buffers (see SetShadowMemoryLimit()), and the octrees that
+   * the pass built itself.
    */
   vtkIdType GetLayerMemorySize() const;
+  vtkIdType GetShadowMemorySize() const;
   vtkIdType GetOctreeMemorySize() const;
   //@}
 
@@ -701,6 +716,7 @@ protected:
   bool FrameCoherence = true;
   vtkIdType LayerMemoryLimit = 512 * 1024;
   bool FilterShadows = false;
+  vtkIdType ShadowMemoryLimit = 4 * 1024 * 1024;
   bool AntiAliasing = false;
   bool ShadowsForEverything = false;
   bool Tracing = true;

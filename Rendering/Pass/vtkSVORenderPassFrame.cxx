@@ -57,6 +57,7 @@ svo::FrameSettings vtkSVORenderPass::Internals::settingsOf(const vtkSVORenderPas
   settings.pixelError = pass.PixelError;
   settings.frameCoherence = pass.FrameCoherence;
   settings.layerMemoryLimit = static_cast<std::size_t>(pass.LayerMemoryLimit) * svo::BytesOfKiB;
+  settings.shadowMemoryLimit = static_cast<std::size_t>(pass.ShadowMemoryLimit) * svo::BytesOfKiB;
   settings.viewCulling = pass.ViewCulling;
   settings.occlusionCulling = pass.OcclusionCulling;
   settings.antiAliasing = pass.AntiAliasing;

@@ -127,6 +127,13 @@ vtkIdType vtkSVORenderPass::GetLayerMemorySize() const
   return static_cast<vtkIdType>(this->Impl->statistics.tracer.layerMemory / svo::BytesOfKiB);
 }
 
+vtkIdType vtkSVORenderPass::GetShadowMemorySize() const
+{
+  const svo::PassStatistics& frame = this->Impl->statistics;
+  return static_cast<vtkIdType>(
+    (frame.tracer.shadowMemory + frame.receiverMemory) / svo::BytesOfKiB);
+}
+
 vtkIdType vtkSVORenderPass::GetOctreeMemorySize() const
 {
   return static_cast<vtkIdType>(this->Impl->store.bytes() / svo::BytesOfKiB);

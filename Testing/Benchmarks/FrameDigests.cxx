@@ -233,7 +233,12 @@ void print(const std::string& name, svo::Tracer& tracer, const svo::Scene& scene
   Digest maps, parts;
   for (const svo::ShadowMap& map : tracer.shadowMaps())
   {
-    maps.add(*map.depth).add(&map.base, 1).add(&map.worldBias, 1).add(&map.view.worldToView, 1);
+    std::vector<float> depths;
+    for (int i = 0; i < map.view.width * map.view.height; ++i)
+    {
+      depths.push_back(map.texels->depthAt(i % map.view.width, i / map.view.width));
+    }
+    maps.add(depths).add(&map.base, 1).add(&map.worldBias, 1).add(&map.view.worldToView, 1);
   }
   const std::vector<glm::vec2> samples = { { 0.375f, 0.125f }, { 0.875f, 0.375f },
     { 0.125f, 0.625f }, { 0.625f, 0.875f } };

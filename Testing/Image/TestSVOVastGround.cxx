@@ -128,7 +128,7 @@ int TestSVOVastGround(int, char*[])
   fine.stage.pass->SetShadowBufferResolution(13400);
   fine.stage.shadowed();
   fine.stage.shadowed();
-  checks.expect(fewer->count == 1 && fewer->text.find("4 GiB") != std::string::npos,
+  checks.expect(fewer->count == 1 && fewer->text.find("4096 MiB") != std::string::npos,
     "maps that have fewer texels than were asked for are said to, once");
   return checks.exitCode();
 }

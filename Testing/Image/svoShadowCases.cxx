@@ -170,7 +170,7 @@ ShadowCase randomCase(const svo::ShadowMap& map, const svo::View& eye, Dice& dic
   const double x = dice.between(-0.5, Size + 0.5), y = dice.between(-0.5, Size + 0.5);
   const int column = std::clamp(static_cast<int>(x), 0, Size - 1);
   const int row = std::clamp(static_cast<int>(y), 0, Size - 1);
-  const double held = (*map.depth)[row * Size + column];
+  const double held = map.texels->depthAt(column, row);
   const double occluder = std::isfinite(held) ? map.base + held : Middle;
   const double edge = svo::TexelEdge(map.view)(occluder);
   const double away = (dice.chance(0.6) ? 1.0 : -1.0) * dice.magnitude(0.02, 90.0);

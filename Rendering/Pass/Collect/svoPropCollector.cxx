@@ -323,8 +323,11 @@ void PropCollector::collect(PropSurfaces& found, const CollectProps& frame)
   const auto collect = [&](vtkActor* actor, const vtkMatrix4x4* matrix)
   {
     this->collectActor(actor, matrix, found, frame);
-    found.receives = found.receives ||
-      (actor->GetMapper() && showsLights(actor) && flagOf(actor, prop, receiveShadowKey(), true));
+    if (actor->GetMapper() && showsLights(actor) && flagOf(actor, prop, receiveShadowKey(), true))
+    {
+      found.receives = true;
+      found.reaches = found.reaches || reachesBeyondBounds(actor);
+    }
     ++found.actors;
   };
 

@@ -66,8 +66,8 @@ bool saysTheSame(const PropSurfaces& a, const PropSurfaces& b)
   const auto text = [](Reason reason) { return std::string_view(reason ? reason : ""); };
   return a.surfaces.empty() && b.surfaces.empty() && a.bounds == b.bounds &&
     a.mappers == b.mappers &&
-    std::tie(a.traced, a.receives, a.actors, a.catchesShadows) ==
-    std::tie(b.traced, b.receives, b.actors, b.catchesShadows) &&
+    std::tie(a.traced, a.receives, a.reaches, a.actors, a.catchesShadows) ==
+    std::tie(b.traced, b.receives, b.reaches, b.actors, b.catchesShadows) &&
     text(a.rasterized) == text(b.rasterized) && text(a.castsNone) == text(b.castsNone);
 }
 
@@ -208,7 +208,7 @@ void SceneCollector::assemble(CollectedScene& result)
   result.replaced.clear();
   result.receivers.clear();
   result.tracedActors = result.rasterizedActors = 0;
-  result.rasterizedReceivers = result.shadowCatchers = false;
+  result.rasterizedReceivers = result.receiversReach = result.shadowCatchers = false;
   SceneInstances::write(this->Found, Stage::Shown, this->Instances);
   result.scene.version = newVersion();
   bool complete = true;
@@ -223,6 +223,7 @@ void SceneCollector::assemble(CollectedScene& result)
     {
       result.rasterizedActors += prop.actors;
       result.rasterizedReceivers = result.rasterizedReceivers || prop.receives;
+      result.receiversReach = result.receiversReach || (prop.receives && prop.reaches);
       result.shadowCatchers = result.shadowCatchers || prop.catchesShadows;
       if (prop.receives || prop.catchesShadows)
       {

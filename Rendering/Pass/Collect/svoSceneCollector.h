@@ -57,6 +57,7 @@ struct CollectedScene
   int tracedActors = 0;
   int rasterizedActors = 0;
   bool rasterizedReceivers = false; // lit surfaces that the rasteriser draws and shadows fall on
+  bool receiversReach = false;      // some of them may reach beyond Scene::receivers
   bool headlightOnly = false;       // SceneLights
   bool shadowCatchers = false;      // there are some; they are rasterised
   /// Where lights cast and yet no shadow can be seen: why, as ends of sentences that begin with

@@ -103,7 +103,7 @@ void RendererState::shareShadows(vtkMultiProcessController* controller, int widt
 {
   const View eye = this->aim(width, height, distance);
   ControllerProcesses processes(controller);
-  settings.wholeShadowBuffers = this->Collected.rasterizedReceivers;
+  settings.receiverMaps = this->Collected.rasterizedReceivers;
   this->SharesShadows =
     this->Trace->shareShadows(this->Collected.scene, eye, settings, smpParallelFor(), processes);
 }
@@ -135,7 +135,8 @@ std::string RendererState::lostShadows(const FrameSettings& settings) const
   if (this->Statistics.tracer.fewerTexels)
   {
     return "Shadow maps have fewer texels than ShadowBufferResolution asks for: all of them would "
-           "take more than 4 GiB.";
+           "take more than ShadowMemoryLimit, " +
+      std::to_string(settings.shadowMemoryLimit >> 20) + " MiB.";
   }
   if (this->Statistics.tracer.largestGap > CoarseShadow)
   {
@@ -164,8 +165,9 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
     this->Receivers.update(window, {}, {}, view, settings);
     return;
   }
-  settings.wholeShadowBuffers =
+  settings.receiverMaps =
     this->Collected.rasterizedReceivers && settings.shadowTechnique != ShadowTechnique::None;
+  settings.wholeShadowBuffers = settings.receiverMaps && this->Collected.receiversReach;
   const bool occlusion = this->Renderer->GetUseSSAO(); // into a framebuffer that is not bound yet
   settings.writeNormals = occlusion || this->Presenter->WantsNormals();
   settings.writeLight = occlusion || vtkSVOPresenter::KeepsLight();
@@ -176,6 +178,7 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   this->Statistics.coarseOctreeError = pace.distance * this->Statistics.tracer.coarsestVoxel;
   this->Complaint =
     this->Receivers.update(window, this->Trace->shadowMaps(), scene.lights, view, settings);
+  this->Statistics.receiverMemory = this->Receivers.memory();
   if (this->Complaint.empty() && settings.shadowTechnique != ShadowTechnique::None)
   {
     this->Complaint = this->lostShadows(settings);

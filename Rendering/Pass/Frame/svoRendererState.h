@@ -44,6 +44,7 @@ struct PassStatistics
   int imageReduction = 1;    // pixels of the window that one of the frame becomes
   /// Largest voxel of the octrees that are shown while they are deepened; pixels of the frame.
   double coarseOctreeError = 0.0;
+  std::size_t receiverMemory = 0; // bytes that OpenGL holds of shadow buffers
 };
 
 /// Entries of a render state's prop array, exchanged and put back. The array is the renderer's own,

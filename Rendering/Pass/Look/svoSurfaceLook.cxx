@@ -251,6 +251,14 @@ bool showsLights(vtkActor* actor)
   return reflects(actor->GetProperty()) || reflects(actor->GetBackfaceProperty());
 }
 
+bool reachesBeyondBounds(vtkActor* actor)
+{
+  vtkMapper* mapper = actor->GetMapper();
+  const RoundLook round = roundLookOf(actor->GetProperty());
+  return !isPlainActor(actor) || !isPlainMapper(mapper) || isGlyphMapper(mapper) ||
+    drawsBodies(mapper) || round.any() || round.edges || hasCustomShaders(actor);
+}
+
 bool isUnknownSurface(vtkActor* actor)
 {
   // What these draw (points and lines, labels) has no surface.

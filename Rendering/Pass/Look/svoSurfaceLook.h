@@ -60,6 +60,10 @@ Treatment treatmentOf(vtkActor* actor);
 /// selections that applications keep in their views do, shows no shadow.
 bool showsLights(vtkActor* actor);
 
+/// True if it may draw something beyond its bounds: bodies around points and lines, what shaders
+/// make of it, glyphs that are turned, and whatever is not known here.
+bool reachesBeyondBounds(vtkActor* actor);
+
 /// The texture that colours an actor; nullptr if there is none.
 vtkTexture* textureOf(vtkActor* actor);
 

@@ -80,6 +80,7 @@ struct PropSurfaces
   int actors = 0;
   bool traced = true;                    // all that the prop shows can be traced
   bool receives = false;                 // shadows fall on it
+  bool reaches = false;                  // what is drawn may reach beyond its bounds
   bool catchesShadows = false;           // of it nothing but these is seen
   bool marked = false;                   // it is meant to be traced, by itself or by all being so
   bool hasPlainMatrix = false;           // of a single actor: it has not changed what is made of it

@@ -11,9 +11,14 @@ double brightness(const Light& light)
   return light.color.r + light.color.g + light.color.b;
 }
 
-std::size_t layersOf(const MapGroups::value_type& entry)
+std::size_t numbersOf(const std::vector<const ShadowMap*>& maps)
 {
-  return entry.second.size() * (entry.first.translucent ? 2 : 1);
+  std::size_t numbers = 0;
+  for (const ShadowMap* map : maps)
+  {
+    numbers += map->texels->tiles.size() + map->texels->numbers.size();
+  }
+  return numbers;
 }
 }
 
@@ -27,14 +32,16 @@ MapGroups groupsOf(const std::vector<ShadowMap>& maps)
   return groups;
 }
 
-bool keepBrightest(MapGroups& groups, const std::vector<Light>& lights, std::size_t most)
+bool keepBrightest(
+  MapGroups& groups, const std::vector<Light>& lights, std::size_t most, std::size_t mostNumbers)
 {
-  std::size_t count = 0;
+  std::size_t count = 0, numbers = 0;
   for (const auto& entry : groups)
   {
-    count += layersOf(entry);
+    count += entry.second.size();
+    numbers += numbersOf(entry.second);
   }
-  if (count <= most)
+  if (count <= most && numbers <= mostNumbers)
   {
     return false;
   }
@@ -43,11 +50,12 @@ bool keepBrightest(MapGroups& groups, const std::vector<Light>& lights, std::siz
     // Of equally bright lights the first one.
     return std::make_tuple(brightness(lights[group.light]), group.light, -group.group);
   };
-  while (count > most)
+  while (count > most || numbers > mostNumbers)
   {
     const auto faintest = std::min_element(groups.begin(), groups.end(),
       [&](const auto& a, const auto& b) { return rank(a.first) < rank(b.first); });
-    count -= layersOf(*faintest);
+    count -= faintest->second.size();
+    numbers -= numbersOf(faintest->second);
     groups.erase(faintest);
   }
   return true;

@@ -31,9 +31,9 @@ using MapGroups = std::map<MapGroup, std::vector<const ShadowMap*>>;
 MapGroups groupsOf(const std::vector<ShadowMap>& maps);
 
 /// Leaves maps of the faintest lights out, of each light those of translucent casters first, until
-/// no more than `most` layers are left: one for each map, and one more for how opaque translucent
-/// casters are. True if there were more.
-bool keepBrightest(MapGroups& groups, const std::vector<Light>& lights, std::size_t most);
+/// no more than `most` maps of no more than `mostNumbers` floats are left. True if there were more.
+bool keepBrightest(
+  MapGroups& groups, const std::vector<Light>& lights, std::size_t most, std::size_t mostNumbers);
 }
 
 #endif

@@ -1,14 +1,15 @@
 // The share of a light that reaches a fragment of a rasterised surface, by the test of
-// svoShadowTest.h, filtered as in svoShadowFilter.cxx. A map is a layer of an array of square
-// textures, however many lights there are: it holds the linear depth of the nearest caster. Its
-// matrix takes view coordinates to (x, y, linear depth, w), with x / w and y / w in -1..1 across the
+// svoShadowTest.h, filtered as in svoShadowFilter.cxx. A map holds the linear depth of the
+// nearest caster, in tiles of 8x8 texels behind one texture unit, however many lights there are. A
+// table of all its tiles, svoTables, says where each one lies; those in which nothing does share one.
+// Its matrix takes view coordinates to (x, y, linear depth, w), with x / w and y / w in -1..1 across the
 // map. `facet` is the fragment's own plane, towards the viewer, `normal` what it is shaded with,
 // `extent` how wide a piece of the surface it shows.
 //
 // Constants are put before it: svoCapacity, maps that there is room for; svoPlaneBias, to compare
 // at the texel's own ray, on the planes of the receiver; svoFilter, to weigh the texels around the
 // point, with svoPlaneBias only; svoTranslucent, if some maps, from svoFirstTranslucent on, are of
-// translucent casters: so many layers further, svoTranslucentMaps, lies how opaque these are. They
+// translucent casters: behind each tile lies how opaque these are. They
 // are not asked while it runs, since software OpenGL walks
 // through branches that are not taken. And the numbers of svoShadowRules.h, by the same names:
 // svoNearbyReach, svoGrazingReach, svoEdgeOnSine, svoLeastSteepness, svoTexelBend, svoTexelsToAgree,
@@ -16,14 +17,15 @@
 //
 // One rule is another one than svoShadowTest.h has: a facet that turns its back on the light lies in
 // the shadow of all that is before it, half a texel aside, and is not tested as a plane.
-uniform sampler2DArray svoMaps;
+uniform samplerBuffer svoMaps;
+uniform int svoTables[svoCapacity];
+uniform int svoSize; // texels along an edge of a map
 uniform mat4 svoRows[svoCapacity]; // the rows of a map's matrix
 uniform float svoErrors[svoCapacity]; // of what casts, world units
 uniform float svoReceive; // 0: no shadow falls on this surface
 uniform float svoIntensity;
 uniform float svoManualBias; // world units, added
 uniform int svoFirstTranslucent; // with svoTranslucent only
-uniform int svoTranslucentMaps;
 
 // The shorter and the longer edge of a texel in the world, at the depth of a point whose w is given.
 vec2 svoTexelEdges(mat4 rows, float w, float size)
@@ -34,10 +36,18 @@ vec2 svoTexelEdges(mat4 rows, float w, float size)
   return 2.0 * w / (size * vec2(max(across, up), min(across, up)));
 }
 
+// Where a texel lies.
+int svoTexel(int map, ivec2 texel)
+{
+  int tile = (texel.y >> 3) * ((svoSize + 7) >> 3) + (texel.x >> 3);
+  int begin = 64 * int(texelFetch(svoMaps, svoTables[map] + tile).r);
+  return begin + 8 * (texel.y & 7) + (texel.x & 7);
+}
+
 // Depth of the nearest caster, infinite if there is none.
 float svoOccluder(int map, ivec2 texel)
 {
-  return texelFetch(svoMaps, ivec3(texel, map), 0).r;
+  return texelFetch(svoMaps, svoTexel(map, texel)).r;
 }
 
 // The share of the light that what lies at a texel takes; 0 if nothing does.
@@ -47,7 +57,7 @@ float svoOpacity(int map, ivec2 texel)
   {
     return 1.0;
   }
-  return texelFetch(svoMaps, ivec3(texel, map + svoTranslucentMaps), 0).r;
+  return texelFetch(svoMaps, svoTexel(map, texel) + 64).r;
 }
 
 // What one texel says of the point: 0 lit, 1 dark by an occluder within a few texels' depth, 2 dark.
@@ -55,7 +65,7 @@ float svoOpacity(int map, ivec2 texel)
 int svoAsk(int map, mat4 rows, float error, vec4 point, vec2 texel, vec3 facet,
   vec3 normal, float span)
 {
-  float size = float(textureSize(svoMaps, 0).x);
+  float size = float(svoSize);
   if (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(size))))
   {
     return 0;
@@ -151,7 +161,7 @@ bool svoIsFlat(int map, ivec2 first, ivec2 last, float most)
 bool svoEndsBefore(
   int map, ivec2 texel, vec2 offset, float depth, float pixel, float error)
 {
-  int size = textureSize(svoMaps, 0).x;
+  int size = svoSize;
   float here = svoOccluder(map, texel);
   float t = here;
   for (int axis = 0; axis < 2; ++axis)
@@ -176,7 +186,7 @@ bool svoEndsBefore(
 float svoFiltered(int map, mat4 rows, float error, vec4 point, vec2 place,
   ivec2 first, ivec2 last, float width, vec3 facet, vec3 normal)
 {
-  float size = float(textureSize(svoMaps, 0).x);
+  float size = float(svoSize);
   float depth = dot(rows[2], point);
   float pixel = svoTexelEdges(rows, dot(rows[3], point), size).x;
   float dark = 0.0;
@@ -242,7 +252,7 @@ vec3 svoSmoothLift(vec3 position, vec3 facet, vec3 normal, vec3 corner, vec3 cor
 float svoLeft(
   int first, int beyond, vec3 position, vec3 plane, vec3 normal, vec3 lift, float extent)
 {
-  float size = float(textureSize(svoMaps, 0).x);
+  float size = float(svoSize);
   float lit = 1.0;
   for (int i = first; i < beyond; ++i)
   {

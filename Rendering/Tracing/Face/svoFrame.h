@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct FrameSettings
   /// Of those so many along an edge become one, and may look so many times as wide: the same maps,
   /// coarser, in less time.
   double shadowCoarseness = 1.0;
-  std::size_t shadowMemoryLimit = std::size_t(4) << 30; // bytes, of the maps of all lights
+  /// Bytes, of the maps of all lights with what is handed out of them; beyond it they have fewer
+  /// texels.
+  std::size_t shadowMemoryLimit = std::size_t(4) << 30;
   bool automaticBias = true;    // compare on the receiver's plane, at the texel's own ray
   double bias = 0.0;            // voxels of the caster, added
   double shadowIntensity = 1.0; // share of the light's diffuse and specular that is removed
@@ -35,7 +38,11 @@ struct FrameSettings
   /// edges of shadows do not show the buffer's texels: ShadowBuffer::darkness(). With the automatic
   /// bias only.
   bool filterShadows = false;
-  bool wholeShadowBuffers = false; // rasterised receivers look up texels unknown to the tracer
+  /// Rasterised surfaces look up shadow maps inside of Scene::receivers: what the eye may see of
+  /// these is traced, and the maps are handed out.
+  bool receiverMaps = false;
+  /// ... or anywhere: all is traced, and handed out.
+  bool wholeShadowBuffers = false;
   bool viewCulling = true;      // instances outside of a view are found together, by a tree of them
   bool occlusionCulling = true; // those that others hide are left out; neither changes a bit
   /// Instances whose rectangle has fewer pixels are not drawn; they cast. 0: all are.
@@ -54,6 +61,8 @@ struct FrameSettings
       (this->shadowTechnique == ShadowTechnique::Buffer ||
         this->shadowTechnique == ShadowTechnique::Automatic);
   }
+
+  bool handsOutMaps() const { return this->receiverMaps || this->wholeShadowBuffers; }
 };
 
 /// What a tile of 8x8 pixels of a frame holds; those of its border may be smaller.
@@ -113,6 +122,7 @@ struct FrameStatistics
   int lightsWithRays = 0;
   std::uint64_t retracedLayers = 0; // layers traced this frame, of the eye and of lights
   std::uint64_t layerMemory = 0;    // bytes held by kept layers
+  std::uint64_t shadowMemory = 0;   // bytes held by shadow buffers and what was handed out of them
   /// Visible instances that the eye's layers were made without: outside of the view, hidden by
   /// others, or below the detailThreshold.
   std::uint64_t outsideInstances = 0, hiddenInstances = 0, smallInstances = 0;
@@ -133,6 +143,30 @@ struct FrameStatistics
   double largestGap = 0.0;
 };
 
+/// Texels of a shadow map in tiles of 8x8. Those tiles are held in which a caster lies.
+struct ShadowTexels
+{
+  static constexpr std::uint32_t Nothing = ~0u;
+  static constexpr std::size_t InTile = 64;
+
+  int tilesX = 0;
+  std::vector<std::uint32_t> tiles; // row by row: which of those held it is, or Nothing
+  std::size_t stride = InTile;      // numbers in a tile that is held
+  /// Of each tile that is held, row by row, linear depths less ShadowMap::base; infinity where
+  /// nothing lies. Of translucent casters, as often, the share of the light that each takes, 0..1;
+  /// 0 where there is none.
+  std::vector<float> numbers;
+
+  std::size_t held() const { return this->numbers.size() / this->stride; }
+  float depthAt(int x, int y) const
+  {
+    const std::uint32_t tile =
+      this->tiles[static_cast<std::size_t>(y >> 3) * this->tilesX + (x >> 3)];
+    return tile == Nothing ? std::numeric_limits<float>::infinity()
+                           : this->numbers[this->stride * tile + 8 * (y & 7) + (x & 7)];
+  }
+};
+
 /// A finished shadow buffer, for rasterised receivers. One per map: a point light whose casters
 /// subtend more than 120 degrees has six, and so has each group of its translucent casters. What
 /// reaches a point is the product of what the opaque ones and each of those groups leave.
@@ -140,14 +174,10 @@ struct ShadowMap
 {
   int light = 0; // index into Scene::lights
   View view;     // of the light; width = height = resolution
-  /// Linear depth of the nearest caster minus `base`, row by row; infinity where there is none.
-  /// From frame to frame the same object as long as the values are the same.
   double base = 0.0;
-  std::shared_ptr<const std::vector<float>> depth;
-  int group = 0; // 0: of opaque casters; else the number of a group of translucent ones
-  /// The share of the light that what lies there takes, 0..1, likewise row by row, anything where
-  /// nothing lies. Null where all is opaque. The same object as long as the values are the same.
-  std::shared_ptr<const std::vector<float>> opacity;
+  /// From frame to frame the same object as long as the values are the same.
+  std::shared_ptr<const ShadowTexels> texels;
+  int group = 0;            // 0: of opaque casters; else the number of a group of translucent ones
   double worldBias = 0.0;   // for receivers that do not know the caster of a texel, world units
   double casterVoxel = 0.0; // of the coarsest caster, world units
 };

@@ -59,8 +59,7 @@ public:
   /// Of the last frame.
   virtual const FrameStatistics& statistics() const = 0;
 
-  /// The whole shadow buffers of the last frame; empty unless they were asked for with
-  /// FrameSettings::wholeShadowBuffers.
+  /// The shadow buffers of the last frame; empty unless FrameSettings::handsOutMaps().
   virtual const std::vector<ShadowMap>& shadowMaps() const = 0;
 
   /// Frees all layers that are kept for the next frame (FrameStatistics::layerMemory).

@@ -3,7 +3,7 @@
 #ifndef svoDepthBuffer_h
 #define svoDepthBuffer_h
 
-#include "svoRawArray.h"
+#include "svoPagedArray.h"
 #include "svoRay.h"
 
 #include <cassert>
@@ -31,9 +31,9 @@ struct DepthBuffer
 {
   int tilesX = 0;
   int tilesY = 0;
-  RawArray<float> t; // linear depth minus the base of the winning instance
-  RawArray<std::uint32_t> instance;
-  RawArray<Primitive> primitive;
+  PagedArray<float> t; // linear depth minus the base of the winning instance
+  PagedArray<std::uint32_t> instance;
+  PagedArray<Primitive> primitive;
   std::vector<std::uint8_t> hit; // per tile: some pixel of it has an instance; else its pixels are
                                  // not written at all
 

@@ -3,7 +3,7 @@
 #define svoDepthLayer_h
 
 #include "svoLayout.h"
-#include "svoRawArray.h"
+#include "svoPagedArray.h"
 #include "svoRay.h"
 #include "svoTileIntervals.h"
 #include "svoView.h"
@@ -37,8 +37,8 @@ struct DepthLayer
 {
   PixelRect rect;
   std::vector<std::uint8_t> traced; // per tile of rect, a State
-  RawArray<float> t;                // 64 per tile, of traced ones
-  RawArray<Primitive> primitive;
+  PagedArray<float> t;              // 64 per tile, of traced ones
+  PagedArray<Primitive> primitive;
   TileIntervals intervals; // of rect
 
   enum State : std::uint8_t

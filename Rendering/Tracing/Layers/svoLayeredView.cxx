@@ -28,6 +28,13 @@ void LayeredView::release()
   this->Tiles.forget();
 }
 
+void LayeredView::forget()
+{
+  this->Merged = DepthBuffer();
+  this->LastHit = {};
+  this->Tiles.forget();
+}
+
 bool LayeredView::prepare(const Scene& scene, const View& view,
   const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf, bool keep,
   LayerBudget& budget, const ParallelFor& parallelFor)

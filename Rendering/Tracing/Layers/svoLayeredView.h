@@ -98,6 +98,8 @@ public:
   std::uint64_t retracedLayers() const { return this->Retraced; }
   std::size_t layerMemory() const { return this->Layers.memory(); }
   void release();
+  /// Of a view that sees nothing: its depth buffer has no tiles until it is traced.
+  void forget();
 
 private:
   /// Tiles along an edge of a group whose nodes are found together.

@@ -39,7 +39,11 @@ public:
   /// are new.
   bool beginFrame(
     const View& view, std::vector<MergedPart>& parts, bool keep, const std::uint8_t* wanted);
-  void forget() { this->States.clear(); }
+  void forget()
+  {
+    this->States = {};
+    this->Changes = {};
+  }
 
   /// True if the tile is to be emptied, and merged if it is wanted.
   bool isStale(std::size_t tile) const { return this->changeOf(tile) != Change::None; }

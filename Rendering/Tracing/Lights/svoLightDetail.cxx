@@ -239,30 +239,92 @@ LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, 
   }
 }
 
+/// Texels of a map that casters of one group, or opaque ones, can lie in, in whole tiles.
+double texelsOf(const std::vector<Outline>& outlines, const std::vector<std::uint8_t>& casters,
+  std::uint8_t group, const View& map)
+{
+  const double whole = static_cast<double>(map.width) * map.height;
+  const glm::dmat4 toClip = map.viewToClip * map.worldToView;
+  std::vector<glm::dvec3> cut;
+  double texels = 0.0;
+  for (std::size_t i = 0; i < casters.size() && texels < whole; ++i)
+  {
+    if (casters[i] != group)
+    {
+      continue;
+    }
+    const std::array<glm::dvec3, 8> corners = worldCorners(outlines[i], outlines[i].voxelSize);
+    const auto isBehind = [&](const glm::dvec3& corner)
+    { return !((toClip * glm::dvec4(corner, 1.0)).w > 0.0); };
+    cut.assign(corners.begin(), corners.end());
+    if (std::any_of(cut.begin(), cut.end(), isBehind))
+    {
+      cut.clear();
+      CommonPart({ pieceOf(map, map.tNear, map.tFar) }).add(corners, cut);
+    }
+    constexpr double Infinity = std::numeric_limits<double>::infinity();
+    glm::dvec2 low(Infinity), high(-Infinity);
+    for (const glm::dvec3& corner : cut)
+    {
+      const glm::dvec4 clip = toClip * glm::dvec4(corner, 1.0);
+      low = glm::min(low, glm::clamp(glm::dvec2(clip) / clip.w, -1.0, 1.0));
+      high = glm::max(high, glm::clamp(glm::dvec2(clip) / clip.w, -1.0, 1.0));
+    }
+    constexpr double Beyond = 16.0; // texels: the tiles at both ends
+    if (low.x < high.x && low.y < high.y)
+    {
+      const glm::dvec2 size = 0.5 * (high - low) * glm::dvec2(map.width, map.height) + Beyond;
+      texels += size.x * size.y;
+    }
+  }
+  return std::min(texels, whole);
+}
+
 std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
   const std::vector<Light>& lights, const FrameSettings& settings, const View& eye)
 {
   // Depth, instance and primitive of the buffer; for receivers a copy, and OpenGL's. Where casters
-  // are translucent how opaque they are as well.
-  const double bytes = settings.wholeShadowBuffers ? 20.0 : 12.0;
-  const double translucentBytes = settings.wholeShadowBuffers ? 32.0 : 16.0;
+  // are translucent how opaque they are as well. Tables have their share in all texels.
+  const double bytes = settings.handsOutMaps() ? 20.0 : 12.0;
+  const double translucentBytes = settings.handsOutMaps() ? 32.0 : 16.0;
+  constexpr double TableBytes = 0.5;
   std::vector<LightMaps> maps(lights.size());
   const double coarseness = settings.shadowCoarseness;
   assert(coarseness >= 1.0);
   const int wanted = static_cast<int>(settings.shadowResolution / coarseness);
   for (int resolution = std::max(wanted, 16);; resolution = (resolution + 1) / 2)
   {
-    double taken = 0.0;
+    double most = 0.0; // if all tiles hold something
     for (std::size_t i = 0; i < lights.size(); ++i)
     {
       if (lights[i].castShadow)
       {
         maps[i] = mapsOfLight(outlines, lights[i], resolution, eye, coarseness);
         const double texels = static_cast<double>(maps[i].views.size()) * resolution * resolution;
-        taken += texels * (bytes + translucentBytes * maps[i].translucentGroups);
+        most += texels *
+          (bytes + TableBytes + (translucentBytes + TableBytes) * maps[i].translucentGroups);
       }
     }
-    if (taken <= static_cast<double>(settings.shadowMemoryLimit) || resolution <= 16)
+    const auto limit = static_cast<double>(settings.shadowMemoryLimit);
+    if (most <= limit || resolution <= 16)
+    {
+      return maps;
+    }
+    double taken = 0.0;
+    for (const LightMaps& light : maps)
+    {
+      for (const View& map : light.views)
+      {
+        for (int group = 0; group <= light.translucentGroups; ++group)
+        {
+          const double texels = texelsOf(
+            outlines, light.casters, static_cast<std::uint8_t>(OpaqueCasters + group), map);
+          taken += texels * (group == 0 ? bytes : translucentBytes) +
+            (texels > 0.0 ? TableBytes * map.width * map.height : 0.0);
+        }
+      }
+    }
+    if (taken <= limit)
     {
       return maps;
     }

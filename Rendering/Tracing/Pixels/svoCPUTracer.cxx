@@ -296,7 +296,7 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     {
       this->LightShadows.chooseAsBefore(seen, view, settings);
     }
-    this->LightShadows.prepare(seen, settings, budget, parallelFor);
+    this->LightShadows.prepare(seen, view, settings, budget, parallelFor);
   }
   this->LightShadows.prepareRays(scene, this->Eye);
   if (!shared)
@@ -310,7 +310,7 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
   {
     this->LightShadows.trace(parallelFor);
   }
-  if (settings.wholeShadowBuffers)
+  if (settings.handsOutMaps())
   {
     this->LightShadows.copyMaps(this->Maps);
   }
@@ -380,6 +380,7 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
     statistics.largestGap = largestGap(scene, view, self.Eye);
   }
   statistics.layerMemory = self.Eye.layerMemory() + self.LightShadows.layerMemory();
+  statistics.shadowMemory = self.LightShadows.mapMemory();
   self.SharesBuffers = false;
   self.SharingTime = 0.0;
 }

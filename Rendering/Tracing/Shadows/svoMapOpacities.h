@@ -20,7 +20,7 @@ public:
   /// texel it is that of the place on the caster that the ray of the texel's centre meets.
   void find(const Scene& scene, const View& view, const LayeredView& map, bool all,
     const ParallelFor& parallelFor);
-  void forget() { this->Texels.clear(); }
+  void forget() { this->Texels = {}; }
   bool known() const { return !this->Texels.empty(); }
   /// 0..1; `texel`: as DepthBuffer::at, of those that a caster lies at.
   float at(std::size_t texel) const { return this->Texels[texel]; }

@@ -47,10 +47,9 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
     const bool sawCasters = face.seesCasters;
     this->SameMaps = this->SameMaps && sameRays(face.view, views[i]);
     face.view = views[i];
-    if (face.shared.merged() || !settings.wholeShadowBuffers)
+    if (face.shared.merged() || !settings.handsOutMaps())
     {
       face.copied.reset();
-      face.copiedOpacity.reset();
     }
     face.shared.clear();
     face.worldToClip = face.view.viewToClip * face.view.worldToView;
@@ -64,6 +63,15 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
       { return selectLevel(instance, local, face.view, settings.pixelError); },
       settings.frameCoherence, budget, parallelFor);
     this->SameMaps = this->SameMaps && sawCasters == face.seesCasters;
+    if (sawCasters != face.seesCasters)
+    {
+      face.copied.reset();
+    }
+    if (!face.seesCasters && !settings.wholeShadowBuffers)
+    {
+      face.forget(); // of most groups' maps, where a light has six
+      continue;
+    }
     for (std::size_t k = 0; k < scene.instances.size(); ++k)
     {
       const Instance& instance = scene.instances[k];
@@ -76,11 +84,9 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
           std::max(this->CasterError[k], worldMapError(instance, geometry, level));
       }
     }
-    const std::size_t tilesAcross = (face.view.width + 7) / 8;
-    const std::size_t tiles = tilesAcross * ((face.view.height + 7) / 8);
-    if (face.wanted.size() != tiles)
+    if (face.wanted.size() != tilesIn(face.view))
     {
-      face.wanted = std::vector<std::atomic<std::uint8_t>>(tiles);
+      face.wanted = std::vector<std::atomic<std::uint8_t>>(tilesIn(face.view));
     }
     for (auto& tile : face.wanted)
     {
@@ -261,6 +267,26 @@ void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles&
     });
 }
 
+void ShadowBuffer::mark(const SeenReceivers& receivers)
+{
+  for (auto& face : this->Faces)
+  {
+    const int tilesAcross = (face->view.width + 7) / 8;
+    for (const PixelRect& rect :
+      face->seesCasters ? receivers.in(face->view) : std::vector<PixelRect>())
+    {
+      for (int y = rect.y0 / 8; y <= (rect.y1 - 1) / 8; ++y)
+      {
+        for (int x = rect.x0 / 8; x <= (rect.x1 - 1) / 8; ++x)
+        {
+          face->wanted[static_cast<std::size_t>(y) * tilesAcross + x].store(
+            1, std::memory_order_relaxed);
+        }
+      }
+    }
+  }
+}
+
 void ShadowBuffer::markAll()
 {
   for (auto& face : this->Faces)
@@ -276,6 +302,10 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
 {
   for (auto& face : this->Faces)
   {
+    if (face->wanted.empty())
+    {
+      continue; // it sees nothing
+    }
     std::vector<std::uint8_t> wanted(face->wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i)
     {
@@ -292,13 +322,9 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
       face->opacities.find(
         *this->Traced, face->view, face->layers, this->OtherOpacities, parallelFor);
     }
-    if (face->layers.changed())
+    if (face->layers.changed() || this->OtherOpacities)
     {
       face->copied.reset();
-    }
-    if ((face->layers.changed() && this->SameOpacity < 0.0f) || this->OtherOpacities)
-    {
-      face->copiedOpacity.reset();
     }
   }
   this->Traced = nullptr;
@@ -338,13 +364,48 @@ void ShadowBuffer::merge(Processes& processes, std::size_t first)
     face->opacities.forget();
     face->seesCasters = face->shared.bytes() > 0;
     face->copied.reset();
-    face->copiedOpacity.reset();
   }
 }
 
 void ShadowBuffer::release()
 {
   this->Faces.clear();
+}
+
+void ShadowBuffer::Face::forget()
+{
+  std::vector<std::atomic<std::uint8_t>>().swap(this->wanted);
+  this->layers.forget();
+  this->occluders.forget();
+  this->opacities.forget();
+}
+
+std::size_t ShadowBuffer::Face::memory() const
+{
+  constexpr std::size_t OfTexel = sizeof(float) + sizeof(std::uint32_t) + sizeof(Primitive);
+  // Of a tile of the map, here and in LayeredView: marks, states and what lies in it.
+  constexpr std::size_t OfTile = 24;
+  std::size_t bytes = this->shared.bytes() + OfTile * this->wanted.size();
+  for (const std::uint8_t hit : this->layers.depthBuffer().hit)
+  {
+    bytes += hit ? 64 * (OfTexel + (this->opacities.known() ? sizeof(float) : 0)) : 0;
+  }
+  if (this->copied)
+  {
+    bytes += this->copied->tiles.size() * sizeof(std::uint32_t) +
+      this->copied->numbers.size() * sizeof(float);
+  }
+  return bytes;
+}
+
+std::size_t ShadowBuffer::memory() const
+{
+  std::size_t sum = 0;
+  for (const auto& face : this->Faces)
+  {
+    sum += face->memory();
+  }
+  return sum;
 }
 
 std::uint64_t ShadowBuffer::rays() const

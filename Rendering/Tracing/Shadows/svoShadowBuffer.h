@@ -10,6 +10,7 @@
 #include "svoMapOpacities.h"
 #include "svoProcesses.h"
 #include "svoScene.h"
+#include "svoSeenReceivers.h"
 #include "svoSharedDepth.h"
 #include "svoSurfacePoint.h"
 #include "svoTileOccluders.h"
@@ -26,6 +27,12 @@
 
 namespace svo
 {
+/// Tiles of a map.
+inline std::size_t tilesIn(const View& map)
+{
+  return static_cast<std::size_t>((map.width + 7) / 8) * ((map.height + 7) / 8);
+}
+
 class ShadowBuffer
 {
 public:
@@ -70,6 +77,8 @@ public:
   }
   /// Notes the tiles that knows() asks about a point.
   void note(const glm::dvec3& position, std::uint16_t light, RaisedTiles& noted) const;
+  /// What fragments of surfaces that are rasterised may look up.
+  void mark(const SeenReceivers& receivers);
   /// Every tile will be looked up.
   void markAll();
 
@@ -135,6 +144,10 @@ public:
   void copyMaps(int light, std::vector<ShadowMap>& maps, int group = 0);
   void release();
 
+  /// Bytes of the maps, as they are now: tiles in which something lies, tables of all tiles, and
+  /// copies. Not those of kept layers.
+  std::size_t memory() const;
+
   std::uint64_t rays() const;
   std::uint64_t retracedLayers() const;
   std::size_t layerMemory() const;
@@ -151,13 +164,15 @@ private:
     bool seesCasters = false;
     MapOccluders occluders; // of the layers; unknown where depths are shared
     MapOpacities opacities; // unknown where each caster is equally opaque all over
-    std::shared_ptr<const std::vector<float>> copied; // ShadowMap::depth; null: it has changed
-    std::shared_ptr<const std::vector<float>> copiedOpacity; // likewise, ShadowMap::opacity
+    std::shared_ptr<const ShadowTexels> copied; // ShadowMap::texels; null: they have changed
 
-    std::shared_ptr<const std::vector<float>> copyDepth(double base) const;
-    /// `ofCasters`: see CasterOpacity.
-    std::shared_ptr<const std::vector<float>> copyOpacity(
-      const std::vector<float>& ofCasters) const;
+    /// `ofCasters`: CasterOpacity; null of opaque ones.
+    std::shared_ptr<const ShadowTexels> copy(
+      double base, const std::vector<float>* ofCasters) const;
+    /// Of a map that sees nothing.
+    void forget();
+    /// Bytes of its tables, of tiles in which something lies, and of the copy.
+    std::size_t memory() const;
     /// Notes the tiles around points that are inside, of this map: few, or one by one. False if
     /// there are too many to be noted here.
     bool want(const MapPlaces& places, float around, std::uint16_t light, std::uint16_t map,
@@ -176,6 +191,12 @@ private:
         tilesOf(places, this->view, margin), this->layers.depthBuffer().tilesX);
     }
 
+    /// True if something lies in a tile.
+    bool holds(std::size_t tile) const
+    {
+      return this->shared.merged() ? this->shared.holds(tile)
+                                   : this->layers.depthBuffer().hit[tile] != 0;
+    }
     /// What lies at a texel (index as DepthBuffer::at): false if nothing.
     bool occluder(std::size_t at, std::uint32_t& caster, double& t) const
     {

@@ -1,4 +1,4 @@
-// A shadow buffer's maps, row by row, for rasterised receivers.
+// A shadow buffer's maps, tile by tile, for rasterised receivers.
 #include "svoShadowBuffer.h"
 
 #include <algorithm>
@@ -7,22 +7,42 @@
 
 namespace svo
 {
-std::shared_ptr<const std::vector<float>> ShadowBuffer::Face::copyDepth(double base) const
+std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
+  double base, const std::vector<float>* ofCasters) const
 {
-  auto copy = std::make_shared<std::vector<float>>(
-    static_cast<std::size_t>(this->view.width) * this->view.height,
-    std::numeric_limits<float>::infinity());
-  const DepthBuffer& depth = this->layers.depthBuffer();
-  for (int y = 0; this->seesCasters && y < this->view.height; ++y)
+  constexpr std::size_t InTile = ShadowTexels::InTile;
+  auto copy = std::make_shared<ShadowTexels>();
+  copy->tilesX = (this->view.width + 7) / 8;
+  copy->tiles.assign(tilesIn(this->view), ShadowTexels::Nothing);
+  copy->stride = ofCasters ? 2 * InTile : InTile;
+  std::uint32_t held = 0;
+  for (std::size_t tile = 0; this->seesCasters && tile < copy->tiles.size(); ++tile)
   {
-    float* row = copy->data() + static_cast<std::size_t>(y) * this->view.width;
-    for (int x = 0; x < this->view.width; ++x)
+    if (this->holds(tile))
     {
+      copy->tiles[tile] = held++;
+    }
+  }
+  copy->numbers.resize(copy->stride * held);
+  for (std::size_t tile = 0; tile < copy->tiles.size(); ++tile)
+  {
+    if (copy->tiles[tile] == ShadowTexels::Nothing)
+    {
+      continue;
+    }
+    float* numbers = copy->numbers.data() + copy->stride * copy->tiles[tile];
+    for (std::size_t i = 0; i < InTile; ++i)
+    {
+      const std::size_t at = InTile * tile + i;
       std::uint32_t caster;
       double t;
-      if (this->occluder(depth.at(x, y), caster, t))
+      const bool any = this->occluder(at, caster, t);
+      numbers[i] = any ? static_cast<float>(t - base) : std::numeric_limits<float>::infinity();
+      if (ofCasters)
       {
-        row[x] = static_cast<float>(t - base);
+        numbers[InTile + i] = !any  ? 0.0f
+          : this->opacities.known() ? this->opacities.at(at)
+                                    : (*ofCasters)[caster];
       }
     }
   }
@@ -40,19 +60,9 @@ void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps, int group)
     map.base = std::max(face->view.tNear, 0.0);
     if (!face->copied)
     {
-      face->copied = face->copyDepth(map.base);
+      face->copied = face->copy(map.base, this->Translucent ? &this->CasterOpacity : nullptr);
     }
-    map.depth = face->copied;
-    if (this->Translucent)
-    {
-      if (!face->copiedOpacity || face->copiedOpacity->size() != face->copied->size())
-      {
-        face->copiedOpacity = this->SameOpacity >= 0.0f
-          ? std::make_shared<std::vector<float>>(face->copied->size(), this->SameOpacity)
-          : face->copyOpacity(this->CasterOpacity);
-      }
-      map.opacity = face->copiedOpacity;
-    }
+    map.texels = face->copied;
     for (double error : this->CasterError)
     {
       map.worldBias = std::max(map.worldBias, error);
@@ -63,28 +73,5 @@ void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps, int group)
     }
     maps.push_back(std::move(map));
   }
-}
-
-std::shared_ptr<const std::vector<float>> ShadowBuffer::Face::copyOpacity(
-  const std::vector<float>& ofCasters) const
-{
-  auto copy = std::make_shared<std::vector<float>>(
-    static_cast<std::size_t>(this->view.width) * this->view.height, 0.0f);
-  const DepthBuffer& depth = this->layers.depthBuffer();
-  for (int y = 0; this->seesCasters && y < this->view.height; ++y)
-  {
-    float* row = copy->data() + static_cast<std::size_t>(y) * this->view.width;
-    for (int x = 0; x < this->view.width; ++x)
-    {
-      const std::size_t at = depth.at(x, y);
-      std::uint32_t caster;
-      double t;
-      if (this->occluder(at, caster, t))
-      {
-        row[x] = this->opacities.known() ? this->opacities.at(at) : ofCasters[caster];
-      }
-    }
-  }
-  return copy;
 }
 }

@@ -202,7 +202,7 @@ bool mayTakeRays(const Scene& scene, const FrameSettings& settings, const Layere
 {
   // Buffers are there anyway for rasterised receivers. Filters smooth what rays cannot, and who
   // sets a bias has buffers in mind.
-  return !settings.wholeShadowBuffers && !settings.filterShadows && settings.automaticBias &&
+  return !settings.handsOutMaps() && !settings.filterShadows && settings.automaticBias &&
     settings.bias == 0.0 && raysAreExact(scene, eye);
 }
 }

@@ -35,7 +35,7 @@ std::vector<std::uint8_t> sameOutlines(
 bool Shadows::usesBuffer(std::size_t light, const FrameSettings& settings) const
 {
   return this->Techniques[light] == ShadowTechnique::Buffer ||
-    (this->usesRays(light) && settings.wholeShadowBuffers);
+    (this->usesRays(light) && settings.handsOutMaps());
 }
 
 bool Shadows::usesRays() const
@@ -118,14 +118,25 @@ void Shadows::fitMaps(const Scene& seen, const View& view, const FrameSettings& 
   this->Maps = mapsOfLights(this->Fitted, seen.lights, settings, view);
 }
 
-void Shadows::prepare(const Scene& scene, const FrameSettings& settings, LayerBudget& budget,
-  const ParallelFor& parallelFor)
+void Shadows::prepare(const Scene& scene, const View& view, const FrameSettings& settings,
+  LayerBudget& budget, const ParallelFor& parallelFor)
 {
   this->Filters = settings.filters();
   this->Samples = settings.antiAliasing;
   this->TracesWhole = settings.wholeShadowBuffers || this->Samples;
   this->SharedState.clear();
   this->prepareBuffers(scene, scene.lights, this->Maps, 0, settings, budget, parallelFor);
+  if (settings.receiverMaps && !this->TracesWhole)
+  {
+    const SeenReceivers receivers(scene.receivers, view);
+    for (ShadowBuffer* buffer : this->Buffers)
+    {
+      if (buffer)
+      {
+        buffer->mark(receivers);
+      }
+    }
+  }
 }
 
 void Shadows::prepareRays(const Scene& scene, const LayeredView& eye)
@@ -299,6 +310,16 @@ void Shadows::darkness(std::size_t light, const TilePatch& patch, double error,
     return;
   }
   std::fill_n(darkness, TilePatch::Most, 0.0f);
+}
+
+std::size_t Shadows::mapMemory() const
+{
+  std::size_t sum = 0;
+  for (const auto& kept : this->Kept)
+  {
+    sum += kept.second->memory();
+  }
+  return sum;
 }
 
 std::size_t Shadows::layerMemory() const

@@ -49,6 +49,9 @@ public:
     return true;
   }
 
+  /// True if something lies in a tile.
+  bool holds(std::size_t tile) const { return this->TileBegin[tile] != Nothing; }
+
   /// Bytes that the merged texels take.
   std::size_t bytes() const { return this->Texels.size() * sizeof(std::uint64_t); }
 

@@ -34,8 +34,9 @@ public:
   /// The map is not what shadows are looked up in.
   void forget()
   {
-    this->Nearest.clear();
-    this->Casters.clear();
+    this->Nearest = {};
+    this->Farthest = {};
+    this->Casters = {};
   }
   bool known() const { return !this->Nearest.empty(); }
   /// Of each tile. known().

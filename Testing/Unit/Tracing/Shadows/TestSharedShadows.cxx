@@ -246,11 +246,13 @@ TEST(SharedShadows, AProcessWithoutInstancesHasTheWholeMaps)
   const svo::ShadowMap& found = group.Tracers[4].shadowMaps()[0];
   EXPECT_EQ(found.worldBias, expected.worldBias);
   std::size_t casters = 0;
-  for (std::size_t i = 0; i < expected.depth->size(); ++i)
+  for (int i = 0; i < expected.view.width * expected.view.height; ++i)
   {
-    casters += (*expected.depth)[i] < 1e30f;
-    ASSERT_TRUE((*found.depth)[i] == (*expected.depth)[i] ||
-      std::abs((*found.depth)[i] - (*expected.depth)[i]) < 1e-6f)
+    const int x = i % expected.view.width, y = i / expected.view.width;
+    const float depth = expected.texels->depthAt(x, y);
+    casters += depth < 1e30f;
+    ASSERT_TRUE(
+      found.texels->depthAt(x, y) == depth || std::abs(found.texels->depthAt(x, y) - depth) < 1e-6f)
       << i;
   }
   EXPECT_GT(casters, 1000u);
