@@ -117,11 +117,7 @@ public:
    * How shadows are found: not at all, by a shadow buffer per light that is traced like the picture
    * itself (the default), or by one ray to each light from each visible point, the exact reference.
    * With rays, rasterised surfaces still receive from shadow buffers.
-   * Automatic takes, light by light and frame by frame, whichever of buffer and rays is cheaper by
-   * a count of what either has to do, never by a clock: of a still frame the same scene always
-   * gives the same picture. Rays are taken only where they meet the triangles of all that casts, so
-   * that no shadow is less exact than a buffer's. Where rasterised surfaces receive, with
-   * AntiAliasing, with a ShadowBias and where several processes share a scene it takes buffers. See
+   * Automatic takes buffers, whatever the scene and wherever its data lies. See
    * GetNumberOfLightsWithShadowRays().
    */
   vtkSetClampMacro(ShadowTechnique, int, SHADOW_NONE, SHADOW_AUTOMATIC);
@@ -138,9 +134,7 @@ public:
    * has one map. So has a point light whose casters subtend less than 120 degrees, otherwise it has
    * the six faces of a cube. Where a texel of such a map would look wider than 16 pixels, as with a
    * terrain or a large ground that casts, maps of so many texels are fitted to what is seen.
-   * All maps of a frame, 12 bytes a texel and 8 more where rasterised surfaces receive, take at
-   * most 4 GiB: beyond that they have half as many texels along an edge, and so on, and the pass
-   * says so.
+   * Where all of them would take more than ShadowMemoryLimit they have fewer.
    */
   vtkSetClampMacro(ShadowBufferResolution, int, 16, 16384);
   vtkGetMacro(ShadowBufferResolution, int);

@@ -201,14 +201,10 @@ void vtkSVORenderPass::DecideSettings(svo::PassFrame& frame)
   svo::FrameSettings& settings = frame.settings;
   settings = Internals::settingsOf(*this);
   vtkRenderer* renderer = frame.renderer;
-  const auto processes = this->Impl->controller;
-  if (settings.shadowTechnique == svo::ShadowTechnique::Automatic && processes &&
-    processes->GetNumberOfProcesses() > 1)
+  if (settings.shadowTechnique == svo::ShadowTechnique::Automatic)
   {
-    settings.shadowTechnique = svo::ShadowTechnique::Buffer; // they share these
+    settings.shadowTechnique = svo::ShadowTechnique::Buffer; // see SetShadowTechnique()
   }
-  settings.mayDependOnLastFrame =
-    settings.shadowTechnique == svo::ShadowTechnique::Automatic && isInteractive(renderer);
   frame.pacedShadows = hasCameraLight(renderer);
   if (this->AutoAdjustSampleDistances && isInteractive(renderer))
   {

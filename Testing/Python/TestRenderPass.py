@@ -199,6 +199,74 @@ class RenderPass(unittest.TestCase):
         self.assertEqual(convert.GetMaximumLevel(), 10)
 
 
+class ShadowMemory(unittest.TestCase):
+    """Small actors under three lights, a third of them translucent, in a small window: maps are held as
+    far as somebody looks them up and something lies there."""
+
+    def setUp(self):
+        self.window = vtkRenderWindow()
+        self.window.SetOffScreenRendering(True)
+        self.window.SetMultiSamples(0)
+        self.window.SetSize(240, 200)
+        self.renderer = vtkRenderer()
+        self.window.AddRenderer(self.renderer)
+        self.renderer.AutomaticLightCreationOff()
+        for i in range(3):
+            light = vtkLight()
+            light.SetLightTypeToSceneLight()
+            light.SetPosition(2 - 2 * i, 4, 3)
+            light.SetPositional(i != 1)
+            light.SetConeAngle(180 if i == 0 else 60)
+            self.renderer.AddLight(light)
+        self.actors = []
+        for i in range(9):
+            ball = vtkSphereSource()
+            ball.SetThetaResolution(10 + 5 * i)
+            ball.SetPhiResolution(10 + 5 * i)
+            mapper = vtkPolyDataMapper()
+            mapper.SetInputConnection(ball.GetOutputPort())
+            actor = vtkActor()
+            actor.SetMapper(mapper)
+            actor.SetPosition(-2 + 2 * (i % 3), 0.6 * (i // 3), -1.5 + (i * 7 % 9) / 3)
+            actor.GetProperty().SetOpacity(0.5 if i % 3 == 0 else 1.0)
+            self.renderer.AddActor(actor)
+            self.actors.append(actor)
+        self.svo = vtksvo.vtkSVORenderPass()
+        self.renderer.SetPass(self.svo)
+        camera = self.renderer.GetActiveCamera()
+        camera.SetPosition(4, 4, 7)
+        camera.SetFocalPoint(0, 0.7, 0)
+        self.renderer.ResetCameraClippingRange()
+
+    def tearDown(self):
+        self.window.Finalize()
+
+    def test_it_is_what_is_looked_up_and_does_not_grow(self):
+        # Opaque casters alone have thirteen maps of 2048 x 2048 texels: whole, 20 bytes each with copies, 1 GiB.
+        sizes = []
+        for frame in range(24):
+            self.actors[frame % 9].AddPosition(0.2 * (-1) ** (frame // 9), 0, 0.1)
+            self.window.Render()
+            sizes.append(self.svo.GetShadowMemorySize())
+        self.assertGreater(min(sizes), 0)
+        self.assertLess(max(sizes), 128 * 1024)
+        self.assertLess(max(sizes[12:]), 1.5 * max(sizes[:12]))
+
+    def test_its_limit_is_kept_and_said_once(self):
+        said = []
+        self.svo.AddObserver("WarningEvent", lambda *unused: said.append(1))
+        self.assertEqual(self.svo.GetShadowMemoryLimit(), 4 * 1024 * 1024)
+        self.window.Render()
+        self.assertEqual(said, [])
+        limit = self.svo.GetShadowMemorySize() // 4
+        self.svo.SetShadowMemoryLimit(limit)
+        for step in range(3):
+            self.actors[0].AddPosition(0, 0.1, 0)
+            self.window.Render()
+            self.assertLess(self.svo.GetShadowMemorySize(), limit)
+        self.assertEqual(said, [1])
+
+
 class KeptFrame(unittest.TestCase):
     """A frame in which nothing has changed is shown once more; changes in place are seen."""
 

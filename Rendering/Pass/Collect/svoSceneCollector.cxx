@@ -41,8 +41,7 @@ bool sameLevels(const LevelSettings& a, const LevelSettings& b)
     const FrameSettings& f = s.frame;
     return std::tie(s.tracer, s.eye.width, s.eye.height, s.eye.worldToView, s.eye.viewToClip,
       f.shadowTechnique, f.shadowResolution, f.shadowCoarseness, f.shadowMemoryLimit,
-      f.automaticBias, f.bias, f.pixelError, f.antiAliasing, f.filterShadows,
-      f.mayDependOnLastFrame);
+      f.automaticBias, f.bias, f.pixelError, f.antiAliasing, f.filterShadows);
   };
   return values(a) == values(b);
 }

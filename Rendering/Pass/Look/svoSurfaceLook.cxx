@@ -255,8 +255,10 @@ bool reachesBeyondBounds(vtkActor* actor)
 {
   vtkMapper* mapper = actor->GetMapper();
   const RoundLook round = roundLookOf(actor->GetProperty());
-  return !isPlainActor(actor) || !isPlainMapper(mapper) || isGlyphMapper(mapper) ||
-    drawsBodies(mapper) || round.any() || round.edges || hasCustomShaders(actor);
+  // A follower turns with the camera of whoever draws it.
+  return !isPlainActor(actor) || actor->IsA("vtkFollower") || !isPlainMapper(mapper) ||
+    isGlyphMapper(mapper) || drawsBodies(mapper) || round.any() || round.edges ||
+    hasCustomShaders(actor);
 }
 
 bool isUnknownSurface(vtkActor* actor)

@@ -28,7 +28,7 @@ const char DeclarationMark[] = "//SVO::Dec\n";
 const char ImplementationMark[] = "//SVO::Impl\n";
 const char LitMark[] = "//SVO::Lit\n"; // after VTK's lighting
 constexpr std::size_t MapsOfLight = 6; // that there is room for, where most have fewer
-constexpr std::size_t FewTiles = 4096; // of a map, room for which does not matter
+constexpr std::size_t FewTiles = 1024; // of a map, room for which does not matter
 
 /// What is looked up where nothing lies: depths, and how opaque it is.
 const std::vector<float> EmptyTile = []
@@ -47,7 +47,7 @@ std::size_t mostNumbers()
 /// Maps that a shader has room for beside what VTK tells it of so many lights.
 std::size_t mostMaps(std::size_t lights)
 {
-  constexpr std::size_t OfLight = 28, OfMap = 20, Others = 512; // components, as vectors of four
+  constexpr std::size_t OfLight = 28, OfMap = 24, Others = 512; // components, as vectors of four
   GLint components = 0;
   glGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS, &components);
   const std::size_t taken = OfLight * lights + Others;
@@ -228,10 +228,10 @@ bool ShadowReceivers::fits(
   {
     const ShadowTexels& texels = *maps[i]->texels;
     const Block& block = this->Blocks[i];
-    // Twice as much and a few would be too much.
+    // Half as much again and a few would be too much.
     fits = (texels.held() == 0 || block.table == texels.tiles.size()) &&
       block.stride == texels.stride && block.tiles >= texels.held() &&
-      block.tiles <= 2 * texels.held() + FewTiles;
+      block.tiles <= texels.held() + texels.held() / 2 + FewTiles;
   }
   return fits;
 }
@@ -255,7 +255,7 @@ bool ShadowReceivers::layOut(
       this->Tables.push_back(static_cast<int>(EmptyTile.size()));
       continue;
     }
-    const std::size_t tiles = texels.held() + std::min(texels.held() / 8 + 16, FewTiles / 2);
+    const std::size_t tiles = texels.held() + std::min(texels.held() / 8 + 16, FewTiles);
     this->Blocks.push_back({ end, texels.tiles.size(), tiles, texels.stride, {} });
     this->Tables.push_back(static_cast<int>(end));
     end = this->Blocks.back().texels() + texels.stride * tiles;

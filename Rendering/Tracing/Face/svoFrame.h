@@ -47,8 +47,6 @@ struct FrameSettings
   bool occlusionCulling = true; // those that others hide are left out; neither changes a bit
   /// Instances whose rectangle has fewer pixels are not drawn; they cast. 0: all are.
   double detailThreshold = 0.0;
-  /// An automatic technique may depend on what the frame before was like.
-  bool mayDependOnLastFrame = false;
   bool writeNormals = false; // Frame::normals is wanted (SSAO)
   bool writeLight = false;   // Frame::light is wanted (tone mapping)
   bool writeSlopes = false;  // Frame::slopes is wanted (multisampling)

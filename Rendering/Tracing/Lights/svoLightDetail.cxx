@@ -283,11 +283,12 @@ double texelsOf(const std::vector<Outline>& outlines, const std::vector<std::uin
 std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
   const std::vector<Light>& lights, const FrameSettings& settings, const View& eye)
 {
-  // Depth, instance and primitive of the buffer; for receivers a copy, and OpenGL's. Where casters
-  // are translucent how opaque they are as well. Tables have their share in all texels.
-  const double bytes = settings.handsOutMaps() ? 20.0 : 12.0;
-  const double translucentBytes = settings.handsOutMaps() ? 32.0 : 16.0;
-  constexpr double TableBytes = 0.5;
+  // Depth, instance and primitive of the buffer; for receivers a copy, and OpenGL's with room to
+  // grow. Where casters are translucent how opaque they are as well. Tables have their share in all
+  // texels, also of maps that see nothing.
+  const double bytes = settings.handsOutMaps() ? 22.0 : 12.0;
+  const double translucentBytes = settings.handsOutMaps() ? 36.0 : 16.0;
+  constexpr double TableBytes = 0.5, EmptyTableBytes = 0.1;
   std::vector<LightMaps> maps(lights.size());
   const double coarseness = settings.shadowCoarseness;
   assert(coarseness >= 1.0);
@@ -320,7 +321,7 @@ std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
           const double texels = texelsOf(
             outlines, light.casters, static_cast<std::uint8_t>(OpaqueCasters + group), map);
           taken += texels * (group == 0 ? bytes : translucentBytes) +
-            (texels > 0.0 ? TableBytes * map.width * map.height : 0.0);
+            (texels > 0.0 ? TableBytes : EmptyTableBytes) * map.width * map.height;
         }
       }
     }

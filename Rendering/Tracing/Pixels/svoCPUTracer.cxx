@@ -290,7 +290,7 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     const Scene& seen = this->sceneOfLights(scene, settings.shadowTechnique);
     if (frame)
     {
-      this->LightShadows.choose(scene, seen, view, settings, this->Eye);
+      this->LightShadows.choose(scene, seen, view, settings);
     }
     else
     {

@@ -85,7 +85,7 @@ void add(const FrameSettings& s, Bytes& bytes)
 {
   bytes.add(s.shadowTechnique, s.shadowResolution, s.shadowCoarseness, s.shadowMemoryLimit,
     s.automaticBias, s.bias, s.shadowIntensity, s.pixelError, s.antiAliasing, s.filterShadows,
-    s.receiverMaps, s.wholeShadowBuffers, s.detailThreshold, s.mayDependOnLastFrame, s.writeNormals, s.writeLight,
+    s.receiverMaps, s.wholeShadowBuffers, s.detailThreshold, s.writeNormals, s.writeLight,
     s.writeSlopes, s.writeNames);
 }
 }

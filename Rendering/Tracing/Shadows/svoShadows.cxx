@@ -1,36 +1,12 @@
 #include "svoShadows.h"
 
-#include "svoShadowChoice.h"
-
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 
 #include <glm/geometric.hpp>
 
 namespace svo
 {
-namespace
-{
-bool sameViews(const LightMaps& a, const LightMaps& b)
-{
-  return a.casters == b.casters && a.views.size() == b.views.size() &&
-    std::equal(a.views.begin(), a.views.end(), b.views.begin(), sameRays);
-}
-
-/// One byte an outline: 1 if it is what it was.
-std::vector<std::uint8_t> sameOutlines(
-  const std::vector<Outline>& now, const std::vector<Outline>& before)
-{
-  std::vector<std::uint8_t> same(now.size(), 0);
-  for (std::size_t i = 0; i < now.size() && now.size() == before.size(); ++i)
-  {
-    same[i] = std::memcmp(&now[i], &before[i], sizeof(Outline)) == 0;
-  }
-  return same;
-}
-}
-
 /// Rasterised surfaces look up buffers whatever is traced.
 bool Shadows::usesBuffer(std::size_t light, const FrameSettings& settings) const
 {
@@ -53,41 +29,20 @@ void Shadows::chooseAll(const Scene& scene, ShadowTechnique technique)
   }
 }
 
-void Shadows::choose(const Scene& scene, const Scene& seen, const View& view,
-  const FrameSettings& settings, const LayeredView& eye)
+void Shadows::choose(
+  const Scene& scene, const Scene& seen, const View& view, const FrameSettings& settings)
 {
   const bool automatic = settings.shadowTechnique == ShadowTechnique::Automatic;
   this->chooseAll(scene, automatic ? ShadowTechnique::Buffer : settings.shadowTechnique);
-  const std::vector<Outline> outlinesBefore = automatic ? this->Fitted : std::vector<Outline>();
-  const std::vector<LightMaps> mapsBefore = std::move(this->Maps);
-  this->fitMaps(seen, view, settings);
-  if (!automatic)
-  {
-    return;
-  }
-  const bool mayTakeRays = svo::mayTakeRays(scene, settings, eye);
-  for (std::size_t l = 0; l < scene.lights.size(); ++l)
+  for (std::size_t l = 0; automatic && l < scene.lights.size(); ++l)
   {
     const Light& light = scene.lights[l];
     if (light.castShadow && light.shadowTechnique != ShadowTechnique::Automatic)
     {
       this->Techniques[l] = light.shadowTechnique;
     }
-    else if (light.castShadow && mayTakeRays)
-    {
-      std::vector<std::uint8_t> kept(this->Fitted.size(), 0);
-      if (settings.mayDependOnLastFrame && settings.frameCoherence && l < mapsBefore.size() &&
-        sameViews(this->Maps[l], mapsBefore[l]))
-      {
-        kept = sameOutlines(this->Fitted, outlinesBefore);
-      }
-      const ShadowWork work = shadowWork(scene, view, eye, this->Maps[l], kept);
-      if (work.rayTime() < work.bufferTime())
-      {
-        this->Techniques[l] = ShadowTechnique::Rays;
-      }
-    }
   }
+  this->fitMaps(seen, view, settings);
 }
 
 void Shadows::chooseAsBefore(const Scene& seen, const View& view, const FrameSettings& settings)

@@ -24,10 +24,9 @@ class Shadows
 {
 public:
   /// Begins a frame, before prepare() or after traceShared(): decides how each light's shadows are
-  /// found. `scene`: of the points to be tested; `seen`: with the octrees that lights see; `eye`:
-  /// has traced the scene, seen through `view`.
-  void choose(const Scene& scene, const Scene& seen, const View& view,
-    const FrameSettings& settings, const LayeredView& eye);
+  /// found. `scene`: of the points to be tested; `seen`: with the octrees that lights see.
+  void choose(
+    const Scene& scene, const Scene& seen, const View& view, const FrameSettings& settings);
   /// The same, for a frame that is traced once more: as it was decided.
   void chooseAsBefore(const Scene& seen, const View& view, const FrameSettings& settings);
 

@@ -41,6 +41,7 @@ TEST(RenderPassSettings, DefaultsAreThoseOfTheManual)
   EXPECT_TRUE(pass->GetBuildInBackground());
   EXPECT_TRUE(pass->GetFrameCoherence());
   EXPECT_EQ(pass->GetLayerMemoryLimit(), 512 * 1024);
+  EXPECT_EQ(pass->GetShadowMemoryLimit(), 4 * 1024 * 1024);
   EXPECT_FALSE(pass->GetAntiAliasing());
   EXPECT_TRUE(pass->GetViewCulling());
   EXPECT_TRUE(pass->GetOcclusionCulling());
@@ -64,12 +65,13 @@ TEST(RenderPassSettings, DefaultsAreThoseOfTheTracer)
     static_cast<std::size_t>(pass->GetLayerMemoryLimit()) * 1024, settings.layerMemoryLimit);
   EXPECT_EQ(pass->GetAntiAliasing(), settings.antiAliasing);
   EXPECT_EQ(pass->GetFilterShadows(), settings.filterShadows);
-  EXPECT_EQ(settings.shadowMemoryLimit, std::size_t(4) << 30); // SetShadowBufferResolution()
+  EXPECT_EQ(
+    static_cast<std::size_t>(pass->GetShadowMemoryLimit()) * 1024, settings.shadowMemoryLimit);
   EXPECT_EQ(pass->GetViewCulling(), settings.viewCulling);
   EXPECT_EQ(pass->GetOcclusionCulling(), settings.occlusionCulling);
   EXPECT_EQ(pass->GetDetailCullingThreshold(), settings.detailThreshold);
   // What only the pass knows when to ask for.
-  EXPECT_FALSE(settings.wholeShadowBuffers);
+  EXPECT_FALSE(settings.handsOutMaps());
   EXPECT_FALSE(settings.writeNormals);
   EXPECT_FALSE(settings.writeLight);
 }
@@ -287,12 +289,12 @@ TEST(RenderPassSettings, PrintsEverySetting)
   vtkNew<vtkSVORenderPass> pass;
   std::ostringstream text;
   pass->Print(text);
-  for (const char* name :
-    { "Backend", "ShadowTechnique", "ShadowBufferResolution", "AutomaticShadowBias", "ShadowBias",
-      "ShadowIntensity", "FilterShadows", "TranslucentShadows", "PixelError", "ConvertPolyData",
-      "MaximumLevel", "LeafGeometry", "OctreeMemoryLimit", "BuildInBackground", "FrameCoherence",
-      "LayerMemoryLimit", "AntiAliasing", "NumberOfRasterizedActors", "AcceptedPixelError",
-      "NumberOfOctreesBuilt", "NumberOfOctreesInProgress" })
+  for (const char* name : { "Backend", "ShadowTechnique", "ShadowBufferResolution",
+         "AutomaticShadowBias", "ShadowBias", "ShadowIntensity", "FilterShadows",
+         "TranslucentShadows", "PixelError", "ConvertPolyData", "MaximumLevel", "LeafGeometry",
+         "OctreeMemoryLimit", "BuildInBackground", "FrameCoherence", "LayerMemoryLimit",
+         "ShadowMemoryLimit", "ShadowMemorySize", "AntiAliasing", "NumberOfRasterizedActors",
+         "AcceptedPixelError", "NumberOfOctreesBuilt", "NumberOfOctreesInProgress" })
   {
     EXPECT_NE(text.str().find(name), std::string::npos) << name;
   }

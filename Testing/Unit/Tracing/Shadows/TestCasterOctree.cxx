@@ -86,7 +86,8 @@ TEST(CasterOctree, WithoutOneTheLightsSeeWhatTheEyeSees)
   lit.scene.instances[0].body.own().casterOctree = svo::Octree();
   expectSame(given, mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120)));
   lit.scene.instances[0].body.own().octree = lit.fine;
-  EXPECT_NE(*given[0].depth, *mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120))[0].depth);
+  EXPECT_NE(
+    given[0].texels->numbers, mapsOf(lit.scene, lookAt({ 1, -7, 4 }, 160, 120))[0].texels->numbers);
 }
 
 TEST(CasterOctree, DeepeningRetracesTheEyesLayerAlone)
