@@ -46,6 +46,7 @@ class TestLook(unittest.TestCase):
         surface = scene.picture(self.view, name + "-surface", **options)
         for display in self.displays:
             display.Representation = "SVO"
+        pv.Render(self.view)  # figures are those of the last picture
         return svo, surface
 
     def check(self, name, traced=None, share=3e-4, tolerance=3, **options):
