@@ -76,9 +76,10 @@ vtkSmartPointer<vtkDataArray> makeValues(vtkDataArray* from, vtkIdType count)
 }
 
 /// False if it was aborted.
-bool colorBy(vtkDataArray* from, const svo::ImageGrid& grid, const svo::Octree& octree,
-  const svo::BuildOptions& options, vtkPolyData* hull)
+bool colorBy(vtkDataArray* from, const svo::ImageGrid& grid, const svo::SourceOctree& built,
+  const svo::BuildOptions& options, vtkPolyData* mesh)
 {
+  const svo::Octree& octree = built.octree;
   const auto values = makeValues(from, static_cast<vtkIdType>(octree.header().voxelCount));
   bool done = true;
   switch (from->GetDataType())
@@ -88,15 +89,15 @@ bool colorBy(vtkDataArray* from, const svo::ImageGrid& grid, const svo::Octree& 
   }
   if (done)
   {
-    svo::attachLeafValues(hull, octree, values);
+    svo::attachLeafValues(mesh, built, values);
   }
   return done;
 }
 
 template <class T>
 svo::SourceOctree convert(const T* values, const svo::ImageGrid& grid, double value,
-  const svo::Cube& cube, const svo::BuildOptions& options, vtkPolyData* hull,
-  std::shared_ptr<const svo::ValuePyramid>& pyramid)
+  const svo::Cube& cube, const svo::BuildOptions& options, const svo::CarrierOptions& carrier,
+  vtkPolyData* mesh, std::shared_ptr<const svo::ValuePyramid>& pyramid)
 {
   const svo::ImageField<T> field(grid, values);
   if (!pyramid)
@@ -104,7 +105,7 @@ svo::SourceOctree convert(const T* values, const svo::ImageGrid& grid, double va
     pyramid = std::make_shared<const svo::ValuePyramid>(grid, field, options.parallelFor);
   }
   const svo::ImageSource source(field, grid, *pyramid, value);
-  return svo::buildSourceOctree(source, options, hull, &cube);
+  return svo::buildSourceOctree(source, options, carrier, mesh, &cube);
 }
 }
 
@@ -254,6 +255,8 @@ svo::SourceOctree vtkImageToSVO::Convert(
     this->UpdateProgress(begun + share * progress);
     return !svo::isAborted(this);
   };
+  // Front faces look to smaller values, as those of VTK's contours do.
+  const svo::CarrierOptions carrier{ static_cast<std::size_t>(this->MaximumNumberOfQuads), true };
   svo::SourceOctree built{ svo::BuildStatus::BadInput, 0, "scalars of this type are not known" };
   try
   {
@@ -270,11 +273,11 @@ svo::SourceOctree vtkImageToSVO::Convert(
     switch (scalars->GetDataType())
     {
       vtkTemplateMacro(built = convert(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0)), grid,
-                         this->Value, cube, options, output, this->Pyramid));
+                         this->Value, cube, options, carrier, output, this->Pyramid));
     }
     begun = 0.8;
     share = 0.2;
-    if (built.voxels > 0 && colors && !colorBy(colors, grid, built.octree, options, output))
+    if (built.voxels > 0 && colors && !colorBy(colors, grid, built, options, output))
     {
       output->Initialize();
       built = { svo::BuildStatus::Aborted, 0, {} };
@@ -317,6 +320,7 @@ void vtkImageToSVO::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ColorArrayName: " << (this->ColorArrayName ? this->ColorArrayName : "(none)")
      << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
+  os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
   os << indent << "WriteStatistics: " << (this->WriteStatistics ? "On\n" : "Off\n");
   os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
   os << indent << "BuildTime: " << this->BuildTime << " s\n";

@@ -9,13 +9,14 @@
  *
  * Another array of the image can colour the surface, see SetColorArrayName().
  *
- * The output is a coarse hull of the surface that carries the octree in its field data, as that of
- * vtkImplicitFunctionToSVO is. What cannot be converted leads to one message and an output without
- * cells: no scalars, more than one component, an image with fewer than two points along an axis, a
- * spacing or direction matrix without an inverse, an octree that needs more memory than there is
- * (errors), a value that the image does not take (warning). Points whose values are not finite, and
- * blanked points, have no surface near them, blanked cells none in them. The build reports progress
- * and can be aborted.
+ * The output is a contour of the voxels' planes that carries the octree in its field data, as that
+ * of vtkImplicitFunctionToSVO is; its front faces look to smaller values, as those of VTK's
+ * contours. What cannot be converted leads to one message and an output without cells: no scalars,
+ * more than one component, an image with fewer than two points along an axis, a spacing or
+ * direction matrix without an inverse, an octree that needs more memory than there is (errors), a
+ * value that the image does not take (warning). Points whose values are not finite, and blanked
+ * points, have no surface near them, blanked cells none in them. The build reports progress and can
+ * be aborted.
  *
  * Of an image that is spread over processes each converts its part, with voxels of the whole, so
  * that the parts fit together. A part without any surface is no reason for a warning.
@@ -71,8 +72,9 @@ public:
    * coloured by; default none. Each voxel keeps its value at the surface: the output has field data
    * of that name with a tuple for each voxel, and cell data of the same name, so that mappers can
    * be told to colour by it: vtkSVORenderPass shows the voxels' values, VTK's rasteriser means of
-   * the hull's cells. Unsigned bytes of 3 or 4 components stay colours, other integers become
-   * floats. An array that is not there is a warning, but for the name "None", which is none, too.
+   * the voxels that a quad joins. Unsigned bytes of 3 or 4 components stay colours, other integers
+   * become floats. An array that is not there is a warning, but for the name "None", which is none,
+   * too.
    */
   vtkSetStringMacro(ColorArrayName);
   vtkGetStringMacro(ColorArrayName);
@@ -84,6 +86,16 @@ public:
    */
   vtkSetMacro(MemoryLimit, unsigned long);
   vtkGetMacro(MemoryLimit, unsigned long);
+  //@}
+
+  //@{
+  /**
+   * How large the output's mesh may get: its contour has about as many quads as the octree has
+   * cells at the deepest level that has at most this many. 1 to 500 million, values outside are
+   * clamped; default 1 million. A quad takes about 44 bytes.
+   */
+  vtkSetClampMacro(MaximumNumberOfQuads, vtkIdType, 1, 500000000);
+  vtkGetMacro(MaximumNumberOfQuads, vtkIdType);
   //@}
 
   //@{
@@ -130,6 +142,7 @@ private:
   int MaximumLevel = 0;
   char* ColorArrayName = nullptr;
   unsigned long MemoryLimit = 0;
+  vtkIdType MaximumNumberOfQuads = 1000000;
   bool WriteStatistics = false;
   vtkIdType NumberOfVoxels = 0;
   double BuildTime = 0.0;

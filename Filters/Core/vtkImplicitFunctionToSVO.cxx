@@ -99,7 +99,8 @@ int vtkImplicitFunctionToSVO::RequestData(
   const FunctionField field(this->ImplicitFunction);
   const svo::FieldSource source(field, { this->Value, this->GradientBound, coarsest });
   const double start = vtkTimerLog::GetUniversalTime();
-  const svo::SourceOctree built = svo::buildSourceOctree(source, options, output);
+  const svo::SourceOctree built = svo::buildSourceOctree(
+    source, options, { static_cast<std::size_t>(this->MaximumNumberOfQuads) }, output);
   this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
   this->NumberOfVoxels = static_cast<vtkIdType>(built.voxels);
   if (built.octree && this->WriteStatistics)
@@ -132,6 +133,7 @@ void vtkImplicitFunctionToSVO::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumLevel: " << this->MinimumLevel << "\n";
   os << indent << "Parallel: " << (this->Parallel ? "On\n" : "Off\n");
   os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
+  os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
   os << indent << "WriteStatistics: " << (this->WriteStatistics ? "On\n" : "Off\n");
   os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
   os << indent << "BuildTime: " << this->BuildTime << " s\n";

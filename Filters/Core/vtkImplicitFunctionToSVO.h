@@ -7,11 +7,11 @@
  * dense grid: time and memory go with the surface. Each voxel of the last level that the surface
  * touches keeps a plane, from the function's value and gradient.
  *
- * The output is a coarse hull of the surface (quads around the cells of an upper level) that
- * carries the octree in its field data. So bounds, outlines, pickers and files work as they do with
- * any mesh; vtkSVORenderPass traces the surface itself, and VTK's rasteriser, where it has to draw,
- * shows the hull. A filter downstream that changes points or cells of the hull leaves an octree
- * that is recognised as foreign.
+ * The output is a contour of the voxels' planes, quads with normals, that carries the octree in its
+ * field data. So bounds, outlines, pickers and files work as they do with any mesh;
+ * vtkSVORenderPass traces the octree, and VTK's rasteriser, where it has to draw (clipping planes,
+ * opacity, edges and more), draws the contour. See SetMaximumNumberOfQuads(). A filter downstream
+ * that changes points or cells leaves an octree that is recognised as foreign.
  *
  * Where the function's gradient has a known bound, see SetGradientBound(), nothing is missed. Else
  * the function is sampled nine times in each cube, from the cubes of MinimumLevel on, and parts of
@@ -122,6 +122,16 @@ public:
 
   //@{
   /**
+   * How large the output's mesh may get: its contour has about as many quads as the octree has
+   * cells at the deepest level that has at most this many. 1 to 500 million, values outside are
+   * clamped; default 1 million. A quad takes about 44 bytes.
+   */
+  vtkSetClampMacro(MaximumNumberOfQuads, vtkIdType, 1, 500000000);
+  vtkGetMacro(MaximumNumberOfQuads, vtkIdType);
+  //@}
+
+  //@{
+  /**
    * Whether the output's field data also says, in arrays of one value, what the octree is like:
    * "SVO Level", "SVO Voxels", "SVO Memory" (KiB) and "SVO Build Time" (s). For programs that show
    * field data to people. Default off.
@@ -159,6 +169,7 @@ private:
   int MinimumLevel = 5;
   bool Parallel = true;
   unsigned long MemoryLimit = 0;
+  vtkIdType MaximumNumberOfQuads = 1000000;
   bool WriteStatistics = false;
   vtkIdType NumberOfVoxels = 0;
   double BuildTime = 0.0;

@@ -40,7 +40,7 @@ svo::Octree carriedOctree(vtkPolyData* mesh, const svo::MeshOctreeOptions& optio
   const bool same = octree.level() == options.level &&
     octree.header().leafGeometry == static_cast<std::uint32_t>(options.leafGeometry) &&
     svo::fitsModel(octree, options.modelBounds);
-  // What an octree of planes travels on is a hull, not the surface.
+  // What an octree of planes travels on is made of it.
   return same || any || octree.hasPlanes() ? octree : svo::Octree();
 }
 

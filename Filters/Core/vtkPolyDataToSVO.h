@@ -12,7 +12,7 @@
  * no part in the octree. The octree remembers a signature of the mesh, so that a filter downstream
  * that changes points or cells leaves an octree that is recognised as foreign. An input that
  * already carries a fitting octree of the same level and leaf geometry keeps it, without a build.
- * So does the hull of a surface that is no mesh (vtkImplicitFunctionToSVO), whatever the level.
+ * So does the contour of a surface that is no mesh (vtkImplicitFunctionToSVO), whatever the level.
  *
  * Animated meshes: the octree of each time step (or of each block of a composite dataset, or of any
  * mesh that comes along) is built once and kept, see SetCacheTimeSteps().

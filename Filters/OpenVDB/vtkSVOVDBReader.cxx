@@ -312,6 +312,7 @@ int vtkSVOVDBReader::RequestData(
   options.conversion = static_cast<svo::VDBConversion>(this->Conversion);
   options.threshold = this->Threshold;
   options.memoryLimit = this->MemoryLimit * Kibi;
+  options.carrier.cells = static_cast<std::size_t>(this->MaximumNumberOfQuads);
   options.parallelFor = svo::smpParallelFor();
   options.progress = [this](double progress)
   {
@@ -374,6 +375,7 @@ void vtkSVOVDBReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Conversion: " << Names[this->Conversion] << "\n";
   os << indent << "Threshold: " << this->Threshold << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
+  os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
   os << indent << "WriteStatistics: " << (this->WriteStatistics ? "On\n" : "Off\n");
   os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
   os << indent << "ReadTime: " << this->ReadTime << " s\n";

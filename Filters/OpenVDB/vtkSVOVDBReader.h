@@ -12,9 +12,9 @@
  * read. Constant tiles count as the voxels that they stand for. A surface is that of the trilinear
  * field of all values, active or not, tiles and the background included.
  *
- * The output is a coarse hull of the surface that carries the octree in its field data, as that of
- * vtkImplicitFunctionToSVO is; the string array "VDBMetadata" beside it has the grid's and the
- * file's metadata, a "name: value" each.
+ * The output is a contour of the surface that carries the octree in its field data, as that of
+ * vtkImplicitFunctionToSVO is, or, of voxels, faces of coarse cubes; the string array "VDBMetadata"
+ * beside it has the grid's and the file's metadata, a "name: value" each.
  *
  * Several files are time steps, 0, 1, 2 and so on, in the order in which they were added.
  *
@@ -129,6 +129,17 @@ public:
 
   //@{
   /**
+   * How large the output's mesh may get: its contour has about as many quads as the octree has
+   * cells at the deepest level that has at most this many. 1 to 500 million, values outside are
+   * clamped; default 1 million. A quad takes about 44 bytes. Of surfaces only: where leaves are
+   * voxels, the mesh has the faces of cells of level 5.
+   */
+  vtkSetClampMacro(MaximumNumberOfQuads, vtkIdType, 1, 500000000);
+  vtkGetMacro(MaximumNumberOfQuads, vtkIdType);
+  //@}
+
+  //@{
+  /**
    * Whether the output's field data also says, in arrays of one value, what the octree is like:
    * "SVO Level", "SVO Voxels", "SVO Memory" (KiB) and "SVO Build Time" (s). For programs that show
    * field data to people. Default off.
@@ -171,6 +182,7 @@ private:
   int Conversion = AUTOMATIC;
   double Threshold = 0.0;
   unsigned long MemoryLimit = 0;
+  vtkIdType MaximumNumberOfQuads = 1000000;
   bool WriteStatistics = false;
   vtkIdType NumberOfVoxels = 0;
   double ReadTime = 0.0;

@@ -107,7 +107,7 @@ class ImplicitFunctions(Traced):
                 if name in ("Sphere", "Box", "Cylinder", "Quadric"):
                     low, high = (numpy.array(source.GetDataInformation().GetBounds())[i::2]
                                  for i in (0, 1))
-                    # A cell of the hull more than the box, at most.
+                    # The surface ends at the box.
                     self.assertTrue((low > [-1.3, -1.3, 0.0]).all() and (high < [1.3, 1.3, 1.7]).all())
 
     def test_settings(self):

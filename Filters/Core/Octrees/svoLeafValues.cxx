@@ -1,5 +1,6 @@
 #include "svoLeafValues.h"
 
+#include "svoCellIds.h"
 #include "svoCellSurface.h"
 #include "svoMeshOctree.h"
 #include "svoNode.h"
@@ -90,17 +91,45 @@ std::vector<double> meansOf(const Octree& octree, int level, vtkDataArray* value
   return sums;
 }
 
-/// Cell data for the quads of makeHull(), in their order.
-vtkSmartPointer<vtkDataArray> hullValues(
-  vtkPolyData* hull, const Octree& octree, vtkDataArray* values)
+/// Cell data for the quads of a contour: means of the cells that they join; of its pieces, which
+/// have one cell each.
+void averageQuads(
+  vtkPolyData* mesh, const std::vector<double>& means, int components, vtkDataArray* array)
 {
-  const int level = std::min(octree.level(), HullLevel);
-  const int components = values->GetNumberOfComponents();
-  const std::vector<double> means = meansOf(octree, level, values);
-  auto array = vtkSmartPointer<vtkDataArray>::Take(values->NewInstance());
-  array->SetName(values->GetName());
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(hull->GetNumberOfCells());
+  const auto cells = static_cast<vtkIdType>(means.size()) / components;
+  std::vector<double> sum(components);
+  vtkIdType quad = 0;
+  useCellIds(mesh->GetPolys(),
+    [&](const auto* offsets, const auto* ids)
+    {
+      for (; quad < array->GetNumberOfTuples(); ++quad)
+      {
+        int count = 0;
+        std::fill(sum.begin(), sum.end(), 0.0);
+        for (auto i = offsets[quad]; i < offsets[quad + 1]; ++i)
+        {
+          if (ids[i] < cells)
+          {
+            ++count;
+            for (int c = 0; c < components; ++c)
+            {
+              sum[c] += means[static_cast<std::size_t>(ids[i]) * components + c];
+            }
+          }
+        }
+        for (double& value : sum)
+        {
+          value /= count;
+        }
+        array->SetTuple(quad, sum.data());
+      }
+    });
+}
+
+/// Cell data for the faces of cells, in their order.
+void repeatForFaces(
+  const Octree& octree, int level, const std::vector<double>& means, vtkDataArray* array)
+{
   vtkIdType quad = 0;
   std::size_t index = 0;
   forEachCell(octree, level,
@@ -113,9 +142,28 @@ vtkSmartPointer<vtkDataArray> hullValues(
           array->SetTuple(quad++, means.data() + index);
         }
       }
-      index += static_cast<std::size_t>(components);
+      index += static_cast<std::size_t>(array->GetNumberOfComponents());
       return true;
     });
+}
+
+vtkSmartPointer<vtkDataArray> quadValues(
+  vtkPolyData* mesh, const SourceOctree& built, vtkDataArray* values)
+{
+  const int components = values->GetNumberOfComponents();
+  const std::vector<double> means = meansOf(built.octree, built.meshLevel, values);
+  auto array = vtkSmartPointer<vtkDataArray>::Take(values->NewInstance());
+  array->SetName(values->GetName());
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(mesh->GetNumberOfCells());
+  if (built.octree.header().leafGeometry == static_cast<std::uint32_t>(LeafGeometry::Voxel))
+  {
+    repeatForFaces(built.octree, built.meshLevel, means, array);
+  }
+  else
+  {
+    averageQuads(mesh, means, components, array);
+  }
   return array;
 }
 }
@@ -160,27 +208,27 @@ bool forEachLeaf(const Octree& octree, const ParallelFor& parallelFor,
   return true;
 }
 
-void attachLeafValues(vtkPolyData* hull, const Octree& octree, vtkDataArray* values)
+void attachLeafValues(vtkPolyData* mesh, const SourceOctree& built, vtkDataArray* values)
 {
-  const vtkSmartPointer<vtkDataArray> ofHull = hullValues(hull, octree, values);
+  const vtkSmartPointer<vtkDataArray> ofQuads = quadValues(mesh, built, values);
   if (values->GetNumberOfComponents() == 1)
   {
     double range[2], finite[2];
     values->GetRange(range);
     values->GetFiniteRange(finite);
-    tellRange(ofHull, range, finite);
+    tellRange(ofQuads, range, finite);
   }
-  hull->GetFieldData()->AddArray(values);
-  hull->GetCellData()->AddArray(ofHull);
+  mesh->GetFieldData()->AddArray(values);
+  mesh->GetCellData()->AddArray(ofQuads);
 }
 
-LeafArrays emptyCopiesOfLeafValues(vtkPolyData* hull)
+LeafArrays emptyCopiesOfLeafValues(vtkPolyData* mesh)
 {
   LeafArrays arrays;
-  vtkFieldData* all = hull->GetFieldData();
+  vtkFieldData* all = mesh->GetFieldData();
   for (int i = 0; i < all->GetNumberOfArrays(); ++i)
   {
-    vtkDataArray* values = leafValues(hull, all->GetArrayName(i));
+    vtkDataArray* values = leafValues(mesh, all->GetArrayName(i));
     if (values)
     {
       auto copy = vtkSmartPointer<vtkDataArray>::Take(values->NewInstance());
@@ -204,18 +252,18 @@ vtkIdType firstLeaf(const Octree& octree, const OctreeCell& cell)
                                           : octree.firstPlane(child(node, bit));
 }
 
-vtkDataArray* leafValues(vtkPolyData* hull, const char* name)
+vtkDataArray* leafValues(vtkPolyData* mesh, const char* name)
 {
-  vtkDataArray* values = name ? hull->GetFieldData()->GetArray(name) : nullptr;
-  // Field data of other kinds has no means on the hull.
+  vtkDataArray* values = name ? mesh->GetFieldData()->GetArray(name) : nullptr;
+  // Field data of other kinds has no means in its cells.
   if (!values || values->GetNumberOfTuples() == 0 || std::string(name) == OctreeArrayName ||
-    !hull->GetCellData()->HasArray(name))
+    !mesh->GetCellData()->HasArray(name))
   {
     return nullptr;
   }
   Octree octree;
   std::string message;
-  const bool found = openAttachedOctree(hull, octree, message) == Attached::Found;
+  const bool found = openAttachedOctree(mesh, octree, message) == Attached::Found;
   return found && octree.hasPlanes() &&
       static_cast<std::uint64_t>(values->GetNumberOfTuples()) == octree.header().voxelCount
     ? values

@@ -1,14 +1,16 @@
-// Values of an octree's leaves: a field-data array of the hull, of any type, with a tuple for each
-// voxel in the octree's order. Colour maps, files and ParaView take it as the array that it is.
+// Values of an octree's leaves: a field-data array of the mesh that carries it, of any type, with a
+// tuple for each voxel in the octree's order. Colour maps, files and ParaView take it as the array
+// that it is.
 //
-// The hull has cell data of the same name, means of what lies below its cells, so that a mapper can
-// be told to colour by it, and whoever draws the hull shows about the same.
+// The mesh has cell data of the same name, means of the voxels around each quad, so that a mapper
+// can be told to colour by it, and whoever draws the mesh shows about the same.
 #ifndef svoLeafValues_h
 #define svoLeafValues_h
 
 #include "svoOctree.h"
 #include "svoOctreeCells.h"
 #include "svoParallel.h"
+#include "svoSourceOctree.h"
 #include "vtkSVOCoreModule.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -34,21 +36,21 @@ bool forEachLeaf(const Octree& octree, const ParallelFor& parallelFor,
   const std::function<bool(double)>& progress,
   const std::function<void(std::size_t, const glm::dvec3&)>& visit);
 
-/// Gives the hull of an octree of planes an array that has a name and a tuple for each voxel. The
-/// hull's cell data of that name tells the range of all voxels as its own.
+/// Gives the mesh of an octree that was built of a source an array that has a name and a tuple for
+/// each voxel. The mesh's cell data of that name tells the range of all voxels as its own.
 VTKSVOCORE_EXPORT void attachLeafValues(
-  vtkPolyData* hull, const Octree& octree, vtkDataArray* values);
+  vtkPolyData* mesh, const SourceOctree& built, vtkDataArray* values);
 
-/// Copies of all values of the octree that a hull carries, of the same types and names, without
+/// Copies of all values of the octree that a mesh carries, of the same types and names, without
 /// tuples yet, each with what it is copied from.
 using LeafArrays = std::vector<std::pair<vtkDataArray*, vtkSmartPointer<vtkDataArray>>>;
-LeafArrays emptyCopiesOfLeafValues(vtkPolyData* hull);
+LeafArrays emptyCopiesOfLeafValues(vtkPolyData* mesh);
 
 /// The number of the first voxel in a cell of an octree of planes, whose values stand for it.
 vtkIdType firstLeaf(const Octree& octree, const OctreeCell& cell);
 
-/// The values of that name of the octree that a hull carries; nullptr if there are none.
-VTKSVOCORE_EXPORT vtkDataArray* leafValues(vtkPolyData* hull, const char* name);
+/// The values of that name of the octree that a mesh carries; nullptr if there are none.
+VTKSVOCORE_EXPORT vtkDataArray* leafValues(vtkPolyData* mesh, const char* name);
 }
 
 #endif

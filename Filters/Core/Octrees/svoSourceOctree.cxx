@@ -1,6 +1,8 @@
 #include "svoSourceOctree.h"
 
+#include "svoCellPlanes.h"
 #include "svoCellSurface.h"
+#include "svoContour.h"
 #include "svoMeshOctree.h"
 
 #include "vtkPolyData.h"
@@ -16,18 +18,39 @@ namespace svo
 {
 namespace
 {
-/// Double precision: bounds of the hull have to hold the surface wherever it lies. `bounds`: of the
-/// planes, which pass their voxels by half a voxel, in the octree's own frame, as VTK orders them.
-void makeHull(const Octree& octree, vtkPolyData* hull, double bounds[6])
+/// The deepest level of cubes and bounds: some thousand cells.
+constexpr int CoarseLevel = 5;
+
+/// Of the planes, which pass their voxels by half a voxel, in the octree's own frame, as VTK orders
+/// them.
+void boundPlanes(const Octree& octree, double bounds[6])
 {
-  const int level = std::min(octree.level(), HullLevel);
-  CellQuads quads;
+  const int level = std::min(octree.level(), CoarseLevel);
   glm::ivec3 low(std::numeric_limits<int>::max()), high(-1);
-  forEachVisibleCell(octree, level, false,
-    [&](const OctreeCell& cell, int faces)
+  forEachCell(octree, level,
+    [&](const OctreeCell& cell)
     {
       low = glm::min(low, cell.cell);
       high = glm::max(high, cell.cell + 1);
+      return true;
+    });
+  const Header& header = octree.header();
+  const double edge = std::ldexp(header.voxelSize, octree.level() - level);
+  for (int i = 0; i < 3; ++i)
+  {
+    const bool any = high[i] >= 0;
+    bounds[2 * i] = any ? header.origin[i] + low[i] * edge - 0.5 * header.voxelSize : 1.0;
+    bounds[2 * i + 1] = any ? header.origin[i] + high[i] * edge + 0.5 * header.voxelSize : -1.0;
+  }
+}
+
+/// The faces of cells, as double precision: they hold the surface wherever it lies.
+void makeCubes(const Octree& octree, int level, vtkPolyData* mesh)
+{
+  CellQuads quads;
+  forEachVisibleCell(octree, level, false,
+    [&](const OctreeCell& cell, int faces)
+    {
       for (int f = 0; f < CellFaces; ++f)
       {
         if (faces >> f & 1)
@@ -37,15 +60,7 @@ void makeHull(const Octree& octree, vtkPolyData* hull, double bounds[6])
       }
       return true;
     });
-  quads.write(octree, level, VTK_DOUBLE, hull);
-  const Header& header = octree.header();
-  const double edge = std::ldexp(header.voxelSize, octree.level() - level);
-  for (int i = 0; i < 3; ++i)
-  {
-    const bool any = high[i] >= 0;
-    bounds[2 * i] = any ? header.origin[i] + low[i] * edge - 0.5 * header.voxelSize : 1.0;
-    bounds[2 * i + 1] = any ? header.origin[i] + high[i] * edge + 0.5 * header.voxelSize : -1.0;
-  }
+  quads.write(octree, level, VTK_DOUBLE, mesh);
 }
 
 /// Cuts bounds that are not empty down to the box that a surface was looked for in.
@@ -62,8 +77,8 @@ void cutBounds(const BuildOptions& options, double bounds[6])
   }
 }
 
-SourceOctree buildUnguarded(
-  const SurfaceSource& source, const BuildOptions& options, vtkPolyData* hull, const Cube* cube)
+SourceOctree buildUnguarded(const SurfaceSource& source, const BuildOptions& options,
+  const CarrierOptions& carrier, vtkPolyData* mesh, const Cube* cube)
 {
   BuildResult result = cube ? build(source, *cube, options) : build(source, options);
   if (result.status != BuildStatus::Built)
@@ -78,28 +93,41 @@ SourceOctree buildUnguarded(
     return { BuildStatus::BadInput, 0, message, {} };
   }
   Header& header = *reinterpret_cast<Header*>(result.data.get());
-  makeHull(octree, hull, header.meshBounds);
+  boundPlanes(octree, header.meshBounds);
   cutBounds(options, header.meshBounds);
-  header.signature = meshSignature(hull);
-  header.pointCount = static_cast<std::uint64_t>(hull->GetNumberOfPoints());
-  header.cellCount = static_cast<std::uint64_t>(hull->GetNumberOfCells());
-  attachOctree(hull, octree);
-  return { BuildStatus::Built, header.voxelCount, std::string(), octree };
+  const bool cubes = options.leafGeometry == LeafGeometry::Voxel;
+  const int level =
+    cubes ? std::min(octree.level(), CoarseLevel) : deepestLevel(octree, carrier.cells);
+  if (cubes)
+  {
+    makeCubes(octree, level, mesh);
+  }
+  else
+  {
+    makeContour(octree,
+      { level, { options.modelLow, options.modelHigh }, carrier.turned, options.parallelFor },
+      mesh);
+  }
+  header.signature = meshSignature(mesh);
+  header.pointCount = static_cast<std::uint64_t>(mesh->GetNumberOfPoints());
+  header.cellCount = static_cast<std::uint64_t>(mesh->GetNumberOfCells());
+  attachOctree(mesh, octree);
+  return { BuildStatus::Built, header.voxelCount, std::string(), octree, level };
 }
 }
 
-SourceOctree buildSourceOctree(
-  const SurfaceSource& source, BuildOptions options, vtkPolyData* hull, const Cube* cube)
+SourceOctree buildSourceOctree(const SurfaceSource& source, BuildOptions options,
+  const CarrierOptions& carrier, vtkPolyData* mesh, const Cube* cube)
 {
-  hull->Initialize();
+  mesh->Initialize();
   options.memoryLimit = options.memoryLimit != 0 ? options.memoryLimit : availableMemory();
   try
   {
-    return buildUnguarded(source, options, hull, cube);
+    return buildUnguarded(source, options, carrier, mesh, cube);
   }
   catch (const std::bad_alloc&)
   {
-    hull->Initialize();
+    mesh->Initialize();
     return { BuildStatus::TooLarge, 0,
       "there is not enough memory for an octree of level " + std::to_string(options.level) };
   }

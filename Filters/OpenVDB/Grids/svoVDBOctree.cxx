@@ -222,7 +222,7 @@ void boundBlocks(const openvdb::GridBase& grid, bool surface,
 }
 
 template <class GridT>
-SourceOctree convert(const GridT& grid, const VDBOptions& options, vtkPolyData* hull)
+SourceOctree convert(const GridT& grid, const VDBOptions& options, vtkPolyData* mesh)
 {
   const bool levelSet = grid.getGridClass() == openvdb::GRID_LEVEL_SET;
   const bool surface = isSurface(grid, options.conversion);
@@ -280,7 +280,7 @@ SourceOctree convert(const GridT& grid, const VDBOptions& options, vtkPolyData* 
   const auto index = [&](int i) { return static_cast<std::int32_t>(first[i] * Edge); };
   const GridSource<GridT> source(grid, surface, value, levelSet,
     Coord(index(0), index(1), index(2)), std::move(blocks), cube, build.level);
-  SourceOctree built = buildSourceOctree(source, build, hull, &cube);
+  SourceOctree built = buildSourceOctree(source, build, options.carrier, mesh, &cube);
   if (built.status == BuildStatus::TooLarge)
   {
     built.message = "its voxels need more memory than there is"; // the level is the grid's
@@ -289,7 +289,7 @@ SourceOctree convert(const GridT& grid, const VDBOptions& options, vtkPolyData* 
 }
 
 SourceOctree convertKnown(
-  const openvdb::GridBase& grid, const VDBOptions& options, vtkPolyData* hull)
+  const openvdb::GridBase& grid, const VDBOptions& options, vtkPolyData* mesh)
 {
   SourceOctree built{ BuildStatus::BadInput, 0, {} };
   bool known = false;
@@ -299,7 +299,7 @@ SourceOctree convertKnown(
     if (!known && grid.isType<GridT>())
     {
       known = true;
-      built = convert(static_cast<const GridT&>(grid), options, hull);
+      built = convert(static_cast<const GridT&>(grid), options, mesh);
     }
   };
   as(static_cast<const openvdb::FloatGrid*>(nullptr));
@@ -326,13 +326,13 @@ bool isSurface(const openvdb::GridBase& grid, VDBConversion conversion)
 }
 
 SourceOctree octreeOfGrid(
-  const openvdb::GridBase& grid, const VDBOptions& options, vtkPolyData* hull)
+  const openvdb::GridBase& grid, const VDBOptions& options, vtkPolyData* mesh)
 {
-  hull->Initialize();
+  mesh->Initialize();
   SourceOctree failed{ BuildStatus::BadInput, 0, {} };
   try
   {
-    return convertKnown(grid, options, hull);
+    return convertKnown(grid, options, mesh);
   }
   catch (const Refused& refused)
   {
@@ -346,7 +346,7 @@ SourceOctree octreeOfGrid(
   {
     failed.message = failure.what();
   }
-  hull->Initialize();
+  mesh->Initialize();
   return failed;
 }
 }

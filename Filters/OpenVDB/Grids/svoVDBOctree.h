@@ -30,6 +30,7 @@ struct VDBOptions
   /// whose surface is at 0. Of masks and bools nothing: active and true is occupied.
   double threshold = 0.0;
   std::size_t memoryLimit = 0; // bytes; 0: what the machine has available
+  CarrierOptions carrier{};
   ParallelFor parallelFor = serialFor;
   /// Called now and then on the calling thread with 0..1; returning false aborts.
   std::function<bool(double)> progress;
@@ -41,10 +42,10 @@ constexpr char LevelMetadata[] = "vtksvo_level";
 /// Whether the grid becomes a surface: planes, not voxels.
 VTKSVOOPENVDB_EXPORT bool isSurface(const openvdb::GridBase& grid, VDBConversion conversion);
 
-/// The octree of a grid, attached to its hull, as buildSourceOctree() does it, with planes as
+/// The octree of a grid, attached to its mesh, as buildSourceOctree() does it, with planes as
 /// leaves of surfaces, else voxels. Each leaf is a voxel of the grid. Throws nothing.
 VTKSVOOPENVDB_EXPORT SourceOctree octreeOfGrid(
-  const openvdb::GridBase& grid, const VDBOptions& options, vtkPolyData* hull);
+  const openvdb::GridBase& grid, const VDBOptions& options, vtkPolyData* mesh);
 }
 
 #endif

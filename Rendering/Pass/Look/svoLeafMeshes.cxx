@@ -18,20 +18,20 @@ namespace svo
 namespace
 {
 /// The name of the cell data that a mapper colours by; nullptr: it colours by something else.
-const char* nameOfCellData(vtkPolyData* hull, vtkMapper* mapper)
+const char* nameOfCellData(vtkPolyData* carrier, vtkMapper* mapper)
 {
   int association = 0;
-  vtkAbstractArray* array = vtkAbstractMapper::GetAbstractScalars(hull, mapper->GetScalarMode(),
+  vtkAbstractArray* array = vtkAbstractMapper::GetAbstractScalars(carrier, mapper->GetScalarMode(),
     mapper->GetArrayAccessMode(), mapper->GetArrayId(), mapper->GetArrayName(), association);
   constexpr int Cells = 1;
   return array && association == Cells ? array->GetName() : nullptr;
 }
 
-vtkSmartPointer<vtkPolyData> meshOf(vtkPolyData* hull, vtkDataArray* values)
+vtkSmartPointer<vtkPolyData> meshOf(vtkPolyData* carrier, vtkDataArray* values)
 {
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
-  // By index or by name, a mapper finds the array where it is in the hull.
-  vtkCellData* from = hull->GetCellData();
+  // By index or by name, a mapper finds the array where it is in the carrier.
+  vtkCellData* from = carrier->GetCellData();
   for (int i = 0; i < from->GetNumberOfArrays(); ++i)
   {
     const char* name = from->GetArrayName(i);
@@ -49,20 +49,20 @@ vtkSmartPointer<vtkPolyData> meshOf(vtkPolyData* hull, vtkDataArray* values)
 }
 }
 
-vtkPolyData* LeafMeshes::of(vtkPolyData* hull, vtkMapper* mapper, Kept& kept)
+vtkPolyData* LeafMeshes::of(vtkPolyData* carrier, vtkMapper* mapper, Kept& kept)
 {
-  const char* name = nameOfCellData(hull, mapper);
-  vtkDataArray* values = name ? leafValues(hull, name) : nullptr;
+  const char* name = nameOfCellData(carrier, mapper);
+  vtkDataArray* values = name ? leafValues(carrier, name) : nullptr;
   if (!values)
   {
     return nullptr;
   }
   Entry& entry = this->Entries.of(values, kept);
-  // Times are never given twice, so a new hull in an old one's place is noticed, too.
-  if (!entry.mesh || entry.time != hull->GetMTime())
+  // Times are never given twice, so a new carrier in an old one's place is noticed, too.
+  if (!entry.mesh || entry.time != carrier->GetMTime())
   {
-    entry.time = hull->GetMTime();
-    entry.mesh = meshOf(hull, values);
+    entry.time = carrier->GetMTime();
+    entry.mesh = meshOf(carrier, values);
   }
   return entry.mesh;
 }

@@ -19,9 +19,9 @@ namespace svo
 class LeafMeshes
 {
 public:
-  /// What has the values of leaves as cell data, in the place of the hull's of that name, where the
-  /// mapper colours the hull by such; else nullptr.
-  vtkPolyData* of(vtkPolyData* hull, vtkMapper* mapper, Kept& kept);
+  /// What has the values of leaves as cell data, in the place of the mesh's of that name, where the
+  /// mapper colours it by such; else nullptr.
+  vtkPolyData* of(vtkPolyData* carrier, vtkMapper* mapper, Kept& kept);
 
   /// Drops what nobody keeps.
   void sweep() { this->Entries.sweep(); }
@@ -30,7 +30,7 @@ private:
   struct Entry
   {
     vtkSmartPointer<vtkPolyData> mesh;
-    vtkMTimeType time = 0; // of the hull
+    vtkMTimeType time = 0; // of the carrier
   };
   KeptValues<vtkDataArray*, Entry> Entries;
 };

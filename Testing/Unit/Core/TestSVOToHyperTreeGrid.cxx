@@ -151,7 +151,7 @@ TEST(SVOToHyperTreeGrid, StretchesWithTheFrame)
   const svotest::SphereField sphere(0.8);
   const svo::FieldSource source(sphere, { 0.0, 0.0, 0.05 });
   vtkNew<vtkPolyData> hull;
-  ASSERT_EQ(svo::buildSourceOctree(source, options, hull).status, svo::BuildStatus::Built);
+  ASSERT_EQ(svo::buildSourceOctree(source, options, {}, hull).status, svo::BuildStatus::Built);
   GridOf grid(hull);
   const double* b = grid.output()->GetBounds();
   const svo::Octree octree = octreeOf(hull);
@@ -166,7 +166,7 @@ TEST(SVOToHyperTreeGrid, StretchesWithTheFrame)
   EXPECT_TRUE(grid.messages.all().empty()) << grid.messages.all();
 
   options.frame[1][0] = 0.1;
-  ASSERT_EQ(svo::buildSourceOctree(source, options, hull).status, svo::BuildStatus::Built);
+  ASSERT_EQ(svo::buildSourceOctree(source, options, {}, hull).status, svo::BuildStatus::Built);
   GridOf sheared(hull);
   EXPECT_EQ(sheared.output()->GetNumberOfNonEmptyTrees(), 0);
   ASSERT_EQ(sheared.messages.errors.size(), 1u);
