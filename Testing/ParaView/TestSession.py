@@ -107,6 +107,16 @@ class TestSession(unittest.TestCase):
         pv.LoadState(path)
         self.check_restored(picture)
 
+    def test_a_state_keeps_black_shadows(self):
+        self.assertEqual(self.view.SVOShadowIntensity, 1.0)
+        self.assertEqual(pv.CreateView("RenderView").SVOShadowIntensity, 0.7)  # a new view's
+        path = scene.output("black.pvsm")
+        pv.SaveState(path)
+        pv.ResetSession()
+        pv.LoadState(path)
+        kept = [view.SVOShadowIntensity for view in pv.GetRenderViews()]
+        self.assertEqual(sorted(kept), [0.7, 1.0])
+
     def test_python_state(self):
         self.change_everything()
         picture = scene.picture(self.view, "python-state")

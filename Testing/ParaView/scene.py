@@ -42,6 +42,8 @@ def make_view(size=(600, 400)):
     view.CameraFocalPoint = [0.0, 0.0, 0.3]
     view.CameraViewUp = [0.0, 0.0, 1.0]
     view.CameraViewAngle = 25.0
+    if hasattr(view, "SVOShadowIntensity"):  # the plugin is loaded
+        view.SVOShadowIntensity = 1.0  # black is told from dim most easily
     return view
 
 
