@@ -18,8 +18,9 @@ VIEWS = pathlib.Path(__file__).resolve().parents[2] / "Plugin" / "Views"
 ONLY_IN_PARAVIEW = [("SVOShadowCatcher", "SetShadowGround"), ("SVOReasons", "GetClassName")]
 # Beyond one end of their range is before the other.
 GO_ROUND = ["SetLongitude"]
-# ParaView has an Information panel, which shows what VTK's programs need to be asked for.
-OTHER_IN_PARAVIEW = {"WriteStatistics": 1}
+# ParaView has an Information panel, which shows what VTK's programs need to be asked for; its scenes have one light
+# more often than a paper's picture to match.
+OTHER_IN_PARAVIEW = {"WriteStatistics": 1, "ShadowIntensity": 0.7}
 
 
 def properties_of(file, element):

@@ -210,7 +210,7 @@ class TestShadowCatcher(unittest.TestCase):
         self.assertFalse(vtkSVORenderPass.GetShadowCatcher(None))
 
     def test_attached(self):
-        """To a renderer whose surfaces were not chosen: they cast if everything does."""
+        """To a renderer whose surfaces were not chosen: they are traced and cast if everything is."""
         self.renderer.SetPass(None)
         self.ground.GetPropertyKeys().Remove(vtkSVORenderPass.USE_SVO())
         plain = self.pixels()
@@ -221,10 +221,10 @@ class TestShadowCatcher(unittest.TestCase):
         self.assertEqual(self.svo.GetReasonInLastFrame(self.ball), not_chosen)
         self.svo.ShadowsForEverythingOn()
         shadowed = self.pixels()
-        self.assertEqual(self.svo.GetNumberOfTracedActors(), 0)
+        self.assertEqual(self.svo.GetNumberOfTracedActors(), 2)
         self.assertEqual(self.svo.GetReasonInLastFrame(self.ball), "")
         self.assertGreater((shadowed[..., 0] < plain[..., 0] - 0.1).sum(), 300)
-        self.assertFalse((shadowed > plain).any())
+        self.assertLess((shadowed - plain).max(), 1.5 / 255)  # traced colours are rounded elsewhere
         self.catch()
         self.renderer.SetBackground(0.8, 0.9, 1.0)
         self.assertGreater((self.pixels()[..., 2] == 0.0).sum(), 300)

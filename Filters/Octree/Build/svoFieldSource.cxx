@@ -127,12 +127,16 @@ glm::dvec3 FieldSource::gradientAt(const glm::dvec3& at, double value, double ha
   {
     return given;
   }
+  // At an edge the slopes ahead and behind are different ones; those of either face lie between.
+  glm::dvec3 between;
   for (int i = 0; i < 3; ++i)
   {
-    differences[i] =
-      (valueAside(i, Wide * half) - valueAside(i, -Wide * half)) / (2.0 * Wide * half);
+    const double ahead = (valueAside(i, Wide * half) - value) / (Wide * half);
+    const double behind = (value - valueAside(i, -Wide * half)) / (Wide * half);
+    differences[i] = 0.5 * (ahead + behind);
+    between[i] = std::clamp(given[i], std::min(ahead, behind), std::max(ahead, behind));
   }
-  return agree(given, differences) || !usableGradient(differences) ? given : differences;
+  return agree(given, between) || !usableGradient(differences) ? given : differences;
 }
 
 bool FieldSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const

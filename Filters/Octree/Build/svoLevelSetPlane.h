@@ -12,7 +12,7 @@
 namespace svo
 {
 /// Values less the surface's at the centres of the 3x3x3 voxels around one, x fastest.
-struct VoxelValues
+struct VTKSVOOCTREE_EXPORT VoxelValues
 {
   static constexpr int Count = 27;
   double at[Count];

@@ -245,6 +245,7 @@ bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 
   const float size[2] = { static_cast<float>(frame.width), static_cast<float>(frame.height) };
   program->SetUniform2f("frameSize", size);
+  this->Array->ShaderProgramChanged(); // it keeps to one program, and there are several
   this->Array->Bind();
   this->Array->AddAttributeArray(
     program, this->Corners, "corner", 0, sizeof(glm::vec2), VTK_FLOAT, 2, false);

@@ -261,12 +261,16 @@ TEST(SVOShadowFilter, MatricesPlaceMeshAndCasters)
   EXPECT_NEAR(table.shadows.shadow(0), 1.0 / 16.0, 2e-3);
   auto place = matrix({ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 50, 0, 0, 0, 1 });
   table.shadows.filter->SetMeshMatrix(place);
+  table.shadows.expectQuiet();
   EXPECT_EQ(table.shadows.shadow(0), 1.0) << "what was below is above, and the light is behind it";
+  ASSERT_EQ(table.shadows.messages.warnings.size(), 1u);
+  EXPECT_NE(
+    table.shadows.messages.all().find("no cell faces any of the lights"), std::string::npos);
   place->SetElement(2, 2, 1.0);
   EXPECT_NEAR(table.shadows.shadow(0), 1.0 / 16.0, 2e-3) << "matrices are looked at again";
   place->SetElement(2, 3, 150.0);
   EXPECT_EQ(table.shadows.shadow(0), 0.0) << "the board is below";
-  table.shadows.expectQuiet();
+  EXPECT_EQ(table.shadows.messages.warnings.size(), 1u) << "that was all";
 }
 
 TEST(SVOShadowFilter, TheMeshCastsIfItIsToldTo)

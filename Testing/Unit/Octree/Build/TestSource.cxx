@@ -193,12 +193,22 @@ TEST(Source, WrongGradientsChangeNothing)
     SCOPED_TRACE(testing::Message() << "mistake " << mistake);
     const MisledSphere sphere(0.8, MisledSphere::Mistake(mistake));
     const svo::Octree octree = octreeOfField(sphere, boxOfInterest(7));
-    EXPECT_EQ(octree.header().voxelCount, right.header().voxelCount);
+    // No field turns a sphere's normals everywhere: near the poles the turned ones are off by less
+    // than the 20 degrees that are let pass.
+    const double voxels = static_cast<double>(right.header().voxelCount);
+    EXPECT_NEAR(
+      octree.header().voxelCount, voxels, mistake == MisledSphere::Turned ? 0.01 * voxels : 0.0);
     visitPlanes(octree,
       [&](const glm::ivec3& cell, const svo::MeanPlane& plane)
       {
         const glm::dvec3 from = centreOf(octree, cell);
-        ASSERT_GT(glm::dot(glm::normalize(from), glm::dvec3(plane.normal)), 1.0 - 1e-5);
+        const double same = glm::dot(glm::normalize(from), glm::dvec3(plane.normal));
+        if (mistake == MisledSphere::Turned && std::hypot(from.x, from.y) < 0.36 * 0.8)
+        {
+          ASSERT_GT(same, 0.93);
+          return;
+        }
+        ASSERT_GT(same, 1.0 - 1e-5);
         ASSERT_NEAR(plane.offset * std::sqrt(0.75) * h, 0.8 - glm::length(from), 4e-3 * h);
       });
   }
