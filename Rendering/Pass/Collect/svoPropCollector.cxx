@@ -205,7 +205,7 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
   surface.casts = surface.mesh != nullptr;
   if (!reason)
   {
-    reason = opaque.mesh != part.mesh ? "is translucent"
+    reason = opaque.mesh != part.mesh ? IsTranslucent
                                       : lookOf(part, actor->GetProperty(), frame.lights,
                                           instance.material, attributes, this->Floats, found.kept);
   }

@@ -35,7 +35,7 @@ void PropCollector::addBodies(vtkActor* actor, const std::shared_ptr<Bodies>& bo
   surface.casts = bodies && surface.mesh;
   if (translucent && surface.casts)
   {
-    found.castNothing("is translucent");
+    found.castNothing(IsTranslucent);
   }
   if (!surface.casts)
   {

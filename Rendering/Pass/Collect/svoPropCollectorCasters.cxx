@@ -36,7 +36,7 @@ PropCollector::Casters PropCollector::castersOf(const SurfacePart& part, OpaqueC
   {
     const bool some = translucent || (opaque.mesh && !opaque.translucent);
     found.castNothing(some   ? "is invisible in parts"
-        : opaque.translucent ? "is translucent"
+        : opaque.translucent ? IsTranslucent
                              : "is invisible");
   }
   if (opaque.translucent && !translucent)
@@ -82,7 +82,7 @@ void PropCollector::addTranslucent(vtkActor* actor, const SurfacePart& part,
   // What the id differs by from that of the same actor's opaque cells.
   constexpr std::uint64_t Translucent = 0x94d049bb133111ebull;
   surface.casts = surface.translucent = true;
-  if (this->finish(actor, part, localToWorld, "is translucent", surface, found))
+  if (this->finish(actor, part, localToWorld, IsTranslucent, surface, found))
   {
     surface.instance.id ^= Translucent;
     found.surfaces.push_back(surface);

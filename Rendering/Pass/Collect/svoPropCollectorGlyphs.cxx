@@ -116,7 +116,7 @@ void PropCollector::collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorl
       {
         if (!translucent)
         {
-          found.castNothing("is translucent");
+          found.castNothing(IsTranslucent);
         }
         surface.copies =
           select(*surface.copies, [](const GlyphCopy& copy) { return copy.color[3] == 255; });
@@ -125,7 +125,7 @@ void PropCollector::collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorl
     if (!reason)
     {
       reason = !drawn.set->opaque
-        ? "is translucent"
+        ? IsTranslucent
         : lookOf(part, actor->GetProperty(), frame.lights, surface.instance.material,
             surface.instance.body.own().attributes, this->Floats, found.kept);
     }

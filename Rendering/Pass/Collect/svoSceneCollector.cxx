@@ -307,10 +307,11 @@ void SceneCollector::missShadows(const StoreOptions& options, CollectedScene& re
     const Reason reason = prop.castsNone ? prop.castsNone
       : ready                            ? nullptr
                                          : withoutOctree(options);
-    // Hosts' views have outlines, axes and the like as well.
+    // Hosts' views have outlines, axes and the like as well, and a switch for translucent shadows.
     const bool meant = this->OnlyMarked &&
       (prop.catchesShadows || reason == this->NotMarked.c_str() || reason == ShowsNoPolygons ||
-        reason == HasNoPolygons || reason == MayDrawAnything);
+        reason == HasNoPolygons || reason == MayDrawAnything ||
+        (reason == IsTranslucent && !this->TranslucentShadows));
     if (reason && !meant && flagOf(prop.prop, nullptr, castShadowKey(), true))
     {
       ++casters;

@@ -65,7 +65,7 @@ Reason beyondTracing(vtkActor* actor)
   {
     return "shows a selection";
   }
-  return actor->HasTranslucentPolygonalGeometry() ? "is translucent" : nullptr;
+  return actor->HasTranslucentPolygonalGeometry() ? IsTranslucent : nullptr;
 }
 
 /// An array that the look borrows.

@@ -26,6 +26,7 @@ using Reason = const char*;
 /// Reasons of what shows no surface, or is no data.
 inline constexpr Reason ShowsNoPolygons = "is shown as wireframe or points";
 inline constexpr Reason HasNoPolygons = "has lines or vertices, none of them as tubes or spheres";
+inline constexpr Reason IsTranslucent = "is translucent";
 inline constexpr Reason MayDrawAnything = "is of a class that may draw anything";
 
 /// Whether a visible actor is traced, rasterised or left out of shadows.
