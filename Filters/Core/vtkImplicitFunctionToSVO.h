@@ -47,8 +47,8 @@ public:
 
   //@{
   /**
-   * The function. Where its gradient is more than 20 degrees, or a third, off what differences of its
-   * values say, these count: vtkImplicitBoolean of VTK 9.1 has such ones.
+   * The function. Where its gradient is more than 20 degrees, or a third, off what differences of
+   * its values say, these count: vtkImplicitBoolean of VTK 9.1 has such ones.
    */
   virtual void SetImplicitFunction(vtkImplicitFunction* function);
   vtkGetObjectMacro(ImplicitFunction, vtkImplicitFunction);

@@ -22,8 +22,8 @@
  * truncated or no OpenVDB file, a grid that it does not have (the message names those that it has),
  * a frustum map, grids of points and vectors, more voxels than there is memory for (errors); a grid
  * without anything that is occupied (warning). After an error GetErrorCode() is one of
- * vtkErrorCode, as of VTK's readers: UserError where the file has no grid of that name, UnknownError
- * where a grid has no octree.
+ * vtkErrorCode, as of VTK's readers: UserError where the file has no grid of that name,
+ * UnknownError where a grid has no octree.
  *
  * @sa vtkSVOVDBWriter vtkImageToSVO vtkSparseVoxelOctree
  */
