@@ -218,8 +218,9 @@ TEST(SVOShadowFilter, SamplesTogetherGetWhatTheyGetAlone)
       differ +=
         answers[0]->GetComponent(i / 40, i % 40) != answers[1]->GetComponent(i / 40, i % 40);
     }
-    // Of rays of 1 among edges 0.03 apart, those that pass one within 1e-6.
-    EXPECT_LE(differ, values / 10000) << "of " << values << " with " << samples << " samples";
+    // Of rays of 1 among edges 0.03 apart, those that pass one within 1e-6 on either side: 2e-6 /
+    // 0.03.
+    EXPECT_LE(differ, values / 15000) << "of " << values << " with " << samples << " samples";
   }
 }
 
