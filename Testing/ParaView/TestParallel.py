@@ -12,7 +12,7 @@ from processes import MPIRUN, file_of, program, run, run_with_server, script
 
 SCRIPT = script("several_processes.py")
 NAMES = ("full-depth", "shadow", "drawn-by-the-client", "drawn-by-the-server", "moved", "turned", "rays",
-         "ordinary-ground", "everything", "shadow-ground", "light-kit")
+         "automatic", "ordinary-ground", "everything", "shadow-ground", "light-kit")
 # With triangles smaller than pixels, at pixel errors 1 (the default) and 2.
 LEVELS = {"level-of-detail": 1e-4, "coarse": 1e-3}
 

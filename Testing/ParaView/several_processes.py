@@ -77,6 +77,8 @@ view.CameraPosition = [4.0, 5.0, 3.0]
 picture("turned")
 view.SVOShadowTechnique = "Shadow Rays"
 picture("rays")
+view.SVOShadowTechnique = "Automatic"
+picture("automatic")
 view.SVOShadowTechnique = "Shadow Buffer"
 displays[1].Representation = "Surface"
 picture("ordinary-ground")

@@ -129,6 +129,11 @@ for name in ("vtkmodules.test.Testing", "vtk.test.Testing"):
         pass
 
 random.seed(1)
+try:
+    import numpy
+    numpy.random.seed(1)
+except ImportError:
+    pass
 sys.argv = [script]
 sys.path[0] = os.path.dirname(script)
 main = types.ModuleType("__main__")
