@@ -5,7 +5,12 @@
 
 vtkStandardNewMacro(vtkSVOViewRenderPass);
 
-vtkSVOViewRenderPass::vtkSVOViewRenderPass() = default;
+vtkSVOViewRenderPass::vtkSVOViewRenderPass()
+{
+  // ParaView hands no property over that has its default value: those of Views.xml are these.
+  this->SetShadowIntensity(0.7);
+}
+
 vtkSVOViewRenderPass::~vtkSVOViewRenderPass() = default;
 
 std::string vtkSVOViewRenderPass::GetText(int text, vtkLight* about) const

@@ -93,6 +93,10 @@ std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
       return "No shadows: nothing casts any, and GetReason(prop) says why. ";
     case TEXT_NOTHING_RECEIVES:
       return "No shadows: there is nothing for them to fall on. ";
+    case TEXT_CLIPPED:
+      return "A surface casts no shadow because its mapper has clipping planes. SetCastShadow(true, "
+             "prop) has it cast its whole one; SetCastShadow(false, prop) makes it cast none in "
+             "silence.";
     default:
       return std::string();
   }

@@ -416,7 +416,8 @@ public:
    * Whether a prop casts shadows; without an answer every surface does that is to be seen, and what
    * is translucent as light as it is: see SetTranslucentShadows(). Of surfaces whose colours, by
    * lookup table, opacity array or block, are invisible in places, the other cells do. An answer of
-   * true has all of a surface cast, like an opaque one. Get says what the next frame will do as far
+   * true has all of a surface cast, like an opaque one, and like one that its mapper does not clip;
+   * without that, what a mapper clips casts nothing. Get says what the next frame will do as far
    * as it depends on the prop, and false of what never casts: wireframes, volumes, widgets, props
    * that are not visible.
    */
@@ -677,7 +678,8 @@ protected:
     TEXT_CUT_OUT = 4,             // cells cast their whole shadows, although a texture hides parts
     TEXT_NOT_CHOSEN = 5,          // a reason, the end of a sentence that begins with "it"
     TEXT_NOTHING_CASTS = 6,       // there are no shadows, ... ; what follows says why
-    TEXT_NOTHING_RECEIVES = 7     // the same
+    TEXT_NOTHING_RECEIVES = 7,    // the same
+    TEXT_CLIPPED = 8              // a surface casts none, because its mapper clips it
   };
 
   /**

@@ -172,6 +172,14 @@ bool vtkSVORenderPass::CollectFrame(
   };
   miss(collected.nothingCasts, TEXT_NOTHING_CASTS);
   miss(collected.nothingReceives, TEXT_NOTHING_RECEIVES);
+  if (collected.clippedCastNone && collected.nothingCasts.empty() && this->ShadowIntensity > 0.0)
+  {
+    const std::string text = this->GetText(TEXT_CLIPPED, nullptr);
+    if (impl.said.insert(text).second)
+    {
+      frame.messages.push_back(text);
+    }
+  }
   this->DecideSettings(frame);
   return true;
 }

@@ -89,6 +89,22 @@ std::vector<Case> cases()
         s.objects[1]->VisibilityOff();
       },
       "The only object has clipping planes" },
+    { "clipped beside a surface", [=](Scene& s) { clip(s.objects[0]); },
+      "because its mapper has clipping planes" },
+    { "clipped, to cast all the same",
+      [=](Scene& s)
+      {
+        clip(s.objects[0]);
+        Pass::SetCastShadow(true, s.objects[0]);
+      },
+      "" },
+    { "clipped, to cast none",
+      [=](Scene& s)
+      {
+        clip(s.objects[0]);
+        Pass::SetCastShadow(false, s.objects[0]);
+      },
+      "" },
     { "a volume",
       [=](Scene& s)
       {

@@ -117,6 +117,25 @@ class TestSession(unittest.TestCase):
         kept = [view.SVOShadowIntensity for view in pv.GetRenderViews()]
         self.assertEqual(sorted(kept), [0.7, 1.0])
 
+    def test_a_new_view_draws_with_what_its_properties_say(self):
+        # ParaView hands over what differs from the defaults, so those have to be the pass's.
+        view = pv.CreateView("RenderView")
+        view.ViewSize = self.view.ViewSize
+        scene.add_sun(view)
+        for source in (self.ball, self.ground):
+            scene.show(source, view)
+        pv.ResetCamera(view)
+        before = scene.picture(view, "defaults")
+        for name, other in {"ShadowIntensity": 0.5, "ShadowBufferResolution": 64, "ShadowTechnique": "None",
+                            "TranslucentShadows": 0, "AutomaticShadowBias": 0, "ShadowBias": 3.0, "PixelError": 8.0,
+                            "FilterShadows": 1, "AntiAliasing": 1}.items():
+            setting = view.GetProperty("SVO" + name)
+            default = setting.GetData()
+            setattr(view, "SVO" + name, other)
+            self.assertNotEqual(setting.GetData(), default)
+            setattr(view, "SVO" + name, default)
+        self.assertEqual(scene.differing(before, scene.picture(view, "defaults-set"), 0), 0)
+
     def test_python_state(self):
         self.change_everything()
         picture = scene.picture(self.view, "python-state")

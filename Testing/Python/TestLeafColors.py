@@ -7,7 +7,7 @@ import vtksvo
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, makes render windows
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkLookupTable, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
+from vtkmodules.vtkFiltersCore import vtkElevationFilter, vtkFlyingEdges3D
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkColorTransferFunction, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
@@ -134,6 +134,20 @@ class LeafColors(unittest.TestCase):
         # Borders between colours, and the outline.
         self.assertLess(differing(drawn, pixels, most), share * surface)
         return traced, pixels
+
+    def test_array_that_a_filter_added_to_the_mesh(self):
+        slope = vtkElevationFilter()
+        slope.SetInputConnection(self.octree("slope"))
+        slope.SetLowPoint(-1, 0, 0)
+        slope.SetHighPoint(1, 0, 0)
+        traced = self.view(slope.GetOutputPort(), True, "Elevation", table(SetTableRange=(0, 1)))
+        traced.mapper.SetScalarModeToUsePointFieldData()
+        shown = traced.pixels()
+        self.assertEqual(traced.tracer.GetNumberOfRasterizedActors(), 1)
+        self.assertIn("no values", traced.tracer.GetReason(traced.actor))
+        traced.renderer.SetPass(None)
+        self.assertEqual(shown, traced.pixels())
+        self.assertGreater(len(set(shown)), 5)
 
     def test_table_of_few_colors(self):
         self.check("slope", table())

@@ -281,6 +281,14 @@ Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& mess
   }
 }
 
+bool carriesPlanes(vtkPolyData* mesh)
+{
+  Octree octree;
+  std::string message;
+  return mesh->GetFieldData()->HasArray(OctreeArrayName) &&
+    openAttachedOctree(mesh, octree, message) == Attached::Found && octree.hasPlanes();
+}
+
 std::string describe(Attached state, const std::string& message)
 {
   switch (state)

@@ -78,6 +78,9 @@ enum class Attached
 VTKSVOCORE_EXPORT Attached openAttachedOctree(
   vtkPolyData* mesh, Octree& octree, std::string& message);
 
+/// True if the mesh carries an octree of a surface that is no mesh: its polygons are not the surface.
+VTKSVOCORE_EXPORT bool carriesPlanes(vtkPolyData* mesh);
+
 /// A sentence for users about why there is no octree to open; empty if it was found.
 VTKSVOCORE_EXPORT std::string describe(Attached state, const std::string& message);
 

@@ -273,7 +273,7 @@ void PropCollector::collectActor(
         "mapper. SetCastShadow(false, prop) says that this is meant.",
       frame);
   }
-  const Treatment treatment = treatmentOf(actor);
+  const Treatment treatment = treatmentOf(actor, flagOf(actor, owner, castShadowKey(), false));
   if (treatment.castsNone)
   {
     found.leaveAlone(treatment.castsNone);

@@ -292,6 +292,11 @@ void SceneCollector::missShadows(const StoreOptions& options, CollectedScene& re
 {
   result.nothingCasts.clear();
   result.nothingReceives.clear();
+  result.clippedCastNone = this->Shadows && std::any_of(this->Found.begin(), this->Found.end(),
+    [](const PropSurfaces& prop)
+    {
+      return prop.castsNone == HasClippingPlanes && flagOf(prop.prop, nullptr, castShadowKey(), true);
+    });
   int casters = 0, receivers = 0; // that could be, and are none
   bool casts = !this->Shadows, receives = casts;
   std::set<std::string_view> reasons;

@@ -65,6 +65,7 @@ struct CollectedScene
   /// asked for that.
   std::string nothingCasts, nothingReceives;
   int withoutShadows = 0;
+  bool clippedCastNone = false; // something is clipped by its mapper, and casts nothing for that
   std::string lightsText;
   /// With `onlyMarked`: why marked props are not traced, and what casts nothing. Others are not in.
   std::vector<std::pair<vtkWeakPointer<vtkProp>, std::string>> reasons;

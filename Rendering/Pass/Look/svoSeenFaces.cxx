@@ -20,15 +20,6 @@ namespace svo
 {
 namespace
 {
-/// True of the hull of a surface that is no mesh: its polygons are not the surface's.
-bool isHull(vtkPolyData* mesh)
-{
-  Octree octree;
-  std::string message;
-  return mesh->GetFieldData()->HasArray(OctreeArrayName) &&
-    openAttachedOctree(mesh, octree, message) == Attached::Found && octree.hasPlanes();
-}
-
 /// Which polygons of a mesh OpenGL takes for front faces.
 std::vector<bool> frontFaces(vtkPolyData* mesh, const glm::dmat4& localToWorld, const View& eye)
 {
@@ -71,7 +62,7 @@ std::vector<bool> frontFaces(vtkPolyData* mesh, const glm::dmat4& localToWorld, 
 vtkPolyData* SeenFaces::of(
   vtkPolyData* mesh, vtkActor* actor, const glm::dmat4& localToWorld, const View& eye, Kept& kept)
 {
-  if (isHull(mesh))
+  if (carriesPlanes(mesh))
   {
     return mesh;
   }

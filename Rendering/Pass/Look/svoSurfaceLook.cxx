@@ -3,6 +3,7 @@
 #include "svoCompositeBlocks.h"
 #include "svoGlyphCopies.h"
 #include "svoImpostors.h"
+#include "svoMeshOctree.h"
 #include "svoSplats.h"
 #include "svoTubes.h"
 
@@ -273,7 +274,7 @@ bool isUnknownSurface(vtkActor* actor)
       [mapper](const char* name) { return mapper->IsA(name) != 0; });
 }
 
-Treatment treatmentOf(vtkActor* actor)
+Treatment treatmentOf(vtkActor* actor, bool castsWhole)
 {
   vtkMapper* mapper = actor->GetMapper();
   vtkPlaneCollection* planes = mapper->GetClippingPlanes();
@@ -290,7 +291,8 @@ Treatment treatmentOf(vtkActor* actor)
   }
   if (!treatment.castsNone && planes && planes->GetNumberOfItems() > 0)
   {
-    treatment.castsNone = "has clipping planes on its mapper";
+    treatment.rasterized = treatment.rasterized ? treatment.rasterized : HasClippingPlanes;
+    treatment.castsNone = castsWhole ? nullptr : HasClippingPlanes;
   }
   auto* streamed = vtkPolyDataMapper::SafeDownCast(mapper);
   if (!treatment.castsNone && streamed && streamed->GetNumberOfSubPieces() > 1)
@@ -338,9 +340,15 @@ bool hasOpaqueTable(const SurfacePart& part)
 
 Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes, Kept& kept)
 {
-  return scalarColors(part, leaves, attributes, kept)
-    ? nullptr
-    : "has colours that do not belong to its cells or points";
+  if (!scalarColors(part, leaves, attributes, kept))
+  {
+    return "has colours that do not belong to its cells or points";
+  }
+  const bool ofMesh = attributes.colorCoordinates ||
+    (attributes.colors && attributes.colorAssociation != Association::Leaf);
+  return ofMesh && carriesPlanes(part.mesh)
+    ? "is coloured by an array that the voxels of its octree have no values of"
+    : nullptr;
 }
 
 Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,

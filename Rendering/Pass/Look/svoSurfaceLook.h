@@ -27,6 +27,7 @@ using Reason = const char*;
 inline constexpr Reason ShowsNoPolygons = "is shown as wireframe or points";
 inline constexpr Reason HasNoPolygons = "has lines or vertices, none of them as tubes or spheres";
 inline constexpr Reason IsTranslucent = "is translucent";
+inline constexpr Reason HasClippingPlanes = "has clipping planes on its mapper";
 inline constexpr Reason MayDrawAnything = "is of a class that may draw anything";
 
 /// Whether a visible actor is traced, rasterised or left out of shadows.
@@ -54,8 +55,8 @@ bool hasCustomShaders(vtkActor* actor);
 bool isUnknownSurface(vtkActor* actor);
 
 /// The treatment that a plain actor, its property and its mapper's settings allow, for any mesh and
-/// any opacity.
-Treatment treatmentOf(vtkActor* actor);
+/// any opacity. `castsWhole`: somebody said that all of it casts, what is clipped away, too.
+Treatment treatmentOf(vtkActor* actor, bool castsWhole);
 
 /// True if lights change what the actor looks like. What only shines by itself, as the outlines and
 /// selections that applications keep in their views do, shows no shadow.
