@@ -40,6 +40,20 @@ class TestInteraction(unittest.TestCase):
         self.displays[0].Orientation = [0, 0, 0]
         return seconds
 
+    def exact(self):
+        """Seconds of a frame that nothing is coarser in: a quick machine needs nothing to be."""
+        for display in self.displays:
+            display.Representation = "SVO"
+        pv.Render(self.view)
+        seconds = []
+        for i in range(1, 4):
+            self.displays[0].Orientation = [0, 0, 5 * i]  # no buffer can be kept
+            start = time.perf_counter()
+            pv.Render(self.view)
+            seconds.append(time.perf_counter() - start)
+        self.displays[0].Orientation = [0, 0, 0]
+        return min(seconds)
+
     def median(self, kind):
         for display in self.displays:
             display.Representation = kind
@@ -56,12 +70,15 @@ class TestInteraction(unittest.TestCase):
         position = list(self.view.CameraPosition)
         print(f"\n{name}")
         surface = self.median("Surface")
+        exact = self.exact()
         traced = self.median("SVO")
         self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 2)
         distance = scene.statistic(self.view, "SVOImageSampleDistance")
         # Coarser shadow maps may do, and may look coarser than rays are apart.
         accepted = scene.statistic(self.view, "SVOAcceptedPixelError")
-        self.assertGreater(accepted, 1.0)
+        print(f"exact: {1 / exact:.1f} frames a second; accepted pixel error in the end {accepted}")
+        if exact > 0.3:
+            self.assertGreater(accepted, 1.0)
         self.assertGreaterEqual(accepted, distance)
         # On a busy machine not even the rasteriser may keep to it.
         self.assertLess(traced, max(0.2, 1.5 * surface))

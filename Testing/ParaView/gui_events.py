@@ -128,7 +128,7 @@ view = [
     check("looks_like", "both"),
     number(VIEW + "SVOShadowIntensity/DoubleRangeWidget/DoubleLineEdit", "0.5"),
     check("differs_from", "both", 0.003),
-    number(VIEW + "SVOShadowIntensity/DoubleRangeWidget/DoubleLineEdit", "1"),
+    number(VIEW + "SVOShadowIntensity/DoubleRangeWidget/DoubleLineEdit", "0.7"),
     check("looks_like", "both"),
     number(VIEW + "SVOShadowBufferResolution/IntRangeWidget/LineEdit", "16"),
     check("differs_from", "both", 0.0005),
