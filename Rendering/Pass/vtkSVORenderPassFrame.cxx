@@ -172,13 +172,22 @@ bool vtkSVORenderPass::CollectFrame(
   };
   miss(collected.nothingCasts, TEXT_NOTHING_CASTS);
   miss(collected.nothingReceives, TEXT_NOTHING_RECEIVES);
-  if (collected.clippedCastNone && collected.nothingCasts.empty() && this->ShadowIntensity > 0.0)
+  const auto sayOnce = [&](const std::string& text)
   {
-    const std::string text = this->GetText(TEXT_CLIPPED, nullptr);
     if (impl.said.insert(text).second)
     {
       frame.messages.push_back(text);
     }
+  };
+  if (collected.clippedCastNone && collected.nothingCasts.empty() && this->ShadowIntensity > 0.0)
+  {
+    sayOnce(this->GetText(TEXT_CLIPPED, nullptr));
+  }
+  if (collected.aimlessLight)
+  {
+    sayOnce(
+      "A light has no direction, so it lights nothing and casts no shadow: its position is its "
+      "focal point, or one of them is not finite.");
   }
   this->DecideSettings(frame);
   return true;

@@ -9,6 +9,7 @@
 #include "vtkProperty.h"
 #include "vtkVolume.h"
 
+#include <cmath>
 #include <functional>
 #include <iostream>
 #include <string>
@@ -124,6 +125,15 @@ std::vector<Case> cases()
       "its opacity makes it translucent" },
     { "without octrees", [](Scene& s) { s.pass->ConvertPolyDataOff(); },
       "Each of 2 objects comes without an octree." },
+    { "a light without direction",
+      [](Scene& s)
+      {
+        s.sun->SetPosition(1, 2, 3);
+        s.sun->SetFocalPoint(1, 2, 3);
+      },
+      "A light has no direction" },
+    { "a light at no number", [](Scene& s) { s.sun->SetPosition(std::nan(""), 2, 3); },
+      "A light has no direction" },
     { "a headlight", [](Scene& s) { s.sun->SetLightTypeToHeadlight(); }, "headlight" },
     { "nothing there", [](Scene& s) { s.renderer->RemoveAllViewProps(); }, "" },
     { "nothing to be seen",
@@ -189,6 +199,14 @@ int TestSVOMissingShadows(int, char*[])
       one.expected.empty() ? said.empty() : said.find(one.expected) != std::string::npos,
       one.name + ": expected \"" + one.expected + "\"");
   }
+
+  Scene aimless;
+  aimless.sun->SetFocalPoint(aimless.sun->GetPosition());
+  aimless.said();
+  checks.expect(!Pass::GetCastShadow(aimless.sun), "a light without direction casts none");
+  checks.expect(
+    std::string(aimless.pass->GetCastingLights()).find("has no direction") != std::string::npos,
+    "and the list of lights says why");
 
   // Another cause is another message; more of the same is none.
   Scene scene;

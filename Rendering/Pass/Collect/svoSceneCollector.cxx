@@ -292,11 +292,13 @@ void SceneCollector::missShadows(const StoreOptions& options, CollectedScene& re
 {
   result.nothingCasts.clear();
   result.nothingReceives.clear();
-  result.clippedCastNone = this->Shadows && std::any_of(this->Found.begin(), this->Found.end(),
-    [](const PropSurfaces& prop)
-    {
-      return prop.castsNone == HasClippingPlanes && flagOf(prop.prop, nullptr, castShadowKey(), true);
-    });
+  result.clippedCastNone = this->Shadows &&
+    std::any_of(this->Found.begin(), this->Found.end(),
+      [](const PropSurfaces& prop)
+      {
+        return prop.castsNone == HasClippingPlanes &&
+          flagOf(prop.prop, nullptr, castShadowKey(), true);
+      });
   int casters = 0, receivers = 0; // that could be, and are none
   bool casts = !this->Shadows, receives = casts;
   std::set<std::string_view> reasons;
@@ -356,6 +358,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   result.scene.lights = std::move(lights.lights);
   result.lightsText = std::move(lights.text);
   result.headlightOnly = lights.headlightOnly;
+  result.aimlessLight = lights.aimless;
   bool casting = false;
   for (const Light& light : result.scene.lights)
   {

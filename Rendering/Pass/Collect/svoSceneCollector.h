@@ -59,6 +59,7 @@ struct CollectedScene
   bool rasterizedReceivers = false; // lit surfaces that the rasteriser draws and shadows fall on
   bool receiversReach = false;      // some of them may reach beyond Scene::receivers
   bool headlightOnly = false;       // SceneLights
+  bool aimlessLight = false;        // the same
   bool shadowCatchers = false;      // there are some; they are rasterised
   /// Where lights cast and yet no shadow can be seen: why, as ends of sentences that begin with
   /// "it", and of how many props. Empty where some can, where there is nothing, and where somebody

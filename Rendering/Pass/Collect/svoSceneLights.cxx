@@ -13,6 +13,8 @@
 #include "vtkRenderer.h"
 #include "vtkWeakPointer.h"
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
 
 namespace svo
@@ -57,6 +59,16 @@ Light lightOf(vtkLight* source)
     glm::vec3(diffuse[0], diffuse[1], diffuse[2]) * static_cast<float>(source->GetIntensity());
   light.id = reinterpret_cast<std::uintptr_t>(source);
   return light;
+}
+
+/// False of a light that lights nothing: directional or a spot without a direction, or without a
+/// place.
+bool aims(const Light& light)
+{
+  const auto finite = [](const glm::dvec3& v)
+  { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+  return finite(light.position) && finite(light.direction) &&
+    (light.kind == Light::Kind::Point || light.direction != glm::dvec3(0.0));
 }
 
 double brightness(const Light& light)
@@ -159,7 +171,10 @@ SceneLights lightsOf(
     {
       Light light = lightOf(source);
       transform(world, light);
-      light.castShadow = answerOf(source, source->LightTypeIsSceneLight() || source == key);
+      const bool aiming = aims(light);
+      result.aimless = result.aimless || !aiming;
+      light.castShadow =
+        aiming && answerOf(source, source->LightTypeIsSceneLight() || source == key);
       headlightOnly = headlightOnly && source->LightTypeIsHeadlight() && !isAnswered(source);
       if (source->LightTypeIsCameraLight())
       {
@@ -171,7 +186,9 @@ SceneLights lightsOf(
         : light.kind == Light::Kind::Spot      ? "spot"
                                                : "directional";
       result.text += std::to_string(result.lights.size()) + ". " + kind +
-        (light.castShadow ? ": casts shadows\n" : ": casts none\n");
+        (light.castShadow ? ": casts shadows\n"
+            : aiming      ? ": casts none\n"
+                          : ": has no direction, casts none\n");
     });
   result.headlightOnly = headlightOnly && !result.lights.empty();
   return result;
@@ -186,6 +203,6 @@ bool castsShadow(vtkLight* light)
     return !renderer || !renderer->GetLights()->IsItemPresent(light) ||
       keyLightOf(renderer) == light;
   }
-  return answerOf(light, light->LightTypeIsSceneLight());
+  return answerOf(light, light->LightTypeIsSceneLight()) && aims(lightOf(light));
 }
 }

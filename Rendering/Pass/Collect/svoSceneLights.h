@@ -22,6 +22,7 @@ struct SceneLights
   std::vector<Light> lights;
   std::string text;           // a line for each: its kind, and whether it casts
   bool headlightOnly = false; // no light can cast because all of them are headlights
+  bool aimless = false; // one has no direction, or no place that is finite, and lights nothing
 };
 
 using LightNames = std::function<std::string(vtkLight*)>;

@@ -6,9 +6,33 @@
 #include "svoWorldSize.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace svo
 {
+namespace
+{
+/// Linear depth from which on a view may meet the surface. The octree's cube, which
+/// LayeredView::base belongs to, may be many times as large as what is in it, and reach to the eye.
+double nearestSurface(const Instance& instance, const View& view, double nearestCube)
+{
+  const Header& h = instance.body->octree.header();
+  if (h.pointCount == 0)
+  {
+    return nearestCube;
+  }
+  const glm::dmat4 toView = view.worldToView * instance.localToWorld;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 8; ++i)
+  {
+    const glm::dvec4 corner(
+      h.meshBounds[i & 1], h.meshBounds[2 + (i >> 1 & 1)], h.meshBounds[4 + (i >> 2)], 1.0);
+    nearest = std::min(nearest, -(toView * corner).z);
+  }
+  return std::max(nearest, nearestCube);
+}
+}
+
 double coarsestVoxel(const Scene& scene, const View& view)
 {
   double largest = 0.0;
@@ -38,7 +62,8 @@ double largestGap(const Scene& scene, const View& view, const LayeredView& eye)
     {
       const double gap =
         worldLeafError(instance, LeafGeometry::Triangle, instance.body->octree.level(), true);
-      largest = std::max(largest, gap / worldPixel(view, eye.base(i)));
+      largest =
+        std::max(largest, gap / worldPixel(view, nearestSurface(instance, view, eye.base(i))));
     }
   }
   return largest;

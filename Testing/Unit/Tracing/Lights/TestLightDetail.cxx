@@ -6,9 +6,11 @@
 #include "svoLightView.h"
 #include "svoTestTracers.h"
 #include "svoTracerScenes.h"
+#include "svoWorldSize.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -221,6 +223,35 @@ TEST(LightDetail, MapsOfAllLightsAreLimitedTogether)
   settings.shadowMemoryLimit = svo::FrameSettings().shadowMemoryLimit;
   svotest::rendered(tracer, scene, Eye, settings);
   EXPECT_FALSE(tracer.statistics().fewerTexels);
+}
+
+// Of what is seen: an octree's cube may be many times as large as its surface, and reach to the
+// eye.
+TEST(LightDetail, GapsAreThoseOfWhatIsSeen)
+{
+  const auto gapOf = [](const svo::Octree& octree, const svo::View& eye)
+  {
+    svo::Scene scene;
+    scene.instances = { instanceOf(octree, 1) };
+    scene.lights = { lightOf(svo::Light::Kind::Directional, { 3, -2, 5 }) };
+    svo::CPUTracer tracer;
+    svotest::rendered(tracer, scene, eye, {});
+    return tracer.statistics().largestGap;
+  };
+  const svo::Octree octree = makeOctree(square(5.0), 6);
+  auto& h = const_cast<svo::Header&>(octree.header()); // what sources fill in
+  h.pointCount = 4;
+  const double bounds[] = { -5.0, 5.0, -5.0, 5.0, 0.0, 0.0 };
+  std::copy_n(bounds, 6, h.meshBounds);
+  ASSERT_GT(h.origin[2] + h.voxelSize * 64.0, 3.0);
+  const auto worldGap = [&](double height)
+  {
+    const svo::View eye = lookAt({ 0, -1e-3, height }, 200, 150);
+    return gapOf(octree, eye) * svo::worldPixel(eye, height);
+  };
+  const double far = worldGap(30.0);
+  EXPECT_GT(far, 0.0);
+  EXPECT_NEAR(worldGap(3.0) / far, 1.0, 0.01); // within the cube
 }
 
 TEST(ConvexParts, WhatBoxesHaveInCommon)
