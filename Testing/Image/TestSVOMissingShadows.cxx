@@ -172,6 +172,16 @@ std::vector<Case> cases()
         s.pass->Attach(s.renderer);
       },
       "" },
+    { "attached, unlit beside lines of the host's",
+      [=](Scene& s)
+      {
+        s.usePass(false);
+        s.pass->Attach(s.renderer);
+        s.pass->ShadowsForEverythingOn();
+        each(unlit)(s);
+        wires(s.objects[1]);
+      },
+      "The only object looks the same in every light" },
     { "attached, clipped",
       [=](Scene& s)
       {

@@ -325,7 +325,7 @@ void SceneCollector::missShadows(const StoreOptions& options, CollectedScene& re
       reasons.insert(reason);
     }
     const bool shows = prop.rasterized || !prop.surfaces.empty();
-    receivers += shows && flagOf(prop.prop, nullptr, receiveShadowKey(), true);
+    receivers += shows && !meant && flagOf(prop.prop, nullptr, receiveShadowKey(), true);
   }
   if (this->Others > 0 && !this->OnlyMarked)
   {
