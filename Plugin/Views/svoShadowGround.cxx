@@ -68,6 +68,8 @@ ShadowGround::ShadowGround()
   this->Actor->SetPickable(false);
   this->Actor->SetUseBounds(false);
   vtkSVORenderPass::SetShadowCatcher(true, this->Actor);
+  this->Actor->ForceTranslucentOff();
+  this->Actor->ForceOpaqueOn();
 }
 
 ShadowGround::~ShadowGround() = default;
@@ -95,19 +97,16 @@ void ShadowGround::place(vtkRenderer* renderer, int axis, vtkMultiProcessControl
   this->Actor->SetPosition(center);
   this->Actor->SetScale(size[(axis + 1) % 3] + 2.0 * Reach * diagonal,
     size[(axis + 2) % 3] + 2.0 * Reach * diagonal, 1.0);
-  // Pictures of several processes are composed by depth, which translucent surfaces do not write.
-  // So there it is the last of the opaque ones: what is behind it has been drawn by then. And they
-  // are cut off at the bounds of what is drawn.
+  // The last of the opaque props: what is behind it has been drawn by then, and translucent ones,
+  // of whose number the cost of each depends, are drawn over it. It hides none of them, since it
+  // writes depth only where pictures of several processes are composed by it, which are also cut
+  // off at the bounds of what is drawn.
   const bool together = processes && processes->GetNumberOfProcesses() > 1;
-  this->Actor->SetForceOpaque(together);
-  this->Actor->SetForceTranslucent(!together);
+  this->Actor->SetIsRenderingTranslucentPolygonalGeometry(!together); // VTK clears it
   this->Actor->SetUseBounds(together);
-  if (together)
+  if (renderer->GetViewProps()->GetLastProp() != this->Actor)
   {
     renderer->RemoveViewProp(this->Actor);
-  }
-  if (!renderer->HasViewProp(this->Actor))
-  {
     renderer->AddViewProp(this->Actor);
   }
   vtkBoundingBox all(data);

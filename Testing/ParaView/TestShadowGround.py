@@ -68,6 +68,25 @@ class TestShadowGround(unittest.TestCase):
         half = scene.picture(self.view, "clear-half", TransparentBackground=1, ImageResolution=[1200, 800])
         self.assertLess(abs(half[dark & sure] - [0, 0, 0, 128]).max(), 3)
 
+    def test_translucent_surfaces(self):
+        """All of their layers are seen, in front of the shadow and behind it, as without a ground."""
+        self.ball.ThetaResolution = self.ball.PhiResolution = 16
+        self.display.Opacity = 0.4
+        inner = scene.show(pv.Sphere(Center=list(scene.CENTER), Radius=0.3), self.view, "Surface")
+        inner.Opacity, inner.AmbientColor, inner.DiffuseColor = 0.5, [1, 0, 0], [1, 0, 0]
+        self.view.SVOTranslucentShadows = 0
+        without = scene.picture(self.view, "translucent-none")
+        self.view.SVOShadowCatcher = "Below Z"
+        self.assertLess(scene.differing(scene.picture(self.view, "translucent-no-shadow"), without), 1e-4)
+        scene.show(pv.Sphere(Center=[0.8, 0.5, 1.5], Radius=0.3), self.view, "Surface")
+        shadow = scene.picture(self.view, "translucent-shadow").astype(int)
+        self.view.SVOShadowCatcher = "None"
+        plain = scene.picture(self.view, "translucent-plain").astype(int)
+        # The sphere's shadow lies behind the translucent ones, which hide a share of it.
+        darker = (plain - shadow).max(axis=2)
+        self.assertGreater((darker > 30).sum(), 1000)
+        self.assertLess(((shadow - plain).max(axis=2) > 2).mean(), 1e-4)
+
     def test_it_follows_the_data(self):
         self.check("before")
         self.ball.Center = [0.0, 0.0, 5.0]
