@@ -40,8 +40,10 @@ public:
   /// (svoPlaceOnTriangles.h), and who is in front follows from window depths with their offsets
   /// (Instance::depthOffsetUnits). A light's view can do without: its texels are wider than what
   /// the one mends, and the other is the window's.
-  explicit LayeredView(bool exact = true)
+  /// `moved`: the view takes the place of others, so it has no layers in its first frame.
+  explicit LayeredView(bool exact = true, bool moved = false)
     : Exact(exact)
+    , HasFrame(moved)
   {
   }
 

@@ -169,6 +169,30 @@ glm::dvec3 row(const glm::dmat4& m, int i)
 {
   return { m[0][i], m[1][i], m[2][i] };
 }
+
+/// True if all of a patch lies beyond one side of the map for certain. Behind the light that is so
+/// of all but what is close to it, since two opposite sides have the sum 2 w there.
+bool isBeyond(const glm::dmat4& worldToClip, const glm::dvec4& clip, const TilePatch& patch)
+{
+  constexpr double OfDouble = 1e-11; // more than what sums lose, and MapBorder
+  const glm::dvec3& origin = patch.origin.position;
+  const glm::dvec3 extent = (1.0 + 2.0 * WayError) * glm::dvec3(patch.extent);
+  const auto size = [&](int i) {
+    return glm::dot(glm::abs(row(worldToClip, i)), glm::abs(origin)) + std::abs(worldToClip[3][i]);
+  };
+  bool beyond = false;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const double error = OfDouble * (size(axis) + size(3));
+    for (const double side : { -1.0, 1.0 })
+    {
+      const glm::dvec3 along = row(worldToClip, 3) + side * row(worldToClip, axis);
+      const double most = clip.w + side * clip[axis] + glm::dot(glm::abs(along), extent);
+      beyond = beyond || most < -error;
+    }
+  }
+  return beyond;
+}
 }
 
 void placeInMap(const View& view, const glm::dmat4& worldToClip, const TilePatch& patch,
@@ -179,6 +203,11 @@ void placeInMap(const View& view, const glm::dmat4& worldToClip, const TilePatch
   places.inside = places.outside = places.sure = 0;
   const glm::dvec3& origin = patch.origin.position;
   const glm::dvec4 clip = worldToClip * glm::dvec4(origin, 1.0);
+  if (isBeyond(worldToClip, clip, patch))
+  {
+    places.outside = lanes;
+    return;
+  }
   const double width = 0.5 * view.width, height = 0.5 * view.height, scale = 1.0 / clip.w;
   const double x = (clip.x * scale + 1.0) * width, y = (clip.y * scale + 1.0) * height;
   constexpr double Farthest = 1e6; // texels beyond the map, of an origin that is looked at here

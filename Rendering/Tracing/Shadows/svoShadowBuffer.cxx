@@ -24,11 +24,12 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
   this->setBias(settings);
   if (this->Faces.size() != views.size())
   {
+    const bool moved = !this->Faces.empty();
     budget.used -= this->layerMemory();
     this->Faces.clear();
     for (std::size_t i = 0; i < views.size(); ++i)
     {
-      this->Faces.push_back(std::make_unique<Face>());
+      this->Faces.push_back(std::make_unique<Face>(moved));
     }
   }
   const std::vector<double> voxels = std::move(this->CasterVoxel);

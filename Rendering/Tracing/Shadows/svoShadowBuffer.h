@@ -155,10 +155,15 @@ public:
 private:
   struct Face
   {
+    explicit Face(bool moved)
+      : layers(/*exact=*/false, moved)
+    {
+    }
+
     View view;
     glm::dmat4 worldToClip{ 1.0 };
     TexelEdge edge;
-    LayeredView layers{ /*exact=*/false };
+    LayeredView layers;
     SharedDepth shared; // with other processes' casters; takes the place of the layers' depths
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile
     bool seesCasters = false;

@@ -266,6 +266,24 @@ TEST(Tracer, WhatStandsStillIsNotTracedAgain)
   EXPECT_EQ(tracer.statistics().layerMemory, 0u);
 }
 
+// A light that comes close gets six maps for one; they are no views that nothing has moved in yet.
+TEST(Tracer, MapsInThePlaceOfOthersHaveNoLayersOfWhatMoves)
+{
+  svo::Scene scene = makeScene();
+  scene.instances = { scene.instances[1] };
+  scene.lights.resize(1);
+  svo::CPUTracer tracer;
+  rendered(tracer, scene, Eye, smallBuffers());
+  EXPECT_GT(tracer.statistics().layerMemory, 0u);
+  for (const glm::dvec3& place : { glm::dvec3(-0.8, 0.0, 2.3), glm::dvec3(2.0, -3.0, 6.0) })
+  {
+    scene.lights[0].position = place;
+    scene.instances[0].localToWorld[3].x += 0.01;
+    rendered(tracer, scene, Eye, smallBuffers());
+    EXPECT_EQ(tracer.statistics().layerMemory, 0u);
+  }
+}
+
 TEST(Tracer, KeptLayersStayUnderTheLimit)
 {
   svo::FrameSettings settings = smallBuffers();

@@ -27,7 +27,8 @@ struct Case
   glm::dmat4 worldToClip;
 };
 
-/// The eye and a light look at the same things, which may be far from the world's origin.
+/// The eye and a light look at the same things, which may be far from the world's origin. Some
+/// lights are turned away from them, as most of a cube's six maps are.
 std::vector<Case> manyCases(std::mt19937& random)
 {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -42,7 +43,8 @@ std::vector<Case> manyCases(std::mt19937& random)
       makeView(glm::lookAt(at + glm::dvec3(3.0, unit(random), 1.0), at, glm::dvec3(0, 0, 1)),
         glm::perspective(i % 3 == 0 ? 0.05 : 0.7, 1.5, 0.1, 90.0), 192, 128, c.eye));
     const double half = i % 5 == 0 ? 0.05 : 1.5; // some points are beyond
-    EXPECT_TRUE(makeView(glm::lookAt(lamp, at, glm::dvec3(0, 1, 0)),
+    const glm::dvec3 towards = i % 6 == 1 ? 2.0 * lamp - at : at;
+    EXPECT_TRUE(makeView(glm::lookAt(lamp, towards, glm::dvec3(0, 1, 0)),
       i % 2 == 0 ? glm::ortho(-half, half, -0.7 * half, 0.7 * half, 0.5, 9.0)
                  : glm::perspective(half, 1.3, 0.5, 9.0),
       1024, 1024, c.light));
