@@ -57,6 +57,7 @@ vtkSVOViewPass* vtkSVOViewPass::OfView(vtkObjectBase* view)
   {
     vtkNew<vtkSVOViewPass> made;
     made->View = renderView;
+    made->Pass->SetView(renderView);
     renderer->GetInformation()->Set(VIEW_PASS(), made);
     found = made;
   }

@@ -1,7 +1,13 @@
 #include "vtkSVOViewRenderPass.h"
 
+#include "vtkLightCollection.h"
+#include "vtkLightKit.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVLight.h"
+#include "vtkPVRenderView.h"
+#include "vtkRenderer.h"
+
+#include <utility>
 
 vtkStandardNewMacro(vtkSVOViewRenderPass);
 
@@ -13,6 +19,59 @@ vtkSVOViewRenderPass::vtkSVOViewRenderPass()
 
 vtkSVOViewRenderPass::~vtkSVOViewRenderPass() = default;
 
+void vtkSVOViewRenderPass::SetView(vtkPVRenderView* view)
+{
+  this->View = view;
+}
+
+/// In the words of the Light Inspector.
+std::string vtkSVOViewRenderPass::NameOf(vtkLight* light) const
+{
+  // Both know, but tell their subclasses only.
+  struct AskingView : public vtkPVRenderView
+  {
+    using vtkPVRenderView::LightKit;
+  };
+  struct AskingKit : public vtkLightKit
+  {
+    using vtkLightKit::BackLight0;
+    using vtkLightKit::BackLight1;
+    using vtkLightKit::FillLight;
+    using vtkLightKit::HeadLight;
+    using vtkLightKit::KeyLight;
+  };
+  vtkPVRenderView* view = this->View;
+  if (!view)
+  {
+    return std::string();
+  }
+  const vtkLightKit* kit = view->*(&AskingView::LightKit);
+  const std::pair<vtkLight * vtkLightKit::*, const char*> parts[] = { { &AskingKit::KeyLight,
+                                                                        "Key light" },
+    { &AskingKit::FillLight, "Fill light" }, { &AskingKit::BackLight0, "Back light" },
+    { &AskingKit::BackLight1, "Back light" }, { &AskingKit::HeadLight, "Head light" } };
+  for (const auto& [part, name] : parts)
+  {
+    if (kit->*part == light)
+    {
+      return name;
+    }
+  }
+  int number = 0; // of those that were added
+  vtkCollectionSimpleIterator iterator;
+  vtkLightCollection* lights = view->GetRenderer()->GetLights();
+  lights->InitTraversal(iterator);
+  while (vtkLight* other = lights->GetNextLight(iterator))
+  {
+    if (other == light)
+    {
+      return "Light " + std::to_string(number);
+    }
+    number += other->IsA("vtkPVLight");
+  }
+  return std::string();
+}
+
 std::string vtkSVOViewRenderPass::GetText(int text, vtkLight* about) const
 {
   switch (text)
@@ -21,6 +80,8 @@ std::string vtkSVOViewRenderPass::GetText(int text, vtkLight* about) const
       // For the rasteriser ParaView makes a headlight of an ambient light, and nothing tells them
       // apart. The light kit's own is another class.
       return vtkPVLight::SafeDownCast(about) ? "headlight or ambient light" : "headlight";
+    case TEXT_LIGHT:
+      return this->NameOf(about);
     case TEXT_ONLY_HEADLIGHTS:
       return "No shadows: the only lights are headlights or ambient ones, which cast none that can "
              "be seen. Switch the light kit on, or add a light: Light Inspector, Add Light.";

@@ -9,6 +9,9 @@
 
 #include "vtkSVORenderPass.h"
 #include "vtkSVOViewsModule.h" // for the export macro
+#include "vtkWeakPointer.h"    // for vtkWeakPointer
+
+class vtkPVRenderView;
 
 class VTKSVOVIEWS_EXPORT vtkSVOViewRenderPass : public vtkSVORenderPass
 {
@@ -26,6 +29,11 @@ public:
   vtkGetMacro(ShadowGround, int);
   //@}
 
+  /**
+   * The view whose lights are told by the names that its panels give them.
+   */
+  void SetView(vtkPVRenderView* view);
+
 protected:
   vtkSVOViewRenderPass();
   ~vtkSVOViewRenderPass() override;
@@ -36,7 +44,10 @@ private:
   vtkSVOViewRenderPass(const vtkSVOViewRenderPass&) = delete;
   void operator=(const vtkSVOViewRenderPass&) = delete;
 
+  std::string NameOf(vtkLight* light) const;
+
   int ShadowGround = 0;
+  vtkWeakPointer<vtkPVRenderView> View;
 };
 
 #endif

@@ -679,7 +679,8 @@ protected:
     TEXT_NOT_CHOSEN = 5,          // a reason, the end of a sentence that begins with "it"
     TEXT_NOTHING_CASTS = 6,       // there are no shadows, ... ; what follows says why
     TEXT_NOTHING_RECEIVES = 7,    // the same
-    TEXT_CLIPPED = 8              // a surface casts none, because its mapper clips it
+    TEXT_CLIPPED = 8,             // a surface casts none, because its mapper clips it
+    TEXT_LIGHT = 9                // a light's name, in GetCastingLights(); empty: its number
   };
 
   /**

@@ -135,8 +135,8 @@ bool vtkSVORenderPass::CollectFrame(
     collect.translucentSurfaceText = this->GetText(TEXT_TRANSLUCENT_SURFACE, nullptr);
     collect.translucentText = this->GetText(TEXT_TRANSLUCENT, nullptr);
     collect.cutOutText = this->GetText(TEXT_CUT_OUT, nullptr);
-    collect.nameOfHeadlight = [this](vtkLight* light)
-    { return this->GetText(TEXT_HEADLIGHT, light); };
+    collect.lightWords = { [this](vtkLight* light) { return this->GetText(TEXT_HEADLIGHT, light); },
+      [this](vtkLight* light) { return this->GetText(TEXT_LIGHT, light); } };
     collect.levels.frame = Internals::settingsOf(*this);
     svo::viewOfCamera(renderer, width, height, collect.levels.eye);
     frame.state->collect(impl.store, store, collect);

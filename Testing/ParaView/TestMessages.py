@@ -61,8 +61,18 @@ class TestMessages(unittest.TestCase):
             self.assertEqual(len(messages), count, messages)
             self.assertTrue(all("Add Light" in message for message in messages), messages)
             self.assertEqual(scene.statistic(self.view, "SVOCastingLights"),
-                             "1. headlight or ambient light: casts none\n")
+                             "Light 0, headlight or ambient light: casts none\n")
 
 
-scene.load_plugin()
+    def test_a_view_that_was_there_before(self):
+        """Once, when the plugin is loaded."""
+        self.assertEqual(len(EARLY.messages()), 1, EARLY.text)
+        self.assertIn("Reset Session", EARLY.text)
+
+
+with Output() as EARLY:
+    view = pv.CreateView("RenderView")
+    other = pv.CreateView("RenderView")
+    scene.load_plugin()
+pv.ResetSession()
 scene.run_tests()

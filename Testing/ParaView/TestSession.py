@@ -2,6 +2,7 @@
 and changing the representation back and forth."""
 
 import os
+import runpy
 import unittest
 
 import paraview.simple as pv
@@ -63,6 +64,15 @@ class TestSession(unittest.TestCase):
     def test_frustum_selection(self):
         pv.SelectCellsThrough(Rectangle=[150, 150, 260, 240], View=self.view)
         self.assertIsNotNone(self.ball.GetSelectionInput(self.ball.Port))
+
+    def test_macro(self):
+        macro = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Examples/paraview_shadows.py")
+        for on in 1, 0:
+            runpy.run_path(macro)
+            self.assertEqual(self.view.SVOShadowsForEverything, on)
+        pv.SetActiveView(pv.CreateView("SpreadSheetView"))
+        with self.assertRaisesRegex(RuntimeError, "load the plugin"):
+            runpy.run_path(macro)
 
     def test_a_view_keeps_paraviews_own_help(self):
         text = type(self.view).__doc__

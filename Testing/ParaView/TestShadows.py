@@ -164,13 +164,13 @@ class TestShadows(unittest.TestCase):
             self.check_shadow(scene.picture(self.view, "light-" + name))
             self.assertEqual(scene.statistic(self.view, "SVOCastingLights"), says)
 
-        check("directional", "1. directional: casts shadows\n")
+        check("directional", "Light 0, directional: casts shadows\n")
         sun.Type = "Positional"
         sun.Position = list(500.0 * scene.TO_LIGHT)  # its rays are parallel to half a pixel
         sun.ConeAngle = 180.0
-        check("point", "1. point: casts shadows\n")
+        check("point", "Light 0, point: casts shadows\n")
         sun.ConeAngle = 20.0
-        check("spot", "1. spot: casts shadows\n")
+        check("spot", "Light 0, spot: casts shadows\n")
         ahead = numpy.array(self.view.CameraFocalPoint) - self.view.CameraPosition
         ahead /= numpy.linalg.norm(ahead)
         right = numpy.cross(ahead, self.view.CameraViewUp)
@@ -179,10 +179,13 @@ class TestShadows(unittest.TestCase):
         sun.Type = "Directional"
         sun.Coords = "Camera"
         sun.Position = list(axes @ scene.TO_LIGHT)
-        check("camera", "1. directional: casts shadows\n")
+        check("camera", "Light 0, directional: casts shadows\n")
         sun.Enable = 0
         unlit = scene.picture(self.view, "light-off")
         self.assertEqual(scene.statistic(self.view, "SVOCastingLights"), "")
+        other = scene.add_sun(self.view)  # lights have the names that the Light Inspector gives them
+        check("second", "Light 1, directional: casts shadows\n")
+        pv.RemoveLight(other)
         self.show("Surface", "Surface")
         self.assertLess(scene.differing(unlit, scene.picture(self.view, "light-off-surface")), 1e-3)
 

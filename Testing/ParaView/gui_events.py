@@ -178,8 +178,8 @@ information = [
 ]
 
 CASTING = VIEW + "SVOCastingLights/SVOCastingLights"
-KIT = "".join(f"{i}. {light}\n" for i, light in enumerate(
-    ["headlight: casts none", "directional: casts shadows"] + 3 * ["directional: casts none"], 1))
+KIT = ("Head light, headlight: casts none\nKey light, directional: casts shadows\n"
+       "Fill light, directional: casts none\n" + 2 * "Back light, directional: casts none\n")
 lights = [
     shown(CASTING, "plainText", KIT),
     event(PANEL + "/SearchBox/SearchLineEdit", "set_string", "SVO Cast"),
@@ -189,7 +189,7 @@ lights = [
     tick(LIGHTS + "LightsEditor/LightKitControls/LightKit", False),
     event(LIGHTS + "addLight", "activate"),
     check("casting", 1),
-    shown(CASTING, "plainText", "1. directional: casts shadows\n"),
+    shown(CASTING, "plainText", "Light 0, directional: casts shadows\n"),
 ]
 
 SESSION = [wait(500), python("import gui_session"), *representation, *surface, *view, *hovers, *lights,

@@ -353,7 +353,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
 {
   result.current = false;
   const glm::dmat4 world = sceneTransform(renderer);
-  SceneLights lights = lightsOf(renderer, world, settings.nameOfHeadlight);
+  SceneLights lights = lightsOf(renderer, world, settings.lightWords);
   const bool otherLights = !sameLights(lights.lights, result.scene.lights);
   result.scene.lights = std::move(lights.lights);
   result.lightsText = std::move(lights.text);

@@ -39,7 +39,7 @@ struct CollectSettings
   std::string translucentSurfaceText;
   std::string translucentText;
   std::string cutOutText;
-  LightNames nameOfHeadlight;
+  LightWords lightWords;
 };
 
 /// A frame's scene, and the renderer's props that the scene replaces.

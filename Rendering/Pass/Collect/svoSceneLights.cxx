@@ -160,8 +160,7 @@ vtkLight* keyLightOf(vtkRenderer* renderer)
 }
 }
 
-SceneLights lightsOf(
-  vtkRenderer* renderer, const glm::dmat4& world, const LightNames& nameOfHeadlight)
+SceneLights lightsOf(vtkRenderer* renderer, const glm::dmat4& world, const LightWords& words)
 {
   SceneLights result;
   const vtkLight* const key = keyLightOf(renderer);
@@ -181,11 +180,13 @@ SceneLights lightsOf(
         LightPlace::set(source, renderer);
       }
       result.lights.push_back(light);
-      const std::string kind = light.headlight ? nameOfHeadlight(source)
+      const std::string kind = light.headlight ? words.headlight(source)
         : light.kind == Light::Kind::Point     ? "point"
         : light.kind == Light::Kind::Spot      ? "spot"
                                                : "directional";
-      result.text += std::to_string(result.lights.size()) + ". " + kind +
+      const std::string name = words.name(source);
+      result.text += (name.empty() ? std::to_string(result.lights.size()) + ". " : name + ", ") +
+        kind +
         (light.castShadow ? ": casts shadows\n"
             : aiming      ? ": casts none\n"
                           : ": has no direction, casts none\n");

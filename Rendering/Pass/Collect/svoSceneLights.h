@@ -25,12 +25,17 @@ struct SceneLights
   bool aimless = false; // one has no direction, or no place that is finite, and lights nothing
 };
 
-using LightNames = std::function<std::string(vtkLight*)>;
+/// What a host calls lights.
+struct LightWords
+{
+  using Of = std::function<std::string(vtkLight*)>;
+  Of headlight = [](vtkLight*) { return "headlight"; }; // the kind of a headlight
+  Of name = [](vtkLight*) { return std::string(); };    // empty: its number
+};
 
-/// The lights in a world that `world` makes of VTK's, headlights in the words of `nameOfHeadlight`.
-/// To be called when the renderer has placed its headlights and camera lights.
-SceneLights lightsOf(
-  vtkRenderer* renderer, const glm::dmat4& world, const LightNames& nameOfHeadlight);
+/// The lights in a world that `world` makes of VTK's. To be called when the renderer has placed its
+/// headlights and camera lights.
+SceneLights lightsOf(vtkRenderer* renderer, const glm::dmat4& world, const LightWords& words);
 
 /// Whether a light casts while it is switched on. A camera light without a key of its own
 /// (svoPropKeys.h) is compared with the others of the renderer whose lights were collected last.
