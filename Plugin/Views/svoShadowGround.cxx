@@ -3,6 +3,8 @@
 #include "vtkActor.h"
 #include "vtkBoundingBox.h"
 #include "vtkCommunicator.h"
+#include "vtkLight.h"
+#include "vtkLightCollection.h"
 #include "vtkMath.h"
 #include "vtkMultiProcessController.h"
 #include "vtkPlaneSource.h"
@@ -19,10 +21,8 @@ namespace
 {
 constexpr double Reach = 2.0;  // beyond the data, diagonals
 constexpr double Below = 1e-3; // the same; a face of the data that lies on a ground hides nothing
-}
+constexpr double Around = 0.1; // the same; bounds leave out how wide points and lines are drawn
 
-namespace
-{
 /// World coordinates. What ParaView knows of them is a frame late.
 vtkBoundingBox boundsOfData(vtkRenderer* renderer, vtkMultiProcessController* processes)
 {
@@ -54,6 +54,71 @@ vtkBoundingBox boundsOfData(vtkRenderer* renderer, vtkMultiProcessController* pr
     box = vtkBoundingBox(-all[0], all[3], -all[1], all[4], -all[2], all[5]);
   }
   return box;
+}
+
+/// Adds where a light casts the shadow of a point on the plane that lies across an axis at a height
+/// below it. False if there is no such place.
+bool addShadow(vtkLight* light, const double point[3], int axis, double height, vtkBoundingBox& all)
+{
+  const double* from = light->GetTransformedPosition();
+  const double* to = light->GetPositional() ? point : light->GetTransformedFocalPoint();
+  const double falls = from[axis] - to[axis];
+  if (!(falls > 0.0))
+  {
+    return false;
+  }
+  const double share = (point[axis] - height) / falls;
+  double place[3];
+  for (int i = 0; i < 3; ++i)
+  {
+    place[i] = point[i] + share * (to[i] - from[i]);
+  }
+  place[axis] = height;
+  all.AddPoint(place);
+  return true;
+}
+
+/// Where shadows of what is in a box may lie within `ground`, which is flat, across an axis. Not
+/// valid if there is no such place.
+vtkBoundingBox shadowsOf(
+  const vtkBoundingBox& box, vtkRenderer* renderer, int axis, const vtkBoundingBox& ground)
+{
+  const double height = ground.GetMinPoint()[axis];
+  vtkBoundingBox all;
+  vtkCollectionSimpleIterator iterator;
+  vtkLightCollection* lights = renderer->GetLights();
+  lights->InitTraversal(iterator);
+  while (vtkLight* light = lights->GetNextLight(iterator))
+  {
+    if (!light->GetSwitch() || !vtkSVORenderPass::GetCastShadow(light))
+    {
+      continue;
+    }
+    bool everywhere = false; // so far do shadows of what is no lower than a lamp reach
+    for (int i = 0; i < 8; ++i)
+    {
+      double corner[3];
+      box.GetCorner(i, corner);
+      const bool falls = addShadow(light, corner, axis, height, all);
+      everywhere = everywhere ||
+        (!falls && light->GetPositional() && light->GetTransformedPosition()[axis] > height);
+    }
+    if (everywhere)
+    {
+      return ground;
+    }
+  }
+  return all.IntersectBox(ground) ? all : vtkBoundingBox();
+}
+
+/// A box with other ends along an axis.
+vtkBoundingBox withEnds(const vtkBoundingBox& box, int axis, double low, double high)
+{
+  double bounds[6];
+  box.GetBounds(bounds);
+  bounds[2 * axis] = low;
+  bounds[2 * axis + 1] = high;
+  return vtkBoundingBox(bounds);
 }
 }
 
@@ -87,20 +152,30 @@ void ShadowGround::place(vtkRenderer* renderer, int axis, vtkMultiProcessControl
     return;
   }
   const double diagonal = data.GetDiagonalLength();
+  const double height = data.GetMinPoint()[axis] - Below * diagonal;
+  const double top = data.GetMaxPoint()[axis] + Around * diagonal;
+  vtkBoundingBox around(data), ground(data);
+  around.Inflate(Around * diagonal);
+  ground.Inflate(Reach * diagonal);
+  renderer->UpdateLightsGeometryToFollowCamera();
+  ground = shadowsOf(
+    withEnds(around, axis, height, top), renderer, axis, withEnds(ground, axis, height, height));
+  if (!ground.IsValid())
+  {
+    this->remove(renderer);
+    return;
+  }
   double center[3], size[3];
-  data.GetCenter(center);
-  data.GetLengths(size);
-  center[axis] = data.GetMinPoint()[axis] - Below * diagonal;
+  ground.GetCenter(center);
+  ground.GetLengths(size);
   // Turned so that its normal is the axis, its x and y are the next two.
   constexpr double Turns[3][3] = { { 90.0, 0.0, 90.0 }, { 0.0, -90.0, -90.0 }, { 0.0, 0.0, 0.0 } };
   this->Actor->SetOrientation(const_cast<double*>(Turns[axis]));
   this->Actor->SetPosition(center);
-  this->Actor->SetScale(size[(axis + 1) % 3] + 2.0 * Reach * diagonal,
-    size[(axis + 2) % 3] + 2.0 * Reach * diagonal, 1.0);
-  // The last of the opaque props: what is behind it has been drawn by then, and translucent ones,
-  // of whose number the cost of each depends, are drawn over it. It hides none of them, since it
-  // writes depth only where pictures of several processes are composed by it, which are also cut
-  // off at the bounds of what is drawn.
+  this->Actor->SetScale(size[(axis + 1) % 3], size[(axis + 2) % 3], 1.0);
+  // The last of the opaque props: what is behind it has been drawn by then, and translucent ones
+  // are drawn over it. It hides none of them, since it writes depth only where pictures of several
+  // processes are composed by it, which are also cut off at the bounds of what is drawn.
   const bool together = processes && processes->GetNumberOfProcesses() > 1;
   this->Actor->SetIsRenderingTranslucentPolygonalGeometry(!together); // VTK clears it
   this->Actor->SetUseBounds(together);
