@@ -8,10 +8,9 @@
 
 namespace svo
 {
-/// For large scratch memory that is written before it is read, and for image-sized buffers of which
-/// only some tiles are ever used: the pages of the others are never touched, so they cost neither
-/// time nor memory.
-template <class T>
+/// For large scratch memory that is written before it is read; with svo::Pages for its allocator
+/// also for image-sized buffers of which only some tiles are ever used.
+template <class T, class Allocator = std::allocator<T>>
 class RawArray
 {
   static_assert(std::is_trivially_copyable<T>::value, "elements start without a value");
@@ -25,7 +24,8 @@ public:
   {
     if (size != this->Size)
     {
-      this->Elements.reset(size > 0 ? new T[size] : nullptr);
+      this->Elements.reset(); // before there is another one
+      this->Elements = Memory(size > 0 ? Allocator().allocate(size) : nullptr, Free{ size });
       this->Size = size;
     }
   }
@@ -36,7 +36,14 @@ public:
   const T& operator[](std::size_t i) const { return this->Elements[i]; }
 
 private:
-  std::unique_ptr<T[]> Elements;
+  struct Free
+  {
+    std::size_t size = 0;
+    void operator()(T* elements) const { Allocator().deallocate(elements, this->size); }
+  };
+  using Memory = std::unique_ptr<T[], Free>;
+
+  Memory Elements;
   std::size_t Size = 0;
 };
 }

@@ -3,9 +3,11 @@
 #ifndef svoDepthBuffer_h
 #define svoDepthBuffer_h
 
-#include "svoPagedArray.h"
+#include "svoPages.h"
+#include "svoRawArray.h"
 #include "svoRay.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -31,9 +33,9 @@ struct DepthBuffer
 {
   int tilesX = 0;
   int tilesY = 0;
-  PagedArray<float> t; // linear depth minus the base of the winning instance
-  PagedArray<std::uint32_t> instance;
-  PagedArray<Primitive> primitive;
+  RawArray<float, Pages<float>> t; // linear depth minus the base of the winning instance
+  RawArray<std::uint32_t, Pages<std::uint32_t>> instance;
+  RawArray<Primitive, Pages<Primitive>> primitive;
   std::vector<std::uint8_t> hit; // per tile: some pixel of it has an instance; else its pixels are
                                  // not written at all
 
@@ -45,7 +47,41 @@ struct DepthBuffer
     this->t.resize(64 * tiles);
     this->instance.resize(64 * tiles);
     this->primitive.resize(64 * tiles);
+    if (this->hit.size() != tiles)
+    {
+      this->Written.assign(tiles, 0);
+    }
     this->hit.assign(tiles, 0);
+  }
+  /// After a frame, of which `writtenNow` says which tiles it wrote: where tiles without a hit hold
+  /// more memory than those with one, theirs is given back, wherever pages hold no others.
+  template <class WrittenNow>
+  void trim(const WrittenNow& writtenNow)
+  {
+    const std::size_t tiles = this->tiles();
+    std::size_t held = 0, needed = 0;
+    for (std::size_t tile = 0; tile < tiles; ++tile)
+    {
+      this->Written[tile] |= static_cast<std::uint8_t>(writtenNow(tile));
+      held += this->Written[tile];
+      needed += this->hit[tile];
+    }
+    if (held <= 2 * needed)
+    {
+      return;
+    }
+    this->Written = this->hit;
+    for (std::size_t first = 0, last; first < tiles; first = last + 1)
+    {
+      last = static_cast<std::size_t>(
+        std::find(this->hit.begin() + static_cast<std::ptrdiff_t>(first), this->hit.end(), 1) -
+        this->hit.begin());
+      Pages<float>::giveBack(this->t.data(), this->t.size(), 64 * first, 64 * last);
+      Pages<std::uint32_t>::giveBack(
+        this->instance.data(), this->instance.size(), 64 * first, 64 * last);
+      Pages<Primitive>::giveBack(
+        this->primitive.data(), this->primitive.size(), 64 * first, 64 * last);
+    }
   }
   std::size_t tiles() const { return static_cast<std::size_t>(this->tilesX) * this->tilesY; }
   std::size_t at(int x, int y) const
@@ -71,6 +107,9 @@ struct DepthBuffer
     const std::size_t tile = static_cast<std::size_t>(tileY) * this->tilesX + tileX;
     return this->hit[tile] && anyOf(this->instance.data() + 64 * tile, wanted);
   }
+
+private:
+  std::vector<std::uint8_t> Written; // per tile: since its memory was given back
 };
 }
 

@@ -3,7 +3,8 @@
 #define svoDepthLayer_h
 
 #include "svoLayout.h"
-#include "svoPagedArray.h"
+#include "svoPages.h"
+#include "svoRawArray.h"
 #include "svoRay.h"
 #include "svoTileIntervals.h"
 #include "svoView.h"
@@ -37,8 +38,8 @@ struct DepthLayer
 {
   PixelRect rect;
   std::vector<std::uint8_t> traced; // per tile of rect, a State
-  PagedArray<float> t;              // 64 per tile, of traced ones
-  PagedArray<Primitive> primitive;
+  RawArray<float, Pages<float>> t;  // 64 per tile, of traced ones
+  RawArray<Primitive, Pages<Primitive>> primitive;
   TileIntervals intervals; // of rect
 
   enum State : std::uint8_t

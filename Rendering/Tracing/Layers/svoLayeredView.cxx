@@ -212,10 +212,19 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
   {
     this->Merged.hit[tile] = this->Merged.hit[tile] && !this->Tiles.isStale(tile);
   }
-  if (all.empty() || !this->Tiles.anyStale())
+  if (!this->Tiles.anyStale())
   {
     return;
   }
+  if (!all.empty())
+  {
+    this->traceTiles(all, parallelFor);
+  }
+  this->Merged.trim([this](std::size_t tile) { return this->Tiles.isMerged(tile); });
+}
+
+void LayeredView::traceTiles(const PixelRect& all, const ParallelFor& parallelFor)
+{
   this->Groups.fill(all, 8 * GroupTiles, this->Order,
     [this](std::uint32_t e) -> const PixelRect& { return this->Instances[e].local.rect; });
   std::vector<std::unique_ptr<TileScratch>> idle; // no more than there are threads

@@ -234,6 +234,8 @@ private:
   };
   void fill(const Scene& scene, const LevelOf& levelOf, Entry& entry, std::uint32_t index);
   void findIntervals(const ParallelFor& parallelFor);
+  /// Traces and merges the tiles that are to be merged, all of which lie in `all`.
+  void traceTiles(const PixelRect& all, const ParallelFor& parallelFor);
   /// Where the rays of a tile can meet an instance; false if nowhere.
   bool meets(int tileX, int tileY, TileEntry& candidate) const;
   /// Finds which tiles of a group are asked for; false if none.

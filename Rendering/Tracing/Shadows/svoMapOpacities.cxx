@@ -3,6 +3,7 @@
 #include "svoSurfaceAlpha.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace svo
 {
@@ -11,7 +12,7 @@ void MapOpacities::find(const Scene& scene, const View& view, const LayeredView&
 {
   const DepthBuffer& depth = map.depthBuffer();
   all = all || this->Texels.size() != 64 * depth.tiles();
-  this->Texels.resize(64 * depth.tiles(), 1.0f);
+  this->Texels.resize(64 * depth.tiles());
   std::vector<SurfaceMatrices> frames(scene.instances.size());
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {

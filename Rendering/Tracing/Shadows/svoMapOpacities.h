@@ -4,12 +4,13 @@
 #define svoMapOpacities_h
 
 #include "svoLayeredView.h"
+#include "svoPages.h"
 #include "svoParallel.h"
+#include "svoRawArray.h"
 #include "svoScene.h"
 #include "svoView.h"
 
 #include <cstddef>
-#include <vector>
 
 namespace svo
 {
@@ -21,12 +22,12 @@ public:
   void find(const Scene& scene, const View& view, const LayeredView& map, bool all,
     const ParallelFor& parallelFor);
   void forget() { this->Texels = {}; }
-  bool known() const { return !this->Texels.empty(); }
+  bool known() const { return this->Texels.size() > 0; }
   /// 0..1; `texel`: as DepthBuffer::at, of those that a caster lies at.
   float at(std::size_t texel) const { return this->Texels[texel]; }
 
 private:
-  std::vector<float> Texels;
+  RawArray<float, Pages<float>> Texels; // of tiles that something lies in
 };
 }
 
