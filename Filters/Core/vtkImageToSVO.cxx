@@ -238,7 +238,6 @@ svo::SourceOctree vtkImageToSVO::Convert(
 {
   constexpr std::size_t Kibi = 1024;
   const svo::ImageBox box = svo::boxOfExtent(image, image->GetExtent());
-  const svo::ImageBox all = svo::boxOfExtent(image, whole);
   svo::BuildOptions options;
   options.leafGeometry = svo::LeafGeometry::Plane;
   options.frame = svo::frameOfImage(image);
@@ -247,7 +246,7 @@ svo::SourceOctree vtkImageToSVO::Convert(
   options.level = this->MaximumLevel > 0 ? this->MaximumLevel : svo::levelOfImage(image, whole);
   options.memoryLimit = this->MemoryLimit * Kibi;
   options.parallelFor = svo::smpParallelFor();
-  const svo::Cube cube = svo::boundingCube(all.low, all.high, options.level);
+  const svo::Cube cube = svo::cubeOfImage(image, whole, options.level);
   vtkDataArray* colors = this->FindColors(image);
   double begun = 0.0, share = colors ? 0.8 : 1.0;
   options.progress = [&](double progress)

@@ -57,10 +57,11 @@ public:
 
   //@{
   /**
-   * Depth of the octree: 2^level voxels along the image's longest edge. 0 to 20, values outside are
-   * clamped. 0 (default): the first level whose voxels are no larger than the image's smallest
-   * spacing; but at least 8, which looks like a surface, and about 2 beyond the one with a
-   * voxel for each cell along the axis with most cells, where spacings are very uneven.
+   * Depth of the octree: up to 2^level voxels along the image's longest edge, as many as make the
+   * smallest spacing a whole number of voxels. 0 to 20, values outside are clamped. 0 (default):
+   * the first level whose voxels are no larger than the image's smallest spacing; but at least 8,
+   * which looks like a surface, and about 2 beyond the one with a voxel for each cell along the
+   * axis with most cells, where spacings are very uneven.
    */
   vtkSetClampMacro(MaximumLevel, int, 0, 20);
   vtkGetMacro(MaximumLevel, int);

@@ -157,6 +157,20 @@ ImageBox boxOfExtent(vtkImageData* image, const int extent[6])
   return box;
 }
 
+Cube cubeOfImage(vtkImageData* image, const int extent[6], int level)
+{
+  const ImageBox box = boxOfExtent(image, extent);
+  const double* spacing = image->GetSpacing();
+  const double least =
+    std::min({ std::abs(spacing[0]), std::abs(spacing[1]), std::abs(spacing[2]) });
+  const double inCell = std::floor(std::ldexp(least / box.extent(), level) * (1.0 + 1e-9));
+  const Cube cube = boundingCube(box.low, box.high, level);
+  const double edge = std::ldexp(least / inCell, level);
+  // Far from the origin the bounding cube is larger, for points to be told apart.
+  const bool resolved = cube.edge <= 1.01 * box.extent();
+  return inCell >= 1.0 && resolved ? Cube{ box.low, edge } : cube;
+}
+
 vtkSmartPointer<vtkDataArray> visibleScalars(vtkImageData* image, vtkDataArray* scalars)
 {
   vtkUnsignedCharArray* marks = image->GetPointGhostArray();

@@ -35,6 +35,11 @@ ImageGrid gridOfImage(vtkImageData* image);
 /// Of what lies between points of the extent, of the image's spacing.
 ImageBox boxOfExtent(vtkImageData* image, const int extent[6]);
 
+/// The octree's cube: voxels no smaller than those of the bounding cube, a whole number of them, or
+/// one, to the smallest cells' edge, from the lower corner on. If they were larger than cells, the
+/// bounding cube.
+Cube cubeOfImage(vtkImageData* image, const int extent[6], int level);
+
 /// The scalars, or, where points are blanked, doubles in which these are NaN.
 vtkSmartPointer<vtkDataArray> visibleScalars(vtkImageData* image, vtkDataArray* scalars);
 

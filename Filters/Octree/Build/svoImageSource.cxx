@@ -1,5 +1,9 @@
 #include "svoImageSource.h"
 
+#include "svoImageBrick.h"
+#include "svoMorton.h"
+#include "svoNode.h"
+
 #include <glm/vector_relational.hpp>
 
 namespace svo
@@ -96,6 +100,41 @@ bool ImageSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& pl
   glm::dvec3 in;
   return this->Grid.locate(centre, cell, in) && !this->Grid.isHidden(cell) &&
     this->cellsReach(this->boxOf(centre, half)) && this->FieldSource::planeIn(centre, half, plane);
+}
+
+std::uint32_t ImageSource::planeReach(double half) const
+{
+  return ImageBrick::ready(this->Grid, half) ? 2 : LongestReach;
+}
+
+std::uint64_t ImageSource::planesIn(const SourceBrick& brick, SourcePlane planes[64]) const
+{
+  if (!ImageBrick::ready(this->Grid, brick.half))
+  {
+    return this->FieldSource::planesIn(brick, planes);
+  }
+  ImageBrick values(this->Grid, brick, this->Value);
+  std::uint64_t mask = 0;
+  for (std::uint64_t left = values.read(this->Field) & brick.asked; left != 0; left &= left - 1)
+  {
+    const int i = lowestBit(left);
+    const glm::dvec3 centre = glm::dvec3(cellOfIndex(i)) + 0.5; // in voxels
+    glm::ivec3 cell;
+    glm::dvec3 in, middle, rise;
+    if (!this->Grid.locate(brick.low + 2.0 * brick.half * centre, cell, in) ||
+      this->Grid.isHidden(cell))
+    {
+      continue;
+    }
+    values.crossings(i, middle, rise);
+    const glm::dvec3 gradient = this->Field.gradient(brick.low + 2.0 * brick.half * middle);
+    const double square = glm::dot(gradient, gradient);
+    const bool usable = square > 0.0 && std::isfinite(square);
+    planes[i].normal = usable ? gradient / std::sqrt(square) : glm::normalize(rise);
+    planes[i].offset = 2.0 * brick.half * glm::dot(planes[i].normal, middle - centre);
+    mask |= cellBit(i);
+  }
+  return mask;
 }
 
 /// A field that is trilinear has its extremes in a part of a cell at the part's corners.

@@ -89,15 +89,20 @@ public:
   /// Whether finite values at points first to last, inclusive, lie on both sides of `value` or are
   /// it; and are not all the same.
   virtual bool crosses(const glm::ivec3& first, const glm::ivec3& last, double value) const = 0;
+  /// Copies values at points first to last, inclusive, into rows, and slices of rows, of `row`
+  /// values. False, and not all are copied, if none is below `value` or none is not.
+  virtual bool read(
+    const glm::ivec3& first, const glm::ivec3& last, double value, double* to, int row) const = 0;
 };
 
 /// The direction of the smooth gradient, but no further than LargestTurn from the field's own:
-/// where an image has few points for what it shows, planes that are turned further leave gaps
-/// between voxels. As long as the field changes in that direction. Where one of the two is not
-/// known, the other.
+/// then planes through the middles of what they stand for are apart by an eighth of a voxel where
+/// voxels meet, which is ImageSource::planeReach(). Planes that are turned further leave gaps,
+/// where an image has few points for what it shows. As long as the field changes in that direction.
+/// Where one of the two is not known, the other.
 inline glm::dvec3 turnedTowards(const glm::dvec3& own, const glm::dvec3& smooth)
 {
-  constexpr double LargestTurn = 0.5; // tangent: 27 degrees
+  constexpr double LargestTurn = 0.25; // tangent: 14 degrees
   const double square = glm::dot(own, own), along = glm::dot(own, smooth);
   if (!(square > 0.0) || !std::isfinite(square))
   {
@@ -186,6 +191,27 @@ public:
       }
     }
     return at && (below || above);
+  }
+  bool read(const glm::ivec3& first, const glm::ivec3& last, double value, double* to,
+    int row) const override
+  {
+    bool below = false, above = false;
+    for (int z = first.z; z <= last.z; ++z)
+    {
+      for (int y = first.y; y <= last.y; ++y)
+      {
+        const T* from = this->Values + this->Grid.index(first.x, y, z);
+        double* end = to + row * ((z - first.z) * row + (y - first.y));
+        for (int x = 0; x <= last.x - first.x; ++x)
+        {
+          const double v = static_cast<double>(from[x]);
+          below |= v < value;
+          above |= v >= value;
+          end[x] = v;
+        }
+      }
+    }
+    return below && above;
   }
 
 private:
@@ -332,6 +358,9 @@ public:
   /// A voxel is part of the cell that its centre is in: hidden cells have none, and of two images
   /// that share a border one has those on it.
   bool planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const override;
+  /// Of voxels no larger than cells from the corners, see svoImageBrick.h.
+  std::uint64_t planesIn(const SourceBrick& brick, SourcePlane planes[64]) const override;
+  std::uint32_t planeReach(double half) const override;
 
 private:
   struct Box

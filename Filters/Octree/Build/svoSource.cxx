@@ -72,7 +72,8 @@ public:
   {
     if (level >= this->Level - 2)
     {
-      this->visitBrick(cell, level, found);
+      assert(level == std::max(this->Level - 2, 0));
+      this->visitBrick(cell, found);
       return;
     }
     for (int i = 0; i < 8; ++i)
@@ -99,40 +100,37 @@ private:
 
   /// A brick is a cell two levels above the voxels; where there are fewer levels, its lower corner
   /// is the cube.
-  void visitBrick(const glm::ivec3& cell, int level, Found& found)
+  void visitBrick(const glm::ivec3& cell, Found& found)
   {
-    assert(level == std::max(this->Level - 2, 0));
-    const int groups = this->Level - 1 > level ? 8 : 1;
-    const std::size_t first = found.planes.size();
-    std::uint64_t mask = 0;
-    SurfaceMoment moment{ glm::vec3(0.0f), 0.0f, glm::vec3(0.0f) };
-    for (int g = 0; g < groups; ++g)
+    const double half = this->half(this->Level);
+    SourceBrick brick{ this->Origin + 8.0 * half * glm::dvec3(cell), half, ~std::uint64_t(0) };
+    if (this->Level == 1)
     {
-      const glm::ivec3 group =
-        groups == 1 ? cell : 2 * cell + glm::ivec3(g & 1, g >> 1 & 1, g >> 2);
-      if (!this->mayPass(group, this->Level - 1))
-      {
-        continue;
-      }
-      for (int i = GroupSize * g; i < GroupSize * (g + 1); ++i)
-      {
-        const glm::ivec3 voxel = 2 * group + glm::ivec3(i & 1, i >> 1 & 1, i >> 2 & 1);
-        if (this->visitVoxel(voxel, cellOfIndex(i), moment, found))
-        {
-          mask |= cellBit(i);
-        }
-      }
+      brick.asked = 0xff;
     }
+    if (!this->isInBox(brick.low, brick.low + 8.0 * half))
+    {
+      brick.asked &= this->voxelsInBox(brick);
+    }
+    SourcePlane planes[64];
+    const std::uint64_t mask = this->Source.planesIn(brick, planes);
+    assert((mask & ~brick.asked) == 0);
     if (mask == 0)
     {
       return;
     }
+    SurfaceMoment moment{ glm::vec3(0.0f), 0.0f, glm::vec3(0.0f) };
+    for (std::uint64_t left = mask; left != 0; left &= left - 1)
+    {
+      const int i = lowestBit(left);
+      this->add(planes[i], half, cellOfIndex(i), moment, found);
+    }
     moment.centre /= moment.area;
-    const glm::uvec3 brick(this->Level == 1 ? glm::ivec3(0) : cell);
-    found.keys.push_back(mortonKey(brick.x, brick.y, brick.z));
+    found.keys.push_back(mortonKey(static_cast<std::uint32_t>(cell.x),
+      static_cast<std::uint32_t>(cell.y), static_cast<std::uint32_t>(cell.z)));
     found.masks.push_back(mask);
     found.moments.push_back(moment);
-    const std::size_t bytes = BrickBytes + VoxelBytes * (found.planes.size() - first);
+    const std::size_t bytes = BrickBytes + VoxelBytes * static_cast<std::size_t>(countBits(mask));
     if (this->Taken.fetch_add(bytes, std::memory_order_relaxed) + bytes > this->Limit &&
       this->Limit > 0)
     {
@@ -140,17 +138,26 @@ private:
     }
   }
 
-  /// `inBrick`: its cell there.
-  bool visitVoxel(
-    const glm::ivec3& voxel, const glm::ivec3& inBrick, SurfaceMoment& moment, Found& found) const
+  bool isInBox(const glm::dvec3& low, const glm::dvec3& high) const
   {
-    const double half = this->half(this->Level);
-    const glm::dvec3 centre = this->centre(voxel, this->Level);
-    SourcePlane plane;
-    if (!this->touchesBox(centre, half) || !this->Source.planeIn(centre, half, plane))
+    return glm::all(glm::lessThanEqual(this->Low, low)) &&
+      glm::all(glm::lessThanEqual(high, this->High));
+  }
+  std::uint64_t voxelsInBox(const SourceBrick& brick) const
+  {
+    std::uint64_t mask = 0;
+    for (int i = 0; i < 64; ++i)
     {
-      return false;
+      const glm::dvec3 centre = brick.low + brick.half * (2.0 * glm::dvec3(cellOfIndex(i)) + 1.0);
+      mask |= this->touchesBox(centre, brick.half) ? cellBit(i) : 0;
     }
+    return mask;
+  }
+
+  /// `inBrick`: its cell there.
+  static void add(const SourcePlane& plane, double half, const glm::ivec3& inBrick,
+    SurfaceMoment& moment, Found& found)
+  {
     const glm::vec3 normal(plane.normal);
     const float offset = static_cast<float>(plane.offset * 0.5 / half); // in voxels
     found.planes.push_back(encodePlane({ normal, std::clamp(offset * 2.0f / Sqrt3, -1.0f, 1.0f) }));
@@ -160,7 +167,6 @@ private:
     moment.normal += area * normal;
     moment.area += area;
     moment.centre += area * (glm::vec3(inBrick) - 1.5f + offset * normal);
-    return true;
   }
 
   const SurfaceSource& Source;
@@ -294,6 +300,7 @@ void buildStages(
     });
   Header header = makeHeader(options, cube);
   header.framed = options.frame != glm::dmat4(1.0);
+  header.planeReach = source.planeReach(0.5 * header.voxelSize);
   RawArray<std::uint32_t> planes;
   NodeDepth bricks = joinBricks(parts, header, planes);
   result.data = assembleBricks(std::move(bricks), planes, header, result.size, executor);
@@ -324,6 +331,29 @@ std::string refusal(const BuildOptions& options)
   }
   return {};
 }
+}
+
+std::uint64_t SurfaceSource::planesIn(const SourceBrick& brick, SourcePlane planes[64]) const
+{
+  std::uint64_t mask = 0;
+  const double half = brick.half;
+  for (int g = 0; g < 64; g += GroupSize)
+  {
+    const glm::dvec3 group = brick.low + half * (2.0 * glm::dvec3(cellOfIndex(g)) + 2.0);
+    if ((brick.asked >> g & 0xff) == 0 || !this->mayPass(group, 2.0 * half))
+    {
+      continue;
+    }
+    for (int i = g; i < g + GroupSize; ++i)
+    {
+      const glm::dvec3 centre = brick.low + half * (2.0 * glm::dvec3(cellOfIndex(i)) + 1.0);
+      if ((brick.asked & cellBit(i)) != 0 && this->planeIn(centre, half, planes[i]))
+      {
+        mask |= cellBit(i);
+      }
+    }
+  }
+  return mask;
 }
 
 BuildResult build(const SurfaceSource& source, const BuildOptions& options)

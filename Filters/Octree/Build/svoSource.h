@@ -9,6 +9,8 @@
 
 #include "svoBuild.h"
 
+#include <cstdint>
+
 #include <glm/vec3.hpp>
 
 namespace svo
@@ -20,7 +22,15 @@ struct SourcePlane
   double offset;     // from the voxel's centre along the normal, in the source's units
 };
 
-/// A surface that is no mesh. Both functions are called by several threads at a time, unless the
+/// The 4x4x4 voxels of a brick, in Morton order.
+struct SourceBrick
+{
+  glm::dvec3 low;      // corner
+  double half;         // of a voxel's edge
+  std::uint64_t asked; // voxels that planes are wanted of
+};
+
+/// A surface that is no mesh. All functions are called by several threads at a time, unless the
 /// executor of the build is serial.
 class SurfaceSource
 {
@@ -33,6 +43,14 @@ public:
 
   /// Whether a surface passes through a voxel, and then as which plane.
   virtual bool planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const = 0;
+
+  /// The same of the voxels of a brick: which of those asked for, with their planes in their
+  /// places.
+  virtual std::uint64_t planesIn(const SourceBrick& brick, SourcePlane planes[64]) const;
+
+  /// How far planes have to be seen beyond voxels of that size, for those next to each other to
+  /// meet, in 1/16 voxel: 1 to LongestReach.
+  virtual std::uint32_t planeReach(double /*half*/) const { return LongestReach; }
 };
 
 /// The octree of planes of what of a source lies in the box of modelLow and modelHigh, which has to

@@ -105,9 +105,10 @@ struct Header
   std::uint64_t cellCount;     // of that mesh
   double meshBounds[6]; // of that mesh, or of what it is a part of; own frame; planes end there
   std::uint32_t depthBegin[MaximumDepths + 1]; // first node of each depth; [depthCount] = nodeCount
-  std::uint32_t leafWords; // words of `lists` that a voxel has; 0: an octree of triangles
-  std::uint32_t framed;    // 1: there is a frame; else 0. Of octrees of planes only
-  std::uint32_t reserved[11];
+  std::uint32_t leafWords;  // words of `lists` that a voxel has; 0: an octree of triangles
+  std::uint32_t framed;     // 1: there is a frame; else 0. Of octrees of planes only
+  std::uint32_t planeReach; // 1/16 voxel that planes are seen beyond their voxels; 0: LongestReach
+  std::uint32_t reserved[10];
 };
 static_assert(sizeof(Header) == 256, "the header is part of the file format");
 
@@ -115,6 +116,8 @@ constexpr char LayoutMagic[8] = { 'v', 't', 'k', 'S', 'V', 'O', 0, 0 };
 constexpr std::uint32_t LayoutVersion = 1;
 /// Header::leafWords of an octree of planes.
 constexpr std::uint32_t PlaneWords = 1;
+/// Largest Header::planeReach, that of tangent planes, and of files older than that word.
+constexpr std::uint32_t LongestReach = 8;
 
 constexpr std::size_t FrameBytes = 16 * sizeof(double);
 constexpr double LargestFrameCondition = 1e9;

@@ -24,7 +24,8 @@ bool headerIsSane(const Header& h, std::size_t size)
     h.depthCount != (h.level + 1) / 2 || h.nodeCount < 1 || h.nodeCount > 0x7fffffffu ||
     h.listWords > 0x7fffffffu || h.triangleCount > 0x7fffffffu ||
     (h.leafWords != 0 && (h.leafWords != PlaneWords || h.triangleCount != 0)) ||
-    h.framed > (h.leafWords != 0 ? 1u : 0u) || size != bufferSize(h))
+    h.framed > (h.leafWords != 0 ? 1u : 0u) ||
+    h.planeReach > (h.leafWords != 0 ? LongestReach : 0u) || size != bufferSize(h))
   {
     return false;
   }

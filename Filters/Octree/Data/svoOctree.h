@@ -53,6 +53,12 @@ public:
   const Surface* surface() const { return this->Whole ? this->Whole->surface.get() : nullptr; }
   /// True if it has a plane for each voxel instead of triangles; it never has a surface then.
   bool hasPlanes() const { return this->header().leafWords != 0; }
+  /// How far the planes of voxels are seen beyond their voxels, in voxels.
+  double planeReach() const
+  {
+    const std::uint32_t reach = this->header().planeReach;
+    return (reach != 0 ? reach : LongestReach) / 16.0;
+  }
 
   int level() const { return static_cast<int>(this->header().level); }
   int depthCount() const { return static_cast<int>(this->header().depthCount); }

@@ -16,9 +16,10 @@
 //   automatic  triangle in bricks with a list of at most ShortList triangles, plane in the others.
 //
 // An octree of planes has a plane of its own in each voxel: all leaves but `voxel` are that plane,
-// where it passes the voxel widened by half a voxel on all sides. Neighbouring planes are tangents
-// of one smooth surface: at the voxels' border they are apart by less than the bend of the surface
-// within a voxel, so they overlap there, and reach little beyond an edge. A ray that all of them
+// where it passes the voxel widened by Octree::planeReach() on all sides: half a voxel, unless
+// neighbouring planes meet better. Neighbouring planes are tangents of one smooth surface: at the
+// voxels' border they are apart by less than the bend of the surface within a voxel, so they
+// overlap there, and reach little beyond an edge. A ray that all of them
 // refuse has passed beside the surface: it gets nothing, and outlines are the surface's own. Rays
 // that reach bricks go on to their voxels. Planes end at Header::meshBounds: what a source has
 // beyond the border of an image is not known.
@@ -57,6 +58,7 @@ struct LeafQuery
     : octree(o)
     , options(asked)
     , planes(o.hasPlanes())
+    , ownReach(1.0 + 2.0 * o.planeReach())
     , level(stopLevel(o, options.level))
     , bits(rootBits(o, level))
     , inBrick(level >= o.level() - 2)
@@ -108,6 +110,7 @@ struct LeafQuery
   glm::dvec3 low{ 0.0 }; // of an octree of planes: where its surface ends, octree coordinates
   glm::dvec3 high{ 3.0 };
   bool planes;     // of its own, see Octree::hasPlanes()
+  double ownReach; // of those from a voxel's centre, in halves of its edge
   int level;       // where rays stop
   int bits;        // of a cell's coordinate in the root cube
   bool inBrick;    // cells are parts of a brick, or a brick
@@ -270,7 +273,7 @@ Visit meetPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const StopC
   const Vector<Real> at = ray.origin + t * ray.direction;
   const Vector<Real> x = glm::abs(at - cellCentre<Real>(cell.cell, query.bits));
   const bool own = query.planes && !(primitive & NodePrimitive);
-  const Real reach = static_cast<Real>((own ? 2.0 : 3.0) * cellHalf(query.bits));
+  const Real reach = static_cast<Real>((own ? query.ownReach : 3.0) * cellHalf(query.bits));
   const bool near = x.x <= reach && x.y <= reach && x.z <= reach; // false for NaN
   if (near && !query.inBox(at))
   {

@@ -143,7 +143,8 @@ HWY_INLINE Lanes meetOwnPlanes(const LeafQuery& query, const WalkTarget& target,
     hn::Div(hn::Add(toCentre, hn::Mul(offset, halfDiagonal)), product(x, y, z, p.dx, p.dy, p.dz));
 
   // meetPlane().
-  const F reach = hn::Set(df, static_cast<float>((voxels ? 2.0 : 3.0) * cellHalf(query.bits)));
+  const F reach =
+    hn::Set(df, static_cast<float>((voxels ? query.ownReach : 3.0) * cellHalf(query.bits)));
   auto near = hn::RebindMask(df, arrived);
   auto inBox = near;
   const auto look = [&](F o, F d, I position, int axis)

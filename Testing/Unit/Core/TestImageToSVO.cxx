@@ -19,8 +19,10 @@
 #include "vtkPointData.h"
 #include "vtkShortArray.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkVoxel.h"
 
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 
@@ -216,6 +218,69 @@ TEST(ImageToSVO, NothingOfTheSurfaceIsMissed)
     EXPECT_LT(b[2 * i + 1] - b[2 * i], 2.0 + 2.0 * cell);
   }
   EXPECT_GT(conversion.filter->GetNumberOfVoxels(), 100);
+}
+
+// A bar of 3 x 6 cells with sharp edges, seen along another direction than the axes'.
+TEST(ImageToSVO, ThinStructuresAreNoFatterThanTheField)
+{
+  constexpr int N = 24;
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(N, N, N);
+  image->AllocateScalars(VTK_SHORT, 1);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double* x = image->GetPoint(i);
+    const bool bar = std::abs(x[0] - 11.0) <= 1.5 && std::abs(x[1] - 11.0) <= 3.0;
+    image->GetPointData()->GetScalars()->SetTuple1(i, bar && std::abs(x[2] - 11.0) <= 8.0);
+  }
+  ImageConversion conversion(image);
+  conversion.filter->SetValue(0.4);
+  vtkNew<vtkSparseVoxelOctree> octree;
+  conversion.filter->SetMaximumLevel(6); // half a cell
+  ASSERT_TRUE(octree->Initialize(conversion.output()));
+  ASSERT_EQ(octree->GetVoxelSize(), 0.5);
+  const auto field = [&](const glm::dvec3& at)
+  {
+    double value = 0.0, in[3], weights[8];
+    int ijk[3];
+    double x[3] = { at.x, at.y, at.z };
+    if (image->ComputeStructuredCoordinates(x, ijk, in) == 0)
+    {
+      return 0.0;
+    }
+    vtkVoxel::InterpolationFunctions(in, weights);
+    for (int c = 0; c < 8; ++c)
+    {
+      value += weights[c] *
+        image->GetScalarComponentAsDouble(
+          ijk[0] + (c & 1), ijk[1] + (c >> 1 & 1), ijk[2] + (c >> 2), 0);
+    }
+    return value;
+  };
+  const glm::dvec3 ahead = glm::normalize(glm::dvec3(0.3, -1.0, 0.4));
+  const glm::dvec3 right = glm::normalize(glm::cross(ahead, glm::dvec3(0.0, 0.0, 1.0)));
+  const glm::dvec3 up = glm::cross(right, ahead);
+  int drawn = 0, extra = 0, missing = 0;
+  for (int i = 0; i < 150 * 150; ++i)
+  {
+    const glm::dvec3 middle =
+      glm::dvec3(11.0) + (i % 150 - 74.6) * 0.15 * right + (i / 150 - 74.6) * 0.15 * up;
+    bool isThere = false;
+    for (double t = -16.0; t < 16.0 && !isThere; t += 0.05)
+    {
+      isThere = field(middle + t * ahead) >= 0.4;
+    }
+    const glm::dvec3 from = middle - 20.0 * ahead, to = middle + 20.0 * ahead;
+    double t, x[3];
+    vtkIdType cell;
+    const bool isHit = octree->IntersectWithLine(&from.x, &to.x, t, x, cell) != 0;
+    drawn += isThere;
+    extra += isHit && !isThere;
+    missing += isThere && !isHit;
+  }
+  std::printf("%d rays meet the bar, %d more its octree, %d fewer\n", drawn, extra, missing);
+  EXPECT_LT(extra, drawn / 20);
+  EXPECT_LT(missing, drawn / 200);
 }
 
 TEST(ImageToSVO, OneMessageForWhatCannotBeConverted)

@@ -433,6 +433,11 @@ TEST(Source, DamagedPlanesAreRefused)
   EXPECT_FALSE(opensAfter([](svo::Header& h, svo::Node*) { h.leafWords = 2; }));
   EXPECT_FALSE(opensAfter([](svo::Header& h, svo::Node*) { h.leafWords = 0; }));
   EXPECT_FALSE(opensAfter([](svo::Header& h, svo::Node*) { h.triangleCount = 1; }));
+  for (std::uint32_t reach = 0; reach <= 9; ++reach)
+  {
+    const bool opens = opensAfter([&](svo::Header& h, svo::Node*) { h.planeReach = reach; });
+    EXPECT_EQ(opens, reach <= svo::LongestReach) << reach;
+  }
   EXPECT_FALSE(opensAfter(
     [](svo::Header& h, svo::Node* nodes) { nodes[h.nodeCount - 1].first = 0x7fffffffu; }));
   EXPECT_FALSE(
