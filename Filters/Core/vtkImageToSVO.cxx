@@ -8,6 +8,7 @@
 #include "svoSMPParallel.h"
 #include "svoSourceOctree.h"
 
+#include "vtkContourValues.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
@@ -22,8 +23,10 @@
 #include "vtkTimerLog.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <new>
+#include <sstream>
 #include <string>
 
 vtkStandardNewMacro(vtkImageToSVO);
@@ -95,16 +98,17 @@ bool colorBy(vtkDataArray* from, const svo::ImageGrid& grid, const svo::SourceOc
 }
 
 template <class T>
-svo::SourceOctree convert(const T* values, const svo::ImageGrid& grid, double value,
-  const svo::Cube& cube, const svo::BuildOptions& options, const svo::CarrierOptions& carrier,
-  vtkPolyData* mesh, std::shared_ptr<const svo::ValuePyramid>& pyramid)
+svo::SourceOctree convert(const T* values, const svo::ImageGrid& grid,
+  const std::vector<double>& surfaces, const svo::Cube& cube, const svo::BuildOptions& options,
+  const svo::CarrierOptions& carrier, vtkPolyData* mesh,
+  std::shared_ptr<const svo::ValuePyramid>& pyramid)
 {
   const svo::ImageField<T> field(grid, values);
   if (!pyramid)
   {
     pyramid = std::make_shared<const svo::ValuePyramid>(grid, field, options.parallelFor);
   }
-  const svo::ImageSource source(field, grid, *pyramid, value);
+  const svo::ImageSource source(field, grid, *pyramid, surfaces);
   return svo::buildSourceOctree(source, options, carrier, mesh, &cube);
 }
 }
@@ -112,6 +116,7 @@ svo::SourceOctree convert(const T* values, const svo::ImageGrid& grid, double va
 //------------------------------------------------------------------------------
 vtkImageToSVO::vtkImageToSVO()
 {
+  this->Contours->SetNumberOfContours(0);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
 }
@@ -119,6 +124,67 @@ vtkImageToSVO::vtkImageToSVO()
 vtkImageToSVO::~vtkImageToSVO()
 {
   this->SetColorArrayName(nullptr);
+}
+
+//------------------------------------------------------------------------------
+void vtkImageToSVO::SetValue(int i, double value)
+{
+  this->Contours->SetValue(i, value);
+}
+
+double vtkImageToSVO::GetValue(int i)
+{
+  return this->Contours->GetValue(i);
+}
+
+double* vtkImageToSVO::GetValues()
+{
+  return this->Contours->GetValues();
+}
+
+void vtkImageToSVO::GetValues(double* values)
+{
+  this->Contours->GetValues(values);
+}
+
+void vtkImageToSVO::SetNumberOfContours(int number)
+{
+  this->Contours->SetNumberOfContours(number);
+}
+
+vtkIdType vtkImageToSVO::GetNumberOfContours()
+{
+  return this->Contours->GetNumberOfContours();
+}
+
+void vtkImageToSVO::GenerateValues(int number, double range[2])
+{
+  this->Contours->GenerateValues(number, range);
+}
+
+void vtkImageToSVO::GenerateValues(int number, double first, double last)
+{
+  this->Contours->GenerateValues(number, first, last);
+}
+
+vtkMTimeType vtkImageToSVO::GetMTime()
+{
+  return std::max(this->Superclass::GetMTime(), this->Contours->GetMTime());
+}
+
+/// The values to look for, each once.
+std::vector<double> vtkImageToSVO::Surfaces()
+{
+  std::vector<double> surfaces(this->GetValues(), this->GetValues() + this->GetNumberOfContours());
+  if (surfaces.empty())
+  {
+    surfaces.push_back(this->Value);
+  }
+  const auto isNaN = [](double value) { return std::isnan(value); };
+  surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), isNaN), surfaces.end());
+  std::sort(surfaces.begin(), surfaces.end());
+  surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
+  return surfaces;
 }
 
 //------------------------------------------------------------------------------
@@ -211,13 +277,15 @@ int vtkImageToSVO::RequestData(
 //------------------------------------------------------------------------------
 void vtkImageToSVO::WarnOfNothing(vtkImageData* image, vtkDataArray* scalars, double voxel)
 {
+  const std::vector<double> surfaces = this->Surfaces();
   double range[2];
   scalars->GetFiniteRange(range);
   if (range[0] > range[1])
   {
     vtkWarningMacro("No surface was found: the image has no finite values.");
   }
-  else if (range[0] < this->Value && this->Value < range[1] &&
+  else if (std::any_of(surfaces.begin(), surfaces.end(),
+             [&](double value) { return range[0] < value && value < range[1]; }) &&
     voxel > svo::boxOfExtent(image, image->GetExtent()).thickness())
   {
     vtkWarningMacro("No surface was found: the image is thinner than a voxel, which has an edge of "
@@ -225,8 +293,13 @@ void vtkImageToSVO::WarnOfNothing(vtkImageData* image, vtkDataArray* scalars, do
   }
   else
   {
+    std::ostringstream values;
+    for (const double value : surfaces)
+    {
+      values << (value != surfaces.front() ? ", " : "") << value;
+    }
     vtkWarningMacro("No surface was found: the image does not take the value "
-      << this->Value << " between points on both sides of it; its finite values are " << range[0]
+      << values.str() << " between points on both sides of it; its finite values are " << range[0]
       << " to " << range[1] << ".");
   }
 }
@@ -269,10 +342,11 @@ svo::SourceOctree vtkImageToSVO::Convert(
     }
     const vtkSmartPointer<vtkDataArray> scalars = svo::visibleScalars(image, asked);
     const svo::ImageGrid grid = svo::gridOfImage(image);
+    const std::vector<double> surfaces = this->Surfaces();
     switch (scalars->GetDataType())
     {
       vtkTemplateMacro(built = convert(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0)), grid,
-                         this->Value, cube, options, carrier, output, this->Pyramid));
+                         surfaces, cube, options, carrier, output, this->Pyramid));
     }
     begun = 0.8;
     share = 0.2;
@@ -315,6 +389,7 @@ void vtkImageToSVO::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Value: " << this->Value << "\n";
+  this->Contours->PrintSelf(os, indent);
   os << indent << "MaximumLevel: " << this->MaximumLevel << "\n";
   os << indent << "ColorArrayName: " << (this->ColorArrayName ? this->ColorArrayName : "(none)")
      << "\n";

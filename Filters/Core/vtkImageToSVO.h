@@ -2,12 +2,12 @@
  * @class vtkImageToSVO
  * @brief converts an isosurface of an image into a sparse voxel octree, without triangles
  *
- * The surface is where the point scalars of a three-dimensional image take a value: those of the
- * array chosen with SetInputArrayToProcess(), by default the active ones. The image is trilinear
- * between its points; spacing, origin and direction matrix count. Each voxel that the surface
- * touches keeps a plane.
+ * The surface is where the point scalars of a three-dimensional image take a value, or one of
+ * several: those of the array chosen with SetInputArrayToProcess(), by default the active ones. The
+ * image is trilinear between its points; spacing, origin and direction matrix count. Each voxel
+ * that the surface touches keeps a plane.
  *
- * Another array of the image can colour the surface, see SetColorArrayName().
+ * Another array of the image, or the same, can colour the surface, see SetColorArrayName().
  *
  * The output is a contour of the voxels' planes that carries the octree in its field data, as that
  * of vtkImplicitFunctionToSVO is; its front faces look to smaller values, as those of VTK's
@@ -26,11 +26,14 @@
 #ifndef vtkImageToSVO_h
 #define vtkImageToSVO_h
 
+#include "vtkNew.h" // for the values
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSVOCoreModule.h" // for the export macro
 
 #include <memory> // for what is kept of an image
+#include <vector>
 
+class vtkContourValues;
 class vtkDataArray;
 class vtkImageData;
 
@@ -49,11 +52,29 @@ public:
 
   //@{
   /**
-   * The value that the scalars take on the surface; default 0.
+   * The value that the scalars take on the surface, unless there is a list of values; default 0.
    */
   vtkSetMacro(Value, double);
   vtkGetMacro(Value, double);
   //@}
+
+  //@{
+  /**
+   * A list of values instead of the one above, with the names of VTK's contour filters; default
+   * none. The octree has the surfaces of all of them. Where those of two pass through a voxel it
+   * has the one that is nearer to its middle. To tell them apart colour by the scalars themselves.
+   */
+  void SetValue(int i, double value);
+  double GetValue(int i);
+  double* GetValues() VTK_SIZEHINT(GetNumberOfContours());
+  void GetValues(double* values);
+  void SetNumberOfContours(int number);
+  vtkIdType GetNumberOfContours();
+  void GenerateValues(int number, double range[2]);
+  void GenerateValues(int number, double first, double last);
+  //@}
+
+  vtkMTimeType GetMTime() override;
 
   //@{
   /**
@@ -135,11 +156,13 @@ private:
 
   vtkDataArray* FindScalars(vtkInformationVector** inputVector, vtkImageData* image);
   vtkDataArray* FindColors(vtkImageData* image);
+  std::vector<double> Surfaces();
   void WarnOfNothing(vtkImageData* image, vtkDataArray* scalars, double voxel);
   svo::SourceOctree Convert(
     vtkImageData* image, vtkDataArray* asked, const int whole[6], vtkPolyData* output);
 
   double Value = 0.0;
+  vtkNew<vtkContourValues> Contours;
   int MaximumLevel = 0;
   char* ColorArrayName = nullptr;
   unsigned long MemoryLimit = 0;

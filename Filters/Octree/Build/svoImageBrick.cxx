@@ -70,8 +70,7 @@ ImageBrick::Axis ImageBrick::axisOf(double begin, double step, int last)
   return axis;
 }
 
-ImageBrick::ImageBrick(const ImageGrid& grid, const SourceBrick& brick, double value)
-  : Value(value)
+ImageBrick::ImageBrick(const ImageGrid& grid, const SourceBrick& brick)
 {
   for (int a = 0; a < 3; ++a)
   {
@@ -80,15 +79,14 @@ ImageBrick::ImageBrick(const ImageGrid& grid, const SourceBrick& brick, double v
   }
 }
 
-std::uint64_t ImageBrick::read(const GriddedField& field)
+bool ImageBrick::read(const GriddedField& field, double lowest, double highest)
 {
   const Axis &X = this->Axes[0], &Y = this->Axes[1], &Z = this->Axes[2];
   double points[Points][Points][Points];
-  const bool crosses = field.read({ X.first, Y.first, Z.first }, { X.last, Y.last, Z.last },
-    this->Value, &points[0][0][0], Points);
-  if (!crosses)
+  if (!field.read({ X.first, Y.first, Z.first }, { X.last, Y.last, Z.last }, lowest, highest,
+        &points[0][0][0], Points))
   {
-    return 0;
+    return false;
   }
   const auto mix = [](double low, double high, double t)
   { return t > 0.0 ? (1.0 - t) * low + t * high : low; };
@@ -113,21 +111,36 @@ std::uint64_t ImageBrick::read(const GriddedField& field)
       }
     }
   }
-  std::uint16_t unknown[Positions][Positions];
   for (int z = 0; z < Z.count; ++z)
   {
     const int p = Z.point[z];
     for (int y = 0; y < Y.count; ++y)
     {
+      for (int x = 0; x < X.count; ++x)
+      {
+        this->Values[z][y][x] = mix(slices[p][y][x], slices[p + 1][y][x], Z.in[z]);
+      }
+    }
+  }
+  return true;
+}
+
+std::uint64_t ImageBrick::passedBy(double surface) const
+{
+  const Axis &X = this->Axes[0], &Y = this->Axes[1], &Z = this->Axes[2];
+  std::uint16_t aboves[Positions][Positions], unknown[Positions][Positions]; // bits along x
+  for (int z = 0; z < Z.count; ++z)
+  {
+    for (int y = 0; y < Y.count; ++y)
+    {
       unsigned above = 0, bad = 0;
       for (int x = 0; x < X.count; ++x)
       {
-        const double v = mix(slices[p][y][x], slices[p + 1][y][x], Z.in[z]);
-        this->Values[z][y][x] = v;
-        above |= static_cast<unsigned>(v >= this->Value) << x;
+        const double v = this->Values[z][y][x];
+        above |= static_cast<unsigned>(v >= surface) << x;
         bad |= static_cast<unsigned>(!std::isfinite(v)) << x;
       }
-      this->Above[z][y] = static_cast<std::uint16_t>(above);
+      aboves[z][y] = static_cast<std::uint16_t>(above);
       unknown[z][y] = static_cast<std::uint16_t>(bad);
     }
   }
@@ -141,8 +154,8 @@ std::uint64_t ImageBrick::read(const GriddedField& field)
     {
       for (int y = Y.border[c.y]; y <= Y.border[c.y + 1]; ++y)
       {
-        any |= this->Above[z][y];
-        every &= this->Above[z][y];
+        any |= aboves[z][y];
+        every &= aboves[z][y];
         bad |= unknown[z][y];
       }
     }
@@ -151,7 +164,7 @@ std::uint64_t ImageBrick::read(const GriddedField& field)
   return mask;
 }
 
-void ImageBrick::crossings(int voxel, glm::dvec3& middle, glm::dvec3& rise) const
+void ImageBrick::crossings(double surface, int voxel, glm::dvec3& middle, glm::dvec3& rise) const
 {
   const glm::ivec3 c = cellOfIndex(voxel);
   glm::ivec3 low, high; // positions
@@ -172,7 +185,7 @@ void ImageBrick::crossings(int voxel, glm::dvec3& middle, glm::dvec3& rise) cons
         const double v = this->Values[z][y][x];
         const glm::ivec3 p(x, y, z);
         const glm::dvec3 here(this->Axes[0].at[x], this->Axes[1].at[y], this->Axes[2].at[z]);
-        const bool isAbove = v >= this->Value;
+        const bool isAbove = v >= surface;
         (isAbove ? above : below) += here;
         (isAbove ? aboves : belows) += 1.0;
         for (int a = 0; a < 3; ++a)
@@ -184,10 +197,10 @@ void ImageBrick::crossings(int voxel, glm::dvec3& middle, glm::dvec3& rise) cons
           const double w = a == 0 ? this->Values[z][y][x + 1]
             : a == 1              ? this->Values[z][y + 1][x]
                                   : this->Values[z + 1][y][x];
-          if (isAbove != (w >= this->Value))
+          if (isAbove != (w >= surface))
           {
             glm::dvec3 at = here;
-            at[a] += (this->Value - v) / (w - v) * (this->Axes[a].at[p[a] + 1] - here[a]);
+            at[a] += (surface - v) / (w - v) * (this->Axes[a].at[p[a] + 1] - here[a]);
             sum += at;
             ++count;
           }

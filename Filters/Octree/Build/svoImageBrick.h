@@ -21,17 +21,21 @@ struct SourceBrick;
 class ImageBrick
 {
 public:
-  /// `value`: the surface's. False of ready() where voxels are larger than cells.
-  ImageBrick(const ImageGrid& grid, const SourceBrick& brick, double value);
+  /// Only where ready(): voxels are no larger than cells.
+  ImageBrick(const ImageGrid& grid, const SourceBrick& brick);
   static bool ready(const ImageGrid& grid, double half);
 
-  /// Reads the values. Returns the voxels that the surface passes through, without those that have
-  /// a corner without a finite value.
-  std::uint64_t read(const GriddedField& field);
+  /// Reads what the field has there. False if all is on one side of all surfaces, whose values are
+  /// from `lowest` to `highest`.
+  bool read(const GriddedField& field, double lowest, double highest);
 
-  /// Of a voxel that it passes: the mean of where it crosses edges, in voxels from the brick's
-  /// corner; and from which side of the voxel to which values rise, of any length.
-  void crossings(int voxel, glm::dvec3& middle, glm::dvec3& rise) const;
+  /// The voxels that the surface of a value passes through, without those that have a corner
+  /// without a finite value.
+  std::uint64_t passedBy(double surface) const;
+
+  /// Of a voxel that the surface of a value passes: the mean of where it crosses edges, in voxels
+  /// from the brick's corner; and from which side of the voxel to which values rise, of any length.
+  void crossings(double surface, int voxel, glm::dvec3& middle, glm::dvec3& rise) const;
 
 private:
   static constexpr int Positions = 9; // along an axis: five borders of voxels, cells' between them
@@ -49,9 +53,7 @@ private:
   static Axis axisOf(double begin, double step, int last);
 
   Axis Axes[3];
-  const double Value;
   double Values[Positions][Positions][Positions];
-  std::uint16_t Above[Positions][Positions]; // bits of positions along x
 };
 }
 

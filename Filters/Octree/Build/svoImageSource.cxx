@@ -72,25 +72,31 @@ ImageSource::Box ImageSource::boxOf(const glm::dvec3& centre, double half) const
 }
 
 /// False if no surface passes through the cells that the box touches, where these are few.
-bool ImageSource::cellsReach(const Box& box) const
+bool ImageSource::cellsReach(const Box& box, double value) const
 {
   constexpr int Few = 4; // points along an axis; the pyramid judges larger boxes
   const glm::dvec3 last(this->Grid.points - 1);
   const glm::ivec3 from(glm::clamp(glm::floor(box.low), glm::dvec3(0.0), last));
   const glm::ivec3 to(glm::clamp(glm::ceil(box.high), glm::dvec3(0.0), last));
   return glm::any(glm::greaterThanEqual(to - from, glm::ivec3(Few))) ||
-    this->Field.crosses(from, to, this->Value);
+    this->Field.crosses(from, to, value);
 }
 
 bool ImageSource::mayPass(const glm::dvec3& centre, double half) const
 {
   const Box box = this->boxOf(centre, half);
-  if (!this->Pyramid.reaches(box.low, box.high, this->Value) || !this->cellsReach(box))
+  return std::any_of(this->Values.begin(), this->Values.end(),
+    [&](double value) { return this->mayPass(box, value); });
+}
+
+bool ImageSource::mayPass(const Box& box, double value) const
+{
+  if (!this->Pyramid.reaches(box.low, box.high, value) || !this->cellsReach(box, value))
   {
     return false;
   }
   const bool small = glm::all(glm::lessThanEqual(box.high - box.low, glm::dvec3(1.0)));
-  return !small || this->reachesIn(box.low, box.high);
+  return !small || this->reachesIn(box, value);
 }
 
 /// A tangent plane may pass where the surface does not: cells that the voxel touches tell.
@@ -98,8 +104,24 @@ bool ImageSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& pl
 {
   glm::ivec3 cell;
   glm::dvec3 in;
-  return this->Grid.locate(centre, cell, in) && !this->Grid.isHidden(cell) &&
-    this->cellsReach(this->boxOf(centre, half)) && this->FieldSource::planeIn(centre, half, plane);
+  if (!this->Grid.locate(centre, cell, in) || this->Grid.isHidden(cell))
+  {
+    return false;
+  }
+  const Box box = this->boxOf(centre, half);
+  bool found = false;
+  for (const double value : this->Values)
+  {
+    const FieldSource surface(this->Field, { value, 0.0, 0.0, false });
+    SourcePlane its;
+    if (this->cellsReach(box, value) && surface.planeIn(centre, half, its) &&
+      (!found || std::abs(its.offset) < std::abs(plane.offset)))
+    {
+      plane = its;
+      found = true;
+    }
+  }
+  return found;
 }
 
 std::uint32_t ImageSource::planeReach(double half) const
@@ -111,38 +133,51 @@ std::uint64_t ImageSource::planesIn(const SourceBrick& brick, SourcePlane planes
 {
   if (!ImageBrick::ready(this->Grid, brick.half))
   {
-    return this->FieldSource::planesIn(brick, planes);
+    return this->SurfaceSource::planesIn(brick, planes);
   }
-  ImageBrick values(this->Grid, brick, this->Value);
-  std::uint64_t mask = 0;
-  for (std::uint64_t left = values.read(this->Field) & brick.asked; left != 0; left &= left - 1)
+  const double edge = 2.0 * brick.half;
+  ImageBrick read(this->Grid, brick);
+  if (this->Values.empty() || !read.read(this->Field, this->Values.front(), this->Values.back()))
   {
-    const int i = lowestBit(left);
-    const glm::dvec3 centre = glm::dvec3(cellOfIndex(i)) + 0.5; // in voxels
-    glm::ivec3 cell;
-    glm::dvec3 in, middle, rise;
-    if (!this->Grid.locate(brick.low + 2.0 * brick.half * centre, cell, in) ||
-      this->Grid.isHidden(cell))
+    return 0;
+  }
+  std::uint64_t mask = 0;
+  for (const double value : this->Values)
+  {
+    for (std::uint64_t left = read.passedBy(value) & brick.asked; left != 0; left &= left - 1)
     {
-      continue;
+      const int i = lowestBit(left);
+      const glm::dvec3 centre = glm::dvec3(cellOfIndex(i)) + 0.5; // in voxels
+      glm::ivec3 cell;
+      glm::dvec3 in, middle, rise;
+      if (!this->Grid.locate(brick.low + edge * centre, cell, in) || this->Grid.isHidden(cell))
+      {
+        continue;
+      }
+      read.crossings(value, i, middle, rise);
+      const glm::dvec3 gradient = this->Field.gradient(brick.low + edge * middle);
+      const double square = glm::dot(gradient, gradient);
+      const bool usable = square > 0.0 && std::isfinite(square);
+      SourcePlane plane;
+      plane.normal = usable ? gradient / std::sqrt(square) : glm::normalize(rise);
+      plane.offset = edge * glm::dot(plane.normal, middle - centre);
+      const bool nearer = std::abs(plane.offset) < std::abs(planes[i].offset);
+      if ((mask & cellBit(i)) == 0 || nearer)
+      {
+        planes[i] = plane;
+      }
+      mask |= cellBit(i);
     }
-    values.crossings(i, middle, rise);
-    const glm::dvec3 gradient = this->Field.gradient(brick.low + 2.0 * brick.half * middle);
-    const double square = glm::dot(gradient, gradient);
-    const bool usable = square > 0.0 && std::isfinite(square);
-    planes[i].normal = usable ? gradient / std::sqrt(square) : glm::normalize(rise);
-    planes[i].offset = 2.0 * brick.half * glm::dot(planes[i].normal, middle - centre);
-    mask |= cellBit(i);
   }
   return mask;
 }
 
 /// A field that is trilinear has its extremes in a part of a cell at the part's corners.
-bool ImageSource::reachesIn(const glm::dvec3& low, const glm::dvec3& high) const
+bool ImageSource::reachesIn(const Box& box, double surface) const
 {
   const glm::dvec3 last(this->Grid.points - 1);
-  const glm::dvec3 from = glm::clamp(low, glm::dvec3(0.0), last);
-  const glm::dvec3 to = glm::clamp(high, glm::dvec3(0.0), last);
+  const glm::dvec3 from = glm::clamp(box.low, glm::dvec3(0.0), last);
+  const glm::dvec3 to = glm::clamp(box.high, glm::dvec3(0.0), last);
   const glm::dvec3 border = glm::clamp(glm::floor(to), from, to); // between at most two cells
   glm::dvec3 at[3] = { from, to, border };
   glm::ivec3 count(2);
@@ -162,7 +197,7 @@ bool ImageSource::reachesIn(const glm::dvec3& low, const glm::dvec3& high) const
       least = std::min(least, value);
       most = std::max(most, value);
     }
-    if (least <= this->Value && this->Value <= most && least < most)
+    if (least <= surface && surface <= most && least < most)
     {
       return true;
     }

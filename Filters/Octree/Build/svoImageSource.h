@@ -90,9 +90,9 @@ public:
   /// it; and are not all the same.
   virtual bool crosses(const glm::ivec3& first, const glm::ivec3& last, double value) const = 0;
   /// Copies values at points first to last, inclusive, into rows, and slices of rows, of `row`
-  /// values. False, and not all are copied, if none is below `value` or none is not.
-  virtual bool read(
-    const glm::ivec3& first, const glm::ivec3& last, double value, double* to, int row) const = 0;
+  /// values. False if none is below `highest` or none is at least `lowest`.
+  virtual bool read(const glm::ivec3& first, const glm::ivec3& last, double lowest, double highest,
+    double* to, int row) const = 0;
 };
 
 /// The direction of the smooth gradient, but no further than LargestTurn from the field's own:
@@ -192,8 +192,8 @@ public:
     }
     return at && (below || above);
   }
-  bool read(const glm::ivec3& first, const glm::ivec3& last, double value, double* to,
-    int row) const override
+  bool read(const glm::ivec3& first, const glm::ivec3& last, double lowest, double highest,
+    double* to, int row) const override
   {
     bool below = false, above = false;
     for (int z = first.z; z <= last.z; ++z)
@@ -205,8 +205,8 @@ public:
         for (int x = 0; x <= last.x - first.x; ++x)
         {
           const double v = static_cast<double>(from[x]);
-          below |= v < value;
-          above |= v >= value;
+          below |= v < highest;
+          above |= v >= lowest;
           end[x] = v;
         }
       }
@@ -340,18 +340,19 @@ private:
   std::vector<Level> Levels;
 };
 
-/// The field is that of the grid, and both are borrowed, as the pyramid is.
-class VTKSVOOCTREE_EXPORT ImageSource : public FieldSource
+/// Where the field takes one of some values, in ascending order. Where the surfaces of two pass
+/// through a voxel it has the one that is nearer to its centre. The field is that of the grid, and
+/// both are borrowed, as the pyramid is.
+class VTKSVOOCTREE_EXPORT ImageSource : public SurfaceSource
 {
 public:
-  ImageSource(
-    const GriddedField& field, const ImageGrid& grid, const ValuePyramid& pyramid, double value)
-    : FieldSource(field, { value, 0.0, 0.0, false })
-    , Field(field)
+  ImageSource(const GriddedField& field, const ImageGrid& grid, const ValuePyramid& pyramid,
+    const std::vector<double>& values)
+    : Field(field)
     , Grid(grid)
     , ToLocal(glm::inverse(grid.toIndex))
     , Pyramid(pyramid)
-    , Value(value)
+    , Values(values)
   {
   }
   bool mayPass(const glm::dvec3& centre, double half) const override;
@@ -369,14 +370,15 @@ private:
   };
   /// Of a cube, in continuous indices, a trifle larger.
   Box boxOf(const glm::dvec3& centre, double half) const;
-  bool cellsReach(const Box& box) const;
-  bool reachesIn(const glm::dvec3& low, const glm::dvec3& high) const;
+  bool mayPass(const Box& box, double value) const;
+  bool cellsReach(const Box& box, double value) const;
+  bool reachesIn(const Box& box, double value) const;
 
   const GriddedField& Field;
   const ImageGrid& Grid;
   const glm::dmat4 ToLocal;
   const ValuePyramid& Pyramid;
-  const double Value;
+  const std::vector<double> Values;
 };
 }
 

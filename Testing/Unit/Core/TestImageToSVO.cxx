@@ -21,10 +21,12 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkVoxel.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <set>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -147,6 +149,74 @@ TEST(ImageToSVO, ValuesAndArraysAreChosen)
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
   conversion.filter->SetValue(1250.0);
   expectSphere(conversion.output(), Radius - 0.25, Trilinear + Plane + 1e-4);
+}
+
+// The octree of several values has the voxels of each, however deep it is.
+TEST(ImageToSVO, SeveralValuesAreAllThere)
+{
+  const auto image = distances(true);
+  for (const int level : { 3, 7 })
+  {
+    const auto voxelsOf = [&](vtkImageToSVO* filter)
+    {
+      std::set<std::array<int, 3>> voxels;
+      filter->Update();
+      const svo::Octree octree = octreeOf(filter->GetOutput());
+      svo::forEachCell(octree, octree.level(),
+        [&](const svo::OctreeCell& c) {
+          return voxels.insert({ c.cell.x, c.cell.y, c.cell.z }).second;
+        });
+      return voxels;
+    };
+    ImageConversion all(image);
+    all.filter->SetMaximumLevel(level);
+    all.filter->GenerateValues(3, -0.6, 0.6);
+    all.filter->SetValue(3, 0.6); // twice
+    all.filter->SetValue(4, std::numeric_limits<double>::quiet_NaN());
+    ASSERT_EQ(all.filter->GetNumberOfContours(), 5);
+    std::set<std::array<int, 3>> expected;
+    for (const double value : { -0.6, 0.0, 0.6 })
+    {
+      ImageConversion one(image);
+      one.filter->SetMaximumLevel(level);
+      one.filter->SetValue(value);
+      const auto voxels = voxelsOf(one.filter);
+      expected.insert(voxels.begin(), voxels.end());
+    }
+    EXPECT_GT(expected.size(), 20u);
+    EXPECT_EQ(voxelsOf(all.filter), expected);
+    // Without a list it is the one value again.
+    all.filter->SetNumberOfContours(0);
+    all.filter->SetValue(-0.3);
+    expectSphere(all.output(), Radius - 0.3, level == 7 ? Trilinear + Plane : 0.4);
+    EXPECT_TRUE(all.messages.all().empty()) << all.messages.all();
+  }
+}
+
+TEST(ImageToSVO, SeveralValuesAreToldApartByColor)
+{
+  const auto image = distances(false);
+  ImageConversion conversion(image);
+  conversion.filter->SetValue(0, -0.5);
+  conversion.filter->SetValue(1, 0.25);
+  conversion.filter->SetColorArrayName("Distance");
+  vtkPolyData* hull = conversion.output();
+  vtkDataArray* values = hull->GetFieldData()->GetArray("Distance");
+  ASSERT_NE(values, nullptr);
+  int inner = 0, outer = 0;
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+  {
+    inner += std::abs(values->GetComponent(i, 0) + 0.5) < 0.02;
+    outer += std::abs(values->GetComponent(i, 0) - 0.25) < 0.02;
+  }
+  EXPECT_GT(inner, 1000);
+  EXPECT_GT(outer, inner);
+  EXPECT_EQ(inner + outer, values->GetNumberOfTuples());
+  conversion.filter->SetValue(0, 90.0);
+  conversion.filter->SetValue(1, 100.0);
+  conversion.output();
+  EXPECT_NE(conversion.messages.all().find("90, 100"), std::string::npos)
+    << conversion.messages.all();
 }
 
 TEST(ImageToSVO, WhatIsKeptOfAnImageIsOfThatImage)

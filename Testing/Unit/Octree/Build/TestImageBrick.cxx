@@ -109,7 +109,7 @@ TEST(ImageBrick, HasTheVoxelsThatTheFieldPasses)
     image.values[5 * Points * Points + 6 * Points + 7] = std::numeric_limits<float>::quiet_NaN();
     const svo::ImageField<float> field(image.grid, image.values.data());
     const svo::ValuePyramid pyramid(image.grid, field, svo::serialFor);
-    const svo::ImageSource source(field, image.grid, pyramid, Value);
+    const svo::ImageSource source(field, image.grid, pyramid, { Value });
     ASSERT_TRUE(svo::ImageBrick::ready(image.grid, 0.5));
     std::size_t occupied = 0, differ = 0, planesOff = 0;
     for (int b = 0; b < 8 * 8 * 8; ++b)
@@ -159,7 +159,7 @@ TEST(ImageBrick, OfALinearFieldTheSurfaceIsThePlane)
   }
   const svo::ImageField<float> field(image.grid, image.values.data());
   const svo::ValuePyramid pyramid(image.grid, field, svo::serialFor);
-  const svo::ImageSource source(field, image.grid, pyramid, Value);
+  const svo::ImageSource source(field, image.grid, pyramid, { Value });
   const svo::SourceBrick brick{ glm::dvec3(5.1, 5.4, 5.6), 0.5, 0x00ffffffffffffffull };
   svo::SourcePlane planes[64];
   const std::uint64_t mask = source.planesIn(brick, planes);
