@@ -59,13 +59,48 @@ public:
                                                                    : NoInstance;
   }
 
-  bool changes(int x, int y) const
+  /// The pixels of a tile, and those around it, as isEdge() asks for them.
+  class Tile
   {
-    const std::size_t pixel = this->at(x, y);
-    const int same = this->neighboursOn(this->Seen.primitiveAt(x, y), x, y);
-    return this->steps(pixel) ||
-      (same < 4 && (this->bends(pixel) || (same > 0 && this->creases(pixel))));
-  }
+  public:
+    Tile(const FrameEdges& edges, int tileX, int tileY)
+      : Edges(edges)
+      , X0(8 * tileX - 1)
+      , Y0(8 * tileY - 1)
+    {
+      for (int row = 0; row < Size; ++row)
+      {
+        for (int column = 0; column < Size; ++column)
+        {
+          const int x = this->X0 + column, y = this->Y0 + row;
+          const std::uint32_t seen = edges.instance(x, y);
+          this->Instances[Size * row + column] = seen;
+          this->Primitives[Size * row + column] =
+            seen != NoInstance ? edges.Seen.primitive[edges.Seen.at(x, y)] : NoPrimitive;
+        }
+      }
+    }
+    std::uint32_t instance(int x, int y) const { return this->Instances[this->at(x, y)]; }
+    bool changes(int x, int y) const
+    {
+      const std::size_t pixel = this->Edges.at(x, y);
+      const Primitive* const own = this->Primitives + this->at(x, y);
+      // How many of the four pixels beside this one show its primitive.
+      const int same =
+        (own[-1] == *own) + (own[1] == *own) + (own[-Size] == *own) + (own[Size] == *own);
+      return this->Edges.steps(pixel) ||
+        (same < 4 && (this->Edges.bends(pixel) || (same > 0 && this->Edges.creases(pixel))));
+    }
+
+  private:
+    static constexpr int Size = 10;
+    int at(int x, int y) const { return Size * (y - this->Y0) + x - this->X0; }
+
+    const FrameEdges& Edges;
+    int X0, Y0;
+    std::uint32_t Instances[Size * Size];
+    Primitive Primitives[Size * Size];
+  };
 
   /// Of a pixel in window depth, where the window depth is `depth`.
   float width(float depth) const { return this->Width(depth); }
@@ -85,13 +120,6 @@ private:
   /// True if facets meet at more than a few degrees, so that the samples on one of them lie off the
   /// plane of the other. Of facets that are no larger than pixels one is as good as the next.
   bool creases(std::size_t pixel) const { return this->steps(pixel, 0.02f); }
-
-  /// How many of the four pixels beside this one show a primitive.
-  int neighboursOn(Primitive own, int x, int y) const
-  {
-    return (this->Seen.primitiveAt(x - 1, y) == own) + (this->Seen.primitiveAt(x + 1, y) == own) +
-      (this->Seen.primitiveAt(x, y - 1) == own) + (this->Seen.primitiveAt(x, y + 1) == own);
-  }
 
   /// True if the colour bends more than its rounding does.
   bool bends(std::size_t pixel) const

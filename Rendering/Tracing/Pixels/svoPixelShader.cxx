@@ -1,6 +1,5 @@
 #include "svoPixelShader.h"
 
-#include "svoDepthSlope.h"
 #include "svoLeafError.h"
 #include "svoShownDepth.h"
 #include "svoTileImage.h"
@@ -175,15 +174,7 @@ void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, 
       if (settings.writeSlopes)
       {
         // VTK's mappers write the depth of a pixel's centre where they add an offset to it.
-        const bool tilted = instance.depthOffsetUnits == 0.0f;
-        eachBit(patch.mask,
-          [&](int i)
-          {
-            const glm::vec2 slope = tilted ? depthSlope(lit.shaded.view, patch.x(i), patch.y(i),
-                                               patch.t(i), glm::dvec3(patch.facet(i)))
-                                           : glm::dvec2(0.0);
-            std::copy(&slope[0], &slope[0] + 2, frame.slopes.data() + 2 * pixelOf(i));
-          });
+        image.putSlopes(patch, instance.depthOffsetUnits == 0.0f);
       }
       if (settings.writeLight)
       {

@@ -69,7 +69,7 @@ public:
   /// Adds what is to be changed in an 8x8 tile.
   void find(int tileX, int tileY, TileScratch& scratch, Silhouettes& result) const
   {
-    this->findPixels(8 * tileX, 8 * tileY, scratch);
+    this->findPixels(tileX, tileY, scratch);
     if (scratch.pixels.empty())
     {
       return;
@@ -88,14 +88,15 @@ private:
   {
     return static_cast<std::size_t>(y) * this->EyeView.width + x;
   }
-  void findPixels(int x0, int y0, TileScratch& scratch) const
+  void findPixels(int tileX, int tileY, TileScratch& scratch) const
   {
     scratch.pixels.clear();
-    for (int y = y0; y < std::min(y0 + 8, this->EyeView.height); ++y)
+    const FrameEdges::Tile edges(this->Edges, tileX, tileY);
+    for (int y = 8 * tileY; y < std::min(8 * tileY + 8, this->EyeView.height); ++y)
     {
-      for (int x = x0; x < std::min(x0 + 8, this->EyeView.width); ++x)
+      for (int x = 8 * tileX; x < std::min(8 * tileX + 8, this->EyeView.width); ++x)
       {
-        if (isEdge(this->Edges, x, y))
+        if (isEdge(edges, x, y))
         {
           scratch.pixels.push_back({ x, y, 0, 0, 0, nullptr, 0 });
         }

@@ -4,12 +4,12 @@
 
 #include "svoTileImage.h"
 
+#include "svoDepthSlope.h"
 #include "svoLaneBits-inl.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <vector>
 
 #include <hwy/highway.h>
 
@@ -34,6 +34,29 @@ void windowDepths(const TilePatch& p, double offset, float* HWY_RESTRICT depths)
       const double depth = view.windowDepth(base + static_cast<double>(p.hits->t[k])) + offset;
       const double low = depth < 0.0 ? 0.0 : depth;
       depths[k] = static_cast<float>(1.0 < low ? 1.0 : low);
+    }
+  }
+}
+
+/// How they change from pixel to pixel on the points' facets.
+void depthSlopes(const TilePatch& p, float* HWY_RESTRICT across, float* HWY_RESTRICT up)
+{
+  const View view = *p.view;
+  const double x0 = p.hits->x0, y0 = p.hits->y0, base = p.base;
+  const float *x = p.hits->x, *y = p.hits->y, *t = p.hits->t;
+  for (int i = 0; i < TilePatch::Most; i += TilePatch::Step)
+  {
+    if (!p.has(i))
+    {
+      continue;
+    }
+    for (int k = i; k < i + TilePatch::Step; ++k)
+    {
+      const glm::dvec2 slope =
+        depthSlope(view, x0 + static_cast<double>(x[k]), y0 + static_cast<double>(y[k]),
+          base + static_cast<double>(t[k]), { p.facetX[k], p.facetY[k], p.facetZ[k] });
+      across[k] = static_cast<float>(slope.x);
+      up[k] = static_cast<float>(slope.y);
     }
   }
 }
@@ -71,6 +94,7 @@ HWY_AFTER_NAMESPACE();
 namespace svo
 {
 HWY_EXPORT(put);
+HWY_EXPORT(depthSlopes);
 
 TileImage::TileImage(const TileHits& hits, Frame& frame)
   : Hits(hits)
@@ -91,12 +115,28 @@ TileImage::TileImage(const TileHits& hits, Frame& frame)
   {
     std::fill_n(this->Color, TileHits::Most, 0u);
     std::fill_n(this->Depth, TileHits::Most, 1.0f);
+    std::fill_n(this->Slopes, 2 * TileHits::Most, 0.0f);
   }
 }
 
 void TileImage::put(const TilePatch& patch, const TileColors& colors, double offset)
 {
   HWY_DYNAMIC_DISPATCH(put)(patch, colors, offset, this->Depth, this->Color);
+}
+
+void TileImage::putSlopes(const TilePatch& patch, bool tilted)
+{
+  alignas(64) float across[TilePatch::Most] = {}, up[TilePatch::Most] = {};
+  if (tilted)
+  {
+    HWY_DYNAMIC_DISPATCH(depthSlopes)(patch, across, up);
+  }
+  eachBit(patch.mask,
+    [&](int i)
+    {
+      this->Slopes[2 * i] = across[i];
+      this->Slopes[2 * i + 1] = up[i];
+    });
 }
 
 void TileImage::write() const
@@ -119,6 +159,10 @@ void TileImage::write() const
       std::memcpy(frame.color.data() + 4 * to, this->Color + from, 4 * columns);
       std::copy_n(this->Depth + from, columns, frame.depth.data() + to);
     }
+    if (!frame.slopes.empty())
+    {
+      std::copy_n(this->Slopes + 2 * from, 2 * columns, frame.slopes.data() + 2 * to);
+    }
     if (!frame.instance.empty())
     {
       std::copy_n(hits.instance + from, columns, frame.instance.data() + to);
@@ -136,20 +180,15 @@ void TileImage::write() const
   frame.tiles[hits.y0 / 8 * tilesX + hits.x0 / 8] = {
     (hits.mask & whole) == whole ? FrameTile::Kind::Whole : FrameTile::Kind::Mixed, frame.version
   };
-  const auto clear = [&](std::vector<float>& values, int components)
+  for (int i = 0; !frame.normals.empty() && i < TileHits::Most; ++i)
   {
-    for (int i = 0; !values.empty() && i < TileHits::Most; ++i)
+    if (!(hits.mask >> i & 1) && (i & 7) < columns && (i >> 3) < rows)
     {
-      if (!(hits.mask >> i & 1) && (i & 7) < columns && (i >> 3) < rows)
-      {
-        const std::size_t pixel =
-          static_cast<std::size_t>(hits.y0 + (i >> 3)) * frame.width + hits.x0 + (i & 7);
-        std::fill_n(values.data() + components * pixel, components, 0.0f);
-      }
+      const std::size_t pixel =
+        static_cast<std::size_t>(hits.y0 + (i >> 3)) * frame.width + hits.x0 + (i & 7);
+      std::fill_n(frame.normals.data() + 3 * pixel, 3, 0.0f);
     }
-  };
-  clear(frame.normals, 3);
-  clear(frame.slopes, 2);
+  }
 }
 }
 #endif

@@ -16,8 +16,10 @@ public:
   TileImage(const TileHits& hits, Frame& frame);
   /// `offset`: to be added to window depths.
   void put(const TilePatch& patch, const TileColors& colors, double offset);
-  /// Writes colours, depths and names of all pixels of the tile that are in the frame. Normals and
-  /// slopes of misses as well, if there are any.
+  /// Slopes of these depths, where the frame has them; 0 where depths are not `tilted`.
+  void putSlopes(const TilePatch& patch, bool tilted);
+  /// Writes colours, depths, slopes and names of all pixels of the tile that are in the frame.
+  /// Normals of misses as well, if there are any.
   void write() const;
 
 private:
@@ -25,6 +27,7 @@ private:
   Frame& Picture;
   alignas(64) std::uint32_t Color[TileHits::Most];
   alignas(64) float Depth[TileHits::Most];
+  alignas(64) float Slopes[2 * TileHits::Most];
 };
 }
 

@@ -26,7 +26,8 @@ inline glm::dvec2 depthSlope(
   const double z = m[3][2] - m[2][2] * t;
   const double w = m[3][3] - m[2][3] * t;
   const glm::dvec2 slope = 0.5 * (m[2][3] * z - m[2][2] * w) / (w * w) / along * deeper;
-  return std::abs(slope.x) + std::abs(slope.y) < 1.0 ? slope : glm::dvec2(0.0);
+  const bool valid = std::abs(slope.x) + std::abs(slope.y) < 1.0;
+  return { valid ? slope.x : 0.0, valid ? slope.y : 0.0 };
 }
 }
 
