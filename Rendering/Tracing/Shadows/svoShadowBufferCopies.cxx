@@ -23,14 +23,14 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
       copy->tiles[tile] = held++;
     }
   }
-  copy->numbers.resize(copy->stride * held);
+  copy->numbers.reserve(copy->stride * held);
   for (std::size_t tile = 0; tile < copy->tiles.size(); ++tile)
   {
     if (copy->tiles[tile] == ShadowTexels::Nothing)
     {
       continue;
     }
-    float* numbers = copy->numbers.data() + copy->stride * copy->tiles[tile];
+    float numbers[2 * InTile];
     for (std::size_t i = 0; i < InTile; ++i)
     {
       const std::size_t at = InTile * tile + i;
@@ -45,6 +45,7 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
                                     : (*ofCasters)[caster];
       }
     }
+    copy->numbers.insert(copy->numbers.end(), numbers, numbers + copy->stride);
   }
   return copy;
 }
