@@ -1,11 +1,14 @@
 #include "vtkSVOVDBReader.h"
 
 #include "svoAbort.h"
+#include "svoLeafValues.h"
 #include "svoMeshOctree.h"
 #include "svoSMPParallel.h"
+#include "svoVDBColors.h"
 #include "svoVDBFile.h"
 #include "svoVDBOctree.h"
 
+#include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
@@ -74,6 +77,7 @@ class vtkSVOVDBReader::vtkInternals
 public:
   std::vector<std::string> Files;
   std::string GridName;
+  std::string ColorGridName;
   svo::VDBContents Contents; // of the first file
   vtkNew<vtkStringArray> GridNames;
   std::string Known; // the file whose contents these are, and when it was written
@@ -166,6 +170,37 @@ void vtkSVOVDBReader::SetGridName(const char* name)
 const char* vtkSVOVDBReader::GetGridName()
 {
   return this->Internals->GridName.c_str();
+}
+
+//------------------------------------------------------------------------------
+void vtkSVOVDBReader::SetColorGridName(const char* name)
+{
+  const std::string wanted = name ? name : "";
+  if (wanted != this->Internals->ColorGridName)
+  {
+    this->Internals->ColorGridName = wanted;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSVOVDBReader::GetColorGridName()
+{
+  return this->Internals->ColorGridName.c_str();
+}
+
+//------------------------------------------------------------------------------
+void vtkSVOVDBReader::SetThreshold(double threshold)
+{
+  if (std::isnan(threshold))
+  {
+    vtkErrorMacro("The threshold has to be a number; it stays " << this->Threshold << ".");
+  }
+  else if (threshold != this->Threshold)
+  {
+    this->Threshold = threshold;
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -275,6 +310,45 @@ const char* vtkSVOVDBReader::FileOfStep(vtkInformationVector* outputVector)
 }
 
 //------------------------------------------------------------------------------
+/// False if it was aborted.
+bool vtkSVOVDBReader::ColorBy(const char* file, const svo::SourceOctree& built,
+  const svo::VDBOptions& options, vtkPolyData* output)
+{
+  const std::string& name = this->Internals->ColorGridName;
+  if (name.empty() || name == "None" || built.voxels == 0)
+  {
+    return true;
+  }
+  openvdb::GridBase::ConstPtr grid;
+  svo::VDBContents contents;
+  std::string reason = svo::readVDBGrid(file, name, grid, contents);
+  bool aborted = false;
+  if (reason.empty())
+  {
+    const auto progress = [&](double done)
+    {
+      aborted = aborted || !options.progress(done);
+      return !aborted;
+    };
+    const auto values = svo::valuesAtLeaves(*grid, built, options.parallelFor, progress);
+    if (values)
+    {
+      values->SetName(name.c_str());
+      svo::attachLeafValues(output, built, values);
+    }
+    else
+    {
+      reason = "grids of " + grid->valueType() + " have no numbers for colours";
+    }
+  }
+  if (!reason.empty() && !aborted)
+  {
+    vtkWarningMacro("The octree of " << file << " has no colours: " << reason << ".");
+  }
+  return !aborted;
+}
+
+//------------------------------------------------------------------------------
 int vtkSVOVDBReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -306,7 +380,7 @@ int vtkSVOVDBReader::RequestData(
     return 1;
   }
   const double read = vtkTimerLog::GetUniversalTime();
-  constexpr double ReadShare = 0.3; // of the progress, about
+  constexpr double ReadShare = 0.3, BuildShare = 0.6; // of the progress, about
   constexpr std::size_t Kibi = 1024;
   svo::VDBOptions options;
   options.conversion = static_cast<svo::VDBConversion>(this->Conversion);
@@ -314,9 +388,10 @@ int vtkSVOVDBReader::RequestData(
   options.memoryLimit = this->MemoryLimit * Kibi;
   options.carrier.cells = static_cast<std::size_t>(this->MaximumNumberOfQuads);
   options.parallelFor = svo::smpParallelFor();
-  options.progress = [this](double progress)
+  double begun = ReadShare, share = BuildShare;
+  options.progress = [&](double progress)
   {
-    this->UpdateProgress(ReadShare + (1.0 - ReadShare) * progress);
+    this->UpdateProgress(begun + share * progress);
     return !svo::isAborted(this);
   };
   const svo::SourceOctree built = svo::octreeOfGrid(*grid, options, output);
@@ -333,6 +408,14 @@ int vtkSVOVDBReader::RequestData(
   if (built.status != svo::BuildStatus::Built)
   {
     return 1; // aborted
+  }
+  begun = ReadShare + BuildShare;
+  share = 1.0 - begun;
+  if (!this->ColorBy(file, built, options, output))
+  {
+    output->Initialize();
+    this->NumberOfVoxels = 0;
+    return 1;
   }
   if (built.voxels == 0)
   {
@@ -372,6 +455,7 @@ void vtkSVOVDBReader::PrintSelf(ostream& os, vtkIndent indent)
   os << "\n";
   constexpr const char* Names[] = { "Automatic", "Surface", "Voxels" };
   os << indent << "GridName: " << this->Internals->GridName << "\n";
+  os << indent << "ColorGridName: " << this->Internals->ColorGridName << "\n";
   os << indent << "Conversion: " << Names[this->Conversion] << "\n";
   os << indent << "Threshold: " << this->Threshold << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";

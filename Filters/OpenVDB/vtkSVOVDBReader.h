@@ -36,7 +36,14 @@
 #include <memory> // for std::unique_ptr
 #include <string> // for what only this class sees
 
+class vtkPolyData;
 class vtkStringArray;
+
+namespace svo
+{
+struct SourceOctree;
+struct VDBOptions;
+}
 
 class VTKSVOOPENVDB_EXPORT vtkSVOVDBReader : public vtkPolyDataAlgorithm
 {
@@ -80,6 +87,18 @@ public:
 
   //@{
   /**
+   * Another grid of the file, of numbers or of vectors of three, that colours the octree; default
+   * none, and so is "None". Each voxel keeps that grid's trilinear value at the surface in it,
+   * whatever the two grids' maps are: the output has field data of the grid's name with a tuple for
+   * each voxel, and cell data of the same name, for mappers, as vtkImageToSVO::SetColorArrayName()
+   * says. A grid that is not there, or has no numbers, is a warning.
+   */
+  void SetColorGridName(const char* name);
+  const char* GetColorGridName();
+  //@}
+
+  //@{
+  /**
    * The grids of the (first) file, in the order of their names. The file is looked at when this is
    * asked, without a pipeline. 0 grids, and one error, if it cannot be read; nullptr for an index
    * out of range. GetGridNames() leaves the error to the execution.
@@ -112,9 +131,10 @@ public:
   //@{
   /**
    * Active voxels with values above this are occupied; default 0. Bools and masks have none: active
-   * and true is occupied. It is also where other grids than level sets have their surface.
+   * and true is occupied. It is also where other grids than level sets have their surface. Not a
+   * number: an error, and the threshold stays.
    */
-  vtkSetMacro(Threshold, double);
+  void SetThreshold(double threshold);
   vtkGetMacro(Threshold, double);
   //@}
 
@@ -153,7 +173,7 @@ public:
   /**
    * Of the last execution: occupied voxels of the octree, 0 if none; how long it took to read the
    * grid and to build the octree, in seconds; the metadata of the grid and of the file, a "name:
-   * value" a line.
+   * value" a line. All of them are empty, or 0, before Update().
    */
   vtkGetMacro(NumberOfVoxels, vtkIdType);
   vtkGetMacro(ReadTime, double);
@@ -176,6 +196,8 @@ private:
 
   std::string ReadContents();
   const char* FileOfStep(vtkInformationVector* outputVector);
+  bool ColorBy(const char* file, const svo::SourceOctree& built, const svo::VDBOptions& options,
+    vtkPolyData* output);
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -87,6 +87,27 @@ class TestOpenVDB(unittest.TestCase):
         self.assertGreater(reader.GetProperty("NumberOfVoxels").GetData(), 0)
         self.assertLess(reader.GetProperty("NumberOfVoxels").GetData(), all_voxels)
 
+    def test_color_grid(self):
+        """Another grid of the file, as cell data and on the screen."""
+        reader = pv.SVOVDBReader(FileNames=[self.write("colors.vdb")], GridName="leaves")
+        reader.UpdatePipelineInformation()
+        self.assertEqual(list(reader.GetProperty("ColorGridName").GetAvailable()),
+                         ["None", "leaves", "surface"])
+        self.assertEqual(reader.ColorGrid, "None")
+        display = scene.show(reader, self.view)
+        plain = scene.picture(self.view, "no-color-grid")
+        self.assertNotIn("surface", reader.CellData.keys())
+        with Output() as output:
+            reader.ColorGrid = "surface"
+            reader.UpdatePipeline()
+            low, high = reader.CellData["surface"].GetRange()
+            pv.ColorBy(display, ("CELLS", "surface"))
+            colored = scene.picture(self.view, "color-grid")
+        self.assertEqual(output.messages(), [])
+        self.assertLess(low, 0.0)
+        self.assertGreater(high, 0.0)
+        self.assertGreater(scene.differing(plain, colored, 24), 0.02)
+
     def test_missing_file_is_one_message(self):
         with Output() as output:
             reader = pv.SVOVDBReader(FileNames=[scene.output("missing.vdb")])

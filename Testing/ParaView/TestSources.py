@@ -218,6 +218,28 @@ class Images(Traced):
         scene.show(pv.ImageToSVO(Input=image, Value=180.0), self.view)
         self.assertEqual(scene.differing(pictures[-1], self.picture("value-afresh"), 0), 0)
 
+    def test_isovalues(self):
+        """Several values; scripts and states that know of one are right as they were."""
+        octree = pv.ImageToSVO(Input=wavelet(), Value=120.0, MaximumLevel=7, Colors="RTData")
+        self.assertEqual(list(octree.Isovalues), [])
+        one = statistics(octree)[0]
+        octree.Isovalues = [120.0, 180.0, 220.0]
+        several = statistics(octree)[0]
+        self.assertGreater(several, 1.2 * one)
+        low, high = octree.CellData["RTData"].GetRange()
+        self.assertAlmostEqual(low, 120.0, delta=6.0)
+        self.assertAlmostEqual(high, 220.0, delta=6.0)
+        state = scene.output("isovalues.pvsm")
+        pv.SaveState(state)
+        pv.ResetSession()
+        pv.LoadState(state)
+        octree = pv.FindSource("ImageToSVO1")
+        self.assertEqual(octree.Value, 120.0)
+        self.assertEqual(list(octree.Isovalues), [120.0, 180.0, 220.0])
+        self.assertEqual(statistics(octree)[0], several)
+        octree.Isovalues = []
+        self.assertEqual(statistics(octree)[0], one)
+
     def test_time_steps(self):
         """Of an image that changes with time: voxels and pictures follow."""
         image = pv.ProgrammableSource(OutputDataSetType="vtkImageData")

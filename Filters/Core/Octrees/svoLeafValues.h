@@ -32,7 +32,7 @@ namespace svo
 /// in the octree's order and the point of its plane that is nearest to its centre, as far as that
 /// lies in the voxel; octree's own frame. `progress`, 0..1, is called on the calling thread;
 /// returns false where it does.
-bool forEachLeaf(const Octree& octree, const ParallelFor& parallelFor,
+VTKSVOCORE_EXPORT bool forEachLeaf(const Octree& octree, const ParallelFor& parallelFor,
   const std::function<bool(double)>& progress,
   const std::function<void(std::size_t, const glm::dvec3&)>& visit);
 

@@ -1,0 +1,91 @@
+#include "svoVDBColors.h"
+
+#include "svoLeafValues.h"
+
+#include "vtkDataArray.h"
+
+#include <cmath>
+#include <type_traits>
+
+#include <glm/common.hpp>
+#include <openvdb/openvdb.h>
+
+namespace svo
+{
+namespace
+{
+template <class T>
+double componentOf(T value, int)
+{
+  return static_cast<double>(value);
+}
+
+template <class T>
+double componentOf(const openvdb::math::Vec3<T>& value, int c)
+{
+  return static_cast<double>(value[c]);
+}
+
+/// False if it was aborted.
+template <class GridT>
+bool sample(const GridT& grid, const Octree& octree, const ParallelFor& parallelFor,
+  const std::function<bool(double)>& progress, vtkDataArray* values)
+{
+  const int components = values->GetNumberOfComponents();
+  const glm::dmat4 frame = octree.frame();
+  return forEachLeaf(octree, parallelFor, progress,
+    [&](std::size_t leaf, const glm::dvec3& own)
+    {
+      const glm::dvec3 local(frame * glm::dvec4(own, 1.0));
+      const openvdb::Vec3d index = grid.worldToIndex({ local.x, local.y, local.z });
+      const glm::dvec3 at(index.x(), index.y(), index.z()), low = glm::floor(at);
+      const typename GridT::ConstUnsafeAccessor accessor(grid.tree()); // nobody changes the tree
+      for (int c = 0; c < components; ++c)
+      {
+        double sum = 0.0;
+        for (int i = 0; i < 8; ++i)
+        {
+          const glm::dvec3 upper(i & 1, i >> 1 & 1, i >> 2);
+          const glm::dvec3 weight = glm::abs(at - low - 1.0 + upper), corner = low + upper;
+          const auto value = accessor.getValue(openvdb::Coord(
+            static_cast<int>(corner.x), static_cast<int>(corner.y), static_cast<int>(corner.z)));
+          sum += weight.x * weight.y * weight.z * componentOf(value, c);
+        }
+        values->SetComponent(static_cast<vtkIdType>(leaf), c, sum);
+      }
+    });
+}
+}
+
+vtkSmartPointer<vtkDataArray> valuesAtLeaves(const openvdb::GridBase& grid,
+  const SourceOctree& built, const ParallelFor& parallelFor,
+  const std::function<bool(double)>& progress)
+{
+  vtkSmartPointer<vtkDataArray> values;
+  const auto as = [&](const auto* typed)
+  {
+    using GridT = std::remove_cv_t<std::remove_pointer_t<decltype(typed)>>;
+    using ValueT = typename GridT::ValueType;
+    if (values || !grid.isType<GridT>())
+    {
+      return;
+    }
+    values = vtkSmartPointer<vtkDataArray>::Take(
+      vtkDataArray::CreateDataArray(std::is_same_v<ValueT, double> ? VTK_DOUBLE : VTK_FLOAT));
+    values->SetNumberOfComponents(std::is_arithmetic_v<ValueT> ? 1 : 3);
+    values->SetNumberOfTuples(static_cast<vtkIdType>(built.octree.header().voxelCount));
+    if (!sample(static_cast<const GridT&>(grid), built.octree, parallelFor, progress, values.Get()))
+    {
+      values = nullptr;
+    }
+  };
+  as(static_cast<const openvdb::FloatGrid*>(nullptr));
+  as(static_cast<const openvdb::DoubleGrid*>(nullptr));
+  as(static_cast<const openvdb::Int32Grid*>(nullptr));
+  as(static_cast<const openvdb::Int64Grid*>(nullptr));
+  as(static_cast<const openvdb::Vec3SGrid*>(nullptr));
+  as(static_cast<const openvdb::Vec3DGrid*>(nullptr));
+  as(static_cast<const openvdb::Vec3IGrid*>(nullptr));
+  return values;
+}
+}
