@@ -1,5 +1,6 @@
 #include "svoImageInput.h"
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -74,11 +75,14 @@ const char* unfitImage(vtkImageData* image, vtkDataArray* scalars)
   }
   if (!scalars)
   {
-    return "the image has no such point scalars";
+    return image->GetCellData()->GetNumberOfTuples() > 0
+      ? "the image has no such point scalars; make some of its cell data by vtkCellDataToPointData"
+      : "the image has no such point scalars";
   }
   if (scalars->GetNumberOfComponents() != 1)
   {
-    return "the scalars have more than one component";
+    return "the scalars have more than one component; choose one by vtkImageExtractComponents, or "
+           "make one of them by vtkImageLuminance or vtkImageMagnitude";
   }
   if (n[0] < 2 || n[1] < 2 || n[2] < 2)
   {

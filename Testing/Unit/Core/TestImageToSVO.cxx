@@ -370,7 +370,16 @@ TEST(ImageToSVO, OneMessageForWhatCannotBeConverted)
     vtkNew<vtkImageData> image;
     image->SetDimensions(4, 4, 4);
     image->AllocateScalars(VTK_FLOAT, 3);
-    ImageConversion(image).expectNothing("more than one component");
+    ImageConversion(image).expectNothing("more than one component; choose one by");
+  }
+  {
+    const auto image = distances(false);
+    image->GetPointData()->Initialize();
+    vtkNew<vtkDoubleArray> ofCells;
+    ofCells->SetName("Distance");
+    ofCells->SetNumberOfValues(image->GetNumberOfCells());
+    image->GetCellData()->SetScalars(ofCells);
+    ImageConversion(image).expectNothing("by vtkCellDataToPointData");
   }
   {
     ImageConversion conversion(distances(false));
