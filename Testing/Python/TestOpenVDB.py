@@ -58,6 +58,50 @@ class OpenVDB(unittest.TestCase):
         self.assertEqual(writer.Write(), 1)
         return convert
 
+    def draw(self, shape, name, traced=True, shadows=True):
+        """Turned and stretched, on a ground."""
+        mapper, actor, ground = vtkPolyDataMapper(), vtkActor(), vtkPlaneSource()
+        mapper.SetInputConnection(shape.GetOutputPort())
+        mapper.ScalarVisibilityOff()
+        actor.SetMapper(mapper)
+        actor.SetScale(1.0, 1.3, 0.8)
+        actor.RotateZ(30.0)
+        ground.SetOrigin(-40, -40, -2)
+        ground.SetPoint1(60, -40, -2)
+        ground.SetPoint2(-40, 60, -2)
+        below, floor = vtkPolyDataMapper(), vtkActor()
+        below.SetInputConnection(ground.GetOutputPort())
+        floor.SetMapper(below)
+        renderer, light, window = vtkRenderer(), vtkLight(), vtkRenderWindow()
+        light.SetLightTypeToSceneLight()
+        light.SetPosition(20, -10, 40)
+        light.SetFocalPoint(2, 10, 7)
+        renderer.AddLight(light)
+        renderer.AddActor(actor)
+        renderer.AddActor(floor)
+        if traced:
+            renderer.SetPass(vtksvo.vtkSVORenderPass())
+            if not shadows:
+                renderer.GetPass().SetShadowTechniqueToNone()
+        renderer.GetActiveCamera().SetPosition(30, -35, 30)
+        renderer.GetActiveCamera().SetFocalPoint(4, 10, 4)
+        renderer.GetActiveCamera().SetViewUp(0, 0, 1)
+        renderer.ResetCameraClippingRange()
+        window.SetOffScreenRendering(True)
+        window.SetMultiSamples(0)
+        window.SetSize(300, 200)
+        window.AddRenderer(renderer)
+        window.Render()
+        grab = vtkWindowToImageFilter()
+        grab.SetInput(window)
+        grab.Update()
+        if "VTKSVO_PICTURES" in os.environ:
+            writer = vtkPNGWriter()
+            writer.SetInputConnection(grab.GetOutputPort())
+            writer.SetFileName(os.path.join(os.environ["VTKSVO_PICTURES"], name + ".png"))
+            writer.Write()
+        return bytes(memoryview(grab.GetOutput().GetPointData().GetScalars()))
+
     def test_there_and_back(self):
         convert = self.write()
         reader = vtksvo.vtkSVOVDBReader()
@@ -144,47 +188,24 @@ class OpenVDB(unittest.TestCase):
         sheared.SetTransform(transform)
         sheared.SetInputConnection(source.GetOutputPort())
         pictures = []
-        for shape in reader, sheared:
-            mapper, actor, ground = vtkPolyDataMapper(), vtkActor(), vtkPlaneSource()
-            mapper.SetInputConnection(shape.GetOutputPort())
-            mapper.ScalarVisibilityOff()
-            actor.SetMapper(mapper)
-            actor.SetScale(1.0, 1.3, 0.8)
-            actor.RotateZ(30.0)
-            ground.SetOrigin(-40, -40, -2)
-            ground.SetPoint1(60, -40, -2)
-            ground.SetPoint2(-40, 60, -2)
-            below, floor = vtkPolyDataMapper(), vtkActor()
-            below.SetInputConnection(ground.GetOutputPort())
-            floor.SetMapper(below)
-            renderer, light, window = vtkRenderer(), vtkLight(), vtkRenderWindow()
-            light.SetLightTypeToSceneLight()
-            light.SetPosition(20, -10, 40)
-            light.SetFocalPoint(2, 10, 7)
-            renderer.AddLight(light)
-            renderer.AddActor(actor)
-            renderer.AddActor(floor)
-            renderer.SetPass(vtksvo.vtkSVORenderPass())
-            renderer.GetActiveCamera().SetPosition(30, -35, 30)
-            renderer.GetActiveCamera().SetFocalPoint(4, 10, 4)
-            renderer.GetActiveCamera().SetViewUp(0, 0, 1)
-            renderer.ResetCameraClippingRange()
-            window.SetOffScreenRendering(True)
-            window.SetSize(300, 200)
-            window.AddRenderer(renderer)
-            window.Render()
-            grab = vtkWindowToImageFilter()
-            grab.SetInput(window)
-            grab.Update()
-            pictures.append(bytes(memoryview(grab.GetOutput().GetPointData().GetScalars())))
-            if "VTKSVO_PICTURES" in os.environ:
-                writer = vtkPNGWriter()
-                writer.SetInputConnection(grab.GetOutputPort())
-                writer.SetFileName(os.path.join(os.environ["VTKSVO_PICTURES"], f"sheared-{len(pictures)}.png"))
-                writer.Write()
+        for shape, name in (reader, "sheared-grid"), (sheared, "sheared-mesh"):
+            pictures.append(self.draw(shape, name))
         differing = sum(abs(a - b) > 32 for a, b in zip(*pictures))
         self.assertGreater(len(set(pictures[1])), 20)
         self.assertLess(differing, 0.01 * len(pictures[0]))
+
+    def test_voxels_are_shaded_as_cubes(self):
+        """As VTK's rasteriser draws the same cubes, faces and all."""
+        self.write()
+        reader, cubes = vtksvo.vtkSVOVDBReader(), vtksvo.vtkSVOToPolyData()
+        reader.SetFileName(self.path)
+        reader.SetGridName("leaves")
+        cubes.SetInputConnection(reader.GetOutputPort())
+        traced = self.draw(reader, "cubes-traced", shadows=False)
+        raster = self.draw(cubes, "cubes-raster", traced=False)
+        differing = sum(abs(a - b) > 8 for a, b in zip(traced, raster))
+        self.assertGreater(len(set(raster)), 3)  # ground and faces
+        self.assertLess(differing, 0.0005 * len(raster))
 
 
 if __name__ == "__main__":

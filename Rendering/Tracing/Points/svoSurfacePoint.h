@@ -167,11 +167,24 @@ inline bool shadersTurn(const SurfaceMatrices& frame, const View& view, const gl
   return glm::dot(glm::dvec3(facet), along) > 0.0;
 }
 
-/// A point of an octree of planes: on the plane that was hit, of a voxel or of a node. Where a
-/// node's mean plane faces away, the line of sight tells a surface that is seen from behind from a
-/// node that reaches beyond the outline: there it meets nothing, and the outline's normal is across
-/// it. The normal to shade with and the colour are interpolated between voxels, where the material
-/// wants it; else they are those of the voxel, colours of a node those of the nearest one in it.
+/// The normal, octree coordinates, of the face of a voxel that the point is on: of those that face
+/// the viewer the nearest.
+inline glm::vec3 faceOfVoxel(const Octree& octree, const glm::dvec3& at, const glm::dvec3& towards)
+{
+  const glm::dvec3 place = (at - 1.0) * std::ldexp(1.0, 2 * octree.depthCount());
+  const glm::dvec3 beside = glm::abs(place - glm::round(place));
+  const int axis = beside.x <= beside.y && beside.x <= beside.z ? 0 : beside.y <= beside.z ? 1 : 2;
+  glm::vec3 normal(0.0f);
+  normal[axis] = towards[axis] < 0.0 ? -1.0f : 1.0f;
+  return normal;
+}
+
+/// A point of an octree of planes: on the plane that was hit, of a voxel or of a node, or on the
+/// face of a voxel that is a cube. Where a node's mean plane faces away, the line of sight tells a
+/// surface that is seen from behind from a node that reaches beyond the outline: there it meets
+/// nothing, and the outline's normal is across it. The normal to shade with and the colour are
+/// interpolated between voxels, where the material wants it; else they are those of the voxel,
+/// colours of a node those of the nearest one in it.
 inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
   const glm::dvec3& position, const glm::vec3& towards, Primitive primitive)
 {
@@ -180,10 +193,12 @@ inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
   const auto inWorld = [&](const glm::vec3& normal)
   { return detail::normalized(frame.normalMatrix * normal, forwards); };
   const bool node = primitive & NodePrimitive;
-  const glm::vec3 own =
-    decodePlane(node ? octree.nodes()[primitive & ~NodePrimitive].plane : octree.lists()[primitive])
-      .normal;
+  const bool cube = !node && frame.instance->body->leafGeometry == LeafGeometry::Voxel;
   const glm::dvec3 at = frame.toOctree.point(position);
+  const glm::vec3 own = cube ? faceOfVoxel(octree, at, frame.toOctree.vector(glm::dvec3(towards)))
+                             : decodePlane(node ? octree.nodes()[primitive & ~NodePrimitive].plane
+                                                : octree.lists()[primitive])
+                                 .normal;
   glm::vec3 outwards = inWorld(own);
   if (const float away = glm::dot(outwards, forwards); node && away < 0.0f)
   {
@@ -201,9 +216,7 @@ inline SurfacePoint pointOfPlane(const SurfaceMatrices& frame, const View& view,
     ? colorOf(node ? nearestVoxel(octree, primitive & ~NodePrimitive, at) : primitive)
     : glm::vec3(1.0f);
   glm::vec3 normal = facet;
-  // Hits on cubes lie beside the planes, in places where the neighbours' say little.
-  if (!node && !frame.instance->material.flatPlanes &&
-    frame.instance->body->leafGeometry != LeafGeometry::Voxel)
+  if (!node && !cube && !frame.instance->material.flatPlanes)
   {
     const VoxelsAround around = voxelsAround(octree, at, own);
     normal = side * inWorld(smoothNormal(around, own));
