@@ -10,6 +10,7 @@
 #include "vtkPlaneSource.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkPropCollection.h"
+#include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkSVORenderPass.h"
 
@@ -21,11 +22,24 @@ namespace
 {
 constexpr double Reach = 2.0;  // beyond the data, diagonals
 constexpr double Below = 1e-3; // the same; a face of the data that lies on a ground hides nothing
-constexpr double Around = 0.1; // the same; bounds leave out how wide points and lines are drawn
+constexpr double Around = 0.1; // the same, where bounds leave out how wide points and lines are
 
-/// World coordinates. What ParaView knows of them is a frame late.
-vtkBoundingBox boundsOfData(vtkRenderer* renderer, vtkMultiProcessController* processes)
+/// True if points or lines of a prop are drawn wider than its bounds tell.
+bool drawsWider(vtkProp* prop)
 {
+  auto* actor = vtkActor::SafeDownCast(prop);
+  vtkMapper* mapper = actor ? actor->GetMapper() : nullptr;
+  return mapper &&
+    (mapper->IsA("vtkPointGaussianMapper") || mapper->IsA("vtkMoleculeMapper") ||
+      actor->GetProperty()->GetRenderLinesAsTubes() ||
+      actor->GetProperty()->GetRenderPointsAsSpheres());
+}
+
+/// World coordinates. What ParaView knows of them is a frame late. `wider`: something drawsWider().
+vtkBoundingBox boundsOfData(
+  vtkRenderer* renderer, vtkMultiProcessController* processes, bool& wider)
+{
+  wider = false;
   vtkBoundingBox box;
   vtkCollectionSimpleIterator iterator;
   vtkPropCollection* props = renderer->GetViewProps();
@@ -40,17 +54,20 @@ vtkBoundingBox boundsOfData(vtkRenderer* renderer, vtkMultiProcessController* pr
     if (bounds && vtkMath::AreBoundsInitialized(bounds))
     {
       box.AddBounds(bounds);
+      wider = wider || drawsWider(prop);
     }
   }
   if (processes && processes->GetNumberOfProcesses() > 1)
   {
-    double local[6], all[6]; // the largest of all, with the lower bounds turned round
+    double local[7], all[7]; // the largest of all, with the lower bounds turned round
+    local[6] = wider;
     for (int i = 0; i < 3; ++i)
     {
       local[i] = box.IsValid() ? -box.GetMinPoint()[i] : VTK_DOUBLE_MIN;
       local[3 + i] = box.IsValid() ? box.GetMaxPoint()[i] : VTK_DOUBLE_MIN;
     }
-    processes->AllReduce(local, all, 6, vtkCommunicator::MAX_OP);
+    processes->AllReduce(local, all, 7, vtkCommunicator::MAX_OP);
+    wider = all[6] > 0.0;
     box = vtkBoundingBox(-all[0], all[3], -all[1], all[4], -all[2], all[5]);
   }
   return box;
@@ -142,9 +159,10 @@ ShadowGround::~ShadowGround() = default;
 void ShadowGround::place(vtkRenderer* renderer, int axis, vtkMultiProcessController* processes)
 {
   vtkBoundingBox data;
+  bool wider = false;
   if (axis >= 0 && axis < 3)
   {
-    data = boundsOfData(renderer, processes);
+    data = boundsOfData(renderer, processes, wider);
   }
   if (!data.IsValid())
   {
@@ -153,9 +171,10 @@ void ShadowGround::place(vtkRenderer* renderer, int axis, vtkMultiProcessControl
   }
   const double diagonal = data.GetDiagonalLength();
   const double height = data.GetMinPoint()[axis] - Below * diagonal;
-  const double top = data.GetMaxPoint()[axis] + Around * diagonal;
+  const double width = (wider ? Around : Below) * diagonal;
+  const double top = data.GetMaxPoint()[axis] + width;
   vtkBoundingBox around(data), ground(data);
-  around.Inflate(Around * diagonal);
+  around.Inflate(width);
   ground.Inflate(Reach * diagonal);
   renderer->UpdateLightsGeometryToFollowCamera();
   ground = shadowsOf(

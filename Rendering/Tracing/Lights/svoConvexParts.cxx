@@ -73,12 +73,17 @@ void clip(Polygon& polygon, const ConvexFace& side, Polygon& scratch)
 
 ConvexBody pieceOf(const View& view, double nearest, double farthest)
 {
+  return pieceOf(view, { 0, 0, view.width, view.height }, nearest, farthest);
+}
+
+ConvexBody pieceOf(const View& view, const PixelRect& pixels, double nearest, double farthest)
+{
   assert(nearest <= farthest);
   ConvexBody body;
   for (int i = 0; i < 8; ++i)
   {
-    const double x = i & 1 ? view.width : 0.0;
-    const double y = i & 2 ? view.height : 0.0;
+    const double x = i & 1 ? pixels.x1 : pixels.x0;
+    const double y = i & 2 ? pixels.y1 : pixels.y0;
     body[i] = view.rayOrigin(x, y) + (i & 4 ? farthest : nearest) * view.rayDirection(x, y);
   }
   return body;

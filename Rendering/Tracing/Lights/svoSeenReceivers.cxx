@@ -19,30 +19,117 @@ namespace
 constexpr double WiderBy = 0.1;
 /// Texels around a point that are looked up: half of the widest filter's window, and the next ones.
 constexpr double Reach = 0.5 * WidestBox + 3.0;
+/// Pixels along an edge of a part of the eye's picture.
+constexpr int Block = 64;
+/// Of window depths of 24 bits, and of what is computed in float on the way to them.
+constexpr double DepthError = 1.0 / (1 << 21);
+
+/// The axis that a box is flat along; 3 if it is not.
+int flatAxis(const Box& box)
+{
+  const glm::dvec3 size = box.high - box.low;
+  int axis = 0;
+  while (axis < 3 && !(size[axis] <= 1e-12 * glm::length(size)))
+  {
+    ++axis;
+  }
+  return axis;
 }
 
-SeenReceivers::SeenReceivers(const std::vector<Box>& receivers, const View& eye)
+/// Around the pixels of a block at which the eye sees past what was traced to where an axis has a
+/// value, and around their neighbours: silhouettes are wider than what was traced.
+PixelRect seenPlane(
+  const View& eye, const LayeredView& traced, const PixelRect& block, int axis, double at)
+{
+  const DepthBuffer& depth = traced.depthBuffer();
+  const auto clipOf = [&](double t) // z and w
+  {
+    const glm::dmat4& m = eye.viewToClip;
+    return glm::dvec2(m[3][2] - t * m[2][2], m[3][3] - t * m[2][3]);
+  };
+  PixelRect seen{ block.x1, block.y1, block.x0, block.y0 };
+  for (int y = block.y0; y < block.y1; ++y)
+  {
+    const double origin = eye.rayOrigin(0.0, y + 0.5)[axis];
+    const double direction = eye.rayDirection(0.0, y + 0.5)[axis];
+    for (int x = block.x0; x < block.x1; ++x)
+    {
+      if (x >= seen.x0 && x < seen.x1 && y < seen.y1)
+      {
+        continue;
+      }
+      const std::uint32_t instance = depth.instanceAt(x, y);
+      if (instance != NoInstance)
+      {
+        const double t = (at - origin - (x + 0.5) * eye.originX[axis]) /
+          (direction + (x + 0.5) * eye.directionX[axis]);
+        const double hides = traced.base(instance) + depth.t[depth.at(x, y)];
+        const glm::dvec2 there = clipOf(t), before = clipOf(hides);
+        if (t > hides && there.x * before.y > (before.x + 2.0 * DepthError * before.y) * there.y)
+        {
+          continue;
+        }
+      }
+      seen = { std::min(seen.x0, x), std::min(seen.y0, y), std::max(seen.x1, x + 1),
+        std::max(seen.y1, y + 1) };
+    }
+  }
+  return seen.empty() ? seen
+                      : PixelRect{ std::max(seen.x0 - 1, 0), std::max(seen.y0 - 1, 0),
+                          std::min(seen.x1 + 1, eye.width), std::min(seen.y1 + 1, eye.height) };
+}
+}
+
+SeenReceivers::SeenReceivers(
+  const std::vector<Box>& receivers, const View& eye, const LayeredView& traced)
 {
   if (eye.width < 1 || eye.height < 1)
   {
     return;
   }
-  this->Eye = pieceOf(eye, eye.tNear, eye.tFar);
-  const CommonPart seen({ this->Eye });
+  const auto pieceSeen = [&](const PixelRect& pixels)
+  { return pieceOf(eye, pixels, eye.tNear, eye.tFar); };
+  const PixelRect all{ 0, 0, eye.width, eye.height };
   for (const Box& box : receivers)
   {
-    const glm::dvec3 wider(WiderBy * glm::length(box.high - box.low));
+    const int axis = flatAxis(box);
+    const glm::dvec3 wider(axis < 3 ? 0.0 : WiderBy * glm::length(box.high - box.low));
     const glm::dvec3 low = box.low - wider, high = box.high + wider;
-    Part part;
+    ConvexBody body;
     for (int i = 0; i < 8; ++i)
     {
-      part.box[i] = { i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z };
+      body[i] = { i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z };
     }
-    seen.add(part.box, part.points);
-    if (!part.points.empty())
+    const std::size_t first = this->Parts.size();
+    this->add(body, pieceSeen(all));
+    if (axis == 3 || first == this->Parts.size())
     {
-      this->Parts.push_back(std::move(part));
+      continue;
     }
+    this->Parts.pop_back();
+    for (int y = 0; y < eye.height; y += Block)
+    {
+      for (int x = 0; x < eye.width; x += Block)
+      {
+        const PixelRect block{ x, y, std::min(x + Block, eye.width),
+          std::min(y + Block, eye.height) };
+        const PixelRect seen = seenPlane(eye, traced, block, axis, box.low[axis]);
+        if (!seen.empty())
+        {
+          this->add(body, pieceSeen(seen));
+        }
+      }
+    }
+  }
+}
+
+void SeenReceivers::add(const ConvexBody& box, const ConvexBody& seen)
+{
+  Part part{ box, seen, {} };
+  CommonPart({ seen }).add(box, part.points);
+  if (!part.points.empty())
+  {
+    this->Parts.push_back(std::move(part));
   }
 }
 
@@ -60,7 +147,7 @@ std::vector<PixelRect> SeenReceivers::in(const View& map) const
     if (std::any_of(points->begin(), points->end(), isBehind))
     {
       cut.clear();
-      CommonPart({ this->Eye, pieceOf(map, map.tNear, map.tFar) }).add(part.box, cut);
+      CommonPart({ part.seen, pieceOf(map, map.tNear, map.tFar) }).add(part.box, cut);
       points = &cut;
     }
     constexpr double Infinity = std::numeric_limits<double>::infinity();

@@ -4,6 +4,7 @@
 
 #include "svoBox.h"
 #include "svoConvexParts.h"
+#include "svoLayeredView.h"
 #include "svoView.h"
 
 #include <vector>
@@ -16,8 +17,10 @@ class SeenReceivers
 {
 public:
   /// `receivers`: boxes around them, world. A box is taken for a tenth of its diagonal wider on all
-  /// sides, since smooth surfaces are looked up beside their facets (svoTerminator.h).
-  SeenReceivers(const std::vector<Box>& receivers, const View& eye);
+  /// sides, since smooth surfaces are looked up beside their facets (svoTerminator.h). A flat one,
+  /// a ground as a rule, has no such, and is taken in parts: what of it the eye sees past what was
+  /// traced. `traced`: by the eye.
+  SeenReceivers(const std::vector<Box>& receivers, const View& eye, const LayeredView& traced);
 
   /// Rectangles of texels of a light's map in which all is that their points look up.
   std::vector<PixelRect> in(const View& map) const;
@@ -26,10 +29,12 @@ private:
   struct Part
   {
     ConvexBody box;
-    std::vector<glm::dvec3> points; // whose convex hull the eye's view and the box have in common
+    ConvexBody seen;                // a piece of the eye's view
+    std::vector<glm::dvec3> points; // whose convex hull both have in common
   };
+  void add(const ConvexBody& box, const ConvexBody& seen);
+
   std::vector<Part> Parts;
-  ConvexBody Eye;
 };
 }
 

@@ -296,7 +296,7 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     {
       this->LightShadows.chooseAsBefore(seen, view, settings);
     }
-    this->LightShadows.prepare(seen, view, settings, budget, parallelFor);
+    this->LightShadows.prepare(seen, view, this->Eye, settings, budget, parallelFor);
   }
   this->LightShadows.prepareRays(scene, this->Eye);
   if (!shared)

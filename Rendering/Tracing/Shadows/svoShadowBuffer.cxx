@@ -93,6 +93,7 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
     {
       tile.store(0, std::memory_order_relaxed);
     }
+    face.received.clear();
   }
   this->LargestVoxel = this->LargestError = 0.0;
   for (std::size_t k = 0; k < this->CasterVoxel.size(); ++k)
@@ -273,6 +274,7 @@ void ShadowBuffer::mark(const SeenReceivers& receivers)
   for (auto& face : this->Faces)
   {
     const int tilesAcross = (face->view.width + 7) / 8;
+    face->received.assign(face->wanted.size(), 0);
     for (const PixelRect& rect :
       face->seesCasters ? receivers.in(face->view) : std::vector<PixelRect>())
     {
@@ -280,8 +282,9 @@ void ShadowBuffer::mark(const SeenReceivers& receivers)
       {
         for (int x = rect.x0 / 8; x <= (rect.x1 - 1) / 8; ++x)
         {
-          face->wanted[static_cast<std::size_t>(y) * tilesAcross + x].store(
-            1, std::memory_order_relaxed);
+          const std::size_t tile = static_cast<std::size_t>(y) * tilesAcross + x;
+          face->wanted[tile].store(1, std::memory_order_relaxed);
+          face->received[tile] = 1;
         }
       }
     }

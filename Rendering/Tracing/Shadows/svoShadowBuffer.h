@@ -167,9 +167,15 @@ private:
     SharedDepth shared; // with other processes' casters; takes the place of the layers' depths
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile
     bool seesCasters = false;
-    MapOccluders occluders; // of the layers; unknown where depths are shared
-    MapOpacities opacities; // unknown where each caster is equally opaque all over
+    MapOccluders occluders;             // of the layers; unknown where depths are shared
+    MapOpacities opacities;             // unknown where each caster is equally opaque all over
+    std::vector<std::uint8_t> received; // per tile: receivers may look it up; empty: all of them
     std::shared_ptr<const ShadowTexels> copied; // ShadowMap::texels; null: they have changed
+    std::vector<std::uint8_t> copiedOf;         // the tiles that were received then
+
+    bool isReceived(std::size_t tile) const { return received.empty() || received[tile] != 0; }
+    /// True if `copied` has what receivers may look up.
+    bool copySuffices() const;
 
     /// `ofCasters`: CasterOpacity; null of opaque ones.
     std::shared_ptr<const ShadowTexels> copy(

@@ -18,7 +18,7 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
   std::uint32_t held = 0;
   for (std::size_t tile = 0; this->seesCasters && tile < copy->tiles.size(); ++tile)
   {
-    if (this->holds(tile))
+    if (this->isReceived(tile) && this->holds(tile))
     {
       copy->tiles[tile] = held++;
     }
@@ -50,6 +50,15 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
   return copy;
 }
 
+bool ShadowBuffer::Face::copySuffices() const
+{
+  return this->copied &&
+    (this->copiedOf.empty() ||
+      (!this->received.empty() &&
+        std::equal(this->received.begin(), this->received.end(), this->copiedOf.begin(),
+          this->copiedOf.end(), [](std::uint8_t now, std::uint8_t then) { return now <= then; })));
+}
+
 void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps, int group)
 {
   for (const auto& face : this->Faces)
@@ -59,8 +68,9 @@ void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps, int group)
     map.group = group;
     map.view = face->view;
     map.base = std::max(face->view.tNear, 0.0);
-    if (!face->copied)
+    if (!face->copySuffices())
     {
+      face->copiedOf = face->received;
       face->copied = face->copy(map.base, this->Translucent ? &this->CasterOpacity : nullptr);
     }
     map.texels = face->copied;

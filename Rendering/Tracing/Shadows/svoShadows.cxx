@@ -73,8 +73,8 @@ void Shadows::fitMaps(const Scene& seen, const View& view, const FrameSettings& 
   this->Maps = mapsOfLights(this->Fitted, seen.lights, settings, view);
 }
 
-void Shadows::prepare(const Scene& scene, const View& view, const FrameSettings& settings,
-  LayerBudget& budget, const ParallelFor& parallelFor)
+void Shadows::prepare(const Scene& scene, const View& view, const LayeredView& eye,
+  const FrameSettings& settings, LayerBudget& budget, const ParallelFor& parallelFor)
 {
   this->Filters = settings.filters();
   this->Samples = settings.antiAliasing;
@@ -83,7 +83,7 @@ void Shadows::prepare(const Scene& scene, const View& view, const FrameSettings&
   this->prepareBuffers(scene, scene.lights, this->Maps, 0, settings, budget, parallelFor);
   if (settings.receiverMaps && !this->TracesWhole)
   {
-    const SeenReceivers receivers(scene.receivers, view);
+    const SeenReceivers receivers(scene.receivers, view, eye);
     for (ShadowBuffer* buffer : this->Buffers)
     {
       if (buffer)

@@ -34,9 +34,9 @@ public:
   void setCulling(const Culling& culling) { this->Cull = culling; }
 
   /// Fits the lights' buffers and keeps those of their layers that are still true. `scene`: with
-  /// the octrees that lights see. `view`: of the eye.
-  void prepare(const Scene& scene, const View& view, const FrameSettings& settings,
-    LayerBudget& budget, const ParallelFor& parallelFor);
+  /// the octrees that lights see. `view`: of the eye, which has been traced.
+  void prepare(const Scene& scene, const View& view, const LayeredView& eye,
+    const FrameSettings& settings, LayerBudget& budget, const ParallelFor& parallelFor);
 
   /// To be called in every frame, after prepare() or traceShared(). `scene` and `eye`: those of the
   /// points to be tested; rays to the light meet the same geometry, or surfaces would shadow
