@@ -53,29 +53,33 @@ struct DepthBuffer
     }
     this->hit.assign(tiles, 0);
   }
-  /// After a frame, of which `writtenNow` says which tiles it wrote: where tiles without a hit hold
-  /// more memory than those with one, theirs is given back, wherever pages hold no others.
+  /// After a frame, of which `writtenNow` says which tiles it wrote, as the next one will in all
+  /// likelihood: where others without a hit hold more memory than these and those with one, theirs
+  /// is given back, wherever pages hold no others.
   template <class WrittenNow>
   void trim(const WrittenNow& writtenNow)
   {
     const std::size_t tiles = this->tiles();
     std::size_t held = 0, needed = 0;
+    this->Needed = this->hit;
     for (std::size_t tile = 0; tile < tiles; ++tile)
     {
-      this->Written[tile] |= static_cast<std::uint8_t>(writtenNow(tile));
+      this->Needed[tile] |= static_cast<std::uint8_t>(writtenNow(tile));
+      this->Written[tile] |= this->Needed[tile];
       held += this->Written[tile];
-      needed += this->hit[tile];
+      needed += this->Needed[tile];
     }
     if (held <= 2 * needed)
     {
       return;
     }
-    this->Written = this->hit;
+    this->Written = this->Needed;
     for (std::size_t first = 0, last; first < tiles; first = last + 1)
     {
       last = static_cast<std::size_t>(
-        std::find(this->hit.begin() + static_cast<std::ptrdiff_t>(first), this->hit.end(), 1) -
-        this->hit.begin());
+        std::find(
+          this->Needed.begin() + static_cast<std::ptrdiff_t>(first), this->Needed.end(), 1) -
+        this->Needed.begin());
       Pages<float>::giveBack(this->t.data(), this->t.size(), 64 * first, 64 * last);
       Pages<std::uint32_t>::giveBack(
         this->instance.data(), this->instance.size(), 64 * first, 64 * last);
@@ -110,6 +114,7 @@ struct DepthBuffer
 
 private:
   std::vector<std::uint8_t> Written; // per tile: since its memory was given back
+  std::vector<std::uint8_t> Needed;  // scratch of trim()
 };
 }
 

@@ -1,4 +1,4 @@
-// A depth buffer gives back pages in which no tile has a hit, and no others.
+// A depth buffer gives back pages in which no tile is needed, and no others.
 #include "svoDepthBuffer.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(DepthBuffer, HoldsNoMoreThanTwiceWhatItNeeds)
   ASSERT_EQ(tiles, 125u * 75u);
   const std::size_t inPage = static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) / (64 * sizeof(float));
   std::mt19937 random(3);
-  std::vector<std::uint8_t> held(tiles), written(tiles);
+  std::vector<std::uint8_t> held(tiles), written(tiles), needed(tiles);
   std::vector<unsigned char> pages((tiles + inPage - 1) / inPage);
   int trimmed = 0;
   for (int frame = 0; frame < 40; ++frame)
@@ -56,16 +56,19 @@ TEST(DepthBuffer, HoldsNoMoreThanTwiceWhatItNeeds)
       }
     }
     buffer.trim([&](std::size_t tile) { return written[tile]; });
-    if (std::count(held.begin(), held.end(), 1) >
-      2 * std::count(buffer.hit.begin(), buffer.hit.end(), 1))
+    for (std::size_t tile = 0; tile < tiles; ++tile)
+    {
+      needed[tile] = buffer.hit[tile] | written[tile];
+    }
+    if (std::count(held.begin(), held.end(), 1) > 2 * std::count(needed.begin(), needed.end(), 1))
     {
       ++trimmed;
-      held = buffer.hit;
+      held = needed;
       pages.assign(pages.size(), 0);
     }
     for (std::size_t tile = 0; tile < tiles; ++tile)
     {
-      pages[tile / inPage] |= buffer.hit[tile];
+      pages[tile / inPage] |= needed[tile];
       for (std::size_t i = 64 * tile; buffer.hit[tile] && i < 64 * (tile + 1); ++i)
       {
         ASSERT_EQ(buffer.t[i], static_cast<float>(tile));
