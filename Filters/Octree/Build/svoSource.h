@@ -32,7 +32,7 @@ struct SourceBrick
 
 /// A surface that is no mesh. All functions are called by several threads at a time, unless the
 /// executor of the build is serial.
-class SurfaceSource
+class VTKSVOOCTREE_EXPORT SurfaceSource
 {
 public:
   virtual ~SurfaceSource() = default;
