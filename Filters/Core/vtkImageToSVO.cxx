@@ -280,7 +280,11 @@ void vtkImageToSVO::WarnOfNothing(vtkImageData* image, vtkDataArray* scalars, do
   const std::vector<double> surfaces = this->Surfaces();
   double range[2];
   scalars->GetFiniteRange(range);
-  if (range[0] > range[1])
+  if (surfaces.empty())
+  {
+    vtkWarningMacro("No surface was found: the value to look for is not a number.");
+  }
+  else if (range[0] > range[1])
   {
     vtkWarningMacro("No surface was found: the image has no finite values.");
   }

@@ -218,6 +218,9 @@ int TestSVOMissingShadows(int, char*[])
     std::string(aimless.pass->GetCastingLights()).find("has no direction") != std::string::npos,
     "and the list of lights says why");
 
+  aimless.sun->SetLightTypeToCameraLight();
+  checks.expect(!Pass::GetCastShadow(aimless.sun), "nor does one that is the camera's");
+
   // Another cause is another message; more of the same is none.
   Scene scene;
   scene.objects[0]->GetProperty()->SetRepresentationToWireframe();

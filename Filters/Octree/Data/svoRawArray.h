@@ -8,8 +8,8 @@
 
 namespace svo
 {
-/// For large scratch memory that is written before it is read; with svo::Pages for its allocator
-/// also for image-sized buffers of which only some tiles are ever used.
+/// For large scratch memory that is written before it is read. Of the allocator allocate() and
+/// deallocate() are asked.
 template <class T, class Allocator = std::allocator<T>>
 class RawArray
 {

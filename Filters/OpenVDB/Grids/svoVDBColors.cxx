@@ -38,7 +38,10 @@ bool sample(const GridT& grid, const Octree& octree, const ParallelFor& parallel
     {
       const glm::dvec3 local(frame * glm::dvec4(own, 1.0));
       const openvdb::Vec3d index = grid.worldToIndex({ local.x, local.y, local.z });
-      const glm::dvec3 at(index.x(), index.y(), index.z()), low = glm::floor(at);
+      constexpr double Farthest = 1 << 30; // far beyond it a grid has its background
+      const glm::dvec3 at =
+        glm::clamp(glm::dvec3(index.x(), index.y(), index.z()), -Farthest, Farthest);
+      const glm::dvec3 low = glm::floor(at);
       const typename GridT::ConstUnsafeAccessor accessor(grid.tree()); // nobody changes the tree
       for (int c = 0; c < components; ++c)
       {

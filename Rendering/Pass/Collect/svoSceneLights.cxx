@@ -150,7 +150,7 @@ vtkLight* keyLightOf(vtkRenderer* renderer)
   eachLight(renderer,
     [&](vtkLight* light)
     {
-      if (light->LightTypeIsCameraLight() && !isAnswered(light) &&
+      if (light->LightTypeIsCameraLight() && !isAnswered(light) && aims(lightOf(light)) &&
         (!key || brightness(lightOf(light)) > brightness(lightOf(key))))
       {
         key = light;
@@ -197,6 +197,10 @@ SceneLights lightsOf(vtkRenderer* renderer, const glm::dmat4& world, const Light
 
 bool castsShadow(vtkLight* light)
 {
+  if (!aims(lightOf(light)))
+  {
+    return false;
+  }
   if (light->LightTypeIsCameraLight() && !isAnswered(light))
   {
     const LightPlace* place = LightPlace::of(light);
@@ -204,6 +208,6 @@ bool castsShadow(vtkLight* light)
     return !renderer || !renderer->GetLights()->IsItemPresent(light) ||
       keyLightOf(renderer) == light;
   }
-  return answerOf(light, light->LightTypeIsSceneLight()) && aims(lightOf(light));
+  return answerOf(light, light->LightTypeIsSceneLight());
 }
 }

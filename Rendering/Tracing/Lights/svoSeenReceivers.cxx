@@ -21,6 +21,9 @@ constexpr double WiderBy = 0.1;
 constexpr double Reach = 0.5 * WidestBox + 3.0;
 /// Pixels along an edge of a part of the eye's picture.
 constexpr int Block = 64;
+/// So many pixels of flat receivers are looked at, in pictures of the eye; further ones are taken
+/// whole.
+constexpr double MostPictures = 4.0;
 /// Of window depths of 24 bits, and of what is computed in float on the way to them.
 constexpr double DepthError = 1.0 / (1 << 21);
 
@@ -78,6 +81,23 @@ PixelRect seenPlane(
                       : PixelRect{ std::max(seen.x0 - 1, 0), std::max(seen.y0 - 1, 0),
                           std::min(seen.x1 + 1, eye.width), std::min(seen.y1 + 1, eye.height) };
 }
+
+/// Of a view's pixels those around points within it, with a margin for rounding and silhouettes.
+PixelRect pixelsAround(const std::vector<glm::dvec3>& points, const View& view)
+{
+  const glm::dmat4 toClip = view.viewToClip * view.worldToView;
+  const glm::dvec2 size(view.width, view.height);
+  glm::dvec2 low(size), high(0.0);
+  for (const glm::dvec3& point : points)
+  {
+    const glm::dvec4 clip = toClip * glm::dvec4(point, 1.0);
+    const glm::dvec2 at = (0.5 * glm::dvec2(clip) / clip.w + 0.5) * size;
+    low = glm::min(low, glm::floor(at) - 2.0);
+    high = glm::max(high, glm::ceil(at) + 2.0);
+  }
+  const glm::ivec2 first(glm::max(low, 0.0)), last(glm::min(high, size));
+  return { first.x, first.y, last.x, last.y };
+}
 }
 
 SeenReceivers::SeenReceivers(
@@ -87,49 +107,60 @@ SeenReceivers::SeenReceivers(
   {
     return;
   }
-  const auto pieceSeen = [&](const PixelRect& pixels)
-  { return pieceOf(eye, pixels, eye.tNear, eye.tFar); };
-  const PixelRect all{ 0, 0, eye.width, eye.height };
+  const ConvexBody view = pieceOf(eye, eye.tNear, eye.tFar);
+  const CommonPart seen({ view });
+  const double most = MostPictures * static_cast<double>(eye.width) * eye.height;
+  double searched = 0.0; // pixels
   for (const Box& box : receivers)
   {
     const int axis = flatAxis(box);
     const glm::dvec3 wider(axis < 3 ? 0.0 : WiderBy * glm::length(box.high - box.low));
     const glm::dvec3 low = box.low - wider, high = box.high + wider;
-    ConvexBody body;
+    Part part;
+    part.seen = view;
     for (int i = 0; i < 8; ++i)
     {
-      body[i] = { i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z };
+      part.box[i] = { i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z };
     }
-    const std::size_t first = this->Parts.size();
-    this->add(body, pieceSeen(all));
-    if (axis == 3 || first == this->Parts.size())
+    seen.add(part.box, part.points);
+    if (part.points.empty())
     {
       continue;
     }
-    this->Parts.pop_back();
-    for (int y = 0; y < eye.height; y += Block)
+    const PixelRect around = pixelsAround(part.points, eye);
+    const double pixels =
+      axis < 3 ? static_cast<double>(around.x1 - around.x0) * (around.y1 - around.y0) : most;
+    if (searched + pixels < most)
     {
-      for (int x = 0; x < eye.width; x += Block)
-      {
-        const PixelRect block{ x, y, std::min(x + Block, eye.width),
-          std::min(y + Block, eye.height) };
-        const PixelRect seen = seenPlane(eye, traced, block, axis, box.low[axis]);
-        if (!seen.empty())
-        {
-          this->add(body, pieceSeen(seen));
-        }
-      }
+      searched += pixels;
+      this->addSeen(part.box, axis, around, eye, traced);
+    }
+    else
+    {
+      this->Parts.push_back(std::move(part));
     }
   }
 }
 
-void SeenReceivers::add(const ConvexBody& box, const ConvexBody& seen)
+void SeenReceivers::addSeen(const ConvexBody& box, int axis, const PixelRect& around,
+  const View& eye, const LayeredView& traced)
 {
-  Part part{ box, seen, {} };
-  CommonPart({ seen }).add(box, part.points);
-  if (!part.points.empty())
+  for (int y = around.y0; y < around.y1; y += Block)
   {
-    this->Parts.push_back(std::move(part));
+    for (int x = around.x0; x < around.x1; x += Block)
+    {
+      const PixelRect block{ x, y, std::min(x + Block, around.x1), std::min(y + Block, around.y1) };
+      const PixelRect pixels = seenPlane(eye, traced, block, axis, box[0][axis]);
+      if (!pixels.empty())
+      {
+        Part part{ box, pieceOf(eye, pixels, eye.tNear, eye.tFar), {} };
+        CommonPart({ part.seen }).add(box, part.points);
+        if (!part.points.empty())
+        {
+          this->Parts.push_back(std::move(part));
+        }
+      }
+    }
   }
 }
 

@@ -32,7 +32,9 @@ private:
     ConvexBody seen;                // a piece of the eye's view
     std::vector<glm::dvec3> points; // whose convex hull both have in common
   };
-  void add(const ConvexBody& box, const ConvexBody& seen);
+  /// Of a box that is flat along an axis, what the eye sees of it in a part of its picture.
+  void addSeen(const ConvexBody& box, int axis, const PixelRect& around, const View& eye,
+    const LayeredView& traced);
 
   std::vector<Part> Parts;
 };

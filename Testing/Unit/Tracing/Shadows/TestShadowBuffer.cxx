@@ -5,13 +5,11 @@
 #include "svoLeafGeometry.h"
 #include "svoReferencePoint.h"
 #include "svoShadowBuffer.h"
-#include "svoTexelPlace.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 
 using namespace svotest;
@@ -354,127 +352,6 @@ TEST(ShadowBuffer, MapsAreKeptAsLongAsNothingTheyShowChanges)
     settings.frameCoherence = false;
     shown(aside);
     shown(Eye);
-  }
-}
-
-TEST(ShadowBuffer, WhatReceiversInViewMayLookUpIsHandedOut)
-{
-  std::mt19937 generator(4);
-  std::uniform_real_distribution<double> part(0.0, 1.0);
-  for (const LightCase& c : everyLight())
-  {
-    svo::Scene scene = ballOnGround(svo::LeafGeometry::Automatic, 6);
-    for (svo::Instance& instance : scene.instances)
-    {
-      instance.receiveShadow = false; // else the ground has nearly all of the maps
-    }
-    scene.lights = { c.light };
-    const svo::Box box{ { -1.4, -0.6, -0.5 }, { -0.6, 0.6, 0.5 } };
-    scene.receivers = { box };
-    svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
-    settings.shadowResolution = 256;
-    settings.wholeShadowBuffers = true;
-    svo::CPUTracer whole, some;
-    rendered(whole, scene, Eye, settings);
-    settings.wholeShadowBuffers = false;
-    settings.receiverMaps = true;
-    rendered(some, scene, Eye, settings);
-    ASSERT_EQ(some.shadowMaps().size(), whole.shadowMaps().size());
-    std::size_t held = 0, all = 0;
-    int asked = 0, occluded = 0;
-    for (std::size_t m = 0; m < some.shadowMaps().size(); ++m)
-    {
-      const svo::ShadowMap &map = some.shadowMaps()[m], &full = whole.shadowMaps()[m];
-      held += map.texels->held();
-      all += full.texels->held();
-      for (int k = 0; k < 2000; ++k)
-      {
-        const glm::dvec3 x = glm::mix(
-          box.low, box.high, glm::dvec3(part(generator), part(generator), part(generator)));
-        const glm::dvec4 seen = Eye.viewToClip * Eye.worldToView * glm::dvec4(x, 1.0);
-        const svo::TexelPlace at =
-          svo::texelPlace(map.view, map.view.viewToClip * map.view.worldToView, x);
-        if (!(at.inside > 0.0) || std::abs(seen.x) > seen.w || std::abs(seen.y) > seen.w)
-        {
-          continue;
-        }
-        ++asked;
-        for (int i = 0; i < 49; ++i)
-        {
-          const int u = std::clamp(static_cast<int>(at.x) + i % 7 - 3, 0, 255);
-          const int v = std::clamp(static_cast<int>(at.y) + i / 7 - 3, 0, 255);
-          ASSERT_EQ(map.texels->depthAt(u, v), full.texels->depthAt(u, v)) << c.name;
-          occluded += map.texels->depthAt(u, v) < 1e30f;
-        }
-      }
-    }
-    EXPECT_GT(asked, 1000) << c.name;
-    EXPECT_GT(occluded, 1000) << c.name;
-    EXPECT_LT(held, all / 2) << c.name;
-    EXPECT_LT(some.statistics().shadowMemory, whole.statistics().shadowMemory) << c.name;
-  }
-}
-
-TEST(ShadowBuffer, OfAFlatReceiverTheEyeAsksWhatItSees)
-{
-  std::mt19937 generator(5);
-  std::uniform_real_distribution<double> part(0.0, 1.0);
-  const svo::View eye = lookAt({ 1, -6, 4 }, 650, 470);
-  for (const LightCase& c : everyLight())
-  {
-    svo::Scene scene = ballOnGround(svo::LeafGeometry::Automatic, 6);
-    scene.instances.push_back( // behind what is seen of the receiver
-      instanceOf(makeOctree(square(6.0), 6), 3, movedTo(0.0, 0.0, -0.3)));
-    for (svo::Instance& instance : scene.instances)
-    {
-      instance.receiveShadow = false;
-    }
-    scene.lights = { c.light };
-    const svo::Box box{ { -4.0, -4.0, -0.01 }, { 4.0, 4.0, -0.01 } }; // the ground hides most of it
-    scene.receivers = { box };
-    svo::FrameSettings settings = settingsOf(svo::ShadowTechnique::Buffer);
-    settings.wholeShadowBuffers = true;
-    svo::CPUTracer whole, some, thick;
-    const svo::Frame frame = rendered(whole, scene, eye, settings);
-    settings.wholeShadowBuffers = false;
-    settings.receiverMaps = true;
-    rendered(some, scene, eye, settings);
-    scene.receivers.front().low.z -= 1e-6;
-    rendered(thick, scene, eye, settings);
-    ASSERT_EQ(some.shadowMaps().size(), whole.shadowMaps().size());
-    int asked = 0, occluded = 0;
-    for (std::size_t m = 0; m < some.shadowMaps().size(); ++m)
-    {
-      const svo::ShadowMap &map = some.shadowMaps()[m], &full = whole.shadowMaps()[m];
-      for (int k = 0; k < 20000; ++k)
-      {
-        const glm::dvec3 x = glm::mix(
-          box.low, box.high, glm::dvec3(part(generator), part(generator), part(generator)));
-        const glm::dvec4 clip = eye.viewToClip * eye.worldToView * glm::dvec4(x, 1.0);
-        const glm::dvec3 seen = 0.5 + 0.5 * glm::dvec3(clip) / clip.w;
-        const svo::TexelPlace at =
-          svo::texelPlace(map.view, map.view.viewToClip * map.view.worldToView, x);
-        const glm::dvec2 pixel(seen.x * eye.width, seen.y * eye.height);
-        if (!(at.inside > 0.0) || clip.w <= 0.0 || !(seen.x > 0.0 && seen.x < 1.0) ||
-          !(seen.y > 0.0 && seen.y < 1.0) ||
-          seen.z > frame.depth[std::size_t(pixel.y) * eye.width + std::size_t(pixel.x)])
-        {
-          continue;
-        }
-        ++asked;
-        const int size = map.view.width;
-        for (int i = 0; i < 49; ++i)
-        {
-          const int u = std::clamp(static_cast<int>(at.x) + i % 7 - 3, 0, size - 1);
-          const int v = std::clamp(static_cast<int>(at.y) + i / 7 - 3, 0, size - 1);
-          ASSERT_EQ(map.texels->depthAt(u, v), full.texels->depthAt(u, v)) << c.name;
-          occluded += map.texels->depthAt(u, v) < 1e30f;
-        }
-      }
-    }
-    EXPECT_GT(asked, 1000) << c.name;
-    EXPECT_GT(occluded, 1000) << c.name;
-    EXPECT_LT(some.statistics().shadowRays, thick.statistics().shadowRays) << c.name;
   }
 }
 

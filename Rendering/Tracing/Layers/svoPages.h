@@ -4,7 +4,6 @@
 #define svoPages_h
 
 #include <cstddef>
-#include <cstdint>
 #include <new>
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -15,19 +14,11 @@
 
 namespace svo
 {
-/// For buffers of the size of images of which only some tiles are used. Other allocators would hand
-/// out again what has been touched before, and keep what lies between others.
+/// For a RawArray of the size of an image of which only some tiles are used. Other allocators would
+/// hand out again what has been touched before, and keep what lies between others.
 template <class T>
 struct Pages
 {
-  using value_type = T;
-
-  Pages() = default;
-  template <class Other>
-  Pages(const Pages<Other>&)
-  {
-  }
-
   T* allocate(std::size_t count)
   {
 #ifdef SVO_HAS_PAGES
@@ -80,16 +71,6 @@ private:
     return count * sizeof(T) >= Large;
   }
 };
-template <class T, class Other>
-bool operator==(const Pages<T>&, const Pages<Other>&)
-{
-  return true;
-}
-template <class T, class Other>
-bool operator!=(const Pages<T>&, const Pages<Other>&)
-{
-  return false;
-}
 }
 
 #endif
