@@ -45,6 +45,7 @@ void PropCollector::addBodies(vtkActor* actor, const std::shared_ptr<Bodies>& bo
   surface.copies = copies;
   const bool local = bodies->width == Bodies::Width::Local;
   this->finish(actor, part, local ? localToWorld : glm::dmat4(1.0), reason, surface, found);
+  surface.instance.body.own().ball = bodies->shape == Bodies::Shape::Ball;
   placeBodies(*bodies, local ? glm::dmat4(1.0) : localToWorld, View(), *copies);
   if (!local)
   {

@@ -32,8 +32,8 @@ public:
 
   /// Facets around, 8 to 64: so many that they lie no more than a tenth of a pixel inside, if the
   /// bodies have a width in pixels; else the most, 0.12 % of the radius. Of thousands of balls each
-  /// has fewer, 16 at least, 1.9 %: they are small, and a light goes through all of their
-  /// triangles.
+  /// has fewer, 16 at least, 1.9 %: they are small, and rays to a light go through all of
+  /// their triangles; its maps meet balls themselves (Body::ball).
   static int facetsOf(const Bodies& bodies);
 
 private:

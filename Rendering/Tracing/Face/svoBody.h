@@ -19,6 +19,9 @@ struct Body
   /// the camera comes closer.
   Octree casterOctree;
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
+  /// The mesh stands for the ball of radius 1 around its origin, inside of which it lies. Lights'
+  /// maps meet the ball itself; see svoTileBalls.h.
+  bool ball = false;
   Attributes attributes;
   /// With them surfaces of different octrees that have the same vertices are equally deep.
   MeshPoints points;

@@ -91,7 +91,7 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   const int smallest = ofCrowd > 2.0 * view.width * view.height ? CrowdsLayer : SmallestLayer;
   for (Entry& entry : this->Instances)
   {
-    const bool large = pixelsOf(entry.local.rect) >= smallest;
+    const bool large = pixelsOf(entry.local.rect) >= smallest && !entry.ball;
     entry.layer =
       large ? this->Layers.layerOf(entry.id, entry.key, entry.local.rect, budget) : nullptr;
   }
@@ -118,7 +118,7 @@ void LayeredView::fill(
   entry.points = instance.body->points;
   entry.again = this->againOf(instance, entry, this->Errors[index]);
   entry.intervals.tNear.clear();
-  if (entry.tiles)
+  if (entry.tiles && !entry.ball)
   {
     entry.functions = PixelFunctions(entry.local, this->Seen);
     entry.sizes = RaySizes(entry.local, this->Seen);
@@ -131,7 +131,7 @@ KeyBase LayeredView::keyBase() const
   double nearest = infinity, farthest = -infinity;
   for (const Entry& entry : this->Instances)
   {
-    if (entry.tiles && entry.functions.valid)
+    if (entry.tiles && !entry.ball && entry.functions.valid)
     {
       const double begin = this->Seen.parallel ? entry.local.base : entry.functions.wBase;
       nearest = std::min(nearest, begin);
@@ -196,6 +196,7 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
   }
   this->findIntervals(parallelFor);
   this->Parts.clear();
+  this->Parts.reserve(this->Instances.size());
   for (const Entry& entry : this->Instances)
   {
     this->Parts.push_back({ entry.index, entry.key, this->Offsets[entry.index], entry.local.rect });

@@ -11,6 +11,7 @@
 #include "svoParallel.h"
 #include "svoPixelFunctions.h"
 #include "svoScene.h"
+#include "svoTileBalls.h"
 #include "svoTilePlanes.h"
 #include "svoTriangleGroup.h"
 #include "svoVisibleInstances.h"
@@ -173,6 +174,13 @@ private:
     bool hidden = false;         // others hide all that the group sees of it
     FoundTriangles alone;        // where this is the way
   };
+  /// A ball that a group of tiles may see.
+  struct BallEntry
+  {
+    const Entry* entry;
+    std::uint32_t tiles; // of the group, row by row, a bit for each that may see it
+    double base;
+  };
   struct SeenHit
   {
     std::uint32_t instance;
@@ -194,6 +202,7 @@ private:
     std::vector<TileEntry> entries;    // at least those that reach into the group of tiles ...
     std::size_t nearby = 0;            // ... which are so many, front to back
     std::vector<TileEntry*> together;  // of these, in the same order
+    std::vector<BallEntry> balls;      // front to back, not among `entries`
     std::vector<TileEntry*> order;     // those that the tile's rays may meet
     std::vector<std::uint64_t> rays;   // by index into Instances
     std::vector<std::uint8_t> regards; // by index into Instances: Regard
@@ -211,6 +220,7 @@ private:
     double deepest = 0.0; // of it, linear depth: nothing beyond is seen
     NearestTriangles nearest;
     std::vector<std::size_t> counted; // by index into Instances: the tile that rays has last
+    TileBalls seenBalls;
     std::vector<SeenHit> hits;
     alignas(64) float t[64];
     alignas(64) std::uint32_t instance[64];
@@ -273,6 +283,11 @@ private:
   void placeHits(int tileX, int tileY, FoundTriangles& found, std::uint64_t& doubtful,
     const TileScratch& scratch, MergedTile& hits) const;
   void measureHits(int tileX, int tileY, const NearestTriangles& nearest, MergedTile& hits) const;
+  /// Notes for each ball that a group of tiles may see which of the tiles do, front to back.
+  void gatherBalls(TileScratch& scratch) const;
+  /// Merges what a tile sees of balls, front to back.
+  void mergeBalls(
+    int tileX, int tileY, bool onlyChanged, TileScratch& scratch, MergedTile& merged) const;
   /// What a ray of the tile in scratch.nearest meets first, by the float test; false if nothing.
   bool traceDoubtful(double x, double y, int ray, TileScratch& scratch, SeenHit& first) const;
   void order(int tileX, int tileY, bool onlyChanged, TileScratch& scratch);

@@ -95,6 +95,7 @@ void LayeredView::gather(std::size_t group, TileScratch& scratch) const
   const GroupLists::List nearby = this->Groups.of(group);
   scratch.nearby = 0;
   scratch.together.clear();
+  scratch.balls.clear();
   const auto most = static_cast<std::size_t>(nearby.end() - nearby.begin());
   if (scratch.entries.size() < most)
   {
@@ -105,6 +106,12 @@ void LayeredView::gather(std::size_t group, TileScratch& scratch) const
     const Entry& entry = this->Instances[e];
     if (!scratch.wants(entry.local.pixels))
     {
+      continue;
+    }
+    if (entry.ball)
+    {
+      scratch.balls.push_back({ &entry, 0, entry.local.base });
+      scratch.regards[e] |= Asked;
       continue;
     }
     TileEntry& candidate = scratch.entries[scratch.nearby++];
@@ -126,6 +133,7 @@ void LayeredView::gather(std::size_t group, TileScratch& scratch) const
       }
     }
   }
+  this->gatherBalls(scratch);
   while (!this->findTogether(scratch))
   {
   }

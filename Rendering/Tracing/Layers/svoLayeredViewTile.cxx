@@ -244,6 +244,7 @@ void LayeredView::traceTile(int tileX, int tileY, bool onlyChanged, TileScratch&
     this->Merged.primitive.data() + 64 * tile, false };
   merged.any = onlyChanged ? this->LastHit[tile] != 0
                            : this->nearestHits(tileX, tileY, scratch.found, scratch, merged);
+  this->mergeBalls(tileX, tileY, onlyChanged, scratch, merged);
   scratch.deepest = this->deepest(merged);
   this->order(tileX, tileY, onlyChanged, scratch);
   this->Merged.hit[tile] = merged.any;

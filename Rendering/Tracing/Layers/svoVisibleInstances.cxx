@@ -174,13 +174,14 @@ VisibleInstance seenInstance(
 {
   const Instance& instance = scene.instances[index];
   const LocalView local = makeLocalView(instance.body->octree, instance.localToWorld, view);
-  const bool tiles = worthTiles(instance, local, view, allTiles);
+  const bool ball = instance.body->ball && !allTiles;
+  const bool tiles = ball || worthTiles(instance, local, view, allTiles);
   const int level =
     tiles ? instance.body->octree.level() : deepened(instance, levelOf(instance, local));
   const LeafGeometry geometry = tiles ? LeafGeometry::Triangle : instance.body->leafGeometry;
   return { index, instance.id, &instance.body->octree, local,
     makeProjection(instance.body->octree, instance.localToWorld, view, local.base),
     { instance.body->octree.id(), instance.localToWorld, geometry, level },
-    tiles || endsFreely(instance, level), tiles };
+    tiles || endsFreely(instance, level), tiles, ball };
 }
 }

@@ -38,6 +38,7 @@ struct VisibleInstance
   LayerKey key;
   bool cuttable; // a ray's hit does not depend on where the ray ends; see endsFreely()
   bool tiles;    // see worthTiles()
+  bool ball;     // met as the ball that it stands for, not by its triangles
 };
 
 /// The octree level that an instance's rays stop at.
@@ -83,7 +84,7 @@ VTKSVOTRACING_EXPORT void findVisible(const Scene& scene, const View& view, cons
   Sight& sight);
 
 /// One of these, as the view sees it. Its octree is borrowed from the scene. `allTiles`: see
-/// worthTiles().
+/// worthTiles(); where it is false balls are met as such.
 VTKSVOTRACING_EXPORT VisibleInstance seenInstance(
   const Scene& scene, std::uint32_t index, const View& view, const LevelOf& levelOf, bool allTiles);
 }

@@ -52,7 +52,7 @@ void add(const Body& b, Bytes& bytes)
   const Attributes& a = b.attributes;
   add(b.octree, bytes);
   add(b.casterOctree, bytes);
-  bytes.add(b.leafGeometry, b.neededLevel);
+  bytes.add(b.leafGeometry, b.ball, b.neededLevel);
   bytes.add(a.normals, a.normalAssociation, a.colors, a.colorAssociation, a.colorCoordinates,
     a.colorTexture, a.colorTextureSize, a.version);
   bytes.add(b.points.floats, b.points.doubles, b.points.count);
@@ -113,6 +113,8 @@ void KeptFrame::valuesOf(const Scene& scene, Instances& instances)
   instances.version = scene.version;
   instances.body.clear();
   Bytes own(instances.own), bodies(instances.bodies);
+  instances.own.reserve(scene.instances.size() * sizeof(Instance)); // a little more than it takes
+  instances.body.reserve(scene.instances.size());
   std::uint32_t count = 0;
   const Shared<Body>* last = nullptr;
   for (const Instance& instance : scene.instances)
