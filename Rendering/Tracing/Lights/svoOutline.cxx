@@ -78,6 +78,7 @@ Outline outlineOf(const Box& receiver)
 std::vector<Outline> outlinesOf(const Scene& scene)
 {
   std::vector<Outline> outlines;
+  outlines.reserve(scene.instances.size() + scene.receivers.size());
   for (const Instance& instance : scene.instances)
   {
     outlines.push_back(outlineOf(instance));

@@ -16,13 +16,15 @@ void PixelShader::prepare(const Scene& scene, const LayeredView& eye)
   this->Smooth.clear();
   this->MapErrors.clear();
   this->RayErrors.clear();
+  this->Frames.reserve(scene.instances.size());
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {
     const Instance& instance = scene.instances[i];
     const int level = eye.level(static_cast<std::uint32_t>(i));
     const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(i));
     const bool placed = eye.placed(static_cast<std::uint32_t>(i));
-    this->Frames.push_back(instance.body->octree ? SurfaceMatrices(instance) : SurfaceMatrices());
+    const bool seen = !eye.rect(static_cast<std::uint32_t>(i)).empty();
+    this->Frames.push_back(seen ? SurfaceMatrices(instance) : SurfaceMatrices());
     this->Smooth.push_back(instance.body->octree && isSmooth(instance));
     this->MapErrors.push_back(
       instance.body->octree ? worldMapError(instance, geometry, level, placed) : 0.0);

@@ -32,7 +32,7 @@ struct SurfacePoint
 /// Matrices that all points of an instance share.
 struct SurfaceMatrices
 {
-  SurfaceMatrices() = default; // of an instance without an octree, which is never seen
+  SurfaceMatrices() = default; // of an instance that the eye does not see
   explicit SurfaceMatrices(const Instance& i)
     : instance(&i)
     , toOctree(i.body->octree, i.localToWorld)

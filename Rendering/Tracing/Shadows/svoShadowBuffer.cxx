@@ -36,6 +36,7 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
   const std::vector<double> errors = std::move(this->CasterError);
   const std::vector<glm::dmat4> places = std::move(this->CasterPlace);
   this->CasterPlace.clear();
+  this->CasterPlace.reserve(scene.instances.size());
   for (const Instance& instance : scene.instances)
   {
     this->CasterPlace.push_back(instance.localToWorld);
