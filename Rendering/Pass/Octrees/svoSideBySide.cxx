@@ -6,6 +6,8 @@ namespace svo
 {
 void buildSideBySide(std::vector<SideBySide>& builds)
 {
+  // Asking the system for each takes as long as a small build.
+  const std::size_t available = availableMemory();
   smpParallelFor()(0, builds.size(), 1,
     [&](std::size_t first, std::size_t last)
     {
@@ -14,6 +16,8 @@ void buildSideBySide(std::vector<SideBySide>& builds)
         SideBySide& build = builds[i];
         build.options.parallelFor = serialFor;
         build.options.progress = nullptr;
+        build.options.memoryLimit =
+          build.options.memoryLimit != 0 ? build.options.memoryLimit : available;
         buildMeshOctree(build.mesh, build.options, build.octree, build.message);
       }
     });
