@@ -12,10 +12,18 @@ vtkStandardNewMacro(vtkPVSVOReasonInformation);
 vtkPVSVOReasonInformation::vtkPVSVOReasonInformation() = default;
 vtkPVSVOReasonInformation::~vtkPVSVOReasonInformation() = default;
 
-std::string vtkPVSVOReasonInformation::GetText() const
+std::string vtkPVSVOReasonInformation::GetText(
+  const std::map<std::string, std::string>& sources) const
 {
-  std::string text;
+  std::multimap<std::string, std::string> lines;
   for (const auto& [name, reason] : this->Reasons)
+  {
+    const auto source = sources.find(name);
+    lines.emplace(
+      source == sources.end() ? name.substr(0, name.find('(')) : source->second, reason);
+  }
+  std::string text;
+  for (const auto& [name, reason] : lines)
   {
     text += name.empty() ? reason : name + ": " + reason + '\n';
   }
@@ -40,8 +48,7 @@ void vtkPVSVOReasonInformation::CopyFromObject(vtkObject* object)
       // The representations that it chooses between, and selections, are in the view as well.
       if (auto* shown = vtkCompositeRepresentation::SafeDownCast(view->GetRepresentation(i)))
       {
-        const std::string& name = shown->GetLogName(); // "Sphere1(GeometryRepresentation)"
-        add(shown, name.substr(0, name.find('(')));
+        add(shown, shown->GetLogName());
       }
     }
   }

@@ -23,9 +23,11 @@ public:
 
   /**
    * Of a view a line for each source that is shown and has a reason, with its name; of a
-   * representation its reason. See vtkSVOViewPass::GetReason().
+   * representation its reason. See vtkSVOViewPass::GetReason(). `sources`: names of sources by
+   * those that ParaView logs their representations with, which up to ParaView 5.12 begin with
+   * them: "Sphere1(GeometryRepresentation)"; since then it is "GeometryRepresentation1".
    */
-  std::string GetText() const;
+  std::string GetText(const std::map<std::string, std::string>& sources = {}) const;
 
   void CopyFromObject(vtkObject* viewOrRepresentation) override;
   void AddInformation(vtkPVInformation* other) override;
@@ -40,7 +42,8 @@ private:
   vtkPVSVOReasonInformation(const vtkPVSVOReasonInformation&) = delete;
   void operator=(const vtkPVSVOReasonInformation&) = delete;
 
-  std::map<std::string, std::string> Reasons; // by name; without one: of a representation
+  // By the name that its representation is logged with; without one: of a representation.
+  std::map<std::string, std::string> Reasons;
 };
 
 #endif

@@ -18,7 +18,7 @@ inline bool useInstructionSet(const std::string& name)
     const char* name;
     std::int64_t targets;
   };
-  constexpr Known known[] = { { "AVX-512", HWY_AVX3_DL | HWY_AVX3 }, { "AVX2", HWY_AVX2 },
+  constexpr Known known[] = { { "AVX-512", 2 * HWY_AVX3 - 1 }, { "AVX2", HWY_AVX2 },
     { "SSE4", HWY_SSE4 }, { "scalar", HWY_SCALAR } };
   hwy::DisableTargets(0);
   for (const Known& set : known)

@@ -257,7 +257,10 @@ class NoMeshes(unittest.TestCase):
         mixed = vtk.vtkMultiBlockDataSet()
         mixed.SetBlock(0, ball.GetOutput())
         mixed.SetBlock(1, nested)
-        return {"grid": grid, "table": vtk.vtkTable(), "nested": nested, "mixed": mixed}
+        kinds = {"grid": grid, "table": vtk.vtkTable(), "nested": nested, "mixed": mixed}
+        if vtk.vtkVersion.GetVTKMajorVersion() * 100 + vtk.vtkVersion.GetVTKMinorVersion() >= 903:
+            del kinds["nested"], kinds["mixed"]  # VTK 9.3 crashes, without the pass, too
+        return kinds
 
     def test_as_silent_as_vtk(self):
         for name in ("vtkCompositePolyDataMapper", "vtkCompositePolyDataMapper2"):

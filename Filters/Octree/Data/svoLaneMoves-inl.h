@@ -35,7 +35,7 @@ template <class D, class T = hn::TFromD<D>>
 HWY_INLINE hn::Vec<D> gather(D d, const T* base, hn::Vec<hn::RebindToSigned<D>> index)
 {
   static_assert(sizeof(T) == 4);
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET <= HWY_AVX3
   if constexpr (hn::MaxLanes(D()) == 16)
   {
     const hn::RebindToSigned<D> di;

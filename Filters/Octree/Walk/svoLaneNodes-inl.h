@@ -35,7 +35,7 @@ struct LaneNodes
   U low, high, first;
 };
 
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET <= HWY_AVX3
 HWY_INLINE LaneNodes loadNodes(const std::uint64_t* nodes, I node)
 {
   const DI di;
@@ -94,7 +94,7 @@ HWY_INLINE LaneNodes loadNodes(const std::uint64_t* nodes, I node)
 HWY_INLINE U countBoth(U a, U b)
 {
   const DU du;
-#if HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET <= HWY_AVX3_DL
   return hn::Add(hn::PopulationCount(a), hn::PopulationCount(b));
 #else
   // Of bytes by halves, from a table; then the sum of a lane's four bytes.

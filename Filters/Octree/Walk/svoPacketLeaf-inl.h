@@ -14,7 +14,7 @@
 
 // Edges are decided by true fused multiply-adds, which SSE does not have.
 #undef SVO_PACKET_LEAVES
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET <= HWY_AVX2
 #define SVO_PACKET_LEAVES 1
 
 HWY_BEFORE_NAMESPACE();

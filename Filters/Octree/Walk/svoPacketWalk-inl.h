@@ -145,7 +145,7 @@ HWY_INLINE F exitOf(const Packet& p, I exponent)
 HWY_INLINE F notANumberWhere(Lanes lanes, F v)
 {
   const DF df;
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET <= HWY_AVX3
   return hn::IfThenElse(
     hn::RebindMask(df, lanes), hn::Set(df, std::numeric_limits<float>::quiet_NaN()), v);
 #else

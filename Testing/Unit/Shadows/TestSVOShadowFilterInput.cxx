@@ -321,6 +321,8 @@ TEST(SVOShadowFilterInput, ProgressAndAbort)
   {
     double last = 0.0, stop = 2.0;
     bool back = false;
+    double reached =
+      0.0; // before the 1 that since VTK 9.3 the executive says of what was aborted, too
   } watch;
   vtkNew<vtkCallbackCommand> watcher;
   watcher->SetClientData(&watch);
@@ -331,6 +333,7 @@ TEST(SVOShadowFilterInput, ProgressAndAbort)
       const double now = *static_cast<double*>(call);
       w->back = w->back || now < w->last;
       w->last = now;
+      w->reached = now < 1.0 ? now : w->reached;
       if (now > w->stop)
       {
         static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
@@ -338,7 +341,7 @@ TEST(SVOShadowFilterInput, ProgressAndAbort)
     });
   for (const double stop : { 2.0, 0.01, 0.5 })
   {
-    watch = { 0.0, stop, false };
+    watch = { 0.0, stop, false, 0.0 };
     Shadows shadows(hills(60));
     shadows.filter->AddObserver(vtkCommand::ProgressEvent, watcher);
     for (int i = 0; i < 60; ++i)
@@ -351,7 +354,7 @@ TEST(SVOShadowFilterInput, ProgressAndAbort)
     shadows.expectQuiet();
     if (stop < 1.0)
     {
-      EXPECT_LT(watch.last, 0.9);
+      EXPECT_LT(watch.reached, 0.9);
       watch.stop = 2.0;
       shadows.filter->SetAbortExecute(0);
       shadows.filter->Modified();
