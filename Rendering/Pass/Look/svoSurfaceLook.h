@@ -23,12 +23,13 @@ namespace svo
 /// "it". Nullptr: it is traced, or casts.
 using Reason = const char*;
 
-/// Reasons of what shows no surface, or is no data.
-inline constexpr Reason ShowsNoPolygons = "is shown as wireframe or points";
-inline constexpr Reason HasNoPolygons = "has lines or vertices, none of them as tubes or spheres";
-inline constexpr Reason IsTranslucent = "is translucent";
-inline constexpr Reason HasClippingPlanes = "has clipping planes on its mapper";
-inline constexpr Reason MayDrawAnything = "is of a class that may draw anything";
+/// Reasons of what shows no surface, or is no data. Arrays, since they are compared by their
+/// address.
+inline constexpr char ShowsNoPolygons[] = "is shown as wireframe or points";
+inline constexpr char HasNoPolygons[] = "has lines or vertices, none of them as tubes or spheres";
+inline constexpr char IsTranslucent[] = "is translucent";
+inline constexpr char HasClippingPlanes[] = "has clipping planes on its mapper";
+inline constexpr char MayDrawAnything[] = "is of a class that may draw anything";
 
 /// Whether a visible actor is traced, rasterised or left out of shadows.
 struct Treatment
