@@ -94,9 +94,10 @@ std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
     case TEXT_NOTHING_RECEIVES:
       return "No shadows: there is nothing for them to fall on. ";
     case TEXT_CLIPPED:
-      return "A surface casts no shadow because its mapper has clipping planes. SetCastShadow(true, "
-             "prop) has it cast its whole one; SetCastShadow(false, prop) makes it cast none in "
-             "silence.";
+      return "A surface casts no shadow because its mapper has clipping planes. Data that is "
+             "clipped "
+             "before its mapper (vtkClipPolyData) casts; SetCastShadow(true, prop) has the surface "
+             "cast its whole shadow, SetCastShadow(false, prop) none in silence.";
     default:
       return std::string();
   }
