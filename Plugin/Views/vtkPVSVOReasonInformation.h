@@ -24,8 +24,8 @@ public:
   /**
    * Of a view a line for each source that is shown and has a reason, with its name; of a
    * representation its reason. See vtkSVOViewPass::GetReason(). `sources`: names of sources by
-   * those that ParaView logs their representations with, which up to ParaView 5.12 begin with
-   * them: "Sphere1(GeometryRepresentation)"; since then it is "GeometryRepresentation1".
+   * those that ParaView logs their representations with: "Sphere1(GeometryRepresentation)" in
+   * ParaView 5.11, which needs no other name, "GeometryRepresentation1" in 5.13.
    */
   std::string GetText(const std::map<std::string, std::string>& sources = {}) const;
 

@@ -95,9 +95,8 @@ std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
       return "No shadows: there is nothing for them to fall on. ";
     case TEXT_CLIPPED:
       return "A surface casts no shadow because its mapper has clipping planes. Data that is "
-             "clipped "
-             "before its mapper (vtkClipPolyData) casts; SetCastShadow(true, prop) has the surface "
-             "cast its whole shadow, SetCastShadow(false, prop) none in silence.";
+             "clipped before its mapper (vtkClipPolyData) casts; SetCastShadow(true, prop) has the "
+             "surface cast its whole shadow, SetCastShadow(false, prop) none in silence.";
     default:
       return std::string();
   }
