@@ -381,8 +381,17 @@ vtkDataArray* vtkImageToSVO::FindColors(vtkImageData* image)
   if (!colors || colors->GetNumberOfTuples() != image->GetNumberOfPoints() ||
     !colors->HasStandardMemoryLayout())
   {
+    std::string others;
+    for (int i = 0; i < image->GetPointData()->GetNumberOfArrays(); ++i)
+    {
+      const char* name = image->GetPointData()->GetArrayName(i);
+      if (name && image->GetPointData()->GetArray(i))
+      {
+        others += (others.empty() ? "; it has " : ", ") + std::string(name);
+      }
+    }
     vtkWarningMacro("The surface has no colours: the image has no array of its points named "
-      << this->ColorArrayName << ".");
+      << this->ColorArrayName << others << ".");
     return nullptr;
   }
   return colors;

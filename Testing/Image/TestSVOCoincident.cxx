@@ -23,6 +23,7 @@ struct PolygonOffset
 struct Offsets
 {
   const char* name;
+  double factor;        // of the decal
   double decal, ground; // units
   bool parallel;
   int samples; // a pixel
@@ -43,11 +44,12 @@ int TestSVOCoincident(int, char*[])
 {
   Checks checks;
   const PolygonOffset offset;
-  const Offsets cases[] = { { "a decal in front", -50.0, 0.0, false, 0 },
-    { "the ground behind", 0.0, 50.0, false, 0 },
-    { "a decal through what stands on it", -2000.0, 0.0, false, 0 },
-    { "a parallel projection", -50.0, 0.0, true, 0 },
-    { "samples of a pixel", -50.0, 0.0, false, 4 } };
+  const Offsets cases[] = { { "a decal in front", -5.0, -50.0, 0.0, false, 0 },
+    { "the ground behind", -5.0, 0.0, 50.0, false, 0 },
+    { "a decal through what stands on it", -5.0, -2000.0, 0.0, false, 0 },
+    { "a parallel projection", -5.0, -50.0, 0.0, true, 0 },
+    { "a decal by its slope, through what stands on it", -20.0, 0.0, 0.0, false, 0 },
+    { "samples of a pixel", -5.0, -50.0, 0.0, false, 4 } };
   for (const Offsets& c : cases)
   {
     Stage stage;
@@ -60,7 +62,7 @@ int TestSVOCoincident(int, char*[])
     vtkActor* ground = stage.addGround();
     stage.add(ball(0.5, 0.6, -0.2, 0.5), 0.9, 0.5, 0.3);
     stage.addSun(2.0, -1.5, 4.0);
-    decal->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(-5.0, c.decal);
+    decal->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(c.factor, c.decal);
     ground->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, c.ground);
     stage.renderer->GetActiveCamera()->SetParallelProjection(c.parallel);
     stage.window->SetMultiSamples(c.samples);

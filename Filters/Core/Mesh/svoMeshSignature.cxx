@@ -249,14 +249,15 @@ void copySignature(vtkPolyData* from, vtkPolyData* to)
   {
     copy(points->GetData(), points->GetMTime(), pointsHash(from->GetPoints(), said));
   }
-  for (const auto& [own, original] : { std::make_pair(to->GetPolys(), from->GetPolys()),
-         std::make_pair(to->GetStrips(), from->GetStrips()) })
+  const auto copyCells = [&](vtkCellArray* own, vtkCellArray* original)
   {
     if (own->GetNumberOfCells() > 0)
     {
       copy(own, timeOf(own), cellsHash(original, said));
     }
-  }
+  };
+  copyCells(to->GetPolys(), from->GetPolys());
+  copyCells(to->GetStrips(), from->GetStrips());
 }
 
 std::uint64_t numberOfHashedArrays()

@@ -4,6 +4,7 @@
 #define svoPropState_h
 
 #include "svoPropKeys.h"
+#include "svoSurfaceLook.h"
 
 #include "vtkSmartPointer.h"
 
@@ -73,7 +74,7 @@ private:
     vtkMapper* mapper = nullptr;
     std::uint64_t timeOfMapper = 0, timeOfParts = 0;
     int selected = 0;
-    double depthOffset = 0.0;
+    CoincidentOffset offset;
     std::vector<Input> inputs;
   };
   static bool noteActor(vtkActor* actor, vtkProp* owner, Actor& state);

@@ -24,6 +24,7 @@
 #include "vtkShaderProperty.h"
 #include "vtkTexture.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkVersion.h"
 
 #include <algorithm>
 #include <iterator>
@@ -405,22 +406,25 @@ MeshPoints pointsOf(vtkPolyData* mesh, Kept& kept)
   return points;
 }
 
-double coincidentDepthOffset(vtkMapper* mapper)
+CoincidentOffset coincidentOffset(vtkMapper* mapper)
 {
-  // VTK's fragment shader adds the units over 65000 and ignores the factor.
+  // VTK's fragment shader adds the units over 65000, and up to version 9.1 ignores the factor.
   constexpr double Unit = 1.0 / 65000.0;
   switch (vtkMapper::GetResolveCoincidentTopology())
   {
     case VTK_RESOLVE_SHIFT_ZBUFFER:
-      return 4.0 * vtkMapper::GetResolveCoincidentTopologyZShift() * Unit;
+      return { 4.0 * vtkMapper::GetResolveCoincidentTopologyZShift() * Unit, 0.0 };
     case VTK_RESOLVE_POLYGON_OFFSET:
     {
       double factor, units;
       mapper->GetCoincidentTopologyPolygonOffsetParameters(factor, units);
-      return units * Unit;
+#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 2, 0)
+      factor = 0.0;
+#endif
+      return { units * Unit, factor };
     }
     default:
-      return 0.0;
+      return {};
   }
 }
 }

@@ -38,9 +38,11 @@ struct Instance
   double pixelError = -1.0;
   /// Stable identity of the instance from frame to frame (actor, block, path).
   std::uint64_t id = 0;
-  /// Coincident-topology offset, added to the window depth (0..1) before depths are compared; VTK's
-  /// shaders know no slope. Shadows know nothing of it.
+  /// Coincident-topology offset, added to the window depth (0..1) before depths are compared: the
+  /// units, and the factor times the facet's slope, which is how much its window depth changes from
+  /// pixel to pixel (svoDepthSlope.h). Shadows know nothing of it.
   float depthOffsetUnits = 0.0f;
+  float depthOffsetFactor = 0.0f;
   /// Where the rasteriser draws the same vertices: 1, what it draws is seen; -1, this is seen; 0,
   /// it does not. See svoShownDepth.h.
   int givesWay = 0;
@@ -51,6 +53,11 @@ struct Instance
   /// The alpha of mapped colours counts in what it takes away of a light; see translucent().
   bool mappedOpacity = false;
   bool receiveShadow = true;
+
+  bool hasDepthOffset() const
+  {
+    return this->depthOffsetUnits != 0.0f || this->depthOffsetFactor != 0.0f;
+  }
 
   /// True of what lets light through as a caster. Of each ray from a light it takes the share that
   /// its opacity, times that alpha, has where the ray meets it first, whatever lies behind: a

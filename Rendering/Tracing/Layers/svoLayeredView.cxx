@@ -50,7 +50,7 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   for (const Instance& instance : scene.instances)
   {
     this->Geometries.push_back(instance.body->leafGeometry);
-    this->Offsets.push_back(instance.depthOffsetUnits);
+    this->Offsets.emplace_back(instance);
   }
   this->Layers.beginFrame(keep, this->HasFrame && !sameRays(view, this->Seen), budget);
   this->Seen = view;
@@ -97,10 +97,15 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   }
   this->Keys = this->keyBase();
   this->Layers.endFrame(budget);
-  this->Shifted = std::any_of(this->Instances.begin(), this->Instances.end(),
-    [this](const Entry& entry) {
-      return this->Exact && this->Offsets[entry.index] != this->Offsets[this->Instances[0].index];
-    });
+  const bool compared = this->Exact && this->Instances.size() > 1;
+  this->Sloped = compared &&
+    std::any_of(this->Instances.begin(), this->Instances.end(),
+      [this](const Entry& entry) { return this->Offsets[entry.index].factor != 0.0; });
+  this->Shifted = this->Sloped ||
+    (compared &&
+      std::any_of(this->Instances.begin(), this->Instances.end(),
+        [this](const Entry& entry)
+        { return !(this->Offsets[entry.index] == this->Offsets[this->Instances[0].index]); }));
   return !this->Instances.empty();
 }
 

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace svo
@@ -39,7 +40,7 @@ class LayeredView
 public:
   /// `exact`: hits of instances that are traced by tiles are placed in double
   /// (svoPlaceOnTriangles.h), and who is in front follows from window depths with their offsets
-  /// (Instance::depthOffsetUnits). A light's view can do without: its texels are wider than what
+  /// (DepthOffset). A light's view can do without: its texels are wider than what
   /// the one mends, and the other is the window's.
   /// `moved`: the view takes the place of others, so it has no layers in its first frame.
   explicit LayeredView(bool exact = true, bool moved = false)
@@ -297,10 +298,11 @@ private:
   /// Through points x, y of the image; tMin and tMax are set, and those with tMin > tMax are none.
   void traceRays(const TileEntry& candidate, const double* x, const double* y, RayBlock& block,
     HitBlock& found) const;
-  /// By what it is decided who is in front: an instance's linear depth, but where offsets differ.
+  /// By what it is decided who is in front, but for slopes: an instance's linear depth, but where
+  /// offsets differ.
   double rank(std::uint32_t instance, double linearDepth) const
   {
-    return this->Shifted ? this->Seen.windowDepth(linearDepth) + this->Offsets[instance]
+    return this->Shifted ? this->Seen.windowDepth(linearDepth) + this->Offsets[instance].units
                          : linearDepth;
   }
   /// How the depths of an instance's hits are found again, and how far off they can be.
@@ -317,14 +319,20 @@ private:
     return this->settle(a, b);
   }
   bool settle(const SeenHit& a, const SeenHit& b) const;
-  double exactDepth(const SeenHit& hit) const;
+  /// `primitive`: what the hit is found on; set to the triangle that it stands for.
+  double exactDepth(const SeenHit& hit, Primitive& primitive) const;
+  double exactRank(const SeenHit& hit) const;
   /// The linear depth beyond which a hit of `entry` cannot be in front of one of `other`.
   double lastDepth(const Entry& entry, std::uint32_t other, double t) const
   {
     double last = t + this->Errors[other];
+    if (this->Sloped)
+    {
+      return std::numeric_limits<double>::infinity(); // facets may be as steep as they like
+    }
     if (this->Shifted)
     {
-      last = this->Seen.linearDepth(this->rank(other, last) - this->Offsets[entry.index]);
+      last = this->Seen.linearDepth(this->rank(other, last) - this->Offsets[entry.index].units);
     }
     return last + this->Errors[entry.index];
   }
@@ -344,9 +352,10 @@ private:
   std::vector<std::uint32_t> NodeOf; // by index into Instances: index into Sight::nodes
   std::vector<Entry> Instances;
   std::vector<double> Bases;
-  std::vector<double> Offsets; // of window depths
-  bool Shifted = false;        // offsets of visible instances differ
-  bool WasShifted = false;     // in the last frame
+  std::vector<DepthOffset> Offsets;
+  bool Shifted = false;    // offsets of visible instances differ
+  bool WasShifted = false; // in the last frame
+  bool Sloped = false;     // shifted, and by slopes, too
   std::vector<int> Levels;
   std::vector<LeafGeometry> Geometries;
   std::vector<std::uint8_t> Placed;

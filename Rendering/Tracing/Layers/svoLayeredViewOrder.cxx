@@ -3,6 +3,7 @@
 // within their errors of each other, their depths are found again from the mesh's own points.
 #include "svoLayeredView.h"
 
+#include "svoDepthSlope.h"
 #include "svoIntersect.h"
 #include "svoLeafError.h"
 #include "svoPlaceOnTriangles.h"
@@ -54,7 +55,7 @@ LayeredView::Again LayeredView::againOf(
 bool LayeredView::settle(const SeenHit& a, const SeenHit& b) const
 {
   const double errorA = this->Errors[a.instance], errorB = this->Errors[b.instance];
-  if (this->Shifted)
+  if (this->Shifted && !this->Sloped)
   {
     if (this->rank(a.instance, a.t + errorA) < this->rank(b.instance, b.t - errorB))
     {
@@ -65,12 +66,27 @@ bool LayeredView::settle(const SeenHit& a, const SeenHit& b) const
       return false;
     }
   }
-  const double rankA = this->rank(a.instance, this->exactDepth(a));
-  const double rankB = this->rank(b.instance, this->exactDepth(b));
+  const double rankA = this->exactRank(a);
+  const double rankB = this->exactRank(b);
   return rankA < rankB || (rankA == rankB && a.instance > b.instance);
 }
 
-double LayeredView::exactDepth(const SeenHit& hit) const
+double LayeredView::exactRank(const SeenHit& hit) const
+{
+  Primitive primitive = hit.primitive;
+  const double t = this->exactDepth(hit, primitive);
+  const double rank = this->rank(hit.instance, t);
+  const double factor = this->Offsets[hit.instance].factor;
+  if (!this->Sloped || factor == 0.0)
+  {
+    return rank;
+  }
+  const Entry& entry = this->Instances[this->EntryOf[hit.instance]];
+  return rank +
+    factor * steepness(*entry.octree, entry.local.toOctree, this->Seen, hit.x, hit.y, t, primitive);
+}
+
+double LayeredView::exactDepth(const SeenHit& hit, Primitive& primitive) const
 {
   const Entry& entry = this->Instances[this->EntryOf[hit.instance]];
   if (entry.again == Again::Never)
@@ -79,17 +95,17 @@ double LayeredView::exactDepth(const SeenHit& hit) const
   }
   const LocalView& local = entry.local;
   const double error = this->Errors[hit.instance];
-  Primitive primitive = hit.primitive;
   if (entry.again == Again::Traced)
   {
     const Ray ray{ local.origin + hit.y * local.originY + hit.x * local.originX,
       local.direction + hit.y * local.directionY + hit.x * local.directionX,
       hit.t - local.base - error, hit.t - local.base + error };
-    primitive = intersect(*entry.octree, ray, { LeafGeometry::Triangle }).primitive;
-    if (primitive == NoPrimitive)
+    const Primitive triangle = intersect(*entry.octree, ray, { LeafGeometry::Triangle }).primitive;
+    if (triangle == NoPrimitive)
     {
       return hit.t + error; // nodes reach beyond the mesh's borders: what has triangles there wins
     }
+    primitive = triangle;
   }
   // In an order that does not depend on the triangle's winding.
   const glm::uvec3 triangle = entry.octree->surface()->triangles[primitive];

@@ -5,6 +5,7 @@
 
 #include "svoDepthBuffer.h"
 #include "svoDepthLayer.h"
+#include "svoInstance.h"
 #include "svoView.h"
 
 #include <algorithm>
@@ -15,12 +16,28 @@
 
 namespace svo
 {
+/// Of coincident topology, see Instance.
+struct DepthOffset
+{
+  double units, factor;
+
+  explicit DepthOffset(const Instance& instance)
+    : units(instance.depthOffsetUnits)
+    , factor(instance.depthOffsetFactor)
+  {
+  }
+  bool operator==(const DepthOffset& other) const
+  {
+    return this->units == other.units && this->factor == other.factor;
+  }
+};
+
 /// An instance as far as a merged tile depends on it.
 struct MergedPart
 {
   std::uint32_t index; // in Scene::instances
   LayerKey key;
-  double offset; // of window depths
+  DepthOffset offset;
   PixelRect rect;
 
   bool operator==(const MergedPart& other) const

@@ -11,7 +11,7 @@ namespace
 {
 // Who adds a member to one of these adds it below.
 static_assert(sizeof(Material) == 56 && sizeof(Attributes) == 64 && sizeof(Light) == 112 &&
-    sizeof(Body) == 216 && sizeof(Instance) == 232 && sizeof(View) == 480 &&
+    sizeof(Body) == 216 && sizeof(Instance) == 240 && sizeof(View) == 480 &&
     sizeof(FrameSettings) == 96,
   "all that pictures depend on is compared");
 
@@ -62,8 +62,8 @@ void add(const Body& b, Bytes& bytes)
 void add(const Instance& i, Bytes& bytes)
 {
   const Material& m = i.material;
-  bytes.add(i.localToWorld, i.pixelError, i.id, i.depthOffsetUnits, i.givesWay, i.visible,
-    i.castShadow, i.receiveShadow, i.mappedOpacity, i.opacity);
+  bytes.add(i.localToWorld, i.pixelError, i.id, i.depthOffsetUnits, i.depthOffsetFactor, i.givesWay,
+    i.visible, i.castShadow, i.receiveShadow, i.mappedOpacity, i.opacity);
   bytes.add(m.ambientColor, m.diffuseColor, m.specularColor, m.ambient, m.diffuse, m.specular,
     m.specularPower, m.lighting, m.flat, m.flatPlanes);
 }

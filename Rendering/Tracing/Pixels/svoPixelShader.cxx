@@ -161,7 +161,8 @@ void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, 
     {
       const TilePatch& patch = scratch.patch;
       const Instance& instance = lit.shaded.scene.instances[patch.instance];
-      image.put(patch, scratch.colors, shownOffset(instance, lit.shaded.view));
+      image.put(
+        patch, scratch.colors, shownOffset(instance, lit.shaded.view), instance.depthOffsetFactor);
       if (settings.writeNormals)
       {
         eachBit(patch.mask,
@@ -176,7 +177,7 @@ void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, 
       if (settings.writeSlopes)
       {
         // VTK's mappers write the depth of a pixel's centre where they add an offset to it.
-        image.putSlopes(patch, instance.depthOffsetUnits == 0.0f);
+        image.putSlopes(patch, !instance.hasDepthOffset());
       }
       if (settings.writeLight)
       {

@@ -1,5 +1,6 @@
 #include "svoSilhouetteFinder.h"
 
+#include "svoDepthSlope.h"
 #include "svoFrameEdges.h"
 #include "svoLayeredView.h"
 #include "svoPixelShader.h"
@@ -183,7 +184,7 @@ private:
   }
 
   /// Colours all facets: those that the pixel's centre sees as the frame has it, others at the
-  /// middle of their samples.
+  /// middle of their samples, with what their planes have at the pixel's centre.
   void color(int tileX, int tileY, TileScratch& scratch) const
   {
     scratch.shaded.clear();
@@ -215,6 +216,8 @@ private:
         const double base = this->Lit.shaded.eye.base(facet.instance);
         list.put(static_cast<int>(i), facet.x, facet.y, static_cast<float>(facet.t - base),
           facet.instance, facet.primitive);
+        // Where OpenGL interpolates, whichever samples a triangle covers.
+        list.lookAt(static_cast<int>(i), std::floor(facet.x) + 0.5, std::floor(facet.y) + 0.5);
       }
       this->Shader.shadePatches(this->Lit, list.hits, scratch.shading,
         [&]
@@ -243,12 +246,21 @@ private:
       facet.t * this->EyeView.rayDirection(facet.x, facet.y);
   }
 
-  float windowDepth(std::uint32_t instance, double t) const
+  float windowDepth(std::uint32_t instance, double t, double slopes) const
   {
     const double offset = shownOffset(this->Lit.shaded.scene.instances[instance], this->EyeView);
-    return static_cast<float>(std::clamp(this->EyeView.windowDepth(t) + offset, 0.0, 1.0));
+    return static_cast<float>(std::clamp(this->EyeView.windowDepth(t) + offset + slopes, 0.0, 1.0));
   }
-  float windowDepth(const Facet& facet) const { return this->windowDepth(facet.instance, facet.t); }
+  float windowDepth(const Facet& f) const
+  {
+    const Instance& instance = this->Lit.shaded.scene.instances[f.instance];
+    const double factor = instance.depthOffsetFactor;
+    const double slopes = factor == 0.0 ? 0.0
+                                        : factor *
+        steepness(instance.body->octree, { instance.body->octree, instance.localToWorld },
+          this->EyeView, f.x, f.y, f.t, f.primitive);
+    return this->windowDepth(f.instance, f.t, slopes);
+  }
 
   /// The pixel in or around this one that shows the facet's instance nearest to its depth.
   bool nearby(const EdgePixel& pixel, const Facet& facet, std::size_t& best) const
@@ -318,18 +330,18 @@ private:
       3.0f * this->Edges.width(part.depth);
   }
 
-  /// Window depth of sample number s, as it is shown.
+  /// Window depth of sample number s, which is not level, as it is shown.
   float sampleDepth(const EdgePixel& pixel, int s) const
   {
     return this->windowDepth(
-      pixel.samples->instance[pixel.lane + s], pixel.samples->t[pixel.lane + s]);
+      pixel.samples->instance[pixel.lane + s], pixel.samples->t[pixel.lane + s], 0.0);
   }
 
   /// True if VTK's mapper gives all of a fragment the depth of the pixel's centre.
   bool isLevel(const EdgePixel& pixel, int s) const
   {
     const std::uint32_t instance = pixel.samples->instance[pixel.lane + s];
-    return this->Lit.shaded.scene.instances[instance].depthOffsetUnits != 0.0f;
+    return this->Lit.shaded.scene.instances[instance].hasDepthOffset();
   }
 
   /// True if the pixel shows a facet on whose plane all of its samples lie.

@@ -8,6 +8,7 @@
 #include "svoLaneBits-inl.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 
@@ -19,7 +20,8 @@ namespace svo
 namespace HWY_NAMESPACE
 {
 /// The window depths of a patch's points, in double as everybody who compares them has them.
-void windowDepths(const TilePatch& p, double offset, float* HWY_RESTRICT depths)
+void windowDepths(
+  const TilePatch& p, const double* HWY_RESTRICT offsets, float* HWY_RESTRICT depths)
 {
   const View view = *p.view;
   const double base = p.base;
@@ -31,7 +33,7 @@ void windowDepths(const TilePatch& p, double offset, float* HWY_RESTRICT depths)
     }
     for (int k = i; k < i + TilePatch::Step; ++k)
     {
-      const double depth = view.windowDepth(base + static_cast<double>(p.hits->t[k])) + offset;
+      const double depth = view.windowDepth(base + static_cast<double>(p.hits->t[k])) + offsets[k];
       const double low = depth < 0.0 ? 0.0 : depth;
       depths[k] = static_cast<float>(1.0 < low ? 1.0 : low);
     }
@@ -79,11 +81,22 @@ void putWhere(std::uint64_t mask, const float* HWY_RESTRICT depths,
   }
 }
 
-void put(const TilePatch& patch, const TileColors& colors, double offset, float* depthTo,
-  std::uint32_t* colorTo)
+void put(const TilePatch& patch, const TileColors& colors, double offset, double factor,
+  float* depthTo, std::uint32_t* colorTo)
 {
+  alignas(64) double offsets[TilePatch::Most];
+  std::fill_n(offsets, TilePatch::Most, offset);
+  if (factor != 0.0)
+  {
+    alignas(64) float across[TilePatch::Most] = {}, up[TilePatch::Most] = {};
+    depthSlopes(patch, across, up);
+    for (int i = 0; i < TilePatch::Most; ++i)
+    {
+      offsets[i] += factor * std::hypot(across[i], up[i]);
+    }
+  }
   alignas(64) float depths[TilePatch::Most];
-  windowDepths(patch, offset, depths);
+  windowDepths(patch, offsets, depths);
   putWhere(patch.mask, depths, colors.rgba, depthTo, colorTo);
 }
 }
@@ -119,9 +132,9 @@ TileImage::TileImage(const TileHits& hits, Frame& frame)
   }
 }
 
-void TileImage::put(const TilePatch& patch, const TileColors& colors, double offset)
+void TileImage::put(const TilePatch& patch, const TileColors& colors, double offset, double factor)
 {
-  HWY_DYNAMIC_DISPATCH(put)(patch, colors, offset, this->Depth, this->Color);
+  HWY_DYNAMIC_DISPATCH(put)(patch, colors, offset, factor, this->Depth, this->Color);
 }
 
 void TileImage::putSlopes(const TilePatch& patch, bool tilted)

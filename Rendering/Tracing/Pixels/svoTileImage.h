@@ -14,8 +14,8 @@ public:
   /// To be made before the tile is shaded: asks for the frame's memory, which nobody has read, so
   /// that writing it later does not wait.
   TileImage(const TileHits& hits, Frame& frame);
-  /// `offset`: to be added to window depths.
-  void put(const TilePatch& patch, const TileColors& colors, double offset);
+  /// `offset`, and `factor` times the facets' slopes, are added to window depths.
+  void put(const TilePatch& patch, const TileColors& colors, double offset, double factor);
   /// Slopes of these depths, where the frame has them; 0 where depths are not `tilted`.
   void putSlopes(const TilePatch& patch, bool tilted);
   /// Writes colours, depths, slopes and names of all pixels of the tile that are in the frame.

@@ -49,6 +49,14 @@ inline glm::vec3 affineWeights(
   return { 1.0f - (c.v + c.w) * scale, c.v * scale, c.w * scale };
 }
 
+/// The same, not clamped: of a point anywhere on the triangle's plane.
+inline glm::vec3 planeWeights(
+  const glm::vec3& way, float v, const glm::vec3& alongV, float w, const glm::vec3& alongW)
+{
+  const float b = v + glm::dot(alongV, way), c = w + glm::dot(alongW, way);
+  return { 1.0f - (b + c), b, c };
+}
+
 /// What the corners of a triangle have, at barycentric coordinates.
 template <class Vector>
 Vector weighted(const glm::vec3& weight, const Vector (&corners)[3])

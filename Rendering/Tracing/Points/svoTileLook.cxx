@@ -8,6 +8,7 @@
 #include "svoTileNodes.h"
 
 #include <cassert>
+#include <cmath>
 
 #include <hwy/highway.h>
 
@@ -140,6 +141,34 @@ void weigh(const TileTriangles& triangles, const TilePatch& p, TileWeights& weig
   }
 }
 
+/// The same where hits have their attributes from elsewhere on their triangles' planes; of planes
+/// that are seen edge on as above.
+void weighElsewhere(const TileTriangles& triangles, const TilePatch& p, TileWeights& weights)
+{
+  eachBit(p.mask,
+    [&](int i)
+    {
+      const float x = p.hits->lookX[i], y = p.hits->lookY[i];
+      const glm::vec3 ray = p.origin.rayTo(x, y), facet = p.facet(i);
+      const glm::vec3 beside = p.origin.wayTo(x, y, p.deeper[i]);
+      const glm::vec3 way =
+        beside + glm::dot(facet, p.way(i) - beside) / glm::dot(facet, ray) * ray;
+      const int which = triangles.which[i];
+      const auto number = [&](int column) { return triangles.column[column][which]; };
+      const auto vector = [&](int column)
+      { return glm::vec3(number(column), number(column + 1), number(column + 2)); };
+      const glm::vec3 weight = planeWeights(way, number(TileTriangles::V),
+        vector(TileTriangles::AlongV), number(TileTriangles::W), vector(TileTriangles::AlongW));
+      constexpr float Most = 1e4f;
+      if (std::abs(weight.y) + std::abs(weight.z) < Most)
+      {
+        weights.a[i] = weight.x;
+        weights.b[i] = weight.y;
+        weights.c[i] = weight.z;
+      }
+    });
+}
+
 /// Returns those that cannot be made unit vectors this way.
 std::uint64_t interpolateNormals(
   const TileTriangles& triangles, const TileWeights& weights, const float* sides, TilePatch& p)
@@ -218,6 +247,10 @@ std::uint64_t look(const TileTriangles& triangles, const Attributes& attributes,
   if (triangles.needsWeights())
   {
     weigh(triangles, p, weights);
+    if (p.hits->lookX)
+    {
+      weighElsewhere(triangles, p, weights);
+    }
   }
   if (triangles.smooth)
   {

@@ -39,6 +39,9 @@ struct TileHits
   const float* t;     // linear depth minus the base of the instance
   const std::uint32_t* instance; // NoInstance: none
   const Primitive* primitive;
+  /// Points of the image at whose places on the planes of the hits' triangles attributes are
+  /// interpolated, inside of the triangles or not; or null: at the hits.
+  const float *lookX = nullptr, *lookY = nullptr;
 };
 
 /// The hits at the centres of a tile's pixels, as the view merged them.
@@ -49,6 +52,7 @@ VTKSVOTRACING_EXPORT TileHits hitsOfTile(
 struct TileHitList
 {
   alignas(64) float x[TileHits::Most], y[TileHits::Most], t[TileHits::Most];
+  alignas(64) float lookX[TileHits::Most], lookY[TileHits::Most];
   alignas(64) std::uint32_t instance[TileHits::Most];
   alignas(64) Primitive primitive[TileHits::Most];
   TileHits hits;
@@ -72,6 +76,14 @@ struct TileHitList
     instance[i] = of;
     primitive[i] = on;
     hits.mask |= std::uint64_t(1) << i;
+  }
+  /// Number i has its attributes from (atX, atY) of the image. To be called for all or none.
+  void lookAt(int i, double atX, double atY)
+  {
+    lookX[i] = static_cast<float>(atX - hits.x0);
+    lookY[i] = static_cast<float>(atY - hits.y0);
+    hits.lookX = lookX;
+    hits.lookY = lookY;
   }
 };
 

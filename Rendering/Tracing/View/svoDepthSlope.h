@@ -2,7 +2,11 @@
 #ifndef svoDepthSlope_h
 #define svoDepthSlope_h
 
+#include "svoOctree.h"
+#include "svoPlane.h"
+#include "svoRay.h"
 #include "svoView.h"
+#include "svoWorldToOctree.h"
 
 #include <cmath>
 
@@ -28,6 +32,30 @@ inline glm::dvec2 depthSlope(
   const glm::dvec2 slope = 0.5 * (m[2][3] * z - m[2][2] * w) / (w * w) / along * deeper;
   const bool valid = std::abs(slope.x) + std::abs(slope.y) < 1.0;
   return { valid ? slope.x : 0.0, valid ? slope.y : 0.0 };
+}
+
+/// How steep the facet of a hit is: the length of depthSlope(), a multiple of which offsets of
+/// coincident topology add. A node's is that of its mean plane.
+inline double steepness(const Octree& octree, const WorldToOctree& toOctree, const View& view,
+  double x, double y, double t, Primitive primitive)
+{
+  glm::dvec3 normal(0.0);
+  if (primitive & NodePrimitive)
+  {
+    normal = decodePlane(octree.nodes()[primitive & ~NodePrimitive].plane).normal;
+  }
+  else if (octree.hasPlanes())
+  {
+    normal = decodePlane(octree.lists()[primitive]).normal;
+  }
+  else if (const Surface* surface = octree.surface())
+  {
+    const glm::uvec3 triangle = surface->triangles[primitive];
+    const glm::dvec3 a(surface->points[triangle.x]);
+    normal = glm::cross(
+      glm::dvec3(surface->points[triangle.y]) - a, glm::dvec3(surface->points[triangle.z]) - a);
+  }
+  return glm::length(depthSlope(view, x, y, t, toOctree.gradient(normal)));
 }
 }
 

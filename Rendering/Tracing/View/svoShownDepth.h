@@ -52,7 +52,8 @@ inline double rasterError(const Instance& instance, const View& view)
   return Step * (steps < Most ? steps : Most);
 }
 
-/// To be added to the window depths of an instance's hits before they are shown.
+/// To be added to the window depths of an instance's hits before they are shown, beside
+/// Instance::depthOffsetFactor times their slopes.
 inline double shownOffset(const Instance& instance, const View& view)
 {
   return instance.givesWay == 0

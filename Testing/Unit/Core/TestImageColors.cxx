@@ -183,5 +183,6 @@ TEST(ImageColors, SaysThatThereIsNoSuchArrayOfColors)
   vtkPolyData* hull = conversion.output();
   EXPECT_TRUE(octreeOf(hull));
   EXPECT_TRUE(conversion.messages.errors.empty());
-  EXPECT_NE(conversion.messages.all().find("Nothing"), std::string::npos);
+  EXPECT_NE(conversion.messages.all().find("named Nothing; it has Distance"), std::string::npos)
+    << conversion.messages.all();
 }

@@ -205,7 +205,10 @@ protected:
           n.body->triangles, n.body->deepestLevel, n.body->detailLevel);
       };
       const auto places = [](const Instance& n)
-      { return std::make_tuple(n.localToWorld, n.id, n.depthOffsetUnits, n.givesWay); };
+      {
+        return std::make_tuple(
+          n.localToWorld, n.id, n.depthOffsetUnits, n.depthOffsetFactor, n.givesWay);
+      };
       const auto ways = [](const Instance& n)
       {
         return std::make_tuple(

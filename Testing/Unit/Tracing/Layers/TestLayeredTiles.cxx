@@ -141,10 +141,12 @@ TEST(LayeredTiles, FindWhatEachInstancesRaysFind)
       SCOPED_TRACE("view " + std::to_string(number++));
       for (const bool exact : { true, false })
       {
-        for (const double offset : { 0.0, 1e-5 })
+        for (const int offset : { 0, 1, 2 })
         {
-          c.scene.instances[1].depthOffsetUnits = offset;
-          SCOPED_TRACE(std::string(exact ? "eye" : "light") + (offset > 0.0 ? ", shifted" : ""));
+          c.scene.instances[1].depthOffsetUnits = offset > 0 ? 1e-5f : 0.0f;
+          c.scene.instances[1].depthOffsetFactor = offset > 1 ? 2.0f : 0.0f;
+          const char* const shifted[] = { "", ", shifted", ", shifted by slopes" };
+          SCOPED_TRACE(std::string(exact ? "eye" : "light") + shifted[offset]);
           onEveryInstructionSet(
             [&]
             {

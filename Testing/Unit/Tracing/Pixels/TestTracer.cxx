@@ -50,9 +50,34 @@ svo::FrameSettings smallBuffers()
 
 namespace
 {
+/// Of the facet that a ray has hit: how much its window depth changes from pixel to pixel, by the
+/// depths at which the rays of two other points of the image meet its plane.
+double steepnessOf(
+  const svo::Instance& instance, const svo::View& view, int x, int y, const svo::Hit& hit)
+{
+  const svo::Surface& surface = *instance.body->octree.surface();
+  glm::dvec3 p[3];
+  for (int k = 0; k < 3; ++k)
+  {
+    const glm::dvec4 local(glm::dvec3(surface.points[surface.triangles[hit.primitive][k]]), 1.0);
+    p[k] = glm::dvec3(
+      instance.localToWorld * glm::inverse(instance.body->octree.localToOctree()) * local);
+  }
+  const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+  const auto depth = [&](double atX, double atY)
+  {
+    return view.windowDepth(glm::dot(normal, p[0] - view.rayOrigin(atX, atY)) /
+      glm::dot(normal, view.rayDirection(atX, atY)));
+  };
+  constexpr double Step = 1e-4; // pixels: planes may end at the horizon nearby
+  const double here = depth(x + 0.5, y + 0.5);
+  return std::hypot(depth(x + 0.5 + Step, y + 0.5) - here, depth(x + 0.5, y + 0.5 + Step) - here) /
+    Step;
+}
+
 /// Every pixel of the merged picture against rays traced one by one, in double. `offsets`: of the
-/// instances' window depths.
-void expectNearest(const float (&offsets)[3])
+/// instances' window depths; `factors`: of the slopes of these.
+void expectNearest(const float (&offsets)[3], const float (&factors)[3] = { 0.0f, 0.0f, 0.0f })
 {
   svo::Scene scene = makeScene(svo::LeafGeometry::Triangle);
   scene.instances[1].localToWorld =
@@ -63,6 +88,7 @@ void expectNearest(const float (&offsets)[3])
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {
     scene.instances[i].depthOffsetUnits = offsets[i];
+    scene.instances[i].depthOffsetFactor = factors[i];
   }
   for (const svo::View& view : { Eye, lookAtParallel({ 1, -6, 4 }, 100, 76, 2.5) })
   {
@@ -92,7 +118,9 @@ void expectNearest(const float (&offsets)[3])
           ray.tMax = view.tFar;
           const svo::Hit hit = svo::intersect(
             instance.body->octree, ray, { instance.body->leafGeometry, svo::MaximumLevel });
-          const double depth = view.windowDepth(hit.t) + offsets[i];
+          const double slopes =
+            hit && factors[i] != 0.0f ? factors[i] * steepnessOf(instance, view, x, y, hit) : 0.0;
+          const double depth = view.windowDepth(hit.t) + offsets[i] + slopes;
           if (hit && depth < nearest)
           {
             nearest = depth;
@@ -132,6 +160,12 @@ TEST(Tracer, WindowDepthsAreComparedWithTheirOffsets)
 {
   expectNearest({ 0.0f, 0.003f, -0.002f });
   expectNearest({ -0.002f, 0.0f, 0.0f });
+}
+
+TEST(Tracer, OffsetsGrowWithTheSlope)
+{
+  expectNearest({ 0.0f, 0.0f, 0.0f }, { 0.0f, 2.0f, -3.0f });
+  expectNearest({ 0.001f, 0.0f, 0.0f }, { -5.0f, -5.0f, -5.0f });
 }
 
 TEST(Tracer, TheSameDepthIsTheLastInstances)
