@@ -48,7 +48,7 @@ int TestSVOCoincident(int, char*[])
     { "the ground behind", -5.0, 0.0, 50.0, false, 0 },
     { "a decal through what stands on it", -5.0, -2000.0, 0.0, false, 0 },
     { "a parallel projection", -5.0, -50.0, 0.0, true, 0 },
-    { "a decal by its slope, through what stands on it", -20.0, 0.0, 0.0, false, 0 },
+    { "a decal that its slope takes through what stands on it", -40.0, -50.0, 0.0, false, 0 },
     { "samples of a pixel", -5.0, -50.0, 0.0, false, 4 } };
   for (const Offsets& c : cases)
   {
