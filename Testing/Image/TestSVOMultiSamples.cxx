@@ -4,11 +4,15 @@
 #include "svoTestStage.h"
 
 #include "vtkCamera.h"
+#include "vtkCellArray.h"
 #include "vtkPlaneSource.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkPolyDataToSVO.h"
 #include "vtkProperty.h"
 #include "vtkSphereSource.h"
 #include "vtkTrivialProducer.h"
+#include "vtkTubeFilter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,10 +98,11 @@ struct Pair
 /// The raster's picture and the traced one of a surface, with 4 samples a pixel and all settings
 /// as they are by default.
 template <class Change>
-Pair picturesOf(vtkAlgorithm* source, Checks& checks, const Change& change)
+Pair picturesOf(vtkAlgorithm* source, Checks& checks, const Change& change, int level = 9)
 {
   Stage stage;
   stage.renderer->SetBackground(0.0, 0.0, 0.0);
+  stage.pass->SetMaximumLevel(level);
   stage.pass->SetShadowTechniqueToNone();
   stage.addSun(2.0, -1.5, 4.0);
   change(stage.add(source, 1.0, 1.0, 1.0));
@@ -179,6 +184,49 @@ void compareFacets(int resolution, Checks& checks)
   std::cout << resolution << "^2 facets: " << wrong << " pixels differ\n";
   checks.expect(wrong < pair.raster.size() / 200, "facets are mixed as the raster does");
 }
+
+/// Bundles of thin tubes: at nearly every pixel triangles are seen whose interpolated normals count
+/// at the pixel's centre, which lies beside them.
+vtkSmartPointer<vtkAlgorithm> tubes()
+{
+  constexpr int Lines = 40, Points = 60;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines;
+  for (int line = 0; line < Lines; ++line)
+  {
+    lines->InsertNextCell(Points);
+    for (int i = 0; i < Points; ++i)
+    {
+      const double turn = 0.2 * i + 1.7 * line, radius = 0.2 + 0.02 * line;
+      lines->InsertCellPoint(points->InsertNextPoint(
+        radius * std::cos(turn), radius * std::sin(turn), 0.03 * i + 0.011 * line));
+    }
+  }
+  vtkNew<vtkPolyData> mesh;
+  mesh->SetPoints(points);
+  mesh->SetLines(lines);
+  auto tube = vtkSmartPointer<vtkTubeFilter>::New();
+  tube->SetInputData(mesh);
+  tube->SetRadius(0.008);
+  tube->SetNumberOfSides(6);
+  return tube;
+}
+
+void compareTubes(Checks& checks)
+{
+  // Deep enough for rays to end on triangles.
+  const Pair pair = picturesOf(
+    tubes(), checks, [](vtkActor*) {}, 11);
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < pair.raster.size(); ++i)
+  {
+    covered += pair.raster.grey(i) > 0.0;
+  }
+  const std::size_t wrong = different(pair.raster, pair.traced, 10);
+  std::cout << "tubes: " << wrong << " pixels differ of " << covered << "\n";
+  checks.expect(covered > 10000, "tubes are seen");
+  checks.expect(wrong < covered / 100, "normals are interpolated where the raster does");
+}
 }
 
 int TestSVOMultiSamples(int argc, char* argv[])
@@ -212,6 +260,7 @@ int TestSVOMultiSamples(int argc, char* argv[])
   compareOutlines("fine ball", finely(1.0), 1.0, checks);
   compareOutlines("ring of level 7", converted(ring(1.0, 0.0, 0.0, 0.0), 7), 1.0, checks);
   compareOutlines("flattened ball", ball(1.0, 0.0, 0.0, 0.0), 1e-8, checks);
+  compareTubes(checks);
   compareShadows("buffers", false, checks);
   compareShadows("rays", true, checks);
   compareFacets(30, checks);

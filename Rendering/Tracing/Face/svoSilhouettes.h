@@ -16,20 +16,20 @@
 
 namespace svo
 {
-/// Samples of one pixel that one surface covers at one depth.
+/// Samples of one pixel that one facet covers at one depth.
 struct PixelPart
 {
   std::uint32_t samples = 0; // bit i: sample i
   std::uint16_t x = 0;       // pixel
   std::uint16_t y = 0;
   float depth = 1.0f;      // window depth
-  std::uint8_t color[4]{}; // RGBA, mean of the samples that the surface covers
+  std::uint8_t color[4]{}; // RGBA
 };
 
 struct Silhouettes
 {
   /// A pixel of the frame with a hit, and the colour that it has in this window: the mean of its
-  /// samples where one surface fills it, alpha 0 where parts replace it.
+  /// samples where one surface fills it evenly, alpha 0 where parts replace it.
   struct Pixel
   {
     std::size_t index = 0;

@@ -47,7 +47,6 @@ struct TileScratch
   std::vector<TileSamples> samples;
   std::vector<Facet> facets;
   std::vector<std::size_t> shaded; // indices of facets
-  std::vector<PixelPart> parts;    // of a pixel, one for each surface
   TileHitList hits;
   PixelShader::Scratch shading;
 };
@@ -282,11 +281,10 @@ private:
     return least < std::numeric_limits<float>::infinity();
   }
 
-  /// Adds an edge pixel's parts, or, where one surface fills it, its colour.
+  /// Adds an edge pixel's parts, or, where one surface fills it evenly, its colour.
   void divide(const EdgePixel& pixel, TileScratch& scratch, Silhouettes& result) const
   {
     const std::vector<Facet>& facets = scratch.facets;
-    const std::size_t own = this->at(pixel.x, pixel.y);
     const bool hit = this->seen().instanceAt(pixel.x, pixel.y) != NoInstance;
     const std::size_t count = pixel.lastFacet - pixel.firstFacet;
     const bool whole = pixel.hits == this->SampleCount;
@@ -295,26 +293,17 @@ private:
       return;
     }
     Silhouettes::Pixel replaced;
-    replaced.index = own;
-    std::vector<PixelPart>& parts = scratch.parts;
-    parts.clear();
-    std::uint32_t taken = 0;
-    for (std::size_t f = pixel.firstFacet; f < pixel.lastFacet; ++f)
+    replaced.index = this->at(pixel.x, pixel.y);
+    if (!(whole && hit && this->isEven(pixel, facets) && this->isFlat(pixel)))
     {
-      if (!(facets[f].samples & taken))
+      for (std::size_t f = pixel.firstFacet; f < pixel.lastFacet; ++f)
       {
-        parts.push_back(this->partOf(pixel, facets, f, taken));
+        this->addSamples(pixel, facets[f], result.parts);
       }
     }
-    if (parts.size() == 1 && whole && hit &&
-      this->sameSurface(parts.front(), facets[pixel.firstFacet].instance) && this->isFlat(pixel))
+    else
     {
-      std::copy_n(parts.front().color, 4, replaced.color);
-      parts.clear();
-    }
-    for (const PixelPart& part : parts)
-    {
-      this->addSamples(pixel, part, result.parts);
+      this->mix(pixel, facets, replaced.color);
     }
     if (hit)
     {
@@ -322,12 +311,54 @@ private:
     }
   }
 
-  /// True if the pixel of a part shows the instance about there.
-  bool sameSurface(const PixelPart& part, std::uint32_t instance) const
+  /// True if what is seen in the pixel is the surface that its centre shows, in about one colour.
+  bool isEven(const EdgePixel& pixel, const std::vector<Facet>& facets) const
   {
-    return this->seen().instanceAt(part.x, part.y) == instance &&
-      std::abs(this->Picture.depth[this->at(part.x, part.y)] - part.depth) <=
-      3.0f * this->Edges.width(part.depth);
+    // Windows take the mean of 2.2th powers of samples, screenshots of others the mean itself:
+    // between such colours either is the same.
+    constexpr int Alike = 16;
+    const Facet& first = facets[pixel.firstFacet];
+    const float depth = this->Picture.depth[this->at(pixel.x, pixel.y)];
+    const float width = this->Edges.width(depth);
+    if (this->seen().instanceAt(pixel.x, pixel.y) != first.instance)
+    {
+      return false;
+    }
+    int least[3] = { 255, 255, 255 }, most[3] = { 0, 0, 0 };
+    for (std::size_t f = pixel.firstFacet; f < pixel.lastFacet; ++f)
+    {
+      const Facet& facet = facets[f];
+      if (facet.instance != first.instance ||
+        std::abs(this->windowDepth(facet) - depth) > 3.0f * width)
+      {
+        return false;
+      }
+      for (int c = 0; c < 3; ++c)
+      {
+        least[c] = std::min<int>(least[c], facet.color[c]);
+        most[c] = std::max<int>(most[c], facet.color[c]);
+        if (most[c] - least[c] > Alike)
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  /// The mean colour of a pixel's samples.
+  void mix(const EdgePixel& pixel, const std::vector<Facet>& facets, std::uint8_t (&color)[4]) const
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      int sum = this->SampleCount / 2;
+      for (std::size_t f = pixel.firstFacet; f < pixel.lastFacet; ++f)
+      {
+        sum += facets[f].count * facets[f].color[c];
+      }
+      color[c] = static_cast<std::uint8_t>(sum / this->SampleCount);
+    }
+    color[3] = 255;
   }
 
   /// Window depth of sample number s, which is not level, as it is shown.
@@ -338,16 +369,15 @@ private:
   }
 
   /// True if VTK's mapper gives all of a fragment the depth of the pixel's centre.
-  bool isLevel(const EdgePixel& pixel, int s) const
+  bool isLevel(std::uint32_t instance) const
   {
-    const std::uint32_t instance = pixel.samples->instance[pixel.lane + s];
     return this->Lit.shaded.scene.instances[instance].hasDepthOffset();
   }
 
   /// True if the pixel shows a facet on whose plane all of its samples lie.
   bool isFlat(const EdgePixel& pixel) const
   {
-    if (this->Picture.slopes.empty() || this->isLevel(pixel, 0))
+    if (this->Picture.slopes.empty() || this->isLevel(pixel.samples->instance[pixel.lane]))
     {
       return true; // one depth is what it has
     }
@@ -364,63 +394,30 @@ private:
     return flat;
   }
 
-  /// A part's samples one by one, each at its own depth.
-  void addSamples(
-    const EdgePixel& pixel, const PixelPart& part, std::vector<PixelPart>& parts) const
-  {
-    for (int s = 0; s < this->SampleCount; ++s)
-    {
-      if (!(part.samples >> s & 1))
-      {
-        continue;
-      }
-      if (this->isLevel(pixel, s))
-      {
-        parts.push_back(part);
-        return;
-      }
-      parts.push_back(part);
-      parts.back().samples = 1u << s;
-      parts.back().depth = this->sampleDepth(pixel, s);
-    }
-  }
-
-  /// The facets of the instance that are about as deep as number f.
-  PixelPart partOf(const EdgePixel& pixel, const std::vector<Facet>& facets, std::size_t f,
-    std::uint32_t& taken) const
+  /// A facet's samples: one by one, each at its own depth, unless they are level.
+  void addSamples(const EdgePixel& pixel, const Facet& facet, std::vector<PixelPart>& parts) const
   {
     PixelPart part;
     part.x = static_cast<std::uint16_t>(pixel.x);
     part.y = static_cast<std::uint16_t>(pixel.y);
-    const float depth = this->windowDepth(facets[f]);
-    float depths = 0.0f;
-    int colors[3]{};
-    int count = 0;
-    for (std::size_t g = f; g < pixel.lastFacet; ++g)
-    {
-      const Facet& facet = facets[g];
-      const float other = this->windowDepth(facet);
-      if (facet.instance != facets[f].instance || facet.samples & taken ||
-        std::abs(other - depth) > 3.0f * this->Edges.width(depth))
-      {
-        continue;
-      }
-      part.samples |= facet.samples;
-      depths += static_cast<float>(facet.count) * other;
-      count += facet.count;
-      for (int c = 0; c < 3; ++c)
-      {
-        colors[c] += facet.count * facet.color[c];
-      }
-    }
-    taken |= part.samples;
-    part.depth = depths / static_cast<float>(count);
-    for (int c = 0; c < 3; ++c)
-    {
-      part.color[c] = static_cast<std::uint8_t>((colors[c] + count / 2) / count);
-    }
+    std::copy_n(facet.color, 3, part.color);
     part.color[3] = 255;
-    return part;
+    if (this->isLevel(facet.instance))
+    {
+      part.samples = facet.samples;
+      part.depth = this->windowDepth(facet);
+      parts.push_back(part);
+      return;
+    }
+    for (int s = 0; s < this->SampleCount; ++s)
+    {
+      if (facet.samples >> s & 1)
+      {
+        part.samples = 1u << s;
+        part.depth = this->sampleDepth(pixel, s);
+        parts.push_back(part);
+      }
+    }
   }
 
   PixelShader::Lit Lit;
