@@ -125,8 +125,9 @@ public:
 
   //@{
   /**
-   * Memory that the kept octrees may use, in KiB; default 1048576 (1 GiB). The least recently used
-   * ones go first. An octree larger than this is not kept.
+   * Memory that the kept octrees may use, in KiB; default 1048576 (1 GiB). The one that is
+   * expected to be used last goes first: the least recently used one, but of a loop that is longer
+   * than the memory the pose that has just passed. An octree larger than this is not kept.
    */
   virtual void SetCacheMemoryLimit(unsigned long kibibytes);
   vtkGetMacro(CacheMemoryLimit, unsigned long);

@@ -314,8 +314,8 @@ private:
   /// True if what is seen in the pixel is the surface that its centre shows, in about one colour.
   bool isEven(const EdgePixel& pixel, const std::vector<Facet>& facets) const
   {
-    // Windows take the mean of 2.2th powers of samples, screenshots of others the mean itself:
-    // between such colours either is the same.
+    // Windows show the mean of the samples' 2.2th powers, who reads a back buffer gets the mean
+    // itself: of such colours either is about the same.
     constexpr int Alike = 16;
     const Facet& first = facets[pixel.firstFacet];
     const float depth = this->Picture.depth[this->at(pixel.x, pixel.y)];
