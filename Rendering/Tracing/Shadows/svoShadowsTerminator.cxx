@@ -34,7 +34,7 @@ void Shadows::darkness(std::size_t light, const TilePatch& patch,
   assert(light < this->Buffers.size() && points.size() <= ShadowRays::Most);
   const ShadowBuffer* buffer = this->usesRays(light) ? nullptr : this->Buffers[light];
   const Light& source = this->Tested->lights[light];
-  const SurfacePoint* asked[ShadowRays::Most]; // by rays to the light, after all else
+  const SurfacePoint* asked[ShadowRays::Most] = {}; // by rays to the light, after all else
   float* answers[ShadowRays::Most];
   float ifLit[ShadowRays::Most];
   int count = 0;
