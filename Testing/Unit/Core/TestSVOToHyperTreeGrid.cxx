@@ -10,6 +10,7 @@
 #include "vtkBitArray.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
+#include "vtkDataArray.h"
 #include "vtkHyperTreeGrid.h"
 #include "vtkHyperTreeGridNonOrientedGeometryCursor.h"
 #include "vtkIdTypeArray.h"
@@ -153,7 +154,10 @@ TEST(SVOToHyperTreeGrid, StretchesWithTheFrame)
   vtkNew<vtkPolyData> hull;
   ASSERT_EQ(svo::buildSourceOctree(source, options, {}, hull).status, svo::BuildStatus::Built);
   GridOf grid(hull);
-  const double* b = grid.output()->GetBounds();
+  // Since VTK 9.4 GetBounds() is of what is not masked.
+  vtkHyperTreeGrid* output = grid.output();
+  vtkDataArray* const along[3] = { output->GetXCoordinates(), output->GetYCoordinates(),
+    output->GetZCoordinates() };
   const svo::Octree octree = octreeOf(hull);
   const svo::Header& h = octree.header();
   const double low = h.origin[0], high = low + std::ldexp(h.voxelSize, 5);
@@ -161,7 +165,9 @@ TEST(SVOToHyperTreeGrid, StretchesWithTheFrame)
     high - 2.0 };
   for (int i = 0; i < 6; ++i)
   {
-    EXPECT_NEAR(b[i], expected[i], 1e-12);
+    vtkDataArray* coordinates = along[i / 2];
+    const vtkIdType end = i % 2 == 0 ? 0 : coordinates->GetNumberOfTuples() - 1;
+    EXPECT_NEAR(coordinates->GetComponent(end, 0), expected[i], 1e-12);
   }
   EXPECT_TRUE(grid.messages.all().empty()) << grid.messages.all();
 
