@@ -144,12 +144,18 @@ class SharedMapper(unittest.TestCase):
     }
 
     def frames(self, looks, traced, change):
-        """Two frames of actors next to each other, with one mapper."""
+        """Two frames of actors next to each other, with one mapper, and how many errors were said: VTK 9.6 gives the
+        shader that is kept a texture too little where edges come after another look, without the pass, too."""
+        said = []
+
+        def listen(speaker):
+            speaker.AddObserver("ErrorEvent", lambda *_: said.append(1))
         cube = vtk.vtkCubeSource()
         cube.Update()
         cube.GetOutput().GetPointData().SetNormals(None)
         mapper = vtk.vtkPolyDataMapper()
         mapper.SetInputData(cube.GetOutput())
+        listen(mapper)
         renderer = new_renderer(traced)
         actors = []
         for i, look in enumerate(looks):
@@ -157,6 +163,7 @@ class SharedMapper(unittest.TestCase):
             actor.SetPosition(0.7 * i, 0, 0)
             self.LOOKS[look](actor.GetProperty())
             change(look, actor)
+            listen(actor)
             renderer.AddActor(actor)
             actors.append(actor)
         renderer.GetActiveCamera().SetPosition(4, 3, 6)
@@ -166,13 +173,15 @@ class SharedMapper(unittest.TestCase):
         for i in range(2):
             window.Render()
             result.append(picture(window))
-        return result
+        return result, len(said)
 
     def expect_same(self, looks, change=lambda look, actor: None):
         with self.subTest(looks=looks):
-            plain = self.frames(looks, False, change)
-            for i, frame in enumerate(self.frames(looks, True, change)):
+            plain, plainly_said = self.frames(looks, False, change)
+            traced, said = self.frames(looks, True, change)
+            for i, frame in enumerate(traced):
                 self.assertLess(share(plain[i], frame), 0.002, "frame %d" % i)
+            self.assertLessEqual(said, plainly_said)
 
     def test_two_actors(self):
         for other in ("wireframe", "edges", "culled"):
