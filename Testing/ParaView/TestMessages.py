@@ -42,7 +42,9 @@ class TestMessages(unittest.TestCase):
     def test_translucent_cells(self):
         """That some cells cast and others do not is said, once, where these do not cast as light as they are."""
         self.view.SVOTranslucentShadows = 0
-        ball = scene.show(pv.Elevation(Input=scene.make_ball()), self.view)
+        elevation = pv.Elevation(Input=scene.make_ball(), LowPoint=[0, 0, 0.3], HighPoint=[0, 0, 1.3],
+                                 ScalarRange=[0.3, 1.3])
+        ball = scene.show(elevation, self.view)
         pv.ColorBy(ball, ("POINTS", "Elevation"))
         table = pv.GetColorTransferFunction("Elevation")
         opacity = pv.GetOpacityTransferFunction("Elevation")
