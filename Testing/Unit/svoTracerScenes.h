@@ -52,6 +52,23 @@ inline svo::Light lightOf(svo::Light::Kind kind, const glm::dvec3& position)
   return light;
 }
 
+/// Two bodies and a ground under a point light and a directional one.
+inline svo::Scene ballAndRing(svo::LeafGeometry leafGeometry = svo::LeafGeometry::Automatic)
+{
+  static const svo::Octree ground = makeOctree(square(3.0), 7);
+  static const svo::Octree ball = makeOctree(sphere(24, 40), 7);
+  static const svo::Octree ring = makeOctree(torus(40, 24), 7);
+  svo::Scene scene;
+  scene.instances = { instanceOf(ground, 1, glm::dmat4(1.0), leafGeometry),
+    instanceOf(ball, 2, movedTo(-0.8, 0.0, 1.0), leafGeometry),
+    instanceOf(ring, 3, movedTo(1.2, 0.3, 0.8), leafGeometry) };
+  scene.lights = { lightOf(svo::Light::Kind::Point, { 2, -3, 6 }),
+    lightOf(svo::Light::Kind::Directional, { -4, -1, 5 }) };
+  scene.lights[1].id = 78;
+  scene.lights[1].color = glm::vec3(0.3f);
+  return scene;
+}
+
 /// A light with a name for messages.
 struct LightCase
 {

@@ -19,9 +19,10 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-/// The window depths of a patch's points, in double as everybody who compares them has them.
-void windowDepths(
-  const TilePatch& p, const double* HWY_RESTRICT offsets, float* HWY_RESTRICT depths)
+/// The window depths of a patch's points, in double as everybody who compares them has them, and
+/// offsetOf(number of the point) more.
+template <class OffsetOf>
+void windowDepths(const TilePatch& p, const OffsetOf& offsetOf, float* HWY_RESTRICT depths)
 {
   const View view = *p.view;
   const double base = p.base;
@@ -33,7 +34,7 @@ void windowDepths(
     }
     for (int k = i; k < i + TilePatch::Step; ++k)
     {
-      const double depth = view.windowDepth(base + static_cast<double>(p.hits->t[k])) + offsets[k];
+      const double depth = view.windowDepth(base + static_cast<double>(p.hits->t[k])) + offsetOf(k);
       const double low = depth < 0.0 ? 0.0 : depth;
       depths[k] = static_cast<float>(1.0 < low ? 1.0 : low);
     }
@@ -84,19 +85,19 @@ void putWhere(std::uint64_t mask, const float* HWY_RESTRICT depths,
 void put(const TilePatch& patch, const TileColors& colors, double offset, double factor,
   float* depthTo, std::uint32_t* colorTo)
 {
-  alignas(64) double offsets[TilePatch::Most];
-  std::fill_n(offsets, TilePatch::Most, offset);
-  if (factor != 0.0)
+  alignas(64) float depths[TilePatch::Most];
+  if (factor == 0.0)
+  {
+    windowDepths(
+      patch, [offset](int) { return offset; }, depths);
+  }
+  else
   {
     alignas(64) float across[TilePatch::Most] = {}, up[TilePatch::Most] = {};
     depthSlopes(patch, across, up);
-    for (int i = 0; i < TilePatch::Most; ++i)
-    {
-      offsets[i] += factor * std::hypot(across[i], up[i]);
-    }
+    windowDepths(
+      patch, [&](int k) { return offset + factor * std::hypot(across[k], up[k]); }, depths);
   }
-  alignas(64) float depths[TilePatch::Most];
-  windowDepths(patch, offsets, depths);
   putWhere(patch.mask, depths, colors.rgba, depthTo, colorTo);
 }
 }

@@ -1,4 +1,3 @@
-#include "svoIntersect.h"
 #include "svoTracerScenes.h"
 
 #include <gtest/gtest.h>
@@ -11,23 +10,6 @@ using namespace svotest;
 
 namespace
 {
-/// Two bodies and a ground under a point light and a directional one.
-svo::Scene makeScene(svo::LeafGeometry leafGeometry = svo::LeafGeometry::Automatic)
-{
-  static const svo::Octree ground = makeOctree(square(3.0), 7);
-  static const svo::Octree ball = makeOctree(sphere(24, 40), 7);
-  static const svo::Octree ring = makeOctree(torus(40, 24), 7);
-  svo::Scene scene;
-  scene.instances = { instanceOf(ground, 1, glm::dmat4(1.0), leafGeometry),
-    instanceOf(ball, 2, movedTo(-0.8, 0.0, 1.0), leafGeometry),
-    instanceOf(ring, 3, movedTo(1.2, 0.3, 0.8), leafGeometry) };
-  scene.lights = { lightOf(svo::Light::Kind::Point, { 2, -3, 6 }),
-    lightOf(svo::Light::Kind::Directional, { -4, -1, 5 }) };
-  scene.lights[1].id = 78;
-  scene.lights[1].color = glm::vec3(0.3f);
-  return scene;
-}
-
 std::vector<std::uint64_t> bytesOf(const svo::Octree& octree)
 {
   const svo::Header& h = octree.header();
@@ -48,139 +30,6 @@ svo::FrameSettings smallBuffers()
 }
 }
 
-namespace
-{
-/// Of the facet that a ray has hit: how much its window depth changes from pixel to pixel, by the
-/// depths at which the rays of two other points of the image meet its plane.
-double steepnessOf(
-  const svo::Instance& instance, const svo::View& view, int x, int y, const svo::Hit& hit)
-{
-  const svo::Surface& surface = *instance.body->octree.surface();
-  glm::dvec3 p[3];
-  for (int k = 0; k < 3; ++k)
-  {
-    const glm::dvec4 local(glm::dvec3(surface.points[surface.triangles[hit.primitive][k]]), 1.0);
-    p[k] = glm::dvec3(
-      instance.localToWorld * glm::inverse(instance.body->octree.localToOctree()) * local);
-  }
-  const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
-  const auto depth = [&](double atX, double atY)
-  {
-    return view.windowDepth(glm::dot(normal, p[0] - view.rayOrigin(atX, atY)) /
-      glm::dot(normal, view.rayDirection(atX, atY)));
-  };
-  constexpr double Step = 1e-4; // pixels: planes may end at the horizon nearby
-  const double here = depth(x + 0.5, y + 0.5);
-  return std::hypot(depth(x + 0.5 + Step, y + 0.5) - here, depth(x + 0.5, y + 0.5 + Step) - here) /
-    Step;
-}
-
-/// Every pixel of the merged picture against rays traced one by one, in double. `offsets`: of the
-/// instances' window depths; `factors`: of the slopes of these.
-void expectNearest(const float (&offsets)[3], const float (&factors)[3] = { 0.0f, 0.0f, 0.0f })
-{
-  svo::Scene scene = makeScene(svo::LeafGeometry::Triangle);
-  scene.instances[1].localToWorld =
-    movedTo(-0.5, 0.2, 1.0) * glm::scale(glm::dmat4(1.0), { -1.0, 0.7, 1.2 });
-  scene.instances[2].localToWorld[1] = { 0.4, 1.0, 0.2, 0.0 }; // sheared
-  svo::FrameSettings settings = smallBuffers();
-  settings.pixelError = 0.0;
-  for (std::size_t i = 0; i < scene.instances.size(); ++i)
-  {
-    scene.instances[i].depthOffsetUnits = offsets[i];
-    scene.instances[i].depthOffsetFactor = factors[i];
-  }
-  for (const svo::View& view : { Eye, lookAtParallel({ 1, -6, 4 }, 100, 76, 2.5) })
-  {
-    svo::CPUTracer tracer;
-    const svo::Frame frame = rendered(tracer, scene, view, settings);
-    EXPECT_TRUE(identical(frame, rendered(tracer, scene, view, settings))) << "with kept layers";
-    svo::FrameSettings cutting = settings;
-    cutting.frameCoherence = false;
-    EXPECT_TRUE(identical(frame, rendered(scene, view, cutting))) << "with rays that are cut";
-    int differ = 0;
-    int hits = 0;
-    for (int y = 0; y < view.height; ++y)
-    {
-      for (int x = 0; x < view.width; ++x)
-      {
-        double nearest = std::numeric_limits<double>::infinity();
-        std::uint32_t winner = ~0u;
-        for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
-        {
-          const svo::Instance& instance = scene.instances[i];
-          const glm::dmat4 m =
-            instance.body->octree.localToOctree() * glm::inverse(instance.localToWorld);
-          svo::Ray ray;
-          ray.origin = glm::dvec3(m * glm::dvec4(view.rayOrigin(x + 0.5, y + 0.5), 1.0));
-          ray.direction = glm::dvec3(m * glm::dvec4(view.rayDirection(x + 0.5, y + 0.5), 0.0));
-          ray.tMin = view.tNear;
-          ray.tMax = view.tFar;
-          const svo::Hit hit = svo::intersect(
-            instance.body->octree, ray, { instance.body->leafGeometry, svo::MaximumLevel });
-          const double slopes =
-            hit && factors[i] != 0.0f ? factors[i] * steepnessOf(instance, view, x, y, hit) : 0.0;
-          const double depth = view.windowDepth(hit.t) + offsets[i] + slopes;
-          if (hit && depth < nearest)
-          {
-            nearest = depth;
-            winner = i;
-          }
-        }
-        const std::size_t at = std::size_t(y) * view.width + x;
-        hits += winner != ~0u;
-        if (frame.instance[at] != winner)
-        {
-          ++differ; // silhouettes, where a float decides otherwise
-        }
-        else if (winner != ~0u)
-        {
-          EXPECT_NEAR(frame.depth[at], std::clamp(nearest, 0.0, 1.0), 2e-6) << x << ", " << y;
-          EXPECT_EQ(frame.color[4 * at + 3], 255);
-        }
-        else
-        {
-          EXPECT_EQ(frame.depth[at], 1.0f);
-          EXPECT_EQ(frame.color[4 * at + 3], 0);
-        }
-      }
-    }
-    EXPECT_GT(hits, 1500);
-    EXPECT_LE(differ, 3);
-  }
-}
-}
-
-TEST(Tracer, TheNearestInstanceOfEveryPixelIsSeen)
-{
-  expectNearest({ 0.0f, 0.0f, 0.0f });
-}
-
-TEST(Tracer, WindowDepthsAreComparedWithTheirOffsets)
-{
-  expectNearest({ 0.0f, 0.003f, -0.002f });
-  expectNearest({ -0.002f, 0.0f, 0.0f });
-}
-
-TEST(Tracer, OffsetsGrowWithTheSlope)
-{
-  expectNearest({ 0.0f, 0.0f, 0.0f }, { 0.0f, 2.0f, -3.0f });
-  expectNearest({ 0.001f, 0.0f, 0.0f }, { -5.0f, -5.0f, -5.0f });
-}
-
-TEST(Tracer, TheSameDepthIsTheLastInstances)
-{
-  svo::Scene scene = makeScene();
-  scene.instances = { scene.instances[1], scene.instances[1], scene.instances[1] };
-  scene.instances[0].id = 9;
-  scene.instances[2].id = 10;
-  const svo::Frame frame = rendered(scene, Eye, smallBuffers());
-  for (std::uint32_t instance : frame.instance)
-  {
-    EXPECT_TRUE(instance == 2 || instance == ~0u);
-  }
-}
-
 TEST(Tracer, FramesDoNotDependOnThreads)
 {
   for (svo::ShadowTechnique technique :
@@ -188,11 +37,11 @@ TEST(Tracer, FramesDoNotDependOnThreads)
   {
     svo::FrameSettings settings = smallBuffers();
     settings.shadowTechnique = technique;
-    const svo::Frame one = rendered(makeScene(), Eye, settings);
+    const svo::Frame one = rendered(ballAndRing(), Eye, settings);
     for (unsigned threads : { 1u, 2u, 7u })
     {
       svo::CPUTracer tracer;
-      const svo::Frame many = rendered(tracer, makeScene(), Eye, settings, raggedFor(threads));
+      const svo::Frame many = rendered(tracer, ballAndRing(), Eye, settings, raggedFor(threads));
       EXPECT_TRUE(identical(one, many)) << threads;
     }
   }
@@ -205,7 +54,7 @@ TEST(Tracer, KeptLayersNeverChangeAPicture)
   for (svo::LeafGeometry leafGeometry : { svo::LeafGeometry::Voxel, svo::LeafGeometry::Plane,
          svo::LeafGeometry::Triangle, svo::LeafGeometry::Automatic })
   {
-    svo::Scene scene = makeScene(leafGeometry);
+    svo::Scene scene = ballAndRing(leafGeometry);
     svo::View view = Eye;
     svo::FrameSettings settings = smallBuffers();
     svo::CPUTracer keeping;
@@ -263,7 +112,7 @@ TEST(Tracer, AnOctreeInAnotherOnesPlaceIsAnotherOctree)
     const std::vector<std::uint64_t>& next = bytes[step % 2];
     std::copy(next.begin(), next.end(), place.begin());
     std::string error;
-    svo::Scene scene = makeScene();
+    svo::Scene scene = ballAndRing();
     scene.instances.resize(1);
     scene.instances[0].body.own().octree =
       svo::Octree::open(std::shared_ptr<const std::byte>(
@@ -278,7 +127,7 @@ TEST(Tracer, AnOctreeInAnotherOnesPlaceIsAnotherOctree)
 
 TEST(Tracer, WhatStandsStillIsNotTracedAgain)
 {
-  svo::Scene scene = makeScene();
+  svo::Scene scene = ballAndRing();
   svo::FrameSettings settings = smallBuffers();
   svo::CPUTracer tracer;
   rendered(tracer, scene, Eye, settings);
@@ -303,7 +152,7 @@ TEST(Tracer, WhatStandsStillIsNotTracedAgain)
 // A light that comes close gets six maps for one; they are no views that nothing has moved in yet.
 TEST(Tracer, MapsInThePlaceOfOthersHaveNoLayersOfWhatMoves)
 {
-  svo::Scene scene = makeScene();
+  svo::Scene scene = ballAndRing();
   scene.instances = { scene.instances[1] };
   scene.lights.resize(1);
   svo::CPUTracer tracer;
@@ -323,8 +172,8 @@ TEST(Tracer, KeptLayersStayUnderTheLimit)
   svo::FrameSettings settings = smallBuffers();
   settings.layerMemoryLimit = 100000;
   svo::CPUTracer tracer;
-  rendered(tracer, makeScene(), Eye, settings);
-  rendered(tracer, makeScene(), Eye, settings);
+  rendered(tracer, ballAndRing(), Eye, settings);
+  rendered(tracer, ballAndRing(), Eye, settings);
   EXPECT_GT(tracer.statistics().layerMemory, 0u);
   EXPECT_LE(tracer.statistics().layerMemory, settings.layerMemoryLimit);
 }
@@ -332,7 +181,7 @@ TEST(Tracer, KeptLayersStayUnderTheLimit)
 // Wiping and writing the same Frame gives what a new one gets.
 TEST(Tracer, AFrameUsedAgainHasNothingLeftOfTheLastPicture)
 {
-  svo::Scene scene = makeScene();
+  svo::Scene scene = ballAndRing();
   svo::FrameSettings settings = smallBuffers();
   settings.writeNormals = true;
   svo::CPUTracer tracer;
@@ -350,7 +199,7 @@ TEST(Tracer, AFrameUsedAgainHasNothingLeftOfTheLastPicture)
 
 TEST(Tracer, CoveredHoldsEveryHitAndNoMoreThanItsTiles)
 {
-  svo::Scene scene = makeScene();
+  svo::Scene scene = ballAndRing();
   scene.instances = { scene.instances[1] };
   const svo::Frame frame = rendered(scene, Eye, smallBuffers());
   svo::PixelRect seen{ frame.width, frame.height, 0, 0 };
@@ -373,7 +222,7 @@ TEST(Tracer, CoveredHoldsEveryHitAndNoMoreThanItsTiles)
 
 TEST(Tracer, AnEyeInsideAnObjectSeesItsInsideEverywhere)
 {
-  svo::Scene scene = makeScene();
+  svo::Scene scene = ballAndRing();
   scene.instances = { instanceOf(makeOctree(sphere(24, 40), 7), 1,
     glm::scale(glm::dmat4(1.0), glm::dvec3(4.0)), svo::LeafGeometry::Automatic) };
   const svo::Frame frame =
@@ -386,7 +235,7 @@ TEST(Tracer, AnEyeInsideAnObjectSeesItsInsideEverywhere)
 
 TEST(Tracer, AnInvisibleInstanceOnlyCasts)
 {
-  svo::Scene scene = makeScene();
+  svo::Scene scene = ballAndRing();
   scene.lights.resize(1);
   svo::FrameSettings settings = smallBuffers();
   scene.instances.resize(2);
@@ -428,7 +277,7 @@ TEST(Tracer, AnInstanceMayHaveItsOwnPixelError)
 
 TEST(Tracer, AnOffsetOfAllMovesTheWindowDepthAlone)
 {
-  svo::Scene scene = makeScene();
+  svo::Scene scene = ballAndRing();
   const svo::Frame plain = rendered(scene, Eye, smallBuffers());
   for (svo::Instance& instance : scene.instances)
   {
@@ -444,7 +293,7 @@ TEST(Tracer, AnOffsetOfAllMovesTheWindowDepthAlone)
 
 TEST(Tracer, BadInputIsAPictureWithoutIt)
 {
-  svo::Scene scene = makeScene();
+  svo::Scene scene = ballAndRing();
   const svo::Frame expected = rendered(scene, Eye, smallBuffers());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   svo::Instance bad = scene.instances[1];
@@ -467,14 +316,14 @@ TEST(Tracer, BadInputIsAPictureWithoutIt)
   EXPECT_TRUE(nothing.covered.empty());
   EXPECT_EQ(nothing.depth.size(), std::size_t(100 * 76));
   svo::View none;
-  EXPECT_TRUE(rendered(makeScene(), none, smallBuffers()).color.empty());
+  EXPECT_TRUE(rendered(ballAndRing(), none, smallBuffers()).color.empty());
   scene.lights.clear();
   EXPECT_EQ(rendered(scene, Eye, smallBuffers()).instance, expected.instance);
 }
 
 TEST(Tracer, LightBeyondOneIsKeptWhereItIsAskedFor)
 {
-  svo::Scene scene = makeScene();
+  svo::Scene scene = ballAndRing();
   for (svo::Light& light : scene.lights)
   {
     light.color *= 3.0f;
