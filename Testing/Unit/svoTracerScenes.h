@@ -53,7 +53,7 @@ inline svo::Light lightOf(svo::Light::Kind kind, const glm::dvec3& position)
 }
 
 /// Two bodies and a ground under a point light and a directional one.
-inline svo::Scene ballAndRing(svo::LeafGeometry leafGeometry = svo::LeafGeometry::Automatic)
+inline svo::Scene ballRingAndGround(svo::LeafGeometry leafGeometry = svo::LeafGeometry::Automatic)
 {
   static const svo::Octree ground = makeOctree(square(3.0), 7);
   static const svo::Octree ball = makeOctree(sphere(24, 40), 7);

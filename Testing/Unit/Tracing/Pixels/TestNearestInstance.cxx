@@ -51,7 +51,7 @@ double steepnessOf(
 /// instances' window depths; `factors`: of the slopes of these.
 void expectNearest(const float (&offsets)[3], const float (&factors)[3] = { 0.0f, 0.0f, 0.0f })
 {
-  svo::Scene scene = ballAndRing(svo::LeafGeometry::Triangle);
+  svo::Scene scene = ballRingAndGround(svo::LeafGeometry::Triangle);
   scene.instances[1].localToWorld =
     movedTo(-0.5, 0.2, 1.0) * glm::scale(glm::dmat4(1.0), { -1.0, 0.7, 1.2 });
   scene.instances[2].localToWorld[1] = { 0.4, 1.0, 0.2, 0.0 }; // sheared
@@ -142,7 +142,7 @@ TEST(NearestInstance, OffsetsGrowWithTheSlope)
 
 TEST(NearestInstance, TheSameDepthIsTheLastInstances)
 {
-  svo::Scene scene = ballAndRing();
+  svo::Scene scene = ballRingAndGround();
   scene.instances = { scene.instances[1], scene.instances[1], scene.instances[1] };
   scene.instances[0].id = 9;
   scene.instances[2].id = 10;

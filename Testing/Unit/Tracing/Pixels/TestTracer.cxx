@@ -37,11 +37,11 @@ TEST(Tracer, FramesDoNotDependOnThreads)
   {
     svo::FrameSettings settings = smallBuffers();
     settings.shadowTechnique = technique;
-    const svo::Frame one = rendered(ballAndRing(), Eye, settings);
+    const svo::Frame one = rendered(ballRingAndGround(), Eye, settings);
     for (unsigned threads : { 1u, 2u, 7u })
     {
       svo::CPUTracer tracer;
-      const svo::Frame many = rendered(tracer, ballAndRing(), Eye, settings, raggedFor(threads));
+      const svo::Frame many = rendered(tracer, ballRingAndGround(), Eye, settings, raggedFor(threads));
       EXPECT_TRUE(identical(one, many)) << threads;
     }
   }
@@ -54,7 +54,7 @@ TEST(Tracer, KeptLayersNeverChangeAPicture)
   for (svo::LeafGeometry leafGeometry : { svo::LeafGeometry::Voxel, svo::LeafGeometry::Plane,
          svo::LeafGeometry::Triangle, svo::LeafGeometry::Automatic })
   {
-    svo::Scene scene = ballAndRing(leafGeometry);
+    svo::Scene scene = ballRingAndGround(leafGeometry);
     svo::View view = Eye;
     svo::FrameSettings settings = smallBuffers();
     svo::CPUTracer keeping;
@@ -112,7 +112,7 @@ TEST(Tracer, AnOctreeInAnotherOnesPlaceIsAnotherOctree)
     const std::vector<std::uint64_t>& next = bytes[step % 2];
     std::copy(next.begin(), next.end(), place.begin());
     std::string error;
-    svo::Scene scene = ballAndRing();
+    svo::Scene scene = ballRingAndGround();
     scene.instances.resize(1);
     scene.instances[0].body.own().octree =
       svo::Octree::open(std::shared_ptr<const std::byte>(
@@ -127,7 +127,7 @@ TEST(Tracer, AnOctreeInAnotherOnesPlaceIsAnotherOctree)
 
 TEST(Tracer, WhatStandsStillIsNotTracedAgain)
 {
-  svo::Scene scene = ballAndRing();
+  svo::Scene scene = ballRingAndGround();
   svo::FrameSettings settings = smallBuffers();
   svo::CPUTracer tracer;
   rendered(tracer, scene, Eye, settings);
@@ -152,7 +152,7 @@ TEST(Tracer, WhatStandsStillIsNotTracedAgain)
 // A light that comes close gets six maps for one; they are no views that nothing has moved in yet.
 TEST(Tracer, MapsInThePlaceOfOthersHaveNoLayersOfWhatMoves)
 {
-  svo::Scene scene = ballAndRing();
+  svo::Scene scene = ballRingAndGround();
   scene.instances = { scene.instances[1] };
   scene.lights.resize(1);
   svo::CPUTracer tracer;
@@ -172,8 +172,8 @@ TEST(Tracer, KeptLayersStayUnderTheLimit)
   svo::FrameSettings settings = smallBuffers();
   settings.layerMemoryLimit = 100000;
   svo::CPUTracer tracer;
-  rendered(tracer, ballAndRing(), Eye, settings);
-  rendered(tracer, ballAndRing(), Eye, settings);
+  rendered(tracer, ballRingAndGround(), Eye, settings);
+  rendered(tracer, ballRingAndGround(), Eye, settings);
   EXPECT_GT(tracer.statistics().layerMemory, 0u);
   EXPECT_LE(tracer.statistics().layerMemory, settings.layerMemoryLimit);
 }
@@ -181,7 +181,7 @@ TEST(Tracer, KeptLayersStayUnderTheLimit)
 // Wiping and writing the same Frame gives what a new one gets.
 TEST(Tracer, AFrameUsedAgainHasNothingLeftOfTheLastPicture)
 {
-  svo::Scene scene = ballAndRing();
+  svo::Scene scene = ballRingAndGround();
   svo::FrameSettings settings = smallBuffers();
   settings.writeNormals = true;
   svo::CPUTracer tracer;
@@ -199,7 +199,7 @@ TEST(Tracer, AFrameUsedAgainHasNothingLeftOfTheLastPicture)
 
 TEST(Tracer, CoveredHoldsEveryHitAndNoMoreThanItsTiles)
 {
-  svo::Scene scene = ballAndRing();
+  svo::Scene scene = ballRingAndGround();
   scene.instances = { scene.instances[1] };
   const svo::Frame frame = rendered(scene, Eye, smallBuffers());
   svo::PixelRect seen{ frame.width, frame.height, 0, 0 };
@@ -222,7 +222,7 @@ TEST(Tracer, CoveredHoldsEveryHitAndNoMoreThanItsTiles)
 
 TEST(Tracer, AnEyeInsideAnObjectSeesItsInsideEverywhere)
 {
-  svo::Scene scene = ballAndRing();
+  svo::Scene scene = ballRingAndGround();
   scene.instances = { instanceOf(makeOctree(sphere(24, 40), 7), 1,
     glm::scale(glm::dmat4(1.0), glm::dvec3(4.0)), svo::LeafGeometry::Automatic) };
   const svo::Frame frame =
@@ -235,7 +235,7 @@ TEST(Tracer, AnEyeInsideAnObjectSeesItsInsideEverywhere)
 
 TEST(Tracer, AnInvisibleInstanceOnlyCasts)
 {
-  svo::Scene scene = ballAndRing();
+  svo::Scene scene = ballRingAndGround();
   scene.lights.resize(1);
   svo::FrameSettings settings = smallBuffers();
   scene.instances.resize(2);
@@ -277,7 +277,7 @@ TEST(Tracer, AnInstanceMayHaveItsOwnPixelError)
 
 TEST(Tracer, AnOffsetOfAllMovesTheWindowDepthAlone)
 {
-  svo::Scene scene = ballAndRing();
+  svo::Scene scene = ballRingAndGround();
   const svo::Frame plain = rendered(scene, Eye, smallBuffers());
   for (svo::Instance& instance : scene.instances)
   {
@@ -293,7 +293,7 @@ TEST(Tracer, AnOffsetOfAllMovesTheWindowDepthAlone)
 
 TEST(Tracer, BadInputIsAPictureWithoutIt)
 {
-  svo::Scene scene = ballAndRing();
+  svo::Scene scene = ballRingAndGround();
   const svo::Frame expected = rendered(scene, Eye, smallBuffers());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   svo::Instance bad = scene.instances[1];
@@ -316,14 +316,14 @@ TEST(Tracer, BadInputIsAPictureWithoutIt)
   EXPECT_TRUE(nothing.covered.empty());
   EXPECT_EQ(nothing.depth.size(), std::size_t(100 * 76));
   svo::View none;
-  EXPECT_TRUE(rendered(ballAndRing(), none, smallBuffers()).color.empty());
+  EXPECT_TRUE(rendered(ballRingAndGround(), none, smallBuffers()).color.empty());
   scene.lights.clear();
   EXPECT_EQ(rendered(scene, Eye, smallBuffers()).instance, expected.instance);
 }
 
 TEST(Tracer, LightBeyondOneIsKeptWhereItIsAskedFor)
 {
-  svo::Scene scene = ballAndRing();
+  svo::Scene scene = ballRingAndGround();
   for (svo::Light& light : scene.lights)
   {
     light.color *= 3.0f;
