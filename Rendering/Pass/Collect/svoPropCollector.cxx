@@ -160,9 +160,7 @@ bool PropCollector::finish(vtkActor* actor, const SurfacePart& part, const glm::
   instance.receiveShadow = flagOf(actor, owner, receiveShadowKey(), true);
   instance.id = combine(
     combine(reinterpret_cast<std::uintptr_t>(actor), part.block), std::uint64_t(found.actors));
-  const CoincidentOffset offset = coincidentOffset(actor->GetMapper());
-  instance.depthOffsetUnits = static_cast<float>(offset.units);
-  instance.depthOffsetFactor = static_cast<float>(offset.factor);
+  instance.depthOffset = coincidentOffset(actor->GetMapper());
   return true;
 }
 

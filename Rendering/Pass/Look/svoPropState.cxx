@@ -181,7 +181,7 @@ bool PropState::noteActor(vtkActor* actor, vtkProp* owner, Actor& state)
   state.timeOfMapper = mapper->GetMTime();
   state.timeOfParts = timeOfParts(mapper);
   state.selected = selectedOf(mapper);
-  state.offset = coincidentOffset(mapper);
+  state.depthOffset = coincidentOffset(mapper);
   return true;
 }
 
@@ -236,7 +236,7 @@ Held PropState::holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& update
     return held;
   }
   if (mapper->GetMTime() != state.timeOfMapper || selectedOf(mapper) != state.selected ||
-    !(coincidentOffset(mapper) == state.offset) ||
+    coincidentOffset(mapper) != state.depthOffset ||
     (state.timeOfParts != 0 && timeOfParts(mapper) != state.timeOfParts))
   {
     return Held::No;

@@ -3,8 +3,8 @@
 #ifndef svoPropState_h
 #define svoPropState_h
 
+#include "svoDepthOffset.h"
 #include "svoPropKeys.h"
-#include "svoSurfaceLook.h"
 
 #include "vtkSmartPointer.h"
 
@@ -74,7 +74,7 @@ private:
     vtkMapper* mapper = nullptr;
     std::uint64_t timeOfMapper = 0, timeOfParts = 0;
     int selected = 0;
-    CoincidentOffset offset;
+    DepthOffset depthOffset;
     std::vector<Input> inputs;
   };
   static bool noteActor(vtkActor* actor, vtkProp* owner, Actor& state);

@@ -406,14 +406,15 @@ MeshPoints pointsOf(vtkPolyData* mesh, Kept& kept)
   return points;
 }
 
-CoincidentOffset coincidentOffset(vtkMapper* mapper)
+DepthOffset coincidentOffset(vtkMapper* mapper)
 {
   // VTK's fragment shader adds the units over 65000, and up to version 9.1 ignores the factor.
   constexpr double Unit = 1.0 / 65000.0;
   switch (vtkMapper::GetResolveCoincidentTopology())
   {
     case VTK_RESOLVE_SHIFT_ZBUFFER:
-      return { 4.0 * vtkMapper::GetResolveCoincidentTopologyZShift() * Unit, 0.0 };
+      return { static_cast<float>(4.0 * vtkMapper::GetResolveCoincidentTopologyZShift() * Unit),
+        0.0f };
     case VTK_RESOLVE_POLYGON_OFFSET:
     {
       double factor, units;
@@ -421,7 +422,7 @@ CoincidentOffset coincidentOffset(vtkMapper* mapper)
 #if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 2, 0)
       factor = 0.0;
 #endif
-      return { units * Unit, factor };
+      return { static_cast<float>(units * Unit), static_cast<float>(factor) };
     }
     default:
       return {};

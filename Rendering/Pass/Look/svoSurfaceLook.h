@@ -106,17 +106,8 @@ Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Mater
 /// The part's points as they are, kept in `kept`; unknown if they are neither floats nor doubles.
 MeshPoints pointsOf(vtkPolyData* mesh, Kept& kept);
 
-/// VTK's offset of coincident polygons, as its shaders apply it to window depths; see Instance.
-struct CoincidentOffset
-{
-  double units = 0.0, factor = 0.0;
-
-  bool operator==(const CoincidentOffset& other) const
-  {
-    return this->units == other.units && this->factor == other.factor;
-  }
-};
-CoincidentOffset coincidentOffset(vtkMapper* mapper);
+/// VTK's offset of coincident polygons for this mapper, as its shaders apply it.
+DepthOffset coincidentOffset(vtkMapper* mapper);
 }
 
 #endif

@@ -4,6 +4,7 @@
 #define svoInstance_h
 
 #include "svoBody.h"
+#include "svoDepthOffset.h"
 #include "svoShared.h"
 
 #include <cstdint>
@@ -38,11 +39,7 @@ struct Instance
   double pixelError = -1.0;
   /// Stable identity of the instance from frame to frame (actor, block, path).
   std::uint64_t id = 0;
-  /// Coincident-topology offset, added to the window depth (0..1) before depths are compared: the
-  /// units, and the factor times the facet's slope, which is how much its window depth changes from
-  /// pixel to pixel (svoDepthSlope.h). Shadows know nothing of it.
-  float depthOffsetUnits = 0.0f;
-  float depthOffsetFactor = 0.0f;
+  DepthOffset depthOffset; // shadows know nothing of it
   /// Where the rasteriser draws the same vertices: 1, what it draws is seen; -1, this is seen; 0,
   /// it does not. See svoShownDepth.h.
   int givesWay = 0;
@@ -53,11 +50,6 @@ struct Instance
   /// The alpha of mapped colours counts in what it takes away of a light; see translucent().
   bool mappedOpacity = false;
   bool receiveShadow = true;
-
-  bool hasDepthOffset() const
-  {
-    return this->depthOffsetUnits != 0.0f || this->depthOffsetFactor != 0.0f;
-  }
 
   /// True of what lets light through as a caster. Of each ray from a light it takes the share that
   /// its opacity, times that alpha, has where the ray meets it first, whatever lies behind: a

@@ -50,7 +50,7 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   for (const Instance& instance : scene.instances)
   {
     this->Geometries.push_back(instance.body->leafGeometry);
-    this->Offsets.emplace_back(instance);
+    this->Offsets.push_back(instance.depthOffset);
   }
   this->Layers.beginFrame(keep, this->HasFrame && !sameRays(view, this->Seen), budget);
   this->Seen = view;
@@ -100,12 +100,12 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   const bool compared = this->Exact && this->Instances.size() > 1;
   this->Sloped = compared &&
     std::any_of(this->Instances.begin(), this->Instances.end(),
-      [this](const Entry& entry) { return this->Offsets[entry.index].factor != 0.0; });
+      [this](const Entry& entry) { return this->Offsets[entry.index].factor != 0.0f; });
   this->Shifted = this->Sloped ||
     (compared &&
       std::any_of(this->Instances.begin(), this->Instances.end(),
         [this](const Entry& entry)
-        { return !(this->Offsets[entry.index] == this->Offsets[this->Instances[0].index]); }));
+        { return this->Offsets[entry.index] != this->Offsets[this->Instances[0].index]; }));
   return !this->Instances.empty();
 }
 

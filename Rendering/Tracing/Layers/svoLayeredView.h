@@ -325,11 +325,11 @@ private:
   /// The linear depth beyond which a hit of `entry` cannot be in front of one of `other`.
   double lastDepth(const Entry& entry, std::uint32_t other, double t) const
   {
-    double last = t + this->Errors[other];
     if (this->Sloped)
     {
       return std::numeric_limits<double>::infinity(); // facets may be as steep as they like
     }
+    double last = t + this->Errors[other];
     if (this->Shifted)
     {
       last = this->Seen.linearDepth(this->rank(other, last) - this->Offsets[entry.index].units);

@@ -5,7 +5,7 @@
 
 #include "svoDepthBuffer.h"
 #include "svoDepthLayer.h"
-#include "svoInstance.h"
+#include "svoDepthOffset.h"
 #include "svoView.h"
 
 #include <algorithm>
@@ -16,22 +16,6 @@
 
 namespace svo
 {
-/// Of coincident topology, see Instance.
-struct DepthOffset
-{
-  double units, factor;
-
-  explicit DepthOffset(const Instance& instance)
-    : units(instance.depthOffsetUnits)
-    , factor(instance.depthOffsetFactor)
-  {
-  }
-  bool operator==(const DepthOffset& other) const
-  {
-    return this->units == other.units && this->factor == other.factor;
-  }
-};
-
 /// An instance as far as a merged tile depends on it.
 struct MergedPart
 {

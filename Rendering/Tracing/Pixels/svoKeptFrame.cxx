@@ -62,8 +62,8 @@ void add(const Body& b, Bytes& bytes)
 void add(const Instance& i, Bytes& bytes)
 {
   const Material& m = i.material;
-  bytes.add(i.localToWorld, i.pixelError, i.id, i.depthOffsetUnits, i.depthOffsetFactor, i.givesWay,
-    i.visible, i.castShadow, i.receiveShadow, i.mappedOpacity, i.opacity);
+  bytes.add(i.localToWorld, i.pixelError, i.id, i.depthOffset, i.givesWay, i.visible, i.castShadow,
+    i.receiveShadow, i.mappedOpacity, i.opacity);
   bytes.add(m.ambientColor, m.diffuseColor, m.specularColor, m.ambient, m.diffuse, m.specular,
     m.specularPower, m.lighting, m.flat, m.flatPlanes);
 }

@@ -162,7 +162,7 @@ void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, 
       const TilePatch& patch = scratch.patch;
       const Instance& instance = lit.shaded.scene.instances[patch.instance];
       image.put(
-        patch, scratch.colors, shownOffset(instance, lit.shaded.view), instance.depthOffsetFactor);
+        patch, scratch.colors, shownOffset(instance, lit.shaded.view), instance.depthOffset.factor);
       if (settings.writeNormals)
       {
         eachBit(patch.mask,
@@ -177,7 +177,7 @@ void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, 
       if (settings.writeSlopes)
       {
         // VTK's mappers write the depth of a pixel's centre where they add an offset to it.
-        image.putSlopes(patch, !instance.hasDepthOffset());
+        image.putSlopes(patch, instance.depthOffset.none());
       }
       if (settings.writeLight)
       {

@@ -253,7 +253,7 @@ private:
   float windowDepth(const Facet& f) const
   {
     const Instance& instance = this->Lit.shaded.scene.instances[f.instance];
-    const double factor = instance.depthOffsetFactor;
+    const double factor = instance.depthOffset.factor;
     const double slopes = factor == 0.0 ? 0.0
                                         : factor *
         steepness(instance.body->octree, { instance.body->octree, instance.localToWorld },
@@ -371,7 +371,7 @@ private:
   /// True if VTK's mapper gives all of a fragment the depth of the pixel's centre.
   bool isLevel(std::uint32_t instance) const
   {
-    return this->Lit.shaded.scene.instances[instance].hasDepthOffset();
+    return !this->Lit.shaded.scene.instances[instance].depthOffset.none();
   }
 
   /// True if the pixel shows a facet on whose plane all of its samples lie.

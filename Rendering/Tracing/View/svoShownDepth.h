@@ -53,12 +53,12 @@ inline double rasterError(const Instance& instance, const View& view)
 }
 
 /// To be added to the window depths of an instance's hits before they are shown, beside
-/// Instance::depthOffsetFactor times their slopes.
+/// Instance::depthOffset.factor times their slopes.
 inline double shownOffset(const Instance& instance, const View& view)
 {
   return instance.givesWay == 0
-    ? instance.depthOffsetUnits
-    : instance.depthOffsetUnits + instance.givesWay * rasterError(instance, view);
+    ? instance.depthOffset.units
+    : instance.depthOffset.units + instance.givesWay * rasterError(instance, view);
 }
 }
 

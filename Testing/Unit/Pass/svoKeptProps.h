@@ -207,7 +207,7 @@ protected:
       const auto places = [](const Instance& n)
       {
         return std::make_tuple(
-          n.localToWorld, n.id, n.depthOffsetUnits, n.depthOffsetFactor, n.givesWay);
+          n.localToWorld, n.id, n.depthOffset.units, n.depthOffset.factor, n.givesWay);
       };
       const auto ways = [](const Instance& n)
       {

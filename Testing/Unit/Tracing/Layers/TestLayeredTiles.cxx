@@ -143,8 +143,8 @@ TEST(LayeredTiles, FindWhatEachInstancesRaysFind)
       {
         for (const int offset : { 0, 1, 2 })
         {
-          c.scene.instances[1].depthOffsetUnits = offset > 0 ? 1e-5f : 0.0f;
-          c.scene.instances[1].depthOffsetFactor = offset > 1 ? 2.0f : 0.0f;
+          c.scene.instances[1].depthOffset.units = offset > 0 ? 1e-5f : 0.0f;
+          c.scene.instances[1].depthOffset.factor = offset > 1 ? 2.0f : 0.0f;
           const char* const shifted[] = { "", ", shifted", ", shifted by slopes" };
           SCOPED_TRACE(std::string(exact ? "eye" : "light") + shifted[offset]);
           onEveryInstructionSet(

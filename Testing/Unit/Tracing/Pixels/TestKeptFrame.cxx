@@ -99,8 +99,8 @@ std::vector<Change> everyChange()
     { "casts not", [=](Stage& s) { ball(s).castShadow = false; } },
     { "receives not", [=](Stage& s) { s.scene.instances[0].receiveShadow = false; } },
     { "pixel error", [=](Stage& s) { ball(s).pixelError = 3.0; } },
-    { "depth offset", [=](Stage& s) { ball(s).depthOffsetUnits = 1e-3f; } },
-    { "depth offset by slopes", [=](Stage& s) { ball(s).depthOffsetFactor = -2.0f; } },
+    { "depth offset", [=](Stage& s) { ball(s).depthOffset.units = 1e-3f; } },
+    { "depth offset by slopes", [=](Stage& s) { ball(s).depthOffset.factor = -2.0f; } },
     { "gives way", [=](Stage& s) { ball(s).givesWay = 1; } },
     { "identity", [=](Stage& s) { ball(s).id = 3; } },
     { "order", [=](Stage& s) { std::swap(s.scene.instances[0], s.scene.instances[1]); } },
@@ -308,8 +308,8 @@ void changeAnything(std::mt19937& random, const svo::Octree& ball, Stage& stage)
       any().receiveShadow = number(2) != 0;
       break;
     case 9:
-      any().depthOffsetUnits = 1e-4f * static_cast<float>(number(2));
-      any().depthOffsetFactor = number(4) == 0 ? 2.0f : 0.0f;
+      any().depthOffset.units = 1e-4f * static_cast<float>(number(2));
+      any().depthOffset.factor = number(4) == 0 ? 2.0f : 0.0f;
       break;
     case 10:
       if (number(3) == 0)

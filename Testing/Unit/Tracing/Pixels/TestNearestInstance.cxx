@@ -59,8 +59,8 @@ void expectNearest(const float (&offsets)[3], const float (&factors)[3] = { 0.0f
   settings.pixelError = 0.0;
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {
-    scene.instances[i].depthOffsetUnits = offsets[i];
-    scene.instances[i].depthOffsetFactor = factors[i];
+    scene.instances[i].depthOffset.units = offsets[i];
+    scene.instances[i].depthOffset.factor = factors[i];
   }
   for (const svo::View& view : { Eye, lookAtParallel({ 1, -6, 4 }, 100, 76, 2.5) })
   {

@@ -41,7 +41,8 @@ TEST(Tracer, FramesDoNotDependOnThreads)
     for (unsigned threads : { 1u, 2u, 7u })
     {
       svo::CPUTracer tracer;
-      const svo::Frame many = rendered(tracer, ballRingAndGround(), Eye, settings, raggedFor(threads));
+      const svo::Frame many =
+        rendered(tracer, ballRingAndGround(), Eye, settings, raggedFor(threads));
       EXPECT_TRUE(identical(one, many)) << threads;
     }
   }
@@ -281,7 +282,7 @@ TEST(Tracer, AnOffsetOfAllMovesTheWindowDepthAlone)
   const svo::Frame plain = rendered(scene, Eye, smallBuffers());
   for (svo::Instance& instance : scene.instances)
   {
-    instance.depthOffsetUnits = 0.125f;
+    instance.depthOffset.units = 0.125f;
   }
   const svo::Frame moved = rendered(scene, Eye, smallBuffers());
   EXPECT_EQ(plain.color, moved.color);

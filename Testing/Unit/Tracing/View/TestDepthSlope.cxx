@@ -83,7 +83,7 @@ TEST(DepthSlope, FramesHaveIt)
     EXPECT_GT(pairs, 500);
     // Where VTK's mappers write the depth of the pixel's centre.
     svo::Scene shifted = scene;
-    shifted.instances[0].depthOffsetUnits = 1e-4f;
+    shifted.instances[0].depthOffset.units = 1e-4f;
     for (float slope : rendered(shifted, view, settings).slopes)
     {
       EXPECT_EQ(0.0f, slope);
