@@ -7,6 +7,7 @@
 
 #include "svoMeshOctree.h"
 #include "svoOctreeCells.h"
+#include "svoVDBGrids.h"
 #include "svoVDBLeaves.h"
 #include "svoVDBLevelSet.h"
 #include "svoVDBOctree.h"
@@ -19,8 +20,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
-
-#include <openvdb/openvdb.h>
 
 namespace
 {

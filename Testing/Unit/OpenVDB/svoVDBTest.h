@@ -5,6 +5,7 @@
 #include "svoConversion.h"
 #include "svoOctreeCells.h"
 #include "svoVDBFile.h"
+#include "svoVDBGrids.h"
 #include "svoVDBOctree.h"
 #include "vtkSVOVDBReader.h"
 #include "vtkSVOVDBWriter.h"
@@ -21,7 +22,6 @@
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
-#include <openvdb/openvdb.h>
 
 namespace svotest
 {
