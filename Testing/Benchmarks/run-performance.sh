@@ -63,6 +63,7 @@ if [ -n "$against" ]; then
   cat >"$before/Testing/CMakeLists.txt" <<'END'
 add_library(svoBenchmarkMesh STATIC Benchmarks/svoBenchmarkMesh.cxx)
 target_link_libraries(svoBenchmarkMesh PUBLIC SVO::SVOOctree PRIVATE PaperMeshes SVO::SVOCore)
+add_subdirectory(Benchmarks/Results)
 add_subdirectory(Benchmarks/Performance)
 END
   cmake -S "$before" -B "$before/build" "${configuration[@]}" -DVTKSVO_PYTHON=OFF >/dev/null
