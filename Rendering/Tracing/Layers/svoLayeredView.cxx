@@ -55,8 +55,8 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   this->Layers.beginFrame(keep, this->HasFrame && !sameRays(view, this->Seen), budget);
   this->Seen = view;
   this->HasFrame = keep;
-  findVisible(scene, view, this->Cull, takesPart, parallelFor, this->InSight);
-  const std::vector<std::uint32_t>& visible = this->InSight.visible;
+  findVisible(scene, view, this->Cull, takesPart, parallelFor, this->Visible);
+  const std::vector<std::uint32_t>& visible = this->Visible.visible;
   this->Instances.resize(visible.size()); // what others have allocated is of use to these
   parallelFor(0, visible.size(), 64,
     [&](std::size_t first, std::size_t last)
@@ -71,8 +71,8 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   this->NodeOf.resize(visible.size());
   for (std::size_t k = 0; k < visible.size(); ++k)
   {
-    this->Order[k] = this->EntryOf[this->InSight.order[k]];
-    this->NodeOf[this->Order[k]] = this->InSight.nodeOf[k];
+    this->Order[k] = this->EntryOf[this->Visible.order[k]];
+    this->NodeOf[this->Order[k]] = this->Visible.nodeOf[k];
   }
   this->FromEye = view.parallel
     ? 0.0
@@ -121,7 +121,7 @@ void LayeredView::fill(
   this->Geometries[index] = entry.key.leafGeometry;
   this->Placed[index] = this->Exact && entry.tiles;
   entry.points = instance.body->points;
-  entry.again = this->againOf(instance, entry, this->Errors[index]);
+  entry.refinement = this->refinementOf(instance, entry, this->Errors[index]);
   entry.intervals.tNear.clear();
   if (entry.tiles && !entry.ball)
   {
@@ -251,8 +251,8 @@ void LayeredView::traceTiles(const PixelRect& all, const ParallelFor& parallelFo
       {
         taken = std::make_unique<TileScratch>();
         taken->rays.resize(this->Instances.size());
-        taken->regards.resize(this->Instances.size());
-        taken->nodes.resize(this->InSight.nodes.size());
+        taken->cullStates.resize(this->Instances.size());
+        taken->nodes.resize(this->Visible.nodes.size());
         taken->counted.resize(this->Instances.size(), this->Merged.tiles());
       }
       TileScratch& mine = *taken;
@@ -271,7 +271,7 @@ void LayeredView::traceTiles(const PixelRect& all, const ParallelFor& parallelFo
             const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
             if (this->Tiles.isMerged(tile))
             {
-              this->traceAgain(tileX, tileY, mine);
+              this->mergeTile(tileX, tileY, mine);
             }
           }
         }
@@ -282,14 +282,14 @@ void LayeredView::traceTiles(const PixelRect& all, const ParallelFor& parallelFo
   for (std::size_t e = 0; e < this->Instances.size(); ++e)
   {
     std::uint64_t rays = 0;
-    std::uint8_t regard = 0;
+    std::uint8_t cullState = 0;
     for (const std::unique_ptr<TileScratch>& scratch : idle)
     {
       rays += scratch->rays[e];
-      regard |= scratch->regards[e];
+      cullState |= scratch->cullStates[e];
     }
-    this->NotLookedAt.unasked -= regard != 0;
-    this->NotLookedAt.hidden += regard == Asked;
+    this->NotLookedAt.unasked -= cullState != 0;
+    this->NotLookedAt.hidden += cullState == Asked;
     this->Rays += rays;
     this->Retraced += rays > 0;
   }

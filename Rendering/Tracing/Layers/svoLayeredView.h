@@ -70,7 +70,7 @@ public:
   /// Culling::leastPixels it changes no bit.
   void setCulling(const Culling& culling) { this->Cull = culling; }
   /// The instances that the view sees.
-  const Sight& sight() const { return this->InSight; }
+  const VisibleSet& visibleSet() const { return this->Visible; }
   /// Of these, how many the last trace() did not have to look at: no tile was asked for that they
   /// reach into, or others hid them wherever one was.
   struct Spared
@@ -114,7 +114,7 @@ private:
   static constexpr int SmallestLayer = 16 * 64;
 
   /// How the depth of an instance's hits is found once more, where it decides who is in front.
-  enum class Again : std::uint8_t
+  enum class DepthRefinement : std::uint8_t
   {
     Never,
     OnTriangle, // hits lie on the triangles that they name
@@ -123,7 +123,7 @@ private:
   struct Entry : VisibleInstance
   {
     MeshPoints points;
-    Again again;
+    DepthRefinement refinement;
     DepthLayer* layer =
       nullptr;               // kept, or null: traced for this frame alone, cut at what is merged
     TileIntervals intervals; // where there is no layer
@@ -139,18 +139,18 @@ private:
     /// is of no slot.
     std::vector<SeenPlane> planes;
     std::vector<std::int32_t> planeOf;
-    bool spoilt = false; // by an instance that could not be made ready
+    bool incomplete = false; // by an instance that could not be made ready
 
     void clear()
     {
-      this->spoilt = false;
+      this->incomplete = false;
       this->group.clear();
       this->planes.clear();
       this->planeOf.clear();
     }
   };
   /// How an instance is traced in a group of tiles.
-  enum class Way : std::uint8_t
+  enum class TraceMethod : std::uint8_t
   {
     Unknown,
     Together, // with others
@@ -158,7 +158,7 @@ private:
     Rays // tile by tile
   };
   /// What became of an instance, bits.
-  enum Regard : std::uint8_t
+  enum CullState : std::uint8_t
   {
     Asked = 1, // tiles are traced that it reaches into
     Looked = 2 // and it was not hidden there
@@ -171,9 +171,9 @@ private:
     float tNear, tFar;
     TilePyramid pyramid;
     std::vector<TileNode> nodes; // empty: the rays are walked one by one, or known already
-    Way way = Way::Unknown;      // in the group
-    bool hidden = false;         // others hide all that the group sees of it
-    FoundTriangles alone;        // where this is the way
+    TraceMethod method = TraceMethod::Unknown; // in the group
+    bool hidden = false;                       // others hide all that the group sees of it
+    FoundTriangles alone;                      // where this is the way
   };
   /// A ball that a group of tiles may see.
   struct BallEntry
@@ -200,15 +200,15 @@ private:
   /// What a thread keeps from tile to tile.
   struct TileScratch
   {
-    std::vector<TileEntry> entries;    // at least those that reach into the group of tiles ...
-    std::size_t nearby = 0;            // ... which are so many, front to back
-    std::vector<TileEntry*> together;  // of these, in the same order
-    std::vector<BallEntry> balls;      // front to back, not among `entries`
-    std::vector<TileEntry*> order;     // those that the tile's rays may meet
-    std::vector<std::uint64_t> rays;   // by index into Instances
-    std::vector<std::uint8_t> regards; // by index into Instances: Regard
-    /// By index into Sight::nodes: twice what `asking` was when it was asked about, and 1 if it was
-    /// hidden.
+    std::vector<TileEntry> entries;       // at least those that reach into the group of tiles ...
+    std::size_t nearby = 0;               // ... which are so many, front to back
+    std::vector<TileEntry*> together;     // of these, in the same order
+    std::vector<BallEntry> balls;         // front to back, not among `entries`
+    std::vector<TileEntry*> order;        // those that the tile's rays may meet
+    std::vector<std::uint64_t> rays;      // by index into Instances
+    std::vector<std::uint8_t> cullStates; // by index into Instances: CullState
+    /// By index into VisibleSet::nodes: twice what `asking` was when it was asked about, and 1 if
+    /// it was hidden.
     std::vector<std::uint64_t> nodes;
     std::uint64_t asking = 0;
 
@@ -306,7 +306,8 @@ private:
                          : linearDepth;
   }
   /// How the depths of an instance's hits are found again, and how far off they can be.
-  Again againOf(const Instance& instance, const VisibleInstance& visible, double& error) const;
+  DepthRefinement refinementOf(
+    const Instance& instance, const VisibleInstance& visible, double& error) const;
   /// True if one hit of a ray is in front of another one: less deep, or as deep and of the larger
   /// index. An order of all hits, whatever they are compared with first.
   bool inFront(const SeenHit& a, const SeenHit& b) const
@@ -341,15 +342,15 @@ private:
   /// `onlyChanged`: those instances are merged into what the tile was in the last frame.
   void traceTile(int tileX, int tileY, bool onlyChanged, TileScratch& scratch);
   /// Does no more than what changed since the last frame asks for, and notes whether it is seen.
-  void traceAgain(int tileX, int tileY, TileScratch& scratch);
+  void mergeTile(int tileX, int tileY, TileScratch& scratch);
   KeyBase keyBase() const;
 
   const bool Exact;
   View Seen;
   bool HasFrame = false; // Seen and Layers are those of a frame that keeps layers
-  Sight InSight;
+  VisibleSet Visible;
   std::vector<std::uint32_t> Order;  // indices into Instances, front to back
-  std::vector<std::uint32_t> NodeOf; // by index into Instances: index into Sight::nodes
+  std::vector<std::uint32_t> NodeOf; // by index into Instances: index into VisibleSet::nodes
   std::vector<Entry> Instances;
   std::vector<double> Bases;
   std::vector<DepthOffset> Offsets;

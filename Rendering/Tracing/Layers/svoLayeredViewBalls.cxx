@@ -49,7 +49,7 @@ void LayeredView::mergeBalls(
       scratch.seenBalls.merge(*entry.octree, entry.local, tileX, tileY, entry.index);
     deepest = this->Cull.occlusion ? std::min(deepest, last) : deepest;
     const auto e = static_cast<std::size_t>(&entry - this->Instances.data());
-    scratch.regards[e] |= Looked;
+    scratch.cullStates[e] |= Looked;
     scratch.rays[e] += 64;
   }
   if (!any)

@@ -60,7 +60,7 @@ bool LayeredView::hidesNode(std::uint32_t node, TileScratch& scratch) const
   std::uint64_t& known = scratch.nodes[node];
   if (known / 2 != scratch.asking)
   {
-    const SeenNode& n = this->InSight.nodes[node];
+    const SeenNode& n = this->Visible.nodes[node];
     const double before =
       n.cube.nearest - this->slack(n.cube.nearest, n.cube.farthest - n.cube.nearest);
     const bool hidden =

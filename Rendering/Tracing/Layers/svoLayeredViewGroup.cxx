@@ -61,12 +61,12 @@ bool LayeredView::findTriangles(
   {
     return true;
   }
-  found.spoilt = !found.group.add(*entry.octree, scratch.groupNodes, view,
+  found.incomplete = !found.group.add(*entry.octree, scratch.groupNodes, view,
     scratch.groupNodes.size() < FewGroupNodes && scratch.together.size() < Crowd
       ? SmallTriangles::AsSlots
       : SmallTriangles::AsPoints,
     entry.index);
-  return !found.spoilt;
+  return !found.incomplete;
 }
 
 bool LayeredView::findTogether(TileScratch& scratch) const
@@ -76,12 +76,12 @@ bool LayeredView::findTogether(TileScratch& scratch) const
   for (TileEntry* const candidate : scratch.together)
   {
     candidate->hidden =
-      candidate->way == Way::Together && this->isHidden(*candidate->entry, scratch);
-    if (candidate->way == Way::Together && !candidate->hidden &&
+      candidate->method == TraceMethod::Together && this->isHidden(*candidate->entry, scratch);
+    if (candidate->method == TraceMethod::Together && !candidate->hidden &&
       !this->findTriangles(*candidate->entry, scratch, scratch.found))
     {
-      candidate->way = Way::Rays;
-      if (scratch.found.spoilt)
+      candidate->method = TraceMethod::Rays;
+      if (scratch.found.incomplete)
       {
         return false;
       }
@@ -111,21 +111,21 @@ void LayeredView::gather(std::size_t group, TileScratch& scratch) const
     if (entry.ball)
     {
       scratch.balls.push_back({ &entry, 0, entry.local.base });
-      scratch.regards[e] |= Asked;
+      scratch.cullStates[e] |= Asked;
       continue;
     }
     TileEntry& candidate = scratch.entries[scratch.nearby++];
     candidate.entry = &entry;
     candidate.hidden = false;
-    candidate.way = entry.tiles ? Way::Unknown : Way::Rays;
+    candidate.method = entry.tiles ? TraceMethod::Unknown : TraceMethod::Rays;
     if (entry.tiles && !entry.layer)
     {
-      candidate.way = Way::Together;
+      candidate.method = TraceMethod::Together;
       if (this->Shifted)
       {
         candidate.alone.clear();
-        candidate.way =
-          this->findTriangles(entry, scratch, candidate.alone) ? Way::Alone : Way::Rays;
+        candidate.method = this->findTriangles(entry, scratch, candidate.alone) ? TraceMethod::Alone
+                                                                                : TraceMethod::Rays;
       }
       else
       {
@@ -140,11 +140,11 @@ void LayeredView::gather(std::size_t group, TileScratch& scratch) const
   for (std::size_t k = 0; k < scratch.nearby; ++k)
   {
     TileEntry& candidate = scratch.entries[k];
-    if (candidate.way == Way::Rays && !candidate.entry->layer)
+    if (candidate.method == TraceMethod::Rays && !candidate.entry->layer)
     {
       candidate.hidden = this->isHidden(*candidate.entry, scratch);
     }
-    scratch.regards[static_cast<std::size_t>(candidate.entry - this->Instances.data())] |=
+    scratch.cullStates[static_cast<std::size_t>(candidate.entry - this->Instances.data())] |=
       candidate.hidden ? Asked : Asked | Looked;
   }
 }
@@ -152,12 +152,13 @@ void LayeredView::gather(std::size_t group, TileScratch& scratch) const
 void LayeredView::traceLayer(int tileX, int tileY, TileEntry& candidate, TileScratch& scratch)
 {
   const Entry& entry = *candidate.entry;
-  if (candidate.way == Way::Unknown)
+  if (candidate.method == TraceMethod::Unknown)
   {
     candidate.alone.clear();
-    candidate.way = this->findTriangles(entry, scratch, candidate.alone) ? Way::Alone : Way::Rays;
+    candidate.method =
+      this->findTriangles(entry, scratch, candidate.alone) ? TraceMethod::Alone : TraceMethod::Rays;
   }
-  if (candidate.way != Way::Alone)
+  if (candidate.method != TraceMethod::Alone)
   {
     return;
   }

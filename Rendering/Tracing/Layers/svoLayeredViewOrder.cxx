@@ -31,7 +31,7 @@ bool lessInSpace(const glm::dvec3& a, const glm::dvec3& b)
 }
 }
 
-LayeredView::Again LayeredView::againOf(
+LayeredView::DepthRefinement LayeredView::refinementOf(
   const Instance& instance, const VisibleInstance& visible, double& error) const
 {
   const Octree& octree = instance.body->octree;
@@ -39,17 +39,17 @@ LayeredView::Again LayeredView::againOf(
   if (!this->Exact || traits.shape == CellShape::Cube || !octree.surface() ||
     !instance.body->points || instance.body->points.count != octree.surface()->points.size())
   {
-    return Again::Never;
+    return DepthRefinement::Never;
   }
   const int level = visible.key.level;
   const bool nodes = stopsAtNodes(instance, level);
   error = edgeOnReach(visible.local);
   if (visible.tiles || (!nodes && octree.longestList() <= traits.longestExact))
   {
-    return Again::OnTriangle;
+    return DepthRefinement::OnTriangle;
   }
   error = std::max(error, (nodes ? MeanPlaneError : CubeError) * worldVoxel(instance, level));
-  return Again::Traced;
+  return DepthRefinement::Traced;
 }
 
 bool LayeredView::settle(const SeenHit& a, const SeenHit& b) const
@@ -89,13 +89,13 @@ double LayeredView::exactRank(const SeenHit& hit) const
 double LayeredView::exactDepth(const SeenHit& hit, Primitive& primitive) const
 {
   const Entry& entry = this->Instances[this->EntryOf[hit.instance]];
-  if (entry.again == Again::Never)
+  if (entry.refinement == DepthRefinement::Never)
   {
     return hit.t;
   }
   const LocalView& local = entry.local;
   const double error = this->Errors[hit.instance];
-  if (entry.again == Again::Traced)
+  if (entry.refinement == DepthRefinement::Traced)
   {
     const Ray ray{ local.origin + hit.y * local.originY + hit.x * local.originX,
       local.direction + hit.y * local.directionY + hit.x * local.directionX,

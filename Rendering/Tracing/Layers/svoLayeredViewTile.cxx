@@ -131,12 +131,13 @@ void LayeredView::order(int tileX, int tileY, bool onlyChanged, TileScratch& scr
         scratch.order.push_back(&candidate);
       }
     }
-    else if (!layer && candidate.way != Way::Together && !candidate.hidden &&
-      (candidate.way == Way::Alone ||
+    else if (!layer && candidate.method != TraceMethod::Together && !candidate.hidden &&
+      (candidate.method == TraceMethod::Alone ||
         (!(this->before(entry) > scratch.deepest) && this->meets(tileX, tileY, candidate))))
     {
-      candidate.key = candidate.way == Way::Alone ? -std::numeric_limits<double>::infinity()
-                                                  : entry.local.base + candidate.tNear;
+      candidate.key = candidate.method == TraceMethod::Alone
+        ? -std::numeric_limits<double>::infinity()
+        : entry.local.base + candidate.tNear;
       scratch.order.push_back(&candidate);
     }
   }
@@ -275,7 +276,7 @@ void LayeredView::traceTile(int tileX, int tileY, bool onlyChanged, TileScratch&
         block.tMax[i] = sees ? candidate.tFar : -std::numeric_limits<float>::infinity();
       }
     };
-    if (!entry.layer && candidate.way == Way::Alone)
+    if (!entry.layer && candidate.method == TraceMethod::Alone)
     {
       MergedTile own{ scratch.t, scratch.instance, scratch.primitive, false };
       if (this->nearestHits(tileX, tileY, candidate.alone, scratch, own))
@@ -314,7 +315,7 @@ void LayeredView::traceTile(int tileX, int tileY, bool onlyChanged, TileScratch&
   this->Merged.hit[tile] = merged.any;
 }
 
-void LayeredView::traceAgain(int tileX, int tileY, TileScratch& scratch)
+void LayeredView::mergeTile(int tileX, int tileY, TileScratch& scratch)
 {
   const std::size_t tile = static_cast<std::size_t>(tileY) * this->Merged.tilesX + tileX;
   if (!this->Tiles.wasMerged(tile))

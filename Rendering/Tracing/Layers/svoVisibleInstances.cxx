@@ -49,8 +49,8 @@ int deepened(const Instance& instance, int level)
 
 namespace
 {
-/// What the tree knows of a view: `sight.order` is all that may be seen.
-void askTree(const LooseOctree& tree, const View& view, Sight& sight)
+/// What the tree knows of a view: `set.order` is all that may be seen.
+void askTree(const LooseOctree& tree, const View& view, VisibleSet& set)
 {
   std::uint32_t nodeAt[LooseOctree::MostDepth + 1]; // on the way to the one that is visited
   std::uint32_t current = SeenNode::None;
@@ -62,8 +62,8 @@ void askTree(const LooseOctree& tree, const View& view, Sight& sight)
       if (node.objects >= SeenNode::Fewest)
       {
         const std::uint32_t parent = current;
-        current = static_cast<std::uint32_t>(sight.nodes.size());
-        sight.nodes.push_back(
+        current = static_cast<std::uint32_t>(set.nodes.size());
+        set.nodes.push_back(
           { parent, seeCube(node.centre - node.half, 2.0 * node.half, glm::dmat4(1.0), view) });
       }
       nodeAt[node.depth] = current;
@@ -71,28 +71,28 @@ void askTree(const LooseOctree& tree, const View& view, Sight& sight)
     },
     [&](std::uint32_t object)
     {
-      sight.order.push_back(object);
-      sight.nodeOf.push_back(current);
+      set.order.push_back(object);
+      set.nodeOf.push_back(current);
     });
 }
 }
 
 void findVisible(const Scene& scene, const View& view, const Culling& culling,
   const std::function<bool(const Instance&)>& takesPart, const ParallelFor& parallelFor,
-  Sight& sight)
+  VisibleSet& set)
 {
-  sight.order.clear();
-  sight.nodes.clear();
-  sight.nodeOf.clear();
+  set.order.clear();
+  set.nodes.clear();
+  set.nodeOf.clear();
   if (culling.tree)
   {
-    askTree(*culling.tree, view, sight);
+    askTree(*culling.tree, view, set);
   }
   else
   {
-    sight.order.resize(scene.instances.size());
-    std::iota(sight.order.begin(), sight.order.end(), 0u);
-    sight.nodeOf.assign(sight.order.size(), SeenNode::None);
+    set.order.resize(scene.instances.size());
+    std::iota(set.order.begin(), set.order.end(), 0u);
+    set.nodeOf.assign(set.order.size(), SeenNode::None);
   }
   enum State : std::uint8_t
   {
@@ -103,14 +103,14 @@ void findVisible(const Scene& scene, const View& view, const Culling& culling,
   std::vector<std::uint8_t> states(scene.instances.size(), Unseen);
   std::vector<double> nearest(scene.instances.size());
   std::mutex mutex;
-  sight.largestSmall = 0.0;
-  parallelFor(0, sight.order.size(), 256,
+  set.largestSmall = 0.0;
+  parallelFor(0, set.order.size(), 256,
     [&](std::size_t first, std::size_t last)
     {
       double largestSmall = 0.0;
       for (std::size_t k = first; k < last; ++k)
       {
-        const std::uint32_t i = sight.order[k];
+        const std::uint32_t i = set.order[k];
         const Instance& instance = scene.instances[i];
         if (!instance.body->octree || instance.body->octree.empty() || !takesPart(instance))
         {
@@ -132,39 +132,39 @@ void findVisible(const Scene& scene, const View& view, const Culling& culling,
       if (largestSmall > 0.0)
       {
         const std::lock_guard<std::mutex> lock(mutex);
-        sight.largestSmall = std::max(sight.largestSmall, largestSmall);
+        set.largestSmall = std::max(set.largestSmall, largestSmall);
       }
     });
-  sight.visible.clear();
+  set.visible.clear();
   for (std::uint32_t i = 0; i < states.size(); ++i)
   {
     if (states[i] == Seen)
     {
-      sight.visible.push_back(i);
+      set.visible.push_back(i);
     }
   }
-  sight.small = static_cast<std::size_t>(std::count(states.begin(), states.end(), Small));
+  set.small = static_cast<std::size_t>(std::count(states.begin(), states.end(), Small));
   std::size_t kept = 0;
-  for (std::size_t k = 0; k < sight.order.size(); ++k)
+  for (std::size_t k = 0; k < set.order.size(); ++k)
   {
-    if (states[sight.order[k]] == Seen)
+    if (states[set.order[k]] == Seen)
     {
-      sight.order[kept] = sight.order[k];
-      sight.nodeOf[kept++] = sight.nodeOf[k];
+      set.order[kept] = set.order[k];
+      set.nodeOf[kept++] = set.nodeOf[k];
     }
   }
-  sight.order.resize(kept);
-  sight.nodeOf.resize(kept);
+  set.order.resize(kept);
+  set.nodeOf.resize(kept);
   // Those of a node; without a tree, all.
   for (std::size_t first = 0, last; first < kept; first = last)
   {
     last = first + 1;
-    while (last < kept && sight.nodeOf[last] == sight.nodeOf[first])
+    while (last < kept && set.nodeOf[last] == set.nodeOf[first])
     {
       ++last;
     }
-    std::stable_sort(sight.order.begin() + static_cast<std::ptrdiff_t>(first),
-      sight.order.begin() + static_cast<std::ptrdiff_t>(last),
+    std::stable_sort(set.order.begin() + static_cast<std::ptrdiff_t>(first),
+      set.order.begin() + static_cast<std::ptrdiff_t>(last),
       [&](std::uint32_t a, std::uint32_t b) { return nearest[a] < nearest[b]; });
   }
 }

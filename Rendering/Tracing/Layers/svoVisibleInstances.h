@@ -65,7 +65,7 @@ struct SeenNode
 };
 
 /// The instances that a view sees.
-struct Sight
+struct VisibleSet
 {
   std::vector<std::uint32_t> visible; // indices, in the scene's order
   /// The same, front to back by the nodes of the tree; without one, by their nearest corners.
@@ -81,7 +81,7 @@ struct Sight
 /// threads.
 VTKSVOTRACING_EXPORT void findVisible(const Scene& scene, const View& view, const Culling& culling,
   const std::function<bool(const Instance&)>& takesPart, const ParallelFor& parallelFor,
-  Sight& sight);
+  VisibleSet& set);
 
 /// One of these, as the view sees it. Its octree is borrowed from the scene. `allTiles`: see
 /// worthTiles(); where it is false balls are met as such.

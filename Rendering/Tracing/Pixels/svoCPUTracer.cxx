@@ -369,11 +369,11 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   self.LightShadows.addStatistics(statistics);
   statistics.primaryRays += self.Eye.rays();
   statistics.retracedLayers += self.Eye.retracedLayers();
-  const Sight& sight = self.Eye.sight();
-  statistics.outsideInstances = self.Tree.shown() - sight.visible.size() - sight.small;
+  const VisibleSet& set = self.Eye.visibleSet();
+  statistics.outsideInstances = self.Tree.shown() - set.visible.size() - set.small;
   statistics.hiddenInstances = self.Eye.spared().hidden;
-  statistics.smallInstances = sight.small;
-  statistics.largestSmallInstance = sight.largestSmall;
+  statistics.smallInstances = set.small;
+  statistics.largestSmallInstance = set.largestSmall;
   statistics.coarsestVoxel = coarsestVoxel(scene, view);
   if (settings.shadowTechnique != ShadowTechnique::None)
   {

@@ -131,14 +131,14 @@ public:
   bool automaticBias() const { return this->AutomaticBias; }
 
   /// What the buffer says of a point that nobody may have marked.
-  struct Told
+  struct MapAnswer
   {
     bool known = false;
-    float dark = 0.0f;  // if known
-    double texel = 0.0; // the shorter edge of a texel there, world; 0 outside of the map
+    float darkness = 0.0f; // if known
+    double texel = 0.0;    // the shorter edge of a texel there, world; 0 outside of the map
   };
-  /// `extent`: of darkness(), or null: dark is 0 or 1, by shadows().
-  Told tell(const SurfacePoint& point, double error, const double* extent) const;
+  /// `extent`: of darkness(), or null: it is 0 or 1, by shadows().
+  MapAnswer ask(const SurfacePoint& point, double error, const double* extent) const;
 
   /// `group`: ShadowMap::group.
   void copyMaps(int light, std::vector<ShadowMap>& maps, int group = 0);

@@ -185,7 +185,7 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
   return static_cast<Answer>(answer.dark());
 }
 
-ShadowBuffer::Told ShadowBuffer::tell(
+ShadowBuffer::MapAnswer ShadowBuffer::ask(
   const SurfacePoint& point, double error, const double* extent) const
 {
   Place place;
@@ -193,13 +193,13 @@ ShadowBuffer::Told ShadowBuffer::tell(
   {
     return { true, 0.0f, 0.0 };
   }
-  Told told{ isTraced(place), 0.0f, place.face->edge(place.t) };
-  if (told.known)
+  MapAnswer said{ isTraced(place), 0.0f, place.face->edge(place.t) };
+  if (said.known)
   {
-    told.dark = extent                     ? this->darkness(point, error, *extent)
+    said.darkness = extent                 ? this->darkness(point, error, *extent)
       : this->shadows(place, point, error) ? 1.0f
                                            : 0.0f;
   }
-  return told;
+  return said;
 }
 }

@@ -49,19 +49,19 @@ void Shadows::darkness(std::size_t light, const TilePatch& patch,
     assert(at.kind != TerminatorPoint::Kind::Plain && this->Rays);
     // A map says that a point is dark for less than it takes rays to say that ways are free.
     const double* extent = this->filters(light) ? extents + at.pixel : nullptr;
-    const ShadowBuffer::Told told =
-      buffer ? buffer->tell(at.point, error, extent) : ShadowBuffer::Told();
+    const ShadowBuffer::MapAnswer inMap =
+      buffer ? buffer->ask(at.point, error, extent) : ShadowBuffer::MapAnswer();
     const bool doubted = at.kind == TerminatorPoint::Kind::Doubted;
     if (!doubted)
     {
       answer = 1.0f; // unless all is free
     }
-    if (told.dark >= answer)
+    if (inMap.darkness >= answer)
     {
       continue;
     }
     const glm::dvec3 on = patch.position(at.pixel);
-    if (doubted || glm::distance(on, at.point.position) > told.texel)
+    if (doubted || glm::distance(on, at.point.position) > inMap.texel)
     {
       ++rays;
       const glm::dvec3 start = ShadowRays::start(source, at.point.position, at.point.facet, error);
@@ -70,15 +70,15 @@ void Shadows::darkness(std::size_t light, const TilePatch& patch,
         continue;
       }
     }
-    if (!doubted && told.known)
+    if (!doubted && inMap.known)
     {
-      answer = told.dark;
+      answer = inMap.darkness;
       continue;
     }
     rays += !doubted;
     asked[count] = &at.point;
     answers[count] = &answer;
-    ifLit[count++] = told.dark;
+    ifLit[count++] = inMap.darkness;
   }
   const std::uint64_t dark = this->Rays ? this->Rays->shadows(source, asked, count, error) : 0;
   for (int i = 0; i < count; ++i)

@@ -68,10 +68,10 @@ bool meets(const svo::Instance& instance, const svo::View& view, int x, int y)
 std::vector<svo::VisibleInstance> seenBy(const svo::Scene& scene, const svo::View& view,
   const std::function<bool(const svo::Instance&)>& takesPart, const svo::LevelOf& levelOf)
 {
-  svo::Sight sight;
-  svo::findVisible(scene, view, {}, takesPart, svo::serialFor, sight);
+  svo::VisibleSet set;
+  svo::findVisible(scene, view, {}, takesPart, svo::serialFor, set);
   std::vector<svo::VisibleInstance> visible;
-  for (const std::uint32_t i : sight.visible)
+  for (const std::uint32_t i : set.visible)
   {
     visible.push_back(svo::seenInstance(scene, i, view, levelOf, true));
   }
