@@ -3,6 +3,7 @@
 #define svoTracerScenes_h
 
 #include "svoCPUTracer.h"
+#include "svoIntersect.h"
 #include "svoTestScenes.h"
 
 #include <string>
@@ -67,6 +68,20 @@ inline svo::Scene ballRingAndGround(svo::LeafGeometry leafGeometry = svo::LeafGe
   scene.lights[1].id = 78;
   scene.lights[1].color = glm::vec3(0.3f);
   return scene;
+}
+
+/// What the ray through a pixel's centre meets of an instance alone, by rays in double that end
+/// where the view does: E' = M^-1 E, V' = M^-1 V of Huang and Cheng, 2017.
+inline svo::Hit hitAlone(const svo::Instance& instance, const svo::View& view, int x, int y)
+{
+  const glm::dmat4 m = instance.body->octree.localToOctree() * glm::inverse(instance.localToWorld);
+  svo::Ray ray;
+  ray.origin = glm::dvec3(m * glm::dvec4(view.rayOrigin(x + 0.5, y + 0.5), 1.0));
+  ray.direction = glm::dvec3(m * glm::dvec4(view.rayDirection(x + 0.5, y + 0.5), 0.0));
+  ray.tMin = view.tNear;
+  ray.tMax = view.tFar;
+  return svo::intersect(
+    instance.body->octree, ray, { instance.body->leafGeometry, svo::MaximumLevel });
 }
 
 /// A light with a name for messages.

@@ -1,6 +1,5 @@
 // Which instance each pixel shows, and how deep it is, against rays that are traced one by one: by
 // depths alone, and with offsets of coincident topology, of units and of slopes.
-#include "svoIntersect.h"
 #include "svoTracerScenes.h"
 
 #include <gtest/gtest.h>
@@ -81,15 +80,7 @@ void expectNearest(const float (&offsets)[3], const float (&factors)[3] = { 0.0f
         for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
         {
           const svo::Instance& instance = scene.instances[i];
-          const glm::dmat4 m =
-            instance.body->octree.localToOctree() * glm::inverse(instance.localToWorld);
-          svo::Ray ray;
-          ray.origin = glm::dvec3(m * glm::dvec4(view.rayOrigin(x + 0.5, y + 0.5), 1.0));
-          ray.direction = glm::dvec3(m * glm::dvec4(view.rayDirection(x + 0.5, y + 0.5), 0.0));
-          ray.tMin = view.tNear;
-          ray.tMax = view.tFar;
-          const svo::Hit hit = svo::intersect(
-            instance.body->octree, ray, { instance.body->leafGeometry, svo::MaximumLevel });
+          const svo::Hit hit = hitAlone(instance, view, x, y);
           const double slopes =
             hit && factors[i] != 0.0f ? factors[i] * steepnessOf(instance, view, x, y, hit) : 0.0;
           const double depth = view.windowDepth(hit.t) + offsets[i] + slopes;

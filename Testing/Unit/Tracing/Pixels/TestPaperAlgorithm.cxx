@@ -1,7 +1,6 @@
 // The paper's own steps, written down as literally as they are printed, as a second opinion on the
 // whole frame: one Z-buffer table per object, merged into ZBT; the same from the light, merged into
 // SZBT; a visible point is in shadow if its distance is greater than the depth in SZBT.
-#include "svoIntersect.h"
 #include "svoTracerScenes.h"
 
 #include <gtest/gtest.h>
@@ -14,22 +13,15 @@ namespace
 {
 constexpr double Nothing = std::numeric_limits<double>::infinity();
 
-/// Depths of one object as a view sees it: E' = M^-1 E, V' = M^-1 V, pixel by pixel.
+/// Depths of one object as a view sees it, pixel by pixel.
 std::vector<double> zTable(const svo::Instance& instance, const svo::View& view)
 {
-  const glm::dmat4 m = instance.body->octree.localToOctree() * glm::inverse(instance.localToWorld);
   std::vector<double> table;
   for (int y = 0; y < view.height; ++y)
   {
     for (int x = 0; x < view.width; ++x)
     {
-      svo::Ray ray;
-      ray.origin = glm::dvec3(m * glm::dvec4(view.rayOrigin(x + 0.5, y + 0.5), 1.0));
-      ray.direction = glm::dvec3(m * glm::dvec4(view.rayDirection(x + 0.5, y + 0.5), 0.0));
-      ray.tMin = view.tNear;
-      ray.tMax = view.tFar;
-      const svo::Hit hit = svo::intersect(
-        instance.body->octree, ray, { instance.body->leafGeometry, svo::MaximumLevel });
+      const svo::Hit hit = hitAlone(instance, view, x, y);
       table.push_back(hit ? hit.t : Nothing);
     }
   }

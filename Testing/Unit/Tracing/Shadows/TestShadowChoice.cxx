@@ -15,15 +15,9 @@ namespace
 using Technique = svo::ShadowTechnique;
 using Kind = svo::Light::Kind;
 
-svo::Scene makeScene(svo::LeafGeometry leaves = svo::LeafGeometry::Automatic)
+svo::Scene makeScene()
 {
-  static const svo::Octree ground = makeOctree(square(3.0), 6);
-  static const svo::Octree ball = makeOctree(sphere(24, 40), 7);
-  static const svo::Octree ring = makeOctree(torus(40, 24), 7);
-  svo::Scene scene;
-  scene.instances = { instanceOf(ground, 1, glm::dmat4(1.0), leaves),
-    instanceOf(ball, 2, movedTo(-0.8, 0.0, 1.0), leaves),
-    instanceOf(ring, 3, movedTo(1.2, 0.3, 0.8), leaves) };
+  svo::Scene scene = ballRingAndGround();
   for (svo::Instance& instance : scene.instances)
   {
     instance.material.specular = 0.5f;
