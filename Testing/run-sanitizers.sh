@@ -22,4 +22,4 @@ export ASAN_OPTIONS="detect_leaks=1:detect_stack_use_after_return=1:strict_init_
 export LSAN_OPTIONS="suppressions=$PWD/Testing/sanitizers.supp:print_suppressions=0"
 export UBSAN_OPTIONS="print_stacktrace=1"
 xvfb-run -a -s "-noreset -screen 0 1920x1200x24" \
-  ctest --test-dir build/sanitize --output-on-failure --timeout 900 -LE "long|benchmark" "$@"
+  ctest --test-dir build/sanitize --output-on-failure --timeout 3600 -LE "long|benchmark" "$@"

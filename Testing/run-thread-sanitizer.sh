@@ -24,4 +24,4 @@ export TSAN_OPTIONS="suppressions=$PWD/Testing/thread-sanitizer.supp:history_siz
 export VTK_SMP_BACKEND_IN_USE=STDThread VTK_SMP_MAX_THREADS=4
 # Without randomised addresses: ThreadSanitizer keeps its shadow where they might land.
 xvfb-run -a -s "-noreset -screen 0 1920x1200x24" setarch "$(uname -m)" -R \
-  ctest --test-dir build/tsan --output-on-failure --timeout 900 -LE "long|benchmark" "$@"
+  ctest --test-dir build/tsan --output-on-failure --timeout 3600 -LE "long|benchmark" "$@"

@@ -7,7 +7,8 @@
 // Medians of processor time, the three taking turns; octrees, locators and Embree's scenes are
 // built before, and timed apart. The answers are compared in the run: the exit code is 1 where more
 // than one ray in ten thousand disagrees with the locator, or one in a thousand with Embree's
-// floats.
+// floats. Then what 1 to 16 samples a cell take under the suns, and how far their shares are from
+// those of 64: exit code 1 where more samples are farther off.
 #include "svoBenchmarkMesh.h"
 #include "svoEmbreeScene.h"
 #include "svoResults.h"
@@ -274,6 +275,64 @@ bool measure(const Mesh& mesh, int lightCount, bool lamps, int repeat, svobench:
   results.add(row);
   return good;
 }
+
+/// The medians of samples that take turns.
+bool measureSamples(const Mesh& mesh, int lightCount, int repeat, svobench::Results& results)
+{
+  const vtkSmartPointer<vtkPolyData> surface = polyData(mesh);
+  vtkNew<vtkSVOShadowFilter> filter;
+  filter->SetInputData(surface);
+  for (const auto& light : lightsAround(glm::dvec3(0.0), 10.0, lightCount, false))
+  {
+    filter->AddLight(light);
+  }
+  const auto shares = [&filter](int samples)
+  {
+    filter->SetSamplesPerCell(samples);
+    filter->Update();
+    vtkDataArray* shadow = filter->GetOutput()->GetCellData()->GetArray("Shadow");
+    std::vector<double> values;
+    for (vtkIdType cell = 0; cell < shadow->GetNumberOfTuples(); ++cell)
+    {
+      for (int light = 0; light < shadow->GetNumberOfComponents(); ++light)
+      {
+        values.push_back(shadow->GetComponent(cell, light));
+      }
+    }
+    return values;
+  };
+  const std::vector<double> fine = shares(64); // the filter's octree is kept from here on
+  const std::vector<int> counts = { 1, 2, 4, 8, 16 };
+  std::vector<std::vector<double>> seconds(counts.size());
+  std::vector<double> off(counts.size());
+  for (int turn = 0; turn < repeat; ++turn)
+  {
+    for (std::size_t i = 0; i < counts.size(); ++i)
+    {
+      const double begin = cpuSeconds();
+      const std::vector<double> values = shares(counts[i]);
+      seconds[i].push_back(cpuSeconds() - begin);
+      double sum = 0.0;
+      for (std::size_t k = 0; k < values.size(); ++k)
+      {
+        const double d = std::isnan(fine[k]) ? 0.0 : values[k] - fine[k]; // no area, no share
+        sum += d * d;
+      }
+      off[i] = std::sqrt(sum / static_cast<double>(values.size()));
+    }
+  }
+  for (std::size_t i = 0; i < counts.size(); ++i)
+  {
+    svobench::Row row;
+    row["experiment"] = "samples";
+    row["mesh"] = mesh.name;
+    row["samples"] = counts[i];
+    row["s"] = median(seconds[i]);
+    row["RMS to 64"] = off[i];
+    results.add(row);
+  }
+  return std::is_sorted(off.rbegin(), off.rend());
+}
 }
 
 int main(int argc, char** argv)
@@ -316,7 +375,7 @@ int main(int argc, char** argv)
   svobench::Results results({ "mesh", "triangles", "lights", "rays", "dark", "filter Mrays/s",
     "single rays Mrays/s", "locator Mrays/s", "times the locator", "Embree Mrays/s", "times Embree",
     "differ from locator", "single differ", "differ from Embree", "octree s", "locator s",
-    "Embree s" });
+    "Embree s", "samples", "s", "RMS to 64" });
   bool good = true;
   for (const Mesh& mesh : meshes)
   {
@@ -324,6 +383,7 @@ int main(int argc, char** argv)
     {
       good = measure(mesh, lights, lamps, repeat, results) && good;
     }
+    good = measureSamples(mesh, lights, repeat, results) && good;
   }
   if (!json.empty() && !results.writeJson(json))
   {

@@ -1,10 +1,9 @@
 // Where a cell's samples lie: straight edges of shadows at all angles and places against the exact
-// share of the area, beside those of a grid of as many points; how many there are; what they take.
+// share of the area, beside those of a grid of as many points; how many there are.
 #include "svoShadowMeshes.h"
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <random>
 
 using namespace svotest;
@@ -236,44 +235,4 @@ TEST(CellSamples, QuadsOfUnequalHalvesCountByArea)
   }
   EXPECT_NEAR(kite.shadow(0), (0.5 * (1.0 + 4.0 / 3.0)) / 4.5, 5e-3);
   EXPECT_NEAR(spike.shadow(0), (0.5 * 1.6 / 1.4) / (4.5 + 0.3), 1e-2);
-}
-
-TEST(CellSamples, FourTakeLessThanSixteen)
-{
-  std::vector<Point> points;
-  std::vector<std::vector<vtkIdType>> cells;
-  for (int i = 0; i < 120; ++i)
-  {
-    const double x = std::cos(2.4 * i) * 0.085 * std::sqrt(i),
-                 y = std::sin(2.4 * i) * 0.085 * std::sqrt(i);
-    for (int side = 0; side < 4; ++side)
-    {
-      const double a = 1.5707963267948966 * side, b = a + 1.5707963267948966, r = 0.012;
-      const auto first = static_cast<vtkIdType>(points.size());
-      for (const double z : { -0.5, 0.25 })
-      {
-        points.push_back({ x + r * std::cos(a), y + r * std::sin(a), z });
-        points.push_back({ x + r * std::cos(b), y + r * std::sin(b), z });
-      }
-      cells.push_back({ first, first + 1, first + 3, first + 2 });
-    }
-  }
-  double seconds[2] = { 1e9, 1e9 };
-  Shadows shadows(hills(80));
-  shadows.filter->AddCasterData(polygons(points, cells));
-  for (int i = 0; i < 8; ++i)
-  {
-    shadows.filter->AddLight(sun(std::cos(i), std::sin(i), 0.4));
-  }
-  shadows.array("Shadow"); // builds the octrees
-  for (int turn = 0; turn < 6; ++turn)
-  {
-    shadows.filter->SetSamplesPerCell(turn % 2 == 0 ? 4 : 16);
-    const std::clock_t begin = std::clock();
-    shadows.array("Shadow");
-    const double took = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-    seconds[turn % 2] = std::min(seconds[turn % 2], took);
-  }
-  std::cout << "4 samples: " << seconds[0] << " s, 16: " << seconds[1] << " s\n";
-  EXPECT_LT(seconds[0], 0.8 * seconds[1]);
 }
