@@ -155,7 +155,7 @@ make_root() {
   mv "$1.part" "$1"
 }
 # in_root FOLDER COMMAND...: with the devices and the name server of this machine, and nothing else of it.
-environment=(HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8)
+environment=(HOME=/srv PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8)
 for name in http_proxy https_proxy no_proxy; do
   [ -z "${!name:-}" ] || environment+=("$name=${!name}")
 done
@@ -169,8 +169,8 @@ in_root() {
     mount --rbind /sys "$root/sys"
     mount -t proc proc "$root/proc"
     if [ -n "$cache" ]; then
-      mkdir -p "$root/root/.cache/ccache"
-      mount --bind "$cache" "$root/root/.cache/ccache"
+      mkdir -p "$root/srv/.cache/ccache"
+      mount --bind "$cache" "$root/srv/.cache/ccache"
     fi
     cat /etc/resolv.conf >"$root/etc/resolv.conf"
     exec chroot "$root" env -i "$@"' in_root "$1" "$cache" "${environment[@]}" "${@:2}"
@@ -188,7 +188,7 @@ isolated bash -c '
   git -c init.defaultBranch=main init -q "$2"
   cd "$2"
   git fetch -q "$1" HEAD
-  git checkout -q -f --detach FETCH_HEAD' clone "$place/head.bundle" "$root/root/vtkSVO"
+  git checkout -q -f --detach FETCH_HEAD' clone "$place/head.bundle" "$root/srv/vtkSVO"
 
 # run ROOT NAME COMMAND...: output goes to the terminal and into the log.
 result=0
@@ -213,21 +213,21 @@ run() {
   return "$code"
 }
 if wants demo; then
-  run "$root" ./Examples/run-demo.sh bash -c 'cd /root/vtkSVO && ./Examples/run-demo.sh' || true
+  run "$root" ./Examples/run-demo.sh bash -c 'cd /srv/vtkSVO && ./Examples/run-demo.sh' || true
 fi
 if wants tests; then
-  run "$root" ./Testing/run-tests.sh bash -c 'cd /root/vtkSVO && ./Testing/run-tests.sh' || true
+  run "$root" ./Testing/run-tests.sh bash -c 'cd /srv/vtkSVO && ./Testing/run-tests.sh' || true
 fi
-if wants packages && run "$root" "packages made" /root/vtkSVO/Testing/Packages/make.sh; then
+if wants packages && run "$root" "packages made" /srv/vtkSVO/Testing/Packages/make.sh; then
   rm -rf "$packages"
-  isolated cp -r "$root/root/vtkSVO/build/packages" "$packages"
+  isolated cp -r "$root/srv/vtkSVO/build/packages" "$packages"
   users="$place/users"
   isolated rm -rf --one-file-system "$users"
   step "A fresh $release in $users"
   make_root "$users"
-  isolated cp -r "$packages" "$users/root/packages"
-  isolated cp -r "$root/root/vtkSVO/Testing" "$users/root/Testing"
-  run "$users" "packages used" /root/Testing/Packages/use.sh /root/packages || true
+  isolated cp -r "$packages" "$users/srv/packages"
+  isolated cp -r "$root/srv/vtkSVO/Testing" "$users/srv/Testing"
+  run "$users" "packages used" /srv/Testing/Packages/use.sh /srv/packages || true
 fi
 
 step "Result of $head on $release"
