@@ -28,8 +28,8 @@ void TracedTiles::trace()
 
 std::vector<svo::HitBlock> TracedTiles::hits(double base) const
 {
-  const svo::DepthBuffer& depth = this->Layers.depthBuffer();
-  const float further = static_cast<float>(this->Layers.base(0) - base);
+  const svo::DepthBuffer& depth = this->Layers.hits().depth;
+  const float further = static_cast<float>(this->Layers.hits().base(0) - base);
   std::vector<svo::HitBlock> hits(depth.tiles());
   for (std::size_t tile = 0; tile < hits.size(); ++tile)
   {

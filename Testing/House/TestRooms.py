@@ -1,5 +1,6 @@
 """Files include those of their own room and of lower ones only, modules those of lower modules; of the
-tracer all others see its face only; and every room opens with a README.md that names each of its files
+tracer all others see its face only; what lies behind a view's hits sees nothing of how they are found;
+and every room opens with a README.md that names each of its files
 and no other.
 
 The order of the modules stands in the CMakeLists.txt of the project, that of the rooms in
@@ -75,6 +76,22 @@ def check_face(root, places):
     return problems
 
 
+# Those who have views that are traced. All others behind Rendering/Tracing/Hits read hits.
+VIEW_OWNERS = ("svoShadowBuffer.h", "svoCPUTracer.cxx")
+
+
+def check_hits(root, places):
+    problems = []
+    for _, _, path in places.values():
+        behind = re.match("Rendering/Tracing/(Points|Lights|Shadows|Pixels)/", path)
+        if behind and os.path.basename(path) not in VIEW_OWNERS:
+            for name in re.findall(r'^#include "([^"]+)"', text_of(root, path), re.M):
+                lies = places[name][2] if name in places else ""
+                if lies.startswith("Rendering/Tracing/Layers/"):
+                    problems.append(f"{path} includes {lies}: it is to read svoHits.h")
+    return problems
+
+
 def check_readmes(root):
     problems = []
     for module in modules_of(root):
@@ -96,7 +113,7 @@ def main(root):
     places, problems = place_files(root)
     if len(places) < 150:
         problems.append(f"only {len(places)} files found")
-    problems += check_includes(root, places) + check_face(root, places) + check_readmes(root)
+    problems += check_includes(root, places) + check_face(root, places) + check_hits(root, places) + check_readmes(root)
     for problem in problems:
         print(problem)
     print(f"{len(places)} files, {len(problems)} problems")

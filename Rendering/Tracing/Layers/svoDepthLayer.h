@@ -2,7 +2,7 @@
 #ifndef svoDepthLayer_h
 #define svoDepthLayer_h
 
-#include "svoLayout.h"
+#include "svoLayerKey.h"
 #include "svoPages.h"
 #include "svoRawArray.h"
 #include "svoRay.h"
@@ -14,25 +14,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <glm/mat4x4.hpp>
-
 namespace svo
 {
-/// What an instance looks like to a view. Equal keys give equal layers, bit for bit.
-struct LayerKey
-{
-  std::uint64_t octree = 0; // Octree::id()
-  glm::dmat4 localToWorld{ 1.0 };
-  LeafGeometry leafGeometry = LeafGeometry::Automatic;
-  int level = 0;
-
-  bool operator==(const LayerKey& other) const
-  {
-    return octree == other.octree && localToWorld == other.localToWorld &&
-      leafGeometry == other.leafGeometry && level == other.level;
-  }
-};
-
 /// A kept depth layer: the tiles of an instance's rectangle that somebody asked for so far.
 struct DepthLayer
 {

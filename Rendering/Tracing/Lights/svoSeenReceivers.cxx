@@ -42,9 +42,9 @@ int flatAxis(const Box& box)
 /// Around the pixels of a block at which the eye sees past what was traced to where an axis has a
 /// value, and around their neighbours: silhouettes are wider than what was traced.
 PixelRect seenPlane(
-  const View& eye, const LayeredView& traced, const PixelRect& block, int axis, double at)
+  const View& eye, const Hits& traced, const PixelRect& block, int axis, double at)
 {
-  const DepthBuffer& depth = traced.depthBuffer();
+  const DepthBuffer& depth = traced.depth;
   const auto clipOf = [&](double t) // z and w
   {
     const glm::dmat4& m = eye.viewToClip;
@@ -100,8 +100,7 @@ PixelRect pixelsAround(const std::vector<glm::dvec3>& points, const View& view)
 }
 }
 
-SeenReceivers::SeenReceivers(
-  const std::vector<Box>& receivers, const View& eye, const LayeredView& traced)
+SeenReceivers::SeenReceivers(const std::vector<Box>& receivers, const View& eye, const Hits& traced)
 {
   if (eye.width < 1 || eye.height < 1)
   {
@@ -142,8 +141,8 @@ SeenReceivers::SeenReceivers(
   }
 }
 
-void SeenReceivers::addSeen(const ConvexBody& box, int axis, const PixelRect& around,
-  const View& eye, const LayeredView& traced)
+void SeenReceivers::addSeen(
+  const ConvexBody& box, int axis, const PixelRect& around, const View& eye, const Hits& traced)
 {
   for (int y = around.y0; y < around.y1; y += Block)
   {

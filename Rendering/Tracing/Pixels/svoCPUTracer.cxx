@@ -123,23 +123,23 @@ const Scene& CPUTracer::Internals::sceneOfLights(const Scene& scene, ShadowTechn
 /// Tiles whose hits, or the looks of them, are not what they were.
 void CPUTracer::Internals::findStaleTiles(const FrameChanges& changes, bool sameFrame)
 {
-  const DepthBuffer& depth = this->Eye.depthBuffer();
+  const DepthBuffer& depth = this->Eye.hits().depth;
   // Edges are smoothed over the tiles' borders.
   const bool all = changes.all || !sameFrame || this->Settings.antiAliasing;
   this->Shaded.beginFrame(depth.tilesX, depth.tilesY, all);
   for (std::size_t tile = 0; tile < this->Shaded.size(); ++tile)
   {
-    this->Shaded.setStale(tile, this->Eye.tiles().changed(tile));
+    this->Shaded.setStale(tile, this->Eye.hits().tiles.changed(tile));
   }
   // Where an instance is not seen it does not matter how it looks; where one has moved, tiles that
   // show it have changed.
   for (const std::uint32_t instance : changes.instances)
   {
-    if (this->Eye.tiles().partChanged(instance))
+    if (this->Eye.hits().tiles.partChanged(instance))
     {
       continue;
     }
-    const PixelRect rect = this->Eye.rect(instance);
+    const PixelRect rect = this->Eye.hits().instances.rect(instance);
     for (int y = rect.y0 / 8; y < rect.y1 / 8; ++y)
     {
       for (int x = rect.x0 / 8; x < rect.x1 / 8; ++x)
@@ -178,10 +178,10 @@ void CPUTracer::Internals::markLightTiles(
       }
       tile.looksUp.clear();
       eachPatch(
-        view, hitsOfTile(this->Eye.depthBuffer(), view, tileX, tileY),
+        view, hitsOfTile(this->Eye.hits().depth, view, tileX, tileY),
         [&](std::uint32_t i)
         { return scene.instances[i].receiveShadow && scene.instances[i].material.lighting; },
-        [&](std::uint32_t i) { return this->Eye.base(i); }, patch,
+        [&](std::uint32_t i) { return this->Eye.hits().base(i); }, patch,
         [&](const TilePatch&) { this->LightShadows.mark(patch, tile.looksUp); });
     });
 }
@@ -278,12 +278,12 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     { return selectEyeLevel(instance, local, view, settings.pixelError); },
     settings.frameCoherence, budget, parallelFor);
   this->Eye.trace(parallelFor, nullptr);
-  const bool sameFrame = frame && this->Tiles.find(this->Eye.depthBuffer(), view, settings, *frame);
+  const bool sameFrame = frame && this->Tiles.find(this->Eye.hits().depth, view, settings, *frame);
   this->findStaleTiles(changes, sameFrame);
   statistics.eye = clock.end();
 
   // What visible points will look up of the lights.
-  this->Shader.prepare(scene, this->Eye);
+  this->Shader.prepare(scene, this->Eye.hits());
   const bool shared = this->SharesBuffers && settings.shadowTechnique == ShadowTechnique::Buffer;
   if (!shared)
   {
@@ -296,9 +296,9 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     {
       this->LightShadows.chooseAsBefore(seen, view, settings);
     }
-    this->LightShadows.prepare(seen, view, this->Eye, settings, budget, parallelFor);
+    this->LightShadows.prepare(seen, view, this->Eye.hits(), settings, budget, parallelFor);
   }
-  this->LightShadows.prepareRays(scene, this->Eye);
+  this->LightShadows.prepareRays(scene, this->Eye.hits());
   if (!shared)
   {
     this->markLightTiles(scene, view, parallelFor);
@@ -345,7 +345,8 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   self.findDarkenedTiles(scene, keeps ? changes : FrameChanges(), parallelFor);
 
   // Shade and test.
-  const ShadedScene shaded{ scene, view, settings, self.Eye, self.Tiles, self.LightShadows };
+  const ShadedScene shaded{ scene, view, settings, self.Eye.hits(), self.Eye, self.Tiles,
+    self.LightShadows };
   self.Shader.shade(shaded, parallelFor, self.Shaded, frame, statistics);
   if (settings.antiAliasing)
   {
@@ -374,10 +375,10 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   statistics.hiddenInstances = self.Eye.spared().hidden;
   statistics.smallInstances = set.small;
   statistics.largestSmallInstance = set.largestSmall;
-  statistics.coarsestVoxel = coarsestVoxel(scene, view);
+  statistics.coarsestVoxel = coarsestVoxel(scene, view, self.Eye.hits());
   if (settings.shadowTechnique != ShadowTechnique::None)
   {
-    statistics.largestGap = largestGap(scene, view, self.Eye);
+    statistics.largestGap = largestGap(scene, view, self.Eye.hits());
   }
   statistics.layerMemory = self.Eye.layerMemory() + self.LightShadows.layerMemory();
   statistics.shadowMemory = self.LightShadows.mapMemory();
@@ -411,7 +412,8 @@ void CPUTracer::divideEdges(const Scene& scene, const View& view, const Frame& f
     self.traceViews(scene, view, self.Settings, parallelFor, FrameChanges(), nullptr, later);
     self.ViewsAreTraced = true;
   }
-  findSilhouettes({ scene, view, self.Settings, self.Eye, self.Tiles, self.LightShadows },
+  findSilhouettes(
+    { scene, view, self.Settings, self.Eye.hits(), self.Eye, self.Tiles, self.LightShadows },
     self.Shader, frame, positions, parallelFor, result);
 }
 

@@ -5,7 +5,7 @@
 #include "svoDarkness.h"
 #include "svoDepthBuffer.h"
 #include "svoEdges.h"
-#include "svoLayeredView.h"
+#include "svoHits.h"
 #include "svoView.h"
 #include "svoWorldSize.h"
 
@@ -18,8 +18,8 @@ class DepthEdges
 {
 public:
   /// `darkness`: per pixel, as the view's depth buffer.
-  DepthEdges(const LayeredView& eye, const std::vector<Darkness>& darkness, const View& view)
-    : Depth(eye.depthBuffer())
+  DepthEdges(const Hits& eye, const std::vector<Darkness>& darkness, const View& view)
+    : Depth(eye.depth)
     , Eye(eye)
     , Dark(darkness)
     , EyeView(view)
@@ -71,7 +71,7 @@ private:
   }
 
   const DepthBuffer& Depth;
-  const LayeredView& Eye;
+  const Hits& Eye;
   const std::vector<Darkness>& Dark;
   const View& EyeView;
 };

@@ -1,8 +1,6 @@
 #include "svoFrameErrors.h"
 
 #include "svoLeafError.h"
-#include "svoLocalView.h"
-#include "svoVisibleInstances.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
@@ -13,7 +11,8 @@ namespace svo
 namespace
 {
 /// Linear depth from which on a view may meet the surface. The octree's cube, which
-/// LayeredView::base belongs to, may be many times as large as what is in it, and reach to the eye.
+/// ViewedInstance::base belongs to, may be many times as large as what is in it, and reach to the
+/// eye.
 double nearestSurface(const Instance& instance, const View& view, double nearestCube)
 {
   const Header& h = instance.body->octree.header();
@@ -33,32 +32,28 @@ double nearestSurface(const Instance& instance, const View& view, double nearest
 }
 }
 
-double coarsestVoxel(const Scene& scene, const View& view)
-{
-  double largest = 0.0;
-  for (const Instance& instance : scene.instances)
-  {
-    if (!instance.visible || !instance.body->octree ||
-      instance.body->octree.level() >= instance.body->neededLevel)
-    {
-      continue;
-    }
-    const LocalView local = makeLocalView(instance.body->octree, instance.localToWorld, view);
-    if (!local.rect.empty() && !worthTiles(instance, local, view, true))
-    {
-      largest = std::max(largest, worldVoxel(instance) / worldPixel(view, local.base));
-    }
-  }
-  return largest;
-}
-
-double largestGap(const Scene& scene, const View& view, const LayeredView& eye)
+double coarsestVoxel(const Scene& scene, const View& view, const Hits& eye)
 {
   double largest = 0.0;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
   {
     const Instance& instance = scene.instances[i];
-    if (instance.visible && instance.receiveShadow && !eye.rect(i).empty())
+    if (!eye.instances.rect(i).empty() && !eye.instances.placed(i) &&
+      instance.body->octree.level() < instance.body->neededLevel)
+    {
+      largest = std::max(largest, worldVoxel(instance) / worldPixel(view, eye.base(i)));
+    }
+  }
+  return largest;
+}
+
+double largestGap(const Scene& scene, const View& view, const Hits& eye)
+{
+  double largest = 0.0;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+  {
+    const Instance& instance = scene.instances[i];
+    if (instance.visible && instance.receiveShadow && !eye.instances.rect(i).empty())
     {
       const double gap =
         worldLeafError(instance, LeafGeometry::Triangle, instance.body->octree.level(), true);

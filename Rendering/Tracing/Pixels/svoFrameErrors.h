@@ -2,17 +2,17 @@
 #ifndef svoFrameErrors_h
 #define svoFrameErrors_h
 
-#include "svoLayeredView.h"
+#include "svoHits.h"
 #include "svoScene.h"
 #include "svoView.h"
 
 namespace svo
 {
 /// FrameStatistics::coarsestVoxel
-double coarsestVoxel(const Scene& scene, const View& view);
+double coarsestVoxel(const Scene& scene, const View& view, const Hits& eye);
 
 /// FrameStatistics::largestGap
-double largestGap(const Scene& scene, const View& view, const LayeredView& eye);
+double largestGap(const Scene& scene, const View& view, const Hits& eye);
 }
 
 #endif

@@ -10,7 +10,7 @@
 
 namespace svo
 {
-void PixelShader::prepare(const Scene& scene, const LayeredView& eye)
+void PixelShader::prepare(const Scene& scene, const Hits& eye)
 {
   this->Frames.clear();
   this->Smooth.clear();
@@ -20,10 +20,10 @@ void PixelShader::prepare(const Scene& scene, const LayeredView& eye)
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {
     const Instance& instance = scene.instances[i];
-    const int level = eye.level(static_cast<std::uint32_t>(i));
-    const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(i));
-    const bool placed = eye.placed(static_cast<std::uint32_t>(i));
-    const bool seen = !eye.rect(static_cast<std::uint32_t>(i)).empty();
+    const int level = eye.instances.level(static_cast<std::uint32_t>(i));
+    const LeafGeometry geometry = eye.instances.leafGeometry(static_cast<std::uint32_t>(i));
+    const bool placed = eye.instances.placed(static_cast<std::uint32_t>(i));
+    const bool seen = !eye.instances.rect(static_cast<std::uint32_t>(i)).empty();
     this->Frames.push_back(seen ? SurfaceMatrices(instance) : SurfaceMatrices());
     this->Smooth.push_back(instance.body->octree && isSmooth(instance));
     this->MapErrors.push_back(
@@ -194,7 +194,7 @@ void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, 
       if (this->FindsEdges)
       {
         Darkness* pixels =
-          this->DarkPixels.data() + (hits.instance - lit.shaded.eye.depthBuffer().instance.data());
+          this->DarkPixels.data() + (hits.instance - lit.shaded.eye.depth.instance.data());
         eachBit(patch.mask, [&](int i) { pixels[i] = scratch.darkness[i]; });
       }
     });
@@ -204,7 +204,7 @@ void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, 
 void PixelShader::shade(const ShadedScene& shaded, const ParallelFor& parallelFor, KeptTiles& kept,
   Frame& frame, FrameStatistics& statistics)
 {
-  const DepthBuffer& depth = shaded.eye.depthBuffer();
+  const DepthBuffer& depth = shaded.eye.depth;
   const Lit lit(shaded);
   std::atomic<std::uint64_t> allRays{ 0 };
   this->FindsEdges = shaded.settings.antiAliasing;

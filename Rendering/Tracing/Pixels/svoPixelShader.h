@@ -5,8 +5,8 @@
 #include "svoDarkness.h"
 #include "svoFrame.h"
 #include "svoFrameTiles.h"
+#include "svoHits.h"
 #include "svoKeptTiles.h"
-#include "svoLayeredView.h"
 #include "svoParallel.h"
 #include "svoShadows.h"
 #include "svoSurfacePoint.h"
@@ -28,8 +28,9 @@ struct ShadedScene
   const Scene& scene;
   const View& view;
   const FrameSettings& settings;
-  const LayeredView& eye;
-  const FrameTiles& tiles; // of the frame that is written
+  const Hits& eye;
+  const TileSampler& sampler; // of the eye
+  const FrameTiles& tiles;    // of the frame that is written
   const Shadows& dark;
 };
 
@@ -39,7 +40,7 @@ class PixelShader
 {
 public:
   /// To be called once the eye has traced the scene.
-  void prepare(const Scene& scene, const LayeredView& eye);
+  void prepare(const Scene& scene, const Hits& eye);
 
   /// Writes the tiles with hits that are stale, and notes which are at the terminator. Counts its
   /// shadow rays.

@@ -70,7 +70,7 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
         samples.x[k] = 8 * tileX + (pixel & 7) + OffsetX[k % 4];
         samples.y[k] = 8 * tileY + (pixel >> 3) + OffsetY[k % 4];
       }
-      shaded.eye.sample(tileX, tileY, &samples, 1);
+      shaded.sampler.sample(tileX, tileY, &samples, 1);
       primaryRays.fetch_add(64, std::memory_order_relaxed);
       std::fill(samples.instance + 4 * std::min(16, count - first), samples.instance + 64,
         NoInstance); // of no further pixel

@@ -2,7 +2,7 @@
 
 #include "svoDepthSlope.h"
 #include "svoFrameEdges.h"
-#include "svoLayeredView.h"
+#include "svoHits.h"
 #include "svoPixelShader.h"
 #include "svoShownDepth.h"
 
@@ -62,7 +62,7 @@ public:
     , Picture(frame)
     , Positions(positions)
     , SampleCount(std::min(static_cast<int>(positions.size()), MostSamples))
-    , Edges(frame, shaded.eye.depthBuffer(), shaded.view)
+    , Edges(frame, shaded.eye.depth, shaded.view)
   {
   }
 
@@ -130,7 +130,7 @@ private:
         samples.y[this->lane(k) + s] = scratch.pixels[k].y + double(this->Positions[s].y);
       }
     }
-    this->Lit.shaded.eye.sample(tileX, tileY, scratch.samples.data(), scratch.samples.size());
+    this->Lit.shaded.sampler.sample(tileX, tileY, scratch.samples.data(), scratch.samples.size());
   }
 
   /// From linear depth to what is affine on a plane, and back: so means stay on the triangle.
@@ -231,7 +231,7 @@ private:
     }
   }
 
-  const DepthBuffer& seen() const { return this->Lit.shaded.eye.depthBuffer(); }
+  const DepthBuffer& seen() const { return this->Lit.shaded.eye.depth; }
 
   bool shows(const EdgePixel& pixel, const Facet& facet) const
   {

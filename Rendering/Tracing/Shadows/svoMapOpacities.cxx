@@ -7,10 +7,10 @@
 
 namespace svo
 {
-void MapOpacities::find(const Scene& scene, const View& view, const LayeredView& map, bool all,
-  const ParallelFor& parallelFor)
+void MapOpacities::find(
+  const Scene& scene, const View& view, const Hits& map, bool all, const ParallelFor& parallelFor)
 {
-  const DepthBuffer& depth = map.depthBuffer();
+  const DepthBuffer& depth = map.depth;
   all = all || this->Texels.size() != 64 * depth.tiles();
   this->Texels.resize(64 * depth.tiles());
   std::vector<SurfaceMatrices> frames(scene.instances.size());
@@ -47,7 +47,7 @@ void MapOpacities::find(const Scene& scene, const View& view, const LayeredView&
     {
       for (std::size_t tile = first; tile < last; ++tile)
       {
-        for (int i = 0; depth.hit[tile] && (all || map.tiles().changed(tile)) && i < 64; ++i)
+        for (int i = 0; depth.hit[tile] && (all || map.tiles.changed(tile)) && i < 64; ++i)
         {
           this->Texels[64 * tile + i] = opacityAt(tile, i);
         }

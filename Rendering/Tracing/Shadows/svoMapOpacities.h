@@ -3,7 +3,7 @@
 #ifndef svoMapOpacities_h
 #define svoMapOpacities_h
 
-#include "svoLayeredView.h"
+#include "svoHits.h"
 #include "svoPages.h"
 #include "svoParallel.h"
 #include "svoRawArray.h"
@@ -17,9 +17,9 @@ namespace svo
 class MapOpacities
 {
 public:
-  /// After LayeredView::trace(), each time: of tiles that are not what they were, or of all. Of a
+  /// After the map is traced, each time: of tiles that are not what they were, or of all. Of a
   /// texel it is that of the place on the caster that the ray of the texel's centre meets.
-  void find(const Scene& scene, const View& view, const LayeredView& map, bool all,
+  void find(const Scene& scene, const View& view, const Hits& map, bool all,
     const ParallelFor& parallelFor);
   void forget() { this->Texels = {}; }
   bool known() const { return this->Texels.size() > 0; }

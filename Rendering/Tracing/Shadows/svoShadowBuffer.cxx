@@ -77,8 +77,9 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
     for (std::size_t k = 0; k < scene.instances.size(); ++k)
     {
       const Instance& instance = scene.instances[k];
-      const int level = face.layers.level(static_cast<std::uint32_t>(k));
-      const LeafGeometry geometry = face.layers.leafGeometry(static_cast<std::uint32_t>(k));
+      const int level = face.layers.hits().instances.level(static_cast<std::uint32_t>(k));
+      const LeafGeometry geometry =
+        face.layers.hits().instances.leafGeometry(static_cast<std::uint32_t>(k));
       if (casters[k] == group && level > 0)
       {
         this->CasterVoxel[k] = std::max(this->CasterVoxel[k], worldVoxel(instance, level));
@@ -317,7 +318,7 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
       wanted[i] = face->wanted[i].load(std::memory_order_relaxed);
     }
     face->layers.trace(parallelFor, wanted.data());
-    face->occluders.find(face->layers, parallelFor);
+    face->occluders.find(face->layers.hits(), parallelFor);
     if (this->MappedColors.empty())
     {
       face->opacities.forget();
@@ -325,9 +326,9 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
     else
     {
       face->opacities.find(
-        *this->Traced, face->view, face->layers, this->OtherOpacities, parallelFor);
+        *this->Traced, face->view, face->layers.hits(), this->OtherOpacities, parallelFor);
     }
-    if (face->layers.changed() || this->OtherOpacities)
+    if (face->layers.hits().tiles.anyStale() || this->OtherOpacities)
     {
       face->copied.reset();
     }
@@ -364,7 +365,7 @@ void ShadowBuffer::merge(Processes& processes, std::size_t first)
   }
   for (auto& face : this->Faces)
   {
-    face->shared.merge(processes, face->view, face->layers, first);
+    face->shared.merge(processes, face->view, face->layers.hits(), first);
     face->occluders.forget();
     face->opacities.forget();
     face->seesCasters = face->shared.bytes() > 0;
@@ -391,7 +392,7 @@ std::size_t ShadowBuffer::Face::memory() const
   // Of a tile of the map, here and in LayeredView: marks, states and what lies in it.
   constexpr std::size_t OfTile = 24;
   std::size_t bytes = this->shared.bytes() + OfTile * this->wanted.size();
-  for (const std::uint8_t hit : this->layers.depthBuffer().hit)
+  for (const std::uint8_t hit : this->layers.hits().depth.hit)
   {
     bytes += hit ? 64 * (OfTexel + (this->opacities.known() ? sizeof(float) : 0)) : 0;
   }

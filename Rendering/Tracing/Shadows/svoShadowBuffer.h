@@ -69,7 +69,7 @@ public:
   /// After trace(): true if the tile does not show what it showed.
   bool changed(const LightTile& noted) const
   {
-    return this->Faces[noted.map]->layers.tiles().changed(noted.tile);
+    return this->Faces[noted.map]->layers.hits().tiles.changed(noted.tile);
   }
   bool wants(const LightTile& noted) const
   {
@@ -191,7 +191,7 @@ private:
     /// Where its occluders are known.
     MapTexels texels() const
     {
-      const DepthBuffer& depth = this->layers.depthBuffer();
+      const DepthBuffer& depth = this->layers.hits().depth;
       return { depth.tilesX, this->occluders.nearest(), depth.t.data(), depth.instance.data() };
     }
 
@@ -199,14 +199,14 @@ private:
     TileOccluders around(const MapPlaces& places, float margin) const
     {
       return this->occluders.in(
-        tilesOf(places, this->view, margin), this->layers.depthBuffer().tilesX);
+        tilesOf(places, this->view, margin), this->layers.hits().depth.tilesX);
     }
 
     /// True if something lies in a tile.
     bool holds(std::size_t tile) const
     {
       return this->shared.merged() ? this->shared.holds(tile)
-                                   : this->layers.depthBuffer().hit[tile] != 0;
+                                   : this->layers.hits().depth.hit[tile] != 0;
     }
     /// What lies at a texel (index as DepthBuffer::at): false if nothing.
     bool occluder(std::size_t at, std::uint32_t& caster, double& t) const
@@ -215,14 +215,14 @@ private:
       {
         return this->shared.at(at, caster, t);
       }
-      const DepthBuffer& depth = this->layers.depthBuffer();
+      const DepthBuffer& depth = this->layers.hits().depth;
       assert(at >> 6 < depth.tiles());
       if (!depth.hit[at >> 6] || depth.instance[at] == NoInstance)
       {
         return false;
       }
       caster = depth.instance[at];
-      t = this->layers.base(caster) + depth.t[at];
+      t = this->layers.hits().base(caster) + depth.t[at];
       return true;
     }
   };

@@ -67,7 +67,7 @@ std::uint64_t ShadowBuffer::occluders(const Face& face, const MapPlaces& places,
   }
   if (found != 0 && found == same)
   {
-    setOccluders(face.layers.base(theirs) - places.t0, occluders, tests);
+    setOccluders(face.layers.hits().base(theirs) - places.t0, occluders, tests);
     std::fill_n(tests.bias, TilePatch::Most, biasOf(theirs));
     std::fill_n(tests.error, TilePatch::Most, errorOf(theirs));
     return found;
@@ -79,7 +79,7 @@ std::uint64_t ShadowBuffer::occluders(const Face& face, const MapPlaces& places,
       std::uint32_t caster;
       double occluder;
       if (face.occluder(
-            face.layers.depthBuffer().at(places.column(i), places.row(i)), caster, occluder))
+            face.layers.hits().depth.at(places.column(i), places.row(i)), caster, occluder))
       {
         something |= std::uint64_t(1) << i;
         tests.occluder[i] = static_cast<float>(occluder - places.t0);
@@ -163,7 +163,7 @@ ShadowBuffer::Answer ShadowBuffer::ask(const Place& place, const glm::ivec2& tex
   }
   std::uint32_t caster;
   double occluder;
-  if (!face->occluder(face->layers.depthBuffer().at(texel.x, texel.y), caster, occluder))
+  if (!face->occluder(face->layers.hits().depth.at(texel.x, texel.y), caster, occluder))
   {
     return Answer::Lit;
   }

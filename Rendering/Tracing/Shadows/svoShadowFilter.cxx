@@ -19,7 +19,7 @@ double ShadowBuffer::boxWidth(const Place& place, double extent)
 bool ShadowBuffer::isFlat(const Place& place, double width) const
 {
   const Face& face = *place.face;
-  const DepthBuffer& depth = face.layers.depthBuffer();
+  const DepthBuffer& depth = face.layers.hits().depth;
   const TexelWindow x(place.x, width, face.view.width);
   const TexelWindow y(place.y, width, face.view.height);
   double t[TexelWindow::Most][TexelWindow::Most];
@@ -64,7 +64,7 @@ bool ShadowBuffer::isFlat(const Place& place, double width) const
 bool ShadowBuffer::endsBefore(const Place& place, const glm::ivec2& texel, double error) const
 {
   const Face& face = *place.face;
-  const DepthBuffer& depth = face.layers.depthBuffer();
+  const DepthBuffer& depth = face.layers.hits().depth;
   const double offset[2] = { texel.x + 0.5 - place.x, texel.y + 0.5 - place.y };
   const int size[2] = { face.view.width, face.view.height };
   const double pixel = face.edge(place.t);

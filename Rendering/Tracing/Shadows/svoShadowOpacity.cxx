@@ -69,7 +69,7 @@ float ShadowBuffer::opacity(const Face& face, const glm::ivec2& texel) const
 {
   std::uint32_t caster;
   double t;
-  const std::size_t at = face.layers.depthBuffer().at(texel.x, texel.y);
+  const std::size_t at = face.layers.hits().depth.at(texel.x, texel.y);
   return !face.occluder(at, caster, t) ? 0.0f
     : face.opacities.known()           ? face.opacities.at(at)
                                        : this->CasterOpacity[caster];
@@ -89,7 +89,7 @@ float ShadowBuffer::opacity(const Place& place, double width) const
       const glm::ivec2 texel(x.first + i, y.first + j);
       std::uint32_t caster;
       double t;
-      if (place.face->occluder(place.face->layers.depthBuffer().at(texel.x, texel.y), caster, t))
+      if (place.face->occluder(place.face->layers.hits().depth.at(texel.x, texel.y), caster, t))
       {
         const double weight = x.weight[i] * y.weight[j];
         sum += weight * this->opacity(*place.face, texel);

@@ -34,7 +34,7 @@ struct ShadowRays::Start
   int number;                // of the answer's bit
 };
 
-ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye, const LooseOctree* tree)
+ShadowRays::ShadowRays(const Scene& scene, const Hits& eye, const LooseOctree* tree)
   : Tree(tree)
   , Casting(tree ? scene.instances.size() : 0, None)
 {
@@ -44,7 +44,7 @@ ShadowRays::ShadowRays(const Scene& scene, const LayeredView& eye, const LooseOc
     {
       const Octree& octree = instance.body->octree;
       const std::size_t index = &instance - scene.instances.data();
-      const LeafGeometry geometry = eye.leafGeometry(static_cast<std::uint32_t>(index));
+      const LeafGeometry geometry = eye.instances.leafGeometry(static_cast<std::uint32_t>(index));
       const LeafTraits traits = traitsOf(geometry);
       const bool exact = traits.exact() && octree.surface();
       const bool mixed = traits.exact() && octree.longestList() > traits.longestExact;

@@ -4,7 +4,8 @@
 #define svoShadowRays_h
 
 #include "svoCasterBox.h"
-#include "svoLayeredView.h"
+#include "svoHits.h"
+#include "svoLooseOctree.h"
 #include "svoScene.h"
 #include "svoShadowBeam.h"
 #include "svoSurfacePoint.h"
@@ -23,7 +24,7 @@ class ShadowRays
 public:
   /// `eye`: of its leaf geometries. `tree`: of the scene's instances (svoInstanceTree.h), borrowed;
   /// null: each ray looks at each caster. The answers are the same.
-  ShadowRays(const Scene& scene, const LayeredView& eye, const LooseOctree* tree = nullptr);
+  ShadowRays(const Scene& scene, const Hits& eye, const LooseOctree* tree = nullptr);
 
   /// True if a caster lies between the point and the light. The ray starts off the point's own
   /// surface, along the facet on the light's side, by `offset` (world): the error of its leaf.

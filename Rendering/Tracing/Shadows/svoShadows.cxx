@@ -73,7 +73,7 @@ void Shadows::fitMaps(const Scene& seen, const View& view, const FrameSettings& 
   this->Maps = mapsOfLights(this->Fitted, seen.lights, settings, view);
 }
 
-void Shadows::prepare(const Scene& scene, const View& view, const LayeredView& eye,
+void Shadows::prepare(const Scene& scene, const View& view, const Hits& eye,
   const FrameSettings& settings, LayerBudget& budget, const ParallelFor& parallelFor)
 {
   this->Filters = settings.filters();
@@ -94,7 +94,7 @@ void Shadows::prepare(const Scene& scene, const View& view, const LayeredView& e
   }
 }
 
-void Shadows::prepareRays(const Scene& scene, const LayeredView& eye)
+void Shadows::prepareRays(const Scene& scene, const Hits& eye)
 {
   this->Tested = &scene;
   this->Rays.reset();

@@ -35,13 +35,13 @@ public:
 
   /// Fits the lights' buffers and keeps those of their layers that are still true. `scene`: with
   /// the octrees that lights see. `view`: of the eye, which has been traced.
-  void prepare(const Scene& scene, const View& view, const LayeredView& eye,
-    const FrameSettings& settings, LayerBudget& budget, const ParallelFor& parallelFor);
+  void prepare(const Scene& scene, const View& view, const Hits& eye, const FrameSettings& settings,
+    LayerBudget& budget, const ParallelFor& parallelFor);
 
   /// To be called in every frame, after prepare() or traceShared(). `scene` and `eye`: those of the
   /// points to be tested; rays to the light meet the same geometry, or surfaces would shadow
   /// themselves.
-  void prepareRays(const Scene& scene, const LayeredView& eye);
+  void prepareRays(const Scene& scene, const Hits& eye);
 
   /// Instead of prepare() and trace() where other processes hold parts of the scene: traces the
   /// buffers whole and merges them with the others', so that all have the same. A collective call.

@@ -6,14 +6,14 @@
 namespace svo
 {
 void SharedDepth::merge(
-  Processes& processes, const View& view, const LayeredView& traced, std::size_t first)
+  Processes& processes, const View& view, const Hits& traced, std::size_t first)
 {
   constexpr double Depths = static_cast<double>((std::uint64_t(1) << 39) - 1);
   this->Near = view.tNear;
   this->Step = (view.tFar - view.tNear) / Depths;
 
   // Only tiles where somebody has something are sent around.
-  const DepthBuffer& own = traced.depthBuffer();
+  const DepthBuffer& own = traced.depth;
   std::vector<std::uint64_t> empty(own.tiles());
   for (std::size_t tile = 0; tile < empty.size(); ++tile)
   {

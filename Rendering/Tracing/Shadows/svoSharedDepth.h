@@ -2,7 +2,7 @@
 #ifndef svoSharedDepth_h
 #define svoSharedDepth_h
 
-#include "svoLayeredView.h"
+#include "svoHits.h"
 #include "svoProcesses.h"
 #include "svoView.h"
 
@@ -24,7 +24,7 @@ public:
 
   /// Takes the depths that this process has traced, and merges them with the others'. A collective
   /// call. `first`: the index, among the instances of all processes, of this one's first.
-  void merge(Processes& processes, const View& view, const LayeredView& traced, std::size_t first);
+  void merge(Processes& processes, const View& view, const Hits& traced, std::size_t first);
 
   void clear()
   {

@@ -56,9 +56,9 @@ float roundDown(double x)
   return -roundUp(-x);
 }
 
-TileOccluders occludersIn(const LayeredView& map, std::size_t tile)
+TileOccluders occludersIn(const Hits& map, std::size_t tile)
 {
-  const DepthBuffer& depth = map.depthBuffer();
+  const DepthBuffer& depth = map.depth;
   constexpr double Infinity = std::numeric_limits<double>::infinity();
   double nearest = Infinity, farthest = -Infinity;
   if (!depth.hit[tile])
@@ -93,9 +93,9 @@ TileOccluders occludersIn(const LayeredView& map, std::size_t tile)
 }
 }
 
-void MapOccluders::find(const LayeredView& map, const ParallelFor& parallelFor)
+void MapOccluders::find(const Hits& map, const ParallelFor& parallelFor)
 {
-  const std::size_t tiles = map.depthBuffer().tiles();
+  const std::size_t tiles = map.depth.tiles();
   const bool all = this->Nearest.size() != tiles;
   this->Nearest.resize(tiles);
   this->Farthest.resize(tiles);
@@ -105,7 +105,7 @@ void MapOccluders::find(const LayeredView& map, const ParallelFor& parallelFor)
     {
       for (std::size_t tile = first; tile < last; ++tile)
       {
-        if (all || map.tiles().changed(tile))
+        if (all || map.tiles.changed(tile))
         {
           const TileOccluders found = occludersIn(map, tile);
           this->Nearest[tile] = found.nearest;

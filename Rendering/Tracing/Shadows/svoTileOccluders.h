@@ -7,7 +7,7 @@
 #define svoTileOccluders_h
 
 #include "svoDepthBuffer.h"
-#include "svoLayeredView.h"
+#include "svoHits.h"
 #include "svoMapPlaces.h"
 #include "svoParallel.h"
 
@@ -29,8 +29,8 @@ struct TileOccluders
 class MapOccluders
 {
 public:
-  /// After LayeredView::trace(), each time: of the tiles that are not what they were.
-  void find(const LayeredView& map, const ParallelFor& parallelFor);
+  /// After the map is traced, each time: of the tiles that are not what they were.
+  void find(const Hits& map, const ParallelFor& parallelFor);
   /// The map is not what shadows are looked up in.
   void forget()
   {

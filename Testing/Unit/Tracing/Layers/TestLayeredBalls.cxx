@@ -75,13 +75,13 @@ struct Hit
 
 Hit hitOf(const svo::LayeredView& layers, int x, int y)
 {
-  const svo::DepthBuffer& depth = layers.depthBuffer();
+  const svo::DepthBuffer& depth = layers.hits().depth;
   const std::size_t at = depth.at(x, y);
   if (!depth.hit[at >> 6] || depth.instance[at] == svo::NoInstance)
   {
     return {};
   }
-  return { depth.instance[at], layers.base(depth.instance[at]) + depth.t[at] };
+  return { depth.instance[at], layers.hits().base(depth.instance[at]) + depth.t[at] };
 }
 
 /// The first point of a ray, from the near plane to the far one, on the unit ball of an instance.
@@ -221,10 +221,10 @@ TEST(LayeredBalls, OfEquallyDeepOnesTheLaterIsSeen)
   svo::LayeredView layers(false);
   trace(layers, scene, view, false);
   int later = 0;
-  for (std::size_t i = 0; i < layers.depthBuffer().instance.size(); ++i)
+  for (std::size_t i = 0; i < layers.hits().depth.instance.size(); ++i)
   {
-    EXPECT_NE(layers.depthBuffer().hit[i >> 6] ? layers.depthBuffer().instance[i] : 0, Others);
-    later += layers.depthBuffer().hit[i >> 6] && layers.depthBuffer().instance[i] == Others + 1;
+    EXPECT_NE(layers.hits().depth.hit[i >> 6] ? layers.hits().depth.instance[i] : 0, Others);
+    later += layers.hits().depth.hit[i >> 6] && layers.hits().depth.instance[i] == Others + 1;
   }
   EXPECT_GT(later, 1000);
 }

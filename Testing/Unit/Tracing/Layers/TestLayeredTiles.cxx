@@ -89,7 +89,7 @@ void prepare(svo::LayeredView& layers, const svo::Scene& scene, const svo::View&
 /// Returns the number of hits.
 int compare(const svo::LayeredView& layers, const svo::View& view)
 {
-  const svo::DepthBuffer& depth = layers.depthBuffer();
+  const svo::DepthBuffer& depth = layers.hits().depth;
   int hits = 0;
   for (int tileY = 0; tileY < depth.tilesY; ++tileY)
   {
@@ -118,7 +118,7 @@ int compare(const svo::LayeredView& layers, const svo::View& view)
         }
         ++hits;
         EXPECT_EQ(depth.primitive[at], samples.primitive[i]) << x << ", " << y;
-        EXPECT_EQ(layers.base(instance) + depth.t[at], samples.t[i]) << x << ", " << y;
+        EXPECT_EQ(layers.hits().base(instance) + depth.t[at], samples.t[i]) << x << ", " << y;
       }
       if (testing::Test::HasFailure()) // of one tile is enough
       {

@@ -29,8 +29,8 @@ TEST(NearSide, IsWhatEveryRayThroughABallMeets)
           scene, view, [](const svo::Instance&) { return true; },
           [&](const svo::Instance&, const svo::LocalView&) { return level; }, false, budget);
         layers.trace(svo::serialFor, nullptr);
-        ASSERT_EQ(layers.level(0), level);
-        const svo::DepthBuffer& depth = layers.depthBuffer();
+        ASSERT_EQ(layers.hits().instances.level(0), level);
+        const svo::DepthBuffer& depth = layers.hits().depth;
         const double centre = glm::length(eye);
         for (int y = 0; y < view.height; ++y)
         {
@@ -47,7 +47,7 @@ TEST(NearSide, IsWhatEveryRayThroughABallMeets)
             }
             ASSERT_TRUE(depth.hit[at >> 6] && depth.instance[at] != svo::NoInstance);
             ++hits;
-            onBack[level] += layers.base(0) + depth.t[at] > centre;
+            onBack[level] += layers.hits().base(0) + depth.t[at] > centre;
           }
         }
       }

@@ -174,7 +174,7 @@ TEST(OcclusionCulling, ChangesNoBit)
     trees += tree.tree() != nullptr;
     trace(scene, view, tree.tree(), true, with);
     trace(scene, view, nullptr, false, without);
-    const svo::DepthBuffer &a = with.depthBuffer(), &b = without.depthBuffer();
+    const svo::DepthBuffer &a = with.hits().depth, &b = without.hits().depth;
     ASSERT_EQ(a.hit, b.hit);
     for (std::size_t tile = 0; tile < a.tiles(); ++tile)
     {

@@ -43,7 +43,7 @@ TEST(PlaceOnTriangles, APicturesDepthsAreThoseOfRaysInDouble)
       view, true));
     const svo::LocalView local =
       svo::makeLocalView(scene.instances[0].body->octree, scene.instances[0].localToWorld, view);
-    const svo::DepthBuffer& depth = layers.depthBuffer();
+    const svo::DepthBuffer& depth = layers.hits().depth;
     int hits = 0;
     for (int y = 0; y < view.height; ++y)
     {
@@ -89,7 +89,7 @@ TEST(PlaceOnTriangles, HitsOnLongAndThinTrianglesAsWell)
     [](const svo::Instance& i, const svo::LocalView&) { return i.body->octree.level(); }, false,
     budget);
   layers.trace(svo::serialFor, nullptr);
-  const svo::DepthBuffer& depth = layers.depthBuffer();
+  const svo::DepthBuffer& depth = layers.hits().depth;
   int hits = 0;
   for (int y = 0; y < view.height; ++y)
   {

@@ -48,7 +48,7 @@ std::vector<std::uint32_t> seen(
     [&](const svo::Instance& i, const svo::LocalView&) { return i.body->octree.level() - coarser; },
     keep, budget);
   layers.trace(svo::serialFor, nullptr);
-  const svo::DepthBuffer& depth = layers.depthBuffer();
+  const svo::DepthBuffer& depth = layers.hits().depth;
   std::vector<std::uint32_t> instances;
   for (int y = 0; y < view.height; ++y)
   {

@@ -126,7 +126,7 @@ struct Stage
   template <class F>
   void eachPatch(F&& f)
   {
-    const DepthBuffer& depth = eye.depthBuffer();
+    const DepthBuffer& depth = eye.hits().depth;
     TilePatch patch{};
     for (std::size_t tile = 0; tile < depth.tiles(); ++tile)
     {
@@ -136,8 +136,8 @@ struct Stage
           view,
           hitsOfTile(depth, view, static_cast<int>(tile % depth.tilesX),
             static_cast<int>(tile / depth.tilesX)),
-          [](std::uint32_t) { return true; }, [&](std::uint32_t i) { return eye.base(i); }, patch,
-          f);
+          [](std::uint32_t) { return true; }, [&](std::uint32_t i) { return eye.hits().base(i); },
+          patch, f);
       }
     }
   }
@@ -223,7 +223,7 @@ TEST(TileShading, PatchesHaveEveryHitOnce)
 {
   Stage stage;
   stage.trace(7);
-  const DepthBuffer& depth = stage.eye.depthBuffer();
+  const DepthBuffer& depth = stage.eye.hits().depth;
   onEveryInstructionSet(
     [&]
     {

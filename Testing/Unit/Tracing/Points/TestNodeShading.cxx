@@ -35,7 +35,7 @@ void eachSeenPoint(const svo::Instance& instance, int level, const std::vector<g
       scene, view, [](const svo::Instance&) { return true; },
       [&](const svo::Instance&, const svo::LocalView&) { return level; }, false, budget);
     layers.trace(svo::serialFor, nullptr);
-    const svo::DepthBuffer& depth = layers.depthBuffer();
+    const svo::DepthBuffer& depth = layers.hits().depth;
     svo::TilePatch patch{};
     svo::TileTriangles triangles{};
     const auto look = [&](const svo::View& from, std::size_t tile, const auto& g)
@@ -44,7 +44,8 @@ void eachSeenPoint(const svo::Instance& instance, int level, const std::vector<g
         from,
         svo::hitsOfTile(depth, from, static_cast<int>(tile % depth.tilesX),
           static_cast<int>(tile / depth.tilesX)),
-        [](std::uint32_t) { return true; }, [&](std::uint32_t i) { return layers.base(i); }, patch,
+        [](std::uint32_t) { return true; }, [&](std::uint32_t i) { return layers.hits().base(i); },
+        patch,
         [&](svo::TilePatch& seen)
         {
           svo::lookAtPatch(frames[0], seen, triangles);

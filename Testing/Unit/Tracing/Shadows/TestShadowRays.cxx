@@ -1,5 +1,6 @@
 // Exact shadows of a tile's points, asked for together, against rays alone.
 #include "svoIntersect.h"
+#include "svoLayeredView.h"
 #include "svoLeafError.h"
 #include "svoSelectLevel.h"
 #include "svoShadowBeam.h"
@@ -105,7 +106,7 @@ Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& 
     { return instance.body->octree.level(); },
     false, budget);
   eye.trace(svo::serialFor, nullptr);
-  const svo::ShadowRays rays(scene, eye);
+  const svo::ShadowRays rays(scene, eye.hits());
   std::vector<svo::SurfaceMatrices> frames;
   double rounding = 0.0;
   for (const svo::Instance& instance : scene.instances)
@@ -118,7 +119,7 @@ Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& 
   Count count;
   svo::TilePatch patch;
   svo::TileTriangles triangles;
-  const svo::DepthBuffer& depth = eye.depthBuffer();
+  const svo::DepthBuffer& depth = eye.hits().depth;
   for (int tile = 0; tile < depth.tilesX * depth.tilesY; ++tile)
   {
     if (!depth.hit[tile])
@@ -128,14 +129,15 @@ Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& 
     const svo::TileHits hits =
       svo::hitsOfTile(depth, view, tile % depth.tilesX, tile / depth.tilesX);
     svo::eachPatch(
-      view, hits, [](std::uint32_t) { return true; }, [&](std::uint32_t i) { return eye.base(i); },
-      patch,
+      view, hits, [](std::uint32_t) { return true; },
+      [&](std::uint32_t i) { return eye.hits().base(i); }, patch,
       [&](const svo::TilePatch&)
       {
         svo::lookAtPatch(frames[patch.instance], patch, triangles);
         const svo::Instance& instance = scene.instances[patch.instance];
-        const double error = svo::worldLeafError(instance, eye.leafGeometry(patch.instance),
-          instance.body->octree.level(), eye.placed(patch.instance));
+        const double error =
+          svo::worldLeafError(instance, eye.hits().instances.leafGeometry(patch.instance),
+            instance.body->octree.level(), eye.hits().instances.placed(patch.instance));
         const std::uint64_t asked = patch.mask & 0xfbfdfeff7fbfdfefull;
         const std::uint64_t dark = rays.shadows(light, patch, error, asked);
         EXPECT_EQ(0u, dark & ~asked);
@@ -222,7 +224,7 @@ TEST(ShadowRays, CastersThatAreLeftOutAreNotMet)
     [](const svo::Instance& instance, const svo::LocalView&)
     { return instance.body->octree.level(); },
     false, budget);
-  const svo::ShadowRays rays(scene, eye);
+  const svo::ShadowRays rays(scene, eye.hits());
   // Through every caster, wherever it is.
   const auto met = [&](const glm::dvec3& from, const glm::dvec3& way, double tMin, double tMax)
   {

@@ -1,5 +1,6 @@
 // What is known of the tiles of a shadow buffer's map, against a look at each of their texels.
 #include "svoInstructionSets.h"
+#include "svoLayeredView.h"
 #include "svoTileOccluders.h"
 #include "svoTracerScenes.h"
 
@@ -23,9 +24,9 @@ struct Expected
   std::uint32_t caster = NoInstance;
 };
 
-Expected lookAtEachTexel(const LayeredView& map, const MapTiles& tiles)
+Expected lookAtEachTexel(const Hits& map, const MapTiles& tiles)
 {
-  const DepthBuffer& depth = map.depthBuffer();
+  const DepthBuffer& depth = map.depth;
   Expected expected;
   bool first = true;
   for (int y = 8 * tiles.y0; y < 8 * (tiles.y1 + 1); ++y)
@@ -57,9 +58,9 @@ struct Count
 };
 
 /// Boxes of tiles all over the map.
-Count compare(const LayeredView& map, const MapOccluders& occluders)
+Count compare(const Hits& map, const MapOccluders& occluders)
 {
-  const DepthBuffer& depth = map.depthBuffer();
+  const DepthBuffer& depth = map.depth;
   Count count;
   for (int y = 0; y < depth.tilesY; ++y)
   {
@@ -99,8 +100,8 @@ Count compareFrame(const Scene& scene, const View& view, LayeredView& map, MapOc
     [](const Instance& instance, const LocalView&) { return instance.body->octree.level(); }, true,
     budget);
   map.trace(serialFor, nullptr);
-  occluders.find(map, serialFor);
-  return compare(map, occluders);
+  occluders.find(map.hits(), serialFor);
+  return compare(map.hits(), occluders);
 }
 
 /// Frames in which objects move, and others.

@@ -8,7 +8,7 @@
 
 #include "svoGroupView.h"
 #include "svoOctree.h"
-#include "vtkSVOOctreeModule.h"
+#include "vtkSVOTracingModule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -49,12 +49,12 @@ struct GroupWindow
 
 /// Finds the nodes inside the pyramid between tMin and tMax, nearest first. False if there are more
 /// than `most`: then they are not all there. The octree must have a surface.
-VTKSVOOCTREE_EXPORT bool findTileNodes(const Octree& octree, const TilePyramid& pyramid, float tMin,
-  float tMax, std::size_t most, std::vector<TileNode>& nodes);
+VTKSVOTRACING_EXPORT bool findTileNodes(const Octree& octree, const TilePyramid& pyramid,
+  float tMin, float tMax, std::size_t most, std::vector<TileNode>& nodes);
 
 /// The same for a group of 4x4 tiles: nearer ones first, by and large, and none that lies between
 /// the centres of pixels. The pyramid is that of the group; nodes are those of the `window`.
-VTKSVOOCTREE_EXPORT bool findGroupNodes(const Octree& octree, const TilePyramid& pyramid,
+VTKSVOTRACING_EXPORT bool findGroupNodes(const Octree& octree, const TilePyramid& pyramid,
   float tMin, float tMax, std::size_t most, std::vector<GroupNode>& nodes,
   const GroupWindow& window = {});
 }

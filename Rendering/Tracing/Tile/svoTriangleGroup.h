@@ -7,7 +7,7 @@
 #include "svoGroupView.h"
 #include "svoOctree.h"
 #include "svoPyramidNodes.h"
-#include "vtkSVOOctreeModule.h"
+#include "vtkSVOTracingModule.h"
 
 #include <array>
 #include <cstddef>
@@ -56,7 +56,7 @@ enum class SmallTriangles
   AsSlots
 };
 
-class VTKSVOOCTREE_EXPORT TriangleGroup
+class VTKSVOTRACING_EXPORT TriangleGroup
 {
 public:
   void clear()

@@ -4,8 +4,8 @@
 #define svoMergedTiles_h
 
 #include "svoDepthBuffer.h"
-#include "svoDepthLayer.h"
 #include "svoDepthOffset.h"
+#include "svoLayerKey.h"
 #include "svoView.h"
 
 #include <algorithm>

@@ -1,11 +1,7 @@
-// Who is in front: surfaces that have the same vertices, of whatever octrees, are equally deep, and
-// the later one is seen, as in VTK. Octrees round the vertices and stop at nodes; so where hits lie
-// within their errors of each other, their depths are found again from the mesh's own points.
-#include "svoLayeredView.h"
+#include "svoHitOrder.h"
 
 #include "svoDepthSlope.h"
 #include "svoIntersect.h"
-#include "svoLeafError.h"
 #include "svoPlaceOnTriangles.h"
 
 #include <algorithm>
@@ -31,31 +27,52 @@ bool lessInSpace(const glm::dvec3& a, const glm::dvec3& b)
 }
 }
 
-LayeredView::DepthRefinement LayeredView::refinementOf(
-  const Instance& instance, const VisibleInstance& visible, double& error) const
+void HitOrder::merge(const TracedInstance& entry, const float* t, const Primitive* primitive,
+  const double* x, const double* y, TileHits& merged) const
 {
-  const Octree& octree = instance.body->octree;
-  const LeafTraits traits = traitsOf(visible.key.leafGeometry);
-  if (!this->Exact || traits.shape == CellShape::Cube || !octree.surface() ||
-    !instance.body->points || instance.body->points.count != octree.surface()->points.size())
+  // A NaN compares false and never wins.
+  if (!merged.any)
   {
-    return DepthRefinement::Never;
+    std::uint32_t any = 0;
+    for (int i = 0; i < 64; ++i)
+    {
+      any |= static_cast<std::uint32_t>(primitive[i] != NoPrimitive);
+    }
+    if (any)
+    {
+      merged.any = true;
+      for (int i = 0; i < 64; ++i)
+      {
+        merged.t[i] = t[i];
+        merged.primitive[i] = primitive[i];
+        merged.instance[i] = primitive[i] == NoPrimitive ? NoInstance : entry.index;
+      }
+    }
+    return;
   }
-  const int level = visible.key.level;
-  const bool nodes = stopsAtNodes(instance, level);
-  error = edgeOnReach(visible.local);
-  if (visible.tiles || (!nodes && octree.longestList() <= traits.longestExact))
+  for (int i = 0; i < 64; ++i)
   {
-    return DepthRefinement::OnTriangle;
+    if (primitive[i] == NoPrimitive)
+    {
+      continue;
+    }
+    const std::uint32_t winner = merged.instance[i];
+    if (winner == NoInstance ||
+      this->inFront({ entry.index, primitive[i], entry.local.base + t[i], x[i], y[i] },
+        { winner, merged.primitive[i], this->Instances.base(winner) + merged.t[i], x[i], y[i] }))
+    {
+      merged.t[i] = t[i];
+      merged.primitive[i] = primitive[i];
+      merged.instance[i] = entry.index;
+    }
   }
-  error = std::max(error, (nodes ? MeanPlaneError : CubeError) * worldVoxel(instance, level));
-  return DepthRefinement::Traced;
 }
 
-bool LayeredView::settle(const SeenHit& a, const SeenHit& b) const
+bool HitOrder::settle(const SeenHit& a, const SeenHit& b) const
 {
-  const double errorA = this->Errors[a.instance], errorB = this->Errors[b.instance];
-  if (this->Shifted && !this->Sloped)
+  const double errorA = this->Instances.error(a.instance),
+               errorB = this->Instances.error(b.instance);
+  if (this->Instances.shifted() && !this->Instances.sloped())
   {
     if (this->rank(a.instance, a.t + errorA) < this->rank(b.instance, b.t - errorB))
     {
@@ -71,30 +88,32 @@ bool LayeredView::settle(const SeenHit& a, const SeenHit& b) const
   return rankA < rankB || (rankA == rankB && a.instance > b.instance);
 }
 
-double LayeredView::exactRank(const SeenHit& hit) const
+double HitOrder::exactRank(const SeenHit& hit) const
 {
   Primitive primitive = hit.primitive;
   const double t = this->exactDepth(hit, primitive);
   const double rank = this->rank(hit.instance, t);
-  const double factor = this->Offsets[hit.instance].factor;
-  if (!this->Sloped || factor == 0.0)
+  const double factor = this->Instances.offset(hit.instance).factor;
+  if (!this->Instances.sloped() || factor == 0.0)
   {
     return rank;
   }
-  const Entry& entry = this->Instances[this->EntryOf[hit.instance]];
+  const TracedInstance& entry = this->Instances.of(hit.instance);
   return rank +
-    factor * steepness(*entry.octree, entry.local.toOctree, this->Seen, hit.x, hit.y, t, primitive);
+    factor *
+    steepness(
+      *entry.octree, entry.local.toOctree, this->Instances.view(), hit.x, hit.y, t, primitive);
 }
 
-double LayeredView::exactDepth(const SeenHit& hit, Primitive& primitive) const
+double HitOrder::exactDepth(const SeenHit& hit, Primitive& primitive) const
 {
-  const Entry& entry = this->Instances[this->EntryOf[hit.instance]];
+  const TracedInstance& entry = this->Instances.of(hit.instance);
   if (entry.refinement == DepthRefinement::Never)
   {
     return hit.t;
   }
   const LocalView& local = entry.local;
-  const double error = this->Errors[hit.instance];
+  const double error = this->Instances.error(hit.instance);
   if (entry.refinement == DepthRefinement::Traced)
   {
     const Ray ray{ local.origin + hit.y * local.originY + hit.x * local.originX,
@@ -115,8 +134,8 @@ double LayeredView::exactDepth(const SeenHit& hit, Primitive& primitive) const
   const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
   const glm::dmat3& toLocal = local.toOctree.inverse;
   const glm::dvec3 origin =
-    toLocal * (this->Seen.rayOrigin(hit.x, hit.y) - local.toOctree.translation);
-  const glm::dvec3 direction = toLocal * this->Seen.rayDirection(hit.x, hit.y);
+    toLocal * (this->Instances.view().rayOrigin(hit.x, hit.y) - local.toOctree.translation);
+  const glm::dvec3 direction = toLocal * this->Instances.view().rayDirection(hit.x, hit.y);
   const double t = withoutNoise(glm::dot(normal, p[0] - origin) / glm::dot(normal, direction));
   return std::abs(t - hit.t) <= error ? t : hit.t; // t may be not a number
 }

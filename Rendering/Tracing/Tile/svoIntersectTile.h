@@ -13,7 +13,7 @@
 #include "svoOctree.h"
 #include "svoPyramidNodes.h"
 #include "svoRay.h"
-#include "vtkSVOOctreeModule.h"
+#include "vtkSVOTracingModule.h"
 
 #include <vector>
 
@@ -21,11 +21,11 @@ namespace svo
 {
 /// The nearest hits of the rays, all inside the pyramid, among the triangles of `nodes`. Results do
 /// not depend on the instruction set.
-VTKSVOOCTREE_EXPORT void intersectTile(const Octree& octree, const TilePyramid& pyramid,
+VTKSVOTRACING_EXPORT void intersectTile(const Octree& octree, const TilePyramid& pyramid,
   const std::vector<TileNode>& nodes, const RayBlock& rays, HitBlock& hits);
 
 /// Sets t of rays that hit the triangles that `hits` names, to the same bits as intersectTile().
-VTKSVOOCTREE_EXPORT void depthsOnTriangles(
+VTKSVOTRACING_EXPORT void depthsOnTriangles(
   const Octree& octree, const RayBlock& rays, HitBlock& hits);
 }
 

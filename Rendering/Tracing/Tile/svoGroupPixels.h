@@ -8,7 +8,7 @@
 #define svoGroupPixels_h
 
 #include "svoGroupView.h"
-#include "vtkSVOOctreeModule.h"
+#include "vtkSVOTracingModule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +30,7 @@ struct SeenPoints
   void makeRoom(std::size_t size);
 };
 
-class VTKSVOOCTREE_EXPORT GroupPixels
+class VTKSVOTRACING_EXPORT GroupPixels
 {
 public:
   /// Row by row.

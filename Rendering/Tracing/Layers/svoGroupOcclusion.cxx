@@ -1,0 +1,77 @@
+#include "svoGroupOcclusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace svo
+{
+bool GroupOcclusion::hides(
+  const TriangleGroup& triangles, const TileGroup& group, const PixelRect& rect, double depth) const
+{
+  // As PixelFunctions::key(); a view may count depths from elsewhere than where its rays meet.
+  const double at = depth + this->Instances.fromEye();
+  const KeyBase& keys = this->Instances.keys();
+  double key = at - keys.far;
+  if (!this->Instances.view().parallel)
+  {
+    if (!(at > 0.0))
+    {
+      return false;
+    }
+    key = (keys.deep ? -keys.far : key) * keys.far / at;
+  }
+  return group.wants(rect) && triangles.hides(group.windowOf(rect), static_cast<float>(key));
+}
+
+bool GroupOcclusion::hidesNode(
+  const TriangleGroup& triangles, const TileGroup& group, std::uint32_t node)
+{
+  if (node == SeenNode::None)
+  {
+    return false;
+  }
+  std::uint64_t& known = this->Nodes[node];
+  if (known / 2 != this->Asking)
+  {
+    const SeenNode& n = this->Instances.set().nodes[node];
+    const double before =
+      n.cube.nearest - this->slack(n.cube.nearest, n.cube.farthest - n.cube.nearest);
+    const bool hidden = this->hidesNode(triangles, group, n.parent) ||
+      this->hides(triangles, group, n.cube.rect, before);
+    known = 2 * this->Asking + hidden;
+  }
+  return known % 2 != 0;
+}
+
+bool GroupOcclusion::hides(
+  const TriangleGroup& triangles, const TileGroup& group, const TracedInstance& entry)
+{
+  if (!this->On || triangles.empty())
+  {
+    return false;
+  }
+  return this->hidesNode(
+           triangles, group, this->Instances.nodeOf(this->Instances.indexOf(entry))) ||
+    this->hides(triangles, group, entry.local.pixels, this->before(entry));
+}
+
+double GroupOcclusion::deepest(const TileHits& merged) const
+{
+  constexpr double Infinity = std::numeric_limits<double>::infinity();
+  if (!merged.any || !this->On)
+  {
+    return Infinity;
+  }
+  double deepest = -Infinity;
+  for (int i = 0; i < 64; ++i)
+  {
+    if (merged.instance[i] == NoInstance)
+    {
+      return Infinity;
+    }
+    deepest = std::max(deepest, this->Instances.base(merged.instance[i]) + merged.t[i]);
+  }
+  return deepest + this->Instances.largestError();
+}
+}

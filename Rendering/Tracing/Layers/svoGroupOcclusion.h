@@ -1,0 +1,64 @@
+// What a group of tiles need not look at: nodes of the tree of instances, or instances, that its
+// triangles hide.
+#ifndef svoGroupOcclusion_h
+#define svoGroupOcclusion_h
+
+#include "svoHitOrder.h"
+#include "svoTileGroup.h"
+#include "svoTracedInstances.h"
+#include "svoTriangleGroup.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace svo
+{
+class GroupOcclusion
+{
+public:
+  /// `on`: Culling::occlusion; else nothing is hidden.
+  GroupOcclusion(const TracedInstances& instances, bool on)
+    : Instances(instances)
+    , On(on && !instances.shifted())
+    , Nodes(instances.set().nodes.size())
+  {
+  }
+  /// Forgets what was hidden by other triangles.
+  void restart() { ++this->Asking; }
+
+  /// True if the triangles, to which others may be added until the restart, hide all that an
+  /// instance has in the window.
+  bool hides(const TriangleGroup& triangles, const TileGroup& group, const TracedInstance& entry);
+
+  /// Linear depth before which an instance has no hits.
+  double before(const TracedInstance& entry) const
+  {
+    return entry.local.base - this->slack(entry.local.base, entry.local.tMax);
+  }
+  /// Linear depth beyond which nothing of a tile is seen; infinity if there is no such.
+  double deepest(const TileHits& merged) const;
+  bool on() const { return this->On; }
+
+private:
+  /// True if they hide all that lies in a rectangle of the image beyond a linear depth.
+  bool hides(const TriangleGroup& triangles, const TileGroup& group, const PixelRect& rect,
+    double depth) const;
+  bool hidesNode(const TriangleGroup& triangles, const TileGroup& group, std::uint32_t node);
+  /// How much nearer than its nearest corner a hit in what is `deep` from there on may be found,
+  /// and by how much that of another instance may be off.
+  double slack(double nearest, double deep) const
+  {
+    return 2e-3 * deep + 1e-5 * (std::abs(nearest) + std::abs(this->Instances.fromEye())) +
+      this->Instances.largestError();
+  }
+
+  const TracedInstances& Instances;
+  bool On;
+  /// By index into VisibleSet::nodes: twice what `Asking` was when it was asked about, and 1 if it
+  /// was hidden.
+  std::vector<std::uint64_t> Nodes;
+  std::uint64_t Asking = 0;
+};
+}
+
+#endif

@@ -1,0 +1,380 @@
+#include "svoTileTracer.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace svo
+{
+TileTracer::TileTracer(const TracedInstances& instances, bool occlusion,
+  const std::vector<std::uint8_t>& lastHit, DepthBuffer& depth, MergedTiles& tiles)
+  : Instances(instances)
+  , Order(instances)
+  , LastHit(lastHit)
+  , Depth(depth)
+  , Tiles(tiles)
+  , Occlusion(instances, occlusion)
+{
+  Account none;
+  none.counted = depth.tiles();
+  this->Accounts.assign(instances.size(), none);
+}
+
+void TileTracer::trace(int groupX, int groupY, const std::uint32_t* nearby, std::size_t count)
+{
+  this->Group.x = groupX;
+  this->Group.y = groupY;
+  if (!this->findWindow())
+  {
+    return;
+  }
+  this->gather(nearby, count);
+  this->Group.eachTile(
+    [this](int tileX, int tileY)
+    {
+      if (this->Tiles.isMerged(this->indexOf(tileX, tileY)))
+      {
+        this->mergeTile(tileX, tileY);
+      }
+    });
+}
+
+bool TileTracer::findWindow()
+{
+  constexpr int Size = TileGroup::Tiles;
+  int x0 = Size, y0 = Size, x1 = -1, y1 = -1;
+  for (int y = 0; y < std::min(Size, this->Depth.tilesY - this->Group.y); ++y)
+  {
+    for (int x = 0; x < std::min(Size, this->Depth.tilesX - this->Group.x); ++x)
+    {
+      if (this->Tiles.isMerged(this->indexOf(this->Group.x + x, this->Group.y + y)))
+      {
+        x0 = std::min(x0, x);
+        y0 = std::min(y0, y);
+        x1 = std::max(x1, x);
+        y1 = y;
+      }
+    }
+  }
+  const auto pixel = [](int tile) { return static_cast<std::uint8_t>(8 * tile); };
+  const auto last = [](int tile) { return static_cast<std::uint8_t>(8 * tile + 7); };
+  this->Group.window = { pixel(x0), last(x1), pixel(y0), last(y1) };
+  return x1 >= 0;
+}
+
+void TileTracer::gather(const std::uint32_t* nearby, std::size_t count)
+{
+  this->Nearby = 0;
+  this->Together.clear();
+  this->Balls.clear();
+  if (this->Candidates.size() < count)
+  {
+    this->Candidates.resize(count);
+  }
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const TracedInstance& entry = this->Instances[nearby[k]];
+    if (!this->Group.wants(entry.local.pixels))
+    {
+      continue;
+    }
+    if (entry.ball)
+    {
+      this->Balls.add(entry, this->Group);
+      this->accountOf(entry).asked = true;
+      continue;
+    }
+    Candidate& candidate = this->Candidates[this->Nearby++];
+    candidate.part.entry = &entry;
+    candidate.hidden = false;
+    candidate.layerMethod = entry.tiles ? LayerMethod::Undecided : LayerMethod::Rays;
+    candidate.method = this->choose(entry, candidate);
+    if (candidate.method == Method::Together)
+    {
+      this->Together.push_back(&candidate);
+    }
+  }
+  this->Balls.sort();
+  while (!this->findTogether())
+  {
+  }
+  this->findHidden();
+}
+
+TileTracer::Method TileTracer::choose(const TracedInstance& entry, Candidate& candidate)
+{
+  if (entry.layer)
+  {
+    return Method::Layer;
+  }
+  if (!entry.tiles)
+  {
+    return Method::Rays;
+  }
+  if (!this->Instances.shifted())
+  {
+    return Method::Together;
+  }
+  candidate.triangles.clear();
+  return candidate.triangles.add(
+           this->Instances, entry, this->Group, this->manyTogether(), this->Memory)
+    ? Method::Alone
+    : Method::Rays;
+}
+
+bool TileTracer::findTogether()
+{
+  this->Triangles.clear();
+  this->Occlusion.restart();
+  for (Candidate* const candidate : this->Together)
+  {
+    candidate->hidden = candidate->method == Method::Together &&
+      this->Occlusion.hides(this->Triangles.triangles(), this->Group, candidate->entry());
+    if (candidate->method == Method::Together && !candidate->hidden &&
+      !this->Triangles.add(
+        this->Instances, candidate->entry(), this->Group, this->manyTogether(), this->Memory))
+    {
+      candidate->method = Method::Rays;
+      if (this->Triangles.incomplete())
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+void TileTracer::findHidden()
+{
+  for (std::size_t k = 0; k < this->Nearby; ++k)
+  {
+    Candidate& candidate = this->Candidates[k];
+    if (candidate.method == Method::Rays)
+    {
+      candidate.hidden =
+        this->Occlusion.hides(this->Triangles.triangles(), this->Group, candidate.entry());
+    }
+    Account& account = this->accountOf(candidate.entry());
+    account.asked = true;
+    account.looked = account.looked || !candidate.hidden;
+  }
+}
+
+bool TileTracer::nearestTriangles(int tileX, int tileY, GroupTriangles& triangles, TileHits& hits)
+{
+  const std::size_t tile = this->indexOf(tileX, tileY);
+  return triangles.nearest(this->Instances, this->Group, tileX, tileY, this->Memory, hits,
+    [&](std::uint32_t owner)
+    {
+      Account& account = this->Accounts[this->Instances.entryOf(owner)];
+      if (account.counted != tile)
+      {
+        account.counted = tile;
+        account.rays += 64;
+      }
+    });
+}
+
+bool TileTracer::takesPart(int tileX, int tileY, double deepest, Candidate& candidate)
+{
+  constexpr double First = -std::numeric_limits<double>::infinity();
+  const TracedInstance& entry = candidate.entry();
+  switch (candidate.method)
+  {
+    case Method::Layer: // first: kept ones cost nothing and cut the others' rays
+      candidate.key = First;
+      return this->findLayer(tileX, tileY, candidate);
+    case Method::Alone:
+      candidate.key = First;
+      return !candidate.hidden;
+    case Method::Rays:
+      if (candidate.hidden || this->Occlusion.before(entry) > deepest ||
+        !findPart(this->Instances, tileX, tileY, candidate.part))
+      {
+        return false;
+      }
+      candidate.key = entry.local.base + candidate.part.tNear;
+      return true;
+    case Method::Together:
+      break;
+  }
+  return false;
+}
+
+/// Traces a tile of a layer, or finds where its rays begin; false if it is empty.
+bool TileTracer::findLayer(int tileX, int tileY, Candidate& candidate)
+{
+  DepthLayer& layer = *candidate.entry().layer;
+  if (!layer.holds(tileX, tileY))
+  {
+    return false;
+  }
+  const std::size_t k = layer.index(tileX, tileY);
+  if (layer.traced[k] != DepthLayer::Unknown)
+  {
+    return layer.traced[k] != DepthLayer::Empty;
+  }
+  if (candidate.layerMethod == LayerMethod::Undecided)
+  {
+    candidate.triangles.clear();
+    candidate.layerMethod = candidate.triangles.add(this->Instances, candidate.entry(), this->Group,
+                              this->manyTogether(), this->Memory)
+      ? LayerMethod::Triangles
+      : LayerMethod::Rays;
+  }
+  bool any = true;
+  if (candidate.layerMethod == LayerMethod::Triangles)
+  {
+    TileHits hits{ layer.t.data() + 64 * k, this->Instance, layer.primitive.data() + 64 * k,
+      false };
+    any = this->nearestTriangles(tileX, tileY, candidate.triangles, hits);
+    layer.traced[k] = any ? DepthLayer::Traced : DepthLayer::Empty;
+  }
+  else if (!findPart(this->Instances, tileX, tileY, candidate.part))
+  {
+    any = false;
+    layer.traced[k] = DepthLayer::Empty;
+  }
+  return any;
+}
+
+void TileTracer::sort(int tileX, int tileY, bool onlyChanged, double deepest)
+{
+  this->OneByOne.clear();
+  for (std::size_t k = 0; k < this->Nearby; ++k)
+  {
+    Candidate& candidate = this->Candidates[k];
+    if ((!onlyChanged || this->Tiles.partChanged(candidate.entry().index)) &&
+      this->takesPart(tileX, tileY, deepest, candidate))
+    {
+      this->OneByOne.push_back(&candidate);
+    }
+  }
+  // Front to back.
+  std::stable_sort(this->OneByOne.begin(), this->OneByOne.end(),
+    [](const Candidate* a, const Candidate* b) { return a->key < b->key; });
+}
+
+void TileTracer::traceTile(int tileX, int tileY, bool onlyChanged)
+{
+  const std::size_t tile = this->indexOf(tileX, tileY);
+  TileHits merged{ this->Depth.t.data() + 64 * tile, this->Depth.instance.data() + 64 * tile,
+    this->Depth.primitive.data() + 64 * tile, false };
+  merged.any = onlyChanged ? this->LastHit[tile] != 0
+                           : this->nearestTriangles(tileX, tileY, this->Triangles, merged);
+  this->Balls.merge(
+    this->Order, this->Occlusion, this->Group, tileX, tileY, merged,
+    [&](const TracedInstance& entry)
+    { return !onlyChanged || this->Tiles.partChanged(entry.index); },
+    [&](const TracedInstance& entry)
+    {
+      Account& account = this->accountOf(entry);
+      account.looked = true;
+      account.rays += 64;
+    });
+  this->sort(tileX, tileY, onlyChanged, this->Occlusion.deepest(merged));
+  if (!this->OneByOne.empty())
+  {
+    Points at;
+    for (int i = 0; i < 64; ++i)
+    {
+      at.x[i] = 8 * tileX + (i & 7) + 0.5;
+      at.y[i] = 8 * tileY + (i >> 3) + 0.5;
+    }
+    for (Candidate* const candidate : this->OneByOne)
+    {
+      switch (candidate->method)
+      {
+        case Method::Layer:
+          this->mergeLayer(tileX, tileY, *candidate, at, merged);
+          break;
+        case Method::Alone:
+          this->mergeAlone(tileX, tileY, *candidate, at, merged);
+          break;
+        case Method::Rays:
+          this->mergeRays(*candidate, at, merged);
+          break;
+        case Method::Together: // is merged
+          break;
+      }
+    }
+  }
+  this->Depth.hit[tile] = merged.any;
+}
+
+void TileTracer::fill(const Candidate& candidate, const Points& at, RayBlock& block) const
+{
+  const PixelRect& pixels = candidate.entry().local.pixels;
+  std::fill(block.tMin, block.tMin + 64, candidate.part.tNear);
+  for (int i = 0; i < 64; ++i)
+  {
+    const bool sees =
+      at.x[i] >= pixels.x0 && at.x[i] < pixels.x1 && at.y[i] >= pixels.y0 && at.y[i] < pixels.y1;
+    block.tMax[i] = sees ? candidate.part.tFar : -std::numeric_limits<float>::infinity();
+  }
+}
+
+void TileTracer::mergeRays(Candidate& candidate, const Points& at, TileHits& merged)
+{
+  RayBlock block;
+  HitBlock found;
+  this->fill(candidate, at, block);
+  if (merged.any && !cutRays(this->Instances, this->Order, candidate.part, merged, block))
+  {
+    return;
+  }
+  traceRays(this->Instances, candidate.part, at.x, at.y, block, found);
+  this->accountOf(candidate.entry()).rays += 64;
+  this->Order.merge(candidate.entry(), found.t, found.primitive, at.x, at.y, merged);
+}
+
+void TileTracer::mergeAlone(
+  int tileX, int tileY, Candidate& candidate, const Points& at, TileHits& merged)
+{
+  TileHits own{ this->T, this->Instance, this->OwnPrimitive, false };
+  if (this->nearestTriangles(tileX, tileY, candidate.triangles, own))
+  {
+    this->Order.merge(candidate.entry(), own.t, own.primitive, at.x, at.y, merged);
+  }
+}
+
+/// A layer is traced whole: it must stay true when what is before it goes away.
+void TileTracer::mergeLayer(
+  int tileX, int tileY, Candidate& candidate, const Points& at, TileHits& merged)
+{
+  DepthLayer& layer = *candidate.entry().layer;
+  const std::size_t k = layer.index(tileX, tileY);
+  float* const t = layer.t.data() + 64 * k;
+  Primitive* const primitive = layer.primitive.data() + 64 * k;
+  if (layer.traced[k] == DepthLayer::Unknown)
+  {
+    RayBlock block;
+    HitBlock found;
+    layer.traced[k] = DepthLayer::Traced;
+    this->fill(candidate, at, block);
+    traceRays(this->Instances, candidate.part, at.x, at.y, block, found);
+    std::copy(found.t, found.t + 64, t);
+    std::copy(found.primitive, found.primitive + 64, primitive);
+    this->accountOf(candidate.entry()).rays += 64;
+  }
+  this->Order.merge(candidate.entry(), t, primitive, at.x, at.y, merged);
+}
+
+void TileTracer::mergeTile(int tileX, int tileY)
+{
+  const std::size_t tile = this->indexOf(tileX, tileY);
+  if (!this->Tiles.wasMerged(tile))
+  {
+    this->traceTile(tileX, tileY, false);
+    return;
+  }
+  // Where no changed instance was seen the last hits are those of the others, which any order of
+  // merging gives again.
+  const std::uint32_t* instance = this->Depth.instance.data() + 64 * tile;
+  const bool wasSeen = this->LastHit[tile] && this->Tiles.anyChanged(instance);
+  this->traceTile(tileX, tileY, !wasSeen && this->Triangles.empty());
+  if (!wasSeen && !(this->Depth.hit[tile] && this->Tiles.anyChanged(instance)))
+  {
+    this->Tiles.settle(tile);
+  }
+}
+}
