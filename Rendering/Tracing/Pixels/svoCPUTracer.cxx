@@ -298,7 +298,7 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     }
     this->LightShadows.prepare(seen, view, this->Eye.hits(), settings, budget, parallelFor);
   }
-  this->LightShadows.prepareRays(scene, this->Eye.hits());
+  this->LightShadows.prepareAnswers(scene, this->Eye.hits());
   if (!shared)
   {
     this->markLightTiles(scene, view, parallelFor);
@@ -353,8 +353,9 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
     self.Shader.smoothEdges(shaded, parallelFor, frame, statistics);
   }
   statistics.shade = clock.end();
+  self.LightShadows.addStatistics(statistics);
   // Where there are shadow rays, they are nearly all of it.
-  double& shadeTime = self.LightShadows.usesRays() ? statistics.shadowTime : statistics.traceTime;
+  double& shadeTime = statistics.lightsWithRays > 0 ? statistics.shadowTime : statistics.traceTime;
   shadeTime = statistics.shade.wall;
   statistics.traceTime += statistics.eye.wall + statistics.mark.wall;
   statistics.shadowTime += statistics.lights.wall + self.SharingTime;
@@ -367,7 +368,6 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   {
     self.Kept.forget();
   }
-  self.LightShadows.addStatistics(statistics);
   statistics.primaryRays += self.Eye.rays();
   statistics.retracedLayers += self.Eye.retracedLayers();
   const VisibleSet& set = self.Eye.visibleSet();

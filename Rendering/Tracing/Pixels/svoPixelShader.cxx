@@ -14,8 +14,7 @@ void PixelShader::prepare(const Scene& scene, const Hits& eye)
 {
   this->Frames.clear();
   this->Smooth.clear();
-  this->MapErrors.clear();
-  this->RayErrors.clear();
+  this->Errors.clear();
   this->Frames.reserve(scene.instances.size());
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {
@@ -26,27 +25,26 @@ void PixelShader::prepare(const Scene& scene, const Hits& eye)
     const bool seen = !eye.instances.rect(static_cast<std::uint32_t>(i)).empty();
     this->Frames.push_back(seen ? SurfaceMatrices(instance) : SurfaceMatrices());
     this->Smooth.push_back(instance.body->octree && isSmooth(instance));
-    this->MapErrors.push_back(
-      instance.body->octree ? worldMapError(instance, geometry, level, placed) : 0.0);
-    this->RayErrors.push_back(
-      instance.body->octree ? worldLeafError(instance, geometry, level, placed) : 0.0);
+    this->Errors.push_back(instance.body->octree
+        ? PointErrors{ worldMapError(instance, geometry, level, placed),
+            worldLeafError(instance, geometry, level, placed) }
+        : PointErrors());
   }
 }
 
-/// Finds those points that have to be asked for once more, at another place: light l reaches them
+/// Finds those points that have to be asked for once more, at another place: the light reaches them
 /// though their facets turn away from it, or they are dark and nearly do.
-void PixelShader::findTerminator(
-  std::size_t l, const Lit& lit, std::uint64_t reached, std::uint64_t dark, Scratch& scratch) const
+void PixelShader::findTerminator(const LightShadow& shadow, const Light& light,
+  const ShadowQuery& query, std::uint64_t dark, Scratch& scratch) const
 {
-  const TilePatch& patch = scratch.patch;
-  const Light& light = *lit.lighting.lights[l].light;
-  const Shadows& shadows = lit.shaded.dark;
+  const TilePatch& patch = query.patch;
   scratch.terminator.clear();
-  if (!this->Smooth[patch.instance] || !shadows.knowsTerminator(l))
+  if (!this->Smooth[patch.instance] || !shadow.knowsTerminator())
   {
     return;
   }
-  const std::uint64_t asked = mayTurnAway(light, shadows.grazing(l), patch, reached, dark);
+  const double grazing = shadow.grazing();
+  const std::uint64_t asked = mayTurnAway(light, grazing, patch, query.asked, dark);
   if (asked == 0)
   {
     return;
@@ -55,17 +53,14 @@ void PixelShader::findTerminator(
   eachBit(asked,
     [&](int i)
     {
-      TerminatorPoint at = atTerminator(triangles, light, shadows.grazing(l), dark >> i & 1,
-        patch.point(i), patch.towards(i), patch.hits->primitive[i]);
+      TerminatorPoint at = atTerminator(triangles, light, grazing, dark >> i & 1, patch.point(i),
+        patch.towards(i), patch.hits->primitive[i]);
       if (at.kind != TerminatorPoint::Kind::Plain)
       {
         at.pixel = i;
         if (scratch.noted && at.kind != TerminatorPoint::Kind::Hidden)
         {
-          const glm::dvec3 reach(this->error(l, lit, patch.instance));
-          scratch.noted->raysToLights.add(patch.position(i), reach);
-          scratch.noted->raysToLights.add(at.point.position, reach);
-          shadows.note(l, at, scratch.noted->raised);
+          shadow.note(query, at, scratch.noted->raysToLights, scratch.noted->raised);
         }
         scratch.terminator.push_back(at);
       }
@@ -76,43 +71,29 @@ void PixelShader::findTerminator(
 void PixelShader::shadow(
   std::size_t l, const Lit& lit, std::uint64_t reached, Scratch& scratch) const
 {
-  const Shadows& shadows = lit.shaded.dark;
+  const LightShadow& shadow = lit.shaded.dark.of(l);
   const TilePatch& patch = scratch.patch;
-  const double error = this->error(l, lit, patch.instance);
+  const ShadowQuery query{ patch, this->Errors[patch.instance], scratch.extents, reached,
+    scratch.rays };
   float* missed = scratch.missed;
-  std::fill_n(missed, TilePatch::Most, 0.0f);
-  std::uint64_t dark = 0;
-  if (shadows.filters(l))
+  if (scratch.noted)
   {
-    eachBit(patch.mask,
-      [&](int i)
-      { scratch.extents[i] = lit.samples ? 0.5 * worldPixel(lit.shaded.view, patch.t(i)) : 0.0; });
-    shadows.darkness(l, patch, error, scratch.extents, reached, missed);
-    eachBit(reached, [&](int i) { dark |= std::uint64_t(missed[i] > 0.0f) << i; });
+    shadow.note(query, scratch.noted->raysToLights);
   }
-  else
-  {
-    if (scratch.noted && shadows.usesRays(l))
-    {
-      scratch.noted->raysToLights.add(
-        patch.origin.position, (1.0 + 1e-6) * glm::dvec3(patch.extent) + error);
-    }
-    dark = shadows.dark(l, patch, error, reached, scratch.rays);
-    eachBit(dark, [&](int i) { missed[i] = 1.0f; });
-  }
+  const std::uint64_t dark = shadow.test(query, missed);
   std::uint64_t changed = dark;
-  this->findTerminator(l, lit, reached, dark, scratch);
+  this->findTerminator(shadow, *lit.lighting.lights[l].light, query, dark, scratch);
   if (!scratch.terminator.empty())
   {
-    shadows.darkness(l, patch, scratch.terminator, error, scratch.extents, missed, scratch.rays);
+    shadow.testTerminator(query, scratch.terminator, missed);
     for (const TerminatorPoint& at : scratch.terminator)
     {
       changed |= std::uint64_t(1) << at.pixel;
     }
   }
-  if (shadows.dims(l))
+  if (shadow.dims())
   {
-    shadows.dim(l, patch, error, scratch.extents, reached, missed, scratch.rays);
+    shadow.dim(query, missed);
     changed |= reached;
   }
   std::fill_n(scratch.light.share, TilePatch::Most, 1.0f);
@@ -132,6 +113,12 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
   lookAtPatch(this->Frames[patch.instance], patch, scratch.triangles);
   std::fill_n(scratch.darkness, TilePatch::Most, Darkness(0));
   const bool isLit = instance.material.lighting && !lighting.lights.empty();
+  if (isLit && instance.receiveShadow && lit.shaded.settings.filters())
+  {
+    eachBit(patch.mask,
+      [&](int i)
+      { scratch.extents[i] = lit.samples ? 0.5 * worldPixel(lit.shaded.view, patch.t(i)) : 0.0; });
+  }
   for (std::size_t l = 0; isLit && l < lighting.lights.size(); ++l)
   {
     const std::uint64_t reached = arriveLight(lighting, l, instance.material, patch, scratch.light);

@@ -98,22 +98,16 @@ public:
   }
 
 private:
-  /// World; of the instance's leaves as far as it matters to the shadows of light l.
-  double error(std::size_t l, const Lit& lit, std::uint32_t instance) const
-  {
-    return (lit.shaded.dark.usesRays(l) ? this->RayErrors : this->MapErrors)[instance];
-  }
   void shadePatch(const Lit& lit, Scratch& scratch) const;
   void shadow(std::size_t l, const Lit& lit, std::uint64_t reached, Scratch& scratch) const;
-  void findTerminator(std::size_t l, const Lit& lit, std::uint64_t reached, std::uint64_t dark,
-    Scratch& scratch) const;
+  void findTerminator(const LightShadow& shadow, const Light& light, const ShadowQuery& query,
+    std::uint64_t dark, Scratch& scratch) const;
   void write(const Lit& lit, const TileHits& hits, Scratch& scratch, Frame& frame);
 
   // By index into Scene::instances.
   std::vector<SurfaceMatrices> Frames;
   std::vector<std::uint8_t> Smooth; // isSmooth()
-  // World; of the instance's leaves as the eye sees them, for shadow buffers and for rays.
-  std::vector<double> MapErrors, RayErrors;
+  std::vector<PointErrors> Errors;  // of the instance's leaves as the eye sees them
   bool FindsEdges = false;
   std::vector<Darkness> DarkPixels; // per pixel, as the depth buffer, where edges are to be found
 };

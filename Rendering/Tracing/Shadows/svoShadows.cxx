@@ -1,5 +1,8 @@
 #include "svoShadows.h"
 
+#include "svoBufferShadow.h"
+#include "svoRayShadow.h"
+
 #include <algorithm>
 #include <cassert>
 
@@ -11,12 +14,7 @@ namespace svo
 bool Shadows::usesBuffer(std::size_t light, const FrameSettings& settings) const
 {
   return this->Techniques[light] == ShadowTechnique::Buffer ||
-    (this->usesRays(light) && settings.handsOutMaps());
-}
-
-bool Shadows::usesRays() const
-{
-  return std::count(this->Techniques.begin(), this->Techniques.end(), ShadowTechnique::Rays) > 0;
+    (this->byRays(light) && settings.handsOutMaps());
 }
 
 void Shadows::chooseAll(const Scene& scene, ShadowTechnique technique)
@@ -94,14 +92,37 @@ void Shadows::prepare(const Scene& scene, const View& view, const Hits& eye,
   }
 }
 
-void Shadows::prepareRays(const Scene& scene, const Hits& eye)
+void Shadows::prepareAnswers(const Scene& scene, const Hits& eye)
 {
-  this->Tested = &scene;
+  const bool anyByRays =
+    std::count(this->Techniques.begin(), this->Techniques.end(), ShadowTechnique::Rays) > 0;
+  this->OfLights.clear();
   this->Rays.reset();
-  if (this->usesRays() ||
+  if (anyByRays ||
     (this->Casting && std::any_of(scene.instances.begin(), scene.instances.end(), isSmooth)))
   {
     this->Rays = std::make_unique<ShadowRays>(scene, eye, this->Cull.tree);
+  }
+  for (std::size_t l = 0; l < scene.lights.size(); ++l)
+  {
+    const Light& light = scene.lights[l];
+    if (this->byRays(l))
+    {
+      this->OfLights.push_back(std::make_unique<RayShadow>(light, *this->Rays));
+    }
+    else if (this->Buffers[l])
+    {
+      this->OfLights.push_back(
+        std::make_unique<BufferShadow>(light, *this->Buffers[l], static_cast<std::uint16_t>(l),
+          std::vector<const ShadowBuffer*>(
+            this->Buffers.begin() + static_cast<std::ptrdiff_t>(this->FirstTranslucent[l]),
+            this->Buffers.begin() + static_cast<std::ptrdiff_t>(this->FirstTranslucent[l + 1])),
+          this->Rays.get(), this->Filters));
+    }
+    else
+    {
+      this->OfLights.push_back(std::make_unique<LightShadow>());
+    }
   }
 }
 
@@ -163,6 +184,7 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
 
 void Shadows::release()
 {
+  this->OfLights.clear();
   this->Kept.clear();
   this->Buffers.clear();
   this->FirstTranslucent.clear();
@@ -215,56 +237,22 @@ void Shadows::trace(const ParallelFor& parallelFor)
   }
 }
 
+bool Shadows::changed(const RaisedTiles& noted) const
+{
+  return std::any_of(noted.begin(), noted.end(),
+    [this](const RaisedTile& raised)
+    {
+      const ShadowBuffer& buffer = *this->Buffers[raised.tile.light];
+      return buffer.wants(raised.tile) != raised.wanted ||
+        (raised.wanted && buffer.changed(raised.tile));
+    });
+}
+
 bool Shadows::knows(const glm::dvec3& position) const
 {
   return this->TracesWhole ||
     std::all_of(this->Buffers.begin(), this->Buffers.end(),
       [&](const ShadowBuffer* buffer) { return !buffer || buffer->knows(position); });
-}
-
-bool Shadows::dark(
-  std::size_t light, const SurfacePoint& point, double error, std::uint64_t& rays) const
-{
-  assert(light < this->Buffers.size());
-  if (this->usesRays(light))
-  {
-    const Light& source = this->Tested->lights[light];
-    rays += source.castShadow;
-    return source.castShadow && this->Rays->shadows(source, point.position, point.facet, error);
-  }
-  return this->Buffers[light] && this->Buffers[light]->shadows(point, error);
-}
-
-std::uint64_t Shadows::dark(std::size_t light, const TilePatch& patch, double error,
-  std::uint64_t asked, std::uint64_t& rays) const
-{
-  assert(light < this->Buffers.size());
-  const Light& source = this->Tested->lights[light];
-  if (!this->usesRays(light) || !source.castShadow)
-  {
-    return this->Buffers[light] ? this->Buffers[light]->shadows(patch, error, asked) : 0;
-  }
-  rays += static_cast<std::uint64_t>(countBits(asked));
-  return this->Rays->shadows(source, patch, error, asked);
-}
-
-float Shadows::darkness(std::size_t light, const SurfacePoint& point, double error, double extent,
-  std::uint64_t& rays) const
-{
-  return this->filters(light) && this->Buffers[light]
-    ? this->Buffers[light]->darkness(point, error, extent)
-    : this->dark(light, point, error, rays);
-}
-
-void Shadows::darkness(std::size_t light, const TilePatch& patch, double error,
-  const double* extents, std::uint64_t asked, float* darkness) const
-{
-  if (this->Buffers[light])
-  {
-    this->Buffers[light]->darkness(patch, error, extents, asked, darkness);
-    return;
-  }
-  std::fill_n(darkness, TilePatch::Most, 0.0f);
 }
 
 std::size_t Shadows::mapMemory() const

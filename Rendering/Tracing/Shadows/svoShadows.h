@@ -3,14 +3,12 @@
 #define svoShadows_h
 
 #include "svoFrame.h"
+#include "svoLightShadow.h"
 #include "svoScene.h"
 #include "svoShadowBuffer.h"
 #include "svoShadowRays.h"
 #include "svoShadowRules.h"
-#include "svoSurfacePoint.h"
-#include "svoTerminator.h"
 #include "svoTilePatch.h"
-#include "svoTileShadows.h"
 
 #include <cstdint>
 #include <map>
@@ -38,10 +36,10 @@ public:
   void prepare(const Scene& scene, const View& view, const Hits& eye, const FrameSettings& settings,
     LayerBudget& budget, const ParallelFor& parallelFor);
 
-  /// To be called in every frame, after prepare() or traceShared(). `scene` and `eye`: those of the
-  /// points to be tested; rays to the light meet the same geometry, or surfaces would shadow
-  /// themselves.
-  void prepareRays(const Scene& scene, const Hits& eye);
+  /// To be called in every frame, after prepare() or traceShared(): who answers for each light.
+  /// `scene` and `eye`: those of the points to be tested; rays to the light meet the same geometry,
+  /// or surfaces would shadow themselves.
+  void prepareAnswers(const Scene& scene, const Hits& eye);
 
   /// Instead of prepare() and trace() where other processes hold parts of the scene: traces the
   /// buffers whole and merges them with the others', so that all have the same. A collective call.
@@ -63,75 +61,16 @@ public:
   bool changed(const LightTiles& noted) const;
   /// True if it matters what mark() notes.
   bool wantsMarks() const { return this->Casting && !this->Samples; }
-  /// Notes what darkness() looks up of a raised point.
-  void note(std::size_t light, const TerminatorPoint& at, RaisedTiles& noted) const;
-  /// After trace(): true if darkness() may look up something else about such points.
+  /// After trace(): true if points at the terminator may look up something else.
   bool changed(const RaisedTiles& noted) const;
-  /// True if shadows of some light, or of this one, are found by rays.
-  bool usesRays() const;
-  bool usesRays(std::size_t light) const
-  {
-    return this->Techniques[light] == ShadowTechnique::Rays;
-  }
-
   void trace(const ParallelFor& parallelFor);
 
   /// True if all lights can tell whether the point is in their shadow. They can of visible points;
   /// of others only where their buffers happen to be traced.
   bool knows(const glm::dvec3& position) const;
 
-  /// True if the point is in the shadow of the light (index into Scene::lights). `error` as in
-  /// ShadowBuffer::shadows. Counts the rays it casts in `rays`.
-  bool dark(std::size_t light, const SurfacePoint& point, double error, std::uint64_t& rays) const;
-
-  /// The same of a patch's points, by pixel: those that are `asked` and dark.
-  std::uint64_t dark(std::size_t light, const TilePatch& patch, double error, std::uint64_t asked,
-    std::uint64_t& rays) const;
-
-  /// True if darkness() should be asked instead of dark(): it knows more than yes and no.
-  bool filters(std::size_t light) const { return this->Filters && !this->usesRays(light); }
-  /// The share of the light that the point misses, 0..1; see ShadowBuffer::darkness(). Of lights
-  /// that are not filtered 0 or 1, as dark() says.
-  float darkness(std::size_t light, const SurfacePoint& point, double error, double extent,
-    std::uint64_t& rays) const;
-  /// The same of a patch's points, by pixel: of those that are `asked`, 0 of others. Only where
-  /// there are buffers.
-  void darkness(std::size_t light, const TilePatch& patch, double error, const double* extents,
-    std::uint64_t asked, float* darkness) const;
-
-  /// True if translucent casters may take something of the light, which dark() and darkness() know
-  /// nothing of.
-  bool dims(std::size_t light) const
-  {
-    return this->usesRays(light)
-      ? this->Tested->lights[light].castShadow && this->Rays->translucent()
-      : this->FirstTranslucent[light] < this->FirstTranslucent[light + 1];
-  }
-  /// Adds to what a patch's points that are `asked` miss of the light, by pixel, what translucent
-  /// casters take of the rest; Instance::translucent(). `extents`: where lights filter. Terminators
-  /// do not matter: these casters are no surfaces that points are on.
-  void dim(std::size_t light, const TilePatch& patch, double error, const double* extents,
-    std::uint64_t asked, float* missed, std::uint64_t& rays) const;
-
-  /// The same for points at the terminator, see svoTerminator.h. False where nothing is in shadow,
-  /// or points are compared with a shadow map without the automatic bias.
-  bool knowsTerminator(std::size_t light) const
-  {
-    return this->usesRays(light) ? this->Tested->lights[light].castShadow
-                                 : this->Buffers[light] && this->Buffers[light]->automaticBias();
-  }
-  /// The `grazing` of atTerminator(): rays need no margin.
-  double grazing(std::size_t light) const
-  {
-    return this->usesRays(light) ? 0.0 : 1.0 / GrazingReach;
-  }
-  /// Changes what points of a patch miss, by pixel, to what those at the terminator do. A raised
-  /// point is lit if the way from the one on the mesh to it and on to the light is free; the first
-  /// part is not looked at where it is shorter than a texel. A doubted one has to be lit by rays as
-  /// well. `extents`: by pixel, where lights filter.
-  void darkness(std::size_t light, const TilePatch& patch,
-    const std::vector<TerminatorPoint>& points, double error, const double* extents, float* missed,
-    std::uint64_t& rays) const;
+  /// From prepareAnswers() to the end of the frame; by index into Scene::lights.
+  const LightShadow& of(std::size_t light) const { return *this->OfLights[light]; }
 
   void addStatistics(FrameStatistics& statistics) const;
   void copyMaps(std::vector<ShadowMap>& maps);
@@ -142,6 +81,7 @@ public:
 
 private:
   bool usesBuffer(std::size_t light, const FrameSettings& settings) const;
+  bool byRays(std::size_t light) const { return this->Techniques[light] == ShadowTechnique::Rays; }
   void chooseAll(const Scene& scene, ShadowTechnique technique);
   void fitMaps(const Scene& seen, const View& view, const FrameSettings& settings);
   void prepareBuffers(const Scene& scene, const std::vector<Light>& lights,
@@ -149,7 +89,6 @@ private:
     LayerBudget& budget, const ParallelFor& parallelFor);
 
   Culling Cull;
-  const Scene* Tested = nullptr;                             // the frame's
   std::vector<ShadowTechnique> Techniques, TechniquesBefore; // by light; of the last frame
   std::vector<LightMaps> Maps;                               // by light
   std::vector<Outline> Fitted;                               // what they were fitted to
@@ -166,6 +105,7 @@ private:
   /// By Light::id and group.
   std::map<std::pair<std::uint64_t, std::uint8_t>, std::unique_ptr<ShadowBuffer>> Kept;
   std::unique_ptr<ShadowRays> Rays;
+  std::vector<std::unique_ptr<LightShadow>> OfLights;
   std::vector<unsigned char> SharedState; // inputs of the shared buffers in Kept; empty: not shared
   bool Traced = false;                    // buffers were, in this frame
   bool HasFewerTexels = false;            // texels than were asked for, by all processes alike

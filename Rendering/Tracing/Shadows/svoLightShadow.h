@@ -1,0 +1,89 @@
+// The shadow of one light as shading asks for it, whatever it is found by.
+#ifndef svoLightShadow_h
+#define svoLightShadow_h
+
+#include "svoCasterBox.h"
+#include "svoLightTile.h"
+#include "svoTerminator.h"
+#include "svoTilePatch.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace svo
+{
+/// How far points may lie from the surface that they stand for, world: as far as it matters to
+/// shadow buffers (worldMapError()), and to rays (worldLeafError()).
+struct PointErrors
+{
+  double map = 0.0, ray = 0.0;
+};
+
+/// Points of a patch that are asked about. All that is told of points is told by pixel.
+struct ShadowQuery
+{
+  const TilePatch& patch;
+  PointErrors errors;
+  const double* extents; // world, how wide a piece of surface they stand for; to those who filter
+  std::uint64_t asked;
+  std::uint64_t& rays; // adds those that are cast
+};
+
+/// This one is of a light that casts none.
+class LightShadow
+{
+public:
+  virtual ~LightShadow() = default;
+
+  /// Sets what points miss of the light, 0..1, 0 of those that are not asked; returns those that
+  /// miss something. What translucent casters take is not among it.
+  virtual std::uint64_t test(const ShadowQuery&, float* missed) const
+  {
+    std::fill_n(missed, TilePatch::Most, 0.0f);
+    return 0;
+  }
+
+  /// True if translucent casters may take something of the light.
+  virtual bool dims() const { return false; }
+  /// Adds what they take of the rest; Instance::translucent(). Terminators do not matter: these
+  /// casters are no surfaces that points are on.
+  virtual void dim(const ShadowQuery&, float*) const {}
+
+  /// True if points at the terminator are to be found (svoTerminator.h) and asked for apart. False
+  /// where nothing is in shadow, or points are compared with a map without the automatic bias.
+  virtual bool knowsTerminator() const { return false; }
+  /// The `grazing` of atTerminator().
+  virtual double grazing() const { return 0.0; }
+  /// Changes what points miss to what those at the terminator do. A raised point is lit if the way
+  /// from the one on the mesh to it and on to the light is free; the first part is not looked at
+  /// where it is shorter than a texel. A doubted one has to be lit by rays as well.
+  virtual void testTerminator(const ShadowQuery&, const std::vector<TerminatorPoint>&, float*) const
+  {
+  }
+
+  /// Notes what the answers hang on besides what was marked: where rays begin, ...
+  virtual void note(const ShadowQuery&, PointBox&) const {}
+  /// ... and what else is looked up of a point at the terminator.
+  virtual void note(const ShadowQuery&, const TerminatorPoint&, PointBox&, RaisedTiles&) const {}
+};
+
+/// Adds to what points miss what something takes of the rest of those that are `left`; where
+/// nothing else is in the way it is what one caster takes, to the bit.
+inline void takeOfRest(std::uint64_t left, const float* taken, float* missed)
+{
+  eachBit(left,
+    [&](int i)
+    { missed[i] = missed[i] > 0.0f ? 1.0f - (1.0f - missed[i]) * (1.0f - taken[i]) : taken[i]; });
+}
+
+/// Those of the asked points that do not miss all of the light yet.
+inline std::uint64_t leftOf(const ShadowQuery& query, const float* missed)
+{
+  std::uint64_t left = 0;
+  eachBit(query.asked, [&](int i) { left |= std::uint64_t(missed[i] < 1.0f) << i; });
+  return left;
+}
+}
+
+#endif
