@@ -7,6 +7,9 @@
 #include "svoMergedTiles.h"
 #include "svoViewedInstances.h"
 
+#include <cstddef>
+#include <cstdint>
+
 namespace svo
 {
 /// Read only, but for the view that traces them.

@@ -13,7 +13,7 @@
 
 namespace svo
 {
-/// One of them; what is not seen has zeros.
+/// One of them; what is not seen has zeros, but for the leaf geometry.
 struct ViewedInstance
 {
   double base = 0.0;  // linear depth that the t of its hits are measured from
@@ -40,17 +40,22 @@ public:
   LeafGeometry leafGeometry(std::uint32_t instance) const { return this->Geometries[instance]; }
   const DepthOffset& offset(std::uint32_t instance) const { return this->Offsets[instance]; }
   bool placed(std::uint32_t instance) const { return this->Placed[instance] != 0; }
-  const PixelRect& rect(std::uint32_t instance) const { return this->Rects[instance]; }
+  /// Of the eye's view only.
+  const PixelRect& rect(std::uint32_t instance) const
+  {
+    assert(instance < this->Rects.size());
+    return this->Rects[instance];
+  }
 
-  /// Those of a scene, of which none is seen yet.
-  void assign(const Scene& scene)
+  /// Those of a scene, of which none is seen yet. `rects`: whether they are to be had.
+  void assign(const Scene& scene, bool rects)
   {
     const std::size_t count = scene.instances.size();
     this->Bases.assign(count, 0.0);
     this->Errors.assign(count, 0.0);
     this->Levels.assign(count, 0);
     this->Placed.assign(count, 0);
-    this->Rects.assign(count, PixelRect());
+    this->Rects.assign(rects ? count : 0, PixelRect());
     this->Geometries.clear();
     this->Offsets.clear();
     for (const Instance& instance : scene.instances)
@@ -67,7 +72,10 @@ public:
     this->Levels[instance] = seen.level;
     this->Geometries[instance] = seen.leafGeometry;
     this->Placed[instance] = seen.placed;
-    this->Rects[instance] = seen.rect;
+    if (!this->Rects.empty())
+    {
+      this->Rects[instance] = seen.rect;
+    }
   }
 
 private:

@@ -2,7 +2,6 @@
 #ifndef svoDepthLayer_h
 #define svoDepthLayer_h
 
-#include "svoLayerKey.h"
 #include "svoPages.h"
 #include "svoRawArray.h"
 #include "svoRay.h"

@@ -24,7 +24,7 @@ void GroupBalls::sort()
     [](const Ball& a, const Ball& b) { return a.base < b.base; });
 }
 
-void GroupBalls::mergeSeen(const HitOrder& order, TileHits& merged) const
+void GroupBalls::mergeSeen(const HitOrder& order, MergedTile& merged) const
 {
   const TileBalls& seen = this->Seen;
   const bool first = !merged.any;

@@ -8,8 +8,8 @@
 #include "svoTileBalls.h"
 #include "svoTileGroup.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace svo
@@ -26,7 +26,7 @@ public:
   /// at. Only those that `takesPart`, a function of entries.
   template <class TakesPart, class Count>
   void merge(const HitOrder& order, const GroupOcclusion& occlusion, const TileGroup& group,
-    int tileX, int tileY, TileHits& merged, TakesPart&& takesPart, Count&& count)
+    int tileX, int tileY, MergedTile& merged, TakesPart&& takesPart, Count&& count)
   {
     bool any = false;
     double deepest = this->Balls.empty() ? 0.0 : occlusion.deepest(merged);
@@ -48,6 +48,7 @@ public:
       }
       const TracedInstance& entry = *ball.entry;
       const double last = this->Seen.merge(*entry.octree, entry.local, tileX, tileY, entry.index);
+      // Balls are met in views that are not exact, where no depths are shifted: on() is the switch.
       deepest = occlusion.on() ? std::min(deepest, last) : deepest;
       count(entry);
     }
@@ -64,7 +65,7 @@ private:
     std::uint32_t tiles; // of the group, row by row, a bit for each that may see it
     double base;
   };
-  void mergeSeen(const HitOrder& order, TileHits& merged) const;
+  void mergeSeen(const HitOrder& order, MergedTile& merged) const;
 
   std::vector<Ball> Balls; // front to back
   TileBalls Seen;          // of a tile

@@ -56,7 +56,7 @@ bool GroupOcclusion::hides(
     this->hides(triangles, group, entry.local.pixels, this->before(entry));
 }
 
-double GroupOcclusion::deepest(const TileHits& merged) const
+double GroupOcclusion::deepest(const MergedTile& merged) const
 {
   constexpr double Infinity = std::numeric_limits<double>::infinity();
   if (!merged.any || !this->On)

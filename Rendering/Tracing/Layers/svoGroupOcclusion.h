@@ -8,6 +8,7 @@
 #include "svoTracedInstances.h"
 #include "svoTriangleGroup.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -36,7 +37,7 @@ public:
     return entry.local.base - this->slack(entry.local.base, entry.local.tMax);
   }
   /// Linear depth beyond which nothing of a tile is seen; infinity if there is no such.
-  double deepest(const TileHits& merged) const;
+  double deepest(const MergedTile& merged) const;
   bool on() const { return this->On; }
 
 private:

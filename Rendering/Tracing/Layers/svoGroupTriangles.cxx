@@ -22,9 +22,9 @@ int lowest(std::uint64_t bits)
   return __builtin_ctzll(bits);
 }
 
-/// The same depths in float.
+/// Depths in float, of views that are not exact.
 void measureHits(const TracedInstances& instances, int tileX, int tileY,
-  const NearestTriangles& nearest, TileHits& hits)
+  const NearestTriangles& nearest, MergedTile& hits)
 {
   RayBlock block;
   HitBlock measured;
@@ -156,7 +156,7 @@ bool GroupTriangles::add(const TracedInstances& instances, const TracedInstance&
 }
 
 bool GroupTriangles::settle(const TracedInstances& instances, const TileGroup& group, int tileX,
-  int tileY, GroupTrianglesMemory& memory, TileHits& hits)
+  int tileY, GroupTrianglesMemory& memory, MergedTile& hits)
 {
   NearestTriangles& nearest = memory.nearest;
   std::uint64_t doubtful = nearest.doubtful;
@@ -184,7 +184,7 @@ bool GroupTriangles::settle(const TracedInstances& instances, const TileGroup& g
 }
 
 void GroupTriangles::placeHits(const TracedInstances& instances, const TileGroup& group, int tileX,
-  int tileY, const NearestTriangles& nearest, std::uint64_t& doubtful, TileHits& hits)
+  int tileY, const NearestTriangles& nearest, std::uint64_t& doubtful, MergedTile& hits)
 {
   if (this->Planes.empty())
   {

@@ -48,7 +48,7 @@ public:
   /// Calls count(instance) for those whose triangles were looked at, perhaps more than once.
   template <class Count>
   bool nearest(const TracedInstances& instances, const TileGroup& group, int tileX, int tileY,
-    GroupTrianglesMemory& memory, TileHits& hits, Count&& count)
+    GroupTrianglesMemory& memory, MergedTile& hits, Count&& count)
   {
     const int column = tileX - group.x, row = tileY - group.y;
     NearestTriangles& found = memory.nearest;
@@ -74,10 +74,10 @@ private:
   /// Finds the depths of the nearest triangles, and all of the rays that are in doubt; false if
   /// nothing is hit.
   bool settle(const TracedInstances& instances, const TileGroup& group, int tileX, int tileY,
-    GroupTrianglesMemory& memory, TileHits& hits);
+    GroupTrianglesMemory& memory, MergedTile& hits);
   /// In double; adds to the doubtful rays.
   void placeHits(const TracedInstances& instances, const TileGroup& group, int tileX, int tileY,
-    const NearestTriangles& nearest, std::uint64_t& doubtful, TileHits& hits);
+    const NearestTriangles& nearest, std::uint64_t& doubtful, MergedTile& hits);
 
   TriangleGroup Group;
   /// Planes of slots that were seen so far, and where among them a slot's lies, or -1; the first

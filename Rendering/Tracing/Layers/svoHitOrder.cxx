@@ -28,7 +28,7 @@ bool lessInSpace(const glm::dvec3& a, const glm::dvec3& b)
 }
 
 void HitOrder::merge(const TracedInstance& entry, const float* t, const Primitive* primitive,
-  const double* x, const double* y, TileHits& merged) const
+  const double* x, const double* y, MergedTile& merged) const
 {
   // A NaN compares false and never wins.
   if (!merged.any)

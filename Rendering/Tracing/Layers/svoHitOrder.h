@@ -8,6 +8,7 @@
 #include "svoTracedInstances.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace svo
@@ -21,8 +22,8 @@ struct SeenHit
   float floatT = 0.0f; // t minus the instance's base, where that is asked for
 };
 
-/// The hits of a tile, as it is merged: 64 of each.
-struct TileHits
+/// A tile of a view as it is merged: 64 of each.
+struct MergedTile
 {
   float* t; // minus the instance's base
   std::uint32_t* instance;
@@ -73,7 +74,7 @@ public:
   /// Merges an instance's hits at these points into those of a tile. Any order of merging gives the
   /// same.
   void merge(const TracedInstance& entry, const float* t, const Primitive* primitive,
-    const double* x, const double* y, TileHits& merged) const;
+    const double* x, const double* y, MergedTile& merged) const;
 
 private:
   bool settle(const SeenHit& a, const SeenHit& b) const;

@@ -6,6 +6,7 @@
 #define svoLayerCache_h
 
 #include "svoDepthLayer.h"
+#include "svoLayerKey.h"
 #include "vtkSVOTracingModule.h"
 
 #include <cstddef>

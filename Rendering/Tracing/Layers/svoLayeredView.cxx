@@ -46,13 +46,14 @@ bool LayeredView::prepare(const Scene& scene, const View& view,
   this->Layers.beginFrame(keep, this->HasFrame && !sameRays(view, this->Instances.view()), budget);
   this->HasFrame = keep;
   this->Instances.find(scene, view, this->Cull, takesPart, levelOf, parallelFor);
-  this->findLayers(view, budget);
+  this->findLayers(budget);
   this->Layers.endFrame(budget);
   return !this->Instances.empty();
 }
 
-void LayeredView::findLayers(const View& view, LayerBudget& budget)
+void LayeredView::findLayers(LayerBudget& budget)
 {
+  const View& view = this->Instances.view();
   double ofCrowd = 0.0;
   for (const TracedInstance& entry : this->Instances)
   {

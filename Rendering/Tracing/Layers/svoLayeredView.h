@@ -69,7 +69,7 @@ public:
   void forget();
 
 private:
-  void findLayers(const View& view, LayerBudget& budget);
+  void findLayers(LayerBudget& budget);
   void findIntervals(const ParallelFor& parallelFor);
   /// Finds the tiles that are not what they were.
   void findStale(const std::uint8_t* wanted);

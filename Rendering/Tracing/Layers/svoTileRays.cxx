@@ -97,7 +97,7 @@ bool findPart(const TracedInstances& instances, int tileX, int tileY, TilePart& 
 }
 
 bool cutRays(const TracedInstances& instances, const HitOrder& order, const TilePart& part,
-  const TileHits& merged, RayBlock& block)
+  const MergedTile& merged, RayBlock& block)
 {
   // A tie must survive the rounding. Plane leaves answer a ray that found nothing to its end with
   // the first cell that refused it, so there a ray is either not traced or traced to its own end.

@@ -24,7 +24,7 @@ bool findPart(const TracedInstances& instances, int tileX, int tileY, TilePart& 
 
 /// Ends rays where hits would be behind what is merged; false if none is left.
 bool cutRays(const TracedInstances& instances, const HitOrder& order, const TilePart& part,
-  const TileHits& merged, RayBlock& block);
+  const MergedTile& merged, RayBlock& block);
 
 /// Through points x, y of the image; tMin and tMax are set, and those with tMin > tMax are none.
 void traceRays(const TracedInstances& instances, const TilePart& part, const double* x,

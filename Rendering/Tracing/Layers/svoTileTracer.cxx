@@ -159,7 +159,7 @@ void TileTracer::findHidden()
   }
 }
 
-bool TileTracer::nearestTriangles(int tileX, int tileY, GroupTriangles& triangles, TileHits& hits)
+bool TileTracer::nearestTriangles(int tileX, int tileY, GroupTriangles& triangles, MergedTile& hits)
 {
   const std::size_t tile = this->indexOf(tileX, tileY);
   return triangles.nearest(this->Instances, this->Group, tileX, tileY, this->Memory, hits,
@@ -174,7 +174,7 @@ bool TileTracer::nearestTriangles(int tileX, int tileY, GroupTriangles& triangle
     });
 }
 
-bool TileTracer::takesPart(int tileX, int tileY, double deepest, Candidate& candidate)
+bool TileTracer::makeReady(int tileX, int tileY, double deepest, Candidate& candidate)
 {
   constexpr double First = -std::numeric_limits<double>::infinity();
   const TracedInstance& entry = candidate.entry();
@@ -185,7 +185,7 @@ bool TileTracer::takesPart(int tileX, int tileY, double deepest, Candidate& cand
       return this->findLayer(tileX, tileY, candidate);
     case Method::Alone:
       candidate.key = First;
-      return !candidate.hidden;
+      return true;
     case Method::Rays:
       if (candidate.hidden || this->Occlusion.before(entry) > deepest ||
         !findPart(this->Instances, tileX, tileY, candidate.part))
@@ -224,7 +224,7 @@ bool TileTracer::findLayer(int tileX, int tileY, Candidate& candidate)
   bool any = true;
   if (candidate.layerMethod == LayerMethod::Triangles)
   {
-    TileHits hits{ layer.t.data() + 64 * k, this->Instance, layer.primitive.data() + 64 * k,
+    MergedTile hits{ layer.t.data() + 64 * k, this->Own.instance, layer.primitive.data() + 64 * k,
       false };
     any = this->nearestTriangles(tileX, tileY, candidate.triangles, hits);
     layer.traced[k] = any ? DepthLayer::Traced : DepthLayer::Empty;
@@ -237,14 +237,14 @@ bool TileTracer::findLayer(int tileX, int tileY, Candidate& candidate)
   return any;
 }
 
-void TileTracer::sort(int tileX, int tileY, bool onlyChanged, double deepest)
+void TileTracer::collect(int tileX, int tileY, bool onlyChanged, double deepest)
 {
   this->OneByOne.clear();
   for (std::size_t k = 0; k < this->Nearby; ++k)
   {
     Candidate& candidate = this->Candidates[k];
     if ((!onlyChanged || this->Tiles.partChanged(candidate.entry().index)) &&
-      this->takesPart(tileX, tileY, deepest, candidate))
+      this->makeReady(tileX, tileY, deepest, candidate))
     {
       this->OneByOne.push_back(&candidate);
     }
@@ -257,7 +257,7 @@ void TileTracer::sort(int tileX, int tileY, bool onlyChanged, double deepest)
 void TileTracer::traceTile(int tileX, int tileY, bool onlyChanged)
 {
   const std::size_t tile = this->indexOf(tileX, tileY);
-  TileHits merged{ this->Depth.t.data() + 64 * tile, this->Depth.instance.data() + 64 * tile,
+  MergedTile merged{ this->Depth.t.data() + 64 * tile, this->Depth.instance.data() + 64 * tile,
     this->Depth.primitive.data() + 64 * tile, false };
   merged.any = onlyChanged ? this->LastHit[tile] != 0
                            : this->nearestTriangles(tileX, tileY, this->Triangles, merged);
@@ -271,7 +271,7 @@ void TileTracer::traceTile(int tileX, int tileY, bool onlyChanged)
       account.looked = true;
       account.rays += 64;
     });
-  this->sort(tileX, tileY, onlyChanged, this->Occlusion.deepest(merged));
+  this->collect(tileX, tileY, onlyChanged, this->Occlusion.deepest(merged));
   if (!this->OneByOne.empty())
   {
     Points at;
@@ -313,7 +313,7 @@ void TileTracer::fill(const Candidate& candidate, const Points& at, RayBlock& bl
   }
 }
 
-void TileTracer::mergeRays(Candidate& candidate, const Points& at, TileHits& merged)
+void TileTracer::mergeRays(Candidate& candidate, const Points& at, MergedTile& merged)
 {
   RayBlock block;
   HitBlock found;
@@ -328,9 +328,9 @@ void TileTracer::mergeRays(Candidate& candidate, const Points& at, TileHits& mer
 }
 
 void TileTracer::mergeAlone(
-  int tileX, int tileY, Candidate& candidate, const Points& at, TileHits& merged)
+  int tileX, int tileY, Candidate& candidate, const Points& at, MergedTile& merged)
 {
-  TileHits own{ this->T, this->Instance, this->OwnPrimitive, false };
+  MergedTile own{ this->Own.t, this->Own.instance, this->Own.primitive, false };
   if (this->nearestTriangles(tileX, tileY, candidate.triangles, own))
   {
     this->Order.merge(candidate.entry(), own.t, own.primitive, at.x, at.y, merged);
@@ -339,7 +339,7 @@ void TileTracer::mergeAlone(
 
 /// A layer is traced whole: it must stay true when what is before it goes away.
 void TileTracer::mergeLayer(
-  int tileX, int tileY, Candidate& candidate, const Points& at, TileHits& merged)
+  int tileX, int tileY, Candidate& candidate, const Points& at, MergedTile& merged)
 {
   DepthLayer& layer = *candidate.entry().layer;
   const std::size_t k = layer.index(tileX, tileY);

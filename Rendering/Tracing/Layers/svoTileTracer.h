@@ -1,7 +1,8 @@
 // Traces the tiles of a view, a group at a time: finds the instances that its rays may meet,
 // decides how each of them is traced, and merges what they hit. Private to a thread.
 //
-// What a ray of a tile meets of an instance is found in one of five ways (Method):
+// What a ray of a tile meets of an instance is found in one of five ways. Which one is chosen for a
+// group (gather()); where triangles cannot be made ready, it is rays in the end.
 //
 //   Ball      a ball that stands for its triangles      GroupBalls
 //   Layer     a kept depth layer, traced where it is not known
@@ -50,7 +51,7 @@ public:
   const Account& account(std::size_t entry) const { return this->Accounts[entry]; }
 
 private:
-  /// How an instance is traced in the group; decided by choose().
+  /// How an instance that is no ball is traced in the group.
   enum class Method : std::uint8_t
   {
     Layer,
@@ -90,21 +91,21 @@ private:
   void mergeTile(int tileX, int tileY);
   /// `onlyChanged`: those instances are merged into what the tile was in the last frame.
   void traceTile(int tileX, int tileY, bool onlyChanged);
-  /// Puts the candidates that are merged one by one into the order in which that is done.
-  void sort(int tileX, int tileY, bool onlyChanged, double deepest);
-  bool takesPart(int tileX, int tileY, double deepest, Candidate& candidate);
+  /// Makes the candidates ready that are merged one by one, in the order in which that is done.
+  void collect(int tileX, int tileY, bool onlyChanged, double deepest);
+  bool makeReady(int tileX, int tileY, double deepest, Candidate& candidate);
   bool findLayer(int tileX, int tileY, Candidate& candidate);
   bool nearestTriangles(
-    int tileX, int tileY, GroupTriangles& triangles, TileHits& hits); // counts rays
+    int tileX, int tileY, GroupTriangles& triangles, MergedTile& hits); // counts rays
 
   /// The points of a tile's rays.
   struct Points
   {
     double x[64], y[64];
   };
-  void mergeLayer(int tileX, int tileY, Candidate& candidate, const Points& at, TileHits& merged);
-  void mergeAlone(int tileX, int tileY, Candidate& candidate, const Points& at, TileHits& merged);
-  void mergeRays(Candidate& candidate, const Points& at, TileHits& merged);
+  void mergeLayer(int tileX, int tileY, Candidate& candidate, const Points& at, MergedTile& merged);
+  void mergeAlone(int tileX, int tileY, Candidate& candidate, const Points& at, MergedTile& merged);
+  void mergeRays(Candidate& candidate, const Points& at, MergedTile& merged);
   /// All of the tile's rays that may meet it.
   void fill(const Candidate& candidate, const Points& at, RayBlock& block) const;
 
@@ -134,9 +135,12 @@ private:
   GroupBalls Balls;                  // not among the candidates
   GroupTriangles Triangles;          // of those together
   GroupTrianglesMemory Memory;
-  alignas(64) float T[64];
-  alignas(64) std::uint32_t Instance[64];
-  alignas(64) Primitive OwnPrimitive[64];
+  struct
+  {
+    alignas(64) float t[64];
+    alignas(64) std::uint32_t instance[64];
+    alignas(64) Primitive primitive[64];
+  } Own; // what one instance has in a tile
 };
 }
 

@@ -14,7 +14,7 @@ void TracedInstances::find(const Scene& scene, const View& view, const Culling& 
   const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf,
   const ParallelFor& parallelFor)
 {
-  this->assign(scene);
+  this->assign(scene, this->Exact);
   this->EntryOf.assign(scene.instances.size(), 0);
   this->Seen = view;
   findVisible(scene, view, culling, takesPart, parallelFor, this->Visible);

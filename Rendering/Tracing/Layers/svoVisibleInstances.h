@@ -2,7 +2,7 @@
 #ifndef svoVisibleInstances_h
 #define svoVisibleInstances_h
 
-#include "svoDepthLayer.h"
+#include "svoLayerKey.h"
 #include "svoLocalView.h"
 #include "svoLooseOctree.h"
 #include "svoParallel.h"

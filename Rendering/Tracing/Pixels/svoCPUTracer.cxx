@@ -432,6 +432,7 @@ void CPUTracer::releaseLayers()
   this->Impl->Eye.release();
   this->Impl->LightShadows.release();
   this->Impl->SharesBuffers = false;
+  this->Impl->ViewsAreTraced = false;
   this->Impl->Kept.forget();
 }
 }

@@ -3,6 +3,7 @@
 #include "svoLeafError.h"
 #include "svoShownDepth.h"
 #include "svoTileImage.h"
+#include "svoTileShadows.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ void PixelShader::findTerminator(const LightShadow& shadow, const Light& light,
         at.pixel = i;
         if (scratch.noted && at.kind != TerminatorPoint::Kind::Hidden)
         {
-          shadow.note(query, at, scratch.noted->raysToLights, scratch.noted->raised);
+          shadow.noteTerminator(query, at, scratch.noted->raysToLights, scratch.noted->raised);
         }
         scratch.terminator.push_back(at);
       }
@@ -78,7 +79,7 @@ void PixelShader::shadow(
   float* missed = scratch.missed;
   if (scratch.noted)
   {
-    shadow.note(query, scratch.noted->raysToLights);
+    shadow.noteRays(query, scratch.noted->raysToLights);
   }
   const std::uint64_t dark = shadow.test(query, missed);
   std::uint64_t changed = dark;
@@ -113,7 +114,7 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
   lookAtPatch(this->Frames[patch.instance], patch, scratch.triangles);
   std::fill_n(scratch.darkness, TilePatch::Most, Darkness(0));
   const bool isLit = instance.material.lighting && !lighting.lights.empty();
-  if (isLit && instance.receiveShadow && lit.shaded.settings.filters())
+  if (isLit && instance.receiveShadow && lit.shaded.dark.filters())
   {
     eachBit(patch.mask,
       [&](int i)

@@ -1,6 +1,6 @@
 #include "svoBufferShadow.h"
 
-#include "svoShadowTest.h"
+#include "svoShadowRules.h"
 #include "svoTerminatorShadow.h"
 
 #include <utility>
@@ -57,7 +57,7 @@ void BufferShadow::testTerminator(
     this->Filters ? query.extents : nullptr, points, missed);
 }
 
-void BufferShadow::note(
+void BufferShadow::noteTerminator(
   const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays, RaisedTiles& raised) const
 {
   const glm::dvec3 reach(query.errors.map);

@@ -10,7 +10,7 @@
 
 namespace svo
 {
-/// Buffers and rays are borrowed, for a frame.
+/// The light, buffers and rays are borrowed, for a frame.
 class BufferShadow : public LightShadow
 {
 public:
@@ -27,9 +27,8 @@ public:
   double grazing() const override;
   void testTerminator(const ShadowQuery& query, const std::vector<TerminatorPoint>& points,
     float* missed) const override;
-  void note(const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays,
+  void noteTerminator(const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays,
     RaisedTiles& raised) const override;
-  using LightShadow::note;
 
 private:
   const Light& Source;

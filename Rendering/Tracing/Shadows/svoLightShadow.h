@@ -63,9 +63,12 @@ public:
   }
 
   /// Notes what the answers hang on besides what was marked: where rays begin, ...
-  virtual void note(const ShadowQuery&, PointBox&) const {}
+  virtual void noteRays(const ShadowQuery&, PointBox&) const {}
   /// ... and what else is looked up of a point at the terminator.
-  virtual void note(const ShadowQuery&, const TerminatorPoint&, PointBox&, RaisedTiles&) const {}
+  virtual void noteTerminator(
+    const ShadowQuery&, const TerminatorPoint&, PointBox&, RaisedTiles&) const
+  {
+  }
 };
 
 /// Adds to what points miss what something takes of the rest of those that are `left`; where

@@ -30,13 +30,13 @@ void RayShadow::testTerminator(
     nullptr, &this->Rays, this->Source, query, query.errors.ray, nullptr, points, missed);
 }
 
-void RayShadow::note(const ShadowQuery& query, PointBox& rays) const
+void RayShadow::noteRays(const ShadowQuery& query, PointBox& rays) const
 {
   rays.add(
     query.patch.origin.position, (1.0 + 1e-6) * glm::dvec3(query.patch.extent) + query.errors.ray);
 }
 
-void RayShadow::note(
+void RayShadow::noteTerminator(
   const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays, RaisedTiles&) const
 {
   const glm::dvec3 reach(query.errors.ray);

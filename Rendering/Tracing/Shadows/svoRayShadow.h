@@ -9,7 +9,8 @@
 
 namespace svo
 {
-/// The rays are borrowed, for a frame. They need no margin where facets graze the light.
+/// The light and the rays are borrowed, for a frame. Rays need no margin where facets graze the
+/// light.
 class RayShadow : public LightShadow
 {
 public:
@@ -24,8 +25,8 @@ public:
   bool knowsTerminator() const override { return true; }
   void testTerminator(const ShadowQuery& query, const std::vector<TerminatorPoint>& points,
     float* missed) const override;
-  void note(const ShadowQuery& query, PointBox& rays) const override;
-  void note(const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays,
+  void noteRays(const ShadowQuery& query, PointBox& rays) const override;
+  void noteTerminator(const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays,
     RaisedTiles& raised) const override;
 
 private:

@@ -5,8 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
-
-#include <glm/geometric.hpp>
+#include <cstddef>
 
 namespace svo
 {
@@ -130,6 +129,7 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
   const std::vector<LightMaps>& maps, std::size_t first, const FrameSettings& settings,
   LayerBudget& budget, const ParallelFor& parallelFor)
 {
+  this->OfLights.clear(); // they borrow buffers
   this->CoarsestTexel = 0.0;
   this->WidestTexel = 0.0;
   this->HasFewerTexels = false;

@@ -7,9 +7,10 @@
 #include "svoScene.h"
 #include "svoShadowBuffer.h"
 #include "svoShadowRays.h"
-#include "svoShadowRules.h"
 #include "svoTilePatch.h"
 
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -70,7 +71,13 @@ public:
   bool knows(const glm::dvec3& position) const;
 
   /// From prepareAnswers() to the end of the frame; by index into Scene::lights.
-  const LightShadow& of(std::size_t light) const { return *this->OfLights[light]; }
+  const LightShadow& of(std::size_t light) const
+  {
+    assert(light < this->OfLights.size());
+    return *this->OfLights[light];
+  }
+  /// True if some of them ask for ShadowQuery::extents.
+  bool filters() const { return this->Filters; }
 
   void addStatistics(FrameStatistics& statistics) const;
   void copyMaps(std::vector<ShadowMap>& maps);
