@@ -7,7 +7,6 @@
 #include "svoMergedTiles.h"
 #include "svoViewedInstances.h"
 
-#include <cstddef>
 #include <cstdint>
 
 namespace svo
@@ -20,25 +19,6 @@ struct Hits
   const ViewedInstances& instances;
 
   double base(std::uint32_t instance) const { return this->instances.base(instance); }
-};
-
-/// What 64 rays anywhere in a tile see.
-struct TileSamples
-{
-  double x[64]; // points of the image, all in one tile
-  double y[64];
-  double t[64]; // linear depth
-  std::uint32_t instance[64];
-  Primitive primitive[64];
-};
-
-/// Traces further rays of a view, after its hits.
-class TileSampler
-{
-public:
-  virtual ~TileSampler() = default;
-  /// Traces points of a tile, `count` times 64, through all instances.
-  virtual void sample(int tileX, int tileY, TileSamples* samples, std::size_t count) const = 0;
 };
 }
 

@@ -6,8 +6,7 @@
 
 namespace svo
 {
-bool GroupOcclusion::hides(
-  const TriangleGroup& triangles, const TileGroup& group, const PixelRect& rect, double depth) const
+bool GroupOcclusion::hides(const PixelRect& rect, double depth) const
 {
   // As PixelFunctions::key(); a view may count depths from elsewhere than where its rays meet.
   const double at = depth + this->Instances.fromEye();
@@ -21,11 +20,11 @@ bool GroupOcclusion::hides(
     }
     key = (keys.deep ? -keys.far : key) * keys.far / at;
   }
-  return group.wants(rect) && triangles.hides(group.windowOf(rect), static_cast<float>(key));
+  return this->Group.wants(rect) &&
+    this->Triangles.hides(this->Group.windowOf(rect), static_cast<float>(key));
 }
 
-bool GroupOcclusion::hidesNode(
-  const TriangleGroup& triangles, const TileGroup& group, std::uint32_t node)
+bool GroupOcclusion::hidesNode(std::uint32_t node)
 {
   if (node == SeenNode::None)
   {
@@ -37,23 +36,20 @@ bool GroupOcclusion::hidesNode(
     const SeenNode& n = this->Instances.set().nodes[node];
     const double before =
       n.cube.nearest - this->slack(n.cube.nearest, n.cube.farthest - n.cube.nearest);
-    const bool hidden = this->hidesNode(triangles, group, n.parent) ||
-      this->hides(triangles, group, n.cube.rect, before);
+    const bool hidden = this->hidesNode(n.parent) || this->hides(n.cube.rect, before);
     known = 2 * this->Asking + hidden;
   }
   return known % 2 != 0;
 }
 
-bool GroupOcclusion::hides(
-  const TriangleGroup& triangles, const TileGroup& group, const TracedInstance& entry)
+bool GroupOcclusion::hides(const TracedInstance& entry)
 {
-  if (!this->On || triangles.empty())
+  if (!this->On || this->Triangles.empty())
   {
     return false;
   }
-  return this->hidesNode(
-           triangles, group, this->Instances.nodeOf(this->Instances.indexOf(entry))) ||
-    this->hides(triangles, group, entry.local.pixels, this->before(entry));
+  return this->hidesNode(this->Instances.nodeOf(this->Instances.indexOf(entry))) ||
+    this->hides(entry.local.pixels, this->before(entry));
 }
 
 double GroupOcclusion::deepest(const MergedTile& merged) const

@@ -17,19 +17,22 @@ namespace svo
 class GroupOcclusion
 {
 public:
-  /// `on`: Culling::occlusion; else nothing is hidden.
-  GroupOcclusion(const TracedInstances& instances, bool on)
+  /// `on`: Culling::occlusion; else nothing is hidden. The group and the triangles that hide are
+  /// those of the moment.
+  GroupOcclusion(const TracedInstances& instances, bool on, const TileGroup& group,
+    const TriangleGroup& triangles)
     : Instances(instances)
+    , Group(group)
+    , Triangles(triangles)
     , On(on && !instances.shifted())
     , Nodes(instances.set().nodes.size())
   {
   }
-  /// Forgets what was hidden by other triangles.
+  /// Forgets what other triangles hid. Until then some may only be added.
   void restart() { ++this->Asking; }
 
-  /// True if the triangles, to which others may be added until the restart, hide all that an
-  /// instance has in the window.
-  bool hides(const TriangleGroup& triangles, const TileGroup& group, const TracedInstance& entry);
+  /// True if all that an instance has in the window is hidden.
+  bool hides(const TracedInstance& entry);
 
   /// Linear depth before which an instance has no hits.
   double before(const TracedInstance& entry) const
@@ -41,10 +44,9 @@ public:
   bool on() const { return this->On; }
 
 private:
-  /// True if they hide all that lies in a rectangle of the image beyond a linear depth.
-  bool hides(const TriangleGroup& triangles, const TileGroup& group, const PixelRect& rect,
-    double depth) const;
-  bool hidesNode(const TriangleGroup& triangles, const TileGroup& group, std::uint32_t node);
+  /// True if all that lies in a rectangle of the image beyond a linear depth is hidden.
+  bool hides(const PixelRect& rect, double depth) const;
+  bool hidesNode(std::uint32_t node);
   /// How much nearer than its nearest corner a hit in what is `deep` from there on may be found,
   /// and by how much that of another instance may be off.
   double slack(double nearest, double deep) const
@@ -54,6 +56,8 @@ private:
   }
 
   const TracedInstances& Instances;
+  const TileGroup& Group;
+  const TriangleGroup& Triangles;
   bool On;
   /// By index into VisibleSet::nodes: twice what `Asking` was when it was asked about, and 1 if it
   /// was hidden.

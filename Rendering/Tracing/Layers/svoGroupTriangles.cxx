@@ -28,12 +28,10 @@ void measureHits(const TracedInstances& instances, int tileX, int tileY,
 {
   RayBlock block;
   HitBlock measured;
-  double x[64], y[64];
+  const TilePoints at(tileX, tileY);
   std::int32_t decided[64];
   for (int i = 0; i < 64; ++i)
   {
-    x[i] = 8 * tileX + (i & 7) + 0.5;
-    y[i] = 8 * tileY + (i >> 3) + 0.5;
     decided[i] = nearest.slot[i] != NearestTriangles::None;
   }
   // Of one instance after the other; mostly there is one.
@@ -51,7 +49,7 @@ void measureHits(const TracedInstances& instances, int tileX, int tileY,
       measured.primitive[i] = own ? hits.primitive[i] : NoPrimitive;
       decided[i] = own ? 0 : decided[i];
     }
-    fillRays(entry.local, x, y, block);
+    fillRays(entry.local, at.x, at.y, block);
     depthsOnTriangles(*entry.octree, block, measured);
     for (int i = 0; i < 64; ++i)
     {

@@ -28,7 +28,7 @@ bool lessInSpace(const glm::dvec3& a, const glm::dvec3& b)
 }
 
 void HitOrder::merge(const TracedInstance& entry, const float* t, const Primitive* primitive,
-  const double* x, const double* y, MergedTile& merged) const
+  const TilePoints& at, MergedTile& merged) const
 {
   // A NaN compares false and never wins.
   if (!merged.any)
@@ -58,8 +58,8 @@ void HitOrder::merge(const TracedInstance& entry, const float* t, const Primitiv
     }
     const std::uint32_t winner = merged.instance[i];
     if (winner == NoInstance ||
-      this->inFront({ entry.index, primitive[i], entry.local.base + t[i], x[i], y[i] },
-        { winner, merged.primitive[i], this->Instances.base(winner) + merged.t[i], x[i], y[i] }))
+      this->inFront({ entry.index, primitive[i], entry.local.base + t[i], at.x[i], at.y[i] },
+        { winner, merged.primitive[i], this->linearDepth(winner, merged.t[i]), at.x[i], at.y[i] }))
     {
       merged.t[i] = t[i];
       merged.primitive[i] = primitive[i];

@@ -31,6 +31,21 @@ struct MergedTile
   bool any; // else nothing is written yet
 };
 
+/// Where the image is asked through a tile: the centres of its pixels.
+struct TilePoints
+{
+  double x[64], y[64];
+
+  TilePoints(int tileX, int tileY)
+  {
+    for (int i = 0; i < 64; ++i)
+    {
+      this->x[i] = 8 * tileX + (i & 7) + 0.5;
+      this->y[i] = 8 * tileY + (i >> 3) + 0.5;
+    }
+  }
+};
+
 /// An order of all hits of a view, whatever they are compared with first.
 class HitOrder
 {
@@ -71,10 +86,9 @@ public:
     }
     return last + this->Instances.error(entry.index);
   }
-  /// Merges an instance's hits at these points into those of a tile. Any order of merging gives the
-  /// same.
+  /// Merges an instance's hits into those of a tile. Any order of merging gives the same.
   void merge(const TracedInstance& entry, const float* t, const Primitive* primitive,
-    const double* x, const double* y, MergedTile& merged) const;
+    const TilePoints& at, MergedTile& merged) const;
 
 private:
   bool settle(const SeenHit& a, const SeenHit& b) const;

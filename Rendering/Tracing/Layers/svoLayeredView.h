@@ -9,6 +9,7 @@
 #include "svoLayerCache.h"
 #include "svoParallel.h"
 #include "svoScene.h"
+#include "svoTileSampler.h"
 #include "svoTracedInstances.h"
 
 #include <cstdint>

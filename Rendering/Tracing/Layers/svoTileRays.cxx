@@ -96,6 +96,18 @@ bool findPart(const TracedInstances& instances, int tileX, int tileY, TilePart& 
   return true;
 }
 
+void fillPart(const TilePart& part, const TilePoints& at, RayBlock& block)
+{
+  const PixelRect& pixels = part.entry->local.pixels;
+  std::fill(block.tMin, block.tMin + 64, part.tNear);
+  for (int i = 0; i < 64; ++i)
+  {
+    const bool sees =
+      at.x[i] >= pixels.x0 && at.x[i] < pixels.x1 && at.y[i] >= pixels.y0 && at.y[i] < pixels.y1;
+    block.tMax[i] = sees ? part.tFar : -std::numeric_limits<float>::infinity();
+  }
+}
+
 bool cutRays(const TracedInstances& instances, const HitOrder& order, const TilePart& part,
   const MergedTile& merged, RayBlock& block)
 {
@@ -109,7 +121,7 @@ bool cutRays(const TracedInstances& instances, const HitOrder& order, const Tile
     {
       const std::uint32_t winner = merged.instance[i];
       const double cut =
-        order.lastDepth(entry, winner, instances.base(winner) + merged.t[i]) - entry.local.base;
+        order.lastDepth(entry, winner, order.linearDepth(winner, merged.t[i])) - entry.local.base;
       if (entry.cuttable || cut < part.tNear)
       {
         const bool moves =

@@ -22,6 +22,9 @@ struct TilePart
 /// Finds where they may; false if nowhere.
 bool findPart(const TracedInstances& instances, int tileX, int tileY, TilePart& part);
 
+/// All rays of the tile that may meet the instance there.
+void fillPart(const TilePart& part, const TilePoints& at, RayBlock& block);
+
 /// Ends rays where hits would be behind what is merged; false if none is left.
 bool cutRays(const TracedInstances& instances, const HitOrder& order, const TilePart& part,
   const MergedTile& merged, RayBlock& block);

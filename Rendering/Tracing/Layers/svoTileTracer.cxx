@@ -12,7 +12,7 @@ TileTracer::TileTracer(const TracedInstances& instances, bool occlusion,
   , LastHit(lastHit)
   , Depth(depth)
   , Tiles(tiles)
-  , Occlusion(instances, occlusion)
+  , Occlusion(instances, occlusion, this->Group, this->Triangles.triangles())
 {
   Account none;
   none.counted = depth.tiles();
@@ -86,7 +86,6 @@ void TileTracer::gather(const std::uint32_t* nearby, std::size_t count)
     Candidate& candidate = this->Candidates[this->Nearby++];
     candidate.part.entry = &entry;
     candidate.hidden = false;
-    candidate.layerMethod = entry.tiles ? LayerMethod::Undecided : LayerMethod::Rays;
     candidate.method = this->choose(entry, candidate);
     if (candidate.method == Method::Together)
     {
@@ -102,21 +101,22 @@ void TileTracer::gather(const std::uint32_t* nearby, std::size_t count)
 
 TileTracer::Method TileTracer::choose(const TracedInstance& entry, Candidate& candidate)
 {
-  if (entry.layer)
-  {
-    return Method::Layer;
-  }
   if (!entry.tiles)
   {
     return Method::Rays;
   }
-  if (!this->Instances.shifted())
+  if (entry.layer)
   {
-    return Method::Together;
+    return Method::Undecided;
   }
+  return this->Instances.shifted() ? this->aloneOrRays(candidate) : Method::Together;
+}
+
+TileTracer::Method TileTracer::aloneOrRays(Candidate& candidate)
+{
   candidate.triangles.clear();
   return candidate.triangles.add(
-           this->Instances, entry, this->Group, this->manyTogether(), this->Memory)
+           this->Instances, candidate.entry(), this->Group, this->manyTogether(), this->Memory)
     ? Method::Alone
     : Method::Rays;
 }
@@ -127,8 +127,8 @@ bool TileTracer::findTogether()
   this->Occlusion.restart();
   for (Candidate* const candidate : this->Together)
   {
-    candidate->hidden = candidate->method == Method::Together &&
-      this->Occlusion.hides(this->Triangles.triangles(), this->Group, candidate->entry());
+    candidate->hidden =
+      candidate->method == Method::Together && this->Occlusion.hides(candidate->entry());
     if (candidate->method == Method::Together && !candidate->hidden &&
       !this->Triangles.add(
         this->Instances, candidate->entry(), this->Group, this->manyTogether(), this->Memory))
@@ -148,10 +148,9 @@ void TileTracer::findHidden()
   for (std::size_t k = 0; k < this->Nearby; ++k)
   {
     Candidate& candidate = this->Candidates[k];
-    if (candidate.method == Method::Rays)
+    if (candidate.method == Method::Rays && !candidate.entry().layer)
     {
-      candidate.hidden =
-        this->Occlusion.hides(this->Triangles.triangles(), this->Group, candidate.entry());
+      candidate.hidden = this->Occlusion.hides(candidate.entry());
     }
     Account& account = this->accountOf(candidate.entry());
     account.asked = true;
@@ -176,65 +175,24 @@ bool TileTracer::nearestTriangles(int tileX, int tileY, GroupTriangles& triangle
 
 bool TileTracer::makeReady(int tileX, int tileY, double deepest, Candidate& candidate)
 {
-  constexpr double First = -std::numeric_limits<double>::infinity();
   const TracedInstance& entry = candidate.entry();
-  switch (candidate.method)
+  candidate.key = -std::numeric_limits<double>::infinity();
+  if (entry.layer) // first: kept ones cost nothing and cut the others' rays
   {
-    case Method::Layer: // first: kept ones cost nothing and cut the others' rays
-      candidate.key = First;
-      return this->findLayer(tileX, tileY, candidate);
-    case Method::Alone:
-      candidate.key = First;
-      return true;
-    case Method::Rays:
-      if (candidate.hidden || this->Occlusion.before(entry) > deepest ||
-        !findPart(this->Instances, tileX, tileY, candidate.part))
-      {
-        return false;
-      }
-      candidate.key = entry.local.base + candidate.part.tNear;
-      return true;
-    case Method::Together:
-      break;
+    return entry.layer->holds(tileX, tileY) &&
+      entry.layer->traced[entry.layer->index(tileX, tileY)] != DepthLayer::Empty;
   }
-  return false;
-}
-
-/// Traces a tile of a layer, or finds where its rays begin; false if it is empty.
-bool TileTracer::findLayer(int tileX, int tileY, Candidate& candidate)
-{
-  DepthLayer& layer = *candidate.entry().layer;
-  if (!layer.holds(tileX, tileY))
+  if (candidate.method != Method::Rays)
+  {
+    return candidate.method == Method::Alone; // others are merged
+  }
+  if (candidate.hidden || this->Occlusion.before(entry) > deepest ||
+    !findPart(this->Instances, tileX, tileY, candidate.part))
   {
     return false;
   }
-  const std::size_t k = layer.index(tileX, tileY);
-  if (layer.traced[k] != DepthLayer::Unknown)
-  {
-    return layer.traced[k] != DepthLayer::Empty;
-  }
-  if (candidate.layerMethod == LayerMethod::Undecided)
-  {
-    candidate.triangles.clear();
-    candidate.layerMethod = candidate.triangles.add(this->Instances, candidate.entry(), this->Group,
-                              this->manyTogether(), this->Memory)
-      ? LayerMethod::Triangles
-      : LayerMethod::Rays;
-  }
-  bool any = true;
-  if (candidate.layerMethod == LayerMethod::Triangles)
-  {
-    MergedTile hits{ layer.t.data() + 64 * k, this->Own.instance, layer.primitive.data() + 64 * k,
-      false };
-    any = this->nearestTriangles(tileX, tileY, candidate.triangles, hits);
-    layer.traced[k] = any ? DepthLayer::Traced : DepthLayer::Empty;
-  }
-  else if (!findPart(this->Instances, tileX, tileY, candidate.part))
-  {
-    any = false;
-    layer.traced[k] = DepthLayer::Empty;
-  }
-  return any;
+  candidate.key = entry.local.base + candidate.part.tNear;
+  return true;
 }
 
 void TileTracer::collect(int tileX, int tileY, bool onlyChanged, double deepest)
@@ -272,74 +230,56 @@ void TileTracer::traceTile(int tileX, int tileY, bool onlyChanged)
       account.rays += 64;
     });
   this->collect(tileX, tileY, onlyChanged, this->Occlusion.deepest(merged));
-  if (!this->OneByOne.empty())
+  this->Depth.hit[tile] = merged.any;
+  if (this->OneByOne.empty())
   {
-    Points at;
-    for (int i = 0; i < 64; ++i)
+    return;
+  }
+  const TilePoints at(tileX, tileY);
+  for (Candidate* const candidate : this->OneByOne)
+  {
+    if (candidate->entry().layer)
     {
-      at.x[i] = 8 * tileX + (i & 7) + 0.5;
-      at.y[i] = 8 * tileY + (i >> 3) + 0.5;
+      this->mergeLayer(tileX, tileY, at, *candidate, merged);
     }
-    for (Candidate* const candidate : this->OneByOne)
+    else if (candidate->method == Method::Alone)
     {
-      switch (candidate->method)
-      {
-        case Method::Layer:
-          this->mergeLayer(tileX, tileY, *candidate, at, merged);
-          break;
-        case Method::Alone:
-          this->mergeAlone(tileX, tileY, *candidate, at, merged);
-          break;
-        case Method::Rays:
-          this->mergeRays(*candidate, at, merged);
-          break;
-        case Method::Together: // is merged
-          break;
-      }
+      this->mergeAlone(tileX, tileY, at, *candidate, merged);
+    }
+    else
+    {
+      this->mergeRays(at, *candidate, merged);
     }
   }
   this->Depth.hit[tile] = merged.any;
 }
 
-void TileTracer::fill(const Candidate& candidate, const Points& at, RayBlock& block) const
-{
-  const PixelRect& pixels = candidate.entry().local.pixels;
-  std::fill(block.tMin, block.tMin + 64, candidate.part.tNear);
-  for (int i = 0; i < 64; ++i)
-  {
-    const bool sees =
-      at.x[i] >= pixels.x0 && at.x[i] < pixels.x1 && at.y[i] >= pixels.y0 && at.y[i] < pixels.y1;
-    block.tMax[i] = sees ? candidate.part.tFar : -std::numeric_limits<float>::infinity();
-  }
-}
-
-void TileTracer::mergeRays(Candidate& candidate, const Points& at, MergedTile& merged)
+void TileTracer::mergeRays(const TilePoints& at, Candidate& candidate, MergedTile& merged)
 {
   RayBlock block;
   HitBlock found;
-  this->fill(candidate, at, block);
+  fillPart(candidate.part, at, block);
   if (merged.any && !cutRays(this->Instances, this->Order, candidate.part, merged, block))
   {
     return;
   }
   traceRays(this->Instances, candidate.part, at.x, at.y, block, found);
   this->accountOf(candidate.entry()).rays += 64;
-  this->Order.merge(candidate.entry(), found.t, found.primitive, at.x, at.y, merged);
+  this->Order.merge(candidate.entry(), found.t, found.primitive, at, merged);
 }
 
 void TileTracer::mergeAlone(
-  int tileX, int tileY, Candidate& candidate, const Points& at, MergedTile& merged)
+  int tileX, int tileY, const TilePoints& at, Candidate& candidate, MergedTile& merged)
 {
   MergedTile own{ this->Own.t, this->Own.instance, this->Own.primitive, false };
   if (this->nearestTriangles(tileX, tileY, candidate.triangles, own))
   {
-    this->Order.merge(candidate.entry(), own.t, own.primitive, at.x, at.y, merged);
+    this->Order.merge(candidate.entry(), own.t, own.primitive, at, merged);
   }
 }
 
-/// A layer is traced whole: it must stay true when what is before it goes away.
 void TileTracer::mergeLayer(
-  int tileX, int tileY, Candidate& candidate, const Points& at, MergedTile& merged)
+  int tileX, int tileY, const TilePoints& at, Candidate& candidate, MergedTile& merged)
 {
   DepthLayer& layer = *candidate.entry().layer;
   const std::size_t k = layer.index(tileX, tileY);
@@ -347,16 +287,41 @@ void TileTracer::mergeLayer(
   Primitive* const primitive = layer.primitive.data() + 64 * k;
   if (layer.traced[k] == DepthLayer::Unknown)
   {
-    RayBlock block;
-    HitBlock found;
-    layer.traced[k] = DepthLayer::Traced;
-    this->fill(candidate, at, block);
-    traceRays(this->Instances, candidate.part, at.x, at.y, block, found);
-    std::copy(found.t, found.t + 64, t);
-    std::copy(found.primitive, found.primitive + 64, primitive);
-    this->accountOf(candidate.entry()).rays += 64;
+    layer.traced[k] = this->traceLayer(tileX, tileY, at, candidate, t, primitive)
+      ? DepthLayer::Traced
+      : DepthLayer::Empty;
   }
-  this->Order.merge(candidate.entry(), t, primitive, at.x, at.y, merged);
+  if (layer.traced[k] == DepthLayer::Traced)
+  {
+    this->Order.merge(candidate.entry(), t, primitive, at, merged);
+  }
+}
+
+/// A layer is traced whole: it must stay true when what is before it goes away.
+bool TileTracer::traceLayer(
+  int tileX, int tileY, const TilePoints& at, Candidate& candidate, float* t, Primitive* primitive)
+{
+  if (candidate.method == Method::Undecided)
+  {
+    candidate.method = this->aloneOrRays(candidate);
+  }
+  if (candidate.method == Method::Alone)
+  {
+    MergedTile hits{ t, this->Own.instance, primitive, false };
+    return this->nearestTriangles(tileX, tileY, candidate.triangles, hits);
+  }
+  if (!findPart(this->Instances, tileX, tileY, candidate.part))
+  {
+    return false;
+  }
+  RayBlock block;
+  HitBlock found;
+  fillPart(candidate.part, at, block);
+  traceRays(this->Instances, candidate.part, at.x, at.y, block, found);
+  std::copy(found.t, found.t + 64, t);
+  std::copy(found.primitive, found.primitive + 64, primitive);
+  this->accountOf(candidate.entry()).rays += 64;
+  return true;
 }
 
 void TileTracer::mergeTile(int tileX, int tileY)

@@ -5,7 +5,7 @@
 // group (gather()); where triangles cannot be made ready, it is rays in the end.
 //
 //   Ball      a ball that stands for its triangles      GroupBalls
-//   Layer     a kept depth layer, traced where it is not known
+//   Layer     a kept depth layer; alone or by rays where it is not known
 //   Together  the nearest triangles of all instances    GroupTriangles
 //   Alone     the nearest of its own triangles          GroupTriangles
 //   Rays      64 rays through its octree                svoTileRays.h
@@ -51,19 +51,13 @@ public:
   const Account& account(std::size_t entry) const { return this->Accounts[entry]; }
 
 private:
-  /// How an instance that is no ball is traced in the group.
+  /// How an instance that is no ball is traced in the group. With a layer: its tiles that are not
+  /// known, of which there may be none.
   enum class Method : std::uint8_t
   {
-    Layer,
+    Undecided, // alone or by rays; of layers
     Together,
     Alone,
-    Rays
-  };
-  /// How tiles of a layer that are not known are traced.
-  enum class LayerMethod : std::uint8_t
-  {
-    Undecided,
-    Triangles,
     Rays
   };
   /// An instance that the group's rays may meet.
@@ -71,10 +65,9 @@ private:
   {
     TilePart part; // of the tile at hand
     Method method = Method::Rays;
-    LayerMethod layerMethod = LayerMethod::Undecided;
     bool hidden = false;      // others hide all that the group sees of it
     double key = 0.0;         // order of tracing
-    GroupTriangles triangles; // where it is traced alone, or has a layer
+    GroupTriangles triangles; // where it is traced alone
     const TracedInstance& entry() const { return *this->part.entry; }
   };
 
@@ -82,6 +75,7 @@ private:
   bool findWindow();
   void gather(const std::uint32_t* nearby, std::size_t count);
   Method choose(const TracedInstance& entry, Candidate& candidate);
+  Method aloneOrRays(Candidate& candidate);
   /// Adds what the group may see of those that are traced together. False, and all is to be done
   /// once more, if one of them turned out to have to be traced by rays.
   bool findTogether();
@@ -94,20 +88,17 @@ private:
   /// Makes the candidates ready that are merged one by one, in the order in which that is done.
   void collect(int tileX, int tileY, bool onlyChanged, double deepest);
   bool makeReady(int tileX, int tileY, double deepest, Candidate& candidate);
-  bool findLayer(int tileX, int tileY, Candidate& candidate);
   bool nearestTriangles(
     int tileX, int tileY, GroupTriangles& triangles, MergedTile& hits); // counts rays
 
-  /// The points of a tile's rays.
-  struct Points
-  {
-    double x[64], y[64];
-  };
-  void mergeLayer(int tileX, int tileY, Candidate& candidate, const Points& at, MergedTile& merged);
-  void mergeAlone(int tileX, int tileY, Candidate& candidate, const Points& at, MergedTile& merged);
-  void mergeRays(Candidate& candidate, const Points& at, MergedTile& merged);
-  /// All of the tile's rays that may meet it.
-  void fill(const Candidate& candidate, const Points& at, RayBlock& block) const;
+  void mergeLayer(
+    int tileX, int tileY, const TilePoints& at, Candidate& candidate, MergedTile& merged);
+  /// Of a layer; false if the tile is empty.
+  bool traceLayer(int tileX, int tileY, const TilePoints& at, Candidate& candidate, float* t,
+    Primitive* primitive);
+  void mergeAlone(
+    int tileX, int tileY, const TilePoints& at, Candidate& candidate, MergedTile& merged);
+  void mergeRays(const TilePoints& at, Candidate& candidate, MergedTile& merged);
 
   std::size_t indexOf(int tileX, int tileY) const
   {
@@ -125,15 +116,15 @@ private:
   const std::vector<std::uint8_t>& LastHit;
   DepthBuffer& Depth;
   MergedTiles& Tiles;
-  GroupOcclusion Occlusion;
   std::vector<Account> Accounts; // by entry
   TileGroup Group;
+  GroupTriangles Triangles;          // of the candidates that are traced together
+  GroupOcclusion Occlusion;          // by these
   std::vector<Candidate> Candidates; // at least those that reach into the group ...
   std::size_t Nearby = 0;            // ... which are so many, front to back
   std::vector<Candidate*> Together;  // of these, in the same order
   std::vector<Candidate*> OneByOne;  // of these, those that a tile's rays may meet
   GroupBalls Balls;                  // not among the candidates
-  GroupTriangles Triangles;          // of those together
   GroupTrianglesMemory Memory;
   struct
   {

@@ -14,6 +14,7 @@
 #include "svoTileLighting.h"
 #include "svoTileLook.h"
 #include "svoTilePatch.h"
+#include "svoTileSampler.h"
 #include "svoViewLights.h"
 
 #include <cstddef>

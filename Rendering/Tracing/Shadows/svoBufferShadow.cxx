@@ -20,16 +20,13 @@ BufferShadow::BufferShadow(const Light& light, const ShadowBuffer& opaque, std::
 
 std::uint64_t BufferShadow::test(const ShadowQuery& query, float* missed) const
 {
-  std::uint64_t dark = 0;
-  if (this->Filters)
+  if (!this->Filters)
   {
-    this->Opaque.darkness(query.patch, query.errors.map, query.extents, query.asked, missed);
-    eachBit(query.asked, [&](int i) { dark |= std::uint64_t(missed[i] > 0.0f) << i; });
-    return dark;
+    return missAll(this->Opaque.shadows(query.patch, query.errors.map, query.asked), missed);
   }
-  dark = this->Opaque.shadows(query.patch, query.errors.map, query.asked);
-  std::fill_n(missed, TilePatch::Most, 0.0f);
-  eachBit(dark, [&](int i) { missed[i] = 1.0f; });
+  std::uint64_t dark = 0;
+  this->Opaque.darkness(query.patch, query.errors.map, query.extents, query.asked, missed);
+  eachBit(query.asked, [&](int i) { dark |= std::uint64_t(missed[i] > 0.0f) << i; });
   return dark;
 }
 

@@ -30,6 +30,14 @@ struct ShadowQuery
   std::uint64_t& rays; // adds those that are cast
 };
 
+/// Sets what points miss: all of the light where they are dark, nothing elsewhere. Returns these.
+inline std::uint64_t missAll(std::uint64_t dark, float* missed)
+{
+  std::fill_n(missed, TilePatch::Most, 0.0f);
+  eachBit(dark, [&](int i) { missed[i] = 1.0f; });
+  return dark;
+}
+
 /// This one is of a light that casts none.
 class LightShadow
 {
@@ -38,11 +46,7 @@ public:
 
   /// Sets what points miss of the light, 0..1, 0 of those that are not asked; returns those that
   /// miss something. What translucent casters take is not among it.
-  virtual std::uint64_t test(const ShadowQuery&, float* missed) const
-  {
-    std::fill_n(missed, TilePatch::Most, 0.0f);
-    return 0;
-  }
+  virtual std::uint64_t test(const ShadowQuery&, float* missed) const { return missAll(0, missed); }
 
   /// True if translucent casters may take something of the light.
   virtual bool dims() const { return false; }

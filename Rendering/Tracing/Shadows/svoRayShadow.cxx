@@ -7,11 +7,8 @@ namespace svo
 std::uint64_t RayShadow::test(const ShadowQuery& query, float* missed) const
 {
   query.rays += static_cast<std::uint64_t>(countBits(query.asked));
-  const std::uint64_t dark =
-    this->Rays.shadows(this->Source, query.patch, query.errors.ray, query.asked);
-  std::fill_n(missed, TilePatch::Most, 0.0f);
-  eachBit(dark, [&](int i) { missed[i] = 1.0f; });
-  return dark;
+  return missAll(
+    this->Rays.shadows(this->Source, query.patch, query.errors.ray, query.asked), missed);
 }
 
 void RayShadow::dim(const ShadowQuery& query, float* missed) const

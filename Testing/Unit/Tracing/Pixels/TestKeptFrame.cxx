@@ -231,23 +231,13 @@ TEST(KeptFrame, IsOfOneFrameAndOneTracer)
   EXPECT_GT(tracer.statistics().primaryRays, 0u);
 }
 
-TEST(KeptFrame, EdgesAreDividedAllTheSame)
+namespace
 {
-  const std::vector<glm::vec2> positions{ { 0.4f, 0.1f }, { 0.9f, 0.4f }, { 0.1f, 0.6f },
-    { 0.6f, 0.9f } };
-  svo::CPUTracer tracer;
-  svo::Frame frame;
-  svo::Silhouettes first, second;
-  {
-    const Stage stage;
-    render(tracer, stage, frame);
-    tracer.divideEdges(stage.scene, stage.view, frame, positions, svo::serialFor, first);
-    render(tracer, stage, frame);
-    // Somebody else's copy of the same scene, as every frame of a renderer has it.
-    svo::Scene copy = stage.scene;
-    render(tracer, stage, frame);
-    tracer.divideEdges(copy, stage.view, frame, positions, svo::serialFor, second);
-  }
+const std::vector<glm::vec2> Positions{ { 0.4f, 0.1f }, { 0.9f, 0.4f }, { 0.1f, 0.6f },
+  { 0.6f, 0.9f } };
+
+void expectSame(const svo::Silhouettes& first, const svo::Silhouettes& second)
+{
   ASSERT_GT(first.parts.size(), 50u);
   ASSERT_EQ(first.parts.size(), second.parts.size());
   for (std::size_t i = 0; i < first.parts.size(); ++i)
@@ -257,6 +247,43 @@ TEST(KeptFrame, EdgesAreDividedAllTheSame)
       std::equal(a.color, a.color + 4, b.color));
   }
   EXPECT_EQ(first.pixels.size(), second.pixels.size());
+}
+}
+
+TEST(KeptFrame, EdgesAreDividedAllTheSame)
+{
+  svo::CPUTracer tracer;
+  svo::Frame frame;
+  svo::Silhouettes first, second;
+  {
+    const Stage stage;
+    render(tracer, stage, frame);
+    tracer.divideEdges(stage.scene, stage.view, frame, Positions, svo::serialFor, first);
+    render(tracer, stage, frame);
+    // Somebody else's copy of the same scene, as every frame of a renderer has it.
+    const svo::Scene copy = stage.scene;
+    render(tracer, stage, frame);
+    tracer.divideEdges(copy, stage.view, frame, Positions, svo::serialFor, second);
+  }
+  expectSame(first, second);
+}
+
+TEST(KeptFrame, EdgesAreDividedAfterTheLayersWereReleased)
+{
+  for (const svo::ShadowTechnique technique :
+    { svo::ShadowTechnique::Buffer, svo::ShadowTechnique::Rays })
+  {
+    svo::CPUTracer tracer;
+    svo::Frame frame;
+    svo::Silhouettes first, second;
+    Stage stage;
+    stage.settings.shadowTechnique = technique;
+    render(tracer, stage, frame);
+    tracer.divideEdges(stage.scene, stage.view, frame, Positions, svo::serialFor, first);
+    tracer.releaseLayers();
+    tracer.divideEdges(stage.scene, stage.view, frame, Positions, svo::serialFor, second);
+    expectSame(first, second);
+  }
 }
 
 namespace
