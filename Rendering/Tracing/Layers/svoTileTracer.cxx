@@ -173,7 +173,8 @@ bool TileTracer::nearestTriangles(int tileX, int tileY, GroupTriangles& triangle
     });
 }
 
-bool TileTracer::makeReady(int tileX, int tileY, double deepest, Candidate& candidate)
+bool TileTracer::makeReady(int tileX, int tileY, const MergedTile& merged,
+  std::optional<double>& deepest, Candidate& candidate)
 {
   const TracedInstance& entry = candidate.entry();
   candidate.key = -std::numeric_limits<double>::infinity();
@@ -186,7 +187,11 @@ bool TileTracer::makeReady(int tileX, int tileY, double deepest, Candidate& cand
   {
     return candidate.method == Method::Alone; // others are merged
   }
-  if (candidate.hidden || this->Occlusion.before(entry) > deepest ||
+  if (!deepest)
+  {
+    deepest = this->Occlusion.deepest(merged);
+  }
+  if (candidate.hidden || this->Occlusion.before(entry) > *deepest ||
     !findPart(this->Instances, tileX, tileY, candidate.part))
   {
     return false;
@@ -195,14 +200,15 @@ bool TileTracer::makeReady(int tileX, int tileY, double deepest, Candidate& cand
   return true;
 }
 
-void TileTracer::collect(int tileX, int tileY, bool onlyChanged, double deepest)
+void TileTracer::collect(int tileX, int tileY, bool onlyChanged, const MergedTile& merged)
 {
+  std::optional<double> deepest;
   this->OneByOne.clear();
   for (std::size_t k = 0; k < this->Nearby; ++k)
   {
     Candidate& candidate = this->Candidates[k];
     if ((!onlyChanged || this->Tiles.partChanged(candidate.entry().index)) &&
-      this->makeReady(tileX, tileY, deepest, candidate))
+      this->makeReady(tileX, tileY, merged, deepest, candidate))
     {
       this->OneByOne.push_back(&candidate);
     }
@@ -229,7 +235,7 @@ void TileTracer::traceTile(int tileX, int tileY, bool onlyChanged)
       account.looked = true;
       account.rays += 64;
     });
-  this->collect(tileX, tileY, onlyChanged, this->Occlusion.deepest(merged));
+  this->collect(tileX, tileY, onlyChanged, merged);
   this->Depth.hit[tile] = merged.any;
   if (this->OneByOne.empty())
   {

@@ -24,6 +24,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace svo
@@ -86,8 +87,10 @@ private:
   /// `onlyChanged`: those instances are merged into what the tile was in the last frame.
   void traceTile(int tileX, int tileY, bool onlyChanged);
   /// Makes the candidates ready that are merged one by one, in the order in which that is done.
-  void collect(int tileX, int tileY, bool onlyChanged, double deepest);
-  bool makeReady(int tileX, int tileY, double deepest, Candidate& candidate);
+  void collect(int tileX, int tileY, bool onlyChanged, const MergedTile& merged);
+  /// `deepest`: GroupOcclusion::deepest(), once somebody had to know.
+  bool makeReady(int tileX, int tileY, const MergedTile& merged, std::optional<double>& deepest,
+    Candidate& candidate);
   bool nearestTriangles(
     int tileX, int tileY, GroupTriangles& triangles, MergedTile& hits); // counts rays
 
