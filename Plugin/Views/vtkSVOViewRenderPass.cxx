@@ -13,8 +13,8 @@ vtkStandardNewMacro(vtkSVOViewRenderPass);
 
 vtkSVOViewRenderPass::vtkSVOViewRenderPass()
 {
-  // ParaView hands no property over that has its default value: those of Views.xml are these.
-  this->SetShadowIntensity(0.7);
+  // ParaView hands no property over that has its default value.
+  this->SetParaViewDefaults();
 }
 
 vtkSVOViewRenderPass::~vtkSVOViewRenderPass() = default;

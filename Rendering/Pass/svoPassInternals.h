@@ -61,8 +61,6 @@ struct vtkSVORenderPass::Internals
   bool saidMemory = false;
   bool releaseAsked = false; // while a frame was drawn
 
-  static svo::FrameSettings settingsOf(const vtkSVORenderPass& pass);
-
   /// The state for a renderer, made when it is first asked for; those of dead renderers are
   /// dropped.
   std::shared_ptr<svo::RendererState> stateOf(vtkRenderer* renderer)

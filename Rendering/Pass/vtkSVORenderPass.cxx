@@ -9,8 +9,6 @@
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 
 vtkStandardNewMacro(vtkSVORenderPass);
@@ -30,35 +28,12 @@ vtkSVORenderPass::~vtkSVORenderPass()
 
 void vtkSVORenderPass::SetBackend(int backend)
 {
-  const int clamped = backend < BACKEND_AUTO
-    ? static_cast<int>(BACKEND_AUTO)
-    : (backend > BACKEND_OPENGL ? BACKEND_OPENGL : backend);
-  if (clamped == BACKEND_OPENGL && !this->Impl->saidOpenGL)
+  if (backend >= BACKEND_OPENGL && !this->Impl->saidOpenGL)
   {
     this->Impl->saidOpenGL = true;
     vtkWarningMacro("The OpenGL backend is not part of this version; rays are traced on the CPU.");
   }
-  if (this->Backend != clamped)
-  {
-    this->Backend = clamped;
-    this->Modified();
-  }
-}
-
-void vtkSVORenderPass::SetNumber(
-  const char* name, double value, double least, double most, double& setting)
-{
-  if (std::isnan(value))
-  {
-    vtkWarningMacro(<< name << " stays " << setting << ": the value given is not a number.");
-    return;
-  }
-  value = std::min(std::max(value, least), most);
-  if (setting != value)
-  {
-    setting = value;
-    this->Modified();
-  }
+  this->Superclass::SetBackend(backend);
 }
 
 std::unique_ptr<svo::Tracer> vtkSVORenderPass::MakeTracer() const
@@ -226,38 +201,12 @@ vtkMTimeType vtkSVORenderPass::GetShaderStageMTime()
 void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Backend: " << this->Backend << '\n'
-     << indent << "ActiveBackend: " << this->GetActiveBackend() << '\n'
-     << indent << "ShadowTechnique: " << this->ShadowTechnique << '\n'
-     << indent << "ShadowBufferResolution: " << this->ShadowBufferResolution << " texels\n"
-     << indent << "AutomaticShadowBias: " << this->AutomaticShadowBias << '\n'
-     << indent << "ShadowBias: " << this->ShadowBias << " voxels\n"
-     << indent << "ShadowIntensity: " << this->ShadowIntensity << '\n'
-     << indent << "FilterShadows: " << this->FilterShadows << '\n'
-     << indent << "TranslucentShadows: " << this->TranslucentShadows << '\n'
-     << indent << "PixelError: " << this->PixelError << " pixels\n"
-     << indent << "ConvertPolyData: " << this->ConvertPolyData << '\n'
-     << indent << "MaximumLevel: " << this->MaximumLevel << '\n'
-     << indent << "LeafGeometry: " << this->LeafGeometry << '\n'
-     << indent << "OctreeMemoryLimit: " << this->OctreeMemoryLimit << " KiB\n"
-     << indent << "BuildInBackground: " << this->BuildInBackground << '\n'
-     << indent << "FrameCoherence: " << this->FrameCoherence << '\n'
-     << indent << "LayerMemoryLimit: " << this->LayerMemoryLimit << " KiB\n"
-     << indent << "ShadowMemoryLimit: " << this->ShadowMemoryLimit << " KiB\n"
-     << indent << "AntiAliasing: " << this->AntiAliasing << '\n'
-     << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << '\n'
-     << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << " pixels\n"
-     << indent << "ViewCulling: " << this->ViewCulling << '\n'
-     << indent << "OcclusionCulling: " << this->OcclusionCulling << '\n'
-     << indent << "DetailCullingThreshold: " << this->DetailCullingThreshold << " pixels\n"
+  os << indent << "ActiveBackend: " << this->GetActiveBackend() << '\n'
      << indent << "NumberOfCulledInstances: " << this->GetNumberOfCulledInstances() << '\n'
-     << indent << "ImageReductionFactor: " << this->ImageReductionFactor << '\n'
      << indent << "ImageSampleDistance: " << this->GetImageSampleDistance() << " pixels\n"
      << indent << "AcceptedPixelError: " << this->GetAcceptedPixelError() << " pixels\n"
      << indent << "CastingLights:\n"
      << this->GetCastingLights() << indent << "Controller: " << this->GetController() << '\n'
-     << indent << "ShadowsForEverything: " << this->ShadowsForEverything << '\n'
-     << indent << "Tracing: " << this->Tracing << '\n'
      << indent << "CollectTime: " << this->GetCollectTime() << " s\n"
      << indent << "TraceTime: " << this->GetTraceTime() << " s\n"
      << indent << "ShadowTime: " << this->GetShadowTime() << " s\n"

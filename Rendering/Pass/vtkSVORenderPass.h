@@ -23,9 +23,6 @@
  * otherwise. Note that a positional vtkLight has a cone of 30 degrees unless told otherwise: set
  * 180 for a point light.
  *
- * Settings that are given a value out of their range take the nearest one in it; a value that is
- * not a number changes nothing and leads to a warning.
- *
  * Observers of ProgressEvent may do as they like: draw other windows, with this pass too, change
  * meshes, drop the pass. The frame is then collected once more.
  *
@@ -37,13 +34,13 @@
  * several renderers; statistics are those of the one rendered last. A host that keeps the
  * renderer's passes to itself, as ParaView does, calls Attach() instead.
  *
- * @sa vtkPolyDataToSVO vtkSparseVoxelOctree
+ * @sa vtkSVOPassSettings vtkPolyDataToSVO vtkSparseVoxelOctree
  */
 #ifndef vtkSVORenderPass_h
 #define vtkSVORenderPass_h
 
-#include "vtkOpenGLRenderPass.h"
-#include "vtkSVOPassModule.h" // for the export macro
+#include "vtkSVOPassModule.h"   // for the export macro
+#include "vtkSVOPassSettings.h" // for its settings
 
 #include <functional> // for std::function
 #include <memory>     // for std::unique_ptr
@@ -65,337 +62,28 @@ struct PassFrame;
 }
 #endif
 
-class VTKSVOPASS_EXPORT vtkSVORenderPass : public vtkOpenGLRenderPass
+class VTKSVOPASS_EXPORT vtkSVORenderPass : public vtkSVOPassSettings
 {
 public:
   static vtkSVORenderPass* New();
-  vtkTypeMacro(vtkSVORenderPass, vtkOpenGLRenderPass);
+  vtkTypeMacro(vtkSVORenderPass, vtkSVOPassSettings);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  enum BackendType
-  {
-    BACKEND_AUTO = 0,
-    BACKEND_CPU = 1,
-    BACKEND_OPENGL = 2
-  };
-
-  enum ShadowTechniqueType
-  {
-    SHADOW_NONE = 0,
-    SHADOW_BUFFER = 1,
-    SHADOW_RAYS = 2,
-    SHADOW_AUTOMATIC = 3
-  };
-
-  enum LeafGeometryType
-  {
-    LEAF_VOXEL = 0,
-    LEAF_PLANE = 1,
-    LEAF_TRIANGLE = 2,
-    LEAF_AUTOMATIC = 3
-  };
-
-  //@{
   /**
-   * Where rays are traced. Auto (the default) takes the fastest that is there. This version has the
-   * CPU; asking for OpenGL warns once and uses the CPU.
+   * In this version OpenGL leads to a warning, once, and to the CPU.
    */
-  virtual void SetBackend(int backend);
-  vtkGetMacro(Backend, int);
-  void SetBackendToAuto() { this->SetBackend(BACKEND_AUTO); }
-  void SetBackendToCPU() { this->SetBackend(BACKEND_CPU); }
-  void SetBackendToOpenGL() { this->SetBackend(BACKEND_OPENGL); }
-  //@}
+  void SetBackend(int backend) override;
 
   /**
    * The backend that is used: BACKEND_CPU or BACKEND_OPENGL.
    */
   int GetActiveBackend() const { return BACKEND_CPU; }
 
-  //@{
-  /**
-   * How shadows are found: not at all, by a shadow buffer per light that is traced like the picture
-   * itself (the default), or by one ray to each light from each visible point, the exact reference.
-   * With rays, rasterised surfaces still receive from shadow buffers.
-   * Automatic takes buffers, whatever the scene and wherever its data lies. See
-   * GetNumberOfLightsWithShadowRays().
-   */
-  vtkSetClampMacro(ShadowTechnique, int, SHADOW_NONE, SHADOW_AUTOMATIC);
-  vtkGetMacro(ShadowTechnique, int);
-  void SetShadowTechniqueToNone() { this->SetShadowTechnique(SHADOW_NONE); }
-  void SetShadowTechniqueToShadowBuffer() { this->SetShadowTechnique(SHADOW_BUFFER); }
-  void SetShadowTechniqueToShadowRays() { this->SetShadowTechnique(SHADOW_RAYS); }
-  void SetShadowTechniqueToAutomatic() { this->SetShadowTechnique(SHADOW_AUTOMATIC); }
-  //@}
-
-  //@{
-  /**
-   * Texels along an edge of one shadow map, 16..16384; default 2048. A directional or spot light
-   * has one map. So has a point light whose casters subtend less than 120 degrees, otherwise it has
-   * the six faces of a cube. Where a texel of such a map would look wider than 16 pixels, as with a
-   * terrain or a large ground that casts, maps of so many texels are fitted to what is seen.
-   * Where all of them would take more than ShadowMemoryLimit they have fewer.
-   */
-  vtkSetClampMacro(ShadowBufferResolution, int, 16, 16384);
-  vtkGetMacro(ShadowBufferResolution, int);
-  //@}
-
-  //@{
-  /**
-   * Compare depths on the receiver's own plane, at the texel's own ray (Dou et al., JCGT 2014), so
-   * that a surface does not shade itself. Default on.
-   */
-  vtkSetMacro(AutomaticShadowBias, bool);
-  vtkGetMacro(AutomaticShadowBias, bool);
-  vtkBooleanMacro(AutomaticShadowBias, bool);
-  //@}
-
-  //@{
-  /**
-   * What is added to the depth of a shadow map before the comparison, in voxels of the caster,
-   * 0..1000; default 0. With AutomaticShadowBias off, 0 is the paper's bare "distance > depth".
-   */
-  virtual void SetShadowBias(double voxels)
-  {
-    this->SetNumber("ShadowBias", voxels, 0.0, 1000.0, this->ShadowBias);
-  }
-  virtual double GetShadowBiasMinValue() { return 0.0; }
-  virtual double GetShadowBiasMaxValue() { return 1000.0; }
-  vtkGetMacro(ShadowBias, double);
-  //@}
-
-  //@{
-  /**
-   * Share of a light's diffuse and specular light that a shadow removes, 0..1; default 1. Ambient
-   * light always stays.
-   */
-  virtual void SetShadowIntensity(double share)
-  {
-    this->SetNumber("ShadowIntensity", share, 0.0, 1.0, this->ShadowIntensity);
-  }
-  virtual double GetShadowIntensityMinValue() { return 0.0; }
-  virtual double GetShadowIntensityMaxValue() { return 1.0; }
-  vtkGetMacro(ShadowIntensity, double);
-  //@}
-
-  //@{
-  /**
-   * Whether what is translucent casts shadows as light as it is: by the opacity of properties and
-   * blocks, and by the alpha of lookup tables, opacity arrays and colour arrays. Each such surface
-   * takes from a ray of light the share of its opacity where the ray meets it first, so that a
-   * closed body counts once and opacities of 0 and 1 are what invisible and opaque surfaces are.
-   * Several surfaces multiply what they leave; SetCastShadow(true, prop) has all of a surface cast
-   * like an opaque one. The alpha of textures does not count. Default on. Off, what is translucent
-   * casts nothing, and a message says so.
-   */
-  vtkSetMacro(TranslucentShadows, bool);
-  vtkGetMacro(TranslucentShadows, bool);
-  vtkBooleanMacro(TranslucentShadows, bool);
-  //@}
-
-  //@{
-  /**
-   * Speed against accuracy: rays stop at the octree level whose voxels appear no larger than this
-   * many pixels, 0..64; default 1. 0 always goes to the octree's full depth. Surfaces whose leaf
-   * geometry is triangles or automatic and whose triangles are larger than about a pixel are
-   * traced to the triangles themselves whatever is set here: that is faster, and exact. So are
-   * those of smaller ones, up to about 64 in a voxel of this size.
-   */
-  virtual void SetPixelError(double pixels)
-  {
-    this->SetNumber("PixelError", pixels, 0.0, 64.0, this->PixelError);
-  }
-  virtual double GetPixelErrorMinValue() { return 0.0; }
-  virtual double GetPixelErrorMaxValue() { return 64.0; }
-  vtkGetMacro(PixelError, double);
-  //@}
-
-  //@{
-  /**
-   * Build an octree for each surface that comes without one; default on. Otherwise only meshes that
-   * went through vtkPolyDataToSVO are traced and cast shadows.
-   */
-  vtkSetMacro(ConvertPolyData, bool);
-  vtkGetMacro(ConvertPolyData, bool);
-  vtkBooleanMacro(ConvertPolyData, bool);
-  //@}
-
-  //@{
-  /**
-   * Level of the deepest octrees that the pass builds: 2^level voxels along an edge of the mesh's
-   * cube, 1..20; default 10. They are built no deeper than PixelError asks for, by the pixels of
-   * the picture and by the texels of the shadow buffers, and are deepened when the camera comes
-   * closer: see BuildInBackground. With a PixelError of 0, and for exact shadow rays, all are of
-   * this level.
-   */
-  vtkSetClampMacro(MaximumLevel, int, 1, 20);
-  vtkGetMacro(MaximumLevel, int);
-  //@}
-
-  //@{
-  /**
-   * What a ray meets in a leaf of the octrees that the pass builds; see vtkPolyDataToSVO. Default
-   * automatic.
-   */
-  vtkSetClampMacro(LeafGeometry, int, LEAF_VOXEL, LEAF_AUTOMATIC);
-  vtkGetMacro(LeafGeometry, int);
-  void SetLeafGeometryToVoxel() { this->SetLeafGeometry(LEAF_VOXEL); }
-  void SetLeafGeometryToPlane() { this->SetLeafGeometry(LEAF_PLANE); }
-  void SetLeafGeometryToTriangle() { this->SetLeafGeometry(LEAF_TRIANGLE); }
-  void SetLeafGeometryToAutomatic() { this->SetLeafGeometry(LEAF_AUTOMATIC); }
-  //@}
-
-  //@{
-  /**
-   * Memory for octrees that the pass keeps, in KiB; default 1 GiB. Those that the current frame
-   * does not need go first, so the poses of an animated mesh are built once as long as they fit; of
-   * a loop that is longer as many poses are kept as there is room for. Octrees of meshes that are
-   * deleted go at once. What a single frame needs is kept in any case, with a warning where that is
-   * more. Passes of one process share octrees of the same mesh.
-   */
-  vtkSetClampMacro(OctreeMemoryLimit, vtkIdType, 0, VTK_ID_MAX / 1024);
-  vtkGetMacro(OctreeMemoryLimit, vtkIdType);
-  //@}
-
   /**
    * Frees the octrees that the pass keeps, and ends what is built in the background; the next frame
    * builds what it needs. During a frame: when it is through.
    */
   void ReleaseOctrees();
-
-  //@{
-  /**
-   * While the user interacts (the render window's desired update rate is 1 Hz or more), build
-   * octrees in the background. Until they are there surfaces are traced through octrees of another
-   * level if there are any, and rasterised if there are none. A still render waits for them, and
-   * invokes ProgressEvent meanwhile: its picture depends neither on time nor on what was shown
-   * before. An observer of it, or of the render window's AbortCheckEvent, that sets the window's
-   * AbortRender ends the wait: surfaces whose octrees are not there yet are left to the rasteriser,
-   * of which VTK shows as much as of any frame that is aborted. Default on.
-   */
-  vtkSetMacro(BuildInBackground, bool);
-  vtkGetMacro(BuildInBackground, bool);
-  vtkBooleanMacro(BuildInBackground, bool);
-  //@}
-
-  //@{
-  /**
-   * Keep what was traced of each object until its own matrix, octree, level of detail or the
-   * viewpoint changes; default on. The picture is the same either way.
-   */
-  vtkSetMacro(FrameCoherence, bool);
-  vtkGetMacro(FrameCoherence, bool);
-  vtkBooleanMacro(FrameCoherence, bool);
-  //@}
-
-  //@{
-  /**
-   * Memory for what FrameCoherence keeps, in KiB; default 512 MiB.
-   */
-  vtkSetClampMacro(LayerMemoryLimit, vtkIdType, 0, VTK_ID_MAX / 1024);
-  vtkGetMacro(LayerMemoryLimit, vtkIdType);
-  //@}
-
-  //@{
-  /**
-   * Smooth edges of shadows: shadow buffers give a share of each light, from all texels around a
-   * point, compared with the planes of its surface, so that neither texels nor pixels show as
-   * steps, on traced and on rasterised surfaces; default off: yes or no, from the texel that a
-   * point lies in. Frames take 1.4 to 2.1 times as long where everything is shaded anew. That needs
-   * AutomaticShadowBias; without it, and with exact shadow rays, there is no effect.
-   */
-  vtkSetMacro(FilterShadows, bool);
-  vtkGetMacro(FilterShadows, bool);
-  vtkBooleanMacro(FilterShadows, bool);
-  //@}
-
-  //@{
-  /**
-   * Memory that shadow buffers may take together, in KiB; default 4 GiB. It counts the tiles of
-   * texels that casters lie in, of opaque casters and of groups of translucent ones, and where
-   * rasterised surfaces receive shadows the copies for them, OpenGL's included; layers that
-   * FrameCoherence keeps have LayerMemoryLimit. What the tiles will take at most follows from the
-   * casters' boxes. Where that is more, all maps have half as many texels along an edge, or a
-   * quarter, and so on, and a message says so once. A map has sixteen at least.
-   */
-  vtkSetClampMacro(ShadowMemoryLimit, vtkIdType, 0, VTK_ID_MAX / 1024);
-  vtkGetMacro(ShadowMemoryLimit, vtkIdType);
-  //@}
-
-  //@{
-  /**
-   * Smooth edges inside and between traced surfaces, and those of shadows, with four rays in each
-   * of their pixels; default off. It filters shadows as FilterShadows does, whether that is on or
-   * off. Silhouettes and edges between facets follow the render window's SetMultiSamples instead,
-   * as those of everything that VTK draws.
-   */
-  vtkSetMacro(AntiAliasing, bool);
-  vtkGetMacro(AntiAliasing, bool);
-  vtkBooleanMacro(AntiAliasing, bool);
-  //@}
-
-  //@{
-  /**
-   * While the user interacts (the render window's desired update rate is 1 Hz or more): whether
-   * rays are as far apart as it takes to keep to half of the time for a frame, up to
-   * MaximumImageSampleDistance pixels. Default on, and 8 (1..64). All of a window's renderers with
-   * a pass share that time, with rays equally far apart. Shadow maps of camera lights, which are
-   * traced in every frame, get coarser first, by at most as much; rays follow where that does not
-   * save enough. Other frames have a ray for each pixel and do not depend on the time that
-   * anything takes. Named as in vtkGPUVolumeRayCastMapper.
-   */
-  vtkSetMacro(AutoAdjustSampleDistances, bool);
-  vtkGetMacro(AutoAdjustSampleDistances, bool);
-  vtkBooleanMacro(AutoAdjustSampleDistances, bool);
-  virtual void SetMaximumImageSampleDistance(double pixels)
-  {
-    this->SetNumber(
-      "MaximumImageSampleDistance", pixels, 1.0, 64.0, this->MaximumImageSampleDistance);
-  }
-  virtual double GetMaximumImageSampleDistanceMinValue() { return 1.0; }
-  virtual double GetMaximumImageSampleDistanceMaxValue() { return 64.0; }
-  vtkGetMacro(MaximumImageSampleDistance, double);
-  //@}
-
-  //@{
-  /**
-   * For a host that enlarges what it renders, as ParaView's servers do while the user interacts:
-   * how many pixels of the window a pixel of the frame becomes, along an edge, 1..50; default 1.
-   * MaximumImageSampleDistance holds in the window. Named as in vtkSynchronizedRenderers.
-   */
-  vtkSetClampMacro(ImageReductionFactor, int, 1, 50);
-  vtkGetMacro(ImageReductionFactor, int);
-  //@}
-
-  //@{
-  /**
-   * Whether instances that lie outside of a view are found together, by a loose octree of all
-   * instances, instead of one by one, and whether those that others hide are left out before they
-   * are traced. Both default to on. The picture is the same to the bit.
-   */
-  vtkSetMacro(ViewCulling, bool);
-  vtkGetMacro(ViewCulling, bool);
-  vtkBooleanMacro(ViewCulling, bool);
-  vtkSetMacro(OcclusionCulling, bool);
-  vtkGetMacro(OcclusionCulling, bool);
-  vtkBooleanMacro(OcclusionCulling, bool);
-  //@}
-
-  //@{
-  /**
-   * While the user interacts (the window asks for at least a frame a second), instances the
-   * rectangles around which have fewer pixels of the window than this are not drawn; they still
-   * cast. 0 or more; default 0: all are drawn. Other frames show all in any case.
-   * GetAcceptedPixelError() says how long the edges of what was left out were.
-   */
-  virtual void SetDetailCullingThreshold(double pixels)
-  {
-    this->SetNumber("DetailCullingThreshold", pixels, 0.0, 1e6, this->DetailCullingThreshold);
-  }
-  virtual double GetDetailCullingThresholdMinValue() { return 0.0; }
-  virtual double GetDetailCullingThresholdMaxValue() { return 1e6; }
-  vtkGetMacro(DetailCullingThreshold, double);
-  //@}
 
   /**
    * Pixels of the window from ray to ray in the last frame.
@@ -596,34 +284,11 @@ public:
   bool IsTraced(vtkProp* prop) const;
   //@}
 
-  //@{
-  /**
-   * Whether in attached renderers all surfaces are traced and cast shadows, as far as they can, and
-   * not only those with an explicit SetUseSVO(true); default off. The octrees of the others are
-   * built by the pass. There are no messages about them: GetReasonInLastFrame() says what of them
-   * casts nothing. (Where the pass is set on a renderer this is so in any case.)
-   */
-  vtkSetMacro(ShadowsForEverything, bool);
-  vtkGetMacro(ShadowsForEverything, bool);
-  vtkBooleanMacro(ShadowsForEverything, bool);
-  //@}
-
   /**
    * As GetReason(), but of a prop of an attached renderer in the last frame: empty if it cast its
    * shadow and was traced, or did not have to be, or if it was not there.
    */
   std::string GetReasonInLastFrame(vtkProp* prop) const;
-
-  //@{
-  /**
-   * Off: frames of attached renderers are left to the rasteriser, for a host that needs the mesh's
-   * own depth, as a selection of points does. Default on. It is asked at the renderer's StartEvent,
-   * after observers of priority 0.
-   */
-  vtkSetMacro(Tracing, bool);
-  vtkGetMacro(Tracing, bool);
-  vtkBooleanMacro(Tracing, bool);
-  //@}
 
   //@{
   /**
@@ -697,39 +362,9 @@ protected:
   virtual std::unique_ptr<svo::Tracer> MakeTracer() const;
 #endif
 
-  int Backend = BACKEND_AUTO;
-  int ShadowTechnique = SHADOW_BUFFER;
-  int ShadowBufferResolution = 2048;
-  bool AutomaticShadowBias = true;
-  double ShadowBias = 0.0;
-  double ShadowIntensity = 1.0;
-  bool TranslucentShadows = true;
-  double PixelError = 1.0;
-  bool ConvertPolyData = true;
-  int MaximumLevel = 10;
-  int LeafGeometry = LEAF_AUTOMATIC;
-  vtkIdType OctreeMemoryLimit = 1024 * 1024;
-  bool BuildInBackground = true;
-  bool FrameCoherence = true;
-  vtkIdType LayerMemoryLimit = 512 * 1024;
-  bool FilterShadows = false;
-  vtkIdType ShadowMemoryLimit = 4 * 1024 * 1024;
-  bool AntiAliasing = false;
-  bool ShadowsForEverything = false;
-  bool Tracing = true;
-  bool AutoAdjustSampleDistances = true;
-  double MaximumImageSampleDistance = 8.0;
-  int ImageReductionFactor = 1;
-  bool ViewCulling = true;
-  bool OcclusionCulling = true;
-  double DetailCullingThreshold = 0.0;
-
 private:
   vtkSVORenderPass(const vtkSVORenderPass&) = delete;
   void operator=(const vtkSVORenderPass&) = delete;
-
-  /// Clamps a value to its range; one that is not a number is refused with a warning.
-  void SetNumber(const char* name, double value, double least, double most, double& setting);
 
   void BeginAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
   void EndAttachedFrame(vtkObject* renderer, unsigned long event, void* data);

@@ -46,25 +46,6 @@ bool hasCameraLight(vtkRenderer* renderer)
 }
 }
 
-svo::FrameSettings vtkSVORenderPass::Internals::settingsOf(const vtkSVORenderPass& pass)
-{
-  svo::FrameSettings settings;
-  settings.shadowTechnique = static_cast<svo::ShadowTechnique>(pass.ShadowTechnique);
-  settings.shadowResolution = pass.ShadowBufferResolution;
-  settings.automaticBias = pass.AutomaticShadowBias;
-  settings.bias = pass.ShadowBias;
-  settings.shadowIntensity = pass.ShadowIntensity;
-  settings.pixelError = pass.PixelError;
-  settings.frameCoherence = pass.FrameCoherence;
-  settings.layerMemoryLimit = static_cast<std::size_t>(pass.LayerMemoryLimit) * svo::BytesOfKiB;
-  settings.shadowMemoryLimit = static_cast<std::size_t>(pass.ShadowMemoryLimit) * svo::BytesOfKiB;
-  settings.viewCulling = pass.ViewCulling;
-  settings.occlusionCulling = pass.OcclusionCulling;
-  settings.antiAliasing = pass.AntiAliasing;
-  settings.filterShadows = pass.FilterShadows || pass.AntiAliasing;
-  return settings;
-}
-
 svo::PassFrame& vtkSVORenderPass::BeginFrame(vtkRenderer* renderer)
 {
   Internals& impl = *this->Impl;
@@ -137,7 +118,7 @@ bool vtkSVORenderPass::CollectFrame(
     collect.cutOutText = this->GetText(TEXT_CUT_OUT, nullptr);
     collect.lightWords = { [this](vtkLight* light) { return this->GetText(TEXT_HEADLIGHT, light); },
       [this](vtkLight* light) { return this->GetText(TEXT_LIGHT, light); } };
-    collect.levels.frame = Internals::settingsOf(*this);
+    this->Fill(collect.levels.frame);
     svo::viewOfCamera(renderer, width, height, collect.levels.eye);
     frame.state->collect(impl.store, store, collect);
     disturbed = disturbed || !frame.canDraw();
@@ -216,7 +197,8 @@ std::function<bool()> vtkSVORenderPass::AbortOf(vtkRenderWindow* window, bool as
 void vtkSVORenderPass::DecideSettings(svo::PassFrame& frame)
 {
   svo::FrameSettings& settings = frame.settings;
-  settings = Internals::settingsOf(*this);
+  settings = svo::FrameSettings();
+  this->Fill(settings);
   vtkRenderer* renderer = frame.renderer;
   if (settings.shadowTechnique == svo::ShadowTechnique::Automatic)
   {

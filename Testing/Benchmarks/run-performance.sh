@@ -4,7 +4,8 @@
 # on two idle cores, 10 more with --against.
 # Usage: run-performance.sh [--against COMMIT] [--frames N] [--quick] [--no-install]
 #   --against COMMIT  builds that commit beside the tree as well, and draws its frames in turn with
-#                     ours, so that a gain or a loss is a ratio; the page's bars are against d06aa73
+#                     ours, so that a gain or a loss is a ratio: 3a32caf (0.2) or later, older ones
+#                     lack what the programs call. The page's bars are those of its own run
 #   --frames N        timed for each figure, 9 unless said otherwise
 #   --quick           few frames of few experiments (5 minutes), to look at a change: fills a copy
 #                     of the page in build/performance and prints it

@@ -4,6 +4,7 @@
 
 #include "svoLight.h"
 #include "svoRay.h"
+#include "svoTracerSettings.h"
 #include "svoView.h"
 
 #include <cstddef>
@@ -14,53 +15,41 @@
 
 namespace svo
 {
-struct FrameSettings
+/// What a frame is to bring beside its picture, and what it may leave out.
+struct FrameNeeds
 {
-  ShadowTechnique shadowTechnique = ShadowTechnique::Buffer;
-  int shadowResolution = 2048; // texels along an edge of one map
-  /// Of those so many along an edge become one, and may look so many times as wide: the same maps,
-  /// coarser, in less time.
+  /// Of the texels of a shadow map so many along an edge become one, and may look so many times as
+  /// wide: the same maps, coarser, in less time.
   double shadowCoarseness = 1.0;
-  /// Bytes, of the maps of all lights with what is handed out of them; beyond it they have fewer
-  /// texels.
-  std::size_t shadowMemoryLimit = std::size_t(4) << 30;
-  bool automaticBias = true;    // compare on the receiver's plane, at the texel's own ray
-  double bias = 0.0;            // voxels of the caster, added
-  double shadowIntensity = 1.0; // share of the light's diffuse and specular that is removed
-  double pixelError = 1.0;      // largest projected voxel edge, pixels; 0: full depth
-  bool frameCoherence = true;   // reuse layers of instances that did not change
-  std::size_t layerMemoryLimit = std::size_t(512) << 20; // bytes
-  /// Four rays in pixels at whose border the instance, the depth or a shadow changes. Colours are
-  /// averaged over what is hit; depth stays that of the pixel's centre, and a pixel whose centre
-  /// misses stays a miss. Shadow buffers are traced whole.
-  bool antiAliasing = false;
-  /// Shadow buffers say which share of a light a point misses, instead of yes or no, so that the
-  /// edges of shadows do not show the buffer's texels: ShadowBuffer::darkness(). With the automatic
-  /// bias only.
-  bool filterShadows = false;
+  /// Instances whose rectangle has fewer pixels are not drawn; they cast. 0: all are.
+  double detailThreshold = 0.0;
   /// Rasterised surfaces look up shadow maps inside of Scene::receivers: what the eye may see of
   /// these is traced, and the maps are handed out.
   bool receiverMaps = false;
   /// ... or anywhere: all is traced, and handed out.
   bool wholeShadowBuffers = false;
-  bool viewCulling = true;      // instances outside of a view are found together, by a tree of them
-  bool occlusionCulling = true; // those that others hide are left out; neither changes a bit
-  /// Instances whose rectangle has fewer pixels are not drawn; they cast. 0: all are.
-  double detailThreshold = 0.0;
   bool writeNormals = false; // Frame::normals is wanted (SSAO)
   bool writeLight = false;   // Frame::light is wanted (tone mapping)
   bool writeSlopes = false;  // Frame::slopes is wanted (multisampling)
   bool writeNames = true;    // Frame::instance and Frame::primitive are wanted
 
-  /// Where filterShadows has an effect.
+  bool handsOutMaps() const { return this->receiverMaps || this->wholeShadowBuffers; }
+};
+
+/// With antiAliasing there are four rays in pixels at whose border the instance, the depth or a
+/// shadow changes. Colours are averaged over what is hit; depth stays that of the pixel's centre,
+/// and a pixel whose centre misses stays a miss. Shadow buffers are traced whole.
+struct FrameSettings
+  : TracerSettings
+  , FrameNeeds
+{
+  /// Where filterShadows has an effect: ShadowBuffer::darkness() is asked instead of yes or no.
   bool filters() const
   {
     return this->filterShadows && this->automaticBias &&
       (this->shadowTechnique == ShadowTechnique::Buffer ||
         this->shadowTechnique == ShadowTechnique::Automatic);
   }
-
-  bool handsOutMaps() const { return this->receiverMaps || this->wholeShadowBuffers; }
 };
 
 /// What a tile of 8x8 pixels of a frame holds; those of its border may be smaller.

@@ -12,7 +12,7 @@ namespace
 // Who adds a member to one of these adds it below.
 static_assert(sizeof(Material) == 56 && sizeof(Attributes) == 64 && sizeof(Light) == 112 &&
     sizeof(Body) == 216 && sizeof(Instance) == 240 && sizeof(View) == 480 &&
-    sizeof(FrameSettings) == 96,
+    sizeof(FrameNeeds) == 24,
   "all that pictures depend on is compared");
 
 /// Values as plain bytes, one behind the other.
@@ -83,10 +83,9 @@ void add(const View& v, Bytes& bytes)
 
 void add(const FrameSettings& s, Bytes& bytes)
 {
-  bytes.add(s.shadowTechnique, s.shadowResolution, s.shadowCoarseness, s.shadowMemoryLimit,
-    s.automaticBias, s.bias, s.shadowIntensity, s.pixelError, s.antiAliasing, s.filterShadows,
-    s.receiverMaps, s.wholeShadowBuffers, s.detailThreshold, s.writeNormals, s.writeLight,
-    s.writeSlopes, s.writeNames);
+  visitCompared(s, [&bytes](const auto& setting) { bytes.add(setting); });
+  bytes.add(s.shadowCoarseness, s.detailThreshold, s.receiverMaps, s.wholeShadowBuffers,
+    s.writeNormals, s.writeLight, s.writeSlopes, s.writeNames);
 }
 }
 

@@ -11,31 +11,31 @@ namespace
 /// What processes must agree on; plain bytes without gaps.
 struct SharedSettings
 {
-  double pixelError;
+  AgreedSettings settings;
+  double coarseness;                      // rounded to hundredths
   double worldToView[16], viewToClip[16]; // of the eye
   std::int32_t width, height;
-  std::int32_t resolution;
   std::int32_t lights;
-  std::int32_t canKeep;    // the last frame's buffers are there
-  std::int32_t coarseness; // in hundredths
+  std::int32_t canKeep; // the last frame's buffers are there
 };
 struct SharedLight
 {
   double position[3], direction[3], coneAngle;
   std::int32_t kind, casts;
 };
-static_assert(sizeof(SharedSettings) == 288 && sizeof(SharedLight) == 64, "no gaps");
+static_assert(
+  sizeof(SharedSettings) == 264 + 16 + sizeof(AgreedSettings) && sizeof(SharedLight) == 64,
+  "no gaps");
 
 SharedSettings settingsOf(const FrameSettings& settings, const View& eye)
 {
   SharedSettings shared{};
-  shared.pixelError = settings.pixelError;
+  shared.settings = agreedOf(settings);
   std::memcpy(shared.worldToView, &eye.worldToView[0][0], sizeof(shared.worldToView));
   std::memcpy(shared.viewToClip, &eye.viewToClip[0][0], sizeof(shared.viewToClip));
   shared.width = eye.width;
   shared.height = eye.height;
-  shared.resolution = settings.shadowResolution;
-  shared.coarseness = static_cast<std::int32_t>(std::lround(100.0 * settings.shadowCoarseness));
+  shared.coarseness = 0.01 * static_cast<double>(std::lround(100.0 * settings.shadowCoarseness));
   return shared;
 }
 
@@ -91,9 +91,8 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
   lightsOfAll.resize(agreed.lights);
 
   FrameSettings settings = own;
-  settings.pixelError = agreed.pixelError;
-  settings.shadowResolution = agreed.resolution;
-  settings.shadowCoarseness = 0.01 * agreed.coarseness;
+  agree(settings, agreed.settings);
+  settings.shadowCoarseness = agreed.coarseness;
   std::vector<Light> lights = scene.lights;
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
@@ -108,9 +107,8 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
   const std::vector<LightMaps> maps = mapsOfLights(outlines.all, lights, settings, eyeOf(agreed));
 
   std::vector<unsigned char> state;
-  append(state,
-    std::vector<double>{ agreed.pixelError, static_cast<double>(agreed.resolution),
-      static_cast<double>(agreed.coarseness) });
+  append(state, std::vector<AgreedSettings>{ agreed.settings });
+  append(state, std::vector<double>{ agreed.coarseness });
   append(state, lightsOfAll);
   append(state, outlines.all);
   for (const LightMaps& light : maps)

@@ -128,20 +128,15 @@ public:
     {
       row["primaryRays"] = static_cast<Json::Int64>(this->Pass->GetNumberOfPrimaryRays());
       row["shadowRays"] = static_cast<Json::Int64>(this->Pass->GetNumberOfShadowRays());
-#ifdef SVO_CULLING
       const auto culled = [&](int step)
       { return static_cast<Json::Int64>(this->Pass->GetNumberOfCulledInstances(step)); };
       row["outside"] = culled(vtkSVORenderPass::CULLED_BY_VIEW);
       row["hidden"] = culled(vtkSVORenderPass::CULLED_BY_OCCLUSION);
       row["casters"] = culled(vtkSVORenderPass::CULLED_CASTERS);
-#endif
     }
     return row;
   }
-  void write(const std::string& path)
-  {
-    performance::writePicture(this->Window, path);
-  }
+  void write(const std::string& path) { performance::writePicture(this->Window, path); }
   /// Pixels that objects cover.
   std::vector<bool> covered()
   {
@@ -187,14 +182,8 @@ public:
     }
     return static_cast<std::size_t>(this->actors()) - seen.size();
   }
-  int actors() const
-  {
-    return this->Scene ? this->Scene->actors() : 0;
-  }
-  int tracedActors() const
-  {
-    return this->Pass ? this->Pass->GetNumberOfTracedActors() : 0;
-  }
+  int actors() const { return this->Scene ? this->Scene->actors() : 0; }
+  int tracedActors() const { return this->Pass ? this->Pass->GetNumberOfTracedActors() : 0; }
   const std::string Name;
 
 private:
@@ -207,10 +196,8 @@ private:
     else if (look != Look::Raster && look != Look::Empty)
     {
       this->Pass = performance::makePass(this->Phases, false);
-#ifdef SVO_CULLING
       this->Pass->SetOcclusionCulling(look == Look::Traced);
       this->Pass->SetViewCulling(look != Look::NotCulled);
-#endif
       this->Renderer->SetPass(this->Pass);
     }
   }
@@ -336,10 +323,6 @@ int main(int argc, char** argv)
     else if (name == "--culling")
     {
       options.culling = argument == "1";
-#ifndef SVO_CULLING
-      std::fprintf(stderr, "BenchmarkCrowd: this commit's pass culls nothing\n");
-      return 1;
-#endif
     }
     else if (name == "--size")
     {

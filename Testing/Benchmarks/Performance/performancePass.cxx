@@ -1,11 +1,9 @@
 #include "performancePass.h"
 
-#ifdef SVO_PHASES
 #include "performanceCores.h"
 #include "svoTracer.h"
 
 #include <vtkObjectFactory.h>
-#endif
 
 #include <chrono>
 #include <ctime>
@@ -19,7 +17,6 @@ Moment Moment::now()
   return { wall.count(), 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC };
 }
 
-#ifdef SVO_PHASES
 namespace
 {
 struct Traced
@@ -150,15 +147,7 @@ vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases, bool simulates
   };
   return pass;
 }
-#else
-vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases, bool)
-{
-  phases = [](const Moment&, const Moment&) { return Phases(); };
-  return vtkSmartPointer<vtkSVORenderPass>::New();
-}
-#endif
 
-#ifdef SVO_AUTOMATIC_SHADOWS
 void chooseShadows(vtkSVORenderPass* pass)
 {
   pass->SetShadowTechniqueToAutomatic();
@@ -167,11 +156,4 @@ int lightsWithRays(vtkSVORenderPass* pass)
 {
   return pass->GetNumberOfLightsWithShadowRays();
 }
-#else
-void chooseShadows(vtkSVORenderPass*) {}
-int lightsWithRays(vtkSVORenderPass*)
-{
-  return 0;
-}
-#endif
 }
