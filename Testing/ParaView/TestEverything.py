@@ -296,9 +296,9 @@ class TestEverything(unittest.TestCase):
         settings.LODThreshold, settings.LODResolution = 0.0, 0.0
         full = scene.picture(self.view, "detail-still")
         try:
-            # Until the octree of the coarse surface is there, the one that was traced last is shown.
-            differing, deadline = 0.0, time.monotonic() + 60
-            while differing <= 1e-3 and time.monotonic() < deadline:
+            # Until the octree of the coarse surface is there, nothing is traced, or what was traced last.
+            instances, differing, deadline = 0, 0.0, time.monotonic() + 60
+            while (instances < 2 or differing <= 1e-3) and time.monotonic() < deadline:
                 instances = self.interactive_frame()
                 self.assertTrue(self.view.GetClientSideObject().GetUsedLODForLastRender())
                 detail = self.grab("detail.png")
