@@ -2,6 +2,7 @@
 its class, with the same default and the same range. (TestRenderPassSettings has the class and the tracer.)
 """
 
+import os
 import pathlib
 import re
 import unittest
@@ -13,6 +14,7 @@ from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 VIEWS = pathlib.Path(__file__).resolve().parents[2] / "Plugin" / "Views"
+GENERATED_VIEWS = os.environ["VTKSVO_VIEWS"]  # of Views.xml.in and Rendering/Settings.cmake
 
 # Properties of views that the pass has no setting for: the ground is ParaView's prop, reasons come from all processes.
 ONLY_IN_PARAVIEW = [("SVOShadowCatcher", "SetShadowGround"), ("SVOReasons", "GetClassName")]
@@ -25,7 +27,8 @@ OTHER_IN_PARAVIEW = {"WriteStatistics": 1, "ShadowIntensity": 0.7}
 
 def properties_of(file, element):
     """The properties of the first such element in a file."""
-    root = xml.etree.ElementTree.parse(VIEWS / file).getroot().find(f".//{element}")
+    path = GENERATED_VIEWS if file == "Views.xml" else VIEWS / file
+    root = xml.etree.ElementTree.parse(path).getroot().find(f".//{element}")
     return [child for child in root if child.tag.endswith("Property") and "command" in child.attrib]
 
 
