@@ -286,28 +286,39 @@ class TestEverything(unittest.TestCase):
         writer.Write()
         return scene.read(scene.output(name))
 
+    def triangles_drawn(self):
+        """Of the finest surface that is drawn: its level of detail where the last picture was one of those."""
+        inputs = [actor.GetMapper().GetInputDataObject(0, 0) for actor in self.view.GetRenderer().GetActors()
+                  if actor.GetVisibility() and actor.GetMapper()]
+        return max(data.GetNumberOfCells() for data in inputs if data)
+
     def test_levels_of_detail_cast_for_themselves(self):
-        """Else a surface would lie in the shadow of its own finer one."""
+        """Else a surface would lie in the shadow of its own finer one. How coarse it is depends on the version:
+        of 32 256 triangles 828 are left in ParaView 5.11, 20 924 in 6.1."""
         self.show_ball_on_ground()
         self.view.SVOShadowsForEverything = 1
-        pv.Render(self.view)
+        self.view.SVOAutoAdjustSampleDistances = 0
         settings = pv.GetSettingsProxy("RenderViewSettings")
         threshold, resolution = settings.LODThreshold, settings.LODResolution
         settings.LODThreshold, settings.LODResolution = 0.0, 0.0
-        full = scene.picture(self.view, "detail-still")
         try:
+            full = scene.picture(self.view, "detail-still")
+            fine = self.triangles_drawn()
+            memory = scene.statistic(self.view, "SVOOctreeMemorySize")
             # Until the octree of the coarse surface is there, nothing is traced, or what was traced last.
-            instances, differing, deadline = 0, 0.0, time.monotonic() + 60
-            while (instances < 2 or differing <= 1e-3) and time.monotonic() < deadline:
+            instances, deadline = 0, time.monotonic() + 60
+            while (instances < 2 or scene.statistic(self.view, "SVOOctreeMemorySize") <= memory) and time.monotonic() < deadline:
                 instances = self.interactive_frame()
                 self.assertTrue(self.view.GetClientSideObject().GetUsedLODForLastRender())
-                detail = self.grab("detail.png")
-                differing = scene.differing(detail, full)
             self.assertEqual(instances, 2)
+            self.assertGreater(scene.statistic(self.view, "SVOOctreeMemorySize"), memory)  # one more octree
+            coarse = self.triangles_drawn()
+            self.assertLess(coarse, fine)
+            detail = self.grab("detail.png")
         finally:
             settings.LODThreshold, settings.LODResolution = threshold, resolution
-        self.assertGreater(differing, 1e-3)  # it was one
-        self.assertLess(scene.differing(detail, full), 0.1)
+        print(f"level of detail: {coarse} of {fine} triangles, other on {scene.differing(detail, full):.2g} of the pixels")
+        self.assertLess(scene.differing(detail, full), 0.01)
         self.check_shadow(full)
 
     def test_animation(self):
