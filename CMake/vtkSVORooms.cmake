@@ -4,9 +4,11 @@
 #
 # Modules are compiled with all warnings about shadowed names and narrowing conversions.
 #
-# vtksvo_rooms(<module> ROOMS <room>... [INSTALL <header>...])
+# vtksvo_rooms(<module> ROOMS <room>... [INSTALL <header>...] PRECOMPILED <group of vtkSVOPrecompiled.cmake>...)
 function (vtksvo_rooms module)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ROOMS;INSTALL")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ROOMS;INSTALL;PRECOMPILED")
+  string(REPLACE "SVO::" "" target "${module}")
+  vtksvo_precompile("${target}" ${arg_PRECOMPILED})
   vtk_module_compile_options("${module}" PRIVATE -Wshadow -Wconversion)
   foreach (room IN LISTS arg_ROOMS)
     vtk_module_include("${module}" PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${room}>")

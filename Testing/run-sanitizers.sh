@@ -15,7 +15,7 @@ CMake/install-packages.sh "${check_only[@]}" build test
 cmake -S . -B build/sanitize -G Ninja \
   -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g" \
   -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
-  -DVTKSVO_SANITIZE=ON -DVTKSVO_PYTHON=OFF -DVTKSVO_EXAMPLES=OFF
+  -DVTKSVO_SANITIZE=ON -DVTKSVO_PYTHON=OFF -DVTKSVO_EXAMPLES=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 cmake --build build/sanitize -j "${VTKSVO_JOBS:-2}"
 
 export ASAN_OPTIONS="detect_leaks=1:detect_stack_use_after_return=1:strict_init_order=1"

@@ -29,7 +29,7 @@ def modules_of(root):
 
 def rooms_of(root, module):
     """Rooms of a module, lowest first; "" is the module's own folder, above all of them."""
-    found = re.search(r"\bROOMS((?:\s+\w+)+?)\s*(?:\)|INSTALL)", text_of(root, module, "CMakeLists.txt"))
+    found = re.search(r"\bROOMS((?:\s+\w+)+?)\s*(?:\)|INSTALL|PRECOMPILED)", text_of(root, module, "CMakeLists.txt"))
     return (found.group(1).split() if found else []) + [""]
 
 

@@ -1,25 +1,51 @@
-#include "svoReference.h"
+// The simplest possible octree, and the simplest walk through it. It is the oracle of the tests and
+// the page that teaches the method: Documentation/Method.md goes through it line by line.
+#ifndef svoReference_h
+#define svoReference_h
 
 #include "svoMorton.h"
 #include "svoNode.h"
+#include "svoOctree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
+#include <glm/vec3.hpp>
 #include <glm/vector_relational.hpp>
 
 namespace svo
 {
-namespace
+/// A cube of 2^level voxels along an edge, in units of a voxel: [0, 2^level)^3, level 1..20.
+struct ReferenceOctree
 {
-int octantOf(const glm::ivec3& corner, int half)
+  static constexpr int Empty = 0;
+  static constexpr int Leaf = -1;
+
+  /// A node is eight integers, one per octant (x + 2 y + 4 z): Empty, Leaf, or the index of the
+  /// node that divides the octant further. Node 0 is the root.
+  std::vector<std::array<int, 8>> nodes{ {} };
+  int level = 1;
+};
+
+struct ReferenceHit
+{
+  bool hit = false;
+  double t = 0.0;         // where the ray enters the voxel
+  glm::ivec3 voxel{ -1 }; // the first one that it meets
+};
+
+namespace reference
+{
+inline int octantOf(const glm::ivec3& corner, int half)
 {
   return int((corner.x & half) != 0) | int((corner.y & half) != 0) << 1 |
     int((corner.z & half) != 0) << 2;
 }
 
 /// Collects the voxels below node `index` of `depth`, whose block lies at `corner` (in blocks).
-void collect(const Octree& octree, std::uint32_t index, int depth, const glm::ivec3& corner,
+inline void collect(const Octree& octree, std::uint32_t index, int depth, const glm::ivec3& corner,
   std::vector<glm::ivec3>& voxels)
 {
   const Node& node = octree.nodes()[index];
@@ -42,8 +68,9 @@ void collect(const Octree& octree, std::uint32_t index, int depth, const glm::iv
 }
 }
 
-ReferenceOctree makeReference(const std::vector<glm::ivec3>& voxels, int level)
+inline ReferenceOctree makeReference(const std::vector<glm::ivec3>& voxels, int level)
 {
+  using reference::octantOf;
   ReferenceOctree octree;
   octree.level = level;
   for (const glm::ivec3& voxel : voxels)
@@ -64,10 +91,11 @@ ReferenceOctree makeReference(const std::vector<glm::ivec3>& voxels, int level)
   return octree;
 }
 
-ReferenceOctree makeReference(const Octree& octree, int level)
+/// The octree's occupied cells at `level` (1..octree.level()) as voxels.
+inline ReferenceOctree makeReference(const Octree& octree, int level)
 {
   std::vector<glm::ivec3> voxels;
-  collect(octree, 0, 0, glm::ivec3(0), voxels);
+  reference::collect(octree, 0, 0, glm::ivec3(0), voxels);
   for (glm::ivec3& voxel : voxels)
   {
     voxel >>= octree.level() - level;
@@ -75,9 +103,11 @@ ReferenceOctree makeReference(const Octree& octree, int level)
   return makeReference(voxels, level);
 }
 
-ReferenceHit intersect(const ReferenceOctree& octree, const glm::dvec3& origin,
+/// The first voxel on the ray origin + t direction, tMin <= t <= tMax, which must be finite.
+inline ReferenceHit intersect(const ReferenceOctree& octree, const glm::dvec3& origin,
   const glm::dvec3& direction, double tMin, double tMax)
 {
+  using reference::octantOf;
   const int edge = 1 << octree.level;
   for (int a = 0; a < 3; ++a) // clip the ray to the cube
   {
@@ -168,3 +198,5 @@ ReferenceHit intersect(const ReferenceOctree& octree, const glm::dvec3& origin,
   }
 }
 }
+
+#endif
