@@ -52,7 +52,7 @@ void add(const Body& b, Bytes& bytes)
   const Attributes& a = b.attributes;
   add(b.octree, bytes);
   add(b.casterOctree, bytes);
-  bytes.add(b.leafGeometry, b.ball, b.neededLevel);
+  bytes.add(b.leafGeometry, b.ball, b.deepestLevel, b.neededLevel);
   bytes.add(a.normals, a.normalAssociation, a.colors, a.colorAssociation, a.colorCoordinates,
     a.colorTexture, a.colorTextureSize, a.version);
   bytes.add(b.points.floats, b.points.doubles, b.points.count);
@@ -71,7 +71,7 @@ void add(const Instance& i, Bytes& bytes)
 void add(const Light& l, Bytes& bytes)
 {
   bytes.add(l.kind, l.headlight, l.position, l.direction, l.coneAngle, l.exponent, l.attenuation,
-    l.color, l.castShadow, l.shadowTechnique, l.id);
+    l.color, l.castShadow, l.id);
 }
 
 /// Rays and shading; what else a view has follows from these.

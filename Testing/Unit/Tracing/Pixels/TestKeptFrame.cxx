@@ -70,6 +70,7 @@ std::vector<Change> everyChange()
         ball(s).body.own().points.doubles = &s.ballMesh.points.data()->x;
         ball(s).body.own().points.count = s.ballMesh.points.size();
       } },
+    { "deepest level", [=](Stage& s) { ball(s).body.own().deepestLevel = 12; } },
     { "needed level", [=](Stage& s) { ball(s).body.own().neededLevel = 9; } },
     { "ambient colour", [=](Stage& s) { ball(s).material.ambientColor.g = 0.2f; } },
     { "diffuse colour", [=](Stage& s) { ball(s).material.diffuseColor.r = 0.4f; } },
