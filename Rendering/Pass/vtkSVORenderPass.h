@@ -355,6 +355,8 @@ protected:
   virtual std::string GetText(int text, vtkLight* about) const;
 
 #ifndef __VTK_WRAP__
+  void Fill(svo::TracerSettings& settings) const override;
+
   /**
    * A tracer for a renderer, which is asked for all of its frames. This one runs on the processor;
    * a subclass may have another (svoTracer.h).

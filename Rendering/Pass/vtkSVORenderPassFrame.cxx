@@ -193,6 +193,15 @@ std::function<bool()> vtkSVORenderPass::AbortOf(vtkRenderWindow* window, bool as
   };
 }
 
+void vtkSVORenderPass::Fill(svo::TracerSettings& settings) const
+{
+  this->Superclass::Fill(settings);
+  if (this->ShadowTechnique == SHADOW_AUTOMATIC)
+  {
+    settings.shadowTechnique = svo::ShadowTechnique::Buffer;
+  }
+}
+
 /// Says how a frame is to be traced.
 void vtkSVORenderPass::DecideSettings(svo::PassFrame& frame)
 {
@@ -200,10 +209,6 @@ void vtkSVORenderPass::DecideSettings(svo::PassFrame& frame)
   settings = svo::FrameSettings();
   this->Fill(settings);
   vtkRenderer* renderer = frame.renderer;
-  if (settings.shadowTechnique == svo::ShadowTechnique::Automatic)
-  {
-    settings.shadowTechnique = svo::ShadowTechnique::Buffer; // see SetShadowTechnique()
-  }
   frame.pacedShadows = hasCameraLight(renderer);
   if (this->AutoAdjustSampleDistances && isInteractive(renderer))
   {

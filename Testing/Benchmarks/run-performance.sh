@@ -126,7 +126,6 @@ if [ "$quick" = yes ]; then
   draw build/vtk frames --frames 3 --seconds 10 --scenes paper4 \
     --experiments scenes,instructionSets,shadows
 else
-  # Those of the page; what automatic shadows take (shadowChoice) is for who changes that.
   draw build/vtk frames --frames "$frames" --seconds 20 --experiments \
     scenes,instructionSets,refined,shadows,lights,lightKit,sizes,levels,objects,triangles,cores
 fi

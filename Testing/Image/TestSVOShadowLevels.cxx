@@ -91,5 +91,15 @@ int TestSVOShadowLevels(int, char*[])
   checks.expect(
     large.pass->GetOctreeMemorySize() > 2 * small.pass->GetOctreeMemorySize(), "octrees differ");
   checks.expect(seen.different == 0, "shadows are the same from near and far");
+
+  // Automatic is buffers, through octrees of the same levels.
+  const Picture buffers = large.shadowed();
+  const int built = large.pass->GetNumberOfOctreesBuilt();
+  large.pass->SetShadowTechniqueToAutomatic();
+  checks.expect(large.shadowed().rgb == buffers.rgb, "automatic shadows are those of buffers");
+  checks.expect(large.pass->GetNumberOfLightsWithShadowBuffers() == 1 &&
+      large.pass->GetNumberOfLightsWithShadowRays() == 0,
+    "automatic shadows have a buffer");
+  checks.expect(large.pass->GetNumberOfOctreesBuilt() == built, "of the same octrees");
   return checks.exitCode();
 }

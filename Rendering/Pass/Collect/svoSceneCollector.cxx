@@ -27,7 +27,7 @@ bool sameLights(const std::vector<Light>& a, const std::vector<Light>& b)
   const auto values = [](const Light& l)
   {
     return std::tie(l.kind, l.headlight, l.position, l.direction, l.coneAngle, l.exponent,
-      l.attenuation, l.color, l.castShadow, l.shadowTechnique, l.id);
+      l.attenuation, l.color, l.castShadow, l.id);
   };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
     [&](const Light& x, const Light& y) { return values(x) == values(y); });

@@ -47,8 +47,7 @@ struct FrameSettings
   bool filters() const
   {
     return this->filterShadows && this->automaticBias &&
-      (this->shadowTechnique == ShadowTechnique::Buffer ||
-        this->shadowTechnique == ShadowTechnique::Automatic);
+      this->shadowTechnique == ShadowTechnique::Buffer;
   }
 };
 

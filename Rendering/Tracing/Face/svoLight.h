@@ -12,9 +12,8 @@ namespace svo
 enum class ShadowTechnique
 {
   None,
-  Buffer,   // shadow buffers, merged from layers like the depth buffer
-  Rays,     // one exact ray to the light per visible point and light; buffers for receivers
-  Automatic // each light's own; buffers where it has none
+  Buffer, // shadow buffers, merged from layers like the depth buffer
+  Rays    // one exact ray to the light per visible point and light; buffers for receivers
 };
 
 struct Light
@@ -34,8 +33,6 @@ struct Light
   glm::vec3 attenuation{ 1, 0, 0 }; // constant, linear, quadratic
   glm::vec3 color{ 1.0f };          // diffuse colour times intensity
   bool castShadow = true;
-  /// Where the frame's technique is automatic: this light's; automatic: buffers.
-  ShadowTechnique shadowTechnique = ShadowTechnique::Automatic;
   std::uint64_t id = 0; // stable from frame to frame
 
   bool atInfinity() const { return this->kind == Kind::Directional; }

@@ -91,8 +91,7 @@ std::vector<NeededLevels> neededLevels(
   const bool casting = std::any_of(
     scene.lights.begin(), scene.lights.end(), [](const Light& light) { return light.castShadow; });
   std::vector<LightMaps> lights;
-  if (settings.shadowTechnique == ShadowTechnique::Buffer ||
-    settings.shadowTechnique == ShadowTechnique::Automatic)
+  if (settings.shadowTechnique == ShadowTechnique::Buffer)
   {
     lights = mapsOfLights(outlines, scene.lights, settings, eye);
   }

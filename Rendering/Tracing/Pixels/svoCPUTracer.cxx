@@ -96,9 +96,8 @@ const Scene& CPUTracer::Internals::sceneOfLights(const Scene& scene, ShadowTechn
     return instance.body->casterOctree &&
       instance.body->casterOctree.key() != instance.body->octree.key();
   };
-  const bool buffers =
-    technique == ShadowTechnique::Buffer || technique == ShadowTechnique::Automatic;
-  if (!buffers || std::none_of(scene.instances.begin(), scene.instances.end(), differs))
+  if (technique != ShadowTechnique::Buffer ||
+    std::none_of(scene.instances.begin(), scene.instances.end(), differs))
   {
     return scene;
   }
@@ -288,14 +287,7 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
   if (!shared)
   {
     const Scene& seen = this->sceneOfLights(scene, settings.shadowTechnique);
-    if (frame)
-    {
-      this->LightShadows.choose(scene, seen, view, settings);
-    }
-    else
-    {
-      this->LightShadows.chooseAsBefore(seen, view, settings);
-    }
+    this->LightShadows.choose(scene, seen, view, settings);
     this->LightShadows.prepare(seen, view, this->Eye.hits(), settings, budget, parallelFor);
   }
   this->LightShadows.prepareAnswers(scene, this->Eye.hits());

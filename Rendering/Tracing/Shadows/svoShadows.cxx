@@ -29,22 +29,7 @@ void Shadows::chooseAll(const Scene& scene, ShadowTechnique technique)
 void Shadows::choose(
   const Scene& scene, const Scene& seen, const View& view, const FrameSettings& settings)
 {
-  const bool automatic = settings.shadowTechnique == ShadowTechnique::Automatic;
-  this->chooseAll(scene, automatic ? ShadowTechnique::Buffer : settings.shadowTechnique);
-  for (std::size_t l = 0; automatic && l < scene.lights.size(); ++l)
-  {
-    const Light& light = scene.lights[l];
-    if (light.castShadow && light.shadowTechnique != ShadowTechnique::Automatic)
-    {
-      this->Techniques[l] = light.shadowTechnique;
-    }
-  }
-  this->fitMaps(seen, view, settings);
-}
-
-void Shadows::chooseAsBefore(const Scene& seen, const View& view, const FrameSettings& settings)
-{
-  this->TechniquesBefore = this->Techniques;
+  this->chooseAll(scene, settings.shadowTechnique);
   this->fitMaps(seen, view, settings);
 }
 

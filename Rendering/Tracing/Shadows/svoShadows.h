@@ -26,8 +26,6 @@ public:
   /// found. `scene`: of the points to be tested; `seen`: with the octrees that lights see.
   void choose(
     const Scene& scene, const Scene& seen, const View& view, const FrameSettings& settings);
-  /// The same, for a frame that is traced once more: as it was decided.
-  void chooseAsBefore(const Scene& seen, const View& view, const FrameSettings& settings);
 
   /// Of the buffers, in frames to come.
   void setCulling(const Culling& culling) { this->Cull = culling; }

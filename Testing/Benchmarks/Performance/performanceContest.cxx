@@ -135,7 +135,7 @@ public:
     {
       row["instances"] = this->Pass->GetNumberOfInstances();
       row["shadowRays"] = Json::Int64(this->Pass->GetNumberOfShadowRays());
-      row["lightsWithRays"] = lightsWithRays(this->Pass);
+      row["lightsWithRays"] = this->Pass->GetNumberOfLightsWithShadowRays();
       row["retracedLayers"] = Json::Int64(this->Pass->GetNumberOfRetracedLayers());
       row["octreeMiB"] = static_cast<double>(this->Pass->GetOctreeMemorySize()) / 1024.0;
       row["layerMiB"] = static_cast<double>(this->Pass->GetLayerMemorySize()) / 1024.0;

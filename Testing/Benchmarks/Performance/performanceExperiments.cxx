@@ -137,11 +137,10 @@ const std::vector<std::pair<std::string, Experiments::Experiment>>& Experiments:
   static const std::vector<std::pair<std::string, Experiment>> experiments{
     { "scenes", &Experiments::scenes }, { "instructionSets", &Experiments::instructionSets },
     { "refined", &Experiments::refined }, { "shadows", &Experiments::shadows },
-    { "shadowChoice", &Experiments::shadowChoice }, { "lights", &Experiments::lights },
-    { "lightKit", &Experiments::lightKit }, { "sizes", &Experiments::sizes },
-    { "levels", &Experiments::levels }, { "objects", &Experiments::objects },
-    { "triangles", &Experiments::triangles }, { "threads", &Experiments::threads },
-    { "cores", &Experiments::cores }
+    { "lights", &Experiments::lights }, { "lightKit", &Experiments::lightKit },
+    { "sizes", &Experiments::sizes }, { "levels", &Experiments::levels },
+    { "objects", &Experiments::objects }, { "triangles", &Experiments::triangles },
+    { "threads", &Experiments::threads }, { "cores", &Experiments::cores }
   };
   return experiments;
 }
@@ -293,63 +292,6 @@ bool Experiments::shadows()
     };
   }
   return this->contest(contest);
-}
-
-/// What ShadowTechnique Automatic takes, beside what it could have taken.
-bool Experiments::shadowChoice()
-{
-  std::vector<Method> methods(3, Point);
-  methods[0].name = "buffer";
-  methods[1].name = "rays";
-  methods[1].settings = [](vtkSVORenderPass* pass) { pass->SetShadowTechniqueToShadowRays(); };
-  methods[2].name = "automatic";
-  methods[2].settings = chooseShadows;
-  bool good = true;
-  const auto add = [&](const paper::Experiment& scene, const paper::Objects& objects,
-                     std::size_t triangles, bool lightKit)
-  {
-    const auto useLightKit = [](paper::Scene& shown)
-    {
-      shown.renderer()->RemoveAllLights();
-      vtkNew<vtkLightKit> kit;
-      kit->AddLightsToRenderer(shown.renderer());
-    };
-    const int edge = this->Settings.size.first;
-    for (const int width : { edge / 3, edge })
-    {
-      this->Window->SetSize(width, this->Settings.size.second * width / edge);
-      Contest contest{ &scene, &objects, methods, { Situation::Retraced, Situation::Camera }, {},
-        {} };
-      contest.row["experiment"] = "shadowChoice";
-      contest.row["lightKit"] = lightKit;
-      contest.row["objects"] = Json::Int64(scene.a.size());
-      contest.row["triangles"] = Json::Int64(triangles);
-      if (lightKit)
-      {
-        contest.furnish = useLightKit;
-      }
-      good = this->contest(contest) && good;
-    }
-  };
-  for (const std::string& name : this->Settings.scenes)
-  {
-    for (const bool lightKit : { false, true })
-    {
-      add(paperScene(name), this->paperObjects(), 0, lightKit);
-    }
-  }
-  for (const int count : this->Settings.triangles)
-  {
-    const paper::Objects shapes = this->objectsWith(ball(count), 10);
-    for (const int objects : { 1, 10 })
-    {
-      for (const bool lightKit : { false, true })
-      {
-        add(crowd(objects), shapes, shapes.a.trianglesShown, lightKit);
-      }
-    }
-  }
-  return good;
 }
 
 bool Experiments::lights()

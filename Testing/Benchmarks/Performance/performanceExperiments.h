@@ -53,7 +53,6 @@ private:
   bool lights();
   bool lightKit();
   bool shadows();
-  bool shadowChoice();
 
   /// Octrees of the paper's objects, built when first asked for.
   const paper::Objects& paperObjects();

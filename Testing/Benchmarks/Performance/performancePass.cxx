@@ -148,12 +148,4 @@ vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases, bool simulates
   return pass;
 }
 
-void chooseShadows(vtkSVORenderPass* pass)
-{
-  pass->SetShadowTechniqueToAutomatic();
-}
-int lightsWithRays(vtkSVORenderPass* pass)
-{
-  return pass->GetNumberOfLightsWithShadowRays();
-}
 }

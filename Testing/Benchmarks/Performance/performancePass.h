@@ -34,10 +34,6 @@ using PhasesOfFrame = std::function<Phases(const Moment& begin, const Moment& en
 /// the phase would take on 16 (performanceCores.h), for each of SimulatedCores, and "eyeSerialMs",
 /// what of it one core does alone; likewise for "tracer", all of the tracer.
 vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases, bool simulatesCores);
-/// ShadowTechnique Automatic, and how many lights it gave rays in the last frame; nothing, and 0,
-/// of a commit that does not have it.
-void chooseShadows(vtkSVORenderPass* pass);
-int lightsWithRays(vtkSVORenderPass* pass);
 constexpr int SimulatedCores[] = { 1, 2, 16, 64 };
 }
 

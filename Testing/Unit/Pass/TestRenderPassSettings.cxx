@@ -44,8 +44,6 @@ TEST(RenderPassSettings, ChoicesAreThoseOfTheTracer)
   EXPECT_EQ(static_cast<int>(Pass::SHADOW_NONE), static_cast<int>(svo::ShadowTechnique::None));
   EXPECT_EQ(static_cast<int>(Pass::SHADOW_BUFFER), static_cast<int>(svo::ShadowTechnique::Buffer));
   EXPECT_EQ(static_cast<int>(Pass::SHADOW_RAYS), static_cast<int>(svo::ShadowTechnique::Rays));
-  EXPECT_EQ(
-    static_cast<int>(Pass::SHADOW_AUTOMATIC), static_cast<int>(svo::ShadowTechnique::Automatic));
   EXPECT_EQ(static_cast<int>(Pass::LEAF_VOXEL), static_cast<int>(svo::LeafGeometry::Voxel));
   EXPECT_EQ(static_cast<int>(Pass::LEAF_PLANE), static_cast<int>(svo::LeafGeometry::Plane));
   EXPECT_EQ(static_cast<int>(Pass::LEAF_TRIANGLE), static_cast<int>(svo::LeafGeometry::Triangle));
