@@ -266,7 +266,7 @@ void vtkPolyDataToSVO::Convert(
   }
 
   svo::OctreeCache& cache = this->Internals->Cache;
-  const svo::OctreeCache::Key key{ svo::meshSignature(input), options.level, options.leafGeometry,
+  const svo::OctreeKey key{ svo::meshSignature(input), options.level, options.leafGeometry,
     options.modelBounds };
   if (const auto* kept = this->CacheTimeSteps ? cache.find(key) : nullptr)
   {
@@ -276,7 +276,7 @@ void vtkPolyDataToSVO::Convert(
   }
   if (!this->BuildOctrees)
   {
-    attachMeanwhile(output, cache.latest(key.signature, key.modelBounds));
+    attachMeanwhile(output, cache.latest(key));
     this->Finish(output);
     return;
   }

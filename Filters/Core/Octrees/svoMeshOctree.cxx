@@ -1,7 +1,7 @@
 #include "svoMeshOctree.h"
 
 #include "svoMeshTriangles.h"
-#include "svoOpenOctrees.h"
+#include "svoOctreeLibrary.h"
 #include "svoToldRange.h"
 
 #include "vtkDoubleArray.h"
@@ -85,13 +85,9 @@ void addModel(const std::array<double, 6>& model, double bounds[6])
   }
 }
 
-OpenOctrees::Recipe recipeOf(const MeshOctreeOptions& options, std::uint64_t signature)
+OctreeKey keyOf(const MeshOctreeOptions& options, std::uint64_t signature)
 {
-  // Bounds that say nothing are all the same.
-  constexpr std::array<double, 6> nothing{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
-  const std::array<double, 6>& model = options.modelBounds;
-  const bool given = model[0] <= model[1] && model[2] <= model[3] && model[4] <= model[5];
-  return { signature, options.level, options.leafGeometry, given ? model : nothing };
+  return { signature, options.level, options.leafGeometry, options.modelBounds };
 }
 
 BuildStatus buildUnguarded(
@@ -124,7 +120,8 @@ BuildStatus buildUnguarded(
   header.pointCount = view.pointCount;
   header.cellCount = static_cast<std::uint64_t>(mesh->GetNumberOfCells());
   finiteBounds(view, header.meshBounds);
-  addModel(options.modelBounds, header.meshBounds);
+  const OctreeKey key = keyOf(options, header.signature);
+  addModel(key.modelBounds, header.meshBounds);
   const auto surface =
     makeSurface(view, std::move(triangles.cells()), header, buildOptions.parallelFor);
   octree = Octree::open(std::move(result.data), result.size, surface, message);
@@ -143,14 +140,14 @@ BuildStatus buildUnguarded(
     message += (message.empty() ? "" : ", and ") + std::to_string(triangles.brokenCells()) +
       " cells name points that do not exist; they are left out of the octree";
   }
-  OpenOctrees::instance().add(recipeOf(options, header.signature), octree, message);
+  OctreeLibrary::instance().add(key, octree, message);
   return BuildStatus::Built;
 }
 }
 
 Octree findBuiltOctree(const MeshOctreeOptions& options, std::string& message)
 {
-  return OpenOctrees::instance().find(recipeOf(options, options.signature), message);
+  return OctreeLibrary::instance().find(keyOf(options, options.signature), message);
 }
 
 BuildStatus buildMeshOctree(
@@ -198,7 +195,7 @@ void attachOctree(vtkPolyData* mesh, const Octree& octree)
   const double range[2] = { 0.0, 255.0 };
   tellRange(array, range, range);
   mesh->GetFieldData()->AddArray(array); // replaces an array of the same name
-  OpenOctrees::instance().add(array, octree);
+  OctreeLibrary::instance().add(array, octree);
 }
 
 void attachStatistics(vtkPolyData* mesh, const Octree& octree, double buildTime)
@@ -245,7 +242,7 @@ Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& mess
   {
     const auto size = static_cast<std::size_t>(array->GetNumberOfValues());
     const unsigned char* theirs = array->GetPointer(0);
-    octree = OpenOctrees::instance().find(array);
+    octree = OctreeLibrary::instance().find(array);
     Header header;
     std::memcpy(&header, octree ? octree.key() : theirs, sizeof(Header));
     if (std::memcmp(header.magic, LayoutMagic, sizeof(LayoutMagic)) == 0 &&
@@ -269,7 +266,7 @@ Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& mess
     octree = Octree::open(ownBytes(theirs, size), size, surface, message);
     if (octree)
     {
-      OpenOctrees::instance().add(array, octree);
+      OctreeLibrary::instance().add(array, octree);
     }
     return octree ? Attached::Found : Attached::Damaged;
   }

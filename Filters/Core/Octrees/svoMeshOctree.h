@@ -18,13 +18,16 @@ class vtkPolyData;
 
 namespace svo
 {
+/// Bounds that say nothing, as VTK orders them.
+constexpr std::array<double, 6> NoBounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+
 struct MeshOctreeOptions
 {
   int level = 10; // 1..MaximumLevel
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
   /// Bounds of the whole that the mesh is a part of, as VTK orders them; low above high: the mesh
   /// is the whole.
-  std::array<double, 6> modelBounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+  std::array<double, 6> modelBounds = NoBounds;
   std::size_t memoryLimit = 0; // bytes at the peak of the build; 0: what the machine has available
   std::uint64_t signature = 0; // of the mesh, where it is known
   ParallelFor parallelFor = smpParallelFor();
@@ -78,7 +81,8 @@ enum class Attached
 VTKSVOCORE_EXPORT Attached openAttachedOctree(
   vtkPolyData* mesh, Octree& octree, std::string& message);
 
-/// True if the mesh carries an octree of a surface that is no mesh: its polygons are not the surface.
+/// True if the mesh carries an octree of a surface that is no mesh: its polygons are not the
+/// surface.
 VTKSVOCORE_EXPORT bool carriesPlanes(vtkPolyData* mesh);
 
 /// A sentence for users about why there is no octree to open; empty if it was found.

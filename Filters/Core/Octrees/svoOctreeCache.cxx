@@ -1,34 +1,17 @@
 #include "svoOctreeCache.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 #include <vector>
 
 namespace svo
 {
-namespace
-{
-ReuseHistory::Id idOf(const OctreeCache::Key& key)
-{
-  ReuseHistory::Id id = key.signature ^ (static_cast<std::uint64_t>(key.level) << 8) ^
-    static_cast<std::uint64_t>(key.leafGeometry);
-  for (const double bound : key.modelBounds)
-  {
-    std::uint64_t bits;
-    std::memcpy(&bits, &bound, sizeof(bits));
-    id = (id ^ bits) * 0x9e3779b97f4a7c15ull;
-  }
-  return id;
-}
-}
-
-const OctreeCache::Entry* OctreeCache::find(const Key& key)
+const OctreeCache::Entry* OctreeCache::find(const OctreeKey& key)
 {
   // Tens of poses, hundreds at most: a walk costs nothing beside the hash that made the key.
   const auto found = std::find_if(this->Entries.begin(), this->Entries.end(),
-    [&key](const Entry& entry) { return entry.key == key; });
-  const ReuseHistory::Id id = idOf(key);
+    [&key](const Entry& entry) { return !(entry.key < key) && !(key < entry.key); });
+  const ReuseHistory::Id id = key.id();
   if (id != this->Last) // else it was in use all the time
   {
     this->History.comes(id, found != this->Entries.end());
@@ -42,12 +25,11 @@ const OctreeCache::Entry* OctreeCache::find(const Key& key)
   return &this->Entries.front();
 }
 
-const OctreeCache::Entry* OctreeCache::latest(
-  std::uint64_t signature, const std::array<double, 6>& modelBounds) const
+const OctreeCache::Entry* OctreeCache::latest(const OctreeKey& key) const
 {
   const auto found = std::find_if(this->Entries.begin(), this->Entries.end(),
     [&](const Entry& entry)
-    { return entry.key.signature == signature && entry.key.modelBounds == modelBounds; });
+    { return entry.key.signature == key.signature && entry.key.modelBounds == key.modelBounds; });
   return found == this->Entries.end() ? nullptr : &*found;
 }
 
@@ -72,13 +54,13 @@ void OctreeCache::shrink(std::size_t limit)
   std::vector<ReuseHistory::Id> going;
   for (const Entry& entry : this->Entries)
   {
-    going.push_back(idOf(entry.key));
+    going.push_back(entry.key.id());
   }
   this->History.sortForGoing(going);
   for (auto id = going.begin(); this->Bytes > limit && id != going.end(); ++id)
   {
     const auto entry = std::find_if(this->Entries.begin(), this->Entries.end(),
-      [id](const Entry& candidate) { return idOf(candidate.key) == *id; });
+      [id](const Entry& candidate) { return candidate.key.id() == *id; });
     this->Bytes -= entry->octree.bytes();
     this->Entries.erase(entry);
   }

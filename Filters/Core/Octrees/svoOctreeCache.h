@@ -3,11 +3,10 @@
 #define svoOctreeCache_h
 
 #include "svoOctree.h"
+#include "svoOctreeLibrary.h"
 #include "svoReuse.h"
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <list>
 
 namespace svo
@@ -16,32 +15,19 @@ namespace svo
 class OctreeCache
 {
 public:
-  struct Key
-  {
-    std::uint64_t signature; // of the mesh
-    int level;
-    LeafGeometry leafGeometry;
-    std::array<double, 6> modelBounds; // of the whole that the mesh is a part of
-    bool operator==(const Key& other) const
-    {
-      return signature == other.signature && level == other.level &&
-        leafGeometry == other.leafGeometry && modelBounds == other.modelBounds;
-    }
-  };
-
   struct Entry
   {
-    Key key;
+    OctreeKey key;
     Octree octree;
   };
 
   /// The entry, now the most recently used one; null if there is none, which is to be made and
   /// inserted then. Valid until the next call.
-  const Entry* find(const Key& key);
+  const Entry* find(const OctreeKey& key);
 
   /// The entry of the same mesh in the same cube that was used last, of any level and leaf
   /// geometry; null if there is none. Valid until the next call.
-  const Entry* latest(std::uint64_t signature, const std::array<double, 6>& modelBounds) const;
+  const Entry* latest(const OctreeKey& key) const;
 
   /// Keeps an octree, and lets go of others, those first that will be used last (svoReuse.h), until
   /// at most `limit` bytes are in use. An octree that is larger than the limit is not kept.

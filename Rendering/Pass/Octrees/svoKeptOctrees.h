@@ -3,7 +3,7 @@
 #define svoKeptOctrees_h
 
 #include "svoOctree.h"
-#include "svoOctreeKey.h"
+#include "svoOctreeLibrary.h"
 #include "svoReuse.h"
 
 #include <cstddef>

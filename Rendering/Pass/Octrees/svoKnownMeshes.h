@@ -4,7 +4,7 @@
 
 #include "svoBox.h"
 #include "svoOctree.h"
-#include "svoOctreeKey.h"
+#include "svoOctreeLibrary.h"
 
 #include "vtkPolyData.h"
 #include "vtkWeakPointer.h"

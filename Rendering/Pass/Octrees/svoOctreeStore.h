@@ -6,7 +6,7 @@
 #include "svoKeptOctrees.h"
 #include "svoKnownMeshes.h"
 #include "svoOctree.h"
-#include "svoOctreeKey.h"
+#include "svoOctreeLibrary.h"
 #include "svoScene.h"
 
 #include "vtkWeakPointer.h"

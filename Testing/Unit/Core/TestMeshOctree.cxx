@@ -270,6 +270,21 @@ TEST(MeshOctree, IsSignedWithItsMesh)
   }
 }
 
+TEST(MeshOctree, BoundsThatSayNothingAreNoPartOfIt)
+{
+  const auto mesh = sphere();
+  svo::MeshOctreeOptions options;
+  options.level = 3;
+  options.modelBounds = { -9.0, 9.0, 5.0, -5.0, 1.0, -1.0 };
+  svo::Octree octree;
+  std::string message;
+  ASSERT_EQ(svo::buildMeshOctree(mesh, options, octree, message), svo::BuildStatus::Built);
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_EQ(octree.header().meshBounds[i], mesh->GetBounds()[i]);
+  }
+}
+
 TEST(MeshOctree, IsOpenOnceAndOutlivesTheMesh)
 {
   svo::Octree octree;

@@ -225,6 +225,11 @@ TEST(PPolyDataToSVO, AModelsBoundsCountInTheCacheAndForOctreesThatCome)
   filter->Update();
   EXPECT_EQ(octreeOf(filter->GetOutput())->GetVoxelSize(), own);
   EXPECT_EQ(filter->GetNumberOfBuilds(), 2);
+  filter->SetModelBounds(-2, 2, 5, -5, 1, -1); // says nothing, either
+  filter->Update();
+  EXPECT_EQ(octreeOf(filter->GetOutput())->GetVoxelSize(), own);
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 2);
+  EXPECT_EQ(filter->GetNumberOfCachedOctrees(), 2);
 
   vtkNew<vtkPolyDataToSVO> second;
   second->SetMaximumLevel(5);

@@ -1,0 +1,96 @@
+// The octrees that are open in this process, so that none is opened, or built, twice.
+#ifndef svoOctreeLibrary_h
+#define svoOctreeLibrary_h
+
+#include "svoMeshOctree.h"
+#include "svoReuse.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <tuple>
+#include <utility>
+
+class vtkUnsignedCharArray;
+
+namespace svo
+{
+/// The name of an octree that is built from a mesh: the inputs that make it differ from others.
+struct OctreeKey
+{
+  std::uint64_t signature; // meshSignature()
+  int level;
+  LeafGeometry leafGeometry;
+  std::array<double, 6> modelBounds; // those that say nothing are all NoBounds
+
+  OctreeKey(std::uint64_t mesh, int depth, LeafGeometry geometry,
+    const std::array<double, 6>& model = NoBounds)
+    : signature(mesh)
+    , level(depth)
+    , leafGeometry(geometry)
+    , modelBounds(
+        model[0] <= model[1] && model[2] <= model[3] && model[4] <= model[5] ? model : NoBounds)
+  {
+  }
+
+  bool operator<(const OctreeKey& other) const
+  {
+    return std::tie(this->signature, this->level, this->leafGeometry, this->modelBounds) <
+      std::tie(other.signature, other.level, other.leafGeometry, other.modelBounds);
+  }
+  MeshOctreeOptions options() const
+  {
+    MeshOctreeOptions options;
+    options.signature = this->signature;
+    options.level = this->level;
+    options.leafGeometry = this->leafGeometry;
+    options.modelBounds = this->modelBounds;
+    return options;
+  }
+  VTKSVOCORE_EXPORT ReuseHistory::Id id() const;
+};
+
+/// Keeps no octree alive. May be called from any thread.
+///
+/// An octree owns its bytes: the field-data array that it was opened from, or that it was attached
+/// as, has a copy of them, since any code may write to the array. So an array is known by its
+/// modification time. VTK's times grow over the whole process: an array that is made where another
+/// one was freed never shows the same pair of address and time.
+class OctreeLibrary
+{
+public:
+  static OctreeLibrary& instance();
+
+  /// The octree whose bytes the array has, by address and modification time; empty if it is not
+  /// open.
+  Octree find(vtkUnsignedCharArray* array);
+  void add(vtkUnsignedCharArray* array, const Octree& octree);
+
+  /// The octree that was built by that name, and the message of its build; empty if it is not open.
+  Octree find(const OctreeKey& key, std::string& message);
+  void add(const OctreeKey& key, const Octree& octree, const std::string& message);
+
+private:
+  OctreeLibrary() = default;
+
+  template <typename Name>
+  struct Index
+  {
+    std::map<Name, std::pair<WeakOctree, std::string>> octrees; // and messages
+    std::size_t most = 64; // at which closed ones are taken out
+  };
+  template <typename Name>
+  Octree find(const Index<Name>& index, const Name& name, std::string& message);
+  template <typename Name>
+  void add(Index<Name>& index, const Name& name, const Octree& octree, const std::string& message);
+
+  std::mutex Mutex;
+  Index<std::pair<const void*, unsigned long long>> OfArrays; // array, modification time
+  Index<OctreeKey> Built;
+};
+}
+
+#endif
