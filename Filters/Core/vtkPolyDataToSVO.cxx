@@ -4,7 +4,8 @@
 #include "svoLeafTraits.h"
 #include "svoMeshDetail.h"
 #include "svoMeshOctree.h"
-#include "svoOctreeCache.h"
+#include "svoOctreeLibrary.h"
+#include "svoOwnedOctrees.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkInformation.h"
@@ -46,7 +47,7 @@ svo::Octree carriedOctree(vtkPolyData* mesh, const svo::MeshOctreeOptions& optio
 
 /// The octree that a mesh goes out with until its own is there: another of its octrees, else any
 /// that it brings along.
-void attachMeanwhile(vtkPolyData* mesh, const svo::OctreeCache::Entry* other)
+void attachMeanwhile(vtkPolyData* mesh, const svo::OwnedOctree* other)
 {
   if (other)
   {
@@ -89,7 +90,7 @@ void report(vtkPolyDataToSVO* filter, const svo::Octree& octree, const std::stri
 class vtkPolyDataToSVO::vtkInternals
 {
 public:
-  svo::OctreeCache Cache;
+  svo::OwnedOctrees Cache;
   std::map<std::uint64_t, double> Voxels; // by the signature of a mesh
   vtkMTimeType SaidIncomplete = 0;
 };
@@ -145,13 +146,13 @@ void vtkPolyDataToSVO::SetCacheTimeSteps(bool cache)
 void vtkPolyDataToSVO::SetCacheMemoryLimit(unsigned long kibibytes)
 {
   this->CacheMemoryLimit = kibibytes;
-  this->Internals->Cache.shrink(kibibytes * Kibi);
+  this->Internals->Cache.shrink(kibibytes * Kibi, false);
 }
 
 //------------------------------------------------------------------------------
 void vtkPolyDataToSVO::ReleaseCache()
 {
-  this->Internals->Cache.shrink(0);
+  this->Internals->Cache.clear();
 }
 
 //------------------------------------------------------------------------------
@@ -265,16 +266,13 @@ void vtkPolyDataToSVO::Convert(
     return;
   }
 
-  svo::OctreeCache& cache = this->Internals->Cache;
+  svo::OwnedOctrees& cache = this->Internals->Cache;
   const svo::OctreeKey key{ svo::meshSignature(input), options.level, options.leafGeometry,
     options.modelBounds };
-  if (const auto* kept = this->CacheTimeSteps ? cache.find(key) : nullptr)
-  {
-    svo::attachOctree(output, kept->octree);
-    this->Finish(output);
-    return;
-  }
-  if (!this->BuildOctrees)
+  cache.nextUse();
+  cache.asked(key, false);
+  const svo::OwnedOctree* kept = cache.find(key);
+  if (!kept && !this->BuildOctrees)
   {
     attachMeanwhile(output, cache.latest(key));
     this->Finish(output);
@@ -282,44 +280,35 @@ void vtkPolyDataToSVO::Convert(
   }
 
   options.signature = key.signature;
-  svo::OctreeCache::Entry built{ key, {} };
   std::string message;
-  built.octree = svo::findBuiltOctree(options, message); // another filter's, or a render pass's
-  if (built.octree)
+  // That of another filter, or of a render pass, does as well.
+  svo::Octree octree = kept ? kept->octree : svo::findBuiltOctree(options, message);
+  if (!octree)
   {
-    svo::attachOctree(output, built.octree);
-    this->Finish(output);
-    report(this, built.octree, message, this->Internals->SaidIncomplete);
-    if (this->CacheTimeSteps)
+    svo::detachOctree(output);
+    options.progress = [this](double progress)
     {
-      cache.insert(std::move(built), this->CacheMemoryLimit * Kibi);
+      this->UpdateProgress(progress);
+      return !svo::isAborted(this);
+    };
+    const double start = vtkTimerLog::GetUniversalTime();
+    const svo::BuildStatus status = svo::buildMeshOctree(input, options, octree, message);
+    this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
+    if (status == svo::BuildStatus::Aborted)
+    {
+      return;
     }
-    return;
+    this->NumberOfBuilds += octree ? 1 : 0;
   }
-
-  svo::detachOctree(output);
-  options.progress = [this](double progress)
+  if (octree)
   {
-    this->UpdateProgress(progress);
-    return !svo::isAborted(this);
-  };
-  const double start = vtkTimerLog::GetUniversalTime();
-  const svo::BuildStatus status = svo::buildMeshOctree(input, options, built.octree, message);
-  this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
-  if (status == svo::BuildStatus::Aborted)
-  {
-    return;
-  }
-  if (status == svo::BuildStatus::Built)
-  {
-    ++this->NumberOfBuilds;
-    svo::attachOctree(output, built.octree);
+    svo::attachOctree(output, octree);
     this->Finish(output);
   }
-  report(this, built.octree, message, this->Internals->SaidIncomplete);
-  if (status == svo::BuildStatus::Built && this->CacheTimeSteps)
+  if (!kept)
   {
-    cache.insert(std::move(built), this->CacheMemoryLimit * Kibi);
+    report(this, octree, message, this->Internals->SaidIncomplete);
+    cache.keepWithin(key, octree, this->CacheTimeSteps ? this->CacheMemoryLimit * Kibi : 0);
   }
 }
 

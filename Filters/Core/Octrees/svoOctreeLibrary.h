@@ -50,7 +50,7 @@ struct OctreeKey
     options.modelBounds = this->modelBounds;
     return options;
   }
-  VTKSVOCORE_EXPORT ReuseHistory::Id id() const;
+  ReuseHistory::Id id() const;
 };
 
 /// Keeps no octree alive. May be called from any thread.

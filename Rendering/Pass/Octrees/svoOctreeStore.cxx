@@ -102,7 +102,7 @@ void OctreeStore::prepare(const Wanted& wanted, const StoreOptions& options)
     {
       const MeshOctreeOptions& o = build.options;
       this->BuiltSoFar += build.octree ? 1 : 0;
-      this->keep({ o.signature, o.level, o.leafGeometry }, build.octree, std::move(build.message));
+      this->Octrees.keep({ o.signature, o.level, o.leafGeometry }, build.octree, build.message);
     }
     if (options.progress)
     {
@@ -137,11 +137,11 @@ OctreeStore::Answer OctreeStore::find(
   {
     this->build(mesh, key, options);
   }
-  if (KeptOctree* found = this->Octrees.find(key))
+  if (OwnedOctree* found = this->Octrees.find(key))
   {
     return this->answer(mesh, *found, options, octree);
   }
-  KeptOctree* other = this->Octrees.substitute(key);
+  OwnedOctree* other = this->Octrees.substitute(key);
   if (!options.wait && (!other || other->octree.level() < level))
   {
     this->buildInBackground(mesh, key);
@@ -150,9 +150,8 @@ OctreeStore::Answer OctreeStore::find(
 }
 
 OctreeStore::Answer OctreeStore::answer(
-  vtkPolyData* mesh, KeptOctree& built, const StoreOptions& options, Octree& octree)
+  vtkPolyData* mesh, OwnedOctree& built, const StoreOptions& options, Octree& octree)
 {
-  built.lastFrame = this->Frame;
   if (!built.message.empty())
   {
     // The same of each level is said once; that an octree lacks triangles, once for all poses, each
@@ -203,13 +202,8 @@ void OctreeStore::build(vtkPolyData* mesh, const OctreeKey& key, const StoreOpti
   if (buildMeshOctree(source, build, octree, message) != BuildStatus::Aborted)
   {
     this->BuiltSoFar += octree ? 1 : 0;
-    this->keep(key, octree, std::move(message));
+    this->Octrees.keep(key, octree, message);
   }
-}
-
-void OctreeStore::keep(const OctreeKey& key, const Octree& octree, std::string message)
-{
-  this->Octrees.keep(key, { octree, std::move(message), this->Frame });
 }
 
 /// An octree that another pass or a filter has built.
@@ -218,7 +212,7 @@ void OctreeStore::takeOver(const OctreeKey& key)
   std::string message;
   if (const Octree octree = findBuiltOctree(key.options(), message))
   {
-    this->keep(key, octree, std::move(message));
+    this->Octrees.keep(key, octree, message);
   }
 }
 
@@ -227,7 +221,7 @@ void OctreeStore::buildInBackground(vtkPolyData* mesh, const OctreeKey& key)
   const auto running = this->Jobs.find(key);
   if (running != this->Jobs.end())
   {
-    running->second.lastFrame = this->Frame;
+    running->second.lastFrame = this->Octrees.use();
     return;
   }
   const auto atWork = std::count_if(this->Jobs.begin(), this->Jobs.end(),
@@ -238,7 +232,7 @@ void OctreeStore::buildInBackground(vtkPolyData* mesh, const OctreeKey& key)
   }
   if (auto begun = BackgroundBuild::start(mesh, key.options(), this->Launch))
   {
-    this->Jobs[key] = { std::move(begun), mesh, this->Frame };
+    this->Jobs[key] = { std::move(begun), mesh, this->Octrees.use() };
   }
 }
 
@@ -275,7 +269,7 @@ void OctreeStore::keepResult(const OctreeKey& key, BackgroundBuild& build)
   }
   else if (!build.abandoned())
   {
-    this->keep(key, result.octree, result.message);
+    this->Octrees.keep(key, result.octree, result.message);
     this->BuiltSoFar += result.octree ? 1 : 0;
   }
 }
@@ -287,7 +281,7 @@ std::size_t OctreeStore::endFrame(std::size_t memoryLimit)
   // may come back to a pose; but nobody waits for those of a mesh that is gone.
   for (auto job = this->Jobs.begin(); job != this->Jobs.end();)
   {
-    const bool asked = this->Frame - job->second.lastFrame < FramesOfOthers;
+    const bool asked = this->Octrees.use() - job->second.lastFrame < FramesOfOthers;
     if (!asked && !job->second.mesh)
     {
       job->second.build->abandon();
@@ -306,12 +300,11 @@ std::size_t OctreeStore::endFrame(std::size_t memoryLimit)
   }
   if (this->bytes() > memoryLimit)
   {
-    this->Octrees.shrink(memoryLimit, this->Frame);
+    this->Octrees.shrink(memoryLimit, true);
     this->Meshes.forgetKeys([this](const OctreeKey& key)
       { return !this->Octrees.has(key) && this->Jobs.count(key) == 0; });
   }
-  this->Octrees.endFrame();
-  ++this->Frame;
+  this->Octrees.nextUse();
   return this->bytes() > memoryLimit ? this->bytes() - memoryLimit : 0;
 }
 

@@ -3,10 +3,10 @@
 #define svoOctreeStore_h
 
 #include "svoBackgroundBuild.h"
-#include "svoKeptOctrees.h"
 #include "svoKnownMeshes.h"
 #include "svoOctree.h"
 #include "svoOctreeLibrary.h"
+#include "svoOwnedOctrees.h"
 #include "svoScene.h"
 
 #include "vtkWeakPointer.h"
@@ -111,17 +111,15 @@ private:
   void buildInBackground(vtkPolyData* mesh, const OctreeKey& key);
   void waitFor(const OctreeKey& key, const StoreOptions& options);
   void keepResult(const OctreeKey& key, BackgroundBuild& build);
-  void keep(const OctreeKey& key, const Octree& octree, std::string message);
   void takeOver(const OctreeKey& key);
-  Answer answer(vtkPolyData* mesh, KeptOctree& built, const StoreOptions& options, Octree& octree);
+  Answer answer(vtkPolyData* mesh, OwnedOctree& built, const StoreOptions& options, Octree& octree);
 
   BackgroundBuild::Launcher Launch;
   int BuiltSoFar = 0;
   KnownMeshes Meshes;
-  KeptOctrees Octrees;
+  OwnedOctrees Octrees;
   std::map<OctreeKey, Job> Jobs;
   std::set<OctreeKey> TooLarge; // for the share of memory that a background build may use
-  std::uint64_t Frame = 1;
 };
 }
 

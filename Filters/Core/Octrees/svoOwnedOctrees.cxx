@@ -1,11 +1,11 @@
-#include "svoKeptOctrees.h"
+#include "svoOwnedOctrees.h"
 
 #include <utility>
 #include <vector>
 
 namespace svo
 {
-void KeptOctrees::asked(const OctreeKey& key, bool another)
+void OwnedOctrees::asked(const OctreeKey& key, bool another)
 {
   if (another && this->Orphaned.erase(key) > 0)
   {
@@ -17,20 +17,26 @@ void KeptOctrees::asked(const OctreeKey& key, bool another)
   }
 }
 
-KeptOctree* KeptOctrees::find(const OctreeKey& key)
+OwnedOctree* OwnedOctrees::find(const OctreeKey& key)
 {
   const auto found = this->Octrees.find(key);
-  return found != this->Octrees.end() ? &found->second : nullptr;
+  if (found == this->Octrees.end())
+  {
+    return nullptr;
+  }
+  found->second.lastUse = this->Use;
+  return &found->second;
 }
 
-KeptOctree* KeptOctrees::substitute(const OctreeKey& key)
+OwnedOctree* OwnedOctrees::substitute(const OctreeKey& key)
 {
-  KeptOctree* best = nullptr;
+  OwnedOctree* best = nullptr;
   for (auto i = this->Octrees.lower_bound({ key.signature, 0, LeafGeometry::Voxel });
        i != this->Octrees.end() && i->first.signature == key.signature; ++i)
   {
     // By level, coarse ones first.
-    if (i->first.leafGeometry == key.leafGeometry && i->second.octree)
+    if (i->first.leafGeometry == key.leafGeometry && i->first.modelBounds == key.modelBounds &&
+      i->second.octree)
     {
       best = &i->second;
       if (best->octree.level() > key.level)
@@ -39,10 +45,28 @@ KeptOctree* KeptOctrees::substitute(const OctreeKey& key)
       }
     }
   }
+  if (best)
+  {
+    best->lastUse = this->Use;
+  }
   return best;
 }
 
-void KeptOctrees::keep(const OctreeKey& key, KeptOctree octree)
+const OwnedOctree* OwnedOctrees::latest(const OctreeKey& key) const
+{
+  const OwnedOctree* best = nullptr;
+  for (const auto& [other, octree] : this->Octrees)
+  {
+    if (other.signature == key.signature && other.modelBounds == key.modelBounds &&
+      (!best || best->lastUse < octree.lastUse))
+    {
+      best = &octree;
+    }
+  }
+  return best;
+}
+
+void OwnedOctrees::keep(const OctreeKey& key, const Octree& octree, const std::string& message)
 {
   ++this->Version;
   const auto same = this->Octrees.find(key); // built in between, by a frame that an observer drew
@@ -50,18 +74,27 @@ void KeptOctrees::keep(const OctreeKey& key, KeptOctree octree)
   {
     this->erase(same);
   }
-  this->Bytes += octree.octree ? octree.octree.bytes() : 0;
-  this->Octrees[key] = std::move(octree);
+  this->Bytes += octree.bytes();
+  this->Octrees[key] = { octree, message, this->Use };
 }
 
-KeptOctrees::Iterator KeptOctrees::erase(Iterator octree)
+void OwnedOctrees::keepWithin(const OctreeKey& key, const Octree& octree, std::size_t limit)
+{
+  if (octree && octree.bytes() <= limit)
+  {
+    this->shrink(limit - octree.bytes(), false);
+    this->keep(key, octree, {});
+  }
+}
+
+OwnedOctrees::Iterator OwnedOctrees::erase(Iterator octree)
 {
   ++this->Version;
-  this->Bytes -= octree->second.octree ? octree->second.octree.bytes() : 0;
+  this->Bytes -= octree->second.octree.bytes();
   return this->Octrees.erase(octree);
 }
 
-void KeptOctrees::freeOrphans(const std::set<OctreeKey>& owned)
+void OwnedOctrees::freeOrphans(const std::set<OctreeKey>& owned)
 {
   constexpr std::size_t Most = 1 << 16; // to remember
   if (this->Orphaned.size() + this->Recurring.size() > Most)
@@ -81,31 +114,36 @@ void KeptOctrees::freeOrphans(const std::set<OctreeKey>& owned)
   }
 }
 
-void KeptOctrees::shrink(std::size_t memoryLimit, std::uint64_t frame)
+void OwnedOctrees::shrink(std::size_t limit, bool spare)
 {
+  if (this->Bytes <= limit)
+  {
+    return;
+  }
   std::map<ReuseHistory::Id, OctreeKey> idle;
   std::vector<ReuseHistory::Id> going;
   for (const auto& [key, octree] : this->Octrees)
   {
-    if (octree.lastFrame != frame && idle.emplace(key.id(), key).second)
+    if (!(spare && octree.lastUse == this->Use) && idle.emplace(key.id(), key).second)
     {
       going.push_back(key.id());
     }
   }
   this->History.sortForGoing(going);
-  for (auto id = going.begin(); this->Bytes > memoryLimit && id != going.end(); ++id)
+  for (auto id = going.begin(); this->Bytes > limit && id != going.end(); ++id)
   {
     this->erase(this->Octrees.find(idle.at(*id)));
   }
 }
 
-void KeptOctrees::endFrame()
+void OwnedOctrees::nextUse()
 {
+  ++this->Use;
   this->AskedLast = std::move(this->Asked);
   this->Asked.clear();
 }
 
-void KeptOctrees::clear()
+void OwnedOctrees::clear()
 {
   ++this->Version;
   this->Octrees.clear();
