@@ -267,8 +267,8 @@ void vtkPolyDataToSVO::Convert(
   }
 
   svo::OwnedOctrees& cache = this->Internals->Cache;
-  const svo::OctreeKey key{ svo::meshSignature(input), options.level, options.leafGeometry,
-    options.modelBounds };
+  options.signature = svo::meshSignature(input);
+  const svo::OctreeKey key(options);
   cache.nextUse();
   cache.asked(key, false);
   const svo::OwnedOctree* kept = cache.find(key);
@@ -279,10 +279,9 @@ void vtkPolyDataToSVO::Convert(
     return;
   }
 
-  options.signature = key.signature;
   std::string message;
   // That of another filter, or of a render pass, does as well.
-  svo::Octree octree = kept ? kept->octree : svo::findBuiltOctree(options, message);
+  svo::Octree octree = kept ? kept->octree : svo::OctreeLibrary::instance().find(key, message);
   if (!octree)
   {
     svo::detachOctree(output);

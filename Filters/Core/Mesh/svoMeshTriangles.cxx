@@ -98,13 +98,18 @@ std::size_t triangleBound(vtkCellArray* cells)
 }
 }
 
+std::size_t triangleBound(vtkPolyData* mesh)
+{
+  return triangleBound(mesh->GetPolys()) + triangleBound(mesh->GetStrips());
+}
+
 MeshTriangles::MeshTriangles(vtkPolyData* mesh)
 {
   vtkPoints* points = mesh->GetPoints();
   this->PointCount = points ? static_cast<std::size_t>(points->GetNumberOfPoints()) : 0;
   vtkCellArray* polys = mesh->GetPolys();
   vtkCellArray* strips = mesh->GetStrips();
-  const std::size_t triangles = triangleBound(polys) + triangleBound(strips);
+  const std::size_t triangles = triangleBound(mesh);
   const vtkIdType firstPoly = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
   const vtkIdType firstStrip = firstPoly + polys->GetNumberOfCells();
   constexpr std::size_t limit = std::numeric_limits<std::uint32_t>::max();

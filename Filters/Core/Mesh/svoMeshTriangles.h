@@ -16,6 +16,9 @@ class vtkPolyData;
 
 namespace svo
 {
+/// As many triangles as a mesh has, or more: a polygon or strip of n points makes n - 2.
+VTKSVOCORE_EXPORT std::size_t triangleBound(vtkPolyData* mesh);
+
 /// Triangles of the polygons, then of the strips. A polygon is a fan around its first point, as in
 /// vtkOpenGLIndexBufferObject, unless it is flat, convex and has thousands of points
 /// (svoLargePolygon.h); a strip's triangles alternate, so that all have the strip's winding.

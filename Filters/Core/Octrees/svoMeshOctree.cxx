@@ -85,11 +85,6 @@ void addModel(const std::array<double, 6>& model, double bounds[6])
   }
 }
 
-OctreeKey keyOf(const MeshOctreeOptions& options, std::uint64_t signature)
-{
-  return { signature, options.level, options.leafGeometry, options.modelBounds };
-}
-
 BuildStatus buildUnguarded(
   vtkPolyData* mesh, const MeshOctreeOptions& options, Octree& octree, std::string& message)
 {
@@ -120,7 +115,7 @@ BuildStatus buildUnguarded(
   header.pointCount = view.pointCount;
   header.cellCount = static_cast<std::uint64_t>(mesh->GetNumberOfCells());
   finiteBounds(view, header.meshBounds);
-  const OctreeKey key = keyOf(options, header.signature);
+  const OctreeKey key{ header.signature, options.level, options.leafGeometry, options.modelBounds };
   addModel(key.modelBounds, header.meshBounds);
   const auto surface =
     makeSurface(view, std::move(triangles.cells()), header, buildOptions.parallelFor);
@@ -143,11 +138,6 @@ BuildStatus buildUnguarded(
   OctreeLibrary::instance().add(key, octree, message);
   return BuildStatus::Built;
 }
-}
-
-Octree findBuiltOctree(const MeshOctreeOptions& options, std::string& message)
-{
-  return OctreeLibrary::instance().find(keyOf(options, options.signature), message);
 }
 
 BuildStatus buildMeshOctree(

@@ -43,11 +43,6 @@ struct MeshOctreeOptions
 VTKSVOCORE_EXPORT BuildStatus buildMeshOctree(
   vtkPolyData* mesh, const MeshOctreeOptions& options, Octree& octree, std::string& message);
 
-/// The octree that buildMeshOctree() built with these options, of a mesh of options.signature,
-/// where it is still open in this process; empty otherwise. `message` is that of the build. May be
-/// called from any thread.
-VTKSVOCORE_EXPORT Octree findBuiltOctree(const MeshOctreeOptions& options, std::string& message);
-
 /// True if buildMeshOctree() would choose the cube that the octree of the same mesh has.
 VTKSVOCORE_EXPORT bool fitsModel(const Octree& octree, const std::array<double, 6>& modelBounds);
 

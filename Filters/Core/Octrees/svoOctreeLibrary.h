@@ -35,6 +35,11 @@ struct OctreeKey
         model[0] <= model[1] && model[2] <= model[3] && model[4] <= model[5] ? model : NoBounds)
   {
   }
+  /// Of a mesh of options.signature.
+  explicit OctreeKey(const MeshOctreeOptions& options)
+    : OctreeKey(options.signature, options.level, options.leafGeometry, options.modelBounds)
+  {
+  }
 
   bool operator<(const OctreeKey& other) const
   {

@@ -78,6 +78,21 @@ void OwnedOctrees::keep(const OctreeKey& key, const Octree& octree, const std::s
   this->Octrees[key] = { octree, message, this->Use };
 }
 
+bool OwnedOctrees::takeOver(const OctreeKey& key)
+{
+  if (this->has(key))
+  {
+    return true;
+  }
+  std::string message;
+  const Octree octree = OctreeLibrary::instance().find(key, message);
+  if (octree)
+  {
+    this->keep(key, octree, message);
+  }
+  return static_cast<bool>(octree);
+}
+
 void OwnedOctrees::keepWithin(const OctreeKey& key, const Octree& octree, std::size_t limit)
 {
   if (octree && octree.bytes() <= limit)

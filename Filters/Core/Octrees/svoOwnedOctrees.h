@@ -43,6 +43,8 @@ public:
 
   /// For this use, in the place of what has that key already.
   void keep(const OctreeKey& key, const Octree& octree, const std::string& message);
+  /// True if there is one, if need be one that another owner has: then it is kept here, too.
+  bool takeOver(const OctreeKey& key);
   /// As long as at most `limit` bytes are in use: others go before. An octree that is larger than
   /// the limit is not kept.
   void keepWithin(const OctreeKey& key, const Octree& octree, std::size_t limit);

@@ -1,10 +1,8 @@
 #include "svoKnownMeshes.h"
 
 #include "svoMeshOctree.h"
+#include "svoMeshTriangles.h"
 
-#include "vtkCellArray.h"
-
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -28,17 +26,6 @@ Box finiteBox(vtkPolyData* mesh)
     }
   }
   return box;
-}
-
-std::size_t trianglesOf(vtkPolyData* mesh)
-{
-  vtkIdType sum = 0;
-  for (vtkCellArray* cells : { mesh->GetPolys(), mesh->GetStrips() })
-  {
-    sum +=
-      std::max<vtkIdType>(cells->GetNumberOfConnectivityIds() - 2 * cells->GetNumberOfCells(), 0);
-  }
-  return static_cast<std::size_t>(sum);
 }
 }
 
@@ -71,7 +58,7 @@ KnownMesh& KnownMeshes::of(
     {
       known.signature = meshSignature(mesh);
       known.box = finiteBox(mesh);
-      known.triangles = trianglesOf(mesh);
+      known.triangles = triangleBound(mesh);
     }
   }
   return known;

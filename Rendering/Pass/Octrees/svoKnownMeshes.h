@@ -25,7 +25,7 @@ struct KnownMesh
   Octree attached;        // empty: it brings none, and the following are set
   std::uint64_t signature = 0;
   Box box;                    // of its finite points
-  std::size_t triangles = 0;  // a polygon or strip of n points makes n - 2
+  std::size_t triangles = 0;  // triangleBound()
   int detailLevel = 0;        // 0: not computed yet
   std::set<std::string> said; // of the mesh, whatever its poses
   std::set<OctreeKey> keys;   // of octrees that were asked for, whatever it looked like

@@ -70,11 +70,7 @@ void OctreeStore::prepare(const Wanted& wanted, const StoreOptions& options)
       continue;
     }
     const OctreeKey key = this->asked(known, level, options);
-    if (!this->Octrees.has(key) && this->Jobs.count(key) == 0)
-    {
-      this->takeOver(key);
-    }
-    if (!this->Octrees.has(key) && this->Jobs.count(key) == 0)
+    if (this->Jobs.count(key) == 0 && !this->Octrees.takeOver(key))
     {
       missing.emplace(key, mesh);
     }
@@ -100,9 +96,8 @@ void OctreeStore::prepare(const Wanted& wanted, const StoreOptions& options)
     buildSideBySide(builds);
     for (SideBySide& build : builds)
     {
-      const MeshOctreeOptions& o = build.options;
       this->BuiltSoFar += build.octree ? 1 : 0;
-      this->Octrees.keep({ o.signature, o.level, o.leafGeometry }, build.octree, build.message);
+      this->Octrees.keep(OctreeKey(build.options), build.octree, build.message);
     }
     if (options.progress)
     {
@@ -129,11 +124,7 @@ OctreeStore::Answer OctreeStore::find(
   {
     this->waitFor(key, options);
   }
-  if (!this->Octrees.has(key))
-  {
-    this->takeOver(key);
-  }
-  if (options.wait && !this->Octrees.has(key) && this->Jobs.count(key) == 0)
+  if (!this->Octrees.takeOver(key) && options.wait && this->Jobs.count(key) == 0)
   {
     this->build(mesh, key, options);
   }
@@ -202,16 +193,6 @@ void OctreeStore::build(vtkPolyData* mesh, const OctreeKey& key, const StoreOpti
   if (buildMeshOctree(source, build, octree, message) != BuildStatus::Aborted)
   {
     this->BuiltSoFar += octree ? 1 : 0;
-    this->Octrees.keep(key, octree, message);
-  }
-}
-
-/// An octree that another pass or a filter has built.
-void OctreeStore::takeOver(const OctreeKey& key)
-{
-  std::string message;
-  if (const Octree octree = findBuiltOctree(key.options(), message))
-  {
     this->Octrees.keep(key, octree, message);
   }
 }

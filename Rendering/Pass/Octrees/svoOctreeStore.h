@@ -111,7 +111,6 @@ private:
   void buildInBackground(vtkPolyData* mesh, const OctreeKey& key);
   void waitFor(const OctreeKey& key, const StoreOptions& options);
   void keepResult(const OctreeKey& key, BackgroundBuild& build);
-  void takeOver(const OctreeKey& key);
   Answer answer(vtkPolyData* mesh, OwnedOctree& built, const StoreOptions& options, Octree& octree);
 
   BackgroundBuild::Launcher Launch;
