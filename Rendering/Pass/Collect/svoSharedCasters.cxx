@@ -54,7 +54,6 @@ void SharedCasters::receive(vtkMultiProcessController* controller, int owner, co
     known.octree = collected.scene.instances[record.instance].body->octree;
     return;
   }
-  known.mesh = mesh;
   std::string ignored; // an octree that does not open casts nothing here
   openAttachedOctree(mesh, known.octree, ignored);
 }

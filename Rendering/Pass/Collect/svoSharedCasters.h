@@ -4,15 +4,12 @@
 
 #include "svoSceneCollector.h"
 
-#include "vtkSmartPointer.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <tuple>
 
 class vtkMultiProcessController;
-class vtkPolyData;
 
 namespace svo
 {
@@ -33,9 +30,8 @@ private:
   using Key = std::tuple<std::uint64_t, int, int>; // signature of the mesh, level, leaf geometry
   struct Known
   {
-    vtkSmartPointer<vtkPolyData> mesh; // null on the process that it comes from
     Octree octree;
-    std::size_t bytes = 0; // the same number on all processes
+    std::size_t bytes = 0; // as sent, with the mesh: the same number on all processes
     std::uint64_t lastFrame = 0;
   };
   struct Record;
