@@ -142,8 +142,6 @@ std::vector<Change> everyChange()
       } },
     { "technique", [=](Stage& s) { s.settings.shadowTechnique = svo::ShadowTechnique::None; } },
     { "rays", [=](Stage& s) { s.settings.shadowTechnique = svo::ShadowTechnique::Rays; } },
-    { "automatic technique",
-      [=](Stage& s) { s.settings.shadowTechnique = svo::ShadowTechnique::Automatic; } },
     { "resolution", [=](Stage& s) { s.settings.shadowResolution = 256; } },
     { "coarser maps", [=](Stage& s) { s.settings.shadowCoarseness = 2.5; } },
     { "bias",
@@ -349,7 +347,7 @@ void changeAnything(std::mt19937& random, const svo::Octree& ball, Stage& stage)
       if (number(3) == 0)
       {
         constexpr svo::ShadowTechnique all[] = { svo::ShadowTechnique::Buffer,
-          svo::ShadowTechnique::Rays, svo::ShadowTechnique::Automatic };
+          svo::ShadowTechnique::Rays, svo::ShadowTechnique::None };
         stage.settings.shadowTechnique = all[number(3)];
       }
       break;
