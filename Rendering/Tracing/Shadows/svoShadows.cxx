@@ -18,7 +18,6 @@ bool Shadows::usesBuffer(std::size_t light, const FrameSettings& settings) const
 
 void Shadows::chooseAll(const Scene& scene, ShadowTechnique technique)
 {
-  this->TechniquesBefore = std::move(this->Techniques);
   this->Techniques.clear();
   for (const Light& light : scene.lights)
   {
@@ -199,7 +198,6 @@ void Shadows::mark(const LightTiles& noted)
 bool Shadows::sameMaps() const
 {
   return this->Buffers.size() == this->BuffersBefore.size() &&
-    this->Techniques == this->TechniquesBefore &&
     std::equal(this->Buffers.begin(), this->Buffers.end(), this->BuffersBefore.begin(),
       [](const ShadowBuffer* now, const ShadowBuffer* before)
       { return now == before && (!now || now->sameMaps()); });

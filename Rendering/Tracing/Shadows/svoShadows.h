@@ -94,12 +94,12 @@ private:
     LayerBudget& budget, const ParallelFor& parallelFor);
 
   Culling Cull;
-  std::vector<ShadowTechnique> Techniques, TechniquesBefore; // by light; of the last frame
-  std::vector<LightMaps> Maps;                               // by light
-  std::vector<Outline> Fitted;                               // what they were fitted to
-  std::uint64_t FittedVersion = 0;                           // of the scene that they are of
-  bool TracesWhole = false;                                  // every tile is traced
-  bool Casting = false;                                      // there are buffers
+  std::vector<ShadowTechnique> Techniques; // by light
+  std::vector<LightMaps> Maps;             // by light
+  std::vector<Outline> Fitted;             // what they were fitted to
+  std::uint64_t FittedVersion = 0;         // of the scene that they are of
+  bool TracesWhole = false;                // every tile is traced
+  bool Casting = false;                    // there are buffers
   bool Filters = false;
   bool Samples = false; // points beside pixels' centres look up what nobody has marked
   /// By index into Scene::lights, null: no buffer; then those of groups of translucent casters,
