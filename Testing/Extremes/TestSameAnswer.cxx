@@ -175,7 +175,7 @@ TEST(SameAnswer, AfterAnySequenceOfEdits)
     for (int step = 0; step < 40; ++step)
     {
       story += "\n  " + world.edit();
-      keeping.render(world.scene, world.view, world.settings, svo::serialFor, frame);
+      keeping.render(stamped(world.scene), world.view, world.settings, svo::serialFor, frame);
       ASSERT_TRUE(identical(frame, rendered(world.scene, world.view, world.settings)))
         << "sequence " << sequence << ":" << story;
       svo::FrameSettings forgetful = world.settings;

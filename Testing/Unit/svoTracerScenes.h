@@ -4,6 +4,7 @@
 
 #include "svoCPUTracer.h"
 #include "svoIntersect.h"
+#include "svoSceneVersions.h"
 #include "svoTestScenes.h"
 
 #include <string>
@@ -160,7 +161,7 @@ inline svo::Frame rendered(svo::Tracer& tracer, const svo::Scene& scene, const s
   const svo::FrameSettings& settings, const svo::ParallelFor& parallelFor = svo::serialFor)
 {
   svo::Frame frame;
-  tracer.render(scene, view, settings, parallelFor, frame);
+  tracer.render(stamped(scene), view, settings, parallelFor, frame);
   return frame;
 }
 

@@ -11,7 +11,6 @@
 #include "vtkRenderer.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <set>
 #include <string_view>
@@ -76,13 +75,6 @@ constexpr Reason NoActor = "is neither an actor nor an assembly";
 Reason withoutOctree(const StoreOptions& options)
 {
   return options.convert ? "has no octree, or none yet" : "comes without an octree";
-}
-
-/// One that no scene has had.
-std::uint64_t newVersion()
-{
-  static std::atomic<std::uint64_t> last{ 0 };
-  return ++last;
 }
 
 /// Updating a prop may change the renderer's list, or let props go.
@@ -208,8 +200,7 @@ void SceneCollector::assemble(CollectedScene& result)
   result.receivers.clear();
   result.tracedActors = result.rasterizedActors = 0;
   result.rasterizedReceivers = result.receiversReach = result.shadowCatchers = false;
-  SceneInstances::write(this->Found, Stage::Shown, this->Instances);
-  result.scene.version = newVersion();
+  const bool changed = SceneInstances::write(this->Found, Stage::Shown, this->Instances);
   bool complete = true;
   for (const PropSurfaces& prop : this->Found)
   {
@@ -240,6 +231,11 @@ void SceneCollector::assemble(CollectedScene& result)
       }
     }
   }
+  if (changed || result.own != result.meshes.size())
+  {
+    this->Version = newVersion();
+  }
+  result.scene.version = this->Version;
   result.own = result.meshes.size();
   this->Lent = complete;
   if (complete)
@@ -407,6 +403,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   if (this->Lent)
   {
     result.scene.instances.resize(result.own); // without those of other processes
+    result.scene.version = this->Version;
   }
   const bool sameOptions = sameStore(options, this->Options);
   const bool same = !changed && !otherLights && this->Complete &&

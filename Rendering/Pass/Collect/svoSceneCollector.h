@@ -106,6 +106,7 @@ private:
   int Others = 0;                  // its visible props in space that can have no surfaces
   /// Of all surfaces of those props; where all are in the scene they are lent to it.
   std::vector<Instance> Instances;
+  std::uint64_t Version = 0; // Scene::version of what was made of them
   bool Lent = false;
   // The rest of what they depend on.
   bool Collected = false;

@@ -22,6 +22,7 @@ struct SharedCasters::Record
   int level;
   int leafGeometry;
   std::uint64_t id;
+  std::uint64_t version; // Instance::version, of the process that it comes from
   double localToWorld[16];
   int instance;  // index on the process that it comes from
   float opacity; // Instance::opacity
@@ -76,6 +77,7 @@ void SharedCasters::exchange(
     record.level = instance.body->octree.level();
     record.leafGeometry = static_cast<int>(instance.body->octree.header().leafGeometry);
     record.id = instance.id;
+    record.version = instance.version;
     record.instance = static_cast<int>(i);
     record.opacity = instance.opacity;
     std::memcpy(record.localToWorld, &instance.localToWorld[0][0], sizeof(record.localToWorld));
@@ -112,6 +114,7 @@ void SharedCasters::exchange(
       instance.visible = false;
       instance.receiveShadow = false;
       instance.opacity = record.opacity;
+      instance.version = record.version | std::uint64_t(owner + 1) << 48; // like no other's
       instance.id = record.id ^ (0x9e3779b97f4a7c15ull * (owner + 1));
       collected.scene.instances.push_back(instance);
       collected.scene.version = 0;

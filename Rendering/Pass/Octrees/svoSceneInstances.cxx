@@ -1,5 +1,7 @@
 #include "svoSceneInstances.h"
 
+#include <algorithm>
+#include <atomic>
 #include <tuple>
 
 #include <glm/mat4x4.hpp>
@@ -130,7 +132,13 @@ void writeWhole(SceneSurface& surface, const WrittenSurface& as, Instance* first
 }
 }
 
-void SceneInstances::write(
+std::uint64_t newVersion()
+{
+  static std::atomic<std::uint64_t> last{ 0 };
+  return ++last;
+}
+
+bool SceneInstances::write(
   std::vector<PropSurfaces>& props, Stage stage, std::vector<Instance>& instances)
 {
   std::size_t count = 0;
@@ -144,6 +152,7 @@ void SceneInstances::write(
   const std::size_t before = instances.size();
   instances.resize(count);
   std::size_t place = 0;
+  bool changed = false;
   for (PropSurfaces& prop : props)
   {
     for (SceneSurface& surface : prop.surfaces)
@@ -163,15 +172,26 @@ void SceneInstances::write(
       {
         writeProp(surface, nullptr, first);
       }
+      if (whole || prop.moved)
+      {
+        surface.shown = WrittenSurface();
+      }
       if (!whole && !(surface.written == now))
       {
         writeFrame(surface, now, first, many);
       }
       surface.written = now;
+      if (stage == Stage::Shown && !(surface.shown == now))
+      {
+        std::for_each(first, first + many, [](Instance& one) { one.version = newVersion(); });
+        surface.shown = now;
+        changed = true;
+      }
       place += many;
     }
     prop.fresh = false;
     prop.moved = false;
   }
+  return changed;
 }
 }

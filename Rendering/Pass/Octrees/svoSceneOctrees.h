@@ -61,9 +61,9 @@ struct SceneSurface
   bool translucent = false; // it casts as light as it is
 
   // Of a frame:
-  bool bringsOctree = false; // `instance.body->octree` is not the store's
-  WrittenSurface written;
-  Shared<Body> body; // as written: that of all its instances, and not `instance.body`
+  bool bringsOctree = false;     // `instance.body->octree` is not the store's
+  WrittenSurface written, shown; // as its instances are; as they were when a frame had them last
+  Shared<Body> body;             // as written: that of all its instances, and not `instance.body`
 
   std::size_t count() const { return this->copies ? this->copies->copies.size() : 1; }
 };

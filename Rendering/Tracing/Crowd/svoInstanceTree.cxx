@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -61,10 +60,10 @@ void InstanceTree::put(std::uint32_t object, const Ball& ball)
   }
 }
 
-void InstanceTree::build()
+void InstanceTree::build(const std::vector<Ball>& balls)
 {
   Box box;
-  for (const Ball& ball : this->Balls)
+  for (const Ball& ball : balls)
   {
     if (ball.radius >= 0.0 &&
       std::isfinite(ball.radius + ball.centre.x + ball.centre.y + ball.centre.z))
@@ -77,10 +76,10 @@ void InstanceTree::build()
   const double edge =
     box.known() ? 2.0 * std::max({ size.x, size.y, size.z }) : 0.0; // room to move
   this->Tree.emplace(0.5 * (box.low + box.high), edge);
-  this->Tree->reserve(this->Balls.size());
-  for (std::uint32_t i = 0; i < this->Balls.size(); ++i)
+  this->Tree->reserve(balls.size());
+  for (std::uint32_t i = 0; i < balls.size(); ++i)
   {
-    this->put(i, this->Balls[i]);
+    this->put(i, balls[i]);
   }
   this->Tree->arrange();
   this->OutsidersAtFirst = this->Tree->outsiders().size();
@@ -94,7 +93,13 @@ void InstanceTree::follow(const Scene& scene, const ParallelFor& parallelFor)
   }
   this->Version = scene.version;
   const std::size_t count = scene.instances.size();
-  std::vector<Ball> balls(count < Fewest ? 0 : count);
+  const std::size_t before = this->Versions.size();
+  const auto stays = [&](std::size_t i)
+  {
+    const std::uint64_t version = scene.instances[i].version;
+    return i < before && version != 0 && version == this->Versions[i];
+  };
+  std::vector<Ball> balls(count < Fewest ? 0 : count); // of those that do not stay
   std::atomic<std::size_t> shown{ 0 };
   parallelFor(0, count, 512,
     [&](std::size_t first, std::size_t last)
@@ -104,7 +109,7 @@ void InstanceTree::follow(const Scene& scene, const ParallelFor& parallelFor)
       {
         const Instance& instance = scene.instances[i];
         mine += instance.visible && instance.body->octree && !instance.body->octree.empty();
-        if (!balls.empty())
+        if (!balls.empty() && !stays(i))
         {
           balls[i] = ballOf(instance);
         }
@@ -112,32 +117,38 @@ void InstanceTree::follow(const Scene& scene, const ParallelFor& parallelFor)
       shown += mine;
     });
   this->Shown = shown;
-  std::swap(this->Balls, balls);
-  if (this->Balls.empty())
+  if (balls.empty())
   {
     this->Tree.reset();
+    this->Versions.clear();
     return;
   }
   if (!this->Tree)
   {
-    this->build();
-    return;
+    this->build(balls);
   }
-  for (std::size_t i = this->Balls.size(); i < balls.size(); ++i)
+  else
   {
-    this->Tree->remove(static_cast<std::uint32_t>(i));
-  }
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const Ball& now = this->Balls[i];
-    if (i >= balls.size() || !(now.centre == balls[i].centre && now.radius == balls[i].radius))
+    for (std::size_t i = count; i < before; ++i)
     {
-      this->put(static_cast<std::uint32_t>(i), now);
+      this->Tree->remove(static_cast<std::uint32_t>(i));
+    }
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (!stays(i))
+      {
+        this->put(static_cast<std::uint32_t>(i), balls[i]);
+      }
     }
   }
   if (this->Tree->outsiders().size() > 2 * this->OutsidersAtFirst + count / 16 + 8)
   {
-    this->build();
+    std::transform(scene.instances.begin(), scene.instances.end(), balls.begin(),
+      [](const Instance& instance) { return ballOf(instance); });
+    this->build(balls);
   }
+  this->Versions.resize(count);
+  std::transform(scene.instances.begin(), scene.instances.end(), this->Versions.begin(),
+    [](const Instance& instance) { return instance.version; });
 }
 }

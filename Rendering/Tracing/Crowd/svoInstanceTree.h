@@ -18,7 +18,8 @@ namespace svo
 /// it has none, or not finite if it may be anywhere.
 VTKSVOTRACING_EXPORT Ball ballOf(const Instance& instance);
 
-/// Instances that moved are moved in it; it is made anew where many have left its cube.
+/// Instances with other versions are put where they are now; it is made anew where many have left
+/// its cube.
 class VTKSVOTRACING_EXPORT InstanceTree
 {
 public:
@@ -34,11 +35,11 @@ public:
   std::size_t shown() const { return this->Shown; }
 
 private:
-  void build();
+  void build(const std::vector<Ball>& balls);
   void put(std::uint32_t object, const Ball& ball);
 
   std::optional<LooseOctree> Tree;
-  std::vector<Ball> Balls; // by index
+  std::vector<std::uint64_t> Versions; // of the instances, by index
   std::uint64_t Version = 0;
   std::size_t Shown = 0;
   std::size_t OutsidersAtFirst = 0;

@@ -39,6 +39,9 @@ struct Instance
   double pixelError = -1.0;
   /// Stable identity of the instance from frame to frame (actor, block, path).
   std::uint64_t id = 0;
+  /// Another one than the last instance at this place of Scene::instances had where anything of it
+  /// differs: itself, its body, or what its arrays hold. 0: it may. Tracers go by it alone.
+  std::uint64_t version = 0;
   DepthOffset depthOffset; // shadows know nothing of it
   /// Where the rasteriser draws the same vertices: 1, what it draws is seen; -1, this is seen; 0,
   /// it does not. See svoShownDepth.h.

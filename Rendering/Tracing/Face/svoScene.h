@@ -15,10 +15,11 @@ namespace svo
 struct Scene
 {
   std::vector<Instance> instances;
+  /// Another one where any of `instances` has another version, or there are more or fewer; 0: that
+  /// may be.
+  std::uint64_t version = 0;
   /// Of surfaces that are no instances but receive shadows of instances; world.
   std::vector<Box> receivers;
-  /// Another one whenever `instances` or `receivers` are not what they were; 0: they may be.
-  std::uint64_t version = 0;
   std::vector<Light> lights;  // only those that are switched on, in the renderer's order
   bool onlyHeadlight = false; // VTK shades by the headlight alone; lights that are off count, too
 };

@@ -57,12 +57,11 @@ struct CPUTracer::Internals
   FrameTiles Tiles;
   PixelShader Shader;
   KeptFrame Kept;
-  KeptTiles Shaded;                 // by tile of the eye
-  std::vector<CasterBox> Casters;   // by index into Scene::instances ...
-  std::uint64_t CastersVersion = 0; // ... of this Scene::version
-  bool ViewsAreTraced = true;       // of this frame; else they were not needed
-  bool SharesBuffers = false;       // shadow buffers are traced, for all processes
-  double SharingTime = 0.0;         // s, that took
+  KeptTiles Shaded;               // by tile of the eye
+  std::vector<CasterBox> Casters; // by index into Scene::instances
+  bool ViewsAreTraced = true;     // of this frame; else they were not needed
+  bool SharesBuffers = false;     // shadow buffers are traced, for all processes
+  double SharingTime = 0.0;       // s, that took
 
   void cull(const Scene& scene, const FrameSettings& settings, const ParallelFor& parallelFor);
   const Scene& sceneOfLights(const Scene& scene, ShadowTechnique technique);
@@ -134,7 +133,7 @@ void CPUTracer::Internals::findStaleTiles(const FrameChanges& changes, bool same
   // show it have changed.
   for (const std::uint32_t instance : changes.instances)
   {
-    if (this->Eye.hits().tiles.partChanged(instance))
+    if (all || this->Eye.hits().tiles.partChanged(instance))
     {
       continue;
     }
@@ -191,33 +190,26 @@ void CPUTracer::Internals::findDarkenedTiles(
 {
   const Shadows& shadows = this->LightShadows;
   const bool all = changes.all || !shadows.sameMaps();
-  std::vector<CasterBox> before; // of no use where the scene is the same
-  if (scene.version == 0 || scene.version != this->CastersVersion)
-  {
-    before = std::move(this->Casters);
-    this->Casters.resize(scene.instances.size());
-    this->CastersVersion = scene.version;
-    parallelFor(0, this->Casters.size(), 256,
-      [&](std::size_t first, std::size_t last)
+  std::vector<CasterBox> boxes(2 * changes.instances.size()); // of those, before and now
+  this->Casters.resize(scene.instances.size());
+  parallelFor(0, changes.instances.size(), 256,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t k = first; k < last; ++k)
       {
-        for (std::size_t i = first; i < last; ++i)
-        {
-          this->Casters[i] = CasterBox(scene.instances[i]);
-        }
-      });
-  }
+        const std::uint32_t i = changes.instances[k];
+        boxes[2 * k] = this->Casters[i];
+        boxes[2 * k + 1] = this->Casters[i] = CasterBox(scene.instances[i]);
+      }
+    });
   const auto mayCross = [&](const PointBox& starts)
   {
     return !starts.empty() &&
-      std::any_of(changes.instances.begin(), changes.instances.end(),
-        [&](std::uint32_t i)
+      std::any_of(boxes.begin(), boxes.end(),
+        [&](const CasterBox& box)
         {
           return std::any_of(scene.lights.begin(), scene.lights.end(),
-            [&](const Light& light)
-            {
-              return light.castShadow &&
-                (before[i].mayBlock(light, starts) || this->Casters[i].mayBlock(light, starts));
-            });
+            [&](const Light& light) { return light.castShadow && box.mayBlock(light, starts); });
         });
   };
   const std::vector<std::uint32_t>& hits = this->Tiles.hits();
@@ -317,9 +309,10 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   PhaseClock clock;
   FrameStatistics& statistics = self.Statistics;
   self.Settings = settings;
-  const FrameChanges changes = self.Kept.compare(scene, view, settings, frame);
+  FrameChanges changes = self.Kept.compare(scene, view, settings, frame);
   const bool keeps = settings.frameCoherence && !self.SharesBuffers;
-  self.ViewsAreTraced = !keeps || !changes.none();
+  changes.all = changes.all || !keeps;
+  self.ViewsAreTraced = !changes.none();
   if (!self.ViewsAreTraced)
   {
     frame.covered = self.Kept.covered();
@@ -331,10 +324,9 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
     return;
   }
   statistics = FrameStatistics();
-  self.traceViews(
-    scene, view, settings, parallelFor, keeps ? changes : FrameChanges(), &frame, statistics);
+  self.traceViews(scene, view, settings, parallelFor, changes, &frame, statistics);
   clock.end(); // its phases have been timed
-  self.findDarkenedTiles(scene, keeps ? changes : FrameChanges(), parallelFor);
+  self.findDarkenedTiles(scene, changes, parallelFor);
 
   // Shade and test.
   const ShadedScene shaded{ scene, view, settings, self.Eye.hits(), self.Eye, self.Tiles,

@@ -5,6 +5,7 @@
 #include "svoCameraView.h"
 #include "svoPropKeys.h"
 #include "svoSceneCollector.h"
+#include "svoSceneVersions.h"
 
 #include "vtkActor.h"
 #include "vtkAssembly.h"
@@ -44,11 +45,14 @@ using CompositeMapper = vtkCompositePolyDataMapper2;
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <memory>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace svotest
@@ -173,9 +177,41 @@ protected:
   {
     this->settings.levels.tracer = this->tracer.get();
     ASSERT_TRUE(svo::viewOfCamera(this->renderer, 300, 200, this->settings.levels.eye));
+    const Versions before(scene);
     collector.collect(this->renderer, this->store, this->options, this->settings, scene);
     this->store.endFrame(std::size_t(1) << 30);
+    this->changed = Versions(scene).changesSince(before);
   }
+
+  /// What a scene said of its instances, and what they were.
+  struct Versions
+  {
+    explicit Versions(const CollectedScene& collected)
+      : scene(collected.scene.version)
+    {
+      for (const Instance& instance : collected.scene.instances)
+      {
+        this->instances.emplace_back(instance.version, bytesOf(instance));
+      }
+    }
+    /// How many instances have another version, or are no more. Where one differs it has to have.
+    std::size_t changesSince(const Versions& before) const
+    {
+      const std::size_t both = std::min(this->instances.size(), before.instances.size());
+      std::size_t changes = std::max(this->instances.size(), before.instances.size()) - both;
+      for (std::size_t i = 0; i < both; ++i)
+      {
+        const bool another = this->instances[i].first != before.instances[i].first;
+        EXPECT_NE(this->instances[i].first, 0u);
+        EXPECT_TRUE(another || this->instances[i].second == before.instances[i].second) << i;
+        changes += another;
+      }
+      EXPECT_TRUE(changes == 0 || this->scene != before.scene);
+      return changes;
+    }
+    std::uint64_t scene;
+    std::vector<std::pair<std::uint64_t, std::vector<unsigned char>>> instances;
+  };
 
   /// Both have the same, at the same places or with the same values.
   static void expectSame(const CollectedScene& a, const CollectedScene& b, const std::string& what)
@@ -256,6 +292,7 @@ protected:
     this->collect(this->collector, this->scene);
     this->collect(this->collector, this->scene);
     EXPECT_EQ(this->collector.collectedAnew(), 0) << what;
+    EXPECT_EQ(this->changed, 0u) << what;
     expectSame(this->scene, other, what + ", once more");
   }
 
@@ -265,6 +302,7 @@ protected:
   svo::CollectSettings settings;
   svo::SceneCollector collector;
   CollectedScene scene;
+  std::size_t changed = 0; // instances that the last collect() said to be others
 
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkLight> light;

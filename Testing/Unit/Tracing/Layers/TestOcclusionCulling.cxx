@@ -264,9 +264,9 @@ TEST(OcclusionCulling, ChangesNoBitOfPicturesShadowsAndNames)
         scene.instances.back().localToWorld[3].x += 100.0 * size;
       }
       settings.viewCulling = settings.occlusionCulling = true;
-      with->render(scene, view, settings, svo::serialFor, a);
+      with->render(stamped(scene), view, settings, svo::serialFor, a);
       settings.viewCulling = settings.occlusionCulling = false;
-      without->render(scene, view, settings, svo::serialFor, b);
+      without->render(stamped(scene), view, settings, svo::serialFor, b);
       ASSERT_TRUE(same(a.color, b.color)) << "frame " << frame;
       ASSERT_TRUE(same(a.depth, b.depth)) << "frame " << frame;
       ASSERT_TRUE(same(a.instance, b.instance)) << "frame " << frame;

@@ -81,7 +81,7 @@ TEST(KeptFrame, ChangesOfABodyThatCopiesShareAreSeen)
   svo::CPUTracer tracer;
   svo::Frame frame;
   const auto render = [&]
-  { tracer.render(copies.scene, copies.view, copies.settings, svo::serialFor, frame); };
+  { tracer.render(stamped(copies.scene), copies.view, copies.settings, svo::serialFor, frame); };
   render();
   for (const auto& [name, change] : changes)
   {
@@ -99,13 +99,13 @@ TEST(KeptFrame, EqualBodiesAtOtherPlacesMakeNoOtherPicture)
   Copies copies;
   svo::CPUTracer tracer;
   svo::Frame frame;
-  tracer.render(copies.scene, copies.view, copies.settings, svo::serialFor, frame);
+  tracer.render(stamped(copies.scene), copies.view, copies.settings, svo::serialFor, frame);
   const std::uint64_t version = frame.version;
   for (svo::Instance& one : copies.scene.instances)
   {
     one.body = svo::Shared<svo::Body>(*one.body);
   }
-  tracer.render(copies.scene, copies.view, copies.settings, svo::serialFor, frame);
+  tracer.render(stamped(copies.scene), copies.view, copies.settings, svo::serialFor, frame);
   EXPECT_EQ(version, frame.version);
   EXPECT_EQ(tracer.statistics().primaryRays, 0u);
 }

@@ -161,15 +161,16 @@ std::vector<Change> everyChange()
   };
 }
 
-void render(svo::Tracer& tracer, const Stage& stage, svo::Frame& frame)
+void render(svo::Tracer& tracer, Stage& stage, svo::Frame& frame)
 {
+  stamp(stage.scene);
   tracer.render(stage.scene, stage.view, stage.settings, svo::serialFor, frame);
 }
 }
 
 TEST(KeptFrame, NothingIsDoneTwice)
 {
-  const Stage stage;
+  Stage stage;
   svo::CPUTracer tracer;
   svo::Frame frame;
   render(tracer, stage, frame);
@@ -208,7 +209,7 @@ TEST(KeptFrame, EveryChangeIsSeen)
 
 TEST(KeptFrame, IsOfOneFrameAndOneTracer)
 {
-  const Stage stage;
+  Stage stage;
   svo::CPUTracer tracer, other;
   svo::Frame frame, another;
   render(tracer, stage, frame);
@@ -255,7 +256,7 @@ TEST(KeptFrame, EdgesAreDividedAllTheSame)
   svo::Frame frame;
   svo::Silhouettes first, second;
   {
-    const Stage stage;
+    Stage stage;
     render(tracer, stage, frame);
     tracer.divideEdges(stage.scene, stage.view, frame, Positions, svo::serialFor, first);
     render(tracer, stage, frame);

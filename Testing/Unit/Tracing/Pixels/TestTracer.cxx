@@ -94,7 +94,7 @@ TEST(Tracer, KeptLayersNeverChangeAPicture)
       }
       forgetful = settings;
       forgetful.frameCoherence = false;
-      keeping.render(scene, view, settings, svo::serialFor, frame);
+      keeping.render(stamped(scene), view, settings, svo::serialFor, frame);
       EXPECT_TRUE(identical(frame, rendered(scene, view, forgetful)))
         << "step " << step << ", leaves " << int(leafGeometry);
     }
@@ -187,14 +187,14 @@ TEST(Tracer, AFrameUsedAgainHasNothingLeftOfTheLastPicture)
   settings.writeNormals = true;
   svo::CPUTracer tracer;
   svo::Frame frame;
-  tracer.render(scene, Eye, settings, svo::serialFor, frame);
+  tracer.render(stamped(scene), Eye, settings, svo::serialFor, frame);
   scene.instances.resize(2);
   scene.instances[0].visible = false;
   scene.instances[1].localToWorld = movedTo(0.5, 0.0, 2.0);
-  tracer.render(scene, Eye, settings, svo::serialFor, frame);
+  tracer.render(stamped(scene), Eye, settings, svo::serialFor, frame);
   EXPECT_TRUE(identical(frame, rendered(scene, Eye, settings)));
   settings.writeNormals = false;
-  tracer.render(scene, Eye, settings, svo::serialFor, frame);
+  tracer.render(stamped(scene), Eye, settings, svo::serialFor, frame);
   EXPECT_TRUE(frame.normals.empty());
 }
 

@@ -74,7 +74,7 @@ struct Group
       [&](svo::Processes& processes)
       {
         const int self = processes.self();
-        const svo::Scene part = partOf(whole, self, count);
+        const svo::Scene part = stamped(partOf(whole, self, count));
         EXPECT_TRUE(
           this->Tracers[self].shareShadows(part, view, settings, svo::serialFor, processes));
         this->Tracers[self].render(part, view, settings, svo::serialFor, this->Frames[self]);

@@ -304,7 +304,7 @@ TEST(TranslucentShadows, KeptFramesAreThoseOfANewTracer)
       const auto render = [&](const std::string& what)
       {
         const svo::Frame before = kept;
-        tracer.render(scene, Eye, settings, raggedFor(3), kept);
+        tracer.render(stamped(scene), Eye, settings, raggedFor(3), kept);
         EXPECT_TRUE(identical(kept, rendered(scene, Eye, settings))) << what;
         EXPECT_FALSE(before.width > 0 && identical(kept, before)) << what << ": it is seen";
       };
