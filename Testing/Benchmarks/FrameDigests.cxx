@@ -223,8 +223,8 @@ std::vector<Way> ways()
 void print(const std::string& name, svo::Tracer& tracer, const svo::Scene& scene,
   const svo::View& view, const svo::FrameSettings& settings, FramePictures& pictures)
 {
-  svo::Frame frame;
-  tracer.render(scene, view, settings, svo::smpParallelFor(), frame);
+  tracer.render(scene, view, settings, svo::smpParallelFor());
+  const svo::Frame& frame = tracer.frame();
   pictures.take(name, frame);
   if (pictures.compares())
   {
@@ -243,7 +243,7 @@ void print(const std::string& name, svo::Tracer& tracer, const svo::Scene& scene
   const std::vector<glm::vec2> samples = { { 0.375f, 0.125f }, { 0.875f, 0.375f },
     { 0.125f, 0.625f }, { 0.625f, 0.875f } };
   svo::Silhouettes silhouettes;
-  tracer.divideEdges(scene, view, frame, samples, svo::smpParallelFor(), silhouettes);
+  tracer.divideEdges(scene, view, samples, svo::smpParallelFor(), silhouettes);
   for (const svo::PixelPart& part : silhouettes.parts)
   {
     parts.add(&part.samples, 1).add(&part.x, 1).add(&part.y, 1).add(&part.depth, 1);

@@ -52,11 +52,10 @@ void traceInstances(const Mesh& mesh, const svo::Octree& octree, int count, int 
   settings.shadowTechnique = svo::ShadowTechnique::None;
   settings.frameCoherence = false;
   const std::unique_ptr<svo::Tracer> tracer = svo::makeCPUTracer();
-  svo::Frame frame;
   std::vector<double> seconds;
   for (int i = 0; i <= repeat; ++i) // one to warm up
   {
-    tracer->render(scene, view, settings, svo::serialFor, frame);
+    tracer->render(scene, view, settings, svo::serialFor);
     if (i > 0)
     {
       seconds.push_back(tracer->statistics().eye.processor);
@@ -90,7 +89,8 @@ void traceInstances(const Mesh& mesh, const svo::Octree& octree, int count, int 
     for (int x = 0; x < width; ++x)
     {
       const svo::HitBlock& block = exact[y / 8 * ((width + 7) / 8) + x / 8];
-      const svo::Primitive primitive = frame.primitive[static_cast<std::size_t>(y) * width + x];
+      const svo::Primitive primitive =
+        tracer->frame().primitive[static_cast<std::size_t>(y) * width + x];
       different += block.primitive[y % 8 * 8 + x % 8] != primitive;
     }
   }

@@ -170,12 +170,11 @@ TEST(SameAnswer, AfterAnySequenceOfEdits)
     Chance chance(100 + sequence);
     World world(chance);
     svo::CPUTracer keeping;
-    svo::Frame frame;
     std::string story;
     for (int step = 0; step < 40; ++step)
     {
       story += "\n  " + world.edit();
-      keeping.render(stamped(world.scene), world.view, world.settings, svo::serialFor, frame);
+      const svo::Frame frame = rendered(keeping, world.scene, world.view, world.settings);
       ASSERT_TRUE(identical(frame, rendered(world.scene, world.view, world.settings)))
         << "sequence " << sequence << ":" << story;
       svo::FrameSettings forgetful = world.settings;

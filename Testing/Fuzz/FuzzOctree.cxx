@@ -173,8 +173,7 @@ void render(const Octree& octree)
   settings.shadowResolution = 16;
   settings.pixelError = 0.0;
   CPUTracer tracer;
-  Frame frame;
-  tracer.render(scene, view, settings, serialFor, frame);
+  tracer.render(scene, view, settings, serialFor);
 }
 
 void useHandle(vtkSparseVoxelOctree* handle)

@@ -160,9 +160,8 @@ inline svo::ParallelFor raggedFor(unsigned threads)
 inline svo::Frame rendered(svo::Tracer& tracer, const svo::Scene& scene, const svo::View& view,
   const svo::FrameSettings& settings, const svo::ParallelFor& parallelFor = svo::serialFor)
 {
-  svo::Frame frame;
-  tracer.render(stamped(scene), view, settings, parallelFor, frame);
-  return frame;
+  tracer.render(stamped(scene), view, settings, parallelFor);
+  return tracer.frame();
 }
 
 inline svo::Frame rendered(

@@ -46,10 +46,13 @@ RendererState::RendererState(vtkRenderer* renderer, std::unique_ptr<Tracer> trac
   : Renderer(renderer)
   , Trace(std::move(tracer))
 {
+  this->Presenter->SetLeave([this] { this->Trace->releaseGraphicsResources(); });
 }
 
 RendererState::~RendererState()
 {
+  this->Presenter->ReleaseGraphicsResources(nullptr); // renderers may hold it for longer
+  this->Presenter->SetLeave(nullptr);
   if (this->Window)
   {
     this->Window->forget(this);
@@ -79,7 +82,7 @@ void RendererState::beginFrame()
   this->Statistics = PassStatistics();
   this->Collected.current = false;
   this->InFrame = true;
-  this->Picture.covered = PixelRect();
+  this->HasPicture = false;
   this->Complaint.clear();
   this->SharesShadows = false;
 }
@@ -158,9 +161,9 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   View& view = this->Eye;
   view = this->aim(width, height, pace.distance);
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow());
-  if (!this->hasSomething() || view.width == 0)
+  this->HasPicture = this->hasSomething() && view.width > 0;
+  if (!this->HasPicture)
   {
-    this->Picture.covered = PixelRect();
     this->Trace->releaseLayers();
     this->Receivers.update(window, {}, {}, view, settings);
     return;
@@ -173,7 +176,8 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   settings.writeLight = occlusion || vtkSVOPresenter::KeepsLight();
   settings.writeSlopes = pace.distance == 1.0 && !samplePositions().empty();
   settings.writeNames = false;
-  this->Trace->render(scene, view, settings, smpParallelFor(), this->Picture);
+  this->Presenter->Enter(window);
+  this->Trace->render(scene, view, settings, smpParallelFor());
   this->Statistics.tracer = this->Trace->statistics();
   this->Statistics.coarseOctreeError = pace.distance * this->Statistics.tracer.coarsestVoxel;
   this->Complaint =
@@ -188,13 +192,13 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
 void RendererState::present(vtkOpenGLRenderPass* pass)
 {
   this->Presenter->SetFrame(
-    &this->Picture,
+    this->HasPicture ? &this->Trace->frame() : nullptr,
     [this](const std::vector<glm::vec2>& positions, Silhouettes& silhouettes)
     {
       if (this->Statistics.pace.distance == 1.0) // else the frame's pixels are not the window's
       {
-        this->Trace->divideEdges(this->Collected.scene, this->Eye, this->Picture, positions,
-          smpParallelFor(), silhouettes);
+        this->Trace->divideEdges(
+          this->Collected.scene, this->Eye, positions, smpParallelFor(), silhouettes);
       }
     },
     pass);

@@ -162,7 +162,7 @@ private:
   bool InFrame = false;
   bool ForgetsScene = false;  // as soon as the frame has ended
   bool SharesShadows = false; // this frame's shadow buffers are those of all processes
-  struct Frame Picture;
+  bool HasPicture = false;    // the tracer has rendered this frame
   ShadowReceivers Receivers;
   std::string Complaint;
   PassStatistics Statistics;

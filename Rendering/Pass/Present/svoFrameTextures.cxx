@@ -144,8 +144,32 @@ void FrameTextures::sendDepthCopy(const Frame& frame, const PixelRect& rect)
     stencil ? GL_UNSIGNED_INT_24_8 : GL_UNSIGNED_INT, this->DepthWords.data(), 0);
 }
 
+void FrameTextures::borrow(const FrameImages& images, vtkOpenGLRenderWindow* window)
+{
+  const auto wrap = [window](vtkSmartPointer<vtkTextureObject>& texture, unsigned int name)
+  {
+    texture = name != 0 ? vtkSmartPointer<vtkTextureObject>::New() : nullptr;
+    if (texture)
+    {
+      texture->SetContext(window);
+      texture->AssignToExistingTexture(name, GL_TEXTURE_2D);
+    }
+  };
+  this->release();
+  wrap(this->Colors, images.color);
+  wrap(this->Depths, images.depth);
+  wrap(this->Normals, images.normals);
+  wrap(this->Slopes, images.slopes);
+  wrap(this->Light, images.light);
+}
+
 void FrameTextures::upload(const Frame& frame, DepthFormat format, vtkOpenGLRenderWindow* window)
 {
+  if (frame.onGPU())
+  {
+    this->borrow(frame.images, window);
+    return;
+  }
   const bool copies = format != DepthFormat::None;
   bool anew = format != this->Copies || frame.version < this->Sent;
   if (format != this->Copies)
@@ -159,9 +183,14 @@ void FrameTextures::upload(const Frame& frame, DepthFormat format, vtkOpenGLRend
   anew |= copies &&
     prepare(this->DepthCopy, window, frame,
       format == DepthFormat::Bits24 ? Kind::DepthStencil : Kind::Depth);
-  anew |= !frame.normals.empty() && prepare(this->Normals, window, frame, Kind::ThreeFloats);
-  anew |= !frame.slopes.empty() && prepare(this->Slopes, window, frame, Kind::TwoFloats);
-  anew |= !frame.light.empty() && prepare(this->Light, window, frame, Kind::ThreeFloats);
+  const auto prepareIf = [&](bool has, vtkSmartPointer<vtkTextureObject>& texture, Kind kind)
+  {
+    texture = has ? texture : nullptr;
+    return has && prepare(texture, window, frame, kind);
+  };
+  anew |= prepareIf(frame.hasNormals(), this->Normals, Kind::ThreeFloats);
+  anew |= prepareIf(frame.hasSlopes(), this->Slopes, Kind::TwoFloats);
+  anew |= prepareIf(frame.hasLight(), this->Light, Kind::ThreeFloats);
   const std::uint64_t since = anew ? 0 : this->Sent;
   for (int y = frame.covered.y0; y < frame.covered.y1; y += Band)
   {

@@ -19,8 +19,9 @@ namespace svo
 class FrameTextures
 {
 public:
-  /// `copies`: unless none, tiles that are covered whole will be copied (svoFrameCopy.h), so of
-  /// them depths are sent as such a depth buffer has them; of others, or of all, as floats.
+  /// Of a frame that is on the GPU its own textures are taken. `copies`: unless none, tiles that
+  /// are covered whole will be copied (svoFrameCopy.h), so of them depths are sent as such a depth
+  /// buffer has them; of others, or of all, as floats.
   void upload(const Frame& frame, DepthFormat copies, vtkOpenGLRenderWindow* window);
   /// The next upload sends all tiles.
   void invalidate() { this->Sent = 0; }
@@ -28,7 +29,7 @@ public:
 
   bool isOf(vtkOpenGLRenderWindow* window) const;
 
-  // Null before an upload that needs them. Pixels of tiles without hits are not defined.
+  // Null where the last frame has none. Pixels of tiles without hits are not defined.
   vtkTextureObject* colors() const { return this->Colors; }
   vtkTextureObject* depths() const { return this->Depths; }
   vtkTextureObject* depthCopy() const { return this->DepthCopy; }
@@ -37,6 +38,7 @@ public:
   vtkTextureObject* light() const { return this->Light; }
 
 private:
+  void borrow(const FrameImages& images, vtkOpenGLRenderWindow* window);
   void sendDepthCopy(const Frame& frame, const PixelRect& rect);
 
   std::uint64_t Sent = 0; // Frame::version; 0: nothing, or not to be relied on

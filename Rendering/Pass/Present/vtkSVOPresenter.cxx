@@ -75,6 +75,11 @@ void vtkSVOPresenter::SetFrame(
   this->PresentTime = 0.0;
 }
 
+void vtkSVOPresenter::Enter(vtkOpenGLRenderWindow* window)
+{
+  this->Context->SetContext(window);
+}
+
 void vtkSVOPresenter::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Context->ReleaseGraphicsResources(window);
@@ -88,6 +93,10 @@ void vtkSVOPresenter::ReleaseAll()
   this->Textures.release();
   this->Parts.release();
   this->Uploaded = 0;
+  if (this->LeaveContext)
+  {
+    this->LeaveContext();
+  }
 }
 
 /// None unless the frame's pixels, but those of tiles with holes, may be copied.
@@ -101,7 +110,7 @@ svo::DepthFormat vtkSVOPresenter::FormatForCopies(
   const bool cleared =
     window->GetErase() && renderer->GetErase() && !renderer->GetPreserveDepthBuffer();
   const bool may = this->First && !this->CannotCopy && cleared && frame.width == viewport[2] &&
-    frame.height == viewport[3] && frame.normals.empty() && frame.light.empty();
+    frame.height == viewport[3] && !frame.onGPU() && !frame.hasNormals() && !frame.hasLight();
   return may ? svo::formatForCopies() : svo::DepthFormat::None;
 }
 
@@ -227,9 +236,9 @@ void vtkSVOPresenter::SelectDrawBuffers(vtkShaderProgram* program)
 bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   const svo::Frame& frame = *this->Frame;
-  const bool writeNormals = !frame.normals.empty();
-  const bool writeSlopes = !frame.slopes.empty() && !this->SamplePositions.empty();
-  const bool writeLight = !frame.light.empty();
+  const bool writeNormals = frame.hasNormals();
+  const bool writeSlopes = frame.hasSlopes() && !this->SamplePositions.empty();
+  const bool writeLight = frame.hasLight();
   const std::string mark = "//VTK::System::Dec\n";
   std::string shader = svoPresentFS;
   shader.replace(shader.find(mark), mark.size(),
@@ -335,7 +344,7 @@ int vtkSVOPresenter::RenderOpaqueGeometry(vtkViewport* viewport)
   }
   const double start = vtkTimerLog::GetUniversalTime();
   vtkOpenGLClearErrorMacro();
-  this->Context->SetContext(window);
+  this->Enter(window);
   std::vector<glm::vec2> positions = svo::samplePositions();
   const svo::DepthFormat copies = this->FormatForCopies(renderer, window);
   if (this->Frame->version == 0 || this->Uploaded != this->Frame->version ||

@@ -46,6 +46,11 @@ public:
   /// pixels that they replace are exchanged.
   void SetFrame(svo::Frame* frame, const SilhouetteFinder& silhouettes, vtkOpenGLRenderPass* pass);
 
+  /// The window, whose context is current, is drawn into from now on. `leave` is called in that
+  /// context before it goes, or is exchanged for another.
+  void Enter(vtkOpenGLRenderWindow* window);
+  void SetLeave(std::function<void()> leave) { this->LeaveContext = std::move(leave); }
+
   /// Called when the prop is about to draw, with the size in pixels of what is drawn, before it
   /// looks at its frame. Null (the default) in renderers whose pass is the prop's own.
   using Prepare = std::function<void(int width, int height)>;
@@ -91,6 +96,7 @@ private:
   void ReleaseAll();
 
   vtkSmartPointer<vtkTextureObject> Context; // has all released in the window's own context
+  std::function<void()> LeaveContext;
   Prepare PrepareFrame;
   svo::Frame* Frame = nullptr;
   SilhouetteFinder FindSilhouettes;

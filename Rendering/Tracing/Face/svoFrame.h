@@ -64,6 +64,15 @@ struct FrameTile
   std::uint64_t version = 0; // Frame::version when it was written last
 };
 
+/// Where a tracer leaves its picture to OpenGL: names of textures, in the context in which render()
+/// was called. They are two-dimensional, as large as the frame, not filtered, and the tracer's. 0:
+/// there is none.
+struct FrameImages
+{
+  unsigned int color = 0, depth = 0; // depth and all that follow as the arrays of Frame have it
+  unsigned int normals = 0, slopes = 0, light = 0;
+};
+
 /// The picture, row by row from the lower left, one entry a pixel.
 struct Frame
 {
@@ -71,7 +80,7 @@ struct Frame
 
   int width = 0;
   int height = 0;
-  /// Another one whenever a tracer has written to it; 0: the tracer does not say.
+  /// Another one whenever the tracer has written to it; 0: it does not say.
   std::uint64_t version = 0;
   PixelRect covered;               // smallest rectangle (8-pixel grid) with every hit
   std::vector<std::uint8_t> color; // RGBA; alpha 255 on a hit, 0 elsewhere
@@ -85,6 +94,13 @@ struct Frame
   std::vector<Primitive> primitive;    // if asked for
   /// Tile by tile, row by row from the lower left; empty: the tracer does not say.
   std::vector<FrameTile> tiles;
+  /// In the place of `color`, `depth`, `normals`, `slopes` and `light`, which are empty then.
+  FrameImages images;
+
+  bool onGPU() const { return this->images.color != 0; }
+  bool hasNormals() const { return !this->normals.empty() || this->images.normals != 0; }
+  bool hasSlopes() const { return !this->slopes.empty() || this->images.slopes != 0; }
+  bool hasLight() const { return !this->light.empty() || this->images.light != 0; }
 };
 
 /// What a part of a frame took, seconds.

@@ -38,10 +38,15 @@ public:
   virtual std::vector<NeededLevels> neededLevels(
     const Scene& scene, const View& view, const FrameSettings& settings) const = 0;
 
-  /// Renders a frame. Layers kept from previous frames are used where the settings allow it, and
-  /// change no bit. A frame that would be as it is keeps its version, and may be left alone.
+  /// Renders a frame. Where the scene is shown in a window its OpenGL context is current. Layers
+  /// kept from previous frames are used where the settings allow it, and change no bit. A frame
+  /// that would be as it is keeps its version, and may be left alone.
   virtual void render(const Scene& scene, const View& view, const FrameSettings& settings,
-    const ParallelFor& parallelFor, Frame& frame) = 0;
+    const ParallelFor& parallelFor) = 0;
+
+  /// The frame, which is the tracer's, from render() to the next one. Whoever shows it may exchange
+  /// pixels, and puts them back (Silhouettes).
+  virtual Frame& frame() = 0;
 
   /// For scenes that are spread over several processes, to be called by all of them before
   /// render() and with the same scene and view: traces the shadow buffers and merges them with the
@@ -51,8 +56,8 @@ public:
     const ParallelFor& parallelFor, Processes& processes) = 0;
 
   /// After render(), with the same scene and view: the parts that surfaces cover of the pixels of
-  /// `frame` that they share, for samples at `positions` in a pixel, 0..1, at most 32.
-  virtual void divideEdges(const Scene& scene, const View& view, const Frame& frame,
+  /// the frame that they share, for samples at `positions` in a pixel, 0..1, at most 32.
+  virtual void divideEdges(const Scene& scene, const View& view,
     const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor,
     Silhouettes& result) const = 0;
 
@@ -64,6 +69,10 @@ public:
 
   /// Frees all layers that are kept for the next frame (FrameStatistics::layerMemory).
   virtual void releaseLayers() = 0;
+
+  /// Frees what lies in the OpenGL context in which render() was called last, and forgets its
+  /// frame. That context is current, and may be gone afterwards.
+  virtual void releaseGraphicsResources() {}
 };
 
 /// The tracer on the processor.

@@ -48,6 +48,7 @@ private:
 struct CPUTracer::Internals
 {
   FrameSettings Settings; // of the last frame
+  Frame Picture;
   FrameStatistics Statistics;
   std::vector<ShadowMap> Maps;
   InstanceTree Tree;
@@ -302,20 +303,25 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
   statistics.lights = clock.end();
 }
 
+Frame& CPUTracer::frame()
+{
+  return this->Impl->Picture;
+}
+
 void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings& settings,
-  const ParallelFor& parallelFor, Frame& frame)
+  const ParallelFor& parallelFor)
 {
   Internals& self = *this->Impl;
+  Frame& frame = self.Picture;
   PhaseClock clock;
   FrameStatistics& statistics = self.Statistics;
   self.Settings = settings;
-  FrameChanges changes = self.Kept.compare(scene, view, settings, frame);
+  FrameChanges changes = self.Kept.compare(scene, view, settings);
   const bool keeps = settings.frameCoherence && !self.SharesBuffers;
   changes.all = changes.all || !keeps;
   self.ViewsAreTraced = !changes.none();
   if (!self.ViewsAreTraced)
   {
-    frame.covered = self.Kept.covered();
     statistics.primaryRays = statistics.shadowRays = statistics.retracedLayers = 0;
     statistics.mark = statistics.lights = statistics.shade = PhaseTime();
     statistics.shadowTime = 0.0;
@@ -344,11 +350,7 @@ void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings
   statistics.traceTime += statistics.eye.wall + statistics.mark.wall;
   statistics.shadowTime += statistics.lights.wall + self.SharingTime;
 
-  if (keeps)
-  {
-    self.Kept.keep(frame);
-  }
-  else
+  if (!keeps)
   {
     self.Kept.forget();
   }
@@ -385,7 +387,7 @@ bool CPUTracer::shareShadows(const Scene& scene, const View& view, const FrameSe
   return self.SharesBuffers;
 }
 
-void CPUTracer::divideEdges(const Scene& scene, const View& view, const Frame& frame,
+void CPUTracer::divideEdges(const Scene& scene, const View& view,
   const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor,
   Silhouettes& result) const
 {
@@ -398,7 +400,7 @@ void CPUTracer::divideEdges(const Scene& scene, const View& view, const Frame& f
   }
   findSilhouettes(
     { scene, view, self.Settings, self.Eye.hits(), self.Eye, self.Tiles, self.LightShadows },
-    self.Shader, frame, positions, parallelFor, result);
+    self.Shader, self.Picture, positions, parallelFor, result);
 }
 
 const FrameStatistics& CPUTracer::statistics() const

@@ -17,12 +17,12 @@ public:
   std::vector<NeededLevels> neededLevels(
     const Scene& scene, const View& view, const FrameSettings& settings) const override;
   void render(const Scene& scene, const View& view, const FrameSettings& settings,
-    const ParallelFor& parallelFor, Frame& frame) override;
+    const ParallelFor& parallelFor) override;
+  Frame& frame() override;
   bool shareShadows(const Scene& scene, const View& view, const FrameSettings& settings,
     const ParallelFor& parallelFor, Processes& processes) override;
-  void divideEdges(const Scene& scene, const View& view, const Frame& frame,
-    const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor,
-    Silhouettes& result) const override;
+  void divideEdges(const Scene& scene, const View& view, const std::vector<glm::vec2>& positions,
+    const ParallelFor& parallelFor, Silhouettes& result) const override;
   const FrameStatistics& statistics() const override;
   const std::vector<ShadowMap>& shadowMaps() const override;
   void releaseLayers() override;

@@ -38,7 +38,6 @@ bool FrameTiles::find(
   this->TilesX = depth.tilesX;
   const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
   const bool same = frame.width == view.width && frame.height == view.height &&
-    this->WrittenTo == frame.color.data() && this->Version == frame.version &&
     frame.color.size() == 4 * pixels &&
     frame.normals.size() == (settings.writeNormals ? 3 * pixels : 0) &&
     frame.slopes.size() == (settings.writeSlopes ? 2 * pixels : 0) &&
@@ -56,10 +55,9 @@ bool FrameTiles::find(
     frame.normals.assign(settings.writeNormals ? 3 * pixels : 0, 0.0f);
     frame.slopes.assign(settings.writeSlopes ? 2 * pixels : 0, 0.0f);
     frame.light.assign(settings.writeLight ? 3 * pixels : 0, 0.0f);
-    this->WrittenTo = frame.color.data();
     this->Written.clear();
   }
-  this->Version = ++frame.version;
+  ++frame.version;
   this->Written.resize(depth.tiles(), 0);
   this->Hits.clear();
   PixelRect covered{ frame.width, frame.height, 0, 0 };

@@ -14,14 +14,14 @@ namespace svo
 /// Makes the pixels of the tile whose lower left pixel is (x0, y0) misses.
 void wipeTile(Frame& frame, int x0, int y0);
 
-/// A frame is wiped as a whole only where it is new; after that only tiles that lost their hits
-/// are, and the others are written anew by shading.
+/// A frame is wiped as a whole only where its size or its arrays are others; else only tiles that
+/// lost their hits are, and the others are written anew by shading.
 class FrameTiles
 {
 public:
-  /// Begins a new version of the frame: makes it as large as the view, finds the tiles with hits
-  /// and Frame::covered, and wipes tiles that have none any more.
-  /// Returns true if the other tiles of the frame are as they were left.
+  /// Begins a new version of the frame, always the same one: makes it as large as the view, finds
+  /// the tiles with hits and Frame::covered, and wipes tiles that have none any more. Returns true
+  /// if the other tiles of the frame are as they were left.
   bool find(
     const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame);
 
@@ -49,8 +49,6 @@ private:
   int TilesX = 0;
   std::vector<std::uint32_t> Hits;
   std::vector<std::uint8_t> Written; // per tile: the last frame wrote it
-  const std::uint8_t* WrittenTo = nullptr;
-  std::uint64_t Version = 0; // Frame::version of what was written
 };
 }
 

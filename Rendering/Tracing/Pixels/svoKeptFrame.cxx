@@ -11,77 +11,61 @@ namespace
 static_assert(sizeof(Light) == 112 && sizeof(View) == 480 && sizeof(FrameNeeds) == 24,
   "all that pictures depend on is compared");
 
-/// Values as plain bytes, one behind the other.
-class Bytes
+using Bytes = std::vector<unsigned char>;
+
+template <class... T>
+void add(Bytes& bytes, const T&... values)
 {
-public:
-  explicit Bytes(std::vector<unsigned char>& to)
-    : All(to)
+  const auto append = [&bytes](const auto& value)
   {
-    this->All.clear();
-  }
-  template <class... T>
-  void add(const T&... values)
-  {
-    (this->append(values), ...);
-  }
+    static_assert(
+      std::is_trivially_copyable_v<std::decay_t<decltype(value)>>, "a value, without gaps");
+    const auto* first = reinterpret_cast<const unsigned char*>(&value);
+    bytes.insert(bytes.end(), first, first + sizeof(value));
+  };
+  (append(values), ...);
+}
 
-private:
-  template <class T>
-  void append(const T& value)
-  {
-    static_assert(std::is_trivially_copyable_v<T>, "a value, without gaps");
-    const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
-    this->All.insert(this->All.end(), bytes, bytes + sizeof(T));
-  }
-
-  std::vector<unsigned char>& All;
-};
-
-void add(const Light& l, Bytes& bytes)
+void addLight(const Light& l, Bytes& bytes)
 {
-  bytes.add(l.kind, l.headlight, l.position, l.direction, l.coneAngle, l.exponent, l.attenuation,
+  add(bytes, l.kind, l.headlight, l.position, l.direction, l.coneAngle, l.exponent, l.attenuation,
     l.color, l.castShadow, l.id);
 }
 
 /// Rays and shading; what else a view has follows from these.
-void add(const View& v, Bytes& bytes)
+void addView(const View& v, Bytes& bytes)
 {
-  bytes.add(v.origin, v.originX, v.originY, v.direction, v.directionX, v.directionY, v.tNear,
+  add(bytes, v.origin, v.originX, v.originY, v.direction, v.directionX, v.directionY, v.tNear,
     v.tFar, v.width, v.height, v.worldToView, v.viewToClip);
 }
 
-void add(const FrameSettings& s, Bytes& bytes)
+void addSettings(const FrameSettings& s, Bytes& bytes)
 {
-  visitCompared(s, [&bytes](const auto& setting) { bytes.add(setting); });
-  bytes.add(s.shadowCoarseness, s.detailThreshold, s.receiverMaps, s.wholeShadowBuffers,
+  visitCompared(s, [&bytes](const auto& setting) { add(bytes, setting); });
+  add(bytes, s.shadowCoarseness, s.detailThreshold, s.receiverMaps, s.wholeShadowBuffers,
     s.writeNormals, s.writeLight, s.writeSlopes, s.writeNames);
 }
 }
 
-void KeptFrame::valuesOf(
-  const Scene& scene, const View& view, const FrameSettings& settings, Values& values)
+FrameChanges KeptFrame::compare(const Scene& scene, const View& view, const FrameSettings& settings)
 {
-  Bytes bytes(values);
-  add(view, bytes);
-  add(settings, bytes);
-  bytes.add(scene.instances.size(), scene.receivers.size(), scene.lights.size());
-  bytes.add(scene.onlyHeadlight);
+  Bytes inputs;
+  inputs.reserve(this->Inputs.size());
+  addView(view, inputs);
+  addSettings(settings, inputs);
+  add(inputs, scene.instances.size(), scene.receivers.size(), scene.lights.size(),
+    scene.onlyHeadlight);
   for (const Box& box : scene.receivers)
   {
-    bytes.add(box.low, box.high);
+    add(inputs, box.low, box.high);
   }
   for (const Light& light : scene.lights)
   {
-    add(light, bytes);
+    addLight(light, inputs);
   }
-}
-
-FrameChanges KeptFrame::compare(
-  const Scene& scene, const View& view, const FrameSettings& settings, const Frame& frame)
-{
-  valuesOf(scene, view, settings, this->NextFrame);
   FrameChanges changes;
+  changes.all = inputs != this->Inputs;
+  this->Inputs = std::move(inputs);
   if (scene.version == 0 || scene.version != this->SceneVersion)
   {
     this->SceneVersion = scene.version;
@@ -97,16 +81,6 @@ FrameChanges KeptFrame::compare(
       this->Instances[i] = version;
     }
   }
-  changes.all = this->Version == 0 || this->Version != frame.version ||
-    this->Pixels != frame.color.data() || this->NextFrame != this->LastFrame;
   return changes;
-}
-
-void KeptFrame::keep(const Frame& frame)
-{
-  this->Version = frame.version;
-  this->Pixels = frame.color.data();
-  this->Covered = frame.covered;
-  std::swap(this->LastFrame, this->NextFrame);
 }
 }

@@ -22,27 +22,14 @@ struct FrameChanges
 class KeptFrame
 {
 public:
-  /// What of the inputs differs from those that `frame` was made of, if it is the one that was kept
-  /// last. Instances are compared, by their versions, with those of the last call in any case.
-  FrameChanges compare(
-    const Scene& scene, const View& view, const FrameSettings& settings, const Frame& frame);
-  /// `frame` has been made of what was compared last.
-  void keep(const Frame& frame);
-  void forget() { this->Version = 0; }
-
-  /// Frame::covered of the kept frame.
-  const PixelRect& covered() const { return this->Covered; }
+  /// What of a frame's inputs differs from those of the last call: of instances their versions are
+  /// compared, of the rest all values.
+  FrameChanges compare(const Scene& scene, const View& view, const FrameSettings& settings);
+  /// The picture of the last call is not kept: all of the next one is new.
+  void forget() { this->Inputs.clear(); }
 
 private:
-  /// Values as plain bytes.
-  using Values = std::vector<unsigned char>;
-  static void valuesOf(
-    const Scene& scene, const View& view, const FrameSettings& settings, Values& values);
-
-  std::uint64_t Version = 0; // Frame::version
-  const std::uint8_t* Pixels = nullptr;
-  PixelRect Covered;
-  Values LastFrame, NextFrame; // all but the instances
+  std::vector<unsigned char> Inputs; // all but the instances, as bytes
   std::uint64_t SceneVersion = 0;
   std::vector<std::uint64_t> Instances; // their versions
 };

@@ -19,12 +19,11 @@ Picture traced(
 {
   settings.frameCoherence = false;
   svo::CPUTracer tracer;
-  svo::Frame frame;
   double least = 0.0;
   for (int i = 0; i < repeat; ++i)
   {
     const double begin = processorSeconds();
-    tracer.render(scene, view, settings, svo::smpParallelFor(), frame);
+    tracer.render(scene, view, settings, svo::smpParallelFor());
     const double seconds = processorSeconds() - begin;
     if (i == 0 || seconds < least)
     {
@@ -34,7 +33,7 @@ Picture traced(
       row["shadowMs"] = 1e3 * tracer.statistics().shadowTime;
     }
   }
-  return pictureOf(frame, scene, view);
+  return pictureOf(tracer.frame(), scene, view);
 }
 
 void measureLeaves(const Sweep& sweep, Results& results)

@@ -55,11 +55,12 @@ Phases onCores(const RecordedLoops& recorded, const svo::FrameStatistics& traced
   return result;
 }
 
-/// The tracer of the processor, timed from outside.
-class TimedTracer : public svo::Tracer
+/// The tracer of the processor, timed from outside. What it is handed is handed on as it is, since
+/// commits are timed that hand it more or less; see TimedTracer.
+class TimedCalls : public svo::Tracer
 {
 public:
-  explicit TimedTracer(std::shared_ptr<Traced> last)
+  explicit TimedCalls(std::shared_ptr<Traced> last)
     : Last(std::move(last))
   {
   }
@@ -68,31 +69,11 @@ public:
   {
     return this->Timed->neededLevels(scene, view, settings);
   }
-  void render(const svo::Scene& scene, const svo::View& view, const svo::FrameSettings& settings,
-    const svo::ParallelFor& parallelFor, svo::Frame& frame) override
-  {
-    this->Last->begin = Moment::now();
-    this->Recorded.begin();
-    this->Timed->render(scene, view, settings,
-      this->Last->simulatesCores ? this->Recorded.loops() : parallelFor, frame);
-    if (this->Last->simulatesCores)
-    {
-      this->Last->cores = onCores(this->Recorded, this->Timed->statistics());
-    }
-    this->Last->end = Moment::now();
-    this->Last->statistics = this->Timed->statistics();
-  }
   bool shareShadows(const svo::Scene& scene, const svo::View& view,
     const svo::FrameSettings& settings, const svo::ParallelFor& parallelFor,
     svo::Processes& processes) override
   {
     return this->Timed->shareShadows(scene, view, settings, parallelFor, processes);
-  }
-  void divideEdges(const svo::Scene& scene, const svo::View& view, const svo::Frame& frame,
-    const std::vector<glm::vec2>& positions, const svo::ParallelFor& parallelFor,
-    svo::Silhouettes& result) const override
-  {
-    this->Timed->divideEdges(scene, view, frame, positions, parallelFor, result);
   }
   const svo::FrameStatistics& statistics() const override { return this->Timed->statistics(); }
   const std::vector<svo::ShadowMap>& shadowMaps() const override
@@ -101,10 +82,67 @@ public:
   }
   void releaseLayers() override { this->Timed->releaseLayers(); }
 
-private:
+protected:
+  void begin()
+  {
+    this->Last->begin = Moment::now();
+    this->Recorded.begin();
+  }
+  void end()
+  {
+    if (this->Last->simulatesCores)
+    {
+      this->Last->cores = onCores(this->Recorded, this->Timed->statistics());
+    }
+    this->Last->end = Moment::now();
+    this->Last->statistics = this->Timed->statistics();
+  }
+  template <class T>
+  T& handOn(T& value)
+  {
+    return value;
+  }
+  svo::ParallelFor handOn(const svo::ParallelFor& parallelFor)
+  {
+    return this->Last->simulatesCores ? this->Recorded.loops() : parallelFor;
+  }
+
   std::unique_ptr<svo::Tracer> Timed = svo::makeCPUTracer();
+
+private:
   std::shared_ptr<Traced> Last;
   RecordedLoops Recorded;
+};
+
+template <class Render, class DivideEdges>
+class TimedTracer;
+template <class... ForFrame, class... ForEdges>
+class TimedTracer<void (svo::Tracer::*)(ForFrame...), void (svo::Tracer::*)(ForEdges...) const>
+  : public TimedCalls
+{
+public:
+  using TimedCalls::TimedCalls;
+  void render(ForFrame... arguments) override
+  {
+    this->begin();
+    this->Timed->render(this->handOn(arguments)...);
+    this->end();
+  }
+  void divideEdges(ForEdges... arguments) const override { this->Timed->divideEdges(arguments...); }
+  virtual svo::Frame& frame() { return frameOf(*this->Timed, 0); }
+
+private:
+  template <class Tracer>
+  static auto frameOf(Tracer& tracer, int) -> decltype(tracer.frame())
+  {
+    return tracer.frame();
+  }
+  template <class Tracer>
+  static svo::Frame& frameOf(Tracer&, long) // it has none of its own
+  {
+    static svo::Frame none;
+    return none;
+  }
 };
 
 class TimedPass : public vtkSVORenderPass
@@ -117,7 +155,8 @@ public:
 protected:
   std::unique_ptr<svo::Tracer> MakeTracer() const override
   {
-    return std::make_unique<TimedTracer>(this->Last);
+    return std::make_unique<
+      TimedTracer<decltype(&svo::Tracer::render), decltype(&svo::Tracer::divideEdges)>>(this->Last);
   }
 };
 vtkStandardNewMacro(TimedPass);

@@ -246,7 +246,7 @@ TEST(OcclusionCulling, ChangesNoBitOfPicturesShadowsAndNames)
     settings.shadowTechnique =
       random.once(4) ? svo::ShadowTechnique::Rays : svo::ShadowTechnique::Buffer;
     const auto with = svo::makeCPUTracer(), without = svo::makeCPUTracer();
-    svo::Frame a, b;
+    const svo::Frame &a = with->frame(), &b = without->frame();
     // Layers, buffers and the tree are kept from frame to frame.
     for (int frame = 0; frame < 4; ++frame)
     {
@@ -264,9 +264,9 @@ TEST(OcclusionCulling, ChangesNoBitOfPicturesShadowsAndNames)
         scene.instances.back().localToWorld[3].x += 100.0 * size;
       }
       settings.viewCulling = settings.occlusionCulling = true;
-      with->render(stamped(scene), view, settings, svo::serialFor, a);
+      with->render(stamped(scene), view, settings, svo::serialFor);
       settings.viewCulling = settings.occlusionCulling = false;
-      without->render(stamped(scene), view, settings, svo::serialFor, b);
+      without->render(stamped(scene), view, settings, svo::serialFor);
       ASSERT_TRUE(same(a.color, b.color)) << "frame " << frame;
       ASSERT_TRUE(same(a.depth, b.depth)) << "frame " << frame;
       ASSERT_TRUE(same(a.instance, b.instance)) << "frame " << frame;
@@ -307,12 +307,11 @@ TEST(OcclusionCulling, SmallInstancesAreLeftOutWhereThatIsAskedForAndCastAllTheS
   const svo::View view = lookAt({ 0.0, -20.0, 0.0 }, 200, 200);
   svo::FrameSettings settings;
   const auto tracer = svo::makeCPUTracer();
-  svo::Frame all, large;
-  tracer->render(scene, view, settings, svo::serialFor, all);
+  const svo::Frame all = rendered(*tracer, scene, view, settings);
   EXPECT_EQ(tracer->statistics().smallInstances, 0u);
   EXPECT_EQ(tracer->statistics().largestSmallInstance, 0.0);
   settings.detailThreshold = 25.0;
-  tracer->render(scene, view, settings, svo::serialFor, large);
+  const svo::Frame large = rendered(*tracer, scene, view, settings);
   EXPECT_EQ(tracer->statistics().smallInstances, 90u);
   EXPECT_GE(tracer->statistics().largestSmallInstance, 1.0);
   EXPECT_LE(tracer->statistics().largestSmallInstance, 5.0);
@@ -320,8 +319,7 @@ TEST(OcclusionCulling, SmallInstancesAreLeftOutWhereThatIsAskedForAndCastAllTheS
   {
     instance.castShadow = instance.id <= 10;
   }
-  svo::Frame fewerShadows;
-  tracer->render(scene, view, settings, svo::serialFor, fewerShadows);
+  const svo::Frame fewerShadows = rendered(*tracer, scene, view, settings);
   std::size_t behind = 0, shadows = 0;
   for (std::size_t i = 0; i < all.instance.size(); ++i)
   {

@@ -79,9 +79,9 @@ TEST(KeptFrame, ChangesOfABodyThatCopiesShareAreSeen)
       } },
   };
   svo::CPUTracer tracer;
-  svo::Frame frame;
+  const svo::Frame& frame = tracer.frame();
   const auto render = [&]
-  { tracer.render(stamped(copies.scene), copies.view, copies.settings, svo::serialFor, frame); };
+  { tracer.render(stamped(copies.scene), copies.view, copies.settings, svo::serialFor); };
   render();
   for (const auto& [name, change] : changes)
   {
@@ -98,14 +98,14 @@ TEST(KeptFrame, EqualBodiesAtOtherPlacesMakeNoOtherPicture)
 {
   Copies copies;
   svo::CPUTracer tracer;
-  svo::Frame frame;
-  tracer.render(stamped(copies.scene), copies.view, copies.settings, svo::serialFor, frame);
+  const svo::Frame& frame = tracer.frame();
+  tracer.render(stamped(copies.scene), copies.view, copies.settings, svo::serialFor);
   const std::uint64_t version = frame.version;
   for (svo::Instance& one : copies.scene.instances)
   {
     one.body = svo::Shared<svo::Body>(*one.body);
   }
-  tracer.render(stamped(copies.scene), copies.view, copies.settings, svo::serialFor, frame);
+  tracer.render(stamped(copies.scene), copies.view, copies.settings, svo::serialFor);
   EXPECT_EQ(version, frame.version);
   EXPECT_EQ(tracer.statistics().primaryRays, 0u);
 }

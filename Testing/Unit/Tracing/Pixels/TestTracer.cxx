@@ -59,7 +59,6 @@ TEST(Tracer, KeptLayersNeverChangeAPicture)
     svo::View view = Eye;
     svo::FrameSettings settings = smallBuffers();
     svo::CPUTracer keeping;
-    svo::Frame frame; // handed in again and again, as a pass does
     svo::FrameSettings forgetful = settings;
     for (int step = 0; step < 12; ++step)
     {
@@ -94,7 +93,7 @@ TEST(Tracer, KeptLayersNeverChangeAPicture)
       }
       forgetful = settings;
       forgetful.frameCoherence = false;
-      keeping.render(stamped(scene), view, settings, svo::serialFor, frame);
+      const svo::Frame frame = rendered(keeping, scene, view, settings);
       EXPECT_TRUE(identical(frame, rendered(scene, view, forgetful)))
         << "step " << step << ", leaves " << int(leafGeometry);
     }
@@ -179,23 +178,20 @@ TEST(Tracer, KeptLayersStayUnderTheLimit)
   EXPECT_LE(tracer.statistics().layerMemory, settings.layerMemoryLimit);
 }
 
-// Wiping and writing the same Frame gives what a new one gets.
+// Wiping and writing the tracer's frame gives what a new one gets.
 TEST(Tracer, AFrameUsedAgainHasNothingLeftOfTheLastPicture)
 {
   svo::Scene scene = ballRingAndGround();
   svo::FrameSettings settings = smallBuffers();
   settings.writeNormals = true;
   svo::CPUTracer tracer;
-  svo::Frame frame;
-  tracer.render(stamped(scene), Eye, settings, svo::serialFor, frame);
+  rendered(tracer, scene, Eye, settings);
   scene.instances.resize(2);
   scene.instances[0].visible = false;
   scene.instances[1].localToWorld = movedTo(0.5, 0.0, 2.0);
-  tracer.render(stamped(scene), Eye, settings, svo::serialFor, frame);
-  EXPECT_TRUE(identical(frame, rendered(scene, Eye, settings)));
+  EXPECT_TRUE(identical(rendered(tracer, scene, Eye, settings), rendered(scene, Eye, settings)));
   settings.writeNormals = false;
-  tracer.render(stamped(scene), Eye, settings, svo::serialFor, frame);
-  EXPECT_TRUE(frame.normals.empty());
+  EXPECT_TRUE(rendered(tracer, scene, Eye, settings).normals.empty());
 }
 
 TEST(Tracer, CoveredHoldsEveryHitAndNoMoreThanItsTiles)

@@ -77,7 +77,8 @@ struct Group
         const svo::Scene part = stamped(partOf(whole, self, count));
         EXPECT_TRUE(
           this->Tracers[self].shareShadows(part, view, settings, svo::serialFor, processes));
-        this->Tracers[self].render(part, view, settings, svo::serialFor, this->Frames[self]);
+        this->Tracers[self].render(part, view, settings, svo::serialFor);
+        this->Frames[self] = this->Tracers[self].frame();
       });
     return composed(this->Frames);
   }
@@ -272,8 +273,7 @@ TEST(SharedShadows, TheFirstProcessSaysHowManyTexelsThereAre)
       const svo::Scene part = partOf(scene, processes.self(), 2);
       svo::CPUTracer tracer;
       EXPECT_TRUE(tracer.shareShadows(part, eye, settings, svo::serialFor, processes));
-      svo::Frame frame;
-      tracer.render(part, eye, settings, svo::serialFor, frame);
+      tracer.render(part, eye, settings, svo::serialFor);
       EXPECT_FALSE(tracer.statistics().fewerTexels) << "none is missing for lack of memory";
     });
 }
@@ -294,8 +294,7 @@ TEST(SharedShadows, ProcessesAgreeOnFewerTexels)
       const svo::Scene part = partOf(scene, processes.self(), 2);
       svo::CPUTracer tracer;
       EXPECT_TRUE(tracer.shareShadows(part, eye, settings, svo::serialFor, processes));
-      svo::Frame frame;
-      tracer.render(part, eye, settings, svo::serialFor, frame);
+      tracer.render(part, eye, settings, svo::serialFor);
       EXPECT_TRUE(tracer.statistics().fewerTexels) << processes.self();
     });
 }

@@ -303,8 +303,8 @@ TEST(TranslucentShadows, KeptFramesAreThoseOfANewTracer)
       svo::Frame kept;
       const auto render = [&](const std::string& what)
       {
-        const svo::Frame before = kept;
-        tracer.render(stamped(scene), Eye, settings, raggedFor(3), kept);
+        const svo::Frame before =
+          std::exchange(kept, rendered(tracer, scene, Eye, settings, raggedFor(3)));
         EXPECT_TRUE(identical(kept, rendered(scene, Eye, settings))) << what;
         EXPECT_FALSE(before.width > 0 && identical(kept, before)) << what << ": it is seen";
       };
