@@ -51,8 +51,7 @@ RendererState::RendererState(vtkRenderer* renderer, std::unique_ptr<Tracer> trac
 
 RendererState::~RendererState()
 {
-  this->Presenter->ReleaseGraphicsResources(nullptr); // renderers may hold it for longer
-  this->Presenter->SetLeave(nullptr);
+  this->Presenter->SetLeave(nullptr); // renderers may hold it for longer
   if (this->Window)
   {
     this->Window->forget(this);

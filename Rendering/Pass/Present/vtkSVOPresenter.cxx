@@ -80,6 +80,12 @@ void vtkSVOPresenter::Enter(vtkOpenGLRenderWindow* window)
   this->Context->SetContext(window);
 }
 
+void vtkSVOPresenter::SetLeave(std::function<void()> leave)
+{
+  this->Context->ReleaseGraphicsResources(nullptr);
+  this->LeaveContext = std::move(leave);
+}
+
 void vtkSVOPresenter::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Context->ReleaseGraphicsResources(window);

@@ -47,9 +47,9 @@ public:
   void SetFrame(svo::Frame* frame, const SilhouetteFinder& silhouettes, vtkOpenGLRenderPass* pass);
 
   /// The window, whose context is current, is drawn into from now on. `leave` is called in that
-  /// context before it goes, or is exchanged for another.
+  /// context before it goes, or is exchanged for another, or another `leave` is set.
   void Enter(vtkOpenGLRenderWindow* window);
-  void SetLeave(std::function<void()> leave) { this->LeaveContext = std::move(leave); }
+  void SetLeave(std::function<void()> leave);
 
   /// Called when the prop is about to draw, with the size in pixels of what is drawn, before it
   /// looks at its frame. Null (the default) in renderers whose pass is the prop's own.
