@@ -3,8 +3,8 @@
 #include "svoBox.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <cstddef>
 
 #include <glm/geometric.hpp>
 
@@ -60,8 +60,17 @@ void InstanceTree::put(std::uint32_t object, const Ball& ball)
   }
 }
 
-void InstanceTree::build(const std::vector<Ball>& balls)
+void InstanceTree::build(const Scene& scene, const ParallelFor& parallelFor)
 {
+  std::vector<Ball> balls(scene.instances.size());
+  parallelFor(0, balls.size(), 512,
+    [&](std::size_t first, std::size_t last)
+    {
+      std::transform(scene.instances.begin() + static_cast<std::ptrdiff_t>(first),
+        scene.instances.begin() + static_cast<std::ptrdiff_t>(last),
+        balls.begin() + static_cast<std::ptrdiff_t>(first),
+        [](const Instance& instance) { return ballOf(instance); });
+    });
   Box box;
   for (const Ball& ball : balls)
   {
@@ -87,68 +96,46 @@ void InstanceTree::build(const std::vector<Ball>& balls)
 
 void InstanceTree::follow(const Scene& scene, const ParallelFor& parallelFor)
 {
-  if (scene.version != 0 && scene.version == this->Version)
+  const std::size_t count = scene.instances.size(), before = this->Known.size();
+  const std::vector<std::uint32_t> changed = this->Known.update(scene);
+  if (changed.empty() && count == before)
   {
     return;
   }
-  this->Version = scene.version;
-  const std::size_t count = scene.instances.size();
-  const std::size_t before = this->Versions.size();
-  const auto stays = [&](std::size_t i)
-  {
-    const std::uint64_t version = scene.instances[i].version;
-    return i < before && version != 0 && version == this->Versions[i];
-  };
-  std::vector<Ball> balls(count < Fewest ? 0 : count); // of those that do not stay
-  std::atomic<std::size_t> shown{ 0 };
-  parallelFor(0, count, 512,
-    [&](std::size_t first, std::size_t last)
-    {
-      std::size_t mine = 0;
-      for (std::size_t i = first; i < last; ++i)
-      {
-        const Instance& instance = scene.instances[i];
-        mine += instance.visible && instance.body->octree && !instance.body->octree.empty();
-        if (!balls.empty() && !stays(i))
-        {
-          balls[i] = ballOf(instance);
-        }
-      }
-      shown += mine;
-    });
-  this->Shown = shown;
-  if (balls.empty())
+  this->Shown =
+    static_cast<std::size_t>(std::count_if(scene.instances.begin(), scene.instances.end(),
+      [](const Instance& instance)
+      { return instance.visible && instance.body->octree && !instance.body->octree.empty(); }));
+  if (count < Fewest)
   {
     this->Tree.reset();
-    this->Versions.clear();
     return;
   }
   if (!this->Tree)
   {
-    this->build(balls);
+    this->build(scene, parallelFor);
+    return;
   }
-  else
+  for (std::size_t i = count; i < before; ++i)
   {
-    for (std::size_t i = count; i < before; ++i)
+    this->Tree->remove(static_cast<std::uint32_t>(i));
+  }
+  std::vector<Ball> balls(changed.size());
+  parallelFor(0, changed.size(), 512,
+    [&](std::size_t first, std::size_t last)
     {
-      this->Tree->remove(static_cast<std::uint32_t>(i));
-    }
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (!stays(i))
+      for (std::size_t k = first; k < last; ++k)
       {
-        this->put(static_cast<std::uint32_t>(i), balls[i]);
+        balls[k] = ballOf(scene.instances[changed[k]]);
       }
-    }
+    });
+  for (std::size_t k = 0; k < changed.size(); ++k)
+  {
+    this->put(changed[k], balls[k]);
   }
   if (this->Tree->outsiders().size() > 2 * this->OutsidersAtFirst + count / 16 + 8)
   {
-    std::transform(scene.instances.begin(), scene.instances.end(), balls.begin(),
-      [](const Instance& instance) { return ballOf(instance); });
-    this->build(balls);
+    this->build(scene, parallelFor);
   }
-  this->Versions.resize(count);
-  std::transform(scene.instances.begin(), scene.instances.end(), this->Versions.begin(),
-    [](const Instance& instance) { return instance.version; });
 }
 }

@@ -2,6 +2,7 @@
 #ifndef svoInstanceTree_h
 #define svoInstanceTree_h
 
+#include "svoInstanceVersions.h"
 #include "svoLooseOctree.h"
 #include "svoParallel.h"
 #include "svoScene.h"
@@ -35,12 +36,11 @@ public:
   std::size_t shown() const { return this->Shown; }
 
 private:
-  void build(const std::vector<Ball>& balls);
+  void build(const Scene& scene, const ParallelFor& parallelFor);
   void put(std::uint32_t object, const Ball& ball);
 
   std::optional<LooseOctree> Tree;
-  std::vector<std::uint64_t> Versions; // of the instances, by index
-  std::uint64_t Version = 0;
+  InstanceVersions Known; // what the tree was made of
   std::size_t Shown = 0;
   std::size_t OutsidersAtFirst = 0;
 };

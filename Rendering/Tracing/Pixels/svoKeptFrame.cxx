@@ -66,21 +66,7 @@ FrameChanges KeptFrame::compare(const Scene& scene, const View& view, const Fram
   FrameChanges changes;
   changes.all = inputs != this->Inputs;
   this->Inputs = std::move(inputs);
-  if (scene.version == 0 || scene.version != this->SceneVersion)
-  {
-    this->SceneVersion = scene.version;
-    const std::size_t before = this->Instances.size();
-    this->Instances.resize(scene.instances.size());
-    for (std::size_t i = 0; i < this->Instances.size(); ++i)
-    {
-      const std::uint64_t version = scene.instances[i].version;
-      if (i >= before || version == 0 || version != this->Instances[i])
-      {
-        changes.instances.push_back(static_cast<std::uint32_t>(i));
-      }
-      this->Instances[i] = version;
-    }
-  }
+  changes.instances = this->Instances.update(scene);
   return changes;
 }
 }

@@ -4,6 +4,7 @@
 #define svoKeptFrame_h
 
 #include "svoFrame.h"
+#include "svoInstanceVersions.h"
 #include "svoScene.h"
 
 #include <cstdint>
@@ -30,8 +31,7 @@ public:
 
 private:
   std::vector<unsigned char> Inputs; // all but the instances, as bytes
-  std::uint64_t SceneVersion = 0;
-  std::vector<std::uint64_t> Instances; // their versions
+  InstanceVersions Instances;
 };
 }
 

@@ -176,6 +176,24 @@ TEST_F(Kept, WhatIsAroundThePropsIsNoticed)
   expectNoticed("what was forgotten", 9, [] {});
 }
 
+TEST_F(Kept, AnEyeThatNeedsNoOtherOctreesLeavesTheInstances)
+{
+  collect(collector, scene);
+  collect(collector, scene);
+  const std::uint64_t version = scene.scene.version;
+  for (int i = 0; i < 5; ++i)
+  {
+    renderer->GetActiveCamera()->Azimuth(1e-3);
+    collect(collector, scene);
+    EXPECT_EQ(changed, 0u);
+    EXPECT_EQ(scene.scene.version, version);
+  }
+  actor->SetPosition(0.0, 0.5, 0.0);
+  collect(collector, scene);
+  EXPECT_EQ(changed, 1u); // and no other
+  EXPECT_NE(scene.scene.version, version);
+}
+
 TEST_F(Kept, WhatIsMadeOfPropsThatWereNotChosenIsNoticed)
 {
   collect(collector, scene);
