@@ -179,8 +179,8 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   this->Trace->render(scene, view, settings, smpParallelFor());
   this->Statistics.tracer = this->Trace->statistics();
   this->Statistics.coarseOctreeError = pace.distance * this->Statistics.tracer.coarsestVoxel;
-  this->Complaint =
-    this->Receivers.update(window, this->Trace->shadowMaps(), scene.lights, view, settings);
+  this->Complaint = this->Receivers.update(
+    window, this->Trace->shadowMaps(), scene.lights, view, settings, this->Trace->mapTexture());
   this->Statistics.receiverMemory = this->Receivers.memory();
   if (this->Complaint.empty() && settings.shadowTechnique != ShadowTechnique::None)
   {

@@ -16,7 +16,7 @@ std::size_t numbersOf(const std::vector<const ShadowMap*>& maps)
   std::size_t numbers = 0;
   for (const ShadowMap* map : maps)
   {
-    numbers += map->texels->tiles.size() + map->texels->numbers.size();
+    numbers += map->texels ? map->texels->tiles.size() + map->texels->numbers.size() : 0;
   }
   return numbers;
 }

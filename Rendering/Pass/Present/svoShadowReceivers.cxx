@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <iomanip>
-#include <limits>
 #include <locale>
 #include <map>
 #include <sstream>
@@ -28,21 +27,6 @@ const char DeclarationMark[] = "//SVO::Dec\n";
 const char ImplementationMark[] = "//SVO::Impl\n";
 const char LitMark[] = "//SVO::Lit\n"; // after VTK's lighting
 constexpr std::size_t MapsOfLight = 6; // that there is room for, where most have fewer
-constexpr std::size_t FewTiles = 1024; // of a map, room for which does not matter
-
-/// What is looked up where nothing lies: depths, and how opaque it is.
-const std::vector<float> EmptyTile = []
-{
-  std::vector<float> tile(2 * ShadowTexels::InTile, 0.0f);
-  std::fill_n(tile.begin(), ShadowTexels::InTile, std::numeric_limits<float>::infinity());
-  return tile;
-}();
-
-/// Floats of all maps: tables name tiles by their numbers, which floats have to hold.
-std::size_t mostNumbers()
-{
-  return std::min(TexelBuffer::most(), ShadowTexels::InTile << 24);
-}
 
 /// Maps that a shader has room for beside what VTK tells it of so many lights.
 std::size_t mostMaps(std::size_t lights)
@@ -150,7 +134,7 @@ std::string shadowRules()
 
 std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
   const std::vector<ShadowMap>& maps, const std::vector<Light>& lights, const View& eye,
-  const FrameSettings& settings)
+  const FrameSettings& settings, unsigned int texture)
 {
   if (maps.empty())
   {
@@ -169,7 +153,7 @@ std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
   MapGroups groups = groupsOf(maps);
   std::string complaint;
   const std::size_t most = mostMaps(lights.size());
-  if (keepBrightest(groups, lights, most, mostNumbers()))
+  if (keepBrightest(groups, lights, most, MapTextures::most()))
   {
     complaint = "Rasterised surfaces receive shadows of the brightest lights only: OpenGL takes no "
                 "more shadow maps.";
@@ -200,102 +184,21 @@ std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
   // Shaders are not built anew because a light has other maps than before.
   this->Capacity = std::min(std::max(kept.size(), MapsOfLight * groups.size()), most);
   this->Size = maps.front().view.width;
-  if (!this->fits(window, kept) && !this->layOut(window, kept))
+  if (!this->Maps.upload(kept, texture, window))
   {
     this->release();
     return "Rasterised surfaces receive no shadows: OpenGL has no room for " +
-      std::to_string(kept.size()) + " shadow maps of " + std::to_string(maps.front().view.width) +
+      std::to_string(kept.size()) + " shadow maps of " + std::to_string(this->Size) +
       " texels. Lower ShadowBufferResolution.";
   }
-  for (std::size_t i = 0; i < kept.size(); ++i)
-  {
-    if (this->Blocks[i].sent.lock() != kept[i]->texels)
-    {
-      this->send(*kept[i]->texels, this->Blocks[i]);
-      this->Blocks[i].sent = kept[i]->texels;
-    }
-  }
   return complaint;
-}
-
-/// True if all of them have room where the last frame's were.
-bool ShadowReceivers::fits(
-  vtkOpenGLRenderWindow* window, const std::vector<const ShadowMap*>& maps) const
-{
-  bool fits = this->Maps && this->Maps->GetContext() == window && this->Maps->GetHandle() != 0 &&
-    this->Blocks.size() == maps.size();
-  for (std::size_t i = 0; fits && i < maps.size(); ++i)
-  {
-    const ShadowTexels& texels = *maps[i]->texels;
-    const Block& block = this->Blocks[i];
-    // Half as much again and a few would be too much.
-    fits = (texels.held() == 0 || block.table == texels.tiles.size()) &&
-      block.stride == texels.stride && block.tiles >= texels.held() &&
-      block.tiles <= texels.held() + texels.held() / 2 + FewTiles;
-  }
-  return fits;
-}
-
-/// Makes room for these maps, and a little more. False if OpenGL refuses.
-bool ShadowReceivers::layOut(
-  vtkOpenGLRenderWindow* window, const std::vector<const ShadowMap*>& maps)
-{
-  this->Blocks.clear();
-  this->Tables.clear();
-  // Maps in which nothing lies have one table together.
-  const std::size_t tilesAcross = static_cast<std::size_t>(this->Size + 7) / 8;
-  const std::vector<float> empty(tilesAcross * tilesAcross, 0.0f);
-  std::size_t end = EmptyTile.size() + empty.size();
-  for (const ShadowMap* map : maps)
-  {
-    const ShadowTexels& texels = *map->texels;
-    if (texels.held() == 0)
-    {
-      this->Blocks.push_back({ end, 0, 0, texels.stride, {} });
-      this->Tables.push_back(static_cast<int>(EmptyTile.size()));
-      continue;
-    }
-    const std::size_t tiles = texels.held() + std::min(texels.held() / 8 + 16, FewTiles);
-    this->Blocks.push_back({ end, texels.tiles.size(), tiles, texels.stride, {} });
-    this->Tables.push_back(static_cast<int>(end));
-    end = this->Blocks.back().texels() + texels.stride * tiles;
-  }
-  this->Maps = nullptr; // before there are others
-  this->Maps = vtkSmartPointer<TexelBuffer>::New();
-  this->Maps->SetContext(window);
-  if (end > mostNumbers() || !this->Maps->allocate(end))
-  {
-    return false;
-  }
-  this->Maps->send(0, EmptyTile.data(), EmptyTile.size());
-  this->Maps->send(EmptyTile.size(), empty.data(), empty.size());
-  return true;
-}
-
-void ShadowReceivers::send(const ShadowTexels& texels, const Block& block)
-{
-  if (block.table == 0)
-  {
-    return;
-  }
-  std::vector<float> table(block.table, 0.0f); // EmptyTile
-  for (std::size_t tile = 0; tile < texels.tiles.size(); ++tile)
-  {
-    if (texels.tiles[tile] != ShadowTexels::Nothing)
-    {
-      table[tile] = static_cast<float>(
-        (block.texels() + block.stride * texels.tiles[tile]) / ShadowTexels::InTile);
-    }
-  }
-  this->Maps->send(block.first, table.data(), table.size());
-  this->Maps->send(block.texels(), texels.numbers.data(), texels.numbers.size());
 }
 
 void ShadowReceivers::activate()
 {
   if (!this->empty())
   {
-    this->Maps->Activate();
+    this->Maps.activate();
   }
 }
 
@@ -303,7 +206,7 @@ void ShadowReceivers::deactivate()
 {
   if (!this->empty())
   {
-    this->Maps->Deactivate();
+    this->Maps.deactivate();
   }
 }
 
@@ -312,11 +215,9 @@ void ShadowReceivers::release()
   this->Groups.clear();
   this->First.clear();
   this->Errors.clear();
-  this->Blocks.clear();
-  this->Tables.clear();
   this->FirstTranslucent = 0;
   this->Capacity = 0;
-  this->Maps = nullptr;
+  this->Maps.release();
 }
 
 std::string ShadowReceivers::signature() const
@@ -447,12 +348,11 @@ void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives, bool
     return;
   }
   // Mappers' own textures may have taken the unit meanwhile.
-  this->Maps->Activate();
-  program->SetUniformi("svoMaps", this->Maps->GetTextureUnit());
+  program->SetUniformi("svoMaps", this->Maps.activate());
   const auto count = static_cast<int>(this->Errors.size());
   program->SetUniformMatrix4x4v("svoRows", count, const_cast<float*>(this->Rows.data()));
   program->SetUniform1fv("svoErrors", count, this->Errors.data());
-  program->SetUniform1iv("svoTables", count, this->Tables.data());
+  program->SetUniform1iv("svoTables", count, this->Maps.tables().data());
   program->SetUniformi("svoSize", this->Size);
   program->SetUniform1iv("svoFirst", static_cast<int>(this->First.size()), this->First.data());
   if (this->translucent())

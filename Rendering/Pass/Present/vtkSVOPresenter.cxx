@@ -78,6 +78,7 @@ void vtkSVOPresenter::SetFrame(
 void vtkSVOPresenter::Enter(vtkOpenGLRenderWindow* window)
 {
   this->Context->SetContext(window);
+  this->Entered = true;
 }
 
 void vtkSVOPresenter::SetLeave(std::function<void()> leave)
@@ -99,7 +100,7 @@ void vtkSVOPresenter::ReleaseAll()
   this->Textures.release();
   this->Parts.release();
   this->Uploaded = 0;
-  if (this->LeaveContext)
+  if (std::exchange(this->Entered, false) && this->LeaveContext)
   {
     this->LeaveContext();
   }

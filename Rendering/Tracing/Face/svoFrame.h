@@ -177,8 +177,10 @@ struct ShadowMap
   int light = 0; // index into Scene::lights
   View view;     // of the light; width = height = resolution
   double base = 0.0;
-  /// From frame to frame the same object as long as the values are the same.
+  /// From frame to frame the same object as long as the values are the same. Null where the map
+  /// lies in OpenGL: Tracer::mapTexture().
   std::shared_ptr<const ShadowTexels> texels;
+  int table = 0;            // there: where it begins
   int group = 0;            // 0: of opaque casters; else the number of a group of translucent ones
   double worldBias = 0.0;   // for receivers that do not know the caster of a texel, world units
   double casterVoxel = 0.0; // of the coarsest caster, world units

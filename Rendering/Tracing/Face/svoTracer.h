@@ -61,11 +61,17 @@ public:
     const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor,
     Silhouettes& result) const = 0;
 
-  /// Of the last frame.
+  /// Of the last frame; times and counts may be of the one before it, if whoever traces learns of
+  /// them late. Errors, and what is missing (fewerTexels), are those of the last one.
   virtual const FrameStatistics& statistics() const = 0;
 
   /// The shadow buffers of the last frame; empty unless FrameSettings::handsOutMaps().
   virtual const std::vector<ShadowMap>& shadowMaps() const = 0;
+  /// Where these lie in OpenGL, as Frame::images does: the name of a buffer texture of floats. From
+  /// ShadowMap::table on it has a number for each tile of the map, row by row; 64 times that number
+  /// is where the floats of the tile begin, which are as ShadowTexels::numbers has them. Tiles in
+  /// which nothing lies have floats as well, and may share them. 0: they lie in ShadowMap::texels.
+  virtual unsigned int mapTexture() const { return 0; }
 
   /// Frees all layers that are kept for the next frame (FrameStatistics::layerMemory).
   virtual void releaseLayers() = 0;
