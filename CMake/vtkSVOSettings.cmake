@@ -1,11 +1,11 @@
-# What follows from the settings in Rendering/Settings.cmake, whose head says what an entry has: the code, in the build
+# What follows from the settings and the statistics in Rendering/Settings.cmake, whose head says what an entry has: the code, in the build
 # tree, of whoever calls vtksvo_configure_settings(), and the guide's tables (Testing/House/TestSettings.py).
 set(VTKSVO_SETTINGS "${CMAKE_CURRENT_LIST_DIR}/../Rendering/Settings.cmake")
 
 # What is made of the entries, by the names that templates use.
 set(VTKSVO_SETTINGS_PARTS
   PROPERTIES MEMBERS PRINT PARAVIEW_DEFAULTS FIELDS TO_FIELDS COMPARED AGREED TO_AGREED FROM_AGREED VIEW_PROPERTIES
-  PANEL_FIRST PANEL_DEFAULT PANEL_ADVANCED TABLE_speed TABLE_shadows TABLE_time TABLE_host)
+  STATISTICS VALUES VIEW_STATISTICS PANEL_FIRST PANEL_DEFAULT PANEL_ADVANCED TABLE_speed TABLE_shadows TABLE_time TABLE_host)
 function (vtksvo_append text part)
   set_property(GLOBAL APPEND_STRING PROPERTY "VTKSVO_${part}" "${text}")
 endfunction ()
@@ -209,6 +209,50 @@ ${tail}  //@}
     vtksvo_append("        <Property name=\"SVO${name}\"/>\n" PANEL_${panel})
   endif ()
   vtksvo_append("| `${name}` | ${unit} | ${shown} | ${in_paraview} | ${line} |\n" TABLE_${arg_TABLE})
+endfunction ()
+
+function (vtksvo_statistic name type)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "PARAVIEW" "UNIT;OF;SAYS" "")
+  if (arg_UNPARSED_ARGUMENTS OR NOT arg_SAYS)
+    message(FATAL_ERROR "Rendering/Settings.cmake: the entry of ${name} is not complete: ${arg_UNPARSED_ARGUMENTS}")
+  endif ()
+  set(cxx "${type}")
+  set(value "frame.${arg_OF}")
+  if (type STREQUAL "memory")
+    set(cxx vtkIdType)
+    set(value "(${value}) / 1024")
+    set(arg_UNIT KiB)
+  endif ()
+  set(unit "")
+  if (arg_UNIT)
+    set(unit " ${arg_UNIT}")
+  endif ()
+  string(REGEX REPLACE "\n *" " " help "${arg_SAYS}")
+  if (arg_OF)
+    string(REGEX REPLACE "\n *" "\n   * " comment "${arg_SAYS}")
+    vtksvo_append("  /**
+   * ${comment}
+   */
+  ${cxx} Get${name}() const;
+
+" STATISTICS)
+    vtksvo_append("
+${cxx} vtkSVOPassSettings::Get${name}() const
+{
+  const svo::PassStatistics& frame = this->LastFrame();
+  return static_cast<${cxx}>(${value});
+}
+" VALUES)
+    vtksvo_append("  os << indent << \"${name}: \" << this->Get${name}() << \"${unit}\\n\";\n" PRINT)
+  endif ()
+  if (arg_PARAVIEW)
+    vtksvo_append("      <SVOViewInformationProperty name=\"SVO${name}\" command=\"Get${name}\" label=\"SVO${name}\"
+                            si_class=\"vtkSISVOViewProperty\" information_only=\"1\">
+        <SimpleDoubleInformationHelper/>
+        <Documentation>${help}</Documentation>
+      </SVOViewInformationProperty>
+" VIEW_STATISTICS)
+  endif ()
 endfunction ()
 
 # Fills in what the template names of the above as @VTKSVO_...@.

@@ -1,4 +1,4 @@
-# The settings of vtkSVORenderPass, each in one place. From here follow its properties and what it prints
+# The settings of vtkSVORenderPass, and the figures that it tells of its last frame, each in one place. From here follow its properties and what it prints
 # (vtkSVOPassSettings), the tracer's settings (svoTracerSettings.h), which of them are compared from frame to frame
 # and agreed on by processes, ParaView's properties of a view, and the tables of Documentation/Guide.md, section 4.
 # CMake/vtkSVOSettings.cmake makes them; a new setting is an entry here, and the code that acts by it.
@@ -18,6 +18,12 @@
 #   LABEL    in ParaView, where it is not the name's words
 #   SAYS     sentences for whoever looks at the setting: ParaView's help, and the first ones of the manuals
 #   MORE     further ones of the manuals: what it costs, why the default is what it is)
+#
+# vtksvo_statistic(<name> double|int|vtkIdType|memory
+#   OF       its name in svo::PassStatistics, of memory in bytes. Without, vtkSVORenderPass has the method
+#   UNIT     of numbers, for people
+#   PARAVIEW a view has it
+#   SAYS     what it is)
 
 vtksvo_setting(ShadowTechnique choice SHADOW_BUFFER
   TABLE shadows
@@ -271,3 +277,39 @@ vtksvo_setting(ImageReductionFactor int 1
      window a pixel of the frame becomes, along an edge."
   MORE
     "`MaximumImageSampleDistance` holds in the window. Named as in vtkSynchronizedRenderers.")
+
+vtksvo_statistic(CollectTime double OF collectTime UNIT s PARAVIEW
+  SAYS "Seconds that the last frame took to find what there is to trace, octrees that had to be built included; these
+    times are the clock's.")
+vtksvo_statistic(TraceTime double OF tracer.traceTime UNIT s PARAVIEW
+  SAYS "Seconds that the last frame took to trace and shade.")
+vtksvo_statistic(ShadowTime double OF tracer.shadowTime UNIT s PARAVIEW
+  SAYS "Seconds that the last frame took for shadow buffers or rays.")
+vtksvo_statistic(PresentTime double OF presentTime UNIT s PARAVIEW
+  SAYS "Seconds that the last frame took to hand the picture to OpenGL.")
+vtksvo_statistic(NumberOfPrimaryRays vtkIdType OF tracer.primaryRays PARAVIEW
+  SAYS "Rays from the eye in the last frame.")
+vtksvo_statistic(NumberOfShadowRays vtkIdType OF tracer.shadowRays PARAVIEW
+  SAYS "Rays to lights, and texels from lights, in the last frame.")
+vtksvo_statistic(NumberOfRetracedLayers vtkIdType OF tracer.retracedLayers PARAVIEW
+  SAYS "Objects, seen from the eye or a light, that the last frame traced anew.")
+vtksvo_statistic(NumberOfLightsWithShadowBuffers int OF tracer.lightsWithBuffers
+  SAYS "Casting lights of the last frame whose shadows were found by buffers.")
+vtksvo_statistic(NumberOfLightsWithShadowRays int OF tracer.lightsWithRays
+  SAYS "Casting lights of the last frame whose shadows were found by rays.")
+vtksvo_statistic(NumberOfTracedActors int OF tracedActors PARAVIEW
+  SAYS "Surfaces that the last frame traced; parts of assemblies count one by one.")
+vtksvo_statistic(NumberOfRasterizedActors int OF rasterizedActors
+  SAYS "Visible surfaces that the last frame left to the rasteriser.")
+vtksvo_statistic(NumberOfInstances int OF instances PARAVIEW
+  SAYS "Octrees in the last frame: one for each block that is traced or casts.")
+vtksvo_statistic(LayerMemorySize memory OF tracer.layerMemory PARAVIEW
+  SAYS "Memory in KiB of what is kept of traced objects.")
+vtksvo_statistic(ShadowMemorySize memory OF "tracer.shadowMemory + frame.receiverMemory" PARAVIEW
+  SAYS "Memory in KiB of shadow buffers; see SetShadowMemoryLimit().")
+vtksvo_statistic(OctreeMemorySize memory PARAVIEW
+  SAYS "Memory in KiB of octrees that the view built itself.")
+vtksvo_statistic(ImageSampleDistance double UNIT pixels PARAVIEW
+  SAYS "Pixels from ray to ray in the last frame.")
+vtksvo_statistic(AcceptedPixelError double UNIT pixels PARAVIEW
+  SAYS "The pixel error that the last frame accepted to save time, in pixels.")

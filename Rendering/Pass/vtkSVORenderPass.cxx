@@ -207,19 +207,7 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "AcceptedPixelError: " << this->GetAcceptedPixelError() << " pixels\n"
      << indent << "CastingLights:\n"
      << this->GetCastingLights() << indent << "Controller: " << this->GetController() << '\n'
-     << indent << "CollectTime: " << this->GetCollectTime() << " s\n"
-     << indent << "TraceTime: " << this->GetTraceTime() << " s\n"
-     << indent << "ShadowTime: " << this->GetShadowTime() << " s\n"
-     << indent << "PresentTime: " << this->GetPresentTime() << " s\n"
-     << indent << "NumberOfPrimaryRays: " << this->GetNumberOfPrimaryRays() << '\n'
-     << indent << "NumberOfShadowRays: " << this->GetNumberOfShadowRays() << '\n'
-     << indent << "NumberOfRetracedLayers: " << this->GetNumberOfRetracedLayers() << '\n'
-     << indent << "NumberOfTracedActors: " << this->GetNumberOfTracedActors() << '\n'
-     << indent << "NumberOfRasterizedActors: " << this->GetNumberOfRasterizedActors() << '\n'
-     << indent << "NumberOfInstances: " << this->GetNumberOfInstances() << '\n'
      << indent << "NumberOfOctreesBuilt: " << this->GetNumberOfOctreesBuilt() << '\n'
      << indent << "NumberOfOctreesInProgress: " << this->GetNumberOfOctreesInProgress() << '\n'
-     << indent << "LayerMemorySize: " << this->GetLayerMemorySize() << " KiB\n"
-     << indent << "ShadowMemorySize: " << this->GetShadowMemorySize() << " KiB\n"
      << indent << "OctreeMemorySize: " << this->GetOctreeMemorySize() << " KiB\n";
 }

@@ -184,48 +184,6 @@ public:
   static vtkInformationDoubleKey* PIXEL_ERROR();
   //@}
 
-  //@{
-  /**
-   * Wall-clock times of the last frame in seconds: finding what there is to trace (octrees that had
-   * to be built included), tracing and shading, shadow buffers or rays, and handing the picture to
-   * OpenGL.
-   */
-  double GetCollectTime() const;
-  double GetTraceTime() const;
-  double GetShadowTime() const;
-  double GetPresentTime() const;
-  //@}
-
-  //@{
-  /**
-   * The work of the last frame: rays from the eye, rays (or texels) from and to lights, and layers
-   * (one object seen from the eye or from a light) that could not be reused.
-   */
-  vtkIdType GetNumberOfPrimaryRays() const;
-  vtkIdType GetNumberOfShadowRays() const;
-  vtkIdType GetNumberOfRetracedLayers() const;
-  //@}
-
-  //@{
-  /**
-   * How the shadows of the last frame's casting lights were found: for so many of them by buffers,
-   * for so many by rays.
-   */
-  int GetNumberOfLightsWithShadowBuffers() const;
-  int GetNumberOfLightsWithShadowRays() const;
-  //@}
-
-  //@{
-  /**
-   * Actors of the last frame (parts of assemblies counted one by one): visible ones that were
-   * traced, visible surfaces that were left to the rasteriser, and instances of octrees (a
-   * composite actor has one for each block).
-   */
-  int GetNumberOfTracedActors() const;
-  int GetNumberOfRasterizedActors() const;
-  int GetNumberOfInstances() const;
-  //@}
-
   enum CullingSteps
   {
     CULLED_BY_VIEW = 0,      // they lie outside of the view
@@ -259,15 +217,10 @@ public:
   int GetNumberOfOctreesInProgress() const;
   //@}
 
-  //@{
   /**
-   * Memory in KiB: kept layers, shadow buffers (see SetShadowMemoryLimit()), and the octrees that
-   * the pass built itself.
+   * Memory of the octrees that the pass built itself, KiB.
    */
-  vtkIdType GetLayerMemorySize() const;
-  vtkIdType GetShadowMemorySize() const;
   vtkIdType GetOctreeMemorySize() const;
-  //@}
 
   //@{
   /**
@@ -356,6 +309,7 @@ protected:
 
 #ifndef __VTK_WRAP__
   void Fill(svo::TracerSettings& settings) const override;
+  const svo::PassStatistics& LastFrame() const override;
 
   /**
    * A tracer for a renderer, which is asked for all of its frames. This one runs on the processor;

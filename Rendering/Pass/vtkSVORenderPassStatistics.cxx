@@ -1,69 +1,9 @@
-// What the last frame took, and what is kept.
+// What of the last frame is more than a figure (those: Rendering/Settings.cmake), and what is kept.
 #include "vtkSVORenderPass.h"
 
 #include "svoPassInternals.h"
 
 #include <algorithm>
-
-double vtkSVORenderPass::GetCollectTime() const
-{
-  return this->Impl->statistics.collectTime;
-}
-
-double vtkSVORenderPass::GetTraceTime() const
-{
-  return this->Impl->statistics.tracer.traceTime;
-}
-
-double vtkSVORenderPass::GetShadowTime() const
-{
-  return this->Impl->statistics.tracer.shadowTime;
-}
-
-double vtkSVORenderPass::GetPresentTime() const
-{
-  return this->Impl->statistics.presentTime;
-}
-
-vtkIdType vtkSVORenderPass::GetNumberOfPrimaryRays() const
-{
-  return static_cast<vtkIdType>(this->Impl->statistics.tracer.primaryRays);
-}
-
-vtkIdType vtkSVORenderPass::GetNumberOfShadowRays() const
-{
-  return static_cast<vtkIdType>(this->Impl->statistics.tracer.shadowRays);
-}
-
-vtkIdType vtkSVORenderPass::GetNumberOfRetracedLayers() const
-{
-  return static_cast<vtkIdType>(this->Impl->statistics.tracer.retracedLayers);
-}
-
-int vtkSVORenderPass::GetNumberOfLightsWithShadowBuffers() const
-{
-  return this->Impl->statistics.tracer.lightsWithBuffers;
-}
-
-int vtkSVORenderPass::GetNumberOfLightsWithShadowRays() const
-{
-  return this->Impl->statistics.tracer.lightsWithRays;
-}
-
-int vtkSVORenderPass::GetNumberOfTracedActors() const
-{
-  return this->Impl->statistics.tracedActors;
-}
-
-int vtkSVORenderPass::GetNumberOfRasterizedActors() const
-{
-  return this->Impl->statistics.rasterizedActors;
-}
-
-int vtkSVORenderPass::GetNumberOfInstances() const
-{
-  return this->Impl->statistics.instances;
-}
 
 vtkIdType vtkSVORenderPass::GetNumberOfCulledInstances(int step) const
 {
@@ -95,6 +35,11 @@ const char* vtkSVORenderPass::GetCastingLights() const
   return this->Impl->castingLights.c_str();
 }
 
+const svo::PassStatistics& vtkSVORenderPass::LastFrame() const
+{
+  return this->Impl->statistics;
+}
+
 double vtkSVORenderPass::GetImageSampleDistance() const
 {
   return this->Impl->statistics.pace.distance * this->Impl->statistics.imageReduction;
@@ -120,18 +65,6 @@ int vtkSVORenderPass::GetNumberOfOctreesBuilt() const
 int vtkSVORenderPass::GetNumberOfOctreesInProgress() const
 {
   return this->Impl->store.building();
-}
-
-vtkIdType vtkSVORenderPass::GetLayerMemorySize() const
-{
-  return static_cast<vtkIdType>(this->Impl->statistics.tracer.layerMemory / svo::BytesOfKiB);
-}
-
-vtkIdType vtkSVORenderPass::GetShadowMemorySize() const
-{
-  const svo::PassStatistics& frame = this->Impl->statistics;
-  return static_cast<vtkIdType>(
-    (frame.tracer.shadowMemory + frame.receiverMemory) / svo::BytesOfKiB);
 }
 
 vtkIdType vtkSVORenderPass::GetOctreeMemorySize() const

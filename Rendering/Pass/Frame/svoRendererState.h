@@ -3,6 +3,7 @@
 #define svoRendererState_h
 
 #include "svoOctreeStore.h"
+#include "svoPassStatistics.h"
 #include "svoSampleDistance.h"
 #include "svoSceneCollector.h"
 #include "svoShadowReceivers.h"
@@ -29,24 +30,6 @@ class vtkWindow;
 
 namespace svo
 {
-/// One frame's figures.
-struct PassStatistics
-{
-  FrameStatistics tracer;
-  double collectTime = 0.0; // s
-  double presentTime = 0.0; // s
-  int tracedActors = 0;
-  int rasterizedActors = 0;
-  int instances = 0;
-  int octreesBuilt = 0;      // or taken over from a background build
-  FramePace pace;            // in pixels of the frame
-  bool pacedShadows = false; // shadow maps take as long as they have texels
-  int imageReduction = 1;    // pixels of the window that one of the frame becomes
-  /// Largest voxel of the octrees that are shown while they are deepened; pixels of the frame.
-  double coarseOctreeError = 0.0;
-  std::size_t receiverMemory = 0; // bytes that OpenGL holds of shadow buffers
-};
-
 /// Entries of a render state's prop array, exchanged and put back. The array is the renderer's own,
 /// so its entries can change for the length of a frame, their number cannot.
 class ExchangedProps
