@@ -86,12 +86,15 @@ displays[0].Representation = "Surface"
 view.SVOShadowsForEverything = 1
 picture("everything")
 print("casts nothing:", scene.statistic(view, "SVOReasons").strip() or "nobody")
-displays[0].Opacity = 0.5
-view.SVOTranslucentShadows = 0
-pv.Render(view)
-print("casts nothing:", scene.statistic(view, "SVOReasons").strip())
-view.SVOTranslucentShadows = 1
-displays[0].Opacity = 1.0
+# ParaView orders translucent surfaces by sending parts of them as XML with appended data.
+orders = scene.reads_appended_data()
+if orders:
+    displays[0].Opacity = 0.5
+    view.SVOTranslucentShadows = 0
+    pv.Render(view)
+    print("casts nothing:", scene.statistic(view, "SVOReasons").strip())
+    view.SVOTranslucentShadows = 1
+    displays[0].Opacity = 1.0
 pv.Hide(ground, view)
 view.SVOShadowCatcher = "Below Z"
 picture("shadow-ground")
@@ -102,8 +105,7 @@ displays[0].Representation = displays[1].Representation = "SVO"
 view.UseLight = 1
 pv.RemoveLight(view.AdditionalLights[0])
 picture("light-kit")
-# ParaView orders translucent surfaces by sending parts of them as XML with appended data.
-if scene.reads_appended_data():
+if orders:
     displays[0].SVOCastShadows = 0  # as nothing does that is shown as Surface
     displays[0].Opacity = 0.5
     picture("translucent")
