@@ -299,9 +299,9 @@ void PropCollector::collectActor(
     this->collectGlyphs(actor, localToWorld, beyond, found, frame);
     return;
   }
-  if (drawsBodies(mapper))
+  if (drawsRoundShapes(mapper))
   {
-    this->collectBodies(actor, localToWorld, beyond, found, frame);
+    this->collectRoundShapes(actor, localToWorld, beyond, found, frame);
     return;
   }
   for (SurfacePart& part : this->partsOf(actor, found.kept))

@@ -70,7 +70,7 @@ public:
   /// False if it has to be collected again: nothing has been done then.
   static bool move(PropSurfaces& found, const CollectProps& frame);
 
-  /// Puts the bodies of collected props in their places: of props that are fresh or have moved, and
+  /// Puts the shapes of collected props in their places: of props that are fresh or have moved, and
   /// unless `sameEye` those with a width in pixels.
   static void place(std::vector<PropSurfaces>& props, const View& eye, bool sameEye);
 
@@ -87,13 +87,13 @@ private:
     Reason beyond, PropSurfaces& found, const CollectProps& frame);
   void collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
     PropSurfaces& found, const CollectProps& frame);
-  void collectBodies(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
+  void collectRoundShapes(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
     PropSurfaces& found, const CollectProps& frame);
   void collectSplats(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
     PropSurfaces& found, const CollectProps& frame);
   bool collectTubes(vtkActor* actor, const SurfacePart& part, const Attributes& attributes,
     const glm::dmat4& localToWorld, Reason beyond, PropSurfaces& found, const CollectProps& frame);
-  void addBodies(vtkActor* actor, const std::shared_ptr<Bodies>& bodies, bool translucent,
+  void addRoundShapes(vtkActor* actor, const std::shared_ptr<RoundShapes>& shapes, bool translucent,
     const SurfacePart& of, const glm::dmat4& localToWorld, Reason reason, PropSurfaces& found,
     const CollectProps& frame);
   bool finish(vtkActor* actor, const SurfacePart& part, const glm::dmat4& localToWorld,

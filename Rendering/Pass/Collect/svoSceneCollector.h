@@ -118,7 +118,7 @@ private:
   StoreOptions Options;
   std::uint64_t StoreVersion = 0;
   bool Complete = false; // all surfaces have octrees
-  bool Placed = false;   // some have bodies that are put in their places
+  bool Placed = false;   // some have shapes that are put in their places
   int Anew = 0;
 };
 }

@@ -204,7 +204,7 @@ bool scalarColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes,
 }
 }
 
-bool drawsBodies(vtkMapper* mapper)
+bool drawsRoundShapes(vtkMapper* mapper)
 {
   return isSplatMapper(mapper) || isImpostorMapper(mapper);
 }
@@ -213,7 +213,7 @@ bool isPlainMapper(vtkMapper* mapper)
 {
   const std::string name = mapper->GetClassName();
   return name == "vtkOpenGLPolyDataMapper" || name == "vtkDataSetMapper" ||
-    isCompositeMapper(mapper) || isGlyphMapper(mapper) || drawsBodies(mapper);
+    isCompositeMapper(mapper) || isGlyphMapper(mapper) || drawsRoundShapes(mapper);
 }
 
 bool hasCustomShaders(vtkActor* actor)
@@ -259,7 +259,7 @@ bool reachesBeyondBounds(vtkActor* actor)
   const RoundLook round = roundLookOf(actor->GetProperty());
   // A follower turns with the camera of whoever draws it.
   return !isPlainActor(actor) || actor->IsA("vtkFollower") || !isPlainMapper(mapper) ||
-    isGlyphMapper(mapper) || drawsBodies(mapper) || round.any() || round.edges ||
+    isGlyphMapper(mapper) || drawsRoundShapes(mapper) || round.any() || round.edges ||
     hasCustomShaders(actor);
 }
 
@@ -284,7 +284,7 @@ Treatment treatmentOf(vtkActor* actor, bool castsWhole)
   {
     treatment.castsNone = "has a mapper of a class that is not known here";
   }
-  else if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE && !drawsBodies(mapper))
+  else if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE && !drawsRoundShapes(mapper))
   {
     treatment.rasterized = ShowsNoPolygons;
     const bool round = !isGlyphMapper(mapper) && roundLookOf(actor->GetProperty()).any();

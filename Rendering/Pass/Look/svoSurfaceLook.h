@@ -47,7 +47,7 @@ bool isPlainMapper(vtkMapper* mapper);
 
 /// True for mappers that draw splats, spheres and sticks (svoSplats.h, svoImpostors.h), which are
 /// never traced. No representation changes what they draw.
-bool drawsBodies(vtkMapper* mapper);
+bool drawsRoundShapes(vtkMapper* mapper);
 
 bool hasCustomShaders(vtkActor* actor);
 
@@ -63,7 +63,7 @@ Treatment treatmentOf(vtkActor* actor, bool castsWhole);
 /// selections that applications keep in their views do, shows no shadow.
 bool showsLights(vtkActor* actor);
 
-/// True if it may draw something beyond its bounds: bodies around points and lines, what shaders
+/// True if it may draw something beyond its bounds: shapes around points and lines, what shaders
 /// make of it, glyphs that are turned, and whatever is not known here.
 bool reachesBeyondBounds(vtkActor* actor);
 

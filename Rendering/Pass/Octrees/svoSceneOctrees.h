@@ -2,7 +2,7 @@
 #ifndef svoSceneOctrees_h
 #define svoSceneOctrees_h
 
-#include "svoBodies.h"
+#include "svoPlacedShapes.h"
 #include "svoGlyphCopies.h"
 #include "svoKept.h"
 #include "svoOctreeStore.h"
@@ -54,7 +54,7 @@ struct SceneSurface
 {
   Instance instance; // of copies all but place, colour and id; its matrix is the actor's
   std::shared_ptr<const GlyphSet> copies; // none: it is there once, as it is
-  std::shared_ptr<PlacedBodies> placed;   // of copies that are in the world, and follow
+  std::shared_ptr<PlacedShapes> placed;   // of copies that are in the world, and follow
   vtkSmartPointer<vtkPolyData> mesh; // the mesh that only casts, where the surface is not traceable
   bool traceable = false;
   bool casts = false;

@@ -2,8 +2,7 @@
 #ifndef svoSplats_h
 #define svoSplats_h
 
-#include "svoBodies.h"
-#include "svoSurfaceLook.h"
+#include "svoRoundShapes.h"
 
 #include <cstdint>
 #include <memory>
@@ -29,13 +28,14 @@ double discOf(const char* splatShader);
 /// True if an actor's matrix scales its splats, as it does from VTK 9.4 on.
 bool actorsScaleSplats();
 
-/// Why the mapper's splats stand for no opaque bodies, whatever the points are; null if they do.
-Reason beyondSplats(vtkPointGaussianMapper* mapper);
+/// Why (a Reason) the mapper's splats stand for no opaque shapes, whatever the points are; null if
+/// they do.
+const char* beyondSplats(vtkPointGaussianMapper* mapper);
 
 struct Splats
 {
-  std::shared_ptr<Bodies> bodies;
-  bool translucent = false; // some points are, and are not in `bodies`
+  std::shared_ptr<RoundShapes> shapes;
+  bool translucent = false; // some points are, and are not in `shapes`
 };
 
 /// The balls of one input, as vtkOpenGLPointGaussianMapper::BuildBufferObjects has them. `all`:

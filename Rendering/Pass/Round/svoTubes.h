@@ -3,8 +3,8 @@
 #ifndef svoTubes_h
 #define svoTubes_h
 
-#include "svoBodies.h"
 #include "svoCellAlpha.h"
+#include "svoRoundShapes.h"
 
 #include <memory>
 
@@ -25,10 +25,10 @@ struct RoundLook
 };
 RoundLook roundLookOf(vtkProperty* property);
 
-/// Bodies of a mesh; none: null. `translucent`: some would be, and are not in it.
+/// RoundShapes of a mesh; none: null. `translucent`: some would be, and are not in it.
 struct Tubes
 {
-  std::shared_ptr<Bodies> rods, balls;
+  std::shared_ptr<RoundShapes> rods, balls;
   bool translucent = false;
 };
 

@@ -1,8 +1,8 @@
-// The ball and the rod that bodies are copies of, with their octrees.
+// The ball and the rod that shapes are copies of, with their octrees.
 #ifndef svoUnitShapes_h
 #define svoUnitShapes_h
 
-#include "svoBodies.h"
+#include "svoRoundShapes.h"
 
 #include "vtkSmartPointer.h"
 
@@ -28,16 +28,16 @@ public:
   /// their points lie on the true shape, so flat facets lie inside of it, and what VTK draws as a
   /// true ball or tube is never inside of its own caster. The octree is in the mesh's field data,
   /// so that nothing is built for any frame.
-  vtkPolyData* of(const Bodies& bodies);
+  vtkPolyData* of(const RoundShapes& shapes);
 
   /// Facets around, 8 to 64: so many that they lie no more than a tenth of a pixel inside, if the
-  /// bodies have a width in pixels; else the most, 0.12 % of the radius. Of thousands of balls each
+  /// shapes have a width in pixels; else the most, 0.12 % of the radius. Of thousands of balls each
   /// has fewer, 16 at least, 1.9 %: they are small, and rays to a light go through all of
   /// their triangles; its maps meet balls themselves (Body::ball).
-  static int facetsOf(const Bodies& bodies);
+  static int facetsOf(const RoundShapes& shapes);
 
 private:
-  std::map<std::pair<Bodies::Shape, int>, vtkSmartPointer<vtkPolyData>> Meshes; // and facets
+  std::map<std::pair<RoundShapes::Shape, int>, vtkSmartPointer<vtkPolyData>> Meshes; // and facets
 };
 }
 

@@ -22,12 +22,12 @@ namespace
 {
 constexpr int MostFacets = 64, FewestOfMany = 16;
 
-/// All bodies of a prop have no more, unless that leaves fewer than FewestOfMany facets around.
+/// All shapes of a prop have no more, unless that leaves fewer than FewestOfMany facets around.
 constexpr double MostTriangles = 4e6;
 
-double trianglesOf(Bodies::Shape shape, int around)
+double trianglesOf(RoundShapes::Shape shape, int around)
 {
-  return shape == Bodies::Shape::Rod ? 4.0 * around : around * (around - 2.0);
+  return shape == RoundShapes::Shape::Rod ? 4.0 * around : around * (around - 2.0);
 }
 
 /// A surface of revolution about z, of so many facets around: `profile` has radii and heights, from
@@ -99,32 +99,32 @@ std::shared_ptr<UnitShapes> UnitShapes::ofAll()
   return shapes;
 }
 
-int UnitShapes::facetsOf(const Bodies& bodies)
+int UnitShapes::facetsOf(const RoundShapes& shapes)
 {
   constexpr double Inside = 0.1; // pixels
-  int facets = bodies.width == Bodies::Width::Pixels && bodies.radii.empty() ? 8 : MostFacets;
-  while (facets < MostFacets && bodies.radius * (1.0 - std::cos(vtkMath::Pi() / facets)) > Inside)
+  int facets = shapes.width == RoundShapes::Width::Pixels && shapes.radii.empty() ? 8 : MostFacets;
+  while (facets < MostFacets && shapes.radius * (1.0 - std::cos(vtkMath::Pi() / facets)) > Inside)
   {
     facets *= 2;
   }
   while (facets > FewestOfMany &&
-    static_cast<double>(bodies.count()) * trianglesOf(bodies.shape, facets) > MostTriangles)
+    static_cast<double>(shapes.count()) * trianglesOf(shapes.shape, facets) > MostTriangles)
   {
     facets /= 2;
   }
   return facets;
 }
 
-vtkPolyData* UnitShapes::of(const Bodies& bodies)
+vtkPolyData* UnitShapes::of(const RoundShapes& shapes)
 {
-  const int around = facetsOf(bodies);
-  vtkSmartPointer<vtkPolyData>& mesh = this->Meshes[{ bodies.shape, around }];
+  const int around = facetsOf(shapes);
+  vtkSmartPointer<vtkPolyData>& mesh = this->Meshes[{ shapes.shape, around }];
   if (mesh)
   {
     return mesh;
   }
   std::vector<std::pair<double, double>> profile;
-  if (bodies.shape == Bodies::Shape::Rod)
+  if (shapes.shape == RoundShapes::Shape::Rod)
   {
     profile = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 1.0, 1.0 }, { 0.0, 1.0 } };
   }

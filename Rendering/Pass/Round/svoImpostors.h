@@ -2,7 +2,7 @@
 #ifndef svoImpostors_h
 #define svoImpostors_h
 
-#include "svoBodies.h"
+#include "svoRoundShapes.h"
 
 #include <memory>
 #include <vector>
@@ -14,11 +14,11 @@ namespace svo
 /// True for vtkOpenGLSphereMapper, vtkOpenGLStickMapper and vtkOpenGLMoleculeMapper.
 bool isImpostorMapper(vtkMapper* mapper);
 
-/// The bodies that such a mapper draws, and whether its colours are opaque. The mapper's input is
-/// up to date. Places, sizes and directions that are not finite have no bodies.
+/// The shapes that such a mapper draws, and whether its colours are opaque. The mapper's input is
+/// up to date. Places, sizes and directions that are not finite have no shapes.
 struct Impostors
 {
-  std::vector<std::shared_ptr<Bodies>> bodies; // none is empty
+  std::vector<std::shared_ptr<RoundShapes>> shapes; // none is empty
   bool opaque = true;
 };
 Impostors impostorsOf(vtkMapper* mapper);

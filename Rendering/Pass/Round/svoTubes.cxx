@@ -32,15 +32,15 @@ vtkIdType eachCell(vtkCellArray* cells, vtkIdType cell, const Visit& visit)
   return cell;
 }
 
-/// Collects bodies of a mesh.
+/// Collects shapes of a mesh.
 class Gathering
 {
 public:
   Gathering(vtkPolyData* mesh, const CellAlpha& alpha)
     : Mesh(mesh)
     , Alpha(alpha)
-    , Rods(std::make_shared<Bodies>())
-    , Balls(std::make_shared<Bodies>())
+    , Rods(std::make_shared<RoundShapes>())
+    , Balls(std::make_shared<RoundShapes>())
     , Taken(static_cast<std::size_t>(mesh->GetNumberOfPoints()), false)
   {
   }
@@ -94,8 +94,8 @@ public:
       this->addRod(edge.cell, edge.from, edge.to);
     }
     Tubes result;
-    result.rods = whole(this->Rods, Bodies::Shape::Rod, property->GetLineWidth());
-    result.balls = whole(this->Balls, Bodies::Shape::Ball, property->GetPointSize());
+    result.rods = whole(this->Rods, RoundShapes::Shape::Rod, property->GetLineWidth());
+    result.balls = whole(this->Balls, RoundShapes::Shape::Ball, property->GetPointSize());
     result.translucent = this->Translucent;
     return result;
   }
@@ -106,13 +106,13 @@ private:
     vtkIdType from, to, cell;
   };
   static bool isFinite(const glm::dvec3& p) { return std::isfinite(p.x + p.y + p.z); }
-  static std::shared_ptr<Bodies> whole(
-    const std::shared_ptr<Bodies>& bodies, Bodies::Shape shape, double pixels)
+  static std::shared_ptr<RoundShapes> whole(
+    const std::shared_ptr<RoundShapes>& shapes, RoundShapes::Shape shape, double pixels)
   {
-    bodies->shape = shape;
-    bodies->width = Bodies::Width::Pixels;
-    bodies->radius = 0.5 * pixels;
-    return bodies->ends.empty() ? nullptr : bodies;
+    shapes->shape = shape;
+    shapes->width = RoundShapes::Width::Pixels;
+    shapes->radius = 0.5 * pixels;
+    return shapes->ends.empty() ? nullptr : shapes;
   }
   glm::dvec3 at(vtkIdType point) const
   {
@@ -123,7 +123,7 @@ private:
 
   vtkPolyData* Mesh;
   const CellAlpha& Alpha;
-  std::shared_ptr<Bodies> Rods, Balls;
+  std::shared_ptr<RoundShapes> Rods, Balls;
   std::vector<bool> Taken; // points that have a ball
   std::vector<Edge> Edges;
   bool Translucent = false;

@@ -16,23 +16,23 @@
 
 namespace svo
 {
-/// Adds copies of a unit shape. `translucent`: what is, and is not in `bodies`, casts nothing.
-void PropCollector::addBodies(vtkActor* actor, const std::shared_ptr<Bodies>& bodies,
+/// Adds copies of a unit shape. `translucent`: what is, and is not in `shapes`, casts nothing.
+void PropCollector::addRoundShapes(vtkActor* actor, const std::shared_ptr<RoundShapes>& shapes,
   bool translucent, const SurfacePart& of, const glm::dmat4& localToWorld, Reason reason,
   PropSurfaces& found, const CollectProps& frame)
 {
   found.rasterize(reason);
-  if (!frame.shadows || (!bodies && !translucent))
+  if (!frame.shadows || (!shapes && !translucent))
   {
     return;
   }
   SurfacePart part = of;
-  part.mesh = this->Shapes->of(bodies ? *bodies : Bodies());
+  part.mesh = this->Shapes->of(shapes ? *shapes : RoundShapes());
   SceneSurface surface;
   surface.mesh =
-    this->castersOf(part, { bodies ? part.mesh : nullptr, translucent }, actor, found, frame)
+    this->castersOf(part, { shapes ? part.mesh : nullptr, translucent }, actor, found, frame)
       .opaque;
-  surface.casts = bodies && surface.mesh;
+  surface.casts = shapes && surface.mesh;
   if (translucent && surface.casts)
   {
     found.castNothing(IsTranslucent);
@@ -43,13 +43,13 @@ void PropCollector::addBodies(vtkActor* actor, const std::shared_ptr<Bodies>& bo
   }
   const auto copies = std::make_shared<GlyphSet>();
   surface.copies = copies;
-  const bool local = bodies->width == Bodies::Width::Local;
+  const bool local = shapes->width == RoundShapes::Width::Local;
   this->finish(actor, part, local ? localToWorld : glm::dmat4(1.0), reason, surface, found);
-  surface.instance.body.own().ball = bodies->shape == Bodies::Shape::Ball;
-  placeBodies(*bodies, local ? glm::dmat4(1.0) : localToWorld, View(), *copies);
+  surface.instance.body.own().ball = shapes->shape == RoundShapes::Shape::Ball;
+  placeShapes(*shapes, local ? glm::dmat4(1.0) : localToWorld, View(), *copies);
   if (!local)
   {
-    surface.placed = std::make_shared<PlacedBodies>(PlacedBodies{ bodies, localToWorld, copies });
+    surface.placed = std::make_shared<PlacedShapes>(PlacedShapes{ shapes, localToWorld, copies });
   }
   // Others of the actor's are not the same.
   surface.instance.id ^= (found.surfaces.size() + 1) * 0x9e3779b97f4a7c15ull;
@@ -73,11 +73,11 @@ bool PropCollector::collectTubes(vtkActor* actor, const SurfacePart& part,
   Tubes tubes = tubesOf(part.mesh, property, CellAlpha(told ? uncolored : attributes));
   const Reason reason = beyond ? beyond : "has lines or vertices";
   const bool any = tubes.rods || tubes.balls || tubes.translucent;
-  for (const std::shared_ptr<Bodies>& bodies : { tubes.rods, tubes.balls })
+  for (const std::shared_ptr<RoundShapes>& shapes : { tubes.rods, tubes.balls })
   {
-    if (bodies || (tubes.translucent && !tubes.rods && !tubes.balls))
+    if (shapes || (tubes.translucent && !tubes.rods && !tubes.balls))
     {
-      this->addBodies(actor, whole ? nullptr : bodies, whole || tubes.translucent, part,
+      this->addRoundShapes(actor, whole ? nullptr : shapes, whole || tubes.translucent, part,
         localToWorld, reason, found, frame);
     }
   }
@@ -107,8 +107,8 @@ void PropCollector::collectSplats(vtkActor* actor, const glm::dmat4& localToWorl
     part.opacity = actor->GetProperty()->GetOpacity();
     const bool whole = !told && part.opacity < 1.0;
     const Splats splats = splatsOf(mapper, input, told);
-    const bool none = whole || splats.bodies->ends.empty();
-    this->addBodies(actor, none ? nullptr : splats.bodies, whole || splats.translucent, part,
+    const bool none = whole || splats.shapes->ends.empty();
+    this->addRoundShapes(actor, none ? nullptr : splats.shapes, whole || splats.translucent, part,
       localToWorld, beyond ? beyond : "shows its points as splats", found, frame);
   };
   vtkDataObject* input = mapper->GetInputDataObject(0, 0);
@@ -126,8 +126,8 @@ void PropCollector::collectSplats(vtkActor* actor, const glm::dmat4& localToWorl
 }
 
 /// Adds what an actor's mapper draws that draws nothing else.
-void PropCollector::collectBodies(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
-  PropSurfaces& found, const CollectProps& frame)
+void PropCollector::collectRoundShapes(vtkActor* actor, const glm::dmat4& localToWorld,
+  Reason beyond, PropSurfaces& found, const CollectProps& frame)
 {
   if (isSplatMapper(actor->GetMapper()))
   {
@@ -140,11 +140,11 @@ void PropCollector::collectBodies(vtkActor* actor, const glm::dmat4& localToWorl
   const bool opaque =
     (impostors.opaque && part.opacity >= 1.0) || flagOf(actor, found.prop, castShadowKey(), false);
   found.rasterize(beyond ? beyond : "is drawn without polygons");
-  for (const std::shared_ptr<Bodies>& bodies : impostors.bodies)
+  for (const std::shared_ptr<RoundShapes>& shapes : impostors.shapes)
   {
     ++part.block;
-    this->addBodies(actor, opaque ? bodies : nullptr, !opaque, part, localToWorld, found.rasterized,
-      found, frame);
+    this->addRoundShapes(actor, opaque ? shapes : nullptr, !opaque, part, localToWorld,
+      found.rasterized, found, frame);
   }
 }
 
@@ -154,12 +154,13 @@ void PropCollector::place(std::vector<PropSurfaces>& props, const View& eye, boo
   {
     for (SceneSurface& surface : prop.surfaces)
     {
-      PlacedBodies* placed = surface.placed.get();
-      const bool follows = placed && placed->bodies->width == Bodies::Width::Pixels && !sameEye;
+      PlacedShapes* placed = surface.placed.get();
+      const bool follows =
+        placed && placed->shapes->width == RoundShapes::Width::Pixels && !sameEye;
       if (placed && (prop.fresh || prop.moved || follows))
       {
         const std::size_t before = placed->copies->copies.size();
-        placeBodies(*placed->bodies, placed->localToWorld, eye, *placed->copies);
+        placeShapes(*placed->shapes, placed->localToWorld, eye, *placed->copies);
         prop.moved = true;
         prop.fresh = prop.fresh || placed->copies->copies.size() != before;
       }

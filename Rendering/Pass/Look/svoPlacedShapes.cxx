@@ -1,4 +1,4 @@
-#include "svoBodies.h"
+#include "svoPlacedShapes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,11 +19,11 @@ constexpr double Tiny = std::numeric_limits<float>::min();
 class Radii
 {
 public:
-  Radii(const Bodies& bodies, const View& eye)
-    : One(bodies.radius)
-    , Each(bodies.radii.empty() ? nullptr : bodies.radii.data())
+  Radii(const RoundShapes& shapes, const View& eye)
+    : One(shapes.radius)
+    , Each(shapes.radii.empty() ? nullptr : shapes.radii.data())
   {
-    if (bodies.width == Bodies::Width::Pixels && eye.width > 0)
+    if (shapes.width == RoundShapes::Width::Pixels && eye.width > 0)
     {
       // A length in clip space is a share of w.
       const double pixel = 2.0 / (eye.width * std::abs(eye.viewToClip[0][0]));
@@ -41,9 +41,9 @@ public:
   }
 
   /// Behind the eye as large as before it: shadows of what lies there fall into the picture.
-  double at(std::size_t body, const glm::dvec3& place) const
+  double at(std::size_t number, const glm::dvec3& place) const
   {
-    return (this->Each ? this->Each[body] : this->One) *
+    return (this->Each ? this->Each[number] : this->One) *
       std::max(std::abs(this->unit(place)), this->Least);
   }
 
@@ -108,7 +108,7 @@ void perpendicular(const glm::dvec3& n, glm::dvec3& u, glm::dvec3& v)
 }
 
 GlyphCopy rod(
-  const glm::dvec3& from, const glm::dvec3& to, double radius, std::int64_t body, int piece)
+  const glm::dvec3& from, const glm::dvec3& to, double radius, std::int64_t number, int piece)
 {
   const glm::dvec3 along = to - from;
   const double length = std::max(glm::length(along), Tiny);
@@ -118,34 +118,34 @@ GlyphCopy rod(
   GlyphCopy copy;
   copy.place = glm::dmat4x3(own * u, own * v, along, from);
   // What else is a rod keeps its name when another one has more pieces.
-  constexpr std::int64_t Bodies = std::int64_t(1) << 40;
-  copy.point = body + Bodies * (piece - 1);
+  constexpr std::int64_t Most = std::int64_t(1) << 40;
+  copy.point = number + Most * (piece - 1);
   return copy;
 }
 }
 
-void placeBodies(
-  const Bodies& bodies, const glm::dmat4& localToWorld, const View& eye, GlyphSet& copies)
+void placeShapes(
+  const RoundShapes& shapes, const glm::dmat4& localToWorld, const View& eye, GlyphSet& copies)
 {
-  const Radii radii(bodies, eye);
+  const Radii radii(shapes, eye);
   const glm::dmat4x3 world(localToWorld);
   copies.copies.clear();
-  copies.copies.reserve(bodies.count());
-  for (std::size_t i = 0; i < bodies.count(); ++i)
+  copies.copies.reserve(shapes.count());
+  for (std::size_t i = 0; i < shapes.count(); ++i)
   {
-    if (bodies.shape == Bodies::Shape::Ball)
+    if (shapes.shape == RoundShapes::Shape::Ball)
     {
       GlyphCopy copy;
       copy.point = static_cast<std::int64_t>(i);
-      const glm::dvec3 centre = world * glm::dvec4(bodies.ends[i], 1.0);
+      const glm::dvec3 centre = world * glm::dvec4(shapes.ends[i], 1.0);
       const double radius = std::max(radii.at(i, centre), Tiny);
       copy.place = glm::dmat4x3(radius);
       copy.place[3] = centre;
       copies.copies.push_back(copy);
       continue;
     }
-    const glm::dvec3 from = world * glm::dvec4(bodies.ends[2 * i], 1.0);
-    const glm::dvec3 to = world * glm::dvec4(bodies.ends[2 * i + 1], 1.0);
+    const glm::dvec3 from = world * glm::dvec4(shapes.ends[2 * i], 1.0);
+    const glm::dvec3 to = world * glm::dvec4(shapes.ends[2 * i + 1], 1.0);
     const Pieces pieces(radii.unit(from), radii.unit(to));
     glm::dvec3 begin = from;
     for (int k = 1; k <= pieces.count(); ++k)

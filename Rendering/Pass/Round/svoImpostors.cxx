@@ -55,8 +55,8 @@ bool isFinite(const glm::dvec3& p)
 /// Balls at the points, with radii by an array, or all with one.
 void addBalls(vtkPolyData* input, vtkDataArray* radii, double radius, Impostors& result)
 {
-  const auto bodies = std::make_shared<Bodies>();
-  bodies->width = Bodies::Width::World; // their shaders do not scale them
+  const auto shapes = std::make_shared<RoundShapes>();
+  shapes->width = RoundShapes::Width::World; // their shaders do not scale them
   for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
   {
     glm::dvec3 centre;
@@ -64,22 +64,22 @@ void addBalls(vtkPolyData* input, vtkDataArray* radii, double radius, Impostors&
     const double own = std::abs(radii ? radii->GetComponent(i, 0) : radius);
     if (isFinite(centre) && std::isfinite(own) && own > 0.0)
     {
-      bodies->ends.push_back(centre);
-      bodies->radii.push_back(own);
+      shapes->ends.push_back(centre);
+      shapes->radii.push_back(own);
     }
   }
-  if (!bodies->ends.empty())
+  if (!shapes->ends.empty())
   {
-    result.bodies.push_back(bodies);
+    result.shapes.push_back(shapes);
   }
 }
 
 /// Rods around the points: `sizes` has lengths and radii, `ways` directions of length 1.
 void addRods(vtkPolyData* input, vtkDataArray* sizes, vtkDataArray* ways, Impostors& result)
 {
-  const auto bodies = std::make_shared<Bodies>();
-  bodies->shape = Bodies::Shape::Rod;
-  bodies->width = Bodies::Width::World;
+  const auto shapes = std::make_shared<RoundShapes>();
+  shapes->shape = RoundShapes::Shape::Rod;
+  shapes->width = RoundShapes::Width::World;
   for (vtkIdType i = 0; sizes && ways && i < input->GetNumberOfPoints(); ++i)
   {
     glm::dvec3 centre, way;
@@ -89,14 +89,14 @@ void addRods(vtkPolyData* input, vtkDataArray* sizes, vtkDataArray* ways, Impost
     const double radius = std::abs(sizes->GetComponent(i, 1));
     if (isFinite(centre + half) && std::isfinite(radius) && radius > 0.0 && half != glm::dvec3(0.0))
     {
-      bodies->ends.push_back(centre - half);
-      bodies->ends.push_back(centre + half);
-      bodies->radii.push_back(radius);
+      shapes->ends.push_back(centre - half);
+      shapes->ends.push_back(centre + half);
+      shapes->radii.push_back(radius);
     }
   }
-  if (!bodies->ends.empty())
+  if (!shapes->ends.empty())
   {
-    result.bodies.push_back(bodies);
+    result.shapes.push_back(shapes);
   }
 }
 

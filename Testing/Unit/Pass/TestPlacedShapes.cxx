@@ -1,6 +1,6 @@
 // Copies of the unit ball and the unit rod, and which splat shaders draw discs.
-#include "svoBodies.h"
 #include "svoMeshOctree.h"
+#include "svoPlacedShapes.h"
 #include "svoSplats.h"
 #include "svoUnitShapes.h"
 
@@ -17,24 +17,25 @@
 
 using namespace svo;
 
-TEST(Bodies, UnitShapesAreInsideOfTheTrueOnes)
+TEST(RoundShapes, UnitShapesAreInsideOfTheTrueOnes)
 {
-  UnitShapes shapes;
-  for (const Bodies::Shape shape : { Bodies::Shape::Ball, Bodies::Shape::Rod })
+  UnitShapes units;
+  for (const RoundShapes::Shape shape : { RoundShapes::Shape::Ball, RoundShapes::Shape::Rod })
   {
-    Bodies bodies;
-    bodies.shape = shape;
-    vtkPolyData* mesh = shapes.of(bodies);
-    EXPECT_EQ(mesh, shapes.of(bodies)) << "made once";
+    RoundShapes shapes;
+    shapes.shape = shape;
+    vtkPolyData* mesh = units.of(shapes);
+    EXPECT_EQ(mesh, units.of(shapes)) << "made once";
     double most = 0.0;
     for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
     {
       glm::dvec3 p;
       mesh->GetPoint(i, &p.x);
-      most = std::max(most, shape == Bodies::Shape::Ball ? glm::length(p) : std::hypot(p.x, p.y));
+      most =
+        std::max(most, shape == RoundShapes::Shape::Ball ? glm::length(p) : std::hypot(p.x, p.y));
     }
     EXPECT_NEAR(most, 1.0, 1e-12);
-    EXPECT_EQ(mesh->GetBounds()[4], shape == Bodies::Shape::Ball ? -1.0 : 0.0);
+    EXPECT_EQ(mesh->GetBounds()[4], shape == RoundShapes::Shape::Ball ? -1.0 : 0.0);
     EXPECT_EQ(mesh->GetBounds()[5], 1.0);
     Octree octree;
     std::string message;
@@ -43,43 +44,43 @@ TEST(Bodies, UnitShapesAreInsideOfTheTrueOnes)
   }
 }
 
-TEST(Bodies, FacetsByPixels)
+TEST(RoundShapes, FacetsByPixels)
 {
-  Bodies bodies;
-  EXPECT_EQ(UnitShapes::facetsOf(bodies), 64) << "of any length";
-  bodies.width = Bodies::Width::Pixels;
+  RoundShapes shapes;
+  EXPECT_EQ(UnitShapes::facetsOf(shapes), 64) << "of any length";
+  shapes.width = RoundShapes::Width::Pixels;
   const std::pair<double, int> wanted[] = { { 0.5, 8 }, { 1.3, 8 }, { 1.5, 16 }, { 5.0, 16 },
     { 6.0, 32 }, { 50.0, 64 }, { 5000.0, 64 } };
   for (const auto& [radius, facets] : wanted)
   {
-    bodies.radius = radius;
-    EXPECT_EQ(UnitShapes::facetsOf(bodies), facets) << radius;
+    shapes.radius = radius;
+    EXPECT_EQ(UnitShapes::facetsOf(shapes), facets) << radius;
   }
 }
 
-TEST(Bodies, ThousandsOfBallsHaveFewerFacets)
+TEST(RoundShapes, ThousandsOfBallsHaveFewerFacets)
 {
-  Bodies balls;
+  RoundShapes balls;
   for (const auto& [count, facets] : { std::pair<std::size_t, int>{ 1, 64 }, { 1000, 64 },
          { 3000, 32 }, { 20000, 16 }, { 1000000, 16 } })
   {
     balls.ends.assign(count, glm::dvec3(0.0));
     EXPECT_EQ(UnitShapes::facetsOf(balls), facets) << count;
   }
-  balls.width = Bodies::Width::Pixels;
+  balls.width = RoundShapes::Width::Pixels;
   EXPECT_EQ(UnitShapes::facetsOf(balls), 8) << "never more than pixels ask for";
-  Bodies rods;
-  rods.shape = Bodies::Shape::Rod;
+  RoundShapes rods;
+  rods.shape = RoundShapes::Shape::Rod;
   rods.ends.assign(2 * 10000, glm::dvec3(0.0));
   EXPECT_EQ(UnitShapes::facetsOf(rods), 64) << "a rod has few triangles";
 }
 
-TEST(Bodies, MatricesTakeTheUnitShapesThere)
+TEST(RoundShapes, MatricesTakeTheUnitShapesThere)
 {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> anywhere(-10.0, 10.0);
-  Bodies rods;
-  rods.shape = Bodies::Shape::Rod;
+  RoundShapes rods;
+  rods.shape = RoundShapes::Shape::Rod;
   for (int i = 0; i < 1000; ++i)
   {
     rods.ends.emplace_back(anywhere(random), anywhere(random), anywhere(random));
@@ -89,7 +90,7 @@ TEST(Bodies, MatricesTakeTheUnitShapesThere)
     rods.radii.push_back(std::exp(anywhere(random)));
   }
   GlyphSet copies;
-  placeBodies(rods, glm::dmat4(1.0), View(), copies);
+  placeShapes(rods, glm::dmat4(1.0), View(), copies);
   ASSERT_EQ(copies.copies.size(), 1000u);
   for (std::size_t i = 0; i < 1000; ++i)
   {
@@ -110,7 +111,7 @@ TEST(Bodies, MatricesTakeTheUnitShapesThere)
   }
 }
 
-TEST(Bodies, DiscsOfShaders)
+TEST(RoundShapes, DiscsOfShaders)
 {
   const std::string square = "float dist = dot(offsetVCVSOutput.xy,offsetVCVSOutput.xy);\n";
   // ParaView's presets.

@@ -240,7 +240,7 @@ bool actorsScaleSplats()
   return Version::value;
 }
 
-Reason beyondSplats(vtkPointGaussianMapper* mapper)
+const char* beyondSplats(vtkPointGaussianMapper* mapper)
 {
   const char* code = mapper->GetSplatShaderCode();
   if (mapper->GetEmissive())
@@ -265,10 +265,10 @@ Reason beyondSplats(vtkPointGaussianMapper* mapper)
 Splats splatsOf(vtkPointGaussianMapper* mapper, vtkPolyData* input, bool all)
 {
   Splats result;
-  result.bodies = std::make_shared<Bodies>();
-  Bodies& bodies = *result.bodies;
-  bodies.shape = Bodies::Shape::Ball;
-  bodies.width = actorsScaleSplats() ? Bodies::Width::Local : Bodies::Width::World;
+  result.shapes = std::make_shared<RoundShapes>();
+  RoundShapes& shapes = *result.shapes;
+  shapes.shape = RoundShapes::Shape::Ball;
+  shapes.width = actorsScaleSplats() ? RoundShapes::Width::Local : RoundShapes::Width::World;
   // Beyond the edge nothing is drawn.
   const double disc = std::min(discOf(mapper->GetSplatShaderCode()), Version::edge(mapper));
   const double factor = mapper->GetScaleFactor() * disc;
@@ -303,8 +303,8 @@ Splats splatsOf(vtkPointGaussianMapper* mapper, vtkPolyData* input, bool all)
       result.translucent = true;
       continue;
     }
-    bodies.ends.push_back(centre);
-    bodies.radii.push_back(radius);
+    shapes.ends.push_back(centre);
+    shapes.radii.push_back(radius);
   }
   return result;
 }
