@@ -1,7 +1,7 @@
 #!/bin/bash
 # Installs the Debian packages that a part of the project needs, and says what each is for.
 # Usage: install-packages.sh [--list] [--no-install] group...
-# Groups: build test paraview demo fuzz accuracy performance fresh user
+# Groups: build test paraview demo fuzz accuracy performance fresh tidy user
 # Packages that are there already are left alone; with none missing nothing runs and nothing is
 # asked. --no-install only checks: it names what is missing and ends with 1. --list prints names.
 set -euo pipefail
@@ -69,6 +69,8 @@ packages_fresh="
 mmdebstrap|makes the root file system of a fresh Debian
 debian-archive-keyring|its releases' keys
 git|takes HEAD there"
+packages_tidy="
+clang-tidy|looks at the code for mistakes that compilers do not warn of"
 packages_user="
 uidmap|lets a user be root in a root file system"
 
@@ -86,11 +88,12 @@ for argument in "$@"; do
     accuracy) wanted+="$packages_accuracy" ;;
     performance) wanted+="$packages_performance" ;;
     fresh) wanted+="$packages_fresh" ;;
+    tidy) wanted+="$packages_tidy" ;;
     user) wanted+="$packages_user" ;;
     paraview) wanted+="$packages_paraview" ;;
     *)
       echo "install-packages.sh: unknown argument '$argument'" \
-        "(groups: build test paraview demo fuzz accuracy performance fresh user)" >&2
+        "(groups: build test paraview demo fuzz accuracy performance fresh tidy user)" >&2
       exit 2
       ;;
   esac

@@ -2,8 +2,9 @@
 # Installs what is missing, builds build/vtk and build/paraview and runs the tests of both. Safe to
 # run again.
 # Usage: run-tests.sh [--long] [--no-install]
-#   --long        also the tests labelled "long" (real meshes, big ray counts), the sanitizers, and
-#                 all of this on each fresh Debian that is supported: hours, see run-on.sh.
+#   --long        also the tests labelled "long" (real meshes, big ray counts), clang-tidy, the
+#                 sanitizers, and all of this on each fresh Debian that is supported: hours, see
+#                 run-on.sh.
 #                 VTKSVO_SCRIPTS in the environment: a folder of scripts that VTK's pictures are
 #                 compared on, with the pass and without
 #   --no-install  never installs: names what is missing and stops
@@ -17,10 +18,10 @@ check_only=()
 groups=(build test paraview)
 for argument in "$@"; do
   case "$argument" in
-    --long) long=yes; groups+=(demo accuracy fresh) ;;
+    --long) long=yes; groups+=(demo accuracy fresh tidy) ;;
     --no-install) check_only=(--no-install) ;;
     *)
-      sed -n '4,11s/^# //p' "${BASH_SOURCE[0]}"
+      sed -n '4,12s/^# //p' "${BASH_SOURCE[0]}"
       exit 2
       ;;
   esac
@@ -67,6 +68,8 @@ xvfb-run -a -s "-noreset -screen 0 1920x1200x24" bash -c '
 if [ "$long" = yes ]; then
   [ -n "${VTKSVO_SCRIPTS:-}" ] ||
     echo "VTKSVO_SCRIPTS names no folder of scripts: they were not compared with the pass and without."
+  step "clang-tidy"
+  Testing/run-tidy.sh "${check_only[@]}" || result=$?
   step "Sanitizers"
   Testing/run-sanitizers.sh "${check_only[@]}" || result=$?
   step "Thread sanitizer"

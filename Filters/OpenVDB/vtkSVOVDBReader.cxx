@@ -220,7 +220,7 @@ std::string vtkSVOVDBReader::ReadContents()
   }
   own.Known = own.Files.front();
   own.KnownTime = written;
-  const std::string reason = svo::readVDBContents(own.Known, own.Contents);
+  std::string reason = svo::readVDBContents(own.Known, own.Contents);
   own.GridNames->Initialize();
   for (const std::string& name : own.Contents.grids)
   {

@@ -77,6 +77,7 @@ ReuseHistory::Rank ReuseHistory::rankOf(Id id) const
 void ReuseHistory::sortForGoing(std::vector<Id>& ids) const
 {
   std::vector<Rank> ranks;
+  ranks.reserve(ids.size());
   for (const Id id : ids)
   {
     ranks.push_back(this->rankOf(id));

@@ -138,7 +138,7 @@ std::string readVDBContents(const std::string& fileName, VDBContents& contents)
     [&]
     {
       openvdb::io::File file(fileName);
-      const std::string reason = open(fileName, file);
+      std::string reason = open(fileName, file);
       if (reason.empty())
       {
         list(file, contents);
@@ -156,7 +156,7 @@ std::string readVDBGrid(const std::string& fileName, const std::string& name,
     [&]() -> std::string
     {
       openvdb::io::File file(fileName);
-      const std::string reason = open(fileName, file);
+      std::string reason = open(fileName, file);
       if (!reason.empty())
       {
         return reason;
@@ -200,7 +200,7 @@ std::string writeVDBFile(
   const std::string& fileName, const openvdb::GridCPtrVec& grids, const openvdb::MetaMap& metadata)
 {
   const std::string part = fileName + ".part";
-  const std::string reason = guarded(
+  std::string reason = guarded(
     [&]() -> std::string
     {
       if (!std::ofstream(part, std::ios::binary))

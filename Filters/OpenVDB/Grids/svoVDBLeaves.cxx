@@ -16,7 +16,7 @@ openvdb::BoolGrid::Ptr leavesOf(const Octree& octree)
 {
   using LeafT = openvdb::BoolTree::LeafNodeType;
   static_assert(LeafT::DIM == 8, "eight bricks are a leaf node");
-  const openvdb::BoolGrid::Ptr grid = openvdb::BoolGrid::create(false);
+  openvdb::BoolGrid::Ptr grid = openvdb::BoolGrid::create(false);
   LeafT* leaf = nullptr;
   forEachCell(octree, octree.level(),
     [&](const OctreeCell& cell)

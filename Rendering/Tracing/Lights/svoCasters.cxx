@@ -94,6 +94,7 @@ std::vector<std::uint8_t> castersOf(const std::vector<Outline>& outlines, const 
 {
   std::optional<Box> all;
   std::vector<std::uint8_t> casters;
+  casters.reserve(outlines.size());
   for (const Outline& outline : outlines)
   {
     casters.push_back(outline.casts && !isOnlyBackdrop(outlines, all, outline, light));
