@@ -86,7 +86,9 @@ class Run:
         os.makedirs(work)
         command = [options.interpreter, os.path.join(here, "one_script.py"),
                    "plain" if mode.startswith("plain") else mode, str(samples), self.folder, path]
-        environment = dict(os.environ, PYTHONHASHSEED="0", PYTHONDONTWRITEBYTECODE="1", VTK_TEMP_DIR=work)
+        # Windows of matplotlib would wait for somebody who closes them.
+        environment = dict(os.environ, PYTHONHASHSEED="0", PYTHONDONTWRITEBYTECODE="1", VTK_TEMP_DIR=work,
+                           MPLBACKEND="Agg")
         said = os.path.join(self.folder, "output.txt")
         with open(said, "wb") as output:
             process = subprocess.Popen(command, cwd=work, env=environment, stdin=subprocess.DEVNULL,
