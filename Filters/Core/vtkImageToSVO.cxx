@@ -4,7 +4,6 @@
 #include "svoImageInput.h"
 #include "svoImageSource.h"
 #include "svoLeafValues.h"
-#include "svoMeshOctree.h"
 #include "svoSMPParallel.h"
 #include "svoSourceOctree.h"
 
@@ -232,11 +231,8 @@ int vtkImageToSVO::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  this->NumberOfVoxels = 0;
-  this->BuildTime = 0.0;
   vtkImageData* image = vtkImageData::GetData(inputVector[0]);
-  vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  output->Initialize();
+  vtkPolyData* output = this->Begin(outputVector);
   const bool isPart =
     outputVector->GetInformationObject(0)->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) > 1;
   if (isPart && image->GetNumberOfPoints() == 0)
@@ -257,12 +253,7 @@ int vtkImageToSVO::RequestData(
     inputVector[0]->GetInformationObject(0)->Get(Pipeline::WHOLE_EXTENT(), whole);
   }
   const svo::SourceOctree built = this->Convert(image, asked, whole, output);
-  this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
-  this->NumberOfVoxels = static_cast<vtkIdType>(built.voxels);
-  if (built.octree && this->WriteStatistics)
-  {
-    svo::attachStatistics(output, built.octree, this->BuildTime);
-  }
+  this->NoteBuilt(built, start, output);
   if (!built.message.empty())
   {
     vtkErrorMacro("The octree is not built: " << built.message << ".");
@@ -406,9 +397,4 @@ void vtkImageToSVO::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumLevel: " << this->MaximumLevel << "\n";
   os << indent << "ColorArrayName: " << (this->ColorArrayName ? this->ColorArrayName : "(none)")
      << "\n";
-  os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
-  os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
-  os << indent << "WriteStatistics: " << (this->WriteStatistics ? "On\n" : "Off\n");
-  os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
-  os << indent << "BuildTime: " << this->BuildTime << " s\n";
 }

@@ -26,9 +26,9 @@
 #ifndef vtkImageToSVO_h
 #define vtkImageToSVO_h
 
-#include "vtkNew.h" // for the values
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkNew.h"           // for the values
 #include "vtkSVOCoreModule.h" // for the export macro
+#include "vtkSVOSurfaceAlgorithm.h"
 
 #include <memory> // for what is kept of an image
 #include <vector>
@@ -43,11 +43,11 @@ struct SourceOctree;
 class ValuePyramid;
 }
 
-class VTKSVOCORE_EXPORT vtkImageToSVO : public vtkPolyDataAlgorithm
+class VTKSVOCORE_EXPORT vtkImageToSVO : public vtkSVOSurfaceAlgorithm
 {
 public:
   static vtkImageToSVO* New();
-  vtkTypeMacro(vtkImageToSVO, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkImageToSVO, vtkSVOSurfaceAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   //@{
@@ -102,44 +102,6 @@ public:
   vtkGetStringMacro(ColorArrayName);
   //@}
 
-  //@{
-  /**
-   * Memory that the build may use at its peak, in KiB; default 0: what the machine has available.
-   */
-  vtkSetMacro(MemoryLimit, unsigned long);
-  vtkGetMacro(MemoryLimit, unsigned long);
-  //@}
-
-  //@{
-  /**
-   * How large the output's mesh may get: its contour has about as many quads as the octree has
-   * cells at the deepest level that has at most this many. 1 to 500 million, values outside are
-   * clamped; default 1 million. A quad takes about 44 bytes.
-   */
-  vtkSetClampMacro(MaximumNumberOfQuads, vtkIdType, 1, 500000000);
-  vtkGetMacro(MaximumNumberOfQuads, vtkIdType);
-  //@}
-
-  //@{
-  /**
-   * Whether the output's field data also says, in arrays of one value, what the octree is like:
-   * "SVO Level", "SVO Voxels", "SVO Memory" (KiB) and "SVO Build Time" (s). For programs that show
-   * field data to people. Default off.
-   */
-  vtkSetMacro(WriteStatistics, bool);
-  vtkGetMacro(WriteStatistics, bool);
-  vtkBooleanMacro(WriteStatistics, bool);
-  //@}
-
-  //@{
-  /**
-   * Occupied voxels of the last execution's octree, 0 if none, and how long it took to build, in
-   * seconds.
-   */
-  vtkGetMacro(NumberOfVoxels, vtkIdType);
-  vtkGetMacro(BuildTime, double);
-  //@}
-
 protected:
   vtkImageToSVO();
   ~vtkImageToSVO() override;
@@ -165,11 +127,6 @@ private:
   vtkNew<vtkContourValues> Contours;
   int MaximumLevel = 0;
   char* ColorArrayName = nullptr;
-  unsigned long MemoryLimit = 0;
-  vtkIdType MaximumNumberOfQuads = 1000000;
-  bool WriteStatistics = false;
-  vtkIdType NumberOfVoxels = 0;
-  double BuildTime = 0.0;
 
   // What is known of the last image for any value, see svoImageSource.h.
   std::shared_ptr<const svo::ValuePyramid> Pyramid;

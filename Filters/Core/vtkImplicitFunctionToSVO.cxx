@@ -2,7 +2,6 @@
 
 #include "svoAbort.h"
 #include "svoFieldSource.h"
-#include "svoMeshOctree.h"
 #include "svoSMPParallel.h"
 #include "svoSourceOctree.h"
 
@@ -70,10 +69,7 @@ vtkMTimeType vtkImplicitFunctionToSVO::GetMTime()
 int vtkImplicitFunctionToSVO::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  this->NumberOfVoxels = 0;
-  this->BuildTime = 0.0;
-  vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  output->Initialize();
+  vtkPolyData* output = this->Begin(outputVector);
   if (!this->ImplicitFunction)
   {
     vtkErrorMacro("The octree is not built: there is no implicit function.");
@@ -101,12 +97,7 @@ int vtkImplicitFunctionToSVO::RequestData(
   const double start = vtkTimerLog::GetUniversalTime();
   const svo::SourceOctree built = svo::buildSourceOctree(
     source, options, { static_cast<std::size_t>(this->MaximumNumberOfQuads) }, output);
-  this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
-  this->NumberOfVoxels = static_cast<vtkIdType>(built.voxels);
-  if (built.octree && this->WriteStatistics)
-  {
-    svo::attachStatistics(output, built.octree, this->BuildTime);
-  }
+  this->NoteBuilt(built, start, output);
   if (!built.message.empty())
   {
     vtkErrorMacro("The octree is not built: " << built.message << ".");
@@ -132,9 +123,4 @@ void vtkImplicitFunctionToSVO::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "GradientBound: " << this->GradientBound << "\n";
   os << indent << "MinimumLevel: " << this->MinimumLevel << "\n";
   os << indent << "Parallel: " << (this->Parallel ? "On\n" : "Off\n");
-  os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
-  os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
-  os << indent << "WriteStatistics: " << (this->WriteStatistics ? "On\n" : "Off\n");
-  os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
-  os << indent << "BuildTime: " << this->BuildTime << " s\n";
 }

@@ -28,16 +28,16 @@
 #ifndef vtkImplicitFunctionToSVO_h
 #define vtkImplicitFunctionToSVO_h
 
-#include "vtkPolyDataAlgorithm.h"
 #include "vtkSVOCoreModule.h" // for the export macro
+#include "vtkSVOSurfaceAlgorithm.h"
 
 class vtkImplicitFunction;
 
-class VTKSVOCORE_EXPORT vtkImplicitFunctionToSVO : public vtkPolyDataAlgorithm
+class VTKSVOCORE_EXPORT vtkImplicitFunctionToSVO : public vtkSVOSurfaceAlgorithm
 {
 public:
   static vtkImplicitFunctionToSVO* New();
-  vtkTypeMacro(vtkImplicitFunctionToSVO, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkImplicitFunctionToSVO, vtkSVOSurfaceAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
@@ -111,45 +111,6 @@ public:
   vtkBooleanMacro(Parallel, bool);
   //@}
 
-  //@{
-  /**
-   * Memory that the build may use at its peak, in KiB; default 0: what the machine has available. A
-   * build that needs more ends with an error.
-   */
-  vtkSetMacro(MemoryLimit, unsigned long);
-  vtkGetMacro(MemoryLimit, unsigned long);
-  //@}
-
-  //@{
-  /**
-   * How large the output's mesh may get: its contour has about as many quads as the octree has
-   * cells at the deepest level that has at most this many. 1 to 500 million, values outside are
-   * clamped; default 1 million. A quad takes about 44 bytes.
-   */
-  vtkSetClampMacro(MaximumNumberOfQuads, vtkIdType, 1, 500000000);
-  vtkGetMacro(MaximumNumberOfQuads, vtkIdType);
-  //@}
-
-  //@{
-  /**
-   * Whether the output's field data also says, in arrays of one value, what the octree is like:
-   * "SVO Level", "SVO Voxels", "SVO Memory" (KiB) and "SVO Build Time" (s). For programs that show
-   * field data to people. Default off.
-   */
-  vtkSetMacro(WriteStatistics, bool);
-  vtkGetMacro(WriteStatistics, bool);
-  vtkBooleanMacro(WriteStatistics, bool);
-  //@}
-
-  //@{
-  /**
-   * Occupied voxels of the last execution's octree, 0 if none, and how long it took to build, in
-   * seconds.
-   */
-  vtkGetMacro(NumberOfVoxels, vtkIdType);
-  vtkGetMacro(BuildTime, double);
-  //@}
-
 protected:
   vtkImplicitFunctionToSVO();
   ~vtkImplicitFunctionToSVO() override;
@@ -168,11 +129,6 @@ private:
   double GradientBound = 0.0;
   int MinimumLevel = 5;
   bool Parallel = true;
-  unsigned long MemoryLimit = 0;
-  vtkIdType MaximumNumberOfQuads = 1000000;
-  bool WriteStatistics = false;
-  vtkIdType NumberOfVoxels = 0;
-  double BuildTime = 0.0;
 };
 
 #endif

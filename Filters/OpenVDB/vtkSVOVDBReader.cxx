@@ -2,7 +2,6 @@
 
 #include "svoAbort.h"
 #include "svoLeafValues.h"
-#include "svoMeshOctree.h"
 #include "svoSMPParallel.h"
 #include "svoVDBColors.h"
 #include "svoVDBFile.h"
@@ -352,13 +351,10 @@ bool vtkSVOVDBReader::ColorBy(const char* file, const svo::SourceOctree& built,
 int vtkSVOVDBReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  this->NumberOfVoxels = 0;
   this->ReadTime = 0.0;
-  this->BuildTime = 0.0;
   this->Internals->MetaData.clear();
   this->SetErrorCode(vtkErrorCode::NoError);
-  vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  output->Initialize();
+  vtkPolyData* output = this->Begin(outputVector);
   const char* file = this->FileOfStep(outputVector);
   if (!file)
   {
@@ -396,8 +392,7 @@ int vtkSVOVDBReader::RequestData(
   };
   const svo::SourceOctree built = svo::octreeOfGrid(*grid, options, output);
   this->ReadTime = read - start;
-  this->BuildTime = vtkTimerLog::GetUniversalTime() - read;
-  this->NumberOfVoxels = static_cast<vtkIdType>(built.voxels);
+  this->NoteBuilt(built, read, output);
   if (!built.message.empty())
   {
     this->SetErrorCode(vtkErrorCode::UnknownError);
@@ -436,10 +431,6 @@ int vtkSVOVDBReader::RequestData(
     this->Internals->MetaData += line + "\n";
   }
   output->GetFieldData()->AddArray(array);
-  if (this->WriteStatistics)
-  {
-    svo::attachStatistics(output, built.octree, this->BuildTime);
-  }
   return 1;
 }
 
@@ -458,11 +449,6 @@ void vtkSVOVDBReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ColorGridName: " << this->Internals->ColorGridName << "\n";
   os << indent << "Conversion: " << Names[this->Conversion] << "\n";
   os << indent << "Threshold: " << this->Threshold << "\n";
-  os << indent << "MemoryLimit: " << this->MemoryLimit << " KiB\n";
-  os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
-  os << indent << "WriteStatistics: " << (this->WriteStatistics ? "On\n" : "Off\n");
-  os << indent << "NumberOfVoxels: " << this->NumberOfVoxels << "\n";
   os << indent << "ReadTime: " << this->ReadTime << " s\n";
-  os << indent << "BuildTime: " << this->BuildTime << " s\n";
   os << indent << "MetaData: " << this->Internals->MetaData << "\n";
 }

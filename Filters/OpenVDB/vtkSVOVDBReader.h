@@ -18,6 +18,10 @@
  *
  * Several files are time steps, 0, 1, 2 and so on, in the order in which they were added.
  *
+ * Where constant tiles stand for voxels a MemoryLimit of 0 means 4 GiB of them.
+ * MaximumNumberOfQuads is of surfaces: where leaves are voxels, the mesh has the faces of cells of
+ * level 5.
+ *
  * What cannot be read leads to one message and an output without cells: a file that is missing,
  * truncated or no OpenVDB file, a grid that it does not have (the message names those that it has),
  * a frustum map, grids of points and vectors, more voxels than there is memory for (errors); a grid
@@ -30,8 +34,8 @@
 #ifndef vtkSVOVDBReader_h
 #define vtkSVOVDBReader_h
 
-#include "vtkPolyDataAlgorithm.h"
 #include "vtkSVOOpenVDBModule.h" // for the export macro
+#include "vtkSVOSurfaceAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
 #include <string> // for what only this class sees
@@ -45,11 +49,11 @@ struct SourceOctree;
 struct VDBOptions;
 }
 
-class VTKSVOOPENVDB_EXPORT vtkSVOVDBReader : public vtkPolyDataAlgorithm
+class VTKSVOOPENVDB_EXPORT vtkSVOVDBReader : public vtkSVOSurfaceAlgorithm
 {
 public:
   static vtkSVOVDBReader* New();
-  vtkTypeMacro(vtkSVOVDBReader, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkSVOVDBReader, vtkSVOSurfaceAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   //@{
@@ -140,44 +144,10 @@ public:
 
   //@{
   /**
-   * Memory that the octree may take while it is built, in KiB; default 0: what the machine has
-   * available, but 4 GiB of voxels where constant tiles stand for them.
+   * Of the last execution: how long it took to read the grid, in seconds; the metadata of the grid
+   * and of the file, a "name: value" a line. They are empty, or 0, before Update().
    */
-  vtkSetMacro(MemoryLimit, unsigned long);
-  vtkGetMacro(MemoryLimit, unsigned long);
-  //@}
-
-  //@{
-  /**
-   * How large the output's mesh may get: its contour has about as many quads as the octree has
-   * cells at the deepest level that has at most this many. 1 to 500 million, values outside are
-   * clamped; default 1 million. A quad takes about 44 bytes. Of surfaces only: where leaves are
-   * voxels, the mesh has the faces of cells of level 5.
-   */
-  vtkSetClampMacro(MaximumNumberOfQuads, vtkIdType, 1, 500000000);
-  vtkGetMacro(MaximumNumberOfQuads, vtkIdType);
-  //@}
-
-  //@{
-  /**
-   * Whether the output's field data also says, in arrays of one value, what the octree is like:
-   * "SVO Level", "SVO Voxels", "SVO Memory" (KiB) and "SVO Build Time" (s). For programs that show
-   * field data to people. Default off.
-   */
-  vtkSetMacro(WriteStatistics, bool);
-  vtkGetMacro(WriteStatistics, bool);
-  vtkBooleanMacro(WriteStatistics, bool);
-  //@}
-
-  //@{
-  /**
-   * Of the last execution: occupied voxels of the octree, 0 if none; how long it took to read the
-   * grid and to build the octree, in seconds; the metadata of the grid and of the file, a "name:
-   * value" a line. All of them are empty, or 0, before Update().
-   */
-  vtkGetMacro(NumberOfVoxels, vtkIdType);
   vtkGetMacro(ReadTime, double);
-  vtkGetMacro(BuildTime, double);
   const char* GetMetaData();
   //@}
 
@@ -203,12 +173,7 @@ private:
   std::unique_ptr<vtkInternals> Internals;
   int Conversion = AUTOMATIC;
   double Threshold = 0.0;
-  unsigned long MemoryLimit = 0;
-  vtkIdType MaximumNumberOfQuads = 1000000;
-  bool WriteStatistics = false;
-  vtkIdType NumberOfVoxels = 0;
   double ReadTime = 0.0;
-  double BuildTime = 0.0;
 };
 
 #endif
