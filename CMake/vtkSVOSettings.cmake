@@ -1,5 +1,5 @@
-# What follows from the settings and the statistics in Rendering/Settings.cmake, whose head says what an entry has: the code, in the build
-# tree, of whoever calls vtksvo_configure_settings(), and the guide's tables (Testing/House/TestSettings.py).
+# What follows from the settings and figures in Rendering/Settings.cmake, whose head says what an entry has: the code, in
+# the build tree, of whoever calls vtksvo_configure_settings(), and the guide's tables (Testing/House/TestSettings.py).
 set(VTKSVO_SETTINGS "${CMAKE_CURRENT_LIST_DIR}/../Rendering/Settings.cmake")
 
 # What is made of the entries, by the names that templates use.

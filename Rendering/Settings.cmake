@@ -306,7 +306,7 @@ vtksvo_statistic(NumberOfInstances int OF instances PARAVIEW
 vtksvo_statistic(LayerMemorySize memory OF tracer.layerMemory PARAVIEW
   SAYS "Memory in KiB of what is kept of traced objects.")
 vtksvo_statistic(ShadowMemorySize memory OF "tracer.shadowMemory + frame.receiverMemory" PARAVIEW
-  SAYS "Memory in KiB of shadow buffers; see SetShadowMemoryLimit().")
+  SAYS "Memory in KiB of shadow buffers, with the copies for rasterised surfaces.")
 vtksvo_statistic(OctreeMemorySize memory PARAVIEW
   SAYS "Memory in KiB of octrees that the view built itself.")
 vtksvo_statistic(ImageSampleDistance double UNIT pixels PARAVIEW

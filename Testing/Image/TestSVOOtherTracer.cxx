@@ -19,9 +19,30 @@ using namespace svotest;
 
 namespace
 {
+/// One that knows no other processes and no edges.
+class Other : public svo::Tracer
+{
+public:
+  svo::Frame& frame() override { return this->Picture; }
+  bool shareShadows(const svo::Scene&, const svo::View&, const svo::FrameSettings&,
+    const svo::ParallelFor&, svo::Processes&) override
+  {
+    return false;
+  }
+  void divideEdges(const svo::Scene&, const svo::View&, const std::vector<glm::vec2>&,
+    const svo::ParallelFor&, svo::Silhouettes&) const override
+  {
+  }
+  const std::vector<svo::ShadowMap>& shadowMaps() const override { return this->Maps; }
+
+protected:
+  svo::Frame Picture;
+  std::vector<svo::ShadowMap> Maps;
+};
+
 /// Sees a green wall in front of everything in the left half, wherever there is something to be
 /// seen.
-class Wall : public svo::Tracer
+class Wall : public Other
 {
 public:
   std::vector<svo::NeededLevels> neededLevels(
@@ -51,33 +72,20 @@ public:
     Level = scene.instances.empty() ? 0 : scene.instances[0].body->octree.level();
     ++Frames;
   }
-  svo::Frame& frame() override { return this->Picture; }
-  bool shareShadows(const svo::Scene&, const svo::View&, const svo::FrameSettings&,
-    const svo::ParallelFor&, svo::Processes&) override
-  {
-    return false;
-  }
-  void divideEdges(const svo::Scene&, const svo::View&, const std::vector<glm::vec2>&,
-    const svo::ParallelFor&, svo::Silhouettes&) const override
-  {
-  }
   const svo::FrameStatistics& statistics() const override { return this->Statistics; }
-  const std::vector<svo::ShadowMap>& shadowMaps() const override { return this->Maps; }
   void releaseLayers() override {}
 
   static int Frames, Asked, Level;
 
 private:
-  svo::Frame Picture;
   svo::FrameStatistics Statistics;
-  std::vector<svo::ShadowMap> Maps;
 };
 int Wall::Frames = 0;
 int Wall::Asked = 0;
 int Wall::Level = 0;
 
 /// Ours, but all that it hands out lies in the window's context, and nothing in arrays.
-class OnGPU : public svo::Tracer
+class OnGPU : public Other
 {
 public:
   std::vector<svo::NeededLevels> neededLevels(const svo::Scene& scene, const svo::View& view,
@@ -108,18 +116,7 @@ public:
     this->Maps = this->Ours->shadowMaps();
     this->sendMaps();
   }
-  svo::Frame& frame() override { return this->Picture; }
-  bool shareShadows(const svo::Scene&, const svo::View&, const svo::FrameSettings&,
-    const svo::ParallelFor&, svo::Processes&) override
-  {
-    return false;
-  }
-  void divideEdges(const svo::Scene&, const svo::View&, const std::vector<glm::vec2>&,
-    const svo::ParallelFor&, svo::Silhouettes&) const override
-  {
-  }
   const svo::FrameStatistics& statistics() const override { return this->Ours->statistics(); }
-  const std::vector<svo::ShadowMap>& shadowMaps() const override { return this->Maps; }
   unsigned int mapTexture() const override { return this->Texels->GetHandle(); }
   void releaseLayers() override { this->Ours->releaseLayers(); }
   void releaseGraphicsResources() override
@@ -170,8 +167,6 @@ private:
   }
 
   std::unique_ptr<svo::Tracer> Ours = svo::makeCPUTracer();
-  svo::Frame Picture;
-  std::vector<svo::ShadowMap> Maps;
   vtkNew<vtkTextureObject> Color, Depth;
   vtkSmartPointer<svo::TexelBuffer> Texels = vtkSmartPointer<svo::TexelBuffer>::New();
 };
@@ -179,14 +174,14 @@ vtkOpenGLRenderWindow* OnGPU::Window = nullptr;
 int OnGPU::Released = 0;
 std::size_t OnGPU::Sent = 0;
 
-template <class Other>
+template <class T>
 class PassOf : public vtkSVORenderPass
 {
 public:
   static PassOf* New() { VTK_STANDARD_NEW_BODY(PassOf); }
 
 protected:
-  std::unique_ptr<svo::Tracer> MakeTracer() const override { return std::make_unique<Other>(); }
+  std::unique_ptr<svo::Tracer> MakeTracer() const override { return std::make_unique<T>(); }
 };
 
 /// What is traced, and what is rasterised and receives, look as they do from arrays.

@@ -26,7 +26,6 @@ struct PassStatistics
   double coarseOctreeError = 0.0;
   std::size_t receiverMemory = 0; // bytes that OpenGL holds of shadow buffers
 };
-
 }
 
 #endif

@@ -2,10 +2,10 @@
 #ifndef svoSceneOctrees_h
 #define svoSceneOctrees_h
 
-#include "svoPlacedShapes.h"
 #include "svoGlyphCopies.h"
 #include "svoKept.h"
 #include "svoOctreeStore.h"
+#include "svoPlacedShapes.h"
 #include "svoPropState.h"
 #include "svoScene.h"
 #include "svoSurfaceLook.h"

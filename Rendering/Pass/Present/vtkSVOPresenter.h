@@ -96,7 +96,7 @@ private:
   void ReleaseAll();
 
   vtkSmartPointer<vtkTextureObject> Context; // has all released in the window's own context
-  bool Entered = false; // and not left
+  bool Entered = false;                      // and not left
   std::function<void()> LeaveContext;
   Prepare PrepareFrame;
   svo::Frame* Frame = nullptr;
