@@ -248,8 +248,16 @@ vtksvo_setting(Backend choice BACKEND_AUTO
   TABLE time
   CHOICES BACKEND_AUTO Auto BACKEND_CPU CPU BACKEND_OPENGL OpenGL
   SAYS
-    "Where rays are traced. Auto takes the fastest that is there. This version has the CPU: asking for OpenGL warns once and
-     uses it.")
+    "Where the picture is made. CPU: octrees are traced on the processor. OpenGL: VTK draws all surfaces itself, and with
+     ShadowRays or Automatic its shaders follow exact rays through the octrees to each light. Auto takes the CPU.")
+
+vtksvo_setting(GPUMemoryLimit memory 2097152
+  TABLE time
+  FIELD gpuMemoryLimit CHANGES nothing
+  PANEL advanced LABEL "GPU Memory Limit (KiB)"
+  SAYS
+    "Octrees in the GPU's memory, with the OpenGL backend. What does not fit is answered by shadow maps of the CPU, with a
+     message.")
 
 vtksvo_setting(ShadowsForEverything bool false
   TABLE host
@@ -307,6 +315,8 @@ vtksvo_statistic(LayerMemorySize memory OF tracer.layerMemory PARAVIEW
   SAYS "Memory in KiB of what is kept of traced objects.")
 vtksvo_statistic(ShadowMemorySize memory OF "tracer.shadowMemory + frame.receiverMemory" PARAVIEW
   SAYS "Memory in KiB of shadow buffers, with the copies for rasterised surfaces.")
+vtksvo_statistic(GPUMemory memory OF tracer.gpuMemory PARAVIEW
+  SAYS "Memory in KiB of octrees in the GPU's memory.")
 vtksvo_statistic(OctreeMemorySize memory PARAVIEW
   SAYS "Memory in KiB of octrees that the view built itself.")
 vtksvo_statistic(ImageSampleDistance double UNIT pixels PARAVIEW

@@ -57,7 +57,6 @@ struct vtkSVORenderPass::Internals
   vtkTimeStamp shaderTime;
   std::set<std::string> said; // messages about no object in particular
   bool saidHeadlight = false;
-  bool saidOpenGL = false;
   bool saidMemory = false;
   bool releaseAsked = false; // while a frame was drawn
 

@@ -1,6 +1,7 @@
 #include "vtkSVORenderPass.h"
 
 #include "svoCameraView.h"
+#include "svoOpenGLTracer.h"
 #include "svoOwnCamera.h"
 #include "svoPassInternals.h"
 
@@ -26,19 +27,14 @@ vtkSVORenderPass::~vtkSVORenderPass()
   }
 }
 
-void vtkSVORenderPass::SetBackend(int backend)
+int vtkSVORenderPass::GetActiveBackend() const
 {
-  if (backend >= BACKEND_OPENGL && !this->Impl->saidOpenGL)
-  {
-    this->Impl->saidOpenGL = true;
-    vtkWarningMacro("The OpenGL backend is not part of this version; rays are traced on the CPU.");
-  }
-  this->Superclass::SetBackend(backend);
+  return this->Backend == BACKEND_OPENGL ? BACKEND_OPENGL : BACKEND_CPU;
 }
 
 std::unique_ptr<svo::Tracer> vtkSVORenderPass::MakeTracer() const
 {
-  return svo::makeCPUTracer();
+  return svo::makeOpenGLTracer(svo::makeCPUTracer());
 }
 
 std::string vtkSVORenderPass::GetText(int text, vtkLight*) const

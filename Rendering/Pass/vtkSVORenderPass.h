@@ -70,14 +70,9 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * In this version OpenGL leads to a warning, once, and to the CPU.
-   */
-  void SetBackend(int backend) override;
-
-  /**
    * The backend that is used: BACKEND_CPU or BACKEND_OPENGL.
    */
-  int GetActiveBackend() const { return BACKEND_CPU; }
+  int GetActiveBackend() const;
 
   /**
    * Frees the octrees that the pass keeps, and ends what is built in the background; the next frame
@@ -312,8 +307,8 @@ protected:
   const svo::PassStatistics& LastFrame() const override;
 
   /**
-   * A tracer for a renderer, which is asked for all of its frames. This one runs on the processor;
-   * a subclass may have another (svoTracer.h).
+   * A tracer for a renderer, which is asked for all of its frames. This one runs on the processor,
+   * and on the GPU where the backend is OpenGL; a subclass may have another (svoTracer.h).
    */
   virtual std::unique_ptr<svo::Tracer> MakeTracer() const;
 #endif
@@ -329,6 +324,7 @@ private:
   svo::PassFrame& BeginFrame(vtkRenderer* renderer);
   bool CollectFrame(svo::PassFrame& frame, int width, int height, const svo::OwnCamera* camera);
   std::function<bool()> AbortOf(vtkRenderWindow* window, bool ask, bool& disturbed);
+  bool HasLightCode() const;
   void DecideSettings(svo::PassFrame& frame);
   void TraceFrame(svo::PassFrame& frame, int width, int height);
   void FinishFrame(svo::PassFrame& frame);

@@ -66,6 +66,7 @@ bool vtkSVORenderPass::CollectFrame(
   // is collected once more after that, when nothing is left to be built. Of the last collection
   // nobody is told, so that it ends even for those who change something every time.
   constexpr int MostCollections = 4;
+  const bool openGL = this->GetActiveBackend() == BACKEND_OPENGL;
   vtkRenderer* renderer = frame.renderer;
   frame.state->beginFrame();
   bool disturbed = true;
@@ -108,8 +109,9 @@ bool vtkSVORenderPass::CollectFrame(
     collect.onlyMarked = attached;
     collect.unmarkedToo = this->ShadowsForEverything;
     collect.translucentShadows = this->TranslucentShadows;
-    // What processes tell each other of their casters does not include colours.
-    collect.meanOpacity = severalProcesses;
+    // Neither what processes tell each other of their casters nor shaders know colours.
+    collect.meanOpacity = severalProcesses || openGL;
+    collect.onlyCast = openGL;
     const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
     collect.notMarked = notMarked.c_str();
     collect.said = &impl.said;
@@ -119,6 +121,7 @@ bool vtkSVORenderPass::CollectFrame(
     collect.lightWords = { [this](vtkLight* light) { return this->GetText(TEXT_HEADLIGHT, light); },
       [this](vtkLight* light) { return this->GetText(TEXT_LIGHT, light); } };
     this->Fill(collect.levels.frame);
+    collect.levels.frame.lightCode = this->HasLightCode();
     svo::viewOfCamera(renderer, width, height, collect.levels.eye);
     frame.state->collect(impl.store, store, collect);
     disturbed = disturbed || !frame.canDraw();
@@ -198,8 +201,17 @@ void vtkSVORenderPass::Fill(svo::TracerSettings& settings) const
   this->Superclass::Fill(settings);
   if (this->ShadowTechnique == SHADOW_AUTOMATIC)
   {
-    settings.shadowTechnique = svo::ShadowTechnique::Buffer;
+    settings.shadowTechnique = this->GetActiveBackend() == BACKEND_OPENGL
+      ? svo::ShadowTechnique::Rays
+      : svo::ShadowTechnique::Buffer;
   }
+}
+
+/// Whether rasterised surfaces send rays to the lights.
+bool vtkSVORenderPass::HasLightCode() const
+{
+  return this->GetActiveBackend() == BACKEND_OPENGL &&
+    (this->ShadowTechnique == SHADOW_RAYS || this->ShadowTechnique == SHADOW_AUTOMATIC);
 }
 
 /// Says how a frame is to be traced.
@@ -208,6 +220,7 @@ void vtkSVORenderPass::DecideSettings(svo::PassFrame& frame)
   svo::FrameSettings& settings = frame.settings;
   settings = svo::FrameSettings();
   this->Fill(settings);
+  settings.lightCode = this->HasLightCode();
   vtkRenderer* renderer = frame.renderer;
   frame.pacedShadows = hasCameraLight(renderer);
   if (this->AutoAdjustSampleDistances && isInteractive(renderer))

@@ -2,7 +2,7 @@
 // pictures and shadow maps they give are what the window shows, be they in arrays or on the GPU.
 #include "svoTestStage.h"
 
-#include "svoTexelBuffer.h"
+#include "svoBufferTexture.h"
 #include "svoTracer.h"
 
 #include "vtkObjectFactory.h"
@@ -117,15 +117,16 @@ public:
     this->sendMaps();
   }
   const svo::FrameStatistics& statistics() const override { return this->Ours->statistics(); }
-  unsigned int mapTexture() const override { return this->Texels->GetHandle(); }
+  unsigned int mapTexture() const override { return this->Texels.name(); }
   void releaseLayers() override { this->Ours->releaseLayers(); }
   void releaseGraphicsResources() override
   {
     Released += Window->IsCurrent() ? 1 : 100;
-    for (vtkTextureObject* texture : { this->Color.Get(), this->Depth.Get(), this->texels() })
+    for (vtkTextureObject* texture : { this->Color.Get(), this->Depth.Get() })
     {
       texture->ReleaseGraphicsResources(Window);
     }
+    this->Texels.release();
     this->Picture = svo::Frame();
     this->Maps.clear();
   }
@@ -135,8 +136,6 @@ public:
   static std::size_t Sent; // maps
 
 private:
-  vtkTextureObject* texels() { return this->Texels; }
-
   /// The tiles of all maps, then their tables.
   void sendMaps()
   {
@@ -160,15 +159,14 @@ private:
       }
       map.texels = nullptr;
     }
-    this->Texels->SetContext(Window);
-    this->Texels->allocate(numbers.size());
-    this->Texels->send(0, numbers.data(), numbers.size());
+    this->Texels.allocate(numbers.size());
+    this->Texels.send(0, numbers.data(), numbers.size());
     Sent = this->Maps.size();
   }
 
   std::unique_ptr<svo::Tracer> Ours = svo::makeCPUTracer();
   vtkNew<vtkTextureObject> Color, Depth;
-  vtkSmartPointer<svo::TexelBuffer> Texels = vtkSmartPointer<svo::TexelBuffer>::New();
+  svo::BufferTexture Texels{ svo::BufferTexture::Texel::Float };
 };
 vtkOpenGLRenderWindow* OnGPU::Window = nullptr;
 int OnGPU::Released = 0;

@@ -5,6 +5,7 @@
 #include "svoShadowCases.h"
 #include "svoTestPicture.h"
 
+#include "svoMapCode.h"
 #include "svoShadowReceivers.h"
 
 #include "vtkNew.h"
@@ -53,7 +54,8 @@ public:
     svo::Light light;
     light.color = glm::vec3(1.0f);
     const std::string complaint =
-      this->Receivers.update(window, cases.maps, { light }, cases.eye, cases.settings);
+      this->Maps.update(cases.maps, { light }, cases.eye, cases.settings);
+    this->Receivers.update(window, this->Maps.code(), cases.settings.shadowIntensity, false);
     if (!complaint.empty())
     {
       std::cout << complaint << '\n';
@@ -65,7 +67,11 @@ public:
       this->Inputs[2].push_back({ p.normal.x, p.normal.y, p.normal.z, 0.0f });
     }
   }
-  ~Shader() { this->Receivers.release(); }
+  ~Shader()
+  {
+    this->Receivers.release();
+    this->Maps.release();
+  }
   Shader(const Shader&) = delete;
   Shader& operator=(const Shader&) = delete;
 
@@ -78,8 +84,8 @@ public:
     const std::vector<FourFloats> lit = runFragments(this->Window, ShadowCases::Across,
       this->Inputs, declarations,
       "  vec4 position = texelFetch(input0, at, 0);\n"
-      "  gl_FragData[0] = vec4(1.0 - svoLit(svoFirst[0], svoFirst[1], position.xyz,\n"
-      "    texelFetch(input1, at, 0).xyz, texelFetch(input2, at, 0).xyz, vec3(0.0), position.w));\n"
+      "  gl_FragData[0] = vec4(1.0 - svoShown(svoLeft(0, position.xyz,\n"
+      "    texelFetch(input1, at, 0).xyz, texelFetch(input2, at, 0).xyz, vec3(0.0), position.w)));\n"
       "  gl_FragData[0].a = 1.0;\n", // blending writes it all
       [this](vtkShaderProgram* program) { this->Receivers.setUniforms(program, true, false); });
     this->Receivers.deactivate();
@@ -89,6 +95,7 @@ public:
 private:
   vtkOpenGLRenderWindow* Window;
   const ShadowCases& Cases;
+  svo::MapCode Maps;
   svo::ShadowReceivers Receivers;
   std::vector<std::vector<FourFloats>> Inputs;
 };

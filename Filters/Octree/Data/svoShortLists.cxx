@@ -10,14 +10,14 @@ namespace svo
 {
 namespace
 {
-/// A list that is still being made, in ascending order; `count` above Most: too long.
+/// A list that is still being made, in ascending order; `count` of TooMany: too long.
 struct Few
 {
   static constexpr std::uint32_t TooMany = ShortLists::Most + 1;
   std::uint32_t count = 0;
   std::uint32_t ids[ShortLists::Most];
 
-  void add(const std::uint32_t* list, std::uint32_t n)
+  void add(const std::uint32_t* list, std::uint32_t n, std::uint32_t most)
   {
     if (this->count == n && std::equal(list, list + n, this->ids)) // as in most bricks
     {
@@ -31,7 +31,7 @@ struct Few
       {
         continue;
       }
-      if (this->count == ShortLists::Most)
+      if (this->count == most)
       {
         this->count = TooMany;
         return;
@@ -46,8 +46,9 @@ struct Few
 class Gatherer
 {
 public:
-  Gatherer(const Octree& octree, ShortLists& lists)
+  Gatherer(const Octree& octree, std::uint32_t most, ShortLists& lists)
     : Of(octree)
+    , Longest(most)
     , Bricks(octree.brickBegin())
     , Lists(lists)
   {
@@ -62,7 +63,7 @@ public:
       std::uint32_t count, inlineId;
       const std::uint32_t* list = this->Of.brickTriangles(index, count, inlineId);
       few.count = 0;
-      if (count > ShortLists::Most)
+      if (count > this->Longest)
       {
         few.count = Few::TooMany;
         return;
@@ -82,7 +83,7 @@ public:
       {
         few.count = Few::TooMany;
       }
-      few.add(below[k].ids, few.count == Few::TooMany ? 0 : below[k].count);
+      few.add(below[k].ids, few.count == Few::TooMany ? 0 : below[k].count, this->Longest);
     }
     if (few.count == Few::TooMany && node.first < this->Bricks)
     {
@@ -106,12 +107,13 @@ public:
 
 private:
   const Octree& Of;
+  std::uint32_t Longest;
   std::uint32_t Bricks;
   ShortLists& Lists;
 };
 }
 
-ShortLists makeShortLists(const Octree& octree)
+ShortLists makeShortLists(const Octree& octree, std::uint32_t most)
 {
   ShortLists lists;
   const std::uint32_t bricks = octree.brickBegin();
@@ -120,7 +122,8 @@ ShortLists makeShortLists(const Octree& octree)
   {
     return lists;
   }
-  Gatherer gatherer(octree, lists);
+  assert(most >= 1 && most <= ShortLists::Most);
+  Gatherer gatherer(octree, most, lists);
   Few all;
   gatherer.gather(0, all);
   gatherer.write(0, all);

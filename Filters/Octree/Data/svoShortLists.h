@@ -7,6 +7,8 @@
 #ifndef svoShortLists_h
 #define svoShortLists_h
 
+#include "vtkSVOOctreeModule.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -32,8 +34,9 @@ struct ShortLists
   std::size_t bytes() const { return 4 * (this->begin.size() + this->words.size()); }
 };
 
-/// The lists of an octree whose nodes have been checked.
-ShortLists makeShortLists(const Octree& octree);
+/// The lists of an octree whose nodes have been checked, of up to `most` triangles, 1..Most.
+VTKSVOOCTREE_EXPORT ShortLists makeShortLists(
+  const Octree& octree, std::uint32_t most = ShortLists::Most);
 }
 
 #endif

@@ -290,6 +290,10 @@ void PropCollector::collectActor(
   {
     beyond = "was told so";
   }
+  if (!beyond && frame.onlyCast)
+  {
+    beyond = IsDrawnByOpenGL;
+  }
   if (beyond)
   {
     found.rasterize(beyond);

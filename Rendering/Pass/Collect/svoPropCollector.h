@@ -46,6 +46,7 @@ struct CollectProps
   bool unmarkedToo;
   bool translucentShadows;     // what is translucent casts as well, as light as it is
   bool meanOpacity;            // ... each surface equally all over
+  bool onlyCast;               // nothing is traced; the rasteriser draws all that is seen
   Reason notMarked;            // why the others are not traced
   std::set<std::string>* said; // messages of the pass, about no object in particular
   /// Messages about surfaces and cells that cast nothing, or more than they show; empty: none.

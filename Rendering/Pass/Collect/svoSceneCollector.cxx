@@ -96,8 +96,8 @@ std::vector<vtkSmartPointer<vtkProp>> propsOf(vtkRenderer* renderer)
 PropSurfaces SceneCollector::judge(vtkProp* prop)
 {
   const StoreOptions silent{};
-  const CollectProps frame{ silent, true, false, false, false, true, false, nullptr, nullptr, {},
-    {}, {}, glm::dmat4(1.0) };
+  const CollectProps frame{ silent, true, false, false, false, true, false, false, nullptr, nullptr,
+    {}, {}, {}, glm::dmat4(1.0) };
   PropSurfaces found;
   found.prop = prop;
   if (!prop->GetVisibility())
@@ -272,7 +272,8 @@ void SceneCollector::explain(
       [](const SceneSurface& surface) { return surface.casts && surface.instance.body->octree; });
     const Reason missing = prop.hasOctrees() ? nullptr : withoutOctree(options);
     const Reason left = missing ? missing : reasonOfSharing(prop);
-    const Reason rasterized = prop.rasterized ? prop.rasterized : left;
+    const Reason own = prop.rasterized == IsDrawnByOpenGL ? nullptr : prop.rasterized;
+    const Reason rasterized = own ? own : left;
     const Reason castsNone = prop.castsNone ? prop.castsNone : missing;
     const bool asChosen = !castsNone && !prop.marked;
     const std::string text = reasons(rasterized, castsNone, casts);
@@ -367,15 +368,15 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   }
   const CollectProps frame{ options, settings.shadows && casting, !result.scene.lights.empty(),
     settings.onlyMarked, settings.unmarkedToo, settings.translucentShadows, settings.meanOpacity,
-    this->NotMarked.c_str(), settings.said, settings.translucentSurfaceText,
+    settings.onlyCast, this->NotMarked.c_str(), settings.said, settings.translucentSurfaceText,
     settings.translucentText, settings.cutOutText, world,
     settings.levels.eye.width > 0 ? &settings.levels.eye : nullptr };
   const std::vector<vtkSmartPointer<vtkProp>> props = propsOf(renderer);
   const bool all = !this->Collected || !sameReason ||
     std::tie(this->Shadows, this->Lights, this->OnlyMarked, this->UnmarkedToo,
-      this->TranslucentShadows, this->MeanOpacity, this->World) !=
+      this->TranslucentShadows, this->MeanOpacity, this->OnlyCast, this->World) !=
       std::tie(frame.shadows, frame.lights, frame.onlyMarked, frame.unmarkedToo,
-        frame.translucentShadows, frame.meanOpacity, world);
+        frame.translucentShadows, frame.meanOpacity, frame.onlyCast, world);
   this->Collected = true;
   this->Shadows = frame.shadows;
   this->Lights = frame.lights;
@@ -383,6 +384,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   this->UnmarkedToo = frame.unmarkedToo;
   this->TranslucentShadows = frame.translucentShadows;
   this->MeanOpacity = frame.meanOpacity;
+  this->OnlyCast = frame.onlyCast;
   this->World = world;
   const bool changed = this->collectProps(props, frame, all);
   if (changed)

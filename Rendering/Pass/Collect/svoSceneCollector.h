@@ -32,6 +32,7 @@ struct CollectSettings
   bool unmarkedToo = false;
   bool translucentShadows = false;
   bool meanOpacity = false;
+  bool onlyCast = false;
   Reason notMarked = "was not chosen with SetUseSVO"; // need not outlive the call
   LevelSettings levels;
   std::set<std::string>* said = nullptr; // messages of the pass, about no object in particular
@@ -111,7 +112,7 @@ private:
   // The rest of what they depend on.
   bool Collected = false;
   bool Shadows = false, Lights = false, OnlyMarked = false, UnmarkedToo = false;
-  bool TranslucentShadows = false, MeanOpacity = false;
+  bool TranslucentShadows = false, MeanOpacity = false, OnlyCast = false;
   std::string NotMarked; // what reasons of kept props point to
   glm::dmat4 World{ 1.0 };
   LevelSettings Levels;

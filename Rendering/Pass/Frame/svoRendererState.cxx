@@ -46,7 +46,13 @@ RendererState::RendererState(vtkRenderer* renderer, std::unique_ptr<Tracer> trac
   : Renderer(renderer)
   , Trace(std::move(tracer))
 {
-  this->Presenter->SetLeave([this] { this->Trace->releaseGraphicsResources(); });
+  this->Presenter->SetLeave(
+    [this]
+    {
+      this->Receivers.release();
+      this->Maps.release();
+      this->Trace->releaseGraphicsResources();
+    });
 }
 
 RendererState::~RendererState()
@@ -152,7 +158,6 @@ std::string RendererState::lostShadows(const FrameSettings& settings) const
 void RendererState::trace(int width, int height, const FramePace& pace, FrameSettings settings)
 {
   this->Statistics.pace = pace;
-  this->Receivers.setCatchers(this->Collected.shadowCatchers);
   Scene& scene = this->Collected.scene;
   // By now the renderer has counted its lights, by rules of its own, for the mappers.
   auto* counted = vtkOpenGLRenderer::SafeDownCast(this->Renderer);
@@ -164,7 +169,9 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   if (!this->HasPicture)
   {
     this->Trace->releaseLayers();
-    this->Receivers.update(window, {}, {}, view, settings);
+    this->Maps.release();
+    this->Receivers.update(
+      window, this->Maps.code(), settings.shadowIntensity, this->Collected.shadowCatchers);
     return;
   }
   settings.receiverMaps =
@@ -179,9 +186,14 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   this->Trace->render(scene, view, settings, smpParallelFor());
   this->Statistics.tracer = this->Trace->statistics();
   this->Statistics.coarseOctreeError = pace.distance * this->Statistics.tracer.coarsestVoxel;
-  this->Complaint = this->Receivers.update(
-    window, this->Trace->shadowMaps(), scene.lights, view, settings, this->Trace->mapTexture());
-  this->Statistics.receiverMemory = this->Receivers.memory();
+  const LightCode& code = this->Trace->lightCode();
+  this->Complaint = code.complaint;
+  const std::string missing = this->Maps.update(
+    this->Trace->shadowMaps(), scene.lights, view, settings, this->Trace->mapTexture());
+  this->Complaint = this->Complaint.empty() ? missing : this->Complaint;
+  this->Receivers.update(window, code.empty() ? this->Maps.code() : code, settings.shadowIntensity,
+    this->Collected.shadowCatchers);
+  this->Statistics.receiverMemory = this->Maps.memory();
   if (this->Complaint.empty() && settings.shadowTechnique != ShadowTechnique::None)
   {
     this->Complaint = this->lostShadows(settings);
@@ -191,7 +203,7 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
 void RendererState::present(vtkOpenGLRenderPass* pass)
 {
   this->Presenter->SetFrame(
-    this->HasPicture ? &this->Trace->frame() : nullptr,
+    this->HasPicture && this->Trace->lightCode().empty() ? &this->Trace->frame() : nullptr,
     [this](const std::vector<glm::vec2>& positions, Silhouettes& silhouettes)
     {
       if (this->Statistics.pace.distance == 1.0) // else the frame's pixels are not the window's
@@ -273,7 +285,6 @@ void RendererState::releaseLayers()
 void RendererState::releaseGraphicsResources(vtkWindow* window)
 {
   this->Presenter->ReleaseGraphicsResources(window);
-  this->Receivers.release();
   this->forgetScene(); // who releases these does not draw soon
 }
 }

@@ -2,6 +2,8 @@
 #ifndef svoRendererState_h
 #define svoRendererState_h
 
+#include "svoLightCode.h"
+#include "svoMapCode.h"
 #include "svoOctreeStore.h"
 #include "svoPassStatistics.h"
 #include "svoSampleDistance.h"
@@ -146,6 +148,7 @@ private:
   bool ForgetsScene = false;  // as soon as the frame has ended
   bool SharesShadows = false; // this frame's shadow buffers are those of all processes
   bool HasPicture = false;    // the tracer has rendered this frame
+  MapCode Maps;
   ShadowReceivers Receivers;
   std::string Complaint;
   PassStatistics Statistics;

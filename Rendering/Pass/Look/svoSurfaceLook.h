@@ -28,6 +28,7 @@ using Reason = const char*;
 inline constexpr char ShowsNoPolygons[] = "is shown as wireframe or points";
 inline constexpr char HasNoPolygons[] = "has lines or vertices, none of them as tubes or spheres";
 inline constexpr char IsTranslucent[] = "is translucent";
+inline constexpr char IsDrawnByOpenGL[] = "is drawn by OpenGL";
 inline constexpr char HasClippingPlanes[] = "has clipping planes on its mapper";
 inline constexpr char MayDrawAnything[] = "is of a class that may draw anything";
 

@@ -7,12 +7,12 @@
 #include "svoFrameCopy.h"
 
 #include "vtkSmartPointer.h"
+#include "vtkTextureObject.h"
 
 #include <cstdint>
 #include <vector>
 
 class vtkOpenGLRenderWindow;
-class vtkTextureObject;
 
 namespace svo
 {

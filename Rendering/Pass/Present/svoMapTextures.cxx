@@ -1,10 +1,5 @@
 #include "svoMapTextures.h"
 
-#include "svoOpenGL.h"
-
-#include "vtkOpenGLRenderWindow.h"
-#include "vtkTextureObject.h"
-
 #include <algorithm>
 #include <limits>
 
@@ -26,18 +21,22 @@ const std::vector<float> EmptyTile = []
 /// Tables name tiles by their numbers, which floats have to hold.
 std::size_t MapTextures::most()
 {
-  return std::min(TexelBuffer::most(), ShadowTexels::InTile << 24);
+  return std::min(BufferTexture::most(), ShadowTexels::InTile << 24);
 }
 
-bool MapTextures::upload(
-  const std::vector<const ShadowMap*>& maps, unsigned int texture, vtkOpenGLRenderWindow* window)
+bool MapTextures::upload(const std::vector<const ShadowMap*>& maps, unsigned int texture)
 {
   if (texture != 0)
   {
-    this->borrow(maps, texture, window);
+    this->release();
+    this->Borrowed = texture;
+    for (const ShadowMap* map : maps)
+    {
+      this->Tables.push_back(map->table);
+    }
     return true;
   }
-  if (!this->fits(maps, window) && !this->layOut(maps, window))
+  if (!this->fits(maps) && !this->layOut(maps))
   {
     this->release();
     return false;
@@ -53,44 +52,18 @@ bool MapTextures::upload(
   return true;
 }
 
-void MapTextures::borrow(
-  const std::vector<const ShadowMap*>& maps, unsigned int texture, vtkOpenGLRenderWindow* window)
-{
-  this->release();
-  this->Texture = vtkSmartPointer<vtkTextureObject>::New();
-  this->Texture->SetContext(window);
-  this->Texture->AssignToExistingTexture(texture, GL_TEXTURE_BUFFER);
-  for (const ShadowMap* map : maps)
-  {
-    this->Tables.push_back(map->table);
-  }
-}
-
 void MapTextures::release()
 {
-  this->Texture = nullptr;
-  this->Sent = nullptr;
+  this->Borrowed = 0;
+  this->Sent.release();
   this->Blocks.clear();
   this->Tables.clear();
 }
 
-int MapTextures::activate() const
-{
-  this->Texture->Activate();
-  return this->Texture->GetTextureUnit();
-}
-
-void MapTextures::deactivate() const
-{
-  this->Texture->Deactivate();
-}
-
 /// True if all of them have room where the last frame's were.
-bool MapTextures::fits(
-  const std::vector<const ShadowMap*>& maps, vtkOpenGLRenderWindow* window) const
+bool MapTextures::fits(const std::vector<const ShadowMap*>& maps) const
 {
-  bool fits = this->Sent && this->Sent->GetContext() == window && this->Sent->GetHandle() != 0 &&
-    this->Blocks.size() == maps.size();
+  bool fits = this->Sent.size() > 0 && this->Blocks.size() == maps.size();
   for (std::size_t i = 0; fits && i < maps.size(); ++i)
   {
     const ShadowTexels& texels = *maps[i]->texels;
@@ -104,7 +77,7 @@ bool MapTextures::fits(
 }
 
 /// Makes room for these maps, and a little more. False if OpenGL refuses.
-bool MapTextures::layOut(const std::vector<const ShadowMap*>& maps, vtkOpenGLRenderWindow* window)
+bool MapTextures::layOut(const std::vector<const ShadowMap*>& maps)
 {
   this->release(); // before there are others
   // Maps in which nothing lies have one table together.
@@ -125,15 +98,12 @@ bool MapTextures::layOut(const std::vector<const ShadowMap*>& maps, vtkOpenGLRen
     this->Tables.push_back(static_cast<int>(end));
     end = this->Blocks.back().texels() + texels.stride * tiles;
   }
-  this->Sent = vtkSmartPointer<TexelBuffer>::New();
-  this->Sent->SetContext(window);
-  this->Texture = this->Sent;
-  if (end > most() || !this->Sent->allocate(end))
+  if (end > most() || !this->Sent.allocate(end))
   {
     return false;
   }
-  this->Sent->send(0, EmptyTile.data(), EmptyTile.size());
-  this->Sent->send(EmptyTile.size(), empty.data(), empty.size());
+  this->Sent.send(0, EmptyTile.data(), EmptyTile.size());
+  this->Sent.send(EmptyTile.size(), empty.data(), empty.size());
   return true;
 }
 
@@ -152,7 +122,7 @@ void MapTextures::send(const ShadowTexels& texels, const Block& block)
         (block.texels() + block.stride * texels.tiles[tile]) / ShadowTexels::InTile);
     }
   }
-  this->Sent->send(block.first, table.data(), table.size());
-  this->Sent->send(block.texels(), texels.numbers.data(), texels.numbers.size());
+  this->Sent.send(block.first, table.data(), table.size());
+  this->Sent.send(block.texels(), texels.numbers.data(), texels.numbers.size());
 }
 }

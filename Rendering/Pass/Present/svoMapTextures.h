@@ -1,19 +1,14 @@
-// A frame's shadow maps behind one texture unit. Of those that lie in arrays only the ones that are
-// others than last time are sent.
+// A frame's shadow maps in one buffer texture. Of those that lie in arrays only the ones that are
+// others than last time are sent. All calls are made in its context.
 #ifndef svoMapTextures_h
 #define svoMapTextures_h
 
+#include "svoBufferTexture.h"
 #include "svoFrame.h"
-#include "svoTexelBuffer.h"
-
-#include "vtkSmartPointer.h"
 
 #include <cstddef>
 #include <memory>
 #include <vector>
-
-class vtkOpenGLRenderWindow;
-class vtkTextureObject;
 
 namespace svo
 {
@@ -23,20 +18,17 @@ public:
   /// Floats that all maps may have together in the current context.
   static std::size_t most();
 
-  /// Has these maps, at least one, all of one size, behind the unit. `texture`: where they lie
+  /// Has these maps, at least one, all of one size, in the texture. `texture`: where they lie
   /// already (Tracer::mapTexture()), or 0. False, and nothing is there, if OpenGL has no room.
-  bool upload(
-    const std::vector<const ShadowMap*>& maps, unsigned int texture, vtkOpenGLRenderWindow* window);
+  bool upload(const std::vector<const ShadowMap*>& maps, unsigned int texture);
   void release();
 
   /// By map: where its table begins.
   const std::vector<int>& tables() const { return this->Tables; }
   /// Bytes that OpenGL holds for this.
-  std::size_t memory() const { return this->Sent ? this->Sent->size() * sizeof(float) : 0; }
-
-  /// Binds them to a texture unit, which it returns.
-  int activate() const;
-  void deactivate() const;
+  std::size_t memory() const { return this->Sent.bytes(); }
+  /// The name of the texture.
+  unsigned int name() const { return this->Borrowed != 0 ? this->Borrowed : this->Sent.name(); }
 
 private:
   /// Where a map lies.
@@ -54,15 +46,13 @@ private:
       return (this->first + this->table + InTile - 1) / InTile * InTile;
     }
   };
-  void borrow(
-    const std::vector<const ShadowMap*>& maps, unsigned int texture, vtkOpenGLRenderWindow* window);
-  bool fits(const std::vector<const ShadowMap*>& maps, vtkOpenGLRenderWindow* window) const;
-  bool layOut(const std::vector<const ShadowMap*>& maps, vtkOpenGLRenderWindow* window);
+  bool fits(const std::vector<const ShadowMap*>& maps) const;
+  bool layOut(const std::vector<const ShadowMap*>& maps);
   void send(const ShadowTexels& texels, const Block& block);
 
-  vtkSmartPointer<vtkTextureObject> Texture; // the tracer's, or Sent
-  vtkSmartPointer<TexelBuffer> Sent;         // first of all a tile of texels in which nothing lies
-  std::vector<Block> Blocks;                 // of Sent, by map
+  unsigned int Borrowed = 0;                         // the tracer's
+  BufferTexture Sent{ BufferTexture::Texel::Float }; // first a tile of texels in which nothing lies
+  std::vector<Block> Blocks;                         // of Sent, by map
   std::vector<int> Tables;
 };
 }

@@ -1,23 +1,16 @@
 #include "svoShadowReceivers.h"
 
-#include "svoMapGroups.h"
 #include "svoOpenGL.h"
 #include "svoShaderTokens.h"
 #include "svoShadowCatcher.h"
 #include "svoShadowReceiver.h"
-#include "svoShadowRules.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
 
-#include <algorithm>
-#include <iomanip>
-#include <locale>
 #include <map>
 #include <sstream>
-
-#include <glm/mat4x4.hpp>
-#include <glm/matrix.hpp>
 
 namespace svo
 {
@@ -26,64 +19,44 @@ namespace
 const char DeclarationMark[] = "//SVO::Dec\n";
 const char ImplementationMark[] = "//SVO::Impl\n";
 const char LitMark[] = "//SVO::Lit\n"; // after VTK's lighting
-constexpr std::size_t MapsOfLight = 6; // that there is room for, where most have fewer
-
-/// Maps that a shader has room for beside what VTK tells it of so many lights.
-std::size_t mostMaps(std::size_t lights)
+/// Has the vertex shader, and the geometry shader if there is one, send where a fragment lies
+/// inside of its facet, and with `corner` each facet one of its corners with its normal; false if
+/// they know none. (VTK's shader cache changes VSOut in fragment shaders to GSOut where there are
+/// geometry shaders.)
+bool sendPlaces(std::string& vertexShader, std::string& geometryShader, bool& corner)
 {
-  constexpr std::size_t OfLight = 28, OfMap = 24, Others = 512; // components, as vectors of four
-  GLint components = 0;
-  glGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS, &components);
-  const std::size_t taken = OfLight * lights + Others;
-  const std::size_t left = std::max<std::size_t>(components, taken) - taken;
-  return std::max(left / OfMap, MapsOfLight);
-}
-
-/// View coordinates of the eye -> (x, y, linear depth - base, w) of a map. Composed in double, so
-/// that world coordinates may be large.
-glm::mat4 receiverMatrix(const ShadowMap& map, const View& eye)
-{
-  const glm::dmat4 toLight = map.view.worldToView * glm::inverse(eye.worldToView);
-  glm::dmat4 result = map.view.viewToClip * toLight;
-  for (int column = 0; column < 4; ++column)
-  {
-    result[column][2] = -toLight[column][2];
-  }
-  result[3][2] -= map.base;
-  return glm::mat4(result);
-}
-
-/// Has the vertex shader, and the geometry shader if there is one, send each facet one of its
-/// corners with its normal; false if they know none. (VTK's shader cache changes VSOut in fragment
-/// shaders to GSOut where there are geometry shaders.)
-bool sendCorner(std::string& vertexShader, std::string& geometryShader)
-{
-  const std::string copied = "normalVCGSOutput = normalVCVSOutput[i];";
+  const std::string copied = "vertexVCGSOutput = vertexVCVSOutput[i];";
   const std::size_t main = vertexShader.find("void main()");
   const std::size_t end = vertexShader.rfind('}');
   const std::size_t geometryMain = geometryShader.find("void main()");
   const std::size_t copy = geometryShader.find(copied);
   if (main == std::string::npos || end == std::string::npos || end < main ||
-    vertexShader.find("out vec3 normalVCVSOutput;") == std::string::npos ||
     vertexShader.find("vertexVCVSOutput =", main) == std::string::npos ||
     (!geometryShader.empty() &&
       (geometryMain == std::string::npos || copy == std::string::npos || copy < geometryMain)))
   {
     return false;
   }
-  vertexShader.insert(end,
-    "  svoCornerVSOutput = vertexVCVSOutput.xyz;\n"
-    "  svoCornerNormalVSOutput = normalVCVSOutput;\n");
-  vertexShader.insert(
-    main, "flat out vec3 svoCornerVSOutput;\nflat out vec3 svoCornerNormalVSOutput;\n");
-  if (!geometryShader.empty())
+  const auto send = [&](const std::string& kind, const std::string& name, const std::string& what,
+                      const std::string& of)
   {
-    geometryShader.insert(copy + copied.size(),
-      "\n  svoCornerGSOutput = svoCornerVSOutput[0];\n"
-      "  svoCornerNormalGSOutput = svoCornerNormalVSOutput[0];\n");
-    geometryShader.insert(geometryMain,
-      "flat in vec3 svoCornerVSOutput[];\nflat in vec3 svoCornerNormalVSOutput[];\n"
-      "flat out vec3 svoCornerGSOutput;\nflat out vec3 svoCornerNormalGSOutput;\n");
+    vertexShader.insert(vertexShader.rfind('}'), "  " + name + "VSOutput = " + what + ";\n");
+    vertexShader.insert(main, kind + " out vec3 " + name + "VSOutput;\n");
+    if (!geometryShader.empty())
+    {
+      geometryShader.insert(geometryShader.find(copied) + copied.size(),
+        "\n  " + name + "GSOutput = " + name + "VSOutput[" + of + "];\n");
+      geometryShader.insert(geometryShader.find("void main()"),
+        kind + " in vec3 " + name + "VSOutput[];\n" + kind + " out vec3 " + name + "GSOutput;\n");
+    }
+  };
+  corner = vertexShader.find("out vec3 normalVCVSOutput;") != std::string::npos;
+  // With several samples a pixel its centre may lie beyond the facet, and behind the one beside it.
+  send("centroid", "svoPlace", "vertexVCVSOutput.xyz", "i");
+  if (corner)
+  {
+    send("flat", "svoCorner", "vertexVCVSOutput.xyz", "0");
+    send("flat", "svoCornerNormal", "normalVCVSOutput", "0");
   }
   return true;
 }
@@ -117,117 +90,61 @@ void catchShadows(std::string& declarations, std::string& body, bool lit)
     std::string(ImplementationMark) + (seen ? CatcherBeforeLighting : ""), false);
   vtkShaderProgram::Substitute(body, LitMark, seen ? CatcherAfterLighting : CatcherUnseen, false);
 }
-
-/// The numbers of svoShadowRules.h, in GLSL.
-std::string shadowRules()
-{
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::showpoint << std::setprecision(9); // a float's; without a point it were an int
-  for (const ShadowRule& rule : ShadowRules)
-  {
-    text << "const float svo" << rule.name << " = " << rule.value << ";\n";
-  }
-  return text.str();
-}
 }
 
-std::string ShadowReceivers::update(vtkOpenGLRenderWindow* window,
-  const std::vector<ShadowMap>& maps, const std::vector<Light>& lights, const View& eye,
-  const FrameSettings& settings, unsigned int texture)
+void ShadowReceivers::update(
+  vtkOpenGLRenderWindow* window, const LightCode& code, double intensity, bool catchers)
 {
-  if (maps.empty())
+  this->Code = &code;
+  this->Intensity = static_cast<float>(intensity);
+  this->Catchers = catchers;
+  this->Textures.resize(code.empty() ? 0 : code.textures.size());
+  for (std::size_t i = 0; i < this->Textures.size(); ++i)
   {
-    this->release();
-    return {};
-  }
-  double casterVoxel = 0.0;
-  for (const ShadowMap& map : maps)
-  {
-    casterVoxel = std::max(casterVoxel, map.casterVoxel);
-  }
-  this->ManualBias = static_cast<float>(settings.bias * casterVoxel);
-  this->Intensity = static_cast<float>(settings.shadowIntensity);
-  this->PlaneBias = settings.automaticBias;
-  this->Filter = settings.filterShadows;
-  MapGroups groups = groupsOf(maps);
-  std::string complaint;
-  const std::size_t most = mostMaps(lights.size());
-  if (keepBrightest(groups, lights, most, MapTextures::most()))
-  {
-    complaint = "Rasterised surfaces receive shadows of the brightest lights only: OpenGL takes no "
-                "more shadow maps.";
-  }
-
-  std::vector<const ShadowMap*> kept;
-  this->Groups.clear();
-  this->First.clear();
-  this->Rows.clear();
-  this->Errors.clear();
-  for (const auto& entry : groups)
-  {
-    if (!entry.first.translucent)
+    vtkSmartPointer<vtkTextureObject>& texture = this->Textures[i];
+    const unsigned int name = code.textures[i].name;
+    if (!texture || texture->GetContext() != window || texture->GetHandle() != name)
     {
-      this->FirstTranslucent = static_cast<int>(kept.size() + entry.second.size());
-    }
-    this->Groups.push_back(entry.first);
-    this->First.push_back(static_cast<int>(kept.size()));
-    for (const ShadowMap* map : entry.second)
-    {
-      const glm::mat4 matrix = glm::transpose(receiverMatrix(*map, eye));
-      this->Rows.insert(this->Rows.end(), &matrix[0][0], &matrix[0][0] + 16);
-      this->Errors.push_back(static_cast<float>(map->worldBias));
-      kept.push_back(map);
+      texture = vtkSmartPointer<vtkTextureObject>::New();
+      texture->SetContext(window);
+      texture->AssignToExistingTexture(name, GL_TEXTURE_BUFFER);
     }
   }
-  this->First.push_back(static_cast<int>(kept.size()));
-  // Shaders are not built anew because a light has other maps than before.
-  this->Capacity = std::min(std::max(kept.size(), MapsOfLight * groups.size()), most);
-  this->Size = maps.front().view.width;
-  if (!this->Maps.upload(kept, texture, window))
-  {
-    this->release();
-    return "Rasterised surfaces receive no shadows: OpenGL has no room for " +
-      std::to_string(kept.size()) + " shadow maps of " + std::to_string(this->Size) +
-      " texels. Lower ShadowBufferResolution.";
-  }
-  return complaint;
 }
 
 void ShadowReceivers::activate()
 {
-  if (!this->empty())
+  for (vtkTextureObject* texture : this->Textures)
   {
-    this->Maps.activate();
+    texture->Activate();
   }
 }
 
 void ShadowReceivers::deactivate()
 {
-  if (!this->empty())
+  for (vtkTextureObject* texture : this->Textures)
   {
-    this->Maps.deactivate();
+    texture->Deactivate();
   }
 }
 
 void ShadowReceivers::release()
 {
-  this->Groups.clear();
-  this->First.clear();
-  this->Errors.clear();
-  this->FirstTranslucent = 0;
-  this->Capacity = 0;
-  this->Maps.release();
+  this->Code = nullptr;
+  this->Textures.clear();
 }
 
 std::string ShadowReceivers::signature() const
 {
   std::ostringstream text;
-  text << this->Capacity << ' ' << this->PlaneBias << ' ' << this->Filter << ' ' << this->Catchers
-       << ": ";
-  for (const MapGroup& group : this->Groups)
+  text << this->Catchers << ": ";
+  if (!this->empty())
   {
-    text << group.light << (group.group > 0 ? "t " : " ");
+    for (const int light : this->Code->lights)
+    {
+      text << light << ' ';
+    }
+    text << this->Code->declarations;
   }
   return text.str();
 }
@@ -242,16 +159,7 @@ void ShadowReceivers::markShader(std::string& fragmentShader)
 
 std::string ShadowReceivers::declarations() const
 {
-  const auto boolean = [](bool value) { return value ? "true" : "false"; };
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << "const int svoCapacity = " << this->Capacity << ";\n"
-       << "const bool svoPlaneBias = " << boolean(this->PlaneBias) << ";\n"
-       << "const bool svoFilter = " << boolean(this->Filter) << ";\n"
-       << "const bool svoTranslucent = " << boolean(this->translucent()) << ";\n"
-       << shadowRules() << svoShadowReceiver << "uniform int svoFirst[" << this->Groups.size()
-       << " + 1];\n";
-  return text.str();
+  return this->Code->declarations + svoShadowReceiver;
 }
 
 void ShadowReceivers::completeShader(
@@ -283,14 +191,14 @@ void ShadowReceivers::completeShader(
   if (body.find("vec4 vertexVC =") != std::string::npos)
   {
     std::map<int, std::string> shares; // by light
-    for (std::size_t i = 0; i < this->Groups.size(); ++i)
+    for (std::size_t i = 0; i < (this->empty() ? 0 : this->Code->lights.size()); ++i)
     {
-      std::string& share = shares[this->Groups[i].light];
+      std::string& share = shares[this->Code->lights[i]];
       share += (share.empty() ? "svoShare[" : " * svoShare[") + std::to_string(i) + "]";
     }
     for (const auto& [light, share] : shares)
     {
-      weigh(light, this->translucent() ? "svoShown(" + share + ")" : share);
+      weigh(light, "svoShown(" + share + ")");
     }
   }
   const bool any = !code.str().empty();
@@ -304,12 +212,13 @@ void ShadowReceivers::completeShader(
     }
     catchShadows(declarations, body, any);
   }
-  const bool smooth = any && hasNormal && sendCorner(vertexShader, geometryShader);
+  bool corner = false;
+  const bool placed = any && sendPlaces(vertexShader, geometryShader, corner);
+  const bool smooth = corner && hasNormal;
   // One loop, since compilers copy the function to wherever it is called.
-  const std::string count = std::to_string(this->Groups.size());
-  const std::string lit = this->translucent() ? "svoLeft" : "svoLit";
+  const std::string count = any ? std::to_string(this->Code->lights.size()) : std::string();
   vtkShaderProgram::Substitute(declarations, DeclarationMark,
-    any ? this->declarations() +
+    any ? this->declarations() + (placed ? "centroid in vec3 svoPlaceVSOutput;\n" : "") +
         (smooth ? "flat in vec3 svoCornerVSOutput;\nflat in vec3 svoCornerNormalVSOutput;\n" : "")
         : std::string(),
     false);
@@ -317,17 +226,19 @@ void ShadowReceivers::completeShader(
     any ? std::string(round ? FragmentOfTube : FragmentOfFacet) +
         "  float svoExtent = min(length(dFdx(svoPosition)), length(dFdy(svoPosition)));\n"
         "  vec3 svoLift = " +
-        std::string(smooth ? "svoSmoothLift(svoPosition, svoFacet, normalVCVSOutput, "
-                             "svoCornerVSOutput, normalize(svoCornerNormalVSOutput));\n"
-                           : "vec3(0.0);\n") +
+        std::string(smooth
+            ? "svoSmoothLift(svoPosition, svoFacet, normalVCVSOutput, svoCornerVSOutput, "
+              "normalize(svoCornerNormalVSOutput));\n"
+            : "vec3(0.0);\n") +
+        (placed && !round ? "  svoPosition = svoInFacet(svoPosition, svoPlaceVSOutput, svoFacet);\n"
+                          : "") +
         "  float svoShare[" + count +
         "];\n"
         "  for (int i = 0; i < " +
         count +
         "; ++i)\n"
         "  {\n"
-        "    svoShare[i] = " +
-        lit + "(svoFirst[i], svoFirst[i + 1], svoPosition, svoFacet, " +
+        "    svoShare[i] = svoLeft(i, svoPosition, svoFacet, " +
         (hasNormal ? "normalVCVSOutput" : "svoFacet") +
         ", svoLift, svoExtent);\n"
         "  }\n" +
@@ -343,24 +254,37 @@ void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives, bool
   {
     program->SetUniformf("svoCatch", catches ? 1.0f : 0.0f);
   }
-  if (this->empty() || !program->IsUniformUsed("svoMaps"))
+  if (this->empty() || !program->IsUniformUsed("svoReceive"))
   {
     return;
   }
-  // Mappers' own textures may have taken the unit meanwhile.
-  program->SetUniformi("svoMaps", this->Maps.activate());
-  const auto count = static_cast<int>(this->Errors.size());
-  program->SetUniformMatrix4x4v("svoRows", count, const_cast<float*>(this->Rows.data()));
-  program->SetUniform1fv("svoErrors", count, this->Errors.data());
-  program->SetUniform1iv("svoTables", count, this->Maps.tables().data());
-  program->SetUniformi("svoSize", this->Size);
-  program->SetUniform1iv("svoFirst", static_cast<int>(this->First.size()), this->First.data());
-  if (this->translucent())
+  for (std::size_t i = 0; i < this->Textures.size(); ++i)
   {
-    program->SetUniformi("svoFirstTranslucent", this->FirstTranslucent);
+    this->Textures[i]->Activate(); // mappers' own textures may have taken the unit meanwhile
+    program->SetUniformi(this->Code->textures[i].sampler, this->Textures[i]->GetTextureUnit());
+  }
+  for (const LightCode::Integers& entry : this->Code->integers)
+  {
+    program->SetUniform1iv(entry.name, static_cast<int>(entry.values.size()), entry.values.data());
+  }
+  for (const LightCode::Floats& entry : this->Code->floats)
+  {
+    const int count = static_cast<int>(entry.values.size()) / entry.components;
+    float* values = const_cast<float*>(entry.values.data()); // VTK's own signature
+    if (entry.components == 16)
+    {
+      program->SetUniformMatrix4x4v(entry.name, count, values);
+    }
+    else if (entry.components == 4)
+    {
+      program->SetUniform4fv(entry.name, count, reinterpret_cast<const float(*)[4]>(values));
+    }
+    else
+    {
+      program->SetUniform1fv(entry.name, count, values);
+    }
   }
   program->SetUniformf("svoReceive", receives ? 1.0f : 0.0f);
   program->SetUniformf("svoIntensity", this->Intensity);
-  program->SetUniformf("svoManualBias", this->ManualBias);
 }
 }

@@ -28,6 +28,9 @@ struct FrameNeeds
   bool receiverMaps = false;
   /// ... or anywhere: all is traced, and handed out.
   bool wholeShadowBuffers = false;
+  /// Nothing is seen of the instances, which only cast, and what asks for their shadows does so by
+  /// Tracer::lightCode(), if the tracer has it.
+  bool lightCode = false;
   bool writeNormals = false; // Frame::normals is wanted (SSAO)
   bool writeLight = false;   // Frame::light is wanted (tone mapping)
   bool writeSlopes = false;  // Frame::slopes is wanted (multisampling)
@@ -125,6 +128,7 @@ struct FrameStatistics
   std::uint64_t retracedLayers = 0; // layers traced this frame, of the eye and of lights
   std::uint64_t layerMemory = 0;    // bytes held by kept layers
   std::uint64_t shadowMemory = 0;   // bytes held by shadow buffers and what was handed out of them
+  std::uint64_t gpuMemory = 0;      // bytes of octrees there
   /// Visible instances that the eye's layers were made without: outside of the view, hidden by
   /// others, or below the detailThreshold.
   std::uint64_t outsideInstances = 0, hiddenInstances = 0, smallInstances = 0;

@@ -22,6 +22,7 @@
 namespace svo
 {
 class Processes;
+struct LightCode;
 struct Silhouettes;
 
 class VTKSVOTRACING_EXPORT Tracer
@@ -64,6 +65,10 @@ public:
   /// Of the last frame; times and counts may be of the one before it, if whoever traces learns of
   /// them late. Errors, and what is missing (fewerTexels), are those of the last one.
   virtual const FrameStatistics& statistics() const = 0;
+
+  /// How rasterised surfaces ask for the light of the last frame, where the settings ask for it
+  /// (FrameNeeds::lightCode) and the tracer has it: in the place of shadow maps.
+  virtual const LightCode& lightCode() const;
 
   /// The shadow buffers of the last frame; empty unless FrameSettings::handsOutMaps().
   virtual const std::vector<ShadowMap>& shadowMaps() const = 0;

@@ -5,6 +5,7 @@
 #include "svoInstanceTree.h"
 #include "svoKeptFrame.h"
 #include "svoKeptTiles.h"
+#include "svoLightCode.h"
 #include "svoLayeredView.h"
 #include "svoNeededLevels.h"
 #include "svoPixelShader.h"
@@ -239,6 +240,12 @@ CPUTracer::CPUTracer()
 CPUTracer::~CPUTracer() = default;
 
 Tracer::~Tracer() = default;
+
+const LightCode& Tracer::lightCode() const
+{
+  static const LightCode none;
+  return none;
+}
 
 std::unique_ptr<Tracer> makeCPUTracer()
 {

@@ -24,6 +24,7 @@ void shorten(performance::Sweep& sweep)
 {
   sweep.scenes = { "paper1a", "paper2" };
   sweep.triangles = { 2000, 8000 };
+  sweep.ballsOfTen = { 2000 };
   sweep.objects = { 1, 9 };
   sweep.levels = { 6, 8 };
   sweep.sizes = { { 96, 54 }, { 192, 108 } };

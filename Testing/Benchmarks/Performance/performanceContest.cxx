@@ -139,8 +139,10 @@ public:
       row["retracedLayers"] = Json::Int64(this->Pass->GetNumberOfRetracedLayers());
       row["octreeMiB"] = static_cast<double>(this->Pass->GetOctreeMemorySize()) / 1024.0;
       row["layerMiB"] = static_cast<double>(this->Pass->GetLayerMemorySize()) / 1024.0;
-      whole =
-        this->Pass->GetNumberOfTracedActors() > 0 && this->Pass->GetNumberOfRasterizedActors() == 0;
+      whole = this->Pass->GetActiveBackend() == vtkSVORenderPass::BACKEND_OPENGL
+        ? this->Pass->GetNumberOfLightsWithShadowRays() > 0
+        : this->Pass->GetNumberOfTracedActors() > 0 &&
+          this->Pass->GetNumberOfRasterizedActors() == 0;
     }
     this->Times.clear();
     results.add(row);

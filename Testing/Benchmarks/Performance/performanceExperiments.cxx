@@ -140,7 +140,8 @@ const std::vector<std::pair<std::string, Experiments::Experiment>>& Experiments:
     { "lights", &Experiments::lights }, { "lightKit", &Experiments::lightKit },
     { "sizes", &Experiments::sizes }, { "levels", &Experiments::levels },
     { "objects", &Experiments::objects }, { "triangles", &Experiments::triangles },
-    { "threads", &Experiments::threads }, { "cores", &Experiments::cores }
+    { "threads", &Experiments::threads }, { "cores", &Experiments::cores },
+    { "openGL", &Experiments::openGL }
   };
   return experiments;
 }
@@ -395,6 +396,34 @@ bool Experiments::triangles()
     contest.row["triangles"] = Json::Int64(shapes.a.trianglesShown);
     contest.row["buildSeconds"] = shapes.a.buildSeconds;
     good = this->contest(contest) && good;
+  }
+  return good;
+}
+
+bool Experiments::openGL()
+{
+  const auto onOpenGL = [](vtkSVORenderPass* pass)
+  {
+    pass->SetBackendToOpenGL();
+    pass->SetShadowTechniqueToShadowRays();
+  };
+  const std::vector<Method> ours{ Spot,
+    { "svo, shadow rays", Technique::Octrees, LightKind::Spot,
+      [](vtkSVORenderPass* pass) { pass->SetShadowTechniqueToShadowRays(); }, "" },
+    { "svo, OpenGL", Technique::Octrees, LightKind::Spot, onOpenGL, "" } };
+  const auto race = [&](const paper::Experiment& scene, const paper::Objects& shapes)
+  {
+    Contest contest{ &scene, &shapes, peers(this->Settings, ours),
+      { Situation::Camera, Situation::All }, {}, {} };
+    contest.methods.push_back(Empty);
+    contest.row["experiment"] = "openGL";
+    contest.row["triangles"] = Json::Int64(shapes.a.trianglesShown);
+    return this->contest(contest);
+  };
+  bool good = race(paperScene("paper4"), this->paperObjects());
+  for (const int count : this->Settings.ballsOfTen)
+  {
+    good = race(crowd(10), this->objectsWith(ball(count), 10)) && good;
   }
   return good;
 }

@@ -21,7 +21,8 @@ struct Sweep
   std::vector<int> levels{ 6, 7, 8, 9, 10, 11, 12 };
   std::vector<std::pair<int, int>> sizes{ { 640, 360 }, { 1280, 720 }, { 1920, 1080 },
     { 2560, 1440 }, { 3840, 2160 } };
-  int subdivisions = 3; // of A where it has a million triangles
+  std::vector<int> ballsOfTen{ 20000, 100000, 1000000 }; // triangles of each
+  int subdivisions = 3;                                  // of A where it has a million triangles
   int lights = 4;
   std::pair<int, int> size{ 1920, 1080 };
   bool oursOnly = false; // beside another commit's
@@ -47,6 +48,7 @@ private:
   bool refined();
   bool levels();
   bool sizes();
+  bool openGL();
   bool threads();
   bool cores();
   bool instructionSets();

@@ -138,13 +138,13 @@ TEST(RenderPassSettings, NamedSettersChooseTheirValue)
   EXPECT_EQ(pass->GetLeafGeometry(), vtkSVORenderPass::LEAF_TRIANGLE);
 }
 
-TEST(RenderPassSettings, AskingForOpenGLUsesTheCPU)
+TEST(RenderPassSettings, AskingForOpenGLUsesIt)
 {
   vtkNew<vtkSVORenderPass> pass;
-  vtkObject::GlobalWarningDisplayOff();
   pass->SetBackendToOpenGL();
-  vtkObject::GlobalWarningDisplayOn();
   EXPECT_EQ(pass->GetBackend(), vtkSVORenderPass::BACKEND_OPENGL);
+  EXPECT_EQ(pass->GetActiveBackend(), vtkSVORenderPass::BACKEND_OPENGL);
+  pass->SetBackendToAuto();
   EXPECT_EQ(pass->GetActiveBackend(), vtkSVORenderPass::BACKEND_CPU);
 }
 

@@ -1,0 +1,341 @@
+#include "svoOpenGLTracer.h"
+
+#include "svoCasterTree.h"
+#include "svoLightCode.h"
+#include "svoOctreeArena.h"
+#include "svoOpenGL.h"
+#include "svoRayWalk.h"
+#include "svoTerminator.h"
+#include "svoWorldToOctree.h"
+
+#include <iomanip>
+#include <locale>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+namespace svo
+{
+namespace
+{
+/// Boxes of casters are wider than what they hold by so much of the scene: rays come to them in
+/// floats.
+constexpr double BoxMargin = 4e-7;
+
+/// Lights that a shader asks, whatever room it has for more.
+constexpr std::size_t MostLights = 64;
+
+struct CasterRecord // in a shader's memory
+{
+  glm::vec4 rows[3];
+  float rootHigh, rootLow, depths, opacity;
+};
+static_assert(sizeof(CasterRecord) == 64, "four texels");
+
+/// Of the octree's mesh, in the world.
+Box worldBox(const Instance& instance)
+{
+  const double* bounds = instance.body->octree.header().meshBounds;
+  Box box;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::dvec4 at(
+      bounds[corner & 1], bounds[2 + (corner >> 1 & 1)], bounds[4 + (corner >> 2)], 1.0);
+    box.add(glm::dvec3(instance.localToWorld * at));
+  }
+  return box;
+}
+
+std::string declarations(std::size_t lights)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::showpoint << std::setprecision(9) << "const int svoLightCount = " << lights << ";\n"
+       << "const float svoDoubtfulSine = " << DoubtfulSine << ";\n"
+       << svoRayWalk;
+  return text.str();
+}
+
+class OpenGLTracer : public Tracer
+{
+public:
+  explicit OpenGLTracer(std::unique_ptr<Tracer> other)
+    : Other(std::move(other))
+  {
+  }
+
+  std::vector<NeededLevels> neededLevels(
+    const Scene& scene, const View& view, const FrameSettings& settings) const override;
+  void render(const Scene& scene, const View& view, const FrameSettings& settings,
+    const ParallelFor& parallelFor) override;
+  Frame& frame() override { return this->Answers ? this->Nothing : this->Other->frame(); }
+  bool shareShadows(const Scene& scene, const View& view, const FrameSettings& settings,
+    const ParallelFor& parallelFor, Processes& processes) override
+  {
+    return !settings.lightCode &&
+      this->Other->shareShadows(scene, view, settings, parallelFor, processes);
+  }
+  void divideEdges(const Scene& scene, const View& view, const std::vector<glm::vec2>& positions,
+    const ParallelFor& parallelFor, Silhouettes& result) const override
+  {
+    if (!this->Answers)
+    {
+      this->Other->divideEdges(scene, view, positions, parallelFor, result);
+    }
+  }
+  const FrameStatistics& statistics() const override
+  {
+    return this->Answers ? this->Statistics : this->Other->statistics();
+  }
+  const std::vector<ShadowMap>& shadowMaps() const override
+  {
+    return this->Answers ? this->NoMaps : this->Other->shadowMaps();
+  }
+  unsigned int mapTexture() const override { return this->Answers ? 0 : this->Other->mapTexture(); }
+  const LightCode& lightCode() const override { return this->Code; }
+  void releaseLayers() override { this->Other->releaseLayers(); }
+  void releaseGraphicsResources() override;
+
+private:
+  std::string prepare(const Scene& scene, const View& view, const FrameSettings& settings);
+  bool placeCasters(const Scene& scene);
+  void aim(const Scene& scene, const View& view);
+
+  std::unique_ptr<Tracer> Other;
+  bool Answers = false; // the last frame's light
+  Frame Nothing;
+  FrameStatistics Statistics;
+  std::vector<ShadowMap> NoMaps;
+  LightCode Code;
+  OctreeArena Octrees;
+
+  /// What casts, of the scene of this version.
+  struct Caster
+  {
+    WorldToOctree toOctree;
+    float opacity;
+    std::uint32_t root;
+    int depths;
+  };
+  std::uint64_t Version = 0;
+  std::vector<Caster> Casters;
+  glm::dvec3 Centre{ 0.0 }; // of the tree's frame, world
+  std::vector<CasterNode> Tree;
+  glm::dmat4 WorldToView{ 0.0 }; // that was sent
+  BufferTexture CasterTexels{ BufferTexture::Texel::FourFloats };
+};
+
+std::vector<NeededLevels> OpenGLTracer::neededLevels(
+  const Scene& scene, const View& view, const FrameSettings& settings) const
+{
+  std::vector<NeededLevels> needed = this->Other->neededLevels(scene, view, settings);
+  for (std::size_t i = 0; settings.lightCode && i < needed.size(); ++i)
+  {
+    // Triangles are met exactly at any level: at this one there are few in a brick.
+    const Body& body = *scene.instances[i].body;
+    if (body.detailLevel > 0)
+    {
+      needed[i].eye = std::min(body.detailLevel, body.deepestLevel);
+    }
+  }
+  return needed;
+}
+
+void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSettings& settings,
+  const ParallelFor& parallelFor)
+{
+  this->Code.lights.clear();
+  this->Code.complaint.clear();
+  this->Answers = false;
+  if (settings.lightCode)
+  {
+    this->Code.complaint = this->prepare(scene, view, settings);
+    this->Answers = this->Code.complaint.empty();
+  }
+  if (!this->Answers)
+  {
+    this->Other->render(scene, view, settings, parallelFor);
+    return;
+  }
+  this->Other->releaseLayers();
+  this->Nothing.width = view.width;
+  this->Nothing.height = view.height;
+  this->Nothing.version = 1;
+  this->Statistics = FrameStatistics();
+  this->Statistics.lightsWithRays = static_cast<int>(this->Code.lights.size());
+  this->Statistics.gpuMemory = this->Octrees.bytes() + this->CasterTexels.bytes();
+}
+
+/// Has light code for a frame. A sentence about why there is none; empty if all is well.
+std::string OpenGLTracer::prepare(
+  const Scene& scene, const View& view, const FrameSettings& settings)
+{
+  constexpr char Instead[] = "; shadow maps are traced on the CPU instead.";
+  std::vector<const Octree*> octrees;
+  std::vector<int> lights;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+  {
+    if (scene.lights[i].castShadow)
+    {
+      lights.push_back(static_cast<int>(i));
+    }
+  }
+  if (lights.size() > MostLights)
+  {
+    return "OpenGL shaders have no room for rays to so many lights" + std::string(Instead);
+  }
+  const bool known = scene.version != 0 && scene.version == this->Version;
+  if (!known)
+  {
+    for (const Instance& instance : scene.instances)
+    {
+      if (!instance.castShadow || !instance.body->octree || instance.body->octree.empty())
+      {
+        continue;
+      }
+      if (!instance.body->octree.surface())
+      {
+        return "OpenGL shaders meet no octrees of planes" + std::string(Instead);
+      }
+      octrees.push_back(&instance.body->octree);
+    }
+    this->Version = 0;
+    if (!this->Octrees.hold(octrees, settings.gpuMemoryLimit))
+    {
+      return "The octrees do not fit into OpenGL's memory, or into GPUMemoryLimit" +
+        std::string(Instead);
+    }
+    if (!this->placeCasters(scene))
+    {
+      return "OpenGL has no room for so many casters" + std::string(Instead);
+    }
+    this->Version = scene.version;
+  }
+  if (!known || this->WorldToView != view.worldToView)
+  {
+    this->aim(scene, view);
+    this->WorldToView = view.worldToView;
+  }
+  if (lights.size() != this->Code.lights.size() || this->Code.declarations.empty())
+  {
+    this->Code.declarations = declarations(std::max<std::size_t>(lights.size(), 1));
+  }
+  this->Code.lights = lights;
+  this->Code.textures = { { "svoNodes", this->Octrees.nodes().name() },
+    { "svoLists", this->Octrees.lists().name() },
+    { "svoTriangles", this->Octrees.triangles().name() },
+    { "svoCasters", this->CasterTexels.name() } };
+  this->Code.integers = { { "svoTreeSize", { static_cast<int>(this->Tree.size()) } },
+    { "svoFirstCaster", { static_cast<int>(2 * this->Tree.size()) } } };
+  const glm::dmat3 turned(view.worldToView);
+  glm::dmat4 viewToTree(glm::transpose(turned)); // rigid
+  viewToTree[3] = glm::dvec4(view.eye - this->Centre, 1.0);
+  const glm::mat4 matrix(viewToTree);
+  LightCode::Floats sources{ "svoLights", 4, {} };
+  for (const int index : lights)
+  {
+    const Light& light = scene.lights[static_cast<std::size_t>(index)];
+    const glm::vec3 at(
+      turned * (light.atInfinity() ? -light.direction : light.position - view.eye));
+    sources.values.insert(
+      sources.values.end(), { at.x, at.y, at.z, light.atInfinity() ? 0.0f : 1.0f });
+  }
+  this->Code.floats = { { "svoViewToTree", 16, { &matrix[0][0], &matrix[0][0] + 16 } }, sources };
+  return {};
+}
+
+/// Makes the tree of a scene's casters and sends it; their matrices follow. False if OpenGL
+/// refuses.
+bool OpenGLTracer::placeCasters(const Scene& scene)
+{
+  this->Casters.clear();
+  std::vector<Box> boxes;
+  Box all;
+  for (const Instance& instance : scene.instances)
+  {
+    if (instance.castShadow && instance.body->octree && !instance.body->octree.empty())
+    {
+      const Octree& octree = instance.body->octree;
+      this->Casters.push_back({ WorldToOctree(octree, instance.localToWorld),
+        instance.translucent() ? instance.opacity : 1.0f, this->Octrees.rootOf(octree),
+        octree.depthCount() });
+      boxes.push_back(worldBox(instance));
+      all.add(boxes.back());
+    }
+  }
+  this->Centre = all.known() ? 0.5 * (all.low + all.high) : glm::dvec3(0.0);
+  for (Box& box : boxes)
+  {
+    box.low -= this->Centre;
+    box.high -= this->Centre;
+  }
+  this->Tree = makeCasterTree(boxes, BoxMargin);
+  const std::size_t texels = 2 * this->Tree.size() + 4 * this->Casters.size();
+  if (texels > BufferTexture::most() ||
+    (texels > this->CasterTexels.size() && !this->CasterTexels.allocate(texels + texels / 2 + 64)))
+  {
+    return false;
+  }
+  this->CasterTexels.send(0, this->Tree.data(), 2 * this->Tree.size());
+  return true;
+}
+
+/// Sends the matrices that take view coordinates to those of the casters' octrees.
+void OpenGLTracer::aim(const Scene&, const View& view)
+{
+  const glm::dmat3 toWorld = glm::transpose(glm::dmat3(view.worldToView)); // rigid
+  std::vector<CasterRecord> records;
+  records.reserve(this->Casters.size());
+  for (const Caster& caster : this->Casters)
+  {
+    const glm::dmat3 linear = caster.toOctree.inverse * toWorld * caster.toOctree.scale;
+    const glm::dvec3 at = caster.toOctree.point(view.eye);
+    CasterRecord record;
+    for (int row = 0; row < 3; ++row)
+    {
+      record.rows[row] =
+        glm::vec4(glm::dvec4(linear[0][row], linear[1][row], linear[2][row], at[row]));
+    }
+    constexpr std::uint32_t Split = 4096; // floats tell no larger numbers apart
+    record.rootHigh = static_cast<float>(caster.root / Split);
+    record.rootLow = static_cast<float>(caster.root % Split);
+    record.depths = static_cast<float>(caster.depths);
+    record.opacity = caster.opacity;
+    records.push_back(record);
+  }
+  this->CasterTexels.send(2 * this->Tree.size(), records.data(), 4 * records.size());
+}
+
+void OpenGLTracer::releaseGraphicsResources()
+{
+  this->Octrees.release();
+  this->CasterTexels.release();
+  this->Version = 0;
+  this->Code.lights.clear();
+  this->Code.textures.clear();
+  this->Other->releaseGraphicsResources();
+}
+}
+
+std::unique_ptr<Tracer> makeOpenGLTracer(std::unique_ptr<Tracer> other)
+{
+  return std::make_unique<OpenGLTracer>(std::move(other));
+}
+
+bool isOnGPU()
+{
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string name = renderer ? renderer : "";
+  for (const char* program : { "llvmpipe", "softpipe", "SWR", "Software", "swrast" })
+  {
+    if (name.find(program) != std::string::npos)
+    {
+      return false;
+    }
+  }
+  return !name.empty();
+}
+}

@@ -1,0 +1,56 @@
+// Octrees and their triangles in the memory of an OpenGL context, as svoRayWalk.glsl reads them.
+// Each is sent once, however many instances, views and frames it is in.
+#ifndef svoOctreeArena_h
+#define svoOctreeArena_h
+
+#include "svoBufferTexture.h"
+#include "svoOctree.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace svo
+{
+struct ShortLists;
+
+class OctreeArena
+{
+public:
+  /// Has these octrees, all with a surface and not empty, in memory; those of earlier frames stay
+  /// as long as there is room in `limit` (bytes). False, and nothing is there, if they do not fit
+  /// into that, or OpenGL has no room.
+  bool hold(const std::vector<const Octree*>& octrees, std::size_t limit);
+  void release();
+
+  /// The node at which rays through an octree that is held begin.
+  std::uint32_t rootOf(const Octree& octree) const { return this->Blocks.at(octree.id()).node; }
+
+  std::size_t bytes() const
+  {
+    return this->Nodes.bytes() + this->Lists.bytes() + this->Triangles.bytes();
+  }
+  const BufferTexture& nodes() const { return this->Nodes; }
+  const BufferTexture& lists() const { return this->Lists; }
+  const BufferTexture& triangles() const { return this->Triangles; }
+
+private:
+  /// Numbers of texels: an octree's, or where it begins.
+  struct Block
+  {
+    std::uint32_t node = 0, word = 0, corner = 0;
+  };
+  bool add(const std::vector<const Octree*>& octrees, std::size_t limit);
+  bool makeRoom(const Block& needed, std::size_t limit);
+  void send(const Octree& octree, const ShortLists& lists, const Block& at);
+
+  std::map<std::uint64_t, Block> Blocks; // by Octree::id()
+  Block End;                             // of what is in use
+  BufferTexture Nodes{ BufferTexture::Texel::FourWords };
+  BufferTexture Lists{ BufferTexture::Texel::Word };
+  BufferTexture Triangles{ BufferTexture::Texel::FourFloats };
+};
+}
+
+#endif

@@ -1,0 +1,138 @@
+#include "svoMapCode.h"
+
+#include "svoMapGroups.h"
+#include "svoMapLookup.h"
+#include "svoOpenGL.h"
+#include "svoShadowRules.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+namespace svo
+{
+namespace
+{
+constexpr std::size_t MapsOfLight = 6; // that there is room for, where most have fewer
+
+/// Maps that a shader has room for beside what VTK tells it of so many lights.
+std::size_t mostMaps(std::size_t lights)
+{
+  constexpr std::size_t OfLight = 28, OfMap = 24, Others = 512; // components, as vectors of four
+  GLint components = 0;
+  glGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS, &components);
+  const std::size_t taken = OfLight * lights + Others;
+  const std::size_t left = std::max<std::size_t>(components, taken) - taken;
+  return std::max(left / OfMap, MapsOfLight);
+}
+
+/// View coordinates of the eye -> (x, y, linear depth - base, w) of a map. Composed in double, so
+/// that world coordinates may be large.
+glm::mat4 receiverMatrix(const ShadowMap& map, const View& eye)
+{
+  const glm::dmat4 toLight = map.view.worldToView * glm::inverse(eye.worldToView);
+  glm::dmat4 result = map.view.viewToClip * toLight;
+  for (int column = 0; column < 4; ++column)
+  {
+    result[column][2] = -toLight[column][2];
+  }
+  result[3][2] -= map.base;
+  return glm::mat4(result);
+}
+
+/// The constants of svoMapLookup.glsl, and its text.
+std::string declarationsOf(
+  const FrameSettings& settings, std::size_t capacity, std::size_t groups, bool translucent)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::boolalpha << "const int svoCapacity = " << capacity << ";\n"
+       << "const int svoGroups = " << groups << ";\n"
+       << "const bool svoPlaneBias = " << settings.automaticBias << ";\n"
+       << "const bool svoFilter = " << settings.filterShadows << ";\n"
+       << "const bool svoTranslucent = " << translucent << ";\n"
+       << std::showpoint << std::setprecision(9); // a float's; without a point it were an int
+  for (const ShadowRule& rule : ShadowRules)
+  {
+    text << "const float svo" << rule.name << " = " << rule.value << ";\n";
+  }
+  text << svoMapLookup;
+  return text.str();
+}
+}
+
+std::string MapCode::update(const std::vector<ShadowMap>& maps, const std::vector<Light>& lights,
+  const View& eye, const FrameSettings& settings, unsigned int texture)
+{
+  if (maps.empty())
+  {
+    this->release();
+    return {};
+  }
+  double casterVoxel = 0.0;
+  for (const ShadowMap& map : maps)
+  {
+    casterVoxel = std::max(casterVoxel, map.casterVoxel);
+  }
+  MapGroups groups = groupsOf(maps);
+  std::string complaint;
+  const std::size_t most = mostMaps(lights.size());
+  if (keepBrightest(groups, lights, most, MapTextures::most()))
+  {
+    complaint = "Rasterised surfaces receive shadows of the brightest lights only: OpenGL takes no "
+                "more shadow maps.";
+  }
+
+  std::vector<const ShadowMap*> kept;
+  std::vector<int>
+    first; // map of each group, those of opaque casters first; then the number of all
+  std::vector<float> rows, errors;
+  int firstTranslucent = 0; // map; the number of all maps if there is none
+  this->Code.lights.clear();
+  for (const auto& entry : groups)
+  {
+    if (!entry.first.translucent)
+    {
+      firstTranslucent = static_cast<int>(kept.size() + entry.second.size());
+    }
+    this->Code.lights.push_back(entry.first.light);
+    first.push_back(static_cast<int>(kept.size()));
+    for (const ShadowMap* map : entry.second)
+    {
+      const glm::mat4 matrix = glm::transpose(receiverMatrix(*map, eye));
+      rows.insert(rows.end(), &matrix[0][0], &matrix[0][0] + 16);
+      errors.push_back(static_cast<float>(map->worldBias));
+      kept.push_back(map);
+    }
+  }
+  first.push_back(static_cast<int>(kept.size()));
+  const int size = maps.front().view.width;
+  if (!this->Maps.upload(kept, texture))
+  {
+    this->release();
+    return "Rasterised surfaces receive no shadows: OpenGL has no room for " +
+      std::to_string(kept.size()) + " shadow maps of " + std::to_string(size) +
+      " texels. Lower ShadowBufferResolution.";
+  }
+  // Shaders are not built anew because a light has other maps than before.
+  const std::size_t capacity = std::min(std::max(kept.size(), MapsOfLight * groups.size()), most);
+  this->Code.declarations = declarationsOf(
+    settings, capacity, groups.size(), firstTranslucent < static_cast<int>(kept.size()));
+  this->Code.textures = { { "svoMaps", this->Maps.name() } };
+  this->Code.integers = { { "svoTables", this->Maps.tables() }, { "svoSize", { size } },
+    { "svoFirst", first }, { "svoFirstTranslucent", { firstTranslucent } } };
+  this->Code.floats = { { "svoRows", 16, rows }, { "svoErrors", 1, errors },
+    { "svoManualBias", 1, { static_cast<float>(settings.bias * casterVoxel) } } };
+  return complaint;
+}
+
+void MapCode::release()
+{
+  this->Code = {};
+  this->Maps.release();
+}
+}

@@ -1,0 +1,57 @@
+// How much of each light reaches what VTK draws itself: code for VTK's own fragment shaders. Plain
+// data, which says all that a program needs.
+#ifndef svoLightCode_h
+#define svoLightCode_h
+
+#include <string>
+#include <vector>
+
+namespace svo
+{
+struct LightCode
+{
+  /// By number in the code: index into Scene::lights. A light that is there several times gets the
+  /// product. Empty: there is no code.
+  std::vector<int> lights;
+
+  /// GLSL 1.50 that stands before main(). It has
+  ///
+  ///   float svoLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, float extent)
+  ///
+  /// the share, 0..1, of a light that casters leave at a point. In view coordinates: where that is;
+  /// the unit normal of its own plane, towards the viewer; the unit normal that it is shaded with;
+  /// how far the smooth surface lies over the facet, 0 where it does not; how wide a piece of the
+  /// surface the fragment shows.
+  std::string declarations;
+
+  /// A buffer texture of the current context.
+  struct Texture
+  {
+    const char* sampler;
+    unsigned int name;
+  };
+  std::vector<Texture> textures;
+
+  /// Numbers of an array, or one number.
+  struct Integers
+  {
+    const char* name;
+    std::vector<int> values;
+  };
+  struct Floats
+  {
+    const char* name;
+    int components; // of each: 1, 4, or 16 of a matrix, column by column
+    std::vector<float> values;
+  };
+  std::vector<Integers> integers;
+  std::vector<Floats> floats;
+
+  /// Why there is no code although it was asked for, in a sentence; empty if all is well.
+  std::string complaint;
+
+  bool empty() const { return this->lights.empty(); }
+};
+}
+
+#endif
