@@ -247,6 +247,7 @@ vtksvo_setting(BuildInBackground bool true
 vtksvo_setting(Backend choice BACKEND_AUTO
   TABLE time
   CHOICES BACKEND_AUTO Auto BACKEND_CPU CPU BACKEND_OPENGL OpenGL
+  PANEL advanced
   SAYS
     "Where the picture is made. CPU: octrees are traced on the processor. OpenGL: VTK draws all surfaces itself, and with
      ShadowRays or Automatic its shaders follow exact rays through the octrees to each light. Auto takes the CPU.")

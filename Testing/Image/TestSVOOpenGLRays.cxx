@@ -1,17 +1,15 @@
 // With the OpenGL backend VTK draws all that is seen, and its shaders send a ray through the
 // octrees to each light: the picture is VTK's own where light comes, and lit or dark as the CPU's
 // exact rays say.
+#include "../Unit/svoTestMessages.h"
 #include "svoTestStage.h"
 
-#include "vtkCamera.h"
-#include "vtkMath.h"
-#include "vtkObjectFactory.h"
-#include "vtkOutputWindow.h"
+#include "vtkActorCollection.h"
 #include "vtkProperty.h"
-#include "vtkTransform.h"
+#include "vtkRenderWindow.h"
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iostream>
 #include <string>
 
@@ -79,23 +77,118 @@ void addSolids(Stage& stage)
   vtkActor* spikeActor = stage.add(spike(1.4, 0.0, 0.0, 0.7), 0.8, 0.8, 0.3);
   spikeActor->SetPosition(0.6, 1.2, 0.0);
 }
+
+void addCrowd(Stage& stage, int across)
+{
+  const vtkSmartPointer<vtkAlgorithm> one = box(0.16, 0.0, 0.0, 0.0);
+  for (int i = 0; i < across * across; ++i)
+  {
+    vtkActor* actor = stage.add(one, 0.3 + 0.03 * (i % 20), 0.6, 0.9 - 0.03 * (i % 17));
+    const double x = i % across - 0.5 * (across - 1);
+    const double y = i / across - 0.5 * (across - 1);
+    actor->SetPosition(0.28 * x, 0.28 * y, 0.1 + 0.02 * (i * 7 % 23));
+    actor->RotateWXYZ(37.0 * i, 0.3, 0.5, 1.0);
+  }
+}
+
+/// What was sent stays, moves, goes with the context and comes again.
+void compareAgain(Stage& stage, Checks& checks)
+{
+  const Picture expected = stage.shadowedByRays();
+  const vtkIdType memory = stage.pass->GetGPUMemory();
+  vtkActor* last = stage.renderer->GetActors()->GetLastActor();
+  for (int i = 0; i < 20; ++i)
+  {
+    last->AddPosition(0.1, 0.0, 0.0);
+    stage.window->Render();
+  }
+  checks.expect(difference(expected, capture(stage.window)).largest > 30, "the object has moved");
+  checks.expect(stage.pass->GetGPUMemory() == memory, "memory does not grow with movements");
+  last->AddPosition(-2.0, 0.0, 0.0);
+  for (int i = 0; i < 20; ++i)
+  {
+    stage.pass->SetBackend(i % 2 == 0 ? stage.pass->BACKEND_CPU : stage.pass->BACKEND_OPENGL);
+    stage.window->Render();
+  }
+  checks.expect(difference(expected, capture(stage.window)).largest <= 1, "as it was");
+  checks.expect(stage.pass->GetGPUMemory() == memory, "memory does not grow with switches");
+  stage.window->Finalize();
+  checks.expect(difference(expected, capture(stage.window)).largest <= 1, "in a new context");
+  stage.pass->ReleaseGraphicsResources(stage.window);
+  checks.expect(difference(expected, capture(stage.window)).largest <= 1, "sent again");
+}
+
+/// What shaders cannot do the CPU does, in the same frame, and says so once.
+void fallBack(Checks& checks)
+{
+  Stage stage;
+  addSolids(stage);
+  stage.addSun(3.0, -2.0, 4.0);
+  const Picture lit = stage.unshadowed();
+  stage.pass->SetBackendToOpenGL();
+  const Picture expected = stage.shadowedByRays();
+  svo::TestMessages messages{ stage.pass };
+  stage.pass->SetGPUMemoryLimit(1);
+  const Picture found = stage.shadowedByRays();
+  capture(stage.window);
+  const Tally tally = compare(lit, expected, found);
+  std::cout << "without memory: " << tally.inShadow << " pixels in shadow, " << tally.other
+            << " others; " << messages.all() << "\n";
+  checks.expect(tally.inShadow > tally.pixels / 50, "without memory: there are shadows");
+  checks.expect(tally.other < tally.inShadow / 10, "without memory: they are the same");
+  checks.expect(stage.pass->GetGPUMemory() == 0, "without memory: nothing is there");
+  checks.expect(
+    messages.errors.empty() && messages.warnings.size() == 1, "without memory: one message");
+}
 }
 
 int TestSVOOpenGLRays(int, char*[])
 {
   Checks checks;
+  // Where a surface ends, and a shadow, the rasteriser and rays may differ by a pixel.
+  constexpr double AtEdges = 3e-4;
   {
     Stage stage;
     addSolids(stage);
     stage.addSun(3.0, -2.0, 4.0);
-    compare("a sun", stage, 3e-4, checks);
+    compare("a sun", stage, AtEdges, checks);
+    compareAgain(stage, checks);
   }
   {
     Stage stage;
     addSolids(stage);
     stage.addSun(3.0, -2.0, 4.0);
     stage.addBulb(-1.0, 0.6, 2.5);
-    compare("a sun and a bulb", stage, 3e-4, checks);
+    compare("a sun and a bulb", stage, AtEdges, checks);
+    stage.window->SetMultiSamples(4);
+    compare("several samples", stage, AtEdges, checks);
   }
+  {
+    Stage stage;
+    addSolids(stage);
+    vtkActor* glass = stage.add(ball(0.6, 0.4, -1.2, 0.9), 0.6, 0.8, 0.9);
+    glass->GetProperty()->SetOpacity(0.4);
+    stage.addSun(3.0, -2.0, 4.0);
+    compare("a translucent ball", stage, AtEdges, checks);
+  }
+  {
+    Stage stage;
+    stage.addGround();
+    addCrowd(stage, 20);
+    stage.addSun(3.0, -2.0, 4.0);
+    compare("400 boxes", stage, 2e-3, checks); // edges are all that there is to them
+  }
+  {
+    Stage stage;
+    stage.addGround();
+    vtkActor* metal = stage.add(ball(0.6, 0.0, 0.0, 0.8), 0.9, 0.7, 0.3);
+    metal->GetProperty()->SetInterpolationToPBR();
+    metal->GetProperty()->SetMetallic(0.6);
+    metal->GetProperty()->SetRoughness(0.3);
+    stage.add(ring(0.5, 1.2, -0.6, 0.6), 0.3, 0.4, 0.9)->GetProperty()->EdgeVisibilityOn();
+    stage.addBulb(2.0, -1.5, 4.0);
+    compare("what the CPU does not trace", stage, AtEdges, checks);
+  }
+  fallBack(checks);
   return checks.exitCode();
 }

@@ -74,6 +74,7 @@ const Way Ways[] = {
       stage.pass->SetAntiAliasing(true);
     },
     false },
+  { "on OpenGL", [](Stage& stage, vtkActor*) { stage.pass->SetBackendToOpenGL(); }, false },
   { "rasterised, with edges",
     [](Stage&, vtkActor* body)
     {

@@ -187,7 +187,8 @@ std::string OpenGLTracer::prepare(
   {
     return "OpenGL shaders have no room for rays to so many lights" + std::string(Instead);
   }
-  const bool known = scene.version != 0 && scene.version == this->Version;
+  const bool known = scene.version != 0 && scene.version == this->Version &&
+    this->Octrees.bytes() <= settings.gpuMemoryLimit;
   if (!known)
   {
     for (const Instance& instance : scene.instances)

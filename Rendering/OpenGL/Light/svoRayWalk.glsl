@@ -263,7 +263,12 @@ float svoLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, flo
 {
   vec4 source = svoLights[number];
   float end = source.w > 0.0 ? svoBeforeLight : svoFar;
-  float sine = dot(facet, normalize(source.xyz - source.w * position));
+  vec3 towards = normalize(source.xyz - source.w * position);
+  if (dot(normal, towards) <= 0.0)
+  {
+    return 1.0; // it is not lit anyway
+  }
+  float sine = dot(facet, towards);
   bool bulges = dot(lift, lift) > 0.0;
   float left = 1.0;
   // The point itself; the way from there to the smooth surface; the point there.

@@ -31,7 +31,7 @@ static_assert(sizeof(Record) == sizeof(Node), "a texel");
 
 bool OctreeArena::hold(const std::vector<const Octree*>& octrees, std::size_t limit)
 {
-  if (this->add(octrees, limit))
+  if (this->bytes() <= limit && this->add(octrees, limit))
   {
     return true;
   }

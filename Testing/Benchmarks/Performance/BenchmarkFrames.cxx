@@ -3,7 +3,8 @@
 // measurement to a JSON file; run-performance.sh makes tables and plots of it.
 //
 //   BenchmarkFrames [--a dragon.off --b sydney.md2] [--experiments name,...]
-//                   [--scenes name,...] [--triangles n,...] [--output file.json] [--frames n]
+//                   [--scenes name,...] [--triangles n,...] [--size WxH] [--output file.json]
+//                   [--frames n]
 //                   [--seconds s] [--ours] [--short]
 //
 // --frames: timed for each figure, of all viewpoints together. --seconds: for each figure; where
@@ -95,6 +96,11 @@ int main(int argc, char** argv)
         sweep.triangles.push_back(std::atoi(count.c_str()));
       }
     }
+    else if (argument == "--size" && more)
+    {
+      char times = 0;
+      std::istringstream(argv[++i]) >> sweep.size.first >> times >> sweep.size.second;
+    }
     else if (argument == "--scenes" && more)
     {
       sweep.scenes = namesIn(argv[++i]);
@@ -102,7 +108,8 @@ int main(int argc, char** argv)
     else
     {
       std::cerr << "usage: BenchmarkFrames [--a file --b file] [--experiments name,...] "
-                   "[--scenes name,...] [--triangles n,...] [--output file.json] [--frames n] "
+                   "[--scenes name,...] [--triangles n,...] [--size WxH] [--output "
+                   "file.json] [--frames n] "
                    "[--seconds s] [--ours] [--short]\n";
       return 2;
     }

@@ -140,7 +140,7 @@ public:
       row["octreeMiB"] = static_cast<double>(this->Pass->GetOctreeMemorySize()) / 1024.0;
       row["layerMiB"] = static_cast<double>(this->Pass->GetLayerMemorySize()) / 1024.0;
       whole = this->Pass->GetActiveBackend() == vtkSVORenderPass::BACKEND_OPENGL
-        ? this->Pass->GetNumberOfLightsWithShadowRays() > 0
+        ? this->Pass->GetNumberOfTracedActors() == 0
         : this->Pass->GetNumberOfTracedActors() > 0 &&
           this->Pass->GetNumberOfRasterizedActors() == 0;
     }

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -402,6 +403,15 @@ bool Experiments::triangles()
 
 bool Experiments::openGL()
 {
+  this->Window->Render();
+  std::istringstream lines(this->Window->ReportCapabilities());
+  for (std::string line; std::getline(lines, line);)
+  {
+    if (line.find("OpenGL") == 0)
+    {
+      std::cerr << line << "\n";
+    }
+  }
   const auto onOpenGL = [](vtkSVORenderPass* pass)
   {
     pass->SetBackendToOpenGL();
@@ -410,7 +420,9 @@ bool Experiments::openGL()
   const std::vector<Method> ours{ Spot,
     { "svo, shadow rays", Technique::Octrees, LightKind::Spot,
       [](vtkSVORenderPass* pass) { pass->SetShadowTechniqueToShadowRays(); }, "" },
-    { "svo, OpenGL", Technique::Octrees, LightKind::Spot, onOpenGL, "" } };
+    { "svo, OpenGL, maps", Technique::Octrees, LightKind::Spot,
+      [](vtkSVORenderPass* pass) { pass->SetBackendToOpenGL(); }, "" },
+    { "svo, OpenGL, rays", Technique::Octrees, LightKind::Spot, onOpenGL, "" } };
   const auto race = [&](const paper::Experiment& scene, const paper::Objects& shapes)
   {
     Contest contest{ &scene, &shapes, peers(this->Settings, ours),

@@ -1,0 +1,189 @@
+// The walk through octrees in GLSL meets what the processor meets in double precision, ray by ray:
+// of random rays through instances of several octrees, moved, stretched and mirrored, one of them
+// translucent, near the world's origin and far from it.
+#include "svoFragments.h"
+#include "svoTestPicture.h"
+
+#include "svoIntersect.h"
+#include "svoLightCode.h"
+#include "svoMeshOctree.h"
+#include "svoOpenGLTracer.h"
+#include "svoShadowReceivers.h"
+#include "svoWorldToOctree.h"
+
+#include "vtkNew.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkPolyDataToSVO.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkSphereSource.h"
+#include "vtkSuperquadricSource.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <iostream>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace
+{
+using namespace svotest;
+
+constexpr int Across = 192; // rays, squared
+/// Rays that pass an edge as closely as floats tell may go either way: the project's bound.
+constexpr double MostOther = 3e-4;
+
+svo::Octree octreeOf(vtkAlgorithm* source, int level)
+{
+  vtkNew<vtkPolyDataToSVO> filter;
+  filter->SetInputConnection(source->GetOutputPort());
+  filter->SetMaximumLevel(level);
+  filter->Update();
+  svo::Octree octree;
+  std::string message;
+  svo::openAttachedOctree(filter->GetOutput(), octree, message);
+  return octree;
+}
+
+svo::Scene sceneAt(const glm::dvec3& centre, double size, int copies)
+{
+  vtkNew<vtkSphereSource> coarse;
+  vtkNew<vtkSphereSource> fine;
+  fine->SetThetaResolution(120);
+  fine->SetPhiResolution(90);
+  vtkNew<vtkSuperquadricSource> ring;
+  ring->ToroidalOn();
+  ring->SetThetaResolution(60);
+  ring->SetPhiResolution(40);
+  const svo::Octree octrees[] = { octreeOf(coarse, 3), octreeOf(fine, 7), octreeOf(ring, 6) };
+  svo::Scene scene;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int i = 0; i < copies; ++i)
+  {
+    svo::Instance instance;
+    instance.body.own().octree = octrees[i % 3];
+    const double spread = i == 0 ? 0.0 : size;
+    glm::dmat4 matrix = glm::translate(
+      glm::dmat4(1.0), centre + spread * glm::dvec3(any(random), any(random), any(random)));
+    matrix = glm::rotate(matrix, 3.0 * any(random), { any(random), any(random), 1.0 });
+    const double scale = size / std::cbrt(static_cast<double>(copies));
+    matrix = glm::scale(matrix, scale * glm::dvec3(1.0, 0.4 + 0.3 * any(random), -1.3));
+    instance.localToWorld = matrix;
+    instance.visible = false;
+    instance.opacity = i % 4 == 3 ? 0.25f : 1.0f;
+    scene.instances.push_back(instance);
+  }
+  svo::Light sun;
+  sun.direction = glm::normalize(glm::dvec3(0.3, -0.4, -1.0));
+  svo::Light bulb;
+  bulb.kind = svo::Light::Kind::Point;
+  bulb.position = centre + 0.6 * size * glm::dvec3(1.0, -0.7, 0.8);
+  svo::Light idle = sun;
+  idle.castShadow = false;
+  scene.lights = { idle, sun, bulb };
+  return scene;
+}
+
+/// What casters leave of a light at a point, by rays in double.
+float expectedAt(const svo::Scene& scene, const svo::Light& light, const glm::dvec3& point)
+{
+  float left = 1.0f;
+  for (const svo::Instance& instance : scene.instances)
+  {
+    const svo::Octree& octree = instance.body->octree;
+    const svo::WorldToOctree toOctree(octree, instance.localToWorld);
+    const svo::Ray ray{ toOctree.point(point), toOctree.vector(-light.along(point)), 0.0,
+      light.atInfinity() ? 1e300 : 1.0 };
+    if (svo::occluded(octree, ray, { svo::LeafGeometry::Triangle, svo::MaximumLevel }))
+    {
+      left *= 1.0f - instance.opacity;
+    }
+  }
+  return left;
+}
+
+void compare(vtkOpenGLRenderWindow* window, const std::string& name, const glm::dvec3& centre,
+  double size, int copies, Checks& checks)
+{
+  const svo::Scene scene = sceneAt(centre, size, copies);
+  const glm::dmat4 worldToView =
+    glm::lookAt(centre + size * glm::dvec3(1.5, -3.0, 2.0), centre, glm::dvec3(0.0, 0.0, 1.0));
+  svo::View view;
+  svo::makeView(worldToView, glm::perspective(0.6, 1.0, 0.1 * size, 10.0 * size), 64, 64, view);
+  svo::FrameSettings settings;
+  settings.shadowTechnique = svo::ShadowTechnique::Rays;
+  settings.lightCode = true;
+  const std::unique_ptr<svo::Tracer> tracer = svo::makeOpenGLTracer(svo::makeCPUTracer());
+  tracer->render(scene, view, settings, svo::ParallelFor());
+  const svo::LightCode& code = tracer->lightCode();
+  checks.expect(code.complaint.empty(), name + ": " + code.complaint);
+  checks.expect(code.lights == std::vector<int>({ 1, 2 }), name + ": the lights that cast");
+
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> any(-1.2, 1.2);
+  std::vector<std::vector<FourFloats>> inputs(1);
+  std::vector<glm::dvec3> points;
+  const glm::dmat4 viewToWorld = glm::inverse(worldToView);
+  for (int i = 0; i < Across * Across; ++i)
+  {
+    const glm::dvec3 at = centre + size * glm::dvec3(any(random), any(random), any(random));
+    const glm::vec3 seen(worldToView * glm::dvec4(at, 1.0));
+    inputs[0].push_back({ seen.x, seen.y, seen.z, 1.0f });
+    points.emplace_back(viewToWorld * glm::dvec4(seen, 1.0));
+  }
+  svo::ShadowReceivers receivers;
+  receivers.update(window, code, 1.0, false);
+  receivers.activate();
+  const std::vector<FourFloats> found =
+    runFragments(window, Across, inputs, receivers.declarations(),
+      "  vec3 position = texelFetch(input0, at, 0).xyz;\n"
+      "  float left[2];\n"
+      "  for (int i = 0; i < 2; ++i)\n"
+      "  {\n"
+      "    vec3 facet = normalize(svoLights[i].xyz - svoLights[i].w * position);\n"
+      "    left[i] = svoShown(svoLeft(i, position, facet, facet, vec3(0.0), 0.0));\n"
+      "  }\n"
+      "  gl_FragData[0] = vec4(left[0], left[1], 0.0, 1.0);\n",
+      [&](vtkShaderProgram* program) { receivers.setUniforms(program, true, false); });
+  receivers.deactivate();
+  checks.expect(found.size() == points.size(), name + ": the shader runs");
+  std::size_t dark = 0, dimmed = 0, other = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    for (int k = 0; k < 2; ++k)
+    {
+      const float expected = expectedAt(scene, scene.lights[k + 1], points[i]);
+      dark += expected == 0.0f;
+      dimmed += expected > 0.0f && expected < 1.0f;
+      other += std::abs(expected - found[i][k]) > 1e-5f;
+    }
+  }
+  std::cout << name << ": " << 2 * found.size() << " rays, " << dark << " dark, " << dimmed
+            << " dimmed, " << other << " others\n";
+  checks.expect(dark > found.size() / 10, name + ": some are dark");
+  checks.expect(copies < 4 || dimmed > found.size() / 100, name + ": some are dimmed");
+  checks.expect(other <= MostOther * 2.0 * found.size(), name + ": as in double precision");
+  tracer->releaseGraphicsResources();
+  checks.expect(tracer->lightCode().empty(), name + ": nothing is left in the context");
+}
+}
+
+int TestSVORayWalk(int, char*[])
+{
+  Checks checks;
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(true);
+  window->SetSize(64, 64);
+  vtkNew<vtkRenderer> renderer;
+  window->AddRenderer(renderer);
+  window->Render();
+  auto* context = vtkOpenGLRenderWindow::SafeDownCast(window);
+  compare(context, "one", { 0.0, 0.0, 0.0 }, 1.0, 1, checks);
+  compare(context, "forty", { 0.0, 0.0, 0.0 }, 1.0, 40, checks);
+  compare(context, "far away", { 1e6, -3e5, 2e6 }, 1.0, 12, checks);
+  compare(context, "tiny", { 0.1, 0.2, 0.3 }, 1e-6, 12, checks);
+  compare(context, "huge", { 0.0, 0.0, 1e9 }, 1e9, 12, checks);
+  return checks.exitCode();
+}
