@@ -139,12 +139,11 @@ long leaks(
     const auto leaf = static_cast<svo::LeafGeometry>(b % 4);
     svo::HitBlock hits;
     svo::intersect(octree, block, { leaf }, hits);
-    const std::uint64_t any = svo::occluded(octree, block, { leaf });
     for (int i = 0; i < 64; ++i)
     {
       const bool alone = bool(svo::intersect(octree, rays[i], { leaf }));
       const bool hit = hits.primitive[i] != svo::NoPrimitive;
-      if (!alone || !hit || !(any >> i & 1))
+      if (!alone || !hit)
       {
         if (misses++ == 0)
         {

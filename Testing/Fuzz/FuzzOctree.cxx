@@ -132,7 +132,6 @@ void trace(const Octree& octree)
         checkPrimitive(octree, hits.primitive[i]);
       }
       intersectBlockScalar(octree, rays, options, hits);
-      occluded(octree, rays, options);
       for (int i = 0; i < RayBlock::Size; i += 8)
       {
         Ray ray;

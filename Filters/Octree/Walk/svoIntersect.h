@@ -1,4 +1,4 @@
-// Ray queries on an octree: nearest hit and any hit, of one ray and of a block of 64.
+// Ray queries on an octree: nearest hit of one ray and of a block of 64, any hit of one ray.
 #ifndef svoIntersect_h
 #define svoIntersect_h
 
@@ -6,25 +6,21 @@
 #include "svoRay.h"
 #include "vtkSVOOctreeModule.h"
 
-#include <cstdint>
-
 namespace svo
 {
-/// The nearest hit of one ray, in double precision. Closed cells build, half-open cells trace: a ray
-/// in the plane between two cells belongs to the upper one.
-VTKSVOOCTREE_EXPORT Hit intersect(const Octree& octree, const Ray& ray, const TraceOptions& options);
+/// The nearest hit of one ray, in double precision. Closed cells build, half-open cells trace: a
+/// ray in the plane between two cells belongs to the upper one.
+VTKSVOOCTREE_EXPORT Hit intersect(
+  const Octree& octree, const Ray& ray, const TraceOptions& options);
 
 /// True if the ray hits anything in [tMin, tMax].
-VTKSVOOCTREE_EXPORT bool occluded(const Octree& octree, const Ray& ray, const TraceOptions& options);
+VTKSVOOCTREE_EXPORT bool occluded(
+  const Octree& octree, const Ray& ray, const TraceOptions& options);
 
 /// The nearest hits of 64 rays, in float. Results do not depend on the other rays of the block, nor
 /// on the instruction set that was chosen at run time.
 VTKSVOOCTREE_EXPORT void intersect(
   const Octree& octree, const RayBlock& rays, const TraceOptions& options, HitBlock& hits);
-
-/// Bit i is set if ray i hits anything.
-VTKSVOOCTREE_EXPORT std::uint64_t occluded(
-  const Octree& octree, const RayBlock& rays, const TraceOptions& options);
 
 /// Name of the instruction set that the block queries run on, and lanes of a vector.
 VTKSVOOCTREE_EXPORT const char* instructionSet();

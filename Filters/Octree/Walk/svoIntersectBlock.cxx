@@ -26,8 +26,7 @@ namespace HWY_NAMESPACE
 {
 #if HWY_TARGET == HWY_SCALAR
 // One ray at a time needs no second walk.
-void traceBlock(
-  const LeafQuery& query, const WalkTarget&, const RayBlock& rays, bool, HitBlock& hits)
+void traceBlock(const LeafQuery& query, const WalkTarget&, const RayBlock& rays, HitBlock& hits)
 {
   intersectBlockScalar(query.octree, rays, query.options, hits);
 }
@@ -43,8 +42,8 @@ struct Verdict
 /// Shows the cells where the lanes of `arrived` are to the leaf geometry, one by one.
 /// `primitives`: their representative triangles, or null if they have none yet.
 HWY_INLINE Verdict meetOneByOne(const LeafQuery& query, const WalkTarget& target,
-  const RayBlock& rays, bool anyHit, int first, Lanes arrived, I leave, const Primitive* primitives,
-  Packet& p, BlockHits& hits)
+  const RayBlock& rays, int first, Lanes arrived, I leave, const Primitive* primitives, Packet& p,
+  BlockHits& hits)
 {
   const DF df;
   const DI di;
@@ -97,8 +96,7 @@ HWY_INLINE Verdict meetOneByOne(const LeafQuery& query, const WalkTarget& target
       : meetCell(
           query, clipped, ShearedRay<float>(clipped.origin, clipped.direction), cell, tMax[i], hit);
     hits.store(ray, hit);
-    const bool done = visit == Visit::Stop || (anyHit && hit.primitive != NoPrimitive);
-    answer[i] = done ? 0 : visit == Visit::Continue ? 1 : 3;
+    answer[i] = visit == Visit::Stop ? 0 : visit == Visit::Continue ? 1 : 3;
   }
   p.tMax = hn::Load(df, tMax);
   const I answers = hn::Load(di, answer);
@@ -107,7 +105,7 @@ HWY_INLINE Verdict meetOneByOne(const LeafQuery& query, const WalkTarget& target
 
 /// Shows the cells where lanes have arrived to the leaf geometry.
 HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const RayBlock& rays,
-  bool anyHit, int first, I leave, Packet& p, BlockHits& hits)
+  int first, I leave, Packet& p, BlockHits& hits)
 {
   const Lanes arrived = hn::Not(p.dead);
   if (target.ownPlanes)
@@ -136,8 +134,7 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
     if (!hn::AllFalse(di, triangles))
     {
       meetLists(target, p, lists, triangles, hitT, hitId);
-      verdict.again = anyHit ? hn::And(triangles, hn::Lt(hitId, hn::Zero(di))) : triangles;
-      verdict.skip = verdict.again;
+      verdict = { triangles, triangles };
     }
     HWY_ALIGN Primitive primitives[RayBlock::Size];
     const bool anyOther = !hn::AllFalse(di, others);
@@ -152,13 +149,13 @@ HWY_INLINE Verdict meet(const LeafQuery& query, const WalkTarget& target, const 
     if (anyOther)
     {
       const Verdict planes =
-        meetOneByOne(query, target, rays, anyHit, first, others, leave, primitives, p, hits);
+        meetOneByOne(query, target, rays, first, others, leave, primitives, p, hits);
       verdict.again = hn::Or(verdict.again, planes.again);
     }
     return verdict;
   }
 #endif
-  return meetOneByOne(query, target, rays, anyHit, first, arrived, leave, nullptr, p, hits);
+  return meetOneByOne(query, target, rays, first, arrived, leave, nullptr, p, hits);
 }
 
 /// Walks until every lane has arrived or died.
@@ -187,7 +184,7 @@ HWY_INLINE void walkBoth(const WalkTarget& walkTarget, Packet& first, Packet& se
 
 template <bool Groups>
 HWY_INLINE void traceTwo(const LeafQuery& query, const WalkTarget& target, const RayBlock& rays,
-  bool anyHit, int first, BlockHits& hits)
+  int first, BlockHits& hits)
 {
   const DF df;
   const DI di;
@@ -201,7 +198,7 @@ HWY_INLINE void traceTwo(const LeafQuery& query, const WalkTarget& target, const
     walkBoth<Groups>(target, a, b);
     const auto resume = [&](Packet& p, int firstRay)
     {
-      const Verdict verdict = meet(query, target, rays, anyHit, firstRay, leave, p, hits);
+      const Verdict verdict = meet(query, target, rays, firstRay, leave, p, hits);
       p.dead = hn::Not(verdict.again);
       const Lanes lost = advance(p, p.dead, hn::IfThenElse(verdict.skip, skip, leave));
       find(target, p, lost);
@@ -216,15 +213,15 @@ HWY_INLINE void traceTwo(const LeafQuery& query, const WalkTarget& target, const
   }
 }
 
-void traceBlock(const LeafQuery& query, const WalkTarget& target, const RayBlock& rays, bool anyHit,
-  HitBlock& hits)
+void traceBlock(
+  const LeafQuery& query, const WalkTarget& target, const RayBlock& rays, HitBlock& hits)
 {
   BlockHits found(hits);
 #if SVO_PACKET_LEAVES
   if (onlyCubes(query, target))
   {
-    target.groups ? traceCubes<true>(query, target, rays, anyHit, hits)
-                  : traceCubes<false>(query, target, rays, anyHit, hits);
+    target.groups ? traceCubes<true>(query, target, rays, hits)
+                  : traceCubes<false>(query, target, rays, hits);
     return;
   }
 #endif
@@ -240,11 +237,11 @@ void traceBlock(const LeafQuery& query, const WalkTarget& target, const RayBlock
     }
     if (target.groups)
     {
-      traceTwo<true>(query, target, rays, anyHit, i, found);
+      traceTwo<true>(query, target, rays, i, found);
     }
     else
     {
-      traceTwo<false>(query, target, rays, anyHit, i, found);
+      traceTwo<false>(query, target, rays, i, found);
     }
   }
   found.finish();
@@ -330,28 +327,7 @@ void intersect(
     intersectBlockScalar(octree, rays, options, hits);
     return;
   }
-  HWY_DYNAMIC_DISPATCH(traceBlock)(query, walkTarget(query), rays, false, hits);
-}
-
-std::uint64_t occluded(const Octree& octree, const RayBlock& rays, const TraceOptions& options)
-{
-  if (!octree || octree.empty())
-  {
-    return 0;
-  }
-  const LeafQuery query(octree, options);
-  if (query.bits == 0)
-  {
-    return occludedBlockScalar(octree, rays, options);
-  }
-  HitBlock hits;
-  HWY_DYNAMIC_DISPATCH(traceBlock)(query, walkTarget(query), rays, true, hits);
-  std::uint64_t mask = 0;
-  for (int i = 0; i < RayBlock::Size; ++i)
-  {
-    mask |= std::uint64_t(hits.primitive[i] != NoPrimitive) << i;
-  }
-  return mask;
+  HWY_DYNAMIC_DISPATCH(traceBlock)(query, walkTarget(query), rays, hits);
 }
 
 const char* instructionSet()

@@ -6,17 +6,11 @@
 #include "svoRay.h"
 #include "vtkSVOOctreeModule.h"
 
-#include <cstdint>
-
 namespace svo
 {
 /// As intersect() of a block in svoIntersect.h.
 VTKSVOOCTREE_EXPORT void intersectBlockScalar(
   const Octree& octree, const RayBlock& rays, const TraceOptions& options, HitBlock& hits);
-
-/// As occluded() of a block in svoIntersect.h.
-VTKSVOOCTREE_EXPORT std::uint64_t occludedBlockScalar(
-  const Octree& octree, const RayBlock& rays, const TraceOptions& options);
 }
 
 #endif

@@ -41,8 +41,8 @@ HWY_INLINE void exchange(
 
 /// The whole trace of a block where onlyCubes().
 template <bool Groups>
-HWY_INLINE void traceCubes(const LeafQuery& query, const WalkTarget& target, const RayBlock& rays,
-  bool anyHit, HitBlock& hits)
+HWY_INLINE void traceCubes(
+  const LeafQuery& query, const WalkTarget& target, const RayBlock& rays, HitBlock& hits)
 {
   const DI di;
   const int n = static_cast<int>(hn::Lanes(di));
@@ -76,10 +76,7 @@ HWY_INLINE void traceCubes(const LeafQuery& query, const WalkTarget& target, con
     hits.t[cells.ray[i]] = cells.t[i];
     hits.primitive[cells.ray[i]] = 0;
   }
-  if (!anyHit)
-  {
-    representatives(query, target, cells, 0, hits.primitive);
-  }
+  representatives(query, target, cells, 0, hits.primitive);
 }
 }
 }

@@ -90,7 +90,6 @@ struct Blocks
   {
     float t;
     svo::Primitive primitive;
-    bool occluded;
   };
   std::vector<Answer> trace(const svo::Octree& octree, const svo::TraceOptions& options) const
   {
@@ -99,10 +98,9 @@ struct Blocks
     {
       svo::HitBlock hits;
       svo::intersectBlockScalar(octree, block, options, hits);
-      const std::uint64_t occluded = svo::occludedBlockScalar(octree, block, options);
       for (int i = 0; i < 64; ++i)
       {
-        answers.push_back({ hits.t[i], hits.primitive[i], bool(occluded >> i & 1) });
+        answers.push_back({ hits.t[i], hits.primitive[i] });
       }
     }
     answers.resize(count);
@@ -180,7 +178,6 @@ TEST(TriangleLeaves, AgreeWithAllTrianglesInDouble)
       const Exact exact = bruteForce(*octree.surface(), ray);
       const svo::Hit hit = svo::intersect(octree, ray, { LeafGeometry::Triangle });
       ASSERT_EQ(svo::occluded(octree, ray, { LeafGeometry::Triangle }), bool(hit));
-      ASSERT_EQ(blocks[i].occluded, blocks[i].primitive != svo::NoPrimitive);
       if (exact.margin > 1e-9) // else an edge decides, and the brute force is no judge of it
       {
         ASSERT_EQ(bool(hit), exact.hit) << "ray " << i;
@@ -309,7 +306,6 @@ TEST(LeafGeometry, RaysFromInsideAClosedMeshNeverEscape)
             << "level " << stop << " of " << level << " ray " << i;
           ASSERT_TRUE(svo::occluded(octree, rays[i], { geometry, stop }));
           ASSERT_NE(blocks[i].primitive, svo::NoPrimitive);
-          ASSERT_TRUE(blocks[i].occluded);
         }
       }
     }
