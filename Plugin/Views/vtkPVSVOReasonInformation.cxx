@@ -9,9 +9,6 @@
 
 vtkStandardNewMacro(vtkPVSVOReasonInformation);
 
-vtkPVSVOReasonInformation::vtkPVSVOReasonInformation() = default;
-vtkPVSVOReasonInformation::~vtkPVSVOReasonInformation() = default;
-
 std::string vtkPVSVOReasonInformation::GetText(
   const std::map<std::string, std::string>& sources) const
 {

@@ -35,8 +35,8 @@ public:
   void CopyFromStream(const vtkClientServerStream* stream) override;
 
 protected:
-  vtkPVSVOReasonInformation();
-  ~vtkPVSVOReasonInformation() override;
+  vtkPVSVOReasonInformation() = default;
+  ~vtkPVSVOReasonInformation() override = default;
 
 private:
   vtkPVSVOReasonInformation(const vtkPVSVOReasonInformation&) = delete;

@@ -10,13 +10,6 @@
 
 vtkStandardNewMacro(vtkPVSVOViewInformation);
 
-vtkPVSVOViewInformation::vtkPVSVOViewInformation()
-{
-  this->SetRootOnly(1);
-}
-
-vtkPVSVOViewInformation::~vtkPVSVOViewInformation() = default;
-
 void vtkPVSVOViewInformation::CopyFromObject(vtkObject* view)
 {
   this->Value = 0.0;
@@ -30,8 +23,6 @@ void vtkPVSVOViewInformation::CopyFromObject(vtkObject* view)
     interpreter->GetLastResult().GetArgument(0, 0, &this->Value);
   }
 }
-
-void vtkPVSVOViewInformation::AddInformation(vtkPVInformation*) {}
 
 void vtkPVSVOViewInformation::CopyToStream(vtkClientServerStream* stream)
 {

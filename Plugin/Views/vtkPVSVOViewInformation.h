@@ -28,15 +28,15 @@ public:
   vtkGetMacro(Value, double);
 
   void CopyFromObject(vtkObject* view) override;
-  void AddInformation(vtkPVInformation*) override;
+  void AddInformation(vtkPVInformation*) override {}
   void CopyToStream(vtkClientServerStream* stream) override;
   void CopyFromStream(const vtkClientServerStream* stream) override;
   void CopyParametersToStream(vtkMultiProcessStream& stream) override;
   void CopyParametersFromStream(vtkMultiProcessStream& stream) override;
 
 protected:
-  vtkPVSVOViewInformation();
-  ~vtkPVSVOViewInformation() override;
+  vtkPVSVOViewInformation() { this->SetRootOnly(1); }
+  ~vtkPVSVOViewInformation() override = default;
 
 private:
   vtkPVSVOViewInformation(const vtkPVSVOViewInformation&) = delete;

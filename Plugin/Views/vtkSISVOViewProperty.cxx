@@ -10,9 +10,6 @@
 
 vtkStandardNewMacro(vtkSISVOViewProperty);
 
-vtkSISVOViewProperty::vtkSISVOViewProperty() = default;
-vtkSISVOViewProperty::~vtkSISVOViewProperty() = default;
-
 bool vtkSISVOViewProperty::Push(vtkSMMessage* message, int offset)
 {
   this->SaveValueToCache(message, offset);
@@ -65,9 +62,4 @@ bool vtkSISVOViewProperty::Pull(vtkSMMessage* message)
   property->set_name(this->GetXMLName());
   property->mutable_value()->CopyFrom(value);
   return true;
-}
-
-void vtkSISVOViewProperty::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
 }

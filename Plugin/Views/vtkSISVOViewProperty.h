@@ -16,11 +16,10 @@ class VTKSVOVIEWS_EXPORT vtkSISVOViewProperty : public vtkSIProperty
 public:
   static vtkSISVOViewProperty* New();
   vtkTypeMacro(vtkSISVOViewProperty, vtkSIProperty);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
 protected:
-  vtkSISVOViewProperty();
-  ~vtkSISVOViewProperty() override;
+  vtkSISVOViewProperty() = default;
+  ~vtkSISVOViewProperty() override = default;
 
   /**
    * Defaults are not pushed: they are the pass's own.

@@ -7,9 +7,6 @@
 
 vtkStandardNewMacro(vtkSMSVOFrameInformationDomain);
 
-vtkSMSVOFrameInformationDomain::vtkSMSVOFrameInformationDomain() = default;
-vtkSMSVOFrameInformationDomain::~vtkSMSVOFrameInformationDomain() = default;
-
 int vtkSMSVOFrameInformationDomain::ReadXMLAttributes(
   vtkSMProperty* property, vtkPVXMLElement* element)
 {
@@ -33,9 +30,4 @@ void vtkSMSVOFrameInformationDomain::FrameEnds(vtkObject* view, unsigned long, v
   {
     static_cast<vtkSMProxy*>(view)->UpdatePropertyInformation(property);
   }
-}
-
-void vtkSMSVOFrameInformationDomain::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
 }

@@ -19,11 +19,10 @@ class VTKSVOVIEWS_EXPORT vtkSMSVOFrameInformationDomain : public vtkSMDomain
 public:
   static vtkSMSVOFrameInformationDomain* New();
   vtkTypeMacro(vtkSMSVOFrameInformationDomain, vtkSMDomain);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
 protected:
-  vtkSMSVOFrameInformationDomain();
-  ~vtkSMSVOFrameInformationDomain() override;
+  vtkSMSVOFrameInformationDomain() = default;
+  ~vtkSMSVOFrameInformationDomain() override = default;
 
   int ReadXMLAttributes(vtkSMProperty* property, vtkPVXMLElement* element) override;
 

@@ -34,9 +34,6 @@ std::map<std::string, std::string> sourcesOf(vtkSMProxy* view)
 
 vtkStandardNewMacro(vtkSMSVOReasonProperty);
 
-vtkSMSVOReasonProperty::vtkSMSVOReasonProperty() = default;
-vtkSMSVOReasonProperty::~vtkSMSVOReasonProperty() = default;
-
 void vtkSMSVOReasonProperty::ReadFrom(
   const vtkSMMessage* message, int offset, vtkSMProxyLocator* locator)
 {
@@ -47,9 +44,4 @@ void vtkSMSVOReasonProperty::ReadFrom(
     parent->GatherInformation(information);
     this->SetElement(0, information->GetText(sourcesOf(parent)).c_str());
   }
-}
-
-void vtkSMSVOReasonProperty::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
 }

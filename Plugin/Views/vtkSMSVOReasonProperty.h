@@ -16,11 +16,10 @@ class VTKSVOVIEWS_EXPORT vtkSMSVOReasonProperty : public vtkSMStringVectorProper
 public:
   static vtkSMSVOReasonProperty* New();
   vtkTypeMacro(vtkSMSVOReasonProperty, vtkSMStringVectorProperty);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
 protected:
-  vtkSMSVOReasonProperty();
-  ~vtkSMSVOReasonProperty() override;
+  vtkSMSVOReasonProperty() = default;
+  ~vtkSMSVOReasonProperty() override = default;
 
   void ReadFrom(const vtkSMMessage* message, int offset, vtkSMProxyLocator* locator) override;
 

@@ -11,9 +11,6 @@
 
 vtkStandardNewMacro(vtkSMSVORepresentationProxy);
 
-vtkSMSVORepresentationProxy::vtkSMSVORepresentationProxy() = default;
-vtkSMSVORepresentationProxy::~vtkSMSVORepresentationProxy() = default;
-
 void vtkSMSVORepresentationProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy* proxy)
 {
   this->Superclass::AddConsumer(property, proxy);

@@ -29,8 +29,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
 protected:
-  vtkSMSVORepresentationProxy();
-  ~vtkSMSVORepresentationProxy() override;
+  vtkSMSVORepresentationProxy() = default;
+  ~vtkSMSVORepresentationProxy() override = default;
 
   // Views are consumers.
   void AddConsumer(vtkSMProperty* property, vtkSMProxy* proxy) override;

@@ -9,9 +9,6 @@
 
 vtkStandardNewMacro(vtkSMSVOViewInformationProperty);
 
-vtkSMSVOViewInformationProperty::vtkSMSVOViewInformationProperty() = default;
-vtkSMSVOViewInformationProperty::~vtkSMSVOViewInformationProperty() = default;
-
 void vtkSMSVOViewInformationProperty::ReadFrom(
   const vtkSMMessage* message, int offset, vtkSMProxyLocator* locator)
 {
@@ -32,9 +29,4 @@ void vtkSMSVOViewInformationProperty::ReadFrom(
     parent->GatherInformation(information, vtkPVSession::RENDER_SERVER);
     this->SetElement(0, information->GetValue());
   }
-}
-
-void vtkSMSVOViewInformationProperty::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
 }

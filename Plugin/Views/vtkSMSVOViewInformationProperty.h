@@ -17,11 +17,10 @@ class VTKSVOVIEWS_EXPORT vtkSMSVOViewInformationProperty : public vtkSMDoubleVec
 public:
   static vtkSMSVOViewInformationProperty* New();
   vtkTypeMacro(vtkSMSVOViewInformationProperty, vtkSMDoubleVectorProperty);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
 protected:
-  vtkSMSVOViewInformationProperty();
-  ~vtkSMSVOViewInformationProperty() override;
+  vtkSMSVOViewInformationProperty() = default;
+  ~vtkSMSVOViewInformationProperty() override = default;
 
   void ReadFrom(const vtkSMMessage* message, int offset, vtkSMProxyLocator* locator) override;
 
