@@ -8,35 +8,21 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 
-#include <array>
 #include <sstream>
-#include <vector>
 
 vtkStandardNewMacro(vtkSVOExposureFilter);
 
-class vtkSVOExposureFilter::vtkLists
+namespace
 {
-public:
-  using Places = std::vector<std::array<double, 3>>;
-  Places Directions, Positions;
-
-  static void copy(const Places& places, int index, double place[3])
+void copyPlace(const std::vector<std::array<double, 3>>& places, int index, double place[3])
+{
+  const bool exists = index >= 0 && index < static_cast<int>(places.size());
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    const bool exists = index >= 0 && index < static_cast<int>(places.size());
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      place[i] = exists ? places[static_cast<std::size_t>(index)][i] : 0.0;
-    }
+    place[i] = exists ? places[static_cast<std::size_t>(index)][i] : 0.0;
   }
-};
-
-//------------------------------------------------------------------------------
-vtkSVOExposureFilter::vtkSVOExposureFilter()
-  : Lists(new vtkLists)
-{
 }
-
-vtkSVOExposureFilter::~vtkSVOExposureFilter() = default;
+}
 
 //------------------------------------------------------------------------------
 const char* vtkSVOExposureFilter::GetLightSourceAsString()
@@ -46,91 +32,58 @@ const char* vtkSVOExposureFilter::GetLightSourceAsString()
 }
 
 //------------------------------------------------------------------------------
-void vtkSVOExposureFilter::SetLongitude(double value)
-{
-  svo::setLongitude(this, value, this->Longitude);
-}
-
-void vtkSVOExposureFilter::SetLatitude(double value)
-{
-  svo::setNumber(this, "Latitude", value, -90.0, 90.0, this->Latitude);
-}
-
-void vtkSVOExposureFilter::SetTimeZone(double value)
-{
-  svo::setNumber(this, "TimeZone", value, -14.0, 14.0, this->TimeZone);
-}
-
-void vtkSVOExposureFilter::SetStartHour(double value)
-{
-  svo::setNumber(this, "StartHour", value, 0.0, 24.0, this->StartHour);
-}
-
-void vtkSVOExposureFilter::SetEndHour(double value)
-{
-  svo::setNumber(this, "EndHour", value, 0.0, 24.0, this->EndHour);
-}
-
-void vtkSVOExposureFilter::SetStep(double value)
-{
-  svo::setNumber(this, "Step", value, 0.1, 1440.0, this->Step);
-}
-
-void vtkSVOExposureFilter::SetBinWidth(double value)
-{
-  svo::setNumber(this, "BinWidth", value, 0.0, 30.0, this->BinWidth);
-}
+svoSetSunMacro(vtkSVOExposureFilter);
 
 //------------------------------------------------------------------------------
 void vtkSVOExposureFilter::AddDirection(double x, double y, double z)
 {
-  this->Lists->Directions.push_back({ x, y, z });
+  this->Directions.push_back({ x, y, z });
   this->Modified();
 }
 
 //------------------------------------------------------------------------------
 void vtkSVOExposureFilter::RemoveAllDirections()
 {
-  this->Lists->Directions.clear();
+  this->Directions.clear();
   this->Modified();
 }
 
 //------------------------------------------------------------------------------
 int vtkSVOExposureFilter::GetNumberOfDirections()
 {
-  return static_cast<int>(this->Lists->Directions.size());
+  return static_cast<int>(this->Directions.size());
 }
 
 //------------------------------------------------------------------------------
 void vtkSVOExposureFilter::GetDirection(int index, double direction[3])
 {
-  vtkLists::copy(this->Lists->Directions, index, direction);
+  copyPlace(this->Directions, index, direction);
 }
 
 //------------------------------------------------------------------------------
 void vtkSVOExposureFilter::AddPosition(double x, double y, double z)
 {
-  this->Lists->Positions.push_back({ x, y, z });
+  this->Positions.push_back({ x, y, z });
   this->Modified();
 }
 
 //------------------------------------------------------------------------------
 void vtkSVOExposureFilter::RemoveAllPositions()
 {
-  this->Lists->Positions.clear();
+  this->Positions.clear();
   this->Modified();
 }
 
 //------------------------------------------------------------------------------
 int vtkSVOExposureFilter::GetNumberOfPositions()
 {
-  return static_cast<int>(this->Lists->Positions.size());
+  return static_cast<int>(this->Positions.size());
 }
 
 //------------------------------------------------------------------------------
 void vtkSVOExposureFilter::GetPosition(int index, double position[3])
 {
-  vtkLists::copy(this->Lists->Positions, index, position);
+  copyPlace(this->Positions, index, position);
 }
 
 //------------------------------------------------------------------------------
@@ -165,7 +118,7 @@ void vtkSVOExposureFilter::PrepareLights()
     return;
   }
   const bool positional = this->LightSource == POSITIONS;
-  for (const auto& place : positional ? this->Lists->Positions : this->Lists->Directions)
+  for (const auto& place : positional ? this->Positions : this->Directions)
   {
     vtkNew<vtkLight> light;
     light->SetLightTypeToSceneLight();

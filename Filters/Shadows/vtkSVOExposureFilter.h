@@ -12,6 +12,9 @@
 
 #include "vtkSVOShadowFilter.h"
 
+#include <array>  // for places
+#include <vector> // for places
+
 class VTKSVOSHADOWS_EXPORT vtkSVOExposureFilter : public vtkSVOShadowFilter
 {
 public:
@@ -151,8 +154,8 @@ public:
   //@}
 
 protected:
-  vtkSVOExposureFilter();
-  ~vtkSVOExposureFilter() override;
+  vtkSVOExposureFilter() = default;
+  ~vtkSVOExposureFilter() override = default;
 
   void PrepareLights() override;
 
@@ -174,9 +177,7 @@ private:
   double Up[3] = { 0.0, 0.0, 1.0 };
   int SkyType = UNIFORM;
   int NumberOfSkyDirections = 256;
-
-  class vtkLists;
-  std::unique_ptr<vtkLists> Lists;
+  std::vector<std::array<double, 3>> Directions, Positions;
 };
 
 #endif

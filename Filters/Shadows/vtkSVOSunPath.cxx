@@ -46,40 +46,7 @@ void vtkSVOSunPath::SetDate(int year, int month, int day)
 }
 
 //------------------------------------------------------------------------------
-void vtkSVOSunPath::SetLongitude(double value)
-{
-  svo::setLongitude(this, value, this->Longitude);
-}
-
-void vtkSVOSunPath::SetLatitude(double value)
-{
-  svo::setNumber(this, "Latitude", value, -90.0, 90.0, this->Latitude);
-}
-
-void vtkSVOSunPath::SetTimeZone(double value)
-{
-  svo::setNumber(this, "TimeZone", value, -14.0, 14.0, this->TimeZone);
-}
-
-void vtkSVOSunPath::SetStartHour(double value)
-{
-  svo::setNumber(this, "StartHour", value, 0.0, 24.0, this->StartHour);
-}
-
-void vtkSVOSunPath::SetEndHour(double value)
-{
-  svo::setNumber(this, "EndHour", value, 0.0, 24.0, this->EndHour);
-}
-
-void vtkSVOSunPath::SetStep(double value)
-{
-  svo::setNumber(this, "Step", value, 0.1, 1440.0, this->Step);
-}
-
-void vtkSVOSunPath::SetBinWidth(double value)
-{
-  svo::setNumber(this, "BinWidth", value, 0.0, 30.0, this->BinWidth);
-}
+svoSetSunMacro(vtkSVOSunPath);
 
 //------------------------------------------------------------------------------
 bool vtkSVOSunPath::IsValid()

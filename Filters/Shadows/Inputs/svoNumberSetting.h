@@ -42,4 +42,23 @@ inline void setLongitude(vtkObject* owner, double value, double& setting)
 }
 }
 
+#define svoSetNumberMacro(Class, Name, Least, Most)                                                \
+  void Class::Set##Name(double value)                                                              \
+  {                                                                                                \
+    svo::setNumber(this, #Name, value, Least, Most, this->Name);                                   \
+  }
+
+/// The numbers that place the sun and choose its hours, of a class that has them.
+#define svoSetSunMacro(Class)                                                                      \
+  void Class::SetLongitude(double value)                                                           \
+  {                                                                                                \
+    svo::setLongitude(this, value, this->Longitude);                                               \
+  }                                                                                                \
+  svoSetNumberMacro(Class, Latitude, -90.0, 90.0);                                                 \
+  svoSetNumberMacro(Class, TimeZone, -14.0, 14.0);                                                 \
+  svoSetNumberMacro(Class, StartHour, 0.0, 24.0);                                                  \
+  svoSetNumberMacro(Class, EndHour, 0.0, 24.0);                                                    \
+  svoSetNumberMacro(Class, Step, 0.1, 1440.0);                                                     \
+  svoSetNumberMacro(Class, BinWidth, 0.0, 30.0)
+
 #endif
