@@ -62,7 +62,7 @@ void update(vtkMapper* mapper)
 void PropCollector::complainOnce(
   vtkObject* about, const std::string& text, const CollectProps& frame)
 {
-  if (!frame.options.complain || this->Quiet)
+  if (!frame.complain || this->Quiet)
   {
     return;
   }
@@ -70,7 +70,7 @@ void PropCollector::complainOnce(
   {
     if (!frame.said || frame.said->insert(text).second)
     {
-      frame.options.complain(text);
+      frame.complain(text);
     }
     return;
   }
@@ -78,7 +78,7 @@ void PropCollector::complainOnce(
   if (isNew || said->second != about) // another one is in its place now
   {
     said->second = about;
-    frame.options.complain(text);
+    frame.complain(text);
   }
 }
 

@@ -7,7 +7,6 @@
 #include "svoFloatArrays.h"
 #include "svoGlyphCopies.h"
 #include "svoLeafMeshes.h"
-#include "svoOctreeStore.h"
 #include "svoOpaqueCells.h"
 #include "svoSceneOctrees.h"
 #include "svoSeenFaces.h"
@@ -18,12 +17,16 @@
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
+
+#include <glm/mat4x4.hpp>
 
 class vtkActor;
 class vtkMatrix4x4;
@@ -33,27 +36,38 @@ class vtkProp;
 
 namespace svo
 {
-/// What a frame's collection of its props depends on, apart from the props.
-struct CollectProps
+/// How props are collected. Where one of these is not what it was, all of them are collected again.
+struct PropChoices
 {
-  const StoreOptions& options; // messages go to its `complain`, each once
-  bool shadows;                // casters are wanted, and a light casts
-  bool lights;                 // there are lights at all
+  bool shadows = true; // casters are wanted, and a light casts
+  bool lights = false; // there are lights at all
   /// Only props that say explicitly that they use octrees (vtkSVORenderPass::SetUseSVO) are traced
   /// and cast. The others only receive, unless they are treated likewise; about them there are no
   /// messages.
-  bool onlyMarked;
-  bool unmarkedToo;
-  bool translucentShadows;     // what is translucent casts as well, as light as it is
-  bool meanOpacity;            // ... each surface equally all over
-  bool onlyCast;               // nothing is traced; the rasteriser draws all that is seen
-  Reason notMarked;            // why the others are not traced
-  std::set<std::string>* said; // messages of the pass, about no object in particular
+  bool onlyMarked = false;
+  bool unmarkedToo = false;
+  bool translucentShadows = false; // what is translucent casts as well, as light as it is
+  bool meanOpacity = false;        // ... each surface equally all over
+  bool onlyCast = false;           // nothing is traced; the rasteriser draws all that is seen
+  glm::dmat4 world{ 1.0 };         // see sceneTransform()
+
+  auto values() const
+  {
+    return std::tie(this->shadows, this->lights, this->onlyMarked, this->unmarkedToo,
+      this->translucentShadows, this->meanOpacity, this->onlyCast, this->world);
+  }
+};
+
+/// What a frame's collection of its props depends on, apart from the props.
+struct CollectProps : PropChoices
+{
+  Reason notMarked = "was not chosen with SetUseSVO"; // why the others are not traced
+  std::function<void(const std::string&)> complain;   // each message once
+  std::set<std::string>* said = nullptr; // messages of the pass, about no object in particular
   /// Messages about surfaces and cells that cast nothing, or more than they show; empty: none.
   std::string translucentSurfaceText;
   std::string translucentText;
   std::string cutOutText;
-  glm::dmat4 world;          // see sceneTransform()
   const View* eye = nullptr; // null: not known
 };
 

@@ -95,9 +95,8 @@ std::vector<vtkSmartPointer<vtkProp>> propsOf(vtkRenderer* renderer)
 
 PropSurfaces SceneCollector::judge(vtkProp* prop)
 {
-  const StoreOptions silent{};
-  const CollectProps frame{ silent, true, false, false, false, true, false, false, nullptr, nullptr,
-    {}, {}, {}, glm::dmat4(1.0) };
+  CollectProps frame;
+  frame.translucentShadows = true;
   PropSurfaces found;
   found.prop = prop;
   if (!prop->GetVisibility())
@@ -289,7 +288,7 @@ void SceneCollector::missShadows(const StoreOptions& options, CollectedScene& re
 {
   result.nothingCasts.clear();
   result.nothingReceives.clear();
-  result.clippedCastNone = this->Shadows &&
+  result.clippedCastNone = this->Choices.shadows &&
     std::any_of(this->Found.begin(), this->Found.end(),
       [](const PropSurfaces& prop)
       {
@@ -297,7 +296,7 @@ void SceneCollector::missShadows(const StoreOptions& options, CollectedScene& re
           flagOf(prop.prop, nullptr, castShadowKey(), true);
       });
   int casters = 0, receivers = 0; // that could be, and are none
-  bool casts = !this->Shadows, receives = casts;
+  bool casts = !this->Choices.shadows, receives = casts;
   std::set<std::string_view> reasons;
   for (const PropSurfaces& prop : this->Found)
   {
@@ -312,10 +311,10 @@ void SceneCollector::missShadows(const StoreOptions& options, CollectedScene& re
       : ready                            ? nullptr
                                          : withoutOctree(options);
     // Hosts' views have outlines, axes and the like as well, and a switch for translucent shadows.
-    const bool meant = this->OnlyMarked &&
+    const bool meant = this->Choices.onlyMarked &&
       (prop.catchesShadows || reason == this->NotMarked.c_str() || reason == ShowsNoPolygons ||
         reason == HasNoPolygons || reason == MayDrawAnything ||
-        (reason == IsTranslucent && !this->TranslucentShadows));
+        (reason == IsTranslucent && !this->Choices.translucentShadows));
     if (reason && !meant && flagOf(prop.prop, nullptr, castShadowKey(), true))
     {
       ++casters;
@@ -324,7 +323,7 @@ void SceneCollector::missShadows(const StoreOptions& options, CollectedScene& re
     const bool shows = prop.rasterized || !prop.surfaces.empty();
     receivers += shows && !meant && flagOf(prop.prop, nullptr, receiveShadowKey(), true);
   }
-  if (this->Others > 0 && !this->OnlyMarked)
+  if (this->Others > 0 && !this->Choices.onlyMarked)
   {
     casters += this->Others;
     reasons.insert(NoActor);
@@ -366,26 +365,17 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   {
     this->NotMarked = settings.notMarked;
   }
-  const CollectProps frame{ options, settings.shadows && casting, !result.scene.lights.empty(),
-    settings.onlyMarked, settings.unmarkedToo, settings.translucentShadows, settings.meanOpacity,
-    settings.onlyCast, this->NotMarked.c_str(), settings.said, settings.translucentSurfaceText,
-    settings.translucentText, settings.cutOutText, world,
-    settings.levels.eye.width > 0 ? &settings.levels.eye : nullptr };
+  CollectProps frame = settings;
+  frame.shadows = settings.shadows && casting;
+  frame.lights = !result.scene.lights.empty();
+  frame.world = world;
+  frame.notMarked = this->NotMarked.c_str();
+  frame.complain = options.complain;
+  frame.eye = settings.levels.eye.width > 0 ? &settings.levels.eye : nullptr;
   const std::vector<vtkSmartPointer<vtkProp>> props = propsOf(renderer);
-  const bool all = !this->Collected || !sameReason ||
-    std::tie(this->Shadows, this->Lights, this->OnlyMarked, this->UnmarkedToo,
-      this->TranslucentShadows, this->MeanOpacity, this->OnlyCast, this->World) !=
-      std::tie(frame.shadows, frame.lights, frame.onlyMarked, frame.unmarkedToo,
-        frame.translucentShadows, frame.meanOpacity, frame.onlyCast, world);
+  const bool all = !this->Collected || !sameReason || this->Choices.values() != frame.values();
   this->Collected = true;
-  this->Shadows = frame.shadows;
-  this->Lights = frame.lights;
-  this->OnlyMarked = frame.onlyMarked;
-  this->UnmarkedToo = frame.unmarkedToo;
-  this->TranslucentShadows = frame.translucentShadows;
-  this->MeanOpacity = frame.meanOpacity;
-  this->OnlyCast = frame.onlyCast;
-  this->World = world;
+  this->Choices = frame;
   const bool changed = this->collectProps(props, frame, all);
   if (changed)
   {

@@ -23,23 +23,12 @@ class vtkRenderer;
 
 namespace svo
 {
-/// A frame's settings of the collection.
-struct CollectSettings
+/// A frame's settings of the collection. `notMarked` need not outlive the call; `shadows` says that
+/// casters are wanted. Lights, the world, the eye and who hears messages are the collector's
+/// affair.
+struct CollectSettings : CollectProps
 {
-  bool shadows = true; // casters are wanted
-  /// See CollectProps.
-  bool onlyMarked = false;
-  bool unmarkedToo = false;
-  bool translucentShadows = false;
-  bool meanOpacity = false;
-  bool onlyCast = false;
-  Reason notMarked = "was not chosen with SetUseSVO"; // need not outlive the call
   LevelSettings levels;
-  std::set<std::string>* said = nullptr; // messages of the pass, about no object in particular
-  /// Messages about surfaces and cells that cast nothing, or more than they show; empty: none.
-  std::string translucentSurfaceText;
-  std::string translucentText;
-  std::string cutOutText;
   LightWords lightWords;
 };
 
@@ -111,10 +100,8 @@ private:
   bool Lent = false;
   // The rest of what they depend on.
   bool Collected = false;
-  bool Shadows = false, Lights = false, OnlyMarked = false, UnmarkedToo = false;
-  bool TranslucentShadows = false, MeanOpacity = false, OnlyCast = false;
+  PropChoices Choices;
   std::string NotMarked; // what reasons of kept props point to
-  glm::dmat4 World{ 1.0 };
   LevelSettings Levels;
   StoreOptions Options;
   std::uint64_t StoreVersion = 0;
