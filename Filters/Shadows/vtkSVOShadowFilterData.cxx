@@ -3,11 +3,10 @@
 
 #include "svoAbort.h"
 #include "svoCellSamples.h"
+#include "svoInverse.h"
 #include "svoMeshOctree.h"
 #include "svoMeshTriangles.h"
-#include "svoPlaces.h"
 #include "svoPointSamples.h"
-#include "svoShadowLights.h"
 #include "svoShadowShares.h"
 #include "vtkSVOShadowFilterInternals.h"
 
@@ -19,6 +18,8 @@
 #include "vtkInformation.h"
 #include "vtkInformationDoubleVectorKey.h"
 #include "vtkInformationVector.h"
+#include "vtkLight.h"
+#include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -27,9 +28,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <string>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/matrix.hpp>
 
 namespace
 {
@@ -45,6 +51,19 @@ struct CasterMesh
   glm::dmat4 toWorld;
   Own own;
 };
+
+/// nullptr: the identity.
+glm::dmat4 matrixOf(vtkMatrix4x4* matrix)
+{
+  return matrix ? glm::transpose(glm::make_mat4(matrix->GetData())) : glm::dmat4(1.0);
+}
+
+/// True if a matrix takes all points to points, each to one of its own.
+bool isPlace(const glm::dmat4& m)
+{
+  return svo::placesSomething(m) && m[0][3] == 0.0 && m[1][3] == 0.0 && m[2][3] == 0.0 &&
+    m[3][3] == 1.0;
+}
 
 /// The point normals of a mesh, empty where it has none.
 std::vector<glm::dvec3> normalsOf(vtkPolyData* mesh)
@@ -82,6 +101,49 @@ void addMeshes(vtkDataObject* data, const glm::dmat4& place, std::vector<CasterM
     }
   }
 }
+
+/// A light as the rays have it. Off, with a reason in `problem`, where it has no place in the
+/// world: it "moves with a camera ...". A light that is switched off has no problem.
+svo::WeightedLight shadowLight(vtkLight* source, double weight, std::string& problem)
+{
+  svo::WeightedLight result;
+  svo::Light& light = result.light;
+  result.weight = weight;
+  double from[3], to[3];
+  source->GetTransformedPosition(from);
+  source->GetTransformedFocalPoint(to);
+  light.position = { from[0], from[1], from[2] };
+  const glm::dvec3 axis = glm::dvec3(to[0], to[1], to[2]) - light.position;
+  const double length = glm::length(axis);
+  light.direction = length > 0.0 ? axis / length : glm::dvec3(0.0);
+  light.coneAngle = source->GetConeAngle();
+  if (source->GetPositional())
+  {
+    // VTK draws all cones from 90 degrees on as none.
+    light.kind = light.coneAngle < 90.0 ? svo::Light::Kind::Spot : svo::Light::Kind::Point;
+  }
+  result.on = source->GetSwitch() != 0;
+  if (!result.on)
+  {
+    return result;
+  }
+  const bool aimed = length > 0.0 && std::isfinite(length);
+  const bool placed = std::isfinite(from[0]) && std::isfinite(from[1]) && std::isfinite(from[2]);
+  if (!source->LightTypeIsSceneLight())
+  {
+    problem = "moves with a camera, and there is none here";
+  }
+  else if (!placed || (!aimed && light.kind != svo::Light::Kind::Point))
+  {
+    problem = "has no direction: its position and focal point are the same, or not finite";
+  }
+  else if (!std::isfinite(weight))
+  {
+    problem = "has a weight that is not finite";
+  }
+  result.on = problem.empty();
+  return result;
+}
 }
 
 //------------------------------------------------------------------------------
@@ -92,7 +154,7 @@ std::vector<svo::WeightedLight> vtkSVOShadowFilter::vtkInternals::lights(
   for (const Weighted& weighted : this->Lights)
   {
     std::string problem;
-    result.push_back(svo::shadowLight(weighted.light, weighted.weightOf(cosine), problem));
+    result.push_back(shadowLight(weighted.light, weighted.weightOf(cosine), problem));
     if (!problem.empty())
     {
       std::string& who = wrong[problem];
@@ -149,8 +211,8 @@ int vtkSVOShadowFilter::RequestData(
   output->ShallowCopy(input);
   this->BuildTime = this->TraceTime = 0.0;
   this->PrepareLights();
-  const glm::dmat4 toWorld = svo::matrixOf(this->MeshMatrix);
-  if (!svo::isPlace(toWorld))
+  const glm::dmat4 toWorld = matrixOf(this->MeshMatrix);
+  if (!isPlace(toWorld))
   {
     vtkErrorMacro("There are no shadows: the mesh's matrix is not affine, or has no inverse.");
     return 1;
@@ -180,8 +242,8 @@ int vtkSVOShadowFilter::RequestData(
   int withoutInverse = 0;
   for (int i = 0; i < inputVector[1]->GetNumberOfInformationObjects(); ++i)
   {
-    const glm::dmat4 place = svo::matrixOf(this->GetCasterMatrix(i));
-    if (svo::isPlace(place))
+    const glm::dmat4 place = matrixOf(this->GetCasterMatrix(i));
+    if (isPlace(place))
     {
       addMeshes(vtkDataObject::GetData(inputVector[1], i), place, meshes);
     }

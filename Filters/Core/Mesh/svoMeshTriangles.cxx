@@ -1,7 +1,7 @@
 #include "svoMeshTriangles.h"
 
+#include "svoBox.h"
 #include "svoCellIds.h"
-#include "svoLargePolygon.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -9,12 +9,83 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace svo
 {
 namespace
 {
+/// Polygons with more points than this are worth a look. A fan's triangles all reach from the rim
+/// to the first point, so an octree notes each of them in all the bricks on its way: the cost of a
+/// fan grows with its points times the bricks across. Cut in halves, again and again, most
+/// triangles are as short as the polygon's edges.
+constexpr std::size_t LargePolygon = 8192;
+
+/// Calls visit(i, k, j), indices into the polygon in its own winding, for each triangle of the part
+/// between two of its points.
+template <typename Visit>
+void halve(std::size_t first, std::size_t last, const Visit& visit)
+{
+  if (last - first < 2)
+  {
+    return;
+  }
+  const std::size_t middle = first + (last - first) / 2;
+  visit(first, middle, last);
+  halve(first, middle, visit);
+  halve(middle, last, visit);
+}
+
+/// True if all triangles of the fan and of the halves lie in one plane and have one winding. They
+/// cover the same points then: those that the polygon's outline goes around. Only what point data
+/// look like inside of the polygon depends on the cut.
+bool canBeHalved(const glm::dvec3* points, const std::vector<std::uint32_t>& polygon)
+{
+  constexpr double Tolerance = 1e-6; // of the polygon's size: float coordinates are no better
+  const std::size_t count = polygon.size();
+  const glm::dvec3 origin = points[polygon[0]];
+  const auto at = [&](std::size_t i) { return points[polygon[i]] - origin; };
+  glm::dvec3 area(0.0);
+  Box box{ glm::dvec3(0.0), glm::dvec3(0.0) };
+  for (std::size_t i = 1; i < count; ++i)
+  {
+    const glm::dvec3 p = at(i);
+    area += glm::cross(at(i - 1), p);
+    box.add(p);
+  }
+  const double size = glm::length(box.high - box.low);
+  const double length = glm::length(area);
+  // Points that are not finite end here, too.
+  if (count < 3 || !(length > Tolerance * size * size) || !std::isfinite(length))
+  {
+    return false;
+  }
+  const glm::dvec3 normal = area / length;
+  const double allowed = Tolerance * size;
+  bool good = true;
+  const auto look = [&](std::size_t i, std::size_t k, std::size_t j)
+  {
+    const glm::dvec3 a = at(i), b = at(k), c = at(j);
+    const double longest = std::max({ glm::length(b - a), glm::length(c - b), glm::length(a - c) });
+    const double height = glm::dot(glm::cross(b - a, c - a), normal);
+    good = good && height >= -allowed * longest && std::abs(glm::dot(b, normal)) <= allowed;
+  };
+  for (std::size_t i = 1; i + 1 < count && good; ++i)
+  {
+    look(0, i, i + 1);
+  }
+  if (good)
+  {
+    halve(0, count - 1, look);
+  }
+  return good && std::abs(glm::dot(at(count - 1), normal)) <= allowed;
+}
+
 struct Appender
 {
   const glm::dvec3* points;

@@ -20,10 +20,9 @@ namespace svo
 VTKSVOCORE_EXPORT std::size_t triangleBound(vtkPolyData* mesh);
 
 /// Triangles of the polygons, then of the strips. A polygon is a fan around its first point, as in
-/// vtkOpenGLIndexBufferObject, unless it is flat, convex and has thousands of points
-/// (svoLargePolygon.h); a strip's triangles alternate, so that all have the strip's winding.
-/// Triangles with two ids alike are left out. Vertices and lines have no triangles, but count in
-/// the cell ids. Does not change the mesh.
+/// vtkOpenGLIndexBufferObject, unless it is flat, convex and has thousands of points; a strip's
+/// triangles alternate, so that all have the strip's winding. Triangles with two ids alike are left
+/// out. Vertices and lines have no triangles, but count in the cell ids. Does not change the mesh.
 class VTKSVOCORE_EXPORT MeshTriangles
 {
 public:

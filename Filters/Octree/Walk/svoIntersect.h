@@ -6,6 +6,8 @@
 #include "svoRay.h"
 #include "vtkSVOOctreeModule.h"
 
+#include <functional>
+
 namespace svo
 {
 /// The nearest hit of one ray, in double precision. Closed cells build, half-open cells trace: a
@@ -16,6 +18,12 @@ VTKSVOOCTREE_EXPORT Hit intersect(
 /// True if the ray hits anything in [tMin, tMax].
 VTKSVOOCTREE_EXPORT bool occluded(
   const Octree& octree, const Ray& ray, const TraceOptions& options);
+
+/// True if the ray meets a triangle in [tMin, tMax] that `skipped` does not name. All triangles are
+/// met exactly, in double, whatever leaf geometry the octree is for. The octree must have a surface
+/// or be empty.
+VTKSVOOCTREE_EXPORT bool occludedByOthers(
+  const Octree& octree, const Ray& ray, const std::function<bool(Primitive)>& skipped);
 
 /// The nearest hits of 64 rays, in float. Results do not depend on the other rays of the block, nor
 /// on the instruction set that was chosen at run time.

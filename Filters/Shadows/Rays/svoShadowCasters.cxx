@@ -2,7 +2,6 @@
 
 #include "svoIntersect.h"
 #include "svoLocalRay.h"
-#include "svoOccludedByOthers.h"
 #include "svoShadowBeam.h"
 #include "svoTriangle.h"
 

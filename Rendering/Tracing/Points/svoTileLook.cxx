@@ -5,7 +5,6 @@
 #include "svoTileLook.h"
 
 #include "svoLaneBits-inl.h"
-#include "svoTileNodes.h"
 
 #include <cassert>
 #include <cmath>
@@ -285,6 +284,51 @@ HWY_AFTER_NAMESPACE();
 namespace svo
 {
 HWY_EXPORT(look);
+
+namespace
+{
+/// Facet, normal and colour of one point, which is on a triangle at `at`; see pointOfTriangle().
+void lookAtPoint(
+  const SurfaceMatrices& frame, Primitive triangle, const glm::dvec3& at, int i, TilePatch& patch)
+{
+  const SurfacePoint point =
+    pointOfTriangle(frame, *patch.view, patch.position(i), patch.towards(i), triangle, at);
+  patch.setFacet(i, point.facet);
+  patch.setNormal(i, point.normal);
+  patch.setColor(i, point.color);
+  patch.hasColor = point.hasColor;
+}
+
+/// The same of those points that are in `lanes`, all on nodes above the bricks; the octree has a
+/// surface. Lines of sight to nodes without a triangle that faces the viewer are traced all at
+/// once.
+void lookAtNodes(const SurfaceMatrices& frame, std::uint64_t lanes, TilePatch& patch)
+{
+  assert((lanes & ~patch.mask) == 0 && frame.instance->body->octree.surface());
+  NodeTriangle picked[TilePatch::Most];
+  NodeTriangle* doubtful[TilePatch::Most];
+  glm::dvec3 towards[TilePatch::Most];
+  int doubts = 0;
+  eachBit(lanes,
+    [&](int i)
+    {
+      const glm::vec3 to = patch.towards(i);
+      const Primitive primitive = patch.hits->primitive[i];
+      assert(primitive & NodePrimitive);
+      picked[i] = pickTriangle(frame, primitive & ~NodePrimitive, patch.position(i), to);
+      if (!picked[i].faces)
+      {
+        towards[doubts] = frame.toOctree.vector(glm::dvec3(to));
+        doubtful[doubts++] = &picked[i];
+      }
+    });
+  if (doubts > 0)
+  {
+    settleTriangles(frame.instance->body->octree, doubtful, towards, doubts);
+  }
+  eachBit(lanes, [&](int i) { lookAtPoint(frame, picked[i].triangle, picked[i].at, i, patch); });
+}
+}
 
 void lookAtPatch(const SurfaceMatrices& frame, TilePatch& patch, TileTriangles& triangles)
 {

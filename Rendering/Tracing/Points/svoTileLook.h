@@ -16,18 +16,6 @@ namespace svo
 /// `frame`: of the patch's instance. `triangles`: for this function alone.
 VTKSVOTRACING_EXPORT void lookAtPatch(
   const SurfaceMatrices& frame, TilePatch& patch, TileTriangles& triangles);
-
-/// Facet, normal and colour of one point, which is on a triangle at `at`; see pointOfTriangle().
-inline void lookAtPoint(
-  const SurfaceMatrices& frame, Primitive triangle, const glm::dvec3& at, int i, TilePatch& patch)
-{
-  const SurfacePoint point =
-    pointOfTriangle(frame, *patch.view, patch.position(i), patch.towards(i), triangle, at);
-  patch.setFacet(i, point.facet);
-  patch.setNormal(i, point.normal);
-  patch.setColor(i, point.color);
-  patch.hasColor = point.hasColor;
-}
 }
 
 #endif
