@@ -32,6 +32,7 @@
 #include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/trigonometric.hpp>
 
 namespace
@@ -290,13 +291,7 @@ svo::Scene Program::sceneOf(paper::Scene& paperScene, int level, svo::LeafGeomet
     instance.body.own().octree = octree;
     instance.body.own().leafGeometry = leaves;
     instance.id = scene.instances.size() + 1;
-    for (int row = 0; row < 4; ++row)
-    {
-      for (int column = 0; column < 4; ++column)
-      {
-        instance.localToWorld[column][row] = actor->GetMatrix()->GetElement(row, column);
-      }
-    }
+    instance.localToWorld = glm::transpose(glm::make_mat4(actor->GetMatrix()->GetData()));
     giveLook(instance, this->arrays[mesh], look++);
     scene.instances.push_back(instance);
   }

@@ -14,6 +14,7 @@
 #include <limits>
 
 #include <glm/common.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
@@ -21,17 +22,18 @@ namespace svo
 {
 namespace
 {
+glm::dmat3 axesOf(vtkImageData* image)
+{
+  return glm::transpose(glm::make_mat3(image->GetDirectionMatrix()->GetData()));
+}
+
 /// Steps of a point's index -> local frame.
 glm::dmat3 stepsOf(vtkImageData* image)
 {
-  glm::dmat3 steps;
+  glm::dmat3 steps = axesOf(image);
   for (int column = 0; column < 3; ++column)
   {
-    for (int row = 0; row < 3; ++row)
-    {
-      steps[column][row] =
-        image->GetDirectionMatrix()->GetElement(row, column) * image->GetSpacing()[column];
-    }
+    steps[column] *= image->GetSpacing()[column];
   }
   return steps;
 }
@@ -113,15 +115,12 @@ const char* unfitImage(vtkImageData* image, vtkDataArray* scalars)
 
 glm::dmat4 frameOfImage(vtkImageData* image)
 {
-  glm::dmat4 frame(1.0);
-  for (int row = 0; row < 3 && isTurned(image); ++row)
+  if (!isTurned(image))
   {
-    for (int column = 0; column < 3; ++column)
-    {
-      frame[column][row] = image->GetDirectionMatrix()->GetElement(row, column);
-    }
-    frame[3][row] = image->GetOrigin()[row];
+    return glm::dmat4(1.0);
   }
+  glm::dmat4 frame(axesOf(image));
+  frame[3] = glm::dvec4(glm::make_vec3(image->GetOrigin()), 1.0);
   return frame;
 }
 

@@ -13,6 +13,7 @@
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
@@ -20,15 +21,7 @@ namespace svo
 {
 glm::dmat4 toGlm(const vtkMatrix4x4* matrix)
 {
-  glm::dmat4 result;
-  for (int row = 0; row < 4; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      result[column][row] = matrix->GetElement(row, column);
-    }
-  }
-  return result;
+  return glm::transpose(glm::make_mat4(matrix->GetData()));
 }
 
 void sizeOf(const vtkRenderState* state, int& width, int& height)

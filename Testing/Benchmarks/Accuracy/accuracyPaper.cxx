@@ -17,6 +17,8 @@
 #include <stdexcept>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/matrix.hpp>
 
 namespace accuracy
 {
@@ -42,15 +44,8 @@ Stage stageOf(paper::Scene& scene, std::map<vtkDataSet*, std::shared_ptr<const S
     {
       shape = std::make_shared<Shape>(fromPolyData(vtkPolyData::SafeDownCast(data), stage.name));
     }
-    Object object{ shape, glm::dmat4(1.0) };
-    for (int row = 0; row < 4; ++row)
-    {
-      for (int column = 0; column < 4; ++column)
-      {
-        object.toWorld[column][row] = actor->GetMatrix()->GetElement(row, column);
-      }
-    }
-    stage.objects.push_back(object);
+    stage.objects.push_back(
+      { shape, glm::transpose(glm::make_mat4(actor->GetMatrix()->GetData())) });
   }
   stage.subject = 1; // the ground comes first
   vtkCamera* camera = scene.renderer()->GetActiveCamera();
