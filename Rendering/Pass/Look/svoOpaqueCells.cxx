@@ -42,9 +42,10 @@ struct Counts
   double alpha = 0.0; // the sum of visible ones' means
 };
 
-/// The opaque ones of cells whose ids begin at `base`.
-vtkSmartPointer<vtkCellArray> opaqueOf(
-  vtkCellArray* cells, vtkIdType base, vtkIdType points, const CellAlpha& alpha, Counts& counts)
+/// The cells whose ids begin at `base`, without those that are not opaque; or, with `places`, with
+/// cells without an area in the place of those that are invisible.
+vtkSmartPointer<vtkCellArray> sortCells(vtkCellArray* cells, vtkIdType base, vtkIdType points,
+  const CellAlpha& alpha, bool places, Counts& counts)
 {
   auto found = vtkSmartPointer<vtkCellArray>::New();
   vtkNew<vtkIdList> ids;
@@ -52,47 +53,25 @@ vtkSmartPointer<vtkCellArray> opaqueOf(
   {
     cells->GetCellAtId(i, ids);
     const vtkIdType* id = ids->GetPointer(0);
-    if (ids->GetNumberOfIds() < 3 ||
-      std::any_of(
-        id, id + ids->GetNumberOfIds(), [&](vtkIdType p) { return p < 0 || p >= points; }))
+    const vtkIdType size = ids->GetNumberOfIds();
+    bool kept =
+      size >= 3 && std::all_of(id, id + size, [&](vtkIdType p) { return p >= 0 && p < points; });
+    if (kept)
     {
-      continue;
+      const CellAlpha::Range range = alpha.of(base + i, id, size);
+      ++counts.all;
+      counts.invisible += range.invisible;
+      counts.opaque += range.opaque;
+      counts.alpha += range.invisible ? 0.0 : range.mean;
+      kept = places ? !range.invisible : range.opaque;
     }
-    const CellAlpha::Range range = alpha.of(base + i, id, ids->GetNumberOfIds());
-    ++counts.all;
-    counts.invisible += range.invisible;
-    counts.opaque += range.opaque;
-    counts.alpha += range.invisible ? 0.0 : range.mean;
-    if (range.opaque)
+    if (kept)
     {
       found->InsertNextCell(ids);
     }
-  }
-  return found;
-}
-
-/// The cells whose ids begin at `base`; in the place of those that are invisible, cells without an
-/// area.
-vtkSmartPointer<vtkCellArray> visibleOf(
-  vtkCellArray* cells, vtkIdType base, vtkIdType points, const CellAlpha& alpha)
-{
-  auto found = vtkSmartPointer<vtkCellArray>::New();
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i)
-  {
-    cells->GetCellAtId(i, ids);
-    const vtkIdType* id = ids->GetPointer(0);
-    const bool broken = std::any_of(
-      id, id + ids->GetNumberOfIds(), [&](vtkIdType p) { return p < 0 || p >= points; });
-    if (broken || ids->GetNumberOfIds() < 3 ||
-      alpha.of(base + i, id, ids->GetNumberOfIds()).invisible)
+    else if (places)
     {
-      constexpr vtkIdType nothing[] = { 0, 0, 0 };
-      found->InsertNextCell(3, nothing);
-    }
-    else
-    {
-      found->InsertNextCell(ids);
+      found->InsertNextCell({ 0, 0, 0 });
     }
   }
   return found;
@@ -130,27 +109,29 @@ OpaqueCells::Answer sort(vtkPolyData* mesh, const Attributes& attributes,
     return { mesh, false };
   }
   const CellAlpha alpha(attributes);
+  const auto sorted = [&](bool places, Counts& counts)
+  {
+    auto cells = vtkSmartPointer<vtkPolyData>::New();
+    const vtkIdType polys = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
+    const vtkIdType strips = polys + mesh->GetNumberOfPolys();
+    const vtkIdType points = mesh->GetNumberOfPoints();
+    cells->SetPoints(mesh->GetPoints());
+    cells->SetPolys(sortCells(mesh->GetPolys(), polys, points, alpha, places, counts));
+    cells->SetStrips(sortCells(mesh->GetStrips(), strips, points, alpha, places, counts));
+    return cells;
+  };
   Counts counts;
-  const vtkIdType polys = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
-  const vtkIdType points = mesh->GetNumberOfPoints();
-  const auto opaquePolys = opaqueOf(mesh->GetPolys(), polys, points, alpha, counts);
-  const auto opaqueStrips =
-    opaqueOf(mesh->GetStrips(), polys + mesh->GetNumberOfPolys(), points, alpha, counts);
+  const auto opaque = sorted(false, counts);
   OpaqueCells::Answer answer;
-  answer.translucent = counts.opaque + counts.invisible < counts.all;
+  answer.mapped = answer.translucent = counts.opaque + counts.invisible < counts.all;
   if (counts.opaque == counts.all)
   {
     answer.mesh = mesh;
   }
   else if (counts.opaque > 0)
   {
-    made = vtkSmartPointer<vtkPolyData>::New();
-    made->SetPoints(mesh->GetPoints());
-    made->SetPolys(opaquePolys);
-    made->SetStrips(opaqueStrips);
-    answer.mesh = made;
+    answer.mesh = made = opaque;
   }
-  answer.mapped = answer.translucent;
   answer.alpha =
     answer.mapped ? counts.alpha / static_cast<double>(counts.all - counts.invisible) : 1.0;
   if (answer.translucent && madeVisible)
@@ -158,14 +139,10 @@ OpaqueCells::Answer sort(vtkPolyData* mesh, const Attributes& attributes,
     answer.visible = mesh;
     if (counts.invisible > 0)
     {
-      *madeVisible = vtkSmartPointer<vtkPolyData>::New();
-      answer.visible = *madeVisible;
-      answer.visible->SetPoints(mesh->GetPoints());
+      Counts again;
+      answer.visible = *madeVisible = sorted(true, again);
       answer.visible->SetVerts(mesh->GetVerts());
       answer.visible->SetLines(mesh->GetLines());
-      answer.visible->SetPolys(visibleOf(mesh->GetPolys(), polys, points, alpha));
-      answer.visible->SetStrips(
-        visibleOf(mesh->GetStrips(), polys + mesh->GetNumberOfPolys(), points, alpha));
     }
   }
   return answer;
