@@ -113,9 +113,6 @@ protected:
     vtkInformationVector* outputVector) override;
 
 private:
-  vtkImageToSVO(const vtkImageToSVO&) = delete;
-  void operator=(const vtkImageToSVO&) = delete;
-
   vtkDataArray* FindScalars(vtkInformationVector** inputVector, vtkImageData* image);
   vtkDataArray* FindColors(vtkImageData* image);
   std::vector<double> Surfaces();

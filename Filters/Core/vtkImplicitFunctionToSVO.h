@@ -119,9 +119,6 @@ protected:
     vtkInformationVector* outputVector) override;
 
 private:
-  vtkImplicitFunctionToSVO(const vtkImplicitFunctionToSVO&) = delete;
-  void operator=(const vtkImplicitFunctionToSVO&) = delete;
-
   vtkImplicitFunction* ImplicitFunction = nullptr;
   double Value = 0.0;
   double ModelBounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };

@@ -70,9 +70,6 @@ protected:
   ~vtkMandelbulbFunction() override = default;
 
 private:
-  vtkMandelbulbFunction(const vtkMandelbulbFunction&) = delete;
-  void operator=(const vtkMandelbulbFunction&) = delete;
-
   double Power = 8.0;
   int NumberOfIterations = 8;
 };

@@ -228,9 +228,6 @@ protected:
   double AdaptedVoxel(vtkPolyData* mesh);
 
 private:
-  vtkPolyDataToSVO(const vtkPolyDataToSVO&) = delete;
-  void operator=(const vtkPolyDataToSVO&) = delete;
-
   int MaximumLevel = 10;
   int LeafGeometry = AUTOMATIC;
   bool AdaptLevel = false;

@@ -78,10 +78,6 @@ protected:
   bool WriteStatistics = false;
   vtkIdType NumberOfVoxels = 0;
   double BuildTime = 0.0;
-
-private:
-  vtkSVOSurfaceAlgorithm(const vtkSVOSurfaceAlgorithm&) = delete;
-  void operator=(const vtkSVOSurfaceAlgorithm&) = delete;
 };
 
 #endif

@@ -57,9 +57,6 @@ protected:
   int ProcessTrees(vtkHyperTreeGrid* input, vtkDataObject* output) override;
 
 private:
-  vtkSVOToHyperTreeGrid(const vtkSVOToHyperTreeGrid&) = delete;
-  void operator=(const vtkSVOToHyperTreeGrid&) = delete;
-
   int Level = -1;
 };
 

@@ -57,9 +57,6 @@ protected:
     vtkInformationVector* outputVector) override;
 
 private:
-  vtkSVOToPolyData(const vtkSVOToPolyData&) = delete;
-  void operator=(const vtkSVOToPolyData&) = delete;
-
   int Level = -1;
   bool InteriorFaces = false;
 };

@@ -114,9 +114,6 @@ protected:
   ~vtkSparseVoxelOctree() override;
 
 private:
-  vtkSparseVoxelOctree(const vtkSparseVoxelOctree&) = delete;
-  void operator=(const vtkSparseVoxelOctree&) = delete;
-
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 };

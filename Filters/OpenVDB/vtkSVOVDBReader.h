@@ -161,9 +161,6 @@ protected:
     vtkInformationVector* outputVector) override;
 
 private:
-  vtkSVOVDBReader(const vtkSVOVDBReader&) = delete;
-  void operator=(const vtkSVOVDBReader&) = delete;
-
   std::string ReadContents();
   const char* FileOfStep(vtkInformationVector* outputVector);
   bool ColorBy(const char* file, const svo::SourceOctree& built, const svo::VDBOptions& options,

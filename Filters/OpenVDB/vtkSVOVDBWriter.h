@@ -84,9 +84,6 @@ protected:
   void WriteData() override;
 
 private:
-  vtkSVOVDBWriter(const vtkSVOVDBWriter&) = delete;
-  void operator=(const vtkSVOVDBWriter&) = delete;
-
   class vtkInternals; // grids, and what they are made of
   bool IsParallel();
   void WriteAlone(vtkInternals& own);

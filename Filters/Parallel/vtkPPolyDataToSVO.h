@@ -55,9 +55,6 @@ protected:
   void ConvertInput(vtkDataObject* input, vtkDataObject* output) override;
 
 private:
-  vtkPPolyDataToSVO(const vtkPPolyDataToSVO&) = delete;
-  void operator=(const vtkPPolyDataToSVO&) = delete;
-
   vtkSmartPointer<vtkMultiProcessController> Controller;
 };
 

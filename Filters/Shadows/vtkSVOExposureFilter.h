@@ -160,9 +160,6 @@ protected:
   void PrepareLights() override;
 
 private:
-  vtkSVOExposureFilter(const vtkSVOExposureFilter&) = delete;
-  void operator=(const vtkSVOExposureFilter&) = delete;
-
   int LightSource = SUN_PATH;
   int Date[3] = { 2024, 6, 21 };
   double Latitude = 0.0;

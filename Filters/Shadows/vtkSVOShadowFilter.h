@@ -240,9 +240,6 @@ protected:
   virtual void PrepareLights();
 
 private:
-  vtkSVOShadowFilter(const vtkSVOShadowFilter&) = delete;
-  void operator=(const vtkSVOShadowFilter&) = delete;
-
   int Association = CELL;
   int SamplesPerCell = 16;
   bool TwoSided = false;

@@ -72,9 +72,6 @@ protected:
   ~vtkSVOSky() override = default;
 
 private:
-  vtkSVOSky(const vtkSVOSky&) = delete;
-  void operator=(const vtkSVOSky&) = delete;
-
   int Type = UNIFORM;
   int NumberOfDirections = 256;
   double Up[3] = { 0.0, 0.0, 1.0 };

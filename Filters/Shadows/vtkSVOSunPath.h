@@ -143,9 +143,6 @@ protected:
   ~vtkSVOSunPath() override = default;
 
 private:
-  vtkSVOSunPath(const vtkSVOSunPath&) = delete;
-  void operator=(const vtkSVOSunPath&) = delete;
-
   bool IsValid();
   // East, north, up.
   void LocalDirection(double hour, double direction[3]) const;

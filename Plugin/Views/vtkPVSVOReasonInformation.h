@@ -39,9 +39,6 @@ protected:
   ~vtkPVSVOReasonInformation() override = default;
 
 private:
-  vtkPVSVOReasonInformation(const vtkPVSVOReasonInformation&) = delete;
-  void operator=(const vtkPVSVOReasonInformation&) = delete;
-
   // By the name that its representation is logged with; without one: of a representation.
   std::map<std::string, std::string> Reasons;
 };

@@ -39,9 +39,6 @@ protected:
   ~vtkPVSVOViewInformation() override = default;
 
 private:
-  vtkPVSVOViewInformation(const vtkPVSVOViewInformation&) = delete;
-  void operator=(const vtkPVSVOViewInformation&) = delete;
-
   std::string Command;
   double Value = 0.0;
 };

@@ -30,10 +30,6 @@ protected:
    * Properties for information are numbers (DoubleVectorProperty) or texts (StringVectorProperty).
    */
   bool Pull(vtkSMMessage* message) override;
-
-private:
-  vtkSISVOViewProperty(const vtkSISVOViewProperty&) = delete;
-  void operator=(const vtkSISVOViewProperty&) = delete;
 };
 
 #endif

@@ -27,9 +27,6 @@ protected:
   int ReadXMLAttributes(vtkSMProperty* property, vtkPVXMLElement* element) override;
 
 private:
-  vtkSMSVOFrameInformationDomain(const vtkSMSVOFrameInformationDomain&) = delete;
-  void operator=(const vtkSMSVOFrameInformationDomain&) = delete;
-
   void FrameEnds(vtkObject* view, unsigned long event, void* interactive);
 };
 

@@ -22,10 +22,6 @@ protected:
   ~vtkSMSVOReasonProperty() override = default;
 
   void ReadFrom(const vtkSMMessage* message, int offset, vtkSMProxyLocator* locator) override;
-
-private:
-  vtkSMSVOReasonProperty(const vtkSMSVOReasonProperty&) = delete;
-  void operator=(const vtkSMSVOReasonProperty&) = delete;
 };
 
 #endif

@@ -40,9 +40,6 @@ protected:
   void UpdatePropertyInformationInternal(vtkSMProperty* property) override;
 
 private:
-  vtkSMSVORepresentationProxy(const vtkSMSVORepresentationProxy&) = delete;
-  void operator=(const vtkSMSVORepresentationProxy&) = delete;
-
   void Listen(vtkSMProxy* view);
   void FrameBegins(vtkObject* view, unsigned long event, void* interactive);
   void FrameEnds();

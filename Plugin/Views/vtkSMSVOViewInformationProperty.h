@@ -23,10 +23,6 @@ protected:
   ~vtkSMSVOViewInformationProperty() override = default;
 
   void ReadFrom(const vtkSMMessage* message, int offset, vtkSMProxyLocator* locator) override;
-
-private:
-  vtkSMSVOViewInformationProperty(const vtkSMSVOViewInformationProperty&) = delete;
-  void operator=(const vtkSMSVOViewInformationProperty&) = delete;
 };
 
 #endif

@@ -107,9 +107,6 @@ protected:
   bool RemoveFromView(vtkView* view) override;
 
 private:
-  vtkSVORepresentation(const vtkSVORepresentation&) = delete;
-  void operator=(const vtkSVORepresentation&) = delete;
-
   void UpdateUse(vtkView* view);
   void ForgetPieces();
   void ForwardProgress();

@@ -63,9 +63,6 @@ protected:
   ~vtkSVOViewPass() override;
 
 private:
-  vtkSVOViewPass(const vtkSVOViewPass&) = delete;
-  void operator=(const vtkSVOViewPass&) = delete;
-
   static vtkInformationObjectBaseKey* VIEW_PASS();
   static vtkSVOViewPass* OfView(vtkObjectBase* view);
   void UpdateAttachment();

@@ -41,9 +41,6 @@ protected:
   std::string GetText(int text, vtkLight* about) const override;
 
 private:
-  vtkSVOViewRenderPass(const vtkSVOViewRenderPass&) = delete;
-  void operator=(const vtkSVOViewRenderPass&) = delete;
-
   std::string NameOf(vtkLight* light) const;
 
   int ShadowGround = 0;

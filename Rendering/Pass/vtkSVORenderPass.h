@@ -314,9 +314,6 @@ protected:
 #endif
 
 private:
-  vtkSVORenderPass(const vtkSVORenderPass&) = delete;
-  void operator=(const vtkSVORenderPass&) = delete;
-
   void BeginAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
   void EndAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
   void ForgetAttached(vtkObject* renderer, unsigned long event, void* data);
