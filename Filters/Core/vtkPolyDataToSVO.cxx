@@ -21,7 +21,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <utility>
 
 vtkStandardNewMacro(vtkPolyDataToSVO);
 

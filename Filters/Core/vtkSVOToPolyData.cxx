@@ -20,10 +20,8 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <string>
-#include <vector>
 
 vtkStandardNewMacro(vtkSVOToPolyData);
 

@@ -24,7 +24,6 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
-#include <utility>
 #include <vector>
 
 namespace

@@ -10,7 +10,6 @@
 #include <hwy/targets.h>
 
 #include <functional>
-#include <thread>
 
 using namespace svotest;
 

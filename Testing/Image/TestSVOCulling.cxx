@@ -8,7 +8,6 @@
 #include "vtkSphereSource.h"
 
 #include <iostream>
-#include <vector>
 
 namespace
 {

@@ -7,7 +7,6 @@
 #include "vtkPolyDataToSVO.h"
 
 #include <chrono>
-#include <functional>
 #include <iostream>
 #include <string>
 #include <thread>

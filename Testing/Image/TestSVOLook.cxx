@@ -5,7 +5,6 @@
 
 #include "vtkProperty.h"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iostream>

@@ -5,9 +5,7 @@
 #include "vtkCamera.h"
 #include "vtkPolyDataToSVO.h"
 
-#include <cmath>
 #include <iostream>
-#include <string>
 
 namespace
 {

@@ -18,7 +18,6 @@
 #include <cmath>
 #include <iostream>
 #include <string>
-#include <vector>
 
 namespace
 {

@@ -11,9 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <map>
 #include <random>
-#include <set>
 #include <thread>
 #include <vector>
 

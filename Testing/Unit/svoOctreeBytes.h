@@ -5,7 +5,6 @@
 #include "svoOctree.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace svotest

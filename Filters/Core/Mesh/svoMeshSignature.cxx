@@ -10,7 +10,6 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstring>
 #include <map>
 #include <mutex>

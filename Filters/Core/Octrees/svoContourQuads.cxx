@@ -1,7 +1,6 @@
 #include "svoContourQuads.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 

@@ -6,8 +6,6 @@
 #include "svoImageSource.h"
 #include "vtkSmartPointer.h"
 
-#include <vector>
-
 class vtkDataArray;
 class vtkImageData;
 

@@ -16,7 +16,6 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 

@@ -16,7 +16,6 @@
 #include "vtkType.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <utility>
 #include <vector>

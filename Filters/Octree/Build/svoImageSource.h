@@ -12,7 +12,6 @@
 #include "svoFieldSource.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <limits>

@@ -10,7 +10,6 @@
 #include "svoExecutor.h"
 #include "vtkSVOOctreeModule.h"
 
-#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>

@@ -4,7 +4,6 @@
 #define svoTriangleBox_h
 
 #include <algorithm>
-#include <cstdint>
 
 #include <glm/vec3.hpp>
 

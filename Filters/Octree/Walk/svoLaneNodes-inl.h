@@ -8,7 +8,6 @@
 
 #include "svoLaneMoves-inl.h"
 
-#include <cstddef>
 #include <cstdint>
 
 #include <hwy/highway.h>

@@ -6,7 +6,6 @@
 #include "svoOctree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 

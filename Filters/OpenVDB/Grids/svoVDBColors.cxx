@@ -4,7 +4,6 @@
 
 #include "vtkDataArray.h"
 
-#include <cmath>
 #include <type_traits>
 
 #include <glm/common.hpp>

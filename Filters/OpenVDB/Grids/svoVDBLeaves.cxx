@@ -6,8 +6,6 @@
 #include "svoVDBOctree.h"
 #include "svoVDBTransform.h"
 
-#include <string>
-
 #include <openvdb/tools/Prune.h>
 
 namespace svo

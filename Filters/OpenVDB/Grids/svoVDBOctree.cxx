@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
-#include <limits>
 #include <new>
 #include <type_traits>
 #include <vector>

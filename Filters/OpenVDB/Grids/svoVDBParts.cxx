@@ -3,7 +3,6 @@
 #include "svoVDBLeaves.h"
 #include "svoVDBOctree.h"
 
-#include <exception>
 #include <sstream>
 
 #include <openvdb/io/Stream.h>

@@ -2,7 +2,6 @@
 
 #include "svoOctree.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>

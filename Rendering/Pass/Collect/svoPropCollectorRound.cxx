@@ -12,8 +12,6 @@
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 
-#include <algorithm>
-
 namespace svo
 {
 /// Adds copies of a unit shape. `translucent`: what is, and is not in `shapes`, casts nothing.

@@ -11,7 +11,6 @@
 #include "vtkRenderer.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <set>
 #include <string_view>
 #include <tuple>

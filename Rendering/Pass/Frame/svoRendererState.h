@@ -18,7 +18,6 @@
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>

@@ -13,8 +13,6 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <utility>
-#include <vector>
 
 namespace svo
 {

@@ -10,7 +10,6 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 #include <glm/geometric.hpp>

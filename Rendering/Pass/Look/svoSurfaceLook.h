@@ -7,8 +7,6 @@
 #include "svoLeafMeshes.h"
 #include "svoScene.h"
 
-#include <vector>
-
 #include <glm/vec3.hpp>
 
 class vtkActor;

@@ -2,8 +2,6 @@
 
 #include "svoSceneInstances.h"
 
-#include <utility>
-
 namespace svo
 {
 namespace

@@ -4,7 +4,6 @@
 
 #include "svoView.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,6 @@
 #include "svoGroupOcclusion.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace svo

@@ -11,7 +11,6 @@
 #include "vtkSVOTracingModule.h"
 
 #include <cassert>
-#include <limits>
 #include <vector>
 
 #include <glm/mat4x4.hpp>

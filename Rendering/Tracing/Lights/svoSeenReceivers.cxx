@@ -3,7 +3,6 @@
 #include "svoShadowRules.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <glm/common.hpp>

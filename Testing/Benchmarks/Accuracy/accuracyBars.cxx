@@ -1,6 +1,5 @@
 #include "accuracyBars.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <string>

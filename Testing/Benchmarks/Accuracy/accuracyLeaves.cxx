@@ -5,8 +5,6 @@
 #include "svoSMPParallel.h"
 #include "svoWorldSize.h"
 
-#include <algorithm>
-
 namespace accuracy
 {
 const std::vector<std::pair<svo::LeafGeometry, const char*>> LeafGeometries{

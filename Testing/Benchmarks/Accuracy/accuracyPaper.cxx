@@ -12,7 +12,6 @@
 #include <vtkMapper.h>
 #include <vtkMatrix4x4.h>
 
-#include <cmath>
 #include <map>
 #include <stdexcept>
 

@@ -4,7 +4,6 @@
 
 #include "accuracyStage.h"
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include "accuracyImages.h"
 #include "accuracyWindow.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>

@@ -2,8 +2,6 @@
 // and a wall right above them should keep the light out.
 #include "accuracyExperiments.h"
 
-#include <cmath>
-
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace accuracy

@@ -3,7 +3,6 @@
 #include "svoInstructionSet.h"
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <memory>
 

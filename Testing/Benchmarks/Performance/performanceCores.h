@@ -8,7 +8,6 @@
 
 #include "svoParallel.h"
 
-#include <cstddef>
 #include <vector>
 
 namespace performance

@@ -18,7 +18,6 @@
 #include "vtkPointData.h"
 #include "vtkPolyDataConnectivityFilter.h"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>

@@ -8,11 +8,9 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 

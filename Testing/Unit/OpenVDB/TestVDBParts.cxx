@@ -5,8 +5,6 @@
 #include "svoVDBTest.h"
 #include "vtkPolyDataToSVO.h"
 
-#include <memory>
-
 namespace
 {
 using namespace svotest;

@@ -13,10 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <future>
 #include <limits>
-#include <list>
 #include <memory>
 #include <string>
 #include <system_error>

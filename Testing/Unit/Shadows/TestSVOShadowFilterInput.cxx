@@ -17,9 +17,6 @@
 #include "vtkSphereSource.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <cstring>
-#include <limits>
-
 using namespace svotest;
 
 namespace

@@ -13,7 +13,6 @@
 #include "vtkTransformPolyDataFilter.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdlib>
 #include <random>
 

@@ -18,7 +18,6 @@
 
 #include <cmath>
 #include <initializer_list>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
