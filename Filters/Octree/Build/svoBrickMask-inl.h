@@ -8,10 +8,11 @@
 #define SVO_BRICK_MASK_INL
 #endif
 
+#include "svoLaneBits-inl.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 
 #include <hwy/highway.h>
 
@@ -20,17 +21,11 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// Bit i is set where lane i is negative.
 template <typename Tag, typename Vector>
 HWY_INLINE std::uint64_t negativeLanes(Tag tag, Vector v)
 {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(tag, hn::Lt(v, hn::Zero(tag)), bytes);
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, bytes, (hn::MaxLanes(tag) + 7) / 8);
-  return bits;
+  return bitsOf(tag, hn::Lt(v, hn::Zero(tag)));
 }
 
 /// The slab 0 <= base + gradient . voxel <= thickness over the voxels of a brick. Lane is

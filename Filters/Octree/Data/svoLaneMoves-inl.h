@@ -16,10 +16,10 @@
 #endif
 
 #include "svoCompressTable.h"
+#include "svoLaneBits-inl.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include <hwy/highway.h>
 
@@ -28,8 +28,6 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// base[index] of every lane; T has 32 bits.
 template <class D, class T = hn::TFromD<D>>
 HWY_INLINE hn::Vec<D> gather(D d, const T* base, hn::Vec<hn::RebindToSigned<D>> index)
@@ -49,17 +47,6 @@ HWY_INLINE hn::Vec<D> gather(D d, const T* base, hn::Vec<hn::RebindToSigned<D>> 
   return hn::GatherIndex(d, base, index);
 }
 
-/// A mask as bits, lane 0 lowest.
-template <class D>
-HWY_INLINE std::uint32_t maskBits(D d, hn::Mask<D> lanes)
-{
-  HWY_ALIGN std::uint8_t bytes[8] = {}; // as many as StoreMaskBits() may write
-  hn::StoreMaskBits(d, lanes, bytes);
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
-}
-
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
 #define SVO_COMPRESS_BY_TABLE 1
 #else
@@ -70,14 +57,12 @@ HWY_INLINE std::uint32_t maskBits(D d, hn::Mask<D> lanes)
 class LaneCompressor
 {
 public:
-  using DI = hn::ScalableTag<std::int32_t>;
-
   template <class M>
   HWY_INLINE explicit LaneCompressor(M mask)
     : lanes(hn::RebindMask(DI(), mask))
     , count(hn::CountTrue(DI(), this->lanes))
 #if SVO_COMPRESS_BY_TABLE
-    , order(hn::Shr(hn::Set(DI(), CompressTable[maskBits(DI(), this->lanes)]),
+    , order(hn::Shr(hn::Set(DI(), CompressTable[bitsOf(DI(), this->lanes)]),
         hn::ShiftLeft<2>(hn::Iota(DI(), 0))))
 #endif
   {

@@ -8,6 +8,7 @@
 #define SVO_LANE_PRODUCTS_INL
 #endif
 
+#include "svoLaneBits-inl.h"
 #include "svoTriangle.h"
 
 #include <cstddef>
@@ -19,11 +20,6 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DF = hn::ScalableTag<float>;
-using F = hn::Vec<DF>;
-
 /// a b - c d with the right sign, zero only where it is zero; the same bits as of plain floats.
 HWY_INLINE F differenceOfProducts(F a, F b, F c, F d)
 {

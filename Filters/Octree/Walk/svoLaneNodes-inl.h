@@ -18,13 +18,7 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DF = hn::ScalableTag<float>;
-using DI = hn::ScalableTag<std::int32_t>;
 using DU = hn::ScalableTag<std::uint32_t>;
-using F = hn::Vec<DF>;
-using I = hn::Vec<DI>;
 using U = hn::Vec<DU>;
 using Lanes = hn::Mask<DI>;
 

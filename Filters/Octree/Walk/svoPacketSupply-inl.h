@@ -52,7 +52,7 @@ struct RaySupply
     const DU du;
     assert(!this->empty());
     // Each lane takes the ray behind those of the lanes before it.
-    const std::uint32_t bits = maskBits(di, lanes);
+    const auto bits = static_cast<std::uint32_t>(bitsOf(di, lanes));
     const U before = hn::Sub(hn::Shl(hn::Set(du, 1), hn::Iota(du, 0)), hn::Set(du, 1));
     const I place = hn::BitCast(di, countBoth(hn::And(hn::Set(du, bits), before), hn::Zero(du)));
     const auto index = hn::IndicesFromVec(df, place);

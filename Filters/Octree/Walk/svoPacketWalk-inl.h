@@ -34,8 +34,6 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
-
 struct Packet
 {
   F ox, oy, oz;  // origin

@@ -4,8 +4,9 @@
 
 #include "svoSeenObjects.h"
 
+#include "svoLaneBits-inl.h"
+
 #include <cassert>
-#include <cstring>
 
 #include <hwy/highway.h>
 
@@ -27,9 +28,6 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::CappedTag<float, 16>;
-
 inline hn::Vec<Floats> load(const std::uint16_t* from)
 {
   const hn::Rebind<std::uint16_t, Floats> shorts;
@@ -55,11 +53,7 @@ std::uint32_t touching(const StepPlanes& planes, const LooseObjects& objects)
           hn::MulAdd(
             hn::Set(floats, planes.y[p]), y, hn::MulAdd(hn::Set(floats, planes.z[p]), z, offset))));
     }
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(floats, hn::Ge(least, hn::Zero(floats)), bytes);
-    std::uint32_t bits;
-    std::memcpy(&bits, bytes, sizeof bits);
-    seen |= bits << i;
+    seen |= static_cast<std::uint32_t>(bitsOf(floats, hn::Ge(least, hn::Zero(floats))) << i);
   }
   return seen;
 }

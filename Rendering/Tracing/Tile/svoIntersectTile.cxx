@@ -19,13 +19,7 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DF = hn::ScalableTag<float>;
-using DI = hn::ScalableTag<std::int32_t>;
 using DFour = hn::CappedTag<float, 4>;
-using F = hn::Vec<DF>;
-using I = hn::Vec<DI>;
 
 /// The rays of a tile whose direction is longest along one axis, sheared as ShearedRay of
 /// svoTriangle.h does.

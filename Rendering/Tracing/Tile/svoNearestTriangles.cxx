@@ -7,12 +7,12 @@
 #define HWY_TARGET_INCLUDE "svoNearestTriangles.cxx"
 #include <hwy/foreach_target.h>
 
+#include "svoLaneBits-inl.h"
 #include "svoSelectSlots-inl.h"
 #include "svoTriangleGroup.h"
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 #include <limits>
 
 #include <hwy/highway.h>
@@ -54,32 +54,6 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DF = hn::ScalableTag<float>;
-using DI = hn::ScalableTag<std::int32_t>;
-using F = hn::Vec<DF>;
-using I = hn::Vec<DI>;
-
-/// Pixels from i on.
-HWY_INLINE hn::Mask<DF> pixelMask(std::uint64_t bits, std::size_t i)
-{
-  const std::uint64_t shifted = bits >> i;
-  std::uint8_t bytes[8];
-  std::memcpy(bytes, &shifted, 8);
-  return hn::LoadMaskBits(DF(), bytes);
-}
-
-template <class M>
-HWY_INLINE std::uint64_t pixelBits(M mask)
-{
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(DF(), mask, bytes);
-  std::uint64_t bits;
-  std::memcpy(&bits, bytes, 8);
-  return bits;
-}
-
 /// What the pixels of a tile know so far; keys.
 struct DrawnTile
 {
@@ -135,7 +109,7 @@ HWY_NOINLINE std::uint64_t draw(const TriangleGroup::Slots& slots, const TilePix
     };
     const F e0 = at(0), e1 = at(1), e2 = at(2);
     const F inside = hn::Min(hn::Min(e0, e1), e2);
-    auto maybe = hn::And(hn::Ge(inside, none), pixelMask(box, i));
+    auto maybe = hn::And(hn::Ge(inside, none), maskOf(df, box >> i));
     auto surely = hn::Gt(inside, one);
     const F key = at(3);
     const F low = hn::Sub(key, slack);
@@ -146,7 +120,7 @@ HWY_NOINLINE std::uint64_t draw(const TriangleGroup::Slots& slots, const TilePix
       if (flags & TriangleGroup::Thin)
       {
         const F outside = hn::Max(hn::Max(e0, e1), e2);
-        maybe = hn::And(pixelMask(box, i), hn::Or(hn::Ge(inside, none), hn::Le(outside, one)));
+        maybe = hn::And(maskOf(df, box >> i), hn::Or(hn::Ge(inside, none), hn::Le(outside, one)));
       }
       else if (flags & TriangleGroup::Clipped)
       {
@@ -161,7 +135,7 @@ HWY_NOINLINE std::uint64_t draw(const TriangleGroup::Slots& slots, const TilePix
     }
     const F upper = hn::Load(df, tile.upper + i);
     maybe = hn::And(maybe, hn::Le(low, upper));
-    const std::uint64_t bits = pixelBits(maybe);
+    const std::uint64_t bits = bitsOf(df, maybe);
     if (bits == 0)
     {
       continue;
@@ -225,7 +199,7 @@ HWY_INLINE std::uint64_t begin(
     for (std::size_t i = 0; i < 64; i += hn::Lanes(df))
     {
       const auto met = hn::Lt(hn::Load(df, tile.upper + i), infinity);
-      covered |= pixelBits(met) << i;
+      covered |= bitsOf(df, met) << i;
       hn::Store(hn::IfThenElse(hn::RebindMask(di, met), hn::Set(di, NearestTriangles::Small), none),
         di, nearest + i);
     }
@@ -338,7 +312,7 @@ bool nearestInTile(const TriangleGroup::Slots& slots, const GroupPixels& small,
     const F upper = hn::Load(df, tile.upper + i);
     const F rival = hn::Load(df, tile.rival + i);
     const F none = hn::Set(df, infinity);
-    found.doubtful |= pixelBits(hn::And(hn::Le(rival, upper), hn::Lt(rival, none))) << i;
+    found.doubtful |= bitsOf(df, hn::And(hn::Le(rival, upper), hn::Lt(rival, none))) << i;
     any = any || !hn::AllTrue(df, hn::Eq(hn::Min(rival, upper), none));
   }
   if (!any)

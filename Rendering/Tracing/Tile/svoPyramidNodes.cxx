@@ -4,6 +4,7 @@
 
 #include "svoCounters.h"
 #include "svoGroupView.h"
+#include "svoLaneBits-inl.h"
 #include "svoMorton.h"
 #include "svoNode.h"
 #include "svoPyramidNodes.h"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -46,22 +46,6 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DF = hn::ScalableTag<float>;
-using F = hn::Vec<DF>;
-
-/// Bit i: lane i.
-template <class D, class M>
-HWY_INLINE std::uint64_t laneBits(D d, M mask)
-{
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  std::uint64_t bits;
-  std::memcpy(&bits, bytes, 8);
-  return bits;
-}
-
 /// What linear functions grow by from the lower corner of a node, for a node of edge 1.
 struct ChildTables
 {
@@ -97,12 +81,11 @@ struct OpenNode
 
 /// The pixels of a group's window whose centres cells may cover: x0, x1, y0 and y1, a byte each.
 /// `most`: the greatest values of the group's sides, which are w times the distance in pixels.
-HWY_INLINE hn::Vec<hn::ScalableTag<std::int32_t>> pixelsOf(
-  const F* most, F leastW, const GroupWindow& window, hn::Mask<DF>& any)
+HWY_INLINE I pixelsOf(const F* most, F leastW, const GroupWindow& window, hn::Mask<DF>& any)
 {
   // A pixel lies at x / w from one side and at Pixels - x / w from the other one.
   const DF df;
-  const hn::ScalableTag<std::int32_t> di;
+  const DI di;
   constexpr float Slack = 0.01f; // besides what the sides allow for
   const auto known = hn::Gt(leastW, hn::Zero(df));
   const F inverse = hn::Div(hn::Set(df, 1.0f), leastW);
@@ -238,12 +221,12 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
         best[k] = hn::MulAdd(size, hn::Load(df, tables.most[k] + i), hn::Set(df, parent.value[k]));
         in = hn::And(in, hn::Ge(best[k], hn::Zero(df)));
       }
-      std::uint64_t bits = laneBits(df, in) & node.mask >> i;
+      std::uint64_t bits = bitsOf(df, in) & node.mask >> i;
       if (Group && bits != 0)
       {
         const F w = hn::MulAdd(size, hn::Load(df, tables.least + i), hn::Set(df, parent.value[5]));
-        hn::Store(pixelsOf(best, w, window, in), hn::ScalableTag<std::int32_t>(), pixels + i);
-        bits &= laneBits(df, in);
+        hn::Store(pixelsOf(best, w, window, in), DI(), pixels + i);
+        bits &= bitsOf(df, in);
       }
       inside |= bits << i;
     }

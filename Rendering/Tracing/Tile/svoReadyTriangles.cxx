@@ -38,13 +38,6 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DF = hn::ScalableTag<float>;
-using DI = hn::ScalableTag<std::int32_t>;
-using F = hn::Vec<DF>;
-using I = hn::Vec<DI>;
-
 HWY_INLINE F linear(const float* f, F x, F y, F z)
 {
   const DF d;

@@ -34,13 +34,6 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DF = hn::ScalableTag<float>;
-using DI = hn::ScalableTag<std::int32_t>;
-using F = hn::Vec<DF>;
-using I = hn::Vec<DI>;
-
 /// The slots that may be seen in a tile, and the least key of each there; their number.
 std::size_t selectSlots(
   const TriangleGroup::Slots& slots, int column, int row, std::int32_t* selected, float* keys)

@@ -20,13 +20,9 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// Triangles that are made ready for a group; pixels are counted from its middle.
 struct ReadyLanes
 {
-  using DF = hn::ScalableTag<float>;
-  using F = hn::Vec<DF>;
   using M = hn::Mask<DF>;
 
   F px0, px1, py0, py1; // the pixels that they may cover, from its lower left
@@ -42,12 +38,10 @@ struct ReadyLanes
 constexpr float SmallPixels = 3.0f;
 
 /// What may be met of the triangles of `mask`, whose boxes are that small.
-HWY_INLINE void drawSmall(const ReadyLanes& t, ReadyLanes::M mask,
-  hn::Vec<hn::ScalableTag<std::int32_t>> triangle, SeenPoints& points)
+HWY_INLINE void drawSmall(const ReadyLanes& t, ReadyLanes::M mask, I triangle, SeenPoints& points)
 {
-  using F = ReadyLanes::F;
-  const hn::ScalableTag<float> df;
-  const hn::ScalableTag<std::int32_t> di;
+  const DF df;
+  const DI di;
   const F one = hn::Set(df, 1.0f), none = hn::Set(df, -1.0f);
   const F infinity = hn::Set(df, std::numeric_limits<float>::infinity());
   const F middle = hn::Set(df, 0.5f * (GroupView::Pixels - 1));

@@ -1,5 +1,5 @@
-// Per-target: masks of lanes as bits, and what they are counted with. Included by kernels before
-// their own namespace, anew for each instruction set.
+// Per-target: vectors of lanes, and masks of lanes as bits. Included by kernels before their own
+// namespace, anew for each instruction set.
 #if defined(svoLaneBits_inl_h) == defined(HWY_TARGET_TOGGLE)
 #ifdef svoLaneBits_inl_h
 #undef svoLaneBits_inl_h
@@ -18,29 +18,35 @@ namespace svo
 namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
+using DF = hn::ScalableTag<float>;
+using DI = hn::ScalableTag<std::int32_t>;
+using F = hn::Vec<DF>;
+using I = hn::Vec<DI>;
+
 using Floats = hn::CappedTag<float, 16>;
 using Words = hn::RebindToUnsigned<Floats>;
 using Integers = hn::RebindToSigned<Floats>;
 
-/// Lanes of a vector: 1, 4, 8 or 16.
+/// Lanes of a vector of `Floats`: 1, 4, 8 or 16.
 inline int width()
 {
   return static_cast<int>(hn::Lanes(Floats()));
 }
 
+/// The first lane is bit 0.
 template <class Tag, class Mask>
-std::uint64_t bitsOf(Tag tag, Mask mask)
+HWY_INLINE std::uint64_t bitsOf(Tag tag, Mask mask)
 {
-  std::uint8_t bytes[8] = {};
+  std::uint8_t bytes[8];
   hn::StoreMaskBits(tag, mask, bytes);
-  std::uint64_t bits;
-  std::memcpy(&bits, bytes, sizeof bits);
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, bytes, (hn::MaxLanes(tag) + 7) / 8);
   return bits;
 }
 
 /// The same from bits; those of further lanes do not matter.
 template <class Tag>
-hn::Mask<Tag> maskOf(Tag tag, std::uint64_t bits)
+HWY_INLINE hn::Mask<Tag> maskOf(Tag tag, std::uint64_t bits)
 {
   std::uint8_t bytes[8];
   std::memcpy(bytes, &bits, sizeof bits);
