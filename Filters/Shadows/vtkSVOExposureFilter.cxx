@@ -49,12 +49,6 @@ void vtkSVOExposureFilter::RemoveAllDirections()
 }
 
 //------------------------------------------------------------------------------
-int vtkSVOExposureFilter::GetNumberOfDirections()
-{
-  return static_cast<int>(this->Directions.size());
-}
-
-//------------------------------------------------------------------------------
 void vtkSVOExposureFilter::GetDirection(int index, double direction[3])
 {
   copyPlace(this->Directions, index, direction);
@@ -72,12 +66,6 @@ void vtkSVOExposureFilter::RemoveAllPositions()
 {
   this->Positions.clear();
   this->Modified();
-}
-
-//------------------------------------------------------------------------------
-int vtkSVOExposureFilter::GetNumberOfPositions()
-{
-  return static_cast<int>(this->Positions.size());
 }
 
 //------------------------------------------------------------------------------

@@ -145,11 +145,11 @@ public:
    */
   void AddDirection(double x, double y, double z);
   void RemoveAllDirections();
-  int GetNumberOfDirections();
+  int GetNumberOfDirections() { return static_cast<int>(this->Directions.size()); }
   void GetDirection(int index, double direction[3]);
   void AddPosition(double x, double y, double z);
   void RemoveAllPositions();
-  int GetNumberOfPositions();
+  int GetNumberOfPositions() { return static_cast<int>(this->Positions.size()); }
   void GetPosition(int index, double position[3]);
   //@}
 

@@ -5,7 +5,10 @@
 #include "svoLightShadow.h"
 #include "svoShadowBuffer.h"
 #include "svoShadowRays.h"
+#include "svoShadowRules.h"
+#include "svoTerminatorShadow.h"
 
+#include <utility>
 #include <vector>
 
 namespace svo
@@ -18,17 +21,60 @@ public:
   /// of translucent casters. `rays`: of points at the terminator, null where no mesh is smooth.
   /// `filters`: as ShadowBuffer::darkness().
   BufferShadow(const Light& light, const ShadowBuffer& opaque, std::uint16_t name,
-    std::vector<const ShadowBuffer*> translucent, const ShadowRays* rays, bool filters);
+    std::vector<const ShadowBuffer*> translucent, const ShadowRays* rays, bool filters)
+    : Source(light)
+    , Opaque(opaque)
+    , Name(name)
+    , Translucent(std::move(translucent))
+    , Rays(rays)
+    , Filters(filters)
+  {
+  }
 
-  std::uint64_t test(const ShadowQuery& query, float* missed) const override;
+  std::uint64_t test(const ShadowQuery& query, float* missed) const override
+  {
+    if (!this->Filters)
+    {
+      return missAll(this->Opaque.shadows(query.patch, query.errors.map, query.asked), missed);
+    }
+    std::uint64_t dark = 0;
+    this->Opaque.darkness(query.patch, query.errors.map, query.extents, query.asked, missed);
+    eachBit(query.asked, [&](int i) { dark |= std::uint64_t(missed[i] > 0.0f) << i; });
+    return dark;
+  }
+
   bool dims() const override { return !this->Translucent.empty(); }
-  void dim(const ShadowQuery& query, float* missed) const override;
+
+  void dim(const ShadowQuery& query, float* missed) const override
+  {
+    const std::uint64_t left = leftOf(query, missed);
+    alignas(64) float taken[TilePatch::Most];
+    for (const ShadowBuffer* const buffer : this->Translucent)
+    {
+      buffer->taken(
+        query.patch, query.errors.map, this->Filters ? query.extents : nullptr, left, taken);
+      takeOfRest(left, taken, missed);
+    }
+  }
+
   bool knowsTerminator() const override { return this->Opaque.automaticBias(); }
-  double grazing() const override;
+  double grazing() const override { return 1.0 / GrazingReach; }
+
   void testTerminator(const ShadowQuery& query, const std::vector<TerminatorPoint>& points,
-    float* missed) const override;
+    float* missed) const override
+  {
+    testTerminatorPoints(&this->Opaque, this->Rays, this->Source, query, query.errors.map,
+      this->Filters ? query.extents : nullptr, points, missed);
+  }
+
   void noteTerminator(const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays,
-    RaisedTiles& raised) const override;
+    RaisedTiles& raised) const override
+  {
+    const glm::dvec3 reach(query.errors.map);
+    rays.add(query.patch.position(at.pixel), reach);
+    rays.add(at.point.position, reach);
+    this->Opaque.note(at.point.position, this->Name, raised);
+  }
 
 private:
   const Light& Source;

@@ -4,6 +4,7 @@
 
 #include "svoLightShadow.h"
 #include "svoShadowRays.h"
+#include "svoTerminatorShadow.h"
 
 #include <vector>
 
@@ -19,15 +20,47 @@ public:
     , Rays(rays)
   {
   }
-  std::uint64_t test(const ShadowQuery& query, float* missed) const override;
+
+  std::uint64_t test(const ShadowQuery& query, float* missed) const override
+  {
+    query.rays += static_cast<std::uint64_t>(countBits(query.asked));
+    return missAll(
+      this->Rays.shadows(this->Source, query.patch, query.errors.ray, query.asked), missed);
+  }
+
   bool dims() const override { return this->Rays.translucent(); }
-  void dim(const ShadowQuery& query, float* missed) const override;
+
+  void dim(const ShadowQuery& query, float* missed) const override
+  {
+    const std::uint64_t left = leftOf(query, missed);
+    alignas(64) float taken[TilePatch::Most];
+    query.rays += static_cast<std::uint64_t>(countBits(left));
+    this->Rays.taken(this->Source, query.patch, query.errors.ray, left, taken);
+    takeOfRest(left, taken, missed);
+  }
+
   bool knowsTerminator() const override { return true; }
+
   void testTerminator(const ShadowQuery& query, const std::vector<TerminatorPoint>& points,
-    float* missed) const override;
-  void noteRays(const ShadowQuery& query, PointBox& rays) const override;
+    float* missed) const override
+  {
+    testTerminatorPoints(
+      nullptr, &this->Rays, this->Source, query, query.errors.ray, nullptr, points, missed);
+  }
+
+  void noteRays(const ShadowQuery& query, PointBox& rays) const override
+  {
+    rays.add(query.patch.origin.position,
+      (1.0 + 1e-6) * glm::dvec3(query.patch.extent) + query.errors.ray);
+  }
+
   void noteTerminator(const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays,
-    RaisedTiles& raised) const override;
+    RaisedTiles&) const override
+  {
+    const glm::dvec3 reach(query.errors.ray);
+    rays.add(query.patch.position(at.pixel), reach);
+    rays.add(at.point.position, reach);
+  }
 
 private:
   const Light& Source;
