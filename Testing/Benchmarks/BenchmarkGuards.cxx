@@ -169,12 +169,7 @@ int main(int argc, char* argv[])
       kind.change(r, static_cast<int>(i));
       RayBlock& b = kind.blocks[i / 64];
       const std::size_t k = i % 64;
-      b.originX[k] = static_cast<float>(r.origin.x);
-      b.originY[k] = static_cast<float>(r.origin.y);
-      b.originZ[k] = static_cast<float>(r.origin.z);
-      b.directionX[k] = static_cast<float>(r.direction.x);
-      b.directionY[k] = static_cast<float>(r.direction.y);
-      b.directionZ[k] = static_cast<float>(r.direction.z);
+      b.aim(k, r.origin, r.direction);
       b.tMin[k] = static_cast<float>(r.tMin);
       b.tMax[k] = static_cast<float>(r.tMax);
     }

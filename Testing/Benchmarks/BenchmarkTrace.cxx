@@ -77,12 +77,7 @@ Tiles makeTiles(const Octree& octree, double distance, const svobench::TraceSett
       const glm::dvec3 d = tiles.view.rayDirection(x, y);
       const glm::dvec3 o(m * glm::dvec4(tiles.view.rayOrigin(x, y) + tiles.base * d, 1.0));
       const glm::dvec3 direction(m * glm::dvec4(d, 0.0));
-      block.originX[i] = static_cast<float>(o.x);
-      block.originY[i] = static_cast<float>(o.y);
-      block.originZ[i] = static_cast<float>(o.z);
-      block.directionX[i] = static_cast<float>(direction.x);
-      block.directionY[i] = static_cast<float>(direction.y);
-      block.directionZ[i] = static_cast<float>(direction.z);
+      block.aim(i, o, direction);
       block.tMin[i] = static_cast<float>(std::max(tiles.view.tNear - tiles.base, 0.0));
       block.tMax[i] = static_cast<float>(tiles.view.tFar - tiles.base);
     }

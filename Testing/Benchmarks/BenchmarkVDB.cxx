@@ -145,12 +145,7 @@ void traceBlocks(const svo::Octree& octree, const std::vector<Ray>& rays, Distan
       moved[i] =
         std::max(0.0, (glm::length(from - 1.5) - 0.9) / glm::length(along)); // a sphere around it
       const glm::dvec3 start = from + moved[i] * along;
-      block.originX[i] = static_cast<float>(start.x);
-      block.originY[i] = static_cast<float>(start.y);
-      block.originZ[i] = static_cast<float>(start.z);
-      block.directionX[i] = static_cast<float>(along.x);
-      block.directionY[i] = static_cast<float>(along.y);
-      block.directionZ[i] = static_cast<float>(along.z);
+      block.aim(i, start, along);
       block.tMin[i] = 0.0f;
       block.tMax[i] = 100.0f;
     }

@@ -126,12 +126,7 @@ long leaks(
     for (int i = 0; i < 64; ++i)
     {
       rays[i] = nextRay(c, octree, chance);
-      block.originX[i] = static_cast<float>(rays[i].origin.x);
-      block.originY[i] = static_cast<float>(rays[i].origin.y);
-      block.originZ[i] = static_cast<float>(rays[i].origin.z);
-      block.directionX[i] = static_cast<float>(rays[i].direction.x);
-      block.directionY[i] = static_cast<float>(rays[i].direction.y);
-      block.directionZ[i] = static_cast<float>(rays[i].direction.z);
+      block.aim(i, rays[i].origin, rays[i].direction);
       block.tMin[i] = 0.0f;
       block.tMax[i] = 1e30f;
     }

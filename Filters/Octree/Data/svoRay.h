@@ -4,6 +4,7 @@
 
 #include "svoLayout.h"
 
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -58,6 +59,18 @@ struct RayBlock
   alignas(64) float directionZ[Size];
   alignas(64) float tMin[Size];
   alignas(64) float tMax[Size];
+
+  /// Sets where ray i begins and where it goes, of floats or doubles.
+  template <class Vector>
+  void aim(std::size_t i, const Vector& from, const Vector& along)
+  {
+    originX[i] = static_cast<float>(from.x);
+    originY[i] = static_cast<float>(from.y);
+    originZ[i] = static_cast<float>(from.z);
+    directionX[i] = static_cast<float>(along.x);
+    directionY[i] = static_cast<float>(along.y);
+    directionZ[i] = static_cast<float>(along.z);
+  }
 };
 
 /// Answer to a RayBlock. t is undefined where the primitive is NoPrimitive.

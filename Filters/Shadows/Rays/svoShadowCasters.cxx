@@ -104,12 +104,7 @@ std::uint64_t ShadowCasters::block(
     LocalRay& local = locals[begun];
     if (prepareRay(caster.octree, ray, local))
     {
-      rays.originX[begun] = static_cast<float>(local.ray.origin.x);
-      rays.originY[begun] = static_cast<float>(local.ray.origin.y);
-      rays.originZ[begun] = static_cast<float>(local.ray.origin.z);
-      rays.directionX[begun] = static_cast<float>(local.ray.direction.x);
-      rays.directionY[begun] = static_cast<float>(local.ray.direction.y);
-      rays.directionZ[begun] = static_cast<float>(local.ray.direction.z);
+      rays.aim(begun, local.ray.origin, local.ray.direction);
       rays.tMin[begun] = 0.0f;
       rays.tMax[begun] = static_cast<float>(local.ray.tMax);
       ofRay[begun++] = i;
@@ -121,8 +116,7 @@ std::uint64_t ShadowCasters::block(
   }
   for (int i = begun; i < RayBlock::Size; ++i)
   {
-    rays.originX[i] = rays.originY[i] = rays.originZ[i] = 1.5f;
-    rays.directionX[i] = rays.directionY[i] = rays.directionZ[i] = 1.0f;
+    rays.aim(i, glm::vec3(1.5f), glm::vec3(1.0f));
     rays.tMin[i] = 1.0f;
     rays.tMax[i] = 0.0f;
   }

@@ -29,12 +29,7 @@ void settleTriangles(
     const int k = std::min(i, count - 1);
     const glm::vec3 direction(-glm::normalize(towards[k]));
     const glm::vec3 origin(picked[k]->at - FromOutside * glm::dvec3(direction));
-    rays.originX[i] = origin.x;
-    rays.originY[i] = origin.y;
-    rays.originZ[i] = origin.z;
-    rays.directionX[i] = direction.x;
-    rays.directionY[i] = direction.y;
-    rays.directionZ[i] = direction.z;
+    rays.aim(i, origin, direction);
     rays.tMin[i] = i < count ? 0.0f : 1.0f;
     rays.tMax[i] = i < count ? static_cast<float>(2.0 * FromOutside) : 0.0f;
   }

@@ -144,12 +144,7 @@ bool ShadowBeam::trace(
   {
     const BeamRay& ray = rays[std::min(i, points.count - 1)];
     const glm::dvec3 start = ray.origin + base * ray.direction;
-    block.originX[i] = static_cast<float>(start.x);
-    block.originY[i] = static_cast<float>(start.y);
-    block.originZ[i] = static_cast<float>(start.z);
-    block.directionX[i] = static_cast<float>(ray.direction.x);
-    block.directionY[i] = static_cast<float>(ray.direction.y);
-    block.directionZ[i] = static_cast<float>(ray.direction.z);
+    block.aim(i, start, ray.direction);
     block.tMin[i] =
       static_cast<float>(this->Far ? 0.0 : std::max(BeforeLight * ray.end - base, 0.0));
     block.tMax[i] = i < points.count

@@ -55,12 +55,7 @@ struct LocalView
     assert(k >= 0 && k < RayBlock::Size);
     glm::vec3 from, along;
     this->ray(x, y, from, along);
-    rays.originX[k] = from.x;
-    rays.originY[k] = from.y;
-    rays.originZ[k] = from.z;
-    rays.directionX[k] = along.x;
-    rays.directionY[k] = along.y;
-    rays.directionZ[k] = along.z;
+    rays.aim(k, from, along);
   }
 };
 
@@ -201,12 +196,7 @@ inline void intersectStretched(const Octree& octree, const LocalView& local, con
     }
     start[k] = enter;
     const glm::dvec3 at = origin + enter * d;
-    rays.originX[k] = static_cast<float>(at.x);
-    rays.originY[k] = static_cast<float>(at.y);
-    rays.originZ[k] = static_cast<float>(at.z);
-    rays.directionX[k] = static_cast<float>(d.x);
-    rays.directionY[k] = static_cast<float>(d.y);
-    rays.directionZ[k] = static_cast<float>(d.z);
+    rays.aim(k, at, d);
     // What the float ray has of the cube is decided by its own clipping; before it the ray begins
     // where it began.
     rays.tMin[k] = enter <= leave ? static_cast<float>(rays.tMin[k] - enter) : 1.0f;

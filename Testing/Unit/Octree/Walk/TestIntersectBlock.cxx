@@ -39,12 +39,7 @@ void onEveryInstructionSet(F&& f)
 
 void setRay(RayBlock& block, int i, const Ray& ray)
 {
-  block.originX[i] = static_cast<float>(ray.origin.x);
-  block.originY[i] = static_cast<float>(ray.origin.y);
-  block.originZ[i] = static_cast<float>(ray.origin.z);
-  block.directionX[i] = static_cast<float>(ray.direction.x);
-  block.directionY[i] = static_cast<float>(ray.direction.y);
-  block.directionZ[i] = static_cast<float>(ray.direction.z);
+  block.aim(i, ray.origin, ray.direction);
   block.tMin[i] = static_cast<float>(ray.tMin);
   block.tMax[i] = static_cast<float>(ray.tMax);
 }

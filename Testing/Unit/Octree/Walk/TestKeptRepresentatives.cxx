@@ -23,12 +23,7 @@ std::vector<RayBlock> makeBlocks(const Octree& octree, int count)
     for (int i = 0; i < RayBlock::Size; ++i)
     {
       const Ray ray = rays.next();
-      block.originX[i] = static_cast<float>(ray.origin.x);
-      block.originY[i] = static_cast<float>(ray.origin.y);
-      block.originZ[i] = static_cast<float>(ray.origin.z);
-      block.directionX[i] = static_cast<float>(ray.direction.x);
-      block.directionY[i] = static_cast<float>(ray.direction.y);
-      block.directionZ[i] = static_cast<float>(ray.direction.z);
+      block.aim(i, ray.origin, ray.direction);
       block.tMin[i] = static_cast<float>(ray.tMin);
       block.tMax[i] = static_cast<float>(ray.tMax);
     }

@@ -75,12 +75,7 @@ struct Blocks
       const svo::Ray& ray = rays[std::min(k, rays.size() - 1)];
       svo::RayBlock& block = blocks[k / 64];
       const std::size_t i = k % 64;
-      block.originX[i] = float(ray.origin.x);
-      block.originY[i] = float(ray.origin.y);
-      block.originZ[i] = float(ray.origin.z);
-      block.directionX[i] = float(ray.direction.x);
-      block.directionY[i] = float(ray.direction.y);
-      block.directionZ[i] = float(ray.direction.z);
+      block.aim(i, ray.origin, ray.direction);
       block.tMin[i] = float(ray.tMin);
       block.tMax[i] = float(std::min(ray.tMax, 1e30));
     }

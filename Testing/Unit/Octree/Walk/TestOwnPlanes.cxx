@@ -127,12 +127,7 @@ TEST(OwnPlanes, BlocksGiveTheSameBits)
       for (int i = 0; i < svo::RayBlock::Size; ++i)
       {
         const svo::Ray ray = random.next();
-        block.originX[i] = static_cast<float>(ray.origin.x);
-        block.originY[i] = static_cast<float>(ray.origin.y);
-        block.originZ[i] = static_cast<float>(ray.origin.z);
-        block.directionX[i] = static_cast<float>(ray.direction.x);
-        block.directionY[i] = static_cast<float>(ray.direction.y);
-        block.directionZ[i] = static_cast<float>(ray.direction.z);
+        block.aim(i, ray.origin, ray.direction);
         block.tMin[i] = 0.0f;
         block.tMax[i] = random.unit() < 0.3 ? 0.7f : 10.0f;
       }
