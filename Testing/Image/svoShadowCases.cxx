@@ -1,6 +1,6 @@
 #include "svoShadowCases.h"
 
-#include "svoTileShadows.h"
+#include "svoMapTest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -245,8 +245,8 @@ ShadowCases::Range ShadowCases::darkness(const ShadowCase& point) const
     p.facet = glm::dvec3(exact.facet) + side(3) * tilt;
     p.normal = glm::dvec3(exact.normal) + side(4) * tilt;
     const double dark = this->settings.filterShadows
-      ? static_cast<double>(this->buffer.darkness(p, 0.0, point.extent))
-      : static_cast<double>(this->buffer.shadows(p, 0.0));
+      ? static_cast<double>(svo::MapTest(this->buffer.maps()).darkness(p, 0.0, point.extent))
+      : static_cast<double>(svo::MapTest(this->buffer.maps()).shadows(p, 0.0));
     range.least = std::min(range.least, dark);
     range.most = std::max(range.most, dark);
   }

@@ -37,7 +37,7 @@ std::uint64_t lookUpTexels(
   const MapTexels& map, const MapPlaces& places, TexelOccluders& occluders, std::uint64_t& same);
 
 /// Those of the points in `lanes` that are sure and around which 3x3 texels hold nothing, or one
-/// caster without steps and creases, as ShadowBuffer::isFlat() has it; some of the others may, too.
+/// caster without steps and creases, as MapTest::isFlat() has it; some of the others may, too.
 std::uint64_t flatWindows(const View& view, const TexelEdge& edge, const MapTexels& map,
   const MapPlaces& places, std::uint64_t lanes);
 }

@@ -2,8 +2,8 @@
 
 #include "svoLeafError.h"
 #include "svoLocalView.h"
+#include "svoMapTest.h"
 #include "svoSelectLevel.h"
-#include "svoTexelPlace.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
@@ -18,21 +18,22 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
   const std::vector<View>& views = maps.views;
   const std::uint8_t* casters = maps.casters.data() + first; // this scene's
   const bool sameBias =
-    this->AutomaticBias == settings.automaticBias && this->Bias == settings.bias;
+    this->Maps.automaticBias == settings.automaticBias && this->Maps.bias == settings.bias;
   this->SameMaps = sameBias && this->Faces.size() == views.size();
   this->setBias(settings);
   if (this->Faces.size() != views.size())
   {
     const bool moved = !this->Faces.empty();
     budget.used -= this->layerMemory();
-    this->Faces.clear();
+    this->release();
     for (std::size_t i = 0; i < views.size(); ++i)
     {
       this->Faces.push_back(std::make_unique<Face>(moved));
+      this->Maps.maps.push_back(&this->Faces.back()->map);
     }
   }
-  const std::vector<double> voxels = std::move(this->CasterVoxel);
-  const std::vector<double> errors = std::move(this->CasterError);
+  const std::vector<double> voxels = std::move(this->Maps.casterVoxel);
+  const std::vector<double> errors = std::move(this->Maps.casterError);
   const std::vector<glm::dmat4> places = std::move(this->CasterPlace);
   this->CasterPlace.clear();
   this->CasterPlace.reserve(scene.instances.size());
@@ -40,35 +41,35 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
   {
     this->CasterPlace.push_back(instance.localToWorld);
   }
-  this->CasterVoxel.assign(scene.instances.size() + scene.receivers.size(), 0.0);
-  this->CasterError.assign(this->CasterVoxel.size(), 0.0);
+  this->Maps.casterVoxel.assign(scene.instances.size() + scene.receivers.size(), 0.0);
+  this->Maps.casterError.assign(this->Maps.casterVoxel.size(), 0.0);
   for (std::size_t i = 0; i < views.size(); ++i)
   {
     Face& face = *this->Faces[i];
-    const bool sawCasters = face.seesCasters;
-    this->SameMaps = this->SameMaps && sameRays(face.view, views[i]);
-    face.view = views[i];
-    if (face.shared.merged() || !settings.handsOutMaps())
+    const bool sawCasters = face.map.seesCasters;
+    this->SameMaps = this->SameMaps && sameRays(face.map.view, views[i]);
+    face.map.view = views[i];
+    if (face.map.shared.merged() || !settings.handsOutMaps())
     {
       face.copied.reset();
     }
-    face.shared.clear();
-    face.worldToClip = face.view.viewToClip * face.view.worldToView;
-    face.edge = TexelEdge(face.view);
+    face.map.shared.clear();
+    face.map.worldToClip = face.map.view.viewToClip * face.map.view.worldToView;
+    face.map.edge = TexelEdge(face.map.view);
     face.layers.setCulling(this->Cull);
-    face.seesCasters = face.layers.prepare(
-      scene, face.view,
+    face.map.seesCasters = face.layers.prepare(
+      scene, face.map.view,
       [&](const Instance& instance)
       { return casters[&instance - scene.instances.data()] == group; },
       [&](const Instance& instance, const LocalView& local)
-      { return selectLevel(instance, local, face.view, settings.pixelError); },
+      { return selectLevel(instance, local, face.map.view, settings.pixelError); },
       settings.frameCoherence, budget, parallelFor);
-    this->SameMaps = this->SameMaps && sawCasters == face.seesCasters;
-    if (sawCasters != face.seesCasters)
+    this->SameMaps = this->SameMaps && sawCasters == face.map.seesCasters;
+    if (sawCasters != face.map.seesCasters)
     {
       face.copied.reset();
     }
-    if (!face.seesCasters && !settings.wholeShadowBuffers)
+    if (!face.map.seesCasters && !settings.wholeShadowBuffers)
     {
       face.forget(); // of most groups' maps, where a light has six
       continue;
@@ -81,14 +82,15 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
         face.layers.hits().instances.leafGeometry(static_cast<std::uint32_t>(k));
       if (casters[k] == group && level > 0)
       {
-        this->CasterVoxel[k] = std::max(this->CasterVoxel[k], worldVoxel(instance, level));
-        this->CasterError[k] =
-          std::max(this->CasterError[k], worldMapError(instance, geometry, level));
+        this->Maps.casterVoxel[k] =
+          std::max(this->Maps.casterVoxel[k], worldVoxel(instance, level));
+        this->Maps.casterError[k] =
+          std::max(this->Maps.casterError[k], worldMapError(instance, geometry, level));
       }
     }
-    if (face.wanted.size() != tilesIn(face.view))
+    if (face.wanted.size() != tilesIn(face.map.view))
     {
-      face.wanted = std::vector<std::atomic<std::uint8_t>>(tilesIn(face.view));
+      face.wanted = std::vector<std::atomic<std::uint8_t>>(tilesIn(face.map.view));
     }
     for (auto& tile : face.wanted)
     {
@@ -96,19 +98,19 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
     }
     face.received.clear();
   }
-  this->LargestVoxel = this->LargestError = 0.0;
-  for (std::size_t k = 0; k < this->CasterVoxel.size(); ++k)
+  this->Maps.largestVoxel = this->Maps.largestError = 0.0;
+  for (std::size_t k = 0; k < this->Maps.casterVoxel.size(); ++k)
   {
-    this->LargestVoxel = std::max(this->LargestVoxel, this->CasterVoxel[k]);
-    this->LargestError = std::max(this->LargestError, this->CasterError[k]);
+    this->Maps.largestVoxel = std::max(this->Maps.largestVoxel, this->Maps.casterVoxel[k]);
+    this->Maps.largestError = std::max(this->Maps.largestError, this->Maps.casterError[k]);
   }
-  this->SameMaps = this->SameMaps && voxels.size() == this->CasterVoxel.size() &&
+  this->SameMaps = this->SameMaps && voxels.size() == this->Maps.casterVoxel.size() &&
     errors.size() == voxels.size() && places.size() == this->CasterPlace.size();
   for (std::size_t k = 0; k < scene.instances.size() && this->SameMaps; ++k)
   {
     // Tiles that show a caster that has moved have changed: what else is new of it does not matter.
     this->SameMaps = places[k] != this->CasterPlace[k] ||
-      (voxels[k] == this->CasterVoxel[k] && errors[k] == this->CasterError[k]);
+      (voxels[k] == this->Maps.casterVoxel[k] && errors[k] == this->Maps.casterError[k]);
   }
   this->noteOpacities(scene, casters, group);
 }
@@ -123,33 +125,10 @@ std::size_t ShadowBuffer::sparedCasters() const
   return spared;
 }
 
-glm::ivec2 ShadowBuffer::Place::neighbour(int i) const
-{
-  assert(i >= 1 && i <= 3);
-  const glm::ivec2 texel = this->nearest();
-  const int dx = this->x - texel.x < 0.5 ? -1 : 1;
-  const int dy = this->y - texel.y < 0.5 ? -1 : 1;
-  return texel + glm::ivec2(i & 1 ? dx : 0, i & 2 ? dy : 0);
-}
-
-bool ShadowBuffer::lookUp(const glm::dvec3& position, Place& place) const
-{
-  for (const auto& candidate : this->Faces)
-  {
-    const TexelPlace at = texelPlace(candidate->view, candidate->worldToClip, position);
-    if (at.inside > 0.0)
-    {
-      place = { candidate.get(), at.x, at.y, at.t };
-      return candidate->seesCasters;
-    }
-  }
-  return false;
-}
-
 template <class Body>
-void ShadowBuffer::tilesAround(const Place& place, Body&& body) const
+void ShadowBuffer::tilesAround(const MapPlace& place, Body&& body) const
 {
-  const View& view = place.face->view;
+  const View& view = place.map->view;
   const int tilesAcross = (view.width + 7) / 8;
   const int x0 = std::max(static_cast<int>(place.x - this->Around), 0) >> 3;
   const int y0 = std::max(static_cast<int>(place.y - this->Around), 0) >> 3;
@@ -167,33 +146,50 @@ void ShadowBuffer::tilesAround(const Place& place, Body&& body) const
 template <class Body>
 void ShadowBuffer::namesAround(const glm::dvec3& position, std::uint16_t light, Body&& body) const
 {
-  Place place;
-  if (!this->lookUp(position, place))
+  MapPlace place;
+  if (!this->Maps.lookUp(position, place))
   {
     return;
   }
-  const auto face = std::find_if(this->Faces.begin(), this->Faces.end(),
-    [&](const std::unique_ptr<Face>& f) { return f.get() == place.face; });
-  const auto map = static_cast<std::uint16_t>(face - this->Faces.begin());
+  const auto map = static_cast<std::uint16_t>(place.index);
   this->tilesAround(place,
     [&](std::size_t tile) {
       body(LightTile{ light, map, static_cast<std::uint32_t>(tile) });
     });
 }
 
-bool ShadowBuffer::isTraced(const Place& place) const
+bool ShadowBuffer::isTraced(const MapPlace& place) const
 {
   bool traced = true;
   this->tilesAround(place,
     [&](std::size_t tile)
-    { traced = traced && place.face->wanted[tile].load(std::memory_order_relaxed); });
+    { traced = traced && this->Faces[place.index]->wanted[tile].load(std::memory_order_relaxed); });
   return traced;
 }
 
 bool ShadowBuffer::knows(const glm::dvec3& position) const
 {
-  Place place;
-  return !this->lookUp(position, place) || isTraced(place);
+  MapPlace place;
+  return !this->Maps.lookUp(position, place) || isTraced(place);
+}
+
+ShadowBuffer::MapAnswer ShadowBuffer::ask(
+  const SurfacePoint& point, double error, const double* extent) const
+{
+  MapPlace place;
+  if (!this->Maps.lookUp(point.position, place))
+  {
+    return { true, 0.0f, 0.0 };
+  }
+  MapAnswer said{ isTraced(place), 0.0f, place.map->edge(place.t) };
+  if (said.known)
+  {
+    const MapTest test(this->Maps);
+    said.darkness = extent         ? test.darkness(point, error, *extent)
+      : test.shadows(point, error) ? 1.0f
+                                   : 0.0f;
+  }
+  return said;
 }
 
 void ShadowBuffer::note(const glm::dvec3& position, std::uint16_t light, RaisedTiles& noted) const
@@ -204,17 +200,17 @@ void ShadowBuffer::note(const glm::dvec3& position, std::uint16_t light, RaisedT
     });
 }
 
-bool ShadowBuffer::Face::want(
-  const MapPlaces& places, float around, std::uint16_t light, std::uint16_t map, LightTiles& noted)
+bool ShadowBuffer::Face::want(const MapPlaces& places, float around, std::uint16_t light,
+  std::uint16_t index, LightTiles& noted)
 {
-  const MapTiles box = tilesOf(places, this->view, around);
+  const MapTiles box = tilesOf(places, this->map.view, around);
   if (!box.atMost(8))
   {
     return false;
   }
   const std::uint64_t tiles =
-    box.atMost(2) ? ~std::uint64_t(0) : svo::tilesAround(places, this->view, around, box);
-  const std::size_t tilesAcross = (this->view.width + 7) / 8;
+    box.atMost(2) ? ~std::uint64_t(0) : svo::tilesAround(places, this->map.view, around, box);
+  const std::size_t tilesAcross = (this->map.view.width + 7) / 8;
   for (int y = box.y0; y <= box.y1; ++y)
   {
     for (int x = box.x0; x <= box.x1; ++x)
@@ -225,7 +221,7 @@ bool ShadowBuffer::Face::want(
         // could be copied only when they have reached the cache.
         LightTile& note = noted.emplace_back();
         note.light = light;
-        note.map = map;
+        note.map = index;
         note.tile = static_cast<std::uint32_t>(y * tilesAcross + x);
         std::atomic<std::uint8_t>& tile = this->wanted[note.tile];
         if (!tile.load(std::memory_order_relaxed))
@@ -245,9 +241,9 @@ void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles&
   {
     const std::unique_ptr<Face>& face = this->Faces[f];
     MapPlaces places;
-    placeInMap(face->view, face->worldToClip, patch, left, places);
+    placeInMap(face->map.view, face->map.worldToClip, patch, left, places);
     single |= left & ~(places.inside | places.outside);
-    if (places.inside != 0 && face->seesCasters &&
+    if (places.inside != 0 && face->map.seesCasters &&
       !face->want(places, this->Around, light, static_cast<std::uint16_t>(f), noted))
     {
       single |= places.inside;
@@ -274,10 +270,10 @@ void ShadowBuffer::mark(const SeenReceivers& receivers)
 {
   for (auto& face : this->Faces)
   {
-    const int tilesAcross = (face->view.width + 7) / 8;
+    const int tilesAcross = (face->map.view.width + 7) / 8;
     face->received.assign(face->wanted.size(), 0);
     for (const PixelRect& rect :
-      face->seesCasters ? receivers.in(face->view) : std::vector<PixelRect>())
+      face->map.seesCasters ? receivers.in(face->map.view) : std::vector<PixelRect>())
     {
       for (int y = rect.y0 / 8; y <= (rect.y1 - 1) / 8; ++y)
       {
@@ -317,15 +313,15 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
       wanted[i] = face->wanted[i].load(std::memory_order_relaxed);
     }
     face->layers.trace(parallelFor, wanted.data());
-    face->occluders.find(face->layers.hits(), parallelFor);
+    face->map.occluders.find(face->layers.hits(), parallelFor);
     if (this->MappedColors.empty())
     {
-      face->opacities.forget();
+      face->map.opacities.forget();
     }
     else
     {
-      face->opacities.find(
-        *this->Traced, face->view, face->layers.hits(), this->OtherOpacities, parallelFor);
+      face->map.opacities.find(
+        *this->Traced, face->map.view, face->layers.hits(), this->OtherOpacities, parallelFor);
     }
     if (face->layers.hits().tiles.anyStale() || this->OtherOpacities)
     {
@@ -342,32 +338,32 @@ void ShadowBuffer::merge(Processes& processes, std::size_t first)
     double voxel, error;
   };
   std::vector<Caster> own;
-  for (std::size_t i = 0; i < this->CasterVoxel.size(); ++i)
+  for (std::size_t i = 0; i < this->Maps.casterVoxel.size(); ++i)
   {
-    own.push_back({ this->CasterVoxel[i], this->CasterError[i] });
+    own.push_back({ this->Maps.casterVoxel[i], this->Maps.casterError[i] });
   }
   std::vector<Caster> all;
   gatherRecords(processes, own, all);
-  this->CasterVoxel.clear();
-  this->CasterError.clear();
+  this->Maps.casterVoxel.clear();
+  this->Maps.casterError.clear();
   for (const Caster& caster : all)
   {
-    this->CasterVoxel.push_back(caster.voxel);
-    this->CasterError.push_back(caster.error);
+    this->Maps.casterVoxel.push_back(caster.voxel);
+    this->Maps.casterError.push_back(caster.error);
   }
   if (this->Translucent)
   {
-    const std::vector<float> opacities = std::move(this->CasterOpacity);
-    gatherRecords(processes, opacities, this->CasterOpacity);
+    const std::vector<float> opacities = std::move(this->Maps.casterOpacity);
+    gatherRecords(processes, opacities, this->Maps.casterOpacity);
     this->MappedColors.clear();
-    this->findSameOpacity();
+    this->Maps.findSameOpacity(/*mapped=*/false);
   }
   for (auto& face : this->Faces)
   {
-    face->shared.merge(processes, face->view, face->layers.hits(), first);
-    face->occluders.forget();
-    face->opacities.forget();
-    face->seesCasters = face->shared.bytes() > 0;
+    face->map.shared.merge(processes, face->map.view, face->layers.hits(), first);
+    face->map.occluders.forget();
+    face->map.opacities.forget();
+    face->map.seesCasters = face->map.shared.bytes() > 0;
     face->copied.reset();
   }
 }
@@ -375,14 +371,15 @@ void ShadowBuffer::merge(Processes& processes, std::size_t first)
 void ShadowBuffer::release()
 {
   this->Faces.clear();
+  this->Maps.maps.clear();
 }
 
 void ShadowBuffer::Face::forget()
 {
   std::vector<std::atomic<std::uint8_t>>().swap(this->wanted);
   this->layers.forget();
-  this->occluders.forget();
-  this->opacities.forget();
+  this->map.occluders.forget();
+  this->map.opacities.forget();
 }
 
 std::size_t ShadowBuffer::Face::memory() const
@@ -390,10 +387,10 @@ std::size_t ShadowBuffer::Face::memory() const
   constexpr std::size_t OfTexel = sizeof(float) + sizeof(std::uint32_t) + sizeof(Primitive);
   // Of a tile of the map, here and in LayeredView: marks, states and what lies in it.
   constexpr std::size_t OfTile = 24;
-  std::size_t bytes = this->shared.bytes() + OfTile * this->wanted.size();
+  std::size_t bytes = this->map.shared.bytes() + OfTile * this->wanted.size();
   for (const std::uint8_t hit : this->layers.hits().depth.hit)
   {
-    bytes += hit ? 64 * (OfTexel + (this->opacities.known() ? sizeof(float) : 0)) : 0;
+    bytes += hit ? 64 * (OfTexel + (this->map.opacities.known() ? sizeof(float) : 0)) : 0;
   }
   if (this->copied)
   {

@@ -12,13 +12,13 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
 {
   constexpr std::size_t InTile = ShadowTexels::InTile;
   auto copy = std::make_shared<ShadowTexels>();
-  copy->tilesX = (this->view.width + 7) / 8;
-  copy->tiles.assign(tilesIn(this->view), ShadowTexels::Nothing);
+  copy->tilesX = (this->map.view.width + 7) / 8;
+  copy->tiles.assign(tilesIn(this->map.view), ShadowTexels::Nothing);
   copy->stride = ofCasters ? 2 * InTile : InTile;
   std::uint32_t held = 0;
-  for (std::size_t tile = 0; this->seesCasters && tile < copy->tiles.size(); ++tile)
+  for (std::size_t tile = 0; this->map.seesCasters && tile < copy->tiles.size(); ++tile)
   {
-    if (this->isReceived(tile) && this->holds(tile))
+    if (this->isReceived(tile) && this->map.holds(tile))
     {
       copy->tiles[tile] = held++;
     }
@@ -36,13 +36,13 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
       const std::size_t at = InTile * tile + i;
       std::uint32_t caster;
       double t;
-      const bool any = this->occluder(at, caster, t);
+      const bool any = this->map.occluder(at, caster, t);
       numbers[i] = any ? static_cast<float>(t - base) : std::numeric_limits<float>::infinity();
       if (ofCasters)
       {
-        numbers[InTile + i] = !any  ? 0.0f
-          : this->opacities.known() ? this->opacities.at(at)
-                                    : (*ofCasters)[caster];
+        numbers[InTile + i] = !any      ? 0.0f
+          : this->map.opacities.known() ? this->map.opacities.at(at)
+                                        : (*ofCasters)[caster];
       }
     }
     copy->numbers.insert(copy->numbers.end(), numbers, numbers + copy->stride);
@@ -66,19 +66,19 @@ void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps, int group)
     ShadowMap map;
     map.light = light;
     map.group = group;
-    map.view = face->view;
-    map.base = std::max(face->view.tNear, 0.0);
+    map.view = face->map.view;
+    map.base = std::max(face->map.view.tNear, 0.0);
     if (!face->copySuffices())
     {
       face->copiedOf = face->received;
-      face->copied = face->copy(map.base, this->Translucent ? &this->CasterOpacity : nullptr);
+      face->copied = face->copy(map.base, this->Translucent ? &this->Maps.casterOpacity : nullptr);
     }
     map.texels = face->copied;
-    for (double error : this->CasterError)
+    for (double error : this->Maps.casterError)
     {
       map.worldBias = std::max(map.worldBias, error);
     }
-    for (double voxel : this->CasterVoxel)
+    for (double voxel : this->Maps.casterVoxel)
     {
       map.casterVoxel = std::max(map.casterVoxel, voxel);
     }

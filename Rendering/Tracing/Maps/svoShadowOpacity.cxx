@@ -1,4 +1,5 @@
 // What a shadow buffer of translucent casters takes of the light.
+#include "svoMapTest.h"
 #include "svoShadowBuffer.h"
 #include "svoShadowFilter.h"
 
@@ -21,16 +22,16 @@ bool sameColors(const Attributes& a, const Attributes& b)
 }
 }
 
-void ShadowBuffer::findSameOpacity()
+void TracedMaps::findSameOpacity(bool mapped)
 {
-  this->SameOpacity = 0.0f;
-  bool same = this->MappedColors.empty();
-  for (const float opacity : this->CasterOpacity)
+  this->sameOpacity = 0.0f;
+  bool same = !mapped;
+  for (const float opacity : this->casterOpacity)
   {
-    same = same && (opacity == 0.0f || this->SameOpacity == 0.0f || opacity == this->SameOpacity);
-    this->SameOpacity = std::max(this->SameOpacity, opacity);
+    same = same && (opacity == 0.0f || this->sameOpacity == 0.0f || opacity == this->sameOpacity);
+    this->sameOpacity = std::max(this->sameOpacity, opacity);
   }
-  this->SameOpacity = same ? this->SameOpacity : -1.0f;
+  this->sameOpacity = same ? this->sameOpacity : -1.0f;
 }
 
 /// Of the group's casters; of opaque ones there is nothing to note.
@@ -38,9 +39,9 @@ void ShadowBuffer::noteOpacities(
   const Scene& scene, const std::uint8_t* casters, std::uint8_t group)
 {
   this->Translucent = group != OpaqueCasters;
-  const std::vector<float> opacities = std::move(this->CasterOpacity);
+  const std::vector<float> opacities = std::move(this->Maps.casterOpacity);
   const std::vector<Attributes> colors = std::move(this->MappedColors);
-  this->CasterOpacity.clear();
+  this->Maps.casterOpacity.clear();
   this->MappedColors.clear();
   this->Traced = &scene;
   if (!this->Translucent)
@@ -51,34 +52,34 @@ void ShadowBuffer::noteOpacities(
   {
     const Instance& instance = scene.instances[i];
     const bool ours = casters[i] == group;
-    this->CasterOpacity.push_back(ours ? instance.opacity : 0.0f);
+    this->Maps.casterOpacity.push_back(ours ? instance.opacity : 0.0f);
     if (ours && instance.mappedOpacity)
     {
       this->MappedColors.push_back(instance.body->attributes);
     }
   }
-  this->CasterOpacity.resize(this->CasterVoxel.size(), 0.0f);
-  this->findSameOpacity();
-  this->OtherOpacities = opacities != this->CasterOpacity ||
+  this->Maps.casterOpacity.resize(this->Maps.casterVoxel.size(), 0.0f);
+  this->Maps.findSameOpacity(!this->MappedColors.empty());
+  this->OtherOpacities = opacities != this->Maps.casterOpacity ||
     !std::equal(colors.begin(), colors.end(), this->MappedColors.begin(), this->MappedColors.end(),
       sameColors);
   this->SameMaps = this->SameMaps && !this->OtherOpacities;
 }
 
-float ShadowBuffer::opacity(const Face& face, const glm::ivec2& texel) const
+float MapTest::opacity(const TracedMap& map, const glm::ivec2& texel) const
 {
   std::uint32_t caster;
   double t;
-  const std::size_t at = face.layers.hits().depth.at(texel.x, texel.y);
-  return !face.occluder(at, caster, t) ? 0.0f
-    : face.opacities.known()           ? face.opacities.at(at)
-                                       : this->CasterOpacity[caster];
+  const std::size_t at = map.hits.depth.at(texel.x, texel.y);
+  return !map.occluder(at, caster, t) ? 0.0f
+    : map.opacities.known()           ? map.opacities.at(at)
+                                      : this->Maps.casterOpacity[caster];
 }
 
-float ShadowBuffer::opacity(const Place& place, double width) const
+float MapTest::opacity(const MapPlace& place, double width) const
 {
-  TexelWindow x(place.x, width, place.face->view.width);
-  TexelWindow y(place.y, width, place.face->view.height);
+  TexelWindow x(place.x, width, place.map->view.width);
+  TexelWindow y(place.y, width, place.map->view.height);
   x.weigh();
   y.weigh();
   double sum = 0.0, all = 0.0;
@@ -89,10 +90,10 @@ float ShadowBuffer::opacity(const Place& place, double width) const
       const glm::ivec2 texel(x.first + i, y.first + j);
       std::uint32_t caster;
       double t;
-      if (place.face->occluder(place.face->layers.hits().depth.at(texel.x, texel.y), caster, t))
+      if (place.map->occluder(texel, caster, t))
       {
         const double weight = x.weight[i] * y.weight[j];
-        sum += weight * this->opacity(*place.face, texel);
+        sum += weight * this->opacity(*place.map, texel);
         all += weight;
       }
     }
@@ -100,10 +101,10 @@ float ShadowBuffer::opacity(const Place& place, double width) const
   return all > 0.0 ? static_cast<float>(sum / all) : 0.0f;
 }
 
-void ShadowBuffer::taken(const TilePatch& patch, double error, const double* extents,
+void MapTest::taken(const TilePatch& patch, double error, const double* extents,
   std::uint64_t asked, float* taken) const
 {
-  assert(this->Translucent);
+  assert(this->Maps.casterOpacity.size() == this->Maps.casterVoxel.size());
   std::uint64_t some = 0;
   if (extents)
   {
@@ -115,23 +116,23 @@ void ShadowBuffer::taken(const TilePatch& patch, double error, const double* ext
     some = this->shadows(patch, error, asked);
     std::fill_n(taken, TilePatch::Most, 0.0f);
   }
-  if (this->SameOpacity >= 0.0f)
+  if (this->Maps.sameOpacity >= 0.0f)
   {
-    eachBit(some, [&](int i) { taken[i] = this->SameOpacity * (extents ? taken[i] : 1.0f); });
+    eachBit(some, [&](int i) { taken[i] = this->Maps.sameOpacity * (extents ? taken[i] : 1.0f); });
     return;
   }
   eachBit(some,
     [&](int i)
     {
-      Place place;
+      MapPlace place;
       const SurfacePoint point = patch.point(i);
-      if (!this->lookUp(point.position, place))
+      if (!this->Maps.lookUp(point.position, place))
       {
         return; // nothing is taken at the border of what is seen
       }
       if (!extents)
       {
-        taken[i] = this->opacity(*place.face, place.nearest());
+        taken[i] = this->opacity(*place.map, place.nearest());
         return;
       }
       const double width = boxWidth(place, extents[i]);

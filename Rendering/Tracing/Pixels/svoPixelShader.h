@@ -75,7 +75,7 @@ public:
     TileTriangles triangles;
     TileLight light;
     TileColors colors;
-    double extents[TilePatch::Most];         // world, as `missed`: ShadowBuffer::darkness()
+    double extents[TilePatch::Most];         // world, as `missed`: MapTest::darkness()
     float missed[TilePatch::Most];           // by pixel: of one light
     Darkness darkness[TilePatch::Most];      // by pixel
     std::vector<TerminatorPoint> terminator; // of one light

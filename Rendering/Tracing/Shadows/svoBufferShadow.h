@@ -3,6 +3,7 @@
 #define svoBufferShadow_h
 
 #include "svoLightShadow.h"
+#include "svoMapTest.h"
 #include "svoShadowBuffer.h"
 #include "svoShadowRays.h"
 #include "svoShadowRules.h"
@@ -19,7 +20,7 @@ class BufferShadow : public LightShadow
 public:
   /// `name`: LightTile::light of the opaque casters' buffer. `translucent`: buffers of the groups
   /// of translucent casters. `rays`: of points at the terminator, null where no mesh is smooth.
-  /// `filters`: as ShadowBuffer::darkness().
+  /// `filters`: as MapTest::darkness().
   BufferShadow(const Light& light, const ShadowBuffer& opaque, std::uint16_t name,
     std::vector<const ShadowBuffer*> translucent, const ShadowRays* rays, bool filters)
     : Source(light)
@@ -35,10 +36,12 @@ public:
   {
     if (!this->Filters)
     {
-      return missAll(this->Opaque.shadows(query.patch, query.errors.map, query.asked), missed);
+      return missAll(
+        MapTest(this->Opaque.maps()).shadows(query.patch, query.errors.map, query.asked), missed);
     }
     std::uint64_t dark = 0;
-    this->Opaque.darkness(query.patch, query.errors.map, query.extents, query.asked, missed);
+    MapTest(this->Opaque.maps())
+      .darkness(query.patch, query.errors.map, query.extents, query.asked, missed);
     eachBit(query.asked, [&](int i) { dark |= std::uint64_t(missed[i] > 0.0f) << i; });
     return dark;
   }
@@ -51,13 +54,13 @@ public:
     alignas(64) float taken[TilePatch::Most];
     for (const ShadowBuffer* const buffer : this->Translucent)
     {
-      buffer->taken(
-        query.patch, query.errors.map, this->Filters ? query.extents : nullptr, left, taken);
+      MapTest(buffer->maps())
+        .taken(query.patch, query.errors.map, this->Filters ? query.extents : nullptr, left, taken);
       takeOfRest(left, taken, missed);
     }
   }
 
-  bool knowsTerminator() const override { return this->Opaque.automaticBias(); }
+  bool knowsTerminator() const override { return this->Opaque.maps().automaticBias; }
   double grazing() const override { return 1.0 / GrazingReach; }
 
   void testTerminator(const ShadowQuery& query, const std::vector<TerminatorPoint>& points,

@@ -3,6 +3,7 @@
 #include "svoCasters.h"
 #include "svoLayeredView.h"
 #include "svoLeafGeometry.h"
+#include "svoMapTest.h"
 #include "svoReferencePoint.h"
 #include "svoShadowBuffer.h"
 
@@ -449,7 +450,8 @@ TEST(ShadowBuffer, AConvexBodyInGrazingLightDoesNotShadowItself)
         if (cosine > 0.02)
         {
           grazing += cosine < 0.08;
-          wrong += buffer.shadows(point, 0.0) || buffer.darkness(point, 0.0, 0.0) > 0.0f;
+          wrong += svo::MapTest(buffer.maps()).shadows(point, 0.0) ||
+            svo::MapTest(buffer.maps()).darkness(point, 0.0, 0.0) > 0.0f;
         }
       }
     }

@@ -2,6 +2,7 @@
 #include "svoShadowFilter.h"
 #include "svoTracerScenes.h"
 
+#include "svoMapTest.h"
 #include "svoShadowBuffer.h"
 
 #include <gtest/gtest.h>
@@ -57,11 +58,11 @@ struct Place
   }
   double onGround(double x, double y, double extent = 0.0) const
   {
-    return buffer.darkness(pointOf({ x, y, 0.0 }, { 0, 0, 1 }), 0.0, extent);
+    return svo::MapTest(buffer.maps()).darkness(pointOf({ x, y, 0.0 }, { 0, 0, 1 }), 0.0, extent);
   }
   bool hardOnGround(double x, double y) const
   {
-    return buffer.shadows(pointOf({ x, y, 0.0 }, { 0, 0, 1 }), 0.0);
+    return svo::MapTest(buffer.maps()).shadows(pointOf({ x, y, 0.0 }, { 0, 0, 1 }), 0.0);
   }
 };
 
@@ -254,8 +255,9 @@ TEST(ShadowFilter, ACreaseInTheLightIsNotDark)
         {
           const double away = place.texel * (j + 0.1) / 4.0;
           ASSERT_EQ(place.onGround(x, -away), 0.0) << elevation << ", " << turn;
-          ASSERT_EQ(
-            place.buffer.darkness(Place::pointOf({ x, 0, away }, { 0, -1, 0 }), 0.0, 0.0), 0.0)
+          ASSERT_EQ(svo::MapTest(place.buffer.maps())
+                      .darkness(Place::pointOf({ x, 0, away }, { 0, -1, 0 }), 0.0, 0.0),
+            0.0)
             << elevation << ", " << turn;
         }
       }
@@ -326,8 +328,9 @@ TEST(ShadowFilter, BordersOfMapsAreNotSeen)
       continue;
     }
     const svo::SurfacePoint point = Place::pointOf({ x, y, 0 }, { 0, 0, 1 });
-    ASSERT_EQ(buffer.shadows(point, 0.0), outside < 0.0) << x << ", " << y;
-    ASSERT_EQ(buffer.darkness(point, 0.0, 0.0), outside < 0.0 ? 1.0 : 0.0) << x << ", " << y;
+    ASSERT_EQ(svo::MapTest(buffer.maps()).shadows(point, 0.0), outside < 0.0) << x << ", " << y;
+    ASSERT_EQ(svo::MapTest(buffer.maps()).darkness(point, 0.0, 0.0), outside < 0.0 ? 1.0 : 0.0)
+      << x << ", " << y;
     const bool besideBorder = std::abs(std::abs(x - from.x) - from.z) < 0.03;
     dark += besideBorder && outside < 0.0;
     lit += besideBorder && outside > 0.0;

@@ -2,6 +2,7 @@
 // instruction set of this machine.
 #include "svoInstructionSets.h"
 #include "svoLeafError.h"
+#include "svoMapTest.h"
 #include "svoReferencePoint.h"
 #include "svoReferenceShading.h"
 #include "svoShadowBuffer.h"
@@ -365,20 +366,22 @@ TEST(TileShading, ShadowsAreThoseOfOnePoint)
               {
                 extents[i] = 0.02 * (i % 4);
               }
-              const std::uint64_t found = buffer.shadows(patch, error, asked);
+              const std::uint64_t found = MapTest(buffer.maps()).shadows(patch, error, asked);
               ASSERT_EQ(found & ~asked, 0u);
               float missed[TilePatch::Most];
-              buffer.darkness(patch, error, extents, asked, missed);
+              MapTest(buffer.maps()).darkness(patch, error, extents, asked, missed);
               eachBit(patch.mask,
                 [&](int i)
                 {
                   const bool isAsked = asked >> i & 1;
-                  const bool expected = isAsked && buffer.shadows(patch.point(i), error);
+                  const bool expected =
+                    isAsked && MapTest(buffer.maps()).shadows(patch.point(i), error);
                   ASSERT_EQ((found >> i & 1) != 0, expected) << "instance " << patch.instance;
                   dark += expected;
                   lit += isAsked && !expected;
-                  const float share =
-                    isAsked ? buffer.darkness(patch.point(i), error, extents[i]) : 0.0f;
+                  const float share = isAsked
+                    ? MapTest(buffer.maps()).darkness(patch.point(i), error, extents[i])
+                    : 0.0f;
                   ASSERT_TRUE(sameBits(missed[i], share)) << "instance " << patch.instance;
                   partly += share > 0.0f && share < 1.0f;
                   ASSERT_TRUE(automatic || share == (expected ? 1.0f : 0.0f));
@@ -447,12 +450,14 @@ TEST(TileShading, WhatIsMarkedIsWhatIsLookedUp)
     stage.eachSeenPatch(
       [&](const TilePatch& patch)
       {
-        ASSERT_EQ(marked.shadows(patch, 0.0, patch.mask), whole.shadows(patch, 0.0, patch.mask));
+        ASSERT_EQ(MapTest(marked.maps()).shadows(patch, 0.0, patch.mask),
+          MapTest(whole.maps()).shadows(patch, 0.0, patch.mask));
         eachBit(patch.mask,
           [&](int i)
           {
             ASSERT_TRUE(marked.knows(patch.position(i)));
-            ASSERT_EQ(marked.shadows(patch.point(i), 0.0), whole.shadows(patch.point(i), 0.0));
+            ASSERT_EQ(MapTest(marked.maps()).shadows(patch.point(i), 0.0),
+              MapTest(whole.maps()).shadows(patch.point(i), 0.0));
           });
       });
   }
