@@ -49,7 +49,8 @@ public:
     }
     if (method.technique == paper::Technique::Octrees)
     {
-      this->Pass = makePass(this->PhasesOf, method.simulatesCores);
+      this->Pass = method.phases ? makePass(this->PhasesOf, method.simulatesCores)
+                                 : vtkSmartPointer<vtkSVORenderPass>::New();
       if (method.settings)
       {
         method.settings(this->Pass);
@@ -97,7 +98,7 @@ public:
     {
       return;
     }
-    Phases phases = this->Pass ? this->PhasesOf(begin, end) : Phases();
+    Phases phases = this->PhasesOf ? this->PhasesOf(begin, end) : Phases();
     phases["wallMs"] = sample.milliseconds;
     phases["processorMs"] = sample.processorMilliseconds;
     for (const auto& [name, time] : phases)

@@ -36,6 +36,7 @@ struct Method
   std::function<void(vtkSVORenderPass*)> settings; ///< may be empty
   std::string instructionSet;                      ///< svobench::useInstructionSet()
   bool simulatesCores = false;                     ///< makePass()
+  bool phases = true; ///< timed; else the pass is as it is, with the tracer that it makes itself
 };
 
 struct Contest

@@ -421,8 +421,8 @@ bool Experiments::openGL()
     { "svo, shadow rays", Technique::Octrees, LightKind::Spot,
       [](vtkSVORenderPass* pass) { pass->SetShadowTechniqueToShadowRays(); }, "" },
     { "svo, OpenGL, maps", Technique::Octrees, LightKind::Spot,
-      [](vtkSVORenderPass* pass) { pass->SetBackendToOpenGL(); }, "" },
-    { "svo, OpenGL, rays", Technique::Octrees, LightKind::Spot, onOpenGL, "" } };
+      [](vtkSVORenderPass* pass) { pass->SetBackendToOpenGL(); }, "", false, false },
+    { "svo, OpenGL, rays", Technique::Octrees, LightKind::Spot, onOpenGL, "", false, false } };
   const auto race = [&](const paper::Experiment& scene, const paper::Objects& shapes)
   {
     Contest contest{ &scene, &shapes, peers(this->Settings, ours),
