@@ -52,8 +52,9 @@ bool haveTheSameVoxels(const openvdb::GridBase& a, const openvdb::GridBase& b)
 void join(openvdb::BoolGrid& mask, const openvdb::BoolGrid& other)
 {
   mask.tree().topologyUnion(other.tree());
+  // By one thread: values of a leaf are bits of the same words.
   openvdb::tools::foreach (
-    mask.beginValueOn(), [](const openvdb::BoolGrid::ValueOnIter& i) { i.setValue(true); });
+    mask.beginValueOn(), [](const openvdb::BoolGrid::ValueOnIter& i) { i.setValue(true); }, false);
 }
 }
 

@@ -86,6 +86,9 @@ class Frames(unittest.TestCase):
             if "instances" not in r:
                 self.assertNotIn("eyeMs", r)  # VTK's own
                 continue
+            if "OpenGL" in r["method"]:
+                self.assertNotIn("eyeMs", r)  # its pass is as it is, without a stopwatch
+                continue
             phases = [r[phase + "Ms"] for phase in PHASES]
             self.assertGreaterEqual(min(phases), 0.0)
             lightless = (r["method"] == "none" or "rays" in r["method"]
