@@ -321,7 +321,6 @@ private:
   svo::PassFrame& BeginFrame(vtkRenderer* renderer);
   bool CollectFrame(svo::PassFrame& frame, int width, int height, const svo::OwnCamera* camera);
   std::function<bool()> AbortOf(vtkRenderWindow* window, bool ask, bool& disturbed);
-  bool HasLightCode() const;
   void DecideSettings(svo::PassFrame& frame);
   void TraceFrame(svo::PassFrame& frame, int width, int height);
   void FinishFrame(svo::PassFrame& frame);

@@ -121,7 +121,8 @@ bool vtkSVORenderPass::CollectFrame(
     collect.lightWords = { [this](vtkLight* light) { return this->GetText(TEXT_HEADLIGHT, light); },
       [this](vtkLight* light) { return this->GetText(TEXT_LIGHT, light); } };
     this->Fill(collect.levels.frame);
-    collect.levels.frame.lightCode = this->HasLightCode();
+    collect.levels.frame.lightCode =
+      openGL && collect.levels.frame.shadowTechnique == svo::ShadowTechnique::Rays;
     svo::viewOfCamera(renderer, width, height, collect.levels.eye);
     frame.state->collect(impl.store, store, collect);
     disturbed = disturbed || !frame.canDraw();
@@ -207,20 +208,14 @@ void vtkSVORenderPass::Fill(svo::TracerSettings& settings) const
   }
 }
 
-/// Whether rasterised surfaces send rays to the lights.
-bool vtkSVORenderPass::HasLightCode() const
-{
-  return this->GetActiveBackend() == BACKEND_OPENGL &&
-    (this->ShadowTechnique == SHADOW_RAYS || this->ShadowTechnique == SHADOW_AUTOMATIC);
-}
-
 /// Says how a frame is to be traced.
 void vtkSVORenderPass::DecideSettings(svo::PassFrame& frame)
 {
   svo::FrameSettings& settings = frame.settings;
   settings = svo::FrameSettings();
   this->Fill(settings);
-  settings.lightCode = this->HasLightCode();
+  settings.lightCode = this->GetActiveBackend() == BACKEND_OPENGL &&
+    settings.shadowTechnique == svo::ShadowTechnique::Rays;
   vtkRenderer* renderer = frame.renderer;
   frame.pacedShadows = hasCameraLight(renderer);
   if (this->AutoAdjustSampleDistances && isInteractive(renderer))

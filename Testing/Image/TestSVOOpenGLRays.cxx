@@ -2,9 +2,12 @@
 // octrees to each light: the picture is VTK's own where light comes, and lit or dark as the CPU's
 // exact rays say.
 #include "../Unit/svoTestMessages.h"
+#include "svoImageCases.h"
 #include "svoTestStage.h"
 
 #include "vtkActorCollection.h"
+#include "vtkImageToSVO.h"
+#include "vtkLight.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 
@@ -118,27 +121,54 @@ void compareAgain(Stage& stage, Checks& checks)
   checks.expect(difference(expected, capture(stage.window)).largest <= 1, "sent again");
 }
 
-/// What shaders cannot do the CPU does, in the same frame, and says so once.
+/// Frames that shaders cannot light: they have the CPU's shadows, and that is said once.
+void expectCPU(const std::string& name, Stage& stage, const Picture& lit, const Picture& expected,
+  const std::string& why, Checks& checks)
+{
+  svo::TestMessages messages{ stage.pass };
+  const Picture found = stage.shadowedByRays();
+  capture(stage.window);
+  const Tally tally = compare(lit, expected, found);
+  std::cout << name << ": " << tally.inShadow << " pixels in shadow, " << tally.other << " others; "
+            << messages.all() << "\n";
+  checks.expect(tally.inShadow > tally.pixels / 50, name + ": there are shadows");
+  checks.expect(tally.other < tally.inShadow / 10, name + ": they are the same");
+  checks.expect(stage.pass->GetGPUMemory() == 0, name + ": nothing is there");
+  checks.expect(messages.errors.empty() && messages.warnings.size() == 1 &&
+      messages.warnings[0].find(why) != std::string::npos,
+    name + ": one message");
+}
+
 void fallBack(Checks& checks)
 {
   Stage stage;
   addSolids(stage);
-  stage.addSun(3.0, -2.0, 4.0);
+  vtkLight* sun = stage.addSun(3.0, -2.0, 4.0);
   const Picture lit = stage.unshadowed();
   stage.pass->SetBackendToOpenGL();
   const Picture expected = stage.shadowedByRays();
-  svo::TestMessages messages{ stage.pass };
   stage.pass->SetGPUMemoryLimit(1);
-  const Picture found = stage.shadowedByRays();
-  capture(stage.window);
-  const Tally tally = compare(lit, expected, found);
-  std::cout << "without memory: " << tally.inShadow << " pixels in shadow, " << tally.other
-            << " others; " << messages.all() << "\n";
-  checks.expect(tally.inShadow > tally.pixels / 50, "without memory: there are shadows");
-  checks.expect(tally.other < tally.inShadow / 10, "without memory: they are the same");
-  checks.expect(stage.pass->GetGPUMemory() == 0, "without memory: nothing is there");
+  expectCPU("without memory", stage, lit, expected, "GPUMemoryLimit", checks);
+  stage.pass->SetGPUMemoryLimit(1 << 20);
   checks.expect(
-    messages.errors.empty() && messages.warnings.size() == 1, "without memory: one message");
+    difference(expected, stage.shadowedByRays()).largest <= 1, "with memory: rays again");
+  vtkSVORenderPass::SetCastShadow(false, sun);
+  const Picture unlit = capture(stage.window);
+  stage.usePass(false);
+  checks.expect(unlit.rgb == capture(stage.window).rgb, "no light casts: VTK's own picture");
+
+  Stage planes;
+  planes.addGround();
+  const ImageCase ring = distanceCase();
+  vtkNew<vtkImageToSVO> surface;
+  surface->SetInputData(ring.image);
+  surface->SetValue(0, ring.value);
+  planes.add(surface, 0.9, 0.5, 0.3)->SetPosition(0.0, 0.0, 1.2);
+  planes.addSun(3.0, -2.0, 4.0);
+  const Picture litPlanes = planes.unshadowed();
+  const Picture shadowed = planes.shadowed();
+  planes.pass->SetBackendToOpenGL();
+  expectCPU("an image's surface", planes, litPlanes, shadowed, "planes", checks);
 }
 }
 

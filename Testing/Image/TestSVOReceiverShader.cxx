@@ -81,13 +81,14 @@ public:
   std::vector<FourFloats> run(const std::string& declarations)
   {
     this->Receivers.activate();
-    const std::vector<FourFloats> lit = runFragments(this->Window, ShadowCases::Across,
-      this->Inputs, declarations,
-      "  vec4 position = texelFetch(input0, at, 0);\n"
-      "  gl_FragData[0] = vec4(1.0 - svoShown(svoLeft(0, position.xyz,\n"
-      "    texelFetch(input1, at, 0).xyz, texelFetch(input2, at, 0).xyz, vec3(0.0), position.w)));\n"
-      "  gl_FragData[0].a = 1.0;\n", // blending writes it all
-      [this](vtkShaderProgram* program) { this->Receivers.setUniforms(program, true, false); });
+    const std::vector<FourFloats> lit =
+      runFragments(this->Window, ShadowCases::Across, this->Inputs, declarations,
+        "  vec4 position = texelFetch(input0, at, 0);\n"
+        "  gl_FragData[0] = vec4(1.0 - svoShown(svoLeft(0, position.xyz,\n"
+        "    texelFetch(input1, at, 0).xyz, texelFetch(input2, at, 0).xyz, vec3(0.0), "
+        "position.w)));\n"
+        "  gl_FragData[0].a = 1.0;\n", // blending writes it all
+        [this](vtkShaderProgram* program) { this->Receivers.setUniforms(program, true, false); });
     this->Receivers.deactivate();
     return lit;
   }

@@ -3,11 +3,12 @@
 #include "svoCasterTree.h"
 #include "svoLightCode.h"
 #include "svoOctreeArena.h"
-#include "svoOpenGL.h"
 #include "svoRayWalk.h"
 #include "svoTerminator.h"
 #include "svoWorldToOctree.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -26,7 +27,7 @@ namespace
 constexpr double BoxMargin = 4e-7;
 
 /// Lights that a shader asks, whatever room it has for more.
-constexpr std::size_t MostLights = 64;
+constexpr std::ptrdiff_t MostLights = 64;
 
 struct CasterRecord // in a shader's memory
 {
@@ -49,14 +50,28 @@ Box worldBox(const Instance& instance)
   return box;
 }
 
-std::string declarations(std::size_t lights)
+/// The constants of svoRayWalk.glsl.
+std::string constantsOf(std::size_t lights)
 {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::showpoint << std::setprecision(9) << "const int svoLightCount = " << lights << ";\n"
-       << "const float svoDoubtfulSine = " << DoubtfulSine << ";\n"
-       << svoRayWalk;
+       << "const float svoDoubtfulSine = " << DoubtfulSine << ";\n";
   return text.str();
+}
+
+/// What casts.
+std::vector<const Instance*> castersOf(const Scene& scene)
+{
+  std::vector<const Instance*> casters;
+  for (const Instance& instance : scene.instances)
+  {
+    if (instance.castShadow && instance.body->octree && !instance.body->octree.empty())
+    {
+      casters.push_back(&instance);
+    }
+  }
+  return casters;
 }
 
 class OpenGLTracer : public Tracer
@@ -100,9 +115,11 @@ public:
   void releaseGraphicsResources() override;
 
 private:
-  std::string prepare(const Scene& scene, const View& view, const FrameSettings& settings);
-  bool placeCasters(const Scene& scene);
-  void aim(const Scene& scene, const View& view);
+  const std::string& prepare(const Scene& scene, const View& view, const FrameSettings& settings);
+  std::string hold(const Scene& scene, std::size_t limit);
+  bool place(const std::vector<const Instance*>& casters);
+  void aim(const View& view);
+  void describe(const Scene& scene, const View& view);
 
   std::unique_ptr<Tracer> Other;
   bool Answers = false; // the last frame's light
@@ -121,6 +138,8 @@ private:
     int depths;
   };
   std::uint64_t Version = 0;
+  std::size_t Limit = 0; // that they were to keep
+  std::string WhyNot;    // they are not in OpenGL's memory; empty: they are
   std::vector<Caster> Casters;
   glm::dvec3 Centre{ 0.0 }; // of the tree's frame, world
   std::vector<CasterNode> Tree;
@@ -149,17 +168,25 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
 {
   this->Code.lights.clear();
   this->Code.complaint.clear();
-  this->Answers = false;
-  if (settings.lightCode)
+  const auto lights = std::count_if(
+    scene.lights.begin(), scene.lights.end(), [](const Light& light) { return light.castShadow; });
+  if (settings.lightCode && lights > 0)
   {
-    this->Code.complaint = this->prepare(scene, view, settings);
-    this->Answers = this->Code.complaint.empty();
+    const std::string whyNot = lights <= MostLights
+      ? this->prepare(scene, view, settings)
+      : "OpenGL shaders have no room for rays to so many lights";
+    if (!whyNot.empty())
+    {
+      this->Code.complaint = whyNot + "; shadow maps are traced on the CPU instead.";
+    }
   }
+  this->Answers = settings.lightCode && lights > 0 && this->Code.complaint.empty();
   if (!this->Answers)
   {
     this->Other->render(scene, view, settings, parallelFor);
     return;
   }
+  this->describe(scene, view);
   this->Other->releaseLayers();
   this->Nothing.width = view.width;
   this->Nothing.height = view.height;
@@ -169,103 +196,94 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Statistics.gpuMemory = this->Octrees.bytes() + this->CasterTexels.bytes();
 }
 
-/// Has light code for a frame. A sentence about why there is none; empty if all is well.
-std::string OpenGLTracer::prepare(
+/// Has all that a frame's rays meet in OpenGL's memory. Why not, else empty.
+const std::string& OpenGLTracer::prepare(
   const Scene& scene, const View& view, const FrameSettings& settings)
 {
-  constexpr char Instead[] = "; shadow maps are traced on the CPU instead.";
-  std::vector<const Octree*> octrees;
-  std::vector<int> lights;
-  for (std::size_t i = 0; i < scene.lights.size(); ++i)
-  {
-    if (scene.lights[i].castShadow)
-    {
-      lights.push_back(static_cast<int>(i));
-    }
-  }
-  if (lights.size() > MostLights)
-  {
-    return "OpenGL shaders have no room for rays to so many lights" + std::string(Instead);
-  }
-  const bool known = scene.version != 0 && scene.version == this->Version &&
-    this->Octrees.bytes() <= settings.gpuMemoryLimit;
+  const bool known =
+    scene.version != 0 && scene.version == this->Version && this->Limit == settings.gpuMemoryLimit;
   if (!known)
   {
-    for (const Instance& instance : scene.instances)
+    this->WhyNot = this->hold(scene, settings.gpuMemoryLimit);
+    if (!this->WhyNot.empty())
     {
-      if (!instance.castShadow || !instance.body->octree || instance.body->octree.empty())
-      {
-        continue;
-      }
-      if (!instance.body->octree.surface())
-      {
-        return "OpenGL shaders meet no octrees of planes" + std::string(Instead);
-      }
-      octrees.push_back(&instance.body->octree);
-    }
-    this->Version = 0;
-    if (!this->Octrees.hold(octrees, settings.gpuMemoryLimit))
-    {
-      return "The octrees do not fit into OpenGL's memory, or into GPUMemoryLimit" +
-        std::string(Instead);
-    }
-    if (!this->placeCasters(scene))
-    {
-      return "OpenGL has no room for so many casters" + std::string(Instead);
+      this->Octrees.release();
     }
     this->Version = scene.version;
+    this->Limit = settings.gpuMemoryLimit;
   }
-  if (!known || this->WorldToView != view.worldToView)
+  if (this->WhyNot.empty() && (!known || this->WorldToView != view.worldToView))
   {
-    this->aim(scene, view);
-    this->WorldToView = view.worldToView;
+    this->aim(view);
   }
-  if (lights.size() != this->Code.lights.size() || this->Code.declarations.empty())
+  return this->WhyNot;
+}
+
+/// Has a scene's casters there, but for where the eye sees them. Why not, else empty.
+std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
+{
+  const std::vector<const Instance*> casters = castersOf(scene);
+  std::vector<const Octree*> octrees;
+  for (const Instance* caster : casters)
   {
-    this->Code.declarations = declarations(std::max<std::size_t>(lights.size(), 1));
+    if (!caster->body->octree.surface())
+    {
+      return "OpenGL shaders meet no octrees of planes";
+    }
+    octrees.push_back(&caster->body->octree);
   }
-  this->Code.lights = lights;
+  if (!this->Octrees.hold(octrees, limit))
+  {
+    return "The octrees do not fit into OpenGL's memory, or into GPUMemoryLimit";
+  }
+  return this->place(casters) ? "" : "OpenGL has no room for so many casters";
+}
+
+/// Says what VTK's shaders need for a frame.
+void OpenGLTracer::describe(const Scene& scene, const View& view)
+{
+  const glm::dmat3 turned(view.worldToView);
+  LightCode::Floats sources{ "svoLights", 4, {} };
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+  {
+    const Light& light = scene.lights[i];
+    if (light.castShadow)
+    {
+      const glm::vec3 at(
+        turned * (light.atInfinity() ? -light.direction : light.position - view.eye));
+      sources.values.insert(
+        sources.values.end(), { at.x, at.y, at.z, light.atInfinity() ? 0.0f : 1.0f });
+      this->Code.lights.push_back(static_cast<int>(i));
+    }
+  }
+  glm::dmat4 viewToTree(glm::transpose(turned)); // rigid
+  viewToTree[3] = glm::dvec4(view.eye - this->Centre, 1.0);
+  const glm::mat4 matrix(viewToTree);
+  this->Code.constants = constantsOf(this->Code.lights.size());
+  this->Code.text = svoRayWalk;
   this->Code.textures = { { "svoNodes", this->Octrees.nodes().name() },
     { "svoLists", this->Octrees.lists().name() },
     { "svoTriangles", this->Octrees.triangles().name() },
     { "svoCasters", this->CasterTexels.name() } };
   this->Code.integers = { { "svoTreeSize", { static_cast<int>(this->Tree.size()) } },
     { "svoFirstCaster", { static_cast<int>(2 * this->Tree.size()) } } };
-  const glm::dmat3 turned(view.worldToView);
-  glm::dmat4 viewToTree(glm::transpose(turned)); // rigid
-  viewToTree[3] = glm::dvec4(view.eye - this->Centre, 1.0);
-  const glm::mat4 matrix(viewToTree);
-  LightCode::Floats sources{ "svoLights", 4, {} };
-  for (const int index : lights)
-  {
-    const Light& light = scene.lights[static_cast<std::size_t>(index)];
-    const glm::vec3 at(
-      turned * (light.atInfinity() ? -light.direction : light.position - view.eye));
-    sources.values.insert(
-      sources.values.end(), { at.x, at.y, at.z, light.atInfinity() ? 0.0f : 1.0f });
-  }
   this->Code.floats = { { "svoViewToTree", 16, { &matrix[0][0], &matrix[0][0] + 16 } }, sources };
-  return {};
 }
 
-/// Makes the tree of a scene's casters and sends it; their matrices follow. False if OpenGL
-/// refuses.
-bool OpenGLTracer::placeCasters(const Scene& scene)
+/// Makes the tree of the casters and sends it; their matrices follow. False if OpenGL refuses.
+bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
 {
   this->Casters.clear();
   std::vector<Box> boxes;
   Box all;
-  for (const Instance& instance : scene.instances)
+  for (const Instance* caster : casters)
   {
-    if (instance.castShadow && instance.body->octree && !instance.body->octree.empty())
-    {
-      const Octree& octree = instance.body->octree;
-      this->Casters.push_back({ WorldToOctree(octree, instance.localToWorld),
-        instance.translucent() ? instance.opacity : 1.0f, this->Octrees.rootOf(octree),
-        octree.depthCount() });
-      boxes.push_back(worldBox(instance));
-      all.add(boxes.back());
-    }
+    const Octree& octree = caster->body->octree;
+    this->Casters.push_back(
+      { WorldToOctree(octree, caster->localToWorld), caster->translucent() ? caster->opacity : 1.0f,
+        this->Octrees.rootOf(octree), octree.depthCount() });
+    boxes.push_back(worldBox(*caster));
+    all.add(boxes.back());
   }
   this->Centre = all.known() ? 0.5 * (all.low + all.high) : glm::dvec3(0.0);
   for (Box& box : boxes)
@@ -285,8 +303,9 @@ bool OpenGLTracer::placeCasters(const Scene& scene)
 }
 
 /// Sends the matrices that take view coordinates to those of the casters' octrees.
-void OpenGLTracer::aim(const Scene&, const View& view)
+void OpenGLTracer::aim(const View& view)
 {
+  this->WorldToView = view.worldToView;
   const glm::dmat3 toWorld = glm::transpose(glm::dmat3(view.worldToView)); // rigid
   std::vector<CasterRecord> records;
   records.reserve(this->Casters.size());
@@ -324,19 +343,5 @@ void OpenGLTracer::releaseGraphicsResources()
 std::unique_ptr<Tracer> makeOpenGLTracer(std::unique_ptr<Tracer> other)
 {
   return std::make_unique<OpenGLTracer>(std::move(other));
-}
-
-bool isOnGPU()
-{
-  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  const std::string name = renderer ? renderer : "";
-  for (const char* program : { "llvmpipe", "softpipe", "SWR", "Software", "swrast" })
-  {
-    if (name.find(program) != std::string::npos)
-    {
-      return false;
-    }
-  }
-  return !name.empty();
 }
 }

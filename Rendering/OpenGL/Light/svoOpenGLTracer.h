@@ -13,11 +13,8 @@ namespace svo
 /// A tracer that does what `other` does, but for frames whose settings ask for light code
 /// (FrameNeeds::lightCode): their instances only cast, and the code has one ray a fragment and
 /// light meet the triangles of all octrees, exactly. Where it cannot, the frame gets `other`'s
-/// shadow maps, and lightComplaint() says why.
+/// shadow maps, and LightCode::complaint says why.
 VTKSVOOPENGL_EXPORT std::unique_ptr<Tracer> makeOpenGLTracer(std::unique_ptr<Tracer> other);
-
-/// True if OpenGL's current context is drawn by a GPU; false if by a program on the processor.
-VTKSVOOPENGL_EXPORT bool isOnGPU();
 }
 
 #endif

@@ -19,7 +19,7 @@ constexpr std::uint32_t SingleTriangle = 0x80000000u;
 /// 0.8 (Mesa's llvmpipe).
 constexpr std::uint32_t FewTriangles = 8;
 
-/// Triangles whose corners floats can number in a shader, which counts in signed integers.
+/// Texels that a shader can number: it counts in signed integers.
 constexpr std::size_t MostTexels = std::size_t(1) << 30;
 
 struct Record // a node in a shader's memory

@@ -44,8 +44,8 @@ glm::mat4 receiverMatrix(const ShadowMap& map, const View& eye)
   return glm::mat4(result);
 }
 
-/// The constants of svoMapLookup.glsl, and its text.
-std::string declarationsOf(
+/// The constants of svoMapLookup.glsl.
+std::string constantsOf(
   const FrameSettings& settings, std::size_t capacity, std::size_t groups, bool translucent)
 {
   std::ostringstream text;
@@ -60,7 +60,6 @@ std::string declarationsOf(
   {
     text << "const float svo" << rule.name << " = " << rule.value << ";\n";
   }
-  text << svoMapLookup;
   return text.str();
 }
 }
@@ -88,8 +87,7 @@ std::string MapCode::update(const std::vector<ShadowMap>& maps, const std::vecto
   }
 
   std::vector<const ShadowMap*> kept;
-  std::vector<int>
-    first; // map of each group, those of opaque casters first; then the number of all
+  std::vector<int> first; // map of each group, opaque casters' first; then the number of all
   std::vector<float> rows, errors;
   int firstTranslucent = 0; // map; the number of all maps if there is none
   this->Code.lights.clear();
@@ -120,7 +118,8 @@ std::string MapCode::update(const std::vector<ShadowMap>& maps, const std::vecto
   }
   // Shaders are not built anew because a light has other maps than before.
   const std::size_t capacity = std::min(std::max(kept.size(), MapsOfLight * groups.size()), most);
-  this->Code.declarations = declarationsOf(
+  this->Code.text = svoMapLookup;
+  this->Code.constants = constantsOf(
     settings, capacity, groups.size(), firstTranslucent < static_cast<int>(kept.size()));
   this->Code.textures = { { "svoMaps", this->Maps.name() } };
   this->Code.integers = { { "svoTables", this->Maps.tables() }, { "svoSize", { size } },

@@ -144,7 +144,7 @@ std::string ShadowReceivers::signature() const
     {
       text << light << ' ';
     }
-    text << this->Code->declarations;
+    text << this->Code->constants << static_cast<const void*>(this->Code->text);
   }
   return text.str();
 }
@@ -159,7 +159,7 @@ void ShadowReceivers::markShader(std::string& fragmentShader)
 
 std::string ShadowReceivers::declarations() const
 {
-  return this->Code->declarations + svoShadowReceiver;
+  return this->Code->constants + this->Code->text + svoShadowReceiver;
 }
 
 void ShadowReceivers::completeShader(

@@ -14,7 +14,8 @@ struct LightCode
   /// product. Empty: there is no code.
   std::vector<int> lights;
 
-  /// GLSL 1.50 that stands before main(). It has
+  /// GLSL 1.50 that stands before main(): constants, which may differ from frame to frame, and what
+  /// never does. The text has
   ///
   ///   float svoLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, float extent)
   ///
@@ -22,7 +23,8 @@ struct LightCode
   /// the unit normal of its own plane, towards the viewer; the unit normal that it is shaded with;
   /// how far the smooth surface lies over the facet, 0 where it does not; how wide a piece of the
   /// surface the fragment shows.
-  std::string declarations;
+  std::string constants;
+  const char* text = "";
 
   /// A buffer texture of the current context.
   struct Texture

@@ -1,4 +1,4 @@
-// The store of octrees: several levels of a mesh, built at once or in the background.
+// The store of octrees: several levels of a mesh, its messages, and what it keeps.
 #include "svoOctreeStoreCase.h"
 
 #include "svoMeshOctree.h"
@@ -22,23 +22,10 @@
 
 using Answer = svo::OctreeStore::Answer;
 
+using svotest::builtAlone;
 using svotest::bytesOf;
 using svotest::OctreeStore;
 using svotest::sphereMesh;
-
-namespace
-{
-/// The bytes that a build at this level gives when nothing else is going on.
-std::vector<std::byte> builtAlone(vtkPolyData* mesh, int level)
-{
-  svo::MeshOctreeOptions options;
-  options.level = level;
-  svo::Octree octree;
-  std::string message;
-  svo::buildMeshOctree(mesh, options, octree, message);
-  return bytesOf(octree);
-}
-}
 
 TEST_F(OctreeStore, StillFramesGetTheLevelThatTheyAskFor)
 {
@@ -51,215 +38,6 @@ TEST_F(OctreeStore, StillFramesGetTheLevelThatTheyAskFor)
   }
   EXPECT_EQ(store.built(), 3);
   EXPECT_EQ(gate.started(), 0);
-}
-
-TEST_F(OctreeStore, ACoarserOctreeIsShownWhileADeeperOneIsBuilt)
-{
-  ASSERT_EQ(find(5, true), Answer::Found);
-  for (int frame = 0; frame < 3; ++frame)
-  {
-    ASSERT_EQ(find(9, false), Answer::Found);
-    EXPECT_EQ(octree.level(), 5);
-    endFrame();
-    EXPECT_EQ(store.building(), 1);
-    EXPECT_EQ(store.built(), 1);
-  }
-  EXPECT_EQ(gate.started(), 1); // once, however many frames ask
-  gate.letThrough();
-  endFrame(); // it came too late for this one
-  EXPECT_EQ(store.building(), 1);
-  ASSERT_EQ(find(9, false), Answer::Found);
-  EXPECT_EQ(octree.level(), 9);
-  EXPECT_EQ(bytesOf(octree), builtAlone(mesh, 9));
-  EXPECT_EQ(store.building(), 0);
-  EXPECT_EQ(store.built(), 2);
-}
-
-TEST_F(OctreeStore, WithoutAnOctreeThereIsNoneUntilItIsBuilt)
-{
-  EXPECT_EQ(find(7, false), Answer::Building);
-  EXPECT_FALSE(octree);
-  gate.letThrough();
-  EXPECT_EQ(find(7, false), Answer::Found);
-}
-
-TEST_F(OctreeStore, ADeeperOctreeDoesAndNothingIsBuiltForIt)
-{
-  ASSERT_EQ(find(8, true), Answer::Found);
-  ASSERT_EQ(find(10, true), Answer::Found);
-  ASSERT_EQ(find(6, false), Answer::Found);
-  EXPECT_EQ(octree.level(), 8); // the coarsest of the deeper ones
-  EXPECT_EQ(gate.started(), 0);
-  // A still picture does not depend on what was built before.
-  ASSERT_EQ(find(6, true), Answer::Found);
-  EXPECT_EQ(octree.level(), 6);
-}
-
-TEST_F(OctreeStore, AStillFrameWaitsForTheBuildThatIsUnderWay)
-{
-  ASSERT_EQ(find(5, true), Answer::Found);
-  find(8, false);
-  ASSERT_EQ(gate.started(), 1);
-  std::vector<double> progress;
-  options.progress = [&](double amount)
-  {
-    // A still frame is waiting: now, and not before, the build may begin.
-    if (progress.empty())
-    {
-      gate.letThrough();
-    }
-    progress.push_back(amount);
-  };
-  ASSERT_EQ(find(8, true), Answer::Found);
-  EXPECT_EQ(octree.level(), 8);
-  EXPECT_FALSE(progress.empty());
-  EXPECT_EQ(store.built(), 2); // not built twice
-}
-
-TEST_F(OctreeStore, AMeshMayChangeWhileItsOctreeIsBuilt)
-{
-  const auto before = builtAlone(mesh, 8);
-  find(8, false);
-  vtkPoints* points = mesh->GetPoints();
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    points->GetPoint(i, p);
-    points->SetPoint(i, 2.0 * p[0], p[1], p[2]);
-  }
-  points->Modified();
-  const auto after = builtAlone(mesh, 8);
-  ASSERT_NE(before, after);
-  gate.letThrough();
-  endFrame();
-  // What was built is not the changed mesh's.
-  EXPECT_EQ(find(8, false), Answer::Building);
-  EXPECT_EQ(store.building(), 2);
-  gate.letThrough();
-  ASSERT_EQ(find(8, false), Answer::Found);
-  EXPECT_EQ(bytesOf(octree), after);
-  // But it is kept for when the mesh looks like that again.
-  mesh = sphereMesh(1.0);
-  ASSERT_EQ(find(8, false), Answer::Found);
-  EXPECT_EQ(bytesOf(octree), before);
-}
-
-TEST_F(OctreeStore, ABuildWhoseMeshIsGoneIsAbandoned)
-{
-  find(8, false);
-  mesh = nullptr;
-  endFrame();
-  EXPECT_EQ(store.building(), 1); // another mesh may be the same
-  for (int frame = 0; frame < 8; ++frame)
-  {
-    endFrame();
-  }
-  EXPECT_EQ(store.building(), 0);
-  gate.letThrough();
-  endFrame();
-  EXPECT_EQ(store.built(), 0);
-  // The same mesh again is built, not taken for one that cannot be.
-  mesh = sphereMesh(1.0);
-  EXPECT_EQ(find(8, true), Answer::Found);
-}
-
-TEST_F(OctreeStore, ABuildThatAnotherMeshNeedsIsNotAbandoned)
-{
-  find(8, false);
-  const vtkSmartPointer<vtkPolyData> twin = sphereMesh(1.0);
-  mesh = twin;
-  find(8, false);
-  for (int frame = 0; frame < 20; ++frame)
-  {
-    mesh = twin;
-    find(8, false);
-    mesh = nullptr;
-    endFrame();
-  }
-  EXPECT_EQ(store.building(), 1);
-  gate.letThrough();
-  mesh = twin;
-  EXPECT_EQ(find(8, false), Answer::Found);
-  EXPECT_EQ(store.built(), 1);
-}
-
-TEST_F(OctreeStore, ABuildThatNoFrameAsksForIsKeptForLater)
-{
-  find(8, false);
-  for (int frame = 0; frame < 20; ++frame)
-  {
-    endFrame();
-  }
-  EXPECT_EQ(store.building(), 1);
-  gate.letThrough();
-  endFrame();
-  EXPECT_EQ(store.building(), 0);
-  EXPECT_EQ(store.built(), 1);
-  EXPECT_GT(store.bytes(), 0u);
-  EXPECT_EQ(find(8, false), Answer::Found);
-  EXPECT_EQ(gate.started(), 0);
-}
-
-TEST_F(OctreeStore, TheStoreMayGoWhileItBuilds)
-{
-  auto own = std::make_unique<svo::OctreeStore>(); // with plain threads
-  options.wait = false;
-  EXPECT_EQ(own->find(sphereMesh(1.0, 200), 10, options, octree), Answer::Building);
-  own.reset();
-  EXPECT_FALSE(octree);
-}
-
-TEST_F(OctreeStore, WhatIsTooLargeIsSaidByTheFrameThatWaits)
-{
-  ASSERT_EQ(find(20, false), Answer::Building);
-  gate.letThrough();
-  endFrame();
-  for (int frame = 0; frame < 12; ++frame)
-  {
-    EXPECT_EQ(find(20, false), Answer::Building);
-    endFrame();
-  }
-  EXPECT_EQ(gate.started(), 0); // not tried again and again
-  EXPECT_EQ(store.building(), 0);
-  EXPECT_TRUE(said.empty());
-  EXPECT_EQ(find(20, true), Answer::None);
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_NE(said[0].find("stays with VTK's rasteriser"), std::string::npos) << said[0];
-}
-
-TEST_F(OctreeStore, WithoutAThreadTheOctreeIsBuiltByTheFrameThatWaits)
-{
-  svo::OctreeStore lonely([](std::function<void()>) -> std::thread
-    { throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again)); });
-  options.wait = false;
-  EXPECT_EQ(lonely.find(mesh, 5, options, octree), Answer::Building);
-  EXPECT_EQ(lonely.building(), 0);
-  options.wait = true;
-  EXPECT_EQ(lonely.find(mesh, 5, options, octree), Answer::Found);
-}
-
-TEST_F(OctreeStore, BuildsAtATimeAreLimited)
-{
-  std::vector<vtkSmartPointer<vtkPolyData>> meshes;
-  for (int i = 0; i < 10; ++i)
-  {
-    meshes.push_back(sphereMesh(1.0 + i));
-  }
-  int found = 0;
-  for (int frame = 0; frame < 10 && found < 10; ++frame)
-  {
-    found = 0;
-    for (const auto& each : meshes)
-    {
-      mesh = each;
-      found += find(6, false) == Answer::Found;
-    }
-    EXPECT_LE(store.building(), 4);
-    gate.letThrough();
-    endFrame();
-  }
-  EXPECT_EQ(found, 10);
-  EXPECT_EQ(store.built(), 10);
 }
 
 TEST_F(OctreeStore, OctreesThatFramesDoNotUseGoWhenMemoryIsShort)
@@ -447,47 +225,6 @@ TEST_F(OctreeStore, AreSharedByManyThreads)
     ASSERT_TRUE(each);
     EXPECT_EQ(bytesOf(each), bytesOf(found[0]));
   }
-}
-
-TEST_F(OctreeStore, AFrameThatIsAbortedWaitsForNoBuild)
-{
-  bool abort = false;
-  int asked = 0;
-  options.aborted = [&]
-  {
-    ++asked;
-    return abort;
-  };
-  options.progress = [&](double) { abort = true; };
-  EXPECT_EQ(find(9, true), Answer::Building);
-  EXPECT_GT(asked, 0);
-  EXPECT_EQ(store.built(), 0);
-  EXPECT_EQ(find(9, true), Answer::Building); // the rest of the frame, too
-  EXPECT_EQ(gate.started(), 0);
-  endFrame();
-  // The next frame has it, and nothing was said.
-  abort = false;
-  options.progress = nullptr;
-  EXPECT_EQ(find(9, true), Answer::Found);
-  EXPECT_EQ(octree.level(), 9);
-  EXPECT_TRUE(said.empty());
-  // Meanwhile another octree of the mesh does.
-  abort = true;
-  EXPECT_EQ(find(8, true), Answer::Found);
-  EXPECT_EQ(octree.level(), 9);
-}
-
-TEST_F(OctreeStore, AFrameThatIsAbortedLeavesABuildInTheBackgroundAlone)
-{
-  EXPECT_EQ(find(8, false), Answer::Building);
-  ASSERT_EQ(gate.started(), 1);
-  options.aborted = [] { return true; };
-  EXPECT_EQ(find(8, true), Answer::Building); // and does not hang
-  EXPECT_EQ(store.building(), 1);
-  gate.letThrough();
-  options.aborted = nullptr;
-  EXPECT_EQ(find(8, true), Answer::Found);
-  EXPECT_EQ(store.built(), 1);
 }
 
 TEST_F(OctreeStore, ReleasedEverythingIsBuiltAnew)

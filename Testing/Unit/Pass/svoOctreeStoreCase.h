@@ -2,6 +2,8 @@
 #ifndef svoOctreeStoreCase_h
 #define svoOctreeStoreCase_h
 
+#include "svoMeshOctree.h"
+#include "svoOctreeBytes.h"
 #include "svoOctreeStore.h"
 
 #include "vtkNew.h"
@@ -22,6 +24,17 @@
 
 namespace svotest
 {
+/// The bytes that a build at this level gives when nothing else is going on.
+inline std::vector<std::byte> builtAlone(vtkPolyData* mesh, int level)
+{
+  svo::MeshOctreeOptions options;
+  options.level = level;
+  svo::Octree octree;
+  std::string message;
+  svo::buildMeshOctree(mesh, options, octree, message);
+  return bytesOf(octree);
+}
+
 /// Background builds that begin when the test says so, on threads of their own.
 class Gate
 {
