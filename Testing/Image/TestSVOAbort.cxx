@@ -52,12 +52,12 @@ void testAbort(Checks& checks)
   stage.shadowed(); // VTK's own mappers draw nothing when they see the abort
   checks.expect(user.asked > 0, "whoever looks at the window is asked");
   checks.expect(stage.pass->GetNumberOfOctreesBuilt() == 0, "nothing is built");
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 0, "nothing is traced");
-  checks.expect(stage.pass->GetNumberOfRasterizedActors() == 2, "all is left to the rasteriser");
+  stage.expectTraced(checks, 0, "nothing is traced");
+  stage.expectRasterized(checks, 2, "all is left to the rasteriser");
   user.impatient = false;
   const Picture waited = stage.shadowed();
   checks.expect(difference(waited, wanted).largest == 0, "the next picture is complete");
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 2, "and traced");
+  stage.expectTraced(checks, 2, "and traced");
 
   // What is there is no reason to wait.
   user.impatient = true;

@@ -30,7 +30,7 @@ int TestSVOActorFlags(int, char*[])
   oracle.add(sun);
   const Picture traced = stage.shadowed();
   expectShadows(checks, oracle.judge(stage.renderer, traced, unshadowed), "flags, traced");
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 4, "all four actors are traced");
+  stage.expectTraced(checks, 4, "all four actors are traced");
 
   // The same flags hold when the rasteriser draws the actors.
   for (vtkActor* actor : { ground, first, second, third })
@@ -39,8 +39,8 @@ int TestSVOActorFlags(int, char*[])
   }
   const Picture rasterisedLit = stage.unshadowed();
   const Picture rasterised = stage.shadowed();
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 0, "no actor is traced");
-  checks.expect(stage.pass->GetNumberOfRasterizedActors() == 4, "all four are rasterised");
+  stage.expectTraced(checks, 0, "no actor is traced");
+  stage.expectRasterized(checks, 4, "all four are rasterised");
   expectShadows(
     checks, oracle.judge(stage.renderer, rasterised, rasterisedLit), "flags, rasterised");
 

@@ -63,7 +63,7 @@ int TestSVOAnnotations(int, char*[])
   const Picture raster = capture(stage.window);
   stage.usePass(true);
   const Picture traced = stage.unshadowed();
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 2, "the ground and the ball are traced");
+  stage.expectTraced(checks, 2, "the ground and the ball are traced");
 
   std::size_t drawn = 0;
   std::size_t apart = 0;

@@ -37,7 +37,7 @@ int TestSVOAssembly(int, char*[])
   stage.renderer->AddActor(all);
 
   const Picture traced = stage.unshadowed();
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 5, "two parts twice and the ground");
+  stage.expectTraced(checks, 5, "two parts twice and the ground");
   const Picture shadowed = stage.shadowed();
   stage.usePass(false);
   const Picture raster = capture(stage.window);
@@ -58,8 +58,8 @@ int TestSVOAssembly(int, char*[])
   part->GetProperty()->SetInterpolationToPBR();
   part->GetProperty()->SetMetallic(0.0);
   const Picture mixed = stage.shadowed();
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 1, "only the ground is traced");
-  checks.expect(stage.pass->GetNumberOfRasterizedActors() == 4, "the assembly is rasterised");
+  stage.expectTraced(checks, 1, "only the ground is traced");
+  stage.expectRasterized(checks, 4, "the assembly is rasterised");
   std::size_t dark = 0;
   std::size_t lost = 0;
   const Mask inner = awayFromEdges(raster, 3);

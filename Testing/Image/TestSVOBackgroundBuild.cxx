@@ -23,16 +23,17 @@ int TestSVOBackgroundBuild(int, char*[])
 
   stage.window->SetDesiredUpdateRate(15.0);
   const Picture first = stage.shadowed();
-  checks.expect(
-    stage.pass->GetNumberOfRasterizedActors() == 1 && stage.pass->GetNumberOfTracedActors() == 0,
+  const auto hasOctree = [&] { return stage.pass->GetNumberOfInstances() == 1; };
+  checks.expect(stage.pass->GetNumberOfRasterizedActors() == 1 && !hasOctree(),
     "the first interactive frame does not wait");
   Picture later;
-  for (int i = 0; i < 600 && stage.pass->GetNumberOfTracedActors() == 0; ++i)
+  for (int i = 0; i < 600 && !hasOctree(); ++i)
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     later = stage.shadowed();
   }
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 1, "a later frame traces it");
+  checks.expect(hasOctree(), "a later frame has its octree");
+  stage.expectTraced(checks, 1, "and traces it");
   stage.usePass(false);
   const Picture raster = capture(stage.window);
   stage.usePass(true);
@@ -61,7 +62,8 @@ int TestSVOBackgroundBuild(int, char*[])
     });
   stage.pass->AddObserver(vtkCommand::ProgressEvent, observer);
   capture(stage.window);
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 1, "a still render waits");
+  checks.expect(hasOctree(), "a still render waits");
+  stage.expectTraced(checks, 1, "and traces");
   std::cout << progress.calls << " reports of progress\n";
   checks.expect(progress.calls > 0 && progress.ordered, "progress goes from 0 to 1");
 
@@ -69,6 +71,7 @@ int TestSVOBackgroundBuild(int, char*[])
   source->SetRadius(0.8);
   stage.window->SetDesiredUpdateRate(15.0);
   capture(stage.window);
-  checks.expect(stage.pass->GetNumberOfRasterizedActors() == 1, "it is built in the background");
+  stage.expectRasterized(checks, 1, "it is built in the background");
+  checks.expect(!hasOctree(), "so it has none yet");
   return checks.exitCode();
 }

@@ -165,7 +165,7 @@ int TestSVOBlockAttributes(int, char*[])
     stage.unshadowed();
     test.set(attributes, root, root->GetBlock(1));
     const Picture traced = stage.unshadowed();
-    checks.expect(stage.pass->GetNumberOfRasterizedActors() == (test.traced ? 0 : 1),
+    stage.expectRasterized(checks, test.traced ? 0 : 1,
       std::string(test.name) + ": traced or rasterised as it should be");
     stage.usePass(false);
     const Picture raster = capture(stage.window);

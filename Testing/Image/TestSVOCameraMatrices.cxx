@@ -83,7 +83,7 @@ void compare(Checks& checks, const Case& camera, bool bulb)
   std::cout << camera.name << (bulb ? ", bulb: " : ", sun: ") << wrong
             << " pixels are not the raster's, " << dark << " in shadow, " << apart
             << " of them otherwise by rays\n";
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 5, camera.name + ": all is traced");
+  stage.expectTraced(checks, 5, camera.name + ": all is traced");
   checks.expect(wrong <= 4, camera.name + ": VTK's own picture");
   checks.expect(apart <= 40, camera.name + ": buffers and rays agree");
 }

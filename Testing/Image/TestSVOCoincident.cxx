@@ -71,7 +71,7 @@ int TestSVOCoincident(int, char*[])
     const Picture raster = capture(stage.window);
     stage.usePass(true);
     const Picture traced = capture(stage.window);
-    checks.expect(stage.pass->GetNumberOfTracedActors() == 3, "everything is traced");
+    stage.expectTraced(checks, 3, "everything is traced");
     const std::string name = c.name;
     std::cout << name << ": " << different(raster, traced) << " pixels differ\n";
     checks.expect(different(raster, traced) < 20, name + ": as VTK draws it");

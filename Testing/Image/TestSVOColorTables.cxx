@@ -112,7 +112,7 @@ int TestSVOColorTables(int, char*[])
     one.color(mapper, mesh);
     stage.addSun(2.0, -1.5, 4.0);
     const Picture traced = stage.unshadowed();
-    checks.expect(stage.pass->GetNumberOfTracedActors() == 2, "both actors are traced");
+    stage.expectTraced(checks, 2, "both actors are traced");
     stage.usePass(false);
     const Picture raster = capture(stage.window);
     // Of everything but silhouettes: borders between colours are the point here.

@@ -89,7 +89,7 @@ int TestSVODataSetMapper(int, char*[])
     const Picture raster = capture(stage.window);
     stage.usePass(true);
     const Picture light = stage.unshadowed();
-    checks.expect(stage.pass->GetNumberOfTracedActors() == 2, name + ": the grid is traced");
+    stage.expectTraced(checks, 2, name + ": the grid is traced");
     const Difference d = difference(raster, light, awayFromEdges(raster, 2));
     std::cout << name << ": mean " << d.mean << ", p99 " << d.p99 << " of " << d.pixels
               << " pixels\n";
@@ -120,7 +120,7 @@ int TestSVODataSetMapper(int, char*[])
   // What has a look of its own stays with the rasteriser, and casts.
   actor->GetProperty()->EdgeVisibilityOn();
   const Picture light = stage.unshadowed();
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 1, "edges are the rasteriser's");
+  stage.expectTraced(checks, 1, "edges are the rasteriser's");
   checks.expect(darker(light, stage.shadowed()) > 1000, "what shows edges casts all the same");
   return checks.exitCode();
 }

@@ -131,7 +131,7 @@ void testStill(Checks& checks, int leafGeometry, const std::string& name)
               << 100.0 * outline << " % from the full level's, " << 100.0 * fatter
               << " % from the rasteriser's; colours " << own.mean << " and " << best.mean
               << " from the rasteriser's (" << own.pixels << " pixels)\n";
-    checks.expect(adaptive.pass->GetNumberOfTracedActors() == 1, name + ": it is traced");
+    adaptive.expectTraced(checks, 1, name + ": it is traced");
     checks.expect(adaptive.pass->GetNumberOfOctreesInProgress() == 0, name + ": it waits");
     checks.expect(adaptive.pass->GetAcceptedPixelError() == 1.0, name + ": full quality");
     checks.expect(adaptive.pass->GetOctreeMemorySize() > memory, name + ": it is deepened");

@@ -83,7 +83,7 @@ void compare(
   const Picture raster = capture(stage.window);
   stage.usePass(true);
   const Picture traced = capture(stage.window);
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 1, name + ": it is traced");
+  stage.expectTraced(checks, 1, name + ": it is traced");
   int covered = 0, more = 0, wrong = 0, black = 0;
   for (std::size_t i = 0; i < raster.size(); ++i)
   {
@@ -132,7 +132,7 @@ void compareOutlines(const std::string& name, vtkAlgorithm* source, double dista
   stage.usePass(true);
   const Picture without = stage.unshadowed();
   const Picture pictures[] = { without, stage.shadowed(), stage.shadowedByRays() };
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 1, name + ": it is traced");
+  stage.expectTraced(checks, 1, name + ": it is traced");
   int covered = 0;
   for (std::size_t i = 0; i < raster.size(); ++i)
   {

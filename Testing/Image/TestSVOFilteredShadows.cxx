@@ -138,8 +138,8 @@ int TestSVOFilteredShadows(int argc, char* argv[])
   const auto buffer = [](vtkSVORenderPass* pass) { pass->SetShadowTechniqueToShadowBuffer(); };
   const Picture hard = capture(false, buffer);
   const Picture filtered = capture(true, buffer);
-  checks.expect(left.pass->GetNumberOfTracedActors() == 4, "left all is traced");
-  checks.expect(right.pass->GetNumberOfTracedActors() == 3, "right the ground is not");
+  left.expectTraced(checks, 4, "left all is traced");
+  right.expectTraced(checks, 3, "right the ground is not");
   const bool same = matchesBaseline(left.window, argc, argv);
 
   Pictures halves[2];

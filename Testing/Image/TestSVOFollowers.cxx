@@ -42,11 +42,12 @@ void expectPicture(Checks& checks, Stage& stage, int traced, const std::string& 
   const Difference look = difference(raster, unshadowed, awayFromEdges(raster, 2));
   std::cout << when << ": mean " << look.mean << ", p99 " << look.p99 << "\n";
   checks.expect(look.mean <= 1.0 && look.p99 <= 4, when + ": VTK's own picture");
-  checks.expect(stage.pass->GetNumberOfTracedActors() == traced, when + ": all are traced");
+  stage.expectTraced(checks, traced, when + ": all are traced");
 
   const Picture kept = stage.shadowed();
   vtkNew<vtkSVORenderPass> fresh;
   fresh->SetMaximumLevel(9);
+  chooseBackend(fresh);
   stage.renderer->SetPass(fresh);
   checks.expect(capture(stage.window).rgb == kept.rgb, when + ": as if drawn afresh");
   stage.usePass(true);
@@ -107,7 +108,7 @@ void expectTurned(Checks& checks)
   }
   const Picture lit = stage.unshadowed();
   expectShadows(checks, rasterized.judge(stage.renderer, stage.shadowed(), lit), "rasterised");
-  checks.expect(stage.pass->GetNumberOfRasterizedActors() == 2, "two are rasterised");
+  stage.expectRasterized(checks, 2, "two are rasterised");
 }
 
 void expectAssembly(Checks& checks)

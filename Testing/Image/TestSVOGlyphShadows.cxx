@@ -106,8 +106,7 @@ void expectLeft(const Left& one, Checks& checks)
   const Picture traced = stage.unshadowed();
   checks.expect(difference(raster, traced).p99 == 0, one.name + ": VTK's own picture");
   stage.shadowed();
-  checks.expect(
-    stage.pass->GetNumberOfInstances() == one.casters + 1, one.name + ": so many copies cast");
+  stage.expectInstances(checks, one.casters + 1, one.name + ": so many copies cast");
   const std::string reason = vtkSVORenderPass::GetReason(stage.actor);
   std::cout << one.name << ": " << reason << '\n';
   checks.expect(reason.find(one.reason) != std::string::npos, one.name + ": the reason is told");
@@ -117,7 +116,7 @@ void expectLeft(const Left& one, Checks& checks)
 void expectOthersThan(GlyphStage& stage, int copies, const std::string& name, Checks& checks)
 {
   stage.unshadowed();
-  checks.expect(stage.pass->GetNumberOfInstances() == copies, name);
+  stage.expectInstances(checks, copies, name);
 }
 
 void expectBadInput(Checks& checks)

@@ -91,8 +91,8 @@ void compare(int level, Checks& checks)
   const auto triangles = meshBall();
   Scene scene(functions), mesh(triangles);
   const Picture traced = scene.unshadowed();
-  checks.expect(scene.pass->GetNumberOfTracedActors() == 2, name + "both are traced");
-  checks.expect(scene.pass->GetNumberOfRasterizedActors() == 0, name + "nothing is rasterised");
+  scene.expectTraced(checks, 2, name + "both are traced");
+  scene.expectRasterized(checks, 0, name + "nothing is rasterised");
   mesh.usePass(false);
   const Picture raster = capture(mesh.window);
   mesh.usePass(true);
@@ -147,8 +147,7 @@ void compareRasterised(Checks& checks)
       s->renderer->SetMaximumNumberOfPeels(20);
     }
     const Picture ours = scene.shadowed(), expected = mesh.shadowed();
-    checks.expect(
-      scene.pass->GetNumberOfRasterizedActors() == 1, name + std::string(": rasterised"));
+    scene.expectRasterized(checks, 1, name + std::string(": rasterised"));
     const std::size_t wrong = count(ours, expected, 24);
     std::cout << name << ": " << wrong << " pixels are otherwise than the mesh's\n";
     // The ball has some 10 000.
@@ -172,7 +171,7 @@ int TestSVOImplicitFunction(int, char*[])
   scene.pass->SetPixelError(4.0);
   const Picture nodes = scene.unshadowed();
   std::cout << "nodes: " << count(full, nodes, 24) << " pixels differ\n";
-  checks.expect(count(full, nodes, 24) > 0, "nodes are drawn");
+  checks.expect(drawnByOpenGL() || count(full, nodes, 24) > 0, "nodes are drawn");
   checks.expect(count(full, nodes, 24) < 4 * 350, "nodes look much the same");
   scene.pass->SetPixelError(0.0);
 
@@ -186,6 +185,6 @@ int TestSVOImplicitFunction(int, char*[])
   scene.actor->SetScale(1.0, 0.6, 1.3);
   scene.actor->RotateY(30.0);
   scene.shadowed();
-  checks.expect(scene.pass->GetNumberOfTracedActors() == 2, "a stretched one is traced");
+  scene.expectTraced(checks, 2, "a stretched one is traced");
   return checks.exitCode();
 }

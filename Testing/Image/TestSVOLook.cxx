@@ -113,7 +113,7 @@ int TestSVOLook(int, char*[])
     }
     stage.usePass(true);
     const Picture traced = stage.unshadowed();
-    checks.expect(stage.pass->GetNumberOfTracedActors() == 5, "all five actors are traced");
+    stage.expectTraced(checks, 5, "all five actors are traced");
     stage.usePass(false);
     const Picture raster = capture(stage.window);
     const Mask inner = awayFromEdges(raster, 2);

@@ -59,7 +59,7 @@ void compareFlattened(Checks& checks)
     const Picture unshadowed = stage.unshadowed();
     const Picture shadowed = stage.shadowed();
     const Picture expected = thick.shadowed();
-    checks.expect(stage.pass->GetNumberOfRasterizedActors() == 1, name + ": it is rasterised");
+    stage.expectRasterized(checks, 1, name + ": it is rasterised");
     stage.usePass(false);
     const Picture raster = capture(stage.window);
     std::cout << "scale " << name << ": " << changed(raster, unshadowed)
@@ -144,7 +144,7 @@ int TestSVOMatrices(int argc, char* argv[])
   const Picture unshadowed = stage.unshadowed();
   const Picture shadowed = stage.shadowed();
   expectShadows(checks, oracle.judge(stage.renderer, shadowed, unshadowed), "matrices");
-  checks.expect(stage.pass->GetNumberOfRasterizedActors() == 0, "everything is traced");
+  stage.expectRasterized(checks, 0, "everything is traced");
 
   stage.usePass(false);
   const Picture raster = capture(stage.window);

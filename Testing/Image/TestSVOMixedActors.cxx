@@ -21,8 +21,7 @@ int TestSVOMixedActors(int argc, char* argv[])
 
   const Picture unshadowed = stage.unshadowed();
   const Picture shadowed = stage.shadowed();
-  checks.expect(
-    stage.pass->GetNumberOfRasterizedActors() == 1, "one actor is left to the rasteriser");
+  stage.expectRasterized(checks, 1, "one actor is left to the rasteriser");
   expectShadows(checks, oracle.judge(stage.renderer, shadowed, unshadowed), "mixed actors");
 
   stage.usePass(false);

@@ -113,7 +113,7 @@ Pair picturesOf(vtkAlgorithm* source, Checks& checks, const Change& change, int 
   pair.raster = capture(stage.window);
   stage.usePass(true);
   pair.traced = capture(stage.window);
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 1, "the surface is traced");
+  stage.expectTraced(checks, 1, "the surface is traced");
   return pair;
 }
 
@@ -239,7 +239,7 @@ int TestSVOMultiSamples(int argc, char* argv[])
   const Picture raster = capture(stage.window);
   stage.usePass(true);
   const Picture traced = capture(stage.window);
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 3, "all but the box are traced");
+  stage.expectTraced(checks, 3, "all but the box are traced");
   const bool same = matchesBaseline(stage.window, argc, argv);
 
   // The same without multisampling, for what an aliased edge is.

@@ -209,9 +209,8 @@ int TestSVOPassChains(int, char*[])
       const PassPointer opaque = rasteriser();
       const Picture raster = shownBy(chain.steps ? whole : opaque.Get());
       const Picture traced = shownBy(stage.pass);
-      checks.expect(stage.pass->GetNumberOfTracedActors() == 3 &&
-          stage.pass->GetNumberOfRasterizedActors() == 1,
-        "three actors are traced, one is not");
+      stage.expectTraced(checks, 3, "three actors are traced");
+      stage.expectRasterized(checks, 1, "one is not");
       std::size_t wrong = 0;
       for (std::size_t i = 0; i < raster.rgb.size(); i += 3)
       {

@@ -58,7 +58,7 @@ void check(const std::string& name, vtkAlgorithm* source, bool scalars, Checks& 
   const Picture raster = capture(stage.window);
   stage.usePass(true);
   const Picture traced = stage.unshadowed();
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 1, name + ": is traced");
+  stage.expectTraced(checks, 1, name + ": is traced");
   std::size_t wrong = 0, seen = 0;
   for (std::size_t i = 0; i < raster.size(); ++i)
   {

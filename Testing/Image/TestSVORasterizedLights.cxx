@@ -67,11 +67,11 @@ int TestSVORasterizedLights(int, char*[])
     stage.add(spike(0.9, 0.2, 1.2, 0.5), 0.8, 0.8, 0.3);
     c.light(stage);
     const Picture traced = stage.shadowed();
-    checks.expect(stage.pass->GetNumberOfRasterizedActors() == 0, c.name + ": all are traced");
+    stage.expectRasterized(checks, 0, c.name + ": all are traced");
     vtkSVORenderPass::SetUseSVO(false, ground);
     const Picture unshadowed = stage.unshadowed();
     const Picture mixed = stage.shadowed();
-    checks.expect(stage.pass->GetNumberOfRasterizedActors() == 1, c.name + ": a rasterised floor");
+    stage.expectRasterized(checks, 1, c.name + ": a rasterised floor");
 
     std::size_t dark = 0;
     std::size_t apart = 0;

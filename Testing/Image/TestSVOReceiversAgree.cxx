@@ -59,7 +59,7 @@ void compare(const std::string& name, bool bulb, int resolution, Checks& checks)
     vtkSVORenderPass::SetUseSVO(false, actor);
   }
   const Mask rasterized = shadowed(stage);
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 0, name + ": all are rasterised");
+  stage.expectTraced(checks, 0, name + ": all are rasterised");
 
   std::size_t pixels = 0, dark = 0, different = 0;
   for (std::size_t i = 0; i < traced.size(); ++i)

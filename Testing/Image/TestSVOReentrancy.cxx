@@ -103,6 +103,7 @@ struct Scene
     this->ground = this->stage.addGround();
     this->pass = vtkSmartPointer<vtkSVORenderPass>::New();
     this->pass->SetMaximumLevel(8);
+    chooseBackend(this->pass);
     this->stage.renderer->SetPass(this->pass);
   }
   vtkMapper* mapper() { return this->actor->GetMapper(); }

@@ -99,7 +99,7 @@ int TestSVOScalars(int argc, char* argv[])
     const Picture traced = capture(stages[0]->window);
     for (auto& stage : stages)
     {
-      checks.expect(stage->pass->GetNumberOfTracedActors() == 2, "both actors are traced");
+      stage->expectTraced(checks, 2, "both actors are traced");
       stage->usePass(false);
     }
     const Picture raster = capture(stages[0]->window);

@@ -87,14 +87,19 @@ int TestSVOShadowLevels(int, char*[])
             << " KiB\n";
   checks.expect(seen.ground > 3000 && seen.dark > 500, "there is a shadow to be seen");
   checks.expect(
-    large.pass->GetOctreeMemorySize() > 2 * small.pass->GetOctreeMemorySize(), "octrees differ");
+    drawnByOpenGL() || large.pass->GetOctreeMemorySize() > 2 * small.pass->GetOctreeMemorySize(),
+    "octrees differ");
   checks.expect(seen.different == 0, "shadows are the same from near and far");
 
+  if (drawnByOpenGL())
+  {
+    return checks.exitCode();
+  }
   // Automatic is buffers, through octrees of the same levels.
   const Picture buffers = large.shadowed();
   const int built = large.pass->GetNumberOfOctreesBuilt();
   large.pass->SetShadowTechniqueToAutomatic();
-  checks.expect(large.shadowed().rgb == buffers.rgb, "automatic shadows are those of buffers");
+  checks.expect(capture(large.window).rgb == buffers.rgb, "automatic shadows are those of buffers");
   checks.expect(large.pass->GetNumberOfLightsWithShadowBuffers() == 1 &&
       large.pass->GetNumberOfLightsWithShadowRays() == 0,
     "automatic shadows have a buffer");

@@ -109,8 +109,7 @@ int TestSVOTerminator(int, char*[])
           std::string(sphere ? "sphere" : "tube") + (bulb ? ", bulb, " : ", sun, ") + way.name;
         const Picture light = stage.unshadowed();
         const std::size_t byMap = changed(light, stage.shadowed());
-        checks.expect(
-          stage.pass->GetNumberOfTracedActors() == (way.traced ? 1 : 0), name + ": drawn so");
+        stage.expectTraced(checks, way.traced ? 1 : 0, name + ": drawn so");
         checks.expect(
           std::string(stage.pass->GetCastingLights()).find("casts shadows") != std::string::npos,
           name + ": the light casts");

@@ -19,8 +19,7 @@ int TestSVOTranslucent(int argc, char* argv[])
 
   const Picture unshadowed = stage.unshadowed();
   const Picture shadowed = stage.shadowed();
-  checks.expect(
-    stage.pass->GetNumberOfRasterizedActors() == 1, "the glass is left to the rasteriser");
+  stage.expectRasterized(checks, 1, "the glass is left to the rasteriser");
   expectShadows(checks, oracle.judge(stage.renderer, shadowed, unshadowed, 4), "translucent");
 
   stage.usePass(false);

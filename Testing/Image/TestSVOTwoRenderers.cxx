@@ -35,6 +35,7 @@ void expectOnePassIsEnough(Checks& checks)
   }
   vtkNew<vtkSVORenderPass> shared;
   shared->SetMaximumLevel(9);
+  chooseBackend(shared);
   shared->SetOctreeMemoryLimit(0);
   int wrong = 0;
   std::size_t most = 0;
@@ -87,7 +88,7 @@ int TestSVOTwoRenderers(int argc, char* argv[])
 
   left.pass->SetShadowTechniqueToNone();
   const Picture unshadowed = right.unshadowed();
-  left.pass->SetShadowTechniqueToShadowBuffer();
+  left.shadowed();
   const Picture shadowed = right.shadowed();
   expectShadows(checks, leftOracle.judge(left.renderer, shadowed, unshadowed), "left renderer");
   expectShadows(checks, rightOracle.judge(right.renderer, shadowed, unshadowed), "right renderer");

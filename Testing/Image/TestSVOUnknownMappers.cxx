@@ -83,7 +83,7 @@ void expectTraced(Checks& checks, vtkMapper* mapper, vtkDataObject* input, int i
   stage.usePass(true);
   const Picture traced = stage.unshadowed();
   const std::string name = std::string(mapper->GetClassName()) + " of a " + input->GetClassName();
-  checks.expect(stage.pass->GetNumberOfInstances() == instances, name + " is traced");
+  stage.expectInstances(checks, instances, name + " is traced");
   const Difference look = difference(raster, traced, awayFromEdges(raster, 2));
   std::cout << name << ": mean difference " << look.mean << ", most " << look.p99 << '\n';
   checks.expect(look.mean <= 1.0 && look.p99 <= 4, name + ": VTK's own picture");

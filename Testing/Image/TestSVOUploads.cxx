@@ -85,7 +85,7 @@ int TestSVOUploads(int, char*[])
     furnish(stage, width);
     stage.pass->SetShadowTechnique(vtkSVORenderPass::SHADOW_NONE);
     const std::size_t beside = different(expected, capture(stage.window));
-    checks.expect(stage.pass->GetNumberOfTracedActors() == 1, name + ": the ball is traced");
+    stage.expectTraced(checks, 1, name + ": the ball is traced");
     // Those that come when the pass has gone.
     stage.usePass(false);
     Stage late(stage, 0.0, 0.0, 1.0, 1.0);

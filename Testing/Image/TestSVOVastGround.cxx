@@ -87,11 +87,11 @@ int TestSVOVastGround(int, char*[])
     Grounded scene(half);
     const Picture lit = scene.stage.unshadowed();
     const Picture rays = scene.stage.shadowedByRays();
-    const Picture buffer = scene.stage.shadowed();
+    const Picture buffer = scene.stage.shadowedByBuffers();
     const std::size_t dark = apart(lit, rays);
     const std::size_t wrong = apart(buffer, rays);
     vtkSVORenderPass::SetUseSVO(false, scene.ground);
-    const std::size_t wrongOnRaster = apart(scene.stage.shadowed(), rays);
+    const std::size_t wrongOnRaster = apart(scene.stage.shadowedByBuffers(), rays);
     const std::string name = "half width " + std::to_string(static_cast<int>(half));
     std::cout << name << ": " << dark << " dark pixels, " << wrong << " wrong, " << wrongOnRaster
               << " on a rasterised ground\n";
@@ -105,17 +105,17 @@ int TestSVOVastGround(int, char*[])
   vtkNew<Warnings> warnings;
   Grounded endless(1e7);
   endless.stage.pass->AddObserver(vtkCommand::WarningEvent, warnings);
-  endless.stage.shadowed();
-  endless.stage.shadowed();
+  endless.stage.shadowedByBuffers();
+  endless.stage.shadowedByBuffers();
   checks.expect(warnings->count == 1 && warnings->text.find("vast") != std::string::npos,
     "shadows that are lost are said to be, once");
   vtkNew<Warnings> coarse;
   Grounded rough(1e5);
   rough.stage.pass->AddObserver(vtkCommand::WarningEvent, coarse);
   rough.stage.pass->SetShadowBufferResolution(16);
-  rough.stage.shadowed();
+  rough.stage.shadowedByBuffers();
   rough.stage.renderer->GetActiveCamera()->Azimuth(1.0);
-  rough.stage.shadowed();
+  rough.stage.shadowedByBuffers();
   checks.expect(coarse->count == 1 && coarse->text.find("texels") != std::string::npos,
     "maps that stay coarse are said to be, once");
   // Two maps of 2048 x 2048 texels, at 12 bytes each, hold casters nearly everywhere.
@@ -123,11 +123,11 @@ int TestSVOVastGround(int, char*[])
   Grounded fine(3.0);
   fine.stage.pass->AddObserver(vtkCommand::WarningEvent, fewer);
   fine.stage.addSun(-3.0, -2.0, 5.0);
-  fine.stage.shadowed();
+  fine.stage.shadowedByBuffers();
   checks.expect(fewer->count == 0, "of maps that there is room for nothing is said");
   fine.stage.pass->SetShadowMemoryLimit(32 * 1024);
-  fine.stage.shadowed();
-  fine.stage.shadowed();
+  fine.stage.shadowedByBuffers();
+  fine.stage.shadowedByBuffers();
   checks.expect(fewer->count == 1 && fewer->text.find("32 MiB") != std::string::npos,
     "maps that have fewer texels than were asked for are said to, once");
   return checks.exitCode();

@@ -269,7 +269,7 @@ void compareDepthWithRaster(const NamedMesh& mesh, bool silhouettesToo, Checks& 
 
   stage.pass->SetLeafGeometryToTriangle();
   const Picture triangles = capture(stage.window);
-  checks.expect(stage.pass->GetNumberOfTracedActors() == 1, mesh.name + " is traced");
+  stage.expectTraced(checks, 1, mesh.name + " is traced");
   const Agreement exact = agreement(raster, triangles, camera, 0.05 * voxelSize, everywhere);
   std::cout << mesh.name << ": triangle leaves within 0.05 voxel on " << 100.0 * exact.share()
             << " % of " << exact.both << " pixels\n";
@@ -299,7 +299,7 @@ void compareColorsWithRaster(const NamedMesh& mesh, Checks& checks)
     stage.pass->SetLeafGeometryToTriangle();
     const Picture traced = capture(stage.window);
     const std::string name = mesh.name + ", " + variant.name;
-    checks.expect(stage.pass->GetNumberOfTracedActors() == 1, name + ": traced");
+    stage.expectTraced(checks, 1, name + ": traced");
     const Mask mask = awayFromSilhouettes(raster, stage.renderer->GetActiveCamera(), 2);
     const Difference d = difference(raster, traced, mask);
     std::cout << name << ": mean " << d.mean << ", p99 " << d.p99 << ", largest " << d.largest

@@ -10,8 +10,26 @@
 #include "vtkSphereSource.h"
 #include "vtkSuperquadricSource.h"
 
+#include <cstdlib>
+#include <string_view>
+
 namespace svotest
 {
+bool drawnByOpenGL()
+{
+  const char* backend = std::getenv("VTKSVO_TEST_BACKEND");
+  return backend && backend == std::string_view("OpenGL");
+}
+
+void chooseBackend(vtkSVORenderPass* pass)
+{
+  if (drawnByOpenGL())
+  {
+    pass->SetBackendToOpenGL();
+    pass->SetShadowTechniqueToAutomatic();
+  }
+}
+
 namespace
 {
 void prepare(vtkRenderer* renderer)
@@ -38,6 +56,7 @@ Stage::Stage(int width, int height)
   this->renderer->SetPass(this->pass);
   prepare(this->renderer);
   this->pass->SetMaximumLevel(9);
+  chooseBackend(this->pass);
 }
 
 Stage::Stage(Stage& neighbour, double xmin, double ymin, double xmax, double ymax)
@@ -49,6 +68,7 @@ Stage::Stage(Stage& neighbour, double xmin, double ymin, double xmax, double yma
   this->renderer->SetPass(this->pass);
   prepare(this->renderer);
   this->pass->SetMaximumLevel(9);
+  chooseBackend(this->pass);
 }
 
 Stage::~Stage()
@@ -105,6 +125,27 @@ void Stage::usePass(bool on)
   this->renderer->SetPass(on ? this->pass.Get() : nullptr);
 }
 
+void Stage::expectTraced(Checks& checks, int actors, const std::string& sentence) const
+{
+  const int wanted = drawnByOpenGL() ? 0 : actors;
+  checks.expect(this->pass->GetNumberOfTracedActors() == wanted, sentence);
+}
+
+void Stage::expectRasterized(Checks& checks, int actors, const std::string& sentence) const
+{
+  const int rasterized = this->pass->GetNumberOfRasterizedActors();
+  checks.expect(drawnByOpenGL() ? rasterized >= actors : rasterized == actors, sentence);
+}
+
+void Stage::expectInstances(Checks& checks, int instances, const std::string& sentence)
+{
+  if (drawnByOpenGL())
+  {
+    this->shadowed();
+  }
+  checks.expect(this->pass->GetNumberOfInstances() == instances, sentence);
+}
+
 Picture Stage::unshadowed()
 {
   this->pass->SetShadowTechniqueToNone();
@@ -112,6 +153,13 @@ Picture Stage::unshadowed()
 }
 
 Picture Stage::shadowed()
+{
+  drawnByOpenGL() ? this->pass->SetShadowTechniqueToAutomatic()
+                  : this->pass->SetShadowTechniqueToShadowBuffer();
+  return capture(this->window);
+}
+
+Picture Stage::shadowedByBuffers()
 {
   this->pass->SetShadowTechniqueToShadowBuffer();
   return capture(this->window);

@@ -16,6 +16,13 @@
 
 namespace svotest
 {
+/// Whether tests are to be drawn by OpenGL, VTKSVO_TEST_BACKEND=OpenGL in the environment: VTK
+/// draws all, nothing is traced for the eye, and octrees answer for the light, by rays in its
+/// shaders.
+bool drawnByOpenGL();
+/// Has a pass draw so, if that is so. Those of stages do.
+void chooseBackend(vtkSVORenderPass* pass);
+
 /// A renderer with its pass, looking down at the origin from the side; z is up.
 class Stage
 {
@@ -36,9 +43,18 @@ public:
   vtkLight* addBulb(double x, double y, double z);
 
   void usePass(bool on);
-  /// The picture without shadows, with buffers, with rays.
+  /// That so many actors were traced for the eye, or left to the rasteriser, in the last frame.
+  /// With OpenGL none are traced, and at least so many rasterised.
+  void expectTraced(Checks& checks, int actors, const std::string& sentence) const;
+  void expectRasterized(Checks& checks, int actors, const std::string& sentence) const;
+  /// That so many instances have an octree in the frame. OpenGL needs none without shadows: another
+  /// frame is drawn, which has them.
+  void expectInstances(Checks& checks, int instances, const std::string& sentence);
+  /// The picture without shadows; with those that the backend makes by itself, buffers of the CPU
+  /// or OpenGL's rays; with either.
   Picture unshadowed();
   Picture shadowed();
+  Picture shadowedByBuffers();
   Picture shadowedByRays();
 
   vtkRenderWindow* window;

@@ -4,6 +4,7 @@ import unittest
 
 import vtk
 import vtksvo
+from backend import new_pass, traced
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 
@@ -20,7 +21,7 @@ def new_renderer(traced):
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(0.2, 0.3, 0.5)
     if traced:
-        svo = vtksvo.vtkSVORenderPass()
+        svo = new_pass()
         svo.SetShadowTechniqueToNone()
         renderer.SetPass(svo)
     return renderer
@@ -222,20 +223,20 @@ class SharedMapper(unittest.TestCase):
         window = new_window(renderer)
         svo = renderer.GetPass()
 
-        def traced():
+        def count():
             window.Render()
             return svo.GetNumberOfTracedActors()
-        self.assertEqual(traced(), 2)
+        self.assertEqual(count(), traced(2))
         other.GetProperty().SetRepresentationToWireframe()
-        self.assertEqual(traced(), 0)
+        self.assertEqual(count(), traced(0))
         other.VisibilityOff()
-        self.assertEqual(traced(), 1)
+        self.assertEqual(count(), traced(1))
         other.VisibilityOn()
-        self.assertEqual(traced(), 0)
+        self.assertEqual(count(), traced(0))
         other.SetMapper(mapper_of(cube))
-        self.assertEqual(traced(), 1)
+        self.assertEqual(count(), traced(1))
         other.SetMapper(mapper)
-        self.assertEqual(traced(), 0)
+        self.assertEqual(count(), traced(0))
         # An assembly is drawn as a whole.
         parts = vtk.vtkAssembly()
         second = mapper_of(cube)
@@ -244,9 +245,9 @@ class SharedMapper(unittest.TestCase):
         renderer.AddActor(parts)
         third = new_actor(second)
         renderer.AddActor(third)
-        self.assertEqual(traced(), 0)
+        self.assertEqual(count(), traced(0))
         renderer.RemoveActor(other)
-        self.assertEqual(traced(), 4)
+        self.assertEqual(count(), traced(4))
 
 
 class NoMeshes(unittest.TestCase):

@@ -5,6 +5,7 @@ import unittest
 import vtkmodules.vtkInteractionStyle
 import vtkmodules.vtkRenderingOpenGL2
 import vtksvo
+from backend import new_pass
 from vtkmodules.vtkCommonCore import vtkPoints, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkSphere
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
@@ -46,7 +47,7 @@ class TestCulledFaces(unittest.TestCase):
         self.window.SetSize(240, 200)
         self.renderer = vtkRenderer()
         self.window.AddRenderer(self.renderer)
-        self.svo = vtksvo.vtkSVORenderPass()
+        self.svo = new_pass()
         self.renderer.SetPass(self.svo)
         light = vtkLight()
         light.SetLightTypeToSceneLight()
@@ -124,7 +125,7 @@ class TestCulledFaces(unittest.TestCase):
         for eye in EYES + EYES[:1]:
             self.camera.SetPosition(eye)
             kept = self.picture()
-            self.svo = vtksvo.vtkSVORenderPass()
+            self.svo = new_pass()
             self.renderer.SetPass(self.svo)
             self.assertEqual(kept, self.picture())
 

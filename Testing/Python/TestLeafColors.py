@@ -4,6 +4,7 @@ import math
 import unittest
 
 import vtksvo
+from backend import OPENGL, new_pass, rasterized
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, makes render windows
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkLookupTable, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -71,7 +72,7 @@ class View:
         self.renderer.AddActor(self.actor)
         self.renderer.SetBackground(0.1, 0.1, 0.1)
         if traced:
-            self.tracer = vtksvo.vtkSVORenderPass()
+            self.tracer = new_pass()
             self.tracer.SetShadowTechniqueToNone()
             self.renderer.SetPass(self.tracer)
         self.window.SetOffScreenRendering(True)
@@ -127,7 +128,7 @@ class LeafColors(unittest.TestCase):
         drawn = self.view(self.edges.GetOutputPort(), False, name, colors).pixels()
         traced = self.view(self.octree(name), True, name, colors)
         pixels = traced.pixels()
-        self.assertEqual(traced.tracer.GetNumberOfRasterizedActors(), 0)
+        self.assertEqual(traced.tracer.GetNumberOfRasterizedActors(), rasterized(0, of=1))
         surface = sum(p != drawn[0] for p in drawn)
         self.assertGreater(surface, 8000)
         self.assertGreater(len(set(drawn)), 5)
@@ -157,6 +158,7 @@ class LeafColors(unittest.TestCase):
                                   SetBelowRangeColor=(1, 1, 1, 1), SetUseAboveRangeColor=(1,),
                                   SetAboveRangeColor=(0, 0, 0, 1)))
 
+    @unittest.skipIf(OPENGL, "the rasteriser draws a contour, with a colour for each of its cells")
     def test_transfer_function(self):
         function = vtkColorTransferFunction()
         function.AddRGBPoint(0.6, 1, 0, 0)
@@ -217,7 +219,7 @@ class LeafColors(unittest.TestCase):
 
     def test_translucent_colors_cast_as_light_as_they_are(self):
         """A ball 2 above a ground, the light from aside: of each place the nearer side of the ball counts."""
-        renderer, window, tracer = vtkRenderer(), vtkRenderWindow(), vtksvo.vtkSVORenderPass()
+        renderer, window, tracer = vtkRenderer(), vtkRenderWindow(), new_pass()
         window.SetOffScreenRendering(True)
         window.SetMultiSamples(0)
         window.SetSize(120, 60)
@@ -270,7 +272,9 @@ class LeafColors(unittest.TestCase):
                     step = (along + math.sqrt(squared)) / math.sqrt(2)
                     slope = 1.5 + (x + step) + 0.3 * (step - 2)
                     asked += 1
-                    self.assertAlmostEqual(value / lit[i], 1 - (slope - 0.4) / 2.2, delta=0.06)
+                    # Nothing but a caster's mean opacity is known there.
+                    share = 0.5 if OPENGL else 1 - (slope - 0.4) / 2.2
+                    self.assertAlmostEqual(value / lit[i], share, delta=0.06)
             self.assertTrue(technique is None or asked > 700, asked)
 
 

@@ -10,6 +10,7 @@ import unittest
 import vtkmodules.vtkInteractionStyle
 import vtkmodules.vtkRenderingOpenGL2
 import vtksvo
+from backend import OPENGL, choose, new_pass, rasterized, traced
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkRenderingLOD import vtkLODActor, vtkQuadricLODActor
@@ -39,18 +40,17 @@ class TestRecipes(unittest.TestCase):
         if not importlib.util.find_spec(package):
             self.skipTest(f"{package} is not installed")
         os.environ.setdefault("ETS_TOOLKIT", "null")
-        code = recipe(heading)
-        without = code.replace("svo = vtksvo.vtkSVORenderPass()",
-                               "svo = vtksvo.vtkSVORenderPass(); svo.SetShadowTechniqueToNone()")
-        self.assertNotEqual(code, without)
+        code, made = recipe(heading), "svo = vtksvo.vtkSVORenderPass()"
+        self.assertIn(made, code)
         pictures = []
         with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
-            for text in code, without:
-                names = {}
+            for without in "", "; svo.SetShadowTechniqueToNone()":
+                names = {"choose": choose}
+                text = code.replace(made, made + "; choose(svo)" + without)
                 exec(compile(text, PAGE, "exec"), names)
                 pictures.append(brightness(package + ".png"))
-                self.assertEqual(names["svo"].GetNumberOfTracedActors(), 2)
-                self.assertEqual(names["svo"].GetNumberOfRasterizedActors(), 0)
+                self.assertEqual(names["svo"].GetNumberOfTracedActors(), traced(2))
+                self.assertEqual(names["svo"].GetNumberOfRasterizedActors(), rasterized(0, of=2))
                 self.assertIn(": casts shadows", names["svo"].GetCastingLights())
         darker = sum(lit - dark > 20 for dark, lit in zip(*pictures))
         print(heading, darker, "pixels in the shadow")
@@ -91,7 +91,9 @@ class TestRecipes(unittest.TestCase):
         ball = vtkSphereSource()
         ball.SetCenter(0, 0, 1)
         renderer = vtkRenderer()
-        actors = [Actor(ground, vtkPolyDataMapper()), Actor(ball, Mapper()), Label(), Coarse(), Coarser()]
+        actors = [Actor(ground, vtkPolyDataMapper()), Actor(ball, Mapper()), Label(), Coarse()]
+        if not OPENGL:  # VTK 9.1 crashes where it draws one, without the pass, too
+            actors.append(Coarser())
         for place, actor in enumerate(actors[2:]):
             actor.SetMapper(vtkPolyDataMapper())
             actor.GetMapper().SetInputConnection(ball.GetOutputPort())
@@ -102,13 +104,13 @@ class TestRecipes(unittest.TestCase):
         light.SetLightTypeToSceneLight()
         light.SetPosition(3, -2, 5)
         renderer.AddLight(light)
-        svo = vtksvo.vtkSVORenderPass()
+        svo = new_pass()
         renderer.SetPass(svo)
         window = vtkRenderWindow()
         window.SetOffScreenRendering(True)
         window.AddRenderer(renderer)
         window.Render()
-        self.assertEqual(svo.GetNumberOfTracedActors(), len(actors))
+        self.assertEqual(svo.GetNumberOfTracedActors(), traced(len(actors)))
         for actor in actors:
             self.assertTrue(svo.GetCastShadow(actor))
             self.assertEqual(svo.GetReason(actor), "")

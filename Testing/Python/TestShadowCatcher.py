@@ -11,6 +11,7 @@ from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow)
+from backend import new_pass, traced
 from vtksvo import vtkSVORenderPass
 
 SIZE = (300, 200)
@@ -33,7 +34,7 @@ class TestShadowCatcher(unittest.TestCase):
         ground.SetPoint1(20.0, -20.0, 0.0)
         ground.SetPoint2(-20.0, 20.0, 0.0)
         self.ball, self.ground = actor_of(ball), actor_of(ground)
-        self.renderer, self.window, self.svo = vtkRenderer(), vtkRenderWindow(), vtkSVORenderPass()
+        self.renderer, self.window, self.svo = vtkRenderer(), vtkRenderWindow(), new_pass()
         self.window.SetMultiSamples(0)
         self.window.SetSize(*SIZE)
         self.window.AddRenderer(self.renderer)
@@ -221,7 +222,7 @@ class TestShadowCatcher(unittest.TestCase):
         self.assertEqual(self.svo.GetReasonInLastFrame(self.ball), not_chosen)
         self.svo.ShadowsForEverythingOn()
         shadowed = self.pixels()
-        self.assertEqual(self.svo.GetNumberOfTracedActors(), 2)
+        self.assertEqual(self.svo.GetNumberOfTracedActors(), traced(2))
         self.assertEqual(self.svo.GetReasonInLastFrame(self.ball), "")
         self.assertGreater((shadowed[..., 0] < plain[..., 0] - 0.1).sum(), 300)
         self.assertLess((shadowed - plain).max(), 1.5 / 255)  # traced colours are rounded elsewhere
