@@ -75,7 +75,7 @@ void compare(Checks& checks, const Case& camera, bool bulb)
   const Mask inner = awayFromEdges(raster, 2);
   stage.usePass(true);
   const Picture unshadowed = stage.unshadowed();
-  const Picture shadowed = stage.shadowed();
+  const Picture shadowed = stage.shadowedByBuffers();
   const Picture byRays = stage.shadowedByRays();
   const std::size_t wrong = changed(raster, unshadowed, inner);
   const std::size_t dark = changed(unshadowed, shadowed, inner);

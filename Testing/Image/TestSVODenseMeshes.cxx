@@ -131,7 +131,7 @@ void compareOutlines(const std::string& name, vtkAlgorithm* source, double dista
   const Picture raster = capture(stage.window);
   stage.usePass(true);
   const Picture without = stage.unshadowed();
-  const Picture pictures[] = { without, stage.shadowed(), stage.shadowedByRays() };
+  const Picture pictures[] = { without, stage.shadowedByBuffers(), stage.shadowedByRays() };
   stage.expectTraced(checks, 1, name + ": it is traced");
   int covered = 0;
   for (std::size_t i = 0; i < raster.size(); ++i)

@@ -178,8 +178,8 @@ void expectShadowsOfCopies(Checks& checks)
   vtkSVORenderPass::SetCastShadow(
     false, vtkLight::SafeDownCast(stage.renderer->GetLights()->GetItemAsObject(0)));
   const Picture unshadowed = stage.unshadowed();
-  expectShadows(
-    checks, oracle.judge(stage.renderer, stage.shadowed(), unshadowed), "copies, shadow buffer");
+  expectShadows(checks, oracle.judge(stage.renderer, stage.shadowedByBuffers(), unshadowed),
+    "copies, shadow buffer");
   expectShadows(
     checks, oracle.judge(stage.renderer, stage.shadowedByRays(), unshadowed), "copies, rays");
   checks.expect(

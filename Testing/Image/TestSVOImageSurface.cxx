@@ -261,7 +261,7 @@ void compareSigns(const ImageCase& c, Checks& checks)
       {
         scenes[i]->pass->SetPixelError(error);
         p[i] = shadows == 0 ? scenes[i]->unshadowed()
-          : shadows == 1    ? scenes[i]->shadowed()
+          : shadows == 1    ? scenes[i]->shadowedByBuffers()
                             : scenes[i]->shadowedByRays();
       }
       const std::size_t signs = count(p[0], p[1], 8), look = count(p[0], p[2], 40);

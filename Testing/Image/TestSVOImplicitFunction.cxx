@@ -109,8 +109,8 @@ void compare(int level, Checks& checks)
 
   for (const bool rays : { false, true })
   {
-    const Picture dark = rays ? scene.shadowedByRays() : scene.shadowed();
-    const Picture expected = rays ? mesh.shadowedByRays() : mesh.shadowed();
+    const Picture dark = rays ? scene.shadowedByRays() : scene.shadowedByBuffers();
+    const Picture expected = rays ? mesh.shadowedByRays() : mesh.shadowedByBuffers();
     const std::size_t wrong = count(dark, expected, 24);
     std::cout << name << (rays ? "rays" : "buffer") << ": " << wrong
               << " pixels are otherwise than the mesh's\n";

@@ -93,7 +93,7 @@ void check(
     seen += traced.depth[i] < 1.0f;
   }
   const std::size_t wrong = unlike(raster, traced, 8);
-  const std::size_t buffer = unlike(traced, stage.shadowed(), 24);
+  const std::size_t buffer = unlike(traced, stage.shadowedByBuffers(), 24);
   const std::size_t rays = unlike(traced, stage.shadowedByRays(), 24);
   std::cout << name << ": of " << seen << " pixels " << wrong << " unlike VTK's by more than 8, "
             << buffer << " in their own shadow by buffers, " << rays << " by rays\n";

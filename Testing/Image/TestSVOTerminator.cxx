@@ -108,7 +108,7 @@ int TestSVOTerminator(int, char*[])
         const std::string name =
           std::string(sphere ? "sphere" : "tube") + (bulb ? ", bulb, " : ", sun, ") + way.name;
         const Picture light = stage.unshadowed();
-        const std::size_t byMap = changed(light, stage.shadowed());
+        const std::size_t byMap = changed(light, stage.shadowedByBuffers());
         stage.expectTraced(checks, way.traced ? 1 : 0, name + ": drawn so");
         checks.expect(
           std::string(stage.pass->GetCastingLights()).find("casts shadows") != std::string::npos,
