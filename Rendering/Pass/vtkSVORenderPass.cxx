@@ -134,6 +134,7 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
     if (receiving)
     {
       this->PreRender(&frame.receivers());
+      frame.state->findLight(*state);
     }
     this->UpdateGeometry(renderer, state->GetFrameBuffer());
     if (receiving)
@@ -184,7 +185,9 @@ bool vtkSVORenderPass::SetShaderParameters(
 {
   if (svo::RendererState* current = this->Impl->current())
   {
-    current->receivers().setUniforms(program, GetReceiveShadow(prop), GetShadowCatcher(prop));
+    const svo::ShadowReceivers& receivers = current->receivers();
+    receivers.setUniforms(program, GetReceiveShadow(prop), GetShadowCatcher(prop),
+      !receivers.gathers() || !prop->HasTranslucentPolygonalGeometry());
   }
   return true;
 }

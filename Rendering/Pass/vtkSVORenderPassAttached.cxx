@@ -97,6 +97,10 @@ void vtkSVORenderPass::Attach(vtkRenderer* renderer)
       if (frame && !(frame->traced && frame->state->shows(width, height)))
       {
         this->TraceFrame(*frame, width, height);
+        if (frame->shadowed)
+        {
+          frame->state->findLight(frame->receivers());
+        }
         frame->state->present(this);
         frame->state->presenter()->SetFirst(drawsPropsFirst(renderer->GetPass()));
       }

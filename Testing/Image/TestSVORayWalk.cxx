@@ -1,6 +1,6 @@
 // The walk through octrees in GLSL meets what the processor meets in double precision, ray by ray:
 // of random rays through instances of several octrees, moved, stretched and mirrored, one of them
-// translucent, near the world's origin and far from it.
+// translucent, near the world's origin and far from it. Asked by fragments, and for a shadow mask.
 #include "svoFragments.h"
 #include "svoTestPicture.h"
 
@@ -8,6 +8,7 @@
 #include "svoLightCode.h"
 #include "svoMeshOctree.h"
 #include "svoOpenGLTracer.h"
+#include "svoShadowMask.h"
 #include "svoShadowReceivers.h"
 #include "svoWorldToOctree.h"
 
@@ -31,6 +32,8 @@ namespace
 using namespace svotest;
 
 constexpr int Across = 192; // rays, squared
+/// Steps of a share in a mask.
+constexpr float Step = 1.0f / 255.0f;
 /// Rays that pass an edge as closely as floats tell may go either way: the project's bound.
 constexpr double MostOther = 3e-4;
 
@@ -133,23 +136,64 @@ void compare(vtkOpenGLRenderWindow* window, const std::string& name, const glm::
     inputs[0].push_back({ seen.x, seen.y, seen.z, 1.0f });
     points.emplace_back(viewToWorld * glm::dvec4(seen, 1.0));
   }
+  // A plane towards both lights, but for points between them.
+  const std::string facet =
+    "  vec3 position = texelFetch(input0, at, 0).xyz;\n"
+    "  vec3 towards[2];\n"
+    "  for (int i = 0; i < 2; ++i)\n"
+    "  {\n"
+    "    towards[i] = normalize(svoLights[i].xyz - svoLights[i].w * position);\n"
+    "  }\n"
+    "  vec3 facet = normalize(towards[0] + towards[1]);\n";
   svo::ShadowReceivers receivers;
   receivers.update(window, code, 1.0, false);
+  const auto prepare = [&](vtkShaderProgram* program)
+  { receivers.setUniforms(program, true, false); };
   receivers.activate();
   const std::vector<FourFloats> found =
     runFragments(window, Across, inputs, receivers.declarations(),
-      "  vec3 position = texelFetch(input0, at, 0).xyz;\n"
-      "  float left[2];\n"
-      "  for (int i = 0; i < 2; ++i)\n"
-      "  {\n"
-      "    vec3 facet = normalize(svoLights[i].xyz - svoLights[i].w * position);\n"
-      "    left[i] = svoShown(svoLeft(i, position, facet, facet, vec3(0.0), 0.0));\n"
-      "  }\n"
-      "  gl_FragData[0] = vec4(left[0], left[1], 0.0, 1.0);\n",
-      [&](vtkShaderProgram* program) { receivers.setUniforms(program, true, false); });
-  receivers.deactivate();
+      facet +
+        "  float left[2];\n"
+        "  for (int i = 0; i < 2; ++i)\n"
+        "  {\n"
+        "    left[i] = svoShown(svoLeft(i, position, towards[i], towards[i], vec3(0.0), 0.0));\n"
+        "  }\n"
+        "  gl_FragData[0] = vec4(left[0], left[1], dot(facet, towards[0]), 1.0);\n",
+      prepare);
   checks.expect(found.size() == points.size(), name + ": the shader runs");
-  std::size_t dark = 0, dimmed = 0, other = 0;
+  std::vector<FourFloats> masks[2];
+  const svo::ShadowMask::Way ways[] = { svo::ShadowMask::Way::Fragments,
+    svo::ShadowMask::Way::Compute };
+  for (int i = 0; i < 2; ++i)
+  {
+    svo::ShadowMask mask;
+    mask.setWay(ways[i]);
+    svo::ShadowReceivers looking;
+    looking.update(window, mask.lookUp(code, Across, Across, false), 1.0, false);
+    checks.expect(looking.gathers() && mask.computes() == (i == 1), name + ": a mask");
+    mask.find(window->GetState(), code,
+      [&]
+      {
+        drawFragments(window, Across, inputs, receivers.declarations(),
+          facet +
+            "  gl_FragData[0] = svoPlaceOf(position, vec3(0.0));\n"
+            "  gl_FragData[1] = svoPlanesOf(facet, facet);\n",
+          prepare);
+      });
+    looking.activate();
+    masks[i] = runFragments(window, Across, inputs, looking.declarations(),
+      "  vec3 zero = vec3(0.0);\n"
+      "  gl_FragData[0] = vec4(svoLeft(0, zero, zero, zero, zero, 0.0),\n"
+      "    svoLeft(1, zero, zero, zero, zero, 0.0), svoShown(0.0), at.x);\n",
+      [&](vtkShaderProgram* program) { looking.setUniforms(program, true, false); });
+    looking.deactivate();
+    checks.expect(masks[i].size() == points.size(), name + ": a mask's shader runs");
+    checks.expect(mask.bytes() > 0, name + ": a mask takes memory");
+    mask.release();
+    checks.expect(mask.bytes() == 0, name + ": and gives it back");
+  }
+  receivers.deactivate();
+  std::size_t dark = 0, dimmed = 0, other = 0, masked = 0, unequal = 0;
   for (std::size_t i = 0; i < found.size(); ++i)
   {
     for (int k = 0; k < 2; ++k)
@@ -158,13 +202,19 @@ void compare(vtkOpenGLRenderWindow* window, const std::string& name, const glm::
       dark += expected == 0.0f;
       dimmed += expected > 0.0f && expected < 1.0f;
       other += std::abs(expected - found[i][k]) > 1e-5f;
+      const bool faces = found[i][2] > 0.01f;
+      masked += faces && std::abs(expected - masks[0][i][k]) > 0.51f * Step;
     }
+    unequal += masks[0][i] != masks[1][i];
   }
   std::cout << name << ": " << 2 * found.size() << " rays, " << dark << " dark, " << dimmed
-            << " dimmed, " << other << " others\n";
+            << " dimmed, " << other << " others, " << masked << " in a mask, " << unequal
+            << " otherwise in computed ones\n";
   checks.expect(dark > found.size() / 10, name + ": some are dark");
   checks.expect(copies < 4 || dimmed > found.size() / 100, name + ": some are dimmed");
   checks.expect(other <= MostOther * 2.0 * found.size(), name + ": as in double precision");
+  checks.expect(masked <= MostOther * 2.0 * found.size(), name + ": and in a mask");
+  checks.expect(unequal <= MostOther * found.size(), name + ": and in one that was computed");
   tracer->releaseGraphicsResources();
   checks.expect(tracer->lightCode().empty(), name + ": nothing is left in the context");
 }

@@ -13,7 +13,7 @@
 
 namespace svotest
 {
-std::vector<FourFloats> runFragments(vtkOpenGLRenderWindow* window, int size,
+bool drawFragments(vtkOpenGLRenderWindow* window, int size,
   const std::vector<std::vector<FourFloats>>& inputs, const std::string& declarations,
   const std::string& main, const std::function<void(vtkShaderProgram*)>& prepare)
 {
@@ -35,18 +35,10 @@ std::vector<FourFloats> runFragments(vtkOpenGLRenderWindow* window, int size,
     textures.back()->Create2DFromRaw(
       size, size, 4, VTK_FLOAT, const_cast<float*>(input.front().data()));
   }
-  std::vector<FourFloats> result;
-  vtkNew<vtkOpenGLFramebufferObject> target;
-  target->SetContext(window);
-  window->GetState()->PushFramebufferBindings();
-  target->PopulateFramebuffer(size, size, true, 1, VTK_FLOAT, false, 24, 0);
   vtkOpenGLQuadHelper quad(window, nullptr, text.c_str(), nullptr);
-  if (quad.Program && quad.Program->GetCompiled())
+  const bool made = quad.Program && quad.Program->GetCompiled();
+  if (made)
   {
-    target->Bind();
-    target->ActivateDrawBuffer(0);
-    target->ActivateReadBuffer(0);
-    target->Start(size, size);
     window->GetShaderCache()->ReadyShaderProgram(quad.Program);
     prepare(quad.Program);
     for (std::size_t i = 0; i < textures.size(); ++i)
@@ -60,6 +52,26 @@ std::vector<FourFloats> runFragments(vtkOpenGLRenderWindow* window, int size,
     {
       texture->Deactivate();
     }
+  }
+  quad.ReleaseGraphicsResources(window);
+  return made;
+}
+
+std::vector<FourFloats> runFragments(vtkOpenGLRenderWindow* window, int size,
+  const std::vector<std::vector<FourFloats>>& inputs, const std::string& declarations,
+  const std::string& main, const std::function<void(vtkShaderProgram*)>& prepare)
+{
+  std::vector<FourFloats> result;
+  vtkNew<vtkOpenGLFramebufferObject> target;
+  target->SetContext(window);
+  window->GetState()->PushFramebufferBindings();
+  target->PopulateFramebuffer(size, size, true, 1, VTK_FLOAT, false, 24, 0);
+  target->Bind();
+  target->ActivateDrawBuffer(0);
+  target->ActivateReadBuffer(0);
+  target->Start(size, size);
+  if (drawFragments(window, size, inputs, declarations, main, prepare))
+  {
     int extent[4] = { 0, size - 1, 0, size - 1 };
     const auto pixels =
       vtkSmartPointer<vtkPixelBufferObject>::Take(target->DownloadColor4(extent, VTK_FLOAT));
@@ -68,7 +80,6 @@ std::vector<FourFloats> runFragments(vtkOpenGLRenderWindow* window, int size,
     result.resize(static_cast<std::size_t>(size) * size);
     pixels->Download2D(VTK_FLOAT, result.front().data(), dims, 4, increments);
   }
-  quad.ReleaseGraphicsResources(window);
   target->ReleaseGraphicsResources(window);
   window->GetState()->PopFramebufferBindings();
   return result;

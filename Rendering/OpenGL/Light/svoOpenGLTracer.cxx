@@ -261,6 +261,7 @@ void OpenGLTracer::describe(const Scene& scene, const View& view)
   const glm::mat4 matrix(viewToTree);
   this->Code.constants = constantsOf(this->Code.lights.size());
   this->Code.text = svoRayWalk;
+  this->Code.costly = true;
   this->Code.textures = { { "svoNodes", this->Octrees.nodes().name() },
     { "svoLists", this->Octrees.lists().name() },
     { "svoTriangles", this->Octrees.triangles().name() },

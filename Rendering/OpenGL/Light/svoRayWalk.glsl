@@ -220,26 +220,28 @@ float svoLeftAlong(vec3 from, vec3 side, vec3 way, float end)
       treeWay.y < 0.0 ? min(treeWay.y, -1e-20) : max(treeWay.y, 1e-20),
       treeWay.z < 0.0 ? min(treeWay.z, -1e-20) : max(treeWay.z, 1e-20));
   int node = 0;
-  while (node < svoTreeSize && left > 0.0)
+  while (left > 0.0)
   {
-    vec4 low = texelFetch(svoCasters, 2 * node);
-    vec4 high = texelFetch(svoCasters, 2 * node + 1);
-    vec3 a = (low.xyz - treeStart) * inverse;
-    vec3 b = (high.xyz - treeStart) * inverse;
-    vec3 enters = min(a, b);
-    vec3 leaves = max(a, b);
-    if (!(max(max(max(enters.x, enters.y), enters.z), 0.0) <=
-          min(min(min(leaves.x, leaves.y), leaves.z), end)))
+    // Each ray goes to its next caster before any walks through one: rays run side by side.
+    int caster = -1;
+    while (node < svoTreeSize && caster < 0)
     {
-      node = int(low.w);
-      continue;
+      vec4 low = texelFetch(svoCasters, 2 * node);
+      vec4 high = texelFetch(svoCasters, 2 * node + 1);
+      vec3 a = (low.xyz - treeStart) * inverse;
+      vec3 b = (high.xyz - treeStart) * inverse;
+      vec3 enters = min(a, b);
+      vec3 leaves = max(a, b);
+      bool met = max(max(max(enters.x, enters.y), enters.z), 0.0) <=
+        min(min(min(leaves.x, leaves.y), leaves.z), end);
+      caster = met ? int(high.w) : -1;
+      node = met ? node + 1 : int(low.w);
     }
-    ++node;
-    if (high.w < 0.0)
+    if (caster < 0)
     {
-      continue;
+      break;
     }
-    int at = svoFirstCaster + 4 * int(high.w);
+    int at = svoFirstCaster + 4 * caster;
     vec4 x = texelFetch(svoCasters, at);
     vec4 y = texelFetch(svoCasters, at + 1);
     vec4 z = texelFetch(svoCasters, at + 2);

@@ -51,6 +51,7 @@ RendererState::RendererState(vtkRenderer* renderer, std::unique_ptr<Tracer> trac
     {
       this->Receivers.release();
       this->Maps.release();
+      this->Mask.release();
       this->Trace->releaseGraphicsResources();
     });
 }
@@ -191,13 +192,43 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   const std::string missing = this->Maps.update(
     this->Trace->shadowMaps(), scene.lights, view, settings, this->Trace->mapTexture());
   this->Complaint = this->Complaint.empty() ? missing : this->Complaint;
-  this->Receivers.update(window, code.empty() ? this->Maps.code() : code, settings.shadowIntensity,
-    this->Collected.shadowCatchers);
+  const auto translucent = [](vtkProp* prop)
+  { return prop->HasTranslucentPolygonalGeometry() != 0; };
+  const bool others = code.costly &&
+    (!samplePositions().empty() ||
+      std::any_of(this->Collected.receivers.begin(), this->Collected.receivers.end(), translucent));
+  const LightCode& known = this->Mask.lookUp(code, width, height, others);
+  this->Receivers.update(window, known.empty() ? this->Maps.code() : known,
+    settings.shadowIntensity, this->Collected.shadowCatchers);
   this->Statistics.receiverMemory = this->Maps.memory();
+  this->Statistics.tracer.gpuMemory += this->Mask.bytes();
   if (this->Complaint.empty() && settings.shadowTechnique != ShadowTechnique::None)
   {
     this->Complaint = this->lostShadows(settings);
   }
+}
+
+void RendererState::findLight(const vtkRenderState& drawn)
+{
+  if (!this->Receivers.gathers())
+  {
+    return;
+  }
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow());
+  this->Receivers.setGathers(true);
+  this->Mask.find(window->GetState(), this->Trace->lightCode(),
+    [&]
+    {
+      for (int i = 0; i < drawn.GetPropArrayCount(); ++i)
+      {
+        vtkProp* prop = drawn.GetPropArray()[i];
+        if (prop->GetVisibility() && this->Collected.receivers.count(prop) > 0)
+        {
+          prop->RenderOpaqueGeometry(this->Renderer);
+        }
+      }
+    });
+  this->Receivers.setGathers(false);
 }
 
 void RendererState::present(vtkOpenGLRenderPass* pass)

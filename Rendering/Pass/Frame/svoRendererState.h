@@ -8,6 +8,7 @@
 #include "svoPassStatistics.h"
 #include "svoSampleDistance.h"
 #include "svoSceneCollector.h"
+#include "svoShadowMask.h"
 #include "svoShadowReceivers.h"
 #include "svoSharedCasters.h"
 #include "svoTracer.h"
@@ -95,6 +96,10 @@ public:
   /// Nothing is drawn yet.
   void trace(int width, int height, const FramePace& pace, FrameSettings settings);
 
+  /// Has the frame's light found for what will be seen of the receivers among these props, which
+  /// carry the pass, where that is better than asking when they are drawn. To be called before.
+  void findLight(const vtkRenderState& drawn);
+
   /// True if what has been traced is what the renderer's camera sees now. Passes that show several
   /// directions, as a panorama does, draw the props once for each.
   bool shows(int width, int height) const;
@@ -148,6 +153,7 @@ private:
   bool SharesShadows = false; // this frame's shadow buffers are those of all processes
   bool HasPicture = false;    // the tracer has rendered this frame
   MapCode Maps;
+  ShadowMask Mask;
   ShadowReceivers Receivers;
   std::string Complaint;
   PassStatistics Statistics;

@@ -2,6 +2,7 @@
 // how much of it casters leave.
 uniform float svoReceive; // 0: no shadow falls on this surface
 uniform float svoIntensity;
+uniform float svoGather; // 1: the fragment says where it lies
 
 // Where a fragment lies whose facet covers a part of its pixel, and maybe not the centre. `inside` has
 // been interpolated there: Mesa's llvmpipe takes the centre's depth for that, so the point is moved
@@ -26,4 +27,23 @@ vec3 svoSmoothLift(vec3 position, vec3 facet, vec3 normal, vec3 corner, vec3 cor
 float svoShown(float left)
 {
   return 1.0 - svoReceive * svoIntensity * (1.0 - left);
+}
+
+// Where a fragment lies, as svoShadowMaskShader.glsl reads it: the place, with the lift's length; the
+// facet's normal and that for shading.
+vec4 svoPlaceOf(vec3 position, vec3 lift)
+{
+  return vec4(position, svoReceive > 0.0 ? length(lift) : -1.0);
+}
+
+vec2 svoFold(vec3 way)
+{
+  vec2 folded = way.xy / (abs(way.x) + abs(way.y) + abs(way.z));
+  vec2 turned = (1.0 - abs(folded.yx)) * vec2(folded.x < 0.0 ? -1.0 : 1.0, folded.y < 0.0 ? -1.0 : 1.0);
+  return way.z < 0.0 ? turned : folded;
+}
+
+vec4 svoPlanesOf(vec3 facet, vec3 normal)
+{
+  return 0.5 + 0.5 * vec4(svoFold(facet), svoFold(normal));
 }

@@ -61,6 +61,13 @@ bool sendPlaces(std::string& vertexShader, std::string& geometryShader, bool& co
   return true;
 }
 
+GLenum targetOf(LightCode::Texture::Kind kind)
+{
+  return kind == LightCode::Texture::Kind::Buffer ? GL_TEXTURE_BUFFER
+    : kind == LightCode::Texture::Kind::Plane     ? GL_TEXTURE_2D
+                                                  : GL_TEXTURE_2D_ARRAY;
+}
+
 /// Where a fragment lies, and its own plane.
 constexpr char FragmentOfFacet[] =
   "  vec3 svoPosition = vertexVC.xyz;\n"
@@ -107,7 +114,7 @@ void ShadowReceivers::update(
     {
       texture = vtkSmartPointer<vtkTextureObject>::New();
       texture->SetContext(window);
-      texture->AssignToExistingTexture(name, GL_TEXTURE_BUFFER);
+      texture->AssignToExistingTexture(name, targetOf(code.textures[i].kind));
     }
   }
 }
@@ -217,6 +224,7 @@ void ShadowReceivers::completeShader(
   const bool smooth = corner && hasNormal;
   // One loop, since compilers copy the function to wherever it is called.
   const std::string count = any ? std::to_string(this->Code->lights.size()) : std::string();
+  const std::string normal = hasNormal ? "normalVCVSOutput" : "svoFacet";
   vtkShaderProgram::Substitute(declarations, DeclarationMark,
     any ? this->declarations() + (placed ? "centroid in vec3 svoPlaceVSOutput;\n" : "") +
         (smooth ? "flat in vec3 svoCornerVSOutput;\nflat in vec3 svoCornerNormalVSOutput;\n" : "")
@@ -238,21 +246,33 @@ void ShadowReceivers::completeShader(
         count +
         "; ++i)\n"
         "  {\n"
-        "    svoShare[i] = svoLeft(i, svoPosition, svoFacet, " +
-        (hasNormal ? "normalVCVSOutput" : "svoFacet") +
+        "    svoShare[i] = svoGather > 0.0 ? 1.0 : svoLeft(i, svoPosition, svoFacet, " +
+        normal +
         ", svoLift, svoExtent);\n"
         "  }\n" +
         code.str()
         : std::string(),
     false);
+  if (any && this->Code->fromPlaces)
+  {
+    body.insert(body.rfind('}'),
+      "  if (svoGather > 0.0)\n"
+      "  {\n"
+      "    gl_FragData[0] = svoPlaceOf(svoPosition, svoLift);\n"
+      "    gl_FragData[1] = svoPlanesOf(svoFacet, " +
+        normal +
+        ");\n"
+        "  }\n");
+  }
   fragmentShader = declarations + body;
 }
 
-void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives, bool catches) const
+void ShadowReceivers::setUniforms(
+  vtkShaderProgram* program, bool receives, bool catches, bool opaque) const
 {
   if (program->IsUniformUsed("svoCatch"))
   {
-    program->SetUniformf("svoCatch", catches ? 1.0f : 0.0f);
+    program->SetUniformf("svoCatch", catches && !this->Gathers ? 1.0f : 0.0f);
   }
   if (this->empty() || !program->IsUniformUsed("svoReceive"))
   {
@@ -285,6 +305,8 @@ void ShadowReceivers::setUniforms(vtkShaderProgram* program, bool receives, bool
     }
   }
   program->SetUniformf("svoReceive", receives ? 1.0f : 0.0f);
+  program->SetUniformf("svoGather", this->Gathers ? 1.0f : 0.0f);
+  program->SetUniformf("svoOpaque", opaque ? 1.0f : 0.0f);
   program->SetUniformf("svoIntensity", this->Intensity);
 }
 }

@@ -29,6 +29,11 @@ public:
   /// True if shaders need nothing of this.
   bool idle() const { return this->empty() && !this->Catchers; }
 
+  /// True if the code wants to know where surfaces lie, before they are drawn.
+  bool gathers() const { return !this->empty() && this->Code->fromPlaces; }
+  /// While it is on, surfaces do not show light: they write where they lie (LightCode::fromPlaces).
+  void setGathers(bool on) { this->Gathers = on; }
+
   void activate();
   void deactivate();
 
@@ -39,7 +44,10 @@ public:
   static void markShader(std::string& fragmentShader);
   void completeShader(
     std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const;
-  void setUniforms(vtkShaderProgram* program, bool receives, bool catches) const;
+  /// Of a surface: whether shadows fall on it, whether these alone are seen of it, and whether
+  /// nothing is seen through it.
+  void setUniforms(
+    vtkShaderProgram* program, bool receives, bool catches, bool opaque = true) const;
 
   /// What completeShader() puts before a fragment shader's main().
   std::string declarations() const;
@@ -51,6 +59,7 @@ private:
   std::vector<vtkSmartPointer<vtkTextureObject>> Textures; // the code's, borrowed
   float Intensity = 1.0f;
   bool Catchers = false;
+  bool Gathers = false;
 };
 }
 

@@ -26,11 +26,24 @@ struct LightCode
   std::string constants;
   const char* text = "";
 
-  /// A buffer texture of the current context.
+  /// Asking takes so long that each pixel is worth to be asked once, when it is known what is seen
+  /// there (svoShadowMask.h).
+  bool costly = false;
+  /// The text reads what has been found so: surfaces are drawn once before, and say where they lie.
+  bool fromPlaces = false;
+
+  /// A texture of the current context.
   struct Texture
   {
+    enum class Kind
+    {
+      Buffer, // a buffer texture
+      Plane,  // of two dimensions
+      Layers  // an array of these
+    };
     const char* sampler;
     unsigned int name;
+    Kind kind = Kind::Buffer;
   };
   std::vector<Texture> textures;
 

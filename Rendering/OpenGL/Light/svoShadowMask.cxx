@@ -1,0 +1,406 @@
+#include "svoShadowMask.h"
+
+#include "svoMaskLookup.h"
+#include "svoOpenGL.h"
+#include "svoShadowMaskShader.h"
+
+#include "vtkOpenGLState.h"
+#include "vtkSetGet.h"
+#include "vtkTextureUnitManager.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace svo
+{
+namespace
+{
+/// Rows that are asked at a time: drivers end what takes too long.
+constexpr int Rows = 128;
+
+/// Groups of the compute shader.
+unsigned int groupsOf(int pixels)
+{
+  return static_cast<unsigned int>(pixels + 7) / 8;
+}
+
+bool hasCompute()
+{
+#ifdef GL_COMPUTE_SHADER
+  GLint major = 0, minor = 0;
+  glGetIntegerv(GL_MAJOR_VERSION, &major);
+  glGetIntegerv(GL_MINOR_VERSION, &minor);
+  return 10 * major + minor >= 43 && glDispatchCompute != nullptr;
+#else
+  return false;
+#endif
+}
+
+GLenum targetOf(LightCode::Texture::Kind kind)
+{
+  return kind == LightCode::Texture::Kind::Buffer ? GL_TEXTURE_BUFFER
+    : kind == LightCode::Texture::Kind::Plane     ? GL_TEXTURE_2D
+                                                  : GL_TEXTURE_2D_ARRAY;
+}
+
+void forgetErrors()
+{
+  for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) // of others
+  {
+  }
+}
+
+/// A texture that is looked up texel by texel.
+GLuint makeTexture(GLenum target, GLenum format, int width, int height, int layers)
+{
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  glBindTexture(target, name);
+  const bool depth = format == GL_DEPTH_COMPONENT32F;
+  const GLenum order = depth ? GL_DEPTH_COMPONENT : GL_RGBA;
+  if (target == GL_TEXTURE_2D)
+  {
+    glTexImage2D(target, 0, format, width, height, 0, order, GL_FLOAT, nullptr);
+  }
+  else
+  {
+    glTexImage3D(target, 0, format, width, height, layers, 0, order, GL_UNSIGNED_BYTE, nullptr);
+  }
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
+  glBindTexture(target, 0);
+  return name;
+}
+
+bool compile(GLuint program, GLenum kind, const std::string& text)
+{
+  const GLuint shader = glCreateShader(kind);
+  const char* source = text.c_str();
+  glShaderSource(shader, 1, &source, nullptr);
+  glCompileShader(shader);
+  GLint done = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
+  if (!done)
+  {
+    char words[1024] = "";
+    glGetShaderInfoLog(shader, sizeof(words), nullptr, words);
+    vtkGenericWarningMacro(<< "A shader of rays to lights was refused: " << words);
+  }
+  glAttachShader(program, shader);
+  glDeleteShader(shader); // with the program
+  return done != 0;
+}
+
+/// Textures of a program, bound while it runs.
+class Bound
+{
+public:
+  Bound(vtkOpenGLState* state, GLuint program)
+    : State(state)
+    , Program(program)
+  {
+  }
+  Bound(const Bound&) = delete;
+  Bound& operator=(const Bound&) = delete;
+  ~Bound()
+  {
+    for (const auto& [unit, target] : this->Units)
+    {
+      this->State->vtkglActiveTexture(GL_TEXTURE0 + unit);
+      glBindTexture(target, 0);
+      this->State->GetTextureUnitManager()->Free(unit);
+    }
+  }
+
+  void add(const char* sampler, GLenum target, GLuint name)
+  {
+    const int unit = this->State->GetTextureUnitManager()->Allocate();
+    this->State->vtkglActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(target, name);
+    glUniform1i(glGetUniformLocation(this->Program, sampler), unit);
+    this->Units.emplace_back(unit, target);
+  }
+
+private:
+  vtkOpenGLState* State;
+  GLuint Program;
+  std::vector<std::pair<int, GLenum>> Units;
+};
+
+void setUniforms(GLuint program, const LightCode& code)
+{
+  for (const LightCode::Integers& entry : code.integers)
+  {
+    glUniform1iv(glGetUniformLocation(program, entry.name),
+      static_cast<GLsizei>(entry.values.size()), entry.values.data());
+  }
+  for (const LightCode::Floats& entry : code.floats)
+  {
+    const GLint at = glGetUniformLocation(program, entry.name);
+    const auto count = static_cast<GLsizei>(entry.values.size()) / entry.components;
+    if (entry.components == 16)
+    {
+      glUniformMatrix4fv(at, count, GL_FALSE, entry.values.data());
+    }
+    else if (entry.components == 4)
+    {
+      glUniform4fv(at, count, entry.values.data());
+    }
+    else
+    {
+      glUniform1fv(at, count, entry.values.data());
+    }
+  }
+}
+
+/// A shader of all pixels has no vertices of its own.
+constexpr char AllPixels[] = "#version 150\n"
+                             "void main()\n"
+                             "{\n"
+                             "  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0,\n"
+                             "    gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
+                             "}\n";
+}
+
+const LightCode& ShadowMask::lookUp(const LightCode& asked, int width, int height, bool others)
+{
+  this->Code = LightCode();
+  if (asked.empty() || !asked.costly)
+  {
+    this->releaseTextures();
+    return asked;
+  }
+  if (!this->build(asked) || !this->resize(width, height, static_cast<int>(asked.lights.size())))
+  {
+    return asked;
+  }
+  this->Code.text = svoMaskLookup;
+  if (others)
+  {
+    this->Code = asked;
+    this->Mixed = this->Mixed.empty() ? std::string("#define svoLeft svoRayLeft\n") + asked.text +
+        "#undef svoLeft\n#define svoHasOthers\nuniform sampler2D svoPlaces;\nuniform float "
+        "svoOpaque; // 1: of this surface nothing is seen through\n" +
+        svoMaskLookup
+                                      : this->Mixed;
+    this->Code.text = this->Mixed.c_str();
+    this->Code.textures.push_back({ "svoPlaces", this->Places, LightCode::Texture::Kind::Plane });
+  }
+  this->Code.lights = asked.lights;
+  this->Code.costly = false;
+  this->Code.fromPlaces = true;
+  this->Code.textures.push_back({ "svoShares", this->Shares, LightCode::Texture::Kind::Layers });
+  this->Code.integers.push_back({ "svoFirstPixel", { 0, 0 } });
+  return this->Code;
+}
+
+void ShadowMask::find(
+  vtkOpenGLState* state, const LightCode& asked, const std::function<void()>& draw)
+{
+  int viewport[4];
+  state->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+  this->Code.integers.back().values = { viewport[0], viewport[1] };
+  using Able = vtkOpenGLState::ScopedglEnableDisable;
+  const Able blends(state, GL_BLEND), scissors(state, GL_SCISSOR_TEST), deep(state, GL_DEPTH_TEST);
+  const vtkOpenGLState::ScopedglViewport seen(state);
+  const vtkOpenGLState::ScopedglDepthMask mask(state);
+  const vtkOpenGLState::ScopedglDepthFunc compared(state);
+  const vtkOpenGLState::ScopedglColorMask colors(state);
+  state->PushFramebufferBindings();
+  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Gathering);
+  state->vtkglViewport(0, 0, this->Width, this->Height);
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglDepthFunc(GL_LEQUAL);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  const float nowhere[] = { 0.0f, 0.0f, 0.0f, -1.0f };
+  const float farthest = 1.0f;
+  glClearBufferfv(GL_COLOR, 0, nowhere);
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+  draw();
+  state->vtkglDisable(GL_DEPTH_TEST);
+  this->ask(state, asked);
+  state->PopFramebufferBindings();
+}
+
+void ShadowMask::ask(vtkOpenGLState* state, const LightCode& asked)
+{
+  const vtkOpenGLState::ScopedglActiveTexture unit(state);
+  GLint before = 0, verticesBefore = 0; // VTK knows what it has bound
+  glGetIntegerv(GL_CURRENT_PROGRAM, &before);
+  glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &verticesBefore);
+  glUseProgram(this->Program);
+  {
+    Bound textures(state, this->Program);
+    for (const LightCode::Texture& texture : asked.textures)
+    {
+      textures.add(texture.sampler, targetOf(texture.kind), texture.name);
+    }
+    textures.add("svoPlaces", GL_TEXTURE_2D, this->Places);
+    textures.add("svoPlanes", GL_TEXTURE_2D, this->Planes);
+    setUniforms(this->Program, asked);
+    const GLint firstLight = glGetUniformLocation(this->Program, "svoFirstLight");
+    const GLint firstRow = glGetUniformLocation(this->Program, "svoFirstRow");
+    state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Answering);
+    glBindVertexArray(this->Vertices);
+    for (int layer = 0; layer < this->Layers; ++layer)
+    {
+      glUniform1i(firstLight, 4 * layer);
+      if (!this->Computes)
+      {
+        glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Shares, 0, layer);
+      }
+#ifdef GL_COMPUTE_SHADER
+      else
+      {
+        glBindImageTexture(0, this->Shares, 0, GL_FALSE, layer, GL_WRITE_ONLY, GL_RGBA8);
+      }
+#endif
+      for (int row = 0; row < this->Height; row += Rows)
+      {
+        const int rows = std::min(Rows, this->Height - row);
+        if (!this->Computes)
+        {
+          state->vtkglViewport(0, row, this->Width, rows);
+          glDrawArrays(GL_TRIANGLES, 0, 3);
+        }
+#ifdef GL_COMPUTE_SHADER
+        else
+        {
+          glUniform1i(firstRow, row);
+          glDispatchCompute(groupsOf(this->Width), groupsOf(rows), 1);
+        }
+#endif
+        glFlush();
+      }
+    }
+#ifdef GL_COMPUTE_SHADER
+    if (this->Computes)
+    {
+      glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    }
+#endif
+  }
+  glBindVertexArray(static_cast<GLuint>(verticesBefore));
+  glUseProgram(static_cast<GLuint>(before));
+}
+
+/// Has the program that asks. False if it cannot be made, which is not tried again.
+bool ShadowMask::build(const LightCode& asked)
+{
+  this->Computes = this->Wanted != Way::Fragments && hasCompute();
+  const std::string text =
+    std::string(this->Computes ? "#version 430\n#define svoComputes\n" : "#version 150\n") +
+    asked.constants + asked.text + svoShadowMaskShader;
+  if (text != this->Source)
+  {
+    glDeleteProgram(this->Program);
+    this->Source = text;
+    this->Program = glCreateProgram();
+    bool done;
+#ifdef GL_COMPUTE_SHADER
+    if (this->Computes)
+    {
+      done = compile(this->Program, GL_COMPUTE_SHADER, text);
+    }
+    else
+#endif
+    {
+      done = compile(this->Program, GL_VERTEX_SHADER, AllPixels) &&
+        compile(this->Program, GL_FRAGMENT_SHADER, text);
+    }
+    GLint linked = 0;
+    glLinkProgram(this->Program);
+    glGetProgramiv(this->Program, GL_LINK_STATUS, &linked);
+    if (!done || !linked)
+    {
+      glDeleteProgram(this->Program);
+      this->Program = 0;
+    }
+  }
+  return this->Program != 0;
+}
+
+/// Has textures and framebuffers of a size. False, and nothing is there, if OpenGL refuses.
+bool ShadowMask::resize(int width, int height, int lights)
+{
+  const int layers = (lights + 3) / 4;
+  if (this->Shares != 0 && width == this->Width && height == this->Height && layers == this->Layers)
+  {
+    return true;
+  }
+  this->releaseTextures();
+  forgetErrors();
+  GLint before[3] = {};
+  glGetIntegerv(GL_TEXTURE_BINDING_2D, &before[0]);
+  glGetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &before[1]);
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before[2]);
+  this->Width = width;
+  this->Height = height;
+  this->Layers = layers;
+  this->Places = makeTexture(GL_TEXTURE_2D, GL_RGBA32F, width, height, 0);
+  this->Planes = makeTexture(GL_TEXTURE_2D, GL_RGBA16, width, height, 0);
+  this->Depths = makeTexture(GL_TEXTURE_2D, GL_DEPTH_COMPONENT32F, width, height, 0);
+  this->Shares = makeTexture(GL_TEXTURE_2D_ARRAY, GL_RGBA8, width, height, layers);
+  glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(before[0]));
+  glBindTexture(GL_TEXTURE_2D_ARRAY, static_cast<GLuint>(before[1]));
+  glGenVertexArrays(1, &this->Vertices);
+  glGenFramebuffers(1, &this->Gathering);
+  glGenFramebuffers(1, &this->Answering);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Answering);
+  glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Shares, 0, 0);
+  bool complete = glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Gathering);
+  glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Places, 0);
+  glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, this->Planes, 0);
+  glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->Depths, 0);
+  const GLenum targets[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
+  glDrawBuffers(2, targets);
+  complete = complete && glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(before[2]));
+  if (!complete || glGetError() != GL_NO_ERROR)
+  {
+    this->releaseTextures();
+    return false;
+  }
+  return true;
+}
+
+std::size_t ShadowMask::bytes() const
+{
+  return this->Shares == 0
+    ? 0
+    : static_cast<std::size_t>(this->Width) * this->Height * (16 + 8 + 4 + 4 * this->Layers);
+}
+
+void ShadowMask::releaseTextures()
+{
+  if (this->Gathering != 0)
+  {
+    const GLuint textures[] = { this->Places, this->Planes, this->Depths, this->Shares };
+    const GLuint framebuffers[] = { this->Gathering, this->Answering };
+    glDeleteTextures(4, textures);
+    glDeleteFramebuffers(2, framebuffers);
+    glDeleteVertexArrays(1, &this->Vertices);
+  }
+  this->Places = this->Planes = this->Depths = this->Shares = 0;
+  this->Gathering = this->Answering = this->Vertices = 0;
+}
+
+void ShadowMask::release()
+{
+  this->releaseTextures();
+  if (this->Program != 0)
+  {
+    glDeleteProgram(this->Program);
+  }
+  this->Program = 0;
+  this->Source.clear();
+  this->Code = LightCode();
+}
+}

@@ -1,0 +1,66 @@
+// How much of each light reaches each pixel: a picture, found once all surfaces have said where
+// they lie, so that what is hidden asks nothing, and rays run side by side whatever triangles they
+// start from. ("Deferred shadowing": a G-buffer as of Saito and Takahashi 1990, of places and
+// planes.)
+#ifndef svoShadowMask_h
+#define svoShadowMask_h
+
+#include "svoLightCode.h"
+#include "vtkSVOOpenGLModule.h"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+class vtkOpenGLState;
+
+namespace svo
+{
+/// Of one renderer. All calls are made in its context; whoever owns one is told before it goes.
+class VTKSVOOPENGL_EXPORT ShadowMask
+{
+public:
+  /// Who asks: compute shaders (OpenGL 4.3), or a triangle over all pixels.
+  enum class Way
+  {
+    Best, // compute shaders where there are any
+    Compute,
+    Fragments
+  };
+  void setWay(Way way) { this->Wanted = way; }
+
+  /// For a frame of so many pixels: code that looks up what find() will find of the code `asked`,
+  /// until the next call. With `others` there are fragments that the mask says nothing of,
+  /// translucent ones and parts of pixels: these ask themselves. `asked` itself, and nothing is to
+  /// be found, if it is not costly, or if OpenGL has no room for a mask.
+  const LightCode& lookUp(const LightCode& asked, int width, int height, bool others);
+
+  /// Fills the mask. `draw` draws the surfaces, with shaders that write where they lie as
+  /// svoShadowReceiver.glsl does while svoGather is 1, into the framebuffer that is bound then. Its
+  /// viewport is the mask's; the current one is where the code will be used.
+  void find(vtkOpenGLState* state, const LightCode& asked, const std::function<void()>& draw);
+
+  /// True if compute shaders asked last.
+  bool computes() const { return this->Computes; }
+  std::size_t bytes() const;
+  void release();
+
+private:
+  bool resize(int width, int height, int lights);
+  bool build(const LightCode& asked);
+  void releaseTextures();
+  void ask(vtkOpenGLState* state, const LightCode& asked);
+
+  Way Wanted = Way::Best;
+  bool Computes = false;
+  int Width = 0, Height = 0, Layers = 0;
+  unsigned int Places = 0, Planes = 0, Depths = 0, Shares = 0; // textures
+  unsigned int Gathering = 0, Answering = 0;                   // framebuffers
+  unsigned int Program = 0, Vertices = 0;
+  std::string Source; // of the program
+  std::string Mixed;  // text of the code for `others`
+  LightCode Code;
+};
+}
+
+#endif

@@ -1,0 +1,55 @@
+// The shares of four lights for a pixel, asked of svoLeft() (svoLightCode.h) where the surface lies
+// that is seen there.
+uniform sampler2D svoPlaces; // view coordinates, and the lift's length; below 0: nothing is asked
+uniform sampler2D svoPlanes; // the facet's normal and that for shading, folded
+uniform int svoFirstLight;
+
+// Unit vectors as an octahedron's surface (Cigolle et al. 2014, "A Survey of Efficient Representations
+// for Independent Unit Vectors").
+vec3 svoUnfold(vec2 folded)
+{
+  vec3 way = vec3(folded, 1.0 - abs(folded.x) - abs(folded.y));
+  float below = max(-way.z, 0.0);
+  way.xy += vec2(way.x < 0.0 ? below : -below, way.y < 0.0 ? below : -below);
+  return normalize(way);
+}
+
+vec4 svoSharesAt(ivec2 pixel)
+{
+  vec4 shares = vec4(1.0);
+  vec4 place = texelFetch(svoPlaces, pixel, 0);
+  if (place.w < 0.0)
+  {
+    return shares;
+  }
+  vec4 planes = 2.0 * texelFetch(svoPlanes, pixel, 0) - 1.0;
+  vec3 facet = svoUnfold(planes.xy);
+  vec3 normal = svoUnfold(planes.zw);
+  for (int i = 0; i < min(4, svoLightCount - svoFirstLight); ++i)
+  {
+    shares[i] = svoLeft(svoFirstLight + i, place.xyz, facet, normal, place.w * normal, 0.0);
+  }
+  return shares;
+}
+
+#ifdef svoComputes
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(rgba8) writeonly uniform image2D svoMask;
+uniform int svoFirstRow;
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, svoFirstRow);
+  if (all(lessThan(pixel, imageSize(svoMask))))
+  {
+    imageStore(svoMask, pixel, svoSharesAt(pixel));
+  }
+}
+#else
+out vec4 svoMask;
+
+void main()
+{
+  svoMask = svoSharesAt(ivec2(gl_FragCoord.xy));
+}
+#endif
