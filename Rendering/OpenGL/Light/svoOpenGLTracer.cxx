@@ -1,6 +1,8 @@
 #include "svoOpenGLTracer.h"
 
 #include "svoCasterTree.h"
+#include "svoLeafError.h"
+#include "svoLeafGeometry.h"
 #include "svoLightCode.h"
 #include "svoOctreeArena.h"
 #include "svoRayWalk.h"
@@ -33,8 +35,13 @@ struct CasterRecord // in a shader's memory
 {
   glm::vec4 rows[3];
   float rootHigh, rootLow, depths, opacity;
+  glm::vec4 low, high;
 };
-static_assert(sizeof(CasterRecord) == 64, "four texels");
+constexpr std::size_t CasterTexelCount = 6;
+static_assert(sizeof(CasterRecord) == CasterTexelCount * sizeof(glm::vec4), "as svoRayWalk.glsl");
+
+/// How far planes may lie over the contour of them that VTK draws, voxels.
+constexpr auto AboveContour = static_cast<float>(CubeError);
 
 /// Of the octree's mesh, in the world.
 Box worldBox(const Instance& instance)
@@ -136,6 +143,7 @@ private:
     float opacity;
     std::uint32_t root;
     int depths;
+    glm::vec4 low, high; // CasterRecord
   };
   std::uint64_t Version = 0;
   std::size_t Limit = 0; // that they were to keep
@@ -226,11 +234,12 @@ std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
   std::vector<const Octree*> octrees;
   for (const Instance* caster : casters)
   {
-    if (!caster->body->octree.surface())
+    const Octree& octree = caster->body->octree;
+    if (!octree.surface() && !octree.hasPlanes())
     {
-      return "OpenGL shaders meet no octrees of planes";
+      return "OpenGL shaders meet no octrees without triangles or planes";
     }
-    octrees.push_back(&caster->body->octree);
+    octrees.push_back(&octree);
   }
   if (!this->Octrees.hold(octrees, limit))
   {
@@ -282,7 +291,13 @@ bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
     const Octree& octree = caster->body->octree;
     this->Casters.push_back(
       { WorldToOctree(octree, caster->localToWorld), caster->translucent() ? caster->opacity : 1.0f,
-        this->Octrees.rootOf(octree), octree.depthCount() });
+        this->Octrees.rootOf(octree), octree.depthCount(), glm::vec4(0.0f), glm::vec4(0.0f) });
+    if (octree.hasPlanes())
+    {
+      const LeafQuery query(octree, { LeafGeometry::Plane, MaximumLevel });
+      this->Casters.back().low = glm::vec4(glm::vec3(query.low), 0.5 * query.ownReach);
+      this->Casters.back().high = glm::vec4(glm::vec3(query.high), AboveContour);
+    }
     boxes.push_back(worldBox(*caster));
     all.add(boxes.back());
   }
@@ -293,7 +308,7 @@ bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
     box.high -= this->Centre;
   }
   this->Tree = makeCasterTree(boxes, BoxMargin);
-  const std::size_t texels = 2 * this->Tree.size() + 4 * this->Casters.size();
+  const std::size_t texels = 2 * this->Tree.size() + CasterTexelCount * this->Casters.size();
   if (texels > BufferTexture::most() ||
     (texels > this->CasterTexels.size() && !this->CasterTexels.allocate(texels + texels / 2 + 64)))
   {
@@ -325,9 +340,11 @@ void OpenGLTracer::aim(const View& view)
     record.rootLow = static_cast<float>(caster.root % Split);
     record.depths = static_cast<float>(caster.depths);
     record.opacity = caster.opacity;
+    record.low = caster.low;
+    record.high = caster.high;
     records.push_back(record);
   }
-  this->CasterTexels.send(2 * this->Tree.size(), records.data(), 4 * records.size());
+  this->CasterTexels.send(2 * this->Tree.size(), records.data(), CasterTexelCount * records.size());
 }
 
 void OpenGLTracer::releaseGraphicsResources()

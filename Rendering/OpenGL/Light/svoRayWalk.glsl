@@ -3,13 +3,15 @@
 //
 // svoCasters holds a tree of the casters' boxes, two texels a node, in the order in which it is
 // walked: (lower corner, node after all that is below), (upper corner, caster or -1). Behind it, from
-// svoFirstCaster on, four texels a caster: the rows of the matrix that takes view coordinates to octree
-// coordinates; (root / 4096, root % 4096, depths, opacity). Boxes are in a frame of their own,
-// svoViewToTree.
+// svoFirstCaster on, six texels a caster: the rows of the matrix that takes view coordinates to octree
+// coordinates; (root / 4096, root % 4096, depths, opacity); and of octrees of planes (lower corner of
+// what they show, how far planes are seen from a voxel's centre), (upper corner, how far planes may lie
+// over what VTK draws in their place), octree coordinates and voxels. Boxes are in a frame of their own, svoViewToTree.
 //
 // svoNodes holds nodes as svoLayout.h has them (mask, mask, first child, list) with the whole arena's
 // numbers. `list` is where the node's triangles begin in svoLists (count, id, id, ...), or has
-// svoSingle set and is the only one's id; svoNone: its children have them. svoTriangles has three
+// svoSingle set and is the only one's id; svoNone: its children have them; svoOfPlanes: it is a brick
+// whose voxels have planes (svoPlane.h), in svoLists from the first child on. svoTriangles has three
 // texels a triangle: its corners, octree coordinates.
 //
 // Constants are put before it: svoLightCount, svoDoubtfulSine.
@@ -23,6 +25,7 @@ uniform mat4 svoViewToTree;
 uniform vec4 svoLights[svoLightCount]; // view coordinates: (towards it, 0), or (its place, 1)
 
 const uint svoNone = 0xffffffffu;
+const uint svoOfPlanes = 0xfffffffeu;
 const uint svoSingle = 0x80000000u;
 const float svoFar = 1e30;
 const float svoBeforeLight = 0.99999; // where rays to a light at 1 end
@@ -43,6 +46,27 @@ struct svoRay
   vec3 up;
   float end;
 };
+
+// Where the planes of an octree are seen (svoCasters), and before which end of a ray they are not
+// believed.
+struct svoEnds
+{
+  vec3 low;
+  vec3 high;
+  float reach;
+  float doubtful;
+};
+bool svoDoubted; // a ray has met one that is not
+
+// Unit vectors as an octahedron's surface (Cigolle et al. 2014, "A Survey of Efficient Representations
+// for Independent Unit Vectors").
+vec3 svoUnfold(vec2 folded)
+{
+  vec3 way = vec3(folded, 1.0 - abs(folded.x) - abs(folded.y));
+  float below = max(-way.z, 0.0);
+  way.xy += vec2(way.x < 0.0 ? below : -below, way.y < 0.0 ? below : -below);
+  return normalize(way);
+}
 
 int svoBits(uint x)
 {
@@ -94,9 +118,25 @@ bool svoMeetsAny(svoRay ray, uint list)
   return false;
 }
 
-// True if a ray from `from` along `way`, up to `end` times as far, meets a triangle of an octree;
-// octree coordinates.
-bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths)
+// True if a ray, in voxels, meets the plane of one: where that passes the voxel, or is near.
+bool svoMeetsPlane(vec3 start, vec3 speed, float end, ivec3 place, uint plane, svoEnds ends, float cells)
+{
+  vec2 folded = vec2(plane & 2047u, (plane >> 11) & 2047u) / 2047.0 * 2.0 - 1.0;
+  float offset = float(plane >> 22) / 1023.0 * 2.0 - 1.0;
+  vec3 normal = svoUnfold(folded);
+  vec3 centre = vec3(place) + 0.5 - start;
+  float t = (dot(normal, centre) + 0.8660254 * offset) / dot(normal, speed);
+  vec3 away = t * speed - centre;
+  vec3 at = 1.0 + (start + t * speed) / cells;
+  bool met = t >= 0.0 && t <= end && all(lessThanEqual(abs(away), vec3(ends.reach))) &&
+    all(greaterThanEqual(at, ends.low)) && all(lessThanEqual(at, ends.high));
+  svoDoubted = svoDoubted || (met && t < ends.doubtful);
+  return met && t >= ends.doubtful;
+}
+
+// True if a ray from `from` along `way`, up to `end` times as far, meets a triangle of an octree, or
+// a plane; octree coordinates.
+bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths, svoEnds ends)
 {
   // No direction is 0: a ray along a plane between cells would never leave it.
   float least = 1e-12 * max(max(abs(way.x), abs(way.y)), abs(way.z));
@@ -121,6 +161,7 @@ bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths)
   ray.across = normalize(cross(way, axis));
   ray.up = normalize(cross(way, ray.across));
   ray.end = end - first;
+  ends.doubtful -= first;
   last -= first;
 
   // Places in whole numbers: the cells of the last depth along an edge of the cube are 2^bits.
@@ -137,7 +178,7 @@ bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths)
   int depth = 0;
   uint node = root;
   uvec4 record = texelFetch(svoNodes, int(node));
-  if (record.w != svoNone)
+  if (record.w < svoOfPlanes)
   {
     return svoMeetsAny(ray, record.w);
   }
@@ -155,8 +196,9 @@ bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths)
     {
       uint child = record.z + uint(svoBits(half_ & (bit - 1u))) +
         (number < 32 ? 0u : uint(svoBits(record.x)));
-      uvec4 below = texelFetch(svoNodes, int(child));
-      if (below.w == svoNone)
+      bool plane = record.w == svoOfPlanes;
+      uvec4 below = plane ? uvec4(0u) : texelFetch(svoNodes, int(child));
+      if (!plane && below.w >= svoOfPlanes)
       {
         path[depth] = node;
         ++depth;
@@ -164,7 +206,9 @@ bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths)
         record = below;
         continue;
       }
-      if (svoMeetsAny(ray, below.w))
+      if (plane ? svoMeetsPlane(
+                    start, speed, ray.end, place, texelFetch(svoLists, int(child)).r, ends, cells)
+                : svoMeetsAny(ray, below.w))
       {
         return true;
       }
@@ -241,7 +285,7 @@ float svoLeftAlong(vec3 from, vec3 side, vec3 way, float end)
     {
       break;
     }
-    int at = svoFirstCaster + 4 * caster;
+    int at = svoFirstCaster + 6 * caster;
     vec4 x = texelFetch(svoCasters, at);
     vec4 y = texelFetch(svoCasters, at + 1);
     vec4 z = texelFetch(svoCasters, at + 2);
@@ -250,9 +294,29 @@ float svoLeftAlong(vec3 from, vec3 side, vec3 way, float end)
     vec3 local = vec3(dot(x, point), dot(y, point), dot(z, point));
     vec3 localSide = vec3(dot(x.xyz, side), dot(y.xyz, side), dot(z.xyz, side));
     vec3 localWay = vec3(dot(x.xyz, way), dot(y.xyz, way), dot(z.xyz, way));
-    local += svoOctreeError * max(max(abs(local.x), abs(local.y)), max(abs(local.z), 1.0)) *
-      normalize(localSide);
-    if (svoMeetsOctree(local, localWay, end, uint(what.x) * 4096u + uint(what.y), int(what.z)))
+    vec4 low = texelFetch(svoCasters, at + 4);
+    vec4 high = texelFetch(svoCasters, at + 5);
+    localSide = normalize(localSide);
+    local += svoOctreeError * max(max(abs(local.x), abs(local.y)), max(abs(local.z), 1.0)) * localSide;
+    // A ray may start behind the planes of its own surface. What it meets before it can have left
+    // them has to be met from outside of them too (ShadowRays::blocks()).
+    float outside = high.w / float(1 << (2 * int(what.z)));
+    svoEnds ends = svoEnds(low.xyz, high.xyz, low.w,
+      outside / max(dot(localSide, localWay), 0.05 * length(localWay)));
+    bool met = false;
+    for (int start = 0; start < 2; ++start)
+    {
+      svoDoubted = false;
+      met = svoMeetsOctree(
+        local, localWay, end, uint(what.x) * 4096u + uint(what.y), int(what.z), ends);
+      if (met || !svoDoubted)
+      {
+        break;
+      }
+      local += outside * localSide;
+      ends.doubtful = 0.0;
+    }
+    if (met)
     {
       left *= 1.0 - what.w;
     }

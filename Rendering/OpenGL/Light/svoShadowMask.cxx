@@ -200,6 +200,10 @@ const LightCode& ShadowMask::lookUp(const LightCode& asked, int width, int heigh
 void ShadowMask::find(
   vtkOpenGLState* state, const LightCode& asked, const std::function<void()>& draw)
 {
+  if (this->Code.empty()) // lookUp() has no mask
+  {
+    return;
+  }
   int viewport[4];
   state->vtkglGetIntegerv(GL_VIEWPORT, viewport);
   this->Code.integers.back().values = { viewport[0], viewport[1] };

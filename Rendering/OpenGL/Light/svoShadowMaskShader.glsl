@@ -1,18 +1,8 @@
 // The shares of four lights for a pixel, asked of svoLeft() (svoLightCode.h) where the surface lies
-// that is seen there.
+// that is seen there. svoUnfold() is svoRayWalk.glsl's.
 uniform sampler2D svoPlaces; // view coordinates, and the lift's length; below 0: nothing is asked
 uniform sampler2D svoPlanes; // the facet's normal and that for shading, folded
 uniform int svoFirstLight;
-
-// Unit vectors as an octahedron's surface (Cigolle et al. 2014, "A Survey of Efficient Representations
-// for Independent Unit Vectors").
-vec3 svoUnfold(vec2 folded)
-{
-  vec3 way = vec3(folded, 1.0 - abs(folded.x) - abs(folded.y));
-  float below = max(-way.z, 0.0);
-  way.xy += vec2(way.x < 0.0 ? below : -below, way.y < 0.0 ? below : -below);
-  return normalize(way);
-}
 
 vec4 svoSharesAt(ivec2 pixel)
 {

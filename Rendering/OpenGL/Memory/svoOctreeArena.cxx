@@ -13,6 +13,7 @@ namespace
 {
 // As svoRayWalk.glsl has them.
 constexpr std::uint32_t NoList = 0xffffffffu;
+constexpr std::uint32_t PlanesOfVoxels = 0xfffffffeu;
 constexpr std::uint32_t SingleTriangle = 0x80000000u;
 
 /// Nodes with so few triangles end a walk: 8 take 0.6 to 0.8 of the time without them, 64 take
@@ -52,12 +53,13 @@ bool OctreeArena::add(const std::vector<const Octree*>& octrees, std::size_t lim
     {
       continue;
     }
-    const ShortLists lists = makeShortLists(*octree, FewTriangles);
+    const Surface* surface = octree->surface();
+    const ShortLists lists = surface ? makeShortLists(*octree, FewTriangles) : ShortLists();
     const Header& header = octree->header();
     Block size;
     size.node = static_cast<std::uint32_t>(header.nodeCount);
     size.word = static_cast<std::uint32_t>(header.listWords + lists.words.size());
-    size.corner = static_cast<std::uint32_t>(3 * octree->surface()->triangles.size());
+    size.corner = static_cast<std::uint32_t>(surface ? 3 * surface->triangles.size() : 0);
     if (!this->makeRoom(size, limit))
     {
       return false;
@@ -123,7 +125,7 @@ void OctreeArena::send(const Octree& octree, const ShortLists& lists, const Bloc
   std::vector<std::uint32_t> words(octree.lists(), octree.lists() + header.listWords);
   const auto ofNodes = static_cast<std::uint32_t>(words.size());
   words.insert(words.end(), lists.words.begin(), lists.words.end());
-  for (std::size_t list = 0; list < words.size(); list += words[list] + 1)
+  for (std::size_t list = 0; !octree.hasPlanes() && list < words.size(); list += words[list] + 1)
   {
     for (std::uint32_t k = 1; k <= words[list]; ++k)
     {
@@ -139,31 +141,38 @@ void OctreeArena::send(const Octree& octree, const ShortLists& lists, const Bloc
     record.low = static_cast<std::uint32_t>(node.mask);
     record.high = static_cast<std::uint32_t>(node.mask >> 32);
     record.first = at.node + node.first;
-    if (i >= bricks)
+    record.list = NoList;
+    if (octree.hasPlanes())
+    {
+      record.list = i >= bricks ? PlanesOfVoxels : NoList;
+      record.first = i >= bricks ? at.word + node.first : record.first;
+    }
+    else if (i >= bricks)
     {
       record.list = node.first & InlineTriangle
         ? SingleTriangle | (triangle + (node.first & ~InlineTriangle))
         : at.word + node.first;
     }
-    else
+    else if (lists.begin[i] != ShortLists::None)
     {
-      record.list =
-        lists.begin[i] == ShortLists::None ? NoList : at.word + ofNodes + lists.begin[i];
-    }
-  }
-  const Surface& surface = *octree.surface();
-  std::vector<glm::vec4> corners;
-  corners.reserve(3 * surface.triangles.size());
-  for (const glm::uvec3& ids : surface.triangles)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      corners.emplace_back(surface.points[ids[k]], 0.0f);
+      record.list = at.word + ofNodes + lists.begin[i];
     }
   }
   this->Nodes.send(at.node, records.data(), records.size());
   this->Lists.send(at.word, words.data(), words.size());
-  this->Triangles.send(at.corner, corners.data(), corners.size());
+  if (const Surface* surface = octree.surface())
+  {
+    std::vector<glm::vec4> corners;
+    corners.reserve(3 * surface->triangles.size());
+    for (const glm::uvec3& ids : surface->triangles)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        corners.emplace_back(surface->points[ids[k]], 0.0f);
+      }
+    }
+    this->Triangles.send(at.corner, corners.data(), corners.size());
+  }
 }
 
 void OctreeArena::release()
