@@ -10,12 +10,13 @@
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 
+#include <cstdint>
 #include <string>
 
 vtkStandardNewMacro(vtkSVORenderPass);
 
 vtkSVORenderPass::vtkSVORenderPass()
-  : Impl(new Internals(*this))
+  : Impl(new Internals(this))
 {
 }
 
@@ -76,13 +77,13 @@ std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
 void vtkSVORenderPass::ReleaseOctrees()
 {
   Internals& impl = *this->Impl;
-  impl.releaseAsked = !impl.frames.empty(); // by an observer of a frame, which needs them
+  impl.releaseAsked = !impl.frames.idle(); // by an observer of a frame, which needs them
   if (impl.releaseAsked)
   {
     return;
   }
   impl.store.release();
-  for (auto& entry : impl.renderers)
+  for (const auto& entry : impl.frames.states())
   {
     entry.second->releaseLayers();
   }
@@ -106,7 +107,7 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
   vtkRenderer* renderer = state->GetRenderer();
   this->NumberOfRenderedProps = 0;
   const svo::OwnCamera camera(state, this);
-  if (renderer->GetSelector() || this->Impl->frameOf(renderer))
+  if (renderer->GetSelector() || this->Impl->frames.of(renderer))
   {
     renderer->GetRenderWindow()->MakeCurrent();
     camera.setUp();
@@ -119,7 +120,7 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
 
   int width, height;
   svo::sizeOf(state, width, height);
-  svo::PassFrame& frame = this->BeginFrame(renderer);
+  svo::PassFrame& frame = this->Impl->frames.begin(renderer);
   if (!this->CollectFrame(frame, width, height, &camera))
   {
     this->FinishFrame(frame);
@@ -153,10 +154,20 @@ void vtkSVORenderPass::ReleaseGraphicsResources(vtkWindow* window)
   {
     this->Superclass::ReleaseGraphicsResources(window);
   }
-  for (auto& entry : this->Impl->renderers)
+  for (const auto& entry : this->Impl->frames.states())
   {
     entry.second->releaseGraphicsResources(window);
   }
+}
+
+void vtkSVORenderPass::SetController(vtkMultiProcessController* controller)
+{
+  this->Impl->controller = controller;
+}
+
+vtkMultiProcessController* vtkSVORenderPass::GetController() const
+{
+  return this->Impl->controller;
 }
 
 bool vtkSVORenderPass::PreReplaceShaderValues(
@@ -172,7 +183,7 @@ bool vtkSVORenderPass::PreReplaceShaderValues(
 bool vtkSVORenderPass::PostReplaceShaderValues(std::string& vertexShader,
   std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp*)
 {
-  svo::RendererState* current = this->Impl->current();
+  svo::RendererState* current = this->Impl->frames.current();
   if (current && vtkOpenGLPolyDataMapper::SafeDownCast(mapper))
   {
     current->receivers().completeShader(vertexShader, geometryShader, fragmentShader);
@@ -183,7 +194,7 @@ bool vtkSVORenderPass::PostReplaceShaderValues(std::string& vertexShader,
 bool vtkSVORenderPass::SetShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper*, vtkProp* prop, vtkOpenGLVertexArrayObject*)
 {
-  if (svo::RendererState* current = this->Impl->current())
+  if (svo::RendererState* current = this->Impl->frames.current())
   {
     const svo::ShadowReceivers& receivers = current->receivers();
     receivers.setUniforms(program, GetReceiveShadow(prop), GetShadowCatcher(prop),
@@ -195,6 +206,57 @@ bool vtkSVORenderPass::SetShaderParameters(
 vtkMTimeType vtkSVORenderPass::GetShaderStageMTime()
 {
   return this->Impl->shaderTime.GetMTime();
+}
+
+const svo::PassStatistics& vtkSVORenderPass::LastFrame() const
+{
+  return this->Impl->statistics;
+}
+
+vtkIdType vtkSVORenderPass::GetNumberOfCulledInstances(int step) const
+{
+  const svo::FrameStatistics& frame = this->Impl->statistics.tracer;
+  const std::uint64_t numbers[] = { frame.outsideInstances, frame.hiddenInstances,
+    frame.smallInstances, frame.sparedCasters };
+  return step >= CULLED_BY_VIEW && step <= CULLED_CASTERS ? static_cast<vtkIdType>(numbers[step])
+                                                          : 0;
+}
+
+vtkIdType vtkSVORenderPass::GetNumberOfCulledInstances() const
+{
+  return this->GetNumberOfCulledInstances(CULLED_BY_VIEW) +
+    this->GetNumberOfCulledInstances(CULLED_BY_OCCLUSION) +
+    this->GetNumberOfCulledInstances(CULLED_BY_DETAIL);
+}
+
+const char* vtkSVORenderPass::GetCastingLights() const
+{
+  return this->Impl->statistics.castingLights.c_str();
+}
+
+double vtkSVORenderPass::GetImageSampleDistance() const
+{
+  return this->Impl->statistics.sampleDistance();
+}
+
+double vtkSVORenderPass::GetAcceptedPixelError() const
+{
+  return this->Impl->statistics.acceptedError(this->PixelError);
+}
+
+int vtkSVORenderPass::GetNumberOfOctreesBuilt() const
+{
+  return this->Impl->store.built();
+}
+
+int vtkSVORenderPass::GetNumberOfOctreesInProgress() const
+{
+  return this->Impl->store.building();
+}
+
+vtkIdType vtkSVORenderPass::GetOctreeMemorySize() const
+{
+  return static_cast<vtkIdType>(this->Impl->store.bytes() / svo::BytesOfKiB);
 }
 
 void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)

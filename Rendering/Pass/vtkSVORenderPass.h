@@ -34,7 +34,7 @@
  * several renderers; statistics are those of the one rendered last. A host that keeps the
  * renderer's passes to itself, as ParaView does, calls Attach() instead.
  *
- * @sa vtkSVOPassSettings vtkPolyDataToSVO vtkSparseVoxelOctree
+ * @sa vtkSVOPassSettings vtkSVOPropSettings vtkPolyDataToSVO vtkSparseVoxelOctree
  */
 #ifndef vtkSVORenderPass_h
 #define vtkSVORenderPass_h
@@ -42,22 +42,20 @@
 #include "vtkSVOPassModule.h"   // for the export macro
 #include "vtkSVOPassSettings.h" // for its settings
 
-#include <functional> // for std::function
-#include <memory>     // for std::unique_ptr
-#include <string>     // for std::string
+#include <memory> // for std::unique_ptr
+#include <string> // for std::string
 
-class vtkInformationDoubleKey;
-class vtkInformationIntegerKey;
 class vtkLight;
 class vtkMultiProcessController;
 class vtkProp;
-class vtkRenderWindow;
 class vtkRenderer;
 #ifndef __VTK_WRAP__
 namespace svo
 {
+class AttachedRenderer;
 class OwnCamera;
 class Tracer;
+struct FrameSettings;
 struct PassFrame;
 }
 #endif
@@ -93,91 +91,6 @@ public:
    * DetailCullingThreshold left out.
    */
   double GetAcceptedPixelError() const;
-
-  //@{
-  /**
-   * Whether a prop casts shadows; without an answer every surface does that is to be seen, and what
-   * is translucent as light as it is: see SetTranslucentShadows(). Of surfaces whose colours, by
-   * lookup table, opacity array or block, are invisible in places, the other cells do. An answer of
-   * true has all of a surface cast, like an opaque one, and like one that its mapper does not clip;
-   * without that, what a mapper clips casts nothing. Get says what the next frame will do as far
-   * as it depends on the prop, and false of what never casts: wireframes, volumes, widgets, props
-   * that are not visible.
-   */
-  static void SetCastShadow(bool cast, vtkProp* prop);
-  static bool GetCastShadow(vtkProp* prop);
-  //@}
-
-  /**
-   * Why a prop is left to the rasteriser, or casts no shadow or less than its whole one: sentences
-   * for people. Empty if it is traced and casts. Like GetCastShadow() it goes by the prop alone,
-   * and takes it for granted that TranslucentShadows is on.
-   */
-  static std::string GetReason(vtkProp* prop);
-
-  //@{
-  /**
-   * Whether a light casts shadows; without an answer every light does but a headlight and, of
-   * several camera lights, all but the brightest. Get says what the next frame will do: false of a
-   * light that is switched off, and of a camera light whether it is the brightest of the renderer
-   * that a pass has drawn it in last. Until it has been drawn it counts as the only one.
-   */
-  static void SetCastShadow(bool cast, vtkLight* light);
-  static bool GetCastShadow(vtkLight* light);
-  //@}
-
-  //@{
-  /**
-   * Whether shadows fall on a prop; default true.
-   */
-  static void SetReceiveShadow(bool receive, vtkProp* prop);
-  static bool GetReceiveShadow(vtkProp* prop);
-  //@}
-
-  //@{
-  /**
-   * Whether nothing is seen of an actor but the shadows on it; default false. What is behind it,
-   * the background in most cases, is darkened by the share of the light that shadows take from a
-   * white surface in its place, times the opacity of the actor's property; where no shadow falls
-   * nothing is changed. In pictures with a transparent background a shadow is black, and
-   * transparent where it is light. It is drawn among translucent surfaces (ForceTranslucent of the
-   * actor is switched on, and off again), takes part in depth peeling as they do, and casts
-   * nothing. Its colours and specular light do not matter; a physically based material hides it,
-   * and so do lights that cast nothing. Without this pass it is an ordinary surface.
-   */
-  static void SetShadowCatcher(bool catches, vtkProp* actor);
-  static bool GetShadowCatcher(vtkProp* actor);
-  //@}
-
-  //@{
-  /**
-   * Whether a prop may be traced at all; default true. False leaves it to the rasteriser; it casts
-   * and receives shadows as before.
-   */
-  static void SetUseSVO(bool use, vtkProp* prop);
-  static bool GetUseSVO(vtkProp* prop);
-  //@}
-
-  //@{
-  /**
-   * A prop's own PixelError, 0..64; negative (the default): the pass's. Not a number: refused, with
-   * a warning.
-   */
-  static void SetPropPixelError(double error, vtkProp* prop);
-  static double GetPropPixelError(vtkProp* prop);
-  //@}
-
-  //@{
-  /**
-   * Keys behind the static helpers above. Those of props live in vtkProp::GetPropertyKeys() and are
-   * not copied by vtkProp::ShallowCopy(); those of lights in vtkLight::GetInformation().
-   */
-  static vtkInformationIntegerKey* CAST_SHADOW();
-  static vtkInformationIntegerKey* RECEIVE_SHADOW();
-  static vtkInformationIntegerKey* USE_SVO();
-  static vtkInformationIntegerKey* SHADOW_CATCHER();
-  static vtkInformationDoubleKey* PIXEL_ERROR();
-  //@}
 
   enum CullingSteps
   {
@@ -303,7 +216,6 @@ protected:
   virtual std::string GetText(int text, vtkLight* about) const;
 
 #ifndef __VTK_WRAP__
-  void Fill(svo::TracerSettings& settings) const override;
   const svo::PassStatistics& LastFrame() const override;
 
   /**
@@ -314,14 +226,11 @@ protected:
 #endif
 
 private:
-  void BeginAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
-  void EndAttachedFrame(vtkObject* renderer, unsigned long event, void* data);
-  void ForgetAttached(vtkObject* renderer, unsigned long event, void* data);
 #ifndef __VTK_WRAP__
-  svo::PassFrame& BeginFrame(vtkRenderer* renderer);
+  void HearAttached(vtkRenderer* renderer, unsigned long event);
+  void BeginAttachedFrame(svo::AttachedRenderer& attached);
   bool CollectFrame(svo::PassFrame& frame, int width, int height, const svo::OwnCamera* camera);
-  std::function<bool()> AbortOf(vtkRenderWindow* window, bool ask, bool& disturbed);
-  void DecideSettings(svo::PassFrame& frame);
+  svo::FrameSettings AskedSettings() const;
   void TraceFrame(svo::PassFrame& frame, int width, int height);
   void FinishFrame(svo::PassFrame& frame);
 #endif

@@ -6,52 +6,11 @@
 #include "svoPassInternals.h"
 
 #include "vtkCommand.h"
-#include "vtkLight.h"
-#include "vtkLightCollection.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
-#include <algorithm>
-#include <functional>
 #include <memory>
 #include <string>
-
-namespace
-{
-/// From this rate on VTK asks for interaction rather than for a picture to keep.
-constexpr double InteractiveRate = 1.0; // Hz
-
-/// Share of an interactive frame's time that is the pass's; the rest is for what else is drawn.
-constexpr double OwnShare = 0.5;
-
-bool isInteractive(vtkRenderer* renderer)
-{
-  return renderer->GetRenderWindow()->GetDesiredUpdateRate() >= InteractiveRate;
-}
-
-/// True if a light moves with the camera, so that nothing seen from it outlives a frame.
-bool hasCameraLight(vtkRenderer* renderer)
-{
-  vtkCollectionSimpleIterator iterator;
-  vtkLightCollection* lights = renderer->GetLights();
-  lights->InitTraversal(iterator);
-  while (vtkLight* light = lights->GetNextLight(iterator))
-  {
-    if (light->GetSwitch() && light->LightTypeIsCameraLight())
-    {
-      return true;
-    }
-  }
-  return false;
-}
-}
-
-svo::PassFrame& vtkSVORenderPass::BeginFrame(vtkRenderer* renderer)
-{
-  Internals& impl = *this->Impl;
-  impl.frames.push_back(std::make_unique<svo::PassFrame>(impl.stateOf(renderer), renderer));
-  return *impl.frames.back();
-}
 
 /// Fills a frame with the renderer's scene, as camera and lights are then, and sets up its camera.
 /// Without one the renderer, to which the pass is attached, does that, and the lights. False if the
@@ -61,7 +20,6 @@ bool vtkSVORenderPass::CollectFrame(
 {
   const bool attached = !camera;
   Internals& impl = *this->Impl;
-  const bool severalProcesses = impl.controller && impl.controller->GetNumberOfProcesses() > 1;
   // What is collected is borrowed, and who observes the progress of a build may change it. So all
   // is collected once more after that, when nothing is left to be built. Of the last collection
   // nobody is told, so that it ends even for those who change something every time.
@@ -92,8 +50,9 @@ bool vtkSVORenderPass::CollectFrame(
     store.convert = this->ConvertPolyData;
     store.level = this->MaximumLevel;
     store.leafGeometry = static_cast<svo::LeafGeometry>(this->LeafGeometry);
-    store.wait = !this->BuildInBackground || !isInteractive(renderer);
-    if (i < MostCollections && this->HasObserver(vtkCommand::ProgressEvent))
+    store.wait = !this->BuildInBackground || !frame.interactive();
+    const bool heard = this->HasObserver(vtkCommand::ProgressEvent) != 0;
+    if (i < MostCollections && heard)
     {
       store.progress = [this, &disturbed](double amount)
       {
@@ -101,7 +60,7 @@ bool vtkSVORenderPass::CollectFrame(
         this->InvokeEvent(vtkCommand::ProgressEvent, &amount);
       };
     }
-    store.aborted = this->AbortOf(renderer->GetRenderWindow(), i < MostCollections, disturbed);
+    store.aborted = frame.abort(i < MostCollections, heard, disturbed);
     store.complain = [&frame](const std::string& text) { frame.messages.push_back(text); };
 
     svo::CollectSettings collect;
@@ -110,7 +69,7 @@ bool vtkSVORenderPass::CollectFrame(
     collect.unmarkedToo = this->ShadowsForEverything;
     collect.translucentShadows = this->TranslucentShadows;
     // Neither what processes tell each other of their casters nor shaders know colours.
-    collect.meanOpacity = severalProcesses || openGL;
+    collect.meanOpacity = impl.severalProcesses() || openGL;
     collect.onlyCast = openGL;
     const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
     collect.notMarked = notMarked.c_str();
@@ -120,9 +79,7 @@ bool vtkSVORenderPass::CollectFrame(
     collect.cutOutText = this->GetText(TEXT_CUT_OUT, nullptr);
     collect.lightWords = { [this](vtkLight* light) { return this->GetText(TEXT_HEADLIGHT, light); },
       [this](vtkLight* light) { return this->GetText(TEXT_LIGHT, light); } };
-    this->Fill(collect.levels.frame);
-    collect.levels.frame.lightCode =
-      openGL && collect.levels.frame.shadowTechnique == svo::ShadowTechnique::Rays;
+    collect.levels.frame = this->AskedSettings();
     svo::viewOfCamera(renderer, width, height, collect.levels.eye);
     frame.state->collect(impl.store, store, collect);
     disturbed = disturbed || !frame.canDraw();
@@ -134,145 +91,59 @@ bool vtkSVORenderPass::CollectFrame(
   }
   renderer->GetRenderWindow()->MakeCurrent(); // pipelines may have had others drawn
   const svo::CollectedScene& collected = frame.state->collected();
-  impl.castingLights = collected.lightsText;
-  if (collected.headlightOnly && !impl.saidHeadlight && this->ShadowTechnique != SHADOW_NONE &&
-    (!attached || !collected.scene.instances.empty()))
-  {
-    impl.saidHeadlight = true;
-    frame.messages.push_back(this->GetText(TEXT_ONLY_HEADLIGHTS, nullptr));
-  }
-  const auto miss = [&](const std::string& why, int text)
-  {
-    // A process does not know what others have. What has been said of this frame was why.
-    if (why.empty() || this->ShadowIntensity <= 0.0 || severalProcesses ||
-      !impl.said.insert(why).second || !frame.messages.empty())
-    {
-      return;
-    }
-    const std::string start = this->GetText(text, nullptr);
-    const std::string of = collected.withoutShadows == 1
-      ? "The only object "
-      : "Each of " + std::to_string(collected.withoutShadows) + " objects ";
-    frame.messages.push_back(start.empty() ? start : start + of + why + ".");
-  };
-  miss(collected.nothingCasts, TEXT_NOTHING_CASTS);
-  miss(collected.nothingReceives, TEXT_NOTHING_RECEIVES);
-  const auto sayOnce = [&](const std::string& text)
-  {
-    if (impl.said.insert(text).second)
-    {
-      frame.messages.push_back(text);
-    }
-  };
-  if (collected.clippedCastNone && collected.nothingCasts.empty() && this->ShadowIntensity > 0.0)
-  {
-    sayOnce(this->GetText(TEXT_CLIPPED, nullptr));
-  }
-  if (collected.aimlessLight)
-  {
-    sayOnce(
-      "A light has no direction, so it lights nothing and casts no shadow: its position is its "
-      "focal point, or one of them is not finite.");
-  }
-  this->DecideSettings(frame);
+  const auto text = [this](bool wanted, int what)
+  { return wanted ? this->GetText(what, nullptr) : std::string(); };
+  const bool seen = this->ShadowIntensity > 0.0;
+  const bool alone = seen && !impl.severalProcesses(); // else it does not know what others have
+  frame.tellOfShadows({ text(this->ShadowTechnique != SHADOW_NONE &&
+                            (!attached || !collected.scene.instances.empty()),
+                          TEXT_ONLY_HEADLIGHTS),
+                        text(alone, TEXT_NOTHING_CASTS), text(alone, TEXT_NOTHING_RECEIVES),
+                        text(seen, TEXT_CLIPPED) },
+    impl.said);
+  frame.decide(this->AskedSettings(),
+    { this->AutoAdjustSampleDistances, this->MaximumImageSampleDistance, this->ImageReductionFactor,
+      this->DetailCullingThreshold });
   return true;
 }
 
-/// Whether a window's frame is to wait for no more builds. Its observers are asked only with `ask`.
-std::function<bool()> vtkSVORenderPass::AbortOf(vtkRenderWindow* window, bool ask, bool& disturbed)
+/// What the settings ask of a frame's tracer.
+svo::FrameSettings vtkSVORenderPass::AskedSettings() const
 {
-  const bool observed = ask && window->HasObserver(vtkCommand::AbortCheckEvent);
-  if (!observed && !this->HasObserver(vtkCommand::ProgressEvent))
-  {
-    return nullptr; // there is nobody who could say so
-  }
-  return [window = vtkSmartPointer<vtkRenderWindow>(window), observed, &disturbed]
-  {
-    if (observed && !window->GetAbortRender())
-    {
-      disturbed = true;
-      window->CheckAbortStatus();
-    }
-    return window->GetAbortRender() != 0;
-  };
-}
-
-void vtkSVORenderPass::Fill(svo::TracerSettings& settings) const
-{
-  this->Superclass::Fill(settings);
+  svo::FrameSettings settings;
+  this->Fill(settings);
+  const bool openGL = this->GetActiveBackend() == BACKEND_OPENGL;
   if (this->ShadowTechnique == SHADOW_AUTOMATIC)
   {
-    settings.shadowTechnique = this->GetActiveBackend() == BACKEND_OPENGL
-      ? svo::ShadowTechnique::Rays
-      : svo::ShadowTechnique::Buffer;
+    settings.shadowTechnique = openGL ? svo::ShadowTechnique::Rays : svo::ShadowTechnique::Buffer;
   }
-}
-
-/// Says how a frame is to be traced.
-void vtkSVORenderPass::DecideSettings(svo::PassFrame& frame)
-{
-  svo::FrameSettings& settings = frame.settings;
-  settings = svo::FrameSettings();
-  this->Fill(settings);
-  settings.lightCode = this->GetActiveBackend() == BACKEND_OPENGL &&
-    settings.shadowTechnique == svo::ShadowTechnique::Rays;
-  vtkRenderer* renderer = frame.renderer;
-  frame.pacedShadows = hasCameraLight(renderer);
-  if (this->AutoAdjustSampleDistances && isInteractive(renderer))
-  {
-    frame.pace =
-      frame.state->choosePace(OwnShare / renderer->GetRenderWindow()->GetDesiredUpdateRate(),
-        std::max(this->MaximumImageSampleDistance / this->ImageReductionFactor, 1.0));
-    if (frame.pacedShadows)
-    {
-      settings.shadowCoarseness = frame.pace.coarseness;
-    }
-    else
-    {
-      frame.pace.coarseness = 1.0;
-    }
-  }
-  if (isInteractive(renderer))
-  {
-    const double distance = frame.pace.distance * this->ImageReductionFactor;
-    settings.detailThreshold = this->DetailCullingThreshold / (distance * distance);
-  }
+  settings.lightCode = openGL && settings.shadowTechnique == svo::ShadowTechnique::Rays;
+  return settings;
 }
 
 /// Traces a frame and has its shadow maps ready for rasterised surfaces.
 void vtkSVORenderPass::TraceFrame(svo::PassFrame& frame, int width, int height)
 {
   Internals& impl = *this->Impl;
-  frame.traced = true;
-  frame.state->trace(width, height, frame.pace, frame.settings);
-  const std::string& complaint = frame.state->complaint();
-  if (!complaint.empty() && impl.said.insert(complaint).second)
-  {
-    frame.messages.push_back(complaint);
-  }
-  svo::ShadowReceivers& receivers = frame.state->receivers();
-  const std::string signature = receivers.signature();
+  frame.trace(width, height);
+  frame.tellOnce(frame.state->complaint(), impl.said);
+  const std::string signature = frame.state->receivers().signature();
   if (signature != impl.shaderSignature)
   {
     impl.shaderSignature = signature;
     impl.shaderTime.Modified();
   }
-  receivers.activate();
 }
 
 /// Ends a frame, whether or not it was drawn; the caller holds the pass.
 void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
 {
   Internals& impl = *this->Impl;
-  const auto entry = std::find_if(impl.frames.begin(), impl.frames.end(),
-    [&frame](const auto& other) { return other.get() == &frame; });
-  const std::unique_ptr<svo::PassFrame> done = std::move(*entry);
-  impl.frames.erase(entry);
+  const std::unique_ptr<svo::PassFrame> done = impl.frames.end(frame);
   if (frame.traced && frame.canDraw())
   {
     frame.state->receivers().deactivate();
   }
-  impl.reasons = frame.state->collected().reasons;
   frame.state->finish();
   impl.statistics = frame.state->statistics();
   impl.statistics.imageReduction = this->ImageReductionFactor;
@@ -285,9 +156,8 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   }
   const std::size_t beyond =
     impl.store.endFrame(static_cast<std::size_t>(this->OctreeMemoryLimit) * svo::BytesOfKiB);
-  if (beyond > 0 && !impl.saidMemory)
+  if (beyond > 0 && impl.said.insert("OctreeMemoryLimit").second)
   {
-    impl.saidMemory = true;
     frame.messages.push_back("The octrees of a single frame take " +
       std::to_string(this->GetOctreeMemorySize()) + " KiB, more than the OctreeMemoryLimit of " +
       std::to_string(this->OctreeMemoryLimit) + " KiB; they are kept as long as they are shown.");

@@ -6,7 +6,14 @@
 #include "svoFrame.h"
 #include "svoSampleDistance.h"
 
+#include "vtkProp.h"
+#include "vtkWeakPointer.h"
+
+#include <algorithm>
 #include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace svo
 {
@@ -25,6 +32,29 @@ struct PassStatistics
   /// Largest voxel of the octrees that are shown while they are deepened; pixels of the frame.
   double coarseOctreeError = 0.0;
   std::size_t receiverMemory = 0; // bytes that OpenGL holds of shadow buffers
+  std::string castingLights;      // a line for each light that is on
+  std::vector<std::pair<vtkWeakPointer<vtkProp>, std::string>> reasons; // CollectedScene
+
+  /// Empty if there is none.
+  std::string reasonOf(vtkProp* prop) const
+  {
+    const auto found = std::find_if(this->reasons.begin(), this->reasons.end(),
+      [prop](const auto& reason) { return prop && reason.first == prop; });
+    return found != this->reasons.end() ? found->second : std::string();
+  }
+
+  /// Pixels of the window from ray to ray.
+  double sampleDistance() const { return this->pace.distance * this->imageReduction; }
+
+  /// vtkSVORenderPass::GetAcceptedPixelError()
+  double acceptedError(double pixelError) const
+  {
+    const double distance = this->sampleDistance();
+    return std::max({ distance > 1.0 ? distance * std::max(pixelError, 1.0) : pixelError,
+      this->pace.coarseness > 1.0 ? distance * this->tracer.widestTexel : 0.0,
+      this->coarseOctreeError * this->imageReduction,
+      distance * this->tracer.largestSmallInstance });
+  }
 };
 }
 

@@ -5,6 +5,7 @@
 #include "svoSMPParallel.h"
 #include "svoSilhouettes.h"
 
+#include "vtkCameraPass.h"
 #include "vtkOpenGLRenderPass.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLRenderer.h"
@@ -21,6 +22,20 @@ namespace
 {
 /// From this width on, pixels, what blurs a shadow is complained about.
 constexpr double CoarseShadow = 32.0;
+
+/// True if the first that a renderer with this pass draws into its cleared framebuffer are its
+/// props, in their order. ParaView's views have such a pass, unless they have effects.
+bool drawsPropsFirst(vtkRenderPass* pass)
+{
+  const auto isA = [](vtkObject* object, const char* name)
+  { return object && std::string(object->GetClassName()) == name; };
+  if (!isA(pass, "vtkCameraPass"))
+  {
+    return !pass;
+  }
+  vtkRenderPass* inner = static_cast<vtkCameraPass*>(pass)->GetDelegatePass();
+  return isA(inner, "vtkDefaultPass") || isA(inner, "vtkPVDefaultPass");
+}
 }
 
 ExchangedProps::ExchangedProps(vtkProp** props)
@@ -102,6 +117,8 @@ void RendererState::collect(
   this->Collector.collect(this->Renderer, store, options, settings, this->Collected);
   this->Statistics.collectTime += vtkTimerLog::GetUniversalTime() - start;
   this->Statistics.octreesBuilt += store.built() - built;
+  this->Statistics.castingLights = this->Collected.lightsText;
+  this->Statistics.reasons = this->Collected.reasons;
   this->Statistics.tracedActors = this->Collected.tracedActors;
   this->Statistics.rasterizedActors = this->Collected.rasterizedActors;
   this->Statistics.instances = static_cast<int>(this->Collected.scene.instances.size());
@@ -244,6 +261,7 @@ void RendererState::present(vtkOpenGLRenderPass* pass)
       }
     },
     pass);
+  this->Presenter->SetFirst(drawsPropsFirst(this->Renderer->GetPass()));
 }
 
 void RendererState::joinPasses(const vtkRenderState* state)

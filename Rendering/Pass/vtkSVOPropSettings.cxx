@@ -1,5 +1,4 @@
-// The answers that props and lights carry themselves.
-#include "vtkSVORenderPass.h"
+#include "vtkSVOPropSettings.h"
 
 #include "svoPropKeys.h"
 #include "svoSceneCollector.h"
@@ -15,52 +14,49 @@
 #include <algorithm>
 #include <cmath>
 
-vtkInformationIntegerKey* vtkSVORenderPass::CAST_SHADOW()
+vtkInformationIntegerKey* vtkSVOPropSettings::CAST_SHADOW()
 {
   return svo::castShadowKey();
 }
 
-vtkInformationIntegerKey* vtkSVORenderPass::RECEIVE_SHADOW()
+vtkInformationIntegerKey* vtkSVOPropSettings::RECEIVE_SHADOW()
 {
   return svo::receiveShadowKey();
 }
 
-vtkInformationIntegerKey* vtkSVORenderPass::USE_SVO()
+vtkInformationIntegerKey* vtkSVOPropSettings::USE_SVO()
 {
   return svo::useSVOKey();
 }
 
-vtkInformationIntegerKey* vtkSVORenderPass::SHADOW_CATCHER()
+vtkInformationIntegerKey* vtkSVOPropSettings::SHADOW_CATCHER()
 {
   return svo::shadowCatcherKey();
 }
 
-vtkInformationDoubleKey* vtkSVORenderPass::PIXEL_ERROR()
+vtkInformationDoubleKey* vtkSVOPropSettings::PIXEL_ERROR()
 {
   return svo::pixelErrorKey();
 }
 
-void vtkSVORenderPass::SetCastShadow(bool cast, vtkProp* prop)
+void vtkSVOPropSettings::SetCastShadow(bool cast, vtkProp* prop)
 {
   svo::setFlag(prop, svo::castShadowKey(), cast);
 }
 
-bool vtkSVORenderPass::GetCastShadow(vtkProp* prop)
+bool vtkSVOPropSettings::GetCastShadow(vtkProp* prop)
 {
   if (!prop)
   {
     return false;
   }
   const svo::PropSurfaces judged = svo::SceneCollector().judge(prop);
-  if (judged.casts())
-  {
-    return true;
-  }
   // Nothing to be seen yet is no reason.
-  return !judged.castsNone && svo::flagOf(prop, nullptr, svo::castShadowKey(), true);
+  return judged.casts() ||
+    (!judged.castsNone && svo::flagOf(prop, nullptr, svo::castShadowKey(), true));
 }
 
-std::string vtkSVORenderPass::GetReason(vtkProp* prop)
+std::string vtkSVOPropSettings::GetReason(vtkProp* prop)
 {
   if (!prop)
   {
@@ -70,7 +66,7 @@ std::string vtkSVORenderPass::GetReason(vtkProp* prop)
   return svo::reasons(judged.rasterized, judged.castsNone, judged.casts());
 }
 
-void vtkSVORenderPass::SetCastShadow(bool cast, vtkLight* light)
+void vtkSVOPropSettings::SetCastShadow(bool cast, vtkLight* light)
 {
   if (!light)
   {
@@ -85,26 +81,22 @@ void vtkSVORenderPass::SetCastShadow(bool cast, vtkLight* light)
   light->Modified();
 }
 
-bool vtkSVORenderPass::GetCastShadow(vtkLight* light)
+bool vtkSVOPropSettings::GetCastShadow(vtkLight* light)
 {
-  if (!light)
-  {
-    return false;
-  }
-  return light->GetSwitch() && svo::castsShadow(light);
+  return light && light->GetSwitch() && svo::castsShadow(light);
 }
 
-void vtkSVORenderPass::SetReceiveShadow(bool receive, vtkProp* prop)
+void vtkSVOPropSettings::SetReceiveShadow(bool receive, vtkProp* prop)
 {
   svo::setFlag(prop, svo::receiveShadowKey(), receive);
 }
 
-bool vtkSVORenderPass::GetReceiveShadow(vtkProp* prop)
+bool vtkSVOPropSettings::GetReceiveShadow(vtkProp* prop)
 {
   return svo::flagOf(prop, nullptr, svo::receiveShadowKey(), true);
 }
 
-void vtkSVORenderPass::SetShadowCatcher(bool catches, vtkProp* prop)
+void vtkSVOPropSettings::SetShadowCatcher(bool catches, vtkProp* prop)
 {
   if (catches == GetShadowCatcher(prop))
   {
@@ -117,22 +109,22 @@ void vtkSVORenderPass::SetShadowCatcher(bool catches, vtkProp* prop)
   }
 }
 
-bool vtkSVORenderPass::GetShadowCatcher(vtkProp* prop)
+bool vtkSVOPropSettings::GetShadowCatcher(vtkProp* prop)
 {
   return svo::flagOf(prop, nullptr, svo::shadowCatcherKey(), false);
 }
 
-void vtkSVORenderPass::SetUseSVO(bool use, vtkProp* prop)
+void vtkSVOPropSettings::SetUseSVO(bool use, vtkProp* prop)
 {
   svo::setFlag(prop, svo::useSVOKey(), use);
 }
 
-bool vtkSVORenderPass::GetUseSVO(vtkProp* prop)
+bool vtkSVOPropSettings::GetUseSVO(vtkProp* prop)
 {
   return svo::flagOf(prop, nullptr, svo::useSVOKey(), true);
 }
 
-void vtkSVORenderPass::SetPropPixelError(double error, vtkProp* prop)
+void vtkSVOPropSettings::SetPropPixelError(double error, vtkProp* prop)
 {
   if (std::isnan(error))
   {
@@ -145,7 +137,7 @@ void vtkSVORenderPass::SetPropPixelError(double error, vtkProp* prop)
   }
 }
 
-double vtkSVORenderPass::GetPropPixelError(vtkProp* prop)
+double vtkSVOPropSettings::GetPropPixelError(vtkProp* prop)
 {
   return svo::pixelErrorOf(prop, nullptr);
 }

@@ -3,17 +3,18 @@
 #define svoPassFrame_h
 
 #include "svoRendererState.h"
-#include "vtkSVORenderPass.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkProp.h"
 #include "vtkPropCollection.h"
+#include "vtkRenderPass.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <set>
@@ -22,6 +23,21 @@
 
 namespace svo
 {
+/// What users are told of shadows that are missing; empty: nothing.
+struct ShadowWords
+{
+  std::string onlyHeadlights, nothingCasts, nothingReceives, clipped;
+};
+
+/// How an interactive frame may save time.
+struct PaceLimits
+{
+  bool adjust = false;  // rays and texels of shadow maps may be further apart,
+  double maximum = 1.0; // by at most so many pixels of the window
+  int reduction = 1;    // PassStatistics::imageReduction
+  double detail = 0.0;  // pixels of the window of instances that may be left out
+};
+
 /// A frame owns what it needs: between its beginning and its end pipelines run, events are invoked,
 /// and observers may drop the pass, detach it, remove actors, finalize the window or draw another
 /// one with the same pass, whose frame then lies within this one.
@@ -76,6 +92,22 @@ struct PassFrame
     return this->receivingState;
   }
 
+  /// True if VTK asks for interaction rather than for a picture to keep.
+  bool interactive() const;
+
+  /// Whether the window's frame is to wait for no more builds; null: always. Its observers, who may
+  /// disturb the frame, are asked only with `ask`; `heard` says that others hear of the builds.
+  std::function<bool()> abort(bool ask, bool heard, bool& disturbed) const;
+
+  /// Has users told, each thing once, of which `said` has those that they have been.
+  void tellOnce(const std::string& text, std::set<std::string>& said);
+  void tellOfShadows(const ShadowWords& words, std::set<std::string>& said);
+
+  /// Says how the frame is to be traced.
+  void decide(const FrameSettings& asked, const PaceLimits& limits);
+
+  void trace(int width, int height);
+
   const std::shared_ptr<RendererState> state;
   vtkRenderer* const renderer;
   /// VTK's renderer has an array of them and does not own them.
@@ -87,8 +119,8 @@ struct PassFrame
   std::vector<std::string> messages; // said when the frame is done
 
   // Where the pass is attached:
-  vtkSmartPointer<vtkSVORenderPass> pass; // until the frame ends
-  bool shadowed = false;                  // receivers() carry the pass
+  vtkSmartPointer<vtkRenderPass> pass; // until the frame ends
+  bool shadowed = false;               // receivers() carry the pass
 
 private:
   static vtkOpenGLRenderWindow* windowOf(vtkRenderer* renderer)

@@ -1,0 +1,128 @@
+#include "svoPassFrame.h"
+
+#include "vtkCommand.h"
+#include "vtkLight.h"
+#include "vtkLightCollection.h"
+#include "vtkRenderWindow.h"
+
+#include <algorithm>
+
+namespace svo
+{
+namespace
+{
+/// From this rate on VTK asks for interaction rather than for a picture to keep.
+constexpr double InteractiveRate = 1.0; // Hz
+
+/// Share of an interactive frame's time that is the pass's; the rest is for what else is drawn.
+constexpr double OwnShare = 0.5;
+
+/// True if a light moves with the camera, so that nothing seen from it outlives a frame.
+bool hasCameraLight(vtkRenderer* renderer)
+{
+  vtkCollectionSimpleIterator iterator;
+  vtkLightCollection* lights = renderer->GetLights();
+  lights->InitTraversal(iterator);
+  while (vtkLight* light = lights->GetNextLight(iterator))
+  {
+    if (light->GetSwitch() && light->LightTypeIsCameraLight())
+    {
+      return true;
+    }
+  }
+  return false;
+}
+}
+
+bool PassFrame::interactive() const
+{
+  return this->renderer->GetRenderWindow()->GetDesiredUpdateRate() >= InteractiveRate;
+}
+
+std::function<bool()> PassFrame::abort(bool ask, bool heard, bool& disturbed) const
+{
+  vtkSmartPointer<vtkRenderWindow> window = this->renderer->GetRenderWindow();
+  const bool observed = ask && window->HasObserver(vtkCommand::AbortCheckEvent);
+  if (!observed && !heard)
+  {
+    return nullptr; // there is nobody who could say so
+  }
+  return [window, observed, &disturbed]
+  {
+    if (observed && !window->GetAbortRender())
+    {
+      disturbed = true;
+      window->CheckAbortStatus();
+    }
+    return window->GetAbortRender() != 0;
+  };
+}
+
+void PassFrame::tellOnce(const std::string& text, std::set<std::string>& said)
+{
+  if (!text.empty() && said.insert(text).second)
+  {
+    this->messages.push_back(text);
+  }
+}
+
+void PassFrame::tellOfShadows(const ShadowWords& words, std::set<std::string>& said)
+{
+  const CollectedScene& collected = this->state->collected();
+  if (collected.headlightOnly)
+  {
+    this->tellOnce(words.onlyHeadlights, said);
+  }
+  const auto miss = [&](const std::string& start, const std::string& why)
+  {
+    // What has been said of this frame was why.
+    if (!start.empty() && !why.empty() && said.insert(why).second && this->messages.empty())
+    {
+      const int objects = collected.withoutShadows;
+      this->messages.push_back(start +
+        (objects == 1 ? "The only object " : "Each of " + std::to_string(objects) + " objects ") +
+        why + ".");
+    }
+  };
+  miss(words.nothingCasts, collected.nothingCasts);
+  miss(words.nothingReceives, collected.nothingReceives);
+  if (collected.clippedCastNone && collected.nothingCasts.empty())
+  {
+    this->tellOnce(words.clipped, said);
+  }
+  if (collected.aimlessLight)
+  {
+    this->tellOnce(
+      "A light has no direction, so it lights nothing and casts no shadow: its position is its "
+      "focal point, or one of them is not finite.",
+      said);
+  }
+}
+
+void PassFrame::decide(const FrameSettings& asked, const PaceLimits& limits)
+{
+  this->settings = asked;
+  this->pacedShadows = hasCameraLight(this->renderer);
+  if (!this->interactive())
+  {
+    return;
+  }
+  if (limits.adjust)
+  {
+    this->pace =
+      this->state->choosePace(OwnShare / this->renderer->GetRenderWindow()->GetDesiredUpdateRate(),
+        std::max(limits.maximum / limits.reduction, 1.0));
+    this->pace.coarseness = this->pacedShadows ? this->pace.coarseness : 1.0;
+    this->settings.shadowCoarseness = this->pace.coarseness;
+  }
+  const double distance = this->pace.distance * limits.reduction;
+  this->settings.detailThreshold = limits.detail / (distance * distance);
+}
+
+void PassFrame::trace(int width, int height)
+{
+  this->traced = true;
+  this->state->trace(width, height, this->pace, this->settings);
+  this->state->receivers().activate();
+}
+}
