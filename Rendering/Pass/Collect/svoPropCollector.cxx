@@ -2,7 +2,8 @@
 
 #include "svoAffineMatrix.h"
 #include "svoCameraView.h"
-#include "svoPropKeys.h"
+#include "svoRoundSurfaces.h"
+
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkAssembly.h"
@@ -24,11 +25,6 @@ namespace svo
 {
 namespace
 {
-std::uint64_t combine(std::uint64_t a, std::uint64_t b)
-{
-  return a ^ (b + 0x9e3779b97f4a7c15ull + (a << 6) + (a >> 2));
-}
-
 /// True if the prop or its assembly says explicitly that it uses octrees.
 bool isMarked(vtkProp* prop, vtkProp* owner)
 {
@@ -58,27 +54,17 @@ void update(vtkMapper* mapper)
 }
 }
 
-/// About an object, or about nothing in particular (null): then once for all renderers.
-void PropCollector::complainOnce(
-  vtkObject* about, const std::string& text, const CollectProps& frame)
+void PropCollector::complainOnce(const CollectedActor& of, const std::string& text)
 {
-  if (!frame.complain || this->Quiet)
+  if (!of.frame.complain || of.quiet)
   {
     return;
   }
-  if (!about)
+  const auto [said, isNew] = this->GivenMessages.try_emplace({ of.actor, text }, of.actor);
+  if (isNew || said->second != of.actor) // another one is in its place now
   {
-    if (!frame.said || frame.said->insert(text).second)
-    {
-      frame.complain(text);
-    }
-    return;
-  }
-  const auto [said, isNew] = this->GivenMessages.try_emplace({ about, text }, about);
-  if (isNew || said->second != about) // another one is in its place now
-  {
-    said->second = about;
-    frame.complain(text);
+    said->second = of.actor;
+    of.frame.complain(text);
   }
 }
 
@@ -104,30 +90,28 @@ std::vector<SurfacePart> PropCollector::partsOf(vtkActor* actor, Kept& kept)
   return { whole };
 }
 
-/// The matrix of an actor, fit for tracing. False if nothing of it is collected; `beyond` says why
-/// it can only cast.
-bool PropCollector::placeOf(vtkActor* actor, const vtkMatrix4x4* matrix, glm::dmat4& localToWorld,
-  Reason& beyond, PropSurfaces& found, const CollectProps& frame)
+/// Sets the actor's matrix, and why it can only cast. False if nothing of it is collected.
+bool PropCollector::place(CollectedActor& of, const vtkMatrix4x4* matrix)
 {
-  localToWorld = frame.world * toGlm(matrix);
-  switch (kindOf(localToWorld))
+  of.localToWorld = of.frame.world * toGlm(matrix);
+  switch (kindOf(of.localToWorld))
   {
     case MatrixKind::Nowhere:
-      found.castNothing("has a matrix that is not finite");
-      this->complainOnce(actor, "An actor is not drawn: its matrix is not finite.", frame);
+      of.found.castNothing("has a matrix that is not finite");
+      this->complainOnce(of, "An actor is not drawn: its matrix is not finite.");
       return false;
     case MatrixKind::Flat:
-      beyond = "is flattened by its matrix";
-      if (!thicken(localToWorld))
+      of.beyond = "is flattened by its matrix";
+      if (!thicken(of.localToWorld))
       {
-        found.leaveAlone(beyond);
+        of.found.leaveAlone(of.beyond);
         return false;
       }
       return true;
     case MatrixKind::Projective:
-      found.leaveAlone("has a matrix that is not affine");
-      this->complainOnce(actor,
-        "An actor casts no shadow and is left to the rasteriser: its matrix is not affine.", frame);
+      of.found.leaveAlone("has a matrix that is not affine");
+      this->complainOnce(
+        of, "An actor casts no shadow and is left to the rasteriser: its matrix is not affine.");
       return false;
     case MatrixKind::Affine:
       break;
@@ -135,39 +119,38 @@ bool PropCollector::placeOf(vtkActor* actor, const vtkMatrix4x4* matrix, glm::dm
   return true;
 }
 
-/// What a surface that is traced, or else casts, has of its actor. False if it does neither.
-bool PropCollector::finish(vtkActor* actor, const SurfacePart& part, const glm::dmat4& localToWorld,
-  Reason reason, SceneSurface& surface, PropSurfaces& found)
+/// What is left of casters where their front faces are culled: light enters where the eye looks in.
+/// Of culled back faces all are left, since they are the ones that a light behind a body sees.
+Casters PropCollector::seenOf(const Casters& casters, const CollectedActor& of)
 {
-  Instance& instance = surface.instance;
-  surface.traceable = !reason;
-  if (surface.traceable)
+  PropSurfaces& found = of.found;
+  vtkProperty* property = of.actor->GetProperty();
+  const bool culled = property->GetFrontfaceCulling() && !property->GetBackfaceCulling(); // as VTK
+  if (!culled || !of.frame.eye || of.flag(castShadowKey(), false))
   {
-    surface.mesh = part.mesh;
-    instance.body.own().points = pointsOf(part.mesh, found.kept);
+    return casters;
   }
-  else
+  found.kept.addUnknown(); // where the eye is
+  const auto left = [&](vtkPolyData* mesh)
   {
-    found.rasterize(reason);
-    if (!surface.casts)
-    {
-      return false;
-    }
+    return mesh ? this->Seen.of(mesh, of.actor, of.localToWorld, *of.frame.eye, found.kept)
+                : nullptr;
+  };
+  const Casters seen{ left(casters.opaque), left(casters.translucent) };
+  if (seen.opaque != casters.opaque || seen.translucent != casters.translucent)
+  {
+    found.castNothing("has culled front faces");
   }
-  vtkProp* owner = found.prop;
-  instance.localToWorld = localToWorld;
-  instance.pixelError = pixelErrorOf(actor, owner);
-  instance.receiveShadow = flagOf(actor, owner, receiveShadowKey(), true);
-  instance.id = combine(
-    combine(reinterpret_cast<std::uintptr_t>(actor), part.block), std::uint64_t(found.actors));
-  instance.depthOffset = coincidentOffset(actor->GetMapper());
-  return true;
+  return seen;
 }
 
 /// Adds a mesh of an actor.
-void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::dmat4& localToWorld,
-  Reason beyond, PropSurfaces& found, const CollectProps& frame)
+void PropCollector::collectPart(const CollectedActor& of, SurfacePart& part)
 {
+  vtkActor* actor = of.actor;
+  PropSurfaces& found = of.found;
+  const CollectProps& frame = of.frame;
+  const Reason beyond = of.beyond;
   SceneSurface surface;
   Instance& instance = surface.instance;
   Attributes& attributes = instance.body.own().attributes;
@@ -182,8 +165,7 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
     const Reason unmapped = mapColors(part, this->Leaves, attributes, found.kept);
     reason = beyond ? beyond : unmapped;
   }
-  const bool round =
-    this->collectTubes(actor, part, attributes, localToWorld, beyond, found, frame);
+  const bool round = collectTubes(of, part, attributes, *this->Shapes);
   if (!hasSurface(part.mesh) || actor->GetProperty()->GetRepresentation() != VTK_SURFACE)
   {
     if (!round && part.mesh->GetNumberOfCells() > 0)
@@ -198,8 +180,7 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
   Casters casters;
   if (frame.shadows)
   {
-    casters = this->castersOf(part, opaque, actor, found, frame);
-    casters = this->seenOf(casters, actor, localToWorld, found, frame);
+    casters = this->seenOf(of.castersOf(part, opaque), of);
   }
   surface.mesh = casters.opaque;
   surface.casts = surface.mesh != nullptr;
@@ -209,7 +190,7 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
                                       : lookOf(part, actor->GetProperty(), frame.lights,
                                           instance.material, attributes, this->Floats, found.kept);
   }
-  if (this->finish(actor, part, localToWorld, reason, surface, found))
+  if (of.finish(part, reason, surface))
   {
     found.surfaces.push_back(surface);
   }
@@ -221,7 +202,7 @@ void PropCollector::collectPart(vtkActor* actor, SurfacePart& part, const glm::d
     translucent.instance.mappedOpacity = opaque.mapped && !frame.meanOpacity;
     translucent.instance.opacity =
       static_cast<float>(part.opacity * (frame.meanOpacity ? opaque.alpha : 1.0));
-    this->addTranslucent(actor, part, localToWorld, translucent, found);
+    of.addTranslucent(part, translucent);
   }
 }
 
@@ -230,12 +211,13 @@ void PropCollector::collectActor(
   vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, const CollectProps& frame)
 {
   vtkProp* owner = found.prop;
+  CollectedActor of{ actor, found, frame };
   vtkMapper* mapper = actor->GetMapper();
   if (mapper)
   {
     found.mappers.push_back(mapper);
   }
-  if (flagOf(actor, owner, shadowCatcherKey(), false))
+  if (of.flag(shadowCatcherKey(), false))
   {
     found.leaveAlone(actor->GetProperty()->GetInterpolation() == VTK_PBR
         ? "is a shadow catcher, and not seen as such with a physically based material"
@@ -259,58 +241,55 @@ void PropCollector::collectActor(
     found.leaveAlone(frame.notMarked);
     return;
   }
-  this->Quiet = unmarked;
+  of.quiet = unmarked;
   update(mapper);
   if (isCompositeMapper(mapper) && !hasMeshes(mapper))
   {
     return; // VTK does not draw it either: asked about anything, the mapper would complain
   }
-  if (frame.shadows && isUnknownSurface(actor) && flagOf(actor, owner, castShadowKey(), true))
+  if (frame.shadows && isUnknownSurface(actor) && of.flag(castShadowKey(), true))
   {
-    this->complainOnce(nullptr,
-      std::string("What a ") + mapper->GetClassName() +
-        " draws is left to the rasteriser and casts no shadow: this pass does not know that "
-        "mapper. SetCastShadow(false, prop) says that this is meant.",
-      frame);
+    of.complain(std::string("What a ") + mapper->GetClassName() +
+      " draws is left to the rasteriser and casts no shadow: this pass does not know that "
+      "mapper. SetCastShadow(false, prop) says that this is meant.");
   }
-  const Treatment treatment = treatmentOf(actor, flagOf(actor, owner, castShadowKey(), false));
+  const Treatment treatment = treatmentOf(actor, of.flag(castShadowKey(), false));
   if (treatment.castsNone)
   {
     found.leaveAlone(treatment.castsNone);
     return;
   }
-  Reason beyond = treatment.rasterized;
-  glm::dmat4 localToWorld;
-  if (!this->placeOf(actor, matrix, localToWorld, beyond, found, frame))
+  of.beyond = treatment.rasterized;
+  if (!this->place(of, matrix))
   {
     return;
   }
-  found.hasPlainMatrix = beyond == treatment.rasterized;
-  if (!beyond && !flagOf(actor, owner, useSVOKey(), true))
+  found.hasPlainMatrix = of.beyond == treatment.rasterized;
+  if (!of.beyond && !of.flag(useSVOKey(), true))
   {
-    beyond = "was told so";
+    of.beyond = "was told so";
   }
-  if (!beyond && frame.onlyCast)
+  if (!of.beyond && frame.onlyCast)
   {
-    beyond = IsDrawnByOpenGL;
+    of.beyond = IsDrawnByOpenGL;
   }
-  if (beyond)
+  if (of.beyond)
   {
-    found.rasterize(beyond);
+    found.rasterize(of.beyond);
   }
   if (isGlyphMapper(mapper))
   {
-    this->collectGlyphs(actor, localToWorld, beyond, found, frame);
+    this->collectGlyphs(of);
     return;
   }
   if (drawsRoundShapes(mapper))
   {
-    this->collectRoundShapes(actor, localToWorld, beyond, found, frame);
+    collectRoundShapes(of, *this->Shapes);
     return;
   }
   for (SurfacePart& part : this->partsOf(actor, found.kept))
   {
-    this->collectPart(actor, part, localToWorld, beyond, found, frame);
+    this->collectPart(of, part);
   }
 }
 

@@ -1,7 +1,6 @@
 // The copies of glyphs as surfaces.
 #include "svoAffineMatrix.h"
 #include "svoPropCollector.h"
-#include "svoPropKeys.h"
 
 #include "vtkActor.h"
 #include "vtkCellData.h"
@@ -46,22 +45,23 @@ Reason beyondGlyph(vtkGlyph3DMapper* mapper, vtkPolyData* source)
 }
 }
 
-void PropCollector::collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorld, Reason beyond,
-  PropSurfaces& found, const CollectProps& frame)
+void PropCollector::collectGlyphs(const CollectedActor& of)
 {
-  auto* mapper = vtkGlyph3DMapper::SafeDownCast(actor->GetMapper());
+  PropSurfaces& found = of.found;
+  vtkProperty* property = of.actor->GetProperty();
+  auto* mapper = vtkGlyph3DMapper::SafeDownCast(of.actor->GetMapper());
   if (mapper->GetNumberOfInputConnections(1) == 0)
   {
     found.leaveAlone("has lines or vertices"); // VTK draws a line in the place of a source
     return;
   }
-  const Glyphs glyphs = this->Copies.of(mapper, actor->GetProperty(), found.kept);
+  const Glyphs glyphs = this->Copies.of(mapper, property, found.kept);
   if (glyphs.beyond)
   {
     found.leaveAlone(glyphs.beyond);
     return;
   }
-  const double condition = frobeniusCondition(localToWorld);
+  const double condition = frobeniusCondition(of.localToWorld);
   std::uint64_t number = 0;
   for (const Glyphs::Drawn& drawn : glyphs.drawn)
   {
@@ -77,12 +77,12 @@ void PropCollector::collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorl
     }
     SceneSurface surface;
     surface.copies = drawn.set;
-    Reason reason = beyond ? beyond : beyondGlyph(mapper, mesh);
+    Reason reason = of.beyond ? of.beyond : beyondGlyph(mapper, mesh);
     if (condition * drawn.set->condition > MaximumCondition)
     {
       // Thin copies may be traced, but sheets may not.
       const auto isAffine = [&](const GlyphCopy& copy)
-      { return kindOf(localToWorld * glm::dmat4(copy.place)) == MatrixKind::Affine; };
+      { return kindOf(of.localToWorld * glm::dmat4(copy.place)) == MatrixKind::Affine; };
       surface.copies = select(*drawn.set, isAffine);
       if (surface.copies->copies.size() < drawn.set->copies.size())
       {
@@ -94,17 +94,17 @@ void PropCollector::collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorl
     part.mesh = mesh;
     part.block = drawn.block;
     part.overridesColor = true;
-    part.opacity = actor->GetProperty()->GetOpacity();
-    part.texture = textureOf(actor);
+    part.opacity = property->GetOpacity();
+    part.texture = textureOf(of.actor);
     std::shared_ptr<const GlyphSet> translucent;
-    if (frame.shadows)
+    if (of.frame.shadows)
     {
       const bool all = surface.copies->opaque;
       const bool some = all ||
         std::any_of(surface.copies->copies.begin(), surface.copies->copies.end(),
           [](const GlyphCopy& copy) { return copy.color[3] == 255; });
       const OpaqueCells::Answer opaque{ some ? mesh : nullptr, !all, all ? nullptr : mesh };
-      const Casters casters = this->castersOf(part, opaque, actor, found, frame);
+      const Casters casters = of.castersOf(part, opaque);
       surface.mesh = casters.opaque;
       surface.casts = surface.mesh != nullptr;
       if (casters.translucent)
@@ -112,7 +112,7 @@ void PropCollector::collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorl
         translucent = select(*surface.copies,
           [](const GlyphCopy& copy) { return copy.color[3] > 0 && copy.color[3] < 255; });
       }
-      if (surface.casts && !all && !flagOf(actor, found.prop, castShadowKey(), false))
+      if (surface.casts && !all && !of.flag(castShadowKey(), false))
       {
         if (!translucent)
         {
@@ -126,15 +126,14 @@ void PropCollector::collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorl
     {
       reason = !drawn.set->opaque
         ? IsTranslucent
-        : lookOf(part, actor->GetProperty(), frame.lights, surface.instance.material,
+        : lookOf(part, property, of.frame.lights, surface.instance.material,
             surface.instance.body.own().attributes, this->Floats, found.kept);
     }
     if (drawn.overridesSpecular)
     {
       surface.instance.material.specularColor = drawn.specular;
     }
-    if (!surface.copies->copies.empty() &&
-      this->finish(actor, part, localToWorld, reason, surface, found))
+    if (!surface.copies->copies.empty() && of.finish(part, reason, surface))
     {
       // Copies of several sources may be at the same point.
       surface.instance.id ^= number * 0x9e3779b97f4a7c15ull;
@@ -146,7 +145,7 @@ void PropCollector::collectGlyphs(vtkActor* actor, const glm::dmat4& localToWorl
       lighter.mesh = mesh;
       lighter.copies = translucent;
       const std::size_t before = found.surfaces.size();
-      this->addTranslucent(actor, part, localToWorld, lighter, found);
+      of.addTranslucent(part, lighter);
       if (found.surfaces.size() > before)
       {
         found.surfaces.back().instance.id ^= number * 0x9e3779b97f4a7c15ull;

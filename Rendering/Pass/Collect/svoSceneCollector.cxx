@@ -3,6 +3,7 @@
 #include "svoCameraView.h"
 #include "svoGiveWay.h"
 #include "svoPropKeys.h"
+#include "svoRoundSurfaces.h"
 #include "svoSceneInstances.h"
 #include "svoSharedMappers.h"
 
@@ -388,7 +389,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   const View& eye = settings.levels.eye;
   if (this->Placed)
   {
-    PropCollector::place(this->Found, eye, sameWidths(eye, this->Levels.eye));
+    placeRoundShapes(this->Found, eye, sameWidths(eye, this->Levels.eye));
   }
 
   if (this->Lent)
