@@ -130,7 +130,8 @@ double vtkSVOShadowFilter::GetWeight(int index)
     vtkErrorMacro("There is no light " << index << " that has a weight.");
     return 0.0;
   }
-  return this->Internals->Lights[static_cast<std::size_t>(index)].weightOf(this->CosineWeighted);
+  const auto& weighted = this->Internals->Lights[static_cast<std::size_t>(index)];
+  return this->CosineWeighted ? weighted.withCosine : weighted.weight;
 }
 
 //------------------------------------------------------------------------------

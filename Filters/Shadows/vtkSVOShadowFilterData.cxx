@@ -18,7 +18,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationDoubleVectorKey.h"
 #include "vtkInformationVector.h"
-#include "vtkLight.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -28,12 +27,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
+#include <vector>
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 
@@ -101,67 +100,6 @@ void addMeshes(vtkDataObject* data, const glm::dmat4& place, std::vector<CasterM
     }
   }
 }
-
-/// A light as the rays have it. Off, with a reason in `problem`, where it has no place in the
-/// world: it "moves with a camera ...". A light that is switched off has no problem.
-svo::WeightedLight shadowLight(vtkLight* source, double weight, std::string& problem)
-{
-  svo::WeightedLight result;
-  svo::Light& light = result.light;
-  result.weight = weight;
-  double from[3], to[3];
-  source->GetTransformedPosition(from);
-  source->GetTransformedFocalPoint(to);
-  light.position = { from[0], from[1], from[2] };
-  const glm::dvec3 axis = glm::dvec3(to[0], to[1], to[2]) - light.position;
-  const double length = glm::length(axis);
-  light.direction = length > 0.0 ? axis / length : glm::dvec3(0.0);
-  light.coneAngle = source->GetConeAngle();
-  if (source->GetPositional())
-  {
-    // VTK draws all cones from 90 degrees on as none.
-    light.kind = light.coneAngle < 90.0 ? svo::Light::Kind::Spot : svo::Light::Kind::Point;
-  }
-  result.on = source->GetSwitch() != 0;
-  if (!result.on)
-  {
-    return result;
-  }
-  const bool aimed = length > 0.0 && std::isfinite(length);
-  const bool placed = std::isfinite(from[0]) && std::isfinite(from[1]) && std::isfinite(from[2]);
-  if (!source->LightTypeIsSceneLight())
-  {
-    problem = "moves with a camera, and there is none here";
-  }
-  else if (!placed || (!aimed && light.kind != svo::Light::Kind::Point))
-  {
-    problem = "has no direction: its position and focal point are the same, or not finite";
-  }
-  else if (!std::isfinite(weight))
-  {
-    problem = "has a weight that is not finite";
-  }
-  result.on = problem.empty();
-  return result;
-}
-}
-
-//------------------------------------------------------------------------------
-std::vector<svo::WeightedLight> vtkSVOShadowFilter::vtkInternals::lights(
-  bool cosine, std::map<std::string, std::string>& wrong) const
-{
-  std::vector<svo::WeightedLight> result;
-  for (const Weighted& weighted : this->Lights)
-  {
-    std::string problem;
-    result.push_back(shadowLight(weighted.light, weighted.weightOf(cosine), problem));
-    if (!problem.empty())
-    {
-      std::string& who = wrong[problem];
-      who += (who.empty() ? "" : ", ") + std::to_string(result.size() - 1);
-    }
-  }
-  return result;
 }
 
 //------------------------------------------------------------------------------
@@ -220,7 +158,7 @@ int vtkSVOShadowFilter::RequestData(
 
   std::map<std::string, std::string> wrong;
   const std::vector<svo::WeightedLight> lights =
-    this->Internals->lights(this->CosineWeighted, wrong);
+    svo::weightedLights(this->Internals->Lights, this->CosineWeighted, wrong);
   for (const auto& one : wrong)
   {
     vtkWarningMacro(
