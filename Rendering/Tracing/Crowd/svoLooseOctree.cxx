@@ -40,15 +40,7 @@ float floatBelow(double x)
 /// Leading bits that are all 0; 32 for 0.
 int leadingZeros(std::uint32_t bits)
 {
-  int zeros = 0;
-  for (int step = 16; step > 0; step /= 2)
-  {
-    if (bits >> (32 - zeros - step) == 0)
-    {
-      zeros += step;
-    }
-  }
-  return zeros + (bits == 0);
+  return bits == 0 ? 32 : __builtin_clz(bits);
 }
 }
 

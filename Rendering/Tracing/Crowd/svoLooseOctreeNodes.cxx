@@ -284,5 +284,4 @@ void LooseOctree::arrange(
     this->arrange(node.children + i, group + i, nodes, chunks);
   }
 }
-
 }
