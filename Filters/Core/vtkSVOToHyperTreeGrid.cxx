@@ -86,8 +86,7 @@ public:
     }
     else
     {
-      const bool half = this->Octree.level() < 2 * this->Octree.depthCount();
-      this->descend(cursor, { glm::ivec3(0), 0, 0, half ? svo::GroupSize : 64 }, 0);
+      this->descend(cursor, { glm::ivec3(0), 0, 0, svo::NodeLevels - this->Octree.rootBits(0) }, 0);
     }
     grid->SetMask(this->Mask);
     grid->GetCellData()->AddArray(this->Levels);
@@ -127,20 +126,16 @@ private:
   {
     const svo::Node* nodes = this->Octree.nodes();
     const glm::ivec3 at = 2 * cell.cell + glm::ivec3(i & 1, i >> 1 & 1, i >> 2);
-    svo::OctreeCell below{ at, cell.node, 0, svo::GroupSize };
-    if (cell.bitCount == svo::GroupSize)
-    {
-      below.firstBit = cell.firstBit + i;
-      below.bitCount = 1;
-      occupied = svo::hasChild(nodes[below.node], below.firstBit);
-      return below;
-    }
-    if (cell.bitCount == 1)
+    svo::OctreeCell below{ at, cell.node, cell.firstBit, cell.above };
+    if (below.above == 0)
     {
       below.node = svo::child(nodes[cell.node], cell.firstBit);
+      below.firstBit = 0;
+      below.above = svo::NodeLevels;
     }
-    below.firstBit = svo::GroupSize * i;
-    occupied = svo::groupCells(nodes[below.node], below.firstBit) != 0;
+    --below.above;
+    below.firstBit += i * svo::cellsBelow(below.above);
+    occupied = svo::occupiedBelow(nodes[below.node], below.firstBit, below.above) != 0;
     return below;
   }
 

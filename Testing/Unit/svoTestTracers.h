@@ -25,7 +25,7 @@ inline std::vector<glm::ivec3> noise(int level, unsigned count, unsigned seed)
 /// Edge of a cell of a level in octree coordinates.
 inline double cellEdge(const svo::Octree& octree, int level)
 {
-  return 1.0 / double(1 << svo::rootBits(octree, level));
+  return 1.0 / double(1 << octree.rootBits(level));
 }
 
 inline svo::ReferenceHit trace(

@@ -18,26 +18,26 @@ constexpr float Sqrt3 = 1.7320508f;
 /// Depth of the nodes whose masks hold the cells of a level.
 int depthOf(const Octree& octree, int level)
 {
-  return octree.depthCount() - 1 - (octree.level() - level) / 2;
+  return octree.depthCount() - 1 - (octree.level() - level) / NodeLevels;
 }
 
-/// Cells along an edge of those nodes.
-int edgeOf(const Octree& octree, int level)
+/// How far those are above the nodes' own cells.
+int aboveOf(const Octree& octree, int level)
 {
-  return (octree.level() - level) % 2 == 0 ? 4 : 2;
+  return (octree.level() - level) % NodeLevels;
 }
 
-/// The occupied cells of a node as bits: for an edge of two, bits 0..7 are its groups.
-std::uint64_t cellsOf(const Node& node, int edge)
+/// The occupied cells of a node, or of those above them, as bits.
+std::uint64_t cellsOf(const Node& node, int above)
 {
-  if (edge == 4)
+  if (above == 0)
   {
     return node.mask;
   }
   std::uint64_t cells = 0;
-  for (int g = 0; g < 8; ++g)
+  for (int i = 0; i < NodeCells / cellsBelow(above); ++i)
   {
-    cells |= std::uint64_t(groupCells(node, GroupSize * g) != 0) << g;
+    cells |= std::uint64_t(occupiedBelow(node, i * cellsBelow(above), above) != 0) << i;
   }
   return cells;
 }
@@ -67,17 +67,17 @@ std::vector<CellBlock> blocksOf(const Octree& octree, int depth, const ParallelF
           {
             CellBlock& child = below[next++];
             const glm::ivec3 cell = cellOfIndex(lowestBit(mask));
-            child.place = 4 * block.place + cell;
+            child.place = NodeEdge * block.place + cell;
             int i = 0;
             for (int z = cell.z - 1; z <= cell.z + 1; ++z)
             {
               for (int y = cell.y - 1; y <= cell.y + 1; ++y)
               {
-                const int row = 9 * ((z >> 2) + 1) + 3 * ((y >> 2) + 1) + 1;
+                const int row = 9 * ((z >> NodeLevels) + 1) + 3 * ((y >> NodeLevels) + 1) + 1;
                 for (int x = cell.x - 1; x <= cell.x + 1; ++x, ++i)
                 {
-                  const std::uint32_t in = block.around[row + (x >> 2)];
-                  const int bit = cellIndex(x & 3, y & 3, z & 3);
+                  const std::uint32_t in = block.around[row + (x >> NodeLevels)];
+                  const int bit = cellAt({ x, y, z });
                   child.around[i] = in != CellBlock::None && hasChild(nodes[in], bit)
                     ? svo::child(nodes[in], bit)
                     : CellBlock::None;
@@ -107,15 +107,15 @@ std::size_t cellsOfLevel(const Octree& octree, int level)
   {
     return header.voxelCount;
   }
-  const int depth = depthOf(octree, level), edge = edgeOf(octree, level);
-  if (edge == 4)
+  const int depth = depthOf(octree, level), above = aboveOf(octree, level);
+  if (above == 0)
   {
     return header.depthBegin[depth + 2] - header.depthBegin[depth + 1];
   }
   std::size_t count = 0;
   for (std::uint32_t n = header.depthBegin[depth]; n < header.depthBegin[depth + 1]; ++n)
   {
-    count += static_cast<std::size_t>(countBits(cellsOf(octree.nodes()[n], edge)));
+    count += static_cast<std::size_t>(countBits(cellsOf(octree.nodes()[n], above)));
   }
   return count;
 }
@@ -134,14 +134,14 @@ CellPlanes::CellPlanes(const Octree& o, int l, const ParallelFor& parallelFor)
   : octree(o)
   , level(l)
   , depth(depthOf(o, l))
-  , edge(edgeOf(o, l))
+  , above(aboveOf(o, l))
   , blocks(blocksOf(o, depth, parallelFor))
   , masks(blocks.size())
   , firsts(blocks.size())
 {
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
-    masks[b] = cellsOf(this->node(b), edge);
+    masks[b] = cellsOf(this->node(b), above);
     firsts[b] = static_cast<std::uint32_t>(count);
     count += static_cast<std::size_t>(countBits(masks[b]));
   }
@@ -158,21 +158,23 @@ void CellPlanes::readPlanes(std::size_t block)
   int k = 0;
   for (std::uint64_t mask = masks[block]; mask != 0; mask &= mask - 1, ++to)
   {
-    if (edge == 4)
+    if (above == 0)
     {
       *to = planeOfBits(bits(k++));
       continue;
     }
-    // The mean of up to eight.
-    std::uint64_t group = groupCells(node, GroupSize * lowestBit(mask));
+    // The mean of those below it.
+    const auto width = static_cast<float>(1 << above);
+    std::uint64_t group = occupiedBelow(node, cellsBelow(above) * lowestBit(mask), above);
     const float children = static_cast<float>(countBits(group));
     glm::vec3 normal(0.0f), middle(0.0f);
     for (; group != 0; group &= group - 1)
     {
       const CellPlane plane = planeOfBits(bits(k++));
       normal += plane.normal;
-      middle +=
-        0.5f * (glm::vec3(cellOfIndex(lowestBit(group))) - 0.5f + plane.offset * plane.normal);
+      middle += (glm::vec3(cellOfIndex(lowestBit(group))) - 0.5f * (width - 1.0f) +
+                  plane.offset * plane.normal) /
+        width;
     }
     const float square = glm::dot(normal, normal);
     normal = square > 1e-6f ? normal / std::sqrt(square) : planeOfBits(bits(k - 1)).normal;

@@ -46,7 +46,7 @@ struct CellPlanes
   const Octree& octree;
   int level;
   int depth;
-  int edge;
+  int above; // the cells of those nodes, each time as wide
   std::vector<CellBlock> blocks;
   std::vector<std::uint64_t> masks;  // of the blocks
   std::vector<std::uint32_t> firsts; // cells before them
@@ -61,7 +61,7 @@ struct CellPlanes
   }
   glm::ivec3 cellAt(std::size_t block, int bit) const
   {
-    return edge * blocks[block].place + cellOfIndex(bit);
+    return (NodeEdge >> above) * blocks[block].place + cellOfIndex(bit);
   }
 
   /// Fills in the planes of the cells of a block.

@@ -28,13 +28,11 @@ std::uint64_t cornerKey(const glm::ivec3& corner)
 bool isOccupied(const Octree& octree, const OctreeCell& cell, const glm::ivec3& at, int level)
 {
   // Most neighbours are in the same block, where its mask is the answer.
-  const glm::ivec3 difference = (at ^ cell.cell) >> (cell.bitCount == 1 ? 2 : 1);
-  if (cell.bitCount < 64 && difference == glm::ivec3(0))
+  const glm::ivec3 difference = (at ^ cell.cell) >> (NodeLevels - cell.above);
+  if (cell.above < NodeLevels && difference == glm::ivec3(0))
   {
-    const Node& node = octree.nodes()[cell.node];
-    return cell.bitCount == 1
-      ? hasChild(node, cellIndex(at.x & 3, at.y & 3, at.z & 3))
-      : groupCells(node, GroupSize * cellIndex(at.x & 1, at.y & 1, at.z & 1)) != 0;
+    const int first = cellAt(at << cell.above);
+    return occupiedBelow(octree.nodes()[cell.node], first, cell.above) != 0;
   }
   return octree.occupied(at, level);
 }

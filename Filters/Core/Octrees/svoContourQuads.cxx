@@ -43,7 +43,7 @@ public:
       this->Below[i] = step.x + Steps[1] * step.y + Steps[2] * step.z;
       this->Corners[i] = glm::vec3(step) - 0.5f;
     }
-    const int edge = cells.edge;
+    const int edge = NodeEdge >> cells.above;
     for (int i = 0; i < 27; ++i)
     {
       const glm::ivec3 step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
@@ -157,7 +157,7 @@ private:
   int Below[8];         // from a corner to the cells around it
   glm::vec3 Corners[8]; // where it lies in those
   std::uint64_t Near[27];
-  int Position[27][64];
+  int Position[27][NodeCells];
   std::int32_t Index[216];
   CellPlane Planes[216];
   signed char Signs[216];

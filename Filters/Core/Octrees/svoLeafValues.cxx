@@ -35,17 +35,17 @@ struct Brick
 
 std::vector<Brick> bricksOf(const Octree& octree)
 {
-  if (octree.level() == 1)
+  if (octree.brickLevel() < 0)
   {
     return { { glm::ivec3(0), 0 } };
   }
   std::vector<Brick> bricks;
   bricks.reserve(octree.header().nodeCount - octree.brickBegin());
-  forEachCell(octree, octree.level() - 2,
+  forEachCell(octree, octree.brickLevel(),
     [&](const OctreeCell& c)
     {
       bricks.push_back(
-        { 4 * c.cell, c.bitCount == 1 ? child(octree.nodes()[c.node], c.firstBit) : c.node });
+        { NodeEdge * c.cell, c.above == 0 ? child(octree.nodes()[c.node], c.firstBit) : c.node });
       return true;
     });
   return bricks;
@@ -243,10 +243,7 @@ LeafArrays emptyCopiesOfLeafValues(vtkPolyData* mesh)
 vtkIdType firstLeaf(const Octree& octree, const OctreeCell& cell)
 {
   const Node& node = octree.nodes()[cell.node];
-  const int bit = cell.bitCount == GroupSize
-    ? cell.firstBit + lowestBit(groupCells(node, cell.firstBit))
-    : cell.bitCount == 1 ? cell.firstBit
-                         : lowestBit(node.mask);
+  const int bit = cell.firstBit + lowestBit(occupiedBelow(node, cell.firstBit, cell.above));
   return cell.node >= octree.brickBegin() ? octree.planeOf(cell.node, bit)
                                           : octree.firstPlane(child(node, bit));
 }

@@ -6,19 +6,20 @@
 #include "svoNode.h"
 #include "svoOctree.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
 
 namespace svo
 {
-/// An occupied cell, and where it is stored.
+/// An occupied cell, and where it is stored: StopCell.
 struct OctreeCell
 {
   glm::ivec3 cell;    // integer coordinates at the level
   std::uint32_t node; // whose mask holds the cell's bits
   int firstBit;
-  int bitCount; // 1, 8 for a level in between, or 64 for the cube itself
+  int above;
 };
 
 namespace detail
@@ -28,26 +29,16 @@ bool visitCells(
   const Octree& octree, std::uint32_t index, glm::ivec3 block, int remaining, const Visit& visit)
 {
   const Node& node = octree.nodes()[index];
-  if (remaining == 1) // the level in between: a byte of the mask is a cell
-  {
-    for (int group = 0; group < 8; ++group)
-    {
-      const glm::ivec3 at = 2 * block + glm::ivec3(group & 1, group >> 1 & 1, group >> 2);
-      const int first = GroupSize * group;
-      if (groupCells(node, first) != 0 && !visit(OctreeCell{ at, index, first, GroupSize }))
-      {
-        return false;
-      }
-    }
-    return true;
-  }
+  const int above = std::max(NodeLevels - remaining, 0);
   std::uint32_t child = node.first;
-  for (std::uint64_t mask = node.mask; mask; mask &= mask - 1)
+  for (std::uint64_t mask = node.mask; mask;)
   {
-    const int bit = lowestBit(mask);
-    const glm::ivec3 at = 4 * block + cellOfIndex(bit);
-    const bool goOn = remaining == 2 ? visit(OctreeCell{ at, index, bit, 1 })
-                                     : visitCells(octree, child++, at, remaining - 2, visit);
+    const int first = firstBelow(lowestBit(mask), above);
+    mask &= ~(maskBelow(above) << first);
+    const glm::ivec3 at = (NodeEdge * block + cellOfIndex(first)) >> above;
+    const bool goOn = remaining <= NodeLevels
+      ? visit(OctreeCell{ at, index, first, above })
+      : visitCells(octree, child++, at, remaining - NodeLevels, visit);
     if (!goOn)
     {
       return false;
@@ -62,13 +53,8 @@ bool visitCells(
 template <class Visit>
 bool forEachCell(const Octree& octree, int level, const Visit& visit)
 {
-  if (octree.empty())
-  {
-    return true;
-  }
-  const int bits = level + 2 * octree.depthCount() - octree.level();
-  return bits == 0 ? visit(OctreeCell{ glm::ivec3(0), 0, 0, 64 })
-                   : detail::visitCells(octree, 0, glm::ivec3(0), bits, visit);
+  return octree.empty() ||
+    detail::visitCells(octree, 0, glm::ivec3(0), octree.rootBits(level), visit);
 }
 }
 

@@ -53,7 +53,7 @@ std::uint32_t nearestTriangle(const Octree& octree, const OctreeCell& cell, int 
   if (cell.node < octree.brickBegin())
   {
     std::uint32_t node = cell.node;
-    if (cell.bitCount < 64)
+    if (cell.above < NodeLevels)
     {
       // The first of the children that are the cell's.
       const Node& parent = octree.nodes()[node];
@@ -64,8 +64,7 @@ std::uint32_t nearestTriangle(const Octree& octree, const OctreeCell& cell, int 
   std::uint32_t count = 0;
   std::uint32_t inlineId = 0;
   const std::uint32_t* ids = octree.brickTriangles(cell.node, count, inlineId);
-  const double edge =
-    std::ldexp(1.0, octree.level() - 2 * octree.depthCount() - level); // octree coordinates
+  const double edge = std::ldexp(1.0, -octree.rootBits(level)); // octree coordinates
   const glm::dvec3 centre = 1.0 + (glm::dvec3(cell.cell) + 0.5) * edge;
   const Surface& surface = *octree.surface();
   std::uint32_t best = ids[0];

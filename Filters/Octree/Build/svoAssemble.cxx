@@ -85,7 +85,7 @@ std::size_t fillBucket(const BrickRecord* records, std::size_t count, Share at,
       }
     }
     const SurfaceMoment moment = brickMoment(records + i, end - i, node.mask, shapes);
-    node.plane = planeOfMoment(moment, 4.0f);
+    node.plane = planeOfMoment(moment, NodeEdge);
     voxels += static_cast<std::size_t>(childCount(node));
     assert(at.nodes < bricks.size());
     bricks.keys[at.nodes] = records[i].key;
@@ -141,7 +141,7 @@ NodeDepth makeParents(const NodeDepth& children, float childEdge, Executor& exec
   const std::size_t count = children.size();
   const std::size_t blocks = (count + NodeBlock - 1) / NodeBlock;
   const auto startsParent = [&](std::size_t i)
-  { return i == 0 || children.keys[i] >> 6 != children.keys[i - 1] >> 6; };
+  { return i == 0 || children.keys[i] / NodeCells != children.keys[i - 1] / NodeCells; };
   const auto cost = [](std::size_t) { return static_cast<double>(NodeBlock); };
   std::vector<Share> shares(blocks);
   executor.run(blocks, 1, 0.0, 1e7, cost,
@@ -171,15 +171,15 @@ NodeDepth makeParents(const NodeDepth& children, float childEdge, Executor& exec
             continue;
           }
           Node node{ 0, static_cast<std::uint32_t>(i), 0 };
-          const std::uint64_t key = children.keys[i] >> 6;
+          const std::uint64_t key = children.keys[i] / NodeCells;
           assert(i == 0 || children.keys[i - 1] < children.keys[i]);
-          for (std::size_t k = i; k < count && children.keys[k] >> 6 == key; ++k)
+          for (std::size_t k = i; k < count && children.keys[k] / NodeCells == key; ++k)
           {
-            node.mask |= cellBit(children.keys[k] & 63);
+            node.mask |= cellBit(children.keys[k] % NodeCells);
           }
           const SurfaceMoment moment =
             blockMoment(children.moments.data() + i, node.mask, childEdge);
-          node.plane = planeOfMoment(moment, 4.0f * childEdge);
+          node.plane = planeOfMoment(moment, NodeEdge * childEdge);
           parents.keys[at] = key;
           parents.nodes[at] = node;
           parents.moments[at] = moment;
@@ -257,7 +257,7 @@ Header makeHeader(const BuildOptions& options, const Cube& cube)
   std::memcpy(header.magic, LayoutMagic, sizeof(LayoutMagic));
   header.version = LayoutVersion;
   header.level = static_cast<std::uint32_t>(options.level);
-  header.depthCount = (header.level + 1) / 2;
+  header.depthCount = static_cast<std::uint32_t>(depthsOf(options.level));
   header.leafGeometry = static_cast<std::uint32_t>(options.leafGeometry);
   header.voxelSize = std::ldexp(cube.edge, -options.level);
   for (int i = 0; i < 3; ++i)
@@ -290,8 +290,8 @@ std::shared_ptr<std::byte> assembleBricks(NodeDepth&& bricks, const RawArray<std
     depths.push_back(emptyRoot(header.depthCount == 1));
     return writeBuffer(depths, lists, header, size, executor);
   }
-  float edge = 4.0f;
-  for (std::uint32_t d = 1; d < header.depthCount; ++d, edge *= 4.0f)
+  float edge = NodeEdge;
+  for (std::uint32_t d = 1; d < header.depthCount; ++d, edge *= NodeEdge)
   {
     depths.push_back(makeParents(depths.back(), edge, executor));
     depths[d - 1].moments = {};

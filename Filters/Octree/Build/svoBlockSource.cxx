@@ -16,12 +16,7 @@ namespace
 /// Index of the octant of a block that a voxel of it lies in.
 int octantOf(const glm::ivec3& v)
 {
-  return (v.x >> 2 & 1) | (v.y >> 2 & 1) << 1 | (v.z >> 2 & 1) << 2;
-}
-
-int cellInBrick(const glm::ivec3& v)
-{
-  return cellIndex(v.x & 3, v.y & 3, v.z & 3);
+  return (v.x >> NodeLevels & 1) | (v.y >> NodeLevels & 1) << 1 | (v.z >> NodeLevels & 1) << 2;
 }
 
 std::uint64_t keyOf(const glm::ivec3& block)
@@ -38,7 +33,7 @@ bool before(const VoxelBlock& block, std::uint64_t key)
 
 void VoxelBlock::add(const glm::ivec3& voxel)
 {
-  this->bricks[octantOf(voxel)] |= cellBit(cellInBrick(voxel));
+  this->bricks[octantOf(voxel)] |= cellBit(svo::cellAt(voxel));
 }
 
 bool VoxelBlock::empty() const
@@ -95,17 +90,19 @@ bool BlockSource::mayPass(const glm::dvec3& centre, double half) const
   {
     return false;
   }
-  const std::uint64_t brick = block->bricks[octantOf(low)];
-  const int cell = cellInBrick(low);
-  return edge >= 4 ? brick != 0
-    : edge == 2    ? (brick >> groupOf(cell) & 0xff) != 0
-                   : (brick & cellBit(cell)) != 0;
+  int above = 0;
+  while (1 << above < edge)
+  {
+    ++above;
+  }
+  const int first = firstBelow(svo::cellAt(low), above);
+  return occupiedBelow(block->bricks[octantOf(low)], first, above) != 0;
 }
 
 bool BlockSource::has(const glm::ivec3& voxel) const
 {
   const VoxelBlock* block = this->find(voxel / VoxelBlock::Edge);
-  return block && (block->bricks[octantOf(voxel)] & cellBit(cellInBrick(voxel))) != 0;
+  return block && (block->bricks[octantOf(voxel)] & cellBit(svo::cellAt(voxel))) != 0;
 }
 
 bool BlockSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const

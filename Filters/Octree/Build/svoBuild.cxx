@@ -124,7 +124,8 @@ std::shared_ptr<const Surface> makeSurface(const TriangleMesh& mesh,
   surface->triangles.assign(mesh.triangles, mesh.triangles + mesh.triangleCount);
   surface->cells = std::move(cells);
   const glm::dvec3 origin(header.origin[0], header.origin[1], header.origin[2]);
-  const double scale = 1.0 / std::ldexp(header.voxelSize, static_cast<int>(2 * header.depthCount));
+  const double scale =
+    1.0 / std::ldexp(header.voxelSize, static_cast<int>(NodeLevels * header.depthCount));
   parallelFor(0, mesh.pointCount, 16384,
     [&](std::size_t first, std::size_t last)
     {

@@ -48,14 +48,14 @@ ImageBrick::Axis ImageBrick::axisOf(double begin, double step, int last)
     axis.point[axis.count] = point;
     axis.in[axis.count++] = inside - point;
   };
-  for (int k = 0; k <= 4; ++k)
+  for (int k = 0; k <= NodeEdge; ++k)
   {
     const double here = begin + k * step, next = here + step;
     axis.border[k] = axis.count;
     add(here, k);
     const double between =
       step > 0.0 ? std::floor(here + Rounding) + 1.0 : std::ceil(here - Rounding) - 1.0;
-    if (k < 4 && (next - between) / step > Rounding && between > 0.0 && between < last)
+    if (k < NodeEdge && (next - between) / step > Rounding && between > 0.0 && between < last)
     {
       add(between, k + (between - here) / step);
     }
@@ -145,7 +145,7 @@ std::uint64_t ImageBrick::passedBy(double surface) const
     }
   }
   std::uint64_t mask = 0;
-  for (int i = 0; i < 64; ++i)
+  for (int i = 0; i < NodeCells; ++i)
   {
     const glm::ivec3 c = cellOfIndex(i);
     const unsigned all = (2u << X.border[c.x + 1]) - (1u << X.border[c.x]);

@@ -129,7 +129,7 @@ std::uint32_t ImageSource::planeReach(double half) const
   return ImageBrick::ready(this->Grid, half) ? 2 : LongestReach;
 }
 
-std::uint64_t ImageSource::planesIn(const SourceBrick& brick, SourcePlane planes[64]) const
+std::uint64_t ImageSource::planesIn(const SourceBrick& brick, SourcePlane planes[NodeCells]) const
 {
   if (!ImageBrick::ready(this->Grid, brick.half))
   {

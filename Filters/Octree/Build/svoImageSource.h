@@ -359,7 +359,7 @@ public:
   /// that share a border one has those on it.
   bool planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const override;
   /// Of voxels no larger than cells from the corners, see svoImageBrick.h.
-  std::uint64_t planesIn(const SourceBrick& brick, SourcePlane planes[64]) const override;
+  std::uint64_t planesIn(const SourceBrick& brick, SourcePlane planes[NodeCells]) const override;
   std::uint32_t planeReach(double half) const override;
 
 private:

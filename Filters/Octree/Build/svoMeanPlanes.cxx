@@ -132,7 +132,7 @@ SurfaceMoment blockMoment(const SurfaceMoment* children, std::uint64_t mask, flo
     const SurfaceMoment& child = children[count];
     const glm::vec3 cell(cellOfIndex(lowestBit(mask)));
     moment.area += child.area;
-    moment.centre += ((cell - 1.5f) * childEdge + child.centre) * child.area;
+    moment.centre += ((cell - 0.5f * (NodeEdge - 1)) * childEdge + child.centre) * child.area;
   }
   assert(moment.area > 0.0f);
   moment.centre /= moment.area;

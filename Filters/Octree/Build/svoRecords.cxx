@@ -181,7 +181,7 @@ SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor&
     }
     total += blockSize[block];
   }
-  const int keyBits = 6 * ((level + 1) / 2 - 1);
+  const int keyBits = 3 * NodeLevels * (depthsOf(level) - 1);
   const int bucketBits = std::min(keyBits, bucketBitsFor(total));
   const int shift = keyBits - bucketBits;
   const std::size_t buckets = std::size_t(1) << bucketBits;

@@ -70,9 +70,9 @@ public:
   /// Visits what lies below a cell of `level` that mayPass().
   void visit(const glm::ivec3& cell, int level, Found& found)
   {
-    if (level >= this->Level - 2)
+    if (level >= this->Level - NodeLevels)
     {
-      assert(level == std::max(this->Level - 2, 0));
+      assert(level == std::max(this->Level - NodeLevels, 0));
       this->visitBrick(cell, found);
       return;
     }
@@ -98,21 +98,19 @@ private:
       glm::all(glm::lessThanEqual(centre - half, this->High));
   }
 
-  /// A brick is a cell two levels above the voxels; where there are fewer levels, its lower corner
+  /// A brick is a cell NodeLevels above the voxels; where there are fewer levels, its lower corner
   /// is the cube.
   void visitBrick(const glm::ivec3& cell, Found& found)
   {
     const double half = this->half(this->Level);
-    SourceBrick brick{ this->Origin + 8.0 * half * glm::dvec3(cell), half, ~std::uint64_t(0) };
-    if (this->Level == 1)
-    {
-      brick.asked = 0xff;
-    }
-    if (!this->isInBox(brick.low, brick.low + 8.0 * half))
+    const double edge = 2 * NodeEdge * half;
+    SourceBrick brick{ this->Origin + edge * glm::dvec3(cell), half,
+      maskBelow(std::min(this->Level, NodeLevels)) };
+    if (!this->isInBox(brick.low, brick.low + edge))
     {
       brick.asked &= this->voxelsInBox(brick);
     }
-    SourcePlane planes[64];
+    SourcePlane planes[NodeCells];
     const std::uint64_t mask = this->Source.planesIn(brick, planes);
     assert((mask & ~brick.asked) == 0);
     if (mask == 0)
@@ -146,7 +144,7 @@ private:
   std::uint64_t voxelsInBox(const SourceBrick& brick) const
   {
     std::uint64_t mask = 0;
-    for (int i = 0; i < 64; ++i)
+    for (int i = 0; i < NodeCells; ++i)
     {
       const glm::dvec3 centre = brick.low + brick.half * (2.0 * glm::dvec3(cellOfIndex(i)) + 1.0);
       mask |= this->touchesBox(centre, brick.half) ? cellBit(i) : 0;
@@ -166,7 +164,7 @@ private:
     const float area = 1.0f / std::max({ along.x, along.y, along.z });
     moment.normal += area * normal;
     moment.area += area;
-    moment.centre += area * (glm::vec3(inBrick) - 1.5f + offset * normal);
+    moment.centre += area * (glm::vec3(inBrick) - 0.5f * (NodeEdge - 1) + offset * normal);
   }
 
   const SurfaceSource& Source;
@@ -270,7 +268,7 @@ NodeDepth joinBricks(std::vector<Found>& parts, Header& header, RawArray<std::ui
     {
       all.keys[brick] = part.keys[i];
       all.moments[brick] = part.moments[i];
-      all.nodes[brick] = { part.masks[i], first, planeOfMoment(part.moments[i], 4.0f) };
+      all.nodes[brick] = { part.masks[i], first, planeOfMoment(part.moments[i], NodeEdge) };
       first += static_cast<std::uint32_t>(countBits(part.masks[i]));
     }
     part = Found();
@@ -333,14 +331,15 @@ std::string refusal(const BuildOptions& options)
 }
 }
 
-std::uint64_t SurfaceSource::planesIn(const SourceBrick& brick, SourcePlane planes[64]) const
+std::uint64_t SurfaceSource::planesIn(const SourceBrick& brick, SourcePlane planes[NodeCells]) const
 {
   std::uint64_t mask = 0;
   const double half = brick.half;
-  for (int g = 0; g < 64; g += GroupSize)
+  constexpr int GroupSize = cellsBelow(1); // asked of together first
+  for (int g = 0; g < NodeCells; g += GroupSize)
   {
     const glm::dvec3 group = brick.low + half * (2.0 * glm::dvec3(cellOfIndex(g)) + 2.0);
-    if ((brick.asked >> g & 0xff) == 0 || !this->mayPass(group, 2.0 * half))
+    if ((brick.asked >> g & maskBelow(1)) == 0 || !this->mayPass(group, 2.0 * half))
     {
       continue;
     }

@@ -22,7 +22,7 @@ struct SourcePlane
   double offset;     // from the voxel's centre along the normal, in the source's units
 };
 
-/// The 4x4x4 voxels of a brick, in Morton order.
+/// The voxels of a brick, in Morton order.
 struct SourceBrick
 {
   glm::dvec3 low;      // corner
@@ -46,7 +46,7 @@ public:
 
   /// The same of the voxels of a brick: which of those asked for, with their planes in their
   /// places.
-  virtual std::uint64_t planesIn(const SourceBrick& brick, SourcePlane planes[64]) const;
+  virtual std::uint64_t planesIn(const SourceBrick& brick, SourcePlane planes[NodeCells]) const;
 
   /// How far planes have to be seen beyond voxels of that size, for those next to each other to
   /// meet, in 1/16 voxel: 1 to LongestReach.

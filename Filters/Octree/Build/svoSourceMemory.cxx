@@ -73,7 +73,7 @@ SourceMemory::SourceMemory(const std::vector<glm::ivec3>& starts, int startLevel
 double SourceMemory::expected(int level) const
 {
   return this->Bytes.voxel * this->Cells[level] +
-    this->Bytes.brick * this->Cells[std::max(level - 2, 0)];
+    this->Bytes.brick * this->Cells[std::max(level - NodeLevels, 0)];
 }
 
 std::string SourceMemory::tooLarge(int level, double limit) const

@@ -65,21 +65,22 @@ struct Range
       const std::int32_t c = corners.at[2][i];
       this->first[i] = std::max((std::min(a, std::min(b, c)) - 2) >> LatticeBits, 0);
       this->last[i] = std::min((std::max(a, std::max(b, c)) + 1) >> LatticeBits, end);
-      this->firstBrick[i] = this->first[i] >> 2;
-      this->lastBrick[i] = this->last[i] >> 2;
+      this->firstBrick[i] = this->first[i] >> NodeLevels;
+      this->lastBrick[i] = this->last[i] >> NodeLevels;
     }
   }
 
   std::uint64_t brickMask(const BrickTables& tables, int axis, int brick) const
   {
-    return tables.range[axis][std::max(this->first[axis] - 4 * brick, 0)]
-                       [std::min(this->last[axis] - 4 * brick, 3)];
+    return tables.range[axis][std::max(this->first[axis] - NodeEdge * brick, 0)]
+                       [std::min(this->last[axis] - NodeEdge * brick, NodeEdge - 1)];
   }
 };
 
 float offsetInBrick(const LatticeTriangle& t, const glm::ivec3& brick)
 {
-  return static_cast<float>(t.offset - glm::dot(t.normal, glm::dvec3(brick) * 4.0 + 2.0));
+  return static_cast<float>(
+    t.offset - glm::dot(t.normal, (glm::dvec3(brick) + 0.5) * double(NodeEdge)));
 }
 
 /// Triangles without area, which are segments or points: top-down with the exact test.
@@ -100,7 +101,7 @@ public:
     const int* const l = this->Within.last;
     const glm::ivec3 first(f[0], f[1], f[2]);
     const glm::ivec3 last(l[0], l[1], l[2]);
-    int bits = 2;
+    int bits = NodeLevels;
     while ((last.x >> bits) - (first.x >> bits) > 1 || (last.y >> bits) - (first.y >> bits) > 1 ||
       (last.z >> bits) - (first.z >> bits) > 1)
     {
@@ -133,7 +134,7 @@ private:
     {
       return;
     }
-    if (bits > 2)
+    if (bits > NodeLevels)
     {
       for (int i = 0; i < 8; ++i)
       {
@@ -142,9 +143,9 @@ private:
       return;
     }
     std::uint64_t mask = 0;
-    for (int i = 0; i < 64; ++i)
+    for (int i = 0; i < NodeCells; ++i)
     {
-      const glm::ivec3 voxel = cell * 4 + cellOfIndex(i);
+      const glm::ivec3 voxel = cell * NodeEdge + cellOfIndex(i);
       if (voxel.x <= this->Within.last[0] && voxel.y <= this->Within.last[1] &&
         voxel.z <= this->Within.last[2] && this->touches(voxel, 0))
       {
@@ -178,8 +179,8 @@ void projectTriangle(const Corners& corners, const int firstBrick[3], int axis, 
   const auto add = [&](std::int64_t nu, std::int64_t nv, const std::int32_t* p)
   {
     // The corner of the first voxel's grown box that lies farthest to the inside.
-    const std::int64_t pu = p[u] - firstBrick[u] * (4 * LatticeUnits);
-    const std::int64_t pv = p[v] - firstBrick[v] * (4 * LatticeUnits);
+    const std::int64_t pu = p[u] - firstBrick[u] * (NodeEdge * LatticeUnits);
+    const std::int64_t pv = p[v] - firstBrick[v] * (NodeEdge * LatticeUnits);
     const std::int64_t most =
       nu * ((nu > 0 ? LatticeUnits + 1 : -1) - pu) + nv * ((nv > 0 ? LatticeUnits + 1 : -1) - pv);
     const std::int64_t span = (std::abs(nu) + std::abs(nv)) * (LatticeUnits + 2);
@@ -238,7 +239,8 @@ public:
     // The plane's offset from a brick's centre.
     const glm::dvec3& n = this->Triangle.normal;
     const double normal[3] = { n.x, n.y, n.z };
-    const auto along = [&](int axis, int brick) { return normal[axis] * (4 * brick + 2); };
+    const auto along = [&](int axis, int brick)
+    { return normal[axis] * (NodeEdge * (brick + 0.5)); };
     // Added to a key with the bits between set, one more brick carries over them.
     const std::uint64_t axisBits = 0x1249249249249249ull;
     const int rows = r.lastBrick[v] - r.firstBrick[v] + 1;
@@ -266,14 +268,14 @@ public:
           continue;
         }
         // A box above the inside of a projection meets the triangle where it meets its plane.
-        const bool inside = tile == 0xffffu && this->Shadows[w].contains(x, y);
+        const bool inside = tile == BrickTables::AllColumns && this->Shadows[w].contains(x, y);
         const double columnOffset = rowOffset - along(u, brickU);
         int firstW, lastW;
         Int base = this->columnBase(x, y, u, v, w, firstW, lastW);
         std::uint64_t keyW = spreadBits(r.firstBrick[w] + firstW);
         const std::uint64_t columnKey = rowKey | spreadBits(brickU) << u;
         for (int z = firstW; z <= lastW;
-             ++z, base += 4 * this->Normal[w], keyW = ((keyW | ~axisBits) + 1) & axisBits)
+             ++z, base += NodeEdge * this->Normal[w], keyW = ((keyW | ~axisBits) + 1) & axisBits)
         {
           if (base + this->Most < 0 || base + this->Least > this->Thickness)
           {
@@ -310,13 +312,13 @@ private:
     for (int i = 0; i < 3; ++i)
     {
       const std::int32_t from =
-        (this->Within.firstBrick[i] << (2 + LatticeBits)) - this->Vertices.at[0][i];
+        (this->Within.firstBrick[i] << (NodeLevels + LatticeBits)) - this->Vertices.at[0][i];
       const std::int32_t high = n[i] > 0 ? LatticeUnits + 1 : -1;
       const std::int32_t low = n[i] > 0 ? -1 : LatticeUnits + 1;
       most += static_cast<Int>(n[i]) * (from + high);
       least += static_cast<Int>(n[i]) * (from + low);
-      this->Most += 3 * std::max<std::int64_t>(n[i], 0);
-      this->Least += 3 * std::min<std::int64_t>(n[i], 0);
+      this->Most += (NodeEdge - 1) * std::max<std::int64_t>(n[i], 0);
+      this->Least += (NodeEdge - 1) * std::min<std::int64_t>(n[i], 0);
     }
     // Rounding down is exact: what is compared with them are integers.
     this->Base = most >> LatticeBits;
@@ -338,19 +340,19 @@ private:
     const Range& r = this->Within;
     first = 0;
     last = r.lastBrick[w] - r.firstBrick[w];
-    Int base = this->Base + static_cast<Int>(this->Normal[u]) * (4 * x) +
-      static_cast<Int>(this->Normal[v]) * (4 * y);
+    Int base = this->Base + static_cast<Int>(this->Normal[u]) * (NodeEdge * x) +
+      static_cast<Int>(this->Normal[v]) * (NodeEdge * y);
     if (last > 3)
     {
       // 0 <= base + Most + step * i and base + Least + step * i <= Thickness, give or take one for
       // the division in double.
-      const double step = 4.0 * static_cast<double>(this->Normal[w]);
+      const double step = double(NodeEdge) * static_cast<double>(this->Normal[w]);
       const double a = -static_cast<double>(base + this->Most) / step;
       const double c = static_cast<double>(this->Thickness - this->Least - base) / step;
       const double span = last;
       first = static_cast<int>(std::clamp(std::min(a, c) - 1.0, 0.0, span));
       last = static_cast<int>(std::clamp(std::max(a, c) + 2.0, 0.0, span));
-      base += static_cast<Int>(this->Normal[w]) * 4 * first;
+      base += static_cast<Int>(this->Normal[w]) * NodeEdge * first;
     }
     return base;
   }

@@ -24,7 +24,7 @@ std::size_t blocksOf(std::size_t triangles)
 
 double bricksOfEdge(int level)
 {
-  return std::ldexp(1.0, std::max(level - 2, 0));
+  return std::ldexp(1.0, std::max(level - NodeLevels, 0));
 }
 }
 

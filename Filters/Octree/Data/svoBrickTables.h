@@ -10,6 +10,9 @@ namespace svo
 {
 struct BrickTables
 {
+  /// Of a tile.
+  static constexpr unsigned AllColumns = (1u << NodeEdge * NodeEdge) - 1;
+
   /// [axis][low byte, high byte][bits]: the cells of a 4x4 tile across `axis`, in Morton order
   /// (u, v, u, v with u = axis + 1 and v = axis + 2, cyclically), as columns of voxels.
   std::uint64_t column[3][2][256];

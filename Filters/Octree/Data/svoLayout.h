@@ -72,11 +72,23 @@ enum class LeafGeometry : std::uint32_t
   Automatic = 3
 };
 
+/// Octree levels of a node, and its cells along an edge and in all.
+constexpr int NodeLevels = 2;
+constexpr int NodeEdge = 1 << NodeLevels;
+constexpr int NodeCells = NodeEdge * NodeEdge * NodeEdge;
+
+/// Nodes from the root to a brick, of an octree with so many levels.
+constexpr int depthsOf(int levels)
+{
+  return (levels + NodeLevels - 1) / NodeLevels;
+}
+
 constexpr int MaximumLevel = 20;
-constexpr int MaximumDepths = (MaximumLevel + 1) / 2;
+constexpr int MaximumDepths = depthsOf(MaximumLevel);
 /// Bits of a float below its exponent: of an octree coordinate, those of the cells.
 constexpr int MantissaBits = 23;
-static_assert(2 * MaximumDepths <= MantissaBits, "a float tells all voxels of a root cube apart");
+static_assert(
+  NodeLevels * MaximumDepths <= MantissaBits, "a float tells all voxels of a root cube apart");
 constexpr std::uint32_t InlineTriangle = 0x80000000u;
 
 struct Node
@@ -92,7 +104,7 @@ struct Header
   char magic[8];               // "vtkSVO\0\0"
   std::uint32_t version;       // LayoutVersion
   std::uint32_t level;         // 1..MaximumLevel: voxels along an edge of the cube = 2^level
-  std::uint32_t depthCount;    // (level + 1) / 2
+  std::uint32_t depthCount;    // depthsOf(level)
   std::uint32_t leafGeometry;  // LeafGeometry the converter asked for
   std::uint64_t nodeCount;     // nodes of all depths, at least 1 (the root, with an empty mask)
   std::uint64_t listWords;     // 32-bit words in `lists`

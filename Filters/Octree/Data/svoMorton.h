@@ -2,6 +2,8 @@
 #ifndef svoMorton_h
 #define svoMorton_h
 
+#include "svoLayout.h"
+
 #include <cassert>
 #include <cstdint>
 
@@ -16,10 +18,18 @@ constexpr int cellIndex(int x, int y, int z)
   return (x & 1) | (y & 1) << 1 | (z & 1) << 2 | (x >> 1) << 3 | (y >> 1) << 4 | (z >> 1) << 5;
 }
 
+/// Index of the cell of a node that a cell `shift` levels further down, or a place among such, lies
+/// in.
+constexpr int cellAt(const glm::ivec3& place, int shift = 0)
+{
+  constexpr int In = NodeEdge - 1;
+  return cellIndex(place.x >> shift & In, place.y >> shift & In, place.z >> shift & In);
+}
+
 /// Inverse of cellIndex.
 inline glm::ivec3 cellOfIndex(int i)
 {
-  assert(i >= 0 && i < 64);
+  assert(i >= 0 && i < NodeCells);
   return { (i & 1) | (i >> 2 & 2), (i >> 1 & 1) | (i >> 3 & 2), (i >> 2 & 1) | (i >> 4 & 2) };
 }
 

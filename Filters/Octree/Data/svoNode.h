@@ -1,8 +1,8 @@
-// Reading a node (svoLayout.h): which of its 64 cells are occupied, and where their nodes lie.
+// Reading a node (svoLayout.h): which of its cells are occupied, and where their nodes lie.
 //
-// Cells are named by their index 0..63 in Morton order. A brick's cells are voxels and have no
-// nodes. Eight cells in a row, from a multiple of 8 on, are a group: the 2x2x2 cells that are one
-// cell of the octree level in between.
+// Cells are named by their index in Morton order. A brick's cells are voxels and have no nodes. The
+// cells that make up one of an octree level `above` them, 8^above, follow each other: with 1 it is
+// the level in between, with NodeLevels the node's whole block.
 #ifndef svoNode_h
 #define svoNode_h
 
@@ -13,8 +13,6 @@
 
 namespace svo
 {
-constexpr int GroupSize = 8; // cells
-
 /// Set bits of a mask.
 inline int countBits(std::uint64_t mask)
 {
@@ -31,14 +29,14 @@ inline int lowestBit(std::uint64_t mask)
 /// A mask with one cell in it.
 inline std::uint64_t cellBit(int i)
 {
-  assert(i >= 0 && i < 64);
+  assert(i >= 0 && i < NodeCells);
   return std::uint64_t(1) << i;
 }
 
 /// True if cell i is occupied: then an inner node has a child there, a brick a voxel.
 inline bool hasChild(const Node& node, int i)
 {
-  assert(i >= 0 && i < 64);
+  assert(i >= 0 && i < NodeCells);
   return node.mask >> i & 1;
 }
 
@@ -61,17 +59,44 @@ inline std::uint32_t child(const Node& node, int i)
   return node.first + static_cast<std::uint32_t>(childrenBefore(node, i));
 }
 
-/// The first cell of the group that cell i is in.
-constexpr int groupOf(int i)
+/// Cells of a node that make up one `above` them.
+constexpr int cellsBelow(int above)
 {
-  return i & 56;
+  return 1 << (3 * above);
 }
 
-/// The occupied cells of the group whose first cell is `first`, as bits 0..7.
-inline std::uint64_t groupCells(const Node& node, int first)
+/// The first of those that cell i is one of.
+constexpr int firstBelow(int i, int above)
 {
-  assert(first >= 0 && first < 64 && first % GroupSize == 0);
-  return node.mask >> first & 0xff;
+  return i & -cellsBelow(above);
+}
+
+/// As many bits.
+constexpr std::uint64_t maskBelow(int above)
+{
+  return ~std::uint64_t(0) >> (64 - cellsBelow(above));
+}
+
+/// The occupied cells of a node, or of a mask, of those from `first` on: bits from 0 on.
+inline std::uint64_t occupiedBelow(std::uint64_t mask, int first, int above)
+{
+  assert(first >= 0 && first < NodeCells && first == firstBelow(first, above));
+  return mask >> first & maskBelow(above);
+}
+inline std::uint64_t occupiedBelow(const Node& node, int first, int above)
+{
+  return occupiedBelow(node.mask, first, above);
+}
+
+/// How far above a cell that is not occupied the largest one around it is that is empty, too.
+inline int emptyAbove(const Node& node, int i)
+{
+  int above = 0;
+  while (above + 1 < NodeLevels && occupiedBelow(node, firstBelow(i, above + 1), above + 1) == 0)
+  {
+    ++above;
+  }
+  return above;
 }
 }
 

@@ -21,8 +21,9 @@ bool headerIsSane(const Header& h, std::size_t size)
 {
   if (std::memcmp(h.magic, LayoutMagic, sizeof(LayoutMagic)) != 0 || h.version != LayoutVersion ||
     h.level < 1 || h.level > static_cast<std::uint32_t>(MaximumLevel) ||
-    h.depthCount != (h.level + 1) / 2 || h.nodeCount < 1 || h.nodeCount > 0x7fffffffu ||
-    h.listWords > 0x7fffffffu || h.triangleCount > 0x7fffffffu ||
+    h.depthCount != static_cast<std::uint32_t>(depthsOf(static_cast<int>(h.level))) ||
+    h.nodeCount < 1 || h.nodeCount > 0x7fffffffu || h.listWords > 0x7fffffffu ||
+    h.triangleCount > 0x7fffffffu ||
     (h.leafWords != 0 && (h.leafWords != PlaneWords || h.triangleCount != 0)) ||
     h.framed > (h.leafWords != 0 ? 1u : 0u) ||
     h.planeReach > (h.leafWords != 0 ? LongestReach : 0u) || size != bufferSize(h))
@@ -30,7 +31,7 @@ bool headerIsSane(const Header& h, std::size_t size)
     return false;
   }
   // The cube's edge and its inverse are finite, or nothing in octree coordinates would be.
-  const double rootEdge = h.voxelSize * static_cast<double>(1u << (2 * h.depthCount));
+  const double rootEdge = h.voxelSize * static_cast<double>(1u << (NodeLevels * h.depthCount));
   if (!std::isfinite(h.origin[0] + h.origin[1] + h.origin[2]) || !(h.voxelSize > 0.0) ||
     !std::isfinite(rootEdge) || !std::isfinite(1.0 / rootEdge) || h.leafGeometry >= LeafGeometries)
   {
@@ -155,8 +156,9 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
   const std::uint32_t bricks = octree.brickBegin();
   const Node* nodes = octree.nodes();
   const std::uint32_t* lists = octree.lists();
-  // Of an odd level's root only the lower octant is the octree's cube.
-  if (h.level % 2 != 0 && nodes[0].mask >> 8 != 0)
+  // Of a root cube that is larger only the lower corner is the octree's cube.
+  const int spare = octree.rootBits(0);
+  if (nodes[0].mask != occupiedBelow(nodes[0], 0, NodeLevels - spare))
   {
     error = "the octree has nodes outside of its cube";
     return {};
@@ -264,28 +266,18 @@ bool Octree::occupied(glm::ivec3 cell, int level) const
   {
     return false;
   }
-  const int odd = 2 * this->depthCount() - this->level();
-  int bits = level + odd; // bits of a coordinate in the root cube
+  int bits = this->rootBits(level);
   const Node* node = this->nodes();
-  for (; bits > 2; bits -= 2)
+  for (; bits > NodeLevels; bits -= NodeLevels)
   {
-    const int shift = bits - 2;
-    const int i = cellIndex(cell.x >> shift & 3, cell.y >> shift & 3, cell.z >> shift & 3);
+    const int i = cellAt(cell, bits - NodeLevels);
     if (!hasChild(*node, i))
     {
       return false;
     }
     node = this->nodes() + child(*node, i);
   }
-  if (bits == 2)
-  {
-    return hasChild(*node, cellIndex(cell.x & 3, cell.y & 3, cell.z & 3));
-  }
-  if (bits == 1)
-  {
-    const int group = (cell.x & 1) | (cell.y & 1) << 1 | (cell.z & 1) << 2;
-    return groupCells(*node, GroupSize * group) != 0;
-  }
-  return true; // level 0 of an even octree: the cube itself
+  const int above = NodeLevels - bits;
+  return occupiedBelow(*node, cellAt(cell << above), above) != 0;
 }
 }

@@ -62,6 +62,13 @@ public:
 
   int level() const { return static_cast<int>(this->header().level); }
   int depthCount() const { return static_cast<int>(this->header().depthCount); }
+  /// Bits of a cell's coordinate in the root cube, of a level.
+  int rootBits(int ofLevel) const
+  {
+    return ofLevel + NodeLevels * this->depthCount() - this->level();
+  }
+  /// The level whose cells are the bricks; negative where the only brick is larger than the cube.
+  int brickLevel() const { return this->level() - NodeLevels; }
   bool empty() const { return this->nodes()[0].mask == 0; }
   std::uint32_t brickBegin() const
   {
@@ -79,7 +86,7 @@ public:
   /// Edge of the root cube (octree coordinates [1, 2)) in the local frame.
   double rootEdge() const
   {
-    return this->header().voxelSize * static_cast<double>(1u << (2 * this->header().depthCount));
+    return this->header().voxelSize * static_cast<double>(1u << this->rootBits(this->level()));
   }
   /// True if the octree has a frame of its own: what is said below of the local frame holds there.
   bool hasFrame() const { return this->header().framed != 0; }

@@ -74,7 +74,7 @@ public:
     }
     const Node& node = this->Of.nodes()[index];
     const auto children = static_cast<std::uint32_t>(childCount(node));
-    Few below[64];
+    Few below[NodeCells];
     few.count = 0;
     for (std::uint32_t k = 0; k < children; ++k)
     {

@@ -10,36 +10,36 @@ namespace svo
 {
 namespace
 {
-/// Fills a table from the one before it: every entry's cell is divided into 4x4x4.
+/// Fills a table from the one before it: every entry's cell is divided into a node's cells.
 void refine(const std::vector<std::uint32_t>& coarse, int depth, const Node* nodes,
   std::vector<std::uint32_t>& fine)
 {
-  const int n = 1 << (2 * (depth - 1)); // entries along an edge of `coarse`
-  const std::uint32_t cellExponent = MantissaBits - 2 * depth;
-  for (int z = 0; z < 4 * n; ++z)
+  const int n = 1 << (NodeLevels * (depth - 1)); // entries along an edge of `coarse`
+  const std::uint32_t cellExponent = MantissaBits - NodeLevels * depth;
+  for (int z = 0; z < NodeEdge * n; ++z)
   {
-    for (int y = 0; y < 4 * n; ++y)
+    for (int y = 0; y < NodeEdge * n; ++y)
     {
-      for (int x = 0; x < 4 * n; ++x)
+      for (int x = 0; x < NodeEdge * n; ++x)
       {
-        const std::uint32_t parent = coarse[x / 4 + n * (y / 4 + std::size_t(n) * (z / 4))];
+        const std::uint32_t parent =
+          coarse[x / NodeEdge + n * (y / NodeEdge + std::size_t(n) * (z / NodeEdge))];
         std::uint32_t entry = parent;
         if (!(parent & UpperLevels::Empty))
         {
           const Node& node = nodes[parent >> 5];
-          const int cell = cellIndex(x & 3, y & 3, z & 3);
+          const int cell = cellAt({ x, y, z });
           if (hasChild(node, cell))
           {
             assert(child(node, cell) < UpperLevels::Empty >> 5);
-            entry = child(node, cell) << 5 | (cellExponent - 2);
+            entry = child(node, cell) << 5 | (cellExponent - NodeLevels);
           }
           else
           {
-            const bool emptyGroup = groupCells(node, groupOf(cell)) == 0;
-            entry = UpperLevels::Empty | (cellExponent + (emptyGroup ? 1 : 0) - 2);
+            entry = UpperLevels::Empty | (cellExponent + emptyAbove(node, cell) - NodeLevels);
           }
         }
-        fine[x + 4 * n * (y + 4 * std::size_t(n) * z)] = entry;
+        fine[x + NodeEdge * n * (y + NodeEdge * std::size_t(n) * z)] = entry;
       }
     }
   }
@@ -60,13 +60,13 @@ UpperLevels makeUpperLevels(const Header& header, const Node* nodes, std::size_t
 {
   UpperLevels upper;
   const bool empty = nodes[0].mask == 0;
-  // The root's cells are a quarter of the edge.
-  upper.tables[0] = { empty ? UpperLevels::Empty | (MantissaBits - 2) : MantissaBits - 2u };
+  constexpr std::uint32_t Root = MantissaBits - NodeLevels; // the size of its cells
+  upper.tables[0] = { empty ? UpperLevels::Empty | Root : Root };
   upper.tableCount = 1;
   const int depths = empty ? 1 : static_cast<int>(header.depthCount);
   for (int k = 1; k < std::min(UpperLevels::MaximumTables, depths); ++k)
   {
-    const std::size_t entries = std::size_t(1) << (6 * k);
+    const std::size_t entries = std::size_t(1) << (3 * NodeLevels * k);
     if (k == UpperLevels::MaximumTables - 1 && entries * sizeof(std::uint32_t) > bytes)
     {
       break;

@@ -17,14 +17,14 @@ namespace svo
 struct UpperLevels
 {
   /// The finest table that is made: 64^3 entries, 1 MB. Small octrees end at 16^3 (16 KB).
-  static constexpr int MaximumTables = 4;
+  static constexpr int MaximumTables = 1 + 6 / NodeLevels;
 
   /// An entry holds the node and the size of its cells as an exponent of mantissa bits:
-  /// node << 5 | exponent. An empty entry is Empty | (exponent of the empty cell - 2): a node
-  /// without any cell, in whose place the whole block is empty.
+  /// node << 5 | exponent. An empty entry is Empty | (exponent of the empty cell - NodeLevels): a
+  /// node without any cell, in whose place the whole block is empty.
   static constexpr std::uint32_t Empty = 0x80000000u;
 
-  /// Table k divides the root cube's edge by 4^k; entry x + 4^k (y + 4^k z).
+  /// Table k divides the root cube's edge by n = NodeEdge^k; entry x + n (y + n z).
   std::vector<std::uint32_t> tables[MaximumTables];
   int tableCount = 0;
 

@@ -268,18 +268,18 @@ namespace
 WalkTarget walkTarget(const LeafQuery& query)
 {
   const Octree& octree = query.octree;
-  // A node at depth d has cells with 2 (d + 1) bits, in groups with one bit less.
-  const int stopDepth = (query.bits - 1) / 2;
+  // A node at depth d has cells with NodeLevels (d + 1) bits, in groups with fewer.
+  const int stopDepth = (query.bits - 1) / NodeLevels;
   assert(query.bits > 0 && stopDepth < octree.depthCount());
   const UpperLevels& upper = octree.upperLevels();
   const int table = std::min(upper.tableCount - 1, stopDepth);
   WalkTarget target;
   target.nodes = reinterpret_cast<const std::uint64_t*>(octree.nodes());
   target.table = upper.tables[table].data();
-  target.tableBits = 2 * table;
-  target.stopSize = MantissaBits - 2 * (stopDepth + 1);
-  target.groups = query.bits % 2 != 0;
-  target.brickSize = MantissaBits - 2 * octree.depthCount() + 2;
+  target.tableBits = NodeLevels * table;
+  target.stopSize = MantissaBits - NodeLevels * (stopDepth + 1);
+  target.groups = query.bits % NodeLevels != 0;
+  target.brickSize = MantissaBits - NodeLevels * (octree.depthCount() - 1);
   target.cellSize = MantissaBits - query.bits;
   target.touchedHalf = static_cast<float>(touchedHalf(query.bits));
   // The packets' leaves index with 32 bits and a sign.
@@ -307,8 +307,8 @@ WalkTarget walkTarget(const LeafQuery& query)
   }
   assert(target.tableBits >= 0 && !upper.tables[table].empty());
   assert(target.cellSize == target.stopSize + target.groups);
-  assert(target.stopSize + 2 >= target.brickSize && target.brickSize <= MantissaBits);
-  target.high = 1.0f + 1.0f / static_cast<float>(1 << rootBits(octree, 0));
+  assert(target.stopSize + NodeLevels >= target.brickSize && target.brickSize <= MantissaBits);
+  target.high = 1.0f + 1.0f / static_cast<float>(1 << octree.rootBits(0));
   return target;
 }
 }

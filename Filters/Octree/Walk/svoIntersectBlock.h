@@ -99,27 +99,13 @@ inline StopCell<float> stopCell(
   assert(index < query.octree.header().nodeCount);
   assert(at.x >> MantissaBits == 127 && at.y >> MantissaBits == 127 && at.z >> MantissaBits == 127);
   const Node& node = query.octree.nodes()[index];
-  const int shift = target.stopSize;
-  const int i = cellIndex(at.x >> shift & 3, at.y >> shift & 3, at.z >> shift & 3);
   const int cellShift = MantissaBits - query.bits;
   const int mask = (1 << query.bits) - 1;
-  StopCell<float> cell{ index, 0, 64,
+  StopCell<float> cell{ index, 0, 0,
     glm::ivec3(at.x >> cellShift & mask, at.y >> cellShift & mask, at.z >> cellShift & mask), 0.0f,
     0.0f };
-  if (target.groups)
-  {
-    cell.firstBit = groupOf(i);
-    cell.bitCount = GroupSize;
-  }
-  else if (target.stopSize < target.brickSize) // a voxel
-  {
-    cell.firstBit = i;
-    cell.bitCount = 1;
-  }
-  else
-  {
-    cell.node = child(node, i);
-  }
+  nameCell(node, cellAt(at, target.stopSize), target.cellSize - target.stopSize,
+    target.stopSize < target.brickSize, cell);
   return cell;
 }
 }

@@ -10,7 +10,7 @@
 //              the entry of the first cell that refused it, so that a closed mesh never shows a
 //              hole. A ray that starts in a cell, beyond that cell's plane, is not refused: it has
 //              left the surface behind.
-//   triangle   the triangles that touch the cell's 4x4x4 brick, exactly and watertight. All of the
+//   triangle   the triangles that touch the cell's brick, exactly and watertight. All of the
 //              brick is settled at its first cell: the rest of it is skipped. A hit behind the
 //              brick is kept as the new end of the ray.
 //   automatic  triangle in bricks with a list of at most ShortList triangles, plane in the others.
@@ -24,10 +24,10 @@
 // that reach bricks go on to their voxels. Planes end at Header::meshBounds: what a source has
 // beyond the border of an image is not known.
 //
-// Where a ray stops above the bricks (TraceOptions::level below octree.level() - 2) plane, triangle
-// and automatic are the mean plane of the node that is the cell, with the rule of `plane`; at an
-// octree level between two depths, of the child node that the ray passes in the middle of the cell,
-// or the first that exists.
+// Where a ray stops above the bricks (TraceOptions::level below octree.brickLevel()) plane,
+// triangle and automatic are the mean plane of the node that is the cell, with the rule of `plane`;
+// at an octree level between two depths, of the child node that the ray passes in the middle of the
+// cell, or the first that exists.
 #ifndef svoLeafGeometry_h
 #define svoLeafGeometry_h
 
@@ -60,8 +60,8 @@ struct LeafQuery
     , planes(o.hasPlanes())
     , ownReach(1.0 + 2.0 * o.planeReach())
     , level(stopLevel(o, options.level))
-    , bits(rootBits(o, level))
-    , inBrick(level >= o.level() - 2)
+    , bits(o.rootBits(level))
+    , inBrick(level >= o.brickLevel())
     , leaf(traitsOf(o.surface() || planes || !inBrick ? options.leafGeometry : LeafGeometry::Voxel))
   {
     if (!inBrick || planes)
@@ -78,7 +78,7 @@ struct LeafQuery
   static int stopLevel(const Octree& octree, int asked)
   {
     const int level = std::clamp(asked, 0, octree.level());
-    return octree.hasPlanes() && level >= octree.level() - 2 ? octree.level() : level;
+    return octree.hasPlanes() && level >= octree.brickLevel() ? octree.level() : level;
   }
 
   /// Header::meshBounds in octree coordinates. A box without thickness leaves out nothing along
@@ -86,7 +86,7 @@ struct LeafQuery
   void findBox()
   {
     const Header& h = octree.header();
-    const double scale = 1.0 / std::ldexp(h.voxelSize, rootBits(octree, octree.level()));
+    const double scale = 1.0 / std::ldexp(h.voxelSize, octree.rootBits(octree.level()));
     constexpr double Rounding = 0x1p-20; // of floats in [1, 2), and of a hit's
     for (int a = 0; a < 3; ++a)
     {
@@ -201,11 +201,11 @@ template <class Real>
 std::uint32_t representativeNode(
   const LeafQuery& query, const ClippedRay<Real>& ray, const StopCell<Real>& cell)
 {
-  if (cell.bitCount == 64)
+  if (cell.above == NodeLevels)
   {
     return cell.node;
   }
-  assert(cell.bitCount == GroupSize);
+  assert(cell.above == 1);
   const Node& node = query.octree.nodes()[cell.node];
   const Vector<Real> centre = cellCentre<Real>(cell.cell, query.bits);
   // Of the cell, not of the ray: what is hit must not depend on where the ray was cut.
@@ -215,7 +215,7 @@ std::uint32_t representativeNode(
     cell.firstBit | int(x.x >= centre.x) | int(x.y >= centre.y) << 1 | int(x.z >= centre.z) << 2;
   if (!hasChild(node, bit))
   {
-    bit = cell.firstBit | lowestBit(groupCells(node, cell.firstBit));
+    bit = cell.firstBit | lowestBit(occupiedBelow(node, cell.firstBit, 1));
   }
   return child(node, bit);
 }
@@ -243,10 +243,10 @@ Real intersectPlane(const LeafQuery& query, const ClippedRay<Real>& ray, const S
   assert(index < (ofNode ? query.octree.header().nodeCount : query.octree.header().listWords));
   glm::ivec3 block = cell.cell;
   int bits = query.bits;
-  if (cell.bitCount == GroupSize)
+  if (cell.above == 1)
   {
     const Node& node = query.octree.nodes()[cell.node];
-    std::uint64_t octet = groupCells(node, cell.firstBit);
+    std::uint64_t octet = occupiedBelow(node, cell.firstBit, 1);
     std::uint32_t at = node.first + childrenBefore(node, cell.firstBit);
     for (; at < index; ++at)
     {
@@ -350,7 +350,7 @@ Visit meetCell(const LeafQuery& query, const ClippedRay<Real>& ray, const Sheare
   }
   if (query.planes)
   {
-    assert(cell.bitCount == 1);
+    assert(cell.above == 0);
     return meetShape(query, ray, cell, query.octree.planeOf(cell.node, cell.firstBit), tMax, hit);
   }
   if (query.leaf.exact())

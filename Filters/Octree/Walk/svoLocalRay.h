@@ -43,7 +43,7 @@ inline bool prepareRay(const Octree& octree, const Ray& ray, LocalRay& local)
   {
     return false;
   }
-  const double edge = 1.0 / static_cast<double>(1 << rootBits(octree, 0));
+  const double edge = 1.0 / static_cast<double>(1 << octree.rootBits(0));
   local.start = local.ray.tMin;
   local.ray.origin = glm::clamp(ray.origin + local.start * local.ray.direction, 1.0, 1.0 + edge);
   local.ray.tMin = 0.0;

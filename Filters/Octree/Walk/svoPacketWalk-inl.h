@@ -77,7 +77,7 @@ HWY_INLINE I cellOf(const Packet& p)
   return hn::Xor(hn::Or(look(fromXY, xy), look(fromZ, part(p.z))), p.cellMirror);
 }
 
-/// What a lane sees where it is: hasChild(), groupCells() and child() of svoNode.h.
+/// What a lane sees where it is: hasChild(), occupiedBelow() and child() of svoNode.h.
 struct Probe
 {
   Lanes nothing; // the whole block is empty

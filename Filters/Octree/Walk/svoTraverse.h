@@ -47,14 +47,14 @@ struct ClippedRay
   Real tStart; // where the ray itself starts: at tMin, or earlier, before it enters the cube
 };
 
-/// A cell where a ray stops, as bits [firstBit, firstBit + bitCount) of a node's mask: all 64 if
-/// the cell is the node's block, 8 for the octree level in between, 1 for a voxel.
+/// A cell where a ray stops, as those from `firstBit` on of a node's that make up one `above` them
+/// (svoNode.h): the node's block, one of a level in between, or a voxel.
 template <class Real>
 struct StopCell
 {
   std::uint32_t node;
   int firstBit;
-  int bitCount;
+  int above;
   glm::ivec3 cell; // integer coordinates at the level where the ray stops
   Real tEnter;     // tMin of the ray if it starts inside
   Real tExit;      // of the cell; may lie beyond the ray's tMax
@@ -65,7 +65,7 @@ enum class Visit
 {
   Stop,
   Continue,
-  SkipBrick // nothing more is to be found in this 4x4x4 brick
+  SkipBrick // nothing more is to be found in this brick
 };
 
 /// Why a walk ended.
@@ -76,11 +76,23 @@ enum class WalkEnd
   Bound    // the loop's bound; it is there so that a proof is not needed, and never reached
 };
 
-/// Bits of a cell's coordinate in the root cube at an octree level (0..octree.level()).
-inline int rootBits(const Octree& octree, int level)
+/// Names the cell where a ray stops: that of a node's cell i, or `above` it. `voxels`: cells of the
+/// node have no nodes of their own.
+template <class Real>
+void nameCell(const Node& node, int i, int above, bool voxels, StopCell<Real>& cell)
 {
-  assert(level >= 0 && level <= octree.level());
-  return level + 2 * octree.depthCount() - octree.level();
+  cell.firstBit = i;
+  cell.above = above;
+  if (above > 0)
+  {
+    cell.firstBit = firstBelow(i, above);
+  }
+  else if (!voxels)
+  {
+    cell.node = child(node, i);
+    cell.firstBit = 0;
+    cell.above = NodeLevels;
+  }
 }
 
 /// Clips a ray to the octree's cube. False if nothing is left; NaN and infinite rays are misses.
@@ -103,7 +115,7 @@ bool clip(const Octree& octree, const Vector<Real>& origin, const Vector<Real>& 
     return false;
   }
   const Real low = 1;
-  const Real high = Real(1) + Real(1) / Real(1 << (2 * octree.depthCount() - octree.level()));
+  const Real high = Real(1) + Real(1) / Real(1 << octree.rootBits(0));
   const Real negligible =
     std::max(largest * std::numeric_limits<Real>::epsilon() / Real(256), smallest);
   clipped.origin = origin;
@@ -139,9 +151,10 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
 {
   assert(!octree.empty());
   assert(ray.tMin <= ray.tMax);
-  const int bits = 2 * octree.depthCount(); // of a coordinate in voxels of the root cube
-  const int stopShift = bits - rootBits(octree, level); // voxel >> stopShift = cell where we stop
-  const int edge = 1 << octree.level();                 // voxels along the octree's cube
+  assert(level >= 0 && level <= octree.level());
+  const int bits = octree.rootBits(octree.level()); // of a coordinate in voxels of the root cube
+  const int stopShift = octree.level() - level;     // voxel >> stopShift = cell where we stop
+  const int edge = 1 << octree.level();             // voxels along the octree's cube
   const Real scale = static_cast<Real>(1 << bits);
   const Real voxel = Real(1) / scale;
   const Node* nodes = octree.nodes();
@@ -180,25 +193,25 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
     assert(
       index >= octree.header().depthBegin[depth] && index < octree.header().depthBegin[depth + 1]);
     const Node& node = nodes[index];
-    const int shift = bits - 2 * (depth + 1);
-    assert(node.mask != 0 && stopShift <= shift + 2);
-    const int i = cellIndex(at.x >> shift & 3, at.y >> shift & 3, at.z >> shift & 3);
-    const std::uint64_t octet = groupCells(node, groupOf(i));
+    const int shift = bits - NodeLevels * (depth + 1);
+    const int above = stopShift - shift; // of cells where the ray stops, over the node's
+    // Only the root's own block is one: deeper ones are found by their parents.
+    assert(node.mask != 0 && above <= NodeLevels);
+    const int i = cellAt(at, shift);
     int leave = shift; // the cell to leave is 1 << leave voxels wide
     bool stop = false;
-    if (stopShift == shift + 2) // only the root's own block: deeper ones are found by their parents
+    if (above > 0)
     {
       leave = stopShift;
-      stop = true;
+      stop = occupiedBelow(node, firstBelow(i, above), above) != 0;
     }
-    else if (octet == 0 || stopShift == shift + 1)
+    else if (occupiedBelow(node, firstBelow(i, NodeLevels - 1), NodeLevels - 1) == 0)
     {
-      leave = shift + 1;
-      stop = octet != 0;
+      leave = shift + NodeLevels - 1;
     }
     else if (hasChild(node, i))
     {
-      if (stopShift < shift)
+      if (above < 0)
       {
         path[++depth] = child(node, i);
         continue;
@@ -223,29 +236,16 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
 
     if (stop)
     {
-      StopCell<Real> cell{ index, 0, 64, at >> stopShift, t, std::max(t, tExit) };
-      if (leave == shift + 1)
-      {
-        cell.firstBit = groupOf(i);
-        cell.bitCount = GroupSize;
-      }
-      else if (leave == 0)
-      {
-        cell.firstBit = i;
-        cell.bitCount = 1;
-      }
-      else if (leave == shift)
-      {
-        cell.node = child(node, i);
-      }
+      StopCell<Real> cell{ index, 0, 0, at >> stopShift, t, std::max(t, tExit) };
+      nameCell(node, i, above, shift == 0, cell);
       const Visit answer = visit(static_cast<const StopCell<Real>&>(cell), tMax);
       if (answer == Visit::Stop)
       {
         return WalkEnd::Stopped;
       }
-      if (answer == Visit::SkipBrick && leave < 2)
+      if (answer == Visit::SkipBrick && leave < NodeLevels)
       {
-        leave = 2;
+        leave = NodeLevels;
         tExit = findExit();
       }
     }
@@ -278,7 +278,7 @@ WalkEnd walk(const Octree& octree, const ClippedRay<Real>& ray, int level, Visit
     }
     assert(changed != 0);
     // Up to the deepest node that holds both positions.
-    while (depth > 0 && changed >> (bits - 2 * depth) != 0)
+    while (depth > 0 && changed >> (bits - NodeLevels * depth) != 0)
     {
       --depth;
     }

@@ -27,7 +27,7 @@ public:
     , Low(glm::dvec3(corner) - 0.5 - reach)
     , High(glm::dvec3(corner) + 7.5 + reach)
   {
-    this->collect(0, glm::ivec3(0), 2 * octree.depthCount());
+    this->collect(0, glm::ivec3(0), octree.rootBits(octree.level()));
   }
 
   /// The distance of a point from the nearest triangle that is nearer than `bound`; else the bound.
@@ -40,7 +40,8 @@ public:
     {
       // A triangle may lie outside of the voxels that it touches, but what is nearest of it does
       // not: that is a point of it in a voxel of some brick.
-      const glm::dvec3 low = glm::dvec3(brick.corner) - 0.5 - Grown, high = low + 4.0 + 2.0 * Grown;
+      const glm::dvec3 low = glm::dvec3(brick.corner) - 0.5 - Grown,
+                       high = low + (NodeEdge + 2.0 * Grown);
       const double distance =
         glm::length(glm::max(glm::max(low - point, point - high), glm::dvec3(0.0)));
       if (distance < bound)
@@ -79,12 +80,12 @@ private:
   void collect(std::uint32_t index, const glm::ivec3& corner, int bits)
   {
     const Node& node = this->Tree.nodes()[index];
-    if (bits == 2)
+    if (bits == NodeLevels)
     {
       this->Bricks.push_back({ corner, index, 0.0 });
       return;
     }
-    const int edge = 1 << (bits - 2);
+    const int edge = 1 << (bits - NodeLevels);
     std::uint32_t child = node.first;
     for (std::uint64_t mask = node.mask; mask != 0; mask &= mask - 1, ++child)
     {
@@ -93,7 +94,7 @@ private:
       if (glm::all(glm::lessThanEqual(low, this->High)) &&
         glm::all(glm::lessThanEqual(this->Low, high)))
       {
-        this->collect(child, at, bits - 2);
+        this->collect(child, at, bits - NodeLevels);
       }
     }
   }

@@ -54,7 +54,7 @@ public:
     this->MiddleX = 0.5f * static_cast<float>(view.width);
     this->MiddleY = 0.5f * static_cast<float>(view.height);
     const glm::dvec4 zero(0.0);
-    for (int bits = 0; bits <= 2 * MaximumDepths; ++bits)
+    for (int bits = 0; bits <= NodeLevels * MaximumDepths; ++bits)
     {
       const double size = std::ldexp(1.0, -bits);
       const glm::dvec4 x = size * projection.x, y = size * projection.y, z = size * projection.z;
@@ -78,36 +78,32 @@ public:
   }
 
 private:
-  /// The block of a node: its projected lower corner, and bits of its coordinates.
-  void visit(std::uint32_t index, const glm::dvec4& block, int bits)
+  /// The cells of a node from `first` on that make up one `Above` them: its projected lower corner,
+  /// and bits of its coordinates.
+  template <int Above = NodeLevels>
+  void visit(std::uint32_t index, const glm::dvec4& corner, int bits, int first = 0)
   {
     const Node& node = this->Nodes[index];
-    for (int g = 0; g < 8; ++g)
+    for (int i = 0; i < 8; ++i)
     {
-      const int group = g ^ this->Front;
-      const std::uint64_t octet = groupCells(node, GroupSize * group);
-      if (octet == 0)
+      const int octant = i ^ this->Front;
+      const int cells = first + octant * cellsBelow(Above - 1);
+      if (occupiedBelow(node, cells, Above - 1) == 0)
       {
         continue;
       }
-      const glm::dvec4 half = block + this->Levels[bits + 1].child[group];
+      const glm::dvec4 half = corner + this->Levels[bits + 1].child[octant];
       if (this->settle(half, bits + 1))
       {
         continue;
       }
-      for (int c = 0; c < 8; ++c)
+      if constexpr (Above > 1)
       {
-        const int cell = c ^ this->Front;
-        if (!(octet >> cell & 1))
-        {
-          continue;
-        }
-        const glm::dvec4 quarter = half + this->Levels[bits + 2].child[cell];
-        if (this->settle(quarter, bits + 2))
-        {
-          continue;
-        }
-        this->visit(child(node, GroupSize * group + cell), quarter, bits + 2);
+        this->visit<Above - 1>(index, half, bits + 1, cells);
+      }
+      else
+      {
+        this->visit(child(node, cells), half, bits + 1);
       }
     }
   }
@@ -208,7 +204,7 @@ private:
   Projection Map;
   int StopBits;
   TileIntervals& Intervals;
-  Steps Levels[2 * MaximumDepths + 1];
+  Steps Levels[NodeLevels * MaximumDepths + 1];
   float MiddleX;
   float MiddleY;
   int Front;
@@ -240,17 +236,16 @@ void computeTileIntervals(const Octree& octree, const glm::dmat4& localToWorld, 
   }
   const Projection projection = makeProjection(octree, localToWorld, view, base);
   const int level = std::clamp(options.level, 0, octree.level());
-  const int odd = 2 * octree.depthCount() - octree.level();
   const double depth =
     std::abs(projection.x[3]) + std::abs(projection.y[3]) + std::abs(projection.z[3]);
   double slack = DepthSlack * depth + 1e-6 * std::abs(projection.corner[3]);
-  slack += traitsOf(options.leafGeometry).reach * std::ldexp(depth, -(level + odd));
+  slack += traitsOf(options.leafGeometry).reach * std::ldexp(depth, -octree.rootBits(level));
   const float tNear = static_cast<float>(view.tNear - base - slack);
   const float tFar = static_cast<float>(std::min(view.tFar - base + slack, 1e30));
   parallelFor(0, intervals.rows, RowsPerTask,
     [&](std::size_t first, std::size_t last)
     {
-      Projector projector(octree, projection, std::max(level + odd, 1), view, intervals);
+      Projector projector(octree, projection, std::max(octree.rootBits(level), 1), view, intervals);
       projector.rows(static_cast<int>(first), static_cast<int>(last), tNear, tFar);
       const float widen = static_cast<float>(slack);
       for (std::size_t i = first * intervals.columns; i < last * intervals.columns; ++i)

@@ -21,9 +21,9 @@ std::uint32_t brickAt(const Octree& octree, const glm::ivec3& voxel)
 {
   const Node* nodes = octree.nodes();
   std::uint32_t node = 0;
-  for (int shift = 2 * (octree.depthCount() - 1); shift > 0; shift -= 2)
+  for (int shift = NodeLevels * (octree.depthCount() - 1); shift > 0; shift -= NodeLevels)
   {
-    const int i = cellIndex(voxel.x >> shift & 3, voxel.y >> shift & 3, voxel.z >> shift & 3);
+    const int i = cellAt(voxel, shift);
     if (!hasChild(nodes[node], i))
     {
       return NoBrick;
@@ -38,7 +38,7 @@ VoxelsAround voxelsAround(const Octree& octree, const glm::dvec3& at, const glm:
 {
   assert(octree.hasPlanes());
   constexpr float SameSide = 0.5f; // cosine
-  const int bits = 2 * octree.depthCount();
+  const int bits = octree.rootBits(octree.level());
   const glm::dvec3 place = (at - 1.0) * std::ldexp(1.0, bits) - 0.5;
   const glm::dvec3 corner = glm::floor(place);
   const glm::ivec3 low(corner);
@@ -59,13 +59,13 @@ VoxelsAround voxelsAround(const Octree& octree, const glm::dvec3& at, const glm:
     // Where the step along its highest axis stays in the brick it is that of the voxel before.
     const int axis = i >= 4 ? 2 : i >= 2 ? 1 : 0;
     const int before = i & ~(1 << axis);
-    const bool same = i > 0 && (low[axis] & 3) != 3 && low[axis] >= 0;
+    const bool same = i > 0 && low[axis] % NodeEdge != NodeEdge - 1 && low[axis] >= 0;
     bricks[i] = same ? bricks[before] : brickAt(octree, voxel);
     if (bricks[i] == NoBrick)
     {
       continue;
     }
-    const int cell = cellIndex(voxel.x & 3, voxel.y & 3, voxel.z & 3);
+    const int cell = cellAt(voxel);
     if (!hasChild(octree.nodes()[bricks[i]], cell))
     {
       continue;
@@ -104,10 +104,10 @@ std::uint32_t nearestVoxel(const Octree& octree, std::uint32_t node, const glm::
   {
     ++depth;
   }
-  const double blocks = std::ldexp(1.0, 2 * depth);
+  const double blocks = std::ldexp(1.0, NodeLevels * depth);
   // Cells of the node that `at` would be in, were the octree of its edge repeated everywhere.
   glm::dvec3 inside = (at - 1.0) * blocks;
-  inside = 4.0 * glm::clamp(inside - glm::floor(inside), 0.0, 1.0);
+  inside = double(NodeEdge) * glm::clamp(inside - glm::floor(inside), 0.0, 1.0);
   while (true)
   {
     const Node& here = octree.nodes()[node];
@@ -125,7 +125,7 @@ std::uint32_t nearestVoxel(const Octree& octree, std::uint32_t node, const glm::
     {
       return octree.planeOf(node, best);
     }
-    inside = 4.0 * (inside - glm::dvec3(cellOfIndex(best)));
+    inside = double(NodeEdge) * (inside - glm::dvec3(cellOfIndex(best)));
     node = child(here, best);
   }
 }

@@ -22,19 +22,19 @@
 #define SVO_PYRAMID_NODES_ONCE
 namespace svo
 {
-/// Lower corners of a node's 64 cells, for a node of edge 1, in the order of cellIndex().
+/// Lower corners of a node's cells, for a node of edge 1, in the order of cellIndex().
 struct CellOffsets
 {
-  alignas(64) float x[64], y[64], z[64];
+  alignas(64) float x[NodeCells], y[NodeCells], z[NodeCells];
 
   CellOffsets()
   {
-    for (int i = 0; i < 64; ++i)
+    for (int i = 0; i < NodeCells; ++i)
     {
       const glm::ivec3 cell = cellOfIndex(i);
-      x[i] = 0.25f * static_cast<float>(cell.x);
-      y[i] = 0.25f * static_cast<float>(cell.y);
-      z[i] = 0.25f * static_cast<float>(cell.z);
+      x[i] = static_cast<float>(cell.x) / NodeEdge;
+      y[i] = static_cast<float>(cell.y) / NodeEdge;
+      z[i] = static_cast<float>(cell.z) / NodeEdge;
     }
   }
 };
@@ -49,11 +49,12 @@ namespace HWY_NAMESPACE
 /// What linear functions grow by from the lower corner of a node, for a node of edge 1.
 struct ChildTables
 {
-  HWY_ALIGN float most[4][64]; // to the best corner of child i, of each side of the pyramid
-  HWY_ALIGN float near[64];    // to the least t of child i
-  HWY_ALIGN float least[64];   // to the least w of child i, in pixels' widths of the group's sides
-  float toCorner[6];           // from there to the child's lower corner; 4: of t; 5: of w
-  float deep;                  // from the least to the greatest t of a child
+  HWY_ALIGN float most[4][NodeCells]; // to the best corner of child i, of each side of the pyramid
+  HWY_ALIGN float near[NodeCells];    // to the least t of child i
+  HWY_ALIGN float
+    least[NodeCells]; // to the least w of child i, in pixels' widths of the group's sides
+  float toCorner[6];  // from there to the child's lower corner; 4: of t; 5: of w
+  float deep;         // from the least to the greatest t of a child
 };
 
 HWY_INLINE void fillTable(
@@ -64,7 +65,7 @@ HWY_INLINE void fillTable(
   const F fy = hn::Set(df, static_cast<float>(f.y));
   const F fz = hn::Set(df, static_cast<float>(f.z));
   const F begin = hn::Set(df, static_cast<float>(start));
-  for (std::size_t i = 0; i < 64; i += hn::Lanes(df))
+  for (std::size_t i = 0; i < NodeCells; i += hn::Lanes(df))
   {
     const F xy = hn::MulAdd(fx, hn::Load(df, x + i), hn::Mul(fy, hn::Load(df, y + i)));
     hn::Store(hn::Add(hn::MulAdd(fz, hn::Load(df, z + i), xy), begin), df, table + i);
@@ -115,7 +116,7 @@ inline std::uint64_t flipped(std::uint64_t bits, int flip)
 {
   constexpr std::uint64_t Even[6] = { 0x5555555555555555u, 0x3333333333333333u, 0x0f0f0f0f0f0f0f0fu,
     0x00ff00ff00ff00ffu, 0x0000ffff0000ffffu, 0x00000000ffffffffu };
-  for (int k = 0; k < 6; ++k)
+  for (int k = 0; k < 3 * NodeLevels; ++k)
   {
     if (flip >> k & 1)
     {
@@ -136,16 +137,17 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
   assert(octree.surface() != nullptr && octree.shortLists().begin.size() == octree.brickBegin());
   const DF df;
   ChildTables tables;
-  OpenNode open[64 * MaximumDepths];
+  OpenNode open[NodeCells * MaximumDepths];
   int count = 1;
   open[0].node = 0;
   open[0].size = 1.0f;
+  constexpr double Cell = 1.0 / NodeEdge;
   double tSlack = 0.0;
   if (Group)
   {
     const glm::dvec4 f = (pyramid.side[0] + pyramid.side[1]) / double(GroupView::Pixels);
     const double corner = f.x + f.y + f.z + f.w;
-    const double least = 0.25 * (std::min(f.x, 0.0) + std::min(f.y, 0.0) + std::min(f.z, 0.0));
+    const double least = Cell * (std::min(f.x, 0.0) + std::min(f.y, 0.0) + std::min(f.z, 0.0));
     fillTable(f, least, offsets.x, offsets.y, offsets.z, tables.least);
     tables.toCorner[5] = static_cast<float>(-least);
     open[0].value[5] = static_cast<float>(
@@ -159,15 +161,15 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
       RoundingSlack * (std::abs(f.x) + std::abs(f.y) + std::abs(f.z) + std::abs(corner));
     if (k < 4)
     {
-      const double farthest = 0.25 * (std::max(f.x, 0.0) + std::max(f.y, 0.0) + std::max(f.z, 0.0));
+      const double farthest = Cell * (std::max(f.x, 0.0) + std::max(f.y, 0.0) + std::max(f.z, 0.0));
       fillTable(f, farthest, offsets.x, offsets.y, offsets.z, tables.most[k]);
       tables.toCorner[k] = static_cast<float>(-farthest);
       open[0].value[k] = static_cast<float>(corner + slack);
     }
     else
     {
-      const double least = 0.25 * (std::min(f.x, 0.0) + std::min(f.y, 0.0) + std::min(f.z, 0.0));
-      const double farthest = 0.25 * (std::max(f.x, 0.0) + std::max(f.y, 0.0) + std::max(f.z, 0.0));
+      const double least = Cell * (std::min(f.x, 0.0) + std::min(f.y, 0.0) + std::min(f.z, 0.0));
+      const double farthest = Cell * (std::max(f.x, 0.0) + std::max(f.y, 0.0) + std::max(f.z, 0.0));
       fillTable(f, least, offsets.x, offsets.y, offsets.z, tables.near);
       tables.toCorner[4] = static_cast<float>(-least);
       tables.deep = static_cast<float>(farthest - least);
@@ -195,11 +197,10 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
     return true;
   }
   // Nearer cells first, where all rays go the way of those in the middle.
-  const int octant =
-    Group ? int(pyramid.t.x < 0.0) | int(pyramid.t.y < 0.0) << 1 | int(pyramid.t.z < 0.0) << 2 : 0;
-  const int flip = octant | octant << 3;
-  HWY_ALIGN float tNear[64];
-  HWY_ALIGN std::int32_t pixels[64];
+  const auto last = [](double t) { return Group && t < 0.0 ? NodeEdge - 1 : 0; };
+  const int flip = cellIndex(last(pyramid.t.x), last(pyramid.t.y), last(pyramid.t.z));
+  HWY_ALIGN float tNear[NodeCells];
+  HWY_ALIGN std::int32_t pixels[NodeCells];
   while (count > 0)
   {
     const OpenNode parent = open[--count];
@@ -209,7 +210,7 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
     const F size = hn::Set(df, parent.size);
     const F deep = hn::Set(df, parent.size * tables.deep);
     std::uint64_t inside = 0;
-    for (std::size_t i = 0; i < 64; i += hn::Lanes(df))
+    for (std::size_t i = 0; i < NodeCells; i += hn::Lanes(df))
     {
       const F near = hn::MulAdd(size, hn::Load(df, tables.near + i), hn::Set(df, parent.value[4]));
       hn::Store(near, df, tNear + i);
@@ -234,7 +235,7 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
     {
       return false;
     }
-    int inner[64], inners = 0;
+    int inner[NodeCells], inners = 0;
     for (std::uint64_t left = flipped(inside, flip); left != 0; left &= left - 1)
     {
       const int i = lowestBit(left) ^ flip;
@@ -262,10 +263,10 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
     while (inners > 0)
     {
       const int i = inner[--inners];
-      assert(count < 64 * MaximumDepths);
+      assert(count < NodeCells * MaximumDepths);
       OpenNode& next = open[count++];
       next.node = child(node, i);
-      next.size = 0.25f * parent.size;
+      next.size = parent.size / NodeEdge;
       for (int k = 0; k < 4; ++k)
       {
         next.value[k] = parent.value[k] + parent.size * (tables.most[k][i] + tables.toCorner[k]);

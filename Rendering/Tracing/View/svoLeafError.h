@@ -22,7 +22,7 @@ constexpr double MeanPlaneError = 2.6;
 inline bool stopsAtNodes(const Instance& instance, int level)
 {
   assert(level >= 0 && level <= instance.body->octree.level());
-  return level < instance.body->octree.level() - 2;
+  return level < instance.body->octree.brickLevel();
 }
 
 /// The error of a hit in voxels of the level that rays stop at. Cubes, and planes where a ray is

@@ -176,7 +176,7 @@ inline LocalView makeLocalView(
 inline void intersectStretched(const Octree& octree, const LocalView& local, const double* x,
   const double* y, RayBlock& rays, const TraceOptions& options, HitBlock& hits)
 {
-  const double high = 1.0 + std::ldexp(1.0, octree.level() - 2 * octree.depthCount());
+  const double high = 1.0 + std::ldexp(1.0, -octree.rootBits(0));
   double start[RayBlock::Size];
   for (int k = 0; k < RayBlock::Size; ++k)
   {

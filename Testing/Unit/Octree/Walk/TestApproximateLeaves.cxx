@@ -15,7 +15,7 @@ constexpr LeafGeometry AllGeometries[] = { LeafGeometry::Voxel, LeafGeometry::Pl
 
 double voxelEdge(const svo::Octree& octree)
 {
-  return 1.0 / double(1 << svo::rootBits(octree, octree.level()));
+  return 1.0 / double(1 << octree.rootBits(octree.level()));
 }
 
 std::vector<svo::Ray> randomRays(const svo::Octree& octree, int count, unsigned seed)
@@ -170,7 +170,7 @@ TEST(LevelOfDetail, RaysStopOnTheMeanPlaneOfTheNode)
     const svo::Octree octree = makeOctree(torus(60, 40), level);
     for (int stop = 1; stop < level - 2; ++stop)
     {
-      const double cell = 1.0 / double(1 << svo::rootBits(octree, stop));
+      const double cell = 1.0 / double(1 << octree.rootBits(stop));
       int hits = 0;
       for (const svo::Ray& ray : randomRays(octree, 500, 13))
       {
@@ -187,7 +187,7 @@ TEST(LevelOfDetail, RaysStopOnTheMeanPlaneOfTheNode)
           ASSERT_TRUE(hit.primitive & svo::NodePrimitive);
           // The node has the depth that the level asks for.
           const std::uint32_t node = hit.primitive & ~svo::NodePrimitive;
-          const int depth = (svo::rootBits(octree, stop) + 1) / 2;
+          const int depth = (octree.rootBits(stop) + 1) / 2;
           ASSERT_GE(node, octree.header().depthBegin[depth]);
           ASSERT_LT(node, octree.header().depthBegin[depth + 1]);
           const glm::dvec3 x = ray.origin + hit.t * ray.direction;

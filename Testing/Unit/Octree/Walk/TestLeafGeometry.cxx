@@ -60,7 +60,7 @@ Exact bruteForce(const svo::Surface& surface, const svo::Ray& ray)
 
 double voxelEdge(const svo::Octree& octree)
 {
-  return 1.0 / double(1 << svo::rootBits(octree, octree.level()));
+  return 1.0 / double(1 << octree.rootBits(octree.level()));
 }
 
 /// A block of rays, the last one repeated to fill it.
@@ -292,7 +292,7 @@ TEST(LeafGeometry, RaysFromInsideAClosedMeshNeverEscape)
         const auto blocks = Blocks(rays).trace(octree, { geometry, stop });
         for (std::size_t i = 0; i < rays.size(); ++i)
         {
-          const glm::ivec3 cell((rays[i].origin - 1.0) * double(1 << svo::rootBits(octree, stop)));
+          const glm::ivec3 cell((rays[i].origin - 1.0) * double(1 << octree.rootBits(stop)));
           if (octree.occupied(cell, stop) && stop < level - 2)
           {
             continue; // it starts in a cell of the surface: inside or outside is not defined
@@ -316,7 +316,7 @@ TEST(LeafGeometry, NoRayThatHitsAClosedMeshIsLost)
     const auto blocks = Blocks(rays).trace(octree, { geometry });
     for (std::size_t i = 0; i < rays.size(); ++i)
     {
-      const glm::ivec3 cell((rays[i].origin - 1.0) * double(1 << svo::rootBits(octree, 8)));
+      const glm::ivec3 cell((rays[i].origin - 1.0) * double(1 << octree.rootBits(8)));
       const Exact exact = bruteForce(*octree.surface(), rays[i]);
       if (exact.hit && exact.margin > 1e-5 && !octree.occupied(cell, 8))
       {

@@ -85,7 +85,7 @@ TEST(RayTraversal, VisitsEveryVoxelOnTheRayOnceFrontToBack)
           {
             EXPECT_GE(cell.tEnter, last);
             EXPECT_GE(cell.tExit, cell.tEnter);
-            EXPECT_EQ(cell.bitCount, 1);
+            EXPECT_EQ(cell.above, 0);
             last = cell.tExit;
             visited.push_back(cell.cell);
             return svo::Visit::Continue;
