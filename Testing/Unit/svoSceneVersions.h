@@ -49,16 +49,20 @@ inline std::vector<unsigned char> bytesOf(const svo::Instance& i)
   return all;
 }
 
-/// Gives instances versions: the same one where all of them is the same.
+/// Gives instances, and their scene, versions: the same one where all of them is the same.
 inline void stamp(svo::Scene& scene)
 {
   static std::mutex mutex;
   static std::map<std::vector<unsigned char>, std::uint64_t> known;
   const std::lock_guard<std::mutex> lock(mutex);
+  std::vector<unsigned char> versions;
   for (svo::Instance& instance : scene.instances)
   {
     instance.version = known.emplace(bytesOf(instance), known.size() + 1).first->second;
+    const auto* bytes = reinterpret_cast<const unsigned char*>(&instance.version);
+    versions.insert(versions.end(), bytes, bytes + sizeof instance.version);
   }
+  scene.version = known.emplace(versions, known.size() + 1).first->second;
 }
 
 inline svo::Scene stamped(svo::Scene scene)

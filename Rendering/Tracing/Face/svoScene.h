@@ -16,7 +16,7 @@ struct Scene
 {
   std::vector<Instance> instances;
   /// Another one where any of `instances` has another version, or there are more or fewer; 0: that
-  /// may be.
+  /// may be. Of what follows it says nothing.
   std::uint64_t version = 0;
   /// Of surfaces that are no instances but receive shadows of instances; world.
   std::vector<Box> receivers;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -75,13 +76,14 @@ Outline outlineOf(const Box& receiver)
   return outline;
 }
 
-std::vector<Outline> outlinesOf(const Scene& scene)
+std::vector<Outline> outlinesOf(const Scene& scene, std::vector<Outline> known)
 {
-  std::vector<Outline> outlines;
+  std::vector<Outline> outlines = std::move(known);
+  outlines.resize(std::min(outlines.size(), scene.instances.size()));
   outlines.reserve(scene.instances.size() + scene.receivers.size());
-  for (const Instance& instance : scene.instances)
+  for (std::size_t i = outlines.size(); i < scene.instances.size(); ++i)
   {
-    outlines.push_back(outlineOf(instance));
+    outlines.push_back(outlineOf(scene.instances[i]));
   }
   for (const Box& receiver : scene.receivers)
   {

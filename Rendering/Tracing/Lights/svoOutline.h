@@ -45,7 +45,8 @@ struct Outlines
 
 Outline outlineOf(const Instance& instance);
 Outline outlineOf(const Box& receiver);
-std::vector<Outline> outlinesOf(const Scene& scene);
+/// `known`: those that there were of the same instances, perhaps for other receivers.
+std::vector<Outline> outlinesOf(const Scene& scene, std::vector<Outline> known = {});
 
 glm::dmat4 matrixOf(const Outline& outline);
 

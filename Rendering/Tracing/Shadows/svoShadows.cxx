@@ -46,11 +46,10 @@ void Shadows::fitMaps(const Scene& seen, const View& view, const FrameSettings& 
     this->FittedVersion = 0;
     return;
   }
-  if (seen.version == 0 || seen.version != this->FittedVersion)
-  {
-    this->Fitted = outlinesOf(seen);
-    this->FittedVersion = seen.version;
-  }
+  // The version says nothing of receivers.
+  const bool same = seen.version != 0 && seen.version == this->FittedVersion;
+  this->Fitted = outlinesOf(seen, same ? std::move(this->Fitted) : std::vector<Outline>());
+  this->FittedVersion = seen.version;
   this->Maps = mapsOfLights(this->Fitted, seen.lights, settings, view);
 }
 

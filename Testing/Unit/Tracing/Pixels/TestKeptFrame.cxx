@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <random>
 #include <string>
 #include <utility>
@@ -204,6 +206,28 @@ TEST(KeptFrame, EveryChangeIsSeen)
     EXPECT_NE(version, frame.version);
     EXPECT_TRUE(identical(rendered(stage.scene, stage.view, stage.settings), frame));
   }
+}
+
+// A ground that nothing lies below casts nothing.
+TEST(KeptFrame, MapsAreFittedToReceiversThatHaveCome)
+{
+  Stage stage;
+  auto& ground = const_cast<svo::Header&>(stage.ground.header());
+  ground.pointCount = stage.groundMesh.points.size();
+  std::copy_n(std::begin({ -3.0, 3.0, -3.0, 3.0, 0.0, 0.0 }), 6, ground.meshBounds);
+  stage.scene.instances[0].localToWorld = movedTo(0, 0, -2);
+  stage.scene.lights[0].kind = svo::Light::Kind::Directional;
+  stage.settings.receiverMaps = true;
+  svo::CPUTracer tracer, fresh;
+  const auto width = [](const svo::Tracer& of)
+  { return of.shadowMaps().size() == 1 ? 2.0 / of.shadowMaps()[0].view.viewToClip[0][0] : 0.0; };
+  render(tracer, stage);
+  EXPECT_LT(width(tracer), 4.0); // the ball's
+  stage.scene.receivers = { { glm::dvec3(-3, -3, -4), glm::dvec3(3, 3, -3) } };
+  render(tracer, stage);
+  render(fresh, stage);
+  EXPECT_GT(width(fresh), 5.0);
+  EXPECT_EQ(width(fresh), width(tracer));
 }
 
 TEST(KeptFrame, IsMadeAgainWhereThatIsAskedFor)
