@@ -9,6 +9,8 @@
 #include "svoSurfaceLook.h"
 #include "svoView.h"
 
+#include "vtkActor.h"
+
 #include <functional>
 #include <set>
 #include <string>
@@ -16,7 +18,6 @@
 
 #include <glm/mat4x4.hpp>
 
-class vtkActor;
 class vtkPolyData;
 
 namespace svo

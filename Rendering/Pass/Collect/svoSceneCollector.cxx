@@ -76,8 +76,8 @@ Reason withoutOctree(const StoreOptions& options)
 {
   return options.convert ? "has no octree, or none yet" : "comes without an octree";
 }
+}
 
-/// Updating a prop may change the renderer's list, or let props go.
 std::vector<vtkSmartPointer<vtkProp>> propsOf(vtkRenderer* renderer)
 {
   std::vector<vtkSmartPointer<vtkProp>> props;
@@ -90,7 +90,6 @@ std::vector<vtkSmartPointer<vtkProp>> propsOf(vtkRenderer* renderer)
     props.emplace_back(prop);
   }
   return props;
-}
 }
 
 PropSurfaces SceneCollector::judge(vtkProp* prop)
@@ -199,7 +198,7 @@ void SceneCollector::assemble(CollectedScene& result)
   result.receivers.clear();
   result.tracedActors = result.rasterizedActors = 0;
   result.rasterizedReceivers = result.receiversReach = result.shadowCatchers = false;
-  const bool changed = SceneInstances::write(this->Found, Stage::Shown, this->Instances);
+  const bool changed = writeInstances(this->Found, Stage::Shown, this->Instances);
   bool complete = true;
   for (const PropSurfaces& prop : this->Found)
   {

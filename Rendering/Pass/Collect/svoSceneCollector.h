@@ -62,6 +62,9 @@ struct CollectedScene
   std::vector<std::pair<vtkWeakPointer<vtkProp>, std::string>> reasons;
 };
 
+/// What a renderer has, held: updating a prop may change its list, or let props go.
+std::vector<vtkSmartPointer<vtkProp>> propsOf(vtkRenderer* renderer);
+
 /// Collects frame after frame from one renderer. Casters outside of the picture are in. Whatever is
 /// as it was in the last frame is neither collected nor written again: props (svoPropState.h),
 /// octrees, and the scene's instances.

@@ -195,6 +195,13 @@ SceneLights lightsOf(vtkRenderer* renderer, const glm::dmat4& world, const Light
   return result;
 }
 
+bool hasCameraLight(vtkRenderer* renderer)
+{
+  bool any = false;
+  eachLight(renderer, [&](vtkLight* light) { any = any || light->LightTypeIsCameraLight(); });
+  return any;
+}
+
 bool castsShadow(vtkLight* light)
 {
   if (!aims(lightOf(light)))

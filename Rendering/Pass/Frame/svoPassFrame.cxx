@@ -1,8 +1,8 @@
 #include "svoPassFrame.h"
 
+#include "svoSceneLights.h"
+
 #include "vtkCommand.h"
-#include "vtkLight.h"
-#include "vtkLightCollection.h"
 #include "vtkRenderWindow.h"
 
 #include <algorithm>
@@ -16,22 +16,6 @@ constexpr double InteractiveRate = 1.0; // Hz
 
 /// Share of an interactive frame's time that is the pass's; the rest is for what else is drawn.
 constexpr double OwnShare = 0.5;
-
-/// True if a light moves with the camera, so that nothing seen from it outlives a frame.
-bool hasCameraLight(vtkRenderer* renderer)
-{
-  vtkCollectionSimpleIterator iterator;
-  vtkLightCollection* lights = renderer->GetLights();
-  lights->InitTraversal(iterator);
-  while (vtkLight* light = lights->GetNextLight(iterator))
-  {
-    if (light->GetSwitch() && light->LightTypeIsCameraLight())
-    {
-      return true;
-    }
-  }
-  return false;
-}
 }
 
 bool PassFrame::interactive() const

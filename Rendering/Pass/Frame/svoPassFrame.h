@@ -7,7 +7,6 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkProp.h"
-#include "vtkPropCollection.h"
 #include "vtkRenderPass.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
@@ -46,16 +45,10 @@ struct PassFrame
   PassFrame(std::shared_ptr<RendererState> rendererState, vtkRenderer* drawn)
     : state(std::move(rendererState))
     , renderer(drawn)
+    , props(propsOf(drawn))
     , receivingState(drawn)
     , context(stateOf(windowOf(drawn)))
   {
-    vtkCollectionSimpleIterator iterator;
-    vtkPropCollection* collection = drawn->GetViewProps();
-    collection->InitTraversal(iterator);
-    while (vtkProp* prop = collection->GetNextProp(iterator))
-    {
-      this->props.emplace_back(prop);
-    }
   }
 
   /// False if the window was finalized, or taken away, since the frame was begun.
@@ -111,7 +104,7 @@ struct PassFrame
   const std::shared_ptr<RendererState> state;
   vtkRenderer* const renderer;
   /// VTK's renderer has an array of them and does not own them.
-  std::vector<vtkSmartPointer<vtkProp>> props;
+  const std::vector<vtkSmartPointer<vtkProp>> props;
   FrameSettings settings;
   FramePace pace;
   bool pacedShadows = false; // PassStatistics

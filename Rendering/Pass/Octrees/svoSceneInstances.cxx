@@ -138,8 +138,7 @@ std::uint64_t newVersion()
   return ++last;
 }
 
-bool SceneInstances::write(
-  std::vector<PropSurfaces>& props, Stage stage, std::vector<Instance>& instances)
+bool writeInstances(std::vector<PropSurfaces>& props, Stage stage, std::vector<Instance>& instances)
 {
   std::size_t count = 0;
   for (const PropSurfaces& prop : props)

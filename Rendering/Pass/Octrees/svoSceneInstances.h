@@ -20,16 +20,12 @@ enum class Stage
 /// One that no instance and no scene of this process has had; less than 2^48.
 std::uint64_t newVersion();
 
-class SceneInstances
-{
-public:
-  /// Brings `instances`, which are those of the last call, in line with all surfaces of the props,
-  /// in order. PropSurfaces::fresh says whose are written whole, SceneSurface::written what the
-  /// others were. Those that are shown have their versions. True if one of these is not what it
-  /// was when it was shown last.
-  static bool write(
-    std::vector<PropSurfaces>& props, Stage stage, std::vector<Instance>& instances);
-};
+/// Brings `instances`, which are those of the last call, in line with all surfaces of the props, in
+/// order. PropSurfaces::fresh says whose are written whole, SceneSurface::written what the others
+/// were. Those that are shown have their versions. True if one of these is not what it was when it
+/// was shown last.
+bool writeInstances(
+  std::vector<PropSurfaces>& props, Stage stage, std::vector<Instance>& instances);
 }
 
 #endif

@@ -150,7 +150,7 @@ void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lig
     {
       addReceiver(prop, prop.traced, scene);
     }
-    SceneInstances::write(props, Stage::Planned, instances);
+    writeInstances(props, Stage::Planned, instances);
     scene.instances.swap(instances);
     needed = ofSurfaces(props, settings.tracer->neededLevels(scene, settings.eye, settings.frame));
     scene.instances.swap(instances);
