@@ -273,9 +273,10 @@ void compareSigns(const ImageCase& c, Checks& checks)
                          : "rays",
         signs, look, count(p[1], p[2], 40));
       const std::string name = c.name + ", shadows " + std::to_string(shadows);
-      // Contours of the two have their points elsewhere where the image has the surface's own
-      // value.
-      const std::size_t fewest = drawnByOpenGL() ? 1500 : 2000;
+      // OpenGL draws contours, whose points at the hole's rim go with the sign where the image has
+      // the surface's own value: 144 pixels of the scan. By rays 19 more are in their own shadow,
+      // as yet.
+      const std::size_t fewest = drawnByOpenGL() ? 1250 : 2000;
       checks.expect(signs * fewest <= p[0].size(), name + ": whichever side is larger");
       checks.expect(look * 200 <= p[0].size(), name + ": it looks as the triangles do");
     }
