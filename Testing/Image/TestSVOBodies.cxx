@@ -335,9 +335,7 @@ void expectReceived(Checks& checks)
       left += drawn && dark.grey(i) > 1.0 ? 1 : 0;
     }
     std::cout << one.name << " in the shadow: " << left << " of " << body << " are lit\n";
-    // A fragment on a ball's rim has no derivatives, so no facet, and OpenGL's ray no place.
-    const std::size_t fewest = drawnByOpenGL() ? 190 : 1000;
-    checks.expect(body > 5000 && left * fewest < body, one.name + ": shadows fall on them");
+    checks.expect(body > 5000 && left * 1000 < body, one.name + ": shadows fall on them");
   }
 }
 }
