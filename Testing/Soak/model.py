@@ -233,7 +233,7 @@ PASS = {name: lambda p, v, name=name: getattr(p, "Set" + name)(v) for name in (
     "ShadowTechnique", "ShadowBufferResolution", "AutomaticShadowBias", "ShadowBias", "ShadowIntensity",
     "TranslucentShadows", "PixelError", "ConvertPolyData", "MaximumLevel", "LeafGeometry", "OctreeMemoryLimit",
     "FrameCoherence", "LayerMemoryLimit", "AntiAliasing", "ViewCulling", "OcclusionCulling",
-    "ShadowsForEverything")}
+    "ShadowsForEverything", "Backend", "GPUMemoryLimit")}
 
 
 def apply(table, target, data):

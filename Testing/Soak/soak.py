@@ -80,6 +80,7 @@ class Values:
                 "FrameCoherence": lambda: flag(0.8), "LayerMemoryLimit": lambda: rng.choice((1 << 19, 1 << 19, 500, 0)),
                 "AntiAliasing": lambda: flag(0.3), "ViewCulling": lambda: flag(0.8),
                 "OcclusionCulling": lambda: flag(0.8), "ShadowsForEverything": lambda: flag(0.1),
+                "Backend": lambda: rng.choice((1, 1, 2)), "GPUMemoryLimit": lambda: rng.choice((1 << 20, 1 << 20, 200)),
             },
         }
 
