@@ -293,9 +293,7 @@ void expectAsMeshes(const Case& one, Checks& checks)
   checks.expect(dark > 2500, one.name + ": there is a shadow");
   checks.expect(static_cast<double>(other) <= one.otherShare * static_cast<double>(dark),
     one.name + ": as the same bodies as meshes");
-  // OpenGL's rays begin inside of the next rod where tubes have joints: VTK draws these flat.
-  const double mostShaded = drawnByOpenGL() ? 0.05 : 0.01;
-  checks.expect(static_cast<double>(shaded) <= mostShaded * static_cast<double>(body),
+  checks.expect(static_cast<double>(shaded) <= 0.01 * static_cast<double>(body),
     one.name + ": they do not shade themselves");
   if (!one.receives)
   {

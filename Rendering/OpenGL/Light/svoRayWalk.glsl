@@ -257,6 +257,10 @@ float svoLeftAlong(vec3 from, vec3 side, vec3 way, float end)
 {
   float left = 1.0;
   vec3 start = from + svoPositionError * length(from) * side;
+  if (any(isnan(start)))
+  {
+    return 1.0; // or it walked on and on
+  }
   vec3 treeStart = (svoViewToTree * vec4(start, 1.0)).xyz;
   vec3 treeWay = mat3(svoViewToTree) * way;
   vec3 inverse = 1.0 /

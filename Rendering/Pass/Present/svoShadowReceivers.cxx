@@ -73,8 +73,16 @@ constexpr char FragmentOfFacet[] =
   "  vec3 svoPosition = vertexVC.xyz;\n"
   "  vec3 svoFacet = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));\n";
 
+/// The rims of VTK's balls have no derivatives.
+constexpr char FacetOfNormal[] = "  if (any(isnan(svoFacet)))\n"
+                                 "  {\n"
+                                 "    svoFacet = normalVCVSOutput;\n"
+                                 "  }\n";
+
 /// The same on lines as tubes and points as spheres: VTK leaves vertexVC on the axis, or at the
 /// centre. Its normals of tubes are not quite perpendicular to them in windows that are not square.
+/// The place is a twentieth of the radius above the surface: at joints of tubes, which VTK draws
+/// flat, what is seen lies inside of the next one.
 constexpr char FragmentOfTube[] =
   "  vec3 svoAcross = dFdx(vertexVC.xyz);\n"
   "  vec3 svoUp = dFdy(vertexVC.xyz);\n"
@@ -84,7 +92,7 @@ constexpr char FragmentOfTube[] =
   "    ? normalize(normalVCVSOutput - dot(normalVCVSOutput, svoAxis) / svoAxisSquare * svoAxis)\n"
   "    : normalVCVSOutput;\n"
   "  vec3 svoPosition =\n"
-  "    vertexVC.xyz + ZCalcR * (cameraParallel == 0 ? -vertexVC.z : 1.0) * svoFacet;\n";
+  "    vertexVC.xyz + 1.05 * ZCalcR * (cameraParallel == 0 ? -vertexVC.z : 1.0) * svoFacet;\n";
 
 /// Adds the code of shadow catchers. `lit`: the shader knows of shadows.
 void catchShadows(std::string& declarations, std::string& body, bool lit)
@@ -231,7 +239,7 @@ void ShadowReceivers::completeShader(
         : std::string(),
     false);
   vtkShaderProgram::Substitute(body, ImplementationMark,
-    any ? std::string(round ? FragmentOfTube : FragmentOfFacet) +
+    any ? std::string(round ? FragmentOfTube : FragmentOfFacet) + (hasNormal ? FacetOfNormal : "") +
         "  float svoExtent = min(length(dFdx(svoPosition)), length(dFdy(svoPosition)));\n"
         "  vec3 svoLift = " +
         std::string(smooth
