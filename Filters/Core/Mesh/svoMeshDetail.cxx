@@ -69,9 +69,9 @@ int levelOf(vtkPolyData* mesh, double& edge)
   const Cube cube = boundingCube(view, Bits);
   edge = cube.edge;
   const std::vector<std::uint64_t> keys = sortedCentres(view, cube);
-  for (int level = Coarsest; level <= Bits + 2; ++level)
+  for (int level = Coarsest; level <= Bits + NodeLevels; ++level)
   {
-    const int brickBits = level - 2;
+    const int brickBits = level - NodeLevels;
     if (crowded(keys, 3 * (Bits - brickBits)) * CrowdedOneIn <= keys.size())
     {
       return level;

@@ -171,7 +171,7 @@ inline bool shadersTurn(const SurfaceMatrices& frame, const View& view, const gl
 /// the viewer the nearest.
 inline glm::vec3 faceOfVoxel(const Octree& octree, const glm::dvec3& at, const glm::dvec3& towards)
 {
-  const glm::dvec3 place = (at - 1.0) * std::ldexp(1.0, 2 * octree.depthCount());
+  const glm::dvec3 place = (at - 1.0) * std::ldexp(1.0, octree.rootBits(octree.level()));
   const glm::dvec3 beside = glm::abs(place - glm::round(place));
   const int axis = beside.x <= beside.y && beside.x <= beside.z ? 0 : beside.y <= beside.z ? 1 : 2;
   glm::vec3 normal(0.0f);

@@ -74,7 +74,7 @@ bool ShadowBeam::trace(
     this->Far ? centre : this->Light, this->Far ? this->Light : centre - this->Light);
 
   // The cube's depths.
-  const double edge = std::ldexp(1.0, this->Tree.level() - 2 * this->Tree.depthCount());
+  const double edge = std::ldexp(1.0, -this->Tree.rootBits(0));
   const glm::dvec3 low(1.0);
   const double half =
     0.5 * edge * (std::abs(frame.axis.x) + std::abs(frame.axis.y) + std::abs(frame.axis.z));
