@@ -17,3 +17,19 @@ function (vtksvo_rooms module)
     vtk_module_install_headers(FILES ${arg_INSTALL})
   endif ()
 endfunction ()
+
+# Shaders are edited as .glsl files and compiled in as strings, each with a header of its own.
+# vtksvo_shaders(<room> <name>...): adds to the lists shaders (sources) and shader_headers.
+function (vtksvo_shaders room)
+  foreach (shader IN LISTS ARGN)
+    vtk_encode_string(
+      INPUT "${room}/${shader}.glsl"
+      NAME "${shader}"
+      HEADER_OUTPUT shader_header
+      SOURCE_OUTPUT shader_source)
+    list(APPEND shaders "${shader_source}")
+    list(APPEND shader_headers "${shader_header}")
+  endforeach ()
+  set(shaders "${shaders}" PARENT_SCOPE)
+  set(shader_headers "${shader_headers}" PARENT_SCOPE)
+endfunction ()

@@ -24,7 +24,7 @@ bool vtkSVORenderPass::CollectFrame(
   // is collected once more after that, when nothing is left to be built. Of the last collection
   // nobody is told, so that it ends even for those who change something every time.
   constexpr int MostCollections = 4;
-  const bool openGL = this->GetActiveBackend() == BACKEND_OPENGL;
+  svo::FrameSettings asked;
   vtkRenderer* renderer = frame.renderer;
   frame.state->beginFrame();
   bool disturbed = true;
@@ -63,14 +63,15 @@ bool vtkSVORenderPass::CollectFrame(
     store.aborted = frame.abort(i < MostCollections, heard, disturbed);
     store.complain = [&frame](const std::string& text) { frame.messages.push_back(text); };
 
+    asked = this->AskedSettings();
     svo::CollectSettings collect;
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
     collect.unmarkedToo = this->ShadowsForEverything;
     collect.translucentShadows = this->TranslucentShadows;
     // Neither what processes tell each other of their casters nor shaders know colours.
-    collect.meanOpacity = impl.severalProcesses() || openGL;
-    collect.onlyCast = openGL;
+    collect.meanOpacity = impl.severalProcesses() || asked.lightCode;
+    collect.onlyCast = this->GetActiveBackend() == BACKEND_OPENGL;
     const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
     collect.notMarked = notMarked.c_str();
     collect.said = &impl.said;
@@ -79,7 +80,7 @@ bool vtkSVORenderPass::CollectFrame(
     collect.cutOutText = this->GetText(TEXT_CUT_OUT, nullptr);
     collect.lightWords = { [this](vtkLight* light) { return this->GetText(TEXT_HEADLIGHT, light); },
       [this](vtkLight* light) { return this->GetText(TEXT_LIGHT, light); } };
-    collect.levels.frame = this->AskedSettings();
+    collect.levels.frame = asked;
     svo::viewOfCamera(renderer, width, height, collect.levels.eye);
     frame.state->collect(impl.store, store, collect);
     disturbed = disturbed || !frame.canDraw();
@@ -101,7 +102,7 @@ bool vtkSVORenderPass::CollectFrame(
                         text(alone, TEXT_NOTHING_CASTS), text(alone, TEXT_NOTHING_RECEIVES),
                         text(seen, TEXT_CLIPPED) },
     impl.said);
-  frame.decide(this->AskedSettings(),
+  frame.decide(asked,
     { this->AutoAdjustSampleDistances, this->MaximumImageSampleDistance, this->ImageReductionFactor,
       this->DetailCullingThreshold });
   return true;

@@ -16,6 +16,7 @@
 #include "vtkImplicitFunctionToSVO.h"
 #include "vtkNew.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkPolyData.h"
 #include "vtkPolyDataToSVO.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
@@ -40,16 +41,21 @@ constexpr float Step = 1.0f / 255.0f;
 /// Rays that pass an edge as closely as floats tell may go either way: the project's bound.
 constexpr double MostOther = 3e-4;
 
+svo::Octree octreeIn(vtkDataObject* carrier)
+{
+  svo::Octree octree;
+  std::string message;
+  svo::openAttachedOctree(vtkPolyData::SafeDownCast(carrier), octree, message);
+  return octree;
+}
+
 svo::Octree octreeOf(vtkAlgorithm* source, int level)
 {
   vtkNew<vtkPolyDataToSVO> filter;
   filter->SetInputConnection(source->GetOutputPort());
   filter->SetMaximumLevel(level);
   filter->Update();
-  svo::Octree octree;
-  std::string message;
-  svo::openAttachedOctree(filter->GetOutput(), octree, message);
-  return octree;
+  return octreeIn(filter->GetOutput());
 }
 
 /// Of a ball's planes; a part of it, so that its box matters.
@@ -62,10 +68,7 @@ svo::Octree octreeOfPlanes(int level)
   filter->SetModelBounds(-0.6, 0.6, -0.6, 0.3, -0.45, 0.6);
   filter->SetMaximumLevel(level);
   filter->Update();
-  svo::Octree octree;
-  std::string message;
-  svo::openAttachedOctree(filter->GetOutput(), octree, message);
-  return octree;
+  return octreeIn(filter->GetOutput());
 }
 
 svo::Scene sceneAt(const glm::dvec3& centre, double size, int copies)

@@ -2,6 +2,10 @@
 // svoHasOthers is defined there are fragments of which the mask knows nothing: they ask themselves.
 uniform sampler2DArray svoShares; // four lights a layer
 uniform int svoFirstPixel[2];     // of the mask, in the window
+#ifdef svoHasOthers
+uniform sampler2D svoPlaces; // svoShadowMaskShader.glsl
+uniform float svoOpaque;     // 1: nothing is seen through this surface
+#endif
 
 float svoLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, float extent)
 {

@@ -58,12 +58,13 @@ Box worldBox(const Instance& instance)
 }
 
 /// The constants of svoRayWalk.glsl.
-std::string constantsOf(std::size_t lights)
+std::string constantsOf(std::size_t lights, bool planes)
 {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::showpoint << std::setprecision(9) << "const int svoLightCount = " << lights << ";\n"
-       << "const float svoDoubtfulSine = " << DoubtfulSine << ";\n";
+       << "const float svoDoubtfulSine = " << DoubtfulSine << ";\n"
+       << "const bool svoHasPlanes = " << (planes ? "true" : "false") << ";\n";
   return text.str();
 }
 
@@ -140,15 +141,13 @@ private:
   struct Caster
   {
     WorldToOctree toOctree;
-    float opacity;
-    std::uint32_t root;
-    int depths;
-    glm::vec4 low, high; // CasterRecord
+    CasterRecord record; // but for the rows
   };
   std::uint64_t Version = 0;
   std::size_t Limit = 0; // that they were to keep
   std::string WhyNot;    // they are not in OpenGL's memory; empty: they are
   std::vector<Caster> Casters;
+  bool Planes = false;      // some of their octrees are of planes
   glm::dvec3 Centre{ 0.0 }; // of the tree's frame, world
   std::vector<CasterNode> Tree;
   glm::dmat4 WorldToView{ 0.0 }; // that was sent
@@ -268,7 +267,7 @@ void OpenGLTracer::describe(const Scene& scene, const View& view)
   glm::dmat4 viewToTree(glm::transpose(turned)); // rigid
   viewToTree[3] = glm::dvec4(view.eye - this->Centre, 1.0);
   const glm::mat4 matrix(viewToTree);
-  this->Code.constants = constantsOf(this->Code.lights.size());
+  this->Code.constants = constantsOf(this->Code.lights.size(), this->Planes);
   this->Code.text = svoRayWalk;
   this->Code.costly = true;
   this->Code.textures = { { "svoNodes", this->Octrees.nodes().name() },
@@ -284,20 +283,27 @@ void OpenGLTracer::describe(const Scene& scene, const View& view)
 bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
 {
   this->Casters.clear();
+  this->Planes = false;
   std::vector<Box> boxes;
   Box all;
   for (const Instance* caster : casters)
   {
     const Octree& octree = caster->body->octree;
-    this->Casters.push_back(
-      { WorldToOctree(octree, caster->localToWorld), caster->translucent() ? caster->opacity : 1.0f,
-        this->Octrees.rootOf(octree), octree.depthCount(), glm::vec4(0.0f), glm::vec4(0.0f) });
+    constexpr std::uint32_t Split = 4096; // floats tell no larger numbers apart
+    const std::uint32_t root = this->Octrees.rootOf(octree);
+    CasterRecord record{};
+    record.rootHigh = static_cast<float>(root / Split);
+    record.rootLow = static_cast<float>(root % Split);
+    record.depths = static_cast<float>(octree.depthCount());
+    record.opacity = caster->translucent() ? caster->opacity : 1.0f;
     if (octree.hasPlanes())
     {
       const LeafQuery query(octree, { LeafGeometry::Plane, MaximumLevel });
-      this->Casters.back().low = glm::vec4(glm::vec3(query.low), 0.5 * query.ownReach);
-      this->Casters.back().high = glm::vec4(glm::vec3(query.high), AboveContour);
+      record.low = glm::vec4(glm::vec3(query.low), 0.5 * query.ownReach);
+      record.high = glm::vec4(glm::vec3(query.high), AboveContour);
+      this->Planes = true;
     }
+    this->Casters.push_back({ WorldToOctree(octree, caster->localToWorld), record });
     boxes.push_back(worldBox(*caster));
     all.add(boxes.back());
   }
@@ -329,19 +335,12 @@ void OpenGLTracer::aim(const View& view)
   {
     const glm::dmat3 linear = caster.toOctree.inverse * toWorld * caster.toOctree.scale;
     const glm::dvec3 at = caster.toOctree.point(view.eye);
-    CasterRecord record;
+    CasterRecord record = caster.record;
     for (int row = 0; row < 3; ++row)
     {
       record.rows[row] =
         glm::vec4(glm::dvec4(linear[0][row], linear[1][row], linear[2][row], at[row]));
     }
-    constexpr std::uint32_t Split = 4096; // floats tell no larger numbers apart
-    record.rootHigh = static_cast<float>(caster.root / Split);
-    record.rootLow = static_cast<float>(caster.root % Split);
-    record.depths = static_cast<float>(caster.depths);
-    record.opacity = caster.opacity;
-    record.low = caster.low;
-    record.high = caster.high;
     records.push_back(record);
   }
   this->CasterTexels.send(2 * this->Tree.size(), records.data(), CasterTexelCount * records.size());

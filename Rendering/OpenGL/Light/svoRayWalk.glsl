@@ -14,7 +14,8 @@
 // whose voxels have planes (svoPlane.h), in svoLists from the first child on. svoTriangles has three
 // texels a triangle: its corners, octree coordinates.
 //
-// Constants are put before it: svoLightCount, svoDoubtfulSine.
+// Constants are put before it: svoLightCount, svoDoubtfulSine, and whether there are octrees of planes:
+// to ask for them takes time even where there are none.
 uniform usamplerBuffer svoNodes;
 uniform usamplerBuffer svoLists;
 uniform samplerBuffer svoTriangles;
@@ -196,7 +197,7 @@ bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths, svoEn
     {
       uint child = record.z + uint(svoBits(half_ & (bit - 1u))) +
         (number < 32 ? 0u : uint(svoBits(record.x)));
-      bool plane = record.w == svoOfPlanes;
+      bool plane = svoHasPlanes && record.w == svoOfPlanes;
       uvec4 below = plane ? uvec4(0u) : texelFetch(svoNodes, int(child));
       if (!plane && below.w >= svoOfPlanes)
       {
@@ -298,8 +299,8 @@ float svoLeftAlong(vec3 from, vec3 side, vec3 way, float end)
     vec3 local = vec3(dot(x, point), dot(y, point), dot(z, point));
     vec3 localSide = vec3(dot(x.xyz, side), dot(y.xyz, side), dot(z.xyz, side));
     vec3 localWay = vec3(dot(x.xyz, way), dot(y.xyz, way), dot(z.xyz, way));
-    vec4 low = texelFetch(svoCasters, at + 4);
-    vec4 high = texelFetch(svoCasters, at + 5);
+    vec4 low = svoHasPlanes ? texelFetch(svoCasters, at + 4) : vec4(0.0);
+    vec4 high = svoHasPlanes ? texelFetch(svoCasters, at + 5) : vec4(0.0);
     localSide = normalize(localSide);
     local += svoOctreeError * max(max(abs(local.x), abs(local.y)), max(abs(local.z), 1.0)) * localSide;
     // A ray may start behind the planes of its own surface. What it meets before it can have left
@@ -308,7 +309,7 @@ float svoLeftAlong(vec3 from, vec3 side, vec3 way, float end)
     svoEnds ends = svoEnds(low.xyz, high.xyz, low.w,
       outside / max(dot(localSide, localWay), 0.05 * length(localWay)));
     bool met = false;
-    for (int start = 0; start < 2; ++start)
+    for (int start = 0; start < (svoHasPlanes ? 2 : 1); ++start)
     {
       svoDoubted = false;
       met = svoMeetsOctree(

@@ -1,5 +1,6 @@
 #include "svoShadowMask.h"
 
+#include "svoLightUniforms.h"
 #include "svoMaskLookup.h"
 #include "svoOpenGL.h"
 #include "svoShadowMaskShader.h"
@@ -36,13 +37,6 @@ bool hasCompute()
 #else
   return false;
 #endif
-}
-
-GLenum targetOf(LightCode::Texture::Kind kind)
-{
-  return kind == LightCode::Texture::Kind::Buffer ? GL_TEXTURE_BUFFER
-    : kind == LightCode::Texture::Kind::Plane     ? GL_TEXTURE_2D
-                                                  : GL_TEXTURE_2D_ARRAY;
 }
 
 void forgetErrors()
@@ -130,32 +124,6 @@ private:
   std::vector<std::pair<int, GLenum>> Units;
 };
 
-void setUniforms(GLuint program, const LightCode& code)
-{
-  for (const LightCode::Integers& entry : code.integers)
-  {
-    glUniform1iv(glGetUniformLocation(program, entry.name),
-      static_cast<GLsizei>(entry.values.size()), entry.values.data());
-  }
-  for (const LightCode::Floats& entry : code.floats)
-  {
-    const GLint at = glGetUniformLocation(program, entry.name);
-    const auto count = static_cast<GLsizei>(entry.values.size()) / entry.components;
-    if (entry.components == 16)
-    {
-      glUniformMatrix4fv(at, count, GL_FALSE, entry.values.data());
-    }
-    else if (entry.components == 4)
-    {
-      glUniform4fv(at, count, entry.values.data());
-    }
-    else
-    {
-      glUniform1fv(at, count, entry.values.data());
-    }
-  }
-}
-
 /// A shader of all pixels has no vertices of its own.
 constexpr char AllPixels[] = "#version 150\n"
                              "void main()\n"
@@ -181,18 +149,18 @@ const LightCode& ShadowMask::lookUp(const LightCode& asked, int width, int heigh
   if (others)
   {
     this->Code = asked;
-    this->Mixed = this->Mixed.empty() ? std::string("#define svoLeft svoRayLeft\n") + asked.text +
-        "#undef svoLeft\n#define svoHasOthers\nuniform sampler2D svoPlaces;\nuniform float "
-        "svoOpaque; // 1: of this surface nothing is seen through\n" +
-        svoMaskLookup
-                                      : this->Mixed;
+    if (this->Mixed.empty())
+    {
+      this->Mixed = std::string("#define svoLeft svoRayLeft\n") + asked.text +
+        "#undef svoLeft\n#define svoHasOthers\n" + svoMaskLookup;
+    }
     this->Code.text = this->Mixed.c_str();
-    this->Code.textures.push_back({ "svoPlaces", this->Places, LightCode::Texture::Kind::Plane });
+    this->Code.textures.push_back({ "svoPlaces", this->Places, GL_TEXTURE_2D });
   }
   this->Code.lights = asked.lights;
   this->Code.costly = false;
   this->Code.fromPlaces = true;
-  this->Code.textures.push_back({ "svoShares", this->Shares, LightCode::Texture::Kind::Layers });
+  this->Code.textures.push_back({ "svoShares", this->Shares, GL_TEXTURE_2D_ARRAY });
   this->Code.integers.push_back({ "svoFirstPixel", { 0, 0 } });
   return this->Code;
 }
@@ -243,11 +211,11 @@ void ShadowMask::ask(vtkOpenGLState* state, const LightCode& asked)
     Bound textures(state, this->Program);
     for (const LightCode::Texture& texture : asked.textures)
     {
-      textures.add(texture.sampler, targetOf(texture.kind), texture.name);
+      textures.add(texture.sampler, texture.target, texture.name);
     }
     textures.add("svoPlaces", GL_TEXTURE_2D, this->Places);
     textures.add("svoPlanes", GL_TEXTURE_2D, this->Planes);
-    setUniforms(this->Program, asked);
+    sendUniforms(this->Program, asked);
     const GLint firstLight = glGetUniformLocation(this->Program, "svoFirstLight");
     const GLint firstRow = glGetUniformLocation(this->Program, "svoFirstRow");
     state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Answering);
@@ -297,14 +265,16 @@ void ShadowMask::ask(vtkOpenGLState* state, const LightCode& asked)
 /// Has the program that asks. False if it cannot be made, which is not tried again.
 bool ShadowMask::build(const LightCode& asked)
 {
-  this->Computes = this->Wanted != Way::Fragments && hasCompute();
-  const std::string text =
-    std::string(this->Computes ? "#version 430\n#define svoComputes\n" : "#version 150\n") +
-    asked.constants + asked.text + svoShadowMaskShader;
-  if (text != this->Source)
+  if (asked.constants != this->Constants || asked.text != this->Text)
   {
+    this->Constants = asked.constants;
+    this->Text = asked.text;
+    this->Mixed.clear();
+    this->Computes = this->Wanted == Way::Compute && hasCompute();
+    const std::string text =
+      (this->Computes ? "#version 430\n#define svoComputes\n" : "#version 150\n") +
+      asked.constants + asked.text + svoShadowMaskShader;
     glDeleteProgram(this->Program);
-    this->Source = text;
     this->Program = glCreateProgram();
     bool done;
 #ifdef GL_COMPUTE_SHADER
@@ -404,7 +374,7 @@ void ShadowMask::release()
     glDeleteProgram(this->Program);
   }
   this->Program = 0;
-  this->Source.clear();
+  this->Text = nullptr;
   this->Code = LightCode();
 }
 }

@@ -23,10 +23,10 @@ public:
   /// Who asks: compute shaders (OpenGL 4.3), or a triangle over all pixels.
   enum class Way
   {
-    Best, // compute shaders where there are any
-    Compute,
+    Compute, // where there are such shaders
     Fragments
   };
+  /// Before the first lookUp().
   void setWay(Way way) { this->Wanted = way; }
 
   /// For a frame of so many pixels: code that looks up what find() will find of the code `asked`,
@@ -51,14 +51,16 @@ private:
   void releaseTextures();
   void ask(vtkOpenGLState* state, const LightCode& asked);
 
-  Way Wanted = Way::Best;
+  Way Wanted = Way::Compute;
   bool Computes = false;
   int Width = 0, Height = 0, Layers = 0;
   unsigned int Places = 0, Planes = 0, Depths = 0, Shares = 0; // textures
   unsigned int Gathering = 0, Answering = 0;                   // framebuffers
   unsigned int Program = 0, Vertices = 0;
-  std::string Source; // of the program
-  std::string Mixed;  // text of the code for `others`
+  // The code that the program asks:
+  std::string Constants;
+  const char* Text = nullptr;
+  std::string Mixed; // its text for `others`
   LightCode Code;
 };
 }

@@ -18,9 +18,9 @@ struct ShortLists;
 class OctreeArena
 {
 public:
-  /// Has these octrees, all with a surface or planes and not empty, in memory; those of earlier frames stay
-  /// as long as there is room in `limit` (bytes). False, and nothing is there, if they do not fit
-  /// into that, or OpenGL has no room.
+  /// Has these octrees, all with a surface or planes and not empty, in memory; those of earlier
+  /// frames stay as long as there is room in `limit` (bytes). False, and nothing is there, if they
+  /// do not fit into that, or OpenGL has no room.
   bool hold(const std::vector<const Octree*>& octrees, std::size_t limit);
   void release();
 

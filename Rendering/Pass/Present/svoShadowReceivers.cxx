@@ -1,6 +1,6 @@
 #include "svoShadowReceivers.h"
 
-#include "svoOpenGL.h"
+#include "svoLightUniforms.h"
 #include "svoShaderTokens.h"
 #include "svoShadowCatcher.h"
 #include "svoShadowReceiver.h"
@@ -61,13 +61,6 @@ bool sendPlaces(std::string& vertexShader, std::string& geometryShader, bool& co
   return true;
 }
 
-GLenum targetOf(LightCode::Texture::Kind kind)
-{
-  return kind == LightCode::Texture::Kind::Buffer ? GL_TEXTURE_BUFFER
-    : kind == LightCode::Texture::Kind::Plane     ? GL_TEXTURE_2D
-                                                  : GL_TEXTURE_2D_ARRAY;
-}
-
 /// Where a fragment lies, and its own plane.
 constexpr char FragmentOfFacet[] =
   "  vec3 svoPosition = vertexVC.xyz;\n"
@@ -122,7 +115,7 @@ void ShadowReceivers::update(
     {
       texture = vtkSmartPointer<vtkTextureObject>::New();
       texture->SetContext(window);
-      texture->AssignToExistingTexture(name, targetOf(code.textures[i].kind));
+      texture->AssignToExistingTexture(name, code.textures[i].target);
     }
   }
 }
@@ -291,27 +284,7 @@ void ShadowReceivers::setUniforms(
     this->Textures[i]->Activate(); // mappers' own textures may have taken the unit meanwhile
     program->SetUniformi(this->Code->textures[i].sampler, this->Textures[i]->GetTextureUnit());
   }
-  for (const LightCode::Integers& entry : this->Code->integers)
-  {
-    program->SetUniform1iv(entry.name, static_cast<int>(entry.values.size()), entry.values.data());
-  }
-  for (const LightCode::Floats& entry : this->Code->floats)
-  {
-    const int count = static_cast<int>(entry.values.size()) / entry.components;
-    float* values = const_cast<float*>(entry.values.data()); // VTK's own signature
-    if (entry.components == 16)
-    {
-      program->SetUniformMatrix4x4v(entry.name, count, values);
-    }
-    else if (entry.components == 4)
-    {
-      program->SetUniform4fv(entry.name, count, reinterpret_cast<const float(*)[4]>(values));
-    }
-    else
-    {
-      program->SetUniform1fv(entry.name, count, values);
-    }
-  }
+  sendUniforms(static_cast<unsigned int>(program->GetHandle()), *this->Code);
   program->SetUniformf("svoReceive", receives ? 1.0f : 0.0f);
   program->SetUniformf("svoGather", this->Gathers ? 1.0f : 0.0f);
   program->SetUniformf("svoOpaque", opaque ? 1.0f : 0.0f);

@@ -35,15 +35,9 @@ struct LightCode
   /// A texture of the current context.
   struct Texture
   {
-    enum class Kind
-    {
-      Buffer, // a buffer texture
-      Plane,  // of two dimensions
-      Layers  // an array of these
-    };
     const char* sampler;
     unsigned int name;
-    Kind kind = Kind::Buffer;
+    unsigned int target = 0x8c2a; // GL_TEXTURE_BUFFER
   };
   std::vector<Texture> textures;
 
