@@ -85,9 +85,7 @@ void compare(Checks& checks, const Case& camera, bool bulb)
             << " of them otherwise by rays\n";
   stage.expectTraced(checks, 5, camera.name + ": all is traced");
   checks.expect(wrong <= 4, camera.name + ": VTK's own picture");
-  // Rasterised facets are the wrong way round where the projection is mirrored: 39 pixels are in
-  // their own shadow with maps.
-  checks.expect(apart <= (drawnByOpenGL() ? 60 : 40), camera.name + ": buffers and rays agree");
+  checks.expect(apart <= 25, camera.name + ": buffers and rays agree");
 }
 }
 

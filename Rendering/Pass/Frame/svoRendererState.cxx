@@ -217,6 +217,7 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   const LightCode& known = this->Mask.lookUp(code, width, height, others);
   this->Receivers.update(window, known.empty() ? this->Maps.code() : known,
     settings.shadowIntensity, this->Collected.shadowCatchers);
+  this->Receivers.setMirrored(view.mirrored);
   this->Statistics.receiverMemory = this->Maps.memory();
   this->Statistics.tracer.gpuMemory += this->Mask.bytes();
   if (this->Complaint.empty() && settings.shadowTechnique != ShadowTechnique::None)

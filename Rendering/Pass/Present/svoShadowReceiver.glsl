@@ -2,7 +2,8 @@
 // how much of it casters leave.
 uniform float svoReceive; // 0: no shadow falls on this surface
 uniform float svoIntensity;
-uniform float svoGather; // 1: the fragment says where it lies
+uniform float svoGather;   // 1: the fragment says where it lies
+uniform float svoMirrored; // 1: derivatives in the window turn facets away from the viewer
 
 // Where a fragment lies whose facet covers a part of its pixel, and maybe not the centre. `inside` has
 // been interpolated there: Mesa's llvmpipe takes the centre's depth for that, so the point is moved

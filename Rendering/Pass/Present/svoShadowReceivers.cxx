@@ -64,7 +64,8 @@ bool sendPlaces(std::string& vertexShader, std::string& geometryShader, bool& co
 /// Where a fragment lies, and its own plane.
 constexpr char FragmentOfFacet[] =
   "  vec3 svoPosition = vertexVC.xyz;\n"
-  "  vec3 svoFacet = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));\n";
+  "  vec3 svoFacet = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));\n"
+  "  svoFacet = svoMirrored > 0.0 ? -svoFacet : svoFacet;\n";
 
 /// The rims of VTK's balls have no derivatives.
 constexpr char FacetOfNormal[] = "  if (any(isnan(svoFacet)))\n"
@@ -289,5 +290,6 @@ void ShadowReceivers::setUniforms(
   program->SetUniformf("svoGather", this->Gathers ? 1.0f : 0.0f);
   program->SetUniformf("svoOpaque", opaque ? 1.0f : 0.0f);
   program->SetUniformf("svoIntensity", this->Intensity);
+  program->SetUniformf("svoMirrored", this->Mirrored ? 1.0f : 0.0f);
 }
 }

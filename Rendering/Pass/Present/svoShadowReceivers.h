@@ -25,6 +25,8 @@ public:
   void update(
     vtkOpenGLRenderWindow* window, const LightCode& code, double intensity, bool catchers);
   void release();
+  /// Whether the window shows facets mirrored (View::mirrored).
+  void setMirrored(bool on) { this->Mirrored = on; }
 
   /// True if shaders need nothing of this.
   bool idle() const { return this->empty() && !this->Catchers; }
@@ -60,6 +62,7 @@ private:
   float Intensity = 1.0f;
   bool Catchers = false;
   bool Gathers = false;
+  bool Mirrored = false;
 };
 }
 
