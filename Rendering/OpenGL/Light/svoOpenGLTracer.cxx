@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/vec4.hpp>
 
 namespace svo
@@ -128,6 +129,7 @@ private:
   bool place(const std::vector<const Instance*>& casters);
   void aim(const View& view);
   void describe(const Scene& scene, const View& view);
+  double largestGap(const View& view) const;
 
   std::unique_ptr<Tracer> Other;
   bool Answers = false; // the last frame's light
@@ -142,6 +144,8 @@ private:
   {
     WorldToOctree toOctree;
     CasterRecord record; // but for the rows
+    Box box;             // of the mesh, octree coordinates
+    double gap;          // from its surface to where floats have a ray begin, world
   };
   std::uint64_t Version = 0;
   std::size_t Limit = 0; // that they were to keep
@@ -201,6 +205,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Statistics = FrameStatistics();
   this->Statistics.lightsWithRays = static_cast<int>(this->Code.lights.size());
   this->Statistics.gpuMemory = this->Octrees.bytes() + this->CasterTexels.bytes();
+  this->Statistics.largestGap = this->largestGap(view);
 }
 
 /// Has all that a frame's rays meet in OpenGL's memory. Why not, else empty.
@@ -279,6 +284,34 @@ void OpenGLTracer::describe(const Scene& scene, const View& view)
   this->Code.floats = { { "svoViewToTree", 16, { &matrix[0][0], &matrix[0][0] + 16 } }, sources };
 }
 
+/// FrameStatistics::largestGap: where casters look nearest, since rays from whatever lies there may
+/// begin on the wrong side of their surfaces. 0 if that is nowhere a pixel.
+double OpenGLTracer::largestGap(const View& view) const
+{
+  double largest = 0.0;
+  for (const Caster& caster : this->Casters)
+  {
+    // What looks that coarse is so vast that nine rays meet it if it is seen.
+    for (int i = 0; i < 9 && caster.gap > worldPixel(view, view.tNear); ++i)
+    {
+      const double x = 0.5 * (i % 3) * view.width;
+      const double y = 0.5 * (i / 3) * view.height;
+      const glm::dvec3 from = caster.toOctree.point(view.rayOrigin(x, y));
+      const glm::dvec3 way = caster.toOctree.vector(view.rayDirection(x, y));
+      const glm::dvec3 a = (caster.box.low - from) / way;
+      const glm::dvec3 b = (caster.box.high - from) / way;
+      const glm::dvec3 enters = glm::min(a, b);
+      const glm::dvec3 leaves = glm::max(a, b);
+      const double first = std::max({ enters.x, enters.y, enters.z, view.tNear });
+      if (first <= std::min({ leaves.x, leaves.y, leaves.z, view.tFar }))
+      {
+        largest = std::max(largest, caster.gap / worldPixel(view, first));
+      }
+    }
+  }
+  return largest;
+}
+
 /// Makes the tree of the casters and sends it; their matrices follow. False if OpenGL refuses.
 bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
 {
@@ -303,7 +336,16 @@ bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
       record.high = glm::vec4(glm::vec3(query.high), AboveContour);
       this->Planes = true;
     }
-    this->Casters.push_back({ WorldToOctree(octree, caster->localToWorld), record });
+    const double* bounds = octree.header().meshBounds;
+    const WorldToOctree toOctree(octree, caster->localToWorld);
+    const auto corner = [&](int side)
+    {
+      return 1.0 +
+        (glm::dvec3(bounds[side], bounds[2 + side], bounds[4 + side]) - toOctree.origin) *
+        toOctree.scale;
+    };
+    this->Casters.push_back({ toOctree, record, { corner(0), corner(1) },
+      worldLeafError(*caster, LeafGeometry::Triangle, octree.level()) });
     boxes.push_back(worldBox(*caster));
     all.add(boxes.back());
   }
