@@ -257,8 +257,8 @@ vtksvo_setting(GPUMemoryLimit memory 2097152
   FIELD gpuMemoryLimit CHANGES nothing
   PANEL advanced LABEL "GPU Memory Limit (KiB)"
   SAYS
-    "Octrees in the GPU's memory, with the OpenGL backend. What does not fit is answered by shadow maps of the CPU, with a
-     message.")
+    "Octrees in the GPU's memory, with the OpenGL backend, and a picture of the light on what is seen. Octrees that do not
+     fit are answered by shadow maps of the CPU, with a message; without room for the picture a frame takes longer.")
 
 vtksvo_setting(ShadowsForEverything bool false
   TABLE host

@@ -152,6 +152,21 @@ void fallBack(Checks& checks)
   stage.pass->SetGPUMemoryLimit(1 << 20);
   checks.expect(
     difference(expected, stage.shadowedByRays()).largest <= 1, "with memory: rays again");
+  // A mask takes 32 bytes a pixel here.
+  svo::TestMessages messages{ stage.pass };
+  const vtkIdType whole = stage.pass->GetGPUMemory();
+  stage.pass->SetGPUMemoryLimit(static_cast<int>(whole - 1));
+  const Tally unmasked = compare(lit, expected, stage.shadowedByRays());
+  const vtkIdType octrees = stage.pass->GetGPUMemory();
+  std::cout << "without memory for a mask: " << octrees << " of " << whole << " KiB, "
+            << unmasked.other << " pixels others; " << messages.all() << "\n";
+  checks.expect(
+    octrees > 0 && octrees <= whole - 32 * 300 * 300 / 1024, "a mask counts in the memory");
+  checks.expect(unmasked.other < unmasked.pixels / 3000, "without one: the same shadows");
+  checks.expect(messages.all().empty(), "nothing is to be said");
+  stage.pass->SetGPUMemoryLimit(1 << 20);
+  stage.shadowedByRays();
+  checks.expect(stage.pass->GetGPUMemory() == whole, "with memory: a mask again");
   vtkSVORenderPass::SetCastShadow(false, sun);
   const Picture unlit = capture(stage.window);
   stage.usePass(false);

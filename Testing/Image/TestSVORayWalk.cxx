@@ -213,7 +213,7 @@ void compare(vtkOpenGLRenderWindow* window, const std::string& name, const glm::
     svo::ShadowMask mask;
     mask.setWay(ways[i]);
     svo::ShadowReceivers looking;
-    looking.update(window, mask.lookUp(code, Across, Across, false), 1.0, false);
+    looking.update(window, mask.lookUp(code, Across, Across, false, 1 << 24), 1.0, false);
     checks.expect(looking.gathers() && mask.computes() == (i == 1), name + ": a mask");
     mask.find(window->GetState(), code,
       [&]

@@ -69,6 +69,12 @@ GLuint makeTexture(GLenum target, GLenum format, int width, int height, int laye
   return name;
 }
 
+/// Of a mask.
+std::size_t bytesOf(int width, int height, int layers)
+{
+  return static_cast<std::size_t>(width) * height * (16 + 8 + 4 + 4 * layers);
+}
+
 bool compile(GLuint program, GLenum kind, const std::string& text)
 {
   const GLuint shader = glCreateShader(kind);
@@ -133,7 +139,8 @@ constexpr char AllPixels[] = "#version 150\n"
                              "}\n";
 }
 
-const LightCode& ShadowMask::lookUp(const LightCode& asked, int width, int height, bool others)
+const LightCode& ShadowMask::lookUp(
+  const LightCode& asked, int width, int height, bool others, std::size_t room)
 {
   this->Code = LightCode();
   if (asked.empty() || !asked.costly)
@@ -141,7 +148,8 @@ const LightCode& ShadowMask::lookUp(const LightCode& asked, int width, int heigh
     this->releaseTextures();
     return asked;
   }
-  if (!this->build(asked) || !this->resize(width, height, static_cast<int>(asked.lights.size())))
+  if (!this->build(asked) ||
+    !this->resize(width, height, static_cast<int>(asked.lights.size()), room))
   {
     return asked;
   }
@@ -300,10 +308,16 @@ bool ShadowMask::build(const LightCode& asked)
   return this->Program != 0;
 }
 
-/// Has textures and framebuffers of a size. False, and nothing is there, if OpenGL refuses.
-bool ShadowMask::resize(int width, int height, int lights)
+/// Has textures and framebuffers of a size. False, and nothing is there, if OpenGL refuses, or if
+/// they take more than `room`.
+bool ShadowMask::resize(int width, int height, int lights, std::size_t room)
 {
   const int layers = (lights + 3) / 4;
+  if (bytesOf(width, height, layers) > room)
+  {
+    this->releaseTextures();
+    return false;
+  }
   if (this->Shares != 0 && width == this->Width && height == this->Height && layers == this->Layers)
   {
     return true;
@@ -347,9 +361,7 @@ bool ShadowMask::resize(int width, int height, int lights)
 
 std::size_t ShadowMask::bytes() const
 {
-  return this->Shares == 0
-    ? 0
-    : static_cast<std::size_t>(this->Width) * this->Height * (16 + 8 + 4 + 4 * this->Layers);
+  return this->Shares == 0 ? 0 : bytesOf(this->Width, this->Height, this->Layers);
 }
 
 void ShadowMask::releaseTextures()

@@ -32,8 +32,10 @@ public:
   /// For a frame of so many pixels: code that looks up what find() will find of the code `asked`,
   /// until the next call. With `others` there are fragments that the mask says nothing of,
   /// translucent ones and parts of pixels: these ask themselves. `asked` itself, and nothing is to
-  /// be found, if it is not costly, or if OpenGL has no room for a mask.
-  const LightCode& lookUp(const LightCode& asked, int width, int height, bool others);
+  /// be found, if it is not costly, or if a mask does not fit into `room`, bytes, or OpenGL has
+  /// none.
+  const LightCode& lookUp(
+    const LightCode& asked, int width, int height, bool others, std::size_t room);
 
   /// Fills the mask. `draw` draws the surfaces, with shaders that write where they lie as
   /// svoShadowReceiver.glsl does while svoGather is 1, into the framebuffer that is bound then. Its
@@ -46,7 +48,7 @@ public:
   void release();
 
 private:
-  bool resize(int width, int height, int lights);
+  bool resize(int width, int height, int lights, std::size_t room);
   bool build(const LightCode& asked);
   void releaseTextures();
   void ask(vtkOpenGLState* state, const LightCode& asked);

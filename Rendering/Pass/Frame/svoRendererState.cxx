@@ -214,7 +214,10 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   const bool others = code.costly &&
     (!samplePositions().empty() ||
       std::any_of(this->Collected.receivers.begin(), this->Collected.receivers.end(), translucent));
-  const LightCode& known = this->Mask.lookUp(code, width, height, others);
+  const std::size_t octrees =
+    std::min<std::size_t>(this->Statistics.tracer.gpuMemory, settings.gpuMemoryLimit);
+  const LightCode& known =
+    this->Mask.lookUp(code, width, height, others, settings.gpuMemoryLimit - octrees);
   this->Receivers.update(window, known.empty() ? this->Maps.code() : known,
     settings.shadowIntensity, this->Collected.shadowCatchers);
   this->Receivers.setMirrored(view.mirrored);
