@@ -66,9 +66,7 @@ void compareFlattened(Checks& checks)
               << " pixels are not the raster's, " << changed(shadowed, unshadowed) << " in shadow, "
               << changed(shadowed, expected) << " otherwise than if thicker\n";
     checks.expect(changed(raster, unshadowed) < 5, name + ": VTK's own picture");
-    // Such sheets are a millionth thick: in OpenGL's floats rays bend there, by a pixel or two.
-    checks.expect(
-      changed(shadowed, expected) < (drawnByOpenGL() ? 100 : 15), name + ": its shadow");
+    checks.expect(changed(shadowed, expected) < 5, name + ": its shadow");
   }
 }
 

@@ -232,6 +232,19 @@ int TestSVOOpenGLRays(int, char*[])
     stage.addSun(3.0, -2.0, 4.0);
     compare("an image's surface", stage, AtEdges, checks);
   }
+  for (const double height : { 1e-7, 1e-9 })
+  {
+    Stage stage;
+    stage.addGround();
+    stage.add(box(0.7, 0.2, 0.0, 0.4), 0.9, 0.3, 0.2); // its sides stand on the sheet's plane
+    vtkActor* sheet = stage.add(ball(0.5, 0.0, 0.0, 0.0), 0.9, 0.5, 0.3);
+    sheet->SetScale(1.0, 1.0, height);
+    sheet->SetPosition(0.2, -0.3, 1.2);
+    sheet->GetProperty()->LightingOff();
+    stage.addSun(1.0, -1.5, 4.0);
+    compare(
+      "flattened by a power of 10, " + std::to_string(std::log10(height)), stage, AtEdges, checks);
+  }
   fallBack(checks);
   return checks.exitCode();
 }

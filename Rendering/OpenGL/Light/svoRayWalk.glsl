@@ -154,7 +154,9 @@ bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths, svoEn
     return false;
   }
   svoRay ray;
-  ray.origin = from + first * way;
+  // On a face exactly, and then from there: a flattened cube is so far away for its height that floats
+  // do not tell where the ray enters and leaves.
+  ray.origin = mix(from + first * way, 1.5 - 0.5 * forwards, equal(enters, vec3(first)));
   ray.direction = way;
   vec3 size = abs(way);
   vec3 axis = size.x < size.y ? (size.x < size.z ? vec3(1, 0, 0) : vec3(0, 0, 1))
@@ -163,7 +165,8 @@ bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths, svoEn
   ray.up = normalize(cross(way, ray.across));
   ray.end = end - first;
   ends.doubtful -= first;
-  last -= first;
+  leaves = (1.5 + 0.5 * forwards - ray.origin) * inverse;
+  last = min(min(min(leaves.x, leaves.y), leaves.z), ray.end);
 
   // Places in whole numbers: the cells of the last depth along an edge of the cube are 2^bits.
   int bits = 2 * depths;
@@ -302,7 +305,9 @@ float svoLeftAlong(vec3 from, vec3 side, vec3 way, float end)
     vec4 low = svoHasPlanes ? texelFetch(svoCasters, at + 4) : vec4(0.0);
     vec4 high = svoHasPlanes ? texelFetch(svoCasters, at + 5) : vec4(0.0);
     localSide = normalize(localSide);
-    local += svoOctreeError * max(max(abs(local.x), abs(local.y)), max(abs(local.z), 1.0)) * localSide;
+    // (No point of its surface lies beyond the cube, at 2.)
+    float corner = max(max(abs(local.x), abs(local.y)), abs(local.z));
+    local += svoOctreeError * clamp(corner, 1.0, 2.0) * localSide;
     // A ray may start behind the planes of its own surface. What it meets before it can have left
     // them has to be met from outside of them too (ShadowRays::blocks()).
     float outside = high.w / float(1 << (2 * int(what.z)));
