@@ -1,8 +1,11 @@
 // Other tracers than ours behind the pass: they know the tracer's face (svoTracer.h), and whatever
 // pictures and shadow maps they give are what the window shows, be they in arrays or on the GPU.
+#include "../Unit/svoTestMessages.h"
 #include "svoTestStage.h"
 
 #include "svoBufferTexture.h"
+#include "svoLightCode.h"
+#include "svoOpenGLTracer.h"
 #include "svoTracer.h"
 
 #include "vtkObjectFactory.h"
@@ -172,6 +175,38 @@ vtkOpenGLRenderWindow* OnGPU::Window = nullptr;
 int OnGPU::Released = 0;
 std::size_t OnGPU::Sent = 0;
 
+/// OpenGL's, with light code that OpenGL does not compile.
+class Misspelt : public Other
+{
+public:
+  std::vector<svo::NeededLevels> neededLevels(const svo::Scene& scene, const svo::View& view,
+    const svo::FrameSettings& settings) const override
+  {
+    return this->Ours->neededLevels(scene, view, settings);
+  }
+  void render(const svo::Scene& scene, const svo::View& view, const svo::FrameSettings& settings,
+    const svo::ParallelFor& parallelFor) override
+  {
+    this->Ours->render(scene, view, settings, parallelFor);
+    this->Picture = this->Ours->frame();
+    this->Maps = this->Ours->shadowMaps();
+    this->Code = this->Ours->lightCode();
+    this->Code.text = "float svoLeft(misspelt\n";
+    Asked += !this->Code.empty();
+  }
+  const svo::FrameStatistics& statistics() const override { return this->Ours->statistics(); }
+  const svo::LightCode& lightCode() const override { return this->Code; }
+  void releaseLayers() override { this->Ours->releaseLayers(); }
+  void releaseGraphicsResources() override { this->Ours->releaseGraphicsResources(); }
+
+  static int Asked;
+
+private:
+  std::unique_ptr<svo::Tracer> Ours = svo::makeOpenGLTracer(svo::makeCPUTracer());
+  svo::LightCode Code;
+};
+int Misspelt::Asked = 0;
+
 template <class T>
 class PassOf : public vtkSVORenderPass
 {
@@ -216,6 +251,34 @@ void compareOnGPU(Checks& checks)
   }
   checks.expect(OnGPU::Released == 2, "and with the pass");
 }
+/// Light code that is refused: the CPU's maps take its place, and that is said once.
+void compareRefused(Checks& checks)
+{
+  Stage stage(200, 150);
+  stage.add(ball(0.4, -0.5, 0.2, 0.6), 0.9, 0.3, 0.2);
+  stage.addGround(2.0);
+  stage.addSun(2.0, -1.5, 3.0);
+  stage.pass->SetBackendToOpenGL();
+  const Picture lit = stage.unshadowed();
+  const Picture expected = stage.shadowedByBuffers();
+  vtkNew<PassOf<Misspelt>> pass;
+  pass->SetMaximumLevel(9);
+  pass->SetBackendToOpenGL();
+  pass->SetShadowTechniqueToAutomatic();
+  svo::TestMessages messages{ pass };
+  stage.renderer->SetPass(pass);
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    const Picture found = capture(stage.window);
+    checks.expect(difference(lit, found).largest > 30, "there are shadows where code is refused");
+    checks.expect(difference(expected, found).mean < 0.1, "the CPU's maps are asked instead");
+  }
+  std::cout << messages.all();
+  checks.expect(Misspelt::Asked == 1, "refused code is not made again");
+  checks.expect(messages.errors.empty() && messages.warnings.size() == 1 &&
+      messages.warnings[0].find("OpenGL refuses") != std::string::npos,
+    "that is said once");
+}
 }
 
 int TestSVOOtherTracer(int, char*[])
@@ -243,5 +306,6 @@ int TestSVOOtherTracer(int, char*[])
   checks.expect(Wall::Level == 3, "the octree is as deep as it said");
 
   compareOnGPU(checks);
+  compareRefused(checks);
   return checks.exitCode();
 }

@@ -6,7 +6,6 @@
 #include "svoShadowMaskShader.h"
 
 #include "vtkOpenGLState.h"
-#include "vtkSetGet.h"
 #include "vtkTextureUnitManager.h"
 
 #include <algorithm>
@@ -75,7 +74,8 @@ std::size_t bytesOf(int width, int height, int layers)
   return static_cast<std::size_t>(width) * height * (16 + 8 + 4 + 4 * layers);
 }
 
-bool compile(GLuint program, GLenum kind, const std::string& text)
+/// Adds a shader to a program. What OpenGL has against it, else empty.
+std::string compile(GLuint program, GLenum kind, const std::string& text)
 {
   const GLuint shader = glCreateShader(kind);
   const char* source = text.c_str();
@@ -83,15 +83,14 @@ bool compile(GLuint program, GLenum kind, const std::string& text)
   glCompileShader(shader);
   GLint done = 0;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
+  char words[256] = "";
   if (!done)
   {
-    char words[1024] = "";
     glGetShaderInfoLog(shader, sizeof(words), nullptr, words);
-    vtkGenericWarningMacro(<< "A shader of rays to lights was refused: " << words);
   }
   glAttachShader(program, shader);
   glDeleteShader(shader); // with the program
-  return done != 0;
+  return words;
 }
 
 /// Textures of a program, bound while it runs.
@@ -148,7 +147,7 @@ const LightCode& ShadowMask::lookUp(
     this->releaseTextures();
     return asked;
   }
-  if (!this->build(asked) ||
+  if (!this->accepts(asked) ||
     !this->resize(width, height, static_cast<int>(asked.lights.size()), room))
   {
     return asked;
@@ -270,42 +269,62 @@ void ShadowMask::ask(vtkOpenGLState* state, const LightCode& asked)
   glUseProgram(static_cast<GLuint>(before));
 }
 
-/// Has the program that asks. False if it cannot be made, which is not tried again.
-bool ShadowMask::build(const LightCode& asked)
+bool ShadowMask::accepts(const LightCode& code)
 {
-  if (asked.constants != this->Constants || asked.text != this->Text)
+  if (code.empty() || !code.costly)
   {
-    this->Constants = asked.constants;
-    this->Text = asked.text;
+    return true;
+  }
+  if (code.constants != this->Constants || code.text != this->Text)
+  {
+    this->Constants = code.constants;
+    this->Text = code.text;
     this->Mixed.clear();
     this->Computes = this->Wanted == Way::Compute && hasCompute();
-    const std::string text =
-      (this->Computes ? "#version 430\n#define svoComputes\n" : "#version 150\n") +
-      asked.constants + asked.text + svoShadowMaskShader;
-    glDeleteProgram(this->Program);
-    this->Program = glCreateProgram();
-    bool done;
-#ifdef GL_COMPUTE_SHADER
-    if (this->Computes)
+    if (!this->link(code) && this->Computes)
     {
-      done = compile(this->Program, GL_COMPUTE_SHADER, text);
-    }
-    else
-#endif
-    {
-      done = compile(this->Program, GL_VERTEX_SHADER, AllPixels) &&
-        compile(this->Program, GL_FRAGMENT_SHADER, text);
-    }
-    GLint linked = 0;
-    glLinkProgram(this->Program);
-    glGetProgramiv(this->Program, GL_LINK_STATUS, &linked);
-    if (!done || !linked)
-    {
-      glDeleteProgram(this->Program);
-      this->Program = 0;
+      this->Computes = false;
+      this->link(code);
     }
   }
   return this->Program != 0;
+}
+
+/// Makes the program that asks, by compute shaders or not.
+bool ShadowMask::link(const LightCode& asked)
+{
+  const std::string text =
+    (this->Computes ? "#version 430\n#define svoComputes\n" : "#version 150\n") + asked.constants +
+    asked.text + svoShadowMaskShader;
+  glDeleteProgram(this->Program);
+  this->Program = glCreateProgram();
+  std::string words;
+#ifdef GL_COMPUTE_SHADER
+  if (this->Computes)
+  {
+    words = compile(this->Program, GL_COMPUTE_SHADER, text);
+  }
+  else
+#endif
+  {
+    words = compile(this->Program, GL_VERTEX_SHADER, AllPixels) +
+      compile(this->Program, GL_FRAGMENT_SHADER, text);
+  }
+  GLint linked = 0;
+  glLinkProgram(this->Program);
+  glGetProgramiv(this->Program, GL_LINK_STATUS, &linked);
+  this->Refusal.clear();
+  if (!linked)
+  {
+    char why[256] = "";
+    glGetProgramInfoLog(this->Program, sizeof(why), nullptr, why);
+    words = words.empty() ? why : words;
+    glDeleteProgram(this->Program);
+    this->Program = 0;
+    this->Refusal = "OpenGL refuses the shader of rays to lights (" +
+      words.substr(0, words.find('\n')) + "); shadow maps are traced on the CPU instead.";
+  }
+  return linked != 0;
 }
 
 /// Has textures and framebuffers of a size. False, and nothing is there, if OpenGL refuses, or if
@@ -387,6 +406,7 @@ void ShadowMask::release()
   }
   this->Program = 0;
   this->Text = nullptr;
+  this->Refusal.clear();
   this->Code = LightCode();
 }
 }

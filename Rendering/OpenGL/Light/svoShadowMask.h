@@ -29,6 +29,11 @@ public:
   /// Before the first lookUp().
   void setWay(Way way) { this->Wanted = way; }
 
+  /// True if OpenGL compiles the code, or it is not costly. Else why not stands in refusal(), a
+  /// sentence, until release(): VTK's own shaders, which have the same code in them, would fail.
+  bool accepts(const LightCode& code);
+  const std::string& refusal() const { return this->Refusal; }
+
   /// For a frame of so many pixels: code that looks up what find() will find of the code `asked`,
   /// until the next call. With `others` there are fragments that the mask says nothing of,
   /// translucent ones and parts of pixels: these ask themselves. `asked` itself, and nothing is to
@@ -49,7 +54,7 @@ public:
 
 private:
   bool resize(int width, int height, int lights, std::size_t room);
-  bool build(const LightCode& asked);
+  bool link(const LightCode& asked);
   void releaseTextures();
   void ask(vtkOpenGLState* state, const LightCode& asked);
 
@@ -59,6 +64,7 @@ private:
   unsigned int Places = 0, Planes = 0, Depths = 0, Shares = 0; // textures
   unsigned int Gathering = 0, Answering = 0;                   // framebuffers
   unsigned int Program = 0, Vertices = 0;
+  std::string Refusal;
   // The code that the program asks:
   std::string Constants;
   const char* Text = nullptr;

@@ -201,11 +201,18 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   settings.writeSlopes = pace.distance == 1.0 && !samplePositions().empty();
   settings.writeNames = false;
   this->Presenter->Enter(window);
+  const bool wantsCode = settings.lightCode;
+  settings.lightCode = wantsCode && this->Mask.refusal().empty();
   this->Trace->render(scene, view, settings, smpParallelFor());
+  if (!this->Mask.accepts(this->Trace->lightCode()))
+  {
+    settings.lightCode = false;
+    this->Trace->render(scene, view, settings, smpParallelFor());
+  }
   this->Statistics.tracer = this->Trace->statistics();
   this->Statistics.coarseOctreeError = pace.distance * this->Statistics.tracer.coarsestVoxel;
   const LightCode& code = this->Trace->lightCode();
-  this->Complaint = code.complaint;
+  this->Complaint = wantsCode && !settings.lightCode ? this->Mask.refusal() : code.complaint;
   const std::string missing = this->Maps.update(
     this->Trace->shadowMaps(), scene.lights, view, settings, this->Trace->mapTexture());
   this->Complaint = this->Complaint.empty() ? missing : this->Complaint;
