@@ -69,8 +69,8 @@ bool vtkSVORenderPass::CollectFrame(
     collect.onlyMarked = attached;
     collect.unmarkedToo = this->ShadowsForEverything;
     collect.translucentShadows = this->TranslucentShadows;
-    // Neither what processes tell each other of their casters nor shaders know colours.
-    collect.meanOpacity = impl.severalProcesses() || asked.lightCode;
+    // Processes do not tell each other their casters' colours.
+    collect.meanOpacity = impl.severalProcesses();
     collect.onlyCast = this->GetActiveBackend() == BACKEND_OPENGL;
     const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
     collect.notMarked = notMarked.c_str();

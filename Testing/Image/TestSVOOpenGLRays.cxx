@@ -6,8 +6,12 @@
 #include "svoTestStage.h"
 
 #include "vtkActorCollection.h"
+#include "vtkElevationFilter.h"
 #include "vtkImageToSVO.h"
 #include "vtkLight.h"
+#include "vtkLookupTable.h"
+#include "vtkMapper.h"
+#include "vtkNew.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 
@@ -79,6 +83,25 @@ void addSolids(Stage& stage)
   stage.add(ring(0.5, 1.0, -0.6, 0.6), 0.3, 0.4, 0.9);
   vtkActor* spikeActor = stage.add(spike(1.4, 0.0, 0.0, 0.7), 0.8, 0.8, 0.3);
   spikeActor->SetPosition(0.6, 1.2, 0.0);
+}
+
+/// A ball whose colours have alpha from 0 to 1 across it, in steps where `textured`.
+void addFading(Stage& stage, bool textured)
+{
+  vtkNew<vtkElevationFilter> heights;
+  heights->SetInputConnection(ball(0.6, 0.4, -1.2, 0.9)->GetOutputPort());
+  heights->SetLowPoint(-0.2, 0.0, 0.0);
+  heights->SetHighPoint(1.0, 0.0, 0.0);
+  vtkNew<vtkLookupTable> fading;
+  fading->SetNumberOfTableValues(textured ? 6 : 64);
+  for (int i = 0; i < fading->GetNumberOfTableValues(); ++i)
+  {
+    fading->SetTableValue(i, 0.6, 0.8, 0.9, i / (fading->GetNumberOfTableValues() - 1.0));
+  }
+  vtkMapper* mapper = stage.add(heights, 0.6, 0.8, 0.9)->GetMapper();
+  mapper->ScalarVisibilityOn();
+  mapper->SetLookupTable(fading);
+  mapper->SetInterpolateScalarsBeforeMapping(textured);
 }
 
 void addCrowd(Stage& stage, int across)
@@ -202,6 +225,14 @@ int TestSVOOpenGLRays(int, char*[])
     glass->GetProperty()->SetOpacity(0.4);
     stage.addSun(3.0, -2.0, 4.0);
     compare("a translucent ball", stage, AtEdges, checks);
+  }
+  for (const bool textured : { false, true })
+  {
+    Stage stage;
+    addSolids(stage);
+    stage.addSun(3.0, -2.0, 4.0);
+    addFading(stage, textured);
+    compare(textured ? "steps of alpha" : "alpha", stage, AtEdges, checks);
   }
   {
     Stage stage;

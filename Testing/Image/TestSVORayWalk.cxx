@@ -1,6 +1,7 @@
 // The walk through octrees in GLSL meets what the processor meets in double precision, ray by ray:
-// of random rays through instances of several octrees, moved, stretched and mirrored, one of them
-// translucent, near the world's origin and far from it. Asked by fragments, and for a shadow mask.
+// of random rays through instances of several octrees, moved, stretched and mirrored, some of them
+// translucent, all over or by the alpha of their colours, near the world's origin and far from it.
+// Asked by fragments, and for a shadow mask.
 #include "svoFragments.h"
 #include "svoTestPicture.h"
 
@@ -11,6 +12,8 @@
 #include "svoOpenGLTracer.h"
 #include "svoShadowMask.h"
 #include "svoShadowReceivers.h"
+#include "svoSurface.h"
+#include "svoSurfaceAlpha.h"
 #include "svoWorldToOctree.h"
 
 #include "vtkImplicitFunctionToSVO.h"
@@ -26,6 +29,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <iostream>
 #include <random>
 #include <string>
@@ -36,8 +40,11 @@ namespace
 using namespace svotest;
 
 constexpr int Across = 192; // rays, squared
-/// Steps of a share in a mask.
+/// Steps of a share in a mask, and how far from the nearest one OpenGL may round.
 constexpr float Step = 1.0f / 255.0f;
+constexpr float Rounded = 0.6f * Step;
+/// Alpha between a triangle's corners, by weights in floats.
+constexpr float AlphaError = 1e-4f;
 /// Rays that pass an edge as closely as floats tell may go either way: the project's bound.
 constexpr double MostOther = 3e-4;
 
@@ -71,6 +78,48 @@ svo::Octree octreeOfPlanes(int level)
   return octreeIn(filter->GetOutput());
 }
 
+/// Colours whose alpha differs from point to point, cell to cell, texel to texel, voxel to voxel.
+class Colors
+{
+public:
+  explicit Colors(const svo::Octree& octree)
+  {
+    const svo::Surface* surface = octree.surface();
+    const std::size_t points = surface ? surface->points.size() : 0;
+    this->Any.resize(4 *
+      std::max<std::size_t>(
+        octree.header().listWords, surface ? points + surface->triangles.size() : 0));
+    std::mt19937 random(5);
+    std::generate(this->Any.begin(), this->Any.end(),
+      [&] { return static_cast<unsigned char>(random() & 255); });
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      this->Coordinates.push_back(3.0f * surface->points[i].x - 4.0f);
+      this->Coordinates.push_back(i % 7 == 0 ? 1.0f : 0.0f); // NaN
+    }
+  }
+
+  svo::Attributes of(const svo::Octree& octree, int kind) const
+  {
+    svo::Attributes colors;
+    colors.colors = this->Any.data();
+    colors.colorAssociation = !octree.surface() ? svo::Association::Leaf
+      : kind % 3 == 0                           ? svo::Association::Cell
+                                                : svo::Association::Point;
+    if (octree.surface() && kind % 3 == 2)
+    {
+      colors.colorCoordinates = this->Coordinates.data();
+      colors.colorTexture = this->Any.data();
+      colors.colorTextureSize = 8;
+    }
+    return colors;
+  }
+
+private:
+  std::vector<unsigned char> Any;
+  std::vector<float> Coordinates;
+};
+
 svo::Scene sceneAt(const glm::dvec3& centre, double size, int copies)
 {
   vtkNew<vtkSphereSource> coarse;
@@ -83,6 +132,8 @@ svo::Scene sceneAt(const glm::dvec3& centre, double size, int copies)
   ring->SetPhiResolution(40);
   const svo::Octree octrees[] = { octreeOf(coarse, 3), octreeOf(fine, 7), octreeOf(ring, 6),
     octreeOfPlanes(6), octreeOfPlanes(9) };
+  static const Colors colors[] = { Colors(octrees[0]), Colors(octrees[1]), Colors(octrees[2]),
+    Colors(octrees[3]), Colors(octrees[4]) };
   svo::Scene scene;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -99,6 +150,11 @@ svo::Scene sceneAt(const glm::dvec3& centre, double size, int copies)
     instance.localToWorld = matrix;
     instance.visible = false;
     instance.opacity = i % 4 == 3 ? 0.25f : 1.0f;
+    if (i % 4 > 1)
+    {
+      instance.mappedOpacity = true;
+      instance.body.own().attributes = colors[i % 5].of(octrees[i % 5], i / 5);
+    }
     scene.instances.push_back(instance);
   }
   svo::Light sun;
@@ -130,6 +186,33 @@ bool meetsPlanes(const svo::Octree& octree, svo::Ray ray, const glm::dvec3& norm
   return svo::occluded(octree, farther, options) || svo::occluded(octree, ray, options);
 }
 
+/// What a caster whose colours have alpha takes of a ray that meets it: where that is first, seen
+/// from the light.
+double takenByColors(const svo::Instance& instance, const svo::Ray& ray, const glm::dvec3& normal)
+{
+  const svo::Octree& octree = instance.body->octree;
+  const bool planes = octree.hasPlanes();
+  const double far = std::min(
+    ray.tMax, (glm::distance(ray.origin, glm::dvec3(1.5)) + 1.0) / glm::length(ray.direction));
+  const double above = svo::CubeError * octree.header().voxelSize / octree.rootEdge();
+  for (const double side : { planes ? above : 0.0, 0.0 })
+  {
+    const glm::dvec3 end = ray.origin + side * normal;
+    const svo::Hit hit =
+      svo::intersect(octree, { end + far * ray.direction, -ray.direction, 0.0, far },
+        { planes ? svo::LeafGeometry::Plane : svo::LeafGeometry::Triangle, svo::MaximumLevel });
+    if (hit)
+    {
+      const svo::SurfaceMatrices frame(instance);
+      const glm::dvec3 at = end + (far - hit.t) * ray.direction;
+      return instance.opacity *
+        (planes ? svo::detail::alphaOfPlane(frame, hit.primitive, at)
+                : svo::detail::alphaOfTriangle(frame, hit.primitive, at));
+    }
+  }
+  return 0.0;
+}
+
 /// What casters leave of a light at a point of a surface with a normal, by rays in double.
 float expectedAt(const svo::Scene& scene, const svo::Light& light, const glm::dvec3& point,
   const glm::dvec3& normal)
@@ -141,11 +224,14 @@ float expectedAt(const svo::Scene& scene, const svo::Light& light, const glm::dv
     const svo::WorldToOctree toOctree(octree, instance.localToWorld);
     const svo::Ray ray{ toOctree.point(point), toOctree.vector(-light.along(point)), 0.0,
       light.atInfinity() ? 1e300 : 1.0 };
+    const glm::dvec3 side = glm::normalize(toOctree.vector(normal));
     if (octree.hasPlanes()
-        ? meetsPlanes(octree, ray, glm::normalize(toOctree.vector(normal)))
+        ? meetsPlanes(octree, ray, side)
         : svo::occluded(octree, ray, { svo::LeafGeometry::Triangle, svo::MaximumLevel }))
     {
-      left *= 1.0f - instance.opacity;
+      left *= 1.0f -
+        (instance.mappedOpacity ? static_cast<float>(takenByColors(instance, ray, side))
+                                : instance.opacity);
     }
   }
   return left;
@@ -249,9 +335,9 @@ void compare(vtkOpenGLRenderWindow* window, const std::string& name, const glm::
       const float inMask = expectedAt(scene, light, points[i], towards[0] + towards[1]);
       dark += expected == 0.0f;
       dimmed += expected > 0.0f && expected < 1.0f;
-      other += std::abs(expected - found[i][k]) > 1e-5f;
+      other += std::abs(expected - found[i][k]) > AlphaError;
       const bool faces = found[i][2] > 0.01f;
-      masked += faces && std::abs(inMask - masks[0][i][k]) > 0.51f * Step;
+      masked += faces && std::abs(inMask - masks[0][i][k]) > Rounded;
     }
     unequal += masks[0][i] != masks[1][i];
   }

@@ -272,9 +272,7 @@ class LeafColors(unittest.TestCase):
                     step = (along + math.sqrt(squared)) / math.sqrt(2)
                     slope = 1.5 + (x + step) + 0.3 * (step - 2)
                     asked += 1
-                    # Nothing but a caster's mean opacity is known to rays there.
-                    mean = OPENGL and technique == tracer.SHADOW_RAYS
-                    share = 0.5 if mean else 1 - (slope - 0.4) / 2.2
+                    share = 1 - (slope - 0.4) / 2.2
                     self.assertAlmostEqual(value / lit[i], share, delta=0.06)
             self.assertTrue(technique is None or asked > 700, asked)
 

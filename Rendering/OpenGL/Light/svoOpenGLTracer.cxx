@@ -1,5 +1,6 @@
 #include "svoOpenGLTracer.h"
 
+#include "svoCasterAlphas.h"
 #include "svoCasterTree.h"
 #include "svoLeafError.h"
 #include "svoLeafGeometry.h"
@@ -59,13 +60,14 @@ Box worldBox(const Instance& instance)
 }
 
 /// The constants of svoRayWalk.glsl.
-std::string constantsOf(std::size_t lights, bool planes)
+std::string constantsOf(std::size_t lights, bool planes, bool alphas)
 {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::showpoint << std::setprecision(9) << "const int svoLightCount = " << lights << ";\n"
        << "const float svoDoubtfulSine = " << DoubtfulSine << ";\n"
-       << "const bool svoHasPlanes = " << (planes ? "true" : "false") << ";\n";
+       << "const bool svoHasPlanes = " << (planes ? "true" : "false") << ";\n"
+       << "const bool svoHasAlphas = " << (alphas ? "true" : "false") << ";\n";
   return text.str();
 }
 
@@ -126,6 +128,10 @@ public:
 private:
   const std::string& prepare(const Scene& scene, const View& view, const FrameSettings& settings);
   std::string hold(const Scene& scene, std::size_t limit);
+  std::size_t bytes() const
+  {
+    return this->Octrees.bytes() + this->CasterTexels.bytes() + this->Alphas.texels().bytes();
+  }
   bool place(const std::vector<const Instance*>& casters);
   void aim(const View& view);
   void describe(const Scene& scene, const View& view);
@@ -156,6 +162,7 @@ private:
   std::vector<CasterNode> Tree;
   glm::dmat4 WorldToView{ 0.0 }; // that was sent
   BufferTexture CasterTexels{ BufferTexture::Texel::FourFloats };
+  CasterAlphas Alphas;
 };
 
 std::vector<NeededLevels> OpenGLTracer::neededLevels(
@@ -204,7 +211,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Nothing.version = 1;
   this->Statistics = FrameStatistics();
   this->Statistics.lightsWithRays = static_cast<int>(this->Code.lights.size());
-  this->Statistics.gpuMemory = this->Octrees.bytes() + this->CasterTexels.bytes();
+  this->Statistics.gpuMemory = this->bytes();
   this->Statistics.largestGap = this->largestGap(view);
 }
 
@@ -220,6 +227,7 @@ const std::string& OpenGLTracer::prepare(
     if (!this->WhyNot.empty())
     {
       this->Octrees.release();
+      this->Alphas.release();
     }
     this->Version = scene.version;
     this->Limit = settings.gpuMemoryLimit;
@@ -249,7 +257,12 @@ std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
   {
     return "The octrees do not fit into OpenGL's memory, or into GPUMemoryLimit";
   }
-  return this->place(casters) ? "" : "OpenGL has no room for so many casters";
+  if (!this->place(casters))
+  {
+    return "OpenGL has no room for so many casters";
+  }
+  return this->bytes() <= limit ? ""
+                                : "Octrees and the alpha of colours do not fit into GPUMemoryLimit";
 }
 
 /// Says what VTK's shaders need for a frame.
@@ -272,13 +285,18 @@ void OpenGLTracer::describe(const Scene& scene, const View& view)
   glm::dmat4 viewToTree(glm::transpose(turned)); // rigid
   viewToTree[3] = glm::dvec4(view.eye - this->Centre, 1.0);
   const glm::mat4 matrix(viewToTree);
-  this->Code.constants = constantsOf(this->Code.lights.size(), this->Planes);
+  this->Code.constants =
+    constantsOf(this->Code.lights.size(), this->Planes, this->Alphas.texels().size() > 0);
   this->Code.text = svoRayWalk;
   this->Code.costly = true;
   this->Code.textures = { { "svoNodes", this->Octrees.nodes().name() },
     { "svoLists", this->Octrees.lists().name() },
     { "svoTriangles", this->Octrees.triangles().name() },
     { "svoCasters", this->CasterTexels.name() } };
+  if (this->Alphas.texels().size() > 0)
+  {
+    this->Code.textures.push_back({ "svoAlphas", this->Alphas.texels().name() });
+  }
   this->Code.integers = { { "svoTreeSize", { static_cast<int>(this->Tree.size()) } },
     { "svoFirstCaster", { static_cast<int>(2 * this->Tree.size()) } } };
   this->Code.floats = { { "svoViewToTree", 16, { &matrix[0][0], &matrix[0][0] + 16 } }, sources };
@@ -316,6 +334,7 @@ double OpenGLTracer::largestGap(const View& view) const
 bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
 {
   this->Casters.clear();
+  this->Alphas.clear();
   this->Planes = false;
   std::vector<Box> boxes;
   Box all;
@@ -329,6 +348,11 @@ bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
     record.rootLow = static_cast<float>(root % Split);
     record.depths = static_cast<float>(octree.depthCount());
     record.opacity = caster->translucent() ? caster->opacity : 1.0f;
+    if (caster->mappedOpacity)
+    {
+      record.opacity =
+        -1.0f - static_cast<float>(this->Alphas.add(*caster, this->Octrees.firstOf(octree)));
+    }
     if (octree.hasPlanes())
     {
       const LeafQuery query(octree, { LeafGeometry::Plane, MaximumLevel });
@@ -363,7 +387,7 @@ bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
     return false;
   }
   this->CasterTexels.send(0, this->Tree.data(), 2 * this->Tree.size());
-  return true;
+  return this->Alphas.send();
 }
 
 /// Sends the matrices that take view coordinates to those of the casters' octrees.
@@ -392,6 +416,7 @@ void OpenGLTracer::releaseGraphicsResources()
 {
   this->Octrees.release();
   this->CasterTexels.release();
+  this->Alphas.release();
   this->Version = 0;
   this->Code.lights.clear();
   this->Code.textures.clear();

@@ -4,7 +4,8 @@
 // svoCasters holds a tree of the casters' boxes, two texels a node, in the order in which it is
 // walked: (lower corner, node after all that is below), (upper corner, caster or -1). Behind it, from
 // svoFirstCaster on, six texels a caster: the rows of the matrix that takes view coordinates to octree
-// coordinates; (root / 4096, root % 4096, depths, opacity); and of octrees of planes (lower corner of
+// coordinates; (root / 4096, root % 4096, depths, opacity, or -1 - n: what follows from 8 n on in
+// svoAlphas; svoCasterAlphas.h); and of octrees of planes (lower corner of
 // what they show, how far planes are seen from a voxel's centre), (upper corner, how far planes may lie
 // over what VTK draws in their place), octree coordinates and voxels. Boxes are in a frame of their own, svoViewToTree.
 //
@@ -14,12 +15,13 @@
 // whose voxels have planes (svoPlane.h), in svoLists from the first child on. svoTriangles has three
 // texels a triangle: its corners, octree coordinates.
 //
-// Constants are put before it: svoLightCount, svoDoubtfulSine, and whether there are octrees of planes:
-// to ask for them takes time even where there are none.
+// Constants are put before it: svoLightCount, svoDoubtfulSine, and whether there are octrees of planes,
+// and casters whose colours have alpha: to ask for them takes time even where there are none.
 uniform usamplerBuffer svoNodes;
 uniform usamplerBuffer svoLists;
 uniform samplerBuffer svoTriangles;
 uniform samplerBuffer svoCasters;
+uniform samplerBuffer svoAlphas;
 uniform int svoTreeSize;    // nodes
 uniform int svoFirstCaster; // texel
 uniform mat4 svoViewToTree;
@@ -59,6 +61,12 @@ struct svoEnds
 };
 bool svoDoubted; // a ray has met one that is not
 
+// What a ray has met: the plane, or while svoNearest is true, where a walk goes on to the first one, the
+// triangle and the weights of its corners.
+bool svoNearest = false;
+uint svoHit;
+vec3 svoWeights;
+
 // Unit vectors as an octahedron's surface (Cigolle et al. 2014, "A Survey of Efficient Representations
 // for Independent Unit Vectors").
 vec3 svoUnfold(vec2 folded)
@@ -79,7 +87,7 @@ int svoBits(uint x)
 
 // True if the ray meets the triangle. Edges are as wide as floats make them, so that no ray passes
 // between two triangles, whatever a compiler contracts.
-bool svoMeets(svoRay ray, uint triangle)
+bool svoMeets(inout svoRay ray, uint triangle)
 {
   int at = 3 * int(triangle);
   vec3 a = texelFetch(svoTriangles, at).xyz - ray.origin;
@@ -99,10 +107,18 @@ bool svoMeets(svoRay ray, uint triangle)
   }
   vec3 z = vec3(dot(ray.direction, a), dot(ray.direction, b), dot(ray.direction, c));
   float t = dot(edges, z) / (sum * dot(ray.direction, ray.direction));
-  return t >= 0.0 && t <= ray.end;
+  bool met = t >= 0.0 && t <= ray.end;
+  if (svoHasAlphas && svoNearest && met)
+  {
+    ray.end = t;
+    svoHit = triangle;
+    svoWeights = max(inside, vec3(0.0));
+    return false;
+  }
+  return met;
 }
 
-bool svoMeetsAny(svoRay ray, uint list)
+bool svoMeetsAny(inout svoRay ray, uint list)
 {
   if ((list & svoSingle) != 0u)
   {
@@ -120,8 +136,10 @@ bool svoMeetsAny(svoRay ray, uint list)
 }
 
 // True if a ray, in voxels, meets the plane of one: where that passes the voxel, or is near.
-bool svoMeetsPlane(vec3 start, vec3 speed, float end, ivec3 place, uint plane, svoEnds ends, float cells)
+bool svoMeetsPlane(
+  svoRay ray, vec3 start, vec3 speed, ivec3 place, uint number, svoEnds ends, float cells)
 {
+  uint plane = texelFetch(svoLists, int(number)).r;
   vec2 folded = vec2(plane & 2047u, (plane >> 11) & 2047u) / 2047.0 * 2.0 - 1.0;
   float offset = float(plane >> 22) / 1023.0 * 2.0 - 1.0;
   vec3 normal = svoUnfold(folded);
@@ -129,10 +147,12 @@ bool svoMeetsPlane(vec3 start, vec3 speed, float end, ivec3 place, uint plane, s
   float t = (dot(normal, centre) + 0.8660254 * offset) / dot(normal, speed);
   vec3 away = t * speed - centre;
   vec3 at = 1.0 + (start + t * speed) / cells;
-  bool met = t >= 0.0 && t <= end && all(lessThanEqual(abs(away), vec3(ends.reach))) &&
+  bool met = t >= 0.0 && t <= ray.end && all(lessThanEqual(abs(away), vec3(ends.reach))) &&
     all(greaterThanEqual(at, ends.low)) && all(lessThanEqual(at, ends.high));
   svoDoubted = svoDoubted || (met && t < ends.doubtful);
-  return met && t >= ends.doubtful;
+  met = met && t >= ends.doubtful;
+  svoHit = svoHasAlphas && met ? number : svoHit;
+  return met;
 }
 
 // True if a ray from `from` along `way`, up to `end` times as far, meets a triangle of an octree, or
@@ -210,12 +230,12 @@ bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths, svoEn
         record = below;
         continue;
       }
-      if (plane ? svoMeetsPlane(
-                    start, speed, ray.end, place, texelFetch(svoLists, int(child)).r, ends, cells)
+      if (plane ? svoMeetsPlane(ray, start, speed, place, child, ends, cells)
                 : svoMeetsAny(ray, below.w))
       {
         return true;
       }
+      last = svoHasAlphas ? min(last, ray.end) : last;
     }
     else if (((half_ >> uint(number & 24)) & 0xffu) == 0u)
     {
@@ -253,6 +273,41 @@ bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths, svoEn
     }
   }
   return false;
+}
+
+// The share that a caster whose colours have alpha takes of a ray: where that meets it first, seen from
+// the light, or from beyond the octree.
+float svoTakenByColors(int at, vec3 from, vec3 way, float end, uint root, int depths, svoEnds ends)
+{
+  float far = min(end, (distance(from, vec3(1.5)) + 1.0) / length(way)); // the cube is 1..2
+  svoHit = svoNone;
+  svoNearest = true;
+  svoMeetsOctree(from + far * way, -way, far, root, depths, ends);
+  svoNearest = false;
+  if (svoHit == svoNone)
+  {
+    return -1.0;
+  }
+  int stride = int(texelFetch(svoAlphas, at + 1).r);
+  int first = 4096 * int(texelFetch(svoAlphas, at + 2).r) + int(texelFetch(svoAlphas, at + 3).r);
+  int texels = int(texelFetch(svoAlphas, at + 4).r);
+  int value = at + 8 + 2 * texels + stride * (int(svoHit) - first);
+  float alpha = texelFetch(svoAlphas, value).r;
+  if (stride > 1)
+  {
+    svoWeights /= svoWeights.x + svoWeights.y + svoWeights.z;
+    alpha = dot(svoWeights,
+      vec3(alpha, texelFetch(svoAlphas, value + 1).r, texelFetch(svoAlphas, value + 2).r));
+  }
+  if (stride > 3)
+  {
+    float row = dot(svoWeights,
+      vec3(texelFetch(svoAlphas, value + 3).r, texelFetch(svoAlphas, value + 4).r,
+        texelFetch(svoAlphas, value + 5).r));
+    int texel = min(int(clamp(alpha, 0.0, 1.0) * float(texels)), texels - 1);
+    alpha = texelFetch(svoAlphas, at + 8 + texel + (row < 0.5 ? 0 : texels)).r;
+  }
+  return texelFetch(svoAlphas, at).r * clamp(alpha, 0.0, 1.0);
 }
 
 // What casters leave on the way from `from` along `way`, up to `end` times as far: 0 where an opaque
@@ -313,12 +368,13 @@ float svoLeftAlong(vec3 from, vec3 side, vec3 way, float end)
     float outside = high.w / float(1 << (2 * int(what.z)));
     svoEnds ends = svoEnds(low.xyz, high.xyz, low.w,
       outside / max(dot(localSide, localWay), 0.05 * length(localWay)));
+    uint root = uint(what.x) * 4096u + uint(what.y);
+    vec3 near = local;
     bool met = false;
     for (int start = 0; start < (svoHasPlanes ? 2 : 1); ++start)
     {
       svoDoubted = false;
-      met = svoMeetsOctree(
-        local, localWay, end, uint(what.x) * 4096u + uint(what.y), int(what.z), ends);
+      met = svoMeetsOctree(local, localWay, end, root, int(what.z), ends);
       if (met || !svoDoubted)
       {
         break;
@@ -326,9 +382,20 @@ float svoLeftAlong(vec3 from, vec3 side, vec3 way, float end)
       local += outside * localSide;
       ends.doubtful = 0.0;
     }
+    if (svoHasAlphas && met && what.w < 0.0)
+    {
+      int alphas = -8 * (int(what.w) + 1);
+      ends.doubtful = 0.0;
+      what.w = -1.0;
+      for (int start = svoHasPlanes ? 0 : 1; start < 2 && what.w < 0.0; ++start)
+      {
+        vec3 above = near + (start == 0 ? outside : 0.0) * localSide;
+        what.w = svoTakenByColors(alphas, above, localWay, end, root, int(what.z), ends);
+      }
+    }
     if (met)
     {
-      left *= 1.0 - what.w;
+      left *= 1.0 - max(what.w, 0.0); // else the ray only grazes it
     }
   }
   return left;

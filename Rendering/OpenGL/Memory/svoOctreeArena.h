@@ -26,6 +26,12 @@ public:
 
   /// The node at which rays through an octree that is held begin.
   std::uint32_t rootOf(const Octree& octree) const { return this->Blocks.at(octree.id()).node; }
+  /// The number of its first triangle, or plane.
+  std::uint32_t firstOf(const Octree& octree) const
+  {
+    const Block& block = this->Blocks.at(octree.id());
+    return octree.hasPlanes() ? block.word : block.corner / 3;
+  }
 
   std::size_t bytes() const
   {
