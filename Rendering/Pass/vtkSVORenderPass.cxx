@@ -1,9 +1,11 @@
 #include "vtkSVORenderPass.h"
 
+#include "svoBackendChoice.h"
 #include "svoCameraView.h"
 #include "svoOpenGLTracer.h"
 #include "svoOwnCamera.h"
 #include "svoPassInternals.h"
+#include "svoSMPParallel.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLPolyDataMapper.h"
@@ -30,7 +32,17 @@ vtkSVORenderPass::~vtkSVORenderPass()
 
 int vtkSVORenderPass::GetActiveBackend() const
 {
-  return this->Backend == BACKEND_OPENGL ? BACKEND_OPENGL : BACKEND_CPU;
+  const bool openGL =
+    this->Backend == BACKEND_AUTO ? this->Impl->statistics.openGL : this->Backend == BACKEND_OPENGL;
+  return openGL ? BACKEND_OPENGL : BACKEND_CPU;
+}
+
+bool vtkSVORenderPass::PrefersOpenGL(vtkOpenGLRenderWindow* window, std::string& complaint) const
+{
+  const svo::BackendChoice choice = svo::chooseBackend(
+    window, [window] { return svo::measureRays(window, svo::smpParallelFor()); });
+  complaint = choice.complaint;
+  return choice.openGL;
 }
 
 std::unique_ptr<svo::Tracer> vtkSVORenderPass::MakeTracer() const

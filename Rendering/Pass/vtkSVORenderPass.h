@@ -47,6 +47,7 @@
 
 class vtkLight;
 class vtkMultiProcessController;
+class vtkOpenGLRenderWindow;
 class vtkProp;
 class vtkRenderer;
 #ifndef __VTK_WRAP__
@@ -68,7 +69,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * The backend that is used: BACKEND_CPU or BACKEND_OPENGL.
+   * The backend that is used: BACKEND_CPU or BACKEND_OPENGL. Where Backend is Auto: in the last
+   * frame, BACKEND_CPU before the first.
    */
   int GetActiveBackend() const;
 
@@ -223,6 +225,14 @@ protected:
    * and on the GPU where the backend is OpenGL; a subclass may have another (svoTracer.h).
    */
   virtual std::unique_ptr<svo::Tracer> MakeTracer() const;
+
+  /**
+   * Whether a window, whose context is current, is to be drawn by OpenGL where Backend is Auto;
+   * asked in each frame. `complaint` is why it cannot be, if that is so; it is said once. This one
+   * goes by the name of the context's renderer, and where that is a GPU by how fast rays are there
+   * and here, measured once in the life of the context (svoBackendChoice.h).
+   */
+  virtual bool PrefersOpenGL(vtkOpenGLRenderWindow* window, std::string& complaint) const;
 #endif
 
 private:
@@ -230,7 +240,8 @@ private:
   void HearAttached(vtkRenderer* renderer, unsigned long event);
   void BeginAttachedFrame(svo::AttachedRenderer& attached);
   bool CollectFrame(svo::PassFrame& frame, int width, int height, const svo::OwnCamera* camera);
-  svo::FrameSettings AskedSettings() const;
+  bool MayPreferOpenGL(svo::PassFrame& frame);
+  svo::FrameSettings AskedSettings(bool openGL) const;
   void TraceFrame(svo::PassFrame& frame, int width, int height);
   void FinishFrame(svo::PassFrame& frame);
 #endif

@@ -6,7 +6,7 @@
 #include "svoPassInternals.h"
 
 #include "vtkCommand.h"
-#include "vtkRenderWindow.h"
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 
 #include <memory>
@@ -28,6 +28,8 @@ bool vtkSVORenderPass::CollectFrame(
   vtkRenderer* renderer = frame.renderer;
   frame.state->beginFrame();
   bool disturbed = true;
+  // As the last frame's scene says; this one's has the last word.
+  bool planes = frame.state->collected().planes;
   for (int i = 1; disturbed && i <= MostCollections; ++i)
   {
     if (!frame.reopen())
@@ -63,7 +65,9 @@ bool vtkSVORenderPass::CollectFrame(
     store.aborted = frame.abort(i < MostCollections, heard, disturbed);
     store.complain = [&frame](const std::string& text) { frame.messages.push_back(text); };
 
-    asked = this->AskedSettings();
+    const bool chosen = this->Backend == BACKEND_AUTO && this->MayPreferOpenGL(frame);
+    frame.openGL = chosen ? !planes : this->Backend == BACKEND_OPENGL;
+    asked = this->AskedSettings(frame.openGL);
     svo::CollectSettings collect;
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
@@ -71,7 +75,8 @@ bool vtkSVORenderPass::CollectFrame(
     collect.translucentShadows = this->TranslucentShadows;
     // Processes do not tell each other their casters' colours.
     collect.meanOpacity = impl.severalProcesses();
-    collect.onlyCast = this->GetActiveBackend() == BACKEND_OPENGL;
+    collect.onlyCast = frame.openGL;
+    collect.findPlanes = chosen;
     const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
     collect.notMarked = notMarked.c_str();
     collect.said = &impl.said;
@@ -84,6 +89,11 @@ bool vtkSVORenderPass::CollectFrame(
     svo::viewOfCamera(renderer, width, height, collect.levels.eye);
     frame.state->collect(impl.store, store, collect);
     disturbed = disturbed || !frame.canDraw();
+    if (chosen && i < MostCollections && planes != frame.state->collected().planes)
+    {
+      planes = !planes;
+      disturbed = true;
+    }
   }
   if (disturbed)
   {
@@ -108,12 +118,24 @@ bool vtkSVORenderPass::CollectFrame(
   return true;
 }
 
+/// Where the backend is chosen: whether it may be OpenGL for this window. Several processes would
+/// have to agree on it.
+bool vtkSVORenderPass::MayPreferOpenGL(svo::PassFrame& frame)
+{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(frame.renderer->GetRenderWindow());
+  std::string complaint;
+  const bool prefers =
+    window && !this->Impl->severalProcesses() && this->PrefersOpenGL(window, complaint);
+  frame.tellOnce(
+    complaint.empty() ? complaint : "The CPU makes the picture: " + complaint, this->Impl->said);
+  return prefers;
+}
+
 /// What the settings ask of a frame's tracer.
-svo::FrameSettings vtkSVORenderPass::AskedSettings() const
+svo::FrameSettings vtkSVORenderPass::AskedSettings(bool openGL) const
 {
   svo::FrameSettings settings;
   this->Fill(settings);
-  const bool openGL = this->GetActiveBackend() == BACKEND_OPENGL;
   if (this->ShadowTechnique == SHADOW_AUTOMATIC)
   {
     settings.shadowTechnique = openGL ? svo::ShadowTechnique::Rays : svo::ShadowTechnique::Buffer;
@@ -149,6 +171,7 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   impl.statistics = frame.state->statistics();
   impl.statistics.imageReduction = this->ImageReductionFactor;
   impl.statistics.pacedShadows = frame.pacedShadows;
+  impl.statistics.openGL = frame.openGL;
   if (impl.statistics.tracer.retracedLayers > 0)
   {
     double seconds, fixedSeconds, shadowSeconds;

@@ -1,5 +1,7 @@
 #include "svoCollectedActor.h"
 
+#include "svoMeshOctree.h"
+
 #include "vtkActor.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -69,6 +71,8 @@ bool CollectedActor::finish(const SurfacePart& part, Reason reason, SceneSurface
 {
   Instance& instance = surface.instance;
   surface.traceable = !reason;
+  this->found.planes =
+    this->found.planes || (this->frame.findPlanes && this->traceable && carriesPlanes(part.mesh));
   if (surface.traceable)
   {
     surface.mesh = part.mesh;

@@ -35,12 +35,13 @@ struct PropChoices
   bool translucentShadows = false; // what is translucent casts as well, as light as it is
   bool meanOpacity = false;        // ... each surface equally all over
   bool onlyCast = false;           // nothing is traced; the rasteriser draws all that is seen
+  bool findPlanes = false;         // CollectedScene::planes is asked for
   glm::dmat4 world{ 1.0 };         // see sceneTransform()
 
   auto values() const
   {
     return std::tie(this->shadows, this->lights, this->onlyMarked, this->unmarkedToo,
-      this->translucentShadows, this->meanOpacity, this->onlyCast, this->world);
+      this->translucentShadows, this->meanOpacity, this->onlyCast, this->findPlanes, this->world);
   }
 };
 
@@ -70,6 +71,7 @@ struct CollectedActor
   PropSurfaces& found; // of its prop
   const CollectProps& frame;
   bool quiet = false;             // there are no messages about it
+  bool traceable = false;         // on the CPU, as far as that does not depend on its surfaces
   Reason beyond = nullptr;        // why it can only cast
   glm::dmat4 localToWorld{ 1.0 }; // fit for tracing
 

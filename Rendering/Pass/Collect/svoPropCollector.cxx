@@ -269,7 +269,8 @@ void PropCollector::collectActor(
   {
     of.beyond = "was told so";
   }
-  if (!of.beyond && frame.onlyCast)
+  of.traceable = !of.beyond;
+  if (of.traceable && frame.onlyCast)
   {
     of.beyond = IsDrawnByOpenGL;
   }

@@ -64,8 +64,8 @@ bool saysTheSame(const PropSurfaces& a, const PropSurfaces& b)
   const auto text = [](Reason reason) { return std::string_view(reason ? reason : ""); };
   return a.surfaces.empty() && b.surfaces.empty() && a.bounds == b.bounds &&
     a.mappers == b.mappers &&
-    std::tie(a.traced, a.receives, a.reaches, a.actors, a.catchesShadows) ==
-    std::tie(b.traced, b.receives, b.reaches, b.actors, b.catchesShadows) &&
+    std::tie(a.traced, a.receives, a.reaches, a.actors, a.catchesShadows, a.planes) ==
+    std::tie(b.traced, b.receives, b.reaches, b.actors, b.catchesShadows, b.planes) &&
     text(a.rasterized) == text(b.rasterized) && text(a.castsNone) == text(b.castsNone);
 }
 
@@ -198,10 +198,12 @@ void SceneCollector::assemble(CollectedScene& result)
   result.receivers.clear();
   result.tracedActors = result.rasterizedActors = 0;
   result.rasterizedReceivers = result.receiversReach = result.shadowCatchers = false;
+  result.planes = false;
   const bool changed = writeInstances(this->Found, Stage::Shown, this->Instances);
   bool complete = true;
   for (const PropSurfaces& prop : this->Found)
   {
+    result.planes = result.planes || prop.planes;
     if (prop.shown)
     {
       result.replaced.insert(prop.prop);

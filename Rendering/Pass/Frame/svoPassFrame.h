@@ -108,6 +108,7 @@ struct PassFrame
   FrameSettings settings;
   FramePace pace;
   bool pacedShadows = false; // PassStatistics
+  bool openGL = false;       // PassStatistics
   bool traced = false;
   std::vector<std::string> messages; // said when the frame is done
 

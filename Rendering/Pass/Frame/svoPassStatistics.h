@@ -28,6 +28,7 @@ struct PassStatistics
   int octreesBuilt = 0;      // or taken over from a background build
   FramePace pace;            // in pixels of the frame
   bool pacedShadows = false; // shadow maps take as long as they have texels
+  bool openGL = false;       // VTK draws all that is seen
   int imageReduction = 1;    // pixels of the window that one of the frame becomes
   /// Largest voxel of the octrees that are shown while they are deepened; pixels of the frame.
   double coarseOctreeError = 0.0;

@@ -82,6 +82,7 @@ struct PropSurfaces
   bool receives = false;                 // shadows fall on it
   bool reaches = false;                  // what is drawn may reach beyond its bounds
   bool catchesShadows = false;           // of it nothing but these is seen
+  bool planes = false;                   // CollectedScene
   bool marked = false;                   // it is meant to be traced, by itself or by all being so
   bool hasPlainMatrix = false;           // of a single actor: it has not changed what is made of it
   Reason rasterized = nullptr;           // why it is not traced

@@ -1,0 +1,166 @@
+// Backend Auto: software takes the CPU, a GPU takes OpenGL where that is not slower. What is chosen
+// is the picture of the backend itself.
+#include "../Unit/svoTestMessages.h"
+#include "svoImageCases.h"
+#include "svoTestStage.h"
+
+#include "svoBackendChoice.h"
+#include "svoSMPParallel.h"
+
+#include "vtkImageToSVO.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderWindow.h"
+
+#include <chrono>
+#include <iostream>
+#include <string>
+
+using namespace svotest;
+
+namespace
+{
+/// One that takes its window for a GPU.
+class OnGPU : public vtkSVORenderPass
+{
+public:
+  static OnGPU* New();
+  vtkTypeMacro(OnGPU, vtkSVORenderPass);
+
+  svo::RayRates Rates{ 2.0, 1.0, "" };
+  mutable int Measured = 0;
+
+protected:
+  bool PrefersOpenGL(vtkOpenGLRenderWindow* window, std::string& complaint) const override
+  {
+    const svo::BackendChoice choice = svo::chooseBackend(window, "A GPU",
+      [this]
+      {
+        ++this->Measured;
+        return this->Rates;
+      });
+    complaint = choice.complaint;
+    return choice.openGL;
+  }
+};
+vtkStandardNewMacro(OnGPU);
+
+struct GPUStage : Stage
+{
+  GPUStage() { this->renderer->SetPass(this->gpu); }
+
+  Picture draw(int backend)
+  {
+    this->gpu->SetShadowTechniqueToAutomatic();
+    this->gpu->SetBackend(backend);
+    return capture(this->window);
+  }
+  /// That Auto makes the picture of a backend.
+  void expect(int backend, const std::string& name, Checks& checks)
+  {
+    const Picture found = this->draw(OnGPU::BACKEND_AUTO);
+    checks.expect(this->gpu->GetActiveBackend() == backend, name + ": it is the backend");
+    const Picture expected = this->draw(backend);
+    checks.expect(found.rgb == expected.rgb, name + ": its picture");
+    checks.expect(
+      expected.rgb != this->draw(OnGPU::BACKEND_CPU + OnGPU::BACKEND_OPENGL - backend).rgb,
+      name + ": the other's differs");
+  }
+
+  vtkNew<OnGPU> gpu;
+};
+
+void addSolids(Stage& stage)
+{
+  stage.addGround();
+  stage.add(ball(0.5, 0.0, 0.0, 0.8), 0.9, 0.3, 0.2);
+  stage.add(ring(0.5, 1.0, -0.6, 0.6), 0.3, 0.4, 0.9);
+  stage.addSun(3.0, -2.0, 4.0);
+}
+
+void choose(Checks& checks)
+{
+  GPUStage stage;
+  svo::TestMessages messages{ stage.gpu };
+  addSolids(stage);
+  checks.expect(stage.gpu->GetActiveBackend() == OnGPU::BACKEND_CPU, "the CPU before a frame");
+  stage.expect(OnGPU::BACKEND_OPENGL, "a fast GPU", checks);
+  stage.expect(OnGPU::BACKEND_OPENGL, "once more", checks);
+  checks.expect(stage.gpu->Measured == 1, "measured once");
+  stage.gpu->Rates = { 1.0, 2.0, "" };
+  stage.window->Finalize();
+  stage.expect(OnGPU::BACKEND_CPU, "a slow GPU", checks);
+  checks.expect(stage.gpu->Measured == 2, "measured in a new context");
+  checks.expect(messages.all().empty(), "nothing is said: " + messages.all());
+  stage.gpu->Rates = { 2.0, 1.0, "no shaders." };
+  stage.window->Finalize();
+  stage.expect(OnGPU::BACKEND_CPU, "a GPU that cannot", checks);
+  stage.expect(OnGPU::BACKEND_CPU, "still", checks);
+  checks.expect(messages.errors.empty() && messages.warnings.size() == 1 &&
+      messages.warnings[0].find("no shaders.") != std::string::npos,
+    "said once, and why: " + messages.all());
+}
+
+/// Surfaces that OpenGL would show a contour of are traced, whatever came before.
+void traceWithoutTriangles(Checks& checks)
+{
+  GPUStage stage;
+  addSolids(stage);
+  const ImageCase image = distanceCase();
+  vtkNew<vtkImageToSVO> surface;
+  surface->SetInputData(image.image);
+  surface->SetValue(0, image.value);
+  stage.expect(OnGPU::BACKEND_OPENGL, "triangles", checks);
+  vtkActor* actor = stage.add(surface, 0.9, 0.5, 0.3);
+  actor->SetPosition(0.0, 0.0, 1.2);
+  stage.expect(OnGPU::BACKEND_CPU, "an image's surface", checks);
+  vtkSVORenderPass::SetUseSVO(false, actor);
+  stage.expect(OnGPU::BACKEND_OPENGL, "left to VTK", checks);
+  vtkSVORenderPass::SetUseSVO(true, actor);
+  stage.expect(OnGPU::BACKEND_CPU, "traced again", checks);
+  actor->VisibilityOff();
+  stage.expect(OnGPU::BACKEND_OPENGL, "without it", checks);
+}
+
+/// The measurement itself, which software OpenGL is not asked for.
+void measure(Checks& checks)
+{
+  Stage stage;
+  addSolids(stage);
+  const Picture before = stage.shadowed();
+  checks.expect(stage.pass->GetActiveBackend() == vtkSVORenderPass::BACKEND_CPU || drawnByOpenGL(),
+    "software takes the CPU");
+  stage.window->MakeCurrent();
+  const auto start = std::chrono::steady_clock::now();
+  const svo::RayRates rates =
+    svo::measureRays(vtkOpenGLRenderWindow::SafeDownCast(stage.window), svo::smpParallelFor());
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  std::cout << "OpenGL " << 1e-6 * rates.openGL << ", the CPU " << 1e-6 * rates.cpu
+            << " million pixels a second; measured in " << 1e3 * took.count() << " ms\n";
+  checks.expect(rates.complaint.empty() && rates.openGL > 0.0 && rates.cpu > 0.0, "rates");
+  checks.expect(took.count() < 60.0, "that takes no minute");
+  checks.expect(before.rgb == stage.shadowed().rgb, "the picture is as it was");
+}
+}
+
+int TestSVOBackendChoice(int, char*[])
+{
+  Checks checks;
+  for (const char* name : { "llvmpipe (LLVM 15.0.6, 256 bits)", "softpipe",
+         "Mesa X11 Software Rasterizer", "Software Rasterizer", "SWR (LLVM 11.0, 256 bits)",
+         "GDI Generic", "Microsoft Basic Render Driver", "D3D12 (Microsoft Basic Render Driver)",
+         "Apple Software Renderer", "Google SwiftShader" })
+  {
+    checks.expect(svo::isSoftwareRenderer(name), std::string(name) + " is software");
+  }
+  for (const char* name : { "NVIDIA H200/PCIe/SSE2", "NVIDIA GeForce RTX 4070/PCIe/SSE2",
+         "AMD Radeon RX 6600 (navi23, LLVM 15.0.6, DRM 3.49, 6.1.0-18-amd64)",
+         "Mesa Intel(R) UHD Graphics 620 (KBL GT2)", "Apple M2", "D3D12 (NVIDIA GeForce RTX 3060)",
+         "zink Vulkan 1.3 (AMD Radeon RX 6600)", "SVGA3D; build: RELEASE;  LLVM;" })
+  {
+    checks.expect(!svo::isSoftwareRenderer(name), std::string(name) + " is a GPU");
+  }
+  measure(checks);
+  choose(checks);
+  traceWithoutTriangles(checks);
+  return checks.exitCode();
+}
