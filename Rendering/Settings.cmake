@@ -250,7 +250,12 @@ vtksvo_setting(Backend choice BACKEND_AUTO
   PANEL advanced
   SAYS
     "Where the picture is made. CPU: octrees are traced on the processor. OpenGL: VTK draws all surfaces itself, and with
-     ShadowRays or Automatic its shaders follow exact rays through the octrees to each light. Auto takes the CPU.")
+     ShadowRays or Automatic its shaders follow exact rays through the octrees to each light. Auto: OpenGL on a GPU that
+     answers rays as fast as the CPU; else, and where surfaces without triangles are traced or there are several processes,
+     the CPU."
+  MORE
+    "Auto measures once for each OpenGL context, in its first frame; software OpenGL takes the CPU without that.
+     `GetActiveBackend()` says what the last frame took. The rule has been tried on software OpenGL only.")
 
 vtksvo_setting(GPUMemoryLimit memory 2097152
   TABLE time

@@ -33,10 +33,11 @@ protected:
   bool PrefersOpenGL(vtkOpenGLRenderWindow* window, std::string& complaint) const override
   {
     const svo::BackendChoice choice = svo::chooseBackend(window, "A GPU",
-      [this]
+      [this, window]
       {
         ++this->Measured;
-        return this->Rates;
+        const svo::RayRates rates = svo::measureRays(window, svo::smpParallelFor());
+        return rates.complaint.empty() ? this->Rates : rates;
       });
     complaint = choice.complaint;
     return choice.openGL;
@@ -113,7 +114,15 @@ void traceWithoutTriangles(Checks& checks)
   vtkActor* actor = stage.add(surface, 0.9, 0.5, 0.3);
   actor->SetPosition(0.0, 0.0, 1.2);
   stage.expect(OnGPU::BACKEND_CPU, "an image's surface", checks);
+  stage.gpu->SetBackendToAuto();
+  stage.gpu->SetShadowTechniqueToNone();
+  capture(stage.window);
+  checks.expect(
+    stage.gpu->GetActiveBackend() == OnGPU::BACKEND_CPU, "an image's surface without shadows");
   vtkSVORenderPass::SetUseSVO(false, actor);
+  capture(stage.window);
+  checks.expect(
+    stage.gpu->GetActiveBackend() == OnGPU::BACKEND_OPENGL, "left to VTK without shadows");
   stage.expect(OnGPU::BACKEND_OPENGL, "left to VTK", checks);
   vtkSVORenderPass::SetUseSVO(true, actor);
   stage.expect(OnGPU::BACKEND_CPU, "traced again", checks);
@@ -137,6 +146,7 @@ void measure(Checks& checks)
   std::cout << "OpenGL " << 1e-6 * rates.openGL << ", the CPU " << 1e-6 * rates.cpu
             << " million pixels a second; measured in " << 1e3 * took.count() << " ms\n";
   checks.expect(rates.complaint.empty() && rates.openGL > 0.0 && rates.cpu > 0.0, "rates");
+  checks.expect(rates.openGL < 2.0 * rates.cpu, "software is not faster by far");
   checks.expect(took.count() < 60.0, "that takes no minute");
   checks.expect(before.rgb == stage.shadowed().rgb, "the picture is as it was");
 }

@@ -138,13 +138,12 @@ RayRates measureRays(vtkOpenGLRenderWindow* window, const ParallelFor& parallelF
   const std::unique_ptr<Tracer> tracer = makeOpenGLTracer(makeCPUTracer());
   tracer->render(scene, viewOf(Heights[0]), settings, parallelFor);
   const LightCode& code = tracer->lightCode();
-  rates.complaint = code.complaint;
   ShadowMask mask;
   vtkOpenGLQuadHelper quad(window, nullptr, Places, nullptr);
   rates.openGL = rateOf(0.02,
     [&](int height)
     {
-      if (&mask.lookUp(code, Width, height, false) != &code)
+      if (quad.Program && &mask.lookUp(code, Width, height, false) != &code)
       {
         const auto draw = [&]
         {
@@ -154,7 +153,7 @@ RayRates measureRays(vtkOpenGLRenderWindow* window, const ParallelFor& parallelF
         mask.find(window->GetState(), code, draw);
         glFinish();
       }
-      else if (rates.complaint.empty())
+      else
       {
         rates.complaint = "OpenGL has no room for rays to lights, or refuses their shader.";
       }
