@@ -143,7 +143,8 @@ RayRates measureRays(vtkOpenGLRenderWindow* window, const ParallelFor& parallelF
   rates.openGL = rateOf(0.02,
     [&](int height)
     {
-      if (quad.Program && &mask.lookUp(code, Width, height, false) != &code)
+      if (quad.Program && mask.accepts(code) &&
+        &mask.lookUp(code, Width, height, false, settings.gpuMemoryLimit) != &code)
       {
         const auto draw = [&]
         {
