@@ -4,11 +4,13 @@
 // Objects of both have to cover the same pixels.
 //
 //   BenchmarkCrowd [--scene field|plain|small|inside|layers|glyphs] [--objects n,n]
-//     [--motion none|orbit|all] [--frames n] [--size 1920x1080] [--maps 1] [--culling 1]
+//     [--motion none|orbit|all] [--frames n] [--size 1920x1080] [--maps 1] [--culling 1] [--rays 1]
 //     [--complexity n] [--triangles n] [--json file] [--pictures prefix]
 //
 // --culling: beside it the same without the culling of what others hide, and without any, and how
 // many objects each step left out, of those that it could have: all that no pixel shows.
+//
+// --rays: beside it the same with rays to the light, on the CPU and with OpenGL.
 //
 // The scenes: performanceCrowd.h.
 //
@@ -46,7 +48,7 @@ struct Options
   std::string motion = "all";
   std::vector<int> objects{ 1000 };
   int frames = 9, size[2] = { 1920, 1080 };
-  bool maps = false, culling = false;
+  bool maps = false, culling = false, rays = false;
 };
 
 /// No object looks like it.
@@ -58,6 +60,8 @@ enum class Look
   Raster,
   ShadowMaps,
   Traced,
+  Rays,        // traced, with rays to the light
+  OpenGLRays,  // the same, with the OpenGL backend
   NotOccluded, // traced, without culling of what others hide
   NotCulled    // without any
 };
@@ -196,8 +200,14 @@ private:
     else if (look != Look::Raster && look != Look::Empty)
     {
       this->Pass = performance::makePass(this->Phases, false);
-      this->Pass->SetOcclusionCulling(look == Look::Traced);
+      this->Pass->SetOcclusionCulling(look != Look::NotOccluded && look != Look::NotCulled);
       this->Pass->SetViewCulling(look != Look::NotCulled);
+      if (look == Look::Rays || look == Look::OpenGLRays)
+      {
+        this->Pass->SetShadowTechniqueToShadowRays();
+        this->Pass->SetBackend(
+          look == Look::Rays ? vtkSVORenderPass::BACKEND_CPU : vtkSVORenderPass::BACKEND_OPENGL);
+      }
       this->Renderer->SetPass(this->Pass);
     }
   }
@@ -245,6 +255,11 @@ bool measure(
       std::make_unique<Method>("traced, what is hidden too", Look::NotOccluded, options, objects));
     methods.push_back(
       std::make_unique<Method>("traced, nothing culled", Look::NotCulled, options, objects));
+  }
+  if (options.rays)
+  {
+    methods.push_back(std::make_unique<Method>("traced, rays", Look::Rays, options, objects));
+    methods.push_back(std::make_unique<Method>("OpenGL, rays", Look::OpenGLRays, options, objects));
   }
   constexpr int Warm = 2; // octrees are built, and layers of still objects kept
   for (int k = -Warm; k < options.frames; ++k)
@@ -323,6 +338,10 @@ int main(int argc, char** argv)
     else if (name == "--culling")
     {
       options.culling = argument == "1";
+    }
+    else if (name == "--rays")
+    {
+      options.rays = argument == "1";
     }
     else if (name == "--size")
     {
