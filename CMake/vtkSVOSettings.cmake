@@ -13,6 +13,7 @@ endfunction ()
 # "ShadowBuffer" -> "Shadow Buffer"
 function (vtksvo_words name result)
   string(REGEX REPLACE "([a-z])([A-Z])" "\\1 \\2" words "${name}")
+  string(REPLACE "Open GL" "OpenGL" words "${words}")
   set(${result} "${words}" PARENT_SCOPE)
 endfunction ()
 

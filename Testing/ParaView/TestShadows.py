@@ -154,6 +154,11 @@ class TestShadows(unittest.TestCase):
         rays = scene.picture(self.view, "rays")
         self.check_shadow(rays)
         self.assertLess(scene.differing(buffer, rays), 2e-3)
+        self.view.SVOBackend = "OpenGL"
+        drawn = scene.picture(self.view, "rays-opengl")
+        self.check_shadow(drawn)
+        self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 0)
+        self.assertLess(scene.differing(rays, drawn), 2e-3)
 
     def test_kinds_of_lights(self):
         """Each from where the sun is."""

@@ -116,6 +116,7 @@ void ShadowReceivers::update(
     {
       texture = vtkSmartPointer<vtkTextureObject>::New();
       texture->SetContext(window);
+      texture->SetAutoParameters(0); // it has its own; VTK's assertions know no arrays of textures
       texture->AssignToExistingTexture(name, code.textures[i].target);
     }
   }
