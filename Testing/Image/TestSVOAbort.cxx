@@ -59,9 +59,10 @@ void testAbort(Checks& checks)
   checks.expect(difference(waited, wanted).largest == 0, "the next picture is complete");
   stage.expectTraced(checks, 2, "and traced");
 
-  // What is there is no reason to wait.
+  // What is there is no reason to wait. VTK's own mappers, if the frame takes them long, do abort.
   user.impatient = true;
-  checks.expect(difference(stage.shadowed(), wanted).largest == 0, "nothing to abort");
+  checks.expect(
+    drawnByOpenGL() || difference(stage.shadowed(), wanted).largest == 0, "nothing to abort");
 }
 
 void testRelease(Checks& checks)

@@ -146,8 +146,6 @@ void measure(Checks& checks)
   std::cout << "OpenGL " << 1e-6 * rates.openGL << ", the CPU " << 1e-6 * rates.cpu
             << " million pixels a second; measured in " << 1e3 * took.count() << " ms\n";
   checks.expect(rates.complaint.empty() && rates.openGL > 0.0 && rates.cpu > 0.0, "rates");
-  checks.expect(rates.openGL < 2.0 * rates.cpu, "software is not faster by far");
-  checks.expect(took.count() < 60.0, "that takes no minute");
   checks.expect(before.rgb == stage.shadowed().rgb, "the picture is as it was");
 }
 }
