@@ -3,6 +3,7 @@
 // exact rays say.
 #include "../Unit/svoTestMessages.h"
 #include "svoImageCases.h"
+#include "svoOpenGL.h"
 #include "svoTestStage.h"
 
 #include "vtkActorCollection.h"
@@ -233,6 +234,9 @@ int TestSVOOpenGLRays(int, char*[])
     stage.addSun(3.0, -2.0, 4.0);
     addFading(stage, textured);
     compare(textured ? "steps of alpha" : "alpha", stage, AtEdges, checks);
+    stage.renderer->GetActors()->GetLastActor()->GetMapper()->ScalarVisibilityOff();
+    stage.window->Render();
+    checks.expect(glGetError() == GL_NO_ERROR, "no colour has alpha any more: OpenGL complains");
   }
   {
     Stage stage;

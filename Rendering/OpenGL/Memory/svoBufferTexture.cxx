@@ -74,6 +74,10 @@ bool BufferTexture::allocate(std::size_t texels, std::size_t kept)
 
 void BufferTexture::send(std::size_t first, const void* texels, std::size_t count)
 {
+  if (count == 0) // there may be no buffer
+  {
+    return;
+  }
   glBindBuffer(GL_TEXTURE_BUFFER, this->Buffer);
   glBufferSubData(GL_TEXTURE_BUFFER, static_cast<GLintptr>(first * this->texelBytes()),
     static_cast<GLsizeiptr>(count * this->texelBytes()), texels);

@@ -111,13 +111,15 @@ void ShadowReceivers::update(
   for (std::size_t i = 0; i < this->Textures.size(); ++i)
   {
     vtkSmartPointer<vtkTextureObject>& texture = this->Textures[i];
-    const unsigned int name = code.textures[i].name;
-    if (!texture || texture->GetContext() != window || texture->GetHandle() != name)
+    const auto& [sampler, name, target] = code.textures[i];
+    // OpenGL gives names again, also to textures of another target.
+    if (!texture || texture->GetContext() != window || texture->GetHandle() != name ||
+      texture->GetTarget() != target)
     {
       texture = vtkSmartPointer<vtkTextureObject>::New();
       texture->SetContext(window);
       texture->SetAutoParameters(0); // it has its own; VTK's assertions know no arrays of textures
-      texture->AssignToExistingTexture(name, code.textures[i].target);
+      texture->AssignToExistingTexture(name, target);
     }
   }
 }
