@@ -76,7 +76,6 @@ bool vtkSVORenderPass::CollectFrame(
     // Processes do not tell each other their casters' colours.
     collect.meanOpacity = impl.severalProcesses();
     collect.onlyCast = frame.openGL;
-    collect.findPlanes = chosen;
     const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
     collect.notMarked = notMarked.c_str();
     collect.said = &impl.said;

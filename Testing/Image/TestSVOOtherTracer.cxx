@@ -87,14 +87,33 @@ int Wall::Frames = 0;
 int Wall::Asked = 0;
 int Wall::Level = 0;
 
-/// Ours, but all that it hands out lies in the window's context, and nothing in arrays.
-class OnGPU : public Other
+/// One of ours, which hands out other things.
+class Altered : public Other
 {
 public:
+  explicit Altered(std::unique_ptr<svo::Tracer> ours)
+    : Ours(std::move(ours))
+  {
+  }
   std::vector<svo::NeededLevels> neededLevels(const svo::Scene& scene, const svo::View& view,
     const svo::FrameSettings& settings) const override
   {
     return this->Ours->neededLevels(scene, view, settings);
+  }
+  const svo::FrameStatistics& statistics() const override { return this->Ours->statistics(); }
+  void releaseLayers() override { this->Ours->releaseLayers(); }
+
+protected:
+  std::unique_ptr<svo::Tracer> Ours;
+};
+
+/// All that it hands out lies in the window's context, and nothing in arrays.
+class OnGPU : public Altered
+{
+public:
+  OnGPU()
+    : Altered(svo::makeCPUTracer())
+  {
   }
   void render(const svo::Scene& scene, const svo::View& view, const svo::FrameSettings& settings,
     const svo::ParallelFor& parallelFor) override
@@ -119,9 +138,7 @@ public:
     this->Maps = this->Ours->shadowMaps();
     this->sendMaps();
   }
-  const svo::FrameStatistics& statistics() const override { return this->Ours->statistics(); }
   unsigned int mapTexture() const override { return this->Texels.name(); }
-  void releaseLayers() override { this->Ours->releaseLayers(); }
   void releaseGraphicsResources() override
   {
     Released += Window->IsCurrent() ? 1 : 100;
@@ -167,7 +184,6 @@ private:
     Sent = this->Maps.size();
   }
 
-  std::unique_ptr<svo::Tracer> Ours = svo::makeCPUTracer();
   vtkNew<vtkTextureObject> Color, Depth;
   svo::BufferTexture Texels{ svo::BufferTexture::Texel::Float };
 };
@@ -176,13 +192,12 @@ int OnGPU::Released = 0;
 std::size_t OnGPU::Sent = 0;
 
 /// OpenGL's, with light code that OpenGL does not compile.
-class Misspelt : public Other
+class Misspelt : public Altered
 {
 public:
-  std::vector<svo::NeededLevels> neededLevels(const svo::Scene& scene, const svo::View& view,
-    const svo::FrameSettings& settings) const override
+  Misspelt()
+    : Altered(svo::makeOpenGLTracer(svo::makeCPUTracer()))
   {
-    return this->Ours->neededLevels(scene, view, settings);
   }
   void render(const svo::Scene& scene, const svo::View& view, const svo::FrameSettings& settings,
     const svo::ParallelFor& parallelFor) override
@@ -194,15 +209,12 @@ public:
     this->Code.text = "float svoLeft(misspelt\n";
     Asked += !this->Code.empty();
   }
-  const svo::FrameStatistics& statistics() const override { return this->Ours->statistics(); }
   const svo::LightCode& lightCode() const override { return this->Code; }
-  void releaseLayers() override { this->Ours->releaseLayers(); }
   void releaseGraphicsResources() override { this->Ours->releaseGraphicsResources(); }
 
   static int Asked;
 
 private:
-  std::unique_ptr<svo::Tracer> Ours = svo::makeOpenGLTracer(svo::makeCPUTracer());
   svo::LightCode Code;
 };
 int Misspelt::Asked = 0;
@@ -251,6 +263,7 @@ void compareOnGPU(Checks& checks)
   }
   checks.expect(OnGPU::Released == 2, "and with the pass");
 }
+
 /// Light code that is refused: the CPU's maps take its place, and that is said once.
 void compareRefused(Checks& checks)
 {

@@ -1,15 +1,19 @@
 #include "svoBackendChoice.h"
 
-#include "svoBuild.h"
 #include "svoLightCode.h"
+#include "svoMeshOctree.h"
 #include "svoOpenGL.h"
 #include "svoOpenGLTracer.h"
 #include "svoShadowMask.h"
 
+#include "vtkNew.h"
 #include "vtkOpenGLQuadHelper.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
+#include "vtkPlaneSource.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
@@ -25,8 +29,8 @@ namespace svo
 {
 namespace
 {
-constexpr unsigned int Cells = 96; // of the waves, squared
-constexpr int Level = 8;           // few triangles in a brick
+constexpr int Cells = 96; // of the waves, squared
+constexpr int Level = 8;  // few triangles in a brick
 
 /// Pictures. The first has everything ready, the others count.
 constexpr int Width = 512, Heights[] = { 16, 64, 256 };
@@ -51,33 +55,26 @@ void main()
 
 Octree makeWaves(const ParallelFor& parallelFor)
 {
-  std::vector<glm::dvec3> points;
-  std::vector<glm::uvec3> triangles;
-  constexpr unsigned int Row = Cells + 1;
-  for (unsigned int i = 0; i < Row * Row; ++i)
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(-1.0, -1.0, 0.0);
+  plane->SetPoint1(1.0, -1.0, 0.0);
+  plane->SetPoint2(-1.0, 1.0, 0.0);
+  plane->SetResolution(Cells, Cells);
+  plane->Update();
+  vtkPoints* points = plane->GetOutput()->GetPoints();
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
-    const double x = 2.0 * (i % Row) / Cells - 1.0, y = 2.0 * (i / Row) / Cells - 1.0;
-    points.emplace_back(x, y, 0.1 * std::sin(11.0 * x) * std::sin(7.0 * y));
-    if (i % Row < Cells && i / Row < Cells)
-    {
-      triangles.emplace_back(i, i + 1, i + Row);
-      triangles.emplace_back(i + 1, i + Row + 1, i + Row);
-    }
+    double p[3];
+    points->GetPoint(i, p);
+    points->SetPoint(i, p[0], p[1], 0.1 * std::sin(11.0 * p[0]) * std::sin(7.0 * p[1]));
   }
-  const TriangleMesh mesh{ points.data(), points.size(), triangles.data(), triangles.size() };
-  BuildOptions options;
+  MeshOctreeOptions options;
   options.level = Level;
   options.parallelFor = parallelFor;
-  const BuildResult built = build(mesh, options);
-  if (built.status != BuildStatus::Built)
-  {
-    return {};
-  }
-  auto& header = *reinterpret_cast<Header*>(built.data.get());
-  const double bounds[] = { -1.0, 1.0, -1.0, 1.0, -0.1, 0.1 };
-  std::copy_n(bounds, 6, header.meshBounds);
-  std::string error;
-  return Octree::open(built.data, built.size, makeSurface(mesh, {}, header, parallelFor), error);
+  Octree octree;
+  std::string message;
+  buildMeshOctree(plane->GetOutput(), options, octree, message);
+  return octree;
 }
 
 /// Pixels a second of the fastest picture. After one that takes longer, seconds, there is none that

@@ -7,8 +7,6 @@ namespace svo
 {
 namespace
 {
-constexpr std::uint32_t Split = 4096; // floats tell no larger numbers apart
-
 int texelsOf(const Instance& caster)
 {
   const Attributes& attributes = caster.body->attributes;
@@ -26,12 +24,12 @@ std::size_t countOf(const Octree& octree)
   return octree.surface() ? octree.surface()->triangles.size() : octree.header().listWords;
 }
 
-void append(const Instance& caster, std::uint32_t first, std::vector<float>& numbers)
+void append(const Instance& caster, const glm::vec2& first, std::vector<float>& numbers)
 {
   const int texels = texelsOf(caster);
   numbers.insert(numbers.end(),
-    { caster.opacity, static_cast<float>(numbersOfEach(caster)), static_cast<float>(first / Split),
-      static_cast<float>(first % Split), static_cast<float>(texels), 0.0f, 0.0f, 0.0f });
+    { caster.opacity, static_cast<float>(numbersOfEach(caster)), first.x, first.y,
+      static_cast<float>(texels), 0.0f, 0.0f, 0.0f });
   for (int i = 0; i < 2 * texels; ++i)
   {
     numbers.push_back(detail::alphaAt(caster.body->attributes.colorTexture, i));
@@ -43,70 +41,62 @@ void append(const Instance& caster, std::uint32_t first, std::vector<float>& num
     if (!surface)
     {
       numbers.push_back(detail::alphaOfPlane(frame, i, glm::dvec3(0.0)));
+      continue;
     }
-    else if (texels > 0)
-    {
-      const TriangleLook look(frame, i);
-      for (int axis = 0; axis < 2; ++axis)
-      {
-        for (const glm::vec2& place : look.coordinates)
-        {
-          numbers.push_back(place[axis]);
-        }
-      }
-    }
-    else
+    const TriangleLook look(frame, i);
+    for (int axis = 0; axis < (texels > 0 ? 2 : 1); ++axis)
     {
       for (int corner = 0; corner < 3; ++corner)
       {
-        numbers.push_back(detail::alphaOfTriangle(
-          frame, i, glm::dvec3(surface->points[surface->triangles[i][corner]])));
+        const glm::vec3 weight(corner == 0, corner == 1, corner == 2);
+        numbers.push_back(texels > 0 ? look.coordinates[corner][axis]
+                                     : detail::alphaOfTriangle(look, *surface, i, weight));
       }
     }
   }
+  numbers.resize((numbers.size() + 7) / 8 * 8, 0.0f);
 }
 }
 
-bool CasterAlphas::Caster::operator==(const Caster& other) const
+void CasterAlphas::clear()
 {
-  return this->first == other.first && this->end == other.end && this->octree == other.octree &&
-    this->version == other.version && this->colors == other.colors &&
-    this->opacity == other.opacity;
+  this->Casters.clear();
+  this->Keys.clear();
+  this->Size = 0;
 }
 
-std::size_t CasterAlphas::add(const Instance& caster, std::uint32_t first)
+std::size_t CasterAlphas::add(const Instance& caster, const glm::vec2& first)
 {
   const Octree& octree = caster.body->octree;
   const Attributes& attributes = caster.body->attributes;
-  const std::size_t begin = this->Casters.empty() ? 0 : this->Casters.back().end;
+  const std::size_t begin = this->Size;
   const std::size_t count = 8 + 2 * texelsOf(caster) + numbersOfEach(caster) * countOf(octree);
-  this->Casters.push_back(
-    { &caster, first, begin + (count + 7) / 8 * 8, octree.id(), attributes.version,
-      texelsOf(caster) > 0 ? attributes.colorTexture : attributes.colors, caster.opacity });
+  this->Casters.push_back({ &caster, first });
+  this->Keys.emplace_back(octree.id(), attributes.version, attributes.colors,
+    attributes.colorCoordinates, attributes.colorTexture, caster.opacity, first.x, first.y);
+  this->Size += (count + 7) / 8 * 8;
   return begin / 8;
 }
 
 bool CasterAlphas::send()
 {
-  if (this->Casters == this->Sent)
+  if (this->Keys == this->Sent)
   {
     return true;
   }
   this->release();
-  const std::size_t size = this->Casters.empty() ? 0 : this->Casters.back().end;
-  if (size > BufferTexture::most() || (size > 0 && !this->Texels.allocate(size)))
+  if (this->Size > BufferTexture::most() || (this->Size > 0 && !this->Texels.allocate(this->Size)))
   {
     return false;
   }
   std::vector<float> numbers;
-  numbers.reserve(size);
+  numbers.reserve(this->Size);
   for (const Caster& caster : this->Casters)
   {
     append(*caster.instance, caster.first, numbers);
-    numbers.resize(caster.end, 0.0f);
   }
   this->Texels.send(0, numbers.data(), numbers.size());
-  this->Sent = this->Casters;
+  this->Sent = this->Keys;
   return true;
 }
 

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 namespace svo
@@ -36,7 +37,8 @@ constexpr std::ptrdiff_t MostLights = 64;
 struct CasterRecord // in a shader's memory
 {
   glm::vec4 rows[3];
-  float rootHigh, rootLow, depths, opacity;
+  glm::vec2 root;
+  float depths, opacity;
   glm::vec4 low, high;
 };
 constexpr std::size_t CasterTexelCount = 6;
@@ -253,16 +255,14 @@ std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
     }
     octrees.push_back(&octree);
   }
-  if (!this->Octrees.hold(octrees, limit))
-  {
-    return "The octrees do not fit into OpenGL's memory, or into GPUMemoryLimit";
-  }
-  if (!this->place(casters))
+  const bool held = this->Octrees.hold(octrees, limit);
+  if (held && !this->place(casters))
   {
     return "OpenGL has no room for so many casters";
   }
-  return this->bytes() <= limit ? ""
-                                : "Octrees and the alpha of colours do not fit into GPUMemoryLimit";
+  return held && this->bytes() <= limit
+    ? ""
+    : "The octrees do not fit into OpenGL's memory, or into GPUMemoryLimit";
 }
 
 /// Says what VTK's shaders need for a frame.
@@ -341,11 +341,8 @@ bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
   for (const Instance* caster : casters)
   {
     const Octree& octree = caster->body->octree;
-    constexpr std::uint32_t Split = 4096; // floats tell no larger numbers apart
-    const std::uint32_t root = this->Octrees.rootOf(octree);
     CasterRecord record{};
-    record.rootHigh = static_cast<float>(root / Split);
-    record.rootLow = static_cast<float>(root % Split);
+    record.root = this->Octrees.rootOf(octree);
     record.depths = static_cast<float>(octree.depthCount());
     record.opacity = caster->translucent() ? caster->opacity : 1.0f;
     if (caster->mappedOpacity)

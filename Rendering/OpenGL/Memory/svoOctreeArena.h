@@ -11,6 +11,8 @@
 #include <map>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 namespace svo
 {
 struct ShortLists;
@@ -24,14 +26,10 @@ public:
   bool hold(const std::vector<const Octree*>& octrees, std::size_t limit);
   void release();
 
-  /// The node at which rays through an octree that is held begin.
-  std::uint32_t rootOf(const Octree& octree) const { return this->Blocks.at(octree.id()).node; }
-  /// The number of its first triangle, or plane.
-  std::uint32_t firstOf(const Octree& octree) const
-  {
-    const Block& block = this->Blocks.at(octree.id());
-    return octree.hasPlanes() ? block.word : block.corner / 3;
-  }
+  /// The node at which rays through an octree that is held begin; its first triangle, or plane. Of
+  /// a number n (n / 4096, n % 4096): floats tell no larger ones apart.
+  glm::vec2 rootOf(const Octree& octree) const;
+  glm::vec2 firstOf(const Octree& octree) const;
 
   std::size_t bytes() const
   {

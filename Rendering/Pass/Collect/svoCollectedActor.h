@@ -35,13 +35,12 @@ struct PropChoices
   bool translucentShadows = false; // what is translucent casts as well, as light as it is
   bool meanOpacity = false;        // ... each surface equally all over
   bool onlyCast = false;           // nothing is traced; the rasteriser draws all that is seen
-  bool findPlanes = false;         // CollectedScene::planes is asked for
   glm::dmat4 world{ 1.0 };         // see sceneTransform()
 
   auto values() const
   {
     return std::tie(this->shadows, this->lights, this->onlyMarked, this->unmarkedToo,
-      this->translucentShadows, this->meanOpacity, this->onlyCast, this->findPlanes, this->world);
+      this->translucentShadows, this->meanOpacity, this->onlyCast, this->world);
   }
 };
 

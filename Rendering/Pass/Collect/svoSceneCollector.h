@@ -51,8 +51,8 @@ struct CollectedScene
   bool headlightOnly = false;       // SceneLights
   bool aimlessLight = false;        // the same
   bool shadowCatchers = false;      // there are some; they are rasterised
-  /// With `findPlanes`: surfaces without triangles, of which VTK would draw a contour, are there
-  /// and may be traced. Whether they are does not matter.
+  /// Surfaces without triangles, of which VTK would draw a contour, are there and may be traced.
+  /// Whether they are does not matter.
   bool planes = false;
   /// Where lights cast and yet no shadow can be seen: why, as ends of sentences that begin with
   /// "it", and of how many props. Empty where some can, where there is nothing, and where somebody

@@ -18,22 +18,19 @@ inline float alphaAt(const unsigned char* colors, std::size_t i)
   return static_cast<float>(colors[4 * i + 3]) / 255.0f;
 }
 
-/// Of a triangle at `at`, octree coordinates; the colour's own rules (TriangleLook).
+/// Of a triangle, by weights of its corners; the colour's own rules.
 inline float alphaOfTriangle(
-  const SurfaceMatrices& frame, Primitive primitive, const glm::dvec3& at)
+  const TriangleLook& look, const Surface& surface, Primitive primitive, const glm::vec3& weight)
 {
-  const Attributes& attributes = frame.instance->body->attributes;
-  const TriangleLook look(frame, primitive);
-  const Surface& surface = *frame.instance->body->octree.surface();
+  const Attributes& attributes = look.attributes;
   if (look.textured)
   {
     return alphaAt(attributes.colorTexture,
-      static_cast<std::size_t>(texelAt(attributes, weighted(look.weights(at), look.coordinates))));
+      static_cast<std::size_t>(texelAt(attributes, weighted(weight, look.coordinates))));
   }
   if (look.coloredByPoints)
   {
     const glm::uvec3 corners = surface.triangles[primitive];
-    const glm::vec3 weight = look.weights(at);
     return weight.x * alphaAt(attributes.colors, corners.x) +
       weight.y * alphaAt(attributes.colors, corners.y) +
       weight.z * alphaAt(attributes.colors, corners.z);
@@ -41,6 +38,15 @@ inline float alphaOfTriangle(
   return look.hasColor
     ? alphaAt(attributes.colors, surface.cells.empty() ? primitive : surface.cells[primitive])
     : 1.0f;
+}
+
+/// At `at`, octree coordinates.
+inline float alphaOfTriangle(
+  const SurfaceMatrices& frame, Primitive primitive, const glm::dvec3& at)
+{
+  const TriangleLook look(frame, primitive);
+  return alphaOfTriangle(
+    look, *frame.instance->body->octree.surface(), primitive, look.weights(at));
 }
 
 /// Of an octree of planes.
