@@ -24,8 +24,8 @@ float svoLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, flo
     vec4 place = texelFetch(svoPlaces, at, 0);
     vec3 between = place.xyz - position;
     float away = length(between);
-    hidden = hidden && place.w >= 0.0 && place.z > position.z;
-    if (place.w >= 0.0 && away < least && abs(dot(between, facet)) <= 0.1 * extent)
+    hidden = hidden && place.w > -1e30 && place.z > position.z;
+    if (place.w > -1e30 && away < least && abs(dot(between, facet)) <= 0.1 * extent)
     {
       least = away;
       best = at;

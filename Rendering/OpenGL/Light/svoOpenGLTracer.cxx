@@ -6,7 +6,9 @@
 #include "svoLeafGeometry.h"
 #include "svoLightCode.h"
 #include "svoOctreeArena.h"
+#include "svoOctreeWalk.h"
 #include "svoRayWalk.h"
+#include "svoSeenSurfaces.h"
 #include "svoTerminator.h"
 #include "svoWorldToOctree.h"
 
@@ -61,15 +63,20 @@ Box worldBox(const Instance& instance)
   return box;
 }
 
-/// The constants of svoRayWalk.glsl.
-std::string constantsOf(std::size_t lights, bool planes, bool alphas)
+/// The constants of svoOctreeWalk.glsl. They may stand twice in a shader.
+std::string constantsOf(bool planes, bool alphas)
+{
+  return std::string("#define svoHasPlanes ") + (planes ? "true" : "false") +
+    "\n#define svoHasAlphas " + (alphas ? "true" : "false") + "\n";
+}
+
+/// Those of svoRayWalk.glsl.
+std::string constantsOf(std::size_t lights)
 {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::showpoint << std::setprecision(9) << "const int svoLightCount = " << lights << ";\n"
-       << "const float svoDoubtfulSine = " << DoubtfulSine << ";\n"
-       << "const bool svoHasPlanes = " << (planes ? "true" : "false") << ";\n"
-       << "const bool svoHasAlphas = " << (alphas ? "true" : "false") << ";\n";
+       << "const float svoDoubtfulSine = " << DoubtfulSine << ";\n";
   return text.str();
 }
 
@@ -85,6 +92,21 @@ std::vector<const Instance*> castersOf(const Scene& scene)
     }
   }
   return casters;
+}
+
+/// What the eye sees: indices.
+std::vector<std::size_t> seenOf(const Scene& scene)
+{
+  std::vector<std::size_t> seen;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i)
+  {
+    const Instance& instance = scene.instances[i];
+    if (instance.visible && instance.body->octree && !instance.body->octree.empty())
+    {
+      seen.push_back(i);
+    }
+  }
+  return seen;
 }
 
 class OpenGLTracer : public Tracer
@@ -124,6 +146,7 @@ public:
   }
   unsigned int mapTexture() const override { return this->Answers ? 0 : this->Other->mapTexture(); }
   const LightCode& lightCode() const override { return this->Code; }
+  const EyeCode& eyeCode() const override { return this->Eye; }
   void releaseLayers() override { this->Other->releaseLayers(); }
   void releaseGraphicsResources() override;
 
@@ -132,11 +155,12 @@ private:
   std::string hold(const Scene& scene, std::size_t limit);
   std::size_t bytes() const
   {
-    return this->Octrees.bytes() + this->CasterTexels.bytes() + this->Alphas.texels().bytes();
+    return this->Octrees.bytes() + this->CasterTexels.bytes() + this->Alphas.texels().bytes() +
+      this->Seen.bytes();
   }
   bool place(const std::vector<const Instance*>& casters);
   void aim(const View& view);
-  void describe(const Scene& scene, const View& view);
+  void describe(const Scene& scene, const View& view, const std::string& constants);
   double largestGap(const View& view) const;
 
   std::unique_ptr<Tracer> Other;
@@ -145,7 +169,9 @@ private:
   FrameStatistics Statistics;
   std::vector<ShadowMap> NoMaps;
   LightCode Code;
+  EyeCode Eye;
   OctreeArena Octrees;
+  SeenSurfaces Seen;
 
   /// What casts, of the scene of this version.
   struct Caster
@@ -159,7 +185,7 @@ private:
   std::size_t Limit = 0; // that they were to keep
   std::string WhyNot;    // they are not in OpenGL's memory; empty: they are
   std::vector<Caster> Casters;
-  bool Planes = false;      // some of their octrees are of planes
+  bool Planes = false;      // some octrees are of planes
   glm::dvec3 Centre{ 0.0 }; // of the tree's frame, world
   std::vector<CasterNode> Tree;
   glm::dmat4 WorldToView{ 0.0 }; // that was sent
@@ -188,9 +214,13 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
 {
   this->Code.lights.clear();
   this->Code.complaint.clear();
-  const auto lights = std::count_if(
-    scene.lights.begin(), scene.lights.end(), [](const Light& light) { return light.castShadow; });
-  if (settings.lightCode && lights > 0)
+  this->Eye.surfaces.clear();
+  const auto lights = settings.shadowTechnique == ShadowTechnique::None
+    ? 0
+    : std::count_if(scene.lights.begin(), scene.lights.end(),
+        [](const Light& light) { return light.castShadow; });
+  const bool asked = settings.lightCode && (lights > 0 || !seenOf(scene).empty());
+  if (asked)
   {
     const std::string whyNot = lights <= MostLights
       ? this->prepare(scene, view, settings)
@@ -200,13 +230,18 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
       this->Code.complaint = whyNot + "; shadow maps are traced on the CPU instead.";
     }
   }
-  this->Answers = settings.lightCode && lights > 0 && this->Code.complaint.empty();
+  this->Answers = asked && this->Code.complaint.empty();
   if (!this->Answers)
   {
     this->Other->render(scene, view, settings, parallelFor);
     return;
   }
-  this->describe(scene, view);
+  const std::string constants = constantsOf(this->Planes, this->Alphas.texels().size() > 0);
+  if (lights > 0)
+  {
+    this->describe(scene, view, constants);
+  }
+  this->Seen.describe(scene, view, this->Octrees, constants, this->Eye);
   this->Other->releaseLayers();
   this->Nothing.width = view.width;
   this->Nothing.height = view.height;
@@ -230,6 +265,7 @@ const std::string& OpenGLTracer::prepare(
     {
       this->Octrees.release();
       this->Alphas.release();
+      this->Seen.release();
     }
     this->Version = scene.version;
     this->Limit = settings.gpuMemoryLimit;
@@ -255,8 +291,19 @@ std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
     }
     octrees.push_back(&octree);
   }
+  const std::vector<std::size_t> seen = seenOf(scene);
+  for (const std::size_t index : seen)
+  {
+    const std::string refusal = SeenSurfaces::refusal(scene.instances[index]);
+    if (!refusal.empty())
+    {
+      return refusal;
+    }
+    octrees.push_back(&scene.instances[index].body->octree);
+  }
+  this->Planes = !seen.empty();
   const bool held = this->Octrees.hold(octrees, limit);
-  if (held && !this->place(casters))
+  if (held && !(this->place(casters) && this->Seen.place(scene, seen)))
   {
     return "OpenGL has no room for so many casters";
   }
@@ -266,7 +313,7 @@ std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
 }
 
 /// Says what VTK's shaders need for a frame.
-void OpenGLTracer::describe(const Scene& scene, const View& view)
+void OpenGLTracer::describe(const Scene& scene, const View& view, const std::string& constants)
 {
   const glm::dmat3 turned(view.worldToView);
   LightCode::Floats sources{ "svoLights", 4, {} };
@@ -285,9 +332,9 @@ void OpenGLTracer::describe(const Scene& scene, const View& view)
   glm::dmat4 viewToTree(glm::transpose(turned)); // rigid
   viewToTree[3] = glm::dvec4(view.eye - this->Centre, 1.0);
   const glm::mat4 matrix(viewToTree);
-  this->Code.constants =
-    constantsOf(this->Code.lights.size(), this->Planes, this->Alphas.texels().size() > 0);
-  this->Code.text = svoRayWalk;
+  static const std::string Text = std::string(svoOctreeWalk) + svoRayWalk;
+  this->Code.constants = constants + constantsOf(this->Code.lights.size());
+  this->Code.text = Text.c_str();
   this->Code.costly = true;
   this->Code.textures = { { "svoNodes", this->Octrees.nodes().name() },
     { "svoLists", this->Octrees.lists().name() },
@@ -335,7 +382,6 @@ bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
 {
   this->Casters.clear();
   this->Alphas.clear();
-  this->Planes = false;
   std::vector<Box> boxes;
   Box all;
   for (const Instance* caster : casters)
@@ -414,7 +460,9 @@ void OpenGLTracer::releaseGraphicsResources()
   this->Octrees.release();
   this->CasterTexels.release();
   this->Alphas.release();
+  this->Seen.release();
   this->Version = 0;
+  this->Eye.surfaces.clear();
   this->Code.lights.clear();
   this->Code.textures.clear();
   this->Other->releaseGraphicsResources();

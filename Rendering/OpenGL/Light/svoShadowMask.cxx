@@ -1,9 +1,9 @@
 #include "svoShadowMask.h"
 
-#include "svoLightUniforms.h"
 #include "svoMaskLookup.h"
 #include "svoOpenGL.h"
 #include "svoShadowMaskShader.h"
+#include "svoUniforms.h"
 
 #include "vtkOpenGLState.h"
 #include "vtkTextureUnitManager.h"
@@ -197,7 +197,7 @@ void ShadowMask::find(
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDepthFunc(GL_LEQUAL);
   state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  const float nowhere[] = { 0.0f, 0.0f, 0.0f, -1.0f };
+  const float nowhere[] = { 0.0f, 0.0f, 0.0f, -1e30f };
   const float farthest = 1.0f;
   glClearBufferfv(GL_COLOR, 0, nowhere);
   glClearBufferfv(GL_DEPTH, 0, &farthest);

@@ -1,6 +1,9 @@
 // The shares of four lights for a pixel, asked of svoLeft() (svoLightCode.h) where the surface lies
-// that is seen there. svoUnfold() is svoRayWalk.glsl's.
-uniform sampler2D svoPlaces; // view coordinates, and the lift's length; below 0: nothing is asked
+// that is seen there. svoUnfold() is svoOctreeWalk.glsl's, svoAbove svoRayWalk.glsl's.
+//
+// View coordinates; and the lift's length, or below 0 -svoAbove of what was traced; -svoFar: nothing is
+// asked.
+uniform sampler2D svoPlaces;
 uniform sampler2D svoPlanes; // the facet's normal and that for shading, folded
 uniform int svoFirstLight;
 
@@ -8,16 +11,17 @@ vec4 svoSharesAt(ivec2 pixel)
 {
   vec4 shares = vec4(1.0);
   vec4 place = texelFetch(svoPlaces, pixel, 0);
-  if (place.w < 0.0)
+  if (place.w <= -svoFar)
   {
     return shares;
   }
   vec4 planes = 2.0 * texelFetch(svoPlanes, pixel, 0) - 1.0;
   vec3 facet = svoUnfold(planes.xy);
   vec3 normal = svoUnfold(planes.zw);
+  svoAbove = max(-place.w, 0.0);
   for (int i = 0; i < min(4, svoLightCount - svoFirstLight); ++i)
   {
-    shares[i] = svoLeft(svoFirstLight + i, place.xyz, facet, normal, place.w * normal, 0.0);
+    shares[i] = svoLeft(svoFirstLight + i, place.xyz, facet, normal, max(place.w, 0.0) * normal, 0.0);
   }
   return shares;
 }

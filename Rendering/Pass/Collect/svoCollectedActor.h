@@ -34,8 +34,9 @@ struct PropChoices
   bool unmarkedToo = false;
   bool translucentShadows = false; // what is translucent casts as well, as light as it is
   bool meanOpacity = false;        // ... each surface equally all over
-  bool onlyCast = false;           // nothing is traced; the rasteriser draws all that is seen
-  glm::dmat4 world{ 1.0 };         // see sceneTransform()
+  /// The rasteriser draws all that is seen but actors of planes alone.
+  bool onlyCast = false;
+  glm::dmat4 world{ 1.0 }; // see sceneTransform()
 
   auto values() const
   {
@@ -71,6 +72,7 @@ struct CollectedActor
   const CollectProps& frame;
   bool quiet = false;             // there are no messages about it
   bool traceable = false;         // on the CPU, as far as that does not depend on its surfaces
+  bool planes = false;            // all of it are surfaces without triangles, and it is the prop
   Reason beyond = nullptr;        // why it can only cast
   glm::dmat4 localToWorld{ 1.0 }; // fit for tracing
 

@@ -2,6 +2,7 @@
 
 #include "svoAffineMatrix.h"
 #include "svoCameraView.h"
+#include "svoMeshOctree.h"
 #include "svoRoundSurfaces.h"
 
 #include "vtkActor.h"
@@ -19,6 +20,7 @@
 #include "vtkPropAssembly.h"
 #include "vtkProperty.h"
 
+#include <algorithm>
 #include <iterator>
 
 namespace svo
@@ -270,7 +272,16 @@ void PropCollector::collectActor(
     of.beyond = "was told so";
   }
   of.traceable = !of.beyond;
-  if (of.traceable && frame.onlyCast)
+  const bool round = drawsRoundShapes(mapper);
+  std::vector<SurfacePart> parts;
+  if (!isGlyphMapper(mapper) && !round)
+  {
+    parts = this->partsOf(actor, found.kept);
+    of.planes = actor == owner && !parts.empty() &&
+      std::all_of(parts.begin(), parts.end(),
+        [](const SurfacePart& part) { return carriesPlanes(part.mesh); });
+  }
+  if (of.traceable && frame.onlyCast && !of.planes)
   {
     of.beyond = IsDrawnByOpenGL;
   }
@@ -283,12 +294,12 @@ void PropCollector::collectActor(
     this->collectGlyphs(of);
     return;
   }
-  if (drawsRoundShapes(mapper))
+  if (round)
   {
     collectRoundShapes(of, *this->Shapes);
     return;
   }
-  for (SurfacePart& part : this->partsOf(actor, found.kept))
+  for (SurfacePart& part : parts)
   {
     this->collectPart(of, part);
   }

@@ -193,6 +193,7 @@ bool SceneCollector::collectProps(
 void SceneCollector::assemble(CollectedScene& result)
 {
   result.meshes.clear();
+  result.props.clear();
   result.scene.receivers.clear();
   result.replaced.clear();
   result.receivers.clear();
@@ -212,6 +213,9 @@ void SceneCollector::assemble(CollectedScene& result)
     else
     {
       result.rasterizedActors += prop.actors;
+    }
+    if (!prop.shown || this->Choices.onlyCast)
+    {
       result.rasterizedReceivers = result.rasterizedReceivers || prop.receives;
       result.receiversReach = result.receiversReach || (prop.receives && prop.reaches);
       result.shadowCatchers = result.shadowCatchers || prop.catchesShadows;
@@ -219,7 +223,7 @@ void SceneCollector::assemble(CollectedScene& result)
       {
         result.receivers.insert(prop.prop);
       }
-      addReceiver(prop, false, result.scene);
+      addReceiver(prop, prop.shown, result.scene);
     }
     for (const SceneSurface& surface : prop.surfaces)
     {
@@ -228,6 +232,7 @@ void SceneCollector::assemble(CollectedScene& result)
       if (used)
       {
         result.meshes.resize(result.meshes.size() + surface.count(), surface.mesh);
+        result.props.resize(result.meshes.size(), prop.prop);
       }
     }
   }

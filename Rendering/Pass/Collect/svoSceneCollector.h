@@ -39,10 +39,12 @@ struct CollectedScene
   bool current = false; // of this frame; what is kept of an earlier one is not to be used
   std::size_t own = 0;  // number of instances that come from this renderer
   std::vector<vtkPolyData*> meshes; // of the scene's own instances, by index
+  std::vector<vtkProp*> props;      // likewise
   /// Props that the rasteriser must leave alone: every surface of theirs is traced, or must not be
   /// shown.
   std::set<vtkProp*> replaced;
-  /// Those that the rasteriser draws and shadows fall on, catchers of shadows among them.
+  /// Those that the rasteriser draws and shadows fall on, catchers of shadows among them; with
+  /// `onlyCast` what is traced, too.
   std::set<vtkProp*> receivers;
   int tracedActors = 0;
   int rasterizedActors = 0;
@@ -51,8 +53,8 @@ struct CollectedScene
   bool headlightOnly = false;       // SceneLights
   bool aimlessLight = false;        // the same
   bool shadowCatchers = false;      // there are some; they are rasterised
-  /// Surfaces without triangles, of which VTK would draw a contour, are there and may be traced.
-  /// Whether they are does not matter.
+  /// Surfaces without triangles are there, and may be traced, of which VTK would draw a contour
+  /// with `onlyCast`. Whether it does does not matter.
   bool planes = false;
   /// Where lights cast and yet no shadow can be seen: why, as ends of sentences that begin with
   /// "it", and of how many props. Empty where some can, where there is nothing, and where somebody

@@ -67,6 +67,7 @@ RendererState::RendererState(vtkRenderer* renderer, std::unique_ptr<Tracer> trac
       this->Receivers.release();
       this->Maps.release();
       this->Mask.release();
+      this->Boxes.release();
       this->Trace->releaseGraphicsResources();
     });
 }
@@ -188,6 +189,7 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   {
     this->Trace->releaseLayers();
     this->Maps.release();
+    this->Boxes.release();
     this->Receivers.update(
       window, this->Maps.code(), settings.shadowIntensity, this->Collected.shadowCatchers);
     return;
@@ -211,6 +213,7 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   }
   this->Statistics.tracer = this->Trace->statistics();
   this->Statistics.coarseOctreeError = pace.distance * this->Statistics.tracer.coarsestVoxel;
+  this->Boxes.update(window, this->Trace->eyeCode(), scene, this->Collected.props);
   const LightCode& code = this->Trace->lightCode();
   this->Complaint = wantsCode && !settings.lightCode ? this->Mask.refusal() : code.complaint;
   const std::string missing = this->Maps.update(
@@ -250,11 +253,13 @@ void RendererState::findLight(const vtkRenderState& drawn)
       for (int i = 0; i < drawn.GetPropArrayCount(); ++i)
       {
         vtkProp* prop = drawn.GetPropArray()[i];
-        if (prop->GetVisibility() && this->Collected.receivers.count(prop) > 0)
+        if (prop->GetVisibility() && this->Collected.receivers.count(prop) > 0 &&
+          this->Collected.replaced.count(prop) == 0)
         {
           prop->RenderOpaqueGeometry(this->Renderer);
         }
       }
+      this->Boxes.draw(this->Renderer);
     });
   this->Receivers.setGathers(false);
 }
@@ -262,7 +267,9 @@ void RendererState::findLight(const vtkRenderState& drawn)
 void RendererState::present(vtkOpenGLRenderPass* pass)
 {
   this->Presenter->SetFrame(
-    this->HasPicture && this->Trace->lightCode().empty() ? &this->Trace->frame() : nullptr,
+    this->HasPicture && this->Trace->lightCode().empty() && this->Boxes.empty()
+      ? &this->Trace->frame()
+      : nullptr,
     [this](const std::vector<glm::vec2>& positions, Silhouettes& silhouettes)
     {
       if (this->Statistics.pace.distance == 1.0) // else the frame's pixels are not the window's
@@ -272,6 +279,9 @@ void RendererState::present(vtkOpenGLRenderPass* pass)
       }
     },
     pass);
+  this->Presenter->SetSurfaces(this->Boxes.empty() ? vtkSVOPresenter::Draw()
+                                                   : [this](vtkViewport* viewport)
+      { this->Boxes.draw(viewport); });
   this->Presenter->SetFirst(drawsPropsFirst(this->Renderer->GetPass()));
 }
 
@@ -317,6 +327,7 @@ void RendererState::finish()
 {
   this->Statistics.presentTime = this->Presenter->GetPresentTime();
   this->Presenter->SetFrame(nullptr, nullptr, nullptr);
+  this->Presenter->SetSurfaces(nullptr);
   this->Collected.current = false;
   this->InFrame = false;
   if (this->ForgetsScene)
@@ -344,6 +355,7 @@ void RendererState::releaseLayers()
 
 void RendererState::releaseGraphicsResources(vtkWindow* window)
 {
+  this->Boxes.releaseGraphicsResources(window);
   this->Presenter->ReleaseGraphicsResources(window);
   this->forgetScene(); // who releases these does not draw soon
 }

@@ -11,6 +11,7 @@
 #include "svoShadowMask.h"
 #include "svoShadowReceivers.h"
 #include "svoSharedCasters.h"
+#include "svoTracedBoxes.h"
 #include "svoTracer.h"
 #include "svoWindowTime.h"
 #include "vtkSVOPresenter.h"
@@ -154,6 +155,7 @@ private:
   bool HasPicture = false;    // the tracer has rendered this frame
   MapCode Maps;
   ShadowMask Mask;
+  TracedBoxes Boxes;
   ShadowReceivers Receivers;
   std::string Complaint;
   PassStatistics Statistics;

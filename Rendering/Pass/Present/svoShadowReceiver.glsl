@@ -30,11 +30,11 @@ float svoShown(float left)
   return 1.0 - svoReceive * svoIntensity * (1.0 - left);
 }
 
-// Where a fragment lies, as svoShadowMaskShader.glsl reads it: the place, with the lift's length; the
-// facet's normal and that for shading.
-vec4 svoPlaceOf(vec3 position, vec3 lift)
+// Where a fragment lies, as svoShadowMaskShader.glsl reads it: the place, with the lift's length, or of
+// what was traced how far above it rays begin; the facet's normal and that for shading.
+vec4 svoPlaceOf(vec3 position, vec3 lift, float above)
 {
-  return vec4(position, svoReceive > 0.0 ? length(lift) : -1.0);
+  return vec4(position, svoReceive > 0.0 ? (above > 0.0 ? -above : length(lift)) : -1e30);
 }
 
 vec2 svoFold(vec3 way)

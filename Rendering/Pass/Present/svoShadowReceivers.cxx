@@ -1,13 +1,11 @@
 #include "svoShadowReceivers.h"
 
-#include "svoLightUniforms.h"
 #include "svoShaderTokens.h"
 #include "svoShadowCatcher.h"
 #include "svoShadowReceiver.h"
+#include "svoUniforms.h"
 
-#include "vtkOpenGLRenderWindow.h"
 #include "vtkShaderProgram.h"
-#include "vtkTextureObject.h"
 
 #include <map>
 #include <sstream>
@@ -67,6 +65,13 @@ constexpr char FragmentOfFacet[] =
   "  vec3 svoFacet = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));\n"
   "  svoFacet = svoMirrored > 0.0 ? -svoFacet : svoFacet;\n";
 
+/// The same of what vtkSVOBoxMapper has traced.
+constexpr char FragmentOfTraced[] = "  vec3 svoPosition = svoSurface.position;\n"
+                                    "  vec3 svoFacet = svoSurface.facet;\n"
+                                    "#ifdef svoRays\n"
+                                    "  svoAbove = svoSeenError;\n"
+                                    "#endif\n";
+
 /// The rims of VTK's balls have no derivatives.
 constexpr char FacetOfNormal[] = "  if (any(isnan(svoFacet)))\n"
                                  "  {\n"
@@ -107,43 +112,14 @@ void ShadowReceivers::update(
   this->Code = &code;
   this->Intensity = static_cast<float>(intensity);
   this->Catchers = catchers;
-  this->Textures.resize(code.empty() ? 0 : code.textures.size());
-  for (std::size_t i = 0; i < this->Textures.size(); ++i)
-  {
-    vtkSmartPointer<vtkTextureObject>& texture = this->Textures[i];
-    const auto& [sampler, name, target] = code.textures[i];
-    // OpenGL gives names again, also to textures of another target.
-    if (!texture || texture->GetContext() != window || texture->GetHandle() != name ||
-      texture->GetTarget() != target)
-    {
-      texture = vtkSmartPointer<vtkTextureObject>::New();
-      texture->SetContext(window);
-      texture->SetAutoParameters(0); // it has its own; VTK's assertions know no arrays of textures
-      texture->AssignToExistingTexture(name, target);
-    }
-  }
-}
-
-void ShadowReceivers::activate()
-{
-  for (vtkTextureObject* texture : this->Textures)
-  {
-    texture->Activate();
-  }
-}
-
-void ShadowReceivers::deactivate()
-{
-  for (vtkTextureObject* texture : this->Textures)
-  {
-    texture->Deactivate();
-  }
+  this->Textures.update(
+    window, code.empty() ? std::vector<ShaderValues::Texture>() : code.textures);
 }
 
 void ShadowReceivers::release()
 {
   this->Code = nullptr;
-  this->Textures.clear();
+  this->Textures.release();
 }
 
 std::string ShadowReceivers::signature() const
@@ -215,6 +191,7 @@ void ShadowReceivers::completeShader(
   }
   const bool any = !code.str().empty();
   const bool round = hasNormal && hasToken(declarations, "ZCalcR");
+  const bool traced = hasToken(body, "svoSurface");
   if (this->Catchers)
   {
     // Those that cast nothing.
@@ -236,7 +213,10 @@ void ShadowReceivers::completeShader(
         : std::string(),
     false);
   vtkShaderProgram::Substitute(body, ImplementationMark,
-    any ? std::string(round ? FragmentOfTube : FragmentOfFacet) + (hasNormal ? FacetOfNormal : "") +
+    any ? std::string(traced ? FragmentOfTraced
+              : round        ? FragmentOfTube
+                             : FragmentOfFacet) +
+        (hasNormal ? FacetOfNormal : "") +
         "  float svoExtent = min(length(dFdx(svoPosition)), length(dFdy(svoPosition)));\n"
         "  vec3 svoLift = " +
         std::string(smooth
@@ -263,8 +243,10 @@ void ShadowReceivers::completeShader(
     body.insert(body.rfind('}'),
       "  if (svoGather > 0.0)\n"
       "  {\n"
-      "    gl_FragData[0] = svoPlaceOf(svoPosition, svoLift);\n"
-      "    gl_FragData[1] = svoPlanesOf(svoFacet, " +
+      "    gl_FragData[0] = svoPlaceOf(svoPosition, svoLift, " +
+        std::string(traced ? "svoSeenError" : "0.0") +
+        ");\n"
+        "    gl_FragData[1] = svoPlanesOf(svoFacet, " +
         normal +
         ");\n"
         "  }\n");
@@ -283,11 +265,7 @@ void ShadowReceivers::setUniforms(
   {
     return;
   }
-  for (std::size_t i = 0; i < this->Textures.size(); ++i)
-  {
-    this->Textures[i]->Activate(); // mappers' own textures may have taken the unit meanwhile
-    program->SetUniformi(this->Code->textures[i].sampler, this->Textures[i]->GetTextureUnit());
-  }
+  this->Textures.send(program);
   sendUniforms(static_cast<unsigned int>(program->GetHandle()), *this->Code);
   program->SetUniformf("svoReceive", receives ? 1.0f : 0.0f);
   program->SetUniformf("svoGather", this->Gathers ? 1.0f : 0.0f);

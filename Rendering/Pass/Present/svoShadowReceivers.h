@@ -2,16 +2,13 @@
 #ifndef svoShadowReceivers_h
 #define svoShadowReceivers_h
 
+#include "svoBorrowedTextures.h"
 #include "svoLightCode.h"
 
-#include "vtkSmartPointer.h"
-
 #include <string>
-#include <vector>
 
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
-class vtkTextureObject;
 
 namespace svo
 {
@@ -36,8 +33,8 @@ public:
   /// While it is on, surfaces do not show light: they write where they lie (LightCode::fromPlaces).
   void setGathers(bool on) { this->Gathers = on; }
 
-  void activate();
-  void deactivate();
+  void activate() { this->Textures.activate(); }
+  void deactivate() { this->Textures.deactivate(); }
 
   /// Equal strings mean equal shaders.
   std::string signature() const;
@@ -58,7 +55,7 @@ private:
   bool empty() const { return !this->Code || this->Code->empty(); }
 
   const LightCode* Code = nullptr;
-  std::vector<vtkSmartPointer<vtkTextureObject>> Textures; // the code's, borrowed
+  BorrowedTextures Textures; // the code's
   float Intensity = 1.0f;
   bool Catchers = false;
   bool Gathers = false;

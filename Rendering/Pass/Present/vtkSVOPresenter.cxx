@@ -240,7 +240,7 @@ void vtkSVOPresenter::SelectDrawBuffers(vtkShaderProgram* program)
     });
 }
 
-bool vtkSVOPresenter::Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+bool vtkSVOPresenter::DrawFrame(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   const svo::Frame& frame = *this->Frame;
   const bool writeNormals = frame.hasNormals();
@@ -345,11 +345,17 @@ int vtkSVOPresenter::RenderOpaqueGeometry(vtkViewport* viewport)
     window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, rectangle);
     this->PrepareFrame(rectangle[2], rectangle[3]);
   }
+  const double start = vtkTimerLog::GetUniversalTime();
+  if (this->DrawSurfaces)
+  {
+    this->DrawSurfaces(viewport);
+    this->PresentTime += vtkTimerLog::GetUniversalTime() - start;
+    return 1;
+  }
   if (!this->Frame || this->Frame->covered.empty())
   {
     return 0;
   }
-  const double start = vtkTimerLog::GetUniversalTime();
   vtkOpenGLClearErrorMacro();
   this->Enter(window);
   std::vector<glm::vec2> positions = svo::samplePositions();
@@ -368,7 +374,7 @@ int vtkSVOPresenter::RenderOpaqueGeometry(vtkViewport* viewport)
     this->CannotCopy = true;
     this->Upload(window, svo::DepthFormat::None);
   }
-  const bool drawn = this->Drawn == 0 || this->Draw(renderer, window);
+  const bool drawn = this->Drawn == 0 || this->DrawFrame(renderer, window);
   vtkOpenGLCheckErrorMacro("failed in vtkSVOPresenter");
   this->PresentTime += vtkTimerLog::GetUniversalTime() - start;
   return drawn ? 1 : 0;

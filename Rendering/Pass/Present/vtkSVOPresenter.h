@@ -46,6 +46,10 @@ public:
   /// pixels that they replace are exchanged.
   void SetFrame(svo::Frame* frame, const SilhouetteFinder& silhouettes, vtkOpenGLRenderPass* pass);
 
+  /// Draws surfaces that are traced where VTK draws; null: there are none. Until the next call.
+  using Draw = std::function<void(vtkViewport*)>;
+  void SetSurfaces(Draw draw) { this->DrawSurfaces = std::move(draw); }
+
   /// The window, whose context is current, is drawn into from now on. `leave` is called in that
   /// context before it goes, or is exchanged for another, or another `leave` is set.
   void Enter(vtkOpenGLRenderWindow* window);
@@ -90,7 +94,7 @@ private:
   svo::DepthFormat FormatForCopies(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void Upload(vtkOpenGLRenderWindow* window, svo::DepthFormat copies);
   void UploadRectangles(const std::vector<svo::PixelRect>& rectangles);
-  bool Draw(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
+  bool DrawFrame(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void SelectDrawBuffers(vtkShaderProgram* program);
 
   void ReleaseAll();
@@ -101,6 +105,7 @@ private:
   Prepare PrepareFrame;
   svo::Frame* Frame = nullptr;
   SilhouetteFinder FindSilhouettes;
+  Draw DrawSurfaces;
   vtkOpenGLRenderPass* Pass = nullptr;
   std::uint64_t Uploaded = 0; // svo::Frame::version of what the textures show
   double PresentTime = 0.0;

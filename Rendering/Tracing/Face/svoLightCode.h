@@ -3,12 +3,14 @@
 #ifndef svoLightCode_h
 #define svoLightCode_h
 
+#include "svoShaderValues.h"
+
 #include <string>
 #include <vector>
 
 namespace svo
 {
-struct LightCode
+struct LightCode : ShaderValues
 {
   /// By number in the code: index into Scene::lights. A light that is there several times gets the
   /// product. Empty: there is no code.
@@ -31,30 +33,6 @@ struct LightCode
   bool costly = false;
   /// The text reads what has been found so: surfaces are drawn once before, and say where they lie.
   bool fromPlaces = false;
-
-  /// A texture of the current context.
-  struct Texture
-  {
-    const char* sampler;
-    unsigned int name;
-    unsigned int target = 0x8c2a; // GL_TEXTURE_BUFFER
-  };
-  std::vector<Texture> textures;
-
-  /// Numbers of an array, or one number.
-  struct Integers
-  {
-    const char* name;
-    std::vector<int> values;
-  };
-  struct Floats
-  {
-    const char* name;
-    int components; // of each: 1, 4, or 16 of a matrix, column by column
-    std::vector<float> values;
-  };
-  std::vector<Integers> integers;
-  std::vector<Floats> floats;
 
   /// Why there is no code although it was asked for, in a sentence; empty if all is well.
   std::string complaint;

@@ -22,6 +22,7 @@
 namespace svo
 {
 class Processes;
+struct EyeCode;
 struct LightCode;
 struct Silhouettes;
 
@@ -69,6 +70,10 @@ public:
   /// How rasterised surfaces ask for the light of the last frame, where the settings ask for it
   /// (FrameNeeds::lightCode) and the tracer has it: in the place of shadow maps.
   virtual const LightCode& lightCode() const;
+
+  /// What VTK is to draw of the last frame, where the settings ask for light code and the tracer
+  /// has it: surfaces that frame() does not show.
+  virtual const EyeCode& eyeCode() const;
 
   /// The shadow buffers of the last frame; empty unless FrameSettings::handsOutMaps().
   virtual const std::vector<ShadowMap>& shadowMaps() const = 0;

@@ -1,5 +1,6 @@
 #include "svoCPUTracer.h"
 
+#include "svoEyeCode.h"
 #include "svoFrameErrors.h"
 #include "svoFrameTiles.h"
 #include "svoInstanceTree.h"
@@ -240,6 +241,12 @@ CPUTracer::CPUTracer()
 CPUTracer::~CPUTracer() = default;
 
 Tracer::~Tracer() = default;
+
+const EyeCode& Tracer::eyeCode() const
+{
+  static const EyeCode Nothing;
+  return Nothing;
+}
 
 const LightCode& Tracer::lightCode() const
 {

@@ -1,17 +1,17 @@
-#include "svoLightUniforms.h"
+#include "svoUniforms.h"
 
 #include "svoOpenGL.h"
 
 namespace svo
 {
-void sendUniforms(unsigned int program, const LightCode& code)
+void sendUniforms(unsigned int program, const ShaderValues& code)
 {
-  for (const LightCode::Integers& entry : code.integers)
+  for (const ShaderValues::Integers& entry : code.integers)
   {
     glUniform1iv(glGetUniformLocation(program, entry.name),
       static_cast<GLsizei>(entry.values.size()), entry.values.data());
   }
-  for (const LightCode::Floats& entry : code.floats)
+  for (const ShaderValues::Floats& entry : code.floats)
   {
     const GLint at = glGetUniformLocation(program, entry.name);
     const auto count = static_cast<GLsizei>(entry.values.size()) / entry.components;

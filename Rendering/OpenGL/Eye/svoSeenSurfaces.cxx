@@ -1,0 +1,167 @@
+#include "svoSeenSurfaces.h"
+
+#include "svoEyeWalk.h"
+#include "svoLeafError.h"
+#include "svoLeafGeometry.h"
+#include "svoOctreeArena.h"
+#include "svoOctreeWalk.h"
+#include "svoSurfacePoint.h"
+#include "svoWorldToOctree.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <glm/common.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+namespace svo
+{
+namespace
+{
+const unsigned char* colorsOf(const Instance& instance)
+{
+  const Attributes& attributes = instance.body->attributes;
+  return attributes.colorAssociation == Association::Leaf ? attributes.colors : nullptr;
+}
+
+int inOne(const glm::vec2& number) // OctreeArena::rootOf()
+{
+  return 4096 * static_cast<int>(number.x) + static_cast<int>(number.y);
+}
+
+ShaderValues::Floats matrixOf(const char* name, const glm::dmat4& matrix)
+{
+  const glm::mat4 floats(matrix);
+  return { name, 16, { &floats[0][0], &floats[0][0] + 16 } };
+}
+
+ShaderValues::Floats vectorOf(const char* name, const glm::dvec3& v, double last)
+{
+  return { name, 4,
+    { static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
+      static_cast<float>(last) } };
+}
+}
+
+std::string SeenSurfaces::refusal(const Instance& instance)
+{
+  const Body& body = *instance.body;
+  return body.octree.hasPlanes() && body.leafGeometry != LeafGeometry::Voxel
+    ? ""
+    : "OpenGL shaders trace nothing but planes";
+}
+
+bool SeenSurfaces::place(const Scene& scene, const std::vector<std::size_t>& seen)
+{
+  this->Seen = seen;
+  const auto keyOf = [](const Instance& instance) {
+    return Key(instance.body->octree.id(), instance.body->attributes.version, colorsOf(instance));
+  };
+  std::map<Key, const Instance*> wanted;
+  std::size_t size = 0;
+  for (const std::size_t index : seen)
+  {
+    const Instance& instance = scene.instances[index];
+    if (colorsOf(instance) && wanted.emplace(keyOf(instance), &instance).second)
+    {
+      size += instance.body->octree.header().listWords;
+    }
+  }
+  if (wanted.size() == this->Colored.size() &&
+    std::all_of(wanted.begin(), wanted.end(),
+      [this](const auto& entry) { return this->Colored.count(entry.first) > 0; }))
+  {
+    return true;
+  }
+  this->release();
+  this->Seen = seen;
+  if (size > BufferTexture::most() || !this->Colors.allocate(size))
+  {
+    return false;
+  }
+  std::size_t first = 0;
+  for (const auto& [key, instance] : wanted)
+  {
+    const std::size_t count = instance->body->octree.header().listWords;
+    std::vector<std::uint32_t> words(count);
+    std::memcpy(words.data(), colorsOf(*instance), 4 * count);
+    this->Colors.send(first, words.data(), count);
+    this->Colored.emplace(key, first);
+    first += count;
+  }
+  return true;
+}
+
+void SeenSurfaces::describe(const Scene& scene, const View& view, const OctreeArena& arena,
+  const std::string& constants, EyeCode& code) const
+{
+  static const std::string Text = std::string(svoOctreeWalk) + svoEyeWalk;
+  code.constants =
+    constants + "#define svoHasColors " + (this->Colors.size() > 0 ? "true\n" : "false\n");
+  code.text = Text.c_str();
+  code.surfaces.clear();
+  code.values = {};
+  code.values.textures = { { "svoNodes", arena.nodes().name() },
+    { "svoLists", arena.lists().name() }, { "svoTriangles", arena.triangles().name() } };
+  if (this->Colors.size() > 0)
+  {
+    code.values.textures.push_back({ "svoColors", this->Colors.name() });
+  }
+  const glm::dmat3 turned(view.worldToView);
+  const glm::dvec3 centre(view.worldToView * glm::dvec4(view.origin, 1.0));
+  code.values.floats = { matrixOf("svoViewToClip", view.viewToClip),
+    vectorOf("svoCentre", view.parallel ? turned * view.direction : centre, !view.parallel),
+    { "svoNear", 1, { static_cast<float>(view.tNear) } },
+    { "svoTurn", 1, { !view.plain && view.mirrored ? -1.0f : 1.0f } } };
+  for (const std::size_t index : this->Seen)
+  {
+    const Instance& instance = scene.instances[index];
+    const Octree& octree = instance.body->octree;
+    const LeafQuery query(octree, { LeafGeometry::Plane, MaximumLevel });
+    const SurfaceMatrices matrices(instance);
+    EyeCode::Surface surface;
+    surface.instance = index;
+    const double voxel = 1.0 / static_cast<double>(1 << query.bits);
+    surface.low = glm::max(glm::vec3(query.low - voxel), 1.0f - 0.001f) - 1.5f;
+    surface.high = glm::min(glm::vec3(query.high + voxel), 2.0f + 0.001f) - 1.5f;
+    const glm::dmat3 linear = glm::dmat3(instance.localToWorld) * octree.rootEdge();
+    glm::dmat4 boxToWorld(linear);
+    boxToWorld[3] =
+      instance.localToWorld * glm::dvec4(matrices.toOctree.origin + 0.5 * octree.rootEdge(), 1.0);
+    surface.turned = (glm::determinant(linear) < 0.0) != view.mirrored;
+    surface.colored = colorsOf(instance) != nullptr;
+    const glm::dmat3 toBox =
+      matrices.toOctree.inverse * matrices.toOctree.scale * glm::transpose(turned);
+    const auto error = worldLeafError(instance, LeafGeometry::Plane, octree.level());
+    surface.values.integers = { { "svoRoot", { inOne(arena.rootOf(octree)) } },
+      { "svoDepths", { octree.depthCount() } } };
+    if (surface.colored)
+    {
+      const std::size_t first =
+        this->Colored.at(Key(octree.id(), instance.body->attributes.version, colorsOf(instance)));
+      surface.values.integers.push_back(
+        { "svoFirstColor", { static_cast<int>(first) - inOne(arena.firstOf(octree)) } });
+    }
+    surface.values.floats = { matrixOf("svoBoxToView", view.worldToView * boxToWorld),
+      matrixOf("svoViewToBox", glm::dmat4(toBox)),
+      matrixOf("svoNormalToView", glm::dmat4(turned * glm::dmat3(matrices.normalMatrix))),
+      vectorOf("svoSeenLow", query.low, 0.5 * query.ownReach),
+      vectorOf("svoSeenHigh", query.high, 0.0),
+      { "svoColored", 1, { surface.colored ? 1.0f : 0.0f } },
+      { "svoFlat", 1, { instance.material.flatPlanes ? 1.0f : 0.0f } },
+      { "svoDepthOffset", 1, { instance.depthOffset.units } },
+      { "svoSeenError", 1, { static_cast<float>(error) } } };
+    code.surfaces.push_back(std::move(surface));
+  }
+}
+
+void SeenSurfaces::release()
+{
+  this->Seen.clear();
+  this->Colored.clear();
+  this->Colors.release();
+}
+}

@@ -1,0 +1,129 @@
+#include "svoTracedBoxes.h"
+
+#include "vtkSVOBoxMapper.h"
+
+#include "vtkActor.h"
+#include "vtkCellArray.h"
+#include "vtkNew.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLVertexBufferObject.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+namespace
+{
+/// A box's sides, wound to the left outside; corners by x + 2 y + 4 z.
+constexpr vtkIdType Sides[6][4] = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 },
+  { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
+
+vtkSmartPointer<vtkActor> makeActor()
+{
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(8);
+  vtkNew<vtkCellArray> sides;
+  for (const auto& side : Sides)
+  {
+    sides->InsertNextCell({ side[0], side[1], side[2] });
+    sides->InsertNextCell({ side[0], side[2], side[3] });
+  }
+  vtkNew<vtkPolyData> box;
+  box->SetPoints(points);
+  box->SetPolys(sides);
+  vtkNew<vtkSVOBoxMapper> mapper;
+  mapper->SetInputData(box);
+  mapper->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  return actor;
+}
+
+void setBox(vtkPolyData* box, const glm::vec3& low, const glm::vec3& high)
+{
+  bool same = true;
+  for (int i = 0; i < 8; ++i)
+  {
+    const glm::dvec3 corner(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+    double known[3];
+    box->GetPoint(i, known);
+    same = same && glm::dvec3(known[0], known[1], known[2]) == corner;
+    box->GetPoints()->SetPoint(i, corner.x, corner.y, corner.z);
+  }
+  if (!same)
+  {
+    box->GetPoints()->Modified();
+  }
+}
+
+void setMaterial(vtkProperty* property, const Material& material, bool colored)
+{
+  const auto set = [](const glm::vec3& color, auto apply) { apply(color.x, color.y, color.z); };
+  const glm::vec3 own(1.0f);
+  set(colored ? own : material.ambientColor,
+    [property](double r, double g, double b) { property->SetAmbientColor(r, g, b); });
+  set(colored ? own : material.diffuseColor,
+    [property](double r, double g, double b) { property->SetDiffuseColor(r, g, b); });
+  set(material.specularColor,
+    [property](double r, double g, double b) { property->SetSpecularColor(r, g, b); });
+  property->SetAmbient(material.ambient);
+  property->SetDiffuse(material.diffuse);
+  property->SetSpecular(material.specular);
+  property->SetSpecularPower(material.specularPower);
+  property->SetLighting(material.lighting);
+}
+}
+
+void TracedBoxes::update(vtkOpenGLRenderWindow* window, const EyeCode& code, const Scene& scene,
+  const std::vector<vtkProp*>& props)
+{
+  this->Count = code.surfaces.size();
+  this->Props.clear();
+  this->Textures.update(
+    window, this->Count > 0 ? code.values.textures : std::vector<ShaderValues::Texture>());
+  for (std::size_t i = 0; i < this->Count; ++i)
+  {
+    if (i == this->Actors.size())
+    {
+      this->Actors.push_back(makeActor());
+    }
+    const EyeCode::Surface& surface = code.surfaces[i];
+    vtkActor* actor = this->Actors[i];
+    auto* mapper = static_cast<vtkSVOBoxMapper*>(actor->GetMapper());
+    mapper->SetSurface(code, i, this->Textures);
+    setBox(mapper->GetInput(), surface.low, surface.high);
+    setMaterial(actor->GetProperty(), scene.instances[surface.instance].material, surface.colored);
+    actor->GetProperty()->SetFrontfaceCulling(!surface.turned);
+    actor->GetProperty()->SetBackfaceCulling(surface.turned);
+    this->Props.push_back(props[surface.instance]);
+  }
+}
+
+void TracedBoxes::draw(vtkViewport* viewport)
+{
+  for (std::size_t i = 0; i < this->Count; ++i)
+  {
+    this->Actors[i]->SetPropertyKeys(this->Props[i]->GetPropertyKeys());
+    this->Actors[i]->RenderOpaqueGeometry(viewport);
+  }
+  this->Textures.deactivate();
+}
+
+void TracedBoxes::release()
+{
+  this->Count = 0;
+  this->Props.clear();
+  this->Textures.release();
+}
+
+void TracedBoxes::releaseGraphicsResources(vtkWindow* window)
+{
+  for (vtkActor* actor : this->Actors)
+  {
+    actor->ReleaseGraphicsResources(window);
+  }
+}
+}

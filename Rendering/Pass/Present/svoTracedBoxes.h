@@ -1,0 +1,42 @@
+// Surfaces that VTK's shaders trace (svoEyeCode.h), as actors that draw their boxes.
+#ifndef svoTracedBoxes_h
+#define svoTracedBoxes_h
+
+#include "svoBorrowedTextures.h"
+#include "svoEyeCode.h"
+#include "svoScene.h"
+
+#include "vtkSmartPointer.h"
+
+#include <vector>
+
+class vtkActor;
+class vtkOpenGLRenderWindow;
+class vtkProp;
+class vtkViewport;
+class vtkWindow;
+
+namespace svo
+{
+class TracedBoxes
+{
+public:
+  /// For a frame: code that lives until the next call or release(), its scene, and the prop of each
+  /// instance, with whose keys its box is drawn.
+  void update(vtkOpenGLRenderWindow* window, const EyeCode& code, const Scene& scene,
+    const std::vector<vtkProp*>& props);
+  void release();
+  void releaseGraphicsResources(vtkWindow* window);
+
+  bool empty() const { return this->Count == 0; }
+  void draw(vtkViewport* viewport);
+
+private:
+  std::size_t Count = 0;
+  std::vector<vtkProp*> Props; // of these
+  std::vector<vtkSmartPointer<vtkActor>> Actors;
+  BorrowedTextures Textures;
+};
+}
+
+#endif
