@@ -7,6 +7,7 @@
 #include "svoBackendChoice.h"
 #include "svoSMPParallel.h"
 
+#include "vtkAssembly.h"
 #include "vtkImageToSVO.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -101,7 +102,8 @@ void choose(Checks& checks)
     "said once, and why: " + messages.all());
 }
 
-/// Surfaces that OpenGL would show a contour of are traced, whatever came before.
+/// Surfaces that OpenGL would show a contour of are traced, whatever came before: those that share
+/// their prop with a mesh.
 void traceWithoutTriangles(Checks& checks)
 {
   GPUStage stage;
@@ -111,22 +113,28 @@ void traceWithoutTriangles(Checks& checks)
   surface->SetInputData(image.image);
   surface->SetValue(0, image.value);
   stage.expect(OnGPU::BACKEND_OPENGL, "triangles", checks);
-  vtkActor* actor = stage.add(surface, 0.9, 0.5, 0.3);
+  vtkSmartPointer<vtkActor> actor = stage.add(surface, 0.9, 0.5, 0.3);
   actor->SetPosition(0.0, 0.0, 1.2);
-  stage.expect(OnGPU::BACKEND_CPU, "an image's surface", checks);
+  stage.expect(OnGPU::BACKEND_OPENGL, "an image's surface", checks);
+  stage.renderer->RemoveActor(actor);
+  vtkNew<vtkAssembly> assembly;
+  assembly->AddPart(actor);
+  assembly->AddPart(stage.add(ball(0.2, 1.0, 1.0, 1.5), 0.2, 0.8, 0.3));
+  stage.renderer->AddActor(assembly);
+  stage.expect(OnGPU::BACKEND_CPU, "an image's surface in an assembly", checks);
   stage.gpu->SetBackendToAuto();
   stage.gpu->SetShadowTechniqueToNone();
   capture(stage.window);
   checks.expect(
     stage.gpu->GetActiveBackend() == OnGPU::BACKEND_CPU, "an image's surface without shadows");
-  vtkSVORenderPass::SetUseSVO(false, actor);
+  vtkSVORenderPass::SetUseSVO(false, assembly);
   capture(stage.window);
   checks.expect(
     stage.gpu->GetActiveBackend() == OnGPU::BACKEND_OPENGL, "left to VTK without shadows");
   stage.expect(OnGPU::BACKEND_OPENGL, "left to VTK", checks);
-  vtkSVORenderPass::SetUseSVO(true, actor);
+  vtkSVORenderPass::SetUseSVO(true, assembly);
   stage.expect(OnGPU::BACKEND_CPU, "traced again", checks);
-  actor->VisibilityOff();
+  assembly->VisibilityOff();
   stage.expect(OnGPU::BACKEND_OPENGL, "without it", checks);
 }
 

@@ -91,7 +91,7 @@ void compare(int level, Checks& checks)
   const auto triangles = meshBall();
   Scene scene(functions), mesh(triangles);
   const Picture traced = scene.unshadowed();
-  scene.expectTraced(checks, 2, name + "both are traced");
+  scene.expectTraced(checks, 2, name + "both are traced", 1);
   scene.expectRasterized(checks, 0, name + "nothing is rasterised");
   mesh.usePass(false);
   const Picture raster = capture(mesh.window);
@@ -185,6 +185,6 @@ int TestSVOImplicitFunction(int, char*[])
   scene.actor->SetScale(1.0, 0.6, 1.3);
   scene.actor->RotateY(30.0);
   scene.shadowed();
-  scene.expectTraced(checks, 2, "a stretched one is traced");
+  scene.expectTraced(checks, 2, "a stretched one is traced", 1);
   return checks.exitCode();
 }

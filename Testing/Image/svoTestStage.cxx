@@ -125,9 +125,10 @@ void Stage::usePass(bool on)
   this->renderer->SetPass(on ? this->pass.Get() : nullptr);
 }
 
-void Stage::expectTraced(Checks& checks, int actors, const std::string& sentence) const
+void Stage::expectTraced(
+  Checks& checks, int actors, const std::string& sentence, int withOpenGL) const
 {
-  const int wanted = drawnByOpenGL() ? 0 : actors;
+  const int wanted = drawnByOpenGL() ? withOpenGL : actors;
   checks.expect(this->pass->GetNumberOfTracedActors() == wanted, sentence);
 }
 

@@ -45,7 +45,8 @@ public:
   void usePass(bool on);
   /// That so many actors were traced for the eye, or left to the rasteriser, in the last frame.
   /// With OpenGL none are traced, and at least so many rasterised.
-  void expectTraced(Checks& checks, int actors, const std::string& sentence) const;
+  void expectTraced(
+    Checks& checks, int actors, const std::string& sentence, int withOpenGL = 0) const;
   void expectRasterized(Checks& checks, int actors, const std::string& sentence) const;
   /// That so many instances have an octree in the frame. OpenGL needs none without shadows: another
   /// frame is drawn, which has them.

@@ -4,7 +4,7 @@ import math
 import unittest
 
 import vtksvo
-from backend import OPENGL, new_pass, rasterized
+from backend import OPENGL, new_pass
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, makes render windows
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkLookupTable, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -128,7 +128,7 @@ class LeafColors(unittest.TestCase):
         drawn = self.view(self.edges.GetOutputPort(), False, name, colors).pixels()
         traced = self.view(self.octree(name), True, name, colors)
         pixels = traced.pixels()
-        self.assertEqual(traced.tracer.GetNumberOfRasterizedActors(), rasterized(0, of=1))
+        self.assertEqual(traced.tracer.GetNumberOfRasterizedActors(), 0)
         surface = sum(p != drawn[0] for p in drawn)
         self.assertGreater(surface, 8000)
         self.assertGreater(len(set(drawn)), 5)
@@ -158,7 +158,6 @@ class LeafColors(unittest.TestCase):
                                   SetBelowRangeColor=(1, 1, 1, 1), SetUseAboveRangeColor=(1,),
                                   SetAboveRangeColor=(0, 0, 0, 1)))
 
-    @unittest.skipIf(OPENGL, "the rasteriser draws a contour, with a colour for each of its cells")
     def test_transfer_function(self):
         function = vtkColorTransferFunction()
         function.AddRGBPoint(0.6, 1, 0, 0)
@@ -210,7 +209,8 @@ class LeafColors(unittest.TestCase):
         coarse = view.pixels()
         surface = sum(p != fine[0] for p in fine)
         self.assertLess(differing(fine, coarse, 0), 0.25 * surface)
-        self.assertLessEqual(len(set(coarse)), 10)  # of the table, and the background
+        if not OPENGL:  # which stops at no nodes
+            self.assertLessEqual(len(set(coarse)), 10)  # of the table, and the background
 
     def test_translucent_colors_leave_it_to_the_rasteriser(self):
         view = self.view(self.octree("slope"), True, "slope", table(SetAlphaRange=(0.3, 1.0)))

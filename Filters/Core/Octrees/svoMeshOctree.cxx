@@ -268,12 +268,14 @@ Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& mess
   }
 }
 
-bool carriesPlanes(vtkPolyData* mesh)
+std::optional<LeafGeometry> planesOf(vtkPolyData* mesh)
 {
   Octree octree;
   std::string message;
-  return mesh->GetFieldData()->HasArray(OctreeArrayName) &&
+  const bool carries = mesh->GetFieldData()->HasArray(OctreeArrayName) &&
     openAttachedOctree(mesh, octree, message) == Attached::Found && octree.hasPlanes();
+  return carries ? std::optional(static_cast<LeafGeometry>(octree.header().leafGeometry))
+                 : std::nullopt;
 }
 
 std::string describe(Attached state, const std::string& message)

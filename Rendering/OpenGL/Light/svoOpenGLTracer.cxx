@@ -227,7 +227,9 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
       : "OpenGL shaders have no room for rays to so many lights";
     if (!whyNot.empty())
     {
-      this->Code.complaint = whyNot + "; shadow maps are traced on the CPU instead.";
+      this->Code.complaint = whyNot +
+        (lights > 0 ? "; shadow maps are traced on the CPU instead."
+                    : "; octrees are traced on the CPU instead.");
     }
   }
   this->Answers = asked && this->Code.complaint.empty();

@@ -72,7 +72,7 @@ struct CollectedActor
   const CollectProps& frame;
   bool quiet = false;             // there are no messages about it
   bool traceable = false;         // on the CPU, as far as that does not depend on its surfaces
-  bool planes = false;            // all of it are surfaces without triangles, and it is the prop
+  bool planes = false;            // OpenGL traces it: it is the prop, and all of it are planes
   Reason beyond = nullptr;        // why it can only cast
   glm::dmat4 localToWorld{ 1.0 }; // fit for tracing
 
