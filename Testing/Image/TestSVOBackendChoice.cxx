@@ -119,7 +119,7 @@ void traceWithoutTriangles(Checks& checks)
   stage.renderer->RemoveActor(actor);
   vtkNew<vtkAssembly> assembly;
   assembly->AddPart(actor);
-  assembly->AddPart(stage.add(ball(0.2, 1.0, 1.0, 1.5), 0.2, 0.8, 0.3));
+  assembly->AddPart(stage.add(ball(0.2, 1.0, 1.0, 1.5), 0.2, 0.8, 0.3)); // drawn by itself, too
   stage.renderer->AddActor(assembly);
   stage.expect(OnGPU::BACKEND_CPU, "an image's surface in an assembly", checks);
   stage.gpu->SetBackendToAuto();

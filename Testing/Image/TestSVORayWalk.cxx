@@ -315,7 +315,7 @@ void compare(vtkOpenGLRenderWindow* window, const std::string& name, const glm::
       {
         drawFragments(window, Across, inputs, receivers.declarations(),
           facet +
-            "  gl_FragData[0] = svoPlaceOf(position, vec3(0.0));\n"
+            "  gl_FragData[0] = svoPlaceOf(position, vec3(0.0), 0.0);\n"
             "  gl_FragData[1] = svoPlanesOf(facet, facet);\n",
           prepare);
       });

@@ -131,6 +131,7 @@ RayRates measureRays(vtkOpenGLRenderWindow* window, const ParallelFor& parallelF
   rates.cpu =
     rateOf(1.0, [&](int height) { cpu->render(scene, viewOf(height), settings, parallelFor); });
 
+  scene.instances[0].visible = false; // VTK draws it
   settings.lightCode = true;
   const std::unique_ptr<Tracer> tracer = makeOpenGLTracer(makeCPUTracer());
   tracer->render(scene, viewOf(Heights[0]), settings, parallelFor);

@@ -40,13 +40,13 @@ struct svoEnds
   float reach;
   float doubtful;
 };
-bool svoDoubted; // a ray has met one that is not
+bool svoDoubted = false; // a ray has met one that is not
 
 // What a ray has met: the plane, and how far along the ray, or while svoNearest is true, where a walk
 // goes on to the first one, the triangle and the weights of its corners.
 bool svoNearest = false;
 uint svoHit;
-float svoHitAt;
+float svoHitAt = 0.0;
 vec3 svoWeights;
 
 // Unit vectors as an octahedron's surface (Cigolle et al. 2014, "A Survey of Efficient Representations

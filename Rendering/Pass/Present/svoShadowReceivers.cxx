@@ -139,6 +139,10 @@ std::string ShadowReceivers::signature() const
 
 void ShadowReceivers::markShader(std::string& fragmentShader)
 {
+  if (fragmentShader.find(DeclarationMark) != std::string::npos)
+  {
+    return; // of a prop that carries the pass twice: it is also a part of another one
+  }
   vtkShaderProgram::Substitute(
     fragmentShader, "//VTK::Light::Dec", std::string(DeclarationMark) + "//VTK::Light::Dec", false);
   vtkShaderProgram::Substitute(fragmentShader, "//VTK::Light::Impl",
@@ -154,7 +158,7 @@ void ShadowReceivers::completeShader(
   std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const
 {
   const std::size_t main = fragmentShader.find("void main()");
-  if (main == std::string::npos)
+  if (main == std::string::npos || fragmentShader.find(DeclarationMark) == std::string::npos)
   {
     return;
   }
