@@ -1,13 +1,16 @@
 // Other tracers than ours behind the pass: they know the tracer's face (svoTracer.h), and whatever
 // pictures and shadow maps they give are what the window shows, be they in arrays or on the GPU.
 #include "../Unit/svoTestMessages.h"
+#include "svoImageCases.h"
 #include "svoTestStage.h"
 
 #include "svoBufferTexture.h"
+#include "svoEyeCode.h"
 #include "svoLightCode.h"
 #include "svoOpenGLTracer.h"
 #include "svoTracer.h"
 
+#include "vtkImageToSVO.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkProperty.h"
@@ -191,7 +194,7 @@ vtkOpenGLRenderWindow* OnGPU::Window = nullptr;
 int OnGPU::Released = 0;
 std::size_t OnGPU::Sent = 0;
 
-/// OpenGL's, with light code that OpenGL does not compile.
+/// OpenGL's, with code that OpenGL does not compile.
 class Misspelt : public Altered
 {
 public:
@@ -206,18 +209,23 @@ public:
     this->Picture = this->Ours->frame();
     this->Maps = this->Ours->shadowMaps();
     this->Code = this->Ours->lightCode();
-    this->Code.text = "float svoLeft(misspelt\n";
+    this->Eye = this->Ours->eyeCode();
+    (InEye ? this->Eye.text : this->Code.text) = "float svoLeft(misspelt\n";
     Asked += !this->Code.empty();
   }
   const svo::LightCode& lightCode() const override { return this->Code; }
+  const svo::EyeCode& eyeCode() const override { return this->Eye; }
   void releaseGraphicsResources() override { this->Ours->releaseGraphicsResources(); }
 
   static int Asked;
+  static bool InEye; // that is misspelt
 
 private:
   svo::LightCode Code;
+  svo::EyeCode Eye;
 };
 int Misspelt::Asked = 0;
+bool Misspelt::InEye = false;
 
 template <class T>
 class PassOf : public vtkSVORenderPass
@@ -264,13 +272,23 @@ void compareOnGPU(Checks& checks)
   checks.expect(OnGPU::Released == 2, "and with the pass");
 }
 
-/// Light code that is refused: the CPU's maps take its place, and that is said once.
-void compareRefused(Checks& checks)
+/// Code that is refused, for lights or for the eye: the CPU takes its place, and that is said once.
+void compareRefused(bool inEye, Checks& checks)
 {
+  Misspelt::Asked = 0;
+  Misspelt::InEye = inEye;
   Stage stage(200, 150);
   stage.add(ball(0.4, -0.5, 0.2, 0.6), 0.9, 0.3, 0.2);
   stage.addGround(2.0);
   stage.addSun(2.0, -1.5, 3.0);
+  if (inEye)
+  {
+    const ImageCase image = distanceCase();
+    vtkNew<vtkImageToSVO> surface;
+    surface->SetInputData(image.image);
+    surface->SetValue(0, image.value);
+    stage.add(surface, 0.9, 0.5, 0.3)->SetPosition(0.3, 0.0, 1.2);
+  }
   stage.pass->SetBackendToOpenGL();
   const Picture lit = stage.unshadowed();
   const Picture expected = stage.shadowedByBuffers();
@@ -319,6 +337,7 @@ int TestSVOOtherTracer(int, char*[])
   checks.expect(Wall::Level == 3, "the octree is as deep as it said");
 
   compareOnGPU(checks);
-  compareRefused(checks);
+  compareRefused(false, checks);
+  compareRefused(true, checks);
   return checks.exitCode();
 }

@@ -2,6 +2,7 @@
 
 #include "svoMaskLookup.h"
 #include "svoOpenGL.h"
+#include "svoProgram.h"
 #include "svoShadowMaskShader.h"
 #include "svoUniforms.h"
 
@@ -74,25 +75,6 @@ std::size_t bytesOf(int width, int height, int layers)
   return static_cast<std::size_t>(width) * height * (16 + 8 + 4 + 4 * layers);
 }
 
-/// Adds a shader to a program. What OpenGL has against it, else empty.
-std::string compile(GLuint program, GLenum kind, const std::string& text)
-{
-  const GLuint shader = glCreateShader(kind);
-  const char* source = text.c_str();
-  glShaderSource(shader, 1, &source, nullptr);
-  glCompileShader(shader);
-  GLint done = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
-  char words[256] = "";
-  if (!done)
-  {
-    glGetShaderInfoLog(shader, sizeof(words), nullptr, words);
-  }
-  glAttachShader(program, shader);
-  glDeleteShader(shader); // with the program
-  return words;
-}
-
 /// Textures of a program, bound while it runs.
 class Bound
 {
@@ -128,14 +110,6 @@ private:
   GLuint Program;
   std::vector<std::pair<int, GLenum>> Units;
 };
-
-/// A shader of all pixels has no vertices of its own.
-constexpr char AllPixels[] = "#version 150\n"
-                             "void main()\n"
-                             "{\n"
-                             "  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0,\n"
-                             "    gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
-                             "}\n";
 }
 
 const LightCode& ShadowMask::lookUp(
@@ -297,34 +271,25 @@ bool ShadowMask::link(const LightCode& asked)
     (this->Computes ? "#version 430\n#define svoComputes\n" : "#version 150\n") + asked.constants +
     asked.text + svoShadowMaskShader;
   glDeleteProgram(this->Program);
-  this->Program = glCreateProgram();
   std::string words;
+  this->Refusal.clear();
 #ifdef GL_COMPUTE_SHADER
   if (this->Computes)
   {
-    words = compile(this->Program, GL_COMPUTE_SHADER, text);
+    this->Program = linkProgram({ { GL_COMPUTE_SHADER, text } }, words);
   }
   else
 #endif
   {
-    words = compile(this->Program, GL_VERTEX_SHADER, AllPixels) +
-      compile(this->Program, GL_FRAGMENT_SHADER, text);
+    this->Program =
+      linkProgram({ { GL_VERTEX_SHADER, AllPixels }, { GL_FRAGMENT_SHADER, text } }, words);
   }
-  GLint linked = 0;
-  glLinkProgram(this->Program);
-  glGetProgramiv(this->Program, GL_LINK_STATUS, &linked);
-  this->Refusal.clear();
-  if (!linked)
+  if (this->Program == 0)
   {
-    char why[256] = "";
-    glGetProgramInfoLog(this->Program, sizeof(why), nullptr, why);
-    words = words.empty() ? why : words;
-    glDeleteProgram(this->Program);
-    this->Program = 0;
-    this->Refusal = "OpenGL refuses the shader of rays to lights (" +
-      words.substr(0, words.find('\n')) + "); shadow maps are traced on the CPU instead.";
+    this->Refusal = "OpenGL refuses the shader of rays to lights (" + words +
+      "); shadow maps are traced on the CPU instead.";
   }
-  return linked != 0;
+  return this->Program != 0;
 }
 
 /// Has textures and framebuffers of a size. False, and nothing is there, if OpenGL refuses, or if

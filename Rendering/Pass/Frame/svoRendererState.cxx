@@ -189,7 +189,7 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   {
     this->Trace->releaseLayers();
     this->Maps.release();
-    this->Boxes.release();
+    this->Boxes.clear();
     this->Receivers.update(
       window, this->Maps.code(), settings.shadowIntensity, this->Collected.shadowCatchers);
     return;
@@ -204,9 +204,11 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   settings.writeNames = false;
   this->Presenter->Enter(window);
   const bool wantsCode = settings.lightCode;
-  settings.lightCode = wantsCode && this->Mask.refusal().empty();
+  const auto refusal = [this]
+  { return this->Mask.refusal().empty() ? this->Boxes.refusal() : this->Mask.refusal(); };
+  settings.lightCode = wantsCode && refusal().empty();
   this->Trace->render(scene, view, settings, smpParallelFor());
-  if (!this->Mask.accepts(this->Trace->lightCode()))
+  if (!this->Mask.accepts(this->Trace->lightCode()) || !this->Boxes.accepts(this->Trace->eyeCode()))
   {
     settings.lightCode = false;
     this->Trace->render(scene, view, settings, smpParallelFor());
@@ -215,7 +217,7 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   this->Statistics.coarseOctreeError = pace.distance * this->Statistics.tracer.coarsestVoxel;
   this->Boxes.update(window, this->Trace->eyeCode(), scene, this->Collected.props);
   const LightCode& code = this->Trace->lightCode();
-  this->Complaint = wantsCode && !settings.lightCode ? this->Mask.refusal() : code.complaint;
+  this->Complaint = wantsCode && !settings.lightCode ? refusal() : code.complaint;
   const std::string missing = this->Maps.update(
     this->Trace->shadowMaps(), scene.lights, view, settings, this->Trace->mapTexture());
   this->Complaint = this->Complaint.empty() ? missing : this->Complaint;

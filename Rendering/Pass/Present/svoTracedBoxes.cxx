@@ -1,5 +1,7 @@
 #include "svoTracedBoxes.h"
 
+#include "svoOpenGL.h"
+#include "svoProgram.h"
 #include "vtkSVOBoxMapper.h"
 
 #include "vtkActor.h"
@@ -77,6 +79,37 @@ void setMaterial(vtkProperty* property, const Material& material, bool colored)
 }
 }
 
+bool TracedBoxes::accepts(const EyeCode& code)
+{
+  if (code.surfaces.empty())
+  {
+    return true;
+  }
+  if (code.constants != this->Constants)
+  {
+    this->Constants = code.constants;
+    std::string words;
+    const unsigned int program =
+      linkProgram({ { GL_VERTEX_SHADER, AllPixels },
+                    { GL_FRAGMENT_SHADER,
+                      "#version 150\n" + code.constants + code.text +
+                        "out vec4 color;\n"
+                        "void main()\n"
+                        "{\n"
+                        "  svoSeen seen;\n"
+                        "  bool found = svoSees(gl_FragCoord.xyz, gl_FragCoord.xyz, seen);\n"
+                        "  color = found ? vec4(seen.normal + seen.color, "
+                        "svoDepthOf(seen.position)) : vec4(0.0);\n"
+                        "}\n" } },
+        words);
+    glDeleteProgram(program);
+    this->Refusal = program != 0 ? ""
+                                 : "OpenGL refuses the shader that traces surfaces (" + words +
+        "); octrees are traced on the CPU instead.";
+  }
+  return this->Refusal.empty();
+}
+
 void TracedBoxes::update(vtkOpenGLRenderWindow* window, const EyeCode& code, const Scene& scene,
   const std::vector<vtkProp*>& props)
 {
@@ -112,11 +145,18 @@ void TracedBoxes::draw(vtkViewport* viewport)
   this->Textures.deactivate();
 }
 
-void TracedBoxes::release()
+void TracedBoxes::clear()
 {
   this->Count = 0;
   this->Props.clear();
   this->Textures.release();
+}
+
+void TracedBoxes::release()
+{
+  this->clear();
+  this->Constants.clear();
+  this->Refusal.clear();
 }
 
 void TracedBoxes::releaseGraphicsResources(vtkWindow* window)

@@ -8,6 +8,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <string>
 #include <vector>
 
 class vtkActor;
@@ -21,10 +22,17 @@ namespace svo
 class TracedBoxes
 {
 public:
+  /// True if OpenGL compiles the code, or there is nothing to draw. Else why not stands in
+  /// refusal(), a sentence, until release(): VTK's shaders with it would fail.
+  bool accepts(const EyeCode& code);
+  const std::string& refusal() const { return this->Refusal; }
+
   /// For a frame: code that lives until the next call or release(), its scene, and the prop of each
   /// instance, with whose keys its box is drawn.
   void update(vtkOpenGLRenderWindow* window, const EyeCode& code, const Scene& scene,
     const std::vector<vtkProp*>& props);
+  /// Has nothing to draw.
+  void clear();
   void release();
   void releaseGraphicsResources(vtkWindow* window);
 
@@ -36,6 +44,7 @@ private:
   std::vector<vtkProp*> Props; // of these
   std::vector<vtkSmartPointer<vtkActor>> Actors;
   BorrowedTextures Textures;
+  std::string Constants, Refusal; // of the code that was tried last, and of it
 };
 }
 
