@@ -250,11 +250,13 @@ vtksvo_setting(Backend choice BACKEND_AUTO
   PANEL advanced
   SAYS
     "Where the picture is made. CPU: octrees are traced on the processor. OpenGL: VTK draws all surfaces itself, and with
-     ShadowRays or Automatic its shaders follow exact rays through the octrees to each light. Auto: OpenGL on a GPU that
-     answers rays as fast as the CPU; else, and where surfaces without triangles are traced or there are several processes,
-     the CPU."
+     ShadowRays or Automatic its shaders follow exact rays through the octrees to each light. Surfaces without triangles are
+     traced by its shaders, or with ShadowBuffer on the processor. Auto: OpenGL on a GPU that answers rays as fast as the
+     CPU; else, and where there are several processes, the CPU."
   MORE
-    "Auto measures once for each OpenGL context, in its first frame; software OpenGL takes the CPU without that.
+    "Auto measures once for each OpenGL context, in its first frame; software OpenGL takes the CPU without that, and so do
+     scenes in which VTK would show a contour of surfaces without triangles: of voxels that are cubes, of copies of glyphs, and of
+     those that share a prop with meshes. OpenGL knows no PixelError of them: it always stops at the octree's voxels.
      `GetActiveBackend()` says what the last frame took. The rule has been tried on software OpenGL only.")
 
 vtksvo_setting(GPUMemoryLimit memory 2097152
