@@ -216,7 +216,7 @@ void compareChanges(Checks& checks)
     change();
     compare(std::string("changes: ") + name, stage, 2, checks);
   }
-  sphere->VisibilityOff();
+  ring->VisibilityOff(); // another one is the first
   compare("changes: one is hidden", stage, 1, checks);
 }
 

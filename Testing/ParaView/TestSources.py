@@ -72,6 +72,14 @@ class ImplicitFunctions(Traced):
         black = picture[..., :3].max(axis=2) < 10
         self.assertGreater((dark & sure).sum(), 1000)
         self.assertEqual(((black != dark) & sure).sum(), 0)
+        # OpenGL's shaders trace it as well.
+        self.view.SVOShadowTechnique = "Shadow Rays"
+        rays = self.picture("sphere-rays")
+        self.view.SVOBackend = "OpenGL"
+        drawn = self.picture("sphere-opengl")
+        self.assertEqual(self.traced, 1)  # the ground is rasterised
+        self.assertLess(scene.differing(rays, drawn), 4e-4)
+        self.view.SVOBackend, self.view.SVOShadowTechnique = "CPU", "Shadow Buffer"
         # And as the mesh is shaded.
         pv.Hide(ball, self.view)
         scene.show(scene.make_ball(), self.view)

@@ -1,8 +1,8 @@
 // What a line of sight sees of an octree of planes (svoEyeCode.h), by the rules of
-// svoSurfacePoint.h and svoVoxelLook.cxx. svoOctreeWalk.glsl comes before it, and svoHasColors: whether some planes have colours.
+// svoSurfacePoint.h and svoVoxelLook.cxx. svoOctreeWalk.glsl comes before it, and the constant
+// svoHasColors: whether some planes have colours.
 uniform mat4 svoViewToClip;
-uniform mat4 svoBoxToView; // its box has its middle at 0, and edges of 1
-uniform mat4 svoViewToBox; // of directions
+uniform mat4 svoViewToBox; // of directions; the octree's cube has its middle at 0, and edges of 1
 uniform mat4 svoNormalToView;
 uniform vec4 svoCentre; // view coordinates: where lines of sight begin, 1; or their direction, 0
 uniform float svoNear;  // depth of the near plane
@@ -25,11 +25,6 @@ struct svoSeen
   vec3 normal;
   vec3 color;
 };
-
-vec4 svoViewOf(vec3 corner)
-{
-  return svoBoxToView * vec4(corner, 1.0);
-}
 
 float svoDepthOf(vec3 position)
 {

@@ -15,17 +15,17 @@ namespace svo
 {
 struct EyeCode
 {
-  /// GLSL 1.50 that stands before main(): constants, which may differ from frame to frame, and what
-  /// never does. May stand beside LightCode's. The text has
+  /// GLSL 1.50 that stands before a fragment shader's main(): constants, which may differ from frame
+  /// to frame, and what never does. It may stand beside LightCode's. The text has
   ///
-  ///   vec4 svoViewOf(vec3 corner)
+  ///   struct svoSeen { vec3 position, facet, normal, color; };
   ///   bool svoSees(vec3 end, vec3 viewEnd, out svoSeen seen)
   ///   float svoDepthOf(vec3 position)
   ///
-  /// and `svoSeen` the position, the facet's unit normal and that for shading, both towards the
-  /// viewer, and a colour: in view coordinates, and 0..1. svoViewOf() takes the coordinates of a
-  /// surface's box to the view's; `end` and `viewEnd` is where a line of sight leaves the box, in
-  /// both; svoDepthOf() is the window depth of a position. With the uniform matrix svoViewToClip.
+  /// What the line of sight meets that leaves a surface's box at `end`, in the box's coordinates, and
+  /// at `viewEnd`, in the view's: a position, the unit normals of its own plane and for shading, both
+  /// towards the viewer, in view coordinates; a colour, 0..1. The window depth of a position.
+  /// Corners of the box go through the uniform matrices svoBoxToView and svoViewToClip.
   std::string constants;
   const char* text = "";
 
@@ -33,7 +33,7 @@ struct EyeCode
   {
     std::size_t instance; // of Scene::instances
     glm::vec3 low, high;  // its box
-    bool turned;          // corners that are wound to the left in the box are so in the window
+    bool turned;          // what is wound to the left in the box is not so in the window
     bool colored;         // the seen colour takes the place of the material's
     ShaderValues values;
   };
