@@ -261,7 +261,7 @@ void RendererState::findLight(const vtkRenderState& drawn)
           prop->RenderOpaqueGeometry(this->Renderer);
         }
       }
-      this->Boxes.draw(this->Renderer);
+      this->Boxes.draw(this->Renderer, &this->Collected.receivers);
     });
   this->Receivers.setGathers(false);
 }

@@ -135,10 +135,14 @@ void TracedBoxes::update(vtkOpenGLRenderWindow* window, const EyeCode& code, con
   }
 }
 
-void TracedBoxes::draw(vtkViewport* viewport)
+void TracedBoxes::draw(vtkViewport* viewport, const std::set<vtkProp*>* only)
 {
   for (std::size_t i = 0; i < this->Count; ++i)
   {
+    if (only && only->count(this->Props[i]) == 0)
+    {
+      continue;
+    }
     this->Actors[i]->SetPropertyKeys(this->Props[i]->GetPropertyKeys());
     this->Actors[i]->RenderOpaqueGeometry(viewport);
   }

@@ -8,6 +8,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,8 @@ public:
   void releaseGraphicsResources(vtkWindow* window);
 
   bool empty() const { return this->Count == 0; }
-  void draw(vtkViewport* viewport);
+  /// With `only`, those of these props.
+  void draw(vtkViewport* viewport, const std::set<vtkProp*>* only = nullptr);
 
 private:
   std::size_t Count = 0;
