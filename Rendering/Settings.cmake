@@ -255,8 +255,8 @@ vtksvo_setting(Backend choice BACKEND_AUTO
      CPU; else, and where there are several processes, the CPU."
   MORE
     "Auto measures once for each OpenGL context, in its first frame; software OpenGL takes the CPU without that, and so do
-     scenes in which VTK would show a contour of surfaces without triangles: of voxels that are cubes, of copies of glyphs, and of
-     those that share a prop with meshes. OpenGL knows no PixelError of them: it always stops at the octree's voxels.
+     scenes in which VTK would show a contour of surfaces without triangles: of copies of glyphs, and of those that share
+     a prop with meshes. OpenGL knows no PixelError of them: it always stops at the octree's voxels.
      `GetActiveBackend()` says what the last frame took. The rule has been tried on software OpenGL only.")
 
 vtksvo_setting(GPUMemoryLimit memory 2097152

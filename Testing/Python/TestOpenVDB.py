@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 import vtksvo
-from backend import OPENGL, new_pass
+from backend import new_pass
 from vtkmodules.vtkCommonCore import reference
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
@@ -195,7 +195,6 @@ class OpenVDB(unittest.TestCase):
         self.assertGreater(len(set(pictures[1])), 20)
         self.assertLess(differing, 0.01 * len(pictures[0]))
 
-    @unittest.skipIf(OPENGL, "the rasteriser draws a contour")
     def test_voxels_are_shaded_as_cubes(self):
         """As VTK's rasteriser draws the same cubes, faces and all."""
         self.write()

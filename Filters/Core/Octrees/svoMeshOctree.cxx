@@ -268,14 +268,12 @@ Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& mess
   }
 }
 
-std::optional<LeafGeometry> planesOf(vtkPolyData* mesh)
+bool carriesPlanes(vtkPolyData* mesh)
 {
   Octree octree;
   std::string message;
-  const bool carries = mesh->GetFieldData()->HasArray(OctreeArrayName) &&
+  return mesh->GetFieldData()->HasArray(OctreeArrayName) &&
     openAttachedOctree(mesh, octree, message) == Attached::Found && octree.hasPlanes();
-  return carries ? std::optional(static_cast<LeafGeometry>(octree.header().leafGeometry))
-                 : std::nullopt;
 }
 
 std::string describe(Attached state, const std::string& message)

@@ -12,7 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 
 class vtkPolyData;
@@ -77,9 +76,9 @@ enum class Attached
 VTKSVOCORE_EXPORT Attached openAttachedOctree(
   vtkPolyData* mesh, Octree& octree, std::string& message);
 
-/// Of a mesh that carries an octree of a surface that is no mesh, so that its polygons are not the
-/// surface: how the octree's leaves are met. None: it carries no such octree.
-VTKSVOCORE_EXPORT std::optional<LeafGeometry> planesOf(vtkPolyData* mesh);
+/// True if the mesh carries an octree of a surface that is no mesh: its polygons are not the
+/// surface.
+VTKSVOCORE_EXPORT bool carriesPlanes(vtkPolyData* mesh);
 
 /// A sentence for users about why there is no octree to open; empty if it was found.
 VTKSVOCORE_EXPORT std::string describe(Attached state, const std::string& message);

@@ -91,6 +91,16 @@ void svoBlend(vec3 at, vec3 own, bool colored, inout vec3 normal, inout vec3 col
   color = colored && weights > 1e-6 ? colors / weights : color;
 }
 
+// The normal of the face of a cube that a point is on, of those that face the viewer (faceOfVoxel()).
+vec3 svoFaceAt(vec3 at, vec3 way)
+{
+  vec3 place = (at - 1.0) * float(1 << (2 * svoDepths));
+  vec3 beside = abs(place - round(place));
+  return beside.x <= beside.y && beside.x <= beside.z ? vec3(way.x > 0.0 ? -1.0 : 1.0, 0.0, 0.0)
+    : beside.y <= beside.z                            ? vec3(0.0, way.y > 0.0 ? -1.0 : 1.0, 0.0)
+                                                      : vec3(0.0, 0.0, way.z > 0.0 ? -1.0 : 1.0);
+}
+
 bool svoSees(vec3 end, vec3 viewEnd, out svoSeen seen)
 {
   bool colored = svoHasColors && svoColored > 0.0;
@@ -105,7 +115,9 @@ bool svoSees(vec3 end, vec3 viewEnd, out svoSeen seen)
   {
     return false;
   }
-  vec3 own = svoNormalOf(texelFetch(svoLists, int(svoHit)).r);
+  bool cubes = ends.reach < 0.0;
+  vec3 own = cubes ? svoFaceAt(from + svoHitAt * way, way)
+                   : svoNormalOf(texelFetch(svoLists, int(svoHit)).r);
   vec3 towards = -normalize(viewWay);
   vec3 outwards = normalize(mat3(svoNormalToView) * own);
   float side = dot(outwards, towards) < 0.0 ? -1.0 : 1.0;
@@ -113,7 +125,7 @@ bool svoSees(vec3 end, vec3 viewEnd, out svoSeen seen)
   seen.facet = side * outwards;
   seen.normal = seen.facet;
   seen.color = colored ? svoColorOf(svoHit) : vec3(1.0);
-  if (svoFlat <= 0.0)
+  if (svoFlat <= 0.0 && !cubes)
   {
     vec3 normal = own;
     svoBlend(from + svoHitAt * way, own, colored, normal, seen.color);

@@ -6,6 +6,7 @@
 #include "svoOctreeArena.h"
 #include "svoOctreeWalk.h"
 #include "svoSurfacePoint.h"
+#include "svoWalkReach.h"
 #include "svoWorldToOctree.h"
 
 #include <algorithm>
@@ -48,10 +49,7 @@ ShaderValues::Floats vectorOf(const char* name, const glm::dvec3& v, double last
 
 std::string SeenSurfaces::refusal(const Instance& instance)
 {
-  const Body& body = *instance.body;
-  return body.octree.hasPlanes() && body.leafGeometry != LeafGeometry::Voxel
-    ? ""
-    : "OpenGL shaders trace nothing but planes";
+  return instance.body->octree.hasPlanes() ? "" : "OpenGL shaders trace nothing but planes";
 }
 
 bool SeenSurfaces::place(const Scene& scene, const std::vector<std::size_t>& seen)
@@ -148,7 +146,7 @@ void SeenSurfaces::describe(const Scene& scene, const View& view, const OctreeAr
     surface.values.floats = { matrixOf("svoBoxToView", view.worldToView * boxToWorld),
       matrixOf("svoViewToBox", glm::dmat4(toBox)),
       matrixOf("svoNormalToView", glm::dmat4(turned * glm::dmat3(matrices.normalMatrix))),
-      vectorOf("svoSeenLow", query.low, 0.5 * query.ownReach),
+      vectorOf("svoSeenLow", query.low, walkReach(instance)),
       vectorOf("svoSeenHigh", query.high, 0.0),
       { "svoColored", 1, { surface.colored ? 1.0f : 0.0f } },
       { "svoFlat", 1, { instance.material.flatPlanes ? 1.0f : 0.0f } },

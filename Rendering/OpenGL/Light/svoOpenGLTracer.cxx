@@ -10,6 +10,7 @@
 #include "svoRayWalk.h"
 #include "svoSeenSurfaces.h"
 #include "svoTerminator.h"
+#include "svoWalkReach.h"
 #include "svoWorldToOctree.h"
 
 #include <algorithm>
@@ -401,7 +402,7 @@ bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
     if (octree.hasPlanes())
     {
       const LeafQuery query(octree, { LeafGeometry::Plane, MaximumLevel });
-      record.low = glm::vec4(glm::vec3(query.low), 0.5 * query.ownReach);
+      record.low = glm::vec4(glm::vec3(query.low), walkReach(*caster));
       record.high = glm::vec4(glm::vec3(query.high), AboveContour);
       this->Planes = true;
     }

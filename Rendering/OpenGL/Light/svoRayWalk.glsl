@@ -6,7 +6,7 @@
 // svoFirstCaster on, six texels a caster: the rows of the matrix that takes view coordinates to octree
 // coordinates; (root / 4096, root % 4096, depths, opacity, or -1 - n: what follows from 8 n on in
 // svoAlphas; svoCasterAlphas.h); and of octrees of planes (lower corner of
-// what they show, how far planes are seen from a voxel's centre), (upper corner, how far planes may lie
+// what they show, svoEnds::reach), (upper corner, how far planes may lie
 // over what VTK draws in their place), octree coordinates and voxels. Boxes are in a frame of their own, svoViewToTree.
 //
 // svoOctreeWalk.glsl comes before it, and the constants svoLightCount and svoDoubtfulSine.

@@ -32,7 +32,8 @@ struct svoRay
 };
 
 // Where the planes of an octree are seen: in which box, octree coordinates, and how far from their
-// voxels' centres, voxels; and before which end of a ray they are not believed.
+// voxels' centres, voxels, or below 0, that voxels are cubes instead; and before which end of a ray they
+// are not believed.
 struct svoEnds
 {
   vec3 low;
@@ -142,6 +143,15 @@ bool svoMeetsPlane(
   return met;
 }
 
+// The same of a voxel that is a cube, where the ray enters it.
+bool svoMeetsCube(float entered, uint number, svoEnds ends)
+{
+  svoHit = number;
+  svoHitAt = entered;
+  svoDoubted = svoDoubted || entered < ends.doubtful;
+  return entered >= ends.doubtful;
+}
+
 // The number of a node's child by its place among 4x4x4, in Morton order: z y x z y x from the highest bit.
 int svoNumberOf(ivec3 cell)
 {
@@ -209,6 +219,7 @@ bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths, svoEn
   {
     return svoMeetsAny(ray, record.w);
   }
+  float entered = 0.0; // the cell
   for (int step = 0; step < svoMostSteps; ++step)
   {
     int shift = bits - 2 - 2 * depth;
@@ -227,8 +238,9 @@ bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths, svoEn
         record = below;
         continue;
       }
-      if (plane ? svoMeetsPlane(ray, start, speed, place, child, ends, cells)
-                : svoMeetsAny(ray, below.w))
+      if (!plane           ? svoMeetsAny(ray, below.w)
+          : ends.reach < 0.0 ? svoMeetsCube(entered, child, ends)
+                             : svoMeetsPlane(ray, start, speed, place, child, ends, cells))
       {
         svoHitAt += first;
         return true;
@@ -258,6 +270,7 @@ bool svoMeetsOctree(vec3 from, vec3 way, float end, uint root, int depths, svoEn
     ivec3 changed = next ^ place;
     int differs = changed.x | changed.y | changed.z;
     place = next;
+    entered = t;
     int above = depth;
     while (above > 0 && (differs >> (bits - 2 * above)) != 0)
     {

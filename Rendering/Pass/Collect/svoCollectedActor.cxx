@@ -72,7 +72,7 @@ bool CollectedActor::finish(const SurfacePart& part, Reason reason, SceneSurface
   Instance& instance = surface.instance;
   surface.traceable = !reason;
   this->found.planes =
-    this->found.planes || (this->traceable && !this->planes && planesOf(part.mesh));
+    this->found.planes || (this->traceable && !this->planes && carriesPlanes(part.mesh));
   if (surface.traceable)
   {
     surface.mesh = part.mesh;

@@ -279,8 +279,7 @@ void PropCollector::collectActor(
     parts = this->partsOf(actor, found.kept);
     of.planes = actor == owner && !parts.empty() &&
       std::all_of(parts.begin(), parts.end(),
-        [](const SurfacePart& part)
-        { return planesOf(part.mesh).value_or(LeafGeometry::Voxel) != LeafGeometry::Voxel; });
+        [](const SurfacePart& part) { return carriesPlanes(part.mesh); });
   }
   if (of.traceable && frame.onlyCast && !of.planes)
   {

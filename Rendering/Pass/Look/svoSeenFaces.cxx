@@ -61,7 +61,7 @@ std::vector<bool> frontFaces(vtkPolyData* mesh, const glm::dmat4& localToWorld, 
 vtkPolyData* SeenFaces::of(
   vtkPolyData* mesh, vtkActor* actor, const glm::dmat4& localToWorld, const View& eye, Kept& kept)
 {
-  if (planesOf(mesh))
+  if (carriesPlanes(mesh))
   {
     return mesh;
   }

@@ -347,7 +347,7 @@ Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes, 
   }
   const bool ofMesh = attributes.colorCoordinates ||
     (attributes.colors && attributes.colorAssociation != Association::Leaf);
-  return ofMesh && planesOf(part.mesh)
+  return ofMesh && carriesPlanes(part.mesh)
     ? "is coloured by an array that the voxels of its octree have no values of"
     : nullptr;
 }

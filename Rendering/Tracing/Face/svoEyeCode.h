@@ -15,17 +15,17 @@ namespace svo
 {
 struct EyeCode
 {
-  /// GLSL 1.50 that stands before a fragment shader's main(): constants, which may differ from frame
-  /// to frame, and what never does. It may stand beside LightCode's. The text has
+  /// GLSL 1.50 that stands before a fragment shader's main(): constants, which may differ from
+  /// frame to frame, and what never does. It may stand beside LightCode's. The text has
   ///
   ///   struct svoSeen { vec3 position, facet, normal, color; };
   ///   bool svoSees(vec3 end, vec3 viewEnd, out svoSeen seen)
   ///   float svoDepthOf(vec3 position)
   ///
-  /// What the line of sight meets that leaves a surface's box at `end`, in the box's coordinates, and
-  /// at `viewEnd`, in the view's: a position, the unit normals of its own plane and for shading, both
-  /// towards the viewer, in view coordinates; a colour, 0..1. The window depth of a position.
-  /// Corners of the box go through the uniform matrices svoBoxToView and svoViewToClip.
+  /// What the line of sight meets that leaves a surface's box at `end`, in the box's coordinates,
+  /// and at `viewEnd`, in the view's: a position, the unit normals of its own plane and for
+  /// shading, both towards the viewer, in view coordinates; a colour, 0..1. The window depth of a
+  /// position. Corners of the box go through the uniform matrices svoBoxToView and svoViewToClip.
   std::string constants;
   const char* text = "";
 
