@@ -18,6 +18,7 @@
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkSphere.h"
+#include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -220,6 +221,22 @@ void compareChanges(Checks& checks)
   compare("changes: one is hidden", stage, 1, checks);
 }
 
+/// Who lets go of the pass, and of its renderer, has freed it.
+void release(Checks& checks)
+{
+  vtkWeakPointer<vtkSVORenderPass> pass;
+  {
+    Stage stage;
+    stage.addGround();
+    addRing(stage, true);
+    stage.addSun(2.0, -1.5, 4.0);
+    stage.pass->SetBackendToOpenGL();
+    stage.shadowedByRays();
+    pass = stage.pass;
+  }
+  checks.expect(!pass, "the pass goes");
+}
+
 /// Where there is no room in OpenGL's memory the CPU traces the frame, and says so.
 void fallBack(Checks& checks)
 {
@@ -284,5 +301,6 @@ int TestSVOOpenGLEye(int, char*[])
   compareChanges(checks);
   compareElsewhere(checks);
   fallBack(checks);
+  release(checks);
   return checks.exitCode();
 }

@@ -2,7 +2,9 @@
 
 #include "svoOpenGL.h"
 #include "svoProgram.h"
+#include "svoPropPasses.h"
 #include "vtkSVOBoxMapper.h"
+#include "vtkSVOForwardingPass.h"
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"
@@ -12,6 +14,8 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
+
+#include <algorithm>
 
 #include <glm/vec3.hpp>
 
@@ -135,6 +139,32 @@ void TracedBoxes::update(vtkOpenGLRenderWindow* window, const EyeCode& code, con
   }
 }
 
+/// A prop's keys, with passes that stand for its own.
+vtkSmartPointer<vtkInformation> TracedBoxes::keysOf(vtkProp* prop)
+{
+  auto keys = vtkSmartPointer<vtkInformation>::New();
+  if (vtkInformation* own = prop->GetPropertyKeys())
+  {
+    keys->Copy(own);
+    keys->Remove(vtkOpenGLRenderPass::RenderPasses());
+  }
+  int count = 0;
+  eachPass(prop,
+    [&](vtkOpenGLRenderPass* pass)
+    {
+      auto known = std::find_if(this->Passes.begin(), this->Passes.end(),
+        [pass](const auto& one) { return one->Pass == pass; });
+      if (known == this->Passes.end())
+      {
+        known = this->Passes.insert(known, vtkSmartPointer<vtkSVOForwardingPass>::New());
+        (*known)->Pass = pass;
+      }
+      // Not Append(): what it adds has to be removed one by one, or is never freed.
+      keys->Set(vtkOpenGLRenderPass::RenderPasses(), *known, count++);
+    });
+  return keys;
+}
+
 void TracedBoxes::draw(vtkViewport* viewport, const std::set<vtkProp*>* only)
 {
   for (std::size_t i = 0; i < this->Count; ++i)
@@ -143,7 +173,7 @@ void TracedBoxes::draw(vtkViewport* viewport, const std::set<vtkProp*>* only)
     {
       continue;
     }
-    this->Actors[i]->SetPropertyKeys(this->Props[i]->GetPropertyKeys());
+    this->Actors[i]->SetPropertyKeys(this->keysOf(this->Props[i]));
     this->Actors[i]->RenderOpaqueGeometry(viewport);
   }
   this->Textures.deactivate();
@@ -159,6 +189,7 @@ void TracedBoxes::clear()
 void TracedBoxes::release()
 {
   this->clear();
+  this->Passes.clear();
   this->Constants.clear();
   this->Refusal.clear();
 }

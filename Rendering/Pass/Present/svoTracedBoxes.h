@@ -13,8 +13,10 @@
 #include <vector>
 
 class vtkActor;
+class vtkInformation;
 class vtkOpenGLRenderWindow;
 class vtkProp;
+class vtkSVOForwardingPass;
 class vtkViewport;
 class vtkWindow;
 
@@ -42,9 +44,12 @@ public:
   void draw(vtkViewport* viewport, const std::set<vtkProp*>* only = nullptr);
 
 private:
+  vtkSmartPointer<vtkInformation> keysOf(vtkProp* prop);
+
   std::size_t Count = 0;
   std::vector<vtkProp*> Props; // of these
   std::vector<vtkSmartPointer<vtkActor>> Actors;
+  std::vector<vtkSmartPointer<vtkSVOForwardingPass>> Passes; // that boxes were drawn with
   BorrowedTextures Textures;
   std::string Constants, Refusal; // of the code that was tried last, and of it
 };

@@ -4,17 +4,15 @@
 #include "svoOpenGL.h"
 #include "svoPresentFS.h"
 #include "svoPresentVS.h"
+#include "svoPropPasses.h"
 #include "svoTileRuns.h"
 
-#include "vtkInformation.h"
-#include "vtkInformationObjectBaseVectorKey.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLCamera.h"
 #include "vtkOpenGLError.h"
-#include "vtkOpenGLRenderPass.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
@@ -167,25 +165,6 @@ void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window, svo::DepthFormat cop
   silhouettes.exchange(frame); // back
 }
 
-namespace
-{
-/// Calls visit(pass) for the passes that a prop carries in this frame.
-template <class Visit>
-void eachPass(vtkProp* prop, const Visit& visit)
-{
-  vtkInformation* keys = prop->GetPropertyKeys();
-  vtkInformationObjectBaseVectorKey* passes = vtkOpenGLRenderPass::RenderPasses();
-  const int count = keys && keys->Has(passes) ? keys->Length(passes) : 0;
-  for (int i = 0; i < count; ++i)
-  {
-    if (auto* pass = vtkOpenGLRenderPass::SafeDownCast(keys->Get(passes, i)))
-    {
-      visit(pass);
-    }
-  }
-}
-}
-
 void vtkSVOPresenter::StandFor(vtkProp* prop)
 {
   this->SetPropertyKeys(nullptr);
@@ -194,7 +173,7 @@ void vtkSVOPresenter::StandFor(vtkProp* prop)
     vtkNew<vtkInformation> keys;
     int count = 0;
     // Not Append(): what it adds has to be removed one by one, or is never freed.
-    eachPass(prop,
+    svo::eachPass(prop,
       [&](vtkOpenGLRenderPass* pass)
       { keys->Set(vtkOpenGLRenderPass::RenderPasses(), pass, count++); });
     this->SetPropertyKeys(keys);
@@ -204,7 +183,7 @@ void vtkSVOPresenter::StandFor(vtkProp* prop)
 bool vtkSVOPresenter::WantsNormals()
 {
   bool wants = false;
-  eachPass(
+  svo::eachPass(
     this, [&](vtkOpenGLRenderPass* pass) { wants = wants || vtkSSAOPass::SafeDownCast(pass); });
   return wants;
 }
@@ -230,7 +209,7 @@ bool vtkSVOPresenter::KeepsLight()
 
 void vtkSVOPresenter::SelectDrawBuffers(vtkShaderProgram* program)
 {
-  eachPass(this,
+  svo::eachPass(this,
     [&](vtkOpenGLRenderPass* pass)
     {
       if (pass != this->Pass)

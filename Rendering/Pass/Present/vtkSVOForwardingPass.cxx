@@ -1,0 +1,5 @@
+#include "vtkSVOForwardingPass.h"
+
+#include "vtkObjectFactory.h"
+
+vtkStandardNewMacro(vtkSVOForwardingPass);
