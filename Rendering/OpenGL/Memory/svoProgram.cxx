@@ -4,13 +4,6 @@
 
 namespace svo
 {
-const char* const AllPixels = "#version 150\n"
-                              "void main()\n"
-                              "{\n"
-                              "  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0,\n"
-                              "    gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
-                              "}\n";
-
 unsigned int linkProgram(
   const std::vector<std::pair<unsigned int, std::string>>& shaders, std::string& words)
 {

@@ -16,7 +16,12 @@ VTKSVOOPENGL_EXPORT unsigned int linkProgram(
   const std::vector<std::pair<unsigned int, std::string>>& shaders, std::string& words);
 
 /// A vertex shader of GLSL 1.50 that covers all pixels with a triangle.
-extern VTKSVOOPENGL_EXPORT const char* const AllPixels;
+inline constexpr char AllPixels[] = "#version 150\n"
+                                    "void main()\n"
+                                    "{\n"
+                                    "  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0,\n"
+                                    "    gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
+                                    "}\n";
 }
 
 #endif
