@@ -75,7 +75,7 @@ bool vtkSVORenderPass::CollectFrame(
     collect.translucentShadows = this->TranslucentShadows;
     // Processes do not tell each other their casters' colours.
     collect.meanOpacity = impl.severalProcesses();
-    collect.onlyCast = frame.openGL;
+    collect.openGL = frame.openGL;
     const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
     collect.notMarked = notMarked.c_str();
     collect.said = &impl.said;

@@ -6,6 +6,7 @@
 #include "svoOctreeArena.h"
 #include "svoOctreeWalk.h"
 #include "svoSurfacePoint.h"
+#include "svoUniforms.h"
 #include "svoWalkReach.h"
 #include "svoWorldToOctree.h"
 
@@ -15,7 +16,6 @@
 #include <glm/common.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 namespace svo
@@ -28,17 +28,6 @@ const unsigned char* colorsOf(const Instance& instance)
   return attributes.colorAssociation == Association::Leaf ? attributes.colors : nullptr;
 }
 
-int inOne(const glm::vec2& number) // OctreeArena::rootOf()
-{
-  return 4096 * static_cast<int>(number.x) + static_cast<int>(number.y);
-}
-
-ShaderValues::Floats matrixOf(const char* name, const glm::dmat4& matrix)
-{
-  const glm::mat4 floats(matrix);
-  return { name, 16, { &floats[0][0], &floats[0][0] + 16 } };
-}
-
 ShaderValues::Floats vectorOf(const char* name, const glm::dvec3& v, double last)
 {
   return { name, 4,
@@ -47,17 +36,14 @@ ShaderValues::Floats vectorOf(const char* name, const glm::dvec3& v, double last
 }
 }
 
-std::string SeenSurfaces::refusal(const Instance& instance)
+SeenSurfaces::Key SeenSurfaces::keyOf(const Instance& instance)
 {
-  return instance.body->octree.hasPlanes() ? "" : "OpenGL shaders trace nothing but planes";
+  return Key(instance.body->octree.id(), instance.body->attributes.version, colorsOf(instance));
 }
 
 bool SeenSurfaces::place(const Scene& scene, const std::vector<std::size_t>& seen)
 {
   this->Seen = seen;
-  const auto keyOf = [](const Instance& instance) {
-    return Key(instance.body->octree.id(), instance.body->attributes.version, colorsOf(instance));
-  };
   std::map<Key, const Instance*> wanted;
   std::size_t size = 0;
   for (const std::size_t index : seen)
@@ -74,9 +60,9 @@ bool SeenSurfaces::place(const Scene& scene, const std::vector<std::size_t>& see
   {
     return true;
   }
-  this->release();
-  this->Seen = seen;
-  if (size > BufferTexture::most() || !this->Colors.allocate(size))
+  this->Colored.clear();
+  this->Colors.release();
+  if (size > BufferTexture::most() || (size > 0 && !this->Colors.allocate(size)))
   {
     return false;
   }
@@ -100,8 +86,6 @@ void SeenSurfaces::describe(const Scene& scene, const View& view, const OctreeAr
   code.constants =
     constants + "#define svoHasColors " + (this->Colors.size() > 0 ? "true\n" : "false\n");
   code.text = Text.c_str();
-  code.surfaces.clear();
-  code.values = {};
   code.values.textures = { { "svoNodes", arena.nodes().name() },
     { "svoLists", arena.lists().name() }, { "svoTriangles", arena.triangles().name() } };
   if (this->Colors.size() > 0)
@@ -134,14 +118,14 @@ void SeenSurfaces::describe(const Scene& scene, const View& view, const OctreeAr
     const glm::dmat3 toBox =
       matrices.toOctree.inverse * matrices.toOctree.scale * glm::transpose(turned);
     const auto error = worldLeafError(instance, LeafGeometry::Plane, octree.level());
-    surface.values.integers = { { "svoRoot", { inOne(arena.rootOf(octree)) } },
+    surface.values.integers = { { "svoRoot", { static_cast<int>(arena.rootOf(octree)) } },
       { "svoDepths", { octree.depthCount() } } };
     if (surface.colored)
     {
       const std::size_t first =
         this->Colored.at(Key(octree.id(), instance.body->attributes.version, colorsOf(instance)));
       surface.values.integers.push_back(
-        { "svoFirstColor", { static_cast<int>(first) - inOne(arena.firstOf(octree)) } });
+        { "svoFirstColor", { static_cast<int>(first) - static_cast<int>(arena.firstOf(octree)) } });
     }
     surface.values.floats = { matrixOf("svoBoxToView", view.worldToView * boxToWorld),
       matrixOf("svoViewToBox", glm::dmat4(toBox)),

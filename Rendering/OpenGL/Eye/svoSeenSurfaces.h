@@ -21,14 +21,12 @@ class OctreeArena;
 class SeenSurfaces
 {
 public:
-  /// Why OpenGL's shaders cannot trace a visible instance; empty if they can.
-  static std::string refusal(const Instance& instance);
-
-  /// Which instances of a scene are seen: sends colours that are not in OpenGL's memory. False, and
-  /// nothing is there, if it has no room.
+  /// Which instances of a scene, with planes, are seen: sends colours that are not in OpenGL's
+  /// memory. False, and nothing is there, if it has no room.
   bool place(const Scene& scene, const std::vector<std::size_t>& seen);
 
-  /// Says what VTK draws of these in a view, all held by `arena`; `constants` are the walk's.
+  /// Says in empty code what VTK draws of these in a view, all held by `arena`; `constants` are the
+  /// walk's.
   void describe(const Scene& scene, const View& view, const OctreeArena& arena,
     const std::string& constants, EyeCode& code) const;
 
@@ -38,6 +36,8 @@ public:
 private:
   /// What colours lie in memory for: an octree's id, Attributes::version, and their array.
   using Key = std::tuple<std::uint64_t, std::uint64_t, const void*>;
+  static Key keyOf(const Instance& instance);
+
   std::vector<std::size_t> Seen;      // instances
   std::map<Key, std::size_t> Colored; // first texel
   BufferTexture Colors{ BufferTexture::Texel::Word };

@@ -10,6 +10,7 @@
 #include "svoRayWalk.h"
 #include "svoSeenSurfaces.h"
 #include "svoTerminator.h"
+#include "svoUniforms.h"
 #include "svoWalkReach.h"
 #include "svoWorldToOctree.h"
 
@@ -215,7 +216,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
 {
   this->Code.lights.clear();
   this->Code.complaint.clear();
-  this->Eye.surfaces.clear();
+  this->Eye = EyeCode();
   const auto lights = settings.shadowTechnique == ShadowTechnique::None
     ? 0
     : std::count_if(scene.lights.begin(), scene.lights.end(),
@@ -297,12 +298,12 @@ std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
   const std::vector<std::size_t> seen = seenOf(scene);
   for (const std::size_t index : seen)
   {
-    const std::string refusal = SeenSurfaces::refusal(scene.instances[index]);
-    if (!refusal.empty())
+    const Octree& octree = scene.instances[index].body->octree;
+    if (!octree.hasPlanes())
     {
-      return refusal;
+      return "OpenGL shaders trace nothing but planes";
     }
-    octrees.push_back(&scene.instances[index].body->octree);
+    octrees.push_back(&octree);
   }
   this->Planes = !seen.empty();
   const bool held = this->Octrees.hold(octrees, limit);
@@ -334,7 +335,6 @@ void OpenGLTracer::describe(const Scene& scene, const View& view, const std::str
   }
   glm::dmat4 viewToTree(glm::transpose(turned)); // rigid
   viewToTree[3] = glm::dvec4(view.eye - this->Centre, 1.0);
-  const glm::mat4 matrix(viewToTree);
   static const std::string Text = std::string(svoOctreeWalk) + svoRayWalk;
   this->Code.constants = constants + constantsOf(this->Code.lights.size());
   this->Code.text = Text.c_str();
@@ -349,7 +349,7 @@ void OpenGLTracer::describe(const Scene& scene, const View& view, const std::str
   }
   this->Code.integers = { { "svoTreeSize", { static_cast<int>(this->Tree.size()) } },
     { "svoFirstCaster", { static_cast<int>(2 * this->Tree.size()) } } };
-  this->Code.floats = { { "svoViewToTree", 16, { &matrix[0][0], &matrix[0][0] + 16 } }, sources };
+  this->Code.floats = { matrixOf("svoViewToTree", viewToTree), sources };
 }
 
 /// FrameStatistics::largestGap: where casters look nearest, since rays from whatever lies there may
@@ -391,13 +391,13 @@ bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
   {
     const Octree& octree = caster->body->octree;
     CasterRecord record{};
-    record.root = this->Octrees.rootOf(octree);
+    record.root = inFloats(this->Octrees.rootOf(octree));
     record.depths = static_cast<float>(octree.depthCount());
     record.opacity = caster->translucent() ? caster->opacity : 1.0f;
     if (caster->mappedOpacity)
     {
-      record.opacity =
-        -1.0f - static_cast<float>(this->Alphas.add(*caster, this->Octrees.firstOf(octree)));
+      record.opacity = -1.0f -
+        static_cast<float>(this->Alphas.add(*caster, inFloats(this->Octrees.firstOf(octree))));
     }
     if (octree.hasPlanes())
     {
@@ -465,7 +465,7 @@ void OpenGLTracer::releaseGraphicsResources()
   this->Alphas.release();
   this->Seen.release();
   this->Version = 0;
-  this->Eye.surfaces.clear();
+  this->Eye = EyeCode();
   this->Code.lights.clear();
   this->Code.textures.clear();
   this->Other->releaseGraphicsResources();

@@ -11,9 +11,10 @@
 namespace svo
 {
 /// A tracer that does what `other` does, but for frames whose settings ask for light code
-/// (FrameNeeds::lightCode): their instances only cast, and the code has one ray a fragment and
-/// light meet the triangles of all octrees, exactly. Where it cannot, the frame gets `other`'s
-/// shadow maps, and LightCode::complaint says why.
+/// (FrameNeeds::lightCode): code has one ray a fragment and light meet the triangles of all
+/// octrees, exactly, and others trace the octrees of planes that are seen. No other instance is to
+/// be seen. Where it cannot, the frame gets `other`'s shadow maps, and LightCode::complaint says
+/// why.
 VTKSVOOPENGL_EXPORT std::unique_ptr<Tracer> makeOpenGLTracer(std::unique_ptr<Tracer> other);
 }
 

@@ -28,11 +28,11 @@ struct Record // a node in a shader's memory
   std::uint32_t low, high, first, list;
 };
 static_assert(sizeof(Record) == sizeof(Node), "a texel");
+}
 
 glm::vec2 inFloats(std::uint32_t number)
 {
   return { number / 4096, number % 4096 };
-}
 }
 
 bool OctreeArena::hold(const std::vector<const Octree*>& octrees, std::size_t limit)
@@ -50,15 +50,15 @@ bool OctreeArena::hold(const std::vector<const Octree*>& octrees, std::size_t li
   return false;
 }
 
-glm::vec2 OctreeArena::rootOf(const Octree& octree) const
+std::uint32_t OctreeArena::rootOf(const Octree& octree) const
 {
-  return inFloats(this->Blocks.at(octree.id()).node);
+  return this->Blocks.at(octree.id()).node;
 }
 
-glm::vec2 OctreeArena::firstOf(const Octree& octree) const
+std::uint32_t OctreeArena::firstOf(const Octree& octree) const
 {
   const Block& block = this->Blocks.at(octree.id());
-  return inFloats(octree.hasPlanes() ? block.word : block.corner / 3);
+  return octree.hasPlanes() ? block.word : block.corner / 3;
 }
 
 bool OctreeArena::add(const std::vector<const Octree*>& octrees, std::size_t limit)

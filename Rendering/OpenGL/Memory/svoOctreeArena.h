@@ -17,6 +17,9 @@ namespace svo
 {
 struct ShortLists;
 
+/// A number n as (n / 4096, n % 4096): floats tell no larger ones apart.
+glm::vec2 inFloats(std::uint32_t number);
+
 class OctreeArena
 {
 public:
@@ -26,10 +29,9 @@ public:
   bool hold(const std::vector<const Octree*>& octrees, std::size_t limit);
   void release();
 
-  /// The node at which rays through an octree that is held begin; its first triangle, or plane. Of
-  /// a number n (n / 4096, n % 4096): floats tell no larger ones apart.
-  glm::vec2 rootOf(const Octree& octree) const;
-  glm::vec2 firstOf(const Octree& octree) const;
+  /// The node at which rays through an octree that is held begin; its first triangle, or plane.
+  std::uint32_t rootOf(const Octree& octree) const;
+  std::uint32_t firstOf(const Octree& octree) const;
 
   std::size_t bytes() const
   {

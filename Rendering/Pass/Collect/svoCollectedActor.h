@@ -35,13 +35,13 @@ struct PropChoices
   bool translucentShadows = false; // what is translucent casts as well, as light as it is
   bool meanOpacity = false;        // ... each surface equally all over
   /// The rasteriser draws all that is seen but actors of planes alone.
-  bool onlyCast = false;
+  bool openGL = false;
   glm::dmat4 world{ 1.0 }; // see sceneTransform()
 
   auto values() const
   {
     return std::tie(this->shadows, this->lights, this->onlyMarked, this->unmarkedToo,
-      this->translucentShadows, this->meanOpacity, this->onlyCast, this->world);
+      this->translucentShadows, this->meanOpacity, this->openGL, this->world);
   }
 };
 

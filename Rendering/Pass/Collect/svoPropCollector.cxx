@@ -281,7 +281,7 @@ void PropCollector::collectActor(
       std::all_of(parts.begin(), parts.end(),
         [](const SurfacePart& part) { return carriesPlanes(part.mesh); });
   }
-  if (of.traceable && frame.onlyCast && !of.planes)
+  if (of.traceable && frame.openGL && !of.planes)
   {
     of.beyond = IsDrawnByOpenGL;
   }

@@ -214,7 +214,7 @@ void SceneCollector::assemble(CollectedScene& result)
     {
       result.rasterizedActors += prop.actors;
     }
-    if (!prop.shown || this->Choices.onlyCast)
+    if (!prop.shown || this->Choices.openGL)
     {
       result.rasterizedReceivers = result.rasterizedReceivers || prop.receives;
       result.receiversReach = result.receiversReach || (prop.receives && prop.reaches);

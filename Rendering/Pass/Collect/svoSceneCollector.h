@@ -44,7 +44,7 @@ struct CollectedScene
   /// shown.
   std::set<vtkProp*> replaced;
   /// Those that the rasteriser draws and shadows fall on, catchers of shadows among them; with
-  /// `onlyCast` what is traced, too.
+  /// `openGL` what is traced, too.
   std::set<vtkProp*> receivers;
   int tracedActors = 0;
   int rasterizedActors = 0;
@@ -54,7 +54,7 @@ struct CollectedScene
   bool aimlessLight = false;        // the same
   bool shadowCatchers = false;      // there are some; they are rasterised
   /// Surfaces without triangles are there, and may be traced, of which VTK would draw a contour
-  /// with `onlyCast`. Whether it does does not matter.
+  /// with `openGL`. Whether it does does not matter.
   bool planes = false;
   /// Where lights cast and yet no shadow can be seen: why, as ends of sentences that begin with
   /// "it", and of how many props. Empty where some can, where there is nothing, and where somebody

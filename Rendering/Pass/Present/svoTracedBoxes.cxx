@@ -67,14 +67,13 @@ void setBox(vtkPolyData* box, const glm::vec3& low, const glm::vec3& high)
 
 void setMaterial(vtkProperty* property, const Material& material, bool colored)
 {
-  const auto set = [](const glm::vec3& color, auto apply) { apply(color.x, color.y, color.z); };
   const glm::vec3 own(1.0f);
-  set(colored ? own : material.ambientColor,
-    [property](double r, double g, double b) { property->SetAmbientColor(r, g, b); });
-  set(colored ? own : material.diffuseColor,
-    [property](double r, double g, double b) { property->SetDiffuseColor(r, g, b); });
-  set(material.specularColor,
-    [property](double r, double g, double b) { property->SetSpecularColor(r, g, b); });
+  const glm::dvec3 ambient(colored ? own : material.ambientColor);
+  const glm::dvec3 diffuse(colored ? own : material.diffuseColor);
+  const glm::dvec3 specular(material.specularColor);
+  property->SetAmbientColor(&ambient.x);
+  property->SetDiffuseColor(&diffuse.x);
+  property->SetSpecularColor(&specular.x);
   property->SetAmbient(material.ambient);
   property->SetDiffuse(material.diffuse);
   property->SetSpecular(material.specular);

@@ -28,8 +28,8 @@ struct FrameNeeds
   bool receiverMaps = false;
   /// ... or anywhere: all is traced, and handed out.
   bool wholeShadowBuffers = false;
-  /// Nothing is seen of the instances, which only cast, and what asks for their shadows does so by
-  /// Tracer::lightCode(), if the tracer has it.
+  /// VTK draws what is seen, by Tracer::eyeCode() what is seen of the instances, if the tracer has
+  /// it; the others only cast. What asks for their shadows does so by Tracer::lightCode().
   bool lightCode = false;
   bool writeNormals = false; // Frame::normals is wanted (SSAO)
   bool writeLight = false;   // Frame::light is wanted (tone mapping)
