@@ -139,7 +139,7 @@ svo::FrameSettings vtkSVORenderPass::AskedSettings(bool openGL) const
   {
     settings.shadowTechnique = openGL ? svo::ShadowTechnique::Rays : svo::ShadowTechnique::Buffer;
   }
-  settings.lightCode = openGL && settings.shadowTechnique != svo::ShadowTechnique::Buffer;
+  settings.lightCode = openGL;
   return settings;
 }
 

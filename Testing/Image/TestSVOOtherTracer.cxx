@@ -4,10 +4,11 @@
 #include "svoImageCases.h"
 #include "svoTestStage.h"
 
-#include "svoBufferTexture.h"
 #include "svoEyeCode.h"
 #include "svoLightCode.h"
+#include "svoOpenGL.h"
 #include "svoOpenGLTracer.h"
+#include "svoTextures.h"
 #include "svoTracer.h"
 
 #include "vtkImageToSVO.h"
@@ -19,7 +20,7 @@
 
 #include <algorithm>
 #include <iostream>
-#include <limits>
+#include <vector>
 
 using namespace svotest;
 
@@ -141,7 +142,7 @@ public:
     this->Maps = this->Ours->shadowMaps();
     this->sendMaps();
   }
-  unsigned int mapTexture() const override { return this->Texels.name(); }
+  unsigned int mapTexture() const override { return this->Texels; }
   void releaseGraphicsResources() override
   {
     Released += Window->IsCurrent() ? 1 : 100;
@@ -149,7 +150,8 @@ public:
     {
       texture->ReleaseGraphicsResources(Window);
     }
-    this->Texels.release();
+    glDeleteTextures(1, &this->Texels);
+    this->Texels = 0;
     this->Picture = svo::Frame();
     this->Maps.clear();
   }
@@ -159,36 +161,46 @@ public:
   static std::size_t Sent; // maps
 
 private:
-  /// The tiles of all maps, then their tables.
+  /// A layer for each map.
   void sendMaps()
   {
-    constexpr std::size_t InTile = svo::ShadowTexels::InTile;
-    std::vector<float> numbers(2 * InTile, 0.0f); // nothing lies there
-    std::fill_n(numbers.begin(), InTile, std::numeric_limits<float>::infinity());
-    std::vector<std::size_t> first;
-    for (const svo::ShadowMap& map : this->Maps)
+    const int size = this->Maps.empty() ? 1 : this->Maps[0].view.width;
+    const auto texels = static_cast<std::size_t>(size) * size;
+    std::vector<float> numbers;
+    for (svo::ShadowMap& map : this->Maps)
     {
-      first.push_back(numbers.size() / InTile);
-      numbers.insert(numbers.end(), map.texels->numbers.begin(), map.texels->numbers.end());
-    }
-    for (std::size_t i = 0; i < this->Maps.size(); ++i)
-    {
-      svo::ShadowMap& map = this->Maps[i];
-      map.table = static_cast<int>(numbers.size());
-      for (const std::uint32_t tile : map.texels->tiles)
+      map.layer = static_cast<int>(numbers.size() / (2 * texels));
+      for (std::size_t i = 0; i < texels; ++i)
       {
-        const bool held = tile != svo::ShadowTexels::Nothing;
-        numbers.push_back(held ? first[i] + tile * (map.texels->stride / InTile) : 0.0f);
+        const int x = static_cast<int>(i % size), y = static_cast<int>(i / size);
+        numbers.push_back(std::min(map.texels->depthAt(x, y), 3e38f));
+        numbers.push_back(opacityAt(*map.texels, x, y));
       }
       map.texels = nullptr;
     }
-    this->Texels.allocate(numbers.size());
-    this->Texels.send(0, numbers.data(), numbers.size());
+    const auto layers = static_cast<GLsizei>(this->Maps.size());
+    glDeleteTextures(1, &this->Texels);
+    this->Texels = svo::makeTexture(GL_RG32F, size, size, std::max(layers, 1));
+    GLint bound = 0;
+    glGetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &bound);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, this->Texels);
+    glTexSubImage3D(
+      GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, size, size, layers, GL_RG, GL_FLOAT, numbers.data());
+    glBindTexture(GL_TEXTURE_2D_ARRAY, static_cast<GLuint>(bound));
     Sent = this->Maps.size();
   }
 
+  /// 0 where nothing lies.
+  static float opacityAt(const svo::ShadowTexels& map, int x, int y)
+  {
+    const std::uint32_t tile = map.tiles[static_cast<std::size_t>(y / 8) * map.tilesX + x / 8];
+    const std::size_t at = map.stride * tile + svo::ShadowTexels::InTile + 8 * (y % 8) + x % 8;
+    const bool held = tile != svo::ShadowTexels::Nothing;
+    return held && map.stride > svo::ShadowTexels::InTile ? map.numbers[at] : 0.0f;
+  }
+
   vtkNew<vtkTextureObject> Color, Depth;
-  svo::BufferTexture Texels{ svo::BufferTexture::Texel::Float };
+  GLuint Texels = 0;
 };
 vtkOpenGLRenderWindow* OnGPU::Window = nullptr;
 int OnGPU::Released = 0;

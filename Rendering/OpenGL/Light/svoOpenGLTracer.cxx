@@ -2,6 +2,8 @@
 
 #include "svoCasterAlphas.h"
 #include "svoCasterTree.h"
+#include "svoColorAlpha.h"
+#include "svoDrawnMaps.h"
 #include "svoLeafError.h"
 #include "svoLeafGeometry.h"
 #include "svoLightCode.h"
@@ -41,9 +43,7 @@ constexpr std::ptrdiff_t MostLights = 64;
 struct CasterRecord // in a shader's memory
 {
   glm::vec4 rows[3];
-  glm::vec2 root;
-  float depths, opacity;
-  glm::vec4 low, high;
+  glm::vec4 octree, low, high;
 };
 constexpr std::size_t CasterTexelCount = 6;
 static_assert(sizeof(CasterRecord) == CasterTexelCount * sizeof(glm::vec4), "as svoRayWalk.glsl");
@@ -144,9 +144,12 @@ public:
   }
   const std::vector<ShadowMap>& shadowMaps() const override
   {
-    return this->Answers ? this->NoMaps : this->Other->shadowMaps();
+    return this->Answers ? this->Drawn.maps() : this->Other->shadowMaps();
   }
-  unsigned int mapTexture() const override { return this->Answers ? 0 : this->Other->mapTexture(); }
+  unsigned int mapTexture() const override
+  {
+    return this->Answers ? this->Drawn.texture() : this->Other->mapTexture();
+  }
   const LightCode& lightCode() const override { return this->Code; }
   const EyeCode& eyeCode() const override { return this->Eye; }
   void releaseLayers() override { this->Other->releaseLayers(); }
@@ -155,12 +158,12 @@ public:
 private:
   const std::string& prepare(const Scene& scene, const View& view, const FrameSettings& settings);
   std::string hold(const Scene& scene, std::size_t limit);
-  std::size_t bytes() const
+  std::size_t bytesOfScene() const
   {
     return this->Octrees.bytes() + this->CasterTexels.bytes() + this->Alphas.texels().bytes() +
       this->Seen.bytes();
   }
-  bool place(const std::vector<const Instance*>& casters);
+  bool place(const Scene& scene, const std::vector<const Instance*>& casters);
   void aim(const View& view);
   void describe(const Scene& scene, const View& view, const std::string& constants);
   double largestGap(const View& view) const;
@@ -169,26 +172,26 @@ private:
   bool Answers = false; // the last frame's light
   Frame Nothing;
   FrameStatistics Statistics;
-  std::vector<ShadowMap> NoMaps;
   LightCode Code;
   EyeCode Eye;
   OctreeArena Octrees;
   SeenSurfaces Seen;
+  DrawnMaps Drawn;
 
   /// What casts, of the scene of this version.
   struct Caster
   {
     WorldToOctree toOctree;
-    CasterRecord record; // but for the rows
-    Box box;             // of the mesh, octree coordinates
-    double gap;          // from its surface to where floats have a ray begin, world
+    Box box;    // of the mesh, octree coordinates
+    double gap; // from its surface to where floats have a ray begin, world
   };
   std::uint64_t Version = 0;
   std::size_t Limit = 0; // that they were to keep
   std::string WhyNot;    // they are not in OpenGL's memory; empty: they are
   std::vector<Caster> Casters;
-  bool Planes = false;      // some octrees are of planes
-  glm::dvec3 Centre{ 0.0 }; // of the tree's frame, world
+  std::vector<CasterInMemory> Records; // of them
+  bool Planes = false;                 // some octrees are of planes
+  glm::dvec3 Centre{ 0.0 };            // of the tree's frame, world
   std::vector<CasterNode> Tree;
   glm::dmat4 WorldToView{ 0.0 }; // that was sent
   BufferTexture CasterTexels{ BufferTexture::Texel::FourFloats };
@@ -207,6 +210,7 @@ std::vector<NeededLevels> OpenGLTracer::neededLevels(
     {
       needed[i].eye = std::min(body.detailLevel, body.deepestLevel);
     }
+    needed[i].lights = 0; // they see the eye's
   }
   return needed;
 }
@@ -222,11 +226,21 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
     : std::count_if(scene.lights.begin(), scene.lights.end(),
         [](const Light& light) { return light.castShadow; });
   const bool asked = settings.lightCode && (lights > 0 || !seenOf(scene).empty());
+  const bool maps = asked && lights > 0 && settings.shadowTechnique == ShadowTechnique::Buffer;
+  if (!maps)
+  {
+    this->Drawn.release();
+  }
   if (asked)
   {
-    const std::string whyNot = lights <= MostLights
+    std::string whyNot = maps || lights <= MostLights
       ? this->prepare(scene, view, settings)
       : "OpenGL shaders have no room for rays to so many lights";
+    if (whyNot.empty() && maps)
+    {
+      whyNot = this->Drawn.draw(scene, this->Records, this->Octrees, this->Alphas.texels(), view,
+        settings, settings.gpuMemoryLimit - this->bytesOfScene());
+    }
     if (!whyNot.empty())
     {
       this->Code.complaint = whyNot +
@@ -241,7 +255,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
     return;
   }
   const std::string constants = constantsOf(this->Planes, this->Alphas.texels().size() > 0);
-  if (lights > 0)
+  if (lights > 0 && !maps)
   {
     this->describe(scene, view, constants);
   }
@@ -252,7 +266,9 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Nothing.version = 1;
   this->Statistics = FrameStatistics();
   this->Statistics.lightsWithRays = static_cast<int>(this->Code.lights.size());
-  this->Statistics.gpuMemory = this->bytes();
+  this->Statistics.lightsWithBuffers = maps ? static_cast<int>(lights) : 0;
+  this->Drawn.widths().tell(this->Statistics);
+  this->Statistics.gpuMemory = this->bytesOfScene() + this->Drawn.bytes();
   this->Statistics.largestGap = this->largestGap(view);
 }
 
@@ -307,11 +323,11 @@ std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
   }
   this->Planes = !seen.empty();
   const bool held = this->Octrees.hold(octrees, limit);
-  if (held && !(this->place(casters) && this->Seen.place(scene, seen)))
+  if (held && !(this->place(scene, casters) && this->Seen.place(scene, seen)))
   {
     return "OpenGL has no room for so many casters";
   }
-  return held && this->bytes() <= limit
+  return held && this->bytesOfScene() <= limit
     ? ""
     : "The octrees do not fit into OpenGL's memory, or into GPUMemoryLimit";
 }
@@ -335,7 +351,7 @@ void OpenGLTracer::describe(const Scene& scene, const View& view, const std::str
   }
   glm::dmat4 viewToTree(glm::transpose(turned)); // rigid
   viewToTree[3] = glm::dvec4(view.eye - this->Centre, 1.0);
-  static const std::string Text = std::string(svoOctreeWalk) + svoRayWalk;
+  static const std::string Text = std::string(svoOctreeWalk) + svoColorAlpha + svoRayWalk;
   this->Code.constants = constants + constantsOf(this->Code.lights.size());
   this->Code.text = Text.c_str();
   this->Code.costly = true;
@@ -381,24 +397,25 @@ double OpenGLTracer::largestGap(const View& view) const
 }
 
 /// Makes the tree of the casters and sends it; their matrices follow. False if OpenGL refuses.
-bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
+bool OpenGLTracer::place(const Scene& scene, const std::vector<const Instance*>& casters)
 {
   this->Casters.clear();
+  this->Records.clear();
   this->Alphas.clear();
   std::vector<Box> boxes;
   Box all;
   for (const Instance* caster : casters)
   {
     const Octree& octree = caster->body->octree;
-    CasterRecord record{};
-    record.root = inFloats(this->Octrees.rootOf(octree));
-    record.depths = static_cast<float>(octree.depthCount());
-    record.opacity = caster->translucent() ? caster->opacity : 1.0f;
+    float opacity = caster->translucent() ? caster->opacity : 1.0f;
     if (caster->mappedOpacity)
     {
-      record.opacity = -1.0f -
+      opacity = -1.0f -
         static_cast<float>(this->Alphas.add(*caster, inFloats(this->Octrees.firstOf(octree))));
     }
+    CasterInMemory record{};
+    record.instance = static_cast<std::size_t>(caster - scene.instances.data());
+    record.octree = glm::vec4(inFloats(this->Octrees.rootOf(octree)), octree.depthCount(), opacity);
     if (octree.hasPlanes())
     {
       const LeafQuery query(octree, { LeafGeometry::Plane, MaximumLevel });
@@ -414,8 +431,9 @@ bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
         (glm::dvec3(bounds[side], bounds[2 + side], bounds[4 + side]) - toOctree.origin) *
         toOctree.scale;
     };
-    this->Casters.push_back({ toOctree, record, { corner(0), corner(1) },
+    this->Casters.push_back({ toOctree, { corner(0), corner(1) },
       worldLeafError(*caster, LeafGeometry::Triangle, octree.level()) });
+    this->Records.push_back(record);
     boxes.push_back(worldBox(*caster));
     all.add(boxes.back());
   }
@@ -428,7 +446,8 @@ bool OpenGLTracer::place(const std::vector<const Instance*>& casters)
   this->Tree = makeCasterTree(boxes, BoxMargin);
   const std::size_t texels = 2 * this->Tree.size() + CasterTexelCount * this->Casters.size();
   if (texels > BufferTexture::most() ||
-    (texels > this->CasterTexels.size() && !this->CasterTexels.allocate(texels + texels / 2 + 64)))
+    ((texels > this->CasterTexels.size() || texels == 0) &&
+      !this->CasterTexels.allocate(texels + texels / 2 + 64)))
   {
     return false;
   }
@@ -443,11 +462,12 @@ void OpenGLTracer::aim(const View& view)
   const glm::dmat3 toWorld = glm::transpose(glm::dmat3(view.worldToView)); // rigid
   std::vector<CasterRecord> records;
   records.reserve(this->Casters.size());
-  for (const Caster& caster : this->Casters)
+  for (std::size_t i = 0; i < this->Casters.size(); ++i)
   {
+    const Caster& caster = this->Casters[i];
     const glm::dmat3 linear = caster.toOctree.inverse * toWorld * caster.toOctree.scale;
     const glm::dvec3 at = caster.toOctree.point(view.eye);
-    CasterRecord record = caster.record;
+    CasterRecord record{ {}, this->Records[i].octree, this->Records[i].low, this->Records[i].high };
     for (int row = 0; row < 3; ++row)
     {
       record.rows[row] =
@@ -464,6 +484,7 @@ void OpenGLTracer::releaseGraphicsResources()
   this->CasterTexels.release();
   this->Alphas.release();
   this->Seen.release();
+  this->Drawn.release();
   this->Version = 0;
   this->Eye = EyeCode();
   this->Code.lights.clear();

@@ -9,9 +9,8 @@
 // what they show, svoEnds::reach), (upper corner, how far planes may lie
 // over what VTK draws in their place), octree coordinates and voxels. Boxes are in a frame of their own, svoViewToTree.
 //
-// svoOctreeWalk.glsl comes before it, and the constants svoLightCount and svoDoubtfulSine.
+// svoOctreeWalk.glsl and svoColorAlpha.glsl come before it, and the constants svoLightCount and svoDoubtfulSine.
 uniform samplerBuffer svoCasters;
-uniform samplerBuffer svoAlphas;
 uniform int svoTreeSize;    // nodes
 uniform int svoFirstCaster; // texel
 uniform mat4 svoViewToTree;
@@ -43,26 +42,7 @@ float svoTakenByColors(int at, vec3 from, vec3 way, float end, uint root, int de
   {
     return -1.0;
   }
-  int stride = int(texelFetch(svoAlphas, at + 1).r);
-  int first = 4096 * int(texelFetch(svoAlphas, at + 2).r) + int(texelFetch(svoAlphas, at + 3).r);
-  int texels = int(texelFetch(svoAlphas, at + 4).r);
-  int value = at + 8 + 2 * texels + stride * (int(svoHit) - first);
-  float alpha = texelFetch(svoAlphas, value).r;
-  if (stride > 1)
-  {
-    svoWeights /= svoWeights.x + svoWeights.y + svoWeights.z;
-    alpha = dot(svoWeights,
-      vec3(alpha, texelFetch(svoAlphas, value + 1).r, texelFetch(svoAlphas, value + 2).r));
-  }
-  if (stride > 3)
-  {
-    float row = dot(svoWeights,
-      vec3(texelFetch(svoAlphas, value + 3).r, texelFetch(svoAlphas, value + 4).r,
-        texelFetch(svoAlphas, value + 5).r));
-    int texel = min(int(clamp(alpha, 0.0, 1.0) * float(texels)), texels - 1);
-    alpha = texelFetch(svoAlphas, at + 8 + texel + (row < 0.5 ? 0 : texels)).r;
-  }
-  return texelFetch(svoAlphas, at).r * clamp(alpha, 0.0, 1.0);
+  return svoTakenByHit(at);
 }
 
 // What casters leave on the way from `from` along `way`, up to `end` times as far: 0 where an opaque

@@ -4,6 +4,7 @@
 #include "svoOpenGL.h"
 #include "svoProgram.h"
 #include "svoShadowMaskShader.h"
+#include "svoTextures.h"
 #include "svoUniforms.h"
 
 #include "vtkOpenGLState.h"
@@ -37,36 +38,6 @@ bool hasCompute()
 #else
   return false;
 #endif
-}
-
-void forgetErrors()
-{
-  for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) // of others
-  {
-  }
-}
-
-/// A texture that is looked up texel by texel.
-GLuint makeTexture(GLenum target, GLenum format, int width, int height, int layers)
-{
-  GLuint name = 0;
-  glGenTextures(1, &name);
-  glBindTexture(target, name);
-  const bool depth = format == GL_DEPTH_COMPONENT32F;
-  const GLenum order = depth ? GL_DEPTH_COMPONENT : GL_RGBA;
-  if (target == GL_TEXTURE_2D)
-  {
-    glTexImage2D(target, 0, format, width, height, 0, order, GL_FLOAT, nullptr);
-  }
-  else
-  {
-    glTexImage3D(target, 0, format, width, height, layers, 0, order, GL_UNSIGNED_BYTE, nullptr);
-  }
-  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
-  glBindTexture(target, 0);
-  return name;
 }
 
 /// Of a mask.
@@ -307,20 +278,15 @@ bool ShadowMask::resize(int width, int height, int lights, std::size_t room)
     return true;
   }
   this->releaseTextures();
-  forgetErrors();
-  GLint before[3] = {};
-  glGetIntegerv(GL_TEXTURE_BINDING_2D, &before[0]);
-  glGetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &before[1]);
-  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before[2]);
+  GLint before = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before);
   this->Width = width;
   this->Height = height;
   this->Layers = layers;
-  this->Places = makeTexture(GL_TEXTURE_2D, GL_RGBA32F, width, height, 0);
-  this->Planes = makeTexture(GL_TEXTURE_2D, GL_RGBA16, width, height, 0);
-  this->Depths = makeTexture(GL_TEXTURE_2D, GL_DEPTH_COMPONENT32F, width, height, 0);
-  this->Shares = makeTexture(GL_TEXTURE_2D_ARRAY, GL_RGBA8, width, height, layers);
-  glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(before[0]));
-  glBindTexture(GL_TEXTURE_2D_ARRAY, static_cast<GLuint>(before[1]));
+  this->Places = makeTexture(GL_RGBA32F, width, height);
+  this->Planes = makeTexture(GL_RGBA16, width, height);
+  this->Depths = makeTexture(GL_DEPTH_COMPONENT32F, width, height);
+  this->Shares = makeTexture(GL_RGBA8, width, height, layers);
   glGenVertexArrays(1, &this->Vertices);
   glGenFramebuffers(1, &this->Gathering);
   glGenFramebuffers(1, &this->Answering);
@@ -334,7 +300,7 @@ bool ShadowMask::resize(int width, int height, int lights, std::size_t room)
   const GLenum targets[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
   glDrawBuffers(2, targets);
   complete = complete && glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(before[2]));
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(before));
   if (!complete || glGetError() != GL_NO_ERROR)
   {
     this->releaseTextures();

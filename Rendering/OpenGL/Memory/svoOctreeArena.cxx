@@ -101,10 +101,13 @@ bool OctreeArena::makeRoom(const Block& needed, std::size_t limit)
   const Part parts[] = { { this->Nodes, this->End.node, needed.node },
     { this->Lists, this->End.word, needed.word },
     { this->Triangles, this->End.corner, needed.corner } };
+  // Each has a texel at least: VTK binds no texture that is not there.
+  const auto leastOf = [](const Part& part)
+  { return std::max<std::size_t>(part.used + part.more, 1); };
   std::size_t bytes = 0;
   for (const Part& part : parts)
   {
-    bytes += std::max(part.texture.size(), part.used + part.more) * part.texture.texelBytes();
+    bytes += std::max(part.texture.size(), leastOf(part)) * part.texture.texelBytes();
     if (part.used + part.more > most)
     {
       return false;
@@ -116,7 +119,7 @@ bool OctreeArena::makeRoom(const Block& needed, std::size_t limit)
   }
   for (const Part& part : parts)
   {
-    const std::size_t least = part.used + part.more;
+    const std::size_t least = leastOf(part);
     if (least <= part.texture.size())
     {
       continue;

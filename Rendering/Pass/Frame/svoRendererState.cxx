@@ -269,9 +269,7 @@ void RendererState::findLight(const vtkRenderState& drawn)
 void RendererState::present(vtkOpenGLRenderPass* pass)
 {
   this->Presenter->SetFrame(
-    this->HasPicture && this->Trace->lightCode().empty() && this->Boxes.empty()
-      ? &this->Trace->frame()
-      : nullptr,
+    this->HasPicture && this->Trace->frame().hasPicture() ? &this->Trace->frame() : nullptr,
     [this](const std::vector<glm::vec2>& positions, Silhouettes& silhouettes)
     {
       if (this->Statistics.pace.distance == 1.0) // else the frame's pixels are not the window's

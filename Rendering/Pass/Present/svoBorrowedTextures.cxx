@@ -4,6 +4,8 @@
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 
+#include <cassert>
+
 namespace svo
 {
 void BorrowedTextures::update(
@@ -15,6 +17,7 @@ void BorrowedTextures::update(
   {
     vtkSmartPointer<vtkTextureObject>& texture = this->Textures[i];
     const auto& [sampler, name, target] = textures[i];
+    assert(name != 0);
     this->Samplers.push_back(sampler);
     // OpenGL gives names again, also to textures of another target.
     if (!texture || texture->GetContext() != window || texture->GetHandle() != name ||

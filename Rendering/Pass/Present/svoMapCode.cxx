@@ -119,9 +119,14 @@ std::string MapCode::update(const std::vector<ShadowMap>& maps, const std::vecto
   // Shaders are not built anew because a light has other maps than before.
   const std::size_t capacity = std::min(std::max(kept.size(), MapsOfLight * groups.size()), most);
   this->Code.text = svoMapLookup;
-  this->Code.constants = constantsOf(
-    settings, capacity, groups.size(), firstTranslucent < static_cast<int>(kept.size()));
+  this->Code.constants = (texture != 0 ? "#define svoLayered\n" : "") +
+    constantsOf(
+      settings, capacity, groups.size(), firstTranslucent < static_cast<int>(kept.size()));
   this->Code.textures = { { "svoMaps", this->Maps.name() } };
+  if (texture != 0)
+  {
+    this->Code.textures.front().target = GL_TEXTURE_2D_ARRAY;
+  }
   this->Code.integers = { { "svoTables", this->Maps.tables() }, { "svoSize", { size } },
     { "svoFirst", first }, { "svoFirstTranslucent", { firstTranslucent } } };
   this->Code.floats = { { "svoRows", 16, rows }, { "svoErrors", 1, errors },

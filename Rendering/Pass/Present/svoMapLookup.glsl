@@ -2,6 +2,7 @@
 // svoShadowTest.h, filtered as in svoShadowFilter.cxx. A map holds the linear depth of the
 // nearest caster, in tiles of 8x8 texels behind one texture unit, however many lights there are. A
 // table of all its tiles, svoTables, says where each one lies; those in which nothing does share one.
+// With svoLayered a map is a layer of a texture instead, svoTables[map], or below 0 nothing lies in it.
 // Its matrix takes view coordinates to (x, y, linear depth, w), with x / w and y / w in -1..1 across the
 // map. `facet` is the fragment's own plane, towards the viewer, `normal` what it is shaded with,
 // `extent` how wide a piece of the surface it shows.
@@ -18,7 +19,11 @@
 //
 // One rule is another one than svoShadowTest.h has: a facet that turns its back on the light lies in
 // the shadow of all that is before it, half a texel aside, and is not tested as a plane.
+#ifdef svoLayered
+uniform sampler2DArray svoMaps; // depth, opacity
+#else
 uniform samplerBuffer svoMaps;
+#endif
 uniform int svoTables[svoCapacity];
 uniform int svoSize; // texels along an edge of a map
 uniform mat4 svoRows[svoCapacity]; // the rows of a map's matrix
@@ -36,6 +41,13 @@ vec2 svoTexelEdges(mat4 rows, float w, float size)
   return 2.0 * w / (size * vec2(max(across, up), min(across, up)));
 }
 
+#ifdef svoLayered
+vec2 svoTexel(int map, ivec2 texel)
+{
+  int layer = svoTables[map];
+  return layer < 0 ? vec2(3e38, 0.0) : texelFetch(svoMaps, ivec3(texel, layer), 0).rg;
+}
+#else
 // Where a texel lies.
 int svoTexel(int map, ivec2 texel)
 {
@@ -43,11 +55,16 @@ int svoTexel(int map, ivec2 texel)
   int begin = 64 * int(texelFetch(svoMaps, svoTables[map] + tile).r);
   return begin + 8 * (texel.y & 7) + (texel.x & 7);
 }
+#endif
 
-// Depth of the nearest caster, infinite if there is none.
+// Depth of the nearest caster, infinite or 3e38 if there is none.
 float svoOccluder(int map, ivec2 texel)
 {
+#ifdef svoLayered
+  return svoTexel(map, texel).x;
+#else
   return texelFetch(svoMaps, svoTexel(map, texel)).r;
+#endif
 }
 
 // The share of the light that what lies at a texel takes; 0 if nothing does.
@@ -57,7 +74,11 @@ float svoOpacity(int map, ivec2 texel)
   {
     return 1.0;
   }
+#ifdef svoLayered
+  return svoTexel(map, texel).y;
+#else
   return texelFetch(svoMaps, svoTexel(map, texel) + 64).r;
+#endif
 }
 
 // What one texel says of the point: 0 lit, 1 dark by an occluder within a few texels' depth, 2 dark.

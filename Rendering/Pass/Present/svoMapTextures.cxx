@@ -32,7 +32,7 @@ bool MapTextures::upload(const std::vector<const ShadowMap*>& maps, unsigned int
     this->Borrowed = texture;
     for (const ShadowMap* map : maps)
     {
-      this->Tables.push_back(map->table);
+      this->Tables.push_back(map->layer);
     }
     return true;
   }

@@ -23,7 +23,7 @@ public:
   bool upload(const std::vector<const ShadowMap*>& maps, unsigned int texture);
   void release();
 
-  /// By map: where its table begins.
+  /// By map: where its table begins; there its layer.
   const std::vector<int>& tables() const { return this->Tables; }
   /// Bytes that OpenGL holds for this.
   std::size_t memory() const { return this->Sent.bytes(); }

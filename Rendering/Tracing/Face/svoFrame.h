@@ -101,6 +101,8 @@ struct Frame
   FrameImages images;
 
   bool onGPU() const { return this->images.color != 0; }
+  /// False where VTK draws all that is seen (Tracer::eyeCode()).
+  bool hasPicture() const { return this->onGPU() || !this->color.empty(); }
   bool hasNormals() const { return !this->normals.empty() || this->images.normals != 0; }
   bool hasSlopes() const { return !this->slopes.empty() || this->images.slopes != 0; }
   bool hasLight() const { return !this->light.empty() || this->images.light != 0; }
@@ -184,7 +186,7 @@ struct ShadowMap
   /// From frame to frame the same object as long as the values are the same. Null where the map
   /// lies in OpenGL: Tracer::mapTexture().
   std::shared_ptr<const ShadowTexels> texels;
-  int table = 0;            // there: where it begins
+  int layer = 0;            // there; below 0: nothing lies in it
   int group = 0;            // 0: of opaque casters; else the number of a group of translucent ones
   double worldBias = 0.0;   // for receivers that do not know the caster of a texel, world units
   double casterVoxel = 0.0; // of the coarsest caster, world units

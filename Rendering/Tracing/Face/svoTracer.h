@@ -77,10 +77,10 @@ public:
 
   /// The shadow buffers of the last frame; empty unless FrameSettings::handsOutMaps().
   virtual const std::vector<ShadowMap>& shadowMaps() const = 0;
-  /// Where these lie in OpenGL, as Frame::images does: the name of a buffer texture of floats. From
-  /// ShadowMap::table on it has a number for each tile of the map, row by row; 64 times that number
-  /// is where the floats of the tile begin, which are as ShadowTexels::numbers has them. Tiles in
-  /// which nothing lies have floats as well, and may share them. 0: they lie in ShadowMap::texels.
+  /// Where these lie in OpenGL, as Frame::images does: the name of a two-dimensional array of
+  /// textures, not filtered. Each layer is a map, of floats: linear depth less ShadowMap::base,
+  /// more than 1e30 where nothing lies; and if there are maps of translucent casters, the share of
+  /// the light that these take, 0 where nothing lies. 0: they lie in ShadowMap::texels.
   virtual unsigned int mapTexture() const { return 0; }
 
   /// Frees all layers that are kept for the next frame (FrameStatistics::layerMemory).

@@ -6,7 +6,9 @@
 #include "svoOutline.h"
 #include "svoScene.h"
 #include "svoView.h"
+#include "vtkSVOTracingModule.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +26,28 @@ struct LightMaps
   int translucentGroups = 0; // see svoTranslucentGroups.h; each has a buffer with these views
 };
 
+/// How wide texels look, of the maps of a frame.
+struct TexelWidths
+{
+  double coarsest = 0.0, widest = 0.0; // as LightMaps has them
+  bool fewer = false;                  // texels than the settings ask for
+
+  void add(const LightMaps& light, const FrameSettings& settings)
+  {
+    this->coarsest = std::max(this->coarsest, light.coarsest);
+    this->widest = std::max(this->widest, light.widest);
+    this->fewer = this->fewer ||
+      (!light.views.empty() && settings.shadowCoarseness == 1.0 &&
+        light.views.front().width < settings.shadowResolution);
+  }
+  void tell(FrameStatistics& statistics) const
+  {
+    statistics.coarsestTexel = this->coarsest;
+    statistics.widestTexel = this->widest;
+    statistics.fewerTexels = this->fewer;
+  }
+};
+
 /// The maps of a light: those that fit its casters (fitLight()), of resolution^2 texels, unless a
 /// texel would look wider than four pixels: of a ground or a terrain that casts, and of which the
 /// eye sees a small part only. Then a map covers the receivers in the eye's view and no more; where
@@ -36,7 +60,7 @@ LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, 
 /// The maps of all lights that cast, by index of the light, of FrameSettings::shadowResolution
 /// texels, by its shadowCoarseness fewer, or of half as many, and so on, until all of them fit into
 /// FrameSettings::shadowMemoryLimit.
-std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
+VTKSVOTRACING_EXPORT std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
   const std::vector<Light>& lights, const FrameSettings& settings, const View& eye);
 }
 

@@ -4,6 +4,7 @@
 #define svoOutline_h
 
 #include "svoScene.h"
+#include "vtkSVOTracingModule.h"
 
 #include <array>
 #include <cstddef>
@@ -46,7 +47,8 @@ struct Outlines
 Outline outlineOf(const Instance& instance);
 Outline outlineOf(const Box& receiver);
 /// `known`: those that there were of the same instances, perhaps for other receivers.
-std::vector<Outline> outlinesOf(const Scene& scene, std::vector<Outline> known = {});
+VTKSVOTRACING_EXPORT std::vector<Outline> outlinesOf(
+  const Scene& scene, std::vector<Outline> known = {});
 
 glm::dmat4 matrixOf(const Outline& outline);
 

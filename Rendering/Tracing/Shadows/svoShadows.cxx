@@ -113,9 +113,7 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
   LayerBudget& budget, const ParallelFor& parallelFor)
 {
   this->OfLights.clear(); // they borrow buffers
-  this->CoarsestTexel = 0.0;
-  this->WidestTexel = 0.0;
-  this->HasFewerTexels = false;
+  this->Widths = TexelWidths();
   this->Traced = true;
   this->BuffersBefore.assign(this->Buffers.begin(), this->Buffers.end());
   this->Buffers.assign(lights.size(), nullptr);
@@ -154,11 +152,7 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
       this->Buffers.push_back(
         bufferOf(id, static_cast<std::uint8_t>(OpaqueCasters + group), maps[i]));
     }
-    this->CoarsestTexel = std::max(this->CoarsestTexel, maps[i].coarsest);
-    this->WidestTexel = std::max(this->WidestTexel, maps[i].widest);
-    this->HasFewerTexels = this->HasFewerTexels ||
-      (!maps[i].views.empty() && settings.shadowCoarseness == 1.0 &&
-        maps[i].views.front().width < settings.shadowResolution);
+    this->Widths.add(maps[i], settings);
   }
   this->FirstTranslucent.back() = this->Buffers.size();
   this->Kept = std::move(kept);
@@ -259,9 +253,7 @@ std::size_t Shadows::layerMemory() const
 
 void Shadows::addStatistics(FrameStatistics& statistics) const
 {
-  statistics.coarsestTexel = this->CoarsestTexel;
-  statistics.widestTexel = this->WidestTexel;
-  statistics.fewerTexels = this->HasFewerTexels;
+  this->Widths.tell(statistics);
   for (const ShadowTechnique technique : this->Techniques)
   {
     statistics.lightsWithBuffers += technique == ShadowTechnique::Buffer;

@@ -113,9 +113,7 @@ private:
   std::vector<std::unique_ptr<LightShadow>> OfLights;
   std::vector<unsigned char> SharedState; // inputs of the shared buffers in Kept; empty: not shared
   bool Traced = false;                    // buffers were, in this frame
-  bool HasFewerTexels = false;            // texels than were asked for, by all processes alike
-  double CoarsestTexel = 0.0;             // LightMaps::coarsest, of all lights
-  double WidestTexel = 0.0;               // LightMaps::widest, of all lights
+  TexelWidths Widths;                     // of all lights, by all processes alike
 };
 }
 

@@ -1,0 +1,78 @@
+// Shadow maps that OpenGL draws, in layers of one texture: triangles are rasterised, balls and
+// planes are met by rays of their own (svoMapCasters.glsl).
+#ifndef svoDrawnMaps_h
+#define svoDrawnMaps_h
+
+#include "svoBufferTexture.h"
+#include "svoFrame.h"
+#include "svoLightDetail.h"
+#include "svoOutline.h"
+#include "svoScene.h"
+#include "svoView.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+namespace svo
+{
+class OctreeArena;
+
+/// An instance of a scene that casts, and what shaders know of it, as in svoRayWalk.glsl: its
+/// octree and opacity; svoEnds::low and reach; svoEnds::high.
+struct CasterInMemory
+{
+  std::size_t instance;
+  glm::vec4 octree, low, high;
+};
+
+/// Of one renderer. All calls are made in its context; whoever owns one is told before it goes.
+class DrawnMaps
+{
+public:
+  /// Has the maps of a scene's lights, fitted as the CPU's are (svoLightDetail.h): they are drawn
+  /// unless they are the last frame's. All casters lie in `arena`, and where their colours have
+  /// alpha in `alphas`. At most `room` bytes. Why they are not there, in a few words, else empty.
+  std::string draw(const Scene& scene, const std::vector<CasterInMemory>& casters,
+    const OctreeArena& arena, const BufferTexture& alphas, const View& eye,
+    const FrameSettings& settings, std::size_t room);
+  void release();
+
+  /// As Tracer::shadowMaps() and mapTexture().
+  const std::vector<ShadowMap>& maps() const { return this->Maps; }
+  unsigned int texture() const { return this->Texels; }
+  const TexelWidths& widths() const { return this->Widths; }
+  std::size_t bytes() const;
+
+private:
+  struct Copy;
+  void fit(const Scene& scene, const View& eye, const FrameSettings& settings);
+  int findCopies(
+    const Scene& scene, const std::vector<CasterInMemory>& casters, std::vector<Copy>& copies);
+  bool resize(int size, int layers, bool translucent, std::size_t room);
+  bool send(const std::vector<Copy>& copies);
+  std::string link(bool alphas);
+  void releaseTextures();
+  void drawAll(
+    const std::vector<Copy>& copies, const OctreeArena& arena, const BufferTexture& alphas);
+
+  std::uint64_t Version = 0; // of the scene that Maps are of
+  std::vector<Outline> Fitted;
+  std::vector<LightMaps> Lights;
+  std::vector<ShadowMap> Maps;
+  TexelWidths Widths;
+
+  int Size = 0, Layers = 0; // of the texture
+  bool Translucent = false; // it has opacities
+  unsigned int Texels = 0, Depths = 0, Framebuffer = 0, Vertices = 0;
+  BufferTexture Copies{ BufferTexture::Texel::FourFloats };
+  static constexpr int Shapes = 3;
+  unsigned int Programs[Shapes] = {};
+  bool HasAlphas = false; // they know of them
+};
+}
+
+#endif
