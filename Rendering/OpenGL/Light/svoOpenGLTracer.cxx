@@ -251,7 +251,9 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Answers = asked && this->Code.complaint.empty();
   if (!this->Answers)
   {
-    this->Other->render(scene, view, settings, parallelFor);
+    FrameSettings others = settings;
+    others.lightCode = false;
+    this->Other->render(scene, view, others, parallelFor);
     return;
   }
   const std::string constants = constantsOf(this->Planes, this->Alphas.texels().size() > 0);
@@ -268,6 +270,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Statistics.lightsWithRays = static_cast<int>(this->Code.lights.size());
   this->Statistics.lightsWithBuffers = maps ? static_cast<int>(lights) : 0;
   this->Drawn.widths().tell(this->Statistics);
+  this->Statistics.shadowMemory = this->Drawn.mapBytes();
   this->Statistics.gpuMemory = this->bytesOfScene() + this->Drawn.bytes();
   this->Statistics.largestGap = this->largestGap(view);
 }

@@ -434,10 +434,16 @@ void DrawnMaps::drawAll(
   }
 }
 
+std::size_t DrawnMaps::mapBytes() const
+{
+  return static_cast<std::size_t>(this->Size) * this->Size * this->Layers *
+    (this->Translucent ? 8 : 4);
+}
+
 std::size_t DrawnMaps::bytes() const
 {
-  const std::size_t texels = static_cast<std::size_t>(this->Size) * this->Size;
-  return texels * (this->Layers * (this->Translucent ? 8 : 4) + 4) + this->Copies.bytes();
+  const std::size_t depths = static_cast<std::size_t>(this->Size) * this->Size * 4;
+  return this->mapBytes() + depths + this->Copies.bytes();
 }
 
 void DrawnMaps::releaseTextures()

@@ -45,6 +45,8 @@ public:
   const std::vector<ShadowMap>& maps() const { return this->Maps; }
   unsigned int texture() const { return this->Texels; }
   const TexelWidths& widths() const { return this->Widths; }
+  /// Of the maps; of all that is there.
+  std::size_t mapBytes() const;
   std::size_t bytes() const;
 
 private:

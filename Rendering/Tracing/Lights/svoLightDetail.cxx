@@ -285,10 +285,14 @@ std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
 {
   // Depth, instance and primitive of the buffer; for receivers a copy, and OpenGL's with room to
   // grow. Where casters are translucent how opaque they are as well. Tables have their share in all
-  // texels, also of maps that see nothing.
-  const double bytes = settings.handsOutMaps() ? 22.0 : 12.0;
-  const double translucentBytes = settings.handsOutMaps() ? 36.0 : 16.0;
-  constexpr double TableBytes = 0.5, EmptyTableBytes = 0.1;
+  // texels, also of maps that see nothing. Maps that VTK's shaders alone look up are OpenGL's only,
+  // without tiles and tables.
+  const bool whole = settings.lightCode;
+  const bool translucent = std::any_of(outlines.begin(), outlines.end(),
+    [](const Outline& outline) { return outline.casts && outline.translucent; });
+  const double bytes = whole ? (translucent ? 8.0 : 4.0) : settings.handsOutMaps() ? 22.0 : 12.0;
+  const double translucentBytes = whole ? 8.0 : settings.handsOutMaps() ? 36.0 : 16.0;
+  const double tableBytes = whole ? 0.0 : 0.5, emptyTableBytes = whole ? 0.0 : 0.1;
   std::vector<LightMaps> maps(lights.size());
   const double coarseness = settings.shadowCoarseness;
   assert(coarseness >= 1.0);
@@ -303,7 +307,7 @@ std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
         maps[i] = mapsOfLight(outlines, lights[i], resolution, eye, coarseness);
         const double texels = static_cast<double>(maps[i].views.size()) * resolution * resolution;
         most += texels *
-          (bytes + TableBytes + (translucentBytes + TableBytes) * maps[i].translucentGroups);
+          (bytes + tableBytes + (translucentBytes + tableBytes) * maps[i].translucentGroups);
       }
     }
     const auto limit = static_cast<double>(settings.shadowMemoryLimit);
@@ -318,10 +322,12 @@ std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
       {
         for (int group = 0; group <= light.translucentGroups; ++group)
         {
+          const double all = static_cast<double>(map.width) * map.height;
           const double texels = texelsOf(
             outlines, light.casters, static_cast<std::uint8_t>(OpaqueCasters + group), map);
-          taken += texels * (group == 0 ? bytes : translucentBytes) +
-            (texels > 0.0 ? TableBytes : EmptyTableBytes) * map.width * map.height;
+          taken +=
+            (whole && texels > 0.0 ? all : texels) * (group == 0 ? bytes : translucentBytes) +
+            (texels > 0.0 ? tableBytes : emptyTableBytes) * all;
         }
       }
     }
