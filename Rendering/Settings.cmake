@@ -32,7 +32,8 @@ vtksvo_setting(ShadowTechnique choice SHADOW_BUFFER
   PANEL default
   SAYS
     "How shadows are found: not at all, by a shadow buffer per light that is traced like the picture itself, or by one
-     ray from each visible point to each light, which is exact. Automatic takes buffers, wherever the data lies."
+     ray from each visible point to each light, which is exact. Automatic takes buffers, wherever the data lies, and rays
+     with the OpenGL backend, if a GPU has them as fast as the CPU."
   MORE
     "Where everything moves a frame with rays takes 1.5 times one with buffers (ten objects of 17 000 triangles, 2.6
      times of 1.1 million each, 0.7 times in small windows with few objects of millions). Where little moves buffers are
@@ -249,12 +250,13 @@ vtksvo_setting(Backend choice BACKEND_AUTO
   CHOICES BACKEND_AUTO Auto BACKEND_CPU CPU BACKEND_OPENGL OpenGL
   PANEL advanced
   SAYS
-    "Where the picture is made. CPU: octrees are traced on the processor. OpenGL: VTK draws all surfaces itself, and with
-     ShadowRays or Automatic its shaders follow exact rays through the octrees to each light. Surfaces without triangles are
-     traced by its shaders, or with ShadowBuffer on the processor. Auto: OpenGL on a GPU that answers rays as fast as the
-     CPU; else, and where there are several processes, the CPU."
+    "Where the picture is made. CPU: octrees are traced on the processor. OpenGL: VTK draws all surfaces itself, or its
+     shaders trace those without triangles; shadow maps are drawn by OpenGL, exact rays to each light follow the octrees in
+     its shaders. Auto: OpenGL on a GPU, with ShadowRays on one that answers them as fast as the CPU; else, and where there
+     are several processes, the CPU."
   MORE
-    "Auto measures once for each OpenGL context, in its first frame; software OpenGL takes the CPU without that, and so do
+    "Rays are measured once for each OpenGL context, in its first frame that asks for them. Software OpenGL takes the CPU, and
+     so do
      scenes in which VTK would show a contour of surfaces without triangles: of copies of glyphs, and of those that share
      a prop with meshes. OpenGL knows no PixelError of them: it always stops at the octree's voxels.
      `GetActiveBackend()` says what the last frame took. The rule has been tried on software OpenGL only.")
@@ -264,8 +266,8 @@ vtksvo_setting(GPUMemoryLimit memory 2097152
   FIELD gpuMemoryLimit CHANGES nothing
   PANEL advanced LABEL "GPU Memory Limit (KiB)"
   SAYS
-    "Octrees in the GPU's memory, with the OpenGL backend, and a picture of the light on what is seen. Octrees that do not
-     fit are answered by shadow maps of the CPU, with a message; without room for the picture a frame takes longer.")
+    "Octrees in the GPU's memory, with the OpenGL backend, and shadow maps, or a picture of the light on what is seen. What
+     does not fit is answered by shadow maps of the CPU, with a message; without room for the picture a frame takes longer.")
 
 vtksvo_setting(ShadowsForEverything bool false
   TABLE host

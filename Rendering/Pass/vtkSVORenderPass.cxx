@@ -37,10 +37,11 @@ int vtkSVORenderPass::GetActiveBackend() const
   return openGL ? BACKEND_OPENGL : BACKEND_CPU;
 }
 
-bool vtkSVORenderPass::PrefersOpenGL(vtkOpenGLRenderWindow* window, std::string& complaint) const
+bool vtkSVORenderPass::PrefersOpenGL(
+  vtkOpenGLRenderWindow* window, bool rays, std::string& complaint) const
 {
   const svo::BackendChoice choice = svo::chooseBackend(
-    window, [window] { return svo::measureRays(window, svo::smpParallelFor()); });
+    window, rays, [window] { return svo::measureRays(window, svo::smpParallelFor()); });
   complaint = choice.complaint;
   return choice.openGL;
 }

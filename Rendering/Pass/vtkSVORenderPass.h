@@ -228,11 +228,13 @@ protected:
 
   /**
    * Whether a window, whose context is current, is to be drawn by OpenGL where Backend is Auto;
-   * asked in each frame. `complaint` is why it cannot be, if that is so; it is said once. This one
-   * goes by the name of the context's renderer, and where that is a GPU by how fast rays are there
-   * and here, measured once in the life of the context (svoBackendChoice.h).
+   * asked in each frame; `rays`: with rays to lights. `complaint` is why it cannot be, if that is
+   * so; it is said once. This one goes by the name of the context's renderer, and for rays, where
+   * that is a GPU, by how fast they are there and here, measured once in the life of the context
+   * (svoBackendChoice.h).
    */
-  virtual bool PrefersOpenGL(vtkOpenGLRenderWindow* window, std::string& complaint) const;
+  virtual bool PrefersOpenGL(
+    vtkOpenGLRenderWindow* window, bool rays, std::string& complaint) const;
 #endif
 
 private:
@@ -240,8 +242,8 @@ private:
   void HearAttached(vtkRenderer* renderer, unsigned long event);
   void BeginAttachedFrame(svo::AttachedRenderer& attached);
   bool CollectFrame(svo::PassFrame& frame, int width, int height, const svo::OwnCamera* camera);
-  bool MayPreferOpenGL(svo::PassFrame& frame);
-  svo::FrameSettings AskedSettings(bool openGL) const;
+  bool MayPreferOpenGL(svo::PassFrame& frame, bool rays);
+  svo::FrameSettings AskedSettings(bool openGL, bool rays) const;
   void TraceFrame(svo::PassFrame& frame, int width, int height);
   void FinishFrame(svo::PassFrame& frame);
 #endif

@@ -139,7 +139,7 @@ void vtkSVORenderPass::BeginAttachedFrame(svo::AttachedRenderer& attached)
       frame.state->shareShadows(
         this->Impl->controller, width, height, frame.pace.distance, frame.settings);
     }
-    else if (this->ShadowTechnique == SHADOW_RAYS)
+    else if (frame.settings.shadowTechnique == svo::ShadowTechnique::Rays)
     {
       frame.state->shareCasters(this->Impl->controller,
         static_cast<std::size_t>(this->OctreeMemoryLimit) * svo::BytesOfKiB);

@@ -65,9 +65,13 @@ bool vtkSVORenderPass::CollectFrame(
     store.aborted = frame.abort(i < MostCollections, heard, disturbed);
     store.complain = [&frame](const std::string& text) { frame.messages.push_back(text); };
 
-    const bool chosen = this->Backend == BACKEND_AUTO && this->MayPreferOpenGL(frame);
+    const bool automatic = this->Backend == BACKEND_AUTO;
+    const bool chosen =
+      automatic && this->MayPreferOpenGL(frame, this->ShadowTechnique == SHADOW_RAYS);
     frame.openGL = chosen ? !planes : this->Backend == BACKEND_OPENGL;
-    asked = this->AskedSettings(frame.openGL);
+    const bool rays = frame.openGL && this->ShadowTechnique == SHADOW_AUTOMATIC &&
+      (!automatic || this->MayPreferOpenGL(frame, true));
+    asked = this->AskedSettings(frame.openGL, rays);
     svo::CollectSettings collect;
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
@@ -117,29 +121,32 @@ bool vtkSVORenderPass::CollectFrame(
   return true;
 }
 
-/// Where the backend is chosen: whether it may be OpenGL for this window. Several processes would
-/// have to agree on it.
-bool vtkSVORenderPass::MayPreferOpenGL(svo::PassFrame& frame)
+/// Where the backend is chosen: whether it may be OpenGL for this window, and with rays to lights.
+/// Several processes would have to agree on it.
+bool vtkSVORenderPass::MayPreferOpenGL(svo::PassFrame& frame, bool rays)
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(frame.renderer->GetRenderWindow());
   std::string complaint;
   const bool prefers =
-    window && !this->Impl->severalProcesses() && this->PrefersOpenGL(window, complaint);
-  frame.tellOnce(
-    complaint.empty() ? complaint : "The CPU makes the picture: " + complaint, this->Impl->said);
+    window && !this->Impl->severalProcesses() && this->PrefersOpenGL(window, rays, complaint);
+  // Without those that were not asked for it takes maps.
+  const bool missed = !complaint.empty() && this->ShadowTechnique == SHADOW_RAYS;
+  frame.tellOnce(missed ? "The CPU makes the picture: " + complaint : "", this->Impl->said);
   return prefers;
 }
 
-/// What the settings ask of a frame's tracer.
-svo::FrameSettings vtkSVORenderPass::AskedSettings(bool openGL) const
+/// What the settings ask of a frame's tracer. `rays`: Automatic takes them.
+svo::FrameSettings vtkSVORenderPass::AskedSettings(bool openGL, bool rays) const
 {
   svo::FrameSettings settings;
   this->Fill(settings);
   if (this->ShadowTechnique == SHADOW_AUTOMATIC)
   {
-    settings.shadowTechnique = openGL ? svo::ShadowTechnique::Rays : svo::ShadowTechnique::Buffer;
+    settings.shadowTechnique = rays ? svo::ShadowTechnique::Rays : svo::ShadowTechnique::Buffer;
   }
-  settings.lightCode = openGL;
+  // Processes merge the CPU's maps.
+  settings.lightCode = openGL &&
+    (settings.shadowTechnique != svo::ShadowTechnique::Buffer || !this->Impl->severalProcesses());
   return settings;
 }
 

@@ -31,9 +31,10 @@ public:
   mutable int Measured = 0;
 
 protected:
-  bool PrefersOpenGL(vtkOpenGLRenderWindow* window, std::string& complaint) const override
+  bool PrefersOpenGL(
+    vtkOpenGLRenderWindow* window, bool rays, std::string& complaint) const override
   {
-    const svo::BackendChoice choice = svo::chooseBackend(window, "A GPU",
+    const svo::BackendChoice choice = svo::chooseBackend(window, "A GPU", rays,
       [this, window]
       {
         ++this->Measured;
@@ -52,13 +53,14 @@ struct GPUStage : Stage
 
   Picture draw(int backend)
   {
-    this->gpu->SetShadowTechniqueToAutomatic();
     this->gpu->SetBackend(backend);
     return capture(this->window);
   }
-  /// That Auto makes the picture of a backend.
-  void expect(int backend, const std::string& name, Checks& checks)
+  /// That Auto makes the picture of a backend. `technique`: of shadows.
+  void expect(
+    int backend, const std::string& name, Checks& checks, int technique = OnGPU::SHADOW_RAYS)
   {
+    this->gpu->SetShadowTechnique(technique);
     const Picture found = this->draw(OnGPU::BACKEND_AUTO);
     checks.expect(this->gpu->GetActiveBackend() == backend, name + ": it is the backend");
     const Picture expected = this->draw(backend);
@@ -85,13 +87,24 @@ void choose(Checks& checks)
   svo::TestMessages messages{ stage.gpu };
   addSolids(stage);
   checks.expect(stage.gpu->GetActiveBackend() == OnGPU::BACKEND_CPU, "the CPU before a frame");
+  const auto automatic = [&]
+  {
+    stage.gpu->SetShadowTechniqueToAutomatic();
+    stage.draw(OnGPU::BACKEND_AUTO);
+    checks.expect(stage.gpu->GetActiveBackend() == OnGPU::BACKEND_OPENGL, "Automatic has OpenGL");
+    return stage.gpu->GetNumberOfLightsWithShadowRays();
+  };
   stage.expect(OnGPU::BACKEND_OPENGL, "a fast GPU", checks);
   stage.expect(OnGPU::BACKEND_OPENGL, "once more", checks);
+  checks.expect(automatic() == 1, "Automatic takes rays");
   checks.expect(stage.gpu->Measured == 1, "measured once");
   stage.gpu->Rates = { 1.0, 2.0, "" };
   stage.window->Finalize();
+  stage.expect(OnGPU::BACKEND_OPENGL, "a slow GPU, maps", checks, OnGPU::SHADOW_BUFFER);
+  checks.expect(stage.gpu->Measured == 1, "not measured for maps");
   stage.expect(OnGPU::BACKEND_CPU, "a slow GPU", checks);
   checks.expect(stage.gpu->Measured == 2, "measured in a new context");
+  checks.expect(automatic() == 0, "and maps where rays are slow");
   checks.expect(messages.all().empty(), "nothing is said: " + messages.all());
   stage.gpu->Rates = { 2.0, 1.0, "no shaders." };
   stage.window->Finalize();

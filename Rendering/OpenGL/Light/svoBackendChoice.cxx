@@ -163,12 +163,16 @@ RayRates measureRays(vtkOpenGLRenderWindow* window, const ParallelFor& parallelF
   return rates;
 }
 
-BackendChoice chooseBackend(vtkOpenGLRenderWindow* window, const std::string& renderer,
+BackendChoice chooseBackend(vtkOpenGLRenderWindow* window, const std::string& renderer, bool rays,
   const std::function<RayRates()>& measure)
 {
   if (renderer.empty() || isSoftwareRenderer(renderer))
   {
     return {};
+  }
+  if (!rays)
+  {
+    return { true, {} };
   }
   static std::vector<std::pair<vtkWeakPointer<vtkOpenGLState>, BackendChoice>> known;
   known.erase(
@@ -186,9 +190,10 @@ BackendChoice chooseBackend(vtkOpenGLRenderWindow* window, const std::string& re
   return known.back().second;
 }
 
-BackendChoice chooseBackend(vtkOpenGLRenderWindow* window, const std::function<RayRates()>& measure)
+BackendChoice chooseBackend(
+  vtkOpenGLRenderWindow* window, bool rays, const std::function<RayRates()>& measure)
 {
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  return chooseBackend(window, name ? name : "", measure);
+  return chooseBackend(window, name ? name : "", rays, measure);
 }
 }

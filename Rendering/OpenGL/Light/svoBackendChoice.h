@@ -35,14 +35,14 @@ struct BackendChoice
   std::string complaint; // why it cannot be OpenGL; empty if it can, or is merely slower
 };
 
-/// Software takes the CPU. Else OpenGL it is, unless the CPU is faster as `measure` says, which is
-/// asked once in the life of a context. The window's is current.
+/// Software takes the CPU, a GPU OpenGL; with `rays` to lights unless the CPU has them faster as
+/// `measure` says, which is asked once in the life of a context. The window's is current.
 VTKSVOOPENGL_EXPORT BackendChoice chooseBackend(
-  vtkOpenGLRenderWindow* window, const std::function<RayRates()>& measure);
+  vtkOpenGLRenderWindow* window, bool rays, const std::function<RayRates()>& measure);
 
 /// The same for a renderer of any name.
 VTKSVOOPENGL_EXPORT BackendChoice chooseBackend(vtkOpenGLRenderWindow* window,
-  const std::string& renderer, const std::function<RayRates()>& measure);
+  const std::string& renderer, bool rays, const std::function<RayRates()>& measure);
 }
 
 #endif
