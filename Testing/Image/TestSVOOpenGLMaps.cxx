@@ -446,6 +446,47 @@ void compareChanges(Checks& checks)
   stage.renderer->SetPass(nullptr);
   capture(stage.window);
 }
+
+/// Meshes of a thousand poses that are not seen again make room for the maps of the next one, or
+/// for the mask that rays are looked up in.
+void forgetPoses(Checks& checks)
+{
+  for (const bool rays : { false, true })
+  {
+    Stage stage;
+    stage.addGround();
+    vtkNew<vtkSphereSource> pose;
+    pose->SetRadius(0.5);
+    pose->SetCenter(0.0, 0.0, 0.8);
+    pose->SetThetaResolution(100);
+    pose->SetPhiResolution(100);
+    stage.add(pose, 0.9, 0.3, 0.3);
+    stage.addSun(2.0, -1.5, 4.0);
+    stage.pass->SetBackendToOpenGL();
+    stage.pass->SetMaximumLevel(7);
+    stage.pass->SetShadowBufferResolution(512);
+    svo::TestMessages messages{ stage.pass };
+    const auto draw = [&] { return rays ? stage.shadowedByRays() : stage.shadowedByBuffers(); };
+    draw();
+    const auto alone = stage.pass->GetGPUMemory();
+    // Room for a few.
+    stage.pass->SetGPUMemoryLimit(static_cast<int>(alone + alone / 2));
+    vtkIdType most = 0, least = alone;
+    for (int i = 0; i < 40; ++i)
+    {
+      pose->SetRadius(0.5 + 0.001 * i);
+      draw();
+      most = std::max(most, stage.pass->GetGPUMemory());
+      least = std::min(least, stage.pass->GetGPUMemory());
+    }
+    std::cout << (rays ? "rays: " : "maps: ") << alone << " KiB for a pose, " << least << " to "
+              << most << " for many\n";
+    checks.expect(most <= stage.pass->GetGPUMemoryLimit(), "the limit is kept");
+    // Without maps, or without a mask, there is less.
+    checks.expect(least >= alone - alone / 10, "the newest pose has all that it needs");
+    checks.expect(messages.all().empty(), "nothing is said: " + messages.all());
+  }
+}
 }
 
 int TestSVOOpenGLMaps(int, char*[])
@@ -453,5 +494,6 @@ int TestSVOOpenGLMaps(int, char*[])
   Checks checks;
   compareMaps(checks);
   compareChanges(checks);
+  forgetPoses(checks);
   return checks.exitCode();
 }

@@ -11,6 +11,7 @@
 #include "svoOctreeWalk.h"
 #include "svoRayWalk.h"
 #include "svoSeenSurfaces.h"
+#include "svoShadowMask.h"
 #include "svoTerminator.h"
 #include "svoUniforms.h"
 #include "svoWalkReach.h"
@@ -156,7 +157,8 @@ public:
   void releaseGraphicsResources() override;
 
 private:
-  const std::string& prepare(const Scene& scene, const View& view, const FrameSettings& settings);
+  std::string prepare(
+    const Scene& scene, const View& view, const FrameSettings& settings, bool maps);
   std::string hold(const Scene& scene, std::size_t limit);
   std::size_t bytesOfScene() const
   {
@@ -233,13 +235,20 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   }
   if (asked)
   {
-    std::string whyNot = maps || lights <= MostLights
-      ? this->prepare(scene, view, settings)
-      : "OpenGL shaders have no room for rays to so many lights";
-    if (whyNot.empty() && maps)
+    std::string whyNot = "OpenGL shaders have no room for rays to so many lights";
+    if (maps || lights <= MostLights)
     {
-      whyNot = this->Drawn.draw(scene, this->Records, this->Octrees, this->Alphas.texels(), view,
-        settings, settings.gpuMemoryLimit - this->bytesOfScene());
+      whyNot = this->prepare(scene, view, settings, maps);
+      const std::size_t mask = lights > 0 && !maps
+        ? ShadowMask::bytesOf(view.width, view.height, static_cast<int>(lights))
+        : 0;
+      if (this->Octrees.holdsOthers() &&
+        (!whyNot.empty() || this->bytesOfScene() + mask > settings.gpuMemoryLimit))
+      {
+        this->Octrees.release();
+        this->Version = 0;
+        whyNot = this->prepare(scene, view, settings, maps);
+      }
     }
     if (!whyNot.empty())
     {
@@ -275,9 +284,10 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Statistics.largestGap = this->largestGap(view);
 }
 
-/// Has all that a frame's rays meet in OpenGL's memory. Why not, else empty.
-const std::string& OpenGLTracer::prepare(
-  const Scene& scene, const View& view, const FrameSettings& settings)
+/// Has all that a frame's rays meet in OpenGL's memory, or with `maps` what lights see. Why not,
+/// else empty.
+std::string OpenGLTracer::prepare(
+  const Scene& scene, const View& view, const FrameSettings& settings, bool maps)
 {
   const bool known =
     scene.version != 0 && scene.version == this->Version && this->Limit == settings.gpuMemoryLimit;
@@ -297,7 +307,10 @@ const std::string& OpenGLTracer::prepare(
   {
     this->aim(view);
   }
-  return this->WhyNot;
+  return this->WhyNot.empty() && maps
+    ? this->Drawn.draw(scene, this->Records, this->Octrees, this->Alphas.texels(), view, settings,
+        settings.gpuMemoryLimit - this->bytesOfScene())
+    : this->WhyNot;
 }
 
 /// Has a scene's casters there, but for where the eye sees them. Why not, else empty.
@@ -324,15 +337,25 @@ std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
     }
     octrees.push_back(&octree);
   }
-  this->Planes = !seen.empty();
-  const bool held = this->Octrees.hold(octrees, limit);
-  if (held && !(this->place(scene, casters) && this->Seen.place(scene, seen)))
+  for (int once = 0; once < 2; ++once)
   {
-    return "OpenGL has no room for so many casters";
+    this->Planes = !seen.empty();
+    const bool held = this->Octrees.hold(octrees, limit);
+    if (held && !(this->place(scene, casters) && this->Seen.place(scene, seen)))
+    {
+      return "OpenGL has no room for so many casters";
+    }
+    if (held && this->bytesOfScene() <= limit)
+    {
+      return {};
+    }
+    if (!this->Octrees.holdsOthers())
+    {
+      break;
+    }
+    this->Octrees.release();
   }
-  return held && this->bytesOfScene() <= limit
-    ? ""
-    : "The octrees do not fit into OpenGL's memory, or into GPUMemoryLimit";
+  return "The octrees do not fit into OpenGL's memory, or into GPUMemoryLimit";
 }
 
 /// Says what VTK's shaders need for a frame.

@@ -28,6 +28,12 @@ unsigned int groupsOf(int pixels)
   return static_cast<unsigned int>(pixels + 7) / 8;
 }
 
+/// Of shares, four lights each.
+int layersOf(int lights)
+{
+  return (lights + 3) / 4;
+}
+
 bool hasCompute()
 {
 #ifdef GL_COMPUTE_SHADER
@@ -38,12 +44,6 @@ bool hasCompute()
 #else
   return false;
 #endif
-}
-
-/// Of a mask.
-std::size_t bytesOf(int width, int height, int layers)
-{
-  return static_cast<std::size_t>(width) * height * (16 + 8 + 4 + 4 * layers);
 }
 
 /// Textures of a program, bound while it runs.
@@ -267,8 +267,8 @@ bool ShadowMask::link(const LightCode& asked)
 /// they take more than `room`.
 bool ShadowMask::resize(int width, int height, int lights, std::size_t room)
 {
-  const int layers = (lights + 3) / 4;
-  if (bytesOf(width, height, layers) > room)
+  const int layers = layersOf(lights);
+  if (bytesOf(width, height, lights) > room)
   {
     this->releaseTextures();
     return false;
@@ -309,9 +309,14 @@ bool ShadowMask::resize(int width, int height, int lights, std::size_t room)
   return true;
 }
 
+std::size_t ShadowMask::bytesOf(int width, int height, int lights)
+{
+  return static_cast<std::size_t>(width) * height * (16 + 8 + 4 + 4 * layersOf(lights));
+}
+
 std::size_t ShadowMask::bytes() const
 {
-  return this->Shares == 0 ? 0 : bytesOf(this->Width, this->Height, this->Layers);
+  return this->Shares == 0 ? 0 : bytesOf(this->Width, this->Height, 4 * this->Layers);
 }
 
 void ShadowMask::releaseTextures()

@@ -47,6 +47,8 @@ public:
   /// viewport is the mask's; the current one is where the code will be used.
   void find(vtkOpenGLState* state, const LightCode& asked, const std::function<void()>& draw);
 
+  /// Bytes that a mask takes.
+  static std::size_t bytesOf(int width, int height, int lights);
   /// True if compute shaders asked last.
   bool computes() const { return this->Computes; }
   std::size_t bytes() const;

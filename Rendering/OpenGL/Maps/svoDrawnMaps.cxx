@@ -48,28 +48,25 @@ Shape shapeOf(const Instance& instance)
                                                      : Triangles;
 }
 
-/// `map`: of a scene's.
+/// Of a caster in a map.
 CopyRecord recordOf(const Instance& instance, const CasterInMemory& caster, const ShadowMap& map)
 {
   const View& view = map.view;
   const Octree& octree = instance.body->octree;
-  const WorldToOctree toOctree(octree, instance.localToWorld);
-  const bool ball = shapeOf(instance) == BallShape;
+  const Shape shape = shapeOf(instance);
+  const auto& corner = octree.header().origin;
+  const glm::dvec3 origin(corner[0], corner[1], corner[2]);
   glm::dmat4 toView = view.worldToView * instance.localToWorld;
-  if (!ball)
+  if (shape != BallShape)
   {
-    toView[3] = toView * glm::dvec4(toOctree.origin + 0.5 * octree.rootEdge(), 1.0);
+    toView[3] = toView * glm::dvec4(origin + 0.5 * octree.rootEdge(), 1.0);
     for (int axis = 0; axis < 3; ++axis)
     {
       toView[axis] *= octree.rootEdge();
     }
   }
-  const auto place = [&](const glm::dvec3& x)
-  { return ball ? toOctree.inverse * (x - toOctree.translation) : toOctree.point(x) - 1.5; };
-  const auto way = [&](const glm::dvec3& v)
-  { return ball ? toOctree.inverse * v : toOctree.vector(v); };
   const glm::dmat4 toClip = view.viewToClip * toView;
-  CopyRecord record;
+  CopyRecord record{ {}, {}, caster.octree, caster.low, caster.high };
   for (int column = 0; column < 4; ++column)
   {
     const double base = column == 3 ? map.base : 0.0;
@@ -78,11 +75,17 @@ CopyRecord recordOf(const Instance& instance, const CasterInMemory& caster, cons
     record.rows[2][column] = static_cast<float>(-toView[column][2] - base);
     record.rows[3][column] = static_cast<float>(toClip[column][3]);
   }
-  record.source =
-    glm::vec4(view.parallel ? way(view.axis) : place(view.eye), view.parallel ? 0.0f : 1.0f);
-  record.octree = caster.octree;
-  record.low = caster.low;
-  record.high = caster.high;
+  if (shape != Triangles)
+  {
+    const WorldToOctree toOctree(octree, instance.localToWorld);
+    const bool ball = shape == BallShape;
+    const glm::dvec3 x = view.parallel ? view.axis : view.eye - toOctree.translation;
+    const glm::dvec3 local = toOctree.inverse * x;
+    const glm::dvec3 middle = origin + 0.5 * octree.rootEdge();
+    record.source = view.parallel
+      ? glm::vec4(ball ? local : local * toOctree.scale, 0.0f)
+      : glm::vec4(ball ? local : (local - middle) * toOctree.scale, 1.0f);
+  }
   return record;
 }
 

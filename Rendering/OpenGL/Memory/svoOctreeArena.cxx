@@ -4,6 +4,7 @@
 #include "svoSurface.h"
 
 #include <algorithm>
+#include <set>
 
 #include <glm/vec4.hpp>
 
@@ -37,6 +38,12 @@ glm::vec2 inFloats(std::uint32_t number)
 
 bool OctreeArena::hold(const std::vector<const Octree*>& octrees, std::size_t limit)
 {
+  std::set<std::uint64_t> ids;
+  for (const Octree* octree : octrees)
+  {
+    ids.insert(octree->id());
+  }
+  this->Asked = ids.size();
   if (this->bytes() <= limit && this->add(octrees, limit))
   {
     return true;
@@ -124,9 +131,11 @@ bool OctreeArena::makeRoom(const Block& needed, std::size_t limit)
     {
       continue;
     }
-    // Half as much again, so that a scene that is built up is not copied for each of its octrees.
+    // Half as much again, so that a scene that is built up is not copied for each of its octrees;
+    // but others need room, too.
+    const std::size_t left = limit / 2 > bytes ? limit / 2 - bytes : 0;
     const std::size_t spare =
-      std::min({ least / 2, most - least, (limit - bytes) / part.texture.texelBytes() });
+      std::min({ least / 2, most - least, left / part.texture.texelBytes() });
     if (!part.texture.allocate(least + spare, part.used))
     {
       return false;

@@ -27,6 +27,9 @@ public:
   /// frames stay as long as there is room in `limit` (bytes). False, and nothing is there, if they
   /// do not fit into that, or OpenGL has no room.
   bool hold(const std::vector<const Octree*>& octrees, std::size_t limit);
+  /// True if it has some that hold() was not asked for last: whoever needs their room has to
+  /// release() all, and ask again.
+  bool holdsOthers() const { return this->Blocks.size() > this->Asked; }
   void release();
 
   /// The node at which rays through an octree that is held begin; its first triangle, or plane.
@@ -52,6 +55,7 @@ private:
   void send(const Octree& octree, const ShortLists& lists, const Block& at);
 
   std::map<std::uint64_t, Block> Blocks; // by Octree::id()
+  std::size_t Asked = 0;                 // of them, last
   Block End;                             // of what is in use
   BufferTexture Nodes{ BufferTexture::Texel::FourWords };
   BufferTexture Lists{ BufferTexture::Texel::Word };
