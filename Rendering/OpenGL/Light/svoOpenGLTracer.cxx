@@ -231,7 +231,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   const bool maps = asked && lights > 0 && settings.shadowTechnique == ShadowTechnique::Buffer;
   if (!maps)
   {
-    this->Drawn.release();
+    this->Drawn.forget();
   }
   if (asked)
   {

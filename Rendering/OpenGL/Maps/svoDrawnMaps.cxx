@@ -226,7 +226,7 @@ std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory
   }
   else
   {
-    const std::string words = this->link(alphas.size() > 0);
+    const std::string& words = this->link(alphas.size() > 0);
     whyNot = words.empty() ? words : "OpenGL refuses the shaders of shadow maps (" + words + ")";
   }
   if (whyNot.empty())
@@ -235,7 +235,7 @@ std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory
   }
   else
   {
-    this->release();
+    this->forget();
   }
   return whyNot;
 }
@@ -353,14 +353,15 @@ bool DrawnMaps::send(const std::vector<Copy>& copies)
 }
 
 /// Has programs for all shapes. OpenGL's words if it refuses.
-std::string DrawnMaps::link(bool alphas)
+const std::string& DrawnMaps::link(bool alphas)
 {
-  if (this->Programs[0] != 0 && this->HasAlphas == alphas)
+  if ((this->Programs[0] != 0 || !this->Refusal.empty()) && this->HasAlphas == alphas)
   {
-    return {};
+    return this->Refusal;
   }
   this->HasAlphas = alphas;
-  std::string words;
+  std::string& words = this->Refusal;
+  words.clear();
   for (int shape = 0; shape < Shapes && words.empty(); ++shape)
   {
     const std::string constants = "#version 150\n#define svoShape " + std::to_string(shape) + "\n";
@@ -465,12 +466,17 @@ void DrawnMaps::releaseTextures()
   this->Size = this->Layers = 0;
 }
 
-void DrawnMaps::release()
+void DrawnMaps::forget()
 {
   this->releaseTextures();
   this->Copies.release();
   this->Maps.clear();
   this->Widths = TexelWidths();
+}
+
+void DrawnMaps::release()
+{
+  this->forget();
   for (GLuint& program : this->Programs)
   {
     if (program != 0)
@@ -479,5 +485,6 @@ void DrawnMaps::release()
     }
     program = 0;
   }
+  this->Refusal.clear();
 }
 }

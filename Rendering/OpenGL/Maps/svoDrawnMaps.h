@@ -39,6 +39,8 @@ public:
   std::string draw(const Scene& scene, const std::vector<CasterInMemory>& casters,
     const OctreeArena& arena, const BufferTexture& alphas, const View& eye,
     const FrameSettings& settings, std::size_t room);
+  /// Frees them; what draws them stays until release().
+  void forget();
   void release();
 
   /// As Tracer::shadowMaps() and mapTexture().
@@ -56,7 +58,7 @@ private:
     const Scene& scene, const std::vector<CasterInMemory>& casters, std::vector<Copy>& copies);
   bool resize(int size, int layers, bool translucent, std::size_t room);
   bool send(const std::vector<Copy>& copies);
-  std::string link(bool alphas);
+  const std::string& link(bool alphas);
   void releaseTextures();
   void drawAll(
     const std::vector<Copy>& copies, const OctreeArena& arena, const BufferTexture& alphas);
@@ -74,6 +76,7 @@ private:
   static constexpr int Shapes = 3;
   unsigned int Programs[Shapes] = {};
   bool HasAlphas = false; // they know of them
+  std::string Refusal;    // OpenGL's words, if it does not compile them
 };
 }
 
