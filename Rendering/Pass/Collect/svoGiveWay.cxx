@@ -62,6 +62,10 @@ bool touch(const double* a, const double* b)
 
 void giveWay(std::vector<PropSurfaces>& props)
 {
+  if (std::none_of(props.begin(), props.end(), [](const PropSurfaces& prop) { return prop.shown; }))
+  {
+    return;
+  }
   std::vector<Drawn> drawn;
   for (std::size_t i = 0; i < props.size(); ++i)
   {

@@ -69,6 +69,16 @@ bool saysTheSame(const PropSurfaces& a, const PropSurfaces& b)
     text(a.rasterized) == text(b.rasterized) && text(a.castsNone) == text(b.castsNone);
 }
 
+void noteBounds(PropSurfaces& prop)
+{
+  if (!prop.traced || prop.surfaces.empty())
+  {
+    const double* bounds = prop.prop->GetBounds();
+    prop.bounds = PropSurfaces().bounds;
+    std::copy_n(bounds, bounds ? 6 : 0, prop.bounds.begin());
+  }
+}
+
 constexpr Reason NoActor = "is neither an actor nor an assembly";
 
 /// Why octrees are missing.
@@ -160,6 +170,7 @@ bool SceneCollector::collectProps(
       if (held == Held::Moved && PropCollector::move(known, frame))
       {
         known.state.noteMove(prop);
+        noteBounds(known);
         changed = true;
         continue;
       }
@@ -169,13 +180,7 @@ bool SceneCollector::collectProps(
     found.prop = prop;
     this->Props.collect(found, frame);
     found.state.note(prop);
-    if (found.surfaces.empty())
-    {
-      if (const double* bounds = prop->GetBounds())
-      {
-        std::copy_n(bounds, 6, found.bounds.begin());
-      }
-    }
+    noteBounds(found);
     changed = changed || !known.prop || !saysTheSame(known, found);
     known = std::move(found);
   }

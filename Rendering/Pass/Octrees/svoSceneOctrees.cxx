@@ -118,7 +118,11 @@ std::string reasons(Reason rasterized, Reason castsNone, bool casts)
 
 void addReceiver(const PropSurfaces& prop, bool shown, Scene& scene)
 {
-  const double* b = !shown && prop.receives ? prop.prop->GetBounds() : nullptr;
+  // To ask a prop takes VTK as long as all else that is done of it in a frame.
+  const bool known = prop.bounds[0] <= prop.bounds[1];
+  const double* b = shown || !prop.receives ? nullptr
+    : known                                 ? prop.bounds.data()
+                                            : prop.prop->GetBounds();
   if (b && b[0] <= b[1] && b[2] <= b[3] && b[4] <= b[5])
   {
     Box receiver;

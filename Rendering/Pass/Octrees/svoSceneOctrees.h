@@ -91,7 +91,9 @@ struct PropSurfaces
   Kept kept;
   PropState state; // when it was collected
 
-  std::array<double, 6> bounds{ 1, -1, 1, -1, 1, -1 }; // of what has no surfaces; VTK's world
+  /// VTK's world, where it was collected or has moved to: of what the rasteriser draws, or has no
+  /// surfaces.
+  std::array<double, 6> bounds{ 1, -1, 1, -1, 1, -1 };
 
   // Of a frame:
   bool fresh = true;  // collected anew: nothing of its instances has been written
