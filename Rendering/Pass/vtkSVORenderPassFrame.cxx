@@ -109,11 +109,12 @@ bool vtkSVORenderPass::CollectFrame(
   { return wanted ? this->GetText(what, nullptr) : std::string(); };
   const bool seen = this->ShadowIntensity > 0.0;
   const bool alone = seen && !impl.severalProcesses(); // else it does not know what others have
-  frame.tellOfShadows({ text(this->ShadowTechnique != SHADOW_NONE &&
-                            (!attached || !collected.scene.instances.empty()),
-                          TEXT_ONLY_HEADLIGHTS),
-                        text(alone, TEXT_NOTHING_CASTS), text(alone, TEXT_NOTHING_RECEIVES),
-                        text(seen, TEXT_CLIPPED) },
+  // OpenGL has instances of what casts alone, which may be nothing.
+  const bool meant = frame.openGL ? collected.marked : !collected.scene.instances.empty();
+  frame.tellOfShadows(
+    { text(this->ShadowTechnique != SHADOW_NONE && (!attached || meant), TEXT_ONLY_HEADLIGHTS),
+      text(alone, TEXT_NOTHING_CASTS), text(alone, TEXT_NOTHING_RECEIVES),
+      text(seen, TEXT_CLIPPED) },
     impl.said);
   frame.decide(asked,
     { this->AutoAdjustSampleDistances, this->MaximumImageSampleDistance, this->ImageReductionFactor,

@@ -58,13 +58,27 @@ class TestMessages(unittest.TestCase):
 
     def test_headlights(self):
         scene.show(scene.make_ball(), self.view)
+        self.expect_headlights()
+
+    def test_headlights_with_opengl(self):
+        """It has no instances without a light that casts."""
+        self.view.SVOBackend = "OpenGL"
+        scene.show(scene.make_ball(), self.view)
+        self.expect_headlights()
+
+    def test_no_svo_with_opengl(self):
+        self.view.SVOBackend = "OpenGL"
+        pv.HideAll(self.view)
+        scene.show(scene.make_ball(), self.view, "Surface")
+        self.assertEqual(self.said(lambda: setattr(self.sun, "Coords", "Ambient")), [])
+
+    def expect_headlights(self):
         for coords, count in (("Ambient", 1), ("Headlight", 0)):  # once
             messages = self.said(lambda: setattr(self.sun, "Coords", coords))
             self.assertEqual(len(messages), count, messages)
             self.assertTrue(all("Add Light" in message for message in messages), messages)
             self.assertEqual(scene.statistic(self.view, "SVOCastingLights"),
                              "Light 0, headlight or ambient light: casts none\n")
-
 
     def test_a_view_that_was_there_before(self):
         """Once, when the plugin is loaded."""

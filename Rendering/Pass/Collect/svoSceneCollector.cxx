@@ -204,12 +204,13 @@ void SceneCollector::assemble(CollectedScene& result)
   result.receivers.clear();
   result.tracedActors = result.rasterizedActors = 0;
   result.rasterizedReceivers = result.receiversReach = result.shadowCatchers = false;
-  result.planes = false;
+  result.planes = result.marked = false;
   const bool changed = writeInstances(this->Found, Stage::Shown, this->Instances);
   bool complete = true;
   for (const PropSurfaces& prop : this->Found)
   {
     result.planes = result.planes || prop.planes;
+    result.marked = result.marked || prop.marked || this->Choices.unmarkedToo;
     if (prop.shown)
     {
       result.replaced.insert(prop.prop);

@@ -53,6 +53,7 @@ struct CollectedScene
   bool headlightOnly = false;       // SceneLights
   bool aimlessLight = false;        // the same
   bool shadowCatchers = false;      // there are some; they are rasterised
+  bool marked = false;              // something is meant to be traced, or to cast as if it were
   /// Surfaces without triangles are there, and may be traced, of which VTK would draw a contour
   /// with `openGL`. Whether it does does not matter.
   bool planes = false;
