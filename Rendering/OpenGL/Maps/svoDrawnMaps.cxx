@@ -1,8 +1,7 @@
 #include "svoDrawnMaps.h"
 
 #include "svoColorAlpha.h"
-#include "svoLeafError.h"
-#include "svoLocalView.h"
+#include "svoKeptState.h"
 #include "svoMapCasters.h"
 #include "svoOctreeArena.h"
 #include "svoOctreeWalk.h"
@@ -10,163 +9,20 @@
 #include "svoProgram.h"
 #include "svoSurface.h"
 #include "svoTextures.h"
-#include "svoTranslucentGroups.h"
-#include "svoWorldToOctree.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
-#include <glm/mat4x4.hpp>
-#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
 
 namespace svo
 {
 namespace
 {
-enum Shape // as svoMapCasters.glsl
-{
-  Triangles,
-  BallShape,
-  Planes
-};
-constexpr int CornersOfBox = 36;
-
-struct CopyRecord // in a shader's memory
-{
-  glm::vec4 rows[4];
-  glm::vec4 source;
-  glm::vec4 octree, low, high;
-};
+// As svoMapCasters.glsl has them.
 constexpr std::size_t TexelsOfCopy = 8;
-static_assert(sizeof(CopyRecord) == TexelsOfCopy * sizeof(glm::vec4), "as svoMapCasters.glsl");
-
-Shape shapeOf(const Instance& instance)
-{
-  return instance.body->octree.hasPlanes()           ? Planes
-    : instance.body->ball && !instance.mappedOpacity ? BallShape
-                                                     : Triangles;
-}
-
-/// Of a caster in a map.
-CopyRecord recordOf(const Instance& instance, const CasterInMemory& caster, const ShadowMap& map)
-{
-  const View& view = map.view;
-  const Octree& octree = instance.body->octree;
-  const Shape shape = shapeOf(instance);
-  const auto& corner = octree.header().origin;
-  const glm::dvec3 origin(corner[0], corner[1], corner[2]);
-  glm::dmat4 toView = view.worldToView * instance.localToWorld;
-  if (shape != BallShape)
-  {
-    toView[3] = toView * glm::dvec4(origin + 0.5 * octree.rootEdge(), 1.0);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      toView[axis] *= octree.rootEdge();
-    }
-  }
-  const glm::dmat4 toClip = view.viewToClip * toView;
-  CopyRecord record{ {}, {}, caster.octree, caster.low, caster.high };
-  for (int column = 0; column < 4; ++column)
-  {
-    const double base = column == 3 ? map.base : 0.0;
-    record.rows[0][column] = static_cast<float>(toClip[column][0]);
-    record.rows[1][column] = static_cast<float>(toClip[column][1]);
-    record.rows[2][column] = static_cast<float>(-toView[column][2] - base);
-    record.rows[3][column] = static_cast<float>(toClip[column][3]);
-  }
-  if (shape != Triangles)
-  {
-    const WorldToOctree toOctree(octree, instance.localToWorld);
-    const bool ball = shape == BallShape;
-    const glm::dvec3 x = view.parallel ? view.axis : view.eye - toOctree.translation;
-    const glm::dvec3 local = toOctree.inverse * x;
-    const glm::dvec3 middle = origin + 0.5 * octree.rootEdge();
-    record.source = view.parallel
-      ? glm::vec4(ball ? local : local * toOctree.scale, 0.0f)
-      : glm::vec4(ball ? local : (local - middle) * toOctree.scale, 1.0f);
-  }
-  return record;
-}
-
-/// The error that a test against the map allows for.
-double errorOf(const Instance& instance)
-{
-  const Octree& octree = instance.body->octree;
-  const bool cubes = instance.body->leafGeometry == LeafGeometry::Voxel;
-  return worldMapError(instance,
-    !octree.hasPlanes() ? LeafGeometry::Triangle
-      : cubes           ? LeafGeometry::Voxel
-                        : LeafGeometry::Plane,
-    octree.level());
-}
-
-/// What is changed of OpenGL's state while maps are drawn, put back at the end: VTK knows it.
-class KeptState
-{
-public:
-  KeptState()
-  {
-    for (std::size_t i = 0; i < std::size(this->On); ++i)
-    {
-      this->On[i] = glIsEnabled(Switches[i]);
-      glDisable(Switches[i]);
-    }
-    glGetIntegerv(GL_VIEWPORT, this->Viewport);
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &this->Framebuffer);
-    glGetIntegerv(GL_CURRENT_PROGRAM, &this->Program);
-    glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &this->Vertices);
-    glGetIntegerv(GL_ACTIVE_TEXTURE, &this->Unit);
-    glGetIntegerv(GL_DEPTH_FUNC, &this->Compared);
-    glGetBooleanv(GL_DEPTH_WRITEMASK, &this->Deep);
-    glGetBooleanv(GL_COLOR_WRITEMASK, this->Colors);
-  }
-  KeptState(const KeptState&) = delete;
-  KeptState& operator=(const KeptState&) = delete;
-  ~KeptState()
-  {
-    for (std::size_t i = 0; i < this->Bound.size(); ++i)
-    {
-      glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(i));
-      glBindTexture(GL_TEXTURE_BUFFER, static_cast<GLuint>(this->Bound[i]));
-    }
-    glActiveTexture(static_cast<GLenum>(this->Unit));
-    glColorMask(this->Colors[0], this->Colors[1], this->Colors[2], this->Colors[3]);
-    glDepthMask(this->Deep);
-    glDepthFunc(static_cast<GLenum>(this->Compared));
-    glBindVertexArray(static_cast<GLuint>(this->Vertices));
-    glUseProgram(static_cast<GLuint>(this->Program));
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(this->Framebuffer));
-    glViewport(this->Viewport[0], this->Viewport[1], this->Viewport[2], this->Viewport[3]);
-    for (std::size_t i = 0; i < std::size(this->On); ++i)
-    {
-      if (this->On[i])
-      {
-        glEnable(Switches[i]);
-      }
-    }
-  }
-
-  /// Binds a buffer texture to the next unit, and returns that.
-  int bind(GLuint texture)
-  {
-    const auto unit = static_cast<int>(this->Bound.size());
-    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    this->Bound.push_back(0);
-    glGetIntegerv(GL_TEXTURE_BINDING_BUFFER, &this->Bound.back());
-    glBindTexture(GL_TEXTURE_BUFFER, texture);
-    return unit;
-  }
-
-private:
-  static constexpr GLenum Switches[] = { GL_BLEND, GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_CULL_FACE,
-    GL_STENCIL_TEST };
-  GLboolean On[std::size(Switches)];
-  GLint Viewport[4];
-  GLint Framebuffer, Program, Vertices, Unit, Compared;
-  GLboolean Deep, Colors[4];
-  std::vector<GLint> Bound; // by unit
-};
+static_assert(sizeof(MapCopy::Record) == TexelsOfCopy * sizeof(glm::vec4), "no gaps");
+constexpr int CornersOfBox = 36;
 
 bool sameMaps(const std::vector<ShadowMap>& a, const std::vector<ShadowMap>& b)
 {
@@ -175,27 +31,6 @@ bool sameMaps(const std::vector<ShadowMap>& a, const std::vector<ShadowMap>& b)
     { return x.light == y.light && x.group == y.group && sameRays(x.view, y.view); });
 }
 }
-
-/// A caster in a map.
-struct DrawnMaps::Copy
-{
-  int map;
-  Shape shape;
-  const Octree* octree;
-  CopyRecord record;
-
-  /// True if both are drawn at once.
-  bool joins(const Copy& o) const
-  {
-    return this->map == o.map && this->shape == o.shape &&
-      (this->shape != Triangles || this->octree->id() == o.octree->id());
-  }
-  bool operator<(const Copy& o) const
-  {
-    return std::make_tuple(this->map, this->shape, this->octree->id()) <
-      std::make_tuple(o.map, o.shape, o.octree->id());
-  }
-};
 
 std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory>& casters,
   const OctreeArena& arena, const BufferTexture& alphas, const View& eye,
@@ -210,13 +45,17 @@ std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory
     this->Maps = std::move(before); // with where they lie
     return {};
   }
-  std::vector<Copy> copies;
-  const int layers = this->findCopies(scene, casters, copies);
+  const std::vector<MapCopy> copies = copiesIn(scene, casters, this->Lights, this->Maps);
+  int layers = 1;
+  for (const ShadowMap& map : this->Maps)
+  {
+    layers = std::max(layers, map.layer + 1);
+  }
   const bool translucent = std::any_of(
     this->Maps.begin(), this->Maps.end(), [](const ShadowMap& map) { return map.group > 0; });
   const int size = this->Maps.empty() ? 1 : this->Maps.front().view.width;
   std::string whyNot;
-  if (!this->resize(size, std::max(layers, 1), translucent, room))
+  if (!this->resize(size, layers, translucent, room))
   {
     whyNot = "Shadow maps do not fit into OpenGL's memory, or into GPUMemoryLimit";
   }
@@ -267,39 +106,6 @@ void DrawnMaps::fit(const Scene& scene, const View& eye, const FrameSettings& se
   }
 }
 
-/// What is to be drawn into which map, map by map; of the maps where they lie, and what they allow
-/// for. How many layers there are.
-int DrawnMaps::findCopies(
-  const Scene& scene, const std::vector<CasterInMemory>& casters, std::vector<Copy>& copies)
-{
-  int layers = 0;
-  for (std::size_t m = 0; m < this->Maps.size(); ++m)
-  {
-    ShadowMap& map = this->Maps[m];
-    const std::vector<std::uint8_t>& groups = this->Lights[map.light].casters;
-    const std::size_t before = copies.size();
-    for (const CasterInMemory& caster : casters)
-    {
-      const Instance& instance = scene.instances[caster.instance];
-      const Octree& octree = instance.body->octree;
-      if (groups[caster.instance] != OpaqueCasters + map.group)
-      {
-        continue;
-      }
-      map.worldBias = std::max(map.worldBias, errorOf(instance));
-      map.casterVoxel = std::max(map.casterVoxel, worldVoxel(instance));
-      if (!seeOctree(octree, instance.localToWorld, map.view).rect.empty())
-      {
-        copies.push_back(
-          { static_cast<int>(m), shapeOf(instance), &octree, recordOf(instance, caster, map) });
-      }
-    }
-    map.layer = copies.size() > before ? layers++ : -1;
-  }
-  std::stable_sort(copies.begin(), copies.end());
-  return layers;
-}
-
 /// Has a texture for them. False if OpenGL refuses, or if it takes more than `room`.
 bool DrawnMaps::resize(int size, int layers, bool translucent, std::size_t room)
 {
@@ -334,11 +140,11 @@ bool DrawnMaps::resize(int size, int layers, bool translucent, std::size_t room)
   return complete;
 }
 
-bool DrawnMaps::send(const std::vector<Copy>& copies)
+bool DrawnMaps::send(const std::vector<MapCopy>& copies)
 {
-  std::vector<CopyRecord> records;
+  std::vector<MapCopy::Record> records;
   records.reserve(copies.size());
-  for (const Copy& copy : copies)
+  for (const MapCopy& copy : copies)
   {
     records.push_back(copy.record);
   }
@@ -362,7 +168,7 @@ const std::string& DrawnMaps::link(bool alphas)
   this->HasAlphas = alphas;
   std::string& words = this->Refusal;
   words.clear();
-  for (int shape = 0; shape < Shapes && words.empty(); ++shape)
+  for (int shape = 0; shape < MapCopy::Shapes && words.empty(); ++shape)
   {
     const std::string constants = "#version 150\n#define svoShape " + std::to_string(shape) + "\n";
     glDeleteProgram(this->Programs[shape]);
@@ -377,7 +183,7 @@ const std::string& DrawnMaps::link(bool alphas)
 }
 
 void DrawnMaps::drawAll(
-  const std::vector<Copy>& copies, const OctreeArena& arena, const BufferTexture& alphas)
+  const std::vector<MapCopy>& copies, const OctreeArena& arena, const BufferTexture& alphas)
 {
   KeptState state;
   glEnable(GL_DEPTH_TEST);
@@ -404,7 +210,7 @@ void DrawnMaps::drawAll(
   std::size_t end = 0;
   for (std::size_t first = 0; first < copies.size(); first = end)
   {
-    const Copy& copy = copies[first];
+    const MapCopy& copy = copies[first];
     for (end = first + 1; end < copies.size() && copy.joins(copies[end]); ++end)
     {
     }
@@ -428,7 +234,7 @@ void DrawnMaps::drawAll(
       static_cast<float>(drawn.view.tNear - drawn.base),
       static_cast<float>(drawn.view.tFar - drawn.base));
     int vertices = CornersOfBox;
-    if (copy.shape == Triangles)
+    if (copy.shape == MapCopy::Triangles)
     {
       vertices = static_cast<int>(3 * copy.octree->surface()->triangles.size());
       glUniform1i(glGetUniformLocation(program, "svoFirstTriangle"),

@@ -6,6 +6,7 @@
 #include "svoBufferTexture.h"
 #include "svoFrame.h"
 #include "svoLightDetail.h"
+#include "svoMapCopies.h"
 #include "svoOutline.h"
 #include "svoScene.h"
 #include "svoView.h"
@@ -15,19 +16,9 @@
 #include <string>
 #include <vector>
 
-#include <glm/vec4.hpp>
-
 namespace svo
 {
 class OctreeArena;
-
-/// An instance of a scene that casts, and what shaders know of it, as in svoRayWalk.glsl: its
-/// octree and opacity; svoEnds::low and reach; svoEnds::high.
-struct CasterInMemory
-{
-  std::size_t instance;
-  glm::vec4 octree, low, high;
-};
 
 /// Of one renderer. All calls are made in its context; whoever owns one is told before it goes.
 class DrawnMaps
@@ -52,16 +43,15 @@ public:
   std::size_t bytes() const;
 
 private:
-  struct Copy;
   void fit(const Scene& scene, const View& eye, const FrameSettings& settings);
   int findCopies(
-    const Scene& scene, const std::vector<CasterInMemory>& casters, std::vector<Copy>& copies);
+    const Scene& scene, const std::vector<CasterInMemory>& casters, std::vector<MapCopy>& copies);
   bool resize(int size, int layers, bool translucent, std::size_t room);
-  bool send(const std::vector<Copy>& copies);
+  bool send(const std::vector<MapCopy>& copies);
   const std::string& link(bool alphas);
   void releaseTextures();
   void drawAll(
-    const std::vector<Copy>& copies, const OctreeArena& arena, const BufferTexture& alphas);
+    const std::vector<MapCopy>& copies, const OctreeArena& arena, const BufferTexture& alphas);
 
   std::uint64_t Version = 0; // of the scene that Maps are of
   std::vector<Outline> Fitted;
@@ -73,10 +63,9 @@ private:
   bool Translucent = false; // it has opacities
   unsigned int Texels = 0, Depths = 0, Framebuffer = 0, Vertices = 0;
   BufferTexture Copies{ BufferTexture::Texel::FourFloats };
-  static constexpr int Shapes = 3;
-  unsigned int Programs[Shapes] = {};
-  bool HasAlphas = false; // they know of them
-  std::string Refusal;    // OpenGL's words, if it does not compile them
+  unsigned int Programs[MapCopy::Shapes] = {}; // by shape
+  bool HasAlphas = false;                      // they know of them
+  std::string Refusal;                         // OpenGL's words, if it does not compile them
 };
 }
 

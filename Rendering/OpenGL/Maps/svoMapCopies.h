@@ -1,0 +1,67 @@
+// Which casters are drawn into which shadow maps, as svoMapCasters.glsl reads them.
+#ifndef svoMapCopies_h
+#define svoMapCopies_h
+
+#include "svoFrame.h"
+#include "svoLightDetail.h"
+#include "svoScene.h"
+
+#include <cstddef>
+#include <tuple>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+namespace svo
+{
+/// An instance of a scene that casts, and what shaders know of it, as in svoRayWalk.glsl: its
+/// octree and opacity; svoEnds::low and reach; svoEnds::high.
+struct CasterInMemory
+{
+  std::size_t instance;
+  glm::vec4 octree, low, high;
+};
+
+/// A caster in a map.
+struct MapCopy
+{
+  enum Shape
+  {
+    Triangles,
+    Ball,
+    Planes,
+    Shapes
+  };
+  struct Record // in a shader's memory
+  {
+    glm::vec4 rows[4];
+    glm::vec4 source;
+    glm::vec4 octree, low, high;
+  };
+
+  int map;
+  Shape shape;
+  const Octree* octree;
+  Record record;
+
+  /// True if both are drawn at once.
+  bool joins(const MapCopy& o) const
+  {
+    return this->map == o.map && this->shape == o.shape &&
+      (this->shape != Triangles || this->octree->id() == o.octree->id());
+  }
+  bool operator<(const MapCopy& o) const
+  {
+    return std::make_tuple(this->map, this->shape, this->octree->id()) <
+      std::make_tuple(o.map, o.shape, o.octree->id());
+  }
+};
+
+/// What is to be drawn into which of a scene's maps, map by map, what is drawn at once together.
+/// `lights`: what the maps are of. Says of the maps what they allow for, and their layers: those in
+/// which something is seen have one, from 0 on.
+std::vector<MapCopy> copiesIn(const Scene& scene, const std::vector<CasterInMemory>& casters,
+  const std::vector<LightMaps>& lights, std::vector<ShadowMap>& maps);
+}
+
+#endif

@@ -1,0 +1,83 @@
+// OpenGL's state around what draws beside VTK, which knows what it has set.
+#ifndef svoKeptState_h
+#define svoKeptState_h
+
+#include "svoOpenGL.h"
+
+#include <cstddef>
+#include <iterator>
+#include <vector>
+
+namespace svo
+{
+/// Switches tests, blending and culling off; in the end all is as it was of these, of depths,
+/// colours, the viewport, the framebuffer that is drawn into, the program, the vertex array, and
+/// what was bound here.
+class KeptState
+{
+public:
+  KeptState()
+  {
+    for (std::size_t i = 0; i < std::size(this->On); ++i)
+    {
+      this->On[i] = glIsEnabled(Switches[i]);
+      glDisable(Switches[i]);
+    }
+    glGetIntegerv(GL_VIEWPORT, this->Viewport);
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &this->Framebuffer);
+    glGetIntegerv(GL_CURRENT_PROGRAM, &this->Program);
+    glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &this->Vertices);
+    glGetIntegerv(GL_ACTIVE_TEXTURE, &this->Unit);
+    glGetIntegerv(GL_DEPTH_FUNC, &this->Compared);
+    glGetBooleanv(GL_DEPTH_WRITEMASK, &this->Deep);
+    glGetBooleanv(GL_COLOR_WRITEMASK, this->Colors);
+  }
+  KeptState(const KeptState&) = delete;
+  KeptState& operator=(const KeptState&) = delete;
+  ~KeptState()
+  {
+    for (std::size_t i = 0; i < this->Bound.size(); ++i)
+    {
+      glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(i));
+      glBindTexture(GL_TEXTURE_BUFFER, static_cast<GLuint>(this->Bound[i]));
+    }
+    glActiveTexture(static_cast<GLenum>(this->Unit));
+    glColorMask(this->Colors[0], this->Colors[1], this->Colors[2], this->Colors[3]);
+    glDepthMask(this->Deep);
+    glDepthFunc(static_cast<GLenum>(this->Compared));
+    glBindVertexArray(static_cast<GLuint>(this->Vertices));
+    glUseProgram(static_cast<GLuint>(this->Program));
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(this->Framebuffer));
+    glViewport(this->Viewport[0], this->Viewport[1], this->Viewport[2], this->Viewport[3]);
+    for (std::size_t i = 0; i < std::size(this->On); ++i)
+    {
+      if (this->On[i])
+      {
+        glEnable(Switches[i]);
+      }
+    }
+  }
+
+  /// Binds a buffer texture to the next unit, and returns that.
+  int bind(GLuint texture)
+  {
+    const auto unit = static_cast<int>(this->Bound.size());
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    this->Bound.push_back(0);
+    glGetIntegerv(GL_TEXTURE_BINDING_BUFFER, &this->Bound.back());
+    glBindTexture(GL_TEXTURE_BUFFER, texture);
+    return unit;
+  }
+
+private:
+  static constexpr GLenum Switches[] = { GL_BLEND, GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_CULL_FACE,
+    GL_STENCIL_TEST };
+  GLboolean On[std::size(Switches)];
+  GLint Viewport[4];
+  GLint Framebuffer, Program, Vertices, Unit, Compared;
+  GLboolean Deep, Colors[4];
+  std::vector<GLint> Bound; // by unit
+};
+}
+
+#endif
