@@ -310,7 +310,7 @@ vtksvo_statistic(NumberOfPrimaryRays vtkIdType OF tracer.primaryRays PARAVIEW
 vtksvo_statistic(NumberOfShadowRays vtkIdType OF tracer.shadowRays PARAVIEW
   SAYS "Rays to lights, and texels from lights, in the last frame.")
 vtksvo_statistic(NumberOfRetracedLayers vtkIdType OF tracer.retracedLayers PARAVIEW
-  SAYS "Objects, seen from the eye or a light, that the last frame traced anew.")
+  SAYS "Objects, seen from the eye or a light, that the last frame traced or drew anew.")
 vtksvo_statistic(NumberOfLightsWithShadowBuffers int OF tracer.lightsWithBuffers
   SAYS "Casting lights of the last frame whose shadows were found by buffers.")
 vtksvo_statistic(NumberOfLightsWithShadowRays int OF tracer.lightsWithRays

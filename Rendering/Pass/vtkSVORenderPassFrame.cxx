@@ -179,7 +179,7 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   impl.statistics.imageReduction = this->ImageReductionFactor;
   impl.statistics.pacedShadows = frame.pacedShadows;
   impl.statistics.openGL = frame.openGL;
-  if (impl.statistics.tracer.retracedLayers > 0)
+  if (impl.statistics.tracer.retracedLayers > 0 && !frame.openGL) // which knows no pace
   {
     double seconds, fixedSeconds, shadowSeconds;
     this->MeasureFrame(seconds, fixedSeconds, shadowSeconds);

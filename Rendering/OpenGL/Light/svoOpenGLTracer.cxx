@@ -278,6 +278,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Statistics = FrameStatistics();
   this->Statistics.lightsWithRays = static_cast<int>(this->Code.lights.size());
   this->Statistics.lightsWithBuffers = maps ? static_cast<int>(lights) : 0;
+  this->Statistics.retracedLayers = this->Drawn.drawn();
   this->Drawn.widths().tell(this->Statistics);
   this->Statistics.shadowMemory = this->Drawn.mapBytes();
   this->Statistics.gpuMemory = this->bytesOfScene() + this->Drawn.bytes();

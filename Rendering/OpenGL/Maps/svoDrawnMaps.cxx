@@ -30,22 +30,42 @@ bool sameMaps(const std::vector<ShadowMap>& a, const std::vector<ShadowMap>& b)
     [](const ShadowMap& x, const ShadowMap& y)
     { return x.light == y.light && x.group == y.group && sameRays(x.view, y.view); });
 }
+
+bool sameCasters(const std::vector<LightMaps>& a, const std::vector<LightMaps>& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+    [](const LightMaps& x, const LightMaps& y) { return x.casters == y.casters; });
+}
+
+bool sameLayers(const std::vector<ShadowMap>& a, const std::vector<ShadowMap>& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+    [](const ShadowMap& x, const ShadowMap& y) { return x.layer == y.layer; });
+}
+
+bool overlap(const PixelRect& a, const PixelRect& b)
+{
+  return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
+}
 }
 
 std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory>& casters,
   const OctreeArena& arena, const BufferTexture& alphas, const View& eye,
   const FrameSettings& settings, std::size_t room)
 {
+  this->Drawn = 0;
   std::vector<ShadowMap> before = std::move(this->Maps);
+  const std::vector<LightMaps> lightsBefore = std::move(this->Lights);
   const bool known = scene.version != 0 && scene.version == this->Version;
   this->fit(scene, eye, settings);
   this->Version = scene.version;
-  if (known && this->Texels != 0 && sameMaps(this->Maps, before) && this->bytes() <= room)
+  const bool same = this->Texels != 0 && sameMaps(this->Maps, before) && this->bytes() <= room;
+  if (known && same && sameCasters(this->Lights, lightsBefore))
   {
     this->Maps = std::move(before); // with where they lie
     return {};
   }
-  const std::vector<MapCopy> copies = copiesIn(scene, casters, this->Lights, this->Maps);
+  std::vector<MapCopy> copies = copiesIn(scene, casters, this->Lights, this->Maps);
   int layers = 1;
   for (const ShadowMap& map : this->Maps)
   {
@@ -54,14 +74,11 @@ std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory
   const bool translucent = std::any_of(
     this->Maps.begin(), this->Maps.end(), [](const ShadowMap& map) { return map.group > 0; });
   const int size = this->Maps.empty() ? 1 : this->Maps.front().view.width;
+  const unsigned int texture = this->Texels;
   std::string whyNot;
   if (!this->resize(size, layers, translucent, room))
   {
     whyNot = "Shadow maps do not fit into OpenGL's memory, or into GPUMemoryLimit";
-  }
-  else if (!this->send(copies))
-  {
-    whyNot = "OpenGL has no room for so many casters";
   }
   else
   {
@@ -70,7 +87,15 @@ std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory
   }
   if (whyNot.empty())
   {
-    this->drawAll(copies, arena, alphas);
+    const bool kept = same && texture == this->Texels && sameLayers(this->Maps, before);
+    const std::vector<PixelRect> parts = kept
+      ? changedParts(this->InMaps, copies, this->Maps.size())
+      : std::vector<PixelRect>(this->Maps.size(), { 0, 0, size, size });
+    whyNot = this->drawParts(parts, copies, arena, alphas);
+  }
+  if (whyNot.empty())
+  {
+    this->InMaps = std::move(copies);
   }
   else
   {
@@ -140,24 +165,6 @@ bool DrawnMaps::resize(int size, int layers, bool translucent, std::size_t room)
   return complete;
 }
 
-bool DrawnMaps::send(const std::vector<MapCopy>& copies)
-{
-  std::vector<MapCopy::Record> records;
-  records.reserve(copies.size());
-  for (const MapCopy& copy : copies)
-  {
-    records.push_back(copy.record);
-  }
-  const std::size_t texels = TexelsOfCopy * records.size();
-  const bool fits = texels <= BufferTexture::most() &&
-    (texels <= this->Copies.size() || this->Copies.allocate(texels + texels / 2));
-  if (fits)
-  {
-    this->Copies.send(0, records.data(), texels);
-  }
-  return fits;
-}
-
 /// Has programs for all shapes. OpenGL's words if it refuses.
 const std::string& DrawnMaps::link(bool alphas)
 {
@@ -182,11 +189,31 @@ const std::string& DrawnMaps::link(bool alphas)
   return words;
 }
 
-void DrawnMaps::drawAll(
+/// Draws parts of maps anew, by map. Why not, else empty.
+std::string DrawnMaps::drawParts(const std::vector<PixelRect>& parts,
   const std::vector<MapCopy>& copies, const OctreeArena& arena, const BufferTexture& alphas)
 {
+  std::vector<const MapCopy*> drawn;
+  std::vector<MapCopy::Record> records;
+  for (const MapCopy& copy : copies)
+  {
+    if (overlap(copy.rect, parts[copy.map]))
+    {
+      drawn.push_back(&copy);
+      records.push_back(copy.record);
+    }
+  }
+  const std::size_t texels = TexelsOfCopy * records.size();
+  if (texels > BufferTexture::most() ||
+    (texels > this->Copies.size() && !this->Copies.allocate(texels + texels / 2)))
+  {
+    return "OpenGL has no room for so many casters";
+  }
+  this->Copies.send(0, records.data(), texels);
+  this->Drawn = drawn.size();
   KeptState state;
   glEnable(GL_DEPTH_TEST);
+  glEnable(GL_SCISSOR_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -206,42 +233,49 @@ void DrawnMaps::drawAll(
       glUniform1i(glGetUniformLocation(program, name), unit);
     }
   }
-  int map = -1;
-  std::size_t end = 0;
-  for (std::size_t first = 0; first < copies.size(); first = end)
+  std::size_t next = 0;
+  for (std::size_t m = 0; m < parts.size(); ++m)
   {
-    const MapCopy& copy = copies[first];
-    for (end = first + 1; end < copies.size() && copy.joins(copies[end]); ++end)
+    const ShadowMap& map = this->Maps[m];
+    const PixelRect& part = parts[m];
+    if (map.layer < 0 || part.empty())
     {
+      continue;
     }
-    const ShadowMap& drawn = this->Maps[copy.map];
-    if (copy.map != map)
+    const float nothing[] = { 3e38f, 0.0f, 0.0f, 0.0f };
+    const float farthest = 1.0f;
+    glFramebufferTextureLayer(
+      GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Texels, 0, map.layer);
+    glScissor(part.x0, part.y0, part.x1 - part.x0, part.y1 - part.y0);
+    glClearBufferfv(GL_COLOR, 0, nothing);
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    while (next < drawn.size() && drawn[next]->map == static_cast<int>(m))
     {
-      map = copy.map;
-      const float nothing[] = { 3e38f, 0.0f, 0.0f, 0.0f };
-      const float farthest = 1.0f;
-      glFramebufferTextureLayer(
-        GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Texels, 0, drawn.layer);
-      glClearBufferfv(GL_COLOR, 0, nothing);
-      glClearBufferfv(GL_DEPTH, 0, &farthest);
-      glFlush();
+      const std::size_t first = next;
+      const MapCopy& copy = *drawn[first];
+      while (next < drawn.size() && copy.joins(*drawn[next]))
+      {
+        ++next;
+      }
+      const GLuint program = this->Programs[copy.shape];
+      glUseProgram(program);
+      glUniform1i(
+        glGetUniformLocation(program, "svoFirstCopy"), static_cast<int>(TexelsOfCopy * first));
+      glUniform2f(glGetUniformLocation(program, "svoReach"),
+        static_cast<float>(map.view.tNear - map.base),
+        static_cast<float>(map.view.tFar - map.base));
+      int vertices = CornersOfBox;
+      if (copy.shape == MapCopy::Triangles)
+      {
+        vertices = static_cast<int>(3 * copy.octree->surface()->triangles.size());
+        glUniform1i(glGetUniformLocation(program, "svoFirstTriangle"),
+          static_cast<int>(arena.firstOf(*copy.octree)));
+      }
+      glDrawArraysInstanced(GL_TRIANGLES, 0, vertices, static_cast<int>(next - first));
     }
-    const GLuint program = this->Programs[copy.shape];
-    glUseProgram(program);
-    glUniform1i(
-      glGetUniformLocation(program, "svoFirstCopy"), static_cast<int>(TexelsOfCopy * first));
-    glUniform2f(glGetUniformLocation(program, "svoReach"),
-      static_cast<float>(drawn.view.tNear - drawn.base),
-      static_cast<float>(drawn.view.tFar - drawn.base));
-    int vertices = CornersOfBox;
-    if (copy.shape == MapCopy::Triangles)
-    {
-      vertices = static_cast<int>(3 * copy.octree->surface()->triangles.size());
-      glUniform1i(glGetUniformLocation(program, "svoFirstTriangle"),
-        static_cast<int>(arena.firstOf(*copy.octree)));
-    }
-    glDrawArraysInstanced(GL_TRIANGLES, 0, vertices, static_cast<int>(end - first));
+    glFlush();
   }
+  return {};
 }
 
 std::size_t DrawnMaps::mapBytes() const
@@ -274,8 +308,10 @@ void DrawnMaps::releaseTextures()
 
 void DrawnMaps::forget()
 {
+  this->Drawn = 0;
   this->releaseTextures();
   this->Copies.release();
+  this->InMaps.clear();
   this->Maps.clear();
   this->Widths = TexelWidths();
 }

@@ -24,9 +24,10 @@ class OctreeArena;
 class DrawnMaps
 {
 public:
-  /// Has the maps of a scene's lights, fitted as the CPU's are (svoLightDetail.h): they are drawn
-  /// unless they are the last frame's. All casters lie in `arena`, and where their colours have
-  /// alpha in `alphas`. At most `room` bytes. Why they are not there, in a few words, else empty.
+  /// Has the maps of a scene's lights, fitted as the CPU's are (svoLightDetail.h): drawn anew
+  /// where something of the last frame's has changed. All casters lie in `arena`, and where their
+  /// colours have alpha in `alphas`. At most `room` bytes. Why they are not there, in a few words,
+  /// else empty.
   std::string draw(const Scene& scene, const std::vector<CasterInMemory>& casters,
     const OctreeArena& arena, const BufferTexture& alphas, const View& eye,
     const FrameSettings& settings, std::size_t room);
@@ -37,6 +38,8 @@ public:
   /// As Tracer::shadowMaps() and mapTexture().
   const std::vector<ShadowMap>& maps() const { return this->Maps; }
   unsigned int texture() const { return this->Texels; }
+  /// Casters that were drawn in the last frame, each once a map.
+  std::size_t drawn() const { return this->Drawn; }
   const TexelWidths& widths() const { return this->Widths; }
   /// Of the maps; of all that is there.
   std::size_t mapBytes() const;
@@ -44,20 +47,19 @@ public:
 
 private:
   void fit(const Scene& scene, const View& eye, const FrameSettings& settings);
-  int findCopies(
-    const Scene& scene, const std::vector<CasterInMemory>& casters, std::vector<MapCopy>& copies);
   bool resize(int size, int layers, bool translucent, std::size_t room);
-  bool send(const std::vector<MapCopy>& copies);
   const std::string& link(bool alphas);
   void releaseTextures();
-  void drawAll(
-    const std::vector<MapCopy>& copies, const OctreeArena& arena, const BufferTexture& alphas);
+  std::string drawParts(const std::vector<PixelRect>& parts, const std::vector<MapCopy>& copies,
+    const OctreeArena& arena, const BufferTexture& alphas);
 
   std::uint64_t Version = 0; // of the scene that Maps are of
   std::vector<Outline> Fitted;
   std::vector<LightMaps> Lights;
   std::vector<ShadowMap> Maps;
+  std::vector<MapCopy> InMaps; // what is in them; of it no octrees
   TexelWidths Widths;
+  std::size_t Drawn = 0;
 
   int Size = 0, Layers = 0; // of the texture
   bool Translucent = false; // it has opacities

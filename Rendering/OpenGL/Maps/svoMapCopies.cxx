@@ -96,15 +96,56 @@ std::vector<MapCopy> copiesIn(const Scene& scene, const std::vector<CasterInMemo
       }
       map.worldBias = std::max(map.worldBias, errorOf(instance));
       map.casterVoxel = std::max(map.casterVoxel, worldVoxel(instance));
-      if (!seeOctree(octree, instance.localToWorld, map.view).rect.empty())
+      const PixelRect rect = seeOctree(octree, instance.localToWorld, map.view).rect;
+      if (!rect.empty())
       {
-        copies.push_back(
-          { static_cast<int>(m), shapeOf(instance), &octree, recordOf(instance, caster, map) });
+        copies.push_back({ static_cast<int>(m), shapeOf(instance), octree.id(), caster.instance,
+          instance.version, rect, &octree, recordOf(instance, caster, map) });
       }
     }
     map.layer = copies.size() > before ? layers++ : -1;
   }
-  std::stable_sort(copies.begin(), copies.end());
+  std::sort(copies.begin(), copies.end());
   return copies;
+}
+
+std::vector<PixelRect> changedParts(
+  const std::vector<MapCopy>& before, const std::vector<MapCopy>& now, std::size_t maps)
+{
+  std::vector<PixelRect> parts(maps);
+  const auto add = [&parts](const MapCopy& copy)
+  {
+    PixelRect& part = parts[copy.map];
+    const PixelRect& r = copy.rect;
+    part = part.empty() ? r
+                        : PixelRect{ std::min(part.x0, r.x0), std::min(part.y0, r.y0),
+                            std::max(part.x1, r.x1), std::max(part.y1, r.y1) };
+  };
+  auto a = before.begin();
+  auto b = now.begin();
+  while (a != before.end() || b != now.end())
+  {
+    const bool gone = b == now.end() || (a != before.end() && *a < *b);
+    const bool added = a == before.end() || (b != now.end() && *b < *a);
+    if (gone)
+    {
+      add(*a++);
+    }
+    else if (added)
+    {
+      add(*b++);
+    }
+    else
+    {
+      if (a->version != b->version || b->version == 0)
+      {
+        add(*a);
+        add(*b);
+      }
+      ++a;
+      ++b;
+    }
+  }
+  return parts;
 }
 }

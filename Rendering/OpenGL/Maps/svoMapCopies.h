@@ -5,8 +5,10 @@
 #include "svoFrame.h"
 #include "svoLightDetail.h"
 #include "svoScene.h"
+#include "svoView.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <tuple>
 #include <vector>
 
@@ -41,19 +43,23 @@ struct MapCopy
 
   int map;
   Shape shape;
-  const Octree* octree;
+  std::uint64_t octreeId;
+  std::size_t instance;
+  std::uint64_t version; // Instance::version
+  PixelRect rect;        // texels that it may reach
+  const Octree* octree;  // for a frame
   Record record;
 
   /// True if both are drawn at once.
   bool joins(const MapCopy& o) const
   {
     return this->map == o.map && this->shape == o.shape &&
-      (this->shape != Triangles || this->octree->id() == o.octree->id());
+      (this->shape != Triangles || this->octreeId == o.octreeId);
   }
   bool operator<(const MapCopy& o) const
   {
-    return std::make_tuple(this->map, this->shape, this->octree->id()) <
-      std::make_tuple(o.map, o.shape, o.octree->id());
+    return std::tie(this->map, this->shape, this->octreeId, this->instance) <
+      std::tie(o.map, o.shape, o.octreeId, o.instance);
   }
 };
 
@@ -62,6 +68,10 @@ struct MapCopy
 /// which something is seen have one, from 0 on.
 std::vector<MapCopy> copiesIn(const Scene& scene, const std::vector<CasterInMemory>& casters,
   const std::vector<LightMaps>& lights, std::vector<ShadowMap>& maps);
+
+/// By map, of so many: what holds all that is there once only, or was another one.
+std::vector<PixelRect> changedParts(
+  const std::vector<MapCopy>& before, const std::vector<MapCopy>& now, std::size_t maps);
 }
 
 #endif

@@ -11,8 +11,8 @@
 namespace svo
 {
 /// Switches tests, blending and culling off; in the end all is as it was of these, of depths,
-/// colours, the viewport, the framebuffer that is drawn into, the program, the vertex array, and
-/// what was bound here.
+/// colours, the viewport and the scissor box, the framebuffer that is drawn into, the program, the
+/// vertex array, and what was bound here.
 class KeptState
 {
 public:
@@ -24,6 +24,7 @@ public:
       glDisable(Switches[i]);
     }
     glGetIntegerv(GL_VIEWPORT, this->Viewport);
+    glGetIntegerv(GL_SCISSOR_BOX, this->Scissor);
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &this->Framebuffer);
     glGetIntegerv(GL_CURRENT_PROGRAM, &this->Program);
     glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &this->Vertices);
@@ -48,13 +49,11 @@ public:
     glBindVertexArray(static_cast<GLuint>(this->Vertices));
     glUseProgram(static_cast<GLuint>(this->Program));
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(this->Framebuffer));
+    glScissor(this->Scissor[0], this->Scissor[1], this->Scissor[2], this->Scissor[3]);
     glViewport(this->Viewport[0], this->Viewport[1], this->Viewport[2], this->Viewport[3]);
     for (std::size_t i = 0; i < std::size(this->On); ++i)
     {
-      if (this->On[i])
-      {
-        glEnable(Switches[i]);
-      }
+      this->On[i] ? glEnable(Switches[i]) : glDisable(Switches[i]);
     }
   }
 
@@ -73,7 +72,7 @@ private:
   static constexpr GLenum Switches[] = { GL_BLEND, GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_CULL_FACE,
     GL_STENCIL_TEST };
   GLboolean On[std::size(Switches)];
-  GLint Viewport[4];
+  GLint Viewport[4], Scissor[4];
   GLint Framebuffer, Program, Vertices, Unit, Compared;
   GLboolean Deep, Colors[4];
   std::vector<GLint> Bound; // by unit

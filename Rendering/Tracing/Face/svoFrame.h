@@ -127,7 +127,7 @@ struct FrameStatistics
   std::uint64_t shadowRays = 0;
   int lightsWithBuffers = 0; // casting lights whose shadows were found so
   int lightsWithRays = 0;
-  std::uint64_t retracedLayers = 0; // layers traced this frame, of the eye and of lights
+  std::uint64_t retracedLayers = 0; // layers traced or drawn this frame, of the eye and of lights
   std::uint64_t layerMemory = 0;    // bytes held by kept layers
   std::uint64_t shadowMemory = 0;   // bytes held by shadow buffers and what was handed out of them
   std::uint64_t gpuMemory = 0;      // bytes of octrees there
