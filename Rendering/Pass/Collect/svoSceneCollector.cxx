@@ -1,5 +1,7 @@
 #include "svoSceneCollector.h"
 
+#include "svoAffineMatrix.h"
+#include "svoBox.h"
 #include "svoCameraView.h"
 #include "svoGiveWay.h"
 #include "svoPropKeys.h"
@@ -7,11 +9,15 @@
 #include "svoSceneInstances.h"
 #include "svoSharedMappers.h"
 
+#include "vtkActor.h"
+#include "vtkMapper.h"
+#include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderer.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -71,11 +77,36 @@ bool saysTheSame(const PropSurfaces& a, const PropSurfaces& b)
 
 void noteBounds(PropSurfaces& prop)
 {
+  prop.bounds = prop.boundsOfMapper = PropSurfaces().bounds;
   if (!prop.traced || prop.surfaces.empty())
   {
     const double* bounds = prop.prop->GetBounds();
-    prop.bounds = PropSurfaces().bounds;
     std::copy_n(bounds, bounds ? 6 : 0, prop.bounds.begin());
+    auto* actor = vtkActor::SafeDownCast(prop.prop);
+    if (bounds && actor && actor->GetMapper())
+    {
+      std::copy_n(actor->GetMapper()->GetBounds(), 6, prop.boundsOfMapper.begin());
+    }
+  }
+}
+
+/// The same of an actor that has moved. To ask it has VTK go through its pipeline.
+void moveBounds(PropSurfaces& prop)
+{
+  const std::array<double, 6>& b = prop.boundsOfMapper;
+  if (b[0] <= b[1])
+  {
+    const glm::dmat4 matrix = toGlm(vtkActor::SafeDownCast(prop.prop)->GetMatrix());
+    Box box;
+    for (int i = 0; i < 8; ++i)
+    {
+      box.add(glm::dvec3(matrix * glm::dvec4(b[i & 1], b[2 + (i >> 1 & 1)], b[4 + (i >> 2)], 1.0)));
+    }
+    prop.bounds = { box.low.x, box.high.x, box.low.y, box.high.y, box.low.z, box.high.z };
+  }
+  else if (prop.bounds[0] <= prop.bounds[1])
+  {
+    noteBounds(prop);
   }
 }
 
@@ -170,7 +201,7 @@ bool SceneCollector::collectProps(
       if (held == Held::Moved && PropCollector::move(known, frame))
       {
         known.state.noteMove(prop);
-        noteBounds(known);
+        moveBounds(known);
         changed = true;
         continue;
       }

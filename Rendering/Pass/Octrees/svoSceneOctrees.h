@@ -94,6 +94,7 @@ struct PropSurfaces
   /// VTK's world, where it was collected or has moved to: of what the rasteriser draws, or has no
   /// surfaces.
   std::array<double, 6> bounds{ 1, -1, 1, -1, 1, -1 };
+  std::array<double, 6> boundsOfMapper{ 1, -1, 1, -1, 1, -1 }; // of an actor of which that is known
 
   // Of a frame:
   bool fresh = true;  // collected anew: nothing of its instances has been written

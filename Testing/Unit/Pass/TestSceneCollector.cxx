@@ -21,8 +21,16 @@ void touchKeys(vtkProp* prop, bool has)
 }
 }
 
-TEST_F(Kept, EveryChangeIsNoticed)
+/// `settings.openGL`.
+class KeptBy
+  : public Kept
+  , public testing::WithParamInterface<bool>
 {
+};
+
+TEST_P(KeptBy, EveryChangeIsNoticed)
+{
+  settings.openGL = GetParam();
   collect(collector, scene);
   EXPECT_EQ(collector.collectedAnew(), 9);
   EXPECT_EQ(scene.scene.instances.size(), 13u); // wires are none
@@ -153,6 +161,8 @@ TEST_F(Kept, EveryChangeIsNoticed)
     });
   expectNoticed("no texture", 1, [&] { textured->SetTexture(nullptr); });
 }
+
+INSTANTIATE_TEST_SUITE_P(Backends, KeptBy, testing::Bool());
 
 TEST_F(Kept, WhatIsAroundThePropsIsNoticed)
 {
