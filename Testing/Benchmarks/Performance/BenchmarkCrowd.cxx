@@ -10,7 +10,8 @@
 // --culling: beside it the same without the culling of what others hide, and without any, and how
 // many objects each step left out, of those that it could have: all that no pixel shows.
 //
-// --rays: beside it the same with rays to the light, on the CPU and with OpenGL.
+// --rays: beside it the same with rays to the light, on the CPU and with OpenGL, and maps with
+// OpenGL.
 //
 // The scenes: performanceCrowd.h.
 //
@@ -60,8 +61,9 @@ enum class Look
   Raster,
   ShadowMaps,
   Traced,
-  Rays,        // traced, with rays to the light
-  OpenGLRays,  // the same, with the OpenGL backend
+  Rays,       // traced, with rays to the light
+  OpenGLRays, // the same, with the OpenGL backend
+  OpenGLMaps,
   NotOccluded, // traced, without culling of what others hide
   NotCulled    // without any
 };
@@ -187,6 +189,12 @@ public:
     return static_cast<std::size_t>(this->actors()) - seen.size();
   }
   int actors() const { return this->Scene ? this->Scene->actors() : 0; }
+  /// False of a frame that the CPU has made for OpenGL.
+  bool isOpenGLsIfAsked() const
+  {
+    return !this->Pass || this->Pass->GetBackend() != vtkSVORenderPass::BACKEND_OPENGL ||
+      (this->Pass->GetGPUMemory() > 0 && this->Pass->GetNumberOfShadowRays() == 0);
+  }
   int tracedActors() const { return this->Pass ? this->Pass->GetNumberOfTracedActors() : 0; }
   const std::string Name;
 
@@ -199,14 +207,17 @@ private:
     }
     else if (look != Look::Raster && look != Look::Empty)
     {
-      this->Pass = performance::makePass(this->Phases, false);
+      // The one with phases has the CPU's tracer, whatever its backend is.
+      const bool openGL = look == Look::OpenGLRays || look == Look::OpenGLMaps;
+      this->Pass = openGL ? vtkSmartPointer<vtkSVORenderPass>::New()
+                          : performance::makePass(this->Phases, false);
+      this->Pass->SetBackend(
+        openGL ? vtkSVORenderPass::BACKEND_OPENGL : vtkSVORenderPass::BACKEND_CPU);
       this->Pass->SetOcclusionCulling(look != Look::NotOccluded && look != Look::NotCulled);
       this->Pass->SetViewCulling(look != Look::NotCulled);
       if (look == Look::Rays || look == Look::OpenGLRays)
       {
         this->Pass->SetShadowTechniqueToShadowRays();
-        this->Pass->SetBackend(
-          look == Look::Rays ? vtkSVORenderPass::BACKEND_CPU : vtkSVORenderPass::BACKEND_OPENGL);
       }
       this->Renderer->SetPass(this->Pass);
     }
@@ -260,6 +271,7 @@ bool measure(
   {
     methods.push_back(std::make_unique<Method>("traced, rays", Look::Rays, options, objects));
     methods.push_back(std::make_unique<Method>("OpenGL, rays", Look::OpenGLRays, options, objects));
+    methods.push_back(std::make_unique<Method>("OpenGL, maps", Look::OpenGLMaps, options, objects));
   }
   constexpr int Warm = 2; // octrees are built, and layers of still objects kept
   for (int k = -Warm; k < options.frames; ++k)
@@ -290,7 +302,9 @@ bool measure(
     std::printf("%zu of the objects are not seen\n", methods[0]->unseen());
   }
   constexpr double Outlines = 0.002;
-  return methods[1]->tracedActors() == expected && wrong <= Outlines;
+  const bool drawn = std::all_of(
+    methods.begin(), methods.end(), [](const auto& method) { return method->isOpenGLsIfAsked(); });
+  return methods[1]->tracedActors() == expected && wrong <= Outlines && drawn;
 }
 }
 
