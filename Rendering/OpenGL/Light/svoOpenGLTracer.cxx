@@ -303,8 +303,9 @@ std::string OpenGLTracer::prepare(
     }
     this->Version = scene.version;
     this->Limit = settings.gpuMemoryLimit;
+    this->WorldToView = glm::dmat4(0.0);
   }
-  if (this->WhyNot.empty() && (!known || this->WorldToView != view.worldToView))
+  if (this->WhyNot.empty() && !maps && this->WorldToView != view.worldToView)
   {
     this->aim(view);
   }

@@ -1,6 +1,7 @@
 #include "svoBufferTexture.h"
 
 #include "svoOpenGL.h"
+#include "svoTextures.h"
 
 #include <algorithm>
 
@@ -39,9 +40,7 @@ std::size_t BufferTexture::texelBytes() const
 
 bool BufferTexture::allocate(std::size_t texels, std::size_t kept)
 {
-  for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) // errors of others
-  {
-  }
+  forgetErrors();
   GLuint buffer = 0;
   glGenBuffers(1, &buffer);
   glBindBuffer(GL_TEXTURE_BUFFER, buffer);
