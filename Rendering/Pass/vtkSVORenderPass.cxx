@@ -5,6 +5,7 @@
 #include "svoOpenGLTracer.h"
 #include "svoOwnCamera.h"
 #include "svoPassInternals.h"
+#include "svoPropPasses.h"
 #include "svoSMPParallel.h"
 
 #include "vtkObjectFactory.h"
@@ -147,13 +148,13 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
     const bool receiving = !frame.state->receivers().idle();
     if (receiving)
     {
-      this->PreRender(&frame.receivers());
+      svo::carryPass(&frame.receivers(), this);
       frame.state->findLight(*state);
     }
     this->UpdateGeometry(renderer, state->GetFrameBuffer());
     if (receiving)
     {
-      this->PostRender(&frame.receivers());
+      svo::dropPass(&frame.receivers(), this);
     }
   }
   frame.state->presenter()->StandFor(nullptr);

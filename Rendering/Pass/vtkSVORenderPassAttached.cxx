@@ -2,6 +2,7 @@
 #include "vtkSVORenderPass.h"
 
 #include "svoPassInternals.h"
+#include "svoPropPasses.h"
 
 #include "vtkCommand.h"
 #include "vtkRenderWindow.h"
@@ -89,7 +90,7 @@ void vtkSVORenderPass::HearAttached(vtkRenderer* renderer, unsigned long event)
   {
     if (frame->shadowed && event == vtkCommand::EndEvent)
     {
-      this->PostRender(&frame->receivers());
+      svo::dropPass(&frame->receivers(), this);
     }
     this->FinishFrame(*frame);
   }
@@ -149,6 +150,6 @@ void vtkSVORenderPass::BeginAttachedFrame(svo::AttachedRenderer& attached)
   if ((collected.rasterizedReceivers && frame.state->hasSomething()) || collected.shadowCatchers)
   {
     frame.shadowed = true;
-    this->PreRender(&frame.receivers());
+    svo::carryPass(&frame.receivers(), this);
   }
 }

@@ -4,13 +4,38 @@
 
 #include "vtkAssembly.h"
 #include "vtkProperty.h"
+#include "vtkWeakPointer.h"
 
 #include <cmath>
 #include <iostream>
 
+using namespace svotest;
+
+namespace
+{
+/// One that is there by itself, too, has the assembly's keys from the first frame on.
+void freePass(Checks& checks)
+{
+  vtkWeakPointer<vtkSVORenderPass> pass;
+  {
+    Stage stage(100, 80);
+    stage.addGround();
+    vtkNew<vtkAssembly> assembly;
+    assembly->AddPart(stage.add(ball(0.4, 0.0, 0.0, 0.8), 0.9, 0.3, 0.2));
+    stage.renderer->AddActor(assembly);
+    stage.addSun(2.0, -1.5, 4.0);
+    for (int frame = 0; frame < 3; ++frame)
+    {
+      stage.shadowed();
+    }
+    pass = stage.pass;
+  }
+  checks.expect(!pass, "a pass is freed that a part of an assembly has carried twice");
+}
+}
+
 int TestSVOAssembly(int, char*[])
 {
-  using namespace svotest;
   Checks checks;
   Stage stage;
   stage.addGround();
@@ -75,5 +100,6 @@ int TestSVOAssembly(int, char*[])
   }
   std::cout << dark << " dark pixels of the ground, " << lost << " lost\n";
   checks.expect(dark > 500 && lost < dark / 100, "a rasterised assembly casts the same shadows");
+  freePass(checks);
   return checks.exitCode();
 }

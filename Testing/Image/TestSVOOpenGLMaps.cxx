@@ -2,11 +2,8 @@
 // those of the CPU's.
 #include "../Unit/svoTestMessages.h"
 #include "svoImageCases.h"
+#include "svoMapsBeside.h"
 #include "svoTestStage.h"
-
-#include "svoOpenGL.h"
-#include "svoOpenGLTracer.h"
-#include "svoTracer.h"
 
 #include "vtkCamera.h"
 #include "vtkElevationFilter.h"
@@ -15,7 +12,6 @@
 #include "vtkImageToSVO.h"
 #include "vtkLookupTable.h"
 #include "vtkMapper.h"
-#include "vtkObjectFactory.h"
 #include "vtkOpenGLSphereMapper.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -36,137 +32,6 @@ namespace
 /// Texels at which one of both has nothing, or another share of light is taken; and of those at
 /// which both have something, at which it lies elsewhere: another voxel where rays are traced.
 constexpr double MostOther = 1e-5, MostOfHits = 1e-4;
-
-/// OpenGL's tracer, and beside it the CPU's, whose maps it compares with its own.
-class Beside : public svo::Tracer
-{
-public:
-  std::vector<svo::NeededLevels> neededLevels(const svo::Scene& scene, const svo::View& view,
-    const svo::FrameSettings& settings) const override
-  {
-    return this->Drawn->neededLevels(scene, view, settings);
-  }
-  void render(const svo::Scene& scene, const svo::View& view, const svo::FrameSettings& settings,
-    const svo::ParallelFor& parallelFor) override
-  {
-    this->Drawn->render(scene, view, settings, parallelFor);
-    if (this->Drawn->mapTexture() == 0) // the CPU has made them
-    {
-      return;
-    }
-    svo::FrameSettings whole = settings;
-    whole.lightCode = false;
-    whole.receiverMaps = whole.wholeShadowBuffers = true;
-    whole.pixelError = 0.0; // OpenGL stops at no nodes
-    this->Traced->render(scene, view, whole, parallelFor);
-    this->compare(this->Drawn->shadowMaps(), this->Traced->shadowMaps());
-  }
-  svo::Frame& frame() override { return this->Drawn->frame(); }
-  bool shareShadows(const svo::Scene&, const svo::View&, const svo::FrameSettings&,
-    const svo::ParallelFor&, svo::Processes&) override
-  {
-    return false;
-  }
-  void divideEdges(const svo::Scene&, const svo::View&, const std::vector<glm::vec2>&,
-    const svo::ParallelFor&, svo::Silhouettes&) const override
-  {
-  }
-  const svo::FrameStatistics& statistics() const override { return this->Drawn->statistics(); }
-  const svo::LightCode& lightCode() const override { return this->Drawn->lightCode(); }
-  const svo::EyeCode& eyeCode() const override { return this->Drawn->eyeCode(); }
-  const std::vector<svo::ShadowMap>& shadowMaps() const override
-  {
-    return this->Drawn->shadowMaps();
-  }
-  unsigned int mapTexture() const override { return this->Drawn->mapTexture(); }
-  void releaseLayers() override {}
-  void releaseGraphicsResources() override { this->Drawn->releaseGraphicsResources(); }
-
-  /// Of the last frame.
-  struct Found
-  {
-    bool same = false; // number and views of the maps
-    std::size_t maps = 0, texels = 0, held = 0;
-    std::size_t edges = 0;  // that only one of both has something at
-    std::size_t depths = 0; // at which they differ by more than OpenGL moves corners
-    double worst = 0.0;
-    std::size_t shares = 0;
-  };
-  static Found Last;
-
-private:
-  void compare(const std::vector<svo::ShadowMap>& drawn, const std::vector<svo::ShadowMap>& traced)
-  {
-    Last = Found();
-    Last.maps = drawn.size();
-    Last.same = drawn.size() == traced.size() && !drawn.empty();
-    if (!Last.same)
-    {
-      return;
-    }
-    const int size = drawn[0].view.width;
-    const auto texels = static_cast<std::size_t>(size) * size;
-    GLint bound = 0, layers = 0;
-    glGetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &bound);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, this->Drawn->mapTexture());
-    glGetTexLevelParameteriv(GL_TEXTURE_2D_ARRAY, 0, GL_TEXTURE_DEPTH, &layers);
-    std::vector<float> numbers(2 * texels * layers);
-    glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RG, GL_FLOAT, numbers.data());
-    glBindTexture(GL_TEXTURE_2D_ARRAY, static_cast<GLuint>(bound));
-    for (std::size_t m = 0; m < drawn.size(); ++m)
-    {
-      const svo::ShadowMap& map = drawn[m];
-      Last.same = Last.same && svo::sameRays(map.view, traced[m].view) &&
-        map.light == traced[m].light && map.group == traced[m].group;
-      Last.texels += texels;
-      for (std::size_t i = 0; i < texels; ++i)
-      {
-        const int x = static_cast<int>(i % size), y = static_cast<int>(i / size);
-        const float* found = map.layer < 0 ? nullptr : &numbers[2 * (texels * map.layer + i)];
-        const float expected = traced[m].texels->depthAt(x, y);
-        const bool holds = found && found[0] < 1e30f;
-        if (holds != std::isfinite(expected))
-        {
-          ++Last.edges;
-        }
-        else if (holds)
-        {
-          ++Last.held;
-          const double away =
-            std::abs(static_cast<double>(found[0]) - expected) / edgeAt(map, expected);
-          Last.worst = std::max(Last.worst, away);
-          Last.depths += away > MostMoved;
-          Last.shares +=
-            map.group > 0 && std::abs(found[1] - shareAt(*traced[m].texels, x, y)) > 0.02f;
-        }
-      }
-    }
-  }
-  static double edgeAt(const svo::ShadowMap& map, double depth)
-  {
-    return glm::length(map.view.originX + (map.base + depth) * map.view.directionX);
-  }
-  static float shareAt(const svo::ShadowTexels& map, int x, int y)
-  {
-    const std::uint32_t tile = map.tiles[static_cast<std::size_t>(y / 8) * map.tilesX + x / 8];
-    return map.numbers[map.stride * tile + svo::ShadowTexels::InTile + 8 * (y % 8) + x % 8];
-  }
-  /// OpenGL rounds corners to a 256th of a texel at least, along and across; times a slope of 16.
-  static constexpr double MostMoved = 16.0 / 256;
-
-  std::unique_ptr<svo::Tracer> Drawn = svo::makeOpenGLTracer(svo::makeCPUTracer());
-  std::unique_ptr<svo::Tracer> Traced = svo::makeCPUTracer();
-};
-Beside::Found Beside::Last;
-
-class PassBeside : public vtkSVORenderPass
-{
-public:
-  static PassBeside* New() { VTK_STANDARD_NEW_BODY(PassBeside); }
-
-protected:
-  std::unique_ptr<svo::Tracer> MakeTracer() const override { return std::make_unique<Beside>(); }
-};
 
 /// An image's ring above the ground.
 vtkActor* addRing(Stage& stage)
@@ -247,7 +112,7 @@ void addCopies(Stage& stage)
 
 void expectSame(const std::string& name, Checks& checks)
 {
-  const Beside::Found& found = Beside::Last;
+  const MapsBeside& found = MapsBeside::Last;
   std::cout << name << ": " << found.maps << " maps of " << found.texels << " texels, "
             << found.held << " held; others: " << found.edges << " at edges, " << found.depths
             << " depths (by " << found.worst << " texels), " << found.shares << " shares\n";
@@ -330,7 +195,7 @@ void compareMaps(Checks& checks)
   for (const auto& [name, change] : scenes)
   {
     Stage stage;
-    vtkNew<PassBeside> pass;
+    const vtkSmartPointer<vtkSVORenderPass> pass = makePassBeside();
     stage.addGround();
     const bool cubes = std::string(name) == "cubes"; // OpenGL meets triangles whatever leaves are
     if (cubes)
@@ -368,12 +233,12 @@ void compareChanges(Checks& checks)
   vtkLight* sun = stage.addSun(2.0, -1.5, 4.0);
   vtkLight* bulb = stage.addBulb(-2.0, -1.0, 3.0);
   bulb->SetIntensity(0.4);
-  vtkNew<PassBeside> pass;
+  const vtkSmartPointer<vtkSVORenderPass> pass = makePassBeside();
   pass->SetMaximumLevel(8);
   pass->SetShadowBufferResolution(1024);
   stage.pass->SetMaximumLevel(8);
   stage.pass->SetShadowBufferResolution(1024);
-  for (vtkSVORenderPass* one : { stage.pass.Get(), static_cast<vtkSVORenderPass*>(pass) })
+  for (vtkSVORenderPass* one : { stage.pass.Get(), pass.Get() })
   {
     one->SetShadowTechniqueToShadowBuffer();
   }

@@ -174,7 +174,7 @@ private:
       {
         const int x = static_cast<int>(i % size), y = static_cast<int>(i / size);
         numbers.push_back(std::min(map.texels->depthAt(x, y), 3e38f));
-        numbers.push_back(opacityAt(*map.texels, x, y));
+        numbers.push_back(map.group > 0 ? map.texels->shareAt(x, y) : 0.0f);
       }
       map.texels = nullptr;
     }
@@ -188,15 +188,6 @@ private:
       GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, size, size, layers, GL_RG, GL_FLOAT, numbers.data());
     glBindTexture(GL_TEXTURE_2D_ARRAY, static_cast<GLuint>(bound));
     Sent = this->Maps.size();
-  }
-
-  /// 0 where nothing lies.
-  static float opacityAt(const svo::ShadowTexels& map, int x, int y)
-  {
-    const std::uint32_t tile = map.tiles[static_cast<std::size_t>(y / 8) * map.tilesX + x / 8];
-    const std::size_t at = map.stride * tile + svo::ShadowTexels::InTile + 8 * (y % 8) + x % 8;
-    const bool held = tile != svo::ShadowTexels::Nothing;
-    return held && map.stride > svo::ShadowTexels::InTile ? map.numbers[at] : 0.0f;
   }
 
   vtkNew<vtkTextureObject> Color, Depth;

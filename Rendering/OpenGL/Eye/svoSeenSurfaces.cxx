@@ -109,11 +109,8 @@ void SeenSurfaces::describe(const Scene& scene, const View& view, const OctreeAr
     const double voxel = 1.0 / static_cast<double>(1 << query.bits);
     surface.low = glm::max(glm::vec3(query.low - voxel), 1.0f - 0.001f) - 1.5f;
     surface.high = glm::min(glm::vec3(query.high + voxel), 2.0f + 0.001f) - 1.5f;
-    const glm::dmat3 linear = glm::dmat3(instance.localToWorld) * octree.rootEdge();
-    glm::dmat4 boxToWorld(linear);
-    boxToWorld[3] =
-      instance.localToWorld * glm::dvec4(matrices.toOctree.origin + 0.5 * octree.rootEdge(), 1.0);
-    surface.turned = (glm::determinant(linear) < 0.0) != view.mirrored;
+    const glm::dmat4 boxToWorld = cubeToWorld(octree, instance.localToWorld);
+    surface.turned = (glm::determinant(glm::dmat3(boxToWorld)) < 0.0) != view.mirrored;
     surface.colored = colorsOf(instance) != nullptr;
     const glm::dmat3 toBox =
       matrices.toOctree.inverse * matrices.toOctree.scale * glm::transpose(turned);

@@ -30,6 +30,7 @@ public:
   void describe(const Scene& scene, const View& view, const OctreeArena& arena,
     const std::string& constants, EyeCode& code) const;
 
+  bool any() const { return !this->Seen.empty(); }
   void release();
   std::size_t bytes() const { return this->Colors.bytes(); }
 

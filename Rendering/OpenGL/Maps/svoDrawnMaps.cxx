@@ -42,11 +42,6 @@ bool sameLayers(const std::vector<ShadowMap>& a, const std::vector<ShadowMap>& b
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
     [](const ShadowMap& x, const ShadowMap& y) { return x.layer == y.layer; });
 }
-
-bool overlap(const PixelRect& a, const PixelRect& b)
-{
-  return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
-}
 }
 
 std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory>& casters,
@@ -197,7 +192,7 @@ std::string DrawnMaps::drawParts(const std::vector<PixelRect>& parts,
   std::vector<MapCopy::Record> records;
   for (const MapCopy& copy : copies)
   {
-    if (overlap(copy.rect, parts[copy.map]))
+    if (copy.rect.overlaps(parts[copy.map]))
     {
       drawn.push_back(&copy);
       records.push_back(copy.record);

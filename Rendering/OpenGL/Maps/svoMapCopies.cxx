@@ -28,17 +28,9 @@ MapCopy::Record recordOf(
   const View& view = map.view;
   const Octree& octree = instance.body->octree;
   const MapCopy::Shape shape = shapeOf(instance);
-  const auto& corner = octree.header().origin;
-  const glm::dvec3 origin(corner[0], corner[1], corner[2]);
-  glm::dmat4 toView = view.worldToView * instance.localToWorld;
-  if (shape != MapCopy::Ball)
-  {
-    toView[3] = toView * glm::dvec4(origin + 0.5 * octree.rootEdge(), 1.0);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      toView[axis] *= octree.rootEdge();
-    }
-  }
+  const bool ball = shape == MapCopy::Ball;
+  const glm::dmat4 toView =
+    view.worldToView * (ball ? instance.localToWorld : cubeToWorld(octree, instance.localToWorld));
   const glm::dmat4 toClip = view.viewToClip * toView;
   MapCopy::Record record{ {}, {}, caster.octree, caster.low, caster.high };
   for (int column = 0; column < 4; ++column)
@@ -51,14 +43,11 @@ MapCopy::Record recordOf(
   }
   if (shape != MapCopy::Triangles)
   {
-    const WorldToOctree toOctree(octree, instance.localToWorld);
-    const bool ball = shape == MapCopy::Ball;
-    const glm::dvec3 x = view.parallel ? view.axis : view.eye - toOctree.translation;
-    const glm::dvec3 local = toOctree.inverse * x;
-    const glm::dvec3 middle = origin + 0.5 * octree.rootEdge();
+    const WorldToOctree to(octree, instance.localToWorld);
+    const auto ofBall = [&](const glm::dvec3& x) { return to.inverse * x; };
     record.source = view.parallel
-      ? glm::vec4(ball ? local : local * toOctree.scale, 0.0f)
-      : glm::vec4(ball ? local : (local - middle) * toOctree.scale, 1.0f);
+      ? glm::vec4(ball ? ofBall(view.axis) : to.vector(view.axis), 0.0f)
+      : glm::vec4(ball ? ofBall(view.eye - to.translation) : to.point(view.eye) - 1.5, 1.0f);
   }
   return record;
 }
@@ -114,13 +103,7 @@ std::vector<PixelRect> changedParts(
 {
   std::vector<PixelRect> parts(maps);
   const auto add = [&parts](const MapCopy& copy)
-  {
-    PixelRect& part = parts[copy.map];
-    const PixelRect& r = copy.rect;
-    part = part.empty() ? r
-                        : PixelRect{ std::min(part.x0, r.x0), std::min(part.y0, r.y0),
-                            std::max(part.x1, r.x1), std::max(part.y1, r.y1) };
-  };
+  { parts[copy.map] = around(parts[copy.map], copy.rect); };
   auto a = before.begin();
   auto b = now.begin();
   while (a != before.end() || b != now.end())

@@ -75,14 +75,6 @@ void send(vtkTextureObject* texture, const PixelRect& rect, GLenum format, GLenu
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-PixelRect around(const PixelRect& a, const PixelRect& b)
-{
-  return a.empty() ? b
-    : b.empty()    ? a
-                   : PixelRect{ std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1),
-                    std::max(a.y1, b.y1) };
-}
-
 /// The tiles of a band that were written after version `since`.
 struct Written
 {

@@ -147,7 +147,6 @@ vtkSmartPointer<vtkInformation> TracedBoxes::keysOf(vtkProp* prop)
     keys->Copy(own);
     keys->Remove(vtkOpenGLRenderPass::RenderPasses());
   }
-  int count = 0;
   eachPass(prop,
     [&](vtkOpenGLRenderPass* pass)
     {
@@ -158,8 +157,7 @@ vtkSmartPointer<vtkInformation> TracedBoxes::keysOf(vtkProp* prop)
         known = this->Passes.insert(known, vtkSmartPointer<vtkSVOForwardingPass>::New());
         (*known)->Pass = pass;
       }
-      // Not Append(): what it adds has to be removed one by one, or is never freed.
-      keys->Set(vtkOpenGLRenderPass::RenderPasses(), *known, count++);
+      addPass(keys, *known);
     });
   return keys;
 }

@@ -171,11 +171,7 @@ void vtkSVOPresenter::StandFor(vtkProp* prop)
   if (prop)
   {
     vtkNew<vtkInformation> keys;
-    int count = 0;
-    // Not Append(): what it adds has to be removed one by one, or is never freed.
-    svo::eachPass(prop,
-      [&](vtkOpenGLRenderPass* pass)
-      { keys->Set(vtkOpenGLRenderPass::RenderPasses(), pass, count++); });
+    svo::eachPass(prop, [&](vtkOpenGLRenderPass* pass) { svo::addPass(keys, pass); });
     this->SetPropertyKeys(keys);
   }
 }

@@ -168,10 +168,22 @@ struct ShadowTexels
   std::size_t held() const { return this->numbers.size() / this->stride; }
   float depthAt(int x, int y) const
   {
+    const float* number = this->numberAt(x, y);
+    return number ? *number : std::numeric_limits<float>::infinity();
+  }
+  /// Of translucent casters.
+  float shareAt(int x, int y) const
+  {
+    const float* number = this->numberAt(x, y);
+    return number ? number[InTile] : 0.0f;
+  }
+
+private:
+  const float* numberAt(int x, int y) const
+  {
     const std::uint32_t tile =
       this->tiles[static_cast<std::size_t>(y >> 3) * this->tilesX + (x >> 3)];
-    return tile == Nothing ? std::numeric_limits<float>::infinity()
-                           : this->numbers[this->stride * tile + 8 * (y & 7) + (x & 7)];
+    return tile == Nothing ? nullptr : &this->numbers[this->stride * tile + 8 * (y & 7) + (x & 7)];
   }
 };
 

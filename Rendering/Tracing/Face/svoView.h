@@ -4,6 +4,8 @@
 
 #include "vtkSVOTracingModule.h"
 
+#include <algorithm>
+
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -71,7 +73,20 @@ struct PixelRect
 {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   bool empty() const { return x0 >= x1 || y0 >= y1; }
+  bool overlaps(const PixelRect& o) const
+  {
+    return x0 < o.x1 && o.x0 < x1 && y0 < o.y1 && o.y0 < y1;
+  }
 };
+
+/// The smallest one that holds both.
+inline PixelRect around(const PixelRect& a, const PixelRect& b)
+{
+  return a.empty() ? b
+    : b.empty()    ? a
+                   : PixelRect{ std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1),
+                    std::max(a.y1, b.y1) };
+}
 }
 
 #endif

@@ -40,6 +40,17 @@ struct WorldToOctree
   /// By how much what is linear in octree coordinates, as dot(g, x), grows along the world's axes.
   glm::dvec3 gradient(const glm::dvec3& g) const { return g * this->inverse * this->scale; }
 };
+
+/// From coordinates of an octree's cube, whose middle is 0 and whose edges are 1, to the world.
+inline glm::dmat4 cubeToWorld(const Octree& octree, const glm::dmat4& localToWorld)
+{
+  const auto& corner = octree.header().origin;
+  const double edge = octree.rootEdge();
+  glm::dmat4 m(glm::dmat3(localToWorld) * edge);
+  m[3] = localToWorld *
+    glm::dvec4(corner[0] + 0.5 * edge, corner[1] + 0.5 * edge, corner[2] + 0.5 * edge, 1.0);
+  return m;
+}
 }
 
 #endif
