@@ -74,6 +74,46 @@ vtksvo_setting(FilterShadows bool false
      `AutomaticShadowBias`, and not with exact rays. Where all is shaded anew a frame takes 1.4 to 2.1 times as long (with
      `AntiAliasing` 2.3 to 5.6), which is why it is not on by default.")
 
+vtksvo_setting(AmbientOcclusion bool false
+  TABLE shadows
+  FIELD ambientOcclusion CHANGES look
+  PANEL default
+  SAYS
+    "Darken places that other surfaces close off, as corners, folds and what lies under something, whatever the lights: by
+     rays over the hemisphere of each visible point that is traced."
+  MORE
+    "It needs no light set up. What translucent surfaces take is their opacity. The rays of a pixel are
+     `MaximumLightSamples`.")
+
+vtksvo_setting(AmbientOcclusionDistance double 0
+  TABLE shadows RANGE 0 1e30 UNIT "world units"
+  FIELD ambientOcclusionDistance CHANGES look
+  PANEL advanced
+  SAYS
+    "Surfaces farther away from a point close nothing off. 0: a fifth of the diagonal of all that casts shadows.")
+
+vtksvo_setting(AmbientOcclusionStrength double 1
+  TABLE shadows RANGE 0 1
+  FIELD ambientOcclusionStrength CHANGES look
+  PANEL advanced
+  SAYS
+    "Share of the light that a point loses whose hemisphere is closed all around.")
+
+vtksvo_setting(AmbientOcclusionOfAllLight bool true
+  TABLE shadows
+  FIELD ambientOcclusionOfAllLight CHANGES look
+  PANEL advanced
+  SAYS
+    "Ambient occlusion darkens all light. Off: only the ambient part of materials, which is none in most scenes.")
+
+vtksvo_setting(MaximumLightSamples int 32
+  TABLE shadows RANGE 1 4096 UNIT "a pixel"
+  FIELD lightSamples CHANGES look
+  PANEL default
+  SAYS
+    "Rays from each visible point to each light that has a size (`SetLightSize`), and over its hemisphere for ambient
+     occlusion. Fewer leave grain, more take longer. While you interact there are 4 at most.")
+
 vtksvo_setting(AntiAliasing bool false
   TABLE speed
   FIELD antiAliasing CHANGES look

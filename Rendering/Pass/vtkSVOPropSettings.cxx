@@ -6,6 +6,7 @@
 
 #include "vtkActor.h"
 #include "vtkInformation.h"
+#include "vtkInformationDoubleKey.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkLight.h"
 #include "vtkNew.h"
@@ -13,6 +14,19 @@
 
 #include <algorithm>
 #include <cmath>
+
+namespace
+{
+vtkInformation* keysOf(vtkLight* light)
+{
+  if (!light->GetInformation())
+  {
+    vtkNew<vtkInformation> keys;
+    light->SetInformation(keys);
+  }
+  return light->GetInformation();
+}
+}
 
 vtkInformationIntegerKey* vtkSVOPropSettings::CAST_SHADOW()
 {
@@ -37,6 +51,11 @@ vtkInformationIntegerKey* vtkSVOPropSettings::SHADOW_CATCHER()
 vtkInformationDoubleKey* vtkSVOPropSettings::PIXEL_ERROR()
 {
   return svo::pixelErrorKey();
+}
+
+vtkInformationDoubleKey* vtkSVOPropSettings::LIGHT_SIZE()
+{
+  return svo::lightSizeKey();
 }
 
 void vtkSVOPropSettings::SetCastShadow(bool cast, vtkProp* prop)
@@ -68,22 +87,36 @@ std::string vtkSVOPropSettings::GetReason(vtkProp* prop)
 
 void vtkSVOPropSettings::SetCastShadow(bool cast, vtkLight* light)
 {
-  if (!light)
+  if (light)
   {
-    return;
+    keysOf(light)->Set(CAST_SHADOW(), cast ? 1 : 0);
+    light->Modified();
   }
-  if (!light->GetInformation())
-  {
-    vtkNew<vtkInformation> keys;
-    light->SetInformation(keys);
-  }
-  light->GetInformation()->Set(CAST_SHADOW(), cast ? 1 : 0);
-  light->Modified();
 }
 
 bool vtkSVOPropSettings::GetCastShadow(vtkLight* light)
 {
   return light && light->GetSwitch() && svo::castsShadow(light);
+}
+
+void vtkSVOPropSettings::SetLightSize(double size, vtkLight* light)
+{
+  if (!(size >= 0.0) || !std::isfinite(size))
+  {
+    vtkGenericWarningMacro(
+      "A light's size stays " << GetLightSize(light) << ": " << size << " is no radius or angle.");
+  }
+  else if (light && size != GetLightSize(light))
+  {
+    keysOf(light)->Set(LIGHT_SIZE(), size);
+    light->Modified();
+  }
+}
+
+double vtkSVOPropSettings::GetLightSize(vtkLight* light)
+{
+  vtkInformation* keys = light ? light->GetInformation() : nullptr;
+  return keys && keys->Has(LIGHT_SIZE()) ? keys->Get(LIGHT_SIZE()) : 0.0;
 }
 
 void vtkSVOPropSettings::SetReceiveShadow(bool receive, vtkProp* prop)

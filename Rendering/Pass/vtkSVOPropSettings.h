@@ -54,6 +54,20 @@ public:
 
   //@{
   /**
+   * How large a light is; default 0: a point, whose shadows have sharp edges. Of a positional light
+   * the radius of a ball, world units; of a directional one the angle of its disc in the sky,
+   * degrees (the sun: 0.533; 170 at most). Its shadows have soft edges on surfaces that are traced,
+   * whatever ShadowTechnique is, by as many rays from each visible point as MaximumLightSamples
+   * says; how bright it is stays VTK's business. Surfaces that are left to the rasteriser, and
+   * frames of the OpenGL backend, have its shadows as of a point. Negative or not finite: refused,
+   * with a warning.
+   */
+  static void SetLightSize(double size, vtkLight* light);
+  static double GetLightSize(vtkLight* light);
+  //@}
+
+  //@{
+  /**
    * Whether shadows fall on a prop; default true.
    */
   static void SetReceiveShadow(bool receive, vtkProp* prop);
@@ -103,6 +117,7 @@ public:
   static vtkInformationIntegerKey* USE_SVO();
   static vtkInformationIntegerKey* SHADOW_CATCHER();
   static vtkInformationDoubleKey* PIXEL_ERROR();
+  static vtkInformationDoubleKey* LIGHT_SIZE();
   //@}
 
 protected:

@@ -112,7 +112,8 @@ bool vtkSVORenderPass::CollectFrame(
   // OpenGL has instances of what casts alone, which may be nothing.
   const bool meant = frame.openGL ? collected.marked : !collected.scene.instances.empty();
   frame.tellOfShadows(
-    { text(this->ShadowTechnique != SHADOW_NONE && (!attached || meant), TEXT_ONLY_HEADLIGHTS),
+    { text(this->ShadowTechnique != SHADOW_NONE && !this->AmbientOcclusion && (!attached || meant),
+        TEXT_ONLY_HEADLIGHTS),
       text(alone, TEXT_NOTHING_CASTS), text(alone, TEXT_NOTHING_RECEIVES),
       text(seen, TEXT_CLIPPED) },
     impl.said);

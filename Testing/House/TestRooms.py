@@ -83,7 +83,7 @@ VIEW_OWNERS = ("svoShadowBuffer.h", "svoCPUTracer.cxx")
 def check_hits(root, places):
     problems = []
     for _, _, path in places.values():
-        behind = re.match("Rendering/Tracing/(Points|Lights|Maps|Shadows|Pixels)/", path)
+        behind = re.match("Rendering/Tracing/(Points|Lights|Maps|Rays|Shadows|Pixels)/", path)
         if behind and os.path.basename(path) not in VIEW_OWNERS:
             for name in re.findall(r'^#include "([^"]+)"', text_of(root, path), re.M):
                 lies = places[name][2] if name in places else ""

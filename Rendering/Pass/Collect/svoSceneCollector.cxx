@@ -32,7 +32,7 @@ bool sameLights(const std::vector<Light>& a, const std::vector<Light>& b)
   const auto values = [](const Light& l)
   {
     return std::tie(l.kind, l.headlight, l.position, l.direction, l.coneAngle, l.exponent,
-      l.attenuation, l.color, l.castShadow, l.id);
+      l.attenuation, l.color, l.castShadow, l.size, l.id);
   };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
     [&](const Light& x, const Light& y) { return values(x) == values(y); });
@@ -409,7 +409,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
     this->NotMarked = settings.notMarked;
   }
   CollectProps frame = settings;
-  frame.shadows = settings.shadows && casting;
+  frame.shadows = (settings.shadows && casting) || settings.levels.frame.ambientOcclusion;
   frame.lights = !result.scene.lights.empty();
   frame.world = world;
   frame.notMarked = this->NotMarked.c_str();

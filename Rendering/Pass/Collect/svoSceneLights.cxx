@@ -4,6 +4,7 @@
 #include "svoPropKeys.h"
 
 #include "vtkInformation.h"
+#include "vtkInformationDoubleKey.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationObjectBaseKey.h"
 #include "vtkLight.h"
@@ -13,6 +14,7 @@
 #include "vtkRenderer.h"
 #include "vtkWeakPointer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -21,6 +23,9 @@ namespace svo
 {
 namespace
 {
+/// Degrees; it shines from all over the hemisphere, nearly.
+constexpr double WidestDisc = 170.0;
+
 /// VTK's renderer transforms a light's direction as it does normals.
 void transform(const glm::dmat4& world, Light& light)
 {
@@ -57,6 +62,9 @@ Light lightOf(vtkLight* source)
   const double* diffuse = source->GetDiffuseColor();
   light.color =
     glm::vec3(diffuse[0], diffuse[1], diffuse[2]) * static_cast<float>(source->GetIntensity());
+  vtkInformation* keys = source->GetInformation();
+  light.size = keys && keys->Has(lightSizeKey()) ? keys->Get(lightSizeKey()) : 0.0;
+  light.size = light.atInfinity() ? std::min(light.size, WidestDisc) : light.size;
   light.id = reinterpret_cast<std::uintptr_t>(source);
   return light;
 }

@@ -16,6 +16,9 @@ constexpr double InteractiveRate = 1.0; // Hz
 
 /// Share of an interactive frame's time that is the pass's; the rest is for what else is drawn.
 constexpr double OwnShare = 0.5;
+
+/// Of lights with a size and of ambient occlusion, a pixel of an interactive frame.
+constexpr int InteractiveSamples = 4;
 }
 
 bool PassFrame::interactive() const
@@ -91,6 +94,7 @@ void PassFrame::decide(const FrameSettings& asked, const PaceLimits& limits)
   {
     return;
   }
+  this->settings.lightSamples = std::min(asked.lightSamples, InteractiveSamples);
   if (limits.adjust)
   {
     this->pace =

@@ -52,6 +52,12 @@ vtkInformationDoubleKey* pixelErrorKey()
   return key;
 }
 
+vtkInformationDoubleKey* lightSizeKey()
+{
+  static auto* key = vtkInformationDoubleKey::MakeKey("LIGHT_SIZE", "vtkSVORenderPass");
+  return key;
+}
+
 bool flagOf(vtkProp* prop, vtkProp* owner, vtkInformationIntegerKey* key, bool otherwise)
 {
   for (vtkProp* asked : { prop, owner })

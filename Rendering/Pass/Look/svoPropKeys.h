@@ -16,6 +16,7 @@ vtkInformationIntegerKey* receiveShadowKey();
 vtkInformationIntegerKey* useSVOKey();
 vtkInformationIntegerKey* shadowCatcherKey();
 vtkInformationDoubleKey* pixelErrorKey();
+vtkInformationDoubleKey* lightSizeKey(); // of lights
 
 /// The key's value of a prop, else of the assembly that owns the prop; `otherwise` if neither has
 /// one or both are null.

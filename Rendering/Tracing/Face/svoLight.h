@@ -2,6 +2,7 @@
 #ifndef svoLight_h
 #define svoLight_h
 
+#include <cmath>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -33,9 +34,21 @@ struct Light
   glm::vec3 attenuation{ 1, 0, 0 }; // constant, linear, quadratic
   glm::vec3 color{ 1.0f };          // diffuse colour times intensity
   bool castShadow = true;
+  /// How large it is: of one with a position the radius of a ball, world units; of one at infinity
+  /// the angle that its disc subtends, degrees. 0: a point, whose shadows have sharp edges.
+  double size = 0.0;
   std::uint64_t id = 0; // stable from frame to frame
 
   bool atInfinity() const { return this->kind == Kind::Directional; }
+  bool soft() const { return this->size > 0.0; }
+  /// Of its ball, world; 0 at infinity.
+  double radius() const { return this->atInfinity() ? 0.0 : this->size; }
+  /// How much wider the way to all of its disc gets for each unit of length; 0 of others.
+  double spread() const
+  {
+    constexpr double HalfDegree = 0.5 * 3.14159265358979323846 / 180.0;
+    return this->atInfinity() ? std::tan(this->size * HalfDegree) : 0.0;
+  }
   bool hasCone() const { return this->kind == Kind::Spot; }
   /// The way to `x`, world, that the light's ray goes; unit only from infinity.
   glm::dvec3 along(const glm::dvec3& x) const

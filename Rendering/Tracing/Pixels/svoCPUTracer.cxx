@@ -205,14 +205,16 @@ void CPUTracer::Internals::findDarkenedTiles(
         boxes[2 * k + 1] = this->Casters[i] = CasterBox(scene.instances[i]);
       }
     });
+  const AmbientOcclusion* occlusion = shadows.occlusion();
   const auto mayCross = [&](const PointBox& starts)
   {
     return !starts.empty() &&
       std::any_of(boxes.begin(), boxes.end(),
         [&](const CasterBox& box)
         {
-          return std::any_of(scene.lights.begin(), scene.lights.end(),
-            [&](const Light& light) { return light.castShadow && box.mayBlock(light, starts); });
+          return (occlusion && box.mayMeet(occlusion->way(starts))) ||
+            std::any_of(scene.lights.begin(), scene.lights.end(),
+              [&](const Light& light) { return light.castShadow && box.mayBlock(light, starts); });
         });
   };
   const std::vector<std::uint32_t>& hits = this->Tiles.hits();
@@ -297,7 +299,7 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     this->LightShadows.choose(scene, seen, view, settings);
     this->LightShadows.prepare(seen, view, this->Eye.hits(), settings, budget, parallelFor);
   }
-  this->LightShadows.prepareAnswers(scene, this->Eye.hits());
+  this->LightShadows.prepareAnswers(scene, this->Eye.hits(), settings);
   if (!shared)
   {
     this->markLightTiles(scene, view, parallelFor);
@@ -322,10 +324,15 @@ Frame& CPUTracer::frame()
   return this->Impl->Picture;
 }
 
-void CPUTracer::render(const Scene& scene, const View& view, const FrameSettings& settings,
-  const ParallelFor& parallelFor)
+void CPUTracer::render(
+  const Scene& scene, const View& view, const FrameSettings& asked, const ParallelFor& parallelFor)
 {
   Internals& self = *this->Impl;
+  FrameSettings settings = asked;
+  if (settings.ambientOcclusion && settings.ambientOcclusionDistance <= 0.0)
+  {
+    settings.ambientOcclusionDistance = usualOcclusionDistance(scene);
+  }
   Frame& frame = self.Picture;
   PhaseClock clock;
   FrameStatistics& statistics = self.Statistics;

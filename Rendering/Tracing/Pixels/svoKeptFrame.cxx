@@ -8,7 +8,7 @@ namespace svo
 namespace
 {
 // Who adds a member to one of these adds it below.
-static_assert(sizeof(Light) == 112 && sizeof(View) == 480 && sizeof(FrameNeeds) == 24,
+static_assert(sizeof(Light) == 120 && sizeof(View) == 480 && sizeof(FrameNeeds) == 24,
   "all that pictures depend on is compared");
 
 using Bytes = std::vector<unsigned char>;
@@ -29,7 +29,7 @@ void add(Bytes& bytes, const T&... values)
 void addLight(const Light& l, Bytes& bytes)
 {
   add(bytes, l.kind, l.headlight, l.position, l.direction, l.coneAngle, l.exponent, l.attenuation,
-    l.color, l.castShadow, l.id);
+    l.color, l.castShadow, l.size, l.id);
 }
 
 /// Rays and shading; what else a view has follows from these.

@@ -134,6 +134,29 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
     addLight(lighting.lights[l], patch, l == 0, scratch.light);
   }
   finishLight(instance.material, isLit, patch, scratch.light, scratch.colors);
+  if (lit.shaded.dark.occlusion() && instance.material.lighting && instance.receiveShadow)
+  {
+    this->occlude(lit, scratch);
+  }
+}
+
+/// Ambient occlusion of the points of a patch.
+void PixelShader::occlude(const Lit& lit, Scratch& scratch) const
+{
+  const TilePatch& patch = scratch.patch;
+  const ShadowQuery query{ patch, this->Errors[patch.instance], scratch.extents, patch.mask,
+    scratch.rays };
+  if (scratch.noted)
+  {
+    noteRayStarts(query, scratch.noted->raysToLights);
+  }
+  alignas(64) float closed[TilePatch::Most];
+  lit.shaded.dark.occlusion()->test(query, closed);
+  const FrameSettings& settings = lit.shaded.settings;
+  const auto strength = static_cast<float>(settings.ambientOcclusionStrength);
+  std::transform(closed, closed + TilePatch::Most, closed, [&](float c) { return strength * c; });
+  closeOff(lit.shaded.scene.instances[patch.instance].material, settings.ambientOcclusionOfAllLight,
+    patch, closed, scratch.colors);
 }
 
 /// Shades a tile's hits and writes its pixels, hits or not, all at once.

@@ -265,6 +265,28 @@ void finish(const Material& m, bool lit, const TilePatch& p, const TileLight& l,
   mix(lit, own ? p.colorB : nullptr, a.b, d.b, s.b, l.diffuseB, l.specularB, p, c.b);
   pack(p, c);
 }
+
+void close(const Material& m, bool all, const TilePatch& p, const float* closed, TileColors& c)
+{
+  const bool own = p.hasColor;
+  const glm::vec3 a = m.ambient * (own ? glm::vec3(1.0f) : m.ambientColor);
+  const auto part = [&](float ambient, const float* color, float* HWY_RESTRICT out)
+  {
+    eachStep(p,
+      [&](int i)
+      {
+        for (int k = i; k < i + Step; ++k)
+        {
+          const float from = all ? out[k] : own ? ambient * color[k] : ambient;
+          out[k] -= closed[k] * from;
+        }
+      });
+  };
+  part(a.r, p.colorR, c.r);
+  part(a.g, p.colorG, c.g);
+  part(a.b, p.colorB, c.b);
+  pack(p, c);
+}
 }
 }
 HWY_AFTER_NAMESPACE();
@@ -275,6 +297,7 @@ namespace svo
 HWY_EXPORT(arrive);
 HWY_EXPORT(add);
 HWY_EXPORT(finish);
+HWY_EXPORT(close);
 
 std::uint64_t arriveLight(const Lighting& lighting, std::size_t l, const Material& material,
   const TilePatch& patch, TileLight& light)
@@ -292,6 +315,12 @@ void finishLight(const Material& material, bool lit, const TilePatch& patch, con
   TileColors& colors)
 {
   HWY_DYNAMIC_DISPATCH(finish)(material, lit, patch, light, colors);
+}
+
+void closeOff(const Material& material, bool all, const TilePatch& patch, const float* closed,
+  TileColors& colors)
+{
+  HWY_DYNAMIC_DISPATCH(close)(material, all, patch, closed, colors);
 }
 }
 #endif

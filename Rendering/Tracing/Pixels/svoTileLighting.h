@@ -43,6 +43,11 @@ std::uint64_t arriveLight(const Lighting& lighting, std::size_t l, const Materia
 /// Adds what arrived, of each point `share` times. `first`: to nothing.
 void addLight(const ViewLight& from, const TilePatch& patch, bool first, TileLight& light);
 
+/// Takes from the points' colours, after finishLight(), the share `closed` of each: of their
+/// ambient part, or of all.
+void closeOff(const Material& material, bool all, const TilePatch& patch, const float* closed,
+  TileColors& colors);
+
 /// The colours of the points; `lit`: by what was added.
 void finishLight(const Material& material, bool lit, const TilePatch& patch, const TileLight& light,
   TileColors& colors);

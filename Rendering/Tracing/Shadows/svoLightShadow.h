@@ -38,6 +38,21 @@ inline std::uint64_t missAll(std::uint64_t dark, float* missed)
   return dark;
 }
 
+/// Notes where rays of the points begin.
+inline void noteRayStarts(const ShadowQuery& query, PointBox& rays)
+{
+  rays.add(
+    query.patch.origin.position, (1.0 + 1e-6) * glm::dvec3(query.patch.extent) + query.errors.ray);
+}
+
+/// ... and of one at the terminator, and its way there.
+inline void noteRaisedStart(const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays)
+{
+  const glm::dvec3 reach(query.errors.ray);
+  rays.add(query.patch.position(at.pixel), reach);
+  rays.add(at.point.position, reach);
+}
+
 /// This one is of a light that casts none.
 class LightShadow
 {

@@ -50,16 +50,13 @@ public:
 
   void noteRays(const ShadowQuery& query, PointBox& rays) const override
   {
-    rays.add(query.patch.origin.position,
-      (1.0 + 1e-6) * glm::dvec3(query.patch.extent) + query.errors.ray);
+    noteRayStarts(query, rays);
   }
 
   void noteTerminator(const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays,
     RaisedTiles&) const override
   {
-    const glm::dvec3 reach(query.errors.ray);
-    rays.add(query.patch.position(at.pixel), reach);
-    rays.add(at.point.position, reach);
+    noteRaisedStart(query, at, rays);
   }
 
 private:

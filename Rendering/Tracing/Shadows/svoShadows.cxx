@@ -2,6 +2,7 @@
 
 #include "svoBufferShadow.h"
 #include "svoRayShadow.h"
+#include "svoSoftShadow.h"
 
 #include <algorithm>
 #include <cassert>
@@ -21,7 +22,11 @@ void Shadows::chooseAll(const Scene& scene, ShadowTechnique technique)
   this->Techniques.clear();
   for (const Light& light : scene.lights)
   {
-    this->Techniques.push_back(light.castShadow ? technique : ShadowTechnique::None);
+    // Shadows of lights with a size are found by rays alone.
+    const bool soft = light.soft() && technique != ShadowTechnique::None;
+    this->Techniques.push_back(!light.castShadow ? ShadowTechnique::None
+        : soft                                   ? ShadowTechnique::Rays
+                                                 : technique);
   }
 }
 
@@ -74,21 +79,36 @@ void Shadows::prepare(const Scene& scene, const View& view, const Hits& eye,
   }
 }
 
-void Shadows::prepareAnswers(const Scene& scene, const Hits& eye)
+void Shadows::prepareAnswers(const Scene& scene, const Hits& eye, const FrameSettings& settings)
 {
   const bool anyByRays =
     std::count(this->Techniques.begin(), this->Techniques.end(), ShadowTechnique::Rays) > 0;
   this->OfLights.clear();
+  this->Occlusion.reset();
+  this->Samplers.reset();
   this->Rays.reset();
-  if (anyByRays ||
+  this->Casters.reset();
+  if (anyByRays || settings.ambientOcclusion ||
     (this->Casting && std::any_of(scene.instances.begin(), scene.instances.end(), isSmooth)))
   {
-    this->Rays = std::make_unique<ShadowRays>(scene, eye, this->Cull.tree);
+    this->Casters = std::make_unique<RayCasters>(scene, eye, this->Cull.tree);
+    this->Rays = std::make_unique<ShadowRays>(*this->Casters);
+    this->Samplers = std::make_unique<SampleRays>(*this->Casters);
+  }
+  if (settings.ambientOcclusion)
+  {
+    this->Occlusion = std::make_unique<AmbientOcclusion>(
+      *this->Samplers, settings.ambientOcclusionDistance, settings.lightSamples);
   }
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
   {
     const Light& light = scene.lights[l];
-    if (this->byRays(l))
+    if (this->byRays(l) && light.soft())
+    {
+      this->OfLights.push_back(std::make_unique<SoftShadow>(
+        light, *this->Samplers, *this->Rays, static_cast<unsigned>(l), settings.lightSamples));
+    }
+    else if (this->byRays(l))
     {
       this->OfLights.push_back(std::make_unique<RayShadow>(light, *this->Rays));
     }
@@ -162,6 +182,10 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
 void Shadows::release()
 {
   this->OfLights.clear();
+  this->Occlusion.reset();
+  this->Samplers.reset();
+  this->Rays.reset();
+  this->Casters.reset();
   this->Kept.clear();
   this->Buffers.clear();
   this->FirstTranslucent.clear();

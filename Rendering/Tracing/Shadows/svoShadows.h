@@ -2,6 +2,7 @@
 #ifndef svoShadows_h
 #define svoShadows_h
 
+#include "svoAmbientOcclusion.h"
 #include "svoFrame.h"
 #include "svoLightShadow.h"
 #include "svoScene.h"
@@ -38,7 +39,7 @@ public:
   /// To be called in every frame, after prepare() or traceShared(): who answers for each light.
   /// `scene` and `eye`: those of the points to be tested; rays to the light meet the same geometry,
   /// or surfaces would shadow themselves.
-  void prepareAnswers(const Scene& scene, const Hits& eye);
+  void prepareAnswers(const Scene& scene, const Hits& eye, const FrameSettings& settings);
 
   /// Instead of prepare() and trace() where other processes hold parts of the scene: traces the
   /// buffers whole and merges them with the others', so that all have the same. A collective call.
@@ -74,6 +75,8 @@ public:
     assert(light < this->OfLights.size());
     return *this->OfLights[light];
   }
+  /// ... or null, where none was asked for.
+  const AmbientOcclusion* occlusion() const { return this->Occlusion.get(); }
   /// True if some of them ask for ShadowQuery::extents.
   bool filters() const { return this->Filters; }
 
@@ -109,7 +112,10 @@ private:
   std::vector<const ShadowBuffer*> BuffersBefore; // of the last frame
   /// By Light::id and group.
   std::map<std::pair<std::uint64_t, std::uint8_t>, std::unique_ptr<ShadowBuffer>> Kept;
-  std::unique_ptr<ShadowRays> Rays;
+  std::unique_ptr<RayCasters> Casters; // where somebody asks rays
+  std::unique_ptr<ShadowRays> Rays;    // through these, as ...
+  std::unique_ptr<SampleRays> Samplers;
+  std::unique_ptr<AmbientOcclusion> Occlusion;
   std::vector<std::unique_ptr<LightShadow>> OfLights;
   std::vector<unsigned char> SharedState; // inputs of the shared buffers in Kept; empty: not shared
   bool Traced = false;                    // buffers were, in this frame

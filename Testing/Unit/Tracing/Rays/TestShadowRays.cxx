@@ -105,7 +105,8 @@ Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& 
     { return instance.body->octree.level(); },
     false, budget);
   eye.trace(svo::serialFor, nullptr);
-  const svo::ShadowRays rays(scene, eye.hits());
+  const svo::RayCasters casters(scene, eye.hits());
+  const svo::ShadowRays rays(casters);
   std::vector<svo::SurfaceMatrices> frames;
   double rounding = 0.0;
   for (const svo::Instance& instance : scene.instances)
@@ -223,7 +224,8 @@ TEST(ShadowRays, CastersThatAreLeftOutAreNotMet)
     [](const svo::Instance& instance, const svo::LocalView&)
     { return instance.body->octree.level(); },
     false, budget);
-  const svo::ShadowRays rays(scene, eye.hits());
+  const svo::RayCasters casters(scene, eye.hits());
+  const svo::ShadowRays rays(casters);
   // Through every caster, wherever it is.
   const auto met = [&](const glm::dvec3& from, const glm::dvec3& way, double tMin, double tMax)
   {

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 namespace svo
@@ -28,6 +29,33 @@ struct PointBox
     this->high = first ? point + reach : glm::max(this->high, point + reach);
   }
 };
+
+/// The way that a box takes, and with it all points in it: `share` times `along` from its middle,
+/// its half edges growing by `spread` for each unit of the way.
+struct BoxWay
+{
+  glm::dvec3 middle, half, along;
+  double share, spread;
+
+  BoxWay(const PointBox& from, const glm::dvec3& by, double times, double wider = 0.0)
+    : middle(0.5 * (from.low + from.high))
+    , half(0.5 * (from.high - from.low))
+    , along(by)
+    , share(times)
+    , spread(wider)
+  {
+  }
+};
+
+/// From a box of points to a light, all of it.
+inline BoxWay wayToLight(const Light& light, const PointBox& from)
+{
+  const glm::dvec3 middle = 0.5 * (from.low + from.high);
+  BoxWay way(from, -light.along(middle), light.atInfinity() ? 1e300 : 1.0, light.spread());
+  // A box that gets narrower towards the light, or wider if the light is larger.
+  way.half = glm::max(way.half, glm::dvec3(light.radius()));
+  return way;
+}
 
 /// The box of an instance's mesh, or its octree's cube, in coordinates in which it is -1..1 wide.
 class CasterBox
@@ -67,6 +95,7 @@ public:
       {
         this->Inverse[axis][i] = inverse[axis][i] / (0.5 * (high[i] - low[i]));
       }
+      this->Extent += 0.5 * (high[i] - low[i]) * glm::abs(glm::dvec3(instance.localToWorld[i]));
     }
     this->Centre = glm::dvec3(instance.localToWorld * glm::dvec4(0.5 * (low + high), 1.0));
   }
@@ -75,37 +104,45 @@ public:
   CasterBox(const glm::dvec3& centre, double half)
     : Casts(true)
     , Centre(centre)
+    , Extent(half)
     , Inverse(1.0 / half)
   {
   }
 
+  /// Adds its corners; nothing if it is around nothing.
+  void addTo(PointBox& all) const
+  {
+    if (this->Casts)
+    {
+      all.add(this->Centre, this->Extent);
+    }
+  }
   /// False if no way from a point of `from` to the light meets the box.
   bool mayBlock(const Light& light, const PointBox& from) const
   {
-    // The way of the middle, and all others' within a box that gets narrower towards the light.
-    const glm::dvec3 middle = 0.5 * (from.low + from.high);
-    return !from.empty() &&
-      this->mayMeet(middle, 0.5 * (from.high - from.low), -light.along(middle),
-        light.atInfinity() ? 1e300 : 1.0);
+    return !from.empty() && this->mayMeet(wayToLight(light, from));
   }
-  /// False if the box is not on the way from a point, `share` times `along` at most, nor nearer to
-  /// it than `half` of another box.
-  bool mayMeet(
-    const glm::dvec3& from, const glm::dvec3& half, const glm::dvec3& along, double share) const
+  /// False if the box is not on the way.
+  bool mayMeet(const BoxWay& way) const
   {
     if (!this->Casts)
     {
       return false;
     }
-    const glm::dvec3 begin = this->Inverse * (from - this->Centre);
-    const glm::dvec3 way = this->Inverse * along;
-    double first = 0.0, last = share;
+    glm::dvec3 half = way.half;
+    if (way.spread > 0.0)
+    {
+      half += way.spread * (glm::distance(way.middle, this->Centre) + glm::length(this->Extent));
+    }
+    const glm::dvec3 begin = this->Inverse * (way.middle - this->Centre);
+    const glm::dvec3 along = this->Inverse * way.along;
+    double first = 0.0, last = way.share;
     for (int i = 0; i < 3; ++i)
     {
       const double others = std::abs(this->Inverse[0][i]) * half.x +
         std::abs(this->Inverse[1][i]) * half.y + std::abs(this->Inverse[2][i]) * half.z;
       const double reach = 1.000001 * (1.0 + others);
-      if (way[i] == 0.0)
+      if (along[i] == 0.0)
       {
         if (std::abs(begin[i]) > reach)
         {
@@ -113,7 +150,7 @@ public:
         }
         continue;
       }
-      const double a = (-reach - begin[i]) / way[i], b = (reach - begin[i]) / way[i];
+      const double a = (-reach - begin[i]) / along[i], b = (reach - begin[i]) / along[i];
       first = std::max(first, std::min(a, b));
       last = std::min(last, std::max(a, b));
     }
@@ -123,6 +160,7 @@ public:
 private:
   bool Casts = false;
   glm::dvec3 Centre{ 0.0 };  // world
+  glm::dvec3 Extent{ 0.0 };  // along the world's axes, from the centre
   glm::dmat3 Inverse{ 1.0 }; // of the box's half edges
 };
 }

@@ -1,9 +1,6 @@
 #include "svoShadowRays.h"
 
 #include "svoIntersect.h"
-#include "svoLeafError.h"
-#include "svoSurfaceAlpha.h"
-#include "svoWorldSize.h"
 
 #include <algorithm>
 #include <cassert>
@@ -34,81 +31,7 @@ struct ShadowRays::Start
   int number;                // of the answer's bit
 };
 
-ShadowRays::ShadowRays(const Scene& scene, const Hits& eye, const LooseOctree* tree)
-  : Tree(tree)
-  , Casting(tree ? scene.instances.size() : 0, None)
-{
-  for (const Instance& instance : scene.instances)
-  {
-    if (instance.castShadow && instance.body->octree && !instance.body->octree.empty())
-    {
-      const Octree& octree = instance.body->octree;
-      const std::size_t index = &instance - scene.instances.data();
-      const LeafGeometry geometry = eye.instances.leafGeometry(static_cast<std::uint32_t>(index));
-      const LeafTraits traits = traitsOf(geometry);
-      const bool exact = traits.exact() && octree.surface();
-      const bool mixed = traits.exact() && octree.longestList() > traits.longestExact;
-      const double planeError = mixed ? CubeError * worldVoxel(instance) : 0.0;
-      std::vector<Caster>& casters = instance.translucent() ? this->Translucent : this->Casters;
-      if (tree && !instance.translucent())
-      {
-        this->Casting[index] = static_cast<std::uint32_t>(casters.size());
-      }
-      const WorldToOctree toOctree(octree, instance.localToWorld);
-      casters.push_back({ &instance, geometry, toOctree, planeError,
-        std::max(planeError, worldLeafError(instance, geometry, octree.level())), exact && !mixed,
-        CasterBox(instance, toOctree.inverse) });
-    }
-  }
-}
-
-template <class Visit>
-bool ShadowRays::anyOnTheWay(
-  const PointBox& from, const glm::dvec3& along, double share, const Visit& visit) const
-{
-  if (from.empty())
-  {
-    return false;
-  }
-  const glm::dvec3 middle = 0.5 * (from.low + from.high), half = 0.5 * (from.high - from.low);
-  if (!this->Tree)
-  {
-    return std::any_of(this->Casters.begin(), this->Casters.end(),
-      [&](const Caster& caster)
-      { return caster.box.mayMeet(middle, half, along, share) && visit(caster); });
-  }
-  // In the order in which they are asked without a tree: where a beam passes an edge as closely as
-  // floats tell, the answer is that of the points which are asked together.
-  std::vector<std::uint32_t> asked;
-  this->Tree->visit(
-    VisitOrder::from(middle),
-    [&](const LooseNode& node, std::uint8_t&)
-    {
-      const bool may = CasterBox(node.centre, node.half).mayMeet(middle, half, along, share);
-      return may ? NodeVisit::Below : NodeVisit::Skip;
-    },
-    [&](std::uint32_t object, bool)
-    {
-      const std::uint32_t k = this->Casting[object];
-      if (k != None && this->Casters[k].box.mayMeet(middle, half, along, share))
-      {
-        asked.push_back(k);
-      }
-    });
-  std::sort(asked.begin(), asked.end());
-  return std::any_of(
-    asked.begin(), asked.end(), [&](std::uint32_t k) { return visit(this->Casters[k]); });
-}
-
-template <class Visit>
-bool ShadowRays::anyBeforeLight(const Light& light, const PointBox& from, const Visit& visit) const
-{
-  // As CasterBox::mayBlock().
-  return this->anyOnTheWay(
-    from, -light.along(0.5 * (from.low + from.high)), light.atInfinity() ? 1e300 : 1.0, visit);
-}
-
-bool ShadowRays::blocks(const Caster& caster, const Light& light, const glm::dvec3& position,
+bool ShadowRays::blocks(const RayCaster& caster, const Light& light, const glm::dvec3& position,
   const glm::dvec3& side, double offset)
 {
   const glm::dvec3 start = position + offset * side;
@@ -139,32 +62,18 @@ bool ShadowRays::blocks(const Caster& caster, const Light& light, const glm::dve
   return occluded(caster.instance->body->octree, outer, options);
 }
 
-float ShadowRays::opacityMet(const Caster& caster, const Light& light, const glm::dvec3& position,
-  const glm::dvec3& side, double offset)
+float ShadowRays::opacityMet(const RayCaster& caster, const Light& light,
+  const glm::dvec3& position, const glm::dvec3& side, double offset)
 {
-  const Instance& instance = *caster.instance;
-  if (!instance.mappedOpacity)
-  {
-    return instance.opacity;
-  }
-  const TraceOptions options{ caster.geometry, MaximumLevel };
-  const SurfaceMatrices frame(instance);
-  // From the light, or where that is nowhere from beyond the caster, to where blocks() began.
+  // From the light to where blocks() began.
   for (const double above : { std::max(offset, caster.planeError), offset })
   {
     const glm::dvec3 end = position + above * side;
-    const glm::dvec3 towards = -light.along(end);
-    const glm::dvec3 localEnd = caster.toOctree.point(end);
-    const glm::dvec3 local = caster.toOctree.vector(towards);
-    const double beyond = glm::distance(localEnd, glm::dvec3(1.5)) + 1.0; // the cube is 1..2
-    const double length = light.atInfinity() ? beyond / glm::length(local) : BeforeLight;
-    const Hit hit =
-      intersect(instance.body->octree, { localEnd + length * local, -local, 0.0, length }, options);
-    if (hit)
+    const float opacity =
+      svo::opacityMet(caster, end, -light.along(end), light.atInfinity() ? 1e300 : BeforeLight);
+    if (opacity > 0.0f)
     {
-      return instance.opacity *
-        surfaceAlpha(frame, end + (length - hit.t) * towards, glm::vec3(glm::normalize(towards)),
-          hit.primitive);
+      return opacity;
     }
   }
   return 0.0f; // the ray only grazes it
@@ -184,7 +93,7 @@ void ShadowRays::taken(const Light& light, const TilePatch& patch, double offset
       starts[count++] = { position, sideOf(light, position, patch.facet(i)), i };
     });
   std::fill_n(taken, TilePatch::Most, 0.0f);
-  for (const Caster& caster : this->Translucent)
+  for (const RayCaster& caster : this->Casters.translucent())
   {
     if (count == 0 || !caster.box.mayBlock(light, box))
     {
@@ -210,13 +119,13 @@ bool ShadowRays::shadows(
   const glm::dvec3 side = sideOf(light, position, facet);
   PointBox from;
   from.add(position, glm::dvec3(offset));
-  return this->anyBeforeLight(light, from,
-    [&](const Caster& caster) { return blocks(caster, light, position, side, offset); });
+  return this->Casters.anyOpaque(wayToLight(light, from),
+    [&](const RayCaster& caster) { return blocks(caster, light, position, side, offset); });
 }
 
 /// Those that the caster shadows, one bit each.
 std::uint64_t ShadowRays::beam(
-  const Caster& caster, const Light& light, const Start* starts, int count, double offset) const
+  const RayCaster& caster, const Light& light, const Start* starts, int count, double offset) const
 {
   std::uint64_t dark = 0;
   const auto setIf = [&dark](bool isDark, const Start& start)
@@ -262,8 +171,12 @@ std::uint64_t ShadowRays::shadows(const Light& light, Start* starts, int count, 
     box.add(starts[i].position, glm::dvec3(offset));
   }
   std::uint64_t dark = 0;
-  this->anyBeforeLight(light, box,
-    [&](const Caster& caster)
+  if (count == 0)
+  {
+    return dark;
+  }
+  this->Casters.anyOpaque(wayToLight(light, box),
+    [&](const RayCaster& caster)
     {
       dark |= this->beam(caster, light, starts, count, offset);
       count = static_cast<int>(std::remove_if(starts, starts + count,
@@ -314,8 +227,8 @@ bool ShadowRays::between(const glm::dvec3& from, const glm::dvec3& to, double of
   const double length = glm::length(direction);
   PointBox box;
   box.add(from, glm::dvec3(0.0));
-  return this->anyOnTheWay(box, direction, 1.0,
-    [&](const Caster& caster)
+  return this->Casters.anyOpaque({ box, direction, 1.0 },
+    [&](const RayCaster& caster)
     {
       const double first = std::max(offset, caster.leafError);
       const Ray ray{ caster.toOctree.point(from), caster.toOctree.vector(direction), first / length,

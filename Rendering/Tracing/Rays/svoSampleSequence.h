@@ -1,0 +1,56 @@
+// Samples of a square that fill it evenly however many are taken, and in another order of the same
+// evenness for each pixel, so that what few of them leave of error looks like fine grain.
+//
+// Number i is the i-th point of the (0, 2)-sequence whose coordinates are the radical inverse and
+// Sobol's second dimension (I. Sobol, 1967; Kollig and Keller, "Efficient Multidimensional
+// Sampling", 2002), rotated by what a blue-noise mask of 64 x 64 pixels has there (R. Ulichney,
+// "The void-and-cluster method for dither array generation", 1993; rotations: Cranley and
+// Patterson, 1976). All is computed in whole numbers: a sample is a function of the pixel, the
+// stream and the index alone, the same bits everywhere.
+#ifndef svoSampleSequence_h
+#define svoSampleSequence_h
+
+#include "vtkSVOTracingModule.h"
+
+#include <cstdint>
+
+#include <glm/vec2.hpp>
+
+namespace svo
+{
+/// A point of the unit square, in fractions of 2^32.
+struct SquarePoint
+{
+  std::uint32_t u, v;
+
+  /// [0, 1)^2.
+  glm::vec2 position() const
+  {
+    constexpr float Unit = 1.0f / (1 << 24);
+    return { Unit * static_cast<float>(this->u >> 8), Unit * static_cast<float>(this->v >> 8) };
+  }
+  /// Rotated on the torus.
+  SquarePoint operator+(const SquarePoint& by) const { return { this->u + by.u, this->v + by.v }; }
+};
+
+/// Number `index` of the sequence.
+inline SquarePoint sequencePoint(std::uint32_t index)
+{
+  SquarePoint point{ 0, 0 };
+  std::uint32_t a = 1u << 31, b = 1u << 31;
+  for (std::uint32_t bits = index; bits != 0; bits >>= 1)
+  {
+    point.u ^= bits & 1 ? a : 0;
+    point.v ^= bits & 1 ? b : 0;
+    a >>= 1;
+    b ^= b >> 1;
+  }
+  return point;
+}
+
+/// The rotation of a pixel. `stream`: of samples that have nothing to do with another stream's, as
+/// those of two lights.
+VTKSVOTRACING_EXPORT SquarePoint pixelRotation(int x, int y, unsigned stream);
+}
+
+#endif

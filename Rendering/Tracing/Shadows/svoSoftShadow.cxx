@@ -1,0 +1,143 @@
+#include "svoSoftShadow.h"
+
+#include "svoSampleDirections.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace svo
+{
+/// A point that asks.
+struct SoftShadow::Asker
+{
+  glm::dvec3 position; // world
+  glm::vec3 facet;     // unit, towards the viewer
+  int pixel;           // of its patch
+};
+
+SoftShadow::SoftShadow(
+  const Light& light, const SampleRays& rays, const ShadowRays& exact, unsigned stream, int samples)
+  : Source(light)
+  , Rays(rays)
+  , Exact(exact)
+  , Stream(stream)
+{
+  for (int i = 0; i < samples; ++i)
+  {
+    this->Samples.push_back(sequencePoint(static_cast<std::uint32_t>(i)));
+  }
+}
+
+/// Sets what the askers miss, by pixel.
+void SoftShadow::ask(const ShadowQuery& query, const Asker* askers, int count, float* missed) const
+{
+  struct Cone
+  {
+    LightCone light;
+    SquarePoint rotation;
+    float lost = 0.0f;
+    int seen = 0; // samples above the facet
+  };
+  std::vector<Cone> cones;
+  PointBox box;
+  cones.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+  {
+    const Asker& asker = askers[i];
+    const TilePatch& patch = query.patch;
+    cones.push_back({ LightCone(this->Source, asker.position),
+      pixelRotation(static_cast<int>(std::floor(patch.x(asker.pixel))),
+        static_cast<int>(std::floor(patch.y(asker.pixel))), this->Stream) });
+    box.add(asker.position, glm::dvec3(query.errors.ray));
+  }
+  const auto trace = [&](SampleBatch& batch)
+  {
+    this->Rays.trace(wayToLight(this->Source, box), query.errors.ray, batch);
+    for (int ray = 0; ray < batch.rays; ++ray)
+    {
+      Cone& cone = cones[batch.point[ray]];
+      cone.lost += batch.blocked[ray];
+      ++cone.seen;
+    }
+    query.rays += static_cast<std::uint64_t>(batch.rays);
+    batch.rays = 0;
+  };
+  SampleBatch batch;
+  for (int i = 0; i < count; ++i)
+  {
+    batch.addPoint(askers[i].position, askers[i].facet);
+  }
+  for (const SquarePoint& sample : this->Samples)
+  {
+    if (batch.rays + count > SampleBatch::MostRays)
+    {
+      trace(batch);
+    }
+    for (int i = 0; i < count; ++i)
+    {
+      float length;
+      const glm::vec3 along = cones[i].light.direction(sample + cones[i].rotation, length);
+      if (glm::dot(along, askers[i].facet) > 0.0f)
+      {
+        batch.addRay(i, along, length);
+      }
+    }
+  }
+  trace(batch);
+  for (int i = 0; i < count; ++i)
+  {
+    const Asker& asker = askers[i];
+    missed[asker.pixel] = cones[i].seen > 0 ? cones[i].lost / static_cast<float>(cones[i].seen)
+                                            : static_cast<float>(this->Exact.shadows(this->Source,
+                                                asker.position, asker.facet, query.errors.ray));
+  }
+}
+
+std::uint64_t SoftShadow::test(const ShadowQuery& query, float* missed) const
+{
+  Asker askers[TilePatch::Most];
+  int count = 0;
+  std::fill_n(missed, TilePatch::Most, 0.0f);
+  eachBit(query.asked,
+    [&](int i) {
+      askers[count++] = { query.patch.position(i), query.patch.facet(i), i };
+    });
+  this->ask(query, askers, count, missed);
+  std::uint64_t dark = 0;
+  eachBit(query.asked, [&](int i) { dark |= std::uint64_t(missed[i] > 0.0f) << i; });
+  return dark;
+}
+
+void SoftShadow::testTerminator(
+  const ShadowQuery& query, const std::vector<TerminatorPoint>& points, float* missed) const
+{
+  Asker askers[TilePatch::Most];
+  int count = 0;
+  for (const TerminatorPoint& at : points)
+  {
+    assert(count < TilePatch::Most);
+    // Doubted ones have been asked for: what the samples above their facets say is true.
+    if (at.kind == TerminatorPoint::Kind::Hidden)
+    {
+      missed[at.pixel] = 1.0f;
+    }
+    else if (at.kind == TerminatorPoint::Kind::Raised)
+    {
+      askers[count++] = { at.point.position, at.point.facet, at.pixel };
+    }
+  }
+  this->ask(query, askers, count, missed);
+}
+
+void SoftShadow::noteRays(const ShadowQuery& query, PointBox& rays) const
+{
+  noteRayStarts(query, rays);
+}
+
+void SoftShadow::noteTerminator(
+  const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays, RaisedTiles&) const
+{
+  noteRaisedStart(query, at, rays);
+}
+}
