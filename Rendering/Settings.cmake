@@ -112,7 +112,18 @@ vtksvo_setting(MaximumLightSamples int 32
   PANEL default
   SAYS
     "Rays from each visible point to each light that has a size (`SetLightSize`), and over its hemisphere for ambient
-     occlusion. Fewer leave grain, more take longer. While you interact there are 4 at most.")
+     occlusion. Fewer leave grain, more take longer. While you interact there are 4 at most."
+  MORE
+    "Off screen, and in windows without an interactor, so many are taken before `Render()` returns. With one a still picture
+     begins with 4 as well; while the interactor has nothing else to do it gets twice as many, again and again. `Refine()`
+     does one such step, for scripts. `GetNumberOfLightSamples()` tells how many it has.")
+
+vtksvo_setting(LightError double 0
+  TABLE shadows RANGE 0 255 UNIT "of 255"
+  PANEL advanced
+  SAYS
+    "Stop sampling lights where twice as many samples have changed the picture by no more than this (root of the mean
+     square, of colours up to 255). 0: take all of `MaximumLightSamples`.")
 
 vtksvo_setting(AntiAliasing bool false
   TABLE speed
@@ -349,6 +360,9 @@ vtksvo_statistic(NumberOfPrimaryRays vtkIdType OF tracer.primaryRays PARAVIEW
   SAYS "Rays from the eye in the last frame.")
 vtksvo_statistic(NumberOfShadowRays vtkIdType OF tracer.shadowRays PARAVIEW
   SAYS "Rays to lights, and texels from lights, in the last frame.")
+vtksvo_statistic(NumberOfLightSamples int OF tracer.lightSamples PARAVIEW
+  SAYS "Samples a pixel, of each light that has a size and of ambient occlusion, that the last frame shows; 0 without
+    such lights.")
 vtksvo_statistic(NumberOfRetracedLayers vtkIdType OF tracer.retracedLayers PARAVIEW
   SAYS "Objects, seen from the eye or a light, that the last frame traced or drew anew.")
 vtksvo_statistic(NumberOfLightsWithShadowBuffers int OF tracer.lightsWithBuffers

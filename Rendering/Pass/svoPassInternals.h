@@ -3,6 +3,7 @@
 #define svoPassInternals_h
 
 #include "svoAttachedRenderer.h"
+#include "svoIdleCall.h"
 #include "svoPassFrames.h"
 #include "vtkSVORenderPass.h"
 
@@ -48,6 +49,8 @@ struct vtkSVORenderPass::Internals
   vtkTimeStamp shaderTime;
   std::set<std::string> said; // messages about no object in particular
   bool releaseAsked = false;  // while a frame was drawn
+  bool refining = false;      // the frames that are drawn are to have more samples
+  svo::IdleCall idle;
 
   bool severalProcesses() const
   {

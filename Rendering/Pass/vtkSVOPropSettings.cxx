@@ -115,8 +115,7 @@ void vtkSVOPropSettings::SetLightSize(double size, vtkLight* light)
 
 double vtkSVOPropSettings::GetLightSize(vtkLight* light)
 {
-  vtkInformation* keys = light ? light->GetInformation() : nullptr;
-  return keys && keys->Has(LIGHT_SIZE()) ? keys->Get(LIGHT_SIZE()) : 0.0;
+  return light ? svo::lightSizeOf(light) : 0.0;
 }
 
 void vtkSVOPropSettings::SetReceiveShadow(bool receive, vtkProp* prop)

@@ -60,7 +60,8 @@ public:
    * whatever ShadowTechnique is, by as many rays from each visible point as MaximumLightSamples
    * says; how bright it is stays VTK's business. Surfaces that are left to the rasteriser, and
    * frames of the OpenGL backend, have its shadows as of a point. Negative or not finite: refused,
-   * with a warning.
+   * with a warning. Get knows of the radius for VTK's ray tracing backend as well
+   * (vtkOSPRayLightNode::SetRadius()), which counts where this is 0.
    */
   static void SetLightSize(double size, vtkLight* light);
   static double GetLightSize(vtkLight* light);

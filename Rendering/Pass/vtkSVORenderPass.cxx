@@ -11,9 +11,11 @@
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLPolyDataMapper.h"
 #include "vtkRenderState.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
 #include <cstdint>
+#include <set>
 #include <string>
 
 vtkStandardNewMacro(vtkSVORenderPass);
@@ -101,6 +103,37 @@ void vtkSVORenderPass::ReleaseOctrees()
   {
     entry.second->releaseLayers();
   }
+}
+
+bool vtkSVORenderPass::Refine()
+{
+  Internals& impl = *this->Impl;
+  if (!impl.frames.idle())
+  {
+    return false; // by an observer of a frame
+  }
+  const vtkSmartPointer<vtkSVORenderPass> alive(this);
+  const auto left = [&]
+  {
+    std::set<vtkSmartPointer<vtkRenderWindow>> windows;
+    for (const auto& entry : impl.frames.states())
+    {
+      vtkRenderer* renderer = entry.second->renderer();
+      if (renderer && renderer->GetRenderWindow() &&
+        !entry.second->refined(this->MaximumLightSamples, this->LightError))
+      {
+        windows.insert(renderer->GetRenderWindow());
+      }
+    }
+    return windows;
+  };
+  impl.refining = true;
+  for (const vtkSmartPointer<vtkRenderWindow>& window : left())
+  {
+    window->Render();
+  }
+  impl.refining = false;
+  return !left().empty();
 }
 
 void vtkSVORenderPass::MeasureFrame(

@@ -81,6 +81,15 @@ public:
   void ReleaseOctrees();
 
   /**
+   * Draws the windows of the pass once more, with twice as many samples of lights that have a size
+   * and of ambient occlusion, up to MaximumLightSamples, or until LightError is reached. Returns
+   * false if nothing is left to be done: `while (pass->Refine()) {}`. In windows whose interactor
+   * runs that goes on by itself while nothing else is to be done. What has changed meanwhile begins
+   * anew.
+   */
+  bool Refine();
+
+  /**
    * Pixels of the window from ray to ray in the last frame.
    */
   double GetImageSampleDistance() const;

@@ -4,6 +4,7 @@
 #include "svoCameraView.h"
 #include "svoOwnCamera.h"
 #include "svoPassInternals.h"
+#include "svoSceneLights.h"
 
 #include "vtkCommand.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -68,10 +69,20 @@ bool vtkSVORenderPass::CollectFrame(
     const bool automatic = this->Backend == BACKEND_AUTO;
     const bool chosen =
       automatic && this->MayPreferOpenGL(frame, this->ShadowTechnique == SHADOW_RAYS);
-    frame.openGL = chosen ? !planes : this->Backend == BACKEND_OPENGL;
+    const bool sampled = this->AmbientOcclusion || svo::hasSoftLight(renderer);
+    frame.openGL = chosen ? !planes && !sampled : this->Backend == BACKEND_OPENGL;
+    frame.tellOnce(frame.openGL && sampled
+        ? "With the OpenGL backend lights have no size and nothing darkens by ambient occlusion: "
+          "take the CPU, or Auto, which takes it for them."
+        : "",
+      impl.said);
     const bool rays = frame.openGL && this->ShadowTechnique == SHADOW_AUTOMATIC &&
       (!automatic || this->MayPreferOpenGL(frame, true));
     asked = this->AskedSettings(frame.openGL, rays);
+    if (sampled && impl.severalProcesses() && asked.shadowTechnique == svo::ShadowTechnique::Buffer)
+    {
+      asked.shadowTechnique = svo::ShadowTechnique::Rays; // which have all casters on all of them
+    }
     svo::CollectSettings collect;
     collect.shadows = this->ShadowTechnique != SHADOW_NONE;
     collect.onlyMarked = attached;
@@ -117,9 +128,16 @@ bool vtkSVORenderPass::CollectFrame(
       text(alone, TEXT_NOTHING_CASTS), text(alone, TEXT_NOTHING_RECEIVES),
       text(seen, TEXT_CLIPPED) },
     impl.said);
+  const bool sampled = !frame.openGL && collected.rasterizedReceivers;
+  frame.tellOnce(sampled && svo::hasSoftLight(renderer)
+      ? "Some surfaces are drawn by the rasteriser: a light with a size casts shadows with sharp "
+        "edges on them, as a point would. On those that are traced they are soft."
+      : "",
+    impl.said);
   frame.decide(asked,
     { this->AutoAdjustSampleDistances, this->MaximumImageSampleDistance, this->ImageReductionFactor,
-      this->DetailCullingThreshold });
+      this->DetailCullingThreshold, impl.refining, this->LightError,
+      impl.idle.may(renderer->GetRenderWindow()) });
   return true;
 }
 
@@ -180,6 +198,10 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   impl.statistics.imageReduction = this->ImageReductionFactor;
   impl.statistics.pacedShadows = frame.pacedShadows;
   impl.statistics.openGL = frame.openGL;
+  if (!frame.interactive() && !frame.state->refined(this->MaximumLightSamples, this->LightError))
+  {
+    impl.idle.ask(frame.renderer->GetRenderWindow(), [this] { this->Refine(); });
+  }
   if (impl.statistics.tracer.retracedLayers > 0 && !frame.openGL) // which knows no pace
   {
     double seconds, fixedSeconds, shadowSeconds;

@@ -62,8 +62,7 @@ Light lightOf(vtkLight* source)
   const double* diffuse = source->GetDiffuseColor();
   light.color =
     glm::vec3(diffuse[0], diffuse[1], diffuse[2]) * static_cast<float>(source->GetIntensity());
-  vtkInformation* keys = source->GetInformation();
-  light.size = keys && keys->Has(lightSizeKey()) ? keys->Get(lightSizeKey()) : 0.0;
+  light.size = lightSizeOf(source);
   light.size = light.atInfinity() ? std::min(light.size, WidestDisc) : light.size;
   light.id = reinterpret_cast<std::uintptr_t>(source);
   return light;
@@ -207,6 +206,14 @@ bool hasCameraLight(vtkRenderer* renderer)
 {
   bool any = false;
   eachLight(renderer, [&](vtkLight* light) { any = any || light->LightTypeIsCameraLight(); });
+  return any;
+}
+
+bool hasSoftLight(vtkRenderer* renderer)
+{
+  bool any = false;
+  eachLight(
+    renderer, [&](vtkLight* light) { any = any || (lightOf(light).soft() && castsShadow(light)); });
   return any;
 }
 

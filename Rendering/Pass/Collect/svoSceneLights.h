@@ -39,6 +39,8 @@ SceneLights lightsOf(vtkRenderer* renderer, const glm::dmat4& world, const Light
 
 /// True if a light that is on moves with the camera, so that nothing seen from it outlives a frame.
 bool hasCameraLight(vtkRenderer* renderer);
+/// ... one that casts and has a size.
+bool hasSoftLight(vtkRenderer* renderer);
 
 /// Whether a light casts while it is switched on. A camera light without a key of its own
 /// (svoPropKeys.h) is compared with the others of the renderer whose lights were collected last.

@@ -6,6 +6,7 @@
 #include "vtkRenderWindow.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace svo
 {
@@ -17,8 +18,9 @@ constexpr double InteractiveRate = 1.0; // Hz
 /// Share of an interactive frame's time that is the pass's; the rest is for what else is drawn.
 constexpr double OwnShare = 0.5;
 
-/// Of lights with a size and of ambient occlusion, a pixel of an interactive frame.
-constexpr int InteractiveSamples = 4;
+/// Of lights with a size and of ambient occlusion, a pixel of an interactive frame, and of the
+/// first one of a picture that is refined.
+constexpr int FirstSamples = 4;
 }
 
 bool PassFrame::interactive() const
@@ -86,15 +88,26 @@ void PassFrame::tellOfShadows(const ShadowWords& words, std::set<std::string>& s
   }
 }
 
+/// How many samples of lights it takes, and whether it goes on at once.
+void PassFrame::decideSamples(const PaceLimits& limits)
+{
+  const bool straight = !this->interactive() && !limits.refinesLater;
+  const int shown = this->state->samples();
+  this->settings.samplesNow = limits.refine && !this->interactive() && shown > 0 ? 2 * shown
+    : straight && limits.lightError <= 0.0 ? std::numeric_limits<int>::max()
+                                           : FirstSamples;
+  this->refinesTo = straight && !limits.refine ? limits.lightError : -1.0;
+}
+
 void PassFrame::decide(const FrameSettings& asked, const PaceLimits& limits)
 {
   this->settings = asked;
   this->pacedShadows = hasCameraLight(this->renderer);
+  this->decideSamples(limits);
   if (!this->interactive())
   {
     return;
   }
-  this->settings.lightSamples = std::min(asked.lightSamples, InteractiveSamples);
   if (limits.adjust)
   {
     this->pace =
@@ -110,7 +123,7 @@ void PassFrame::decide(const FrameSettings& asked, const PaceLimits& limits)
 void PassFrame::trace(int width, int height)
 {
   this->traced = true;
-  this->state->trace(width, height, this->pace, this->settings);
+  this->state->trace(width, height, this->pace, this->settings, this->refinesTo);
   this->state->receivers().activate();
 }
 }

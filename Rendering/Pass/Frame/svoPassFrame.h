@@ -31,10 +31,13 @@ struct ShadowWords
 /// How an interactive frame may save time.
 struct PaceLimits
 {
-  bool adjust = false;  // rays and texels of shadow maps may be further apart,
-  double maximum = 1.0; // by at most so many pixels of the window
-  int reduction = 1;    // PassStatistics::imageReduction
-  double detail = 0.0;  // pixels of the window of instances that may be left out
+  bool adjust = false;       // rays and texels of shadow maps may be further apart,
+  double maximum = 1.0;      // by at most so many pixels of the window
+  int reduction = 1;         // PassStatistics::imageReduction
+  double detail = 0.0;       // pixels of the window of instances that may be left out
+  bool refine = false;       // lights get twice as many samples as the last frame shows
+  double lightError = 0.0;   // the error at which that ends
+  bool refinesLater = false; // there is somebody who asks for that
 };
 
 /// A frame owns what it needs: between its beginning and its end pipelines run, events are invoked,
@@ -107,6 +110,7 @@ struct PassFrame
   const std::vector<vtkSmartPointer<vtkProp>> props;
   FrameSettings settings;
   FramePace pace;
+  double refinesTo = -1.0;   // an error of sampled lights, at once; negative: it does not
   bool pacedShadows = false; // PassStatistics
   bool openGL = false;       // PassStatistics
   bool traced = false;
@@ -117,6 +121,7 @@ struct PassFrame
   bool shadowed = false;               // receivers() carry the pass
 
 private:
+  void decideSamples(const PaceLimits& limits);
   static vtkOpenGLRenderWindow* windowOf(vtkRenderer* renderer)
   {
     return vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());

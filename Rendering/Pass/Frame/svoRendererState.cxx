@@ -174,7 +174,8 @@ std::string RendererState::lostShadows(const FrameSettings& settings) const
   return {};
 }
 
-void RendererState::trace(int width, int height, const FramePace& pace, FrameSettings settings)
+void RendererState::trace(
+  int width, int height, const FramePace& pace, FrameSettings settings, double untilError)
 {
   this->Statistics.pace = pace;
   Scene& scene = this->Collected.scene;
@@ -214,6 +215,12 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
     this->Trace->render(scene, view, settings, smpParallelFor());
   }
   this->Statistics.tracer = this->Trace->statistics();
+  while (untilError >= 0.0 && !this->refined(settings.lightSamples, untilError))
+  {
+    settings.samplesNow = 2 * this->samples();
+    this->Trace->render(scene, view, settings, smpParallelFor());
+    this->Statistics.tracer = this->Trace->statistics();
+  }
   this->Statistics.coarseOctreeError = pace.distance * this->Statistics.tracer.coarsestVoxel;
   this->Boxes.update(window, this->Trace->eyeCode(), scene, this->Collected.props);
   const LightCode& code = this->Trace->lightCode();

@@ -94,8 +94,21 @@ public:
   void joinPasses(const vtkRenderState* state);
 
   /// Traces the collected scene, `width` by `height` pixels, at a pace that `settings` know of.
-  /// Nothing is drawn yet.
-  void trace(int width, int height, const FramePace& pace, FrameSettings settings);
+  /// Nothing is drawn yet. `untilError`: its lights get more samples until refined() says so;
+  /// negative: they do not.
+  void trace(
+    int width, int height, const FramePace& pace, FrameSettings settings, double untilError = -1.0);
+
+  /// Of its lights, in what was traced last.
+  int samples() const { return this->Trace->statistics().lightSamples; }
+  /// True if what was traced last has `most` samples of its lights, or twice as many have changed
+  /// it by `error` at most.
+  bool refined(int most, double error) const
+  {
+    const FrameStatistics& frame = this->Trace->statistics();
+    return frame.lightSamples == 0 || frame.lightSamples >= most ||
+      (frame.lightError >= 0.0 && frame.lightError <= error);
+  }
 
   /// Has the frame's light found for what will be seen of the receivers among these props, which
   /// carry the pass, where that is better than asking when they are drawn. To be called before.

@@ -3,6 +3,8 @@
 #include "vtkInformation.h"
 #include "vtkInformationDoubleKey.h"
 #include "vtkInformationIntegerKey.h"
+#include "vtkInformationKeyLookup.h"
+#include "vtkLight.h"
 #include "vtkNew.h"
 #include "vtkProp.h"
 
@@ -103,6 +105,22 @@ PropAnswers answersOf(vtkProp* prop)
     answers.second = keys->Get(pixelErrorKey());
   }
   return answers;
+}
+
+double lightSizeOf(vtkLight* light)
+{
+  // VTK may have been built without that backend, and has no such key then.
+  auto* radius = vtkInformationDoubleKey::SafeDownCast(
+    vtkInformationKeyLookup::Find("RADIUS", "vtkOSPRayLightNode"));
+  vtkInformation* keys = light->GetInformation();
+  for (vtkInformationDoubleKey* key : { lightSizeKey(), radius })
+  {
+    if (keys && key && keys->Has(key) && keys->Get(key) > 0.0)
+    {
+      return keys->Get(key);
+    }
+  }
+  return 0.0;
 }
 
 void setFlag(vtkProp* prop, vtkInformationIntegerKey* key, bool value)

@@ -7,6 +7,7 @@
 
 class vtkInformationDoubleKey;
 class vtkInformationIntegerKey;
+class vtkLight;
 class vtkProp;
 
 namespace svo
@@ -28,6 +29,10 @@ double pixelErrorOf(vtkProp* prop, vtkProp* owner);
 /// passes write to them in every frame.)
 using PropAnswers = std::pair<unsigned int, double>;
 PropAnswers answersOf(vtkProp* prop);
+
+/// The size that somebody gave a light, here or, where that is 0, for VTK's ray tracing backend,
+/// which has it in the same units; 0 if nobody did.
+double lightSizeOf(vtkLight* light);
 
 /// A prop that is null is ignored.
 void setFlag(vtkProp* prop, vtkInformationIntegerKey* key, bool value);

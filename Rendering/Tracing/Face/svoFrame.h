@@ -23,6 +23,9 @@ struct FrameNeeds
   double shadowCoarseness = 1.0;
   /// Instances whose rectangle has fewer pixels are not drawn; they cast. 0: all are.
   double detailThreshold = 0.0;
+  /// Samples of lights with a size and of ambient occlusion in this frame, if lightSamples are
+  /// more. Where a picture of the same has more already it stays.
+  int samplesNow = std::numeric_limits<int>::max();
   /// Rasterised surfaces look up shadow maps inside of Scene::receivers: what the eye may see of
   /// these is traced, and the maps are handed out.
   bool receiverMaps = false;
@@ -127,6 +130,11 @@ struct FrameStatistics
   std::uint64_t shadowRays = 0;
   int lightsWithBuffers = 0; // casting lights whose shadows were found so
   int lightsWithRays = 0;
+  int lightSamples =
+    0; // a pixel, of lights with a size and of ambient occlusion; 0: there are none
+  /// How far the picture is from that of fewer samples which it has replaced, RMS of colours of
+  /// 0..255 where something was hit; negative: it has replaced none.
+  double lightError = -1.0;
   std::uint64_t retracedLayers = 0; // layers traced or drawn this frame, of the eye and of lights
   std::uint64_t layerMemory = 0;    // bytes held by kept layers
   std::uint64_t shadowMemory = 0;   // bytes held by shadow buffers and what was handed out of them

@@ -10,6 +10,7 @@
 #include "svoLightCode.h"
 #include "svoNeededLevels.h"
 #include "svoPixelShader.h"
+#include "svoSampleCount.h"
 #include "svoSelectLevel.h"
 #include "svoShadows.h"
 #include "svoSilhouetteFinder.h"
@@ -62,6 +63,7 @@ struct CPUTracer::Internals
   KeptFrame Kept;
   KeptTiles Shaded;               // by tile of the eye
   std::vector<CasterBox> Casters; // by index into Scene::instances
+  int Samples = 0;                // of lights, in the picture
   bool ViewsAreTraced = true;     // of this frame; else they were not needed
   bool SharesBuffers = false;     // shadow buffers are traced, for all processes
   double SharingTime = 0.0;       // s, that took
@@ -340,6 +342,14 @@ void CPUTracer::render(
   FrameChanges changes = self.Kept.compare(scene, view, settings);
   const bool keeps = settings.frameCoherence && !self.SharesBuffers;
   changes.all = changes.all || !keeps;
+  const SampleCount samples(scene, settings, changes, self.Samples);
+  changes.all = changes.all || samples.other;
+  settings.lightSamples = self.Samples = samples.count;
+  std::vector<std::uint8_t> coarser;
+  if (samples.refined)
+  {
+    coarser = frame.color;
+  }
   self.ViewsAreTraced = !changes.none();
   if (!self.ViewsAreTraced)
   {
@@ -351,6 +361,7 @@ void CPUTracer::render(
     return;
   }
   statistics = FrameStatistics();
+  statistics.lightSamples = samples.count;
   self.traceViews(scene, view, settings, parallelFor, changes, &frame, statistics);
   clock.end(); // its phases have been timed
   self.findDarkenedTiles(scene, changes, parallelFor);
@@ -362,6 +373,10 @@ void CPUTracer::render(
   if (settings.antiAliasing)
   {
     self.Shader.smoothEdges(shaded, parallelFor, frame, statistics);
+  }
+  if (samples.refined)
+  {
+    statistics.lightError = differenceOf(coarser, frame.color);
   }
   statistics.shade = clock.end();
   self.LightShadows.addStatistics(statistics);

@@ -8,7 +8,7 @@ namespace svo
 namespace
 {
 // Who adds a member to one of these adds it below.
-static_assert(sizeof(Light) == 120 && sizeof(View) == 480 && sizeof(FrameNeeds) == 24,
+static_assert(sizeof(Light) == 120 && sizeof(View) == 480 && sizeof(FrameNeeds) == 32,
   "all that pictures depend on is compared");
 
 using Bytes = std::vector<unsigned char>;

@@ -1,0 +1,232 @@
+"""Lights with a size and ambient occlusion: how a picture is refined, what settings do, what is said."""
+
+import unittest
+
+import numpy
+import vtkmodules.vtkInteractionStyle
+import vtkmodules.vtkRenderingOpenGL2
+import vtkmodules.vtkRenderingUI
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow, vtkUnsignedCharArray
+from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
+from vtkmodules.vtkRenderingCore import (
+    vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor)
+from vtksvo import vtkSVORenderPass
+
+SIZE = (160, 120)
+SIZE_OF_LIGHT = 1.0
+
+
+def actor_of(source):
+    mapper, actor = vtkPolyDataMapper(), vtkActor()
+    mapper.SetInputConnection(source.GetOutputPort())
+    actor.SetMapper(mapper)
+    return actor
+
+
+class TestSoftLight(unittest.TestCase):
+    def setUp(self):
+        ball, ground = vtkSphereSource(), vtkPlaneSource()
+        ball.SetCenter(0.0, 0.0, 1.0)
+        ball.SetThetaResolution(64)
+        ball.SetPhiResolution(64)
+        ground.SetOrigin(-20.0, -20.0, 0.0)
+        ground.SetPoint1(20.0, -20.0, 0.0)
+        ground.SetPoint2(-20.0, 20.0, 0.0)
+        self.ball, self.ground = actor_of(ball), actor_of(ground)
+        self.renderer, self.window, self.svo = vtkRenderer(), vtkRenderWindow(), vtkSVORenderPass()
+        self.svo.SetBackendToCPU()
+        self.window.SetOffScreenRendering(True)
+        self.window.SetMultiSamples(0)
+        self.window.SetSize(*SIZE)
+        self.window.AddRenderer(self.renderer)
+        self.renderer.AddActor(self.ball)
+        self.renderer.AddActor(self.ground)
+        self.renderer.SetPass(self.svo)
+        self.renderer.AutomaticLightCreationOff()
+        camera = self.renderer.GetActiveCamera()
+        camera.SetPosition(5.0, -6.0, 5.0)
+        camera.SetFocalPoint(0.0, 0.0, 0.5)
+        camera.SetViewUp(0.0, 0.0, 1.0)
+        camera.SetViewAngle(25.0)
+        self.renderer.ResetCameraClippingRange()
+        self.light = vtkLight()
+        self.light.SetLightTypeToSceneLight()
+        self.light.SetPosition(3.0, -2.0, 5.0)
+        self.light.SetPositional(True)
+        self.light.SetConeAngle(180.0)
+        self.renderer.AddLight(self.light)
+        self.said = vtkStringOutputWindow()
+        vtkOutputWindow.SetInstance(self.said)
+
+    def tearDown(self):
+        vtkOutputWindow.SetInstance(None)
+        self.window.Finalize()
+
+    def picture(self):
+        self.window.Render()
+        return self.shown()
+
+    def shown(self):
+        pixels = vtkUnsignedCharArray()
+        self.window.GetPixelData(0, 0, SIZE[0] - 1, SIZE[1] - 1, 0, pixels, 0)
+        return vtk_to_numpy(pixels).astype(int)
+
+    def soften(self, size=SIZE_OF_LIGHT):
+        vtkSVORenderPass.SetLightSize(size, self.light)
+
+    def test_a_light_without_a_size_is_a_point(self):
+        hard = self.picture()
+        self.assertEqual(vtkSVORenderPass.GetLightSize(self.light), 0.0)
+        self.assertEqual(self.svo.GetNumberOfLightSamples(), 0)
+        self.soften()
+        soft = self.picture()
+        self.assertEqual(self.svo.GetNumberOfLightSamples(), self.svo.GetMaximumLightSamples())
+        self.assertGreater(numpy.abs(soft - hard).max(), 50)
+        self.soften(0.0)
+        self.assertTrue((self.picture() == hard).all())
+        self.assertEqual(self.said.GetOutput(), "")
+
+    def test_sizes_that_are_none_are_refused(self):
+        self.soften()
+        for size in (-1.0, float("nan"), float("inf")):
+            self.soften(size)
+            self.assertEqual(vtkSVORenderPass.GetLightSize(self.light), SIZE_OF_LIGHT)
+        self.assertEqual(self.said.GetOutput().count("is no radius or angle"), 3)
+        vtkSVORenderPass.SetLightSize(1.0, None)
+        self.assertEqual(vtkSVORenderPass.GetLightSize(None), 0.0)
+
+    def test_more_samples_are_nearer_to_many(self):
+        self.soften()
+        self.svo.SetMaximumLightSamples(1024)
+        truth = self.picture()
+        off = []
+        for samples in (1, 8, 64):
+            self.svo.SetMaximumLightSamples(samples)
+            off.append(numpy.sqrt(((self.picture() - truth) ** 2).mean()))
+            self.assertEqual(self.svo.GetNumberOfLightSamples(), samples)
+        self.assertGreater(off[0], 2.0 * off[1])
+        self.assertGreater(off[1], 2.0 * off[2])
+
+    def test_an_interactive_frame_has_few_and_what_it_shows_is_refined(self):
+        self.soften()
+        self.svo.SetMaximumLightSamples(32)
+        straight = self.picture()
+        self.ball.SetPosition(0.5, 0.0, 0.0)
+        self.window.SetDesiredUpdateRate(10.0)
+        self.picture()
+        self.assertEqual(self.svo.GetNumberOfLightSamples(), 4)
+        self.ball.SetPosition(0.0, 0.0, 0.0)
+        few = self.picture()
+        self.window.SetDesiredUpdateRate(0.0001)
+        steps = [self.svo.GetNumberOfLightSamples()]
+        while self.svo.Refine():
+            steps.append(self.svo.GetNumberOfLightSamples())
+        self.assertEqual(steps, [4, 8, 16])
+        self.assertEqual(self.svo.GetNumberOfLightSamples(), 32)
+        self.assertFalse((few == straight).all())
+        self.assertTrue((self.shown() == straight).all())
+        self.assertFalse(self.svo.Refine())
+        # What is refined stays, whoever asks for a frame.
+        self.window.SetDesiredUpdateRate(10.0)
+        self.assertTrue((self.picture() == straight).all())
+        self.assertEqual(self.svo.GetNumberOfLightSamples(), 32)
+
+    def test_an_error_ends_it(self):
+        self.soften()
+        self.svo.SetMaximumLightSamples(4096)
+        self.svo.SetLightError(1.0)
+        found = self.picture()
+        count = self.svo.GetNumberOfLightSamples()
+        self.assertLess(count, 4096)
+        self.assertGreater(count, 4)
+        self.svo.SetLightError(0.0)
+        self.svo.SetMaximumLightSamples(count)
+        self.assertTrue((self.picture() == found).all())
+        self.svo.SetMaximumLightSamples(1024)
+        truth = self.picture()
+        hit = truth.sum(axis=1) > 0
+        self.assertLess(numpy.sqrt(((found - truth)[hit] ** 2).mean()), 1.0)
+
+    def test_an_interactor_refines_while_it_has_nothing_else_to_do(self):
+        self.window.SetOffScreenRendering(False)
+        interactor = vtkRenderWindowInteractor()
+        interactor.SetRenderWindow(self.window)
+        interactor.Initialize()
+        self.soften()
+        self.svo.SetMaximumLightSamples(32)
+        self.picture()
+        self.assertEqual(self.svo.GetNumberOfLightSamples(), 4)
+        done = []
+        waited = interactor.CreateRepeatingTimer(50)
+
+        def look(caller, event):
+            done.append(self.svo.GetNumberOfLightSamples())
+            if done[-1] == 32 or len(done) > 400:
+                interactor.TerminateApp()
+
+        interactor.AddObserver("TimerEvent", look)
+        interactor.Start()
+        interactor.DestroyTimer(waited)
+        self.assertEqual(done[-1], 32)
+        self.assertFalse(self.svo.Refine())
+
+    def test_ambient_occlusion_needs_no_light_set_up(self):
+        self.renderer.RemoveAllLights()
+        self.renderer.AutomaticLightCreationOn()
+        self.svo.SetShadowTechniqueToNone()
+        plain = self.picture()
+        self.svo.SetAmbientOcclusion(True)
+        closed = self.picture()
+        self.assertEqual(self.said.GetOutput(), "")
+        # Below the ball it is dark, far from it as before.
+        darker = (plain - closed).reshape(SIZE[1], SIZE[0], 3)[:, :, 0]
+        self.assertGreaterEqual(darker.min(), 0)
+        self.assertGreater(darker.max(), 60)
+        self.svo.SetAmbientOcclusionStrength(0.0)
+        self.assertTrue((self.picture() == plain).all())
+        self.svo.SetAmbientOcclusionStrength(1.0)
+        self.svo.SetAmbientOcclusionOfAllLight(False)
+        self.assertTrue((self.picture() == plain).all())  # materials have no ambient part
+        self.ball.GetProperty().SetAmbient(1.0)
+        self.ground.GetProperty().SetAmbient(1.0)
+        darkened = self.picture()
+        self.svo.SetAmbientOcclusion(False)
+        self.assertGreater((self.picture() - darkened).max(), 60)
+
+    def test_what_changes_changes_what_is_closed_off(self):
+        self.svo.SetAmbientOcclusion(True)
+        self.soften()
+        self.picture()
+        changes = [
+            lambda: self.ball.SetPosition(1.0, 1.0, 0.3), lambda: self.light.SetPosition(2.0, 4.0, 5.0),
+            lambda: self.soften(0.3), lambda: self.svo.SetAmbientOcclusionDistance(0.6),
+            lambda: self.ball.SetScale(0.7), lambda: vtkSVORenderPass.SetCastShadow(False, self.ball)]
+        for number, change in enumerate(changes):
+            before = self.shown()
+            change()
+            kept = self.picture()
+            self.assertFalse((kept == before).all(), number)
+            fresh = vtkSVORenderPass()
+            fresh.SetBackendToCPU()
+            fresh.SetAmbientOcclusion(True)
+            fresh.SetAmbientOcclusionDistance(self.svo.GetAmbientOcclusionDistance())
+            self.renderer.SetPass(fresh)
+            self.assertTrue((self.picture() == kept).all(), number)
+            self.renderer.SetPass(self.svo)
+            self.picture()
+
+    def test_what_is_not_soft_is_said(self):
+        self.soften()
+        vtkSVORenderPass.SetUseSVO(False, self.ground)
+        self.picture()
+        self.picture()
+        self.assertEqual(self.said.GetOutput().count("sharp edges"), 1)
+        self.svo.SetBackendToOpenGL()
+        self.picture()
+        self.picture()
+        self.assertEqual(self.said.GetOutput().count("With the OpenGL backend lights have no size"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
