@@ -132,7 +132,10 @@ public:
     glm::dvec3 half = way.half;
     if (way.spread > 0.0)
     {
-      half += way.spread * (glm::distance(way.middle, this->Centre) + glm::length(this->Extent));
+      // As long as any way is from one of the points to one of the box.
+      half += way.spread *
+        (glm::distance(way.middle, this->Centre) + glm::length(this->Extent) +
+          glm::length(way.half));
     }
     const glm::dvec3 begin = this->Inverse * (way.middle - this->Centre);
     const glm::dvec3 along = this->Inverse * way.along;
