@@ -3,7 +3,9 @@
 //
 // Number i is the i-th point of the (0, 2)-sequence whose coordinates are the radical inverse and
 // Sobol's second dimension (I. Sobol, 1967; Kollig and Keller, "Efficient Multidimensional
-// Sampling", 2002), rotated by what a blue-noise mask of 64 x 64 pixels has there (R. Ulichney,
+// Sampling", 2002), scrambled once for all pixels (A. Owen, "Randomly Permuted (t,m,s)-Nets", 1995)
+// because its points lie along diagonals, where edges at 45 degrees have thrice the error of
+// others; and rotated by what a blue-noise mask of 64 x 64 pixels has there (R. Ulichney,
 // "The void-and-cluster method for dither array generation", 1993; rotations: Cranley and
 // Patterson, 1976). All is computed in whole numbers: a sample is a function of the pixel, the
 // stream and the index alone, the same bits everywhere.
@@ -33,6 +35,28 @@ struct SquarePoint
   SquarePoint operator+(const SquarePoint& by) const { return { this->u + by.u, this->v + by.v }; }
 };
 
+/// Swaps the halves of intervals of 1/1, 1/2, 1/4 ... of a coordinate, of each interval or not:
+/// what is spread evenly stays so. Laine and Karras, "Stratified Sampling for Stochastic
+/// Transparency", 2011.
+inline std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed)
+{
+  const auto reversed = [](std::uint32_t bits)
+  {
+    bits = (bits >> 1 & 0x55555555u) | (bits & 0x55555555u) << 1;
+    bits = (bits >> 2 & 0x33333333u) | (bits & 0x33333333u) << 2;
+    bits = (bits >> 4 & 0x0f0f0f0fu) | (bits & 0x0f0f0f0fu) << 4;
+    bits = (bits >> 8 & 0x00ff00ffu) | (bits & 0x00ff00ffu) << 8;
+    return bits >> 16 | bits << 16;
+  };
+  std::uint32_t bits = reversed(x);
+  bits ^= bits * 0x3d20adeau;
+  bits += seed;
+  bits *= seed >> 16 | 1u;
+  bits ^= bits * 0x05526c56u;
+  bits ^= bits * 0x53a22864u;
+  return reversed(bits);
+}
+
 /// Number `index` of the sequence.
 inline SquarePoint sequencePoint(std::uint32_t index)
 {
@@ -45,7 +69,9 @@ inline SquarePoint sequencePoint(std::uint32_t index)
     a >>= 1;
     b ^= b >> 1;
   }
-  return point;
+  // Of 250 pairs of seeds the one whose errors at straight edges in a disc are the smallest, over
+  // twelve directions and 4 to 256 samples.
+  return { scrambled(point.u, 0x5ad45edbu), scrambled(point.v, 0x774758bdu) };
 }
 
 /// The rotation of a pixel. `stream`: of samples that have nothing to do with another stream's, as
