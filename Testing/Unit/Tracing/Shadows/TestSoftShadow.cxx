@@ -1,0 +1,720 @@
+// Shadows of lights with a size, and ambient occlusion, against closed forms, energy, and rays in
+// double.
+#include "svoAmbientOcclusion.h"
+#include "svoEyeHits.h"
+#include "svoLeafError.h"
+#include "svoSampleDirections.h"
+#include "svoSampleSequence.h"
+#include "svoSoftScenes.h"
+#include "svoSoftShadow.h"
+#include "svoTileLook.h"
+#include "svoWorldSize.h"
+#include "svoWorldToOctree.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+using namespace svotest;
+
+namespace
+{
+/// The bar of closed forms at 1024 samples, of full light: of the error's RMS over pixels. A
+/// straight edge passes at most 64 of the 32 x 32 cells with one sample each, whose answers are off
+/// by half a sample in the mean square at most: 8 halves of 1024 samples, 0.0039. Of a few hundred
+/// pixels the worst is off by 3.5 times as much.
+constexpr double Bar = 0.005, WorstPixel = 3.5 * 0.0039;
+constexpr double Unlimited = 1e20;
+
+/// A share of so many samples in float: each adds a rounding of a sum up to 1.
+double rounding(int samples)
+{
+  return 6e-8 * samples;
+}
+
+svo::Instance caster(const Mesh& mesh, const glm::dmat4& place = glm::dmat4(1.0), int level = 4)
+{
+  return instanceOf(makeOctree(mesh, level), 0, place);
+}
+
+/// Where the half plane lies from its edge.
+glm::dvec3 beyondEdge(double angle)
+{
+  return { std::cos(angle), std::sin(angle), 0.0 };
+}
+
+/// A half plane at height 1, as far as it matters: what lies beyond its edge through the z axis.
+svo::Instance halfPlane(double angle)
+{
+  return caster(
+    square(20.0), glm::rotate(glm::dmat4(1.0), angle, glm::dvec3(0, 0, 1)) * movedTo(20, 0, 1));
+}
+
+/// A vertical wall at x, from the plane up to `height`, and `length` to both sides.
+svo::Instance wall(double x, double height, double length)
+{
+  Mesh mesh;
+  mesh.points = { { x, -length, 0 }, { x, length, 0 }, { x, length, height },
+    { x, -length, height } };
+  mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  return caster(mesh);
+}
+
+/// A box with walls, floor and lid from (-1, -1, -0.5) to (1, 1, 2).
+Mesh closedBox()
+{
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i)
+  {
+    mesh.points.push_back({ i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 2.0 : -0.5 });
+  }
+  mesh.triangles = { { 0, 2, 1 }, { 1, 2, 3 }, { 4, 5, 6 }, { 5, 7, 6 }, { 0, 1, 4 }, { 1, 5, 4 },
+    { 2, 6, 3 }, { 3, 6, 7 }, { 0, 4, 2 }, { 2, 4, 6 }, { 1, 3, 5 }, { 3, 7, 5 } };
+  return mesh;
+}
+
+svo::Light disc(const glm::dvec3& towards, double angle)
+{
+  svo::Light light = lightOf(svo::Light::Kind::Directional, towards);
+  light.size = angle;
+  return light;
+}
+
+svo::Light ballLight(const glm::dvec3& position, double radius)
+{
+  svo::Light light = lightOf(svo::Light::Kind::Point, position);
+  light.size = radius;
+  return light;
+}
+
+/// What of a light arrives at a point of the plane z = 0 under halfPlane(angle).
+double pastEdge(const svo::Light& light, const glm::dvec3& point, double angle)
+{
+  const glm::dvec3 towards = -light.along(point), axis = glm::normalize(towards);
+  const glm::dvec3 beyond = beyondEdge(angle);
+  const double sine =
+    glm::dot(glm::normalize(beyond + glm::dvec3(0, 0, glm::dot(point, beyond))), axis);
+  if (light.atInfinity())
+  {
+    return segmentShare(sine / (std::sqrt(1.0 - sine * sine) * light.spread()));
+  }
+  const double share = light.size / glm::length(towards);
+  return capShare(sine, std::sqrt(1.0 - share * share));
+}
+
+/// Of a point at `distance` from a wall, what a part of the wall closes that reaches `length` to
+/// one side: the form factor of a rectangle on the edge of which a surface stands upright (Howell,
+/// "A Catalog of Radiation Heat Transfer Configuration Factors", B-4).
+double besideWall(double distance, double height, double length)
+{
+  const double across = std::hypot(distance, height);
+  return (std::atan(length / distance) - distance / across * std::atan(length / across)) /
+    (2.0 * Pi);
+}
+
+std::vector<double> onPixels(
+  const svo::View& view, const std::function<double(const glm::dvec3&)>& f)
+{
+  std::vector<double> all;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(view.width * view.height); ++i)
+  {
+    all.push_back(f(onPlane(view, i)));
+  }
+  return all;
+}
+
+/// True shares and those that are found, at so many samples; `most` of the true ones is what tells
+/// that there is something to see.
+void expectClosedForm(const std::vector<double>& expected, const std::vector<double>& found,
+  double low, double high, const std::string& name)
+{
+  SCOPED_TRACE(name);
+  const auto [least, most] = std::minmax_element(expected.begin(), expected.end());
+  EXPECT_LE(*least, low);
+  EXPECT_GE(*most, high);
+  const Difference difference(expected, found);
+  EXPECT_LE(difference.rms, Bar);
+  EXPECT_LE(difference.most, WorstPixel);
+}
+}
+
+TEST(SoftShadow, PenumbraOfADiscAtAStraightEdge)
+{
+  for (const auto& [towards, angle, turn] :
+    { std::tuple(glm::dvec3(0, 0, 1), 0.533, 0.0), std::tuple(glm::dvec3(0, 0, 1), 10.0, 0.4),
+      std::tuple(glm::dvec3(0, 0, 1), 10.0, 0.25 * Pi),
+      std::tuple(glm::dvec3(0.3, -0.8, 1.5), 25.0, 0.0),
+      std::tuple(glm::dvec3(-0.5, 0.2, 1.0), 60.0, 2.0) })
+  {
+    svo::Scene scene = planeUnder({ halfPlane(turn) });
+    scene.lights = { disc(towards, angle) };
+    const glm::dvec3 middle = -towards / towards.z; // the shadow of the edge's middle
+    const double width = 2.0 * glm::dot(middle, middle) * scene.lights[0].spread();
+    const svo::View view = fromAbove(width, width, 24, 24, { middle.x, middle.y, 0 });
+    const auto expected = onPixels(
+      view, [&, turn = turn](const glm::dvec3& at) { return pastEdge(scene.lights[0], at, turn); });
+    expectClosedForm(expected, lightShares(scene, view, sampled(1024)), 0.0, 1.0,
+      "disc of " + std::to_string(angle) + " turned " + std::to_string(turn));
+  }
+}
+
+TEST(SoftShadow, PenumbraOfABallAtAStraightEdge)
+{
+  for (const auto& [position, radius, turn] :
+    { std::tuple(glm::dvec3(0, 0, 3), 0.05, 0.0), std::tuple(glm::dvec3(0, 0, 3), 0.4, 0.25 * Pi),
+      std::tuple(glm::dvec3(0.5, 0.3, 4), 1.0, 1.0), std::tuple(glm::dvec3(-1, 0, 3), 1.5, 0.0) })
+  {
+    svo::Scene scene = planeUnder({ halfPlane(turn) });
+    scene.lights = { ballLight(position, radius) };
+    const glm::dvec3 middle = -position / (position.z - 1.0);
+    const double width = 2.5 * radius / (position.z - 1.0);
+    const svo::View view = fromAbove(width, width, 24, 24, { middle.x, middle.y, 0 });
+    const auto expected = onPixels(
+      view, [&, turn = turn](const glm::dvec3& at) { return pastEdge(scene.lights[0], at, turn); });
+    expectClosedForm(expected, lightShares(scene, view, sampled(1024)), 0.01, 0.99,
+      "ball of " + std::to_string(radius) + " turned " + std::to_string(turn));
+  }
+}
+
+TEST(SoftShadow, AmbientOcclusionBesideAWall)
+{
+  constexpr double Length = 15.0;
+  const svo::View view = fromAbove(1.0, 0.25, 64, 8, { 1.0, 0.5, 0 });
+  const auto expected = onPixels(view,
+    [](const glm::dvec3& at)
+    { return besideWall(at.x, 1.0, Length - at.y) + besideWall(at.x, 1.0, Length + at.y); });
+  const auto found =
+    closedShares(planeUnder({ wall(0.0, 1.0, Length) }), view, sampled(1024), Unlimited);
+  expectClosedForm(expected, found, 0.1, 0.49, "wall");
+}
+
+TEST(SoftShadow, AmbientOcclusionInACanyon)
+{
+  constexpr double Length = 15.0, Half = 0.5, Height = 2.0;
+  const svo::View view = fromAbove(Half, 0.25, 64, 8);
+  const auto expected = onPixels(view,
+    [](const glm::dvec3& at)
+    {
+      double sum = 0.0;
+      for (const double distance : { Half - at.x, Half + at.x })
+      {
+        sum +=
+          besideWall(distance, Height, Length - at.y) + besideWall(distance, Height, Length + at.y);
+      }
+      return sum;
+    });
+  const svo::Scene scene = planeUnder({ wall(-Half, Height, Length), wall(Half, Height, Length) });
+  expectClosedForm(
+    expected, closedShares(scene, view, sampled(1024), Unlimited), 0.76, 0.757, "canyon");
+}
+
+// A ball of 96 x 192 facets is smaller than a round one by 1 - cos^2(Pi / 96) < 0.0011 of its disc.
+TEST(SoftShadow, AmbientOcclusionUnderABall)
+{
+  constexpr double Radius = 1.0, Height = 1.5;
+  const svo::View view = fromAbove(3.0, 1.0, 48, 16);
+  const auto expected = onPixels(view,
+    [](const glm::dvec3& at)
+    {
+      const double distance = glm::length(at - glm::dvec3(0, 0, Height));
+      return Radius * Radius / (distance * distance) * Height / distance;
+    });
+  const svo::Scene scene = planeUnder({ caster(sphere(96, 192), movedTo(0, 0, Height), 7) });
+  expectClosedForm(
+    expected, closedShares(scene, view, sampled(1024), Unlimited), 0.05, 0.44, "ball");
+}
+
+TEST(SoftShadow, AClosedBoxIsDark)
+{
+  const svo::View view = fromAbove(0.999, 0.999, 48, 48);
+  for (const int level : { 1, 4, 7 })
+  {
+    const svo::Scene scene = planeUnder({ caster(closedBox(), glm::dmat4(1.0), level) });
+    for (const double closed : closedShares(scene, view, sampled(256), Unlimited))
+    {
+      ASSERT_EQ(1.0, closed);
+    }
+  }
+}
+
+TEST(SoftShadow, AmbientOcclusionEndsAtItsDistance)
+{
+  // Under a ceiling: what is nearer lies in a cone.
+  const svo::View view = fromAbove(1.0, 1.0, 16, 16);
+  const svo::Scene under = planeUnder({ caster(square(20.0), movedTo(0, 0, 1)) });
+  for (const double distance : { 0.5, 0.999, 1.001, 1.2, 2.0, 5.0 })
+  {
+    const double closed = distance > 1.0 ? 1.0 - 1.0 / (distance * distance) : 0.0;
+    expectClosedForm(std::vector<double>(256, closed),
+      closedShares(under, view, sampled(1024), distance), closed, closed,
+      "ceiling, " + std::to_string(distance));
+  }
+  // Beside a wall that is higher: over the plane that cone is a segment of the unit disc (Nusselt).
+  const svo::View beside = fromAbove(1.0, 0.25, 64, 8, { 1.0, 0, 0 });
+  const auto expected =
+    onPixels(beside, [](const glm::dvec3& at) { return segmentShare(at.x / 1.5); });
+  expectClosedForm(expected,
+    closedShares(planeUnder({ wall(0.0, 2.0, 15.0) }), beside, sampled(1024), 1.5), 0.0, 0.48,
+    "wall, near");
+}
+
+TEST(SoftShadow, WithoutADistanceItIsAFifthOfAllCasters)
+{
+  const svo::Scene scene = planeUnder({ wall(0.0, 1.0, 2.0), wall(3.0, 1.0, 2.0) });
+  svo::PointBox all;
+  for (const svo::Instance& instance : scene.instances)
+  {
+    svo::CasterBox(instance).addTo(all);
+  }
+  const double diagonal = glm::distance(all.low, all.high);
+  // What is around them is no larger than their octrees' cubes, of edge 4, and not the ground's.
+  EXPECT_GT(diagonal, std::sqrt(9.0 + 16.0 + 1.0));
+  EXPECT_LT(diagonal, std::sqrt(49.0 + 64.0 + 64.0));
+  const svo::View view = fromAbove(1.0, 0.25, 32, 8, { 1.0, 0, 0 });
+  const auto closed = [&](double distance)
+  { return closedShares(scene, view, sampled(64), distance); };
+  EXPECT_EQ(closed(0.2 * diagonal), closed(0.0));
+  EXPECT_NE(closed(0.2 * diagonal), closed(0.1 * diagonal));
+}
+
+TEST(SoftShadow, AmbientOcclusionDarkensWhatIsAskedFor)
+{
+  svo::Scene scene = planeUnder({ wall(0.0, 1.0, 15.0) });
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 1, 0, 1 }) }; // past the wall
+  scene.instances[0].material.ambient = 0.25f;
+  scene.instances[0].material.diffuse = 0.5f;
+  const svo::View view = fromAbove(1.0, 0.25, 32, 8, { 1.0, 0, 0 });
+  svo::FrameSettings settings = sampled(64);
+  const svo::Frame plain = rendered(scene, view, settings);
+  const std::vector<double> closed = closedShares(
+    [&]
+    {
+      svo::Scene white = scene;
+      white.instances[0].material = svo::Material();
+      return white;
+    }(),
+    view, settings, Unlimited);
+  settings.ambientOcclusion = true;
+  settings.ambientOcclusionDistance = Unlimited;
+  for (const double strength : { 1.0, 0.5, 0.0 })
+  {
+    for (const bool all : { true, false })
+    {
+      settings.ambientOcclusionStrength = strength;
+      settings.ambientOcclusionOfAllLight = all;
+      const svo::Frame frame = rendered(scene, view, settings);
+      for (std::size_t i = 0; i < closed.size(); ++i)
+      {
+        const double darkened = all ? plain.light[3 * i] : 0.25;
+        // Of three numbers up to 1.
+        ASSERT_NEAR(
+          plain.light[3 * i] - strength * closed[i] * darkened, frame.light[3 * i], 3 * 6e-8);
+      }
+      EXPECT_EQ(strength == 0.0, frame.light == plain.light);
+    }
+  }
+}
+
+namespace
+{
+struct NamedScene
+{
+  std::string name;
+  svo::Scene scene;
+};
+
+/// Surfaces that nothing else shadows, and that shadow nothing of themselves.
+std::vector<NamedScene> convexScenes()
+{
+  static const Mesh coarse = sphere(8, 12), fine = sphere(40, 60);
+  static const std::vector<float> coarseNormals = radialNormals(coarse),
+                                  fineNormals = radialNormals(fine);
+  std::vector<NamedScene> all(4);
+  all[0] = { "plane", {} };
+  all[0].scene.instances = { instanceOf(makeOctree(square(3.0), 5), 1) };
+  all[1] = { "coarse, smooth", {} };
+  all[1].scene.instances = { instanceOf(makeOctree(coarse, 6), 1) };
+  all[2] = { "fine, smooth", {} };
+  all[2].scene.instances = { instanceOf(makeOctree(fine, 7), 1) };
+  all[3] = { "facets", {} };
+  all[3].scene.instances = { instanceOf(makeOctree(fine, 7), 1) };
+  for (const int smooth : { 1, 2 })
+  {
+    svo::Attributes& attributes = all[smooth].scene.instances[0].body.own().attributes;
+    attributes.normals = (smooth == 1 ? coarseNormals : fineNormals).data();
+    attributes.normalAssociation = svo::Association::Point;
+  }
+  return all;
+}
+}
+
+// A light's energy is VTK's formula for its middle, whatever its size.
+TEST(SoftShadow, WhereNothingIsInTheWayTheSizeDoesNotMatter)
+{
+  for (NamedScene& open : convexScenes())
+  {
+    for (const LightCase& lit : everyLight())
+    {
+      for (const glm::dvec3& eye : { glm::dvec3(3, -5, 3), glm::dvec3(-4, 2, 1) })
+      {
+        const svo::View view = lookAt(eye, 80, 60);
+        svo::FrameSettings settings = sampled(7);
+        open.scene.lights = { lit.light };
+        settings.shadowTechnique = svo::ShadowTechnique::None;
+        const svo::Frame unshadowed = rendered(open.scene, view, settings);
+        ASSERT_GT(std::count_if(unshadowed.light.begin(), unshadowed.light.end(),
+                    [](float l) { return l > 0.0f; }),
+          200);
+        settings.shadowTechnique = svo::ShadowTechnique::Rays;
+        const svo::Frame sharp = rendered(open.scene, view, settings);
+        for (const double size : { 0.01, 0.5, 3.0 })
+        {
+          SCOPED_TRACE(open.name + ", " + lit.name + ", " + std::to_string(size));
+          open.scene.lights[0].size = size;
+          const svo::Frame soft = rendered(open.scene, view, settings);
+          EXPECT_EQ(soft.light, unshadowed.light);
+          EXPECT_EQ(soft.light, sharp.light);
+          EXPECT_EQ(soft.color, sharp.color);
+          EXPECT_EQ(soft.depth, sharp.depth);
+        }
+      }
+    }
+  }
+}
+
+// Of size 0 nothing is sampled: neither the number of samples matters, nor that of others' lights.
+TEST(SoftShadow, LightsWithoutASizeAreAsEver)
+{
+  const svo::View view = lookAt({ 3, -6, 5 }, 120, 90);
+  for (const svo::ShadowTechnique technique :
+    { svo::ShadowTechnique::Buffer, svo::ShadowTechnique::Rays, svo::ShadowTechnique::None })
+  {
+    svo::Scene scene = ballRingAndGround();
+    svo::FrameSettings settings;
+    settings.shadowTechnique = technique;
+    const svo::Frame before = rendered(scene, view, settings);
+    settings.lightSamples = 1;
+    settings.ambientOcclusionDistance = 3.0;
+    settings.ambientOcclusionStrength = 0.7;
+    EXPECT_TRUE(identical(before, rendered(scene, view, settings)));
+    svo::CPUTracer tracer;
+    rendered(tracer, scene, view, settings);
+    EXPECT_EQ(
+      technique == svo::ShadowTechnique::Buffer ? 2 : 0, tracer.statistics().lightsWithBuffers);
+    EXPECT_EQ(technique == svo::ShadowTechnique::Rays ? 2 : 0, tracer.statistics().lightsWithRays);
+    // A light that shines nothing, and has a size, changes nothing.
+    scene.lights.push_back(ballLight({ 1, 1, 5 }, 1.0));
+    scene.lights.back().color = glm::vec3(0.0f);
+    scene.lights.back().id = 99;
+    const svo::Frame beside = rendered(scene, view, settings);
+    EXPECT_EQ(before.color, beside.color);
+    EXPECT_EQ(before.depth, beside.depth);
+    // A tiny one is the sharp one. An edge of some hundred pixels' length passes a pixel's centre
+    // within a millionth of a cube's edge, a hundredth of one of a hundred pixels, hardly ever.
+    if (technique == svo::ShadowTechnique::Rays)
+    {
+      scene.lights.pop_back();
+      scene.lights[0].size = 1e-9;
+      scene.lights[1].size = 1e-7;
+      const svo::Frame tiny = rendered(scene, view, settings);
+      int different = 0;
+      for (std::size_t i = 0; i < tiny.color.size(); i += 4)
+      {
+        different += !std::equal(&tiny.color[i], &tiny.color[i] + 4, &before.color[i]);
+      }
+      EXPECT_LE(different, 1);
+    }
+  }
+}
+
+TEST(SoftShadow, TranslucentCastersTakeTheirOpacity)
+{
+  constexpr int Samples = 256;
+  const svo::View view = fromAbove(1.0, 1.0, 16, 16);
+  for (const float opacity : { 0.125f, 0.3f, 0.9f })
+  {
+    svo::Instance first = caster(square(6.0), movedTo(0, 0, 1)), second = first;
+    first.opacity = opacity;
+    second.localToWorld = movedTo(0, 0, 1.5);
+    second.opacity = 0.4f;
+    for (const svo::Light& light : { ballLight({ 0, 0, 4 }, 1.0), disc({ 0.5, 0.3, 2 }, 30.0) })
+    {
+      svo::Scene scene = planeUnder({ first });
+      scene.lights = { light };
+      for (const double share : lightShares(scene, view, sampled(Samples)))
+      {
+        ASSERT_NEAR(1.0 - double(opacity), share, rounding(Samples));
+      }
+      scene = planeUnder({ first, second });
+      scene.lights = { light };
+      for (const double share : lightShares(scene, view, sampled(Samples)))
+      {
+        ASSERT_NEAR((1.0 - double(opacity)) * (1.0 - 0.4f), share, rounding(Samples));
+      }
+    }
+    for (const double closed :
+      closedShares(planeUnder({ caster(closedBox()) }), view, sampled(16), Unlimited))
+    {
+      ASSERT_EQ(1.0, closed);
+    }
+    svo::Instance box = caster(closedBox());
+    box.opacity = opacity;
+    for (const double closed : closedShares(planeUnder({ box }), view, sampled(Samples), Unlimited))
+    {
+      ASSERT_NEAR(double(opacity), closed, rounding(Samples));
+    }
+  }
+}
+
+namespace
+{
+/// Whether a ray meets any caster, in double. It starts off its surface as sampled rays do.
+bool meets(const svo::Scene& scene, const svo::Instance& receiver, const glm::dvec3& at,
+  const glm::dvec3& facet, const glm::dvec3& along, double length)
+{
+  return std::any_of(scene.instances.begin(), scene.instances.end(),
+    [&](const svo::Instance& caster)
+    {
+      const double offset =
+        std::max(1e-6 * svo::worldVoxel(caster, 0), 1.2e-7 * svo::worldVoxel(receiver, 0));
+      const svo::WorldToOctree toOctree(caster.body->octree, caster.localToWorld);
+      const svo::Ray ray{ toOctree.point(at + offset * facet), toOctree.vector(along), 0.0,
+        std::min(length, 1e300) };
+      return svo::occluded(
+        caster.body->octree, ray, { caster.body->leafGeometry, svo::MaximumLevel });
+    });
+}
+
+/// A pixel's nearest hit, in double.
+struct Seen
+{
+  const svo::Instance* instance = nullptr;
+  glm::dvec3 position{ 0.0 }, facet{ 0.0 };
+};
+
+Seen seenAt(const svo::Scene& scene, const svo::View& view, int x, int y)
+{
+  Seen seen;
+  double nearest = std::numeric_limits<double>::infinity();
+  const glm::dvec3 o = view.rayOrigin(x + 0.5, y + 0.5), d = view.rayDirection(x + 0.5, y + 0.5);
+  for (const svo::Instance& instance : scene.instances)
+  {
+    const svo::Hit hit = hitAlone(instance, view, x, y);
+    if (hit && hit.t < nearest)
+    {
+      nearest = hit.t;
+      const svo::Surface& surface = *instance.body->octree.surface();
+      const glm::uvec3 t = surface.triangles[hit.primitive];
+      const glm::dvec3 a(surface.points[t.x]), b(surface.points[t.y]), c(surface.points[t.z]);
+      const glm::dmat3 toWorld(instance.localToWorld); // no scale in these scenes
+      const glm::dvec3 normal = glm::normalize(toWorld * glm::cross(b - a, c - a));
+      seen = { &instance, o + hit.t * d, glm::dot(normal, d) > 0.0 ? -normal : normal };
+    }
+  }
+  return seen;
+}
+}
+
+// Of each pixel as many rays are blocked as in double, by 4096 samples: of the light, and of the
+// hemisphere.
+TEST(SoftShadow, AsManyRaysAreBlockedAsInDouble)
+{
+  constexpr int Samples = 4096;
+  const svo::View view = lookAt({ 2, -4, 4 }, 20, 12, 50.0, { 0.2, 0.3, 0.5 });
+  svo::Scene scene = ballRingAndGround(svo::LeafGeometry::Triangle);
+  scene.lights.resize(1);
+  scene.lights[0].size = 1.5;
+  const std::vector<double> lit = lightShares(scene, view, sampled(Samples));
+  const std::vector<double> closed = closedShares(scene, view, sampled(Samples), 2.0);
+  const svo::Light& light = scene.lights[0];
+  double rays = 0.0, different = 0.0;
+  int partly = 0, partlyClosed = 0;
+  for (int y = 0; y < view.height; ++y)
+  {
+    for (int x = 0; x < view.width; ++x)
+    {
+      const std::size_t pixel = static_cast<std::size_t>(y) * view.width + x;
+      const Seen seen = seenAt(scene, view, x, y);
+      if (!seen.instance)
+      {
+        continue;
+      }
+      const auto blocked = [&](const glm::vec3& along, float length) {
+        return meets(scene, *seen.instance, seen.position, seen.facet, glm::dvec3(along), length);
+      };
+      const svo::LightCone cone(light, seen.position);
+      const svo::Basis basis{ glm::vec3(seen.facet) };
+      int above = 0, met = 0, metAround = 0;
+      for (int i = 0; i < Samples; ++i)
+      {
+        float length;
+        const svo::SquarePoint sample = svo::sequencePoint(i);
+        const glm::vec3 along = cone.direction(sample + svo::pixelRotation(x, y, 0), length);
+        if (glm::dot(glm::dvec3(along), seen.facet) > 0.0)
+        {
+          ++above;
+          met += blocked(along, length);
+        }
+        metAround +=
+          blocked(svo::cosineDirection(basis, sample + svo::pixelRotation(x, y, ~0u)), 2.0f);
+      }
+      rays += Samples;
+      different += Samples * std::abs(closed[pixel] - metAround / double(Samples));
+      partlyClosed += metAround > 0 && metAround < Samples;
+      if (glm::dot(light.along(seen.position), seen.facet) < 0.0)
+      {
+        rays += above;
+        different += above * std::abs(1.0 - lit[pixel] - met / double(above));
+        partly += met > 0 && met < above;
+      }
+    }
+  }
+  EXPECT_GT(partly, 10);
+  EXPECT_GT(partlyClosed, 50);
+  // Rays that pass an edge within what floats tell apart, 1e-6 of a cube's edge: of edges about as
+  // long as the cube's own, before a light and a hemisphere that it covers much of. And sums of
+  // 4096 floats.
+  EXPECT_LE(different, 1e-4 * rays);
+}
+
+namespace
+{
+/// A wide light, low over a large ground that is seen from aside: of some tiles the way to their
+/// casters is shorter than they are.
+svo::Scene longTiles()
+{
+  svo::Scene scene;
+  scene.instances = { instanceOf(makeOctree(square(60.0), 6), 1) };
+  scene.instances[0].castShadow = false;
+  const svo::Octree ball = makeOctree(sphere(12, 16), 5);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (std::uint64_t i = 0; i < 150; ++i)
+  {
+    const double x = 3.0 * unit(random) - 9.0, y = 4.0 * unit(random), z = 6.5 + 2.0 * unit(random);
+    scene.instances.push_back(
+      instanceOf(ball, 2 + i, glm::scale(movedTo(x, y, z), glm::dvec3(0.15))));
+    scene.instances.back().visible = false;
+  }
+  scene.lights = { disc({ 1.0, 0.0, 0.2 }, 60.0) };
+  return scene;
+}
+}
+
+// A point's answer is the same whoever else of its tile asks.
+TEST(SoftShadow, AnswersDoNotDependOnWhoElseAsks)
+{
+  svo::Scene balls = ballRingAndGround(svo::LeafGeometry::Triangle);
+  balls.lights[0].size = 1.0;
+  for (const auto& [scene, view] : { std::pair(longTiles(), lookAt({ -40, 0, 2.5 }, 32, 32, 12.0)),
+         std::pair(balls, lookAt({ 3, -6, 3 }, 80, 64)) })
+  {
+    svo::LayeredView eye;
+    prepareEye(eye, scene, view);
+    eye.trace(svo::serialFor, nullptr);
+    const svo::RayCasters casters(scene, eye.hits());
+    const svo::ShadowRays exact(casters);
+    const svo::SampleRays rays(casters);
+    const svo::SoftShadow soft(scene.lights[0], rays, exact, 0, 16);
+    const svo::AmbientOcclusion around(rays, 1.0, 16);
+    std::vector<svo::SurfaceMatrices> frames(scene.instances.begin(), scene.instances.end());
+    const svo::DepthBuffer& depth = eye.hits().depth;
+    svo::TilePatch patch;
+    svo::TileTriangles triangles;
+    int partly = 0, different = 0;
+    for (int tile = 0; tile < depth.tilesX * depth.tilesY; ++tile)
+    {
+      if (!depth.hit[tile])
+      {
+        continue;
+      }
+      const svo::TileHits hits =
+        svo::hitsOfTile(depth, view, tile % depth.tilesX, tile / depth.tilesX);
+      const auto ask = [&, &scene = scene](const svo::TilePatch&)
+      {
+        svo::lookAtPatch(frames[patch.instance], patch, triangles);
+        const svo::PointErrors errors{ 0.0,
+          svo::worldLeafError(scene.instances[patch.instance], svo::LeafGeometry::Triangle,
+            scene.instances[patch.instance].body->octree.level()) };
+        std::uint64_t count = 0;
+        float all[2][svo::TilePatch::Most], alone[svo::TilePatch::Most];
+        const svo::ShadowQuery together{ patch, errors, nullptr, patch.mask, count };
+        soft.test(together, all[0]);
+        around.test(together, all[1]);
+        svo::eachBit(patch.mask,
+          [&](int i)
+          {
+            const svo::ShadowQuery one{ patch, errors, nullptr, std::uint64_t(1) << i, count };
+            soft.test(one, alone);
+            different += alone[i] != all[0][i];
+            partly += alone[i] > 0.0f && alone[i] < 1.0f;
+            around.test(one, alone);
+            different += alone[i] != all[1][i];
+          });
+      };
+      svo::eachPatch(
+        view, hits, [](std::uint32_t) { return true; },
+        [&](std::uint32_t i) { return eye.hits().base(i); }, patch, ask);
+    }
+    EXPECT_EQ(0, different);
+    EXPECT_GT(partly, 50);
+  }
+}
+
+namespace
+{
+/// The slope of the straight line through (log N, log RMS error) for N = 4, 8, ... 256 samples.
+double slopeOfError(
+  const std::vector<double>& expected, const std::function<std::vector<double>(int)>& found)
+{
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (int samples = 4; samples <= 256; samples *= 2)
+  {
+    const double rms = Difference(expected, found(samples)).rms;
+    const double logN = std::log(samples), logError = std::log(rms);
+    n += 1.0;
+    x += logN;
+    y += logError;
+    xx += logN * logN;
+    xy += logN * logError;
+  }
+  const double slope = (n * xy - x * y) / (n * xx - x * x);
+  return slope;
+}
+}
+
+// That of random samples, 1 / sqrt(N), falls with a slope of -0.5; the bar is -0.7.
+TEST(SoftShadow, ErrorsFallFasterThanThoseOfRandomSamples)
+{
+  for (const double turn : { 0.0, 0.4, 0.25 * Pi, 0.75 * Pi })
+  {
+    svo::Scene scene = planeUnder({ halfPlane(turn) });
+    for (const svo::Light& light : { disc({ 0, 0, 1 }, 20.0), ballLight({ 0, 0, 4 }, 0.5) })
+    {
+      scene.lights = { light };
+      const double half = 0.6 * (light.atInfinity() ? light.spread() : 0.5 / 3.0);
+      const svo::View view = fromAbove(half, half, 48, 48); // all of it in the penumbra, nearly
+      const auto expected =
+        onPixels(view, [&](const glm::dvec3& at) { return pastEdge(light, at, turn); });
+      EXPECT_LE(slopeOfError(expected,
+                  [&](int samples) { return lightShares(scene, view, sampled(samples)); }),
+        -0.7)
+        << turn << (light.atInfinity() ? ", disc" : ", ball");
+    }
+  }
+  const svo::View view = fromAbove(1.0, 0.33, 96, 32, { 1.0, 0, 0 });
+  const svo::Scene walled = planeUnder({ wall(0.0, 1.0, 15.0) });
+  const auto expected = onPixels(view,
+    [](const glm::dvec3& at)
+    { return besideWall(at.x, 1.0, 15.0 - at.y) + besideWall(at.x, 1.0, 15.0 + at.y); });
+  EXPECT_LE(slopeOfError(expected,
+              [&](int samples) { return closedShares(walled, view, sampled(samples), Unlimited); }),
+    -0.7);
+}

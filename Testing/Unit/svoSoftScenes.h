@@ -1,0 +1,130 @@
+// What tests of soft shadows and of ambient occlusion share: planes seen from above, what of the
+// light arrives at their pixels, and closed forms of it.
+#ifndef svoSoftScenes_h
+#define svoSoftScenes_h
+
+#include "svoTracerScenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace svotest
+{
+/// The plane z = 0 around `at`, from 50 above.
+inline svo::View fromAbove(double halfWidth, double halfHeight, int width, int height,
+  const glm::dvec3& at = glm::dvec3(0.0))
+{
+  svo::View view;
+  svo::makeView(glm::lookAt(at + glm::dvec3(0, 0, 50), at, glm::dvec3(0, 1, 0)),
+    glm::ortho(-halfWidth, halfWidth, -halfHeight, halfHeight, 1.0, 100.0), width, height, view);
+  return view;
+}
+
+/// Where pixel i of such a view is.
+inline glm::dvec3 onPlane(const svo::View& view, std::size_t i, double z = 0.0)
+{
+  const auto width = static_cast<std::size_t>(view.width);
+  const double x = static_cast<double>(i % width) + 0.5, y = static_cast<double>(i / width) + 0.5;
+  const glm::dvec3 o = view.rayOrigin(x, y), d = view.rayDirection(x, y);
+  return o + (z - o.z) / d.z * d;
+}
+
+/// A plane that is seen and casts nothing, under casters that are not seen.
+inline svo::Scene planeUnder(const std::vector<svo::Instance>& casters, double half = 30.0)
+{
+  svo::Scene scene;
+  scene.instances = { instanceOf(makeOctree(square(half), 4), 1) };
+  scene.instances[0].castShadow = false;
+  for (svo::Instance caster : casters)
+  {
+    caster.id = 1 + scene.instances.size();
+    caster.visible = caster.receiveShadow = false;
+    scene.instances.push_back(caster);
+  }
+  return scene;
+}
+
+inline svo::FrameSettings sampled(int samples)
+{
+  svo::FrameSettings settings;
+  settings.lightSamples = samples;
+  settings.writeLight = true;
+  return settings;
+}
+
+/// Of each pixel, what arrives of the scene's first light, 0..1; 1 where it would not arrive
+/// anyway.
+inline std::vector<double> lightShares(
+  svo::Scene scene, const svo::View& view, const svo::FrameSettings& settings)
+{
+  const svo::Frame shadowed = rendered(scene, view, settings);
+  scene.lights[0].castShadow = false;
+  const svo::Frame plain = rendered(scene, view, settings);
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < plain.instance.size(); ++i)
+  {
+    const bool lit = plain.instance[i] != ~0u && plain.light[3 * i] > 0.0f;
+    shares.push_back(lit ? double(shadowed.light[3 * i]) / plain.light[3 * i] : 1.0);
+  }
+  return shares;
+}
+
+/// Of each pixel, which share of its hemisphere is closed. No lights: white surfaces are 1.
+inline std::vector<double> closedShares(
+  svo::Scene scene, const svo::View& view, svo::FrameSettings settings, double distance)
+{
+  scene.lights.clear();
+  settings.ambientOcclusion = true;
+  settings.ambientOcclusionDistance = distance;
+  const svo::Frame frame = rendered(scene, view, settings);
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < frame.instance.size(); ++i)
+  {
+    shares.push_back(frame.instance[i] != ~0u ? 1.0 - double(frame.light[3 * i]) : 0.0);
+  }
+  return shares;
+}
+
+/// The share of a disc of radius 1 that lies beyond a line at distance c from its middle.
+inline double segmentShare(double c)
+{
+  c = std::clamp(c, -1.0, 1.0);
+  return (std::acos(c) - c * std::sqrt(1.0 - c * c)) / Pi;
+}
+
+/// The share, by solid angle, of a cone of directions with this cosine of its half angle that lies
+/// beyond a plane; `sine`: of the plane's normal with the cone's axis. The mean, over rings of
+/// equal solid angle, of the ring's part there: to 1e-5.
+inline double capShare(double sine, double cosine)
+{
+  constexpr int Rings = 4000;
+  const double across = std::sqrt(1.0 - sine * sine);
+  double sum = 0.0;
+  for (int ring = 0; ring < Rings; ++ring)
+  {
+    const double z = 1.0 - (ring + 0.5) / Rings * (1.0 - cosine);
+    const double k = sine * z / (across * std::sqrt(1.0 - z * z));
+    sum += std::acos(std::clamp(k, -1.0, 1.0)) / Pi;
+  }
+  return sum / Rings;
+}
+
+/// Largest and mean difference.
+struct Difference
+{
+  double most = 0.0, rms = 0.0;
+
+  Difference(const std::vector<double>& a, const std::vector<double>& b)
+  {
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+      this->most = std::max(this->most, std::abs(a[i] - b[i]));
+      this->rms += (a[i] - b[i]) * (a[i] - b[i]) / static_cast<double>(a.size());
+    }
+    this->rms = std::sqrt(this->rms);
+  }
+};
+}
+
+#endif
