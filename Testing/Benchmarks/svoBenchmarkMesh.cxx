@@ -3,10 +3,16 @@
 
 #include "loaders.h"
 #include "meshes.h"
+#include "svoMeshDetail.h"
 #include "svoMeshTriangles.h"
+
+#include "vtkCellArray.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
 
 #include <cmath>
 #include <cstdlib>
+#include <random>
 
 namespace svobench
 {
@@ -133,5 +139,51 @@ Mesh ground()
   return { "ground, 2 triangles",
     { { 0.0, 0.0, 0.1 }, { 1.0, 0.0, 0.2 }, { 1.0, 1.0, 0.3 }, { 0.0, 1.0, 0.2 } },
     { { 0, 1, 2 }, { 0, 2, 3 } } };
+}
+
+Mesh city(unsigned houses)
+{
+  Mesh mesh{ "city", { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } },
+    { { 0, 1, 2 }, { 0, 2, 3 } } };
+  std::mt19937 random(1);
+  const auto between = [&random](double low, double high)
+  { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (unsigned house = 0; house < houses; ++house)
+  {
+    const glm::dvec3 size(between(0.003, 0.01), between(0.003, 0.01), between(0.005, 0.05));
+    const glm::dvec3 low(between(0.0, 1.0 - size.x), between(0.0, 1.0 - size.y), 0.0);
+    const auto first = static_cast<unsigned>(mesh.points.size());
+    for (unsigned corner = 0; corner < 8; ++corner)
+    {
+      mesh.points.push_back(low + size * glm::dvec3(corner & 1, corner >> 1 & 1, corner >> 2));
+    }
+    for (const glm::uvec4& q :
+      { glm::uvec4(0, 2, 3, 1), glm::uvec4(4, 5, 7, 6), glm::uvec4(0, 1, 5, 4),
+        glm::uvec4(2, 6, 7, 3), glm::uvec4(0, 4, 6, 2), glm::uvec4(1, 3, 7, 5) })
+    {
+      mesh.triangles.push_back(first + glm::uvec3(q.x, q.y, q.z));
+      mesh.triangles.push_back(first + glm::uvec3(q.x, q.z, q.w));
+    }
+  }
+  return mesh;
+}
+
+int detailLevel(const Mesh& mesh)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const glm::dvec3& p : mesh.points)
+  {
+    points->InsertNextPoint(&p.x);
+  }
+  vtkNew<vtkCellArray> cells;
+  for (const glm::uvec3& t : mesh.triangles)
+  {
+    cells->InsertNextCell({ t.x, t.y, t.z });
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(cells);
+  return svo::detailLevel(data);
 }
 }

@@ -38,6 +38,11 @@ Mesh torus(unsigned rows, unsigned columns);
 Mesh bumpySphere(unsigned slices);
 /// Two triangles, a little tilted.
 Mesh ground();
+/// So many houses, 12 triangles each, on a ground of two; 1 along an edge.
+Mesh city(unsigned houses);
+
+/// svo::detailLevel(), which is what the pass builds where leaves are exact.
+int detailLevel(const Mesh& mesh);
 }
 
 #endif

@@ -53,6 +53,14 @@ public:
   {
     rtcOccluded1(scene, &ray, &this->Occlusion);
   }
+  void occlude(RTCScene scene, const int* valid, RTCRay8& rays)
+  {
+    rtcOccluded8(valid, scene, &rays, &this->Occlusion);
+  }
+  void occlude(RTCScene scene, const int* valid, RTCRay16& rays)
+  {
+    rtcOccluded16(valid, scene, &rays, &this->Occlusion);
+  }
 
 private:
   RTCIntersectArguments Settings;
@@ -74,6 +82,14 @@ private:
   void occlude(RTCScene scene, RTCRay& ray)
   {
     rtcOccluded1(scene, &this->Settings, &ray);
+  }
+  void occlude(RTCScene scene, const int* valid, RTCRay8& rays)
+  {
+    rtcOccluded8(valid, scene, &this->Settings, &rays);
+  }
+  void occlude(RTCScene scene, const int* valid, RTCRay16& rays)
+  {
+    rtcOccluded16(valid, scene, &this->Settings, &rays);
   }
 
 private:

@@ -18,6 +18,15 @@
 namespace svobench
 {
 #ifdef SVO_EMBREE
+/// For rtcNewDevice(), behind other settings: of the sets that useInstructionSet() knows.
+inline std::string embreeIsa(const std::string& name)
+{
+  return name == "AVX-512" ? ",isa=avx512"
+    : name == "AVX2"       ? ",isa=avx2"
+    : name == "SSE4"       ? ",isa=sse4.2"
+                           : "";
+}
+
 /// A scene of one mesh, committed.
 inline RTCScene makeEmbreeScene(RTCDevice device, const Mesh& mesh, RTCSceneFlags flags,
   RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM)
@@ -116,14 +125,6 @@ public:
   }
 
 private:
-  static std::string embreeIsa(const std::string& name)
-  {
-    return name == "AVX-512" ? ",isa=avx512"
-      : name == "AVX2"       ? ",isa=avx2"
-      : name == "SSE4"       ? ",isa=sse4.2"
-                             : "";
-  }
-
   RTCScene makeScene(
     const Mesh& mesh, RTCSceneFlags flags, const std::vector<glm::dmat4>& instances) const
   {

@@ -46,6 +46,40 @@ void refine(const std::vector<std::uint32_t>& coarse, int depth, const Node* nod
 }
 }
 
+namespace
+{
+void findBox(UpperLevels& upper)
+{
+  const std::vector<std::uint32_t>& table = upper.tables[upper.tableCount - 1];
+  const int n = 1 << (NodeLevels * (upper.tableCount - 1)); // entries along an edge
+  int low[3] = { n, n, n }, high[3] = { 0, 0, 0 };
+  std::size_t i = 0;
+  for (int z = 0; z < n; ++z)
+  {
+    for (int y = 0; y < n; ++y)
+    {
+      for (int x = 0; x < n; ++x)
+      {
+        if (!(table[i++] & UpperLevels::Empty))
+        {
+          const int at[3] = { x, y, z };
+          for (int a = 0; a < 3; ++a)
+          {
+            low[a] = std::min(low[a], at[a]);
+            high[a] = std::max(high[a], at[a] + 1);
+          }
+        }
+      }
+    }
+  }
+  for (int a = 0; a < 3 && low[0] < n; ++a)
+  {
+    upper.low[a] = 1.0f + static_cast<float>(low[a]) / static_cast<float>(n);
+    upper.high[a] = 1.0f + static_cast<float>(high[a]) / static_cast<float>(n);
+  }
+}
+}
+
 std::size_t UpperLevels::bytes() const
 {
   std::size_t sum = 0;
@@ -75,6 +109,7 @@ UpperLevels makeUpperLevels(const Header& header, const Node* nodes, std::size_t
     refine(upper.tables[k - 1], k, nodes, upper.tables[k]);
     upper.tableCount = k + 1;
   }
+  findBox(upper);
   return upper;
 }
 }

@@ -28,6 +28,10 @@ struct UpperLevels
   std::vector<std::uint32_t> tables[MaximumTables];
   int tableCount = 0;
 
+  /// The box of the entries of the last table that are not empty, octree coordinates.
+  float low[3] = { 1.0f, 1.0f, 1.0f };
+  float high[3] = { 2.0f, 2.0f, 2.0f };
+
   std::size_t bytes() const;
 };
 

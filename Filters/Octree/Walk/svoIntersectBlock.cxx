@@ -263,8 +263,6 @@ namespace svo
 HWY_EXPORT(traceBlock);
 HWY_EXPORT(chosen);
 
-namespace
-{
 WalkTarget walkTarget(const LeafQuery& query)
 {
   const Octree& octree = query.octree;
@@ -310,7 +308,6 @@ WalkTarget walkTarget(const LeafQuery& query)
   assert(target.stopSize + NodeLevels >= target.brickSize && target.brickSize <= MantissaBits);
   target.high = 1.0f + 1.0f / static_cast<float>(1 << octree.rootBits(0));
   return target;
-}
 }
 
 void intersect(

@@ -5,6 +5,7 @@
 #include "svoKeptRepresentatives.h"
 #include "svoLeafGeometry.h"
 #include "svoNode.h"
+#include "svoOcclusion.h"
 #include "svoRay.h"
 
 #include <algorithm>
@@ -33,6 +34,19 @@ struct WalkTarget
   int cellSize = 0;                          // of the cells where rays stop
   float touchedHalf = 0.0f;                  // see touchedHalf()
   const KeptRepresentatives* kept = nullptr; // if the cells are voxels
+};
+
+WalkTarget walkTarget(const LeafQuery& query);
+
+/// 64 rays from `first` on; those that there are not end before they begin.
+RayBlock blockOf(const OcclusionRays& rays, int first);
+
+/// What the lanes find out about rays, a bit each.
+struct OcclusionAnswers
+{
+  static constexpr int Words = OcclusionRays::Most / 64;
+  std::uint64_t met[Words]{};
+  std::uint64_t unknown[Words]{}; // they came to bricks that are not met triangle by triangle
 };
 
 /// The hits of a block while it is traced, and what LeafHit keeps besides.

@@ -1,15 +1,57 @@
-#include "svoOcclusion.h"
+// Rays of which only is asked whether they meet anything, on the best instruction set that the
+// machine has.
+#define HWY_WANT_AVX3_DL 1 // as svoIntersectBlock.cxx
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "svoOcclusion.cxx"
+#include <hwy/foreach_target.h>
 
 #include "svoIntersect.h"
+#include "svoIntersectBlock.h"
+#include "svoLeafGeometry.h"
+#include "svoOcclusion.h"
+#include "svoPacketOcclusion-inl.h"
+#include "svoTraverse.h"
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 
+HWY_BEFORE_NAMESPACE();
 namespace svo
 {
-namespace
+namespace HWY_NAMESPACE
 {
-/// 64 rays from `first` on; those that there are not end before they begin.
+/// Where leaves are triangles that are met exactly.
+void traceOcclusion(const LeafQuery& query, const WalkTarget& target, const OcclusionRays& rays,
+  OcclusionAnswers& answers)
+{
+#if SVO_PACKET_LEAVES
+  OcclusionTrace trace(query, target, rays, answers);
+  target.groups ? trace.run<true>() : trace.run<false>();
+#else
+  static_cast<void>(target);
+  for (int i = 0; i < rays.count; ++i)
+  {
+    ClippedRay<float> ray;
+    const glm::vec3 origin(rays.originX[i], rays.originY[i], rays.originZ[i]);
+    const glm::vec3 direction(rays.directionX[i], rays.directionY[i], rays.directionZ[i]);
+    if (clip(query.octree, origin, direction, 0.0f, rays.tMax[i], ray) &&
+      intersectLeaves(query, ray, true).primitive != NoPrimitive)
+    {
+      answers.met[i / 64] |= std::uint64_t(1) << i % 64;
+    }
+  }
+#endif
+}
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace svo
+{
+HWY_EXPORT(traceOcclusion);
+
 RayBlock blockOf(const OcclusionRays& rays, int first)
 {
   RayBlock block;
@@ -26,22 +68,45 @@ RayBlock blockOf(const OcclusionRays& rays, int first)
   std::fill_n(block.tMin, RayBlock::Size, 0.0f);
   return block;
 }
-}
 
-void occluded(const Octree& octree, const OcclusionRays& rays, const TraceOptions& options,
-  std::uint64_t* met)
+void occluded(
+  const Octree& octree, const OcclusionRays& rays, const TraceOptions& options, std::uint64_t* met)
 {
   assert(rays.count >= 0 && rays.count <= OcclusionRays::Most);
-  for (int first = 0; first < rays.count; first += RayBlock::Size)
+  const int words = (rays.count + 63) / 64;
+  OcclusionAnswers answers;
+  if (octree && !octree.empty())
   {
-    HitBlock hits;
-    intersect(octree, blockOf(rays, first), options, hits);
-    std::uint64_t bits = 0;
-    for (int i = 0; i < RayBlock::Size; ++i)
+    const LeafQuery query(octree, options);
+    const WalkTarget target = query.bits > 0 ? walkTarget(query) : WalkTarget();
+    if (query.leaf.exact() && target.points != nullptr)
     {
-      bits |= std::uint64_t(hits.primitive[i] != NoPrimitive) << i;
+      HWY_DYNAMIC_DISPATCH(traceOcclusion)(query, target, rays, answers);
     }
-    met[first / RayBlock::Size] = bits;
+    else
+    {
+      std::fill_n(answers.unknown, words, ~std::uint64_t(0));
+    }
   }
+  // Whatever else there is goes through the block queries.
+  for (int word = 0; word < words; ++word)
+  {
+    if (const std::uint64_t unknown = answers.unknown[word])
+    {
+      RayBlock block = blockOf(rays, 64 * word);
+      HitBlock hits;
+      for (int i = 0; i < RayBlock::Size; ++i)
+      {
+        block.tMax[i] = unknown >> i & 1 ? block.tMax[i] : -1.0f;
+      }
+      intersect(octree, block, options, hits);
+      for (int i = 0; i < RayBlock::Size; ++i)
+      {
+        answers.met[word] |= std::uint64_t(hits.primitive[i] != NoPrimitive) << i;
+      }
+    }
+  }
+  std::copy_n(answers.met, words, met);
 }
 }
+#endif

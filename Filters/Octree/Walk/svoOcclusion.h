@@ -25,8 +25,8 @@ struct OcclusionRays
 /// Sets bit i % 64 of met[i / 64] for each ray of count that meets anything, clears the others; met
 /// has (count + 63) / 64 words. In float. The answers depend neither on the other rays nor on the
 /// instruction set: they are those of the block queries of svoIntersect.h.
-VTKSVOOCTREE_EXPORT void occluded(const Octree& octree, const OcclusionRays& rays,
-  const TraceOptions& options, std::uint64_t* met);
+VTKSVOOCTREE_EXPORT void occluded(
+  const Octree& octree, const OcclusionRays& rays, const TraceOptions& options, std::uint64_t* met);
 }
 
 #endif

@@ -22,10 +22,43 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
+constexpr int PacketParts = 23; // see forEachPart()
+
+/// Calls visit(k, part) for all that a ray takes with it into another lane.
+template <class Visit>
+HWY_INLINE void forEachPart(Packet& p, const Visit& visit)
+{
+  const DI di;
+  I dead = hn::VecFromMask(di, p.dead);
+  visit(0, p.ox);
+  visit(1, p.oy);
+  visit(2, p.oz);
+  visit(3, p.dx);
+  visit(4, p.dy);
+  visit(5, p.dz);
+  visit(6, p.ix);
+  visit(7, p.iy);
+  visit(8, p.iz);
+  visit(9, p.nx);
+  visit(10, p.ny);
+  visit(11, p.nz);
+  visit(12, p.tMax);
+  visit(13, p.t);
+  visit(14, p.x);
+  visit(15, p.y);
+  visit(16, p.z);
+  visit(17, p.cellMirror);
+  visit(18, p.tableMirror);
+  visit(19, p.size);
+  visit(20, p.node);
+  visit(21, p.ray);
+  visit(22, dead);
+  p.dead = hn::Lt(dead, hn::Zero(di));
+}
+
 /// The rays of a block from one on, each ready to walk.
 struct RaySupply
 {
-  static constexpr int Parts = 23; // of a packet, see forEachPart()
   static constexpr int Width = hn::MaxLanes(DI());
 
   HWY_INLINE RaySupply(const WalkTarget& target, const RayBlock& rays, int first)
@@ -67,38 +100,6 @@ struct RaySupply
   }
 
 private:
-  /// Calls visit(k, part) for all that a ray takes with it into another lane.
-  template <class Visit>
-  static HWY_INLINE void forEachPart(Packet& p, const Visit& visit)
-  {
-    const DI di;
-    I dead = hn::VecFromMask(di, p.dead);
-    visit(0, p.ox);
-    visit(1, p.oy);
-    visit(2, p.oz);
-    visit(3, p.dx);
-    visit(4, p.dy);
-    visit(5, p.dz);
-    visit(6, p.ix);
-    visit(7, p.iy);
-    visit(8, p.iz);
-    visit(9, p.nx);
-    visit(10, p.ny);
-    visit(11, p.nz);
-    visit(12, p.tMax);
-    visit(13, p.t);
-    visit(14, p.x);
-    visit(15, p.y);
-    visit(16, p.z);
-    visit(17, p.cellMirror);
-    visit(18, p.tableMirror);
-    visit(19, p.size);
-    visit(20, p.node);
-    visit(21, p.ray);
-    visit(22, dead);
-    p.dead = hn::Lt(dead, hn::Zero(di));
-  }
-
   HWY_INLINE void keep(Packet& p, int ray)
   {
     const DF df;
@@ -107,7 +108,7 @@ private:
   }
 
   int next;
-  HWY_ALIGN float parts[Parts][RayBlock::Size + Width];
+  HWY_ALIGN float parts[PacketParts][RayBlock::Size + Width];
 };
 }
 }

@@ -18,8 +18,8 @@ RayCasters::RayCasters(const Scene& scene, const Hits& eye, const LooseOctree* t
     if (instance.castShadow && instance.body->octree && !instance.body->octree.empty())
     {
       const Octree& octree = instance.body->octree;
-      const std::size_t index = &instance - scene.instances.data();
-      const LeafGeometry geometry = eye.instances.leafGeometry(static_cast<std::uint32_t>(index));
+      const auto index = static_cast<std::uint32_t>(&instance - scene.instances.data());
+      const LeafGeometry geometry = eye.instances.leafGeometry(index);
       const LeafTraits traits = traitsOf(geometry);
       const bool exact = traits.exact() && octree.surface();
       const bool mixed = traits.exact() && octree.longestList() > traits.longestExact;
@@ -30,7 +30,7 @@ RayCasters::RayCasters(const Scene& scene, const Hits& eye, const LooseOctree* t
         this->Casting[index] = static_cast<std::uint32_t>(casters.size());
       }
       const WorldToOctree toOctree(octree, instance.localToWorld);
-      casters.push_back({ &instance, geometry, toOctree, planeError,
+      casters.push_back({ &instance, index, geometry, toOctree, planeError,
         std::max(planeError, worldLeafError(instance, geometry, octree.level())), exact && !mixed,
         CasterBox(instance, toOctree.inverse) });
     }

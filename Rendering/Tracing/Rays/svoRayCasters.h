@@ -20,6 +20,7 @@ namespace svo
 struct RayCaster
 {
   const Instance* instance;
+  std::uint32_t index; // of the instance
   LeafGeometry geometry;
   WorldToOctree toOctree;
   double planeError; // world; how far plane leaves among triangles can be off, 0 without any

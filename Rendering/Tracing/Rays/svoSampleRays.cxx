@@ -12,8 +12,8 @@ namespace svo
 {
 namespace
 {
-/// How far off their surface rays have to begin in float, of the edge of a caster's root cube: the
-/// roundings of the start and of a triangle's corners, and as much again.
+/// How far off the caster's own surface rays have to begin in float, of the edge of its root cube:
+/// the roundings of the start and of a triangle's corners, and as much again.
 constexpr double FloatOffset = 1e-6;
 
 /// Of a start, in edges of the root cube, up to which a float tells it well enough.
@@ -26,7 +26,8 @@ public:
   LocalRays(const RayCaster& caster, double offset, const SampleBatch& batch)
     : Caster(caster)
     , Batch(batch)
-    , Offset(std::max({ offset, caster.planeError, FloatOffset * worldVoxel(*caster.instance, 0) }))
+    , Offset(std::max({ offset, caster.planeError,
+        caster.index == batch.own ? FloatOffset * worldVoxel(*caster.instance, 0) : 0.0 }))
   {
     // Directions of about unit length, however large the object is.
     const glm::dmat3 toOctree = caster.toOctree.inverse * caster.toOctree.scale;

@@ -2,8 +2,9 @@
 // of each is blocked.
 //
 // Each caster's rays go through its octree side by side, in float (svoOcclusion.h), from where they
-// come near to it. They begin off the points' own surface by more than floats resolve in the cubes
-// of either. Answers depend neither on which rays are asked together, nor on their order.
+// come near to it. They begin off the points' own surface, where that is a caster by more than
+// floats resolve in its cube. Answers depend neither on which rays are asked together, nor on their
+// order.
 #ifndef svoSampleRays_h
 #define svoSampleRays_h
 
@@ -24,6 +25,7 @@ struct SampleBatch
   static constexpr int MostPoints = 64;
   static constexpr int MostRays = OcclusionRays::Most;
 
+  std::uint32_t own = NoInstance; // index of the instance that the points lie on
   int points = 0;
   glm::dvec3 position[MostPoints];
   glm::vec3 side[MostPoints]; // unit, of its surface, to where its rays go
@@ -47,6 +49,7 @@ struct SampleBatch
     this->direction[this->rays] = along;
     this->length[this->rays++] = reach;
   }
+  /// Begins another one.
   void clear() { this->points = this->rays = 0; }
 };
 
@@ -60,8 +63,9 @@ public:
   }
 
   /// Sets what is blocked of each ray: all by an opaque caster, by a translucent one what it takes
-  /// of light (ShadowRays::taken()). All rays lie in `way`; they start `offset` (world) or, where
-  /// that is more, a caster's error off their surface.
+  /// of light (ShadowRays::taken()). All rays lie in `way`; they start `offset` (world), or what
+  /// a caster's planes are off, off their surface. Where a float does not tell that off another
+  /// caster's surface nothing is known of what is nearer to it.
   void trace(const BoxWay& way, double offset, SampleBatch& batch) const;
 
 private:

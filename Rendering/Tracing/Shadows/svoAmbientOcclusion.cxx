@@ -34,6 +34,7 @@ void AmbientOcclusion::test(const ShadowQuery& query, float* closed) const
   constexpr unsigned Stream = ~0u; // no light's
   const TilePatch& patch = query.patch;
   SampleBatch batch;
+  batch.own = patch.instance;
   PointBox box;
   std::vector<Basis> bases;
   SquarePoint rotations[TilePatch::Most];

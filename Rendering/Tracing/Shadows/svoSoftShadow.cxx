@@ -64,6 +64,7 @@ void SoftShadow::ask(const ShadowQuery& query, const Asker* askers, int count, f
     batch.rays = 0;
   };
   SampleBatch batch;
+  batch.own = query.patch.instance;
   for (int i = 0; i < count; ++i)
   {
     batch.addPoint(askers[i].position, askers[i].facet);
