@@ -19,7 +19,7 @@ endfunction ()
 
 function (vtksvo_setting name type default)
   cmake_parse_arguments(PARSE_ARGV 3 arg
-    "AGREED" "TABLE;UNIT;FIELD;TYPE;CHANGES;PANEL;PARAVIEW;LABEL;SAYS;MORE" "RANGE;CHOICES")
+    "AGREED" "TABLE;UNIT;FIELD;TYPE;CHANGES;PANEL;PARAVIEW;LABEL;WIDGET;SAYS;MORE" "RANGE;CHOICES")
   if (arg_UNPARSED_ARGUMENTS OR NOT arg_SAYS OR NOT arg_TABLE MATCHES "^(speed|shadows|time|host)$"
       OR (arg_FIELD AND NOT arg_CHANGES MATCHES "^(rays|shadows|look|nothing)$"))
     message(FATAL_ERROR "Rendering/Settings.cmake: the entry of ${name} is not complete: ${arg_UNPARSED_ARGUMENTS}")
@@ -47,7 +47,24 @@ function (vtksvo_setting name type default)
   set(range "")
   set(shown "${default}")
   set(unit "${arg_UNIT}")
-  if (type STREQUAL "bool")
+  set(get "vtkGetMacro(${name}, @cxx@);")
+  set(member "${name} = ${default}")
+  set(print "this->${name}")
+  if (type STREQUAL "vector")
+    set(cxx double)
+    set(shown "(${default})")
+    set(set "virtual void Set${name}(double x, double y, double z)
+  {
+    this->SetVector(\"${name}\", x, y, z, this->${name});
+  }
+  virtual void Set${name}(const double value[3])
+  {
+    this->Set${name}(value[0], value[1], value[2]);
+  }")
+    set(get "vtkGetVector3Macro(${name}, double);")
+    set(member "${name}[3] = { ${default} }")
+    set(print "this->${name}[0] << ' ' << this->${name}[1] << ' ' << this->${name}[2]")
+  elseif (type STREQUAL "bool")
     set(cxx bool)
     set(shown "off")
     if (default)
@@ -111,22 +128,23 @@ function (vtksvo_setting name type default)
     endif ()
     set(unit "${range}")
   endif ()
+  string(REPLACE "@cxx@" "${cxx}" get "${get}")
   vtksvo_append("${enumeration}  //@{
   /**
    * ${comment}
    * ${unit}. Default ${shown}.
    */
   ${set}
-  vtkGetMacro(${name}, ${cxx});
+  ${get}
 ${tail}  //@}
 
 " PROPERTIES)
-  vtksvo_append("  ${cxx} ${name} = ${default};\n" MEMBERS)
+  vtksvo_append("  ${cxx} ${member};\n" MEMBERS)
   set(printed_unit "")
   if (arg_UNIT)
     set(printed_unit " ${arg_UNIT}")
   endif ()
-  vtksvo_append("  os << indent << \"${name}: \" << this->${name} << \"${printed_unit}\\n\";\n" PRINT)
+  vtksvo_append("  os << indent << \"${name}: \" << ${print} << \"${printed_unit}\\n\";\n" PRINT)
   if (arg_PARAVIEW)
     vtksvo_append("  this->Set${name}(${arg_PARAVIEW});\n" PARAVIEW_DEFAULTS)
   endif ()
@@ -140,6 +158,10 @@ ${tail}  //@}
       set(field_type "std::size_t")
       set(value "static_cast<std::size_t>(${value}) * 1024")
       set(initial "std::size_t(${default}) * 1024")
+    elseif (type STREQUAL "vector")
+      set(field_type "glm::dvec3")
+      set(value "glm::dvec3(this->${name}[0], this->${name}[1], this->${name}[2])")
+      set(initial "glm::dvec3(${default})")
     elseif (type STREQUAL "choice")
       set(field_type "${arg_TYPE}")
       set(value "static_cast<svo::${arg_TYPE}>(${value})")
@@ -170,6 +192,9 @@ ${tail}  //@}
       set(in_paraview "advanced")
       set(visibility " panel_visibility=\"advanced\"")
     endif ()
+    if (arg_WIDGET)
+      string(APPEND visibility " panel_widget=\"${arg_WIDGET}\"")
+    endif ()
     if (type STREQUAL "double")
       set(vector Double)
       set(domain "<DoubleRangeDomain name=\"range\" min=\"${least}\" max=\"${most}\"/>")
@@ -178,7 +203,13 @@ ${tail}  //@}
       set(domain "<IntRangeDomain name=\"range\" min=\"${least}\" max=\"${most}\"/>")
     endif ()
     set(initial "${default}")
-    if (type STREQUAL "bool")
+    set(elements 1)
+    if (type STREQUAL "vector")
+      set(vector Double)
+      set(elements 3)
+      set(domain "<DoubleRangeDomain name=\"range\"/>")
+      string(REPLACE "," "" initial "${default}")
+    elseif (type STREQUAL "bool")
       set(domain "<BooleanDomain name=\"bool\"/>")
       set(initial 0)
       if (default)
@@ -200,7 +231,7 @@ ${tail}  //@}
     string(TOUPPER "${arg_PANEL}" panel)
     vtksvo_append("      <${vector}VectorProperty name=\"SVO${name}\" command=\"Set${name}\" label=\"SVO ${arg_LABEL}\"
                          si_class=\"vtkSISVOViewProperty\"
-                         number_of_elements=\"1\" default_values=\"${initial}\"${visibility}>
+                         number_of_elements=\"${elements}\" default_values=\"${initial}\"${visibility}>
         ${domain}
         <Documentation>
           ${help}

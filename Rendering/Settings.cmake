@@ -3,7 +3,7 @@
 # and agreed on by processes, ParaView's properties of a view, and the tables of Documentation/Guide.md, section 4.
 # CMake/vtkSVOSettings.cmake makes them; a new setting is an entry here, and the code that acts by it.
 #
-# vtksvo_setting(<name> bool|int|double|memory|choice <default>
+# vtksvo_setting(<name> bool|int|double|vector|memory|choice <default>
 #   TABLE    speed, shadows, time or host: the guide's table
 #   RANGE    <least> <most>, of numbers; values beyond become the nearest one. Memory is in KiB
 #   UNIT     of numbers, for people
@@ -15,6 +15,7 @@
 #   AGREED   processes that share a scene's shadow maps take the first one's
 #   PANEL    default or advanced: of ParaView's views, in this order
 #   PARAVIEW <default of ParaView's views, where it is another one>
+#   WIDGET   of ParaView's panels
 #   LABEL    in ParaView, where it is not the name's words
 #   SAYS     sentences for whoever looks at the setting: ParaView's help, and the first ones of the manuals
 #   MORE     further ones of the manuals: what it costs, why the default is what it is)
@@ -105,6 +106,45 @@ vtksvo_setting(AmbientOcclusionOfAllLight bool true
   PANEL advanced
   SAYS
     "Ambient occlusion darkens all light. Off: only the ambient part of materials, which is none in most scenes.")
+
+vtksvo_setting(SkyLight bool false
+  TABLE shadows
+  FIELD skyLight CHANGES look
+  PANEL default
+  SAYS
+    "Light that comes from all of the sky, on surfaces that are traced: each visible point gets what it sees of it."
+  MORE
+    "It is diffuse light, beside that of all lights, and casts the softest of shadows, by rays over the hemisphere of
+     each point (`MaximumLightSamples`). A white surface under nothing but a white sky is white. Lights that are to
+     have no part in it are to be switched off; VTK's automatic headlight is one of them.")
+
+vtksvo_setting(SkyColor vector "0.75, 0.87, 1"
+  TABLE shadows UNIT "colour"
+  FIELD skyColor CHANGES look
+  PANEL advanced WIDGET color_selector
+  SAYS
+    "Colour of the sky overhead. Between it and `GroundColor` it goes by the cosine to `SkyUp`.")
+
+vtksvo_setting(GroundColor vector "0.35, 0.33, 0.3"
+  TABLE shadows UNIT "colour"
+  FIELD groundColor CHANGES look
+  PANEL advanced WIDGET color_selector
+  SAYS
+    "Colour that comes from below.")
+
+vtksvo_setting(SkyUp vector "0, 0, 1"
+  TABLE shadows UNIT "direction"
+  FIELD skyUp CHANGES look
+  PANEL advanced
+  SAYS
+    "Where the sky is overhead. Of any length; 0 0 0: all of it is of the two colours' mean.")
+
+vtksvo_setting(SkyStrength double 1
+  TABLE shadows RANGE 0 1000
+  FIELD skyStrength CHANGES look
+  PANEL advanced
+  SAYS
+    "Times the sky's colours.")
 
 vtksvo_setting(MaximumLightSamples int 32
   TABLE shadows RANGE 1 4096 UNIT "a pixel"

@@ -141,7 +141,7 @@ void vtkSVORenderPass::BeginAttachedFrame(svo::AttachedRenderer& attached)
         this->Impl->controller, width, height, frame.pace.distance, frame.settings);
     }
     else if (frame.settings.shadowTechnique == svo::ShadowTechnique::Rays ||
-      frame.settings.ambientOcclusion)
+      frame.settings.asksHemispheres())
     {
       frame.state->shareCasters(this->Impl->controller,
         static_cast<std::size_t>(this->OctreeMemoryLimit) * svo::BytesOfKiB);

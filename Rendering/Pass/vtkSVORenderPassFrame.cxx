@@ -29,6 +29,7 @@ bool vtkSVORenderPass::CollectFrame(
   vtkRenderer* renderer = frame.renderer;
   frame.state->beginFrame();
   bool disturbed = true;
+  bool sampled = false; // something asks for samples of light
   // As the last frame's scene says; this one's has the last word.
   bool planes = frame.state->collected().planes;
   for (int i = 1; disturbed && i <= MostCollections; ++i)
@@ -69,11 +70,11 @@ bool vtkSVORenderPass::CollectFrame(
     const bool automatic = this->Backend == BACKEND_AUTO;
     const bool chosen =
       automatic && this->MayPreferOpenGL(frame, this->ShadowTechnique == SHADOW_RAYS);
-    const bool sampled = this->AmbientOcclusion || svo::hasSoftLight(renderer);
+    sampled = this->AmbientOcclusion || this->SkyLight || svo::hasSoftLight(renderer);
     frame.openGL = chosen ? !planes && !sampled : this->Backend == BACKEND_OPENGL;
     frame.tellOnce(frame.openGL && sampled
-        ? "With the OpenGL backend lights have no size and nothing darkens by ambient occlusion: "
-          "take the CPU, or Auto, which takes it for them."
+        ? "With the OpenGL backend lights have no size, and there is neither a sky's light nor "
+          "ambient occlusion: take the CPU, or Auto, which takes it for them."
         : "",
       impl.said);
     const bool rays = frame.openGL && this->ShadowTechnique == SHADOW_AUTOMATIC &&
@@ -122,16 +123,16 @@ bool vtkSVORenderPass::CollectFrame(
   const bool alone = seen && !impl.severalProcesses(); // else it does not know what others have
   // OpenGL has instances of what casts alone, which may be nothing.
   const bool meant = frame.openGL ? collected.marked : !collected.scene.instances.empty();
-  frame.tellOfShadows(
-    { text(this->ShadowTechnique != SHADOW_NONE && !this->AmbientOcclusion && (!attached || meant),
-        TEXT_ONLY_HEADLIGHTS),
-      text(alone, TEXT_NOTHING_CASTS), text(alone, TEXT_NOTHING_RECEIVES),
-      text(seen, TEXT_CLIPPED) },
+  frame.tellOfShadows({ text(this->ShadowTechnique != SHADOW_NONE && !this->AmbientOcclusion &&
+                            !this->SkyLight && (!attached || meant),
+                          TEXT_ONLY_HEADLIGHTS),
+                        text(alone, TEXT_NOTHING_CASTS), text(alone, TEXT_NOTHING_RECEIVES),
+                        text(seen, TEXT_CLIPPED) },
     impl.said);
-  const bool sampled = !frame.openGL && collected.rasterizedReceivers;
-  frame.tellOnce(sampled && svo::hasSoftLight(renderer)
-      ? "Some surfaces are drawn by the rasteriser: a light with a size casts shadows with sharp "
-        "edges on them, as a point would. On those that are traced they are soft."
+  frame.tellOnce(sampled && !frame.openGL && collected.rasterizedReceivers
+      ? "Some surfaces are drawn by the rasteriser: lights with a size cast shadows with sharp "
+        "edges on them, and neither a sky's light nor ambient occlusion reaches them, as they do "
+        "what is traced."
       : "",
     impl.said);
   frame.decide(asked,

@@ -194,8 +194,30 @@ class TestSoftLight(unittest.TestCase):
         self.svo.SetAmbientOcclusion(False)
         self.assertGreater((self.picture() - darkened).max(), 60)
 
+    def test_a_sky_lights_without_lights(self):
+        self.svo.SetSkyLight(True)
+        self.svo.SetSkyColor(1.0, 1.0, 1.0)
+        self.svo.SetGroundColor(1.0, 1.0, 1.0)
+        self.light.SetSwitch(False)
+        sky = self.picture().reshape(SIZE[1], SIZE[0], 3)
+        self.assertGreater(sky[:, :, 0].max(), 240)  # open ground
+        self.assertLess(sky[sky.sum(axis=2) > 0].min(), 60)  # below the ball
+        self.svo.SetSkyStrength(0.5)
+        self.assertLess(abs(self.picture().max() - 128), 3)
+        self.svo.SetSkyColor(float("nan"), 1.0, 1.0)
+        self.assertEqual(self.svo.GetSkyColor(), (1.0, 1.0, 1.0))
+        self.assertEqual(self.said.GetOutput().count("SkyColor stays 1 1 1"), 1)
+        self.svo.SetSkyUp(0.0, 0.0, 1.0)
+        self.svo.SetGroundColor(0.0, 0.0, 0.0)
+        self.svo.SetSkyColor(0.0, 0.0, 2.0)
+        blue = self.picture()
+        self.assertEqual(blue[:, :2].max(), 0)
+        self.assertGreater(blue[:, 2].max(), 150)
+        self.assertEqual(self.svo.GetNumberOfLightSamples(), 32)
+
     def test_what_changes_changes_what_is_closed_off(self):
         self.svo.SetAmbientOcclusion(True)
+        self.svo.SetSkyLight(True)
         self.soften()
         self.picture()
         changes = [
@@ -210,6 +232,7 @@ class TestSoftLight(unittest.TestCase):
             fresh = vtkSVORenderPass()
             fresh.SetBackendToCPU()
             fresh.SetAmbientOcclusion(True)
+            fresh.SetSkyLight(True)
             fresh.SetAmbientOcclusionDistance(self.svo.GetAmbientOcclusionDistance())
             self.renderer.SetPass(fresh)
             self.assertTrue((self.picture() == kept).all(), number)

@@ -25,7 +25,7 @@ namespace svo
 /// How props are collected. Where one of these is not what it was, all of them are collected again.
 struct PropChoices
 {
-  bool shadows = true; // casters are wanted, and a light casts, or for ambient occlusion
+  bool shadows = true; // casters are wanted, and a light casts, or for what is all around
   bool lights = false; // there are lights at all
   /// Only props that say explicitly that they use octrees (vtkSVORenderPass::SetUseSVO) are traced
   /// and cast. The others only receive, unless they are treated likewise; about them there are no

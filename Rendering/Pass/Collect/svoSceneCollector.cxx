@@ -409,8 +409,8 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
     this->NotMarked = settings.notMarked;
   }
   CollectProps frame = settings;
-  frame.shadows = (settings.shadows && casting) || settings.levels.frame.ambientOcclusion;
-  frame.lights = !result.scene.lights.empty();
+  frame.shadows = (settings.shadows && casting) || settings.levels.frame.asksHemispheres();
+  frame.lights = !result.scene.lights.empty() || settings.levels.frame.skyLight;
   frame.world = world;
   frame.notMarked = this->NotMarked.c_str();
   frame.complain = options.complain;

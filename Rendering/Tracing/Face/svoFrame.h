@@ -49,6 +49,8 @@ struct FrameSettings
   : TracerSettings
   , FrameNeeds
 {
+  /// True if points ask what is all around them.
+  bool asksHemispheres() const { return this->ambientOcclusion || this->skyLight; }
   /// Where filterShadows has an effect: ShadowBuffer::darkness() is asked instead of yes or no.
   bool filters() const
   {

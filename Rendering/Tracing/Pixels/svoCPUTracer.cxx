@@ -207,14 +207,13 @@ void CPUTracer::Internals::findDarkenedTiles(
         boxes[2 * k + 1] = this->Casters[i] = CasterBox(scene.instances[i]);
       }
     });
-  const AmbientOcclusion* occlusion = shadows.occlusion();
   const auto mayCross = [&](const PointBox& starts)
   {
     return !starts.empty() &&
       std::any_of(boxes.begin(), boxes.end(),
         [&](const CasterBox& box)
         {
-          return (occlusion && box.mayMeet(occlusion->way(starts))) ||
+          return shadows.mayReach(box, starts) ||
             std::any_of(scene.lights.begin(), scene.lights.end(),
               [&](const Light& light) { return light.castShadow && box.mayBlock(light, starts); });
         });

@@ -2,6 +2,7 @@
 
 #include "svoLeafError.h"
 #include "svoShownDepth.h"
+#include "svoSkyGradient.h"
 #include "svoTileImage.h"
 #include "svoTileShadows.h"
 #include "svoWorldSize.h"
@@ -113,7 +114,8 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
   const Instance& instance = lit.shaded.scene.instances[patch.instance];
   lookAtPatch(this->Frames[patch.instance], patch, scratch.triangles);
   std::fill_n(scratch.darkness, TilePatch::Most, Darkness(0));
-  const bool isLit = instance.material.lighting && !lighting.lights.empty();
+  const bool underSky = instance.material.lighting && lit.shaded.dark.sky();
+  const bool isLit = instance.material.lighting && (!lighting.lights.empty() || underSky);
   if (isLit && instance.receiveShadow && lit.shaded.dark.filters())
   {
     eachBit(patch.mask,
@@ -133,6 +135,14 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
     }
     addLight(lighting.lights[l], patch, l == 0, scratch.light);
   }
+  if (underSky)
+  {
+    if (lighting.lights.empty())
+    {
+      clearLight(scratch.light);
+    }
+    this->addSky(lit, scratch);
+  }
   finishLight(instance.material, isLit, patch, scratch.light, scratch.colors);
   if (lit.shaded.dark.occlusion() && instance.material.lighting && instance.receiveShadow)
   {
@@ -140,8 +150,8 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
   }
 }
 
-/// Ambient occlusion of the points of a patch.
-void PixelShader::occlude(const Lit& lit, Scratch& scratch) const
+/// All points of a patch, which ask what is around them.
+ShadowQuery PixelShader::allOf(Scratch& scratch) const
 {
   const TilePatch& patch = scratch.patch;
   const ShadowQuery query{ patch, this->Errors[patch.instance], scratch.extents, patch.mask,
@@ -150,13 +160,58 @@ void PixelShader::occlude(const Lit& lit, Scratch& scratch) const
   {
     noteRayStarts(query, scratch.noted->raysToLights);
   }
-  alignas(64) float closed[TilePatch::Most];
-  lit.shaded.dark.occlusion()->test(query, closed);
+  return query;
+}
+
+/// Ambient occlusion of the points of a patch.
+void PixelShader::occlude(const Lit& lit, Scratch& scratch) const
+{
   const FrameSettings& settings = lit.shaded.settings;
   const auto strength = static_cast<float>(settings.ambientOcclusionStrength);
-  std::transform(closed, closed + TilePatch::Most, closed, [&](float c) { return strength * c; });
-  closeOff(lit.shaded.scene.instances[patch.instance].material, settings.ambientOcclusionOfAllLight,
-    patch, closed, scratch.colors);
+  alignas(64) float closed[TilePatch::Most] = {};
+  int counts[TilePatch::Most] = {};
+  lit.shaded.dark.occlusion()->each(this->allOf(scratch),
+    [&](int i, const glm::vec3&, float blocked)
+    {
+      closed[i] += strength * blocked;
+      ++counts[i];
+    });
+  eachBit(
+    scratch.patch.mask, [&](int i) { closed[i] /= static_cast<float>(std::max(counts[i], 1)); });
+  closeOff(lit.shaded.scene.instances[scratch.patch.instance].material,
+    settings.ambientOcclusionOfAllLight, scratch.patch, closed, scratch.colors);
+}
+
+/// Adds what the points of a patch see of the sky, as diffuse light. Surfaces that receive no
+/// shadows see all of it.
+void PixelShader::addSky(const Lit& lit, Scratch& scratch) const
+{
+  const SkyGradient sky(lit.shaded.settings);
+  const TilePatch& patch = scratch.patch;
+  glm::vec3 seen[TilePatch::Most] = {};
+  if (lit.shaded.scene.instances[patch.instance].receiveShadow)
+  {
+    int counts[TilePatch::Most] = {};
+    lit.shaded.dark.sky()->each(this->allOf(scratch),
+      [&](int i, const glm::vec3& along, float blocked)
+      {
+        seen[i] += (1.0f - blocked) * sky.from(along);
+        ++counts[i];
+      });
+    eachBit(patch.mask, [&](int i) { seen[i] /= static_cast<float>(std::max(counts[i], 1)); });
+  }
+  else
+  {
+    eachBit(patch.mask, [&](int i) { seen[i] = sky.over(patch.normal(i)); });
+  }
+  TileLight& light = scratch.light;
+  eachBit(patch.mask,
+    [&](int i)
+    {
+      light.diffuseR[i] += seen[i].r;
+      light.diffuseG[i] += seen[i].g;
+      light.diffuseB[i] += seen[i].b;
+    });
 }
 
 /// Shades a tile's hits and writes its pixels, hits or not, all at once.

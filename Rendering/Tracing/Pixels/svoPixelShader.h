@@ -101,6 +101,8 @@ public:
 private:
   void shadePatch(const Lit& lit, Scratch& scratch) const;
   void occlude(const Lit& lit, Scratch& scratch) const;
+  void addSky(const Lit& lit, Scratch& scratch) const;
+  ShadowQuery allOf(Scratch& scratch) const;
   void shadow(std::size_t l, const Lit& lit, std::uint64_t reached, Scratch& scratch) const;
   void findTerminator(const LightShadow& shadow, const Light& light, const ShadowQuery& query,
     std::uint64_t dark, Scratch& scratch) const;

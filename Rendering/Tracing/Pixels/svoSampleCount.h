@@ -28,7 +28,7 @@ struct SampleCount
     const bool soft = settings.shadowTechnique != ShadowTechnique::None &&
       std::any_of(scene.lights.begin(), scene.lights.end(),
         [](const Light& light) { return light.soft() && light.castShadow; });
-    if (!soft && !settings.ambientOcclusion)
+    if (!soft && !settings.asksHemispheres())
     {
       this->count = 0;
     }

@@ -40,6 +40,16 @@ struct TileColors
 std::uint64_t arriveLight(const Lighting& lighting, std::size_t l, const Material& material,
   const TilePatch& patch, TileLight& light);
 
+/// Sets the light of all lights together to nothing.
+inline void clearLight(TileLight& light)
+{
+  for (float* part : { light.diffuseR, light.diffuseG, light.diffuseB, light.specularR,
+         light.specularG, light.specularB })
+  {
+    std::fill_n(part, TilePatch::Most, 0.0f);
+  }
+}
+
 /// Adds what arrived, of each point `share` times. `first`: to nothing.
 void addLight(const ViewLight& from, const TilePatch& patch, bool first, TileLight& light);
 

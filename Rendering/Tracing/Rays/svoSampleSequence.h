@@ -15,6 +15,7 @@
 #include "vtkSVOTracingModule.h"
 
 #include <cstdint>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -72,6 +73,16 @@ inline SquarePoint sequencePoint(std::uint32_t index)
   // Of 250 pairs of seeds the one whose errors at straight edges in a disc are the smallest, over
   // twelve directions and 4 to 256 samples.
   return { scrambled(point.u, 0x5ad45edbu), scrambled(point.v, 0x774758bdu) };
+}
+
+inline std::vector<SquarePoint> firstPoints(int count)
+{
+  std::vector<SquarePoint> points;
+  for (int i = 0; i < count; ++i)
+  {
+    points.push_back(sequencePoint(static_cast<std::uint32_t>(i)));
+  }
+  return points;
 }
 
 /// The rotation of a pixel. `stream`: of samples that have nothing to do with another stream's, as

@@ -84,21 +84,25 @@ void Shadows::prepareAnswers(const Scene& scene, const Hits& eye, const FrameSet
   const bool anyByRays =
     std::count(this->Techniques.begin(), this->Techniques.end(), ShadowTechnique::Rays) > 0;
   this->OfLights.clear();
-  this->Occlusion.reset();
-  this->Samplers.reset();
-  this->Rays.reset();
-  this->Casters.reset();
-  if (anyByRays || settings.ambientOcclusion ||
+  this->releaseRays();
+  if (anyByRays || settings.asksHemispheres() ||
     (this->Casting && std::any_of(scene.instances.begin(), scene.instances.end(), isSmooth)))
   {
     this->Casters = std::make_unique<RayCasters>(scene, eye, this->Cull.tree);
     this->Rays = std::make_unique<ShadowRays>(*this->Casters);
     this->Samplers = std::make_unique<SampleRays>(*this->Casters);
   }
+  // Streams that no light has.
   if (settings.ambientOcclusion)
   {
-    this->Occlusion = std::make_unique<AmbientOcclusion>(
-      *this->Samplers, settings.ambientOcclusionDistance, settings.lightSamples);
+    this->Occlusion = std::make_unique<HemisphereRays>(
+      *this->Samplers, settings.ambientOcclusionDistance, ~0u, settings.lightSamples);
+  }
+  if (settings.skyLight)
+  {
+    constexpr double Beyond = 1e100; // all
+    this->Sky =
+      std::make_unique<HemisphereRays>(*this->Samplers, Beyond, ~1u, settings.lightSamples);
   }
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
   {
@@ -179,13 +183,19 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
   this->Casting = !this->Kept.empty();
 }
 
-void Shadows::release()
+void Shadows::releaseRays()
 {
-  this->OfLights.clear();
   this->Occlusion.reset();
+  this->Sky.reset();
   this->Samplers.reset();
   this->Rays.reset();
   this->Casters.reset();
+}
+
+void Shadows::release()
+{
+  this->OfLights.clear();
+  this->releaseRays();
   this->Kept.clear();
   this->Buffers.clear();
   this->FirstTranslucent.clear();

@@ -2,8 +2,8 @@
 #ifndef svoShadows_h
 #define svoShadows_h
 
-#include "svoAmbientOcclusion.h"
 #include "svoFrame.h"
+#include "svoHemisphereRays.h"
 #include "svoLightShadow.h"
 #include "svoScene.h"
 #include "svoShadowBuffer.h"
@@ -75,8 +75,15 @@ public:
     assert(light < this->OfLights.size());
     return *this->OfLights[light];
   }
-  /// ... or null, where none was asked for.
-  const AmbientOcclusion* occlusion() const { return this->Occlusion.get(); }
+  /// Of ambient occlusion, and of a sky's light; null where none was asked for.
+  const HemisphereRays* occlusion() const { return this->Occlusion.get(); }
+  const HemisphereRays* sky() const { return this->Sky.get(); }
+  /// True if that may be another one at points of a box where the caster has changed.
+  bool mayReach(const CasterBox& caster, const PointBox& starts) const
+  {
+    return (this->Occlusion && caster.mayMeet(this->Occlusion->way(starts))) ||
+      (this->Sky && caster.mayMeet(this->Sky->way(starts)));
+  }
   /// True if some of them ask for ShadowQuery::extents.
   bool filters() const { return this->Filters; }
 
@@ -88,6 +95,7 @@ public:
   void release();
 
 private:
+  void releaseRays();
   bool usesBuffer(std::size_t light, const FrameSettings& settings) const;
   bool byRays(std::size_t light) const { return this->Techniques[light] == ShadowTechnique::Rays; }
   void chooseAll(const Scene& scene, ShadowTechnique technique);
@@ -115,7 +123,7 @@ private:
   std::unique_ptr<RayCasters> Casters; // where somebody asks rays
   std::unique_ptr<ShadowRays> Rays;    // through these, as ...
   std::unique_ptr<SampleRays> Samplers;
-  std::unique_ptr<AmbientOcclusion> Occlusion;
+  std::unique_ptr<HemisphereRays> Occlusion, Sky;
   std::vector<std::unique_ptr<LightShadow>> OfLights;
   std::vector<unsigned char> SharedState; // inputs of the shared buffers in Kept; empty: not shared
   bool Traced = false;                    // buffers were, in this frame

@@ -22,11 +22,8 @@ SoftShadow::SoftShadow(
   , Rays(rays)
   , Exact(exact)
   , Stream(stream)
+  , Samples(firstPoints(samples))
 {
-  for (int i = 0; i < samples; ++i)
-  {
-    this->Samples.push_back(sequencePoint(static_cast<std::uint32_t>(i)));
-  }
 }
 
 /// Sets what the askers miss, by pixel.

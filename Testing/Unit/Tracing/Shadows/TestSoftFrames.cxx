@@ -390,6 +390,28 @@ TEST(SoftFrames, PlaceAndScaleDoNotMatter)
   }
 }
 
+// What is closer to a large caster than its own rays begin off it: rays of others do not.
+TEST(SoftFrames, WhatLiesCloselyUnderAHugeCasterIsClosedOff)
+{
+  for (const double size : { 1e2, 1e4 })
+  {
+    for (const double gap : { 0.01, 0.2 })
+    {
+      svo::Instance caster = instanceOf(makeOctree(square(1.0), 4), 2);
+      caster.localToWorld = glm::scale(movedTo(0, 0, gap), glm::dvec3(size));
+      svo::Scene scene = planeUnder({ caster });
+      const svo::View view = fromAbove(5.0, 5.0, 16, 16);
+      const std::vector<double> closed = closedShares(scene, view, sampled(16), 50.0);
+      EXPECT_EQ(1.0, *std::min_element(closed.begin(), closed.end())) << size << ' ' << gap;
+      scene.lights.resize(1);
+      scene.lights[0].direction = glm::dvec3(0, 0, -1);
+      scene.lights[0].size = 10.0;
+      const std::vector<double> lit = lightShares(scene, view, sampled(16));
+      EXPECT_EQ(0.0, *std::max_element(lit.begin(), lit.end())) << size << ' ' << gap;
+    }
+  }
+}
+
 // A plane sheared, and mirrored, in itself is the same plane, but for rays that pass its edge as
 // closely as floats tell: 1e-6 of 40 in penumbras half a unit wide, so one of 10^4 rays.
 TEST(SoftFrames, ShearedInstances)

@@ -1,7 +1,7 @@
 // Shadows of lights with a size, and ambient occlusion, against closed forms, energy, and rays in
 // double.
-#include "svoAmbientOcclusion.h"
 #include "svoEyeHits.h"
+#include "svoHemisphereRays.h"
 #include "svoLeafError.h"
 #include "svoSampleDirections.h"
 #include "svoSampleSequence.h"
@@ -229,6 +229,62 @@ TEST(SoftShadow, AmbientOcclusionUnderABall)
   const svo::Scene scene = planeUnder({ caster(sphere(96, 192), movedTo(0, 0, Height), 7) });
   expectClosedForm(
     expected, closedShares(scene, view, sampled(1024), Unlimited), 0.05, 0.44, "ball");
+}
+
+// A sky's light on an open plane is the mean of its colours by the cosine; under half of it, beside
+// a wall without an end, half of that of one colour.
+TEST(SoftShadow, SkyLightOnAnOpenPlane)
+{
+  svo::Scene scene = planeUnder({});
+  scene.lights.clear();
+  svo::FrameSettings settings = sampled(1024);
+  settings.skyLight = true;
+  settings.skyColor = glm::dvec3(0.8, 0.6, 0.4);
+  settings.groundColor = glm::dvec3(0.2, 0.3, 0.1);
+  settings.skyStrength = 0.5;
+  for (const glm::dvec3& up :
+    { glm::dvec3(0, 0, 2), glm::dvec3(0, 0, -1), glm::dvec3(3, 0, 4), glm::dvec3(0.0) })
+  {
+    settings.skyUp = up;
+    const svo::Frame frame = rendered(scene, fromAbove(5.0, 5.0, 16, 16), settings);
+    const double cosine = up == glm::dvec3(0.0) ? 0.0 : up.z / glm::length(up);
+    const glm::dvec3 share(0.5 + cosine / 3.0);
+    const glm::dvec3 expected = 0.5 * glm::mix(settings.groundColor, settings.skyColor, share);
+    for (std::size_t i = 0; i < frame.instance.size(); ++i)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        EXPECT_NEAR(expected[c], double(frame.light[3 * i + c]), 0.005 * expected[c]);
+      }
+    }
+  }
+}
+
+TEST(SoftShadow, SkyLightIsWhatIsNotClosedOff)
+{
+  svo::Instance wall = instanceOf(makeOctree(square(1.0), 4), 2);
+  wall.localToWorld =
+    glm::scale(glm::rotate(movedTo(0, 6, 0), 0.5 * Pi, glm::dvec3(1, 0, 0)), glm::dvec3(1000.0));
+  svo::Scene scene = planeUnder({ wall });
+  const svo::View view = fromAbove(5.0, 5.0, 16, 16);
+  const std::vector<double> closed = closedShares(scene, view, sampled(1024), 1e6);
+  scene.lights.clear();
+  svo::FrameSettings settings = sampled(1024);
+  settings.skyLight = true;
+  settings.skyColor = settings.groundColor = glm::dvec3(1.0);
+  const svo::Frame frame = rendered(scene, view, settings);
+  std::vector<double> open;
+  for (std::size_t i = 0; i < frame.instance.size(); ++i)
+  {
+    open.push_back(1.0 - double(frame.light[3 * i]));
+  }
+  // Other samples of the same: as far from each other as two of them may be from what is so.
+  EXPECT_LE(Difference(open, closed).rms, 2 * 0.005);
+  EXPECT_GT(closed[0], 0.01);
+  // What receives no shadows sees all of it.
+  scene.instances[0].receiveShadow = false;
+  const svo::Frame all = rendered(scene, view, settings);
+  EXPECT_NEAR(1.0, double(all.light[0]), 1e-6);
 }
 
 TEST(SoftShadow, AClosedBoxIsDark)
@@ -623,7 +679,12 @@ TEST(SoftShadow, AnswersDoNotDependOnWhoElseAsks)
     const svo::ShadowRays exact(casters);
     const svo::SampleRays rays(casters);
     const svo::SoftShadow soft(scene.lights[0], rays, exact, 0, 16);
-    const svo::AmbientOcclusion around(rays, 1.0, 16);
+    const svo::HemisphereRays around(rays, 1.0, 0, 16);
+    const auto closed = [&](const svo::ShadowQuery& query, float* shares)
+    {
+      std::fill_n(shares, 64, 0.0f);
+      around.each(query, [&](int i, const glm::vec3&, float blocked) { shares[i] += blocked; });
+    };
     std::vector<svo::SurfaceMatrices> frames(scene.instances.begin(), scene.instances.end());
     const svo::DepthBuffer& depth = eye.hits().depth;
     svo::TilePatch patch;
@@ -647,7 +708,7 @@ TEST(SoftShadow, AnswersDoNotDependOnWhoElseAsks)
         float all[2][svo::TilePatch::Most], alone[svo::TilePatch::Most];
         const svo::ShadowQuery together{ patch, errors, nullptr, patch.mask, count };
         soft.test(together, all[0]);
-        around.test(together, all[1]);
+        closed(together, all[1]);
         svo::eachBit(patch.mask,
           [&](int i)
           {
@@ -655,7 +716,7 @@ TEST(SoftShadow, AnswersDoNotDependOnWhoElseAsks)
             soft.test(one, alone);
             different += alone[i] != all[0][i];
             partly += alone[i] > 0.0f && alone[i] < 1.0f;
-            around.test(one, alone);
+            closed(one, alone);
             different += alone[i] != all[1][i];
           });
       };

@@ -1,8 +1,7 @@
-#include "svoAmbientOcclusion.h"
+#include "svoHemisphereRays.h"
 
 #include "svoSampleDirections.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -19,19 +18,18 @@ double usualOcclusionDistance(const Scene& scene)
   return all.empty() ? 1.0 : 0.2 * glm::distance(all.low, all.high);
 }
 
-AmbientOcclusion::AmbientOcclusion(const SampleRays& rays, double distance, int samples)
+HemisphereRays::HemisphereRays(
+  const SampleRays& rays, double distance, unsigned stream, int samples)
   : Rays(rays)
   , Distance(distance)
+  , Stream(stream)
+  , Samples(firstPoints(samples))
 {
-  for (int i = 0; i < samples; ++i)
-  {
-    this->Samples.push_back(sequencePoint(static_cast<std::uint32_t>(i)));
-  }
 }
 
-void AmbientOcclusion::test(const ShadowQuery& query, float* closed) const
+void HemisphereRays::each(
+  const ShadowQuery& query, const std::function<void(int, const glm::vec3&, float)>& f) const
 {
-  constexpr unsigned Stream = ~0u; // no light's
   const TilePatch& patch = query.patch;
   SampleBatch batch;
   batch.own = patch.instance;
@@ -39,16 +37,16 @@ void AmbientOcclusion::test(const ShadowQuery& query, float* closed) const
   std::vector<Basis> bases;
   SquarePoint rotations[TilePatch::Most];
   int pixels[TilePatch::Most];
-  std::fill_n(closed, TilePatch::Most, 0.0f);
   eachBit(query.asked,
     [&](int i)
     {
       const glm::dvec3 position = patch.position(i);
-      rotations[batch.points] = pixelRotation(
-        static_cast<int>(std::floor(patch.x(i))), static_cast<int>(std::floor(patch.y(i))), Stream);
+      rotations[batch.points] = pixelRotation(static_cast<int>(std::floor(patch.x(i))),
+        static_cast<int>(std::floor(patch.y(i))), this->Stream);
       pixels[batch.points] = i;
       batch.addPoint(position, patch.facet(i));
-      bases.emplace_back(patch.facet(i));
+      const glm::vec3 normal = patch.normal(i), facet = patch.facet(i);
+      bases.emplace_back(glm::dot(normal, facet) > 0.0f ? normal : facet);
       box.add(position, glm::dvec3(query.errors.ray));
     });
   const auto trace = [&]
@@ -56,7 +54,7 @@ void AmbientOcclusion::test(const ShadowQuery& query, float* closed) const
     this->Rays.trace(this->way(box), query.errors.ray, batch);
     for (int ray = 0; ray < batch.rays; ++ray)
     {
-      closed[pixels[batch.point[ray]]] += batch.blocked[ray];
+      f(pixels[batch.point[ray]], batch.direction[ray], batch.blocked[ray]);
     }
     query.rays += static_cast<std::uint64_t>(batch.rays);
     batch.rays = 0;
@@ -69,14 +67,13 @@ void AmbientOcclusion::test(const ShadowQuery& query, float* closed) const
     }
     for (int i = 0; i < batch.points; ++i)
     {
-      batch.addRay(
-        i, cosineDirection(bases[i], sample + rotations[i]), static_cast<float>(this->Distance));
+      const glm::vec3 along = cosineDirection(bases[i], sample + rotations[i]);
+      if (glm::dot(along, batch.side[i]) > 0.0f)
+      {
+        batch.addRay(i, along, static_cast<float>(this->Distance));
+      }
     }
   }
   trace();
-  for (int i = 0; i < batch.points; ++i)
-  {
-    closed[pixels[i]] /= static_cast<float>(this->Samples.size());
-  }
 }
 }
