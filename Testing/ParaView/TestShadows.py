@@ -194,6 +194,39 @@ class TestShadows(unittest.TestCase):
         self.show("Surface", "Surface")
         self.assertLess(scene.differing(unlit, scene.picture(self.view, "light-off-surface")), 1e-3)
 
+    def test_lights_with_a_size(self):
+        """A light's own property; umbras stay, and beside them there is what was neither."""
+        self.show("SVO", "SVO")
+        hard = scene.picture(self.view, "size-0")
+        self.view.AdditionalLights[0].SVOSize = 12.0
+        soft = scene.picture(self.view, "size-12")
+        self.assertEqual(scene.statistic(self.view, "SVONumberOfLightSamples"), 32)
+        lighter = (hard[..., 0] < 5) & (soft[..., 0] > 20)
+        darker = (hard[..., 0] > 150) & (soft[..., 0] < hard[..., 0].astype(int) - 20)
+        for edge in (lighter, darker):
+            self.assertGreater(edge.sum(), 300)
+            self.assertLess(edge.sum(), 5000)
+        self.view.AdditionalLights[0].SVOSize = 0.0
+        self.assertEqual(scene.differing(hard, scene.picture(self.view, "size-0-again")), 0.0)
+
+    def test_ambient_occlusion_and_a_sky_need_no_light(self):
+        pv.RemoveLight(self.view.AdditionalLights[0])
+        self.show("SVO", "SVO")
+        plain = scene.picture(self.view, "no-light")
+        self.view.SVOAmbientOcclusion = 1
+        closed = scene.picture(self.view, "occlusion")
+        darker = plain[..., 0].astype(int) - closed[..., 0]
+        self.assertGreater(darker.max(), 60)  # below the ball
+        self.view.SVOAmbientOcclusion = 0
+        self.view.SVOSkyLight = 1
+        self.view.SVOSkyColor = [0.0, 0.0, 1.0]
+        self.view.SVOGroundColor = [0.0, 0.0, 0.0]
+        sky = scene.picture(self.view, "sky")
+        other = sky[(sky != plain).any(axis=2)]  # surfaces, without lights as bright as they can be
+        self.assertGreater(len(other), 10000)
+        self.assertEqual(numpy.median(other[:, :2]), 0)  # but for their outlines
+        self.assertGreater(other[:, 2].max(), 150)
+
     def test_large_picture_with_a_clear_background(self):
         self.show("SVO", "SVO")
         picture = scene.picture(self.view, "large", TransparentBackground=1,

@@ -410,7 +410,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   }
   CollectProps frame = settings;
   frame.shadows = (settings.shadows && casting) || settings.levels.frame.asksHemispheres();
-  frame.lights = !result.scene.lights.empty() || settings.levels.frame.skyLight;
+  frame.lights = !result.scene.lights.empty() || settings.levels.frame.asksHemispheres();
   frame.world = world;
   frame.notMarked = this->NotMarked.c_str();
   frame.complain = options.complain;
