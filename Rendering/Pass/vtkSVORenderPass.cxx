@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <set>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkSVORenderPass);
 
@@ -113,9 +114,12 @@ bool vtkSVORenderPass::Refine()
     return false; // by an observer of a frame
   }
   const vtkSmartPointer<vtkSVORenderPass> alive(this);
-  const auto left = [&]
+  // Of the renderers that are left; how many samples all have.
+  std::set<vtkSmartPointer<vtkRenderWindow>> windows;
+  const auto look = [&]
   {
-    std::set<vtkSmartPointer<vtkRenderWindow>> windows;
+    windows.clear();
+    int samples = 0;
     for (const auto& entry : impl.frames.states())
     {
       vtkRenderer* renderer = entry.second->renderer();
@@ -124,16 +128,20 @@ bool vtkSVORenderPass::Refine()
       {
         windows.insert(renderer->GetRenderWindow());
       }
+      samples += entry.second->samples();
     }
-    return windows;
+    return samples;
   };
+  const int before = look();
   impl.refining = true;
-  for (const vtkSmartPointer<vtkRenderWindow>& window : left())
+  for (const vtkSmartPointer<vtkRenderWindow>& window :
+    std::vector<vtkSmartPointer<vtkRenderWindow>>(windows.begin(), windows.end()))
   {
     window->Render();
   }
   impl.refining = false;
-  return !left().empty();
+  // While somebody interacts they stay as they are.
+  return look() > before && !windows.empty();
 }
 
 void vtkSVORenderPass::MeasureFrame(

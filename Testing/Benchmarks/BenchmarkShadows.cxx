@@ -60,25 +60,6 @@ struct ShadowRay
   int light;
 };
 
-vtkSmartPointer<vtkPolyData> polyData(const Mesh& mesh)
-{
-  auto result = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (const glm::dvec3& p : mesh.points)
-  {
-    points->InsertNextPoint(&p.x);
-  }
-  vtkNew<vtkCellArray> cells;
-  for (const glm::uvec3& t : mesh.triangles)
-  {
-    cells->InsertNextCell({ t.x, t.y, t.z });
-  }
-  result->SetPoints(points);
-  result->SetPolys(cells);
-  return result;
-}
-
 /// Suns over half of the sky, or lamps on a sphere of twice the mesh's size.
 std::vector<vtkSmartPointer<vtkLight>> lightsAround(
   const glm::dvec3& centre, double size, int count, bool lamps)

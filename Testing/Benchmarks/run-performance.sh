@@ -63,7 +63,7 @@ if [ -n "$against" ]; then
   cp -rp Testing/Benchmarks "$before/Testing"
   cat >"$before/Testing/CMakeLists.txt" <<'END'
 add_library(svoBenchmarkMesh STATIC Benchmarks/svoBenchmarkMesh.cxx)
-target_link_libraries(svoBenchmarkMesh PUBLIC SVO::SVOOctree PRIVATE PaperMeshes SVO::SVOCore)
+target_link_libraries(svoBenchmarkMesh PUBLIC SVO::SVOOctree VTK::CommonDataModel PRIVATE PaperMeshes SVO::SVOCore)
 add_subdirectory(Benchmarks/Results)
 add_subdirectory(Benchmarks/Performance)
 END

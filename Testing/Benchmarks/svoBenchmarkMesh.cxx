@@ -168,8 +168,9 @@ Mesh city(unsigned houses)
   return mesh;
 }
 
-int detailLevel(const Mesh& mesh)
+vtkSmartPointer<vtkPolyData> polyData(const Mesh& mesh)
 {
+  auto result = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   for (const glm::dvec3& p : mesh.points)
@@ -181,9 +182,13 @@ int detailLevel(const Mesh& mesh)
   {
     cells->InsertNextCell({ t.x, t.y, t.z });
   }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(cells);
-  return svo::detailLevel(data);
+  result->SetPoints(points);
+  result->SetPolys(cells);
+  return result;
+}
+
+int detailLevel(const Mesh& mesh)
+{
+  return svo::detailLevel(polyData(mesh));
 }
 }

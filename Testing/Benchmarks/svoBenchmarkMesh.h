@@ -4,6 +4,9 @@
 
 #include "svoBuild.h"
 
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
 #include <string>
 #include <vector>
 
@@ -40,6 +43,8 @@ Mesh bumpySphere(unsigned slices);
 Mesh ground();
 /// So many houses, 12 triangles each, on a ground of two; 1 along an edge.
 Mesh city(unsigned houses);
+
+vtkSmartPointer<vtkPolyData> polyData(const Mesh& mesh);
 
 /// svo::detailLevel(), which is what the pass builds where leaves are exact.
 int detailLevel(const Mesh& mesh);

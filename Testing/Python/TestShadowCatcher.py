@@ -8,45 +8,17 @@ import vtkmodules.vtkInteractionStyle
 import vtkmodules.vtkRenderingOpenGL2
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
-from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
-from vtkmodules.vtkRenderingCore import (
-    vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow)
+from vtkmodules.vtkRenderingCore import vtkActor, vtkLight
+import ball_on_ground
 from backend import new_pass, traced
 from vtksvo import vtkSVORenderPass
 
 SIZE = (300, 200)
 
 
-def actor_of(source):
-    mapper, actor = vtkPolyDataMapper(), vtkActor()
-    mapper.SetInputConnection(source.GetOutputPort())
-    actor.SetMapper(mapper)
-    return actor
-
-
 class TestShadowCatcher(unittest.TestCase):
     def setUp(self):
-        ball, ground = vtkSphereSource(), vtkPlaneSource()
-        ball.SetCenter(0.0, 0.0, 1.0)
-        ball.SetThetaResolution(64)
-        ball.SetPhiResolution(64)
-        ground.SetOrigin(-20.0, -20.0, 0.0)
-        ground.SetPoint1(20.0, -20.0, 0.0)
-        ground.SetPoint2(-20.0, 20.0, 0.0)
-        self.ball, self.ground = actor_of(ball), actor_of(ground)
-        self.renderer, self.window, self.svo = vtkRenderer(), vtkRenderWindow(), new_pass()
-        self.window.SetMultiSamples(0)
-        self.window.SetSize(*SIZE)
-        self.window.AddRenderer(self.renderer)
-        self.renderer.AddActor(self.ball)
-        self.renderer.AddActor(self.ground)
-        self.renderer.SetPass(self.svo)
-        camera = self.renderer.GetActiveCamera()
-        camera.SetPosition(5.0, -6.0, 5.0)
-        camera.SetFocalPoint(0.0, 0.0, 0.5)
-        camera.SetViewUp(0.0, 0.0, 1.0)
-        camera.SetViewAngle(25.0)
-        self.renderer.ResetCameraClippingRange()
+        ball_on_ground.build(self, SIZE, new_pass())
         vtkSVORenderPass.SetUseSVO(False, self.ground)  # so that nothing but the look differs
         self.add_light((3.0, -2.0, 5.0), (0.5, 0.5, 0.5))  # no sum of lights may exceed 1
 

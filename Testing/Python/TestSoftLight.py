@@ -8,48 +8,20 @@ import vtkmodules.vtkRenderingOpenGL2
 import vtkmodules.vtkRenderingUI
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow, vtkUnsignedCharArray
-from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
-from vtkmodules.vtkRenderingCore import (
-    vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor)
+from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderWindowInteractor
+import ball_on_ground
 from vtksvo import vtkSVORenderPass
 
 SIZE = (160, 120)
 SIZE_OF_LIGHT = 1.0
 
 
-def actor_of(source):
-    mapper, actor = vtkPolyDataMapper(), vtkActor()
-    mapper.SetInputConnection(source.GetOutputPort())
-    actor.SetMapper(mapper)
-    return actor
-
-
 class TestSoftLight(unittest.TestCase):
     def setUp(self):
-        ball, ground = vtkSphereSource(), vtkPlaneSource()
-        ball.SetCenter(0.0, 0.0, 1.0)
-        ball.SetThetaResolution(64)
-        ball.SetPhiResolution(64)
-        ground.SetOrigin(-20.0, -20.0, 0.0)
-        ground.SetPoint1(20.0, -20.0, 0.0)
-        ground.SetPoint2(-20.0, 20.0, 0.0)
-        self.ball, self.ground = actor_of(ball), actor_of(ground)
-        self.renderer, self.window, self.svo = vtkRenderer(), vtkRenderWindow(), vtkSVORenderPass()
+        ball_on_ground.build(self, SIZE, vtkSVORenderPass())
         self.svo.SetBackendToCPU()
         self.window.SetOffScreenRendering(True)
-        self.window.SetMultiSamples(0)
-        self.window.SetSize(*SIZE)
-        self.window.AddRenderer(self.renderer)
-        self.renderer.AddActor(self.ball)
-        self.renderer.AddActor(self.ground)
-        self.renderer.SetPass(self.svo)
         self.renderer.AutomaticLightCreationOff()
-        camera = self.renderer.GetActiveCamera()
-        camera.SetPosition(5.0, -6.0, 5.0)
-        camera.SetFocalPoint(0.0, 0.0, 0.5)
-        camera.SetViewUp(0.0, 0.0, 1.0)
-        camera.SetViewAngle(25.0)
-        self.renderer.ResetCameraClippingRange()
         self.light = vtkLight()
         self.light.SetLightTypeToSceneLight()
         self.light.SetPosition(3.0, -2.0, 5.0)
@@ -127,6 +99,21 @@ class TestSoftLight(unittest.TestCase):
         self.assertFalse((few == straight).all())
         self.assertTrue((self.shown() == straight).all())
         self.assertFalse(self.svo.Refine())
+        # While somebody interacts it stays at what it is, and nothing is said to go on.
+        self.ball.SetPosition(0.5, 0.0, 0.0)
+        self.window.SetDesiredUpdateRate(10.0)
+        self.picture()
+        self.assertFalse(self.svo.Refine())
+        self.assertEqual(self.svo.GetNumberOfLightSamples(), 4)
+        self.window.SetDesiredUpdateRate(0.0001)
+        self.assertTrue(self.svo.Refine())
+        self.renderer.RemoveAllViewProps()
+        self.window.Render()
+        self.assertFalse(self.svo.Refine())  # nothing is left to be seen
+        self.renderer.AddActor(self.ball)
+        self.renderer.AddActor(self.ground)
+        self.ball.SetPosition(0.0, 0.0, 0.0)
+        self.assertTrue((self.picture() == straight).all())
         # What is refined stays, whoever asks for a frame.
         self.window.SetDesiredUpdateRate(10.0)
         self.assertTrue((self.picture() == straight).all())

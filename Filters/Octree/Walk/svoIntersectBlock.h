@@ -46,7 +46,8 @@ struct OcclusionAnswers
 {
   static constexpr int Words = OcclusionRays::Most / 64;
   std::uint64_t met[Words]{};
-  std::uint64_t unknown[Words]{}; // they came to bricks that are not met triangle by triangle
+  std::uint64_t unknown[Words]{};    // they came to bricks that are not met triangle by triangle
+  Primitive by[OcclusionRays::Most]; // of those that meet something
 };
 
 /// The hits of a block while it is traced, and what LeafHit keeps besides.

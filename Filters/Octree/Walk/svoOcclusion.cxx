@@ -35,10 +35,10 @@ void traceOcclusion(const LeafQuery& query, const WalkTarget& target, const Occl
     ClippedRay<float> ray;
     const glm::vec3 origin(rays.originX[i], rays.originY[i], rays.originZ[i]);
     const glm::vec3 direction(rays.directionX[i], rays.directionY[i], rays.directionZ[i]);
-    if (clip(query.octree, origin, direction, 0.0f, rays.tMax[i], ray) &&
-      intersectLeaves(query, ray, true).primitive != NoPrimitive)
+    if (clip(query.octree, origin, direction, 0.0f, rays.tMax[i], ray))
     {
-      answers.met[i / 64] |= std::uint64_t(1) << i % 64;
+      answers.by[i] = intersectLeaves(query, ray, true).primitive;
+      answers.met[i / 64] |= std::uint64_t(answers.by[i] != NoPrimitive) << i % 64;
     }
   }
 #endif
@@ -69,8 +69,8 @@ RayBlock blockOf(const OcclusionRays& rays, int first)
   return block;
 }
 
-void occluded(
-  const Octree& octree, const OcclusionRays& rays, const TraceOptions& options, std::uint64_t* met)
+void occluded(const Octree& octree, const OcclusionRays& rays, const TraceOptions& options,
+  std::uint64_t* met, Primitive* by)
 {
   assert(rays.count >= 0 && rays.count <= OcclusionRays::Most);
   const int words = (rays.count + 63) / 64;
@@ -102,11 +102,19 @@ void occluded(
       intersect(octree, block, options, hits);
       for (int i = 0; i < RayBlock::Size; ++i)
       {
-        answers.met[word] |= std::uint64_t(hits.primitive[i] != NoPrimitive) << i;
+        if (hits.primitive[i] != NoPrimitive)
+        {
+          answers.met[word] |= std::uint64_t(1) << i;
+          answers.by[64 * word + i] = hits.primitive[i];
+        }
       }
     }
   }
   std::copy_n(answers.met, words, met);
+  if (by)
+  {
+    std::copy_n(answers.by, rays.count, by);
+  }
 }
 }
 #endif

@@ -44,21 +44,7 @@ public:
   /// Puts the next rays into these lanes of a packet, or dead ones where there are no more.
   HWY_INLINE void take(Packet& p, Lanes lanes)
   {
-    const DF df;
-    const DI di;
-    const DU du;
-    const auto bits = static_cast<std::uint32_t>(bitsOf(di, lanes));
-    const U before = hn::Sub(hn::Shl(hn::Set(du, 1), hn::Iota(du, 0)), hn::Set(du, 1));
-    const I place = hn::BitCast(di, countBoth(hn::And(hn::Set(du, bits), before), hn::Zero(du)));
-    const auto index = hn::IndicesFromVec(df, place);
-    forEachPart(p,
-      [&](int k, auto& part)
-      {
-        const hn::DFromV<std::decay_t<decltype(part)>> d;
-        const F fresh = hn::TableLookupLanes(hn::LoadU(df, this->parts[k] + this->next), index);
-        part = hn::IfThenElse(hn::RebindMask(d, lanes), hn::BitCast(d, fresh), part);
-      });
-    this->next = std::min(this->next + countBits(bits), this->end);
+    this->next = std::min(this->next + takeRays(this->parts, this->next, p, lanes), this->end);
     if (this->end - this->next < Width)
     {
       this->more();

@@ -81,8 +81,8 @@ struct alignas(64) OcclusionRay
   float tMin, tMax;
   std::int32_t axis; // that it goes along most
 
-  /// Whether it meets any of the first `count` triangles.
-  HWY_INLINE bool meets(const FetchedTriangles::Part& part, int count) const
+  /// One of the first `count` triangles that it meets; -1 if there is none.
+  HWY_INLINE int meets(const FetchedTriangles::Part& part, int count) const
   {
     const DF df;
     const F zero = hn::Zero(df);
@@ -110,13 +110,13 @@ struct alignas(64) OcclusionRay
       hn::And(hn::FirstN(df, count), hn::AndNot(outside, hn::Ne(determinant, zero)));
     if (hn::AllFalse(df, inside))
     {
-      return false;
+      return -1;
     }
     const F height = hn::Add(hn::Add(hn::Mul(u, z[0]), hn::Mul(v, z[1])), hn::Mul(w, z[2]));
     const F t = hn::Div(hn::Mul(height, hn::Set(df, this->shear[2])), determinant);
     const auto within =
       hn::And(hn::Ge(t, hn::Set(df, this->tMin)), hn::Le(t, hn::Set(df, this->tMax)));
-    return !hn::AllFalse(df, hn::And(inside, within));
+    return static_cast<int>(hn::FindFirstTrue(df, hn::And(inside, within)));
   }
 };
 

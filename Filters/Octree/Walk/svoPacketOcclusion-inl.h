@@ -128,9 +128,11 @@ private:
     for (; count > 0; count -= Width, list += Width)
     {
       const int some = std::min(count, Width);
-      if (this->supply[ray].meets(this->fetched.get(this->target, list, some), some))
+      const int met = this->supply[ray].meets(this->fetched.get(this->target, list, some), some);
+      if (met >= 0)
       {
         this->answers.met[ray / 64] |= bit;
+        this->answers.by[ray] = words[list + static_cast<std::uint32_t>(met)] & ~InlineTriangle;
         return true;
       }
     }

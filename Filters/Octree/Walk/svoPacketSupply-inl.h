@@ -56,6 +56,28 @@ HWY_INLINE void forEachPart(Packet& p, const Visit& visit)
   p.dead = hn::Lt(dead, hn::Zero(di));
 }
 
+/// Puts rays that lie side by side, part by part, into these lanes of a packet: each lane takes the
+/// ray behind those of the lanes before it. Returns how many.
+template <int Room>
+HWY_INLINE int takeRays(const float (&parts)[PacketParts][Room], int next, Packet& p, Lanes lanes)
+{
+  const DF df;
+  const DI di;
+  const DU du;
+  const auto bits = static_cast<std::uint32_t>(bitsOf(di, lanes));
+  const U before = hn::Sub(hn::Shl(hn::Set(du, 1), hn::Iota(du, 0)), hn::Set(du, 1));
+  const I place = hn::BitCast(di, countBoth(hn::And(hn::Set(du, bits), before), hn::Zero(du)));
+  const auto index = hn::IndicesFromVec(df, place);
+  forEachPart(p,
+    [&](int k, auto& part)
+    {
+      const hn::DFromV<std::decay_t<decltype(part)>> d;
+      const F fresh = hn::TableLookupLanes(hn::LoadU(df, parts[k] + next), index);
+      part = hn::IfThenElse(hn::RebindMask(d, lanes), hn::BitCast(d, fresh), part);
+    });
+  return countBits(bits);
+}
+
 /// The rays of a block from one on, each ready to walk.
 struct RaySupply
 {
@@ -80,23 +102,8 @@ struct RaySupply
   /// Puts the next rays into these lanes of a packet.
   HWY_INLINE void take(Packet& p, Lanes lanes)
   {
-    const DF df;
-    const DI di;
-    const DU du;
     assert(!this->empty());
-    // Each lane takes the ray behind those of the lanes before it.
-    const auto bits = static_cast<std::uint32_t>(bitsOf(di, lanes));
-    const U before = hn::Sub(hn::Shl(hn::Set(du, 1), hn::Iota(du, 0)), hn::Set(du, 1));
-    const I place = hn::BitCast(di, countBoth(hn::And(hn::Set(du, bits), before), hn::Zero(du)));
-    const auto index = hn::IndicesFromVec(df, place);
-    forEachPart(p,
-      [&](int k, auto& part)
-      {
-        const hn::DFromV<std::decay_t<decltype(part)>> d;
-        const F fresh = hn::TableLookupLanes(hn::LoadU(df, this->parts[k] + this->next), index);
-        part = hn::IfThenElse(hn::RebindMask(d, lanes), hn::BitCast(d, fresh), part);
-      });
-    this->next += static_cast<int>(hn::CountTrue(di, lanes));
+    this->next += takeRays(this->parts, this->next, p, lanes);
   }
 
 private:

@@ -2,6 +2,7 @@
 
 #include "svoIntersect.h"
 #include "svoLocalRay.h"
+#include "svoOcclusion.h"
 #include "svoShadowBeam.h"
 #include "svoTriangle.h"
 
@@ -92,52 +93,45 @@ std::uint64_t ShadowCasters::block(
   const Caster& caster, const Light& light, const Start* starts, int count)
 {
   std::uint64_t dark = 0;
-  RayBlock rays;
-  LocalRay locals[RayBlock::Size];
-  int ofRay[RayBlock::Size];
-  int begun = 0;
+  OcclusionRays rays;
+  LocalRay locals[BeamPoints::Most];
+  int ofRay[BeamPoints::Most];
   const double end = light.atInfinity() ? 1e300 : BeforeLight;
   for (int i = 0; i < count; ++i)
   {
     const Ray ray{ caster.toOctree.point(starts[i].at),
       caster.toOctree.vector(-light.along(starts[i].at)), 0.0, end };
-    LocalRay& local = locals[begun];
+    LocalRay& local = locals[rays.count];
     if (prepareRay(caster.octree, ray, local))
     {
-      rays.aim(begun, local.ray.origin, local.ray.direction);
-      rays.tMin[begun] = 0.0f;
-      rays.tMax[begun] = static_cast<float>(local.ray.tMax);
-      ofRay[begun++] = i;
+      ofRay[rays.count] = i;
+      rays.add(glm::vec3(local.ray.origin), glm::vec3(local.ray.direction),
+        static_cast<float>(local.ray.tMax));
     }
   }
-  if (begun == 0)
+  std::uint64_t met;
+  Primitive by[OcclusionRays::Most];
+  if (rays.count == 0)
   {
     return 0;
   }
-  for (int i = begun; i < RayBlock::Size; ++i)
-  {
-    rays.aim(i, glm::vec3(1.5f), glm::vec3(1.0f));
-    rays.tMin[i] = 1.0f;
-    rays.tMax[i] = 0.0f;
-  }
-  HitBlock hits;
-  intersect(caster.octree, rays, { LeafGeometry::Triangle, MaximumLevel }, hits);
+  occluded(caster.octree, rays, { LeafGeometry::Triangle, MaximumLevel }, &met, by);
   const Surface& surface = *caster.octree.surface();
-  for (int i = 0; i < begun; ++i)
+  for (int i = 0; i < rays.count; ++i)
   {
-    if (hits.primitive[i] != NoPrimitive)
+    if (met >> i & 1)
     {
       // What floats say is dark has to be so in double; else, as where a ray starts on its own
       // surface, the ray alone knows.
       const Start& start = starts[ofRay[i]];
       const ClippedRay<double>& ray = locals[i].ray;
-      const glm::uvec3 triangle = surface.triangles[hits.primitive[i]];
+      const glm::uvec3 triangle = surface.triangles[by[i]];
       double t;
-      const bool met =
+      const bool sure =
         intersectTriangle(ShearedRay<double>(ray.origin, ray.direction), surface.points[triangle.x],
           surface.points[triangle.y], surface.points[triangle.z], t) &&
-        t >= 0.0 && t <= ray.tMax && !skips(caster, start.own, hits.primitive[i]);
-      dark |= std::uint64_t(met || ShadowCasters::ray(caster, light, start)) << start.number;
+        t >= 0.0 && t <= ray.tMax && !skips(caster, start.own, by[i]);
+      dark |= std::uint64_t(sure || ShadowCasters::ray(caster, light, start)) << start.number;
     }
   }
   return dark;
@@ -167,7 +161,7 @@ std::uint64_t ShadowCasters::beam(
   ShadowBeam::Answer answers[BeamPoints::Most];
   Primitive nearest[BeamPoints::Most];
   // A beam that sees more is slower than its rays side by side, whatever they lie on.
-  constexpr std::size_t MostNodes = 64;
+  constexpr std::size_t MostNodes = 24;
   if (!ShadowBeam(caster.octree, from, far).trace(points, answers, nearest, MostNodes))
   {
     return block(caster, light, starts, count);

@@ -106,7 +106,7 @@ public:
   bool refined(int most, double error) const
   {
     const FrameStatistics& frame = this->Trace->statistics();
-    return frame.lightSamples == 0 || frame.lightSamples >= most ||
+    return !this->HasPicture || frame.lightSamples == 0 || frame.lightSamples >= most ||
       (frame.lightError >= 0.0 && frame.lightError <= error);
   }
 

@@ -47,7 +47,7 @@ struct Light
   double spread() const
   {
     constexpr double HalfDegree = 0.5 * 3.14159265358979323846 / 180.0;
-    return this->atInfinity() ? std::tan(this->size * HalfDegree) : 0.0;
+    return this->atInfinity() && this->soft() ? std::tan(this->size * HalfDegree) : 0.0;
   }
   bool hasCone() const { return this->kind == Kind::Spot; }
   /// The way to `x`, world, that the light's ray goes; unit only from infinity.

@@ -64,6 +64,8 @@ struct CPUTracer::Internals
   KeptTiles Shaded;               // by tile of the eye
   std::vector<CasterBox> Casters; // by index into Scene::instances
   int Samples = 0;                // of lights, in the picture
+  std::uint64_t UsualOf = 0;      // the scene's version whose ...
+  double UsualDistance = 0.0;     // usualOcclusionDistance() this is
   bool ViewsAreTraced = true;     // of this frame; else they were not needed
   bool SharesBuffers = false;     // shadow buffers are traced, for all processes
   double SharingTime = 0.0;       // s, that took
@@ -209,14 +211,18 @@ void CPUTracer::Internals::findDarkenedTiles(
     });
   const auto mayCross = [&](const PointBox& starts)
   {
-    return !starts.empty() &&
-      std::any_of(boxes.begin(), boxes.end(),
-        [&](const CasterBox& box)
-        {
-          return shadows.mayReach(box, starts) ||
-            std::any_of(scene.lights.begin(), scene.lights.end(),
-              [&](const Light& light) { return light.castShadow && box.mayBlock(light, starts); });
-        });
+    const auto anyOn = [&](const BoxWay& way)
+    {
+      return std::any_of(
+        boxes.begin(), boxes.end(), [&](const CasterBox& box) { return box.mayMeet(way); });
+    };
+    const auto around = [&](const HemisphereRays* rays)
+    { return rays && anyOn(rays->way(starts)); };
+    return !starts.empty() && !boxes.empty() &&
+      (around(shadows.occlusion()) || around(shadows.sky()) ||
+        std::any_of(scene.lights.begin(), scene.lights.end(),
+          [&](const Light& light)
+          { return light.castShadow && anyOn(wayToLight(light, starts)); }));
   };
   const std::vector<std::uint32_t>& hits = this->Tiles.hits();
   parallelFor(0, hits.size(), 512,
@@ -332,7 +338,12 @@ void CPUTracer::render(
   FrameSettings settings = asked;
   if (settings.ambientOcclusion && settings.ambientOcclusionDistance <= 0.0)
   {
-    settings.ambientOcclusionDistance = usualOcclusionDistance(scene);
+    if (scene.version == 0 || scene.version != self.UsualOf)
+    {
+      self.UsualDistance = usualOcclusionDistance(scene);
+      self.UsualOf = scene.version;
+    }
+    settings.ambientOcclusionDistance = self.UsualDistance;
   }
   Frame& frame = self.Picture;
   PhaseClock clock;

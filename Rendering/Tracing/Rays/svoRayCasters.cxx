@@ -32,7 +32,8 @@ RayCasters::RayCasters(const Scene& scene, const Hits& eye, const LooseOctree* t
       const WorldToOctree toOctree(octree, instance.localToWorld);
       casters.push_back({ &instance, index, geometry, toOctree, planeError,
         std::max(planeError, worldLeafError(instance, geometry, octree.level())), exact && !mixed,
-        CasterBox(instance, toOctree.inverse) });
+        CasterBox(instance, toOctree.inverse),
+        instance.mappedOpacity ? SurfaceMatrices(instance) : SurfaceMatrices() });
     }
   }
 }
@@ -52,8 +53,8 @@ float opacityMet(
   const Hit hit = intersect(instance.body->octree, { localEnd + from * local, -local, 0.0, from },
     { caster.geometry, MaximumLevel });
   return hit ? instance.opacity *
-      surfaceAlpha(SurfaceMatrices(instance), end + (from - hit.t) * towards,
-        glm::vec3(glm::normalize(towards)), hit.primitive)
+      surfaceAlpha(caster.frame, end + (from - hit.t) * towards, glm::vec3(glm::normalize(towards)),
+        hit.primitive)
              : 0.0f;
 }
 }

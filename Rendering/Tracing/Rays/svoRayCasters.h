@@ -6,6 +6,7 @@
 #include "svoHits.h"
 #include "svoLooseOctree.h"
 #include "svoScene.h"
+#include "svoSurfacePoint.h"
 #include "svoWorldToOctree.h"
 #include "vtkSVOTracingModule.h"
 
@@ -27,6 +28,7 @@ struct RayCaster
   double leafError;  // world; how far any leaf can be off
   bool beams;        // all leaves are triangles
   CasterBox box;
+  SurfaceMatrices frame; // where its opacity is mapped
 };
 
 /// How opaque the caster is where light meets it first that comes to `end` from `length` times

@@ -51,7 +51,6 @@ public:
   void add(int ray)
   {
     const int from = this->Batch.point[ray];
-    const int n = this->Rays.count++;
     glm::dvec3 at = this->Start[from];
     const glm::vec3 along = this->Turn * this->Batch.direction[ray];
     double length = this->Scale * this->Batch.length[ray];
@@ -64,15 +63,8 @@ public:
       at += std::max(ahead, 0.0) * d;
       length -= std::max(ahead, 0.0);
     }
-    const glm::vec3 origin(at);
-    this->Rays.originX[n] = origin.x;
-    this->Rays.originY[n] = origin.y;
-    this->Rays.originZ[n] = origin.z;
-    this->Rays.directionX[n] = along.x;
-    this->Rays.directionY[n] = along.y;
-    this->Rays.directionZ[n] = along.z;
-    this->Rays.tMax[n] = static_cast<float>(std::min(length, 1e30));
-    this->Number[n] = static_cast<std::uint16_t>(ray);
+    this->Number[this->Rays.count] = static_cast<std::uint16_t>(ray);
+    this->Rays.add(glm::vec3(at), along, static_cast<float>(std::min(length, 1e30)));
   }
 
   /// Calls f(ray) for those that meet something.

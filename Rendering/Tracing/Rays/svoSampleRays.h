@@ -49,8 +49,6 @@ struct SampleBatch
     this->direction[this->rays] = along;
     this->length[this->rays++] = reach;
   }
-  /// Begins another one.
-  void clear() { this->points = this->rays = 0; }
 };
 
 class VTKSVOTRACING_EXPORT SampleRays

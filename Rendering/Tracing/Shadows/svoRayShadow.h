@@ -59,7 +59,7 @@ public:
     noteRaisedStart(query, at, rays);
   }
 
-private:
+protected:
   const Light& Source;
   const ShadowRays& Rays;
 };

@@ -110,7 +110,7 @@ void Shadows::prepareAnswers(const Scene& scene, const Hits& eye, const FrameSet
     if (this->byRays(l) && light.soft())
     {
       this->OfLights.push_back(std::make_unique<SoftShadow>(
-        light, *this->Samplers, *this->Rays, static_cast<unsigned>(l), settings.lightSamples));
+        light, *this->Rays, *this->Samplers, static_cast<unsigned>(l), settings.lightSamples));
     }
     else if (this->byRays(l))
     {

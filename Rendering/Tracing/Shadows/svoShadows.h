@@ -78,12 +78,6 @@ public:
   /// Of ambient occlusion, and of a sky's light; null where none was asked for.
   const HemisphereRays* occlusion() const { return this->Occlusion.get(); }
   const HemisphereRays* sky() const { return this->Sky.get(); }
-  /// True if that may be another one at points of a box where the caster has changed.
-  bool mayReach(const CasterBox& caster, const PointBox& starts) const
-  {
-    return (this->Occlusion && caster.mayMeet(this->Occlusion->way(starts))) ||
-      (this->Sky && caster.mayMeet(this->Sky->way(starts)));
-  }
   /// True if some of them ask for ShadowQuery::extents.
   bool filters() const { return this->Filters; }
 

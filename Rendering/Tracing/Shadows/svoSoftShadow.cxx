@@ -17,10 +17,9 @@ struct SoftShadow::Asker
 };
 
 SoftShadow::SoftShadow(
-  const Light& light, const SampleRays& rays, const ShadowRays& exact, unsigned stream, int samples)
-  : Source(light)
-  , Rays(rays)
-  , Exact(exact)
+  const Light& light, const ShadowRays& exact, const SampleRays& rays, unsigned stream, int samples)
+  : RayShadow(light, exact)
+  , Sampler(rays)
   , Stream(stream)
   , Samples(firstPoints(samples))
 {
@@ -50,7 +49,7 @@ void SoftShadow::ask(const ShadowQuery& query, const Asker* askers, int count, f
   }
   const auto trace = [&](SampleBatch& batch)
   {
-    this->Rays.trace(wayToLight(this->Source, box), query.errors.ray, batch);
+    this->Sampler.trace(wayToLight(this->Source, box), query.errors.ray, batch);
     for (int ray = 0; ray < batch.rays; ++ray)
     {
       Cone& cone = cones[batch.point[ray]];
@@ -86,8 +85,9 @@ void SoftShadow::ask(const ShadowQuery& query, const Asker* askers, int count, f
   for (int i = 0; i < count; ++i)
   {
     const Asker& asker = askers[i];
+    // Where no sample is above the facet, the exact ray to the light's middle says.
     missed[asker.pixel] = cones[i].seen > 0 ? cones[i].lost / static_cast<float>(cones[i].seen)
-                                            : static_cast<float>(this->Exact.shadows(this->Source,
+                                            : static_cast<float>(this->Rays.shadows(this->Source,
                                                 asker.position, asker.facet, query.errors.ray));
   }
 }
@@ -126,16 +126,5 @@ void SoftShadow::testTerminator(
     }
   }
   this->ask(query, askers, count, missed);
-}
-
-void SoftShadow::noteRays(const ShadowQuery& query, PointBox& rays) const
-{
-  noteRayStarts(query, rays);
-}
-
-void SoftShadow::noteTerminator(
-  const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays, RaisedTiles&) const
-{
-  noteRaisedStart(query, at, rays);
 }
 }

@@ -2,10 +2,9 @@
 #ifndef svoSoftShadow_h
 #define svoSoftShadow_h
 
-#include "svoLightShadow.h"
+#include "svoRayShadow.h"
 #include "svoSampleRays.h"
 #include "svoSampleSequence.h"
-#include "svoShadowRays.h"
 #include "vtkSVOTracingModule.h"
 
 #include <cstdint>
@@ -13,31 +12,26 @@
 
 namespace svo
 {
-/// The light and the rays are borrowed, for a frame. Samples of the light that lie below a point's
+/// The light and all rays are borrowed, for a frame. Samples of the light that lie below a point's
 /// own facet do not count, so a surface without casters is lit as by a point. Translucent casters
 /// are among what test() finds.
-class VTKSVOTRACING_EXPORT SoftShadow : public LightShadow
+class VTKSVOTRACING_EXPORT SoftShadow : public RayShadow
 {
 public:
   /// `stream`: of pixelRotation(). `samples`: to each point, at least 1.
-  SoftShadow(const Light& light, const SampleRays& rays, const ShadowRays& exact, unsigned stream,
+  SoftShadow(const Light& light, const ShadowRays& exact, const SampleRays& rays, unsigned stream,
     int samples);
 
   std::uint64_t test(const ShadowQuery& query, float* missed) const override;
-  bool knowsTerminator() const override { return true; }
+  bool dims() const override { return false; }
   void testTerminator(const ShadowQuery& query, const std::vector<TerminatorPoint>& points,
     float* missed) const override;
-  void noteRays(const ShadowQuery& query, PointBox& rays) const override;
-  void noteTerminator(const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays,
-    RaisedTiles&) const override;
 
 private:
   struct Asker;
   void ask(const ShadowQuery& query, const Asker* askers, int count, float* missed) const;
 
-  const Light& Source;
-  const SampleRays& Rays;
-  const ShadowRays& Exact; // of points that see none of the samples above their facet
+  const SampleRays& Sampler;
   const unsigned Stream;
   std::vector<SquarePoint> Samples;
 };

@@ -5,8 +5,10 @@
 #include "svoIntersect.h"
 #include "svoLeafTraits.h"
 #include "svoOcclusion.h"
+#include "svoSurface.h"
 #include "svoTestFields.h"
 #include "svoTestScenes.h"
+#include "svoTriangle.h"
 
 #include <gtest/gtest.h>
 
@@ -187,6 +189,43 @@ TEST(Occlusion, AnswersAreThoseOfTheBlockQueriesOnEveryInstructionSet)
       std::size_t k = 0;
       forEach([&](const Octree& octree, const OcclusionRays& rays, const TraceOptions& options)
         { expectSame(expected[k++], ask(octree, rays, options), rays.count); });
+    });
+}
+
+TEST(Occlusion, WhatIsMetIsNamed)
+{
+  svotest::onEveryInstructionSet(
+    [&]
+    {
+      int met = 0, others = 0;
+      for (const Octree& octree : meshes())
+      {
+        const Surface& surface = *octree.surface();
+        for (unsigned seed = 0; seed < 20; ++seed)
+        {
+          const auto rays = randomRays(octree, OcclusionRays::Most, seed);
+          Words words;
+          std::vector<Primitive> by(rays->count, NoPrimitive);
+          occluded(
+            octree, *rays, { LeafGeometry::Triangle, MaximumLevel }, words.data(), by.data());
+          for (int i = 0; i < rays->count; ++i)
+          {
+            if (metBy(words, i))
+            {
+              const Ray ray = getRay(*rays, i);
+              ASSERT_LT(by[i], surface.triangles.size());
+              const glm::uvec3 t = surface.triangles[by[i]];
+              double at;
+              ++met;
+              others += !(intersectTriangle(ShearedRay<double>(ray.origin, ray.direction),
+                            surface.points[t.x], surface.points[t.y], surface.points[t.z], at) &&
+                at >= 0.0 && at <= ray.tMax);
+            }
+          }
+        }
+      }
+      EXPECT_GT(met, 10000);
+      EXPECT_LE(others, met / 20000); // that graze an edge, or end on a triangle
     });
 }
 

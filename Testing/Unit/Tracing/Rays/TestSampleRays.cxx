@@ -116,7 +116,7 @@ glm::vec3 anyDirection(std::mt19937& random)
 svo::BoxWay fill(
   std::mt19937& random, const svo::Scene& scene, svo::SampleBatch& batch, double reach)
 {
-  batch.clear();
+  batch.points = batch.rays = 0;
   const glm::dvec3 middle = anywhere(random, 4.5);
   svo::PointBox box;
   for (int i = 0; i < svo::SampleBatch::MostPoints; ++i)
@@ -214,7 +214,7 @@ TEST(SampleRays, CastersFarAwayAreMetExactly)
   int blocked = 0, unexplained = 0;
   for (int round = 0; round < 20; ++round)
   {
-    batch->clear();
+    batch->points = batch->rays = 0;
     const glm::dvec3 at = glm::dvec3(3, 4, 5) + 10.0 * glm::dvec3(anyDirection(random));
     const int point = batch->addPoint(at, anyDirection(random));
     for (int ray = 0; ray < svo::SampleBatch::MostRays; ++ray)

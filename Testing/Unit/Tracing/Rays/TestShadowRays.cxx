@@ -1,4 +1,5 @@
 // Exact shadows of a tile's points, asked for together, against rays alone.
+#include "svoEyeHits.h"
 #include "svoIntersect.h"
 #include "svoLayeredView.h"
 #include "svoLeafError.h"
@@ -98,12 +99,7 @@ void expectListAlike(const svo::ShadowRays& rays, const svo::Light& light,
 Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& light)
 {
   svo::LayeredView eye;
-  svo::LayerBudget budget{ 1 << 30, 0 };
-  eye.prepare(
-    scene, view, [](const svo::Instance&) { return true; },
-    [](const svo::Instance& instance, const svo::LocalView&)
-    { return instance.body->octree.level(); },
-    false, budget);
+  prepareEye(eye, scene, view);
   eye.trace(svo::serialFor, nullptr);
   const svo::RayCasters casters(scene, eye.hits());
   const svo::ShadowRays rays(casters);
@@ -218,12 +214,7 @@ TEST(ShadowRays, CastersThatAreLeftOutAreNotMet)
   const svo::Scene& scene = objects.scene;
   const svo::View view = lookAt({ 3, -5, 3 }, 16, 16);
   svo::LayeredView eye;
-  svo::LayerBudget budget{ 1 << 30, 0 };
-  eye.prepare(
-    scene, view, [](const svo::Instance&) { return true; },
-    [](const svo::Instance& instance, const svo::LocalView&)
-    { return instance.body->octree.level(); },
-    false, budget);
+  prepareEye(eye, scene, view);
   const svo::RayCasters casters(scene, eye.hits());
   const svo::ShadowRays rays(casters);
   // Through every caster, wherever it is.

@@ -1,5 +1,4 @@
-// Shadows of lights with a size, and ambient occlusion, against closed forms, energy, and rays in
-// double.
+// Shadows of lights with a size against closed forms, energy, and rays in double.
 #include "svoEyeHits.h"
 #include "svoHemisphereRays.h"
 #include "svoLeafError.h"
@@ -26,22 +25,10 @@ using namespace svotest;
 
 namespace
 {
-/// The bar of closed forms at 1024 samples, of full light: of the error's RMS over pixels. A
-/// straight edge passes at most 64 of the 32 x 32 cells with one sample each, whose answers are off
-/// by half a sample in the mean square at most: 8 halves of 1024 samples, 0.0039. Of a few hundred
-/// pixels the worst is off by 3.5 times as much.
-constexpr double Bar = 0.005, WorstPixel = 3.5 * 0.0039;
-constexpr double Unlimited = 1e20;
-
 /// A share of so many samples in float: each adds a rounding of a sum up to 1.
 double rounding(int samples)
 {
   return 6e-8 * samples;
-}
-
-svo::Instance caster(const Mesh& mesh, const glm::dmat4& place = glm::dmat4(1.0), int level = 4)
-{
-  return instanceOf(makeOctree(mesh, level), 0, place);
 }
 
 /// Where the half plane lies from its edge.
@@ -55,29 +42,6 @@ svo::Instance halfPlane(double angle)
 {
   return caster(
     square(20.0), glm::rotate(glm::dmat4(1.0), angle, glm::dvec3(0, 0, 1)) * movedTo(20, 0, 1));
-}
-
-/// A vertical wall at x, from the plane up to `height`, and `length` to both sides.
-svo::Instance wall(double x, double height, double length)
-{
-  Mesh mesh;
-  mesh.points = { { x, -length, 0 }, { x, length, 0 }, { x, length, height },
-    { x, -length, height } };
-  mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
-  return caster(mesh);
-}
-
-/// A box with walls, floor and lid from (-1, -1, -0.5) to (1, 1, 2).
-Mesh closedBox()
-{
-  Mesh mesh;
-  for (int i = 0; i < 8; ++i)
-  {
-    mesh.points.push_back({ i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 2.0 : -0.5 });
-  }
-  mesh.triangles = { { 0, 2, 1 }, { 1, 2, 3 }, { 4, 5, 6 }, { 5, 7, 6 }, { 0, 1, 4 }, { 1, 5, 4 },
-    { 2, 6, 3 }, { 3, 6, 7 }, { 0, 4, 2 }, { 2, 4, 6 }, { 1, 3, 5 }, { 3, 7, 5 } };
-  return mesh;
 }
 
 svo::Light disc(const glm::dvec3& towards, double angle)
@@ -109,39 +73,18 @@ double pastEdge(const svo::Light& light, const glm::dvec3& point, double angle)
   return capShare(sine, std::sqrt(1.0 - share * share));
 }
 
-/// Of a point at `distance` from a wall, what a part of the wall closes that reaches `length` to
-/// one side: the form factor of a rectangle on the edge of which a surface stands upright (Howell,
-/// "A Catalog of Radiation Heat Transfer Configuration Factors", B-4).
-double besideWall(double distance, double height, double length)
-{
-  const double across = std::hypot(distance, height);
-  return (std::atan(length / distance) - distance / across * std::atan(length / across)) /
-    (2.0 * Pi);
-}
-
-std::vector<double> onPixels(
-  const svo::View& view, const std::function<double(const glm::dvec3&)>& f)
-{
-  std::vector<double> all;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(view.width * view.height); ++i)
-  {
-    all.push_back(f(onPlane(view, i)));
-  }
-  return all;
-}
-
-/// True shares and those that are found, at so many samples; `most` of the true ones is what tells
-/// that there is something to see.
-void expectClosedForm(const std::vector<double>& expected, const std::vector<double>& found,
+/// Of the light over a half plane whose edge is turned, around where the edge's middle has its
+/// shadow; `width`: of what is looked at, to each side.
+void expectPenumbra(const svo::Light& light, const glm::dvec3& middle, double width, double turn,
   double low, double high, const std::string& name)
 {
-  SCOPED_TRACE(name);
-  const auto [least, most] = std::minmax_element(expected.begin(), expected.end());
-  EXPECT_LE(*least, low);
-  EXPECT_GE(*most, high);
-  const Difference difference(expected, found);
-  EXPECT_LE(difference.rms, Bar);
-  EXPECT_LE(difference.most, WorstPixel);
+  svo::Scene scene = planeUnder({ halfPlane(turn) });
+  scene.lights = { light };
+  const svo::View view = fromAbove(width, width, 24, 24, { middle.x, middle.y, 0 });
+  const auto expected =
+    onPixels(view, [&](const glm::dvec3& at) { return pastEdge(light, at, turn); });
+  expectClosedForm(expected, lightShares(scene, view, sampled(1024)), low, high,
+    name + " turned " + std::to_string(turn));
 }
 }
 
@@ -153,15 +96,10 @@ TEST(SoftShadow, PenumbraOfADiscAtAStraightEdge)
       std::tuple(glm::dvec3(0.3, -0.8, 1.5), 25.0, 0.0),
       std::tuple(glm::dvec3(-0.5, 0.2, 1.0), 60.0, 2.0) })
   {
-    svo::Scene scene = planeUnder({ halfPlane(turn) });
-    scene.lights = { disc(towards, angle) };
-    const glm::dvec3 middle = -towards / towards.z; // the shadow of the edge's middle
-    const double width = 2.0 * glm::dot(middle, middle) * scene.lights[0].spread();
-    const svo::View view = fromAbove(width, width, 24, 24, { middle.x, middle.y, 0 });
-    const auto expected = onPixels(
-      view, [&, turn = turn](const glm::dvec3& at) { return pastEdge(scene.lights[0], at, turn); });
-    expectClosedForm(expected, lightShares(scene, view, sampled(1024)), 0.0, 1.0,
-      "disc of " + std::to_string(angle) + " turned " + std::to_string(turn));
+    const svo::Light light = disc(towards, angle);
+    const glm::dvec3 middle = -towards / towards.z;
+    expectPenumbra(light, middle, 2.0 * glm::dot(middle, middle) * light.spread(), turn, 0.0, 1.0,
+      "disc of " + std::to_string(angle));
   }
 }
 
@@ -171,210 +109,8 @@ TEST(SoftShadow, PenumbraOfABallAtAStraightEdge)
     { std::tuple(glm::dvec3(0, 0, 3), 0.05, 0.0), std::tuple(glm::dvec3(0, 0, 3), 0.4, 0.25 * Pi),
       std::tuple(glm::dvec3(0.5, 0.3, 4), 1.0, 1.0), std::tuple(glm::dvec3(-1, 0, 3), 1.5, 0.0) })
   {
-    svo::Scene scene = planeUnder({ halfPlane(turn) });
-    scene.lights = { ballLight(position, radius) };
-    const glm::dvec3 middle = -position / (position.z - 1.0);
-    const double width = 2.5 * radius / (position.z - 1.0);
-    const svo::View view = fromAbove(width, width, 24, 24, { middle.x, middle.y, 0 });
-    const auto expected = onPixels(
-      view, [&, turn = turn](const glm::dvec3& at) { return pastEdge(scene.lights[0], at, turn); });
-    expectClosedForm(expected, lightShares(scene, view, sampled(1024)), 0.01, 0.99,
-      "ball of " + std::to_string(radius) + " turned " + std::to_string(turn));
-  }
-}
-
-TEST(SoftShadow, AmbientOcclusionBesideAWall)
-{
-  constexpr double Length = 15.0;
-  const svo::View view = fromAbove(1.0, 0.25, 64, 8, { 1.0, 0.5, 0 });
-  const auto expected = onPixels(view,
-    [](const glm::dvec3& at)
-    { return besideWall(at.x, 1.0, Length - at.y) + besideWall(at.x, 1.0, Length + at.y); });
-  const auto found =
-    closedShares(planeUnder({ wall(0.0, 1.0, Length) }), view, sampled(1024), Unlimited);
-  expectClosedForm(expected, found, 0.1, 0.49, "wall");
-}
-
-TEST(SoftShadow, AmbientOcclusionInACanyon)
-{
-  constexpr double Length = 15.0, Half = 0.5, Height = 2.0;
-  const svo::View view = fromAbove(Half, 0.25, 64, 8);
-  const auto expected = onPixels(view,
-    [](const glm::dvec3& at)
-    {
-      double sum = 0.0;
-      for (const double distance : { Half - at.x, Half + at.x })
-      {
-        sum +=
-          besideWall(distance, Height, Length - at.y) + besideWall(distance, Height, Length + at.y);
-      }
-      return sum;
-    });
-  const svo::Scene scene = planeUnder({ wall(-Half, Height, Length), wall(Half, Height, Length) });
-  expectClosedForm(
-    expected, closedShares(scene, view, sampled(1024), Unlimited), 0.76, 0.757, "canyon");
-}
-
-// A ball of 96 x 192 facets is smaller than a round one by 1 - cos^2(Pi / 96) < 0.0011 of its disc.
-TEST(SoftShadow, AmbientOcclusionUnderABall)
-{
-  constexpr double Radius = 1.0, Height = 1.5;
-  const svo::View view = fromAbove(3.0, 1.0, 48, 16);
-  const auto expected = onPixels(view,
-    [](const glm::dvec3& at)
-    {
-      const double distance = glm::length(at - glm::dvec3(0, 0, Height));
-      return Radius * Radius / (distance * distance) * Height / distance;
-    });
-  const svo::Scene scene = planeUnder({ caster(sphere(96, 192), movedTo(0, 0, Height), 7) });
-  expectClosedForm(
-    expected, closedShares(scene, view, sampled(1024), Unlimited), 0.05, 0.44, "ball");
-}
-
-// A sky's light on an open plane is the mean of its colours by the cosine; under half of it, beside
-// a wall without an end, half of that of one colour.
-TEST(SoftShadow, SkyLightOnAnOpenPlane)
-{
-  svo::Scene scene = planeUnder({});
-  scene.lights.clear();
-  svo::FrameSettings settings = sampled(1024);
-  settings.skyLight = true;
-  settings.skyColor = glm::dvec3(0.8, 0.6, 0.4);
-  settings.groundColor = glm::dvec3(0.2, 0.3, 0.1);
-  settings.skyStrength = 0.5;
-  for (const glm::dvec3& up :
-    { glm::dvec3(0, 0, 2), glm::dvec3(0, 0, -1), glm::dvec3(3, 0, 4), glm::dvec3(0.0) })
-  {
-    settings.skyUp = up;
-    const svo::Frame frame = rendered(scene, fromAbove(5.0, 5.0, 16, 16), settings);
-    const double cosine = up == glm::dvec3(0.0) ? 0.0 : up.z / glm::length(up);
-    const glm::dvec3 share(0.5 + cosine / 3.0);
-    const glm::dvec3 expected = 0.5 * glm::mix(settings.groundColor, settings.skyColor, share);
-    for (std::size_t i = 0; i < frame.instance.size(); ++i)
-    {
-      for (int c = 0; c < 3; ++c)
-      {
-        EXPECT_NEAR(expected[c], double(frame.light[3 * i + c]), 0.005 * expected[c]);
-      }
-    }
-  }
-}
-
-TEST(SoftShadow, SkyLightIsWhatIsNotClosedOff)
-{
-  svo::Instance wall = instanceOf(makeOctree(square(1.0), 4), 2);
-  wall.localToWorld =
-    glm::scale(glm::rotate(movedTo(0, 6, 0), 0.5 * Pi, glm::dvec3(1, 0, 0)), glm::dvec3(1000.0));
-  svo::Scene scene = planeUnder({ wall });
-  const svo::View view = fromAbove(5.0, 5.0, 16, 16);
-  const std::vector<double> closed = closedShares(scene, view, sampled(1024), 1e6);
-  scene.lights.clear();
-  svo::FrameSettings settings = sampled(1024);
-  settings.skyLight = true;
-  settings.skyColor = settings.groundColor = glm::dvec3(1.0);
-  const svo::Frame frame = rendered(scene, view, settings);
-  std::vector<double> open;
-  for (std::size_t i = 0; i < frame.instance.size(); ++i)
-  {
-    open.push_back(1.0 - double(frame.light[3 * i]));
-  }
-  // Other samples of the same: as far from each other as two of them may be from what is so.
-  EXPECT_LE(Difference(open, closed).rms, 2 * 0.005);
-  EXPECT_GT(closed[0], 0.01);
-  // What receives no shadows sees all of it.
-  scene.instances[0].receiveShadow = false;
-  const svo::Frame all = rendered(scene, view, settings);
-  EXPECT_NEAR(1.0, double(all.light[0]), 1e-6);
-}
-
-TEST(SoftShadow, AClosedBoxIsDark)
-{
-  const svo::View view = fromAbove(0.999, 0.999, 48, 48);
-  for (const int level : { 1, 4, 7 })
-  {
-    const svo::Scene scene = planeUnder({ caster(closedBox(), glm::dmat4(1.0), level) });
-    for (const double closed : closedShares(scene, view, sampled(256), Unlimited))
-    {
-      ASSERT_EQ(1.0, closed);
-    }
-  }
-}
-
-TEST(SoftShadow, AmbientOcclusionEndsAtItsDistance)
-{
-  // Under a ceiling: what is nearer lies in a cone.
-  const svo::View view = fromAbove(1.0, 1.0, 16, 16);
-  const svo::Scene under = planeUnder({ caster(square(20.0), movedTo(0, 0, 1)) });
-  for (const double distance : { 0.5, 0.999, 1.001, 1.2, 2.0, 5.0 })
-  {
-    const double closed = distance > 1.0 ? 1.0 - 1.0 / (distance * distance) : 0.0;
-    expectClosedForm(std::vector<double>(256, closed),
-      closedShares(under, view, sampled(1024), distance), closed, closed,
-      "ceiling, " + std::to_string(distance));
-  }
-  // Beside a wall that is higher: over the plane that cone is a segment of the unit disc (Nusselt).
-  const svo::View beside = fromAbove(1.0, 0.25, 64, 8, { 1.0, 0, 0 });
-  const auto expected =
-    onPixels(beside, [](const glm::dvec3& at) { return segmentShare(at.x / 1.5); });
-  expectClosedForm(expected,
-    closedShares(planeUnder({ wall(0.0, 2.0, 15.0) }), beside, sampled(1024), 1.5), 0.0, 0.48,
-    "wall, near");
-}
-
-TEST(SoftShadow, WithoutADistanceItIsAFifthOfAllCasters)
-{
-  const svo::Scene scene = planeUnder({ wall(0.0, 1.0, 2.0), wall(3.0, 1.0, 2.0) });
-  svo::PointBox all;
-  for (const svo::Instance& instance : scene.instances)
-  {
-    svo::CasterBox(instance).addTo(all);
-  }
-  const double diagonal = glm::distance(all.low, all.high);
-  // What is around them is no larger than their octrees' cubes, of edge 4, and not the ground's.
-  EXPECT_GT(diagonal, std::sqrt(9.0 + 16.0 + 1.0));
-  EXPECT_LT(diagonal, std::sqrt(49.0 + 64.0 + 64.0));
-  const svo::View view = fromAbove(1.0, 0.25, 32, 8, { 1.0, 0, 0 });
-  const auto closed = [&](double distance)
-  { return closedShares(scene, view, sampled(64), distance); };
-  EXPECT_EQ(closed(0.2 * diagonal), closed(0.0));
-  EXPECT_NE(closed(0.2 * diagonal), closed(0.1 * diagonal));
-}
-
-TEST(SoftShadow, AmbientOcclusionDarkensWhatIsAskedFor)
-{
-  svo::Scene scene = planeUnder({ wall(0.0, 1.0, 15.0) });
-  scene.lights = { lightOf(svo::Light::Kind::Directional, { 1, 0, 1 }) }; // past the wall
-  scene.instances[0].material.ambient = 0.25f;
-  scene.instances[0].material.diffuse = 0.5f;
-  const svo::View view = fromAbove(1.0, 0.25, 32, 8, { 1.0, 0, 0 });
-  svo::FrameSettings settings = sampled(64);
-  const svo::Frame plain = rendered(scene, view, settings);
-  const std::vector<double> closed = closedShares(
-    [&]
-    {
-      svo::Scene white = scene;
-      white.instances[0].material = svo::Material();
-      return white;
-    }(),
-    view, settings, Unlimited);
-  settings.ambientOcclusion = true;
-  settings.ambientOcclusionDistance = Unlimited;
-  for (const double strength : { 1.0, 0.5, 0.0 })
-  {
-    for (const bool all : { true, false })
-    {
-      settings.ambientOcclusionStrength = strength;
-      settings.ambientOcclusionOfAllLight = all;
-      const svo::Frame frame = rendered(scene, view, settings);
-      for (std::size_t i = 0; i < closed.size(); ++i)
-      {
-        const double darkened = all ? plain.light[3 * i] : 0.25;
-        // Of three numbers up to 1.
-        ASSERT_NEAR(
-          plain.light[3 * i] - strength * closed[i] * darkened, frame.light[3 * i], 3 * 6e-8);
-      }
-      EXPECT_EQ(strength == 0.0, frame.light == plain.light);
-    }
+    expectPenumbra(ballLight(position, radius), -position / (position.z - 1.0),
+      2.5 * radius / (position.z - 1.0), turn, 0.01, 0.99, "ball of " + std::to_string(radius));
   }
 }
 
@@ -678,7 +414,7 @@ TEST(SoftShadow, AnswersDoNotDependOnWhoElseAsks)
     const svo::RayCasters casters(scene, eye.hits());
     const svo::ShadowRays exact(casters);
     const svo::SampleRays rays(casters);
-    const svo::SoftShadow soft(scene.lights[0], rays, exact, 0, 16);
+    const svo::SoftShadow soft(scene.lights[0], exact, rays, 0, 16);
     const svo::HemisphereRays around(rays, 1.0, 0, 16);
     const auto closed = [&](const svo::ShadowQuery& query, float* shares)
     {
