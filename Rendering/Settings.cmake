@@ -158,6 +158,18 @@ vtksvo_setting(MaximumLightSamples int 32
      begins with 4 as well; while the interactor has nothing else to do it gets twice as many, again and again. `Refine()`
      does one such step, for scripts. `GetNumberOfLightSamples()` tells how many it has.")
 
+vtksvo_setting(FilterLightSamples bool true
+  TABLE shadows
+  FIELD filterLightSamples CHANGES look
+  PANEL advanced
+  SAYS
+    "Take the samples of the surface around a pixel for it as well, as far as what is seen of a light does not change there:
+     grain of few samples goes away."
+  MORE
+    "Up to eight pixels around, of the same actor, with about the same normal and in about the same plane. The more samples
+     there are the less is taken from around. What lets light through in finer patterns than chance tells apart gets
+     blurred.")
+
 vtksvo_setting(LightError double 0
   TABLE shadows RANGE 0 255 UNIT "of 255"
   PANEL advanced

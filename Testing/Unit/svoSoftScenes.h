@@ -49,10 +49,12 @@ inline svo::Scene planeUnder(const std::vector<svo::Instance>& casters, double h
   return scene;
 }
 
+/// Each point by its own samples alone.
 inline svo::FrameSettings sampled(int samples)
 {
   svo::FrameSettings settings;
   settings.lightSamples = samples;
+  settings.filterLightSamples = false;
   settings.writeLight = true;
   return settings;
 }

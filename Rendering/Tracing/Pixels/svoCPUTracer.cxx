@@ -8,6 +8,8 @@
 #include "svoKeptTiles.h"
 #include "svoLayeredView.h"
 #include "svoLightCode.h"
+#include "svoLightImages.h"
+#include "svoLightSampler.h"
 #include "svoNeededLevels.h"
 #include "svoPixelShader.h"
 #include "svoSampleCount.h"
@@ -59,6 +61,7 @@ struct CPUTracer::Internals
   Shadows LightShadows;
   Scene AsLightsSee; // where that is not the frame's scene; for the length of a frame
   FrameTiles Tiles;
+  LightImages Sampled;
   PixelShader Shader;
   KeptFrame Kept;
   KeptTiles Shaded;               // by tile of the eye
@@ -76,6 +79,8 @@ struct CPUTracer::Internals
   void markLightTiles(const Scene& scene, const View& view, const ParallelFor& parallelFor);
   void findDarkenedTiles(
     const Scene& scene, const FrameChanges& changes, const ParallelFor& parallelFor);
+  void sampleLights(const ShadedScene& shaded, bool more, const ParallelFor& parallelFor,
+    FrameStatistics& statistics);
   void traceViews(const Scene& scene, const View& view, const FrameSettings& settings,
     const ParallelFor& parallelFor, const FrameChanges& changes, Frame* frame,
     FrameStatistics& statistics);
@@ -242,6 +247,27 @@ void CPUTracer::Internals::findDarkenedTiles(
     });
 }
 
+/// What shading reads of lights that are sampled. `more`: the last frame's samples are among them.
+void CPUTracer::Internals::sampleLights(
+  const ShadedScene& shaded, bool more, const ParallelFor& parallelFor, FrameStatistics& statistics)
+{
+  const bool filtered = shaded.settings.filterLightSamples;
+  this->Sampled.begin(
+    SampledPlanes(shaded.scene, shaded.dark), shaded.eye.depth, shaded.settings.lightSamples, more);
+  if (!this->Sampled.sampled().any())
+  {
+    return;
+  }
+  svo::sampleLights(
+    shaded, this->Shader.points(), parallelFor, this->Shaded, this->Sampled, statistics);
+  if (filtered)
+  {
+    this->Shaded.spread();
+  }
+  this->Sampled.findMeans(parallelFor, filtered,
+    [this](int x, int y) { return this->Shaded.shadedAnew(this->Shaded.index(x, y)); });
+}
+
 CPUTracer::CPUTracer()
   : Impl(new Internals)
 {
@@ -379,7 +405,9 @@ void CPUTracer::render(
   // Shade and test.
   const ShadedScene shaded{ scene, view, settings, self.Eye.hits(), self.Eye, self.Tiles,
     self.LightShadows };
-  self.Shader.shade(shaded, parallelFor, self.Shaded, frame, statistics);
+  self.Shaded.forget(self.Tiles.hits());
+  self.sampleLights(shaded, samples.refined, parallelFor, statistics);
+  self.Shader.shade(shaded, self.Sampled, parallelFor, self.Shaded, frame, statistics);
   if (settings.antiAliasing)
   {
     self.Shader.smoothEdges(shaded, parallelFor, frame, statistics);

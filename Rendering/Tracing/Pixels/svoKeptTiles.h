@@ -48,14 +48,49 @@ public:
     return this->Tiles[tile];
   }
   /// Its hits, or their looks or lights, are not what they were. Threads may mark different tiles.
-  bool stale(std::size_t tile) const { return this->Stale[tile] != 0; }
+  bool stale(std::size_t tile) const { return (this->Stale[tile] & Itself) != 0; }
   void setStale(std::size_t tile, bool stale)
   {
-    this->Stale[tile] |= static_cast<std::uint8_t>(stale);
+    this->Stale[tile] |= static_cast<std::uint8_t>(stale ? Itself : 0);
+  }
+  /// It is stale, or one of those around it, whose samples it shares (svoLightFilter.h).
+  bool shadedAnew(std::size_t tile) const { return this->Stale[tile] != 0; }
+  void spread()
+  {
+    const int tilesY = this->TilesX > 0 ? static_cast<int>(this->size()) / this->TilesX : 0;
+    for (std::size_t tile = 0; tile < this->size(); ++tile)
+    {
+      if (this->stale(tile))
+      {
+        const int x = static_cast<int>(tile) % this->TilesX,
+                  y = static_cast<int>(tile) / this->TilesX;
+        for (int k = 0; k < 9; ++k)
+        {
+          const int besideX = x + k % 3 - 1, besideY = y + k / 3 - 1;
+          if (besideX >= 0 && besideX < this->TilesX && besideY >= 0 && besideY < tilesY)
+          {
+            this->Stale[this->index(besideX, besideY)] |= Beside;
+          }
+        }
+      }
+    }
+  }
+  /// Nothing is noted of the stale ones among these any more.
+  void forget(const std::vector<std::uint32_t>& tiles)
+  {
+    for (const std::uint32_t tile : tiles)
+    {
+      if (this->stale(tile))
+      {
+        this->Tiles[tile].raised.clear();
+        this->Tiles[tile].raysToLights = PointBox();
+      }
+    }
   }
   std::size_t size() const { return this->Tiles.size(); }
 
 private:
+  static constexpr std::uint8_t Itself = 1, Beside = 2;
   int TilesX = 0;
   std::vector<Tile> Tiles;
   std::vector<std::uint8_t> Stale; // apart, since each frame looks at all of them

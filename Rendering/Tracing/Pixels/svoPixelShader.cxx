@@ -1,10 +1,9 @@
 #include "svoPixelShader.h"
 
-#include "svoLeafError.h"
+#include "svoLightSampler.h"
 #include "svoShownDepth.h"
 #include "svoSkyGradient.h"
 #include "svoTileImage.h"
-#include "svoTileShadows.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
@@ -12,91 +11,23 @@
 
 namespace svo
 {
-void PixelShader::prepare(const Scene& scene, const Hits& eye)
-{
-  this->Frames.clear();
-  this->Smooth.clear();
-  this->Errors.clear();
-  this->Frames.reserve(scene.instances.size());
-  for (std::size_t i = 0; i < scene.instances.size(); ++i)
-  {
-    const Instance& instance = scene.instances[i];
-    const int level = eye.instances.level(static_cast<std::uint32_t>(i));
-    const LeafGeometry geometry = eye.instances.leafGeometry(static_cast<std::uint32_t>(i));
-    const bool placed = eye.instances.placed(static_cast<std::uint32_t>(i));
-    const bool seen = !eye.instances.rect(static_cast<std::uint32_t>(i)).empty();
-    this->Frames.push_back(seen ? SurfaceMatrices(instance) : SurfaceMatrices());
-    this->Smooth.push_back(instance.body->octree && isSmooth(instance));
-    this->Errors.push_back(instance.body->octree
-        ? PointErrors{ worldMapError(instance, geometry, level, placed),
-            worldLeafError(instance, geometry, level, placed) }
-        : PointErrors());
-  }
-}
-
-/// Finds those points that have to be asked for once more, at another place: the light reaches them
-/// though their facets turn away from it, or they are dark and nearly do.
-void PixelShader::findTerminator(const LightShadow& shadow, const Light& light,
-  const ShadowQuery& query, std::uint64_t dark, Scratch& scratch) const
-{
-  const TilePatch& patch = query.patch;
-  scratch.terminator.clear();
-  if (!this->Smooth[patch.instance] || !shadow.knowsTerminator())
-  {
-    return;
-  }
-  const double grazing = shadow.grazing();
-  const std::uint64_t asked = mayTurnAway(light, grazing, patch, query.asked, dark);
-  if (asked == 0)
-  {
-    return;
-  }
-  SmoothTriangles triangles(this->Frames[patch.instance]);
-  eachBit(asked,
-    [&](int i)
-    {
-      TerminatorPoint at = atTerminator(triangles, light, grazing, dark >> i & 1, patch.point(i),
-        patch.towards(i), patch.hits->primitive[i]);
-      if (at.kind != TerminatorPoint::Kind::Plain)
-      {
-        at.pixel = i;
-        if (scratch.noted && at.kind != TerminatorPoint::Kind::Hidden)
-        {
-          shadow.noteTerminator(query, at, scratch.noted->raysToLights, scratch.noted->raised);
-        }
-        scratch.terminator.push_back(at);
-      }
-    });
-}
-
-/// Shadows of light l on points that it reaches: what they leave of it.
+/// Sets what shadows leave of light l, on points that it reaches.
 void PixelShader::shadow(
   std::size_t l, const Lit& lit, std::uint64_t reached, Scratch& scratch) const
 {
-  const LightShadow& shadow = lit.shaded.dark.of(l);
   const TilePatch& patch = scratch.patch;
-  const ShadowQuery query{ patch, this->Errors[patch.instance], scratch.extents, reached,
-    scratch.rays };
   float* missed = scratch.missed;
-  if (scratch.noted)
+  std::uint64_t changed = reached;
+  const int plane = lit.sampled ? lit.sampled->sampled().ofLights[l] : SampledPlanes::None;
+  if (plane != SampledPlanes::None)
   {
-    shadow.noteRays(query, scratch.noted->raysToLights);
+    std::fill_n(missed, TilePatch::Most, 0.0f);
+    eachBit(reached, [&](int i) { missed[i] = lit.sampled->mean(plane, patch, i); });
   }
-  const std::uint64_t dark = shadow.test(query, missed);
-  std::uint64_t changed = dark;
-  this->findTerminator(shadow, *lit.lighting.lights[l].light, query, dark, scratch);
-  if (!scratch.terminator.empty())
+  else
   {
-    shadow.testTerminator(query, scratch.terminator, missed);
-    for (const TerminatorPoint& at : scratch.terminator)
-    {
-      changed |= std::uint64_t(1) << at.pixel;
-    }
-  }
-  if (shadow.dims())
-  {
-    shadow.dim(query, missed);
-    changed |= reached;
+    changed = this->Points.find(lit.shaded.dark.of(l), *lit.lighting.lights[l].light,
+      this->Points.query(patch, reached, scratch), scratch);
   }
   std::fill_n(scratch.light.share, TilePatch::Most, 1.0f);
   eachBit(changed, [&](int i) { scratch.light.share[i] = shareOfLight(missed[i], lit.remaining); });
@@ -112,7 +43,7 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
   const Lighting& lighting = lit.lighting;
   TilePatch& patch = scratch.patch;
   const Instance& instance = lit.shaded.scene.instances[patch.instance];
-  lookAtPatch(this->Frames[patch.instance], patch, scratch.triangles);
+  lookAtPatch(this->Points.frame(patch.instance), patch, scratch.triangles);
   std::fill_n(scratch.darkness, TilePatch::Most, Darkness(0));
   const bool underSky = instance.material.lighting && lit.shaded.dark.sky();
   const bool isLit = instance.material.lighting && (!lighting.lights.empty() || underSky);
@@ -151,58 +82,64 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
 }
 
 /// All points of a patch, which ask what is around them.
-ShadowQuery PixelShader::allOf(Scratch& scratch) const
+ShadowQuery PixelShader::allOf(Scratch& scratch, SampleSums* sums) const
 {
-  const TilePatch& patch = scratch.patch;
-  const ShadowQuery query{ patch, this->Errors[patch.instance], scratch.extents, patch.mask,
-    scratch.rays };
-  if (scratch.noted)
-  {
-    noteRayStarts(query, scratch.noted->raysToLights);
-  }
-  return query;
+  return this->Points.query(scratch.patch, scratch.patch.mask, scratch, sums);
 }
 
 /// Ambient occlusion of the points of a patch.
 void PixelShader::occlude(const Lit& lit, Scratch& scratch) const
 {
-  const FrameSettings& settings = lit.shaded.settings;
-  const auto strength = static_cast<float>(settings.ambientOcclusionStrength);
+  const TilePatch& patch = scratch.patch;
   alignas(64) float closed[TilePatch::Most] = {};
-  int counts[TilePatch::Most] = {};
-  lit.shaded.dark.occlusion()->each(this->allOf(scratch),
-    [&](int i, const glm::vec3&, float blocked)
-    {
-      closed[i] += strength * blocked;
-      ++counts[i];
-    });
-  eachBit(
-    scratch.patch.mask, [&](int i) { closed[i] /= static_cast<float>(std::max(counts[i], 1)); });
-  closeOff(lit.shaded.scene.instances[scratch.patch.instance].material,
-    settings.ambientOcclusionOfAllLight, scratch.patch, closed, scratch.colors);
+  if (lit.sampled)
+  {
+    const int plane = lit.sampled->sampled().ofOcclusion;
+    eachBit(patch.mask, [&](int i) { closed[i] = lit.sampled->mean(plane, patch, i); });
+  }
+  else
+  {
+    SampleSums sums;
+    sampleOcclusion(this->allOf(scratch, &sums), *lit.shaded.dark.occlusion(), sums);
+    eachBit(patch.mask, [&](int i) { closed[i] = sums.mean(i); });
+  }
+  const auto strength = static_cast<float>(lit.shaded.settings.ambientOcclusionStrength);
+  eachBit(patch.mask, [&](int i) { closed[i] *= strength; });
+  closeOff(lit.shaded.scene.instances[patch.instance].material,
+    lit.shaded.settings.ambientOcclusionOfAllLight, patch, closed, scratch.colors);
 }
 
 /// Adds what the points of a patch see of the sky, as diffuse light. Surfaces that receive no
 /// shadows see all of it.
 void PixelShader::addSky(const Lit& lit, Scratch& scratch) const
 {
-  const SkyGradient sky(lit.shaded.settings);
   const TilePatch& patch = scratch.patch;
-  glm::vec3 seen[TilePatch::Most] = {};
-  if (lit.shaded.scene.instances[patch.instance].receiveShadow)
+  const SkyGradient sky(lit.shaded.settings);
+  glm::vec3 seen[TilePatch::Most];
+  if (!lit.shaded.scene.instances[patch.instance].receiveShadow)
   {
-    int counts[TilePatch::Most] = {};
-    lit.shaded.dark.sky()->each(this->allOf(scratch),
-      [&](int i, const glm::vec3& along, float blocked)
-      {
-        seen[i] += (1.0f - blocked) * sky.from(along);
-        ++counts[i];
-      });
-    eachBit(patch.mask, [&](int i) { seen[i] /= static_cast<float>(std::max(counts[i], 1)); });
+    eachBit(patch.mask, [&](int i) { seen[i] = sky.over(patch.normal(i)); });
+  }
+  else if (lit.sampled)
+  {
+    const int plane = lit.sampled->sampled().ofSky;
+    for (int c = 0; c < 3; ++c)
+    {
+      eachBit(patch.mask, [&](int i) { seen[i][c] = lit.sampled->mean(plane + c, patch, i); });
+    }
   }
   else
   {
-    eachBit(patch.mask, [&](int i) { seen[i] = sky.over(patch.normal(i)); });
+    SampleSums sums[3];
+    sampleSky(this->allOf(scratch, sums), *lit.shaded.dark.sky(), sky, sums);
+    eachBit(patch.mask,
+      [&](int i) {
+        seen[i] = { sums[0].mean(i), sums[1].mean(i), sums[2].mean(i) };
+      });
+  }
+  if (lit.shaded.scene.instances[patch.instance].receiveShadow)
+  {
+    eachBit(patch.mask, [&](int i) { seen[i] *= sky.brightest(); });
   }
   TileLight& light = scratch.light;
   eachBit(patch.mask,
@@ -267,11 +204,12 @@ void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, 
   image.write();
 }
 
-void PixelShader::shade(const ShadedScene& shaded, const ParallelFor& parallelFor, KeptTiles& kept,
-  Frame& frame, FrameStatistics& statistics)
+void PixelShader::shade(const ShadedScene& shaded, const LightImages& sampled,
+  const ParallelFor& parallelFor, KeptTiles& kept, Frame& frame, FrameStatistics& statistics)
 {
   const DepthBuffer& depth = shaded.eye.depth;
-  const Lit lit(shaded);
+  Lit lit(shaded);
+  lit.sampled = sampled.sampled().any() ? &sampled : nullptr;
   std::atomic<std::uint64_t> allRays{ 0 };
   this->FindsEdges = shaded.settings.antiAliasing;
   if (this->FindsEdges)
@@ -282,15 +220,12 @@ void PixelShader::shade(const ShadedScene& shaded, const ParallelFor& parallelFo
     [&](int tileX, int tileY, Scratch& scratch)
     {
       const std::size_t index = kept.index(tileX, tileY);
-      if (!kept.stale(index))
+      if (!kept.shadedAnew(index))
       {
         return;
       }
-      KeptTiles::Tile& tile = kept[index];
       scratch.rays = 0;
-      tile.raised.clear();
-      tile.raysToLights = PointBox();
-      scratch.noted = shaded.settings.frameCoherence ? &tile : nullptr;
+      scratch.noted = shaded.settings.frameCoherence && kept.stale(index) ? &kept[index] : nullptr;
       this->write(lit, hitsOfTile(depth, shaded.view, tileX, tileY), scratch, frame);
       if (scratch.rays > 0)
       {

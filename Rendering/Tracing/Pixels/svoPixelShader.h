@@ -4,17 +4,14 @@
 
 #include "svoDarkness.h"
 #include "svoFrame.h"
-#include "svoFrameTiles.h"
-#include "svoHits.h"
 #include "svoKeptTiles.h"
+#include "svoLightImages.h"
 #include "svoParallel.h"
-#include "svoShadows.h"
-#include "svoSurfacePoint.h"
-#include "svoTerminator.h"
+#include "svoPatchShadows.h"
+#include "svoShadedScene.h"
 #include "svoTileLighting.h"
 #include "svoTileLook.h"
 #include "svoTilePatch.h"
-#include "svoTileSampler.h"
 #include "svoViewLights.h"
 
 #include <cstddef>
@@ -23,30 +20,19 @@
 
 namespace svo
 {
-/// What is shaded; for the length of a frame.
-struct ShadedScene
-{
-  const Scene& scene;
-  const View& view;
-  const FrameSettings& settings;
-  const Hits& eye;
-  const TileSampler& sampler; // of the eye
-  const FrameTiles& tiles;    // of the frame that is written
-  const Shadows& dark;
-};
-
 /// Two steps a frame: shade() gives each pixel its colour, smoothEdges() gives those on edges the
 /// mean of four more rays.
 class PixelShader
 {
 public:
   /// To be called once the eye has traced the scene.
-  void prepare(const Scene& scene, const Hits& eye);
+  void prepare(const Scene& scene, const Hits& eye) { this->Points.prepare(scene, eye); }
+  const PatchShadows& points() const { return this->Points; }
 
-  /// Writes the tiles with hits that are stale, and notes which are at the terminator. Counts its
-  /// shadow rays.
-  void shade(const ShadedScene& shaded, const ParallelFor& parallelFor, KeptTiles& kept,
-    Frame& frame, FrameStatistics& statistics);
+  /// Writes the tiles with hits that are to be shaded anew, and notes of stale ones what the
+  /// answers hang on. What samples found is in `sampled`. Counts its shadow rays.
+  void shade(const ShadedScene& shaded, const LightImages& sampled, const ParallelFor& parallelFor,
+    KeptTiles& kept, Frame& frame, FrameStatistics& statistics);
 
   /// After shade() with FrameSettings::antiAliasing. Counts its rays.
   void smoothEdges(const ShadedScene& shaded, const ParallelFor& parallelFor, Frame& frame,
@@ -57,7 +43,9 @@ public:
   {
     const ShadedScene& shaded;
     Lighting lighting;
-    float remaining;      // of a light in its shadow
+    float remaining;                      // of a light in its shadow
+    const LightImages* sampled = nullptr; // what samples found at pixels' centres; null: points
+                                          // take their own
     bool samples = false; // points stand for a quarter of a pixel each, not for the pixel's centre
 
     explicit Lit(const ShadedScene& frame)
@@ -69,18 +57,13 @@ public:
   };
 
   /// What a thread needs to shade up to 64 points.
-  struct Scratch
+  struct Scratch : PatchShadows::Scratch
   {
     TilePatch patch;
     TileTriangles triangles;
     TileLight light;
     TileColors colors;
-    double extents[TilePatch::Most];         // world, as `missed`: MapTest::darkness()
-    float missed[TilePatch::Most];           // by pixel: of one light
-    Darkness darkness[TilePatch::Most];      // by pixel
-    std::vector<TerminatorPoint> terminator; // of one light
-    std::uint64_t rays;                      // of shadows
-    KeptTiles::Tile* noted = nullptr;        // takes down what is asked; or null
+    Darkness darkness[TilePatch::Most]; // by pixel
   };
 
   /// After shade(): colours the points of hits anywhere in a tile, patch by patch: sets `colors`
@@ -102,16 +85,11 @@ private:
   void shadePatch(const Lit& lit, Scratch& scratch) const;
   void occlude(const Lit& lit, Scratch& scratch) const;
   void addSky(const Lit& lit, Scratch& scratch) const;
-  ShadowQuery allOf(Scratch& scratch) const;
+  ShadowQuery allOf(Scratch& scratch, SampleSums* sums) const;
   void shadow(std::size_t l, const Lit& lit, std::uint64_t reached, Scratch& scratch) const;
-  void findTerminator(const LightShadow& shadow, const Light& light, const ShadowQuery& query,
-    std::uint64_t dark, Scratch& scratch) const;
   void write(const Lit& lit, const TileHits& hits, Scratch& scratch, Frame& frame);
 
-  // By index into Scene::instances.
-  std::vector<SurfaceMatrices> Frames;
-  std::vector<std::uint8_t> Smooth; // isSmooth()
-  std::vector<PointErrors> Errors;  // of the instance's leaves as the eye sees them
+  PatchShadows Points;
   bool FindsEdges = false;
   std::vector<Darkness> DarkPixels; // per pixel, as the depth buffer, where edges are to be found
 };

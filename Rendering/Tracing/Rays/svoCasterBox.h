@@ -109,6 +109,10 @@ public:
   {
   }
 
+  /// Of a box along the world's axes around it; `extent`: half its edges.
+  const glm::dvec3& centre() const { return this->Centre; }
+  const glm::dvec3& extent() const { return this->Extent; }
+
   /// Adds its corners; nothing if it is around nothing.
   void addTo(PointBox& all) const
   {

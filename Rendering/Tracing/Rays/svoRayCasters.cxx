@@ -9,6 +9,13 @@
 
 namespace svo
 {
+namespace
+{
+/// Of the edge of the root cube: the roundings of a start and of a triangle's corners, and as much
+/// again.
+constexpr double FloatError = 1e-6;
+}
+
 RayCasters::RayCasters(const Scene& scene, const Hits& eye, const LooseOctree* tree)
   : Tree(tree)
   , Casting(tree ? scene.instances.size() : 0, None)
@@ -33,7 +40,10 @@ RayCasters::RayCasters(const Scene& scene, const Hits& eye, const LooseOctree* t
       casters.push_back({ &instance, index, geometry, toOctree, planeError,
         std::max(planeError, worldLeafError(instance, geometry, octree.level())), exact && !mixed,
         CasterBox(instance, toOctree.inverse),
-        instance.mappedOpacity ? SurfaceMatrices(instance) : SurfaceMatrices() });
+        instance.mappedOpacity ? SurfaceMatrices(instance) : SurfaceMatrices(),
+        FloatError * worldVoxel(instance, 0) });
+      this->MostStartOffset =
+        std::max(this->MostStartOffset, casters.back().startOffset(0.0, true));
     }
   }
 }

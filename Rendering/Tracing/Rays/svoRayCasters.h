@@ -29,6 +29,14 @@ struct RayCaster
   bool beams;        // all leaves are triangles
   CasterBox box;
   SurfaceMatrices frame; // where its opacity is mapped
+  double floatError;     // world; what floats do not tell apart on it
+
+  /// How far off their surface rays in float have to begin for it, world; `own`: it is that of the
+  /// points.
+  double startOffset(double offset, bool own) const
+  {
+    return std::max({ offset, this->planeError, own ? this->floatError : 0.0 });
+  }
 };
 
 /// How opaque the caster is where light meets it first that comes to `end` from `length` times
@@ -50,8 +58,17 @@ public:
   template <class Visit>
   bool anyOpaque(const BoxWay& way, const Visit& visit) const;
 
+  /// Calls visit(caster) for opaque ones; with a tree only for those in cubes that
+  /// reach(centre, extent) says of that something comes to them (world), near to `from` first.
+  template <class Reach, class Visit>
+  void eachOpaque(const glm::dvec3& from, const Reach& reach, const Visit& visit) const;
+
+  /// The most that RayCaster::startOffset() adds, world.
+  double mostStartOffset() const { return this->MostStartOffset; }
+
 private:
   std::vector<RayCaster> Opaque, Translucent;
+  double MostStartOffset = 0.0;
   const LooseOctree* Tree;
   std::vector<std::uint32_t> Casting; // by index of the instance: index into Opaque, or None
   static constexpr std::uint32_t None = ~0u;
@@ -86,6 +103,28 @@ bool RayCasters::anyOpaque(const BoxWay& way, const Visit& visit) const
   std::sort(asked.begin(), asked.end());
   return std::any_of(
     asked.begin(), asked.end(), [&](std::uint32_t k) { return visit(this->Opaque[k]); });
+}
+
+template <class Reach, class Visit>
+void RayCasters::eachOpaque(const glm::dvec3& from, const Reach& reach, const Visit& visit) const
+{
+  if (!this->Tree)
+  {
+    std::for_each(this->Opaque.begin(), this->Opaque.end(), visit);
+    return;
+  }
+  this->Tree->visit(
+    VisitOrder::from(from),
+    [&](const LooseNode& node, std::uint8_t&)
+    { return reach(node.centre, glm::dvec3(node.half)) ? NodeVisit::Below : NodeVisit::Skip; },
+    [&](std::uint32_t object, bool)
+    {
+      const std::uint32_t k = this->Casting[object];
+      if (k != None)
+      {
+        visit(this->Opaque[k]);
+      }
+    });
 }
 }
 

@@ -1,5 +1,7 @@
 #include "svoSampleRays.h"
 
+#include "svoRayStream.h"
+#include "svoTilePatch.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
@@ -12,10 +14,6 @@ namespace svo
 {
 namespace
 {
-/// How far off the caster's own surface rays have to begin in float, of the edge of its root cube:
-/// the roundings of the start and of a triangle's corners, and as much again.
-constexpr double FloatOffset = 1e-6;
-
 /// Of a start, in edges of the root cube, up to which a float tells it well enough.
 constexpr double Near = 4.0;
 
@@ -23,11 +21,11 @@ constexpr double Near = 4.0;
 class LocalRays
 {
 public:
+  /// They start `offset` off their surface, world.
   LocalRays(const RayCaster& caster, double offset, const SampleBatch& batch)
     : Caster(caster)
     , Batch(batch)
-    , Offset(std::max({ offset, caster.planeError,
-        caster.index == batch.own ? FloatOffset * worldVoxel(*caster.instance, 0) : 0.0 }))
+    , Offset(offset)
   {
     // Directions of about unit length, however large the object is.
     const glm::dmat3 toOctree = caster.toOctree.inverse * caster.toOctree.scale;
@@ -36,11 +34,6 @@ public:
       this->Scale = std::max(this->Scale, glm::length(toOctree[axis]));
     }
     this->Turn = glm::mat3(toOctree / this->Scale);
-    for (int i = 0; i < batch.points; ++i)
-    {
-      this->Start[i] = caster.toOctree.point(this->start(i));
-      this->Far[i] = glm::distance(this->Start[i], glm::dvec3(1.5)) > Near;
-    }
   }
 
   glm::dvec3 start(int point) const
@@ -51,6 +44,12 @@ public:
   void add(int ray)
   {
     const int from = this->Batch.point[ray];
+    if (!(this->Known >> from & 1))
+    {
+      this->Start[from] = this->Caster.toOctree.point(this->start(from));
+      this->Far[from] = glm::distance(this->Start[from], glm::dvec3(1.5)) > Near;
+      this->Known |= std::uint64_t(1) << from;
+    }
     glm::dvec3 at = this->Start[from];
     const glm::vec3 along = this->Turn * this->Batch.direction[ray];
     double length = this->Scale * this->Batch.length[ray];
@@ -89,9 +88,10 @@ public:
 private:
   const RayCaster& Caster;
   const SampleBatch& Batch;
-  const double Offset; // world
-  double Scale = 0.0;  // world -> octree, of lengths at most
-  glm::mat3 Turn;      // of directions, by that less
+  const double Offset;     // world
+  double Scale = 0.0;      // world -> octree, of lengths at most
+  glm::mat3 Turn;          // of directions, by that less
+  std::uint64_t Known = 0; // points of which the start is
   glm::dvec3 Start[SampleBatch::MostPoints];
   bool Far[SampleBatch::MostPoints];
   OcclusionRays Rays;
@@ -99,41 +99,54 @@ private:
 };
 }
 
-void SampleRays::trace(const BoxWay& way, double offset, SampleBatch& batch) const
+void SampleRays::trace(double offset, SampleBatch& batch) const
 {
   std::fill_n(batch.blocked, batch.rays, 0.0f);
-  std::uint16_t left[SampleBatch::MostRays];
-  int count = 0;
+  PointBox box;
+  for (int i = 0; i < batch.points; ++i)
+  {
+    box.add(batch.position[i], glm::dvec3(0.0));
+  }
+  RayStream stream(0.5 * (box.low + box.high));
   for (int ray = 0; ray < batch.rays; ++ray)
   {
-    left[count] = static_cast<std::uint16_t>(ray);
-    count += batch.length[ray] > 0.0f;
+    stream.add(batch.position[batch.point[ray]], batch.direction[ray], batch.length[ray]);
   }
-  if (count == 0)
+  // Calls f(ray) for those that meet the caster.
+  const auto eachMet = [&](const RayCaster& caster, const auto& f)
   {
-    return;
-  }
-  this->Casters.anyOpaque(way,
+    const double start = caster.startOffset(offset, caster.index == batch.own);
+    const RayStream::Mask mask =
+      stream.reaching(caster.box.centre(), caster.box.extent() + glm::dvec3(start));
+    LocalRays rays(caster, start, batch);
+    for (int word = 0; 64 * word < batch.rays; ++word)
+    {
+      eachBit(mask.word[word], [&](int bit) { rays.add(64 * word + bit); });
+    }
+    rays.eachMet([&](int ray) { f(rays, ray); });
+  };
+  const glm::dvec3 farthest(std::max(offset, this->Casters.mostStartOffset()));
+  this->Casters.eachOpaque(
+    0.5 * (box.low + box.high),
+    [&](const glm::dvec3& centre, const glm::dvec3& extent)
+    { return !stream.empty() && stream.reach(centre, extent + farthest); },
     [&](const RayCaster& caster)
     {
-      LocalRays rays(caster, offset, batch);
-      std::for_each(left, left + count, [&](int ray) { rays.add(ray); });
-      rays.eachMet([&](int ray) { batch.blocked[ray] = 1.0f; });
-      count = static_cast<int>(
-        std::remove_if(left, left + count, [&](int ray) { return batch.blocked[ray] >= 1.0f; }) -
-        left);
-      return count == 0;
+      eachMet(caster,
+        [&](const LocalRays&, int ray)
+        {
+          batch.blocked[ray] = 1.0f;
+          stream.end(ray);
+        });
     });
   for (const RayCaster& caster : this->Casters.translucent())
   {
-    if (count == 0 || !caster.box.mayMeet(way))
+    if (stream.empty())
     {
-      continue;
+      return;
     }
-    LocalRays rays(caster, offset, batch);
-    std::for_each(left, left + count, [&](int ray) { rays.add(ray); });
-    rays.eachMet(
-      [&](int ray)
+    eachMet(caster,
+      [&](const LocalRays& rays, int ray)
       {
         const float opacity =
           opacityMet(caster, rays.start(batch.point[ray]), batch.direction[ray], batch.length[ray]);

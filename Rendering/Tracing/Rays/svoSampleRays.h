@@ -61,10 +61,10 @@ public:
   }
 
   /// Sets what is blocked of each ray: all by an opaque caster, by a translucent one what it takes
-  /// of light (ShadowRays::taken()). All rays lie in `way`; they start `offset` (world), or what
-  /// a caster's planes are off, off their surface. Where a float does not tell that off another
-  /// caster's surface nothing is known of what is nearer to it.
-  void trace(const BoxWay& way, double offset, SampleBatch& batch) const;
+  /// of light (ShadowRays::taken()). They start `offset` (world), or what a caster's planes are
+  /// off, off their surface. Where a float does not tell that off another caster's surface nothing
+  /// is known of what is nearer to it.
+  void trace(double offset, SampleBatch& batch) const;
 
 private:
   const RayCasters& Casters;

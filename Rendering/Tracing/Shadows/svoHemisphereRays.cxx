@@ -33,7 +33,6 @@ void HemisphereRays::each(
   const TilePatch& patch = query.patch;
   SampleBatch batch;
   batch.own = patch.instance;
-  PointBox box;
   std::vector<Basis> bases;
   SquarePoint rotations[TilePatch::Most];
   int pixels[TilePatch::Most];
@@ -47,11 +46,10 @@ void HemisphereRays::each(
       batch.addPoint(position, patch.facet(i));
       const glm::vec3 normal = patch.normal(i), facet = patch.facet(i);
       bases.emplace_back(glm::dot(normal, facet) > 0.0f ? normal : facet);
-      box.add(position, glm::dvec3(query.errors.ray));
     });
   const auto trace = [&]
   {
-    this->Rays.trace(this->way(box), query.errors.ray, batch);
+    this->Rays.trace(query.errors.ray, batch);
     for (int ray = 0; ray < batch.rays; ++ray)
     {
       f(pixels[batch.point[ray]], batch.direction[ray], batch.blocked[ray]);
@@ -59,8 +57,9 @@ void HemisphereRays::each(
     query.rays += static_cast<std::uint64_t>(batch.rays);
     batch.rays = 0;
   };
-  for (const SquarePoint& sample : this->Samples)
+  for (std::size_t s = static_cast<std::size_t>(query.firstSample()); s < this->Samples.size(); ++s)
   {
+    const SquarePoint& sample = this->Samples[s];
     if (batch.rays + batch.points > SampleBatch::MostRays)
     {
       trace();

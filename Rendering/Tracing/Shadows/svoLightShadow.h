@@ -4,6 +4,7 @@
 
 #include "svoCasterBox.h"
 #include "svoLightTile.h"
+#include "svoSampleSums.h"
 #include "svoTerminator.h"
 #include "svoTilePatch.h"
 
@@ -27,7 +28,10 @@ struct ShadowQuery
   PointErrors errors;
   const double* extents; // world, how wide a piece of surface they stand for; to those who filter
   std::uint64_t asked;
-  std::uint64_t& rays; // adds those that are cast
+  std::uint64_t& rays;        // adds those that are cast
+  SampleSums* sums = nullptr; // takes what answers are means of, of those who sample; or null: all
+                              // samples are taken
+  int firstSample() const { return this->sums ? this->sums->first : 0; }
 };
 
 /// Sets what points miss: all of the light where they are dark, nothing elsewhere. Returns these.

@@ -84,6 +84,7 @@ void Shadows::prepareAnswers(const Scene& scene, const Hits& eye, const FrameSet
   const bool anyByRays =
     std::count(this->Techniques.begin(), this->Techniques.end(), ShadowTechnique::Rays) > 0;
   this->OfLights.clear();
+  this->Soft.clear();
   this->releaseRays();
   if (anyByRays || settings.asksHemispheres() ||
     (this->Casting && std::any_of(scene.instances.begin(), scene.instances.end(), isSmooth)))
@@ -107,7 +108,8 @@ void Shadows::prepareAnswers(const Scene& scene, const Hits& eye, const FrameSet
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
   {
     const Light& light = scene.lights[l];
-    if (this->byRays(l) && light.soft())
+    this->Soft.push_back(this->byRays(l) && light.soft());
+    if (this->Soft.back())
     {
       this->OfLights.push_back(std::make_unique<SoftShadow>(
         light, *this->Rays, *this->Samplers, static_cast<unsigned>(l), settings.lightSamples));

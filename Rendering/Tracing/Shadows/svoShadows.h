@@ -75,6 +75,8 @@ public:
     assert(light < this->OfLights.size());
     return *this->OfLights[light];
   }
+  /// True if samples answer for the light.
+  bool sampled(std::size_t light) const { return this->Soft[light] != 0; }
   /// Of ambient occlusion, and of a sky's light; null where none was asked for.
   const HemisphereRays* occlusion() const { return this->Occlusion.get(); }
   const HemisphereRays* sky() const { return this->Sky.get(); }
@@ -119,6 +121,7 @@ private:
   std::unique_ptr<SampleRays> Samplers;
   std::unique_ptr<HemisphereRays> Occlusion, Sky;
   std::vector<std::unique_ptr<LightShadow>> OfLights;
+  std::vector<std::uint8_t> Soft;         // by light
   std::vector<unsigned char> SharedState; // inputs of the shared buffers in Kept; empty: not shared
   bool Traced = false;                    // buffers were, in this frame
   TexelWidths Widths;                     // of all lights, by all processes alike

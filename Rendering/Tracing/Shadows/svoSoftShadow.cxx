@@ -36,7 +36,6 @@ void SoftShadow::ask(const ShadowQuery& query, const Asker* askers, int count, f
     int seen = 0; // samples above the facet
   };
   std::vector<Cone> cones;
-  PointBox box;
   cones.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
   {
@@ -45,15 +44,14 @@ void SoftShadow::ask(const ShadowQuery& query, const Asker* askers, int count, f
     cones.push_back({ LightCone(this->Source, asker.position),
       pixelRotation(static_cast<int>(std::floor(patch.x(asker.pixel))),
         static_cast<int>(std::floor(patch.y(asker.pixel))), this->Stream) });
-    box.add(asker.position, glm::dvec3(query.errors.ray));
   }
   const auto trace = [&](SampleBatch& batch)
   {
-    this->Sampler.trace(wayToLight(this->Source, box), query.errors.ray, batch);
+    this->Sampler.trace(query.errors.ray, batch);
     for (int ray = 0; ray < batch.rays; ++ray)
     {
       Cone& cone = cones[batch.point[ray]];
-      cone.lost += batch.blocked[ray];
+      cone.lost += sampleShare(batch.blocked[ray]);
       ++cone.seen;
     }
     query.rays += static_cast<std::uint64_t>(batch.rays);
@@ -65,8 +63,9 @@ void SoftShadow::ask(const ShadowQuery& query, const Asker* askers, int count, f
   {
     batch.addPoint(askers[i].position, askers[i].facet);
   }
-  for (const SquarePoint& sample : this->Samples)
+  for (std::size_t s = static_cast<std::size_t>(query.firstSample()); s < this->Samples.size(); ++s)
   {
+    const SquarePoint& sample = this->Samples[s];
     if (batch.rays + count > SampleBatch::MostRays)
     {
       trace(batch);
@@ -86,9 +85,15 @@ void SoftShadow::ask(const ShadowQuery& query, const Asker* askers, int count, f
   {
     const Asker& asker = askers[i];
     // Where no sample is above the facet, the exact ray to the light's middle says.
-    missed[asker.pixel] = cones[i].seen > 0 ? cones[i].lost / static_cast<float>(cones[i].seen)
-                                            : static_cast<float>(this->Rays.shadows(this->Source,
-                                                asker.position, asker.facet, query.errors.ray));
+    const float seen = static_cast<float>(cones[i].seen);
+    const float lost = seen > 0.0f ? cones[i].lost
+                                   : static_cast<float>(this->Rays.shadows(this->Source,
+                                       asker.position, asker.facet, query.errors.ray));
+    missed[asker.pixel] = seen > 0.0f ? lost / seen : lost;
+    if (query.sums)
+    {
+      query.sums->set(asker.pixel, lost, seen);
+    }
   }
 }
 
@@ -119,6 +124,11 @@ void SoftShadow::testTerminator(
     if (at.kind == TerminatorPoint::Kind::Hidden)
     {
       missed[at.pixel] = 1.0f;
+      if (query.sums)
+      {
+        const float seen = query.sums->count[at.pixel];
+        query.sums->set(at.pixel, std::max(seen, 1.0f), seen);
+      }
     }
     else if (at.kind == TerminatorPoint::Kind::Raised)
     {

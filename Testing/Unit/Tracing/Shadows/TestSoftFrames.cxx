@@ -50,6 +50,7 @@ struct Stage
     this->scene.lights[2].id = 79;
     this->settings.ambientOcclusion = true;
     this->settings.ambientOcclusionStrength = 0.8;
+    this->settings.filterLightSamples = true;
   }
 };
 
@@ -149,6 +150,31 @@ TEST(SoftFrames, InstructionSetsDoNotMatter)
       EXPECT_EQ(expected.depth, frame.depth);
     });
   EXPECT_GT(sets, 1);
+}
+
+// Samples are added to those that there are.
+TEST(SoftFrames, StepsDoNotMatter)
+{
+  Stage stage;
+  stage.settings.lightSamples = 20;
+  stage.settings.skyLight = true;
+  for (const bool filtered : { false, true })
+  {
+    stage.settings.filterLightSamples = filtered;
+    svo::CPUTracer atOnce, inSteps;
+    const svo::Frame expected = rendered(atOnce, stage.scene, stage.view, stage.settings);
+    std::uint64_t rays = 0;
+    for (const int samples : { 3, 6, 12, 20 })
+    {
+      svo::FrameSettings few = stage.settings;
+      few.samplesNow = samples;
+      const svo::Frame frame = rendered(inSteps, stage.scene, stage.view, few);
+      EXPECT_EQ(samples == 20, identical(expected, frame)) << samples;
+      rays += inSteps.statistics().shadowRays;
+    }
+    // But for those that find the terminator.
+    EXPECT_LT(rays, 1.1 * static_cast<double>(atOnce.statistics().shadowRays));
+  }
 }
 
 // Else a pixel's errors of several lights would add up.

@@ -4,6 +4,7 @@
 
 #include "svoFrame.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -31,6 +32,8 @@ public:
   {
     return this->Mean + (2.0f / 3.0f) * glm::dot(normal, this->Up) * this->Rise;
   }
+  /// No more comes from anywhere.
+  glm::vec3 brightest() const { return this->Mean + glm::abs(this->Rise); }
 
 private:
   glm::vec3 Mean, Rise, Up;

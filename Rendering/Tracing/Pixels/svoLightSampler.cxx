@@ -1,0 +1,146 @@
+#include "svoLightSampler.h"
+
+#include "svoTileLighting.h"
+#include "svoTileLook.h"
+#include "svoTileTriangles.h"
+#include "svoViewLights.h"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+namespace svo
+{
+namespace
+{
+struct SampleScratch : PatchShadows::Scratch
+{
+  TilePatch patch;
+  TileTriangles triangles;
+  TileLight light;
+  SampleSums sums[3];
+};
+
+void sampleLight(std::size_t l, const ShadedScene& shaded, const Lighting& lighting,
+  const PatchShadows& points, SampleScratch& scratch, LightImages& images)
+{
+  const TilePatch& patch = scratch.patch;
+  const std::uint64_t reached =
+    arriveLight(lighting, l, shaded.scene.instances[patch.instance].material, patch, scratch.light);
+  points.find(shaded.dark.of(l), *lighting.lights[l].light,
+    points.query(patch, reached, scratch, scratch.sums), scratch);
+  images.put(images.sampled().ofLights[l], patch, reached, *scratch.sums);
+}
+
+/// The points of a patch.
+void samplePatch(const ShadedScene& shaded, const Lighting& lighting, const PatchShadows& points,
+  SampleScratch& scratch, LightImages& images)
+{
+  TilePatch& patch = scratch.patch;
+  const SampledPlanes& planes = images.sampled();
+  lookAtPatch(points.frame(patch.instance), patch, scratch.triangles);
+  images.put(patch);
+  for (SampleSums& sums : scratch.sums)
+  {
+    sums.first = images.firstSample();
+  }
+  for (std::size_t l = 0; l < lighting.lights.size(); ++l)
+  {
+    if (planes.ofLights[l] != SampledPlanes::None)
+    {
+      sampleLight(l, shaded, lighting, points, scratch, images);
+    }
+  }
+  const ShadowQuery all = points.query(patch, patch.mask, scratch, scratch.sums);
+  const bool around =
+    planes.ofOcclusion != SampledPlanes::None || planes.ofSky != SampledPlanes::None;
+  if (around && scratch.noted)
+  {
+    noteRayStarts(all, scratch.noted->raysToLights);
+  }
+  if (planes.ofOcclusion != SampledPlanes::None)
+  {
+    sampleOcclusion(all, *shaded.dark.occlusion(), *scratch.sums);
+    images.put(planes.ofOcclusion, patch, patch.mask, *scratch.sums);
+  }
+  if (planes.ofSky != SampledPlanes::None)
+  {
+    sampleSky(all, *shaded.dark.sky(), SkyGradient(shaded.settings), scratch.sums);
+    for (int c = 0; c < 3; ++c)
+    {
+      images.put(planes.ofSky + c, patch, patch.mask, scratch.sums[c]);
+    }
+  }
+}
+
+/// Nothing has been added to those of some points.
+void clear(SampleSums& sums, std::uint64_t points)
+{
+  eachBit(points, [&](int i) { sums.set(i, 0.0f, 0.0f); });
+}
+}
+
+void sampleOcclusion(const ShadowQuery& query, const HemisphereRays& rays, SampleSums& closed)
+{
+  clear(closed, query.asked);
+  rays.each(query,
+    [&](int i, const glm::vec3&, float blocked)
+    {
+      closed.sum[i] += sampleShare(blocked);
+      closed.count[i] += 1.0f;
+    });
+}
+
+void sampleSky(
+  const ShadowQuery& query, const HemisphereRays& rays, const SkyGradient& sky, SampleSums* seen)
+{
+  const glm::vec3 brightest = glm::max(sky.brightest(), 1e-30f);
+  for (int c = 0; c < 3; ++c)
+  {
+    clear(seen[c], query.asked);
+  }
+  rays.each(query,
+    [&](int i, const glm::vec3& along, float blocked)
+    {
+      const glm::vec3 share = (1.0f - blocked) * sky.from(along) / brightest;
+      for (int c = 0; c < 3; ++c)
+      {
+        seen[c].sum[i] += sampleShare(share[c]);
+        seen[c].count[i] += 1.0f;
+      }
+    });
+}
+
+void sampleLights(const ShadedScene& shaded, const PatchShadows& points,
+  const ParallelFor& parallelFor, KeptTiles& kept, LightImages& images, FrameStatistics& statistics)
+{
+  const Lighting lighting(shaded.scene, shaded.view);
+  std::atomic<std::uint64_t> allRays{ 0 };
+  shaded.tiles.each<SampleScratch>(parallelFor,
+    [&](int tileX, int tileY, SampleScratch& scratch)
+    {
+      const std::size_t index = kept.index(tileX, tileY);
+      if (!kept.stale(index))
+      {
+        return;
+      }
+      scratch.rays = 0;
+      scratch.noted = shaded.settings.frameCoherence ? &kept[index] : nullptr;
+      if (images.firstSample() == 0)
+      {
+        images.startTile(tileX, tileY);
+      }
+      eachPatch(
+        shaded.view, hitsOfTile(shaded.eye.depth, shaded.view, tileX, tileY),
+        [&](std::uint32_t i)
+        {
+          const Instance& instance = shaded.scene.instances[i];
+          return instance.receiveShadow && instance.material.lighting;
+        },
+        [&](std::uint32_t i) { return shaded.eye.base(i); }, scratch.patch,
+        [&](const TilePatch&) { samplePatch(shaded, lighting, points, scratch, images); });
+      allRays.fetch_add(scratch.rays, std::memory_order_relaxed);
+    });
+  statistics.shadowRays += allRays;
+}
+}

@@ -1,0 +1,62 @@
+// Means of few samples a pixel, taken over the surface around it as far as it does not show.
+//
+// Around a pixel there are squares of 1, 3, 5, 9 and 17 pixels' edge. Of each the mean is that of
+// the samples of all pixels in it that are of the same surface: of one instance, with about the
+// same normal, and near to the plane of the pixel in the middle. The wider a square is the less its
+// mean varies by chance, and the more it is off where the light changes. The widest square is taken
+// whose mean lies, as those of all narrower ones do, in an interval that chance explains: the rule
+// of the intersection of confidence intervals (Goldenshluger and Nemirovski, 1997; Katkovnik,
+// "A New Method for Varying Adaptive Bandwidth Selection", 1999). More samples a pixel make the
+// intervals narrow, so the squares as well: what is filtered goes to what is not.
+//
+// How far a penumbra reaches would follow from where rays are blocked, too (Mehta et al.,
+// "Axis-Aligned Filtering for Interactive Sampled Soft Shadows", 2012). But of rays that ask
+// whether anything is in the way what they meet depends on their company; the shares do not.
+#ifndef svoLightFilter_h
+#define svoLightFilter_h
+
+#include "svoRawArray.h"
+#include "vtkSVOTracingModule.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace svo
+{
+/// Of pixels, row by row. A surface's depth is 1/t in perspective views, in which it is linear in
+/// the pixel on a plane, and t in parallel ones.
+struct SeenSurfaces
+{
+  RawArray<std::uint32_t> instance; // NoInstance: of none whose light is sampled
+  RawArray<float> normalX, normalY, normalZ;
+  RawArray<float> depth;
+  RawArray<float> depthX, depthY; // how it grows on the facet, a pixel
+  RawArray<float> pixel;          // what it is for a pixel's width off the facet
+
+  void resize(std::size_t pixels);
+};
+
+namespace LightFilter
+{
+constexpr int Reach = 8;   // pixels beyond the one in the middle
+constexpr int Margin = 16; // pixels beside an image, without surfaces
+constexpr int Block = 64;  // pixels along an edge of what is filtered at once
+
+/// A plane of an image: sums and counts of samples, each of which is 0..1. Both are defined where
+/// surfaces are.
+struct Pixels
+{
+  const SeenSurfaces& surfaces;
+  std::size_t stride;
+  const float *sum, *count;
+  float* mean;    // is set
+  float evenness; // so many times less than that of independent samples is a mean's variance
+};
+
+/// Of `rows` rows of a block whose first pixel is number `first` in all arrays. Pixels without
+/// samples get 0.
+VTKSVOTRACING_EXPORT void filter(const Pixels& pixels, std::size_t first, int rows);
+}
+}
+
+#endif

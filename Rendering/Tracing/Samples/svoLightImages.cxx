@@ -1,0 +1,155 @@
+#include "svoLightImages.h"
+
+#include "svoWorldSize.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace svo
+{
+void LightImages::resize(int tilesX, int tilesY)
+{
+  this->TilesX = tilesX;
+  this->TilesY = tilesY;
+  const int columns = LightFilter::Block * this->blocksX() + 2 * LightFilter::Margin;
+  const int rows = 8 * tilesY + 2 * LightFilter::Reach;
+  this->Stride = static_cast<std::size_t>(columns);
+  this->Surfaces.resize(this->Stride * static_cast<std::size_t>(rows));
+  std::fill_n(this->Surfaces.instance.data(), this->Surfaces.instance.size(), NoInstance);
+  this->Held.assign(static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY), 0);
+}
+
+void LightImages::begin(
+  const SampledPlanes& sampled, const DepthBuffer& depth, int samples, bool more)
+{
+  if (!sampled.any())
+  {
+    *this = LightImages();
+    return;
+  }
+  assert(!more || sampled.count == this->Sampled.count);
+  this->Sampled = sampled;
+  this->First = more ? this->Samples : 0;
+  this->Samples = samples;
+  if (this->TilesX != depth.tilesX || this->TilesY != depth.tilesY)
+  {
+    this->resize(depth.tilesX, depth.tilesY);
+  }
+  this->Planes.resize(static_cast<std::size_t>(sampled.count));
+  for (Plane& plane : this->Planes)
+  {
+    for (RawArray<float>* part : { &plane.sum, &plane.count, &plane.mean })
+    {
+      part->resize(this->Surfaces.instance.size());
+    }
+  }
+  for (std::size_t tile = 0; tile < this->Held.size(); ++tile)
+  {
+    if (this->Held[tile] && !depth.hit[tile])
+    {
+      this->startTile(static_cast<int>(tile) % this->TilesX, static_cast<int>(tile) / this->TilesX);
+      this->Held[tile] = 0;
+    }
+  }
+}
+
+void LightImages::startTile(int tileX, int tileY)
+{
+  this->Held[static_cast<std::size_t>(tileY) * static_cast<std::size_t>(this->TilesX) +
+    static_cast<std::size_t>(tileX)] = 1;
+  for (int row = 0; row < 8; ++row)
+  {
+    const std::size_t at = this->at(8 * tileX, 8 * tileY + row);
+    std::fill_n(this->Surfaces.instance.data() + at, 8, NoInstance);
+    for (Plane& plane : this->Planes)
+    {
+      std::fill_n(plane.sum.data() + at, 8, 0.0f);
+      std::fill_n(plane.count.data() + at, 8, 0.0f);
+    }
+  }
+}
+
+void LightImages::put(const TilePatch& patch)
+{
+  const View& view = *patch.view;
+  SeenSurfaces& all = this->Surfaces;
+  eachBit(patch.mask,
+    [&](int i)
+    {
+      const std::size_t at = this->at(patch, i);
+      const double t = patch.t(i);
+      const glm::dvec3 facet(patch.facet(i));
+      // As seen from the side it bends away soon.
+      const double along = glm::dot(facet, view.rayDirection(patch.x(i), patch.y(i)));
+      const double facing = std::copysign(std::max(std::abs(along), 1e-3), along);
+      // A point on the facet stays there: dot(facet, its way) is 0.
+      const double tX = -glm::dot(facet, view.originX + t * view.directionX) / facing;
+      const double tY = -glm::dot(facet, view.originY + t * view.directionY) / facing;
+      const double perT = view.parallel ? 1.0 : -1.0 / (t * t);
+      all.instance[at] = patch.instance;
+      all.normalX[at] = patch.normalX[i];
+      all.normalY[at] = patch.normalY[i];
+      all.normalZ[at] = patch.normalZ[i];
+      all.depth[at] = static_cast<float>(view.parallel ? t : 1.0 / t);
+      all.depthX[at] = static_cast<float>(tX * perT);
+      all.depthY[at] = static_cast<float>(tY * perT);
+      all.pixel[at] = static_cast<float>(std::abs(widerWorldPixel(view, t) / facing * perT));
+    });
+}
+
+void LightImages::put(int plane, const TilePatch& patch, std::uint64_t mask, const SampleSums& sums)
+{
+  Plane& of = this->Planes[static_cast<std::size_t>(plane)];
+  eachBit(mask,
+    [&](int i)
+    {
+      const std::size_t at = this->at(patch, i);
+      const float count = sums.count[i];
+      if (count > 0.0f && of.count[at] >= 1.0f)
+      {
+        of.sum[at] += sums.sum[i];
+        of.count[at] += count;
+      }
+      else if (of.count[at] < 1.0f)
+      {
+        // What is known without samples counts as long as there are none, and hardly.
+        constexpr float Hardly = 1.0f / 1024.0f;
+        of.count[at] = count > 0.0f ? count : Hardly;
+        of.sum[at] = count > 0.0f ? sums.sum[i] : Hardly * sums.sum[i];
+      }
+    });
+}
+
+void LightImages::findMeans(int blockX, int blockY, bool filtered)
+{
+  const int y0 = LightFilter::Block * blockY;
+  const int rows = std::min(LightFilter::Block, 8 * this->TilesY - y0);
+  const std::size_t first = this->at(LightFilter::Block * blockX, y0);
+  // Errors of the sequence fall as N to the -0.7, so variances by N^0.4 more than independent
+  // samples' would. Of roots all machines have the same bits.
+  const float samples = static_cast<float>(this->Samples);
+  const float evenness = std::sqrt(std::sqrt(std::sqrt(samples * samples * samples)));
+  for (Plane& plane : this->Planes)
+  {
+    if (filtered)
+    {
+      LightFilter::filter({ this->Surfaces, this->Stride, plane.sum.data(), plane.count.data(),
+                            plane.mean.data(), evenness },
+        first, rows);
+      continue;
+    }
+    for (int row = 0; row < rows; ++row)
+    {
+      const std::size_t at = first + static_cast<std::size_t>(row) * this->Stride;
+      for (std::size_t i = at; i < at + LightFilter::Block; ++i)
+      {
+        // No mean is read where there is no count.
+        plane.mean[i] = plane.count[i] > 0.0f ? plane.sum[i] / plane.count[i] : 0.0f;
+      }
+    }
+  }
+}
+}
