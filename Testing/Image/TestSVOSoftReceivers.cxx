@@ -243,7 +243,14 @@ void scenes(Checks& checks)
          { "sun", [&](Stage& s) { boxes(s); s.addSun(2.0, -1.5, 3.0); }, 0.533 },
          { "low disc", [&](Stage& s) { boxes(s); s.addSun(3.0, -1.5, 1.0); }, 5.0 },
          { "many", [&](Stage& s) { many(s); s.addBulb(1.0, -1.5, 4.0); }, 0.4 },
-         { "midst", [&](Stage& s) { many(s); s.addBulb(0.0, 0.0, 1.2); }, 0.2 },
+         { "midst", [&](Stage& s) { many(s); s.addBulb(0.1, -0.2, 0.65); }, 0.2 },
+         { "layers",
+           [&](Stage& s) {
+             boxes(s);
+             s.add(box(1.0, -0.4, -0.2, 2.6), 0.9, 0.5, 0.3);
+             s.addBulb(1.0, -1.0, 5.0);
+           },
+           0.5 },
          { "spot",
            [&](Stage& s) { boxes(s); s.addBulb(1.5, -2.0, 4.0)->SetConeAngle(25.0); }, 0.4 },
          { "translucent",

@@ -1,11 +1,11 @@
 // The share of a light with a size that reaches a fragment of a rasterised surface: percentage-closer
-// soft shadows (R. Fernando, 2005). What hides parts of the light is searched for in its maps, around
-// the way there; as far along as that lies on average, svoFilterSamples ways to the light are looked
-// up. Samples lie in a spiral by the golden angle that each pixel turns by interleaved gradient noise
-// (J. Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", 2014).
+// soft shadows (R. Fernando, 2005). What hides parts of the light is searched for in its maps; at its
+// mean depth rays to the light are looked up. Both lie in spirals by the golden angle, which each
+// pixel turns by interleaved gradient noise (J. Jimenez, "Next Generation Post Processing in Call of
+// Duty: Advanced Warfare", 2014).
 //
 // svoMapLookup.glsl comes before it, whose svoLeft() is svoSharpLeft() then.
-const int svoSearchSamples = 16;
+const int svoSearchSamples = 32;
 const int svoFilterSamples = 32;
 
 // By number of svoLeft(): (its middle, 1) or (the unit way to it, 0), view coordinates; (radius of the
@@ -18,10 +18,10 @@ float svoNoise(vec2 pixel)
   return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
 }
 
-vec2 svoSpiral(float square, int i, float turn)
+vec2 svoSpiral(int i, float turn)
 {
   float angle = 2.39996323 * float(i) + 6.28318531 * turn;
-  return sqrt(square) * vec2(cos(angle), sin(angle));
+  return vec2(cos(angle), sin(angle));
 }
 
 // What the maps have in the direction of a place: the way to it from a point over whose planes it
@@ -93,9 +93,6 @@ float svoLeft(int number, vec3 position, vec3 plane, vec3 normal, vec3 lift, flo
   {
     return 1.0;
   }
-  // Seen from the light what hides a part of it lies the farther aside, the less there is of the way
-  // between them: by `bend` times what it is at the light.
-  float most = ball ? end / (1.0 - end) : end;
   float sine = size / away;
   float cap = sine * sine / (1.0 + sqrt(1.0 - sine * sine)); // solid angle grows by it
   float rim = ball ? size / sqrt(1.0 - sine * sine) : size;
@@ -106,24 +103,24 @@ float svoLeft(int number, vec3 position, vec3 plane, vec3 normal, vec3 lift, flo
   float shift = svoNoise(gl_FragCoord.yx + 17.0);
   vec3 way;
   float texel;
-  float bends = 0.0;
-  float weights = 0.0;
+  float depths = 0.0; // parts of the way to the light
   float texels = 0.0;
+  float weights = 0.0;
   for (int i = 0; i < svoSearchSamples; ++i)
   {
+    // More lie nearby, where what is low hides the light.
     float part = (float(i) + shift) / float(svoSearchSamples);
-    vec2 disc = svoSpiral(part * part * part * part, i, turn);
+    vec2 disc = part * sqrt(part) * svoSpiral(i, turn);
     vec3 place = position + end * (towards + rim * (disc.x * across + disc.y * up));
     if (svoOver(number, place, position, facet, normal, way, texel) > 0.0)
     {
-      float t = dot(way, axis) / away;
-      float beside = length(way - t * towards);
-      if (t > 0.0 && beside <= t * rim + texel && (!ball || length(way - towards) > 0.999 * size))
+      float depth = dot(way, axis) / away;
+      if (depth > 0.0 && length(way - depth * towards) <= depth * rim + texel &&
+        (!ball || length(way - towards) > size))
       {
-        float least = texel / rim;
-        float bend = max(ball ? t / (1.0 - t) : t, least);
-        float weight = part * part * part / (bend * bend);
-        bends += weight * bend;
+        float bend = max(ball ? depth / (1.0 - depth) : depth, texel / rim);
+        float weight = part * part / (bend * bend); // of the light, what its texels hide
+        depths += weight * depth;
         texels += weight * texel;
         weights += weight;
       }
@@ -133,25 +130,22 @@ float svoLeft(int number, vec3 position, vec3 plane, vec3 normal, vec3 lift, flo
   {
     return 1.0;
   }
-  float bend = bends / weights;
-  float t = ball ? bend / (1.0 + bend) : bend;
-  float blur = texels / weights / t; // a texel there, at the light
+  float depth = depths / weights;
+  float least = texels / (weights * depth); // at the light, a texel there
   float dark = 0.0;
   float seen = 0.0;
   for (int i = 0; i < svoFilterSamples; ++i)
   {
     float square = (float(i) + 0.5) / float(svoFilterSamples);
-    vec2 disc = svoSpiral(1.0, i, turn);
     float fallen = cap * square;
     float beside = ball ? away * sqrt(fallen * (2.0 - fallen)) / (1.0 - fallen) : size * sqrt(square);
+    vec2 disc = svoSpiral(i, turn);
     vec3 aside = disc.x * across + disc.y * up;
     if (dot(towards + beside * aside, facet) > 0.0)
     {
-      float wider = sqrt(beside * beside + blur * blur * square);
-      vec3 place = position + t * (towards + wider * aside);
+      vec3 place = position + depth * (towards + sqrt(beside * beside + least * least * square) * aside);
       float taken = svoOver(number, place, position, facet, normal, way, texel);
-      bool before = !ball || length(way - towards) > 0.999 * size;
-      dark += before ? taken : 0.0;
+      dark += !ball || length(way - towards) > size ? taken : 0.0;
       seen += 1.0;
     }
   }
