@@ -51,8 +51,8 @@ glm::mat4 receiverMatrix(const ShadowMap& map, const View& eye)
 /// A light as svoSoftLookup.glsl has it: two vectors.
 std::array<float, 8> sourceOf(const Light& light, double nearest, const View& eye)
 {
-  const glm::dvec4 source = light.atInfinity() ? glm::dvec4(-light.direction, 0.0)
-                                               : glm::dvec4(light.position, 1.0);
+  const glm::dvec4 source =
+    light.atInfinity() ? glm::dvec4(-light.direction, 0.0) : glm::dvec4(light.position, 1.0);
   const glm::vec4 seen(eye.worldToView * source);
   const glm::dvec3 origin(glm::inverse(eye.worldToView)[3]);
   if (light.atInfinity())
@@ -120,8 +120,7 @@ std::string MapCode::update(const std::vector<ShadowMap>& maps, const std::vecto
       firstTranslucent = static_cast<int>(kept.size() + entry.second.size());
     }
     this->Code.lights.push_back(entry.first.light);
-    const auto source =
-      sourceOf(lights[entry.first.light], entry.second.front()->nearest, eye);
+    const auto source = sourceOf(lights[entry.first.light], entry.second.front()->nearest, eye);
     sources.insert(sources.end(), source.begin(), source.end());
     first.push_back(static_cast<int>(kept.size()));
     for (const ShadowMap* map : entry.second)
@@ -143,8 +142,8 @@ std::string MapCode::update(const std::vector<ShadowMap>& maps, const std::vecto
   }
   // Shaders are not built anew because a light has other maps than before.
   const std::size_t capacity = std::min(std::max(kept.size(), MapsOfLight * groups.size()), most);
-  static const std::string SoftText = "#define svoLeft svoSharpLeft\n" +
-    std::string(svoMapLookup) + "#undef svoLeft\n" + svoSoftLookup;
+  static const std::string SoftText = "#define svoLeft svoSharpLeft\n" + std::string(svoMapLookup) +
+    "#undef svoLeft\n" + svoSoftLookup;
   this->Code.text = soft ? SoftText.c_str() : svoMapLookup;
   this->Code.constants = (texture != 0 ? "#define svoLayered\n" : "") +
     constantsOf(

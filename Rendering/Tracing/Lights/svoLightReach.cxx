@@ -37,17 +37,16 @@ LightReach::LightReach(const Light& light, const std::vector<Outline>& outlines,
   }
 }
 
-void LightReach::add(const glm::dmat4& worldToClip, const glm::dvec3& point, glm::dvec2& low,
-  glm::dvec2& high) const
+void LightReach::add(
+  const glm::dmat4& worldToClip, const glm::dvec3& point, glm::dvec2& low, glm::dvec2& high) const
 {
   // All rays to the light, as far as something casts, lie in a cone; the map sees it from its tip
   // to its end, here in a box.
   glm::dvec3 end = point;
   double radius = 0.0;
-  if (this->Source.atInfinity())
+  if (this->wide() && this->Source.atInfinity())
   {
-    const double length =
-      std::max(glm::dot(this->Source.direction, point) - this->Nearest, 0.0);
+    const double length = std::max(glm::dot(this->Source.direction, point) - this->Nearest, 0.0);
     end -= length * this->Source.direction;
     radius = length * this->Source.spread();
   }

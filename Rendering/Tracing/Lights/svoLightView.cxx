@@ -121,8 +121,8 @@ std::vector<View> sixFaces(const glm::dvec3& position, double farthest, int reso
 }
 
 /// `closest`: caster to a light with a size, world.
-std::vector<View> fitPositional(const std::vector<glm::dvec3>& corners, const Light& light,
-  double closest, int resolution)
+std::vector<View> fitPositional(
+  const std::vector<glm::dvec3>& corners, const Light& light, double closest, int resolution)
 {
   const bool spot = light.hasCone() && light.coneAngle < 60.0;
   glm::dvec3 axis(0.0);
@@ -215,8 +215,8 @@ std::vector<View> fitLight(const std::vector<Outline>& outlines,
   {
     return {};
   }
-  return light.atInfinity() ? fitDirectional(corners, light.direction, resolution)
-                            : fitPositional(corners, light,
-                                LightReach(light, outlines, casters).nearest(), resolution);
+  return light.atInfinity()
+    ? fitDirectional(corners, light.direction, resolution)
+    : fitPositional(corners, light, LightReach(light, outlines, casters).nearest(), resolution);
 }
 }
