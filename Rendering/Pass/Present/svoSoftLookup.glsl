@@ -149,6 +149,5 @@ float svoLeft(int number, vec3 position, vec3 plane, vec3 normal, vec3 lift, flo
       seen += 1.0;
     }
   }
-  return seen > 0.0 ? 1.0 - dark / seen
-                    : svoSharpLeft(number, position, plane, normal, lift, extent);
+  return 1.0 - dark / max(seen, 1.0); // of what turns its back on all of the light nothing is lit
 }
