@@ -217,9 +217,9 @@ void expectEdge(const Edge& c, Checks& checks)
   judge(c.name, ways, truth, Mask(truth.size(), 1), { 0.045, 0.3 }, checks);
 }
 
-void addBoxes(Stage& stage)
+void addBoxes(Stage& stage, double ground = 3.0)
 {
-  stage.addGround();
+  stage.addGround(ground);
   stage.add(box(1.0, -0.7, 0.0, 0.5), 0.9, 0.5, 0.3);
   stage.add(box(0.25, 0.6, -0.8, 0.125), 0.5, 0.8, 0.4);
   stage.add(spike(0.9, 1.2, 0.6, 0.45), 0.8, 0.8, 0.3);
@@ -257,7 +257,7 @@ void expectRays(
 
 void compareScenes(Checks& checks)
 {
-  const auto with = [](void (*fill)(Stage&), auto light)
+  const auto with = [](auto fill, auto light)
   {
     return [=](Stage& stage)
     {
@@ -265,6 +265,7 @@ void compareScenes(Checks& checks)
       light(stage);
     };
   };
+  const auto boxes = [](Stage& stage) { addBoxes(stage); };
   const auto bulb = [](double x, double y, double z)
   { return [=](Stage& stage) { stage.addBulb(x, y, z); }; };
   const auto sun = [](double x, double y, double z)
@@ -273,12 +274,22 @@ void compareScenes(Checks& checks)
   const Bars plain{ 0.045, 0.4 };
   // What hides light at many depths has one mean depth: half of the error of round things.
   const Bars round{ 0.08, 0.4 };
-  expectRays("boxes", with(addBoxes, bulb(3.0, -2.5, 4.0)), 0.5, plain, false, checks);
-  expectRays("disc of 8 degrees", with(addBoxes, sun(2.0, -1.5, 3.0)), 8.0, plain, false, checks);
-  expectRays("sun", with(addBoxes, sun(2.0, -1.5, 3.0)), 0.533, plain, false, checks);
-  expectRays("low disc", with(addBoxes, sun(3.0, -1.5, 1.0)), 5.0, plain, false, checks);
+  expectRays("boxes", with(boxes, bulb(3.0, -2.5, 4.0)), 0.5, plain, false, checks);
+  expectRays("disc of 8 degrees", with(boxes, sun(2.0, -1.5, 3.0)), 8.0, plain, false, checks);
+  expectRays("sun", with(boxes, sun(2.0, -1.5, 3.0)), 0.533, plain, false, checks);
+  // Its box tells nothing of how near casters are: the search is far wider than what there is.
+  expectRays(
+    "on a vast ground that casts",
+    [&](Stage& stage)
+    {
+      addBoxes(stage, 200.0);
+      stage.add(box(8.0, 0.0, 60.0, 0.0), 0.9, 0.5, 0.3); // half of it below the ground
+      stage.addSun(2.0, -1.5, 3.0);
+    },
+    12.0, { 0.13, 0.6 }, false, checks);
+  expectRays("low disc", with(boxes, sun(3.0, -1.5, 1.0)), 5.0, plain, false, checks);
   expectRays("spot",
-    with(addBoxes, [](Stage& stage) { stage.addBulb(1.5, -2.0, 4.0)->SetConeAngle(25.0); }), 0.4,
+    with(boxes, [](Stage& stage) { stage.addBulb(1.5, -2.0, 4.0)->SetConeAngle(25.0); }), 0.4,
     plain, false, checks);
   expectRays("ball", with(addBall, bulb(2.0, -1.5, 4.0)), 0.5, round, false, checks);
   expectRays("floating", with(addFloating, bulb(1.0, -1.5, 4.0)), 0.4, round, false, checks);
@@ -293,7 +304,7 @@ void compareScenes(Checks& checks)
     0.5, round, false, checks);
   // A map does not know what lies behind the first caster.
   expectRays("one above the other",
-    with(addBoxes,
+    with(boxes,
       [](Stage& stage)
       {
         stage.add(box(1.0, -0.4, -0.2, 2.6), 0.9, 0.5, 0.3);

@@ -42,6 +42,7 @@ float svoOver(int number, vec3 place, vec3 point, vec3 facet, vec3 normal, out v
     {
       continue;
     }
+    texel = svoTexelEdges(rows, w, size).y;
     ivec2 index = ivec2(clamp((at / w * 0.5 + 0.5) * size, vec2(0.0), vec2(size - 1.0)));
     float occluder = svoOccluder(i, index) + svoManualBias;
     if (occluder < 1e30)
@@ -103,14 +104,18 @@ float svoLeft(int number, vec3 position, vec3 plane, vec3 normal, vec3 lift, flo
   float shift = svoNoise(gl_FragCoord.yx + 17.0);
   vec3 way;
   float texel;
+  // The nearest samples lie a texel apart, where what is low hides the light.
+  svoOver(number, position, position, facet, normal, way, texel);
+  float most = ball ? end / (1.0 - end) : end;
+  float power = texel > 0.0
+    ? clamp(log(most * rim / texel) / log(float(svoSearchSamples)), 1.0, 4.0) : 1.5;
   float depths = 0.0; // parts of the way to the light
   float texels = 0.0;
   float weights = 0.0;
   for (int i = 0; i < svoSearchSamples; ++i)
   {
-    // More lie nearby, where what is low hides the light.
     float part = (float(i) + shift) / float(svoSearchSamples);
-    vec2 disc = part * sqrt(part) * svoSpiral(i, turn);
+    vec2 disc = pow(part, power) * svoSpiral(i, turn);
     vec3 place = position + end * (towards + rim * (disc.x * across + disc.y * up));
     if (svoOver(number, place, position, facet, normal, way, texel) > 0.0)
     {
@@ -119,7 +124,7 @@ float svoLeft(int number, vec3 position, vec3 plane, vec3 normal, vec3 lift, flo
         (!ball || length(way - towards) > size))
       {
         float bend = max(ball ? depth / (1.0 - depth) : depth, texel / rim);
-        float weight = part * part / (bend * bend); // of the light, what its texels hide
+        float weight = pow(part, 2.0 * power - 1.0) / (bend * bend); // of the light, what its texels hide
         depths += weight * depth;
         texels += weight * texel;
         weights += weight;
