@@ -58,10 +58,11 @@ public:
    * the radius of a ball, world units; of a directional one the angle of its disc in the sky,
    * degrees (the sun: 0.533; 170 at most). Its shadows have soft edges on surfaces that are traced,
    * whatever ShadowTechnique is, by as many rays from each visible point as MaximumLightSamples
-   * says; how bright it is stays VTK's business. Surfaces that are left to the rasteriser, and
-   * frames of the OpenGL backend, have its shadows as of a point. Negative or not finite: refused,
-   * with a warning. Get knows of the radius for VTK's ray tracing backend as well
-   * (vtkOSPRayLightNode::SetRadius()), which counts where this is 0.
+   * says; how bright it is stays VTK's business. On surfaces that are left to the rasteriser, and
+   * in frames of the OpenGL backend, soft edges are estimated from shadow maps, whatever
+   * MaximumLightSamples is. Negative or not finite: refused, with a warning. Get knows of the
+   * radius for VTK's ray tracing backend as well (vtkOSPRayLightNode::SetRadius()), which counts
+   * where this is 0.
    */
   static void SetLightSize(double size, vtkLight* light);
   static double GetLightSize(vtkLight* light);

@@ -29,7 +29,7 @@ bool vtkSVORenderPass::CollectFrame(
   vtkRenderer* renderer = frame.renderer;
   frame.state->beginFrame();
   bool disturbed = true;
-  bool sampled = false; // something asks for samples of light
+  bool around = false; // something asks what is all around points
   // As the last frame's scene says; this one's has the last word.
   bool planes = frame.state->collected().planes;
   for (int i = 1; disturbed && i <= MostCollections; ++i)
@@ -70,17 +70,27 @@ bool vtkSVORenderPass::CollectFrame(
     const bool automatic = this->Backend == BACKEND_AUTO;
     const bool chosen =
       automatic && this->MayPreferOpenGL(frame, this->ShadowTechnique == SHADOW_RAYS);
-    sampled = this->AmbientOcclusion || this->SkyLight || svo::hasSoftLight(renderer);
-    frame.openGL = chosen ? !planes && !sampled : this->Backend == BACKEND_OPENGL;
-    frame.tellOnce(frame.openGL && sampled
-        ? "With the OpenGL backend lights have no size, and there is neither a sky's light nor "
-          "ambient occlusion: take the CPU, or Auto, which takes it for them."
+    around = this->AmbientOcclusion || this->SkyLight;
+    const bool soft = svo::hasSoftLight(renderer);
+    const bool softRays = soft && this->ShadowTechnique == SHADOW_RAYS;
+    frame.openGL = chosen ? !planes && !around && !softRays : this->Backend == BACKEND_OPENGL;
+    frame.tellOnce(frame.openGL && around
+        ? "With the OpenGL backend there is neither a sky's light nor ambient occlusion: take the "
+          "CPU, or Auto, which takes it for them."
         : "",
       impl.said);
-    const bool rays = frame.openGL && this->ShadowTechnique == SHADOW_AUTOMATIC &&
-      (!automatic || this->MayPreferOpenGL(frame, true));
+    frame.tellOnce(frame.openGL && softRays
+        ? "With the OpenGL backend no rays go to lights with a size: where one is, shadow maps "
+          "take the place of rays to all lights. Take the CPU for rays, or Auto."
+        : "",
+      impl.said);
+    const bool rays = frame.openGL && !soft &&
+      (this->ShadowTechnique == SHADOW_RAYS ||
+        (this->ShadowTechnique == SHADOW_AUTOMATIC &&
+          (!automatic || this->MayPreferOpenGL(frame, true))));
     asked = this->AskedSettings(frame.openGL, rays);
-    if (sampled && impl.severalProcesses() && asked.shadowTechnique == svo::ShadowTechnique::Buffer)
+    if ((around || soft) && !frame.openGL && impl.severalProcesses() &&
+      asked.shadowTechnique == svo::ShadowTechnique::Buffer)
     {
       asked.shadowTechnique = svo::ShadowTechnique::Rays; // which have all casters on all of them
     }
@@ -129,10 +139,9 @@ bool vtkSVORenderPass::CollectFrame(
                         text(alone, TEXT_NOTHING_CASTS), text(alone, TEXT_NOTHING_RECEIVES),
                         text(seen, TEXT_CLIPPED) },
     impl.said);
-  frame.tellOnce(sampled && !frame.openGL && collected.rasterizedReceivers
-      ? "Some surfaces are drawn by the rasteriser: lights with a size cast shadows with sharp "
-        "edges on them, and neither a sky's light nor ambient occlusion reaches them, as they do "
-        "what is traced."
+  frame.tellOnce(around && !frame.openGL && collected.rasterizedReceivers
+      ? "Some surfaces are drawn by the rasteriser: neither a sky's light nor ambient occlusion "
+        "reaches them, as they do what is traced."
       : "",
     impl.said);
   frame.decide(asked,
@@ -156,12 +165,12 @@ bool vtkSVORenderPass::MayPreferOpenGL(svo::PassFrame& frame, bool rays)
   return prefers;
 }
 
-/// What the settings ask of a frame's tracer. `rays`: Automatic takes them.
+/// What the settings ask of a frame's tracer. `rays`: Automatic, or OpenGL, takes them.
 svo::FrameSettings vtkSVORenderPass::AskedSettings(bool openGL, bool rays) const
 {
   svo::FrameSettings settings;
   this->Fill(settings);
-  if (this->ShadowTechnique == SHADOW_AUTOMATIC)
+  if (this->ShadowTechnique == SHADOW_AUTOMATIC || (openGL && this->ShadowTechnique == SHADOW_RAYS))
   {
     settings.shadowTechnique = rays ? svo::ShadowTechnique::Rays : svo::ShadowTechnique::Buffer;
   }

@@ -226,16 +226,32 @@ class TestSoftLight(unittest.TestCase):
             self.renderer.SetPass(self.svo)
             self.picture()
 
-    def test_what_is_not_soft_is_said(self):
+    def test_what_vtk_draws_is_soft_as_well(self):
+        vtkSVORenderPass.SetUseSVO(False, self.ground)
+        pictures = []
+        for backend in self.svo.SetBackendToCPU, self.svo.SetBackendToOpenGL:
+            backend()
+            self.soften(0.0)
+            hard = self.picture()
+            self.soften()
+            pictures.append(self.picture())
+            self.assertGreater(numpy.abs(pictures[-1] - hard).max(), 50)
+        self.assertLess(numpy.abs(pictures[0] - pictures[1]).mean(), 0.5)
+        self.assertEqual(self.said.GetOutput(), "")
+
+    def test_what_has_no_rays_is_said(self):
         self.soften()
         vtkSVORenderPass.SetUseSVO(False, self.ground)
+        self.svo.SetSkyLight(True)
         self.picture()
         self.picture()
-        self.assertEqual(self.said.GetOutput().count("sharp edges"), 1)
+        self.assertEqual(self.said.GetOutput().count("neither a sky's light nor ambient occlusion"), 1)
         self.svo.SetBackendToOpenGL()
+        self.svo.SetShadowTechniqueToShadowRays()
         self.picture()
         self.picture()
-        self.assertEqual(self.said.GetOutput().count("With the OpenGL backend lights have no size"), 1)
+        self.assertEqual(self.said.GetOutput().count("With the OpenGL backend there is neither"), 1)
+        self.assertEqual(self.said.GetOutput().count("no rays go to lights with a size"), 1)
 
 
 if __name__ == "__main__":

@@ -212,6 +212,9 @@ struct ShadowMap
   int group = 0;            // 0: of opaque casters; else the number of a group of translucent ones
   double worldBias = 0.0;   // for receivers that do not know the caster of a texel, world units
   double casterVoxel = 0.0; // of the coarsest caster, world units
+  /// Nothing that casts is nearer to a light with a size, world: to its place; of one at infinity,
+  /// along its direction from the origin.
+  double nearest = 0.0;
 };
 }
 

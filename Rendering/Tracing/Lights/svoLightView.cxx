@@ -1,6 +1,7 @@
 #include "svoLightView.h"
 
 #include "svoBox.h"
+#include "svoLightReach.h"
 
 #include <algorithm>
 #include <cassert>
@@ -119,8 +120,9 @@ std::vector<View> sixFaces(const glm::dvec3& position, double farthest, int reso
   return views;
 }
 
+/// `closest`: caster to a light with a size, world.
 std::vector<View> fitPositional(
-  const std::vector<glm::dvec3>& corners, const Light& light, int resolution)
+  const std::vector<glm::dvec3>& corners, const Light& light, double closest, int resolution)
 {
   const bool spot = light.hasCone() && light.coneAngle < 60.0;
   glm::dvec3 axis(0.0);
@@ -175,7 +177,9 @@ std::vector<View> fitPositional(
   }
   if (spot)
   {
-    const double reach = std::tan(glm::radians(light.coneAngle)) * 1.001 + 1e-6;
+    // What is beside the cone hides parts of a light with a size from points in it.
+    const double beside = light.soft() ? light.radius() / std::max(closest, light.radius()) : 0.0;
+    const double reach = std::tan(glm::radians(light.coneAngle)) * 1.001 + 1e-6 + beside;
     if (wide)
     {
       slopes.low = glm::dvec3(-reach);
@@ -211,7 +215,8 @@ std::vector<View> fitLight(const std::vector<Outline>& outlines,
   {
     return {};
   }
-  return light.atInfinity() ? fitDirectional(corners, light.direction, resolution)
-                            : fitPositional(corners, light, resolution);
+  return light.atInfinity()
+    ? fitDirectional(corners, light.direction, resolution)
+    : fitPositional(corners, light, LightReach(light, outlines, casters).nearest(), resolution);
 }
 }
