@@ -225,8 +225,9 @@ def looks(scene, folder, name):
 
 
 def detail(folder):
-    """A penumbra and a fold, with 1, 16 and 256 samples; each pixel is nine."""
+    """A penumbra and a fold, with 1, 16 and 256 samples, not filtered; each pixel is nine."""
     shown = Shown(isosurface(), (480, 480))
+    shown.svo.SetFilterLightSamples(False)
     box = (290, 290, 380, 360)
     rows = []
     for how in dict(soft=True), dict(occlusion=True):

@@ -12,9 +12,9 @@ from processes import MPIRUN, file_of, program, run, run_with_server, script
 
 SCRIPT = script("several_processes.py")
 NAMES = ("full-depth", "shadow", "drawn-by-the-client", "drawn-by-the-server", "moved", "turned", "rays",
-         "automatic", "ordinary-ground", "everything", "shadow-ground", "light-kit")
-# With triangles smaller than pixels, at pixel errors 1 (the default) and 2.
-LEVELS = {"level-of-detail": 1e-4, "coarse": 1e-3}
+         "automatic", "soft-light", "occlusion", "sky", "ordinary-ground", "everything", "shadow-ground", "light-kit")
+# With triangles smaller than pixels, at pixel errors 1 (the default) and 2; and where samples are filtered.
+LEVELS = {"level-of-detail": 1e-4, "coarse": 1e-3, "sky-filtered": 1e-3}
 
 
 def read(prefix, name):
@@ -47,7 +47,8 @@ class TestParallel(unittest.TestCase):
             print(f"{prefix}-translucent: {difference:.6f} of the pixels differ from Surface")
             self.assertLess(difference, share)
 
-        # Where pieces meet, a coarse node has only what one of them knows of the surface in it.
+        # Where pieces meet, a coarse node has only what one of them knows of the surface in it, and a pixel only the
+        # samples of its own piece.
         for name, share in LEVELS.items():
             with self.subTest(picture=name):
                 difference = pictures.differing(read(prefix, name), read("one", name))

@@ -80,6 +80,20 @@ picture("rays")
 view.SVOShadowTechnique = "Automatic"
 picture("automatic")
 view.SVOShadowTechnique = "Shadow Buffer"
+# Each process has the pixels of its pieces: what the filter takes from around them ends with these.
+view.SVOFilterLightSamples = 0
+light = view.AdditionalLights[0]
+light.SVOSize = 12.0
+picture("soft-light")
+light.SVOSize = 0.0
+view.SVOAmbientOcclusion = 1
+picture("occlusion")
+view.SVOAmbientOcclusion = 0
+view.SVOSkyLight = 1
+picture("sky")
+view.SVOFilterLightSamples = 1
+picture("sky-filtered")
+view.SVOSkyLight = 0
 displays[1].Representation = "Surface"
 picture("ordinary-ground")
 displays[0].Representation = "Surface"

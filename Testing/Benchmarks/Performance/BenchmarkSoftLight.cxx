@@ -5,9 +5,10 @@
 // time: a frame by a point light, and what others take beyond it, retraced and with all kept but
 // the shading; rays a second are what more samples of a kind take.
 // error: RMS of colours (0..255) against many samples, over pixels that are between the extremes,
-// as penumbras are, and over all; the last row of a kind is the slope of log(error) over
-// log(samples), of errors of a grey level and more, as colours are whole numbers.
-// nothingSoft: pictures whose bits no setting of soft lights may change.
+// as penumbras are, and over all, of each pixel's samples alone and filtered; the last row of a
+// kind is the slope of log(error) over log(samples), of the former and of errors of a grey level
+// and more, as colours are whole numbers. nothingSoft: pictures whose bits no setting of soft
+// lights may change.
 //
 //   BenchmarkSoftLight [--a dragon.off --b sydney.md2] [--size 1920x1080] [--frames n]
 //   [--errorSize 320x180] [--truth 2048] [--json file]
@@ -280,6 +281,7 @@ bool Benchmark::error(const std::string& kind, int most)
 {
   const bool soft = kind == "soft light";
   const auto way = this->lit(kind, soft ? most : 0, soft ? 0 : most);
+  way->pass()->SetFilterLightSamples(false);
   const Picture truth = way->picture();
   Picture dark(truth.size(), 0); // what is closed off all around
   Picture bright;
@@ -328,6 +330,11 @@ bool Benchmark::error(const std::string& kind, int most)
     row["betweenShare"] = share;
     row["betweenError"] = errors.back();
     row["error"] = rms(picture, truth, all);
+    way->pass()->SetFilterLightSamples(true);
+    const Picture filtered = way->picture();
+    way->pass()->SetFilterLightSamples(false);
+    row["filteredBetweenError"] = rms(filtered, truth, between);
+    row["filteredError"] = rms(filtered, truth, all);
     this->Out.add(row);
     // Below half a grey level it is roundings.
     if (errors.size() > 1 && errors.back() > 0.5 && errors.back() >= errors[errors.size() - 2])
@@ -348,6 +355,7 @@ bool Benchmark::nothingSoft()
   usual->setSamples(vtkNew<vtkSVORenderPass>()->GetMaximumLightSamples());
   const auto other = this->lit("other settings", 0, 0);
   other->pass()->SetLightError(1.0);
+  other->pass()->SetFilterLightSamples(false);
   other->pass()->SetAmbientOcclusionDistance(0.3);
   other->pass()->SetAmbientOcclusionStrength(0.5);
   other->pass()->SetAmbientOcclusionOfAllLight(false);
