@@ -68,8 +68,24 @@ class TestSoftLight(unittest.TestCase):
         vtkSVORenderPass.SetLightSize(1.0, None)
         self.assertEqual(vtkSVORenderPass.GetLightSize(None), 0.0)
 
+    def test_few_samples_that_are_filtered_are_nearer_to_many(self):
+        self.soften()
+        # Penumbras are a few pixels wide here, where there is little to be taken from around.
+        for occlusion, share in (False, 0.75), (True, 0.5):
+            self.svo.SetAmbientOcclusion(occlusion)
+            self.svo.SetFilterLightSamples(False)
+            self.svo.SetMaximumLightSamples(512)
+            truth = self.picture()
+            self.svo.SetMaximumLightSamples(4)
+            off = numpy.sqrt(((self.picture() - truth) ** 2).mean())
+            self.svo.SetFilterLightSamples(True)
+            filtered = numpy.sqrt(((self.picture() - truth) ** 2).mean())
+            print("occlusion" if occlusion else "soft light", off, filtered)
+            self.assertLess(filtered, share * off)
+
     def test_more_samples_are_nearer_to_many(self):
         self.soften()
+        self.svo.SetFilterLightSamples(False)
         self.svo.SetMaximumLightSamples(1024)
         truth = self.picture()
         off = []
