@@ -152,10 +152,11 @@ vtksvo_setting(MaximumLightSamples int 32
   PANEL default
   SAYS
     "Rays from each visible point to each light that has a size (`SetLightSize`), and over its hemisphere for ambient
-     occlusion. Fewer leave grain, more take longer. While you interact there are 4 at most."
+     occlusion. Fewer leave grain, more take longer. While you interact there are 4 at most,
+     and one where there is nothing but what is around and samples are filtered."
   MORE
     "Off screen, and in windows without an interactor, so many are taken before `Render()` returns. With one a still picture
-     begins with 4 as well; while the interactor has nothing else to do it gets twice as many, again and again. `Refine()`
+     begins with as few; while the interactor has nothing else to do it gets twice as many, again and again. `Refine()`
      does one such step, for scripts. `GetNumberOfLightSamples()` tells how many it has.")
 
 vtksvo_setting(FilterLightSamples bool true
@@ -166,7 +167,7 @@ vtksvo_setting(FilterLightSamples bool true
     "Take the samples of the surface around a pixel for it as well, as far as what is seen of a light does not change there:
      grain of few samples goes away."
   MORE
-    "Up to eight pixels around, of the same actor, with about the same normal and in about the same plane. The more samples
+    "Up to eight pixels around, with about the same normal and in about the same plane. The more samples
      there are the less is taken from around. What lets light through in finer patterns than chance tells apart gets
      blurred.")
 

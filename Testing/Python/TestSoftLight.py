@@ -136,6 +136,24 @@ class TestSoftLight(unittest.TestCase):
         self.assertTrue((self.picture() == straight).all())
         self.assertEqual(self.svo.GetNumberOfLightSamples(), 32)
 
+    def test_what_is_around_begins_with_one_sample(self):
+        self.svo.SetAmbientOcclusion(True)
+        self.svo.SetMaximumLightSamples(8)
+        straight = self.picture()
+        self.ball.SetPosition(0.5, 0.0, 0.0)
+        for filtered, first in (True, 1), (False, 4):
+            self.svo.SetFilterLightSamples(filtered)
+            self.ball.SetPosition(0.5 - self.ball.GetPosition()[0], 0.0, 0.0)
+            self.window.SetDesiredUpdateRate(10.0)
+            self.window.Render()
+            self.assertEqual(self.svo.GetNumberOfLightSamples(), first)
+            self.window.SetDesiredUpdateRate(0.0001)
+            while self.svo.Refine():
+                pass
+            self.assertEqual(self.svo.GetNumberOfLightSamples(), 8)
+            if filtered:
+                self.assertTrue((self.shown() == straight).all())
+
     def test_an_error_ends_it(self):
         self.soften()
         self.svo.SetMaximumLightSamples(4096)

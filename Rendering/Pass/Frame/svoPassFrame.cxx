@@ -18,9 +18,9 @@ constexpr double InteractiveRate = 1.0; // Hz
 /// Share of an interactive frame's time that is the pass's; the rest is for what else is drawn.
 constexpr double OwnShare = 0.5;
 
-/// Of lights with a size and of ambient occlusion, a pixel of an interactive frame, and of the
-/// first one of a picture that is refined.
-constexpr int FirstSamples = 4;
+/// Of lights with a size, a pixel of an interactive frame, and of the first one of a picture that
+/// is refined. What is all around changes slowly: filtered, one sample tells nearly as much.
+constexpr int FirstSamples = 4, FirstSamplesAround = 1;
 }
 
 bool PassFrame::interactive() const
@@ -93,9 +93,11 @@ void PassFrame::decideSamples(const PaceLimits& limits)
 {
   const bool straight = !this->interactive() && !limits.refinesLater;
   const int shown = this->state->samples();
+  const bool slow = this->settings.filterLightSamples && !hasSoftLight(this->renderer);
+  const int first = slow ? FirstSamplesAround : FirstSamples;
   this->settings.samplesNow = limits.refine && !this->interactive() && shown > 0 ? 2 * shown
     : straight && limits.lightError <= 0.0 ? std::numeric_limits<int>::max()
-                                           : FirstSamples;
+                                           : first;
   this->refinesTo = straight && !limits.refine ? limits.lightError : -1.0;
 }
 

@@ -4,10 +4,11 @@
 
 #include "svoLightFilter.h"
 
-#include "svoDepthBuffer.h"
 #include "svoLaneBits-inl.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include <hwy/highway.h>
@@ -72,20 +73,18 @@ struct RowSums
 /// The surfaces of some pixels.
 struct Surface
 {
-  hn::Vec<Words> instance;
   Lanes normalX, normalY, normalZ, depth;
 
   HWY_INLINE Surface(const SeenSurfaces& all, std::size_t at)
-    : instance(hn::LoadU(Words(), all.instance.data() + at))
-    , normalX(hn::LoadU(Floats(), all.normalX.data() + at))
+    : normalX(hn::LoadU(Floats(), all.normalX.data() + at))
     , normalY(hn::LoadU(Floats(), all.normalY.data() + at))
     , normalZ(hn::LoadU(Floats(), all.normalZ.data() + at))
     , depth(hn::LoadU(Floats(), all.depth.data() + at))
   {
   }
 
-  /// Where it is that of `middle`, `away` pixels from there; `slope`: of the middle's depth, a
-  /// pixel.
+  /// Where it is that of `middle`, if there is one, `away` pixels from there; `slope`: of the
+  /// middle's depth, a pixel.
   HWY_INLINE hn::Mask<Floats> same(const Surface& middle, Lanes slope, Lanes pixel, int away) const
   {
     const Floats d;
@@ -98,8 +97,7 @@ struct Surface
     const auto off = hn::Abs(hn::Sub(this->depth, expected));
     // Half a pixel, and a bend.
     const auto mayBe = hn::Mul(pixel, hn::Set(d, 0.5f + 0.2f * steps));
-    return hn::And(hn::RebindMask(d, hn::Eq(this->instance, middle.instance)),
-      hn::And(hn::Ge(cosine, hn::Set(d, LeastCosine)), hn::Le(off, mayBe)));
+    return hn::And(hn::Ge(cosine, hn::Set(d, LeastCosine)), hn::Le(off, mayBe));
   }
 
   static constexpr float LeastCosine = 0.9f;
@@ -117,7 +115,7 @@ void sumRows(const LightFilter::Pixels& pixels, std::size_t first, int rows, Row
       const Surface middle(pixels.surfaces, at);
       const auto slope = hn::LoadU(d, pixels.surfaces.depthX.data() + at);
       const auto pixel = hn::LoadU(d, pixels.surfaces.pixel.data() + at);
-      const auto known = hn::RebindMask(d, hn::Ne(middle.instance, hn::Set(Words(), NoInstance)));
+      const auto known = hn::Ge(pixel, hn::Zero(d));
       Sums some(pixels, at, known);
       int away = 1;
       for (int scale = 0; scale < Scales; ++scale)
@@ -197,7 +195,7 @@ void findMeans(const LightFilter::Pixels& pixels, std::size_t first, int rows, c
       const Surface middle(pixels.surfaces, at);
       const auto slope = hn::LoadU(d, pixels.surfaces.depthY.data() + at);
       const auto pixel = hn::LoadU(d, pixels.surfaces.pixel.data() + at);
-      const auto known = hn::RebindMask(d, hn::Ne(middle.instance, hn::Set(Words(), NoInstance)));
+      const auto known = hn::Ge(pixel, hn::Zero(d));
       const int middleRow = row + LightFilter::Reach;
       hn::Mask<Floats> same[2 * LightFilter::Reach + 1];
       for (int step = -LightFilter::Reach; step <= LightFilter::Reach; ++step)
@@ -241,12 +239,18 @@ HWY_EXPORT(filterBlock);
 
 void SeenSurfaces::resize(std::size_t pixels)
 {
-  this->instance.resize(pixels);
   for (RawArray<float>* part : { &this->normalX, &this->normalY, &this->normalZ, &this->depth,
          &this->depthX, &this->depthY, &this->pixel })
   {
     part->resize(pixels);
   }
+  this->remove(0, pixels);
+}
+
+void SeenSurfaces::remove(std::size_t first, std::size_t count)
+{
+  std::fill_n(this->depth.data() + first, count, std::numeric_limits<float>::infinity());
+  std::fill_n(this->pixel.data() + first, count, -1.0f);
 }
 
 void LightFilter::filter(const Pixels& pixels, std::size_t first, int rows)

@@ -1,13 +1,15 @@
 // Means of few samples a pixel, taken over the surface around it as far as it does not show.
 //
 // Around a pixel there are squares of 1, 3, 5, 9 and 17 pixels' edge. Of each the mean is that of
-// the samples of all pixels in it that are of the same surface: of one instance, with about the
-// same normal, and near to the plane of the pixel in the middle. The wider a square is the less its
-// mean varies by chance, and the more it is off where the light changes. The widest square is taken
-// whose mean lies, as those of all narrower ones do, in an interval that chance explains: the rule
-// of the intersection of confidence intervals (Goldenshluger and Nemirovski, 1997; Katkovnik,
-// "A New Method for Varying Adaptive Bandwidth Selection", 1999). More samples a pixel make the
-// intervals narrow, so the squares as well: what is filtered goes to what is not.
+// the samples of all pixels in it that are of the same surface: with about the same normal, and
+// near to the plane of the pixel in the middle. Whose they are does not matter: blocks of one
+// surface have no seams. The wider a square is the less its mean varies by chance, and the more it
+// is off where the light changes. The widest one is taken in which, as in all narrower ones, pixels
+// differ from their mean by no more than chance explains, and whose mean lies in the intervals of
+// the narrower ones: the intersection of confidence intervals (Goldenshluger and Nemirovski, 1997;
+// Katkovnik, "A New Method for Varying Adaptive Bandwidth Selection", 1999). The former tells
+// edges, the latter gradients. More samples a pixel make chance explain less, so squares get
+// narrower: what is filtered goes to what is not.
 //
 // How far a penumbra reaches would follow from where rays are blocked, too (Mehta et al.,
 // "Axis-Aligned Filtering for Interactive Sampled Soft Shadows", 2012). But of rays that ask
@@ -19,7 +21,6 @@
 #include "vtkSVOTracingModule.h"
 
 #include <cstddef>
-#include <cstdint>
 
 namespace svo
 {
@@ -27,13 +28,15 @@ namespace svo
 /// the pixel on a plane, and t in parallel ones.
 struct SeenSurfaces
 {
-  RawArray<std::uint32_t> instance; // NoInstance: of none whose light is sampled
   RawArray<float> normalX, normalY, normalZ;
   RawArray<float> depth;
   RawArray<float> depthX, depthY; // how it grows on the facet, a pixel
-  RawArray<float> pixel;          // what it is for a pixel's width off the facet
+  RawArray<float> pixel; // what it is for a pixel's width off the facet; negative: there is none
 
+  /// There are none at all then.
   void resize(std::size_t pixels);
+  /// There is none whose light is sampled.
+  void remove(std::size_t first, std::size_t count);
 };
 
 namespace LightFilter

@@ -18,7 +18,6 @@ void LightImages::resize(int tilesX, int tilesY)
   const int rows = 8 * tilesY + 2 * LightFilter::Reach;
   this->Stride = static_cast<std::size_t>(columns);
   this->Surfaces.resize(this->Stride * static_cast<std::size_t>(rows));
-  std::fill_n(this->Surfaces.instance.data(), this->Surfaces.instance.size(), NoInstance);
   this->Held.assign(static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY), 0);
 }
 
@@ -43,7 +42,7 @@ void LightImages::begin(
   {
     for (RawArray<float>* part : { &plane.sum, &plane.count, &plane.mean })
     {
-      part->resize(this->Surfaces.instance.size());
+      part->resize(this->Surfaces.depth.size());
     }
   }
   for (std::size_t tile = 0; tile < this->Held.size(); ++tile)
@@ -63,7 +62,7 @@ void LightImages::startTile(int tileX, int tileY)
   for (int row = 0; row < 8; ++row)
   {
     const std::size_t at = this->at(8 * tileX, 8 * tileY + row);
-    std::fill_n(this->Surfaces.instance.data() + at, 8, NoInstance);
+    this->Surfaces.remove(at, 8);
     for (Plane& plane : this->Planes)
     {
       std::fill_n(plane.sum.data() + at, 8, 0.0f);
@@ -89,7 +88,6 @@ void LightImages::put(const TilePatch& patch)
       const double tX = -glm::dot(facet, view.originX + t * view.directionX) / facing;
       const double tY = -glm::dot(facet, view.originY + t * view.directionY) / facing;
       const double perT = view.parallel ? 1.0 : -1.0 / (t * t);
-      all.instance[at] = patch.instance;
       all.normalX[at] = patch.normalX[i];
       all.normalY[at] = patch.normalY[i];
       all.normalZ[at] = patch.normalZ[i];

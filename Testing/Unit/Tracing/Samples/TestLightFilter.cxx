@@ -1,5 +1,4 @@
 // The filter of samples against the same pixel by pixel, and against many samples.
-#include "svoDepthBuffer.h"
 #include "svoInstructionSets.h"
 #include "svoLightFilter.h"
 
@@ -9,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -20,8 +18,7 @@ using svo::LightFilter::Margin;
 using svo::LightFilter::Reach;
 using svotest::onEveryInstructionSet;
 
-/// Samples on a wall of patches, some of them at other depths, of other instances or bent, with
-/// holes between.
+/// Samples on a wall of patches, some of them at other depths or bent, with holes between.
 struct Image
 {
   static constexpr int Width = 2 * Block, Height = 100;
@@ -35,7 +32,6 @@ struct Image
   {
     std::mt19937 random(11);
     this->surfaces.resize(this->sum.size());
-    std::fill_n(this->surfaces.instance.data(), this->sum.size(), svo::NoInstance);
     for (int y = 0; y < Height; ++y)
     {
       for (int x = 0; x < Width; ++x)
@@ -47,7 +43,6 @@ struct Image
         }
         const std::size_t i = at(x, y);
         const float turn = patch == 4 ? 0.02f * static_cast<float>(x % 23) : 0.0f;
-        this->surfaces.instance[i] = patch == 1 ? 8 : 7;
         this->surfaces.normalX[i] = std::sin(turn);
         this->surfaces.normalY[i] = 0.0f;
         this->surfaces.normalZ[i] = std::cos(turn);
@@ -77,7 +72,7 @@ struct Image
   bool same(std::size_t p, std::size_t q, int away, const svo::RawArray<float>& slope) const
   {
     const svo::SeenSurfaces& s = this->surfaces;
-    if (s.instance[p] == svo::NoInstance || s.instance[q] != s.instance[p])
+    if (!(s.pixel[p] >= 0.0f && s.pixel[q] >= 0.0f))
     {
       return false;
     }
@@ -108,7 +103,7 @@ struct Image
   Sums along(int x, int y, int reach) const
   {
     const std::size_t p = at(x, y);
-    if (y < 0 || y >= Height || this->surfaces.instance[p] == svo::NoInstance)
+    if (y < 0 || y >= Height || this->surfaces.pixel[p] < 0.0f)
     {
       return {};
     }
@@ -150,7 +145,7 @@ namespace
 float filtered(const Image& image, int x, int y, float evenness)
 {
   const std::size_t p = Image::at(x, y);
-  if (image.surfaces.instance[p] == svo::NoInstance || !(image.count[p] > 0.0f))
+  if (image.surfaces.pixel[p] < 0.0f || !(image.count[p] > 0.0f))
   {
     return 0.0f;
   }

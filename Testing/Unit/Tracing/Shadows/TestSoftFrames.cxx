@@ -152,6 +152,37 @@ TEST(SoftFrames, InstructionSetsDoNotMatter)
   EXPECT_GT(sets, 1);
 }
 
+// What is filtered does not end where one block of a surface does.
+TEST(SoftFrames, BlocksHaveNoSeams)
+{
+  const svo::Octree ground = makeOctree(square(4.0), 4);
+  const svo::Instance ball = instanceOf(makeOctree(sphere(24, 32), 6), 0, movedTo(0, 0, 2));
+  svo::Scene scene = planeUnder({ ball });
+  svo::Light light = lightOf(svo::Light::Kind::Directional, { 0, 0, 1 });
+  light.size = 30.0;
+  scene.lights = { light };
+  scene.instances[0].body = instanceOf(ground, 1).body;
+  scene.instances[0].localToWorld = movedTo(4.0, 0, 0);
+  svo::Instance other = scene.instances[0];
+  other.localToWorld = movedTo(-4.0, 0, 0);
+  other.id = 50;
+  scene.instances.push_back(other);
+  svo::Scene whole = scene;
+  whole.instances.pop_back();
+  whole.instances[0].localToWorld = glm::scale(glm::dmat4(1.0), glm::dvec3(2.0, 1.0, 1.0));
+  svo::FrameSettings settings = sampled(4);
+  settings.filterLightSamples = true;
+  const svo::View view = fromAbove(2.0, 2.0, 96, 96);
+  const svo::Frame inTwo = rendered(scene, view, settings), inOne = rendered(whole, view, settings);
+  // Rays from there begin a rounding apart.
+  int different = 0;
+  for (std::size_t i = 0; i < inOne.light.size(); i += 3)
+  {
+    different += std::abs(inOne.light[i] - inTwo.light[i]) > 1e-3f * inOne.light[i];
+  }
+  EXPECT_LE(different, 9);
+}
+
 // Samples are added to those that there are.
 TEST(SoftFrames, StepsDoNotMatter)
 {
