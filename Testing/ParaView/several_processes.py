@@ -80,7 +80,9 @@ picture("rays")
 view.SVOShadowTechnique = "Automatic"
 picture("automatic")
 view.SVOShadowTechnique = "Shadow Buffer"
-# Each process has the pixels of its pieces: what the filter takes from around them ends with these.
+# Each process has the pixels of its pieces: what the filter takes from around them ends with these. Where lights are
+# sampled several processes take rays to all of them.
+view.SVOShadowTechnique = "Shadow Rays"
 view.SVOFilterLightSamples = 0
 light = view.AdditionalLights[0]
 light.SVOSize = 12.0
@@ -94,6 +96,7 @@ picture("sky")
 view.SVOFilterLightSamples = 1
 picture("sky-filtered")
 view.SVOSkyLight = 0
+view.SVOShadowTechnique = "Shadow Buffer"
 displays[1].Representation = "Surface"
 picture("ordinary-ground")
 displays[0].Representation = "Surface"
