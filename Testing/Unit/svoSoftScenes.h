@@ -49,6 +49,20 @@ inline svo::Scene planeUnder(const std::vector<svo::Instance>& casters, double h
   return scene;
 }
 
+inline svo::Light disc(const glm::dvec3& towards, double angle)
+{
+  svo::Light light = lightOf(svo::Light::Kind::Directional, towards);
+  light.size = angle;
+  return light;
+}
+
+inline svo::Light ballLight(const glm::dvec3& position, double radius)
+{
+  svo::Light light = lightOf(svo::Light::Kind::Point, position);
+  light.size = radius;
+  return light;
+}
+
 /// Each point by its own samples alone.
 inline svo::FrameSettings sampled(int samples)
 {

@@ -208,7 +208,7 @@ LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, 
   LightMaps maps;
   maps.casters = castersOf(outlines, light);
   maps.reach = LightReach(light, outlines, maps.casters);
-  maps.views = fitLight(outlines, maps.casters, light, resolution);
+  maps.views = fitLight(outlines, maps.casters, light, maps.reach, resolution);
   maps.translucentGroups = groupTranslucent(outlines, maps.views, maps.casters);
   if (eye.width < 1 || eye.height < 1 || maps.views.empty())
   {

@@ -1,7 +1,6 @@
 #include "svoLightView.h"
 
 #include "svoBox.h"
-#include "svoLightReach.h"
 
 #include <algorithm>
 #include <cassert>
@@ -207,7 +206,8 @@ void roundOutwards(double& low, double& high)
 }
 
 std::vector<View> fitLight(const std::vector<Outline>& outlines,
-  const std::vector<std::uint8_t>& casters, const Light& light, int resolution)
+  const std::vector<std::uint8_t>& casters, const Light& light, const LightReach& reach,
+  int resolution)
 {
   assert(casters.size() <= outlines.size());
   const std::vector<glm::dvec3> corners = casterCorners(outlines, casters);
@@ -215,8 +215,7 @@ std::vector<View> fitLight(const std::vector<Outline>& outlines,
   {
     return {};
   }
-  return light.atInfinity()
-    ? fitDirectional(corners, light.direction, resolution)
-    : fitPositional(corners, light, LightReach(light, outlines, casters).nearest(), resolution);
+  return light.atInfinity() ? fitDirectional(corners, light.direction, resolution)
+                            : fitPositional(corners, light, reach.nearest(), resolution);
 }
 }

@@ -18,11 +18,11 @@ void PixelShader::shadow(
   const TilePatch& patch = scratch.patch;
   float* missed = scratch.missed;
   std::uint64_t changed = reached;
-  const int plane = lit.sampled ? lit.sampled->sampled().ofLights[l] : SampledPlanes::None;
+  const int plane = lit.images ? lit.images->sampled().ofLights[l] : SampledPlanes::None;
   if (plane != SampledPlanes::None)
   {
     std::fill_n(missed, TilePatch::Most, 0.0f);
-    eachBit(reached, [&](int i) { missed[i] = lit.sampled->mean(plane, patch, i); });
+    eachBit(reached, [&](int i) { missed[i] = lit.images->mean(plane, patch, i); });
   }
   else
   {
@@ -92,10 +92,10 @@ void PixelShader::occlude(const Lit& lit, Scratch& scratch) const
 {
   const TilePatch& patch = scratch.patch;
   alignas(64) float closed[TilePatch::Most] = {};
-  if (lit.sampled)
+  if (lit.images)
   {
-    const int plane = lit.sampled->sampled().ofOcclusion;
-    eachBit(patch.mask, [&](int i) { closed[i] = lit.sampled->mean(plane, patch, i); });
+    const int plane = lit.images->sampled().ofOcclusion;
+    eachBit(patch.mask, [&](int i) { closed[i] = lit.images->mean(plane, patch, i); });
   }
   else
   {
@@ -120,12 +120,12 @@ void PixelShader::addSky(const Lit& lit, Scratch& scratch) const
   {
     eachBit(patch.mask, [&](int i) { seen[i] = sky.over(patch.normal(i)); });
   }
-  else if (lit.sampled)
+  else if (lit.images)
   {
-    const int plane = lit.sampled->sampled().ofSky;
+    const int plane = lit.images->sampled().ofSky;
     for (int c = 0; c < 3; ++c)
     {
-      eachBit(patch.mask, [&](int i) { seen[i][c] = lit.sampled->mean(plane + c, patch, i); });
+      eachBit(patch.mask, [&](int i) { seen[i][c] = lit.images->mean(plane + c, patch, i); });
     }
   }
   else
@@ -209,7 +209,7 @@ void PixelShader::shade(const ShadedScene& shaded, const LightImages& sampled,
 {
   const DepthBuffer& depth = shaded.eye.depth;
   Lit lit(shaded);
-  lit.sampled = sampled.sampled().any() ? &sampled : nullptr;
+  lit.images = sampled.sampled().any() ? &sampled : nullptr;
   std::atomic<std::uint64_t> allRays{ 0 };
   this->FindsEdges = shaded.settings.antiAliasing;
   if (this->FindsEdges)

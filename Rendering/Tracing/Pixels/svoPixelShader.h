@@ -43,9 +43,9 @@ public:
   {
     const ShadedScene& shaded;
     Lighting lighting;
-    float remaining;                      // of a light in its shadow
-    const LightImages* sampled = nullptr; // what samples found at pixels' centres; null: points
-                                          // take their own
+    float remaining;                     // of a light in its shadow
+    const LightImages* images = nullptr; // what samples found at pixels' centres; null: points
+                                         // take their own
     bool samples = false; // points stand for a quarter of a pixel each, not for the pixel's centre
 
     explicit Lit(const ShadedScene& frame)

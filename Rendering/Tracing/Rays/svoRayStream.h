@@ -7,6 +7,7 @@
 #include "svoOcclusion.h"
 #include "vtkSVOTracingModule.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 
@@ -32,6 +33,11 @@ public:
   struct Mask
   {
     std::uint64_t word[Most / 64];
+    bool none() const
+    {
+      return std::all_of(
+        this->word, this->word + Most / 64, [](std::uint64_t w) { return w == 0; });
+    }
   };
 
   /// `near`: of their starts, world.

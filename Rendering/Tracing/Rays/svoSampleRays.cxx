@@ -2,7 +2,6 @@
 
 #include "svoRayStream.h"
 #include "svoTilePatch.h"
-#include "svoWorldSize.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,11 +70,8 @@ public:
   void eachMet(F&& f)
   {
     std::uint64_t met[OcclusionRays::Most / 64];
-    if (this->Rays.count > 0)
-    {
-      occluded(this->Caster.instance->body->octree, this->Rays,
-        { this->Caster.geometry, MaximumLevel }, met);
-    }
+    occluded(this->Caster.instance->body->octree, this->Rays,
+      { this->Caster.geometry, MaximumLevel }, met);
     for (int i = 0; i < this->Rays.count; ++i)
     {
       if (met[i / 64] >> (i % 64) & 1)
@@ -118,6 +114,10 @@ void SampleRays::trace(double offset, SampleBatch& batch) const
     const double start = caster.startOffset(offset, caster.index == batch.own);
     const RayStream::Mask mask =
       stream.reaching(caster.box.centre(), caster.box.extent() + glm::dvec3(start));
+    if (mask.none())
+    {
+      return;
+    }
     LocalRays rays(caster, start, batch);
     for (int word = 0; 64 * word < batch.rays; ++word)
     {

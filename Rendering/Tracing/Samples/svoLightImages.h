@@ -6,7 +6,6 @@
 #define svoLightImages_h
 
 #include "svoDepthBuffer.h"
-#include "svoFrame.h"
 #include "svoLightFilter.h"
 #include "svoParallel.h"
 #include "svoRawArray.h"

@@ -47,7 +47,8 @@ TEST(LightReach, HoldsRaysToAllOfTheLightAsFarAsSomethingCasts)
   {
     const std::vector<std::uint8_t> casters = svo::castersOf(outlines, light);
     const svo::LightReach reach(light, outlines, casters);
-    const std::vector<svo::View> views = svo::fitLight(outlines, casters, light, 512);
+    const std::vector<svo::View> views =
+      svo::fitLight(outlines, casters, light, svo::LightReach(light, outlines, casters), 512);
     ASSERT_EQ(views.size(), 1u);
     const glm::dmat4 toClip = views[0].viewToClip * views[0].worldToView;
     int aside = 0;
@@ -97,7 +98,8 @@ TEST(LightReach, ASpotsMapHoldsWhatIsBesideItsCone)
   const std::vector<std::uint8_t> casters(1, 1);
   const auto holds = [&](const glm::dvec3& p)
   {
-    const std::vector<svo::View> views = svo::fitLight(outlines, casters, light, 512);
+    const std::vector<svo::View> views =
+      svo::fitLight(outlines, casters, light, svo::LightReach(light, outlines, casters), 512);
     const glm::dvec4 clip = views[0].viewToClip * views[0].worldToView * glm::dvec4(p, 1.0);
     return std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w;
   };
