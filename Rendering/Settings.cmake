@@ -81,7 +81,7 @@ vtksvo_setting(AmbientOcclusion bool false
   PANEL default
   SAYS
     "Darken places that other surfaces close off, as corners, folds and what lies under something, whatever the lights: by
-     rays over the hemisphere of each visible point that is traced."
+     rays over the hemisphere of each visible point that is traced, or with the OpenGL backend is opaque."
   MORE
     "It needs no light set up. What translucent surfaces take is their opacity. The rays of a pixel are
      `MaximumLightSamples`.")
@@ -112,7 +112,8 @@ vtksvo_setting(SkyLight bool false
   FIELD skyLight CHANGES look
   PANEL default
   SAYS
-    "Light that comes from all of the sky, on surfaces that are traced: each visible point gets what it sees of it."
+    "Light that comes from all of the sky, on surfaces that are traced, or with the OpenGL backend on all: each visible
+     point gets what it sees of it."
   MORE
     "It is diffuse light, beside that of all lights, and casts the softest of shadows, by rays over the hemisphere of
      each point (`MaximumLightSamples`). A white surface under nothing but a white sky is white. Lights that are to
@@ -356,8 +357,8 @@ vtksvo_setting(Backend choice BACKEND_AUTO
   SAYS
     "Where the picture is made. CPU: octrees are traced on the processor. OpenGL: VTK draws all surfaces itself, or its
      shaders trace those without triangles; shadow maps are drawn by OpenGL, exact rays to each light follow the octrees in
-     its shaders. Auto: OpenGL on a GPU, with ShadowRays on one that answers them as fast as the CPU; else, and where there
-     are several processes, the CPU."
+     its shaders. Auto: OpenGL on a GPU, with ShadowRays, ambient occlusion or a sky on one that answers rays as fast as the
+     CPU; else, and where there are several processes, the CPU."
   MORE
     "Rays are measured once for each OpenGL context, in its first frame that asks for them. Software OpenGL takes the CPU, and
      so do

@@ -68,25 +68,15 @@ bool vtkSVORenderPass::CollectFrame(
     store.complain = [&frame](const std::string& text) { frame.messages.push_back(text); };
 
     const bool automatic = this->Backend == BACKEND_AUTO;
-    const bool chosen =
-      automatic && this->MayPreferOpenGL(frame, this->ShadowTechnique == SHADOW_RAYS);
     around = this->AmbientOcclusion || this->SkyLight;
+    const bool byRays = this->ShadowTechnique == SHADOW_RAYS || around;
+    const bool chosen = automatic && this->MayPreferOpenGL(frame, byRays);
+    frame.openGL = chosen ? !planes : this->Backend == BACKEND_OPENGL;
     const bool soft = svo::hasSoftLight(renderer);
-    const bool softRays = soft && this->ShadowTechnique == SHADOW_RAYS;
-    frame.openGL = chosen ? !planes && !around && !softRays : this->Backend == BACKEND_OPENGL;
-    frame.tellOnce(frame.openGL && around
-        ? "With the OpenGL backend there is neither a sky's light nor ambient occlusion: take the "
-          "CPU, or Auto, which takes it for them."
-        : "",
-      impl.said);
-    frame.tellOnce(frame.openGL && softRays
-        ? "With the OpenGL backend no rays go to lights with a size: where one is, shadow maps "
-          "take the place of rays to all lights. Take the CPU for rays, or Auto."
-        : "",
-      impl.said);
-    const bool rays = frame.openGL && !soft &&
-      (this->ShadowTechnique == SHADOW_RAYS ||
-        (this->ShadowTechnique == SHADOW_AUTOMATIC &&
+    // What is all around is asked by rays, and where these are there is no need of maps.
+    const bool rays = frame.openGL &&
+      (byRays ||
+        (this->ShadowTechnique == SHADOW_AUTOMATIC && !soft &&
           (!automatic || this->MayPreferOpenGL(frame, true))));
     asked = this->AskedSettings(frame.openGL, rays);
     if ((around || soft) && !frame.openGL && impl.severalProcesses() &&
@@ -170,7 +160,7 @@ svo::FrameSettings vtkSVORenderPass::AskedSettings(bool openGL, bool rays) const
 {
   svo::FrameSettings settings;
   this->Fill(settings);
-  if (this->ShadowTechnique == SHADOW_AUTOMATIC || (openGL && this->ShadowTechnique == SHADOW_RAYS))
+  if (this->ShadowTechnique == SHADOW_AUTOMATIC || (openGL && this->ShadowTechnique != SHADOW_NONE))
   {
     settings.shadowTechnique = rays ? svo::ShadowTechnique::Rays : svo::ShadowTechnique::Buffer;
   }
@@ -185,6 +175,11 @@ void vtkSVORenderPass::TraceFrame(svo::PassFrame& frame, int width, int height)
 {
   Internals& impl = *this->Impl;
   frame.trace(width, height);
+  if (frame.state->receivers().unlit())
+  {
+    frame.lightNothing();
+    this->UpdateLights(frame.renderer);
+  }
   frame.tellOnce(frame.state->complaint(), impl.said);
   const std::string signature = frame.state->receivers().signature();
   if (signature != impl.shaderSignature)
@@ -204,6 +199,7 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
     frame.state->receivers().deactivate();
   }
   frame.state->finish();
+  frame.lightNothingMore();
   impl.statistics = frame.state->statistics();
   impl.statistics.imageReduction = this->ImageReductionFactor;
   impl.statistics.pacedShadows = frame.pacedShadows;

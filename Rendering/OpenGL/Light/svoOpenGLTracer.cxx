@@ -2,16 +2,21 @@
 
 #include "svoColorAlpha.h"
 #include "svoDrawnMaps.h"
+#include "svoHemisphereRays.h"
+#include "svoKeptFrame.h"
 #include "svoLightCode.h"
 #include "svoOctreeArena.h"
 #include "svoOctreeWalk.h"
 #include "svoRayWalk.h"
+#include "svoSampleCount.h"
 #include "svoSeenSurfaces.h"
 #include "svoShaderCasters.h"
 #include "svoShadowMask.h"
+#include "svoSkyGradient.h"
 #include "svoTerminator.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iomanip>
 #include <locale>
@@ -37,14 +42,46 @@ std::string constantsOf(bool planes, bool alphas)
     "\n#define svoHasAlphas " + (alphas ? "true" : "false") + "\n";
 }
 
-/// Those of svoRayWalk.glsl.
-std::string constantsOf(std::size_t lights)
+/// Those of svoRayWalk.glsl, and where there are samples of svoSkyShader.glsl and
+/// svoSampleMeans.glsl.
+std::string constantsOf(const LightCode& code)
 {
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text << std::showpoint << std::setprecision(9) << "const int svoLightCount = " << lights << ";\n"
+  text << std::showpoint << std::setprecision(9) << "const int svoLightCount = " << code.count()
+       << ";\n"
        << "const float svoDoubtfulSine = " << DoubtfulSine << ";\n";
+  if (!code.sampled.empty())
+  {
+    std::vector<int> sums(static_cast<std::size_t>(code.count()), LightCode::None);
+    for (std::size_t layer = 0; layer < code.sampled.size(); ++layer)
+    {
+      const int number = code.sampled[layer].number;
+      for (int part = 0; part < (number == code.sky ? 3 : 1); ++part)
+      {
+        sums[static_cast<std::size_t>(number + part)] = 4 * static_cast<int>(layer) + part;
+      }
+    }
+    text << "const int svoLampCount = " << code.lights.size() << ";\n"
+         << "const int svoSky = " << code.sky << ";\n"
+         << "const int svoSumOf[] = int[](";
+    for (std::size_t i = 0; i < sums.size(); ++i)
+    {
+      text << (i > 0 ? ", " : "") << sums[i];
+    }
+    text << ");\n";
+  }
   return text.str();
+}
+
+/// What of a scene's light has no shadow that one ray a pixel could tell.
+int sampledOf(const Scene& scene, const FrameSettings& settings)
+{
+  const auto soft = settings.shadowTechnique != ShadowTechnique::Rays
+    ? 0
+    : std::count_if(scene.lights.begin(), scene.lights.end(),
+        [](const Light& light) { return light.castShadow && light.soft(); });
+  return static_cast<int>(soft) + settings.ambientOcclusion + settings.skyLight;
 }
 
 /// What the eye sees: indices.
@@ -114,7 +151,9 @@ private:
   {
     return this->Octrees.bytes() + this->Casters.bytes() + this->Seen.bytes();
   }
-  void describe(const Scene& scene, const View& view, const std::string& constants);
+  void describe(const Scene& scene, const View& view, const FrameSettings& settings,
+    const std::string& constants);
+  void describeSamples(const Scene& scene, const View& view, const FrameSettings& settings);
 
   std::unique_ptr<Tracer> Other;
   bool Answers = false; // the last frame's light
@@ -130,6 +169,9 @@ private:
   std::uint64_t Version = 0; // of the scene whose octrees are there
   std::size_t Limit = 0;     // that they were to keep
   std::string WhyNot;        // they are not in OpenGL's memory; empty: they are
+
+  KeptFrame Kept;             // while something is sampled
+  double UsualDistance = 0.0; // of occlusion
 };
 
 std::vector<NeededLevels> OpenGLTracer::neededLevels(
@@ -153,13 +195,16 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   const ParallelFor& parallelFor)
 {
   this->Code.lights.clear();
+  this->Code.sampled.clear();
+  this->Code.occlusion = this->Code.sky = LightCode::None;
   this->Code.complaint.clear();
   this->Eye = EyeCode();
   const auto lights = settings.shadowTechnique == ShadowTechnique::None
     ? 0
     : std::count_if(scene.lights.begin(), scene.lights.end(),
         [](const Light& light) { return light.castShadow; });
-  const bool asked = settings.lightCode && (lights > 0 || !seenOf(scene).empty());
+  const int sampled = settings.lightCode ? sampledOf(scene, settings) : 0;
+  const bool asked = settings.lightCode && (lights > 0 || sampled > 0 || !seenOf(scene).empty());
   const bool maps = asked && lights > 0 && settings.shadowTechnique == ShadowTechnique::Buffer;
   if (!maps)
   {
@@ -171,8 +216,8 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
     if (maps || lights <= MostLights)
     {
       whyNot = this->prepare(scene, view, settings, maps);
-      const std::size_t mask = lights > 0 && !maps
-        ? ShadowMask::bytesOf(view.width, view.height, static_cast<int>(lights))
+      const std::size_t mask = (lights > 0 && !maps) || sampled > 0
+        ? ShadowMask::bytesOf(view.width, view.height, static_cast<int>(lights), sampled)
         : 0;
       if (this->Octrees.holdsOthers() &&
         (!whyNot.empty() || this->bytesOfScene() + mask > settings.gpuMemoryLimit))
@@ -186,7 +231,9 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
     {
       this->Code.complaint = whyNot +
         (lights > 0 ? "; shadow maps are traced on the CPU instead."
-                    : "; octrees are traced on the CPU instead.");
+                    : "; octrees are traced on the CPU instead.") +
+        (settings.asksHemispheres() ? " There is neither a sky's light nor ambient occlusion."
+                                    : "");
     }
   }
   this->Answers = asked && this->Code.complaint.empty();
@@ -199,9 +246,11 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   }
   const std::string constants =
     constantsOf(this->Seen.any() || this->Casters.hasPlanes(), this->Casters.alphas().size() > 0);
-  if (lights > 0 && !maps)
+  int samples = 0;
+  if ((lights > 0 && !maps) || sampled > 0)
   {
-    this->describe(scene, view, constants);
+    this->describe(scene, view, settings, constants);
+    samples = this->Code.samples;
   }
   this->Seen.describe(scene, view, this->Octrees, constants, this->Eye);
   this->Other->releaseLayers();
@@ -209,6 +258,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Nothing.height = view.height;
   this->Nothing.version = 1;
   this->Statistics = FrameStatistics();
+  this->Statistics.lightSamples = samples;
   this->Statistics.lightsWithRays = static_cast<int>(this->Code.lights.size());
   this->Statistics.lightsWithBuffers = maps ? static_cast<int>(lights) : 0;
   this->Statistics.retracedLayers = this->Drawn.drawn();
@@ -228,6 +278,7 @@ std::string OpenGLTracer::prepare(
   if (!known)
   {
     this->WhyNot = this->hold(scene, settings.gpuMemoryLimit);
+    this->UsualDistance = usualOcclusionDistance(scene);
     if (!this->WhyNot.empty())
     {
       this->Octrees.release();
@@ -291,32 +342,90 @@ std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
 }
 
 /// Says what VTK's shaders need for a frame.
-void OpenGLTracer::describe(const Scene& scene, const View& view, const std::string& constants)
+void OpenGLTracer::describe(
+  const Scene& scene, const View& view, const FrameSettings& settings, const std::string& constants)
 {
   const glm::dmat3 turned(view.worldToView);
   LightCode::Floats sources{ "svoLights", 4, {} };
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
   {
     const Light& light = scene.lights[i];
-    if (light.castShadow)
+    if (light.castShadow && settings.shadowTechnique != ShadowTechnique::None)
     {
       const glm::vec3 at(
         turned * (light.atInfinity() ? -light.direction : light.position - view.eye));
       sources.values.insert(
         sources.values.end(), { at.x, at.y, at.z, light.atInfinity() ? 0.0f : 1.0f });
+      if (light.soft())
+      {
+        this->Code.sampled.push_back(
+          { static_cast<int>(this->Code.lights.size()), static_cast<unsigned>(i),
+            static_cast<float>(light.atInfinity() ? light.spread() : light.radius()) });
+      }
       this->Code.lights.push_back(static_cast<int>(i));
     }
   }
   static const std::string Text = std::string(svoOctreeWalk) + svoColorAlpha + svoRayWalk;
-  this->Code.constants = constants + constantsOf(this->Code.lights.size());
   this->Code.text = Text.c_str();
   this->Code.costly = true;
   this->Code.textures = { { "svoNodes", this->Octrees.nodes().name() },
     { "svoLists", this->Octrees.lists().name() },
     { "svoTriangles", this->Octrees.triangles().name() } };
   this->Code.integers.clear();
-  this->Code.floats = { sources };
+  this->Code.floats.clear();
+  this->describeSamples(scene, view, settings);
+  this->Code.constants = constants + constantsOf(this->Code);
+  sources.values.resize(4 * static_cast<std::size_t>(this->Code.count()));
+  this->Code.floats.push_back(sources);
   this->Casters.describe(view, this->Code);
+}
+
+/// Adds what is all around, and says how many samples there are.
+void OpenGLTracer::describeSamples(
+  const Scene& scene, const View& view, const FrameSettings& settings)
+{
+  LightCode& code = this->Code;
+  code.unlit = scene.lights.empty();
+  // Streams as of the CPU.
+  if (settings.ambientOcclusion)
+  {
+    code.occlusion = code.count();
+    const double distance = settings.ambientOcclusionDistance;
+    code.sampled.push_back({ code.occlusion, ~0u,
+      static_cast<float>(std::min(distance > 0.0 ? distance : this->UsualDistance, 1e30)) });
+    code.floats.push_back({ "svoOcclusion", 1,
+      { static_cast<float>(settings.ambientOcclusionStrength),
+        settings.ambientOcclusionOfAllLight ? 1.0f : 0.0f } });
+  }
+  if (settings.skyLight)
+  {
+    const SkyGradient sky(settings);
+    const glm::vec3 up = glm::mat3(view.worldToView) * sky.up(), mean = sky.mean(),
+                    rise = sky.rise();
+    code.sky = code.count();
+    code.sampled.push_back({ code.sky, ~1u, 1e30f });
+    code.floats.push_back(
+      { "svoSkyColors", 4, { mean.r, mean.g, mean.b, 0, rise.r, rise.g, rise.b, 0 } });
+    code.floats.push_back({ "svoSkyUp", 4, { up.x, up.y, up.z, 0.0f } });
+  }
+  if (code.sampled.empty())
+  {
+    this->Kept.forget();
+    code.samples = 0;
+    return;
+  }
+  const FrameChanges changes = this->Kept.compare(scene, view, settings);
+  const SampleCount samples(scene, settings, changes, code.samples);
+  code.samples = samples.count;
+  code.picture += !changes.none();
+  const double edge = std::max(
+    2.0 / (view.viewToClip[0][0] * view.width), 2.0 / (view.viewToClip[1][1] * view.height));
+  // As svoLightImages.cxx has it.
+  const double evenness = std::pow(code.samples, 0.375);
+  code.floats.push_back({ "svoFilter", 4,
+    { static_cast<float>(view.parallel ? 0.0 : edge),
+      static_cast<float>(view.parallel ? edge : 0.0), static_cast<float>(evenness),
+      settings.filterLightSamples ? 1.0f : 0.0f } });
 }
 
 void OpenGLTracer::releaseGraphicsResources()
@@ -327,8 +436,10 @@ void OpenGLTracer::releaseGraphicsResources()
   this->Drawn.release();
   this->Version = 0;
   this->Eye = EyeCode();
-  this->Code.lights.clear();
-  this->Code.textures.clear();
+  const std::uint64_t picture = this->Code.picture;
+  this->Code = LightCode();
+  this->Code.picture = picture;
+  this->Kept.forget();
   this->Other->releaseGraphicsResources();
 }
 }

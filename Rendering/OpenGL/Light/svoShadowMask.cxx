@@ -2,85 +2,59 @@
 
 #include "svoMaskLookup.h"
 #include "svoOpenGL.h"
-#include "svoProgram.h"
+#include "svoSampleMeans.h"
 #include "svoShadowMaskShader.h"
+#include "svoSkyShader.h"
 #include "svoTextures.h"
-#include "svoUniforms.h"
 
 #include "vtkOpenGLState.h"
-#include "vtkTextureUnitManager.h"
 
-#include <algorithm>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace svo
 {
 namespace
 {
-/// Rows that are asked at a time: drivers end what takes too long.
-constexpr int Rows = 128;
-
-/// Groups of the compute shader.
-unsigned int groupsOf(int pixels)
-{
-  return static_cast<unsigned int>(pixels + 7) / 8;
-}
-
 /// Of shares, four lights each.
 int layersOf(int lights)
 {
   return (lights + 3) / 4;
 }
 
-bool hasCompute()
+/// Code whose svoLeft() is to have another name.
+std::string renamed(const LightCode& asked, const std::string& name)
 {
-#ifdef GL_COMPUTE_SHADER
-  GLint major = 0, minor = 0;
-  glGetIntegerv(GL_MAJOR_VERSION, &major);
-  glGetIntegerv(GL_MINOR_VERSION, &minor);
-  return 10 * major + minor >= 43 && glDispatchCompute != nullptr;
-#else
-  return false;
-#endif
+  return "#define svoLeft " + name + "\n" + asked.text + "#undef svoLeft\n";
 }
 
-/// Textures of a program, bound while it runs.
-class Bound
+/// Of fragments that the mask does not know: a ray to each light, and what is around is open.
+constexpr char Unsampled[] =
+  "float svoRayLeft(int n, vec3 position, vec3 facet, vec3 normal, vec3 lift, float extent)\n"
+  "{\n"
+  "  return n < svoLampCount ? svoLeftByRay(n, position, facet, normal, lift, extent)\n"
+  "                          : svoOpen(n, normal);\n"
+  "}\n";
+
+std::string lookUpText(const LightCode& asked, bool others)
 {
-public:
-  Bound(vtkOpenGLState* state, GLuint program)
-    : State(state)
-    , Program(program)
-  {
-  }
-  Bound(const Bound&) = delete;
-  Bound& operator=(const Bound&) = delete;
-  ~Bound()
-  {
-    for (const auto& [unit, target] : this->Units)
-    {
-      this->State->vtkglActiveTexture(GL_TEXTURE0 + unit);
-      glBindTexture(target, 0);
-      this->State->GetTextureUnitManager()->Free(unit);
-    }
-  }
+  const bool samples = !asked.sampled.empty();
+  return (samples ? svoSkyShader : std::string()) +
+    (others ? renamed(asked, samples ? "svoLeftByRay" : "svoRayLeft") + "#define svoHasOthers\n" +
+          (samples ? Unsampled : "")
+            : "") +
+    svoMaskLookup;
+}
 
-  void add(const char* sampler, GLenum target, GLuint name)
-  {
-    const int unit = this->State->GetTextureUnitManager()->Allocate();
-    this->State->vtkglActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(target, name);
-    glUniform1i(glGetUniformLocation(this->Program, sampler), unit);
-    this->Units.emplace_back(unit, target);
-  }
-
-private:
-  vtkOpenGLState* State;
-  GLuint Program;
-  std::vector<std::pair<int, GLenum>> Units;
-};
+/// What the mask is filled by.
+std::string maskText(const LightCode& asked)
+{
+  return asked.constants +
+    (asked.sampled.empty() ? asked.text
+                           : "#define rgba8 rgba16\n" + renamed(asked, "svoLeftByRay") +
+          svoSkyShader + svoSampleMeans) +
+    svoShadowMaskShader;
+}
 }
 
 const LightCode& ShadowMask::lookUp(
@@ -92,21 +66,32 @@ const LightCode& ShadowMask::lookUp(
     this->releaseTextures();
     return asked;
   }
+  const bool samples = !asked.sampled.empty();
   if (!this->accepts(asked) ||
-    !this->resize(width, height, static_cast<int>(asked.lights.size()), room))
+    !this->resize(width, height, asked.count(), static_cast<int>(asked.sampled.size()), room))
   {
-    return asked;
+    if (!samples)
+    {
+      return asked;
+    }
+    this->Code = asked; // who asks themselves take no samples
+    this->Code.occlusion = this->Code.sky = LightCode::None;
+    return this->Code;
   }
   this->Code.text = svoMaskLookup;
-  if (others)
+  if (others || samples)
   {
     this->Code = asked;
-    if (this->Mixed.empty())
-    {
-      this->Mixed = std::string("#define svoLeft svoRayLeft\n") + asked.text +
-        "#undef svoLeft\n#define svoHasOthers\n" + svoMaskLookup;
-    }
-    this->Code.text = this->Mixed.c_str();
+    std::string& text = this->Texts[others];
+    text = text.empty() ? lookUpText(asked, others) : text;
+    this->Code.text = text.c_str();
+  }
+  if (!others)
+  {
+    this->Code.textures.clear();
+  }
+  else
+  {
     this->Code.textures.push_back({ "svoPlaces", this->Places, GL_TEXTURE_2D });
   }
   this->Code.lights = asked.lights;
@@ -120,7 +105,7 @@ const LightCode& ShadowMask::lookUp(
 void ShadowMask::find(
   vtkOpenGLState* state, const LightCode& asked, const std::function<void()>& draw)
 {
-  if (this->Code.empty()) // lookUp() has no mask
+  if (!this->Code.fromPlaces) // lookUp() has no mask
   {
     return;
   }
@@ -148,70 +133,26 @@ void ShadowMask::find(
   glClearBufferfv(GL_DEPTH, 0, &farthest);
   draw();
   state->vtkglDisable(GL_DEPTH_TEST);
-  this->ask(state, asked);
-  state->PopFramebufferBindings();
-}
-
-void ShadowMask::ask(vtkOpenGLState* state, const LightCode& asked)
-{
-  const vtkOpenGLState::ScopedglActiveTexture unit(state);
-  GLint before = 0, verticesBefore = 0; // VTK knows what it has bound
-  glGetIntegerv(GL_CURRENT_PROGRAM, &before);
-  glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &verticesBefore);
-  glUseProgram(this->Program);
+  std::vector<ShaderValues::Texture> textures{ { "svoPlaces", this->Places, GL_TEXTURE_2D },
+    { "svoPlanes", this->Planes, GL_TEXTURE_2D } };
+  if (!asked.sampled.empty())
   {
-    Bound textures(state, this->Program);
-    for (const LightCode::Texture& texture : asked.textures)
-    {
-      textures.add(texture.sampler, texture.target, texture.name);
-    }
-    textures.add("svoPlaces", GL_TEXTURE_2D, this->Places);
-    textures.add("svoPlanes", GL_TEXTURE_2D, this->Planes);
-    sendUniforms(this->Program, asked);
-    const GLint firstLight = glGetUniformLocation(this->Program, "svoFirstLight");
-    const GLint firstRow = glGetUniformLocation(this->Program, "svoFirstRow");
-    state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Answering);
-    glBindVertexArray(this->Vertices);
+    this->Samples.take(state, asked, textures);
+    textures.insert(textures.end(),
+      { { "svoSums", this->Samples.sums(), GL_TEXTURE_2D_ARRAY },
+        { "svoPlacesAround", this->Places, GL_TEXTURE_2D },
+        { "svoPlanesAround", this->Planes, GL_TEXTURE_2D } });
+  }
+  {
+    PixelProgram::Use program(state, this->Program, asked, textures);
     for (int layer = 0; layer < this->Layers; ++layer)
     {
-      glUniform1i(firstLight, 4 * layer);
-      if (!this->Computes)
-      {
-        glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Shares, 0, layer);
-      }
-#ifdef GL_COMPUTE_SHADER
-      else
-      {
-        glBindImageTexture(0, this->Shares, 0, GL_FALSE, layer, GL_WRITE_ONLY, GL_RGBA8);
-      }
-#endif
-      for (int row = 0; row < this->Height; row += Rows)
-      {
-        const int rows = std::min(Rows, this->Height - row);
-        if (!this->Computes)
-        {
-          state->vtkglViewport(0, row, this->Width, rows);
-          glDrawArrays(GL_TRIANGLES, 0, 3);
-        }
-#ifdef GL_COMPUTE_SHADER
-        else
-        {
-          glUniform1i(firstRow, row);
-          glDispatchCompute(groupsOf(this->Width), groupsOf(rows), 1);
-        }
-#endif
-        glFlush();
-      }
+      program.set("svoFirstLight", 4 * layer);
+      program.fill(
+        { this->Answering, this->Shares, this->Format, layer, this->Width, this->Height });
     }
-#ifdef GL_COMPUTE_SHADER
-    if (this->Computes)
-    {
-      glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    }
-#endif
   }
-  glBindVertexArray(static_cast<GLuint>(verticesBefore));
-  glUseProgram(static_cast<GLuint>(before));
+  state->PopFramebufferBindings();
 }
 
 bool ShadowMask::accepts(const LightCode& code)
@@ -224,56 +165,44 @@ bool ShadowMask::accepts(const LightCode& code)
   {
     this->Constants = code.constants;
     this->Text = code.text;
-    this->Mixed.clear();
-    this->Computes = this->Wanted == Way::Compute && hasCompute();
-    if (!this->link(code) && this->Computes)
+    this->Texts[0].clear();
+    this->Texts[1].clear();
+    const bool computes = this->Wanted == Way::Compute && PixelProgram::hasCompute();
+    if (!this->link(code, computes) && computes)
     {
-      this->Computes = false;
-      this->link(code);
+      this->link(code, false);
     }
   }
-  return this->Program != 0;
+  return this->Program.linked();
 }
 
-/// Makes the program that asks, by compute shaders or not.
-bool ShadowMask::link(const LightCode& asked)
+/// Makes the programs that ask, by compute shaders or not.
+bool ShadowMask::link(const LightCode& asked, bool computes)
 {
-  const std::string text =
-    (this->Computes ? "#version 430\n#define svoComputes\n" : "#version 150\n") + asked.constants +
-    asked.text + svoShadowMaskShader;
-  glDeleteProgram(this->Program);
   std::string words;
   this->Refusal.clear();
-#ifdef GL_COMPUTE_SHADER
-  if (this->Computes)
+  if (!this->Program.link(maskText(asked), computes, words) ||
+    (!asked.sampled.empty() && !this->Samples.link(asked, computes, words)))
   {
-    this->Program = linkProgram({ { GL_COMPUTE_SHADER, text } }, words);
-  }
-  else
-#endif
-  {
-    this->Program =
-      linkProgram({ { GL_VERTEX_SHADER, AllPixels }, { GL_FRAGMENT_SHADER, text } }, words);
-  }
-  if (this->Program == 0)
-  {
+    this->Program.release();
     this->Refusal = "OpenGL refuses the shader of rays to lights (" + words +
       "); shadow maps are traced on the CPU instead.";
   }
-  return this->Program != 0;
+  return this->Program.linked();
 }
 
 /// Has textures and framebuffers of a size. False, and nothing is there, if OpenGL refuses, or if
 /// they take more than `room`.
-bool ShadowMask::resize(int width, int height, int lights, std::size_t room)
+bool ShadowMask::resize(int width, int height, int numbers, int sampled, std::size_t room)
 {
-  const int layers = layersOf(lights);
-  if (bytesOf(width, height, lights) > room)
+  const int layers = layersOf(numbers);
+  if (bytesOf(width, height, numbers, sampled) > room)
   {
     this->releaseTextures();
     return false;
   }
-  if (this->Shares != 0 && width == this->Width && height == this->Height && layers == this->Layers)
+  if (this->Shares != 0 && width == this->Width && height == this->Height &&
+    layers == this->Layers && sampled == this->Samples.layers())
   {
     return true;
   }
@@ -283,11 +212,11 @@ bool ShadowMask::resize(int width, int height, int lights, std::size_t room)
   this->Width = width;
   this->Height = height;
   this->Layers = layers;
+  this->Format = sampled > 0 ? GL_RGBA16 : GL_RGBA8;
   this->Places = makeTexture(GL_RGBA32F, width, height);
   this->Planes = makeTexture(GL_RGBA16, width, height);
   this->Depths = makeTexture(GL_DEPTH_COMPONENT32F, width, height);
-  this->Shares = makeTexture(GL_RGBA8, width, height, layers);
-  glGenVertexArrays(1, &this->Vertices);
+  this->Shares = makeTexture(this->Format, width, height, layers);
   glGenFramebuffers(1, &this->Gathering);
   glGenFramebuffers(1, &this->Answering);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Answering);
@@ -301,6 +230,7 @@ bool ShadowMask::resize(int width, int height, int lights, std::size_t room)
   glDrawBuffers(2, targets);
   complete = complete && glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(before));
+  complete = this->Samples.resize(width, height, sampled) && complete;
   if (!complete || glGetError() != GL_NO_ERROR)
   {
     this->releaseTextures();
@@ -309,14 +239,17 @@ bool ShadowMask::resize(int width, int height, int lights, std::size_t room)
   return true;
 }
 
-std::size_t ShadowMask::bytesOf(int width, int height, int lights)
+std::size_t ShadowMask::bytesOf(int width, int height, int numbers, int sampled)
 {
-  return static_cast<std::size_t>(width) * height * (16 + 8 + 4 + 4 * layersOf(lights));
+  const int shares = (sampled > 0 ? 8 : 4) * layersOf(numbers);
+  return static_cast<std::size_t>(width) * height * (16 + 8 + 4 + shares + 16 * sampled);
 }
 
 std::size_t ShadowMask::bytes() const
 {
-  return this->Shares == 0 ? 0 : bytesOf(this->Width, this->Height, 4 * this->Layers);
+  return this->Shares == 0
+    ? 0
+    : bytesOf(this->Width, this->Height, 4 * this->Layers, this->Samples.layers());
 }
 
 void ShadowMask::releaseTextures()
@@ -327,20 +260,17 @@ void ShadowMask::releaseTextures()
     const GLuint framebuffers[] = { this->Gathering, this->Answering };
     glDeleteTextures(4, textures);
     glDeleteFramebuffers(2, framebuffers);
-    glDeleteVertexArrays(1, &this->Vertices);
   }
   this->Places = this->Planes = this->Depths = this->Shares = 0;
-  this->Gathering = this->Answering = this->Vertices = 0;
+  this->Gathering = this->Answering = 0;
+  this->Samples.resize(0, 0, 0);
 }
 
 void ShadowMask::release()
 {
   this->releaseTextures();
-  if (this->Program != 0)
-  {
-    glDeleteProgram(this->Program);
-  }
-  this->Program = 0;
+  this->Program.release();
+  this->Samples.release();
   this->Text = nullptr;
   this->Refusal.clear();
   this->Code = LightCode();

@@ -6,6 +6,8 @@
 #define svoShadowMask_h
 
 #include "svoLightCode.h"
+#include "svoLightSamples.h"
+#include "svoPixelProgram.h"
 #include "vtkSVOOpenGLModule.h"
 
 #include <cstddef>
@@ -38,7 +40,7 @@ public:
   /// until the next call. With `others` there are fragments that the mask says nothing of,
   /// translucent ones and parts of pixels: these ask themselves. `asked` itself, and nothing is to
   /// be found, if it is not costly, or if a mask does not fit into `room`, bytes, or OpenGL has
-  /// none.
+  /// none; then without what is sampled.
   const LightCode& lookUp(
     const LightCode& asked, int width, int height, bool others, std::size_t room);
 
@@ -47,30 +49,33 @@ public:
   /// viewport is the mask's; the current one is where the code will be used.
   void find(vtkOpenGLState* state, const LightCode& asked, const std::function<void()>& draw);
 
-  /// Bytes that a mask takes.
-  static std::size_t bytesOf(int width, int height, int lights);
+  /// Samples that were taken say nothing any more: what is seen has changed.
+  void forgetSamples() { this->Samples.forget(); }
+
+  /// Bytes that a mask takes, of so many numbers (LightCode::count()) and of what is sampled.
+  static std::size_t bytesOf(int width, int height, int numbers, int sampled = 0);
   /// True if compute shaders asked last.
-  bool computes() const { return this->Computes; }
+  bool computes() const { return this->Program.computes(); }
   std::size_t bytes() const;
   void release();
 
 private:
-  bool resize(int width, int height, int lights, std::size_t room);
-  bool link(const LightCode& asked);
+  bool resize(int width, int height, int numbers, int sampled, std::size_t room);
+  bool link(const LightCode& asked, bool computes);
   void releaseTextures();
-  void ask(vtkOpenGLState* state, const LightCode& asked);
 
   Way Wanted = Way::Compute;
-  bool Computes = false;
   int Width = 0, Height = 0, Layers = 0;
+  unsigned int Format = 0;                                     // of shares
   unsigned int Places = 0, Planes = 0, Depths = 0, Shares = 0; // textures
   unsigned int Gathering = 0, Answering = 0;                   // framebuffers
-  unsigned int Program = 0, Vertices = 0;
+  PixelProgram Program;
+  LightSamples Samples;
   std::string Refusal;
   // The code that the program asks:
   std::string Constants;
   const char* Text = nullptr;
-  std::string Mixed; // its text for `others`
+  std::string Texts[2]; // of what looks up, without and with `others`
   LightCode Code;
 };
 }

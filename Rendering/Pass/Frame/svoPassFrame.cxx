@@ -3,6 +3,7 @@
 #include "svoSceneLights.h"
 
 #include "vtkCommand.h"
+#include "vtkLightCollection.h"
 #include "vtkRenderWindow.h"
 
 #include <algorithm>
@@ -120,6 +121,24 @@ void PassFrame::decide(const FrameSettings& asked, const PaceLimits& limits)
   }
   const double distance = this->pace.distance * limits.reduction;
   this->settings.detailThreshold = limits.detail / (distance * distance);
+}
+
+void PassFrame::lightNothing()
+{
+  this->lightNothingMore();
+  this->blackLight = vtkSmartPointer<vtkLight>::New();
+  this->blackLight->SetLightTypeToHeadlight();
+  this->blackLight->SetIntensity(0.0);
+  this->renderer->GetLights()->AddItem(this->blackLight);
+}
+
+void PassFrame::lightNothingMore()
+{
+  if (this->blackLight)
+  {
+    this->renderer->GetLights()->RemoveItem(this->blackLight);
+    this->blackLight = nullptr;
+  }
 }
 
 void PassFrame::trace(int width, int height)

@@ -4,6 +4,7 @@
 
 #include "svoRendererState.h"
 
+#include "vtkLight.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkProp.h"
@@ -104,6 +105,11 @@ struct PassFrame
 
   void trace(int width, int height);
 
+  /// Until lightNothingMore() there is a black light: without any VTK's shaders do not know where
+  /// surfaces lie.
+  void lightNothing();
+  void lightNothingMore();
+
   const std::shared_ptr<RendererState> state;
   vtkRenderer* const renderer;
   /// VTK's renderer has an array of them and does not own them.
@@ -132,6 +138,7 @@ private:
     return window ? window->GetState() : nullptr;
   }
 
+  vtkSmartPointer<vtkLight> blackLight;
   std::vector<vtkProp*> receiving;
   vtkRenderState receivingState;
   vtkSmartPointer<vtkOpenGLState> context; // kept, so that no other comes into its place

@@ -113,6 +113,7 @@ void RendererState::collect(
   OctreeStore& store, const StoreOptions& options, CollectSettings settings)
 {
   settings.levels.tracer = this->Trace.get();
+  this->LightsAll = settings.openGL && settings.levels.frame.asksHemispheres();
   const double start = vtkTimerLog::GetUniversalTime();
   const int built = store.built();
   this->Collector.collect(this->Renderer, store, options, settings, this->Collected);
@@ -237,6 +238,12 @@ void RendererState::trace(
     std::min<std::size_t>(this->Statistics.tracer.gpuMemory, settings.gpuMemoryLimit);
   const LightCode& known =
     this->Mask.lookUp(code, width, height, others, settings.gpuMemoryLimit - octrees);
+  if (!code.sampled.empty() && !known.fromPlaces && this->Complaint.empty())
+  {
+    this->Complaint = "A picture of what samples of the light have found does not fit into "
+                      "GPUMemoryLimit: there is neither a sky's light nor ambient occlusion, and "
+                      "lights with a size are points.";
+  }
   this->Receivers.update(window, known.empty() ? this->Maps.code() : known,
     settings.shadowIntensity, this->Collected.shadowCatchers);
   this->Receivers.setMirrored(view.mirrored);
@@ -259,6 +266,7 @@ void RendererState::findLight(const vtkRenderState& drawn)
   this->Mask.find(window->GetState(), this->Trace->lightCode(),
     [&]
     {
+      vtkMTimeType changed = 0; // of what is seen
       for (int i = 0; i < drawn.GetPropArrayCount(); ++i)
       {
         vtkProp* prop = drawn.GetPropArray()[i];
@@ -266,7 +274,13 @@ void RendererState::findLight(const vtkRenderState& drawn)
           this->Collected.replaced.count(prop) == 0)
         {
           prop->RenderOpaqueGeometry(this->Renderer);
+          changed = std::max(changed, prop->GetRedrawMTime());
         }
+      }
+      if (changed != this->DrawnTime)
+      {
+        this->DrawnTime = changed;
+        this->Mask.forgetSamples();
       }
       this->Boxes.draw(this->Renderer, &this->Collected.receivers);
     });

@@ -79,7 +79,8 @@ public:
   /// True if there is anything to trace, here or, with shadows to be seen here, elsewhere.
   bool hasSomething() const
   {
-    return (this->Collected.current && !this->Collected.scene.instances.empty()) ||
+    return (this->Collected.current &&
+             (!this->Collected.scene.instances.empty() || this->LightsAll)) ||
       this->SharesShadows;
   }
 
@@ -165,9 +166,11 @@ private:
   bool InFrame = false;
   bool ForgetsScene = false;  // as soon as the frame has ended
   bool SharesShadows = false; // this frame's shadow buffers are those of all processes
+  bool LightsAll = false;     // OpenGL's receivers ask what is all around, whatever casts
   bool HasPicture = false;    // the tracer has rendered this frame
   MapCode Maps;
   ShadowMask Mask;
+  vtkMTimeType DrawnTime = 0; // of what its samples lie on
   TracedBoxes Boxes;
   ShadowReceivers Receivers;
   std::string Complaint;

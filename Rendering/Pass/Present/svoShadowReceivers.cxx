@@ -1,5 +1,6 @@
 #include "svoShadowReceivers.h"
 
+#include "svoAmbientCode.h"
 #include "svoShaderTokens.h"
 #include "svoShadowCatcher.h"
 #include "svoShadowReceiver.h"
@@ -104,6 +105,38 @@ void catchShadows(std::string& declarations, std::string& body, bool lit)
     std::string(ImplementationMark) + (seen ? CatcherBeforeLighting : ""), false);
   vtkShaderProgram::Substitute(body, LitMark, seen ? CatcherAfterLighting : CatcherUnseen, false);
 }
+
+/// Adds the code of what is all around.
+void lightAround(const LightCode& code, const std::string& normal, bool catchers,
+  std::string& declarations, std::string& body)
+{
+  const bool pbr = body.find("albedo") != std::string::npos;
+  std::string text;
+  const auto onCatchers = [&](const char* rule)
+  { text += catchers ? std::string("  if (svoCatch > 0.0)\n  ") + rule + "  else\n" : ""; };
+  if (code.sky != LightCode::None)
+  {
+    text += SkyAfterLighting;
+    onCatchers(SkyOnCatcher);
+    text += pbr ? SkyOnAlbedo : SkyOnColors;
+  }
+  else if (code.unlit && !pbr)
+  {
+    text += NoLight;
+  }
+  if (code.occlusion != LightCode::None)
+  {
+    text += OcclusionAfterLighting;
+    onCatchers(OcclusionOnCatcher);
+    text += pbr ? OcclusionOnAlbedo : OcclusionOnColors;
+    vtkShaderProgram::Substitute(
+      declarations, DeclarationMark, std::string(DeclarationMark) + AmbientDeclarations, false);
+  }
+  renameToken(text, "NORMAL", normal);
+  renameToken(text, "SKY", std::to_string(code.sky));
+  renameToken(text, "OPEN", std::to_string(code.occlusion));
+  vtkShaderProgram::Substitute(body, LitMark, text + LitMark, false);
+}
 }
 
 void ShadowReceivers::update(
@@ -132,7 +165,8 @@ std::string ShadowReceivers::signature() const
     {
       text << light << ' ';
     }
-    text << this->Code->constants << static_cast<const void*>(this->Code->text);
+    text << this->Code->occlusion << this->Code->sky << this->Code->unlit << this->Code->constants
+         << static_cast<const void*>(this->Code->text);
   }
   return text.str();
 }
@@ -193,9 +227,16 @@ void ShadowReceivers::completeShader(
       weigh(light, "svoShown(" + share + ")");
     }
   }
-  const bool any = !code.str().empty();
+  const bool around =
+    !this->empty() && this->Code->hasAround() && body.find("vec4 vertexVC =") != std::string::npos;
+  const bool any = !code.str().empty() || around;
   const bool round = hasNormal && hasToken(declarations, "ZCalcR");
   const bool traced = hasToken(body, "svoSurface");
+  const std::string normal = hasNormal ? "normalVCVSOutput" : "svoFacet";
+  if (around)
+  {
+    lightAround(*this->Code, normal, this->Catchers, declarations, body);
+  }
   if (this->Catchers)
   {
     // Those that cast nothing.
@@ -209,8 +250,7 @@ void ShadowReceivers::completeShader(
   const bool placed = any && sendPlaces(vertexShader, geometryShader, corner);
   const bool smooth = corner && hasNormal;
   // One loop, since compilers copy the function to wherever it is called.
-  const std::string count = any ? std::to_string(this->Code->lights.size()) : std::string();
-  const std::string normal = hasNormal ? "normalVCVSOutput" : "svoFacet";
+  const std::string count = any ? std::to_string(this->Code->count()) : std::string();
   vtkShaderProgram::Substitute(declarations, DeclarationMark,
     any ? this->declarations() + (placed ? "centroid in vec3 svoPlaceVSOutput;\n" : "") +
         (smooth ? "flat in vec3 svoCornerVSOutput;\nflat in vec3 svoCornerNormalVSOutput;\n" : "")

@@ -30,6 +30,8 @@ public:
 
   /// True if the code wants to know where surfaces lie, before they are drawn.
   bool gathers() const { return !this->empty() && this->Code->fromPlaces; }
+  /// True if it lights what is under no light at all: VTK's shaders need one for that, a black one.
+  bool unlit() const { return !this->empty() && this->Code->unlit && this->Code->hasAround(); }
   /// While it is on, surfaces do not show light: they write where they lie (LightCode::fromPlaces).
   void setGathers(bool on) { this->Gathers = on; }
 

@@ -5,6 +5,7 @@
 
 #include "svoShaderValues.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -34,10 +35,37 @@ struct LightCode : ShaderValues
   /// The text reads what has been found so: surfaces are drawn once before, and say where they lie.
   bool fromPlaces = false;
 
+  /// Numbers behind those of the lights: what is open all around (1 less ambient occlusion), and
+  /// the first of three, red, green and blue, of what is seen of the sky, of
+  /// SkyGradient::brightest().
+  static constexpr int None = -1;
+  int occlusion = None, sky = None;
+  bool hasAround() const { return this->occlusion != None || this->sky != None; }
+  bool unlit = false; // there are no lights, not even some that cast nothing
+  /// All numbers.
+  int count() const
+  {
+    return static_cast<int>(this->lights.size()) + (this->occlusion != None) +
+      (this->sky != None ? 3 : 0);
+  }
+
+  /// What is the mean of samples, and is so costly that only a shadow mask has it: what is around,
+  /// and lights with a size. Code alone takes these for points.
+  struct Sampled
+  {
+    int number;      // the first one
+    unsigned stream; // pixelRotation()
+    float
+      size; // of a ball its radius, of a disc the tangent of half its angle; else how far rays go
+  };
+  std::vector<Sampled> sampled;
+  int samples = 0;           // of each, a pixel
+  std::uint64_t picture = 0; // another one wherever earlier samples say nothing
+
   /// Why there is no code although it was asked for, in a sentence; empty if all is well.
   std::string complaint;
 
-  bool empty() const { return this->lights.empty(); }
+  bool empty() const { return this->count() == 0; }
 };
 }
 

@@ -6,6 +6,7 @@
 #include "svoFrame.h"
 #include "svoInstanceVersions.h"
 #include "svoScene.h"
+#include "vtkSVOTracingModule.h"
 
 #include <cstdint>
 #include <vector>
@@ -20,7 +21,7 @@ struct FrameChanges
   bool none() const { return !this->all && this->instances.empty(); }
 };
 
-class KeptFrame
+class VTKSVOTRACING_EXPORT KeptFrame
 {
 public:
   /// What of a frame's inputs differs from those of the last call: of instances their versions are

@@ -35,6 +35,10 @@ public:
   /// No more comes from anywhere.
   glm::vec3 brightest() const { return this->Mean + glm::abs(this->Rise); }
 
+  const glm::vec3& mean() const { return this->Mean; }
+  const glm::vec3& rise() const { return this->Rise; } // from the mean to what is overhead
+  const glm::vec3& up() const { return this->Up; }     // unit, or 0
+
 private:
   glm::vec3 Mean, Rise, Up;
 };

@@ -21,7 +21,7 @@ namespace svo
 {
 /// The distance of ambient occlusion where users name none, world: a fifth of the diagonal of all
 /// that casts.
-double usualOcclusionDistance(const Scene& scene);
+VTKSVOTRACING_EXPORT double usualOcclusionDistance(const Scene& scene);
 
 class VTKSVOTRACING_EXPORT HemisphereRays
 {

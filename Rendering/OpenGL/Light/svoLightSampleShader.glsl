@@ -1,0 +1,118 @@
+// Adds samples of what reaches a pixel: of a light with a size, of the sky, or of what is open around
+// it. The directions are those of svoSampleDirections.h, distributed as svoSampleSequence.h has it.
+//
+// svoRayWalk.glsl comes before it, and svoSkyShader.glsl.
+uniform sampler2D svoPlaces; // svoShadowMaskShader.glsl
+uniform sampler2D svoPlanes;
+uniform usamplerBuffer svoSequence; // a mask of blue noise, 64x64; points of the square, two each
+uniform int svoNumber; // of svoLeft(), whose samples these are
+uniform int svoStream;
+uniform float svoSize; // LightCode::Sampled
+uniform int svoFirstSample;
+uniform int svoEndSample;
+
+uint svoNoise(uvec2 pixel)
+{
+  uvec2 at = pixel & 63u;
+  return texelFetch(svoSequence, int(64u * at.y + at.x)).r;
+}
+
+vec2 svoDisc(uvec2 square)
+{
+  vec2 p = 2.0 / 16777216.0 * vec2(square >> 8u) - 1.0;
+  bool wide = abs(p.x) > abs(p.y);
+  float radius = wide ? p.x : p.y;
+  float angle = 0.785398163 * (radius == 0.0 ? 0.0 : (wide ? p.y : p.x) / radius);
+  return radius * (wide ? vec2(cos(angle), sin(angle)) : vec2(sin(angle), cos(angle)));
+}
+
+// (Of upright surfaces z is 0 but for what the planes' texels round.)
+mat3 svoBasis(vec3 z)
+{
+  float side = z.z < -1e-4 ? -1.0 : 1.0;
+  float a = -1.0 / (side + z.z);
+  float b = z.x * z.y * a;
+  return mat3(1.0 + side * z.x * z.x * a, side * b, -side * z.x, b, side + z.y * z.y * a, -z.y, z);
+}
+
+// Sums of red, green and blue, and how many samples count.
+vec4 svoSumsAt(ivec2 pixel)
+{
+  vec4 sums = vec4(0.0);
+  vec4 place = texelFetch(svoPlaces, pixel, 0);
+  vec4 planes = 2.0 * texelFetch(svoPlanes, pixel, 0) - 1.0;
+  vec3 facet = svoUnfold(planes.xy);
+  vec3 normal = svoUnfold(planes.zw);
+  bool lamp = svoNumber < svoLampCount;
+  vec4 source = svoLights[svoNumber];
+  vec3 axis = dot(normal, facet) > 0.0 ? normal : facet;
+  vec3 towards = lamp ? source.xyz - source.w * place.xyz : axis;
+  if (place.w <= -svoFar || (lamp && dot(normal, towards) <= 0.0))
+  {
+    return sums; // it is not lit anyway
+  }
+  if (lamp && place.w > 0.0 && dot(facet, towards) <= svoDoubtfulSine * length(towards))
+  {
+    place.xyz += place.w * normal; // the smooth surface
+    towards -= source.w * place.w * normal;
+    facet = normal;
+  }
+  svoAbove = max(-place.w, 0.0);
+  float away = length(towards);
+  bool ball = lamp && source.w > 0.0;
+  float sine = ball ? min(svoSize / away, 1.0) : 0.0;
+  float cap = sine * sine / (1.0 + sqrt(1.0 - sine * sine)); // solid angle grows by it
+  mat3 toWorld = mat3(svoViewToTree);
+  mat3 basis = svoBasis(toWorld * (towards / away));
+  uvec2 at = uvec2(pixel) + uint(svoStream) * uvec2(23u, 13u);
+  uvec2 turn = uvec2(svoNoise(at), svoNoise(at + uvec2(37u, 17u)));
+  for (int i = svoFirstSample; i < svoEndSample; ++i)
+  {
+    uvec2 square = uvec2(texelFetch(svoSequence, 4096 + 2 * i).r, texelFetch(svoSequence, 4097 + 2 * i).r);
+    vec2 disc = svoDisc(square + turn);
+    float radius2 = dot(disc, disc);
+    vec3 local = vec3(disc, sqrt(max(0.0, 1.0 - radius2)));
+    float end = svoSize;
+    if (ball)
+    {
+      float fallen = cap * radius2;
+      local = vec3(sqrt(cap * (2.0 - fallen)) * disc, 1.0 - fallen);
+      end = away * (local.z - sqrt(max(0.0, sine * sine - fallen * (2.0 - fallen))));
+    }
+    else if (lamp)
+    {
+      local = normalize(vec3(svoSize * disc, 1.0));
+      end = svoFar;
+    }
+    vec3 way = (basis * local) * toWorld; // back to the view
+    if (dot(way, facet) > 0.0)
+    {
+      float left = svoLeftAlong(place.xyz, facet, way, end);
+      vec3 seen = svoNumber == svoSky ? svoSkyFrom(way) / svoBrightestSky() : vec3(1.0);
+      sums += vec4(floor(4096.0 * left * seen + 0.5) / 4096.0, 1.0);
+    }
+  }
+  return sums;
+}
+
+#ifdef svoComputes
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(rgba32f) uniform image2D svoMask;
+uniform int svoFirstRow;
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, svoFirstRow);
+  if (all(lessThan(pixel, imageSize(svoMask))))
+  {
+    imageStore(svoMask, pixel, imageLoad(svoMask, pixel) + svoSumsAt(pixel));
+  }
+}
+#else
+out vec4 svoMask;
+
+void main()
+{
+  svoMask = svoSumsAt(ivec2(gl_FragCoord.xy));
+}
+#endif
