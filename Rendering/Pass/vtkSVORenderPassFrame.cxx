@@ -150,7 +150,8 @@ bool vtkSVORenderPass::MayPreferOpenGL(svo::PassFrame& frame, bool rays)
   const bool prefers =
     window && !this->Impl->severalProcesses() && this->PrefersOpenGL(window, rays, complaint);
   // Without those that were not asked for it takes maps.
-  const bool missed = !complaint.empty() && this->ShadowTechnique == SHADOW_RAYS;
+  const bool missed = !complaint.empty() &&
+    (this->ShadowTechnique == SHADOW_RAYS || this->AmbientOcclusion || this->SkyLight);
   frame.tellOnce(missed ? "The CPU makes the picture: " + complaint : "", this->Impl->said);
   return prefers;
 }

@@ -97,6 +97,9 @@ void choose(Checks& checks)
   stage.expect(OnGPU::BACKEND_OPENGL, "a fast GPU", checks);
   stage.expect(OnGPU::BACKEND_OPENGL, "once more", checks);
   checks.expect(automatic() == 1, "Automatic takes rays");
+  stage.gpu->SetAmbientOcclusion(true);
+  stage.expect(OnGPU::BACKEND_OPENGL, "a fast GPU, occlusion", checks, OnGPU::SHADOW_BUFFER);
+  stage.gpu->SetAmbientOcclusion(false);
   checks.expect(stage.gpu->Measured == 1, "measured once");
   stage.gpu->Rates = { 1.0, 2.0, "" };
   stage.window->Finalize();
@@ -105,6 +108,9 @@ void choose(Checks& checks)
   stage.expect(OnGPU::BACKEND_CPU, "a slow GPU", checks);
   checks.expect(stage.gpu->Measured == 2, "measured in a new context");
   checks.expect(automatic() == 0, "and maps where rays are slow");
+  stage.gpu->SetSkyLight(true);
+  stage.expect(OnGPU::BACKEND_CPU, "a slow GPU, a sky", checks, OnGPU::SHADOW_BUFFER);
+  stage.gpu->SetSkyLight(false);
   checks.expect(messages.all().empty(), "nothing is said: " + messages.all());
   stage.gpu->Rates = { 2.0, 1.0, "no shaders." };
   stage.window->Finalize();

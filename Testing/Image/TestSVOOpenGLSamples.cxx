@@ -261,7 +261,6 @@ void comparePictures(const std::string& name, const Fill& fill, Checks& checks)
   svo::TestMessages messages{ stage.pass };
   stage.pass->SetFilterLightSamples(false);
   stage.pass->SetMaximumLightSamples(Few);
-  stage.pass->SetAmbientOcclusionDistance(1.5);
   fill(stage);
   stage.pass->SetBackendToCPU();
   const Picture expected = capture(stage.window);

@@ -13,7 +13,20 @@ double usualOcclusionDistance(const Scene& scene)
   PointBox all;
   for (const Instance& instance : scene.instances)
   {
-    CasterBox(instance).addTo(all);
+    const Octree& octree = instance.body->octree;
+    if (!instance.castShadow || !octree || octree.header().pointCount == 0)
+    {
+      CasterBox(instance).addTo(all);
+      continue;
+    }
+    // Without the margins of a caster's box, which depend on the octree's level.
+    const double* bounds = octree.header().meshBounds;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const glm::dvec4 at(
+        bounds[corner & 1], bounds[2 + (corner >> 1 & 1)], bounds[4 + (corner >> 2)], 1.0);
+      all.add(glm::dvec3(instance.localToWorld * at), glm::dvec3(0.0));
+    }
   }
   return all.empty() ? 1.0 : 0.2 * glm::distance(all.low, all.high);
 }
