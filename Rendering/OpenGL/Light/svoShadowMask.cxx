@@ -2,6 +2,7 @@
 
 #include "svoMaskLookup.h"
 #include "svoOpenGL.h"
+#include "svoSampleLookup.h"
 #include "svoSampleMeans.h"
 #include "svoShadowMaskShader.h"
 #include "svoSkyShader.h"
@@ -28,22 +29,17 @@ std::string renamed(const LightCode& asked, const std::string& name)
   return "#define svoLeft " + name + "\n" + asked.text + "#undef svoLeft\n";
 }
 
-/// Of fragments that the mask does not know: a ray to each light, and what is around is open.
-constexpr char Unsampled[] =
-  "float svoRayLeft(int n, vec3 position, vec3 facet, vec3 normal, vec3 lift, float extent)\n"
-  "{\n"
-  "  return n < svoLampCount ? svoLeftByRay(n, position, facet, normal, lift, extent)\n"
-  "                          : svoOpen(n, normal);\n"
-  "}\n";
-
 std::string lookUpText(const LightCode& asked, bool others)
 {
-  const bool samples = !asked.sampled.empty();
-  return (samples ? svoSkyShader : std::string()) +
-    (others ? renamed(asked, samples ? "svoLeftByRay" : "svoRayLeft") + "#define svoHasOthers\n" +
-          (samples ? Unsampled : "")
-            : "") +
-    svoMaskLookup;
+  if (asked.sampled.empty())
+  {
+    return (others ? renamed(asked, "svoRayLeft") + "#define svoHasOthers\n" : "") + svoMaskLookup;
+  }
+  const char* const declared =
+    "#define svoHasOthers\n"
+    "float svoRayLeft(int n, vec3 p, vec3 f, vec3 s, vec3 l, float e);\n";
+  return svoSkyShader + (others ? renamed(asked, "svoLeftByRay") + declared : "") + svoMaskLookup +
+    (others ? svoSampleLookup : "");
 }
 
 /// What the mask is filled by.

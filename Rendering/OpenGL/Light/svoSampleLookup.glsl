@@ -1,0 +1,24 @@
+// What is left of a light, or of what is all around, at a fragment whose own surface the shadow mask
+// does not know there. What is sampled is that of the nearest place which the mask knows beside it; of
+// what is translucent it is a ray to the light's middle, or nothing closes it off.
+//
+// svoSkyShader.glsl and svoMaskLookup.glsl come before it, and svoSumOf of svoSampleMeans.glsl.
+float svoRayLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, float extent)
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(svoFirstPixel[0], svoFirstPixel[1]);
+  ivec2 best = ivec2(-1);
+  float least = number < svoLampCount ? 8.0 * extent : 1e30;
+  for (int i = 0; i < 9 && svoOpaque > 0.0 && svoSumOf[number] >= 0; ++i)
+  {
+    ivec2 at = clamp(pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), textureSize(svoShares, 0).xy - 1);
+    vec4 place = texelFetch(svoPlaces, at, 0);
+    if (place.w > -1e30 && distance(place.xyz, position) < least)
+    {
+      least = distance(place.xyz, position);
+      best = at;
+    }
+  }
+  return best.x >= 0 ? texelFetch(svoShares, ivec3(best, number / 4), 0)[number % 4]
+    : number < svoLampCount ? svoLeftByRay(number, position, facet, normal, lift, extent)
+                            : svoOpen(number, normal);
+}
