@@ -12,11 +12,13 @@ float svoLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, flo
   ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(svoFirstPixel[0], svoFirstPixel[1]);
 #ifdef svoHasOthers
   // A part of a pixel whose centre shows another surface takes the light of the pixel beside it that
-  // shows its own. What lies behind all of these is not seen.
+  // shows its own. What lies behind all of these is not seen, but where they are as near as two of its
+  // own pixels are to each other: things that touch.
   ivec2 last = textureSize(svoShares, 0).xy - 1;
   ivec2 best = ivec2(-1);
   float least = 2.0 * extent;
   bool hidden = svoOpaque > 0.0;
+  float near = 2.0 * extent / max(abs(dot(normalize(position), facet)), 0.05);
   for (int i = 0; i < 9 && svoOpaque > 0.0 && least > 0.01 * extent; ++i)
   {
     // The pixel itself comes first.
@@ -24,7 +26,7 @@ float svoLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, flo
     vec4 place = texelFetch(svoPlaces, at, 0);
     vec3 between = place.xyz - position;
     float away = length(between);
-    hidden = hidden && place.w > -1e30 && place.z > position.z;
+    hidden = hidden && place.w > -1e30 && place.z > position.z + near;
     if (place.w > -1e30 && away < least && abs(dot(between, facet)) <= 0.1 * extent)
     {
       least = away;
