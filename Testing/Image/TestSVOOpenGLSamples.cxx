@@ -4,6 +4,7 @@
 #include "../Unit/svoClosedForms.h"
 #include "../Unit/svoTestMessages.h"
 #include "svoFragments.h"
+#include "svoImageCases.h"
 #include "svoTestStage.h"
 
 #include "svoLightCode.h"
@@ -12,6 +13,7 @@
 #include "svoShadowReceivers.h"
 
 #include "vtkActorCollection.h"
+#include "vtkImageToSVO.h"
 #include "vtkLight.h"
 #include "vtkNew.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -365,6 +367,32 @@ void comparePictures(Checks& checks)
         vtkLight* bulb = stage.addBulb(-2.0, -1.5, 3.0);
         bulb->SetIntensity(0.5);
         vtkSVORenderPass::SetLightSize(0.4, bulb);
+      }),
+    checks);
+  comparePictures("a surface that receives none",
+    with(
+      [](vtkSVORenderPass* pass)
+      {
+        pass->SetAmbientOcclusion(true);
+        pass->SetSkyLight(true);
+        pass->SetSkyStrength(0.5);
+      },
+      [](svotest::Stage& stage)
+      {
+        vtkSVORenderPass::SetReceiveShadow(false, stage.renderer->GetActors()->GetLastActor());
+        stage.addSun(2.0, -1.5, 3.0);
+      }),
+    checks);
+  const ImageCase image = distanceCase();
+  comparePictures("an image's surface",
+    with(occlusion,
+      [&](svotest::Stage& stage)
+      {
+        vtkNew<vtkImageToSVO> surface;
+        surface->SetInputData(image.image);
+        surface->SetValue(0, image.value);
+        stage.add(surface, 0.9, 0.5, 0.3)->SetPosition(0.0, 0.0, 1.2);
+        stage.addSun(2.0, -1.5, 3.0);
       }),
     checks);
   comparePictures("what is translucent takes its share",
