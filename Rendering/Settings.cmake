@@ -177,7 +177,9 @@ vtksvo_setting(LightError double 0
   PANEL advanced
   SAYS
     "Stop sampling lights where twice as many samples have changed the picture by no more than this (root of the mean
-     square, of colours up to 255). 0: take all of `MaximumLightSamples`.")
+     square, of colours up to 255). 0: take all of `MaximumLightSamples`."
+  MORE
+    "The OpenGL backend takes all of them in any case: what they have changed is not read back.")
 
 vtksvo_setting(AntiAliasing bool false
   TABLE speed

@@ -80,6 +80,13 @@ void LightSamples::take(
   {
     return;
   }
+  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
+  for (int layer = 0; this->Held == 0 && layer < this->Layers; ++layer)
+  {
+    const float nothing[] = { 0.0f, 0.0f, 0.0f, 0.0f };
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Sums, 0, layer);
+    glClearBufferfv(GL_COLOR, 0, nothing);
+  }
   if (this->Sequence.size() == 0)
   {
     const std::vector<std::uint32_t> words = sequenceWords();
@@ -88,13 +95,6 @@ void LightSamples::take(
       return;
     }
     this->Sequence.send(0, words.data(), words.size());
-  }
-  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
-  for (int layer = 0; this->Held == 0 && layer < this->Layers; ++layer)
-  {
-    const float nothing[] = { 0.0f, 0.0f, 0.0f, 0.0f };
-    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Sums, 0, layer);
-    glClearBufferfv(GL_COLOR, 0, nothing);
   }
   const vtkOpenGLState::ScopedglEnableDisable blends(state, GL_BLEND);
   const vtkOpenGLState::ScopedglBlendFuncSeparate sums(state);
