@@ -120,7 +120,9 @@ std::shared_ptr<const Surface> makeSurface(const TriangleMesh& mesh,
   std::vector<std::uint32_t> cells, const Header& header, const ParallelFor& parallelFor)
 {
   auto surface = std::make_shared<Surface>();
+  surface->points.reserve(mesh.pointCount + 1); // room for svoLaneTriples-inl.h
   surface->points.resize(mesh.pointCount);
+  surface->triangles.reserve(mesh.triangleCount + 1);
   surface->triangles.assign(mesh.triangles, mesh.triangles + mesh.triangleCount);
   surface->cells = std::move(cells);
   const glm::dvec3 origin(header.origin[0], header.origin[1], header.origin[2]);

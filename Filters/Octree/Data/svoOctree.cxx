@@ -71,8 +71,12 @@ glm::dmat4 frameAt(const std::byte* at)
 bool surfaceIsSane(const Surface& surface)
 {
   const std::size_t points = surface.points.size();
-  return std::all_of(surface.triangles.begin(), surface.triangles.end(),
-    [points](const glm::uvec3& t) { return t.x < points && t.y < points && t.z < points; });
+  // Triples are loaded with a number more (svoLaneTriples-inl.h).
+  const bool room = surface.triangles.empty() ||
+    (surface.points.capacity() > points && surface.triangles.capacity() > surface.triangles.size());
+  return room &&
+    std::all_of(surface.triangles.begin(), surface.triangles.end(),
+      [points](const glm::uvec3& t) { return t.x < points && t.y < points && t.z < points; });
 }
 }
 
@@ -131,7 +135,8 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
   }
   if (parts->surface && !surfaceIsSane(*parts->surface))
   {
-    error = "a triangle of the octree's surface has a point that is not there";
+    error = "a triangle of the octree's surface has a point that is not there, or no room behind "
+            "the last";
     return {};
   }
   const auto derive = [&parts, &octree]

@@ -10,6 +10,7 @@
 
 #include "svoCounters.h"
 #include "svoLaneProducts-inl.h"
+#include "svoLaneTriples-inl.h"
 #include "svoPacketWalk-inl.h"
 
 // Edges are decided by true fused multiply-adds, which SSE does not have.
@@ -88,23 +89,16 @@ HWY_INLINE I triangleId(const WalkTarget& target, const Lists& lists, int k, Lan
 
 HWY_INLINE void gatherTriangle(const WalkTarget& target, I id, Vec3& a, Vec3& b, Vec3& c)
 {
-  const DF df;
-  const DI di;
-  const DU du;
-  const I three = hn::Set(di, 3);
-  const I corner = hn::Mul(id, three);
-  const auto corners = [&](int k)
+  const auto ids = reinterpret_cast<const std::int32_t*>(target.triangles);
+  const auto corners = loadTriples(DI(), ids, id);
+  const auto corner = [&](I point)
   {
-    const I at = hn::Add(corner, hn::Set(di, k));
-    const I point = hn::BitCast(di, gather(du, target.triangles, at));
-    const I x = hn::Mul(point, three);
-    return Vec3{ gather(df, target.points, x),
-      gather(df, target.points, hn::Add(x, hn::Set(di, 1))),
-      gather(df, target.points, hn::Add(x, hn::Set(di, 2))) };
+    const auto p = loadTriples(DF(), target.points, point);
+    return Vec3{ p.x, p.y, p.z };
   };
-  a = corners(0);
-  b = corners(1);
-  c = corners(2);
+  a = corner(corners.x);
+  b = corner(corners.y);
+  c = corner(corners.z);
 }
 
 /// Centres of the cells of 2^exponent at these positions.

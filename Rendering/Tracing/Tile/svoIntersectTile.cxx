@@ -5,6 +5,7 @@
 #include "svoCounters.h"
 #include "svoIntersectTile.h"
 #include "svoLaneProducts-inl.h"
+#include "svoLaneTriples-inl.h"
 #include "svoPyramidSides.h"
 
 #include <algorithm>
@@ -311,7 +312,6 @@ void meetOwn(const Surface& surface, const ShearedRays& rays, const std::int32_t
 {
   const DF df;
   const DI di;
-  const auto times3 = [](I v) { return hn::Add(v, hn::Add(v, v)); };
   const auto* triangles = reinterpret_cast<const std::int32_t*>(&surface.triangles[0].x);
   const float* points = &surface.points[0].x;
   for (std::size_t i = 0; i < 64; i += hn::Lanes(df))
@@ -323,19 +323,20 @@ void meetOwn(const Surface& surface, const ShearedRays& rays, const std::int32_t
     {
       continue;
     }
-    const I triangle = times3(hn::IfThenElseZero(mine, primitive));
+    const auto corners = loadTriples(di, triangles, hn::IfThenElseZero(mine, primitive));
     F x[3], y[3], z[3]; // sheared; z is not
     for (int corner = 0; corner < 3; ++corner)
     {
-      const I at = times3(hn::GatherIndex(di, triangles + corner, triangle));
-      z[corner] =
-        hn::Sub(hn::GatherIndex(df, points + rays.z, at), hn::Load(df, rays.origin[2] + i));
-      x[corner] =
-        hn::Sub(hn::Sub(hn::GatherIndex(df, points + rays.x, at), hn::Load(df, rays.origin[0] + i)),
-          hn::Mul(hn::Load(df, rays.shear[0] + i), z[corner]));
-      y[corner] =
-        hn::Sub(hn::Sub(hn::GatherIndex(df, points + rays.y, at), hn::Load(df, rays.origin[1] + i)),
-          hn::Mul(hn::Load(df, rays.shear[1] + i), z[corner]));
+      const auto point = loadTriples(df, points,
+        corner == 0     ? corners.x
+          : corner == 1 ? corners.y
+                        : corners.z);
+      const F along[3] = { point.x, point.y, point.z };
+      z[corner] = hn::Sub(along[rays.z], hn::Load(df, rays.origin[2] + i));
+      x[corner] = hn::Sub(hn::Sub(along[rays.x], hn::Load(df, rays.origin[0] + i)),
+        hn::Mul(hn::Load(df, rays.shear[0] + i), z[corner]));
+      y[corner] = hn::Sub(hn::Sub(along[rays.y], hn::Load(df, rays.origin[1] + i)),
+        hn::Mul(hn::Load(df, rays.shear[1] + i), z[corner]));
     }
     const F u = differenceOfProducts(x[2], y[1], y[2], x[1]);
     const F v = differenceOfProducts(x[0], y[2], y[0], x[2]);

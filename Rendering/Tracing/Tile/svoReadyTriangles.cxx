@@ -25,7 +25,7 @@
 #define HWY_TARGET_INCLUDE "svoReadyTriangles.cxx"
 #include <hwy/foreach_target.h>
 
-#include "svoLaneMoves-inl.h"
+#include "svoLaneTriples-inl.h"
 #include "svoReadyTriangles.h"
 #include "svoSmallTriangles-inl.h"
 
@@ -55,8 +55,8 @@ HWY_INLINE F most(F a, F b, F c)
   return hn::Max(hn::Max(a, b), c);
 }
 
-/// Corners of some triangles. They are written here number by number: vectors that gather theirs
-/// all over the mesh take longer.
+/// Corners of some triangles. Where gathers would do they are written here number by number, which
+/// is faster.
 struct ReadCorners
 {
   static constexpr std::size_t Most = 64; // a multiple of the lanes
@@ -65,6 +65,24 @@ struct ReadCorners
 
   HWY_INLINE void read(const Surface& surface, const std::uint32_t* ids, std::size_t count)
   {
+#if SVO_TRANSPOSES_TRIPLES
+    const DF df;
+    const DI di;
+    const auto* triangles = reinterpret_cast<const std::int32_t*>(&surface.triangles[0].x);
+    for (std::size_t i = 0; i < count; i += hn::Lanes(df))
+    {
+      const auto id = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(ids) + i);
+      const auto corners = loadTriples(di, triangles, id);
+      const I points[3] = { corners.x, corners.y, corners.z };
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        const auto point = loadTriples(df, &surface.points[0].x, points[corner]);
+        hn::Store(point.x, df, this->x[corner] + i);
+        hn::Store(point.y, df, this->y[corner] + i);
+        hn::Store(point.z, df, this->z[corner] + i);
+      }
+    }
+#else
     for (std::size_t i = 0; i < count; ++i)
     {
       const glm::uvec3& triangle = surface.triangles[ids[i]];
@@ -76,6 +94,7 @@ struct ReadCorners
         this->z[corner][i] = point.z;
       }
     }
+#endif
   }
 };
 

@@ -300,6 +300,9 @@ TEST(Octree, ASurfaceOfAnotherMeshIsRefused)
   surface->triangles.push_back({ 0, 1, 3 }); // a point that is not there
   EXPECT_FALSE(svo::Octree::open(data, words->size() * 8, surface, error));
   surface->triangles[0] = { 0, 1, 2 };
+  EXPECT_FALSE(svo::Octree::open(data, words->size() * 8, surface, error)); // no room behind it
+  surface->points.reserve(4);
+  surface->triangles.reserve(2);
   EXPECT_TRUE(svo::Octree::open(data, words->size() * 8, surface, error));
 }
 

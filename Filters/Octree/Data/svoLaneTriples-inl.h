@@ -1,0 +1,85 @@
+// Triples of 32-bit numbers that lie one behind the other, one a lane: points, corners of
+// triangles. Behind the last one has to be room for one more number, as there is in a Surface.
+#if defined(SVO_LANE_TRIPLES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SVO_LANE_TRIPLES_INL
+#undef SVO_LANE_TRIPLES_INL
+#else
+#define SVO_LANE_TRIPLES_INL
+#endif
+
+#include "svoLaneMoves-inl.h"
+
+#include <cstdint>
+
+#include <hwy/highway.h>
+
+#undef SVO_TRANSPOSES_TRIPLES
+#if HWY_TARGET <= HWY_AVX3 || HWY_TARGET == HWY_SCALAR
+#define SVO_TRANSPOSES_TRIPLES 0
+#else
+#define SVO_TRANSPOSES_TRIPLES 1
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace svo
+{
+namespace HWY_NAMESPACE
+{
+template <class V>
+struct LaneTriples
+{
+  V x, y, z;
+};
+
+#if !SVO_TRANSPOSES_TRIPLES
+/// base[3 index] of every lane and the two behind it.
+template <class D, class T = hn::TFromD<D>>
+HWY_INLINE LaneTriples<hn::Vec<D>> loadTriples(
+  D d, const T* base, hn::Vec<hn::RebindToSigned<D>> index)
+{
+  const auto at = hn::Add(index, hn::Add(index, index));
+  return { gather(d, base, at), gather(d, base + 1, at), gather(d, base + 2, at) };
+}
+#else
+/// The triples of every fourth lane, and a number behind each, side by side. The indices are
+/// volatile as in svoLaneNodes-inl.h.
+template <class D, class T = hn::TFromD<D>>
+HWY_INLINE hn::Vec<D> loadEveryFourthTriple(D d, const T* base, const volatile std::int32_t* index)
+{
+  if constexpr (hn::MaxLanes(D()) == 4)
+  {
+    return hn::LoadU(d, base + *index);
+  }
+  else
+  {
+    const hn::Half<D> half;
+    return hn::Combine(d, loadEveryFourthTriple(half, base, index + hn::MaxLanes(half)),
+      loadEveryFourthTriple(half, base, index));
+  }
+}
+
+/// The same by transposing, which is faster than gathers of AVX2.
+template <class D, class T = hn::TFromD<D>>
+HWY_INLINE LaneTriples<hn::Vec<D>> loadTriples(
+  D d, const T* base, hn::Vec<hn::RebindToSigned<D>> index)
+{
+  const hn::RebindToSigned<D> di;
+  const hn::RepartitionToWide<hn::RebindToUnsigned<D>> wide;
+  HWY_ALIGN std::int32_t at[hn::MaxLanes(D())];
+  hn::Store(hn::Add(index, hn::Add(index, index)), di, at);
+  const auto a = loadEveryFourthTriple(d, base, at), b = loadEveryFourthTriple(d, base, at + 1);
+  const auto e = loadEveryFourthTriple(d, base, at + 2), f = loadEveryFourthTriple(d, base, at + 3);
+  const auto pairs = [&](hn::Vec<D> v) { return hn::BitCast(wide, v); };
+  const auto lowAB = pairs(hn::InterleaveLower(d, a, b)),
+             lowEF = pairs(hn::InterleaveLower(d, e, f));
+  const auto upAB = pairs(hn::InterleaveUpper(d, a, b)), upEF = pairs(hn::InterleaveUpper(d, e, f));
+  return { hn::BitCast(d, hn::InterleaveLower(wide, lowAB, lowEF)),
+    hn::BitCast(d, hn::InterleaveUpper(wide, lowAB, lowEF)),
+    hn::BitCast(d, hn::InterleaveLower(wide, upAB, upEF)) };
+}
+#endif
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#endif
