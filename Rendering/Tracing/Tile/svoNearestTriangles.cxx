@@ -95,9 +95,11 @@ HWY_NOINLINE std::uint64_t draw(const TriangleGroup::Slots& slots, const TilePix
   const F infinity = hn::Set(df, std::numeric_limits<float>::infinity());
   constexpr std::size_t Step = hn::MaxLanes(DF());
   std::uint64_t met = 0;
-  for (std::size_t i = 0; i < 64; i += Step)
+  // From the box's first row to its last one, and few branches, which nobody could foretell.
+  const std::size_t last = 63 - __builtin_clzll(box);
+  for (std::size_t i = __builtin_ctzll(box) / Step * Step; i <= last; i += Step)
   {
-    if (((box >> i) & (~std::uint64_t(0) >> (64 - Step))) == 0)
+    if (Step < 8 && ((box >> i) & (~std::uint64_t(0) >> (64 - Step))) == 0)
     {
       continue;
     }
@@ -135,12 +137,7 @@ HWY_NOINLINE std::uint64_t draw(const TriangleGroup::Slots& slots, const TilePix
     }
     const F upper = hn::Load(df, tile.upper + i);
     maybe = hn::And(maybe, hn::Le(low, upper));
-    const std::uint64_t bits = bitsOf(df, maybe);
-    if (bits == 0)
-    {
-      continue;
-    }
-    met |= bits << i;
+    met |= bitsOf(df, maybe) << i;
     high = hn::IfThenElse(surely, high, infinity);
     const F lower = hn::Load(df, tile.lower + i);
     const F rival = hn::Load(df, tile.rival + i);
