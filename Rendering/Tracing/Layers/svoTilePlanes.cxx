@@ -2,6 +2,7 @@
 #define HWY_TARGET_INCLUDE "svoTilePlanes.cxx"
 #include <hwy/foreach_target.h>
 
+#include "svoLaneBits-inl.h"
 #include "svoTilePlanes.h"
 
 #include <cmath>
@@ -19,12 +20,14 @@ void meetPlanes(const SeenPlane* planes, const std::int32_t* plane, double x, do
   std::uint64_t& doubts)
 {
   alignas(64) double depth[64], along[64], slack[64], edgeOn[64];
-  bool one = true;
-  for (int i = 1; i < 64; ++i)
+  const Integers integers;
+  const auto first = hn::Set(integers, plane[0]);
+  auto one = hn::Eq(first, first);
+  for (int i = 0; i < 64; i += width())
   {
-    one = one & (plane[i] == plane[0]);
+    one = hn::And(one, hn::Eq(hn::LoadU(integers, plane + i), first));
   }
-  if (one)
+  if (hn::AllTrue(integers, one))
   {
     const SeenPlane p = planes[plane[0]];
     for (int i = 0; i < 64; ++i)
@@ -70,9 +73,10 @@ void meetPlanes(const SeenPlane* planes, const std::int32_t* plane, double x, do
   {
     doubtful[i] |= certain[i] > 0.0 ? 0 : 1;
   }
-  for (int i = 0; i < 64; ++i)
+  for (int i = 0; i < 64; i += width())
   {
-    doubts |= static_cast<std::uint64_t>(doubtful[i]) << i;
+    const auto sure = hn::Eq(hn::Load(integers, doubtful + i), hn::Zero(integers));
+    doubts |= bitsOf(integers, hn::Not(sure)) << i;
   }
 }
 
