@@ -174,6 +174,10 @@ glm::dvec3 row(const glm::dmat4& m, int i)
 /// of all but what is close to it, since two opposite sides have the sum 2 w there.
 bool isBeyond(const glm::dmat4& worldToClip, const glm::dvec4& clip, const TilePatch& patch)
 {
+  if (std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w)
+  {
+    return false; // its origin does not
+  }
   constexpr double OfDouble = 1e-11; // more than what sums lose, and MapBorder
   const glm::dvec3& origin = patch.origin.position;
   const glm::dvec3 extent = (1.0 + 2.0 * WayError) * glm::dvec3(patch.extent);
