@@ -45,8 +45,9 @@ HWY_INLINE Lying lyingAt(const MapTexels& map, Indices x, Indices y, hn::Mask<In
   const Words words;
   const Integers integers;
   const auto tile = tileOf(map, x, y), at = indexOf(tile, x, y);
-  const auto known =
-    hn::And(hn::RebindMask(d, wanted), hn::Lt(hn::GatherIndex(d, map.nearest, tile), hn::Inf(d)));
+  static_assert(sizeof(TileOccluders) == 12);
+  const auto nearest = hn::GatherIndex(d, &map.tiles->nearest, hn::Add(tile, hn::Add(tile, tile)));
+  const auto known = hn::And(hn::RebindMask(d, wanted), hn::Lt(nearest, hn::Inf(d)));
   const auto where = hn::IfThenElseZero(hn::RebindMask(integers, known), at);
   return { hn::IfThenElse(hn::RebindMask(words, known), hn::GatherIndex(words, map.instance, where),
              hn::Set(words, NoInstance)),

@@ -5,6 +5,7 @@
 
 #include "svoMapPlaces.h"
 #include "svoTexelPlace.h"
+#include "svoTileOccluders.h"
 #include "svoTilePatch.h"
 #include "svoView.h"
 
@@ -16,7 +17,7 @@ namespace svo
 struct MapTexels
 {
   int tilesX;
-  const float* nearest; // of each tile; infinity: nothing lies there, and nothing is known further
+  const TileOccluders* tiles; // nearest infinity: nothing lies there, and nothing is known further
   const float* t;
   const std::uint32_t* instance;
 };

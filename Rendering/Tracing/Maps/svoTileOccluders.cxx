@@ -96,10 +96,8 @@ TileOccluders occludersIn(const Hits& map, std::size_t tile)
 void MapOccluders::find(const Hits& map, const ParallelFor& parallelFor)
 {
   const std::size_t tiles = map.depth.tiles();
-  const bool all = this->Nearest.size() != tiles;
-  this->Nearest.resize(tiles);
-  this->Farthest.resize(tiles);
-  this->Casters.resize(tiles);
+  const bool all = this->Tiles.size() != tiles;
+  this->Tiles.resize(tiles);
   parallelFor(0, tiles, 256,
     [&](std::size_t first, std::size_t last)
     {
@@ -107,10 +105,7 @@ void MapOccluders::find(const Hits& map, const ParallelFor& parallelFor)
       {
         if (all || map.tiles.changed(tile))
         {
-          const TileOccluders found = occludersIn(map, tile);
-          this->Nearest[tile] = found.nearest;
-          this->Farthest[tile] = found.farthest;
-          this->Casters[tile] = found.caster;
+          this->Tiles[tile] = occludersIn(map, tile);
         }
       }
     });
@@ -124,16 +119,15 @@ TileOccluders MapOccluders::in(const MapTiles& tiles, int tilesX) const
     constexpr float Infinity = std::numeric_limits<float>::infinity();
     return { -Infinity, Infinity, TileOccluders::Several };
   }
-  const std::size_t first = static_cast<std::size_t>(tiles.y0) * tilesX + tiles.x0;
-  TileOccluders all{ this->Nearest[first], this->Farthest[first], this->Casters[first] };
+  TileOccluders all = this->Tiles[static_cast<std::size_t>(tiles.y0) * tilesX + tiles.x0];
   for (int y = tiles.y0; y <= tiles.y1; ++y)
   {
     for (int x = tiles.x0; x <= tiles.x1; ++x)
     {
-      const std::size_t tile = static_cast<std::size_t>(y) * tilesX + x;
-      all.nearest = std::min(all.nearest, this->Nearest[tile]);
-      all.farthest = std::max(all.farthest, this->Farthest[tile]);
-      all.caster = this->Casters[tile] == all.caster ? all.caster : TileOccluders::Several;
+      const TileOccluders& tile = this->Tiles[static_cast<std::size_t>(y) * tilesX + x];
+      all.nearest = std::min(all.nearest, tile.nearest);
+      all.farthest = std::max(all.farthest, tile.farthest);
+      all.caster = tile.caster == all.caster ? all.caster : TileOccluders::Several;
     }
   }
   return all;

@@ -32,24 +32,17 @@ public:
   /// After the map is traced, each time: of the tiles that are not what they were.
   void find(const Hits& map, const ParallelFor& parallelFor);
   /// The map is not what shadows are looked up in.
-  void forget()
-  {
-    this->Nearest = {};
-    this->Farthest = {};
-    this->Casters = {};
-  }
-  bool known() const { return !this->Nearest.empty(); }
+  void forget() { this->Tiles = {}; }
+  bool known() const { return !this->Tiles.empty(); }
   /// Of each tile. known().
-  const float* nearest() const { return this->Nearest.data(); }
+  const TileOccluders* tiles() const { return this->Tiles.data(); }
   /// Of a box of tiles; of large ones, and if it is not known, minus and plus
   /// infinity, and Several.
   /// `tilesX`: of the map.
   TileOccluders in(const MapTiles& tiles, int tilesX) const;
 
 private:
-  // By tile; TileOccluders.
-  std::vector<float> Nearest, Farthest;
-  std::vector<std::uint32_t> Casters;
+  std::vector<TileOccluders> Tiles;
 };
 }
 

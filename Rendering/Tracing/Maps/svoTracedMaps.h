@@ -43,7 +43,7 @@ struct TracedMap
   MapTexels texels() const
   {
     const DepthBuffer& depth = this->hits.depth;
-    return { depth.tilesX, this->occluders.nearest(), depth.t.data(), depth.instance.data() };
+    return { depth.tilesX, this->occluders.tiles(), depth.t.data(), depth.instance.data() };
   }
 
   /// What lies in the tiles around points that are inside.
