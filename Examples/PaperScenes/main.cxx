@@ -8,10 +8,13 @@
 #include "report.h"
 #include "scenes.h"
 
+#include "svoIntersect.h"
+
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkVersion.h>
 
+#include <vtksys/SystemInformation.hxx>
 #include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
@@ -254,6 +257,10 @@ int main(int argc, char* argv[])
   figures.openGL = openGLRenderer(window);
   figures.vtkVersion = vtkVersion::GetVTKVersion();
   figures.processors = std::thread::hardware_concurrency();
+  vtksys::SystemInformation system;
+  system.RunCPUCheck();
+  figures.processor = system.GetModelName();
+  figures.instructionSet = svo::instructionSet();
   std::copy_n(arguments.size, 2, figures.size);
   figures.level = arguments.level;
   figures.shadowMapResolution = defaultShadowMapResolution();

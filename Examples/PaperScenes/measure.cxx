@@ -79,18 +79,18 @@ double coveredShare(vtkRenderWindow* window)
 const std::vector<Method>& methods()
 {
   static const std::vector<Method> all{
+    { Technique::Octrees, "svo_point_coherent_pixel_error_1",
+      "by default: frame coherence, pixel error 1", LightKind::Point, true, 1 },
     { Technique::Octrees, "svo_point_retraced_full_depth",
       "all retraced, full depth (the paper's way)", LightKind::Point, false, 0 },
     { Technique::Octrees, "svo_point_coherent_full_depth", "frame coherence, full depth",
       LightKind::Point, true, 0 },
     { Technique::Octrees, "svo_point_retraced_pixel_error_1", "all retraced, pixel error 1",
       LightKind::Point, false, 1 },
-    { Technique::Octrees, "svo_point_coherent_pixel_error_1",
-      "frame coherence, pixel error 1 (default)", LightKind::Point, true, 1 },
+    { Technique::Octrees, "svo_spot_coherent_pixel_error_1",
+      "by default: frame coherence, pixel error 1", LightKind::Spot, true, 1 },
     { Technique::Octrees, "svo_spot_retraced_full_depth", "all retraced, full depth",
       LightKind::Spot, false, 0 },
-    { Technique::Octrees, "svo_spot_coherent_pixel_error_1",
-      "frame coherence, pixel error 1 (default)", LightKind::Spot, true, 1 },
     { Technique::ShadowMaps, "vtk_shadow_map_spot", "with vtkShadowMapPass", LightKind::Spot },
     { Technique::Rasterizer, "vtk_no_shadows", "without shadows, point light", LightKind::Point },
     { Technique::Empty, "vtk_empty_frame", "an empty frame", LightKind::Point },

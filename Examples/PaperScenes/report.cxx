@@ -92,7 +92,8 @@ std::string table(const Figures& figures)
       << figures.size[0] << " x " << figures.size[1] << ", octree level " << figures.level
       << ", shadow buffers and maps of " << figures.shadowMapResolution << " x "
       << figures.shadowMapResolution << ", no multisampling\n"
-      << figures.processors << " processors; VTK " << figures.vtkVersion
+      << figures.processors << " processors: " << figures.processor << ", octrees with "
+      << figures.instructionSet << "\nVTK " << figures.vtkVersion
       << " on OpenGL: " << figures.openGL << "\n\n";
 
   addRow(out, figures, "scene", [](const SceneFigures& s) { return s.name; });
@@ -138,6 +139,8 @@ bool writeJson(const Figures& figures, const std::string& path)
   root["octree_level"] = figures.level;
   root["shadow_map_resolution"] = figures.shadowMapResolution;
   root["processors"] = figures.processors;
+  root["processor"] = figures.processor;
+  root["instruction_set"] = figures.instructionSet;
   root["opengl"] = figures.openGL;
   root["vtk"] = figures.vtkVersion;
   root["object_a"]["source"] = figures.sourceOfA;

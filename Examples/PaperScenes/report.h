@@ -32,6 +32,8 @@ struct Figures
   int shadowMapResolution = 0;
   int framesPerMedian = 0;
   unsigned int processors = 0;
+  std::string processor;      ///< what it calls itself
+  std::string instructionSet; ///< the one that octrees are traced with
   std::string openGL;
   std::string vtkVersion;
   std::string sourceOfA;

@@ -28,10 +28,15 @@ class TestPaperScenes(unittest.TestCase):
         self.assertNotIn("ERR|", done.stderr)
         self.assertIn("6 A + B", done.stdout)
         self.assertIn("vtkShadowMapPass", done.stdout)
+        # What a user gets comes first, and on what.
+        self.assertRegex(done.stdout, r"point light as in the paper\n +by default:")
 
         figures = json.loads((self.folder / "figures.json").read_text())
         self.assertEqual(figures["object_a"]["triangles"], 16978)
         self.assertEqual(figures["object_b"]["triangles_per_pose"], 2040)
+        self.assertTrue(figures["processor"])
+        self.assertIn(f"{figures['processor']}, octrees with {figures['instruction_set']}",
+                      done.stdout)
         scene = figures["scenes"]["paper3"]
         self.assertEqual(scene["triangles_shown"], 6 * 16978 + 2040 + 2)
         self.assertEqual(scene["triangles_in_memory"], 16978 + 50 * 2040 + 2)
