@@ -10,7 +10,7 @@
 
 namespace svo
 {
-/// Derived from the mesh whenever an octree is opened; it is never stored in a file.
+/// Derived from the mesh, never stored. Points and triangles have capacity for one more (loads).
 struct Surface
 {
   std::vector<glm::vec3> points;      // octree coordinates, one per mesh point; shared vertices are
