@@ -157,8 +157,8 @@ vtksvo_setting(MaximumLightSamples int 32
      and one where there is nothing but what is around and samples are filtered."
   MORE
     "Off screen, and in windows without an interactor, so many are taken before `Render()` returns. With one a still picture
-     begins with as few; while the interactor has nothing else to do it gets twice as many, again and again. `Refine()`
-     does one such step, for scripts. `GetNumberOfLightSamples()` tells how many it has.")
+     begins with as few; while the interactor has nothing else to do it gets twice as many, again and again, or (without
+     `LightError`) as many more as take half a second. `Refine()` takes twice as many, for scripts. `GetNumberOfLightSamples()` tells how many it has.")
 
 vtksvo_setting(FilterLightSamples bool true
   TABLE shadows

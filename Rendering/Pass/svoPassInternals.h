@@ -49,7 +49,7 @@ struct vtkSVORenderPass::Internals
   vtkTimeStamp shaderTime;
   std::set<std::string> said; // messages about no object in particular
   bool releaseAsked = false;  // while a frame was drawn
-  bool refining = false;      // the frames that are drawn are to have more samples
+  double refining = 0.0;      // PaceLimits::refine of the frames that are drawn
   svo::IdleCall idle;
 
   bool severalProcesses() const

@@ -15,6 +15,7 @@
 #include "vtkRenderer.h"
 
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -108,6 +109,11 @@ void vtkSVORenderPass::ReleaseOctrees()
 
 bool vtkSVORenderPass::Refine()
 {
+  return this->RefineFor(std::numeric_limits<double>::infinity());
+}
+
+bool vtkSVORenderPass::RefineFor(double seconds)
+{
   Internals& impl = *this->Impl;
   if (!impl.frames.idle())
   {
@@ -133,13 +139,13 @@ bool vtkSVORenderPass::Refine()
     return samples;
   };
   const int before = look();
-  impl.refining = true;
+  impl.refining = seconds;
   for (const vtkSmartPointer<vtkRenderWindow>& window :
     std::vector<vtkSmartPointer<vtkRenderWindow>>(windows.begin(), windows.end()))
   {
     window->Render();
   }
-  impl.refining = false;
+  impl.refining = 0.0;
   // While somebody interacts they stay as they are.
   return look() > before && !windows.empty();
 }

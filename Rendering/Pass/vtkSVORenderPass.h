@@ -84,8 +84,9 @@ public:
    * Draws the windows of the pass once more, with twice as many samples of lights that have a size
    * and of ambient occlusion, up to MaximumLightSamples, or until LightError is reached. Returns
    * false if nothing is left to be done: `while (pass->Refine()) {}`. In windows whose interactor
-   * runs that goes on by itself while nothing else is to be done. What has changed meanwhile begins
-   * anew.
+   * runs that goes on by itself while nothing else is to be done; there the CPU takes
+   * samples in steps of about half a second, without a LightError, so that users are soon heard.
+   * What has changed meanwhile begins anew.
    */
   bool Refine();
 
@@ -255,6 +256,7 @@ private:
   svo::FrameSettings AskedSettings(bool openGL, bool rays) const;
   void TraceFrame(svo::PassFrame& frame, int width, int height);
   void FinishFrame(svo::PassFrame& frame);
+  bool RefineFor(double seconds);
 #endif
 
   struct Internals;

@@ -13,6 +13,13 @@
 #include <memory>
 #include <string>
 
+namespace
+{
+/// Of a step that nobody has asked for, of lights that get more samples: what users do waits for
+/// it.
+constexpr double IdleSeconds = 0.5;
+}
+
 /// Fills a frame with the renderer's scene, as camera and lights are then, and sets up its camera.
 /// Without one the renderer, to which the pass is attached, does that, and the lights. False if the
 /// frame cannot be drawn.
@@ -207,7 +214,7 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   impl.statistics.openGL = frame.openGL;
   if (!frame.interactive() && !frame.state->refined(this->MaximumLightSamples, this->LightError))
   {
-    impl.idle.ask(frame.renderer->GetRenderWindow(), [this] { this->Refine(); });
+    impl.idle.ask(frame.renderer->GetRenderWindow(), [this] { this->RefineFor(IdleSeconds); });
   }
   if (impl.statistics.tracer.retracedLayers > 0 && !frame.openGL) // which knows no pace
   {

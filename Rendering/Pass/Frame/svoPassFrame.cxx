@@ -1,5 +1,6 @@
 #include "svoPassFrame.h"
 
+#include "svoSampleStep.h"
 #include "svoSceneLights.h"
 
 #include "vtkCommand.h"
@@ -96,10 +97,13 @@ void PassFrame::decideSamples(const PaceLimits& limits)
   const int shown = this->state->samples();
   const bool slow = this->settings.filterLightSamples && !hasSoftLight(this->renderer);
   const int first = slow ? FirstSamplesAround : FirstSamples;
-  this->settings.samplesNow = limits.refine && !this->interactive() && shown > 0 ? 2 * shown
+  const bool refines = limits.refine > 0.0 && !this->interactive() && shown > 0;
+  // What twice as many have changed is the error.
+  const double each = limits.lightError > 0.0 ? 0.0 : this->state->secondsOfSample();
+  this->settings.samplesNow = refines      ? shown + moreSamples(shown, each, limits.refine)
     : straight && limits.lightError <= 0.0 ? std::numeric_limits<int>::max()
                                            : first;
-  this->refinesTo = straight && !limits.refine ? limits.lightError : -1.0;
+  this->refinesTo = straight && limits.refine <= 0.0 ? limits.lightError : -1.0;
 }
 
 void PassFrame::decide(const FrameSettings& asked, const PaceLimits& limits)

@@ -36,7 +36,8 @@ struct PaceLimits
   double maximum = 1.0;      // by at most so many pixels of the window
   int reduction = 1;         // PassStatistics::imageReduction
   double detail = 0.0;       // pixels of the window of instances that may be left out
-  bool refine = false;       // lights get twice as many samples as the last frame shows
+  double refine = 0.0;       // lights get more samples than the last frame shows, so many seconds;
+                             // 0: they do not; infinite: twice as many
   double lightError = 0.0;   // the error at which that ends
   bool refinesLater = false; // there is somebody who asks for that
 };

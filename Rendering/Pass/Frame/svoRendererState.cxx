@@ -209,6 +209,7 @@ void RendererState::trace(
   const auto refusal = [this]
   { return this->Mask.refusal().empty() ? this->Boxes.refusal() : this->Mask.refusal(); };
   settings.lightCode = wantsCode && refusal().empty();
+  const int samples = this->samples();
   this->Trace->render(scene, view, settings, smpParallelFor());
   if (!this->Mask.accepts(this->Trace->lightCode()) || !this->Boxes.accepts(this->Trace->eyeCode()))
   {
@@ -216,6 +217,10 @@ void RendererState::trace(
     this->Trace->render(scene, view, settings, smpParallelFor());
   }
   this->Statistics.tracer = this->Trace->statistics();
+  if (samples > 0 && this->samples() > samples)
+  {
+    this->SecondsOfSample = this->Statistics.tracer.shade.wall / (this->samples() - samples);
+  }
   while (untilError >= 0.0 && !this->refined(settings.lightSamples, untilError))
   {
     settings.samplesNow = 2 * this->samples();

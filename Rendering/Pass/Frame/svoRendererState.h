@@ -102,13 +102,15 @@ public:
 
   /// Of its lights, in what was traced last.
   int samples() const { return this->Trace->statistics().lightSamples; }
+  /// What one more for each pixel took when some were added last; 0: nobody knows.
+  double secondsOfSample() const { return this->SecondsOfSample; }
   /// True if what was traced last has `most` samples of its lights, or twice as many have changed
-  /// it by `error` at most.
+  /// it by `error` at most; 0: whatever they have changed.
   bool refined(int most, double error) const
   {
     const FrameStatistics& frame = this->Trace->statistics();
     return !this->HasPicture || frame.lightSamples == 0 || frame.lightSamples >= most ||
-      (frame.lightError >= 0.0 && frame.lightError <= error);
+      (error > 0.0 && frame.lightError >= 0.0 && frame.lightError <= error);
   }
 
   /// Has the frame's light found for what will be seen of the receivers among these props, which
@@ -163,6 +165,7 @@ private:
   std::shared_ptr<WindowTime> Window; // of the window that it was measured in last
   std::unique_ptr<Tracer> Trace;
   View Eye; // of the frame
+  double SecondsOfSample = 0.0;
   bool InFrame = false;
   bool ForgetsScene = false;  // as soon as the frame has ended
   bool SharesShadows = false; // this frame's shadow buffers are those of all processes

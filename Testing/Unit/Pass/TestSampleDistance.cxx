@@ -1,8 +1,11 @@
 // How far apart rays are, from what frames took: no clock is asked here.
 #include "svoSampleDistance.h"
+#include "svoSampleStep.h"
 #include "svoWindowTime.h"
 
 #include <gtest/gtest.h>
+
+#include <limits>
 
 TEST(SampleDistance, IsOnePixelWithoutAFrameToGoBy)
 {
@@ -170,4 +173,15 @@ TEST(WindowTime, TheOthersAreThoseMeasuredSince)
   EXPECT_DOUBLE_EQ(time.others(&b).rays, 0.1);
   time.forget(&a);
   EXPECT_EQ(time.others(&b).rays, 0.0);
+}
+
+TEST(SampleStep, TakesAsManyAsFitIntoItsTime)
+{
+  constexpr double Endless = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(svo::moreSamples(8, 0.0, 0.5), 8); // nobody knows what one takes
+  EXPECT_EQ(svo::moreSamples(8, 0.0, Endless), 8);
+  EXPECT_EQ(svo::moreSamples(8, 1.0, Endless), 8);
+  EXPECT_EQ(svo::moreSamples(8, 0.01, 0.5), 8);
+  EXPECT_EQ(svo::moreSamples(256, 0.0625, 0.5), 8);
+  EXPECT_EQ(svo::moreSamples(8, 10.0, 0.5), 1);
 }
