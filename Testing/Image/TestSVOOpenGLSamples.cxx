@@ -478,13 +478,9 @@ void expectRefined(Checks& checks)
 int TestSVOOpenGLSamples(int, char*[])
 {
   Checks checks;
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(true);
-  window->SetSize(64, 64);
-  vtkNew<vtkRenderer> renderer;
-  window->AddRenderer(renderer);
-  window->Render();
-  auto* context = vtkOpenGLRenderWindow::SafeDownCast(window);
+  svotest::Stage stage(64, 64);
+  stage.window->Render();
+  auto* context = vtkOpenGLRenderWindow::SafeDownCast(stage.window);
   compareClosedForms(context, checks);
   compareSkies(context, checks);
   comparePictures(checks);

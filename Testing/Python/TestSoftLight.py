@@ -35,6 +35,13 @@ class TestSoftLight(unittest.TestCase):
         vtkOutputWindow.SetInstance(None)
         self.window.Finalize()
 
+    def refine(self):
+        """As often as may be; the samples before each step but the last."""
+        steps = [self.svo.GetNumberOfLightSamples()]
+        while self.svo.Refine():
+            steps.append(self.svo.GetNumberOfLightSamples())
+        return steps
+
     def picture(self):
         self.window.Render()
         return self.shown()
@@ -110,10 +117,7 @@ class TestSoftLight(unittest.TestCase):
         self.ball.SetPosition(0.0, 0.0, 0.0)
         few = self.picture()
         self.window.SetDesiredUpdateRate(0.0001)
-        steps = [self.svo.GetNumberOfLightSamples()]
-        while self.svo.Refine():
-            steps.append(self.svo.GetNumberOfLightSamples())
-        self.assertEqual(steps, [4, 8, 16])
+        self.assertEqual(self.refine(), [4, 8, 16])
         self.assertEqual(self.svo.GetNumberOfLightSamples(), 32)
         self.assertFalse((few == straight).all())
         self.assertTrue((self.shown() == straight).all())
@@ -151,8 +155,7 @@ class TestSoftLight(unittest.TestCase):
             self.window.Render()
             self.assertEqual(self.svo.GetNumberOfLightSamples(), first)
             self.window.SetDesiredUpdateRate(0.0001)
-            while self.svo.Refine():
-                pass
+            self.refine()
             self.assertEqual(self.svo.GetNumberOfLightSamples(), 8)
             if filtered:
                 self.assertTrue((self.shown() == straight).all())
@@ -307,10 +310,7 @@ class TestSoftLight(unittest.TestCase):
         self.ball.SetPosition(0.0, 0.0, 0.0)
         few = self.picture()
         self.window.SetDesiredUpdateRate(0.0001)
-        steps = [self.svo.GetNumberOfLightSamples()]
-        while self.svo.Refine():
-            steps.append(self.svo.GetNumberOfLightSamples())
-        self.assertEqual(steps, [4, 8, 16])
+        self.assertEqual(self.refine(), [4, 8, 16])
         self.assertFalse((few == straight).all())
         self.assertTrue((self.shown() == straight).all())
         # What VTK draws and nothing casts: its samples are taken anew where it has moved.

@@ -13,10 +13,10 @@ namespace svo
 /// Derived from the mesh, never stored. Points and triangles have capacity for one more (loads).
 struct Surface
 {
-  std::vector<glm::vec3> points;      // octree coordinates, one per mesh point; shared vertices are
-                                      // bit-identical, which is what makes edges watertight
-  std::vector<glm::uvec3> triangles;  // mesh point ids, in the mesh's winding
-  std::vector<std::uint32_t> cells;   // mesh cell id of each triangle
+  std::vector<glm::vec3> points;     // octree coordinates, one per mesh point; shared vertices are
+                                     // bit-identical, which is what makes edges watertight
+  std::vector<glm::uvec3> triangles; // mesh point ids, in the mesh's winding
+  std::vector<std::uint32_t> cells;  // mesh cell id of each triangle
 
   std::size_t bytes() const
   {

@@ -5,6 +5,7 @@
 #include "svoHemisphereRays.h"
 #include "svoKeptFrame.h"
 #include "svoLightCode.h"
+#include "svoLightFilter.h"
 #include "svoOctreeArena.h"
 #include "svoOctreeWalk.h"
 #include "svoRayWalk.h"
@@ -16,7 +17,6 @@
 #include "svoTerminator.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iomanip>
 #include <locale>
@@ -386,12 +386,11 @@ void OpenGLTracer::describeSamples(
 {
   LightCode& code = this->Code;
   code.unlit = scene.lights.empty();
-  // Streams as of the CPU.
   if (settings.ambientOcclusion)
   {
     code.occlusion = code.count();
     const double distance = settings.ambientOcclusionDistance;
-    code.sampled.push_back({ code.occlusion, ~0u,
+    code.sampled.push_back({ code.occlusion, HemisphereRays::OcclusionStream,
       static_cast<float>(std::min(distance > 0.0 ? distance : this->UsualDistance, 1e30)) });
     code.floats.push_back({ "svoOcclusion", 1,
       { static_cast<float>(settings.ambientOcclusionStrength),
@@ -403,7 +402,7 @@ void OpenGLTracer::describeSamples(
     const glm::vec3 up = glm::mat3(view.worldToView) * sky.up(), mean = sky.mean(),
                     rise = sky.rise();
     code.sky = code.count();
-    code.sampled.push_back({ code.sky, ~1u, 1e30f });
+    code.sampled.push_back({ code.sky, HemisphereRays::SkyStream, 1e30f });
     code.floats.push_back(
       { "svoSkyColors", 4, { mean.r, mean.g, mean.b, 0, rise.r, rise.g, rise.b, 0 } });
     code.floats.push_back({ "svoSkyUp", 4, { up.x, up.y, up.z, 0.0f } });
@@ -420,11 +419,9 @@ void OpenGLTracer::describeSamples(
   code.picture += !changes.none();
   const double edge = std::max(
     2.0 / (view.viewToClip[0][0] * view.width), 2.0 / (view.viewToClip[1][1] * view.height));
-  // As svoLightImages.cxx has it.
-  const double evenness = std::pow(code.samples, 0.375);
   code.floats.push_back({ "svoFilter", 4,
     { static_cast<float>(view.parallel ? 0.0 : edge),
-      static_cast<float>(view.parallel ? edge : 0.0), static_cast<float>(evenness),
+      static_cast<float>(view.parallel ? edge : 0.0), LightFilter::evennessOf(code.samples),
       settings.filterLightSamples ? 1.0f : 0.0f } });
 }
 

@@ -219,7 +219,7 @@ void RendererState::trace(
   this->Statistics.tracer = this->Trace->statistics();
   if (samples > 0 && this->samples() > samples)
   {
-    this->SecondsOfSample = this->Statistics.tracer.shade.wall / (this->samples() - samples);
+    this->SecondsOfSample = this->Statistics.tracer.samplingTime / (this->samples() - samples);
   }
   while (untilError >= 0.0 && !this->refined(settings.lightSamples, untilError))
   {

@@ -132,8 +132,9 @@ struct FrameStatistics
   std::uint64_t shadowRays = 0;
   int lightsWithBuffers = 0; // casting lights whose shadows were found so
   int lightsWithRays = 0;
-  int lightSamples =
-    0; // a pixel, of lights with a size and of ambient occlusion; 0: there are none
+  /// A pixel, of lights with a size and of ambient occlusion; 0: there are none.
+  int lightSamples = 0;
+  double samplingTime = 0.0; // s, of the shading, in which they were taken
   /// How far the picture is from that of fewer samples which it has replaced, RMS of colours of
   /// 0..255 where something was hit; negative: it has replaced none.
   double lightError = -1.0;

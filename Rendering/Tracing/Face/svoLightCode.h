@@ -55,8 +55,8 @@ struct LightCode : ShaderValues
   {
     int number;      // the first one
     unsigned stream; // pixelRotation()
-    float
-      size; // of a ball its radius, of a disc the tangent of half its angle; else how far rays go
+    /// Of a ball its radius, of a disc the tangent of half its angle; else how far rays go.
+    float size;
   };
   std::vector<Sampled> sampled;
   int samples = 0;           // of each, a pixel

@@ -406,7 +406,9 @@ void CPUTracer::render(
   const ShadedScene shaded{ scene, view, settings, self.Eye.hits(), self.Eye, self.Tiles,
     self.LightShadows };
   self.Shaded.forget(self.Tiles.hits());
+  const double before = now();
   self.sampleLights(shaded, samples.refined, parallelFor, statistics);
+  statistics.samplingTime = now() - before;
   self.Shader.shade(shaded, self.Sampled, parallelFor, self.Shaded, frame, statistics);
   if (settings.antiAliasing)
   {

@@ -75,7 +75,7 @@ struct Surface
 {
   Lanes normalX, normalY, normalZ, depth;
 
-  HWY_INLINE Surface(const SeenSurfaces& all, std::size_t at)
+  HWY_INLINE Surface(const SampledSurfaces& all, std::size_t at)
     : normalX(hn::LoadU(Floats(), all.normalX.data() + at))
     , normalY(hn::LoadU(Floats(), all.normalY.data() + at))
     , normalZ(hn::LoadU(Floats(), all.normalZ.data() + at))
@@ -237,7 +237,7 @@ namespace svo
 {
 HWY_EXPORT(filterBlock);
 
-void SeenSurfaces::resize(std::size_t pixels)
+void SampledSurfaces::resize(std::size_t pixels)
 {
   for (RawArray<float>* part : { &this->normalX, &this->normalY, &this->normalZ, &this->depth,
          &this->depthX, &this->depthY, &this->pixel })
@@ -247,7 +247,7 @@ void SeenSurfaces::resize(std::size_t pixels)
   this->remove(0, pixels);
 }
 
-void SeenSurfaces::remove(std::size_t first, std::size_t count)
+void SampledSurfaces::remove(std::size_t first, std::size_t count)
 {
   std::fill_n(this->depth.data() + first, count, std::numeric_limits<float>::infinity());
   std::fill_n(this->pixel.data() + first, count, -1.0f);

@@ -74,7 +74,7 @@ void LightImages::startTile(int tileX, int tileY)
 void LightImages::put(const TilePatch& patch)
 {
   const View& view = *patch.view;
-  SeenSurfaces& all = this->Surfaces;
+  SampledSurfaces& all = this->Surfaces;
   eachBit(patch.mask,
     [&](int i)
     {
@@ -126,10 +126,7 @@ void LightImages::findMeans(int blockX, int blockY, bool filtered)
   const int y0 = LightFilter::Block * blockY;
   const int rows = std::min(LightFilter::Block, 8 * this->TilesY - y0);
   const std::size_t first = this->at(LightFilter::Block * blockX, y0);
-  // Errors of the sequence fall as N to the -0.7, so variances by N^0.4 more than independent
-  // samples' would. Of roots all machines have the same bits.
-  const float samples = static_cast<float>(this->Samples);
-  const float evenness = std::sqrt(std::sqrt(std::sqrt(samples * samples * samples)));
+  const float evenness = LightFilter::evennessOf(this->Samples);
   for (Plane& plane : this->Planes)
   {
     if (filtered)

@@ -75,7 +75,7 @@ private:
   std::vector<std::uint8_t> Held; // by tile
   SampledPlanes Sampled;
   std::vector<Plane> Planes;
-  SeenSurfaces Surfaces;
+  SampledSurfaces Surfaces;
 };
 
 template <class Wants>

@@ -26,6 +26,9 @@ VTKSVOTRACING_EXPORT double usualOcclusionDistance(const Scene& scene);
 class VTKSVOTRACING_EXPORT HemisphereRays
 {
 public:
+  /// Streams that no light has.
+  static constexpr unsigned OcclusionStream = ~0u, SkyStream = ~1u;
+
   /// `distance`: beyond it nothing counts, world. The rays are borrowed, for a frame. `samples`: of
   /// each point, at least 1. `stream`: of pixelRotation().
   HemisphereRays(const SampleRays& rays, double distance, unsigned stream, int samples);

@@ -93,17 +93,16 @@ void Shadows::prepareAnswers(const Scene& scene, const Hits& eye, const FrameSet
     this->Rays = std::make_unique<ShadowRays>(*this->Casters);
     this->Samplers = std::make_unique<SampleRays>(*this->Casters);
   }
-  // Streams that no light has.
   if (settings.ambientOcclusion)
   {
-    this->Occlusion = std::make_unique<HemisphereRays>(
-      *this->Samplers, settings.ambientOcclusionDistance, ~0u, settings.lightSamples);
+    this->Occlusion = std::make_unique<HemisphereRays>(*this->Samplers,
+      settings.ambientOcclusionDistance, HemisphereRays::OcclusionStream, settings.lightSamples);
   }
   if (settings.skyLight)
   {
     constexpr double Beyond = 1e100; // all
-    this->Sky =
-      std::make_unique<HemisphereRays>(*this->Samplers, Beyond, ~1u, settings.lightSamples);
+    this->Sky = std::make_unique<HemisphereRays>(
+      *this->Samplers, Beyond, HemisphereRays::SkyStream, settings.lightSamples);
   }
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
   {

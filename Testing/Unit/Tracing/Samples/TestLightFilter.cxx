@@ -23,7 +23,7 @@ struct Image
 {
   static constexpr int Width = 2 * Block, Height = 100;
   static constexpr std::size_t Stride = Width + 2 * Margin;
-  svo::SeenSurfaces surfaces;
+  svo::SampledSurfaces surfaces;
   std::vector<float> sum, count;
 
   Image()
@@ -71,7 +71,7 @@ struct Image
   /// Whether pixel q, so far from pixel p, is of its surface.
   bool same(std::size_t p, std::size_t q, int away, const svo::RawArray<float>& slope) const
   {
-    const svo::SeenSurfaces& s = this->surfaces;
+    const svo::SampledSurfaces& s = this->surfaces;
     if (!(s.pixel[p] >= 0.0f && s.pixel[q] >= 0.0f))
     {
       return false;
