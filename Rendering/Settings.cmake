@@ -443,3 +443,7 @@ vtksvo_statistic(ImageSampleDistance double UNIT pixels PARAVIEW
   SAYS "Pixels from ray to ray in the last frame.")
 vtksvo_statistic(AcceptedPixelError double UNIT pixels PARAVIEW
   SAYS "The pixel error that the last frame accepted to save time, in pixels.")
+vtksvo_statistic(AcceptedLightError double OF tracer.lightNoise UNIT "of 255" PARAVIEW
+  SAYS "How far what samples say of each light, of a sky and of ambient occlusion may be off by chance in the last frame: root
+    of the mean square of all pixels, where a whole light is 255. What filtering them blurs is not among it. Negative with
+    OpenGL, which does not tell.")

@@ -36,7 +36,6 @@ bool vtkSVORenderPass::CollectFrame(
   vtkRenderer* renderer = frame.renderer;
   frame.state->beginFrame();
   bool disturbed = true;
-  bool around = false; // something asks what is all around points
   // As the last frame's scene says; this one's has the last word.
   bool planes = frame.state->collected().planes;
   for (int i = 1; disturbed && i <= MostCollections; ++i)
@@ -75,18 +74,18 @@ bool vtkSVORenderPass::CollectFrame(
     store.complain = [&frame](const std::string& text) { frame.messages.push_back(text); };
 
     const bool automatic = this->Backend == BACKEND_AUTO;
-    around = this->AmbientOcclusion || this->SkyLight;
-    const bool byRays = this->ShadowTechnique == SHADOW_RAYS || around;
+    const bool sampled = this->AmbientOcclusion || this->SkyLight ||
+      (this->ShadowTechnique != SHADOW_NONE && svo::hasSoftLight(renderer));
+    // Samples are rays, and where these are there is no need of maps.
+    const bool byRays = this->ShadowTechnique == SHADOW_RAYS || sampled;
     const bool chosen = automatic && this->MayPreferOpenGL(frame, byRays);
     frame.openGL = chosen ? !planes : this->Backend == BACKEND_OPENGL;
-    const bool soft = svo::hasSoftLight(renderer);
-    // What is all around is asked by rays, and where these are there is no need of maps.
     const bool rays = frame.openGL &&
       (byRays ||
-        (this->ShadowTechnique == SHADOW_AUTOMATIC && !soft &&
+        (this->ShadowTechnique == SHADOW_AUTOMATIC &&
           (!automatic || this->MayPreferOpenGL(frame, true))));
     asked = this->AskedSettings(frame.openGL, rays);
-    if ((around || soft) && !frame.openGL && impl.severalProcesses() &&
+    if (sampled && !frame.openGL && impl.severalProcesses() &&
       asked.shadowTechnique == svo::ShadowTechnique::Buffer)
     {
       asked.shadowTechnique = svo::ShadowTechnique::Rays; // which have all casters on all of them
@@ -136,11 +135,6 @@ bool vtkSVORenderPass::CollectFrame(
                         text(alone, TEXT_NOTHING_CASTS), text(alone, TEXT_NOTHING_RECEIVES),
                         text(seen, TEXT_CLIPPED) },
     impl.said);
-  frame.tellOnce(around && !frame.openGL && collected.rasterizedReceivers
-      ? "Some surfaces are drawn by the rasteriser: neither a sky's light nor ambient occlusion "
-        "reaches them, as they do what is traced."
-      : "",
-    impl.said);
   frame.decide(asked,
     { this->AutoAdjustSampleDistances, this->MaximumImageSampleDistance, this->ImageReductionFactor,
       this->DetailCullingThreshold, impl.refining, this->LightError,
@@ -158,7 +152,8 @@ bool vtkSVORenderPass::MayPreferOpenGL(svo::PassFrame& frame, bool rays)
     window && !this->Impl->severalProcesses() && this->PrefersOpenGL(window, rays, complaint);
   // Without those that were not asked for it takes maps.
   const bool missed = !complaint.empty() &&
-    (this->ShadowTechnique == SHADOW_RAYS || this->AmbientOcclusion || this->SkyLight);
+    (this->ShadowTechnique == SHADOW_RAYS || this->AmbientOcclusion || this->SkyLight ||
+      svo::hasSoftLight(frame.renderer));
   frame.tellOnce(missed ? "The CPU makes the picture: " + complaint : "", this->Impl->said);
   return prefers;
 }
@@ -216,7 +211,9 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   {
     impl.idle.ask(frame.renderer->GetRenderWindow(), [this] { this->RefineFor(IdleSeconds); });
   }
-  if (impl.statistics.tracer.retracedLayers > 0 && !frame.openGL) // which knows no pace
+  const svo::FrameStatistics& tracer = impl.statistics.tracer;
+  const bool traced = tracer.retracedLayers > 0 || tracer.samplingTime > 0.0;
+  if (traced && !frame.openGL) // which knows no pace
   {
     double seconds, fixedSeconds, shadowSeconds;
     this->MeasureFrame(seconds, fixedSeconds, shadowSeconds);

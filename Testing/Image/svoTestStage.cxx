@@ -1,6 +1,7 @@
 // Window, camera, lights and solids shared by the image tests.
 #include "svoTestStage.h"
 
+#include "vtkActorCollection.h"
 #include "vtkCamera.h"
 #include "vtkConeSource.h"
 #include "vtkCubeSource.h"
@@ -170,6 +171,17 @@ Picture Stage::shadowedByRays()
 {
   this->pass->SetShadowTechniqueToShadowRays();
   return capture(this->window);
+}
+
+void rasterizeAll(const Stage& stage)
+{
+  vtkCollectionSimpleIterator at;
+  vtkActorCollection* actors = stage.renderer->GetActors();
+  actors->InitTraversal(at);
+  while (vtkActor* actor = actors->GetNextActor(at))
+  {
+    vtkSVORenderPass::SetUseSVO(false, actor);
+  }
 }
 
 vtkSmartPointer<vtkAlgorithm> ball(double radius, double x, double y, double z)

@@ -66,6 +66,9 @@ private:
   vtkSmartPointer<vtkRenderWindow> owned;
 };
 
+/// Leaves all actors of a stage to the rasteriser.
+void rasterizeAll(const Stage& stage);
+
 vtkSmartPointer<vtkAlgorithm> ball(double radius, double x, double y, double z);
 vtkSmartPointer<vtkAlgorithm> box(double edge, double x, double y, double z);
 vtkSmartPointer<vtkAlgorithm> ring(double radius, double x, double y, double z);

@@ -1,21 +1,46 @@
-// How much of a light reaches a fragment, as the shadow mask has it (svoShadowMask.h). Where
+// How much of a light reaches a fragment, as a mask has it: svoShadowMask.h, svoSampledMask.h. Where
 // svoHasOthers is defined there are fragments of which the mask knows nothing: they ask themselves.
-uniform sampler2DArray svoShares; // four lights a layer
+// svoPlaneOf(number): which of its planes; where svoHasMaps is defined none, below 0, is one that
+// svoLeftByRay() has, or below -1, that takes nothing.
+uniform sampler2DArray svoShares; // four planes a layer
 uniform int svoFirstPixel[2];     // of the mask, in the window
+uniform float svoMaskPixels[2];   // along an edge of a pixel of the window
 #ifdef svoHasOthers
 uniform sampler2D svoPlaces; // svoShadowMaskShader.glsl
 uniform float svoOpaque;     // 1: nothing is seen through this surface
 #endif
+#ifndef svoPlaneOf
+#define svoPlaneOf(number) (number)
+#endif
+
+ivec2 svoMaskPixel()
+{
+  vec2 at = gl_FragCoord.xy - vec2(svoFirstPixel[0], svoFirstPixel[1]);
+  return ivec2(at * vec2(svoMaskPixels[0], svoMaskPixels[1]));
+}
+
+float svoShareOf(int number, ivec2 pixel)
+{
+  int plane = svoPlaneOf(number);
+  return texelFetch(svoShares, ivec3(pixel, plane / 4), 0)[plane % 4];
+}
 
 float svoLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, float extent)
 {
-  ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(svoFirstPixel[0], svoFirstPixel[1]);
+#ifdef svoHasMaps
+  if (svoPlaneOf(number) < 0)
+  {
+    return svoPlaneOf(number) == -1 ? svoLeftByRay(number, position, facet, normal, lift, extent) : 1.0;
+  }
+#endif
+  ivec2 pixel = svoMaskPixel();
 #ifdef svoHasOthers
   // A part of a pixel whose centre shows another surface takes the light of the pixel beside it that
   // shows its own. What lies behind all of these is not seen, but where they are as near as two of its
   // own pixels are to each other: things that touch.
   ivec2 last = textureSize(svoShares, 0).xy - 1;
   ivec2 best = ivec2(-1);
+  extent /= min(svoMaskPixels[0], svoMaskPixels[1]);
   float least = 2.0 * extent;
   bool hidden = svoOpaque > 0.0;
   float near = 2.0 * extent / max(abs(dot(normalize(position), facet)), 0.05);
@@ -39,5 +64,5 @@ float svoLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, flo
   }
   pixel = best;
 #endif
-  return texelFetch(svoShares, ivec3(pixel, number / 4), 0)[number % 4];
+  return svoShareOf(number, pixel);
 }

@@ -1,5 +1,6 @@
 #include "svoOpenGLTracer.h"
 
+#include "svoAroundValues.h"
 #include "svoColorAlpha.h"
 #include "svoDrawnMaps.h"
 #include "svoHemisphereRays.h"
@@ -13,7 +14,6 @@
 #include "svoSeenSurfaces.h"
 #include "svoShaderCasters.h"
 #include "svoShadowMask.h"
-#include "svoSkyGradient.h"
 #include "svoTerminator.h"
 
 #include <algorithm>
@@ -62,14 +62,7 @@ std::string constantsOf(const LightCode& code)
         sums[static_cast<std::size_t>(number + part)] = 4 * static_cast<int>(layer) + part;
       }
     }
-    text << "const int svoLampCount = " << code.lights.size() << ";\n"
-         << "const int svoSky = " << code.sky << ";\n"
-         << "const int svoSumOf[] = int[](";
-    for (std::size_t i = 0; i < sums.size(); ++i)
-    {
-      text << (i > 0 ? ", " : "") << sums[i];
-    }
-    text << ");\n";
+    text << sampleConstants(code, sums);
   }
   return text.str();
 }
@@ -137,6 +130,18 @@ public:
   unsigned int mapTexture() const override
   {
     return this->Answers ? this->Drawn.texture() : this->Other->mapTexture();
+  }
+  const ReceiverShares& receiverShares() const override
+  {
+    return this->Answers ? Tracer::receiverShares() : this->Other->receiverShares();
+  }
+  void sampleReceivers(const Scene& scene, const View& view, const ReceiverPlaces& places,
+    bool same, const ParallelFor& parallelFor) override
+  {
+    if (!this->Answers)
+    {
+      this->Other->sampleReceivers(scene, view, places, same, parallelFor);
+    }
   }
   const LightCode& lightCode() const override { return this->Code; }
   const EyeCode& eyeCode() const override { return this->Eye; }
@@ -259,6 +264,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Nothing.version = 1;
   this->Statistics = FrameStatistics();
   this->Statistics.lightSamples = samples;
+  this->Statistics.lightNoise = samples > 0 ? -1.0 : 0.0; // nothing is read back
   this->Statistics.lightsWithRays = static_cast<int>(this->Code.lights.size());
   this->Statistics.lightsWithBuffers = maps ? static_cast<int>(lights) : 0;
   this->Statistics.retracedLayers = this->Drawn.drawn();
@@ -392,21 +398,13 @@ void OpenGLTracer::describeSamples(
     const double distance = settings.ambientOcclusionDistance;
     code.sampled.push_back({ code.occlusion, HemisphereRays::OcclusionStream,
       static_cast<float>(std::min(distance > 0.0 ? distance : this->UsualDistance, 1e30)) });
-    code.floats.push_back({ "svoOcclusion", 1,
-      { static_cast<float>(settings.ambientOcclusionStrength),
-        settings.ambientOcclusionOfAllLight ? 1.0f : 0.0f } });
   }
   if (settings.skyLight)
   {
-    const SkyGradient sky(settings);
-    const glm::vec3 up = glm::mat3(view.worldToView) * sky.up(), mean = sky.mean(),
-                    rise = sky.rise();
     code.sky = code.count();
     code.sampled.push_back({ code.sky, HemisphereRays::SkyStream, 1e30f });
-    code.floats.push_back(
-      { "svoSkyColors", 4, { mean.r, mean.g, mean.b, 0, rise.r, rise.g, rise.b, 0 } });
-    code.floats.push_back({ "svoSkyUp", 4, { up.x, up.y, up.z, 0.0f } });
   }
+  addAroundValues(settings, view, code);
   if (code.sampled.empty())
   {
     this->Kept.forget();

@@ -1,11 +1,11 @@
-// What is left of a light, or of what is all around, at a fragment whose own surface the shadow mask
-// does not know there. What is sampled is that of the nearest place which the mask knows beside it; of
-// what is translucent it is a ray to the light's middle, or nothing closes it off.
+// What is left of a light, or of what is all around, at a fragment whose own surface the mask does not
+// know there. What is sampled is that of the nearest place which the mask knows beside it; of
+// what is translucent it is what svoLeftByRay() says of the light, or nothing closes it off.
 //
 // svoSkyShader.glsl and svoMaskLookup.glsl come before it, and svoSumOf of svoSampleMeans.glsl.
 float svoRayLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, float extent)
 {
-  ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(svoFirstPixel[0], svoFirstPixel[1]);
+  ivec2 pixel = svoMaskPixel();
   ivec2 best = ivec2(-1);
   float least = number < svoLampCount ? 8.0 * extent : 1e30;
   for (int i = 0; i < 9 && svoOpaque > 0.0 && svoSumOf[number] >= 0; ++i)
@@ -18,7 +18,7 @@ float svoRayLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, 
       best = at;
     }
   }
-  return best.x >= 0 ? texelFetch(svoShares, ivec3(best, number / 4), 0)[number % 4]
+  return best.x >= 0 ? svoShareOf(number, best)
     : number < svoLampCount ? svoLeftByRay(number, position, facet, normal, lift, extent)
                             : svoOpen(number, normal);
 }

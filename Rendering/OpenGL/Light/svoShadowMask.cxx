@@ -88,13 +88,14 @@ const LightCode& ShadowMask::lookUp(
   }
   else
   {
-    this->Code.textures.push_back({ "svoPlaces", this->Places, GL_TEXTURE_2D });
+    this->Code.textures.push_back({ "svoPlaces", this->Surfaces.places(), GL_TEXTURE_2D });
   }
   this->Code.lights = asked.lights;
   this->Code.costly = false;
   this->Code.fromPlaces = true;
   this->Code.textures.push_back({ "svoShares", this->Shares, GL_TEXTURE_2D_ARRAY });
   this->Code.integers.push_back({ "svoFirstPixel", { 0, 0 } });
+  this->Code.floats.push_back({ "svoMaskPixels", 1, { 1.0f, 1.0f } });
   return this->Code;
 }
 
@@ -108,44 +109,34 @@ void ShadowMask::find(
   int viewport[4];
   state->vtkglGetIntegerv(GL_VIEWPORT, viewport);
   this->Code.integers.back().values = { viewport[0], viewport[1] };
+  this->Surfaces.gather(state, draw);
   using Able = vtkOpenGLState::ScopedglEnableDisable;
   const Able blends(state, GL_BLEND), scissors(state, GL_SCISSOR_TEST), deep(state, GL_DEPTH_TEST);
   const vtkOpenGLState::ScopedglViewport seen(state);
-  const vtkOpenGLState::ScopedglDepthMask mask(state);
-  const vtkOpenGLState::ScopedglDepthFunc compared(state);
   const vtkOpenGLState::ScopedglColorMask colors(state);
   state->PushFramebufferBindings();
-  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Gathering);
-  state->vtkglViewport(0, 0, this->Width, this->Height);
   state->vtkglDisable(GL_BLEND);
   state->vtkglDisable(GL_SCISSOR_TEST);
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglDepthFunc(GL_LEQUAL);
-  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  const float nowhere[] = { 0.0f, 0.0f, 0.0f, -1e30f };
-  const float farthest = 1.0f;
-  glClearBufferfv(GL_COLOR, 0, nowhere);
-  glClearBufferfv(GL_DEPTH, 0, &farthest);
-  draw();
   state->vtkglDisable(GL_DEPTH_TEST);
-  std::vector<ShaderValues::Texture> textures{ { "svoPlaces", this->Places, GL_TEXTURE_2D },
-    { "svoPlanes", this->Planes, GL_TEXTURE_2D } };
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  const unsigned int places = this->Surfaces.places(), planes = this->Surfaces.planes();
+  std::vector<ShaderValues::Texture> textures{ { "svoPlaces", places, GL_TEXTURE_2D },
+    { "svoPlanes", planes, GL_TEXTURE_2D } };
   if (!asked.sampled.empty())
   {
     this->Samples.take(state, asked, textures);
     textures.insert(textures.end(),
       { { "svoSums", this->Samples.sums(), GL_TEXTURE_2D_ARRAY },
-        { "svoPlacesAround", this->Places, GL_TEXTURE_2D },
-        { "svoPlanesAround", this->Planes, GL_TEXTURE_2D } });
+        { "svoPlacesAround", places, GL_TEXTURE_2D },
+        { "svoPlanesAround", planes, GL_TEXTURE_2D } });
   }
   {
     PixelProgram::Use program(state, this->Program, asked, textures);
     for (int layer = 0; layer < this->Layers; ++layer)
     {
       program.set("svoFirstLight", 4 * layer);
-      program.fill(
-        { this->Answering, this->Shares, this->Format, layer, this->Width, this->Height });
+      program.fill({ this->Answering, this->Shares, this->Format, layer, this->Surfaces.width(),
+        this->Surfaces.height() });
     }
   }
   state->PopFramebufferBindings();
@@ -197,7 +188,7 @@ bool ShadowMask::resize(int width, int height, int numbers, int sampled, std::si
     this->releaseTextures();
     return false;
   }
-  if (this->Shares != 0 && width == this->Width && height == this->Height &&
+  if (this->Shares != 0 && width == this->Surfaces.width() && height == this->Surfaces.height() &&
     layers == this->Layers && sampled == this->Samples.layers())
   {
     return true;
@@ -205,25 +196,13 @@ bool ShadowMask::resize(int width, int height, int numbers, int sampled, std::si
   this->releaseTextures();
   GLint before = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before);
-  this->Width = width;
-  this->Height = height;
   this->Layers = layers;
   this->Format = sampled > 0 ? GL_RGBA16 : GL_RGBA8;
-  this->Places = makeTexture(GL_RGBA32F, width, height);
-  this->Planes = makeTexture(GL_RGBA16, width, height);
-  this->Depths = makeTexture(GL_DEPTH_COMPONENT32F, width, height);
+  bool complete = this->Surfaces.resize(width, height);
   this->Shares = makeTexture(this->Format, width, height, layers);
-  glGenFramebuffers(1, &this->Gathering);
   glGenFramebuffers(1, &this->Answering);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Answering);
   glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Shares, 0, 0);
-  bool complete = glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Gathering);
-  glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Places, 0);
-  glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, this->Planes, 0);
-  glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->Depths, 0);
-  const GLenum targets[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
-  glDrawBuffers(2, targets);
   complete = complete && glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(before));
   complete = this->Samples.resize(width, height, sampled) && complete;
@@ -238,27 +217,26 @@ bool ShadowMask::resize(int width, int height, int numbers, int sampled, std::si
 std::size_t ShadowMask::bytesOf(int width, int height, int numbers, int sampled)
 {
   const int shares = (sampled > 0 ? 8 : 4) * layersOf(numbers);
-  return static_cast<std::size_t>(width) * height * (16 + 8 + 4 + shares + 16 * sampled);
+  return static_cast<std::size_t>(width) * height *
+    (PlaceBuffer::BytesOfPixel + shares + 16 * sampled);
 }
 
 std::size_t ShadowMask::bytes() const
 {
-  return this->Shares == 0
-    ? 0
-    : bytesOf(this->Width, this->Height, 4 * this->Layers, this->Samples.layers());
+  return this->Shares == 0 ? 0
+                           : bytesOf(this->Surfaces.width(), this->Surfaces.height(),
+                               4 * this->Layers, this->Samples.layers());
 }
 
 void ShadowMask::releaseTextures()
 {
-  if (this->Gathering != 0)
+  if (this->Shares != 0)
   {
-    const GLuint textures[] = { this->Places, this->Planes, this->Depths, this->Shares };
-    const GLuint framebuffers[] = { this->Gathering, this->Answering };
-    glDeleteTextures(4, textures);
-    glDeleteFramebuffers(2, framebuffers);
+    glDeleteTextures(1, &this->Shares);
+    glDeleteFramebuffers(1, &this->Answering);
   }
-  this->Places = this->Planes = this->Depths = this->Shares = 0;
-  this->Gathering = this->Answering = 0;
+  this->Shares = this->Answering = 0;
+  this->Surfaces.resize(0, 0);
   this->Samples.resize(0, 0, 0);
 }
 

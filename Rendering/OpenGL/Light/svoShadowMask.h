@@ -1,13 +1,13 @@
 // How much of each light reaches each pixel: a picture, found once all surfaces have said where
 // they lie, so that what is hidden asks nothing, and rays run side by side whatever triangles they
-// start from. ("Deferred shadowing": a G-buffer as of Saito and Takahashi 1990, of places and
-// planes.)
+// start from ("deferred shadowing").
 #ifndef svoShadowMask_h
 #define svoShadowMask_h
 
 #include "svoLightCode.h"
 #include "svoLightSamples.h"
 #include "svoPixelProgram.h"
+#include "svoPlaceBuffer.h"
 #include "vtkSVOOpenGLModule.h"
 
 #include <cstddef>
@@ -44,9 +44,8 @@ public:
   const LightCode& lookUp(
     const LightCode& asked, int width, int height, bool others, std::size_t room);
 
-  /// Fills the mask. `draw` draws the surfaces, with shaders that write where they lie as
-  /// svoShadowReceiver.glsl does while svoGather is 1, into the framebuffer that is bound then. Its
-  /// viewport is the mask's; the current one is where the code will be used.
+  /// Fills the mask; `draw` as of PlaceBuffer::gather(). The current viewport is where the code
+  /// will be used.
   void find(vtkOpenGLState* state, const LightCode& asked, const std::function<void()>& draw);
 
   /// Samples that were taken say nothing any more: what is seen has changed.
@@ -65,10 +64,10 @@ private:
   void releaseTextures();
 
   Way Wanted = Way::Compute;
-  int Width = 0, Height = 0, Layers = 0;
-  unsigned int Format = 0;                                     // of shares
-  unsigned int Places = 0, Planes = 0, Depths = 0, Shares = 0; // textures
-  unsigned int Gathering = 0, Answering = 0;                   // framebuffers
+  int Layers = 0;
+  unsigned int Format = 0;                // of shares
+  unsigned int Shares = 0, Answering = 0; // a texture, and the framebuffer that it is filled in
+  PlaceBuffer Surfaces;
   PixelProgram Program;
   LightSamples Samples;
   std::string Refusal;

@@ -28,10 +28,7 @@ bool sameMaps(const std::vector<ShadowMap>& a, const std::vector<ShadowMap>& b)
 {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
     [](const ShadowMap& x, const ShadowMap& y)
-    {
-      return x.light == y.light && x.group == y.group && x.nearest == y.nearest &&
-        sameRays(x.view, y.view);
-    });
+    { return x.light == y.light && x.group == y.group && sameRays(x.view, y.view); });
 }
 
 bool sameCasters(const std::vector<LightMaps>& a, const std::vector<LightMaps>& b)
@@ -123,7 +120,6 @@ void DrawnMaps::fit(const Scene& scene, const View& eye, const FrameSettings& se
         map.group = group;
         map.view = view;
         map.base = std::max(view.tNear, 0.0);
-        map.nearest = fitted.reach.nearest();
         this->Maps.push_back(std::move(map));
       }
     }

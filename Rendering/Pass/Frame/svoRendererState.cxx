@@ -67,6 +67,7 @@ RendererState::RendererState(vtkRenderer* renderer, std::unique_ptr<Tracer> trac
       this->Receivers.release();
       this->Maps.release();
       this->Mask.release();
+      this->Sampled.release();
       this->Boxes.release();
       this->Trace->releaseGraphicsResources();
     });
@@ -113,10 +114,11 @@ void RendererState::collect(
   OctreeStore& store, const StoreOptions& options, CollectSettings settings)
 {
   settings.levels.tracer = this->Trace.get();
-  this->LightsAll = settings.openGL && settings.levels.frame.asksHemispheres();
   const double start = vtkTimerLog::GetUniversalTime();
   const int built = store.built();
   this->Collector.collect(this->Renderer, store, options, settings, this->Collected);
+  this->LightsAll = settings.levels.frame.asksHemispheres() &&
+    (settings.openGL || this->Collected.rasterizedReceivers);
   this->Statistics.collectTime += vtkTimerLog::GetUniversalTime() - start;
   this->Statistics.octreesBuilt += store.built() - built;
   this->Statistics.castingLights = this->Collected.lightsText;
@@ -191,6 +193,7 @@ void RendererState::trace(
   {
     this->Trace->releaseLayers();
     this->Maps.release();
+    this->Sampled.release();
     this->Boxes.clear();
     this->Receivers.update(
       window, this->Maps.code(), settings.shadowIntensity, this->Collected.shadowCatchers);
@@ -199,6 +202,12 @@ void RendererState::trace(
   settings.receiverMaps =
     this->Collected.rasterizedReceivers && settings.shadowTechnique != ShadowTechnique::None;
   settings.wholeShadowBuffers = settings.receiverMaps && this->Collected.receiversReach;
+  // Some of what receives shows what is no pixel of theirs.
+  const auto translucent = [](vtkProp* prop)
+  { return prop->HasTranslucentPolygonalGeometry() != 0; };
+  const bool others = !samplePositions().empty() || pace.distance > 1.0 ||
+    std::any_of(this->Collected.receivers.begin(), this->Collected.receivers.end(), translucent);
+  settings.sampledMaps = settings.receiverMaps && others;
   const bool occlusion = this->Renderer->GetUseSSAO(); // into a framebuffer that is not bound yet
   settings.writeNormals = occlusion || this->Presenter->WantsNormals();
   settings.writeLight = occlusion || vtkSVOPresenter::KeepsLight();
@@ -209,23 +218,17 @@ void RendererState::trace(
   const auto refusal = [this]
   { return this->Mask.refusal().empty() ? this->Boxes.refusal() : this->Mask.refusal(); };
   settings.lightCode = wantsCode && refusal().empty();
-  const int samples = this->samples();
-  this->Trace->render(scene, view, settings, smpParallelFor());
+  this->UntilError = untilError;
+  this->render(settings);
   if (!this->Mask.accepts(this->Trace->lightCode()) || !this->Boxes.accepts(this->Trace->eyeCode()))
   {
     settings.lightCode = false;
-    this->Trace->render(scene, view, settings, smpParallelFor());
+    this->render(settings);
   }
-  this->Statistics.tracer = this->Trace->statistics();
-  if (samples > 0 && this->samples() > samples)
+  const bool receivers = this->Collected.rasterizedReceivers && this->Trace->receiverShares().any();
+  if (!receivers)
   {
-    this->SecondsOfSample = this->Statistics.tracer.samplingTime / (this->samples() - samples);
-  }
-  while (untilError >= 0.0 && !this->refined(settings.lightSamples, untilError))
-  {
-    settings.samplesNow = 2 * this->samples();
-    this->Trace->render(scene, view, settings, smpParallelFor());
-    this->Statistics.tracer = this->Trace->statistics();
+    this->refine();
   }
   this->Statistics.coarseOctreeError = pace.distance * this->Statistics.tracer.coarsestVoxel;
   this->Boxes.update(window, this->Trace->eyeCode(), scene, this->Collected.props);
@@ -234,30 +237,78 @@ void RendererState::trace(
   const std::string missing = this->Maps.update(
     this->Trace->shadowMaps(), scene.lights, view, settings, this->Trace->mapTexture());
   this->Complaint = this->Complaint.empty() ? missing : this->Complaint;
-  const auto translucent = [](vtkProp* prop)
-  { return prop->HasTranslucentPolygonalGeometry() != 0; };
-  const bool others = code.costly &&
-    (!samplePositions().empty() ||
-      std::any_of(this->Collected.receivers.begin(), this->Collected.receivers.end(), translucent));
   const std::size_t octrees =
     std::min<std::size_t>(this->Statistics.tracer.gpuMemory, settings.gpuMemoryLimit);
-  const LightCode& known =
+  const LightCode& sampled = this->Sampled.lookUp(this->Maps.code(),
+    receivers ? this->Trace->receiverShares() : ReceiverShares(), settings, view,
+    scene.lights.empty(), width, height, others);
+  const LightCode& masked =
     this->Mask.lookUp(code, width, height, others, settings.gpuMemoryLimit - octrees);
-  if (!code.sampled.empty() && !known.fromPlaces && this->Complaint.empty())
+  const LightCode& known = this->Sampled.any() ? sampled : masked;
+  if (receivers && !known.fromPlaces) // else when their places are known
   {
-    this->Complaint = "A picture of what samples of the light have found does not fit into "
-                      "GPUMemoryLimit: there is neither a sky's light nor ambient occlusion, and "
-                      "lights with a size are points.";
+    this->refine();
+  }
+  if ((receivers || !code.sampled.empty()) && !known.fromPlaces && this->Complaint.empty())
+  {
+    this->Complaint =
+      "A picture of what samples of the light have found does not fit into OpenGL's memory, or "
+      "GPUMemoryLimit: on what VTK draws there is neither a sky's light nor ambient occlusion, and "
+      "lights with a size are points.";
   }
   this->Receivers.update(window, known.empty() ? this->Maps.code() : known,
     settings.shadowIntensity, this->Collected.shadowCatchers);
   this->Receivers.setMirrored(view.mirrored);
-  this->Statistics.receiverMemory = this->Maps.memory();
+  this->Statistics.receiverMemory = this->Maps.memory() + this->Sampled.bytes();
   this->Statistics.tracer.gpuMemory += this->Mask.bytes();
   if (this->Complaint.empty() && settings.shadowTechnique != ShadowTechnique::None)
   {
     this->Complaint = this->lostShadows(settings);
   }
+}
+
+/// Traces the frame, and notes how long samples take.
+void RendererState::render(const FrameSettings& settings)
+{
+  this->Settings = settings;
+  const int samples = this->samples();
+  this->Trace->render(this->Collected.scene, this->Eye, settings, smpParallelFor());
+  this->Statistics.tracer = this->Trace->statistics();
+  this->AddedSamples = samples > 0 ? std::max(this->samples() - samples, 0) : 0;
+  if (this->AddedSamples > 0)
+  {
+    this->SecondsOfSample = this->Statistics.tracer.samplingTime / this->AddedSamples;
+  }
+}
+
+/// Takes more samples of its lights until they are refined().
+void RendererState::refine()
+{
+  const ReceiverShares& receivers = this->Trace->receiverShares();
+  while (this->UntilError >= 0.0 && !this->refined(this->Settings.lightSamples, this->UntilError))
+  {
+    FrameSettings more = this->Settings;
+    more.samplesNow = 2 * this->samples();
+    const bool current = receivers.current;
+    this->render(more);
+    if (current)
+    {
+      this->sampleReceivers(true);
+    }
+  }
+}
+
+/// Has the tracer find the light of receivers whose places are known.
+void RendererState::sampleReceivers(bool same)
+{
+  const double before = this->Trace->statistics().samplingTime;
+  this->Trace->sampleReceivers(
+    this->Collected.scene, this->Eye, this->Places, same, smpParallelFor());
+  const double after = this->Trace->statistics().samplingTime;
+  this->SecondsOfSample += this->AddedSamples > 0 ? (after - before) / this->AddedSamples : 0.0;
+  const std::uint64_t memory = this->Statistics.tracer.gpuMemory;
+  this->Statistics.tracer = this->Trace->statistics();
+  this->Statistics.tracer.gpuMemory = memory;
 }
 
 void RendererState::findLight(const vtkRenderState& drawn)
@@ -266,29 +317,48 @@ void RendererState::findLight(const vtkRenderState& drawn)
   {
     return;
   }
-  auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow());
-  this->Receivers.setGathers(true);
-  this->Mask.find(window->GetState(), this->Trace->lightCode(),
-    [&]
+  std::vector<std::pair<vtkProp*, vtkMTimeType>> seen;
+  for (int i = 0; i < drawn.GetPropArrayCount(); ++i)
+  {
+    vtkProp* prop = drawn.GetPropArray()[i];
+    if (prop->GetVisibility() && this->Collected.receivers.count(prop) > 0 &&
+      this->Collected.replaced.count(prop) == 0)
     {
-      vtkMTimeType changed = 0; // of what is seen
-      for (int i = 0; i < drawn.GetPropArrayCount(); ++i)
-      {
-        vtkProp* prop = drawn.GetPropArray()[i];
-        if (prop->GetVisibility() && this->Collected.receivers.count(prop) > 0 &&
-          this->Collected.replaced.count(prop) == 0)
-        {
-          prop->RenderOpaqueGeometry(this->Renderer);
-          changed = std::max(changed, prop->GetRedrawMTime());
-        }
-      }
-      if (changed != this->DrawnTime)
-      {
-        this->DrawnTime = changed;
-        this->Mask.forgetSamples();
-      }
-      this->Boxes.draw(this->Renderer, &this->Collected.receivers);
-    });
+      seen.emplace_back(prop, prop->GetRedrawMTime());
+    }
+  }
+  const bool same = seen == this->Drawn;
+  this->Drawn = seen;
+  const auto draw = [&]
+  {
+    for (const auto& [prop, time] : seen)
+    {
+      prop->RenderOpaqueGeometry(this->Renderer);
+    }
+    this->Boxes.draw(this->Renderer, &this->Collected.receivers);
+  };
+  vtkOpenGLState* state =
+    vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow())->GetState();
+  this->Receivers.setGathers(true);
+  if (!this->Sampled.any())
+  {
+    if (!same)
+    {
+      this->Mask.forgetSamples();
+    }
+    this->Mask.find(state, this->Trace->lightCode(), draw);
+  }
+  else
+  {
+    this->Sampled.aim(state);
+    if (!same || !this->Trace->receiverShares().current)
+    {
+      this->Sampled.gather(state, draw, this->Places);
+      this->sampleReceivers(same);
+      this->refine();
+      this->Sampled.upload(this->Trace->receiverShares());
+    }
+  }
   this->Receivers.setGathers(false);
 }
 

@@ -7,6 +7,7 @@
 #include "svoOctreeStore.h"
 #include "svoPassStatistics.h"
 #include "svoSampleDistance.h"
+#include "svoSampledMask.h"
 #include "svoSceneCollector.h"
 #include "svoShadowMask.h"
 #include "svoShadowReceivers.h"
@@ -154,6 +155,9 @@ public:
 private:
   /// Of the renderer's camera; without pixels if there is none to be had.
   View aim(int width, int height, double distance) const;
+  void render(const FrameSettings& settings);
+  void refine();
+  void sampleReceivers(bool same);
   std::string lostShadows(const FrameSettings& settings) const;
   void forgetScene();
 
@@ -164,16 +168,21 @@ private:
   SampleDistance Distance;
   std::shared_ptr<WindowTime> Window; // of the window that it was measured in last
   std::unique_ptr<Tracer> Trace;
-  View Eye; // of the frame
+  View Eye;               // of the frame
+  FrameSettings Settings; // of the frame
   double SecondsOfSample = 0.0;
+  double UntilError = -1.0; // of the frame
+  int AddedSamples = 0;     // in the frame, to those before
   bool InFrame = false;
   bool ForgetsScene = false;  // as soon as the frame has ended
   bool SharesShadows = false; // this frame's shadow buffers are those of all processes
-  bool LightsAll = false;     // OpenGL's receivers ask what is all around, whatever casts
+  bool LightsAll = false;     // receivers ask what is all around, whatever casts
   bool HasPicture = false;    // the tracer has rendered this frame
   MapCode Maps;
   ShadowMask Mask;
-  vtkMTimeType DrawnTime = 0; // of what its samples lie on
+  SampledMask Sampled;
+  ReceiverPlaces Places;                                // that were sampled last
+  std::vector<std::pair<vtkProp*, vtkMTimeType>> Drawn; // what samples lie on; never dereferenced
   TracedBoxes Boxes;
   ShadowReceivers Receivers;
   std::string Complaint;

@@ -4,15 +4,12 @@
 #include "svoMapLookup.h"
 #include "svoOpenGL.h"
 #include "svoShadowRules.h"
-#include "svoSoftLookup.h"
 
 #include <algorithm>
-#include <array>
 #include <iomanip>
 #include <locale>
 #include <sstream>
 
-#include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 
@@ -23,10 +20,9 @@ namespace
 constexpr std::size_t MapsOfLight = 6; // that there is room for, where most have fewer
 
 /// Maps that a shader has room for beside what VTK tells it of so many lights.
-std::size_t mostMaps(std::size_t lights, bool soft)
+std::size_t mostMaps(std::size_t lights)
 {
-  constexpr std::size_t OfLight = 28, Others = 512; // components, as vectors of four
-  const std::size_t OfMap = soft ? 32 : 24;
+  constexpr std::size_t OfLight = 28, OfMap = 24, Others = 512; // components, as vectors of four
   GLint components = 0;
   glGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS, &components);
   const std::size_t taken = OfLight * lights + Others;
@@ -46,22 +42,6 @@ glm::mat4 receiverMatrix(const ShadowMap& map, const View& eye)
   }
   result[3][2] -= map.base;
   return glm::mat4(result);
-}
-
-/// A light as svoSoftLookup.glsl has it: two vectors.
-std::array<float, 8> sourceOf(const Light& light, double nearest, const View& eye)
-{
-  const glm::dvec4 source =
-    light.atInfinity() ? glm::dvec4(-light.direction, 0.0) : glm::dvec4(light.position, 1.0);
-  const glm::vec4 seen(eye.worldToView * source);
-  const glm::dvec3 origin(glm::inverse(eye.worldToView)[3]);
-  if (light.atInfinity())
-  {
-    nearest = glm::dot(light.direction, origin) - nearest;
-  }
-  return { seen.x, seen.y, seen.z, seen.w,
-    static_cast<float>(light.atInfinity() ? light.spread() : light.size),
-    static_cast<float>(nearest), 0.0f, 0.0f };
 }
 
 /// The constants of svoMapLookup.glsl.
@@ -99,9 +79,7 @@ std::string MapCode::update(const std::vector<ShadowMap>& maps, const std::vecto
   }
   MapGroups groups = groupsOf(maps);
   std::string complaint;
-  const bool soft = std::any_of(groups.begin(), groups.end(),
-    [&](const auto& entry) { return lights[entry.first.light].soft(); });
-  const std::size_t most = mostMaps(lights.size(), soft);
+  const std::size_t most = mostMaps(lights.size());
   if (keepBrightest(groups, lights, most, MapTextures::most()))
   {
     complaint = "Rasterised surfaces receive shadows of the brightest lights only: OpenGL takes no "
@@ -110,7 +88,7 @@ std::string MapCode::update(const std::vector<ShadowMap>& maps, const std::vecto
 
   std::vector<const ShadowMap*> kept;
   std::vector<int> first; // map of each group, opaque casters' first; then the number of all
-  std::vector<float> rows, errors, sources;
+  std::vector<float> rows, errors;
   int firstTranslucent = 0; // map; the number of all maps if there is none
   this->Code.lights.clear();
   for (const auto& entry : groups)
@@ -120,8 +98,6 @@ std::string MapCode::update(const std::vector<ShadowMap>& maps, const std::vecto
       firstTranslucent = static_cast<int>(kept.size() + entry.second.size());
     }
     this->Code.lights.push_back(entry.first.light);
-    const auto source = sourceOf(lights[entry.first.light], entry.second.front()->nearest, eye);
-    sources.insert(sources.end(), source.begin(), source.end());
     first.push_back(static_cast<int>(kept.size()));
     for (const ShadowMap* map : entry.second)
     {
@@ -142,9 +118,7 @@ std::string MapCode::update(const std::vector<ShadowMap>& maps, const std::vecto
   }
   // Shaders are not built anew because a light has other maps than before.
   const std::size_t capacity = std::min(std::max(kept.size(), MapsOfLight * groups.size()), most);
-  static const std::string SoftText = "#define svoLeft svoSharpLeft\n" + std::string(svoMapLookup) +
-    "#undef svoLeft\n" + svoSoftLookup;
-  this->Code.text = soft ? SoftText.c_str() : svoMapLookup;
+  this->Code.text = svoMapLookup;
   this->Code.constants = (texture != 0 ? "#define svoLayered\n" : "") +
     constantsOf(
       settings, capacity, groups.size(), firstTranslucent < static_cast<int>(kept.size()));
@@ -157,10 +131,6 @@ std::string MapCode::update(const std::vector<ShadowMap>& maps, const std::vecto
     { "svoFirst", first }, { "svoFirstTranslucent", { firstTranslucent } } };
   this->Code.floats = { { "svoRows", 16, rows }, { "svoErrors", 1, errors },
     { "svoManualBias", 1, { static_cast<float>(settings.bias * casterVoxel) } } };
-  if (soft)
-  {
-    this->Code.floats.push_back({ "svoSources", 4, sources });
-  }
   return complaint;
 }
 

@@ -31,6 +31,8 @@ struct FrameNeeds
   bool receiverMaps = false;
   /// ... or anywhere: all is traced, and handed out.
   bool wholeShadowBuffers = false;
+  /// ... of lights that are sampled, too: some look up what Tracer::receiverShares() does not have.
+  bool sampledMaps = false;
   /// VTK draws what is seen, by Tracer::eyeCode() what is seen of the instances, if the tracer has
   /// it; the others only cast. What asks for their shadows does so by Tracer::lightCode().
   bool lightCode = false;
@@ -135,6 +137,9 @@ struct FrameStatistics
   /// A pixel, of lights with a size and of ambient occlusion; 0: there are none.
   int lightSamples = 0;
   double samplingTime = 0.0; // s, of the shading, in which they were taken
+  /// How far off what they say of each light may be by chance: RMS of all pixels, 255ths of a whole
+  /// one; negative: not known.
+  double lightNoise = 0.0;
   /// How far the picture is from that of fewer samples which it has replaced, RMS of colours of
   /// 0..255 where something was hit; negative: it has replaced none.
   double lightError = -1.0;
@@ -213,9 +218,6 @@ struct ShadowMap
   int group = 0;            // 0: of opaque casters; else the number of a group of translucent ones
   double worldBias = 0.0;   // for receivers that do not know the caster of a texel, world units
   double casterVoxel = 0.0; // of the coarsest caster, world units
-  /// Nothing that casts is nearer to a light with a size, world: to its place; of one at infinity,
-  /// along its direction from the origin.
-  double nearest = 0.0;
 };
 }
 

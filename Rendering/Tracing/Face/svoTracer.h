@@ -10,6 +10,7 @@
 #include "svoFrame.h"
 #include "svoLevels.h"
 #include "svoParallel.h"
+#include "svoReceivers.h"
 #include "svoScene.h"
 #include "svoView.h"
 #include "vtkSVOTracingModule.h"
@@ -70,6 +71,16 @@ public:
   /// How rasterised surfaces ask for the light of the last frame, where the settings ask for it
   /// (FrameNeeds::lightCode) and the tracer has it: in the place of shadow maps.
   virtual const LightCode& lightCode() const;
+
+  /// What of the last frame's light is sampled, for surfaces that VTK draws; nothing where
+  /// lightCode() has it. `current`: the numbers are those of surfaces that lie where they did.
+  virtual const ReceiverShares& receiverShares() const;
+  /// After render(), with the same scene and view: finds these numbers. `same`: the surfaces lie
+  /// where they did. Statistics count it among the frame's.
+  virtual void sampleReceivers(
+    const Scene&, const View&, const ReceiverPlaces&, bool /* same */, const ParallelFor&)
+  {
+  }
 
   /// What VTK is to draw of the last frame, where the settings ask for light code and the tracer
   /// has it: surfaces that frame() does not show.

@@ -79,29 +79,9 @@ struct Part
   bool empty() const { return !(low.x <= high.x); }
 };
 
-/// Widens a part to what those of its points look up of a light with a size that lie beyond the
-/// map, too.
-void addReach(const std::vector<glm::dvec3>& seen, const LightReach& reach,
-  const glm::dmat4& toClip, Part& part)
-{
-  Part all;
-  for (const glm::dvec3& p : seen)
-  {
-    reach.add(toClip, p, all.low, all.high);
-  }
-  all.low = glm::max(all.low, -1.0);
-  all.high = glm::min(all.high, 1.0);
-  if (all.low.x < all.high.x && all.low.y < all.high.y)
-  {
-    part.low = glm::min(part.low, all.low);
-    part.high = glm::max(part.high, all.high);
-  }
-}
-
-/// What the eye sees of the receivers, up to a depth, in a light's view; of a light with a size
-/// with what they look up beside it.
-Part seenPart(const std::vector<Seen>& receivers, const View& eye, double farthest,
-  const View& light, const LightReach& reach = LightReach())
+/// What the eye sees of the receivers, up to a depth, in a light's view.
+Part seenPart(
+  const std::vector<Seen>& receivers, const View& eye, double farthest, const View& light)
 {
   Part part;
   if (!(eye.tNear < farthest))
@@ -110,8 +90,8 @@ Part seenPart(const std::vector<Seen>& receivers, const View& eye, double farthe
   }
   std::vector<glm::dvec3> points;
   const glm::dmat4 toClip = light.viewToClip * light.worldToView;
-  const ConvexBody seen = pieceOf(eye, eye.tNear, farthest);
-  const CommonPart seenByBoth({ seen, pieceOf(light, light.tNear, light.tFar) });
+  const CommonPart seenByBoth(
+    { pieceOf(eye, eye.tNear, farthest), pieceOf(light, light.tNear, light.tFar) });
   for (const Seen& receiver : receivers)
   {
     if (receiver.nearest < farthest)
@@ -129,12 +109,6 @@ Part seenPart(const std::vector<Seen>& receivers, const View& eye, double farthe
         part.farthest = std::max(part.farthest, depth);
         part.widest = std::max(
           part.widest, widerWorldPixel(light, depthFrom(light, p)) / worldPixel(eye, depth));
-      }
-      if (reach.wide())
-      {
-        points.clear();
-        CommonPart({ seen }).add(worldCorners(*receiver.outline, 0.0), points);
-        addReach(points, reach, toClip, part);
       }
     }
   }
@@ -205,10 +179,8 @@ LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, 
   const View& eye, double coarseness)
 {
   const double widestTexel = coarseness * WidestTexel;
-  LightMaps maps;
-  maps.casters = castersOf(outlines, light);
-  maps.reach = LightReach(light, outlines, maps.casters);
-  maps.views = fitLight(outlines, maps.casters, light, maps.reach, resolution);
+  LightMaps maps{ castersOf(outlines, light), {} };
+  maps.views = fitLight(outlines, maps.casters, light, resolution);
   maps.translucentGroups = groupTranslucent(outlines, maps.views, maps.casters);
   if (eye.width < 1 || eye.height < 1 || maps.views.empty())
   {
@@ -237,7 +209,7 @@ LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, 
   std::vector<Part> parts;
   for (const View& view : fitted)
   {
-    parts.push_back(seenPart(receivers, eye, farthest, view, maps.reach));
+    parts.push_back(seenPart(receivers, eye, farthest, view));
     maps.widest = std::max(maps.widest, parts.back().widest);
   }
   if (!(maps.widest > widestTexel))

@@ -3,7 +3,6 @@
 #define svoLightDetail_h
 
 #include "svoFrame.h"
-#include "svoLightReach.h"
 #include "svoOutline.h"
 #include "svoScene.h"
 #include "svoView.h"
@@ -25,7 +24,6 @@ struct LightMaps
   double coarsest = 0.0;
   double widest = 0.0;       // no texel looks wider, pixels
   int translucentGroups = 0; // see svoTranslucentGroups.h; each has a buffer with these views
-  LightReach reach;
 };
 
 /// How wide texels look, of the maps of a frame.

@@ -119,9 +119,8 @@ std::vector<View> sixFaces(const glm::dvec3& position, double farthest, int reso
   return views;
 }
 
-/// `closest`: caster to a light with a size, world.
 std::vector<View> fitPositional(
-  const std::vector<glm::dvec3>& corners, const Light& light, double closest, int resolution)
+  const std::vector<glm::dvec3>& corners, const Light& light, int resolution)
 {
   const bool spot = light.hasCone() && light.coneAngle < 60.0;
   glm::dvec3 axis(0.0);
@@ -176,9 +175,7 @@ std::vector<View> fitPositional(
   }
   if (spot)
   {
-    // What is beside the cone hides parts of a light with a size from points in it.
-    const double beside = light.soft() ? light.radius() / std::max(closest, light.radius()) : 0.0;
-    const double reach = std::tan(glm::radians(light.coneAngle)) * 1.001 + 1e-6 + beside;
+    const double reach = std::tan(glm::radians(light.coneAngle)) * 1.001 + 1e-6;
     if (wide)
     {
       slopes.low = glm::dvec3(-reach);
@@ -206,8 +203,7 @@ void roundOutwards(double& low, double& high)
 }
 
 std::vector<View> fitLight(const std::vector<Outline>& outlines,
-  const std::vector<std::uint8_t>& casters, const Light& light, const LightReach& reach,
-  int resolution)
+  const std::vector<std::uint8_t>& casters, const Light& light, int resolution)
 {
   assert(casters.size() <= outlines.size());
   const std::vector<glm::dvec3> corners = casterCorners(outlines, casters);
@@ -216,6 +212,6 @@ std::vector<View> fitLight(const std::vector<Outline>& outlines,
     return {};
   }
   return light.atInfinity() ? fitDirectional(corners, light.direction, resolution)
-                            : fitPositional(corners, light, reach.nearest(), resolution);
+                            : fitPositional(corners, light, resolution);
 }
 }

@@ -2,7 +2,6 @@
 #ifndef svoLightView_h
 #define svoLightView_h
 
-#include "svoLightReach.h"
 #include "svoOutline.h"
 #include "svoScene.h"
 #include "svoView.h"
@@ -16,10 +15,9 @@ namespace svo
 /// directional light; for a positional one a perspective view if they subtend less than 120
 /// degrees, else six square faces of a cube; for a spot never more than its cone. Views of
 /// `resolution`^2 texels fitted to the corners of the casters' cubes; none if nothing casts.
-/// `casters` as from castersOf(); `reach`: of these and the light.
+/// `casters` as from castersOf().
 std::vector<View> fitLight(const std::vector<Outline>& outlines,
-  const std::vector<std::uint8_t>& casters, const Light& light, const LightReach& reach,
-  int resolution);
+  const std::vector<std::uint8_t>& casters, const Light& light, int resolution);
 
 /// Widens [low, high] to a grid of at most an eighth of its length, so that fitted bounds seldom
 /// change.

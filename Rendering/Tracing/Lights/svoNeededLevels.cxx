@@ -90,6 +90,10 @@ std::vector<NeededLevels> neededLevels(
   const std::vector<Outline> outlines = outlinesOf(scene);
   const bool casting = std::any_of(
     scene.lights.begin(), scene.lights.end(), [](const Light& light) { return light.castShadow; });
+  const bool sampled = settings.asksHemispheres() ||
+    (settings.shadowTechnique != ShadowTechnique::None &&
+      std::any_of(scene.lights.begin(), scene.lights.end(),
+        [](const Light& light) { return light.castShadow && light.soft(); }));
   std::vector<LightMaps> lights;
   if (settings.shadowTechnique == ShadowTechnique::Buffer)
   {
@@ -123,9 +127,11 @@ std::vector<NeededLevels> neededLevels(
     const bool exact = !rays && errorOf(instance) > 0.0 && settings.bias == 0.0;
     int& seenByLights = needed[i].lights;
     seenByLights = seenByLights > 0 ? builtLevel(seenByLights, instance, exact) : 0;
-    const int level = unknown || rays ? deepest
-      : instance.visible              ? levelFor(instance, eye, errorOf(instance))
-                                      : 1;
+    // Samples meet what they begin on: of what VTK draws each triangle.
+    const bool met = sampled && instance.castShadow && !instance.visible;
+    const int level = unknown || rays || met ? deepest
+      : instance.visible                     ? levelFor(instance, eye, errorOf(instance))
+                                             : 1;
     needed[i].eye = std::max(builtLevel(level, instance, exact), seenByLights);
   }
   return needed;

@@ -162,7 +162,7 @@ void SeenReceivers::addSeen(
   }
 }
 
-std::vector<PixelRect> SeenReceivers::in(const View& map, const LightReach& reach) const
+std::vector<PixelRect> SeenReceivers::in(const View& map) const
 {
   std::vector<PixelRect> rects;
   const glm::dmat4 toClip = map.viewToClip * map.worldToView;
@@ -173,7 +173,7 @@ std::vector<PixelRect> SeenReceivers::in(const View& map, const LightReach& reac
     const auto isBehind = [&](const glm::dvec3& point)
     { return !((toClip * glm::dvec4(point, 1.0)).w > 0.0); };
     const std::vector<glm::dvec3>* points = &part.points;
-    if (!reach.wide() && std::any_of(points->begin(), points->end(), isBehind))
+    if (std::any_of(points->begin(), points->end(), isBehind))
     {
       cut.clear();
       CommonPart({ part.seen, pieceOf(map, map.tNear, map.tFar) }).add(part.box, cut);
@@ -183,7 +183,9 @@ std::vector<PixelRect> SeenReceivers::in(const View& map, const LightReach& reac
     glm::dvec2 low(Infinity), high(-Infinity);
     for (const glm::dvec3& point : *points)
     {
-      reach.add(toClip, point, low, high);
+      const glm::dvec4 clip = toClip * glm::dvec4(point, 1.0);
+      low = glm::min(low, glm::dvec2(clip) / clip.w);
+      high = glm::max(high, glm::dvec2(clip) / clip.w);
     }
     const auto texel = [](double at, int texels)
     { return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(texels))); };

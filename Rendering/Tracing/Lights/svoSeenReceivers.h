@@ -5,7 +5,6 @@
 #include "svoBox.h"
 #include "svoConvexParts.h"
 #include "svoHits.h"
-#include "svoLightReach.h"
 #include "svoView.h"
 
 #include <vector>
@@ -23,9 +22,8 @@ public:
   /// traced. `traced`: by the eye.
   SeenReceivers(const std::vector<Box>& receivers, const View& eye, const Hits& traced);
 
-  /// Rectangles of texels of a light's map in which all is that their points look up. `reach`: of
-  /// the light.
-  std::vector<PixelRect> in(const View& map, const LightReach& reach) const;
+  /// Rectangles of texels of a light's map in which all is that their points look up.
+  std::vector<PixelRect> in(const View& map) const;
 
 private:
   struct Part

@@ -17,7 +17,6 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
 {
   const std::vector<View>& views = maps.views;
   const std::uint8_t* casters = maps.casters.data() + first; // this scene's
-  this->Reach = maps.reach;
   const bool sameBias =
     this->Maps.automaticBias == settings.automaticBias && this->Maps.bias == settings.bias;
   this->SameMaps = sameBias && this->Faces.size() == views.size();
@@ -274,7 +273,7 @@ void ShadowBuffer::mark(const SeenReceivers& receivers)
     const int tilesAcross = (face->map.view.width + 7) / 8;
     face->received.assign(face->wanted.size(), 0);
     for (const PixelRect& rect :
-      face->map.seesCasters ? receivers.in(face->map.view, this->Reach) : std::vector<PixelRect>())
+      face->map.seesCasters ? receivers.in(face->map.view) : std::vector<PixelRect>())
     {
       for (int y = rect.y0 / 8; y <= (rect.y1 - 1) / 8; ++y)
       {

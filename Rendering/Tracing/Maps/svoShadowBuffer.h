@@ -166,7 +166,6 @@ private:
   std::vector<Attributes> MappedColors; // of those whose alpha counts
   bool OtherOpacities = false;          // they are not what they were
   const Scene* Traced = nullptr;        // with these, until trace() is over
-  LightReach Reach;
   float Around = AroundTest;
   bool SameMaps = false;
 };

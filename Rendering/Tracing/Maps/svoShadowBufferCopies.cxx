@@ -68,7 +68,6 @@ void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps, int group)
     map.group = group;
     map.view = face->map.view;
     map.base = std::max(face->map.view.tNear, 0.0);
-    map.nearest = this->Reach.nearest();
     if (!face->copySuffices())
     {
       face->copiedOf = face->received;

@@ -12,6 +12,7 @@
 #include "svoLightSampler.h"
 #include "svoNeededLevels.h"
 #include "svoPixelShader.h"
+#include "svoReceiverSampler.h"
 #include "svoSampleCount.h"
 #include "svoSelectLevel.h"
 #include "svoShadows.h"
@@ -62,6 +63,7 @@ struct CPUTracer::Internals
   Scene AsLightsSee; // where that is not the frame's scene; for the length of a frame
   FrameTiles Tiles;
   LightImages Sampled;
+  ReceiverSampler Receivers;
   PixelShader Shader;
   KeptFrame Kept;
   KeptTiles Shaded;               // by tile of the eye
@@ -84,6 +86,7 @@ struct CPUTracer::Internals
   void traceViews(const Scene& scene, const View& view, const FrameSettings& settings,
     const ParallelFor& parallelFor, const FrameChanges& changes, Frame* frame,
     FrameStatistics& statistics);
+  void traceLeftOut(const Scene& scene, const View& view, const ParallelFor& parallelFor);
 };
 
 /// Says how the instances of a frame are culled.
@@ -252,8 +255,9 @@ void CPUTracer::Internals::sampleLights(
   const ShadedScene& shaded, bool more, const ParallelFor& parallelFor, FrameStatistics& statistics)
 {
   const bool filtered = shaded.settings.filterLightSamples;
-  this->Sampled.begin(
-    SampledPlanes(shaded.scene, shaded.dark), shaded.eye.depth, shaded.settings.lightSamples, more);
+  const DepthBuffer& depth = shaded.eye.depth;
+  this->Sampled.begin(SampledPlanes(shaded.scene, shaded.dark), depth.tilesX, depth.tilesY,
+    depth.hit.data(), shaded.settings.lightSamples, more);
   if (!this->Sampled.sampled().any())
   {
     return;
@@ -287,6 +291,12 @@ const LightCode& Tracer::lightCode() const
 {
   static const LightCode none;
   return none;
+}
+
+const ReceiverShares& Tracer::receiverShares() const
+{
+  static const ReceiverShares None;
+  return None;
 }
 
 std::unique_ptr<Tracer> makeCPUTracer()
@@ -352,6 +362,18 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
   statistics.lights = clock.end();
 }
 
+/// Has what the last frame did not need.
+void CPUTracer::Internals::traceLeftOut(
+  const Scene& scene, const View& view, const ParallelFor& parallelFor)
+{
+  if (!this->ViewsAreTraced)
+  {
+    FrameStatistics later; // the frame's own have been told
+    this->traceViews(scene, view, this->Settings, parallelFor, FrameChanges(), nullptr, later);
+    this->ViewsAreTraced = true;
+  }
+}
+
 Frame& CPUTracer::frame()
 {
   return this->Impl->Picture;
@@ -374,13 +396,13 @@ void CPUTracer::render(
   Frame& frame = self.Picture;
   PhaseClock clock;
   FrameStatistics& statistics = self.Statistics;
-  self.Settings = settings;
   FrameChanges changes = self.Kept.compare(scene, view, settings);
   const bool keeps = settings.frameCoherence && !self.SharesBuffers;
   changes.all = changes.all || !keeps;
   const SampleCount samples(scene, settings, changes, self.Samples);
   changes.all = changes.all || samples.other;
   settings.lightSamples = self.Samples = samples.count;
+  self.Settings = settings;
   std::vector<std::uint8_t> coarser;
   if (samples.refined)
   {
@@ -391,7 +413,7 @@ void CPUTracer::render(
   {
     statistics.primaryRays = statistics.shadowRays = statistics.retracedLayers = 0;
     statistics.mark = statistics.lights = statistics.shade = PhaseTime();
-    statistics.shadowTime = 0.0;
+    statistics.shadowTime = statistics.samplingTime = 0.0;
     statistics.eye = clock.end();
     statistics.traceTime = statistics.eye.wall;
     return;
@@ -408,7 +430,9 @@ void CPUTracer::render(
   self.Shaded.forget(self.Tiles.hits());
   const double before = now();
   self.sampleLights(shaded, samples.refined, parallelFor, statistics);
+  self.Receivers.begin(SampledPlanes(scene, self.LightShadows), !samples.refined, samples.refined);
   statistics.samplingTime = now() - before;
+  statistics.lightNoise = 255.0 * self.Sampled.noise().rms();
   self.Shader.shade(shaded, self.Sampled, parallelFor, self.Shaded, frame, statistics);
   if (settings.antiAliasing)
   {
@@ -468,15 +492,33 @@ void CPUTracer::divideEdges(const Scene& scene, const View& view,
   Silhouettes& result) const
 {
   Internals& self = *this->Impl;
-  if (!self.ViewsAreTraced)
-  {
-    FrameStatistics later; // the frame's own have been told
-    self.traceViews(scene, view, self.Settings, parallelFor, FrameChanges(), nullptr, later);
-    self.ViewsAreTraced = true;
-  }
+  self.traceLeftOut(scene, view, parallelFor);
   findSilhouettes(
     { scene, view, self.Settings, self.Eye.hits(), self.Eye, self.Tiles, self.LightShadows },
     self.Shader, self.Picture, positions, parallelFor, result);
+}
+
+const ReceiverShares& CPUTracer::receiverShares() const
+{
+  return this->Impl->Receivers.shares();
+}
+
+void CPUTracer::sampleReceivers(const Scene& scene, const View& view, const ReceiverPlaces& places,
+  bool same, const ParallelFor& parallelFor)
+{
+  Internals& self = *this->Impl;
+  const double start = now();
+  self.traceLeftOut(scene, view, parallelFor);
+  self.Statistics.shadowRays += self.Receivers.sample(
+    { scene, view, self.Settings, self.Eye.hits(), self.LightShadows }, places, same, parallelFor);
+  const double seconds = now() - start;
+  FrameStatistics& statistics = self.Statistics;
+  statistics.samplingTime += seconds;
+  (statistics.lightsWithRays > 0 ? statistics.shadowTime : statistics.traceTime) += seconds;
+  SampleNoise noise = self.Sampled.noise();
+  noise.add(self.Receivers.noise());
+  statistics.lightNoise = 255.0 * noise.rms();
+  statistics.lightError = std::max(statistics.lightError, self.Receivers.shares().error);
 }
 
 const FrameStatistics& CPUTracer::statistics() const
@@ -496,5 +538,6 @@ void CPUTracer::releaseLayers()
   this->Impl->SharesBuffers = false;
   this->Impl->ViewsAreTraced = false;
   this->Impl->Kept.forget();
+  this->Impl->Receivers = ReceiverSampler();
 }
 }

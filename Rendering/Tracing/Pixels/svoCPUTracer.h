@@ -23,6 +23,9 @@ public:
     const ParallelFor& parallelFor, Processes& processes) override;
   void divideEdges(const Scene& scene, const View& view, const std::vector<glm::vec2>& positions,
     const ParallelFor& parallelFor, Silhouettes& result) const override;
+  const ReceiverShares& receiverShares() const override;
+  void sampleReceivers(const Scene& scene, const View& view, const ReceiverPlaces& places,
+    bool same, const ParallelFor& parallelFor) override;
   const FrameStatistics& statistics() const override;
   const std::vector<ShadowMap>& shadowMaps() const override;
   void releaseLayers() override;

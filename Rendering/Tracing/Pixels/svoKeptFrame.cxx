@@ -43,7 +43,7 @@ void addSettings(const FrameSettings& s, Bytes& bytes)
 {
   visitCompared(s, [&bytes](const auto& setting) { add(bytes, setting); });
   add(bytes, s.shadowCoarseness, s.detailThreshold, s.receiverMaps, s.wholeShadowBuffers,
-    s.writeNormals, s.writeLight, s.writeSlopes, s.writeNames);
+    s.sampledMaps, s.writeNormals, s.writeLight, s.writeSlopes, s.writeNames);
 }
 }
 

@@ -1,5 +1,9 @@
 #include "svoLightSampler.h"
 
+#include "svoHemisphereSums.h"
+#include "svoLightShadow.h"
+#include "svoSampleSums.h"
+#include "svoSkyGradient.h"
 #include "svoTileLighting.h"
 #include "svoTileLook.h"
 #include "svoTileTriangles.h"
@@ -72,43 +76,6 @@ void samplePatch(const ShadedScene& shaded, const Lighting& lighting, const Patc
     }
   }
 }
-
-/// Nothing has been added to those of some points.
-void clear(SampleSums& sums, std::uint64_t points)
-{
-  eachBit(points, [&](int i) { sums.set(i, 0.0f, 0.0f); });
-}
-}
-
-void sampleOcclusion(const ShadowQuery& query, const HemisphereRays& rays, SampleSums& closed)
-{
-  clear(closed, query.asked);
-  rays.each(query,
-    [&](int i, const glm::vec3&, float blocked)
-    {
-      closed.sum[i] += sampleShare(blocked);
-      closed.count[i] += 1.0f;
-    });
-}
-
-void sampleSky(
-  const ShadowQuery& query, const HemisphereRays& rays, const SkyGradient& sky, SampleSums* seen)
-{
-  const glm::vec3 brightest = glm::max(sky.brightest(), 1e-30f);
-  for (int c = 0; c < 3; ++c)
-  {
-    clear(seen[c], query.asked);
-  }
-  rays.each(query,
-    [&](int i, const glm::vec3& along, float blocked)
-    {
-      const glm::vec3 share = (1.0f - blocked) * sky.from(along) / brightest;
-      for (int c = 0; c < 3; ++c)
-      {
-        seen[c].sum[i] += sampleShare(share[c]);
-        seen[c].count[i] += 1.0f;
-      }
-    });
 }
 
 void sampleLights(const ShadedScene& shaded, const PatchShadows& points,

@@ -1,6 +1,6 @@
 #include "svoPixelShader.h"
 
-#include "svoLightSampler.h"
+#include "svoHemisphereSums.h"
 #include "svoShownDepth.h"
 #include "svoSkyGradient.h"
 #include "svoTileImage.h"

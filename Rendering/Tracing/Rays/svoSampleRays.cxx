@@ -111,7 +111,8 @@ void SampleRays::trace(double offset, SampleBatch& batch) const
   // Calls f(ray) for those that meet the caster.
   const auto eachMet = [&](const RayCaster& caster, const auto& f)
   {
-    const double start = caster.startOffset(offset, caster.index == batch.own);
+    const double start = caster.startOffset(
+      offset, batch.own == SampleBatch::AnyInstance || batch.own == caster.index);
     const RayStream::Mask mask =
       stream.reaching(caster.box.centre(), caster.box.extent() + glm::dvec3(start));
     if (mask.none())

@@ -25,7 +25,8 @@ struct SampleBatch
   static constexpr int MostPoints = 64;
   static constexpr int MostRays = OcclusionRays::Most;
 
-  std::uint32_t own = NoInstance; // index of the instance that the points lie on
+  static constexpr std::uint32_t AnyInstance = NoInstance - 1;
+  std::uint32_t own = NoInstance; // index of the instance that the points lie on; or any may be it
   int points = 0;
   glm::dvec3 position[MostPoints];
   glm::vec3 side[MostPoints]; // unit, of its surface, to where its rays go

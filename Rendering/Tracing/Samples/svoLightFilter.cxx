@@ -145,6 +145,7 @@ public:
     , low(hn::Set(Floats(), -1e30f))
     , high(hn::Set(Floats(), 1e30f))
     , chosen(hn::Div(pixel.sum, hn::Max(pixel.count, hn::Set(Floats(), 1.0f / 1024))))
+    , chance(this->varianceOf(pixel))
     , open(hn::Gt(pixel.count, hn::Zero(Floats())))
   {
   }
@@ -154,13 +155,9 @@ public:
     const Floats d;
     const auto one = hn::Set(d, 1.0f);
     const auto mean = hn::Div(sums.sum, hn::Max(sums.count, hn::Set(d, 1e-6f)));
-    // What chance may do: samples vary by no more than m (1 - m) where their mean is m, and are
-    // spread evenly. As if one more were in between.
-    const auto about = hn::Div(hn::Add(sums.sum, hn::Set(d, 0.5f)), hn::Add(sums.count, one));
-    const auto spread =
-      hn::Div(hn::Max(hn::Mul(about, hn::Sub(one, about)), hn::Zero(d)), this->evenness);
-    const auto may =
-      hn::Mul(hn::Set(d, Confidence), hn::Sqrt(hn::Div(spread, hn::Max(sums.count, one))));
+    const auto spread = this->spreadOf(sums);
+    const auto variance = hn::Div(spread, hn::Max(sums.count, one)); // varianceOf()
+    const auto may = hn::Mul(hn::Set(d, Confidence), hn::Sqrt(variance));
     this->low = hn::Max(this->low, hn::Sub(mean, may));
     this->high = hn::Min(this->high, hn::Add(mean, may));
     // Pixels differ from the mean of all by no more either.
@@ -170,16 +167,32 @@ public:
       hn::And(hn::Le(this->low, this->high),
         hn::Le(differ, hn::Mul(hn::Set(d, Unlikely), hn::Mul(spread, hn::Max(others, one))))));
     this->chosen = hn::IfThenElse(this->open, mean, this->chosen);
+    this->chance = hn::IfThenElse(this->open, variance, this->chance);
   }
 
   Lanes mean() const { return this->chosen; }
+  Lanes variance() const { return this->chance; } // of the mean, by chance
 
 private:
+  /// What chance may do: samples vary by no more than m (1 - m) where their mean is m, and are
+  /// spread evenly. As if one more were in between.
+  HWY_INLINE Lanes spreadOf(const Sums& sums) const
+  {
+    const Floats d;
+    const auto one = hn::Set(d, 1.0f);
+    const auto about = hn::Div(hn::Add(sums.sum, hn::Set(d, 0.5f)), hn::Add(sums.count, one));
+    return hn::Div(hn::Max(hn::Mul(about, hn::Sub(one, about)), hn::Zero(d)), this->evenness);
+  }
+  HWY_INLINE Lanes varianceOf(const Sums& sums) const
+  {
+    return hn::Div(this->spreadOf(sums), hn::Max(sums.count, hn::Set(Floats(), 1.0f)));
+  }
+
   // Of standard deviations and of variances; of values around them these left the smallest errors
   // over seven scenes of penumbras, closed places and skies.
   static constexpr float Confidence = 3.0f, Unlikely = 4.0f;
   const Lanes evenness, each;
-  Lanes low, high, chosen;
+  Lanes low, high, chosen, chance;
   hn::Mask<Floats> open;
 };
 
@@ -218,6 +231,7 @@ void findMeans(const LightFilter::Pixels& pixels, std::size_t first, int rows, c
         interval.add(square);
       }
       hn::StoreU(interval.mean(), d, pixels.mean + at);
+      hn::StoreU(interval.variance(), d, pixels.variance + at);
     }
   }
 }

@@ -20,6 +20,7 @@
 #include "svoRawArray.h"
 #include "vtkSVOTracingModule.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -51,6 +52,14 @@ inline float evennessOf(int samples)
   return std::sqrt(std::sqrt(std::sqrt(n * n * n)));
 }
 
+/// Of the mean of so many, by chance: samples vary by no more than m (1 - m) where their mean is m.
+/// As if one more were in between.
+inline float varianceOf(float sum, float count, float evenness)
+{
+  const float about = (sum + 0.5f) / (count + 1.0f);
+  return std::max(about * (1.0f - about), 0.0f) / evenness / std::max(count, 1.0f);
+}
+
 constexpr int Reach = 8;   // pixels beyond the one in the middle
 constexpr int Margin = 16; // pixels beside an image, without surfaces
 constexpr int Block = 64;  // pixels along an edge of what is filtered at once
@@ -62,8 +71,9 @@ struct Pixels
   const SampledSurfaces& surfaces;
   std::size_t stride;
   const float *sum, *count;
-  float* mean;    // is set
-  float evenness; // evennessOf() the samples
+  float* mean;     // is set,
+  float* variance; // and that which chance gives it
+  float evenness;  // evennessOf() the samples
 };
 
 /// Of `rows` rows of a block whose first pixel is number `first` in all arrays. Pixels without

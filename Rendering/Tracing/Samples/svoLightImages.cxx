@@ -18,11 +18,12 @@ void LightImages::resize(int tilesX, int tilesY)
   const int rows = 8 * tilesY + 2 * LightFilter::Reach;
   this->Stride = static_cast<std::size_t>(columns);
   this->Surfaces.resize(this->Stride * static_cast<std::size_t>(rows));
+  this->Noise.assign(static_cast<std::size_t>(this->blocksX() * this->blocksY()), {});
   this->Held.assign(static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY), 0);
 }
 
-void LightImages::begin(
-  const SampledPlanes& sampled, const DepthBuffer& depth, int samples, bool more)
+void LightImages::begin(const SampledPlanes& sampled, int tilesX, int tilesY,
+  const std::uint8_t* hit, int samples, bool more)
 {
   if (!sampled.any())
   {
@@ -33,9 +34,9 @@ void LightImages::begin(
   this->Sampled = sampled;
   this->First = more ? this->Samples : 0;
   this->Samples = samples;
-  if (this->TilesX != depth.tilesX || this->TilesY != depth.tilesY)
+  if (this->TilesX != tilesX || this->TilesY != tilesY)
   {
-    this->resize(depth.tilesX, depth.tilesY);
+    this->resize(tilesX, tilesY);
   }
   this->Planes.resize(static_cast<std::size_t>(sampled.count));
   for (Plane& plane : this->Planes)
@@ -45,9 +46,10 @@ void LightImages::begin(
       part->resize(this->Surfaces.depth.size());
     }
   }
-  for (std::size_t tile = 0; tile < this->Held.size(); ++tile)
+  this->Variance.resize(this->Surfaces.depth.size());
+  for (std::size_t tile = 0; hit && tile < this->Held.size(); ++tile)
   {
-    if (this->Held[tile] && !depth.hit[tile])
+    if (this->Held[tile] && !hit[tile])
     {
       this->startTile(static_cast<int>(tile) % this->TilesX, static_cast<int>(tile) / this->TilesX);
       this->Held[tile] = 0;
@@ -127,24 +129,43 @@ void LightImages::findMeans(int blockX, int blockY, bool filtered)
   const int rows = std::min(LightFilter::Block, 8 * this->TilesY - y0);
   const std::size_t first = this->at(LightFilter::Block * blockX, y0);
   const float evenness = LightFilter::evennessOf(this->Samples);
+  SampleNoise noise;
   for (Plane& plane : this->Planes)
   {
     if (filtered)
     {
       LightFilter::filter({ this->Surfaces, this->Stride, plane.sum.data(), plane.count.data(),
-                            plane.mean.data(), evenness },
+                            plane.mean.data(), this->Variance.data(), evenness },
         first, rows);
-      continue;
     }
     for (int row = 0; row < rows; ++row)
     {
       const std::size_t at = first + static_cast<std::size_t>(row) * this->Stride;
       for (std::size_t i = at; i < at + LightFilter::Block; ++i)
       {
-        // No mean is read where there is no count.
-        plane.mean[i] = plane.count[i] > 0.0f ? plane.sum[i] / plane.count[i] : 0.0f;
+        const float count = plane.count[i];
+        if (!filtered)
+        {
+          // No mean is read where there is no count.
+          plane.mean[i] = count > 0.0f ? plane.sum[i] / count : 0.0f;
+          this->Variance[i] = LightFilter::varianceOf(plane.sum[i], count, evenness);
+        }
+        const bool sampled = this->Surfaces.pixel[i] >= 0.0f && count >= 1.0f;
+        noise.squares += sampled ? static_cast<double>(this->Variance[i]) : 0.0;
+        noise.count += sampled ? 1.0 : 0.0;
       }
     }
   }
+  this->Noise[static_cast<std::size_t>(blockY * this->blocksX() + blockX)] = noise;
+}
+
+SampleNoise LightImages::noise() const
+{
+  SampleNoise all;
+  for (const SampleNoise& block : this->Noise)
+  {
+    all.add(block);
+  }
+  return all;
 }
 }

@@ -5,7 +5,6 @@
 #ifndef svoLightImages_h
 #define svoLightImages_h
 
-#include "svoDepthBuffer.h"
 #include "svoLightFilter.h"
 #include "svoParallel.h"
 #include "svoRawArray.h"
@@ -15,17 +14,34 @@
 #include "vtkSVOTracingModule.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace svo
 {
+/// How far off means of samples may be by chance.
+struct SampleNoise
+{
+  double squares = 0.0; // of a share, 0..1; a sum over ...
+  double count = 0.0;   // pixels of planes
+
+  void add(const SampleNoise& other)
+  {
+    this->squares += other.squares;
+    this->count += other.count;
+  }
+  double rms() const { return this->count > 0.0 ? std::sqrt(this->squares / this->count) : 0.0; }
+};
+
 class VTKSVOTRACING_EXPORT LightImages
 {
 public:
-  /// Begins a frame. `samples`: that it is to have. `more`: those of the last one are among them.
-  void begin(const SampledPlanes& sampled, const DepthBuffer& depth, int samples, bool more);
+  /// Begins a frame of so many tiles. `hit`: those that have surfaces, or null: they all may.
+  /// `samples`: that it is to have. `more`: those of the last one are among them.
+  void begin(const SampledPlanes& sampled, int tilesX, int tilesY, const std::uint8_t* hit,
+    int samples, bool more);
 
   const SampledPlanes& sampled() const { return this->Sampled; }
   /// Number of the first sample that this frame takes.
@@ -48,6 +64,16 @@ public:
   {
     return this->Planes[static_cast<std::size_t>(plane)].mean[this->at(patch, pixel)];
   }
+  /// ... and of any pixel; 0 where nothing was sampled.
+  float mean(int plane, int x, int y) const
+  {
+    const Plane& of = this->Planes[static_cast<std::size_t>(plane)];
+    const std::size_t pixel = this->at(x, y);
+    return of.count[pixel] > 0.0f ? of.mean[pixel] : 0.0f;
+  }
+
+  /// Of the means.
+  SampleNoise noise() const;
 
 private:
   struct Plane
@@ -75,6 +101,8 @@ private:
   std::vector<std::uint8_t> Held; // by tile
   SampledPlanes Sampled;
   std::vector<Plane> Planes;
+  RawArray<float> Variance;       // of the means of one of them
+  std::vector<SampleNoise> Noise; // by block
   SampledSurfaces Surfaces;
 };
 

@@ -14,12 +14,14 @@ namespace svo
 bool Shadows::usesBuffer(std::size_t light, const FrameSettings& settings) const
 {
   return this->Techniques[light] == ShadowTechnique::Buffer ||
-    (this->byRays(light) && settings.handsOutMaps());
+    (this->byRays(light) && settings.handsOutMaps() &&
+      (settings.sampledMaps || !this->sampled(light)));
 }
 
 void Shadows::chooseAll(const Scene& scene, ShadowTechnique technique)
 {
   this->Techniques.clear();
+  this->Soft.clear();
   for (const Light& light : scene.lights)
   {
     // Shadows of lights with a size are found by rays alone.
@@ -27,6 +29,7 @@ void Shadows::chooseAll(const Scene& scene, ShadowTechnique technique)
     this->Techniques.push_back(!light.castShadow ? ShadowTechnique::None
         : soft                                   ? ShadowTechnique::Rays
                                                  : technique);
+    this->Soft.push_back(light.castShadow && soft);
   }
 }
 
@@ -84,7 +87,6 @@ void Shadows::prepareAnswers(const Scene& scene, const Hits& eye, const FrameSet
   const bool anyByRays =
     std::count(this->Techniques.begin(), this->Techniques.end(), ShadowTechnique::Rays) > 0;
   this->OfLights.clear();
-  this->Soft.clear();
   this->releaseRays();
   if (anyByRays || settings.asksHemispheres() ||
     (this->Casting && std::any_of(scene.instances.begin(), scene.instances.end(), isSmooth)))
@@ -107,8 +109,7 @@ void Shadows::prepareAnswers(const Scene& scene, const Hits& eye, const FrameSet
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
   {
     const Light& light = scene.lights[l];
-    this->Soft.push_back(this->byRays(l) && light.soft());
-    if (this->Soft.back())
+    if (this->sampled(l))
     {
       this->OfLights.push_back(std::make_unique<SoftShadow>(
         light, *this->Rays, *this->Samplers, static_cast<unsigned>(l), settings.lightSamples));

@@ -147,7 +147,7 @@ TEST(LightDetail, MapsOfOrdinaryScenesAreThoseOfTheirCasters)
   {
     const auto outlines = svo::outlinesOf(ballAbove(bumpy(5.0)));
     const svo::LightMaps maps = svo::mapsOfLight(outlines, test.light, 2048, Eye);
-    const auto fitted = svo::fitLight(outlines, maps.casters, test.light, {}, 2048);
+    const auto fitted = svo::fitLight(outlines, maps.casters, test.light, 2048);
     ASSERT_EQ(maps.views.size(), fitted.size()) << test.name;
     for (std::size_t i = 0; i < fitted.size(); ++i)
     {

@@ -193,8 +193,7 @@ TEST(NeededLevels, LightsNeedWhatTheirTexelsResolve)
       int stops = 0;
       const auto outlines = svo::outlinesOf(built);
       const auto casters = svo::castersOf(outlines, built.lights[0]);
-      for (const svo::View& view :
-        svo::fitLight(outlines, casters, built.lights[0], {}, resolution))
+      for (const svo::View& view : svo::fitLight(outlines, casters, built.lights[0], resolution))
       {
         const auto local = svo::makeLocalView(octree, glm::dmat4(1.0), view);
         stops = std::max(stops, svo::selectLevel(built.instances[0], local, view, 1.0));

@@ -142,21 +142,34 @@ struct Image
 namespace
 {
 /// What the filter is to find of a pixel.
-float filtered(const Image& image, int x, int y, float evenness)
+struct Filtered
+{
+  float mean = 0.0f, variance = 0.0f;
+};
+
+float spreadOf(const Image::Sums& all, float evenness)
+{
+  const float about = (all.sum + 0.5f) / (all.count + 1.0f);
+  return std::max(about * (1.0f - about), 0.0f) / evenness;
+}
+
+Filtered filtered(const Image& image, int x, int y, float evenness)
 {
   const std::size_t p = Image::at(x, y);
   if (image.surfaces.pixel[p] < 0.0f || !(image.count[p] > 0.0f))
   {
-    return 0.0f;
+    return {};
   }
-  float chosen = image.sum[p] / image.count[p], low = -1e30f, high = 1e30f;
+  Filtered chosen{ image.sum[p] / image.count[p],
+    spreadOf(image.of(p), evenness) / std::max(image.count[p], 1.0f) };
+  float low = -1e30f, high = 1e30f;
   for (const int reach : { 1, 2, 4, 8 })
   {
     const Image::Sums all = image.square(x, y, reach);
     const float mean = all.sum / all.count;
-    const float about = (all.sum + 0.5f) / (all.count + 1.0f);
-    const float spread = std::max(about * (1.0f - about), 0.0f) / evenness;
-    const float may = 3.0f * std::sqrt(spread / std::max(all.count, 1.0f));
+    const float spread = spreadOf(all, evenness);
+    const float variance = spread / std::max(all.count, 1.0f);
+    const float may = 3.0f * std::sqrt(variance);
     low = std::max(low, mean - may);
     high = std::min(high, mean + may);
     const float others = std::max(all.count / std::max(image.count[p], 1.0f) - 1.0f, 1.0f);
@@ -164,7 +177,7 @@ float filtered(const Image& image, int x, int y, float evenness)
     {
       break;
     }
-    chosen = mean;
+    chosen = { mean, variance };
   }
   return chosen;
 }
@@ -178,9 +191,9 @@ TEST(LightFilter, IsThatOfEachPixelAlone)
     {
       for (const float evenness : { 1.0f, 1.74f })
       {
-        std::vector<float> mean(image.sum.size(), -1.0f);
+        std::vector<float> mean(image.sum.size(), -1.0f), variance(mean);
         const svo::LightFilter::Pixels pixels{ image.surfaces, Image::Stride, image.sum.data(),
-          image.count.data(), mean.data(), evenness };
+          image.count.data(), mean.data(), variance.data(), evenness };
         for (int y = 0; y < Image::Height; y += Block)
         {
           for (int x = 0; x < Image::Width; x += Block)
@@ -194,7 +207,9 @@ TEST(LightFilter, IsThatOfEachPixelAlone)
           for (int x = 0; x < Image::Width; ++x)
           {
             const std::size_t p = Image::at(x, y);
-            ASSERT_EQ(filtered(image, x, y, evenness), mean[p]) << x << ' ' << y;
+            const Filtered expected = filtered(image, x, y, evenness);
+            ASSERT_EQ(expected.mean, mean[p]) << x << ' ' << y;
+            ASSERT_EQ(expected.variance, image.count[p] > 0.0f ? variance[p] : 0.0f);
             const bool own = image.count[p] > 0.0f && mean[p] == image.sum[p] / image.count[p];
             alone += own;
             widened += image.count[p] > 0.0f && !own;

@@ -1,0 +1,175 @@
+#include "svoSampledMask.h"
+
+#include "svoAroundValues.h"
+#include "svoMaskLookup.h"
+#include "svoOpenGL.h"
+#include "svoSampleLookup.h"
+#include "svoSkyShader.h"
+#include "svoTextures.h"
+
+#include "vtkOpenGLState.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace svo
+{
+namespace
+{
+constexpr int OfMaps = -1, Nothing = -2; // svoPlaneOf()
+}
+
+const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverShares& shares,
+  const FrameSettings& settings, const View& view, bool unlit, int width, int height, bool others)
+{
+  const auto isSampled = [&](int light)
+  { return std::count(shares.lights.begin(), shares.lights.end(), light) > 0; };
+  static const LightCode NoMaps;
+  const bool needsMaps =
+    others || !std::all_of(allMaps.lights.begin(), allMaps.lights.end(), isSampled);
+  const LightCode& maps = needsMaps ? allMaps : NoMaps; // else shaders had code in vain
+  this->Code = LightCode();
+  if (!shares.any())
+  {
+    this->resize(0, 0, 0);
+    return allMaps;
+  }
+  if (!this->resize(view.width, view.height, shares.layers()))
+  {
+    return allMaps;
+  }
+  this->Code = maps;
+  std::vector<int>& lights = this->Code.lights;
+  std::vector<int> planes(lights.size(), OfMaps);
+  for (std::size_t plane = 0; plane < shares.lights.size(); ++plane)
+  {
+    const int light = shares.lights[plane];
+    bool found = false;
+    for (std::size_t number = 0; number < lights.size(); ++number)
+    {
+      if (lights[number] == light)
+      {
+        planes[number] = found ? Nothing : static_cast<int>(plane);
+        found = true;
+      }
+    }
+    if (!found)
+    {
+      lights.push_back(light);
+      planes.push_back(static_cast<int>(plane));
+    }
+  }
+  if (shares.occlusion != ReceiverShares::None)
+  {
+    this->Code.occlusion = this->Code.count();
+    planes.push_back(shares.occlusion);
+  }
+  if (shares.sky != ReceiverShares::None)
+  {
+    this->Code.sky = this->Code.count();
+    planes.insert(planes.end(), { shares.sky, shares.sky + 1, shares.sky + 2 });
+  }
+  this->Code.unlit = unlit;
+  this->Code.fromPlaces = true;
+  this->Code.constants += "const int svoMapCount = " + std::to_string(maps.lights.size()) + ";\n" +
+    sampleConstants(this->Code, planes);
+  this->Code.text = this->textOf(maps, others);
+  addAroundValues(settings, view, this->Code);
+  this->Code.textures.push_back({ "svoShares", this->Shares, GL_TEXTURE_2D_ARRAY });
+  if (others)
+  {
+    this->Code.textures.push_back({ "svoPlaces", this->Surfaces.places(), GL_TEXTURE_2D });
+  }
+  this->Code.floats.push_back({ "svoMaskPixels", 1,
+    { static_cast<float>(view.width) / static_cast<float>(width),
+      static_cast<float>(view.height) / static_cast<float>(height) } });
+  this->Code.integers.push_back({ "svoFirstPixel", { 0, 0 } });
+  return this->Code;
+}
+
+const char* SampledMask::textOf(const LightCode& maps, bool others)
+{
+  std::string& text = this->Texts[{ maps.empty() ? nullptr : maps.text, others }];
+  if (text.empty())
+  {
+    const std::string parameters =
+      "(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, float extent)";
+    const std::string mapped = "svoMapLeft(number, position, facet, normal, lift, extent)";
+    text = svoSkyShader +
+      (maps.empty()
+          ? std::string()
+          : "#define svoLeft svoMapLeft\n" + std::string(maps.text) + "#undef svoLeft\n") +
+      "float svoLeftByRay" + parameters + "\n{\n  return " +
+      (maps.empty() ? "1.0" : "number < svoMapCount ? " + mapped + " : 1.0") +
+      ";\n}\n#define svoHasMaps\n#define svoPlaneOf(number) svoSumOf[number]\n" +
+      (others ? "#define svoHasOthers\nfloat svoRayLeft" + parameters + ";\n" : "") +
+      svoMaskLookup + (others ? svoSampleLookup : "");
+  }
+  return text.c_str();
+}
+
+bool SampledMask::resize(int width, int height, int layers)
+{
+  if (this->Shares != 0 && width == this->Surfaces.width() && height == this->Surfaces.height() &&
+    layers == this->Layers)
+  {
+    return true;
+  }
+  if (this->Shares != 0)
+  {
+    glDeleteTextures(1, &this->Shares);
+    this->Shares = 0;
+  }
+  this->Layers = layers;
+  const bool room = this->Surfaces.resize(width, height);
+  if (layers > 0 && room)
+  {
+    this->Shares = makeTexture(GL_RGBA16, width, height, layers);
+  }
+  if (layers > 0 && this->Shares == 0)
+  {
+    this->resize(0, 0, 0);
+  }
+  return this->Shares != 0;
+}
+
+void SampledMask::aim(vtkOpenGLState* state)
+{
+  int viewport[4];
+  state->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+  this->Code.integers.back().values = { viewport[0], viewport[1] };
+}
+
+void SampledMask::gather(
+  vtkOpenGLState* state, const std::function<void()>& draw, ReceiverPlaces& places)
+{
+  this->Surfaces.gather(state, draw);
+  this->Surfaces.read(state, places);
+}
+
+void SampledMask::upload(const ReceiverShares& shares)
+{
+  GLint bound = 0, alignment = 4;
+  glGetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &bound);
+  glGetIntegerv(GL_UNPACK_ALIGNMENT, &alignment);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, this->Shares);
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, this->Surfaces.width(), this->Surfaces.height(),
+    this->Layers, GL_RGBA, GL_UNSIGNED_SHORT, shares.numbers.data());
+  glBindTexture(GL_TEXTURE_2D_ARRAY, static_cast<GLuint>(bound));
+  glPixelStorei(GL_UNPACK_ALIGNMENT, alignment);
+}
+
+std::size_t SampledMask::bytes() const
+{
+  const std::size_t pixels =
+    static_cast<std::size_t>(this->Surfaces.width()) * this->Surfaces.height();
+  return this->Surfaces.bytes() + 8 * pixels * static_cast<std::size_t>(this->Layers);
+}
+
+void SampledMask::release()
+{
+  this->resize(0, 0, 0);
+  this->Code = LightCode();
+}
+}

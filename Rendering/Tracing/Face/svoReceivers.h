@@ -1,0 +1,50 @@
+// Surfaces that VTK draws, as a tracer that samples their light sees them, and what it has found.
+// Plain data.
+#ifndef svoReceivers_h
+#define svoReceivers_h
+
+#include <cstdint>
+#include <vector>
+
+namespace svo
+{
+/// Where they lie, one a pixel of a view, row by row from the lower left.
+struct ReceiverPlaces
+{
+  static constexpr float Nowhere = -1e30f;
+
+  int width = 0, height = 0;
+  /// Four numbers a pixel: view coordinates; and how far the smooth surface that the normals stand
+  /// for lies over the facet, along the normal, or Nowhere: there is none, or nothing falls on it.
+  std::vector<float> places;
+  /// Four numbers a pixel, 65535 of them 1: the unit normal of the facet, towards the viewer, and
+  /// that which is shaded, view coordinates, each as an octahedron's two coordinates, -1..1 (Meyer
+  /// et al., "On Floating-Point Normal Vectors", 2010).
+  std::vector<std::uint16_t> planes;
+};
+
+/// What of the light that is sampled reaches them.
+struct ReceiverShares
+{
+  static constexpr int None = -1;
+  /// By plane: index into Scene::lights, of those with a size.
+  std::vector<int> lights;
+  /// Planes behind these: what is open all around (1 less ambient occlusion), and the first of
+  /// three, red, green and blue, of what is seen of the sky, of SkyGradient::brightest().
+  int occlusion = None, sky = None;
+  int planes = 0;
+
+  /// The numbers are those of the last frame.
+  bool current = false;
+  /// How far they are from those of fewer samples which they have replaced, RMS of 0..255;
+  /// negative: they have replaced none.
+  double error = -1.0;
+  /// Four planes a layer, layer by layer, four numbers a pixel; 65535: all.
+  std::vector<std::uint16_t> numbers;
+
+  bool any() const { return this->planes > 0; }
+  int layers() const { return (this->planes + 3) / 4; }
+};
+}
+
+#endif

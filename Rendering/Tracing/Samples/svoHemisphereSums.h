@@ -1,0 +1,60 @@
+// Samples of what is all around points, summed up.
+#ifndef svoHemisphereSums_h
+#define svoHemisphereSums_h
+
+#include "svoHemisphereRays.h"
+#include "svoLightShadow.h"
+#include "svoSampleSums.h"
+#include "svoSkyGradient.h"
+#include "svoTilePatch.h"
+
+#include <cstdint>
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+/// Nothing has been added to those of some points.
+inline void clearSums(SampleSums& sums, std::uint64_t points)
+{
+  eachBit(points, [&](int i) { sums.set(i, 0.0f, 0.0f); });
+}
+
+/// What of the points of a query is closed off around them, 0..1.
+inline void sampleOcclusion(
+  const ShadowQuery& query, const HemisphereRays& rays, SampleSums& closed)
+{
+  clearSums(closed, query.asked);
+  rays.each(query,
+    [&](int i, const glm::vec3&, float blocked)
+    {
+      closed.sum[i] += sampleShare(blocked);
+      closed.count[i] += 1.0f;
+    });
+}
+
+/// What they see of the sky, of SkyGradient::brightest(): three sums, of red, green and blue. The
+/// query's are the first.
+inline void sampleSky(
+  const ShadowQuery& query, const HemisphereRays& rays, const SkyGradient& sky, SampleSums* seen)
+{
+  const glm::vec3 brightest = glm::max(sky.brightest(), 1e-30f);
+  for (int c = 0; c < 3; ++c)
+  {
+    clearSums(seen[c], query.asked);
+  }
+  rays.each(query,
+    [&](int i, const glm::vec3& along, float blocked)
+    {
+      const glm::vec3 share = (1.0f - blocked) * sky.from(along) / brightest;
+      for (int c = 0; c < 3; ++c)
+      {
+        seen[c].sum[i] += sampleShare(share[c]);
+        seen[c].count[i] += 1.0f;
+      }
+    });
+}
+}
+
+#endif
