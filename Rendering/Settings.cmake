@@ -112,12 +112,22 @@ vtksvo_setting(SkyLight bool false
   FIELD skyLight CHANGES look
   PANEL default
   SAYS
-    "Light that comes from all of the sky, on surfaces that are traced, or with the OpenGL backend on all: each visible
-     point gets what it sees of it."
+    "Light that comes from all of the sky: each visible point gets what it sees of it."
   MORE
     "It is diffuse light, beside that of all lights, and casts the softest of shadows, by rays over the hemisphere of
      each point (`MaximumLightSamples`). A white surface under nothing but a white sky is white. Lights that are to
      have no part in it are to be switched off; VTK's automatic headlight is one of them.")
+
+vtksvo_setting(SkyFromEnvironment bool false
+  TABLE shadows
+  PANEL advanced
+  SAYS
+    "The sky's light is that of the view's environment texture, an equirectangular image, instead of the two colours."
+  MORE
+    "`SetEnvironmentTexture()` of the renderer, turned as `SetEnvironmentUp()` and `SetEnvironmentRight()` say; of floats, or
+     of bytes, which are linear unless the texture says that they are sRGB. Directions are drawn as often as light comes
+     from them, so a small sun in it casts sharp shadows. Larger images are averaged to 128 by 64 cells. Physically based surfaces with
+     VTK's image-based lighting have that.")
 
 vtksvo_setting(SkyColor vector "0.75, 0.87, 1"
   TABLE shadows UNIT "colour"
@@ -145,7 +155,7 @@ vtksvo_setting(SkyStrength double 1
   FIELD skyStrength CHANGES look
   PANEL advanced
   SAYS
-    "Times the sky's colours.")
+    "Times the sky's colours, or its picture.")
 
 vtksvo_setting(MaximumLightSamples int 32
   TABLE shadows RANGE 1 4096 UNIT "a pixel"

@@ -85,6 +85,12 @@ bool vtkSVORenderPass::CollectFrame(
         (this->ShadowTechnique == SHADOW_AUTOMATIC &&
           (!automatic || this->MayPreferOpenGL(frame, true))));
     asked = this->AskedSettings(frame.openGL, rays);
+    if (this->SkyLight && this->SkyFromEnvironment)
+    {
+      std::string why;
+      asked.skyPicture = frame.state->skyPicture(why);
+      frame.tellOnce(why.empty() ? "" : why + ": the sky has SkyColor and GroundColor.", impl.said);
+    }
     if (sampled && !frame.openGL && impl.severalProcesses() &&
       asked.shadowTechnique == svo::ShadowTechnique::Buffer)
     {

@@ -15,11 +15,13 @@
 
 #include "vtkActorCollection.h"
 #include "vtkCamera.h"
+#include "vtkImageData.h"
 #include "vtkImageToSVO.h"
 #include "vtkLight.h"
 #include "vtkNew.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkProperty.h"
+#include "vtkTexture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +93,7 @@ Shares sharesOf(vtkOpenGLRenderWindow* window, svo::Scene scene, const svo::View
     svo::ShadowReceivers looking;
     looking.update(window, mask.lookUp(code, view.width, view.height, false, 1 << 28), 1.0, false);
     checks.expect(looking.gathers(), "a mask: " + mask.refusal());
-    mask.find(window->GetState(), code,
+    mask.find(window->GetState(), code, false,
       [&]
       {
         drawFragments(window, view.width, inputs, "",
@@ -248,6 +250,35 @@ void compareSkies(vtkOpenGLRenderWindow* window, Checks& checks)
 
 using Fill = std::function<void(svotest::Stage&)>;
 
+/// A blue sky with a reddish horizon, a sun of four degrees, and a brown ground; up is z.
+void addSkyPicture(vtkRenderer* renderer)
+{
+  constexpr int Columns = 90, Rows = 45;
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(Columns, Rows, 1);
+  image->AllocateScalars(VTK_FLOAT, 3);
+  const double blue[] = { 0.3, 0.45, 0.7 }, red[] = { 0.7, 0.5, 0.4 },
+               ground[] = { 0.2, 0.15, 0.1 };
+  for (int y = 0; y < Rows; ++y)
+  {
+    for (int x = 0; x < Columns; ++x)
+    {
+      const double height = std::sin((y + 0.5 - 0.5 * Rows) / Rows * 3.14159265);
+      for (int c = 0; c < 3; ++c)
+      {
+        const double sky = height > 0.0 ? red[c] + height * (blue[c] - red[c]) : ground[c];
+        image->SetScalarComponentFromDouble(x, y, 0, c, y == 34 && x == 20 ? 300.0 : sky);
+      }
+    }
+  }
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(image);
+  texture->SetColorModeToDirectScalars();
+  renderer->SetEnvironmentTexture(texture);
+  renderer->SetEnvironmentUp(0.0, 0.0, 1.0);
+  renderer->SetEnvironmentRight(1.0, 0.0, 0.0);
+}
+
 void addThings(svotest::Stage& stage)
 {
   stage.addGround();
@@ -364,6 +395,19 @@ void comparePictures(Checks& checks)
       }),
     checks);
   comparePictures("a sky and a sun", with(sky, sun), checks);
+  comparePictures("a sky's picture",
+    with(
+      [](vtkSVORenderPass* pass)
+      {
+        pass->SetSkyLight(true);
+        pass->SetSkyFromEnvironment(true);
+      },
+      [](svotest::Stage& stage)
+      {
+        stage.renderer->AutomaticLightCreationOff();
+        addSkyPicture(stage.renderer);
+      }),
+    checks);
   comparePictures("all, and lights with a size",
     with(
       [](vtkSVORenderPass* pass)

@@ -162,6 +162,9 @@ void expectRefined(Checks& checks)
   const int rays = stage.pass->GetNumberOfLightSamples();
   checks.expect(capture(stage.window).rgb == expected.rgb && rays == 16, "nothing has changed");
 
+  stage.window->Finalize();
+  checks.expect(capture(stage.window).rgb == expected.rgb, "in another context");
+
   vtkSVORenderPass::SetCastShadow(false, fresh.thing());
   vtkSVORenderPass::SetCastShadow(false, stage.thing());
   const Picture still = capture(fresh.window);

@@ -16,7 +16,8 @@ void addAroundValues(const FrameSettings& settings, const View& view, ShaderValu
 
 /// The constants of svoSkyShader.glsl and svoSampleMeans.glsl, for code whose lights and numbers
 /// are set; `sums`: svoSumOf by number.
-std::string sampleConstants(const LightCode& code, const std::vector<int>& sums);
+std::string sampleConstants(
+  const LightCode& code, const std::vector<int>& sums, const FrameSettings& settings);
 }
 
 #endif

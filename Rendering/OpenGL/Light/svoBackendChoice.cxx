@@ -149,7 +149,7 @@ RayRates measureRays(vtkOpenGLRenderWindow* window, const ParallelFor& parallelF
           window->GetShaderCache()->ReadyShaderProgram(quad.Program);
           quad.Render();
         };
-        mask.find(window->GetState(), code, draw);
+        mask.find(window->GetState(), code, false, draw);
         glFinish();
       }
       else

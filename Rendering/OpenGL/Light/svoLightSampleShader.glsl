@@ -35,6 +35,47 @@ mat3 svoBasis(vec3 z)
   return mat3(1.0 + side * z.x * z.x * a, side * b, -side * z.x, b, side + z.y * z.y * a, -z.y, z);
 }
 
+#ifdef svoHasSkyPicture
+uniform samplerBuffer svoSkyTable; // SkyPicture::table()
+uniform int svoSkySize[2];         // columns and rows
+
+// Of sums from `first` on the interval that x lies in, and where in it.
+int svoDrawn(int first, int count, inout float x)
+{
+  int low = 0;
+  for (int high = count; high - low > 1;)
+  {
+    int middle = (low + high) / 2;
+    bool after = texelFetch(svoSkyTable, first + middle).r <= x;
+    low = after ? middle : low;
+    high = after ? high : middle;
+  }
+  float begin = texelFetch(svoSkyTable, first + low).r;
+  float width = texelFetch(svoSkyTable, first + low + 1).r - begin;
+  x = width > 0.0 ? min((x - begin) / width, 1.0) : 0.5;
+  return low;
+}
+
+// A direction, along the picture's axes, and the colour of its cell.
+vec3 svoSkySample(uvec2 square, out vec3 color)
+{
+  const float pi = 3.14159265;
+  vec2 at = vec2(square >> 8u) / 16777216.0;
+  int columns = svoSkySize[0];
+  int rows = svoSkySize[1];
+  int row = svoDrawn(0, rows, at.y);
+  int column = svoDrawn(rows + 1 + row * (columns + 1), columns, at.x);
+  int first = rows + 1 + rows * (columns + 1) + 3 * (row * columns + column);
+  for (int c = 0; c < 3; ++c)
+  {
+    color[c] = texelFetch(svoSkyTable, first + c).r;
+  }
+  float up = mix(sin(pi * (float(row) / float(rows) - 0.5)), sin(pi * (float(row + 1) / float(rows) - 0.5)), at.y);
+  float longitude = 2.0 * pi * ((float(column) + at.x) / float(columns) - 0.5);
+  return vec3(sqrt(max(1.0 - up * up, 0.0)) * vec2(cos(longitude), sin(longitude)), up).xzy;
+}
+#endif
+
 // Sums of red, green and blue, and how many samples count.
 vec4 svoSumsAt(ivec2 pixel)
 {
@@ -85,10 +126,28 @@ vec4 svoSumsAt(ivec2 pixel)
       end = svoFar;
     }
     vec3 way = (basis * local) * toWorld; // back to the view
-    if (dot(way, facet) > 0.0)
+    vec3 seen = vec3(1.0);
+    float left = 1.0;
+#ifdef svoHasSkyPicture
+    if (svoNumber == svoSky)
     {
-      float left = svoLeftAlong(place.xyz, facet, way, end);
-      vec3 seen = svoNumber == svoSky ? svoSkyFrom(way) / svoBrightestSky() : vec3(1.0);
+      local = svoSkySample(square + turn, seen);
+      way = local.x * svoSkyAxes[0].xyz + local.y * svoSkyAxes[1].xyz + local.z * svoSkyAxes[2].xyz;
+      seen *= max(dot(way, axis), 0.0);
+    }
+#else
+    seen = svoNumber == svoSky ? svoSkyFrom(way) / svoBrightestSky() : seen;
+#endif
+    bool above = dot(way, facet) > 0.0;
+    if (above)
+    {
+      left = svoLeftAlong(place.xyz, facet, way, end);
+    }
+#ifdef svoHasSkyPicture
+    above = above || svoNumber == svoSky;
+#endif
+    if (above)
+    {
       sums += vec4(floor(4096.0 * left * seen + 0.5) / 4096.0, 1.0);
     }
   }

@@ -1,6 +1,7 @@
 #include "svoOpenGLTracer.h"
 
 #include "svoAroundValues.h"
+#include "svoBufferTexture.h"
 #include "svoColorAlpha.h"
 #include "svoDrawnMaps.h"
 #include "svoHemisphereRays.h"
@@ -14,6 +15,7 @@
 #include "svoSeenSurfaces.h"
 #include "svoShaderCasters.h"
 #include "svoShadowMask.h"
+#include "svoSkyPicture.h"
 #include "svoTerminator.h"
 
 #include <algorithm>
@@ -44,7 +46,7 @@ std::string constantsOf(bool planes, bool alphas)
 
 /// Those of svoRayWalk.glsl, and where there are samples of svoSkyShader.glsl and
 /// svoSampleMeans.glsl.
-std::string constantsOf(const LightCode& code)
+std::string constantsOf(const LightCode& code, const FrameSettings& settings)
 {
   std::ostringstream text;
   text.imbue(std::locale::classic());
@@ -62,7 +64,7 @@ std::string constantsOf(const LightCode& code)
         sums[static_cast<std::size_t>(number + part)] = 4 * static_cast<int>(layer) + part;
       }
     }
-    text << sampleConstants(code, sums);
+    text << sampleConstants(code, sums, settings);
   }
   return text.str();
 }
@@ -170,6 +172,8 @@ private:
   SeenSurfaces Seen;
   ShaderCasters Casters;
   DrawnMaps Drawn;
+  BufferTexture Sky{ BufferTexture::Texel::Float }; // the picture's table
+  std::uint64_t SkyOf = 0;                          // its version
 
   std::uint64_t Version = 0; // of the scene whose octrees are there
   std::size_t Limit = 0;     // that they were to keep
@@ -380,7 +384,7 @@ void OpenGLTracer::describe(
   this->Code.integers.clear();
   this->Code.floats.clear();
   this->describeSamples(scene, view, settings);
-  this->Code.constants = constants + constantsOf(this->Code);
+  this->Code.constants = constants + constantsOf(this->Code, settings);
   sources.values.resize(4 * static_cast<std::size_t>(this->Code.count()));
   this->Code.floats.push_back(sources);
   this->Casters.describe(view, this->Code);
@@ -405,6 +409,18 @@ void OpenGLTracer::describeSamples(
     code.sampled.push_back({ code.sky, HemisphereRays::SkyStream, 1e30f });
   }
   addAroundValues(settings, view, code);
+  if (settings.skyLight && settings.skyPicture)
+  {
+    const SkyPicture& picture = *settings.skyPicture;
+    const std::vector<float>& table = picture.table();
+    if (this->SkyOf != picture.version() && this->Sky.allocate(table.size()))
+    {
+      this->Sky.send(0, table.data(), table.size());
+      this->SkyOf = picture.version();
+    }
+    code.textures.push_back({ "svoSkyTable", this->Sky.name() });
+    code.integers.push_back({ "svoSkySize", { picture.columns(), picture.rows() } });
+  }
   if (code.sampled.empty())
   {
     this->Kept.forget();
@@ -429,6 +445,8 @@ void OpenGLTracer::releaseGraphicsResources()
   this->Casters.release();
   this->Seen.release();
   this->Drawn.release();
+  this->Sky.release();
+  this->SkyOf = 0;
   this->Version = 0;
   this->Eye = EyeCode();
   const std::uint64_t picture = this->Code.picture;

@@ -72,7 +72,7 @@ const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverSha
   this->Code.unlit = unlit;
   this->Code.fromPlaces = true;
   this->Code.constants += "const int svoMapCount = " + std::to_string(maps.lights.size()) + ";\n" +
-    sampleConstants(this->Code, planes);
+    sampleConstants(this->Code, planes, settings);
   this->Code.text = this->textOf(maps, others);
   addAroundValues(settings, view, this->Code);
   this->Code.textures.push_back({ "svoShares", this->Shares, GL_TEXTURE_2D_ARRAY });
@@ -121,6 +121,7 @@ bool SampledMask::resize(int width, int height, int layers)
     this->Shares = 0;
   }
   this->Layers = layers;
+  this->Filled = false;
   const bool room = this->Surfaces.resize(width, height);
   if (layers > 0 && room)
   {
@@ -149,6 +150,7 @@ void SampledMask::gather(
 
 void SampledMask::upload(const ReceiverShares& shares)
 {
+  this->Filled = true;
   GLint bound = 0, alignment = 4;
   glGetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &bound);
   glGetIntegerv(GL_UNPACK_ALIGNMENT, &alignment);

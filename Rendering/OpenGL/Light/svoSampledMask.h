@@ -39,6 +39,8 @@ public:
   void gather(vtkOpenGLState* state, const std::function<void()>& draw, ReceiverPlaces& places);
   /// Has these numbers.
   void upload(const ReceiverShares& shares);
+  /// True if it has some, and what was gathered.
+  bool filled() const { return this->Filled; }
 
   std::size_t bytes() const;
   void release();
@@ -50,6 +52,7 @@ private:
   PlaceBuffer Surfaces;
   unsigned int Shares = 0; // texture
   int Layers = 0;
+  bool Filled = false;
   std::map<std::pair<const char*, bool>, std::string> Texts; // by that of maps, and others
   LightCode Code;
 };

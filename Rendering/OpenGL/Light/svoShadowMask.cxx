@@ -100,7 +100,7 @@ const LightCode& ShadowMask::lookUp(
 }
 
 void ShadowMask::find(
-  vtkOpenGLState* state, const LightCode& asked, const std::function<void()>& draw)
+  vtkOpenGLState* state, const LightCode& asked, bool same, const std::function<void()>& draw)
 {
   if (!this->Code.fromPlaces) // lookUp() has no mask
   {
@@ -109,6 +109,16 @@ void ShadowMask::find(
   int viewport[4];
   state->vtkglGetIntegerv(GL_VIEWPORT, viewport);
   this->Code.integers.back().values = { viewport[0], viewport[1] };
+  if (!same)
+  {
+    this->Samples.forget();
+  }
+  else if (this->Found > 0 && this->Found == asked.samples && this->Picture == asked.picture)
+  {
+    return;
+  }
+  this->Found = asked.sampled.empty() ? 0 : asked.samples;
+  this->Picture = asked.picture;
   this->Surfaces.gather(state, draw);
   using Able = vtkOpenGLState::ScopedglEnableDisable;
   const Able blends(state, GL_BLEND), scissors(state, GL_SCISSOR_TEST), deep(state, GL_DEPTH_TEST);
@@ -152,6 +162,7 @@ bool ShadowMask::accepts(const LightCode& code)
   {
     this->Constants = code.constants;
     this->Text = code.text;
+    this->Found = 0;
     this->Texts[0].clear();
     this->Texts[1].clear();
     const bool computes = this->Wanted == Way::Compute && PixelProgram::hasCompute();
@@ -236,6 +247,7 @@ void ShadowMask::releaseTextures()
     glDeleteFramebuffers(1, &this->Answering);
   }
   this->Shares = this->Answering = 0;
+  this->Found = 0;
   this->Surfaces.resize(0, 0);
   this->Samples.resize(0, 0, 0);
 }

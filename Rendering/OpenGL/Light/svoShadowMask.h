@@ -11,6 +11,7 @@
 #include "vtkSVOOpenGLModule.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -46,10 +47,8 @@ public:
 
   /// Fills the mask; `draw` as of PlaceBuffer::gather(). The current viewport is where the code
   /// will be used.
-  void find(vtkOpenGLState* state, const LightCode& asked, const std::function<void()>& draw);
-
-  /// Samples that were taken say nothing any more: what is seen has changed.
-  void forgetSamples() { this->Samples.forget(); }
+  void find(
+    vtkOpenGLState* state, const LightCode& asked, bool same, const std::function<void()>& draw);
 
   /// Bytes that a mask takes, of so many numbers (LightCode::count()) and of what is sampled.
   static std::size_t bytesOf(int width, int height, int numbers, int sampled = 0);
@@ -75,6 +74,9 @@ private:
   std::string Constants;
   const char* Text = nullptr;
   std::string Texts[2]; // of what looks up, without and with `others`
+  // What a mask of samples is of; 0 samples: nothing.
+  std::uint64_t Picture = 0;
+  int Found = 0;
   LightCode Code;
 };
 }

@@ -342,16 +342,12 @@ void RendererState::findLight(const vtkRenderState& drawn)
   this->Receivers.setGathers(true);
   if (!this->Sampled.any())
   {
-    if (!same)
-    {
-      this->Mask.forgetSamples();
-    }
-    this->Mask.find(state, this->Trace->lightCode(), draw);
+    this->Mask.find(state, this->Trace->lightCode(), same, draw);
   }
   else
   {
     this->Sampled.aim(state);
-    if (!same || !this->Trace->receiverShares().current)
+    if (!same || !this->Trace->receiverShares().current || !this->Sampled.filled())
     {
       this->Sampled.gather(state, draw, this->Places);
       this->sampleReceivers(same);

@@ -12,6 +12,7 @@
 #include "svoShadowMask.h"
 #include "svoShadowReceivers.h"
 #include "svoSharedCasters.h"
+#include "svoSkyTexture.h"
 #include "svoTracedBoxes.h"
 #include "svoTracer.h"
 #include "svoWindowTime.h"
@@ -147,6 +148,11 @@ public:
   /// A message about the traced frame; empty if all is well.
   const std::string& complaint() const { return this->Complaint; }
 
+  /// Of its environment texture; `why` there is none, in a sentence.
+  std::shared_ptr<const SkyPicture> skyPicture(std::string& why)
+  {
+    return this->Sky.of(this->Renderer, why);
+  }
   ShadowReceivers& receivers() { return this->Receivers; }
   const CollectedScene& collected() const { return this->Collected; }
   const PassStatistics& statistics() const { return this->Statistics; }
@@ -165,6 +171,7 @@ private:
   SceneCollector Collector;
   CollectedScene Collected;
   SharedCasters OtherCasters;
+  SkyTexture Sky;
   SampleDistance Distance;
   std::shared_ptr<WindowTime> Window; // of the window that it was measured in last
   std::unique_ptr<Tracer> Trace;

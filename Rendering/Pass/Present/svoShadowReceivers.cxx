@@ -114,7 +114,8 @@ void lightAround(const LightCode& code, const std::string& normal, bool catchers
   std::string text;
   const auto onCatchers = [&](const char* rule)
   { text += catchers ? std::string("  if (svoCatch > 0.0)\n  ") + rule + "  else\n" : ""; };
-  if (code.sky != LightCode::None)
+  // Image-based lighting has its own light of all around.
+  if (code.sky != LightCode::None && body.find("irradiance") == std::string::npos)
   {
     text += SkyAfterLighting;
     onCatchers(SkyOnCatcher);

@@ -15,6 +15,8 @@
 
 namespace svo
 {
+class SkyPicture;
+
 /// What a frame is to bring beside its picture, and what it may leave out.
 struct FrameNeeds
 {
@@ -29,6 +31,8 @@ struct FrameNeeds
   /// Rasterised surfaces look up shadow maps inside of Scene::receivers: what the eye may see of
   /// these is traced, and the maps are handed out.
   bool receiverMaps = false;
+  /// Of the sky's light, in the place of two colours; or null.
+  std::shared_ptr<const SkyPicture> skyPicture;
   /// ... or anywhere: all is traced, and handed out.
   bool wholeShadowBuffers = false;
   /// ... of lights that are sampled, too: some look up what Tracer::receiverShares() does not have.

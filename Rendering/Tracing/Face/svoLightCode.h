@@ -37,7 +37,7 @@ struct LightCode : ShaderValues
 
   /// Numbers behind those of the lights: what is open all around (1 less ambient occlusion), and
   /// the first of three, red, green and blue, of what is seen of the sky, of
-  /// SkyGradient::brightest().
+  /// Sky::brightest().
   static constexpr int None = -1;
   int occlusion = None, sky = None;
   bool hasAround() const { return this->occlusion != None || this->sky != None; }

@@ -30,7 +30,7 @@ struct ReceiverShares
   /// By plane: index into Scene::lights, of those with a size.
   std::vector<int> lights;
   /// Planes behind these: what is open all around (1 less ambient occlusion), and the first of
-  /// three, red, green and blue, of what is seen of the sky, of SkyGradient::brightest().
+  /// three, red, green and blue, of what is seen of the sky, of Sky::brightest().
   int occlusion = None, sky = None;
   int planes = 0;
 

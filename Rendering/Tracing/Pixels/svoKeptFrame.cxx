@@ -1,5 +1,7 @@
 #include "svoKeptFrame.h"
 
+#include "svoSkyPicture.h"
+
 #include <type_traits>
 #include <utility>
 
@@ -8,7 +10,7 @@ namespace svo
 namespace
 {
 // Who adds a member to one of these adds it below.
-static_assert(sizeof(Light) == 120 && sizeof(View) == 480 && sizeof(FrameNeeds) == 32,
+static_assert(sizeof(Light) == 120 && sizeof(View) == 480 && sizeof(FrameNeeds) == 48,
   "all that pictures depend on is compared");
 
 using Bytes = std::vector<unsigned char>;
@@ -43,7 +45,8 @@ void addSettings(const FrameSettings& s, Bytes& bytes)
 {
   visitCompared(s, [&bytes](const auto& setting) { add(bytes, setting); });
   add(bytes, s.shadowCoarseness, s.detailThreshold, s.receiverMaps, s.wholeShadowBuffers,
-    s.sampledMaps, s.writeNormals, s.writeLight, s.writeSlopes, s.writeNames);
+    s.sampledMaps, s.writeNormals, s.writeLight, s.writeSlopes, s.writeNames,
+    s.skyPicture ? s.skyPicture->version() : std::uint64_t(0));
 }
 }
 

@@ -3,7 +3,7 @@
 #include "svoHemisphereSums.h"
 #include "svoLightShadow.h"
 #include "svoSampleSums.h"
-#include "svoSkyGradient.h"
+#include "svoSky.h"
 #include "svoTileLighting.h"
 #include "svoTileLook.h"
 #include "svoTileTriangles.h"
@@ -69,7 +69,7 @@ void samplePatch(const ShadedScene& shaded, const Lighting& lighting, const Patc
   }
   if (planes.ofSky != SampledPlanes::None)
   {
-    sampleSky(all, *shaded.dark.sky(), SkyGradient(shaded.settings), scratch.sums);
+    sampleSky(all, *shaded.dark.sky(), Sky(shaded.settings), scratch.sums);
     for (int c = 0; c < 3; ++c)
     {
       images.put(planes.ofSky + c, patch, patch.mask, scratch.sums[c]);

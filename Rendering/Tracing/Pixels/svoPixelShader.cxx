@@ -2,7 +2,7 @@
 
 #include "svoHemisphereSums.h"
 #include "svoShownDepth.h"
-#include "svoSkyGradient.h"
+#include "svoSky.h"
 #include "svoTileImage.h"
 #include "svoWorldSize.h"
 
@@ -114,7 +114,7 @@ void PixelShader::occlude(const Lit& lit, Scratch& scratch) const
 void PixelShader::addSky(const Lit& lit, Scratch& scratch) const
 {
   const TilePatch& patch = scratch.patch;
-  const SkyGradient sky(lit.shaded.settings);
+  const Sky sky(lit.shaded.settings);
   glm::vec3 seen[TilePatch::Most];
   if (!lit.shaded.scene.instances[patch.instance].receiveShadow)
   {

@@ -5,7 +5,7 @@
 #include "svoHemisphereRays.h"
 #include "svoLightShadow.h"
 #include "svoSampleSums.h"
-#include "svoSkyGradient.h"
+#include "svoSky.h"
 #include "svoTilePatch.h"
 
 #include <cstdint>
@@ -34,12 +34,11 @@ inline void sampleOcclusion(
     });
 }
 
-/// What they see of the sky, of SkyGradient::brightest(): three sums, of red, green and blue. The
+/// What they see of the sky, of Sky::brightest(): three sums, of red, green and blue. The
 /// query's are the first.
 inline void sampleSky(
-  const ShadowQuery& query, const HemisphereRays& rays, const SkyGradient& sky, SampleSums* seen)
+  const ShadowQuery& query, const HemisphereRays& rays, const Sky& sky, SampleSums* seen)
 {
-  const glm::vec3 brightest = glm::max(sky.brightest(), 1e-30f);
   for (int c = 0; c < 3; ++c)
   {
     clearSums(seen[c], query.asked);
@@ -47,7 +46,7 @@ inline void sampleSky(
   rays.each(query,
     [&](int i, const glm::vec3& along, float blocked)
     {
-      const glm::vec3 share = (1.0f - blocked) * sky.from(along) / brightest;
+      const glm::vec3 share = (1.0f - blocked) * sky.share(along, normalOver(query.patch, i));
       for (int c = 0; c < 3; ++c)
       {
         seen[c].sum[i] += sampleShare(share[c]);

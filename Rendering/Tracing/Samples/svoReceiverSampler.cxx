@@ -1,7 +1,7 @@
 #include "svoReceiverSampler.h"
 
 #include "svoHemisphereSums.h"
-#include "svoSkyGradient.h"
+#include "svoSky.h"
 #include "svoTerminator.h"
 #include "svoTilePatch.h"
 #include "svoWorldSize.h"
@@ -224,7 +224,7 @@ void TileOfPlaces::sample(int tileX, int tileY, Scratch& scratch) const
       }
       if (planes.ofSky != SampledPlanes::None)
       {
-        sampleSky(all, *this->Frame.dark.sky(), SkyGradient(this->Frame.settings), scratch.sums);
+        sampleSky(all, *this->Frame.dark.sky(), Sky(this->Frame.settings), scratch.sums);
         for (int c = 0; c < 3; ++c)
         {
           this->Images.put(planes.ofSky + c, scratch.patch, mask, scratch.sums[c]);

@@ -32,10 +32,11 @@ double usualOcclusionDistance(const Scene& scene)
 }
 
 HemisphereRays::HemisphereRays(
-  const SampleRays& rays, double distance, unsigned stream, int samples)
+  const SampleRays& rays, double distance, unsigned stream, int samples, const SkyPicture* picture)
   : Rays(rays)
   , Distance(distance)
   , Stream(stream)
+  , Picture(picture)
   , Samples(firstPoints(samples))
 {
 }
@@ -57,8 +58,7 @@ void HemisphereRays::each(
         static_cast<int>(std::floor(patch.y(i))), this->Stream);
       pixels[batch.points] = i;
       batch.addPoint(position, patch.facet(i));
-      const glm::vec3 normal = patch.normal(i), facet = patch.facet(i);
-      bases.emplace_back(glm::dot(normal, facet) > 0.0f ? normal : facet);
+      bases.emplace_back(normalOver(patch, i));
     });
   const auto trace = [&]
   {
@@ -79,10 +79,16 @@ void HemisphereRays::each(
     }
     for (int i = 0; i < batch.points; ++i)
     {
-      const glm::vec3 along = cosineDirection(bases[i], sample + rotations[i]);
+      const SquarePoint at = sample + rotations[i];
+      const glm::vec3 along =
+        this->Picture ? this->Picture->direction(at.position()) : cosineDirection(bases[i], at);
       if (glm::dot(along, batch.side[i]) > 0.0f)
       {
         batch.addRay(i, along, static_cast<float>(this->Distance));
+      }
+      else if (this->Picture)
+      {
+        f(pixels[i], along, 0.0f);
       }
     }
   }

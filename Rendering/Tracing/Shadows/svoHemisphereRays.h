@@ -1,7 +1,7 @@
 // What points see all around them: rays over their hemispheres, each direction as often as its
-// cosine. How much of it surfaces nearby close off is ambient occlusion (Zhukov et al., "An Ambient
-// Light Illumination Model", 1998; Landis, "Production-Ready Global Illumination", 2002), what
-// comes from where nothing does is a sky's light.
+// cosine, or as light comes from it. How much of it surfaces nearby close off is ambient occlusion
+// (Zhukov et al., "An Ambient Light Illumination Model", 1998; Landis, "Production-Ready Global
+// Illumination", 2002), what comes from where nothing does is a sky's light.
 #ifndef svoHemisphereRays_h
 #define svoHemisphereRays_h
 
@@ -10,11 +10,14 @@
 #include "svoSampleRays.h"
 #include "svoSampleSequence.h"
 #include "svoScene.h"
+#include "svoSkyPicture.h"
+#include "svoTilePatch.h"
 #include "vtkSVOTracingModule.h"
 
 #include <functional>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 namespace svo
@@ -22,6 +25,13 @@ namespace svo
 /// The distance of ambient occlusion where users name none, world: a fifth of the diagonal of all
 /// that casts.
 VTKSVOTRACING_EXPORT double usualOcclusionDistance(const Scene& scene);
+
+/// The normal of a point that its hemisphere is around: on the viewer's side of its facet.
+inline glm::vec3 normalOver(const TilePatch& patch, int i)
+{
+  const glm::vec3 normal = patch.normal(i), facet = patch.facet(i);
+  return glm::dot(normal, facet) > 0.0f ? normal : facet;
+}
 
 class VTKSVOTRACING_EXPORT HemisphereRays
 {
@@ -31,10 +41,13 @@ public:
 
   /// `distance`: beyond it nothing counts, world. The rays are borrowed, for a frame. `samples`: of
   /// each point, at least 1. `stream`: of pixelRotation().
-  HemisphereRays(const SampleRays& rays, double distance, unsigned stream, int samples);
+  /// `picture`: of the light, borrowed; or null.
+  HemisphereRays(const SampleRays& rays, double distance, unsigned stream, int samples,
+    const SkyPicture* picture = nullptr);
 
   /// Calls f(pixel, direction, blocked) for all rays of the points that are asked, around their
-  /// normals, but for those below their facets. `blocked`: 0..1.
+  /// normals, but for those below their facets. `blocked`: 0..1. With a picture: for all of its
+  /// directions; those below the facet, where no ray begins, are not blocked.
   void each(
     const ShadowQuery& query, const std::function<void(int, const glm::vec3&, float)>& f) const;
 
@@ -50,6 +63,7 @@ private:
   const SampleRays& Rays;
   const double Distance;
   const unsigned Stream;
+  const SkyPicture* const Picture;
   std::vector<SquarePoint> Samples;
 };
 }

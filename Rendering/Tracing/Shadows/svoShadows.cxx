@@ -103,8 +103,8 @@ void Shadows::prepareAnswers(const Scene& scene, const Hits& eye, const FrameSet
   if (settings.skyLight)
   {
     constexpr double Beyond = 1e100; // all
-    this->Sky = std::make_unique<HemisphereRays>(
-      *this->Samplers, Beyond, HemisphereRays::SkyStream, settings.lightSamples);
+    this->Sky = std::make_unique<HemisphereRays>(*this->Samplers, Beyond, HemisphereRays::SkyStream,
+      settings.lightSamples, settings.skyPicture.get());
   }
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
   {
