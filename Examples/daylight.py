@@ -47,7 +47,7 @@ for frame in range(options.frames):
     hour = math.pi * (frame + 0.5) / options.frames  # from sunrise to sunset
     high = math.sin(hour)
     sun.SetPosition(10 * math.cos(hour), -6, 8 * high)
-    sun.SetColor(1, 0.6 + 0.35 * high, 0.3 + 0.6 * high), sun.SetIntensity(min(2 * high, 0.8))
-    svo.SetSkyStrength(0.15 + 0.35 * high), renderer.SetBackground(0.5 * high, 0.6 * high, 0.8 * high)
+    sun.SetColor(1, 0.6 + 0.35 * high, 0.3 + 0.6 * high), sun.SetIntensity(min(2 * high, 0.9))
+    svo.SetSkyStrength(0.2 + 0.5 * high), renderer.SetBackground(0.5 * high, 0.6 * high, 0.8 * high)
     picture.Modified(), movie.Write()
 movie.End()

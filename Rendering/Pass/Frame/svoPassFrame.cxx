@@ -95,7 +95,8 @@ void PassFrame::decideSamples(const PaceLimits& limits)
 {
   const bool straight = !this->interactive() && !limits.refinesLater;
   const int shown = this->state->samples();
-  const bool slow = this->settings.filterLightSamples && !hasSoftLight(this->renderer);
+  const bool slow = this->settings.filterLightSamples && !hasSoftLight(this->renderer) &&
+    !this->settings.skyPicture; // which may have a sun
   const int first = slow ? FirstSamplesAround : FirstSamples;
   const bool refines = limits.refine > 0.0 && !this->interactive() && shown > 0;
   // What twice as many have changed is the error.

@@ -259,7 +259,8 @@ void RendererState::trace(
   this->Receivers.update(window, known.empty() ? this->Maps.code() : known,
     settings.shadowIntensity, this->Collected.shadowCatchers);
   this->Receivers.setMirrored(view.mirrored);
-  this->Statistics.receiverMemory = this->Maps.memory() + this->Sampled.bytes();
+  this->Statistics.receiverMemory =
+    this->Maps.memory() + this->Sampled.bytes() + this->Places.bytes();
   this->Statistics.tracer.gpuMemory += this->Mask.bytes();
   if (this->Complaint.empty() && settings.shadowTechnique != ShadowTechnique::None)
   {

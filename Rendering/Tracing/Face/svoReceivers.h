@@ -3,6 +3,7 @@
 #ifndef svoReceivers_h
 #define svoReceivers_h
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct ReceiverPlaces
   /// that which is shaded, view coordinates, each as an octahedron's two coordinates, -1..1 (Meyer
   /// et al., "On Floating-Point Normal Vectors", 2010).
   std::vector<std::uint16_t> planes;
+
+  std::size_t bytes() const { return 4 * this->places.size() + 2 * this->planes.size(); }
 };
 
 /// What of the light that is sampled reaches them.

@@ -129,6 +129,10 @@ void TileOfPlaces::take(int tileX, int tileY, Scratch& scratch) const
       continue;
     }
     const glm::dvec3 inView(place[0], place[1], place[2]);
+    if (!std::isfinite(glm::dot(inView, inView)) || !std::isfinite(place[3]))
+    {
+      continue; // of a facet without an area
+    }
     points.position[i] = glm::dvec3(this->ToWorld * glm::dvec4(inView, 1.0));
     points.facet[i] = glm::vec3(this->Turn * glm::dvec3(unfold(planes)));
     points.normal[i] = glm::vec3(this->Turn * glm::dvec3(unfold(planes + 2)));
@@ -180,11 +184,15 @@ void TileOfPlaces::sampleLight(std::size_t number, Scratch& scratch) const
       }
       const bool doubtful =
         glm::dot(glm::dvec3(points.facet[i]), towards) <= DoubtfulSine * glm::length(towards);
-      if (doubtful && points.lift[i] > 0.0f)
+      const glm::dvec3 over = points.position[i] + double(points.lift[i]) * normal;
+      const View& view = this->Frame.view;
+      const auto depth = [&](const glm::dvec3& at) { return glm::dot(at - view.eye, view.axis); };
+      // (Not behind the eye, where it had no pixel.)
+      if (doubtful && points.lift[i] > 0.0f &&
+        (view.parallel || depth(over) > 0.5 * depth(points.position[i])))
       {
         raised |= std::uint64_t(1) << i;
-        this->put(
-          scratch.raised, i, points.position[i] + double(points.lift[i]) * normal, scratch.base);
+        this->put(scratch.raised, i, over, scratch.base);
       }
       else
       {
