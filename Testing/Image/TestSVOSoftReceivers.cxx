@@ -236,6 +236,54 @@ void expectParts(Checks& checks)
   checks.expect(wrong <= 3, "no dots where rays lie apart");
 }
 
+/// The same as traced, to a level and but for a ray in 3333, wherever and however large.
+void expectExtremes(Checks& checks)
+{
+  struct Place
+  {
+    double origin, scale;
+  };
+  for (const Place& place : { Place{ 0.0, 1.0 }, Place{ 1e6, 1.0 }, Place{ 1e7, 1.0 },
+         Place{ 0.0, 1e6 }, Place{ 0.0, 1e-6 } })
+  {
+    SampledStage traced(150, false), drawn;
+    for (SampledStage* stage : { &traced, &drawn })
+    {
+      vtkCollectionSimpleIterator at;
+      vtkActorCollection* actors = stage->renderer->GetActors();
+      actors->InitTraversal(at);
+      while (vtkActor* actor = actors->GetNextActor(at))
+      {
+        actor->SetScale(place.scale);
+        actor->AddPosition(place.origin, place.origin, place.origin);
+      }
+      vtkCamera* camera = stage->renderer->GetActiveCamera();
+      const auto moved = [&](const double* from, double* to) {
+        std::transform(
+          from, from + 3, to, [&](double x) { return place.origin + place.scale * x; });
+      };
+      double to[3];
+      moved(camera->GetPosition(), to);
+      camera->SetPosition(to);
+      moved(camera->GetFocalPoint(), to);
+      camera->SetFocalPoint(to);
+      stage->renderer->ResetCameraClippingRange();
+    }
+    const Picture expected = capture(traced.window), found = capture(drawn.window);
+    const Mask mask = awayFromEdges(expected, 2);
+    std::size_t pixels = 0, others = 0;
+    for (std::size_t i = 0; i < mask.size(); ++i)
+    {
+      pixels += mask[i] != 0;
+      others += mask[i] != 0 && std::abs(expected.grey(i) - found.grey(i)) > 1.0;
+    }
+    std::cout << "at " << place.origin << ", scaled by " << place.scale << ": " << others << " of "
+              << pixels << " are others\n";
+    checks.expect(pixels > 10000 && others <= 3e-4 * 3 * 16 * static_cast<double>(pixels),
+      "as traced, wherever and however large");
+  }
+}
+
 /// What the mask does not know is lit as by lights without a size, and nothing closes it off.
 void expectTranslucent(Checks& checks)
 {
@@ -301,6 +349,7 @@ int TestSVOSoftReceivers(int, char*[])
   expectRefined(checks);
   expectError(checks);
   expectParts(checks);
+  expectExtremes(checks);
   expectTranslucent(checks);
   expectSharp(checks);
   return checks.exitCode();
