@@ -168,7 +168,10 @@ vtksvo_setting(MaximumLightSamples int 32
   MORE
     "Off screen, and in windows without an interactor, so many are taken before `Render()` returns. With one a still picture
      begins with as few; while the interactor has nothing else to do it gets twice as many, again and again, or (without
-     `LightError`) as many more as take half a second. `Refine()` takes twice as many, for scripts. `GetNumberOfLightSamples()` tells how many it has.")
+     `LightError`) as many more as take half a second. `Refine()` takes twice as many, for scripts. `GetNumberOfLightSamples()` tells how many it has.
+     Where the pass is set on the renderer, and ProgressEvent or the window's AbortCheckEvent has an observer, samples are taken in such steps, too: the
+     former is invoked between them, and an observer that sets the window's AbortRender leaves it at those that there are. The next
+     `Render()` takes the others.")
 
 vtksvo_setting(FilterLightSamples bool true
   TABLE shadows

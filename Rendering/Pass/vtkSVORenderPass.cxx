@@ -182,29 +182,47 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
   int width, height;
   svo::sizeOf(state, width, height);
   svo::PassFrame& frame = this->Impl->frames.begin(renderer);
-  if (!this->CollectFrame(frame, width, height, &camera))
+  const bool heard = this->HasObserver(vtkCommand::ProgressEvent) ||
+    renderer->GetRenderWindow()->HasObserver(vtkCommand::AbortCheckEvent);
+  if (heard && this->Impl->refining == 0.0)
   {
-    this->FinishFrame(frame);
-    return;
+    frame.sampling = svo::Sampling::Begun;
   }
-  frame.state->joinPasses(state);
-  this->TraceFrame(frame, width, height);
+  bool drawn = false;
+  while (!drawn)
   {
-    svo::ExchangedProps props(state->GetPropArray());
-    frame.state->exchange(props, state, this);
-    const bool receiving = !frame.state->receivers().idle();
-    if (receiving)
+    if (!this->CollectFrame(frame, width, height, &camera))
     {
-      svo::carryPass(&frame.receivers(), this);
-      frame.state->findLight(*state);
+      this->FinishFrame(frame);
+      return;
     }
-    this->UpdateGeometry(renderer, state->GetFrameBuffer());
-    if (receiving)
+    frame.state->joinPasses(state);
+    this->TraceFrame(frame, width, height);
     {
-      svo::dropPass(&frame.receivers(), this);
+      svo::ExchangedProps props(state->GetPropArray());
+      frame.state->exchange(props, state, this);
+      const bool receiving = !frame.state->receivers().idle();
+      if (receiving)
+      {
+        svo::carryPass(&frame.receivers(), this);
+        frame.state->findLight(*state);
+      }
+      drawn = !this->WantsSamples(frame);
+      if (drawn)
+      {
+        this->UpdateGeometry(renderer, state->GetFrameBuffer());
+      }
+      if (receiving)
+      {
+        svo::dropPass(&frame.receivers(), this);
+      }
+    }
+    frame.state->presenter()->StandFor(nullptr);
+    if (!drawn)
+    {
+      this->TellOfSamples(frame);
     }
   }
-  frame.state->presenter()->StandFor(nullptr);
   this->FinishFrame(frame);
   this->NumberOfRenderedProps = renderer->GetNumberOfPropsRendered();
 }

@@ -23,8 +23,9 @@
  * otherwise. Note that a positional vtkLight has a cone of 30 degrees unless told otherwise: set
  * 180 for a point light.
  *
- * Observers of ProgressEvent may do as they like: draw other windows, with this pass too, change
- * meshes, drop the pass. The frame is then collected once more.
+ * ProgressEvent is invoked while a still picture waits for octrees, and for samples of lights. Its
+ * observers may do as they like: draw other windows, with this pass too, change meshes, drop the
+ * pass, abort the window's frame. The frame is then collected once more.
  *
  * Method: Huang and Cheng, "A Rendering Method Using Sparse Voxel Octrees in Dynamic Scenes",
  * 2017. The paper's Z-buffer tables ZBT and SZBT are the depth buffer and the shadow buffers here.
@@ -255,6 +256,8 @@ private:
   bool MayPreferOpenGL(svo::PassFrame& frame, bool rays);
   svo::FrameSettings AskedSettings(bool openGL, bool rays) const;
   void TraceFrame(svo::PassFrame& frame, int width, int height);
+  bool WantsSamples(const svo::PassFrame& frame) const;
+  void TellOfSamples(svo::PassFrame& frame);
   void FinishFrame(svo::PassFrame& frame);
   bool RefineFor(double seconds);
 #endif

@@ -15,9 +15,8 @@
 
 namespace
 {
-/// Of a step that nobody has asked for, of lights that get more samples: what users do waits for
-/// it.
-constexpr double IdleSeconds = 0.5;
+/// Of a step of lights that get more samples, between which users, or observers, are heard.
+constexpr double StepSeconds = 0.5;
 }
 
 /// Fills a frame with the renderer's scene, as camera and lights are then, and sets up its camera.
@@ -143,8 +142,9 @@ bool vtkSVORenderPass::CollectFrame(
     impl.said);
   frame.decide(asked,
     { this->AutoAdjustSampleDistances, this->MaximumImageSampleDistance, this->ImageReductionFactor,
-      this->DetailCullingThreshold, impl.refining, this->LightError,
-      impl.idle.may(renderer->GetRenderWindow()) });
+      this->DetailCullingThreshold,
+      frame.sampling == svo::Sampling::InSteps ? StepSeconds : impl.refining, this->LightError,
+      frame.sampling != svo::Sampling::AtOnce || impl.idle.may(renderer->GetRenderWindow()) });
   return true;
 }
 
@@ -177,6 +177,24 @@ svo::FrameSettings vtkSVORenderPass::AskedSettings(bool openGL, bool rays) const
   settings.lightCode = openGL &&
     (settings.shadowTechnique != svo::ShadowTechnique::Buffer || !this->Impl->severalProcesses());
   return settings;
+}
+
+/// Whether samples of lights are missing that the frame takes in further steps.
+bool vtkSVORenderPass::WantsSamples(const svo::PassFrame& frame) const
+{
+  return (frame.sampling == svo::Sampling::Begun || frame.sampling == svo::Sampling::InSteps) &&
+    !frame.interactive() && !frame.state->refined(this->MaximumLightSamples, this->LightError);
+}
+
+/// Between two such steps: observers hear how many samples there are, may end that, and may do as
+/// they like with the scene.
+void vtkSVORenderPass::TellOfSamples(svo::PassFrame& frame)
+{
+  double amount = static_cast<double>(frame.state->samples()) / this->MaximumLightSamples;
+  this->InvokeEvent(vtkCommand::ProgressEvent, &amount);
+  const vtkSmartPointer<vtkRenderWindow> window = frame.renderer->GetRenderWindow();
+  const bool aborted = !window || window->GetAbortRender() || window->CheckAbortStatus();
+  frame.sampling = aborted ? svo::Sampling::Ended : svo::Sampling::InSteps;
 }
 
 /// Traces a frame and has its shadow maps ready for rasterised surfaces.
@@ -215,7 +233,7 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   impl.statistics.openGL = frame.openGL;
   if (!frame.interactive() && !frame.state->refined(this->MaximumLightSamples, this->LightError))
   {
-    impl.idle.ask(frame.renderer->GetRenderWindow(), [this] { this->RefineFor(IdleSeconds); });
+    impl.idle.ask(frame.renderer->GetRenderWindow(), [this] { this->RefineFor(StepSeconds); });
   }
   const svo::FrameStatistics& tracer = impl.statistics.tracer;
   const bool traced = tracer.retracedLayers > 0 || tracer.samplingTime > 0.0;

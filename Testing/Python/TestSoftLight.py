@@ -1,5 +1,6 @@
 """Lights with a size and ambient occlusion: how a picture is refined, what settings do, what is said."""
 
+import time
 import unittest
 
 import numpy
@@ -7,7 +8,9 @@ import vtkmodules.vtkInteractionStyle
 import vtkmodules.vtkRenderingOpenGL2
 import vtkmodules.vtkRenderingUI
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow, vtkUnsignedCharArray
+from vtkmodules.util.misc import calldata_type
+from vtkmodules.vtkCommonCore import (VTK_DOUBLE, vtkOutputWindow, vtkStringOutputWindow,
+                                      vtkUnsignedCharArray)
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderWindowInteractor, vtkTexture
 import ball_on_ground
@@ -176,6 +179,79 @@ class TestSoftLight(unittest.TestCase):
         truth = self.picture()
         hit = truth.sum(axis=1) > 0
         self.assertLess(numpy.sqrt(((found - truth)[hit] ** 2).mean()), 1.0)
+
+    def test_who_listens_hears_of_samples_and_ends_them(self):
+        self.soften()
+        self.ground.SetPosition(0.0, 0.0, -0.01)  # else what begins is the picture before
+        straight = self.picture()
+        heard, until, change = [], [2.0], []
+
+        @calldata_type(VTK_DOUBLE)
+        def hear(caller, event, amount):
+            heard.append(amount)
+            if change:
+                change.pop()()
+            if amount >= until[0]:
+                self.window.SetAbortRender(True)
+
+        self.svo.AddObserver("ProgressEvent", hear)
+        for traced in True, False:
+            for backend in self.svo.SetBackendToCPU, self.svo.SetBackendToOpenGL:
+                vtkSVORenderPass.SetUseSVO(traced, self.ground)
+                backend()
+                heard.clear()
+                self.ball.SetPosition(0.5, 0.0, 0.0)
+                other = self.picture()
+                self.assertEqual(heard, [0.125, 0.25, 0.5])
+                # The next Render() goes on where this one ended.
+                heard.clear()
+                until[0] = 0.25
+                self.ball.SetPosition(0.0, 0.0, 0.0)
+                self.picture()
+                self.assertEqual(heard, [0.125, 0.25])
+                self.assertEqual(self.svo.GetNumberOfLightSamples(), 8)
+                until[0] = 2.0
+                same = self.picture()
+                self.assertEqual(heard, [0.125, 0.25, 0.25, 0.5])
+                self.assertEqual(self.svo.GetNumberOfLightSamples(), 32)
+                if traced and self.svo.GetActiveBackend() == self.svo.BACKEND_CPU:
+                    self.assertTrue((same == straight).all())
+                # What observers change is drawn as they have left it.
+                change.append(lambda: self.ball.SetPosition(0.5, 0.0, 0.0))
+                self.ball.SetPosition(0.2, 0.0, 0.0)
+                self.assertTrue((self.picture() == other).all())
+        # So is an abort of the window's.
+        self.svo.RemoveObservers("ProgressEvent")
+        asked = []
+
+        def abort(caller, event):
+            asked.append(self.svo.GetNumberOfLightSamples())
+            self.window.SetAbortRender(True)
+
+        self.ball.SetPosition(0.1, 0.0, 0.0)
+        self.window.AddObserver("AbortCheckEvent", abort)
+        time.sleep(0.3)  # windows ask five times a second
+        self.window.Render()
+        self.assertEqual(self.svo.GetNumberOfLightSamples(), 4)
+        self.assertGreaterEqual(len(asked), 1)
+        self.window.RemoveObservers("AbortCheckEvent")
+        self.window.Render()
+        self.assertEqual(self.svo.GetNumberOfLightSamples(), 32)
+        # An error ends it as soon as it does without anybody who listens.
+        self.svo.SetMaximumLightSamples(4096)
+        self.svo.SetLightError(1.0)
+        self.svo.SetBackendToCPU()
+        alone = self.picture()
+        count = self.svo.GetNumberOfLightSamples()
+        self.svo.AddObserver("ProgressEvent", hear)
+        heard.clear()
+        self.ball.SetPosition(0.0, 0.0, 0.0)
+        self.picture()
+        self.ball.SetPosition(0.1, 0.0, 0.0)
+        self.assertTrue((self.picture() == alone).all())
+        self.assertEqual(self.svo.GetNumberOfLightSamples(), count)
+        self.assertGreater(len(heard), 2)
+        self.assertEqual(self.said.GetOutput(), "")
 
     def test_an_interactor_refines_while_it_has_nothing_else_to_do(self):
         self.window.SetOffScreenRendering(False)

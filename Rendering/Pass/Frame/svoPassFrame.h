@@ -42,6 +42,15 @@ struct PaceLimits
   bool refinesLater = false; // there is somebody who asks for that
 };
 
+/// How a still frame comes to all samples of its lights.
+enum class Sampling
+{
+  AtOnce,
+  Begun, // in steps, between which nothing is borrowed from the scene
+  InSteps,
+  Ended // by an observer
+};
+
 /// A frame owns what it needs: between its beginning and its end pipelines run, events are invoked,
 /// and observers may drop the pass, detach it, remove actors, finalize the window or draw another
 /// one with the same pass, whose frame then lies within this one.
@@ -117,6 +126,7 @@ struct PassFrame
   const std::vector<vtkSmartPointer<vtkProp>> props;
   FrameSettings settings;
   FramePace pace;
+  Sampling sampling = Sampling::AtOnce;
   double refinesTo = -1.0;   // an error of sampled lights, at once; negative: it does not
   bool pacedShadows = false; // PassStatistics
   bool openGL = false;       // PassStatistics

@@ -9,9 +9,13 @@
 // kind is the slope of log(error) over log(samples), of the former and of errors of a grey level
 // and more, as colours are whole numbers. nothingSoft: pictures whose bits no setting of soft
 // lights may change.
+// interactive: frames two thirds as wide and high with a soft light and occlusion, the camera in
+// orbit, that keep to a rate, by what they would take on so many cores (performanceCores.h), and
+// how far they are from still pictures: the mean of a channel, and the share of pixels with more
+// than 8 of 255 in one.
 //
 //   BenchmarkSoftLight [--a dragon.off --b sydney.md2] [--size 1920x1080] [--frames n]
-//   [--errorSize 320x180] [--truth 2048] [--json file]
+//   [--errorSize 320x180] [--truth 2048] [--json file] [--experiments time,error,...]
 //
 // --frames: of each of the three viewpoints. VTK_SMP_MAX_THREADS says how many threads. The exit
 // code is 1 where errors do not fall, pictures differ that must not, or the rasteriser drew
@@ -19,6 +23,7 @@
 #include "experiments.h"
 #include "meshes.h"
 #include "objects.h"
+#include "performancePass.h"
 #include "performanceWindow.h"
 #include "scenes.h"
 #include "svoResults.h"
@@ -41,6 +46,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -61,12 +67,14 @@ class Lit
 {
 public:
   Lit(vtkRenderWindow* window, const paper::Objects& objects, const std::string& name, int soft,
-    int occlusion)
+    int occlusion,
+    vtkSmartPointer<vtkSVORenderPass> pass = vtkSmartPointer<vtkSVORenderPass>::New())
     : Name(name)
     , Soft(soft)
     , Occlusion(occlusion)
     , Window(window)
     , Shown(paper4(), objects)
+    , Pass(std::move(pass))
   {
     this->renderer()->DrawOff();
     window->AddRenderer(this->renderer());
@@ -91,7 +99,10 @@ public:
   {
     return vtkLight::SafeDownCast(this->renderer()->GetLights()->GetItemAsObject(0));
   }
-  void setView(int view) { this->Shown.setView(paper4().views[static_cast<std::size_t>(view)]); }
+  void setView(int view, double orbit = 0.0)
+  {
+    this->Shown.setView(paper4().views[static_cast<std::size_t>(view)], orbit);
+  }
   void setFrame(int frame) { this->Shown.setFrame(frame); }
   void setSamples(int samples) { this->Pass->SetMaximumLightSamples(samples); }
 
@@ -126,7 +137,7 @@ public:
 private:
   vtkRenderWindow* Window;
   paper::Scene Shown;
-  vtkNew<vtkSVORenderPass> Pass;
+  vtkSmartPointer<vtkSVORenderPass> Pass;
   bool Whole = true;
 };
 
@@ -154,6 +165,7 @@ public:
   bool time(int frames);
   bool error(const std::string& kind, int most);
   bool nothingSoft();
+  bool interactive(int cores, double rate, int frames);
 
 private:
   svobench::Row row(const char* experiment) const
@@ -349,6 +361,63 @@ bool Benchmark::error(const std::string& kind, int most)
   return (way->whole() || complain(kind + ": the rasteriser drew something")) && good;
 }
 
+bool Benchmark::interactive(int cores, double rate, int frames)
+{
+  performance::PhasesOfFrame phases;
+  Lit shown(
+    this->Window, this->Objects, "interactive", 4, 4, performance::makePass(phases, true, cores));
+  shown.setSamples(32);
+  shown.setFrame(0);
+  const std::string key = "tracerCores" + std::to_string(cores) + "Ms";
+  std::vector<double> times, distances, means, wrongs;
+  std::vector<Picture> quick;
+  const int warmUp = 4;
+  for (const bool still : { false, true })
+  {
+    this->Window->SetDesiredUpdateRate(still ? 0.001 : rate);
+    for (int i = still ? warmUp : 0; i < warmUp + frames; ++i)
+    {
+      shown.setView(0, 3.0 * i);
+      if (still)
+      {
+        const Picture truth = shown.picture(), &picture = quick[static_cast<std::size_t>(i)];
+        double sum = 0.0, wrong = 0.0, seen = 0.0;
+        for (std::size_t p = 0; p < truth.size(); p += 3)
+        {
+          int most = 0;
+          for (std::size_t c = p; c < p + 3; ++c)
+          {
+            most = std::max(most, std::abs(truth[c] - picture[c]));
+            sum += std::abs(truth[c] - picture[c]) / 3.0;
+          }
+          wrong += most > 8;
+          seen += truth[p] + truth[p + 1] + truth[p + 2] > 0;
+        }
+        means.push_back(sum / seen);
+        wrongs.push_back(wrong / seen);
+        continue;
+      }
+      const performance::Moment begin = performance::Moment::now();
+      quick.push_back(shown.picture());
+      const performance::Phases took = phases(begin, performance::Moment::now());
+      if (i >= warmUp)
+      {
+        times.push_back(took.at("collectMs") + took.at(key) + took.at("presentMs") / 2.0);
+        distances.push_back(shown.pass()->GetImageSampleDistance());
+      }
+    }
+  }
+  svobench::Row row = this->row("interactive");
+  row["cores"] = cores;
+  row["rate"] = rate;
+  row["frameMs"] = performance::median(times);
+  row["sampleDistance"] = performance::median(distances);
+  row["meanDifference"] = performance::median(means);
+  row["wrongShare"] = performance::median(wrongs);
+  this->Out.add(row);
+  return shown.whole() || complain("interactive: the rasteriser drew something");
+}
+
 bool Benchmark::nothingSoft()
 {
   const auto usual = this->lit("usual", 0, 0);
@@ -388,7 +457,7 @@ bool Benchmark::nothingSoft()
 int main(int argc, char** argv)
 {
   int size[2] = { 1920, 1080 }, errorSize[2] = { 320, 180 }, frames = 3, truth = 2048;
-  std::string fileOfA, fileOfB, json;
+  std::string fileOfA, fileOfB, json, experiments = "nothingSoft,time,interactive,error";
   for (int i = 1; i < argc; i += 2)
   {
     const std::string name = argv[i], argument = i + 1 < argc ? argv[i + 1] : "";
@@ -415,6 +484,10 @@ int main(int argc, char** argv)
     else if (name == "--truth")
     {
       truth = std::clamp(std::atoi(argument.c_str()), 32, 4096);
+    }
+    else if (name == "--experiments")
+    {
+      experiments = argument;
     }
     else if (name == "--json")
     {
@@ -446,14 +519,36 @@ int main(int argc, char** argv)
   }
   svobench::Results results(
     { "experiment", "situation", "method", "samples", "processorMs", "beyondMs", "rays",
-      "raysPerSecond", "betweenShare", "betweenError", "error", "slope", "pictures", "differing" });
+      "raysPerSecond", "betweenShare", "betweenError", "error", "slope", "pictures", "differing",
+      "cores", "rate", "frameMs", "sampleDistance", "meanDifference", "wrongShare" });
   Benchmark benchmark(objects, results);
   benchmark.setSize(size);
-  bool good = benchmark.nothingSoft();
-  good = benchmark.time(frames) && good;
-  benchmark.setSize(errorSize);
-  good = benchmark.error("soft light", truth) && good;
-  good = benchmark.error("occlusion", truth) && good;
+  bool good = true;
+  const auto asked = [&](const char* name) { return experiments.find(name) != std::string::npos; };
+  if (asked("nothingSoft"))
+  {
+    good = benchmark.nothingSoft() && good;
+  }
+  if (asked("time"))
+  {
+    good = benchmark.time(frames) && good;
+  }
+  if (asked("interactive"))
+  {
+    const int twoThirds[2] = { size[0] * 2 / 3, size[1] * 2 / 3 };
+    benchmark.setSize(twoThirds);
+    for (const auto& [cores, rate] :
+      std::vector<std::pair<int, double>>{ { 2, 5.0 }, { 2, 2.0 }, { 16, 30.0 }, { 16, 15.0 } })
+    {
+      good = benchmark.interactive(cores, rate, 2 * frames) && good;
+    }
+  }
+  if (asked("error"))
+  {
+    benchmark.setSize(errorSize);
+    good = benchmark.error("soft light", truth) && good;
+    good = benchmark.error("occlusion", truth) && good;
+  }
   if (!json.empty() && !results.writeJson(json))
   {
     std::fprintf(stderr, "BenchmarkSoftLight: cannot write %s\n", json.c_str());

@@ -151,8 +151,22 @@ public:
   static TimedPass* New();
   vtkTypeMacro(TimedPass, vtkSVORenderPass);
   std::shared_ptr<Traced> Last = std::make_shared<Traced>();
+  int PaceCores = 0;
 
 protected:
+  void MeasureFrame(double& seconds, double& fixedSeconds, double& shadowSeconds) const override
+  {
+    this->Superclass::MeasureFrame(seconds, fixedSeconds, shadowSeconds);
+    if (this->PaceCores > 0)
+    {
+      const svo::FrameStatistics& traced = this->Last->statistics;
+      const double here = traced.traceTime + traced.shadowTime;
+      const double there =
+        1e-3 * this->Last->cores.at("tracerCores" + std::to_string(this->PaceCores) + "Ms");
+      seconds += there - here;
+      shadowSeconds *= there / here;
+    }
+  }
   std::unique_ptr<svo::Tracer> MakeTracer() const override
   {
     return std::make_unique<
@@ -168,9 +182,11 @@ void add(Phases& phases, const std::string& name, double wall, double processor)
 }
 }
 
-vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases, bool simulatesCores)
+vtkSmartPointer<vtkSVORenderPass> makePass(
+  PhasesOfFrame& phases, bool simulatesCores, int paceCores)
 {
   auto pass = vtkSmartPointer<TimedPass>::New();
+  pass->PaceCores = paceCores;
   pass->Last->simulatesCores = simulatesCores;
   phases = [last = pass->Last](const Moment& begin, const Moment& end)
   {

@@ -32,7 +32,10 @@ using PhasesOfFrame = std::function<Phases(const Moment& begin, const Moment& en
 /// With `simulatesCores` frames are traced on one core, and there is "eyeCores16Ms" besides, what
 /// the phase would take on 16 (performanceCores.h), for each of SimulatedCores, and "eyeSerialMs",
 /// what of it one core does alone; likewise for "tracer", all of the tracer.
-vtkSmartPointer<vtkSVORenderPass> makePass(PhasesOfFrame& phases, bool simulatesCores);
+/// `paceCores`: which of these cores interactive frames keep to their time by; 0: those that there
+/// are.
+vtkSmartPointer<vtkSVORenderPass> makePass(
+  PhasesOfFrame& phases, bool simulatesCores, int paceCores = 0);
 constexpr int SimulatedCores[] = { 1, 2, 16, 64 };
 }
 
