@@ -15,7 +15,7 @@ namespace svotest
 {
 // Who adds a member to one of these adds it below.
 static_assert(sizeof(svo::Material) == 56 && sizeof(svo::Attributes) == 64 &&
-    sizeof(svo::Body) == 216 && sizeof(svo::Instance) == 248,
+    sizeof(svo::Body) == 216 && sizeof(svo::Instance) == 256,
   "all that pictures depend on is compared");
 
 /// All that an instance is, as plain bytes. Of octrees and arrays their names count: Octree::id(),

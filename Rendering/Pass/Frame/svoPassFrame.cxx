@@ -112,6 +112,7 @@ void PassFrame::decide(const FrameSettings& asked, const PaceLimits& limits)
   this->settings = asked;
   this->pacedShadows = hasCameraLight(this->renderer);
   this->decideSamples(limits);
+  this->settings.mayWarp = this->interactive();
   if (!this->interactive())
   {
     return;

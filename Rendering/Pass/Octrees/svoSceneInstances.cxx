@@ -182,7 +182,13 @@ bool writeInstances(std::vector<PropSurfaces>& props, Stage stage, std::vector<I
       surface.written = now;
       if (stage == Stage::Shown && !(surface.shown == now))
       {
-        std::for_each(first, first + many, [](Instance& one) { one.version = newVersion(); });
+        const bool looks = !surface.shown.looksAs(now);
+        std::for_each(first, first + many,
+          [looks](Instance& one)
+          {
+            one.version = newVersion();
+            one.appearance = looks ? one.version : one.appearance;
+          });
         surface.shown = now;
         changed = true;
       }

@@ -18,6 +18,7 @@
 #include "svoShadows.h"
 #include "svoSilhouetteFinder.h"
 #include "svoTilePatch.h"
+#include "svoWarpedImage.h"
 
 #include <algorithm>
 #include <chrono>
@@ -66,6 +67,7 @@ struct CPUTracer::Internals
   ReceiverSampler Receivers;
   PixelShader Shader;
   KeptFrame Kept;
+  WarpedImage Cache;
   KeptTiles Shaded;               // by tile of the eye
   std::vector<CasterBox> Casters; // by index into Scene::instances
   int Samples = 0;                // of lights, in the picture
@@ -84,8 +86,8 @@ struct CPUTracer::Internals
   void sampleLights(const ShadedScene& shaded, bool more, const ParallelFor& parallelFor,
     FrameStatistics& statistics);
   void traceViews(const Scene& scene, const View& view, const FrameSettings& settings,
-    const ParallelFor& parallelFor, const FrameChanges& changes, Frame* frame,
-    FrameStatistics& statistics);
+    const ParallelFor& parallelFor, const FrameChanges& changes, const std::uint8_t* wanted,
+    Frame* frame, FrameStatistics& statistics);
   void traceLeftOut(const Scene& scene, const View& view, const ParallelFor& parallelFor);
 };
 
@@ -310,11 +312,12 @@ std::vector<NeededLevels> CPUTracer::neededLevels(
   return svo::neededLevels(scene, view, settings);
 }
 
-/// The depth buffers of the eye and of the lights, and all that shading needs besides. `frame`: to
-/// be prepared for shading, or null. Sets the phases' times.
+/// The depth buffers of the eye and of the lights, and all that shading needs besides. `wanted`: a
+/// byte a tile, what of the eye's is needed; null: all. `frame`: to be prepared for shading, or
+/// null. Sets the phases' times.
 void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
   const FrameSettings& settings, const ParallelFor& parallelFor, const FrameChanges& changes,
-  Frame* frame, FrameStatistics& statistics)
+  const std::uint8_t* wanted, Frame* frame, FrameStatistics& statistics)
 {
   PhaseClock clock;
   this->Maps.clear();
@@ -328,8 +331,9 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     [&](const Instance& instance, const LocalView& local)
     { return selectEyeLevel(instance, local, view, settings.pixelError); },
     settings.frameCoherence, budget, parallelFor);
-  this->Eye.trace(parallelFor, nullptr);
-  const bool sameFrame = frame && this->Tiles.find(this->Eye.hits().depth, view, settings, *frame);
+  this->Eye.trace(parallelFor, wanted);
+  const bool sameFrame =
+    frame && this->Tiles.find(this->Eye.hits().depth, view, settings, wanted, *frame);
   this->findStaleTiles(changes, sameFrame);
   statistics.eye = clock.end();
 
@@ -369,7 +373,8 @@ void CPUTracer::Internals::traceLeftOut(
   if (!this->ViewsAreTraced)
   {
     FrameStatistics later; // the frame's own have been told
-    this->traceViews(scene, view, this->Settings, parallelFor, FrameChanges(), nullptr, later);
+    this->traceViews(
+      scene, view, this->Settings, parallelFor, FrameChanges(), nullptr, nullptr, later);
     this->ViewsAreTraced = true;
   }
 }
@@ -418,9 +423,18 @@ void CPUTracer::render(
     statistics.traceTime = statistics.eye.wall;
     return;
   }
+  changes.all = changes.all || statistics.warpedShare > 0.0;
   statistics = FrameStatistics();
   statistics.lightSamples = samples.count;
-  self.traceViews(scene, view, settings, parallelFor, changes, &frame, statistics);
+  const bool caches = settings.imageCacheError > 0.0;
+  if (!caches || changes.looks)
+  {
+    self.Cache.forget();
+  }
+  const bool warped =
+    caches && self.Cache.warp(view, settings.mayWarp ? settings.imageCacheError : 0.0, parallelFor);
+  self.traceViews(scene, view, settings, parallelFor, changes,
+    warped ? self.Cache.wanted().data() : nullptr, &frame, statistics);
   clock.end(); // its phases have been timed
   self.findDarkenedTiles(scene, changes, parallelFor);
 
@@ -441,6 +455,12 @@ void CPUTracer::render(
   if (samples.refined)
   {
     statistics.lightError = differenceOf(coarser, frame.color);
+  }
+  if (caches)
+  {
+    self.Cache.add(self.Eye.hits(), frame, parallelFor);
+    self.Cache.write(frame, parallelFor);
+    statistics.warpedShare = self.Cache.share();
   }
   statistics.shade = clock.end();
   self.LightShadows.addStatistics(statistics);

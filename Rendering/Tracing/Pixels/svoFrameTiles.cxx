@@ -32,8 +32,8 @@ void wipeTile(Frame& frame, int x0, int y0)
   }
 }
 
-bool FrameTiles::find(
-  const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame)
+bool FrameTiles::find(const DepthBuffer& depth, const View& view, const FrameSettings& settings,
+  const std::uint8_t* traced, Frame& frame)
 {
   this->TilesX = depth.tilesX;
   const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
@@ -65,6 +65,11 @@ bool FrameTiles::find(
   {
     const int x = 8 * static_cast<int>(tile % depth.tilesX);
     const int y = 8 * static_cast<int>(tile / depth.tilesX);
+    if (traced && !traced[tile])
+    {
+      this->Written[tile] = 1;
+      continue;
+    }
     if (depth.hit[tile])
     {
       this->Hits.push_back(static_cast<std::uint32_t>(tile));

@@ -2,6 +2,7 @@
 
 #include "svoSkyPicture.h"
 
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -45,7 +46,7 @@ void addSettings(const FrameSettings& s, Bytes& bytes)
 {
   visitCompared(s, [&bytes](const auto& setting) { add(bytes, setting); });
   add(bytes, s.shadowCoarseness, s.detailThreshold, s.receiverMaps, s.wholeShadowBuffers,
-    s.sampledMaps, s.writeNormals, s.writeLight, s.writeSlopes, s.writeNames,
+    s.sampledMaps, s.mayWarp, s.writeNormals, s.writeLight, s.writeSlopes, s.writeNames,
     s.skyPicture ? s.skyPicture->version() : std::uint64_t(0));
 }
 }
@@ -54,7 +55,6 @@ FrameChanges KeptFrame::compare(const Scene& scene, const View& view, const Fram
 {
   Bytes inputs;
   inputs.reserve(this->Inputs.size());
-  addView(view, inputs);
   addSettings(settings, inputs);
   add(inputs, scene.instances.size(), scene.receivers.size(), scene.lights.size(),
     scene.onlyHeadlight);
@@ -67,9 +67,13 @@ FrameChanges KeptFrame::compare(const Scene& scene, const View& view, const Fram
     addLight(light, inputs);
   }
   FrameChanges changes;
+  const bool same = inputs.size() <= this->Inputs.size() &&
+    std::equal(inputs.begin(), inputs.end(), this->Inputs.begin());
+  addView(view, inputs);
   changes.all = inputs != this->Inputs;
   this->Inputs = std::move(inputs);
   changes.instances = this->Instances.update(scene);
+  changes.looks = !same || !this->Instances.looksSame();
   return changes;
 }
 }
