@@ -272,10 +272,12 @@ vtksvo_setting(ImageCacheError double 0
   PANEL advanced
   SAYS
     "While you interact and nothing but the camera moves, show the last picture's pixels where they are now, and trace
-     what that leaves open. Nothing is further from its place than this. 0: all is traced."
+     what that leaves open. Pixels are no further from their place than this. 0: all is traced."
   MORE
-    "Values below 0.5 are taken for that. What has moved in the picture has the light of the frame that it was traced
-     in. Still pictures are exact, as ever.")
+    "Values below 0.5 are taken for that. All of the picture is traced again within eight frames; until then highlights stay as
+     they were seen, and outlines that turn may be off by a pixel more. It saves time where the camera moves slowly, and most with `ShadowRays`
+     ([ImageCaches.md](ImageCaches.md)). All is traced in parallel views, with the OpenGL backend, with `AntiAliasing`, lights that move with the camera,
+     lights with a size, a sky and ambient occlusion. `GetImageCacheShare()` says how much was shown again. Still pictures are exact, as ever.")
 
 vtksvo_setting(DetailCullingThreshold double 0
   TABLE time RANGE 0 1e6 UNIT pixels

@@ -59,6 +59,7 @@ inline void stamp(svo::Scene& scene)
   for (svo::Instance& instance : scene.instances)
   {
     instance.version = known.emplace(bytesOf(instance), known.size() + 1).first->second;
+    instance.appearance = instance.version;
     const auto* bytes = reinterpret_cast<const unsigned char*>(&instance.version);
     versions.insert(versions.end(), bytes, bytes + sizeof instance.version);
   }

@@ -163,9 +163,10 @@ struct FrameStatistics
   /// How wide texels look at most in the shadow maps that were fitted to the eye's view, pixels; 0:
   /// no map was.
   double coarsestTexel = 0.0;
-  double widestTexel = 0.0;      // no texel of any map looks wider, pixels
-  bool fewerTexels = false;      // than were asked for, by all processes alike, for lack of memory
-  double warpedShare = 0.0; // of the picture that is the last one's, moved
+  double widestTexel = 0.0; // no texel of any map looks wider, pixels
+  bool fewerTexels = false; // than were asked for, by all processes alike, for lack of memory
+  double warpedShare = 0.0; // of the picture that is the last one's, moved, ...
+  double warpError = 0.0;   // ... and pixels that this may be off by
   /// Largest voxel, pixels, of visible octrees that are coarser than the frame needs, where they
   /// are not traced exactly.
   double coarsestVoxel = 0.0;

@@ -13,7 +13,16 @@ namespace
 {
 constexpr std::uint32_t Nothing = ~0u;
 constexpr float Nowhere = std::numeric_limits<float>::infinity();
-constexpr int BandRows = 4; // rows of tiles that one thread fills
+constexpr int DepthShift = 16; // of keys
+constexpr int BandRows = 8;    // rows of tiles that one thread fills
+/// Blocks of so many tiles along an edge, as they are traced together, are traced anew after so
+/// many frames at last.
+constexpr std::size_t Block = 4, Period = 8;
+
+float squared(float a)
+{
+  return a * a;
+}
 
 /// Of two points that come to a pixel the one with the lesser key is seen: whose surface is nearer,
 /// by more than depths of one surface differ there (2^-7 of it), else which is nearer to the
@@ -43,9 +52,9 @@ void WarpedImage::forget()
 
 double WarpedImage::share() const
 {
-  const auto kept = std::count(this->Wanted.begin(), this->Wanted.end(), 0);
-  return static_cast<double>(kept) /
-    static_cast<double>(std::max<std::size_t>(this->Wanted.size(), 1));
+  const auto again = std::count(this->Missing.begin(), this->Missing.end(), 0);
+  return static_cast<double>(again) /
+    static_cast<double>(std::max<std::size_t>(this->Missing.size(), 1));
 }
 
 std::size_t WarpedImage::memory() const
@@ -95,42 +104,31 @@ void WarpedImage::place(std::size_t tile, const View& view, const float m[12])
   this->Highest[tile] = high;
 }
 
-/// Says which points are seen in rows of tiles of the new view.
-void WarpedImage::fill(int firstRow, int endRow, const View& view, float error)
+/// Says which points are nearest to the centres of pixels in rows of tiles of the new view.
+void WarpedImage::fill(int firstRow, int endRow, const View& view)
 {
   const std::size_t begin = 64 * static_cast<std::size_t>(firstRow) * this->NextX;
   const std::size_t end = 64 * static_cast<std::size_t>(endRow) * this->NextX;
   std::fill(this->Keys.data() + begin, this->Keys.data() + end, Nothing);
-  const int y0 = 8 * firstRow, y1 = std::min(8 * endRow, view.height);
-  const auto low = static_cast<float>(y0) - 1.0f, high = static_cast<float>(y1) + 1.0f;
+  const auto low = static_cast<float>(8 * firstRow);
+  const auto high = static_cast<float>(std::min(8 * endRow, view.height));
+  const auto width = static_cast<float>(view.width);
   const std::size_t tiles = this->Lowest.size();
   for (std::size_t tile = 0; tile < tiles; ++tile)
   {
-    if (this->Highest[tile] < low || this->Lowest[tile] > high)
+    if (this->Highest[tile] < low || this->Lowest[tile] >= high)
     {
       continue;
     }
     for (std::size_t i = 64 * tile; i < 64 * tile + 64; ++i)
     {
-      const float u = this->U[i] - 0.5f, v = this->V[i] - 0.5f; // from pixels' centres
-      if (!(u > -1.0f && u < static_cast<float>(view.width) && v > low && v < high))
+      const float u = this->U[i], v = this->V[i];
+      if (u >= 0.0f && u < width && v >= low && v < high)
       {
-        continue;
-      }
-      const float depth = this->Held.instance[i] == NoInstance ? Nowhere : -this->Held.z[i];
-      const int left = static_cast<int>(std::floor(u)), below = static_cast<int>(std::floor(v));
-      for (int k = 0; k < 4; ++k)
-      {
-        const int x = left + (k & 1), y = below + (k >> 1);
-        const float dx = u - static_cast<float>(x), dy = v - static_cast<float>(y);
-        if (x < 0 || x >= view.width || y < y0 || y >= y1 || std::abs(dx) > error ||
-          std::abs(dy) > error)
-        {
-          continue;
-        }
-        const std::size_t pixel =
-          64 * (static_cast<std::size_t>(y >> 3) * this->NextX + (x >> 3)) + 8 * (y & 7) + (x & 7);
-        const std::uint32_t key = keyOf(depth, dx * dx + dy * dy);
+        const int x = static_cast<int>(u), y = static_cast<int>(v);
+        const std::size_t pixel = this->at(x, y);
+        const std::uint32_t key = keyOf(this->depthOf(i),
+          squared(u - static_cast<float>(x) - 0.5f) + squared(v - static_cast<float>(y) - 0.5f));
         if (key < this->Keys[pixel])
         {
           this->Keys[pixel] = key;
@@ -141,35 +139,173 @@ void WarpedImage::fill(int firstRow, int endRow, const View& view, float error)
   }
 }
 
-/// The points of a tile of the new view; false if some are missing.
-bool WarpedImage::take(std::size_t tile, const View& view)
+/// Bits of the pixels of a tile that no point comes to, or beside which something nearer is.
+std::uint64_t WarpedImage::unsure(std::size_t tile) const
 {
-  const int x0 = 8 * static_cast<int>(tile % this->NextX),
-            y0 = 8 * static_cast<int>(tile / this->NextX);
-  const int width = std::min(8, view.width - x0), height = std::min(8, view.height - y0);
+  // The upper halves of keys of the tile and of the pixels around it.
+  constexpr std::int16_t None = 0x7fff;
+  std::int16_t depths[10][16];
+  const int x0 = 8 * static_cast<int>(tile % this->NextX) - 1;
+  const int y0 = 8 * static_cast<int>(tile / this->NextX) - 1;
+  for (int row = 0; row < 10; ++row)
+  {
+    const bool rowThere = y0 + row >= 0 && y0 + row < 8 * this->NextY;
+    const auto depthAt = [&](int column)
+    {
+      return rowThere && x0 + column >= 0 && x0 + column < 8 * this->NextX
+        ? std::min(static_cast<std::int16_t>(
+                     this->Keys[this->at(x0 + column, y0 + row)] >> (DepthShift + 1)),
+            None)
+        : None;
+    };
+    depths[row][0] = depthAt(0);
+    depths[row][9] = depthAt(9);
+    const std::uint32_t* const keys =
+      rowThere ? this->Keys.data() + this->at(x0 + 1, y0 + row) : nullptr;
+    for (int k = 0; k < 8; ++k)
+    {
+      depths[row][k + 1] = keys ? static_cast<std::int16_t>(keys[k] >> (DepthShift + 1)) : None;
+    }
+  }
+  std::uint64_t bits = 0;
+  for (int row = 1; row < 9; ++row)
+  {
+    std::int16_t across[16];
+    for (int k = 0; k < 10; ++k)
+    {
+      across[k] = std::min(std::min(depths[row - 1][k], depths[row][k]), depths[row + 1][k]);
+    }
+    for (int k = 1; k < 9; ++k)
+    {
+      const std::int16_t nearest = std::min(std::min(across[k - 1], across[k]), across[k + 1]);
+      const bool missing = this->Keys[64 * tile + 8 * (row - 1) + k - 1] == Nothing;
+      bits |= std::uint64_t(missing || nearest + 1 < depths[row][k]) << (8 * (row - 1) + k - 1);
+    }
+  }
+  return bits;
+}
+
+/// The outlines of two things that are nearer than what is behind a pixel's point come to it: what
+/// lies between these three may have been hidden by both.
+bool WarpedImage::isCorner(int x, int y, std::uint32_t own) const
+{
+  std::uint32_t first = NoInstance;
+  for (int k = 0; k < 9; ++k)
+  {
+    const std::size_t beside = this->at(x + k % 3 - 1, y + k / 3 - 1);
+    if ((this->Keys[beside] >> DepthShift) + 1 < own >> DepthShift)
+    {
+      const std::uint32_t instance = this->Held.instance[this->Sources[beside]];
+      if (first != NoInstance && instance != first)
+      {
+        return true;
+      }
+      first = instance;
+    }
+  }
+  return false;
+}
+
+/// The point that is seen at a pixel; Nothing if there is none within the error. Points of what
+/// comes nearer lie further apart than pixels: between two of them nothing behind them is seen, and
+/// where nothing is known between two of one surface it goes on. Edges stay where they are.
+std::uint32_t WarpedImage::pointAt(int x, int y, const View& view, float error) const
+{
+  const std::size_t pixel = this->at(x, y);
+  const std::uint32_t own = this->Keys[pixel];
+  if (std::min(x, y) < 2 || x >= view.width - 2 || y >= view.height - 2)
+  {
+    return own != Nothing ? this->Sources[pixel] : Nothing;
+  }
+  if (own != Nothing && this->isCorner(x, y, own))
+  {
+    return Nothing;
+  }
+  // By pairs of pixels on opposite sides, and one further.
+  constexpr int Across[4][2] = { { 1, 0 }, { 0, 1 }, { 1, 1 }, { 1, -1 } };
+  std::uint32_t farthest = Nothing >> DepthShift; // that is seen there
+  for (const auto& step : Across)
+  {
+    const auto depthAt = [&](int steps)
+    { return this->Keys[this->at(x + steps * step[0], y + steps * step[1])] >> DepthShift; };
+    const std::uint32_t before = depthAt(-1), behind = depthAt(1);
+    farthest = std::min({ farthest, 1 + std::max(before, std::min(behind, depthAt(2))),
+      1 + std::max(behind, depthAt(-2)) });
+  }
+  if (own >> DepthShift <= farthest && own != Nothing)
+  {
+    return this->Sources[pixel];
+  }
+  std::uint32_t best = Nothing, source = Nothing;
+  for (const auto& step : Across)
+  {
+    const std::size_t sides[2] = { this->at(x - step[0], y - step[1]),
+      this->at(x + step[0], y + step[1]) };
+    const std::uint32_t one = this->Keys[sides[0]] >> DepthShift;
+    const std::uint32_t other = this->Keys[sides[1]] >> DepthShift;
+    const bool together = std::max(one, other) <= std::min(one, other) + 1;
+    for (const std::size_t side : sides)
+    {
+      if (!(own != Nothing || together) || this->Keys[side] >> DepthShift > farthest ||
+        this->Keys[side] == Nothing)
+      {
+        continue;
+      }
+      const std::uint32_t from = this->Sources[side];
+      const float dx = this->U[from] - static_cast<float>(x) - 0.5f;
+      const float dy = this->V[from] - static_cast<float>(y) - 0.5f;
+      const std::uint32_t key = keyOf(this->depthOf(from), squared(dx) + squared(dy));
+      if (std::abs(dx) <= error && std::abs(dy) <= error && key < best)
+      {
+        best = key;
+        source = from;
+      }
+    }
+  }
+  return source;
+}
+
+/// The points of a tile of the new view; false if some are missing.
+bool WarpedImage::take(std::size_t tile, const View& view, float error)
+{
+  const int x0 = 8 * static_cast<int>(tile % this->NextX);
+  const int y0 = 8 * static_cast<int>(tile / this->NextX);
+  const std::uint64_t unsure = this->unsure(tile);
+  bool all = true;
   for (int i = 0; i < 64; ++i)
   {
     const std::size_t pixel = 64 * tile + i;
-    if ((i & 7) >= width || (i >> 3) >= height)
+    const int x = x0 + (i & 7), y = y0 + (i >> 3);
+    this->Missing[pixel] = 0;
+    const bool inside = x < view.width && y < view.height;
+    const std::uint32_t from = !inside ? Nothing
+      : unsure >> i & 1                ? this->pointAt(x, y, view, error)
+                                       : this->Sources[pixel];
+    if (from == Nothing)
     {
-      this->Next.instance[pixel] = NoInstance; // no pixel of the image
+      this->Next.instance[pixel] = NoInstance;
       this->Next.x[pixel] = this->Next.y[pixel] = 0.0f;
-      this->Next.z[pixel] = 1.0f;
+      this->Next.z[pixel] = 1.0f; // behind the eye
       this->Next.color[pixel] = 0;
+      this->Missing[pixel] = inside;
+      all = all && !inside;
       continue;
     }
-    if (this->Keys[pixel] == Nothing)
-    {
-      return false;
-    }
-    const std::uint32_t from = this->Sources[pixel];
     this->Next.x[pixel] = this->Held.x[from];
     this->Next.y[pixel] = this->Held.y[from];
     this->Next.z[pixel] = this->Held.z[from];
     this->Next.color[pixel] = this->Held.color[from];
     this->Next.instance[pixel] = this->Held.instance[from];
   }
-  return true;
+  return all;
+}
+
+/// True of the blocks of tiles that are traced in this frame, whatever comes to them.
+bool WarpedImage::isDue(std::size_t tile) const
+{
+  const std::size_t column = tile % this->NextX / Block, row = tile / this->NextX / Block;
+  // Neighbours at different times.
+  return (column + 3 * row + this->Frames) % Period == 0;
 }
 
 bool WarpedImage::warp(const View& view, double error, const ParallelFor& parallelFor)
@@ -178,6 +314,8 @@ bool WarpedImage::warp(const View& view, double error, const ParallelFor& parall
   this->NextY = (view.height + 7) / 8;
   const std::size_t tiles = static_cast<std::size_t>(this->NextX) * this->NextY;
   this->Wanted.assign(tiles, 1);
+  ++this->Frames;
+  this->Missing.assign(64 * tiles, 1);
   this->Next.resize(64 * tiles);
   const bool known = this->Known && error > 0.0 && !view.parallel;
   if (known)
@@ -206,13 +344,13 @@ bool WarpedImage::warp(const View& view, double error, const ParallelFor& parall
       });
     this->Keys.resize(64 * tiles);
     this->Sources.resize(64 * tiles);
+    const auto reach = static_cast<float>(errorOf(error));
     parallelFor(0, static_cast<std::size_t>((this->NextY + BandRows - 1) / BandRows), 1,
       [&](std::size_t first, std::size_t last)
       {
         for (auto band = static_cast<int>(first); band < static_cast<int>(last); ++band)
         {
-          this->fill(BandRows * band, std::min(BandRows * (band + 1), this->NextY), view,
-            static_cast<float>(std::clamp(error, 0.5, 1.0)));
+          this->fill(BandRows * band, std::min(BandRows * (band + 1), this->NextY), view);
         }
       });
     parallelFor(0, tiles, 512,
@@ -220,7 +358,7 @@ bool WarpedImage::warp(const View& view, double error, const ParallelFor& parall
       {
         for (std::size_t tile = first; tile < last; ++tile)
         {
-          this->Wanted[tile] = !this->take(tile, view);
+          this->Wanted[tile] = this->isDue(tile) || !this->take(tile, view, reach);
         }
       });
   }
@@ -244,10 +382,14 @@ void WarpedImage::addTile(std::size_t tile, const Hits& hits, const Frame& frame
   for (int i = 0; i < 64; ++i)
   {
     const std::size_t pixel = 64 * tile + i;
+    if (!this->Missing[pixel])
+    {
+      continue;
+    }
     const int x = x0 + (i & 7), y = y0 + (i >> 3);
     const bool inside = x < view.width && y < view.height;
     const std::uint32_t instance = any && inside ? hits.depth.instance[pixel] : NoInstance;
-    float t = inside ? 1.0f : -1.0f;
+    float t = inside ? 1.0f : -1.0f; // behind the eye
     if (instance != NoInstance)
     {
       t = static_cast<float>(hits.base(instance) + static_cast<double>(hits.depth.t[pixel]));
@@ -294,25 +436,24 @@ void WarpedImage::write(Frame& frame, const ParallelFor& parallelFor) const
         for (int column = 0; column < this->TilesX; ++column)
         {
           const std::size_t tile = row * this->TilesX + column;
-          if (this->Wanted[tile])
-          {
-            continue;
-          }
           const int x0 = 8 * column, y0 = 8 * static_cast<int>(row);
           const int width = std::min(8, frame.width - x0), height = std::min(8, frame.height - y0);
           int hit = 0;
           for (int y = 0; y < height; ++y)
           {
-            const std::size_t from = 64 * tile + 8 * y;
             const std::size_t to = static_cast<std::size_t>(y0 + y) * frame.width + x0;
-            std::memcpy(frame.color.data() + 4 * to, &this->Held.color[from], 4 * width);
             for (int x = 0; x < width; ++x)
             {
-              const bool seen = this->Held.instance[from + x] != NoInstance;
-              const double depth =
-                seen ? this->Seen.windowDepth(-static_cast<double>(this->Held.z[from + x])) : 1.0;
-              frame.depth[to + x] = static_cast<float>(std::clamp(depth, 0.0, 1.0));
+              const std::size_t from = 64 * tile + 8 * y + x;
+              const bool seen = this->Held.instance[from] != NoInstance;
               hit += seen;
+              if (!this->Missing[from])
+              {
+                const double depth =
+                  seen ? this->Seen.windowDepth(-static_cast<double>(this->Held.z[from])) : 1.0;
+                frame.depth[to + x] = static_cast<float>(std::clamp(depth, 0.0, 1.0));
+                std::memcpy(&frame.color[4 * (to + x)], &this->Held.color[from], 4);
+              }
             }
           }
           frame.tiles[tile] = { hit == 0 ? FrameTile::Kind::Empty

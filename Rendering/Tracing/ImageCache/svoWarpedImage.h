@@ -18,8 +18,10 @@
 #include "svoView.h"
 #include "vtkSVOTracingModule.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace svo
@@ -30,18 +32,21 @@ public:
   /// Nothing is known any more.
   void forget();
 
-  /// Brings what is known to a view. `error`: pixels, between 0.5 and 1, or what of these is next to
-  /// it; 0: none is accepted. False if nothing is known of it, so all tiles are wanted, as in
-  /// parallel views.
+  /// What an error of so many pixels comes to: points come to the centres of pixels at best.
+  static double errorOf(double wanted) { return std::clamp(wanted, 0.5, 1.0); }
+
+  /// Brings what is known to a view. `error`: pixels, see errorOf(); 0: nothing is shown again.
+  /// False if nothing is known of it, so all tiles are wanted, as in parallel views.
   bool warp(const View& view, double error, const ParallelFor& parallelFor);
 
-  /// One byte a tile: it is to be traced. Others may be asked for before add().
+  /// One byte a tile: some of its pixels are to be traced, ...
   const std::vector<std::uint8_t>& wanted() const { return this->Wanted; }
-  void want(std::size_t tile) { this->Wanted[tile] = 1; }
-  /// Share of the tiles that are not.
+  /// ... namely these, one byte each, 64 a tile.
+  const std::vector<std::uint8_t>& missing() const { return this->Missing; }
+  /// Share of the pixels that are not.
   double share() const;
 
-  /// Takes what was traced and shaded of the tiles that are wanted.
+  /// Takes what was traced and shaded of the pixels that are missing.
   void add(const Hits& hits, const Frame& frame, const ParallelFor& parallelFor);
   /// Writes the others, and says so in Frame::tiles and Frame::covered.
   void write(Frame& frame, const ParallelFor& parallelFor) const;
@@ -57,19 +62,34 @@ private:
     std::size_t bytes() const { return this->x.size() * 5 * sizeof(float); }
   };
   void place(std::size_t tile, const View& view, const float matrix[12]);
-  void fill(int firstRow, int endRow, const View& view, float error);
-  bool take(std::size_t tile, const View& view);
+  void fill(int firstRow, int endRow, const View& view);
+  std::uint64_t unsure(std::size_t tile) const;
+  bool isDue(std::size_t tile) const;
+  bool isCorner(int x, int y, std::uint32_t own) const;
+  std::uint32_t pointAt(int x, int y, const View& view, float error) const;
+  bool take(std::size_t tile, const View& view, float error);
   void addTile(std::size_t tile, const Hits& hits, const Frame& frame);
+
+  std::size_t at(int x, int y) const // of the new view
+  {
+    return 64 * (static_cast<std::size_t>(y >> 3) * this->NextX + (x >> 3)) + 8 * (y & 7) + (x & 7);
+  }
+  float depthOf(std::size_t point) const
+  {
+    return this->Held.instance[point] == NoInstance ? std::numeric_limits<float>::infinity()
+                                                    : -this->Held.z[point];
+  }
 
   View Seen;
   bool Known = false;
   int TilesX = 0, TilesY = 0; // of Seen
   int NextX = 0, NextY = 0;   // of the view that is being filled
   Points Held, Next;
-  RawArray<float> U, V;               // pixels; where the points held are in the new view
-  std::vector<float> Lowest, Highest; // V of each tile's points
-  RawArray<std::uint32_t> Keys, Sources;
-  std::vector<std::uint8_t> Wanted;
+  RawArray<float> U, V;                  // pixels; where the points held are in the new view
+  std::vector<float> Lowest, Highest;    // V of each tile's points
+  RawArray<std::uint32_t> Keys, Sources; // by pixel of the new view
+  std::vector<std::uint8_t> Wanted, Missing;
+  std::size_t Frames = 0;
 };
 }
 

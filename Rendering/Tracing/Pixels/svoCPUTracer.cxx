@@ -86,7 +86,7 @@ struct CPUTracer::Internals
   void sampleLights(const ShadedScene& shaded, bool more, const ParallelFor& parallelFor,
     FrameStatistics& statistics);
   void traceViews(const Scene& scene, const View& view, const FrameSettings& settings,
-    const ParallelFor& parallelFor, const FrameChanges& changes, const std::uint8_t* wanted,
+    const ParallelFor& parallelFor, const FrameChanges& changes, const WarpedImage* shown,
     Frame* frame, FrameStatistics& statistics);
   void traceLeftOut(const Scene& scene, const View& view, const ParallelFor& parallelFor);
 };
@@ -312,12 +312,12 @@ std::vector<NeededLevels> CPUTracer::neededLevels(
   return svo::neededLevels(scene, view, settings);
 }
 
-/// The depth buffers of the eye and of the lights, and all that shading needs besides. `wanted`: a
-/// byte a tile, what of the eye's is needed; null: all. `frame`: to be prepared for shading, or
-/// null. Sets the phases' times.
+/// The depth buffers of the eye and of the lights, and all that shading needs besides. `shown`: has
+/// all that need not be traced for the eye, or null. `frame`: to be prepared for shading, or null.
+/// Sets the phases' times.
 void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
   const FrameSettings& settings, const ParallelFor& parallelFor, const FrameChanges& changes,
-  const std::uint8_t* wanted, Frame* frame, FrameStatistics& statistics)
+  const WarpedImage* shown, Frame* frame, FrameStatistics& statistics)
 {
   PhaseClock clock;
   this->Maps.clear();
@@ -331,7 +331,12 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     [&](const Instance& instance, const LocalView& local)
     { return selectEyeLevel(instance, local, view, settings.pixelError); },
     settings.frameCoherence, budget, parallelFor);
+  const std::uint8_t* const wanted = shown ? shown->wanted().data() : nullptr;
   this->Eye.trace(parallelFor, wanted);
+  if (shown)
+  {
+    this->Eye.dropHits(shown->missing().data(), parallelFor);
+  }
   const bool sameFrame =
     frame && this->Tiles.find(this->Eye.hits().depth, view, settings, wanted, *frame);
   this->findStaleTiles(changes, sameFrame);
@@ -426,15 +431,16 @@ void CPUTracer::render(
   changes.all = changes.all || statistics.warpedShare > 0.0;
   statistics = FrameStatistics();
   statistics.lightSamples = samples.count;
-  const bool caches = settings.imageCacheError > 0.0;
+  // Samples are filtered over pixels around, all of which have to be there.
+  const bool caches = settings.imageCacheError > 0.0 && samples.count == 0;
   if (!caches || changes.looks)
   {
     self.Cache.forget();
   }
   const bool warped =
     caches && self.Cache.warp(view, settings.mayWarp ? settings.imageCacheError : 0.0, parallelFor);
-  self.traceViews(scene, view, settings, parallelFor, changes,
-    warped ? self.Cache.wanted().data() : nullptr, &frame, statistics);
+  self.traceViews(scene, view, settings, parallelFor, changes, warped ? &self.Cache : nullptr,
+    &frame, statistics);
   clock.end(); // its phases have been timed
   self.findDarkenedTiles(scene, changes, parallelFor);
 
@@ -459,8 +465,13 @@ void CPUTracer::render(
   if (caches)
   {
     self.Cache.add(self.Eye.hits(), frame, parallelFor);
+  }
+  if (warped)
+  {
     self.Cache.write(frame, parallelFor);
     statistics.warpedShare = self.Cache.share();
+    statistics.warpError = WarpedImage::errorOf(settings.imageCacheError);
+    self.Eye.forgetHits();
   }
   statistics.shade = clock.end();
   self.LightShadows.addStatistics(statistics);
@@ -486,7 +497,8 @@ void CPUTracer::render(
   {
     statistics.largestGap = largestGap(scene, view, self.Eye.hits());
   }
-  statistics.layerMemory = self.Eye.layerMemory() + self.LightShadows.layerMemory();
+  statistics.layerMemory =
+    self.Eye.layerMemory() + self.LightShadows.layerMemory() + self.Cache.memory();
   statistics.shadowMemory = self.LightShadows.mapMemory();
   self.SharesBuffers = false;
   self.SharingTime = 0.0;
@@ -555,6 +567,7 @@ void CPUTracer::releaseLayers()
 {
   this->Impl->Eye.release();
   this->Impl->LightShadows.release();
+  this->Impl->Cache.forget();
   this->Impl->SharesBuffers = false;
   this->Impl->ViewsAreTraced = false;
   this->Impl->Kept.forget();

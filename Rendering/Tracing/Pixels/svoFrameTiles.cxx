@@ -65,23 +65,19 @@ bool FrameTiles::find(const DepthBuffer& depth, const View& view, const FrameSet
   {
     const int x = 8 * static_cast<int>(tile % depth.tilesX);
     const int y = 8 * static_cast<int>(tile / depth.tilesX);
-    if (traced && !traced[tile])
-    {
-      this->Written[tile] = 1;
-      continue;
-    }
-    if (depth.hit[tile])
+    const bool others = traced && !traced[tile];
+    if (depth.hit[tile] && !others)
     {
       this->Hits.push_back(static_cast<std::uint32_t>(tile));
       covered = { std::min(covered.x0, x), std::min(covered.y0, y), std::max(covered.x1, x + 8),
         std::max(covered.y1, y + 8) };
     }
-    else if (this->Written[tile])
+    else if (this->Written[tile] && !others)
     {
       wipeTile(frame, x, y);
       frame.tiles[tile] = { FrameTile::Kind::Empty, frame.version };
     }
-    this->Written[tile] = depth.hit[tile];
+    this->Written[tile] = traced ? 1 : depth.hit[tile];
   }
   frame.covered = PixelRect();
   if (!covered.empty())

@@ -46,7 +46,7 @@ void addSettings(const FrameSettings& s, Bytes& bytes)
 {
   visitCompared(s, [&bytes](const auto& setting) { add(bytes, setting); });
   add(bytes, s.shadowCoarseness, s.detailThreshold, s.receiverMaps, s.wholeShadowBuffers,
-    s.sampledMaps, s.mayWarp, s.writeNormals, s.writeLight, s.writeSlopes, s.writeNames,
+    s.sampledMaps, s.writeNormals, s.writeLight, s.writeSlopes, s.writeNames,
     s.skyPicture ? s.skyPicture->version() : std::uint64_t(0));
 }
 }
@@ -69,6 +69,7 @@ FrameChanges KeptFrame::compare(const Scene& scene, const View& view, const Fram
   FrameChanges changes;
   const bool same = inputs.size() <= this->Inputs.size() &&
     std::equal(inputs.begin(), inputs.end(), this->Inputs.begin());
+  add(inputs, settings.mayWarp);
   addView(view, inputs);
   changes.all = inputs != this->Inputs;
   this->Inputs = std::move(inputs);

@@ -5,7 +5,9 @@
 // frames, in the mean of a channel, and the share of pixels by more than 8 of 255 in one.
 //
 //   BenchmarkWalk [--objects 4000] [--triangles 20000] [--frames 300] [--size 1920x1080]
-//     [--error 1] [--shadows none|buffer|rays] [--json file] [--pictures prefix]
+//     [--error 1] [--speed 1] [--shadows none|buffer|rays] [--json file] [--pictures prefix]
+//
+// --speed: so many times as fast.
 //
 // The exit code is 1 if nothing was shown again.
 #include "performanceCrowd.h"
@@ -40,7 +42,7 @@ struct Options
 {
   performance::CrowdOptions crowd;
   int objects = 4000, frames = 300, size[2] = { 1920, 1080 };
-  double error = 1.0;
+  double error = 1.0, speed = 1.0;
   std::string shadows = "buffer", pictures;
 };
 
@@ -78,7 +80,7 @@ public:
     // Around the middle of the scene, at half of its width.
     const double half = 1.5 * std::ceil(std::sqrt(this->Asked.objects));
     const double step = 0.02 * half, turn = glm::radians(2.0);
-    const double radius = step / turn, angle = turn * frame;
+    const double radius = step / turn, angle = turn * this->Asked.speed * frame;
     vtkCamera* camera = this->Renderer->GetActiveCamera();
     const double x = radius * std::cos(angle), y = radius * std::sin(angle);
     camera->SetPosition(x, y, 5.0);
@@ -89,7 +91,12 @@ public:
     const performance::Moment start = performance::Moment::now();
     this->Window->Render();
     this->Window->WaitForCompletion();
-    this->Times.push_back(performance::Moment::now().processor - start.processor);
+    const performance::Moment end = performance::Moment::now();
+    this->Times.push_back(end.processor - start.processor);
+    for (const auto& phase : this->Phases(start, end))
+    {
+      this->Sums[phase.first] += phase.second;
+    }
     this->Shown += this->Pass->GetImageCacheShare();
     this->Distances.push_back(this->Pass->GetImageSampleDistance());
   }
@@ -145,6 +152,10 @@ public:
     row["meanMs"] = this->meanTime();
     row["medianMs"] = sorted[sorted.size() / 2];
     row["slowestMs"] = sorted[sorted.size() - 1 - sorted.size() / 100];
+    for (const char* phase : { "collectMs", "eyeMs", "markMs", "lightsMs", "shadeMs", "presentMs" })
+    {
+      row[phase] = this->Sums.at(phase) / static_cast<double>(this->Times.size());
+    }
     row["shownAgain"] = this->Shown / static_cast<double>(this->Times.size());
     row["sampleDistance"] = mean(this->Distances);
     row["meanDifference"] = mean(this->Mean);
@@ -153,7 +164,13 @@ public:
       this->Wrong.empty() ? 0.0 : *std::max_element(this->Wrong.begin(), this->Wrong.end());
     return row;
   }
-  void forget() { this->Times.clear(), this->Distances.clear(), this->Shown = 0.0; }
+  void forget()
+  {
+    this->Times.clear();
+    this->Distances.clear();
+    this->Sums.clear();
+    this->Shown = 0.0;
+  }
   double shown() const { return this->Shown; }
 
 private:
@@ -161,9 +178,11 @@ private:
   const Options Asked;
   vtkNew<vtkRenderer> Renderer;
   vtkNew<vtkRenderWindow> Window;
-  vtkNew<vtkSVORenderPass> Pass;
+  performance::PhasesOfFrame Phases;
+  vtkSmartPointer<vtkSVORenderPass> Pass = performance::makePass(Phases, false);
   performance::Crowd Scene;
   std::vector<double> Times, Distances, Mean, Wrong;
+  performance::Phases Sums;
   double Shown = 0.0; // share of the picture, a sum
 };
 }
@@ -195,6 +214,10 @@ int main(int argc, char** argv)
     {
       options.error = std::atof(value.c_str());
     }
+    else if (name == "--speed")
+    {
+      options.speed = std::atof(value.c_str());
+    }
     else if (name == "--shadows")
     {
       options.shadows = value;
@@ -213,8 +236,9 @@ int main(int argc, char** argv)
       return 2;
     }
   }
-  svobench::Results results({ "method", "meanMs", "medianMs", "slowestMs", "shownAgain",
-    "sampleDistance", "meanDifference", "wrongShare", "largestWrongShare" });
+  svobench::Results results({ "method", "meanMs", "medianMs", "slowestMs", "collectMs", "eyeMs",
+    "markMs", "lightsMs", "shadeMs", "presentMs", "shownAgain", "sampleDistance", "meanDifference",
+    "wrongShare", "largestWrongShare" });
   Walker exact("exact", options);
   auto cached = std::make_unique<Walker>("cached", options);
   cached->pass()->SetImageCacheError(options.error);
