@@ -266,19 +266,6 @@ vtksvo_setting(MaximumImageSampleDistance double 8
   SAYS
     "Largest distance from ray to ray while you interact.")
 
-vtksvo_setting(ImageCacheError double 0
-  TABLE time RANGE 0 1 UNIT pixels
-  FIELD imageCacheError CHANGES nothing
-  PANEL advanced
-  SAYS
-    "While you interact and nothing but the camera moves, show the last picture's pixels where they are now, and trace
-     what that leaves open. Pixels are no further from their place than this. 0: all is traced."
-  MORE
-    "Values below 0.5 are taken for that. All of the picture is traced again within eight frames; until then highlights stay as
-     they were seen, and outlines that turn may be off by a pixel more. It saves time where the camera moves slowly, and most with `ShadowRays`
-     ([ImageCaches.md](ImageCaches.md)). All is traced in parallel views, with the OpenGL backend, with `AntiAliasing`, lights that move with the camera,
-     lights with a size, a sky and ambient occlusion. `GetImageCacheShare()` says how much was shown again. Still pictures are exact, as ever.")
-
 vtksvo_setting(DetailCullingThreshold double 0
   TABLE time RANGE 0 1e6 UNIT pixels
   PANEL advanced
@@ -469,8 +456,6 @@ vtksvo_statistic(ImageSampleDistance double UNIT pixels PARAVIEW
   SAYS "Pixels from ray to ray in the last frame.")
 vtksvo_statistic(AcceptedPixelError double UNIT pixels PARAVIEW
   SAYS "The pixel error that the last frame accepted to save time, in pixels.")
-vtksvo_statistic(ImageCacheShare double OF tracer.warpedShare PARAVIEW
-  SAYS "Share of the last frame's picture that is the frame's before it, moved (`ImageCacheError`).")
 vtksvo_statistic(AcceptedLightError double OF tracer.lightNoise UNIT "of 255" PARAVIEW
   SAYS "How far what samples say of each light, of a sky and of ambient occlusion may be off by chance in the last frame: root
     of the mean square of all pixels, where a whole light is 255. What filtering them blurs is not among it. Negative with

@@ -182,9 +182,10 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
   int width, height;
   svo::sizeOf(state, width, height);
   svo::PassFrame& frame = this->Impl->frames.begin(renderer);
+  vtkRenderWindow* window = renderer->GetRenderWindow();
   const bool heard = this->HasObserver(vtkCommand::ProgressEvent) ||
-    renderer->GetRenderWindow()->HasObserver(vtkCommand::AbortCheckEvent);
-  if (heard && this->Impl->refining == 0.0)
+    window->HasObserver(vtkCommand::AbortCheckEvent);
+  if (heard && this->Impl->refining == 0.0 && !this->Impl->idle.may(window))
   {
     frame.sampling = svo::Sampling::Begun;
   }

@@ -190,6 +190,8 @@ bool vtkSVORenderPass::WantsSamples(const svo::PassFrame& frame) const
 /// they like with the scene.
 void vtkSVORenderPass::TellOfSamples(svo::PassFrame& frame)
 {
+  frame.lightNothingMore();
+  this->Impl->statistics = frame.state->statistics();
   double amount = static_cast<double>(frame.state->samples()) / this->MaximumLightSamples;
   this->InvokeEvent(vtkCommand::ProgressEvent, &amount);
   const vtkSmartPointer<vtkRenderWindow> window = frame.renderer->GetRenderWindow();
@@ -231,7 +233,8 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   impl.statistics.imageReduction = this->ImageReductionFactor;
   impl.statistics.pacedShadows = frame.pacedShadows;
   impl.statistics.openGL = frame.openGL;
-  if (!frame.interactive() && !frame.state->refined(this->MaximumLightSamples, this->LightError))
+  if (frame.renderer->GetRenderWindow() && !frame.interactive() &&
+    !frame.state->refined(this->MaximumLightSamples, this->LightError))
   {
     impl.idle.ask(frame.renderer->GetRenderWindow(), [this] { this->RefineFor(StepSeconds); });
   }

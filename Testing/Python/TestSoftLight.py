@@ -184,11 +184,12 @@ class TestSoftLight(unittest.TestCase):
         self.soften()
         self.ground.SetPosition(0.0, 0.0, -0.01)  # else what begins is the picture before
         straight = self.picture()
-        heard, until, change = [], [2.0], []
+        heard, told, until, change = [], [], [2.0], []
 
         @calldata_type(VTK_DOUBLE)
         def hear(caller, event, amount):
             heard.append(amount)
+            told.append((amount, self.svo.GetNumberOfLightSamples() / self.svo.GetMaximumLightSamples()))
             if change:
                 change.pop()()
             if amount >= until[0]:
@@ -251,7 +252,56 @@ class TestSoftLight(unittest.TestCase):
         self.assertTrue((self.picture() == alone).all())
         self.assertEqual(self.svo.GetNumberOfLightSamples(), count)
         self.assertGreater(len(heard), 2)
+        for amount, share in told:
+            self.assertEqual(amount, share)
         self.assertEqual(self.said.GetOutput(), "")
+
+    def test_steps_without_any_light(self):
+        self.renderer.RemoveAllLights()
+        vtkSVORenderPass.SetUseSVO(False, self.ground)
+        self.svo.SetAmbientOcclusion(True)
+        for property in self.ball.GetProperty(), self.ground.GetProperty():
+            property.SetAmbient(0.3)
+        for backend in self.svo.SetBackendToCPU, self.svo.SetBackendToOpenGL:
+            backend()
+            self.ball.SetPosition(0.5, 0.0, 0.0)
+            alone = self.picture()
+            self.assertGreater(alone.max(), 0)
+            self.ball.SetPosition(0.0, 0.0, 0.0)
+            self.picture()
+            lights = []
+            self.svo.AddObserver("ProgressEvent",
+                                 lambda *_: lights.append(self.renderer.GetLights().GetNumberOfItems()))
+            self.ball.SetPosition(0.5, 0.0, 0.0)
+            self.assertTrue((self.picture() == alone).all())
+            self.assertGreater(len(lights), 1)
+            self.assertEqual(max(lights), 0)
+            self.svo.RemoveObservers("ProgressEvent")
+
+    def test_who_receives_may_change_between_steps(self):
+        self.soften()
+        vtkSVORenderPass.SetUseSVO(False, self.ground)
+        self.picture()
+        vtkSVORenderPass.SetUseSVO(True, self.ground)
+        traced = self.picture()
+        vtkSVORenderPass.SetUseSVO(False, self.ground)
+        self.ball.SetPosition(0.5, 0.0, 0.0)
+        shadowed = self.picture()
+        vtkSVORenderPass.SetReceiveShadow(False, self.ground)
+        self.ball.SetPosition(0.0, 0.0, 0.0)
+        self.picture()
+        change = [lambda: vtkSVORenderPass.SetReceiveShadow(True, self.ground)]
+        self.svo.AddObserver("ProgressEvent", lambda *_: change and change.pop()())
+        self.ball.SetPosition(0.5, 0.0, 0.0)
+        self.assertTrue((self.picture() == shadowed).all())
+        self.assertEqual(change, [])
+        change.append(lambda: self.window.RemoveRenderer(self.renderer))
+        self.ball.SetPosition(0.0, 0.0, 0.0)
+        self.window.Render()  # says nothing, and does not crash
+        self.assertEqual(change, [])
+        self.window.AddRenderer(self.renderer)
+        vtkSVORenderPass.SetUseSVO(True, self.ground)
+        self.assertTrue((self.picture() == traced).all())
 
     def test_an_interactor_refines_while_it_has_nothing_else_to_do(self):
         self.window.SetOffScreenRendering(False)
@@ -260,6 +310,7 @@ class TestSoftLight(unittest.TestCase):
         interactor.Initialize()
         self.soften()
         self.svo.SetMaximumLightSamples(32)
+        self.svo.AddObserver("ProgressEvent", lambda *_: None)  # who listens does not make it wait
         self.picture()
         self.assertEqual(self.svo.GetNumberOfLightSamples(), 4)
         done = []

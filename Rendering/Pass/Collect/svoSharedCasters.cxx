@@ -115,7 +115,6 @@ void SharedCasters::exchange(
       instance.receiveShadow = false;
       instance.opacity = record.opacity;
       instance.version = record.version | std::uint64_t(owner + 1) << 48; // like no other's
-      instance.appearance = instance.version;
       instance.id = record.id ^ (0x9e3779b97f4a7c15ull * (owner + 1));
       collected.scene.instances.push_back(instance);
       collected.scene.version = 0;

@@ -112,7 +112,6 @@ void PassFrame::decide(const FrameSettings& asked, const PaceLimits& limits)
   this->settings = asked;
   this->pacedShadows = hasCameraLight(this->renderer);
   this->decideSamples(limits);
-  this->settings.mayWarp = this->interactive();
   if (!this->interactive())
   {
     return;

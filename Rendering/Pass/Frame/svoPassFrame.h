@@ -81,6 +81,7 @@ struct PassFrame
       window->Start();
     }
     this->context = stateOf(window);
+    this->receiving.clear(); // others may receive
     return window != nullptr;
   }
 

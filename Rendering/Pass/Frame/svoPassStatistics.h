@@ -53,7 +53,7 @@ struct PassStatistics
     const double distance = this->sampleDistance();
     return std::max({ distance > 1.0 ? distance * std::max(pixelError, 1.0) : pixelError,
       this->pace.coarseness > 1.0 ? distance * this->tracer.widestTexel : 0.0,
-      this->coarseOctreeError * this->imageReduction, distance * this->tracer.warpError,
+      this->coarseOctreeError * this->imageReduction,
       distance * this->tracer.largestSmallInstance });
   }
 };

@@ -211,9 +211,7 @@ void RendererState::trace(
   const bool occlusion = this->Renderer->GetUseSSAO(); // into a framebuffer that is not bound yet
   settings.writeNormals = occlusion || this->Presenter->WantsNormals();
   settings.writeLight = occlusion || vtkSVOPresenter::KeepsLight();
-  settings.mayWarp = settings.mayWarp && settings.imageCacheError > 0.0 && !settings.lightCode &&
-    !settings.antiAliasing && !settings.writeNormals && !settings.writeLight;
-  settings.writeSlopes = pace.distance == 1.0 && !samplePositions().empty() && !settings.mayWarp;
+  settings.writeSlopes = pace.distance == 1.0 && !samplePositions().empty();
   settings.writeNames = false;
   this->Presenter->Enter(window);
   const bool wantsCode = settings.lightCode;
@@ -367,8 +365,7 @@ void RendererState::present(vtkOpenGLRenderPass* pass)
     this->HasPicture && this->Trace->frame().hasPicture() ? &this->Trace->frame() : nullptr,
     [this](const std::vector<glm::vec2>& positions, Silhouettes& silhouettes)
     {
-      // Else the frame's pixels are not the window's, or not all were traced.
-      if (this->Statistics.pace.distance == 1.0 && !this->Settings.mayWarp)
+      if (this->Statistics.pace.distance == 1.0) // else the frame's pixels are not the window's
       {
         this->Trace->divideEdges(
           this->Collected.scene, this->Eye, positions, smpParallelFor(), silhouettes);

@@ -182,13 +182,7 @@ bool writeInstances(std::vector<PropSurfaces>& props, Stage stage, std::vector<I
       surface.written = now;
       if (stage == Stage::Shown && !(surface.shown == now))
       {
-        const bool looks = !surface.shown.looksAs(now);
-        std::for_each(first, first + many,
-          [looks](Instance& one)
-          {
-            one.version = newVersion();
-            one.appearance = looks ? one.version : one.appearance;
-          });
+        std::for_each(first, first + many, [](Instance& one) { one.version = newVersion(); });
         surface.shown = now;
         changed = true;
       }

@@ -47,13 +47,6 @@ struct WrittenSurface
       std::tie(o.place, o.octree, o.caster, o.neededLevel, o.givesWay, o.deepestLevel,
         o.detailLevel, o.leafGeometry, o.visible, o.casts);
   }
-  /// True if they differ in how deep octrees are at most.
-  bool looksAs(const WrittenSurface& o) const
-  {
-    return std::tie(this->place, this->givesWay, this->leafGeometry, this->visible, this->casts) ==
-      std::tie(o.place, o.givesWay, o.leafGeometry, o.visible, o.casts) &&
-      (this->octree != 0) == (o.octree != 0);
-  }
 };
 
 /// An instance in the making, or one for each copy of a glyph.

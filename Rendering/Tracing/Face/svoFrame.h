@@ -31,8 +31,6 @@ struct FrameNeeds
   /// Rasterised surfaces look up shadow maps inside of Scene::receivers: what the eye may see of
   /// these is traced, and the maps are handed out.
   bool receiverMaps = false;
-  /// Somebody interacts: within imageCacheError the picture may be the last one's, moved.
-  bool mayWarp = false;
   /// Of the sky's light, in the place of two colours; or null.
   std::shared_ptr<const SkyPicture> skyPicture;
   /// ... or anywhere: all is traced, and handed out.
@@ -165,8 +163,6 @@ struct FrameStatistics
   double coarsestTexel = 0.0;
   double widestTexel = 0.0; // no texel of any map looks wider, pixels
   bool fewerTexels = false; // than were asked for, by all processes alike, for lack of memory
-  double warpedShare = 0.0; // of the picture that is the last one's, moved, ...
-  double warpError = 0.0;   // ... and pixels that this may be off by
   /// Largest voxel, pixels, of visible octrees that are coarser than the frame needs, where they
   /// are not traced exactly.
   double coarsestVoxel = 0.0;

@@ -42,9 +42,6 @@ struct Instance
   /// Another one than the last instance at this place of Scene::instances had where anything of it
   /// differs: itself, its body, or what its arrays hold. 0: it may. Tracers go by it alone.
   std::uint64_t version = 0;
-  /// Likewise, where more differs than how deep its octrees are: the same means that it is seen in
-  /// the same place and looks the same, within the frame's pixel error.
-  std::uint64_t appearance = 0;
   DepthOffset depthOffset; // shadows know nothing of it
   /// Where the rasteriser draws the same vertices: 1, what it draws is seen; -1, this is seen; 0,
   /// it does not. See svoShownDepth.h.

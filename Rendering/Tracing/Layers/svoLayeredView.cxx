@@ -123,25 +123,6 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
   }
 }
 
-void LayeredView::dropHits(const std::uint8_t* wanted, const ParallelFor& parallelFor)
-{
-  DepthBuffer& depth = this->Seen.depth;
-  parallelFor(0, depth.tiles(), 512,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t tile = first; tile < last; ++tile)
-      {
-        std::uint32_t none = NoInstance; // of all
-        for (std::size_t i = 64 * tile; depth.hit[tile] && i < 64 * tile + 64; ++i)
-        {
-          depth.instance[i] = wanted[i] ? depth.instance[i] : NoInstance;
-          none &= depth.instance[i];
-        }
-        depth.hit[tile] = none != NoInstance;
-      }
-    });
-}
-
 void LayeredView::findStale(const std::uint8_t* wanted)
 {
   const View& view = this->Instances.view();

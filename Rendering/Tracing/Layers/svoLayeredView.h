@@ -43,11 +43,6 @@ public:
   /// Traces and merges. With `wanted` (one byte a tile) only tiles marked there; others are left
   /// without hits, unless they are what they were.
   void trace(const ParallelFor& parallelFor, const std::uint8_t* wanted);
-  /// After trace(): takes hits away, of pixels (64 a tile) where `wanted` is 0. To be followed by
-  /// forgetHits() before the next frame.
-  void dropHits(const std::uint8_t* wanted, const ParallelFor& parallelFor);
-  /// The next frame knows nothing of what this one has hit.
-  void forgetHits() { this->Seen.tiles.forget(); }
   /// What was hit. Who is seen is true from prepare() on.
   const Hits& hits() const { return this->Seen; }
 

@@ -18,7 +18,6 @@
 #include "svoShadows.h"
 #include "svoSilhouetteFinder.h"
 #include "svoTilePatch.h"
-#include "svoWarpedImage.h"
 
 #include <algorithm>
 #include <chrono>
@@ -67,7 +66,6 @@ struct CPUTracer::Internals
   ReceiverSampler Receivers;
   PixelShader Shader;
   KeptFrame Kept;
-  WarpedImage Cache;
   KeptTiles Shaded;               // by tile of the eye
   std::vector<CasterBox> Casters; // by index into Scene::instances
   int Samples = 0;                // of lights, in the picture
@@ -86,8 +84,8 @@ struct CPUTracer::Internals
   void sampleLights(const ShadedScene& shaded, bool more, const ParallelFor& parallelFor,
     FrameStatistics& statistics);
   void traceViews(const Scene& scene, const View& view, const FrameSettings& settings,
-    const ParallelFor& parallelFor, const FrameChanges& changes, const WarpedImage* shown,
-    Frame* frame, FrameStatistics& statistics);
+    const ParallelFor& parallelFor, const FrameChanges& changes, Frame* frame,
+    FrameStatistics& statistics);
   void traceLeftOut(const Scene& scene, const View& view, const ParallelFor& parallelFor);
 };
 
@@ -312,12 +310,11 @@ std::vector<NeededLevels> CPUTracer::neededLevels(
   return svo::neededLevels(scene, view, settings);
 }
 
-/// The depth buffers of the eye and of the lights, and all that shading needs besides. `shown`: has
-/// all that need not be traced for the eye, or null. `frame`: to be prepared for shading, or null.
-/// Sets the phases' times.
+/// The depth buffers of the eye and of the lights, and all that shading needs besides. `frame`: to
+/// be prepared for shading, or null. Sets the phases' times.
 void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
   const FrameSettings& settings, const ParallelFor& parallelFor, const FrameChanges& changes,
-  const WarpedImage* shown, Frame* frame, FrameStatistics& statistics)
+  Frame* frame, FrameStatistics& statistics)
 {
   PhaseClock clock;
   this->Maps.clear();
@@ -331,14 +328,8 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     [&](const Instance& instance, const LocalView& local)
     { return selectEyeLevel(instance, local, view, settings.pixelError); },
     settings.frameCoherence, budget, parallelFor);
-  const std::uint8_t* const wanted = shown ? shown->wanted().data() : nullptr;
-  this->Eye.trace(parallelFor, wanted);
-  if (shown)
-  {
-    this->Eye.dropHits(shown->missing().data(), parallelFor);
-  }
-  const bool sameFrame =
-    frame && this->Tiles.find(this->Eye.hits().depth, view, settings, wanted, *frame);
+  this->Eye.trace(parallelFor, nullptr);
+  const bool sameFrame = frame && this->Tiles.find(this->Eye.hits().depth, view, settings, *frame);
   this->findStaleTiles(changes, sameFrame);
   statistics.eye = clock.end();
 
@@ -378,8 +369,7 @@ void CPUTracer::Internals::traceLeftOut(
   if (!this->ViewsAreTraced)
   {
     FrameStatistics later; // the frame's own have been told
-    this->traceViews(
-      scene, view, this->Settings, parallelFor, FrameChanges(), nullptr, nullptr, later);
+    this->traceViews(scene, view, this->Settings, parallelFor, FrameChanges(), nullptr, later);
     this->ViewsAreTraced = true;
   }
 }
@@ -428,19 +418,9 @@ void CPUTracer::render(
     statistics.traceTime = statistics.eye.wall;
     return;
   }
-  changes.all = changes.all || statistics.warpedShare > 0.0;
   statistics = FrameStatistics();
   statistics.lightSamples = samples.count;
-  // Samples are filtered over pixels around, all of which have to be there.
-  const bool caches = settings.imageCacheError > 0.0 && samples.count == 0;
-  if (!caches || changes.looks)
-  {
-    self.Cache.forget();
-  }
-  const bool warped =
-    caches && self.Cache.warp(view, settings.mayWarp ? settings.imageCacheError : 0.0, parallelFor);
-  self.traceViews(scene, view, settings, parallelFor, changes, warped ? &self.Cache : nullptr,
-    &frame, statistics);
+  self.traceViews(scene, view, settings, parallelFor, changes, &frame, statistics);
   clock.end(); // its phases have been timed
   self.findDarkenedTiles(scene, changes, parallelFor);
 
@@ -461,17 +441,6 @@ void CPUTracer::render(
   if (samples.refined)
   {
     statistics.lightError = differenceOf(coarser, frame.color);
-  }
-  if (caches)
-  {
-    self.Cache.add(self.Eye.hits(), frame, parallelFor);
-  }
-  if (warped)
-  {
-    self.Cache.write(frame, parallelFor);
-    statistics.warpedShare = self.Cache.share();
-    statistics.warpError = WarpedImage::errorOf(settings.imageCacheError);
-    self.Eye.forgetHits();
   }
   statistics.shade = clock.end();
   self.LightShadows.addStatistics(statistics);
@@ -497,8 +466,7 @@ void CPUTracer::render(
   {
     statistics.largestGap = largestGap(scene, view, self.Eye.hits());
   }
-  statistics.layerMemory =
-    self.Eye.layerMemory() + self.LightShadows.layerMemory() + self.Cache.memory();
+  statistics.layerMemory = self.Eye.layerMemory() + self.LightShadows.layerMemory();
   statistics.shadowMemory = self.LightShadows.mapMemory();
   self.SharesBuffers = false;
   self.SharingTime = 0.0;
@@ -567,7 +535,6 @@ void CPUTracer::releaseLayers()
 {
   this->Impl->Eye.release();
   this->Impl->LightShadows.release();
-  this->Impl->Cache.forget();
   this->Impl->SharesBuffers = false;
   this->Impl->ViewsAreTraced = false;
   this->Impl->Kept.forget();

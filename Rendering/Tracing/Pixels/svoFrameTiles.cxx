@@ -32,8 +32,8 @@ void wipeTile(Frame& frame, int x0, int y0)
   }
 }
 
-bool FrameTiles::find(const DepthBuffer& depth, const View& view, const FrameSettings& settings,
-  const std::uint8_t* traced, Frame& frame)
+bool FrameTiles::find(
+  const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame)
 {
   this->TilesX = depth.tilesX;
   const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
@@ -65,19 +65,18 @@ bool FrameTiles::find(const DepthBuffer& depth, const View& view, const FrameSet
   {
     const int x = 8 * static_cast<int>(tile % depth.tilesX);
     const int y = 8 * static_cast<int>(tile / depth.tilesX);
-    const bool others = traced && !traced[tile];
-    if (depth.hit[tile] && !others)
+    if (depth.hit[tile])
     {
       this->Hits.push_back(static_cast<std::uint32_t>(tile));
       covered = { std::min(covered.x0, x), std::min(covered.y0, y), std::max(covered.x1, x + 8),
         std::max(covered.y1, y + 8) };
     }
-    else if (this->Written[tile] && !others)
+    else if (this->Written[tile])
     {
       wipeTile(frame, x, y);
       frame.tiles[tile] = { FrameTile::Kind::Empty, frame.version };
     }
-    this->Written[tile] = traced ? 1 : depth.hit[tile];
+    this->Written[tile] = depth.hit[tile];
   }
   frame.covered = PixelRect();
   if (!covered.empty())

@@ -21,10 +21,9 @@ class FrameTiles
 public:
   /// Begins a new version of the frame, always the same one: makes it as large as the view, finds
   /// the tiles with hits and Frame::covered, and wipes tiles that have none any more. Returns true
-  /// if the other tiles of the frame are as they were left. `traced`: one byte a tile, of others
-  /// nothing is done, and somebody else writes to all of them; null: all.
-  bool find(const DepthBuffer& depth, const View& view, const FrameSettings& settings,
-    const std::uint8_t* traced, Frame& frame);
+  /// if the other tiles of the frame are as they were left.
+  bool find(
+    const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame);
 
   /// Indices into the depth buffer's tiles, ascending.
   const std::vector<std::uint32_t>& hits() const { return this->Hits; }

@@ -2,7 +2,6 @@
 
 #include "svoSkyPicture.h"
 
-#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -55,6 +54,7 @@ FrameChanges KeptFrame::compare(const Scene& scene, const View& view, const Fram
 {
   Bytes inputs;
   inputs.reserve(this->Inputs.size());
+  addView(view, inputs);
   addSettings(settings, inputs);
   add(inputs, scene.instances.size(), scene.receivers.size(), scene.lights.size(),
     scene.onlyHeadlight);
@@ -67,14 +67,9 @@ FrameChanges KeptFrame::compare(const Scene& scene, const View& view, const Fram
     addLight(light, inputs);
   }
   FrameChanges changes;
-  const bool same = inputs.size() <= this->Inputs.size() &&
-    std::equal(inputs.begin(), inputs.end(), this->Inputs.begin());
-  add(inputs, settings.mayWarp);
-  addView(view, inputs);
   changes.all = inputs != this->Inputs;
   this->Inputs = std::move(inputs);
   changes.instances = this->Instances.update(scene);
-  changes.looks = !same || !this->Instances.looksSame();
   return changes;
 }
 }

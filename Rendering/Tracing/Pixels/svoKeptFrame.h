@@ -17,7 +17,6 @@ namespace svo
 struct FrameChanges
 {
   bool all = true;                      // of the picture nothing is known to be the same
-  bool looks = true;                    // anything looks otherwise, wherever the eye is
   std::vector<std::uint32_t> instances; // by index, those of which anything differs
   bool none() const { return !this->all && this->instances.empty(); }
 };

@@ -48,7 +48,7 @@ TEST(Shared, InitialValuesAreSharedAndStay)
 
 TEST(Instance, IsSmallAndCopiesShareTheirBody)
 {
-  static_assert(sizeof(svo::Instance) == 256, "there are very many");
+  static_assert(sizeof(svo::Instance) == 248, "there are very many");
   const svo::Octree octree = makeOctree(sphere(7, 9), 5);
   std::vector<svo::Instance> copies(1000, instanceOf(octree, 1));
   EXPECT_EQ(copies[0].body.holders(), 1000u);
