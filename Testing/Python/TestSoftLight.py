@@ -97,6 +97,18 @@ class TestSoftLight(unittest.TestCase):
                 print(self.svo.GetBackend(), "occlusion" if occlusion else "soft light", off, filtered)
                 self.assertLess(filtered, share * off)
 
+    def test_several_samples_a_pixel_show_no_more_grain(self):
+        self.svo.SetAmbientOcclusion(True)
+        off = []
+        for count in (0, 8):
+            self.window.SetMultiSamples(count)
+            self.svo.SetMaximumLightSamples(512)
+            truth = self.picture()
+            self.svo.SetMaximumLightSamples(1)
+            off.append(numpy.sqrt(((self.picture() - truth) ** 2).mean()))
+        print("one sample of occlusion, without and with multisampling", off)
+        self.assertLess(off[1], 1.5 * off[0])
+
     def test_more_samples_are_nearer_to_many(self):
         self.soften()
         self.svo.SetFilterLightSamples(False)

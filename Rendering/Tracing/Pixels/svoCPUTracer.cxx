@@ -495,7 +495,7 @@ void CPUTracer::divideEdges(const Scene& scene, const View& view,
   self.traceLeftOut(scene, view, parallelFor);
   findSilhouettes(
     { scene, view, self.Settings, self.Eye.hits(), self.Eye, self.Tiles, self.LightShadows },
-    self.Shader, self.Picture, positions, parallelFor, result);
+    self.Shader, self.Sampled, self.Picture, positions, parallelFor, result);
 }
 
 const ReceiverShares& CPUTracer::receiverShares() const

@@ -19,16 +19,19 @@ void PixelShader::shadow(
   float* missed = scratch.missed;
   std::uint64_t changed = reached;
   const int plane = lit.images ? lit.images->sampled().ofLights[l] : SampledPlanes::None;
+  std::uint64_t found = 0; // by samples
   if (plane != SampledPlanes::None)
   {
     std::fill_n(missed, TilePatch::Most, 0.0f);
-    eachBit(reached, [&](int i) { missed[i] = lit.images->mean(plane, patch, i); });
+    eachBit(reached, [&](int i) { found |= std::uint64_t(lit.has(plane, i)) << i; });
   }
-  else
+  if (plane == SampledPlanes::None || found != reached)
   {
-    changed = this->Points.find(lit.shaded.dark.of(l), *lit.lighting.lights[l].light,
-      this->Points.query(patch, reached, scratch), scratch);
+    changed = found |
+      this->Points.find(lit.shaded.dark.of(l), *lit.lighting.lights[l].light,
+        this->Points.query(patch, reached & ~found, scratch), scratch);
   }
+  eachBit(found, [&](int i) { missed[i] = lit.mean(plane, patch, i); });
   std::fill_n(scratch.light.share, TilePatch::Most, 1.0f);
   eachBit(changed, [&](int i) { scratch.light.share[i] = shareOfLight(missed[i], lit.remaining); });
   if (this->FindsEdges)
@@ -95,7 +98,7 @@ void PixelShader::occlude(const Lit& lit, Scratch& scratch) const
   if (lit.images)
   {
     const int plane = lit.images->sampled().ofOcclusion;
-    eachBit(patch.mask, [&](int i) { closed[i] = lit.images->mean(plane, patch, i); });
+    eachBit(patch.mask, [&](int i) { closed[i] = lit.mean(plane, patch, i); });
   }
   else
   {
@@ -125,7 +128,7 @@ void PixelShader::addSky(const Lit& lit, Scratch& scratch) const
     const int plane = lit.images->sampled().ofSky;
     for (int c = 0; c < 3; ++c)
     {
-      eachBit(patch.mask, [&](int i) { seen[i][c] = lit.images->mean(plane + c, patch, i); });
+      eachBit(patch.mask, [&](int i) { seen[i][c] = lit.mean(plane + c, patch, i); });
     }
   }
   else

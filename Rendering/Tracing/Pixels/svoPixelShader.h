@@ -18,6 +18,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 namespace svo
 {
 /// Two steps a frame: shade() gives each pixel its colour, smoothEdges() gives those on edges the
@@ -46,6 +48,7 @@ public:
     float remaining;                     // of a light in its shadow
     const LightImages* images = nullptr; // what samples found at pixels' centres; null: points
                                          // take their own
+    const glm::ivec2* pixels = nullptr;  // by point: that of which it takes it; null: its own
     bool samples = false; // points stand for a quarter of a pixel each, not for the pixel's centre
 
     explicit Lit(const ShadedScene& frame)
@@ -53,6 +56,19 @@ public:
       , lighting(frame.scene, frame.view)
       , remaining(static_cast<float>(1.0 - frame.settings.shadowIntensity))
     {
+    }
+
+    /// Whether samples were taken for a point of a patch that a light reaches; there are images.
+    /// Another pixel may be turned away from it.
+    bool has(int plane, int i) const
+    {
+      return !this->pixels || this->images->has(plane, this->pixels[i].x, this->pixels[i].y);
+    }
+    /// What they found.
+    float mean(int plane, const TilePatch& patch, int i) const
+    {
+      return this->pixels ? this->images->mean(plane, this->pixels[i].x, this->pixels[i].y)
+                          : this->images->mean(plane, patch, i);
     }
   };
 

@@ -46,7 +46,8 @@ struct TileScratch
   std::vector<EdgePixel> pixels;
   std::vector<TileSamples> samples;
   std::vector<Facet> facets;
-  std::vector<std::size_t> shaded; // indices of facets
+  std::vector<std::size_t> shaded; // indices of facets ...
+  std::vector<glm::ivec2> lit;     // ... and for each the pixel whose samples of light it takes
   TileHitList hits;
   PixelShader::Scratch shading;
 };
@@ -54,9 +55,10 @@ struct TileScratch
 class Finder
 {
 public:
-  Finder(const ShadedScene& shaded, const PixelShader& shader, const Frame& frame,
-    const std::vector<glm::vec2>& positions)
+  Finder(const ShadedScene& shaded, const PixelShader& shader, const LightImages& sampled,
+    const Frame& frame, const std::vector<glm::vec2>& positions)
     : Lit(shaded)
+    , Sampled(sampled)
     , Shader(shader)
     , EyeView(shaded.view)
     , Picture(frame)
@@ -183,31 +185,54 @@ private:
   }
 
   /// Colours all facets: those that the pixel's centre sees as the frame has it, others at the
-  /// middle of their samples, with what their planes have at the pixel's centre.
+  /// middle of their samples, with what their planes have at the pixel's centre. What samples of
+  /// light found beside, on the same thing, they take: few of their own would be grain.
   void color(int tileX, int tileY, TileScratch& scratch) const
   {
     scratch.shaded.clear();
+    scratch.lit.clear();
+    const bool sampled = this->Sampled.sampled().any();
+    std::size_t alone = 0; // facets with nothing beside
     for (const EdgePixel& pixel : scratch.pixels)
     {
       for (std::size_t f = pixel.firstFacet; f < pixel.lastFacet; ++f)
       {
         Facet& facet = scratch.facets[f];
         std::size_t shownBy = this->at(pixel.x, pixel.y);
-        if (!this->shows(pixel, facet) &&
-          (this->Lit.shaded.dark.knows(this->position(facet)) ||
-            !this->nearby(pixel, facet, shownBy)))
+        if (!this->shows(pixel, facet))
         {
-          scratch.shaded.push_back(f);
-          continue;
+          const bool known = this->Lit.shaded.dark.knows(this->position(facet));
+          const bool beside = (sampled || !known) && this->nearby(pixel, facet, shownBy);
+          if (known || !beside)
+          {
+            const auto place = [&](auto& list)
+            { return beside ? list.end() : list.begin() + static_cast<std::ptrdiff_t>(alone); };
+            scratch.shaded.insert(place(scratch.shaded), f);
+            scratch.lit.insert(place(scratch.lit),
+              { static_cast<int>(shownBy) % this->EyeView.width,
+                static_cast<int>(shownBy) / this->EyeView.width });
+            alone += !beside;
+            continue;
+          }
         }
         std::copy_n(this->Picture.color.data() + 4 * shownBy, 4, facet.color);
       }
     }
+    this->shade(tileX, tileY, this->Lit, 0, alone, scratch);
+    PixelShader::Lit beside = this->Lit;
+    beside.images = sampled ? &this->Sampled : nullptr;
+    this->shade(tileX, tileY, beside, alone, scratch.shaded.size(), scratch);
+  }
+
+  /// Of the facets that are to be shaded. `lit`: with images they take what scratch.lit says.
+  void shade(int tileX, int tileY, PixelShader::Lit lit, std::size_t begin, std::size_t end,
+    TileScratch& scratch) const
+  {
     TileHitList& list = scratch.hits;
-    for (std::size_t first = 0; first < scratch.shaded.size(); first += TileHits::Most)
+    for (std::size_t first = begin; first < end; first += TileHits::Most)
     {
-      const std::size_t count =
-        std::min<std::size_t>(scratch.shaded.size() - first, TileHits::Most);
+      const std::size_t count = std::min<std::size_t>(end - first, TileHits::Most);
+      lit.pixels = scratch.lit.data() + first;
       list.start(8 * tileX, 8 * tileY);
       for (std::size_t i = 0; i < count; ++i)
       {
@@ -218,7 +243,7 @@ private:
         // Where OpenGL interpolates, whichever samples a triangle covers.
         list.lookAt(static_cast<int>(i), std::floor(facet.x) + 0.5, std::floor(facet.y) + 0.5);
       }
-      this->Shader.shadePatches(this->Lit, list.hits, scratch.shading,
+      this->Shader.shadePatches(lit, list.hits, scratch.shading,
         [&]
         {
           eachBit(scratch.shading.patch.mask,
@@ -421,6 +446,7 @@ private:
   }
 
   PixelShader::Lit Lit;
+  const LightImages& Sampled;
   const PixelShader& Shader;
   const View& EyeView;
   const Frame& Picture;
@@ -430,15 +456,16 @@ private:
 };
 }
 
-void findSilhouettes(const ShadedScene& shaded, const PixelShader& shader, const Frame& frame,
-  const std::vector<glm::vec2>& positions, const ParallelFor& parallelFor, Silhouettes& result)
+void findSilhouettes(const ShadedScene& shaded, const PixelShader& shader,
+  const LightImages& sampled, const Frame& frame, const std::vector<glm::vec2>& positions,
+  const ParallelFor& parallelFor, Silhouettes& result)
 {
   result.clear();
   if (frame.covered.empty() || positions.empty())
   {
     return;
   }
-  const Finder finder(shaded, shader, frame, positions);
+  const Finder finder(shaded, shader, sampled, frame, positions);
   const View& view = shaded.view;
   // A surface reaches into pixels beside those whose centres show it.
   const int left = std::max(frame.covered.x0 - 1, 0) / 8;

@@ -21,7 +21,8 @@ HWY_INLINE hn::Mask<Floats> reachBox(
   const StreamRays& rays, int first, const float* low, const float* high)
 {
   const Floats d;
-  auto in = hn::Zero(d), out = hn::Load(d, rays.length + first);
+  const auto length = hn::Load(d, rays.length + first);
+  auto in = hn::Zero(d), out = length;
   for (int axis = 0; axis < 3; ++axis)
   {
     const auto start = hn::Load(d, rays.start[axis] + first);
@@ -32,7 +33,8 @@ HWY_INLINE hn::Mask<Floats> reachBox(
     out = hn::Min(out, hn::Max(a, b));
   }
   // Roundings of the quotients; those of the difference are in the box.
-  return hn::Le(in, hn::Mul(out, hn::Set(d, 1.000001f)));
+  // Lanes without a ray hold anything, also what is no number, which may come out as any interval.
+  return hn::And(hn::Ge(length, hn::Zero(d)), hn::Le(in, hn::Mul(out, hn::Set(d, 1.000001f))));
 }
 
 bool anyReaches(const StreamRays& rays, const float* low, const float* high)

@@ -72,6 +72,12 @@ public:
     return of.count[pixel] > 0.0f ? of.mean[pixel] : 0.0f;
   }
 
+  /// Any was taken there.
+  bool has(int plane, int x, int y) const
+  {
+    return this->Planes[static_cast<std::size_t>(plane)].count[this->at(x, y)] > 0.0f;
+  }
+
   /// Of the means.
   SampleNoise noise() const;
 
