@@ -206,7 +206,7 @@ TEST(SoftExtremes, ShearedInstances)
   }
 }
 
-TEST(SoftExtremes, AHundredLights)
+TEST(SoftExtremes, AThousandLights)
 {
   Stage one;
   one.settings.ambientOcclusion = false;
@@ -214,26 +214,26 @@ TEST(SoftExtremes, AHundredLights)
   one.view = lookAt({ 3, -6, 4 }, 40, 32);
   one.scene.lights.resize(1);
   Stage many = one;
-  for (int i = 1; i < 100; ++i)
+  for (int i = 1; i < 1000; ++i)
   {
     many.scene.lights.push_back(one.scene.lights[0]);
-    many.scene.lights.back().id = 100 + i;
-    many.scene.lights.back().size = 0.01 * i;
+    many.scene.lights.back().id = 1000 + i;
+    many.scene.lights.back().size = 0.001 * i;
   }
   for (svo::Light& light : many.scene.lights)
   {
-    light.color = glm::vec3(0.01f);
+    light.color = glm::vec3(0.001f);
   }
   const svo::Frame few = shown(one), all = shown(many);
   expectFinite(few, "one");
-  expectFinite(all, "hundred");
+  expectFinite(all, "thousand");
   one.settings.shadowTechnique = svo::ShadowTechnique::None;
   const svo::Frame open = shown(one);
-  // One sample is all or nothing; a hundredth of a hundred lights lies between.
+  // One sample is all or nothing; a thousandth of a thousand lights lies between.
   int between = 0;
   for (std::size_t i = 0; i < open.light.size(); ++i)
   {
-    EXPECT_LE(all.light[i], open.light[i] * (1.0f + 100 * 6e-8f));
+    EXPECT_LE(all.light[i], open.light[i] * (1.0f + 1000 * 6e-8f));
     between += all.light[i] > 0.02f * open.light[i] && all.light[i] < 0.98f * open.light[i];
   }
   EXPECT_GT(between, 50);
