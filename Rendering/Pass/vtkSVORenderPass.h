@@ -258,6 +258,7 @@ private:
   void TraceFrame(svo::PassFrame& frame, int width, int height);
   bool WantsSamples(const svo::PassFrame& frame) const;
   void TellOfSamples(svo::PassFrame& frame);
+  void TakeStatistics(const svo::PassFrame& frame);
   void FinishFrame(svo::PassFrame& frame);
   bool RefineFor(double seconds);
 #endif

@@ -191,7 +191,7 @@ bool vtkSVORenderPass::WantsSamples(const svo::PassFrame& frame) const
 void vtkSVORenderPass::TellOfSamples(svo::PassFrame& frame)
 {
   frame.lightNothingMore();
-  this->Impl->statistics = frame.state->statistics();
+  this->TakeStatistics(frame);
   double amount = static_cast<double>(frame.state->samples()) / this->MaximumLightSamples;
   this->InvokeEvent(vtkCommand::ProgressEvent, &amount);
   const vtkSmartPointer<vtkRenderWindow> window = frame.renderer->GetRenderWindow();
@@ -218,6 +218,16 @@ void vtkSVORenderPass::TraceFrame(svo::PassFrame& frame, int width, int height)
   }
 }
 
+/// What is told of the last frame is of this one from now on.
+void vtkSVORenderPass::TakeStatistics(const svo::PassFrame& frame)
+{
+  svo::PassStatistics& statistics = this->Impl->statistics;
+  statistics = frame.state->statistics();
+  statistics.imageReduction = this->ImageReductionFactor;
+  statistics.pacedShadows = frame.pacedShadows;
+  statistics.openGL = frame.openGL;
+}
+
 /// Ends a frame, whether or not it was drawn; the caller holds the pass.
 void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
 {
@@ -229,10 +239,7 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   }
   frame.state->finish();
   frame.lightNothingMore();
-  impl.statistics = frame.state->statistics();
-  impl.statistics.imageReduction = this->ImageReductionFactor;
-  impl.statistics.pacedShadows = frame.pacedShadows;
-  impl.statistics.openGL = frame.openGL;
+  this->TakeStatistics(frame);
   if (frame.renderer->GetRenderWindow() && !frame.interactive() &&
     !frame.state->refined(this->MaximumLightSamples, this->LightError))
   {

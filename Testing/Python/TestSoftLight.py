@@ -196,12 +196,13 @@ class TestSoftLight(unittest.TestCase):
         self.soften()
         self.ground.SetPosition(0.0, 0.0, -0.01)  # else what begins is the picture before
         straight = self.picture()
-        heard, told, until, change = [], [], [2.0], []
+        heard, told, backends, until, change = [], [], [], [2.0], []
 
         @calldata_type(VTK_DOUBLE)
         def hear(caller, event, amount):
             heard.append(amount)
             told.append((amount, self.svo.GetNumberOfLightSamples() / self.svo.GetMaximumLightSamples()))
+            backends.append(self.svo.GetActiveBackend())
             if change:
                 change.pop()()
             if amount >= until[0]:
@@ -216,6 +217,7 @@ class TestSoftLight(unittest.TestCase):
                 self.ball.SetPosition(0.5, 0.0, 0.0)
                 other = self.picture()
                 self.assertEqual(heard, [0.125, 0.25, 0.5])
+                self.assertEqual(set(backends[-3:]), {self.svo.GetBackend()})
                 # The next Render() goes on where this one ended.
                 heard.clear()
                 until[0] = 0.25

@@ -11,6 +11,22 @@
 
 namespace svo
 {
+std::uint64_t PixelShader::Scratch::sampled(
+  const LightImages& images, int plane, std::uint64_t reached) const
+{
+  std::uint64_t found = reached;
+  if (this->pixels)
+  {
+    eachBit(reached,
+      [&](int i)
+      {
+        const bool any = images.has(plane, this->pixels[i].x, this->pixels[i].y);
+        found ^= std::uint64_t(!any) << i;
+      });
+  }
+  return found;
+}
+
 /// Sets what shadows leave of light l, on points that it reaches.
 void PixelShader::shadow(
   std::size_t l, const Lit& lit, std::uint64_t reached, Scratch& scratch) const
@@ -23,7 +39,7 @@ void PixelShader::shadow(
   if (plane != SampledPlanes::None)
   {
     std::fill_n(missed, TilePatch::Most, 0.0f);
-    eachBit(reached, [&](int i) { found |= std::uint64_t(lit.has(plane, i)) << i; });
+    found = scratch.sampled(*lit.images, plane, reached);
   }
   if (plane == SampledPlanes::None || found != reached)
   {
@@ -31,7 +47,7 @@ void PixelShader::shadow(
       this->Points.find(lit.shaded.dark.of(l), *lit.lighting.lights[l].light,
         this->Points.query(patch, reached & ~found, scratch), scratch);
   }
-  eachBit(found, [&](int i) { missed[i] = lit.mean(plane, patch, i); });
+  eachBit(found, [&](int i) { missed[i] = scratch.mean(*lit.images, plane, i); });
   std::fill_n(scratch.light.share, TilePatch::Most, 1.0f);
   eachBit(changed, [&](int i) { scratch.light.share[i] = shareOfLight(missed[i], lit.remaining); });
   if (this->FindsEdges)
@@ -98,7 +114,7 @@ void PixelShader::occlude(const Lit& lit, Scratch& scratch) const
   if (lit.images)
   {
     const int plane = lit.images->sampled().ofOcclusion;
-    eachBit(patch.mask, [&](int i) { closed[i] = lit.mean(plane, patch, i); });
+    eachBit(patch.mask, [&](int i) { closed[i] = scratch.mean(*lit.images, plane, i); });
   }
   else
   {
@@ -128,7 +144,7 @@ void PixelShader::addSky(const Lit& lit, Scratch& scratch) const
     const int plane = lit.images->sampled().ofSky;
     for (int c = 0; c < 3; ++c)
     {
-      eachBit(patch.mask, [&](int i) { seen[i][c] = lit.mean(plane + c, patch, i); });
+      eachBit(patch.mask, [&](int i) { seen[i][c] = scratch.mean(*lit.images, plane + c, i); });
     }
   }
   else

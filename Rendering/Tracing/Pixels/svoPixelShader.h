@@ -48,7 +48,6 @@ public:
     float remaining;                     // of a light in its shadow
     const LightImages* images = nullptr; // what samples found at pixels' centres; null: points
                                          // take their own
-    const glm::ivec2* pixels = nullptr;  // by point: that of which it takes it; null: its own
     bool samples = false; // points stand for a quarter of a pixel each, not for the pixel's centre
 
     explicit Lit(const ShadedScene& frame)
@@ -56,19 +55,6 @@ public:
       , lighting(frame.scene, frame.view)
       , remaining(static_cast<float>(1.0 - frame.settings.shadowIntensity))
     {
-    }
-
-    /// Whether samples were taken for a point of a patch that a light reaches; there are images.
-    /// Another pixel may be turned away from it.
-    bool has(int plane, int i) const
-    {
-      return !this->pixels || this->images->has(plane, this->pixels[i].x, this->pixels[i].y);
-    }
-    /// What they found.
-    float mean(int plane, const TilePatch& patch, int i) const
-    {
-      return this->pixels ? this->images->mean(plane, this->pixels[i].x, this->pixels[i].y)
-                          : this->images->mean(plane, patch, i);
     }
   };
 
@@ -80,6 +66,18 @@ public:
     TileLight light;
     TileColors colors;
     Darkness darkness[TilePatch::Most]; // by pixel
+    /// By point: the pixel whose samples of light it takes from Lit::images; null: its own.
+    const glm::ivec2* pixels = nullptr;
+
+    /// Those of the points that a light reaches of which samples were taken. Another pixel may be
+    /// turned away from the light.
+    std::uint64_t sampled(const LightImages& images, int plane, std::uint64_t reached) const;
+    /// What they found.
+    float mean(const LightImages& images, int plane, int i) const
+    {
+      return this->pixels ? images.mean(plane, this->pixels[i].x, this->pixels[i].y)
+                          : images.mean(plane, this->patch, i);
+    }
   };
 
   /// After shade(): colours the points of hits anywhere in a tile, patch by patch: sets `colors`

@@ -46,8 +46,8 @@ struct TileScratch
   std::vector<EdgePixel> pixels;
   std::vector<TileSamples> samples;
   std::vector<Facet> facets;
-  std::vector<std::size_t> shaded; // indices of facets ...
-  std::vector<glm::ivec2> lit;     // ... and for each the pixel whose samples of light it takes
+  std::vector<std::size_t> alone, beside; // indices of facets that are to be shaded
+  std::vector<glm::ivec2> places;         // of `beside`: pixels whose samples of light it takes
   TileHitList hits;
   PixelShader::Scratch shading;
 };
@@ -58,7 +58,7 @@ public:
   Finder(const ShadedScene& shaded, const PixelShader& shader, const LightImages& sampled,
     const Frame& frame, const std::vector<glm::vec2>& positions)
     : Lit(shaded)
-    , Sampled(sampled)
+    , Beside(this->Lit)
     , Shader(shader)
     , EyeView(shaded.view)
     , Picture(frame)
@@ -66,6 +66,7 @@ public:
     , SampleCount(std::min(static_cast<int>(positions.size()), MostSamples))
     , Edges(frame, shaded.eye.depth, shaded.view)
   {
+    this->Beside.images = sampled.sampled().any() ? &sampled : nullptr;
   }
 
   /// Adds what is to be changed in an 8x8 tile.
@@ -189,10 +190,9 @@ private:
   /// light found beside, on the same thing, they take: few of their own would be grain.
   void color(int tileX, int tileY, TileScratch& scratch) const
   {
-    scratch.shaded.clear();
-    scratch.lit.clear();
-    const bool sampled = this->Sampled.sampled().any();
-    std::size_t alone = 0; // facets with nothing beside
+    scratch.alone.clear();
+    scratch.beside.clear();
+    scratch.places.clear();
     for (const EdgePixel& pixel : scratch.pixels)
     {
       for (std::size_t f = pixel.firstFacet; f < pixel.lastFacet; ++f)
@@ -202,41 +202,41 @@ private:
         if (!this->shows(pixel, facet))
         {
           const bool known = this->Lit.shaded.dark.knows(this->position(facet));
-          const bool beside = (sampled || !known) && this->nearby(pixel, facet, shownBy);
-          if (known || !beside)
+          const bool nearby =
+            (this->Beside.images || !known) && this->nearby(pixel, facet, shownBy);
+          if (!nearby)
           {
-            const auto place = [&](auto& list)
-            { return beside ? list.end() : list.begin() + static_cast<std::ptrdiff_t>(alone); };
-            scratch.shaded.insert(place(scratch.shaded), f);
-            scratch.lit.insert(place(scratch.lit),
-              { static_cast<int>(shownBy) % this->EyeView.width,
-                static_cast<int>(shownBy) / this->EyeView.width });
-            alone += !beside;
+            scratch.alone.push_back(f);
+            continue;
+          }
+          if (known)
+          {
+            const auto at = static_cast<int>(shownBy);
+            scratch.beside.push_back(f);
+            scratch.places.emplace_back(at % this->EyeView.width, at / this->EyeView.width);
             continue;
           }
         }
         std::copy_n(this->Picture.color.data() + 4 * shownBy, 4, facet.color);
       }
     }
-    this->shade(tileX, tileY, this->Lit, 0, alone, scratch);
-    PixelShader::Lit beside = this->Lit;
-    beside.images = sampled ? &this->Sampled : nullptr;
-    this->shade(tileX, tileY, beside, alone, scratch.shaded.size(), scratch);
+    this->shade(tileX, tileY, this->Lit, scratch.alone, nullptr, scratch);
+    this->shade(tileX, tileY, this->Beside, scratch.beside, scratch.places.data(), scratch);
   }
 
-  /// Of the facets that are to be shaded. `lit`: with images they take what scratch.lit says.
-  void shade(int tileX, int tileY, PixelShader::Lit lit, std::size_t begin, std::size_t end,
-    TileScratch& scratch) const
+  /// Some of the facets. `pixels`: PixelShader::Scratch::pixels of each.
+  void shade(int tileX, int tileY, const PixelShader::Lit& lit,
+    const std::vector<std::size_t>& facets, const glm::ivec2* pixels, TileScratch& scratch) const
   {
     TileHitList& list = scratch.hits;
-    for (std::size_t first = begin; first < end; first += TileHits::Most)
+    for (std::size_t first = 0; first < facets.size(); first += TileHits::Most)
     {
-      const std::size_t count = std::min<std::size_t>(end - first, TileHits::Most);
-      lit.pixels = scratch.lit.data() + first;
+      const std::size_t count = std::min<std::size_t>(facets.size() - first, TileHits::Most);
+      scratch.shading.pixels = pixels ? pixels + first : nullptr;
       list.start(8 * tileX, 8 * tileY);
       for (std::size_t i = 0; i < count; ++i)
       {
-        const Facet& facet = scratch.facets[scratch.shaded[first + i]];
+        const Facet& facet = scratch.facets[facets[first + i]];
         const double base = this->Lit.shaded.eye.base(facet.instance);
         list.put(static_cast<int>(i), facet.x, facet.y, static_cast<float>(facet.t - base),
           facet.instance, facet.primitive);
@@ -249,7 +249,7 @@ private:
           eachBit(scratch.shading.patch.mask,
             [&](int i)
             {
-              Facet& facet = scratch.facets[scratch.shaded[first + i]];
+              Facet& facet = scratch.facets[facets[first + i]];
               std::memcpy(facet.color, scratch.shading.colors.rgba + i, 4);
             });
         });
@@ -446,7 +446,7 @@ private:
   }
 
   PixelShader::Lit Lit;
-  const LightImages& Sampled;
+  PixelShader::Lit Beside; // by what samples found beside, if there are any
   const PixelShader& Shader;
   const View& EyeView;
   const Frame& Picture;

@@ -41,11 +41,14 @@ void LightImages::begin(const SampledPlanes& sampled, int tilesX, int tilesY,
   this->Planes.resize(static_cast<std::size_t>(sampled.count));
   for (Plane& plane : this->Planes)
   {
-    const bool fresh = plane.count.size() != this->Surfaces.depth.size();
+    if (plane.count.size() == this->Surfaces.depth.size())
+    {
+      continue;
+    }
     for (RawArray<float>* part : { &plane.sum, &plane.count, &plane.mean })
     {
       part->resize(this->Surfaces.depth.size());
-      std::fill_n(part->data(), fresh ? part->size() : 0, 0.0f); // of tiles that are never started
+      std::fill_n(part->data(), part->size(), 0.0f); // of tiles that are never started
     }
   }
   this->Variance.resize(this->Surfaces.depth.size());

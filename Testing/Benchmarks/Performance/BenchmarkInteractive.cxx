@@ -5,6 +5,7 @@
 // differ by more than 8 of 255 in some channel.
 //
 //   BenchmarkInteractive [triangles] [none | buffer | rays | automatic] [Hz ...]
+#include "pictureDifference.h"
 #include "svoBenchmarkMesh.h"
 #include "vtkSVORenderPass.h"
 
@@ -38,7 +39,6 @@ namespace
 {
 constexpr int Width = 1920, Height = 1080;
 constexpr int Frames = 12, WarmUp = 4;
-constexpr int Visible = 8; // of 255
 
 /// Two cores' processor time, and the clock.
 struct Moment
@@ -152,22 +152,9 @@ void run(vtkRenderWindow* window, vtkRenderer* renderer, SteadyPass* pass, doubl
     turn(frame);
     std::vector<unsigned char> still;
     draw(window, pass, 0.001, still);
-    const std::vector<unsigned char>& quick = shown[frame];
-    double sum = 0.0;
-    int differing = 0, covered = 0;
-    for (std::size_t i = 0; i < still.size(); i += 3)
-    {
-      int most = 0;
-      for (std::size_t c = i; c < i + 3; ++c)
-      {
-        most = std::max(most, std::abs(still[c] - quick[c]));
-        sum += std::abs(still[c] - quick[c]) / 3.0;
-      }
-      differing += most > Visible;
-      covered += still[i] + still[i + 1] + still[i + 2] > 0;
-    }
-    mean.push_back(sum / covered);
-    wrong.push_back(100.0 * differing / covered);
+    const performance::PictureDifference off(still, shown[frame]);
+    mean.push_back(off.mean);
+    wrong.push_back(100.0 * off.wrong);
   }
   const auto timed = [](const std::vector<double>& all) {
     return median({ all.begin() + WarmUp, all.end() });

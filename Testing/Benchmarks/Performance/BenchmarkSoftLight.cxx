@@ -25,6 +25,7 @@
 #include "objects.h"
 #include "performancePass.h"
 #include "performanceWindow.h"
+#include "pictureDifference.h"
 #include "scenes.h"
 #include "svoResults.h"
 #include "vtkSVORenderPass.h"
@@ -380,21 +381,10 @@ bool Benchmark::interactive(int cores, double rate, int frames)
       shown.setView(0, 3.0 * i);
       if (still)
       {
-        const Picture truth = shown.picture(), &picture = quick[static_cast<std::size_t>(i)];
-        double sum = 0.0, wrong = 0.0, seen = 0.0;
-        for (std::size_t p = 0; p < truth.size(); p += 3)
-        {
-          int most = 0;
-          for (std::size_t c = p; c < p + 3; ++c)
-          {
-            most = std::max(most, std::abs(truth[c] - picture[c]));
-            sum += std::abs(truth[c] - picture[c]) / 3.0;
-          }
-          wrong += most > 8;
-          seen += truth[p] + truth[p + 1] + truth[p + 2] > 0;
-        }
-        means.push_back(sum / seen);
-        wrongs.push_back(wrong / seen);
+        const performance::PictureDifference off(
+          shown.picture(), quick[static_cast<std::size_t>(i)]);
+        means.push_back(off.mean);
+        wrongs.push_back(off.wrong);
         continue;
       }
       const performance::Moment begin = performance::Moment::now();
