@@ -192,7 +192,7 @@ vtksvo_setting(LightError double 0
     "Stop sampling lights where twice as many samples have changed the picture by no more than this (root of the mean
      square, of colours up to 255). 0: take all of `MaximumLightSamples`."
   MORE
-    "The OpenGL backend takes all of them in any case: what they have changed is not read back.")
+    "What VTK draws counts by its shares of light, which the OpenGL backend reads back for it.")
 
 vtksvo_setting(AntiAliasing bool false
   TABLE speed

@@ -94,7 +94,7 @@ Shares sharesOf(vtkOpenGLRenderWindow* window, svo::Scene scene, const svo::View
     looking.update(window, mask.lookUp(code, view.width, view.height, false, 1 << 28), 1.0, false);
     checks.expect(looking.gathers(), "a mask: " + mask.refusal());
     mask.find(window->GetState(), code, false,
-      [&]
+      [&](int, int)
       {
         drawFragments(window, view.width, inputs, "",
           "  gl_FragData[0] = vec4(texelFetch(input0, at, 0).xyz, 0.0);\n"

@@ -311,7 +311,7 @@ void compare(vtkOpenGLRenderWindow* window, const std::string& name, const glm::
     looking.update(window, mask.lookUp(code, Across, Across, false, 1 << 24), 1.0, false);
     checks.expect(looking.gathers() && mask.computes() == (i == 1), name + ": a mask");
     mask.find(window->GetState(), code, false,
-      [&]
+      [&](int, int)
       {
         drawFragments(window, Across, inputs, receivers.declarations(),
           facet +

@@ -75,19 +75,44 @@ class TestLightSteps(SoftLightTest):
 
     def test_an_error_ends_it(self):
         self.soften()
-        self.svo.SetMaximumLightSamples(4096)
-        self.svo.SetLightError(1.0)
-        found = self.picture()
-        count = self.svo.GetNumberOfLightSamples()
-        self.assertLess(count, 4096)
-        self.assertGreater(count, 4)
-        self.svo.SetLightError(0.0)
-        self.svo.SetMaximumLightSamples(count)
-        self.assertTrue((self.picture() == found).all())
-        self.svo.SetMaximumLightSamples(1024)
-        truth = self.picture()
-        hit = truth.sum(axis=1) > 0
-        self.assertLess(numpy.sqrt(((found - truth)[hit] ** 2).mean()), 1.0)
+        self.svo.SetAmbientOcclusion(True)
+        for traced in True, False:
+            for backend in self.svo.SetBackendToCPU, self.svo.SetBackendToOpenGL:
+                vtkSVORenderPass.SetUseSVO(traced, self.ground)
+                backend()
+                self.svo.SetMaximumLightSamples(4096)
+                self.svo.SetLightError(1.0)
+                found = self.picture()
+                count = self.svo.GetNumberOfLightSamples()
+                self.assertLess(count, 4096)
+                self.assertGreater(count, 4)
+                # The same, step by step.
+                self.ball.SetPosition(0.5, 0.0, 0.0)
+                self.window.SetDesiredUpdateRate(10.0)
+                self.picture()
+                self.ball.SetPosition(0.0, 0.0, 0.0)
+                self.picture()
+                self.window.SetDesiredUpdateRate(0.0001)
+                self.assertEqual(self.refine()[-1], count // 2)
+                self.assertFalse(self.svo.Refine())
+                self.assertTrue((self.shown() == found).all())
+                # An unchanged picture is as good as it was; a smaller error takes more.
+                self.assertTrue((self.picture() == found).all())
+                self.assertEqual(self.svo.GetNumberOfLightSamples(), count)
+                self.svo.SetLightError(1e-3)
+                self.svo.SetMaximumLightSamples(2 * count)
+                self.picture()
+                self.assertEqual(self.svo.GetNumberOfLightSamples(), 2 * count)
+                self.svo.SetLightError(0.0)
+                self.ball.SetPosition(0.5, 0.0, 0.0)
+                self.picture()
+                self.ball.SetPosition(0.0, 0.0, 0.0)
+                self.svo.SetMaximumLightSamples(count)
+                self.assertTrue((self.picture() == found).all())
+                self.svo.SetMaximumLightSamples(1024)
+                truth = self.picture()
+                hit = truth.sum(axis=1) > 0
+                self.assertLess(numpy.sqrt(((found - truth)[hit] ** 2).mean()), 1.0)
 
     def test_who_listens_hears_of_samples_and_ends_them(self):
         self.soften()

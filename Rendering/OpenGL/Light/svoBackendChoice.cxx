@@ -144,7 +144,7 @@ RayRates measureRays(vtkOpenGLRenderWindow* window, const ParallelFor& parallelF
       if (quad.Program && mask.accepts(code) &&
         &mask.lookUp(code, Width, height, false, settings.gpuMemoryLimit) != &code)
       {
-        const auto draw = [&]
+        const auto draw = [&](int, int)
         {
           window->GetShaderCache()->ReadyShaderProgram(quad.Program);
           quad.Render();

@@ -8,6 +8,7 @@ uniform usamplerBuffer svoSequence; // a mask of blue noise, 64x64; points of th
 uniform int svoNumber; // of svoLeft(), whose samples these are
 uniform int svoStream;
 uniform float svoSize; // LightCode::Sampled
+uniform int svoRowsOfSlice; // ReceiverPlaces::sliceRows
 uniform int svoFirstSample;
 uniform int svoEndSample;
 
@@ -26,7 +27,7 @@ vec2 svoDisc(uvec2 square)
   return radius * (wide ? vec2(cos(angle), sin(angle)) : vec2(sin(angle), cos(angle)));
 }
 
-// (Of upright surfaces z is 0 but for what the planes' texels round.)
+// svoSampleDirections.h
 mat3 svoBasis(vec3 z)
 {
   float side = z.z < -1e-4 ? -1.0 : 1.0;
@@ -105,7 +106,7 @@ vec4 svoSumsAt(ivec2 pixel)
   float cap = sine * sine / (1.0 + sqrt(1.0 - sine * sine)); // solid angle grows by it
   mat3 toWorld = mat3(svoViewToTree);
   mat3 basis = svoBasis(toWorld * (towards / away));
-  uvec2 at = uvec2(pixel) + uint(svoStream) * uvec2(23u, 13u);
+  uvec2 at = uvec2(pixel.x, pixel.y % svoRowsOfSlice) + uint(svoStream) * uvec2(23u, 13u);
   uvec2 turn = uvec2(svoNoise(at), svoNoise(at + uvec2(37u, 17u)));
   for (int i = svoFirstSample; i < svoEndSample; ++i)
   {

@@ -71,8 +71,8 @@ bool LightSamples::resize(int width, int height, int layers)
   return complete;
 }
 
-void LightSamples::take(
-  vtkOpenGLState* state, const LightCode& asked, const std::vector<ShaderValues::Texture>& places)
+void LightSamples::take(vtkOpenGLState* state, const LightCode& asked,
+  const std::vector<ShaderValues::Texture>& places, int sliceRows)
 {
   this->Held = asked.picture == this->Picture ? this->Held : 0;
   this->Picture = asked.picture;
@@ -103,6 +103,7 @@ void LightSamples::take(
   std::vector<ShaderValues::Texture> textures = places;
   textures.push_back({ "svoSequence", this->Sequence.name() });
   PixelProgram::Use program(state, this->Program, asked, textures);
+  program.set("svoRowsOfSlice", sliceRows);
   for (int first = this->Held; first < asked.samples; first += AtATime)
   {
     program.set("svoFirstSample", first);

@@ -26,9 +26,10 @@ public:
   bool resize(int width, int height, int layers);
   int layers() const { return this->Layers; }
 
-  /// Takes those that are asked for, and not there yet, from where `places` say that surfaces lie.
+  /// Takes those that are asked for, and not there yet, from where `places` say that surfaces lie,
+  /// in slices of so many rows (ReceiverPlaces).
   void take(vtkOpenGLState* state, const LightCode& asked,
-    const std::vector<ShaderValues::Texture>& places);
+    const std::vector<ShaderValues::Texture>& places, int sliceRows);
   void forget() { this->Held = 0; }
 
   /// Layers by what is sampled (LightCode::sampled): red, green, blue, and how many.

@@ -1,5 +1,6 @@
 // How much of a light reaches a fragment, as a mask has it: svoShadowMask.h, svoSampledMask.h. Where
 // svoHasOthers is defined there are fragments of which the mask knows nothing: they ask themselves.
+// Where svoSlices is it knows so many slices (svoPlaceBuffer.h), else nothing of what is translucent.
 // svoPlaneOf(number): which of its planes; where svoHasMaps is defined none, below 0, is one that
 // svoLeftByRay() has, or below -1, that takes nothing.
 uniform sampler2DArray svoShares; // four planes a layer
@@ -7,6 +8,7 @@ uniform int svoFirstPixel[2];     // of the mask, in the window
 uniform float svoMaskPixels[2];   // along an edge of a pixel of the window
 #ifdef svoHasOthers
 uniform sampler2D svoPlaces; // svoShadowMaskShader.glsl
+uniform int svoSliceRows[2]; // of a slice; from one to the next
 uniform float svoOpaque;     // 1: nothing is seen through this surface
 #endif
 #ifndef svoPlaneOf
@@ -18,6 +20,27 @@ ivec2 svoMaskPixel()
   vec2 at = gl_FragCoord.xy - vec2(svoFirstPixel[0], svoFirstPixel[1]);
   return ivec2(at * vec2(svoMaskPixels[0], svoMaskPixels[1]));
 }
+
+#ifdef svoHasOthers
+// How many pixels may know a surface at one: itself and those beside it, in all slices if something
+// is seen through it. A prop may be opaque in parts.
+int svoBesideCount()
+{
+#ifdef svoSlices
+  return svoOpaque > 0.0 ? 9 : 9 * svoSlices;
+#else
+  return svoOpaque > 0.0 ? 9 : 0;
+#endif
+}
+
+// One of them; the pixel itself comes first.
+ivec2 svoBeside(ivec2 pixel, int i)
+{
+  ivec2 last = ivec2(textureSize(svoPlaces, 0).x, svoSliceRows[0]) - 1;
+  ivec2 at = clamp(pixel + ivec2((i + 4) % 9 % 3, (i + 4) % 9 / 3) - 1, ivec2(0), last);
+  return at + ivec2(0, i / 9 * svoSliceRows[1]);
+}
+#endif
 
 float svoShareOf(int number, ivec2 pixel)
 {
@@ -38,16 +61,14 @@ float svoLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, flo
   // A part of a pixel whose centre shows another surface takes the light of the pixel beside it that
   // shows its own. What lies behind all of these is not seen, but where they are as near as two of its
   // own pixels are to each other: things that touch.
-  ivec2 last = textureSize(svoShares, 0).xy - 1;
   ivec2 best = ivec2(-1);
   extent /= min(svoMaskPixels[0], svoMaskPixels[1]);
   float least = 2.0 * extent;
   bool hidden = svoOpaque > 0.0;
   float near = 2.0 * extent / max(abs(dot(normalize(position), facet)), 0.05);
-  for (int i = 0; i < 9 && svoOpaque > 0.0 && least > 0.01 * extent; ++i)
+  for (int i = 0; i < svoBesideCount() && least > 0.01 * extent; ++i)
   {
-    // The pixel itself comes first.
-    ivec2 at = clamp(pixel + ivec2((i + 4) % 9 % 3, (i + 4) % 9 / 3) - 1, ivec2(0), last);
+    ivec2 at = svoBeside(pixel, i);
     vec4 place = texelFetch(svoPlaces, at, 0);
     vec3 between = place.xyz - position;
     float away = length(between);

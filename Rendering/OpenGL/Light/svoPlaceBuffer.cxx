@@ -1,23 +1,26 @@
 #include "svoPlaceBuffer.h"
 
+#include "svoLightCode.h"
 #include "svoOpenGL.h"
 #include "svoReceivers.h"
 #include "svoTextures.h"
 
 #include "vtkOpenGLState.h"
 
+#include <string>
+
 namespace svo
 {
-bool PlaceBuffer::resize(int width, int height)
+bool PlaceBuffer::resize(int width, int height, bool translucent)
 {
-  if (width == this->Width && height == this->Height)
+  if (width == this->Width && height == this->Height && translucent == this->translucent())
   {
     return true;
   }
   if (this->any())
   {
-    const GLuint textures[] = { this->Places, this->Planes, this->Depths };
-    glDeleteTextures(3, textures);
+    const GLuint textures[] = { this->Places, this->Planes, this->Depths, this->Before };
+    glDeleteTextures(4, textures);
     glDeleteFramebuffers(1, &this->Framebuffer);
   }
   *this = PlaceBuffer();
@@ -29,9 +32,11 @@ bool PlaceBuffer::resize(int width, int height)
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before);
   this->Width = width;
   this->Height = height;
-  this->Places = makeTexture(GL_RGBA32F, width, height);
-  this->Planes = makeTexture(GL_RGBA16, width, height);
-  this->Depths = makeTexture(GL_DEPTH_COMPONENT32F, width, height);
+  this->Slices = translucent ? 1 + TranslucentSlices : 1;
+  this->Places = makeTexture(GL_RGBA32F, width, this->rows());
+  this->Planes = makeTexture(GL_RGBA16, width, this->rows());
+  this->Depths = makeTexture(GL_DEPTH_COMPONENT32F, width, this->rows());
+  this->Before = translucent ? makeTexture(GL_RGBA32F, width, height) : 0;
   glGenFramebuffers(1, &this->Framebuffer);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Framebuffer);
   glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Places, 0);
@@ -49,17 +54,17 @@ bool PlaceBuffer::resize(int width, int height)
   return true;
 }
 
-void PlaceBuffer::gather(vtkOpenGLState* state, const std::function<void()>& draw)
+void PlaceBuffer::gather(vtkOpenGLState* state, const Draw& draw)
 {
   using Able = vtkOpenGLState::ScopedglEnableDisable;
   const Able blends(state, GL_BLEND), scissors(state, GL_SCISSOR_TEST), deep(state, GL_DEPTH_TEST);
   const vtkOpenGLState::ScopedglViewport seen(state);
+  const vtkOpenGLState::ScopedglScissor cut(state);
   const vtkOpenGLState::ScopedglDepthMask mask(state);
   const vtkOpenGLState::ScopedglDepthFunc compared(state);
   const vtkOpenGLState::ScopedglColorMask colors(state);
   state->PushFramebufferBindings();
   state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
-  state->vtkglViewport(0, 0, this->Width, this->Height);
   state->vtkglDisable(GL_BLEND);
   state->vtkglDisable(GL_SCISSOR_TEST);
   state->vtkglEnable(GL_DEPTH_TEST);
@@ -70,23 +75,58 @@ void PlaceBuffer::gather(vtkOpenGLState* state, const std::function<void()>& dra
   const float farthest = 1.0f;
   glClearBufferfv(GL_COLOR, 0, nowhere);
   glClearBufferfv(GL_DEPTH, 0, &farthest);
-  draw();
+  for (int slice = 0; slice < this->Slices; ++slice)
+  {
+    const int row = slice * this->sliceRows();
+    if (slice > 0)
+    {
+      // Wide lines and points leave a viewport.
+      state->vtkglEnable(GL_SCISSOR_TEST);
+      state->vtkglScissor(0, row, this->Width, this->Height);
+      glBlitFramebuffer(0, 0, this->Width, this->Height, 0, row, this->Width, row + this->Height,
+        GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    }
+    if (slice > 1)
+    {
+      GLint bound = 0;
+      glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+      glBindTexture(GL_TEXTURE_2D, this->Before);
+      glReadBuffer(GL_COLOR_ATTACHMENT0);
+      glCopyTexSubImage2D(
+        GL_TEXTURE_2D, 0, 0, 0, 0, row - this->sliceRows(), this->Width, this->Height);
+      glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(bound));
+    }
+    state->vtkglViewport(0, row, this->Width, this->Height);
+    draw(slice, slice > 1 ? row : 0);
+  }
   state->PopFramebufferBindings();
+}
+
+void PlaceBuffer::describe(LightCode& code) const
+{
+  code.textures.push_back({ "svoPlaces", this->Places, GL_TEXTURE_2D });
+  code.integers.push_back({ "svoSliceRows", { this->Height, this->sliceRows() } });
+  if (this->translucent())
+  {
+    code.textures.push_back({ "svoBefore", this->Before, GL_TEXTURE_2D });
+    code.constants += "#define svoSlices " + std::to_string(this->Slices) + "\n";
+  }
 }
 
 void PlaceBuffer::read(vtkOpenGLState* state, ReceiverPlaces& places) const
 {
-  const std::size_t numbers = 4 * static_cast<std::size_t>(this->Width) * this->Height;
+  const std::size_t numbers = 4 * static_cast<std::size_t>(this->Width) * this->rows();
   places.width = this->Width;
-  places.height = this->Height;
+  places.height = this->rows();
+  places.sliceRows = this->sliceRows();
   places.places.resize(numbers);
   places.planes.resize(numbers);
   state->PushReadFramebufferBinding();
   state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, this->Framebuffer);
   glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(0, 0, this->Width, this->Height, GL_RGBA, GL_FLOAT, places.places.data());
+  glReadPixels(0, 0, this->Width, this->rows(), GL_RGBA, GL_FLOAT, places.places.data());
   glReadBuffer(GL_COLOR_ATTACHMENT1);
-  glReadPixels(0, 0, this->Width, this->Height, GL_RGBA, GL_UNSIGNED_SHORT, places.planes.data());
+  glReadPixels(0, 0, this->Width, this->rows(), GL_RGBA, GL_UNSIGNED_SHORT, places.planes.data());
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   state->PopReadFramebufferBinding();
 }

@@ -12,33 +12,57 @@ class vtkOpenGLState;
 
 namespace svo
 {
+struct LightCode;
 struct ReceiverPlaces;
 
 /// All calls are made in one context; whoever owns one is told before it goes.
 class VTKSVOOPENGL_EXPORT PlaceBuffer
 {
 public:
-  /// Has room for so many pixels; none: it has no textures. False if OpenGL refuses.
-  bool resize(int width, int height);
+  /// Slices of what is translucent: the nearest surfaces, and those behind them.
+  static constexpr int TranslucentSlices = 2;
 
-  /// `draw` draws the surfaces, with shaders that write where they lie as svoShadowReceiver.glsl
-  /// does while svoGather is 1, into the framebuffer that is bound then. Its viewport is the
-  /// buffer's. Other state is as before.
-  void gather(vtkOpenGLState* state, const std::function<void()>& draw);
+  /// Has room for so many pixels, and for slices one above the other, as ReceiverPlaces has them;
+  /// no pixels: it has no textures. False if OpenGL refuses.
+  bool resize(int width, int height, bool translucent = false);
+
+  /// Draws the opaque surfaces of slice 0, or all translucent ones, with shaders that write where
+  /// they lie as svoShadowReceiver.glsl does while svoGather is 1, into the framebuffer that is
+  /// bound then. Its viewport, which begins in row `behind` if that is above 0, is the slice's:
+  /// only what lies behind before() is to be drawn then.
+  using Draw = std::function<void(int slice, int behind)>;
+  /// Other state is as before.
+  void gather(vtkOpenGLState* state, const Draw& draw);
+  /// Has code of fragments that the mask says nothing of know where it does.
+  void describe(LightCode& code) const;
   /// What was gathered.
   void read(vtkOpenGLState* state, ReceiverPlaces& places) const;
 
   bool any() const { return this->Framebuffer != 0; }
   int width() const { return this->Width; }
-  int height() const { return this->Height; }
+  int height() const { return this->Height; } // of a slice
+  bool translucent() const { return this->Slices > 1; }
+  /// Of all slices, of `height` rows with margins, so that nothing is beside another slice.
+  static int rowsOf(int height, bool translucent)
+  {
+    return translucent ? (1 + TranslucentSlices) * ((height + 7) / 8 * 8 + 8) : height;
+  }
+  int rows() const { return rowsOf(this->Height, this->translucent()); }
+  int sliceRows() const { return this->rows() / this->Slices; }
   unsigned int places() const { return this->Places; } // ReceiverPlaces
   unsigned int planes() const { return this->Planes; }
-  static constexpr std::size_t BytesOfPixel = 16 + 8 + 4;
-  std::size_t bytes() const { return BytesOfPixel * this->Width * this->Height; }
+  unsigned int before() const { return this->Before; } // places of the slice before
+  static std::size_t bytesOf(int width, int height, bool translucent)
+  {
+    const int numbers =
+      (16 + 8 + 4) * rowsOf(height, translucent) + (translucent ? 16 * height : 0);
+    return static_cast<std::size_t>(width) * numbers;
+  }
+  std::size_t bytes() const { return bytesOf(this->Width, this->Height, this->translucent()); }
 
 private:
-  int Width = 0, Height = 0;
-  unsigned int Places = 0, Planes = 0, Depths = 0; // textures
+  int Width = 0, Height = 0, Slices = 1;
+  unsigned int Places = 0, Planes = 0, Depths = 0, Before = 0; // textures
   unsigned int Framebuffer = 0;
 };
 }

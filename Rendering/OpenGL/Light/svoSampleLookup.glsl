@@ -1,6 +1,6 @@
 // What is left of a light, or of what is all around, at a fragment whose own surface the mask does not
-// know there. What is sampled is that of the nearest place which the mask knows beside it; of
-// what is translucent it is what svoLeftByRay() says of the light, or nothing closes it off.
+// know there. What is sampled is that of the nearest place which the mask knows beside it, in any
+// slice; if none is near enough it is what svoLeftByRay() says of the light, or nothing closes it off.
 //
 // svoSkyShader.glsl and svoMaskLookup.glsl come before it, and svoSumOf of svoSampleMeans.glsl.
 float svoRayLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, float extent)
@@ -8,9 +8,9 @@ float svoRayLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, 
   ivec2 pixel = svoMaskPixel();
   ivec2 best = ivec2(-1);
   float least = number < svoLampCount ? 8.0 * extent : 1e30;
-  for (int i = 0; i < 9 && svoOpaque > 0.0 && svoSumOf[number] >= 0; ++i)
+  for (int i = 0; i < svoBesideCount() && svoSumOf[number] >= 0; ++i)
   {
-    ivec2 at = clamp(pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), textureSize(svoShares, 0).xy - 1);
+    ivec2 at = svoBeside(pixel, i);
     vec4 place = texelFetch(svoPlaces, at, 0);
     if (place.w > -1e30 && distance(place.xyz, position) < least)
     {

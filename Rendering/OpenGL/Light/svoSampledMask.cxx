@@ -20,7 +20,8 @@ constexpr int OfMaps = -1, Nothing = -2; // svoPlaneOf()
 }
 
 const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverShares& shares,
-  const FrameSettings& settings, const View& view, bool unlit, int width, int height, bool others)
+  const FrameSettings& settings, const View& view, bool unlit, int width, int height, bool others,
+  bool translucent)
 {
   const auto isSampled = [&](int light)
   { return std::count(shares.lights.begin(), shares.lights.end(), light) > 0; };
@@ -31,10 +32,10 @@ const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverSha
   this->Code = LightCode();
   if (!shares.any())
   {
-    this->resize(0, 0, 0);
+    this->resize(0, 0, false, 0);
     return allMaps;
   }
-  if (!this->resize(view.width, view.height, shares.layers()))
+  if (!this->resize(view.width, view.height, translucent, shares.layers()))
   {
     return allMaps;
   }
@@ -78,7 +79,7 @@ const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverSha
   this->Code.textures.push_back({ "svoShares", this->Shares, GL_TEXTURE_2D_ARRAY });
   if (others)
   {
-    this->Code.textures.push_back({ "svoPlaces", this->Surfaces.places(), GL_TEXTURE_2D });
+    this->Surfaces.describe(this->Code);
   }
   this->Code.floats.push_back({ "svoMaskPixels", 1,
     { static_cast<float>(view.width) / static_cast<float>(width),
@@ -108,10 +109,10 @@ const char* SampledMask::textOf(const LightCode& maps, bool others)
   return text.c_str();
 }
 
-bool SampledMask::resize(int width, int height, int layers)
+bool SampledMask::resize(int width, int height, bool translucent, int layers)
 {
   if (this->Shares != 0 && width == this->Surfaces.width() && height == this->Surfaces.height() &&
-    layers == this->Layers)
+    translucent == this->Surfaces.translucent() && layers == this->Layers)
   {
     return true;
   }
@@ -122,14 +123,14 @@ bool SampledMask::resize(int width, int height, int layers)
   }
   this->Layers = layers;
   this->Filled = false;
-  const bool room = this->Surfaces.resize(width, height);
+  const bool room = this->Surfaces.resize(width, height, translucent);
   if (layers > 0 && room)
   {
-    this->Shares = makeTexture(GL_RGBA16, width, height, layers);
+    this->Shares = makeTexture(GL_RGBA16, width, this->Surfaces.rows(), layers);
   }
   if (layers > 0 && this->Shares == 0)
   {
-    this->resize(0, 0, 0);
+    this->resize(0, 0, false, 0);
   }
   return this->Shares != 0;
 }
@@ -142,7 +143,7 @@ void SampledMask::aim(vtkOpenGLState* state)
 }
 
 void SampledMask::gather(
-  vtkOpenGLState* state, const std::function<void()>& draw, ReceiverPlaces& places)
+  vtkOpenGLState* state, const PlaceBuffer::Draw& draw, ReceiverPlaces& places)
 {
   this->Surfaces.gather(state, draw);
   this->Surfaces.read(state, places);
@@ -156,7 +157,7 @@ void SampledMask::upload(const ReceiverShares& shares)
   glGetIntegerv(GL_UNPACK_ALIGNMENT, &alignment);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glBindTexture(GL_TEXTURE_2D_ARRAY, this->Shares);
-  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, this->Surfaces.width(), this->Surfaces.height(),
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, this->Surfaces.width(), this->Surfaces.rows(),
     this->Layers, GL_RGBA, GL_UNSIGNED_SHORT, shares.numbers.data());
   glBindTexture(GL_TEXTURE_2D_ARRAY, static_cast<GLuint>(bound));
   glPixelStorei(GL_UNPACK_ALIGNMENT, alignment);
@@ -165,13 +166,13 @@ void SampledMask::upload(const ReceiverShares& shares)
 std::size_t SampledMask::bytes() const
 {
   const std::size_t pixels =
-    static_cast<std::size_t>(this->Surfaces.width()) * this->Surfaces.height();
+    static_cast<std::size_t>(this->Surfaces.width()) * this->Surfaces.rows();
   return this->Surfaces.bytes() + 8 * pixels * static_cast<std::size_t>(this->Layers);
 }
 
 void SampledMask::release()
 {
-  this->resize(0, 0, 0);
+  this->resize(0, 0, false, 0);
   this->Code = LightCode();
 }
 }

@@ -25,18 +25,19 @@ class VTKSVOOPENGL_EXPORT SampledMask
 public:
   /// For a frame: code that looks up these shares, until the next call, and of other lights what
   /// `maps` say. The mask has the view's pixels, the picture so many. With `others` there are
-  /// fragments that the mask says nothing of, translucent ones and parts of pixels: they take their
-  /// neighbours' light, or that of `maps`. `maps`, if nothing is sampled, or OpenGL has no room.
+  /// fragments that the mask says nothing of, parts of pixels and `translucent` ones: they take
+  /// their neighbours' light, or that of `maps`. `maps`, if nothing is sampled, or OpenGL has no
+  /// room.
   const LightCode& lookUp(const LightCode& maps, const ReceiverShares& shares,
-    const FrameSettings& settings, const View& view, bool unlit, int width, int height,
-    bool others);
+    const FrameSettings& settings, const View& view, bool unlit, int width, int height, bool others,
+    bool translucent);
   /// True if the last call gave code of its own.
   bool any() const { return !this->Code.empty(); }
 
   /// The code will be used in the current viewport.
   void aim(vtkOpenGLState* state);
   /// Gathers where surfaces lie; see PlaceBuffer::gather().
-  void gather(vtkOpenGLState* state, const std::function<void()>& draw, ReceiverPlaces& places);
+  void gather(vtkOpenGLState* state, const PlaceBuffer::Draw& draw, ReceiverPlaces& places);
   /// Has these numbers.
   void upload(const ReceiverShares& shares);
   /// True if it has some, and what was gathered.
@@ -46,7 +47,7 @@ public:
   void release();
 
 private:
-  bool resize(int width, int height, int layers);
+  bool resize(int width, int height, bool translucent, int layers);
   const char* textOf(const LightCode& maps, bool others);
 
   PlaceBuffer Surfaces;

@@ -2,6 +2,7 @@
 
 #include "svoMaskLookup.h"
 #include "svoOpenGL.h"
+#include "svoReceivers.h"
 #include "svoSampleLookup.h"
 #include "svoSampleMeans.h"
 #include "svoShadowMaskShader.h"
@@ -11,6 +12,7 @@
 #include "vtkOpenGLState.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace svo
@@ -54,7 +56,7 @@ std::string maskText(const LightCode& asked)
 }
 
 const LightCode& ShadowMask::lookUp(
-  const LightCode& asked, int width, int height, bool others, std::size_t room)
+  const LightCode& asked, int width, int height, bool others, std::size_t room, bool translucent)
 {
   this->Code = LightCode();
   if (asked.empty() || !asked.costly)
@@ -64,7 +66,8 @@ const LightCode& ShadowMask::lookUp(
   }
   const bool samples = !asked.sampled.empty();
   if (!this->accepts(asked) ||
-    !this->resize(width, height, asked.count(), static_cast<int>(asked.sampled.size()), room))
+    !this->resize(width, height, translucent && samples, asked.count(),
+      static_cast<int>(asked.sampled.size()), room))
   {
     if (!samples)
     {
@@ -88,7 +91,7 @@ const LightCode& ShadowMask::lookUp(
   }
   else
   {
-    this->Code.textures.push_back({ "svoPlaces", this->Surfaces.places(), GL_TEXTURE_2D });
+    this->Surfaces.describe(this->Code);
   }
   this->Code.lights = asked.lights;
   this->Code.costly = false;
@@ -99,8 +102,8 @@ const LightCode& ShadowMask::lookUp(
   return this->Code;
 }
 
-void ShadowMask::find(
-  vtkOpenGLState* state, const LightCode& asked, bool same, const std::function<void()>& draw)
+void ShadowMask::find(vtkOpenGLState* state, const LightCode& asked, bool same,
+  const PlaceBuffer::Draw& draw, bool measure)
 {
   if (!this->Code.fromPlaces) // lookUp() has no mask
   {
@@ -109,17 +112,21 @@ void ShadowMask::find(
   int viewport[4];
   state->vtkglGetIntegerv(GL_VIEWPORT, viewport);
   this->Code.integers.back().values = { viewport[0], viewport[1] };
+  const bool known = same && this->Found > 0 && this->Picture == asked.picture;
+  if (known && this->Found == asked.samples)
+  {
+    return;
+  }
   if (!same)
   {
     this->Samples.forget();
   }
-  else if (this->Found > 0 && this->Found == asked.samples && this->Picture == asked.picture)
-  {
-    return;
-  }
   this->Found = asked.sampled.empty() ? 0 : asked.samples;
   this->Picture = asked.picture;
-  this->Surfaces.gather(state, draw);
+  if (!known)
+  {
+    this->Surfaces.gather(state, draw);
+  }
   using Able = vtkOpenGLState::ScopedglEnableDisable;
   const Able blends(state, GL_BLEND), scissors(state, GL_SCISSOR_TEST), deep(state, GL_DEPTH_TEST);
   const vtkOpenGLState::ScopedglViewport seen(state);
@@ -134,7 +141,7 @@ void ShadowMask::find(
     { "svoPlanes", planes, GL_TEXTURE_2D } };
   if (!asked.sampled.empty())
   {
-    this->Samples.take(state, asked, textures);
+    this->Samples.take(state, asked, textures, this->Surfaces.sliceRows());
     textures.insert(textures.end(),
       { { "svoSums", this->Samples.sums(), GL_TEXTURE_2D_ARRAY },
         { "svoPlacesAround", places, GL_TEXTURE_2D },
@@ -146,10 +153,43 @@ void ShadowMask::find(
     {
       program.set("svoFirstLight", 4 * layer);
       program.fill({ this->Answering, this->Shares, this->Format, layer, this->Surfaces.width(),
-        this->Surfaces.height() });
+        this->Surfaces.rows() });
     }
   }
   state->PopFramebufferBindings();
+  this->Changed = -1.0;
+  if (measure && !asked.sampled.empty())
+  {
+    this->measure(state, asked, known);
+  }
+  else
+  {
+    this->Read.clear();
+  }
+}
+
+/// Reads what was found. `more`: than was read before, of the same.
+void ShadowMask::measure(vtkOpenGLState* state, const LightCode& asked, bool more)
+{
+  std::vector<int> planes;
+  for (const LightCode::Sampled& of : asked.sampled)
+  {
+    for (int part = 0; part < (of.number == asked.sky ? 3 : 1); ++part)
+    {
+      planes.push_back(of.number + part);
+    }
+  }
+  ReceiverPlaces places;
+  this->Surfaces.read(state, places);
+  std::vector<std::uint16_t> now(
+    4 * static_cast<std::size_t>(places.width) * places.height * this->Layers);
+  GLint bound = 0;
+  glGetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &bound);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, this->Shares);
+  glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA, GL_UNSIGNED_SHORT, now.data());
+  glBindTexture(GL_TEXTURE_2D_ARRAY, static_cast<GLuint>(bound));
+  this->Changed = more ? differenceOf(this->Read, now, planes, places) : -1.0;
+  this->Read = std::move(now);
 }
 
 bool ShadowMask::accepts(const LightCode& code)
@@ -191,16 +231,18 @@ bool ShadowMask::link(const LightCode& asked, bool computes)
 
 /// Has textures and framebuffers of a size. False, and nothing is there, if OpenGL refuses, or if
 /// they take more than `room`.
-bool ShadowMask::resize(int width, int height, int numbers, int sampled, std::size_t room)
+bool ShadowMask::resize(
+  int width, int height, bool translucent, int numbers, int sampled, std::size_t room)
 {
   const int layers = layersOf(numbers);
-  if (bytesOf(width, height, numbers, sampled) > room)
+  if (bytesOf(width, height, numbers, sampled, translucent) > room)
   {
     this->releaseTextures();
     return false;
   }
   if (this->Shares != 0 && width == this->Surfaces.width() && height == this->Surfaces.height() &&
-    layers == this->Layers && sampled == this->Samples.layers())
+    translucent == this->Surfaces.translucent() && layers == this->Layers &&
+    sampled == this->Samples.layers())
   {
     return true;
   }
@@ -209,14 +251,15 @@ bool ShadowMask::resize(int width, int height, int numbers, int sampled, std::si
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before);
   this->Layers = layers;
   this->Format = sampled > 0 ? GL_RGBA16 : GL_RGBA8;
-  bool complete = this->Surfaces.resize(width, height);
-  this->Shares = makeTexture(this->Format, width, height, layers);
+  bool complete = this->Surfaces.resize(width, height, translucent);
+  const int rows = this->Surfaces.rows();
+  this->Shares = makeTexture(this->Format, width, rows, layers);
   glGenFramebuffers(1, &this->Answering);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Answering);
   glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Shares, 0, 0);
   complete = complete && glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(before));
-  complete = this->Samples.resize(width, height, sampled) && complete;
+  complete = this->Samples.resize(width, rows, sampled) && complete;
   if (!complete || glGetError() != GL_NO_ERROR)
   {
     this->releaseTextures();
@@ -225,18 +268,20 @@ bool ShadowMask::resize(int width, int height, int numbers, int sampled, std::si
   return true;
 }
 
-std::size_t ShadowMask::bytesOf(int width, int height, int numbers, int sampled)
+std::size_t ShadowMask::bytesOf(int width, int height, int numbers, int sampled, bool translucent)
 {
   const int shares = (sampled > 0 ? 8 : 4) * layersOf(numbers);
-  return static_cast<std::size_t>(width) * height *
-    (PlaceBuffer::BytesOfPixel + shares + 16 * sampled);
+  return PlaceBuffer::bytesOf(width, height, translucent) +
+    static_cast<std::size_t>(width) * PlaceBuffer::rowsOf(height, translucent) *
+    (shares + 16 * sampled);
 }
 
 std::size_t ShadowMask::bytes() const
 {
-  return this->Shares == 0 ? 0
-                           : bytesOf(this->Surfaces.width(), this->Surfaces.height(),
-                               4 * this->Layers, this->Samples.layers());
+  return this->Shares == 0
+    ? 0
+    : bytesOf(this->Surfaces.width(), this->Surfaces.height(), 4 * this->Layers,
+        this->Samples.layers(), this->Surfaces.translucent());
 }
 
 void ShadowMask::releaseTextures()
@@ -248,6 +293,7 @@ void ShadowMask::releaseTextures()
   }
   this->Shares = this->Answering = 0;
   this->Found = 0;
+  this->Changed = -1.0;
   this->Surfaces.resize(0, 0);
   this->Samples.resize(0, 0, 0);
 }

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 class vtkOpenGLState;
 
@@ -39,27 +40,32 @@ public:
 
   /// For a frame of so many pixels: code that looks up what find() will find of the code `asked`,
   /// until the next call. With `others` there are fragments that the mask says nothing of,
-  /// translucent ones and parts of pixels: these ask themselves. `asked` itself, and nothing is to
-  /// be found, if it is not costly, or if a mask does not fit into `room`, bytes, or OpenGL has
-  /// none; then without what is sampled.
-  const LightCode& lookUp(
-    const LightCode& asked, int width, int height, bool others, std::size_t room);
+  /// parts of pixels and `translucent` ones (where nothing is sampled): these ask themselves.
+  /// `asked` itself, and nothing is to be found, if it is not costly, or if a mask does not fit
+  /// into `room`, bytes, or OpenGL has none; then without what is sampled.
+  const LightCode& lookUp(const LightCode& asked, int width, int height, bool others,
+    std::size_t room, bool translucent = false);
 
   /// Fills the mask; `draw` as of PlaceBuffer::gather(). The current viewport is where the code
-  /// will be used.
-  void find(
-    vtkOpenGLState* state, const LightCode& asked, bool same, const std::function<void()>& draw);
+  /// will be used. With `measure` it is read back
+  /// where something is sampled, and changed() known.
+  void find(vtkOpenGLState* state, const LightCode& asked, bool same, const PlaceBuffer::Draw& draw,
+    bool measure = false);
+  /// What more samples of the same picture have changed, RMS of 0..255; negative: not known.
+  double changed() const { return this->Changed; }
 
   /// Bytes that a mask takes, of so many numbers (LightCode::count()) and of what is sampled.
-  static std::size_t bytesOf(int width, int height, int numbers, int sampled = 0);
+  static std::size_t bytesOf(
+    int width, int height, int numbers, int sampled = 0, bool translucent = false);
   /// True if compute shaders asked last.
   bool computes() const { return this->Program.computes(); }
   std::size_t bytes() const;
   void release();
 
 private:
-  bool resize(int width, int height, int numbers, int sampled, std::size_t room);
+  bool resize(int width, int height, bool translucent, int numbers, int sampled, std::size_t room);
   bool link(const LightCode& asked, bool computes);
+  void measure(vtkOpenGLState* state, const LightCode& asked, bool more);
   void releaseTextures();
 
   Way Wanted = Way::Compute;
@@ -77,6 +83,8 @@ private:
   // What a mask of samples is of; 0 samples: nothing.
   std::uint64_t Picture = 0;
   int Found = 0;
+  double Changed = -1.0;
+  std::vector<std::uint16_t> Read; // what was found; empty: it was not read
   LightCode Code;
 };
 }

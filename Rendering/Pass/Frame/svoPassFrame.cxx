@@ -98,13 +98,14 @@ void PassFrame::decideSamples(const PaceLimits& limits)
   const bool slow = this->settings.filterLightSamples && !hasSoftLight(this->renderer) &&
     !this->settings.skyPicture; // which may have a sun
   const int first = slow ? FirstSamplesAround : FirstSamples;
-  const bool refines = limits.refine > 0.0 && !this->interactive() && shown > 0;
+  const bool more = limits.refine > 0.0 && !this->interactive() && shown > 0;
   // What twice as many have changed is the error.
   const double each = limits.lightError > 0.0 ? 0.0 : this->state->secondsOfSample();
-  this->settings.samplesNow = refines      ? shown + moreSamples(shown, each, limits.refine)
+  this->settings.samplesNow = more         ? shown + moreSamples(shown, each, limits.refine)
     : straight && limits.lightError <= 0.0 ? std::numeric_limits<int>::max()
                                            : first;
-  this->refinesTo = straight && limits.refine <= 0.0 ? limits.lightError : -1.0;
+  this->lightError = limits.lightError;
+  this->refines = straight && limits.refine <= 0.0;
 }
 
 void PassFrame::decide(const FrameSettings& asked, const PaceLimits& limits)
@@ -149,7 +150,7 @@ void PassFrame::lightNothingMore()
 void PassFrame::trace(int width, int height)
 {
   this->traced = true;
-  this->state->trace(width, height, this->pace, this->settings, this->refinesTo);
+  this->state->trace(width, height, this->pace, this->settings, this->lightError, this->refines);
   this->state->receivers().activate();
 }
 }

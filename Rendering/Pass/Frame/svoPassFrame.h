@@ -128,7 +128,8 @@ struct PassFrame
   FrameSettings settings;
   FramePace pace;
   Sampling sampling = Sampling::AtOnce;
-  double refinesTo = -1.0;   // an error of sampled lights, at once; negative: it does not
+  double lightError = 0.0;   // PaceLimits
+  bool refines = false;      // sampled lights, until then or to all samples, at once
   bool pacedShadows = false; // PassStatistics
   bool openGL = false;       // PassStatistics
   bool traced = false;

@@ -6,6 +6,9 @@
 #include "svoSilhouettes.h"
 
 #include "vtkCameraPass.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkOpenGLActor.h"
 #include "vtkOpenGLRenderPass.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLRenderer.h"
@@ -178,7 +181,7 @@ std::string RendererState::lostShadows(const FrameSettings& settings) const
 }
 
 void RendererState::trace(
-  int width, int height, const FramePace& pace, FrameSettings settings, double untilError)
+  int width, int height, const FramePace& pace, FrameSettings settings, double error, bool straight)
 {
   this->Statistics.pace = pace;
   Scene& scene = this->Collected.scene;
@@ -205,8 +208,9 @@ void RendererState::trace(
   // Some of what receives shows what is no pixel of theirs.
   const auto translucent = [](vtkProp* prop)
   { return prop->HasTranslucentPolygonalGeometry() != 0; };
-  const bool others = !samplePositions().empty() || pace.distance > 1.0 ||
+  const bool seenThrough =
     std::any_of(this->Collected.receivers.begin(), this->Collected.receivers.end(), translucent);
+  const bool others = seenThrough || !samplePositions().empty() || pace.distance > 1.0;
   settings.sampledMaps = settings.receiverMaps && others;
   const bool occlusion = this->Renderer->GetUseSSAO(); // into a framebuffer that is not bound yet
   settings.writeNormals = occlusion || this->Presenter->WantsNormals();
@@ -218,7 +222,8 @@ void RendererState::trace(
   const auto refusal = [this]
   { return this->Mask.refusal().empty() ? this->Boxes.refusal() : this->Mask.refusal(); };
   settings.lightCode = wantsCode && refusal().empty();
-  this->UntilError = untilError;
+  this->LightError = error;
+  this->Straight = straight;
   this->render(settings);
   if (!this->Mask.accepts(this->Trace->lightCode()) || !this->Boxes.accepts(this->Trace->eyeCode()))
   {
@@ -226,7 +231,9 @@ void RendererState::trace(
     this->render(settings);
   }
   const bool receivers = this->Collected.rasterizedReceivers && this->Trace->receiverShares().any();
-  if (!receivers)
+  // Their places, or what a mask has of fewer samples, have to be known before.
+  const bool later = receivers || (error > 0.0 && !this->Trace->lightCode().sampled.empty());
+  if (!later)
   {
     this->refine();
   }
@@ -241,11 +248,11 @@ void RendererState::trace(
     std::min<std::size_t>(this->Statistics.tracer.gpuMemory, settings.gpuMemoryLimit);
   const LightCode& sampled = this->Sampled.lookUp(this->Maps.code(),
     receivers ? this->Trace->receiverShares() : ReceiverShares(), settings, view,
-    scene.lights.empty(), width, height, others);
+    scene.lights.empty(), width, height, others, seenThrough);
   const LightCode& masked =
-    this->Mask.lookUp(code, width, height, others, settings.gpuMemoryLimit - octrees);
+    this->Mask.lookUp(code, width, height, others, settings.gpuMemoryLimit - octrees, seenThrough);
   const LightCode& known = this->Sampled.any() ? sampled : masked;
-  if (receivers && !known.fromPlaces) // else when their places are known
+  if (later && !known.fromPlaces)
   {
     this->refine();
   }
@@ -282,19 +289,17 @@ void RendererState::render(const FrameSettings& settings)
   }
 }
 
-/// Takes more samples of its lights until they are refined().
-void RendererState::refine()
+/// Takes more samples of its lights until they are refined(); of what VTK draws by `sample`.
+void RendererState::refine(const std::function<void()>& sample)
 {
-  const ReceiverShares& receivers = this->Trace->receiverShares();
-  while (this->UntilError >= 0.0 && !this->refined(this->Settings.lightSamples, this->UntilError))
+  while (this->Straight && !this->refined(this->Settings.lightSamples, this->LightError))
   {
     FrameSettings more = this->Settings;
     more.samplesNow = 2 * this->samples();
-    const bool current = receivers.current;
     this->render(more);
-    if (current)
+    if (sample)
     {
-      this->sampleReceivers(true);
+      sample();
     }
   }
 }
@@ -307,9 +312,7 @@ void RendererState::sampleReceivers(bool same)
     this->Collected.scene, this->Eye, this->Places, same, smpParallelFor());
   const double after = this->Trace->statistics().samplingTime;
   this->SecondsOfSample += this->AddedSamples > 0 ? (after - before) / this->AddedSamples : 0.0;
-  const std::uint64_t memory = this->Statistics.tracer.gpuMemory;
   this->Statistics.tracer = this->Trace->statistics();
-  this->Statistics.tracer.gpuMemory = memory;
 }
 
 void RendererState::findLight(const vtkRenderState& drawn)
@@ -330,32 +333,57 @@ void RendererState::findLight(const vtkRenderState& drawn)
   }
   const bool same = seen == this->Drawn;
   this->Drawn = seen;
-  const auto draw = [&]
+  const auto draw = [&](int slice, int behind)
   {
+    this->Receivers.setGathers(true, behind);
     for (const auto& [prop, time] : seen)
     {
-      prop->RenderOpaqueGeometry(this->Renderer);
+      if (slice == 0)
+      {
+        prop->RenderOpaqueGeometry(this->Renderer);
+      }
+      else if (prop->HasTranslucentPolygonalGeometry())
+      {
+        vtkInformation* keys = prop->GetPropertyKeys();
+        keys->Set(vtkOpenGLActor::GLDepthMaskOverride(), 1);
+        prop->RenderTranslucentPolygonalGeometry(this->Renderer);
+        keys->Remove(vtkOpenGLActor::GLDepthMaskOverride());
+      }
     }
-    this->Boxes.draw(this->Renderer, &this->Collected.receivers);
+    if (slice == 0)
+    {
+      this->Boxes.draw(this->Renderer, &this->Collected.receivers);
+    }
   };
   vtkOpenGLState* state =
     vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow())->GetState();
-  this->Receivers.setGathers(true);
+  const std::uint64_t memory = this->Statistics.tracer.gpuMemory;
   if (!this->Sampled.any())
   {
-    this->Mask.find(state, this->Trace->lightCode(), same, draw);
+    const auto find = [&](bool as)
+    { this->Mask.find(state, this->Trace->lightCode(), as, draw, this->LightError > 0.0); };
+    find(same);
+    this->refine([&] { find(true); });
+    this->Statistics.tracer.lightError =
+      std::max(this->Statistics.tracer.lightError, this->Mask.changed());
   }
   else
   {
     this->Sampled.aim(state);
-    if (!same || !this->Trace->receiverShares().current || !this->Sampled.filled())
+    const bool known = same && this->Trace->receiverShares().current && this->Sampled.filled();
+    if (!known)
     {
       this->Sampled.gather(state, draw, this->Places);
       this->sampleReceivers(same);
-      this->refine();
+    }
+    if (!known ||
+      (this->Straight && !this->refined(this->Settings.lightSamples, this->LightError)))
+    {
+      this->refine([this] { this->sampleReceivers(true); });
       this->Sampled.upload(this->Trace->receiverShares());
     }
   }
+  this->Statistics.tracer.gpuMemory = memory; // as when it was traced, with the mask
   this->Receivers.setGathers(false);
 }
 

@@ -22,6 +22,8 @@
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
+#include <algorithm>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -97,10 +99,10 @@ public:
   void joinPasses(const vtkRenderState* state);
 
   /// Traces the collected scene, `width` by `height` pixels, at a pace that `settings` know of.
-  /// Nothing is drawn yet. `untilError`: its lights get more samples until refined() says so;
-  /// negative: they do not.
-  void trace(
-    int width, int height, const FramePace& pace, FrameSettings settings, double untilError = -1.0);
+  /// Nothing is drawn yet. `straight`: its lights get more samples until refined() says so of
+  /// `error`, which is known where it is above 0.
+  void trace(int width, int height, const FramePace& pace, FrameSettings settings, double error,
+    bool straight);
 
   /// Of its lights, in what was traced last.
   int samples() const { return this->Trace->statistics().lightSamples; }
@@ -111,8 +113,9 @@ public:
   bool refined(int most, double error) const
   {
     const FrameStatistics& frame = this->Trace->statistics();
+    const double changed = std::max(frame.lightError, this->Mask.changed());
     return !this->HasPicture || frame.lightSamples == 0 || frame.lightSamples >= most ||
-      (error > 0.0 && frame.lightError >= 0.0 && frame.lightError <= error);
+      (error > 0.0 && changed >= 0.0 && changed <= error);
   }
 
   /// Has the frame's light found for what will be seen of the receivers among these props, which
@@ -162,7 +165,7 @@ private:
   /// Of the renderer's camera; without pixels if there is none to be had.
   View aim(int width, int height, double distance) const;
   void render(const FrameSettings& settings);
-  void refine();
+  void refine(const std::function<void()>& sample = nullptr);
   void sampleReceivers(bool same);
   std::string lostShadows(const FrameSettings& settings) const;
   void forgetScene();
@@ -178,8 +181,9 @@ private:
   View Eye;               // of the frame
   FrameSettings Settings; // of the frame
   double SecondsOfSample = 0.0;
-  double UntilError = -1.0; // of the frame
-  int AddedSamples = 0;     // in the frame, to those before
+  double LightError = 0.0; // of the frame; 0: all samples that there may be
+  bool Straight = false;   // on it goes until then
+  int AddedSamples = 0;    // in the frame, to those before
   bool InFrame = false;
   bool ForgetsScene = false;  // as soon as the frame has ended
   bool SharesShadows = false; // this frame's shadow buffers are those of all processes

@@ -3,6 +3,10 @@
 uniform float svoReceive; // 0: no shadow falls on this surface
 uniform float svoIntensity;
 uniform float svoGather;   // 1: the fragment says where it lies
+#ifdef svoSlices
+uniform sampler2D svoBefore; // the slice before the one that is gathered (svoPlaceBuffer.h),
+uniform int svoBehind;       // ... whose first row is this; 0: it is not among them
+#endif
 uniform float svoMirrored; // 1: derivatives in the window turn facets away from the viewer
 
 // Where a fragment lies whose facet covers a part of its pixel, and maybe not the centre. `inside` has
@@ -47,4 +51,17 @@ vec2 svoFold(vec3 way)
 vec4 svoPlanesOf(vec3 facet, vec3 normal)
 {
   return 0.5 + 0.5 * vec4(svoFold(facet), svoFold(normal));
+}
+
+// False if what is gathered is to lie behind a surface that this fragment, at a place and so wide, is
+// not behind. The surface itself is drawn to another row, where floats round differently.
+bool svoIsBehind(vec3 position, float extent)
+{
+#ifdef svoSlices
+  ivec2 at = ivec2(gl_FragCoord.xy) - ivec2(0, svoBehind);
+  float rounding = max(0.05 * extent, 1e-6 * length(position));
+  return svoBehind == 0 || position.z < texelFetch(svoBefore, at, 0).z - rounding;
+#else
+  return true;
+#endif
 }

@@ -288,6 +288,10 @@ void ShadowReceivers::completeShader(
     body.insert(body.rfind('}'),
       "  if (svoGather > 0.0)\n"
       "  {\n"
+      "    if (!svoIsBehind(svoPosition, svoExtent))\n"
+      "    {\n"
+      "      discard;\n"
+      "    }\n"
       "    gl_FragData[0] = svoPlaceOf(svoPosition, svoLift, " +
         std::string(traced ? "svoSeenError" : "0.0") +
         ");\n"
@@ -314,6 +318,10 @@ void ShadowReceivers::setUniforms(
   sendUniforms(static_cast<unsigned int>(program->GetHandle()), *this->Code);
   program->SetUniformf("svoReceive", receives ? 1.0f : 0.0f);
   program->SetUniformf("svoGather", this->Gathers ? 1.0f : 0.0f);
+  if (program->IsUniformUsed("svoBehind"))
+  {
+    program->SetUniformi("svoBehind", this->Behind);
+  }
   program->SetUniformf("svoOpaque", opaque ? 1.0f : 0.0f);
   program->SetUniformf("svoIntensity", this->Intensity);
   program->SetUniformf("svoMirrored", this->Mirrored ? 1.0f : 0.0f);

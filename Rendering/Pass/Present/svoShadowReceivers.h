@@ -33,7 +33,12 @@ public:
   /// True if it lights what is under no light at all: VTK's shaders need one for that, a black one.
   bool unlit() const { return !this->empty() && this->Code->unlit && this->Code->hasAround(); }
   /// While it is on, surfaces do not show light: they write where they lie (LightCode::fromPlaces).
-  void setGathers(bool on) { this->Gathers = on; }
+  /// `behind`: PlaceBuffer::Draw.
+  void setGathers(bool on, int behind = 0)
+  {
+    this->Gathers = on;
+    this->Behind = behind;
+  }
 
   void activate() { this->Textures.activate(); }
   void deactivate() { this->Textures.deactivate(); }
@@ -61,6 +66,7 @@ private:
   float Intensity = 1.0f;
   bool Catchers = false;
   bool Gathers = false;
+  int Behind = 0;
   bool Mirrored = false;
 };
 }

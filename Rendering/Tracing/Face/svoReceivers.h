@@ -3,18 +3,22 @@
 #ifndef svoReceivers_h
 #define svoReceivers_h
 
+#include "vtkSVOTracingModule.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace svo
 {
-/// Where they lie, one a pixel of a view, row by row from the lower left.
+/// Where they lie, one a pixel of a view, row by row from the lower left. Above these rows those of
+/// what is translucent before them: of the nearest surfaces, of those behind them, and so on.
 struct ReceiverPlaces
 {
   static constexpr float Nowhere = -1e30f;
 
-  int width = 0, height = 0;
+  int width = 0, height = 0; // of all of them
+  int sliceRows = 0;         // from the first of one to the first of the next
   /// Four numbers a pixel: view coordinates; and how far the smooth surface that the normals stand
   /// for lies over the facet, along the normal, or Nowhere: there is none, or nothing falls on it.
   std::vector<float> places;
@@ -48,6 +52,12 @@ struct ReceiverShares
   bool any() const { return this->planes > 0; }
   int layers() const { return (this->planes + 3) / 4; }
 };
+
+/// How far numbers as above are from those before, of these planes and of pixels with a surface:
+/// RMS of 0..255. Negative if there are none before.
+VTKSVOTRACING_EXPORT double differenceOf(const std::vector<std::uint16_t>& before,
+  const std::vector<std::uint16_t>& now, const std::vector<int>& planes,
+  const ReceiverPlaces& places);
 }
 
 #endif

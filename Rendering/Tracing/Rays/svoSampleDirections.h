@@ -44,7 +44,8 @@ struct Basis
   explicit Basis(const glm::vec3& axis)
     : z(axis)
   {
-    const float sign = std::copysign(1.0f, axis.z);
+    // What rounding makes of the normals of upright surfaces does not turn them round.
+    const float sign = axis.z < -1e-4f ? -1.0f : 1.0f;
     const float a = -1.0f / (sign + axis.z), b = axis.x * axis.y * a;
     this->x = { 1.0f + sign * axis.x * axis.x * a, sign * b, -sign * axis.x };
     this->y = { b, sign + axis.y * axis.y * a, -axis.y };

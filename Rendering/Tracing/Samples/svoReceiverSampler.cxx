@@ -11,6 +11,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -248,37 +249,21 @@ void TileOfPlaces::sample(int tileX, int tileY, Scratch& scratch) const
   }
 }
 
-/// RMS, in 255ths, of numbers of surfaces.
-double differenceOf(const std::vector<std::uint16_t>& before, const std::vector<std::uint16_t>& now,
-  const ReceiverPlaces& places)
-{
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < now.size() && now.size() == before.size(); ++i)
-  {
-    const bool surface =
-      places.places[i % places.places.size() / 4 * 4 + 3] > ReceiverPlaces::Nowhere;
-    const double difference = (static_cast<double>(now[i]) - before[i]) / 257.0;
-    sum += surface ? difference * difference : 0.0;
-    count += surface;
-  }
-  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
-}
-
 /// Of each pixel of places, whether the eye has traced something before it, and before all beside
-/// it: parts of a pixel take the light of their neighbours.
+/// it: parts of a pixel take the light of their neighbours. (Between slices nothing lies.)
 std::vector<std::uint8_t> hiddenPlaces(const SampledFrame& frame, const ReceiverPlaces& places)
 {
   const int width = places.width, height = places.height;
   const DepthBuffer& eye = frame.eye.depth;
-  assert(8 * eye.tilesX >= width && 8 * eye.tilesY >= height);
+  assert(8 * eye.tilesX >= width && 8 * eye.tilesY >= std::min(frame.view.height, height));
   std::vector<std::uint8_t> before(static_cast<std::size_t>(width) * height), hidden(before);
   for (int y = 0; y < height; ++y)
   {
-    for (int x = 0; x < width; ++x)
+    const int seenY = y % places.sliceRows;
+    for (int x = 0; x < width && seenY < frame.view.height; ++x)
     {
-      const std::size_t tile = static_cast<std::size_t>(y / 8) * eye.tilesX + x / 8;
-      const std::size_t at = 64 * tile + 8 * (y & 7) + (x & 7);
+      const std::size_t tile = static_cast<std::size_t>(seenY / 8) * eye.tilesX + x / 8;
+      const std::size_t at = 64 * tile + 8 * (seenY & 7) + (x & 7);
       const std::size_t pixel = static_cast<std::size_t>(y) * width + x;
       if (eye.hit[tile] && eye.instance[at] != NoInstance)
       {
@@ -350,8 +335,10 @@ std::uint64_t ReceiverSampler::sample(const SampledFrame& frame, const ReceiverP
     parallelFor, frame.settings.filterLightSamples, [](int, int) { return true; });
   const std::vector<std::uint16_t> coarser = std::move(this->Shares.numbers);
   this->write(places, parallelFor);
+  std::vector<int> planes(static_cast<std::size_t>(this->Sampled.count));
+  std::iota(planes.begin(), planes.end(), 0);
   this->Shares.error =
-    this->More && same ? differenceOf(coarser, this->Shares.numbers, places) : -1.0;
+    this->More && same ? differenceOf(coarser, this->Shares.numbers, planes, places) : -1.0;
   this->Shares.current = true;
   this->More = false;
   return rays;
