@@ -81,7 +81,7 @@ vtksvo_setting(AmbientOcclusion bool false
   PANEL default
   SAYS
     "Darken places that other surfaces close off, as corners, folds and what lies under something, whatever the lights: by
-     rays over the hemisphere of each visible point that is traced, or with the OpenGL backend is opaque."
+     rays over the hemisphere of each visible point."
   MORE
     "It needs no light set up. What translucent surfaces take is their opacity. The rays of a pixel are
      `MaximumLightSamples`.")
