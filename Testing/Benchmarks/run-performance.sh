@@ -2,10 +2,12 @@
 # Measures what frames, rays and builders cost beside their peers, draws the plots and fills in the
 # tables of Documentation/Performance.md. Builds what it needs. Safe to run again. About 25 minutes
 # on two idle cores, 10 more with --against.
-# Usage: run-performance.sh [--against COMMIT] [--frames N] [--quick] [--no-install]
+# Usage: run-performance.sh [--against COMMIT] [--as NAME] [--frames N] [--quick] [--no-install]
 #   --against COMMIT  builds that commit beside the tree as well, and draws its frames in turn with
 #                     ours, so that a gain or a loss is a ratio: 3a32caf (0.2) or later, older ones
 #                     lack what the programs call. The page's bars are those of its own run
+#   --as NAME         these are figures of another machine than the page's: kept beside its own as
+#                     Documentation/Performance/NAME.json, and shown in the table of machines alone
 #   --frames N        timed for each figure, 9 unless said otherwise
 #   --quick           few frames of few experiments (5 minutes), to look at a change: fills a copy
 #                     of the page in build/performance and prints it
@@ -16,12 +18,18 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 quick=no
 against=
+name=performance
 frames=9
 check_only=()
 while [ $# -gt 0 ]; do
   case "$1" in
     --quick) quick=yes ;;
     --no-install) check_only=(--no-install) ;;
+    --as)
+      name=${2:-}
+      [[ "$name" =~ ^[A-Za-z0-9-]+$ ]] || { echo "run-performance.sh: --as takes a name" >&2; exit 2; }
+      shift
+      ;;
     --frames)
       frames=${2:-}
       [[ "$frames" =~ ^[1-9][0-9]*$ ]] || { echo "run-performance.sh: --frames takes a number" >&2; exit 2; }
@@ -32,7 +40,7 @@ while [ $# -gt 0 ]; do
       shift
       ;;
     *)
-      sed -n '2,13s/^# //p' "${BASH_SOURCE[0]}"
+      sed -n '2,15s/^# //p' "${BASH_SOURCE[0]}"
       exit 2
       ;;
   esac
@@ -179,8 +187,9 @@ if [ "$quick" = yes ]; then
   figures=$out/figures
 fi
 mkdir -p "$figures"
-/usr/bin/python3 Testing/Benchmarks/Performance/collect.py "$out" "$figures/performance.json" \
+/usr/bin/python3 Testing/Benchmarks/Performance/collect.py "$out" "$figures/$name.json" \
   "commit=$(git describe --always --dirty)" "against=$against" "frames=$frames"
-/usr/bin/python3 Testing/Benchmarks/Performance/plots.py "$figures/performance.json" "$images"
-/usr/bin/python3 Testing/Benchmarks/Performance/tables.py "$figures/performance.json" "$page"
+[ "$name" != performance ] ||
+  /usr/bin/python3 Testing/Benchmarks/Performance/plots.py "$figures/$name.json" "$images"
+/usr/bin/python3 Testing/Benchmarks/Performance/tables.py "$figures/$name.json" "$page"
 grep '^|' "$page"

@@ -188,6 +188,25 @@ class WrittenPage(unittest.TestCase):
         for measured, verdict in bars:
             self.assertEqual("not measured" in measured, not verdict.strip())
         self.assertTrue(any("met" in verdict or "missed" in verdict for _, verdict in bars))
+        # Another machine's figures stand beside these, and change nothing else.
+        other = os.path.join(OUTPUT, "all", "other.json")
+        with open(rows, encoding="utf-8") as file:
+            changed = json.load(file)
+        changed[0]["processor"] = "another"
+        for row in changed:
+            if row.get("processorMs"):
+                row["processorMs"] *= 2
+        with open(other, "w", encoding="utf-8") as file:
+            json.dump(changed, file)
+        subprocess.run([sys.executable, os.path.join(HERE, "tables.py"), other, page], check=True,
+                       env={**os.environ, "PYTHONPATH": os.path.dirname(HERE)})
+        os.remove(other)
+        with open(page, encoding="utf-8") as file:
+            both = dict(re.findall("<!-- begin (.*?) -->\n(.*?)<!-- end", file.read(), re.DOTALL))
+        self.assertIn("another", both["machines"])
+        self.assertTrue(both["machines"].startswith(sections.pop("machines")))
+        for name, content in sections.items():
+            self.assertEqual(both[name], content)
 
 
 class Arithmetic(unittest.TestCase):

@@ -34,8 +34,10 @@ def rows_of(folder):
 
 def machine():
     with open("/proc/cpuinfo", encoding="utf-8") as file:
-        name = re.search(r"model name\s*: (.*)", file.read())
-    return {"experiment": "machine", "processor": name[1] if name else "unknown",
+        text = file.read()
+    found = [re.search(key + r"\s*: (.*)", text) for key in ("model name", "cpu family", "model\t")]
+    name, family, model = [match[1] if match else "unknown" for match in found]
+    return {"experiment": "machine", "processor": f"{name} (family {family}, model {model})",
             "processors": os.cpu_count(), "load": round(os.getloadavg()[2], 1)}
 
 

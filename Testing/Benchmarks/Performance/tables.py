@@ -1,8 +1,13 @@
 """Writes the tables of Documentation/Performance.md from the measurements.
 
     tables.py performance.json Performance.md
+
+Other files beside performance.json are those of other machines: in place of it they fill the table
+of machines alone.
 """
+import glob
 import json
+import os
 import sys
 
 from measured import (EMBREE, EMPTY, EXACT, OURS, PACKETS, PHASES, PLAIN, SHADOWS, SITUATIONS, SPOT,
@@ -204,6 +209,44 @@ def instruction_sets(rows):
                  lines)
 
 
+def machines(measured):
+    """Of lists of rows, one a machine."""
+    lines = []
+    for rows in measured:
+        def frame(method, situation):
+            return only(rows, "processorMs", "scenes", scene="paper4", method=method,
+                        situation=situation)
+
+        def orbit(method):
+            counts = values(some(rows, "refined"), "triangles")
+            return only(rows, "processorMs", "refined", method=method, situation="camera",
+                        triangles=counts[0]) if counts else None
+
+        host = some(rows, "machine")[0]
+        name = f"{host['processor']}, {host.get('commit', 'unknown')}"
+        sets = [s for s in SETS[:2] if some(rows, "instructionSets", instructionSet=s)]
+        for which in sets:
+            here = some(rows, "instructionSets", instructionSet=which)
+            line = phase_lines(here, [name])[0]
+            line.insert(1, which)
+            theirs = [frame(SHADOWS, "retraced"), frame(PLAIN, "retraced")]
+            line += [ms(t) for t in theirs] + [times(ratio(t, here[0]["processorMs"])) for t in theirs]
+            # The best set is what everybody has, and all that the others were measured with.
+            line += [times(ratio(a, b)) if which == sets[0] else "" for a, b in (
+                (frame(SHADOWS, "all"), frame(SPOT, "all")),
+                (frame(SHADOWS, "camera"), frame(SPOT, "camera")), (orbit(SHADOWS), orbit(SPOT)))]
+            line += [times(rays_against(rows, kernels, peer, camera, which))
+                     for kernels, peer in ((EXACT, EMBREE), (WALKED, PACKETS))
+                     for camera in ("far", "near")]
+            lines.append(line)
+    return rows_or_missing(
+        ["processor, commit", "instruction set"] + PHASES
+        + ["frame", "`vtkShadowMapPass`", "VTK, no shadows", "times as fast as `vtkShadowMapPass`",
+           "as VTK without shadows", "all move: `vtkShadowMapPass`", "the camera moves",
+           "it orbits ten of 17 k", "exact rays, far, by Embree's", "near", "walked rays, far",
+           "near"], lines)
+
+
 def peers(experiment, key, form, methods=(SPOT, SHADOWS, PLAIN), situations=("camera", "all")):
     def make(rows):
         lines = []
@@ -352,6 +395,15 @@ SECTIONS = {
     "builders": builders, "paraview": paraview, "against": against}
 
 
+def read(path):
+    with open(path, encoding="utf-8") as measurements:
+        return json.load(measurements)
+
+
 if __name__ == "__main__":
-    with open(sys.argv[1], encoding="utf-8") as measurements:
-        fill(sys.argv[2], SECTIONS, json.load(measurements))
+    OWN = os.path.join(os.path.dirname(sys.argv[1]), "performance.json")
+    FILES = glob.glob(os.path.join(os.path.dirname(sys.argv[1]), "*.json"))
+    FILES.sort(key=lambda path: (path != OWN, path))
+    fill(sys.argv[2], SECTIONS if sys.argv[1] == OWN else {},
+         read(sys.argv[1]))
+    fill(sys.argv[2], {"machines": machines}, [read(path) for path in FILES])
