@@ -353,7 +353,7 @@ void expectTranslucent(Checks& checks)
               << " are others, off by " << off / static_cast<double>(pixels) << " in the mean\n";
     checks.expect(pixels > 1000, name + "there are two layers");
     checks.expect(sampled > 10.0 * static_cast<double>(pixels), name + "samples are seen");
-    checks.expect(others <= 3e-4 * 3 * 16 * 3 * static_cast<double>(pixels), name + "both layers");
+    checks.expect(others <= pixels / 1000, name + "both layers"); // a ray that grazes something
     // More of them, of the same, in steps.
     stage.window->SetDesiredUpdateRate(10.0);
     stage.pass->AutoAdjustSampleDistancesOff();

@@ -226,7 +226,8 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
     {
       whyNot = this->prepare(scene, view, settings, maps);
       const std::size_t mask = (lights > 0 && !maps) || sampled > 0
-        ? ShadowMask::bytesOf(view.width, view.height, static_cast<int>(lights), sampled)
+        ? ShadowMask::bytesOf(view.width, view.height,
+            static_cast<int>(lights) + settings.ambientOcclusion + 3 * settings.skyLight, sampled)
         : 0;
       if (this->Octrees.holdsOthers() &&
         (!whyNot.empty() || this->bytesOfScene() + mask > settings.gpuMemoryLimit))

@@ -11,6 +11,13 @@
 
 namespace svo
 {
+bool PlaceBuffer::hasRows(int height)
+{
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  return rowsOf(height, true) <= most;
+}
+
 bool PlaceBuffer::resize(int width, int height, bool translucent)
 {
   if (width == this->Width && height == this->Height && translucent == this->translucent())
@@ -78,11 +85,11 @@ void PlaceBuffer::gather(vtkOpenGLState* state, const Draw& draw)
   for (int slice = 0; slice < this->Slices; ++slice)
   {
     const int row = slice * this->sliceRows();
+    // Wide lines and points leave a viewport.
+    state->vtkglEnable(GL_SCISSOR_TEST);
+    state->vtkglScissor(0, row, this->Width, this->Height);
     if (slice > 0)
     {
-      // Wide lines and points leave a viewport.
-      state->vtkglEnable(GL_SCISSOR_TEST);
-      state->vtkglScissor(0, row, this->Width, this->Height);
       glBlitFramebuffer(0, 0, this->Width, this->Height, 0, row, this->Width, row + this->Height,
         GL_DEPTH_BUFFER_BIT, GL_NEAREST);
     }
@@ -106,7 +113,8 @@ void PlaceBuffer::describe(LightCode& code) const
 {
   code.textures.push_back({ "svoPlaces", this->Places, GL_TEXTURE_2D });
   code.integers.push_back({ "svoSliceRows", { this->Height, this->sliceRows() } });
-  if (this->translucent())
+  code.translucent = this->translucent();
+  if (code.translucent)
   {
     code.textures.push_back({ "svoBefore", this->Before, GL_TEXTURE_2D });
     code.constants += "#define svoSlices " + std::to_string(this->Slices) + "\n";

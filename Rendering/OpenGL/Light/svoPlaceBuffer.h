@@ -28,8 +28,8 @@ public:
 
   /// Draws the opaque surfaces of slice 0, or all translucent ones, with shaders that write where
   /// they lie as svoShadowReceiver.glsl does while svoGather is 1, into the framebuffer that is
-  /// bound then. Its viewport, which begins in row `behind` if that is above 0, is the slice's:
-  /// only what lies behind before() is to be drawn then.
+  /// bound then. Its viewport is the slice's, which begins in row `behind` if that is above 0: only
+  /// what lies behind the slice before is to be drawn then.
   using Draw = std::function<void(int slice, int behind)>;
   /// Other state is as before.
   void gather(vtkOpenGLState* state, const Draw& draw);
@@ -47,11 +47,12 @@ public:
   {
     return translucent ? (1 + TranslucentSlices) * ((height + 7) / 8 * 8 + 8) : height;
   }
+  /// True if OpenGL has room for so many, of all slices.
+  static bool hasRows(int height);
   int rows() const { return rowsOf(this->Height, this->translucent()); }
   int sliceRows() const { return this->rows() / this->Slices; }
   unsigned int places() const { return this->Places; } // ReceiverPlaces
   unsigned int planes() const { return this->Planes; }
-  unsigned int before() const { return this->Before; } // places of the slice before
   static std::size_t bytesOf(int width, int height, bool translucent)
   {
     const int numbers =

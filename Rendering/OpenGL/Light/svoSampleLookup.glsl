@@ -1,6 +1,7 @@
 // What is left of a light, or of what is all around, at a fragment whose own surface the mask does not
 // know there. What is sampled is that of the nearest place which the mask knows beside it, in any
-// slice; if none is near enough it is what svoLeftByRay() says of the light, or nothing closes it off.
+// slice. If there is none, or of a light none that is near, it is what svoLeftByRay() says of the
+// light, or nothing closes it off.
 //
 // svoSkyShader.glsl and svoMaskLookup.glsl come before it, and svoSumOf of svoSampleMeans.glsl.
 float svoRayLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, float extent)

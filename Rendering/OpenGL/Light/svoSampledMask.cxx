@@ -35,6 +35,7 @@ const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverSha
     this->resize(0, 0, false, 0);
     return allMaps;
   }
+  translucent = translucent && PlaceBuffer::hasRows(view.height);
   if (!this->resize(view.width, view.height, translucent, shares.layers()))
   {
     return allMaps;

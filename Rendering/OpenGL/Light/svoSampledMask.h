@@ -10,7 +10,6 @@
 #include "vtkSVOOpenGLModule.h"
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <string>
 #include <utility>

@@ -65,9 +65,11 @@ const LightCode& ShadowMask::lookUp(
     return asked;
   }
   const bool samples = !asked.sampled.empty();
+  const int sampled = static_cast<int>(asked.sampled.size());
+  translucent = translucent && samples && PlaceBuffer::hasRows(height) &&
+    bytesOf(width, height, asked.count(), sampled, true) <= room;
   if (!this->accepts(asked) ||
-    !this->resize(width, height, translucent && samples, asked.count(),
-      static_cast<int>(asked.sampled.size()), room))
+    !this->resize(width, height, translucent, asked.count(), sampled, room))
   {
     if (!samples)
     {
@@ -121,6 +123,12 @@ void ShadowMask::find(vtkOpenGLState* state, const LightCode& asked, bool same,
   {
     this->Samples.forget();
   }
+  if (this->Found == 0 || this->Picture != asked.picture)
+  {
+    this->Changed = -1.0; // else what was known of surfaces that have changed since is as good
+  }
+  const bool compares = measure && known;
+  const std::vector<std::uint16_t> before = compares ? this->read() : std::vector<std::uint16_t>();
   this->Found = asked.sampled.empty() ? 0 : asked.samples;
   this->Picture = asked.picture;
   if (!known)
@@ -157,19 +165,27 @@ void ShadowMask::find(vtkOpenGLState* state, const LightCode& asked, bool same,
     }
   }
   state->PopFramebufferBindings();
-  this->Changed = -1.0;
-  if (measure && !asked.sampled.empty())
+  if (compares)
   {
-    this->measure(state, asked, known);
-  }
-  else
-  {
-    this->Read.clear();
+    this->compare(state, asked, before);
   }
 }
 
-/// Reads what was found. `more`: than was read before, of the same.
-void ShadowMask::measure(vtkOpenGLState* state, const LightCode& asked, bool more)
+/// What it has: as ReceiverShares::numbers.
+std::vector<std::uint16_t> ShadowMask::read() const
+{
+  std::vector<std::uint16_t> numbers(
+    4 * static_cast<std::size_t>(this->Surfaces.width()) * this->Surfaces.rows() * this->Layers);
+  GLint bound = 0;
+  glGetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &bound);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, this->Shares);
+  glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA, GL_UNSIGNED_SHORT, numbers.data());
+  glBindTexture(GL_TEXTURE_2D_ARRAY, static_cast<GLuint>(bound));
+  return numbers;
+}
+
+void ShadowMask::compare(
+  vtkOpenGLState* state, const LightCode& asked, const std::vector<std::uint16_t>& before)
 {
   std::vector<int> planes;
   for (const LightCode::Sampled& of : asked.sampled)
@@ -181,15 +197,7 @@ void ShadowMask::measure(vtkOpenGLState* state, const LightCode& asked, bool mor
   }
   ReceiverPlaces places;
   this->Surfaces.read(state, places);
-  std::vector<std::uint16_t> now(
-    4 * static_cast<std::size_t>(places.width) * places.height * this->Layers);
-  GLint bound = 0;
-  glGetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &bound);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, this->Shares);
-  glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA, GL_UNSIGNED_SHORT, now.data());
-  glBindTexture(GL_TEXTURE_2D_ARRAY, static_cast<GLuint>(bound));
-  this->Changed = more ? differenceOf(this->Read, now, planes, places) : -1.0;
-  this->Read = std::move(now);
+  this->Changed = differenceOf(before, this->read(), planes, places);
 }
 
 bool ShadowMask::accepts(const LightCode& code)

@@ -12,7 +12,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,16 +38,17 @@ public:
   const std::string& refusal() const { return this->Refusal; }
 
   /// For a frame of so many pixels: code that looks up what find() will find of the code `asked`,
-  /// until the next call. With `others` there are fragments that the mask says nothing of,
-  /// parts of pixels and `translucent` ones (where nothing is sampled): these ask themselves.
+  /// until the next call. With `others` there are fragments that the mask says nothing of, parts of
+  /// pixels and `translucent` ones: these ask themselves, or where something is sampled the mask
+  /// knows translucent surfaces as well if it can (LightCode::translucent).
   /// `asked` itself, and nothing is to be found, if it is not costly, or if a mask does not fit
   /// into `room`, bytes, or OpenGL has none; then without what is sampled.
   const LightCode& lookUp(const LightCode& asked, int width, int height, bool others,
     std::size_t room, bool translucent = false);
 
-  /// Fills the mask; `draw` as of PlaceBuffer::gather(). The current viewport is where the code
-  /// will be used. With `measure` it is read back
-  /// where something is sampled, and changed() known.
+  /// Fills the mask; `draw` as of PlaceBuffer::gather(), whose surfaces are those of the last call
+  /// if they are the `same`. The current viewport is where the code will be used. With `measure`
+  /// the mask is read where samples are added, and changed() is known.
   void find(vtkOpenGLState* state, const LightCode& asked, bool same, const PlaceBuffer::Draw& draw,
     bool measure = false);
   /// What more samples of the same picture have changed, RMS of 0..255; negative: not known.
@@ -65,7 +65,9 @@ public:
 private:
   bool resize(int width, int height, bool translucent, int numbers, int sampled, std::size_t room);
   bool link(const LightCode& asked, bool computes);
-  void measure(vtkOpenGLState* state, const LightCode& asked, bool more);
+  std::vector<std::uint16_t> read() const;
+  void compare(
+    vtkOpenGLState* state, const LightCode& asked, const std::vector<std::uint16_t>& before);
   void releaseTextures();
 
   Way Wanted = Way::Compute;
@@ -84,7 +86,6 @@ private:
   std::uint64_t Picture = 0;
   int Found = 0;
   double Changed = -1.0;
-  std::vector<std::uint16_t> Read; // what was found; empty: it was not read
   LightCode Code;
 };
 }

@@ -105,7 +105,7 @@ void PassFrame::decideSamples(const PaceLimits& limits)
     : straight && limits.lightError <= 0.0 ? std::numeric_limits<int>::max()
                                            : first;
   this->lightError = limits.lightError;
-  this->refines = straight && limits.refine <= 0.0;
+  this->refinesAtOnce = straight && limits.refine <= 0.0;
 }
 
 void PassFrame::decide(const FrameSettings& asked, const PaceLimits& limits)
@@ -150,7 +150,8 @@ void PassFrame::lightNothingMore()
 void PassFrame::trace(int width, int height)
 {
   this->traced = true;
-  this->state->trace(width, height, this->pace, this->settings, this->lightError, this->refines);
+  this->state->trace(
+    width, height, this->pace, this->settings, this->lightError, this->refinesAtOnce);
   this->state->receivers().activate();
 }
 }

@@ -128,10 +128,10 @@ struct PassFrame
   FrameSettings settings;
   FramePace pace;
   Sampling sampling = Sampling::AtOnce;
-  double lightError = 0.0;   // PaceLimits
-  bool refines = false;      // sampled lights, until then or to all samples, at once
-  bool pacedShadows = false; // PassStatistics
-  bool openGL = false;       // PassStatistics
+  double lightError = 0.0;    // PaceLimits
+  bool refinesAtOnce = false; // until then, or to all samples
+  bool pacedShadows = false;  // PassStatistics
+  bool openGL = false;        // PassStatistics
   bool traced = false;
   std::vector<std::string> messages; // said when the frame is done
 

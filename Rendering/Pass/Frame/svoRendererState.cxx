@@ -26,6 +26,29 @@ namespace
 /// From this width on, pixels, what blurs a shadow is complained about.
 constexpr double CoarseShadow = 32.0;
 
+/// Has a translucent prop, which has keys, write depths while it is drawn.
+class WritesDepth
+{
+public:
+  explicit WritesDepth(vtkProp* prop)
+    : Keys(prop->GetPropertyKeys())
+    , Had(this->Keys->Has(key()))
+    , Before(this->Had ? this->Keys->Get(key()) : 0)
+  {
+    this->Keys->Set(key(), 1);
+  }
+  ~WritesDepth() { this->Had ? this->Keys->Set(key(), this->Before) : this->Keys->Remove(key()); }
+  WritesDepth(const WritesDepth&) = delete;
+  WritesDepth& operator=(const WritesDepth&) = delete;
+
+private:
+  static vtkInformationIntegerKey* key() { return vtkOpenGLActor::GLDepthMaskOverride(); }
+
+  vtkInformation* Keys;
+  bool Had;
+  int Before;
+};
+
 /// True if the first that a renderer with this pass draws into its cleared framebuffer are its
 /// props, in their order. ParaView's views have such a pass, unless they have effects.
 bool drawsPropsFirst(vtkRenderPass* pass)
@@ -180,8 +203,8 @@ std::string RendererState::lostShadows(const FrameSettings& settings) const
   return {};
 }
 
-void RendererState::trace(
-  int width, int height, const FramePace& pace, FrameSettings settings, double error, bool straight)
+void RendererState::trace(int width, int height, const FramePace& pace, FrameSettings settings,
+  double error, bool refinesAtOnce)
 {
   this->Statistics.pace = pace;
   Scene& scene = this->Collected.scene;
@@ -223,7 +246,7 @@ void RendererState::trace(
   { return this->Mask.refusal().empty() ? this->Boxes.refusal() : this->Mask.refusal(); };
   settings.lightCode = wantsCode && refusal().empty();
   this->LightError = error;
-  this->Straight = straight;
+  this->RefinesAtOnce = refinesAtOnce;
   this->render(settings);
   if (!this->Mask.accepts(this->Trace->lightCode()) || !this->Boxes.accepts(this->Trace->eyeCode()))
   {
@@ -263,6 +286,13 @@ void RendererState::trace(
       "GPUMemoryLimit: on what VTK draws there is neither a sky's light nor ambient occlusion, and "
       "lights with a size are points.";
   }
+  if (seenThrough && !known.translucent && (receivers || !code.sampled.empty()) &&
+    this->Complaint.empty())
+  {
+    this->Complaint = "Places of translucent surfaces do not fit into a texture of OpenGL, or "
+                      "GPUMemoryLimit: nothing "
+                      "closes these off, and lights with a size are points to them.";
+  }
   this->Receivers.update(window, known.empty() ? this->Maps.code() : known,
     settings.shadowIntensity, this->Collected.shadowCatchers);
   this->Receivers.setMirrored(view.mirrored);
@@ -292,7 +322,7 @@ void RendererState::render(const FrameSettings& settings)
 /// Takes more samples of its lights until they are refined(); of what VTK draws by `sample`.
 void RendererState::refine(const std::function<void()>& sample)
 {
-  while (this->Straight && !this->refined(this->Settings.lightSamples, this->LightError))
+  while (this->RefinesAtOnce && !this->refined(this->Settings.lightSamples, this->LightError))
   {
     FrameSettings more = this->Settings;
     more.samplesNow = 2 * this->samples();
@@ -344,10 +374,8 @@ void RendererState::findLight(const vtkRenderState& drawn)
       }
       else if (prop->HasTranslucentPolygonalGeometry())
       {
-        vtkInformation* keys = prop->GetPropertyKeys();
-        keys->Set(vtkOpenGLActor::GLDepthMaskOverride(), 1);
+        const WritesDepth depth(prop);
         prop->RenderTranslucentPolygonalGeometry(this->Renderer);
-        keys->Remove(vtkOpenGLActor::GLDepthMaskOverride());
       }
     }
     if (slice == 0)
@@ -360,27 +388,29 @@ void RendererState::findLight(const vtkRenderState& drawn)
   const std::uint64_t memory = this->Statistics.tracer.gpuMemory;
   if (!this->Sampled.any())
   {
-    const auto find = [&](bool as)
-    { this->Mask.find(state, this->Trace->lightCode(), as, draw, this->LightError > 0.0); };
+    const auto find = [&](bool sameSurfaces)
+    {
+      const LightCode& code = this->Trace->lightCode();
+      this->Mask.find(state, code, sameSurfaces, draw, this->LightError > 0.0);
+    };
     find(same);
     this->refine([&] { find(true); });
-    this->Statistics.tracer.lightError =
-      std::max(this->Statistics.tracer.lightError, this->Mask.changed());
   }
   else
   {
     this->Sampled.aim(state);
-    const bool known = same && this->Trace->receiverShares().current && this->Sampled.filled();
+    const ReceiverShares& shares = this->Trace->receiverShares();
+    const bool known = same && shares.current && this->Sampled.filled();
+    const int before = this->samples();
     if (!known)
     {
       this->Sampled.gather(state, draw, this->Places);
       this->sampleReceivers(same);
     }
-    if (!known ||
-      (this->Straight && !this->refined(this->Settings.lightSamples, this->LightError)))
+    this->refine([this] { this->sampleReceivers(true); });
+    if (!known || this->samples() != before)
     {
-      this->refine([this] { this->sampleReceivers(true); });
-      this->Sampled.upload(this->Trace->receiverShares());
+      this->Sampled.upload(shares);
     }
   }
   this->Statistics.tracer.gpuMemory = memory; // as when it was traced, with the mask

@@ -22,7 +22,6 @@
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
@@ -99,10 +98,10 @@ public:
   void joinPasses(const vtkRenderState* state);
 
   /// Traces the collected scene, `width` by `height` pixels, at a pace that `settings` know of.
-  /// Nothing is drawn yet. `straight`: its lights get more samples until refined() says so of
-  /// `error`, which is known where it is above 0.
+  /// Nothing is drawn yet. `refinesAtOnce`: its lights get more samples until refined() says so
+  /// of `error`, which is known where it is above 0.
   void trace(int width, int height, const FramePace& pace, FrameSettings settings, double error,
-    bool straight);
+    bool refinesAtOnce);
 
   /// Of its lights, in what was traced last.
   int samples() const { return this->Trace->statistics().lightSamples; }
@@ -113,7 +112,8 @@ public:
   bool refined(int most, double error) const
   {
     const FrameStatistics& frame = this->Trace->statistics();
-    const double changed = std::max(frame.lightError, this->Mask.changed());
+    const bool masked = !this->Trace->lightCode().sampled.empty();
+    const double changed = masked ? this->Mask.changed() : frame.lightError;
     return !this->HasPicture || frame.lightSamples == 0 || frame.lightSamples >= most ||
       (error > 0.0 && changed >= 0.0 && changed <= error);
   }
@@ -182,8 +182,8 @@ private:
   FrameSettings Settings; // of the frame
   double SecondsOfSample = 0.0;
   double LightError = 0.0; // of the frame; 0: all samples that there may be
-  bool Straight = false;   // on it goes until then
-  int AddedSamples = 0;    // in the frame, to those before
+  bool RefinesAtOnce = false;
+  int AddedSamples = 0; // in the frame, to those before
   bool InFrame = false;
   bool ForgetsScene = false;  // as soon as the frame has ended
   bool SharesShadows = false; // this frame's shadow buffers are those of all processes

@@ -53,13 +53,14 @@ vec4 svoPlanesOf(vec3 facet, vec3 normal)
   return 0.5 + 0.5 * vec4(svoFold(facet), svoFold(normal));
 }
 
-// False if what is gathered is to lie behind a surface that this fragment, at a place and so wide, is
-// not behind. The surface itself is drawn to another row, where floats round differently.
-bool svoIsBehind(vec3 position, float extent)
+// False if what is gathered is to lie behind a surface that this fragment, at a place, is not behind.
+// The surface itself is drawn to another row, where floats and parts of pixels round differently.
+// `extent`: how wide a piece of it the fragment shows; `steep`: ... and how deep.
+bool svoIsBehind(vec3 position, float extent, float steep)
 {
 #ifdef svoSlices
   ivec2 at = ivec2(gl_FragCoord.xy) - ivec2(0, svoBehind);
-  float rounding = max(0.05 * extent, 1e-6 * length(position));
+  float rounding = max(0.05 * max(extent, steep), 1e-6 * length(position));
   return svoBehind == 0 || position.z < texelFetch(svoBefore, at, 0).z - rounding;
 #else
   return true;

@@ -263,6 +263,7 @@ void ShadowReceivers::completeShader(
                              : FragmentOfFacet) +
         (hasNormal ? FacetOfNormal : "") +
         "  float svoExtent = min(length(dFdx(svoPosition)), length(dFdy(svoPosition)));\n"
+        "  float svoSteep = fwidth(svoPosition.z);\n"
         "  vec3 svoLift = " +
         std::string(smooth
             ? "svoSmoothLift(svoPosition, svoFacet, normalVCVSOutput, svoCornerVSOutput, "
@@ -288,7 +289,7 @@ void ShadowReceivers::completeShader(
     body.insert(body.rfind('}'),
       "  if (svoGather > 0.0)\n"
       "  {\n"
-      "    if (!svoIsBehind(svoPosition, svoExtent))\n"
+      "    if (!svoIsBehind(svoPosition, svoExtent, svoSteep))\n"
       "    {\n"
       "      discard;\n"
       "    }\n"

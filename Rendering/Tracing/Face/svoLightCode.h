@@ -34,6 +34,7 @@ struct LightCode : ShaderValues
   bool costly = false;
   /// The text reads what has been found so: surfaces are drawn once before, and say where they lie.
   bool fromPlaces = false;
+  bool translucent = false; // ... and so do those that something is seen through
 
   /// Numbers behind those of the lights: what is open all around (1 less ambient occlusion), and
   /// the first of three, red, green and blue, of what is seen of the sky, of

@@ -320,6 +320,7 @@ std::uint64_t ReceiverSampler::sample(const SampledFrame& frame, const ReceiverP
   const std::vector<std::uint8_t> hidden = hiddenPlaces(frame, places);
   const TileOfPlaces tile(frame, places, hidden, this->Images);
   std::atomic<std::uint64_t> rays{ 0 };
+  std::vector<std::uint8_t> filled(static_cast<std::size_t>(tilesX) * tilesY);
   parallelFor(0, static_cast<std::size_t>(tilesX) * tilesY, 1,
     [&](std::size_t first, std::size_t last)
     {
@@ -328,11 +329,19 @@ std::uint64_t ReceiverSampler::sample(const SampledFrame& frame, const ReceiverP
       for (std::size_t i = first; i < last; ++i)
       {
         tile.sample(static_cast<int>(i) % tilesX, static_cast<int>(i) / tilesX, scratch);
+        filled[i] = scratch.list.hits.mask != 0;
       }
       rays.fetch_add(scratch.rays, std::memory_order_relaxed);
     });
-  this->Images.findMeans(
-    parallelFor, frame.settings.filterLightSamples, [](int, int) { return true; });
+  // What has become empty is to be known as such.
+  const bool known = this->Filled.size() == filled.size();
+  this->Images.findMeans(parallelFor, frame.settings.filterLightSamples,
+    [&](int x, int y)
+    {
+      const std::size_t i = static_cast<std::size_t>(y) * tilesX + x;
+      return filled[i] != 0 || !known || this->Filled[i] != 0;
+    });
+  this->Filled = std::move(filled);
   const std::vector<std::uint16_t> coarser = std::move(this->Shares.numbers);
   this->write(places, parallelFor);
   std::vector<int> planes(static_cast<std::size_t>(this->Sampled.count));

@@ -14,6 +14,7 @@
 #include "vtkSVOTracingModule.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace svo
 {
@@ -49,7 +50,8 @@ private:
   SampledPlanes Sampled;
   ReceiverShares Shares;
   LightImages Images;
-  bool More = false; // what is there is a part of what there is to be
+  std::vector<std::uint8_t> Filled; // by tile: something was there
+  bool More = false;                // what is there is a part of what there is to be
 };
 }
 
