@@ -8,6 +8,7 @@ uniform usamplerBuffer svoSequence; // a mask of blue noise, 64x64; points of th
 uniform int svoNumber; // of svoLeft(), whose samples these are
 uniform int svoStream;
 uniform float svoSize; // LightCode::Sampled
+uniform int svoNoiseShift[2]; // noiseShift()
 uniform int svoRowsOfSlice; // ReceiverPlaces::sliceRows
 uniform int svoFirstSample;
 uniform int svoEndSample;
@@ -106,7 +107,7 @@ vec4 svoSumsAt(ivec2 pixel)
   float cap = sine * sine / (1.0 + sqrt(1.0 - sine * sine)); // solid angle grows by it
   mat3 toWorld = mat3(svoViewToTree);
   mat3 basis = svoBasis(toWorld * (towards / away));
-  uvec2 at = uvec2(pixel.x, pixel.y % svoRowsOfSlice) + uint(svoStream) * uvec2(23u, 13u);
+  uvec2 at = uvec2(pixel.x + svoNoiseShift[0], pixel.y % svoRowsOfSlice + svoNoiseShift[1]) + uint(svoStream) * uvec2(23u, 13u);
   uvec2 turn = uvec2(svoNoise(at), svoNoise(at + uvec2(37u, 17u)));
   for (int i = svoFirstSample; i < svoEndSample; ++i)
   {

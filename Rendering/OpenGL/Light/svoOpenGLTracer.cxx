@@ -12,6 +12,7 @@
 #include "svoOctreeWalk.h"
 #include "svoRayWalk.h"
 #include "svoSampleCount.h"
+#include "svoSampleSequence.h"
 #include "svoSeenSurfaces.h"
 #include "svoShaderCasters.h"
 #include "svoShadowMask.h"
@@ -409,6 +410,8 @@ void OpenGLTracer::describeSamples(
     code.sky = code.count();
     code.sampled.push_back({ code.sky, HemisphereRays::SkyStream, 1e30f });
   }
+  const glm::ivec2 shift = noiseShift(view);
+  code.integers.push_back({ "svoNoiseShift", { shift.x, shift.y } });
   addAroundValues(settings, view, code);
   if (settings.skyLight && settings.skyPicture)
   {

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstddef>
 
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
 namespace svo
 {
 namespace
@@ -116,6 +119,41 @@ private:
   std::array<bool, Pixels> Set{};
   std::array<std::uint32_t, Pixels> Ranks{};
 };
+}
+
+glm::ivec2 noiseShift(const View& view)
+{
+  std::uint64_t mixed = 0;
+  const auto mix = [&](double number)
+  {
+    constexpr double Digits = 1 << 26;
+    const double bounded = std::clamp(number, -4096.0, 4096.0);
+    mixed ^= static_cast<std::uint64_t>(std::llround(Digits * bounded));
+    // Steele et al., "Fast Splittable Pseudorandom Number Generators", 2014.
+    mixed += 0x9e3779b97f4a7c15u;
+    mixed = (mixed ^ mixed >> 30) * 0xbf58476d1ce4e5b9u;
+    mixed = (mixed ^ mixed >> 27) * 0x94d049bb133111ebu;
+    mixed ^= mixed >> 31;
+  };
+  const auto mixSize = [&](double size) { mix(size > 0.0 ? std::log2(size) : 0.0); };
+  const glm::dvec3 eye = glm::abs(view.eye);
+  const double far = std::max({ eye.x, eye.y, eye.z });
+  mixSize(far);
+  for (int i = 0; i < 3; ++i)
+  {
+    mix(far > 0.0 ? view.eye[i] / far : 0.0);
+    for (int k = 0; k < 3; ++k)
+    {
+      mix(view.worldToView[i][k]);
+    }
+  }
+  for (int i = 0; i < 2; ++i)
+  {
+    mixSize(std::abs(view.viewToClip[i][i]));
+    mix(view.viewToClip[2][i]);
+    mix(view.viewToClip[3][i]);
+  }
+  return { static_cast<int>(mixed & 63u), static_cast<int>(mixed >> 6 & 63u) };
 }
 
 SquarePoint pixelRotation(int x, int y, unsigned stream)

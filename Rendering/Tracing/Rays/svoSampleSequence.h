@@ -7,11 +7,12 @@
 // because its points lie along diagonals, where edges at 45 degrees have thrice the error of
 // others; and rotated by what a blue-noise mask of 64 x 64 pixels has there (R. Ulichney,
 // "The void-and-cluster method for dither array generation", 1993; rotations: Cranley and
-// Patterson, 1976). All is computed in whole numbers: a sample is a function of the pixel, the
-// stream and the index alone, the same bits everywhere.
+// Patterson, 1976). All is computed in whole numbers: a sample is a function of the view, the
+// pixel, the stream and the index alone, the same bits everywhere.
 #ifndef svoSampleSequence_h
 #define svoSampleSequence_h
 
+#include "svoView.h"
 #include "vtkSVOTracingModule.h"
 
 #include <cstdint>
@@ -85,8 +86,13 @@ inline std::vector<SquarePoint> firstPoints(int count)
   return points;
 }
 
-/// The rotation of a pixel. `stream`: of samples that have nothing to do with another stream's, as
-/// those of two lights.
+/// Where a view's picture lies in the mask, 0..63: elsewhere for another view, so that grain does
+/// not stand still on the screen while what it lies on moves. Of where the eye is and looks, and
+/// how wide, to eight digits: not of how floats round, nor of what is near or far.
+VTKSVOTRACING_EXPORT glm::ivec2 noiseShift(const View& view);
+
+/// The rotation of a pixel of the mask. `stream`: of samples that have nothing to do with another
+/// stream's, as those of two lights.
 VTKSVOTRACING_EXPORT SquarePoint pixelRotation(int x, int y, unsigned stream);
 }
 

@@ -50,12 +50,13 @@ void HemisphereRays::each(
   std::vector<Basis> bases;
   SquarePoint rotations[TilePatch::Most];
   int pixels[TilePatch::Most];
+  const glm::ivec2 shift = noiseShift(*patch.view);
   eachBit(query.asked,
     [&](int i)
     {
       const glm::dvec3 position = patch.position(i);
-      rotations[batch.points] = pixelRotation(static_cast<int>(std::floor(patch.x(i))),
-        static_cast<int>(std::floor(patch.y(i))), this->Stream);
+      rotations[batch.points] = pixelRotation(shift.x + static_cast<int>(std::floor(patch.x(i))),
+        shift.y + static_cast<int>(std::floor(patch.y(i))), this->Stream);
       pixels[batch.points] = i;
       batch.addPoint(position, patch.facet(i));
       bases.emplace_back(normalOver(patch, i));

@@ -37,13 +37,14 @@ void SoftShadow::ask(const ShadowQuery& query, const Asker* askers, int count, f
   };
   std::vector<Cone> cones;
   cones.reserve(static_cast<std::size_t>(count));
+  const TilePatch& patch = query.patch;
+  const glm::ivec2 shift = noiseShift(*patch.view);
   for (int i = 0; i < count; ++i)
   {
     const Asker& asker = askers[i];
-    const TilePatch& patch = query.patch;
     cones.push_back({ LightCone(this->Source, asker.position),
-      pixelRotation(static_cast<int>(std::floor(patch.x(asker.pixel))),
-        static_cast<int>(std::floor(patch.y(asker.pixel))), this->Stream) });
+      pixelRotation(shift.x + static_cast<int>(std::floor(patch.x(asker.pixel))),
+        shift.y + static_cast<int>(std::floor(patch.y(asker.pixel))), this->Stream) });
   }
   const auto trace = [&](SampleBatch& batch)
   {

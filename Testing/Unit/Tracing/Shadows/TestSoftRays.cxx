@@ -85,6 +85,7 @@ TEST(SoftRays, AsManyRaysAreBlockedAsInDouble)
   const svo::Light& light = scene.lights[0];
   double rays = 0.0, different = 0.0;
   int partly = 0, partlyClosed = 0;
+  const glm::ivec2 shift = svo::noiseShift(view);
   for (int y = 0; y < view.height; ++y)
   {
     for (int x = 0; x < view.width; ++x)
@@ -105,14 +106,16 @@ TEST(SoftRays, AsManyRaysAreBlockedAsInDouble)
       {
         float length;
         const svo::SquarePoint sample = svo::sequencePoint(i);
-        const glm::vec3 along = cone.direction(sample + svo::pixelRotation(x, y, 0), length);
+        const glm::vec3 along =
+          cone.direction(sample + svo::pixelRotation(x + shift.x, y + shift.y, 0), length);
         if (glm::dot(glm::dvec3(along), seen.facet) > 0.0)
         {
           ++above;
           met += blocked(along, length);
         }
-        metAround +=
-          blocked(svo::cosineDirection(basis, sample + svo::pixelRotation(x, y, ~0u)), 2.0f);
+        metAround += blocked(
+          svo::cosineDirection(basis, sample + svo::pixelRotation(x + shift.x, y + shift.y, ~0u)),
+          2.0f);
       }
       rays += Samples;
       different += Samples * std::abs(closed[pixel] - metAround / double(Samples));
