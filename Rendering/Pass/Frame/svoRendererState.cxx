@@ -6,9 +6,6 @@
 #include "svoSilhouettes.h"
 
 #include "vtkCameraPass.h"
-#include "vtkInformation.h"
-#include "vtkInformationIntegerKey.h"
-#include "vtkOpenGLActor.h"
 #include "vtkOpenGLRenderPass.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLRenderer.h"
@@ -25,29 +22,6 @@ namespace
 {
 /// From this width on, pixels, what blurs a shadow is complained about.
 constexpr double CoarseShadow = 32.0;
-
-/// Has a translucent prop, which has keys, write depths while it is drawn.
-class WritesDepth
-{
-public:
-  explicit WritesDepth(vtkProp* prop)
-    : Keys(prop->GetPropertyKeys())
-    , Had(this->Keys->Has(key()))
-    , Before(this->Had ? this->Keys->Get(key()) : 0)
-  {
-    this->Keys->Set(key(), 1);
-  }
-  ~WritesDepth() { this->Had ? this->Keys->Set(key(), this->Before) : this->Keys->Remove(key()); }
-  WritesDepth(const WritesDepth&) = delete;
-  WritesDepth& operator=(const WritesDepth&) = delete;
-
-private:
-  static vtkInformationIntegerKey* key() { return vtkOpenGLActor::GLDepthMaskOverride(); }
-
-  vtkInformation* Keys;
-  bool Had;
-  int Before;
-};
 
 /// True if the first that a renderer with this pass draws into its cleared framebuffer are its
 /// props, in their order. ParaView's views have such a pass, unless they have effects.
@@ -351,37 +325,17 @@ void RendererState::findLight(const vtkRenderState& drawn)
   {
     return;
   }
-  std::vector<std::pair<vtkProp*, vtkMTimeType>> seen;
-  for (int i = 0; i < drawn.GetPropArrayCount(); ++i)
-  {
-    vtkProp* prop = drawn.GetPropArray()[i];
-    if (prop->GetVisibility() && this->Collected.receivers.count(prop) > 0 &&
-      this->Collected.replaced.count(prop) == 0)
-    {
-      seen.emplace_back(prop, prop->GetRedrawMTime());
-    }
-  }
-  const bool same = seen == this->Drawn;
-  this->Drawn = seen;
+  const bool same = this->Drawn.take(drawn, this->Collected);
   const auto draw = [&](int slice, int behind)
   {
     this->Receivers.setGathers(true, behind);
-    for (const auto& [prop, time] : seen)
+    if (slice > 0)
     {
-      if (slice == 0)
-      {
-        prop->RenderOpaqueGeometry(this->Renderer);
-      }
-      else if (prop->HasTranslucentPolygonalGeometry())
-      {
-        const WritesDepth depth(prop);
-        prop->RenderTranslucentPolygonalGeometry(this->Renderer);
-      }
+      this->Drawn.drawTranslucent(this->Renderer);
+      return;
     }
-    if (slice == 0)
-    {
-      this->Boxes.draw(this->Renderer, &this->Collected.receivers);
-    }
+    this->Drawn.drawOpaque(this->Renderer);
+    this->Boxes.draw(this->Renderer, &this->Collected.receivers);
   };
   vtkOpenGLState* state =
     vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow())->GetState();

@@ -6,6 +6,7 @@
 #include "svoMapCode.h"
 #include "svoOctreeStore.h"
 #include "svoPassStatistics.h"
+#include "svoReceiverProps.h"
 #include "svoSampleDistance.h"
 #include "svoSampledMask.h"
 #include "svoSceneCollector.h"
@@ -192,8 +193,8 @@ private:
   MapCode Maps;
   ShadowMask Mask;
   SampledMask Sampled;
-  ReceiverPlaces Places;                                // that were sampled last
-  std::vector<std::pair<vtkProp*, vtkMTimeType>> Drawn; // what samples lie on; never dereferenced
+  ReceiverPlaces Places; // that were sampled last
+  ReceiverProps Drawn;   // what samples lie on
   TracedBoxes Boxes;
   ShadowReceivers Receivers;
   std::string Complaint;

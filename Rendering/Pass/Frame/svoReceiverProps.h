@@ -1,0 +1,34 @@
+// What VTK draws of a scene's receivers, drawn once more so that they say where they lie.
+#ifndef svoReceiverProps_h
+#define svoReceiverProps_h
+
+#include "vtkType.h"
+
+#include <utility>
+#include <vector>
+
+class vtkProp;
+class vtkRenderState;
+class vtkViewport;
+
+namespace svo
+{
+struct CollectedScene;
+
+class ReceiverProps
+{
+public:
+  /// Takes those of a frame's props, for its length. They have keys. True if they are the last
+  /// frame's, and as they were.
+  bool take(const vtkRenderState& drawn, const CollectedScene& collected);
+
+  void drawOpaque(vtkViewport* viewport) const;
+  /// As if they were opaque, the nearest counts.
+  void drawTranslucent(vtkViewport* viewport) const;
+
+private:
+  std::vector<std::pair<vtkProp*, vtkMTimeType>> Props;
+};
+}
+
+#endif
