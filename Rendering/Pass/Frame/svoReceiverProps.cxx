@@ -7,6 +7,7 @@
 #include "vtkOpenGLActor.h"
 #include "vtkProp.h"
 #include "vtkRenderState.h"
+#include "vtkSmartPointer.h"
 
 namespace svo
 {
@@ -30,7 +31,7 @@ public:
 private:
   static vtkInformationIntegerKey* key() { return vtkOpenGLActor::GLDepthMaskOverride(); }
 
-  vtkInformation* Keys;
+  vtkSmartPointer<vtkInformation> Keys; // whoever hears of drawing may give it others
   bool Had;
   int Before;
 };
