@@ -342,7 +342,7 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     this->LightShadows.choose(scene, seen, view, settings);
     this->LightShadows.prepare(seen, view, this->Eye.hits(), settings, budget, parallelFor);
   }
-  this->LightShadows.prepareAnswers(scene, this->Eye.hits(), settings);
+  this->LightShadows.prepareAnswers(scene, view, this->Eye.hits(), settings);
   if (!shared)
   {
     this->markLightTiles(scene, view, parallelFor);

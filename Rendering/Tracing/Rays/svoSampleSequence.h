@@ -15,6 +15,7 @@
 #include "svoView.h"
 #include "vtkSVOTracingModule.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -94,6 +95,27 @@ VTKSVOTRACING_EXPORT glm::ivec2 noiseShift(const View& view);
 /// The rotation of a pixel of the mask. `stream`: of samples that have nothing to do with another
 /// stream's, as those of two lights.
 VTKSVOTRACING_EXPORT SquarePoint pixelRotation(int x, int y, unsigned stream);
+
+/// The rotations of a view's pixels, of one stream.
+class PixelRotations
+{
+public:
+  PixelRotations(const View& view, unsigned stream)
+    : Shift(noiseShift(view))
+    , Stream(stream)
+  {
+  }
+  /// Of the pixel that a place of the image lies in.
+  SquarePoint at(double x, double y) const
+  {
+    return pixelRotation(this->Shift.x + static_cast<int>(std::floor(x)),
+      this->Shift.y + static_cast<int>(std::floor(y)), this->Stream);
+  }
+
+private:
+  glm::ivec2 Shift;
+  unsigned Stream;
+};
 }
 
 #endif

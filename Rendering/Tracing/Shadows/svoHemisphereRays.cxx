@@ -31,11 +31,11 @@ double usualOcclusionDistance(const Scene& scene)
   return all.empty() ? 1.0 : 0.2 * glm::distance(all.low, all.high);
 }
 
-HemisphereRays::HemisphereRays(
-  const SampleRays& rays, double distance, unsigned stream, int samples, const SkyPicture* picture)
+HemisphereRays::HemisphereRays(const SampleRays& rays, double distance,
+  const PixelRotations& rotations, int samples, const SkyPicture* picture)
   : Rays(rays)
   , Distance(distance)
-  , Stream(stream)
+  , Rotations(rotations)
   , Picture(picture)
   , Samples(firstPoints(samples))
 {
@@ -50,13 +50,11 @@ void HemisphereRays::each(
   std::vector<Basis> bases;
   SquarePoint rotations[TilePatch::Most];
   int pixels[TilePatch::Most];
-  const glm::ivec2 shift = noiseShift(*patch.view);
   eachBit(query.asked,
     [&](int i)
     {
       const glm::dvec3 position = patch.position(i);
-      rotations[batch.points] = pixelRotation(shift.x + static_cast<int>(std::floor(patch.x(i))),
-        shift.y + static_cast<int>(std::floor(patch.y(i))), this->Stream);
+      rotations[batch.points] = this->Rotations.at(patch.x(i), patch.y(i));
       pixels[batch.points] = i;
       batch.addPoint(position, patch.facet(i));
       bases.emplace_back(normalOver(patch, i));

@@ -40,10 +40,9 @@ public:
   static constexpr unsigned OcclusionStream = ~0u, SkyStream = ~1u;
 
   /// `distance`: beyond it nothing counts, world. The rays are borrowed, for a frame. `samples`: of
-  /// each point, at least 1. `stream`: of pixelRotation().
-  /// `picture`: of the light, borrowed; or null.
-  HemisphereRays(const SampleRays& rays, double distance, unsigned stream, int samples,
-    const SkyPicture* picture = nullptr);
+  /// each point, at least 1. `picture`: of the light, borrowed; or null.
+  HemisphereRays(const SampleRays& rays, double distance, const PixelRotations& rotations,
+    int samples, const SkyPicture* picture = nullptr);
 
   /// Calls f(pixel, direction, blocked) for all rays of the points that are asked, around their
   /// normals, but for those below their facets. `blocked`: 0..1. With a picture: for all of its
@@ -62,7 +61,7 @@ public:
 private:
   const SampleRays& Rays;
   const double Distance;
-  const unsigned Stream;
+  const PixelRotations Rotations;
   const SkyPicture* const Picture;
   std::vector<SquarePoint> Samples;
 };

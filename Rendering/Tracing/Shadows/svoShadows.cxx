@@ -82,7 +82,8 @@ void Shadows::prepare(const Scene& scene, const View& view, const Hits& eye,
   }
 }
 
-void Shadows::prepareAnswers(const Scene& scene, const Hits& eye, const FrameSettings& settings)
+void Shadows::prepareAnswers(
+  const Scene& scene, const View& view, const Hits& eye, const FrameSettings& settings)
 {
   const bool anyByRays =
     std::count(this->Techniques.begin(), this->Techniques.end(), ShadowTechnique::Rays) > 0;
@@ -97,22 +98,24 @@ void Shadows::prepareAnswers(const Scene& scene, const Hits& eye, const FrameSet
   }
   if (settings.ambientOcclusion)
   {
-    this->Occlusion = std::make_unique<HemisphereRays>(*this->Samplers,
-      settings.ambientOcclusionDistance, HemisphereRays::OcclusionStream, settings.lightSamples);
+    this->Occlusion =
+      std::make_unique<HemisphereRays>(*this->Samplers, settings.ambientOcclusionDistance,
+        PixelRotations(view, HemisphereRays::OcclusionStream), settings.lightSamples);
   }
   if (settings.skyLight)
   {
     constexpr double Beyond = 1e100; // all
-    this->Sky = std::make_unique<HemisphereRays>(*this->Samplers, Beyond, HemisphereRays::SkyStream,
-      settings.lightSamples, settings.skyPicture.get());
+    this->Sky = std::make_unique<HemisphereRays>(*this->Samplers, Beyond,
+      PixelRotations(view, HemisphereRays::SkyStream), settings.lightSamples,
+      settings.skyPicture.get());
   }
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
   {
     const Light& light = scene.lights[l];
     if (this->sampled(l))
     {
-      this->OfLights.push_back(std::make_unique<SoftShadow>(
-        light, *this->Rays, *this->Samplers, static_cast<unsigned>(l), settings.lightSamples));
+      this->OfLights.push_back(std::make_unique<SoftShadow>(light, *this->Rays, *this->Samplers,
+        PixelRotations(view, static_cast<unsigned>(l)), settings.lightSamples));
     }
     else if (this->byRays(l))
     {

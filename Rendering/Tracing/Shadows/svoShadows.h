@@ -37,9 +37,10 @@ public:
     LayerBudget& budget, const ParallelFor& parallelFor);
 
   /// To be called in every frame, after prepare() or traceShared(): who answers for each light.
-  /// `scene` and `eye`: those of the points to be tested; rays to the light meet the same geometry,
-  /// or surfaces would shadow themselves.
-  void prepareAnswers(const Scene& scene, const Hits& eye, const FrameSettings& settings);
+  /// `scene`, `view` and `eye`: those of the points to be tested; rays to the light meet the same
+  /// geometry, or surfaces would shadow themselves.
+  void prepareAnswers(
+    const Scene& scene, const View& view, const Hits& eye, const FrameSettings& settings);
 
   /// Instead of prepare() and trace() where other processes hold parts of the scene: traces the
   /// buffers whole and merges them with the others', so that all have the same. A collective call.

@@ -16,11 +16,11 @@ struct SoftShadow::Asker
   int pixel;           // of its patch
 };
 
-SoftShadow::SoftShadow(
-  const Light& light, const ShadowRays& exact, const SampleRays& rays, unsigned stream, int samples)
+SoftShadow::SoftShadow(const Light& light, const ShadowRays& exact, const SampleRays& rays,
+  const PixelRotations& rotations, int samples)
   : RayShadow(light, exact)
   , Sampler(rays)
-  , Stream(stream)
+  , Rotations(rotations)
   , Samples(firstPoints(samples))
 {
 }
@@ -38,13 +38,11 @@ void SoftShadow::ask(const ShadowQuery& query, const Asker* askers, int count, f
   std::vector<Cone> cones;
   cones.reserve(static_cast<std::size_t>(count));
   const TilePatch& patch = query.patch;
-  const glm::ivec2 shift = noiseShift(*patch.view);
   for (int i = 0; i < count; ++i)
   {
     const Asker& asker = askers[i];
     cones.push_back({ LightCone(this->Source, asker.position),
-      pixelRotation(shift.x + static_cast<int>(std::floor(patch.x(asker.pixel))),
-        shift.y + static_cast<int>(std::floor(patch.y(asker.pixel))), this->Stream) });
+      this->Rotations.at(patch.x(asker.pixel), patch.y(asker.pixel)) });
   }
   const auto trace = [&](SampleBatch& batch)
   {

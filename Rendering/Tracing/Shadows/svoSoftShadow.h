@@ -18,9 +18,9 @@ namespace svo
 class VTKSVOTRACING_EXPORT SoftShadow : public RayShadow
 {
 public:
-  /// `stream`: of pixelRotation(). `samples`: to each point, at least 1.
-  SoftShadow(const Light& light, const ShadowRays& exact, const SampleRays& rays, unsigned stream,
-    int samples);
+  /// `samples`: to each point, at least 1.
+  SoftShadow(const Light& light, const ShadowRays& exact, const SampleRays& rays,
+    const PixelRotations& rotations, int samples);
 
   std::uint64_t test(const ShadowQuery& query, float* missed) const override;
   bool dims() const override { return false; }
@@ -32,7 +32,7 @@ private:
   void ask(const ShadowQuery& query, const Asker* askers, int count, float* missed) const;
 
   const SampleRays& Sampler;
-  const unsigned Stream;
+  const PixelRotations Rotations;
   std::vector<SquarePoint> Samples;
 };
 }

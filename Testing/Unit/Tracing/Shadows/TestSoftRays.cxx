@@ -85,7 +85,7 @@ TEST(SoftRays, AsManyRaysAreBlockedAsInDouble)
   const svo::Light& light = scene.lights[0];
   double rays = 0.0, different = 0.0;
   int partly = 0, partlyClosed = 0;
-  const glm::ivec2 shift = svo::noiseShift(view);
+  const svo::PixelRotations ofLight(view, 0), ofOcclusion(view, ~0u);
   for (int y = 0; y < view.height; ++y)
   {
     for (int x = 0; x < view.width; ++x)
@@ -106,16 +106,13 @@ TEST(SoftRays, AsManyRaysAreBlockedAsInDouble)
       {
         float length;
         const svo::SquarePoint sample = svo::sequencePoint(i);
-        const glm::vec3 along =
-          cone.direction(sample + svo::pixelRotation(x + shift.x, y + shift.y, 0), length);
+        const glm::vec3 along = cone.direction(sample + ofLight.at(x, y), length);
         if (glm::dot(glm::dvec3(along), seen.facet) > 0.0)
         {
           ++above;
           met += blocked(along, length);
         }
-        metAround += blocked(
-          svo::cosineDirection(basis, sample + svo::pixelRotation(x + shift.x, y + shift.y, ~0u)),
-          2.0f);
+        metAround += blocked(svo::cosineDirection(basis, sample + ofOcclusion.at(x, y)), 2.0f);
       }
       rays += Samples;
       different += Samples * std::abs(closed[pixel] - metAround / double(Samples));
@@ -174,8 +171,9 @@ TEST(SoftRays, AnswersDoNotDependOnWhoElseAsks)
     const svo::RayCasters casters(scene, eye.hits());
     const svo::ShadowRays exact(casters);
     const svo::SampleRays rays(casters);
-    const svo::SoftShadow soft(scene.lights[0], exact, rays, 0, 16);
-    const svo::HemisphereRays around(rays, 1.0, 0, 16);
+    const svo::PixelRotations rotations(view, 0);
+    const svo::SoftShadow soft(scene.lights[0], exact, rays, rotations, 16);
+    const svo::HemisphereRays around(rays, 1.0, rotations, 16);
     const auto closed = [&](const svo::ShadowQuery& query, float* shares)
     {
       std::fill_n(shares, 64, 0.0f);
