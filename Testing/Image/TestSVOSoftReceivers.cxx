@@ -1,6 +1,6 @@
 // Samples of the light on surfaces that VTK draws, taken by the CPU and by OpenGL: against closed
 // forms of penumbras, and as pictures change, are refined, and have parts of pixels.
-// (TestSVOOpenGLSamples compares them with what the CPU traces.)
+// (TestSVOSampledPictures compares them with what the CPU traces.)
 #include "../Unit/svoTestMessages.h"
 #include "svoTestStage.h"
 
@@ -108,14 +108,6 @@ void expectEdge(const Edge& c, Checks& checks)
     // And a grey level, of about 200.
     checks.expect(rms < 0.5 * 5.66 / 256 + 0.5 / 200, std::string(c.name) + ": penumbras");
   }
-}
-
-void addThings(Stage& stage)
-{
-  stage.addGround();
-  stage.add(box(1.0, -0.7, 0.0, 0.5), 0.9, 0.5, 0.3);
-  stage.add(ball(0.5, 0.6, 0.5, 0.5), 0.5, 0.8, 0.4);
-  stage.add(ring(0.4, 0.5, -0.8, 0.6), 0.8, 0.8, 0.3);
 }
 
 /// All that is sampled, on things that are all drawn by VTK.

@@ -184,6 +184,14 @@ void rasterizeAll(const Stage& stage)
   }
 }
 
+vtkActor* addThings(Stage& stage)
+{
+  stage.addGround();
+  stage.add(box(1.0, -0.7, 0.0, 0.5), 0.9, 0.5, 0.3);
+  stage.add(ball(0.5, 0.6, 0.5, 0.5), 0.5, 0.8, 0.4);
+  return stage.add(ring(0.4, 0.5, -0.8, 0.6), 0.8, 0.8, 0.3);
+}
+
 vtkSmartPointer<vtkAlgorithm> ball(double radius, double x, double y, double z)
 {
   auto source = vtkSmartPointer<vtkSphereSource>::New();

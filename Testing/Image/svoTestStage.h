@@ -66,6 +66,9 @@ private:
   vtkSmartPointer<vtkRenderWindow> owned;
 };
 
+/// A ground, a box, a ball, and a ring, which is returned.
+vtkActor* addThings(Stage& stage);
+
 /// Leaves all actors of a stage to the rasteriser.
 void rasterizeAll(const Stage& stage);
 
