@@ -118,7 +118,7 @@ void DrawnMaps::fit(const Scene& scene, const View& eye, const FrameSettings& se
         ShadowMap map;
         map.light = static_cast<int>(light);
         map.group = group;
-        map.view = view;
+        map.view = cropped(view);
         map.base = std::max(view.tNear, 0.0);
         this->Maps.push_back(std::move(map));
       }

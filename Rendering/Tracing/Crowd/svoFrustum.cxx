@@ -72,7 +72,7 @@ double offsetFor(const Bundle& rays, const glm::dvec3& normal)
 }
 
 Frustum::Frustum(const View& view, double margin)
-  : Frustum(view, PixelRect{ 0, 0, view.width, view.height }, margin)
+  : Frustum(view, view.crop, margin)
 {
 }
 

@@ -33,8 +33,8 @@ public:
 
   /// Nothing is outside.
   Frustum() = default;
-  /// The whole image. `margin`: pixels that are added on all sides; one is what the tracer's float
-  /// rays need (svoLocalView.h).
+  /// What the view looks at. `margin`: pixels that are added on all sides; one is what the tracer's
+  /// float rays need (svoLocalView.h).
   explicit Frustum(const View& view, double margin = 1.0);
   /// A rectangle of its pixels, as of a group of tiles.
   Frustum(const View& view, const PixelRect& rect, double margin = 1.0);

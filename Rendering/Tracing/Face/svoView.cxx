@@ -64,6 +64,7 @@ bool makeView(
   const double sv = 2.0 / height;
   view.width = width;
   view.height = height;
+  view.crop = { 0, 0, width, height };
   view.worldToView = worldToView;
   view.viewToClip = viewToClip;
   view.parallel = wt == 0.0;
@@ -90,7 +91,31 @@ bool makeView(
   return std::isfinite(view.tNear) && !std::isnan(view.tFar) && view.tNear < view.tFar;
 }
 
-bool sameRays(const View& a, const View& b)
+View cropped(const View& view)
+{
+  const PixelRect& crop = view.crop;
+  if (crop == PixelRect{ 0, 0, view.width, view.height })
+  {
+    return view;
+  }
+  glm::dmat4 toClip = view.viewToClip;
+  const auto stretch = [&](int i, int from, int to, int size)
+  {
+    const double scale = static_cast<double>(size) / (to - from);
+    const double middle = (static_cast<double>(from) + to) / size - 1.0; // clip space
+    for (int column = 0; column < 4; ++column)
+    {
+      toClip[column][i] = scale * (toClip[column][i] - middle * toClip[column][3]);
+    }
+  };
+  stretch(0, crop.x0, crop.x1, view.width);
+  stretch(1, crop.y0, crop.y1, view.height);
+  View result;
+  makeView(view.worldToView, toClip, crop.x1 - crop.x0, crop.y1 - crop.y0, result);
+  return result;
+}
+
+bool sameImage(const View& a, const View& b)
 {
   return a.origin == b.origin && a.originX == b.originX && a.originY == b.originY &&
     a.direction == b.direction && a.directionX == b.directionX && a.directionY == b.directionY &&

@@ -12,6 +12,30 @@
 
 namespace svo
 {
+/// A rectangle of pixels, upper bounds excluded.
+struct PixelRect
+{
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+  bool overlaps(const PixelRect& o) const
+  {
+    return x0 < o.x1 && o.x0 < x1 && y0 < o.y1 && o.y0 < y1;
+  }
+  bool operator==(const PixelRect& o) const
+  {
+    return x0 == o.x0 && y0 == o.y0 && x1 == o.x1 && y1 == o.y1;
+  }
+};
+
+/// The smallest one that holds both.
+inline PixelRect around(const PixelRect& a, const PixelRect& b)
+{
+  return a.empty() ? b
+    : b.empty()    ? a
+                   : PixelRect{ std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1),
+                    std::max(a.y1, b.y1) };
+}
+
 /// Every pixel's ray is an affine function of the pixel: at pixel centre (x, y), with x, y counted
 /// from the lower left corner of the image in pixels (the first centre is 0.5, 0.5),
 ///
@@ -29,6 +53,10 @@ struct VTKSVOTRACING_EXPORT View
   double tFar = 1e300; // and end here (far plane)
   int width = 0;       // pixels
   int height = 0;      // pixels
+  /// The pixels that are looked at: all of them, but for a light whose casters fill a larger image
+  /// than is wanted. It begins with a whole tile of 8x8 pixels. What a pixel's ray is does not hang
+  /// on it, to the bit.
+  PixelRect crop;
 
   glm::dmat4 worldToView{ 1.0 }; // rigid; view space looks along -z
   glm::dmat4 viewToClip{ 1.0 };  // OpenGL clip space, z in [-w, w]
@@ -65,27 +93,15 @@ struct VTKSVOTRACING_EXPORT View
 VTKSVOTRACING_EXPORT bool makeView(
   const glm::dmat4& worldToView, const glm::dmat4& viewToClip, int width, int height, View& view);
 
-/// True if the two views have the same rays.
-VTKSVOTRACING_EXPORT bool sameRays(const View& a, const View& b);
+/// The view whose image is the crop of another's alone; its rays are those but for rounding.
+VTKSVOTRACING_EXPORT View cropped(const View& view);
 
-/// A rectangle of pixels, upper bounds excluded.
-struct PixelRect
+/// True if a pixel of the one has the same ray as that of the other.
+VTKSVOTRACING_EXPORT bool sameImage(const View& a, const View& b);
+/// True if the two views look at the same pixels of the same image as well.
+inline bool sameRays(const View& a, const View& b)
 {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  bool empty() const { return x0 >= x1 || y0 >= y1; }
-  bool overlaps(const PixelRect& o) const
-  {
-    return x0 < o.x1 && o.x0 < x1 && y0 < o.y1 && o.y0 < y1;
-  }
-};
-
-/// The smallest one that holds both.
-inline PixelRect around(const PixelRect& a, const PixelRect& b)
-{
-  return a.empty() ? b
-    : b.empty()    ? a
-                   : PixelRect{ std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1),
-                    std::max(a.y1, b.y1) };
+  return a.crop == b.crop && sameImage(a, b);
 }
 }
 

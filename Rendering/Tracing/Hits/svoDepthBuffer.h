@@ -6,6 +6,7 @@
 #include "svoPages.h"
 #include "svoRawArray.h"
 #include "svoRay.h"
+#include "svoTileGrid.h"
 
 #include <algorithm>
 #include <cassert>
@@ -31,18 +32,17 @@ inline bool anyOf(const std::uint32_t* instances, std::uint32_t wanted)
 /// Stored tile by tile (8x8 pixels, row by row inside), so that a tile is one stretch of memory.
 struct DepthBuffer
 {
-  int tilesX = 0;
-  int tilesY = 0;
+  TileGrid grid;
   RawArray<float, Pages<float>> t; // linear depth minus the base of the winning instance
   RawArray<std::uint32_t, Pages<std::uint32_t>> instance;
   RawArray<Primitive, Pages<Primitive>> primitive;
   std::vector<std::uint8_t> hit; // per tile: some pixel of it has an instance; else its pixels are
                                  // not written at all
 
-  void resize(int width, int height)
+  /// Without a hit.
+  void resize(const TileGrid& tilesOfView)
   {
-    this->tilesX = (width + 7) / 8;
-    this->tilesY = (height + 7) / 8;
+    this->grid = tilesOfView;
     const std::size_t tiles = this->tiles();
     this->t.resize(64 * tiles);
     this->instance.resize(64 * tiles);
@@ -87,12 +87,11 @@ struct DepthBuffer
         this->primitive.data(), this->primitive.size(), 64 * first, 64 * last);
     }
   }
-  std::size_t tiles() const { return static_cast<std::size_t>(this->tilesX) * this->tilesY; }
+  std::size_t tiles() const { return this->grid.size(); }
   std::size_t at(int x, int y) const
   {
-    assert(x >= 0 && y >= 0 && x < 8 * this->tilesX && y < 8 * this->tilesY);
-    return 64 * (static_cast<std::size_t>(y >> 3) * this->tilesX + (x >> 3)) + 8 * (y & 7) +
-      (x & 7);
+    assert(this->grid.holds(x >> 3, y >> 3));
+    return 64 * this->grid.index(x >> 3, y >> 3) + 8 * (y & 7) + (x & 7);
   }
   std::uint32_t instanceAt(int x, int y) const
   {
@@ -107,8 +106,8 @@ struct DepthBuffer
   /// True if a pixel of the tile is the instance's.
   bool shows(int tileX, int tileY, std::uint32_t wanted) const
   {
-    assert(tileX >= 0 && tileY >= 0 && tileX < this->tilesX && tileY < this->tilesY);
-    const std::size_t tile = static_cast<std::size_t>(tileY) * this->tilesX + tileX;
+    assert(this->grid.holds(tileX, tileY));
+    const std::size_t tile = this->grid.index(tileX, tileY);
     return this->hit[tile] && anyOf(this->instance.data() + 64 * tile, wanted);
   }
 

@@ -4,15 +4,15 @@
 
 namespace svo
 {
-void MergedTiles::touch(const MergedPart& part, int tilesX)
+void MergedTiles::touch(const MergedPart& part)
 {
-  const PixelRect& rect = part.rect;
-  assert(((rect.x0 | rect.y0 | rect.x1 | rect.y1) & 7) == 0);
-  for (int y = rect.y0 / 8; y < rect.y1 / 8; ++y)
-  {
-    const auto row = this->Changes.begin() + static_cast<std::ptrdiff_t>(y) * tilesX;
-    std::fill(row + rect.x0 / 8, row + rect.x1 / 8, Change::Touched);
-  }
+  assert(((part.rect.x0 | part.rect.y0 | part.rect.x1 | part.rect.y1) & 7) == 0);
+  this->Grid.eachStretch(part.rect,
+    [this](std::size_t first, std::size_t last)
+    {
+      std::fill(this->Changes.begin() + static_cast<std::ptrdiff_t>(first),
+        this->Changes.begin() + static_cast<std::ptrdiff_t>(last), Change::Touched);
+    });
   this->ChangedParts.resize(std::max<std::size_t>(this->ChangedParts.size(), part.index + 2), 0);
   if (!this->ChangedParts[part.index])
   {
@@ -21,12 +21,32 @@ void MergedTiles::touch(const MergedPart& part, int tilesX)
   }
 }
 
+/// Those that were not looked at in the last frame, whose grid has the same places.
+void MergedTiles::forgetOthers(const TileGrid& before)
+{
+  if (before.x0 == this->Grid.x0 && before.y0 == this->Grid.y0)
+  {
+    return;
+  }
+  for (std::size_t tile = 0; tile < this->States.size(); ++tile)
+  {
+    const int x = this->Grid.tileX(tile), y = this->Grid.tileY(tile);
+    if (!before.holds(x, y) || !this->Grid.holds(x, y))
+    {
+      this->States[tile] = Unknown;
+      this->Changes[tile] = Change::New;
+    }
+  }
+}
+
 bool MergedTiles::beginFrame(
   const View& view, std::vector<MergedPart>& parts, bool keep, const std::uint8_t* wanted)
 {
-  const int tilesX = (view.width + 7) / 8;
-  const std::size_t tiles = static_cast<std::size_t>(tilesX) * ((view.height + 7) / 8);
-  const bool known = keep && this->States.size() == tiles && sameRays(view, this->Seen);
+  const TileGrid before = this->Grid;
+  this->Grid = TileGrid(view);
+  const std::size_t tiles = this->Grid.size();
+  const bool known = keep && this->States.size() == tiles && sameGrid(this->Grid, before) &&
+    sameImage(view, this->Seen);
   if (!known)
   {
     this->States.assign(tiles, Unknown);
@@ -36,6 +56,7 @@ bool MergedTiles::beginFrame(
   this->ChangedIndices.clear();
   if (known)
   {
+    this->forgetOthers(before);
     // Both are in the order of their indices.
     auto old = this->Parts.begin();
     auto now = parts.begin();
@@ -43,18 +64,18 @@ bool MergedTiles::beginFrame(
     {
       if (now == parts.end() || (old != this->Parts.end() && old->index < now->index))
       {
-        this->touch(*old++, tilesX);
+        this->touch(*old++);
       }
       else if (old == this->Parts.end() || now->index < old->index)
       {
-        this->touch(*now++, tilesX);
+        this->touch(*now++);
       }
       else
       {
         if (!(*old == *now))
         {
-          this->touch(*old, tilesX);
-          this->touch(*now, tilesX);
+          this->touch(*old);
+          this->touch(*now);
         }
         ++old;
         ++now;

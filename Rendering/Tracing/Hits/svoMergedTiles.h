@@ -6,6 +6,7 @@
 #include "svoDepthBuffer.h"
 #include "svoDepthOffset.h"
 #include "svoLayerKey.h"
+#include "svoTileGrid.h"
 #include "svoView.h"
 
 #include <algorithm>
@@ -34,10 +35,10 @@ class MergedTiles
 {
 public:
   /// Prepares a frame of these parts, in the order of their indices; their memory is exchanged for
-  /// that of the last frame's. `keep`: tiles that no changed
-  /// part touches are what they were, if the view is the same. `wanted`: one byte a tile, or null
-  /// for all; tiles that are not wanted are empty unless they are known. Returns false if all tiles
-  /// are new.
+  /// that of the last frame's. `keep`: tiles that no changed part touches, and that were looked at,
+  /// are what they were, if the view has the same image and a crop as large. `wanted`: one byte a
+  /// tile, or null for all; tiles that are not wanted are empty unless they are known. Returns
+  /// false if all tiles are new.
   bool beginFrame(
     const View& view, std::vector<MergedPart>& parts, bool keep, const std::uint8_t* wanted);
   void forget()
@@ -99,9 +100,11 @@ private:
     assert(tile < this->Changes.size());
     return this->Changes[tile];
   }
-  void touch(const MergedPart& part, int tilesX);
+  void touch(const MergedPart& part);
+  void forgetOthers(const TileGrid& before);
 
   View Seen;
+  TileGrid Grid; // of it
   std::vector<MergedPart> Parts;
   std::vector<std::uint8_t> States;            // per tile
   std::vector<Change> Changes;                 // per tile

@@ -60,7 +60,7 @@ void LayeredView::findLayers(LayerBudget& budget)
     const int pixels = pixelsOf(entry.local.rect);
     ofCrowd += pixels >= SmallestLayer && pixels < CrowdsLayer ? pixels : 0;
   }
-  const int smallest = ofCrowd > 2.0 * view.width * view.height ? CrowdsLayer : SmallestLayer;
+  const int smallest = ofCrowd > 2.0 * pixelsOf(view.crop) ? CrowdsLayer : SmallestLayer;
   for (TracedInstance& entry : this->Instances.entries())
   {
     const bool large = pixelsOf(entry.local.rect) >= smallest && !entry.ball;
@@ -139,8 +139,9 @@ void LayeredView::findStale(const std::uint8_t* wanted)
   this->WasShifted = this->Instances.shifted();
   if (!this->Seen.tiles.beginFrame(view, this->Parts, keep, wanted))
   {
-    depth.resize(view.width, view.height);
+    depth.resize(TileGrid(view));
   }
+  depth.grid = TileGrid(view);
   this->LastHit = depth.hit;
   for (std::size_t tile = 0; tile < depth.tiles(); ++tile)
   {
@@ -150,13 +151,10 @@ void LayeredView::findStale(const std::uint8_t* wanted)
 
 void LayeredView::traceTiles(const ParallelFor& parallelFor)
 {
-  const View& view = this->Instances.view();
-  PixelRect all{ view.width, view.height, 0, 0 };
+  PixelRect all;
   for (const TracedInstance& entry : this->Instances)
   {
-    const PixelRect& r = entry.local.rect;
-    all = { std::min(all.x0, r.x0), std::min(all.y0, r.y0), std::max(all.x1, r.x1),
-      std::max(all.y1, r.y1) };
+    all = around(all, entry.local.rect);
   }
   this->Groups.fill(all, 8 * TileGroup::Tiles, this->Instances.order(),
     [this](std::uint32_t e) -> const PixelRect& { return this->Instances[e].local.rect; });
@@ -209,8 +207,7 @@ void LayeredView::traceTiles(const ParallelFor& parallelFor)
 
 void LayeredView::sample(int tileX, int tileY, TileSamples* samples, std::size_t count) const
 {
-  assert(
-    tileX >= 0 && tileX < this->Seen.depth.tilesX && tileY >= 0 && tileY < this->Seen.depth.tilesY);
+  assert(this->Seen.depth.grid.holds(tileX, tileY));
   for (std::size_t b = 0; b < count; ++b)
   {
     std::fill(samples[b].instance, samples[b].instance + 64, NoInstance);

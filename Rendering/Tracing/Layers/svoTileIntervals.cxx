@@ -16,7 +16,7 @@ constexpr double PixelSlack = 0.01;
 constexpr double DepthSlack = 1e-5; // of the depth of the whole cube
 /// Cells up to this size are not divided any more. Smaller ones would shorten the rays a little,
 /// but cost more than that saves.
-constexpr float CellPixels = 16.0f;
+constexpr double CellPixels = 16.0;
 constexpr int RowsPerTask = 8; // tiles
 /// Cells that cross the eye plane are divided down to this level.
 constexpr int EyePlaneLevel = 6;
@@ -32,7 +32,7 @@ struct Steps
 /// What one cell covers.
 struct Footprint
 {
-  float x0, y0, x1, y1; // pixels
+  double x0, y0, x1, y1; // pixels
   float t0, t1;
   bool everywhere; // crosses the eye plane
 };
@@ -51,8 +51,8 @@ public:
     // Nearer cells first, so that they can hide what lies between them and the far side.
     this->Front = int(projection.x[3] < 0.0) | int(projection.y[3] < 0.0) << 1 |
       int(projection.z[3] < 0.0) << 2;
-    this->MiddleX = 0.5f * static_cast<float>(view.width);
-    this->MiddleY = 0.5f * static_cast<float>(view.height);
+    this->MiddleX = 0.5 * view.width;
+    this->MiddleY = 0.5 * view.height;
     const glm::dvec4 zero(0.0);
     for (int bits = 0; bits <= NodeLevels * MaximumDepths; ++bits)
     {
@@ -126,13 +126,13 @@ private:
     }
     else
     {
-      constexpr float scale = 1.0f / TileIntervals::TileSize;
-      const auto tile = [](float v, int origin)
+      constexpr double scale = 1.0 / TileIntervals::TileSize;
+      const auto tile = [](double v, int origin)
       {
         // std::floor is a call without SSE4.1.
-        const float clamped = std::clamp(v * scale, -1e6f, 1e6f);
+        const double clamped = std::clamp(v * scale, -1e9, 1e9);
         const int towardsZero = static_cast<int>(clamped);
-        return towardsZero - (clamped < static_cast<float>(towardsZero)) - origin;
+        return towardsZero - (clamped < towardsZero) - origin;
       };
       column0 = std::max(column0, tile(f.x0, this->Intervals.column0));
       column1 = std::min(column1, tile(f.x1, this->Intervals.column0));
@@ -194,10 +194,10 @@ private:
     const double farthest = 1.0 / most[2];
     const auto lower = [&](int a) { return least[a] * (least[a] < 0.0 ? nearest : farthest); };
     const auto upper = [&](int a) { return most[a] * (most[a] > 0.0 ? nearest : farthest); };
-    f.x0 = static_cast<float>(lower(0) - PixelSlack) + this->MiddleX;
-    f.y0 = static_cast<float>(lower(1) - PixelSlack) + this->MiddleY;
-    f.x1 = static_cast<float>(upper(0) + PixelSlack) + this->MiddleX;
-    f.y1 = static_cast<float>(upper(1) + PixelSlack) + this->MiddleY;
+    f.x0 = lower(0) - PixelSlack + this->MiddleX;
+    f.y0 = lower(1) - PixelSlack + this->MiddleY;
+    f.x1 = upper(0) + PixelSlack + this->MiddleX;
+    f.y1 = upper(1) + PixelSlack + this->MiddleY;
   }
 
   const Node* Nodes;
@@ -205,8 +205,8 @@ private:
   int StopBits;
   TileIntervals& Intervals;
   Steps Levels[NodeLevels * MaximumDepths + 1];
-  float MiddleX;
-  float MiddleY;
+  double MiddleX;
+  double MiddleY;
   int Front;
   int FirstRow = 0;
   int LastRow = 0;

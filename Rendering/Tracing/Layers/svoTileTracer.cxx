@@ -42,9 +42,12 @@ bool TileTracer::findWindow()
 {
   constexpr int Size = TileGroup::Tiles;
   int x0 = Size, y0 = Size, x1 = -1, y1 = -1;
-  for (int y = 0; y < std::min(Size, this->Depth.tilesY - this->Group.y); ++y)
+  const TileGrid& grid = this->Depth.grid;
+  const int endX = std::min(Size, grid.x0 + grid.tilesX - this->Group.x);
+  const int endY = std::min(Size, grid.y0 + grid.tilesY - this->Group.y);
+  for (int y = std::max(0, grid.y0 - this->Group.y); y < endY; ++y)
   {
-    for (int x = 0; x < std::min(Size, this->Depth.tilesX - this->Group.x); ++x)
+    for (int x = std::max(0, grid.x0 - this->Group.x); x < endX; ++x)
     {
       if (this->Tiles.isMerged(this->indexOf(this->Group.x + x, this->Group.y + y)))
       {

@@ -103,10 +103,7 @@ private:
     int tileX, int tileY, const TilePoints& at, Candidate& candidate, MergedTile& merged);
   void mergeRays(const TilePoints& at, Candidate& candidate, MergedTile& merged);
 
-  std::size_t indexOf(int tileX, int tileY) const
-  {
-    return static_cast<std::size_t>(tileY) * this->Depth.tilesX + tileX;
-  }
+  std::size_t indexOf(int tileX, int tileY) const { return this->Depth.grid.index(tileX, tileY); }
   Account& accountOf(const TracedInstance& entry)
   {
     return this->Accounts[this->Instances.indexOf(entry)];

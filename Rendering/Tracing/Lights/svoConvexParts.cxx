@@ -72,7 +72,7 @@ void clip(Polygon& polygon, const ConvexFace& side, Polygon& scratch)
 
 ConvexBody pieceOf(const View& view, double nearest, double farthest)
 {
-  return pieceOf(view, { 0, 0, view.width, view.height }, nearest, farthest);
+  return pieceOf(view, view.crop, nearest, farthest);
 }
 
 ConvexBody pieceOf(const View& view, const PixelRect& pixels, double nearest, double farthest)

@@ -26,6 +26,8 @@ constexpr double WantedTexel = 2.0, WidestDetail = 8.0;
 constexpr int MostDetails = 5;
 /// Texels around what is seen, for filters and for rounding.
 constexpr double Margin = 4.0;
+/// Of the finest map along an axis, if all of it were there.
+constexpr double MostTexels = 1 << 30;
 
 /// A surface that receives, in the world.
 struct Seen
@@ -115,34 +117,50 @@ Part seenPart(
   return part;
 }
 
-/// The view of a part of a light's map, rounded outwards, so that it changes now and then only when
-/// the eye moves.
-bool crop(const View& light, const Part& part, View& view)
+/// Along an axis of a light's map of so many texels: how many a larger one of the same casters has,
+/// and the first of those that hold what lies between `low` and `high`, clip space.
+struct Crop
 {
-  glm::dmat4 toClip = light.viewToClip;
-  const glm::dvec2 texels(light.width, light.height);
-  for (int i = 0; i < 2; ++i)
+  int size, first;
+};
+
+Crop cropAlong(int texels, double low, double high)
+{
+  // A crop goes on by steps, so that it changes now and then only when the eye moves. Larger maps
+  // have 2^k times the texels, so that these lie where they are for every eye.
+  const int step = std::max(texels / 16 & ~7, 8);
+  const double room = texels - 2.0 * Margin - step;
+  const double most = std::min(2.0 * room / std::max(high - low, 1e-9), MostTexels);
+  int scale = 1;
+  while (2.0 * scale * texels <= most)
   {
-    double low = part.low[i];
-    double high = std::max(part.high[i], low + 1e-9);
-    const double margin = Margin * (high - low) / std::max(texels[i] - 2.0 * Margin, 1.0);
-    low -= margin;
-    high += margin;
-    roundOutwards(low, high);
-    low = std::max(low, -1.0);
-    high = std::min(high, 1.0);
-    for (int column = 0; column < 4; ++column)
-    {
-      const double w = toClip[column][3];
-      toClip[column][i] = (toClip[column][i] - 0.5 * (low + high) * w) / (0.5 * (high - low));
-    }
+    scale *= 2;
   }
-  return makeView(light.worldToView, toClip, light.width, light.height, view);
+  const int whole = texels + (texels & ~7) * (scale - 1); // so that the last crop is of whole tiles
+  const double from = 0.5 * (low + 1.0) * whole - Margin;
+  const int first = static_cast<int>(std::max(std::floor(from / step), 0.0)) * step;
+  return { whole, std::min(first, whole - texels) };
 }
 
+/// A part of a light's map, of texels that are as fine as its own are many.
+bool crop(const View& light, const Part& part, View& view)
+{
+  const Crop x = cropAlong(light.width, part.low.x, part.high.x);
+  const Crop y = cropAlong(light.height, part.low.y, part.high.y);
+  const bool valid = makeView(light.worldToView, light.viewToClip, x.size, y.size, view);
+  view.crop = { x.first, y.first, x.first + light.width, y.first + light.height };
+  return valid;
+}
+
+struct Refined
+{
+  double coarsest; // how wide a texel looks, pixels
+  bool enough;     // it would be no less with more maps
+};
+
 /// Appends views of what is seen through `light`, fine ones first: so many that a texel looks no
-/// wider than `widest` pixels, if `most` further ones are enough. Returns how wide it looks.
-double refine(const View& light, const Part& all, const std::vector<Seen>& receivers,
+/// wider than `widest` pixels, if `most` further ones are enough.
+Refined refine(const View& light, const Part& all, const std::vector<Seen>& receivers,
   const View& eye, double widest, int most, std::vector<View>& views)
 {
   // Texels get smaller by the same factor everywhere.
@@ -157,21 +175,41 @@ double refine(const View& light, const Part& all, const std::vector<Seen>& recei
     found.front() = view; // nobody looks up anything else
     scale = scaleOf(view);
   }
-  // Pixels grow with depth: what is nearer than where they are wide enough gets a map of its own.
-  while (all.widest * scale > 1.25 * widest && static_cast<int>(found.size()) <= most)
+  // Pixels grow with depth: what is nearer than where they are wide enough gets a map of its own;
+  // of what is nearer still if no other is finer.
+  double coarsest = 0.0;
+  bool enough = true;
+  while (all.widest * scale > 1.25 * widest)
   {
-    const double reach = all.nearest * all.widest * scale / widest;
-    const Part near =
-      seenPart(receivers, eye, eye.parallel ? all.farthest : std::min(reach, all.farthest), light);
-    if (near.empty() || !crop(light, near, view) || !(scaleOf(view) < WorthIt * scale))
+    const auto finer = [&](double reach)
+    {
+      const Part near = seenPart(
+        receivers, eye, eye.parallel ? all.farthest : std::min(reach, all.farthest), light);
+      return !near.empty() && crop(light, near, view) && scaleOf(view) < WorthIt * scale;
+    };
+    const double from = all.nearest * all.widest * scale / widest;
+    double reach = from;
+    bool better = finer(reach);
+    while (!better && !eye.parallel && reach > 0.5 * from)
+    {
+      reach *= std::sqrt(std::sqrt(0.5));
+      better = finer(reach);
+    }
+    if (!better)
     {
       break; // as fine as it gets
     }
+    enough = static_cast<int>(found.size()) <= most;
+    if (!enough)
+    {
+      break;
+    }
+    coarsest = std::max(coarsest, widest * from / reach);
     scale = scaleOf(view);
     found.push_back(view);
   }
   views.insert(views.end(), found.rbegin(), found.rend());
-  return all.widest * scale;
+  return { std::max(coarsest, all.widest * scale), enough };
 }
 }
 
@@ -221,17 +259,20 @@ LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, 
     maps.views.clear();
     maps.coarsest = 0.0;
     int left = MostDetails;
+    bool enough = true;
     for (std::size_t i = 0; i < fitted.size(); ++i)
     {
       if (!parts[i].empty())
       {
         const std::size_t before = maps.views.size();
-        maps.coarsest = std::max(
-          maps.coarsest, refine(fitted[i], parts[i], receivers, eye, widest, left, maps.views));
+        const Refined refined =
+          refine(fitted[i], parts[i], receivers, eye, widest, left, maps.views);
+        maps.coarsest = std::max(maps.coarsest, refined.coarsest);
+        enough = enough && refined.enough;
         left -= static_cast<int>(maps.views.size() - before) - 1;
       }
     }
-    if (maps.coarsest <= 1.25 * widest || widest >= coarseness * WidestDetail)
+    if (enough || widest >= coarseness * WidestDetail)
     {
       maps.widest = maps.coarsest;
       return maps;
@@ -241,8 +282,9 @@ LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, 
 
 /// Texels of a map that casters of one group, or opaque ones, can lie in, in whole tiles.
 double texelsOf(const std::vector<Outline>& outlines, const std::vector<std::uint8_t>& casters,
-  std::uint8_t group, const View& map)
+  std::uint8_t group, const View& view)
 {
+  const View map = cropped(view);
   const double whole = static_cast<double>(map.width) * map.height;
   const glm::dmat4 toClip = map.viewToClip * map.worldToView;
   std::vector<glm::dvec3> cut;

@@ -38,7 +38,7 @@ struct TexelWidths
     this->widest = std::max(this->widest, light.widest);
     this->fewer = this->fewer ||
       (!light.views.empty() && settings.shadowCoarseness == 1.0 &&
-        light.views.front().width < settings.shadowResolution);
+        light.views.front().crop.x1 - light.views.front().crop.x0 < settings.shadowResolution);
   }
   void tell(FrameStatistics& statistics) const
   {

@@ -187,12 +187,13 @@ std::vector<PixelRect> SeenReceivers::in(const View& map) const
       low = glm::min(low, glm::dvec2(clip) / clip.w);
       high = glm::max(high, glm::dvec2(clip) / clip.w);
     }
-    const auto texel = [](double at, int texels)
-    { return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(texels))); };
+    const auto texel = [](double at, int first, int end)
+    { return static_cast<int>(std::clamp<double>(at, first, end)); };
+    const PixelRect& crop = map.crop;
     const glm::dvec2 first = (0.5 * low + 0.5) * size - Reach;
     const glm::dvec2 last = (0.5 * high + 0.5) * size + (Reach + 1.0);
-    const PixelRect rect{ texel(first.x, map.width), texel(first.y, map.height),
-      texel(last.x, map.width), texel(last.y, map.height) };
+    const PixelRect rect{ texel(first.x, crop.x0, crop.x1), texel(first.y, crop.y0, crop.y1),
+      texel(last.x, crop.x0, crop.x1), texel(last.y, crop.y0, crop.y1) };
     if (!points->empty() && !rect.empty())
     {
       rects.push_back(rect);

@@ -34,8 +34,8 @@ void MapOpacities::find(
     {
       return instance.opacity;
     }
-    const double x = 8.0 * static_cast<double>(tile % depth.tilesX) + (i & 7) + 0.5;
-    const double y = 8.0 * static_cast<double>(tile / depth.tilesX) + (i >> 3) + 0.5;
+    const double x = 8.0 * depth.grid.tileX(tile) + (i & 7) + 0.5;
+    const double y = 8.0 * depth.grid.tileY(tile) + (i >> 3) + 0.5;
     const glm::dvec3 ray = view.rayDirection(x, y);
     const double t = map.base(caster) + static_cast<double>(depth.t[64 * tile + i]);
     return instance.opacity *

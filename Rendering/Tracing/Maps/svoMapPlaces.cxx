@@ -118,24 +118,27 @@ void place(const MapFromPatch& map, const TilePatch& p, std::uint64_t lanes, Map
   }
 }
 
-/// `margin`: of the box around a point, texels; `lastX`, `lastY`: of the map.
-std::uint64_t around(
-  const MapPlaces& places, float margin, float lastX, float lastY, int tileX, int tileY)
+/// `margin`: of the box around a point, texels; texels of the map, the last ones included, from the
+/// first one of the tiles that bits are of.
+std::uint64_t around(const MapPlaces& places, float margin, const glm::vec2& fromTile,
+  const glm::vec2& firstTexel, const glm::vec2& lastTexel)
 {
-  const float x0 = static_cast<float>(places.x0), y0 = static_cast<float>(places.y0);
+  const glm::vec2 from = fromTile, firstOf = firstTexel, lastOf = lastTexel;
   // By point: its first tile among those 8x8, and by how much further bits have to be shifted.
   alignas(64) std::int32_t first[TilePatch::Most], across[TilePatch::Most], up[TilePatch::Most];
-  const auto tile = [](float x, float last)
+  const auto tile = [](float x, float least, float last)
   {
-    const float low = 0.0f < x ? x : 0.0f; // what is not a number is 0
+    const float low = least < x ? x : least; // what is not a number is the least
     return static_cast<std::int32_t>(low < last ? low : last) >> 3;
   };
   for (int k = 0; k < TilePatch::Most; ++k)
   {
-    const float x = x0 + places.x[k], y = y0 + places.y[k];
-    const std::int32_t left = tile(x - margin, lastX), right = tile(x + margin, lastX);
-    const std::int32_t bottom = tile(y - margin, lastY), top = tile(y + margin, lastY);
-    first[k] = 8 * (bottom - tileY) + left - tileX;
+    const float x = from.x + places.x[k], y = from.y + places.y[k];
+    const std::int32_t left = tile(x - margin, firstOf.x, lastOf.x);
+    const std::int32_t right = tile(x + margin, firstOf.x, lastOf.x);
+    const std::int32_t bottom = tile(y - margin, firstOf.y, lastOf.y);
+    const std::int32_t top = tile(y + margin, firstOf.y, lastOf.y);
+    first[k] = 8 * bottom + left;
     across[k] = right - left;
     up[k] = 8 * (top - bottom);
   }
@@ -171,10 +174,13 @@ glm::dvec3 row(const glm::dmat4& m, int i)
 }
 
 /// True if all of a patch lies beyond one side of the map for certain. Behind the light that is so
-/// of all but what is close to it, since two opposite sides have the sum 2 w there.
-bool isBeyond(const glm::dmat4& worldToClip, const glm::dvec4& clip, const TilePatch& patch)
+/// of all but what is close to it, since what two opposite sides say has the sign of w there.
+bool isBeyond(const MapGeometry& map, const glm::dvec4& clip, const TilePatch& patch)
 {
-  if (std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w)
+  const glm::dmat4& worldToClip = map.worldToClip;
+  const auto within = [&](int axis)
+  { return map.low[axis] * clip.w <= clip[axis] && clip[axis] <= map.high[axis] * clip.w; };
+  if (within(0) && within(1))
   {
     return false; // its origin does not
   }
@@ -188,10 +194,11 @@ bool isBeyond(const glm::dmat4& worldToClip, const glm::dvec4& clip, const TileP
   for (int axis = 0; axis < 2; ++axis)
   {
     const double error = OfDouble * (size(axis) + size(3));
-    for (const double side : { -1.0, 1.0 })
+    for (const double side : { 1.0, -1.0 })
     {
-      const glm::dvec3 along = row(worldToClip, 3) + side * row(worldToClip, axis);
-      const double most = clip.w + side * clip[axis] + glm::dot(glm::abs(along), extent);
+      const double border = side > 0.0 ? -map.low[axis] : map.high[axis];
+      const glm::dvec3 along = border * row(worldToClip, 3) + side * row(worldToClip, axis);
+      const double most = border * clip.w + side * clip[axis] + glm::dot(glm::abs(along), extent);
       beyond = beyond || most < -error;
     }
   }
@@ -199,15 +206,17 @@ bool isBeyond(const glm::dmat4& worldToClip, const glm::dvec4& clip, const TileP
 }
 }
 
-void placeInMap(const View& view, const glm::dmat4& worldToClip, const TilePatch& patch,
-  std::uint64_t lanes, MapPlaces& places)
+void placeInMap(
+  const MapGeometry& geometry, const TilePatch& patch, std::uint64_t lanes, MapPlaces& places)
 {
+  const View& view = geometry.view;
+  const glm::dmat4& worldToClip = geometry.worldToClip;
   constexpr float OfAffine = 14.0f * FloatRounding;
   constexpr float OfDouble = 1e-5f; // texels: more than what double loses, and MapBorder
   places.inside = places.outside = places.sure = 0;
   const glm::dvec3& origin = patch.origin.position;
   const glm::dvec4 clip = worldToClip * glm::dvec4(origin, 1.0);
-  if (isBeyond(worldToClip, clip, patch))
+  if (isBeyond(geometry, clip, patch))
   {
     places.outside = lanes;
     return;
@@ -215,7 +224,8 @@ void placeInMap(const View& view, const glm::dmat4& worldToClip, const TilePatch
   const double width = 0.5 * view.width, height = 0.5 * view.height, scale = 1.0 / clip.w;
   const double x = (clip.x * scale + 1.0) * width, y = (clip.y * scale + 1.0) * height;
   constexpr double Farthest = 1e6; // texels beyond the map, of an origin that is looked at here
-  if (!(clip.w > 0.0 && std::abs(x) < Farthest && std::abs(y) < Farthest))
+  const PixelRect& crop = view.crop;
+  if (!(clip.w > 0.0 && std::abs(x - crop.x0) < Farthest && std::abs(y - crop.y0) < Farthest))
   {
     return;
   }
@@ -225,8 +235,8 @@ void placeInMap(const View& view, const glm::dmat4& worldToClip, const TilePatch
   const glm::dvec3 rowY = height * (row(worldToClip, 1) * scale + rowW) - y0 * rowW;
   const glm::dvec3 depth = -row(view.worldToView, 2);
   const MapFromPatch map{ rounded(x - x0, rowX), rounded(y - y0, rowY), rounded(1.0, rowW),
-    rounded(0.0, depth), static_cast<float>(-x0), static_cast<float>(view.width - x0),
-    static_cast<float>(-y0), static_cast<float>(view.height - y0) };
+    rounded(0.0, depth), static_cast<float>(crop.x0 - x0), static_cast<float>(crop.x1 - x0),
+    static_cast<float>(crop.y0 - y0), static_cast<float>(crop.y1 - y0) };
   places.x0 = static_cast<int>(x0);
   places.y0 = static_cast<int>(y0);
   places.t0 = glm::dot(depth, origin) - view.worldToView[3][2];
@@ -244,24 +254,28 @@ MapTiles tilesOf(const MapPlaces& places, const View& map, float margin)
 {
   assert(places.inside != 0);
   // Truncated, once nothing is negative.
-  const auto tile = [](int from, float way, int size)
+  const auto tile = [](int from, float way, int first, int end)
   {
-    const float texel = static_cast<float>(from) + way;
-    return static_cast<int>(std::clamp(texel, 0.0f, static_cast<float>(size - 1))) >> 3;
+    const double texel = from + static_cast<double>(way);
+    return static_cast<int>(std::clamp<double>(texel, first, end - 1)) >> 3;
   };
   const float most = margin + places.error;
-  return { tile(places.x0, places.lowX - most, map.width),
-    tile(places.y0, places.lowY - most, map.height),
-    tile(places.x0, places.highX + most, map.width),
-    tile(places.y0, places.highY + most, map.height) };
+  const PixelRect& crop = map.crop;
+  return { tile(places.x0, places.lowX - most, crop.x0, crop.x1),
+    tile(places.y0, places.lowY - most, crop.y0, crop.y1),
+    tile(places.x0, places.highX + most, crop.x0, crop.x1),
+    tile(places.y0, places.highY + most, crop.y0, crop.y1) };
 }
 
 std::uint64_t tilesAround(
   const MapPlaces& places, const View& map, float margin, const MapTiles& tiles)
 {
   assert(tiles.atMost(8));
+  const int x = 8 * tiles.x0, y = 8 * tiles.y0;
+  const PixelRect& crop = map.crop;
   return HWY_DYNAMIC_DISPATCH(around)(places, margin + places.error,
-    static_cast<float>(map.width - 1), static_cast<float>(map.height - 1), tiles.x0, tiles.y0);
+    glm::vec2(places.x0 - x, places.y0 - y), glm::vec2(crop.x0 - x, crop.y0 - y),
+    glm::vec2(crop.x1 - 1 - x, crop.y1 - 1 - y));
 }
 }
 #endif

@@ -13,6 +13,7 @@
 #ifndef svoMapPlaces_h
 #define svoMapPlaces_h
 
+#include "svoTexelPlace.h"
 #include "svoTilePatch.h"
 #include "svoView.h"
 
@@ -55,8 +56,8 @@ std::uint64_t tilesAround(
   const MapPlaces& places, const View& map, float margin, const MapTiles& tiles);
 
 /// Places those points of a patch that are in `lanes`.
-void placeInMap(const View& map, const glm::dmat4& worldToClip, const TilePatch& patch,
-  std::uint64_t lanes, MapPlaces& places);
+void placeInMap(
+  const MapGeometry& map, const TilePatch& patch, std::uint64_t lanes, MapPlaces& places);
 }
 
 #endif

@@ -33,7 +33,7 @@ std::uint64_t MapTest::shadows(const TilePatch& patch, double error, std::uint64
   {
     const TracedMap& map = *this->Maps.maps[i];
     MapPlaces places;
-    placeInMap(map.view, map.worldToClip, patch, left, places);
+    placeInMap(map, patch, left, places);
     single |= left & ~(places.sure | places.outside);
     left &= places.outside;
     if (map.seesCasters && places.sure != 0)
@@ -125,7 +125,7 @@ std::uint64_t MapTest::test(const TracedMap& map, const TilePatch& patch, const 
   {
     return 0;
   }
-  testTexels(map.view, map.edge, patch, something, places, tests);
+  testTexels(map, patch, something, places, tests);
   single |= tests.unsure;
   std::uint64_t dark = tests.dark;
   eachBit(tests.nearby,
@@ -156,7 +156,7 @@ MapTest::Answer MapTest::ask(const MapPlace& place, const glm::ivec2& texel,
   assert(place.map && span >= 1.0);
   const TracedMap& map = *place.map;
   const double t = place.t;
-  if (texel.x < 0 || texel.y < 0 || texel.x >= map.view.width || texel.y >= map.view.height)
+  if (!map.has(texel))
   {
     return Answer::Lit;
   }

@@ -26,8 +26,10 @@ struct Lying
 /// Tiles of texels.
 HWY_INLINE Indices tileOf(const MapTexels& map, Indices x, Indices y)
 {
-  const auto tilesX = hn::Set(Integers(), map.tilesX);
-  return hn::Add(hn::Mul(hn::ShiftRight<3>(y), tilesX), hn::ShiftRight<3>(x));
+  const Integers d;
+  const auto column = hn::And(hn::ShiftRight<3>(x), hn::Set(d, map.grid.maskX));
+  const auto row = hn::And(hn::ShiftRight<3>(y), hn::Set(d, map.grid.maskY));
+  return hn::Add(hn::Mul(row, hn::Set(d, map.grid.columns)), column);
 }
 
 /// Indices of texels into the map's arrays.
@@ -126,23 +128,28 @@ HWY_INLINE Lanes bend(Lanes before, Lanes here, Lanes after)
   return hn::Add(hn::Abs(hn::Sub(a, b)), rounding);
 }
 
-/// `lastX`, `lastY`: texels of the map that have two neighbours; `edge`, `perDepth`: of a texel.
+/// `between`: texels of the map that have two neighbours, the last ones included; `edge`,
+/// `perDepth`: of a texel.
 std::uint64_t findFlat(const MapTexels& map, const MapPlaces& places, std::uint64_t lanes,
-  int lastX, int lastY, float edge, float perDepth)
+  const PixelRect& between, float edge, float perDepth)
 {
   const Floats d;
   const Words words;
   const Integers integers;
-  const auto zero = hn::Zero(integers), one = hn::Set(integers, 1);
+  const auto one = hn::Set(integers, 1);
   std::uint64_t flat = 0;
   for (int i = 0; i < TilePatch::Most; i += width())
   {
     const auto asked = maskOf(integers, (lanes & places.sure) >> i);
     const auto x = texelsOf(places.centreX + i, places.x0, asked);
     const auto y = texelsOf(places.centreY + i, places.y0, asked);
-    const auto within = [&](Indices v, int last)
-    { return hn::And(hn::Gt(v, zero), hn::Lt(v, hn::Set(integers, last + 1))); };
-    const auto wanted = hn::And(asked, hn::And(within(x, lastX), within(y, lastY)));
+    const auto within = [&](Indices v, int first, int last)
+    {
+      return hn::And(
+        hn::Gt(v, hn::Set(integers, first - 1)), hn::Lt(v, hn::Set(integers, last + 1)));
+    };
+    const auto wanted =
+      hn::And(asked, hn::And(within(x, between.x0, between.x1), within(y, between.y0, between.y1)));
     if (hn::AllFalse(integers, wanted))
     {
       continue;
@@ -197,10 +204,13 @@ std::uint64_t lookUpTexels(
   return HWY_DYNAMIC_DISPATCH(gather)(map, places, occluders, same);
 }
 
-std::uint64_t flatWindows(const View& view, const TexelEdge& edge, const MapTexels& map,
-  const MapPlaces& places, std::uint64_t lanes)
+std::uint64_t flatWindows(
+  const MapGeometry& geometry, const MapTexels& map, const MapPlaces& places, std::uint64_t lanes)
 {
-  return HWY_DYNAMIC_DISPATCH(findFlat)(map, places, lanes, view.width - 2, view.height - 2,
+  const PixelRect& crop = geometry.view.crop;
+  const TexelEdge& edge = geometry.edge;
+  const PixelRect between{ crop.x0 + 1, crop.y0 + 1, crop.x1 - 2, crop.y1 - 2 };
+  return HWY_DYNAMIC_DISPATCH(findFlat)(map, places, lanes, between,
     static_cast<float>(edge(places.t0)), static_cast<float>(edge.perDepth));
 }
 }

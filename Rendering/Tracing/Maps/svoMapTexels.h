@@ -5,6 +5,7 @@
 
 #include "svoMapPlaces.h"
 #include "svoTexelPlace.h"
+#include "svoTileGrid.h"
 #include "svoTileOccluders.h"
 #include "svoTilePatch.h"
 #include "svoView.h"
@@ -16,7 +17,7 @@ namespace svo
 /// The texels of a map, tile by tile as in a DepthBuffer.
 struct MapTexels
 {
-  int tilesX;
+  TileGrid grid;
   const TileOccluders* tiles; // nearest infinity: nothing lies there, and nothing is known further
   const float* t;
   const std::uint32_t* instance;
@@ -39,8 +40,8 @@ std::uint64_t lookUpTexels(
 
 /// Those of the points in `lanes` that are sure and around which 3x3 texels hold nothing, or one
 /// caster without steps and creases, as MapTest::isFlat() has it; some of the others may, too.
-std::uint64_t flatWindows(const View& view, const TexelEdge& edge, const MapTexels& map,
-  const MapPlaces& places, std::uint64_t lanes);
+std::uint64_t flatWindows(
+  const MapGeometry& geometry, const MapTexels& map, const MapPlaces& places, std::uint64_t lanes);
 }
 
 #endif

@@ -19,19 +19,11 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
   const std::uint8_t* casters = maps.casters.data() + first; // this scene's
   const bool sameBias =
     this->Maps.automaticBias == settings.automaticBias && this->Maps.bias == settings.bias;
-  this->SameMaps = sameBias && this->Faces.size() == views.size();
+  this->SameMaps = sameBias &&
+    std::equal(this->Faces.begin(), this->Faces.end(), views.begin(), views.end(),
+      [](const auto& face, const View& view) { return sameRays(face->map.view, view); });
   this->setBias(settings);
-  if (this->Faces.size() != views.size())
-  {
-    const bool moved = !this->Faces.empty();
-    budget.used -= this->layerMemory();
-    this->release();
-    for (std::size_t i = 0; i < views.size(); ++i)
-    {
-      this->Faces.push_back(std::make_unique<Face>(moved));
-      this->Maps.maps.push_back(&this->Faces.back()->map);
-    }
-  }
+  this->arrangeFaces(views, budget);
   const std::vector<double> voxels = std::move(this->Maps.casterVoxel);
   const std::vector<double> errors = std::move(this->Maps.casterError);
   const std::vector<glm::dmat4> places = std::move(this->CasterPlace);
@@ -47,15 +39,12 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
   {
     Face& face = *this->Faces[i];
     const bool sawCasters = face.map.seesCasters;
-    this->SameMaps = this->SameMaps && sameRays(face.map.view, views[i]);
-    face.map.view = views[i];
+    static_cast<MapGeometry&>(face.map) = MapGeometry(views[i]);
     if (face.map.shared.merged() || !settings.handsOutMaps())
     {
       face.copied.reset();
     }
     face.map.shared.clear();
-    face.map.worldToClip = face.map.view.viewToClip * face.map.view.worldToView;
-    face.map.edge = TexelEdge(face.map.view);
     face.layers.setCulling(this->Cull);
     face.map.seesCasters = face.layers.prepare(
       scene, face.map.view,
@@ -88,9 +77,10 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
           std::max(this->Maps.casterError[k], worldMapError(instance, geometry, level));
       }
     }
-    if (face.wanted.size() != tilesIn(face.map.view))
+    face.grid = TileGrid(face.map.view);
+    if (face.wanted.size() != face.grid.size())
     {
-      face.wanted = std::vector<std::atomic<std::uint8_t>>(tilesIn(face.map.view));
+      face.wanted = std::vector<std::atomic<std::uint8_t>>(face.grid.size());
     }
     for (auto& tile : face.wanted)
     {
@@ -115,6 +105,38 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
   this->noteOpacities(scene, casters, group);
 }
 
+/// So many faces as there are views: each is the one that had its view's image, if there is one, as
+/// what was traced of it is still true then.
+void ShadowBuffer::arrangeFaces(const std::vector<View>& views, LayerBudget& budget)
+{
+  std::vector<std::unique_ptr<Face>> before = std::move(this->Faces);
+  const bool moved = !before.empty();
+  this->Faces.clear();
+  for (const View& view : views)
+  {
+    const auto same = std::find_if(before.begin(), before.end(),
+      [&](const auto& face) { return face && sameImage(face->map.view, view); });
+    this->Faces.push_back(same != before.end() ? std::move(*same) : nullptr);
+  }
+  auto other = before.begin();
+  for (auto& face : this->Faces)
+  {
+    other = std::find_if(other, before.end(), [](const auto& left) { return left != nullptr; });
+    face = face               ? std::move(face)
+      : other != before.end() ? std::move(*other)
+                              : std::make_unique<Face>(moved);
+  }
+  this->Maps.maps.clear();
+  for (const auto& face : this->Faces)
+  {
+    this->Maps.maps.push_back(&face->map);
+  }
+  for (const auto& gone : before)
+  {
+    budget.used -= gone ? gone->layers.layerMemory() : 0;
+  }
+}
+
 std::size_t ShadowBuffer::sparedCasters() const
 {
   std::size_t spared = 0;
@@ -128,17 +150,17 @@ std::size_t ShadowBuffer::sparedCasters() const
 template <class Body>
 void ShadowBuffer::tilesAround(const MapPlace& place, Body&& body) const
 {
-  const View& view = place.map->view;
-  const int tilesAcross = (view.width + 7) / 8;
-  const int x0 = std::max(static_cast<int>(place.x - this->Around), 0) >> 3;
-  const int y0 = std::max(static_cast<int>(place.y - this->Around), 0) >> 3;
-  const int x1 = std::min(static_cast<int>(place.x + this->Around), view.width - 1) >> 3;
-  const int y1 = std::min(static_cast<int>(place.y + this->Around), view.height - 1) >> 3;
+  const TileGrid& grid = this->Faces[place.index]->grid;
+  const PixelRect& crop = place.map->view.crop;
+  const int x0 = std::max(static_cast<int>(place.x - this->Around), crop.x0) >> 3;
+  const int y0 = std::max(static_cast<int>(place.y - this->Around), crop.y0) >> 3;
+  const int x1 = std::min(static_cast<int>(place.x + this->Around), crop.x1 - 1) >> 3;
+  const int y1 = std::min(static_cast<int>(place.y + this->Around), crop.y1 - 1) >> 3;
   for (int y = y0; y <= y1; ++y)
   {
     for (int x = x0; x <= x1; ++x)
     {
-      body(static_cast<std::size_t>(y) * tilesAcross + x);
+      body(grid.index(x, y));
     }
   }
 }
@@ -210,7 +232,6 @@ bool ShadowBuffer::Face::want(const MapPlaces& places, float around, std::uint16
   }
   const std::uint64_t tiles =
     box.atMost(2) ? ~std::uint64_t(0) : svo::tilesAround(places, this->map.view, around, box);
-  const std::size_t tilesAcross = (this->map.view.width + 7) / 8;
   for (int y = box.y0; y <= box.y1; ++y)
   {
     for (int x = box.x0; x <= box.x1; ++x)
@@ -222,7 +243,7 @@ bool ShadowBuffer::Face::want(const MapPlaces& places, float around, std::uint16
         LightTile& note = noted.emplace_back();
         note.light = light;
         note.map = index;
-        note.tile = static_cast<std::uint32_t>(y * tilesAcross + x);
+        note.tile = static_cast<std::uint32_t>(this->grid.index(x, y));
         std::atomic<std::uint8_t>& tile = this->wanted[note.tile];
         if (!tile.load(std::memory_order_relaxed))
         {
@@ -241,7 +262,7 @@ void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles&
   {
     const std::unique_ptr<Face>& face = this->Faces[f];
     MapPlaces places;
-    placeInMap(face->map.view, face->map.worldToClip, patch, left, places);
+    placeInMap(face->map, patch, left, places);
     single |= left & ~(places.inside | places.outside);
     if (places.inside != 0 && face->map.seesCasters &&
       !face->want(places, this->Around, light, static_cast<std::uint16_t>(f), noted))
@@ -270,20 +291,19 @@ void ShadowBuffer::mark(const SeenReceivers& receivers)
 {
   for (auto& face : this->Faces)
   {
-    const int tilesAcross = (face->map.view.width + 7) / 8;
     face->received.assign(face->wanted.size(), 0);
     for (const PixelRect& rect :
       face->map.seesCasters ? receivers.in(face->map.view) : std::vector<PixelRect>())
     {
-      for (int y = rect.y0 / 8; y <= (rect.y1 - 1) / 8; ++y)
-      {
-        for (int x = rect.x0 / 8; x <= (rect.x1 - 1) / 8; ++x)
+      face->grid.eachStretch(rect,
+        [&](std::size_t first, std::size_t last)
         {
-          const std::size_t tile = static_cast<std::size_t>(y) * tilesAcross + x;
-          face->wanted[tile].store(1, std::memory_order_relaxed);
-          face->received[tile] = 1;
-        }
-      }
+          for (std::size_t tile = first; tile < last; ++tile)
+          {
+            face->wanted[tile].store(1, std::memory_order_relaxed);
+            face->received[tile] = 1;
+          }
+        });
     }
   }
 }

@@ -23,12 +23,6 @@
 
 namespace svo
 {
-/// Tiles of a map.
-inline std::size_t tilesIn(const View& map)
-{
-  return static_cast<std::size_t>((map.width + 7) / 8) * ((map.height + 7) / 8);
-}
-
 class ShadowBuffer
 {
 public:
@@ -122,6 +116,7 @@ private:
     }
 
     LayeredView layers;
+    TileGrid grid; // what is traced has it only then
     TracedMap map{ this->layers.hits() };
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile
     std::vector<std::uint8_t> received; // per tile: receivers may look it up; empty: all of them
@@ -144,6 +139,7 @@ private:
     bool want(const MapPlaces& places, float around, std::uint16_t light, std::uint16_t index,
       LightTiles& noted);
   };
+  void arrangeFaces(const std::vector<View>& views, LayerBudget& budget);
   void noteOpacities(const Scene& scene, const std::uint8_t* casters, std::uint8_t group);
   /// True if the texels around the place are.
   bool isTraced(const MapPlace& place) const;

@@ -12,13 +12,19 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
 {
   constexpr std::size_t InTile = ShadowTexels::InTile;
   auto copy = std::make_shared<ShadowTexels>();
-  copy->tilesX = (this->map.view.width + 7) / 8;
-  copy->tiles.assign(tilesIn(this->map.view), ShadowTexels::Nothing);
+  copy->tilesX = this->grid.tilesX;
+  copy->tiles.assign(
+    static_cast<std::size_t>(this->grid.tilesX) * this->grid.tilesY, ShadowTexels::Nothing);
+  const auto placeOf = [&](std::size_t tile)
+  {
+    return this->grid.index(this->grid.x0 + static_cast<int>(tile % this->grid.tilesX),
+      this->grid.y0 + static_cast<int>(tile / this->grid.tilesX));
+  };
   copy->stride = ofCasters ? 2 * InTile : InTile;
   std::uint32_t held = 0;
   for (std::size_t tile = 0; this->map.seesCasters && tile < copy->tiles.size(); ++tile)
   {
-    if (this->isReceived(tile) && this->map.holds(tile))
+    if (this->isReceived(placeOf(tile)) && this->map.holds(placeOf(tile)))
     {
       copy->tiles[tile] = held++;
     }
@@ -33,7 +39,7 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
     float numbers[2 * InTile];
     for (std::size_t i = 0; i < InTile; ++i)
     {
-      const std::size_t at = InTile * tile + i;
+      const std::size_t at = InTile * placeOf(tile) + i;
       std::uint32_t caster;
       double t;
       const bool any = this->map.occluder(at, caster, t);
@@ -66,7 +72,7 @@ void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps, int group)
     ShadowMap map;
     map.light = light;
     map.group = group;
-    map.view = face->map.view;
+    map.view = cropped(face->map.view);
     map.base = std::max(face->map.view.tNear, 0.0);
     if (!face->copySuffices())
     {

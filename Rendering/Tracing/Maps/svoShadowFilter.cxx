@@ -19,8 +19,8 @@ double MapTest::boxWidth(const MapPlace& place, double extent)
 bool MapTest::isFlat(const MapPlace& place, double width)
 {
   const TracedMap& map = *place.map;
-  const TexelWindow x(place.x, width, map.view.width);
-  const TexelWindow y(place.y, width, map.view.height);
+  const TexelWindow x(place.x, width, map.view.crop.x0, map.view.crop.x1);
+  const TexelWindow y(place.y, width, map.view.crop.y0, map.view.crop.y1);
   double t[TexelWindow::Most][TexelWindow::Most];
   int hits = 0;
   for (int j = 0; j < y.count; ++j)
@@ -64,7 +64,6 @@ bool MapTest::endsBefore(const MapPlace& place, const glm::ivec2& texel, double 
 {
   const TracedMap& map = *place.map;
   const double offset[2] = { texel.x + 0.5 - place.x, texel.y + 0.5 - place.y };
-  const int size[2] = { map.view.width, map.view.height };
   const double pixel = map.edge(place.t);
   std::uint32_t caster, other;
   double here, farther;
@@ -77,7 +76,7 @@ bool MapTest::endsBefore(const MapPlace& place, const glm::ivec2& texel, double 
   {
     glm::ivec2 next = texel;
     next[axis] += offset[axis] < 0.0 ? -1 : 1;
-    if (next[axis] < 0 || next[axis] >= size[axis] || !map.occluder(next, other, farther) ||
+    if (!map.has(next) || !map.occluder(next, other, farther) ||
       std::abs(farther - here) > NearbyReach * pixel)
     {
       return false;
@@ -90,8 +89,9 @@ bool MapTest::endsBefore(const MapPlace& place, const glm::ivec2& texel, double 
 float MapTest::filtered(
   const MapPlace& place, double width, const SurfacePoint& point, double error, bool weighed) const
 {
-  TexelWindow x(place.x, width, place.map->view.width);
-  TexelWindow y(place.y, width, place.map->view.height);
+  const PixelRect& crop = place.map->view.crop;
+  TexelWindow x(place.x, width, crop.x0, crop.x1);
+  TexelWindow y(place.y, width, crop.y0, crop.y1);
   x.weigh();
   y.weigh();
   double sum = 0.0;
@@ -145,7 +145,7 @@ void MapTest::darkness(const TilePatch& patch, double error, const double* exten
   {
     const TracedMap& map = *this->Maps.maps[k];
     MapPlaces places;
-    placeInMap(map.view, map.worldToClip, patch, left, places);
+    placeInMap(map, patch, left, places);
     bent |= left & ~(places.inside | places.outside);
     left &= places.outside;
     if (map.seesCasters && places.inside != 0 &&
@@ -177,8 +177,6 @@ std::uint64_t MapTest::flat(const TracedMap& map, const MapPlaces& places, const
     0.999 * std::min(map.edge(places.t0 + places.lowT), map.edge(places.t0 + places.highT));
   std::uint64_t narrow = 0;
   eachBit(places.sure, [&](int i) { narrow |= std::uint64_t(extents[i] < narrowest) << i; });
-  return !map.occluders.known() || narrow == 0
-    ? 0
-    : flatWindows(map.view, map.edge, map.texels(), places, narrow);
+  return !map.occluders.known() || narrow == 0 ? 0 : flatWindows(map, map.texels(), places, narrow);
 }
 }

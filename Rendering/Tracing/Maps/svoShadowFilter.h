@@ -22,17 +22,17 @@ public:
   int count;
   double weight[Most]; // set by weigh()
 
-  /// `place`: texels from the border of a map of `size` of them; at least 0, less than `size`.
-  /// `width` of the box: 1..WidestBox texels.
-  TexelWindow(double place, double width, int size)
+  /// `place`: texels, in a map that has those from `begin` to before `end`, which begins at 0 or
+  /// later. `width` of the box: 1..WidestBox texels.
+  TexelWindow(double place, double width, int begin, int end)
     : Place(place)
     , Width(width)
   {
-    assert(place >= 0.0 && place < size && width >= 1.0 && width <= WidestBox);
+    assert(place >= begin && place < end && width >= 1.0 && width <= WidestBox);
     const double half = 0.5 * (width + 1.0);
     const int last = static_cast<int>(place + half); // truncated: it is not negative
-    this->first = place > half ? static_cast<int>(place - half) : 0;
-    this->count = std::min({ last, size - 1, this->first + Most - 1 }) + 1 - this->first;
+    this->first = place > begin + half ? static_cast<int>(place - half) : begin;
+    this->count = std::min({ last, end - 1, this->first + Most - 1 }) + 1 - this->first;
     assert(this->count > 0);
   }
 

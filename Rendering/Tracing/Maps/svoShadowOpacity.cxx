@@ -78,8 +78,9 @@ float MapTest::opacity(const TracedMap& map, const glm::ivec2& texel) const
 
 float MapTest::opacity(const MapPlace& place, double width) const
 {
-  TexelWindow x(place.x, width, place.map->view.width);
-  TexelWindow y(place.y, width, place.map->view.height);
+  const PixelRect& crop = place.map->view.crop;
+  TexelWindow x(place.x, width, crop.x0, crop.x1);
+  TexelWindow y(place.y, width, crop.y0, crop.y1);
   x.weigh();
   y.weigh();
   double sum = 0.0, all = 0.0;

@@ -8,9 +8,11 @@
 #include "svoView.h"
 #include "svoWorldSize.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 namespace svo
@@ -33,6 +35,42 @@ struct TexelEdge
   double aspect = 1.0; // the longer edge, in shorter ones
 };
 
+/// A map as points are looked up in it.
+struct MapGeometry
+{
+  MapGeometry() = default;
+  explicit MapGeometry(const View& map)
+    : view(map)
+    , worldToClip(map.viewToClip * map.worldToView)
+    , edge(map)
+    , low(clipOf(map.crop.x0, map.width), clipOf(map.crop.y0, map.height))
+    , high(clipOf(map.crop.x1, map.width), clipOf(map.crop.y1, map.height))
+    , first(map.crop.x0, map.crop.y0)
+    , last(beforeEnd(map.crop.x1), beforeEnd(map.crop.y1))
+  {
+  }
+
+  View view;
+  glm::dmat4 worldToClip{ 1.0 };
+  TexelEdge edge;
+  // The crop.
+  glm::dvec2 low{ 0.0 }, high{ 0.0 };   // clip space; MapBorder where it is the image's
+  glm::dvec2 first{ 0.0 }, last{ 0.0 }; // texels
+
+  bool has(const glm::ivec2& texel) const
+  {
+    const PixelRect& crop = this->view.crop;
+    return texel.x >= crop.x0 && texel.x < crop.x1 && texel.y >= crop.y0 && texel.y < crop.y1;
+  }
+
+private:
+  static double clipOf(int texel, int size)
+  {
+    return texel == 0 ? -MapBorder : texel == size ? MapBorder : 2.0 * texel / size - 1.0;
+  }
+  static double beforeEnd(int texel) { return std::min(texel - 1e-9, texel * (1.0 - 0x1p-52)); }
+};
+
 struct TexelPlace
 {
   double x, y;   // texels, within the map
@@ -40,22 +78,20 @@ struct TexelPlace
   double inside; // of the map: 1, or 0
 };
 
-/// `worldToClip`: of the map's view.
-inline TexelPlace texelPlace(
-  const View& map, const glm::dmat4& worldToClip, const glm::dvec3& position)
+inline TexelPlace texelPlace(const MapGeometry& map, const glm::dvec3& position)
 {
-  const glm::dvec4 clip = worldToClip * glm::dvec4(position, 1.0);
-  const double border = MapBorder * clip.w;
-  const double insideX = std::abs(clip.x) < border ? 1.0 : 0.0;
-  const double insideY = std::abs(clip.y) < border ? insideX : 0.0;
-  const double x = (clip.x / clip.w + 1.0) * 0.5 * map.width;
-  const double y = (clip.y / clip.w + 1.0) * 0.5 * map.height;
-  const double lastX = map.width - 1e-9, lastY = map.height - 1e-9;
-  const double x0 = x < 0.0 ? 0.0 : x, y0 = y < 0.0 ? 0.0 : y;
-  const glm::dmat4& m = map.worldToView;
-  return { lastX < x0 ? lastX : x0, lastY < y0 ? lastY : y0,
+  const glm::dvec4 clip = map.worldToClip * glm::dvec4(position, 1.0);
+  const double rightOf = map.low.x * clip.w < clip.x ? 1.0 : 0.0;
+  const double insideX = clip.x < map.high.x * clip.w ? rightOf : 0.0;
+  const double above = map.low.y * clip.w < clip.y ? insideX : 0.0;
+  const double inside = clip.y < map.high.y * clip.w ? above : 0.0;
+  const double x = (clip.x / clip.w + 1.0) * 0.5 * map.view.width;
+  const double y = (clip.y / clip.w + 1.0) * 0.5 * map.view.height;
+  const double x0 = x < map.first.x ? map.first.x : x, y0 = y < map.first.y ? map.first.y : y;
+  const glm::dmat4& m = map.view.worldToView;
+  return { map.last.x < x0 ? map.last.x : x0, map.last.y < y0 ? map.last.y : y0,
     -(m[0][2] * position.x + m[1][2] * position.y + m[2][2] * position.z + m[3][2]),
-    clip.w > 0.0 ? insideY : 0.0 };
+    clip.w > 0.0 ? inside : 0.0 };
 }
 }
 

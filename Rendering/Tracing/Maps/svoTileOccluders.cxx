@@ -111,7 +111,7 @@ void MapOccluders::find(const Hits& map, const ParallelFor& parallelFor)
     });
 }
 
-TileOccluders MapOccluders::in(const MapTiles& tiles, int tilesX) const
+TileOccluders MapOccluders::in(const MapTiles& tiles, const TileGrid& grid) const
 {
   constexpr int Most = 4; // tiles along an edge of a box
   if (!this->known() || !tiles.atMost(Most))
@@ -119,12 +119,12 @@ TileOccluders MapOccluders::in(const MapTiles& tiles, int tilesX) const
     constexpr float Infinity = std::numeric_limits<float>::infinity();
     return { -Infinity, Infinity, TileOccluders::Several };
   }
-  TileOccluders all = this->Tiles[static_cast<std::size_t>(tiles.y0) * tilesX + tiles.x0];
+  TileOccluders all = this->Tiles[grid.index(tiles.x0, tiles.y0)];
   for (int y = tiles.y0; y <= tiles.y1; ++y)
   {
     for (int x = tiles.x0; x <= tiles.x1; ++x)
     {
-      const TileOccluders& tile = this->Tiles[static_cast<std::size_t>(y) * tilesX + x];
+      const TileOccluders& tile = this->Tiles[grid.index(x, y)];
       all.nearest = std::min(all.nearest, tile.nearest);
       all.farthest = std::max(all.farthest, tile.farthest);
       all.caster = tile.caster == all.caster ? all.caster : TileOccluders::Several;

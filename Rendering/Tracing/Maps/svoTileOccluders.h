@@ -38,8 +38,8 @@ public:
   const TileOccluders* tiles() const { return this->Tiles.data(); }
   /// Of a box of tiles; of large ones, and if it is not known, minus and plus
   /// infinity, and Several.
-  /// `tilesX`: of the map.
-  TileOccluders in(const MapTiles& tiles, int tilesX) const;
+  /// `grid`: of the map.
+  TileOccluders in(const MapTiles& tiles, const TileGrid& grid) const;
 
 private:
   std::vector<TileOccluders> Tiles;

@@ -177,9 +177,11 @@ std::uint64_t mayTurnAway(const Light& light, double grazing, const TilePatch& p
     static_cast<float>(DoubtfulSine + Margin), patch, asked, dark);
 }
 
-void testTexels(const View& view, const TexelEdge& edge, const TilePatch& patch,
-  std::uint64_t lanes, const MapPlaces& places, TexelTests& tests)
+void testTexels(const MapGeometry& geometry, const TilePatch& patch, std::uint64_t lanes,
+  const MapPlaces& places, TexelTests& tests)
 {
+  const View& view = geometry.view;
+  const TexelEdge& edge = geometry.edge;
   assert((lanes & ~places.sure) == 0 && edge.aspect >= 1.0);
   const double x = places.x0, y = places.y0, t = places.t0;
   const glm::dvec3 ray = view.rayDirection(x, y);

@@ -29,7 +29,7 @@ struct TexelTests
 void setOccluders(double base, const TexelOccluders& occluders, TexelTests& tests);
 
 /// Tests points of `lanes`, which are inside of the map and each in a texel that something lies at.
-void testTexels(const View& map, const TexelEdge& edge, const TilePatch& patch, std::uint64_t lanes,
+void testTexels(const MapGeometry& map, const TilePatch& patch, std::uint64_t lanes,
   const MapPlaces& places, TexelTests& tests);
 
 /// Which of the points in `asked` may turnsAway() from the light, by `grazing`, or DoubtfulSine

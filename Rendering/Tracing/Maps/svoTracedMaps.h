@@ -23,7 +23,7 @@
 
 namespace svo
 {
-struct TracedMap
+struct TracedMap : MapGeometry
 {
   explicit TracedMap(const Hits& traced)
     : hits(traced)
@@ -31,9 +31,6 @@ struct TracedMap
   }
 
   const Hits& hits;
-  View view;
-  glm::dmat4 worldToClip{ 1.0 };
-  TexelEdge edge;
   bool seesCasters = false;
   SharedDepth shared;     // with other processes' casters; takes the place of the hits' depths
   MapOccluders occluders; // of the hits; unknown where depths are shared
@@ -43,13 +40,13 @@ struct TracedMap
   MapTexels texels() const
   {
     const DepthBuffer& depth = this->hits.depth;
-    return { depth.tilesX, this->occluders.tiles(), depth.t.data(), depth.instance.data() };
+    return { depth.grid, this->occluders.tiles(), depth.t.data(), depth.instance.data() };
   }
 
   /// What lies in the tiles around points that are inside.
   TileOccluders around(const MapPlaces& places, float margin) const
   {
-    return this->occluders.in(tilesOf(places, this->view, margin), this->hits.depth.tilesX);
+    return this->occluders.in(tilesOf(places, this->view, margin), this->hits.depth.grid);
   }
 
   /// True if something lies in a tile.
@@ -124,7 +121,7 @@ struct TracedMaps
     for (std::size_t i = 0; i < this->maps.size(); ++i)
     {
       const TracedMap* map = this->maps[i];
-      const TexelPlace at = texelPlace(map->view, map->worldToClip, position);
+      const TexelPlace at = texelPlace(*map, position);
       if (at.inside > 0.0)
       {
         place = { map, i, at.x, at.y, at.t };

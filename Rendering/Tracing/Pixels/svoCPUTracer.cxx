@@ -139,7 +139,7 @@ void CPUTracer::Internals::findStaleTiles(const FrameChanges& changes, bool same
   const DepthBuffer& depth = this->Eye.hits().depth;
   // Edges are smoothed over the tiles' borders.
   const bool all = changes.all || !sameFrame || this->Settings.antiAliasing;
-  this->Shaded.beginFrame(depth.tilesX, depth.tilesY, all);
+  this->Shaded.beginFrame(depth.grid.tilesX, depth.grid.tilesY, all);
   for (std::size_t tile = 0; tile < this->Shaded.size(); ++tile)
   {
     this->Shaded.setStale(tile, this->Eye.hits().tiles.changed(tile));
@@ -256,8 +256,8 @@ void CPUTracer::Internals::sampleLights(
 {
   const bool filtered = shaded.settings.filterLightSamples;
   const DepthBuffer& depth = shaded.eye.depth;
-  this->Sampled.begin(SampledPlanes(shaded.scene, shaded.dark), depth.tilesX, depth.tilesY,
-    depth.hit.data(), shaded.settings.lightSamples, more);
+  this->Sampled.begin(SampledPlanes(shaded.scene, shaded.dark), depth.grid.tilesX,
+    depth.grid.tilesY, depth.hit.data(), shaded.settings.lightSamples, more);
   if (!this->Sampled.sampled().any())
   {
     return;

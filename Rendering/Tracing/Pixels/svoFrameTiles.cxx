@@ -35,7 +35,7 @@ void wipeTile(Frame& frame, int x0, int y0)
 bool FrameTiles::find(
   const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame)
 {
-  this->TilesX = depth.tilesX;
+  this->TilesX = depth.grid.tilesX;
   const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
   const bool same = frame.width == view.width && frame.height == view.height &&
     frame.color.size() == 4 * pixels &&
@@ -63,8 +63,8 @@ bool FrameTiles::find(
   PixelRect covered{ frame.width, frame.height, 0, 0 };
   for (std::size_t tile = 0; tile < depth.tiles(); ++tile)
   {
-    const int x = 8 * static_cast<int>(tile % depth.tilesX);
-    const int y = 8 * static_cast<int>(tile / depth.tilesX);
+    const int x = 8 * static_cast<int>(tile % depth.grid.tilesX);
+    const int y = 8 * static_cast<int>(tile / depth.grid.tilesX);
     if (depth.hit[tile])
     {
       this->Hits.push_back(static_cast<std::uint32_t>(tile));

@@ -10,7 +10,7 @@ namespace svo
 namespace
 {
 // Who adds a member to one of these adds it below.
-static_assert(sizeof(Light) == 120 && sizeof(View) == 480 && sizeof(FrameNeeds) == 48,
+static_assert(sizeof(Light) == 120 && sizeof(View) == 496 && sizeof(FrameNeeds) == 48,
   "all that pictures depend on is compared");
 
 using Bytes = std::vector<unsigned char>;
@@ -38,7 +38,7 @@ void addLight(const Light& l, Bytes& bytes)
 void addView(const View& v, Bytes& bytes)
 {
   add(bytes, v.origin, v.originX, v.originY, v.direction, v.directionX, v.directionY, v.tNear,
-    v.tFar, v.width, v.height, v.worldToView, v.viewToClip);
+    v.tFar, v.width, v.height, v.crop, v.worldToView, v.viewToClip);
 }
 
 void addSettings(const FrameSettings& s, Bytes& bytes)

@@ -255,14 +255,15 @@ std::vector<std::uint8_t> hiddenPlaces(const SampledFrame& frame, const Receiver
 {
   const int width = places.width, height = places.height;
   const DepthBuffer& eye = frame.eye.depth;
-  assert(8 * eye.tilesX >= width && 8 * eye.tilesY >= std::min(frame.view.height, height));
+  assert(
+    8 * eye.grid.tilesX >= width && 8 * eye.grid.tilesY >= std::min(frame.view.height, height));
   std::vector<std::uint8_t> before(static_cast<std::size_t>(width) * height), hidden(before);
   for (int y = 0; y < height; ++y)
   {
     const int seenY = y % places.sliceRows;
     for (int x = 0; x < width && seenY < frame.view.height; ++x)
     {
-      const std::size_t tile = static_cast<std::size_t>(seenY / 8) * eye.tilesX + x / 8;
+      const std::size_t tile = static_cast<std::size_t>(seenY / 8) * eye.grid.tilesX + x / 8;
       const std::size_t at = 64 * tile + 8 * (seenY & 7) + (x & 7);
       const std::size_t pixel = static_cast<std::size_t>(y) * width + x;
       if (eye.hit[tile] && eye.instance[at] != NoInstance)

@@ -28,7 +28,7 @@ struct LocalView
   WorldToOctree toOctree;
   double base = 0.0;
   float tMax = -1.0f; // far plane or farthest corner, whichever is nearer; minus base
-  /// That can see the cube; empty if none. With those of the last tiles beyond the image.
+  /// That can see the cube; empty if none. With those of the last tiles beyond the crop.
   PixelRect pixels;
   PixelRect rect; // whole tiles of these
   /// On the plane of `base` rays may start many cubes away from where they meet the cube, as where
@@ -109,16 +109,18 @@ inline SeenCube seeCube(
   seen.farthest = std::min(farthest + slack, view.tFar);
   if (behind)
   {
-    seen.rect = { 0, 0, view.width, view.height };
+    seen.rect = view.crop;
   }
   else
   {
     // A pixel of margin for the rounding of floats.
-    const auto clamp = [](double v, int most)
-    { return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(most))); };
-    seen.rect = { clamp(std::floor(lowest.x - 1.0), view.width),
-      clamp(std::floor(lowest.y - 1.0), view.height), clamp(std::ceil(highest.x + 1.0), view.width),
-      clamp(std::ceil(highest.y + 1.0), view.height) };
+    const PixelRect& crop = view.crop;
+    const auto clamp = [](double v, int from, int to)
+    { return static_cast<int>(std::clamp(v, static_cast<double>(from), static_cast<double>(to))); };
+    seen.rect = { clamp(std::floor(lowest.x - 1.0), crop.x0, crop.x1),
+      clamp(std::floor(lowest.y - 1.0), crop.y0, crop.y1),
+      clamp(std::ceil(highest.x + 1.0), crop.x0, crop.x1),
+      clamp(std::ceil(highest.y + 1.0), crop.y0, crop.y1) };
   }
   if (seen.rect.empty())
   {
@@ -149,8 +151,8 @@ inline LocalView makeLocalView(
   local.tMax = roundUp(seen.farthest - local.base);
   PixelRect& p = local.pixels;
   local.rect = { p.x0 & ~7, p.y0 & ~7, (p.x1 + 7) & ~7, (p.y1 + 7) & ~7 };
-  p.x1 = p.x1 < view.width ? p.x1 : local.rect.x1;
-  p.y1 = p.y1 < view.height ? p.y1 : local.rect.y1;
+  p.x1 = p.x1 < view.crop.x1 ? p.x1 : local.rect.x1;
+  p.y1 = p.y1 < view.crop.y1 ? p.y1 : local.rect.y1;
   local.toOctree = WorldToOctree(octree, localToWorld);
   const WorldToOctree& toOctree = local.toOctree;
   local.direction = toOctree.vector(view.direction);

@@ -1,6 +1,8 @@
 // A depth buffer gives back pages in which no tile is needed, and no others.
 #include "svoDepthBuffer.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +34,9 @@ std::vector<unsigned char> residentPages(Array& array)
 TEST(DepthBuffer, HoldsNoMoreThanTwiceWhatItNeeds)
 {
   svo::DepthBuffer buffer;
-  buffer.resize(1000, 600);
+  svo::View view;
+  ASSERT_TRUE(svo::makeView(glm::dmat4(1.0), glm::ortho(-1, 1, -1, 1, 1, 2), 1000, 600, view));
+  buffer.resize(svo::TileGrid(view));
   const std::size_t tiles = buffer.tiles();
   ASSERT_EQ(tiles, 125u * 75u);
   const std::size_t inPage = static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) / (64 * sizeof(float));

@@ -90,9 +90,9 @@ int compare(const svo::LayeredView& layers, const svo::View& view)
 {
   const svo::DepthBuffer& depth = layers.hits().depth;
   int hits = 0;
-  for (int tileY = 0; tileY < depth.tilesY; ++tileY)
+  for (int tileY = 0; tileY < depth.grid.tilesY; ++tileY)
   {
-    for (int tileX = 0; tileX < depth.tilesX; ++tileX)
+    for (int tileX = 0; tileX < depth.grid.tilesX; ++tileX)
     {
       svo::TileSamples samples;
       for (int i = 0; i < 64; ++i)

@@ -5,6 +5,7 @@
 #include "svoLightDetail.h"
 #include "svoLightView.h"
 #include "svoTestTracers.h"
+#include "svoTexelPlace.h"
 #include "svoTracerScenes.h"
 #include "svoWorldSize.h"
 
@@ -171,26 +172,114 @@ TEST(LightDetail, MapsAreNoFinerThanPixelsAndFew)
   }
 }
 
-// Most small steps of the eye leave the maps as they are, and what was traced through them.
+// Most small steps of the eye leave the maps as they are, and what was traced through them; others
+// look at another part of the same ones.
 TEST(LightDetail, MapsChangeNowAndThenOnlyWhenTheEyeMoves)
 {
   const auto outlines = svo::outlinesOf(ballAbove(bumpy(600.0)));
-  const svo::Light sun = lightOf(svo::Light::Kind::Directional, { 3, -2, 5 });
-  int changes = 0;
-  svo::LightMaps last = svo::mapsOfLight(outlines, sun, 2048, Eye);
-  for (int i = 1; i <= 100; ++i)
+  for (const LightCase& test : lights())
   {
-    const svo::View eye = lookAt({ 0.01 * i, -6, 4 }, 200, 150);
-    const svo::LightMaps maps = svo::mapsOfLight(outlines, sun, 2048, eye);
-    bool same = maps.views.size() == last.views.size();
-    for (std::size_t k = 0; same && k < maps.views.size(); ++k)
+    SCOPED_TRACE(test.name);
+    int others = 0, moved = 0;
+    svo::LightMaps last = svo::mapsOfLight(outlines, test.light, 2048, Eye);
+    for (int i = 1; i <= 100; ++i)
     {
-      same = maps.views[k].viewToClip == last.views[k].viewToClip;
+      const svo::View eye = lookAt({ 0.01 * i, -6, 4 }, 200, 150);
+      const svo::LightMaps maps = svo::mapsOfLight(outlines, test.light, 2048, eye);
+      for (const svo::View& view : maps.views)
+      {
+        const auto among = [&](bool (*same)(const svo::View&, const svo::View&))
+        {
+          return std::any_of(last.views.begin(), last.views.end(),
+            [&](const svo::View& before) { return same(before, view); });
+        };
+        others += !among(svo::sameImage);
+        moved += among(svo::sameImage) && !among(svo::sameRays);
+      }
+      last = maps;
     }
-    changes += !same;
-    last = maps;
+    EXPECT_LT(others, 20);
+    EXPECT_LT(moved, 50);
   }
-  EXPECT_LT(changes, 50);
+}
+
+// Wherever the eye sees a receiver one of the maps has the point.
+TEST(LightDetail, MapsHoldAllThatIsSeen)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (const double half : { 200.0, 1e4 })
+  {
+    const auto outlines = svo::outlinesOf(ballAbove(bumpy(half)));
+    for (const LightCase& test : lights())
+    {
+      SCOPED_TRACE(test.name + ", " + std::to_string(half));
+      int crops = 0, points = 0, missing = 0;
+      for (int i = 0; i < 20; ++i)
+      {
+        const svo::View eye =
+          lookAt({ 8.0 * unit(random), -6, 1.0 + 5.0 * unit(random) }, 200, 150, 60.0);
+        const svo::LightMaps maps = svo::mapsOfLight(outlines, test.light, 2048, eye);
+        const auto fitted = svo::fitLight(outlines, maps.casters, test.light, 2048);
+        const auto holds = [](const std::vector<svo::View>& views, const glm::dvec3& point)
+        {
+          return std::any_of(views.begin(), views.end(),
+            [&](const svo::View& view)
+            { return svo::texelPlace(svo::MapGeometry(view), point).inside > 0.0; });
+        };
+        for (const svo::View& view : maps.views)
+        {
+          crops += view.crop.x1 - view.crop.x0 < view.width;
+        }
+        for (int k = 0; k < 500; ++k)
+        {
+          // On the ground, where the eye's ray meets it.
+          const double x = eye.width * unit(random), y = eye.height * unit(random);
+          const glm::dvec3 from = eye.rayOrigin(x, y), along = eye.rayDirection(x, y);
+          const double t = -from.z / along.z;
+          const glm::dvec3 point = from + t * along;
+          if (t > eye.tNear && t < eye.tFar && std::abs(point.x) < half &&
+            std::abs(point.y) < half && holds(fitted, point))
+          {
+            ++points;
+            missing += !holds(maps.views, point);
+          }
+        }
+      }
+      EXPECT_GT(points, 3000);
+      EXPECT_TRUE(crops > 19 || test.light.kind == svo::Light::Kind::Spot);
+      EXPECT_EQ(missing, 0);
+    }
+  }
+}
+
+// What is kept of maps while the eye walks is what would be traced anew, to the bit.
+TEST(LightDetail, PicturesOfAWalkHangOnNoFrameBefore)
+{
+  for (const LightCase& test : lights())
+  {
+    SCOPED_TRACE(test.name);
+    svo::Scene scene = ballAbove(bumpy(600.0));
+    scene.lights = { test.light };
+    svo::CPUTracer kept;
+    std::uint64_t keptTexels = 0, texels = 0;
+    for (int i = 0; i < 12; ++i)
+    {
+      const svo::View eye =
+        lookAt({ 0.07 * i, -6, 4 - 0.1 * i }, 200, 150, 40.0, { 0.3 * i, 0.05 * i, 0 });
+      svo::CPUTracer fresh;
+      const svo::Frame a = svotest::rendered(kept, scene, eye, {});
+      const svo::Frame b = svotest::rendered(fresh, scene, eye, {});
+      ASSERT_EQ(a.color, b.color) << i;
+      ASSERT_EQ(a.depth, b.depth) << i;
+      keptTexels += kept.statistics().shadowRays;
+      texels += fresh.statistics().shadowRays;
+    }
+    std::printf("%s: %llu of %llu texels traced\n", test.name.c_str(),
+      static_cast<unsigned long long>(keptTexels), static_cast<unsigned long long>(texels));
+    EXPECT_GT(keptTexels, 0u);
+    EXPECT_LT(keptTexels, texels * 3 / 4);
+  }
 }
 
 // Two lights with maps of 16384 texels and receivers would take 10 GiB.

@@ -21,7 +21,9 @@ TEST(ShadowBuffer, WholeBuffersGiveTheSameBitsAndAreHandedOut)
     settings.wholeShadowBuffers = true;
     svo::CPUTracer whole;
     EXPECT_TRUE(identical(marked, rendered(whole, scene, Eye, settings))) << c.name;
-    ASSERT_EQ(whole.shadowMaps().size(), c.name == "point, six faces" ? 6u : 1u);
+    const std::size_t faces = c.name == "point, six faces" ? 6 : 1;
+    ASSERT_GE(whole.shadowMaps().size(), faces);
+    ASSERT_LE(whole.shadowMaps().size(), faces + 5); // further ones where texels look wide
     int occupied = 0;
     for (const svo::ShadowMap& map : whole.shadowMaps())
     {

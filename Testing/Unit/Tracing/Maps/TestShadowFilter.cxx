@@ -116,7 +116,7 @@ TEST(TexelWindow, WeightsAddUpAndChangeSmoothly)
     for (int step = 0; step < 16000; ++step)
     {
       const double place = 0.001 * step;
-      svo::TexelWindow window(place, width, Size);
+      svo::TexelWindow window(place, width, 0, Size);
       window.weigh();
       ASSERT_GE(window.first, 0);
       ASSERT_GT(window.count, 0);
@@ -146,7 +146,7 @@ TEST(TexelWindow, WeightsAddUpAndChangeSmoothly)
 
 TEST(TexelWindow, OfOneTexelIsAQuadraticSpline)
 {
-  svo::TexelWindow window(5.25, 1.0, 16);
+  svo::TexelWindow window(5.25, 1.0, 0, 16);
   window.weigh();
   ASSERT_EQ(window.first, 4);
   ASSERT_EQ(window.count, 3);

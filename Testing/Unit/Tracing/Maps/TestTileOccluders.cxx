@@ -62,14 +62,14 @@ Count compare(const Hits& map, const MapOccluders& occluders)
 {
   const DepthBuffer& depth = map.depth;
   Count count;
-  for (int y = 0; y < depth.tilesY; ++y)
+  for (int y = 0; y < depth.grid.tilesY; ++y)
   {
-    for (int x = 0; x < depth.tilesX; ++x)
+    for (int x = 0; x < depth.grid.tilesX; ++x)
     {
-      const MapTiles box{ x, y, std::min(x + (x + y) % 3, depth.tilesX - 1),
-        std::min(y + x % 4, depth.tilesY - 1) };
+      const MapTiles box{ x, y, std::min(x + (x + y) % 3, depth.grid.tilesX - 1),
+        std::min(y + x % 4, depth.grid.tilesY - 1) };
       const Expected expected = lookAtEachTexel(map, box);
-      const TileOccluders found = occluders.in(box, depth.tilesX);
+      const TileOccluders found = occluders.in(box, depth.grid);
       EXPECT_EQ(found.caster, expected.caster) << x << ", " << y;
       EXPECT_LE(static_cast<double>(found.nearest), expected.nearest);
       EXPECT_EQ(std::isinf(found.nearest), std::isinf(expected.nearest));
@@ -119,7 +119,7 @@ void compareFrames()
   LayeredView map(false);
   MapOccluders occluders;
   EXPECT_FALSE(occluders.known());
-  EXPECT_EQ(TileOccluders::Several, occluders.in({ 0, 0, 0, 0 }, 50).caster);
+  EXPECT_EQ(TileOccluders::Several, occluders.in({ 0, 0, 0, 0 }, svo::TileGrid(view)).caster);
   const Count first = compareFrame(scene, view, map, occluders);
   EXPECT_GT(first.nobody, 100);
   EXPECT_GT(first.one, 100);

@@ -23,9 +23,29 @@ namespace
 {
 struct Case
 {
-  View eye, light;
-  glm::dmat4 worldToClip;
+  View eye;
+  MapGeometry light;
 };
+
+/// The same rays, but for rounding, as the crop of an image with `times` as many pixels.
+View asCrop(const View& view, int times, int x, int y)
+{
+  glm::dmat4 toClip = view.viewToClip;
+  const auto shrink = [&](int row, int from, int size)
+  {
+    const double middle = (2.0 * from + size) / (static_cast<double>(times) * size) - 1.0;
+    for (int column = 0; column < 4; ++column)
+    {
+      toClip[column][row] = toClip[column][row] / times + middle * toClip[column][3];
+    }
+  };
+  shrink(0, x, view.width);
+  shrink(1, y, view.height);
+  View crop;
+  EXPECT_TRUE(makeView(view.worldToView, toClip, times * view.width, times * view.height, crop));
+  crop.crop = { x, y, x + view.width, y + view.height };
+  return crop;
+}
 
 /// The eye and a light look at the same things, which may be far from the world's origin. Some
 /// lights are turned away from them, as most of a cube's six maps are.
@@ -44,11 +64,14 @@ std::vector<Case> manyCases(std::mt19937& random)
         glm::perspective(i % 3 == 0 ? 0.05 : 0.7, 1.5, 0.1, 90.0), 192, 128, c.eye));
     const double half = i % 5 == 0 ? 0.05 : 1.5; // some points are beyond
     const glm::dvec3 towards = i % 6 == 1 ? 2.0 * lamp - at : at;
+    View light;
     EXPECT_TRUE(makeView(glm::lookAt(lamp, towards, glm::dvec3(0, 1, 0)),
       i % 2 == 0 ? glm::ortho(-half, half, -0.7 * half, 0.7 * half, 0.5, 9.0)
                  : glm::perspective(half, 1.3, 0.5, 9.0),
-      1024, 1024, c.light));
-    c.worldToClip = c.light.viewToClip * c.light.worldToView;
+      1024, 1024, light));
+    const int times = 1 << i % 17;
+    c.light = MapGeometry(
+      i % 4 < 2 || times == 1 ? light : asCrop(light, times, 8 * (i % 60), 1016 * (times - 1)));
     cases.push_back(c);
   }
   return cases;
@@ -100,14 +123,14 @@ TEST(TileShadows, PlacesAreWithinTheirBound)
         [&](const Case& c, std::mt19937&, TilePatch& patch)
         {
           MapPlaces places;
-          placeInMap(c.light, c.worldToClip, patch, patch.mask, places);
+          placeInMap(c.light, patch, patch.mask, places);
           ASSERT_EQ((places.inside | places.outside) & ~patch.mask, 0u);
           ASSERT_EQ(places.inside & places.outside, 0u);
           ASSERT_EQ(places.sure & ~places.inside, 0u);
           eachBit(patch.mask,
             [&](int i)
             {
-              const TexelPlace expected = texelPlace(c.light, c.worldToClip, patch.position(i));
+              const TexelPlace expected = texelPlace(c.light, patch.position(i));
               ++points;
               outside += places.outside >> i & 1;
               ASSERT_FALSE((places.outside >> i & 1) && expected.inside > 0.0);
@@ -144,26 +167,28 @@ TEST(TileShadows, TilesAroundPointsAreThoseOfTheirTexels)
         [&](const Case& c, std::mt19937&, TilePatch& patch)
         {
           MapPlaces places;
-          placeInMap(c.light, c.worldToClip, patch, patch.mask, places);
+          placeInMap(c.light, patch, patch.mask, places);
           if (places.inside == 0)
           {
             return;
           }
-          const MapTiles box = tilesOf(places, c.light, 0.5f);
+          const PixelRect& crop = c.light.view.crop;
+          const MapTiles box = tilesOf(places, c.light.view, 0.5f);
           const bool few = box.atMost(8);
-          const std::uint64_t found = few ? tilesAround(places, c.light, 0.5f, box) : 0;
+          const std::uint64_t found = few ? tilesAround(places, c.light.view, 0.5f, box) : 0;
           several += few && !box.atMost(2);
           std::uint64_t least = 0;
           eachBit(places.inside,
             [&](int i)
             {
-              const TexelPlace at = texelPlace(c.light, c.worldToClip, patch.position(i));
+              const TexelPlace at = texelPlace(c.light, patch.position(i));
               for (int corner = 0; corner < 4; ++corner)
               {
                 const double x = at.x + (corner & 1 ? 0.5 : -0.5);
                 const double y = at.y + (corner & 2 ? 0.5 : -0.5);
-                const int column = static_cast<int>(std::clamp(x, 0.0, 1023.0)) >> 3;
-                const int row = static_cast<int>(std::clamp(y, 0.0, 1023.0)) >> 3;
+                const int column =
+                  static_cast<int>(std::clamp<double>(x, crop.x0, crop.x1 - 1)) >> 3;
+                const int row = static_cast<int>(std::clamp<double>(y, crop.y0, crop.y1 - 1)) >> 3;
                 ASSERT_TRUE(column >= box.x0 && column <= box.x1 && row >= box.y0 && row <= box.y1);
                 least |= few ? std::uint64_t(1) << (8 * (row - box.y0) + column - box.x0) : 0;
               }
@@ -186,9 +211,9 @@ TEST(TileShadows, AnswersThatAreGivenAreThoseInDouble)
         [&](const Case& c, std::mt19937& random, TilePatch& patch)
         {
           std::uniform_real_distribution<double> unit(-1.0, 1.0);
-          const TexelEdge edge(c.light);
+          const TexelEdge& edge = c.light.edge;
           MapPlaces places;
-          placeInMap(c.light, c.worldToClip, patch, patch.mask, places);
+          placeInMap(c.light, patch, patch.mask, places);
           TexelTests tests;
           ShadowQuestion<double> questions[TilePatch::Most];
           eachBit(places.sure,
@@ -201,16 +226,16 @@ TEST(TileShadows, AnswersThatAreGivenAreThoseInDouble)
               };
               const glm::dvec3 position = patch.position(i);
               const double x = places.column(i) + 0.5, y = places.row(i) + 0.5;
-              const glm::dvec3 ray = glm::normalize(c.light.rayDirection(x, y));
+              const glm::dvec3 ray = glm::normalize(c.light.view.rayDirection(x, y));
               const glm::dvec3 beside = glm::normalize(glm::cross(ray, glm::dvec3(direction())));
               const double sine = EdgeOnSine * (1.0 + 1e-4 * unit(random));
               patch.setFacet(i, direction());
               patch.setNormal(i, i % 6 == 5 ? glm::vec3(beside + sine * ray) : direction());
-              const double t = texelPlace(c.light, c.worldToClip, position).t;
+              const double t = texelPlace(c.light, position).t;
               ShadowQuestion<double>& q = questions[i];
               q = { glm::dvec3(patch.facet(i)), glm::dvec3(patch.normal(i)),
-                position - c.light.rayOrigin(x, y), c.light.rayDirection(x, y), t, edge(t),
-                edge.aspect, t - 0.01 - 0.1 * unit(random) * unit(random),
+                position - c.light.view.rayOrigin(x, y), c.light.view.rayDirection(x, y), t,
+                edge(t), edge.aspect, t - 0.01 - 0.1 * unit(random) * unit(random),
                 1e-3 * std::abs(unit(random)), 1e-3 * std::abs(unit(random)) };
               const ShadowAnswer<double> before = shadowTest(q);
               const double step = i % 3 == 0 ? before.reached
@@ -229,7 +254,7 @@ TEST(TileShadows, AnswersThatAreGivenAreThoseInDouble)
           {
             return;
           }
-          testTexels(c.light, edge, patch, places.sure, places, tests);
+          testTexels(c.light, patch, places.sure, places, tests);
           ASSERT_EQ((tests.dark | tests.nearby | tests.unsure) & ~places.sure, 0u);
           eachBit(places.sure,
             [&](int i)

@@ -135,8 +135,8 @@ struct Stage
       {
         svo::eachPatch(
           view,
-          hitsOfTile(depth, view, static_cast<int>(tile % depth.tilesX),
-            static_cast<int>(tile / depth.tilesX)),
+          hitsOfTile(depth, view, static_cast<int>(tile % depth.grid.tilesX),
+            static_cast<int>(tile / depth.grid.tilesX)),
           [](std::uint32_t) { return true; }, [&](std::uint32_t i) { return eye.hits().base(i); },
           patch, f);
       }
@@ -244,9 +244,9 @@ TEST(TileShading, PatchesHaveEveryHitOnce)
             });
         });
       EXPECT_GT(deep, 10);
-      for (int y = 0; y < 8 * depth.tilesY; ++y)
+      for (int y = 0; y < 8 * depth.grid.tilesY; ++y)
       {
-        for (int x = 0; x < 8 * depth.tilesX; ++x)
+        for (int x = 0; x < 8 * depth.grid.tilesX; ++x)
         {
           const std::size_t at = depth.at(x, y);
           const bool hit = x < stage.view.width && y < stage.view.height && depth.hit[at >> 6] &&

@@ -42,8 +42,8 @@ void eachSeenPoint(const svo::Instance& instance, int level, const std::vector<g
     {
       svo::eachPatch(
         from,
-        svo::hitsOfTile(depth, from, static_cast<int>(tile % depth.tilesX),
-          static_cast<int>(tile / depth.tilesX)),
+        svo::hitsOfTile(depth, from, static_cast<int>(tile % depth.grid.tilesX),
+          static_cast<int>(tile / depth.grid.tilesX)),
         [](std::uint32_t) { return true; }, [&](std::uint32_t i) { return layers.hits().base(i); },
         patch,
         [&](svo::TilePatch& seen)

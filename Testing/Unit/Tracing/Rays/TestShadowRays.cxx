@@ -116,14 +116,14 @@ Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& 
   svo::TilePatch patch;
   svo::TileTriangles triangles;
   const svo::DepthBuffer& depth = eye.hits().depth;
-  for (int tile = 0; tile < depth.tilesX * depth.tilesY; ++tile)
+  for (int tile = 0; tile < depth.grid.tilesX * depth.grid.tilesY; ++tile)
   {
     if (!depth.hit[tile])
     {
       continue;
     }
     const svo::TileHits hits =
-      svo::hitsOfTile(depth, view, tile % depth.tilesX, tile / depth.tilesX);
+      svo::hitsOfTile(depth, view, tile % depth.grid.tilesX, tile / depth.grid.tilesX);
     svo::eachPatch(
       view, hits, [](std::uint32_t) { return true; },
       [&](std::uint32_t i) { return eye.hits().base(i); }, patch,

@@ -66,8 +66,7 @@ Found lookUp(const svo::Scene& scene, const svo::View& eye, int resolution)
         glm::mix(box.low, box.high, glm::dvec3(part(generator), part(generator), part(generator)));
       const glm::dvec4 clip = eye.viewToClip * eye.worldToView * glm::dvec4(x, 1.0);
       const glm::dvec3 seen = 0.5 + 0.5 * glm::dvec3(clip) / clip.w;
-      const svo::TexelPlace at =
-        svo::texelPlace(map.view, map.view.viewToClip * map.view.worldToView, x);
+      const svo::TexelPlace at = svo::texelPlace(svo::MapGeometry(map.view), x);
       const glm::dvec2 pixel(seen.x * eye.width, seen.y * eye.height);
       if (!(at.inside > 0.0) || clip.w <= 0.0 || !(seen.x > 0.0 && seen.x < 1.0) ||
         !(seen.y > 0.0 && seen.y < 1.0) ||

@@ -184,14 +184,14 @@ TEST(SoftRays, AnswersDoNotDependOnWhoElseAsks)
     svo::TilePatch patch;
     svo::TileTriangles triangles;
     int partly = 0, different = 0;
-    for (int tile = 0; tile < depth.tilesX * depth.tilesY; ++tile)
+    for (int tile = 0; tile < depth.grid.tilesX * depth.grid.tilesY; ++tile)
     {
       if (!depth.hit[tile])
       {
         continue;
       }
       const svo::TileHits hits =
-        svo::hitsOfTile(depth, view, tile % depth.tilesX, tile / depth.tilesX);
+        svo::hitsOfTile(depth, view, tile % depth.grid.tilesX, tile / depth.grid.tilesX);
       const auto ask = [&, &scene = scene](const svo::TilePatch&)
       {
         svo::lookAtPatch(frames[patch.instance], patch, triangles);
