@@ -24,11 +24,9 @@ constexpr std::size_t TexelsOfCopy = 8;
 static_assert(sizeof(MapCopy::Record) == TexelsOfCopy * sizeof(glm::vec4), "no gaps");
 constexpr int CornersOfBox = 36;
 
-bool sameMaps(const std::vector<ShadowMap>& a, const std::vector<ShadowMap>& b)
+bool sameMap(const ShadowMap& a, const ShadowMap& b)
 {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-    [](const ShadowMap& x, const ShadowMap& y)
-    { return x.light == y.light && x.group == y.group && sameRays(x.view, y.view); });
+  return a.light == b.light && a.group == b.group && sameRays(a.view, b.view);
 }
 
 bool sameCasters(const std::vector<LightMaps>& a, const std::vector<LightMaps>& b)
@@ -37,10 +35,22 @@ bool sameCasters(const std::vector<LightMaps>& a, const std::vector<LightMaps>& 
     [](const LightMaps& x, const LightMaps& y) { return x.casters == y.casters; });
 }
 
-bool sameLayers(const std::vector<ShadowMap>& a, const std::vector<ShadowMap>& b)
+/// By map, of `size` texels along an edge: what is not in the texture's layers as it was.
+std::vector<PixelRect> partsToDraw(const std::vector<ShadowMap>& before,
+  const std::vector<MapCopy>& copiesBefore, const std::vector<ShadowMap>& now,
+  const std::vector<MapCopy>& copies, int size)
 {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-    [](const ShadowMap& x, const ShadowMap& y) { return x.layer == y.layer; });
+  std::vector<PixelRect> parts =
+    changedParts(copiesBefore, copies, std::max(before.size(), now.size()));
+  parts.resize(now.size());
+  for (std::size_t m = 0; m < now.size(); ++m)
+  {
+    if (m >= before.size() || !sameMap(before[m], now[m]) || before[m].layer != now[m].layer)
+    {
+      parts[m] = { 0, 0, size, size };
+    }
+  }
+  return parts;
 }
 }
 
@@ -54,7 +64,8 @@ std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory
   const bool known = scene.version != 0 && scene.version == this->Version;
   this->fit(scene, eye, settings);
   this->Version = scene.version;
-  const bool same = this->Texels != 0 && sameMaps(this->Maps, before) && this->bytes() <= room;
+  const bool same = this->Texels != 0 && this->bytes() <= room &&
+    std::equal(this->Maps.begin(), this->Maps.end(), before.begin(), before.end(), sameMap);
   if (known && same && sameCasters(this->Lights, lightsBefore))
   {
     this->Maps = std::move(before); // with where they lie
@@ -69,9 +80,14 @@ std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory
   const bool translucent = std::any_of(
     this->Maps.begin(), this->Maps.end(), [](const ShadowMap& map) { return map.group > 0; });
   const int size = this->Maps.empty() ? 1 : this->Maps.front().view.width;
-  const unsigned int texture = this->Texels;
   std::string whyNot;
-  if (!this->resize(size, layers, translucent, room))
+  const bool fits = this->fits(size, layers, translucent, room);
+  if (!fits)
+  {
+    before.clear(); // what was drawn goes with the texture
+    this->InMaps.clear();
+  }
+  if (!fits && !this->resize(size, layers, translucent, room))
   {
     whyNot = "Shadow maps do not fit into OpenGL's memory, or into GPUMemoryLimit";
   }
@@ -82,11 +98,8 @@ std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory
   }
   if (whyNot.empty())
   {
-    const bool kept = same && texture == this->Texels && sameLayers(this->Maps, before);
-    const std::vector<PixelRect> parts = kept
-      ? changedParts(this->InMaps, copies, this->Maps.size())
-      : std::vector<PixelRect>(this->Maps.size(), { 0, 0, size, size });
-    whyNot = this->drawParts(parts, copies, arena, alphas);
+    whyNot = this->drawParts(
+      partsToDraw(before, this->InMaps, this->Maps, copies, size), copies, arena, alphas);
   }
   if (whyNot.empty())
   {
@@ -126,14 +139,15 @@ void DrawnMaps::fit(const Scene& scene, const View& eye, const FrameSettings& se
   }
 }
 
-/// Has a texture for them. False if OpenGL refuses, or if it takes more than `room`.
+bool DrawnMaps::fits(int size, int layers, bool translucent, std::size_t room) const
+{
+  return this->Texels != 0 && size == this->Size && translucent == this->Translucent &&
+    layers <= this->Layers && this->Layers <= 2 * layers && this->bytes() <= room;
+}
+
+/// Makes a texture for them. False if OpenGL refuses, or if it takes more than `room`.
 bool DrawnMaps::resize(int size, int layers, bool translucent, std::size_t room)
 {
-  if (this->Texels != 0 && size == this->Size && translucent == this->Translucent &&
-    layers <= this->Layers && this->Layers <= 2 * layers && this->bytes() <= room)
-  {
-    return true;
-  }
   this->releaseTextures();
   this->Size = size;
   this->Layers = layers;

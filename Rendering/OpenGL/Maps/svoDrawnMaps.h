@@ -24,10 +24,10 @@ class OctreeArena;
 class DrawnMaps
 {
 public:
-  /// Has the maps of a scene's lights, fitted as the CPU's are (svoLightDetail.h): drawn anew
-  /// where something of the last frame's has changed. All casters lie in `arena`, and where their
-  /// colours have alpha in `alphas`. At most `room` bytes. Why they are not there, in a few words,
-  /// else empty.
+  /// Has the maps of a scene's lights, fitted as the CPU's are (svoLightDetail.h): each drawn
+  /// anew where something of it is not as in the last frame. All casters lie in `arena`, and where
+  /// their colours have alpha in `alphas`. At most `room` bytes. Why they are not there, in a few
+  /// words, else empty.
   std::string draw(const Scene& scene, const std::vector<CasterInMemory>& casters,
     const OctreeArena& arena, const BufferTexture& alphas, const View& eye,
     const FrameSettings& settings, std::size_t room);
@@ -47,6 +47,8 @@ public:
 
 private:
   void fit(const Scene& scene, const View& eye, const FrameSettings& settings);
+  /// The texture is one for these.
+  bool fits(int size, int layers, bool translucent, std::size_t room) const;
   bool resize(int size, int layers, bool translucent, std::size_t room);
   const std::string& link(bool alphas);
   void releaseTextures();

@@ -4,7 +4,8 @@
 // their median and the slowest hundredth; means of the phases and of the texels that were traced.
 //
 //   BenchmarkWalk [--objects 4000] [--triangles 20000] [--frames 300] [--size 1920x1080]
-//     [--speed 1] [--shadows none|buffer|rays] [--json file] [--pictures prefix]
+//     [--speed 1] [--shadows none|buffer|rays] [--backend cpu|opengl] [--json file]
+//     [--pictures prefix]
 //
 // --speed: so many times as fast.
 //
@@ -39,7 +40,7 @@ struct Options
   performance::CrowdOptions crowd;
   int objects = 4000, frames = 300, size[2] = { 1920, 1080 };
   double speed = 1.0;
-  std::string shadows = "buffer", pictures;
+  std::string shadows = "buffer", backend = "cpu", pictures;
 };
 
 using Picture = std::vector<unsigned char>; // RGB
@@ -58,7 +59,8 @@ public:
     this->Window->AddRenderer(this->Renderer);
     this->Renderer->SetBackground(0.2, 0.3, 0.4);
     this->Renderer->SetPass(this->Pass);
-    this->Pass->SetBackendToCPU();
+    this->Pass->SetBackend(options.backend == "opengl" ? vtkSVORenderPass::BACKEND_OPENGL
+                                                       : vtkSVORenderPass::BACKEND_CPU);
     this->Pass->SetAutoAdjustSampleDistances(false);
     this->Pass->SetFrameCoherence(keeps);
     this->Pass->SetShadowTechnique(options.shadows == "none" ? vtkSVORenderPass::SHADOW_NONE
@@ -166,6 +168,10 @@ int main(int argc, char** argv)
     else if (name == "--shadows")
     {
       options.shadows = value;
+    }
+    else if (name == "--backend")
+    {
+      options.backend = value;
     }
     else if (name == "--json")
     {
