@@ -93,11 +93,11 @@ bool makeView(
 
 View cropped(const View& view)
 {
-  const PixelRect& crop = view.crop;
-  if (crop == PixelRect{ 0, 0, view.width, view.height })
+  if (view.isWhole())
   {
     return view;
   }
+  const PixelRect& crop = view.crop;
   glm::dmat4 toClip = view.viewToClip;
   const auto stretch = [&](int i, int from, int to, int size)
   {

@@ -75,6 +75,8 @@ struct VTKSVOTRACING_EXPORT View
   {
     return direction + x * directionX + y * directionY;
   }
+  /// It looks at all of its image.
+  bool isWhole() const { return this->crop == PixelRect{ 0, 0, this->width, this->height }; }
   /// OpenGL window depth, 0..1, of linear depth t. Depends on t only for every projection whose
   /// last row has no x and y terms (all of VTK's).
   double windowDepth(double t) const

@@ -37,8 +37,8 @@ public:
   /// Prepares a frame of these parts, in the order of their indices; their memory is exchanged for
   /// that of the last frame's. `keep`: tiles that no changed part touches, and that were looked at,
   /// are what they were, if the view has the same image and a crop as large. `wanted`: one byte a
-  /// tile, or null for all; tiles that are not wanted are empty unless they are known. Returns
-  /// false if all tiles are new.
+  /// place of the view's grid, or null for all; tiles that are not wanted are empty unless they are
+  /// known. Returns false if all tiles are new.
   bool beginFrame(
     const View& view, std::vector<MergedPart>& parts, bool keep, const std::uint8_t* wanted);
   void forget()

@@ -28,7 +28,7 @@ struct TileGrid
     , columns(tilesX)
     , rows(tilesY)
   {
-    if (!(view.crop == PixelRect{ 0, 0, view.width, view.height }))
+    if (!view.isWhole())
     {
       this->columns = powerOfTwo(this->tilesX);
       this->rows = powerOfTwo(this->tilesY);

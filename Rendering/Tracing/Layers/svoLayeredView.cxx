@@ -14,14 +14,14 @@ namespace
 /// Pixels of the rectangle of an instance from which on its layer may be kept. Smaller ones are
 /// traced again wherever something changes, so that what is kept goes with the picture and not
 /// with their number.
-constexpr int SmallestLayer = 16 * 64;
+constexpr double SmallestLayer = 16 * 64;
 /// Rectangles with fewer pixels have layers only while all of these together have no more than
 /// twice the picture's: what is kept goes with the picture, not with the number of instances.
-constexpr int CrowdsLayer = 128 * 128;
+constexpr double CrowdsLayer = 128 * 128;
 
-int pixelsOf(const PixelRect& r)
+double pixelsOf(const PixelRect& r)
 {
-  return (r.x1 - r.x0) * (r.y1 - r.y0);
+  return static_cast<double>(r.x1 - r.x0) * (r.y1 - r.y0);
 }
 }
 
@@ -57,10 +57,10 @@ void LayeredView::findLayers(LayerBudget& budget)
   double ofCrowd = 0.0;
   for (const TracedInstance& entry : this->Instances)
   {
-    const int pixels = pixelsOf(entry.local.rect);
+    const double pixels = pixelsOf(entry.local.rect);
     ofCrowd += pixels >= SmallestLayer && pixels < CrowdsLayer ? pixels : 0;
   }
-  const int smallest = ofCrowd > 2.0 * pixelsOf(view.crop) ? CrowdsLayer : SmallestLayer;
+  const double smallest = ofCrowd > 2.0 * pixelsOf(view.crop) ? CrowdsLayer : SmallestLayer;
   for (TracedInstance& entry : this->Instances.entries())
   {
     const bool large = pixelsOf(entry.local.rect) >= smallest && !entry.ball;

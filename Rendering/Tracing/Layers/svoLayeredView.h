@@ -40,8 +40,8 @@ public:
     const std::function<bool(const Instance&)>& takesPart, const LevelOf& levelOf, bool keep,
     LayerBudget& budget, const ParallelFor& parallelFor = serialFor);
 
-  /// Traces and merges. With `wanted` (one byte a tile) only tiles marked there; others are left
-  /// without hits, unless they are what they were.
+  /// Traces and merges. With `wanted` (one byte a place of the view's TileGrid) only
+  /// tiles marked there; others are left without hits, unless they are what they were.
   void trace(const ParallelFor& parallelFor, const std::uint8_t* wanted);
   /// What was hit. Who is seen is true from prepare() on.
   const Hits& hits() const { return this->Seen; }

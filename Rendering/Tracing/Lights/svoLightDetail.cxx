@@ -17,8 +17,8 @@ namespace svo
 {
 namespace
 {
-/// Pixels that a texel may look wide before anything is done about it: maps that are fitted to what
-/// is seen are traced again when the camera moves.
+/// Pixels that a texel may look wide before anything is done about it: of maps that are fitted to
+/// what is seen some has to be traced whenever the camera moves.
 constexpr double WidestTexel = 4.0;
 /// Pixels that it is made to look wide at most, and that it may look if so many maps do not exist.
 constexpr double WantedTexel = 2.0, WidestDetail = 8.0;
@@ -159,7 +159,8 @@ struct Refined
 };
 
 /// Appends views of what is seen through `light`, fine ones first: so many that a texel looks no
-/// wider than `widest` pixels, if `most` further ones are enough.
+/// wider than `widest` pixels, or a little more, where maps can be so fine and `most` further ones
+/// are enough.
 Refined refine(const View& light, const Part& all, const std::vector<Seen>& receivers,
   const View& eye, double widest, int most, std::vector<View>& views)
 {
@@ -190,7 +191,7 @@ Refined refine(const View& light, const Part& all, const std::vector<Seen>& rece
     const double from = all.nearest * all.widest * scale / widest;
     double reach = from;
     bool better = finer(reach);
-    while (!better && !eye.parallel && reach > 0.5 * from)
+    while (!better && !eye.parallel && reach > all.nearest)
     {
       reach *= std::sqrt(std::sqrt(0.5));
       better = finer(reach);
@@ -282,9 +283,8 @@ LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, 
 
 /// Texels of a map that casters of one group, or opaque ones, can lie in, in whole tiles.
 double texelsOf(const std::vector<Outline>& outlines, const std::vector<std::uint8_t>& casters,
-  std::uint8_t group, const View& view)
+  std::uint8_t group, const View& map)
 {
-  const View map = cropped(view);
   const double whole = static_cast<double>(map.width) * map.height;
   const glm::dmat4 toClip = map.viewToClip * map.worldToView;
   std::vector<glm::dvec3> cut;
@@ -360,8 +360,9 @@ std::vector<LightMaps> mapsOfLights(const std::vector<Outline>& outlines,
     double taken = 0.0;
     for (const LightMaps& light : maps)
     {
-      for (const View& map : light.views)
+      for (const View& view : light.views)
       {
+        const View map = cropped(view);
         for (int group = 0; group <= light.translucentGroups; ++group)
         {
           const double all = static_cast<double>(map.width) * map.height;

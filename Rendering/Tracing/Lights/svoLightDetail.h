@@ -50,8 +50,9 @@ struct TexelWidths
 
 /// The maps of a light: those that fit its casters (fitLight()), of resolution^2 texels, unless a
 /// texel would look wider than four pixels: of a ground or a terrain that casts, and of which the
-/// eye sees a small part only. Then a map covers the receivers in the eye's view and no more; where
-/// that is still too coarse nearby, further maps inside of it cover what lies nearer to the eye.
+/// eye sees a small part only. Then a map is as fine as it can be and yet cover the receivers in
+/// the eye's view, a crop of an image of 2^k times as many texels; where that is still too coarse
+/// nearby, further maps inside of it cover what lies nearer to the eye.
 /// Outlines and views alone decide: processes that agree on these agree on the maps. An eye without
 /// pixels sees nothing. `coarseness`: texels may look so many times as wide.
 LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, int resolution,

@@ -74,6 +74,16 @@ void add(std::vector<View>& views, const glm::dmat4& worldToView, const glm::dma
   }
 }
 
+/// Widens [low, high] to a grid of at most an eighth of its length, so that fitted bounds seldom
+/// change.
+void roundOutwards(double& low, double& high)
+{
+  assert(!(high < low)); // of forged octrees not numbers: makeView() refuses such views
+  const double step = powerOfTwo(high - low) / 16.0;
+  low = std::floor(low / step) * step;
+  high = std::ceil(high / step) * step;
+}
+
 std::vector<View> fitDirectional(
   const std::vector<glm::dvec3>& corners, const glm::dvec3& direction, int resolution)
 {
@@ -192,14 +202,6 @@ std::vector<View> fitPositional(
   add(views, toView, glm::frustum(low.x, high.x, low.y, high.y, nearest, farthest), resolution);
   return views;
 }
-}
-
-void roundOutwards(double& low, double& high)
-{
-  assert(!(high < low)); // of forged octrees not numbers: makeView() refuses such views
-  const double step = powerOfTwo(high - low) / 16.0;
-  low = std::floor(low / step) * step;
-  high = std::ceil(high / step) * step;
 }
 
 std::vector<View> fitLight(const std::vector<Outline>& outlines,

@@ -18,10 +18,6 @@ namespace svo
 /// `casters` as from castersOf().
 std::vector<View> fitLight(const std::vector<Outline>& outlines,
   const std::vector<std::uint8_t>& casters, const Light& light, int resolution);
-
-/// Widens [low, high] to a grid of at most an eighth of its length, so that fitted bounds seldom
-/// change.
-void roundOutwards(double& low, double& high);
 }
 
 #endif

@@ -123,6 +123,7 @@ void place(const MapFromPatch& map, const TilePatch& p, std::uint64_t lanes, Map
 std::uint64_t around(const MapPlaces& places, float margin, const glm::vec2& fromTile,
   const glm::vec2& firstTexel, const glm::vec2& lastTexel)
 {
+  // Copied first, so that the loop is of vectors.
   const glm::vec2 from = fromTile, firstOf = firstTexel, lastOf = lastTexel;
   // By point: its first tile among those 8x8, and by how much further bits have to be shifted.
   alignas(64) std::int32_t first[TilePatch::Most], across[TilePatch::Most], up[TilePatch::Most];
@@ -212,7 +213,9 @@ void placeInMap(
   const View& view = geometry.view;
   const glm::dmat4& worldToClip = geometry.worldToClip;
   constexpr float OfAffine = 14.0f * FloatRounding;
-  constexpr float OfDouble = 1e-5f; // texels: more than what double loses, and MapBorder
+  // Texels: more than what double loses, and MapBorder.
+  const float ofDouble =
+    1e-5f + 1e-12f * static_cast<float>(std::max(geometry.view.width, geometry.view.height));
   places.inside = places.outside = places.sure = 0;
   const glm::dvec3& origin = patch.origin.position;
   const glm::dvec4 clip = worldToClip * glm::dvec4(origin, 1.0);
@@ -243,7 +246,7 @@ void placeInMap(
   // Of a quotient a / b: (error of a + |a / b| error of b) / b, and its rounding.
   const float largest = map.w.size(patch.extent), smallest = 2.0f - largest;
   const float most = std::max(map.x.size(patch.extent), map.y.size(patch.extent)) / smallest;
-  places.error = OfAffine * most * (1.0f + largest / smallest) + OfDouble;
+  places.error = OfAffine * most * (1.0f + largest / smallest) + ofDouble;
   if (smallest > 0.0f && places.error < 0.25f)
   {
     HWY_DYNAMIC_DISPATCH(place)(map, patch, lanes, places);

@@ -40,7 +40,9 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
     Face& face = *this->Faces[i];
     const bool sawCasters = face.map.seesCasters;
     static_cast<MapGeometry&>(face.map) = MapGeometry(views[i]);
-    if (face.map.shared.merged() || !settings.handsOutMaps())
+    const TileGrid before = face.grid;
+    face.grid = TileGrid(views[i]);
+    if (face.map.shared.merged() || !settings.handsOutMaps() || !sameGrid(before, face.grid))
     {
       face.copied.reset();
     }
@@ -77,7 +79,6 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
           std::max(this->Maps.casterError[k], worldMapError(instance, geometry, level));
       }
     }
-    face.grid = TileGrid(face.map.view);
     if (face.wanted.size() != face.grid.size())
     {
       face.wanted = std::vector<std::atomic<std::uint8_t>>(face.grid.size());
@@ -118,13 +119,14 @@ void ShadowBuffer::arrangeFaces(const std::vector<View>& views, LayerBudget& bud
       [&](const auto& face) { return face && sameImage(face->map.view, view); });
     this->Faces.push_back(same != before.end() ? std::move(*same) : nullptr);
   }
-  auto other = before.begin();
+  auto other = before.begin(); // faces that are free
   for (auto& face : this->Faces)
   {
     other = std::find_if(other, before.end(), [](const auto& left) { return left != nullptr; });
-    face = face               ? std::move(face)
-      : other != before.end() ? std::move(*other)
-                              : std::make_unique<Face>(moved);
+    if (!face)
+    {
+      face = other != before.end() ? std::move(*other) : std::make_unique<Face>(moved);
+    }
   }
   this->Maps.maps.clear();
   for (const auto& face : this->Faces)

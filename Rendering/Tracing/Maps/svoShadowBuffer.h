@@ -116,7 +116,7 @@ private:
     }
 
     LayeredView layers;
-    TileGrid grid; // what is traced has it only then
+    TileGrid grid; // of the map's view, from prepare() on; the hits have it after trace()
     TracedMap map{ this->layers.hits() };
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile
     std::vector<std::uint8_t> received; // per tile: receivers may look it up; empty: all of them

@@ -13,18 +13,20 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
   constexpr std::size_t InTile = ShadowTexels::InTile;
   auto copy = std::make_shared<ShadowTexels>();
   copy->tilesX = this->grid.tilesX;
-  copy->tiles.assign(
-    static_cast<std::size_t>(this->grid.tilesX) * this->grid.tilesY, ShadowTexels::Nothing);
-  const auto placeOf = [&](std::size_t tile)
+  std::vector<std::size_t> places; // row by row
+  for (int y = this->grid.y0; y < this->grid.y0 + this->grid.tilesY; ++y)
   {
-    return this->grid.index(this->grid.x0 + static_cast<int>(tile % this->grid.tilesX),
-      this->grid.y0 + static_cast<int>(tile / this->grid.tilesX));
-  };
+    for (int x = this->grid.x0; x < this->grid.x0 + this->grid.tilesX; ++x)
+    {
+      places.push_back(this->grid.index(x, y));
+    }
+  }
+  copy->tiles.assign(places.size(), ShadowTexels::Nothing);
   copy->stride = ofCasters ? 2 * InTile : InTile;
   std::uint32_t held = 0;
   for (std::size_t tile = 0; this->map.seesCasters && tile < copy->tiles.size(); ++tile)
   {
-    if (this->isReceived(placeOf(tile)) && this->map.holds(placeOf(tile)))
+    if (this->isReceived(places[tile]) && this->map.holds(places[tile]))
     {
       copy->tiles[tile] = held++;
     }
@@ -39,7 +41,7 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
     float numbers[2 * InTile];
     for (std::size_t i = 0; i < InTile; ++i)
     {
-      const std::size_t at = InTile * placeOf(tile) + i;
+      const std::size_t at = InTile * places[tile] + i;
       std::uint32_t caster;
       double t;
       const bool any = this->map.occluder(at, caster, t);

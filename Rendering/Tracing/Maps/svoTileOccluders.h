@@ -36,9 +36,8 @@ public:
   bool known() const { return !this->Tiles.empty(); }
   /// Of each tile. known().
   const TileOccluders* tiles() const { return this->Tiles.data(); }
-  /// Of a box of tiles; of large ones, and if it is not known, minus and plus
-  /// infinity, and Several.
-  /// `grid`: of the map.
+  /// Of a box of tiles; of large ones, and if it is not known, minus and plus infinity, and
+  /// Several. `grid`: of the hits that they were found in.
   TileOccluders in(const MapTiles& tiles, const TileGrid& grid) const;
 
 private:

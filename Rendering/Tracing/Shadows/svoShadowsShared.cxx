@@ -116,6 +116,8 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
     for (const View& view : light.views)
     {
       append(state, std::vector<glm::dmat4>{ view.worldToView, view.viewToClip });
+      append(state, std::vector<int>{ view.width, view.height });
+      append(state, std::vector<PixelRect>{ view.crop });
     }
   }
   if (keep && state == this->SharedState)

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdio>
 #include <random>
+#include <set>
 #include <string>
 
 using namespace svotest;
@@ -253,33 +254,74 @@ TEST(LightDetail, MapsHoldAllThatIsSeen)
   }
 }
 
-// What is kept of maps while the eye walks is what would be traced anew, to the bit.
+// What is kept of maps while the eye walks is what would be traced anew, to the bit; so are the
+// copies that rasterised receivers look up.
 TEST(LightDetail, PicturesOfAWalkHangOnNoFrameBefore)
 {
-  for (const LightCase& test : lights())
+  svo::FrameSettings whole;
+  whole.wholeShadowBuffers = true;
+  whole.filterShadows = true;
+  whole.shadowResolution = 501; // the last tiles of a crop reach beyond it
+  for (const svo::FrameSettings& settings : { svo::FrameSettings(), whole })
   {
-    SCOPED_TRACE(test.name);
-    svo::Scene scene = ballAbove(bumpy(600.0));
-    scene.lights = { test.light };
-    svo::CPUTracer kept;
-    std::uint64_t keptTexels = 0, texels = 0;
-    for (int i = 0; i < 12; ++i)
+    for (const LightCase& test : lights())
     {
-      const svo::View eye =
-        lookAt({ 0.07 * i, -6, 4 - 0.1 * i }, 200, 150, 40.0, { 0.3 * i, 0.05 * i, 0 });
-      svo::CPUTracer fresh;
-      const svo::Frame a = svotest::rendered(kept, scene, eye, {});
-      const svo::Frame b = svotest::rendered(fresh, scene, eye, {});
-      ASSERT_EQ(a.color, b.color) << i;
-      ASSERT_EQ(a.depth, b.depth) << i;
-      keptTexels += kept.statistics().shadowRays;
-      texels += fresh.statistics().shadowRays;
+      SCOPED_TRACE(test.name);
+      svo::Scene scene = ballAbove(bumpy(600.0));
+      scene.lights = { test.light };
+      svo::CPUTracer kept;
+      std::uint64_t keptTexels = 0, texels = 0;
+      std::set<std::size_t> counts;
+      for (int i = 0; i < 10; ++i)
+      {
+        const svo::View eye =
+          lookAt({ 0.07 * i, -6, 4 - 0.1 * i }, 200, 150, 40.0, { 0.3 * i, 0.05 * i, 0 });
+        svo::CPUTracer fresh;
+        const svo::Frame a = svotest::rendered(kept, scene, eye, settings);
+        const svo::Frame b = svotest::rendered(fresh, scene, eye, settings);
+        ASSERT_EQ(a.color, b.color) << i;
+        ASSERT_EQ(a.depth, b.depth) << i;
+        const auto &copies = kept.shadowMaps(), &expected = fresh.shadowMaps();
+        ASSERT_EQ(copies.size(), expected.size());
+        ASSERT_EQ(copies.empty(), !settings.wholeShadowBuffers);
+        for (std::size_t m = 0; m < copies.size(); ++m)
+        {
+          ASSERT_EQ(copies[m].view.width, settings.shadowResolution);
+          ASSERT_TRUE(svo::sameRays(copies[m].view, expected[m].view));
+          ASSERT_EQ(copies[m].texels->tiles, expected[m].texels->tiles) << i << ", " << m;
+          ASSERT_EQ(copies[m].texels->numbers, expected[m].texels->numbers) << i << ", " << m;
+        }
+        counts.insert(copies.size());
+        keptTexels += kept.statistics().shadowRays;
+        texels += fresh.statistics().shadowRays;
+      }
+      std::printf("%s: %llu of %llu texels traced, %zu counts of maps\n", test.name.c_str(),
+        static_cast<unsigned long long>(keptTexels), static_cast<unsigned long long>(texels),
+        counts.size());
+      EXPECT_GT(keptTexels, 0u);
+      EXPECT_LT(keptTexels, texels * 3 / 4);
     }
-    std::printf("%s: %llu of %llu texels traced\n", test.name.c_str(),
-      static_cast<unsigned long long>(keptTexels), static_cast<unsigned long long>(texels));
-    EXPECT_GT(keptTexels, 0u);
-    EXPECT_LT(keptTexels, texels * 3 / 4);
   }
+}
+
+// Of maps of a part of a scene only what casters can lie in counts.
+TEST(LightDetail, FewTexelsOfManyFitIntoTheLimit)
+{
+  svo::Scene scene = ballAbove(bumpy(2000.0));
+  scene.instances[0].castShadow = false;
+  scene.instances.push_back(scene.instances[1]);
+  scene.instances[2].localToWorld[3].x += 1500.0;
+  const auto outlines = svo::outlinesOf(scene);
+  svo::FrameSettings settings;
+  settings.shadowResolution = 4096;
+  const std::vector<svo::Light> sun{ lightOf(svo::Light::Kind::Directional, { 3, -2, 5 }) };
+  settings.shadowMemoryLimit = std::size_t(1) << 40;
+  const std::size_t views = svo::mapsOfLights(outlines, sun, settings, Eye).front().views.size();
+  settings.shadowMemoryLimit = views * 4096 * 4096 * 3; // bytes; all texels would take four times
+  const svo::LightMaps maps = svo::mapsOfLights(outlines, sun, settings, Eye).front();
+  ASSERT_EQ(maps.views.size(), views);
+  EXPECT_GT(maps.views.front().width, 4096);
+  EXPECT_EQ(maps.views.front().crop.x1 - maps.views.front().crop.x0, 4096);
 }
 
 // Two lights with maps of 16384 texels and receivers would take 10 GiB.

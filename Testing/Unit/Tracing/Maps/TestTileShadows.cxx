@@ -70,8 +70,12 @@ std::vector<Case> manyCases(std::mt19937& random)
                  : glm::perspective(half, 1.3, 0.5, 9.0),
       1024, 1024, light));
     const int times = 1 << i % 17;
-    c.light = MapGeometry(
-      i % 4 < 2 || times == 1 ? light : asCrop(light, times, 8 * (i % 60), 1016 * (times - 1)));
+    // Of some the last column or row of the image, of others nothing of its border.
+    const int last = 1024 * (times - 1);
+    c.light =
+      MapGeometry(i % 4 < 2 || times == 1 ? light
+                                          : asCrop(light, times, i % 3 == 0 ? last : 8 * (i % 60),
+                                              i % 5 == 0 ? last : last / 16 * 8));
     cases.push_back(c);
   }
   return cases;

@@ -172,7 +172,12 @@ TEST(SharedShadows, MapsOfAVastGroundAreFittedAlike)
   scene.instances[0] = instanceOf(makeOctree(ground, 7), 1);
   scene.lights = { lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }) };
   Group group(3);
-  for (const svo::View& eye : { lookAt({ 1, -6, 4 }, 160, 120), lookAt({ 6, -4, 4 }, 160, 120) })
+  std::vector<svo::View> eyes{ lookAt({ 1, -6, 4 }, 160, 120), lookAt({ 6, -4, 4 }, 160, 120) };
+  for (int step = 1; step < 8; ++step) // maps that stay, of which other parts are seen
+  {
+    eyes.push_back(lookAt({ 6.0 - 0.1 * step, -4, 4 }, 160, 120, 40.0, { 0.4 * step, 0, 0 }));
+  }
+  for (const svo::View& eye : eyes)
   {
     const svo::Frame expected = rendered(scene, eye, smallBuffers());
     svo::FrameSettings none = smallBuffers();
