@@ -35,6 +35,7 @@ void wipeTile(Frame& frame, int x0, int y0)
 bool FrameTiles::find(
   const DepthBuffer& depth, const View& view, const FrameSettings& settings, Frame& frame)
 {
+  assert(view.isWhole());
   this->TilesX = depth.grid.tilesX;
   const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
   const bool same = frame.width == view.width && frame.height == view.height &&

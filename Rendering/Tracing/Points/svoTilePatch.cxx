@@ -127,9 +127,9 @@ std::uint64_t inside(int columns, int rows)
 
 TileHits hitsOfTile(const DepthBuffer& depth, const View& view, int tileX, int tileY)
 {
-  assert(tileX >= 0 && tileX < depth.grid.tilesX && tileY >= 0 && tileY < depth.grid.tilesY);
+  assert(depth.grid.holds(tileX, tileY));
   static const Centres centres;
-  const std::size_t begin = 64 * (static_cast<std::size_t>(tileY) * depth.grid.tilesX + tileX);
+  const std::size_t begin = 64 * depth.grid.index(tileX, tileY);
   TileHits hits{ 8 * tileX, 8 * tileY, 0, centres.x, centres.y, depth.t.data() + begin,
     depth.instance.data() + begin, depth.primitive.data() + begin };
   prefetch(hits);
