@@ -49,9 +49,9 @@ std::uint64_t MapTest::occluders(const TracedMap& map, const MapPlaces& places,
   std::uint32_t theirs, double error, TexelTests& tests) const
 {
   const auto biasOf = [&](std::uint32_t caster)
-  { return static_cast<float>(this->Maps.bias * this->Maps.casterVoxel[caster]); };
+  { return static_cast<float>(this->Maps.bias * map.casterVoxel[caster]); };
   const auto errorOf = [&](std::uint32_t caster)
-  { return static_cast<float>(std::max(this->Maps.casterError[caster], error)); };
+  { return static_cast<float>(std::max(map.casterError[caster], error)); };
   TexelOccluders occluders;
   std::uint64_t found = 0, same = 0;
   if (theirs != TileOccluders::Several)
@@ -102,8 +102,8 @@ MapTest::TileAnswer MapTest::answer(const TracedMap& map, const MapPlaces& place
   {
     return TileAnswer::Lit;
   }
-  const double allowed = this->Maps.bias * this->Maps.largestVoxel +
-    (TexelBend * edge + std::max(this->Maps.largestError, error)) / LeastSteepness;
+  const double allowed = this->Maps.bias * map.largestVoxel +
+    (TexelBend * edge + std::max(map.largestError, error)) / LeastSteepness;
   const double followed = std::max(NearbyReach, GrazingReach * map.edge.aspect) * edge;
   return this->Maps.bias >= 0.0 && nearest - followed - 1.001 * allowed - slack > around.farthest
     ? TileAnswer::Dark
@@ -166,7 +166,7 @@ MapTest::Answer MapTest::ask(const MapPlace& place, const glm::ivec2& texel,
   {
     return Answer::Lit;
   }
-  const double bias = this->Maps.bias * this->Maps.casterVoxel[caster];
+  const double bias = this->Maps.bias * map.casterVoxel[caster];
   if (!this->Maps.automaticBias)
   {
     return occluder + bias < t ? Answer::Dark : Answer::Lit;
@@ -180,7 +180,7 @@ MapTest::Answer MapTest::ask(const MapPlace& place, const glm::ivec2& texel,
   const ShadowAnswer<double> answer =
     shadowTest<double>({ glm::dvec3(point.facet), glm::dvec3(point.normal),
       point.position - map.view.rayOrigin(x, y), map.view.rayDirection(x, y), t, edge,
-      map.edge.aspect, occluder, bias, std::max(this->Maps.casterError[caster], error) });
+      map.edge.aspect, occluder, bias, std::max(map.casterError[caster], error) });
   return static_cast<Answer>(answer.dark());
 }
 }

@@ -24,8 +24,6 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
       [](const auto& face, const View& view) { return sameRays(face->map.view, view); });
   this->setBias(settings);
   this->arrangeFaces(views, budget);
-  const std::vector<double> voxels = std::move(this->Maps.casterVoxel);
-  const std::vector<double> errors = std::move(this->Maps.casterError);
   const std::vector<glm::dmat4> places = std::move(this->CasterPlace);
   this->CasterPlace.clear();
   this->CasterPlace.reserve(scene.instances.size());
@@ -33,8 +31,8 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
   {
     this->CasterPlace.push_back(instance.localToWorld);
   }
-  this->Maps.casterVoxel.assign(scene.instances.size() + scene.receivers.size(), 0.0);
-  this->Maps.casterError.assign(this->Maps.casterVoxel.size(), 0.0);
+  this->SameMaps = this->SameMaps && places.size() == this->CasterPlace.size();
+  const std::size_t outlines = scene.instances.size() + scene.receivers.size();
   for (std::size_t i = 0; i < views.size(); ++i)
   {
     Face& face = *this->Faces[i];
@@ -60,6 +58,10 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
     {
       face.copied.reset();
     }
+    const std::vector<double> voxels = std::move(face.map.casterVoxel);
+    const std::vector<double> errors = std::move(face.map.casterError);
+    face.map.casterVoxel.assign(outlines, 0.0);
+    face.map.casterError.assign(outlines, 0.0);
     if (!face.map.seesCasters && !settings.wholeShadowBuffers)
     {
       face.forget(); // of most groups' maps, where a light has six
@@ -73,11 +75,17 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
         face.layers.hits().instances.leafGeometry(static_cast<std::uint32_t>(k));
       if (casters[k] == group && level > 0)
       {
-        this->Maps.casterVoxel[k] =
-          std::max(this->Maps.casterVoxel[k], worldVoxel(instance, level));
-        this->Maps.casterError[k] =
-          std::max(this->Maps.casterError[k], worldMapError(instance, geometry, level));
+        face.map.casterVoxel[k] = worldVoxel(instance, level);
+        face.map.casterError[k] = worldMapError(instance, geometry, level);
       }
+    }
+    face.map.findLargest();
+    this->SameMaps = this->SameMaps && voxels.size() == outlines && errors.size() == outlines;
+    for (std::size_t k = 0; k < scene.instances.size() && this->SameMaps; ++k)
+    {
+      // Tiles that show a caster that has moved have changed: what else is new of it is no matter.
+      this->SameMaps = places[k] != this->CasterPlace[k] ||
+        (voxels[k] == face.map.casterVoxel[k] && errors[k] == face.map.casterError[k]);
     }
     if (face.wanted.size() != face.grid.size())
     {
@@ -88,20 +96,6 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
       tile.store(0, std::memory_order_relaxed);
     }
     face.received.clear();
-  }
-  this->Maps.largestVoxel = this->Maps.largestError = 0.0;
-  for (std::size_t k = 0; k < this->Maps.casterVoxel.size(); ++k)
-  {
-    this->Maps.largestVoxel = std::max(this->Maps.largestVoxel, this->Maps.casterVoxel[k]);
-    this->Maps.largestError = std::max(this->Maps.largestError, this->Maps.casterError[k]);
-  }
-  this->SameMaps = this->SameMaps && voxels.size() == this->Maps.casterVoxel.size() &&
-    errors.size() == voxels.size() && places.size() == this->CasterPlace.size();
-  for (std::size_t k = 0; k < scene.instances.size() && this->SameMaps; ++k)
-  {
-    // Tiles that show a caster that has moved have changed: what else is new of it does not matter.
-    this->SameMaps = places[k] != this->CasterPlace[k] ||
-      (voxels[k] == this->Maps.casterVoxel[k] && errors[k] == this->Maps.casterError[k]);
   }
   this->noteOpacities(scene, casters, group);
 }
@@ -355,24 +349,6 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
 
 void ShadowBuffer::merge(Processes& processes, std::size_t first)
 {
-  struct Caster
-  {
-    double voxel, error;
-  };
-  std::vector<Caster> own;
-  for (std::size_t i = 0; i < this->Maps.casterVoxel.size(); ++i)
-  {
-    own.push_back({ this->Maps.casterVoxel[i], this->Maps.casterError[i] });
-  }
-  std::vector<Caster> all;
-  gatherRecords(processes, own, all);
-  this->Maps.casterVoxel.clear();
-  this->Maps.casterError.clear();
-  for (const Caster& caster : all)
-  {
-    this->Maps.casterVoxel.push_back(caster.voxel);
-    this->Maps.casterError.push_back(caster.error);
-  }
   if (this->Translucent)
   {
     const std::vector<float> opacities = std::move(this->Maps.casterOpacity);
@@ -382,6 +358,11 @@ void ShadowBuffer::merge(Processes& processes, std::size_t first)
   }
   for (auto& face : this->Faces)
   {
+    const std::vector<double> voxels = std::move(face->map.casterVoxel);
+    const std::vector<double> errors = std::move(face->map.casterError);
+    gatherRecords(processes, voxels, face->map.casterVoxel);
+    gatherRecords(processes, errors, face->map.casterError);
+    face->map.findLargest();
     face->map.shared.merge(processes, face->map.view, face->layers.hits(), first);
     face->map.occluders.forget();
     face->map.opacities.forget();

@@ -82,14 +82,8 @@ void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps, int group)
       face->copied = face->copy(map.base, this->Translucent ? &this->Maps.casterOpacity : nullptr);
     }
     map.texels = face->copied;
-    for (double error : this->Maps.casterError)
-    {
-      map.worldBias = std::max(map.worldBias, error);
-    }
-    for (double voxel : this->Maps.casterVoxel)
-    {
-      map.casterVoxel = std::max(map.casterVoxel, voxel);
-    }
+    map.worldBias = face->map.largestError;
+    map.casterVoxel = face->map.largestVoxel;
     maps.push_back(std::move(map));
   }
 }

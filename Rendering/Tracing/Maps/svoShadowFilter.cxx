@@ -83,7 +83,7 @@ bool MapTest::endsBefore(const MapPlace& place, const glm::ivec2& texel, double 
     }
     t -= (farther - here) * std::abs(offset[axis]);
   }
-  return !(t + TexelBend * pixel + std::max(this->Maps.casterError[caster], error) < place.t);
+  return !(t + TexelBend * pixel + std::max(map.casterError[caster], error) < place.t);
 }
 
 float MapTest::filtered(

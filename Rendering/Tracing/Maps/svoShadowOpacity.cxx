@@ -4,7 +4,6 @@
 #include "svoShadowFilter.h"
 
 #include <algorithm>
-#include <cassert>
 #include <tuple>
 
 namespace svo
@@ -58,7 +57,7 @@ void ShadowBuffer::noteOpacities(
       this->MappedColors.push_back(instance.body->attributes);
     }
   }
-  this->Maps.casterOpacity.resize(this->Maps.casterVoxel.size(), 0.0f);
+  this->Maps.casterOpacity.resize(scene.instances.size() + scene.receivers.size(), 0.0f);
   this->Maps.findSameOpacity(!this->MappedColors.empty());
   this->OtherOpacities = opacities != this->Maps.casterOpacity ||
     !std::equal(colors.begin(), colors.end(), this->MappedColors.begin(), this->MappedColors.end(),
@@ -105,7 +104,6 @@ float MapTest::opacity(const MapPlace& place, double width) const
 void MapTest::taken(const TilePatch& patch, double error, const double* extents,
   std::uint64_t asked, float* taken) const
 {
-  assert(this->Maps.casterOpacity.size() == this->Maps.casterVoxel.size());
   std::uint64_t some = 0;
   if (extents)
   {

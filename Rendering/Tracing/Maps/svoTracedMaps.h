@@ -32,6 +32,19 @@ struct TracedMap : MapGeometry
 
   const Hits& hits;
   bool seesCasters = false;
+  // By index of the outline: of the instance, among those of all processes where depths are shared.
+  // 0 of those that the map does not see: the level hangs on how wide its texels are.
+  std::vector<double> casterVoxel;               // world, of the level that is traced
+  std::vector<double> casterError;               // world
+  double largestVoxel = 0.0, largestError = 0.0; // of them
+
+  void findLargest()
+  {
+    const auto largest = [](const std::vector<double>& all)
+    { return all.empty() ? 0.0 : *std::max_element(all.begin(), all.end()); };
+    this->largestVoxel = largest(this->casterVoxel);
+    this->largestError = largest(this->casterError);
+  }
   SharedDepth shared;     // with other processes' casters; takes the place of the hits' depths
   MapOccluders occluders; // of the hits; unknown where depths are shared
   MapOpacities opacities; // unknown where each caster is equally opaque all over
@@ -101,12 +114,8 @@ struct MapPlace
 struct TracedMaps
 {
   std::vector<const TracedMap*> maps;
-  // By index of the outline: of the instance, among those of all processes where depths are shared.
-  std::vector<double> casterVoxel;               // world, of the level that is traced
-  std::vector<double> casterError;               // world
-  double largestVoxel = 0.0, largestError = 0.0; // of them
   // Of translucent casters.
-  std::vector<float> casterOpacity; // likewise by index; without the alpha of colours
+  std::vector<float> casterOpacity; // by index, as in a map; without the alpha of colours
   float sameOpacity = -1.0f;        // of all casters, if it is; else negative
   /// Whether points are compared on their own planes.
   bool automaticBias = true;
