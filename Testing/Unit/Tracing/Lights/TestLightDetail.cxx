@@ -4,6 +4,7 @@
 #include "svoConvexParts.h"
 #include "svoLightDetail.h"
 #include "svoLightView.h"
+#include "svoShadowBuffer.h"
 #include "svoTestTracers.h"
 #include "svoTexelPlace.h"
 #include "svoTracerScenes.h"
@@ -302,6 +303,26 @@ TEST(LightDetail, PicturesOfAWalkHangOnNoFrameBefore)
       EXPECT_LT(keptTexels, texels * 3 / 4);
     }
   }
+}
+
+// A map of all that is seen has wide texels, and a level of detail of the ball that is off by as
+// much; a finer one, where points near the eye are looked up, has not.
+TEST(LightDetail, WhatACasterIsOffByIsItsMapsOwn)
+{
+  svo::Scene scene = ballAbove(bumpy(600.0));
+  scene.instances[1].body.own().octree = makeOctree(sphere(200, 300), 8);
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 3, -2, 5 }) };
+  const svo::FrameSettings settings;
+  const svo::LightMaps maps =
+    svo::mapsOfLight(svo::outlinesOf(scene), scene.lights[0], settings.shadowResolution, Eye);
+  ASSERT_GT(maps.views.size(), 1u);
+  svo::ShadowBuffer buffer;
+  svo::LayerBudget budget;
+  buffer.prepare(scene, maps, 0, settings, budget);
+  const svo::TracedMap &fine = *buffer.maps().maps.front(), &wide = *buffer.maps().maps.back();
+  ASSERT_TRUE(fine.seesCasters && wide.seesCasters);
+  EXPECT_GT(wide.casterError[1], 0.1 * svo::worldPixel(wide.view, 0.0));
+  EXPECT_LT(fine.casterError[1], 0.1 * wide.casterError[1]);
 }
 
 // Of maps of a part of a scene only what casters can lie in counts.
