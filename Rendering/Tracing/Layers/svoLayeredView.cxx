@@ -137,11 +137,12 @@ void LayeredView::findStale(const std::uint8_t* wanted)
   // What differs between offsets decides for all.
   const bool keep = this->HasFrame && this->Instances.shifted() == this->WasShifted;
   this->WasShifted = this->Instances.shifted();
+  const TileGrid grid(view);
   if (!this->Seen.tiles.beginFrame(view, this->Parts, keep, wanted))
   {
-    depth.resize(TileGrid(view));
+    depth.resize(grid);
   }
-  depth.grid = TileGrid(view);
+  depth.grid = grid;
   this->LastHit = depth.hit;
   for (std::size_t tile = 0; tile < depth.tiles(); ++tile)
   {

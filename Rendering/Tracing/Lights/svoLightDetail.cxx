@@ -119,12 +119,12 @@ Part seenPart(
 
 /// Along an axis of a light's map of so many texels: how many a larger one of the same casters has,
 /// and the first of those that hold what lies between `low` and `high`, clip space.
-struct Crop
+struct Stretch
 {
   int size, first;
 };
 
-Crop cropAlong(int texels, double low, double high)
+Stretch stretchAlong(int texels, double low, double high)
 {
   // A crop goes on by steps, so that it changes now and then only when the eye moves. Larger maps
   // have 2^k times the texels, so that these lie where they are for every eye.
@@ -142,17 +142,17 @@ Crop cropAlong(int texels, double low, double high)
   return { whole, std::min(first, whole - texels) };
 }
 
-/// A part of a light's map, of texels that are as fine as its own are many.
-bool crop(const View& light, const Part& part, View& view)
+/// The finest map of a part of what a light's map shows, with as many texels.
+bool finerMap(const View& light, const Part& part, View& view)
 {
-  const Crop x = cropAlong(light.width, part.low.x, part.high.x);
-  const Crop y = cropAlong(light.height, part.low.y, part.high.y);
+  const Stretch x = stretchAlong(light.width, part.low.x, part.high.x);
+  const Stretch y = stretchAlong(light.height, part.low.y, part.high.y);
   const bool valid = makeView(light.worldToView, light.viewToClip, x.size, y.size, view);
   view.crop = { x.first, y.first, x.first + light.width, y.first + light.height };
   return valid;
 }
 
-struct Refined
+struct Fineness
 {
   double coarsest; // how wide a texel looks, pixels
   bool enough;     // it would be no less with more maps
@@ -161,7 +161,7 @@ struct Refined
 /// Appends views of what is seen through `light`, fine ones first: so many that a texel looks no
 /// wider than `widest` pixels, or a little more, where maps can be so fine and `most` further ones
 /// are enough.
-Refined refine(const View& light, const Part& all, const std::vector<Seen>& receivers,
+Fineness refine(const View& light, const Part& all, const std::vector<Seen>& receivers,
   const View& eye, double widest, int most, std::vector<View>& views)
 {
   // Texels get smaller by the same factor everywhere.
@@ -171,7 +171,7 @@ Refined refine(const View& light, const Part& all, const std::vector<Seen>& rece
   std::vector<View> found{ light };
   double scale = 1.0;
   View view;
-  if (crop(light, all, view) && scaleOf(view) < WorthIt)
+  if (finerMap(light, all, view) && scaleOf(view) < WorthIt)
   {
     found.front() = view; // nobody looks up anything else
     scale = scaleOf(view);
@@ -186,7 +186,7 @@ Refined refine(const View& light, const Part& all, const std::vector<Seen>& rece
     {
       const Part near = seenPart(
         receivers, eye, eye.parallel ? all.farthest : std::min(reach, all.farthest), light);
-      return !near.empty() && crop(light, near, view) && scaleOf(view) < WorthIt * scale;
+      return !near.empty() && finerMap(light, near, view) && scaleOf(view) < WorthIt * scale;
     };
     const double from = all.nearest * all.widest * scale / widest;
     double reach = from;
@@ -266,10 +266,10 @@ LightMaps mapsOfLight(const std::vector<Outline>& outlines, const Light& light, 
       if (!parts[i].empty())
       {
         const std::size_t before = maps.views.size();
-        const Refined refined =
+        const Fineness reached =
           refine(fitted[i], parts[i], receivers, eye, widest, left, maps.views);
-        maps.coarsest = std::max(maps.coarsest, refined.coarsest);
-        enough = enough && refined.enough;
+        maps.coarsest = std::max(maps.coarsest, reached.coarsest);
+        enough = enough && reached.enough;
         left -= static_cast<int>(maps.views.size() - before) - 1;
       }
     }

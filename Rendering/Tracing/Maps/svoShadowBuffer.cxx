@@ -80,7 +80,7 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
       }
     }
     face.map.findLargest();
-    this->SameMaps = this->SameMaps && voxels.size() == outlines && errors.size() == outlines;
+    this->SameMaps = this->SameMaps && voxels.size() == outlines;
     for (std::size_t k = 0; k < scene.instances.size() && this->SameMaps; ++k)
     {
       // Tiles that show a caster that has moved have changed: what else is new of it is no matter.

@@ -1,13 +1,11 @@
 #include "svoCPUTracer.h"
 
-#include "svoEyeCode.h"
 #include "svoFrameErrors.h"
 #include "svoFrameTiles.h"
 #include "svoInstanceTree.h"
 #include "svoKeptFrame.h"
 #include "svoKeptTiles.h"
 #include "svoLayeredView.h"
-#include "svoLightCode.h"
 #include "svoLightImages.h"
 #include "svoLightSampler.h"
 #include "svoNeededLevels.h"
@@ -278,26 +276,6 @@ CPUTracer::CPUTracer()
 }
 
 CPUTracer::~CPUTracer() = default;
-
-Tracer::~Tracer() = default;
-
-const EyeCode& Tracer::eyeCode() const
-{
-  static const EyeCode Nothing;
-  return Nothing;
-}
-
-const LightCode& Tracer::lightCode() const
-{
-  static const LightCode none;
-  return none;
-}
-
-const ReceiverShares& Tracer::receiverShares() const
-{
-  static const ReceiverShares None;
-  return None;
-}
 
 std::unique_ptr<Tracer> makeCPUTracer()
 {
