@@ -254,6 +254,7 @@ private:
   void BeginAttachedFrame(svo::AttachedRenderer& attached);
   bool CollectFrame(svo::PassFrame& frame, int width, int height, const svo::OwnCamera* camera);
   bool MayPreferOpenGL(svo::PassFrame& frame, bool rays);
+  bool MayDrawVolumes(svo::PassFrame& frame) const;
   svo::FrameSettings AskedSettings(bool openGL, bool rays) const;
   void TraceFrame(svo::PassFrame& frame, int width, int height);
   bool WantsSamples(const svo::PassFrame& frame) const;

@@ -76,9 +76,16 @@ bool vtkSVORenderPass::CollectFrame(
     const bool sampled = this->AmbientOcclusion || this->SkyLight ||
       (this->ShadowTechnique != SHADOW_NONE && svo::hasSoftLight(renderer));
     // Samples are rays, and where these are there is no need of maps.
-    const bool byRays = this->ShadowTechnique == SHADOW_RAYS || sampled;
-    const bool chosen = automatic && this->MayPreferOpenGL(frame, byRays);
+    const bool volumes = this->ShadowTechnique == SHADOW_VOLUMES; // which are OpenGL's alone
+    const bool byRays = this->ShadowTechnique == SHADOW_RAYS || volumes || sampled;
+    const bool chosen =
+      automatic && (volumes ? this->MayDrawVolumes(frame) : this->MayPreferOpenGL(frame, byRays));
     frame.openGL = chosen ? !planes : this->Backend == BACKEND_OPENGL;
+    frame.tellOnce(volumes && !frame.openGL
+        ? "OpenGL draws shadow volumes, and the CPU makes this picture: exact rays find the same "
+          "shadows. SetBackendToAuto() or SetBackendToOpenGL() has OpenGL draw."
+        : "",
+      impl.said);
     const bool rays = frame.openGL &&
       (byRays ||
         (this->ShadowTechnique == SHADOW_AUTOMATIC &&
@@ -164,12 +171,25 @@ bool vtkSVORenderPass::MayPreferOpenGL(svo::PassFrame& frame, bool rays)
   return prefers;
 }
 
+/// Where the backend is chosen: whether it may be OpenGL for shadow volumes, however fast that is.
+bool vtkSVORenderPass::MayDrawVolumes(svo::PassFrame& frame) const
+{
+  return vtkOpenGLRenderWindow::SafeDownCast(frame.renderer->GetRenderWindow()) &&
+    !this->Impl->severalProcesses();
+}
+
 /// What the settings ask of a frame's tracer. `rays`: Automatic, or OpenGL, takes them.
 svo::FrameSettings vtkSVORenderPass::AskedSettings(bool openGL, bool rays) const
 {
   svo::FrameSettings settings;
   this->Fill(settings);
-  if (this->ShadowTechnique == SHADOW_AUTOMATIC || (openGL && this->ShadowTechnique != SHADOW_NONE))
+  settings.shadowVolumes = openGL && this->ShadowTechnique == SHADOW_VOLUMES;
+  if (this->ShadowTechnique == SHADOW_VOLUMES)
+  {
+    settings.shadowTechnique = svo::ShadowTechnique::Rays;
+  }
+  else if (this->ShadowTechnique == SHADOW_AUTOMATIC ||
+    (openGL && this->ShadowTechnique != SHADOW_NONE))
   {
     settings.shadowTechnique = rays ? svo::ShadowTechnique::Rays : svo::ShadowTechnique::Buffer;
   }

@@ -6,6 +6,7 @@
 #include "svoOctreeArena.h"
 #include "svoOctreeWalk.h"
 #include "svoSurfacePoint.h"
+#include "svoUnfold.h"
 #include "svoUniforms.h"
 #include "svoWalkReach.h"
 #include "svoWorldToOctree.h"
@@ -82,7 +83,7 @@ bool SeenSurfaces::place(const Scene& scene, const std::vector<std::size_t>& see
 void SeenSurfaces::describe(const Scene& scene, const View& view, const OctreeArena& arena,
   const std::string& constants, EyeCode& code) const
 {
-  static const std::string Text = std::string(svoOctreeWalk) + svoEyeWalk;
+  static const std::string Text = std::string(svoUnfold) + svoOctreeWalk + svoEyeWalk;
   code.constants =
     constants + "#define svoHasColors " + (this->Colors.size() > 0 ? "true\n" : "false\n");
   code.text = Text.c_str();

@@ -16,8 +16,10 @@
 #include "svoSeenSurfaces.h"
 #include "svoShaderCasters.h"
 #include "svoShadowMask.h"
+#include "svoShadowVolumes.h"
 #include "svoSkyPicture.h"
 #include "svoTerminator.h"
+#include "svoUnfold.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -157,10 +159,13 @@ private:
   std::string hold(const Scene& scene, std::size_t limit);
   std::size_t bytesOfScene() const
   {
-    return this->Octrees.bytes() + this->Casters.bytes() + this->Seen.bytes();
+    return this->Octrees.bytes() + this->Casters.bytes() + this->Seen.bytes() +
+      this->Volumes.bytes();
   }
   void describe(const Scene& scene, const View& view, const FrameSettings& settings,
     const std::string& constants);
+  std::string describeVolumes(const Scene& scene, const View& view, const FrameSettings& settings,
+    const ParallelFor& parallelFor);
   void describeSamples(const Scene& scene, const View& view, const FrameSettings& settings);
 
   std::unique_ptr<Tracer> Other;
@@ -173,6 +178,7 @@ private:
   SeenSurfaces Seen;
   ShaderCasters Casters;
   DrawnMaps Drawn;
+  ShadowVolumes Volumes;
   BufferTexture Sky{ BufferTexture::Texel::Float }; // the picture's table
   std::uint64_t SkyOf = 0;                          // its version
 
@@ -208,6 +214,8 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Code.sampled.clear();
   this->Code.occlusion = this->Code.sky = LightCode::None;
   this->Code.complaint.clear();
+  this->Code.remark.clear();
+  this->Code.volumes = nullptr;
   this->Eye = EyeCode();
   const auto lights = settings.shadowTechnique == ShadowTechnique::None
     ? 0
@@ -263,6 +271,15 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
     this->describe(scene, view, settings, constants);
     samples = this->Code.samples;
   }
+  const bool volumes = settings.shadowVolumes && !maps && lights > 0;
+  if (volumes)
+  {
+    this->Code.remark = this->describeVolumes(scene, view, settings, parallelFor);
+  }
+  if (!this->Code.volumes)
+  {
+    this->Volumes.release();
+  }
   this->Seen.describe(scene, view, this->Octrees, constants, this->Eye);
   this->Other->releaseLayers();
   this->Nothing.width = view.width;
@@ -273,6 +290,8 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Statistics.lightNoise = samples > 0 ? -1.0 : 0.0; // nothing is read back
   this->Statistics.lightsWithRays = static_cast<int>(this->Code.lights.size());
   this->Statistics.lightsWithBuffers = maps ? static_cast<int>(lights) : 0;
+  this->Statistics.shadowVolumes = this->Volumes.volumes();
+  this->Statistics.contourEdges = this->Volumes.contourEdges();
   this->Statistics.retracedLayers = this->Drawn.drawn();
   this->Drawn.widths().tell(this->Statistics);
   this->Statistics.shadowMemory = this->Drawn.mapBytes();
@@ -377,7 +396,8 @@ void OpenGLTracer::describe(
       this->Code.lights.push_back(static_cast<int>(i));
     }
   }
-  static const std::string Text = std::string(svoOctreeWalk) + svoColorAlpha + svoRayWalk;
+  static const std::string Text =
+    std::string(svoUnfold) + svoOctreeWalk + svoColorAlpha + svoRayWalk;
   this->Code.text = Text.c_str();
   this->Code.costly = true;
   this->Code.textures = { { "svoNodes", this->Octrees.nodes().name() },
@@ -390,6 +410,34 @@ void OpenGLTracer::describe(
   sources.values.resize(4 * static_cast<std::size_t>(this->Code.count()));
   this->Code.floats.push_back(sources);
   this->Casters.describe(view, this->Code);
+}
+
+/// Adds shadow volumes. Why there are none, in a sentence, else empty.
+std::string OpenGLTracer::describeVolumes(const Scene& scene, const View& view,
+  const FrameSettings& settings, const ParallelFor& parallelFor)
+{
+  LightCode& code = this->Code;
+  if (!code.sampled.empty())
+  {
+    return "Lights with a size, ambient occlusion and skies are sampled by rays, and so is all "
+           "light: "
+           "there are no shadow volumes.";
+  }
+  code.volumes = this->Volumes.place(
+    scene, this->Casters.known(), this->Octrees, view, settings, code.lights, parallelFor);
+  if (!code.volumes || this->bytesOfScene() > settings.gpuMemoryLimit)
+  {
+    code.volumes = nullptr;
+    return "Shadow volumes do not fit into OpenGL's memory, or into GPUMemoryLimit: rays to the "
+           "lights find the same shadows.";
+  }
+  const std::vector<std::size_t> casters = castersOf(scene);
+  const bool all = std::all_of(casters.begin(), casters.end(),
+    [&scene](std::size_t index) { return hasVolume(scene.instances[index]); });
+  code.constants +=
+    std::string("#define svoHasVolumes\n#define svoOnlyVolumes ") + (all ? "true\n" : "false\n");
+  code.floats.push_back({ "svoParallel", 1, { view.parallel ? 1.0f : 0.0f } });
+  return {};
 }
 
 /// Adds what is all around, and says how many samples there are.
@@ -449,6 +497,7 @@ void OpenGLTracer::releaseGraphicsResources()
   this->Casters.release();
   this->Seen.release();
   this->Drawn.release();
+  this->Volumes.release();
   this->Sky.release();
   this->SkyOf = 0;
   this->Version = 0;

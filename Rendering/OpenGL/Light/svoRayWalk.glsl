@@ -29,6 +29,9 @@ const float svoOctreeError = 6e-7;
 #define svoRays
 float svoAbove = 0.0;
 
+// True where shadow volumes stand for opaque casters of triangles: rays pass these by.
+bool svoBesideVolumes = false;
+
 // The share that a caster whose colours have alpha takes of a ray: where that meets it first, seen from
 // the light, or from beyond the octree.
 float svoTakenByColors(int at, vec3 from, vec3 way, float end, uint root, int depths, svoEnds ends)
@@ -94,6 +97,10 @@ float svoLeftAlong(vec3 from, vec3 side, vec3 way, float end)
     vec3 localWay = vec3(dot(x.xyz, way), dot(y.xyz, way), dot(z.xyz, way));
     vec4 low = svoHasPlanes ? texelFetch(svoCasters, at + 4) : vec4(0.0);
     vec4 high = svoHasPlanes ? texelFetch(svoCasters, at + 5) : vec4(0.0);
+    if (svoBesideVolumes && what.w == 1.0 && low.x == 0.0)
+    {
+      continue;
+    }
     localSide = normalize(localSide);
     // (No point of its surface lies beyond the cube, at 2.)
     float corner = max(max(abs(local.x), abs(local.y)), abs(local.z));

@@ -8,6 +8,8 @@
 #include "svoShadowMaskShader.h"
 #include "svoSkyShader.h"
 #include "svoTextures.h"
+#include "svoVolumeDraws.h"
+#include "svoVolumeReceiver.h"
 
 #include "vtkOpenGLState.h"
 
@@ -51,7 +53,7 @@ std::string maskText(const LightCode& asked)
     (asked.sampled.empty() ? asked.text
                            : "#define rgba8 rgba16\n" + renamed(asked, "svoLeftByRay") +
           svoSkyShader + svoSampleMeans) +
-    svoShadowMaskShader;
+    (asked.volumes ? svoVolumeReceiver : "") + svoShadowMaskShader;
 }
 }
 
@@ -68,8 +70,7 @@ const LightCode& ShadowMask::lookUp(
   const int sampled = static_cast<int>(asked.sampled.size());
   translucent = translucent && samples && PlaceBuffer::hasRows(height) &&
     bytesOf(width, height, asked.count(), sampled, true) <= room;
-  if (!this->accepts(asked) ||
-    !this->resize(width, height, translucent, asked.count(), sampled, room))
+  if (!this->accepts(asked) || !this->resize(width, height, translucent, asked, room))
   {
     if (!samples)
     {
@@ -165,6 +166,10 @@ void ShadowMask::find(vtkOpenGLState* state, const LightCode& asked, bool same,
     }
   }
   state->PopFramebufferBindings();
+  for (std::size_t i = 0; asked.volumes && i < asked.lights.size(); ++i)
+  {
+    this->Counter.darken(*asked.volumes, static_cast<int>(i), places, planes, this->Shares);
+  }
   if (compares)
   {
     this->compare(state, asked, before);
@@ -228,7 +233,8 @@ bool ShadowMask::link(const LightCode& asked, bool computes)
   std::string words;
   this->Refusal.clear();
   if (!this->Program.link(maskText(asked), computes, words) ||
-    (!asked.sampled.empty() && !this->Samples.link(asked, computes, words)))
+    (!asked.sampled.empty() && !this->Samples.link(asked, computes, words)) ||
+    (asked.volumes && !this->Counter.link(words)))
   {
     this->Program.release();
     this->Refusal = "OpenGL refuses the shader of rays to lights (" + words +
@@ -240,17 +246,19 @@ bool ShadowMask::link(const LightCode& asked, bool computes)
 /// Has textures and framebuffers of a size. False, and nothing is there, if OpenGL refuses, or if
 /// they take more than `room`.
 bool ShadowMask::resize(
-  int width, int height, bool translucent, int numbers, int sampled, std::size_t room)
+  int width, int height, bool translucent, const LightCode& asked, std::size_t room)
 {
-  const int layers = layersOf(numbers);
-  if (bytesOf(width, height, numbers, sampled, translucent) > room)
+  const int layers = layersOf(asked.count());
+  const auto sampled = static_cast<int>(asked.sampled.size());
+  const bool counts = asked.volumes != nullptr;
+  if (bytesOf(width, height, asked.count(), sampled, translucent, counts) > room)
   {
     this->releaseTextures();
     return false;
   }
   if (this->Shares != 0 && width == this->Surfaces.width() && height == this->Surfaces.height() &&
     translucent == this->Surfaces.translucent() && layers == this->Layers &&
-    sampled == this->Samples.layers())
+    sampled == this->Samples.layers() && counts == this->Counter.any())
   {
     return true;
   }
@@ -268,6 +276,7 @@ bool ShadowMask::resize(
   complete = complete && glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(before));
   complete = this->Samples.resize(width, rows, sampled) && complete;
+  complete = this->Counter.resize(counts ? width : 0, counts ? rows : 0) && complete;
   if (!complete || glGetError() != GL_NO_ERROR)
   {
     this->releaseTextures();
@@ -276,12 +285,13 @@ bool ShadowMask::resize(
   return true;
 }
 
-std::size_t ShadowMask::bytesOf(int width, int height, int numbers, int sampled, bool translucent)
+std::size_t ShadowMask::bytesOf(
+  int width, int height, int numbers, int sampled, bool translucent, bool volumes)
 {
   const int shares = (sampled > 0 ? 8 : 4) * layersOf(numbers);
   return PlaceBuffer::bytesOf(width, height, translucent) +
     static_cast<std::size_t>(width) * PlaceBuffer::rowsOf(height, translucent) *
-    (shares + 16 * sampled);
+    (shares + 16 * sampled + (volumes ? VolumeCounter::PixelBytes : 0));
 }
 
 std::size_t ShadowMask::bytes() const
@@ -289,7 +299,7 @@ std::size_t ShadowMask::bytes() const
   return this->Shares == 0
     ? 0
     : bytesOf(this->Surfaces.width(), this->Surfaces.height(), 4 * this->Layers,
-        this->Samples.layers(), this->Surfaces.translucent());
+        this->Samples.layers(), this->Surfaces.translucent(), this->Counter.any());
 }
 
 void ShadowMask::releaseTextures()
@@ -304,6 +314,7 @@ void ShadowMask::releaseTextures()
   this->Changed = -1.0;
   this->Surfaces.resize(0, 0);
   this->Samples.resize(0, 0, 0);
+  this->Counter.resize(0, 0);
 }
 
 void ShadowMask::release()
@@ -311,6 +322,7 @@ void ShadowMask::release()
   this->releaseTextures();
   this->Program.release();
   this->Samples.release();
+  this->Counter.release();
   this->Text = nullptr;
   this->Refusal.clear();
   this->Code = LightCode();

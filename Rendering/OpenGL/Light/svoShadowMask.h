@@ -8,6 +8,7 @@
 #include "svoLightSamples.h"
 #include "svoPixelProgram.h"
 #include "svoPlaceBuffer.h"
+#include "svoVolumeCounter.h"
 #include "vtkSVOOpenGLModule.h"
 
 #include <cstddef>
@@ -55,15 +56,16 @@ public:
   double changed() const { return this->Changed; }
 
   /// Bytes that a mask takes, of so many numbers (LightCode::count()) and of what is sampled.
-  static std::size_t bytesOf(
-    int width, int height, int numbers, int sampled = 0, bool translucent = false);
+  /// With `volumes` they are counted in it.
+  static std::size_t bytesOf(int width, int height, int numbers, int sampled = 0,
+    bool translucent = false, bool volumes = false);
   /// True if compute shaders asked last.
   bool computes() const { return this->Program.computes(); }
   std::size_t bytes() const;
   void release();
 
 private:
-  bool resize(int width, int height, bool translucent, int numbers, int sampled, std::size_t room);
+  bool resize(int width, int height, bool translucent, const LightCode& asked, std::size_t room);
   bool link(const LightCode& asked, bool computes);
   std::vector<std::uint16_t> read() const;
   void compare(
@@ -77,6 +79,7 @@ private:
   PlaceBuffer Surfaces;
   PixelProgram Program;
   LightSamples Samples;
+  VolumeCounter Counter;
   std::string Refusal;
   // The code that the program asks:
   std::string Constants;

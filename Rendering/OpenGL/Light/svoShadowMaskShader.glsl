@@ -1,11 +1,15 @@
 // The shares of four lights for a pixel, asked of svoLeft() (svoLightCode.h) where the surface lies
-// that is seen there. svoUnfold() is svoOctreeWalk.glsl's, svoAbove svoRayWalk.glsl's.
+// that is seen there. svoUnfold() is svoOctreeWalk.glsl's, svoAbove svoRayWalk.glsl's. Where
+// svoHasVolumes is defined svoVolumeReceiver.glsl comes before it.
 //
 // View coordinates; and the lift's length, or below 0 -svoAbove of what was traced; -svoFar: nothing is
 // asked.
 uniform sampler2D svoPlaces;
 uniform sampler2D svoPlanes; // the facet's normal and that for shading, folded
 uniform int svoFirstLight;
+#ifdef svoHasVolumes
+uniform float svoParallel; // 1: rays of the picture are
+#endif
 
 vec4 svoSharesAt(ivec2 pixel)
 {
@@ -21,6 +25,15 @@ vec4 svoSharesAt(ivec2 pixel)
   svoAbove = max(-place.w, 0.0);
   for (int i = 0; i < min(4, svoLightCount - svoFirstLight); ++i)
   {
+#ifdef svoHasVolumes
+    // These are counted afterwards (svoVolumeCounter.h).
+    svoBesideVolumes =
+      svoCountsVolumes(place, facet, normal, svoLights[svoFirstLight + i], svoParallel, true);
+    if (svoBesideVolumes && svoOnlyVolumes)
+    {
+      continue;
+    }
+#endif
     shares[i] = svoLeft(svoFirstLight + i, place.xyz, facet, normal, max(place.w, 0.0) * normal, 0.0);
   }
   return shares;

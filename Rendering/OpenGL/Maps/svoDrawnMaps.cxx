@@ -9,6 +9,7 @@
 #include "svoProgram.h"
 #include "svoSurface.h"
 #include "svoTextures.h"
+#include "svoUnfold.h"
 
 #include <algorithm>
 #include <utility>
@@ -188,12 +189,13 @@ const std::string& DrawnMaps::link(bool alphas)
   {
     const std::string constants = "#version 150\n#define svoShape " + std::to_string(shape) + "\n";
     glDeleteProgram(this->Programs[shape]);
-    this->Programs[shape] = linkProgram(
-      { { GL_VERTEX_SHADER, constants + "#define svoAtVertices\n" + svoMapCasters },
-        { GL_FRAGMENT_SHADER,
-          constants + "#define svoHasPlanes true\n#define svoHasAlphas " +
-            (alphas ? "true\n" : "false\n") + svoOctreeWalk + svoColorAlpha + svoMapCasters } },
-      words);
+    this->Programs[shape] =
+      linkProgram({ { GL_VERTEX_SHADER, constants + "#define svoAtVertices\n" + svoMapCasters },
+                    { GL_FRAGMENT_SHADER,
+                      constants + "#define svoHasPlanes true\n#define svoHasAlphas " +
+                        (alphas ? "true\n" : "false\n") + svoUnfold + svoOctreeWalk +
+                        svoColorAlpha + svoMapCasters } },
+        words);
   }
   return words;
 }

@@ -237,7 +237,9 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   this->Statistics.coarseOctreeError = pace.distance * this->Statistics.tracer.coarsestVoxel;
   this->Boxes.update(window, this->Trace->eyeCode(), scene, this->Collected.props);
   const LightCode& code = this->Trace->lightCode();
-  this->Complaint = wantsCode && !settings.lightCode ? refusal() : code.complaint;
+  this->Complaint = wantsCode && !settings.lightCode ? refusal()
+    : code.complaint.empty()                         ? code.remark
+                                                     : code.complaint;
   const std::string missing = this->Maps.update(
     this->Trace->shadowMaps(), scene.lights, view, settings, this->Trace->mapTexture());
   this->Complaint = this->Complaint.empty() ? missing : this->Complaint;
@@ -249,6 +251,12 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   const LightCode& masked =
     this->Mask.lookUp(code, width, height, others, settings.gpuMemoryLimit - octrees, seenThrough);
   const LightCode& known = this->Sampled.any() ? sampled : masked;
+  if (code.volumes && !masked.fromPlaces)
+  {
+    this->Statistics.tracer.shadowVolumes = this->Statistics.tracer.contourEdges = 0;
+    this->Complaint = "A picture of what shadow volumes tell does not fit into OpenGL's memory, or "
+                      "GPUMemoryLimit: rays to the lights find the same shadows.";
+  }
   if (later && !known.fromPlaces)
   {
     this->refine();

@@ -40,6 +40,8 @@ struct FrameNeeds
   /// VTK draws what is seen, by Tracer::eyeCode() what is seen of the instances, if the tracer has
   /// it; the others only cast. What asks for their shadows does so by Tracer::lightCode().
   bool lightCode = false;
+  /// ... and exact rays may be shadow volumes: the same shadows (LightCode::volumes).
+  bool shadowVolumes = false;
   bool writeNormals = false; // Frame::normals is wanted (SSAO)
   bool writeLight = false;   // Frame::light is wanted (tone mapping)
   bool writeSlopes = false;  // Frame::slopes is wanted (multisampling)
@@ -138,6 +140,8 @@ struct FrameStatistics
   std::uint64_t shadowRays = 0;
   int lightsWithBuffers = 0; // casting lights whose shadows were found so
   int lightsWithRays = 0;
+  std::uint64_t shadowVolumes = 0; // casters, once a light
+  std::uint64_t contourEdges = 0;  // at which they begin
   /// A pixel, of lights with a size and of ambient occlusion; 0: there are none.
   int lightSamples = 0;
   double samplingTime = 0.0; // s, of the shading, in which they were taken

@@ -6,11 +6,14 @@
 #include "svoShaderValues.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace svo
 {
+struct VolumeDraws;
+
 struct LightCode : ShaderValues
 {
   /// By number in the code: index into Scene::lights. A light that is there several times gets the
@@ -63,6 +66,12 @@ struct LightCode : ShaderValues
   int samples = 0;           // of each, a pixel
   std::uint64_t picture = 0; // another one wherever earlier samples say nothing
 
+  /// What is drawn to find the shadows that opaque casters of triangles throw (svoVolumeDraws.h),
+  /// in a shadow mask; null: the code finds all. Nothing is sampled then.
+  std::shared_ptr<const VolumeDraws> volumes;
+
+  /// What is to be told of it, in a sentence; empty if all is as the settings ask.
+  std::string remark;
   /// Why there is no code although it was asked for, in a sentence; empty if all is well.
   std::string complaint;
 

@@ -1,0 +1,94 @@
+// The sides of shadow volumes, and their caps: triangles as they are, and as far away as they can be.
+// svoCaps is put before it, 0: sides, 1: caps; svoAtVertices in vertex shaders.
+//
+// svoCasters has four texels a caster: the rows of the matrix that takes coordinates of the octree's
+// cube, whose middle is 0 and whose edges are 1, to view coordinates; and (where its senses begin /
+// 4096, the rest, -1 if the matrix mirrors, how far its triangles may lie beside what is drawn of
+// them). svoEdges: corners from and to, and the caster. svoSenses: LightContour::senses().
+#ifdef svoAtVertices
+uniform samplerBuffer svoCasters;
+uniform samplerBuffer svoTriangles;
+uniform vec4 svoLight; // view coordinates: towards it, 0, or its place, 1
+uniform mat4 svoProjection;
+uniform float svoParallel; // 1: rays of the picture are parallel
+uniform int svoFirst;
+out vec4 svoAt; // view coordinates, homogeneous
+flat out vec2 svoGap;
+
+vec4 svoCornerAt(int caster, int corner)
+{
+  vec4 at = vec4(texelFetch(svoTriangles, corner).xyz - 1.5, 1.0);
+  return vec4(dot(texelFetch(svoCasters, caster), at), dot(texelFetch(svoCasters, caster + 1), at),
+    dot(texelFetch(svoCasters, caster + 2), at), 1.0);
+}
+
+// Where the ray from the light goes on to: infinity, or in pictures of parallel rays, which would not
+// meet triangles that lie there, far away.
+vec4 svoAway(vec4 at)
+{
+  float far = svoParallel * 1e-7;
+  vec3 from = svoLight.w > 0.0 ? svoLight.xyz : at.xyz;
+  return vec4(far * from + svoLight.w * at.xyz - svoLight.xyz, far);
+}
+
+#if svoCaps
+uniform usamplerBuffer svoSenses;
+uniform int svoFirstTriangle;
+uniform int svoCorners; // of a triangle: 3, or with those far away 6
+
+void main()
+{
+  int face = gl_VertexID / svoCorners;
+  int corner = gl_VertexID % svoCorners;
+  int caster = svoFirst + 4 * gl_InstanceID;
+  vec4 of = texelFetch(svoCasters, caster + 3);
+  int first = int(of.x) * 4096 + int(of.y);
+  uint sense = texelFetch(svoSenses, first + face / 16).x >> uint(2 * (face % 16)) & 3u;
+  int from = 3 * (svoFirstTriangle + face);
+  vec4 a = svoCornerAt(caster, from);
+  vec4 b = svoCornerAt(caster, from + 1);
+  vec4 c = svoCornerAt(caster, from + 2);
+  bool turned = (sense == 2u) != (of.z < 0.0);
+  turned = turned != (corner >= 3);
+  int k = corner % 3;
+  svoAt = k == 0 ? a : (k == 1) != turned ? b : c;
+  vec3 normal = normalize(cross(b.xyz - a.xyz, c.xyz - a.xyz));
+  svoGap = corner < 3 ? vec2(of.w / max(abs(dot(normal, a.xyz)), 1e-30), of.w / max(abs(normal.z), 1e-30))
+                      : vec2(0.0);
+  svoAt = corner < 3 ? svoAt : svoAway(svoAt);
+  vec4 clip = svoProjection * svoAt;
+  // Nothing is cut at the near or the far plane. What is left out has no size.
+  gl_Position = sense == 0u ? vec4(0.0, 0.0, 0.0, 1.0) : vec4(clip.xy, 0.0, clip.w);
+}
+#else
+uniform usamplerBuffer svoEdges;
+
+void main()
+{
+  uvec4 edge = texelFetch(svoEdges, svoFirst + gl_VertexID / 6);
+  const int ends[6] = int[6](1, 0, 2, 1, 2, 3);
+  int end = ends[gl_VertexID % 6];
+  int caster = int(edge.z);
+  bool mirrors = texelFetch(svoCasters, caster + 3).z < 0.0;
+  bool from = (end == 0 || end == 2) != mirrors;
+  svoAt = svoCornerAt(caster, int(from ? edge.x : edge.y));
+  svoAt = end < 2 ? svoAt : svoAway(svoAt);
+  svoGap = vec2(0.0);
+  vec4 clip = svoProjection * svoAt;
+  gl_Position = vec4(clip.xy, 0.0, clip.w);
+}
+#endif
+
+#else
+uniform vec2 svoReach;    // VolumeDraws: base, reach
+uniform float svoParallel;
+in vec4 svoAt;
+flat in vec2 svoGap;
+
+void main()
+{
+  float depth = -svoAt.z / svoAt.w;
+  depth += svoParallel > 0.0 ? svoGap.y : depth * svoGap.x;
+  gl_FragDepth = svoAt.w > 0.0 ? clamp((depth - svoReach.x) / svoReach.y, 0.0, 1.0) : 1.0;
+}
+#endif

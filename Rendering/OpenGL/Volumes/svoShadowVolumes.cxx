@@ -1,0 +1,348 @@
+#include "svoShadowVolumes.h"
+
+#include "svoBox.h"
+#include "svoOctreeArena.h"
+#include "svoWorldToOctree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace svo
+{
+namespace
+{
+constexpr std::size_t TexelsOfCaster = 4; // as svoShadowVolume.glsl
+
+/// How far triangles may lie beside what VTK draws of them, edges of the octree's cube.
+constexpr double PlaceError = 1e-6;
+/// Boxes are wider by so much of themselves, and of the cube, where it is asked whether the eye is
+/// in their shadow.
+constexpr double BoxMargin = 0.01;
+
+/// True if the way from one homogeneous point to another, of which at most one may be at infinity,
+/// meets a box. Two that are: whether they are almost the same but for their sign.
+bool meets(const Box& box, const glm::dvec4& from, const glm::dvec4& to)
+{
+  if (from.w == 0.0 && to.w == 0.0)
+  {
+    const glm::dvec3 a(from), b(to);
+    return glm::dot(a, b) < -0.9999 * glm::length(a) * glm::length(b);
+  }
+  const glm::dvec3 start(from.w != 0.0 ? from : to);
+  const glm::dvec3 way = from.w == 0.0 ? glm::dvec3(from)
+    : to.w == 0.0                      ? glm::dvec3(to)
+                                       : glm::dvec3(to) - start;
+  double first = 0.0, last = from.w != 0.0 && to.w != 0.0 ? 1.0 : 1e300;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double low = box.low[axis] - start[axis], high = box.high[axis] - start[axis];
+    if (way[axis] == 0.0)
+    {
+      last = low > 0.0 || high < 0.0 ? -1.0 : last;
+      continue;
+    }
+    first = std::max(first, std::min(low / way[axis], high / way[axis]));
+    last = std::min(last, std::max(low / way[axis], high / way[axis]));
+  }
+  return first <= last;
+}
+
+/// Of an octree's mesh, wider by the margin; octree coordinates.
+Box wideBox(const Octree& octree, const WorldToOctree& to)
+{
+  const double* bounds = octree.header().meshBounds;
+  const auto corner = [&](int side)
+  {
+    return 1.0 +
+      (glm::dvec3(bounds[side], bounds[2 + side], bounds[4 + side]) - to.origin) * to.scale;
+  };
+  Box box{ corner(0), corner(1) };
+  const glm::dvec3 margin = BoxMargin * (0.1 + box.high - box.low);
+  box.low -= margin;
+  box.high += margin;
+  return box;
+}
+
+/// Has room for so many.
+bool hasRoom(BufferTexture& texture, std::size_t texels)
+{
+  texels = std::max<std::size_t>(texels, 1);
+  return texels <= BufferTexture::most() &&
+    (texels <= texture.size() || texture.allocate(texels + texels / 2));
+}
+}
+
+bool hasVolume(const Instance& caster)
+{
+  return !caster.translucent() && caster.body->octree.surface();
+}
+
+std::shared_ptr<const VolumeDraws> ShadowVolumes::place(const Scene& scene,
+  const std::vector<CasterInMemory>& casters, const OctreeArena& arena, const View& view,
+  const FrameSettings& settings, const std::vector<int>& lights, const ParallelFor& parallelFor)
+{
+  const std::vector<Volume> volumes = this->gather(scene, casters, view, lights);
+  this->see(volumes, settings, parallelFor);
+  auto draws = std::make_shared<VolumeDraws>();
+  if (!this->send(volumes, arena) || !this->aim(volumes, view))
+  {
+    this->release();
+    return nullptr;
+  }
+  draws->lights = this->Ranges;
+  draws->lights.resize(lights.size());
+  const double base = view.parallel ? view.tNear : 0.0;
+  const double reach = view.tFar - base;
+  const glm::dmat3 turned(view.worldToView);
+  for (std::size_t number = 0; number < lights.size(); ++number)
+  {
+    const Light& light = scene.lights[lights[number]];
+    const glm::dvec3 at =
+      turned * (light.atInfinity() ? -reach * light.direction : light.position - view.eye);
+    draws->lights[number].light = glm::vec4(glm::vec3(at), light.atInfinity() ? 0.0f : 1.0f);
+  }
+  draws->triangles = arena.triangles().name();
+  draws->edges = this->Edges.name();
+  draws->casters = this->Casters.name();
+  draws->senses = this->Senses.name();
+  draws->projection = glm::mat4(view.viewToClip);
+  draws->base = static_cast<float>(base);
+  draws->reach = static_cast<float>(reach);
+  return draws;
+}
+
+/// All volumes, in the order in which they are drawn, those of copies of a mesh together.
+std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
+  const std::vector<CasterInMemory>& casters, const View& view, const std::vector<int>& lights)
+{
+  std::vector<Volume> volumes;
+  for (std::size_t number = 0; number < lights.size(); ++number)
+  {
+    const Light& light = scene.lights[lights[number]];
+    for (const CasterInMemory& caster : casters)
+    {
+      const Instance& instance = scene.instances[caster.instance];
+      if (!hasVolume(instance))
+      {
+        continue;
+      }
+      const Octree& octree = instance.body->octree;
+      const WorldToOctree to(octree, instance.localToWorld);
+      const glm::dvec4 at = light.atInfinity() ? glm::dvec4(to.vector(-light.direction), 0.0)
+                                               : glm::dvec4(to.point(light.position), 1.0);
+      const glm::dvec4 eye = view.parallel ? glm::dvec4(to.vector(-view.axis), 0.0)
+                                           : glm::dvec4(to.point(view.eye), 1.0);
+      std::pair<std::uint64_t, std::uint64_t> key(instance.id, light.id);
+      while (this->Kept[key].current)
+      {
+        ++key.first; // two of one name
+      }
+      Seen& seen = this->Kept[key];
+      seen.current = true;
+      const bool inside = meets(wideBox(octree, to), eye, at);
+      volumes.push_back(
+        { &instance, number, at, inside ? VolumeDraws::Behind : VolumeDraws::Before, &seen });
+    }
+  }
+  std::stable_sort(volumes.begin(), volumes.end(),
+    [](const Volume& a, const Volume& b)
+    {
+      return std::make_tuple(a.number, a.way, a.instance->body->octree.id()) <
+        std::make_tuple(b.number, b.way, b.instance->body->octree.id());
+    });
+  return volumes;
+}
+
+/// Has the contours of all of them, and of no others.
+void ShadowVolumes::see(
+  const std::vector<Volume>& volumes, const FrameSettings& settings, const ParallelFor& parallelFor)
+{
+  std::map<std::uint64_t, std::unique_ptr<const MeshEdges>> meshes;
+  std::vector<std::pair<const Octree*, std::unique_ptr<const MeshEdges>*>> unknown;
+  for (const Volume& volume : volumes)
+  {
+    const Octree& octree = volume.instance->body->octree;
+    const auto [mesh, added] = meshes.try_emplace(octree.id());
+    const auto known = this->Meshes.find(octree.id());
+    if (added && known != this->Meshes.end())
+    {
+      mesh->second = std::move(known->second);
+    }
+    else if (added)
+    {
+      unknown.emplace_back(&octree, &mesh->second);
+    }
+  }
+  parallelFor(0, unknown.size(), 1,
+    [&unknown](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        *unknown[i].second = std::make_unique<const MeshEdges>(*unknown[i].first->surface());
+      }
+    });
+  this->Meshes = std::move(meshes);
+  parallelFor(0, volumes.size(), 1,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        this->see(volumes[i]);
+      }
+    });
+  this->Volumes = volumes.size();
+  this->ContourEdges = this->Asked = 0;
+  std::size_t bytes = 0;
+  for (const Volume& volume : volumes)
+  {
+    Seen& seen = *volume.seen;
+    this->ContourEdges += seen.contour.edges().size();
+    this->Asked += seen.contour.asked();
+    bytes += seen.contour.bytes();
+    if (!settings.frameCoherence || bytes > settings.layerMemoryLimit)
+    {
+      seen.contour.forget();
+    }
+  }
+  for (auto i = this->Kept.begin(); i != this->Kept.end();)
+  {
+    i = i->second.current ? std::next(i) : this->Kept.erase(i);
+  }
+  for (auto& [key, seen] : this->Kept)
+  {
+    seen.current = false;
+    seen.version = seen.version == Changed ? ++this->Versions : seen.version;
+  }
+}
+
+/// Has the contour of one.
+void ShadowVolumes::see(const Volume& volume) const
+{
+  const Octree& octree = volume.instance->body->octree;
+  Seen& seen = *volume.seen;
+  if (seen.octree != octree.id())
+  {
+    seen.contour = LightContour();
+    seen.version = Changed;
+  }
+  else if (seen.light == volume.light)
+  {
+    seen.contour.settle();
+    return;
+  }
+  seen.octree = octree.id();
+  seen.light = volume.light;
+  if (seen.contour.update(*octree.surface(), *this->Meshes.at(octree.id()), volume.light))
+  {
+    seen.senses = seen.contour.senses();
+    seen.version = Changed;
+  }
+}
+
+/// Has contours in OpenGL's memory. False if that has no room.
+bool ShadowVolumes::send(const std::vector<Volume>& volumes, const OctreeArena& arena)
+{
+  std::vector<std::tuple<std::size_t, int, std::uint64_t, std::uint32_t>> now;
+  now.reserve(volumes.size());
+  for (const Volume& volume : volumes)
+  {
+    now.emplace_back(volume.number, volume.way, volume.seen->version,
+      arena.firstOf(volume.instance->body->octree));
+  }
+  if (now == this->Sent && this->Edges.name() != 0)
+  {
+    return true;
+  }
+  std::vector<glm::uvec4> edges;
+  std::vector<std::uint32_t> senses;
+  this->FirstSenses.clear();
+  this->Ranges.clear();
+  for (std::size_t i = 0; i < volumes.size(); ++i)
+  {
+    const Volume& volume = volumes[i];
+    const Octree& octree = volume.instance->body->octree;
+    const auto caster = static_cast<int>(TexelsOfCaster * i);
+    const std::uint32_t first = arena.firstOf(octree);
+    this->Ranges.resize(std::max(this->Ranges.size(), volume.number + 1));
+    VolumeDraws::Part& part = this->Ranges[volume.number].parts[volume.way];
+    part.firstEdge = part.caps.empty() ? static_cast<int>(edges.size()) : part.firstEdge;
+    if (!part.caps.empty() && part.caps.back().firstTriangle == static_cast<int>(first))
+    {
+      ++part.caps.back().casters;
+    }
+    else
+    {
+      part.caps.push_back({ caster, 1, static_cast<int>(first),
+        static_cast<int>(octree.surface()->triangles.size()) });
+    }
+    for (const LightContour::Edge& edge : volume.seen->contour.edges())
+    {
+      edges.emplace_back(3 * first + edge.from, 3 * first + edge.to, caster, 0u);
+    }
+    part.edges = static_cast<int>(edges.size()) - part.firstEdge;
+    this->FirstSenses.push_back(static_cast<std::uint32_t>(senses.size()));
+    senses.insert(senses.end(), volume.seen->senses.begin(), volume.seen->senses.end());
+  }
+  this->Sent.clear();
+  this->Aimed.clear();
+  if (!hasRoom(this->Edges, edges.size()) || !hasRoom(this->Senses, senses.size()))
+  {
+    return false;
+  }
+  this->Edges.send(0, edges.data(), edges.size());
+  this->Senses.send(0, senses.data(), senses.size());
+  this->Sent = std::move(now);
+  return true;
+}
+
+/// Says where casters are for the eye. False if OpenGL has no room.
+bool ShadowVolumes::aim(const std::vector<Volume>& volumes, const View& view)
+{
+  std::vector<glm::vec4> texels;
+  texels.reserve(TexelsOfCaster * volumes.size());
+  for (std::size_t i = 0; i < volumes.size(); ++i)
+  {
+    const Instance& instance = *volumes[i].instance;
+    const glm::dmat4 toView =
+      view.worldToView * cubeToWorld(instance.body->octree, instance.localToWorld);
+    const glm::dmat3 linear(toView);
+    for (int row = 0; row < 3; ++row)
+    {
+      texels.emplace_back(toView[0][row], toView[1][row], toView[2][row], toView[3][row]);
+    }
+    const double edge =
+      std::max({ glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2]) });
+    texels.emplace_back(inFloats(this->FirstSenses[i]),
+      glm::determinant(linear) < 0.0 ? -1.0f : 1.0f, static_cast<float>(PlaceError * edge));
+  }
+  if (texels == this->Aimed)
+  {
+    return true;
+  }
+  if (!hasRoom(this->Casters, texels.size()))
+  {
+    return false;
+  }
+  this->Casters.send(0, texels.data(), texels.size());
+  this->Aimed = std::move(texels);
+  return true;
+}
+
+void ShadowVolumes::release()
+{
+  this->Edges.release();
+  this->Casters.release();
+  this->Senses.release();
+  this->Sent.clear();
+  this->Aimed.clear();
+  this->Kept.clear();
+  this->Meshes.clear();
+}
+}

@@ -1,0 +1,96 @@
+// The shadow volumes of a scene's casters: their contours as the lights see them, kept as long as
+// light and caster lie to each other as they did, in the memory of an OpenGL context.
+#ifndef svoShadowVolumes_h
+#define svoShadowVolumes_h
+
+#include "svoBufferTexture.h"
+#include "svoFrame.h"
+#include "svoLightContour.h"
+#include "svoMapCopies.h"
+#include "svoMeshEdges.h"
+#include "svoParallel.h"
+#include "svoScene.h"
+#include "svoView.h"
+#include "svoVolumeDraws.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+namespace svo
+{
+class OctreeArena;
+
+/// True of casters that have a volume: opaque ones of triangles.
+bool hasVolume(const Instance& caster);
+
+/// Of one renderer. All calls are made in its context; whoever owns one is told before it goes.
+class ShadowVolumes
+{
+public:
+  /// Has the volumes that these lights (indices) make of those of `casters` that have one, whose
+  /// octrees `arena` holds. Null if OpenGL has no room.
+  std::shared_ptr<const VolumeDraws> place(const Scene& scene,
+    const std::vector<CasterInMemory>& casters, const OctreeArena& arena, const View& view,
+    const FrameSettings& settings, const std::vector<int>& lights, const ParallelFor& parallelFor);
+  void release();
+
+  std::size_t bytes() const
+  {
+    return this->Edges.bytes() + this->Casters.bytes() + this->Senses.bytes();
+  }
+  /// Of the last call: volumes; edges that they begin at; triangles that were asked for it.
+  std::size_t volumes() const { return this->Volumes; }
+  std::size_t contourEdges() const { return this->ContourEdges; }
+  std::size_t asked() const { return this->Asked; }
+
+private:
+  /// What a light sees of a caster.
+  struct Seen
+  {
+    std::uint64_t octree = 0;
+    glm::dvec4 light{ 0.0 }; // octree coordinates
+    LightContour contour;
+    std::vector<std::uint32_t> senses;
+    std::uint64_t version = 0; // another one wherever the contour is another
+    bool current = false;      // a part of this frame
+  };
+  static constexpr std::uint64_t Changed = 0; // as a version: it is to have another one
+  struct Volume
+  {
+    const Instance* instance;
+    std::size_t number; // of the light
+    glm::dvec4 light;   // octree coordinates
+    VolumeDraws::Way way;
+    Seen* seen;
+  };
+  std::vector<Volume> gather(const Scene& scene, const std::vector<CasterInMemory>& casters,
+    const View& view, const std::vector<int>& lights);
+  void see(const std::vector<Volume>& volumes, const FrameSettings& settings,
+    const ParallelFor& parallelFor);
+  void see(const Volume& volume) const;
+  bool send(const std::vector<Volume>& volumes, const OctreeArena& arena);
+  bool aim(const std::vector<Volume>& volumes, const View& view);
+
+  std::map<std::uint64_t, std::unique_ptr<const MeshEdges>> Meshes; // by Octree::id()
+  std::map<std::pair<std::uint64_t, std::uint64_t>, Seen> Kept;     // by caster and light
+  std::uint64_t Versions = 0;
+  // What was sent: by volume what it is of, and where its senses begin; ranges; matrices.
+  std::vector<std::tuple<std::size_t, int, std::uint64_t, std::uint32_t>> Sent;
+  std::vector<std::uint32_t> FirstSenses;
+  std::vector<VolumeDraws::OfLight> Ranges;
+  std::vector<glm::vec4> Aimed;
+  BufferTexture Edges{ BufferTexture::Texel::FourWords };
+  BufferTexture Casters{ BufferTexture::Texel::FourFloats };
+  BufferTexture Senses{ BufferTexture::Texel::Word };
+  std::size_t Volumes = 0, ContourEdges = 0, Asked = 0;
+};
+}
+
+#endif

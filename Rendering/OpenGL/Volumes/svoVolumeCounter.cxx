@@ -1,0 +1,270 @@
+#include "svoVolumeCounter.h"
+
+#include "svoKeptState.h"
+#include "svoOpenGL.h"
+#include "svoProgram.h"
+#include "svoShadowVolume.h"
+#include "svoTerminator.h"
+#include "svoTextures.h"
+#include "svoUnfold.h"
+#include "svoVolumeDepth.h"
+#include "svoVolumeReceiver.h"
+
+#include <iomanip>
+#include <locale>
+#include <sstream>
+
+#include <glm/gtc/type_ptr.hpp>
+
+namespace svo
+{
+namespace
+{
+constexpr int VerticesOfEdge = 6, VerticesOfCap = 3; // as svoShadowVolume.glsl
+
+constexpr char Zero[] = "#version 150\n"
+                        "out vec4 svoNone;\n"
+                        "void main()\n"
+                        "{\n"
+                        "  svoNone = vec4(0.0);\n"
+                        "}\n";
+
+/// OpenGL's state of stencils, and of two textures, beside that of KeptState.
+class KeptStencil
+{
+public:
+  KeptStencil()
+  {
+    for (int side = 0; side < 2; ++side)
+    {
+      for (int i = 0; i < Names; ++i)
+      {
+        glGetIntegerv(Of[side][i], &this->Values[side][i]);
+      }
+    }
+  }
+  KeptStencil(const KeptStencil&) = delete;
+  KeptStencil& operator=(const KeptStencil&) = delete;
+  ~KeptStencil()
+  {
+    const GLenum sides[] = { GL_FRONT, GL_BACK };
+    for (int side = 0; side < 2; ++side)
+    {
+      const GLint* v = this->Values[side];
+      glStencilFuncSeparate(
+        sides[side], static_cast<GLenum>(v[0]), v[1], static_cast<GLuint>(v[2]));
+      glStencilOpSeparate(sides[side], static_cast<GLenum>(v[3]), static_cast<GLenum>(v[4]),
+        static_cast<GLenum>(v[5]));
+      glStencilMaskSeparate(sides[side], static_cast<GLuint>(v[6]));
+    }
+  }
+
+private:
+  static constexpr int Names = 7;
+  static constexpr GLenum Of[2][Names] = {
+    { GL_STENCIL_FUNC, GL_STENCIL_REF, GL_STENCIL_VALUE_MASK, GL_STENCIL_FAIL,
+      GL_STENCIL_PASS_DEPTH_FAIL, GL_STENCIL_PASS_DEPTH_PASS, GL_STENCIL_WRITEMASK },
+    { GL_STENCIL_BACK_FUNC, GL_STENCIL_BACK_REF, GL_STENCIL_BACK_VALUE_MASK, GL_STENCIL_BACK_FAIL,
+      GL_STENCIL_BACK_PASS_DEPTH_FAIL, GL_STENCIL_BACK_PASS_DEPTH_PASS, GL_STENCIL_BACK_WRITEMASK }
+  };
+  GLint Values[2][Names];
+};
+
+/// Textures of the first units, unbound in the end as before.
+class KeptPictures
+{
+public:
+  KeptPictures(const GLuint (&textures)[2], int firstUnit)
+    : First(firstUnit)
+  {
+    for (int i = 0; i < 2; ++i)
+    {
+      glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(this->First + i));
+      glGetIntegerv(GL_TEXTURE_BINDING_2D, &this->Before[i]);
+      glBindTexture(GL_TEXTURE_2D, textures[i]);
+    }
+  }
+  KeptPictures(const KeptPictures&) = delete;
+  KeptPictures& operator=(const KeptPictures&) = delete;
+  ~KeptPictures()
+  {
+    for (int i = 0; i < 2; ++i)
+    {
+      glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(this->First + i));
+      glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(this->Before[i]));
+    }
+  }
+
+private:
+  int First;
+  GLint Before[2];
+};
+
+GLint at(GLuint program, const char* uniform)
+{
+  return glGetUniformLocation(program, uniform);
+}
+
+/// How a side of a volume counts: by those before a point, or by those behind it.
+void count(GLenum side, VolumeDraws::Way way)
+{
+  const bool enters = (side == GL_FRONT) == (way == VolumeDraws::Before);
+  const GLenum how = enters ? GL_INCR_WRAP : GL_DECR_WRAP;
+  way == VolumeDraws::Before ? glStencilOpSeparate(side, GL_KEEP, GL_KEEP, how)
+                             : glStencilOpSeparate(side, GL_KEEP, how, GL_KEEP);
+}
+}
+
+bool VolumeCounter::link(std::string& words)
+{
+  if (this->Sides != 0)
+  {
+    return true;
+  }
+  const auto volume = [&words](int caps)
+  {
+    const std::string constants = "#version 150\n#define svoCaps " + std::to_string(caps) + "\n";
+    return linkProgram(
+      { { GL_VERTEX_SHADER, constants + "#define svoAtVertices\n" + svoShadowVolume },
+        { GL_FRAGMENT_SHADER, constants + svoShadowVolume } },
+      words);
+  };
+  std::ostringstream constants;
+  constants.imbue(std::locale::classic());
+  constants << std::showpoint << std::setprecision(9)
+            << "#version 150\nconst float svoDoubtfulSine = " << DoubtfulSine << ";\n";
+  std::string refusal;
+  const auto link = [&](GLuint program)
+  {
+    refusal = refusal.empty() ? words : refusal;
+    return program;
+  };
+  this->Sides = link(volume(0));
+  this->Caps = link(volume(1));
+  this->Receivers = link(linkProgram(
+    { { GL_VERTEX_SHADER, AllPixels },
+      { GL_FRAGMENT_SHADER, constants.str() + svoUnfold + svoVolumeReceiver + svoVolumeDepth } },
+    words));
+  this->Dark =
+    link(linkProgram({ { GL_VERTEX_SHADER, AllPixels }, { GL_FRAGMENT_SHADER, Zero } }, words));
+  words = refusal;
+  if (!words.empty())
+  {
+    this->release();
+  }
+  return words.empty();
+}
+
+bool VolumeCounter::resize(int width, int height)
+{
+  if (width == this->Width && height == this->Height)
+  {
+    return true;
+  }
+  if (this->Framebuffer != 0)
+  {
+    glDeleteTextures(1, &this->Depths);
+    glDeleteFramebuffers(1, &this->Framebuffer);
+    glDeleteVertexArrays(1, &this->Vertices);
+  }
+  this->Width = width;
+  this->Height = height;
+  this->Depths = this->Framebuffer = this->Vertices = 0;
+  if (width * height == 0)
+  {
+    return true;
+  }
+  this->Depths = makeTexture(GL_DEPTH32F_STENCIL8, width, height);
+  glGenFramebuffers(1, &this->Framebuffer);
+  glGenVertexArrays(1, &this->Vertices);
+  return this->Depths != 0;
+}
+
+void VolumeCounter::darken(const VolumeDraws& draws, int number, unsigned int places,
+  unsigned int planes, unsigned int shares)
+{
+  const VolumeDraws::OfLight& light = draws.lights[number];
+  KeptState state;
+  const KeptStencil stencil;
+  const int casters = state.bind(draws.casters), triangles = state.bind(draws.triangles);
+  const int edges = state.bind(draws.edges), senses = state.bind(draws.senses);
+  constexpr int FirstPicture = 4;
+  const KeptPictures pictures({ places, planes }, FirstPicture);
+  glBindVertexArray(this->Vertices);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Framebuffer);
+  glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, shares, 0, number / 4);
+  glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, this->Depths, 0);
+  glViewport(0, 0, this->Width, this->Height);
+  const float parallel = draws.projection[2][3] == 0.0f ? 1.0f : 0.0f;
+  const auto use = [&](GLuint program)
+  {
+    glUseProgram(program);
+    glUniform4fv(at(program, "svoLight"), 1, glm::value_ptr(light.light));
+    glUniform2f(at(program, "svoReach"), draws.base, draws.reach);
+    glUniform1f(at(program, "svoParallel"), parallel);
+    glUniformMatrix4fv(at(program, "svoProjection"), 1, GL_FALSE, glm::value_ptr(draws.projection));
+    const std::pair<const char*, int> samplers[] = { { "svoCasters", casters },
+      { "svoTriangles", triangles }, { "svoEdges", edges }, { "svoSenses", senses },
+      { "svoPlaces", FirstPicture }, { "svoPlanes", FirstPicture + 1 } };
+    for (const auto& [name, unit] : samplers)
+    {
+      glUniform1i(at(program, name), unit);
+    }
+  };
+  // What volumes are compared with.
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_ALWAYS);
+  glStencilMask(~0u);
+  const GLint none = 0;
+  glClearBufferiv(GL_STENCIL, 0, &none);
+  use(this->Receivers);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  // The volumes.
+  glDepthMask(GL_FALSE);
+  glDepthFunc(GL_LESS);
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(GL_ALWAYS, 0, ~0u);
+  for (const VolumeDraws::Way way : { VolumeDraws::Before, VolumeDraws::Behind })
+  {
+    const VolumeDraws::Part& part = light.parts[way];
+    if (part.caps.empty())
+    {
+      continue;
+    }
+    count(GL_FRONT, way);
+    count(GL_BACK, way);
+    use(this->Sides);
+    glUniform1i(at(this->Sides, "svoFirst"), part.firstEdge);
+    glDrawArrays(GL_TRIANGLES, 0, VerticesOfEdge * part.edges);
+    use(this->Caps);
+    const int corners = way == VolumeDraws::Behind ? 2 * VerticesOfCap : VerticesOfCap;
+    glUniform1i(at(this->Caps, "svoCorners"), corners);
+    for (const VolumeDraws::Caps& caps : part.caps)
+    {
+      glUniform1i(at(this->Caps, "svoFirst"), caps.firstCaster);
+      glUniform1i(at(this->Caps, "svoFirstTriangle"), caps.firstTriangle);
+      glDrawArraysInstanced(GL_TRIANGLES, 0, corners * caps.triangles, caps.casters);
+    }
+  }
+  // What lies in some.
+  glDisable(GL_DEPTH_TEST);
+  glStencilFunc(GL_NOTEQUAL, 0, ~0u);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  const int plane = number % 4;
+  glColorMask(plane == 0, plane == 1, plane == 2, plane == 3);
+  glUseProgram(this->Dark);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void VolumeCounter::release()
+{
+  this->resize(0, 0);
+  for (unsigned int* program : { &this->Sides, &this->Caps, &this->Receivers, &this->Dark })
+  {
+    glDeleteProgram(*program);
+    *program = 0;
+  }
+}
+}

@@ -1,0 +1,39 @@
+// Counts shadow volumes for each pixel, in a stencil buffer. (Crow, SIGGRAPH 1977; Heidmann, Real
+// Shadows, Real Time, IRIS Universe 18, 1991; by what lies behind a point, Everitt and Kilgard,
+// 2002; both ways in one pass.)
+#ifndef svoVolumeCounter_h
+#define svoVolumeCounter_h
+
+#include "svoVolumeDraws.h"
+#include "vtkSVOOpenGLModule.h"
+
+#include <string>
+
+namespace svo
+{
+/// Of one renderer. All calls are made in its context; whoever owns one is told before it goes.
+class VTKSVOOPENGL_EXPORT VolumeCounter
+{
+public:
+  /// Makes the programs. False if OpenGL refuses; then `words`, a line, is why.
+  bool link(std::string& words);
+  /// Has room for so many pixels; none: it has no texture. False if OpenGL refuses.
+  bool resize(int width, int height);
+  bool any() const { return this->Framebuffer != 0; }
+  static constexpr int PixelBytes = 8;
+
+  /// Darkens the pixels that lie in a light's volumes: sets the number of it in `shares`, layers of
+  /// four, to 0. Pixels whose place (svoShadowMaskShader.glsl) the light's volumes do not tell
+  /// (svoVolumeReceiver.glsl) are left as they are.
+  void darken(const VolumeDraws& draws, int number, unsigned int places, unsigned int planes,
+    unsigned int shares);
+  void release();
+
+private:
+  int Width = 0, Height = 0;
+  unsigned int Depths = 0, Framebuffer = 0, Vertices = 0;
+  unsigned int Sides = 0, Caps = 0, Receivers = 0, Dark = 0; // programs
+};
+}
+
+#endif

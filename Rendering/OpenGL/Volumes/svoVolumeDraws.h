@@ -1,0 +1,48 @@
+// What is drawn to count shadow volumes: names of buffers in the current context, and ranges in
+// them. Plain data; svoShadowVolume.glsl reads it.
+#ifndef svoVolumeDraws_h
+#define svoVolumeDraws_h
+
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+namespace svo
+{
+struct VolumeDraws
+{
+  unsigned int triangles = 0, edges = 0, casters = 0, senses = 0; // buffer textures
+  glm::mat4 projection{ 1.0f };                                   // from view coordinates
+  /// The linear depth less `base` of what may be seen is at most `reach`.
+  float base = 0.0f, reach = 1.0f;
+
+  /// Triangles of copies of a mesh.
+  struct Caps
+  {
+    int firstCaster, casters, firstTriangle, triangles;
+  };
+  /// Of casters in whose shadow the eye may be, and of others, by Way.
+  struct Part
+  {
+    int firstEdge = 0, edges = 0;
+    std::vector<Caps> caps;
+  };
+  /// How what lies in a volume is told: by its sides before the point, or by those behind it.
+  enum Way
+  {
+    Before,
+    Behind,
+    Ways
+  };
+  struct OfLight
+  {
+    /// View coordinates: the way towards it, as long as `reach`, and 0; or its place, and 1.
+    glm::vec4 light;
+    Part parts[Ways];
+  };
+  std::vector<OfLight> lights; // by number in the light's code
+};
+}
+
+#endif
