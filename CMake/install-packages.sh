@@ -62,6 +62,7 @@ libcgal-demo|the meshes that it is measured on
 assimp-testmodels|the walking figure of the paper's scenes
 python3-matplotlib|draws the plots of Documentation/Accuracy.md and Performance.md"
 packages_performance="
+libboost-dev|Boost.Polygon unites shadow outlines, to compare with
 libnanovdb-dev|another march through voxels to compare with
 libopenvdb-dev|another builder of voxels to compare with
 libtbb-dev|OpenVDB's threads"

@@ -1,12 +1,13 @@
 // Shadow volumes find what rays to the lights find: of meshes that are closed and open, for all
 // kinds of lights and views, wherever the eye is.
 #include "../Unit/svoTestMessages.h"
+#include "svoImageCases.h"
 #include "svoTestStage.h"
 
 #include "vtkActorCollection.h"
 #include "vtkCamera.h"
-#include "vtkCubeSource.h"
 #include "vtkDiskSource.h"
+#include "vtkImageToSVO.h"
 #include "vtkLight.h"
 #include "vtkNew.h"
 #include "vtkPlaneSource.h"
@@ -72,6 +73,102 @@ void addSolids(Stage& stage)
   vtkActor* spikeActor = stage.add(spike(1.4, 0.0, 0.0, 0.7), 0.8, 0.8, 0.3);
   spikeActor->SetPosition(0.6, 1.2, 0.0);
 }
+
+/// With things that have no volume, rays go to these alone.
+void compareWithOthers(Checks& checks)
+{
+  Stage stage;
+  addSolids(stage);
+  vtkActor* glass = stage.add(ball(0.6, 0.4, -1.2, 0.9), 0.6, 0.8, 0.9);
+  glass->GetProperty()->SetOpacity(0.4);
+  const ImageCase ring = distanceCase();
+  vtkNew<vtkImageToSVO> surface;
+  surface->SetInputData(ring.image);
+  surface->SetValue(0, ring.value);
+  stage.add(surface, 0.9, 0.5, 0.3)->SetPosition(-0.8, -0.8, 1.4);
+  stage.addSun(3.0, -2.0, 4.0);
+  stage.addBulb(-1.0, 0.6, 3.5);
+  compare("translucent, and without triangles", stage, 40, checks);
+  checks.expect(stage.pass->GetNumberOfShadowVolumes() == 10, "they have no volumes");
+  stage.window->SetMultiSamples(4);
+  compare("several samples", stage, 40, checks);
+}
+
+/// Nothing hangs on the frames before.
+void compareAgain(Checks& checks)
+{
+  Stage stage;
+  addSolids(stage);
+  vtkLight* bulb = stage.addBulb(-1.0, 0.6, 2.5);
+  stage.addSun(3.0, -2.0, 4.0);
+  stage.pass->SetBackendToOpenGL();
+  vtkActor* last = stage.renderer->GetActors()->GetLastActor();
+  for (int i = 0; i < 24; ++i)
+  {
+    last->AddPosition(0.02, -0.05, 0.0);
+    last->RotateZ(i % 3 == 0 ? 20.0 : 0.0);
+    bulb->SetPosition(-1.0 + 0.1 * i, 0.6, i % 5 == 0 ? 2.5 : 0.8);
+    stage.renderer->GetActiveCamera()->Azimuth(i % 4 == 0 ? 5.0 : 0.0);
+    last->SetVisibility(i % 7 != 6);
+    stage.pass->SetFrameCoherence(i % 8 != 7);
+    if (i == 10)
+    {
+      stage.window->SetSize(250, 200);
+    }
+    if (i == 15)
+    {
+      stage.pass->ReleaseGraphicsResources(stage.window);
+    }
+    if (i == 18)
+    {
+      stage.window->Finalize();
+    }
+    const Picture expected = stage.shadowedByRays();
+    const std::size_t others =
+      (stage.pass->SetShadowTechniqueToShadowVolumes(), differing(expected, capture(stage.window)));
+    const Picture known = capture(stage.window);
+    checks.expect(others <= 10, "frame " + std::to_string(i) + ": lit and dark as rays say");
+    checks.expect(difference(known, capture(stage.window)).largest == 0, "and once more");
+  }
+}
+
+void tellsWhatIsMissing(Checks& checks)
+{
+  Stage stage;
+  addSolids(stage);
+  vtkLight* sun = stage.addSun(3.0, -2.0, 4.0);
+  stage.pass->SetBackendToCPU();
+  const Picture expected = stage.shadowedByRays();
+  const auto expectOne = [&](const std::string& words)
+  {
+    svo::TestMessages messages{ stage.pass };
+    const Picture found = capture(stage.window);
+    capture(stage.window);
+    checks.expect(stage.pass->GetNumberOfShadowVolumes() == 0, words + ": there are none");
+    checks.expect(messages.errors.empty() && messages.warnings.size() == 1 &&
+        messages.warnings[0].find(words) != std::string::npos,
+      words + ": one message, " + messages.all());
+    return found;
+  };
+  stage.pass->SetShadowTechniqueToShadowVolumes();
+  checks.expect(
+    difference(expected, expectOne("OpenGL draws")).largest == 0, "the CPU's rays in their place");
+  stage.pass->SetBackendToAuto();
+  stage.window->Render();
+  checks.expect(stage.pass->GetActiveBackend() == vtkSVORenderPass::BACKEND_OPENGL &&
+      stage.pass->GetNumberOfShadowVolumes() > 0,
+    "Auto has OpenGL draw them");
+  // Octrees fit, but no mask.
+  const vtkIdType whole = stage.pass->GetGPUMemory();
+  stage.pass->SetGPUMemoryLimit(static_cast<int>(whole - 1));
+  checks.expect(
+    differing(expected, expectOne("GPUMemoryLimit")) < 30, "without memory: rays in their place");
+  stage.pass->SetGPUMemoryLimit(1 << 20);
+  stage.window->Render();
+  checks.expect(stage.pass->GetNumberOfShadowVolumes() > 0, "with memory: volumes again");
+  vtkSVORenderPass::SetLightSize(3.0, sun);
+  expectOne("sampled by rays");
+}
 }
 
 int TestSVOShadowVolumes(int, char*[])
@@ -136,5 +233,25 @@ int TestSVOShadowVolumes(int, char*[])
     stage.addSun(0.0, -2.0, 4.0);
     compare("the eye in a shadow", stage, 10, checks);
   }
+  {
+    Stage stage;
+    addSolids(stage);
+    stage.addSun(3.0, -2.0, 4.0);
+    vtkActorCollection* actors = stage.renderer->GetActors();
+    actors->InitTraversal();
+    while (vtkActor* actor = actors->GetNextActor())
+    {
+      actor->AddPosition(3e4, 0.0, 0.0);
+    }
+    vtkCamera* camera = stage.renderer->GetActiveCamera();
+    camera->SetPosition(
+      camera->GetPosition()[0] + 3e4, camera->GetPosition()[1], camera->GetPosition()[2]);
+    camera->SetFocalPoint(
+      camera->GetFocalPoint()[0] + 3e4, camera->GetFocalPoint()[1], camera->GetFocalPoint()[2]);
+    compare("far from the origin", stage, 20, checks);
+  }
+  compareWithOthers(checks);
+  compareAgain(checks);
+  tellsWhatIsMissing(checks);
   return checks.exitCode();
 }

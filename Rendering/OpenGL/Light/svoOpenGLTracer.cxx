@@ -431,11 +431,7 @@ std::string OpenGLTracer::describeVolumes(const Scene& scene, const View& view,
     return "Shadow volumes do not fit into OpenGL's memory, or into GPUMemoryLimit: rays to the "
            "lights find the same shadows.";
   }
-  const std::vector<std::size_t> casters = castersOf(scene);
-  const bool all = std::all_of(casters.begin(), casters.end(),
-    [&scene](std::size_t index) { return hasVolume(scene.instances[index]); });
-  code.constants +=
-    std::string("#define svoHasVolumes\n#define svoOnlyVolumes ") + (all ? "true\n" : "false\n");
+  code.constants += "#define svoHasVolumes\n";
   code.floats.push_back({ "svoParallel", 1, { view.parallel ? 1.0f : 0.0f } });
   return {};
 }

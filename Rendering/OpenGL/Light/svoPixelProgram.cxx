@@ -94,8 +94,7 @@ PixelProgram::Use::~Use()
 #ifdef GL_COMPUTE_SHADER
   if (this->Of.Computes)
   {
-    glMemoryBarrier(
-      GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
   }
 #endif
   const vtkOpenGLState::ScopedglActiveTexture before(this->State);

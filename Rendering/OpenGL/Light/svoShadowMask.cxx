@@ -156,20 +156,23 @@ void ShadowMask::find(vtkOpenGLState* state, const LightCode& asked, bool same,
         { "svoPlacesAround", places, GL_TEXTURE_2D },
         { "svoPlanesAround", planes, GL_TEXTURE_2D } });
   }
+  const auto fill = [&](unsigned int framebuffer, int layer, int firstLight)
   {
     PixelProgram::Use program(state, this->Program, asked, textures);
-    for (int layer = 0; layer < this->Layers; ++layer)
-    {
-      program.set("svoFirstLight", 4 * layer);
-      program.fill({ this->Answering, this->Shares, this->Format, layer, this->Surfaces.width(),
-        this->Surfaces.rows() });
-    }
+    program.set("svoFirstLight", firstLight);
+    program.fill({ framebuffer, this->Shares, this->Format, layer, this->Surfaces.width(),
+      this->Surfaces.rows() });
+  };
+  for (int layer = 0; !asked.volumes && layer < this->Layers; ++layer)
+  {
+    fill(this->Answering, layer, 4 * layer);
+  }
+  for (int light = 0; asked.volumes && light < asked.count(); ++light)
+  {
+    this->Counter.find(*asked.volumes, light, { places, planes, this->Shares },
+      [&](unsigned int framebuffer) { fill(framebuffer, light / 4, light); });
   }
   state->PopFramebufferBindings();
-  for (std::size_t i = 0; asked.volumes && i < asked.lights.size(); ++i)
-  {
-    this->Counter.darken(*asked.volumes, static_cast<int>(i), places, planes, this->Shares);
-  }
   if (compares)
   {
     this->compare(state, asked, before);
@@ -218,7 +221,8 @@ bool ShadowMask::accepts(const LightCode& code)
     this->Found = 0;
     this->Texts[0].clear();
     this->Texts[1].clear();
-    const bool computes = this->Wanted == Way::Compute && PixelProgram::hasCompute();
+    const bool computes =
+      this->Wanted == Way::Compute && PixelProgram::hasCompute() && !code.volumes;
     if (!this->link(code, computes) && computes)
     {
       this->link(code, false);

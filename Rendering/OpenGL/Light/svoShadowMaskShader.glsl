@@ -23,17 +23,16 @@ vec4 svoSharesAt(ivec2 pixel)
   vec3 facet = svoUnfold(planes.xy);
   vec3 normal = svoUnfold(planes.zw);
   svoAbove = max(-place.w, 0.0);
-  for (int i = 0; i < min(4, svoLightCount - svoFirstLight); ++i)
-  {
 #ifdef svoHasVolumes
-    // These are counted afterwards (svoVolumeCounter.h).
-    svoBesideVolumes =
-      svoCountsVolumes(place, facet, normal, svoLights[svoFirstLight + i], svoParallel, true);
-    if (svoBesideVolumes && svoOnlyVolumes)
-    {
-      continue;
-    }
+  // One alone, of what these do not tell (svoVolumeCounter.h).
+  const int count = 1;
+  svoBesideVolumes =
+    svoCountsVolumes(place, facet, normal, svoLights[svoFirstLight], svoParallel, true);
+#else
+  int count = min(4, svoLightCount - svoFirstLight);
 #endif
+  for (int i = 0; i < count; ++i)
+  {
     shares[i] = svoLeft(svoFirstLight + i, place.xyz, facet, normal, max(place.w, 0.0) * normal, 0.0);
   }
   return shares;
@@ -58,5 +57,8 @@ out vec4 svoMask;
 void main()
 {
   svoMask = svoSharesAt(ivec2(gl_FragCoord.xy));
+#ifdef svoHasVolumes
+  svoMask = svoMask.xxxx;
+#endif
 }
 #endif

@@ -17,8 +17,9 @@
 namespace svo
 {
 /// Every triangle counts as one that faces the light, turned round if it does not, but for those of
-/// solid parts that face away from a light outside: these are left out. Each stands for the infinite prism behind it. Of
-/// all prisms together only the sides remain on whose both sides there are not equally many.
+/// solid parts that face away from a light outside: these are left out. Each stands for the
+/// infinite prism behind it. Of all prisms together only the sides remain on whose both sides there
+/// are not equally many.
 class VTKSVOOPENGL_EXPORT LightContour
 {
 public:

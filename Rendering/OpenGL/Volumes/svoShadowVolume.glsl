@@ -12,8 +12,7 @@ uniform vec4 svoLight; // view coordinates: towards it, 0, or its place, 1
 uniform mat4 svoProjection;
 uniform float svoParallel; // 1: rays of the picture are parallel
 uniform int svoFirst;
-out vec4 svoAt; // view coordinates, homogeneous
-flat out vec2 svoGap;
+flat out vec4 svoPlane; // of the triangle, view coordinates, unit; 0: it is far away
 
 vec4 svoCornerAt(int caster, int corner)
 {
@@ -29,6 +28,19 @@ vec4 svoAway(vec4 at)
   float far = svoParallel * 1e-7;
   vec3 from = svoLight.w > 0.0 ? svoLight.xyz : at.xyz;
   return vec4(far * from + svoLight.w * at.xyz - svoLight.xyz, far);
+}
+
+// Nothing is cut at the near or the far plane.
+vec4 svoShown(vec4 at)
+{
+  vec4 clip = svoProjection * at;
+  return vec4(clip.xy, 0.0, clip.w);
+}
+
+vec4 svoPlaneOf(vec3 normal, vec3 at)
+{
+  normal = normalize(normal);
+  return vec4(normal, -dot(normal, at));
 }
 
 #if svoCaps
@@ -51,14 +63,21 @@ void main()
   bool turned = (sense == 2u) != (of.z < 0.0);
   turned = turned != (corner >= 3);
   int k = corner % 3;
-  svoAt = k == 0 ? a : (k == 1) != turned ? b : c;
-  vec3 normal = normalize(cross(b.xyz - a.xyz, c.xyz - a.xyz));
-  svoGap = corner < 3 ? vec2(of.w / max(abs(dot(normal, a.xyz)), 1e-30), of.w / max(abs(normal.z), 1e-30))
-                      : vec2(0.0);
-  svoAt = corner < 3 ? svoAt : svoAway(svoAt);
-  vec4 clip = svoProjection * svoAt;
-  // Nothing is cut at the near or the far plane. What is left out has no size.
-  gl_Position = sense == 0u ? vec4(0.0, 0.0, 0.0, 1.0) : vec4(clip.xy, 0.0, clip.w);
+  vec4 at = k == 0 ? a : (k == 1) != turned ? b : c;
+  vec3 normal = cross(b.xyz - a.xyz, c.xyz - a.xyz);
+  svoPlane = svoPlaneOf(normal, a.xyz);
+  if (corner >= 3)
+  {
+    vec4 away = svoAway(a);
+    normal = cross(svoAway(b).xyz - away.xyz, svoAway(c).xyz - away.xyz);
+    svoPlane = svoParallel > 0.0 ? svoPlaneOf(normal, away.xyz / away.w) : vec4(0.0);
+  }
+  // Behind what is drawn of it.
+  float side = svoParallel > 0.0 ? svoPlane.z : svoPlane.w;
+  svoPlane.w += corner < 3 ? (side < 0.0 ? -of.w : of.w) : 0.0;
+  at = corner < 3 ? at : svoAway(at);
+  // What is left out has no size.
+  gl_Position = sense == 0u ? vec4(0.0, 0.0, 0.0, 1.0) : svoShown(at);
 }
 #else
 uniform usamplerBuffer svoEdges;
@@ -71,24 +90,28 @@ void main()
   int caster = int(edge.z);
   bool mirrors = texelFetch(svoCasters, caster + 3).z < 0.0;
   bool from = (end == 0 || end == 2) != mirrors;
-  svoAt = svoCornerAt(caster, int(from ? edge.x : edge.y));
-  svoAt = end < 2 ? svoAt : svoAway(svoAt);
-  svoGap = vec2(0.0);
-  vec4 clip = svoProjection * svoAt;
-  gl_Position = vec4(clip.xy, 0.0, clip.w);
+  vec4 a = svoCornerAt(caster, int(edge.x));
+  vec4 b = svoCornerAt(caster, int(edge.y));
+  svoPlane = svoPlaneOf(cross(b.xyz - a.xyz, svoAway(a).xyz), a.xyz);
+  vec4 at = from ? a : b;
+  gl_Position = svoShown(end < 2 ? at : svoAway(at));
 }
 #endif
 
 #else
-uniform vec2 svoReach;    // VolumeDraws: base, reach
-uniform float svoParallel;
-in vec4 svoAt;
-flat in vec2 svoGap;
+// Depths are those of planes at pixels' rays: what is interpolated over triangles that reach from behind
+// the eye to infinity has no digits.
+uniform vec2 svoReach; // VolumeDraws: base, reach
+uniform vec3 svoRays[6]; // of the picture, at pixel 0, 0, and more at each to the right and up: where
+                         // they begin, and their ways, of depth 1
+flat in vec4 svoPlane;
 
 void main()
 {
-  float depth = -svoAt.z / svoAt.w;
-  depth += svoParallel > 0.0 ? svoGap.y : depth * svoGap.x;
-  gl_FragDepth = svoAt.w > 0.0 ? clamp((depth - svoReach.x) / svoReach.y, 0.0, 1.0) : 1.0;
+  vec2 pixel = gl_FragCoord.xy;
+  vec3 from = svoRays[0] + pixel.x * svoRays[1] + pixel.y * svoRays[2];
+  vec3 way = svoRays[3] + pixel.x * svoRays[4] + pixel.y * svoRays[5];
+  float depth = -(dot(svoPlane.xyz, from) + svoPlane.w) / dot(svoPlane.xyz, way);
+  gl_FragDepth = svoPlane.xyz == vec3(0.0) ? 1.0 : clamp((depth - svoReach.x) / svoReach.y, 0.0, 1.0);
 }
 #endif

@@ -91,6 +91,8 @@ std::shared_ptr<const VolumeDraws> ShadowVolumes::place(const Scene& scene,
   const std::vector<Volume> volumes = this->gather(scene, casters, view, lights);
   this->see(volumes, settings, parallelFor);
   auto draws = std::make_shared<VolumeDraws>();
+  draws->tellAll = std::all_of(casters.begin(), casters.end(),
+    [&scene](const CasterInMemory& caster) { return hasVolume(scene.instances[caster.instance]); });
   if (!this->send(volumes, arena) || !this->aim(volumes, view))
   {
     this->release();
@@ -113,6 +115,13 @@ std::shared_ptr<const VolumeDraws> ShadowVolumes::place(const Scene& scene,
   draws->casters = this->Casters.name();
   draws->senses = this->Senses.name();
   draws->projection = glm::mat4(view.viewToClip);
+  const glm::dvec3 rays[] = { view.origin - view.eye, view.originX, view.originY, view.direction,
+    view.directionX, view.directionY };
+  for (int i = 0; i < 6; ++i)
+  {
+    draws->rays[i] = glm::vec3(turned * rays[i]);
+  }
+  draws->parallel = view.parallel;
   draws->base = static_cast<float>(base);
   draws->reach = static_cast<float>(reach);
   return draws;
@@ -344,5 +353,6 @@ void ShadowVolumes::release()
   this->Aimed.clear();
   this->Kept.clear();
   this->Meshes.clear();
+  this->Volumes = this->ContourEdges = this->Asked = 0;
 }
 }

@@ -13,6 +13,8 @@
 #include <iomanip>
 #include <locale>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -20,6 +22,9 @@ namespace svo
 {
 namespace
 {
+// A stencil: rays tell its pixel's light. Else the bits below count volumes.
+constexpr GLint Asks = 0x80;
+constexpr GLuint CountBits = 0x7f;
 constexpr int VerticesOfEdge = 6, VerticesOfCap = 3; // as svoShadowVolume.glsl
 
 constexpr char Zero[] = "#version 150\n"
@@ -180,52 +185,104 @@ bool VolumeCounter::resize(int width, int height)
   return this->Depths != 0;
 }
 
-void VolumeCounter::darken(const VolumeDraws& draws, int number, unsigned int places,
-  unsigned int planes, unsigned int shares)
+/// Drawing into a light's number, and into depths and stencils. In the end OpenGL is as before.
+class VolumeCounter::Scope
 {
-  const VolumeDraws::OfLight& light = draws.lights[number];
-  KeptState state;
-  const KeptStencil stencil;
-  const int casters = state.bind(draws.casters), triangles = state.bind(draws.triangles);
-  const int edges = state.bind(draws.edges), senses = state.bind(draws.senses);
-  constexpr int FirstPicture = 4;
-  const KeptPictures pictures({ places, planes }, FirstPicture);
-  glBindVertexArray(this->Vertices);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Framebuffer);
-  glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, shares, 0, number / 4);
-  glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, this->Depths, 0);
-  glViewport(0, 0, this->Width, this->Height);
-  const float parallel = draws.projection[2][3] == 0.0f ? 1.0f : 0.0f;
-  const auto use = [&](GLuint program)
+public:
+  Scope(const VolumeCounter& counter, int number, unsigned int shares)
+  {
+    glBindVertexArray(counter.Vertices);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, counter.Framebuffer);
+    glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, shares, 0, number / 4);
+    glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, counter.Depths, 0);
+    glViewport(0, 0, counter.Width, counter.Height);
+    glStencilMask(~0u);
+    this->write(number);
+  }
+  /// Colours are written to this number of a layer alone; to none: -1.
+  static void write(int number)
+  {
+    const int plane = number < 0 ? number : number % 4;
+    glColorMask(plane == 0, plane == 1, plane == 2, plane == 3);
+  }
+  /// A program, told of a light.
+  static void use(GLuint program, const VolumeDraws& draws, const VolumeDraws::OfLight& light)
   {
     glUseProgram(program);
     glUniform4fv(at(program, "svoLight"), 1, glm::value_ptr(light.light));
     glUniform2f(at(program, "svoReach"), draws.base, draws.reach);
-    glUniform1f(at(program, "svoParallel"), parallel);
+    glUniform1f(at(program, "svoParallel"), draws.parallel ? 1.0f : 0.0f);
+    glUniform3fv(at(program, "svoRays"), 6, glm::value_ptr(draws.rays[0]));
     glUniformMatrix4fv(at(program, "svoProjection"), 1, GL_FALSE, glm::value_ptr(draws.projection));
-    const std::pair<const char*, int> samplers[] = { { "svoCasters", casters },
-      { "svoTriangles", triangles }, { "svoEdges", edges }, { "svoSenses", senses },
-      { "svoPlaces", FirstPicture }, { "svoPlanes", FirstPicture + 1 } };
+  }
+
+  int bind(GLuint texture) { return this->State.bind(texture); }
+
+private:
+  KeptState State;
+  KeptStencil Stencil;
+};
+
+void VolumeCounter::find(
+  const VolumeDraws& draws, int number, const Pixels& pixels, const Rays& rays)
+{
+  this->receive(draws, number, pixels);
+  {
+    const Scope scope(*this, number, pixels.shares);
+    glEnable(GL_STENCIL_TEST);
+    // To what has no volume rays go from everywhere.
+    glStencilFunc(draws.tellAll ? GL_EQUAL : GL_ALWAYS, Asks, Asks);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    rays(this->Framebuffer);
+  }
+  this->darken(draws, number, pixels);
+}
+
+/// All is lit; has depths of what volumes tell of, and stencils of what asks.
+void VolumeCounter::receive(const VolumeDraws& draws, int number, const Pixels& pixels)
+{
+  const Scope scope(*this, number, pixels.shares);
+  constexpr int FirstPicture = 0;
+  const KeptPictures pictures({ pixels.places, pixels.planes }, FirstPicture);
+  const float lit[] = { 1.0f, 1.0f, 1.0f, 1.0f };
+  glDepthMask(GL_TRUE);
+  glClearBufferfv(GL_COLOR, 0, lit);
+  glClearBufferfi(GL_DEPTH_STENCIL, 0, 0.0f, Asks);
+  Scope::write(-1);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_ALWAYS);
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(GL_ALWAYS, 0, ~0u);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  Scope::use(this->Receivers, draws, draws.lights[number]);
+  glUniform1i(at(this->Receivers, "svoPlaces"), FirstPicture);
+  glUniform1i(at(this->Receivers, "svoPlanes"), FirstPicture + 1);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/// CountBits volumes, and darkens what lies in some.
+void VolumeCounter::darken(const VolumeDraws& draws, int number, const Pixels& pixels)
+{
+  const VolumeDraws::OfLight& light = draws.lights[number];
+  Scope scope(*this, number, pixels.shares);
+  const std::pair<const char*, int> samplers[] = { { "svoCasters", scope.bind(draws.casters) },
+    { "svoTriangles", scope.bind(draws.triangles) }, { "svoEdges", scope.bind(draws.edges) },
+    { "svoSenses", scope.bind(draws.senses) } };
+  const auto use = [&](GLuint program)
+  {
+    Scope::use(program, draws, light);
     for (const auto& [name, unit] : samplers)
     {
       glUniform1i(at(program, name), unit);
     }
   };
-  // What volumes are compared with.
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  Scope::write(-1);
   glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_TRUE);
-  glDepthFunc(GL_ALWAYS);
-  glStencilMask(~0u);
-  const GLint none = 0;
-  glClearBufferiv(GL_STENCIL, 0, &none);
-  use(this->Receivers);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  // The volumes.
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_LESS);
   glEnable(GL_STENCIL_TEST);
-  glStencilFunc(GL_ALWAYS, 0, ~0u);
+  glStencilMask(CountBits);
+  glStencilFunc(GL_EQUAL, 0, Asks);
   for (const VolumeDraws::Way way : { VolumeDraws::Before, VolumeDraws::Behind })
   {
     const VolumeDraws::Part& part = light.parts[way];
@@ -248,12 +305,10 @@ void VolumeCounter::darken(const VolumeDraws& draws, int number, unsigned int pl
       glDrawArraysInstanced(GL_TRIANGLES, 0, corners * caps.triangles, caps.casters);
     }
   }
-  // What lies in some.
   glDisable(GL_DEPTH_TEST);
-  glStencilFunc(GL_NOTEQUAL, 0, ~0u);
+  glStencilFunc(GL_NOTEQUAL, 0, CountBits);
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-  const int plane = number % 4;
-  glColorMask(plane == 0, plane == 1, plane == 2, plane == 3);
+  Scope::write(number);
   glUseProgram(this->Dark);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }

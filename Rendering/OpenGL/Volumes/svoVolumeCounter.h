@@ -7,6 +7,7 @@
 #include "svoVolumeDraws.h"
 #include "vtkSVOOpenGLModule.h"
 
+#include <functional>
 #include <string>
 
 namespace svo
@@ -22,14 +23,24 @@ public:
   bool any() const { return this->Framebuffer != 0; }
   static constexpr int PixelBytes = 8;
 
-  /// Darkens the pixels that lie in a light's volumes: sets the number of it in `shares`, layers of
-  /// four, to 0. Pixels whose place (svoShadowMaskShader.glsl) the light's volumes do not tell
-  /// (svoVolumeReceiver.glsl) are left as they are.
-  void darken(const VolumeDraws& draws, int number, unsigned int places, unsigned int planes,
-    unsigned int shares);
+  /// What a light's number is written to: `shares`, layers of four; and what is seen, as
+  /// svoShadowMaskShader.glsl reads it.
+  struct Pixels
+  {
+    unsigned int places, planes, shares;
+  };
+  /// Has `rays` draw over the pixels whose light the volumes do not tell, or not alone, into the
+  /// framebuffer that it is given.
+  using Rays = std::function<void(unsigned int framebuffer)>;
+  /// Finds a light's number of all pixels.
+  void find(const VolumeDraws& draws, int number, const Pixels& pixels, const Rays& rays);
   void release();
 
 private:
+  class Scope;
+  void receive(const VolumeDraws& draws, int number, const Pixels& pixels);
+  void darken(const VolumeDraws& draws, int number, const Pixels& pixels);
+
   int Width = 0, Height = 0;
   unsigned int Depths = 0, Framebuffer = 0, Vertices = 0;
   unsigned int Sides = 0, Caps = 0, Receivers = 0, Dark = 0; // programs

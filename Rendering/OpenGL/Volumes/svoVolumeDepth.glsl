@@ -1,4 +1,5 @@
-// The depth of each pixel's place, as svoShadowVolume.glsl's volumes have theirs. svoUnfold.glsl and
+// The depth of each pixel's place, as svoShadowVolume.glsl's volumes have theirs; 0 where no light is to
+// come, and no fragment where a ray has to tell it. svoUnfold.glsl and
 // svoVolumeReceiver.glsl come before it.
 uniform sampler2D svoPlaces;
 uniform sampler2D svoPlanes;
@@ -12,10 +13,15 @@ void main()
   vec4 place = texelFetch(svoPlaces, pixel, 0);
   vec4 planes = 2.0 * texelFetch(svoPlanes, pixel, 0) - 1.0;
   vec3 facet = svoUnfold(planes.xy);
+  vec3 normal = svoUnfold(planes.zw);
+  bool counts = svoCountsVolumes(place, facet, normal, svoLight, svoParallel, false);
+  bool lit = place.w > -1e30 && dot(normal, svoLight.xyz - svoLight.w * place.xyz) > 0.0;
+  if (lit && !counts)
+  {
+    discard;
+  }
   float depth = -place.z;
   float gap = svoVolumeGap(place.xyz, facet, svoParallel);
   depth -= svoParallel > 0.0 ? gap : depth * gap;
-  // All of a volume lies behind 0, as often into it as out of it.
-  gl_FragDepth = svoCountsVolumes(place, facet, svoUnfold(planes.zw), svoLight, svoParallel, false)
-    ? clamp((depth - svoReach.x) / svoReach.y, 0.0, 1.0) : 0.0;
+  gl_FragDepth = counts ? clamp((depth - svoReach.x) / svoReach.y, 0.0, 1.0) : 0.0;
 }

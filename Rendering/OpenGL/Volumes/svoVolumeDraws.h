@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 namespace svo
@@ -14,6 +15,9 @@ struct VolumeDraws
 {
   unsigned int triangles = 0, edges = 0, casters = 0, senses = 0; // buffer textures
   glm::mat4 projection{ 1.0f };                                   // from view coordinates
+  /// View::origin, originX, originY, direction, directionX, directionY; view coordinates.
+  glm::vec3 rays[6];
+  bool parallel = false;
   /// The linear depth less `base` of what may be seen is at most `reach`.
   float base = 0.0f, reach = 1.0f;
 
@@ -41,6 +45,7 @@ struct VolumeDraws
     glm::vec4 light;
     Part parts[Ways];
   };
+  bool tellAll = false;        // there are no casters without a volume
   std::vector<OfLight> lights; // by number in the light's code
 };
 }

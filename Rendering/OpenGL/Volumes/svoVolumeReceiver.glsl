@@ -17,6 +17,8 @@ bool svoCountsVolumes(
   vec3 towards = normalize(light.xyz - light.w * place.xyz);
   float facing = abs(parallel > 0.0 ? facet.z : dot(facet, place.xyz) / length(place.xyz));
   // (What was traced has place.w below 0.)
+  // What bulges less than floats resolve does not.
+  bool bulges = place.w > 1e-6 * length(place.xyz);
   return place.w >= 0.0 && dot(normal, towards) > least && facing > 0.05 + least &&
-    dot(facet, towards) > (place.w > 0.0 ? svoDoubtfulSine : 0.001) + least;
+    dot(facet, towards) > (bulges ? svoDoubtfulSine : 0.001) + least;
 }
