@@ -3,8 +3,8 @@
 //
 // svoCasters has four texels a caster: the rows of the matrix that takes coordinates of the octree's
 // cube, whose middle is 0 and whose edges are 1, to view coordinates; and (where its senses begin /
-// 4096, the rest, -1 if the matrix mirrors, how far its triangles may lie beside what is drawn of
-// them). svoEdges: corners from and to, and the caster. svoSenses: LightContour::senses().
+// 4096, the rest, how far along the light, from the eye on, its volume reaches, or svoEndless, how far
+// its triangles may lie beside what is drawn of them, below 0 if the matrix mirrors). svoEdges: corners from and to, and the caster. svoSenses: LightContour::senses().
 #ifdef svoAtVertices
 uniform samplerBuffer svoCasters;
 uniform samplerBuffer svoTriangles;
@@ -21,10 +21,17 @@ vec4 svoCornerAt(int caster, int corner)
     dot(texelFetch(svoCasters, caster + 2), at), 1.0);
 }
 
-// Where the ray from the light goes on to: infinity, or in pictures of parallel rays, which would not
-// meet triangles that lie there, far away.
-vec4 svoAway(vec4 at)
+const float svoEndless = 1e37;
+
+// Where the ray from the light goes on to: the end of the volume, or infinity, or in pictures of
+// parallel rays, which would not meet triangles that lie there, far away.
+vec4 svoAway(vec4 at, float end)
 {
+  if (end < svoEndless)
+  {
+    vec3 way = -normalize(svoLight.xyz);
+    return vec4(at.xyz + (end - dot(way, at.xyz)) * way, 1.0);
+  }
   float far = svoParallel * 1e-7;
   vec3 from = svoLight.w > 0.0 ? svoLight.xyz : at.xyz;
   return vec4(far * from + svoLight.w * at.xyz - svoLight.xyz, far);
@@ -60,7 +67,7 @@ void main()
   vec4 a = svoCornerAt(caster, from);
   vec4 b = svoCornerAt(caster, from + 1);
   vec4 c = svoCornerAt(caster, from + 2);
-  bool turned = (sense == 2u) != (of.z < 0.0);
+  bool turned = (sense == 2u) != (of.w < 0.0);
   turned = turned != (corner >= 3);
   int k = corner % 3;
   vec4 at = k == 0 ? a : (k == 1) != turned ? b : c;
@@ -68,14 +75,14 @@ void main()
   svoPlane = svoPlaneOf(normal, a.xyz);
   if (corner >= 3)
   {
-    vec4 away = svoAway(a);
-    normal = cross(svoAway(b).xyz - away.xyz, svoAway(c).xyz - away.xyz);
-    svoPlane = svoParallel > 0.0 ? svoPlaneOf(normal, away.xyz / away.w) : vec4(0.0);
+    vec4 away = svoAway(a, of.z);
+    normal = cross(svoAway(b, of.z).xyz - away.xyz, svoAway(c, of.z).xyz - away.xyz);
+    svoPlane = away.w > 0.0 ? svoPlaneOf(normal, away.xyz / away.w) : vec4(0.0);
   }
   // Behind what is drawn of it.
   float side = svoParallel > 0.0 ? svoPlane.z : svoPlane.w;
-  svoPlane.w += corner < 3 ? (side < 0.0 ? -of.w : of.w) : 0.0;
-  at = corner < 3 ? at : svoAway(at);
+  svoPlane.w += corner < 3 ? (side < 0.0 ? -abs(of.w) : abs(of.w)) : 0.0;
+  at = corner < 3 ? at : svoAway(at, of.z);
   // What is left out has no size.
   gl_Position = sense == 0u ? vec4(0.0, 0.0, 0.0, 1.0) : svoShown(at);
 }
@@ -88,13 +95,14 @@ void main()
   const int ends[6] = int[6](1, 0, 2, 1, 2, 3);
   int end = ends[gl_VertexID % 6];
   int caster = int(edge.z);
-  bool mirrors = texelFetch(svoCasters, caster + 3).z < 0.0;
+  vec4 of = texelFetch(svoCasters, caster + 3);
+  bool mirrors = of.w < 0.0;
   bool from = (end == 0 || end == 2) != mirrors;
   vec4 a = svoCornerAt(caster, int(edge.x));
   vec4 b = svoCornerAt(caster, int(edge.y));
-  svoPlane = svoPlaneOf(cross(b.xyz - a.xyz, svoAway(a).xyz), a.xyz);
+  svoPlane = svoPlaneOf(cross(b.xyz - a.xyz, svoLight.w * a.xyz - svoLight.xyz), a.xyz);
   vec4 at = from ? a : b;
-  gl_Position = svoShown(end < 2 ? at : svoAway(at));
+  gl_Position = svoShown(end < 2 ? at : svoAway(at, of.z));
 }
 #endif
 

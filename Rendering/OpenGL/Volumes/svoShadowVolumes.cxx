@@ -2,6 +2,7 @@
 
 #include "svoBox.h"
 #include "svoOctreeArena.h"
+#include "svoOutline.h"
 #include "svoWorldToOctree.h"
 
 #include <algorithm>
@@ -25,6 +26,52 @@ constexpr double PlaceError = 1e-6;
 /// Boxes are wider by so much of themselves, and of the cube, where it is asked whether the eye is
 /// in their shadow.
 constexpr double BoxMargin = 0.01;
+
+/// Volumes that reach to infinity.
+constexpr double Endless = 1e300;
+constexpr float EndlessInShader = 1e37f; // as svoShadowVolume.glsl
+
+/// Where something begins along a light from infinity, and ends; world.
+struct Span
+{
+  double first = Endless, last = -Endless;
+
+  void add(double along)
+  {
+    this->first = std::min(this->first, along);
+    this->last = std::max(this->last, along);
+  }
+  void add(const Outline& outline, const Light& light)
+  {
+    for (const glm::dvec3& corner : worldCorners(outline, 0.0))
+    {
+      this->add(glm::dot(light.direction, corner));
+    }
+  }
+};
+
+/// How far along a light its volumes have to reach: to all that receives, and to the eye, which
+/// would look into them from their ends.
+double endOf(const std::vector<Outline>& outlines, const Light& light, const View& view)
+{
+  if (!light.atInfinity() || (view.parallel && glm::dot(light.direction, view.axis) < 0.0))
+  {
+    return Endless;
+  }
+  Span span;
+  for (const Outline& outline : outlines)
+  {
+    if (outline.receives)
+    {
+      span.add(outline, light);
+    }
+  }
+  if (!view.parallel)
+  {
+    span.add(glm::dot(light.direction, view.eye));
+  }
+  return span.last + BoxMargin * std::max(span.last - span.first, 0.0);
+}
 
 /// True if the way from one homogeneous point to another, of which at most one may be at infinity,
 /// meets a box. Two that are: whether they are almost the same but for their sign.
@@ -132,9 +179,11 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
   const std::vector<CasterInMemory>& casters, const View& view, const std::vector<int>& lights)
 {
   std::vector<Volume> volumes;
+  const std::vector<Outline> outlines = outlinesOf(scene);
   for (std::size_t number = 0; number < lights.size(); ++number)
   {
     const Light& light = scene.lights[lights[number]];
+    const double lastSeen = endOf(outlines, light, view);
     for (const CasterInMemory& caster : casters)
     {
       const Instance& instance = scene.instances[caster.instance];
@@ -148,6 +197,18 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
                                                : glm::dvec4(to.point(light.position), 1.0);
       const glm::dvec4 eye = view.parallel ? glm::dvec4(to.vector(-view.axis), 0.0)
                                            : glm::dvec4(to.point(view.eye), 1.0);
+      double end = lastSeen;
+      if (end < Endless)
+      {
+        Span span;
+        span.add(outlines[caster.instance], light);
+        if (span.first > lastSeen)
+        {
+          continue; // nothing lies behind it
+        }
+        end = std::max(lastSeen, span.last + BoxMargin * (span.last - span.first)) -
+          glm::dot(light.direction, view.eye);
+      }
       std::pair<std::uint64_t, std::uint64_t> key(instance.id, light.id);
       while (this->Kept[key].current)
       {
@@ -157,7 +218,7 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
       seen.current = true;
       const bool inside = meets(wideBox(octree, to), eye, at);
       volumes.push_back(
-        { &instance, number, at, inside ? VolumeDraws::Behind : VolumeDraws::Before, &seen });
+        { &instance, number, at, end, inside ? VolumeDraws::Behind : VolumeDraws::Before, &seen });
     }
   }
   std::stable_sort(volumes.begin(), volumes.end(),
@@ -328,8 +389,12 @@ bool ShadowVolumes::aim(const std::vector<Volume>& volumes, const View& view)
     }
     const double edge =
       std::max({ glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2]) });
+    const double error = PlaceError * edge;
+    const bool mirrors = glm::determinant(linear) < 0.0;
+    const double end = volumes[i].end;
     texels.emplace_back(inFloats(this->FirstSenses[i]),
-      glm::determinant(linear) < 0.0 ? -1.0f : 1.0f, static_cast<float>(PlaceError * edge));
+      end < Endless ? static_cast<float>(end) : EndlessInShader,
+      static_cast<float>(mirrors ? -error : error));
   }
   if (texels == this->Aimed)
   {

@@ -57,7 +57,7 @@ bool knowsMeshBox(const Outline& outline);
 
 /// Corners of the mesh's box, `margin` (local units) wider on all sides but never beyond the
 /// octree's cube, in the world; of the cube where there is no such box.
-std::array<glm::dvec3, 8> worldCorners(const Outline& outline, double margin);
+VTKSVOTRACING_EXPORT std::array<glm::dvec3, 8> worldCorners(const Outline& outline, double margin);
 }
 
 #endif
