@@ -179,6 +179,18 @@ int TestSVOShadowVolumes(int, char*[])
     addSolids(stage);
     stage.addSun(3.0, -2.0, 4.0);
     compare("a sun", stage, 10, checks);
+    vtkActorCollection* actors = stage.renderer->GetActors();
+    actors->InitTraversal();
+    while (vtkActor* actor = actors->GetNextActor())
+    {
+      actor->GetProperty()->EdgeVisibilityOn(); // facets are drawn wider
+    }
+    compare("with edges", stage, 60, checks);
+    actors->InitTraversal();
+    while (vtkActor* actor = actors->GetNextActor())
+    {
+      actor->GetProperty()->EdgeVisibilityOff();
+    }
     stage.renderer->GetActiveCamera()->ParallelProjectionOn();
     stage.renderer->GetActiveCamera()->SetParallelScale(2.5);
     compare("parallel", stage, 10, checks);

@@ -16,10 +16,28 @@
 
 namespace svotest
 {
-bool drawnByOpenGL()
+namespace
+{
+std::string_view testedBackend()
 {
   const char* backend = std::getenv("VTKSVO_TEST_BACKEND");
-  return backend && backend == std::string_view("OpenGL");
+  return backend ? backend : "";
+}
+}
+
+bool drawnByOpenGL()
+{
+  return testedBackend() == "OpenGL" || testedBackend() == "Volumes";
+}
+
+namespace
+{
+void chooseShadows(vtkSVORenderPass* pass)
+{
+  testedBackend() == "Volumes" ? pass->SetShadowTechniqueToShadowVolumes()
+    : drawnByOpenGL()          ? pass->SetShadowTechniqueToAutomatic()
+                               : pass->SetShadowTechniqueToShadowBuffer();
+}
 }
 
 void chooseBackend(vtkSVORenderPass* pass)
@@ -27,7 +45,7 @@ void chooseBackend(vtkSVORenderPass* pass)
   if (drawnByOpenGL())
   {
     pass->SetBackendToOpenGL();
-    pass->SetShadowTechniqueToAutomatic();
+    chooseShadows(pass);
   }
 }
 
@@ -156,8 +174,7 @@ Picture Stage::unshadowed()
 
 Picture Stage::shadowed()
 {
-  drawnByOpenGL() ? this->pass->SetShadowTechniqueToAutomatic()
-                  : this->pass->SetShadowTechniqueToShadowBuffer();
+  chooseShadows(this->pass);
   return capture(this->window);
 }
 

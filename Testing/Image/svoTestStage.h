@@ -18,7 +18,7 @@ namespace svotest
 {
 /// Whether tests are to be drawn by OpenGL, VTKSVO_TEST_BACKEND=OpenGL in the environment: VTK
 /// draws all, nothing is traced for the eye, and octrees answer for the light, by rays in its
-/// shaders.
+/// shaders; or with VTKSVO_TEST_BACKEND=Volumes shadow volumes do.
 bool drawnByOpenGL();
 /// Has a pass draw so, if that is so. Those of stages do.
 void chooseBackend(vtkSVORenderPass* pass);

@@ -432,6 +432,8 @@ std::string OpenGLTracer::describeVolumes(const Scene& scene, const View& view,
            "lights find the same shadows.";
   }
   code.constants += "#define svoHasVolumes\n";
+  const glm::vec3* rays = code.volumes->rays;
+  code.floats.push_back({ "svoPixelRays", 3, { &rays[0].x, &rays[0].x + 18 } });
   code.floats.push_back({ "svoParallel", 1, { view.parallel ? 1.0f : 0.0f } });
   return {};
 }

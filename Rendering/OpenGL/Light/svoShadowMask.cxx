@@ -2,6 +2,7 @@
 
 #include "svoMaskLookup.h"
 #include "svoOpenGL.h"
+#include "svoPixelRay.h"
 #include "svoReceivers.h"
 #include "svoSampleLookup.h"
 #include "svoSampleMeans.h"
@@ -53,7 +54,7 @@ std::string maskText(const LightCode& asked)
     (asked.sampled.empty() ? asked.text
                            : "#define rgba8 rgba16\n" + renamed(asked, "svoLeftByRay") +
           svoSkyShader + svoSampleMeans) +
-    (asked.volumes ? svoVolumeReceiver : "") + svoShadowMaskShader;
+    (asked.volumes ? std::string(svoPixelRay) + svoVolumeReceiver : "") + svoShadowMaskShader;
 }
 }
 

@@ -23,6 +23,10 @@ void sendUniforms(unsigned int program, const ShaderValues& code)
     {
       glUniform4fv(at, count, entry.values.data());
     }
+    else if (entry.components == 3)
+    {
+      glUniform3fv(at, count, entry.values.data());
+    }
     else
     {
       glUniform1fv(at, count, entry.values.data());

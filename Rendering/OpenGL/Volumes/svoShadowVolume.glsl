@@ -110,16 +110,12 @@ void main()
 // Depths are those of planes at pixels' rays: what is interpolated over triangles that reach from behind
 // the eye to infinity has no digits.
 uniform vec2 svoReach; // VolumeDraws: base, reach
-uniform vec3 svoRays[6]; // of the picture, at pixel 0, 0, and more at each to the right and up: where
-                         // they begin, and their ways, of depth 1
 flat in vec4 svoPlane;
 
 void main()
 {
-  vec2 pixel = gl_FragCoord.xy;
-  vec3 from = svoRays[0] + pixel.x * svoRays[1] + pixel.y * svoRays[2];
-  vec3 way = svoRays[3] + pixel.x * svoRays[4] + pixel.y * svoRays[5];
-  float depth = -(dot(svoPlane.xyz, from) + svoPlane.w) / dot(svoPlane.xyz, way);
+  float depth = -(dot(svoPlane.xyz, svoRayBegins(gl_FragCoord.xy)) + svoPlane.w) /
+    dot(svoPlane.xyz, svoRayWay(gl_FragCoord.xy));
   gl_FragDepth = svoPlane.xyz == vec3(0.0) ? 1.0 : clamp((depth - svoReach.x) / svoReach.y, 0.0, 1.0);
 }
 #endif

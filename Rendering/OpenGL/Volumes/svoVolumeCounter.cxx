@@ -2,6 +2,7 @@
 
 #include "svoKeptState.h"
 #include "svoOpenGL.h"
+#include "svoPixelRay.h"
 #include "svoProgram.h"
 #include "svoShadowVolume.h"
 #include "svoTerminator.h"
@@ -131,7 +132,7 @@ bool VolumeCounter::link(std::string& words)
     const std::string constants = "#version 150\n#define svoCaps " + std::to_string(caps) + "\n";
     return linkProgram(
       { { GL_VERTEX_SHADER, constants + "#define svoAtVertices\n" + svoShadowVolume },
-        { GL_FRAGMENT_SHADER, constants + svoShadowVolume } },
+        { GL_FRAGMENT_SHADER, constants + svoPixelRay + svoShadowVolume } },
       words);
   };
   std::ostringstream constants;
@@ -148,7 +149,7 @@ bool VolumeCounter::link(std::string& words)
   this->Caps = link(volume(1));
   this->Receivers = link(linkProgram(
     { { GL_VERTEX_SHADER, AllPixels },
-      { GL_FRAGMENT_SHADER, constants.str() + svoUnfold + svoVolumeReceiver + svoVolumeDepth } },
+      { GL_FRAGMENT_SHADER, constants.str() + svoUnfold + svoPixelRay + svoVolumeReceiver + svoVolumeDepth } },
     words));
   this->Dark =
     link(linkProgram({ { GL_VERTEX_SHADER, AllPixels }, { GL_FRAGMENT_SHADER, Zero } }, words));
@@ -212,7 +213,7 @@ public:
     glUniform4fv(at(program, "svoLight"), 1, glm::value_ptr(light.light));
     glUniform2f(at(program, "svoReach"), draws.base, draws.reach);
     glUniform1f(at(program, "svoParallel"), draws.parallel ? 1.0f : 0.0f);
-    glUniform3fv(at(program, "svoRays"), 6, glm::value_ptr(draws.rays[0]));
+    glUniform3fv(at(program, "svoPixelRays"), 6, glm::value_ptr(draws.rays[0]));
     glUniformMatrix4fv(at(program, "svoProjection"), 1, GL_FALSE, glm::value_ptr(draws.projection));
   }
 

@@ -20,8 +20,6 @@ void main()
   {
     discard;
   }
-  float depth = -place.z;
-  float gap = svoVolumeGap(place.xyz, facet, svoParallel);
-  depth -= svoParallel > 0.0 ? gap : depth * gap;
+  float depth = svoVolumeDepth(place.xyz, facet);
   gl_FragDepth = counts ? clamp((depth - svoReach.x) / svoReach.y, 0.0, 1.0) : 0.0;
 }

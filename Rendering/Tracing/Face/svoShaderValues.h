@@ -26,7 +26,7 @@ struct ShaderValues
   struct Floats
   {
     const char* name;
-    int components; // of each: 1, 4, or 16 of a matrix, column by column
+    int components; // of each: 1, 3, 4, or 16 of a matrix, column by column
     std::vector<float> values;
   };
   std::vector<Integers> integers;
