@@ -258,6 +258,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Answers = asked && this->Code.complaint.empty();
   if (!this->Answers)
   {
+    this->Volumes.release();
     FrameSettings others = settings;
     others.lightCode = false;
     this->Other->render(scene, view, others, parallelFor);

@@ -1,8 +1,8 @@
 #include "svoShadowVolumes.h"
 
-#include "svoBox.h"
 #include "svoOctreeArena.h"
 #include "svoOutline.h"
+#include "svoVolumeReach.h"
 #include "svoWorldToOctree.h"
 
 #include <algorithm>
@@ -23,99 +23,7 @@ constexpr std::size_t TexelsOfCaster = 4; // as svoShadowVolume.glsl
 
 /// How far triangles may lie beside what VTK draws of them, edges of the octree's cube.
 constexpr double PlaceError = 1e-6;
-/// Boxes are wider by so much of themselves, and of the cube, where it is asked whether the eye is
-/// in their shadow.
-constexpr double BoxMargin = 0.01;
-
-/// Volumes that reach to infinity.
-constexpr double Endless = 1e300;
 constexpr float EndlessInShader = 1e37f; // as svoShadowVolume.glsl
-
-/// Where something begins along a light from infinity, and ends; world.
-struct Span
-{
-  double first = Endless, last = -Endless;
-
-  void add(double along)
-  {
-    this->first = std::min(this->first, along);
-    this->last = std::max(this->last, along);
-  }
-  void add(const Outline& outline, const Light& light)
-  {
-    for (const glm::dvec3& corner : worldCorners(outline, 0.0))
-    {
-      this->add(glm::dot(light.direction, corner));
-    }
-  }
-};
-
-/// How far along a light its volumes have to reach: to all that receives, and to the eye, which
-/// would look into them from their ends.
-double endOf(const std::vector<Outline>& outlines, const Light& light, const View& view)
-{
-  if (!light.atInfinity() || (view.parallel && glm::dot(light.direction, view.axis) < 0.0))
-  {
-    return Endless;
-  }
-  Span span;
-  for (const Outline& outline : outlines)
-  {
-    if (outline.receives)
-    {
-      span.add(outline, light);
-    }
-  }
-  if (!view.parallel)
-  {
-    span.add(glm::dot(light.direction, view.eye));
-  }
-  return span.last + BoxMargin * std::max(span.last - span.first, 0.0);
-}
-
-/// True if the way from one homogeneous point to another, of which at most one may be at infinity,
-/// meets a box. Two that are: whether they are almost the same but for their sign.
-bool meets(const Box& box, const glm::dvec4& from, const glm::dvec4& to)
-{
-  if (from.w == 0.0 && to.w == 0.0)
-  {
-    const glm::dvec3 a(from), b(to);
-    return glm::dot(a, b) < -0.9999 * glm::length(a) * glm::length(b);
-  }
-  const glm::dvec3 start(from.w != 0.0 ? from : to);
-  const glm::dvec3 way = from.w == 0.0 ? glm::dvec3(from)
-    : to.w == 0.0                      ? glm::dvec3(to)
-                                       : glm::dvec3(to) - start;
-  double first = 0.0, last = from.w != 0.0 && to.w != 0.0 ? 1.0 : 1e300;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double low = box.low[axis] - start[axis], high = box.high[axis] - start[axis];
-    if (way[axis] == 0.0)
-    {
-      last = low > 0.0 || high < 0.0 ? -1.0 : last;
-      continue;
-    }
-    first = std::max(first, std::min(low / way[axis], high / way[axis]));
-    last = std::min(last, std::max(low / way[axis], high / way[axis]));
-  }
-  return first <= last;
-}
-
-/// Of an octree's mesh, wider by the margin; octree coordinates.
-Box wideBox(const Octree& octree, const WorldToOctree& to)
-{
-  const double* bounds = octree.header().meshBounds;
-  const auto corner = [&](int side)
-  {
-    return 1.0 +
-      (glm::dvec3(bounds[side], bounds[2 + side], bounds[4 + side]) - to.origin) * to.scale;
-  };
-  Box box{ corner(0), corner(1) };
-  const glm::dvec3 margin = BoxMargin * (0.1 + box.high - box.low);
-  box.low -= margin;
-  box.high += margin;
-  return box;
-}
 
 /// Has room for so many.
 bool hasRoom(BufferTexture& texture, std::size_t texels)
@@ -183,32 +91,17 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
   for (std::size_t number = 0; number < lights.size(); ++number)
   {
     const Light& light = scene.lights[lights[number]];
-    const double lastSeen = endOf(outlines, light, view);
+    const VolumeReach reach(outlines, light, view);
     for (const CasterInMemory& caster : casters)
     {
       const Instance& instance = scene.instances[caster.instance];
-      if (!hasVolume(instance))
+      const Outline& outline = outlines[caster.instance];
+      if (!hasVolume(instance) || !reach.casts(outline))
       {
         continue;
       }
       const Octree& octree = instance.body->octree;
       const WorldToOctree to(octree, instance.localToWorld);
-      const glm::dvec4 at = light.atInfinity() ? glm::dvec4(to.vector(-light.direction), 0.0)
-                                               : glm::dvec4(to.point(light.position), 1.0);
-      const glm::dvec4 eye = view.parallel ? glm::dvec4(to.vector(-view.axis), 0.0)
-                                           : glm::dvec4(to.point(view.eye), 1.0);
-      double end = lastSeen;
-      if (end < Endless)
-      {
-        Span span;
-        span.add(outlines[caster.instance], light);
-        if (span.first > lastSeen)
-        {
-          continue; // nothing lies behind it
-        }
-        end = std::max(lastSeen, span.last + BoxMargin * (span.last - span.first)) -
-          glm::dot(light.direction, view.eye);
-      }
       std::pair<std::uint64_t, std::uint64_t> key(instance.id, light.id);
       while (this->Kept[key].current)
       {
@@ -216,9 +109,8 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
       }
       Seen& seen = this->Kept[key];
       seen.current = true;
-      const bool inside = meets(wideBox(octree, to), eye, at);
-      volumes.push_back(
-        { &instance, number, at, end, inside ? VolumeDraws::Behind : VolumeDraws::Before, &seen });
+      volumes.push_back({ &instance, number, placeOf(light, to), reach.end(outline),
+        reach.way(octree, to), &seen });
     }
   }
   std::stable_sort(volumes.begin(), volumes.end(),
@@ -393,7 +285,7 @@ bool ShadowVolumes::aim(const std::vector<Volume>& volumes, const View& view)
     const bool mirrors = glm::determinant(linear) < 0.0;
     const double end = volumes[i].end;
     texels.emplace_back(inFloats(this->FirstSenses[i]),
-      end < Endless ? static_cast<float>(end) : EndlessInShader,
+      end < VolumeReach::Endless ? static_cast<float>(end) : EndlessInShader,
       static_cast<float>(mirrors ? -error : error));
   }
   if (texels == this->Aimed)

@@ -67,7 +67,7 @@ private:
     const Instance* instance;
     std::size_t number; // of the light
     glm::dvec4 light;   // octree coordinates
-    double end;         // how far along the light it reaches, from the eye on, world; Endless
+    double end; // how far along the light it reaches, from the eye on, world; VolumeReach::Endless
     VolumeDraws::Way way;
     Seen* seen;
   };

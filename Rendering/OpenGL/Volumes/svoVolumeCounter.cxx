@@ -149,7 +149,8 @@ bool VolumeCounter::link(std::string& words)
   this->Caps = link(volume(1));
   this->Receivers = link(linkProgram(
     { { GL_VERTEX_SHADER, AllPixels },
-      { GL_FRAGMENT_SHADER, constants.str() + svoUnfold + svoPixelRay + svoVolumeReceiver + svoVolumeDepth } },
+      { GL_FRAGMENT_SHADER,
+        constants.str() + svoUnfold + svoPixelRay + svoVolumeReceiver + svoVolumeDepth } },
     words));
   this->Dark =
     link(linkProgram({ { GL_VERTEX_SHADER, AllPixels }, { GL_FRAGMENT_SHADER, Zero } }, words));

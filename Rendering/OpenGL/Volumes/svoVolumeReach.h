@@ -1,0 +1,45 @@
+// How far the shadow volumes of a light reach, and from which side the eye counts them.
+#ifndef svoVolumeReach_h
+#define svoVolumeReach_h
+
+#include "svoLight.h"
+#include "svoOctree.h"
+#include "svoOutline.h"
+#include "svoView.h"
+#include "svoVolumeDraws.h"
+#include "svoWorldToOctree.h"
+
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+namespace svo
+{
+/// A light's place in an octree's coordinates, and 1; or the way towards it, and 0.
+glm::dvec4 placeOf(const Light& light, const WorldToOctree& to);
+
+/// Of the volumes of one light in a frame.
+class VolumeReach
+{
+public:
+  static constexpr double Endless = 1e300;
+
+  /// Volumes have to reach to all that receives, and to the eye, which would look into them from
+  /// their ends; those of a light with a place are endless.
+  VolumeReach(const std::vector<Outline>& outlines, const Light& light, const View& view);
+
+  /// False if nothing lies behind a caster.
+  bool casts(const Outline& caster) const;
+  /// How far along the light, from the eye on, a caster's volume reaches, world; Endless.
+  double end(const Outline& caster) const;
+  /// By the sides behind where the eye may be in the caster's shadow.
+  VolumeDraws::Way way(const Octree& octree, const WorldToOctree& to) const;
+
+private:
+  const Light& Of;
+  const View& Eye;
+  double Last; // along the light, world
+};
+}
+
+#endif
