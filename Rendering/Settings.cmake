@@ -36,7 +36,7 @@ vtksvo_setting(ShadowTechnique choice SHADOW_BUFFER
     "How shadows are found: not at all, by a shadow buffer per light that is traced like the picture itself, or by one
      ray from each visible point to each light, which is exact. Automatic takes buffers, wherever the data lies, and rays
      with the OpenGL backend, if a GPU has them as fast as the CPU. Shadow volumes are as exact as rays: OpenGL draws them, in
-     frames that it makes, from the edges between what of a caster faces the light and what does not."
+     frames that it makes, from the edges between what of a caster faces the light and what does not. (A point behind exactly 128 surfaces counts as lit.)"
   MORE
     "Where everything moves a frame with rays takes 1.5 times one with buffers (ten objects of 17 000 triangles, 2.6
      times of 1.1 million each, 0.7 times in small windows with few objects of millions). Where little moves buffers are

@@ -81,11 +81,6 @@ bool vtkSVORenderPass::CollectFrame(
     const bool chosen =
       automatic && (volumes ? this->MayDrawVolumes(frame) : this->MayPreferOpenGL(frame, byRays));
     frame.openGL = chosen ? !planes : this->Backend == BACKEND_OPENGL;
-    frame.tellOnce(volumes && !frame.openGL
-        ? "OpenGL draws shadow volumes, and the CPU makes this picture: exact rays find the same "
-          "shadows. SetBackendToAuto() or SetBackendToOpenGL() has OpenGL draw."
-        : "",
-      impl.said);
     const bool rays = frame.openGL &&
       (byRays ||
         (this->ShadowTechnique == SHADOW_AUTOMATIC &&
@@ -134,6 +129,14 @@ bool vtkSVORenderPass::CollectFrame(
     return false;
   }
   renderer->GetRenderWindow()->MakeCurrent(); // pipelines may have had others drawn
+  if (this->ShadowTechnique == SHADOW_VOLUMES && !frame.openGL)
+  {
+    frame.tellOnce(
+      std::string("OpenGL draws shadow volumes, and the CPU makes this picture: exact rays "
+                  "find the same shadows.") +
+        (this->Backend == BACKEND_CPU ? " SetBackendToAuto() has OpenGL draw." : ""),
+      impl.said);
+  }
   const svo::CollectedScene& collected = frame.state->collected();
   const auto text = [this](bool wanted, int what)
   { return wanted ? this->GetText(what, nullptr) : std::string(); };

@@ -27,6 +27,7 @@
 #include <locale>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -159,8 +160,7 @@ private:
   std::string hold(const Scene& scene, std::size_t limit);
   std::size_t bytesOfScene() const
   {
-    return this->Octrees.bytes() + this->Casters.bytes() + this->Seen.bytes() +
-      this->Volumes.bytes();
+    return this->Octrees.bytes() + this->Casters.bytes() + this->Seen.bytes();
   }
   void describe(const Scene& scene, const View& view, const FrameSettings& settings,
     const std::string& constants);
@@ -179,8 +179,9 @@ private:
   ShaderCasters Casters;
   DrawnMaps Drawn;
   ShadowVolumes Volumes;
-  BufferTexture Sky{ BufferTexture::Texel::Float }; // the picture's table
-  std::uint64_t SkyOf = 0;                          // its version
+  std::tuple<std::uint64_t, std::size_t, int, int> TooMuch; // of a frame whose volumes did not fit
+  BufferTexture Sky{ BufferTexture::Texel::Float };         // the picture's table
+  std::uint64_t SkyOf = 0;                                  // its version
 
   std::uint64_t Version = 0; // of the scene whose octrees are there
   std::size_t Limit = 0;     // that they were to keep
@@ -236,7 +237,8 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
       whyNot = this->prepare(scene, view, settings, maps);
       const std::size_t mask = (lights > 0 && !maps) || sampled > 0
         ? ShadowMask::bytesOf(view.width, view.height,
-            static_cast<int>(lights) + settings.ambientOcclusion + 3 * settings.skyLight, sampled)
+            static_cast<int>(lights) + settings.ambientOcclusion + 3 * settings.skyLight, sampled,
+            false, settings.shadowVolumes)
         : 0;
       if (this->Octrees.holdsOthers() &&
         (!whyNot.empty() || this->bytesOfScene() + mask > settings.gpuMemoryLimit))
@@ -296,7 +298,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Statistics.retracedLayers = this->Drawn.drawn();
   this->Drawn.widths().tell(this->Statistics);
   this->Statistics.shadowMemory = this->Drawn.mapBytes();
-  this->Statistics.gpuMemory = this->bytesOfScene() + this->Drawn.bytes();
+  this->Statistics.gpuMemory = this->bytesOfScene() + this->Volumes.bytes() + this->Drawn.bytes();
   this->Statistics.largestGap = this->Casters.largestGap(view);
 }
 
@@ -421,14 +423,31 @@ std::string OpenGLTracer::describeVolumes(const Scene& scene, const View& view,
   if (!code.sampled.empty())
   {
     return "Lights with a size, ambient occlusion and skies are sampled by rays, and so is all "
-           "light: "
-           "there are no shadow volumes.";
+           "light: there are no shadow volumes.";
   }
-  code.volumes = this->Volumes.place(
-    scene, this->Casters.known(), this->Octrees, view, settings, code.lights, parallelFor);
-  if (!code.volumes || this->bytesOfScene() > settings.gpuMemoryLimit)
+  if (!view.plain)
   {
-    code.volumes = nullptr;
+    return "Shadow volumes are counted from where the eye is, and this camera's matrices have "
+           "none: "
+           "rays to the lights find the same shadows.";
+  }
+  // What did not fit is not made again to find that out.
+  const auto asked =
+    std::make_tuple(scene.version, settings.gpuMemoryLimit, view.width, view.height);
+  if (scene.version == 0 || asked != this->TooMuch)
+  {
+    const std::size_t mask =
+      ShadowMask::bytesOf(view.width, view.height, code.count(), 0, false, true);
+    code.volumes = this->Volumes.place(
+      scene, this->Casters.known(), this->Octrees, view, settings, code.lights, parallelFor);
+    if (this->bytesOfScene() + this->Volumes.bytes() + mask > settings.gpuMemoryLimit)
+    {
+      code.volumes = nullptr;
+    }
+    this->TooMuch = code.volumes ? decltype(this->TooMuch)() : asked;
+  }
+  if (!code.volumes)
+  {
     return "Shadow volumes do not fit into OpenGL's memory, or into GPUMemoryLimit: rays to the "
            "lights find the same shadows.";
   }

@@ -209,6 +209,17 @@ void ShadowMask::compare(
   this->Changed = differenceOf(before, this->read(), planes, places);
 }
 
+bool ShadowMask::acceptsVolumes()
+{
+  std::string words;
+  if (this->VolumeRefusal.empty() && !this->Counter.link(words))
+  {
+    this->VolumeRefusal = "OpenGL refuses the shaders of shadow volumes (" + words +
+      "): rays to the lights find the same shadows.";
+  }
+  return this->VolumeRefusal.empty();
+}
+
 bool ShadowMask::accepts(const LightCode& code)
 {
   if (code.empty() || !code.costly)
@@ -238,8 +249,7 @@ bool ShadowMask::link(const LightCode& asked, bool computes)
   std::string words;
   this->Refusal.clear();
   if (!this->Program.link(maskText(asked), computes, words) ||
-    (!asked.sampled.empty() && !this->Samples.link(asked, computes, words)) ||
-    (asked.volumes && !this->Counter.link(words)))
+    (!asked.sampled.empty() && !this->Samples.link(asked, computes, words)))
   {
     this->Program.release();
     this->Refusal = "OpenGL refuses the shader of rays to lights (" + words +
@@ -281,7 +291,7 @@ bool ShadowMask::resize(
   complete = complete && glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(before));
   complete = this->Samples.resize(width, rows, sampled) && complete;
-  complete = this->Counter.resize(counts ? width : 0, counts ? rows : 0) && complete;
+  complete = this->Counter.resize(counts ? width : 0, counts ? rows : 0, this->Shares) && complete;
   if (!complete || glGetError() != GL_NO_ERROR)
   {
     this->releaseTextures();
@@ -319,7 +329,7 @@ void ShadowMask::releaseTextures()
   this->Changed = -1.0;
   this->Surfaces.resize(0, 0);
   this->Samples.resize(0, 0, 0);
-  this->Counter.resize(0, 0);
+  this->Counter.resize(0, 0, 0);
 }
 
 void ShadowMask::release()
@@ -330,6 +340,7 @@ void ShadowMask::release()
   this->Counter.release();
   this->Text = nullptr;
   this->Refusal.clear();
+  this->VolumeRefusal.clear();
   this->Code = LightCode();
 }
 }

@@ -37,6 +37,9 @@ public:
   /// sentence, until release(): VTK's own shaders, which have the same code in them, would fail.
   bool accepts(const LightCode& code);
   const std::string& refusal() const { return this->Refusal; }
+  /// The same of what counts shadow volumes (LightCode::volumes), without which there is all else.
+  bool acceptsVolumes();
+  const std::string& volumeRefusal() const { return this->VolumeRefusal; }
 
   /// For a frame of so many pixels: code that looks up what find() will find of the code `asked`,
   /// until the next call. With `others` there are fragments that the mask says nothing of, parts of
@@ -80,7 +83,7 @@ private:
   PixelProgram Program;
   LightSamples Samples;
   VolumeCounter Counter;
-  std::string Refusal;
+  std::string Refusal, VolumeRefusal;
   // The code that the program asks:
   std::string Constants;
   const char* Text = nullptr;

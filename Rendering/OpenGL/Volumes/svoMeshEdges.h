@@ -32,9 +32,10 @@ struct VTKSVOOPENGL_EXPORT MeshEdges
     /// Twice the index of an edge, and 1 if the triangle goes along it from `to` to `from`; None of
     /// those that join a point with itself.
     std::uint32_t edges[3];
-    /// Its part of the mesh is closed, and wound so that its triangles are seen from outside: who
-    /// is in the way of a ray from inside or from behind is told by the triangles that face the
-    /// light.
+    /// Its part of the mesh is closed, and wound so that its triangles are seen from outside: what
+    /// is in the way of a ray from behind is told by the triangles that face the light. By its
+    /// volume: of a part that turns itself inside out somewhere, that lobe's own inside is not
+    /// told.
     bool solid;
   };
   std::vector<Face> faces;

@@ -12,6 +12,7 @@ uniform vec4 svoLight; // view coordinates: towards it, 0, or its place, 1
 uniform mat4 svoProjection;
 uniform float svoParallel; // 1: rays of the picture are parallel
 uniform int svoFirst;
+invariant gl_Position; // of sides and caps, whose programs are two
 flat out vec4 svoPlane; // of the triangle, view coordinates, unit; 0: it is far away
 
 vec4 svoCornerAt(int caster, int corner)
@@ -46,7 +47,7 @@ vec4 svoShown(vec4 at)
 
 vec4 svoPlaneOf(vec3 normal, vec3 at)
 {
-  normal = normalize(normal);
+  normal /= max(length(normal), 1e-30);
   return vec4(normal, -dot(normal, at));
 }
 
@@ -73,11 +74,15 @@ void main()
   vec4 at = k == 0 ? a : (k == 1) != turned ? b : c;
   vec3 normal = cross(b.xyz - a.xyz, c.xyz - a.xyz);
   svoPlane = svoPlaneOf(normal, a.xyz);
-  if (corner >= 3)
+  if (corner >= 3 && of.z < svoEndless)
+  {
+    svoPlane = vec4(-normalize(svoLight.xyz), -of.z);
+  }
+  else if (corner >= 3)
   {
     vec4 away = svoAway(a, of.z);
     normal = cross(svoAway(b, of.z).xyz - away.xyz, svoAway(c, of.z).xyz - away.xyz);
-    svoPlane = away.w > 0.0 ? svoPlaneOf(normal, away.xyz / away.w) : vec4(0.0);
+    svoPlane = svoParallel > 0.0 ? svoPlaneOf(normal, away.xyz / away.w) : vec4(0.0);
   }
   // Behind what is drawn of it.
   float side = svoParallel > 0.0 ? svoPlane.z : svoPlane.w;

@@ -25,6 +25,9 @@ constexpr std::size_t TexelsOfCaster = 4; // as svoShadowVolume.glsl
 constexpr double PlaceError = 1e-6;
 constexpr float EndlessInShader = 1e37f; // as svoShadowVolume.glsl
 
+/// Depths that floats tell apart, and whose squares are numbers.
+constexpr double Farthest = 1e15;
+
 /// Has room for so many.
 bool hasRoom(BufferTexture& texture, std::size_t texels)
 {
@@ -43,7 +46,7 @@ std::shared_ptr<const VolumeDraws> ShadowVolumes::place(const Scene& scene,
   const std::vector<CasterInMemory>& casters, const OctreeArena& arena, const View& view,
   const FrameSettings& settings, const std::vector<int>& lights, const ParallelFor& parallelFor)
 {
-  const std::vector<Volume> volumes = this->gather(scene, casters, view, lights);
+  const std::vector<Volume> volumes = this->gather(scene, casters, view, settings, lights);
   this->see(volumes, settings, parallelFor);
   auto draws = std::make_shared<VolumeDraws>();
   draws->tellAll = std::all_of(casters.begin(), casters.end(),
@@ -56,7 +59,7 @@ std::shared_ptr<const VolumeDraws> ShadowVolumes::place(const Scene& scene,
   draws->lights = this->Ranges;
   draws->lights.resize(lights.size());
   const double base = view.parallel ? view.tNear : 0.0;
-  const double reach = view.tFar - base;
+  const double reach = std::min(view.tFar - base, Farthest);
   const glm::dmat3 turned(view.worldToView);
   for (std::size_t number = 0; number < lights.size(); ++number)
   {
@@ -84,19 +87,22 @@ std::shared_ptr<const VolumeDraws> ShadowVolumes::place(const Scene& scene,
 
 /// All volumes, in the order in which they are drawn, those of copies of a mesh together.
 std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
-  const std::vector<CasterInMemory>& casters, const View& view, const std::vector<int>& lights)
+  const std::vector<CasterInMemory>& casters, const View& view, const FrameSettings& settings,
+  const std::vector<int>& lights)
 {
   std::vector<Volume> volumes;
-  const std::vector<Outline> outlines = outlinesOf(scene);
+  const bool suns = std::any_of(
+    lights.begin(), lights.end(), [&scene](int light) { return scene.lights[light].atInfinity(); });
+  const std::vector<Outline> outlines = suns ? outlinesOf(scene) : std::vector<Outline>();
   for (std::size_t number = 0; number < lights.size(); ++number)
   {
     const Light& light = scene.lights[lights[number]];
-    const VolumeReach reach(outlines, light, view);
+    const VolumeReach reach(outlines, light, view, settings.wholeShadowBuffers);
     for (const CasterInMemory& caster : casters)
     {
       const Instance& instance = scene.instances[caster.instance];
-      const Outline& outline = outlines[caster.instance];
-      if (!hasVolume(instance) || !reach.casts(outline))
+      double end;
+      if (!hasVolume(instance) || !reach.find(caster.instance, end))
       {
         continue;
       }
@@ -109,8 +115,8 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
       }
       Seen& seen = this->Kept[key];
       seen.current = true;
-      volumes.push_back({ &instance, number, placeOf(light, to), reach.end(outline),
-        reach.way(octree, to), &seen });
+      volumes.push_back(
+        { &instance, number, placeOf(light, to), end, reach.way(octree, to), &seen });
     }
   }
   std::stable_sort(volumes.begin(), volumes.end(),
@@ -156,18 +162,21 @@ void ShadowVolumes::see(
     {
       for (std::size_t i = first; i < last; ++i)
       {
-        this->see(volumes[i]);
+        this->see(volumes[i], settings.frameCoherence);
       }
     });
   this->Volumes = volumes.size();
-  this->ContourEdges = this->Asked = 0;
+  this->ContourEdges = 0;
   std::size_t bytes = 0;
+  for (const auto& [id, mesh] : this->Meshes)
+  {
+    bytes += mesh->bytes();
+  }
   for (const Volume& volume : volumes)
   {
     Seen& seen = *volume.seen;
     this->ContourEdges += seen.contour.edges().size();
-    this->Asked += seen.contour.asked();
-    bytes += seen.contour.bytes();
+    bytes += seen.contour.bytes() + seen.senses.size() * sizeof(std::uint32_t);
     if (!settings.frameCoherence || bytes > settings.layerMemoryLimit)
     {
       seen.contour.forget();
@@ -185,7 +194,7 @@ void ShadowVolumes::see(
 }
 
 /// Has the contour of one.
-void ShadowVolumes::see(const Volume& volume) const
+void ShadowVolumes::see(const Volume& volume, bool keeps) const
 {
   const Octree& octree = volume.instance->body->octree;
   Seen& seen = *volume.seen;
@@ -194,7 +203,7 @@ void ShadowVolumes::see(const Volume& volume) const
     seen.contour = LightContour();
     seen.version = Changed;
   }
-  else if (seen.light == volume.light)
+  else if (keeps && seen.light == volume.light)
   {
     seen.contour.settle();
     return;
@@ -310,6 +319,6 @@ void ShadowVolumes::release()
   this->Aimed.clear();
   this->Kept.clear();
   this->Meshes.clear();
-  this->Volumes = this->ContourEdges = this->Asked = 0;
+  this->Volumes = this->ContourEdges = 0;
 }
 }

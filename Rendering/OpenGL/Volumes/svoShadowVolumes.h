@@ -45,10 +45,9 @@ public:
   {
     return this->Edges.bytes() + this->Casters.bytes() + this->Senses.bytes();
   }
-  /// Of the last call: volumes; edges that they begin at; triangles that were asked for it.
+  /// Of the last call: volumes; edges that they begin at.
   std::size_t volumes() const { return this->Volumes; }
   std::size_t contourEdges() const { return this->ContourEdges; }
-  std::size_t asked() const { return this->Asked; }
 
 private:
   /// What a light sees of a caster.
@@ -72,10 +71,10 @@ private:
     Seen* seen;
   };
   std::vector<Volume> gather(const Scene& scene, const std::vector<CasterInMemory>& casters,
-    const View& view, const std::vector<int>& lights);
+    const View& view, const FrameSettings& settings, const std::vector<int>& lights);
   void see(const std::vector<Volume>& volumes, const FrameSettings& settings,
     const ParallelFor& parallelFor);
-  void see(const Volume& volume) const;
+  void see(const Volume& volume, bool keeps) const;
   bool send(const std::vector<Volume>& volumes, const OctreeArena& arena);
   bool aim(const std::vector<Volume>& volumes, const View& view);
 
@@ -90,7 +89,7 @@ private:
   BufferTexture Edges{ BufferTexture::Texel::FourWords };
   BufferTexture Casters{ BufferTexture::Texel::FourFloats };
   BufferTexture Senses{ BufferTexture::Texel::Word };
-  std::size_t Volumes = 0, ContourEdges = 0, Asked = 0;
+  std::size_t Volumes = 0, ContourEdges = 0;
 };
 }
 

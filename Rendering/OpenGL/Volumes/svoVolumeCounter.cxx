@@ -35,7 +35,7 @@ constexpr char Zero[] = "#version 150\n"
                         "  svoNone = vec4(0.0);\n"
                         "}\n";
 
-/// OpenGL's state of stencils, and of two textures, beside that of KeptState.
+/// OpenGL's state of stencils, beside that of KeptState.
 class KeptStencil
 {
 public:
@@ -121,6 +121,44 @@ void count(GLenum side, VolumeDraws::Way way)
 }
 }
 
+/// Drawing into a light's number, and into depths and stencils. In the end OpenGL is as before.
+class VolumeCounter::Scope
+{
+public:
+  Scope(const VolumeCounter& counter, int number, unsigned int shares)
+  {
+    glBindVertexArray(counter.Vertices);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, counter.Framebuffer);
+    glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, shares, 0, number / 4);
+    glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, counter.Depths, 0);
+    glViewport(0, 0, counter.Width, counter.Height);
+    glStencilMask(~0u);
+    this->write(number);
+  }
+  /// Colours are written to this number of a layer alone; to none: -1.
+  static void write(int number)
+  {
+    const int plane = number < 0 ? number : number % 4;
+    glColorMask(plane == 0, plane == 1, plane == 2, plane == 3);
+  }
+  /// A program, told of a light.
+  static void use(GLuint program, const VolumeDraws& draws, const VolumeDraws::OfLight& light)
+  {
+    glUseProgram(program);
+    glUniform4fv(at(program, "svoLight"), 1, glm::value_ptr(light.light));
+    glUniform2f(at(program, "svoReach"), draws.base, draws.reach);
+    glUniform1f(at(program, "svoParallel"), draws.parallel ? 1.0f : 0.0f);
+    glUniform3fv(at(program, "svoPixelRays"), 6, glm::value_ptr(draws.rays[0]));
+    glUniformMatrix4fv(at(program, "svoProjection"), 1, GL_FALSE, glm::value_ptr(draws.projection));
+  }
+
+  int bind(GLuint texture) { return this->State.bind(texture); }
+
+private:
+  KeptState State;
+  KeptStencil Stencil;
+};
+
 bool VolumeCounter::link(std::string& words)
 {
   if (this->Sides != 0)
@@ -162,7 +200,7 @@ bool VolumeCounter::link(std::string& words)
   return words.empty();
 }
 
-bool VolumeCounter::resize(int width, int height)
+bool VolumeCounter::resize(int width, int height, unsigned int shares)
 {
   if (width == this->Width && height == this->Height)
   {
@@ -184,46 +222,13 @@ bool VolumeCounter::resize(int width, int height)
   this->Depths = makeTexture(GL_DEPTH32F_STENCIL8, width, height);
   glGenFramebuffers(1, &this->Framebuffer);
   glGenVertexArrays(1, &this->Vertices);
-  return this->Depths != 0;
+  if (this->Depths == 0)
+  {
+    return false;
+  }
+  const Scope scope(*this, 0, shares);
+  return glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
-
-/// Drawing into a light's number, and into depths and stencils. In the end OpenGL is as before.
-class VolumeCounter::Scope
-{
-public:
-  Scope(const VolumeCounter& counter, int number, unsigned int shares)
-  {
-    glBindVertexArray(counter.Vertices);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, counter.Framebuffer);
-    glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, shares, 0, number / 4);
-    glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, counter.Depths, 0);
-    glViewport(0, 0, counter.Width, counter.Height);
-    glStencilMask(~0u);
-    this->write(number);
-  }
-  /// Colours are written to this number of a layer alone; to none: -1.
-  static void write(int number)
-  {
-    const int plane = number < 0 ? number : number % 4;
-    glColorMask(plane == 0, plane == 1, plane == 2, plane == 3);
-  }
-  /// A program, told of a light.
-  static void use(GLuint program, const VolumeDraws& draws, const VolumeDraws::OfLight& light)
-  {
-    glUseProgram(program);
-    glUniform4fv(at(program, "svoLight"), 1, glm::value_ptr(light.light));
-    glUniform2f(at(program, "svoReach"), draws.base, draws.reach);
-    glUniform1f(at(program, "svoParallel"), draws.parallel ? 1.0f : 0.0f);
-    glUniform3fv(at(program, "svoPixelRays"), 6, glm::value_ptr(draws.rays[0]));
-    glUniformMatrix4fv(at(program, "svoProjection"), 1, GL_FALSE, glm::value_ptr(draws.projection));
-  }
-
-  int bind(GLuint texture) { return this->State.bind(texture); }
-
-private:
-  KeptState State;
-  KeptStencil Stencil;
-};
 
 void VolumeCounter::find(
   const VolumeDraws& draws, int number, const Pixels& pixels, const Rays& rays)
@@ -262,7 +267,7 @@ void VolumeCounter::receive(const VolumeDraws& draws, int number, const Pixels& 
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-/// CountBits volumes, and darkens what lies in some.
+/// Counts volumes, and darkens what lies in some.
 void VolumeCounter::darken(const VolumeDraws& draws, int number, const Pixels& pixels)
 {
   const VolumeDraws::OfLight& light = draws.lights[number];
@@ -317,7 +322,7 @@ void VolumeCounter::darken(const VolumeDraws& draws, int number, const Pixels& p
 
 void VolumeCounter::release()
 {
-  this->resize(0, 0);
+  this->resize(0, 0, 0);
   for (unsigned int* program : { &this->Sides, &this->Caps, &this->Receivers, &this->Dark })
   {
     glDeleteProgram(*program);

@@ -12,6 +12,9 @@
 
 namespace svo
 {
+/// Seven bits count: a point in 128 volumes, or 256, is taken to be in none. Of closed meshes those
+/// are so many surfaces one behind the other that face the light.
+///
 /// Of one renderer. All calls are made in its context; whoever owns one is told before it goes.
 class VTKSVOOPENGL_EXPORT VolumeCounter
 {
@@ -19,7 +22,8 @@ public:
   /// Makes the programs. False if OpenGL refuses; then `words`, a line, is why.
   bool link(std::string& words);
   /// Has room for so many pixels; none: it has no texture. False if OpenGL refuses.
-  bool resize(int width, int height);
+  /// `shares`: the texture of the first find().
+  bool resize(int width, int height, unsigned int shares);
   bool any() const { return this->Framebuffer != 0; }
   static constexpr int PixelBytes = 8;
 

@@ -18,6 +18,7 @@ constexpr double Margin = 0.01;
 struct Span
 {
   double first = VolumeReach::Endless, last = -VolumeReach::Endless;
+  double size = 0.0; // of the largest part
 
   void add(double along)
   {
@@ -26,13 +27,18 @@ struct Span
   }
   void add(const Outline& outline, const Light& light)
   {
-    for (const glm::dvec3& corner : worldCorners(outline, 0.0))
+    const auto corners = worldCorners(outline, 0.0);
+    for (const glm::dvec3& corner : corners)
     {
       this->add(glm::dot(light.direction, corner));
     }
+    this->size = std::max(this->size, glm::distance(corners.front(), corners.back()));
   }
   /// A little behind all of it.
-  double end() const { return this->last + Margin * std::max(this->last - this->first, 0.0); }
+  double end() const
+  {
+    return this->last + Margin * std::max(this->size, this->last - this->first);
+  }
 };
 
 /// True if the way from one homogeneous point to another, of which at most one may be at infinity,
@@ -86,13 +92,16 @@ glm::dvec4 placeOf(const Light& light, const WorldToOctree& to)
                             : glm::dvec4(to.point(light.position), 1.0);
 }
 
-VolumeReach::VolumeReach(const std::vector<Outline>& outlines, const Light& light, const View& view)
-  : Of(light)
+VolumeReach::VolumeReach(
+  const std::vector<Outline>& outlines, const Light& light, const View& view, bool endless)
+  : Outlines(outlines)
+  , Of(light)
   , Eye(view)
   , Last(Endless)
 {
   // Parallel rays that come from behind the ends have no eye to be reached.
-  if (!light.atInfinity() || (view.parallel && glm::dot(light.direction, view.axis) < 0.0))
+  if (endless || !light.atInfinity() ||
+    (view.parallel && glm::dot(light.direction, view.axis) < 0.0))
   {
     return;
   }
@@ -111,25 +120,17 @@ VolumeReach::VolumeReach(const std::vector<Outline>& outlines, const Light& ligh
   this->Last = span.end();
 }
 
-bool VolumeReach::casts(const Outline& caster) const
+bool VolumeReach::find(std::size_t instance, double& end) const
 {
-  Span span;
-  if (this->Last < Endless)
-  {
-    span.add(caster, this->Of);
-  }
-  return this->Last == Endless || span.first <= this->Last;
-}
-
-double VolumeReach::end(const Outline& caster) const
-{
+  end = Endless;
   if (this->Last == Endless)
   {
-    return Endless;
+    return true;
   }
   Span span;
-  span.add(caster, this->Of);
-  return std::max(this->Last, span.end()) - glm::dot(this->Of.direction, this->Eye.eye);
+  span.add(this->Outlines[instance], this->Of);
+  end = std::max(this->Last, span.end()) - glm::dot(this->Of.direction, this->Eye.eye);
+  return span.first <= this->Last;
 }
 
 VolumeDraws::Way VolumeReach::way(const Octree& octree, const WorldToOctree& to) const

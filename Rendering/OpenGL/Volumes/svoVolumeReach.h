@@ -9,6 +9,7 @@
 #include "svoVolumeDraws.h"
 #include "svoWorldToOctree.h"
 
+#include <cstddef>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -25,17 +26,19 @@ public:
   static constexpr double Endless = 1e300;
 
   /// Volumes have to reach to all that receives, and to the eye, which would look into them from
-  /// their ends; those of a light with a place are endless.
-  VolumeReach(const std::vector<Outline>& outlines, const Light& light, const View& view);
+  /// their ends; those of a light with a place are endless, and `endless` ones. `outlines`: of a
+  /// scene; they and the others live as long as this.
+  VolumeReach(
+    const std::vector<Outline>& outlines, const Light& light, const View& view, bool endless);
 
-  /// False if nothing lies behind a caster.
-  bool casts(const Outline& caster) const;
-  /// How far along the light, from the eye on, a caster's volume reaches, world; Endless.
-  double end(const Outline& caster) const;
+  /// How far along the light, from the eye on, the volume of an instance reaches, world; Endless.
+  /// False if nothing lies behind it.
+  bool find(std::size_t instance, double& end) const;
   /// By the sides behind where the eye may be in the caster's shadow.
   VolumeDraws::Way way(const Octree& octree, const WorldToOctree& to) const;
 
 private:
+  const std::vector<Outline>& Outlines;
   const Light& Of;
   const View& Eye;
   double Last; // along the light, world

@@ -219,6 +219,9 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   const auto refusal = [this]
   { return this->Mask.refusal().empty() ? this->Boxes.refusal() : this->Mask.refusal(); };
   settings.lightCode = wantsCode && refusal().empty();
+  // Volumes lie at the pixels of the window.
+  const bool wantsVolumes = settings.lightCode && settings.shadowVolumes && pace.distance == 1.0;
+  settings.shadowVolumes = wantsVolumes && this->Mask.acceptsVolumes();
   this->LightError = error;
   this->RefinesAtOnce = refinesAtOnce;
   this->render(settings);
@@ -238,6 +241,7 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   this->Boxes.update(window, this->Trace->eyeCode(), scene, this->Collected.props);
   const LightCode& code = this->Trace->lightCode();
   this->Complaint = wantsCode && !settings.lightCode ? refusal()
+    : wantsVolumes && !settings.shadowVolumes        ? this->Mask.volumeRefusal()
     : code.complaint.empty()                         ? code.remark
                                                      : code.complaint;
   const std::string missing = this->Maps.update(
