@@ -78,8 +78,8 @@ bool vtkSVORenderPass::CollectFrame(
     // Samples are rays, and where these are there is no need of maps.
     const bool volumes = this->ShadowTechnique == SHADOW_VOLUMES; // which are OpenGL's alone
     const bool byRays = this->ShadowTechnique == SHADOW_RAYS || volumes || sampled;
-    const bool chosen =
-      automatic && (volumes ? this->MayDrawVolumes(frame) : this->MayPreferOpenGL(frame, byRays));
+    const bool chosen = automatic &&
+      (volumes && !sampled ? this->MayDrawVolumes(frame) : this->MayPreferOpenGL(frame, byRays));
     frame.openGL = chosen ? !planes : this->Backend == BACKEND_OPENGL;
     const bool rays = frame.openGL &&
       (byRays ||

@@ -167,6 +167,7 @@ void tellsWhatIsMissing(Checks& checks)
   stage.window->Render();
   checks.expect(stage.pass->GetNumberOfShadowVolumes() > 0, "with memory: volumes again");
   vtkSVORenderPass::SetLightSize(3.0, sun);
+  stage.pass->SetBackendToOpenGL();
   expectOne("sampled by rays");
 }
 }

@@ -179,9 +179,10 @@ private:
   ShaderCasters Casters;
   DrawnMaps Drawn;
   ShadowVolumes Volumes;
-  std::tuple<std::uint64_t, std::size_t, int, int> TooMuch; // of a frame whose volumes did not fit
-  BufferTexture Sky{ BufferTexture::Texel::Float };         // the picture's table
-  std::uint64_t SkyOf = 0;                                  // its version
+  /// Of a frame whose volumes did not fit.
+  std::tuple<std::uint64_t, std::size_t, std::size_t, std::size_t, int, int> TooMuch;
+  BufferTexture Sky{ BufferTexture::Texel::Float }; // the picture's table
+  std::uint64_t SkyOf = 0;                          // its version
 
   std::uint64_t Version = 0; // of the scene whose octrees are there
   std::size_t Limit = 0;     // that they were to keep
@@ -425,15 +426,15 @@ std::string OpenGLTracer::describeVolumes(const Scene& scene, const View& view,
     return "Lights with a size, ambient occlusion and skies are sampled by rays, and so is all "
            "light: there are no shadow volumes.";
   }
-  if (!view.plain)
+  if (!view.plain && !view.mirrored)
   {
     return "Shadow volumes are counted from where the eye is, and this camera's matrices have "
            "none: "
            "rays to the lights find the same shadows.";
   }
   // What did not fit is not made again to find that out.
-  const auto asked =
-    std::make_tuple(scene.version, settings.gpuMemoryLimit, view.width, view.height);
+  const auto asked = std::make_tuple(scene.version, settings.gpuMemoryLimit, this->bytesOfScene(),
+    code.lights.size(), view.width, view.height);
   if (scene.version == 0 || asked != this->TooMuch)
   {
     const std::size_t mask =
@@ -516,6 +517,7 @@ void OpenGLTracer::releaseGraphicsResources()
   this->Seen.release();
   this->Drawn.release();
   this->Volumes.release();
+  this->TooMuch = {};
   this->Sky.release();
   this->SkyOf = 0;
   this->Version = 0;

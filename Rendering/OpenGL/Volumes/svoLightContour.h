@@ -29,9 +29,10 @@ public:
   };
 
   /// Of the same mesh as before, wherever the light was then. `light`, octree coordinates: where it
-  /// is, and 1; or the way towards it, and 0. What takes place: triangles are asked, one by one or
-  /// with `bundles` by their normals where these tell, and edges of those that have turned are
-  /// looked at again. True if it is another contour than before.
+  /// is, and 1; or the way towards it, and 0. Triangles are asked one by one, or with `bundles` by
+  /// their normals where these tell; those that have turned change what their edges count, and
+  /// edges and senses are read off anew if there are any. True if it is another contour than
+  /// before.
   bool update(
     const Surface& surface, const MeshEdges& mesh, const glm::dvec4& light, bool bundles = true);
 

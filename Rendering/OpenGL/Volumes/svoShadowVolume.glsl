@@ -45,8 +45,15 @@ vec4 svoShown(vec4 at)
   return vec4(clip.xy, 0.0, clip.w);
 }
 
-vec4 svoPlaneOf(vec3 normal, vec3 at)
+vec3 svoScaled(vec3 way)
 {
+  return way / max(max(max(abs(way.x), abs(way.y)), abs(way.z)), 1e-37);
+}
+
+// Of what is spanned by two ways, of any length; 0 if they have none.
+vec4 svoPlaneOf(vec3 u, vec3 v, vec3 at)
+{
+  vec3 normal = cross(svoScaled(u), svoScaled(v));
   normal /= max(length(normal), 1e-30);
   return vec4(normal, -dot(normal, at));
 }
@@ -72,8 +79,7 @@ void main()
   turned = turned != (corner >= 3);
   int k = corner % 3;
   vec4 at = k == 0 ? a : (k == 1) != turned ? b : c;
-  vec3 normal = cross(b.xyz - a.xyz, c.xyz - a.xyz);
-  svoPlane = svoPlaneOf(normal, a.xyz);
+  svoPlane = svoPlaneOf(b.xyz - a.xyz, c.xyz - a.xyz, a.xyz);
   if (corner >= 3 && of.z < svoEndless)
   {
     svoPlane = vec4(-normalize(svoLight.xyz), -of.z);
@@ -81,8 +87,9 @@ void main()
   else if (corner >= 3)
   {
     vec4 away = svoAway(a, of.z);
-    normal = cross(svoAway(b, of.z).xyz - away.xyz, svoAway(c, of.z).xyz - away.xyz);
-    svoPlane = svoParallel > 0.0 ? svoPlaneOf(normal, away.xyz / away.w) : vec4(0.0);
+    svoPlane = svoParallel > 0.0
+      ? svoPlaneOf(svoAway(b, of.z).xyz - away.xyz, svoAway(c, of.z).xyz - away.xyz, away.xyz / away.w)
+      : vec4(0.0);
   }
   // Behind what is drawn of it.
   float side = svoParallel > 0.0 ? svoPlane.z : svoPlane.w;
@@ -105,7 +112,7 @@ void main()
   bool from = (end == 0 || end == 2) != mirrors;
   vec4 a = svoCornerAt(caster, int(edge.x));
   vec4 b = svoCornerAt(caster, int(edge.y));
-  svoPlane = svoPlaneOf(cross(b.xyz - a.xyz, svoLight.w * a.xyz - svoLight.xyz), a.xyz);
+  svoPlane = svoPlaneOf(b.xyz - a.xyz, svoLight.w * a.xyz - svoLight.xyz, a.xyz);
   vec4 at = from ? a : b;
   gl_Position = svoShown(end < 2 ? at : svoAway(at, of.z));
 }

@@ -91,6 +91,7 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
   const std::vector<int>& lights)
 {
   std::vector<Volume> volumes;
+  this->InScene.clear();
   const bool suns = std::any_of(
     lights.begin(), lights.end(), [&scene](int light) { return scene.lights[light].atInfinity(); });
   const std::vector<Outline> outlines = suns ? outlinesOf(scene) : std::vector<Outline>();
@@ -102,7 +103,12 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
     {
       const Instance& instance = scene.instances[caster.instance];
       double end;
-      if (!hasVolume(instance) || !reach.find(caster.instance, end))
+      if (!hasVolume(instance))
+      {
+        continue;
+      }
+      this->InScene.insert(instance.body->octree.id());
+      if (!reach.find(caster.instance, end))
       {
         continue;
       }
@@ -156,6 +162,14 @@ void ShadowVolumes::see(
         *unknown[i].second = std::make_unique<const MeshEdges>(*unknown[i].first->surface());
       }
     });
+  for (const std::uint64_t id : this->InScene) // who may cast again
+  {
+    const auto known = this->Meshes.find(id);
+    if (known != this->Meshes.end() && known->second)
+    {
+      meshes.try_emplace(id, std::move(known->second));
+    }
+  }
   this->Meshes = std::move(meshes);
   parallelFor(0, volumes.size(), 1,
     [&](std::size_t first, std::size_t last)

@@ -258,8 +258,10 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   if (code.volumes && !masked.fromPlaces)
   {
     this->Statistics.tracer.shadowVolumes = this->Statistics.tracer.contourEdges = 0;
-    this->Complaint = "A picture of what shadow volumes tell does not fit into OpenGL's memory, or "
-                      "GPUMemoryLimit: rays to the lights find the same shadows.";
+    this->Complaint = !this->Complaint.empty()
+      ? this->Complaint
+      : "A picture of what shadow volumes tell does not fit into OpenGL's memory, or "
+        "GPUMemoryLimit: rays to the lights find the same shadows.";
   }
   if (later && !known.fromPlaces)
   {
