@@ -170,7 +170,7 @@ void ShadowMask::find(vtkOpenGLState* state, const LightCode& asked, bool same,
   }
   for (int light = 0; asked.volumes && light < asked.count(); ++light)
   {
-    this->Counter.find(*asked.volumes, light, { places, planes, this->Shares },
+    this->Counter.find(state, *asked.volumes, light, { places, planes, this->Shares },
       [&](unsigned int framebuffer) { fill(framebuffer, light / 4, light); });
   }
   state->PopFramebufferBindings();

@@ -11,6 +11,8 @@
 #include "svoVolumeDepth.h"
 #include "svoVolumeReceiver.h"
 
+#include "vtkOpenGLState.h"
+
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -230,13 +232,18 @@ bool VolumeCounter::resize(int width, int height, unsigned int shares)
   return glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
 
-void VolumeCounter::find(
-  const VolumeDraws& draws, int number, const Pixels& pixels, const Rays& rays)
+void VolumeCounter::find(vtkOpenGLState* state, const VolumeDraws& draws, int number,
+  const Pixels& pixels, const Rays& rays)
 {
   this->receive(draws, number, pixels);
   {
-    const Scope scope(*this, number, pixels.shares);
-    glEnable(GL_STENCIL_TEST);
+    // Others draw: what VTK has cached is to be so.
+    const KeptStencil stencil;
+    const vtkOpenGLState::ScopedglEnableDisable tests(state, GL_STENCIL_TEST);
+    const vtkOpenGLState::ScopedglColorMask colors(state);
+    const int plane = number % 4;
+    state->vtkglEnable(GL_STENCIL_TEST);
+    state->vtkglColorMask(plane == 0, plane == 1, plane == 2, plane == 3);
     // To what has no volume rays go from everywhere.
     glStencilFunc(draws.tellAll ? GL_EQUAL : GL_ALWAYS, Asks, Asks);
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);

@@ -10,6 +10,8 @@
 #include <functional>
 #include <string>
 
+class vtkOpenGLState;
+
 namespace svo
 {
 /// Seven bits count: a point in 128 volumes, or 256, is taken to be in none. Of closed meshes those
@@ -37,7 +39,8 @@ public:
   /// framebuffer that it is given.
   using Rays = std::function<void(unsigned int framebuffer)>;
   /// Finds a light's number of all pixels.
-  void find(const VolumeDraws& draws, int number, const Pixels& pixels, const Rays& rays);
+  void find(vtkOpenGLState* state, const VolumeDraws& draws, int number, const Pixels& pixels,
+    const Rays& rays);
   void release();
 
 private:
