@@ -159,6 +159,10 @@ class TestShadows(unittest.TestCase):
         self.check_shadow(drawn)
         self.assertEqual(scene.statistic(self.view, "SVONumberOfTracedActors"), 0)
         self.assertLess(scene.differing(rays, drawn), 2e-3)
+        self.view.SVOShadowTechnique = "Shadow Volumes"
+        volumes = scene.picture(self.view, "volumes-opengl")
+        self.check_shadow(volumes)
+        self.assertLess(scene.differing(drawn, volumes), 2e-4)
 
     def test_kinds_of_lights(self):
         """Each from where the sun is."""
