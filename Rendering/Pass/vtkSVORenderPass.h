@@ -253,8 +253,7 @@ private:
   void HearAttached(vtkRenderer* renderer, unsigned long event);
   void BeginAttachedFrame(svo::AttachedRenderer& attached);
   bool CollectFrame(svo::PassFrame& frame, int width, int height, const svo::OwnCamera* camera);
-  bool MayPreferOpenGL(svo::PassFrame& frame, bool rays);
-  bool MayDrawVolumes(svo::PassFrame& frame) const;
+  bool MayPreferOpenGL(svo::PassFrame& frame, bool rays, bool volumes = false);
   svo::FrameSettings AskedSettings(bool openGL, bool rays) const;
   void TraceFrame(svo::PassFrame& frame, int width, int height);
   bool WantsSamples(const svo::PassFrame& frame) const;

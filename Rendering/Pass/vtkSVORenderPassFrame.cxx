@@ -78,8 +78,7 @@ bool vtkSVORenderPass::CollectFrame(
     // Samples are rays, and where these are there is no need of maps.
     const bool volumes = this->ShadowTechnique == SHADOW_VOLUMES; // which are OpenGL's alone
     const bool byRays = this->ShadowTechnique == SHADOW_RAYS || volumes || sampled;
-    const bool chosen = automatic &&
-      (volumes && !sampled ? this->MayDrawVolumes(frame) : this->MayPreferOpenGL(frame, byRays));
+    const bool chosen = automatic && this->MayPreferOpenGL(frame, byRays, volumes && !sampled);
     frame.openGL = chosen ? !planes : this->Backend == BACKEND_OPENGL;
     const bool rays = frame.openGL &&
       (byRays ||
@@ -158,27 +157,21 @@ bool vtkSVORenderPass::CollectFrame(
   return true;
 }
 
-/// Where the backend is chosen: whether it may be OpenGL for this window, and with rays to lights.
+/// Where the backend is chosen: whether it may be OpenGL for this window, and with rays to lights;
+/// for `volumes`, which are its alone, however fast it is.
 /// Several processes would have to agree on it.
-bool vtkSVORenderPass::MayPreferOpenGL(svo::PassFrame& frame, bool rays)
+bool vtkSVORenderPass::MayPreferOpenGL(svo::PassFrame& frame, bool rays, bool volumes)
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(frame.renderer->GetRenderWindow());
   std::string complaint;
-  const bool prefers =
-    window && !this->Impl->severalProcesses() && this->PrefersOpenGL(window, rays, complaint);
+  const bool prefers = window && !this->Impl->severalProcesses() &&
+    (volumes || this->PrefersOpenGL(window, rays, complaint));
   // Without those that were not asked for it takes maps.
   const bool missed = !complaint.empty() &&
     (this->ShadowTechnique == SHADOW_RAYS || this->AmbientOcclusion || this->SkyLight ||
       svo::hasSoftLight(frame.renderer));
   frame.tellOnce(missed ? "The CPU makes the picture: " + complaint : "", this->Impl->said);
   return prefers;
-}
-
-/// Where the backend is chosen: whether it may be OpenGL for shadow volumes, however fast that is.
-bool vtkSVORenderPass::MayDrawVolumes(svo::PassFrame& frame) const
-{
-  return vtkOpenGLRenderWindow::SafeDownCast(frame.renderer->GetRenderWindow()) &&
-    !this->Impl->severalProcesses();
 }
 
 /// What the settings ask of a frame's tracer. `rays`: Automatic, or OpenGL, takes them.

@@ -15,9 +15,7 @@
 #include "vtkRenderWindow.h"
 #include "vtkReverseSense.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
+#include <cstddef>
 #include <iostream>
 #include <string>
 
@@ -25,23 +23,6 @@ using namespace svotest;
 
 namespace
 {
-/// Pixels that are lit in the one picture and dark in the other: by far, of 255.
-std::size_t differing(const Picture& a, const Picture& b)
-{
-  constexpr int Lit = 24;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i + 2 < a.rgb.size(); i += 3)
-  {
-    int most = 0;
-    for (std::size_t k = i; k < i + 3; ++k)
-    {
-      most = std::max(most, std::abs(int(a.rgb[k]) - int(b.rgb[k])));
-    }
-    count += most > Lit;
-  }
-  return count;
-}
-
 /// How many pixels at edges of shadows may be either's: rays begin in floats, and volumes are drawn
 /// in them.
 void compare(const std::string& name, Stage& stage, std::size_t ties, Checks& checks)
@@ -60,25 +41,17 @@ void compare(const std::string& name, Stage& stage, std::size_t ties, Checks& ch
   checks.expect(others <= ties, name + ": lit and dark as rays say");
 }
 
-/// Solids on a ground, moved, stretched and mirrored.
-void addSolids(Stage& stage)
+/// Solids, one of them mirrored.
+void addMirrored(Stage& stage)
 {
-  stage.addGround();
-  stage.add(ball(0.5, 0.0, 0.0, 0.8), 0.9, 0.3, 0.2);
-  vtkActor* boxActor = stage.add(box(0.6, 0.0, 0.0, 0.0), 0.2, 0.6, 0.3);
-  boxActor->SetPosition(-1.1, 0.4, 0.5);
-  boxActor->RotateWXYZ(33.0, 1.0, 2.0, 0.5);
-  boxActor->SetScale(1.0, 0.5, -1.6);
-  stage.add(ring(0.5, 1.0, -0.6, 0.6), 0.3, 0.4, 0.9);
-  vtkActor* spikeActor = stage.add(spike(1.4, 0.0, 0.0, 0.7), 0.8, 0.8, 0.3);
-  spikeActor->SetPosition(0.6, 1.2, 0.0);
+  addShapes(stage)->SetScale(1.0, 0.5, -1.6);
 }
 
 /// With things that have no volume, rays go to these alone.
 void compareWithOthers(Checks& checks)
 {
   Stage stage;
-  addSolids(stage);
+  addMirrored(stage);
   vtkActor* glass = stage.add(ball(0.6, 0.4, -1.2, 0.9), 0.6, 0.8, 0.9);
   glass->GetProperty()->SetOpacity(0.4);
   const ImageCase ring = distanceCase();
@@ -98,7 +71,7 @@ void compareWithOthers(Checks& checks)
 void compareAgain(Checks& checks)
 {
   Stage stage;
-  addSolids(stage);
+  addMirrored(stage);
   vtkLight* bulb = stage.addBulb(-1.0, 0.6, 2.5);
   stage.addSun(3.0, -2.0, 4.0);
   stage.pass->SetBackendToOpenGL();
@@ -135,7 +108,7 @@ void compareAgain(Checks& checks)
 void tellsWhatIsMissing(Checks& checks)
 {
   Stage stage;
-  addSolids(stage);
+  addMirrored(stage);
   vtkLight* sun = stage.addSun(3.0, -2.0, 4.0);
   stage.pass->SetBackendToCPU();
   const Picture expected = stage.shadowedByRays();
@@ -177,7 +150,7 @@ int TestSVOShadowVolumes(int, char*[])
   Checks checks;
   {
     Stage stage;
-    addSolids(stage);
+    addMirrored(stage);
     stage.addSun(3.0, -2.0, 4.0);
     compare("a sun", stage, 10, checks);
     vtkActorCollection* actors = stage.renderer->GetActors();
@@ -198,7 +171,7 @@ int TestSVOShadowVolumes(int, char*[])
   }
   {
     Stage stage;
-    addSolids(stage);
+    addMirrored(stage);
     vtkLight* bulb = stage.addBulb(-1.0, 0.6, 2.5);
     compare("a bulb", stage, 10, checks);
     bulb->SetConeAngle(40.0);
@@ -212,7 +185,7 @@ int TestSVOShadowVolumes(int, char*[])
   }
   {
     Stage stage;
-    addSolids(stage);
+    addMirrored(stage);
     stage.addSun(3.0, -2.0, 4.0);
     stage.addBulb(-1.0, 0.6, 2.5);
     stage.addBulb(1.5, 1.5, 1.5);
@@ -236,7 +209,7 @@ int TestSVOShadowVolumes(int, char*[])
   }
   {
     Stage stage;
-    addSolids(stage);
+    addMirrored(stage);
     stage.add(box(30.0, 0.0, 14.0, -17.0), 0.5, 0.5, 0.5);
     vtkNew<vtkPlaneSource> roof;
     roof->SetOrigin(-4.0, -9.0, 0.0);
@@ -248,7 +221,7 @@ int TestSVOShadowVolumes(int, char*[])
   }
   {
     Stage stage;
-    addSolids(stage);
+    addMirrored(stage);
     stage.addSun(3.0, -2.0, 4.0);
     vtkActorCollection* actors = stage.renderer->GetActors();
     actors->InitTraversal();

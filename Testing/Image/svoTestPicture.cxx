@@ -135,4 +135,20 @@ int Checks::exitCode() const
 {
   return this->failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
+
+std::size_t differing(const Picture& a, const Picture& b)
+{
+  constexpr int Lit = 24; // of 255
+  std::size_t count = 0;
+  for (std::size_t i = 0; i + 2 < a.rgb.size(); i += 3)
+  {
+    int most = 0;
+    for (std::size_t k = i; k < i + 3; ++k)
+    {
+      most = std::max(most, std::abs(int(a.rgb[k]) - int(b.rgb[k])));
+    }
+    count += most > Lit;
+  }
+  return count;
+}
 }

@@ -2,6 +2,7 @@
 #ifndef svoTestPicture_h
 #define svoTestPicture_h
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,9 @@ public:
 private:
   int failures = 0;
 };
+
+/// Pixels in which the two differ as light and shadow do: by far.
+std::size_t differing(const Picture& a, const Picture& b);
 }
 
 #endif

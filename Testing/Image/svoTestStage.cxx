@@ -190,6 +190,20 @@ Picture Stage::shadowedByRays()
   return capture(this->window);
 }
 
+vtkActor* addShapes(Stage& stage)
+{
+  stage.addGround();
+  stage.add(ball(0.5, 0.0, 0.0, 0.8), 0.9, 0.3, 0.2);
+  vtkActor* boxActor = stage.add(box(0.6, 0.0, 0.0, 0.0), 0.2, 0.6, 0.3);
+  boxActor->SetPosition(-1.1, 0.4, 0.5);
+  boxActor->RotateWXYZ(33.0, 1.0, 2.0, 0.5);
+  boxActor->SetScale(1.0, 0.5, 1.6);
+  stage.add(ring(0.5, 1.0, -0.6, 0.6), 0.3, 0.4, 0.9);
+  vtkActor* spikeActor = stage.add(spike(1.4, 0.0, 0.0, 0.7), 0.8, 0.8, 0.3);
+  spikeActor->SetPosition(0.6, 1.2, 0.0);
+  return boxActor;
+}
+
 void rasterizeAll(const Stage& stage)
 {
   vtkCollectionSimpleIterator at;

@@ -69,6 +69,9 @@ private:
 /// A ground, a box, a ball, and a ring, which is returned.
 vtkActor* addThings(Stage& stage);
 
+/// Solids on a ground, moved and stretched; returns a box.
+vtkActor* addShapes(Stage& stage);
+
 /// Leaves all actors of a stage to the rasteriser.
 void rasterizeAll(const Stage& stage);
 

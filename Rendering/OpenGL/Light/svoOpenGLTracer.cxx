@@ -27,7 +27,6 @@
 #include <locale>
 #include <sstream>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -164,8 +163,6 @@ private:
   }
   void describe(const Scene& scene, const View& view, const FrameSettings& settings,
     const std::string& constants);
-  std::string describeVolumes(const Scene& scene, const View& view, const FrameSettings& settings,
-    const ParallelFor& parallelFor);
   void describeSamples(const Scene& scene, const View& view, const FrameSettings& settings);
 
   std::unique_ptr<Tracer> Other;
@@ -179,8 +176,6 @@ private:
   ShaderCasters Casters;
   DrawnMaps Drawn;
   ShadowVolumes Volumes;
-  /// Of a frame whose volumes did not fit.
-  std::tuple<std::uint64_t, std::size_t, std::size_t, std::size_t, int, int> TooMuch;
   BufferTexture Sky{ BufferTexture::Texel::Float }; // the picture's table
   std::uint64_t SkyOf = 0;                          // its version
 
@@ -275,10 +270,13 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
     this->describe(scene, view, settings, constants);
     samples = this->Code.samples;
   }
-  const bool volumes = settings.shadowVolumes && !maps && lights > 0;
-  if (volumes)
+  if (settings.shadowVolumes && !maps && lights > 0)
   {
-    this->Code.remark = this->describeVolumes(scene, view, settings, parallelFor);
+    const std::size_t others = this->bytesOfScene() +
+      ShadowMask::bytesOf(view.width, view.height, this->Code.count(), 0, false, true);
+    this->Code.remark = this->Volumes.describe(scene, this->Casters.known(), this->Octrees, view,
+      settings, settings.gpuMemoryLimit - std::min(others, settings.gpuMemoryLimit), parallelFor,
+      this->Code);
   }
   if (!this->Code.volumes)
   {
@@ -416,49 +414,6 @@ void OpenGLTracer::describe(
   this->Casters.describe(view, this->Code);
 }
 
-/// Adds shadow volumes. Why there are none, in a sentence, else empty.
-std::string OpenGLTracer::describeVolumes(const Scene& scene, const View& view,
-  const FrameSettings& settings, const ParallelFor& parallelFor)
-{
-  LightCode& code = this->Code;
-  if (!code.sampled.empty())
-  {
-    return "Lights with a size, ambient occlusion and skies are sampled by rays, and so is all "
-           "light: there are no shadow volumes.";
-  }
-  if (!view.plain && !view.mirrored)
-  {
-    return "Shadow volumes are counted from where the eye is, and this camera's matrices have "
-           "none: "
-           "rays to the lights find the same shadows.";
-  }
-  // What did not fit is not made again to find that out.
-  const auto asked = std::make_tuple(scene.version, settings.gpuMemoryLimit, this->bytesOfScene(),
-    code.lights.size(), view.width, view.height);
-  if (scene.version == 0 || asked != this->TooMuch)
-  {
-    const std::size_t mask =
-      ShadowMask::bytesOf(view.width, view.height, code.count(), 0, false, true);
-    code.volumes = this->Volumes.place(
-      scene, this->Casters.known(), this->Octrees, view, settings, code.lights, parallelFor);
-    if (this->bytesOfScene() + this->Volumes.bytes() + mask > settings.gpuMemoryLimit)
-    {
-      code.volumes = nullptr;
-    }
-    this->TooMuch = code.volumes ? decltype(this->TooMuch)() : asked;
-  }
-  if (!code.volumes)
-  {
-    return "Shadow volumes do not fit into OpenGL's memory, or into GPUMemoryLimit: rays to the "
-           "lights find the same shadows.";
-  }
-  code.constants += "#define svoHasVolumes\n";
-  const glm::vec3* rays = code.volumes->rays;
-  code.floats.push_back({ "svoPixelRays", 3, { &rays[0].x, &rays[0].x + 18 } });
-  code.floats.push_back({ "svoParallel", 1, { view.parallel ? 1.0f : 0.0f } });
-  return {};
-}
-
 /// Adds what is all around, and says how many samples there are.
 void OpenGLTracer::describeSamples(
   const Scene& scene, const View& view, const FrameSettings& settings)
@@ -516,8 +471,7 @@ void OpenGLTracer::releaseGraphicsResources()
   this->Casters.release();
   this->Seen.release();
   this->Drawn.release();
-  this->Volumes.release();
-  this->TooMuch = {};
+  this->Volumes.forget();
   this->Sky.release();
   this->SkyOf = 0;
   this->Version = 0;

@@ -64,10 +64,12 @@ std::vector<std::size_t> castersOf(const Scene& scene)
 double ShaderCasters::largestGap(const View& view) const
 {
   double largest = 0.0;
-  for (const Caster& caster : this->Casters)
+  for (std::size_t c = 0; c < this->Known.size(); ++c)
   {
+    const CasterInMemory& caster = this->Known[c];
+    const double gap = this->Gaps[c];
     // What looks that coarse is so vast that nine rays meet it if it is seen.
-    for (int i = 0; i < 9 && caster.gap > worldPixel(view, view.tNear); ++i)
+    for (int i = 0; i < 9 && gap > worldPixel(view, view.tNear); ++i)
     {
       const double x = 0.5 * (i % 3) * view.width;
       const double y = 0.5 * (i / 3) * view.height;
@@ -80,7 +82,7 @@ double ShaderCasters::largestGap(const View& view) const
       const double first = std::max({ enters.x, enters.y, enters.z, view.tNear });
       if (first <= std::min({ leaves.x, leaves.y, leaves.z, view.tFar }))
       {
-        largest = std::max(largest, caster.gap / worldPixel(view, first));
+        largest = std::max(largest, gap / worldPixel(view, first));
       }
     }
   }
@@ -89,7 +91,7 @@ double ShaderCasters::largestGap(const View& view) const
 
 bool ShaderCasters::place(const Scene& scene, const OctreeArena& arena)
 {
-  this->Casters.clear();
+  this->Gaps.clear();
   this->Known.clear();
   this->Alphas.clear();
   this->Planes = false;
@@ -124,8 +126,9 @@ bool ShaderCasters::place(const Scene& scene, const OctreeArena& arena)
         (glm::dvec3(bounds[side], bounds[2 + side], bounds[4 + side]) - toOctree.origin) *
         toOctree.scale;
     };
-    this->Casters.push_back({ toOctree, { corner(0), corner(1) },
-      worldLeafError(caster, LeafGeometry::Triangle, octree.level()) });
+    record.toOctree = toOctree;
+    record.box = { corner(0), corner(1) };
+    this->Gaps.push_back(worldLeafError(caster, LeafGeometry::Triangle, octree.level()));
     this->Known.push_back(record);
     boxes.push_back(worldBox(caster));
     all.add(boxes.back());
@@ -137,7 +140,7 @@ bool ShaderCasters::place(const Scene& scene, const OctreeArena& arena)
     box.high -= this->Centre;
   }
   this->Tree = makeCasterTree(boxes, BoxMargin);
-  const std::size_t texels = 2 * this->Tree.size() + CasterTexelCount * this->Casters.size();
+  const std::size_t texels = 2 * this->Tree.size() + CasterTexelCount * this->Known.size();
   if (texels > BufferTexture::most() ||
     ((texels > this->Texels.size() || texels == 0) &&
       !this->Texels.allocate(texels + texels / 2 + 64)))
@@ -157,13 +160,12 @@ void ShaderCasters::aim(const View& view)
   this->WorldToView = view.worldToView;
   const glm::dmat3 toWorld = glm::transpose(glm::dmat3(view.worldToView)); // rigid
   std::vector<CasterRecord> records;
-  records.reserve(this->Casters.size());
-  for (std::size_t i = 0; i < this->Casters.size(); ++i)
+  records.reserve(this->Known.size());
+  for (const CasterInMemory& caster : this->Known)
   {
-    const Caster& caster = this->Casters[i];
     const glm::dmat3 linear = caster.toOctree.inverse * toWorld * caster.toOctree.scale;
     const glm::dvec3 at = caster.toOctree.point(view.eye);
-    CasterRecord record{ {}, this->Known[i].octree, this->Known[i].low, this->Known[i].high };
+    CasterRecord record{ {}, caster.octree, caster.low, caster.high };
     for (int row = 0; row < 3; ++row)
     {
       record.rows[row] =

@@ -3,7 +3,6 @@
 #ifndef svoShaderCasters_h
 #define svoShaderCasters_h
 
-#include "svoBox.h"
 #include "svoBufferTexture.h"
 #include "svoCasterAlphas.h"
 #include "svoCasterTree.h"
@@ -11,7 +10,6 @@
 #include "svoScene.h"
 #include "svoShaderValues.h"
 #include "svoView.h"
-#include "svoWorldToOctree.h"
 
 #include <cstddef>
 #include <vector>
@@ -51,14 +49,8 @@ public:
   double largestGap(const View& view) const;
 
 private:
-  struct Caster
-  {
-    WorldToOctree toOctree;
-    Box box;    // of the mesh, octree coordinates
-    double gap; // from its surface to where floats have a ray begin, world
-  };
-  std::vector<Caster> Casters;
-  std::vector<CasterInMemory> Known; // of them
+  std::vector<CasterInMemory> Known;
+  std::vector<double> Gaps; // from their surfaces to where floats have a ray begin, world
   bool Planes = false;
   glm::dvec3 Centre{ 0.0 }; // of the tree's frame, world
   std::vector<CasterNode> Tree;

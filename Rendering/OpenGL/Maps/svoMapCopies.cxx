@@ -3,7 +3,6 @@
 #include "svoLeafError.h"
 #include "svoLocalView.h"
 #include "svoTranslucentGroups.h"
-#include "svoWorldToOctree.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -43,7 +42,7 @@ MapCopy::Record recordOf(
   }
   if (shape != MapCopy::Triangles)
   {
-    const WorldToOctree to(octree, instance.localToWorld);
+    const WorldToOctree& to = caster.toOctree;
     const auto ofBall = [&](const glm::dvec3& x) { return to.inverse * x; };
     record.source = view.parallel
       ? glm::vec4(ball ? ofBall(view.axis) : to.vector(view.axis), 0.0f)

@@ -2,10 +2,12 @@
 #ifndef svoMapCopies_h
 #define svoMapCopies_h
 
+#include "svoBox.h"
 #include "svoFrame.h"
 #include "svoLightDetail.h"
 #include "svoScene.h"
 #include "svoView.h"
+#include "svoWorldToOctree.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +24,8 @@ struct CasterInMemory
 {
   std::size_t instance;
   glm::vec4 octree, low, high;
+  WorldToOctree toOctree;
+  Box box; // of the mesh, octree coordinates
 };
 
 /// A caster in a map.

@@ -41,9 +41,6 @@ public:
   /// By face, 16 a word, from the lowest bits on: 1 as it is wound, 2 turned round, 0 left out.
   std::vector<std::uint32_t> senses() const;
 
-  /// In the place of an update() that would change nothing.
-  void settle() { this->Asked = this->Turned = 0; }
-
   /// Of the last update: triangles that were asked one by one, and those that have turned.
   std::size_t asked() const { return this->Asked; }
   std::size_t turned() const { return this->Turned; }

@@ -1,5 +1,6 @@
 #include "svoShadowVolumes.h"
 
+#include "svoLightCode.h"
 #include "svoOctreeArena.h"
 #include "svoOutline.h"
 #include "svoVolumeReach.h"
@@ -42,6 +43,44 @@ bool hasVolume(const Instance& caster)
   return !caster.translucent() && caster.body->octree.surface();
 }
 
+std::string ShadowVolumes::describe(const Scene& scene, const std::vector<CasterInMemory>& casters,
+  const OctreeArena& arena, const View& view, const FrameSettings& settings, std::size_t room,
+  const ParallelFor& parallelFor, LightCode& code)
+{
+  if (!code.sampled.empty())
+  {
+    return "Lights with a size, ambient occlusion and skies are sampled by rays, and so is all "
+           "light: there are no shadow volumes.";
+  }
+  if (!view.plain && !view.mirrored)
+  {
+    return "Shadow volumes are counted from the eye, and this camera's matrices have none: rays to "
+           "the lights find the same shadows.";
+  }
+  // What did not fit is not made again to find that out.
+  const auto asked = std::make_tuple(scene.version, room, code.lights.size());
+  if (scene.version == 0 || asked != this->TooMuch)
+  {
+    code.volumes = this->place(scene, casters, arena, view, settings, code.lights, parallelFor);
+    if (this->bytes() > room)
+    {
+      code.volumes = nullptr;
+    }
+    this->TooMuch = code.volumes ? decltype(this->TooMuch)() : asked;
+  }
+  if (!code.volumes)
+  {
+    return "Shadow volumes do not fit into OpenGL's memory, or into GPUMemoryLimit: rays to the "
+           "lights find the same shadows.";
+  }
+  code.constants += "#define svoHasVolumes\n";
+  const glm::vec3* rays = code.volumes->rays;
+  code.floats.push_back({ "svoPixelRays", 3, { &rays[0].x, &rays[0].x + 18 } });
+  code.floats.push_back({ "svoParallel", 1, { view.parallel ? 1.0f : 0.0f } });
+  return {};
+}
+
+/// The volumes that these lights (indices) make. Null if OpenGL has no room.
 std::shared_ptr<const VolumeDraws> ShadowVolumes::place(const Scene& scene,
   const std::vector<CasterInMemory>& casters, const OctreeArena& arena, const View& view,
   const FrameSettings& settings, const std::vector<int>& lights, const ParallelFor& parallelFor)
@@ -112,17 +151,16 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
       {
         continue;
       }
-      const Octree& octree = instance.body->octree;
-      const WorldToOctree to(octree, instance.localToWorld);
       std::pair<std::uint64_t, std::uint64_t> key(instance.id, light.id);
-      while (this->Kept[key].current)
+      Seen* seen = &this->Kept[key];
+      while (seen->current)
       {
         ++key.first; // two of one name
+        seen = &this->Kept[key];
       }
-      Seen& seen = this->Kept[key];
-      seen.current = true;
+      seen->current = true;
       volumes.push_back(
-        { &instance, number, placeOf(light, to), end, reach.way(octree, to), &seen });
+        { &instance, number, placeOf(light, caster.toOctree), end, reach.way(caster), seen });
     }
   }
   std::stable_sort(volumes.begin(), volumes.end(),
@@ -215,11 +253,11 @@ void ShadowVolumes::see(const Volume& volume, bool keeps) const
   if (seen.octree != octree.id())
   {
     seen.contour = LightContour();
+    seen.senses.clear();
     seen.version = Changed;
   }
   else if (keeps && seen.light == volume.light)
   {
-    seen.contour.settle();
     return;
   }
   seen.octree = octree.id();

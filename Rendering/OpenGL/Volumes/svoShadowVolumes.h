@@ -18,6 +18,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@
 namespace svo
 {
 class OctreeArena;
+struct LightCode;
 
 /// True of casters that have a volume: opaque ones of triangles.
 bool hasVolume(const Instance& caster);
@@ -35,12 +37,18 @@ bool hasVolume(const Instance& caster);
 class ShadowVolumes
 {
 public:
-  /// Has the volumes that these lights (indices) make of those of `casters` that have one, whose
-  /// octrees `arena` holds. Null if OpenGL has no room.
-  std::shared_ptr<const VolumeDraws> place(const Scene& scene,
-    const std::vector<CasterInMemory>& casters, const OctreeArena& arena, const View& view,
-    const FrameSettings& settings, const std::vector<int>& lights, const ParallelFor& parallelFor);
+  /// Adds the volumes that the code's lights make of those of `casters` that have one, whose
+  /// octrees `arena` holds: at most `room` bytes. Why there are none, in a sentence, else empty.
+  std::string describe(const Scene& scene, const std::vector<CasterInMemory>& casters,
+    const OctreeArena& arena, const View& view, const FrameSettings& settings, std::size_t room,
+    const ParallelFor& parallelFor, LightCode& code);
   void release();
+  /// ... and what did not fit into the memory of a context that goes.
+  void forget()
+  {
+    this->release();
+    this->TooMuch = {};
+  }
 
   std::size_t bytes() const
   {
@@ -71,6 +79,9 @@ private:
     VolumeDraws::Way way;
     Seen* seen;
   };
+  std::shared_ptr<const VolumeDraws> place(const Scene& scene,
+    const std::vector<CasterInMemory>& casters, const OctreeArena& arena, const View& view,
+    const FrameSettings& settings, const std::vector<int>& lights, const ParallelFor& parallelFor);
   std::vector<Volume> gather(const Scene& scene, const std::vector<CasterInMemory>& casters,
     const View& view, const FrameSettings& settings, const std::vector<int>& lights);
   void see(const std::vector<Volume>& volumes, const FrameSettings& settings,
@@ -92,6 +103,8 @@ private:
   BufferTexture Casters{ BufferTexture::Texel::FourFloats };
   BufferTexture Senses{ BufferTexture::Texel::Word };
   std::size_t Volumes = 0, ContourEdges = 0;
+  /// Of a frame whose volumes did not fit: the scene, the room, and how many lights.
+  std::tuple<std::uint64_t, std::size_t, std::size_t> TooMuch;
 };
 }
 

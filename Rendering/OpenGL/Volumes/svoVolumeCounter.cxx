@@ -312,10 +312,12 @@ void VolumeCounter::darken(const VolumeDraws& draws, int number, const Pixels& p
     use(this->Caps);
     const int corners = way == VolumeDraws::Behind ? 2 * VerticesOfCap : VerticesOfCap;
     glUniform1i(at(this->Caps, "svoCorners"), corners);
+    const GLint first = at(this->Caps, "svoFirst");
+    const GLint firstTriangle = at(this->Caps, "svoFirstTriangle");
     for (const VolumeDraws::Caps& caps : part.caps)
     {
-      glUniform1i(at(this->Caps, "svoFirst"), caps.firstCaster);
-      glUniform1i(at(this->Caps, "svoFirstTriangle"), caps.firstTriangle);
+      glUniform1i(first, caps.firstCaster);
+      glUniform1i(firstTriangle, caps.firstTriangle);
       glDrawArraysInstanced(GL_TRIANGLES, 0, corners * caps.triangles, caps.casters);
     }
   }

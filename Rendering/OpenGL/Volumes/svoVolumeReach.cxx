@@ -68,22 +68,6 @@ bool meets(const Box& box, const glm::dvec4& from, const glm::dvec4& to)
   }
   return first <= last;
 }
-
-/// Of an octree's mesh, wider by the margin; octree coordinates.
-Box wideBox(const Octree& octree, const WorldToOctree& to)
-{
-  const double* bounds = octree.header().meshBounds;
-  const auto corner = [&](int side)
-  {
-    return 1.0 +
-      (glm::dvec3(bounds[side], bounds[2 + side], bounds[4 + side]) - to.origin) * to.scale;
-  };
-  Box box{ corner(0), corner(1) };
-  const glm::dvec3 margin = Margin * (0.1 + box.high - box.low);
-  box.low -= margin;
-  box.high += margin;
-  return box;
-}
 }
 
 glm::dvec4 placeOf(const Light& light, const WorldToOctree& to)
@@ -133,11 +117,13 @@ bool VolumeReach::find(std::size_t instance, double& end) const
   return span.first <= this->Last;
 }
 
-VolumeDraws::Way VolumeReach::way(const Octree& octree, const WorldToOctree& to) const
+VolumeDraws::Way VolumeReach::way(const CasterInMemory& caster) const
 {
+  const WorldToOctree& to = caster.toOctree;
+  const glm::dvec3 margin = Margin * (0.1 + caster.box.high - caster.box.low);
+  const Box wide{ caster.box.low - margin, caster.box.high + margin };
   const glm::dvec4 eye = this->Eye.parallel ? glm::dvec4(to.vector(-this->Eye.axis), 0.0)
                                             : glm::dvec4(to.point(this->Eye.eye), 1.0);
-  return meets(wideBox(octree, to), eye, placeOf(this->Of, to)) ? VolumeDraws::Behind
-                                                                : VolumeDraws::Before;
+  return meets(wide, eye, placeOf(this->Of, to)) ? VolumeDraws::Behind : VolumeDraws::Before;
 }
 }

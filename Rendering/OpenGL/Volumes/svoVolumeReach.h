@@ -3,7 +3,7 @@
 #define svoVolumeReach_h
 
 #include "svoLight.h"
-#include "svoOctree.h"
+#include "svoMapCopies.h"
 #include "svoOutline.h"
 #include "svoView.h"
 #include "svoVolumeDraws.h"
@@ -35,7 +35,7 @@ public:
   /// False if nothing lies behind it.
   bool find(std::size_t instance, double& end) const;
   /// By the sides behind where the eye may be in the caster's shadow.
-  VolumeDraws::Way way(const Octree& octree, const WorldToOctree& to) const;
+  VolumeDraws::Way way(const CasterInMemory& caster) const;
 
 private:
   const std::vector<Outline>& Outlines;
