@@ -16,25 +16,19 @@ namespace
 /// Rows that are asked at a time: drivers end what takes too long.
 constexpr int Rows = 128;
 
-#ifdef GL_COMPUTE_SHADER
 /// Groups of the compute shader.
 unsigned int groupsOf(int pixels)
 {
   return static_cast<unsigned int>(pixels + 7) / 8;
 }
-#endif
 }
 
 bool PixelProgram::hasCompute()
 {
-#ifdef GL_COMPUTE_SHADER
   GLint major = 0, minor = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);
   glGetIntegerv(GL_MINOR_VERSION, &minor);
   return 10 * major + minor >= 43 && glDispatchCompute != nullptr;
-#else
-  return false;
-#endif
 }
 
 bool PixelProgram::link(const std::string& text, bool computes, std::string& words)
@@ -43,17 +37,9 @@ bool PixelProgram::link(const std::string& text, bool computes, std::string& wor
   this->Computes = computes;
   const std::string whole =
     (computes ? "#version 430\n#define svoComputes\n" : "#version 150\n") + text;
-#ifdef GL_COMPUTE_SHADER
-  if (computes)
-  {
-    this->Program = linkProgram({ { GL_COMPUTE_SHADER, whole } }, words);
-  }
-  else
-#endif
-  {
-    this->Program =
-      linkProgram({ { GL_VERTEX_SHADER, AllPixels }, { GL_FRAGMENT_SHADER, whole } }, words);
-  }
+  this->Program = computes
+    ? linkProgram({ { GL_COMPUTE_SHADER, whole } }, words)
+    : linkProgram({ { GL_VERTEX_SHADER, AllPixels }, { GL_FRAGMENT_SHADER, whole } }, words);
   glGenVertexArrays(1, &this->Vertices);
   return this->linked();
 }
@@ -91,12 +77,10 @@ PixelProgram::Use::Use(vtkOpenGLState* state, const PixelProgram& program,
 
 PixelProgram::Use::~Use()
 {
-#ifdef GL_COMPUTE_SHADER
   if (this->Of.Computes)
   {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
   }
-#endif
   const vtkOpenGLState::ScopedglActiveTexture before(this->State);
   for (const auto& [unit, target] : this->Units)
   {
@@ -134,13 +118,11 @@ void PixelProgram::Use::fill(const Layer& layer)
     this->State->vtkglBindFramebuffer(GL_FRAMEBUFFER, layer.framebuffer);
     glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, layer.texture, 0, layer.layer);
   }
-#ifdef GL_COMPUTE_SHADER
   else
   {
     glBindImageTexture(0, layer.texture, 0, GL_FALSE, layer.layer,
       layer.adds ? GL_READ_WRITE : GL_WRITE_ONLY, layer.format);
   }
-#endif
   for (int row = 0; row < layer.height; row += Rows)
   {
     const int rows = std::min(Rows, layer.height - row);
@@ -149,20 +131,16 @@ void PixelProgram::Use::fill(const Layer& layer)
       this->State->vtkglViewport(0, row, layer.width, rows);
       glDrawArrays(GL_TRIANGLES, 0, 3);
     }
-#ifdef GL_COMPUTE_SHADER
     else
     {
       this->set("svoFirstRow", row);
       glDispatchCompute(groupsOf(layer.width), groupsOf(rows), 1);
     }
-#endif
     glFlush();
   }
-#ifdef GL_COMPUTE_SHADER
   if (this->Of.Computes && layer.adds)
   {
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
-#endif
 }
 }
