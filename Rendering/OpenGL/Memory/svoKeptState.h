@@ -40,7 +40,7 @@ public:
     for (std::size_t i = 0; i < this->Bound.size(); ++i)
     {
       glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(i));
-      glBindTexture(GL_TEXTURE_BUFFER, static_cast<GLuint>(this->Bound[i]));
+      glBindTexture(this->Bound[i].target, static_cast<GLuint>(this->Bound[i].before));
     }
     glActiveTexture(static_cast<GLenum>(this->Unit));
     glColorMask(this->Colors[0], this->Colors[1], this->Colors[2], this->Colors[3]);
@@ -57,14 +57,15 @@ public:
     }
   }
 
-  /// Binds a buffer texture to the next unit, and returns that.
-  int bind(GLuint texture)
+  /// Binds a buffer texture, or a GL_TEXTURE_2D, to the next unit, and returns that.
+  int bind(GLuint texture, GLenum target = GL_TEXTURE_BUFFER)
   {
     const auto unit = static_cast<int>(this->Bound.size());
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    this->Bound.push_back(0);
-    glGetIntegerv(GL_TEXTURE_BINDING_BUFFER, &this->Bound.back());
-    glBindTexture(GL_TEXTURE_BUFFER, texture);
+    this->Bound.push_back({ target, 0 });
+    glGetIntegerv(target == GL_TEXTURE_2D ? GL_TEXTURE_BINDING_2D : GL_TEXTURE_BINDING_BUFFER,
+      &this->Bound.back().before);
+    glBindTexture(target, texture);
     return unit;
   }
 
@@ -75,7 +76,12 @@ private:
   GLint Viewport[4], Scissor[4];
   GLint Framebuffer, Program, Vertices, Unit, Compared;
   GLboolean Deep, Colors[4];
-  std::vector<GLint> Bound; // by unit
+  struct Binding
+  {
+    GLenum target;
+    GLint before;
+  };
+  std::vector<Binding> Bound; // by unit
 };
 }
 

@@ -78,36 +78,6 @@ private:
   GLint Values[2][Names];
 };
 
-/// Textures of the first units, unbound in the end as before.
-class KeptPictures
-{
-public:
-  KeptPictures(const GLuint (&textures)[2], int firstUnit)
-    : First(firstUnit)
-  {
-    for (int i = 0; i < 2; ++i)
-    {
-      glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(this->First + i));
-      glGetIntegerv(GL_TEXTURE_BINDING_2D, &this->Before[i]);
-      glBindTexture(GL_TEXTURE_2D, textures[i]);
-    }
-  }
-  KeptPictures(const KeptPictures&) = delete;
-  KeptPictures& operator=(const KeptPictures&) = delete;
-  ~KeptPictures()
-  {
-    for (int i = 0; i < 2; ++i)
-    {
-      glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(this->First + i));
-      glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(this->Before[i]));
-    }
-  }
-
-private:
-  int First;
-  GLint Before[2];
-};
-
 GLint at(GLuint program, const char* uniform)
 {
   return glGetUniformLocation(program, uniform);
@@ -124,7 +94,7 @@ void count(GLenum side, VolumeDraws::Way way)
 }
 
 /// Drawing into a light's number, and into depths and stencils. In the end OpenGL is as before.
-class VolumeCounter::Scope
+class VolumeCounter::Scope : public KeptState
 {
 public:
   Scope(const VolumeCounter& counter, int number, unsigned int shares)
@@ -154,10 +124,7 @@ public:
     glUniformMatrix4fv(at(program, "svoProjection"), 1, GL_FALSE, glm::value_ptr(draws.projection));
   }
 
-  int bind(GLuint texture) { return this->State.bind(texture); }
-
 private:
-  KeptState State;
   KeptStencil Stencil;
 };
 
@@ -255,9 +222,7 @@ void VolumeCounter::find(vtkOpenGLState* state, const VolumeDraws& draws, int nu
 /// All is lit; has depths of what volumes tell of, and stencils of what asks.
 void VolumeCounter::receive(const VolumeDraws& draws, int number, const Pixels& pixels)
 {
-  const Scope scope(*this, number, pixels.shares);
-  constexpr int FirstPicture = 0;
-  const KeptPictures pictures({ pixels.places, pixels.planes }, FirstPicture);
+  Scope scope(*this, number, pixels.shares);
   const float lit[] = { 1.0f, 1.0f, 1.0f, 1.0f };
   glDepthMask(GL_TRUE);
   glClearBufferfv(GL_COLOR, 0, lit);
@@ -269,8 +234,8 @@ void VolumeCounter::receive(const VolumeDraws& draws, int number, const Pixels& 
   glStencilFunc(GL_ALWAYS, 0, ~0u);
   glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   Scope::use(this->Receivers, draws, draws.lights[number]);
-  glUniform1i(at(this->Receivers, "svoPlaces"), FirstPicture);
-  glUniform1i(at(this->Receivers, "svoPlanes"), FirstPicture + 1);
+  glUniform1i(at(this->Receivers, "svoPlaces"), scope.bind(pixels.places, GL_TEXTURE_2D));
+  glUniform1i(at(this->Receivers, "svoPlanes"), scope.bind(pixels.planes, GL_TEXTURE_2D));
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
