@@ -134,39 +134,32 @@ bool VolumeCounter::link(std::string& words)
   {
     return true;
   }
-  const auto volume = [&words](int caps)
+  const auto volume = [&words](unsigned int& program, int caps)
   {
     const std::string constants = "#version 150\n#define svoCaps " + std::to_string(caps) + "\n";
-    return linkProgram(
-      { { GL_VERTEX_SHADER, constants + "#define svoAtVertices\n" + svoShadowVolume },
-        { GL_FRAGMENT_SHADER, constants + svoPixelRay + svoShadowVolume } },
-      words);
+    program =
+      linkProgram({ { GL_VERTEX_SHADER, constants + "#define svoAtVertices\n" + svoShadowVolume },
+                    { GL_FRAGMENT_SHADER, constants + svoPixelRay + svoShadowVolume } },
+        words);
+    return program != 0;
   };
-  std::ostringstream constants;
-  constants.imbue(std::locale::classic());
-  constants << std::showpoint << std::setprecision(9)
-            << "#version 150\nconst float svoDoubtfulSine = " << DoubtfulSine << ";\n";
-  std::string refusal;
-  const auto link = [&](GLuint program)
+  const auto pixels = [&words](unsigned int& program, const std::string& text)
   {
-    refusal = refusal.empty() ? words : refusal;
-    return program;
+    program = linkProgram({ { GL_VERTEX_SHADER, AllPixels }, { GL_FRAGMENT_SHADER, text } }, words);
+    return program != 0;
   };
-  this->Sides = link(volume(0));
-  this->Caps = link(volume(1));
-  this->Receivers = link(linkProgram(
-    { { GL_VERTEX_SHADER, AllPixels },
-      { GL_FRAGMENT_SHADER,
-        constants.str() + svoUnfold + svoPixelRay + svoVolumeReceiver + svoVolumeDepth } },
-    words));
-  this->Dark =
-    link(linkProgram({ { GL_VERTEX_SHADER, AllPixels }, { GL_FRAGMENT_SHADER, Zero } }, words));
-  words = refusal;
-  if (!words.empty())
+  std::ostringstream receivers;
+  receivers.imbue(std::locale::classic());
+  receivers << std::showpoint << std::setprecision(9)
+            << "#version 150\nconst float svoDoubtfulSine = " << DoubtfulSine << ";\n"
+            << svoUnfold << svoPixelRay << svoVolumeReceiver << svoVolumeDepth;
+  const bool linked = volume(this->Sides, 0) && volume(this->Caps, 1) &&
+    pixels(this->Receivers, receivers.str()) && pixels(this->Dark, Zero);
+  if (!linked)
   {
     this->release();
   }
-  return words.empty();
+  return linked;
 }
 
 bool VolumeCounter::resize(int width, int height, unsigned int shares)
