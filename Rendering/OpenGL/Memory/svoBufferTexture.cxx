@@ -9,20 +9,7 @@ namespace svo
 {
 namespace
 {
-GLenum formatOf(BufferTexture::Texel texel)
-{
-  switch (texel)
-  {
-    case BufferTexture::Texel::Float:
-      return GL_R32F;
-    case BufferTexture::Texel::FourFloats:
-      return GL_RGBA32F;
-    case BufferTexture::Texel::Word:
-      return GL_R32UI;
-    default:
-      return GL_RGBA32UI;
-  }
-}
+constexpr GLenum Formats[] = { GL_R32F, GL_RGBA32F, GL_R32UI, GL_RGBA32UI }; // by Texel
 }
 
 std::size_t BufferTexture::most()
@@ -60,7 +47,7 @@ bool BufferTexture::allocate(std::size_t texels, std::size_t kept)
   glGetIntegerv(GL_TEXTURE_BINDING_BUFFER, &bound);
   glGenTextures(1, &this->Texture);
   glBindTexture(GL_TEXTURE_BUFFER, this->Texture);
-  glTexBuffer(GL_TEXTURE_BUFFER, formatOf(this->Kind), this->Buffer);
+  glTexBuffer(GL_TEXTURE_BUFFER, Formats[static_cast<int>(this->Kind)], this->Buffer);
   glBindTexture(GL_TEXTURE_BUFFER, static_cast<GLuint>(bound));
   this->Size = texels;
   if (glGetError() != GL_NO_ERROR)
