@@ -117,10 +117,10 @@ void LightContour::collect(const MeshEdges& mesh)
   this->Edges.clear();
   for (std::size_t i = 0; i < mesh.edges.size(); ++i)
   {
-    const MeshEdges::Edge& edge = mesh.edges[i];
+    const Edge& edge = mesh.edges[i];
     const int count = this->Counts[i];
     this->Edges.insert(this->Edges.end(), static_cast<std::size_t>(std::abs(count)),
-      count > 0 ? Edge{ edge.from, edge.to } : Edge{ edge.to, edge.from });
+      count > 0 ? edge : Edge{ edge.to, edge.from });
   }
 }
 

@@ -23,10 +23,7 @@ namespace svo
 class VTKSVOOPENGL_EXPORT LightContour
 {
 public:
-  struct Edge
-  {
-    std::uint32_t from, to; // corners; so that the prisms lie to the left, seen from the light
-  };
+  using Edge = MeshEdges::Edge; // so that the prisms lie to the left, seen from the light
 
   /// Of the same mesh as before, wherever the light was then. `light`, octree coordinates: where it
   /// is, and 1; or the way towards it, and 0. Triangles are asked one by one, or with `bundles` by
