@@ -12,7 +12,6 @@
 #include "svoWorldToOctree.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include <glm/common.hpp>
 #include <glm/mat4x4.hpp>
@@ -71,9 +70,7 @@ bool SeenSurfaces::place(const Scene& scene, const std::vector<std::size_t>& see
   for (const auto& [key, instance] : wanted)
   {
     const std::size_t count = instance->body->octree.header().listWords;
-    std::vector<std::uint32_t> words(count);
-    std::memcpy(words.data(), colorsOf(*instance), 4 * count);
-    this->Colors.send(first, words.data(), count);
+    this->Colors.send(first, colorsOf(*instance), count);
     this->Colored.emplace(key, first);
     first += count;
   }
@@ -120,8 +117,7 @@ void SeenSurfaces::describe(const Scene& scene, const View& view, const OctreeAr
       { "svoDepths", { octree.depthCount() } } };
     if (surface.colored)
     {
-      const std::size_t first =
-        this->Colored.at(Key(octree.id(), instance.body->attributes.version, colorsOf(instance)));
+      const std::size_t first = this->Colored.at(keyOf(instance));
       surface.values.integers.push_back(
         { "svoFirstColor", { static_cast<int>(first) - static_cast<int>(arena.firstOf(octree)) } });
     }
