@@ -82,21 +82,6 @@ int sampledOf(const Scene& scene, const FrameSettings& settings)
   return static_cast<int>(soft) + settings.ambientOcclusion + settings.skyLight;
 }
 
-/// What the eye sees: indices.
-std::vector<std::size_t> seenOf(const Scene& scene)
-{
-  std::vector<std::size_t> seen;
-  for (std::size_t i = 0; i < scene.instances.size(); ++i)
-  {
-    const Instance& instance = scene.instances[i];
-    if (instance.visible && instance.body->octree && !instance.body->octree.empty())
-    {
-      seen.push_back(i);
-    }
-  }
-  return seen;
-}
-
 class OpenGLTracer : public Tracer
 {
 public:
@@ -219,7 +204,8 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
     : std::count_if(scene.lights.begin(), scene.lights.end(),
         [](const Light& light) { return light.castShadow; });
   const int sampled = settings.lightCode ? sampledOf(scene, settings) : 0;
-  const bool asked = settings.lightCode && (lights > 0 || sampled > 0 || !seenOf(scene).empty());
+  const bool asked = settings.lightCode &&
+    (lights > 0 || sampled > 0 || !instancesOf(scene, &Instance::visible).empty());
   const bool maps = asked && lights > 0 && settings.shadowTechnique == ShadowTechnique::Buffer;
   if (!maps)
   {
@@ -335,7 +321,7 @@ std::string OpenGLTracer::prepare(
 std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
 {
   std::vector<const Octree*> octrees;
-  for (const std::size_t index : castersOf(scene))
+  for (const std::size_t index : instancesOf(scene, &Instance::castShadow))
   {
     const Octree& octree = scene.instances[index].body->octree;
     if (!octree.surface() && !octree.hasPlanes())
@@ -344,7 +330,7 @@ std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
     }
     octrees.push_back(&octree);
   }
-  const std::vector<std::size_t> seen = seenOf(scene);
+  const std::vector<std::size_t> seen = instancesOf(scene, &Instance::visible);
   for (const std::size_t index : seen)
   {
     const Octree& octree = scene.instances[index].body->octree;

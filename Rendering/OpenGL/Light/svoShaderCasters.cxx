@@ -47,18 +47,18 @@ Box worldBox(const Instance& instance)
 }
 }
 
-std::vector<std::size_t> castersOf(const Scene& scene)
+std::vector<std::size_t> instancesOf(const Scene& scene, bool Instance::*which)
 {
-  std::vector<std::size_t> casters;
+  std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
   {
     const Instance& instance = scene.instances[i];
-    if (instance.castShadow && instance.body->octree && !instance.body->octree.empty())
+    if (instance.*which && instance.body->octree && !instance.body->octree.empty())
     {
-      casters.push_back(i);
+      indices.push_back(i);
     }
   }
-  return casters;
+  return indices;
 }
 
 double ShaderCasters::largestGap(const View& view) const
@@ -98,7 +98,7 @@ bool ShaderCasters::place(const Scene& scene, const OctreeArena& arena)
   this->WorldToView = glm::dmat4(0.0);
   std::vector<Box> boxes;
   Box all;
-  for (const std::size_t index : castersOf(scene))
+  for (const std::size_t index : instancesOf(scene, &Instance::castShadow))
   {
     const Instance& caster = scene.instances[index];
     const Octree& octree = caster.body->octree;

@@ -21,8 +21,9 @@ namespace svo
 {
 class OctreeArena;
 
-/// Indices of the instances that cast.
-std::vector<std::size_t> castersOf(const Scene& scene);
+/// Indices of the instances whose octrees hold something, and that cast, or are seen: `which` is
+/// &Instance::castShadow, or &Instance::visible.
+std::vector<std::size_t> instancesOf(const Scene& scene, bool Instance::*which);
 
 /// In the memory of an OpenGL context, in which all calls are made.
 class ShaderCasters
