@@ -192,12 +192,10 @@ std::vector<NeededLevels> OpenGLTracer::neededLevels(
 void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSettings& settings,
   const ParallelFor& parallelFor)
 {
-  this->Code.lights.clear();
-  this->Code.sampled.clear();
-  this->Code.occlusion = this->Code.sky = LightCode::None;
-  this->Code.complaint.clear();
-  this->Code.remark.clear();
-  this->Code.volumes = nullptr;
+  LightCode code;
+  code.samples = this->Code.samples;
+  code.picture = this->Code.picture;
+  this->Code = std::move(code);
   this->Eye = EyeCode();
   const auto lights = settings.shadowTechnique == ShadowTechnique::None
     ? 0
@@ -391,8 +389,6 @@ void OpenGLTracer::describe(
   this->Code.textures = { { "svoNodes", this->Octrees.nodes().name() },
     { "svoLists", this->Octrees.lists().name() },
     { "svoTriangles", this->Octrees.triangles().name() } };
-  this->Code.integers.clear();
-  this->Code.floats.clear();
   this->describeSamples(scene, view, settings);
   this->Code.constants = constants + constantsOf(this->Code, settings);
   sources.values.resize(4 * static_cast<std::size_t>(this->Code.count()));
