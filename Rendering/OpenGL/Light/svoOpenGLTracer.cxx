@@ -349,11 +349,11 @@ std::string OpenGLTracer::hold(const Scene& scene, std::size_t limit)
     {
       return {};
     }
-    if (!this->Octrees.holdsOthers())
+    if (held && !this->Octrees.holdsOthers())
     {
       break;
     }
-    this->Octrees.release();
+    this->Octrees.release(); // of earlier frames
   }
   return "The octrees do not fit into OpenGL's memory, or into GPUMemoryLimit";
 }

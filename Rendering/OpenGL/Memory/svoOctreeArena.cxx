@@ -44,17 +44,12 @@ bool OctreeArena::hold(const std::vector<const Octree*>& octrees, std::size_t li
     ids.insert(octree->id());
   }
   this->Asked = ids.size();
-  if (this->bytes() <= limit && this->add(octrees, limit))
+  const bool fits = this->bytes() <= limit && this->add(octrees, limit);
+  if (!fits)
   {
-    return true;
+    this->release();
   }
-  this->release(); // of earlier frames
-  if (this->add(octrees, limit))
-  {
-    return true;
-  }
-  this->release();
-  return false;
+  return fits;
 }
 
 std::uint32_t OctreeArena::rootOf(const Octree& octree) const

@@ -23,9 +23,9 @@ glm::vec2 inFloats(std::uint32_t number);
 class OctreeArena
 {
 public:
-  /// Has these octrees, all with a surface or planes and not empty, in memory; those of earlier
-  /// frames stay as long as there is room in `limit` (bytes). False, and nothing is there, if they
-  /// do not fit into that, or OpenGL has no room.
+  /// Has these octrees, all with a surface or planes and not empty, in memory, beside those of
+  /// earlier frames. False, and nothing is there, if all of them do not fit into `limit` (bytes),
+  /// or OpenGL has no room: alone they may fit.
   bool hold(const std::vector<const Octree*>& octrees, std::size_t limit);
   /// True if it has some that hold() was not asked for last: whoever needs their room has to
   /// release() all, and ask again.
