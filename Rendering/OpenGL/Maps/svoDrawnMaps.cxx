@@ -81,27 +81,21 @@ std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory
   const bool translucent = std::any_of(
     this->Maps.begin(), this->Maps.end(), [](const ShadowMap& map) { return map.group > 0; });
   const int size = this->Maps.empty() ? 1 : this->Maps.front().view.width;
-  std::string whyNot;
-  const bool fits = this->fits(size, layers, translucent, room);
-  if (!fits)
+  if (!this->fits(size, layers, translucent, room))
   {
     before.clear(); // what was drawn goes with the texture
     this->InMaps.clear();
+    if (!this->resize(size, layers, translucent, room))
+    {
+      this->forget();
+      return "Shadow maps do not fit into OpenGL's memory, or into GPUMemoryLimit";
+    }
   }
-  if (!fits && !this->resize(size, layers, translucent, room))
-  {
-    whyNot = "Shadow maps do not fit into OpenGL's memory, or into GPUMemoryLimit";
-  }
-  else
-  {
-    const std::string& words = this->link(alphas.size() > 0);
-    whyNot = words.empty() ? words : "OpenGL refuses the shaders of shadow maps (" + words + ")";
-  }
-  if (whyNot.empty())
-  {
-    whyNot = this->drawParts(
-      partsToDraw(before, this->InMaps, this->Maps, copies, size), copies, arena, alphas);
-  }
+  const std::string& words = this->link(alphas.size() > 0);
+  const std::string whyNot = words.empty()
+    ? this->drawParts(
+        partsToDraw(before, this->InMaps, this->Maps, copies, size), copies, arena, alphas)
+    : "OpenGL refuses the shaders of shadow maps (" + words + ")";
   if (whyNot.empty())
   {
     this->InMaps = std::move(copies);
