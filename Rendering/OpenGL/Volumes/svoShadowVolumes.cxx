@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -124,13 +125,14 @@ std::shared_ptr<const VolumeDraws> ShadowVolumes::place(const Scene& scene,
   return draws;
 }
 
-/// All volumes, in the order in which they are drawn, those of copies of a mesh together.
+/// All volumes, in the order in which they are drawn, those of copies of a mesh together. Forgets
+/// meshes that no caster has.
 std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
   const std::vector<CasterInMemory>& casters, const View& view, const FrameSettings& settings,
   const std::vector<int>& lights)
 {
   std::vector<Volume> volumes;
-  this->InScene.clear();
+  std::set<std::uint64_t> inScene; // by Octree::id(): who may cast again
   const bool suns = std::any_of(
     lights.begin(), lights.end(), [&scene](int light) { return scene.lights[light].atInfinity(); });
   const std::vector<Outline> outlines = suns ? outlinesOf(scene) : std::vector<Outline>();
@@ -146,7 +148,7 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
       {
         continue;
       }
-      this->InScene.insert(instance.body->octree.id());
+      inScene.insert(instance.body->octree.id());
       if (!reach.find(caster.instance, end))
       {
         continue;
@@ -163,6 +165,10 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
         { &instance, number, placeOf(light, caster.toOctree), end, reach.way(caster), seen });
     }
   }
+  for (auto i = this->Meshes.begin(); i != this->Meshes.end();)
+  {
+    i = inScene.count(i->first) > 0 ? std::next(i) : this->Meshes.erase(i);
+  }
   std::stable_sort(volumes.begin(), volumes.end(),
     [](const Volume& a, const Volume& b)
     {
@@ -176,18 +182,12 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
 void ShadowVolumes::see(
   const std::vector<Volume>& volumes, const FrameSettings& settings, const ParallelFor& parallelFor)
 {
-  std::map<std::uint64_t, std::unique_ptr<const MeshEdges>> meshes;
   std::vector<std::pair<const Octree*, std::unique_ptr<const MeshEdges>*>> unknown;
   for (const Volume& volume : volumes)
   {
     const Octree& octree = volume.instance->body->octree;
-    const auto [mesh, added] = meshes.try_emplace(octree.id());
-    const auto known = this->Meshes.find(octree.id());
-    if (added && known != this->Meshes.end())
-    {
-      mesh->second = std::move(known->second);
-    }
-    else if (added)
+    const auto [mesh, added] = this->Meshes.try_emplace(octree.id());
+    if (added)
     {
       unknown.emplace_back(&octree, &mesh->second);
     }
@@ -200,15 +200,6 @@ void ShadowVolumes::see(
         *unknown[i].second = std::make_unique<const MeshEdges>(*unknown[i].first->surface());
       }
     });
-  for (const std::uint64_t id : this->InScene) // who may cast again
-  {
-    const auto known = this->Meshes.find(id);
-    if (known != this->Meshes.end() && known->second)
-    {
-      meshes.try_emplace(id, std::move(known->second));
-    }
-  }
-  this->Meshes = std::move(meshes);
   parallelFor(0, volumes.size(), 1,
     [&](std::size_t first, std::size_t last)
     {

@@ -17,7 +17,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -91,7 +90,6 @@ private:
   bool aim(const std::vector<Volume>& volumes, const View& view);
 
   std::map<std::uint64_t, std::unique_ptr<const MeshEdges>> Meshes; // by Octree::id()
-  std::set<std::uint64_t> InScene;                                  // of them
   std::map<std::pair<std::uint64_t, std::uint64_t>, Seen> Kept;     // by caster and light
   std::uint64_t Versions = 0;
   // What was sent: by volume what it is of, and where its senses begin; ranges; matrices.
