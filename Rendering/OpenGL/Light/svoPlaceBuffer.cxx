@@ -109,16 +109,33 @@ void PlaceBuffer::gather(vtkOpenGLState* state, const Draw& draw)
   state->PopFramebufferBindings();
 }
 
-void PlaceBuffer::describe(LightCode& code) const
+void PlaceBuffer::describe(
+  LightCode& code, unsigned int shares, int width, int height, bool others) const
 {
-  code.textures.push_back({ "svoPlaces", this->Places, GL_TEXTURE_2D });
-  code.integers.push_back({ "svoSliceRows", { this->Height, this->sliceRows() } });
-  code.translucent = this->translucent();
-  if (code.translucent)
+  code.fromPlaces = true;
+  code.textures.push_back({ "svoShares", shares, GL_TEXTURE_2D_ARRAY });
+  code.floats.push_back({ "svoMaskPixels", 1,
+    { static_cast<float>(this->Width) / static_cast<float>(width),
+      static_cast<float>(this->Height) / static_cast<float>(height) } });
+  if (others)
+  {
+    code.textures.push_back({ "svoPlaces", this->Places, GL_TEXTURE_2D });
+    code.integers.push_back({ "svoSliceRows", { this->Height, this->sliceRows() } });
+    code.translucent = this->translucent();
+  }
+  if (others && code.translucent)
   {
     code.textures.push_back({ "svoBefore", this->Before, GL_TEXTURE_2D });
     code.constants += "#define svoSlices " + std::to_string(this->Slices) + "\n";
   }
+  code.integers.push_back({ "svoFirstPixel", { 0, 0 } });
+}
+
+void PlaceBuffer::aim(vtkOpenGLState* state, LightCode& code)
+{
+  int viewport[4];
+  state->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+  code.integers.back().values = { viewport[0], viewport[1] };
 }
 
 void PlaceBuffer::read(vtkOpenGLState* state, ReceiverPlaces& places) const

@@ -33,8 +33,11 @@ public:
   using Draw = std::function<void(int slice, int behind)>;
   /// Other state is as before.
   void gather(vtkOpenGLState* state, const Draw& draw);
-  /// Has code of fragments that the mask says nothing of know where it does.
-  void describe(LightCode& code) const;
+  /// Has code look up a mask of these pixels, the texture `shares`, in a picture of so many; aim()
+  /// says where that lies. With `others` it knows of what the mask has something to say.
+  void describe(LightCode& code, unsigned int shares, int width, int height, bool others) const;
+  /// The code will be used in the current viewport.
+  static void aim(vtkOpenGLState* state, LightCode& code);
   /// What was gathered.
   void read(vtkOpenGLState* state, ReceiverPlaces& places) const;
 

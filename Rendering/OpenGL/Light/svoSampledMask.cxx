@@ -72,20 +72,11 @@ const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverSha
     planes.insert(planes.end(), { shares.sky, shares.sky + 1, shares.sky + 2 });
   }
   this->Code.unlit = unlit;
-  this->Code.fromPlaces = true;
   this->Code.constants += "const int svoMapCount = " + std::to_string(maps.lights.size()) + ";\n" +
     sampleConstants(this->Code, planes, settings);
   this->Code.text = this->textOf(maps, others);
   addAroundValues(settings, view, this->Code);
-  this->Code.textures.push_back({ "svoShares", this->Shares, GL_TEXTURE_2D_ARRAY });
-  if (others)
-  {
-    this->Surfaces.describe(this->Code);
-  }
-  this->Code.floats.push_back({ "svoMaskPixels", 1,
-    { static_cast<float>(view.width) / static_cast<float>(width),
-      static_cast<float>(view.height) / static_cast<float>(height) } });
-  this->Code.integers.push_back({ "svoFirstPixel", { 0, 0 } });
+  this->Surfaces.describe(this->Code, this->Shares, width, height, others);
   return this->Code;
 }
 
@@ -134,13 +125,6 @@ bool SampledMask::resize(int width, int height, bool translucent, int layers)
     this->resize(0, 0, false, 0);
   }
   return this->Shares != 0;
-}
-
-void SampledMask::aim(vtkOpenGLState* state)
-{
-  int viewport[4];
-  state->vtkglGetIntegerv(GL_VIEWPORT, viewport);
-  this->Code.integers.back().values = { viewport[0], viewport[1] };
 }
 
 void SampledMask::gather(

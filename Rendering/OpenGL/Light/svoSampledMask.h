@@ -34,7 +34,7 @@ public:
   bool any() const { return !this->Code.empty(); }
 
   /// The code will be used in the current viewport.
-  void aim(vtkOpenGLState* state);
+  void aim(vtkOpenGLState* state) { PlaceBuffer::aim(state, this->Code); }
   /// Gathers where surfaces lie; see PlaceBuffer::gather().
   void gather(vtkOpenGLState* state, const PlaceBuffer::Draw& draw, ReceiverPlaces& places);
   /// Has these numbers.

@@ -93,16 +93,9 @@ const LightCode& ShadowMask::lookUp(
   {
     this->Code.textures.clear();
   }
-  else
-  {
-    this->Surfaces.describe(this->Code);
-  }
   this->Code.lights = asked.lights;
   this->Code.costly = false;
-  this->Code.fromPlaces = true;
-  this->Code.textures.push_back({ "svoShares", this->Shares, GL_TEXTURE_2D_ARRAY });
-  this->Code.integers.push_back({ "svoFirstPixel", { 0, 0 } });
-  this->Code.floats.push_back({ "svoMaskPixels", 1, { 1.0f, 1.0f } });
+  this->Surfaces.describe(this->Code, this->Shares, width, height, others);
   return this->Code;
 }
 
@@ -113,9 +106,7 @@ void ShadowMask::find(vtkOpenGLState* state, const LightCode& asked, bool same,
   {
     return;
   }
-  int viewport[4];
-  state->vtkglGetIntegerv(GL_VIEWPORT, viewport);
-  this->Code.integers.back().values = { viewport[0], viewport[1] };
+  PlaceBuffer::aim(state, this->Code);
   const bool known = same && this->Found > 0 && this->Picture == asked.picture;
   if (known && this->Found == asked.samples)
   {
