@@ -79,7 +79,7 @@ vec3 svoSkySample(uvec2 square, out vec3 color)
 #endif
 
 // Sums of red, green and blue, and how many samples count.
-vec4 svoSumsAt(ivec2 pixel)
+vec4 svoAnswerAt(ivec2 pixel)
 {
   vec4 sums = vec4(0.0);
   vec4 place = texelFetch(svoPlaces, pixel, 0);
@@ -155,25 +155,3 @@ vec4 svoSumsAt(ivec2 pixel)
   }
   return sums;
 }
-
-#ifdef svoComputes
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba32f) uniform image2D svoMask;
-uniform int svoFirstRow;
-
-void main()
-{
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, svoFirstRow);
-  if (all(lessThan(pixel, imageSize(svoMask))))
-  {
-    imageStore(svoMask, pixel, imageLoad(svoMask, pixel) + svoSumsAt(pixel));
-  }
-}
-#else
-out vec4 svoMask;
-
-void main()
-{
-  svoMask = svoSumsAt(ivec2(gl_FragCoord.xy));
-}
-#endif

@@ -40,8 +40,9 @@ std::vector<std::uint32_t> sequenceWords()
 bool LightSamples::link(const LightCode& asked, bool computes, std::string& words)
 {
   this->Held = 0;
-  return this->Program.link(
-    asked.constants + asked.text + svoSkyShader + svoLightSampleShader, computes, words);
+  return this->Program.link("#define svoFormat rgba32f\n#define svoAdds\n" + asked.constants +
+      asked.text + svoSkyShader + svoLightSampleShader,
+    computes, words);
 }
 
 bool LightSamples::resize(int width, int height, int layers)

@@ -1,6 +1,7 @@
 #include "svoPixelProgram.h"
 
 #include "svoOpenGL.h"
+#include "svoPixelMain.h"
 #include "svoProgram.h"
 #include "svoUniforms.h"
 
@@ -36,7 +37,7 @@ bool PixelProgram::link(const std::string& text, bool computes, std::string& wor
   this->release();
   this->Computes = computes;
   const std::string whole =
-    (computes ? "#version 430\n#define svoComputes\n" : "#version 150\n") + text;
+    (computes ? "#version 430\n#define svoComputes\n" : "#version 150\n") + text + svoPixelMain;
   this->Program = computes
     ? linkProgram({ { GL_COMPUTE_SHADER, whole } }, words)
     : linkProgram({ { GL_VERTEX_SHADER, AllPixels }, { GL_FRAGMENT_SHADER, whole } }, words);

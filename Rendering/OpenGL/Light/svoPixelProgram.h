@@ -20,8 +20,8 @@ public:
   /// True if the context has compute shaders (OpenGL 4.3).
   static bool hasCompute();
 
-  /// Makes it of a text that answers either way: svoComputes is defined or not. False, and `words`
-  /// has OpenGL's, if it refuses.
+  /// Makes it of a text with what svoPixelMain.glsl asks. False, and `words` has OpenGL's, if it
+  /// refuses.
   bool link(const std::string& text, bool computes, std::string& words);
   bool linked() const { return this->Program != 0; }
   bool computes() const { return this->Computes; }

@@ -51,8 +51,8 @@ std::string lookUpText(const LightCode& asked, bool others)
 std::string maskText(const LightCode& asked)
 {
   return asked.constants +
-    (asked.sampled.empty() ? asked.text
-                           : "#define rgba8 rgba16\n" + renamed(asked, "svoLeftByRay") +
+    (asked.sampled.empty() ? std::string("#define svoFormat rgba8\n") + asked.text
+                           : "#define svoFormat rgba16\n" + renamed(asked, "svoLeftByRay") +
           svoSkyShader + svoSampleMeans) +
     (asked.volumes ? std::string(svoPixelRay) + svoVolumeReceiver : "") + svoShadowMaskShader;
 }

@@ -11,7 +11,7 @@ uniform int svoFirstLight;
 uniform float svoParallel; // 1: rays of the picture are
 #endif
 
-vec4 svoSharesAt(ivec2 pixel)
+vec4 svoAnswerAt(ivec2 pixel)
 {
   vec4 shares = vec4(1.0);
   vec4 place = texelFetch(svoPlaces, pixel, 0);
@@ -35,30 +35,9 @@ vec4 svoSharesAt(ivec2 pixel)
   {
     shares[i] = svoLeft(svoFirstLight + i, place.xyz, facet, normal, max(place.w, 0.0) * normal, 0.0);
   }
-  return shares;
-}
-
-#ifdef svoComputes
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba8) writeonly uniform image2D svoMask;
-uniform int svoFirstRow;
-
-void main()
-{
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, svoFirstRow);
-  if (all(lessThan(pixel, imageSize(svoMask))))
-  {
-    imageStore(svoMask, pixel, svoSharesAt(pixel));
-  }
-}
-#else
-out vec4 svoMask;
-
-void main()
-{
-  svoMask = svoSharesAt(ivec2(gl_FragCoord.xy));
 #ifdef svoHasVolumes
-  svoMask = svoMask.xxxx;
+  return shares.xxxx;
+#else
+  return shares;
 #endif
 }
-#endif
