@@ -3,8 +3,9 @@
 #include "svoMorton.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <numeric>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -12,75 +13,58 @@ namespace svo
 {
 namespace
 {
-class Maker
+using Order = std::vector<std::pair<std::uint64_t, std::size_t>>; // with keys
+
+/// Adds the node of boxes [first, last) in this order, at least one, and all below it.
+Box add(const std::vector<Box>& boxes, const Order& order, std::size_t first, std::size_t last,
+  double margin, std::vector<CasterNode>& nodes)
 {
-public:
-  Maker(const std::vector<Box>& boxes, double margin)
-    : Boxes(boxes)
-    , Order(boxes.size())
-    , Codes(boxes.size())
+  const std::size_t node = nodes.size();
+  nodes.emplace_back();
+  Box box;
+  float caster = -1.0f;
+  if (last - first == 1)
   {
-    Box all;
-    for (const Box& box : boxes)
-    {
-      all.add(box);
-    }
-    const glm::dvec3 largest = glm::max(glm::abs(all.low), glm::abs(all.high));
-    this->Margin = margin * std::max({ largest.x, largest.y, largest.z });
-    constexpr double Cells = 1024.0;
-    const glm::dvec3 size = glm::max(all.high - all.low, glm::dvec3(1e-300));
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-    {
-      const glm::dvec3 centre = (0.5 * (boxes[i].low + boxes[i].high) - all.low) / size;
-      const glm::uvec3 cell(glm::clamp(centre * Cells, 0.0, Cells - 1.0));
-      this->Codes[i] = mortonKey(cell.x, cell.y, cell.z);
-    }
-    std::iota(this->Order.begin(), this->Order.end(), std::size_t(0));
-    std::stable_sort(this->Order.begin(), this->Order.end(),
-      [this](std::size_t a, std::size_t b) { return this->Codes[a] < this->Codes[b]; });
-    this->Nodes.reserve(2 * boxes.size());
+    box = boxes[order[first].second];
+    caster = static_cast<float>(order[first].second);
   }
-
-  /// Adds the node of boxes [first, last), at least one, and all below it.
-  Box add(std::size_t first, std::size_t last)
+  else
   {
-    const std::size_t node = this->Nodes.size();
-    this->Nodes.emplace_back();
-    Box box;
-    float caster = -1.0f;
-    if (last - first == 1)
-    {
-      box = this->Boxes[this->Order[first]];
-      caster = static_cast<float>(this->Order[first]);
-    }
-    else
-    {
-      const std::size_t middle = first + (last - first) / 2;
-      box = this->add(first, middle);
-      box.add(this->add(middle, last));
-    }
-    this->Nodes[node] = { glm::vec3(box.low - this->Margin), static_cast<float>(this->Nodes.size()),
-      glm::vec3(box.high + this->Margin), caster };
-    return box;
+    const std::size_t middle = first + (last - first) / 2;
+    box = add(boxes, order, first, middle, margin, nodes);
+    box.add(add(boxes, order, middle, last, margin, nodes));
   }
-
-  std::vector<CasterNode> Nodes;
-
-private:
-  const std::vector<Box>& Boxes;
-  std::vector<std::size_t> Order;
-  std::vector<std::uint64_t> Codes;
-  double Margin;
-};
+  nodes[node] = { glm::vec3(box.low - margin), static_cast<float>(nodes.size()),
+    glm::vec3(box.high + margin), caster };
+  return box;
+}
 }
 
 std::vector<CasterNode> makeCasterTree(const std::vector<Box>& boxes, double margin)
 {
-  Maker maker(boxes, margin);
-  if (!boxes.empty())
+  std::vector<CasterNode> nodes;
+  if (boxes.empty())
   {
-    maker.add(0, boxes.size());
+    return nodes;
   }
-  return std::move(maker.Nodes);
+  Box all;
+  for (const Box& box : boxes)
+  {
+    all.add(box);
+  }
+  const glm::dvec3 largest = glm::max(glm::abs(all.low), glm::abs(all.high));
+  constexpr double Cells = 1024.0;
+  const glm::dvec3 size = glm::max(all.high - all.low, glm::dvec3(1e-300));
+  Order order;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+  {
+    const glm::dvec3 centre = (0.5 * (boxes[i].low + boxes[i].high) - all.low) / size;
+    const glm::uvec3 cell(glm::clamp(centre * Cells, 0.0, Cells - 1.0));
+    order.emplace_back(mortonKey(cell.x, cell.y, cell.z), i);
+  }
+  std::sort(order.begin(), order.end());
+  nodes.reserve(2 * boxes.size());
+  add(boxes, order, 0, boxes.size(), margin * std::max({ largest.x, largest.y, largest.z }), nodes);
+  return nodes;
 }
 }
