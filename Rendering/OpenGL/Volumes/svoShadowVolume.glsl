@@ -121,13 +121,13 @@ void main()
 #else
 // Depths are those of planes at pixels' rays: what is interpolated over triangles that reach from behind
 // the eye to infinity has no digits.
-uniform vec2 svoReach; // VolumeDraws: base, reach
+uniform float svoReach[2]; // VolumeDraws
 flat in vec4 svoPlane;
 
 void main()
 {
   float depth = -(dot(svoPlane.xyz, svoRayBegins(gl_FragCoord.xy)) + svoPlane.w) /
     dot(svoPlane.xyz, svoRayWay(gl_FragCoord.xy));
-  gl_FragDepth = svoPlane.xyz == vec3(0.0) ? 1.0 : clamp((depth - svoReach.x) / svoReach.y, 0.0, 1.0);
+  gl_FragDepth = svoPlane.xyz == vec3(0.0) ? 1.0 : clamp((depth - svoReach[0]) / svoReach[1], 0.0, 1.0);
 }
 #endif

@@ -3,6 +3,7 @@
 #include "svoLightCode.h"
 #include "svoOctreeArena.h"
 #include "svoOutline.h"
+#include "svoUniforms.h"
 #include "svoVolumeReach.h"
 #include "svoWorldToOctree.h"
 
@@ -75,9 +76,8 @@ std::string ShadowVolumes::describe(const Scene& scene, const std::vector<Caster
            "lights find the same shadows.";
   }
   code.constants += "#define svoHasVolumes\n";
-  const glm::vec3* rays = code.volumes->rays;
-  code.floats.push_back({ "svoPixelRays", 3, { &rays[0].x, &rays[0].x + 18 } });
-  code.floats.push_back({ "svoParallel", 1, { view.parallel ? 1.0f : 0.0f } });
+  const std::vector<ShaderValues::Floats>& floats = code.volumes->values.floats;
+  code.floats.insert(code.floats.end(), floats.begin(), floats.end());
   return {};
 }
 
@@ -112,16 +112,16 @@ std::shared_ptr<const VolumeDraws> ShadowVolumes::place(const Scene& scene,
   draws->edges = this->Edges.name();
   draws->casters = this->Casters.name();
   draws->senses = this->Senses.name();
-  draws->projection = glm::mat4(view.viewToClip);
-  const glm::dvec3 rays[] = { view.origin - view.eye, view.originX, view.originY, view.direction,
-    view.directionX, view.directionY };
-  for (int i = 0; i < 6; ++i)
+  ShaderValues::Floats rays{ "svoPixelRays", 3, {} };
+  for (const glm::dvec3& ray : { view.origin - view.eye, view.originX, view.originY, view.direction,
+         view.directionX, view.directionY })
   {
-    draws->rays[i] = glm::vec3(turned * rays[i]);
+    const glm::vec3 seen(turned * ray);
+    rays.values.insert(rays.values.end(), { seen.x, seen.y, seen.z });
   }
-  draws->parallel = view.parallel;
-  draws->base = static_cast<float>(base);
-  draws->reach = static_cast<float>(reach);
+  draws->values.floats = { matrixOf("svoProjection", view.viewToClip), rays,
+    { "svoParallel", 1, { view.parallel ? 1.0f : 0.0f } },
+    { "svoReach", 1, { static_cast<float>(base), static_cast<float>(reach) } } };
   return draws;
 }
 

@@ -8,6 +8,7 @@
 #include "svoTerminator.h"
 #include "svoTextures.h"
 #include "svoUnfold.h"
+#include "svoUniforms.h"
 #include "svoVolumeDepth.h"
 #include "svoVolumeReceiver.h"
 
@@ -118,10 +119,7 @@ public:
   {
     glUseProgram(program);
     glUniform4fv(at(program, "svoLight"), 1, glm::value_ptr(light.light));
-    glUniform2f(at(program, "svoReach"), draws.base, draws.reach);
-    glUniform1f(at(program, "svoParallel"), draws.parallel ? 1.0f : 0.0f);
-    glUniform3fv(at(program, "svoPixelRays"), 6, glm::value_ptr(draws.rays[0]));
-    glUniformMatrix4fv(at(program, "svoProjection"), 1, GL_FALSE, glm::value_ptr(draws.projection));
+    sendUniforms(program, draws.values);
   }
 
 private:

@@ -4,7 +4,7 @@
 uniform sampler2D svoPlaces;
 uniform sampler2D svoPlanes;
 uniform vec4 svoLight;
-uniform vec2 svoReach;
+uniform float svoReach[2]; // VolumeDraws
 uniform float svoParallel;
 
 void main()
@@ -21,5 +21,5 @@ void main()
     discard;
   }
   float depth = svoVolumeDepth(place.xyz, facet);
-  gl_FragDepth = counts ? clamp((depth - svoReach.x) / svoReach.y, 0.0, 1.0) : 0.0;
+  gl_FragDepth = counts ? clamp((depth - svoReach[0]) / svoReach[1], 0.0, 1.0) : 0.0;
 }

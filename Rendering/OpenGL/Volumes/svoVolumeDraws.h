@@ -3,10 +3,10 @@
 #ifndef svoVolumeDraws_h
 #define svoVolumeDraws_h
 
+#include "svoShaderValues.h"
+
 #include <vector>
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 namespace svo
@@ -14,12 +14,9 @@ namespace svo
 struct VolumeDraws
 {
   unsigned int triangles = 0, edges = 0, casters = 0, senses = 0; // buffer textures
-  glm::mat4 projection{ 1.0f };                                   // from view coordinates
-  /// View::origin, originX, originY, direction, directionX, directionY; view coordinates.
-  glm::vec3 rays[6];
-  bool parallel = false;
-  /// The linear depth less `base` of what may be seen is at most `reach`.
-  float base = 0.0f, reach = 1.0f;
+  /// svoProjection, from view coordinates; svoPixelRays; svoParallel; and svoReach: the linear
+  /// depth of what may be seen, less the first number, is at most the second.
+  ShaderValues values;
 
   /// Triangles of copies of a mesh.
   struct Caps
@@ -41,7 +38,7 @@ struct VolumeDraws
   };
   struct OfLight
   {
-    /// View coordinates: the way towards it, as long as `reach`, and 0; or its place, and 1.
+    /// View coordinates: the way towards it, as long as reach, and 0; or its place, and 1.
     glm::vec4 light;
     Part parts[Ways];
   };
