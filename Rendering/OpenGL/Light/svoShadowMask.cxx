@@ -15,7 +15,6 @@
 #include "vtkOpenGLState.h"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace svo

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

@@ -8,7 +8,6 @@
 #include "svoWorldToOctree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <set>
 
