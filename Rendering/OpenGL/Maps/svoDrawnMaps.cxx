@@ -81,7 +81,9 @@ std::string DrawnMaps::draw(const Scene& scene, const std::vector<CasterInMemory
   const bool translucent = std::any_of(
     this->Maps.begin(), this->Maps.end(), [](const ShadowMap& map) { return map.group > 0; });
   const int size = this->Maps.empty() ? 1 : this->Maps.front().view.width;
-  if (!this->fits(size, layers, translucent, room))
+  const bool fits = this->Texels != 0 && size == this->Size && translucent == this->Translucent &&
+    layers <= this->Layers && this->Layers <= 2 * layers && this->bytes() <= room;
+  if (!fits)
   {
     before.clear(); // what was drawn goes with the texture
     this->InMaps.clear();
@@ -132,12 +134,6 @@ void DrawnMaps::fit(const Scene& scene, const View& eye, const FrameSettings& se
       }
     }
   }
-}
-
-bool DrawnMaps::fits(int size, int layers, bool translucent, std::size_t room) const
-{
-  return this->Texels != 0 && size == this->Size && translucent == this->Translucent &&
-    layers <= this->Layers && this->Layers <= 2 * layers && this->bytes() <= room;
 }
 
 /// Makes a texture for them. False if OpenGL refuses, or if it takes more than `room`.

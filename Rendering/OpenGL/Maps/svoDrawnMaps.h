@@ -47,8 +47,6 @@ public:
 
 private:
   void fit(const Scene& scene, const View& eye, const FrameSettings& settings);
-  /// The texture is one for these.
-  bool fits(int size, int layers, bool translucent, std::size_t room) const;
   bool resize(int size, int layers, bool translucent, std::size_t room);
   const std::string& link(bool alphas);
   void releaseTextures();
