@@ -10,6 +10,7 @@ uniform float svoMaskPixels[2];   // along an edge of a pixel of the window
 uniform sampler2D svoPlaces; // svoShadowMaskShader.glsl
 uniform int svoSliceRows[2]; // of a slice; from one to the next
 uniform float svoOpaque;     // 1: nothing is seen through this surface
+float svoRayLeft(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, float extent);
 #endif
 #ifndef svoPlaneOf
 #define svoPlaneOf(number) (number)

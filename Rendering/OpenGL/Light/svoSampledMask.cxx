@@ -85,18 +85,16 @@ const char* SampledMask::textOf(const LightCode& maps, bool others)
   std::string& text = this->Texts[{ maps.empty() ? nullptr : maps.text, others }];
   if (text.empty())
   {
-    const std::string parameters =
-      "(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift, float extent)";
     const std::string mapped = "svoMapLeft(number, position, facet, normal, lift, extent)";
     text = svoSkyShader +
       (maps.empty()
           ? std::string()
           : "#define svoLeft svoMapLeft\n" + std::string(maps.text) + "#undef svoLeft\n") +
-      "float svoLeftByRay" + parameters + "\n{\n  return " +
+      "float svoLeftByRay(int number, vec3 position, vec3 facet, vec3 normal, vec3 lift,\n"
+      "  float extent)\n{\n  return " +
       (maps.empty() ? "1.0" : "number < svoMapCount ? " + mapped + " : 1.0") +
       ";\n}\n#define svoHasMaps\n#define svoPlaneOf(number) svoSumOf[number]\n" +
-      (others ? "#define svoHasOthers\nfloat svoRayLeft" + parameters + ";\n" : "") +
-      svoMaskLookup + (others ? svoSampleLookup : "");
+      (others ? "#define svoHasOthers\n" : "") + svoMaskLookup + (others ? svoSampleLookup : "");
   }
   return text.c_str();
 }

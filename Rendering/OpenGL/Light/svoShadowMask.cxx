@@ -35,15 +35,10 @@ std::string renamed(const LightCode& asked, const std::string& name)
 
 std::string lookUpText(const LightCode& asked, bool others)
 {
-  if (asked.sampled.empty())
-  {
-    return (others ? renamed(asked, "svoRayLeft") + "#define svoHasOthers\n" : "") + svoMaskLookup;
-  }
-  const char* const declared =
-    "#define svoHasOthers\n"
-    "float svoRayLeft(int n, vec3 p, vec3 f, vec3 s, vec3 l, float e);\n";
-  return svoSkyShader + (others ? renamed(asked, "svoLeftByRay") + declared : "") + svoMaskLookup +
-    (others ? svoSampleLookup : "");
+  const bool samples = !asked.sampled.empty();
+  const std::string asks = renamed(asked, samples ? "svoLeftByRay" : "svoRayLeft");
+  return (samples ? svoSkyShader : "") + (others ? asks + "#define svoHasOthers\n" : "") +
+    svoMaskLookup + (others && samples ? svoSampleLookup : "");
 }
 
 /// What the mask is filled by.
