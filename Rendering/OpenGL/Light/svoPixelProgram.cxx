@@ -64,14 +64,17 @@ PixelProgram::Use::Use(vtkOpenGLState* state, const PixelProgram& program,
   glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &this->VerticesBefore);
   glUseProgram(program.Program);
   glBindVertexArray(program.Vertices);
-  const vtkOpenGLState::ScopedglActiveTexture unit(state);
-  for (const ShaderValues::Texture& texture : values.textures)
+  const vtkOpenGLState::ScopedglActiveTexture before(state);
+  for (const auto* list : { &values.textures, &textures })
   {
-    this->add(texture);
-  }
-  for (const ShaderValues::Texture& texture : textures)
-  {
-    this->add(texture);
+    for (const ShaderValues::Texture& texture : *list)
+    {
+      const int unit = state->GetTextureUnitManager()->Allocate();
+      state->vtkglActiveTexture(GL_TEXTURE0 + unit);
+      glBindTexture(texture.target, texture.name);
+      this->set(texture.sampler, unit);
+      this->Units.emplace_back(unit, texture.target);
+    }
   }
   sendUniforms(program.Program, values);
 }
@@ -91,15 +94,6 @@ PixelProgram::Use::~Use()
   }
   glBindVertexArray(static_cast<GLuint>(this->VerticesBefore));
   glUseProgram(static_cast<GLuint>(this->ProgramBefore));
-}
-
-void PixelProgram::Use::add(const ShaderValues::Texture& texture)
-{
-  const int unit = this->State->GetTextureUnitManager()->Allocate();
-  this->State->vtkglActiveTexture(GL_TEXTURE0 + unit);
-  glBindTexture(texture.target, texture.name);
-  this->set(texture.sampler, unit);
-  this->Units.emplace_back(unit, texture.target);
 }
 
 void PixelProgram::Use::set(const char* uniform, int value)

@@ -52,8 +52,6 @@ public:
     void fill(const Layer& layer);
 
   private:
-    void add(const ShaderValues::Texture& texture);
-
     vtkOpenGLState* State;
     const PixelProgram& Of;
     int ProgramBefore = 0, VerticesBefore = 0;       // VTK knows what it has bound
