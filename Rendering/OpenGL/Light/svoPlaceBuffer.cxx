@@ -18,28 +18,21 @@ bool PlaceBuffer::hasRows(int height)
   return rowsOf(height, true) <= most;
 }
 
-bool PlaceBuffer::resize(int width, int height, bool translucent)
+bool PlaceBuffer::resize(int width, int height, bool translucent, int layers, unsigned int format)
 {
-  if (width == this->Width && height == this->Height && translucent == this->translucent())
+  if (this->fits(width, height, translucent, layers, format))
   {
     return true;
   }
-  if (this->any())
-  {
-    const GLuint textures[] = { this->Places, this->Planes, this->Depths, this->Before };
-    glDeleteTextures(4, textures);
-    glDeleteFramebuffers(1, &this->Framebuffer);
-  }
-  *this = PlaceBuffer();
-  if (width * height == 0)
-  {
-    return true;
-  }
+  this->release();
   GLint before = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before);
   this->Width = width;
   this->Height = height;
   this->Slices = translucent ? 1 + TranslucentSlices : 1;
+  this->Layers = layers;
+  this->Format = format;
+  this->Shares = makeTexture(format, width, this->rows(), layers);
   this->Places = makeTexture(GL_RGBA32F, width, this->rows());
   this->Planes = makeTexture(GL_RGBA16, width, this->rows());
   this->Depths = makeTexture(GL_DEPTH_COMPONENT32F, width, this->rows());
@@ -53,12 +46,24 @@ bool PlaceBuffer::resize(int width, int height, bool translucent)
   glDrawBuffers(2, targets);
   const bool complete = glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(before));
-  if (!complete || glGetError() != GL_NO_ERROR)
+  if (!complete || this->Shares == 0 || glGetError() != GL_NO_ERROR)
   {
-    this->resize(0, 0);
+    this->release();
     return false;
   }
   return true;
+}
+
+void PlaceBuffer::release()
+{
+  if (this->any())
+  {
+    const GLuint textures[] = { this->Places, this->Planes, this->Depths, this->Before,
+      this->Shares };
+    glDeleteTextures(5, textures);
+    glDeleteFramebuffers(1, &this->Framebuffer);
+  }
+  *this = PlaceBuffer();
 }
 
 void PlaceBuffer::gather(vtkOpenGLState* state, const Draw& draw)
@@ -109,11 +114,10 @@ void PlaceBuffer::gather(vtkOpenGLState* state, const Draw& draw)
   state->PopFramebufferBindings();
 }
 
-void PlaceBuffer::describe(
-  LightCode& code, unsigned int shares, int width, int height, bool others) const
+void PlaceBuffer::describe(LightCode& code, int width, int height, bool others) const
 {
   code.fromPlaces = true;
-  code.textures.push_back({ "svoShares", shares, GL_TEXTURE_2D_ARRAY });
+  code.textures.push_back({ "svoShares", this->Shares, GL_TEXTURE_2D_ARRAY });
   code.floats.push_back({ "svoMaskPixels", 1,
     { static_cast<float>(this->Width) / static_cast<float>(width),
       static_cast<float>(this->Height) / static_cast<float>(height) } });

@@ -1,5 +1,5 @@
-// Where the surfaces lie that VTK draws, pixel by pixel. (A G-buffer, as of Saito and Takahashi
-// 1990, of places and planes.)
+// Where the surfaces lie that VTK draws, pixel by pixel, and what reaches them of lights. (A
+// G-buffer, as of Saito and Takahashi 1990, of places and planes.)
 #ifndef svoPlaceBuffer_h
 #define svoPlaceBuffer_h
 
@@ -23,8 +23,16 @@ public:
   static constexpr int TranslucentSlices = 2;
 
   /// Has room for so many pixels, and for slices one above the other, as ReceiverPlaces has them;
-  /// no pixels: it has no textures. False if OpenGL refuses.
-  bool resize(int width, int height, bool translucent = false);
+  /// and for a mask of them, shares of four lights a layer, of a format of OpenGL's. False, and
+  /// nothing is there, if OpenGL refuses.
+  bool resize(int width, int height, bool translucent, int layers, unsigned int format);
+  /// True if it has.
+  bool fits(int width, int height, bool translucent, int layers, unsigned int format) const
+  {
+    return this->any() && width == this->Width && height == this->Height &&
+      translucent == this->translucent() && layers == this->Layers && format == this->Format;
+  }
+  void release();
 
   /// Draws the opaque surfaces of slice 0, or all translucent ones, with shaders that write where
   /// they lie as svoShadowReceiver.glsl does while svoGather is 1, into the framebuffer that is
@@ -33,9 +41,9 @@ public:
   using Draw = std::function<void(int slice, int behind)>;
   /// Other state is as before.
   void gather(vtkOpenGLState* state, const Draw& draw);
-  /// Has code look up a mask of these pixels, the texture `shares`, in a picture of so many; aim()
-  /// says where that lies. With `others` it knows of what the mask has something to say.
-  void describe(LightCode& code, unsigned int shares, int width, int height, bool others) const;
+  /// Has code look up the mask, in a picture of so many pixels; aim() says where that lies. With
+  /// `others` it knows of what the mask has something to say.
+  void describe(LightCode& code, int width, int height, bool others) const;
   /// The code will be used in the current viewport.
   static void aim(vtkOpenGLState* state, LightCode& code);
   /// What was gathered.
@@ -56,6 +64,10 @@ public:
   int sliceRows() const { return this->rows() / this->Slices; }
   unsigned int places() const { return this->Places; } // ReceiverPlaces
   unsigned int planes() const { return this->Planes; }
+  unsigned int shares() const { return this->Shares; } // the mask
+  int layers() const { return this->Layers; }
+  unsigned int format() const { return this->Format; }
+  /// Without the mask.
   static std::size_t bytesOf(int width, int height, bool translucent)
   {
     const int numbers =
@@ -65,9 +77,9 @@ public:
   std::size_t bytes() const { return bytesOf(this->Width, this->Height, this->translucent()); }
 
 private:
-  int Width = 0, Height = 0, Slices = 1;
-  unsigned int Places = 0, Planes = 0, Depths = 0, Before = 0; // textures
-  unsigned int Framebuffer = 0;
+  int Width = 0, Height = 0, Slices = 1, Layers = 0;
+  unsigned int Places = 0, Planes = 0, Depths = 0, Before = 0, Shares = 0; // textures
+  unsigned int Format = 0, Framebuffer = 0;
 };
 }
 

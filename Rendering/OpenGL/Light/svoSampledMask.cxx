@@ -5,7 +5,6 @@
 #include "svoOpenGL.h"
 #include "svoSampleLookup.h"
 #include "svoSkyShader.h"
-#include "svoTextures.h"
 
 #include "vtkOpenGLState.h"
 
@@ -32,11 +31,14 @@ const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverSha
   this->Code = LightCode();
   if (!shares.any())
   {
-    this->resize(0, 0, false, 0);
+    this->release();
     return allMaps;
   }
   translucent = translucent && PlaceBuffer::hasRows(view.height);
-  if (!this->resize(view.width, view.height, translucent, shares.layers()))
+  const int layers = shares.layers();
+  this->Filled =
+    this->Filled && this->Surfaces.fits(view.width, view.height, translucent, layers, GL_RGBA16);
+  if (!this->Surfaces.resize(view.width, view.height, translucent, layers, GL_RGBA16))
   {
     return allMaps;
   }
@@ -76,7 +78,7 @@ const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverSha
     sampleConstants(this->Code, planes, settings);
   this->Code.text = this->textOf(maps, others);
   addAroundValues(settings, view, this->Code);
-  this->Surfaces.describe(this->Code, this->Shares, width, height, others);
+  this->Surfaces.describe(this->Code, width, height, others);
   return this->Code;
 }
 
@@ -99,32 +101,6 @@ const char* SampledMask::textOf(const LightCode& maps, bool others)
   return text.c_str();
 }
 
-bool SampledMask::resize(int width, int height, bool translucent, int layers)
-{
-  if (this->Shares != 0 && width == this->Surfaces.width() && height == this->Surfaces.height() &&
-    translucent == this->Surfaces.translucent() && layers == this->Layers)
-  {
-    return true;
-  }
-  if (this->Shares != 0)
-  {
-    glDeleteTextures(1, &this->Shares);
-    this->Shares = 0;
-  }
-  this->Layers = layers;
-  this->Filled = false;
-  const bool room = this->Surfaces.resize(width, height, translucent);
-  if (layers > 0 && room)
-  {
-    this->Shares = makeTexture(GL_RGBA16, width, this->Surfaces.rows(), layers);
-  }
-  if (layers > 0 && this->Shares == 0)
-  {
-    this->resize(0, 0, false, 0);
-  }
-  return this->Shares != 0;
-}
-
 void SampledMask::gather(
   vtkOpenGLState* state, const PlaceBuffer::Draw& draw, ReceiverPlaces& places)
 {
@@ -139,9 +115,9 @@ void SampledMask::upload(const ReceiverShares& shares)
   glGetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &bound);
   glGetIntegerv(GL_UNPACK_ALIGNMENT, &alignment);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, this->Shares);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, this->Surfaces.shares());
   glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, this->Surfaces.width(), this->Surfaces.rows(),
-    this->Layers, GL_RGBA, GL_UNSIGNED_SHORT, shares.numbers.data());
+    this->Surfaces.layers(), GL_RGBA, GL_UNSIGNED_SHORT, shares.numbers.data());
   glBindTexture(GL_TEXTURE_2D_ARRAY, static_cast<GLuint>(bound));
   glPixelStorei(GL_UNPACK_ALIGNMENT, alignment);
 }
@@ -150,12 +126,13 @@ std::size_t SampledMask::bytes() const
 {
   const std::size_t pixels =
     static_cast<std::size_t>(this->Surfaces.width()) * this->Surfaces.rows();
-  return this->Surfaces.bytes() + 8 * pixels * static_cast<std::size_t>(this->Layers);
+  return this->Surfaces.bytes() + 8 * pixels * static_cast<std::size_t>(this->Surfaces.layers());
 }
 
 void SampledMask::release()
 {
-  this->resize(0, 0, false, 0);
+  this->Surfaces.release();
+  this->Filled = false;
   this->Code = LightCode();
 }
 }

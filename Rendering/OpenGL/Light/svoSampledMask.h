@@ -46,12 +46,9 @@ public:
   void release();
 
 private:
-  bool resize(int width, int height, bool translucent, int layers);
   const char* textOf(const LightCode& maps, bool others);
 
   PlaceBuffer Surfaces;
-  unsigned int Shares = 0; // texture
-  int Layers = 0;
   bool Filled = false;
   std::map<std::pair<const char*, bool>, std::string> Texts; // by that of maps, and others
   LightCode Code;

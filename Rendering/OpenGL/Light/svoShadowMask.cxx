@@ -8,7 +8,6 @@
 #include "svoSampleMeans.h"
 #include "svoShadowMaskShader.h"
 #include "svoSkyShader.h"
-#include "svoTextures.h"
 #include "svoVolumeDraws.h"
 #include "svoVolumeReceiver.h"
 
@@ -89,7 +88,7 @@ const LightCode& ShadowMask::lookUp(
   }
   this->Code.lights = asked.lights;
   this->Code.costly = false;
-  this->Surfaces.describe(this->Code, this->Shares, width, height, others);
+  this->Surfaces.describe(this->Code, width, height, others);
   return this->Code;
 }
 
@@ -146,16 +145,16 @@ void ShadowMask::find(vtkOpenGLState* state, const LightCode& asked, bool same,
   {
     PixelProgram::Use program(state, this->Program, asked, textures);
     program.set("svoFirstLight", firstLight);
-    program.fill({ framebuffer, this->Shares, this->Format, layer, this->Surfaces.width(),
-      this->Surfaces.rows() });
+    program.fill({ framebuffer, this->Surfaces.shares(), this->Surfaces.format(), layer,
+      this->Surfaces.width(), this->Surfaces.rows() });
   };
-  for (int layer = 0; !asked.volumes && layer < this->Layers; ++layer)
+  for (int layer = 0; !asked.volumes && layer < this->Surfaces.layers(); ++layer)
   {
     fill(this->Answering, layer, 4 * layer);
   }
   for (int light = 0; asked.volumes && light < asked.count(); ++light)
   {
-    this->Counter.find(state, *asked.volumes, light, { places, planes, this->Shares },
+    this->Counter.find(state, *asked.volumes, light, { places, planes, this->Surfaces.shares() },
       [&](unsigned int framebuffer) { fill(framebuffer, light / 4, light); });
   }
   state->PopFramebufferBindings();
@@ -168,11 +167,11 @@ void ShadowMask::find(vtkOpenGLState* state, const LightCode& asked, bool same,
 /// What it has: as ReceiverShares::numbers.
 std::vector<std::uint16_t> ShadowMask::read() const
 {
-  std::vector<std::uint16_t> numbers(
-    4 * static_cast<std::size_t>(this->Surfaces.width()) * this->Surfaces.rows() * this->Layers);
+  std::vector<std::uint16_t> numbers(4 * static_cast<std::size_t>(this->Surfaces.width()) *
+    this->Surfaces.rows() * this->Surfaces.layers());
   GLint bound = 0;
   glGetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &bound);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, this->Shares);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, this->Surfaces.shares());
   glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA, GL_UNSIGNED_SHORT, numbers.data());
   glBindTexture(GL_TEXTURE_2D_ARRAY, static_cast<GLuint>(bound));
   return numbers;
@@ -256,8 +255,8 @@ bool ShadowMask::resize(
     this->releaseTextures();
     return false;
   }
-  if (this->Shares != 0 && width == this->Surfaces.width() && height == this->Surfaces.height() &&
-    translucent == this->Surfaces.translucent() && layers == this->Layers &&
+  const unsigned int format = sampled > 0 ? GL_RGBA16 : GL_RGBA8;
+  if (this->Surfaces.fits(width, height, translucent, layers, format) &&
     sampled == this->Samples.layers() && counts == this->Counter.any())
   {
     return true;
@@ -265,18 +264,17 @@ bool ShadowMask::resize(
   this->releaseTextures();
   GLint before = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before);
-  this->Layers = layers;
-  this->Format = sampled > 0 ? GL_RGBA16 : GL_RGBA8;
-  bool complete = this->Surfaces.resize(width, height, translucent);
+  bool complete = this->Surfaces.resize(width, height, translucent, layers, format);
   const int rows = this->Surfaces.rows();
-  this->Shares = makeTexture(this->Format, width, rows, layers);
   glGenFramebuffers(1, &this->Answering);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Answering);
-  glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Shares, 0, 0);
+  glFramebufferTextureLayer(
+    GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Surfaces.shares(), 0, 0);
   complete = complete && glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(before));
   complete = this->Samples.resize(width, rows, sampled) && complete;
-  complete = this->Counter.resize(counts ? width : 0, counts ? rows : 0, this->Shares) && complete;
+  complete = this->Counter.resize(counts ? width : 0, counts ? rows : 0, this->Surfaces.shares()) &&
+    complete;
   if (!complete || glGetError() != GL_NO_ERROR)
   {
     this->releaseTextures();
@@ -296,23 +294,22 @@ std::size_t ShadowMask::bytesOf(
 
 std::size_t ShadowMask::bytes() const
 {
-  return this->Shares == 0
+  return !this->Surfaces.any()
     ? 0
-    : bytesOf(this->Surfaces.width(), this->Surfaces.height(), 4 * this->Layers,
+    : bytesOf(this->Surfaces.width(), this->Surfaces.height(), 4 * this->Surfaces.layers(),
         this->Samples.layers(), this->Surfaces.translucent(), this->Counter.any());
 }
 
 void ShadowMask::releaseTextures()
 {
-  if (this->Shares != 0)
+  if (this->Answering != 0)
   {
-    glDeleteTextures(1, &this->Shares);
     glDeleteFramebuffers(1, &this->Answering);
   }
-  this->Shares = this->Answering = 0;
+  this->Answering = 0;
   this->Found = 0;
   this->Changed = -1.0;
-  this->Surfaces.resize(0, 0);
+  this->Surfaces.release();
   this->Samples.resize(0, 0, 0);
   this->Counter.resize(0, 0, 0);
 }

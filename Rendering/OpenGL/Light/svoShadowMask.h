@@ -76,9 +76,7 @@ private:
   void releaseTextures();
 
   Way Wanted = Way::Compute;
-  int Layers = 0;
-  unsigned int Format = 0;                // of shares
-  unsigned int Shares = 0, Answering = 0; // a texture, and the framebuffer that it is filled in
+  unsigned int Answering = 0; // the framebuffer that the mask is filled in
   PlaceBuffer Surfaces;
   PixelProgram Program;
   LightSamples Samples;
