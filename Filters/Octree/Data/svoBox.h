@@ -5,7 +5,9 @@
 #include <limits>
 
 #include <glm/common.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace svo
 {
@@ -28,6 +30,19 @@ struct Box
     high = glm::max(high, other.high);
   }
 };
+
+/// Around the corners of a box, in another frame. `bounds`, as VTK and Header have them: from and
+/// to along x, y and z.
+inline Box boxAround(const double* bounds, const glm::dmat4& matrix)
+{
+  Box box;
+  for (int i = 0; i < 8; ++i)
+  {
+    const glm::dvec4 at(bounds[i & 1], bounds[2 + (i >> 1 & 1)], bounds[4 + (i >> 2)], 1.0);
+    box.add(glm::dvec3(matrix * at));
+  }
+  return box;
+}
 }
 
 #endif

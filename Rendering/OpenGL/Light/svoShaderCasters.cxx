@@ -31,20 +31,6 @@ static_assert(sizeof(CasterRecord) == CasterTexelCount * sizeof(glm::vec4), "as 
 
 /// How far planes may lie over the contour of them that VTK draws, voxels.
 constexpr auto AboveContour = static_cast<float>(CubeError);
-
-/// Of the octree's mesh, in the world.
-Box worldBox(const Instance& instance)
-{
-  const double* bounds = instance.body->octree.header().meshBounds;
-  Box box;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const glm::dvec4 at(
-      bounds[corner & 1], bounds[2 + (corner >> 1 & 1)], bounds[4 + (corner >> 2)], 1.0);
-    box.add(glm::dvec3(instance.localToWorld * at));
-  }
-  return box;
-}
 }
 
 std::vector<std::size_t> instancesOf(const Scene& scene, bool Instance::*which)
@@ -130,7 +116,7 @@ bool ShaderCasters::place(const Scene& scene, const OctreeArena& arena)
     record.box = { corner(0), corner(1) };
     this->Gaps.push_back(worldLeafError(caster, LeafGeometry::Triangle, octree.level()));
     this->Known.push_back(record);
-    boxes.push_back(worldBox(caster));
+    boxes.push_back(boxAround(bounds, caster.localToWorld));
     all.add(boxes.back());
   }
   this->Centre = all.known() ? 0.5 * (all.low + all.high) : glm::dvec3(0.0);

@@ -96,12 +96,7 @@ void moveBounds(PropSurfaces& prop)
   const std::array<double, 6>& b = prop.boundsOfMapper;
   if (b[0] <= b[1])
   {
-    const glm::dmat4 matrix = toGlm(vtkActor::SafeDownCast(prop.prop)->GetMatrix());
-    Box box;
-    for (int i = 0; i < 8; ++i)
-    {
-      box.add(glm::dvec3(matrix * glm::dvec4(b[i & 1], b[2 + (i >> 1 & 1)], b[4 + (i >> 2)], 1.0)));
-    }
+    const Box box = boxAround(b.data(), toGlm(vtkActor::SafeDownCast(prop.prop)->GetMatrix()));
     prop.bounds = { box.low.x, box.high.x, box.low.y, box.high.y, box.low.z, box.high.z };
   }
   else if (prop.bounds[0] <= prop.bounds[1])

@@ -125,12 +125,7 @@ void addReceiver(const PropSurfaces& prop, bool shown, Scene& scene)
                                             : prop.prop->GetBounds();
   if (b && b[0] <= b[1] && b[2] <= b[3] && b[4] <= b[5])
   {
-    Box receiver;
-    for (int i = 0; i < 8; ++i)
-    {
-      receiver.add(prop.world * glm::dvec4(b[i & 1], b[2 + (i >> 1 & 1)], b[4 + (i >> 2)], 1.0));
-    }
-    scene.receivers.push_back(receiver);
+    scene.receivers.push_back(boxAround(b, prop.world));
   }
 }
 

@@ -1,10 +1,10 @@
 #include "svoFrameErrors.h"
 
+#include "svoBox.h"
 #include "svoLeafError.h"
 #include "svoWorldSize.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace svo
 {
@@ -20,15 +20,8 @@ double nearestSurface(const Instance& instance, const View& view, double nearest
   {
     return nearestCube;
   }
-  const glm::dmat4 toView = view.worldToView * instance.localToWorld;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 8; ++i)
-  {
-    const glm::dvec4 corner(
-      h.meshBounds[i & 1], h.meshBounds[2 + (i >> 1 & 1)], h.meshBounds[4 + (i >> 2)], 1.0);
-    nearest = std::min(nearest, -(toView * corner).z);
-  }
-  return std::max(nearest, nearestCube);
+  const Box seen = boxAround(h.meshBounds, view.worldToView * instance.localToWorld);
+  return std::max(-seen.high.z, nearestCube);
 }
 }
 

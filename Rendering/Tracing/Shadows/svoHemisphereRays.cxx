@@ -1,5 +1,6 @@
 #include "svoHemisphereRays.h"
 
+#include "svoBox.h"
 #include "svoSampleDirections.h"
 
 #include <cmath>
@@ -20,13 +21,9 @@ double usualOcclusionDistance(const Scene& scene)
       continue;
     }
     // Without the margins of a caster's box, which depend on the octree's level.
-    const double* bounds = octree.header().meshBounds;
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      const glm::dvec4 at(
-        bounds[corner & 1], bounds[2 + (corner >> 1 & 1)], bounds[4 + (corner >> 2)], 1.0);
-      all.add(glm::dvec3(instance.localToWorld * at), glm::dvec3(0.0));
-    }
+    const Box box = boxAround(octree.header().meshBounds, instance.localToWorld);
+    all.add(box.low, glm::dvec3(0.0));
+    all.add(box.high, glm::dvec3(0.0));
   }
   return all.empty() ? 1.0 : 0.2 * glm::distance(all.low, all.high);
 }
