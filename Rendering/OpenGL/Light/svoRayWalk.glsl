@@ -41,11 +41,7 @@ float svoTakenByColors(int at, vec3 from, vec3 way, float end, uint root, int de
   svoNearest = true;
   svoMeetsOctree(from + far * way, -way, far, root, depths, ends);
   svoNearest = false;
-  if (svoHit == svoNone)
-  {
-    return -1.0;
-  }
-  return svoTakenByHit(at);
+  return svoHit == svoNone ? -1.0 : svoTakenByHit(at);
 }
 
 // What casters leave on the way from `from` along `way`, up to `end` times as far: 0 where an opaque
