@@ -67,14 +67,13 @@ public:
   unsigned int shares() const { return this->Shares; } // the mask
   int layers() const { return this->Layers; }
   unsigned int format() const { return this->Format; }
-  /// Without the mask.
-  static std::size_t bytesOf(int width, int height, bool translucent)
+  /// With so many more of each pixel, those of the mask.
+  static std::size_t bytesOf(int width, int height, bool translucent, int more)
   {
     const int numbers =
-      (16 + 8 + 4) * rowsOf(height, translucent) + (translucent ? 16 * height : 0);
+      (16 + 8 + 4 + more) * rowsOf(height, translucent) + (translucent ? 16 * height : 0);
     return static_cast<std::size_t>(width) * numbers;
   }
-  std::size_t bytes() const { return bytesOf(this->Width, this->Height, this->translucent()); }
 
 private:
   int Width = 0, Height = 0, Slices = 1, Layers = 0;

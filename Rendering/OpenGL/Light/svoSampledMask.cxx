@@ -124,9 +124,8 @@ void SampledMask::upload(const ReceiverShares& shares)
 
 std::size_t SampledMask::bytes() const
 {
-  const std::size_t pixels =
-    static_cast<std::size_t>(this->Surfaces.width()) * this->Surfaces.rows();
-  return this->Surfaces.bytes() + 8 * pixels * static_cast<std::size_t>(this->Surfaces.layers());
+  return PlaceBuffer::bytesOf(this->Surfaces.width(), this->Surfaces.height(),
+    this->Surfaces.translucent(), 8 * this->Surfaces.layers());
 }
 
 void SampledMask::release()

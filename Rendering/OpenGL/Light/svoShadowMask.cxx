@@ -287,17 +287,14 @@ std::size_t ShadowMask::bytesOf(
   int width, int height, int numbers, int sampled, bool translucent, bool volumes)
 {
   const int shares = (sampled > 0 ? 8 : 4) * layersOf(numbers);
-  return PlaceBuffer::bytesOf(width, height, translucent) +
-    static_cast<std::size_t>(width) * PlaceBuffer::rowsOf(height, translucent) *
-    (shares + 16 * sampled + (volumes ? VolumeCounter::PixelBytes : 0));
+  return PlaceBuffer::bytesOf(
+    width, height, translucent, shares + 16 * sampled + (volumes ? VolumeCounter::PixelBytes : 0));
 }
 
 std::size_t ShadowMask::bytes() const
 {
-  return !this->Surfaces.any()
-    ? 0
-    : bytesOf(this->Surfaces.width(), this->Surfaces.height(), 4 * this->Surfaces.layers(),
-        this->Samples.layers(), this->Surfaces.translucent(), this->Counter.any());
+  return bytesOf(this->Surfaces.width(), this->Surfaces.height(), 4 * this->Surfaces.layers(),
+    this->Samples.layers(), this->Surfaces.translucent(), this->Counter.any());
 }
 
 void ShadowMask::releaseTextures()
