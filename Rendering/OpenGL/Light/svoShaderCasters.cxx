@@ -88,22 +88,10 @@ bool ShaderCasters::place(const Scene& scene, const OctreeArena& arena)
   {
     const Instance& caster = scene.instances[index];
     const Octree& octree = caster.body->octree;
-    float opacity = caster.translucent() ? caster.opacity : 1.0f;
-    if (caster.mappedOpacity)
-    {
-      opacity =
-        -1.0f - static_cast<float>(this->Alphas.add(caster, inFloats(arena.firstOf(octree))));
-    }
-    CasterInMemory record{};
-    record.instance = index;
-    record.octree = glm::vec4(inFloats(arena.rootOf(octree)), octree.depthCount(), opacity);
-    if (octree.hasPlanes())
-    {
-      const LeafQuery query(octree, { LeafGeometry::Plane, MaximumLevel });
-      record.low = glm::vec4(glm::vec3(query.low), walkReach(caster));
-      record.high = glm::vec4(glm::vec3(query.high), AboveContour);
-      this->Planes = true;
-    }
+    const float opacity = caster.mappedOpacity
+      ? -1.0f - static_cast<float>(this->Alphas.add(caster, inFloats(arena.firstOf(octree))))
+      : caster.translucent() ? caster.opacity
+                             : 1.0f;
     const double* bounds = octree.header().meshBounds;
     const WorldToOctree toOctree(octree, caster.localToWorld);
     const auto corner = [&](int side)
@@ -112,8 +100,16 @@ bool ShaderCasters::place(const Scene& scene, const OctreeArena& arena)
         (glm::dvec3(bounds[side], bounds[2 + side], bounds[4 + side]) - toOctree.origin) *
         toOctree.scale;
     };
-    record.toOctree = toOctree;
-    record.box = { corner(0), corner(1) };
+    CasterInMemory record{ index,
+      glm::vec4(inFloats(arena.rootOf(octree)), octree.depthCount(), opacity), {}, {}, toOctree,
+      { corner(0), corner(1) } };
+    if (octree.hasPlanes())
+    {
+      const LeafQuery query(octree, { LeafGeometry::Plane, MaximumLevel });
+      record.low = glm::vec4(glm::vec3(query.low), walkReach(caster));
+      record.high = glm::vec4(glm::vec3(query.high), AboveContour);
+      this->Planes = true;
+    }
     this->Gaps.push_back(worldLeafError(caster, LeafGeometry::Triangle, octree.level()));
     this->Known.push_back(record);
     boxes.push_back(boxAround(bounds, caster.localToWorld));
