@@ -1,10 +1,10 @@
 #include "vtkSparseVoxelOctree.h"
 
+#include "svoBox.h"
 #include "svoIntersect.h"
 #include "svoMeshOctree.h"
 #include "svoRepresentative.h"
 
-#include "vtkBoundingBox.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
@@ -103,15 +103,12 @@ void vtkSparseVoxelOctree::GetBounds(double bounds[6])
   }
   if (octree && octree.hasFrame())
   {
-    const glm::dmat4 frame = octree.frame();
-    vtkBoundingBox box;
-    for (int i = 0; i < 8; ++i)
+    const svo::Box box = svo::boxAround(bounds, octree.frame());
+    for (int i = 0; i < 3; ++i)
     {
-      const glm::dvec4 p =
-        frame * glm::dvec4(bounds[i & 1], bounds[2 + (i >> 1 & 1)], bounds[4 + (i >> 2)], 1.0);
-      box.AddPoint(p.x, p.y, p.z);
+      bounds[2 * i] = box.low[i];
+      bounds[2 * i + 1] = box.high[i];
     }
-    box.GetBounds(bounds);
   }
 }
 
