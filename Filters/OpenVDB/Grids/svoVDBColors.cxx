@@ -63,31 +63,22 @@ vtkSmartPointer<vtkDataArray> valuesAtLeaves(const openvdb::GridBase& grid,
   const SourceOctree& built, const ParallelFor& parallelFor,
   const std::function<bool(double)>& progress)
 {
+  using Known = openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid,
+    openvdb::Int64Grid, openvdb::Vec3SGrid, openvdb::Vec3DGrid, openvdb::Vec3IGrid>;
   vtkSmartPointer<vtkDataArray> values;
-  const auto as = [&](const auto* typed)
+  const auto sampled = [&](const auto& typed)
   {
-    using GridT = std::remove_cv_t<std::remove_pointer_t<decltype(typed)>>;
-    using ValueT = typename GridT::ValueType;
-    if (values || !grid.isType<GridT>())
-    {
-      return;
-    }
+    using ValueT = typename std::decay_t<decltype(typed)>::ValueType;
     values = vtkSmartPointer<vtkDataArray>::Take(
       vtkDataArray::CreateDataArray(std::is_same_v<ValueT, double> ? VTK_DOUBLE : VTK_FLOAT));
     values->SetNumberOfComponents(std::is_arithmetic_v<ValueT> ? 1 : 3);
     values->SetNumberOfTuples(static_cast<vtkIdType>(built.octree.header().voxelCount));
-    if (!sample(static_cast<const GridT&>(grid), built.octree, parallelFor, progress, values.Get()))
+    if (!sample(typed, built.octree, parallelFor, progress, values.Get()))
     {
       values = nullptr;
     }
   };
-  as(static_cast<const openvdb::FloatGrid*>(nullptr));
-  as(static_cast<const openvdb::DoubleGrid*>(nullptr));
-  as(static_cast<const openvdb::Int32Grid*>(nullptr));
-  as(static_cast<const openvdb::Int64Grid*>(nullptr));
-  as(static_cast<const openvdb::Vec3SGrid*>(nullptr));
-  as(static_cast<const openvdb::Vec3DGrid*>(nullptr));
-  as(static_cast<const openvdb::Vec3IGrid*>(nullptr));
+  grid.apply<Known>(sampled);
   return values;
 }
 }

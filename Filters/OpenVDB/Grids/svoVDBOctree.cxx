@@ -286,34 +286,6 @@ SourceOctree convert(const GridT& grid, const VDBOptions& options, vtkPolyData* 
   }
   return built;
 }
-
-SourceOctree convertKnown(
-  const openvdb::GridBase& grid, const VDBOptions& options, vtkPolyData* mesh)
-{
-  SourceOctree built{ BuildStatus::BadInput, 0, {} };
-  bool known = false;
-  const auto as = [&](const auto* typed)
-  {
-    using GridT = std::remove_cv_t<std::remove_pointer_t<decltype(typed)>>;
-    if (!known && grid.isType<GridT>())
-    {
-      known = true;
-      built = convert(static_cast<const GridT&>(grid), options, mesh);
-    }
-  };
-  as(static_cast<const openvdb::FloatGrid*>(nullptr));
-  as(static_cast<const openvdb::DoubleGrid*>(nullptr));
-  as(static_cast<const openvdb::Int32Grid*>(nullptr));
-  as(static_cast<const openvdb::Int64Grid*>(nullptr));
-  as(static_cast<const openvdb::BoolGrid*>(nullptr));
-  as(static_cast<const openvdb::MaskGrid*>(nullptr));
-  if (!known)
-  {
-    built.message = "grids of " + grid.valueType() +
-      " have no surface; those of float, double, int32, int64, bool and mask have";
-  }
-  return built;
-}
 }
 
 bool isSurface(const openvdb::GridBase& grid, VDBConversion conversion)
@@ -327,25 +299,32 @@ bool isSurface(const openvdb::GridBase& grid, VDBConversion conversion)
 SourceOctree octreeOfGrid(
   const openvdb::GridBase& grid, const VDBOptions& options, vtkPolyData* mesh)
 {
+  using Known = openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid,
+    openvdb::Int64Grid, openvdb::BoolGrid, openvdb::MaskGrid>;
   mesh->Initialize();
-  SourceOctree failed{ BuildStatus::BadInput, 0, {} };
+  SourceOctree built{ BuildStatus::BadInput, 0, {} };
   try
   {
-    return convertKnown(grid, options, mesh);
+    if (!grid.apply<Known>([&](const auto& typed) { built = convert(typed, options, mesh); }))
+    {
+      built.message = "grids of " + grid.valueType() +
+        " have no surface; those of float, double, int32, int64, bool and mask have";
+    }
+    return built;
   }
   catch (const Refused& refused)
   {
-    failed = { refused.status, 0, refused.message };
+    built = { refused.status, 0, refused.message };
   }
   catch (const std::bad_alloc&)
   {
-    failed = { BuildStatus::TooLarge, 0, "there is not enough memory for the grid's voxels" };
+    built = { BuildStatus::TooLarge, 0, "there is not enough memory for the grid's voxels" };
   }
   catch (const std::exception& failure)
   {
-    failed.message = failure.what();
+    built.message = failure.what();
   }
   mesh->Initialize();
-  return failed;
+  return built;
 }
 }
