@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 
 namespace svo
@@ -15,32 +16,15 @@ bool indexToWorld(const openvdb::math::Transform& transform, glm::dmat4& matrix)
   {
     return false;
   }
-  // OpenVDB's vectors are rows, GLM's columns.
-  const openvdb::math::Mat4d rows = transform.baseMap()->getAffineMap()->getMat4();
-  for (int i = 0; i < 4; ++i)
-  {
-    for (int j = 0; j < 4; ++j)
-    {
-      matrix[i][j] = rows(i, j);
-    }
-  }
+  // OpenVDB's vectors are rows, GLM's columns: in memory both matrices are the same.
+  matrix = glm::make_mat4(transform.baseMap()->getAffineMap()->getMat4().asPointer());
   return true;
 }
 
 bool onlyMovesAndScales(const glm::dmat4& matrix)
 {
   const double scale = matrix[0][0];
-  for (int column = 0; column < 3; ++column)
-  {
-    for (int row = 0; row < 3; ++row)
-    {
-      if (matrix[column][row] != (column == row ? scale : 0.0))
-      {
-        return false;
-      }
-    }
-  }
-  return scale > 0.0;
+  return scale > 0.0 && glm::dmat3(matrix) == glm::dmat3(scale);
 }
 
 bool keepsAngles(const glm::dmat4& matrix)
@@ -72,14 +56,6 @@ openvdb::math::Transform::Ptr transformOf(const Octree& octree)
   glm::dmat4 own(h.voxelSize);
   own[3] = glm::dvec4(first, 1.0);
   const glm::dmat4 matrix = octree.frame() * own;
-  openvdb::math::Mat4d rows;
-  for (int i = 0; i < 4; ++i)
-  {
-    for (int j = 0; j < 4; ++j)
-    {
-      rows(i, j) = matrix[i][j];
-    }
-  }
-  return Transform::createLinearTransform(rows);
+  return Transform::createLinearTransform(openvdb::math::Mat4d(glm::value_ptr(matrix)));
 }
 }
