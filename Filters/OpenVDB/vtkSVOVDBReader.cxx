@@ -35,16 +35,6 @@ namespace
 {
 constexpr char MetadataArray[] = "VDBMetadata";
 
-std::vector<std::string> linesOf(const svo::VDBMetadata& metadata)
-{
-  std::vector<std::string> lines;
-  for (const auto& [name, value] : metadata)
-  {
-    lines.push_back(name + ": " + value);
-  }
-  return lines;
-}
-
 /// VTK's code for why a file that OpenVDB did not read could not be.
 unsigned long errorOf(const char* file, bool isOpenVDB, bool noSuchGrid, const std::string& reason)
 {
@@ -418,10 +408,9 @@ int vtkSVOVDBReader::RequestData(
                                   << (surface ? "voxel that its surface passes."
                                               : "active voxel above the threshold."));
   }
-  std::vector<std::string> lines = linesOf(svo::metadataOf(*grid));
-  const std::vector<std::string> ofFile = linesOf(contents.metadata);
+  std::vector<std::string> lines = svo::metadataOf(*grid);
   lines.insert(lines.begin(), "grid: " + grid->getName());
-  lines.insert(lines.end(), ofFile.begin(), ofFile.end());
+  lines.insert(lines.end(), contents.metadata.begin(), contents.metadata.end());
   vtkNew<vtkStringArray> array;
   array->SetName(MetadataArray);
   for (const std::string& line : lines)

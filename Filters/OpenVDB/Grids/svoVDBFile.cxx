@@ -74,8 +74,16 @@ std::string guarded(const std::function<std::string()>& run)
   }
 }
 
-/// Opens the file; why it cannot be, or nothing.
-std::string open(const std::string& fileName, openvdb::io::File& file)
+void addLines(const openvdb::MetaMap& map, std::vector<std::string>& lines)
+{
+  for (auto entry = map.beginMeta(); entry != map.endMeta(); ++entry)
+  {
+    lines.push_back(entry->first + ": " + (entry->second ? entry->second->str() : std::string()));
+  }
+}
+
+/// Opens the file and lists what is in it; why it cannot be, or nothing.
+std::string open(const std::string& fileName, openvdb::io::File& file, VDBContents& contents)
 {
   if (!std::ifstream(fileName, std::ios::binary))
   {
@@ -87,30 +95,15 @@ std::string open(const std::string& fileName, openvdb::io::File& file)
   }
   // Without delayed loading: what is missing is missed here, and not while rays are traced.
   file.open(false);
-  return {};
-}
-
-VDBMetadata textOf(const openvdb::MetaMap& map)
-{
-  VDBMetadata text;
-  for (auto entry = map.beginMeta(); entry != map.endMeta(); ++entry)
-  {
-    text.emplace_back(entry->first, entry->second ? entry->second->str() : std::string());
-  }
-  return text;
-}
-
-void list(const openvdb::io::File& file, VDBContents& contents)
-{
-  contents = {};
   for (auto name = file.beginName(); name != file.endName(); ++name)
   {
     contents.grids.push_back(*name);
   }
   if (const openvdb::MetaMap::Ptr metadata = file.getMetadata())
   {
-    contents.metadata = textOf(*metadata);
+    addLines(*metadata, contents.metadata);
   }
+  return {};
 }
 }
 
@@ -138,12 +131,7 @@ std::string readVDBContents(const std::string& fileName, VDBContents& contents)
     [&]
     {
       openvdb::io::File file(fileName);
-      std::string reason = open(fileName, file);
-      if (reason.empty())
-      {
-        list(file, contents);
-      }
-      return reason;
+      return open(fileName, file, contents);
     });
 }
 
@@ -156,12 +144,11 @@ std::string readVDBGrid(const std::string& fileName, const std::string& name,
     [&]() -> std::string
     {
       openvdb::io::File file(fileName);
-      std::string reason = open(fileName, file);
+      std::string reason = open(fileName, file, contents);
       if (!reason.empty())
       {
         return reason;
       }
-      list(file, contents);
       const std::vector<std::string>& names = contents.grids;
       if (names.empty())
       {
@@ -182,18 +169,17 @@ std::string readVDBGrid(const std::string& fileName, const std::string& name,
     });
 }
 
-VDBMetadata metadataOf(const openvdb::GridBase& grid)
+std::vector<std::string> metadataOf(const openvdb::GridBase& grid)
 {
-  VDBMetadata text = { { "type", grid.valueType() },
-    { "class", openvdb::GridBase::gridClassToString(grid.getGridClass()) } };
   std::ostringstream map;
   grid.transform().print(map, "");
-  std::string line = map.str();
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  text.emplace_back("transform", line);
-  const VDBMetadata own = textOf(grid);
-  text.insert(text.end(), own.begin(), own.end());
-  return text;
+  std::string transform = map.str();
+  std::replace(transform.begin(), transform.end(), '\n', ' ');
+  std::vector<std::string> lines = { "type: " + grid.valueType(),
+    "class: " + openvdb::GridBase::gridClassToString(grid.getGridClass()),
+    "transform: " + transform };
+  addLines(grid, lines);
+  return lines;
 }
 
 std::string writeVDBFile(

@@ -5,19 +5,16 @@
 #include "vtkSVOOpenVDBModule.h"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <openvdb/Grid.h>
 
 namespace svo
 {
-using VDBMetadata = std::vector<std::pair<std::string, std::string>>; // name, value as text
-
 struct VDBContents
 {
-  std::vector<std::string> grids; // names; several of one name are "name[0]", "name[1]"
-  VDBMetadata metadata;           // of the file
+  std::vector<std::string> grids;    // names; several of one name are "name[0]", "name[1]"
+  std::vector<std::string> metadata; // of the file, a "name: value" each
 };
 
 /// The reason of both functions below for a file that is not whole.
@@ -37,8 +34,8 @@ VTKSVOOPENVDB_EXPORT std::string readVDBContents(
 VTKSVOOPENVDB_EXPORT std::string readVDBGrid(const std::string& fileName, const std::string& name,
   openvdb::GridBase::ConstPtr& grid, VDBContents& contents);
 
-/// Of a grid: its own, and its type, class and transform as text.
-VTKSVOOPENVDB_EXPORT VDBMetadata metadataOf(const openvdb::GridBase& grid);
+/// Of a grid, a "name: value" each: its type, class and transform, and its own.
+VTKSVOOPENVDB_EXPORT std::vector<std::string> metadataOf(const openvdb::GridBase& grid);
 
 /// Writes grids in the place of a file, which stays as it was if this fails. Why it failed; empty
 /// if it did not. Throws nothing.
