@@ -25,6 +25,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -83,6 +84,17 @@ vtkSVOVDBReader::vtkSVOVDBReader()
 vtkSVOVDBReader::~vtkSVOVDBReader() = default;
 
 //------------------------------------------------------------------------------
+template <class T>
+void vtkSVOVDBReader::Set(T& own, const T& value)
+{
+  if (value != own)
+  {
+    own = value;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkSVOVDBReader::SetFileName(const char* fileName)
 {
   std::vector<std::string> files;
@@ -90,11 +102,7 @@ void vtkSVOVDBReader::SetFileName(const char* fileName)
   {
     files.emplace_back(fileName);
   }
-  if (files != this->Internals->Files)
-  {
-    this->Internals->Files = files;
-    this->Modified();
-  }
+  this->Set(this->Internals->Files, files);
 }
 
 //------------------------------------------------------------------------------
@@ -146,12 +154,7 @@ int vtkSVOVDBReader::CanReadFile(const char* fileName)
 //------------------------------------------------------------------------------
 void vtkSVOVDBReader::SetGridName(const char* name)
 {
-  const std::string wanted = name ? name : "";
-  if (wanted != this->Internals->GridName)
-  {
-    this->Internals->GridName = wanted;
-    this->Modified();
-  }
+  this->Set(this->Internals->GridName, std::string(name ? name : ""));
 }
 
 //------------------------------------------------------------------------------
@@ -163,12 +166,7 @@ const char* vtkSVOVDBReader::GetGridName()
 //------------------------------------------------------------------------------
 void vtkSVOVDBReader::SetColorGridName(const char* name)
 {
-  const std::string wanted = name ? name : "";
-  if (wanted != this->Internals->ColorGridName)
-  {
-    this->Internals->ColorGridName = wanted;
-    this->Modified();
-  }
+  this->Set(this->Internals->ColorGridName, std::string(name ? name : ""));
 }
 
 //------------------------------------------------------------------------------
@@ -184,10 +182,9 @@ void vtkSVOVDBReader::SetThreshold(double threshold)
   {
     vtkErrorMacro("The threshold has to be a number; it stays " << this->Threshold << ".");
   }
-  else if (threshold != this->Threshold)
+  else
   {
-    this->Threshold = threshold;
-    this->Modified();
+    this->Set(this->Threshold, threshold);
   }
 }
 
@@ -264,10 +261,7 @@ int vtkSVOVDBReader::RequestInformation(
   if (count > 1)
   {
     std::vector<double> times(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i)
-    {
-      times[static_cast<std::size_t>(i)] = i;
-    }
+    std::iota(times.begin(), times.end(), 0.0);
     const double range[2] = { times.front(), times.back() };
     information->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(), count);
     information->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
@@ -282,14 +276,11 @@ const char* vtkSVOVDBReader::FileOfStep(vtkInformationVector* outputVector)
   vtkInformation* information = outputVector->GetInformationObject(0);
   const int count = this->GetNumberOfFileNames();
   int step = 0;
-  if (count > 1 && information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  if (count > 1)
   {
     const double time = information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
     const double last = count - 1;
     step = time >= 0.0 ? static_cast<int>(std::floor(std::min(time, last))) : 0;
-  }
-  if (count > 1)
-  {
     information->Get(vtkDataObject::DATA_OBJECT())
       ->GetInformation()
       ->Set(vtkDataObject::DATA_TIME_STEP(), step);

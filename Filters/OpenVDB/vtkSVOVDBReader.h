@@ -161,6 +161,8 @@ protected:
     vtkInformationVector* outputVector) override;
 
 private:
+  template <class T>
+  void Set(T& own, const T& value);
   std::string ReadContents();
   const char* FileOfStep(vtkInformationVector* outputVector);
   bool ColorBy(const char* file, const svo::SourceOctree& built, const svo::VDBOptions& options,
