@@ -3,6 +3,7 @@
 #include "svoAbort.h"
 #include "svoControllerProcesses.h"
 #include "svoMeshOctree.h"
+#include "svoProcesses.h"
 #include "svoVDBFile.h"
 #include "svoVDBLeaves.h"
 #include "svoVDBLevelSet.h"
@@ -19,6 +20,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkSVOVDBWriter);
 vtkCxxSetObjectMacro(vtkSVOVDBWriter, Controller, vtkMultiProcessController);
@@ -143,7 +145,9 @@ void vtkSVOVDBWriter::WriteParts(vtkInternals& own)
   svo::ControllerProcesses processes(this->Controller);
   const bool first = processes.self() == 0;
   int wrong = 0, octrees = 0, withVoxels = 0;
-  for (const svo::Part& part : svo::partsOf(processes, own.Part()))
+  std::vector<svo::Part> parts;
+  svo::gatherRecords(processes, { own.Part() }, parts);
+  for (const svo::Part& part : parts)
   {
     wrong += part.state == svo::PartState::Wrong;
     octrees += part.state == svo::PartState::Octree;

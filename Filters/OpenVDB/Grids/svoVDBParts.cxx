@@ -4,6 +4,7 @@
 #include "svoVDBOctree.h"
 
 #include <sstream>
+#include <vector>
 
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
@@ -56,13 +57,6 @@ void join(openvdb::BoolGrid& mask, const openvdb::BoolGrid& other)
   openvdb::tools::foreach (
     mask.beginValueOn(), [](const openvdb::BoolGrid::ValueOnIter& i) { i.setValue(true); }, false);
 }
-}
-
-std::vector<Part> partsOf(Processes& processes, const Part& own)
-{
-  std::vector<Part> all;
-  gatherRecords(processes, { own }, all);
-  return all;
 }
 
 void joinGrids(Processes& processes, openvdb::GridCPtrVec& grids, std::string& message)

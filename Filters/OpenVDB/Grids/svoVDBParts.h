@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include <openvdb/Grid.h>
 
@@ -26,9 +25,6 @@ struct Part
   PartState state = PartState::Nothing;
   std::uint64_t voxels = 0;
 };
-
-/// Everybody's, in the order of the processes. Collective.
-VTKSVOOPENVDB_EXPORT std::vector<Part> partsOf(Processes& processes, const Part& own);
 
 /// Process 0 gets the grids of all processes in `grids`, masks of leaves (of bools) joined; the
 /// others' are as they were. Why they are not those of one octree: `message`, on process 0; then
