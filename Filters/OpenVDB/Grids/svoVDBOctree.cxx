@@ -73,8 +73,10 @@ protected:
       }
       const glm::dvec3 out(near(1, 0, 0) - near(-1, 0, 0), near(0, 1, 0) - near(0, -1, 0),
         near(0, 0, 1) - near(0, 0, -1));
-      if (this->set(out, plane))
+      const double length = glm::length(out);
+      if (length > 0.0 && std::isfinite(length) && std::isfinite(1.0 / length))
       {
+        plane = { out / length, 0.0 };
         return true;
       }
     }
@@ -83,18 +85,6 @@ protected:
   }
 
 private:
-  /// False if the vector has no direction.
-  static bool set(const glm::dvec3& out, SourcePlane& plane)
-  {
-    const double length = glm::length(out);
-    if (!(length > 0.0) || !std::isfinite(length) || !std::isfinite(1.0 / length))
-    {
-      return false;
-    }
-    plane = { out / length, 0.0 };
-    return true;
-  }
-
   /// Of the occupied voxels around one: across the sheet that they are, and away from them. In the
   /// midst of a solid there is no such direction: its voxels get one and its opposite by turns, so
   /// that they say nothing in the mean of a block.
