@@ -17,7 +17,6 @@
 #include <type_traits>
 #include <vector>
 
-#include <glm/vec3.hpp>
 #include <openvdb/openvdb.h>
 
 namespace svo
@@ -28,7 +27,7 @@ constexpr double BytesAVoxel = 16.0;
 /// A place in index space, and the block that has it.
 struct PlacedBlock
 {
-  glm::i64vec3 place; // in blocks
+  openvdb::Coord place; // in blocks
   VoxelBlock block;
 };
 
@@ -101,15 +100,11 @@ bool isAbove(
   }
 }
 
-inline glm::i64vec3 blockOf(const openvdb::Coord& at)
+/// The block, or blocks, of a voxel or of a box of voxels.
+template <class Voxels>
+Voxels blocksOf(const Voxels& voxels)
 {
-  const auto down = [](std::int64_t v) { return v >> 3; };
-  return { down(at.x()), down(at.y()), down(at.z()) };
-}
-
-inline glm::ivec3 inBlock(const openvdb::Coord& at)
-{
-  return { at.x() & 7, at.y() & 7, at.z() & 7 };
+  return voxels >> std::size_t(3);
 }
 
 /// Gathers them: a sparse walk over the nodes, never a dense grid.
@@ -139,7 +134,7 @@ public:
       {
         for (std::size_t i = first; i < last; ++i)
         {
-          blocks[i].place = blockOf(leaves[i]->origin());
+          blocks[i].place = blocksOf(leaves[i]->origin());
           this->fill(*leaves[i], blocks[i].block);
         }
       });
@@ -160,7 +155,8 @@ private:
     {
       if (isAbove<GridT>(*voxel, this->Value))
       {
-        block.add(inBlock(voxel.getCoord()));
+        const openvdb::Coord in = voxel.getCoord() & (VoxelBlock::Edge - 1);
+        block.add({ in.x(), in.y(), in.z() });
       }
     }
   }
@@ -187,22 +183,14 @@ private:
       tiles.empty() ? memoryFor(this->Options) : memoryFor(this->Options, TileMemory),
       std::string(tiles.empty() ? "" : "; MemoryLimit can allow more") +
         (std::is_same_v<ValueT, bool> ? "" : "; as a surface it has voxels at its border only"));
+    PlacedBlock full;
+    std::fill(std::begin(full.block.bricks), std::end(full.block.bricks), ~std::uint64_t(0));
     for (const openvdb::CoordBBox& box : tiles)
     {
-      const glm::i64vec3 low = blockOf(box.min()), high = blockOf(box.max());
-      for (std::int64_t z = low.z; z <= high.z; ++z)
+      for (auto place = blocksOf(box).begin(); place; ++place)
       {
-        for (std::int64_t y = low.y; y <= high.y; ++y)
-        {
-          for (std::int64_t x = low.x; x <= high.x; ++x)
-          {
-            PlacedBlock full;
-            full.place = { x, y, z };
-            std::fill(
-              std::begin(full.block.bricks), std::end(full.block.bricks), ~std::uint64_t(0));
-            blocks.push_back(full);
-          }
-        }
+        full.place = *place;
+        blocks.push_back(full);
       }
     }
   }

@@ -17,7 +17,6 @@
 #include <type_traits>
 #include <vector>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -160,9 +159,10 @@ bool reachesSide(const VoxelBlock& block, int axis, bool last)
 
 /// Rays begin at the octree's cube, and planes reach a little beyond their voxels: so a surface
 /// gets a block more where it has voxels at the cube's sides.
-void leaveRoom(const std::vector<PlacedBlock>& blocks, glm::i64vec3& first, glm::i64vec3& last)
+void leaveRoom(const std::vector<PlacedBlock>& blocks, openvdb::CoordBBox& bounds)
 {
-  const glm::i64vec3 low = first, high = last;
+  const Coord low = bounds.min(), high = bounds.max();
+  Coord &first = bounds.min(), &last = bounds.max();
   for (const PlacedBlock& block : blocks)
   {
     for (int i = 0; i < 3; ++i)
@@ -179,35 +179,37 @@ void leaveRoom(const std::vector<PlacedBlock>& blocks, glm::i64vec3& first, glm:
   }
 }
 
+/// Blocks in voxels, which may be more than 32 bits can number.
+glm::i64vec3 voxelsOf(const Coord& blocks)
+{
+  return Edge * glm::i64vec3(blocks.x(), blocks.y(), blocks.z());
+}
+
 /// The cube of an octree around blocks: its first block and its level.
 void boundBlocks(const openvdb::GridBase& grid, bool surface,
-  const std::vector<PlacedBlock>& blocks, glm::i64vec3& first, int& level)
+  const std::vector<PlacedBlock>& blocks, Coord& first, int& level)
 {
-  first = glm::i64vec3(0);
-  glm::i64vec3 last(0);
-  if (!blocks.empty())
-  {
-    first = last = blocks.front().place;
-  }
+  const Coord any = blocks.empty() ? Coord() : blocks.front().place;
+  openvdb::CoordBBox bounds(any, any);
   for (const PlacedBlock& block : blocks)
   {
-    first = glm::min(first, block.place);
-    last = glm::max(last, block.place);
+    bounds.expand(block.place);
   }
   const auto own = grid.getMetadata<openvdb::Int32Metadata>(LevelMetadata);
   if (own && own->value() >= 3 && own->value() <= MaximumLevel &&
-    first == glm::max(first, glm::i64vec3(0)) &&
-    levelOfVoxels((last + std::int64_t(1)) * Edge) <= own->value())
+    !Coord::lessThan(bounds.min(), Coord()) &&
+    levelOfVoxels(voxelsOf(bounds.max().offsetBy(1))) <= own->value())
   {
     level = own->value();
-    first = glm::i64vec3(0);
+    first = Coord();
     return;
   }
   if (surface)
   {
-    leaveRoom(blocks, first, last);
+    leaveRoom(blocks, bounds);
   }
-  level = levelOfVoxels((last - first + std::int64_t(1)) * Edge);
+  first = bounds.min();
+  level = levelOfVoxels(voxelsOf(bounds.dim()));
 }
 
 template <class GridT>
@@ -231,7 +233,7 @@ SourceOctree convert(const GridT& grid, const VDBOptions& options, vtkPolyData* 
     placed = surface ? SurfaceBlocks<GridT>(grid, value, options).gather() : placed;
   }
   placed = surface ? std::move(placed) : GridBlocks<GridT>(grid, options).gather();
-  glm::i64vec3 first;
+  Coord first;
   BuildOptions build;
   boundBlocks(grid, surface, placed, first, build.level);
   if (build.level > MaximumLevel)
@@ -242,15 +244,15 @@ SourceOctree convert(const GridT& grid, const VDBOptions& options, vtkPolyData* 
   std::vector<VoxelBlock> blocks(placed.size());
   for (std::size_t i = 0; i < placed.size(); ++i)
   {
-    const glm::uvec3 at(placed[i].place - first);
+    const Coord at = placed[i].place - first;
     blocks[i] = placed[i].block;
-    blocks[i].key = mortonKey(at.x, at.y, at.z);
+    blocks[i].key = mortonKey(at.x(), at.y(), at.z());
   }
   placed = {};
   std::sort(blocks.begin(), blocks.end(),
     [](const VoxelBlock& a, const VoxelBlock& b) { return a.key < b.key; });
 
-  const glm::dvec3 corner = glm::dvec3(first * Edge) - 0.5; // of the first voxel, in index space
+  const glm::dvec3 corner = glm::dvec3(voxelsOf(first)) - 0.5; // of the first voxel, in index space
   Cube cube{ corner, std::ldexp(1.0, build.level) };
   if (onlyMovesAndScales(world))
   {
@@ -266,7 +268,7 @@ SourceOctree convert(const GridT& grid, const VDBOptions& options, vtkPolyData* 
   build.memoryLimit = options.memoryLimit;
   build.parallelFor = options.parallelFor;
   build.progress = options.progress;
-  const auto index = [&](int i) { return static_cast<std::int32_t>(first[i] * Edge); };
+  const auto index = [&](int i) { return static_cast<std::int32_t>(voxelsOf(first)[i]); };
   const GridSource<GridT> source(grid, surface, value, levelSet,
     Coord(index(0), index(1), index(2)), std::move(blocks), cube, build.level);
   SourceOctree built = buildSourceOctree(source, build, options.carrier, mesh, &cube);

@@ -16,10 +16,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
-#include <glm/vec3.hpp>
 #include <openvdb/openvdb.h>
 
 namespace svo
@@ -46,9 +44,7 @@ public:
     this->Grid.tree().getNodes(leaves);
     Places places = this->besideLeaves(leaves);
     this->addTiles(places);
-    const auto order = [](const glm::i64vec3& a, const glm::i64vec3& b)
-    { return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x); };
-    std::sort(places.begin(), places.end(), order);
+    std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
     std::vector<PlacedBlock> blocks(leaves.size() + places.size());
     this->Options.parallelFor(0, blocks.size(), 64,
@@ -57,7 +53,7 @@ public:
         for (std::size_t i = first; i < last; ++i)
         {
           blocks[i].place =
-            i < leaves.size() ? blockOf(leaves[i]->origin()) : places[i - leaves.size()];
+            i < leaves.size() ? blocksOf(leaves[i]->origin()) : places[i - leaves.size()];
           this->fill(blocks[i]);
         }
       });
@@ -66,22 +62,32 @@ public:
   }
 
 private:
-  using Places = std::vector<glm::i64vec3>;
+  using Coord = openvdb::Coord;
+  using CoordBBox = openvdb::CoordBBox;
+  using Places = std::vector<Coord>;
   using Accessor = typename GridT::ConstUnsafeAccessor;
   static constexpr int Ways = 27; // to the blocks around one, and to itself
   static constexpr int Wide = VoxelBlock::Edge + 2;
 
-  static glm::ivec3 way(int i) { return { i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1 }; }
-  static bool exists(const glm::i64vec3& place)
+  static Coord way(int i) { return { i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1 }; }
+  static bool exists(const Coord& place)
   {
-    constexpr std::int64_t End = std::int64_t(1) << 28; // of indices of 32 bits
-    const auto inside = [](std::int64_t v) { return v >= -End && v < End; };
-    return inside(place.x) && inside(place.y) && inside(place.z);
+    constexpr std::int32_t End = 1 << 28; // of indices of 32 bits
+    return CoordBBox(Coord(-End), Coord(End - 1)).isInside(place);
   }
-  static openvdb::Coord coordOf(const glm::i64vec3& place)
+  static Coord coordOf(const Coord& place)
   {
-    const auto first = [](std::int64_t v) { return static_cast<std::int32_t>(8 * v); };
-    return { first(place.x), first(place.y), first(place.z) };
+    return { 8 * place.x(), 8 * place.y(), 8 * place.z() };
+  }
+  /// The face, the edge or the corner of a box that a way leads to.
+  static CoordBBox border(CoordBBox box, const Coord& way)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      box.min()[i] = way[i] > 0 ? box.max()[i] : box.min()[i];
+      box.max()[i] = way[i] < 0 ? box.min()[i] : box.max()[i];
+    }
+    return box;
   }
 
   /// -1, 1, 0 on the surface, 2 of what is no number.
@@ -103,7 +109,7 @@ private:
         {
           for (int w = 0; w < Ways; ++w)
           {
-            const glm::i64vec3 place = blockOf(leaves[i]->origin()) + glm::i64vec3(way(w));
+            const Coord place = blocksOf(leaves[i]->origin()) + way(w);
             if (exists(place) && !values.probeConstLeaf(coordOf(place)) &&
               this->changesTowards(
                 *leaves[i], way(w), this->sideOf(values.getValue(coordOf(place)))))
@@ -118,30 +124,21 @@ private:
     {
       for (std::uint32_t left = ways[i]; left != 0; left &= left - 1)
       {
-        places.push_back(
-          blockOf(leaves[i]->origin()) + glm::i64vec3(way(lowestBit(std::uint64_t(left)))));
+        places.push_back(blocksOf(leaves[i]->origin()) + way(lowestBit(std::uint64_t(left))));
       }
     }
     return places;
   }
 
   /// Whether a voxel at a face, an edge or a corner has another side.
-  bool changesTowards(const LeafT& leaf, const glm::ivec3& way, int side) const
+  bool changesTowards(const LeafT& leaf, const Coord& way, int side) const
   {
-    constexpr int Last = VoxelBlock::Edge - 1;
-    const auto low = [](int w) { return w > 0 ? Last : 0; };
-    const auto high = [](int w) { return w < 0 ? 0 : Last; };
-    for (int x = low(way.x); x <= high(way.x); ++x)
+    const CoordBBox voxels(Coord(0), Coord(VoxelBlock::Edge - 1));
+    for (auto voxel = border(voxels, way).begin(); voxel; ++voxel)
     {
-      for (int y = low(way.y); y <= high(way.y); ++y)
+      if (this->sideOf(leaf.getValue(LeafT::coordToOffset(*voxel))) != side)
       {
-        for (int z = low(way.z); z <= high(way.z); ++z)
-        {
-          if (this->sideOf(leaf.getValue(LeafT::coordToOffset({ x, y, z }))) != side)
-          {
-            return true;
-          }
-        }
+        return true;
       }
     }
     return false;
@@ -156,50 +153,39 @@ private:
     for (; tile; ++tile)
     {
       const int side = this->sideOf(*tile);
+      const CoordBBox blocks = blocksOf(tile.getBoundingBox());
+      const Coord size = blocks.dim();
       for (int w = 0; w < Ways; ++w)
       {
-        const openvdb::CoordBBox box = tile.getBoundingBox();
-        const glm::i64vec3 low = blockOf(box.min()), high = blockOf(box.max());
-        const glm::i64vec3 next = low + glm::i64vec3(way(w)) * (high - low + std::int64_t(1));
+        const Coord to = way(w);
+        const Coord next =
+          blocks.min().offsetBy(to.x() * size.x(), to.y() * size.y(), to.z() * size.z());
         // A tile of the same size or larger is of one value.
         const bool same = !exists(next) ||
           (values.getValueDepth(coordOf(next)) <= static_cast<int>(tile.getDepth()) &&
             this->sideOf(values.getValue(coordOf(next))) == side);
         if (!same)
         {
-          this->addBorder(low, high, way(w), values, places);
+          this->addBorder(border(blocks, to), to, values, places);
         }
       }
     }
   }
 
-  /// Those at the side of a box of blocks that a way leads to, inside and outside.
-  void addBorder(glm::i64vec3 low, glm::i64vec3 high, const glm::ivec3& way, const Accessor& values,
-    Places& places) const
+  /// Those at the border of a box of blocks that a way leads to, inside and outside.
+  void addBorder(
+    const CoordBBox& border, const Coord& way, const Accessor& values, Places& places) const
   {
-    for (int i = 0; i < 3; ++i)
-    {
-      low[i] = way[i] > 0 ? high[i] : low[i];
-      high[i] = way[i] < 0 ? low[i] : high[i];
-    }
-    const glm::dvec3 size(high - low + std::int64_t(1));
-    refuseTooMany(static_cast<double>(places.size()) + 2.0 * size.x * size.y * size.z,
+    refuseTooMany(static_cast<double>(places.size()) + 2.0 * static_cast<double>(border.volume()),
       "blocks of 8x8x8 voxels at the borders of constant tiles",
-      sizeof(glm::i64vec3) + sizeof(PlacedBlock), memoryFor(this->Options));
-    for (std::int64_t z = low.z; z <= high.z; ++z)
+      sizeof(Coord) + sizeof(PlacedBlock), memoryFor(this->Options));
+    for (auto inside = border.begin(); inside; ++inside)
     {
-      for (std::int64_t y = low.y; y <= high.y; ++y)
+      for (const Coord& place : { *inside, *inside + way })
       {
-        for (std::int64_t x = low.x; x <= high.x; ++x)
+        if (exists(place) && !values.probeConstLeaf(coordOf(place)))
         {
-          const glm::i64vec3 inside(x, y, z), outside = inside + glm::i64vec3(way);
-          for (const glm::i64vec3& place : { inside, outside })
-          {
-            if (exists(place) && !values.probeConstLeaf(coordOf(place)))
-            {
-              places.push_back(place);
-            }
-          }
+          places.push_back(place);
         }
       }
     }
@@ -217,7 +203,7 @@ private:
     bool same = true;
     for (int w = 0; w < Ways; ++w)
     {
-      const glm::i64vec3 place = block.place + glm::i64vec3(way(w));
+      const Coord place = block.place + way(w);
       near[w].value = this->Grid.background();
       if (exists(place))
       {
