@@ -317,11 +317,7 @@ svo::SourceOctree vtkImageToSVO::Convert(
   const svo::Cube cube = svo::cubeOfImage(image, whole, options.level);
   vtkDataArray* colors = this->FindColors(image);
   double begun = 0.0, share = colors ? 0.8 : 1.0;
-  options.progress = [&](double progress)
-  {
-    this->UpdateProgress(begun + share * progress);
-    return !svo::isAborted(this);
-  };
+  options.progress = [&](double progress) { return svo::goesOn(this, begun + share * progress); };
   // Front faces look to smaller values, as those of VTK's contours do.
   const svo::CarrierOptions carrier{ static_cast<std::size_t>(this->MaximumNumberOfQuads), true };
   svo::SourceOctree built{ svo::BuildStatus::BadInput, 0, "scalars of this type are not known" };

@@ -84,11 +84,7 @@ int vtkImplicitFunctionToSVO::RequestData(
   options.modelHigh = { b[1], b[3], b[5] };
   options.memoryLimit = this->MemoryLimit * Kibi;
   options.parallelFor = this->Parallel ? svo::smpParallelFor() : svo::serialFor;
-  options.progress = [this](double progress)
-  {
-    this->UpdateProgress(progress);
-    return !svo::isAborted(this);
-  };
+  options.progress = [this](double progress) { return svo::goesOn(this, progress); };
   const double extent = std::max({ b[1] - b[0], b[3] - b[2], b[5] - b[4] });
   // The octree's cube is a trifle larger than the box.
   const double coarsest = std::ldexp(extent, -this->MinimumLevel - 1) * 1.1;

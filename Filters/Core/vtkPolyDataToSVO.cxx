@@ -284,11 +284,7 @@ void vtkPolyDataToSVO::Convert(
   if (!octree)
   {
     svo::detachOctree(output);
-    options.progress = [this](double progress)
-    {
-      this->UpdateProgress(progress);
-      return !svo::isAborted(this);
-    };
+    options.progress = [this](double progress) { return svo::goesOn(this, progress); };
     const double start = vtkTimerLog::GetUniversalTime();
     const svo::BuildStatus status = svo::buildMeshOctree(input, options, octree, message);
     this->BuildTime = vtkTimerLog::GetUniversalTime() - start;

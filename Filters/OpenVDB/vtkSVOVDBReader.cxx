@@ -365,11 +365,7 @@ int vtkSVOVDBReader::RequestData(
   options.carrier.cells = static_cast<std::size_t>(this->MaximumNumberOfQuads);
   options.parallelFor = svo::smpParallelFor();
   double begun = ReadShare, share = BuildShare;
-  options.progress = [&](double progress)
-  {
-    this->UpdateProgress(begun + share * progress);
-    return !svo::isAborted(this);
-  };
+  options.progress = [&](double progress) { return svo::goesOn(this, begun + share * progress); };
   const svo::SourceOctree built = svo::octreeOfGrid(*grid, options, output);
   this->ReadTime = read - start;
   this->NoteBuilt(built, read, output);

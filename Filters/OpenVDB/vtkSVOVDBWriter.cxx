@@ -207,10 +207,7 @@ void vtkSVOVDBWriter::MakeGrids(vtkInternals& own, bool levelSet)
   if (levelSet)
   {
     const auto progress = [this](double share)
-    {
-      this->UpdateProgress(LeavesShare + (1.0 - LeavesShare - FileShare) * share);
-      return !svo::isAborted(this);
-    };
+    { return svo::goesOn(this, LeavesShare + (1.0 - LeavesShare - FileShare) * share); };
     std::string message;
     const openvdb::FloatGrid::Ptr surface =
       svo::levelSetOf(own.Octree, own.Mesh, this->HalfWidth, progress, message);

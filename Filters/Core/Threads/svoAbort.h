@@ -23,6 +23,13 @@ inline bool isAborted(vtkAlgorithm* algorithm)
   return algorithm->GetAbortExecute() != 0;
 }
 #endif
+
+/// Tells the algorithm's progress, 0..1; false if it is to stop.
+inline bool goesOn(vtkAlgorithm* algorithm, double progress)
+{
+  algorithm->UpdateProgress(progress);
+  return !isAborted(algorithm);
+}
 }
 
 #endif
