@@ -205,20 +205,18 @@ int vtkPolyDataToSVO::RequestData(
 void vtkPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output)
 {
   vtkPolyData* mesh = vtkPolyData::SafeDownCast(input);
-  vtkBoundingBox whole;
+  int level = this->MaximumLevel;
   if (const double voxel = this->AdaptedVoxel(mesh); voxel > 0.0)
   {
-    double cells[6];
-    mesh->GetCellsBounds(cells);
-    whole.AddBounds(cells);
-    whole.AddBounds(this->ModelBounds); // nothing, where low is above high
     double bounds[6];
+    mesh->GetCellsBounds(bounds);
+    vtkBoundingBox whole;
+    whole.AddBounds(bounds);
+    whole.AddBounds(this->ModelBounds); // nothing, where low is above high
     whole.GetBounds(bounds);
-    this->Convert(mesh, vtkPolyData::SafeDownCast(output), this->ModelBounds,
-      svo::levelOfVoxel(bounds, voxel, this->MaximumLevel));
-    return;
+    level = svo::levelOfVoxel(bounds, voxel, level);
   }
-  this->Convert(mesh, vtkPolyData::SafeDownCast(output), this->ModelBounds, this->MaximumLevel);
+  this->Convert(mesh, vtkPolyData::SafeDownCast(output), this->ModelBounds, level);
 }
 
 //------------------------------------------------------------------------------

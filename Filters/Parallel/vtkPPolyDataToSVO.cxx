@@ -5,6 +5,7 @@
 #include "svoAbort.h"
 #include "svoMeshDetail.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkFieldData.h"
@@ -12,14 +13,12 @@
 #include "vtkInformationVector.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkMultiProcessController.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -38,24 +37,16 @@ Place blockOf(Place parent, unsigned int block)
   return (parent ^ (block + 1)) * 0x100000001b3ull; // FNV-1a
 }
 
-using Bounds = std::array<double, 6>;
-constexpr Bounds Nothing = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
-
-bool isNothing(const Bounds& b)
+/// False if there is nothing to be bounded, or nothing finite.
+bool findBounds(vtkPolyData* mesh, double bounds[6])
 {
-  return !(b[0] <= b[1]);
-}
-
-Bounds boundsOf(vtkPolyData* mesh)
-{
-  Bounds bounds = Nothing;
-  if (mesh->GetNumberOfPolys() > 0 || mesh->GetNumberOfStrips() > 0)
+  if (mesh->GetNumberOfPolys() == 0 && mesh->GetNumberOfStrips() == 0)
   {
-    mesh->GetCellsBounds(bounds.data());
+    return false;
   }
-  const bool finite =
-    std::all_of(bounds.begin(), bounds.end(), [](double b) { return std::abs(b) < 1e290; });
-  return finite ? bounds : Nothing;
+  mesh->GetCellsBounds(bounds);
+  return bounds[0] <= bounds[1] &&
+    std::all_of(bounds, bounds + 6, [](double b) { return std::abs(b) < 1e290; });
 }
 
 /// A piece, where it goes, and what it is a piece of.
@@ -66,21 +57,7 @@ struct Piece
   Place place;
 };
 
-class Pieces
-{
-public:
-  /// Fills `output`, of the input's structure, with copies to be, of the leaves.
-  void add(vtkDataObject* input, vtkDataObject* output, Place place);
-
-  const std::vector<Piece>& all() const { return this->All; }
-
-private:
-  vtkSmartPointer<vtkDataObject> copyOf(vtkDataObject* leaf, Place place);
-
-  std::vector<Piece> All;
-};
-
-vtkSmartPointer<vtkDataObject> Pieces::copyOf(vtkDataObject* leaf, Place place)
+vtkSmartPointer<vtkDataObject> copyOf(vtkDataObject* leaf, Place place, std::vector<Piece>& pieces)
 {
   if (!leaf)
   {
@@ -89,7 +66,7 @@ vtkSmartPointer<vtkDataObject> Pieces::copyOf(vtkDataObject* leaf, Place place)
   auto copy = vtkSmartPointer<vtkDataObject>::Take(leaf->NewInstance());
   if (vtkPolyData* mesh = vtkPolyData::SafeDownCast(leaf))
   {
-    this->All.push_back({ mesh, vtkPolyData::SafeDownCast(copy), place });
+    pieces.push_back({ mesh, vtkPolyData::SafeDownCast(copy), place });
   }
   else
   {
@@ -98,14 +75,15 @@ vtkSmartPointer<vtkDataObject> Pieces::copyOf(vtkDataObject* leaf, Place place)
   return copy;
 }
 
-void Pieces::add(vtkDataObject* input, vtkDataObject* output, Place place)
+/// Fills `output`, of the input's structure, with copies to be, of the leaves.
+void addPieces(vtkDataObject* input, vtkDataObject* output, Place place, std::vector<Piece>& pieces)
 {
   if (auto* from = vtkPartitionedDataSet::SafeDownCast(input)) // vtkMultiPieceDataSet is one, too
   {
     auto* to = vtkPartitionedDataSet::SafeDownCast(output);
     for (unsigned int i = 0; i < from->GetNumberOfPartitions(); ++i)
     {
-      to->SetPartition(i, this->copyOf(from->GetPartitionAsDataObject(i), place));
+      to->SetPartition(i, copyOf(from->GetPartitionAsDataObject(i), place, pieces));
     }
   }
   else if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(input))
@@ -113,8 +91,8 @@ void Pieces::add(vtkDataObject* input, vtkDataObject* output, Place place)
     auto* to = vtkPartitionedDataSetCollection::SafeDownCast(output);
     for (unsigned int i = 0; i < collection->GetNumberOfPartitionedDataSets(); ++i)
     {
-      this->add(
-        collection->GetPartitionedDataSet(i), to->GetPartitionedDataSet(i), blockOf(place, i));
+      addPieces(collection->GetPartitionedDataSet(i), to->GetPartitionedDataSet(i),
+        blockOf(place, i), pieces);
     }
   }
   else if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(input))
@@ -124,11 +102,11 @@ void Pieces::add(vtkDataObject* input, vtkDataObject* output, Place place)
     {
       if (vtkDataObjectTree::SafeDownCast(blocks->GetBlock(i)))
       {
-        this->add(blocks->GetBlock(i), to->GetBlock(i), blockOf(place, i));
+        addPieces(blocks->GetBlock(i), to->GetBlock(i), blockOf(place, i), pieces);
       }
       else
       {
-        to->SetBlock(i, this->copyOf(blocks->GetBlock(i), blockOf(place, i)));
+        to->SetBlock(i, copyOf(blocks->GetBlock(i), blockOf(place, i), pieces));
       }
     }
   }
@@ -138,33 +116,28 @@ void Pieces::add(vtkDataObject* input, vtkDataObject* output, Place place)
 struct Record
 {
   Place place;
-  Bounds bounds;
+  double bounds[6];
   double voxel; // 0: as small as there are
 };
 
 /// What the pieces in a place are pieces of.
 struct Whole
 {
-  Bounds bounds = Nothing;
+  vtkBoundingBox bounds;
   int pieces = 0;
   double voxel = 0.0;
 
   void add(const Record& piece)
   {
-    Bounds& b = this->bounds;
-    const bool first = this->pieces == 0;
-    for (int i = 0; i < 6; i += 2)
-    {
-      b[i] = first ? piece.bounds[i] : std::min(b[i], piece.bounds[i]);
-      b[i + 1] = first ? piece.bounds[i + 1] : std::max(b[i + 1], piece.bounds[i + 1]);
-    }
-    this->voxel = first ? piece.voxel : std::min(this->voxel, piece.voxel);
+    this->bounds.AddBounds(piece.bounds);
+    this->voxel = this->pieces == 0 ? piece.voxel : std::min(this->voxel, piece.voxel);
     ++this->pieces;
   }
 };
 }
 
 vtkStandardNewMacro(vtkPPolyDataToSVO);
+vtkCxxSetSmartPointerMacro(vtkPPolyDataToSVO, Controller, vtkMultiProcessController);
 
 //------------------------------------------------------------------------------
 vtkPPolyDataToSVO::vtkPPolyDataToSVO()
@@ -175,15 +148,6 @@ vtkPPolyDataToSVO::vtkPPolyDataToSVO()
 vtkPPolyDataToSVO::~vtkPPolyDataToSVO() = default;
 
 //------------------------------------------------------------------------------
-void vtkPPolyDataToSVO::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Controller != controller)
-  {
-    this->Controller = controller;
-    this->Modified();
-  }
-}
-
 vtkMultiProcessController* vtkPPolyDataToSVO::GetController() const
 {
   return this->Controller;
@@ -233,14 +197,12 @@ int vtkPPolyDataToSVO::RequestDataObject(
 //------------------------------------------------------------------------------
 void vtkPPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output)
 {
-  Pieces pieces;
   std::vector<Piece> all;
   if (auto* tree = vtkDataObjectTree::SafeDownCast(input))
   {
     vtkDataObjectTree::SafeDownCast(output)->CopyStructure(tree);
     output->GetFieldData()->ShallowCopy(input->GetFieldData());
-    pieces.add(input, output, Top);
-    all = pieces.all();
+    addPieces(input, output, Top, all);
   }
   else
   {
@@ -250,10 +212,11 @@ void vtkPPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output
   std::vector<Record> records;
   for (const Piece& piece : all)
   {
-    const Bounds bounds = boundsOf(piece.input);
-    if (!isNothing(bounds))
+    Record record{ piece.place, {}, 0.0 };
+    if (findBounds(piece.input, record.bounds))
     {
-      records.push_back({ piece.place, bounds, this->AdaptedVoxel(piece.input) });
+      record.voxel = this->AdaptedVoxel(piece.input);
+      records.push_back(record);
     }
   }
   if (this->Controller && this->Controller->GetNumberOfProcesses() > 1)
@@ -276,24 +239,16 @@ void vtkPPolyDataToSVO::ConvertInput(vtkDataObject* input, vtkDataObject* output
       piece.output->ShallowCopy(piece.input);
       continue;
     }
-    const auto found = wholes.find(piece.place);
-    const Whole whole = found != wholes.end() ? found->second : Whole();
-    Bounds model;
-    std::copy(this->GetModelBounds(), this->GetModelBounds() + 6, model.begin());
-    Bounds reach = isNothing(model) ? whole.bounds : model;
-    for (int k = 0; k < 6 && whole.pieces > 0; k += 2)
-    {
-      reach[k] = std::min(reach[k], whole.bounds[k]);
-      reach[k + 1] = std::max(reach[k + 1], whole.bounds[k + 1]);
-    }
-    if (whole.pieces > 1)
-    {
-      model = reach;
-    }
+    const Whole& whole = wholes[piece.place]; // without pieces where no process has any
+    vtkBoundingBox reach;
+    reach.AddBounds(this->GetModelBounds());
+    reach.AddBox(whole.bounds);
+    double bounds[6];
+    reach.GetBounds(bounds);
     this->SetProgressShiftScale(static_cast<double>(i) / static_cast<double>(all.size()),
       1.0 / static_cast<double>(all.size()));
-    this->Convert(piece.input, piece.output, model.data(),
-      svo::levelOfVoxel(reach.data(), whole.voxel, this->GetMaximumLevel()));
+    this->Convert(piece.input, piece.output, whole.pieces > 1 ? bounds : this->GetModelBounds(),
+      svo::levelOfVoxel(bounds, whole.voxel, this->GetMaximumLevel()));
   }
   this->SetProgressShiftScale(0.0, 1.0);
 }
