@@ -1,6 +1,7 @@
 #include "vtkSVOToHyperTreeGrid.h"
 
 #include "svoAbort.h"
+#include "svoCellPlanes.h"
 #include "svoLeafValues.h"
 #include "svoMeshOctree.h"
 #include "svoNode.h"
@@ -39,12 +40,7 @@ std::size_t countCells(const svo::Octree& octree, int level)
   std::size_t count = 1;
   for (int l = 0; l < level; ++l)
   {
-    svo::forEachCell(octree, l,
-      [&](const svo::OctreeCell&)
-      {
-        count += 8;
-        return true;
-      });
+    count += 8 * svo::cellsOfLevel(octree, l);
   }
   return count;
 }
@@ -108,17 +104,14 @@ private:
     this->Levels->SetValue(index, static_cast<unsigned char>(level));
     if (this->Octree.surface())
     {
-      this->CellIds->SetValue(index, cell ? this->cellOf(*cell, level) : -1);
+      this->CellIds->SetValue(index,
+        cell ? this->Octree.surface()->cells[svo::nearestTriangle(this->Octree, *cell, level)]
+             : vtkIdType(-1));
     }
     for (auto& [values, copy] : this->Arrays)
     {
       copy->SetTuple(index, cell ? svo::firstLeaf(this->Octree, *cell) : 0, values);
     }
-  }
-
-  vtkIdType cellOf(const svo::OctreeCell& cell, int level) const
-  {
-    return this->Octree.surface()->cells[svo::nearestTriangle(this->Octree, cell, level)];
   }
 
   /// Child i of a cell, one that is occupied or not.

@@ -101,7 +101,7 @@ CellPlane planeOfBits(std::uint32_t bits)
 
 std::size_t cellsOfLevel(const Octree& octree, int level)
 {
-  assert(level >= 1 && level <= octree.level());
+  assert(level >= 0 && level <= octree.level());
   const Header& header = octree.header();
   if (octree.empty() || level == octree.level())
   {

@@ -18,7 +18,7 @@
 
 namespace svo
 {
-/// Occupied cells of a level, 1..octree.level().
+/// Occupied cells of a level, 0..octree.level().
 VTKSVOCORE_EXPORT std::size_t cellsOfLevel(const Octree& octree, int level);
 
 /// The deepest level that has at most that many occupied cells, at least 1.
