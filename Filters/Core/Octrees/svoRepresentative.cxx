@@ -52,14 +52,10 @@ std::uint32_t nearestTriangle(const Octree& octree, const OctreeCell& cell, int 
 {
   if (cell.node < octree.brickBegin())
   {
-    std::uint32_t node = cell.node;
-    if (cell.above < NodeLevels)
-    {
-      // The first of the children that are the cell's.
-      const Node& parent = octree.nodes()[node];
-      node = parent.first + static_cast<std::uint32_t>(childrenBefore(parent, cell.firstBit));
-    }
-    return firstTriangle(octree, node);
+    // Below the first of the children that are the cell's.
+    const Node& parent = octree.nodes()[cell.node];
+    return firstTriangle(
+      octree, parent.first + static_cast<std::uint32_t>(childrenBefore(parent, cell.firstBit)));
   }
   std::uint32_t count = 0;
   std::uint32_t inlineId = 0;
