@@ -206,10 +206,7 @@ void attachStatistics(vtkPolyData* mesh, const Octree& octree, double buildTime)
 
 void detachOctree(vtkPolyData* mesh)
 {
-  if (mesh->GetFieldData()->HasArray(OctreeArrayName))
-  {
-    mesh->GetFieldData()->RemoveArray(OctreeArrayName);
-  }
+  mesh->GetFieldData()->RemoveArray(OctreeArrayName);
 }
 
 Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& message)
