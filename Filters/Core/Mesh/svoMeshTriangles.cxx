@@ -233,11 +233,6 @@ MeshTriangles::MeshTriangles(vtkPolyData* mesh)
 
 TriangleMesh MeshTriangles::view() const
 {
-  TriangleMesh mesh;
-  mesh.points = this->Points;
-  mesh.pointCount = this->PointCount;
-  mesh.triangles = this->Triangles.data();
-  mesh.triangleCount = this->Triangles.size();
-  return mesh;
+  return { this->Points, this->PointCount, this->Triangles.data(), this->Triangles.size() };
 }
 }
