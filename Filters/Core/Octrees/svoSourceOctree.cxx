@@ -22,8 +22,8 @@ namespace
 constexpr int CoarseLevel = 5;
 
 /// Of the planes, which pass their voxels by half a voxel, in the octree's own frame, as VTK orders
-/// them.
-void boundPlanes(const Octree& octree, double bounds[6])
+/// them; cut down to the box that a surface was looked for in.
+void boundPlanes(const Octree& octree, const BuildOptions& options, double bounds[6])
 {
   const int level = std::min(octree.level(), CoarseLevel);
   glm::ivec3 low(std::numeric_limits<int>::max()), high(-1);
@@ -41,6 +41,12 @@ void boundPlanes(const Octree& octree, double bounds[6])
     const bool any = high[i] >= 0;
     bounds[2 * i] = any ? header.origin[i] + low[i] * edge - 0.5 * header.voxelSize : 1.0;
     bounds[2 * i + 1] = any ? header.origin[i] + high[i] * edge + 0.5 * header.voxelSize : -1.0;
+    const double least = options.modelLow[i], most = options.modelHigh[i];
+    if (least < most && bounds[2 * i] <= most && least <= bounds[2 * i + 1])
+    {
+      bounds[2 * i] = std::max(bounds[2 * i], least);
+      bounds[2 * i + 1] = std::min(bounds[2 * i + 1], most);
+    }
   }
 }
 
@@ -63,20 +69,6 @@ void makeCubes(const Octree& octree, int level, vtkPolyData* mesh)
   quads.write(octree, level, VTK_DOUBLE, mesh);
 }
 
-/// Cuts bounds that are not empty down to the box that a surface was looked for in.
-void cutBounds(const BuildOptions& options, double bounds[6])
-{
-  for (int i = 0; i < 3; ++i)
-  {
-    const double low = options.modelLow[i], high = options.modelHigh[i];
-    if (low < high && bounds[2 * i] <= high && low <= bounds[2 * i + 1])
-    {
-      bounds[2 * i] = std::max(bounds[2 * i], low);
-      bounds[2 * i + 1] = std::min(bounds[2 * i + 1], high);
-    }
-  }
-}
-
 SourceOctree buildUnguarded(const SurfaceSource& source, const BuildOptions& options,
   const CarrierOptions& carrier, vtkPolyData* mesh, const Cube* cube)
 {
@@ -93,8 +85,7 @@ SourceOctree buildUnguarded(const SurfaceSource& source, const BuildOptions& opt
     return { BuildStatus::BadInput, 0, message, {} };
   }
   Header& header = *reinterpret_cast<Header*>(result.data.get());
-  boundPlanes(octree, header.meshBounds);
-  cutBounds(options, header.meshBounds);
+  boundPlanes(octree, options, header.meshBounds);
   const bool cubes = options.leafGeometry == LeafGeometry::Voxel;
   const int level =
     cubes ? std::min(octree.level(), CoarseLevel) : deepestLevel(octree, carrier.cells);
