@@ -278,7 +278,8 @@ void vtkPolyDataToSVO::Convert(
 
   std::string message;
   // That of another filter, or of a render pass, does as well.
-  svo::Octree octree = kept ? kept->octree : svo::OctreeLibrary::instance().find(key, message);
+  svo::Octree octree =
+    kept ? kept->octree : svo::OctreeLibrary::instance().built.find(key, message);
   if (!octree)
   {
     svo::detachOctree(output);

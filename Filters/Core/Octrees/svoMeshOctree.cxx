@@ -135,7 +135,7 @@ BuildStatus buildUnguarded(
     message += (message.empty() ? "" : ", and ") + std::to_string(triangles.brokenCells()) +
       " cells name points that do not exist; they are left out of the octree";
   }
-  OctreeLibrary::instance().add(key, octree, message);
+  OctreeLibrary::instance().built.add(key, octree, message);
   return BuildStatus::Built;
 }
 }
@@ -185,7 +185,7 @@ void attachOctree(vtkPolyData* mesh, const Octree& octree)
   const double range[2] = { 0.0, 255.0 };
   tellRange(array, range, range);
   mesh->GetFieldData()->AddArray(array); // replaces an array of the same name
-  OctreeLibrary::instance().add(array, octree);
+  OctreeLibrary::instance().ofArrays.add({ array, array->GetMTime() }, octree, {});
 }
 
 void attachStatistics(vtkPolyData* mesh, const Octree& octree, double buildTime)
@@ -229,7 +229,7 @@ Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& mess
   {
     const auto size = static_cast<std::size_t>(array->GetNumberOfValues());
     const unsigned char* theirs = array->GetPointer(0);
-    octree = OctreeLibrary::instance().find(array);
+    octree = OctreeLibrary::instance().ofArrays.find({ array, array->GetMTime() }, message);
     Header header;
     std::memcpy(&header, octree ? octree.key() : theirs, sizeof(Header));
     if (std::memcmp(header.magic, LayoutMagic, sizeof(LayoutMagic)) == 0 &&
@@ -253,7 +253,7 @@ Attached openAttachedOctree(vtkPolyData* mesh, Octree& octree, std::string& mess
     octree = Octree::open(ownBytes(theirs, size), size, surface, message);
     if (octree)
     {
-      OctreeLibrary::instance().add(array, octree);
+      OctreeLibrary::instance().ofArrays.add({ array, array->GetMTime() }, octree, {});
     }
     return octree ? Attached::Found : Attached::Damaged;
   }

@@ -1,7 +1,5 @@
 #include "svoOctreeLibrary.h"
 
-#include "vtkUnsignedCharArray.h"
-
 #include <algorithm>
 #include <cstring>
 #include <iterator>
@@ -27,12 +25,12 @@ OctreeLibrary& OctreeLibrary::instance()
   return *instance;
 }
 
-template <typename Name>
-Octree OctreeLibrary::find(const Index<Name>& index, const Name& name, std::string& message)
+template <class Name>
+Octree OpenOctrees<Name>::find(const Name& name, std::string& message)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  const auto found = index.octrees.find(name);
-  if (found == index.octrees.end())
+  const auto found = this->Octrees.find(name);
+  if (found == this->Octrees.end())
   {
     return {};
   }
@@ -40,41 +38,21 @@ Octree OctreeLibrary::find(const Index<Name>& index, const Name& name, std::stri
   return found->second.first.lock();
 }
 
-template <typename Name>
-void OctreeLibrary::add(
-  Index<Name>& index, const Name& name, const Octree& octree, const std::string& message)
+template <class Name>
+void OpenOctrees<Name>::add(const Name& name, const Octree& octree, const std::string& message)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  auto& octrees = index.octrees;
-  if (octrees.size() >= index.most)
+  if (this->Octrees.size() >= this->Most)
   {
-    for (auto i = octrees.begin(); i != octrees.end();)
+    for (auto i = this->Octrees.begin(); i != this->Octrees.end();)
     {
-      i = i->second.first.expired() ? octrees.erase(i) : std::next(i);
+      i = i->second.first.expired() ? this->Octrees.erase(i) : std::next(i);
     }
-    index.most = std::max<std::size_t>(2 * octrees.size(), 64);
+    this->Most = std::max<std::size_t>(2 * this->Octrees.size(), 64);
   }
-  octrees[name] = { WeakOctree(octree), message };
+  this->Octrees[name] = { WeakOctree(octree), message };
 }
 
-Octree OctreeLibrary::find(vtkUnsignedCharArray* array)
-{
-  std::string none;
-  return this->find(this->OfArrays, { array, array->GetMTime() }, none);
-}
-
-void OctreeLibrary::add(vtkUnsignedCharArray* array, const Octree& octree)
-{
-  this->add(this->OfArrays, { array, array->GetMTime() }, octree, {});
-}
-
-Octree OctreeLibrary::find(const OctreeKey& key, std::string& message)
-{
-  return this->find(this->Built, key, message);
-}
-
-void OctreeLibrary::add(const OctreeKey& key, const Octree& octree, const std::string& message)
-{
-  this->add(this->Built, key, octree, message);
-}
+template class OpenOctrees<std::pair<const void*, vtkMTimeType>>;
+template class OpenOctrees<OctreeKey>;
 }

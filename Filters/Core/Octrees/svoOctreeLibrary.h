@@ -4,6 +4,7 @@
 
 #include "svoMeshOctree.h"
 #include "svoReuse.h"
+#include "vtkType.h"
 
 #include <array>
 #include <cstddef>
@@ -13,8 +14,6 @@
 #include <string>
 #include <tuple>
 #include <utility>
-
-class vtkUnsignedCharArray;
 
 namespace svo
 {
@@ -58,43 +57,34 @@ struct OctreeKey
   ReuseHistory::Id id() const;
 };
 
-/// Keeps no octree alive. May be called from any thread.
-///
-/// An octree owns its bytes: the field-data array that it was opened from, or that it was attached
-/// as, has a copy of them, since any code may write to the array. So an array is known by its
-/// modification time. VTK's times grow over the whole process: an array that is made where another
-/// one was freed never shows the same pair of address and time.
-class OctreeLibrary
+/// Finds octrees by their names. Keeps none alive. May be called from any thread.
+template <class Name>
+class OpenOctrees
 {
 public:
-  static OctreeLibrary& instance();
-
-  /// The octree whose bytes the array has, by address and modification time; empty if it is not
-  /// open.
-  Octree find(vtkUnsignedCharArray* array);
-  void add(vtkUnsignedCharArray* array, const Octree& octree);
-
-  /// The octree that was built by that name, and the message of its build; empty if it is not open.
-  Octree find(const OctreeKey& key, std::string& message);
-  void add(const OctreeKey& key, const Octree& octree, const std::string& message);
+  /// The octree, and the message of its build; empty if it is not open.
+  Octree find(const Name& name, std::string& message);
+  void add(const Name& name, const Octree& octree, const std::string& message);
 
 private:
-  OctreeLibrary() = default;
-
-  template <typename Name>
-  struct Index
-  {
-    std::map<Name, std::pair<WeakOctree, std::string>> octrees; // and messages
-    std::size_t most = 64; // at which closed ones are taken out
-  };
-  template <typename Name>
-  Octree find(const Index<Name>& index, const Name& name, std::string& message);
-  template <typename Name>
-  void add(Index<Name>& index, const Name& name, const Octree& octree, const std::string& message);
-
   std::mutex Mutex;
-  Index<std::pair<const void*, unsigned long long>> OfArrays; // array, modification time
-  Index<OctreeKey> Built;
+  std::map<Name, std::pair<WeakOctree, std::string>> Octrees; // and messages
+  std::size_t Most = 64;                                      // at which closed ones are taken out
+};
+
+struct OctreeLibrary
+{
+  /// By address and modification time of the field-data array whose bytes they have.
+  ///
+  /// An octree owns its bytes: the array that it was opened from, or that it was attached as, has a
+  /// copy of them, since any code may write to the array. So an array is known by its modification
+  /// time. VTK's times grow over the whole process: an array that is made where another one was
+  /// freed never shows the same pair of address and time.
+  OpenOctrees<std::pair<const void*, vtkMTimeType>> ofArrays;
+
+  OpenOctrees<OctreeKey> built;
+
+  static OctreeLibrary& instance();
 };
 }
 

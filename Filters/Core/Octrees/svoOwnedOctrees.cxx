@@ -85,7 +85,7 @@ bool OwnedOctrees::takeOver(const OctreeKey& key)
     return true;
   }
   std::string message;
-  const Octree octree = OctreeLibrary::instance().find(key, message);
+  const Octree octree = OctreeLibrary::instance().built.find(key, message);
   if (octree)
   {
     this->keep(key, octree, message);
