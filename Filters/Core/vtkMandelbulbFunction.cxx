@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 vtkStandardNewMacro(vtkMandelbulbFunction);

@@ -10,7 +10,6 @@
 #include "vtkBoundingBox.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkTimerLog.h"

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace svo

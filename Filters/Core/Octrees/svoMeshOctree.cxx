@@ -6,10 +6,6 @@
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
-#include "vtkInformationDoubleVectorKey.h"
-#include "vtkInformationInformationVectorKey.h"
-#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"

@@ -2,7 +2,6 @@
 
 #include "svoCellSurface.h"
 #include "svoMeshTriangles.h"
-#include "svoMorton.h"
 #include "svoNearTriangles.h"
 #include "svoOctree.h"
 #include "svoOctreeCells.h"
@@ -19,8 +18,7 @@
 #include <thread>
 #include <vector>
 
-#include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
+#include <glm/common.hpp>
 #include <openvdb/math/Proximity.h>
 #include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/MeshToVolume.h>
