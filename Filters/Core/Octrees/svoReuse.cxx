@@ -2,23 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <tuple>
 
 namespace svo
 {
-/// The smallest goes first.
-struct ReuseHistory::Rank
-{
-  int kind;           // overdue, never seen again, expected
-  std::uint64_t when; // last use; of what is expected, the later the sooner it goes
-  Id id;
-
-  bool operator<(const Rank& other) const
-  {
-    return std::tie(this->kind, this->when, this->id) < std::tie(other.kind, other.when, other.id);
-  }
-};
-
 void ReuseHistory::comes(Id id, bool kept)
 {
   ++this->Now;
@@ -83,6 +69,7 @@ void ReuseHistory::sortForGoing(std::vector<Id>& ids) const
     ranks.push_back(this->rankOf(id));
   }
   std::sort(ranks.begin(), ranks.end());
-  std::transform(ranks.begin(), ranks.end(), ids.begin(), [](const Rank& rank) { return rank.id; });
+  std::transform(
+    ranks.begin(), ranks.end(), ids.begin(), [](const Rank& rank) { return std::get<2>(rank); });
 }
 }

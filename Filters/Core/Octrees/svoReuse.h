@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -37,7 +38,9 @@ private:
     std::uint64_t last = 0;
     std::uint64_t interval = 0; // 0: it came once
   };
-  struct Rank;
+  /// The smallest goes first: 0 overdue, 1 never seen again, 2 expected; the last use, or, of what
+  /// is expected, the later the less; which it is.
+  using Rank = std::tuple<int, std::uint64_t, Id>;
   Rank rankOf(Id id) const;
   void forget();
 
