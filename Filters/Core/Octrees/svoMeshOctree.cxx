@@ -46,17 +46,13 @@ glm::dvec3 highOf(const std::array<double, 6>& bounds)
   return { bounds[1], bounds[3], bounds[5] };
 }
 
-/// Bounds of the finite points, as they are stored in the header.
-void finiteBounds(const TriangleMesh& mesh, double bounds[6])
+/// Bounds of the finite points, as they are stored in the header. A part of something counts as
+/// large as the whole: lights' views are fitted to that, for parts as for the whole.
+void finiteBounds(const TriangleMesh& mesh, const std::array<double, 6>& model, double bounds[6])
 {
-  for (int i = 0; i < 3; ++i)
+  std::copy(NoBounds.begin(), NoBounds.end(), bounds);
+  const auto add = [&](const glm::dvec3& p)
   {
-    bounds[2 * i] = 1.0;
-    bounds[2 * i + 1] = -1.0;
-  }
-  for (std::size_t k = 0; k < mesh.pointCount; ++k)
-  {
-    const glm::dvec3& p = mesh.points[k];
     for (int i = 0; i < 3; ++i)
     {
       if (std::isfinite(p[i]))
@@ -66,18 +62,12 @@ void finiteBounds(const TriangleMesh& mesh, double bounds[6])
         bounds[2 * i + 1] = first ? p[i] : std::max(bounds[2 * i + 1], p[i]);
       }
     }
-  }
-}
-
-/// A part of something counts as large as the whole: lights' views are fitted to that, for parts as
-/// for the whole.
-void addModel(const std::array<double, 6>& model, double bounds[6])
-{
-  for (int i = 0; i < 6 && model[0] <= model[1]; i += 2)
+  };
+  std::for_each(mesh.points, mesh.points + mesh.pointCount, add);
+  if (model[0] <= model[1])
   {
-    const bool empty = bounds[i] > bounds[i + 1];
-    bounds[i] = empty ? model[i] : std::min(bounds[i], model[i]);
-    bounds[i + 1] = empty ? model[i + 1] : std::max(bounds[i + 1], model[i + 1]);
+    add(lowOf(model));
+    add(highOf(model));
   }
 }
 
@@ -110,9 +100,8 @@ BuildStatus buildUnguarded(
   header.signature = options.signature != 0 ? options.signature : meshSignature(mesh);
   header.pointCount = view.pointCount;
   header.cellCount = static_cast<std::uint64_t>(mesh->GetNumberOfCells());
-  finiteBounds(view, header.meshBounds);
   const OctreeKey key{ header.signature, options.level, options.leafGeometry, options.modelBounds };
-  addModel(key.modelBounds, header.meshBounds);
+  finiteBounds(view, key.modelBounds, header.meshBounds);
   const auto surface =
     makeSurface(view, std::move(triangles.cells()), header, buildOptions.parallelFor);
   octree = Octree::open(std::move(result.data), result.size, surface, message);
