@@ -1,5 +1,6 @@
 #include "svoContour.h"
 
+#include "svoBox.h"
 #include "svoCellPlanes.h"
 #include "svoContourQuads.h"
 
@@ -261,16 +262,16 @@ void writePieces(const CellPlanes& cells, const std::vector<std::int32_t>& lonel
 }
 
 template <class Real, class Array>
-vtkSmartPointer<vtkPoints> pointsOf(CellPlanes& cells, const ContourOptions& options,
+vtkSmartPointer<vtkPoints> pointsOf(CellPlanes& cells, const BuildOptions& built,
   const ToLocal& toLocal, std::vector<std::vector<Quad>>& quads, vtkFloatArray* normals)
 {
-  const Vertices vertices(cells.octree.header(), toLocal.edge, options.box);
+  const Vertices vertices(cells.octree.header(), toLocal.edge, { built.modelLow, built.modelHigh });
   vtkNew<Array> coordinates;
   coordinates->SetNumberOfComponents(3);
   coordinates->SetNumberOfTuples(static_cast<vtkIdType>(cells.count));
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(static_cast<vtkIdType>(cells.count));
-  options.parallelFor(0, cells.blocks.size(), 128,
+  built.parallelFor(0, cells.blocks.size(), 128,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t b = first; b < last; ++b)
@@ -282,7 +283,7 @@ vtkSmartPointer<vtkPoints> pointsOf(CellPlanes& cells, const ContourOptions& opt
     });
 
   const CellFlags used(new std::atomic<unsigned char>[cells.count]());
-  quads = quadsOf(cells, options.parallelFor, used);
+  quads = quadsOf(cells, built.parallelFor, used);
   const std::vector<std::int32_t> lonely = lonelyCells(cells, used);
   const vtkIdType all = static_cast<vtkIdType>(cells.count + 3 * lonely.size());
   coordinates->Resize(all);
@@ -328,7 +329,8 @@ vtkSmartPointer<vtkCellArray> cellArrayOf(
 }
 }
 
-void makeContour(const Octree& octree, const ContourOptions& options, vtkPolyData* mesh)
+void makeContour(
+  const Octree& octree, int level, const BuildOptions& built, bool turned, vtkPolyData* mesh)
 {
   assert(octree.hasPlanes());
   mesh->Initialize();
@@ -336,17 +338,17 @@ void makeContour(const Octree& octree, const ContourOptions& options, vtkPolyDat
   {
     return;
   }
-  CellPlanes cells(octree, options.level, options.parallelFor);
-  const ToLocal toLocal(octree, options.level, options.turned);
+  CellPlanes cells(octree, level, built.parallelFor);
+  const ToLocal toLocal(octree, level, turned);
   std::vector<std::vector<Quad>> quads;
   vtkNew<vtkFloatArray> normals;
   normals->SetName("Normals");
-  mesh->SetPoints(toLocal.floatsSuffice(options.level)
-      ? pointsOf<float, vtkFloatArray>(cells, options, toLocal, quads, normals)
-      : pointsOf<double, vtkDoubleArray>(cells, options, toLocal, quads, normals));
+  mesh->SetPoints(toLocal.floatsSuffice(level)
+      ? pointsOf<float, vtkFloatArray>(cells, built, toLocal, quads, normals)
+      : pointsOf<double, vtkDoubleArray>(cells, built, toLocal, quads, normals));
   // A frame that mirrors turns quads inside out.
   const bool mirrored = glm::determinant(glm::dmat3(toLocal.frame)) < 0.0;
-  mesh->SetPolys(cellArrayOf(quads, mirrored != options.turned, options.parallelFor));
+  mesh->SetPolys(cellArrayOf(quads, mirrored != turned, built.parallelFor));
   mesh->GetPointData()->SetNormals(normals);
 }
 }

@@ -2,30 +2,22 @@
 #ifndef svoContour_h
 #define svoContour_h
 
-#include "svoBox.h"
+#include "svoBuild.h"
 #include "svoOctree.h"
-#include "svoParallel.h"
 #include "vtkSVOCoreModule.h"
 
 class vtkPolyData;
 
 namespace svo
 {
-struct ContourOptions
-{
-  int level = 1; // whose cells have a vertex each
-  /// Where the surface ends, octree's own frame: its border is moved there.
-  Box box{};
-  /// False: the quads, and the normals, look to where planes' normals point. True: to the other
-  /// side.
-  bool turned = false;
-  ParallelFor parallelFor = serialFor;
-};
-
 /// Makes points, normals and quads of a mesh, in the octree's local frame, of an octree of planes.
 /// The first cellsOfLevel() (svoCellPlanes.h) points are the cells' vertices in their order, each
 /// near its cell's plane and in its cell, or, at the border of the box, up to half a cell beside
 /// it. Deterministic.
+///
+/// `level`: whose cells have a vertex each. `built`: what the octree was built with; the surface
+/// ends at its box, and its border is moved there. `turned`: false where the quads, and the
+/// normals, look to where planes' normals point, true where they look to the other side.
 ///
 /// A corner of cells lies before or behind the surface by the mean of what the planes of the cells
 /// around it say. A quad joins the four cells around each edge of a cell whose corners disagree, so
@@ -33,7 +25,7 @@ struct ContourOptions
 /// the surface but no corner behind it, as in sheets that are thinner than a cell, get a piece of
 /// their plane.
 VTKSVOCORE_EXPORT void makeContour(
-  const Octree& octree, const ContourOptions& options, vtkPolyData* mesh);
+  const Octree& octree, int level, const BuildOptions& built, bool turned, vtkPolyData* mesh);
 }
 
 #endif

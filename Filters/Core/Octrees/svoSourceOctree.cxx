@@ -95,9 +95,7 @@ SourceOctree buildUnguarded(const SurfaceSource& source, const BuildOptions& opt
   }
   else
   {
-    makeContour(octree,
-      { level, { options.modelLow, options.modelHigh }, carrier.turned, options.parallelFor },
-      mesh);
+    makeContour(octree, level, options, carrier.turned, mesh);
   }
   header.signature = meshSignature(mesh);
   header.pointCount = static_cast<std::uint64_t>(mesh->GetNumberOfPoints());
