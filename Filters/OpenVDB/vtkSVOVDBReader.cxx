@@ -65,13 +65,10 @@ class vtkSVOVDBReader::vtkInternals
 {
 public:
   std::vector<std::string> Files;
-  std::string GridName;
-  std::string ColorGridName;
   svo::VDBContents Contents; // of the first file
   vtkNew<vtkStringArray> GridNames;
   std::string Known; // the file whose contents these are, and when it was written
   std::filesystem::file_time_type KnownTime;
-  std::string MetaData;
 };
 
 //------------------------------------------------------------------------------
@@ -154,25 +151,13 @@ int vtkSVOVDBReader::CanReadFile(const char* fileName)
 //------------------------------------------------------------------------------
 void vtkSVOVDBReader::SetGridName(const char* name)
 {
-  this->Set(this->Internals->GridName, std::string(name ? name : ""));
-}
-
-//------------------------------------------------------------------------------
-const char* vtkSVOVDBReader::GetGridName()
-{
-  return this->Internals->GridName.c_str();
+  this->Set(this->GridName, std::string(name ? name : ""));
 }
 
 //------------------------------------------------------------------------------
 void vtkSVOVDBReader::SetColorGridName(const char* name)
 {
-  this->Set(this->Internals->ColorGridName, std::string(name ? name : ""));
-}
-
-//------------------------------------------------------------------------------
-const char* vtkSVOVDBReader::GetColorGridName()
-{
-  return this->Internals->ColorGridName.c_str();
+  this->Set(this->ColorGridName, std::string(name ? name : ""));
 }
 
 //------------------------------------------------------------------------------
@@ -245,12 +230,6 @@ vtkStringArray* vtkSVOVDBReader::GetGridNames()
 }
 
 //------------------------------------------------------------------------------
-const char* vtkSVOVDBReader::GetMetaData()
-{
-  return this->Internals->MetaData.c_str();
-}
-
-//------------------------------------------------------------------------------
 int vtkSVOVDBReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -293,7 +272,7 @@ const char* vtkSVOVDBReader::FileOfStep(vtkInformationVector* outputVector)
 bool vtkSVOVDBReader::ColorBy(const char* file, const svo::SourceOctree& built,
   const svo::VDBOptions& options, vtkPolyData* output)
 {
-  const std::string& name = this->Internals->ColorGridName;
+  const std::string& name = this->ColorGridName;
   if (name.empty() || name == "None" || built.voxels == 0)
   {
     return true;
@@ -332,7 +311,7 @@ int vtkSVOVDBReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   this->ReadTime = 0.0;
-  this->Internals->MetaData.clear();
+  this->MetaData.clear();
   this->SetErrorCode(vtkErrorCode::NoError);
   vtkPolyData* output = this->Begin(outputVector);
   const char* file = this->FileOfStep(outputVector);
@@ -346,11 +325,11 @@ int vtkSVOVDBReader::RequestData(
   const double start = vtkTimerLog::GetUniversalTime();
   openvdb::GridBase::ConstPtr grid;
   svo::VDBContents contents;
-  const std::string reason = svo::readVDBGrid(file, this->Internals->GridName, grid, contents);
+  const std::string reason = svo::readVDBGrid(file, this->GridName, grid, contents);
   if (!reason.empty())
   {
     const bool noSuchGrid =
-      !contents.grids.empty() && svo::uniqueName(contents, this->Internals->GridName).empty();
+      !contents.grids.empty() && svo::uniqueName(contents, this->GridName).empty();
     this->SetErrorCode(errorOf(file, this->CanReadFile(file) != 0, noSuchGrid, reason));
     vtkErrorMacro("The file " << file << " cannot be read: " << reason << ".");
     return 1;
@@ -403,7 +382,7 @@ int vtkSVOVDBReader::RequestData(
   for (const std::string& line : lines)
   {
     array->InsertNextValue(line);
-    this->Internals->MetaData += line + "\n";
+    this->MetaData += line + "\n";
   }
   output->GetFieldData()->AddArray(array);
   return 1;
@@ -420,10 +399,10 @@ void vtkSVOVDBReader::PrintSelf(ostream& os, vtkIndent indent)
   }
   os << "\n";
   constexpr const char* Names[] = { "Automatic", "Surface", "Voxels" };
-  os << indent << "GridName: " << this->Internals->GridName << "\n";
-  os << indent << "ColorGridName: " << this->Internals->ColorGridName << "\n";
+  os << indent << "GridName: " << this->GridName << "\n";
+  os << indent << "ColorGridName: " << this->ColorGridName << "\n";
   os << indent << "Conversion: " << Names[this->Conversion] << "\n";
   os << indent << "Threshold: " << this->Threshold << "\n";
   os << indent << "ReadTime: " << this->ReadTime << " s\n";
-  os << indent << "MetaData: " << this->Internals->MetaData << "\n";
+  os << indent << "MetaData: " << this->MetaData << "\n";
 }

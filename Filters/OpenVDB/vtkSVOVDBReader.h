@@ -86,7 +86,7 @@ public:
    * called "name[0]", "name[1]" and so on; the name alone is the first of them.
    */
   void SetGridName(const char* name);
-  const char* GetGridName();
+  vtkGetCharFromStdStringMacro(GridName);
   //@}
 
   //@{
@@ -98,7 +98,7 @@ public:
    * says. A grid that is not there, or has no numbers, is a warning.
    */
   void SetColorGridName(const char* name);
-  const char* GetColorGridName();
+  vtkGetCharFromStdStringMacro(ColorGridName);
   //@}
 
   //@{
@@ -148,7 +148,7 @@ public:
    * and of the file, a "name: value" a line. They are empty, or 0, before Update().
    */
   vtkGetMacro(ReadTime, double);
-  const char* GetMetaData();
+  vtkGetCharFromStdStringMacro(MetaData);
   //@}
 
 protected:
@@ -170,6 +170,9 @@ private:
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
+  std::string GridName;
+  std::string ColorGridName;
+  std::string MetaData;
   int Conversion = AUTOMATIC;
   double Threshold = 0.0;
   double ReadTime = 0.0;
