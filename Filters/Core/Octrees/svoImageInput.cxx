@@ -175,26 +175,20 @@ Cube cubeOfImage(vtkImageData* image, const int extent[6], int level)
 
 vtkSmartPointer<vtkDataArray> visibleScalars(vtkImageData* image, vtkDataArray* scalars)
 {
-  vtkUnsignedCharArray* marks = image->GetPointGhostArray();
-  const vtkIdType count = scalars->GetNumberOfTuples();
-  const auto isHidden = [&](vtkIdType i)
-  { return (marks->GetValue(i) & vtkDataSetAttributes::HIDDENPOINT) != 0; };
-  vtkIdType i = 0;
-  while (marks && i < count && !isHidden(i))
-  {
-    ++i;
-  }
-  if (!marks || i == count)
+  if (!image->HasAnyBlankPoints())
   {
     return scalars;
   }
+  vtkUnsignedCharArray* marks = image->GetPointGhostArray();
+  const vtkIdType count = scalars->GetNumberOfTuples();
   const auto visible = vtkSmartPointer<vtkDoubleArray>::New();
   visible->SetName(scalars->GetName());
   visible->SetNumberOfValues(count);
-  for (i = 0; i < count; ++i)
+  for (vtkIdType i = 0; i < count; ++i)
   {
+    const bool hidden = (marks->GetValue(i) & vtkDataSetAttributes::HIDDENPOINT) != 0;
     visible->SetValue(
-      i, isHidden(i) ? std::numeric_limits<double>::quiet_NaN() : scalars->GetComponent(i, 0));
+      i, hidden ? std::numeric_limits<double>::quiet_NaN() : scalars->GetComponent(i, 0));
   }
   return visible;
 }
