@@ -6,6 +6,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
+#include "vtkMatrix4x4.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -15,26 +16,17 @@
 #include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 
 namespace svo
 {
 namespace
 {
-glm::dmat3 axesOf(vtkImageData* image)
-{
-  return glm::transpose(glm::make_mat3(image->GetDirectionMatrix()->GetData()));
-}
-
 /// Steps of a point's index -> local frame.
 glm::dmat3 stepsOf(vtkImageData* image)
 {
-  glm::dmat3 steps = axesOf(image);
-  for (int column = 0; column < 3; ++column)
-  {
-    steps[column] *= image->GetSpacing()[column];
-  }
-  return steps;
+  return glm::dmat3(glm::transpose(glm::make_mat4(image->GetIndexToPhysicalMatrix()->GetData())));
 }
 
 bool isTurned(vtkImageData* image)
@@ -118,7 +110,7 @@ glm::dmat4 frameOfImage(vtkImageData* image)
   {
     return glm::dmat4(1.0);
   }
-  glm::dmat4 frame(axesOf(image));
+  glm::dmat4 frame(glm::transpose(glm::make_mat3(image->GetDirectionMatrix()->GetData())));
   frame[3] = glm::dvec4(glm::make_vec3(image->GetOrigin()), 1.0);
   return frame;
 }
