@@ -69,10 +69,7 @@ vtkSmartPointer<vtkDataArray> makeValues(vtkDataArray* from, vtkIdType count)
     vtkDataArray::CreateDataArray(colors || type == VTK_DOUBLE ? type : VTK_FLOAT));
   values->SetName(from->GetName());
   values->SetNumberOfComponents(components);
-  for (int c = 0; c < components && from->HasAComponentName(); ++c)
-  {
-    values->SetComponentName(c, from->GetComponentName(c));
-  }
+  values->CopyComponentNames(from);
   values->SetNumberOfTuples(count);
   return values;
 }
