@@ -65,7 +65,7 @@ class vtkSVOVDBReader::vtkInternals
 {
 public:
   std::vector<std::string> Files;
-  svo::VDBContents Contents; // of the first file
+  svo::VDBContents Contents; // of the first file; empty without one
   vtkNew<vtkStringArray> GridNames;
   std::string Known; // the file whose contents these are, and when it was written
   std::filesystem::file_time_type KnownTime;
@@ -178,19 +178,17 @@ void vtkSVOVDBReader::SetThreshold(double threshold)
 std::string vtkSVOVDBReader::ReadContents()
 {
   vtkInternals& own = *this->Internals;
-  if (own.Files.empty())
-  {
-    return {};
-  }
+  const std::string file = own.Files.empty() ? std::string() : own.Files.front();
   std::error_code ignored; // what cannot be opened says so below
-  const auto written = std::filesystem::last_write_time(own.Files.front(), ignored);
-  if (own.Known == own.Files.front() && own.KnownTime == written)
+  const auto written = std::filesystem::last_write_time(file, ignored);
+  if (own.Known == file && own.KnownTime == written)
   {
     return {};
   }
-  own.Known = own.Files.front();
+  own.Known = file;
   own.KnownTime = written;
-  std::string reason = svo::readVDBContents(own.Known, own.Contents);
+  own.Contents = {};
+  std::string reason = file.empty() ? file : svo::readVDBContents(file, own.Contents);
   own.GridNames->Initialize();
   for (const std::string& name : own.Contents.grids)
   {
@@ -222,10 +220,6 @@ const char* vtkSVOVDBReader::GetGridName(int i)
 vtkStringArray* vtkSVOVDBReader::GetGridNames()
 {
   this->ReadContents();
-  if (this->Internals->Files.empty())
-  {
-    this->Internals->GridNames->Initialize();
-  }
   return this->Internals->GridNames;
 }
 
