@@ -55,11 +55,6 @@ bool sample(const T* from, const svo::ImageGrid& grid, const svo::Octree& octree
     });
 }
 
-bool isName(const char* name)
-{
-  return name && *name && std::string(name) != "None";
-}
-
 /// Colours of bytes stay bytes, all else becomes floats.
 vtkSmartPointer<vtkDataArray> makeValues(vtkDataArray* from, vtkIdType count)
 {
@@ -357,11 +352,12 @@ svo::SourceOctree vtkImageToSVO::Convert(
 /// nullptr, and a warning, if there is no array of that name.
 vtkDataArray* vtkImageToSVO::FindColors(vtkImageData* image)
 {
-  if (!isName(this->ColorArrayName))
+  const char* wanted = this->ColorArrayName;
+  if (!wanted || !*wanted || std::string(wanted) == "None")
   {
     return nullptr;
   }
-  vtkDataArray* colors = image->GetPointData()->GetArray(this->ColorArrayName);
+  vtkDataArray* colors = image->GetPointData()->GetArray(wanted);
   if (!colors || colors->GetNumberOfTuples() != image->GetNumberOfPoints() ||
     !colors->HasStandardMemoryLayout())
   {
@@ -375,7 +371,7 @@ vtkDataArray* vtkImageToSVO::FindColors(vtkImageData* image)
       }
     }
     vtkWarningMacro("The surface has no colours: the image has no array of its points named "
-      << this->ColorArrayName << others << ".");
+      << wanted << others << ".");
     return nullptr;
   }
   return colors;
