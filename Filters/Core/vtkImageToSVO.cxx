@@ -32,29 +32,6 @@ vtkStandardNewMacro(vtkImageToSVO);
 
 namespace
 {
-/// The values that the leaves of an octree have in an array of the image.
-template <class T>
-bool sample(const T* from, const svo::ImageGrid& grid, const svo::Octree& octree,
-  const svo::BuildOptions& options, vtkDataArray* values)
-{
-  const int components = values->GetNumberOfComponents();
-  const double rounding = values->GetDataType() == VTK_UNSIGNED_CHAR ? 0.5 : 0.0;
-  return svo::forEachLeaf(octree, options.parallelFor, options.progress,
-    [&](std::size_t leaf, const glm::dvec3& at)
-    {
-      glm::ivec3 cell;
-      glm::dvec3 in;
-      grid.locate(at, cell, in);
-      for (int c = 0; c < components; ++c)
-      {
-        const double value = svo::trilinear(cell, in, rounding,
-          [&](int x, int y, int z)
-          { return static_cast<double>(from[components * grid.index(x, y, z) + c]); });
-        values->SetComponent(static_cast<vtkIdType>(leaf), c, value);
-      }
-    });
-}
-
 /// Colours of bytes stay bytes, all else becomes floats.
 vtkSmartPointer<vtkDataArray> makeValues(vtkDataArray* from, vtkIdType count)
 {
@@ -69,38 +46,41 @@ vtkSmartPointer<vtkDataArray> makeValues(vtkDataArray* from, vtkIdType count)
   return values;
 }
 
-/// False if it was aborted.
+/// By the values that the leaves of an octree have in an array of the image. False if it was
+/// aborted.
 bool colorBy(vtkDataArray* from, const svo::ImageGrid& grid, const svo::SourceOctree& built,
   const svo::BuildOptions& options, vtkPolyData* mesh)
 {
-  const svo::Octree& octree = built.octree;
-  const auto values = makeValues(from, static_cast<vtkIdType>(octree.header().voxelCount));
+  const auto values = makeValues(from, static_cast<vtkIdType>(built.octree.header().voxelCount));
+  const int components = values->GetNumberOfComponents();
+  const double rounding = values->GetDataType() == VTK_UNSIGNED_CHAR ? 0.5 : 0.0;
+  const auto sample = [&](const auto* points)
+  {
+    return svo::forEachLeaf(built.octree, options.parallelFor, options.progress,
+      [&](std::size_t leaf, const glm::dvec3& at)
+      {
+        glm::ivec3 cell;
+        glm::dvec3 in;
+        grid.locate(at, cell, in);
+        for (int c = 0; c < components; ++c)
+        {
+          const double value = svo::trilinear(cell, in, rounding,
+            [&](int x, int y, int z)
+            { return static_cast<double>(points[components * grid.index(x, y, z) + c]); });
+          values->SetComponent(static_cast<vtkIdType>(leaf), c, value);
+        }
+      });
+  };
   bool done = true;
   switch (from->GetDataType())
   {
-    vtkTemplateMacro(done = sample(static_cast<const VTK_TT*>(from->GetVoidPointer(0)), grid,
-                       octree, options, values.Get()));
+    vtkTemplateMacro(done = sample(static_cast<const VTK_TT*>(from->GetVoidPointer(0))));
   }
   if (done)
   {
     svo::attachLeafValues(mesh, built, values);
   }
   return done;
-}
-
-template <class T>
-svo::SourceOctree convert(const T* values, const svo::ImageGrid& grid,
-  const std::vector<double>& surfaces, const svo::Cube& cube, const svo::BuildOptions& options,
-  const svo::CarrierOptions& carrier, vtkPolyData* mesh,
-  std::shared_ptr<const svo::ValuePyramid>& pyramid)
-{
-  const svo::ImageField<T> field(grid, values);
-  if (!pyramid)
-  {
-    pyramid = std::make_shared<const svo::ValuePyramid>(grid, field, options.parallelFor);
-  }
-  const svo::ImageSource source(field, grid, *pyramid, surfaces);
-  return svo::buildSourceOctree(source, options, carrier, mesh, &cube);
 }
 }
 
@@ -325,11 +305,19 @@ svo::SourceOctree vtkImageToSVO::Convert(
     }
     const vtkSmartPointer<vtkDataArray> scalars = svo::visibleScalars(image, asked);
     const svo::ImageGrid grid = svo::gridOfImage(image);
-    const std::vector<double> surfaces = this->Surfaces();
+    const auto convert = [&](const auto* values)
+    {
+      const svo::ImageField field(grid, values);
+      if (!this->Pyramid)
+      {
+        this->Pyramid = std::make_shared<const svo::ValuePyramid>(grid, field, options.parallelFor);
+      }
+      const svo::ImageSource source(field, grid, *this->Pyramid, this->Surfaces());
+      return svo::buildSourceOctree(source, options, carrier, output, &cube);
+    };
     switch (scalars->GetDataType())
     {
-      vtkTemplateMacro(built = convert(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0)), grid,
-                         surfaces, cube, options, carrier, output, this->Pyramid));
+      vtkTemplateMacro(built = convert(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0))));
     }
     begun = 0.8;
     share = 0.2;
