@@ -16,7 +16,7 @@ namespace
 struct Dual
 {
   double v;
-  glm::dvec3 d;
+  glm::dvec3 d{ 0.0 };
 };
 Dual operator+(const Dual& a, const Dual& b)
 {
@@ -36,11 +36,15 @@ Dual operator/(const Dual& a, const Dual& b)
 }
 
 /// f(a), where the derivative of f there is known.
+double chain(double, double f, double)
+{
+  return f;
+}
 Dual chain(const Dual& a, double f, double derivative)
 {
   return { f, derivative * a.d };
 }
-double number(const double& a)
+double number(double a)
 {
   return a;
 }
@@ -48,31 +52,17 @@ double number(const Dual& a)
 {
   return a.v;
 }
-double constant(double a, const double*)
-{
-  return a;
-}
-Dual constant(double a, const Dual*)
-{
-  return { a, glm::dvec3(0.0) };
-}
-double root(double a)
-{
-  return std::sqrt(a);
-}
 /// At 0 without derivatives: on the z axis, and at the origin.
-Dual root(const Dual& a)
+template <class T>
+T root(const T& a)
 {
-  const double f = std::sqrt(a.v);
+  const double f = std::sqrt(number(a));
   return chain(a, f, f > 0.0 ? 0.5 / f : 0.0);
 }
-double logarithm(double a)
+template <class T>
+T logarithm(const T& a)
 {
-  return std::log(a);
-}
-Dual logarithm(const Dual& a)
-{
-  return chain(a, std::log(a.v), 1.0 / a.v);
+  return chain(a, std::log(number(a)), 1.0 / number(a));
 }
 double realPower(double a, double n)
 {
@@ -126,13 +116,10 @@ Dual argument(const Complex<Dual>& a)
   return { std::atan2(a.im.v, a.re.v),
     square > 0.0 ? (a.re.v * a.im.d - a.im.v * a.re.d) / square : glm::dvec3(0.0) };
 }
-Complex<double> turned(double angle, double n)
+template <class T>
+Complex<T> turned(const T& angle, double n)
 {
-  return { std::cos(n * angle), std::sin(n * angle) };
-}
-Complex<Dual> turned(const Dual& angle, double n)
-{
-  const double c = std::cos(n * angle.v), s = std::sin(n * angle.v);
+  const double c = std::cos(n * number(angle)), s = std::sin(n * number(angle));
   return { chain(angle, c, -n * s), chain(angle, s, n * c) };
 }
 
@@ -147,7 +134,7 @@ template <class T>
 T estimate(const T c[3], double n, int iterations)
 {
   constexpr double Escaped = 1e3; // from here on further iterations change less than 1e-6 of it
-  const T one = constant(1.0, c), half = constant(0.5, c);
+  const T one{ 1.0 }, half{ 0.5 };
   const unsigned whole = n == std::floor(n) ? static_cast<unsigned>(n) : 0;
   T z[3] = { c[0], c[1], c[2] };
   T derivative = one;
@@ -157,7 +144,7 @@ T estimate(const T c[3], double n, int iterations)
     const T fromAxis = root(z[0] * z[0] + z[1] * z[1]);
     const T perR = one / r;
     const Complex<T> theta{ perR * z[2], perR * fromAxis };
-    Complex<T> phi{ one, constant(0.0, c) }; // on the axis
+    Complex<T> phi{ one, T{ 0.0 } }; // on the axis
     if (number(fromAxis) > 0.0)
     {
       const T perAxis = one / fromAxis;
@@ -166,7 +153,7 @@ T estimate(const T c[3], double n, int iterations)
     const Complex<T> nTheta = unitPower(theta, n, whole), nPhi = unitPower(phi, n, whole);
     const T before = whole ? wholePower(r, whole - 1) : realPower(r, n - 1.0);
     const T length = before * r;
-    derivative = constant(n, c) * before * derivative + one;
+    derivative = T{ n } * before * derivative + one;
     z[0] = length * nTheta.im * nPhi.re + c[0];
     z[1] = length * nTheta.im * nPhi.im + c[1];
     z[2] = length * nTheta.re + c[2];
@@ -174,7 +161,7 @@ T estimate(const T c[3], double n, int iterations)
   }
   if (number(r) == 0.0)
   {
-    r = constant(std::numeric_limits<double>::min(), c);
+    r = T{ std::numeric_limits<double>::min() };
   }
   const T estimated = half * logarithm(r) / derivative;
   return number(r) > 1.0 ? r * estimated : estimated;
