@@ -96,56 +96,50 @@ struct Appender
   void appendAll(vtkCellArray* array, vtkIdType firstCell, bool strips)
   {
     const vtkIdType count = array->GetNumberOfCells();
-    if (count > 0 &&
-      !useCellIds(array,
-        [&](const auto* offsets, const auto* ids)
-        { this->appendCells(offsets, ids, count, firstCell, strips); }))
+    const auto appendCells = [&](const auto* offsets, const auto* ids)
     {
-      this->broken += static_cast<std::size_t>(count);
-    }
-  }
-
-  template <typename Id>
-  void appendCells(
-    const Id* offsets, const Id* ids, vtkIdType count, vtkIdType firstCell, bool strips)
-  {
-    for (vtkIdType c = 0; c < count; ++c)
-    {
-      const auto* first = ids + offsets[c];
-      const vtkIdType size = static_cast<vtkIdType>(offsets[c + 1] - offsets[c]);
-      bool valid = true;
-      for (vtkIdType i = 0; i < size; ++i)
+      for (vtkIdType c = 0; c < count; ++c)
       {
-        valid = valid && first[i] >= 0 && first[i] < this->pointCount;
-      }
-      if (!valid)
-      {
-        ++this->broken;
-        continue;
-      }
-      const auto cell = static_cast<std::uint32_t>(firstCell + c);
-      if (!strips && size > static_cast<vtkIdType>(LargePolygon))
-      {
-        const std::vector<std::uint32_t> polygon(first, first + size);
-        if (canBeHalved(this->points, polygon))
+        const auto* first = ids + offsets[c];
+        const vtkIdType size = static_cast<vtkIdType>(offsets[c + 1] - offsets[c]);
+        bool valid = true;
+        for (vtkIdType i = 0; i < size; ++i)
         {
-          halve(0, polygon.size() - 1,
-            [&](std::size_t i, std::size_t k, std::size_t j)
-            { this->append(polygon[i], polygon[k], polygon[j], cell); });
+          valid = valid && first[i] >= 0 && first[i] < this->pointCount;
+        }
+        if (!valid)
+        {
+          ++this->broken;
           continue;
         }
-      }
-      for (vtkIdType i = 0; i + 2 < size; ++i)
-      {
-        if (strips)
+        const auto cell = static_cast<std::uint32_t>(firstCell + c);
+        if (!strips && size > static_cast<vtkIdType>(LargePolygon))
         {
-          this->append(first[i], first[i + 1 + i % 2], first[i + 2 - i % 2], cell);
+          const std::vector<std::uint32_t> polygon(first, first + size);
+          if (canBeHalved(this->points, polygon))
+          {
+            halve(0, polygon.size() - 1,
+              [&](std::size_t i, std::size_t k, std::size_t j)
+              { this->append(polygon[i], polygon[k], polygon[j], cell); });
+            continue;
+          }
         }
-        else
+        for (vtkIdType i = 0; i + 2 < size; ++i)
         {
-          this->append(first[0], first[i + 1], first[i + 2], cell);
+          if (strips)
+          {
+            this->append(first[i], first[i + 1 + i % 2], first[i + 2 - i % 2], cell);
+          }
+          else
+          {
+            this->append(first[0], first[i + 1], first[i + 2], cell);
+          }
         }
       }
+    };
+    if (count > 0 && !useCellIds(array, appendCells))
+    {
+      this->broken += static_cast<std::size_t>(count);
     }
   }
 
