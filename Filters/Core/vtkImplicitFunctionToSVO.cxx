@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 vtkStandardNewMacro(vtkImplicitFunctionToSVO);
@@ -77,14 +78,10 @@ int vtkImplicitFunctionToSVO::RequestData(
   }
   constexpr std::size_t Kibi = 1024;
   const double* b = this->ModelBounds;
-  svo::BuildOptions options;
-  options.level = this->MaximumLevel;
-  options.leafGeometry = svo::LeafGeometry::Plane;
-  options.modelLow = { b[0], b[2], b[4] };
-  options.modelHigh = { b[1], b[3], b[5] };
-  options.memoryLimit = this->MemoryLimit * Kibi;
-  options.parallelFor = this->Parallel ? svo::smpParallelFor() : svo::serialFor;
-  options.progress = [this](double progress) { return svo::goesOn(this, progress); };
+  const svo::BuildOptions options{ this->MaximumLevel, svo::LeafGeometry::Plane,
+    { b[0], b[2], b[4] }, { b[1], b[3], b[5] }, glm::dmat4(1.0), this->MemoryLimit * Kibi,
+    this->Parallel ? svo::smpParallelFor() : svo::serialFor,
+    [this](double progress) { return svo::goesOn(this, progress); } };
   const double extent = std::max({ b[1] - b[0], b[3] - b[2], b[5] - b[4] });
   // The octree's cube is a trifle larger than the box.
   const double coarsest = std::ldexp(extent, -this->MinimumLevel - 1) * 1.1;

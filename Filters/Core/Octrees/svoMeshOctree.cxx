@@ -21,6 +21,7 @@
 #include <utility>
 
 #include <glm/common.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vector_relational.hpp>
 
 namespace svo
@@ -80,16 +81,11 @@ BuildStatus buildUnguarded(
     message = "the mesh has more points, cells or triangles than an octree can number";
     return BuildStatus::BadInput;
   }
-  BuildOptions buildOptions;
-  buildOptions.level = options.level;
-  buildOptions.leafGeometry = options.leafGeometry;
-  buildOptions.modelLow = lowOf(options.modelBounds);
-  buildOptions.modelHigh = highOf(options.modelBounds);
-  buildOptions.memoryLimit = options.memoryLimit != 0 ? options.memoryLimit : availableMemory();
-  buildOptions.parallelFor = options.parallelFor;
-  buildOptions.progress = options.progress;
   const TriangleMesh view = triangles.view();
-  BuildResult result = build(view, buildOptions);
+  const std::size_t memory = options.memoryLimit != 0 ? options.memoryLimit : availableMemory();
+  BuildResult result = build(view,
+    { options.level, options.leafGeometry, lowOf(options.modelBounds), highOf(options.modelBounds),
+      glm::dmat4(1.0), memory, options.parallelFor, options.progress });
   if (result.status != BuildStatus::Built)
   {
     message = result.status == BuildStatus::Aborted ? std::string() : result.message;
@@ -102,8 +98,7 @@ BuildStatus buildUnguarded(
   header.cellCount = static_cast<std::uint64_t>(mesh->GetNumberOfCells());
   const OctreeKey key{ header.signature, options.level, options.leafGeometry, options.modelBounds };
   finiteBounds(view, key.modelBounds, header.meshBounds);
-  const auto surface =
-    makeSurface(view, std::move(triangles.cells()), header, buildOptions.parallelFor);
+  const auto surface = makeSurface(view, std::move(triangles.cells()), header, options.parallelFor);
   octree = Octree::open(std::move(result.data), result.size, surface, message);
   if (!octree)
   {
