@@ -33,18 +33,6 @@ bool isTurned(vtkImageData* image)
 {
   return !image->GetDirectionMatrix()->IsIdentity();
 }
-
-/// Whether neighbouring points are different points.
-bool canTellPointsApart(vtkImageData* image, const glm::dmat3& steps)
-{
-  const ImageBox box = boxOfExtent(image, image->GetExtent());
-  const double* origin = image->GetOrigin();
-  const glm::dvec3 far = glm::max(glm::max(glm::abs(box.low), glm::abs(box.high)),
-    glm::abs(glm::dvec3(origin[0], origin[1], origin[2])));
-  const double step =
-    std::min({ glm::length(steps[0]), glm::length(steps[1]), glm::length(steps[2]) });
-  return step > 8.0 * std::numeric_limits<double>::epsilon() * std::max({ far.x, far.y, far.z });
-}
 }
 
 double ImageBox::extent() const
@@ -88,18 +76,23 @@ const char* unfitImage(vtkImageData* image, vtkDataArray* scalars)
   }
   const glm::dmat3 steps = stepsOf(image);
   const double volume = std::abs(glm::determinant(steps));
-  const double* origin = image->GetOrigin();
-  if (!std::isfinite(volume) || !std::isfinite(origin[0] + origin[1] + origin[2]) ||
-    !std::isfinite(boxOfExtent(image, image->GetExtent()).extent()))
+  const ImageBox box = boxOfExtent(image, image->GetExtent());
+  const glm::dvec3 origin = glm::make_vec3(image->GetOrigin());
+  if (!std::isfinite(volume) || !std::isfinite(origin.x + origin.y + origin.z) ||
+    !std::isfinite(box.extent()))
   {
     return "the image's origin, spacing or direction matrix is not finite";
   }
-  const double edges = glm::length(steps[0]) * glm::length(steps[1]) * glm::length(steps[2]);
-  if (!(volume > 1e-12 * edges))
+  const double x = glm::length(steps[0]), y = glm::length(steps[1]), z = glm::length(steps[2]);
+  if (!(volume > 1e-12 * (x * y * z)))
   {
     return "the image is flat: its spacing, or its direction matrix, has no inverse";
   }
-  return canTellPointsApart(image, steps)
+  const glm::dvec3 far =
+    glm::max(glm::max(glm::abs(box.low), glm::abs(box.high)), glm::abs(origin));
+  const double resolved =
+    8.0 * std::numeric_limits<double>::epsilon() * std::max({ far.x, far.y, far.z });
+  return std::min({ x, y, z }) > resolved
     ? nullptr
     : "the image's spacing is too small to tell points apart so far from the origin";
 }
