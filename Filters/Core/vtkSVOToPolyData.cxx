@@ -98,19 +98,16 @@ int vtkSVOToPolyData::RequestData(
         const vtkIdType id = octree.surface()
           ? octree.surface()->cells[svo::nearestTriangle(octree, cell, level)]
           : -1;
-        for (int f = 0; f < svo::CellFaces; ++f)
+        quads.add(cell.cell, faces);
+        for (int f = svo::countBits(static_cast<unsigned>(faces)); f > 0; --f)
         {
-          if (faces >> f & 1)
+          if (octree.surface())
           {
-            quads.add(cell.cell, svo::FacesOfCell[f]);
-            if (octree.surface())
-            {
-              cellIds->InsertNextValue(id);
-            }
-            for (auto& [values, copy] : leafArrays)
-            {
-              copy->InsertNextTuple(svo::firstLeaf(octree, cell), values);
-            }
+            cellIds->InsertNextValue(id);
+          }
+          for (auto& [values, copy] : leafArrays)
+          {
+            copy->InsertNextTuple(svo::firstLeaf(octree, cell), values);
           }
         }
         return goOn(0.3, 0.4);

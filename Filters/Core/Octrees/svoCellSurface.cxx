@@ -37,11 +37,14 @@ bool isOccupied(const Octree& octree, const OctreeCell& cell, const glm::ivec3& 
   return octree.occupied(at, level);
 }
 
-void CellQuads::add(const glm::ivec3& cell, const CellFace& face)
+void CellQuads::add(const glm::ivec3& cell, int faces)
 {
-  for (const glm::ivec3& corner : face.corners)
+  for (int f = 0; f < CellFaces; ++f)
   {
-    this->Corners.push_back(cornerKey(cell + corner));
+    for (int i = 0; i < 4 && (faces >> f & 1); ++i)
+    {
+      this->Corners.push_back(cornerKey(cell + FacesOfCell[f].corners[i]));
+    }
   }
 }
 

@@ -65,7 +65,8 @@ public:
   static constexpr std::size_t Bytes = 4 * 16 + 4 * 8 + 24;
 
   void reserve(std::size_t quads) { this->Corners.reserve(4 * quads); }
-  void add(const glm::ivec3& cell, const CellFace& face);
+  /// Those faces of a cell that `faces` has bits for.
+  void add(const glm::ivec3& cell, int faces);
   /// Writes points (of VTK's type `pointType`) and polygons of a mesh, in the octree's local frame.
   /// `sorted` is called when the longer half of the work is done.
   void write(

@@ -57,13 +57,7 @@ void makeCubes(const Octree& octree, int level, vtkPolyData* mesh)
   forEachVisibleCell(octree, level, false,
     [&](const OctreeCell& cell, int faces)
     {
-      for (int f = 0; f < CellFaces; ++f)
-      {
-        if (faces >> f & 1)
-        {
-          quads.add(cell.cell, FacesOfCell[f]);
-        }
-      }
+      quads.add(cell.cell, faces);
       return true;
     });
   quads.write(octree, level, VTK_DOUBLE, mesh);
