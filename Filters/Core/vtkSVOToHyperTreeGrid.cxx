@@ -34,17 +34,6 @@ vtkStandardNewMacro(vtkSVOToHyperTreeGrid);
 
 namespace
 {
-/// Cells of a grid down to a level: the root, and the eight of each occupied cell above it.
-std::size_t countCells(const svo::Octree& octree, int level)
-{
-  std::size_t count = 1;
-  for (int l = 0; l < level; ++l)
-  {
-    count += 8 * svo::cellsOfLevel(octree, l);
-  }
-  return count;
-}
-
 /// Goes down octree and grid side by side.
 class TreeWriter
 {
@@ -244,7 +233,11 @@ int vtkSVOToHyperTreeGrid::RequestData(
     return 1;
   }
   const int level = this->Level < 0 ? octree.level() : std::min(this->Level, octree.level());
-  const std::size_t cells = countCells(octree, level);
+  std::size_t cells = 1; // the root, and the eight of each occupied cell above the level
+  for (int l = 0; l < level; ++l)
+  {
+    cells += 8 * svo::cellsOfLevel(octree, l);
+  }
   // Of a cell its arrays, and of the eight together VTK's indices of parent and children, twice
   // while they grow.
   const std::size_t needed = cells * (1 + (octree.surface() ? 8 : 0) + 2 * 6);
