@@ -145,26 +145,6 @@ void repeatForFaces(
       return true;
     });
 }
-
-vtkSmartPointer<vtkDataArray> quadValues(
-  vtkPolyData* mesh, const SourceOctree& built, vtkDataArray* values)
-{
-  const int components = values->GetNumberOfComponents();
-  const std::vector<double> means = meansOf(built.octree, built.meshLevel, values);
-  auto array = vtkSmartPointer<vtkDataArray>::Take(values->NewInstance());
-  array->SetName(values->GetName());
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(mesh->GetNumberOfCells());
-  if (built.octree.header().leafGeometry == static_cast<std::uint32_t>(LeafGeometry::Voxel))
-  {
-    repeatForFaces(built.octree, built.meshLevel, means, array);
-  }
-  else
-  {
-    averageQuads(mesh, means, components, array);
-  }
-  return array;
-}
 }
 
 bool forEachLeaf(const Octree& octree, const ParallelFor& parallelFor,
@@ -209,8 +189,21 @@ bool forEachLeaf(const Octree& octree, const ParallelFor& parallelFor,
 
 void attachLeafValues(vtkPolyData* mesh, const SourceOctree& built, vtkDataArray* values)
 {
-  const vtkSmartPointer<vtkDataArray> ofQuads = quadValues(mesh, built, values);
-  if (values->GetNumberOfComponents() == 1)
+  const int components = values->GetNumberOfComponents();
+  const std::vector<double> means = meansOf(built.octree, built.meshLevel, values);
+  const auto ofQuads = vtkSmartPointer<vtkDataArray>::Take(values->NewInstance());
+  ofQuads->SetName(values->GetName());
+  ofQuads->SetNumberOfComponents(components);
+  ofQuads->SetNumberOfTuples(mesh->GetNumberOfCells());
+  if (built.octree.header().leafGeometry == static_cast<std::uint32_t>(LeafGeometry::Voxel))
+  {
+    repeatForFaces(built.octree, built.meshLevel, means, ofQuads);
+  }
+  else
+  {
+    averageQuads(mesh, means, components, ofQuads);
+  }
+  if (components == 1)
   {
     double range[2], finite[2];
     values->GetRange(range);
