@@ -198,12 +198,7 @@ MeshTriangles::MeshTriangles(vtkPolyData* mesh)
       this->Copy.resize(this->PointCount);
       if (auto* floats = vtkFloatArray::FastDownCast(data))
       {
-        const float* p = floats->GetPointer(0);
-        for (glm::dvec3& q : this->Copy)
-        {
-          q = { p[0], p[1], p[2] };
-          p += 3;
-        }
+        std::copy_n(floats->GetPointer(0), 3 * this->PointCount, &this->Copy[0].x);
       }
       else
       {
