@@ -47,12 +47,8 @@ struct OctreeKey
   }
   MeshOctreeOptions options() const
   {
-    MeshOctreeOptions options;
-    options.signature = this->signature;
-    options.level = this->level;
-    options.leafGeometry = this->leafGeometry;
-    options.modelBounds = this->modelBounds;
-    return options;
+    return { this->level, this->leafGeometry, this->modelBounds, 0, this->signature,
+      smpParallelFor(), {} };
   }
   ReuseHistory::Id id() const;
 };
