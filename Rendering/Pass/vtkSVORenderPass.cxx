@@ -14,6 +14,7 @@
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <set>
@@ -199,25 +200,25 @@ void vtkSVORenderPass::Render(const vtkRenderState* state)
     }
     frame.state->joinPasses(state);
     this->TraceFrame(frame, width, height);
+    vtkProp** const props = state->GetPropArray();
+    const std::vector<vtkProp*> before(props, props + state->GetPropArrayCount());
+    frame.state->exchange(state, this);
+    const bool receiving = !frame.state->receivers().idle();
+    if (receiving)
     {
-      svo::ExchangedProps props(state->GetPropArray());
-      frame.state->exchange(props, state, this);
-      const bool receiving = !frame.state->receivers().idle();
-      if (receiving)
-      {
-        svo::carryPass(&frame.receivers(), this);
-        frame.state->findLight(*state);
-      }
-      drawn = !this->WantsSamples(frame);
-      if (drawn)
-      {
-        this->UpdateGeometry(renderer, state->GetFrameBuffer());
-      }
-      if (receiving)
-      {
-        svo::dropPass(&frame.receivers(), this);
-      }
+      svo::carryPass(&frame.receivers(), this);
+      frame.state->findLight(*state);
     }
+    drawn = !this->WantsSamples(frame);
+    if (drawn)
+    {
+      this->UpdateGeometry(renderer, state->GetFrameBuffer());
+    }
+    if (receiving)
+    {
+      svo::dropPass(&frame.receivers(), this);
+    }
+    std::copy(before.begin(), before.end(), props);
     frame.state->presenter()->StandFor(nullptr);
     if (!drawn)
     {

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace svo
 {
@@ -36,25 +37,6 @@ bool drawsPropsFirst(vtkRenderPass* pass)
   vtkRenderPass* inner = static_cast<vtkCameraPass*>(pass)->GetDelegatePass();
   return isA(inner, "vtkDefaultPass") || isA(inner, "vtkPVDefaultPass");
 }
-}
-
-ExchangedProps::ExchangedProps(vtkProp** props)
-  : Props(props)
-{
-}
-
-ExchangedProps::~ExchangedProps()
-{
-  for (const auto& entry : this->Saved)
-  {
-    this->Props[entry.first] = entry.second;
-  }
-}
-
-void ExchangedProps::exchange(int index, vtkProp* by)
-{
-  this->Saved.emplace_back(index, this->Props[index]);
-  this->Props[index] = by;
 }
 
 RendererState::RendererState(vtkRenderer* renderer, std::unique_ptr<Tracer> tracer)
@@ -413,24 +395,25 @@ void RendererState::joinPasses(const vtkRenderState* state)
   this->Presenter->StandFor(replaced != last ? *replaced : nullptr);
 }
 
-void RendererState::exchange(
-  ExchangedProps& props, const vtkRenderState* state, vtkOpenGLRenderPass* pass)
+void RendererState::exchange(const vtkRenderState* state, vtkOpenGLRenderPass* pass)
 {
   this->present(pass);
   bool first = this->Renderer->GetPass() == pass; // else others may have drawn
+  bool presented = false;
   std::size_t used = 0;
   for (int i = 0; i < state->GetPropArrayCount(); ++i)
   {
-    vtkProp* prop = state->GetPropArray()[i];
+    vtkProp*& prop = state->GetPropArray()[i];
     if (this->Collected.replaced.count(prop) == 0)
     {
       first = first && prop->IsA("vtkActor2D"); // drawn later, over everything
       continue;
     }
-    if (!props.any())
+    if (!presented)
     {
       this->Presenter->SetFirst(first);
-      props.exchange(i, this->Presenter);
+      prop = this->Presenter;
+      presented = true;
       continue;
     }
     // The same prop twice in the array would leak references.
@@ -438,7 +421,7 @@ void RendererState::exchange(
     {
       this->Nothings.push_back(vtkSmartPointer<vtkSVONothing>::New());
     }
-    props.exchange(i, this->Nothings[used++]);
+    prop = this->Nothings[used++];
   }
 }
 

@@ -26,7 +26,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 class vtkOpenGLRenderPass;
@@ -37,24 +36,6 @@ class vtkWindow;
 
 namespace svo
 {
-/// Entries of a render state's prop array, exchanged and put back. The array is the renderer's own,
-/// so its entries can change for the length of a frame, their number cannot.
-class ExchangedProps
-{
-public:
-  explicit ExchangedProps(vtkProp** props);
-  ~ExchangedProps();
-  ExchangedProps(const ExchangedProps&) = delete;
-  ExchangedProps& operator=(const ExchangedProps&) = delete;
-
-  void exchange(int index, vtkProp* by);
-  bool any() const { return !this->Saved.empty(); }
-
-private:
-  vtkProp** Props;
-  std::vector<std::pair<int, vtkProp*>> Saved;
-};
-
 class RendererState
 {
 public:
@@ -137,8 +118,9 @@ public:
   /// The prop that shows what was traced.
   vtkSVOPresenter* presenter() { return this->Presenter; }
 
-  /// Puts the presenter in the traced props' place.
-  void exchange(ExchangedProps& props, const vtkRenderState* state, vtkOpenGLRenderPass* pass);
+  /// Puts the presenter in the traced props' place. The array is the renderer's own, so its entries
+  /// can change for the length of a frame, their number cannot.
+  void exchange(const vtkRenderState* state, vtkOpenGLRenderPass* pass);
 
   /// Has the presenter, which is in the renderer's own list, show what was traced.
   void present(vtkOpenGLRenderPass* pass);
