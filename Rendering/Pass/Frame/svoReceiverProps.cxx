@@ -54,21 +54,16 @@ bool ReceiverProps::take(const vtkRenderState& drawn, const CollectedScene& coll
   return same;
 }
 
-void ReceiverProps::drawOpaque(vtkViewport* viewport) const
+void ReceiverProps::draw(vtkViewport* viewport, bool translucent) const
 {
   const auto props = this->Props; // whoever hears of drawing may draw another frame
   for (const auto& [prop, time] : props)
   {
-    prop->RenderOpaqueGeometry(viewport);
-  }
-}
-
-void ReceiverProps::drawTranslucent(vtkViewport* viewport) const
-{
-  const auto props = this->Props; // whoever hears of drawing may draw another frame
-  for (const auto& [prop, time] : props)
-  {
-    if (prop->HasTranslucentPolygonalGeometry())
+    if (!translucent)
+    {
+      prop->RenderOpaqueGeometry(viewport);
+    }
+    else if (prop->HasTranslucentPolygonalGeometry())
     {
       const WritesDepth depth(prop);
       prop->RenderTranslucentPolygonalGeometry(viewport);

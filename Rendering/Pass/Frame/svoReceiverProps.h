@@ -22,9 +22,8 @@ public:
   /// frame's, and as they were.
   bool take(const vtkRenderState& drawn, const CollectedScene& collected);
 
-  void drawOpaque(vtkViewport* viewport) const;
-  /// As if they were opaque, the nearest counts.
-  void drawTranslucent(vtkViewport* viewport) const;
+  /// What is opaque of them, or what is `translucent`: as if it were opaque, the nearest counts.
+  void draw(vtkViewport* viewport, bool translucent) const;
 
 private:
   std::vector<std::pair<vtkProp*, vtkMTimeType>> Props;

@@ -325,13 +325,11 @@ void RendererState::findLight(const vtkRenderState& drawn)
   const auto draw = [&](int slice, int behind)
   {
     this->Receivers.setGathers(true, behind);
-    if (slice > 0)
+    this->Drawn.draw(this->Renderer, slice > 0);
+    if (slice == 0)
     {
-      this->Drawn.drawTranslucent(this->Renderer);
-      return;
+      this->Boxes.draw(this->Renderer, &this->Collected.receivers);
     }
-    this->Drawn.drawOpaque(this->Renderer);
-    this->Boxes.draw(this->Renderer, &this->Collected.receivers);
   };
   vtkOpenGLState* state =
     vtkOpenGLRenderWindow::SafeDownCast(this->Renderer->GetRenderWindow())->GetState();
