@@ -70,14 +70,11 @@ std::shared_ptr<const SkyPicture> SkyTexture::of(vtkRenderer* renderer, std::str
   }
   const bool curved = texture->GetUseSRGBColorSpace();
   const double *right = renderer->GetEnvironmentRight(), *up = renderer->GetEnvironmentUp();
-  const std::array<double, 6> axes{ right[0], right[1], right[2], up[0], up[1], up[2] };
-  if (!this->Picture || this->Image != image || this->Time != image->GetMTime() ||
-    this->Curved != curved || this->Axes != axes)
+  const decltype(this->Source) source(image, image->GetMTime(), curved,
+    std::array<double, 6>{ right[0], right[1], right[2], up[0], up[1], up[2] });
+  if (!this->Picture || this->Source != source)
   {
-    this->Image = image;
-    this->Time = image->GetMTime();
-    this->Curved = curved;
-    this->Axes = axes;
+    this->Source = source;
     double front[3]; // as VTK's shaders have it
     vtkMath::Cross(right, up, front);
     const glm::mat3 world(glm::vec3(right[0], right[1], right[2]), glm::vec3(up[0], up[1], up[2]),

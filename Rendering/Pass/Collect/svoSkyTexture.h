@@ -9,6 +9,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <tuple>
 
 class vtkRenderer;
 
@@ -23,10 +24,9 @@ public:
 
 private:
   std::shared_ptr<const SkyPicture> Picture;
-  const void* Image = nullptr; // never dereferenced
-  vtkMTimeType Time = 0;
-  bool Curved = false; // colours are those of screens
-  std::array<double, 6> Axes{};
+  /// Of it: the image, never dereferenced, its time, whether colours are those of screens, and
+  /// axes.
+  std::tuple<const void*, vtkMTimeType, bool, std::array<double, 6>> Source;
 };
 }
 
