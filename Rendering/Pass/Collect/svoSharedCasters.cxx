@@ -9,9 +9,10 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
-#include <cstring>
 #include <string>
 #include <vector>
+
+#include <glm/mat4x4.hpp>
 
 namespace svo
 {
@@ -23,7 +24,7 @@ struct SharedCasters::Record
   int leafGeometry;
   std::uint64_t id;
   std::uint64_t version; // Instance::version, of the process that it comes from
-  double localToWorld[16];
+  glm::dmat4 localToWorld;
   int instance;  // index on the process that it comes from
   float opacity; // Instance::opacity
 
@@ -72,16 +73,10 @@ void SharedCasters::exchange(
     {
       continue;
     }
-    Record record{};
-    record.signature = instance.body->octree.header().signature;
-    record.level = instance.body->octree.level();
-    record.leafGeometry = static_cast<int>(instance.body->octree.header().leafGeometry);
-    record.id = instance.id;
-    record.version = instance.version;
-    record.instance = static_cast<int>(i);
-    record.opacity = instance.opacity;
-    std::memcpy(record.localToWorld, &instance.localToWorld[0][0], sizeof(record.localToWorld));
-    own.push_back(record);
+    const Octree& octree = instance.body->octree;
+    own.push_back({ octree.header().signature, octree.level(),
+      static_cast<int>(octree.header().leafGeometry), instance.id, instance.version,
+      instance.localToWorld, static_cast<int>(i), instance.opacity });
   }
 
   std::vector<Record> all;
@@ -110,7 +105,7 @@ void SharedCasters::exchange(
       Body& body = instance.body.own();
       body.octree = known.octree;
       body.leafGeometry = static_cast<LeafGeometry>(record.leafGeometry);
-      std::memcpy(&instance.localToWorld[0][0], record.localToWorld, sizeof(record.localToWorld));
+      instance.localToWorld = record.localToWorld;
       instance.visible = false;
       instance.receiveShadow = false;
       instance.opacity = record.opacity;
