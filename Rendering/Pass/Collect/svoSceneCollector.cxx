@@ -387,12 +387,9 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
 {
   result.current = false;
   const glm::dmat4 world = sceneTransform(renderer);
-  SceneLights lights = lightsOf(renderer, world, settings.lightWords);
-  const bool otherLights = !sameLights(lights.lights, result.scene.lights);
-  result.scene.lights = std::move(lights.lights);
-  result.lightsText = std::move(lights.text);
-  result.headlightOnly = lights.headlightOnly;
-  result.aimlessLight = lights.aimless;
+  std::vector<Light> lights = lightsOf(renderer, world, settings.lightWords, result.lights);
+  const bool otherLights = !sameLights(lights, result.scene.lights);
+  result.scene.lights = std::move(lights);
   bool casting = false;
   for (const Light& light : result.scene.lights)
   {

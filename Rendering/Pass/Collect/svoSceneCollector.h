@@ -50,8 +50,6 @@ struct CollectedScene
   int rasterizedActors = 0;
   bool rasterizedReceivers = false; // lit surfaces that the rasteriser draws and shadows fall on
   bool receiversReach = false;      // some of them may reach beyond Scene::receivers
-  bool headlightOnly = false;       // SceneLights
-  bool aimlessLight = false;        // the same
   bool shadowCatchers = false;      // there are some; they are rasterised
   bool marked = false;              // something is meant to be traced, or to cast as if it were
   /// Surfaces without triangles are there, and may be traced, of which VTK would draw a contour
@@ -63,7 +61,7 @@ struct CollectedScene
   std::string nothingCasts, nothingReceives;
   int withoutShadows = 0;
   bool clippedCastNone = false; // something is clipped by its mapper, and casts nothing for that
-  std::string lightsText;
+  LightNotes lights;
   /// With `onlyMarked`: why marked props are not traced, and what casts nothing. Others are not in.
   std::vector<std::pair<vtkWeakPointer<vtkProp>, std::string>> reasons;
 };

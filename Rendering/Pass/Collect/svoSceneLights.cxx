@@ -167,9 +167,11 @@ vtkLight* keyLightOf(vtkRenderer* renderer)
 }
 }
 
-SceneLights lightsOf(vtkRenderer* renderer, const glm::dmat4& world, const LightWords& words)
+std::vector<Light> lightsOf(
+  vtkRenderer* renderer, const glm::dmat4& world, const LightWords& words, LightNotes& notes)
 {
-  SceneLights result;
+  std::vector<Light> lights;
+  notes = LightNotes();
   const vtkLight* const key = keyLightOf(renderer);
   bool headlightOnly = true;
   eachLight(renderer,
@@ -178,7 +180,7 @@ SceneLights lightsOf(vtkRenderer* renderer, const glm::dmat4& world, const Light
       Light light = lightOf(source);
       transform(world, light);
       const bool aiming = aims(light);
-      result.aimless = result.aimless || !aiming;
+      notes.aimless = notes.aimless || !aiming;
       light.castShadow =
         aiming && answerOf(source, source->LightTypeIsSceneLight() || source == key);
       headlightOnly = headlightOnly && source->LightTypeIsHeadlight() && !isAnswered(source);
@@ -186,20 +188,19 @@ SceneLights lightsOf(vtkRenderer* renderer, const glm::dmat4& world, const Light
       {
         LightPlace::set(source, renderer);
       }
-      result.lights.push_back(light);
+      lights.push_back(light);
       const std::string kind = light.headlight ? words.headlight(source)
         : light.kind == Light::Kind::Point     ? "point"
         : light.kind == Light::Kind::Spot      ? "spot"
                                                : "directional";
       const std::string name = words.name(source);
-      result.text += (name.empty() ? std::to_string(result.lights.size()) + ". " : name + ", ") +
-        kind +
+      notes.text += (name.empty() ? std::to_string(lights.size()) + ". " : name + ", ") + kind +
         (light.castShadow ? ": casts shadows\n"
             : aiming      ? ": casts none\n"
                           : ": has no direction, casts none\n");
     });
-  result.headlightOnly = headlightOnly && !result.lights.empty();
-  return result;
+  notes.headlightOnly = headlightOnly && !lights.empty();
+  return lights;
 }
 
 bool hasCameraLight(vtkRenderer* renderer)

@@ -15,11 +15,9 @@ class vtkRenderer;
 
 namespace svo
 {
-/// The lights of a renderer that are switched on, in its order, which is the order that VTK's
-/// shaders number them in.
-struct SceneLights
+/// What is to be said of a renderer's lights.
+struct LightNotes
 {
-  std::vector<Light> lights;
   std::string text;           // a line for each: its kind, and whether it casts
   bool headlightOnly = false; // no light can cast because all of them are headlights
   bool aimless = false; // one has no direction, or no place that is finite, and lights nothing
@@ -33,9 +31,11 @@ struct LightWords
   Of name = [](vtkLight*) { return std::string(); };    // empty: its number
 };
 
-/// The lights in a world that `world` makes of VTK's. To be called when the renderer has placed its
-/// headlights and camera lights.
-SceneLights lightsOf(vtkRenderer* renderer, const glm::dmat4& world, const LightWords& words);
+/// The lights of a renderer that are switched on, in its order, which is the order that VTK's
+/// shaders number them in, in a world that `world` makes of VTK's. To be called when the renderer
+/// has placed its headlights and camera lights.
+std::vector<Light> lightsOf(
+  vtkRenderer* renderer, const glm::dmat4& world, const LightWords& words, LightNotes& notes);
 
 /// True if a light that is on moves with the camera, so that nothing seen from it outlives a frame.
 bool hasCameraLight(vtkRenderer* renderer);

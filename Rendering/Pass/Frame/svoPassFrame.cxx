@@ -60,7 +60,7 @@ void PassFrame::tellOnce(const std::string& text, std::set<std::string>& said)
 void PassFrame::tellOfShadows(const ShadowWords& words, std::set<std::string>& said)
 {
   const CollectedScene& collected = this->state->collected();
-  if (collected.headlightOnly)
+  if (collected.lights.headlightOnly)
   {
     this->tellOnce(words.onlyHeadlights, said);
   }
@@ -81,7 +81,7 @@ void PassFrame::tellOfShadows(const ShadowWords& words, std::set<std::string>& s
   {
     this->tellOnce(words.clipped, said);
   }
-  if (collected.aimlessLight)
+  if (collected.lights.aimless)
   {
     this->tellOnce(
       "A light has no direction, so it lights nothing and casts no shadow: its position is its "

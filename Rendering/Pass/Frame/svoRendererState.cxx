@@ -103,7 +103,7 @@ void RendererState::collect(
     (settings.openGL || this->Collected.rasterizedReceivers);
   this->Statistics.collectTime += vtkTimerLog::GetUniversalTime() - start;
   this->Statistics.octreesBuilt += store.built() - built;
-  this->Statistics.castingLights = this->Collected.lightsText;
+  this->Statistics.castingLights = this->Collected.lights.text;
   this->Statistics.reasons = this->Collected.reasons;
   this->Statistics.tracedActors = this->Collected.tracedActors;
   this->Statistics.rasterizedActors = this->Collected.rasterizedActors;
