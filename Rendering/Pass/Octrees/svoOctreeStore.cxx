@@ -31,10 +31,9 @@ OctreeStore::~OctreeStore()
   this->release();
 }
 
-bool OctreeStore::attached(vtkPolyData* mesh, const StoreOptions& options, Octree& octree)
+Octree OctreeStore::attached(vtkPolyData* mesh, const StoreOptions& options)
 {
-  octree = this->Meshes.of(mesh, options.complain).attached;
-  return static_cast<bool>(octree);
+  return this->Meshes.of(mesh, options.complain).attached;
 }
 
 void OctreeStore::measure(vtkPolyData* mesh, const StoreOptions& options, Body& body)
@@ -106,18 +105,13 @@ void OctreeStore::prepare(const Wanted& wanted, const StoreOptions& options)
   }
 }
 
-OctreeStore::Answer OctreeStore::find(
-  vtkPolyData* mesh, int level, const StoreOptions& options, Octree& octree)
+Octree OctreeStore::find(vtkPolyData* mesh, int level, const StoreOptions& options)
 {
-  if (this->attached(mesh, options, octree))
-  {
-    return Answer::Found;
-  }
-  if (!options.convert)
-  {
-    return Answer::None;
-  }
   KnownMesh& known = this->Meshes.of(mesh, options.complain);
+  if (known.attached || !options.convert)
+  {
+    return known.attached;
+  }
   const OctreeKey key = this->asked(known, level, options);
   const auto job = this->Jobs.find(key);
   if (job != this->Jobs.end() && (job->second.build->done() || options.wait))
@@ -130,18 +124,18 @@ OctreeStore::Answer OctreeStore::find(
   }
   if (OwnedOctree* found = this->Octrees.find(key))
   {
-    return this->answer(mesh, *found, options, octree);
+    return this->answer(mesh, *found, options);
   }
   OwnedOctree* other = this->Octrees.substitute(key);
   if (!options.wait && (!other || other->octree.level() < level))
   {
     this->buildInBackground(mesh, key);
   }
-  return other ? this->answer(mesh, *other, options, octree) : Answer::Building;
+  return other ? this->answer(mesh, *other, options) : Octree();
 }
 
-OctreeStore::Answer OctreeStore::answer(
-  vtkPolyData* mesh, OwnedOctree& built, const StoreOptions& options, Octree& octree)
+/// Says what there is to be said of an octree that find() has.
+Octree OctreeStore::answer(vtkPolyData* mesh, OwnedOctree& built, const StoreOptions& options)
 {
   if (!built.message.empty())
   {
@@ -157,8 +151,7 @@ OctreeStore::Answer OctreeStore::answer(
     }
     built.message.clear();
   }
-  octree = built.octree;
-  return octree ? Answer::Found : Answer::None;
+  return built.octree;
 }
 
 void OctreeStore::build(vtkPolyData* mesh, const OctreeKey& key, const StoreOptions& options)

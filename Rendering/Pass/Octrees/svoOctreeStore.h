@@ -48,19 +48,12 @@ struct StoreOptions
 class OctreeStore
 {
 public:
-  enum class Answer
-  {
-    Found,
-    Building, // in the background; ask again in the next frame
-    None      // not wanted, or not possible (said once)
-  };
-
   /// The launcher is that of background builds.
   explicit OctreeStore(BackgroundBuild::Launcher launcher = {});
   ~OctreeStore();
 
-  /// True if the mesh brings an octree; it is all there will be for that mesh.
-  bool attached(vtkPolyData* mesh, const StoreOptions& options, Octree& octree);
+  /// The octree that the mesh brings, and all there will be for that mesh; empty if it brings none.
+  Octree attached(vtkPolyData* mesh, const StoreOptions& options);
 
   /// Sets properties of a mesh that brings no octree: the box of its finite points, its number
   /// of triangles and, where they will be exact, its level of detail.
@@ -74,8 +67,8 @@ public:
   /// The octree of exactly this level, or the one that the mesh brings. With options.wait it is
   /// built where there is none, unless the frame is aborted. Else it is built in the background.
   /// Meanwhile another one is found if there is one: the coarsest that is deeper, or the deepest.
-  /// If that one is deeper nothing is built in the background.
-  Answer find(vtkPolyData* mesh, int level, const StoreOptions& options, Octree& octree);
+  /// If that one is deeper nothing is built in the background. Empty if there is none, or none yet.
+  Octree find(vtkPolyData* mesh, int level, const StoreOptions& options);
 
   /// Between frames: frees octrees of meshes that are gone, but for those of which other meshes
   /// were seen to come again, and of those that the last frame did not use the ones that will be
@@ -111,7 +104,7 @@ private:
   void buildInBackground(vtkPolyData* mesh, const OctreeKey& key);
   void waitFor(const OctreeKey& key, const StoreOptions& options);
   void keepResult(const OctreeKey& key, BackgroundBuild& build);
-  Answer answer(vtkPolyData* mesh, OwnedOctree& built, const StoreOptions& options, Octree& octree);
+  Octree answer(vtkPolyData* mesh, OwnedOctree& built, const StoreOptions& options);
 
   BackgroundBuild::Launcher Launch;
   int BuiltSoFar = 0;

@@ -34,7 +34,8 @@ void findAttached(
     body.octree = surface.bringsOctree ? body.octree : Octree();
     return;
   }
-  surface.bringsOctree = store.attached(surface.mesh, options, body.octree);
+  body.octree = store.attached(surface.mesh, options);
+  surface.bringsOctree = static_cast<bool>(body.octree);
   if (!surface.bringsOctree)
   {
     store.measure(surface.mesh, options, body);
@@ -47,13 +48,10 @@ void findOctree(SceneSurface& surface, const NeededLevels& needed, OctreeStore& 
 {
   Body& body = surface.instance.body.own();
   body.neededLevel = needed.eye;
-  if (store.find(surface.mesh, needed.eye, options, body.octree) != OctreeStore::Answer::Found)
+  body.octree = store.find(surface.mesh, needed.eye, options);
+  if (body.octree && needed.lights > 0 && needed.lights != needed.eye)
   {
-    return;
-  }
-  if (needed.lights > 0 && needed.lights != needed.eye)
-  {
-    store.find(surface.mesh, needed.lights, options, body.casterOctree);
+    body.casterOctree = store.find(surface.mesh, needed.lights, options);
   }
 }
 
@@ -170,7 +168,6 @@ void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lig
       const NeededLevels levels = building ? *next++ : NeededLevels();
       if (!surface.bringsOctree)
       {
-        body.octree = Octree();
         findOctree(surface, levels, store, options);
       }
       if (body.octree)

@@ -20,8 +20,6 @@
 #include <thread>
 #include <vector>
 
-using Answer = svo::OctreeStore::Answer;
-
 using svotest::builtAlone;
 using svotest::bytesOf;
 using svotest::OctreeStore;
@@ -31,7 +29,7 @@ TEST_F(OctreeStore, StillFramesGetTheLevelThatTheyAskFor)
 {
   for (const int level : { 4, 8, 6, 4 })
   {
-    ASSERT_EQ(find(level, true), Answer::Found);
+    ASSERT_TRUE(find(level, true));
     EXPECT_EQ(octree.level(), level);
     EXPECT_EQ(bytesOf(octree), builtAlone(mesh, level));
     endFrame();
@@ -60,9 +58,9 @@ TEST_F(OctreeStore, AnOctreeThatTheMeshBringsIsAllThereIs)
   std::string message;
   svo::buildMeshOctree(mesh, build, own, message);
   svo::attachOctree(mesh, own);
-  ASSERT_EQ(find(8, true), Answer::Found);
+  ASSERT_TRUE(find(8, true));
   EXPECT_EQ(octree.level(), 3);
-  ASSERT_EQ(find(8, false), Answer::Found);
+  ASSERT_TRUE(find(8, false));
   EXPECT_EQ(store.built(), 0);
   EXPECT_EQ(gate.started(), 0);
 }
@@ -70,8 +68,8 @@ TEST_F(OctreeStore, AnOctreeThatTheMeshBringsIsAllThereIs)
 TEST_F(OctreeStore, NothingIsConvertedThatNobodyWantsConverted)
 {
   options.convert = false;
-  EXPECT_EQ(find(6, true), Answer::None);
-  EXPECT_EQ(find(6, false), Answer::None);
+  EXPECT_FALSE(find(6, true));
+  EXPECT_FALSE(find(6, false));
   EXPECT_EQ(store.built(), 0);
   EXPECT_EQ(gate.started(), 0);
 }
@@ -98,7 +96,7 @@ TEST_F(OctreeStore, AMessageIsSaidOnceAndNotForEachPose)
   {
     mesh->GetPoints()->SetPoint(pose, nan, 0.0, 0.0);
     mesh->GetPoints()->Modified();
-    EXPECT_EQ(find(5, true), Answer::Found);
+    EXPECT_TRUE(find(5, true));
     endFrame();
   }
   EXPECT_EQ(store.built(), 5);
@@ -107,18 +105,17 @@ TEST_F(OctreeStore, AMessageIsSaidOnceAndNotForEachPose)
 
 TEST_F(OctreeStore, AnOctreeOfAnotherMeshIsReplacedAndThatIsSaidOnce)
 {
-  EXPECT_EQ(find(5, true), Answer::Found);
+  EXPECT_TRUE(find(5, true));
   svo::attachOctree(mesh, octree);
   mesh->Modified();
-  svo::Octree own;
-  EXPECT_TRUE(store.attached(mesh, options, own));
+  EXPECT_TRUE(store.attached(mesh, options));
   EXPECT_TRUE(said.empty());
   for (int pose = 5; pose < 8; ++pose)
   {
     mesh->GetPoints()->SetPoint(pose, 0.1, 0.0, 0.0);
     mesh->GetPoints()->Modified();
-    EXPECT_FALSE(store.attached(mesh, options, own));
-    EXPECT_EQ(find(5, true), Answer::Found);
+    EXPECT_FALSE(store.attached(mesh, options));
+    EXPECT_TRUE(find(5, true));
     endFrame();
   }
   EXPECT_EQ(said.size(), 1u);
@@ -134,14 +131,14 @@ TEST_F(OctreeStore, ProgressMayAskForOctreesAndChangeTheMesh)
     {
       svo::StoreOptions inner;
       inner.complain = options.complain;
-      svo::Octree other;
-      EXPECT_EQ(store.find(mesh, 6, inner, other), Answer::Found);
+      const svo::Octree other = store.find(mesh, 6, inner);
+      ASSERT_TRUE(other);
       EXPECT_EQ(other.level(), 6);
       store.endFrame(0);
       mesh->Initialize();
     }
   };
-  EXPECT_EQ(find(6, true), Answer::Found);
+  EXPECT_TRUE(find(6, true));
   EXPECT_EQ(octree.level(), 6);
   EXPECT_GT(calls, 0);
 }
@@ -175,18 +172,18 @@ TEST_F(OctreeStore, TheBoxIsThatOfTheFinitePointsAndStripsCountAsTriangles)
 
 TEST_F(OctreeStore, StoresShareTheirOctrees)
 {
-  ASSERT_EQ(find(7, true), Answer::Found);
+  ASSERT_TRUE(find(7, true));
   svo::OctreeStore another(gate.launcher());
-  svo::Octree same;
   options.wait = true;
-  ASSERT_EQ(another.find(sphereMesh(1.0), 7, options, same), Answer::Found);
+  const svo::Octree same = another.find(sphereMesh(1.0), 7, options);
+  ASSERT_TRUE(same);
   EXPECT_EQ(same.key(), octree.key());
   EXPECT_EQ(another.built(), 0);
   EXPECT_EQ(another.bytes(), store.bytes());
   // An interactive frame need not even wait.
   svo::OctreeStore third(gate.launcher());
   options.wait = false;
-  EXPECT_EQ(third.find(sphereMesh(1.0), 7, options, same), Answer::Found);
+  EXPECT_TRUE(third.find(sphereMesh(1.0), 7, options));
   EXPECT_EQ(gate.started(), 0);
   // It stays with the others when one is through with it.
   octree = svo::Octree();
@@ -194,7 +191,7 @@ TEST_F(OctreeStore, StoresShareTheirOctrees)
   EXPECT_EQ(store.bytes(), 0u);
   another.endFrame(std::size_t(1) << 30);
   options.wait = true;
-  EXPECT_EQ(another.find(sphereMesh(1.0), 7, options, same), Answer::Found);
+  EXPECT_TRUE(another.find(sphereMesh(1.0), 7, options));
   EXPECT_EQ(another.built(), 0);
 }
 
@@ -212,7 +209,7 @@ TEST_F(OctreeStore, AreSharedByManyThreads)
         for (int round = 0; round < 20; ++round)
         {
           svo::OctreeStore each;
-          each.find(sphereMesh(1.0 + 0.1 * (round % 3), 12), 6, own, found[t]);
+          found[t] = each.find(sphereMesh(1.0 + 0.1 * (round % 3), 12), 6, own);
         }
       });
   }
@@ -237,7 +234,7 @@ TEST_F(OctreeStore, ReleasedEverythingIsBuiltAnew)
   store.release();
   EXPECT_EQ(store.bytes(), 0u);
   EXPECT_EQ(store.building(), 0);
-  EXPECT_EQ(find(6, true), Answer::Found);
+  EXPECT_TRUE(find(6, true));
   EXPECT_EQ(store.built(), 2);
 }
 

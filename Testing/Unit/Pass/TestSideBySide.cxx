@@ -111,12 +111,7 @@ struct SideBySide : ::testing::Test
       wanted.emplace_back(meshes.back(), 6);
     }
   }
-  svo::Octree find(std::size_t i)
-  {
-    svo::Octree octree;
-    store.find(wanted[i].first, wanted[i].second, options, octree);
-    return octree;
-  }
+  svo::Octree find(std::size_t i) { return store.find(wanted[i].first, wanted[i].second, options); }
 };
 }
 

@@ -100,11 +100,13 @@ struct OctreeStore : ::testing::Test
     options.complain = [this](const std::string& text) { this->said.push_back(text); };
   }
 
-  svo::OctreeStore::Answer find(int level, bool wait)
+  /// Whether there is an octree.
+  bool find(int level, bool wait)
   {
     options.wait = wait;
     octree = svo::Octree();
-    return store.find(mesh, level, options, octree);
+    octree = store.find(mesh, level, options);
+    return static_cast<bool>(octree);
   }
 
   void endFrame() { store.endFrame(std::size_t(1) << 30); }
