@@ -29,6 +29,7 @@ void findAttached(
   body.leafGeometry = LeafGeometry::Automatic;
   body.neededLevel = 0;
   surface.instance.givesWay = 0;
+  surface.needed = NeededLevels();
   if (known)
   {
     body.octree = surface.bringsOctree ? body.octree : Octree();
@@ -43,10 +44,10 @@ void findAttached(
   }
 }
 
-void findOctree(SceneSurface& surface, const NeededLevels& needed, OctreeStore& store,
-  const StoreOptions& options)
+void findOctree(SceneSurface& surface, OctreeStore& store, const StoreOptions& options)
 {
   Body& body = surface.instance.body.own();
+  const NeededLevels& needed = surface.needed;
   body.neededLevel = needed.eye;
   body.octree = store.find(surface.mesh, needed.eye, options);
   if (body.octree && needed.lights > 0 && needed.lights != needed.eye)
@@ -55,36 +56,31 @@ void findOctree(SceneSurface& surface, const NeededLevels& needed, OctreeStore& 
   }
 }
 
-/// Of each surface; of copies what the most demanding one needs.
-std::vector<NeededLevels> ofSurfaces(
-  std::vector<PropSurfaces>& props, const std::vector<NeededLevels>& ofInstances)
+/// Notes what each surface needs; of copies what the most demanding one does.
+void noteNeeded(std::vector<PropSurfaces>& props, const std::vector<NeededLevels>& ofInstances)
 {
-  std::vector<NeededLevels> needed;
   auto next = ofInstances.begin();
   eachSurface(props,
-    [&](const PropSurfaces&, const SceneSurface& surface)
+    [&](const PropSurfaces&, SceneSurface& surface)
     {
-      NeededLevels most;
+      NeededLevels& most = surface.needed;
       for (std::size_t i = 0; i < surface.count(); ++i, ++next)
       {
         most.eye = std::max(most.eye, next->eye);
         most.lights = std::max(most.lights, next->lights);
       }
-      needed.push_back(most);
     });
-  return needed;
 }
 
 /// Has what findOctree() will ask for built, where that is faster for all together.
-void prepareOctrees(std::vector<PropSurfaces>& props, const std::vector<NeededLevels>& needed,
-  OctreeStore& store, const StoreOptions& options)
+void prepareOctrees(
+  std::vector<PropSurfaces>& props, OctreeStore& store, const StoreOptions& options)
 {
   OctreeStore::Wanted wanted;
-  auto next = needed.begin();
   eachSurface(props,
     [&](const PropSurfaces&, const SceneSurface& surface)
     {
-      const NeededLevels& levels = *next++;
+      const NeededLevels& levels = surface.needed;
       if (!surface.bringsOctree)
       {
         wanted.emplace_back(surface.mesh, levels.eye);
@@ -138,7 +134,6 @@ void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lig
       findAttached(surface, sameOptions && !prop.fresh, store, options);
       building = building || (!surface.bringsOctree && options.convert);
     });
-  std::vector<NeededLevels> needed;
   if (building)
   {
     Scene scene;
@@ -149,14 +144,13 @@ void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lig
     }
     writeInstances(props, Stage::Planned, instances);
     scene.instances.swap(instances);
-    needed = ofSurfaces(props, settings.tracer->neededLevels(scene, settings.eye, settings.frame));
+    noteNeeded(props, settings.tracer->neededLevels(scene, settings.eye, settings.frame));
     scene.instances.swap(instances);
     if (options.wait)
     {
-      prepareOctrees(props, needed, store, options);
+      prepareOctrees(props, store, options);
     }
   }
-  auto next = needed.begin();
   for (PropSurfaces& prop : props)
   {
     prop.shown = prop.traced;
@@ -165,10 +159,9 @@ void findOctrees(std::vector<PropSurfaces>& props, const std::vector<Light>& lig
     [&](PropSurfaces& prop, SceneSurface& surface)
     {
       Body& body = surface.instance.body.own();
-      const NeededLevels levels = building ? *next++ : NeededLevels();
       if (!surface.bringsOctree)
       {
-        findOctree(surface, levels, store, options);
+        findOctree(surface, store, options);
       }
       if (body.octree)
       {
