@@ -9,24 +9,10 @@
 #include "vtkInformationDoubleKey.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkLight.h"
-#include "vtkNew.h"
 #include "vtkProp.h"
 
 #include <algorithm>
 #include <cmath>
-
-namespace
-{
-vtkInformation* keysOf(vtkLight* light)
-{
-  if (!light->GetInformation())
-  {
-    vtkNew<vtkInformation> keys;
-    light->SetInformation(keys);
-  }
-  return light->GetInformation();
-}
-}
 
 vtkInformationIntegerKey* vtkSVOPropSettings::CAST_SHADOW()
 {
@@ -89,7 +75,7 @@ void vtkSVOPropSettings::SetCastShadow(bool cast, vtkLight* light)
 {
   if (light)
   {
-    keysOf(light)->Set(CAST_SHADOW(), cast ? 1 : 0);
+    svo::keysOf(light)->Set(CAST_SHADOW(), cast ? 1 : 0);
     light->Modified();
   }
 }
@@ -108,7 +94,7 @@ void vtkSVOPropSettings::SetLightSize(double size, vtkLight* light)
   }
   else if (light && size != GetLightSize(light))
   {
-    keysOf(light)->Set(LIGHT_SIZE(), size);
+    svo::keysOf(light)->Set(LIGHT_SIZE(), size);
     light->Modified();
   }
 }

@@ -121,13 +121,7 @@ public:
   {
     if (!of(light))
     {
-      if (!light->GetInformation())
-      {
-        vtkNew<vtkInformation> keys;
-        light->SetInformation(keys);
-      }
-      vtkNew<LightPlace> place;
-      light->GetInformation()->Set(key(), place);
+      keysOf(light)->Set(key(), vtkNew<LightPlace>());
     }
     of(light)->renderer = renderer;
   }

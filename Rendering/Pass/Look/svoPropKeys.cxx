@@ -10,19 +10,6 @@
 
 namespace svo
 {
-namespace
-{
-vtkInformation* keysOf(vtkProp* prop)
-{
-  if (!prop->GetPropertyKeys())
-  {
-    vtkNew<vtkInformation> keys;
-    prop->SetPropertyKeys(keys);
-  }
-  return prop->GetPropertyKeys();
-}
-}
-
 // They are known to scripts by this class's name.
 vtkInformationIntegerKey* castShadowKey()
 {
@@ -121,6 +108,24 @@ double lightSizeOf(vtkLight* light)
     }
   }
   return 0.0;
+}
+
+vtkInformation* keysOf(vtkProp* prop)
+{
+  if (!prop->GetPropertyKeys())
+  {
+    prop->SetPropertyKeys(vtkNew<vtkInformation>());
+  }
+  return prop->GetPropertyKeys();
+}
+
+vtkInformation* keysOf(vtkLight* light)
+{
+  if (!light->GetInformation())
+  {
+    light->SetInformation(vtkNew<vtkInformation>());
+  }
+  return light->GetInformation();
 }
 
 void setFlag(vtkProp* prop, vtkInformationIntegerKey* key, bool value)

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+class vtkInformation;
 class vtkInformationDoubleKey;
 class vtkInformationIntegerKey;
 class vtkLight;
@@ -33,6 +34,10 @@ PropAnswers answersOf(vtkProp* prop);
 /// The size that somebody gave a light, here or, where that is 0, for VTK's ray tracing backend,
 /// which has it in the same units; 0 if nobody did.
 double lightSizeOf(vtkLight* light);
+
+/// Its keys, made if it has none.
+vtkInformation* keysOf(vtkProp* prop);
+vtkInformation* keysOf(vtkLight* light);
 
 /// A prop that is null is ignored.
 void setFlag(vtkProp* prop, vtkInformationIntegerKey* key, bool value);

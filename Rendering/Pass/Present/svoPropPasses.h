@@ -2,9 +2,10 @@
 #ifndef svoPropPasses_h
 #define svoPropPasses_h
 
+#include "svoPropKeys.h"
+
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseVectorKey.h"
-#include "vtkNew.h"
 #include "vtkOpenGLRenderPass.h"
 #include "vtkProp.h"
 #include "vtkRenderState.h"
@@ -43,12 +44,7 @@ inline void carryPass(const vtkRenderState* state, vtkOpenGLRenderPass* pass)
 {
   for (int i = 0; i < state->GetPropArrayCount(); ++i)
   {
-    vtkProp* prop = state->GetPropArray()[i];
-    if (!prop->GetPropertyKeys())
-    {
-      prop->SetPropertyKeys(vtkNew<vtkInformation>());
-    }
-    addPass(prop->GetPropertyKeys(), pass);
+    addPass(keysOf(state->GetPropArray()[i]), pass);
   }
 }
 
