@@ -175,12 +175,12 @@ bool writeInstances(std::vector<PropSurfaces>& props, Stage stage, std::vector<I
       {
         surface.shown = WrittenSurface();
       }
-      if (!whole && !(surface.written == now))
+      if (!whole && surface.written.values() != now.values())
       {
         writeFrame(surface, now, first, many);
       }
       surface.written = now;
-      if (stage == Stage::Shown && !(surface.shown == now))
+      if (stage == Stage::Shown && surface.shown.values() != now.values())
       {
         std::for_each(first, first + many, [](Instance& one) { one.version = newVersion(); });
         surface.shown = now;

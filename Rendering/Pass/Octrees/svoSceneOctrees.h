@@ -39,13 +39,10 @@ struct WrittenSurface
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
   bool visible = false, casts = false;
 
-  bool operator==(const WrittenSurface& o) const
+  auto values() const
   {
     return std::tie(this->place, this->octree, this->caster, this->neededLevel, this->givesWay,
-             this->deepestLevel, this->detailLevel, this->leafGeometry, this->visible,
-             this->casts) ==
-      std::tie(o.place, o.octree, o.caster, o.neededLevel, o.givesWay, o.deepestLevel,
-        o.detailLevel, o.leafGeometry, o.visible, o.casts);
+      this->deepestLevel, this->detailLevel, this->leafGeometry, this->visible, this->casts);
   }
 };
 
