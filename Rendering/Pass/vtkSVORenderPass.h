@@ -258,7 +258,6 @@ private:
   void TraceFrame(svo::PassFrame& frame, int width, int height);
   bool WantsSamples(const svo::PassFrame& frame) const;
   void TellOfSamples(svo::PassFrame& frame);
-  void TakeStatistics(const svo::PassFrame& frame);
   void FinishFrame(svo::PassFrame& frame);
   bool RefineFor(double seconds);
 #endif

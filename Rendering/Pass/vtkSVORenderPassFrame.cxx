@@ -34,6 +34,8 @@ bool vtkSVORenderPass::CollectFrame(
   svo::FrameSettings asked;
   vtkRenderer* renderer = frame.renderer;
   frame.state->beginFrame();
+  svo::PassStatistics& statistics = frame.state->statistics();
+  statistics.imageReduction = this->ImageReductionFactor;
   bool disturbed = true;
   // As the last frame's scene says; this one's has the last word.
   bool planes = frame.state->collected().planes;
@@ -79,19 +81,19 @@ bool vtkSVORenderPass::CollectFrame(
     const bool volumes = this->ShadowTechnique == SHADOW_VOLUMES; // which are OpenGL's alone
     const bool byRays = this->ShadowTechnique == SHADOW_RAYS || volumes || sampled;
     const bool chosen = automatic && this->MayPreferOpenGL(frame, byRays, volumes && !sampled);
-    frame.openGL = chosen ? !planes : this->Backend == BACKEND_OPENGL;
-    const bool rays = frame.openGL &&
+    statistics.openGL = chosen ? !planes : this->Backend == BACKEND_OPENGL;
+    const bool rays = statistics.openGL &&
       (byRays ||
         (this->ShadowTechnique == SHADOW_AUTOMATIC &&
           (!automatic || this->MayPreferOpenGL(frame, true))));
-    asked = this->AskedSettings(frame.openGL, rays);
+    asked = this->AskedSettings(statistics.openGL, rays);
     if (this->SkyLight && this->SkyFromEnvironment)
     {
       std::string why;
       asked.skyPicture = frame.state->skyPicture(why);
       frame.tellOnce(why.empty() ? "" : why + ": the sky has SkyColor and GroundColor.", impl.said);
     }
-    if (sampled && !frame.openGL && impl.severalProcesses() &&
+    if (sampled && !statistics.openGL && impl.severalProcesses() &&
       asked.shadowTechnique == svo::ShadowTechnique::Buffer)
     {
       asked.shadowTechnique = svo::ShadowTechnique::Rays; // which have all casters on all of them
@@ -103,7 +105,7 @@ bool vtkSVORenderPass::CollectFrame(
     collect.translucentShadows = this->TranslucentShadows;
     // Processes do not tell each other their casters' colours.
     collect.meanOpacity = impl.severalProcesses();
-    collect.openGL = frame.openGL;
+    collect.openGL = statistics.openGL;
     const std::string notMarked = this->GetText(TEXT_NOT_CHOSEN, nullptr);
     collect.notMarked = notMarked.c_str();
     collect.said = &impl.said;
@@ -128,7 +130,7 @@ bool vtkSVORenderPass::CollectFrame(
     return false;
   }
   renderer->GetRenderWindow()->MakeCurrent(); // pipelines may have had others drawn
-  if (this->ShadowTechnique == SHADOW_VOLUMES && !frame.openGL)
+  if (this->ShadowTechnique == SHADOW_VOLUMES && !statistics.openGL)
   {
     frame.tellOnce(
       std::string("OpenGL draws shadow volumes, and the CPU makes this picture: exact rays "
@@ -142,7 +144,7 @@ bool vtkSVORenderPass::CollectFrame(
   const bool seen = this->ShadowIntensity > 0.0;
   const bool alone = seen && !impl.severalProcesses(); // else it does not know what others have
   // OpenGL has instances of what casts alone, which may be nothing.
-  const bool meant = frame.openGL ? collected.marked : !collected.scene.instances.empty();
+  const bool meant = statistics.openGL ? collected.marked : !collected.scene.instances.empty();
   frame.tellOfShadows({ text(this->ShadowTechnique != SHADOW_NONE && !this->AmbientOcclusion &&
                             !this->SkyLight && (!attached || meant),
                           TEXT_ONLY_HEADLIGHTS),
@@ -150,7 +152,7 @@ bool vtkSVORenderPass::CollectFrame(
                         text(seen, TEXT_CLIPPED) },
     impl.said);
   frame.decide(asked,
-    { this->AutoAdjustSampleDistances, this->MaximumImageSampleDistance, this->ImageReductionFactor,
+    { this->AutoAdjustSampleDistances, this->MaximumImageSampleDistance,
       this->DetailCullingThreshold,
       frame.sampling == svo::Sampling::InSteps ? StepSeconds : impl.refining, this->LightError,
       frame.sampling != svo::Sampling::AtOnce || impl.idle.may(renderer->GetRenderWindow()) });
@@ -207,7 +209,7 @@ bool vtkSVORenderPass::WantsSamples(const svo::PassFrame& frame) const
 void vtkSVORenderPass::TellOfSamples(svo::PassFrame& frame)
 {
   frame.lightNothingMore();
-  this->TakeStatistics(frame);
+  this->Impl->statistics = frame.state->statistics();
   double amount = static_cast<double>(frame.state->samples()) / this->MaximumLightSamples;
   this->InvokeEvent(vtkCommand::ProgressEvent, &amount);
   const vtkSmartPointer<vtkRenderWindow> window = frame.renderer->GetRenderWindow();
@@ -234,16 +236,6 @@ void vtkSVORenderPass::TraceFrame(svo::PassFrame& frame, int width, int height)
   }
 }
 
-/// What is told of the last frame is of this one from now on.
-void vtkSVORenderPass::TakeStatistics(const svo::PassFrame& frame)
-{
-  svo::PassStatistics& statistics = this->Impl->statistics;
-  statistics = frame.state->statistics();
-  statistics.imageReduction = this->ImageReductionFactor;
-  statistics.pacedShadows = frame.pacedShadows;
-  statistics.openGL = frame.openGL;
-}
-
 /// Ends a frame, whether or not it was drawn; the caller holds the pass.
 void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
 {
@@ -255,7 +247,7 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   }
   frame.state->finish();
   frame.lightNothingMore();
-  this->TakeStatistics(frame);
+  impl.statistics = frame.state->statistics();
   if (frame.renderer->GetRenderWindow() && !frame.interactive() &&
     !frame.state->refined(this->MaximumLightSamples, this->LightError))
   {
@@ -263,7 +255,7 @@ void vtkSVORenderPass::FinishFrame(svo::PassFrame& frame)
   }
   const svo::FrameStatistics& tracer = impl.statistics.tracer;
   const bool traced = tracer.retracedLayers > 0 || tracer.samplingTime > 0.0;
-  if (traced && !frame.openGL) // which knows no pace
+  if (traced && !impl.statistics.openGL) // which knows no pace
   {
     double seconds, fixedSeconds, shadowSeconds;
     this->MeasureFrame(seconds, fixedSeconds, shadowSeconds);

@@ -111,7 +111,8 @@ void PassFrame::decideSamples(const PaceLimits& limits)
 void PassFrame::decide(const FrameSettings& asked, const PaceLimits& limits)
 {
   this->settings = asked;
-  this->pacedShadows = hasCameraLight(this->renderer);
+  PassStatistics& statistics = this->state->statistics();
+  statistics.pacedShadows = hasCameraLight(this->renderer);
   this->decideSamples(limits);
   if (!this->interactive())
   {
@@ -121,11 +122,11 @@ void PassFrame::decide(const FrameSettings& asked, const PaceLimits& limits)
   {
     this->pace =
       this->state->choosePace(OwnShare / this->renderer->GetRenderWindow()->GetDesiredUpdateRate(),
-        std::max(limits.maximum / limits.reduction, 1.0));
-    this->pace.coarseness = this->pacedShadows ? this->pace.coarseness : 1.0;
+        std::max(limits.maximum / statistics.imageReduction, 1.0));
+    this->pace.coarseness = statistics.pacedShadows ? this->pace.coarseness : 1.0;
     this->settings.shadowCoarseness = this->pace.coarseness;
   }
-  const double distance = this->pace.distance * limits.reduction;
+  const double distance = this->pace.distance * statistics.imageReduction;
   this->settings.detailThreshold = limits.detail / (distance * distance);
 }
 

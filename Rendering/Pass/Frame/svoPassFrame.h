@@ -34,7 +34,6 @@ struct PaceLimits
 {
   bool adjust = false;       // rays and texels of shadow maps may be further apart,
   double maximum = 1.0;      // by at most so many pixels of the window
-  int reduction = 1;         // PassStatistics::imageReduction
   double detail = 0.0;       // pixels of the window of instances that may be left out
   double refine = 0.0;       // lights get more samples than the last frame shows, so many seconds;
                              // 0: they do not; infinite: twice as many
@@ -130,8 +129,6 @@ struct PassFrame
   Sampling sampling = Sampling::AtOnce;
   double lightError = 0.0;    // PaceLimits
   bool refinesAtOnce = false; // until then, or to all samples
-  bool pacedShadows = false;  // PassStatistics
-  bool openGL = false;        // PassStatistics
   bool traced = false;
   std::vector<std::string> messages; // said when the frame is done
 

@@ -141,7 +141,8 @@ public:
   }
   ShadowReceivers& receivers() { return this->Receivers; }
   const CollectedScene& collected() const { return this->Collected; }
-  const PassStatistics& statistics() const { return this->Statistics; }
+  /// Of the frame, since beginFrame().
+  PassStatistics& statistics() { return this->Statistics; }
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
