@@ -458,8 +458,8 @@ vtksvo_statistic(GPUMemory memory OF tracer.gpuMemory PARAVIEW
   SAYS "Memory in KiB of octrees in the GPU's memory, and of the pictures from which rays to lights start there.")
 vtksvo_statistic(OctreeMemorySize memory PARAVIEW
   SAYS "Memory in KiB of octrees that the view built itself.")
-vtksvo_statistic(ImageSampleDistance double UNIT pixels PARAVIEW
-  SAYS "Pixels from ray to ray in the last frame.")
+vtksvo_statistic(ImageSampleDistance double OF "sampleDistance()" UNIT pixels PARAVIEW
+  SAYS "Pixels of the window from ray to ray in the last frame.")
 vtksvo_statistic(AcceptedPixelError double UNIT pixels PARAVIEW
   SAYS "The pixel error that the last frame accepted to save time, in pixels.")
 vtksvo_statistic(AcceptedLightError double OF tracer.lightNoise UNIT "of 255" PARAVIEW

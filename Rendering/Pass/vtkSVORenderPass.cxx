@@ -315,11 +315,6 @@ const char* vtkSVORenderPass::GetCastingLights() const
   return this->Impl->statistics.castingLights.c_str();
 }
 
-double vtkSVORenderPass::GetImageSampleDistance() const
-{
-  return this->Impl->statistics.sampleDistance();
-}
-
 double vtkSVORenderPass::GetAcceptedPixelError() const
 {
   return this->Impl->statistics.acceptedError(this->PixelError);
@@ -345,7 +340,6 @@ void vtkSVORenderPass::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ActiveBackend: " << this->GetActiveBackend() << '\n'
      << indent << "NumberOfCulledInstances: " << this->GetNumberOfCulledInstances() << '\n'
-     << indent << "ImageSampleDistance: " << this->GetImageSampleDistance() << " pixels\n"
      << indent << "AcceptedPixelError: " << this->GetAcceptedPixelError() << " pixels\n"
      << indent << "CastingLights:\n"
      << this->GetCastingLights() << indent << "Controller: " << this->GetController() << '\n'

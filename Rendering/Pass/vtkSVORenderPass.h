@@ -92,11 +92,6 @@ public:
   bool Refine();
 
   /**
-   * Pixels of the window from ray to ray in the last frame.
-   */
-  double GetImageSampleDistance() const;
-
-  /**
    * The pixel error that the last frame accepted, in pixels of the window: PixelError, or where
    * rays were more than a pixel apart to save time, at least the distance from ray to ray; at
    * least the texels, as wide as they look, of shadow maps that were made coarser to save time; at
