@@ -4,6 +4,7 @@
 
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
+#include "vtkNew.h"
 #include "vtkOpenGLActor.h"
 #include "vtkProp.h"
 #include "vtkRenderState.h"
@@ -11,32 +12,6 @@
 
 namespace svo
 {
-namespace
-{
-/// Has a translucent prop, which has keys, write depths while it is drawn.
-class WritesDepth
-{
-public:
-  explicit WritesDepth(vtkProp* prop)
-    : Keys(prop->GetPropertyKeys())
-    , Had(this->Keys->Has(key()))
-    , Before(this->Had ? this->Keys->Get(key()) : 0)
-  {
-    this->Keys->Set(key(), 1);
-  }
-  ~WritesDepth() { this->Had ? this->Keys->Set(key(), this->Before) : this->Keys->Remove(key()); }
-  WritesDepth(const WritesDepth&) = delete;
-  WritesDepth& operator=(const WritesDepth&) = delete;
-
-private:
-  static vtkInformationIntegerKey* key() { return vtkOpenGLActor::GLDepthMaskOverride(); }
-
-  vtkSmartPointer<vtkInformation> Keys; // whoever hears of drawing may give it others
-  bool Had;
-  int Before;
-};
-}
-
 bool ReceiverProps::take(const vtkRenderState& drawn, const CollectedScene& collected)
 {
   std::vector<std::pair<vtkProp*, vtkMTimeType>> props;
@@ -65,8 +40,14 @@ void ReceiverProps::draw(vtkViewport* viewport, bool translucent) const
     }
     else if (prop->HasTranslucentPolygonalGeometry())
     {
-      const WritesDepth depth(prop);
+      // Whoever hears of drawing may give it others.
+      const vtkSmartPointer<vtkInformation> keys = prop->GetPropertyKeys();
+      vtkInformationIntegerKey* writesDepth = vtkOpenGLActor::GLDepthMaskOverride();
+      vtkNew<vtkInformation> before;
+      before->CopyEntry(keys, writesDepth);
+      keys->Set(writesDepth, 1);
       prop->RenderTranslucentPolygonalGeometry(viewport);
+      keys->CopyEntry(before, writesDepth); // none if it had none
     }
   }
 }
