@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -59,38 +60,33 @@ std::unique_ptr<svo::Tracer> vtkSVORenderPass::MakeTracer() const
 
 std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
 {
-  switch (text)
-  {
-    case TEXT_HEADLIGHT:
-      return "headlight";
-    case TEXT_ONLY_HEADLIGHTS:
-      return "No shadows: the only light is a headlight, which casts none that can be seen. "
-             "Add a vtkLight with SetLightTypeToSceneLight().";
-    case TEXT_TRANSLUCENT_SURFACE:
-      return "A surface casts no shadow because its opacity makes it translucent. "
-             "SetTranslucentShadows(true) has it cast one as light as it is, SetCastShadow(true, "
-             "prop) a whole one; SetCastShadow(false, prop) makes it cast none in silence.";
-    case TEXT_TRANSLUCENT:
-      return "A surface, or some cells of it, cast no shadow because colours or texture make them "
-             "translucent. SetCastShadow(true, prop) has all of it cast, false none and in "
-             "silence.";
-    case TEXT_CUT_OUT:
-      return "A surface casts the shadow of its whole cells although its texture hides parts of "
-             "them. SetCastShadow(true, prop) says that this is meant, false takes the shadow "
-             "away.";
-    case TEXT_NOT_CHOSEN:
-      return "was not chosen with SetUseSVO";
-    case TEXT_NOTHING_CASTS:
-      return "No shadows: nothing casts any, and GetReason(prop) says why. ";
-    case TEXT_NOTHING_RECEIVES:
-      return "No shadows: there is nothing for them to fall on. ";
-    case TEXT_CLIPPED:
-      return "A surface casts no shadow because its mapper has clipping planes. Data that is "
-             "clipped before its mapper (vtkClipPolyData) casts; SetCastShadow(true, prop) has the "
-             "surface cast its whole shadow, SetCastShadow(false, prop) none in silence.";
-    default:
-      return std::string();
-  }
+  static const std::map<int, std::string> texts = {
+    { TEXT_HEADLIGHT, "headlight" },
+    { TEXT_ONLY_HEADLIGHTS,
+      "No shadows: the only light is a headlight, which casts none that can be seen. "
+      "Add a vtkLight with SetLightTypeToSceneLight()." },
+    { TEXT_TRANSLUCENT_SURFACE,
+      "A surface casts no shadow because its opacity makes it translucent. "
+      "SetTranslucentShadows(true) has it cast one as light as it is, SetCastShadow(true, "
+      "prop) a whole one; SetCastShadow(false, prop) makes it cast none in silence." },
+    { TEXT_TRANSLUCENT,
+      "A surface, or some cells of it, cast no shadow because colours or texture make them "
+      "translucent. SetCastShadow(true, prop) has all of it cast, false none and in "
+      "silence." },
+    { TEXT_CUT_OUT,
+      "A surface casts the shadow of its whole cells although its texture hides parts of "
+      "them. SetCastShadow(true, prop) says that this is meant, false takes the shadow "
+      "away." },
+    { TEXT_NOT_CHOSEN, "was not chosen with SetUseSVO" },
+    { TEXT_NOTHING_CASTS, "No shadows: nothing casts any, and GetReason(prop) says why. " },
+    { TEXT_NOTHING_RECEIVES, "No shadows: there is nothing for them to fall on. " },
+    { TEXT_CLIPPED,
+      "A surface casts no shadow because its mapper has clipping planes. Data that is "
+      "clipped before its mapper (vtkClipPolyData) casts; SetCastShadow(true, prop) has the "
+      "surface cast its whole shadow, SetCastShadow(false, prop) none in silence." },
+  };
+  const auto found = texts.find(text);
+  return found != texts.end() ? found->second : std::string();
 }
 
 void vtkSVORenderPass::ReleaseOctrees()
