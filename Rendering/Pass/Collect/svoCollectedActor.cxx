@@ -67,7 +67,8 @@ Casters CollectedActor::castersOf(const SurfacePart& part, OpaqueCells::Answer o
   return { opaque.mesh, translucent };
 }
 
-bool CollectedActor::finish(const SurfacePart& part, Reason reason, SceneSurface& surface) const
+void CollectedActor::add(
+  const SurfacePart& part, Reason reason, SceneSurface& surface, std::uint64_t mark) const
 {
   Instance& instance = surface.instance;
   surface.traceable = !reason;
@@ -83,27 +84,24 @@ bool CollectedActor::finish(const SurfacePart& part, Reason reason, SceneSurface
     this->found.rasterize(reason);
     if (!surface.casts)
     {
-      return false;
+      return;
     }
   }
   instance.localToWorld = this->localToWorld;
   instance.pixelError = pixelErrorOf(this->actor, this->found.prop);
   instance.receiveShadow = this->flag(receiveShadowKey(), true);
-  instance.id = combine(combine(reinterpret_cast<std::uintptr_t>(this->actor), part.block),
-    std::uint64_t(this->found.actors));
+  instance.id = mark ^
+    combine(combine(reinterpret_cast<std::uintptr_t>(this->actor), part.block),
+      std::uint64_t(this->found.actors));
   instance.depthOffset = coincidentOffset(this->actor->GetMapper());
-  return true;
+  this->found.surfaces.push_back(surface);
 }
 
-void CollectedActor::addTranslucent(const SurfacePart& part, SceneSurface& surface) const
+void CollectedActor::addTranslucent(
+  const SurfacePart& part, SceneSurface& surface, std::uint64_t mark) const
 {
-  // What the id differs by from that of the same actor's opaque cells.
   constexpr std::uint64_t Translucent = 0x94d049bb133111ebull;
   surface.casts = surface.translucent = true;
-  if (this->finish(part, IsTranslucent, surface))
-  {
-    surface.instance.id ^= Translucent;
-    this->found.surfaces.push_back(surface);
-  }
+  this->add(part, IsTranslucent, surface, mark ^ Translucent);
 }
 }

@@ -11,6 +11,7 @@
 
 #include "vtkActor.h"
 
+#include <cstdint>
 #include <functional>
 #include <set>
 #include <string>
@@ -86,11 +87,13 @@ struct CollectedActor
 
   Casters castersOf(const SurfacePart& part, OpaqueCells::Answer opaque) const;
 
-  /// What a surface that is traced, or else casts, has of its actor. False if it does neither.
-  bool finish(const SurfacePart& part, Reason reason, SceneSurface& surface) const;
+  /// Adds a surface that is traced, or else casts, with what it has of its actor. `mark`: what its
+  /// id differs by from that of others of the part.
+  void add(
+    const SurfacePart& part, Reason reason, SceneSurface& surface, std::uint64_t mark = 0) const;
 
-  /// Adds what casts as light as it is, which is never traced itself.
-  void addTranslucent(const SurfacePart& part, SceneSurface& surface) const;
+  /// The same of what casts as light as it is, which is never traced itself.
+  void addTranslucent(const SurfacePart& part, SceneSurface& surface, std::uint64_t mark = 0) const;
 };
 }
 

@@ -192,10 +192,7 @@ void PropCollector::collectPart(const CollectedActor& of, SurfacePart& part)
                                       : lookOf(part, actor->GetProperty(), frame.lights,
                                           instance.material, attributes, this->Floats, found.kept);
   }
-  if (of.finish(part, reason, surface))
-  {
-    found.surfaces.push_back(surface);
-  }
+  of.add(part, reason, surface);
   if (casters.translucent)
   {
     SceneSurface translucent;

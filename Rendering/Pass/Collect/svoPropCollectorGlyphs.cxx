@@ -133,23 +133,18 @@ void PropCollector::collectGlyphs(const CollectedActor& of)
     {
       surface.instance.material.specularColor = drawn.specular;
     }
-    if (!surface.copies->copies.empty() && of.finish(part, reason, surface))
+    // Copies of several sources may be at the same point.
+    const std::uint64_t mark = number * 0x9e3779b97f4a7c15ull;
+    if (!surface.copies->copies.empty())
     {
-      // Copies of several sources may be at the same point.
-      surface.instance.id ^= number * 0x9e3779b97f4a7c15ull;
-      found.surfaces.push_back(surface);
+      of.add(part, reason, surface, mark);
     }
     if (translucent && !translucent->copies.empty())
     {
       SceneSurface lighter;
       lighter.mesh = mesh;
       lighter.copies = translucent;
-      const std::size_t before = found.surfaces.size();
-      of.addTranslucent(part, lighter);
-      if (found.surfaces.size() > before)
-      {
-        found.surfaces.back().instance.id ^= number * 0x9e3779b97f4a7c15ull;
-      }
+      of.addTranslucent(part, lighter, mark);
     }
   }
 }

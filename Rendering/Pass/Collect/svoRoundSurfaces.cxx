@@ -42,18 +42,19 @@ void add(const CollectedActor& actor, const std::shared_ptr<RoundShapes>& shapes
   const auto copies = std::make_shared<GlyphSet>();
   surface.copies = copies;
   const bool local = shapes->width == RoundShapes::Width::Local;
-  actor.finish(part, reason, surface);
   surface.instance.body.own().ball = shapes->shape == RoundShapes::Shape::Ball;
   placeShapes(*shapes, local ? glm::dmat4(1.0) : actor.localToWorld, View(), *copies);
   if (!local)
   {
-    surface.instance.localToWorld = glm::dmat4(1.0);
     surface.placed =
       std::make_shared<PlacedShapes>(PlacedShapes{ shapes, actor.localToWorld, copies });
   }
   // Others of the actor's are not the same.
-  surface.instance.id ^= (found.surfaces.size() + 1) * 0x9e3779b97f4a7c15ull;
-  found.surfaces.push_back(surface);
+  actor.add(part, reason, surface, (found.surfaces.size() + 1) * 0x9e3779b97f4a7c15ull);
+  if (!local)
+  {
+    found.surfaces.back().instance.localToWorld = glm::dmat4(1.0);
+  }
 }
 
 /// Adds the splats of an actor.
