@@ -51,16 +51,6 @@ bool headerIsSane(const Header& h, std::size_t size)
   return h.depthBegin[1] == 1 || h.nodeCount == 1;
 }
 
-double frobeniusNorm(const glm::dmat3& m)
-{
-  double sum = 0.0;
-  for (int i = 0; i < 9; ++i)
-  {
-    sum += m[i / 3][i % 3] * m[i / 3][i % 3];
-  }
-  return std::sqrt(sum);
-}
-
 glm::dmat4 frameAt(const std::byte* at)
 {
   double rows[16];
@@ -78,6 +68,16 @@ bool surfaceIsSane(const Surface& surface)
     std::all_of(surface.triangles.begin(), surface.triangles.end(),
       [points](const glm::uvec3& t) { return t.x < points && t.y < points && t.z < points; });
 }
+}
+
+double frobeniusNorm(const glm::dmat3& m)
+{
+  double sum = 0.0;
+  for (int i = 0; i < 9; ++i)
+  {
+    sum += m[i / 3][i % 3] * m[i / 3][i % 3];
+  }
+  return std::sqrt(sum);
 }
 
 bool isFrame(const glm::dmat4& m)

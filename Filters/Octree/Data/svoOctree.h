@@ -17,11 +17,15 @@
 #include <memory>
 #include <string>
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 namespace svo
 {
+/// The root of the sum of a matrix's squares.
+VTKSVOOCTREE_EXPORT double frobeniusNorm(const glm::dmat3& m);
+
 /// Whether a matrix may be an octree's frame: see svoLayout.h.
 VTKSVOOCTREE_EXPORT bool isFrame(const glm::dmat4& matrix);
 

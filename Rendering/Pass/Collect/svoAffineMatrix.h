@@ -3,6 +3,7 @@
 #define svoAffineMatrix_h
 
 #include "svoInverse.h"
+#include "svoOctree.h"
 
 #include <cmath>
 #include <limits>
@@ -24,16 +25,6 @@ enum class MatrixKind
 
 /// Condition number, in the Frobenius norm, from which a matrix counts as singular.
 constexpr double MaximumCondition = 1e12;
-
-inline double frobeniusNorm(const glm::dmat3& m)
-{
-  double sum = 0.0;
-  for (int i = 0; i < 9; ++i)
-  {
-    sum += m[i / 3][i % 3] * m[i / 3][i % 3];
-  }
-  return std::sqrt(sum);
-}
 
 /// Condition number of the linear part, in the Frobenius norm; infinite or NaN where there is no
 /// inverse. That of a product is at most the product of both.
