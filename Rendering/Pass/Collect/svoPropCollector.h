@@ -12,7 +12,6 @@
 #include "svoSeenFaces.h"
 #include "svoUnitShapes.h"
 
-#include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
 #include <map>

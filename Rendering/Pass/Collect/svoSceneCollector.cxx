@@ -1,6 +1,5 @@
 #include "svoSceneCollector.h"
 
-#include "svoAffineMatrix.h"
 #include "svoBox.h"
 #include "svoCameraView.h"
 #include "svoGiveWay.h"
@@ -12,7 +11,6 @@
 #include "vtkActor.h"
 #include "vtkMapper.h"
 #include "vtkMatrix4x4.h"
-#include "vtkPolyData.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderer.h"
 

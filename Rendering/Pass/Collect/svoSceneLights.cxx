@@ -4,7 +4,6 @@
 #include "svoPropKeys.h"
 
 #include "vtkInformation.h"
-#include "vtkInformationDoubleKey.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationObjectBaseKey.h"
 #include "vtkLight.h"

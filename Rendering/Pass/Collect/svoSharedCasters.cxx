@@ -3,10 +3,8 @@
 #include "svoControllerProcesses.h"
 #include "svoMeshOctree.h"
 
-#include "vtkCellArray.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <string>
