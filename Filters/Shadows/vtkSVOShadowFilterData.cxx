@@ -11,7 +11,6 @@
 #include "vtkSVOShadowFilterInternals.h"
 
 #include "vtkCellData.h"
-#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
@@ -79,26 +78,6 @@ std::vector<glm::dvec3> normalsOf(vtkPolyData* mesh)
     }
   }
   return normals;
-}
-
-/// The meshes of a data object.
-void addMeshes(vtkDataObject* data, const glm::dmat4& place, std::vector<CasterMesh>& meshes)
-{
-  if (auto* mesh = vtkPolyData::SafeDownCast(data))
-  {
-    meshes.push_back({ mesh, place, Own::Nothing });
-  }
-  else if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
-  {
-    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-    {
-      if (auto* block = vtkPolyData::SafeDownCast(iterator->GetCurrentDataObject()))
-      {
-        meshes.push_back({ block, place, Own::Nothing });
-      }
-    }
-  }
 }
 }
 
@@ -183,7 +162,11 @@ int vtkSVOShadowFilter::RequestData(
     const glm::dmat4 place = matrixOf(this->GetCasterMatrix(i));
     if (isPlace(place))
     {
-      addMeshes(vtkDataObject::GetData(inputVector[1], i), place, meshes);
+      for (vtkPolyData* mesh :
+        vtkCompositeDataSet::GetDataSets<vtkPolyData>(vtkDataObject::GetData(inputVector[1], i)))
+      {
+        meshes.push_back({ mesh, place, Own::Nothing });
+      }
     }
     else
     {

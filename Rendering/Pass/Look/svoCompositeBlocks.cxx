@@ -3,7 +3,6 @@
 #include "vtkColorTransferFunction.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkCompositeDataSetRange.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeRange.h"
 #include "vtkGlyph3DMapper.h"
@@ -168,18 +167,7 @@ bool isCompositeMapper(vtkMapper* mapper)
 
 bool hasMeshes(vtkMapper* mapper)
 {
-  vtkDataObject* root = mapper->GetInputDataObject(0, 0);
-  if (auto* tree = vtkCompositeDataSet::SafeDownCast(root))
-  {
-    for (vtkDataObject* block : vtk::Range(tree))
-    {
-      if (vtkPolyData::SafeDownCast(block))
-      {
-        return true;
-      }
-    }
-  }
-  return vtkPolyData::SafeDownCast(root) != nullptr;
+  return !vtkCompositeDataSet::GetDataSets<vtkPolyData>(mapper->GetInputDataObject(0, 0)).empty();
 }
 
 vtkPolyDataMapper* CompositeBlocks::colorsOf(vtkMapper* mapper, const Path& path, Kept& kept)

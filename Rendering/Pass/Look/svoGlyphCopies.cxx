@@ -4,10 +4,8 @@
 
 #include "vtkBitArray.h"
 #include "vtkCompositeDataDisplayAttributes.h"
-#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObjectTree.h"
-#include "vtkDataObjectTreeIterator.h"
 #include "vtkDataObjectTreeRange.h"
 #include "vtkDataSet.h"
 #include "vtkGlyph3DMapper.h"
@@ -46,12 +44,9 @@ std::vector<vtkDataObject*> sourcesOf(vtkGlyph3DMapper* mapper)
   }
   if (vtkDataObjectTree* tree = mapper->GetSourceTableTree())
   {
-    auto children = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
-    children->SetTraverseSubTree(false);
-    children->SetVisitOnlyLeaves(false);
-    for (children->InitTraversal(); !children->IsDoneWithTraversal(); children->GoToNextItem())
+    for (vtkDataObject* child : vtk::Range(tree, vtk::DataObjectTreeOptions::SkipEmptyNodes))
     {
-      sources.push_back(children->GetCurrentDataObject());
+      sources.push_back(child);
     }
   }
   return sources;
@@ -60,27 +55,9 @@ std::vector<vtkDataObject*> sourcesOf(vtkGlyph3DMapper* mapper)
 /// What the mapper draws of one entry of its table.
 std::vector<vtkPolyData*> leavesOf(vtkDataObject* source)
 {
-  std::vector<vtkPolyData*> leaves;
-  const auto add = [&](vtkDataObject* object)
-  {
-    auto* mesh = vtkPolyData::SafeDownCast(object);
-    if (mesh && mesh->GetNumberOfPoints() > 0)
-    {
-      leaves.push_back(mesh);
-    }
-  };
-  if (auto* composite = vtkCompositeDataSet::SafeDownCast(source))
-  {
-    auto all = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-    for (all->InitTraversal(); !all->IsDoneWithTraversal(); all->GoToNextItem())
-    {
-      add(all->GetCurrentDataObject());
-    }
-  }
-  else
-  {
-    add(source);
-  }
+  std::vector<vtkPolyData*> leaves = vtkCompositeDataSet::GetDataSets<vtkPolyData>(source);
+  const auto isEmpty = [](vtkPolyData* mesh) { return mesh->GetNumberOfPoints() == 0; };
+  leaves.erase(std::remove_if(leaves.begin(), leaves.end(), isEmpty), leaves.end());
   return leaves;
 }
 
