@@ -18,7 +18,6 @@
 #include "vtkProperty.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace svo
 {
@@ -372,10 +371,7 @@ bool PropCollector::move(PropSurfaces& found, const CollectProps& frame)
 
 void PropCollector::sweep()
 {
-  for (auto said = this->GivenMessages.begin(); said != this->GivenMessages.end();)
-  {
-    said = said->second ? std::next(said) : this->GivenMessages.erase(said);
-  }
+  eraseIf(this->GivenMessages, [](const auto& said) { return !said.second; });
   this->Surfaces.sweep();
   this->Floats.sweep();
   this->Leaves.sweep();

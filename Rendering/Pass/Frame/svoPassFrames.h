@@ -2,13 +2,13 @@
 #ifndef svoPassFrames_h
 #define svoPassFrames_h
 
+#include "svoKept.h"
 #include "svoPassFrame.h"
 #include "svoRendererState.h"
 #include "svoTracer.h"
 
 #include <algorithm>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <utility>
@@ -32,10 +32,7 @@ public:
   /// dropped.
   std::shared_ptr<RendererState> stateOf(vtkRenderer* renderer)
   {
-    for (auto entry = this->Kept.begin(); entry != this->Kept.end();)
-    {
-      entry = entry->second->renderer() ? std::next(entry) : this->Kept.erase(entry);
-    }
+    eraseIf(this->Kept, [](const auto& entry) { return !entry.second->renderer(); });
     std::shared_ptr<RendererState>& found = this->Kept[renderer];
     if (!found)
     {

@@ -8,12 +8,23 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <vector>
 
 namespace svo
 {
+/// Takes those entries out of a map or set of which `unwanted(entry)` is true (C++20 has it).
+template <class Container, class Unwanted>
+void eraseIf(Container& container, const Unwanted& unwanted)
+{
+  for (auto entry = container.begin(); entry != container.end();)
+  {
+    entry = unwanted(*entry) ? container.erase(entry) : std::next(entry);
+  }
+}
+
 class Kept
 {
 public:
@@ -85,10 +96,7 @@ public:
   /// Drops what nobody keeps.
   void sweep()
   {
-    for (auto entry = this->Values.begin(); entry != this->Values.end();)
-    {
-      entry = entry->second.use_count() > 1 ? std::next(entry) : this->Values.erase(entry);
-    }
+    eraseIf(this->Values, [](const auto& entry) { return entry.second.use_count() == 1; });
   }
 
   std::size_t size() const { return this->Values.size(); }

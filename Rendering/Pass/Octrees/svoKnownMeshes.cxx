@@ -1,10 +1,10 @@
 #include "svoKnownMeshes.h"
 
+#include "svoKept.h"
 #include "svoMeshOctree.h"
 #include "svoMeshTriangles.h"
 
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include <glm/vec3.hpp>
@@ -66,14 +66,10 @@ KnownMesh& KnownMeshes::of(
 
 bool KnownMeshes::forgetGone()
 {
-  bool lost = std::exchange(this->Lost, false);
-  for (auto mesh = this->Meshes.begin(); mesh != this->Meshes.end();)
-  {
-    const bool gone = !mesh->second.mesh;
-    lost = lost || gone;
-    mesh = gone ? this->Meshes.erase(mesh) : std::next(mesh);
-  }
-  return lost;
+  const bool lost = std::exchange(this->Lost, false);
+  const std::size_t before = this->Meshes.size();
+  eraseIf(this->Meshes, [](const auto& mesh) { return !mesh.second.mesh; });
+  return lost || this->Meshes.size() < before;
 }
 
 std::set<OctreeKey> KnownMeshes::keys() const
@@ -90,11 +86,7 @@ void KnownMeshes::forgetKeys(const std::function<bool(const OctreeKey&)>& unused
 {
   for (auto& mesh : this->Meshes)
   {
-    std::set<OctreeKey>& keys = mesh.second.keys;
-    for (auto key = keys.begin(); key != keys.end();)
-    {
-      key = unused(*key) ? keys.erase(key) : std::next(key);
-    }
+    eraseIf(mesh.second.keys, unused);
   }
 }
 }
