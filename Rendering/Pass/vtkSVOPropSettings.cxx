@@ -149,9 +149,9 @@ void vtkSVOPropSettings::SetPropPixelError(double error, vtkProp* prop)
     vtkGenericWarningMacro("A prop's pixel error stays " << GetPropPixelError(prop)
                                                          << ": the value given is not a number.");
   }
-  else
+  else if (prop)
   {
-    svo::setPixelError(prop, error >= 0.0 ? std::min(error, 64.0) : -1.0);
+    svo::keysOf(prop)->Set(PIXEL_ERROR(), error >= 0.0 ? std::min(error, 64.0) : -1.0);
   }
 }
 

@@ -135,12 +135,4 @@ void setFlag(vtkProp* prop, vtkInformationIntegerKey* key, bool value)
     keysOf(prop)->Set(key, value ? 1 : 0);
   }
 }
-
-void setPixelError(vtkProp* prop, double error)
-{
-  if (prop)
-  {
-    keysOf(prop)->Set(pixelErrorKey(), error);
-  }
-}
 }

@@ -41,7 +41,6 @@ vtkInformation* keysOf(vtkLight* light);
 
 /// A prop that is null is ignored.
 void setFlag(vtkProp* prop, vtkInformationIntegerKey* key, bool value);
-void setPixelError(vtkProp* prop, double error);
 }
 
 #endif

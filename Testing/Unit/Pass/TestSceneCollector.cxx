@@ -55,7 +55,7 @@ TEST_P(KeptBy, EveryChangeIsNoticed)
   expectNoticed("none", 1, [&] { actor->ForceTranslucentOff(); });
   expectNoticed("a key", 1, [&] { svo::setFlag(actor, svo::castShadowKey(), false); });
   expectNoticed("its value", 1, [&] { svo::setFlag(actor, svo::castShadowKey(), true); });
-  expectNoticed("pixel error", 1, [&] { svo::setPixelError(actor, 3.0); });
+  expectNoticed("pixel error", 1, [&] { svo::keysOf(actor)->Set(svo::pixelErrorKey(), 3.0); });
   expectNoticed("edges", 1, [&] { property()->EdgeVisibilityOn(); });
   expectNoticed("no edges", 1, [&] { property()->EdgeVisibilityOff(); });
 
@@ -277,7 +277,7 @@ TEST_F(Kept, WhatSaysNothingNewIsNoChange)
   collect(collector, scene);
   EXPECT_EQ(collector.collectedAnew(), 0);
   svo::setFlag(assembly, svo::receiveShadowKey(), false);
-  svo::setPixelError(actor, 3.0);
+  svo::keysOf(actor)->Set(svo::pixelErrorKey(), 3.0);
   collect(collector, scene);
   EXPECT_EQ(collector.collectedAnew(), 2);
 }
