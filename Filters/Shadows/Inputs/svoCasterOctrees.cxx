@@ -4,7 +4,7 @@
 #include "svoMeshOctree.h"
 #include "vtkPolyDataToSVO.h"
 
-#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
 #include "vtkPolyData.h"
 
 namespace svo
@@ -14,20 +14,16 @@ CasterOctrees::CasterOctrees(vtkAlgorithm* owner)
 {
   this->Converter->SetAdaptLevel(true);
   this->Converter->SetKeepOctrees(true);
-  vtkNew<vtkCallbackCommand> listener;
-  listener->SetClientData(this);
-  listener->SetCallback([](vtkObject*, unsigned long event, void* self, void* data)
-    { static_cast<CasterOctrees*>(self)->onEvent(event, data); });
   for (const auto event :
     { vtkCommand::ProgressEvent, vtkCommand::ErrorEvent, vtkCommand::WarningEvent })
   {
-    this->Converter->AddObserver(event, listener);
+    this->Converter->AddObserver(event, this, &CasterOctrees::onEvent);
   }
 }
 
 CasterOctrees::~CasterOctrees() = default;
 
-void CasterOctrees::onEvent(unsigned long event, void* data)
+void CasterOctrees::onEvent(vtkObject*, unsigned long event, void* data)
 {
   if (event == vtkCommand::ProgressEvent)
   {

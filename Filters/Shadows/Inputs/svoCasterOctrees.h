@@ -10,6 +10,7 @@
 #include <vector>
 
 class vtkAlgorithm;
+class vtkObject;
 class vtkPolyData;
 class vtkPolyDataToSVO;
 
@@ -31,7 +32,7 @@ public:
   Octree octreeOf(vtkPolyData* mesh, int level, double begin, double end, std::string& problem);
 
 private:
-  void onEvent(unsigned long event, void* data);
+  void onEvent(vtkObject*, unsigned long event, void* data);
   vtkAlgorithm* Owner;
   vtkNew<vtkPolyDataToSVO> Converter; // keeps what it builds
   std::vector<std::string> Problems;

@@ -2,9 +2,7 @@
 #ifndef svoIdleCall_h
 #define svoIdleCall_h
 
-#include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
-#include "vtkNew.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkWeakPointer.h"
@@ -18,12 +16,7 @@ namespace svo
 class IdleCall
 {
 public:
-  IdleCall()
-  {
-    this->Heard->SetClientData(this);
-    this->Heard->SetCallback([](vtkObject*, unsigned long, void* self, void* timer)
-      { static_cast<IdleCall*>(self)->heard(timer ? *static_cast<int*>(timer) : 0); });
-  }
+  IdleCall() = default;
   ~IdleCall() { this->cancel(); }
   IdleCall(const IdleCall&) = delete;
   IdleCall& operator=(const IdleCall&) = delete;
@@ -57,7 +50,7 @@ public:
       vtkRenderWindowInteractor* interactor = window->GetInteractor();
       this->Call = std::move(call);
       this->Interactor = interactor;
-      this->Observer = interactor->AddObserver(vtkCommand::TimerEvent, this->Heard);
+      this->Observer = interactor->AddObserver(vtkCommand::TimerEvent, this, &IdleCall::heard);
       this->Timer = interactor->CreateOneShotTimer(Wait);
     }
   }
@@ -74,9 +67,9 @@ public:
 private:
   static constexpr unsigned long Wait = 10; // ms, in which what users do comes first
 
-  void heard(int timer)
+  void heard(vtkObject*, unsigned long, void* timer)
   {
-    if (timer == this->Timer && this->Call)
+    if (timer && *static_cast<int*>(timer) == this->Timer && this->Call)
     {
       // The interactor is going through its timers, and takes this one out itself.
       const std::function<void()> call = std::move(this->Call);
@@ -95,7 +88,6 @@ private:
     this->Call = nullptr;
   }
 
-  vtkNew<vtkCallbackCommand> Heard;
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
   vtkWeakPointer<vtkRenderWindowInteractor> Tried;
   bool Knows = false;
