@@ -9,9 +9,8 @@
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
 #include "vtkNew.h"
-#include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
-#include "vtkWeakPointer.h"
+#include "vtkWeakReference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,36 +95,19 @@ bool isAnswered(vtkLight* light)
 }
 
 /// Left on camera lights: the renderer among whose lights they are.
-class LightPlace : public vtkObject
+vtkInformationObjectBaseKey* placeKey()
 {
-public:
-  static LightPlace* New();
-  vtkTypeMacro(LightPlace, vtkObject);
-  vtkWeakPointer<vtkRenderer> renderer;
+  static auto* const key = vtkInformationObjectBaseKey::MakeKey("LIGHT_PLACE", "vtkSVO");
+  return key;
+}
 
-  static vtkInformationObjectBaseKey* key()
-  {
-    static auto* const made = vtkInformationObjectBaseKey::MakeKey("LIGHT_PLACE", "vtkSVO");
-    return made;
-  }
-
-  /// nullptr if it is not known.
-  static LightPlace* of(vtkLight* light)
-  {
-    vtkInformation* keys = light->GetInformation();
-    return keys ? LightPlace::SafeDownCast(keys->Get(key())) : nullptr;
-  }
-
-  static void set(vtkLight* light, vtkRenderer* renderer)
-  {
-    if (!of(light))
-    {
-      keysOf(light)->Set(key(), vtkNew<LightPlace>());
-    }
-    of(light)->renderer = renderer;
-  }
-};
-vtkStandardNewMacro(LightPlace);
+/// Null if it is not known, or gone.
+vtkRenderer* placeOf(vtkLight* light)
+{
+  vtkInformation* keys = light->GetInformation();
+  auto* place = keys ? vtkWeakReference::SafeDownCast(keys->Get(placeKey())) : nullptr;
+  return place ? vtkRenderer::SafeDownCast(place->Get()) : nullptr;
+}
 
 /// Calls visit(light) for those of a renderer that are switched on.
 template <class Visit>
@@ -177,9 +159,11 @@ std::vector<Light> lightsOf(
       light.castShadow =
         aiming && answerOf(source, source->LightTypeIsSceneLight() || source == key);
       headlightOnly = headlightOnly && source->LightTypeIsHeadlight() && !isAnswered(source);
-      if (source->LightTypeIsCameraLight())
+      if (source->LightTypeIsCameraLight() && placeOf(source) != renderer)
       {
-        LightPlace::set(source, renderer);
+        vtkNew<vtkWeakReference> place;
+        place->Set(renderer);
+        keysOf(source)->Set(placeKey(), place);
       }
       lights.push_back(light);
       const std::string kind = light.headlight ? words.headlight(source)
@@ -219,8 +203,7 @@ bool castsShadow(vtkLight* light)
   }
   if (light->LightTypeIsCameraLight() && !isAnswered(light))
   {
-    const LightPlace* place = LightPlace::of(light);
-    vtkRenderer* renderer = place ? place->renderer.GetPointer() : nullptr;
+    vtkRenderer* renderer = placeOf(light);
     return !renderer || !renderer->GetLights()->IsItemPresent(light) ||
       keyLightOf(renderer) == light;
   }
