@@ -29,19 +29,29 @@ struct Box
     low = glm::min(low, other.low);
     high = glm::max(high, other.high);
   }
+  /// Corner i lies at the upper end of x if i & 1, of y if i & 2, of z if i & 4.
+  glm::dvec3 corner(int i) const
+  {
+    return { i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z };
+  }
 };
 
-/// Around the corners of a box, in another frame. `bounds`, as VTK and Header have them: from and
-/// to along x, y and z.
+/// Of bounds as VTK has them.
+inline Box boxOf(const double bounds[6])
+{
+  return { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
+}
+
+/// Around the corners of a box, in another frame. `bounds`: as VTK and Header have them.
 inline Box boxAround(const double* bounds, const glm::dmat4& matrix)
 {
-  Box box;
+  const Box box = boxOf(bounds);
+  Box around;
   for (int i = 0; i < 8; ++i)
   {
-    const glm::dvec4 at(bounds[i & 1], bounds[2 + (i >> 1 & 1)], bounds[4 + (i >> 2)], 1.0);
-    box.add(glm::dvec3(matrix * at));
+    around.add(glm::dvec3(matrix * glm::dvec4(box.corner(i), 1.0)));
   }
-  return box;
+  return around;
 }
 }
 

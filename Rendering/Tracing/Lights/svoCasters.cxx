@@ -63,9 +63,8 @@ bool isOnlyBackdrop(const std::vector<Outline>& outlines, std::optional<Box>& al
   bool allOnOneSide = true;
   for (int i = 0; i < 8; ++i)
   {
-    const glm::dvec3 corner(i & 1 ? all->high.x : all->low.x, i & 2 ? all->high.y : all->low.y,
-      i & 4 ? all->high.z : all->low.z);
-    allOnOneSide = allOnOneSide && side * (height(corner) - plane) >= -0.5 * caster.smallestVoxel;
+    allOnOneSide =
+      allOnOneSide && side * (height(all->corner(i)) - plane) >= -0.5 * caster.smallestVoxel;
   }
   if (allOnOneSide)
   {

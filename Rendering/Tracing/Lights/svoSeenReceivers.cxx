@@ -113,25 +113,25 @@ SeenReceivers::SeenReceivers(const std::vector<Box>& receivers, const View& eye,
   {
     const int axis = flatAxis(box);
     const glm::dvec3 wider(axis < 3 ? 0.0 : WiderBy * glm::length(box.high - box.low));
-    const glm::dvec3 low = box.low - wider, high = box.high + wider;
+    const Box around{ box.low - wider, box.high + wider };
     Part part;
     part.seen = view;
     for (int i = 0; i < 8; ++i)
     {
-      part.box[i] = { i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z };
+      part.box[i] = around.corner(i);
     }
     seen.add(part.box, part.points);
     if (part.points.empty())
     {
       continue;
     }
-    const PixelRect around = pixelsAround(part.points, eye);
+    const PixelRect rect = pixelsAround(part.points, eye);
     const double pixels =
-      axis < 3 ? static_cast<double>(around.x1 - around.x0) * (around.y1 - around.y0) : most;
+      axis < 3 ? static_cast<double>(rect.x1 - rect.x0) * (rect.y1 - rect.y0) : most;
     if (searched + pixels < most)
     {
       searched += pixels;
-      this->addSeen(part.box, axis, around, eye, traced);
+      this->addSeen(part.box, axis, rect, eye, traced);
     }
     else
     {
