@@ -42,19 +42,18 @@ bool isOnlyBackdrop(const std::vector<Outline>& outlines, std::optional<Box>& al
   const Outline& caster, const Light& light)
 {
   int axis = 0;
-  while (axis < 3 && caster.meshLow[axis] != caster.meshHigh[axis])
+  while (axis < 3 && caster.mesh.low[axis] != caster.mesh.high[axis])
   {
     ++axis;
   }
-  if (axis == 3 || !knowsMeshBox(caster))
+  if (axis == 3 || !caster.mesh.known())
   {
     return false;
   }
-  const glm::dmat4 localToWorld = matrixOf(caster);
-  const glm::dmat3 inverse = stableInverse(glm::dmat3(localToWorld));
-  const glm::dvec3 translation(localToWorld[3]);
+  const glm::dmat3 inverse = stableInverse(glm::dmat3(caster.localToWorld));
+  const glm::dvec3 translation(caster.localToWorld[3]);
   const auto height = [&](const glm::dvec3& x) { return (inverse * (x - translation))[axis]; };
-  const double plane = caster.meshLow[axis];
+  const double plane = caster.mesh.low[axis];
   const double lightSide =
     light.atInfinity() ? -(inverse * light.direction)[axis] : height(light.position) - plane;
   const double side = lightSide < 0.0 ? -1.0 : 1.0;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -15,37 +14,31 @@ namespace svo
 Outline outlineOf(const Instance& instance)
 {
   Outline outline{};
-  std::memcpy(outline.localToWorld, &instance.localToWorld[0][0], sizeof(outline.localToWorld));
+  outline.localToWorld = instance.localToWorld;
   outline.pixelError = instance.pixelError;
   outline.leafGeometry = static_cast<std::int32_t>(instance.body->leafGeometry);
   outline.opacity = instance.opacity;
   outline.translucent = instance.translucent();
-  const bool placed = placesSomething(instance.localToWorld);
-  if (!instance.body->octree)
+  const Octree& octree = instance.body->octree;
+  const Box& box = instance.body->box;
+  const bool placed = (octree || box.known()) && placesSomething(instance.localToWorld);
+  outline.casts = placed && instance.castShadow && !(octree && octree.empty());
+  outline.receives = placed && instance.visible && instance.receiveShadow;
+  if (!octree)
   {
-    const Box& box = instance.body->box;
     if (box.known())
     {
-      for (int i = 0; i < 3; ++i)
-      {
-        outline.cubeLow[i] = outline.meshLow[i] = box.low[i];
-        outline.cubeHigh[i] = outline.meshHigh[i] = box.high[i];
-        outline.smallestVoxel = std::max(outline.smallestVoxel,
-          std::ldexp(box.high[i] - box.low[i], -instance.body->deepestLevel));
-      }
-      outline.casts = instance.castShadow && placed;
-      outline.receives = instance.visible && instance.receiveShadow && placed;
+      outline.cube = outline.mesh = box;
+      const glm::dvec3 size = box.high - box.low;
+      outline.smallestVoxel =
+        std::ldexp(std::max({ size.x, size.y, size.z }), -instance.body->deepestLevel);
     }
     return outline;
   }
-  const Header& h = instance.body->octree.header();
-  for (int i = 0; i < 3; ++i)
-  {
-    outline.cubeLow[i] = h.origin[i];
-    outline.cubeHigh[i] = h.origin[i] + h.voxelSize * static_cast<double>(1u << h.level);
-    outline.meshLow[i] = h.pointCount > 0 ? h.meshBounds[2 * i] : 1.0;
-    outline.meshHigh[i] = h.pointCount > 0 ? h.meshBounds[2 * i + 1] : -1.0;
-  }
+  const Header& h = octree.header();
+  const glm::dvec3 origin(h.origin[0], h.origin[1], h.origin[2]);
+  outline.cube = { origin, origin + h.voxelSize * static_cast<double>(1u << h.level) };
+  outline.mesh = h.pointCount > 0 ? boxOf(h.meshBounds) : Box();
   // An octree whose leaves are exact may be coarse because its mesh is: its voxels say nothing then
   // of how far it reaches beyond the mesh.
   constexpr int FineEnough = 10;
@@ -56,21 +49,13 @@ Outline outlineOf(const Instance& instance)
     outline.voxelSize, std::ldexp(h.voxelSize, std::min(level - instance.body->deepestLevel, 0)));
   outline.signature = h.signature;
   outline.level = static_cast<std::int32_t>(h.level);
-  outline.casts = instance.castShadow && !instance.body->octree.empty() && placed;
-  outline.receives = instance.visible && instance.receiveShadow && placed;
   return outline;
 }
 
 Outline outlineOf(const Box& receiver)
 {
   Outline outline{};
-  for (int i = 0; i < 3; ++i)
-  {
-    outline.localToWorld[5 * i] = 1.0;
-    outline.cubeLow[i] = outline.meshLow[i] = receiver.low[i];
-    outline.cubeHigh[i] = outline.meshHigh[i] = receiver.high[i];
-  }
-  outline.localToWorld[15] = 1.0;
+  outline.cube = outline.mesh = receiver;
   outline.opacity = 1.0f;
   outline.receives = 1;
   return outline;
@@ -92,37 +77,19 @@ std::vector<Outline> outlinesOf(const Scene& scene, std::vector<Outline> known)
   return outlines;
 }
 
-glm::dmat4 matrixOf(const Outline& outline)
-{
-  glm::dmat4 matrix;
-  std::memcpy(&matrix[0][0], outline.localToWorld, sizeof(outline.localToWorld));
-  return matrix;
-}
-
-bool knowsMeshBox(const Outline& outline)
-{
-  return outline.meshLow[0] <= outline.meshHigh[0] && outline.meshLow[1] <= outline.meshHigh[1] &&
-    outline.meshLow[2] <= outline.meshHigh[2];
-}
-
 std::array<glm::dvec3, 8> worldCorners(const Outline& outline, double margin)
 {
-  double box[2][3];
-  const bool known = knowsMeshBox(outline);
-  for (int i = 0; i < 3; ++i)
+  Box box = outline.cube;
+  if (outline.mesh.known())
   {
     // The mesh is in the middle of the cube: its own box is tighter.
-    box[0][i] =
-      known ? glm::max(outline.cubeLow[i], outline.meshLow[i] - margin) : outline.cubeLow[i];
-    box[1][i] =
-      known ? glm::min(outline.cubeHigh[i], outline.meshHigh[i] + margin) : outline.cubeHigh[i];
+    box.low = glm::max(box.low, outline.mesh.low - margin);
+    box.high = glm::min(box.high, outline.mesh.high + margin);
   }
-  const glm::dmat4 localToWorld = matrixOf(outline);
   std::array<glm::dvec3, 8> corners;
   for (int i = 0; i < 8; ++i)
   {
-    corners[i] = glm::dvec3(
-      localToWorld * glm::dvec4(box[i & 1][0], box[i >> 1 & 1][1], box[i >> 2 & 1][2], 1.0));
+    corners[i] = glm::dvec3(outline.localToWorld * glm::dvec4(box.corner(i), 1.0));
   }
   return corners;
 }

@@ -3,6 +3,7 @@
 #ifndef svoOutline_h
 #define svoOutline_h
 
+#include "svoBox.h"
 #include "svoScene.h"
 #include "vtkSVOTracingModule.h"
 
@@ -19,10 +20,9 @@ namespace svo
 /// Plain bytes, without gaps: processes send them to each other and compare them.
 struct Outline
 {
-  double localToWorld[16];
-  double cubeLow[3], cubeHigh[3]; // the octree's cube, local frame
-  double meshLow[3],
-    meshHigh[3];           // the mesh's own box; low > high where the octree does not know it
+  glm::dmat4 localToWorld{ 1.0 };
+  Box cube{ glm::dvec3(0.0), glm::dvec3(0.0) }; // the octree's, local frame
+  Box mesh;                // the mesh's own; empty where the octree does not know it
   double voxelSize;        // local frame; 0: there is no octree yet, and the cube is the box
   double smallestVoxel;    // of the deepest octree that the mesh may get, local frame
   double pixelError;       // Instance::pixelError
@@ -49,11 +49,6 @@ Outline outlineOf(const Box& receiver);
 /// `known`: those that there were of the same instances, perhaps for other receivers.
 VTKSVOTRACING_EXPORT std::vector<Outline> outlinesOf(
   const Scene& scene, std::vector<Outline> known = {});
-
-glm::dmat4 matrixOf(const Outline& outline);
-
-/// True if the mesh's own box is known.
-bool knowsMeshBox(const Outline& outline);
 
 /// Corners of the mesh's box, `margin` (local units) wider on all sides but never beyond the
 /// octree's cube, in the world; of the cube where there is no such box.

@@ -128,10 +128,10 @@ TEST(ShadowBuffer, AGroundCastsOnlyIfSomethingCanLieInItsShadow)
     std::vector<svo::Outline> outlines = svo::outlinesOf(scene);
     for (int i = 0; i < 3; ++i) // octrees that are made without a vtkPolyData do not know its box
     {
-      outlines[0].meshHigh[i] = i < 2 ? 3.0 : 0.0;
-      outlines[0].meshLow[i] = -outlines[0].meshHigh[i];
-      outlines[1].meshHigh[i] = 1.0;
-      outlines[1].meshLow[i] = -1.0;
+      outlines[0].mesh.high[i] = i < 2 ? 3.0 : 0.0;
+      outlines[0].mesh.low[i] = -outlines[0].mesh.high[i];
+      outlines[1].mesh.high[i] = 1.0;
+      outlines[1].mesh.low[i] = -1.0;
     }
     return svo::castersOf(outlines, sun);
   };
