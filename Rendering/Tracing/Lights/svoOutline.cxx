@@ -11,6 +11,8 @@
 
 namespace svo
 {
+namespace
+{
 Outline outlineOf(const Instance& instance)
 {
   Outline outline{};
@@ -59,6 +61,7 @@ Outline outlineOf(const Box& receiver)
   outline.opacity = 1.0f;
   outline.receives = 1;
   return outline;
+}
 }
 
 std::vector<Outline> outlinesOf(const Scene& scene, std::vector<Outline> known)

@@ -36,17 +36,8 @@ struct Outline
 };
 static_assert(sizeof(Outline) == 16 * 8 + 12 * 8 + 4 * 8 + 6 * 4, "no gaps");
 
-/// Outlines of the instances of a scene, then of its receivers; or of the scenes of all processes,
-/// one scene after the other.
-struct Outlines
-{
-  std::vector<Outline> all;
-  std::size_t first = 0; // index of this process's first
-};
-
-Outline outlineOf(const Instance& instance);
-Outline outlineOf(const Box& receiver);
-/// `known`: those that there were of the same instances, perhaps for other receivers.
+/// Of the instances of a scene, then of its receivers. `known`: those that there were of the same
+/// instances, perhaps for other receivers.
 VTKSVOTRACING_EXPORT std::vector<Outline> outlinesOf(
   const Scene& scene, std::vector<Outline> known = {});
 

@@ -2,7 +2,6 @@
 #include "svoShadows.h"
 
 #include <cmath>
-#include <cstring>
 
 namespace svo
 {
@@ -12,15 +11,16 @@ namespace
 struct SharedSettings
 {
   AgreedSettings settings;
-  double coarseness;                      // rounded to hundredths
-  double worldToView[16], viewToClip[16]; // of the eye
+  double coarseness;                  // rounded to hundredths
+  glm::dmat4 worldToView, viewToClip; // of the eye
   std::int32_t width, height;
   std::int32_t lights;
   std::int32_t canKeep; // the last frame's buffers are there
 };
 struct SharedLight
 {
-  double position[3], direction[3], coneAngle;
+  glm::dvec3 position, direction;
+  double coneAngle;
   std::int32_t kind, casts;
 };
 static_assert(
@@ -31,8 +31,8 @@ SharedSettings settingsOf(const FrameSettings& settings, const View& eye)
 {
   SharedSettings shared{};
   shared.settings = agreedOf(settings);
-  std::memcpy(shared.worldToView, &eye.worldToView[0][0], sizeof(shared.worldToView));
-  std::memcpy(shared.viewToClip, &eye.viewToClip[0][0], sizeof(shared.viewToClip));
+  shared.worldToView = eye.worldToView;
+  shared.viewToClip = eye.viewToClip;
   shared.width = eye.width;
   shared.height = eye.height;
   shared.coarseness = 0.01 * static_cast<double>(std::lround(100.0 * settings.shadowCoarseness));
@@ -41,11 +41,10 @@ SharedSettings settingsOf(const FrameSettings& settings, const View& eye)
 
 View eyeOf(const SharedSettings& settings)
 {
-  glm::dmat4 worldToView, viewToClip;
-  std::memcpy(&worldToView[0][0], settings.worldToView, sizeof(settings.worldToView));
-  std::memcpy(&viewToClip[0][0], settings.viewToClip, sizeof(settings.viewToClip));
   View eye;
-  return makeView(worldToView, viewToClip, settings.width, settings.height, eye) ? eye : View();
+  return makeView(settings.worldToView, settings.viewToClip, settings.width, settings.height, eye)
+    ? eye
+    : View();
 }
 
 template <class T>
@@ -69,14 +68,13 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
   std::vector<SharedLight> ownLights;
   for (const Light& light : scene.lights)
   {
-    const glm::dvec3 &p = light.position, &d = light.direction;
-    ownLights.push_back({ { p.x, p.y, p.z }, { d.x, d.y, d.z }, light.coneAngle,
+    ownLights.push_back({ light.position, light.direction, light.coneAngle,
       static_cast<std::int32_t>(light.kind), light.castShadow });
   }
   std::vector<SharedLight> lightsOfAll;
   gatherRecords(processes, ownLights, lightsOfAll);
-  Outlines outlines;
-  outlines.first = gatherRecords(processes, outlinesOf(scene), outlines.all)[processes.self()];
+  std::vector<Outline> outlines; // of the scenes of all processes, one scene after the other
+  const std::size_t first = gatherRecords(processes, outlinesOf(scene), outlines)[processes.self()];
 
   const SharedSettings& agreed = settingsOfAll.front();
   bool keep = true;
@@ -97,20 +95,20 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
     const SharedLight& light = lightsOfAll[i];
-    lights[i].position = { light.position[0], light.position[1], light.position[2] };
-    lights[i].direction = { light.direction[0], light.direction[1], light.direction[2] };
+    lights[i].position = light.position;
+    lights[i].direction = light.direction;
     lights[i].coneAngle = light.coneAngle;
     lights[i].kind = static_cast<Light::Kind>(light.kind);
     lights[i].castShadow = light.casts != 0;
   }
   settings.wholeShadowBuffers = true; // where some process has receivers all count their copies
-  const std::vector<LightMaps> maps = mapsOfLights(outlines.all, lights, settings, eyeOf(agreed));
+  const std::vector<LightMaps> maps = mapsOfLights(outlines, lights, settings, eyeOf(agreed));
 
   std::vector<unsigned char> state;
   append(state, std::vector<AgreedSettings>{ agreed.settings });
   append(state, std::vector<double>{ agreed.coarseness });
   append(state, lightsOfAll);
-  append(state, outlines.all);
+  append(state, outlines);
   for (const LightMaps& light : maps)
   {
     for (const View& view : light.views)
@@ -134,13 +132,13 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
   }
 
   this->TracesWhole = true; // what the others' visible points look up is not known here
-  this->prepareBuffers(scene, lights, maps, outlines.first, settings, budget, parallelFor);
+  this->prepareBuffers(scene, lights, maps, first, settings, budget, parallelFor);
   this->trace(parallelFor);
   for (ShadowBuffer* buffer : this->Buffers)
   {
     if (buffer)
     {
-      buffer->merge(processes, outlines.first);
+      buffer->merge(processes, first);
     }
   }
   this->SharedState = std::move(state);
