@@ -37,11 +37,6 @@ void Shadows::choose(
   const Scene& scene, const Scene& seen, const View& view, const FrameSettings& settings)
 {
   this->chooseAll(scene, settings.shadowTechnique);
-  this->fitMaps(seen, view, settings);
-}
-
-void Shadows::fitMaps(const Scene& seen, const View& view, const FrameSettings& settings)
-{
   this->Maps.assign(seen.lights.size(), {});
   bool uses = false;
   for (std::size_t l = 0; l < seen.lights.size(); ++l)
@@ -72,13 +67,7 @@ void Shadows::prepare(const Scene& scene, const View& view, const Hits& eye,
   if (settings.receiverMaps && !this->TracesWhole)
   {
     const SeenReceivers receivers(scene.receivers, view, eye);
-    for (ShadowBuffer* buffer : this->Buffers)
-    {
-      if (buffer)
-      {
-        buffer->mark(receivers);
-      }
-    }
+    this->eachBuffer([&](ShadowBuffer& buffer) { buffer.mark(receivers); });
   }
 }
 
@@ -243,13 +232,7 @@ bool Shadows::changed(const LightTiles& noted) const
 
 void Shadows::trace(const ParallelFor& parallelFor)
 {
-  for (ShadowBuffer* buffer : this->Buffers)
-  {
-    if (buffer)
-    {
-      buffer->trace(parallelFor);
-    }
-  }
+  this->eachBuffer([&](ShadowBuffer& buffer) { buffer.trace(parallelFor); });
 }
 
 bool Shadows::changed(const RaisedTiles& noted) const
@@ -298,14 +281,15 @@ void Shadows::addStatistics(FrameStatistics& statistics) const
     statistics.lightsWithBuffers += technique == ShadowTechnique::Buffer;
     statistics.lightsWithRays += technique == ShadowTechnique::Rays;
   }
-  for (const ShadowBuffer* buffer : this->Buffers)
+  if (this->Traced)
   {
-    if (buffer && this->Traced)
-    {
-      statistics.shadowRays += buffer->rays();
-      statistics.retracedLayers += buffer->retracedLayers();
-      statistics.sparedCasters += buffer->sparedCasters();
-    }
+    this->eachBuffer(
+      [&](const ShadowBuffer& buffer)
+      {
+        statistics.shadowRays += buffer.rays();
+        statistics.retracedLayers += buffer.retracedLayers();
+        statistics.sparedCasters += buffer.sparedCasters();
+      });
   }
 }
 

@@ -96,10 +96,22 @@ private:
   bool usesBuffer(std::size_t light, const FrameSettings& settings) const;
   bool byRays(std::size_t light) const { return this->Techniques[light] == ShadowTechnique::Rays; }
   void chooseAll(const Scene& scene, ShadowTechnique technique);
-  void fitMaps(const Scene& seen, const View& view, const FrameSettings& settings);
   void prepareBuffers(const Scene& scene, const std::vector<Light>& lights,
     const std::vector<LightMaps>& maps, std::size_t first, const FrameSettings& settings,
     LayerBudget& budget, const ParallelFor& parallelFor);
+
+  /// Calls f(buffer) for all of the frame.
+  template <class F>
+  void eachBuffer(const F& f) const
+  {
+    for (ShadowBuffer* const buffer : this->Buffers)
+    {
+      if (buffer)
+      {
+        f(*buffer);
+      }
+    }
+  }
 
   Culling Cull;
   std::vector<ShadowTechnique> Techniques; // by light

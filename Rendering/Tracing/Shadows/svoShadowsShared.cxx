@@ -121,26 +121,14 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
   if (keep && state == this->SharedState)
   {
     this->Traced = false;
-    for (ShadowBuffer* buffer : this->Buffers)
-    {
-      if (buffer)
-      {
-        buffer->setBias(own);
-      }
-    }
+    this->eachBuffer([&](ShadowBuffer& buffer) { buffer.setBias(own); });
     return true;
   }
 
   this->TracesWhole = true; // what the others' visible points look up is not known here
   this->prepareBuffers(scene, lights, maps, first, settings, budget, parallelFor);
   this->trace(parallelFor);
-  for (ShadowBuffer* buffer : this->Buffers)
-  {
-    if (buffer)
-    {
-      buffer->merge(processes, first);
-    }
-  }
+  this->eachBuffer([&](ShadowBuffer& buffer) { buffer.merge(processes, first); });
   this->SharedState = std::move(state);
   return true;
 }
