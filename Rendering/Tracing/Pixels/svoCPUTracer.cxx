@@ -445,7 +445,6 @@ void CPUTracer::render(
     statistics.largestGap = largestGap(scene, view, self.Eye.hits());
   }
   statistics.layerMemory = self.Eye.layerMemory() + self.LightShadows.layerMemory();
-  statistics.shadowMemory = self.LightShadows.mapMemory();
   self.SharesBuffers = false;
   self.SharingTime = 0.0;
 }

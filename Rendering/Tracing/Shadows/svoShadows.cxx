@@ -253,16 +253,6 @@ bool Shadows::knows(const glm::dvec3& position) const
       [&](const ShadowBuffer* buffer) { return !buffer || buffer->knows(position); });
 }
 
-std::size_t Shadows::mapMemory() const
-{
-  std::size_t sum = 0;
-  for (const auto& kept : this->Kept)
-  {
-    sum += kept.second->memory();
-  }
-  return sum;
-}
-
 std::size_t Shadows::layerMemory() const
 {
   std::size_t sum = 0;
@@ -281,16 +271,17 @@ void Shadows::addStatistics(FrameStatistics& statistics) const
     statistics.lightsWithBuffers += technique == ShadowTechnique::Buffer;
     statistics.lightsWithRays += technique == ShadowTechnique::Rays;
   }
-  if (this->Traced)
-  {
-    this->eachBuffer(
-      [&](const ShadowBuffer& buffer)
+  this->eachBuffer(
+    [&](const ShadowBuffer& buffer)
+    {
+      statistics.shadowMemory += buffer.memory();
+      if (this->Traced)
       {
         statistics.shadowRays += buffer.rays();
         statistics.retracedLayers += buffer.retracedLayers();
         statistics.sparedCasters += buffer.sparedCasters();
-      });
-  }
+      }
+    });
 }
 
 void Shadows::copyMaps(std::vector<ShadowMap>& maps)

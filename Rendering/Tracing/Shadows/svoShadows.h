@@ -86,8 +86,7 @@ public:
 
   void addStatistics(FrameStatistics& statistics) const;
   void copyMaps(std::vector<ShadowMap>& maps);
-  /// Bytes of the maps (ShadowBuffer::memory()), and of all kept layers.
-  std::size_t mapMemory() const;
+  /// Bytes of all kept layers.
   std::size_t layerMemory() const;
   void release();
 
