@@ -50,10 +50,8 @@ void HemisphereRays::each(
   eachBit(query.asked,
     [&](int i)
     {
-      const glm::dvec3 position = patch.position(i);
       rotations[batch.points] = this->Rotations.at(patch.x(i), patch.y(i));
-      pixels[batch.points] = i;
-      batch.addPoint(position, patch.facet(i));
+      pixels[batch.addPoint(patch.position(i), patch.facet(i))] = i;
       bases.emplace_back(normalOver(patch, i));
     });
   const auto trace = [&]

@@ -28,8 +28,7 @@ public:
     float* missed) const override;
 
 private:
-  struct Asker;
-  void ask(const ShadowQuery& query, const Asker* askers, int count, float* missed) const;
+  void ask(const ShadowQuery& query, SampleBatch& batch, const int* pixels, float* missed) const;
 
   const SampleRays& Sampler;
   const PixelRotations Rotations;
