@@ -3,7 +3,6 @@
 #include "svoHemisphereSums.h"
 #include "svoLightShadow.h"
 #include "svoSampleSums.h"
-#include "svoSky.h"
 #include "svoTileLighting.h"
 #include "svoTileLook.h"
 #include "svoTileTriangles.h"
@@ -44,10 +43,7 @@ void samplePatch(const ShadedScene& shaded, const Lighting& lighting, const Patc
   const SampledPlanes& planes = images.sampled();
   lookAtPatch(points.frame(patch.instance), patch, scratch.triangles);
   images.put(patch);
-  for (SampleSums& sums : scratch.sums)
-  {
-    sums.first = images.firstSample();
-  }
+  scratch.sums->first = images.firstSample();
   for (std::size_t l = 0; l < lighting.lights.size(); ++l)
   {
     if (planes.ofLights[l] != SampledPlanes::None)
@@ -62,19 +58,7 @@ void samplePatch(const ShadedScene& shaded, const Lighting& lighting, const Patc
   {
     noteRayStarts(all, scratch.noted->raysToLights);
   }
-  if (planes.ofOcclusion != SampledPlanes::None)
-  {
-    sampleOcclusion(all, *shaded.dark.occlusion(), *scratch.sums);
-    images.put(planes.ofOcclusion, patch, patch.mask, *scratch.sums);
-  }
-  if (planes.ofSky != SampledPlanes::None)
-  {
-    sampleSky(all, *shaded.dark.sky(), Sky(shaded.settings), scratch.sums);
-    for (int c = 0; c < 3; ++c)
-    {
-      images.put(planes.ofSky + c, patch, patch.mask, scratch.sums[c]);
-    }
-  }
+  sampleAround(all, shaded.dark, shaded.settings, images);
 }
 }
 

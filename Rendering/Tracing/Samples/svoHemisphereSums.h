@@ -2,9 +2,13 @@
 #ifndef svoHemisphereSums_h
 #define svoHemisphereSums_h
 
+#include "svoFrame.h"
 #include "svoHemisphereRays.h"
+#include "svoLightImages.h"
 #include "svoLightShadow.h"
 #include "svoSampleSums.h"
+#include "svoSampledPlanes.h"
+#include "svoShadows.h"
 #include "svoSky.h"
 #include "svoTilePatch.h"
 
@@ -53,6 +57,27 @@ inline void sampleSky(
         seen[c].count[i] += 1.0f;
       }
     });
+}
+
+/// Samples both, as far as they are sampled, for a frame's images. The query's sums are the first
+/// of three.
+inline void sampleAround(
+  const ShadowQuery& query, const Shadows& dark, const FrameSettings& settings, LightImages& images)
+{
+  const SampledPlanes& planes = images.sampled();
+  if (planes.ofOcclusion != SampledPlanes::None)
+  {
+    sampleOcclusion(query, *dark.occlusion(), *query.sums);
+    images.put(planes.ofOcclusion, query.patch, query.asked, *query.sums);
+  }
+  if (planes.ofSky != SampledPlanes::None)
+  {
+    sampleSky(query, *dark.sky(), Sky(settings), query.sums);
+    for (int c = 0; c < 3; ++c)
+    {
+      images.put(planes.ofSky + c, query.patch, query.asked, query.sums[c]);
+    }
+  }
 }
 }
 

@@ -1,7 +1,6 @@
 #include "svoReceiverSampler.h"
 
 #include "svoHemisphereSums.h"
-#include "svoSky.h"
 #include "svoTerminator.h"
 #include "svoTilePatch.h"
 #include "svoWorldSize.h"
@@ -213,10 +212,7 @@ void TileOfPlaces::sample(int tileX, int tileY, Scratch& scratch) const
 {
   const SampledPlanes& planes = this->Images.sampled();
   this->take(tileX, tileY, scratch);
-  for (SampleSums& sums : scratch.sums)
-  {
-    sums.first = this->Images.firstSample();
-  }
+  scratch.sums->first = this->Images.firstSample();
   if (this->Images.firstSample() == 0)
   {
     this->Images.startTile(tileX, tileY);
@@ -225,20 +221,8 @@ void TileOfPlaces::sample(int tileX, int tileY, Scratch& scratch) const
     [&](std::uint64_t mask)
     {
       this->Images.put(scratch.patch);
-      const ShadowQuery all = this->query(scratch, mask);
-      if (planes.ofOcclusion != SampledPlanes::None)
-      {
-        sampleOcclusion(all, *this->Frame.dark.occlusion(), *scratch.sums);
-        this->Images.put(planes.ofOcclusion, scratch.patch, mask, *scratch.sums);
-      }
-      if (planes.ofSky != SampledPlanes::None)
-      {
-        sampleSky(all, *this->Frame.dark.sky(), Sky(this->Frame.settings), scratch.sums);
-        for (int c = 0; c < 3; ++c)
-        {
-          this->Images.put(planes.ofSky + c, scratch.patch, mask, scratch.sums[c]);
-        }
-      }
+      sampleAround(
+        this->query(scratch, mask), this->Frame.dark, this->Frame.settings, this->Images);
     });
   for (std::size_t l = 0; l < planes.ofLights.size(); ++l)
   {
