@@ -21,9 +21,6 @@ namespace
 /// roundings of products that start from there.
 constexpr double FloatError = 2.0 * 1.7320508075688772 / 16777216.0;
 
-/// Where rays to a light end, the light itself being at 1: what the light lies on is not between.
-constexpr double BeforeLight = 1.0 - 1e-9;
-
 /// Longest way that an edge of local length 1 becomes: the matrix's norm is at most this.
 double norm(const glm::dmat3& m)
 {
@@ -80,7 +77,7 @@ bool ShadowCasters::skips(const Caster& caster, std::uint32_t own, Primitive tri
 bool ShadowCasters::ray(const Caster& caster, const Light& light, const Start& start)
 {
   const Ray ray{ caster.toOctree.point(start.at), caster.toOctree.vector(-light.along(start.at)),
-    0.0, light.atInfinity() ? 1e300 : BeforeLight };
+    0.0, light.rayEnd() };
   if (!caster.octree.surface())
   {
     return occluded(caster.octree, ray, { LeafGeometry::Plane, MaximumLevel });
@@ -96,11 +93,10 @@ std::uint64_t ShadowCasters::block(
   OcclusionRays rays;
   LocalRay locals[BeamPoints::Most];
   int ofRay[BeamPoints::Most];
-  const double end = light.atInfinity() ? 1e300 : BeforeLight;
   for (int i = 0; i < count; ++i)
   {
     const Ray ray{ caster.toOctree.point(starts[i].at),
-      caster.toOctree.vector(-light.along(starts[i].at)), 0.0, end };
+      caster.toOctree.vector(-light.along(starts[i].at)), 0.0, light.rayEnd() };
     LocalRay& local = locals[rays.count];
     if (prepareRay(caster.octree, ray, local))
     {
@@ -155,14 +151,11 @@ std::uint64_t ShadowCasters::beam(
   {
     points.at[i] = caster.toOctree.point(starts[i].at);
   }
-  const bool far = light.atInfinity();
-  const glm::dvec3 from =
-    far ? caster.toOctree.vector(light.direction) : caster.toOctree.point(light.position);
   ShadowBeam::Answer answers[BeamPoints::Most];
   Primitive nearest[BeamPoints::Most];
   // A beam that sees more is slower than its rays side by side, whatever they lie on.
   constexpr std::size_t MostNodes = 24;
-  if (!ShadowBeam(caster.octree, from, far).trace(points, answers, nearest, MostNodes))
+  if (!ShadowBeam(caster.octree, caster.toOctree, light).trace(points, answers, nearest, MostNodes))
   {
     return block(caster, light, starts, count);
   }

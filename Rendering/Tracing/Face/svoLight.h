@@ -55,6 +55,8 @@ struct Light
   {
     return this->atInfinity() ? this->direction : x - this->position;
   }
+  /// How many times that way rays to the light go: what it lies on is not between.
+  double rayEnd() const { return this->atInfinity() ? 1e300 : 1.0 - 1e-9; }
 };
 }
 

@@ -71,7 +71,7 @@ bool ShadowBeam::trace(
     centre += points.at[i] / static_cast<double>(points.count);
   }
   const BeamFrame frame(
-    this->Far ? centre : this->Light, this->Far ? this->Light : centre - this->Light);
+    this->Far ? centre : this->From, this->Far ? this->From : centre - this->From);
 
   // The cube's depths.
   const double edge = std::ldexp(1.0, -this->Tree.rootBits(0));

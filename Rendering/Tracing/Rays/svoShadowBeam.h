@@ -12,9 +12,11 @@
 #ifndef svoShadowBeam_h
 #define svoShadowBeam_h
 
+#include "svoLight.h"
 #include "svoOctree.h"
 #include "svoPyramidNodes.h"
 #include "svoRay.h"
+#include "svoWorldToOctree.h"
 #include "vtkSVOTracingModule.h"
 
 #include <cstddef>
@@ -40,11 +42,11 @@ struct BeamPoints
 class VTKSVOTRACING_EXPORT ShadowBeam
 {
 public:
-  /// `light`: its position, or the way that it shines if it is `far` away; octree coordinates.
-  ShadowBeam(const Octree& octree, const glm::dvec3& light, bool far)
+  /// The octree is borrowed.
+  ShadowBeam(const Octree& octree, const WorldToOctree& toOctree, const Light& light)
     : Tree(octree)
-    , Light(light)
-    , Far(far)
+    , Far(light.atInfinity())
+    , From(this->Far ? toOctree.vector(light.direction) : toOctree.point(light.position))
   {
   }
 
@@ -62,8 +64,8 @@ public:
 
 private:
   const Octree& Tree;
-  const glm::dvec3 Light;
   const bool Far;
+  const glm::dvec3 From; // the light, or the way that it shines if it is far; octree coordinates
   std::vector<TileNode> Nodes;
 };
 }

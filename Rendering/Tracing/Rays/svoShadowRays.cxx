@@ -12,9 +12,6 @@ namespace svo
 {
 namespace
 {
-/// Where rays to a light end, the light itself being at 1: what the light lies on is not between.
-constexpr double BeforeLight = 1.0 - 1e-9;
-
 /// The facet's normal on the light's side.
 glm::dvec3 sideOf(const Light& light, const glm::dvec3& position, const glm::vec3& facet)
 {
@@ -37,7 +34,7 @@ bool ShadowRays::blocks(const RayCaster& caster, const Light& light, const glm::
   const glm::dvec3 start = position + offset * side;
   const glm::dvec3 direction = -light.along(start);
   const Ray ray{ caster.toOctree.point(start), caster.toOctree.vector(direction), 0.0,
-    light.atInfinity() ? 1e300 : BeforeLight };
+    light.rayEnd() };
   const TraceOptions options{ caster.geometry, MaximumLevel };
   if (!occluded(caster.instance->body->octree, ray, options))
   {
@@ -69,8 +66,7 @@ float ShadowRays::opacityMet(const RayCaster& caster, const Light& light,
   for (const double above : { std::max(offset, caster.planeError), offset })
   {
     const glm::dvec3 end = position + above * side;
-    const float opacity =
-      svo::opacityMet(caster, end, -light.along(end), light.atInfinity() ? 1e300 : BeforeLight);
+    const float opacity = svo::opacityMet(caster, end, -light.along(end), light.rayEnd());
     if (opacity > 0.0f)
     {
       return opacity;
@@ -144,11 +140,8 @@ std::uint64_t ShadowRays::beam(
   {
     points.at[i] = caster.toOctree.point(starts[i].position + offset * starts[i].side);
   }
-  const bool far = light.atInfinity();
-  const glm::dvec3 from =
-    far ? caster.toOctree.vector(light.direction) : caster.toOctree.point(light.position);
   ShadowBeam::Answer answers[BeamPoints::Most];
-  if (!ShadowBeam(caster.instance->body->octree, from, far).trace(points, answers))
+  if (!ShadowBeam(caster.instance->body->octree, caster.toOctree, light).trace(points, answers))
   {
     const int half = count / 2;
     return this->beam(caster, light, starts, half, offset) |
