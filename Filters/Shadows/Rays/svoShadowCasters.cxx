@@ -35,15 +35,12 @@ struct ShadowCasters::Start
   int number; // of the answer's bit
 };
 
-bool ShadowCasters::add(const Octree& octree, const glm::dmat4& toWorld, Own own)
+void ShadowCasters::add(const Octree& octree, const glm::dmat4& toWorld, Own own)
 {
-  if (!placesSomething(toWorld))
-  {
-    return false;
-  }
+  assert(placesSomething(toWorld));
   if (!octree || octree.empty())
   {
-    return true;
+    return;
   }
   Instance instance;
   instance.body.own().octree = octree;
@@ -53,12 +50,11 @@ bool ShadowCasters::add(const Octree& octree, const glm::dmat4& toWorld, Own own
   this->Casters.push_back({ octree, WorldToOctree(octree, toWorld), CasterBox(instance), error,
     named ? own : Own::Nothing });
   this->OwnError = own != Own::Nothing ? std::max(this->OwnError, error) : this->OwnError;
-  return true;
 }
 
 bool ShadowCasters::skips(const Caster& caster, std::uint32_t own, Primitive triangle)
 {
-  if (caster.own == Own::Nothing || own == NoOwn)
+  if (caster.own == Own::Nothing)
   {
     return false;
   }
@@ -134,13 +130,13 @@ std::uint64_t ShadowCasters::block(
 }
 
 std::uint64_t ShadowCasters::beam(
-  const Caster& caster, const Light& light, const Start* starts, int count)
+  const Caster& caster, const Light& light, const Start* starts, int count, bool singleRays)
 {
   std::uint64_t dark = 0;
   constexpr int Few = 4; // such a beam is no quicker than its rays
   const auto alone = [&](const Start& start)
   { dark |= std::uint64_t(ray(caster, light, start)) << start.number; };
-  if (count <= Few || !caster.octree.surface())
+  if (singleRays || count <= Few || !caster.octree.surface())
   {
     std::for_each(starts, starts + count, alone);
     return dark;
@@ -201,11 +197,7 @@ std::uint64_t ShadowCasters::hidden(
     {
       continue;
     }
-    for (int i = 0; singleRays && i < begun; ++i)
-    {
-      dark |= std::uint64_t(ray(caster, light, starts[i])) << starts[i].number;
-    }
-    dark |= singleRays ? 0 : beam(caster, light, starts, begun);
+    dark |= beam(caster, light, starts, begun, singleRays);
   }
   return dark;
 }

@@ -33,11 +33,8 @@ public:
     Points     // Sample::own names a point of it
   };
 
-  /// False, and nothing is added, if the matrix is not finite or has no inverse. An octree that is
-  /// empty is no caster.
-  bool add(const Octree& octree, const glm::dmat4& toWorld, Own own);
-
-  std::size_t size() const { return this->Casters.size(); }
+  /// The matrix is finite and has an inverse. An octree that is empty is no caster.
+  void add(const Octree& octree, const glm::dmat4& toWorld, Own own);
 
   /// Of up to 64 samples those, of `asked`, that a caster hides from the light; one bit each. A ray
   /// starts off its surface, along the normal on the light's side, by what the floats of the caster
@@ -60,7 +57,7 @@ private:
   static bool ray(const Caster& caster, const Light& light, const Start& start);
   /// Of at most 64, those that are hidden: together, or where that is slower as a block.
   static std::uint64_t beam(
-    const Caster& caster, const Light& light, const Start* starts, int count);
+    const Caster& caster, const Light& light, const Start* starts, int count, bool singleRays);
   /// The same side by side in float, what is dark confirmed in double.
   static std::uint64_t block(
     const Caster& caster, const Light& light, const Start* starts, int count);

@@ -10,14 +10,11 @@
 
 namespace svo
 {
-/// No triangle, or point, of a mesh.
-constexpr std::uint32_t NoOwn = 0xffffffffu;
-
 struct Sample
 {
   glm::dvec3 position; // world
   glm::dvec3 normal;   // world, unit, to the outside; 0 where there is no surface
-  std::uint32_t own;   // the triangle, or the mesh's point, that it lies on, or NoOwn
+  std::uint32_t own;   // the triangle, or the mesh's point, that it lies on
   std::uint32_t place; // which of the piece's places it belongs to
   double share;        // of its place
 };
@@ -33,11 +30,6 @@ public:
   /// arrays are overwritten. May be called by several threads.
   virtual void piece(
     std::size_t index, std::vector<std::uint32_t>& places, std::vector<Sample>& samples) const = 0;
-
-protected:
-  Samples() = default;
-  Samples(const Samples&) = default;
-  Samples& operator=(const Samples&) = default;
 };
 
 /// About so many samples are a piece: as many as go to a light together.
