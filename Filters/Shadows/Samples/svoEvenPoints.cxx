@@ -19,17 +19,6 @@ constexpr double StepLength = 0.3, Momentum = 0.8;
 
 using Corners = std::vector<glm::dvec2>; // counterclockwise
 
-double areaOf(const Corners& shape)
-{
-  double twice = 0.0;
-  for (std::size_t i = 0; i < shape.size(); ++i)
-  {
-    const glm::dvec2 a = shape[i], b = shape[(i + 1) % shape.size()];
-    twice += a.x * b.y - a.y * b.x;
-  }
-  return 0.5 * twice;
-}
-
 /// The gradient of the mean distance to a shape's points: by Gauss' theorem the distance to its
 /// edges, times their normals.
 glm::dvec2 distanceGradient(const Corners& shape, double area, const glm::dvec2& x)
@@ -51,9 +40,8 @@ glm::dvec2 distanceGradient(const Corners& shape, double area, const glm::dvec2&
 }
 
 /// Moves points to where the energy distance is small.
-void spread(const Corners& shape, std::vector<glm::dvec2>& points)
+void spread(const Corners& shape, double area, std::vector<glm::dvec2>& points)
 {
-  const double area = areaOf(shape);
   const std::size_t count = points.size();
   std::vector<glm::dvec2> moves(count, glm::dvec2(0.0)), apart(count);
   for (int step = 0; step < Steps; ++step)
@@ -111,7 +99,7 @@ void EvenPoints::prepare(std::size_t count)
   }
   if (this->Of == Shape::Square)
   {
-    spread({ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, points);
+    spread({ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, 1.0, points);
     return;
   }
   const double height = std::sqrt(0.75);
@@ -119,7 +107,7 @@ void EvenPoints::prepare(std::size_t count)
   {
     p = { p.x + 0.5 * p.y, height * p.y };
   }
-  spread({ { 0, 0 }, { 1, 0 }, { 0.5, height } }, points);
+  spread({ { 0, 0 }, { 1, 0 }, { 0.5, height } }, 0.5 * height, points);
   for (glm::dvec2& p : points)
   {
     p = { p.x - 0.5 * p.y / height, p.y / height };
