@@ -242,38 +242,27 @@ int vtkSVOShadowFilter::RequestData(
     std::fill_n(shadow->GetPointer(0), count * components, std::numeric_limits<float>::quiet_NaN());
   }
 
-  svo::ShareOptions options;
-  options.twoSided = this->TwoSided;
-  options.cosine = this->CosineWeighted;
-  options.singleRays = this->SingleRays;
-  options.parallelFor = svo::smpParallelFor();
-  options.progress = [this](double done)
+  const auto progress = [this](double done)
   {
     this->UpdateProgress(BuildShare + (1.0 - BuildShare) * done);
     return !svo::isAborted(this);
   };
+  const svo::ShareOptions options{ this->TwoSided, this->CosineWeighted, this->SingleRays,
+    svo::smpParallelFor(), progress };
   std::atomic<bool> faced{ false };
   const svo::ShareArrays arrays{ withShadow ? shadow->GetPointer(0) : nullptr,
     exposure->GetPointer(0), &faced };
   start = vtkTimerLog::GetUniversalTime();
   vtkIdType answered = 0;
-  vtkIdType asked = 0;
-  bool finished = true;
-  if (byPoint)
+  const auto compute = [&](const svo::Samples& samples)
   {
-    const svo::PointSamples samples(triangles.view(), normalsOf(input), toWorld);
-    finished = svo::computeShadowShares(samples, casters, lights, options, arrays);
-    answered = static_cast<vtkIdType>(samples.pointCount());
-    asked = count;
-  }
-  else
-  {
-    const svo::CellSamples samples(
-      triangles.view(), triangles.cells(), this->SamplesPerCell, toWorld);
-    finished = svo::computeShadowShares(samples, casters, lights, options, arrays);
-    answered = static_cast<vtkIdType>(samples.cellCount());
-    asked = input->GetNumberOfPolys() + input->GetNumberOfStrips();
-  }
+    answered = static_cast<vtkIdType>(samples.placeCount());
+    return svo::computeShadowShares(samples, casters, lights, options, arrays);
+  };
+  const vtkIdType asked = byPoint ? count : input->GetNumberOfPolys() + input->GetNumberOfStrips();
+  const bool finished = byPoint
+    ? compute(svo::PointSamples(triangles.view(), normalsOf(input), toWorld))
+    : compute(svo::CellSamples(triangles.view(), triangles.cells(), this->SamplesPerCell, toWorld));
   this->TraceTime = vtkTimerLog::GetUniversalTime() - start;
   if (!finished)
   {

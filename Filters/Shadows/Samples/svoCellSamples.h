@@ -27,12 +27,10 @@ public:
   CellSamples(const TriangleMesh& mesh, const std::vector<std::uint32_t>& cells, int samplesPerCell,
     const glm::dmat4& toWorld);
 
+  std::size_t placeCount() const override { return this->Cells.size(); }
   std::size_t pieces() const override { return this->Begins.size() - 1; }
   void piece(std::size_t index, std::vector<std::uint32_t>& places,
     std::vector<Sample>& samples) const override;
-
-  /// How many cells have samples.
-  std::size_t cellCount() const { return this->Cells.size(); }
 
 private:
   struct Cell

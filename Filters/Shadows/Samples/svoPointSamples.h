@@ -21,15 +21,13 @@ public:
   PointSamples(
     const TriangleMesh& mesh, std::vector<glm::dvec3> normals, const glm::dmat4& toWorld);
 
+  std::size_t placeCount() const override { return this->Order.size(); }
   std::size_t pieces() const override
   {
     return (this->Order.size() + PieceSamples - 1) / PieceSamples;
   }
   void piece(std::size_t index, std::vector<std::uint32_t>& places,
     std::vector<Sample>& samples) const override;
-
-  /// How many points are asked for.
-  std::size_t pointCount() const { return this->Order.size(); }
 
 private:
   TriangleMesh Mesh;

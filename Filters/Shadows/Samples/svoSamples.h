@@ -25,6 +25,8 @@ class Samples
 {
 public:
   virtual ~Samples() = default;
+  /// How many places have samples.
+  virtual std::size_t placeCount() const = 0;
   virtual std::size_t pieces() const = 0;
   /// The ids of the places of a piece, in the order of Sample::place, and their samples. Both
   /// arrays are overwritten. May be called by several threads.
