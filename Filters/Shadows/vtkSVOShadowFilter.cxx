@@ -108,16 +108,11 @@ void vtkSVOShadowFilter::SetWeight(int index, double weight)
 //------------------------------------------------------------------------------
 void vtkSVOShadowFilter::SetWeights(int index, double weight, double withCosine)
 {
-  if (!this->GetLight(index))
+  svo::FilterLight* light = this->Internals->Find(index, "to give a weight to");
+  if (light && (light->weight != weight || light->withCosine != withCosine))
   {
-    vtkErrorMacro("There is no light " << index << " to give a weight to.");
-    return;
-  }
-  auto& weighted = this->Internals->Lights[static_cast<std::size_t>(index)];
-  if (weighted.weight != weight || weighted.withCosine != withCosine)
-  {
-    weighted.weight = weight;
-    weighted.withCosine = withCosine;
+    light->weight = weight;
+    light->withCosine = withCosine;
     this->Modified();
   }
 }
@@ -125,27 +120,17 @@ void vtkSVOShadowFilter::SetWeights(int index, double weight, double withCosine)
 //------------------------------------------------------------------------------
 double vtkSVOShadowFilter::GetWeight(int index)
 {
-  if (!this->GetLight(index))
-  {
-    vtkErrorMacro("There is no light " << index << " that has a weight.");
-    return 0.0;
-  }
-  const auto& weighted = this->Internals->Lights[static_cast<std::size_t>(index)];
-  return this->CosineWeighted ? weighted.withCosine : weighted.weight;
+  const svo::FilterLight* light = this->Internals->Find(index, "that has a weight");
+  return !light ? 0.0 : this->CosineWeighted ? light->withCosine : light->weight;
 }
 
 //------------------------------------------------------------------------------
 void vtkSVOShadowFilter::SetLightName(int index, const char* name)
 {
-  if (!this->GetLight(index))
+  svo::FilterLight* light = this->Internals->Find(index, "to give a name to");
+  if (light && light->name != (name ? name : ""))
   {
-    vtkErrorMacro("There is no light " << index << " to give a name to.");
-    return;
-  }
-  std::string& own = this->Internals->Lights[static_cast<std::size_t>(index)].name;
-  if (own != (name ? name : ""))
-  {
-    own = name ? name : "";
+    light->name = name ? name : "";
     this->Modified();
   }
 }
@@ -153,12 +138,8 @@ void vtkSVOShadowFilter::SetLightName(int index, const char* name)
 //------------------------------------------------------------------------------
 const char* vtkSVOShadowFilter::GetLightName(int index)
 {
-  if (!this->GetLight(index))
-  {
-    vtkErrorMacro("There is no light " << index << " that has a name.");
-    return nullptr;
-  }
-  return this->Internals->Lights[static_cast<std::size_t>(index)].name.c_str();
+  const svo::FilterLight* light = this->Internals->Find(index, "that has a name");
+  return light ? light->name.c_str() : nullptr;
 }
 
 //------------------------------------------------------------------------------

@@ -9,6 +9,7 @@
 #include "vtkMatrix4x4.h"
 #include "vtkSmartPointer.h"
 
+#include <cstddef>
 #include <map>
 #include <vector>
 
@@ -16,9 +17,22 @@ class vtkSVOShadowFilter::vtkInternals
 {
 public:
   explicit vtkInternals(vtkSVOShadowFilter* owner)
-    : Octrees(owner)
+    : Owner(owner)
+    , Octrees(owner)
   {
   }
+  /// Null, after an error that ends so, if there is no such light.
+  svo::FilterLight* Find(int index, const char* what)
+  {
+    if (!this->Owner->GetLight(index))
+    {
+      vtkErrorWithObjectMacro(this->Owner, "There is no light " << index << " " << what << ".");
+      return nullptr;
+    }
+    return &this->Lights[static_cast<std::size_t>(index)];
+  }
+
+  vtkSVOShadowFilter* Owner;
   std::vector<svo::FilterLight> Lights;
   std::map<int, vtkSmartPointer<vtkMatrix4x4>> Matrices; // of casters
   svo::CasterOctrees Octrees;
