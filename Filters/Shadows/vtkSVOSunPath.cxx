@@ -13,27 +13,45 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 vtkStandardNewMacro(vtkSVOSunPath);
 
 namespace
 {
-constexpr double Degree = 3.14159265358979323846 / 180.0;
-
-/// East, north and up in the model's frame; false if there is no such frame.
-bool frameOf(const double north[3], const double up[3], glm::dvec3 (&frame)[3])
+/// East, north and up in the model's frame; false, after an error, if there is no such frame or
+/// day.
+bool frameOf(vtkSVOSunPath* path, glm::dvec3 (&frame)[3])
 {
-  const glm::dvec3 n(north[0], north[1], north[2]), u(up[0], up[1], up[2]);
+  const int year = path->GetYear(), month = path->GetMonth(), day = path->GetDay();
+  if (!svo::isDate(year, month, day))
+  {
+    vtkErrorWithObjectMacro(
+      path, "There is no such day: " << year << "-" << month << "-" << day << ".");
+    return false;
+  }
+  const glm::dvec3 n = glm::make_vec3(path->GetNorth()), u = glm::make_vec3(path->GetUp());
   const glm::dvec3 east = glm::cross(n, u);
   const double sine = glm::length(east);
   if (!(sine > 1e-9 * glm::length(n) * glm::length(u)) || !std::isfinite(sine))
   {
+    vtkErrorWithObjectMacro(
+      path, "North and up are no frame: they are parallel, zero, or not finite.");
     return false;
   }
   frame[0] = east / sine;
   frame[2] = glm::normalize(u);
   frame[1] = glm::cross(frame[2], frame[0]);
   return true;
+}
+
+/// The sun at a local hour: east, north, up.
+glm::dvec3 localDirection(vtkSVOSunPath* path, double hour)
+{
+  const glm::dvec3 sun = svo::sunDirection(
+    svo::julianDay(path->GetYear(), path->GetMonth(), path->GetDay(), hour - path->GetTimeZone()),
+    path->GetLatitude(), path->GetLongitude());
+  return path->GetRefraction() ? svo::refracted(sun) : sun;
 }
 }
 
@@ -49,77 +67,34 @@ void vtkSVOSunPath::SetDate(int year, int month, int day)
 svoSetSunMacro(vtkSVOSunPath);
 
 //------------------------------------------------------------------------------
-bool vtkSVOSunPath::IsValid()
-{
-  glm::dvec3 frame[3];
-  if (!svo::isDate(this->Year, this->Month, this->Day))
-  {
-    vtkErrorMacro(
-      "There is no such day: " << this->Year << "-" << this->Month << "-" << this->Day << ".");
-    return false;
-  }
-  if (!frameOf(this->North, this->Up, frame))
-  {
-    vtkErrorMacro("North and up are no frame: they are parallel, zero, or not finite.");
-    return false;
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-void vtkSVOSunPath::LocalDirection(double hour, double direction[3]) const
-{
-  const glm::dvec3 sun =
-    svo::sunDirection(svo::julianDay(this->Year, this->Month, this->Day, hour - this->TimeZone),
-      this->Latitude, this->Longitude);
-  const glm::dvec3 seen = this->Refraction ? svo::refracted(sun) : sun;
-  for (int i = 0; i < 3; ++i)
-  {
-    direction[i] = seen[i];
-  }
-}
-
-//------------------------------------------------------------------------------
 bool vtkSVOSunPath::GetDirection(double hour, double direction[3])
 {
   direction[0] = direction[1] = direction[2] = 0.0;
   glm::dvec3 frame[3];
-  if (!this->IsValid() || !frameOf(this->North, this->Up, frame))
+  if (!frameOf(this, frame))
   {
     return false;
   }
-  double local[3];
-  this->LocalDirection(hour, local);
+  const glm::dvec3 local = localDirection(this, hour);
   for (int i = 0; i < 3; ++i)
   {
-    direction[i] = local[0] * frame[0][i] + local[1] * frame[1][i] + local[2] * frame[2][i];
+    direction[i] = local.x * frame[0][i] + local.y * frame[1][i] + local.z * frame[2][i];
   }
-  return local[2] > 0.0;
+  return local.z > 0.0;
 }
 
 //------------------------------------------------------------------------------
 double vtkSVOSunPath::GetElevation(double hour)
 {
-  if (!this->IsValid())
-  {
-    return 0.0;
-  }
-  double local[3];
-  this->LocalDirection(hour, local);
-  return std::atan2(local[2], std::hypot(local[0], local[1])) / Degree;
+  glm::dvec3 frame[3];
+  return frameOf(this, frame) ? svo::elevationOf(localDirection(this, hour)) : 0.0;
 }
 
 //------------------------------------------------------------------------------
 double vtkSVOSunPath::GetAzimuth(double hour)
 {
-  if (!this->IsValid())
-  {
-    return 0.0;
-  }
-  double local[3];
-  this->LocalDirection(hour, local);
-  const double azimuth = std::atan2(local[0], local[1]) / Degree;
-  return azimuth < 0.0 ? azimuth + 360.0 : azimuth;
+  glm::dvec3 frame[3];
+  return frameOf(this, frame) ? svo::azimuthOf(localDirection(this, hour)) : 0.0;
 }
 
 //------------------------------------------------------------------------------
@@ -130,7 +105,8 @@ int vtkSVOSunPath::AddLights(vtkSVOShadowFilter* filter)
     vtkErrorMacro("There is no filter to add lights to.");
     return 0;
   }
-  if (!this->IsValid())
+  glm::dvec3 frame[3];
+  if (!frameOf(this, frame))
   {
     return 0;
   }
@@ -140,8 +116,6 @@ int vtkSVOSunPath::AddLights(vtkSVOShadowFilter* filter)
                                                    << " are none.");
     return 0;
   }
-  glm::dvec3 frame[3];
-  frameOf(this->North, this->Up, frame);
   svo::SunBins bins(this->BinWidth);
   const double step = this->Step / 60.0;
   const int steps =
@@ -154,11 +128,10 @@ int vtkSVOSunPath::AddLights(vtkSVOShadowFilter* filter)
       const double begin = this->StartHour + i * step;
       const double end = std::min(begin + step, this->EndHour);
       const double hour = 0.5 * (begin + end);
-      double local[3];
-      this->LocalDirection(24.0 * day + hour, local);
-      if (local[2] > 0.0)
+      const glm::dvec3 local = localDirection(this, 24.0 * day + hour);
+      if (local.z > 0.0)
       {
-        bins.add({ local[0], local[1], local[2] }, end - begin, date, hour);
+        bins.add(local, end - begin, date, hour);
       }
     }
   }

@@ -143,10 +143,6 @@ protected:
   ~vtkSVOSunPath() override = default;
 
 private:
-  bool IsValid();
-  // East, north, up.
-  void LocalDirection(double hour, double direction[3]) const;
-
   int Year = 2024;
   int Month = 6;
   int Day = 21;

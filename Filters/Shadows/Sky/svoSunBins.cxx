@@ -12,16 +12,6 @@ namespace
 {
 constexpr double Degree = 3.14159265358979323846 / 180.0;
 
-double azimuthOf(const glm::dvec3& direction)
-{
-  const double azimuth = std::atan2(direction.x, direction.y) / Degree;
-  return azimuth < 0.0 ? azimuth + 360.0 : azimuth;
-}
-
-double elevationOf(const glm::dvec3& direction)
-{
-  return std::atan2(direction.z, std::hypot(direction.x, direction.y)) / Degree;
-}
 }
 
 Date nextDay(const Date& date)

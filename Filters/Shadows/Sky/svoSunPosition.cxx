@@ -74,6 +74,17 @@ glm::dvec3 sunDirection(double julianDay, double latitude, double longitude)
   return { -cosine(sun.declination) * sine(hourAngle), north, up };
 }
 
+double azimuthOf(const glm::dvec3& direction)
+{
+  const double azimuth = std::atan2(direction.x, direction.y) / Degree;
+  return azimuth < 0.0 ? azimuth + 360.0 : azimuth;
+}
+
+double elevationOf(const glm::dvec3& direction)
+{
+  return std::atan2(direction.z, std::hypot(direction.x, direction.y)) / Degree;
+}
+
 double refraction(double elevation)
 {
   const double h = elevation;
@@ -101,11 +112,11 @@ double refraction(double elevation)
 glm::dvec3 refracted(const glm::dvec3& direction)
 {
   const double flat = std::hypot(direction.x, direction.y);
-  const double elevation = std::atan2(direction.z, flat) / Degree;
   if (!(flat > 0.0))
   {
     return direction;
   }
+  const double elevation = elevationOf(direction);
   const double lifted = std::min(elevation + refraction(elevation), 90.0);
   return { direction.x / flat * cosine(lifted), direction.y / flat * cosine(lifted), sine(lifted) };
 }

@@ -30,6 +30,10 @@ SunPlace sunPlace(double julianDay);
 /// longitude in degrees, north and east positive. Geometric: without refraction.
 glm::dvec3 sunDirection(double julianDay, double latitude, double longitude);
 
+/// Of a direction (east, north, up), degrees: from north to east, 0 to 360; and above the horizon.
+double azimuthOf(const glm::dvec3& direction);
+double elevationOf(const glm::dvec3& direction);
+
 /// By how much air lifts what is at this geometric elevation; all in degrees. For 1010 hPa and 10
 /// degrees Celsius; NOAA's approximation.
 double refraction(double elevation);
