@@ -109,9 +109,7 @@ void vtkSVOExposureFilter::PrepareLights()
   for (const auto& place : positional ? this->Positions : this->Directions)
   {
     vtkNew<vtkLight> light;
-    light->SetLightTypeToSceneLight();
     light->SetPosition(place[0], place[1], place[2]);
-    light->SetFocalPoint(0.0, 0.0, 0.0);
     light->SetPositional(positional);
     light->SetConeAngle(180.0);
     std::ostringstream name;

@@ -52,9 +52,7 @@ int vtkSVOSky::AddLights(vtkSVOShadowFilter* filter)
   {
     const glm::dvec3 to = d.x * u + d.y * v + d.z * up;
     vtkNew<vtkLight> light;
-    light->SetLightTypeToSceneLight();
     light->SetPosition(to.x, to.y, to.z);
-    light->SetFocalPoint(0.0, 0.0, 0.0);
     filter->SetWeights(
       filter->AddLight(light), brightness(d.z) / whole, brightness(d.z) / wholeCosine);
   }

@@ -139,9 +139,7 @@ int vtkSVOSunPath::AddLights(vtkSVOShadowFilter* filter)
   {
     const glm::dvec3 to = bin.sum.x * frame[0] + bin.sum.y * frame[1] + bin.sum.z * frame[2];
     vtkNew<vtkLight> light;
-    light->SetLightTypeToSceneLight();
     light->SetPosition(to.x, to.y, to.z);
-    light->SetFocalPoint(0.0, 0.0, 0.0);
     const int index = filter->AddLight(light);
     filter->SetWeight(index, bin.weight);
     filter->SetLightName(index, bin.name().c_str());
