@@ -22,14 +22,15 @@ const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverSha
   const FrameSettings& settings, const View& view, bool unlit, int width, int height, bool others,
   bool translucent)
 {
+  const std::vector<int>& ofLights = shares.planes.ofLights;
   const auto isSampled = [&](int light)
-  { return std::count(shares.lights.begin(), shares.lights.end(), light) > 0; };
+  { return light < static_cast<int>(ofLights.size()) && ofLights[light] != SampledPlanes::None; };
   static const LightCode NoMaps;
   const bool needsMaps =
     others || !std::all_of(allMaps.lights.begin(), allMaps.lights.end(), isSampled);
   const LightCode& maps = needsMaps ? allMaps : NoMaps; // else shaders had code in vain
   this->Code = LightCode();
-  if (!shares.any())
+  if (!shares.planes.any())
   {
     this->release();
     return allMaps;
@@ -45,33 +46,36 @@ const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverSha
   this->Code = maps;
   std::vector<int>& lights = this->Code.lights;
   std::vector<int> planes(lights.size(), OfMaps);
-  for (std::size_t plane = 0; plane < shares.lights.size(); ++plane)
+  for (int light = 0; light < static_cast<int>(ofLights.size()); ++light)
   {
-    const int light = shares.lights[plane];
+    if (!isSampled(light))
+    {
+      continue;
+    }
     bool found = false;
     for (std::size_t number = 0; number < lights.size(); ++number)
     {
       if (lights[number] == light)
       {
-        planes[number] = found ? Nothing : static_cast<int>(plane);
+        planes[number] = found ? Nothing : ofLights[light];
         found = true;
       }
     }
     if (!found)
     {
       lights.push_back(light);
-      planes.push_back(static_cast<int>(plane));
+      planes.push_back(ofLights[light]);
     }
   }
-  if (shares.occlusion != ReceiverShares::None)
+  if (shares.planes.ofOcclusion != SampledPlanes::None)
   {
     this->Code.occlusion = this->Code.count();
-    planes.push_back(shares.occlusion);
+    planes.push_back(shares.planes.ofOcclusion);
   }
-  if (shares.sky != ReceiverShares::None)
+  if (const int sky = shares.planes.ofSky; sky != SampledPlanes::None)
   {
     this->Code.sky = this->Code.count();
-    planes.insert(planes.end(), { shares.sky, shares.sky + 1, shares.sky + 2 });
+    planes.insert(planes.end(), { sky, sky + 1, sky + 2 });
   }
   this->Code.unlit = unlit;
   this->Code.constants += "const int svoMapCount = " + std::to_string(maps.lights.size()) + ";\n" +

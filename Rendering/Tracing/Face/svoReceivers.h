@@ -30,16 +30,23 @@ struct ReceiverPlaces
   std::size_t bytes() const { return 4 * this->places.size() + 2 * this->planes.size(); }
 };
 
+/// What of a frame's light samples answer for, as planes of an image each.
+struct SampledPlanes
+{
+  static constexpr int None = -1;
+
+  std::vector<int> ofLights; // what is missed, by index into Scene::lights
+  int ofOcclusion = None;    // what is closed off all around
+  int ofSky = None; // the first of red, green and blue of what is seen, of Sky::brightest()
+  int count = 0;
+
+  bool any() const { return this->count > 0; }
+};
+
 /// What of the light that is sampled reaches them.
 struct ReceiverShares
 {
-  static constexpr int None = -1;
-  /// By plane: index into Scene::lights, of those with a size.
-  std::vector<int> lights;
-  /// Planes behind these: what is open all around (1 less ambient occlusion), and the first of
-  /// three, red, green and blue, of what is seen of the sky, of Sky::brightest().
-  int occlusion = None, sky = None;
-  int planes = 0;
+  SampledPlanes planes; // but 1 less what is missed, or closed off
 
   /// The numbers are those of the last frame.
   bool current = false;
@@ -49,8 +56,7 @@ struct ReceiverShares
   /// Four planes a layer, layer by layer, four numbers a pixel; 65535: all.
   std::vector<std::uint16_t> numbers;
 
-  bool any() const { return this->planes > 0; }
-  int layers() const { return (this->planes + 3) / 4; }
+  int layers() const { return (this->planes.count + 3) / 4; }
 };
 
 /// How far numbers as above are from those before, of these planes and of pixels with a surface:

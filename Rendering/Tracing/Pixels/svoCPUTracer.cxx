@@ -254,8 +254,8 @@ void CPUTracer::Internals::sampleLights(
 {
   const bool filtered = shaded.settings.filterLightSamples;
   const DepthBuffer& depth = shaded.eye.depth;
-  this->Sampled.begin(SampledPlanes(shaded.scene, shaded.dark), depth.grid.tilesX,
-    depth.grid.tilesY, depth.hit.data(), shaded.settings.lightSamples, more);
+  this->Sampled.begin(shaded.dark.sampledPlanes(), depth.grid.tilesX, depth.grid.tilesY,
+    depth.hit.data(), shaded.settings.lightSamples, more);
   if (!this->Sampled.sampled().any())
   {
     return;
@@ -408,7 +408,7 @@ void CPUTracer::render(
   self.Shaded.forget(self.Tiles.hits());
   const double before = now();
   self.sampleLights(shaded, samples.refined, parallelFor, statistics);
-  self.Receivers.begin(SampledPlanes(scene, self.LightShadows), !samples.refined, samples.refined);
+  self.Receivers.begin(self.LightShadows.sampledPlanes(), !samples.refined, samples.refined);
   statistics.samplingTime = now() - before;
   statistics.lightNoise = 255.0 * self.Sampled.noise().rms();
   self.Shader.shade(shaded, self.Sampled, parallelFor, self.Shaded, frame, statistics);

@@ -8,8 +8,8 @@
 #include "svoLightFilter.h"
 #include "svoParallel.h"
 #include "svoRawArray.h"
+#include "svoReceivers.h"
 #include "svoSampleSums.h"
-#include "svoSampledPlanes.h"
 #include "svoTilePatch.h"
 #include "vtkSVOTracingModule.h"
 

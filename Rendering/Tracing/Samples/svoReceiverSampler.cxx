@@ -277,23 +277,13 @@ std::vector<std::uint8_t> hiddenPlaces(const SampledFrame& frame, const Receiver
 
 void ReceiverSampler::begin(const SampledPlanes& sampled, bool other, bool more)
 {
-  if (other || more || sampled.count != this->Sampled.count)
+  const bool same = sampled.count == this->Shares.planes.count;
+  if (other || more || !same)
   {
-    this->More = more && sampled.count == this->Sampled.count && this->Shares.current;
+    this->More = more && same && this->Shares.current;
     this->Shares.current = false;
   }
-  this->Sampled = sampled;
-  this->Shares.planes = sampled.count;
-  this->Shares.occlusion = sampled.ofOcclusion;
-  this->Shares.sky = sampled.ofSky;
-  this->Shares.lights.clear();
-  for (std::size_t l = 0; l < sampled.ofLights.size(); ++l)
-  {
-    if (sampled.ofLights[l] != SampledPlanes::None)
-    {
-      this->Shares.lights.push_back(static_cast<int>(l));
-    }
-  }
+  this->Shares.planes = sampled;
 }
 
 std::uint64_t ReceiverSampler::sample(const SampledFrame& frame, const ReceiverPlaces& places,
@@ -301,7 +291,7 @@ std::uint64_t ReceiverSampler::sample(const SampledFrame& frame, const ReceiverP
 {
   const int tilesX = (places.width + 7) / 8, tilesY = (places.height + 7) / 8;
   this->Images.begin(
-    this->Sampled, tilesX, tilesY, nullptr, frame.settings.lightSamples, this->More && same);
+    this->Shares.planes, tilesX, tilesY, nullptr, frame.settings.lightSamples, this->More && same);
   const std::vector<std::uint8_t> hidden = hiddenPlaces(frame, places);
   const TileOfPlaces tile(frame, places, hidden, this->Images);
   std::atomic<std::uint64_t> rays{ 0 };
@@ -329,7 +319,7 @@ std::uint64_t ReceiverSampler::sample(const SampledFrame& frame, const ReceiverP
   this->Filled = std::move(filled);
   const std::vector<std::uint16_t> coarser = std::move(this->Shares.numbers);
   this->write(places, parallelFor);
-  std::vector<int> planes(static_cast<std::size_t>(this->Sampled.count));
+  std::vector<int> planes(static_cast<std::size_t>(this->Shares.planes.count));
   std::iota(planes.begin(), planes.end(), 0);
   this->Shares.error =
     this->More && same ? differenceOf(coarser, this->Shares.numbers, planes, places) : -1.0;
@@ -344,12 +334,12 @@ void ReceiverSampler::write(const ReceiverPlaces& places, const ParallelFor& par
   const std::size_t pixels = static_cast<std::size_t>(places.width) * places.height;
   this->Shares.numbers.assign(4 * pixels * this->Shares.layers(), 0);
   // Means of lights and of occlusion are what is missing; of a sky what is seen.
-  const int missing =
-    this->Sampled.ofSky == SampledPlanes::None ? this->Sampled.count : this->Sampled.ofSky;
+  const SampledPlanes& planes = this->Shares.planes;
+  const int missing = planes.ofSky == SampledPlanes::None ? planes.count : planes.ofSky;
   parallelFor(0, static_cast<std::size_t>(places.height), 16,
     [&](std::size_t first, std::size_t last)
     {
-      for (int plane = 0; plane < this->Sampled.count; ++plane)
+      for (int plane = 0; plane < planes.count; ++plane)
       {
         std::uint16_t* numbers = &this->Shares.numbers[4 * pixels * (plane / 4) + plane % 4];
         for (std::size_t at = first * places.width; at < last * places.width; ++at)

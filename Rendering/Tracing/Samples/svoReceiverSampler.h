@@ -7,7 +7,6 @@
 #include "svoLightImages.h"
 #include "svoParallel.h"
 #include "svoReceivers.h"
-#include "svoSampledPlanes.h"
 #include "svoScene.h"
 #include "svoShadows.h"
 #include "svoView.h"
@@ -47,7 +46,6 @@ public:
 private:
   void write(const ReceiverPlaces& places, const ParallelFor& parallelFor);
 
-  SampledPlanes Sampled;
   ReceiverShares Shares;
   LightImages Images;
   std::vector<std::uint8_t> Filled; // by tile: something was there

@@ -246,6 +246,25 @@ bool Shadows::changed(const RaisedTiles& noted) const
     });
 }
 
+SampledPlanes Shadows::sampledPlanes() const
+{
+  SampledPlanes planes;
+  for (const std::uint8_t soft : this->Soft)
+  {
+    planes.ofLights.push_back(soft ? planes.count++ : SampledPlanes::None);
+  }
+  if (this->Occlusion)
+  {
+    planes.ofOcclusion = planes.count++;
+  }
+  if (this->Sky)
+  {
+    planes.ofSky = planes.count;
+    planes.count += 3;
+  }
+  return planes;
+}
+
 bool Shadows::knows(const glm::dvec3& position) const
 {
   return this->TracesWhole ||

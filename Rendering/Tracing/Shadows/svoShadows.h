@@ -5,6 +5,7 @@
 #include "svoFrame.h"
 #include "svoHemisphereRays.h"
 #include "svoLightShadow.h"
+#include "svoReceivers.h"
 #include "svoScene.h"
 #include "svoShadowBuffer.h"
 #include "svoShadowRays.h"
@@ -78,6 +79,7 @@ public:
   }
   /// True if samples answer for the light.
   bool sampled(std::size_t light) const { return this->Soft[light] != 0; }
+  SampledPlanes sampledPlanes() const;
   /// Of ambient occlusion, and of a sky's light; null where none was asked for.
   const HemisphereRays* occlusion() const { return this->Occlusion.get(); }
   const HemisphereRays* sky() const { return this->Sky.get(); }
