@@ -72,17 +72,12 @@ void clip(Polygon& polygon, const ConvexFace& side, Polygon& scratch)
 
 ConvexBody pieceOf(const View& view, double nearest, double farthest)
 {
-  return pieceOf(view, view.crop, nearest, farthest);
-}
-
-ConvexBody pieceOf(const View& view, const PixelRect& pixels, double nearest, double farthest)
-{
   assert(nearest <= farthest);
   ConvexBody body;
   for (int i = 0; i < 8; ++i)
   {
-    const double x = i & 1 ? pixels.x1 : pixels.x0;
-    const double y = i & 2 ? pixels.y1 : pixels.y0;
+    const double x = i & 1 ? view.crop.x1 : view.crop.x0;
+    const double y = i & 2 ? view.crop.y1 : view.crop.y0;
     body[i] = view.rayOrigin(x, y) + (i & 4 ? farthest : nearest) * view.rayDirection(x, y);
   }
   return body;

@@ -15,9 +15,8 @@ namespace svo
 /// if i & 4. Faces are flat; a body may be flat as well.
 using ConvexBody = std::array<glm::dvec3, 8>;
 
-/// The piece of a view between two linear depths; of some of its pixels.
+/// The piece of a view between two linear depths.
 ConvexBody pieceOf(const View& view, double nearest, double farthest);
-ConvexBody pieceOf(const View& view, const PixelRect& pixels, double nearest, double farthest);
 
 /// A face of a body, and the half-space dot(normal, x) >= offset that the body lies in.
 struct ConvexFace

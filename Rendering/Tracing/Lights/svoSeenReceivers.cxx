@@ -148,10 +148,11 @@ void SeenReceivers::addSeen(
     for (int x = around.x0; x < around.x1; x += Block)
     {
       const PixelRect block{ x, y, std::min(x + Block, around.x1), std::min(y + Block, around.y1) };
-      const PixelRect pixels = seenPlane(eye, traced, block, axis, box[0][axis]);
-      if (!pixels.empty())
+      View seen = eye;
+      seen.crop = seenPlane(eye, traced, block, axis, box[0][axis]);
+      if (!seen.crop.empty())
       {
-        Part part{ box, pieceOf(eye, pixels, eye.tNear, eye.tFar), {} };
+        Part part{ box, pieceOf(seen, eye.tNear, eye.tFar), {} };
         CommonPart({ part.seen }).add(box, part.points);
         if (!part.points.empty())
         {
