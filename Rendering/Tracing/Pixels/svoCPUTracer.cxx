@@ -403,8 +403,8 @@ void CPUTracer::render(
   self.findDarkenedTiles(scene, changes, parallelFor);
 
   // Shade and test.
-  const ShadedScene shaded{ scene, view, settings, self.Eye.hits(), self.Eye, self.Tiles,
-    self.LightShadows };
+  const ShadedScene shaded{ { scene, view, settings, self.Eye.hits(), self.LightShadows }, self.Eye,
+    self.Tiles };
   self.Shaded.forget(self.Tiles.hits());
   const double before = now();
   self.sampleLights(shaded, samples.refined, parallelFor, statistics);
@@ -471,7 +471,7 @@ void CPUTracer::divideEdges(const Scene& scene, const View& view,
   Internals& self = *this->Impl;
   self.traceLeftOut(scene, view, parallelFor);
   findSilhouettes(
-    { scene, view, self.Settings, self.Eye.hits(), self.Eye, self.Tiles, self.LightShadows },
+    { { scene, view, self.Settings, self.Eye.hits(), self.LightShadows }, self.Eye, self.Tiles },
     self.Shader, self.Sampled, self.Picture, positions, parallelFor, result);
 }
 
