@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace svo
 {
@@ -28,6 +29,7 @@ WeightedLight shadowLight(vtkLight* source, double weight, std::string& problem)
     // VTK draws all cones from 90 degrees on as none.
     light.kind = light.coneAngle < 90.0 ? Light::Kind::Spot : Light::Kind::Point;
   }
+  result.cone = light.hasCone() ? std::cos(glm::radians(light.coneAngle)) : -2.0;
   result.on = source->GetSwitch() != 0;
   if (!result.on)
   {

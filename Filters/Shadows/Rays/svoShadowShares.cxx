@@ -10,13 +10,6 @@ namespace svo
 {
 namespace
 {
-/// The cosine of a cone's half angle, or -2 where there is no cone.
-double coneCosine(const Light& light)
-{
-  constexpr double Degree = 3.14159265358979323846 / 180.0;
-  return light.hasCone() ? std::cos(light.coneAngle * Degree) : -2.0;
-}
-
 /// What one thread needs for a piece.
 struct Scratch
 {
@@ -28,7 +21,7 @@ struct Scratch
 };
 
 /// Adds up to 64 samples of a piece for one light.
-void addSamples(const Sample* samples, int count, const WeightedLight& source, double cone,
+void addSamples(const Sample* samples, int count, const WeightedLight& source,
   const ShadowCasters& casters, const ShareOptions& options, std::size_t light, std::size_t lights,
   Scratch& scratch)
 {
@@ -42,7 +35,8 @@ void addSamples(const Sample* samples, int count, const WeightedLight& source, d
     const bool sided = sample.normal != glm::dvec3(0.0);
     const double cosine = sided ? -glm::dot(sample.normal, along) / length : 1.0;
     cosines[i] = std::abs(cosine);
-    const bool inCone = cone < -1.0 || glm::dot(along, source.light.direction) >= cone * length;
+    const bool inCone =
+      source.cone < -1.0 || glm::dot(along, source.light.direction) >= source.cone * length;
     const bool faces = cosine > 0.0 || (options.twoSided && cosine < 0.0);
     asked |= std::uint64_t(length > 0.0 && inCone && faces) << i;
   }
@@ -69,9 +63,6 @@ void addSamples(const Sample* samples, int count, const WeightedLight& source, d
 bool computeShadowShares(const Samples& samples, const ShadowCasters& casters,
   const std::vector<WeightedLight>& lights, const ShareOptions& options, const ShareArrays& out)
 {
-  std::vector<double> cones(lights.size());
-  std::transform(lights.begin(), lights.end(), cones.begin(),
-    [](const WeightedLight& light) { return coneCosine(light.light); });
   const auto shadePiece = [&](std::size_t index, Scratch& scratch)
   {
     samples.piece(index, scratch.places, scratch.samples);
@@ -82,7 +73,7 @@ bool computeShadowShares(const Samples& samples, const ShadowCasters& casters,
       const auto count = static_cast<int>(std::min(PieceSamples, scratch.samples.size() - first));
       for (std::size_t l = 0; l < lights.size(); ++l)
       {
-        addSamples(scratch.samples.data() + first, count, lights[l], cones[l], casters, options, l,
+        addSamples(scratch.samples.data() + first, count, lights[l], casters, options, l,
           lights.size(), scratch);
       }
     }

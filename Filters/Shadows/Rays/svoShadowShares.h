@@ -17,7 +17,8 @@ struct WeightedLight
 {
   Light light;
   double weight = 1.0;
-  bool on = true; // nothing arrives of one that is not
+  double cone = -2.0; // the cosine of its half angle, or -2 where there is none
+  bool on = true;     // nothing arrives of one that is not
 };
 
 struct ShareOptions
