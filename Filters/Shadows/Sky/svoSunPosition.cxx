@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/geometric.hpp>
-
 namespace svo
 {
 namespace

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/geometric.hpp>
+#include <glm/common.hpp>
 
 namespace svo
 {

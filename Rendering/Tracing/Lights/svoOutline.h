@@ -8,7 +8,6 @@
 #include "vtkSVOTracingModule.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -14,7 +14,6 @@
 
 #include <cstdint>
 
-#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
 namespace svo

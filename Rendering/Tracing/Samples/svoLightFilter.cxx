@@ -7,7 +7,6 @@
 #include "svoLaneBits-inl.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
 

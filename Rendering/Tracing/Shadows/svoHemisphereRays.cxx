@@ -3,8 +3,6 @@
 #include "svoBox.h"
 #include "svoSampleDirections.h"
 
-#include <cmath>
-
 #include <glm/geometric.hpp>
 
 namespace svo

@@ -3,7 +3,6 @@
 #include "svoSampleDirections.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace svo
 {
