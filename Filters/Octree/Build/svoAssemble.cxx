@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <string>
 
 namespace svo
 {
@@ -95,46 +96,6 @@ std::size_t fillBucket(const BrickRecord* records, std::size_t count, Share at,
   return voxels;
 }
 
-NodeDepth makeBricks(const SortedRecords& sorted, const RawArray<TriangleShape>& shapes,
-  Header& header, RawArray<std::uint32_t>& lists, Executor& executor)
-{
-  std::vector<Share> shares(sorted.bucketCount());
-  const auto cost = [&](std::size_t i) { return static_cast<double>(sorted.bucketSize(i)); };
-  const auto records = [&](std::size_t i) { return sorted.records.data() + sorted.bucketBegin[i]; };
-  executor.run(shares.size(), 16, 0.02, 5e6, cost,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        shares[i] = countBucket(records(i), sorted.bucketSize(i));
-      }
-    });
-  const Share all = prefixSum(shares);
-  if (all.nodes > LargestIndex || all.listWords > LargestIndex)
-  {
-    throw LayoutOverflow{ all.nodes > LargestIndex ? "nodes" : "words of triangle lists" };
-  }
-  NodeDepth bricks(all.nodes);
-  lists = RawArray<std::uint32_t>(all.listWords);
-  std::vector<std::size_t> voxels(shares.size());
-  executor.run(shares.size(), 16, 0.1, 4e5, cost,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        voxels[i] = fillBucket(
-          records(i), sorted.bucketSize(i), shares[i], shapes.data(), bricks, lists.data());
-      }
-    });
-  header.voxelCount = 0;
-  for (const std::size_t count : voxels)
-  {
-    header.voxelCount += count;
-  }
-  header.listWords = all.listWords;
-  return bricks;
-}
-
 /// The parents of a depth whose blocks have an edge of `childEdge` voxels.
 NodeDepth makeParents(const NodeDepth& children, float childEdge, Executor& executor)
 {
@@ -190,34 +151,17 @@ NodeDepth makeParents(const NodeDepth& children, float childEdge, Executor& exec
   return parents;
 }
 
-/// The root of an empty octree.
-NodeDepth emptyRoot(bool brick)
-{
-  NodeDepth root(1);
-  root.keys[0] = 0;
-  root.nodes[0] = { 0, brick ? InlineTriangle : 1u, 0 };
-  root.moments[0] = {};
-  return root;
-}
-
 std::shared_ptr<std::byte> writeBuffer(const std::vector<NodeDepth>& depths,
-  const RawArray<std::uint32_t>& lists, Header& header, std::size_t& size, Executor& executor)
+  const RawArray<std::uint32_t>& lists, Header& header, Executor& executor)
 {
   header.nodeCount = 0;
-  for (std::size_t d = 0; d < depths.size(); ++d)
+  for (std::size_t d = 0; d < header.depthCount; ++d)
   {
-    header.nodeCount += depths[d].size();
-    if (header.nodeCount > LargestIndex)
-    {
-      throw LayoutOverflow{ "nodes" };
-    }
+    header.nodeCount += d < depths.size() ? depths[d].size() : 0;
+    checkIndices(header, header.nodeCount, "nodes");
     header.depthBegin[d + 1] = static_cast<std::uint32_t>(header.nodeCount);
   }
-  for (std::size_t d = depths.size(); d < header.depthCount; ++d)
-  {
-    header.depthBegin[d + 1] = static_cast<std::uint32_t>(header.nodeCount);
-  }
-  size = bufferSize(header);
+  const std::size_t size = bufferSize(header);
   std::shared_ptr<std::byte> data(
     static_cast<std::byte*>(::operator new(size)), [](std::byte* p) { ::operator delete(p); });
   std::memcpy(data.get(), &header, sizeof(Header));
@@ -251,6 +195,16 @@ std::shared_ptr<std::byte> writeBuffer(const std::vector<NodeDepth>& depths,
 }
 }
 
+void checkIndices(const Header& header, std::size_t count, const char* what)
+{
+  if (count > 0x7fffffffu)
+  {
+    throw BuildStopped{ BuildStatus::TooLarge,
+      "level " + std::to_string(header.level) + " would need more " + what +
+        " than an index can name; choose a lower level" };
+  }
+}
+
 Header makeHeader(const BuildOptions& options, const Cube& cube)
 {
   Header header{};
@@ -267,29 +221,56 @@ Header makeHeader(const BuildOptions& options, const Cube& cube)
   return header;
 }
 
-std::shared_ptr<std::byte> assemble(SortedRecords&& records, const RawArray<TriangleShape>& shapes,
-  Header& header, std::size_t& size, Executor& executor)
+NodeDepth makeBricks(const SortedRecords& sorted, const RawArray<TriangleShape>& shapes,
+  Header& header, RawArray<std::uint32_t>& lists, Executor& executor)
 {
-  RawArray<std::uint32_t> lists;
-  NodeDepth bricks(0);
+  std::vector<Share> shares(sorted.bucketCount());
+  const auto cost = [&](std::size_t i) { return static_cast<double>(sorted.bucketSize(i)); };
+  const auto records = [&](std::size_t i) { return sorted.records.data() + sorted.bucketBegin[i]; };
+  executor.run(shares.size(), 16, 0.02, 5e6, cost,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        shares[i] = countBucket(records(i), sorted.bucketSize(i));
+      }
+    });
+  const Share all = prefixSum(shares);
+  checkIndices(header, all.nodes, "nodes");
+  checkIndices(header, all.listWords, "words of triangle lists");
+  NodeDepth bricks(all.nodes);
+  lists = RawArray<std::uint32_t>(all.listWords);
+  std::vector<std::size_t> voxels(shares.size());
+  executor.run(shares.size(), 16, 0.1, 4e5, cost,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        voxels[i] = fillBucket(
+          records(i), sorted.bucketSize(i), shares[i], shapes.data(), bricks, lists.data());
+      }
+    });
+  header.voxelCount = 0;
+  for (const std::size_t count : voxels)
   {
-    const SortedRecords own = std::move(records);
-    bricks = makeBricks(own, shapes, header, lists, executor);
+    header.voxelCount += count;
   }
-  return assembleBricks(std::move(bricks), lists, header, size, executor);
+  header.listWords = all.listWords;
+  return bricks;
 }
 
-std::shared_ptr<std::byte> assembleBricks(NodeDepth&& bricks, const RawArray<std::uint32_t>& lists,
-  Header& header, std::size_t& size, Executor& executor)
+std::shared_ptr<std::byte> assemble(
+  NodeDepth&& bricks, const RawArray<std::uint32_t>& lists, Header& header, Executor& executor)
 {
   std::vector<NodeDepth> depths;
-  depths.push_back(std::move(bricks));
-  if (depths.back().size() == 0)
+  if (bricks.size() == 0)
   {
-    depths.clear();
-    depths.push_back(emptyRoot(header.depthCount == 1));
-    return writeBuffer(depths, lists, header, size, executor);
+    // A root alone.
+    depths.emplace_back(1);
+    depths[0].nodes[0] = { 0, header.depthCount == 1 ? InlineTriangle : 1u, 0 };
+    return writeBuffer(depths, lists, header, executor);
   }
+  depths.push_back(std::move(bricks));
   float edge = NodeEdge;
   for (std::uint32_t d = 1; d < header.depthCount; ++d, edge *= NodeEdge)
   {
@@ -299,6 +280,6 @@ std::shared_ptr<std::byte> assembleBricks(NodeDepth&& bricks, const RawArray<std
   }
   assert(depths.back().size() == 1 && depths.back().keys[0] == 0);
   std::reverse(depths.begin(), depths.end());
-  return writeBuffer(depths, lists, header, size, executor);
+  return writeBuffer(depths, lists, header, executor);
 }
 }

@@ -1,4 +1,4 @@
-// From sorted records, or from bricks, to the buffer of svoLayout.h.
+// From sorted records to bricks, and from bricks to the buffer of svoLayout.h.
 #ifndef svoAssemble_h
 #define svoAssemble_h
 
@@ -10,13 +10,9 @@
 
 namespace svo
 {
-constexpr std::size_t LargestIndex = 0x7fffffffu; // of nodes and of words of lists
-
-/// Thrown, and caught by build(), where an index of the layout would overflow.
-struct LayoutOverflow
-{
-  const char* what;
-};
+/// Stops the build where more of `what`, nodes or words of lists, are needed than an index of the
+/// layout can name.
+void checkIndices(const Header& header, std::size_t count, const char* what);
 
 /// The nodes of one depth, in ascending order of their keys.
 struct NodeDepth
@@ -37,15 +33,15 @@ struct NodeDepth
 /// A header without counts.
 Header makeHeader(const BuildOptions& options, const Cube& cube);
 
-/// Fills the counts of the header and returns the whole buffer, of `size` bytes. The level, the
-/// depths and the cube must be in the header already. Frees the records.
-std::shared_ptr<std::byte> assemble(SortedRecords&& records, const RawArray<TriangleShape>& shapes,
-  Header& header, std::size_t& size, Executor& executor);
+/// The nodes of the last depth and the lists that they refer to, whose words and voxels are counted
+/// in the header.
+NodeDepth makeBricks(const SortedRecords& sorted, const RawArray<TriangleShape>& shapes,
+  Header& header, RawArray<std::uint32_t>& lists, Executor& executor);
 
-/// The same from the nodes of the last depth and what they refer to, whose words and voxels the
-/// header counts already.
-std::shared_ptr<std::byte> assembleBricks(NodeDepth&& bricks, const RawArray<std::uint32_t>& lists,
-  Header& header, std::size_t& size, Executor& executor);
+/// Fills the other counts of the header and returns the whole buffer. The level, the depths and the
+/// cube must be in the header already.
+std::shared_ptr<std::byte> assemble(
+  NodeDepth&& bricks, const RawArray<std::uint32_t>& lists, Header& header, Executor& executor);
 }
 
 #endif

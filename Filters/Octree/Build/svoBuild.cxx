@@ -1,41 +1,25 @@
 #include "svoBuild.h"
 
 #include "svoAssemble.h"
+#include "svoExecutor.h"
 #include "svoLattice.h"
 #include "svoWork.h"
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 
 namespace svo
 {
 namespace
 {
-/// Why a level is too deep, and which one is not. `limit` is in bytes.
-std::string tooLargeMessage(const MeshMeasure& measure, int level, double limit)
-{
-  const auto fits = [&](int l)
-  { return measure.expectedMemory(l) <= limit && measure.fitsIndices(l); };
-  std::string text = "level " + std::to_string(level) + " would need about " +
-    bytesAsText(measure.expectedMemory(level));
-  text += measure.expectedMemory(level) > limit
-    ? ", more than the limit of " + bytesAsText(limit)
-    : std::string(", with more nodes than an index can name");
-  int deepest = level - 1;
-  while (deepest >= 1 && !fits(deepest))
-  {
-    --deepest;
-  }
-  return text +
-    (deepest >= 1 ? "; level " + std::to_string(deepest) + " would need about " +
-          bytesAsText(measure.expectedMemory(deepest))
-                  : std::string("; no level fits"));
-}
-
 void buildStages(
   const TriangleMesh& mesh, const BuildOptions& options, MeshMeasure& measure, BuildResult& result)
 {
+  if (mesh.triangleCount > 0x7fffffffu)
+  {
+    throw BuildStopped{ BuildStatus::BadInput,
+      "there are more triangles than the octree has ids for" };
+  }
   Executor executor(options.parallelFor, options.progress);
   executor.report();
   const Cube cube = boundingCube(mesh, options, result.droppedTriangles);
@@ -43,11 +27,12 @@ void buildStages(
   RawArray<float> recordsOfTriangle(mesh.triangleCount);
   measure = measureMesh(mesh, cube, options.parallelFor, options.level, recordsOfTriangle);
   const double limit = options.memoryLimit > 0 ? static_cast<double>(options.memoryLimit) : 1e300;
-  if (measure.expectedMemory(options.level) > limit || !measure.fitsIndices(options.level))
+  const auto expected = [&](int level) { return measure.expectedMemory(level); };
+  const auto fitsIndices = [&](int level) { return measure.fitsIndices(level); };
+  if (expected(options.level) > limit || !fitsIndices(options.level))
   {
-    result.status = BuildStatus::TooLarge;
-    result.message = tooLargeMessage(measure, options.level, limit);
-    return;
+    throw BuildStopped{ BuildStatus::TooLarge,
+      tooLargeMessage(options.level, limit, expected, fitsIndices) };
   }
   executor.report();
   const std::vector<WorkPiece> pieces = cutWork(recordsOfTriangle);
@@ -55,10 +40,13 @@ void buildStages(
   RawArray<TriangleShape> shapes(mesh.triangleCount);
   Header header = makeHeader(options, cube);
   header.triangleCount = mesh.triangleCount;
-  SortedRecords records = sortRecords(
-    voxelizeMesh(mesh, cube, options.level, pieces, shapes, executor), options.level, executor);
-  result.data = assemble(std::move(records), shapes, header, result.size, executor);
-  result.status = BuildStatus::Built;
+  RawArray<std::uint32_t> lists;
+  std::vector<RecordList> records =
+    voxelizeMesh(mesh, cube, options.level, pieces, shapes, executor);
+  NodeDepth bricks = makeBricks(
+    sortRecords(std::move(records), options.level, executor), shapes, header, lists, executor);
+  result.data = assemble(std::move(bricks), lists, header, executor);
+  result.size = bufferSize(header);
 }
 }
 
@@ -73,47 +61,14 @@ std::size_t estimateBuildMemory(const TriangleMesh& mesh, int level)
 
 BuildResult build(const TriangleMesh& mesh, const BuildOptions& options)
 {
-  BuildResult result;
-  if (options.level < 1 || options.level > MaximumLevel)
-  {
-    result.message = "the level must be 1 to 20, and is " + std::to_string(options.level);
-    return result;
-  }
-  if (mesh.triangleCount > 0x7fffffffu)
-  {
-    result.message = "there are more triangles than the octree has ids for";
-    return result;
-  }
   MeshMeasure measure;
-  const std::string level = "level " + std::to_string(options.level);
-  try
-  {
-    buildStages(mesh, options, measure, result);
-  }
-  catch (const BuildAborted&)
-  {
-    result.status = BuildStatus::Aborted;
-    result.message = "the build was aborted";
-  }
-  catch (const LayoutOverflow& overflow)
-  {
-    result.status = BuildStatus::TooLarge;
-    result.message =
-      level + " would need more " + overflow.what + " than an index can name; choose a lower level";
-  }
-  catch (const std::bad_alloc&)
-  {
-    result.status = BuildStatus::TooLarge;
-    result.message = level + " would need about " +
-      bytesAsText(measure.expectedMemory(options.level)) +
-      ", more than there is; choose a lower level";
-  }
-  if (result.status != BuildStatus::Built)
-  {
-    result.data.reset();
-    result.size = 0;
-  }
-  return result;
+  return runBuild(
+    options, [&](BuildResult& result) { buildStages(mesh, options, measure, result); },
+    [&]
+    {
+      return " would need about " + bytesAsText(measure.expectedMemory(options.level)) +
+        ", more than there is";
+    });
 }
 
 std::shared_ptr<const Surface> makeSurface(const TriangleMesh& mesh,

@@ -2,19 +2,52 @@
 #ifndef svoExecutor_h
 #define svoExecutor_h
 
+#include "svoBuild.h"
 #include "svoParallel.h"
 
 #include <atomic>
 #include <cstddef>
 #include <functional>
 #include <new>
+#include <string>
 
 namespace svo
 {
-/// Thrown, and caught by build(), where progress asks to stop.
-struct BuildAborted
+/// Thrown, and caught by runBuild(), where a build cannot be, or where progress asks to stop.
+struct BuildStopped
 {
+  BuildStatus status;
+  std::string message;
 };
+
+/// What stages(result) built, or why nothing was. `lacking`(): what is said of the level where
+/// memory runs out.
+template <typename Stages, typename Lacking>
+BuildResult runBuild(const BuildOptions& options, const Stages& stages, const Lacking& lacking)
+{
+  BuildResult result;
+  const std::string level = std::to_string(options.level);
+  try
+  {
+    if (options.level < 1 || options.level > MaximumLevel)
+    {
+      throw BuildStopped{ BuildStatus::BadInput, "the level must be 1 to 20, and is " + level };
+    }
+    stages(result);
+    result.status = BuildStatus::Built;
+  }
+  catch (const BuildStopped& stopped)
+  {
+    result.status = stopped.status;
+    result.message = stopped.message;
+  }
+  catch (const std::bad_alloc&)
+  {
+    result.status = BuildStatus::TooLarge;
+    result.message = "level " + level + lacking() + "; choose a lower level";
+  }
+  return result;
+}
 
 class Executor
 {
@@ -56,11 +89,9 @@ public:
   {
     if (this->Progress && !this->Progress(this->Done < 1.0 ? this->Done : 1.0))
     {
-      throw BuildAborted();
+      throw BuildStopped{ BuildStatus::Aborted, "the build was aborted" };
     }
   }
-
-  const ParallelFor& parallelFor() const { return this->Parallel; }
 
 private:
   template <typename Body>

@@ -7,6 +7,7 @@
 #include "svoOctree.h"
 #include "svoPlane.h"
 #include "svoSourceMemory.h"
+#include "svoWork.h"
 
 #include <algorithm>
 #include <atomic>
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <cstring>
 #include <new>
-#include <string>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -212,11 +212,6 @@ std::vector<glm::ivec3> startCells(const Subdivision& cut, int& level, Executor&
   return cells;
 }
 
-struct Refused
-{
-  std::string message;
-};
-
 /// Throws where the octree would certainly take more than there is, instead of after minutes.
 void refuseTooLarge(const Subdivision& cut, const std::vector<glm::ivec3>& starts, int startLevel,
   const BuildOptions& options, Executor& executor)
@@ -231,13 +226,15 @@ void refuseTooLarge(const Subdivision& cut, const std::vector<glm::ivec3>& start
   {
     return;
   }
-  const SourceMemory memory(
+  const std::vector<double> cells = expectedCells(
     starts, startLevel, options.level,
-    [&](const glm::ivec3& cell, int l) { return cut.mayPass(cell, l); },
-    { static_cast<double>(BrickBytes), static_cast<double>(VoxelBytes) }, 0.05, executor);
-  if (memory.expected(options.level) > Certain * limit)
+    [&](const glm::ivec3& cell, int l) { return cut.mayPass(cell, l); }, 0.05, executor);
+  const auto expected = [&](int l)
+  { return VoxelBytes * cells[l] + BrickBytes * cells[std::max(l - NodeLevels, 0)]; };
+  if (expected(options.level) > Certain * limit)
   {
-    throw Refused{ memory.tooLarge(options.level, limit) };
+    throw BuildStopped{ BuildStatus::TooLarge,
+      tooLargeMessage(options.level, limit, expected, [](int) { return true; }) };
   }
 }
 
@@ -250,10 +247,8 @@ NodeDepth joinBricks(std::vector<Found>& parts, Header& header, RawArray<std::ui
     bricks += part.keys.size();
     voxels += part.planes.size();
   }
-  if (bricks > LargestIndex || voxels * PlaneWords > LargestIndex)
-  {
-    throw LayoutOverflow{ bricks > LargestIndex ? "nodes" : "planes" };
-  }
+  checkIndices(header, bricks, "nodes");
+  checkIndices(header, voxels * PlaneWords, "planes");
   header.voxelCount = voxels;
   header.leafWords = PlaneWords;
   header.listWords = voxels * PlaneWords;
@@ -277,9 +272,24 @@ NodeDepth joinBricks(std::vector<Found>& parts, Header& header, RawArray<std::ui
   return all;
 }
 
+/// In a cube of its own choice, if none is given.
 void buildStages(
-  const SurfaceSource& source, const Cube& cube, const BuildOptions& options, BuildResult& result)
+  const SurfaceSource& source, const Cube* given, const BuildOptions& options, BuildResult& result)
 {
+  const glm::dvec3 size = options.modelHigh - options.modelLow;
+  if (!glm::all(glm::greaterThanEqual(size, glm::dvec3(0.0))) || size == glm::dvec3(0.0) ||
+    !std::isfinite(size.x + size.y + size.z))
+  {
+    throw BuildStopped{ BuildStatus::BadInput,
+      "the box to look for a surface in is empty, or not finite" };
+  }
+  if (!isFrame(options.frame))
+  {
+    throw BuildStopped{ BuildStatus::BadInput,
+      "the octree's frame is not affine, or nearly singular" };
+  }
+  const Cube cube =
+    given ? *given : boundingCube(options.modelLow, options.modelHigh, options.level);
   Executor executor(options.parallelFor, options.progress);
   executor.report();
   Subdivision cut(source, options, cube);
@@ -301,33 +311,20 @@ void buildStages(
   header.planeReach = source.planeReach(0.5 * header.voxelSize);
   RawArray<std::uint32_t> planes;
   NodeDepth bricks = joinBricks(parts, header, planes);
-  result.data = assembleBricks(std::move(bricks), planes, header, result.size, executor);
+  result.data = assemble(std::move(bricks), planes, header, executor);
+  result.size = bufferSize(header);
   if (header.framed != 0)
   {
     const glm::dmat4 rows = glm::transpose(options.frame);
     std::memcpy(result.data.get() + frameOffset(header), &rows[0][0], FrameBytes);
   }
-  result.status = BuildStatus::Built;
 }
 
-/// Why nothing can be built; empty if something can.
-std::string refusal(const BuildOptions& options)
+BuildResult buildIn(const SurfaceSource& source, const Cube* cube, const BuildOptions& options)
 {
-  const glm::dvec3 size = options.modelHigh - options.modelLow;
-  if (options.level < 1 || options.level > MaximumLevel)
-  {
-    return "the level must be 1 to 20, and is " + std::to_string(options.level);
-  }
-  if (!glm::all(glm::greaterThanEqual(size, glm::dvec3(0.0))) || size == glm::dvec3(0.0) ||
-    !std::isfinite(size.x + size.y + size.z))
-  {
-    return "the box to look for a surface in is empty, or not finite";
-  }
-  if (!isFrame(options.frame))
-  {
-    return "the octree's frame is not affine, or nearly singular";
-  }
-  return {};
+  return runBuild(
+    options, [&](BuildResult& result) { buildStages(source, cube, options, result); },
+    [] { return " needs more memory than there is"; });
 }
 }
 
@@ -357,52 +354,11 @@ std::uint64_t SurfaceSource::planesIn(const SourceBrick& brick, SourcePlane plan
 
 BuildResult build(const SurfaceSource& source, const BuildOptions& options)
 {
-  BuildResult result;
-  result.message = refusal(options);
-  return result.message.empty()
-    ? build(source, boundingCube(options.modelLow, options.modelHigh, options.level), options)
-    : result;
+  return buildIn(source, nullptr, options);
 }
 
 BuildResult build(const SurfaceSource& source, const Cube& cube, const BuildOptions& options)
 {
-  BuildResult result;
-  result.message = refusal(options);
-  if (!result.message.empty())
-  {
-    return result;
-  }
-  const std::string level = "level " + std::to_string(options.level);
-  try
-  {
-    buildStages(source, cube, options, result);
-    return result;
-  }
-  catch (const BuildAborted&)
-  {
-    result = {};
-    result.status = BuildStatus::Aborted;
-    result.message = "the build was aborted";
-  }
-  catch (const Refused& refused)
-  {
-    result = {};
-    result.status = BuildStatus::TooLarge;
-    result.message = refused.message;
-  }
-  catch (const LayoutOverflow& overflow)
-  {
-    result = {};
-    result.status = BuildStatus::TooLarge;
-    result.message =
-      level + " would need more " + overflow.what + " than an index can name; choose a lower level";
-  }
-  catch (const std::bad_alloc&)
-  {
-    result = {};
-    result.status = BuildStatus::TooLarge;
-    result.message = level + " needs more memory than there is; choose a lower level";
-  }
-  return result;
+  return buildIn(source, &cube, options);
 }
 }

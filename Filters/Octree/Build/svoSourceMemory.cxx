@@ -1,7 +1,5 @@
 #include "svoSourceMemory.h"
 
-#include "svoWork.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -22,19 +20,19 @@ std::uint64_t scrambled(std::uint64_t x)
 }
 }
 
-SourceMemory::SourceMemory(const std::vector<glm::ivec3>& starts, int startLevel, int level,
-  const MayPass& mayPass, const SourceBytes& bytes, double share, Executor& executor)
-  : Bytes(bytes)
-  , Cells(static_cast<std::size_t>(level) + 1, 0.0)
+std::vector<double> expectedCells(const std::vector<glm::ivec3>& starts, int startLevel, int level,
+  const std::function<bool(const glm::ivec3& cell, int level)>& mayPass, double share,
+  Executor& executor)
 {
+  std::vector<double> cells(static_cast<std::size_t>(level) + 1, 0.0);
   const double all = static_cast<double>(starts.size());
   for (int l = 0; l <= std::min(startLevel, level); ++l)
   {
-    this->Cells[l] = std::ldexp(all, 2 * (l - startLevel));
+    cells[l] = std::ldexp(all, 2 * (l - startLevel));
   }
   if (starts.empty() || level <= startLevel)
   {
-    return;
+    return cells;
   }
   const std::size_t levels = static_cast<std::size_t>(level - startLevel);
   std::vector<double> met(Descents * levels, 0.0);
@@ -65,28 +63,9 @@ SourceMemory::SourceMemory(const std::vector<glm::ivec3>& starts, int startLevel
   {
     for (std::size_t l = 0; l < levels; ++l)
     {
-      this->Cells[startLevel + 1 + l] += met[i * levels + l] * all / Descents;
+      cells[startLevel + 1 + l] += met[i * levels + l] * all / Descents;
     }
   }
-}
-
-double SourceMemory::expected(int level) const
-{
-  return this->Bytes.voxel * this->Cells[level] +
-    this->Bytes.brick * this->Cells[std::max(level - NodeLevels, 0)];
-}
-
-std::string SourceMemory::tooLarge(int level, double limit) const
-{
-  int deepest = level - 1;
-  while (deepest >= 1 && this->expected(deepest) > limit)
-  {
-    --deepest;
-  }
-  return "level " + std::to_string(level) + " would need about " +
-    bytesAsText(this->expected(level)) + ", more than the limit of " + bytesAsText(limit) +
-    (deepest >= 1 ? "; level " + std::to_string(deepest) + " would need about " +
-          bytesAsText(this->expected(deepest))
-                  : std::string("; no level fits"));
+  return cells;
 }
 }

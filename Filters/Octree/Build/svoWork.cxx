@@ -36,6 +36,22 @@ std::string bytesAsText(double bytes)
   return text;
 }
 
+std::string tooLargeMessage(int level, double limit, const std::function<double(int)>& expected,
+  const std::function<bool(int)>& fitsIndices)
+{
+  const auto need = [&](int l)
+  { return "level " + std::to_string(l) + " would need about " + bytesAsText(expected(l)); };
+  int deepest = level - 1;
+  while (deepest >= 1 && !(expected(deepest) <= limit && fitsIndices(deepest)))
+  {
+    --deepest;
+  }
+  return need(level) +
+    (expected(level) > limit ? ", more than the limit of " + bytesAsText(limit)
+                             : std::string(", with more nodes than an index can name")) +
+    "; " + (deepest >= 1 ? need(deepest) : std::string("no level fits"));
+}
+
 Cube boundingCube(const glm::dvec3& low, const glm::dvec3& high, int level)
 {
   if (!(low.x <= high.x))

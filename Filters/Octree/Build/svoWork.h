@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@ namespace svo
 {
 /// As people read it, in MiB or GiB.
 VTKSVOOCTREE_EXPORT std::string bytesAsText(double bytes);
+
+/// Why a level is too deep, and which one is not. `limit`, and what is expected of a level, are in
+/// bytes; `fitsIndices`: whether indices can name all nodes of a level.
+std::string tooLargeMessage(int level, double limit, const std::function<double(int)>& expected,
+  const std::function<bool(int)>& fitsIndices);
 
 /// What the expected number of bricks depends on. By Steiner's formula a triangle at a random
 /// place meets, of a unit grid's cells, as many as the sum of its three projected areas, its three

@@ -404,13 +404,14 @@ TEST(Source, ExpectedMemoryIsThatOfTheVoxels)
   const svo::ParallelFor serial = svo::serialFor;
   const std::function<bool(double)> none;
   svo::Executor executor(serial, none);
-  const svo::SourceMemory memory(starts, Start, Level, mayPass, { 0.0, 1.0 }, 0.1, executor);
+  const std::vector<double> cells =
+    svo::expectedCells(starts, Start, Level, mayPass, 0.1, executor);
   for (int level = Start + 1; level <= Level; ++level)
   {
     const double voxels =
       static_cast<double>(octreeOfField(sphere, boxOfInterest(level)).header().voxelCount);
-    EXPECT_GT(memory.expected(level), 0.9 * voxels) << level;
-    EXPECT_LT(memory.expected(level), 2.2 * voxels) << level;
+    EXPECT_GT(cells[level], 0.9 * voxels) << level;
+    EXPECT_LT(cells[level], 2.2 * voxels) << level;
   }
 }
 
