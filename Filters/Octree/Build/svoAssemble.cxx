@@ -106,46 +106,39 @@ NodeDepth makeParents(const NodeDepth& children, float childEdge, Executor& exec
   const auto cost = [](std::size_t) { return static_cast<double>(NodeBlock); };
   std::vector<Share> shares(blocks);
   executor.run(blocks, 1, 0.0, 1e7, cost,
-    [&](std::size_t first, std::size_t last)
+    [&](std::size_t block)
     {
-      for (std::size_t block = first; block < last; ++block)
+      const std::size_t end = std::min((block + 1) * NodeBlock, count);
+      for (std::size_t i = block * NodeBlock; i < end; ++i)
       {
-        const std::size_t end = std::min((block + 1) * NodeBlock, count);
-        for (std::size_t i = block * NodeBlock; i < end; ++i)
-        {
-          shares[block].nodes += startsParent(i);
-        }
+        shares[block].nodes += startsParent(i);
       }
     });
   NodeDepth parents(prefixSum(shares).nodes);
   executor.run(blocks, 1, 0.0, 1e6, cost,
-    [&](std::size_t first, std::size_t last)
+    [&](std::size_t block)
     {
-      for (std::size_t block = first; block < last; ++block)
+      std::size_t at = shares[block].nodes;
+      const std::size_t end = std::min((block + 1) * NodeBlock, count);
+      for (std::size_t i = block * NodeBlock; i < end; ++i)
       {
-        std::size_t at = shares[block].nodes;
-        const std::size_t end = std::min((block + 1) * NodeBlock, count);
-        for (std::size_t i = block * NodeBlock; i < end; ++i)
+        if (!startsParent(i))
         {
-          if (!startsParent(i))
-          {
-            continue;
-          }
-          Node node{ 0, static_cast<std::uint32_t>(i), 0 };
-          const std::uint64_t key = children.keys[i] / NodeCells;
-          assert(i == 0 || children.keys[i - 1] < children.keys[i]);
-          for (std::size_t k = i; k < count && children.keys[k] / NodeCells == key; ++k)
-          {
-            node.mask |= cellBit(children.keys[k] % NodeCells);
-          }
-          const SurfaceMoment moment =
-            blockMoment(children.moments.data() + i, node.mask, childEdge);
-          node.plane = planeOfMoment(moment, NodeEdge * childEdge);
-          parents.keys[at] = key;
-          parents.nodes[at] = node;
-          parents.moments[at] = moment;
-          ++at;
+          continue;
         }
+        Node node{ 0, static_cast<std::uint32_t>(i), 0 };
+        const std::uint64_t key = children.keys[i] / NodeCells;
+        assert(i == 0 || children.keys[i - 1] < children.keys[i]);
+        for (std::size_t k = i; k < count && children.keys[k] / NodeCells == key; ++k)
+        {
+          node.mask |= cellBit(children.keys[k] % NodeCells);
+        }
+        const SurfaceMoment moment = blockMoment(children.moments.data() + i, node.mask, childEdge);
+        node.plane = planeOfMoment(moment, NodeEdge * childEdge);
+        parents.keys[at] = key;
+        parents.nodes[at] = node;
+        parents.moments[at] = moment;
+        ++at;
       }
     });
   return parents;
@@ -173,10 +166,10 @@ std::shared_ptr<std::byte> writeBuffer(const std::vector<NodeDepth>& depths,
     const bool inner = d + 1 < header.depthCount;
     const std::size_t blocks = (depth.size() + NodeBlock - 1) / NodeBlock;
     executor.run(blocks, 1, 0.0, 5e6, cost,
-      [&](std::size_t first, std::size_t last)
+      [&](std::size_t block)
       {
-        const std::size_t end = std::min(last * NodeBlock, depth.size());
-        for (std::size_t i = first * NodeBlock; i < end; ++i)
+        const std::size_t end = std::min((block + 1) * NodeBlock, depth.size());
+        for (std::size_t i = block * NodeBlock; i < end; ++i)
         {
           Node node = depth.nodes[i];
           node.first += inner ? header.depthBegin[d + 1] : 0;
@@ -228,13 +221,7 @@ NodeDepth makeBricks(const SortedRecords& sorted, const RawArray<TriangleShape>&
   const auto cost = [&](std::size_t i) { return static_cast<double>(sorted.bucketSize(i)); };
   const auto records = [&](std::size_t i) { return sorted.records.data() + sorted.bucketBegin[i]; };
   executor.run(shares.size(), 16, 0.02, 5e6, cost,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        shares[i] = countBucket(records(i), sorted.bucketSize(i));
-      }
-    });
+    [&](std::size_t i) { shares[i] = countBucket(records(i), sorted.bucketSize(i)); });
   const Share all = prefixSum(shares);
   checkIndices(header, all.nodes, "nodes");
   checkIndices(header, all.listWords, "words of triangle lists");
@@ -242,13 +229,10 @@ NodeDepth makeBricks(const SortedRecords& sorted, const RawArray<TriangleShape>&
   lists = RawArray<std::uint32_t>(all.listWords);
   std::vector<std::size_t> voxels(shares.size());
   executor.run(shares.size(), 16, 0.1, 4e5, cost,
-    [&](std::size_t first, std::size_t last)
+    [&](std::size_t i)
     {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        voxels[i] = fillBucket(
-          records(i), sorted.bucketSize(i), shares[i], shapes.data(), bricks, lists.data());
-      }
+      voxels[i] = fillBucket(
+        records(i), sorted.bucketSize(i), shares[i], shapes.data(), bricks, lists.data());
     });
   header.voxelCount = 0;
   for (const std::size_t count : voxels)

@@ -83,14 +83,11 @@ std::shared_ptr<const Surface> makeSurface(const TriangleMesh& mesh,
   const glm::dvec3 origin(header.origin[0], header.origin[1], header.origin[2]);
   const double scale =
     1.0 / std::ldexp(header.voxelSize, static_cast<int>(NodeLevels * header.depthCount));
-  parallelFor(0, mesh.pointCount, 16384,
-    [&](std::size_t first, std::size_t last)
+  forEach(parallelFor, mesh.pointCount, 16384,
+    [&](std::size_t i)
     {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        const glm::dvec3& p = mesh.points[i];
-        surface->points[i] = usable(p) ? glm::vec3(1.0 + (p - origin) * scale) : glm::vec3(1.0f);
-      }
+      const glm::dvec3& p = mesh.points[i];
+      surface->points[i] = usable(p) ? glm::vec3(1.0 + (p - origin) * scale) : glm::vec3(1.0f);
     });
   return surface;
 }

@@ -58,12 +58,27 @@ public:
   {
   }
 
-  /// Runs body(first, last) over [0, count). A batch between two reports is as many items as cost
+  /// Runs body(i) for each i of [0, count). A batch between two reports is as many items as cost
   /// about `batchCost`, which the caller chooses to be some ten milliseconds; `share` is the
   /// stage's part of the whole build. Memory that runs out on any thread is reported on this one.
   template <typename Cost, typename Body>
   void run(std::size_t count, std::size_t grain, double share, double batchCost, const Cost& cost,
     const Body& body)
+  {
+    this->runRanges(count, grain, share, batchCost, cost,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          body(i);
+        }
+      });
+  }
+
+  /// The same by body(first, last), for ranges of items.
+  template <typename Cost, typename Body>
+  void runRanges(std::size_t count, std::size_t grain, double share, double batchCost,
+    const Cost& cost, const Body& body)
   {
     const double begin = this->Done;
     for (std::size_t first = 0; first < count;)

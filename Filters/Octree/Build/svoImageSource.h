@@ -10,6 +10,7 @@
 #define svoImageSource_h
 
 #include "svoFieldSource.h"
+#include "svoParallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -264,17 +265,14 @@ public:
     : Cells(grid.points - 1)
   {
     Level level((this->Cells + (BlockCells - 1)) / BlockCells);
-    parallelFor(0, static_cast<std::size_t>(level.blocks.z), 1,
-      [&](std::size_t first, std::size_t last)
+    forEach(parallelFor, static_cast<std::size_t>(level.blocks.z), 1,
+      [&](std::size_t z)
       {
-        for (int z = static_cast<int>(first); z < static_cast<int>(last); ++z)
+        for (int y = 0; y < level.blocks.y; ++y)
         {
-          for (int y = 0; y < level.blocks.y; ++y)
+          for (int x = 0; x < level.blocks.x; ++x)
           {
-            for (int x = 0; x < level.blocks.x; ++x)
-            {
-              level.at({ x, y, z }) = this->rangeOf(field, BlockCells * glm::ivec3(x, y, z));
-            }
+            level.at({ x, y, z }) = this->rangeOf(field, BlockCells * glm::ivec3(x, y, z));
           }
         }
       });

@@ -118,32 +118,29 @@ std::vector<RecordList> voxelizeMesh(const TriangleMesh& mesh, const Cube& cube,
   std::vector<std::uint64_t> voxelsOfPart(pieces.size());
   executor.run(
     pieces.size(), 1, 0.6, 2e5, [&](std::size_t i) { return pieces[i].records; },
-    [&](std::size_t first, std::size_t last)
+    [&](std::size_t i)
     {
-      for (std::size_t i = first; i < last; ++i)
+      const WorkPiece& piece = pieces[i];
+      RecordList& out = records[i];
+      out.reserve(static_cast<std::size_t>(piece.records * 1.125) + 64);
+      for (std::uint32_t id = piece.first; id < piece.last; ++id)
       {
-        const WorkPiece& piece = pieces[i];
-        RecordList& out = records[i];
-        out.reserve(static_cast<std::size_t>(piece.records * 1.125) + 64);
-        for (std::uint32_t id = piece.first; id < piece.last; ++id)
+        if (!usable(mesh, mesh.triangles[id]))
         {
-          if (!usable(mesh, mesh.triangles[id]))
-          {
-            continue;
-          }
-          TriangleShape shape;
-          const LatticeTriangle t = placeTriangle(mesh, lattice, id, shape);
-          const std::uint64_t voxels = voxelizeTriangle(t, level, out, piece.part, piece.parts);
-          if (piece.parts == 1)
-          {
-            assert(voxels > 0);
-            shape.areaPerVoxel /= static_cast<float>(voxels);
-            shapes[id] = shape;
-          }
-          else
-          {
-            voxelsOfPart[i] = voxels;
-          }
+          continue;
+        }
+        TriangleShape shape;
+        const LatticeTriangle t = placeTriangle(mesh, lattice, id, shape);
+        const std::uint64_t voxels = voxelizeTriangle(t, level, out, piece.part, piece.parts);
+        if (piece.parts == 1)
+        {
+          assert(voxels > 0);
+          shape.areaPerVoxel /= static_cast<float>(voxels);
+          shapes[id] = shape;
+        }
+        else
+        {
+          voxelsOfPart[i] = voxels;
         }
       }
     });
@@ -188,18 +185,15 @@ SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor&
   std::vector<std::size_t> places(blocks * buckets);
   const auto cost = [&](std::size_t block) { return static_cast<double>(blockSize[block]); };
   executor.run(blocks, 1, 0.02, 5e6, cost,
-    [&](std::size_t first, std::size_t last)
+    [&](std::size_t block)
     {
-      for (std::size_t block = first; block < last; ++block)
+      std::size_t* count = places.data() + block * buckets;
+      for (std::size_t i = blockBegin(block); i < blockBegin(block + 1); ++i)
       {
-        std::size_t* count = places.data() + block * buckets;
-        for (std::size_t i = blockBegin(block); i < blockBegin(block + 1); ++i)
+        for (const BrickRecord& record : pieces[i])
         {
-          for (const BrickRecord& record : pieces[i])
-          {
-            assert(record.key >> keyBits == 0);
-            ++count[record.key >> shift];
-          }
+          assert(record.key >> keyBits == 0);
+          ++count[record.key >> shift];
         }
       }
     });
@@ -222,22 +216,19 @@ SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor&
   }
   sorted.records = RawArray<BrickRecord>(total);
   executor.run(blocks, 1, 0.08, 2e6, cost,
-    [&](std::size_t first, std::size_t last)
+    [&](std::size_t block)
     {
-      for (std::size_t block = first; block < last; ++block)
+      std::size_t* place = places.data() + block * buckets;
+      for (std::size_t i = blockBegin(block); i < blockBegin(block + 1); ++i)
       {
-        std::size_t* place = places.data() + block * buckets;
-        for (std::size_t i = blockBegin(block); i < blockBegin(block + 1); ++i)
+        for (const BrickRecord& record : pieces[i])
         {
-          for (const BrickRecord& record : pieces[i])
-          {
-            sorted.records[place[record.key >> shift]++] = record;
-          }
-          pieces[i] = RecordList();
+          sorted.records[place[record.key >> shift]++] = record;
         }
+        pieces[i] = RecordList();
       }
     });
-  executor.run(
+  executor.runRanges(
     buckets, 16, 0.1, 1e6,
     [&](std::size_t bucket) { return static_cast<double>(sorted.bucketSize(bucket)); },
     [&](std::size_t first, std::size_t last)

@@ -192,13 +192,10 @@ std::vector<glm::ivec3> startCells(const Subdivision& cut, int& level, Executor&
     std::vector<char> passes(children.size());
     executor.run(
       children.size(), 64, share, 4096.0, [](std::size_t) { return 1.0; },
-      [&](std::size_t first, std::size_t last)
+      [&](std::size_t i)
       {
-        for (std::size_t i = first; i < last; ++i)
-        {
-          children[i] = 2 * cells[i / 8] + glm::ivec3(i & 1, i >> 1 & 1, i >> 2 & 1);
-          passes[i] = cut.mayPass(children[i], l);
-        }
+        children[i] = 2 * cells[i / 8] + glm::ivec3(i & 1, i >> 1 & 1, i >> 2 & 1);
+        passes[i] = cut.mayPass(children[i], l);
       });
     cells.clear();
     for (std::size_t i = 0; i < children.size(); ++i)
@@ -299,13 +296,7 @@ void buildStages(
   std::vector<Found> parts(starts.size());
   executor.run(
     starts.size(), 1, 0.75, 16.0, [](std::size_t) { return 1.0; },
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        cut.visit(starts[i], level, parts[i]);
-      }
-    });
+    [&](std::size_t i) { cut.visit(starts[i], level, parts[i]); });
   Header header = makeHeader(options, cube);
   header.framed = options.frame != glm::dmat4(1.0);
   header.planeReach = source.planeReach(0.5 * header.voxelSize);

@@ -38,25 +38,22 @@ std::vector<double> expectedCells(const std::vector<glm::ivec3>& starts, int sta
   std::vector<double> met(Descents * levels, 0.0);
   executor.run(
     Descents, 8, share, 64.0, [](std::size_t) { return 1.0; },
-    [&](std::size_t first, std::size_t last)
+    [&](std::size_t i)
     {
-      for (std::size_t i = first; i < last; ++i)
+      glm::ivec3 cell = starts[i * starts.size() / Descents];
+      double product = 1.0;
+      for (std::size_t l = 0; l < levels && product > 0.0; ++l)
       {
-        glm::ivec3 cell = starts[i * starts.size() / Descents];
-        double product = 1.0;
-        for (std::size_t l = 0; l < levels && product > 0.0; ++l)
+        glm::ivec3 children[8];
+        std::size_t count = 0;
+        for (int c = 0; c < 8; ++c)
         {
-          glm::ivec3 children[8];
-          std::size_t count = 0;
-          for (int c = 0; c < 8; ++c)
-          {
-            children[count] = 2 * cell + glm::ivec3(c & 1, c >> 1 & 1, c >> 2);
-            count += mayPass(children[count], startLevel + static_cast<int>(l) + 1);
-          }
-          product *= static_cast<double>(count);
-          met[i * levels + l] = product;
-          cell = count > 0 ? children[scrambled(i * levels + l) % count] : cell;
+          children[count] = 2 * cell + glm::ivec3(c & 1, c >> 1 & 1, c >> 2);
+          count += mayPass(children[count], startLevel + static_cast<int>(l) + 1);
         }
+        product *= static_cast<double>(count);
+        met[i * levels + l] = product;
+        cell = count > 0 ? children[scrambled(i * levels + l) % count] : cell;
       }
     });
   for (std::size_t i = 0; i < Descents; ++i)

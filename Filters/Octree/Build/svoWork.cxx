@@ -102,28 +102,25 @@ Cube boundingCube(
   };
   const std::size_t blocks = blocksOf(mesh.triangleCount);
   std::vector<Bounds> bounds(blocks);
-  options.parallelFor(0, blocks, 4,
-    [&](std::size_t first, std::size_t last)
+  forEach(options.parallelFor, blocks, 4,
+    [&](std::size_t block)
     {
-      for (std::size_t block = first; block < last; ++block)
+      Bounds b;
+      const std::size_t end = std::min((block + 1) * Block, mesh.triangleCount);
+      for (std::size_t i = block * Block; i < end; ++i)
       {
-        Bounds b;
-        const std::size_t end = std::min((block + 1) * Block, mesh.triangleCount);
-        for (std::size_t i = block * Block; i < end; ++i)
+        const glm::uvec3& t = mesh.triangles[i];
+        if (!usable(mesh, t))
         {
-          const glm::uvec3& t = mesh.triangles[i];
-          if (!usable(mesh, t))
-          {
-            ++b.dropped;
-            continue;
-          }
-          for (int k = 0; k < 3; ++k)
-          {
-            b.box.add(mesh.points[t[k]]);
-          }
+          ++b.dropped;
+          continue;
         }
-        bounds[block] = b;
+        for (int k = 0; k < 3; ++k)
+        {
+          b.box.add(mesh.points[t[k]]);
+        }
       }
+      bounds[block] = b;
     });
   Box all{ options.modelLow, options.modelHigh };
   all = all.known() ? all : Box();
@@ -189,38 +186,35 @@ MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const Parall
   const double n = bricksOfEdge(level);
   const double scale = 1.0 / cube.edge;
   const bool keep = recordsOfTriangle.size() == mesh.triangleCount;
-  parallelFor(0, blocks, 4,
-    [&](std::size_t first, std::size_t last)
+  forEach(parallelFor, blocks, 4,
+    [&](std::size_t block)
     {
-      for (std::size_t block = first; block < last; ++block)
+      MeshMeasure m;
+      const std::size_t end = std::min((block + 1) * Block, mesh.triangleCount);
+      for (std::size_t i = block * Block; i < end; ++i)
       {
-        MeshMeasure m;
-        const std::size_t end = std::min((block + 1) * Block, mesh.triangleCount);
-        for (std::size_t i = block * Block; i < end; ++i)
+        const glm::uvec3& t = mesh.triangles[i];
+        double records = 0.0;
+        if (usable(mesh, t))
         {
-          const glm::uvec3& t = mesh.triangles[i];
-          double records = 0.0;
-          if (usable(mesh, t))
-          {
-            const glm::dvec3 a = (mesh.points[t.x] - cube.origin) * scale;
-            const glm::dvec3 b = (mesh.points[t.y] - cube.origin) * scale;
-            const glm::dvec3 c = (mesh.points[t.z] - cube.origin) * scale;
-            const glm::dvec3 normal = glm::abs(glm::cross(b - a, c - a));
-            const glm::dvec3 width = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
-            const double areas = 0.5 * (normal.x + normal.y + normal.z);
-            const double widths = width.x + width.y + width.z;
-            m.areas += areas;
-            m.widths += widths;
-            ++m.triangles;
-            records = (areas * n + widths) * n + 1.0;
-          }
-          if (keep)
-          {
-            recordsOfTriangle[i] = static_cast<float>(records);
-          }
+          const glm::dvec3 a = (mesh.points[t.x] - cube.origin) * scale;
+          const glm::dvec3 b = (mesh.points[t.y] - cube.origin) * scale;
+          const glm::dvec3 c = (mesh.points[t.z] - cube.origin) * scale;
+          const glm::dvec3 normal = glm::abs(glm::cross(b - a, c - a));
+          const glm::dvec3 width = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
+          const double areas = 0.5 * (normal.x + normal.y + normal.z);
+          const double widths = width.x + width.y + width.z;
+          m.areas += areas;
+          m.widths += widths;
+          ++m.triangles;
+          records = (areas * n + widths) * n + 1.0;
         }
-        measures[block] = m;
+        if (keep)
+        {
+          recordsOfTriangle[i] = static_cast<float>(records);
+        }
       }
+      measures[block] = m;
     });
   MeshMeasure sum;
   for (const MeshMeasure& m : measures)

@@ -22,6 +22,20 @@ inline void serialFor(std::size_t begin, std::size_t end, std::size_t,
     body(begin, end);
   }
 }
+
+/// Runs body(i) for each i of [0, count).
+template <typename Body>
+void forEach(const ParallelFor& parallelFor, std::size_t count, std::size_t grain, const Body& body)
+{
+  parallelFor(0, count, grain,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        body(i);
+      }
+    });
+}
 }
 
 #endif
