@@ -11,7 +11,6 @@
 #include "svoLattice.h"
 #include "svoMorton.h"
 #include "svoNode.h"
-#include "svoTriangleBox.h"
 
 #include <cassert>
 #include <cmath>
@@ -83,13 +82,14 @@ float offsetInBrick(const LatticeTriangle& t, const glm::ivec3& brick)
     t.offset - glm::dot(t.normal, (glm::dvec3(brick) + 0.5) * double(NodeEdge)));
 }
 
-/// Triangles without area, which are segments or points: top-down with the exact test.
+/// Triangles without area, which are segments or points: top-down with an exact test.
 class SegmentWalker
 {
 public:
-  SegmentWalker(const LatticeTriangle& t, const Range& within, RecordList& records)
+  SegmentWalker(
+    const LatticeTriangle& t, const Corners& corners, const Range& within, RecordList& records)
     : Triangle(t)
-    , Test(t.vertices[0], t.vertices[1], t.vertices[2])
+    , Vertices(corners)
     , Within(within)
     , Records(records)
   {
@@ -99,19 +99,17 @@ public:
   {
     const int* const f = this->Within.first;
     const int* const l = this->Within.last;
-    const glm::ivec3 first(f[0], f[1], f[2]);
-    const glm::ivec3 last(l[0], l[1], l[2]);
     int bits = NodeLevels;
-    while ((last.x >> bits) - (first.x >> bits) > 1 || (last.y >> bits) - (first.y >> bits) > 1 ||
-      (last.z >> bits) - (first.z >> bits) > 1)
+    while ((l[0] >> bits) - (f[0] >> bits) > 1 || (l[1] >> bits) - (f[1] >> bits) > 1 ||
+      (l[2] >> bits) - (f[2] >> bits) > 1)
     {
       ++bits;
     }
-    for (int z = first.z >> bits; z <= last.z >> bits; ++z)
+    for (int z = f[2] >> bits; z <= l[2] >> bits; ++z)
     {
-      for (int y = first.y >> bits; y <= last.y >> bits; ++y)
+      for (int y = f[1] >> bits; y <= l[1] >> bits; ++y)
       {
-        for (int x = first.x >> bits; x <= last.x >> bits; ++x)
+        for (int x = f[0] >> bits; x <= l[0] >> bits; ++x)
         {
           this->visit({ x, y, z }, bits);
         }
@@ -121,11 +119,40 @@ public:
   }
 
 private:
+  /// True if the triangle and a grown cell have a point in common (Schwarz & Seidel 2010): their
+  /// boxes have, and no edge of a projection has the cell on one side. An edge without length is
+  /// no test.
   bool touches(const glm::ivec3& cell, int bits) const
   {
     const int shift = bits + LatticeBits;
     const glm::ivec3 low = cell * (1 << shift) - 1;
-    return this->Test.overlaps(low, low + ((1 << shift) + 2));
+    const glm::ivec3 high = low + ((1 << shift) + 2);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (cell[axis] < this->Within.first[axis] >> bits ||
+        cell[axis] > this->Within.last[axis] >> bits)
+      {
+        return false;
+      }
+      const int u = (axis + 1) % 3;
+      const int v = (axis + 2) % 3;
+      for (int i = 0; i < 3; ++i)
+      {
+        const std::int32_t* const p = this->Vertices.at[i];
+        const std::int32_t* const q = this->Vertices.at[(i + 1) % 3];
+        const std::int64_t nu = p[v] - q[v];
+        const std::int64_t nv = q[u] - p[u];
+        const std::int64_t most =
+          nu * ((nu > 0 ? high[u] : low[u]) - p[u]) + nv * ((nv > 0 ? high[v] : low[v]) - p[v]);
+        const std::int64_t least =
+          nu * ((nu > 0 ? low[u] : high[u]) - p[u]) + nv * ((nv > 0 ? low[v] : high[v]) - p[v]);
+        if (most < 0 || least > 0)
+        {
+          return false;
+        }
+      }
+    }
+    return true;
   }
 
   void visit(const glm::ivec3& cell, int bits)
@@ -145,23 +172,18 @@ private:
     std::uint64_t mask = 0;
     for (int i = 0; i < NodeCells; ++i)
     {
-      const glm::ivec3 voxel = cell * NodeEdge + cellOfIndex(i);
-      if (voxel.x <= this->Within.last[0] && voxel.y <= this->Within.last[1] &&
-        voxel.z <= this->Within.last[2] && this->touches(voxel, 0))
-      {
-        mask |= cellBit(i);
-        ++this->Voxels;
-      }
+      mask |= this->touches(cell * NodeEdge + cellOfIndex(i), 0) ? cellBit(i) : 0;
     }
     if (mask)
     {
+      this->Voxels += static_cast<std::uint64_t>(countBits(mask));
       this->Records.push({ mortonKey(cell.x, cell.y, cell.z), mask, this->Triangle.id,
         offsetInBrick(this->Triangle, cell) });
     }
   }
 
   const LatticeTriangle& Triangle;
-  TriangleBox<std::int64_t> Test; // no plane and 2D edges only: never beyond 64 bits
+  const Corners& Vertices;
   const Range& Within;
   RecordList& Records;
   std::uint64_t Voxels = 0;
@@ -392,7 +414,7 @@ std::uint64_t voxelize(
   }
   if (largest == 0)
   {
-    return part == 0 ? SegmentWalker(t, range, records).walk() : 0;
+    return part == 0 ? SegmentWalker(t, corners, range, records).walk() : 0;
   }
   if (bricks >= 1 << 8)
   {
