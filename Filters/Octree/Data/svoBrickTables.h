@@ -15,40 +15,29 @@ struct BrickTables
 
   /// [axis][low byte, high byte][bits]: the cells of a 4x4 tile across `axis`, in Morton order
   /// (u, v, u, v with u = axis + 1 and v = axis + 2, cyclically), as columns of voxels.
-  std::uint64_t column[3][2][256];
+  std::uint64_t column[3][2][256] = {};
   /// [axis][first][last]: the voxels with first <= coordinate <= last.
-  std::uint64_t range[3][4][4];
+  std::uint64_t range[3][4][4] = {};
 
   BrickTables()
   {
-    for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < NodeCells; ++i)
     {
-      for (int half = 0; half < 2; ++half)
+      const glm::ivec3 c = cellOfIndex(i);
+      for (int axis = 0; axis < 3; ++axis)
       {
+        const int u = c[(axis + 1) % 3];
+        const int v = c[(axis + 2) % 3];
+        const int cell = (u & 1) | (v & 1) << 1 | (u & 2) << 1 | (v & 2) << 2;
         for (int bits = 0; bits < 256; ++bits)
         {
-          std::uint64_t& mask = this->column[axis][half][bits];
-          mask = 0;
-          for (int i = 0; i < 64; ++i)
-          {
-            const glm::ivec3 c = cellOfIndex(i);
-            const int u = c[(axis + 1) % 3];
-            const int v = c[(axis + 2) % 3];
-            const int cell = (u & 1) | (v & 1) << 1 | (u & 2) << 1 | (v & 2) << 2;
-            mask |= static_cast<std::uint64_t>(cell >> 3 == half && bits >> (cell & 7) & 1) << i;
-          }
+          this->column[axis][cell >> 3][bits] |= std::uint64_t(bits >> (cell & 7) & 1) << i;
         }
-      }
-      for (int first = 0; first < 4; ++first)
-      {
-        for (int last = 0; last < 4; ++last)
+        for (int first = 0; first <= c[axis]; ++first)
         {
-          std::uint64_t& mask = this->range[axis][first][last];
-          mask = 0;
-          for (int i = 0; i < 64; ++i)
+          for (int last = c[axis]; last < NodeEdge; ++last)
           {
-            const int c = cellOfIndex(i)[axis];
-            mask |= static_cast<std::uint64_t>(first <= c && c <= last) << i;
+            this->range[axis][first][last] |= std::uint64_t(1) << i;
           }
         }
       }
