@@ -15,9 +15,9 @@
 #define SVO_LANE_MOVES_INL
 #endif
 
-#include "svoCompressTable.h"
 #include "svoLaneBits-inl.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -49,6 +49,26 @@ HWY_INLINE hn::Vec<D> gather(D d, const T* base, hn::Vec<hn::RebindToSigned<D>> 
 
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
 #define SVO_COMPRESS_BY_TABLE 1
+/// Which lanes of eight a mask has, as numbers of four bits: the first lane's in the lowest bits.
+constexpr std::array<std::int32_t, 256> makeCompressTable()
+{
+  std::array<std::int32_t, 256> table{};
+  for (int mask = 0; mask < 256; ++mask)
+  {
+    std::uint32_t lanes = 0;
+    int count = 0;
+    for (std::uint32_t lane = 0; lane < 8; ++lane)
+    {
+      if (mask >> lane & 1)
+      {
+        lanes |= lane << 4 * count++;
+      }
+    }
+    table[mask] = static_cast<std::int32_t>(lanes);
+  }
+  return table;
+}
+inline constexpr std::array<std::int32_t, 256> CompressTable = makeCompressTable();
 #else
 #define SVO_COMPRESS_BY_TABLE 0
 #endif
