@@ -30,6 +30,17 @@ struct LaneTriples
 {
   V x, y, z;
 };
+using Vec3 = LaneTriples<F>;
+
+HWY_INLINE Vec3 subtract(const Vec3& a, const Vec3& b)
+{
+  return { hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z) };
+}
+
+HWY_INLINE F dot(const Vec3& a, const Vec3& b)
+{
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
 
 #if !SVO_TRANSPOSES_TRIPLES
 /// base[3 index] of every lane and the two behind it.

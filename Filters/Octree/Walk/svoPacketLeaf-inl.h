@@ -23,21 +23,6 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-struct Vec3
-{
-  F x, y, z;
-};
-
-HWY_INLINE Vec3 subtract(const Vec3& a, const Vec3& b)
-{
-  return { hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z) };
-}
-
-HWY_INLINE F dot(const Vec3& a, const Vec3& b)
-{
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-
 HWY_INLINE Vec3 cross(const Vec3& a, const Vec3& b)
 {
   return { hn::Sub(hn::Mul(a.y, b.z), hn::Mul(b.y, a.z)),
@@ -91,26 +76,9 @@ HWY_INLINE void gatherTriangle(const WalkTarget& target, I id, Vec3& a, Vec3& b,
 {
   const auto ids = reinterpret_cast<const std::int32_t*>(target.triangles);
   const auto corners = loadTriples(DI(), ids, id);
-  const auto corner = [&](I point)
-  {
-    const auto p = loadTriples(DF(), target.points, point);
-    return Vec3{ p.x, p.y, p.z };
-  };
-  a = corner(corners.x);
-  b = corner(corners.y);
-  c = corner(corners.z);
-}
-
-/// Centres of the cells of 2^exponent at these positions.
-HWY_INLINE Vec3 cellCentres(I x, I y, I z, int exponent)
-{
-  const DF df;
-  const DI di;
-  const I inside = hn::Set(di, (1 << exponent) - 1);
-  const I half = hn::Set(di, 1 << (exponent - 1));
-  const auto centre = [&](I position)
-  { return hn::BitCast(df, hn::Add(hn::AndNot(inside, position), half)); };
-  return { centre(x), centre(y), centre(z) };
+  a = loadTriples(DF(), target.points, corners.x);
+  b = loadTriples(DF(), target.points, corners.y);
+  c = loadTriples(DF(), target.points, corners.z);
 }
 
 /// nearestPlaneTriangle() of svoLeafGeometry.h for the cells at these positions, as places in the
@@ -121,7 +89,8 @@ HWY_INLINE I representatives(const WalkTarget& target, I x, I y, I z, const List
   const DI di;
   I best = hn::Zero(di);
   const I count = hn::Min(lists.count, hn::Set(di, static_cast<int>(RepresentativeCandidates)));
-  const Vec3 centre = cellCentres(x, y, z, target.cellSize);
+  const Vec3 centre{ middleOf(x, target.cellSize), middleOf(y, target.cellSize),
+    middleOf(z, target.cellSize) };
   const F half = hn::Set(df, target.touchedHalf);
   const F minusHalf = hn::Set(df, -target.touchedHalf);
   auto bestTouches = hn::RebindMask(df, hn::Ne(best, best));

@@ -10,6 +10,7 @@
 
 #include "svoIntersectBlock.h"
 #include "svoLaneNodes-inl.h"
+#include "svoLaneTriples-inl.h"
 #include "svoPacketWalk-inl.h"
 
 #include <cmath>
@@ -26,16 +27,8 @@ struct OwnPlanes
 {
   I primitive;
   I word; // index from the nodes
-  F x, y, z;
+  Vec3 middle;
 };
-
-/// The middles of the cells of 2^exponent at a position, along an axis.
-HWY_INLINE F middleOf(I at, int exponent)
-{
-  const DI di;
-  const I lower = hn::And(at, hn::Set(di, -(1 << exponent)));
-  return hn::BitCast(DF(), hn::Or(lower, hn::Set(di, 1 << (exponent - 1))));
-}
 
 /// Of the cells themselves: voxels, or child nodes.
 HWY_INLINE OwnPlanes planesOfCells(const WalkTarget& target, bool voxels, const Packet& p)
@@ -46,9 +39,8 @@ HWY_INLINE OwnPlanes planesOfCells(const WalkTarget& target, bool voxels, const 
   planes.primitive = voxels ? first : hn::Or(first, hn::Set(di, static_cast<int>(NodePrimitive)));
   planes.word = voxels ? hn::Add(first, hn::Set(di, target.listBegin))
                        : hn::Add(hn::ShiftLeft<2>(first), hn::Set(di, 3));
-  planes.x = middleOf(p.atX(), target.cellSize);
-  planes.y = middleOf(p.atY(), target.cellSize);
-  planes.z = middleOf(p.atZ(), target.cellSize);
+  planes.middle = { middleOf(p.atX(), target.cellSize), middleOf(p.atY(), target.cellSize),
+    middleOf(p.atZ(), target.cellSize) };
   return planes;
 }
 
@@ -93,9 +85,7 @@ HWY_INLINE OwnPlanes planesOfGroups(const WalkTarget& target, F tExit, const Pac
     const I which = hn::And(hn::Shr(hn::BitCast(di, bit), hn::Set(di, axis)), hn::Set(di, 1));
     return middleOf(hn::Or(lower, hn::Shl(which, hn::Set(di, child))), child);
   };
-  planes.x = centre(p.atX(), 0);
-  planes.y = centre(p.atY(), 1);
-  planes.z = centre(p.atZ(), 2);
+  planes.middle = { centre(p.atX(), 0), centre(p.atY(), 1), centre(p.atZ(), 2) };
   return planes;
 }
 
@@ -129,18 +119,16 @@ HWY_INLINE Lanes meetOwnPlanes(const LeafQuery& query, const WalkTarget& target,
   const auto folded = hn::Lt(up, zero);
   const F nx = hn::IfThenElse(folded, hn::Mul(hn::Sub(one, hn::Abs(v)), signOf(u)), u);
   const F ny = hn::IfThenElse(folded, hn::Mul(hn::Sub(one, hn::Abs(u)), signOf(v)), v);
-  const auto product = [&](F ax, F ay, F az, F bx, F by, F bz)
-  { return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz)); };
-  const F scale = hn::Div(one, hn::Sqrt(product(nx, ny, up, nx, ny, up)));
-  const F x = hn::Mul(nx, scale), y = hn::Mul(ny, scale), z = hn::Mul(up, scale);
+  const Vec3 along{ nx, ny, up };
+  const F scale = hn::Div(one, hn::Sqrt(dot(along, along)));
+  const Vec3 normal{ hn::Mul(nx, scale), hn::Mul(ny, scale), hn::Mul(up, scale) };
 
   // intersectPlane().
   const F halfDiagonal = hn::Set(
     df, static_cast<float>(std::sqrt(3.0) * cellHalf(query.bits + (target.groups ? 1 : 0))));
-  const F toCentre =
-    product(x, y, z, hn::Sub(planes.x, p.ox), hn::Sub(planes.y, p.oy), hn::Sub(planes.z, p.oz));
+  const F toCentre = dot(normal, subtract(planes.middle, { p.ox, p.oy, p.oz }));
   const F t =
-    hn::Div(hn::Add(toCentre, hn::Mul(offset, halfDiagonal)), product(x, y, z, p.dx, p.dy, p.dz));
+    hn::Div(hn::Add(toCentre, hn::Mul(offset, halfDiagonal)), dot(normal, { p.dx, p.dy, p.dz }));
 
   // meetPlane().
   const F reach =

@@ -140,6 +140,14 @@ HWY_INLINE F exitOf(const Packet& p, I exponent)
   return hn::Max(p.t, t);
 }
 
+/// The middles of the cells of 2^exponent at a position, along an axis.
+HWY_INLINE F middleOf(I at, int exponent)
+{
+  const DI di;
+  const I lower = hn::And(at, hn::Set(di, -(1 << exponent)));
+  return hn::BitCast(DF(), hn::Or(lower, hn::Set(di, 1 << (exponent - 1))));
+}
+
 HWY_INLINE F notANumberWhere(Lanes lanes, F v)
 {
   const DF df;
