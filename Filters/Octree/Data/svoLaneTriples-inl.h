@@ -43,19 +43,17 @@ HWY_INLINE F dot(const Vec3& a, const Vec3& b)
 }
 
 #if !SVO_TRANSPOSES_TRIPLES
-/// base[3 index] of every lane and the two behind it.
+/// base[at] of every lane and the two behind it; `at` is not negative.
 template <class D, class T = hn::TFromD<D>>
-HWY_INLINE LaneTriples<hn::Vec<D>> loadTriples(
-  D d, const T* base, hn::Vec<hn::RebindToSigned<D>> index)
+HWY_INLINE LaneTriples<hn::Vec<D>> loadThree(D d, const T* base, hn::Vec<hn::RebindToSigned<D>> at)
 {
-  const auto at = hn::Add(index, hn::Add(index, index));
   return { gather(d, base, at), gather(d, base + 1, at), gather(d, base + 2, at) };
 }
 #else
-/// The triples of every fourth lane, and a number behind each, side by side. The indices are
-/// volatile as in svoLaneNodes-inl.h.
+/// Four numbers of every fourth lane, side by side. The indices are volatile since compilers else
+/// know the vector that they come from, and taking a vector to pieces is slower than loading them.
 template <class D, class T = hn::TFromD<D>>
-HWY_INLINE hn::Vec<D> loadEveryFourthTriple(D d, const T* base, const volatile std::int32_t* index)
+HWY_INLINE hn::Vec<D> loadEveryFourth(D d, const T* base, const volatile std::uint32_t* index)
 {
   if constexpr (hn::MaxLanes(D()) == 4)
   {
@@ -64,22 +62,22 @@ HWY_INLINE hn::Vec<D> loadEveryFourthTriple(D d, const T* base, const volatile s
   else
   {
     const hn::Half<D> half;
-    return hn::Combine(d, loadEveryFourthTriple(half, base, index + hn::MaxLanes(half)),
-      loadEveryFourthTriple(half, base, index));
+    return hn::Combine(d, loadEveryFourth(half, base, index + hn::MaxLanes(half)),
+      loadEveryFourth(half, base, index));
   }
 }
 
-/// The same by transposing, which is faster than gathers of AVX2.
+/// The same by transposing: one load of 16 bytes a lane where gathers, which take as long as single
+/// loads, need three. With AVX-512 it would be slower than they are.
 template <class D, class T = hn::TFromD<D>>
-HWY_INLINE LaneTriples<hn::Vec<D>> loadTriples(
-  D d, const T* base, hn::Vec<hn::RebindToSigned<D>> index)
+HWY_INLINE LaneTriples<hn::Vec<D>> loadThree(D d, const T* base, hn::Vec<hn::RebindToSigned<D>> at)
 {
-  const hn::RebindToSigned<D> di;
-  const hn::RepartitionToWide<hn::RebindToUnsigned<D>> wide;
-  HWY_ALIGN std::int32_t at[hn::MaxLanes(D())];
-  hn::Store(hn::Add(index, hn::Add(index, index)), di, at);
-  const auto a = loadEveryFourthTriple(d, base, at), b = loadEveryFourthTriple(d, base, at + 1);
-  const auto e = loadEveryFourthTriple(d, base, at + 2), f = loadEveryFourthTriple(d, base, at + 3);
+  const hn::RebindToUnsigned<D> du;
+  const hn::RepartitionToWide<decltype(du)> wide;
+  HWY_ALIGN std::uint32_t index[hn::MaxLanes(D())];
+  hn::Store(hn::BitCast(du, at), du, index);
+  const auto a = loadEveryFourth(d, base, index), b = loadEveryFourth(d, base, index + 1);
+  const auto e = loadEveryFourth(d, base, index + 2), f = loadEveryFourth(d, base, index + 3);
   const auto pairs = [&](hn::Vec<D> v) { return hn::BitCast(wide, v); };
   const auto lowAB = pairs(hn::InterleaveLower(d, a, b)),
              lowEF = pairs(hn::InterleaveLower(d, e, f));
@@ -89,6 +87,14 @@ HWY_INLINE LaneTriples<hn::Vec<D>> loadTriples(
     hn::BitCast(d, hn::InterleaveLower(wide, upAB, upEF)) };
 }
 #endif
+
+/// The triple base[3 index] of every lane.
+template <class D, class T = hn::TFromD<D>>
+HWY_INLINE LaneTriples<hn::Vec<D>> loadTriples(
+  D d, const T* base, hn::Vec<hn::RebindToSigned<D>> index)
+{
+  return loadThree(d, base, hn::Add(index, hn::Add(index, index)));
+}
 }
 }
 HWY_AFTER_NAMESPACE();

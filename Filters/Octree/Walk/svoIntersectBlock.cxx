@@ -272,7 +272,7 @@ WalkTarget walkTarget(const LeafQuery& query)
   const UpperLevels& upper = octree.upperLevels();
   const int table = std::min(upper.tableCount - 1, stopDepth);
   WalkTarget target;
-  target.nodes = reinterpret_cast<const std::uint64_t*>(octree.nodes());
+  target.words = reinterpret_cast<const std::uint32_t*>(octree.nodes());
   target.table = upper.tables[table].data();
   target.tableBits = NodeLevels * table;
   target.stopSize = MantissaBits - NodeLevels * (stopDepth + 1);
@@ -288,7 +288,7 @@ WalkTarget walkTarget(const LeafQuery& query)
     octree.header().listWords < most)
   {
     target.points = &surface->points.data()->x;
-    target.triangles = &surface->triangles.data()->x;
+    target.triangles = reinterpret_cast<const std::int32_t*>(&surface->triangles.data()->x);
     target.listBegin = static_cast<int>(4 * octree.header().nodeCount);
     if (!target.groups && octree.representatives())
     {
@@ -319,7 +319,8 @@ void intersect(
     return;
   }
   const LeafQuery query(octree, options);
-  if (query.bits == 0)
+  // Nodes' words, too, are indexed with 32 bits and a sign.
+  if (query.bits == 0 || octree.header().nodeCount >= std::uint64_t(1) << 29)
   {
     intersectBlockScalar(octree, rays, options, hits);
     return;

@@ -17,7 +17,7 @@ namespace svo
 /// Cell sizes are exponents: a cell is 2^exponent units of a float's last place in [1, 2) wide.
 struct WalkTarget
 {
-  const std::uint64_t* nodes = nullptr; // two words a node: the mask; first and plane
+  const std::uint32_t* words = nullptr; // the nodes, four words each, and the lists behind them
   const std::uint32_t* table = nullptr; // one of svoUpperLevels.h, above the stop level
   int tableBits = 0;                    // the table has 2^tableBits entries along an edge
   int stopSize = 0;                     // of the cells of the nodes where rays stop
@@ -29,8 +29,8 @@ struct WalkTarget
 
   // For leaves that are settled side by side; null pointers where they cannot be.
   const float* points = nullptr;             // of the surface, 3 each
-  const std::uint32_t* triangles = nullptr;  // likewise
-  int listBegin = 0;                         // index of the octree's lists, in words from `nodes`
+  const std::int32_t* triangles = nullptr;   // likewise
+  int listBegin = 0;                         // index of the octree's lists in `words`
   int cellSize = 0;                          // of the cells where rays stop
   float touchedHalf = 0.0f;                  // see touchedHalf()
   const KeptRepresentatives* kept = nullptr; // if the cells are voxels

@@ -44,10 +44,9 @@ public:
     if (this->keys[slot] != word)
     {
       this->keys[slot] = word;
-      const auto* list = reinterpret_cast<const std::uint32_t*>(target.nodes) + word;
       // An id that stands in its node has a bit for that.
-      const U ids =
-        hn::And(hn::MaskedLoad(hn::FirstN(du, count), du, list), hn::Set(du, ~InlineTriangle));
+      const U ids = hn::And(hn::MaskedLoad(hn::FirstN(du, count), du, target.words + word),
+        hn::Set(du, ~InlineTriangle));
       this->fetch(target, hn::BitCast(DI(), ids), this->parts[slot]);
     }
     return this->parts[slot];

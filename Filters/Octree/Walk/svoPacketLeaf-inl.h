@@ -41,11 +41,10 @@ HWY_INLINE Lists findLists(const WalkTarget& target, I node, Lanes lanes)
 {
   const DI di;
   const DU du;
-  const I reference = firstChild(target.nodes, node);
+  const I reference = firstChild(target.words, node);
   const Lanes single = hn::Lt(reference, hn::Zero(di)); // InlineTriangle is the sign
   const I header = hn::IfThenZeroElse(single, hn::Add(reference, hn::Set(di, target.listBegin)));
-  const auto* words = reinterpret_cast<const std::uint32_t*>(target.nodes);
-  const I listed = hn::BitCast(di, gather(du, words, hn::IfThenElseZero(lanes, header)));
+  const I listed = hn::BitCast(di, gather(du, target.words, hn::IfThenElseZero(lanes, header)));
   const I one = hn::Set(di, 1);
   Lists lists;
   lists.words = hn::IfThenZeroElse(single, hn::Add(header, one));
@@ -64,18 +63,16 @@ HWY_INLINE I triangleId(const WalkTarget& target, const Lists& lists, int k, Lan
 {
   const DI di;
   const DU du;
-  const auto* words = reinterpret_cast<const std::uint32_t*>(target.nodes);
   const Lanes single = hn::Eq(lists.words, hn::Zero(di));
   const I index =
     hn::IfThenElseZero(hn::AndNot(single, lanes), hn::Add(lists.words, hn::Set(di, k)));
-  const I listed = hn::BitCast(di, gather(du, words, index));
+  const I listed = hn::BitCast(di, gather(du, target.words, index));
   return hn::IfThenElseZero(lanes, hn::IfThenElse(single, lists.inlineId, listed));
 }
 
 HWY_INLINE void gatherTriangle(const WalkTarget& target, I id, Vec3& a, Vec3& b, Vec3& c)
 {
-  const auto ids = reinterpret_cast<const std::int32_t*>(target.triangles);
-  const auto corners = loadTriples(DI(), ids, id);
+  const auto corners = loadTriples(DI(), target.triangles, id);
   a = loadTriples(DF(), target.points, corners.x);
   b = loadTriples(DF(), target.points, corners.y);
   c = loadTriples(DF(), target.points, corners.z);

@@ -99,7 +99,7 @@ private:
 
   HWY_INLINE void prefetch(std::uint32_t brick) const
   {
-    const auto* words = reinterpret_cast<const std::uint32_t*>(this->target.nodes);
+    const std::uint32_t* words = this->target.words;
     const std::uint32_t list = words[4 * brick + 2];
     __builtin_prefetch(words + (list & InlineTriangle ? 0 : list + this->target.listBegin));
   }
@@ -107,7 +107,7 @@ private:
   /// Whether no more is to be found out about a ray that has come to a brick.
   HWY_INLINE bool meets(int ray, std::uint32_t brick)
   {
-    const auto* words = reinterpret_cast<const std::uint32_t*>(this->target.nodes);
+    const std::uint32_t* words = this->target.words;
     // A single id stands in the node.
     std::uint32_t list = 4 * brick + 2;
     int count = 1;

@@ -34,7 +34,7 @@ struct OwnPlanes
 HWY_INLINE OwnPlanes planesOfCells(const WalkTarget& target, bool voxels, const Packet& p)
 {
   const DI di;
-  const I first = hn::Add(firstChild(target.nodes, p.node), p.below);
+  const I first = hn::Add(firstChild(target.words, p.node), p.below);
   OwnPlanes planes;
   planes.primitive = voxels ? first : hn::Or(first, hn::Set(di, static_cast<int>(NodePrimitive)));
   planes.word = voxels ? hn::Add(first, hn::Set(di, target.listBegin))
@@ -51,10 +51,10 @@ HWY_INLINE OwnPlanes planesOfGroups(const WalkTarget& target, F tExit, const Pac
   const DF df;
   const DI di;
   const DU du;
-  const LaneNodes node = loadNodes(target.nodes, p.node);
+  const auto [low, high, first] = loadNodes(target.words, p.node);
   const I firstBit = hn::And(cellOf(p), hn::Set(di, 56));
   const auto upper = hn::RebindMask(du, hn::Gt(firstBit, hn::Set(di, 31)));
-  const U half = hn::IfThenElse(upper, node.high, node.low);
+  const U half = hn::IfThenElse(upper, high, low);
   const U at = hn::BitCast(du, hn::And(firstBit, hn::Set(di, 31)));
   const U octet = hn::And(hn::Shr(half, at), hn::Set(du, 255));
 
@@ -74,7 +74,7 @@ HWY_INLINE OwnPlanes planesOfGroups(const WalkTarget& target, F tExit, const Pac
     hn::IfThenElse(exists, hn::BitCast(du, passed), countBoth(hn::Sub(lowest, one), none));
 
   const U before = hn::And(half, hn::Sub(hn::Shl(one, hn::Add(at, bit)), one));
-  const U index = hn::Add(node.first, countBoth(before, hn::IfThenElseZero(upper, node.low)));
+  const U index = hn::Add(first, countBoth(before, hn::IfThenElseZero(upper, low)));
   OwnPlanes planes;
   planes.primitive = hn::Or(hn::BitCast(di, index), hn::Set(di, static_cast<int>(NodePrimitive)));
   planes.word = hn::Add(hn::ShiftLeft<2>(hn::BitCast(di, index)), hn::Set(di, 3));
@@ -100,8 +100,7 @@ HWY_INLINE Lanes meetOwnPlanes(const LeafQuery& query, const WalkTarget& target,
   const bool voxels = query.inBrick;
   const OwnPlanes planes =
     target.groups ? planesOfGroups(target, exitOf(p, leave), p) : planesOfCells(target, voxels, p);
-  const auto* words = reinterpret_cast<const std::uint32_t*>(target.nodes);
-  const U bits = gather(du, words, hn::IfThenElseZero(arrived, planes.word));
+  const U bits = gather(du, target.words, hn::IfThenElseZero(arrived, planes.word));
 
   // decodePlane().
   const F one = hn::Set(df, 1.0f), two = hn::Set(df, 2.0f), zero = hn::Zero(df);

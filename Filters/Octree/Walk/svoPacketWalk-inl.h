@@ -87,14 +87,14 @@ struct Probe
   I first;   // the node's first child
 };
 
-HWY_INLINE Probe probe(const std::uint64_t* nodes, const Packet& p)
+HWY_INLINE Probe probe(const std::uint32_t* words, const Packet& p)
 {
   const DI di;
   const DU du;
-  const LaneNodes node = loadNodes(nodes, p.node);
+  const auto [low, high, first] = loadNodes(words, p.node);
   const I cell = cellOf(p);
   const auto upper = hn::RebindMask(du, hn::Gt(cell, hn::Set(di, 31)));
-  const U half = hn::IfThenElse(upper, node.high, node.low);
+  const U half = hn::IfThenElse(upper, high, low);
   const U at = hn::BitCast(du, hn::And(cell, hn::Set(di, 31)));
   const U bit = hn::Shl(hn::Set(du, 1), at);
   const U group = hn::And(hn::Shr(half, hn::And(at, hn::Set(du, 24))), hn::Set(du, 255));
@@ -102,9 +102,9 @@ HWY_INLINE Probe probe(const std::uint64_t* nodes, const Packet& p)
   result.nothing = hn::Lt(p.node, hn::Zero(di));
   result.occupied = hn::AndNot(result.nothing, hn::RebindMask(di, hn::Eq(hn::And(half, bit), bit)));
   result.gap = hn::Or(result.nothing, hn::RebindMask(di, hn::Eq(group, hn::Zero(du))));
-  result.below = hn::BitCast(di,
-    countBoth(hn::And(half, hn::Sub(bit, hn::Set(du, 1))), hn::IfThenElseZero(upper, node.low)));
-  result.first = hn::BitCast(di, node.first);
+  result.below = hn::BitCast(
+    di, countBoth(hn::And(half, hn::Sub(bit, hn::Set(du, 1))), hn::IfThenElseZero(upper, low)));
+  result.first = hn::BitCast(di, first);
   return result;
 }
 
@@ -227,11 +227,10 @@ HWY_INLINE void find(const WalkTarget& target, Packet& p, Lanes lost)
 }
 
 /// The first child of each lane's node.
-HWY_INLINE I firstChild(const std::uint64_t* nodes, I node)
+HWY_INLINE I firstChild(const std::uint32_t* words, I node)
 {
   const DI di;
   const DU du;
-  const auto* words = reinterpret_cast<const std::uint32_t*>(nodes);
   const I index = hn::ShiftLeft<2>(hn::Max(node, hn::Zero(di)));
   return hn::BitCast(di, gather(du, words + 2, index));
 }
@@ -241,7 +240,7 @@ template <bool Groups>
 HWY_INLINE Lanes turn(const WalkTarget& target, Packet& p)
 {
   const DI di;
-  const Probe seen = probe(target.nodes, p);
+  const Probe seen = probe(target.words, p);
   const Lanes bottom = hn::Eq(p.size, hn::Set(di, target.stopSize));
   // An empty group of eight, or a whole empty block, is left at once.
   const I beyond = hn::Sub(hn::Set(di, 1), hn::VecFromMask(di, seen.nothing));
