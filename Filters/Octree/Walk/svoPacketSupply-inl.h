@@ -24,35 +24,22 @@ namespace HWY_NAMESPACE
 {
 constexpr int PacketParts = 23; // see forEachPart()
 
-/// Calls visit(k, part) for all that a ray takes with it into another lane.
+template <class Visit, class... Parts>
+HWY_INLINE void visitParts(const Visit& visit, Parts&... parts)
+{
+  static_assert(sizeof...(parts) == PacketParts);
+  int k = 0;
+  (visit(k++, parts), ...);
+}
+
+/// Calls visit(k, part) for all that a ray takes with it into another lane; the last is `dead`.
 template <class Visit>
 HWY_INLINE void forEachPart(Packet& p, const Visit& visit)
 {
   const DI di;
   I dead = hn::VecFromMask(di, p.dead);
-  visit(0, p.ox);
-  visit(1, p.oy);
-  visit(2, p.oz);
-  visit(3, p.dx);
-  visit(4, p.dy);
-  visit(5, p.dz);
-  visit(6, p.ix);
-  visit(7, p.iy);
-  visit(8, p.iz);
-  visit(9, p.nx);
-  visit(10, p.ny);
-  visit(11, p.nz);
-  visit(12, p.tMax);
-  visit(13, p.t);
-  visit(14, p.x);
-  visit(15, p.y);
-  visit(16, p.z);
-  visit(17, p.cellMirror);
-  visit(18, p.tableMirror);
-  visit(19, p.size);
-  visit(20, p.node);
-  visit(21, p.ray);
-  visit(22, dead);
+  visitParts(visit, p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, p.ix, p.iy, p.iz, p.nx, p.ny, p.nz, p.tMax,
+    p.t, p.x, p.y, p.z, p.cellMirror, p.tableMirror, p.size, p.node, p.ray, dead);
   p.dead = hn::Lt(dead, hn::Zero(di));
 }
 
