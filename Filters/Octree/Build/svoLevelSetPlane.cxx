@@ -1,5 +1,7 @@
 #include "svoLevelSetPlane.h"
 
+#include "svoImageSource.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,16 +16,7 @@ namespace
 double interpolated(const VoxelValues& values, const glm::dvec3& at)
 {
   const glm::ivec3 low(at.x < 0.0 ? -1 : 0, at.y < 0.0 ? -1 : 0, at.z < 0.0 ? -1 : 0);
-  const glm::dvec3 t = at - glm::dvec3(low);
-  double sum = 0.0;
-  for (int i = 0; i < 8; ++i)
-  {
-    const glm::ivec3 upper(i & 1, i >> 1 & 1, i >> 2);
-    const double weight =
-      (upper.x ? t.x : 1.0 - t.x) * (upper.y ? t.y : 1.0 - t.y) * (upper.z ? t.z : 1.0 - t.z);
-    sum += weight * values(low.x + upper.x, low.y + upper.y, low.z + upper.z);
-  }
-  return sum;
+  return trilinear(low, at - glm::dvec3(low), 0.0, values);
 }
 
 /// Where along a way of that length the field is 0, if it has changed its sign at the end:
