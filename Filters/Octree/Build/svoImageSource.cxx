@@ -62,7 +62,7 @@ bool ValuePyramid::reaches(const glm::dvec3& low, const glm::dvec3& high, double
   return range.low <= value && value <= range.high && range.low < range.high;
 }
 
-ImageSource::Box ImageSource::boxOf(const glm::dvec3& centre, double half) const
+Box ImageSource::boxOf(const glm::dvec3& centre, double half) const
 {
   const glm::dmat3 linear(this->Grid.toIndex);
   const glm::dvec3 middle(this->Grid.toIndex * glm::dvec4(centre, 1.0));

@@ -9,6 +9,7 @@
 #ifndef svoImageSource_h
 #define svoImageSource_h
 
+#include "svoBox.h"
 #include "svoFieldSource.h"
 #include "svoParallel.h"
 
@@ -361,10 +362,6 @@ public:
   std::uint32_t planeReach(double half) const override;
 
 private:
-  struct Box
-  {
-    glm::dvec3 low, high;
-  };
   /// Of a cube, in continuous indices, a trifle larger.
   Box boxOf(const glm::dvec3& centre, double half) const;
   bool mayPass(const Box& box, double value) const;
