@@ -44,22 +44,17 @@ struct TraceOptions
   int level = MaximumLevel; // rays stop at cells of this octree level (clamped to the octree's own)
 };
 
-/// 64 rays as a structure of arrays, in octree coordinates: an 8x8 tile of pixels or of light
-/// texels, or any 64 rays. Origins lie within a few units of the cube (the caller re-originates in
-/// double), t is relative to an origin of the caller's. A ray with tMin > tMax or with a NaN
-/// anywhere is never a hit.
-struct RayBlock
+/// Rays as a structure of arrays, in octree coordinates.
+template <int N>
+struct RayArrays
 {
-  static constexpr int Size = 64;
-  alignas(64) float originX[Size];
-  alignas(64) float originY[Size];
-  alignas(64) float originZ[Size];
-  alignas(64) float directionX[Size];
-  alignas(64) float directionY[Size];
-  alignas(64) float directionZ[Size];
-  alignas(64) float tMin[Size];
+  static constexpr int Size = N;
+  alignas(64) float originX[Size], originY[Size], originZ[Size];
+  alignas(64) float directionX[Size], directionY[Size], directionZ[Size];
   alignas(64) float tMax[Size];
 
+  glm::vec3 origin(int i) const { return { originX[i], originY[i], originZ[i] }; }
+  glm::vec3 direction(int i) const { return { directionX[i], directionY[i], directionZ[i] }; }
   /// Sets where ray i begins and where it goes, of floats or doubles.
   template <class Vector>
   void aim(std::size_t i, const Vector& from, const Vector& along)
@@ -71,6 +66,14 @@ struct RayBlock
     directionY[i] = static_cast<float>(along.y);
     directionZ[i] = static_cast<float>(along.z);
   }
+};
+
+/// An 8x8 tile of pixels or of light texels, or any 64 rays. Origins lie within a few units of the
+/// cube (the caller re-originates in double), t is relative to an origin of the caller's. A ray
+/// with tMin > tMax or with a NaN anywhere is never a hit.
+struct RayBlock : RayArrays<64>
+{
+  alignas(64) float tMin[Size];
 };
 
 /// Answer to a RayBlock. t is undefined where the primitive is NoPrimitive.

@@ -81,7 +81,7 @@ HWY_INLINE Verdict meetOneByOne(const LeafQuery& query, const WalkTarget& target
     }
     const int ray = first + i;
     ClippedRay<float> clipped;
-    clipped.origin = { rays.originX[ray], rays.originY[ray], rays.originZ[ray] };
+    clipped.origin = rays.origin(ray);
     clipped.direction = { direction[0][i], direction[1][i], direction[2][i] };
     clipped.tMin = tMin[i];
     clipped.tStart = rays.tMin[ray];

@@ -18,9 +18,7 @@ void intersectBlockScalar(
   for (int i = 0; i < RayBlock::Size; ++i)
   {
     ClippedRay<float> ray;
-    const glm::vec3 origin(rays.originX[i], rays.originY[i], rays.originZ[i]);
-    const glm::vec3 direction(rays.directionX[i], rays.directionY[i], rays.directionZ[i]);
-    if (clip(octree, origin, direction, rays.tMin[i], rays.tMax[i], ray))
+    if (clip(octree, rays.origin(i), rays.direction(i), rays.tMin[i], rays.tMax[i], ray))
     {
       const LeafHit<float> hit = intersectLeaves(query, ray, false);
       hits.t[i] = hit.t;

@@ -33,9 +33,7 @@ void traceOcclusion(const LeafQuery& query, const WalkTarget& target, const Occl
   for (int i = 0; i < rays.count; ++i)
   {
     ClippedRay<float> ray;
-    const glm::vec3 origin(rays.originX[i], rays.originY[i], rays.originZ[i]);
-    const glm::vec3 direction(rays.directionX[i], rays.directionY[i], rays.directionZ[i]);
-    if (clip(query.octree, origin, direction, 0.0f, rays.tMax[i], ray))
+    if (clip(query.octree, rays.origin(i), rays.direction(i), 0.0f, rays.tMax[i], ray))
     {
       answers.by[i] = intersectLeaves(query, ray, true).primitive;
       answers.met[i / 64] |= std::uint64_t(answers.by[i] != NoPrimitive) << i % 64;

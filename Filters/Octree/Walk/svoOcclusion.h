@@ -7,30 +7,23 @@
 #include "svoRay.h"
 #include "vtkSVOOctreeModule.h"
 
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
 
 namespace svo
 {
-/// Rays of any origins and directions, octree coordinates ([1,2)^3), as a structure of arrays; t in
-/// [0, tMax]. Rays with a NaN anywhere, or with tMax < 0, meet nothing.
-struct OcclusionRays
+/// Rays of any origins and directions; t in [0, tMax]. Rays with a NaN anywhere, or with tMax < 0,
+/// meet nothing.
+struct OcclusionRays : RayArrays<512>
 {
-  static constexpr int Most = 512;
+  static constexpr int Most = Size;
   int count = 0;
-  alignas(64) float originX[Most], originY[Most], originZ[Most];
-  alignas(64) float directionX[Most], directionY[Most], directionZ[Most];
-  alignas(64) float tMax[Most];
 
-  void add(const glm::vec3& origin, const glm::vec3& direction, float end)
+  void add(const glm::vec3& from, const glm::vec3& along, float end)
   {
-    originX[count] = origin.x;
-    originY[count] = origin.y;
-    originZ[count] = origin.z;
-    directionX[count] = direction.x;
-    directionY[count] = direction.y;
-    directionZ[count] = direction.z;
+    aim(static_cast<std::size_t>(count), from, along);
     tMax[count++] = end;
   }
 };
