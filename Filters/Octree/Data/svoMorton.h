@@ -45,29 +45,10 @@ constexpr std::uint64_t spreadBits(std::uint64_t v)
   return v;
 }
 
-/// Inverse of spreadBits.
-constexpr std::uint64_t gatherBits(std::uint64_t v)
-{
-  v &= 0x1249249249249249ull;
-  v = (v | v >> 2) & 0x10c30c30c30c30c3ull;
-  v = (v | v >> 4) & 0x100f00f00f00f00full;
-  v = (v | v >> 8) & 0x1f0000ff0000ffull;
-  v = (v | v >> 16) & 0x1f00000000ffffull;
-  v = (v | v >> 32) & 0x1fffff;
-  return v;
-}
-
 /// Morton key of a cell with up to 21 bits a coordinate.
 constexpr std::uint64_t mortonKey(std::uint32_t x, std::uint32_t y, std::uint32_t z)
 {
   return spreadBits(x) | spreadBits(y) << 1 | spreadBits(z) << 2;
-}
-
-/// Cell of a Morton key.
-inline glm::ivec3 mortonCell(std::uint64_t key)
-{
-  return { static_cast<int>(gatherBits(key)), static_cast<int>(gatherBits(key >> 1)),
-    static_cast<int>(gatherBits(key >> 2)) };
 }
 }
 
