@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <string>
 
 namespace svo
@@ -234,11 +235,7 @@ NodeDepth makeBricks(const SortedRecords& sorted, const RawArray<TriangleShape>&
       voxels[i] = fillBucket(
         records(i), sorted.bucketSize(i), shares[i], shapes.data(), bricks, lists.data());
     });
-  header.voxelCount = 0;
-  for (const std::size_t count : voxels)
-  {
-    header.voxelCount += count;
-  }
+  header.voxelCount = std::accumulate(voxels.begin(), voxels.end(), std::uint64_t(0));
   header.listWords = all.listWords;
   return bricks;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 
@@ -85,13 +86,7 @@ void sortBucket(BrickRecord* records, BrickRecord* scratch, std::size_t count, i
     {
       ++place[records[i].key >> shift & digits];
     }
-    std::uint32_t sum = 0;
-    for (std::uint64_t d = 0; d <= digits; ++d)
-    {
-      const std::uint32_t n = place[d];
-      place[d] = sum;
-      sum += n;
-    }
+    std::exclusive_scan(place, place + digits + 1, place, 0u);
     for (std::size_t i = 0; i < count; ++i)
     {
       scratch[place[records[i].key >> shift & digits]++] = records[i];
@@ -203,10 +198,8 @@ SortedRecords sortRecords(std::vector<RecordList>&& pieces, int level, Executor&
   {
     sorted.bucketBegin[(i & (buckets - 1)) + 1] += places[i];
   }
-  for (std::size_t bucket = 0; bucket < buckets; ++bucket)
-  {
-    sorted.bucketBegin[bucket + 1] += sorted.bucketBegin[bucket];
-  }
+  std::partial_sum(
+    sorted.bucketBegin.begin(), sorted.bucketBegin.end(), sorted.bucketBegin.begin());
   std::vector<std::size_t> next(sorted.bucketBegin.begin(), sorted.bucketBegin.end() - 1);
   for (std::size_t i = 0; i < places.size(); ++i)
   {

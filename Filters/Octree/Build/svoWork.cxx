@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
@@ -147,18 +148,12 @@ double MeshMeasure::expectedRecords(int level) const
   return (this->areas * n + this->widths) * n + static_cast<double>(this->triangles);
 }
 
-double MeshMeasure::expectedBricks(int level) const
-{
-  // Triangles are taken to be neighbours on a surface, whose bricks they share.
-  const double n = bricksOfEdge(level);
-  return std::min(
-    { n * n * n, this->areas * n * n * 1.25 + 8.0 * n, this->expectedRecords(level) });
-}
-
 double MeshMeasure::expectedMemory(int level) const
 {
   const double records = this->expectedRecords(level);
-  const double bricks = this->expectedBricks(level);
+  // Triangles are taken to be neighbours on a surface, whose bricks they share.
+  const double n = bricksOfEdge(level);
+  const double bricks = std::min({ n * n * n, this->areas * n * n * 1.25 + 8.0 * n, records });
   const double lists = 4.0 * (records - 0.5 * bricks);
   const double mesh = static_cast<double>(this->triangles) * sizeof(TriangleShape);
   // The records of the pieces and of the buckets; the buckets, the bricks with keys and moments and
@@ -185,7 +180,7 @@ MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const Parall
   std::vector<MeshMeasure> measures(blocks);
   const double n = bricksOfEdge(level);
   const double scale = 1.0 / cube.edge;
-  const bool keep = recordsOfTriangle.size() == mesh.triangleCount;
+  recordsOfTriangle.resize(mesh.triangleCount);
   forEach(parallelFor, blocks, 4,
     [&](std::size_t block)
     {
@@ -209,10 +204,7 @@ MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const Parall
           ++m.triangles;
           records = (areas * n + widths) * n + 1.0;
         }
-        if (keep)
-        {
-          recordsOfTriangle[i] = static_cast<float>(records);
-        }
+        recordsOfTriangle[i] = static_cast<float>(records);
       }
       measures[block] = m;
     });
@@ -228,11 +220,8 @@ MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const Parall
 
 std::vector<WorkPiece> cutWork(const RawArray<float>& recordsOfTriangle)
 {
-  double total = 0.0;
-  for (std::size_t i = 0; i < recordsOfTriangle.size(); ++i)
-  {
-    total += recordsOfTriangle[i];
-  }
+  const float* const each = recordsOfTriangle.data();
+  const double total = std::accumulate(each, each + recordsOfTriangle.size(), 0.0);
   // Small enough to balance threads and to abort between them, not too many for huge meshes.
   const double target = std::max(4096.0, total / 4096.0);
   std::vector<WorkPiece> pieces;

@@ -31,7 +31,6 @@ struct MeshMeasure
   std::size_t triangles = 0; // that are not dropped
 
   double expectedRecords(int level) const;
-  double expectedBricks(int level) const;
   /// Peak bytes of build().
   double expectedMemory(int level) const;
   /// False where nodes or list words will certainly be more than 31 bits can name.
@@ -48,7 +47,8 @@ struct WorkPiece
   double records = 0.0; // expected
 };
 
-/// Sums are taken in blocks of a fixed size, so that they are the same for any executor.
+/// Sums are taken in blocks of a fixed size, so that they are the same for any executor. What is
+/// expected of each triangle goes to `recordsOfTriangle`.
 MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const ParallelFor& parallelFor,
   int level, RawArray<float>& recordsOfTriangle);
 
