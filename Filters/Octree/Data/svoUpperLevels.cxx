@@ -6,76 +6,66 @@
 #include <algorithm>
 #include <cassert>
 
+#include <glm/common.hpp>
+
 namespace svo
 {
 namespace
 {
+/// The place of an entry of a table whose coordinates have so many bits.
+glm::ivec3 placeOf(std::size_t entry, int bits)
+{
+  const std::size_t last = (std::size_t(1) << bits) - 1;
+  return { entry & last, entry >> bits & last, entry >> 2 * bits };
+}
+
 /// Fills a table from the one before it: every entry's cell is divided into a node's cells.
 void refine(const std::vector<std::uint32_t>& coarse, int depth, const Node* nodes,
   std::vector<std::uint32_t>& fine)
 {
   const int n = 1 << (NodeLevels * (depth - 1)); // entries along an edge of `coarse`
   const std::uint32_t cellExponent = MantissaBits - NodeLevels * depth;
-  for (int z = 0; z < NodeEdge * n; ++z)
+  for (std::size_t i = 0; i < fine.size(); ++i)
   {
-    for (int y = 0; y < NodeEdge * n; ++y)
+    const glm::ivec3 at = placeOf(i, NodeLevels * depth);
+    const glm::ivec3 above = at >> NodeLevels;
+    const std::uint32_t parent = coarse[above.x + n * (above.y + std::size_t(n) * above.z)];
+    fine[i] = parent;
+    if (!(parent & UpperLevels::Empty))
     {
-      for (int x = 0; x < NodeEdge * n; ++x)
+      const Node& node = nodes[parent >> 5];
+      const int cell = cellAt(at);
+      if (hasChild(node, cell))
       {
-        const std::uint32_t parent =
-          coarse[x / NodeEdge + n * (y / NodeEdge + std::size_t(n) * (z / NodeEdge))];
-        std::uint32_t entry = parent;
-        if (!(parent & UpperLevels::Empty))
-        {
-          const Node& node = nodes[parent >> 5];
-          const int cell = cellAt({ x, y, z });
-          if (hasChild(node, cell))
-          {
-            assert(child(node, cell) < UpperLevels::Empty >> 5);
-            entry = child(node, cell) << 5 | (cellExponent - NodeLevels);
-          }
-          else
-          {
-            entry = UpperLevels::Empty | (cellExponent + emptyAbove(node, cell) - NodeLevels);
-          }
-        }
-        fine[x + NodeEdge * n * (y + NodeEdge * std::size_t(n) * z)] = entry;
+        assert(child(node, cell) < UpperLevels::Empty >> 5);
+        fine[i] = child(node, cell) << 5 | (cellExponent - NodeLevels);
+      }
+      else
+      {
+        fine[i] = UpperLevels::Empty | (cellExponent + emptyAbove(node, cell) - NodeLevels);
       }
     }
   }
 }
-}
 
-namespace
-{
 void findBox(UpperLevels& upper)
 {
   const std::vector<std::uint32_t>& table = upper.tables[upper.tableCount - 1];
-  const int n = 1 << (NodeLevels * (upper.tableCount - 1)); // entries along an edge
-  int low[3] = { n, n, n }, high[3] = { 0, 0, 0 };
-  std::size_t i = 0;
-  for (int z = 0; z < n; ++z)
+  const int bits = NodeLevels * (upper.tableCount - 1);
+  const int n = 1 << bits; // entries along an edge
+  glm::ivec3 low(n), high(0);
+  for (std::size_t i = 0; i < table.size(); ++i)
   {
-    for (int y = 0; y < n; ++y)
+    if (!(table[i] & UpperLevels::Empty))
     {
-      for (int x = 0; x < n; ++x)
-      {
-        if (!(table[i++] & UpperLevels::Empty))
-        {
-          const int at[3] = { x, y, z };
-          for (int a = 0; a < 3; ++a)
-          {
-            low[a] = std::min(low[a], at[a]);
-            high[a] = std::max(high[a], at[a] + 1);
-          }
-        }
-      }
+      low = glm::min(low, placeOf(i, bits));
+      high = glm::max(high, placeOf(i, bits) + 1);
     }
   }
-  for (int a = 0; a < 3 && low[0] < n; ++a)
+  if (low.x < n)
   {
-    upper.low[a] = 1.0f + static_cast<float>(low[a]) / static_cast<float>(n);
-    upper.high[a] = 1.0f + static_cast<float>(high[a]) / static_cast<float>(n);
+    upper.low = 1.0f + glm::vec3(low) / static_cast<float>(n);
+    upper.high = 1.0f + glm::vec3(high) / static_cast<float>(n);
   }
 }
 }

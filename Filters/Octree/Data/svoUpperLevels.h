@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 namespace svo
 {
 struct UpperLevels
@@ -29,8 +31,8 @@ struct UpperLevels
   int tableCount = 0;
 
   /// The box of the entries of the last table that are not empty, octree coordinates.
-  float low[3] = { 1.0f, 1.0f, 1.0f };
-  float high[3] = { 2.0f, 2.0f, 2.0f };
+  glm::vec3 low{ 1.0f };
+  glm::vec3 high{ 2.0f };
 
   std::size_t bytes() const;
 };

@@ -110,17 +110,17 @@ private:
     const DF df;
     const DI di;
     F end = p.tClip;
-    const auto leave = [&](F o, F inverse, I negative, int axis)
+    const auto leave = [&](F o, F inverse, I negative, float low, float high)
     {
-      const F low = hn::Set(df, this->upper.low[axis]), high = hn::Set(df, this->upper.high[axis]);
-      const F face = hn::IfThenElse(hn::RebindMask(df, hn::Lt(negative, hn::Zero(di))), low, high);
+      const F face = hn::IfThenElse(
+        hn::RebindMask(df, hn::Lt(negative, hn::Zero(di))), hn::Set(df, low), hn::Set(df, high));
       // Along no axis that a ray stands still on: infinity, or not a number on the face itself.
       const F t = hn::Mul(hn::Sub(face, o), inverse);
       end = hn::IfThenElse(hn::Lt(t, end), t, end);
     };
-    leave(p.ox, p.ix, p.nx, 0);
-    leave(p.oy, p.iy, p.ny, 1);
-    leave(p.oz, p.iz, p.nz, 2);
+    leave(p.ox, p.ix, p.nx, this->upper.low.x, this->upper.high.x);
+    leave(p.oy, p.iy, p.ny, this->upper.low.y, this->upper.high.y);
+    leave(p.oz, p.iz, p.nz, this->upper.low.z, this->upper.high.z);
     p.tMax = end;
     p.dead = hn::Or(p.dead, hn::RebindMask(di, hn::Lt(end, p.tMin)));
   }
