@@ -37,25 +37,9 @@ bool headerIsSane(const Header& h, std::size_t size)
   {
     return false;
   }
-  if (h.depthBegin[0] != 0 || h.depthBegin[h.depthCount] != h.nodeCount)
-  {
-    return false;
-  }
-  for (std::uint32_t d = 0; d < h.depthCount; ++d)
-  {
-    if (h.depthBegin[d] > h.depthBegin[d + 1])
-    {
-      return false;
-    }
-  }
-  return h.depthBegin[1] == 1 || h.nodeCount == 1;
-}
-
-glm::dmat4 frameAt(const std::byte* at)
-{
-  double rows[16];
-  std::memcpy(rows, at, FrameBytes);
-  return glm::transpose(glm::make_mat4(rows));
+  return h.depthBegin[0] == 0 && h.depthBegin[h.depthCount] == h.nodeCount &&
+    std::is_sorted(h.depthBegin, h.depthBegin + h.depthCount + 1) &&
+    (h.depthBegin[1] == 1 || h.nodeCount == 1);
 }
 
 bool surfaceIsSane(const Surface& surface)
@@ -67,6 +51,108 @@ bool surfaceIsSane(const Surface& surface)
   return room &&
     std::all_of(surface.triangles.begin(), surface.triangles.end(),
       [points](const glm::uvec3& t) { return t.x < points && t.y < points && t.z < points; });
+}
+
+/// What is wrong with an octree of `size` bytes, of at least a header; null if nothing is. Finds
+/// its longest list.
+const char* damageOf(const Octree& octree, std::size_t size, std::uint32_t& longest)
+{
+  const Header& h = octree.header();
+  const Surface* surface = octree.surface();
+  if (!headerIsSane(h, size))
+  {
+    return "the octree's header is damaged, or of another version";
+  }
+  if (h.framed != 0 && !isFrame(octree.frame()))
+  {
+    return "the octree's frame is not affine and invertible";
+  }
+  if (surface && (octree.hasPlanes() || surface->triangles.size() != h.triangleCount))
+  {
+    return "the octree was built from another number of triangles";
+  }
+  if (surface && !surfaceIsSane(*surface))
+  {
+    return "a triangle of the octree's surface has a point that is not there, or no room behind "
+           "the last";
+  }
+  if (octree.empty())
+  {
+    if (h.nodeCount != 1 || h.listWords != 0 || h.voxelCount != 0)
+    {
+      return "the octree's nodes are damaged";
+    }
+    return nullptr;
+  }
+  const std::uint32_t bricks = octree.brickBegin();
+  const Node* nodes = octree.nodes();
+  const std::uint32_t* lists = octree.lists();
+  // Of a root cube that is larger only the lower corner is the octree's cube.
+  const int spare = octree.rootBits(0);
+  if (nodes[0].mask != occupiedBelow(nodes[0], 0, NodeLevels - spare))
+  {
+    return "the octree has nodes outside of its cube";
+  }
+  std::uint64_t next = 1; // children fill each depth in the order of their parents
+  // Lists lie in the order of their bricks. Were they shared, a small file could name a long list
+  // so often that reading it would never end.
+  std::uint64_t nextList = 0;
+  std::uint64_t voxels = 0;
+  for (std::uint32_t i = 0; i < h.nodeCount; ++i)
+  {
+    const Node& node = nodes[i];
+    bool good = node.mask != 0;
+    if (i < bricks)
+    {
+      good = good && node.first == next;
+      next += childCount(node);
+    }
+    else if (octree.hasPlanes())
+    {
+      const std::uint64_t words = PlaneWords * static_cast<std::uint64_t>(childCount(node));
+      good = good && node.first == nextList && words <= h.listWords - nextList;
+      nextList += good ? words : 0;
+    }
+    else if (node.first & InlineTriangle)
+    {
+      good = good && (node.first & ~InlineTriangle) < h.triangleCount;
+      longest = std::max(longest, 1u);
+    }
+    else
+    {
+      good = good && node.first == nextList && nextList < h.listWords && lists[nextList] > 0 &&
+        lists[nextList] < h.listWords - nextList;
+      for (std::uint32_t k = 1; good && k <= lists[node.first]; ++k)
+      {
+        good = lists[node.first + k] < h.triangleCount;
+      }
+      longest = std::max(longest, good ? lists[node.first] : 0u);
+      nextList += good ? lists[node.first] + std::uint64_t(1) : 0;
+    }
+    voxels += i < bricks ? 0 : childCount(node);
+    if (!good || (i + 1 == h.depthBegin[1] && h.depthCount > 1 && next != h.depthBegin[2]))
+    {
+      return "the octree's nodes are damaged";
+    }
+  }
+  // Depth by depth, the children of one depth are exactly the next one.
+  std::uint64_t children = 1;
+  for (std::uint32_t d = 0; d + 1 < h.depthCount; ++d)
+  {
+    for (std::uint32_t i = h.depthBegin[d]; i < h.depthBegin[d + 1]; ++i)
+    {
+      children += childCount(nodes[i]);
+    }
+    if (children != h.depthBegin[d + 2])
+    {
+      return "the octree's depths are damaged";
+    }
+  }
+  if (nextList != h.listWords || voxels != h.voxelCount)
+  {
+    return "the octree's header counts other lists or voxels than there are";
+  }
+  return nullptr;
 }
 }
 
@@ -82,16 +168,11 @@ double frobeniusNorm(const glm::dmat3& m)
 
 bool isFrame(const glm::dmat4& m)
 {
-  for (int i = 0; i < 16; ++i)
-  {
-    if (!std::isfinite(m[i / 4][i % 4]))
-    {
-      return false;
-    }
-  }
+  const double* const numbers = glm::value_ptr(m);
   const glm::dmat3 linear(m);
   const double scale = frobeniusNorm(linear);
-  if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0 || !(scale > 0.0) ||
+  if (!std::all_of(numbers, numbers + 16, [](double v) { return std::isfinite(v); }) ||
+    m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0 || !(scale > 0.0) ||
     !std::isfinite(scale) || !std::isfinite(1.0 / scale))
   {
     return false;
@@ -117,120 +198,17 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
   Octree octree;
   octree.Whole = parts;
   octree.Buffer = parts->data.get();
-  const Header& h = octree.header();
-  if (!headerIsSane(h, size))
+  if (const char* damage = damageOf(octree, size, parts->longest))
   {
-    error = "the octree's header is damaged, or of another version";
+    error = damage;
     return {};
   }
-  if (h.framed != 0 && !isFrame(frameAt(octree.Buffer + frameOffset(h))))
+  parts->upper = makeUpperLevels(octree.header(), octree.nodes(), parts->size);
+  if (parts->surface)
   {
-    error = "the octree's frame is not affine and invertible";
-    return {};
+    parts->shortLists = makeShortLists(octree);
+    parts->representatives = KeptRepresentatives(octree.header(), octree.nodes());
   }
-  if (parts->surface && (octree.hasPlanes() || parts->surface->triangles.size() != h.triangleCount))
-  {
-    error = "the octree was built from another number of triangles";
-    return {};
-  }
-  if (parts->surface && !surfaceIsSane(*parts->surface))
-  {
-    error = "a triangle of the octree's surface has a point that is not there, or no room behind "
-            "the last";
-    return {};
-  }
-  const auto derive = [&parts, &octree]
-  {
-    parts->upper = makeUpperLevels(octree.header(), octree.nodes(), parts->size);
-    if (parts->surface)
-    {
-      parts->shortLists = makeShortLists(octree);
-      parts->representatives = KeptRepresentatives(octree.header(), octree.nodes());
-    }
-  };
-  if (octree.empty())
-  {
-    if (h.nodeCount != 1 || h.listWords != 0 || h.voxelCount != 0)
-    {
-      error = "the octree's nodes are damaged";
-      return {};
-    }
-    derive();
-    return octree;
-  }
-  const std::uint32_t bricks = octree.brickBegin();
-  const Node* nodes = octree.nodes();
-  const std::uint32_t* lists = octree.lists();
-  // Of a root cube that is larger only the lower corner is the octree's cube.
-  const int spare = octree.rootBits(0);
-  if (nodes[0].mask != occupiedBelow(nodes[0], 0, NodeLevels - spare))
-  {
-    error = "the octree has nodes outside of its cube";
-    return {};
-  }
-  std::uint64_t next = 1; // children fill each depth in the order of their parents
-  // Lists lie in the order of their bricks. Were they shared, a small file could name a long list
-  // so often that reading it would never end.
-  std::uint64_t nextList = 0;
-  std::uint64_t voxels = 0;
-  for (std::uint32_t i = 0; i < h.nodeCount; ++i)
-  {
-    const Node& node = nodes[i];
-    bool good = node.mask != 0;
-    if (i < bricks)
-    {
-      good = good && node.first == next;
-      next += childCount(node);
-    }
-    else if (octree.hasPlanes())
-    {
-      const std::uint64_t words = PlaneWords * static_cast<std::uint64_t>(childCount(node));
-      good = good && node.first == nextList && words <= h.listWords - nextList;
-      nextList += good ? words : 0;
-    }
-    else if (node.first & InlineTriangle)
-    {
-      good = good && (node.first & ~InlineTriangle) < h.triangleCount;
-      parts->longest = std::max(parts->longest, 1u);
-    }
-    else
-    {
-      good = good && node.first == nextList && nextList < h.listWords && lists[nextList] > 0 &&
-        lists[nextList] < h.listWords - nextList;
-      for (std::uint32_t k = 1; good && k <= lists[node.first]; ++k)
-      {
-        good = lists[node.first + k] < h.triangleCount;
-      }
-      parts->longest = std::max(parts->longest, good ? lists[node.first] : 0u);
-      nextList += good ? lists[node.first] + std::uint64_t(1) : 0;
-    }
-    voxels += i < bricks ? 0 : childCount(node);
-    if (!good || (i + 1 == h.depthBegin[1] && h.depthCount > 1 && next != h.depthBegin[2]))
-    {
-      error = "the octree's nodes are damaged";
-      return {};
-    }
-  }
-  // Depth by depth, the children of one depth are exactly the next one.
-  std::uint64_t children = 1;
-  for (std::uint32_t d = 0; d + 1 < h.depthCount; ++d)
-  {
-    for (std::uint32_t i = h.depthBegin[d]; i < h.depthBegin[d + 1]; ++i)
-    {
-      children += childCount(nodes[i]);
-    }
-    if (children != h.depthBegin[d + 2])
-    {
-      error = "the octree's depths are damaged";
-      return {};
-    }
-  }
-  if (nextList != h.listWords || voxels != h.voxelCount)
-  {
-    error = "the octree's header counts other lists or voxels than there are";
-    return {};
-  }
-  derive();
   return octree;
 }
 
@@ -257,7 +235,13 @@ glm::dmat4 Octree::localToOctree() const
 
 glm::dmat4 Octree::frame() const
 {
-  return this->hasFrame() ? frameAt(this->Buffer + frameOffset(this->header())) : glm::dmat4(1.0);
+  if (!this->hasFrame())
+  {
+    return glm::dmat4(1.0);
+  }
+  double rows[16];
+  std::memcpy(rows, this->Buffer + frameOffset(this->header()), FrameBytes);
+  return glm::transpose(glm::make_mat4(rows));
 }
 
 bool Octree::occupied(glm::ivec3 cell, int level) const
