@@ -99,31 +99,17 @@ bool BlockSource::mayPass(const glm::dvec3& centre, double half) const
   return occupiedBelow(block->bricks[octantOf(low)], first, above) != 0;
 }
 
-bool BlockSource::has(const glm::ivec3& voxel) const
-{
-  const VoxelBlock* block = this->find(voxel / VoxelBlock::Edge);
-  return block && (block->bricks[octantOf(voxel)] & cellBit(svo::cellAt(voxel))) != 0;
-}
-
 bool BlockSource::planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const
 {
   const glm::ivec3 voxel = this->cellAt(centre, half);
-  if (!this->has(voxel) || !this->planeOf(voxel, plane))
+  const VoxelBlock* block = this->find(voxel / VoxelBlock::Edge);
+  if (!block || (block->bricks[octantOf(voxel)] & cellBit(svo::cellAt(voxel))) == 0 ||
+    !this->planeOf(voxel, plane))
   {
     return false;
   }
   plane.offset *= this->Voxel;
   return true;
-}
-
-std::size_t BlockSource::count() const
-{
-  std::size_t sum = 0;
-  for (const VoxelBlock& block : this->Blocks)
-  {
-    sum += block.count();
-  }
-  return sum;
 }
 
 int levelOfVoxels(const glm::i64vec3& size)

@@ -41,11 +41,6 @@ public:
   bool mayPass(const glm::dvec3& centre, double half) const override;
   bool planeIn(const glm::dvec3& centre, double half, SourcePlane& plane) const override;
 
-  /// Whether a voxel has a bit.
-  bool has(const glm::ivec3& voxel) const;
-  /// Voxels with a bit.
-  std::size_t count() const;
-
 protected:
   /// Whether a voxel that has a bit is occupied, and then as which plane. `voxel`: its place in the
   /// cube. The offset is in voxels.

@@ -87,7 +87,6 @@ TEST(BlockSource, TheVoxelsAreThoseOfTheBlocks)
     const svo::Cube cube{ { 1e4 + 0.1, -3e3 - 0.7, 0.3 }, std::ldexp(0.1, level) };
     const std::set<VoxelAt> voxels = someVoxels(level, 700, static_cast<unsigned>(level));
     KnownVoxels source(blocksOf(voxels), cube, level);
-    EXPECT_EQ(source.count(), voxels.size());
     int i = 0;
     for (const VoxelAt& voxel : voxels)
     {
