@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <type_traits>
 
 #if SVO_PACKET_LEAVES
 HWY_BEFORE_NAMESPACE();
@@ -67,12 +66,8 @@ private:
   HWY_INLINE void keep(Packet& p, Lanes lanes, int at)
   {
     const LaneCompressor compress(lanes);
-    forEachPart(p,
-      [&](int k, auto& part)
-      {
-        compress.store(
-          part, reinterpret_cast<hn::TFromV<std::decay_t<decltype(part)>>*>(this->parts[k] + at));
-      });
+    forEachPart(
+      p, [&](int k, auto& part) { compress.store(hn::BitCast(DF(), part), this->parts[k] + at); });
   }
 
   /// Makes rays ready until there are enough for a whole packet.
