@@ -2,9 +2,9 @@
 #ifndef svoProcesses_h
 #define svoProcesses_h
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 #include <vector>
 
@@ -34,22 +34,16 @@ std::vector<std::size_t> gatherRecords(
   Processes& processes, const std::vector<Record>& own, std::vector<Record>& all)
 {
   static_assert(std::is_trivially_copyable<Record>::value, "records travel as bytes");
-  std::vector<unsigned char> bytes(own.size() * sizeof(Record));
-  if (!own.empty())
-  {
-    std::memcpy(bytes.data(), own.data(), bytes.size());
-  }
+  const auto* const begin = reinterpret_cast<const unsigned char*>(own.data());
+  const std::vector<unsigned char> bytes(begin, begin + own.size() * sizeof(Record));
   std::vector<unsigned char> allBytes;
   std::vector<std::size_t> begins;
   processes.gather(bytes, allBytes, begins);
   all.resize(allBytes.size() / sizeof(Record));
-  if (!all.empty())
+  std::copy(allBytes.begin(), allBytes.end(), reinterpret_cast<unsigned char*>(all.data()));
+  for (std::size_t& first : begins)
   {
-    std::memcpy(all.data(), allBytes.data(), all.size() * sizeof(Record));
-  }
-  for (std::size_t& begin : begins)
-  {
-    begin /= sizeof(Record);
+    first /= sizeof(Record);
   }
   return begins;
 }
