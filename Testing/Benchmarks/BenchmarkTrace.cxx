@@ -25,7 +25,6 @@
 #include "svoBuild.h"
 #include "svoCounters.h"
 #include "svoIntersect.h"
-#include "svoIntersectScalar.h"
 #include "svoTileIntervals.h"
 
 #include <algorithm>

@@ -8,7 +8,6 @@
 
 #include "svoCPUTracer.h"
 #include "svoIntersect.h"
-#include "svoIntersectScalar.h"
 #include "svoMeshOctree.h"
 #include "svoTraverse.h"
 #include "vtkSVOToHyperTreeGrid.h"

@@ -30,6 +30,10 @@ VTKSVOOCTREE_EXPORT bool occludedByOthers(
 VTKSVOOCTREE_EXPORT void intersect(
   const Octree& octree, const RayBlock& rays, const TraceOptions& options, HitBlock& hits);
 
+/// As intersect() of a block, one ray at a time: the reference of the vector kernels.
+VTKSVOOCTREE_EXPORT void intersectBlockScalar(
+  const Octree& octree, const RayBlock& rays, const TraceOptions& options, HitBlock& hits);
+
 /// Name of the instruction set that the block queries run on, and lanes of a vector.
 VTKSVOOCTREE_EXPORT const char* instructionSet();
 VTKSVOOCTREE_EXPORT int vectorLanes();

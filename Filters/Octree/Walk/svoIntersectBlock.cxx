@@ -8,7 +8,6 @@
 
 #include "svoIntersect.h"
 #include "svoIntersectBlock.h"
-#include "svoIntersectScalar.h"
 #include "svoLeafGeometry.h"
 #include "svoPacketCells-inl.h"
 #include "svoPacketCubes-inl.h"

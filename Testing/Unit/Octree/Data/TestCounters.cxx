@@ -1,7 +1,6 @@
 // What VTKSVO_COUNTERS counts; this test is built with it only.
 #include "svoCounters.h"
 #include "svoIntersect.h"
-#include "svoIntersectScalar.h"
 #include "svoTestScenes.h"
 
 #include <gtest/gtest.h>

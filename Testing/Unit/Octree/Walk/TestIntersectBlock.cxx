@@ -1,6 +1,5 @@
 // Block queries against the scalar walk, bit for bit, on every instruction set of this machine.
 #include "svoIntersect.h"
-#include "svoIntersectScalar.h"
 #include "svoTestScenes.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,6 @@
 // and asked for by several threads at once.
 #include "svoInstructionSets.h"
 #include "svoIntersect.h"
-#include "svoIntersectScalar.h"
 #include "svoTestScenes.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // What rays meet in a leaf, against a loop over all triangles in double precision.
 #include "svoIntersect.h"
-#include "svoIntersectScalar.h"
 #include "svoLeafGeometry.h"
 #include "svoTestScenes.h"
 

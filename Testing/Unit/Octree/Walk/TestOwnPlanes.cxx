@@ -1,6 +1,5 @@
 // Rays through octrees of planes: against the surface itself, and blocks against single rays.
 #include "svoIntersect.h"
-#include "svoIntersectScalar.h"
 #include "svoPlane.h"
 #include "svoTestFields.h"
 #include "svoTestScenes.h"
