@@ -90,11 +90,7 @@ bool BlockSource::mayPass(const glm::dvec3& centre, double half) const
   {
     return false;
   }
-  int above = 0;
-  while (1 << above < edge)
-  {
-    ++above;
-  }
+  const int above = lowestBit(static_cast<std::uint64_t>(edge)); // a power of two
   const int first = firstBelow(svo::cellAt(low), above);
   return occupiedBelow(block->bricks[octantOf(low)], first, above) != 0;
 }
