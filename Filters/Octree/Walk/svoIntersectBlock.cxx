@@ -234,14 +234,8 @@ void traceBlock(
     {
       continue;
     }
-    if (target.groups)
-    {
-      traceTwo<true>(query, target, rays, i, found);
-    }
-    else
-    {
-      traceTwo<false>(query, target, rays, i, found);
-    }
+    target.groups ? traceTwo<true>(query, target, rays, i, found)
+                  : traceTwo<false>(query, target, rays, i, found);
   }
   found.finish();
 }
