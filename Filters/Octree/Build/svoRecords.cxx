@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <numeric>
 
 #include <glm/geometric.hpp>
@@ -48,9 +49,8 @@ LatticeTriangle placeTriangle(
   const double length = glm::length(normal);
   LatticeTriangle t;
   t.id = id;
-  t.vertices[0] = lattice.snap(p);
-  t.vertices[1] = lattice.snap(q);
-  t.vertices[2] = lattice.snap(r);
+  const glm::ivec3 snapped[3] = { lattice.snap(p), lattice.snap(q), lattice.snap(r) };
+  std::memcpy(t.vertices, snapped, sizeof(t.vertices));
   t.normal = length > 1e-9 ? normal / length
                            : across(glm::length(q - p) > glm::length(r - p) ? q - p : r - p);
   t.offset = glm::dot(t.normal, p) / LatticeUnits;

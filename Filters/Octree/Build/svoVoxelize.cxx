@@ -24,44 +24,27 @@ namespace HWY_NAMESPACE
 {
 namespace
 {
-/// A triangle's vertices, [vertex][axis].
-struct Corners
+/// True if all coordinates are 0..end - 1.
+[[maybe_unused]] bool isWithin(const LatticeTriangle& t, std::int32_t end)
 {
-  std::int32_t at[3][3];
-
-  explicit Corners(const LatticeTriangle& t)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      this->at[i][0] = t.vertices[i].x;
-      this->at[i][1] = t.vertices[i].y;
-      this->at[i][2] = t.vertices[i].z;
-    }
-  }
-
-  /// True if all coordinates are 0..end - 1.
-  bool within(std::int32_t end) const
-  {
-    return std::all_of(
-      &this->at[0][0], &this->at[0][0] + 9, [end](std::int32_t c) { return c >= 0 && c < end; });
-  }
-};
+  return std::all_of(
+    &t.vertices[0][0], &t.vertices[0][0] + 9, [end](std::int32_t c) { return c >= 0 && c < end; });
+}
 
 /// The voxels, and the bricks around them, whose grown boxes touch a triangle's bounding box.
 struct Range
 {
-  // Plain arrays: indexing a glm vector with a variable is a branch.
   int first[3], last[3];           // voxels
   int firstBrick[3], lastBrick[3]; // bricks
 
-  Range(const Corners& corners, int level)
+  Range(const LatticeTriangle& t, int level)
   {
     const std::int32_t end = (1 << level) - 1;
     for (int i = 0; i < 3; ++i)
     {
-      const std::int32_t a = corners.at[0][i];
-      const std::int32_t b = corners.at[1][i];
-      const std::int32_t c = corners.at[2][i];
+      const std::int32_t a = t.vertices[0][i];
+      const std::int32_t b = t.vertices[1][i];
+      const std::int32_t c = t.vertices[2][i];
       this->first[i] = std::max((std::min(a, std::min(b, c)) - 2) >> LatticeBits, 0);
       this->last[i] = std::min((std::max(a, std::max(b, c)) + 1) >> LatticeBits, end);
       this->firstBrick[i] = this->first[i] >> NodeLevels;
@@ -86,10 +69,8 @@ float offsetInBrick(const LatticeTriangle& t, const glm::ivec3& brick)
 class SegmentWalker
 {
 public:
-  SegmentWalker(
-    const LatticeTriangle& t, const Corners& corners, const Range& within, RecordList& records)
+  SegmentWalker(const LatticeTriangle& t, const Range& within, RecordList& records)
     : Triangle(t)
-    , Vertices(corners)
     , Within(within)
     , Records(records)
   {
@@ -138,8 +119,8 @@ private:
       const int v = (axis + 2) % 3;
       for (int i = 0; i < 3; ++i)
       {
-        const std::int32_t* const p = this->Vertices.at[i];
-        const std::int32_t* const q = this->Vertices.at[(i + 1) % 3];
+        const std::int32_t* const p = this->Triangle.vertices[i];
+        const std::int32_t* const q = this->Triangle.vertices[(i + 1) % 3];
         const std::int64_t nu = p[v] - q[v];
         const std::int64_t nv = q[u] - p[u];
         const std::int64_t most =
@@ -183,7 +164,6 @@ private:
   }
 
   const LatticeTriangle& Triangle;
-  const Corners& Vertices;
   const Range& Within;
   RecordList& Records;
   std::uint64_t Voxels = 0;
@@ -193,7 +173,7 @@ private:
 /// from `firstBrick`. `area` is the normal's component along the axis: only its sign matters.
 /// Where it is 0 the projection is a segment, which a box must meet from both sides of every edge.
 template <typename Lane>
-void projectTriangle(const Corners& corners, const int firstBrick[3], int axis, std::int64_t area,
+void projectTriangle(const LatticeTriangle& t, const int firstBrick[3], int axis, std::int64_t area,
   TileEdges<Lane>& edges)
 {
   const int u = (axis + 1) % 3;
@@ -212,8 +192,8 @@ void projectTriangle(const Corners& corners, const int firstBrick[3], int axis, 
   edges.clear();
   for (int i = 0; i < 3; ++i)
   {
-    const std::int32_t* const p = corners.at[i];
-    const std::int32_t* const q = corners.at[i == 2 ? 0 : i + 1];
+    const std::int32_t* const p = t.vertices[i];
+    const std::int32_t* const q = t.vertices[i == 2 ? 0 : i + 1];
     const std::int64_t nu = p[v] - q[v];
     const std::int64_t nv = q[u] - p[u];
     if (nu == 0 && nv == 0)
@@ -237,10 +217,8 @@ template <typename Int, typename Lane, typename EdgeLane>
 class PlaneWalker
 {
 public:
-  PlaneWalker(const LatticeTriangle& t, const Corners& corners, const Range& within,
-    const std::int64_t normal[3])
+  PlaneWalker(const LatticeTriangle& t, const Range& within, const std::int64_t normal[3])
     : Triangle(t)
-    , Vertices(corners)
     , Within(within)
     , Normal{ normal[0], normal[1], normal[2] }
     , Slab(normal, this->initialise(normal))
@@ -256,7 +234,7 @@ public:
     const int v = (w + 2) % 3;
     for (int axis = 0; axis < 3; ++axis)
     {
-      projectTriangle(this->Vertices, r.firstBrick, axis, this->Normal[axis], this->Shadows[axis]);
+      projectTriangle(this->Triangle, r.firstBrick, axis, this->Normal[axis], this->Shadows[axis]);
     }
     // The plane's offset from a brick's centre.
     const glm::dvec3& n = this->Triangle.normal;
@@ -334,7 +312,7 @@ private:
     for (int i = 0; i < 3; ++i)
     {
       const std::int32_t from =
-        (this->Within.firstBrick[i] << (NodeLevels + LatticeBits)) - this->Vertices.at[0][i];
+        (this->Within.firstBrick[i] << (NodeLevels + LatticeBits)) - this->Triangle.vertices[0][i];
       const std::int32_t high = n[i] > 0 ? LatticeUnits + 1 : -1;
       const std::int32_t low = n[i] > 0 ? -1 : LatticeUnits + 1;
       most += static_cast<Int>(n[i]) * (from + high);
@@ -380,7 +358,6 @@ private:
   }
 
   const LatticeTriangle& Triangle;
-  const Corners& Vertices;
   const Range& Within;
   std::int64_t Normal[3];
   Int Base;
@@ -394,9 +371,8 @@ std::uint64_t voxelize(
   const LatticeTriangle& t, int level, RecordList& records, std::uint32_t part, std::uint32_t parts)
 {
   assert(level >= 1 && level <= MaximumLevel && part < parts);
-  const Corners corners(t);
-  assert(corners.within(1 << (level + LatticeBits)));
-  const Range range(corners, level);
+  assert(isWithin(t, 1 << (level + LatticeBits)));
+  const Range range(t, level);
   std::int64_t normal[3];
   std::int64_t largest = 0;
   int bricks = 0;
@@ -404,28 +380,27 @@ std::uint64_t voxelize(
   {
     const int u = (i + 1) % 3;
     const int v = (i + 2) % 3;
-    const std::int64_t pu = corners.at[1][u] - corners.at[0][u];
-    const std::int64_t pv = corners.at[1][v] - corners.at[0][v];
-    const std::int64_t qu = corners.at[2][u] - corners.at[0][u];
-    const std::int64_t qv = corners.at[2][v] - corners.at[0][v];
+    const std::int64_t pu = t.vertices[1][u] - t.vertices[0][u];
+    const std::int64_t pv = t.vertices[1][v] - t.vertices[0][v];
+    const std::int64_t qu = t.vertices[2][u] - t.vertices[0][u];
+    const std::int64_t qv = t.vertices[2][v] - t.vertices[0][v];
     normal[i] = pu * qv - pv * qu;
     largest = std::max(largest, std::abs(normal[i]));
     bricks = std::max(bricks, range.lastBrick[i] - range.firstBrick[i]);
   }
   if (largest == 0)
   {
-    return part == 0 ? SegmentWalker(t, corners, range, records).walk() : 0;
+    return part == 0 ? SegmentWalker(t, range, records).walk() : 0;
   }
   if (bricks >= 1 << 8)
   {
-    return PlaneWalker<__int128, std::int64_t, std::int64_t>(t, corners, range, normal)
+    return PlaneWalker<__int128, std::int64_t, std::int64_t>(t, range, normal)
       .walk(records, part, parts);
   }
-  return largest < 1 << 24
-    ? PlaneWalker<std::int64_t, std::int32_t, std::int32_t>(t, corners, range, normal)
-        .walk(records, part, parts)
-    : PlaneWalker<std::int64_t, std::int64_t, std::int32_t>(t, corners, range, normal)
-        .walk(records, part, parts);
+  return largest < 1 << 24 ? PlaneWalker<std::int64_t, std::int32_t, std::int32_t>(t, range, normal)
+                               .walk(records, part, parts)
+                           : PlaneWalker<std::int64_t, std::int64_t, std::int32_t>(t, range, normal)
+                               .walk(records, part, parts);
 }
 }
 }

@@ -17,9 +17,11 @@ namespace svo
 /// A triangle whose vertices are on the lattice of svoLattice.h.
 struct LatticeTriangle
 {
-  glm::ivec3 vertices[3]; // lattice units
-  glm::dvec3 normal;      // unit length, of the triangle before it was snapped
-  double offset = 0.0;    // normal . vertex, in voxels
+  /// [vertex][axis], lattice units. Plain arrays: indexing a glm vector with a variable is a
+  /// branch.
+  std::int32_t vertices[3][3];
+  glm::dvec3 normal;   // unit length, of the triangle before it was snapped
+  double offset = 0.0; // normal . vertex, in voxels
   std::uint32_t id = 0;
 };
 

@@ -3,6 +3,8 @@
 #include "svoSeparatingAxes.h"
 #include "svoVoxelize.h"
 
+#include <cstring>
+
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -14,7 +16,7 @@ using VoxelSet = std::set<std::uint64_t>; // Morton keys
 svo::LatticeTriangle triangleOf(const Vertices& v)
 {
   svo::LatticeTriangle t;
-  std::copy(v.begin(), v.end(), t.vertices);
+  std::memcpy(t.vertices, v.data(), sizeof(t.vertices));
   t.normal = { 0.0, 0.0, 1.0 };
   return t;
 }
