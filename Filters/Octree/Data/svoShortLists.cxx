@@ -62,14 +62,8 @@ public:
     {
       std::uint32_t count, inlineId;
       const std::uint32_t* list = this->Of.brickTriangles(index, count, inlineId);
-      few.count = 0;
-      if (count > this->Longest)
-      {
-        few.count = Few::TooMany;
-        return;
-      }
-      std::copy(list, list + count, few.ids);
-      few.count = count;
+      few.count = count <= this->Longest ? count : Few::TooMany;
+      std::copy_n(list, std::min(count, this->Longest), few.ids);
       return;
     }
     const Node& node = this->Of.nodes()[index];
