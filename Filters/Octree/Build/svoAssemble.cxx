@@ -20,7 +20,6 @@ struct Share
 {
   std::size_t nodes = 0;
   std::size_t listWords = 0;
-  std::size_t voxels = 0;
 };
 
 Share prefixSum(std::vector<Share>& shares)
@@ -32,7 +31,6 @@ Share prefixSum(std::vector<Share>& shares)
     share = sum;
     sum.nodes += own.nodes;
     sum.listWords += own.listWords;
-    sum.voxels += own.voxels;
   }
   return sum;
 }
@@ -178,13 +176,10 @@ std::shared_ptr<std::byte> writeBuffer(const std::vector<NodeDepth>& depths,
         }
       });
   }
-  auto* words = reinterpret_cast<std::byte*>(nodes + header.nodeCount);
-  if (lists.size() > 0)
-  {
-    std::memcpy(words, lists.data(), lists.size() * sizeof(std::uint32_t));
-  }
-  std::byte* rest = words + lists.size() * sizeof(std::uint32_t); // the caller's, if there is any
-  std::fill(rest, data.get() + size, std::byte(0));
+  auto* words = reinterpret_cast<std::uint32_t*>(nodes + header.nodeCount);
+  words = std::copy_n(lists.data(), lists.size(), words);
+  // The rest is the caller's, if there is any.
+  std::fill(reinterpret_cast<std::byte*>(words), data.get() + size, std::byte(0));
   return data;
 }
 }
