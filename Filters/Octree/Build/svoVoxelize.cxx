@@ -65,109 +65,96 @@ float offsetInBrick(const LatticeTriangle& t, const glm::ivec3& brick)
     t.offset - glm::dot(t.normal, (glm::dvec3(brick) + 0.5) * double(NodeEdge)));
 }
 
-/// Triangles without area, which are segments or points: top-down with an exact test.
-class SegmentWalker
+/// True if a triangle without area and a grown cell have a point in common (Schwarz & Seidel 2010):
+/// their boxes have, and no edge of a projection has the cell on one side. An edge without length
+/// is no test.
+bool segmentTouches(const LatticeTriangle& t, const Range& within, const glm::ivec3& cell, int bits)
 {
-public:
-  SegmentWalker(const LatticeTriangle& t, const Range& within, RecordList& records)
-    : Triangle(t)
-    , Within(within)
-    , Records(records)
+  const int shift = bits + LatticeBits;
+  const glm::ivec3 low = cell * (1 << shift) - 1;
+  const glm::ivec3 high = low + ((1 << shift) + 2);
+  for (int axis = 0; axis < 3; ++axis)
   {
-  }
-
-  std::uint64_t walk()
-  {
-    const int* const f = this->Within.first;
-    const int* const l = this->Within.last;
-    int bits = NodeLevels;
-    while ((l[0] >> bits) - (f[0] >> bits) > 1 || (l[1] >> bits) - (f[1] >> bits) > 1 ||
-      (l[2] >> bits) - (f[2] >> bits) > 1)
+    if (cell[axis] < within.first[axis] >> bits || cell[axis] > within.last[axis] >> bits)
     {
-      ++bits;
+      return false;
     }
-    for (int z = f[2] >> bits; z <= l[2] >> bits; ++z)
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    for (int i = 0; i < 3; ++i)
     {
-      for (int y = f[1] >> bits; y <= l[1] >> bits; ++y)
-      {
-        for (int x = f[0] >> bits; x <= l[0] >> bits; ++x)
-        {
-          this->visit({ x, y, z }, bits);
-        }
-      }
-    }
-    return this->Voxels;
-  }
-
-private:
-  /// True if the triangle and a grown cell have a point in common (Schwarz & Seidel 2010): their
-  /// boxes have, and no edge of a projection has the cell on one side. An edge without length is
-  /// no test.
-  bool touches(const glm::ivec3& cell, int bits) const
-  {
-    const int shift = bits + LatticeBits;
-    const glm::ivec3 low = cell * (1 << shift) - 1;
-    const glm::ivec3 high = low + ((1 << shift) + 2);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      if (cell[axis] < this->Within.first[axis] >> bits ||
-        cell[axis] > this->Within.last[axis] >> bits)
+      const std::int32_t* const p = t.vertices[i];
+      const std::int32_t* const q = t.vertices[(i + 1) % 3];
+      const std::int64_t nu = p[v] - q[v];
+      const std::int64_t nv = q[u] - p[u];
+      const std::int64_t most =
+        nu * ((nu > 0 ? high[u] : low[u]) - p[u]) + nv * ((nv > 0 ? high[v] : low[v]) - p[v]);
+      const std::int64_t least =
+        nu * ((nu > 0 ? low[u] : high[u]) - p[u]) + nv * ((nv > 0 ? low[v] : high[v]) - p[v]);
+      if (most < 0 || least > 0)
       {
         return false;
       }
-      const int u = (axis + 1) % 3;
-      const int v = (axis + 2) % 3;
-      for (int i = 0; i < 3; ++i)
-      {
-        const std::int32_t* const p = this->Triangle.vertices[i];
-        const std::int32_t* const q = this->Triangle.vertices[(i + 1) % 3];
-        const std::int64_t nu = p[v] - q[v];
-        const std::int64_t nv = q[u] - p[u];
-        const std::int64_t most =
-          nu * ((nu > 0 ? high[u] : low[u]) - p[u]) + nv * ((nv > 0 ? high[v] : low[v]) - p[v]);
-        const std::int64_t least =
-          nu * ((nu > 0 ? low[u] : high[u]) - p[u]) + nv * ((nv > 0 ? low[v] : high[v]) - p[v]);
-        if (most < 0 || least > 0)
-        {
-          return false;
-        }
-      }
     }
-    return true;
   }
+  return true;
+}
 
-  void visit(const glm::ivec3& cell, int bits)
+/// Appends the records of a triangle without area in a cell `bits` above the voxels; returns how
+/// many voxels they name.
+std::uint64_t visitSegment(const LatticeTriangle& t, const Range& within, const glm::ivec3& cell,
+  int bits, RecordList& records)
+{
+  std::uint64_t voxels = 0;
+  if (!segmentTouches(t, within, cell, bits))
   {
-    if (!this->touches(cell, bits))
+    return voxels;
+  }
+  if (bits > NodeLevels)
+  {
+    for (int i = 0; i < 8; ++i)
     {
-      return;
+      voxels += visitSegment(
+        t, within, cell * 2 + glm::ivec3(i & 1, i >> 1 & 1, i >> 2), bits - 1, records);
     }
-    if (bits > NodeLevels)
+    return voxels;
+  }
+  std::uint64_t mask = 0;
+  for (int i = 0; i < NodeCells; ++i)
+  {
+    mask |= segmentTouches(t, within, cell * NodeEdge + cellOfIndex(i), 0) ? cellBit(i) : 0;
+  }
+  if (mask)
+  {
+    records.push({ mortonKey(cell.x, cell.y, cell.z), mask, t.id, offsetInBrick(t, cell) });
+  }
+  return static_cast<std::uint64_t>(countBits(mask));
+}
+
+/// Triangles without area, which are segments or points: top-down with an exact test.
+std::uint64_t walkSegment(const LatticeTriangle& t, const Range& within, RecordList& records)
+{
+  const int* const f = within.first;
+  const int* const l = within.last;
+  int bits = NodeLevels;
+  while ((l[0] >> bits) - (f[0] >> bits) > 1 || (l[1] >> bits) - (f[1] >> bits) > 1 ||
+    (l[2] >> bits) - (f[2] >> bits) > 1)
+  {
+    ++bits;
+  }
+  std::uint64_t voxels = 0;
+  for (int z = f[2] >> bits; z <= l[2] >> bits; ++z)
+  {
+    for (int y = f[1] >> bits; y <= l[1] >> bits; ++y)
     {
-      for (int i = 0; i < 8; ++i)
+      for (int x = f[0] >> bits; x <= l[0] >> bits; ++x)
       {
-        this->visit(cell * 2 + glm::ivec3(i & 1, i >> 1 & 1, i >> 2), bits - 1);
+        voxels += visitSegment(t, within, { x, y, z }, bits, records);
       }
-      return;
-    }
-    std::uint64_t mask = 0;
-    for (int i = 0; i < NodeCells; ++i)
-    {
-      mask |= this->touches(cell * NodeEdge + cellOfIndex(i), 0) ? cellBit(i) : 0;
-    }
-    if (mask)
-    {
-      this->Voxels += static_cast<std::uint64_t>(countBits(mask));
-      this->Records.push({ mortonKey(cell.x, cell.y, cell.z), mask, this->Triangle.id,
-        offsetInBrick(this->Triangle, cell) });
     }
   }
-
-  const LatticeTriangle& Triangle;
-  const Range& Within;
-  RecordList& Records;
-  std::uint64_t Voxels = 0;
-};
+  return voxels;
+}
 
 /// A triangle's projection along an axis, as half planes over the voxels of tiles that are counted
 /// from `firstBrick`. `area` is the normal's component along the axis: only its sign matters.
@@ -390,7 +377,7 @@ std::uint64_t voxelize(
   }
   if (largest == 0)
   {
-    return part == 0 ? SegmentWalker(t, range, records).walk() : 0;
+    return part == 0 ? walkSegment(t, range, records) : 0;
   }
   if (bricks >= 1 << 8)
   {
