@@ -43,68 +43,51 @@ struct Few
   }
 };
 
-class Gatherer
+void writeList(std::uint32_t index, const Few& few, ShortLists& lists)
 {
-public:
-  Gatherer(const Octree& octree, std::uint32_t most, ShortLists& lists)
-    : Of(octree)
-    , Longest(most)
-    , Bricks(octree.brickBegin())
-    , Lists(lists)
+  if (few.count != Few::TooMany)
   {
+    assert(few.count > 0 && std::is_sorted(few.ids, few.ids + few.count));
+    lists.begin[index] = static_cast<std::uint32_t>(lists.words.size());
+    lists.words.push_back(few.count);
+    lists.words.insert(lists.words.end(), few.ids, few.ids + few.count);
   }
+}
 
-  /// The triangles of a node. Lists below a node with too many are written down.
-  void gather(std::uint32_t index, Few& few)
+/// The triangles of a node. Lists below a node with too many are written down.
+void gather(
+  const Octree& octree, std::uint32_t most, std::uint32_t index, Few& few, ShortLists& lists)
+{
+  assert(index < octree.header().nodeCount);
+  if (index >= octree.brickBegin())
   {
-    assert(index < this->Of.header().nodeCount);
-    if (index >= this->Bricks)
+    std::uint32_t count, inlineId;
+    const std::uint32_t* list = octree.brickTriangles(index, count, inlineId);
+    few.count = count <= most ? count : Few::TooMany;
+    std::copy_n(list, std::min(count, most), few.ids);
+    return;
+  }
+  const Node& node = octree.nodes()[index];
+  const auto children = static_cast<std::uint32_t>(childCount(node));
+  Few below[NodeCells];
+  few.count = 0;
+  for (std::uint32_t k = 0; k < children; ++k)
+  {
+    gather(octree, most, node.first + k, below[k], lists);
+    if (below[k].count == Few::TooMany)
     {
-      std::uint32_t count, inlineId;
-      const std::uint32_t* list = this->Of.brickTriangles(index, count, inlineId);
-      few.count = count <= this->Longest ? count : Few::TooMany;
-      std::copy_n(list, std::min(count, this->Longest), few.ids);
-      return;
+      few.count = Few::TooMany;
     }
-    const Node& node = this->Of.nodes()[index];
-    const auto children = static_cast<std::uint32_t>(childCount(node));
-    Few below[NodeCells];
-    few.count = 0;
+    few.add(below[k].ids, few.count == Few::TooMany ? 0 : below[k].count, most);
+  }
+  if (few.count == Few::TooMany && node.first < octree.brickBegin())
+  {
     for (std::uint32_t k = 0; k < children; ++k)
     {
-      this->gather(node.first + k, below[k]);
-      if (below[k].count == Few::TooMany)
-      {
-        few.count = Few::TooMany;
-      }
-      few.add(below[k].ids, few.count == Few::TooMany ? 0 : below[k].count, this->Longest);
-    }
-    if (few.count == Few::TooMany && node.first < this->Bricks)
-    {
-      for (std::uint32_t k = 0; k < children; ++k)
-      {
-        this->write(node.first + k, below[k]);
-      }
+      writeList(node.first + k, below[k], lists);
     }
   }
-
-  void write(std::uint32_t index, const Few& few)
-  {
-    if (few.count != Few::TooMany)
-    {
-      assert(few.count > 0 && std::is_sorted(few.ids, few.ids + few.count));
-      this->Lists.begin[index] = static_cast<std::uint32_t>(this->Lists.words.size());
-      this->Lists.words.push_back(few.count);
-      this->Lists.words.insert(this->Lists.words.end(), few.ids, few.ids + few.count);
-    }
-  }
-
-private:
-  const Octree& Of;
-  std::uint32_t Longest;
-  std::uint32_t Bricks;
-  ShortLists& Lists;
-};
+}
 }
 
 ShortLists makeShortLists(const Octree& octree, std::uint32_t most)
@@ -117,10 +100,9 @@ ShortLists makeShortLists(const Octree& octree, std::uint32_t most)
     return lists;
   }
   assert(most >= 1 && most <= ShortLists::Most);
-  Gatherer gatherer(octree, most, lists);
   Few all;
-  gatherer.gather(0, all);
-  gatherer.write(0, all);
+  gather(octree, most, 0, all, lists);
+  writeList(0, all, lists);
   lists.words.shrink_to_fit();
   return lists;
 }
