@@ -271,15 +271,12 @@ vtkSmartPointer<vtkPoints> pointsOf(CellPlanes& cells, const BuildOptions& built
   coordinates->SetNumberOfTuples(static_cast<vtkIdType>(cells.count));
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(static_cast<vtkIdType>(cells.count));
-  built.parallelFor(0, cells.blocks.size(), 128,
-    [&](std::size_t first, std::size_t last)
+  forEach(built.parallelFor, cells.blocks.size(), 128,
+    [&](std::size_t b)
     {
-      for (std::size_t b = first; b < last; ++b)
-      {
-        cells.readPlanes(b);
-        writeVertices<Real>(
-          cells, b, vertices, toLocal, coordinates->GetPointer(0), normals->GetPointer(0));
-      }
+      cells.readPlanes(b);
+      writeVertices<Real>(
+        cells, b, vertices, toLocal, coordinates->GetPointer(0), normals->GetPointer(0));
     });
 
   const CellFlags used(new std::atomic<unsigned char>[cells.count]());
@@ -308,18 +305,15 @@ vtkSmartPointer<vtkCellArray> cellArrayOf(
   }
   vtkNew<vtkTypeInt32Array> connectivity;
   connectivity->SetNumberOfValues(static_cast<vtkIdType>(4 * begins.back()));
-  parallelFor(0, quads.size(), 1,
-    [&](std::size_t first, std::size_t last)
+  forEach(parallelFor, quads.size(), 1,
+    [&](std::size_t c)
     {
-      for (std::size_t c = first; c < last; ++c)
+      std::int32_t* to = connectivity->GetPointer(0) + 4 * begins[c];
+      for (const Quad& quad : quads[c])
       {
-        std::int32_t* to = connectivity->GetPointer(0) + 4 * begins[c];
-        for (const Quad& quad : quads[c])
+        for (std::size_t k = 0; k < 4; ++k)
         {
-          for (std::size_t k = 0; k < 4; ++k)
-          {
-            *to++ = quad[reversed ? 3 - k : k];
-          }
+          *to++ = quad[reversed ? 3 - k : k];
         }
       }
     });

@@ -129,14 +129,11 @@ public:
     std::vector<const LeafT*> leaves;
     this->Grid.tree().getNodes(leaves);
     std::vector<PlacedBlock> blocks(leaves.size());
-    this->Options.parallelFor(0, leaves.size(), 64,
-      [&](std::size_t first, std::size_t last)
+    forEach(this->Options.parallelFor, leaves.size(), 64,
+      [&](std::size_t i)
       {
-        for (std::size_t i = first; i < last; ++i)
-        {
-          blocks[i].place = blocksOf(leaves[i]->origin());
-          this->fill(*leaves[i], blocks[i].block);
-        }
+        blocks[i].place = blocksOf(leaves[i]->origin());
+        this->fill(*leaves[i], blocks[i].block);
       });
     std::size_t voxels = 0;
     for (const PlacedBlock& block : blocks)

@@ -47,15 +47,12 @@ public:
     std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
     std::vector<PlacedBlock> blocks(leaves.size() + places.size());
-    this->Options.parallelFor(0, blocks.size(), 64,
-      [&](std::size_t first, std::size_t last)
+    forEach(this->Options.parallelFor, blocks.size(), 64,
+      [&](std::size_t i)
       {
-        for (std::size_t i = first; i < last; ++i)
-        {
-          blocks[i].place =
-            i < leaves.size() ? blocksOf(leaves[i]->origin()) : places[i - leaves.size()];
-          this->fill(blocks[i]);
-        }
+        blocks[i].place =
+          i < leaves.size() ? blocksOf(leaves[i]->origin()) : places[i - leaves.size()];
+        this->fill(blocks[i]);
       });
     dropEmpty(blocks);
     return blocks;

@@ -199,14 +199,8 @@ void ShadowVolumes::see(
         *unknown[i].second = std::make_unique<const MeshEdges>(*unknown[i].first->surface());
       }
     });
-  parallelFor(0, volumes.size(), 1,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        this->see(volumes[i], settings.frameCoherence);
-      }
-    });
+  forEach(parallelFor, volumes.size(), 1,
+    [&](std::size_t i) { this->see(volumes[i], settings.frameCoherence); });
   this->Volumes = volumes.size();
   this->ContourEdges = 0;
   std::size_t bytes = 0;

@@ -121,14 +121,8 @@ void InstanceTree::follow(const Scene& scene, const ParallelFor& parallelFor)
     this->Tree->remove(static_cast<std::uint32_t>(i));
   }
   std::vector<Ball> balls(changed.size());
-  parallelFor(0, changed.size(), 512,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t k = first; k < last; ++k)
-      {
-        balls[k] = ballOf(scene.instances[changed[k]]);
-      }
-    });
+  forEach(parallelFor, changed.size(), 512,
+    [&](std::size_t k) { balls[k] = ballOf(scene.instances[changed[k]]); });
   for (std::size_t k = 0; k < changed.size(); ++k)
   {
     this->put(changed[k], balls[k]);

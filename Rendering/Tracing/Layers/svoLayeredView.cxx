@@ -86,15 +86,12 @@ void LayeredView::findIntervals(const ParallelFor& parallelFor)
   const auto isSmall = [](const TracedInstance& entry)
   { return entry.local.rect.y1 - entry.local.rect.y0 <= Small; };
   std::vector<TracedInstance>& all = this->Instances.entries();
-  parallelFor(0, all.size(), 32,
-    [&](std::size_t first, std::size_t last)
+  forEach(parallelFor, all.size(), 32,
+    [&](std::size_t e)
     {
-      for (std::size_t e = first; e < last; ++e)
+      if (isSmall(all[e]))
       {
-        if (isSmall(all[e]))
-        {
-          find(all[e], serialFor);
-        }
+        find(all[e], serialFor);
       }
     });
   for (TracedInstance& entry : all)

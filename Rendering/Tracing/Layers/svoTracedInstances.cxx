@@ -20,14 +20,8 @@ void TracedInstances::find(const Scene& scene, const View& view, const Culling& 
   findVisible(scene, view, culling, takesPart, parallelFor, this->Visible);
   const std::vector<std::uint32_t>& visible = this->Visible.visible;
   this->Entries.resize(visible.size()); // what others have allocated is of use to these
-  parallelFor(0, visible.size(), 64,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t e = first; e < last; ++e)
-      {
-        this->place(scene, levelOf, visible[e], e);
-      }
-    });
+  forEach(parallelFor, visible.size(), 64,
+    [&](std::size_t e) { this->place(scene, levelOf, visible[e], e); });
   this->Order.resize(visible.size());
   this->NodeOf.resize(visible.size());
   for (std::size_t k = 0; k < visible.size(); ++k)

@@ -42,15 +42,12 @@ void MapOpacities::find(
       surfaceAlpha(frames[caster], view.rayOrigin(x, y) + t * ray, -glm::vec3(ray),
         depth.primitive[64 * tile + i]);
   };
-  parallelFor(0, depth.tiles(), 64,
-    [&](std::size_t first, std::size_t last)
+  forEach(parallelFor, depth.tiles(), 64,
+    [&](std::size_t tile)
     {
-      for (std::size_t tile = first; tile < last; ++tile)
+      for (int i = 0; depth.hit[tile] && (all || map.tiles.changed(tile)) && i < 64; ++i)
       {
-        for (int i = 0; depth.hit[tile] && (all || map.tiles.changed(tile)) && i < 64; ++i)
-        {
-          this->Texels[64 * tile + i] = opacityAt(tile, i);
-        }
+        this->Texels[64 * tile + i] = opacityAt(tile, i);
       }
     });
 }

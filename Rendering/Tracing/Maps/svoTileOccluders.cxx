@@ -98,15 +98,12 @@ void MapOccluders::find(const Hits& map, const ParallelFor& parallelFor)
   const std::size_t tiles = map.depth.tiles();
   const bool all = this->Tiles.size() != tiles;
   this->Tiles.resize(tiles);
-  parallelFor(0, tiles, 256,
-    [&](std::size_t first, std::size_t last)
+  forEach(parallelFor, tiles, 256,
+    [&](std::size_t tile)
     {
-      for (std::size_t tile = first; tile < last; ++tile)
+      if (all || map.tiles.changed(tile))
       {
-        if (all || map.tiles.changed(tile))
-        {
-          this->Tiles[tile] = occludersIn(map, tile);
-        }
+        this->Tiles[tile] = occludersIn(map, tile);
       }
     });
 }

@@ -205,15 +205,12 @@ void CPUTracer::Internals::findDarkenedTiles(
   const bool all = changes.all || !shadows.sameMaps();
   std::vector<CasterBox> boxes(2 * changes.instances.size()); // of those, before and now
   this->Casters.resize(scene.instances.size());
-  parallelFor(0, changes.instances.size(), 256,
-    [&](std::size_t first, std::size_t last)
+  forEach(parallelFor, changes.instances.size(), 256,
+    [&](std::size_t k)
     {
-      for (std::size_t k = first; k < last; ++k)
-      {
-        const std::uint32_t i = changes.instances[k];
-        boxes[2 * k] = this->Casters[i];
-        boxes[2 * k + 1] = this->Casters[i] = CasterBox(scene.instances[i]);
-      }
+      const std::uint32_t i = changes.instances[k];
+      boxes[2 * k] = this->Casters[i];
+      boxes[2 * k + 1] = this->Casters[i] = CasterBox(scene.instances[i]);
     });
   const auto mayCross = [&](const PointBox& starts)
   {
@@ -231,20 +228,17 @@ void CPUTracer::Internals::findDarkenedTiles(
           { return light.castShadow && anyOn(wayToLight(light, starts)); }));
   };
   const std::vector<std::uint32_t>& hits = this->Tiles.hits();
-  parallelFor(0, hits.size(), 512,
-    [&](std::size_t first, std::size_t last)
+  forEach(parallelFor, hits.size(), 512,
+    [&](std::size_t k)
     {
-      for (std::size_t k = first; k < last; ++k)
+      if (this->Shaded.stale(hits[k]))
       {
-        if (this->Shaded.stale(hits[k]))
-        {
-          continue;
-        }
-        const KeptTiles::Tile& tile = this->Shaded[hits[k]];
-        this->Shaded.setStale(hits[k],
-          all || shadows.changed(tile.looksUp) || shadows.changed(tile.raised) ||
-            mayCross(tile.raysToLights));
+        return;
       }
+      const KeptTiles::Tile& tile = this->Shaded[hits[k]];
+      this->Shaded.setStale(hits[k],
+        all || shadows.changed(tile.looksUp) || shadows.changed(tile.raised) ||
+          mayCross(tile.raysToLights));
     });
 }
 

@@ -116,26 +116,23 @@ template <class Wants>
 void LightImages::findMeans(const ParallelFor& parallelFor, bool filtered, const Wants& wants)
 {
   const auto blocks = static_cast<std::size_t>(this->blocksX() * this->blocksY());
-  parallelFor(0, blocks, 1,
-    [&](std::size_t first, std::size_t last)
+  forEach(parallelFor, blocks, 1,
+    [&](std::size_t block)
     {
-      for (std::size_t block = first; block < last; ++block)
+      const int blockX = static_cast<int>(block) % this->blocksX();
+      const int blockY = static_cast<int>(block) / this->blocksX();
+      const int x0 = BlockTiles * blockX, y0 = BlockTiles * blockY;
+      bool wanted = false;
+      for (int y = y0; y < std::min(y0 + BlockTiles, this->TilesY) && !wanted; ++y)
       {
-        const int blockX = static_cast<int>(block) % this->blocksX();
-        const int blockY = static_cast<int>(block) / this->blocksX();
-        const int x0 = BlockTiles * blockX, y0 = BlockTiles * blockY;
-        bool wanted = false;
-        for (int y = y0; y < std::min(y0 + BlockTiles, this->TilesY) && !wanted; ++y)
+        for (int x = x0; x < std::min(x0 + BlockTiles, this->TilesX) && !wanted; ++x)
         {
-          for (int x = x0; x < std::min(x0 + BlockTiles, this->TilesX) && !wanted; ++x)
-          {
-            wanted = wants(x, y);
-          }
+          wanted = wants(x, y);
         }
-        if (wanted)
-        {
-          this->findMeans(blockX, blockY, filtered);
-        }
+      }
+      if (wanted)
+      {
+        this->findMeans(blockX, blockY, filtered);
       }
     });
 }
