@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
 namespace svo
@@ -55,8 +56,6 @@ HWY_INLINE Verdict meetOneByOne(const LeafQuery& query, const WalkTarget& target
   HWY_ALIGN float tExit[Most];
   HWY_ALIGN std::int32_t position[3][Most];
   HWY_ALIGN std::int32_t node[Most];
-  HWY_ALIGN std::int32_t alive[Most];
-  HWY_ALIGN std::int32_t answer[Most];
   hn::Store(p.dx, df, direction[0]);
   hn::Store(p.dy, df, direction[1]);
   hn::Store(p.dz, df, direction[2]);
@@ -69,15 +68,10 @@ HWY_INLINE Verdict meetOneByOne(const LeafQuery& query, const WalkTarget& target
   hn::Store(p.atY(), di, position[1]);
   hn::Store(p.atZ(), di, position[2]);
   hn::Store(p.node, di, node);
-  hn::Store(hn::VecFromMask(di, arrived), di, alive);
-  hn::Store(hn::Zero(di), di, answer);
-  const int n = static_cast<int>(hn::Lanes(df));
-  for (int i = 0; i < n; ++i)
+  std::uint64_t again = 0, skip = 0;
+  for (std::uint64_t left = bitsOf(di, arrived); left != 0; left &= left - 1)
   {
-    if (!alive[i])
-    {
-      continue;
-    }
+    const int i = lowestBit(left);
     const int ray = first + i;
     ClippedRay<float> clipped;
     clipped.origin = rays.origin(ray);
@@ -95,11 +89,11 @@ HWY_INLINE Verdict meetOneByOne(const LeafQuery& query, const WalkTarget& target
       : meetCell(
           query, clipped, ShearedRay<float>(clipped.origin, clipped.direction), cell, tMax[i], hit);
     hits.store(ray, hit);
-    answer[i] = visit == Visit::Stop ? 0 : visit == Visit::Continue ? 1 : 3;
+    again |= std::uint64_t(visit != Visit::Stop) << i;
+    skip |= std::uint64_t(visit == Visit::SkipBrick) << i;
   }
   p.tMax = hn::Load(df, tMax);
-  const I answers = hn::Load(di, answer);
-  return { hn::Ne(answers, hn::Zero(di)), hn::Gt(answers, hn::Set(di, 1)) };
+  return { maskOf(di, again), maskOf(di, skip) };
 }
 
 /// Shows the cells where lanes have arrived to the leaf geometry.
