@@ -12,7 +12,6 @@
 #include "svoPacketSupply-inl.h"
 #include "svoPacketWalk-inl.h"
 
-#include <algorithm>
 #include <cstddef>
 
 #if SVO_PACKET_LEAVES
@@ -39,7 +38,7 @@ HWY_INLINE void exchange(
   }
 }
 
-/// The whole trace of a block where onlyCubes().
+/// The whole trace of a block where onlyCubes(). `hits`: as of rays that meet nothing.
 template <bool Groups>
 HWY_INLINE void traceCubes(
   const LeafQuery& query, const WalkTarget& target, const RayBlock& rays, HitBlock& hits)
@@ -69,8 +68,6 @@ HWY_INLINE void traceCubes(
   }
   note(a, hn::Not(a.dead), cells);
   note(b, hn::Not(b.dead), cells);
-  std::fill_n(hits.t, RayBlock::Size, 0.0f);
-  std::fill_n(hits.primitive, RayBlock::Size, NoPrimitive);
   for (int i = 0; i < cells.count; ++i)
   {
     hits.t[cells.ray[i]] = cells.t[i];
