@@ -66,8 +66,8 @@ void place(const MapFromPatch& map, const TilePatch& p, std::uint64_t lanes, Map
     {
       continue;
     }
-    const auto wayX = hn::Load(d, p.wayX + i), wayY = hn::Load(d, p.wayY + i);
-    const auto wayZ = hn::Load(d, p.wayZ + i);
+    const auto wayX = hn::Load(d, p.way.x + i), wayY = hn::Load(d, p.way.y + i);
+    const auto wayZ = hn::Load(d, p.way.z + i);
     const auto inverse = hn::Div(one, at(map.w, wayX, wayY, wayZ));
     const auto x = hn::Mul(at(map.x, wayX, wayY, wayZ), inverse);
     const auto y = hn::Mul(at(map.y, wayX, wayY, wayZ), inverse);

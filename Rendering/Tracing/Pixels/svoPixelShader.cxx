@@ -89,7 +89,7 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
   {
     if (lighting.lights.empty())
     {
-      clearLight(scratch.light);
+      scratch.light.scattered = scratch.light.shining = {};
     }
     this->addSky(lit, scratch);
   }
@@ -160,14 +160,8 @@ void PixelShader::addSky(const Lit& lit, Scratch& scratch) const
   {
     eachBit(patch.mask, [&](int i) { seen[i] *= sky.brightest(); });
   }
-  TileLight& light = scratch.light;
-  eachBit(patch.mask,
-    [&](int i)
-    {
-      light.diffuseR[i] += seen[i].r;
-      light.diffuseG[i] += seen[i].g;
-      light.diffuseB[i] += seen[i].b;
-    });
+  PixelVectors& light = scratch.light.scattered;
+  eachBit(patch.mask, [&](int i) { light.set(i, light(i) + seen[i]); });
 }
 
 /// Shades a tile's hits and writes its pixels, hits or not, all at once.
@@ -208,9 +202,9 @@ void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, 
           [&](int i)
           {
             float* light = frame.light.data() + 3 * pixelOf(i);
-            light[0] = positive(scratch.colors.r[i]);
-            light[1] = positive(scratch.colors.g[i]);
-            light[2] = positive(scratch.colors.b[i]);
+            light[0] = positive(scratch.colors.rgb.x[i]);
+            light[1] = positive(scratch.colors.rgb.y[i]);
+            light[2] = positive(scratch.colors.rgb.z[i]);
           });
       }
       if (this->FindsEdges)

@@ -117,13 +117,9 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
     this->shadePatches(lit, scratch.hits.hits, scratch.shading,
       [&]
       {
-        const TileColors& found = scratch.shading.colors;
+        const PixelVectors& found = scratch.shading.colors.rgb;
         eachBit(scratch.shading.patch.mask,
-          [&](int i)
-          {
-            scratch.colors[i] =
-              glm::clamp(glm::vec3(found.r[i], found.g[i], found.b[i]), 0.0f, brightest);
-          });
+          [&](int i) { scratch.colors[i] = glm::clamp(found(i), 0.0f, brightest); });
       });
   };
   const auto smoothTile = [&](int tileX, int tileY, EdgeScratch& scratch)

@@ -55,9 +55,8 @@ void depthSlopes(const TilePatch& p, float* HWY_RESTRICT across, float* HWY_REST
     }
     for (int k = i; k < i + TilePatch::Step; ++k)
     {
-      const glm::dvec2 slope =
-        depthSlope(view, x0 + static_cast<double>(x[k]), y0 + static_cast<double>(y[k]),
-          base + static_cast<double>(t[k]), { p.facetX[k], p.facetY[k], p.facetZ[k] });
+      const glm::dvec2 slope = depthSlope(view, x0 + static_cast<double>(x[k]),
+        y0 + static_cast<double>(y[k]), base + static_cast<double>(t[k]), p.facet(k));
       across[k] = static_cast<float>(slope.x);
       up[k] = static_cast<float>(slope.y);
     }

@@ -52,9 +52,8 @@ void arriveFromEye(
 /// The light of one lamp that arrives, by pixel.
 struct Arriving
 {
-  alignas(64) float x[TilePatch::Most], y[TilePatch::Most], z[TilePatch::Most]; // its direction
+  PixelVectors direction;
   alignas(64) float attenuation[TilePatch::Most];
-  glm::vec3 direction(int i) const { return { x[i], y[i], z[i] }; }
 };
 
 void arriveFromInfinity(const glm::vec3& direction, Arriving& a)
@@ -62,9 +61,7 @@ void arriveFromInfinity(const glm::vec3& direction, Arriving& a)
   const glm::vec3 along = direction;
   for (int k = 0; k < TilePatch::Most; ++k)
   {
-    a.x[k] = along.x;
-    a.y[k] = along.y;
-    a.z[k] = along.z;
+    a.direction.set(k, along);
     a.attenuation[k] = 1.0f;
   }
 }
@@ -82,9 +79,7 @@ void arriveFromPosition(const ViewLight& from, const TilePatch& p, Arriving& a)
     for (int k = i; k < i + Step; ++k)
     {
       const ArrivingLane light = arriveLane(lamp + p.way(k), axis, constants);
-      a.x[k] = light.direction.x;
-      a.y[k] = light.direction.y;
-      a.z[k] = light.direction.z;
+      a.direction.set(k, light.direction);
       a.attenuation[k] = light.attenuation;
     }
   }
@@ -193,13 +188,8 @@ HWY_INLINE void addWith(const glm::vec3& color, const TilePatch& p, TileLight& l
       for (int k = i; k < i + Step; ++k)
       {
         const float share = l.share[k];
-        l.diffuseR[k] = with(l.diffuseR[k], share * (l.diffuse[k] * c.r));
-        l.diffuseG[k] = with(l.diffuseG[k], share * (l.diffuse[k] * c.g));
-        l.diffuseB[k] = with(l.diffuseB[k], share * (l.diffuse[k] * c.b));
-        const float specular = share * l.specular[k];
-        l.specularR[k] = with(l.specularR[k], specular * c.r);
-        l.specularG[k] = with(l.specularG[k], specular * c.g);
-        l.specularB[k] = with(l.specularB[k], specular * c.b);
+        l.scattered.set(k, with(l.scattered(k), share * (l.diffuse[k] * c)));
+        l.shining.set(k, with(l.shining(k), share * l.specular[k] * c));
       }
     });
 }
@@ -208,11 +198,12 @@ void add(const glm::vec3& color, const TilePatch& p, bool first, TileLight& l)
 {
   if (first)
   {
-    addWith(color, p, l, [](float, float light) { return 0.0f + light; });
+    addWith(color, p, l, [](const glm::vec3&, const glm::vec3& light) { return 0.0f + light; });
   }
   else
   {
-    addWith(color, p, l, [](float before, float light) { return before + light; });
+    addWith(
+      color, p, l, [](const glm::vec3& before, const glm::vec3& light) { return before + light; });
   }
 }
 
@@ -243,9 +234,9 @@ void pack(const TilePatch& p, TileColors& c)
     {
       for (int k = i; k < i + Step; ++k)
       {
-        const float r = c.r[k] > 0.0f ? (c.r[k] < 1.0f ? c.r[k] : 1.0f) : 0.0f;
-        const float g = c.g[k] > 0.0f ? (c.g[k] < 1.0f ? c.g[k] : 1.0f) : 0.0f;
-        const float b = c.b[k] > 0.0f ? (c.b[k] < 1.0f ? c.b[k] : 1.0f) : 0.0f;
+        const float r = c.rgb.x[k] > 0.0f ? (c.rgb.x[k] < 1.0f ? c.rgb.x[k] : 1.0f) : 0.0f;
+        const float g = c.rgb.y[k] > 0.0f ? (c.rgb.y[k] < 1.0f ? c.rgb.y[k] : 1.0f) : 0.0f;
+        const float b = c.rgb.z[k] > 0.0f ? (c.rgb.z[k] < 1.0f ? c.rgb.z[k] : 1.0f) : 0.0f;
         const auto red = static_cast<std::int32_t>(r * 255.0f + 0.5f);
         const auto green = static_cast<std::int32_t>(g * 255.0f + 0.5f);
         const auto blue = static_cast<std::int32_t>(b * 255.0f + 0.5f);
@@ -260,9 +251,9 @@ void finish(const Material& m, bool lit, const TilePatch& p, const TileLight& l,
   const glm::vec3 a = m.ambient * (own ? glm::vec3(1.0f) : m.ambientColor);
   const glm::vec3 d = m.diffuse * (own ? glm::vec3(1.0f) : m.diffuseColor);
   const glm::vec3 s = m.specular * m.specularColor;
-  mix(lit, own ? p.colorR : nullptr, a.r, d.r, s.r, l.diffuseR, l.specularR, p, c.r);
-  mix(lit, own ? p.colorG : nullptr, a.g, d.g, s.g, l.diffuseG, l.specularG, p, c.g);
-  mix(lit, own ? p.colorB : nullptr, a.b, d.b, s.b, l.diffuseB, l.specularB, p, c.b);
+  mix(lit, own ? p.color.x : nullptr, a.r, d.r, s.r, l.scattered.x, l.shining.x, p, c.rgb.x);
+  mix(lit, own ? p.color.y : nullptr, a.g, d.g, s.g, l.scattered.y, l.shining.y, p, c.rgb.y);
+  mix(lit, own ? p.color.z : nullptr, a.b, d.b, s.b, l.scattered.z, l.shining.z, p, c.rgb.z);
   pack(p, c);
 }
 
@@ -282,9 +273,9 @@ void close(const Material& m, bool all, const TilePatch& p, const float* closed,
         }
       });
   };
-  part(a.r, p.colorR, c.r);
-  part(a.g, p.colorG, c.g);
-  part(a.b, p.colorB, c.b);
+  part(a.r, p.color.x, c.rgb.x);
+  part(a.g, p.color.y, c.rgb.y);
+  part(a.b, p.color.z, c.rgb.z);
   pack(p, c);
 }
 }

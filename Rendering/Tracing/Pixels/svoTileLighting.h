@@ -23,32 +23,19 @@ struct TileLight
   alignas(64) float diffuse[TilePatch::Most], specular[TilePatch::Most];
   /// Of the present light, what its shadow leaves of it, 0..1.
   alignas(64) float share[TilePatch::Most];
-  // Of all lights together.
-  alignas(64) float diffuseR[TilePatch::Most], diffuseG[TilePatch::Most], diffuseB[TilePatch::Most];
-  alignas(64) float specularR[TilePatch::Most], specularG[TilePatch::Most],
-    specularB[TilePatch::Most];
+  PixelVectors scattered, shining; // of all lights together, diffuse and specular
 };
 
 /// Colours of points, 0..1 and beyond; and as RGBA in memory, alpha 255. By pixel.
 struct TileColors
 {
-  alignas(64) float r[TilePatch::Most], g[TilePatch::Most], b[TilePatch::Most];
+  PixelVectors rgb;
   alignas(64) std::uint32_t rgba[TilePatch::Most];
 };
 
 /// Light number l: sets `diffuse` and `specular`; returns the points that it reaches.
 std::uint64_t arriveLight(const Lighting& lighting, std::size_t l, const Material& material,
   const TilePatch& patch, TileLight& light);
-
-/// Sets the light of all lights together to nothing.
-inline void clearLight(TileLight& light)
-{
-  for (float* part : { light.diffuseR, light.diffuseG, light.diffuseB, light.specularR,
-         light.specularG, light.specularB })
-  {
-    std::fill_n(part, TilePatch::Most, 0.0f);
-  }
-}
 
 /// Adds what arrived, of each point `share` times. `first`: to nothing.
 void addLight(const ViewLight& from, const TilePatch& patch, bool first, TileLight& light);

@@ -11,26 +11,6 @@
 
 #include <hwy/highway.h>
 
-#ifndef SVO_TILE_LOOK_ONCE
-#define SVO_TILE_LOOK_ONCE
-namespace svo
-{
-/// A vector of the triangle that each point is on.
-struct SpreadVector
-{
-  alignas(64) float x[TilePatch::Most], y[TilePatch::Most], z[TilePatch::Most];
-  glm::vec3 at(int i) const { return { x[i], y[i], z[i] }; }
-};
-
-/// Barycentric coordinates, by pixel.
-struct TileWeights
-{
-  alignas(64) float a[TilePatch::Most], b[TilePatch::Most], c[TilePatch::Most];
-  glm::vec3 at(int i) const { return { a[i], b[i], c[i] }; }
-};
-}
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace svo
 {
@@ -72,7 +52,7 @@ void spread(const TileTriangles& triangles, int column, float* HWY_RESTRICT out)
   }
 }
 
-void spread(const TileTriangles& triangles, int column, SpreadVector& out)
+void spread(const TileTriangles& triangles, int column, PixelVectors& out)
 {
   spread(triangles, column, out.x);
   spread(triangles, column + 1, out.y);
@@ -83,7 +63,7 @@ void spread(const TileTriangles& triangles, int column, SpreadVector& out)
 void faceViewer(const TileTriangles& triangles, float* HWY_RESTRICT sides, TilePatch& p)
 {
   const PointOrigin origin = p.origin;
-  SpreadVector windings;
+  PixelVectors windings;
   spread(triangles, TileTriangles::Facet, windings);
   for (int i = 0; i < TilePatch::Most; i += Step)
   {
@@ -94,10 +74,10 @@ void faceViewer(const TileTriangles& triangles, float* HWY_RESTRICT sides, TileP
     const float *x = p.hits->x + i, *y = p.hits->y + i;
     for (int k = 0; k < Step; ++k)
     {
-      const glm::vec3 winding = windings.at(i + k);
+      const glm::vec3 winding = windings(i + k);
       const float side = sideLane(winding, -origin.rayTo(x[k], y[k]));
       sides[i + k] = side;
-      p.setFacet(i + k, side * winding);
+      p.facet.set(i + k, side * winding);
     }
   }
 }
@@ -105,21 +85,22 @@ void faceViewer(const TileTriangles& triangles, float* HWY_RESTRICT sides, TileP
 /// Normals that are one triangle's: its own, or its facet's.
 void takeNormals(const TileTriangles& triangles, const float* HWY_RESTRICT sides, TilePatch& p)
 {
-  SpreadVector normals;
+  PixelVectors normals;
   spread(triangles, triangles.ownNormals ? TileTriangles::Normal : TileTriangles::Facet, normals);
   for (int i = 0; i < TilePatch::Most; i += Step)
   {
     for (int k = i; k < i + Step; ++k)
     {
-      p.setNormal(k, sides[k] * normals.at(k));
+      p.normal.set(k, sides[k] * normals(k));
     }
   }
 }
 
-void weigh(const TileTriangles& triangles, const TilePatch& p, TileWeights& weights)
+/// Barycentric coordinates.
+void weigh(const TileTriangles& triangles, const TilePatch& p, PixelVectors& weights)
 {
   alignas(64) float v[TilePatch::Most], w[TilePatch::Most];
-  SpreadVector alongV, alongW;
+  PixelVectors alongV, alongW;
   spread(triangles, TileTriangles::V, v);
   spread(triangles, TileTriangles::AlongV, alongV);
   spread(triangles, TileTriangles::W, w);
@@ -132,17 +113,14 @@ void weigh(const TileTriangles& triangles, const TilePatch& p, TileWeights& weig
     }
     for (int k = i; k < i + Step; ++k)
     {
-      const glm::vec3 weight = affineWeights(p.way(k), v[k], alongV.at(k), w[k], alongW.at(k));
-      weights.a[k] = weight.x;
-      weights.b[k] = weight.y;
-      weights.c[k] = weight.z;
+      weights.set(k, affineWeights(p.way(k), v[k], alongV(k), w[k], alongW(k)));
     }
   }
 }
 
 /// The same where hits have their attributes from elsewhere on their triangles' planes; of planes
 /// that are seen edge on as above.
-void weighElsewhere(const TileTriangles& triangles, const TilePatch& p, TileWeights& weights)
+void weighElsewhere(const TileTriangles& triangles, const TilePatch& p, PixelVectors& weights)
 {
   eachBit(p.mask,
     [&](int i)
@@ -161,18 +139,16 @@ void weighElsewhere(const TileTriangles& triangles, const TilePatch& p, TileWeig
       constexpr float Most = 1e4f;
       if (std::abs(weight.y) + std::abs(weight.z) < Most)
       {
-        weights.a[i] = weight.x;
-        weights.b[i] = weight.y;
-        weights.c[i] = weight.z;
+        weights.set(i, weight);
       }
     });
 }
 
 /// Returns those that cannot be made unit vectors this way.
 std::uint64_t interpolateNormals(
-  const TileTriangles& triangles, const TileWeights& weights, const float* sides, TilePatch& p)
+  const TileTriangles& triangles, const PixelVectors& weights, const float* sides, TilePatch& p)
 {
-  SpreadVector corners[3];
+  PixelVectors corners[3];
   for (int c = 0; c < 3; ++c)
   {
     spread(triangles, TileTriangles::Normals + 3 * c, corners[c]);
@@ -187,11 +163,10 @@ std::uint64_t interpolateNormals(
     alignas(64) std::uint32_t good[Step];
     for (int k = 0; k < Step; ++k)
     {
-      const glm::vec3 each[3] = { corners[0].at(i + k), corners[1].at(i + k),
-        corners[2].at(i + k) };
-      const glm::vec3 normal = weighted(weights.at(i + k), each);
+      const glm::vec3 each[3] = { corners[0](i + k), corners[1](i + k), corners[2](i + k) };
+      const glm::vec3 normal = weighted(weights(i + k), each);
       good[k] = hasUnitLane(normal) ? 1u : 0u;
-      p.setNormal(i + k, sides[i + k] * unitLane(normal));
+      p.normal.set(i + k, sides[i + k] * unitLane(normal));
     }
     const Words words;
     for (int k = 0; k < Step; k += width())
@@ -202,9 +177,9 @@ std::uint64_t interpolateNormals(
   return odd;
 }
 
-void colorByPoints(const TileTriangles& triangles, const TileWeights& weights, TilePatch& p)
+void colorByPoints(const TileTriangles& triangles, const PixelVectors& weights, TilePatch& p)
 {
-  SpreadVector corners[3];
+  PixelVectors corners[3];
   for (int c = 0; c < 3; ++c)
   {
     spread(triangles, TileTriangles::Colors + 3 * c, corners[c]);
@@ -213,14 +188,14 @@ void colorByPoints(const TileTriangles& triangles, const TileWeights& weights, T
   {
     for (int k = i; k < i + Step; ++k)
     {
-      const glm::vec3 each[3] = { corners[0].at(k), corners[1].at(k), corners[2].at(k) };
-      p.setColor(k, weighted(weights.at(k), each));
+      const glm::vec3 each[3] = { corners[0](k), corners[1](k), corners[2](k) };
+      p.color.set(k, weighted(weights(k), each));
     }
   }
 }
 
 void colorByTexture(const TileTriangles& triangles, const Attributes& attributes,
-  const TileWeights& weights, TilePatch& p)
+  const PixelVectors& weights, TilePatch& p)
 {
   eachBit(p.mask,
     [&](int i)
@@ -231,8 +206,8 @@ void colorByTexture(const TileTriangles& triangles, const Attributes& attributes
         const int column = TileTriangles::Coordinates + 2 * c, which = triangles.which[i];
         corners[c] = { triangles.column[column][which], triangles.column[column + 1][which] };
       }
-      const int texel = detail::texelAt(attributes, weighted(weights.at(i), corners));
-      p.setColor(i, detail::colorAt(attributes.colorTexture, texel));
+      const int texel = detail::texelAt(attributes, weighted(weights(i), corners));
+      p.color.set(i, detail::colorAt(attributes.colorTexture, texel));
     });
 }
 
@@ -240,7 +215,7 @@ void colorByTexture(const TileTriangles& triangles, const Attributes& attributes
 std::uint64_t look(const TileTriangles& triangles, const Attributes& attributes, TilePatch& p)
 {
   alignas(64) float sides[TilePatch::Most] = {};
-  TileWeights weights;
+  PixelVectors weights;
   std::uint64_t odd = triangles.oddLanes;
   faceViewer(triangles, sides, p);
   if (triangles.needsWeights())
@@ -270,9 +245,7 @@ std::uint64_t look(const TileTriangles& triangles, const Attributes& attributes,
   }
   else if (triangles.coloredByCells)
   {
-    spread(triangles, TileTriangles::Colors, p.colorR);
-    spread(triangles, TileTriangles::Colors + 1, p.colorG);
-    spread(triangles, TileTriangles::Colors + 2, p.colorB);
+    spread(triangles, TileTriangles::Colors, p.color);
   }
   return odd;
 }
@@ -293,9 +266,9 @@ void lookAtPoint(
 {
   const SurfacePoint point =
     pointOfTriangle(frame, *patch.view, patch.position(i), patch.towards(i), triangle, at);
-  patch.setFacet(i, point.facet);
-  patch.setNormal(i, point.normal);
-  patch.setColor(i, point.color);
+  patch.facet.set(i, point.facet);
+  patch.normal.set(i, point.normal);
+  patch.color.set(i, point.color);
   patch.hasColor = point.hasColor;
 }
 
@@ -347,7 +320,7 @@ void lookAtPatch(const SurfaceMatrices& frame, TilePatch& patch, TileTriangles& 
         {
           if (shadersTurn(frame, *patch.view, patch.position(i), patch.facet(i)))
           {
-            patch.setNormal(i, -patch.normal(i));
+            patch.normal.set(i, -patch.normal(i));
           }
         });
     }

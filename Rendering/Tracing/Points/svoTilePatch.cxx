@@ -69,10 +69,7 @@ void place(const PointOrigin& from, TilePatch& p)
     const float *x = p.hits->x + i, *y = p.hits->y + i;
     for (int k = 0; k < TilePatch::Step; ++k)
     {
-      const glm::vec3 way = origin.wayTo(x[k], y[k], p.deeper[i + k]);
-      p.wayX[i + k] = way.x;
-      p.wayY[i + k] = way.y;
-      p.wayZ[i + k] = way.z;
+      p.way.set(i + k, origin.wayTo(x[k], y[k], p.deeper[i + k]));
     }
   }
 }

@@ -97,6 +97,20 @@ void eachBit(std::uint64_t mask, F&& f)
   }
 }
 
+/// A vector for each pixel of a tile; by components, as loops over pixels take them.
+struct PixelVectors
+{
+  alignas(64) float x[TileHits::Most], y[TileHits::Most], z[TileHits::Most];
+
+  glm::vec3 operator()(int i) const { return { x[i], y[i], z[i] }; }
+  void set(int i, const glm::vec3& v)
+  {
+    x[i] = v.x;
+    y[i] = v.y;
+    z[i] = v.z;
+  }
+};
+
 struct TilePatch
 {
   static constexpr int Most = TileHits::Most;
@@ -113,12 +127,9 @@ struct TilePatch
   glm::vec3 extent; // PointOrigin::extent() of them
 
   // By pixel; valid where `mask` is set.
-  alignas(64) float deeper[Most];                       // than the origin
-  alignas(64) float wayX[Most], wayY[Most], wayZ[Most]; // from the origin, world
-  // As in SurfacePoint.
-  alignas(64) float facetX[Most], facetY[Most], facetZ[Most];
-  alignas(64) float normalX[Most], normalY[Most], normalZ[Most];
-  alignas(64) float colorR[Most], colorG[Most], colorB[Most];
+  alignas(64) float deeper[Most];    // than the origin
+  PixelVectors way;                  // from the origin, world
+  PixelVectors facet, normal, color; // as in SurfacePoint
   bool hasColor;
 
   /// True if some of the pixels from i on, Step of them, are of the patch.
@@ -131,32 +142,10 @@ struct TilePatch
   {
     return view->rayOrigin(x(i), y(i)) + t(i) * view->rayDirection(x(i), y(i));
   }
-  glm::vec3 way(int i) const { return { wayX[i], wayY[i], wayZ[i] }; }
   glm::vec3 towards(int i) const { return glm::vec3(-view->rayDirection(x(i), y(i))); }
-  glm::vec3 facet(int i) const { return { facetX[i], facetY[i], facetZ[i] }; }
-  glm::vec3 normal(int i) const { return { normalX[i], normalY[i], normalZ[i] }; }
-  glm::vec3 color(int i) const { return { colorR[i], colorG[i], colorB[i] }; }
   SurfacePoint point(int i) const
   {
-    return { this->position(i), this->facet(i), this->normal(i), this->color(i), hasColor };
-  }
-  void setFacet(int i, const glm::vec3& v)
-  {
-    facetX[i] = v.x;
-    facetY[i] = v.y;
-    facetZ[i] = v.z;
-  }
-  void setNormal(int i, const glm::vec3& v)
-  {
-    normalX[i] = v.x;
-    normalY[i] = v.y;
-    normalZ[i] = v.z;
-  }
-  void setColor(int i, const glm::vec3& v)
-  {
-    colorR[i] = v.r;
-    colorG[i] = v.g;
-    colorB[i] = v.b;
+    return { this->position(i), facet(i), normal(i), color(i), hasColor };
   }
 };
 

@@ -95,9 +95,9 @@ void LightImages::put(const TilePatch& patch)
       const double tX = -glm::dot(facet, view.originX + t * view.directionX) / facing;
       const double tY = -glm::dot(facet, view.originY + t * view.directionY) / facing;
       const double perT = view.parallel ? 1.0 : -1.0 / (t * t);
-      all.normalX[at] = patch.normalX[i];
-      all.normalY[at] = patch.normalY[i];
-      all.normalZ[at] = patch.normalZ[i];
+      all.normalX[at] = patch.normal.x[i];
+      all.normalY[at] = patch.normal.y[i];
+      all.normalZ[at] = patch.normal.z[i];
       all.depth[at] = static_cast<float>(view.parallel ? t : 1.0 / t);
       all.depthX[at] = static_cast<float>(tX * perT);
       all.depthY[at] = static_cast<float>(tY * perT);

@@ -157,8 +157,8 @@ void TileOfPlaces::eachPatch(const TileHitList& list, bool smooth, Scratch& scra
       eachBit(patch.mask,
         [&](int i)
         {
-          patch.setFacet(i, smooth ? points.normal[i] : points.facet[i]);
-          patch.setNormal(i, points.normal[i]);
+          patch.facet.set(i, smooth ? points.normal[i] : points.facet[i]);
+          patch.normal.set(i, points.normal[i]);
         });
       f(patch.mask);
     });

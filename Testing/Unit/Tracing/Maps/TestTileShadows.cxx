@@ -233,8 +233,8 @@ TEST(TileShadows, AnswersThatAreGivenAreThoseInDouble)
               const glm::dvec3 ray = glm::normalize(c.light.view.rayDirection(x, y));
               const glm::dvec3 beside = glm::normalize(glm::cross(ray, glm::dvec3(direction())));
               const double sine = EdgeOnSine * (1.0 + 1e-4 * unit(random));
-              patch.setFacet(i, direction());
-              patch.setNormal(i, i % 6 == 5 ? glm::vec3(beside + sine * ray) : direction());
+              patch.facet.set(i, direction());
+              patch.normal.set(i, i % 6 == 5 ? glm::vec3(beside + sine * ray) : direction());
               const double t = texelPlace(c.light, position).t;
               ShadowQuestion<double>& q = questions[i];
               q = { glm::dvec3(patch.facet(i)), glm::dvec3(patch.normal(i)),

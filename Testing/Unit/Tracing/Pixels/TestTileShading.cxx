@@ -291,7 +291,7 @@ void compareLighting(Stage& stage, int steps)
               const glm::vec3 expected =
                 shade(lighting, instance, patch.point(i), patch.origin.position, patch.way(i),
                   Remaining, [&](std::size_t l) { return missed(l, i); });
-              const glm::vec3 found(colors.r[i], colors.g[i], colors.b[i]);
+              const glm::vec3 found = colors.rgb(i);
               ASSERT_TRUE(sameBits(expected, found))
                 << "instance " << patch.instance << ": " << found.r << ", " << expected.r;
               std::uint8_t bytes[4];
