@@ -51,53 +51,31 @@ HWY_EXPORT(findDifferent);
 
 namespace
 {
-class Writer
+/// Numbers of triangle k from a column on.
+template <class Vector>
+void put(TileTriangles& triangles, int k, int column, const Vector& value)
 {
-public:
-  Writer(TileTriangles& triangles, int number)
-    : Triangles(triangles)
-    , Number(number)
+  for (int i = 0; i < Vector::length(); ++i)
   {
+    triangles.column[column + i][k] = value[i];
   }
-  void put(int column, float value) { this->Triangles.column[column][this->Number] = value; }
-  template <class Vector>
-  void put(int column, const Vector& value)
-  {
-    for (int i = 0; i < Vector::length(); ++i)
-    {
-      this->put(column + i, value[i]);
-    }
-  }
+}
 
-private:
-  TileTriangles& Triangles;
-  int Number;
-};
-
-/// The weights of a triangle's points as affine functions of the way from the patch's origin,
+/// The weights of the points of triangle k as affine functions of the way from the patch's origin,
 /// which is `from`, octree coordinates. In double, as ratios of areas: what is lost on a triangle
 /// that is n times as long as wide is the rounding of the result.
-void putWeights(
-  const SurfaceMatrices& frame, const TriangleLook& look, const glm::dvec3& from, Writer& writer)
+void putWeights(const SurfaceMatrices& frame, const TriangleLook& look, const glm::dvec3& from,
+  int k, TileTriangles& triangles)
 {
   const glm::dvec3 e1(look.e1), e2(look.e2), area = glm::cross(e1, e2);
   const double area2 = glm::dot(area, area);
   const double scale = area2 > 0.0 ? 1.0 / area2 : 0.0;
   const glm::dvec3 v = scale * glm::cross(e2, area), w = scale * glm::cross(area, e1);
   const glm::dvec3 to = from - glm::dvec3(look.a);
-  writer.put(TileTriangles::V, static_cast<float>(glm::dot(v, to)));
-  writer.put(TileTriangles::AlongV, glm::vec3(frame.toOctree.gradient(v)));
-  writer.put(TileTriangles::W, static_cast<float>(glm::dot(w, to)));
-  writer.put(TileTriangles::AlongW, glm::vec3(frame.toOctree.gradient(w)));
-}
-
-/// Of a triangle with one normal at all corners: its points are those of the first corner.
-void putNoWeights(Writer& writer)
-{
-  for (int column = TileTriangles::V; column < TileTriangles::AlongW + 3; ++column)
-  {
-    writer.put(column, 0.0f);
-  }
+  triangles.column[TileTriangles::V][k] = static_cast<float>(glm::dot(v, to));
+  put(triangles, k, TileTriangles::AlongV, glm::vec3(frame.toOctree.gradient(v)));
+  triangles.column[TileTriangles::W][k] = static_cast<float>(glm::dot(w, to));
+  put(triangles, k, TileTriangles::AlongW, glm::vec3(frame.toOctree.gradient(w)));
 }
 }
 
@@ -116,7 +94,6 @@ void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::ui
   for (int k = 0; k < triangles.count; ++k)
   {
     const TriangleLook look(frame, triangles.primitive[k]);
-    Writer writer(triangles, k);
     triangles.textured = look.textured;
     triangles.coloredByPoints = look.coloredByPoints;
     triangles.coloredByCells = look.hasColor && !look.textured && !look.coloredByPoints;
@@ -126,14 +103,17 @@ void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::ui
       look.smooth && (look.normals[0] != look.normals[1] || look.normals[0] != look.normals[2]);
     bool odd = !hasUnitLane(look.winding);
     triangles.smooth = triangles.smooth || bends;
-    writer.put(TileTriangles::Facet, unitLane(look.winding));
+    put(triangles, k, TileTriangles::Facet, unitLane(look.winding));
     if (bends || look.textured || look.coloredByPoints)
     {
-      putWeights(frame, look, from, writer);
+      putWeights(frame, look, from, k, triangles);
     }
-    else
+    else // one normal at all corners: points are those of the first corner
     {
-      putNoWeights(writer);
+      for (int column = TileTriangles::V; column < TileTriangles::AlongW + 3; ++column)
+      {
+        triangles.column[column][k] = 0.0f;
+      }
     }
     if (!bends) // else normals are interpolated, of all triangles
     {
@@ -141,7 +121,7 @@ void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::ui
       odd = odd || !hasUnitLane(normal);
       if (triangles.ownNormals)
       {
-        writer.put(TileTriangles::Normal, unitLane(normal));
+        put(triangles, k, TileTriangles::Normal, unitLane(normal));
       }
     }
     if (odd)
@@ -152,15 +132,15 @@ void findTriangles(const SurfaceMatrices& frame, const TilePatch& patch, std::ui
     {
       if (look.smooth)
       {
-        writer.put(TileTriangles::Normals + 3 * i, frame.normalMatrix * look.normals[i]);
+        put(triangles, k, TileTriangles::Normals + 3 * i, frame.normalMatrix * look.normals[i]);
       }
       if (look.coloredByPoints || (i == 0 && triangles.coloredByCells))
       {
-        writer.put(TileTriangles::Colors + 3 * i, look.colors[i]);
+        put(triangles, k, TileTriangles::Colors + 3 * i, look.colors[i]);
       }
       if (look.textured)
       {
-        writer.put(TileTriangles::Coordinates + 2 * i, look.coordinates[i]);
+        put(triangles, k, TileTriangles::Coordinates + 2 * i, look.coordinates[i]);
       }
     }
   }
