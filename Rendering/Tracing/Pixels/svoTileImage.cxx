@@ -182,26 +182,18 @@ void TileImage::write() const
       std::copy_n(hits.primitive + from, columns, frame.primitive.data() + to);
     }
   }
-  // All pixels of the tile that are in the frame.
-  const std::uint64_t inRow = (std::uint64_t(1) << columns) - 1;
-  std::uint64_t whole = 0;
-  for (int row = 0; row < rows; ++row)
-  {
-    whole |= inRow << 8 * row;
-  }
+  const std::uint64_t misses = pixelsInside(columns, rows) & ~hits.mask;
   const std::size_t tilesX = (frame.width + 7) / 8;
   frame.tiles[hits.y0 / 8 * tilesX + hits.x0 / 8] = {
-    (hits.mask & whole) == whole ? FrameTile::Kind::Whole : FrameTile::Kind::Mixed, frame.version
+    misses == 0 ? FrameTile::Kind::Whole : FrameTile::Kind::Mixed, frame.version
   };
-  for (int i = 0; !frame.normals.empty() && i < TileHits::Most; ++i)
-  {
-    if (!(hits.mask >> i & 1) && (i & 7) < columns && (i >> 3) < rows)
+  eachBit(frame.normals.empty() ? 0 : misses,
+    [&](int i)
     {
       const std::size_t pixel =
         static_cast<std::size_t>(hits.y0 + (i >> 3)) * frame.width + hits.x0 + (i & 7);
       std::fill_n(frame.normals.data() + 3 * pixel, 3, 0.0f);
-    }
-  }
+    });
 }
 }
 #endif

@@ -112,14 +112,6 @@ void prefetch(const TileHits& hits)
     __builtin_prefetch(hits.primitive + i);
   }
 }
-
-/// Which pixels of a tile are in an image that has `columns` and `rows` of them from its corner on.
-std::uint64_t inside(int columns, int rows)
-{
-  const std::uint64_t row = columns < 8 ? (1u << columns) - 1 : 0xffu;
-  const std::uint64_t all = row * 0x0101010101010101u;
-  return rows < 8 ? all & ((std::uint64_t(1) << 8 * rows) - 1) : all;
-}
 }
 
 TileHits hitsOfTile(const DepthBuffer& depth, const View& view, int tileX, int tileY)
@@ -131,7 +123,7 @@ TileHits hitsOfTile(const DepthBuffer& depth, const View& view, int tileX, int t
     depth.instance.data() + begin, depth.primitive.data() + begin };
   prefetch(hits);
   hits.mask = ~HWY_DYNAMIC_DISPATCH(lanesOf)(hits.instance, NoInstance) &
-    inside(view.width - hits.x0, view.height - hits.y0);
+    pixelsInside(view.width - hits.x0, view.height - hits.y0);
   return hits;
 }
 

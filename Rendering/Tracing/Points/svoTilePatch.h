@@ -44,6 +44,14 @@ struct TileHits
   const float *lookX = nullptr, *lookY = nullptr;
 };
 
+/// Which pixels of a tile are in an image that has `columns` and `rows` of them from its corner on.
+inline std::uint64_t pixelsInside(int columns, int rows)
+{
+  const std::uint64_t row = columns < 8 ? (1u << columns) - 1 : 0xffu;
+  const std::uint64_t all = row * 0x0101010101010101u;
+  return rows < 8 ? all & ((std::uint64_t(1) << 8 * rows) - 1) : all;
+}
+
 /// The hits at the centres of a tile's pixels, as the view merged them.
 VTKSVOTRACING_EXPORT TileHits hitsOfTile(
   const DepthBuffer& depth, const View& view, int tileX, int tileY);
