@@ -45,12 +45,9 @@ public:
 
   std::uint32_t instance(int x, int y) const
   {
-    if (x < 0 || y < 0 || x >= this->EyeView.width || y >= this->EyeView.height)
-    {
-      return NoInstance;
-    }
-    const std::size_t at = this->Depth.at(x, y);
-    return this->Depth.hit[at >> 6] ? this->Depth.instance[at] : NoInstance;
+    return x >= 0 && y >= 0 && x < this->EyeView.width && y < this->EyeView.height
+      ? this->Depth.instanceAt(x, y)
+      : NoInstance;
   }
 
   bool changes(int x, int y) const
