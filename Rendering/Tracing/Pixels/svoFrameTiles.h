@@ -11,9 +11,6 @@
 
 namespace svo
 {
-/// Makes the pixels of the tile whose lower left pixel is (x0, y0) misses.
-void wipeTile(Frame& frame, int x0, int y0);
-
 /// A frame is wiped as a whole only where its size or its arrays are others; else only tiles that
 /// lost their hits are, and the others are written anew by shading.
 class FrameTiles
