@@ -67,26 +67,22 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
       face.forget(); // of most groups' maps, where a light has six
       continue;
     }
-    for (std::size_t k = 0; k < scene.instances.size(); ++k)
+    this->SameMaps = this->SameMaps && voxels.size() == outlines;
+    const ViewedInstances& seen = face.layers.hits().instances;
+    for (std::uint32_t k = 0; k < scene.instances.size(); ++k)
     {
       const Instance& instance = scene.instances[k];
-      const int level = face.layers.hits().instances.level(static_cast<std::uint32_t>(k));
-      const LeafGeometry geometry =
-        face.layers.hits().instances.leafGeometry(static_cast<std::uint32_t>(k));
-      if (casters[k] == group && level > 0)
+      double &voxel = face.map.casterVoxel[k], &error = face.map.casterError[k];
+      if (const int level = seen.level(k); casters[k] == group && level > 0)
       {
-        face.map.casterVoxel[k] = worldVoxel(instance, level);
-        face.map.casterError[k] = worldMapError(instance, geometry, level);
+        voxel = worldVoxel(instance, level);
+        error = worldMapError(instance, seen.leafGeometry(k), level);
       }
+      // Tiles that show a caster that has moved have changed: what else is new of it is no matter.
+      this->SameMaps = this->SameMaps &&
+        (places[k] != this->CasterPlace[k] || (voxels[k] == voxel && errors[k] == error));
     }
     face.map.findLargest();
-    this->SameMaps = this->SameMaps && voxels.size() == outlines;
-    for (std::size_t k = 0; k < scene.instances.size() && this->SameMaps; ++k)
-    {
-      // Tiles that show a caster that has moved have changed: what else is new of it is no matter.
-      this->SameMaps = places[k] != this->CasterPlace[k] ||
-        (voxels[k] == face.map.casterVoxel[k] && errors[k] == face.map.casterError[k]);
-    }
     if (face.wanted.size() != face.grid.size())
     {
       face.wanted = std::vector<std::atomic<std::uint8_t>>(face.grid.size());
@@ -323,11 +319,7 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
     {
       continue; // it sees nothing
     }
-    std::vector<std::uint8_t> wanted(face->wanted.size());
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-    {
-      wanted[i] = face->wanted[i].load(std::memory_order_relaxed);
-    }
+    const std::vector<std::uint8_t> wanted(face->wanted.begin(), face->wanted.end());
     face->layers.trace(parallelFor, wanted.data());
     face->map.occluders.find(face->layers.hits(), parallelFor);
     if (this->MappedColors.empty())
