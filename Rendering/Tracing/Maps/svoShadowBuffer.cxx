@@ -129,16 +129,6 @@ void ShadowBuffer::arrangeFaces(const std::vector<View>& views, LayerBudget& bud
   }
 }
 
-std::size_t ShadowBuffer::sparedCasters() const
-{
-  std::size_t spared = 0;
-  for (const auto& face : this->Faces)
-  {
-    spared += face->layers.spared().unasked + face->layers.spared().hidden;
-  }
-  return spared;
-}
-
 template <class Body>
 void ShadowBuffer::tilesAround(const MapPlace& place, Body&& body) const
 {
@@ -405,24 +395,14 @@ std::size_t ShadowBuffer::memory() const
   return sum;
 }
 
-std::uint64_t ShadowBuffer::rays() const
+void ShadowBuffer::addStatistics(FrameStatistics& statistics) const
 {
-  std::uint64_t sum = 0;
   for (const auto& face : this->Faces)
   {
-    sum += face->layers.rays();
+    statistics.shadowRays += face->layers.rays();
+    statistics.retracedLayers += face->layers.retracedLayers();
+    statistics.sparedCasters += face->layers.spared().unasked + face->layers.spared().hidden;
   }
-  return sum;
-}
-
-std::uint64_t ShadowBuffer::retracedLayers() const
-{
-  std::uint64_t sum = 0;
-  for (const auto& face : this->Faces)
-  {
-    sum += face->layers.retracedLayers();
-  }
-  return sum;
 }
 
 std::size_t ShadowBuffer::layerMemory() const

@@ -35,8 +35,6 @@ public:
 
   /// Of its layers, from prepare() on.
   void setCulling(const Culling& culling) { this->Cull = culling; }
-  /// Casters of its maps, each once a map, that trace() did not look at.
-  std::size_t sparedCasters() const;
 
   /// How points are tested; prepare() does this, too.
   void setBias(const FrameSettings& settings)
@@ -103,8 +101,8 @@ public:
   /// copies. Not those of kept layers.
   std::size_t memory() const;
 
-  std::uint64_t rays() const;
-  std::uint64_t retracedLayers() const;
+  /// What trace() had to do: rays, layers, and casters, each once a map, that it did not look at.
+  void addStatistics(FrameStatistics& statistics) const;
   std::size_t layerMemory() const;
 
 private:

@@ -296,9 +296,7 @@ void Shadows::addStatistics(FrameStatistics& statistics) const
       statistics.shadowMemory += buffer.memory();
       if (this->Traced)
       {
-        statistics.shadowRays += buffer.rays();
-        statistics.retracedLayers += buffer.retracedLayers();
-        statistics.sparedCasters += buffer.sparedCasters();
+        buffer.addStatistics(statistics);
       }
     });
 }

@@ -446,7 +446,10 @@ TEST(TileShading, WhatIsMarkedIsWhatIsLookedUp)
     {
       EXPECT_TRUE(marked.changed(tile));
     }
-    EXPECT_LT(marked.rays(), whole.rays());
+    FrameStatistics few, all;
+    marked.addStatistics(few);
+    whole.addStatistics(all);
+    EXPECT_LT(few.shadowRays, all.shadowRays);
     stage.eachSeenPatch(
       [&](const TilePatch& patch)
       {
