@@ -52,6 +52,19 @@ HWY_INLINE hn::Mask<Tag> maskOf(Tag tag, std::uint64_t bits)
   std::memcpy(bytes, &bits, sizeof bits);
   return hn::LoadMaskBits(tag, bytes);
 }
+
+/// Which of at most 64 numbers, as many as fill vectors, are this one.
+HWY_INLINE std::uint64_t lanesOf(const std::uint32_t* numbers, std::uint32_t wanted, int count)
+{
+  const Words words;
+  const auto value = hn::Set(words, wanted);
+  std::uint64_t lanes = 0;
+  for (int i = 0; i < count; i += width())
+  {
+    lanes |= bitsOf(words, hn::Eq(hn::LoadU(words, numbers + i), value)) << i;
+  }
+  return lanes;
+}
 }
 }
 HWY_AFTER_NAMESPACE();

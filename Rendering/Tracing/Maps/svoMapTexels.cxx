@@ -108,12 +108,8 @@ std::uint64_t gather(
   same = 0;
   if (found != 0)
   {
-    const auto first = hn::Set(words, occluders.caster[__builtin_ctzll(found)]);
-    for (int i = 0; i < TilePatch::Most; i += width())
-    {
-      same |= bitsOf(words, hn::Eq(hn::Load(words, occluders.caster + i), first)) << i;
-    }
-    same &= found;
+    const std::uint32_t first = occluders.caster[__builtin_ctzll(found)];
+    same = found & lanesOf(occluders.caster, first, TilePatch::Most);
   }
   return found;
 }

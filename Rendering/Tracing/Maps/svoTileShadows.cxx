@@ -93,14 +93,9 @@ void test(const TexelsFromPatch& of, const TilePatch& p, std::uint64_t lanes,
       const std::uint32_t sure = lit ? 0u : which;
       answers[k] = (lit | dark) & (answer.edgeOn > OfSlope) ? sure : 3u;
     }
-    const Words words;
-    for (int k = 0; k < Step; k += width())
-    {
-      const auto answer = hn::Load(words, answers + k);
-      tests.nearby |= bitsOf(words, hn::Eq(answer, hn::Set(words, 1))) << (i + k);
-      tests.dark |= bitsOf(words, hn::Eq(answer, hn::Set(words, 2))) << (i + k);
-      tests.unsure |= bitsOf(words, hn::Eq(answer, hn::Set(words, 3))) << (i + k);
-    }
+    tests.nearby |= lanesOf(answers, 1, Step) << i;
+    tests.dark |= lanesOf(answers, 2, Step) << i;
+    tests.unsure |= lanesOf(answers, 3, Step) << i;
   }
   tests.nearby &= lanes;
   tests.dark &= lanes;

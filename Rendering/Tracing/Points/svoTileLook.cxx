@@ -168,11 +168,7 @@ std::uint64_t interpolateNormals(
       good[k] = hasUnitLane(normal) ? 1u : 0u;
       p.normal.set(i + k, sides[i + k] * unitLane(normal));
     }
-    const Words words;
-    for (int k = 0; k < Step; k += width())
-    {
-      odd |= bitsOf(words, hn::Eq(hn::Load(words, good + k), hn::Zero(words))) << (i + k);
-    }
+    odd |= lanesOf(good, 0, Step) << i;
   }
   return odd;
 }

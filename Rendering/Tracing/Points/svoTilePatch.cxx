@@ -16,18 +16,6 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-std::uint64_t lanesOf(const std::uint32_t* instances, std::uint32_t instance)
-{
-  const Words words;
-  const auto wanted = hn::Set(words, instance);
-  std::uint64_t mask = 0;
-  for (int i = 0; i < TileHits::Most; i += width())
-  {
-    mask |= bitsOf(words, hn::Eq(hn::LoadU(words, instances + i), wanted)) << i;
-  }
-  return mask;
-}
-
 /// Finds those of the hits that are of an instance and at most `reach` deeper or less deep than t,
 /// and those on nodes, whatever they are of. Sets by how much all that are of the instance are, 0
 /// elsewhere; returns the most of the former.
@@ -122,7 +110,7 @@ TileHits hitsOfTile(const DepthBuffer& depth, const View& view, int tileX, int t
   TileHits hits{ 8 * tileX, 8 * tileY, 0, centres.x, centres.y, depth.t.data() + begin,
     depth.instance.data() + begin, depth.primitive.data() + begin };
   prefetch(hits);
-  hits.mask = ~HWY_DYNAMIC_DISPATCH(lanesOf)(hits.instance, NoInstance) &
+  hits.mask = ~HWY_DYNAMIC_DISPATCH(lanesOf)(hits.instance, NoInstance, TileHits::Most) &
     pixelsInside(view.width - hits.x0, view.height - hits.y0);
   return hits;
 }
