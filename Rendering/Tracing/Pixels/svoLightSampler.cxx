@@ -5,7 +5,6 @@
 #include "svoSampleSums.h"
 #include "svoTileLighting.h"
 #include "svoTileLook.h"
-#include "svoTileTriangles.h"
 #include "svoViewLights.h"
 
 #include <atomic>
@@ -18,9 +17,6 @@ namespace
 {
 struct SampleScratch : PatchShadows::Scratch
 {
-  TilePatch patch;
-  TileTriangles triangles;
-  TileLight light;
   SampleSums sums[3];
 };
 
@@ -31,7 +27,7 @@ void sampleLight(std::size_t l, const ShadedScene& shaded, const Lighting& light
   const std::uint64_t reached =
     arriveLight(lighting, l, shaded.scene.instances[patch.instance].material, patch, scratch.light);
   points.find(shaded.dark.of(l), *lighting.lights[l].light,
-    points.query(patch, reached, scratch, scratch.sums), scratch);
+    points.query(reached, scratch, scratch.sums), scratch);
   images.put(images.sampled().ofLights[l], patch, reached, *scratch.sums);
 }
 
@@ -51,7 +47,7 @@ void samplePatch(const ShadedScene& shaded, const Lighting& lighting, const Patc
       sampleLight(l, shaded, lighting, points, scratch, images);
     }
   }
-  const ShadowQuery all = points.query(patch, patch.mask, scratch, scratch.sums);
+  const ShadowQuery all = points.query(patch.mask, scratch, scratch.sums);
   const bool around =
     planes.ofOcclusion != SampledPlanes::None || planes.ofSky != SampledPlanes::None;
   if (around && scratch.noted)

@@ -8,7 +8,9 @@
 #include "svoScene.h"
 #include "svoSurfacePoint.h"
 #include "svoTerminator.h"
+#include "svoTileLighting.h"
 #include "svoTilePatch.h"
+#include "svoTileTriangles.h"
 
 #include <cstdint>
 #include <vector>
@@ -24,9 +26,12 @@ public:
   /// Of an instance that is seen.
   const SurfaceMatrices& frame(std::uint32_t instance) const { return this->Frames[instance]; }
 
-  /// What a thread needs to ask for up to 64 points.
+  /// What a thread needs to look at up to 64 points, and to ask for them.
   struct Scratch
   {
+    TilePatch patch;
+    TileTriangles triangles;
+    TileLight light;
     double extents[TilePatch::Most];         // world: ShadowQuery::extents
     float missed[TilePatch::Most];           // by pixel: of one light
     std::vector<TerminatorPoint> terminator; // of one light
@@ -34,11 +39,11 @@ public:
     KeptTiles::Tile* noted = nullptr;        // takes down what is asked; or null
   };
 
-  /// Those of a patch that are `asked`. `sums`: of the query.
-  ShadowQuery query(
-    const TilePatch& patch, std::uint64_t asked, Scratch& scratch, SampleSums* sums = nullptr) const
+  /// Those of the patch that are `asked`. `sums`: of the query.
+  ShadowQuery query(std::uint64_t asked, Scratch& scratch, SampleSums* sums = nullptr) const
   {
-    return { patch, this->Errors[patch.instance], scratch.extents, asked, scratch.rays, sums };
+    return { scratch.patch, this->Errors[scratch.patch.instance], scratch.extents, asked,
+      scratch.rays, sums };
   }
 
   /// Sets what those that are asked miss of a light, which reaches them; returns those that may

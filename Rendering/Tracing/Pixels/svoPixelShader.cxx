@@ -45,7 +45,7 @@ void PixelShader::shadow(
   {
     changed = found |
       this->Points.find(lit.shaded.dark.of(l), *lit.lighting.lights[l].light,
-        this->Points.query(patch, reached & ~found, scratch), scratch);
+        this->Points.query(reached & ~found, scratch), scratch);
   }
   eachBit(found, [&](int i) { missed[i] = scratch.mean(*lit.images, plane, i); });
   std::fill_n(scratch.light.share, TilePatch::Most, 1.0f);
@@ -100,12 +100,6 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
   }
 }
 
-/// All points of a patch, which ask what is around them.
-ShadowQuery PixelShader::allOf(Scratch& scratch, SampleSums* sums) const
-{
-  return this->Points.query(scratch.patch, scratch.patch.mask, scratch, sums);
-}
-
 /// Ambient occlusion of the points of a patch.
 void PixelShader::occlude(const Lit& lit, Scratch& scratch) const
 {
@@ -119,7 +113,8 @@ void PixelShader::occlude(const Lit& lit, Scratch& scratch) const
   else
   {
     SampleSums sums;
-    sampleOcclusion(this->allOf(scratch, &sums), *lit.shaded.dark.occlusion(), sums);
+    sampleOcclusion(
+      this->Points.query(patch.mask, scratch, &sums), *lit.shaded.dark.occlusion(), sums);
     eachBit(patch.mask, [&](int i) { closed[i] = sums.mean(i); });
   }
   const auto strength = static_cast<float>(lit.shaded.settings.ambientOcclusionStrength);
@@ -150,7 +145,7 @@ void PixelShader::addSky(const Lit& lit, Scratch& scratch) const
   else
   {
     SampleSums sums[3];
-    sampleSky(this->allOf(scratch, sums), *lit.shaded.dark.sky(), sky, sums);
+    sampleSky(this->Points.query(patch.mask, scratch, sums), *lit.shaded.dark.sky(), sky, sums);
     eachBit(patch.mask,
       [&](int i) {
         seen[i] = { sums[0].mean(i), sums[1].mean(i), sums[2].mean(i) };

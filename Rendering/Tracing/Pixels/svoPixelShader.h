@@ -61,9 +61,6 @@ public:
   /// What a thread needs to shade up to 64 points.
   struct Scratch : PatchShadows::Scratch
   {
-    TilePatch patch;
-    TileTriangles triangles;
-    TileLight light;
     TileColors colors;
     Darkness darkness[TilePatch::Most]; // by pixel
     /// By point: the pixel whose samples of light it takes from Lit::images; null: its own.
@@ -99,7 +96,6 @@ private:
   void shadePatch(const Lit& lit, Scratch& scratch) const;
   void occlude(const Lit& lit, Scratch& scratch) const;
   void addSky(const Lit& lit, Scratch& scratch) const;
-  ShadowQuery allOf(Scratch& scratch, SampleSums* sums) const;
   void shadow(std::size_t l, const Lit& lit, std::uint64_t reached, Scratch& scratch) const;
   void write(const Lit& lit, const TileHits& hits, Scratch& scratch, Frame& frame);
 
