@@ -33,7 +33,8 @@ inline Arriving arriving(const Lighting& lighting, const ViewLight& l, const glm
   ArrivingLane light{ l.direction, 1.0f };
   if (!l.light->atInfinity())
   {
-    light = arriveLane(glm::vec3(origin - l.position) + way, l.direction, l.light->attenuation);
+    light =
+      arriveLane(glm::vec3(origin - l.light->position) + way, l.direction, l.light->attenuation);
     if (l.light->hasCone())
     {
       const float cosine = glm::dot(light.direction, l.direction);

@@ -68,7 +68,7 @@ void arriveFromInfinity(const glm::vec3& direction, Arriving& a)
 
 void arriveFromPosition(const ViewLight& from, const TilePatch& p, Arriving& a)
 {
-  const glm::vec3 lamp(p.origin.position - from.position), axis = from.direction;
+  const glm::vec3 lamp(p.origin.position - from.light->position), axis = from.direction;
   const glm::vec3 constants = from.light->attenuation;
   for (int i = 0; i < TilePatch::Most; i += Step)
   {

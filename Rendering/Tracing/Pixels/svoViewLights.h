@@ -18,16 +18,9 @@ namespace svo
 struct ViewLight
 {
   glm::vec3 direction; // unit, the way it shines
-  glm::dvec3 position;
   const Light* light;
   float coneCosine;
 };
-
-inline ViewLight makeViewLight(const Light& light)
-{
-  return { glm::vec3(light.direction), light.position, &light,
-    static_cast<float>(std::cos(glm::radians(light.coneAngle))) };
-}
 
 /// The lights of a frame, as shading needs them. VTK's shaders light in view space; nothing that
 /// they compute there depends on how its axes are turned, so here these are the world's.
@@ -47,7 +40,8 @@ struct Lighting
   {
     for (const Light& light : scene.lights)
     {
-      lights.push_back(makeViewLight(light));
+      lights.push_back({ glm::vec3(light.direction), &light,
+        static_cast<float>(std::cos(glm::radians(light.coneAngle))) });
     }
   }
 };
