@@ -37,21 +37,14 @@ bool MapTest::isFlat(const MapPlace& place, double width)
   }
   // A second difference of more than a texel's edge is a step or a crease.
   const double most = map.edge(place.t);
+  const auto bends = [most](double before, double here, double after)
+  { return std::abs(before - 2.0 * here + after) > most; };
   for (int j = 0; j < y.count; ++j)
-  {
-    for (int i = 2; i < x.count; ++i)
-    {
-      if (std::abs(t[j][i - 2] - 2.0 * t[j][i - 1] + t[j][i]) > most)
-      {
-        return false;
-      }
-    }
-  }
-  for (int j = 2; j < y.count; ++j)
   {
     for (int i = 0; i < x.count; ++i)
     {
-      if (std::abs(t[j - 2][i] - 2.0 * t[j - 1][i] + t[j][i]) > most)
+      if ((i >= 2 && bends(t[j][i - 2], t[j][i - 1], t[j][i])) ||
+        (j >= 2 && bends(t[j - 2][i], t[j - 1][i], t[j][i])))
       {
         return false;
       }
