@@ -107,30 +107,25 @@ private:
     }
   }
 
-  /// The samples of pixel number k.
-  std::size_t block(std::size_t k) const { return k / this->pixelsPerBlock(); }
-  int lane(std::size_t k) const
-  {
-    return static_cast<int>(k % this->pixelsPerBlock()) * this->SampleCount;
-  }
-  std::size_t pixelsPerBlock() const { return static_cast<std::size_t>(64 / this->SampleCount); }
-
   void trace(int tileX, int tileY, TileScratch& scratch) const
   {
-    const std::size_t count = scratch.pixels.size();
-    scratch.samples.resize(this->block(count - 1) + 1);
+    const auto pixelsPerBlock = static_cast<std::size_t>(64 / this->SampleCount);
+    scratch.samples.resize((scratch.pixels.size() - 1) / pixelsPerBlock + 1);
     for (TileSamples& samples : scratch.samples) // lanes that nobody needs
     {
       std::fill(samples.x, samples.x + 64, 8.0 * tileX + 0.5);
       std::fill(samples.y, samples.y + 64, 8.0 * tileY + 0.5);
     }
-    for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t k = 0; k < scratch.pixels.size(); ++k)
     {
-      TileSamples& samples = scratch.samples[this->block(k)];
+      EdgePixel& pixel = scratch.pixels[k];
+      TileSamples& samples = scratch.samples[k / pixelsPerBlock];
+      pixel.samples = &samples;
+      pixel.lane = static_cast<int>(k % pixelsPerBlock) * this->SampleCount;
       for (int s = 0; s < this->SampleCount; ++s)
       {
-        samples.x[this->lane(k) + s] = scratch.pixels[k].x + double(this->Positions[s].x);
-        samples.y[this->lane(k) + s] = scratch.pixels[k].y + double(this->Positions[s].y);
+        samples.x[pixel.lane + s] = pixel.x + double(this->Positions[s].x);
+        samples.y[pixel.lane + s] = pixel.y + double(this->Positions[s].y);
       }
     }
     this->Lit.shaded.sampler.sample(tileX, tileY, scratch.samples.data(), scratch.samples.size());
@@ -142,16 +137,13 @@ private:
   void findFacets(TileScratch& scratch) const
   {
     scratch.facets.clear();
-    for (std::size_t k = 0; k < scratch.pixels.size(); ++k)
+    for (EdgePixel& pixel : scratch.pixels)
     {
-      EdgePixel& pixel = scratch.pixels[k];
       pixel.firstFacet = scratch.facets.size();
-      const TileSamples& samples = scratch.samples[this->block(k)];
-      pixel.samples = &samples;
-      pixel.lane = this->lane(k);
+      const TileSamples& samples = *pixel.samples;
       for (int s = 0; s < this->SampleCount; ++s)
       {
-        const int lane = this->lane(k) + s;
+        const int lane = pixel.lane + s;
         if (samples.instance[lane] == NoInstance)
         {
           continue;
