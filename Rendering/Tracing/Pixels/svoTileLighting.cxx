@@ -18,15 +18,18 @@ namespace HWY_NAMESPACE
 {
 constexpr int Step = TilePatch::Step;
 
-/// Calls f(i) for the first of each Step pixels that the patch has some of.
+/// Calls f(k) for the pixels of all Steps that the patch has some of.
 template <class F>
-HWY_INLINE void eachStep(const TilePatch& patch, F&& f)
+HWY_INLINE void eachPoint(const TilePatch& patch, F&& f)
 {
   for (int i = 0; i < TilePatch::Most; i += Step)
   {
     if (patch.has(i))
     {
-      f(i);
+      for (int k = i; k < i + Step; ++k)
+      {
+        f(k);
+      }
     }
   }
 }
@@ -37,15 +40,12 @@ void arriveFromEye(
 {
   const glm::vec3 axis = towards;
   const float power = material.specularPower, shines = material.specular > 0.0f ? 1.0f : 0.0f;
-  eachStep(p,
-    [&](int i)
+  eachPoint(p,
+    [&](int k)
     {
-      for (int k = i; k < i + Step; ++k)
-      {
-        const float cosine = positiveLane(glm::dot(p.normal(k), axis));
-        l.diffuse[k] = cosine;
-        l.specular[k] = shines * powLane(cosine, power);
-      }
+      const float cosine = positiveLane(glm::dot(p.normal(k), axis));
+      l.diffuse[k] = cosine;
+      l.specular[k] = shines * powLane(cosine, power);
     });
 }
 
@@ -70,19 +70,13 @@ void arriveFromPosition(const ViewLight& from, const TilePatch& p, Arriving& a)
 {
   const glm::vec3 lamp(p.origin.position - from.light->position), axis = from.direction;
   const glm::vec3 constants = from.light->attenuation;
-  for (int i = 0; i < TilePatch::Most; i += Step)
-  {
-    if (!p.has(i))
-    {
-      continue;
-    }
-    for (int k = i; k < i + Step; ++k)
+  eachPoint(p,
+    [&](int k)
     {
       const ArrivingLane light = arriveLane(lamp + p.way(k), axis, constants);
       a.direction.set(k, light.direction);
       a.attenuation[k] = light.attenuation;
-    }
-  }
+    });
 }
 
 void attenuateByCone(const ViewLight& from, const TilePatch& p, Arriving& a)
@@ -182,15 +176,12 @@ template <class With>
 HWY_INLINE void addWith(const glm::vec3& color, const TilePatch& p, TileLight& l, With&& with)
 {
   const glm::vec3 c = color;
-  eachStep(p,
-    [&](int i)
+  eachPoint(p,
+    [&](int k)
     {
-      for (int k = i; k < i + Step; ++k)
-      {
-        const float share = l.share[k];
-        l.scattered.set(k, with(l.scattered(k), share * (l.diffuse[k] * c)));
-        l.shining.set(k, with(l.shining(k), share * l.specular[k] * c));
-      }
+      const float share = l.share[k];
+      l.scattered.set(k, with(l.scattered(k), share * (l.diffuse[k] * c)));
+      l.shining.set(k, with(l.shining(k), share * l.specular[k] * c));
     });
 }
 
@@ -212,36 +203,30 @@ void add(const glm::vec3& color, const TilePatch& p, bool first, TileLight& l)
 void mix(bool lit, const float* own, float a, float d, float s, const float* diffuse,
   const float* specular, const TilePatch& p, float* HWY_RESTRICT out)
 {
-  eachStep(p,
-    [&](int i)
-    {
-      for (int k = i; own && k < i + Step; ++k)
-      {
-        out[k] = colorLane(lit, a * own[k], diffuse[k], d * own[k], specular[k], s);
-      }
-      for (int k = i; !own && k < i + Step; ++k)
-      {
-        out[k] = colorLane(lit, a, diffuse[k], d, specular[k], s);
-      }
-    });
+  if (own)
+  {
+    eachPoint(p,
+      [&](int k) { out[k] = colorLane(lit, a * own[k], diffuse[k], d * own[k], specular[k], s); });
+  }
+  else
+  {
+    eachPoint(p, [&](int k) { out[k] = colorLane(lit, a, diffuse[k], d, specular[k], s); });
+  }
 }
 
 /// toByte() of each.
 void pack(const TilePatch& p, TileColors& c)
 {
-  eachStep(p,
-    [&](int i)
+  eachPoint(p,
+    [&](int k)
     {
-      for (int k = i; k < i + Step; ++k)
-      {
-        const float r = c.rgb.x[k] > 0.0f ? (c.rgb.x[k] < 1.0f ? c.rgb.x[k] : 1.0f) : 0.0f;
-        const float g = c.rgb.y[k] > 0.0f ? (c.rgb.y[k] < 1.0f ? c.rgb.y[k] : 1.0f) : 0.0f;
-        const float b = c.rgb.z[k] > 0.0f ? (c.rgb.z[k] < 1.0f ? c.rgb.z[k] : 1.0f) : 0.0f;
-        const auto red = static_cast<std::int32_t>(r * 255.0f + 0.5f);
-        const auto green = static_cast<std::int32_t>(g * 255.0f + 0.5f);
-        const auto blue = static_cast<std::int32_t>(b * 255.0f + 0.5f);
-        c.rgba[k] = static_cast<std::uint32_t>(red | green << 8 | blue << 16) | 0xff000000u;
-      }
+      const float r = c.rgb.x[k] > 0.0f ? (c.rgb.x[k] < 1.0f ? c.rgb.x[k] : 1.0f) : 0.0f;
+      const float g = c.rgb.y[k] > 0.0f ? (c.rgb.y[k] < 1.0f ? c.rgb.y[k] : 1.0f) : 0.0f;
+      const float b = c.rgb.z[k] > 0.0f ? (c.rgb.z[k] < 1.0f ? c.rgb.z[k] : 1.0f) : 0.0f;
+      const auto red = static_cast<std::int32_t>(r * 255.0f + 0.5f);
+      const auto green = static_cast<std::int32_t>(g * 255.0f + 0.5f);
+      const auto blue = static_cast<std::int32_t>(b * 255.0f + 0.5f);
+      c.rgba[k] = static_cast<std::uint32_t>(red | green << 8 | blue << 16) | 0xff000000u;
     });
 }
 
@@ -263,14 +248,11 @@ void close(const Material& m, bool all, const TilePatch& p, const float* closed,
   const glm::vec3 a = m.ambient * (own ? glm::vec3(1.0f) : m.ambientColor);
   const auto part = [&](float ambient, const float* color, float* HWY_RESTRICT out)
   {
-    eachStep(p,
-      [&](int i)
+    eachPoint(p,
+      [&](int k)
       {
-        for (int k = i; k < i + Step; ++k)
-        {
-          const float from = all ? out[k] : own ? ambient * color[k] : ambient;
-          out[k] -= closed[k] * from;
-        }
+        const float from = all ? out[k] : own ? ambient * color[k] : ambient;
+        out[k] -= closed[k] * from;
       });
   };
   part(a.r, p.color.x, c.rgb.x);
