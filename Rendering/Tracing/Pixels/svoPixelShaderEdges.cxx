@@ -15,17 +15,11 @@ namespace svo
 namespace
 {
 /// The edges among the hits of the eye's rays, and where shadows begin on them.
-class DepthEdges
+struct DepthEdges
 {
-public:
-  /// `darkness`: per pixel, as the view's depth buffer.
-  DepthEdges(const Hits& eye, const std::vector<Darkness>& darkness, const View& view)
-    : Depth(eye.depth)
-    , Eye(eye)
-    , Dark(darkness)
-    , EyeView(view)
-  {
-  }
+  const Hits& eye;
+  const std::vector<Darkness>& darkness; // per pixel, as the view's depth buffer
+  const View& view;
 
   /// Writes the pixels (8 * row + column) of the tile that are hits and edges; returns how many.
   int find(int tileX, int tileY, int pixels[64]) const
@@ -45,9 +39,8 @@ public:
 
   std::uint32_t instance(int x, int y) const
   {
-    return x >= 0 && y >= 0 && x < this->EyeView.width && y < this->EyeView.height
-      ? this->Depth.instanceAt(x, y)
-      : NoInstance;
+    return x >= 0 && y >= 0 && x < view.width && y < view.height ? eye.depth.instanceAt(x, y)
+                                                                 : NoInstance;
   }
 
   bool changes(int x, int y) const
@@ -55,23 +48,17 @@ public:
     return this->changes(x, y, 1, 0) || this->changes(x, y, 0, 1);
   }
 
-private:
   bool changes(int x, int y, int dx, int dy) const
   {
-    const std::size_t at = this->Depth.at(x, y);
-    const std::size_t before = this->Depth.at(x - dx, y - dy);
-    const std::size_t after = this->Depth.at(x + dx, y + dy);
-    const double t = this->Depth.t[at];
-    return shadowChanges(this->Dark[before], this->Dark[at]) ||
-      shadowChanges(this->Dark[after], this->Dark[at]) ||
-      depthSteps<double>(this->Depth.t[before], t, this->Depth.t[after],
-        worldPixel(this->EyeView, this->Eye.base(this->Depth.instance[at]) + t));
+    const DepthBuffer& depth = eye.depth;
+    const std::size_t at = depth.at(x, y);
+    const std::size_t before = depth.at(x - dx, y - dy), after = depth.at(x + dx, y + dy);
+    const double t = depth.t[at];
+    return shadowChanges(darkness[before], darkness[at]) ||
+      shadowChanges(darkness[after], darkness[at]) ||
+      depthSteps<double>(
+        depth.t[before], t, depth.t[after], worldPixel(view, eye.base(depth.instance[at]) + t));
   }
-
-  const DepthBuffer& Depth;
-  const Hits& Eye;
-  const std::vector<Darkness>& Dark;
-  const View& EyeView;
 };
 }
 
@@ -82,7 +69,7 @@ void PixelShader::smoothEdges(const ShadedScene& shaded, const ParallelFor& para
   constexpr double OffsetX[4] = { 0.375, 0.875, 0.125, 0.625 };
   constexpr double OffsetY[4] = { 0.125, 0.375, 0.625, 0.875 };
   const View& view = shaded.view;
-  const DepthEdges edges(shaded.eye, this->DarkPixels, view);
+  const DepthEdges edges{ shaded.eye, this->DarkPixels, view };
   Lit lit(shaded);
   lit.samples = true;
   // Of a sample, as of multisampled framebuffers of that kind.
