@@ -353,12 +353,6 @@ void ShadowBuffer::merge(Processes& processes, std::size_t first)
   }
 }
 
-void ShadowBuffer::release()
-{
-  this->Faces.clear();
-  this->Maps.maps.clear();
-}
-
 void ShadowBuffer::Face::forget()
 {
   std::vector<std::atomic<std::uint8_t>>().swap(this->wanted);

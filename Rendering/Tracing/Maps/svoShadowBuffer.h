@@ -95,7 +95,6 @@ public:
 
   /// `group`: ShadowMap::group.
   void copyMaps(int light, std::vector<ShadowMap>& maps, int group = 0);
-  void release();
 
   /// Bytes of the maps, as they are now: tiles in which something lies, tables of all tiles, and
   /// copies. Not those of kept layers.
