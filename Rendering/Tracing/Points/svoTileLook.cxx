@@ -87,12 +87,9 @@ void takeNormals(const TileTriangles& triangles, const float* HWY_RESTRICT sides
 {
   PixelVectors normals;
   spread(triangles, triangles.ownNormals ? TileTriangles::Normal : TileTriangles::Facet, normals);
-  for (int i = 0; i < TilePatch::Most; i += Step)
+  for (int k = 0; k < TilePatch::Most; ++k)
   {
-    for (int k = i; k < i + Step; ++k)
-    {
-      p.normal.set(k, sides[k] * normals(k));
-    }
+    p.normal.set(k, sides[k] * normals(k));
   }
 }
 
@@ -180,13 +177,10 @@ void colorByPoints(const TileTriangles& triangles, const PixelVectors& weights, 
   {
     spread(triangles, TileTriangles::Colors + 3 * c, corners[c]);
   }
-  for (int i = 0; i < TilePatch::Most; i += Step)
+  for (int k = 0; k < TilePatch::Most; ++k)
   {
-    for (int k = i; k < i + Step; ++k)
-    {
-      const glm::vec3 each[3] = { corners[0](k), corners[1](k), corners[2](k) };
-      p.color.set(k, weighted(weights(k), each));
-    }
+    const glm::vec3 each[3] = { corners[0](k), corners[1](k), corners[2](k) };
+    p.color.set(k, weighted(weights(k), each));
   }
 }
 
