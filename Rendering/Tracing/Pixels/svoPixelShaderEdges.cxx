@@ -1,5 +1,4 @@
 // The pixels on edges once more, with four rays each: anti-aliasing.
-#include "svoDarkness.h"
 #include "svoDepthBuffer.h"
 #include "svoEdges.h"
 #include "svoHits.h"
