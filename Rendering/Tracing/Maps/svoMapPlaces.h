@@ -19,8 +19,6 @@
 
 #include <cstdint>
 
-#include <glm/mat4x4.hpp>
-
 namespace svo
 {
 /// Where the points of a patch are looked up in a map.

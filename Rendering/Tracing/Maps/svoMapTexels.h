@@ -8,7 +8,6 @@
 #include "svoTileGrid.h"
 #include "svoTileOccluders.h"
 #include "svoTilePatch.h"
-#include "svoView.h"
 
 #include <cstdint>
 

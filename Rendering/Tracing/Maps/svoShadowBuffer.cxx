@@ -7,7 +7,6 @@
 #include "svoWorldSize.h"
 
 #include <algorithm>
-#include <cassert>
 
 namespace svo
 {

@@ -9,7 +9,6 @@
 #include "svoMapTexels.h"
 #include "svoTexelPlace.h"
 #include "svoTilePatch.h"
-#include "svoView.h"
 
 #include <cstdint>
 

@@ -6,7 +6,6 @@
 
 #include "svoCasterBox.h"
 #include "svoLightTile.h"
-#include "svoView.h"
 
 #include <cassert>
 #include <cstddef>
