@@ -18,11 +18,8 @@ bool MapTest::shadows(const SurfacePoint& point, double error) const
 bool MapTest::shadows(const MapPlace& place, const SurfacePoint& point, double error) const
 {
   const Answer answer = this->ask(place, place.nearest(), point, error);
-  if (answer != Answer::DarkNearby)
-  {
-    return answer == Answer::Dark;
-  }
-  return this->agreed(place, point, error);
+  return answer == Answer::Dark ||
+    (answer == Answer::DarkNearby && this->agreed(place, point, error));
 }
 
 std::uint64_t MapTest::shadows(const TilePatch& patch, double error, std::uint64_t asked) const
@@ -156,13 +153,9 @@ MapTest::Answer MapTest::ask(const MapPlace& place, const glm::ivec2& texel,
   assert(place.map && span >= 1.0);
   const TracedMap& map = *place.map;
   const double t = place.t;
-  if (!map.has(texel))
-  {
-    return Answer::Lit;
-  }
   std::uint32_t caster;
   double occluder;
-  if (!map.occluder(texel, caster, occluder))
+  if (!map.has(texel) || !map.occluder(texel, caster, occluder))
   {
     return Answer::Lit;
   }

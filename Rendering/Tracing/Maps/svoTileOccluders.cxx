@@ -50,12 +50,6 @@ HWY_EXPORT(lanesOfCaster);
 
 namespace
 {
-/// Largest float that is not above x.
-float roundDown(double x)
-{
-  return -roundUp(-x);
-}
-
 TileOccluders occludersIn(const Hits& map, std::size_t tile)
 {
   const DepthBuffer& depth = map.depth;
@@ -89,7 +83,7 @@ TileOccluders occludersIn(const Hits& map, std::size_t tile)
     }
     left &= ~mine;
   }
-  return { roundDown(nearest), roundUp(farthest), caster };
+  return { -roundUp(-nearest), roundUp(farthest), caster };
 }
 }
 

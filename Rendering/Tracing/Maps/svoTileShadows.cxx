@@ -149,14 +149,6 @@ HWY_EXPORT(addInDouble);
 HWY_EXPORT(turn);
 HWY_EXPORT(test);
 
-namespace
-{
-float sizeOf(const glm::vec3& v)
-{
-  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-}
-
 void setOccluders(double base, const TexelOccluders& occluders, TexelTests& tests)
 {
   HWY_DYNAMIC_DISPATCH(addInDouble)(base, occluders.t, tests.occluder);
@@ -185,6 +177,8 @@ void testTexels(const MapGeometry& geometry, const TilePatch& patch, std::uint64
     glm::vec3(ray), glm::vec3(view.directionX), glm::vec3(view.directionY),
     static_cast<float>(edge(t)), static_cast<float>(edge.perDepth), static_cast<float>(edge.aspect),
     0.0f };
+  const auto sizeOf = [](const glm::vec3& v)
+  { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
   const float wide = 1.0f +
     std::max({ std::abs(places.lowX), std::abs(places.highX), std::abs(places.lowY),
       std::abs(places.highY) });
