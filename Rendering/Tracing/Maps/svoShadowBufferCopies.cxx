@@ -13,35 +13,30 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
   constexpr std::size_t InTile = ShadowTexels::InTile;
   auto copy = std::make_shared<ShadowTexels>();
   copy->tilesX = this->grid.tilesX;
-  std::vector<std::size_t> places; // row by row
+  copy->tiles.reserve(static_cast<std::size_t>(this->grid.tilesX) * this->grid.tilesY);
+  copy->stride = ofCasters ? 2 * InTile : InTile;
+  std::vector<std::size_t> places; // of tiles that something lies in, row by row
   for (int y = this->grid.y0; y < this->grid.y0 + this->grid.tilesY; ++y)
   {
     for (int x = this->grid.x0; x < this->grid.x0 + this->grid.tilesX; ++x)
     {
-      places.push_back(this->grid.index(x, y));
+      const std::size_t place = this->grid.index(x, y);
+      const bool any = this->map.seesCasters && this->isReceived(place) && this->map.holds(place);
+      copy->tiles.push_back(
+        any ? static_cast<std::uint32_t>(places.size()) : ShadowTexels::Nothing);
+      if (any)
+      {
+        places.push_back(place);
+      }
     }
   }
-  copy->tiles.assign(places.size(), ShadowTexels::Nothing);
-  copy->stride = ofCasters ? 2 * InTile : InTile;
-  std::uint32_t held = 0;
-  for (std::size_t tile = 0; this->map.seesCasters && tile < copy->tiles.size(); ++tile)
+  copy->numbers.reserve(copy->stride * places.size());
+  for (const std::size_t place : places)
   {
-    if (this->isReceived(places[tile]) && this->map.holds(places[tile]))
-    {
-      copy->tiles[tile] = held++;
-    }
-  }
-  copy->numbers.reserve(copy->stride * held);
-  for (std::size_t tile = 0; tile < copy->tiles.size(); ++tile)
-  {
-    if (copy->tiles[tile] == ShadowTexels::Nothing)
-    {
-      continue;
-    }
     float numbers[2 * InTile];
     for (std::size_t i = 0; i < InTile; ++i)
     {
-      const std::size_t at = InTile * places[tile] + i;
+      const std::size_t at = InTile * place + i;
       std::uint32_t caster;
       double t;
       const bool any = this->map.occluder(at, caster, t);
