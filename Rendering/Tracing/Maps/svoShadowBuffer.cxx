@@ -239,7 +239,7 @@ bool ShadowBuffer::Face::want(const MapPlaces& places, float around, std::uint16
 void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles& noted)
 {
   std::uint64_t left = patch.mask, single = 0;
-  for (std::size_t f = 0; f < this->Faces.size(); ++f)
+  for (std::size_t f = 0; f < this->Faces.size() && left != 0; ++f)
   {
     const std::unique_ptr<Face>& face = this->Faces[f];
     MapPlaces places;
@@ -251,10 +251,6 @@ void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles&
       single |= places.inside;
     }
     left &= places.outside;
-    if (left == 0)
-    {
-      break;
-    }
   }
   eachBit(single,
     [&](int i)
