@@ -129,7 +129,7 @@ void ShadowBuffer::arrangeFaces(const std::vector<View>& views, LayerBudget& bud
 }
 
 template <class Body>
-void ShadowBuffer::tilesAround(const MapPlace& place, Body&& body) const
+void ShadowBuffer::tilesAround(const MapPlace& place, std::uint16_t light, Body&& body) const
 {
   const TileGrid& grid = this->Faces[place.index]->grid;
   const PixelRect& crop = place.map->view.crop;
@@ -141,32 +141,16 @@ void ShadowBuffer::tilesAround(const MapPlace& place, Body&& body) const
   {
     for (int x = x0; x <= x1; ++x)
     {
-      body(grid.index(x, y));
+      body(LightTile{ light, static_cast<std::uint16_t>(place.index),
+        static_cast<std::uint32_t>(grid.index(x, y)) });
     }
   }
-}
-
-template <class Body>
-void ShadowBuffer::namesAround(const glm::dvec3& position, std::uint16_t light, Body&& body) const
-{
-  MapPlace place;
-  if (!this->Maps.lookUp(position, place))
-  {
-    return;
-  }
-  const auto map = static_cast<std::uint16_t>(place.index);
-  this->tilesAround(place,
-    [&](std::size_t tile) {
-      body(LightTile{ light, map, static_cast<std::uint32_t>(tile) });
-    });
 }
 
 bool ShadowBuffer::isTraced(const MapPlace& place) const
 {
   bool traced = true;
-  this->tilesAround(place,
-    [&](std::size_t tile)
-    { traced = traced && this->Faces[place.index]->wanted[tile].load(std::memory_order_relaxed); });
+  this->tilesAround(place, 0, [&](const LightTile& name) { traced = traced && this->wants(name); });
   return traced;
 }
 
@@ -197,10 +181,14 @@ ShadowBuffer::MapAnswer ShadowBuffer::ask(
 
 void ShadowBuffer::note(const glm::dvec3& position, std::uint16_t light, RaisedTiles& noted) const
 {
-  this->namesAround(position, light,
-    [&](const LightTile& name) {
-      noted.push_back({ name, this->wants(name) });
-    });
+  MapPlace place;
+  if (this->Maps.lookUp(position, place))
+  {
+    this->tilesAround(place, light,
+      [&](const LightTile& name) {
+        noted.push_back({ name, this->wants(name) });
+      });
+  }
 }
 
 bool ShadowBuffer::Face::want(const MapPlaces& places, float around, std::uint16_t light,
@@ -252,15 +240,19 @@ void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles&
     }
     left &= places.outside;
   }
+  const auto note = [&](const LightTile& name)
+  {
+    noted.push_back(name);
+    this->mark(name);
+  };
   eachBit(single,
     [&](int i)
     {
-      this->namesAround(patch.position(i), light,
-        [&](const LightTile& name)
-        {
-          noted.push_back(name);
-          this->mark(name);
-        });
+      MapPlace place;
+      if (this->Maps.lookUp(patch.position(i), place))
+      {
+        this->tilesAround(place, light, note);
+      }
     });
 }
 

@@ -140,12 +140,9 @@ private:
   void noteOpacities(const Scene& scene, const std::uint8_t* casters, std::uint8_t group);
   /// True if the texels around the place are.
   bool isTraced(const MapPlace& place) const;
-  /// Calls body(tile) for the light tiles of the texels that a point asks: one, two or four.
+  /// Calls body(name) for the light tiles of the texels that a point asks: one, two or four.
   template <class Body>
-  void tilesAround(const MapPlace& place, Body&& body) const;
-  /// Calls body(name) for those around a point; not if it is outside of what is seen.
-  template <class Body>
-  void namesAround(const glm::dvec3& position, std::uint16_t light, Body&& body) const;
+  void tilesAround(const MapPlace& place, std::uint16_t light, Body&& body) const;
   /// How far from a point texels are asked, in texels: the test asks the four whose centres
   /// surround it; the filter's narrowest window reaches as far, and endsBefore() asks one beyond.
   static constexpr float AroundTest = 0.5f, AroundFilter = 2.0f;
