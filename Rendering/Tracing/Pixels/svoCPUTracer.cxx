@@ -433,11 +433,8 @@ void CPUTracer::render(
   statistics.hiddenInstances = self.Eye.spared().hidden;
   statistics.smallInstances = set.small;
   statistics.largestSmallInstance = set.largestSmall;
-  statistics.coarsestVoxel = coarsestVoxel(scene, view, self.Eye.hits());
-  if (settings.shadowTechnique != ShadowTechnique::None)
-  {
-    statistics.largestGap = largestGap(scene, view, self.Eye.hits());
-  }
+  findErrors(
+    scene, view, self.Eye.hits(), settings.shadowTechnique != ShadowTechnique::None, statistics);
   statistics.layerMemory = self.Eye.layerMemory() + self.LightShadows.layerMemory();
   self.SharesBuffers = false;
   self.SharingTime = 0.0;

@@ -25,35 +25,27 @@ double nearestSurface(const Instance& instance, const View& view, double nearest
 }
 }
 
-double coarsestVoxel(const Scene& scene, const View& view, const Hits& eye)
+void findErrors(
+  const Scene& scene, const View& view, const Hits& eye, bool shadows, FrameStatistics& statistics)
 {
-  double largest = 0.0;
+  double &voxel = statistics.coarsestVoxel, &gap = statistics.largestGap;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
   {
-    const Instance& instance = scene.instances[i];
-    if (!eye.instances.rect(i).empty() && !eye.instances.placed(i) &&
-      instance.body->octree.level() < instance.body->neededLevel)
+    if (eye.instances.rect(i).empty())
     {
-      largest = std::max(largest, worldVoxel(instance) / worldPixel(view, eye.base(i)));
+      continue;
+    }
+    const Instance& instance = scene.instances[i];
+    const int level = instance.body->octree.level();
+    if (!eye.instances.placed(i) && level < instance.body->neededLevel)
+    {
+      voxel = std::max(voxel, worldVoxel(instance) / worldPixel(view, eye.base(i)));
+    }
+    if (shadows && instance.visible && instance.receiveShadow)
+    {
+      const double own = worldLeafError(instance, LeafGeometry::Triangle, level, true);
+      gap = std::max(gap, own / worldPixel(view, nearestSurface(instance, view, eye.base(i))));
     }
   }
-  return largest;
-}
-
-double largestGap(const Scene& scene, const View& view, const Hits& eye)
-{
-  double largest = 0.0;
-  for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
-  {
-    const Instance& instance = scene.instances[i];
-    if (instance.visible && instance.receiveShadow && !eye.instances.rect(i).empty())
-    {
-      const double gap =
-        worldLeafError(instance, LeafGeometry::Triangle, instance.body->octree.level(), true);
-      largest =
-        std::max(largest, gap / worldPixel(view, nearestSurface(instance, view, eye.base(i))));
-    }
-  }
-  return largest;
 }
 }

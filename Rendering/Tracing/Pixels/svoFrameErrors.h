@@ -2,17 +2,16 @@
 #ifndef svoFrameErrors_h
 #define svoFrameErrors_h
 
+#include "svoFrame.h"
 #include "svoHits.h"
 #include "svoScene.h"
 #include "svoView.h"
 
 namespace svo
 {
-/// FrameStatistics::coarsestVoxel
-double coarsestVoxel(const Scene& scene, const View& view, const Hits& eye);
-
-/// FrameStatistics::largestGap
-double largestGap(const Scene& scene, const View& view, const Hits& eye);
+/// Raises FrameStatistics::coarsestVoxel and, where there are shadows, largestGap.
+void findErrors(
+  const Scene& scene, const View& view, const Hits& eye, bool shadows, FrameStatistics& statistics);
 }
 
 #endif
