@@ -7,9 +7,6 @@
 
 namespace svo
 {
-DataSetSurfaces::DataSetSurfaces() = default;
-DataSetSurfaces::~DataSetSurfaces() = default;
-
 vtkPolyDataMapper* DataSetSurfaces::mapperOf(vtkDataSetMapper* mapper, Kept& kept)
 {
   vtkDataSet* input = mapper->GetInput();

@@ -18,9 +18,6 @@ namespace svo
 class DataSetSurfaces
 {
 public:
-  DataSetSurfaces();
-  ~DataSetSurfaces();
-
   /// A mapper of the surface with the settings of the given one; its input is up to date. Null if
   /// there is no data set.
   vtkPolyDataMapper* mapperOf(vtkDataSetMapper* mapper, Kept& kept);

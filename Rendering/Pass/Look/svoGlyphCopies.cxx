@@ -73,9 +73,6 @@ bool isGlyphMapper(vtkMapper* mapper)
   return std::string(mapper->GetClassName()) == "vtkOpenGLGlyph3DMapper";
 }
 
-GlyphCopies::GlyphCopies() = default;
-GlyphCopies::~GlyphCopies() = default;
-
 void GlyphCopies::compute(
   vtkGlyph3DMapper* mapper, vtkDataSet* input, const Block& block, Entry& entry)
 {

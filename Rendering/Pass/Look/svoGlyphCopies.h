@@ -67,9 +67,6 @@ bool isGlyphMapper(vtkMapper* mapper);
 class GlyphCopies
 {
 public:
-  GlyphCopies();
-  ~GlyphCopies();
-
   /// The mapper's input and sources are up to date. `property` is the actor's.
   Glyphs of(vtkGlyph3DMapper* mapper, vtkProperty* property, Kept& kept);
 

@@ -29,9 +29,6 @@ std::vector<glm::vec2> samplePositions()
   return positions;
 }
 
-PixelParts::PixelParts() = default;
-PixelParts::~PixelParts() = default;
-
 void PixelParts::upload(const std::vector<PixelPart>& parts)
 {
   this->Runs.clear();

@@ -23,9 +23,6 @@ std::vector<glm::vec2> samplePositions();
 class PixelParts
 {
 public:
-  PixelParts();
-  ~PixelParts();
-
   void upload(const std::vector<PixelPart>& parts);
   /// Into the viewport that is set, which is as large as the frame. The depth test is the caller's.
   bool draw(vtkOpenGLRenderWindow* window, const float frameSize[2]);

@@ -85,9 +85,6 @@ void attachOwnOctree(vtkPolyData* mesh)
 }
 }
 
-UnitShapes::UnitShapes() = default;
-UnitShapes::~UnitShapes() = default;
-
 std::shared_ptr<UnitShapes> UnitShapes::ofAll()
 {
   static std::weak_ptr<UnitShapes> known;

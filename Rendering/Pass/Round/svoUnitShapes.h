@@ -18,9 +18,6 @@ namespace svo
 class UnitShapes
 {
 public:
-  UnitShapes();
-  ~UnitShapes();
-
   /// Those that all have who have any.
   static std::shared_ptr<UnitShapes> ofAll();
 
