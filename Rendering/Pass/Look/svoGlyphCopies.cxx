@@ -119,7 +119,6 @@ void GlyphCopies::compute(
     sets.front()->copies.reserve(static_cast<std::size_t>(points));
   }
   const auto last = static_cast<double>(entry.sources - 1);
-  std::vector<double> index(indices ? indices->GetNumberOfComponents() : 0);
   for (vtkIdType point = 0; point < points; ++point)
   {
     if (mask && mask->GetValue(point) == 0)
@@ -129,8 +128,8 @@ void GlyphCopies::compute(
     std::size_t source = 0;
     if (indices)
     {
-      indices->GetTuple(point, index.data());
-      const double value = vtkMath::Norm(index.data(), static_cast<int>(index.size()));
+      const double value =
+        vtkMath::Norm(indices->GetTuple(point), indices->GetNumberOfComponents());
       source = value > 0.0 ? static_cast<std::size_t>(std::min(value, last)) : 0;
     }
     GlyphSet& set = *sets[source];

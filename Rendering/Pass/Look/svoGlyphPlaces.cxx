@@ -96,13 +96,7 @@ glm::dvec3 GlyphPlaces::scaleOf(vtkIdType point) const
     const int components = this->Scales->GetNumberOfComponents();
     if (this->ScaleMode == vtkGlyph3DMapper::SCALE_BY_MAGNITUDE)
     {
-      double squares = 0.0;
-      for (int i = 0; i < components; ++i)
-      {
-        const double value = this->Scales->GetComponent(point, i);
-        squares += value * value;
-      }
-      scale = glm::dvec3(std::sqrt(squares));
+      scale = glm::dvec3(vtkMath::Norm(this->Scales->GetTuple(point), components));
     }
     else if (this->ScaleMode == vtkGlyph3DMapper::SCALE_BY_COMPONENTS && components == 3)
     {

@@ -3,6 +3,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkDataArray.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
@@ -16,6 +17,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
+#include <numeric>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -103,24 +106,14 @@ public:
     double value = otherwise;
     if (this->Array && point < this->Array->GetNumberOfTuples())
     {
-      value = this->Magnitude ? this->magnitudeAt(point)
-                              : this->Array->GetComponent(point, this->Component);
+      value = this->Magnitude
+        ? vtkMath::Norm(this->Array->GetTuple(point), this->Array->GetNumberOfComponents())
+        : this->Array->GetComponent(point, this->Component);
     }
     return this->Mapped ? this->Mapped->at(value) : value;
   }
 
 private:
-  double magnitudeAt(vtkIdType point) const
-  {
-    double squares = 0.0;
-    for (int i = 0; i < this->Array->GetNumberOfComponents(); ++i)
-    {
-      const double value = this->Array->GetComponent(point, i);
-      squares += value * value;
-    }
-    return std::sqrt(squares);
-  }
-
   vtkDataArray* Array;
   int Component = 0;
   bool Magnitude = false;
@@ -160,10 +153,7 @@ std::vector<vtkIdType> drawnPoints(vtkPolyData* input)
   if (input->GetNumberOfVerts() == 0)
   {
     points.resize(static_cast<std::size_t>(input->GetNumberOfPoints()));
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      points[i] = static_cast<vtkIdType>(i);
-    }
+    std::iota(points.begin(), points.end(), vtkIdType(0));
     return points;
   }
   auto cells = vtkSmartPointer<vtkCellArrayIterator>::Take(input->GetVerts()->NewIterator());
