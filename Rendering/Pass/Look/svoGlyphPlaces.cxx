@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 namespace svo
 {
@@ -135,10 +136,8 @@ bool GlyphPlaces::at(vtkIdType point, glm::dmat4x3& place, double& condition) co
     }
   }
   const glm::dvec3 scale = this->Scaling ? this->scaleOf(point) : glm::dvec3(1.0);
-  double x[3];
-  this->Input->GetPoint(point, x);
-  place = glm::dmat4x3(
-    turn[0] * scale.x, turn[1] * scale.y, turn[2] * scale.z, glm::dvec3(x[0], x[1], x[2]));
+  place = glm::dmat4x3(turn[0] * scale.x, turn[1] * scale.y, turn[2] * scale.z,
+    glm::make_vec3(this->Input->GetPoint(point)));
   double sum = 0.0;
   for (int i = 0; i < 12; ++i)
   {

@@ -30,6 +30,8 @@
 #include <iterator>
 #include <string>
 
+#include <glm/gtc/type_ptr.hpp>
+
 namespace svo
 {
 namespace
@@ -107,12 +109,6 @@ bool colorsAreOfCells(vtkMapper* mapper, vtkPolyData* mesh)
   return (mode == VTK_SCALAR_MODE_USE_CELL_DATA || mode == VTK_SCALAR_MODE_USE_CELL_FIELD_DATA ||
            mode == VTK_SCALAR_MODE_USE_FIELD_DATA || !mesh->GetPointData()->GetScalars()) &&
     mode != VTK_SCALAR_MODE_USE_POINT_FIELD_DATA;
-}
-
-void setColor(Material& material, const glm::vec3& color)
-{
-  material.ambientColor = color;
-  material.diffuseColor = color;
 }
 
 /// Scalars that are interpolated before they are mapped.
@@ -364,12 +360,9 @@ Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Mater
   {
     return "has lines or vertices";
   }
-  const double* ambient = property->GetAmbientColor();
-  const double* diffuse = property->GetDiffuseColor();
-  const double* specular = property->GetSpecularColor();
-  material.ambientColor = { ambient[0], ambient[1], ambient[2] };
-  material.diffuseColor = { diffuse[0], diffuse[1], diffuse[2] };
-  material.specularColor = { specular[0], specular[1], specular[2] };
+  material.ambientColor = glm::make_vec3(property->GetAmbientColor());
+  material.diffuseColor = glm::make_vec3(property->GetDiffuseColor());
+  material.specularColor = glm::make_vec3(property->GetSpecularColor());
   material.ambient = static_cast<float>(property->GetAmbient());
   material.diffuse = static_cast<float>(property->GetDiffuse());
   material.specular = static_cast<float>(property->GetSpecular());
@@ -377,7 +370,7 @@ Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Mater
   material.lighting = lights && property->GetLighting();
   if (part.overridesColor)
   {
-    setColor(material, part.color);
+    material.ambientColor = material.diffuseColor = part.color;
   }
   const bool flat = property->GetInterpolation() == VTK_FLAT;
   normalsOf(mesh, flat, attributes, floats, kept);

@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
+
+#include <glm/gtc/type_ptr.hpp>
 
 namespace svo
 {
@@ -112,12 +115,7 @@ private:
     shapes->radius = 0.5 * pixels;
     return shapes->ends.empty() ? nullptr : shapes;
   }
-  glm::dvec3 at(vtkIdType point) const
-  {
-    glm::dvec3 p;
-    this->Mesh->GetPoint(point, &p.x);
-    return p;
-  }
+  glm::dvec3 at(vtkIdType point) const { return glm::make_vec3(this->Mesh->GetPoint(point)); }
 
   vtkPolyData* Mesh;
   const CellAlpha& Alpha;
