@@ -153,12 +153,7 @@ Tubes tubesOf(vtkPolyData* mesh, vtkProperty* property, const CellAlpha& alpha)
   };
   vtkIdType cell = eachCell(mesh->GetVerts(), 0,
     [&](vtkIdType id, vtkIdType count, const vtkIdType* points)
-    {
-      if (look.vertices)
-      {
-        balls(id, count, points);
-      }
-    });
+    { balls(id, look.vertices ? count : 0, points); });
   cell = eachCell(mesh->GetLines(), cell,
     [&](vtkIdType id, vtkIdType count, const vtkIdType* points)
     {
