@@ -84,9 +84,8 @@ vtkPolyData* SeenFaces::of(
   vtkNew<vtkIdList> ids;
   for (std::size_t i = 0; i < culled.size(); ++i)
   {
-    constexpr vtkIdType nothing[] = { 0, 0, 0 };
     mesh->GetPolys()->GetCellAtId(static_cast<vtkIdType>(i), ids);
-    culled[i] ? polys->InsertNextCell(3, nothing) : polys->InsertNextCell(ids);
+    culled[i] ? polys->InsertNextCell({ 0, 0, 0 }) : polys->InsertNextCell(ids);
   }
   entry.made = vtkSmartPointer<vtkPolyData>::New();
   entry.made->SetPoints(mesh->GetPoints());

@@ -55,16 +55,13 @@ vtkSmartPointer<vtkPolyData> turned(
   {
     const int next = (i + 1) % around;
     const vtkIdType last = 1 + (rings - 1) * around;
-    const vtkIdType below[3] = { 0, 1 + next, 1 + i };
-    const vtkIdType above[3] = { top, last + i, last + next };
-    polygons->InsertNextCell(3, below);
+    polygons->InsertNextCell({ 0, 1 + next, 1 + i });
     for (vtkIdType ring = 0; ring + 1 < rings; ++ring)
     {
       const vtkIdType low = 1 + ring * around, high = low + around;
-      const vtkIdType quad[4] = { low + i, low + next, high + next, high + i };
-      polygons->InsertNextCell(4, quad);
+      polygons->InsertNextCell({ low + i, low + next, high + next, high + i });
     }
-    polygons->InsertNextCell(3, above);
+    polygons->InsertNextCell({ top, last + i, last + next });
   }
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->SetPoints(points);
