@@ -5,31 +5,37 @@
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
+#include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 
 #include <algorithm>
-#include <cassert>
 
 namespace svo
 {
 namespace
 {
-enum class Kind
+struct Image
 {
-  Bytes, // of RGBA
-  Float,
-  TwoFloats,
-  ThreeFloats,
-  Depth,       // as a depth buffer of 32 bits has it,
-  DepthStencil // or one of 24
+  const char* sampler; // in svoPresentFS.glsl
+  int components;
+  GLenum format;
+  unsigned int FrameImages::*name;
+  std::vector<float> Frame::*values; // null: Frame::color
+};
+/// By FrameTextures::Textures.
+constexpr Image Images[] = {
+  { "colors", 4, GL_RGBA, &FrameImages::color, nullptr },
+  { "depths", 1, GL_RED, &FrameImages::depth, &Frame::depth },
+  { "normals", 3, GL_RGB, &FrameImages::normals, &Frame::normals },
+  { "slopes", 2, GL_RG, &FrameImages::slopes, &Frame::slopes },
+  { "light", 3, GL_RGB, &FrameImages::light, &Frame::light },
 };
 
-/// A texture of the frame's size, made anew only when that changes; returns true if it was.
+/// A texture for the frame's size. Returns true if it was made anew, since that has changed: it has
+/// to be allocated then.
 bool prepare(vtkSmartPointer<vtkTextureObject>& texture, vtkOpenGLRenderWindow* window,
-  const Frame& frame, Kind kind)
+  unsigned int width, unsigned int height)
 {
-  const auto width = static_cast<unsigned int>(frame.width);
-  const auto height = static_cast<unsigned int>(frame.height);
   if (texture && texture->GetContext() == window && texture->GetWidth() == width &&
     texture->GetHeight() == height)
   {
@@ -41,24 +47,6 @@ bool prepare(vtkSmartPointer<vtkTextureObject>& texture, vtkOpenGLRenderWindow* 
   texture->SetMagnificationFilter(vtkTextureObject::Nearest);
   texture->SetWrapS(vtkTextureObject::ClampToEdge);
   texture->SetWrapT(vtkTextureObject::ClampToEdge);
-  switch (kind)
-  {
-    case Kind::Bytes:
-      texture->Allocate2D(width, height, 4, VTK_UNSIGNED_CHAR);
-      break;
-    case Kind::Depth:
-      texture->AllocateDepth(width, height, vtkTextureObject::Fixed32);
-      break;
-    case Kind::DepthStencil:
-      texture->AllocateDepthStencil(width, height);
-      break;
-    default:
-      texture->Allocate2D(width, height,
-        kind == Kind::Float         ? 1
-          : kind == Kind::TwoFloats ? 2
-                                    : 3,
-        VTK_FLOAT);
-  }
   return true;
 }
 
@@ -111,14 +99,14 @@ Written writtenIn(const Frame& frame, int y0, int y1, std::uint64_t since, bool 
 
 void FrameTextures::release()
 {
-  this->Colors = this->Depths = this->DepthCopy = this->Normals = this->Slopes = this->Light =
-    nullptr;
+  this->Textures = {};
+  this->DepthCopy = nullptr;
   this->Sent = 0;
 }
 
 bool FrameTextures::isOf(vtkOpenGLRenderWindow* window) const
 {
-  return this->Colors && this->Colors->GetContext() == window;
+  return this->colors() && this->colors()->GetContext() == window;
 }
 
 /// Converted band by band, so that the words are in the cache when they are sent.
@@ -138,21 +126,39 @@ void FrameTextures::sendDepthCopy(const Frame& frame, const PixelRect& rect)
 
 void FrameTextures::borrow(const FrameImages& images, vtkOpenGLRenderWindow* window)
 {
-  const auto wrap = [window](vtkSmartPointer<vtkTextureObject>& texture, unsigned int name)
+  this->release();
+  for (std::size_t i = 0; i < this->Textures.size(); ++i)
   {
-    texture = name != 0 ? vtkSmartPointer<vtkTextureObject>::New() : nullptr;
+    if (const unsigned int name = images.*Images[i].name)
+    {
+      this->Textures[i] = vtkSmartPointer<vtkTextureObject>::New();
+      this->Textures[i]->SetContext(window);
+      this->Textures[i]->AssignToExistingTexture(name, GL_TEXTURE_2D);
+    }
+  }
+}
+
+void FrameTextures::activate(vtkShaderProgram* program)
+{
+  for (std::size_t i = 0; i < this->Textures.size(); ++i)
+  {
+    if (vtkTextureObject* texture = this->Textures[i])
+    {
+      texture->Activate();
+      program->SetUniformi(Images[i].sampler, texture->GetTextureUnit());
+    }
+  }
+}
+
+void FrameTextures::deactivate()
+{
+  for (vtkTextureObject* texture : this->Textures)
+  {
     if (texture)
     {
-      texture->SetContext(window);
-      texture->AssignToExistingTexture(name, GL_TEXTURE_2D);
+      texture->Deactivate();
     }
-  };
-  this->release();
-  wrap(this->Colors, images.color);
-  wrap(this->Depths, images.depth);
-  wrap(this->Normals, images.normals);
-  wrap(this->Slopes, images.slopes);
-  wrap(this->Light, images.light);
+  }
 }
 
 void FrameTextures::upload(const Frame& frame, DepthFormat format, vtkOpenGLRenderWindow* window)
@@ -169,20 +175,28 @@ void FrameTextures::upload(const Frame& frame, DepthFormat format, vtkOpenGLRend
     this->DepthCopy = nullptr;
     this->Copies = format;
   }
-  constexpr int Band = 8 * Frame::TileSize; // rows
-  anew |= prepare(this->Colors, window, frame, Kind::Bytes);
-  anew |= prepare(this->Depths, window, frame, Kind::Float);
-  anew |= copies &&
-    prepare(this->DepthCopy, window, frame,
-      format == DepthFormat::Bits24 ? Kind::DepthStencil : Kind::Depth);
-  const auto prepareIf = [&](bool has, vtkSmartPointer<vtkTextureObject>& texture, Kind kind)
+  const auto width = static_cast<unsigned int>(frame.width);
+  const auto height = static_cast<unsigned int>(frame.height);
+  for (std::size_t i = 0; i < this->Textures.size(); ++i)
   {
-    texture = has ? texture : nullptr;
-    return has && prepare(texture, window, frame, kind);
-  };
-  anew |= prepareIf(frame.hasNormals(), this->Normals, Kind::ThreeFloats);
-  anew |= prepareIf(frame.hasSlopes(), this->Slopes, Kind::TwoFloats);
-  anew |= prepareIf(frame.hasLight(), this->Light, Kind::ThreeFloats);
+    const Image& image = Images[i];
+    const bool has = !image.values || !(frame.*image.values).empty();
+    this->Textures[i] = has ? this->Textures[i] : nullptr;
+    if (has && prepare(this->Textures[i], window, width, height))
+    {
+      this->Textures[i]->Allocate2D(
+        width, height, image.components, image.values ? VTK_FLOAT : VTK_UNSIGNED_CHAR);
+      anew = true;
+    }
+  }
+  if (copies && prepare(this->DepthCopy, window, width, height))
+  {
+    format == DepthFormat::Bits24
+      ? this->DepthCopy->AllocateDepthStencil(width, height)
+      : this->DepthCopy->AllocateDepth(width, height, vtkTextureObject::Fixed32);
+    anew = true;
+  }
+  constexpr int Band = 8 * Frame::TileSize; // rows
   const std::uint64_t since = anew ? 0 : this->Sent;
   for (int y = frame.covered.y0; y < frame.covered.y1; y += Band)
   {
@@ -195,30 +209,21 @@ void FrameTextures::upload(const Frame& frame, DepthFormat format, vtkOpenGLRend
     {
       continue;
     }
-    send(
-      this->Colors, all, GL_RGBA, GL_UNSIGNED_BYTE, frame.color.data() + 4 * at(all), frame.width);
+    send(this->colors(), all, GL_RGBA, GL_UNSIGNED_BYTE, frame.color.data() + 4 * at(all),
+      frame.width);
     if (!written.copied.empty())
     {
       this->sendDepthCopy(frame, written.copied);
     }
     const PixelRect& drawn = written.drawn;
-    if (drawn.empty())
+    for (std::size_t i = 1; i < this->Textures.size() && !drawn.empty(); ++i)
     {
-      continue;
-    }
-    send(this->Depths, drawn, GL_RED, GL_FLOAT, frame.depth.data() + at(drawn), frame.width);
-    if (!frame.normals.empty())
-    {
-      send(
-        this->Normals, drawn, GL_RGB, GL_FLOAT, frame.normals.data() + 3 * at(drawn), frame.width);
-    }
-    if (!frame.slopes.empty())
-    {
-      send(this->Slopes, drawn, GL_RG, GL_FLOAT, frame.slopes.data() + 2 * at(drawn), frame.width);
-    }
-    if (!frame.light.empty())
-    {
-      send(this->Light, drawn, GL_RGB, GL_FLOAT, frame.light.data() + 3 * at(drawn), frame.width);
+      const Image& image = Images[i];
+      if (this->Textures[i])
+      {
+        send(this->Textures[i], drawn, image.format, GL_FLOAT,
+          (frame.*image.values).data() + image.components * at(drawn), frame.width);
+      }
     }
   }
   this->Sent = frame.version;

@@ -9,10 +9,12 @@
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
 
 namespace svo
 {
@@ -30,12 +32,13 @@ public:
   bool isOf(vtkOpenGLRenderWindow* window) const;
 
   // Null where the last frame has none. Pixels of tiles without hits are not defined.
-  vtkTextureObject* colors() const { return this->Colors; }
-  vtkTextureObject* depths() const { return this->Depths; }
+  vtkTextureObject* colors() const { return this->Textures.front(); }
   vtkTextureObject* depthCopy() const { return this->DepthCopy; }
-  vtkTextureObject* normals() const { return this->Normals; }
-  vtkTextureObject* slopes() const { return this->Slopes; }
-  vtkTextureObject* light() const { return this->Light; }
+
+  /// Activates those that the last frame has, copies of depths apart, and says so to a program of
+  /// svoPresentFS.glsl, which is in use.
+  void activate(vtkShaderProgram* program);
+  void deactivate();
 
 private:
   void borrow(const FrameImages& images, vtkOpenGLRenderWindow* window);
@@ -43,7 +46,9 @@ private:
 
   std::uint64_t Sent = 0; // Frame::version; 0: nothing, or not to be relied on
   DepthFormat Copies = DepthFormat::None;
-  vtkSmartPointer<vtkTextureObject> Colors, Depths, DepthCopy, Normals, Slopes, Light;
+  /// Colours, depths, normals, slopes, light.
+  std::array<vtkSmartPointer<vtkTextureObject>, 5> Textures;
+  vtkSmartPointer<vtkTextureObject> DepthCopy;
   std::vector<std::uint32_t> DepthWords; // of a band
 };
 }

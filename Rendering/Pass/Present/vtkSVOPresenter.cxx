@@ -240,10 +240,7 @@ bool vtkSVOPresenter::DrawFrame(vtkRenderer* renderer, vtkOpenGLRenderWindow* wi
   this->Array->Bind();
   this->Array->AddAttributeArray(
     program, this->Corners, "corner", 0, sizeof(glm::vec2), VTK_FLOAT, 2, false);
-  this->Textures.colors()->Activate();
-  this->Textures.depths()->Activate();
-  program->SetUniformi("colors", this->Textures.colors()->GetTextureUnit());
-  program->SetUniformi("depths", this->Textures.depths()->GetTextureUnit());
+  this->Textures.activate(program);
   if (writeNormals)
   {
     vtkMatrix4x4 *worldToView, *viewToClip, *worldToClip;
@@ -253,18 +250,6 @@ bool vtkSVOPresenter::DrawFrame(vtkRenderer* renderer, vtkOpenGLRenderWindow* wi
     vtkNew<vtkMatrix4x4> clipToView; // transposed, as the key matrices are
     vtkMatrix4x4::Invert(viewToClip, clipToView);
     program->SetUniformMatrix("clipToView", clipToView);
-    this->Textures.normals()->Activate();
-    program->SetUniformi("normals", this->Textures.normals()->GetTextureUnit());
-  }
-  if (writeSlopes)
-  {
-    this->Textures.slopes()->Activate();
-    program->SetUniformi("slopes", this->Textures.slopes()->GetTextureUnit());
-  }
-  if (writeLight)
-  {
-    this->Textures.light()->Activate();
-    program->SetUniformi("light", this->Textures.light()->GetTextureUnit());
   }
   this->SelectDrawBuffers(program);
 
@@ -288,20 +273,7 @@ bool vtkSVOPresenter::DrawFrame(vtkRenderer* renderer, vtkOpenGLRenderWindow* wi
     this->Array->Release();
     drawn = this->Parts.draw(window, size);
   }
-  this->Textures.colors()->Deactivate();
-  this->Textures.depths()->Deactivate();
-  if (writeNormals)
-  {
-    this->Textures.normals()->Deactivate();
-  }
-  if (writeSlopes)
-  {
-    this->Textures.slopes()->Deactivate();
-  }
-  if (writeLight)
-  {
-    this->Textures.light()->Deactivate();
-  }
+  this->Textures.deactivate();
   return drawn;
 }
 
