@@ -2,6 +2,7 @@
 
 #include "svoCameraView.h"
 #include "svoControllerProcesses.h"
+#include "svoFrameCopy.h"
 #include "svoSMPParallel.h"
 #include "svoSilhouettes.h"
 
@@ -193,7 +194,7 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   settings.sampledMaps = settings.receiverMaps && others;
   const bool occlusion = this->Renderer->GetUseSSAO(); // into a framebuffer that is not bound yet
   settings.writeNormals = occlusion || this->Presenter->WantsNormals();
-  settings.writeLight = occlusion || vtkSVOPresenter::KeepsLight();
+  settings.writeLight = occlusion || keepsLight();
   settings.writeSlopes = pace.distance == 1.0 && !samplePositions().empty();
   settings.writeNames = false;
   this->Presenter->Enter(window);

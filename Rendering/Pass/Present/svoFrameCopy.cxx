@@ -104,6 +104,19 @@ DepthFormat formatForCopies()
                                        : DepthFormat::None;
 }
 
+bool keepsLight()
+{
+  GLint buffer = GL_NONE;
+  glGetIntegerv(GL_DRAW_BUFFER, &buffer);
+  if (buffer < GL_COLOR_ATTACHMENT0 || buffer > GL_COLOR_ATTACHMENT15)
+  {
+    return false; // of the window itself, or none
+  }
+  const auto attachment = static_cast<GLenum>(buffer);
+  return attached(attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE &&
+    attached(attachment, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
+}
+
 void toDepthBuffer(const float* depths, std::size_t count, DepthFormat format, std::uint32_t* words)
 {
   if (format == DepthFormat::Bits24)

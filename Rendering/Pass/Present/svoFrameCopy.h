@@ -29,6 +29,9 @@ enum class DepthFormat
 /// and OpenGL runs on the processor; else none.
 DepthFormat formatForCopies();
 
+/// True if the framebuffer that is bound keeps colours beyond 1.
+bool keepsLight();
+
 /// Window depths, 0..1, as software OpenGL writes them into such a depth buffer, which are not
 /// those that it takes from an image of floats.
 void toDepthBuffer(

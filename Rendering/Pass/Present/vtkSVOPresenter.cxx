@@ -184,25 +184,6 @@ bool vtkSVOPresenter::WantsNormals()
   return wants;
 }
 
-bool vtkSVOPresenter::KeepsLight()
-{
-  GLint buffer = GL_NONE;
-  glGetIntegerv(GL_DRAW_BUFFER, &buffer);
-  if (buffer < GL_COLOR_ATTACHMENT0 || buffer > GL_COLOR_ATTACHMENT15)
-  {
-    return false; // of the window itself, or none
-  }
-  const auto ask = [buffer](GLenum what)
-  {
-    GLint answer = GL_NONE;
-    glGetFramebufferAttachmentParameteriv(
-      GL_DRAW_FRAMEBUFFER, static_cast<GLenum>(buffer), what, &answer);
-    return answer;
-  };
-  return ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE &&
-    ask(GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
-}
-
 void vtkSVOPresenter::SelectDrawBuffers(vtkShaderProgram* program)
 {
   svo::eachPass(this,

@@ -72,9 +72,6 @@ public:
   /// True if one of these passes wants positions and normals beside colours.
   bool WantsNormals();
 
-  /// True if the framebuffer that is bound keeps colours beyond 1.
-  static bool KeepsLight();
-
   /// Seconds that the last frame's upload and drawing took.
   double GetPresentTime() const { return this->PresentTime; }
 
