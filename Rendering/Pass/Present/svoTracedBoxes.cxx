@@ -116,11 +116,10 @@ bool TracedBoxes::accepts(const EyeCode& code)
 void TracedBoxes::update(vtkOpenGLRenderWindow* window, const EyeCode& code, const Scene& scene,
   const std::vector<vtkProp*>& props)
 {
-  this->Count = code.surfaces.size();
   this->Props.clear();
   this->Textures.update(
-    window, this->Count > 0 ? code.values.textures : std::vector<ShaderValues::Texture>());
-  for (std::size_t i = 0; i < this->Count; ++i)
+    window, code.surfaces.empty() ? std::vector<ShaderValues::Texture>() : code.values.textures);
+  for (std::size_t i = 0; i < code.surfaces.size(); ++i)
   {
     if (i == this->Actors.size())
     {
@@ -164,7 +163,7 @@ vtkSmartPointer<vtkInformation> TracedBoxes::keysOf(vtkProp* prop)
 
 void TracedBoxes::draw(vtkViewport* viewport, const std::set<vtkProp*>* only)
 {
-  for (std::size_t i = 0; i < this->Count; ++i)
+  for (std::size_t i = 0; i < this->Props.size(); ++i)
   {
     if (only && only->count(this->Props[i]) == 0)
     {
@@ -178,7 +177,6 @@ void TracedBoxes::draw(vtkViewport* viewport, const std::set<vtkProp*>* only)
 
 void TracedBoxes::clear()
 {
-  this->Count = 0;
   this->Props.clear();
   this->Textures.release();
 }

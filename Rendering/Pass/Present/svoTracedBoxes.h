@@ -39,15 +39,14 @@ public:
   void release();
   void releaseGraphicsResources(vtkWindow* window);
 
-  bool empty() const { return this->Count == 0; }
+  bool empty() const { return this->Props.empty(); }
   /// With `only`, those of these props.
   void draw(vtkViewport* viewport, const std::set<vtkProp*>* only = nullptr);
 
 private:
   vtkSmartPointer<vtkInformation> keysOf(vtkProp* prop);
 
-  std::size_t Count = 0;
-  std::vector<vtkProp*> Props; // of these
+  std::vector<vtkProp*> Props; // a box for each
   std::vector<vtkSmartPointer<vtkActor>> Actors;
   std::vector<vtkSmartPointer<vtkSVOForwardingPass>> Passes; // that boxes were drawn with
   BorrowedTextures Textures;
