@@ -66,7 +66,7 @@ constexpr char FragmentOfFacet[] =
   "  vec3 svoFacet = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));\n"
   "  svoFacet = svoMirrored > 0.0 ? -svoFacet : svoFacet;\n";
 
-/// The same of what vtkSVOBoxMapper has traced.
+/// The same of what svoTracedBoxes.cxx has traced.
 constexpr char FragmentOfTraced[] = "  vec3 svoPosition = svoSurface.position;\n"
                                     "  vec3 svoFacet = svoSurface.facet;\n"
                                     "#ifdef svoRays\n"

@@ -3,19 +3,25 @@
 #include "svoOpenGL.h"
 #include "svoProgram.h"
 #include "svoPropPasses.h"
-#include "vtkSVOBoxMapper.h"
-#include "vtkSVOForwardingPass.h"
+#include "svoUniforms.h"
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"
 #include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLHelper.h"
+#include "vtkOpenGLPolyDataMapper.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLVertexBufferObject.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
+#include "vtkShader.h"
+#include "vtkShaderProgram.h"
+#include "vtkWeakPointer.h"
 
 #include <algorithm>
+#include <map>
 
 #include <glm/vec3.hpp>
 
@@ -23,6 +29,108 @@ namespace svo
 {
 namespace
 {
+/// Draws what lies in a box, by VTK's own shaders with EyeCode in them. The input is the box, as
+/// triangles that are wound to the left outside. Of these the farther ones are drawn, each fragment
+/// of which follows its line of sight back to the eye; so the eye may be inside of the box.
+/// Colours, lights and whatever passes add are VTK's.
+class BoxMapper : public vtkOpenGLPolyDataMapper
+{
+public:
+  static BoxMapper* New();
+  vtkTypeMacro(BoxMapper, vtkOpenGLPolyDataMapper);
+
+  /// What to draw until the next call: one of `code`'s surfaces, with the textures of `code`.
+  void SetSurface(const EyeCode& code, std::size_t surface, BorrowedTextures& textures)
+  {
+    this->Code = &code;
+    this->Surface = surface;
+    this->Textures = &textures;
+    if (code.constants != this->Constants)
+    {
+      this->Constants = code.constants;
+      this->Modified(); // has shaders made anew
+    }
+  }
+
+protected:
+  void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override
+  {
+    // The box may reach beyond the far plane where what is seen in it does not.
+    const bool clamped = glIsEnabled(GL_DEPTH_CLAMP) == GL_TRUE;
+    glEnable(GL_DEPTH_CLAMP);
+    this->Superclass::RenderPieceDraw(renderer, actor);
+    if (!clamped)
+    {
+      glDisable(GL_DEPTH_CLAMP);
+    }
+  }
+
+  void ReplaceShaderValues(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
+
+  void SetMapperShaderParameters(
+    vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor) override
+  {
+    this->Superclass::SetMapperShaderParameters(cells, renderer, actor);
+    this->Textures->send(cells.Program);
+    const auto program = static_cast<unsigned int>(cells.Program->GetHandle());
+    sendUniforms(program, this->Code->values);
+    sendUniforms(program, this->Code->surfaces[this->Surface].values);
+  }
+
+private:
+  const EyeCode* Code = nullptr;
+  std::size_t Surface = 0;
+  BorrowedTextures* Textures = nullptr;
+  std::string Constants; // that the shaders were made with
+};
+vtkStandardNewMacro(BoxMapper);
+
+void BoxMapper::ReplaceShaderValues(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor)
+{
+  const std::string text = this->Constants + this->Code->text;
+  std::string vertex = shaders[vtkShader::Vertex]->GetSource();
+  const auto inVertex = [&vertex](const char* mark, const std::string& by)
+  { vtkShaderProgram::Substitute(vertex, mark, by, false); };
+  inVertex("//VTK::PositionVC::Dec",
+    "uniform mat4 svoBoxToView;\n"
+    "uniform mat4 svoViewToClip;\n"
+    "out vec3 svoEndVSOutput;\n"
+    "out vec3 svoViewEndVSOutput;\n");
+  inVertex("//VTK::PositionVC::Impl",
+    "  svoEndVSOutput = vertexMC.xyz;\n"
+    "  svoViewEndVSOutput = (svoBoxToView * vec4(vertexMC.xyz, 1.0)).xyz;\n"
+    "  gl_Position = svoViewToClip * vec4(svoViewEndVSOutput, 1.0);\n");
+  shaders[vtkShader::Vertex]->SetSource(vertex);
+
+  std::string fragment = shaders[vtkShader::Fragment]->GetSource();
+  const auto inFragment = [&fragment](const char* mark, const std::string& by)
+  { vtkShaderProgram::Substitute(fragment, mark, by, false); };
+  inFragment("//VTK::PositionVC::Dec",
+    "in vec3 svoEndVSOutput;\n"
+    "in vec3 svoViewEndVSOutput;\n" +
+      text);
+  inFragment("//VTK::PositionVC::Impl",
+    "  svoSeen svoSurface;\n"
+    "  bool svoFound = svoSees(svoEndVSOutput, svoViewEndVSOutput, svoSurface);\n"
+    "  vec4 vertexVC = vec4(svoSurface.position, 1.0);\n");
+  inFragment("//VTK::Depth::Impl",
+    "  if (!svoFound)\n"
+    "  {\n"
+    "    discard;\n"
+    "  }\n"
+    "  gl_FragDepth = svoDepthOf(svoSurface.position);\n");
+  inFragment("//VTK::Normal::Dec", "");
+  inFragment("//VTK::Normal::Impl", "  vec3 normalVCVSOutput = svoSurface.normal;\n");
+  inFragment("//VTK::Color::Impl",
+    "//VTK::Color::Impl\n"
+    "  ambientColor *= svoSurface.color;\n"
+    "  diffuseColor *= svoSurface.color;\n");
+  shaders[vtkShader::Fragment]->SetSource(fragment);
+  this->Superclass::ReplaceShaderValues(shaders, renderer, actor);
+}
+
 /// A box's sides, wound to the left outside; corners by x + 2 y + 4 z.
 constexpr vtkIdType Sides[6][4] = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 },
   { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
@@ -40,7 +148,7 @@ vtkSmartPointer<vtkActor> makeActor()
   vtkNew<vtkPolyData> box;
   box->SetPoints(points);
   box->SetPolys(sides);
-  vtkNew<vtkSVOBoxMapper> mapper;
+  vtkNew<BoxMapper> mapper;
   mapper->SetInputData(box);
   mapper->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
   auto actor = vtkSmartPointer<vtkActor>::New();
@@ -81,6 +189,43 @@ void setMaterial(vtkProperty* property, const Material& material, bool colored)
   property->SetLighting(material.lighting);
 }
 }
+
+/// Does for shaders what another pass does, and does not keep it alive: VTK's mappers hold the
+/// passes that they were drawn with, and one that belongs to a pass would keep it for ever.
+class TracedBoxes::ForwardingPass : public vtkOpenGLRenderPass
+{
+public:
+  static ForwardingPass* New();
+  vtkTypeMacro(ForwardingPass, vtkOpenGLRenderPass);
+
+  vtkWeakPointer<vtkOpenGLRenderPass> Pass;
+
+  void Render(const vtkRenderState*) override {}
+  bool PreReplaceShaderValues(std::string& vertexShader, std::string& geometryShader,
+    std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override
+  {
+    return !this->Pass ||
+      this->Pass->PreReplaceShaderValues(
+        vertexShader, geometryShader, fragmentShader, mapper, prop);
+  }
+  bool PostReplaceShaderValues(std::string& vertexShader, std::string& geometryShader,
+    std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override
+  {
+    return !this->Pass ||
+      this->Pass->PostReplaceShaderValues(
+        vertexShader, geometryShader, fragmentShader, mapper, prop);
+  }
+  bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
+    vtkOpenGLVertexArrayObject* array) override
+  {
+    return !this->Pass || this->Pass->SetShaderParameters(program, mapper, prop, array);
+  }
+  vtkMTimeType GetShaderStageMTime() override
+  {
+    return this->Pass ? this->Pass->GetShaderStageMTime() : 0;
+  }
+};
+vtkStandardNewMacro(TracedBoxes::ForwardingPass);
 
 bool TracedBoxes::accepts(const EyeCode& code)
 {
@@ -127,7 +272,7 @@ void TracedBoxes::update(vtkOpenGLRenderWindow* window, const EyeCode& code, con
     }
     const EyeCode::Surface& surface = code.surfaces[i];
     vtkActor* actor = this->Actors[i];
-    auto* mapper = static_cast<vtkSVOBoxMapper*>(actor->GetMapper());
+    auto* mapper = static_cast<BoxMapper*>(actor->GetMapper());
     mapper->SetSurface(code, i, this->Textures);
     setBox(mapper->GetInput(), surface.low, surface.high);
     setMaterial(actor->GetProperty(), scene.instances[surface.instance].material, surface.colored);
@@ -153,7 +298,7 @@ vtkSmartPointer<vtkInformation> TracedBoxes::keysOf(vtkProp* prop)
         [pass](const auto& one) { return one->Pass == pass; });
       if (known == this->Passes.end())
       {
-        known = this->Passes.insert(known, vtkSmartPointer<vtkSVOForwardingPass>::New());
+        known = this->Passes.insert(known, vtkSmartPointer<ForwardingPass>::New());
         (*known)->Pass = pass;
       }
       addPass(keys, *known);

@@ -16,7 +16,6 @@ class vtkActor;
 class vtkInformation;
 class vtkOpenGLRenderWindow;
 class vtkProp;
-class vtkSVOForwardingPass;
 class vtkViewport;
 class vtkWindow;
 
@@ -44,11 +43,12 @@ public:
   void draw(vtkViewport* viewport, const std::set<vtkProp*>* only = nullptr);
 
 private:
+  class ForwardingPass;
   vtkSmartPointer<vtkInformation> keysOf(vtkProp* prop);
 
   std::vector<vtkProp*> Props; // a box for each
   std::vector<vtkSmartPointer<vtkActor>> Actors;
-  std::vector<vtkSmartPointer<vtkSVOForwardingPass>> Passes; // that boxes were drawn with
+  std::vector<vtkSmartPointer<ForwardingPass>> Passes; // that boxes were drawn with
   BorrowedTextures Textures;
   std::string Constants, Refusal; // of the code that was tried last, and of it
 };

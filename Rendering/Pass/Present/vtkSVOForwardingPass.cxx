@@ -1,5 +1,0 @@
-#include "vtkSVOForwardingPass.h"
-
-#include "vtkObjectFactory.h"
-
-vtkStandardNewMacro(vtkSVOForwardingPass);
