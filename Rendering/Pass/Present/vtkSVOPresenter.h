@@ -131,14 +131,6 @@ public:
   static vtkSVONothing* New();
   vtkTypeMacro(vtkSVONothing, vtkProp3D);
   double* GetBounds() override { return nullptr; }
-
-protected:
-  vtkSVONothing() = default;
-  ~vtkSVONothing() override = default;
-
-private:
-  vtkSVONothing(const vtkSVONothing&) = delete;
-  void operator=(const vtkSVONothing&) = delete;
 };
 
 #endif
