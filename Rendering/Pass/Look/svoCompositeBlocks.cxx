@@ -172,25 +172,20 @@ bool hasMeshes(vtkMapper* mapper)
 
 vtkPolyDataMapper* CompositeBlocks::colorsOf(vtkMapper* mapper, const Path& path, Kept& kept)
 {
-  Colors& colors = this->Blocks.of({ mapper, path.back() }, kept);
-  if (!colors.mapper)
-  {
-    colors.mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
-  }
   auto* attributes = attributesOf(mapper);
-  const std::uint64_t time =
+  const vtkMTimeType time =
     std::max(mapper->GetMTime(), attributes ? attributes->GetMTime() : vtkMTimeType(0));
-  if (colors.time != time)
+  const auto make = [&](vtkSmartPointer<vtkPolyDataMapper>& colors)
   {
-    colors.time = time;
-    colors.mapper->vtkMapper::ShallowCopy(mapper);
-    colors.mapper->SetInputData(vtkPolyData::SafeDownCast(path.back()));
+    colors = colors ? colors : vtkSmartPointer<vtkPolyDataMapper>::New();
+    colors->vtkMapper::ShallowCopy(mapper);
+    colors->SetInputData(vtkPolyData::SafeDownCast(path.back()));
     if (attributes)
     {
-      applyOwnValues(attributes, path, colors.mapper);
+      applyOwnValues(attributes, path, colors);
     }
-  }
-  return colors.mapper;
+  };
+  return this->Blocks.of({ mapper, path.back() }, time, kept, make);
 }
 
 SurfacePart CompositeBlocks::partOf(vtkMapper* mapper, const Path& path, double opacity, Kept& kept)

@@ -7,7 +7,6 @@
 
 #include "vtkSmartPointer.h"
 
-#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -47,12 +46,7 @@ private:
   SurfacePart partOf(vtkMapper* mapper, const Path& path, double opacity, Kept& kept);
   vtkPolyDataMapper* colorsOf(vtkMapper* mapper, const Path& path, Kept& kept);
 
-  struct Colors
-  {
-    vtkSmartPointer<vtkPolyDataMapper> mapper;
-    std::uint64_t time = 0;
-  };
-  KeptValues<std::pair<vtkMapper*, vtkDataObject*>, Colors> Blocks;
+  KeptValues<std::pair<vtkMapper*, vtkDataObject*>, vtkSmartPointer<vtkPolyDataMapper>> Blocks;
 };
 }
 

@@ -14,17 +14,16 @@ vtkPolyDataMapper* DataSetSurfaces::mapperOf(vtkDataSetMapper* mapper, Kept& kep
   {
     return nullptr;
   }
-  Entry& entry = this->Entries.of(mapper, kept);
-  if (!entry.mapper)
+  const auto copySettings = [mapper](Entry& entry)
   {
-    entry.mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
-    entry.filter = vtkSmartPointer<vtkDataSetSurfaceFilter>::New();
-  }
-  if (entry.time != mapper->GetMTime())
-  {
-    entry.time = mapper->GetMTime();
+    if (!entry.mapper)
+    {
+      entry.mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
+      entry.filter = vtkSmartPointer<vtkDataSetSurfaceFilter>::New();
+    }
     entry.mapper->vtkMapper::ShallowCopy(mapper);
-  }
+  };
+  const Entry& entry = this->Entries.of(mapper, mapper->GetMTime(), kept, copySettings);
   auto* mesh = vtkPolyData::SafeDownCast(input);
   if (!mesh)
   {

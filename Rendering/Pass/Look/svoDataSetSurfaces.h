@@ -5,7 +5,6 @@
 #include "svoKept.h"
 
 #include "vtkSmartPointer.h"
-#include "vtkType.h"
 
 class vtkDataSetMapper;
 class vtkDataSetSurfaceFilter;
@@ -30,7 +29,6 @@ private:
   {
     vtkSmartPointer<vtkDataSetSurfaceFilter> filter;
     vtkSmartPointer<vtkPolyDataMapper> mapper;
-    vtkMTimeType time = 0; // of the settings
   };
   KeptValues<vtkDataSetMapper*, Entry> Entries;
 };

@@ -21,29 +21,21 @@ public:
     {
       return floats->GetPointer(0);
     }
-    Entry& entry = this->Entries.of(array, kept);
-    // Times are never given twice, so a new array in an old one's place is noticed, too.
-    if (!entry.copy || entry.time != array->GetMTime())
+    const auto convert = [array](vtkSmartPointer<vtkFloatArray>& copy)
     {
-      entry.time = array->GetMTime();
-      entry.copy = vtkSmartPointer<vtkFloatArray>::New();
-      entry.copy->DeepCopy(array);
-    }
-    return entry.copy->GetPointer(0);
+      copy = vtkSmartPointer<vtkFloatArray>::New();
+      copy->DeepCopy(array);
+    };
+    return this->Copies.of(array, array->GetMTime(), kept, convert)->GetPointer(0);
   }
 
   /// Drops what nobody keeps.
-  void sweep() { this->Entries.sweep(); }
+  void sweep() { this->Copies.sweep(); }
 
-  std::size_t size() const { return this->Entries.size(); }
+  std::size_t size() const { return this->Copies.size(); }
 
 private:
-  struct Entry
-  {
-    vtkSmartPointer<vtkFloatArray> copy;
-    vtkMTimeType time = 0;
-  };
-  KeptValues<vtkDataArray*, Entry> Entries;
+  KeptValues<vtkDataArray*, vtkSmartPointer<vtkFloatArray>> Copies;
 };
 }
 

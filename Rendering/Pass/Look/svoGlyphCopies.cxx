@@ -74,8 +74,9 @@ bool isGlyphMapper(vtkMapper* mapper)
 }
 
 void GlyphCopies::compute(
-  vtkGlyph3DMapper* mapper, vtkDataSet* input, const Block& block, Entry& entry)
+  vtkGlyph3DMapper* mapper, vtkDataSet* input, const Stamp& stamp, Entry& entry)
 {
+  const auto& [time, sources, opacity, color] = stamp;
   ++this->Computed;
   entry.sets.clear();
   entry.beyond = nullptr;
@@ -89,7 +90,7 @@ void GlyphCopies::compute(
   }
   entry.colors->vtkMapper::ShallowCopy(mapper);
   // Null also where scalars would be interpolated before they are mapped, as in VTK.
-  vtkUnsignedCharArray* colors = entry.colors->MapScalars(input, block.opacity);
+  vtkUnsignedCharArray* colors = entry.colors->MapScalars(input, opacity);
   entry.beyond = places.fault();
   if (mask && mask->GetNumberOfComponents() != 1)
   {
@@ -103,13 +104,13 @@ void GlyphCopies::compute(
   {
     entry.beyond = "has colours that do not belong to its points";
   }
-  if (entry.beyond || entry.sources == 0)
+  if (entry.beyond || sources == 0)
   {
     return;
   }
 
   std::vector<std::shared_ptr<GlyphSet>> sets;
-  for (std::size_t i = 0; i < entry.sources; ++i)
+  for (std::size_t i = 0; i < sources; ++i)
   {
     sets.push_back(std::make_shared<GlyphSet>());
     sets.back()->source = i;
@@ -118,7 +119,7 @@ void GlyphCopies::compute(
   {
     sets.front()->copies.reserve(static_cast<std::size_t>(points));
   }
-  const auto last = static_cast<double>(entry.sources - 1);
+  const auto last = static_cast<double>(sources - 1);
   for (vtkIdType point = 0; point < points; ++point)
   {
     if (mask && mask->GetValue(point) == 0)
@@ -138,7 +139,7 @@ void GlyphCopies::compute(
     {
       continue;
     }
-    copy.color = entry.color;
+    copy.color = color;
     if (colors)
     {
       colors->GetTypedTuple(point, copy.color.data());
@@ -163,19 +164,11 @@ void GlyphCopies::add(vtkDataSet* input, const Block& block, Looking& looking)
   {
     return;
   }
-  Entry& entry = this->Entries.of({ mapper, input }, looking.kept);
   // What was made since the last frame is later than all that was looked at then.
-  const std::uint64_t time = std::max(mapper->GetMTime(), input->GetMTime());
-  const auto color = bytesOf(block.color, block.opacity);
-  if (entry.time != time || entry.color != color || entry.opacity != block.opacity ||
-    entry.sources != looking.sources.size())
-  {
-    entry.time = time;
-    entry.color = color;
-    entry.opacity = block.opacity;
-    entry.sources = looking.sources.size();
-    this->compute(mapper, input, block, entry);
-  }
+  const Stamp stamp(std::max(mapper->GetMTime(), input->GetMTime()), looking.sources.size(),
+    block.opacity, bytesOf(block.color, block.opacity));
+  const Entry& entry = this->Entries.of({ mapper, input }, stamp, looking.kept,
+    [&](Entry& changed) { this->compute(mapper, input, stamp, changed); });
   Glyphs& result = looking.result;
   for (const auto& set : entry.sets)
   {

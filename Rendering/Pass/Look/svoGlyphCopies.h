@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -88,10 +89,6 @@ private:
   };
   struct Entry
   {
-    std::uint64_t time = 0; // the latest of all that the copies depend on
-    std::size_t sources = 0;
-    std::array<unsigned char, 4> color{};
-    double opacity = 1.0;
     std::vector<std::shared_ptr<const GlyphSet>> sets;
     Reason beyond = nullptr;
     vtkSmartPointer<vtkPolyDataMapper> colors;
@@ -107,9 +104,12 @@ private:
   };
   void visit(vtkDataObject* input, Block block, Looking& looking);
   void add(vtkDataSet* input, const Block& block, Looking& looking);
-  void compute(vtkGlyph3DMapper* mapper, vtkDataSet* input, const Block& block, Entry& entry);
+  /// The latest time of all that the copies depend on; how many sources; the block's opacity, and
+  /// its colour with that.
+  using Stamp = std::tuple<vtkMTimeType, std::size_t, double, std::array<unsigned char, 4>>;
+  void compute(vtkGlyph3DMapper* mapper, vtkDataSet* input, const Stamp& stamp, Entry& entry);
 
-  KeptValues<std::pair<vtkGlyph3DMapper*, vtkDataSet*>, Entry> Entries;
+  KeptValues<std::pair<vtkGlyph3DMapper*, vtkDataSet*>, Entry, Stamp> Entries;
   int Computed = 0;
 };
 }

@@ -76,33 +76,46 @@ private:
   std::vector<std::shared_ptr<const void>> Computed;
 };
 
-/// Values by key, for as long as somebody keeps them.
-template <class Key, class Value>
+/// Values by key, for as long as somebody keeps them. A stamp has the times of what a value is made
+/// of, which are never given twice: another object in an old one's place is noticed, too.
+template <class Key, class Value, class Stamp = vtkMTimeType>
 class KeptValues
 {
 public:
-  /// The key's value, made by default if there is none, which `kept` keeps from now on.
-  Value& of(const Key& key, Kept& kept)
+  /// The key's value, which `kept` keeps from now on. make(value) fills it in if it is new or was
+  /// made at another stamp.
+  template <class Make>
+  Value& of(const Key& key, const Stamp& stamp, Kept& kept, const Make& make)
   {
-    std::shared_ptr<Value>& value = this->Values[key];
-    if (!value)
+    std::shared_ptr<Entry>& entry = this->Entries[key];
+    if (!entry)
     {
-      value = std::make_shared<Value>();
+      entry = std::make_shared<Entry>();
     }
-    kept.add(value);
-    return *value;
+    kept.add(entry);
+    if (entry->stamp != stamp)
+    {
+      entry->stamp = stamp;
+      make(entry->value);
+    }
+    return entry->value;
   }
 
   /// Drops what nobody keeps.
   void sweep()
   {
-    eraseIf(this->Values, [](const auto& entry) { return entry.second.use_count() == 1; });
+    eraseIf(this->Entries, [](const auto& entry) { return entry.second.use_count() == 1; });
   }
 
-  std::size_t size() const { return this->Values.size(); }
+  std::size_t size() const { return this->Entries.size(); }
 
 private:
-  std::map<Key, std::shared_ptr<Value>> Values;
+  struct Entry
+  {
+    Stamp stamp{}; // that of no time
+    Value value{};
+  };
+  std::map<Key, std::shared_ptr<Entry>> Entries;
 };
 }
 

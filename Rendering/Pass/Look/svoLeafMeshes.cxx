@@ -53,17 +53,7 @@ vtkPolyData* LeafMeshes::of(vtkPolyData* carrier, vtkMapper* mapper, Kept& kept)
 {
   const char* name = nameOfCellData(carrier, mapper);
   vtkDataArray* values = name ? leafValues(carrier, name) : nullptr;
-  if (!values)
-  {
-    return nullptr;
-  }
-  Entry& entry = this->Entries.of(values, kept);
-  // Times are never given twice, so a new carrier in an old one's place is noticed, too.
-  if (!entry.mesh || entry.time != carrier->GetMTime())
-  {
-    entry.time = carrier->GetMTime();
-    entry.mesh = meshOf(carrier, values);
-  }
-  return entry.mesh;
+  const auto make = [&](vtkSmartPointer<vtkPolyData>& mesh) { mesh = meshOf(carrier, values); };
+  return values ? this->Meshes.of(values, carrier->GetMTime(), kept, make) : nullptr;
 }
 }

@@ -6,7 +6,6 @@
 #include "svoKept.h"
 
 #include "vtkSmartPointer.h"
-#include "vtkType.h"
 
 class vtkDataArray;
 class vtkMapper;
@@ -24,15 +23,10 @@ public:
   vtkPolyData* of(vtkPolyData* carrier, vtkMapper* mapper, Kept& kept);
 
   /// Drops what nobody keeps.
-  void sweep() { this->Entries.sweep(); }
+  void sweep() { this->Meshes.sweep(); }
 
 private:
-  struct Entry
-  {
-    vtkSmartPointer<vtkPolyData> mesh;
-    vtkMTimeType time = 0; // of the carrier
-  };
-  KeptValues<vtkDataArray*, Entry> Entries;
+  KeptValues<vtkDataArray*, vtkSmartPointer<vtkPolyData>> Meshes; // by values; times of carriers
 };
 }
 

@@ -18,7 +18,7 @@ namespace svo
 {
 namespace
 {
-std::uint64_t timeOf(vtkObject* object)
+vtkMTimeType timeOf(vtkObject* object)
 {
   return object ? object->GetMTime() : 0;
 }
@@ -161,19 +161,17 @@ OpaqueCells::Answer OpaqueCells::of(
   {
     return { whole ? mesh : nullptr, !whole, whole ? nullptr : mesh };
   }
-  Entry& entry = this->Entries.of({ mesh, colors }, kept);
-  // Times are never given twice, so a new object in an old one's place is noticed, too.
-  const Times times{ mesh->GetMTime(), timeOf(colors->GetColorMapColors()),
-    timeOf(colors->GetColorCoordinates()), timeOf(colors->GetColorTextureMap()) };
-  if (entry.times != times || entry.visible != visible)
+  const Stamp stamp{ { mesh->GetMTime(), timeOf(colors->GetColorMapColors()),
+                       timeOf(colors->GetColorCoordinates()),
+                       timeOf(colors->GetColorTextureMap()) },
+    visible };
+  const auto make = [&](Entry& entry)
   {
-    entry.times = times;
-    entry.visible = visible;
     entry.answer = attributes.colorAssociation == Association::Leaf
       ? sortLeaves(mesh, attributes, colors->GetColorMapColors())
       : sort(mesh, attributes, entry.made, visible ? &entry.madeVisible : nullptr);
-  }
-  const Answer& answer = entry.answer;
+  };
+  const Answer& answer = this->Entries.of({ mesh, colors }, stamp, kept, make).answer;
   if (whole)
   {
     return answer;

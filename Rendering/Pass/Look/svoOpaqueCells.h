@@ -9,7 +9,6 @@
 #include "vtkSmartPointer.h"
 
 #include <array>
-#include <cstdint>
 #include <utility>
 
 class vtkMapper;
@@ -40,15 +39,14 @@ public:
   void sweep() { this->Entries.sweep(); }
 
 private:
-  using Times = std::array<std::uint64_t, 4>; // of the mesh and of what its colours are made of
   struct Entry
   {
-    Times times{};
-    bool visible = false;
     Answer answer;
     vtkSmartPointer<vtkPolyData> made, madeVisible;
   };
-  KeptValues<std::pair<vtkPolyData*, vtkMapper*>, Entry> Entries;
+  /// Times of the mesh and of what its colours are made of; whether what is visible was asked for.
+  using Stamp = std::pair<std::array<vtkMTimeType, 4>, bool>;
+  KeptValues<std::pair<vtkPolyData*, vtkMapper*>, Entry, Stamp> Entries;
 };
 }
 

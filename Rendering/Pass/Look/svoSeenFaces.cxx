@@ -65,7 +65,8 @@ vtkPolyData* SeenFaces::of(
   {
     return mesh;
   }
-  Entry& entry = this->Entries.of({ mesh, actor }, kept);
+  Entry& entry = this->Entries.of(
+    { mesh, actor }, mesh->GetMTime(), kept, [](Entry& changed) { changed.made = nullptr; });
   std::vector<bool> culled = frontFaces(mesh, localToWorld, eye);
   if (std::find(culled.begin(), culled.end(), true) == culled.end())
   {
@@ -76,7 +77,7 @@ vtkPolyData* SeenFaces::of(
   {
     return nullptr;
   }
-  if (entry.time == mesh->GetMTime() && entry.culled == culled)
+  if (entry.made && entry.culled == culled)
   {
     return entry.made;
   }
@@ -93,7 +94,6 @@ vtkPolyData* SeenFaces::of(
   entry.made->SetLines(mesh->GetLines());
   entry.made->SetPolys(polys);
   entry.made->SetStrips(mesh->GetStrips());
-  entry.time = mesh->GetMTime();
   entry.culled = std::move(culled);
   return entry.made;
 }

@@ -7,7 +7,6 @@
 
 #include "vtkSmartPointer.h"
 
-#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -34,9 +33,8 @@ public:
 private:
   struct Entry
   {
-    std::uint64_t time = 0; // of the mesh
     std::vector<bool> culled;
-    vtkSmartPointer<vtkPolyData> made;
+    vtkSmartPointer<vtkPolyData> made; // without these
   };
   KeptValues<std::pair<vtkPolyData*, vtkActor*>, Entry> Entries;
 };
