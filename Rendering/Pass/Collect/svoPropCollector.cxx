@@ -75,8 +75,8 @@ std::vector<SurfacePart> PropCollector::partsOf(vtkActor* actor, Kept& kept)
     return this->Blocks.partsOf(mapper, opacity, kept);
   }
   auto* dataSet = vtkDataSetMapper::SafeDownCast(mapper);
-  vtkPolyDataMapper* plain =
-    dataSet ? this->Surfaces.mapperOf(dataSet, kept) : vtkPolyDataMapper::SafeDownCast(mapper);
+  vtkPolyDataMapper* plain = dataSet ? surfaceMapperOf(dataSet, this->Surfaces, kept)
+                                     : vtkPolyDataMapper::SafeDownCast(mapper);
   if (!plain || !plain->GetInput())
   {
     return {};
@@ -131,8 +131,9 @@ Casters PropCollector::seenOf(const Casters& casters, const CollectedActor& of)
   found.kept.addUnknown(); // where the eye is
   const auto left = [&](vtkPolyData* mesh)
   {
-    return mesh ? this->Seen.of(mesh, of.actor, of.localToWorld, *of.frame.eye, found.kept)
-                : nullptr;
+    return mesh
+      ? seenFacesOf(mesh, of.actor, of.localToWorld, *of.frame.eye, this->Seen, found.kept)
+      : nullptr;
   };
   const Casters seen{ left(casters.opaque), left(casters.translucent) };
   if (seen.opaque != casters.opaque || seen.translucent != casters.translucent)

@@ -7,14 +7,14 @@
 
 namespace svo
 {
-vtkPolyDataMapper* DataSetSurfaces::mapperOf(vtkDataSetMapper* mapper, Kept& kept)
+vtkPolyDataMapper* surfaceMapperOf(vtkDataSetMapper* mapper, DataSetSurfaces& surfaces, Kept& kept)
 {
   vtkDataSet* input = mapper->GetInput();
   if (!input)
   {
     return nullptr;
   }
-  const auto copySettings = [mapper](Entry& entry)
+  const auto copySettings = [mapper](DataSetSurface& entry)
   {
     if (!entry.mapper)
     {
@@ -23,7 +23,7 @@ vtkPolyDataMapper* DataSetSurfaces::mapperOf(vtkDataSetMapper* mapper, Kept& kep
     }
     entry.mapper->vtkMapper::ShallowCopy(mapper);
   };
-  const Entry& entry = this->Entries.of(mapper, mapper->GetMTime(), kept, copySettings);
+  const DataSetSurface& entry = surfaces.of(mapper, mapper->GetMTime(), kept, copySettings);
   auto* mesh = vtkPolyData::SafeDownCast(input);
   if (!mesh)
   {

@@ -12,26 +12,18 @@ class vtkPolyDataMapper;
 
 namespace svo
 {
+struct DataSetSurface
+{
+  vtkSmartPointer<vtkDataSetSurfaceFilter> filter;
+  vtkSmartPointer<vtkPolyDataMapper> mapper;
+};
 /// vtkDataSetMapper makes its surface while it draws. A traced one never draws, so the same is made
 /// here, by the same filter, and kept until the data set changes.
-class DataSetSurfaces
-{
-public:
-  /// A mapper of the surface with the settings of the given one; its input is up to date. Null if
-  /// there is no data set.
-  vtkPolyDataMapper* mapperOf(vtkDataSetMapper* mapper, Kept& kept);
+using DataSetSurfaces = KeptValues<vtkDataSetMapper*, DataSetSurface>;
 
-  /// Drops what nobody keeps.
-  void sweep() { this->Entries.sweep(); }
-
-private:
-  struct Entry
-  {
-    vtkSmartPointer<vtkDataSetSurfaceFilter> filter;
-    vtkSmartPointer<vtkPolyDataMapper> mapper;
-  };
-  KeptValues<vtkDataSetMapper*, Entry> Entries;
-};
+/// A mapper of the surface with the settings of the given one; its input is up to date. Null if
+/// there is no data set.
+vtkPolyDataMapper* surfaceMapperOf(vtkDataSetMapper* mapper, DataSetSurfaces& surfaces, Kept& kept);
 }
 
 #endif

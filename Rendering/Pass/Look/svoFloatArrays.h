@@ -11,32 +11,22 @@
 namespace svo
 {
 /// Copies of arrays that are not floats, for as long as somebody keeps them.
-class FloatArrays
+using FloatArrays = KeptValues<vtkDataArray*, vtkSmartPointer<vtkFloatArray>>;
+
+/// The array's values in its own order; valid as long as `kept`, or until the array changes.
+inline const float* floatsOf(vtkDataArray* array, FloatArrays& copies, Kept& kept)
 {
-public:
-  /// The array's values in its own order; valid as long as `kept`, or until the array changes.
-  const float* values(vtkDataArray* array, Kept& kept)
+  if (auto* floats = vtkFloatArray::SafeDownCast(array))
   {
-    if (auto* floats = vtkFloatArray::SafeDownCast(array))
-    {
-      return floats->GetPointer(0);
-    }
-    const auto convert = [array](vtkSmartPointer<vtkFloatArray>& copy)
-    {
-      copy = vtkSmartPointer<vtkFloatArray>::New();
-      copy->DeepCopy(array);
-    };
-    return this->Copies.of(array, array->GetMTime(), kept, convert)->GetPointer(0);
+    return floats->GetPointer(0);
   }
-
-  /// Drops what nobody keeps.
-  void sweep() { this->Copies.sweep(); }
-
-  std::size_t size() const { return this->Copies.size(); }
-
-private:
-  KeptValues<vtkDataArray*, vtkSmartPointer<vtkFloatArray>> Copies;
-};
+  const auto convert = [array](vtkSmartPointer<vtkFloatArray>& copy)
+  {
+    copy = vtkSmartPointer<vtkFloatArray>::New();
+    copy->DeepCopy(array);
+  };
+  return copies.of(array, array->GetMTime(), kept, convert)->GetPointer(0);
+}
 }
 
 #endif

@@ -49,11 +49,11 @@ vtkSmartPointer<vtkPolyData> meshOf(vtkPolyData* carrier, vtkDataArray* values)
 }
 }
 
-vtkPolyData* LeafMeshes::of(vtkPolyData* carrier, vtkMapper* mapper, Kept& kept)
+vtkPolyData* leafMeshOf(vtkPolyData* carrier, vtkMapper* mapper, LeafMeshes& meshes, Kept& kept)
 {
   const char* name = nameOfCellData(carrier, mapper);
   vtkDataArray* values = name ? leafValues(carrier, name) : nullptr;
   const auto make = [&](vtkSmartPointer<vtkPolyData>& mesh) { mesh = meshOf(carrier, values); };
-  return values ? this->Meshes.of(values, carrier->GetMTime(), kept, make) : nullptr;
+  return values ? meshes.of(values, carrier->GetMTime(), kept, make) : nullptr;
 }
 }

@@ -13,21 +13,13 @@ class vtkPolyData;
 
 namespace svo
 {
-/// Kept for as long as somebody has them: a mapper maps colours again only of a data set
-/// that is new or has changed.
-class LeafMeshes
-{
-public:
-  /// What has the values of leaves as cell data, in the place of the mesh's of that name, where the
-  /// mapper colours it by such; else nullptr.
-  vtkPolyData* of(vtkPolyData* carrier, vtkMapper* mapper, Kept& kept);
+/// By values of leaves. Kept for as long as somebody has them: a mapper maps colours again only of
+/// a data set that is new or has changed.
+using LeafMeshes = KeptValues<vtkDataArray*, vtkSmartPointer<vtkPolyData>>;
 
-  /// Drops what nobody keeps.
-  void sweep() { this->Meshes.sweep(); }
-
-private:
-  KeptValues<vtkDataArray*, vtkSmartPointer<vtkPolyData>> Meshes; // by values; times of carriers
-};
+/// What has the values of leaves as cell data, in the place of the mesh's of that name, where the
+/// mapper colours it by such; else nullptr.
+vtkPolyData* leafMeshOf(vtkPolyData* carrier, vtkMapper* mapper, LeafMeshes& meshes, Kept& kept);
 }
 
 #endif

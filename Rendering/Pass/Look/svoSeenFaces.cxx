@@ -58,15 +58,15 @@ std::vector<bool> frontFaces(vtkPolyData* mesh, const glm::dmat4& localToWorld, 
 }
 }
 
-vtkPolyData* SeenFaces::of(
-  vtkPolyData* mesh, vtkActor* actor, const glm::dmat4& localToWorld, const View& eye, Kept& kept)
+vtkPolyData* seenFacesOf(vtkPolyData* mesh, vtkActor* actor, const glm::dmat4& localToWorld,
+  const View& eye, SeenFaces& faces, Kept& kept)
 {
   if (carriesPlanes(mesh))
   {
     return mesh;
   }
-  Entry& entry = this->Entries.of(
-    { mesh, actor }, mesh->GetMTime(), kept, [](Entry& changed) { changed.made = nullptr; });
+  FacesLeft& entry = faces.of(
+    { mesh, actor }, mesh->GetMTime(), kept, [](FacesLeft& changed) { changed.made = nullptr; });
   std::vector<bool> culled = frontFaces(mesh, localToWorld, eye);
   if (std::find(culled.begin(), culled.end(), true) == culled.end())
   {

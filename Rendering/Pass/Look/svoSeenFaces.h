@@ -17,27 +17,19 @@ class vtkPolyData;
 
 namespace svo
 {
-/// Kept until the mesh changes, or another of its polygons turns to the eye, or nobody has them.
-class SeenFaces
+struct FacesLeft
 {
-public:
-  /// A mesh of an actor without the polygons that turn their front to the eye, in whose places are
-  /// cells without an area; strips, and surfaces that are no meshes, stay whole. The mesh itself if
-  /// no polygon does; null if all do.
-  vtkPolyData* of(vtkPolyData* mesh, vtkActor* actor, const glm::dmat4& localToWorld,
-    const View& eye, Kept& kept);
-
-  /// Drops what nobody keeps.
-  void sweep() { this->Entries.sweep(); }
-
-private:
-  struct Entry
-  {
-    std::vector<bool> culled;
-    vtkSmartPointer<vtkPolyData> made; // without these
-  };
-  KeptValues<std::pair<vtkPolyData*, vtkActor*>, Entry> Entries;
+  std::vector<bool> culled;
+  vtkSmartPointer<vtkPolyData> made; // without these
 };
+/// Kept until the mesh changes, or another of its polygons turns to the eye, or nobody has them.
+using SeenFaces = KeptValues<std::pair<vtkPolyData*, vtkActor*>, FacesLeft>;
+
+/// A mesh of an actor without the polygons that turn their front to the eye, in whose places are
+/// cells without an area; strips, and surfaces that are no meshes, stay whole. The mesh itself if
+/// no polygon does; null if all do.
+vtkPolyData* seenFacesOf(vtkPolyData* mesh, vtkActor* actor, const glm::dmat4& localToWorld,
+  const View& eye, SeenFaces& faces, Kept& kept);
 }
 
 #endif

@@ -98,7 +98,7 @@ void normalsOf(
     attributes.normalAssociation = Association::None;
     return;
   }
-  attributes.normals = floats.values(normals, kept);
+  attributes.normals = floatsOf(normals, floats, kept);
   keep(normals, attributes, kept);
 }
 
@@ -169,7 +169,7 @@ bool scalarColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes,
   {
     return true;
   }
-  if (vtkPolyData* ofLeaves = leaves.of(part.mesh, mapper, kept))
+  if (vtkPolyData* ofLeaves = leafMeshOf(part.mesh, mapper, leaves, kept))
   {
     return leafColors(ofLeaves, mapper, attributes, kept);
   }

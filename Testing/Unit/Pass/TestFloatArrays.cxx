@@ -11,7 +11,7 @@ TEST(FloatArrays, FloatsAreNotCopied)
   array->InsertNextValue(1.5f);
   svo::FloatArrays floats;
   svo::Kept kept;
-  EXPECT_EQ(floats.values(array, kept), array->GetPointer(0));
+  EXPECT_EQ(svo::floatsOf(array, floats, kept), array->GetPointer(0));
   EXPECT_EQ(floats.size(), 0u);
 }
 
@@ -22,14 +22,15 @@ TEST(FloatArrays, DoublesAreConvertedOncePerChange)
   array->InsertNextTuple3(1.0, 2.0, 3.0);
   svo::FloatArrays floats;
   svo::Kept kept;
-  const float* first = floats.values(array, kept);
+  const float* first = svo::floatsOf(array, floats, kept);
   EXPECT_EQ(first[2], 3.0f);
   floats.sweep();
-  EXPECT_EQ(floats.values(array, kept), first);
+  EXPECT_EQ(svo::floatsOf(array, floats, kept), first);
   array->SetComponent(0, 2, 5.0);
-  EXPECT_EQ(floats.values(array, kept)[2], 3.0f) << "nobody has said that the array changed";
+  EXPECT_EQ(svo::floatsOf(array, floats, kept)[2], 3.0f)
+    << "nobody has said that the array changed";
   array->Modified();
-  EXPECT_EQ(floats.values(array, kept)[2], 5.0f);
+  EXPECT_EQ(svo::floatsOf(array, floats, kept)[2], 5.0f);
   EXPECT_EQ(floats.size(), 1u);
 }
 
@@ -40,8 +41,8 @@ TEST(FloatArrays, CopiesThatNobodyKeepsAreForgotten)
   svo::FloatArrays floats;
   {
     svo::Kept kept, another;
-    floats.values(array, kept);
-    floats.values(array, another);
+    svo::floatsOf(array, floats, kept);
+    svo::floatsOf(array, floats, another);
     kept = svo::Kept();
     floats.sweep();
     EXPECT_EQ(floats.size(), 1u);
