@@ -90,18 +90,12 @@ OpaqueCells::Answer sortLeaves(
     opaque ? 1.0 : sum / static_cast<double>(count) };
 }
 
-/// `madeVisible`: null if it is not asked for.
-OpaqueCells::Answer sort(vtkPolyData* mesh, const Attributes& attributes,
-  vtkSmartPointer<vtkPolyData>& made, vtkSmartPointer<vtkPolyData>* madeVisible)
+/// `visible`: what is visible is asked for.
+OpaqueCells::Answer sort(vtkPolyData* mesh, const Attributes& attributes, bool visible)
 {
   const std::size_t count = attributes.colorCoordinates ? 2 * attributes.colorTextureSize
     : attributes.colorAssociation == Association::Cell  ? mesh->GetNumberOfCells()
                                                         : mesh->GetNumberOfPoints();
-  made = nullptr;
-  if (madeVisible)
-  {
-    *madeVisible = nullptr;
-  }
   if (allOpaque(attributes.colorCoordinates ? attributes.colorTexture : attributes.colors, count))
   {
     return { mesh, false };
@@ -128,17 +122,17 @@ OpaqueCells::Answer sort(vtkPolyData* mesh, const Attributes& attributes,
   }
   else if (counts.opaque > 0)
   {
-    answer.mesh = made = opaque;
+    answer.mesh = opaque;
   }
   answer.alpha =
     answer.mapped ? counts.alpha / static_cast<double>(counts.all - counts.invisible) : 1.0;
-  if (answer.translucent && madeVisible)
+  if (answer.translucent && visible)
   {
     answer.visible = mesh;
     if (counts.invisible > 0)
     {
       Counts again;
-      answer.visible = *madeVisible = sorted(true, again);
+      answer.visible = sorted(true, again);
       answer.visible->SetVerts(mesh->GetVerts());
       answer.visible->SetLines(mesh->GetLines());
     }
@@ -165,13 +159,13 @@ OpaqueCells::Answer OpaqueCells::of(
                        timeOf(colors->GetColorCoordinates()),
                        timeOf(colors->GetColorTextureMap()) },
     visible };
-  const auto make = [&](Entry& entry)
+  const auto make = [&](Answer& answer)
   {
-    entry.answer = attributes.colorAssociation == Association::Leaf
+    answer = attributes.colorAssociation == Association::Leaf
       ? sortLeaves(mesh, attributes, colors->GetColorMapColors())
-      : sort(mesh, attributes, entry.made, visible ? &entry.madeVisible : nullptr);
+      : sort(mesh, attributes, visible);
   };
-  const Answer& answer = this->Entries.of({ mesh, colors }, stamp, kept, make).answer;
+  const Answer& answer = this->Answers.of({ mesh, colors }, stamp, kept, make);
   if (whole)
   {
     return answer;

@@ -22,11 +22,12 @@ class OpaqueCells
 public:
   struct Answer
   {
-    vtkPolyData* mesh = nullptr; // of the opaque cells: the surface's own if all are; none if none
-    bool translucent = false;    // there are cells that are neither opaque nor invisible
+    /// Of the opaque cells: the surface's own if all are; none if none.
+    vtkSmartPointer<vtkPolyData> mesh{};
+    bool translucent = false; // there are cells that are neither opaque nor invisible
     /// Where there are, and it was asked for: all cells but the invisible ones, the surface's own
     /// mesh if none is. Cells and points have the numbers that they have there.
-    vtkPolyData* visible = nullptr;
+    vtkSmartPointer<vtkPolyData> visible{};
     bool mapped = false; // colours make these cells translucent, perhaps the part's opacity, too
     double alpha = 1.0;  // if mapped: the mean of what they have at the corners of visible cells
   };
@@ -36,17 +37,12 @@ public:
   Answer of(const SurfacePart& part, const Attributes& attributes, bool visible, Kept& kept);
 
   /// Drops what nobody keeps.
-  void sweep() { this->Entries.sweep(); }
+  void sweep() { this->Answers.sweep(); }
 
 private:
-  struct Entry
-  {
-    Answer answer;
-    vtkSmartPointer<vtkPolyData> made, madeVisible;
-  };
   /// Times of the mesh and of what its colours are made of; whether what is visible was asked for.
   using Stamp = std::pair<std::array<vtkMTimeType, 4>, bool>;
-  KeptValues<std::pair<vtkPolyData*, vtkMapper*>, Entry, Stamp> Entries;
+  KeptValues<std::pair<vtkPolyData*, vtkMapper*>, Answer, Stamp> Answers;
 };
 }
 
