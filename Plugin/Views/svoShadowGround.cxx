@@ -2,6 +2,7 @@
 
 #include "vtkActor.h"
 #include "vtkBoundingBox.h"
+#include "vtkCollectionRange.h"
 #include "vtkCommunicator.h"
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
@@ -102,10 +103,7 @@ vtkBoundingBox shadowsOf(
 {
   const double height = ground.GetMinPoint()[axis];
   vtkBoundingBox all;
-  vtkCollectionSimpleIterator iterator;
-  vtkLightCollection* lights = renderer->GetLights();
-  lights->InitTraversal(iterator);
-  while (vtkLight* light = lights->GetNextLight(iterator))
+  for (vtkLight* light : vtk::Range(renderer->GetLights()))
   {
     if (!light->GetSwitch() || !vtkSVORenderPass::GetCastShadow(light))
     {

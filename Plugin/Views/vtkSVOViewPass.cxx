@@ -3,7 +3,7 @@
 #include "svoShadowGround.h"
 
 #include "vtkActor.h"
-#include "vtkCollection.h"
+#include "vtkCollectionRange.h"
 #include "vtkCommand.h"
 #include "vtkCompositeRepresentation.h"
 #include "vtkGeometryRepresentation.h"
@@ -159,14 +159,11 @@ void vtkSVOViewPass::UpdateAttachment()
     renderer->AddObserver(vtkCommand::StartEvent, this, &vtkSVOViewPass::BeginFrame);
   this->Observers[1] = renderer->AddObserver(vtkCommand::EndEvent, this, &vtkSVOViewPass::EndFrame);
   // The axes at the centre of rotation are part of the view, not of what it shows.
-  vtkCollectionSimpleIterator iterator;
-  vtkPropCollection* props = renderer->GetViewProps();
-  props->InitTraversal(iterator);
-  while (vtkProp* prop = props->GetNextProp(iterator))
+  for (vtkObject* prop : vtk::Range(renderer->GetViewProps()))
   {
     if (prop->IsA("vtkPVCenterAxesActor"))
     {
-      vtkSVORenderPass::SetReceiveShadow(false, prop);
+      vtkSVORenderPass::SetReceiveShadow(false, static_cast<vtkProp*>(prop));
     }
   }
   this->Pass->Attach(renderer);

@@ -1,5 +1,6 @@
 #include "vtkSVOViewRenderPass.h"
 
+#include "vtkCollectionRange.h"
 #include "vtkLightCollection.h"
 #include "vtkLightKit.h"
 #include "vtkObjectFactory.h"
@@ -58,10 +59,7 @@ std::string vtkSVOViewRenderPass::NameOf(vtkLight* light) const
     }
   }
   int number = 0; // of those that were added
-  vtkCollectionSimpleIterator iterator;
-  vtkLightCollection* lights = view->GetRenderer()->GetLights();
-  lights->InitTraversal(iterator);
-  while (vtkLight* other = lights->GetNextLight(iterator))
+  for (vtkLight* other : vtk::Range(view->GetRenderer()->GetLights()))
   {
     if (other == light)
     {
