@@ -215,21 +215,18 @@ void ShadowReceivers::completeShader(
     }
   };
   // Unlit surfaces have no position to ask about.
-  if (body.find("vec4 vertexVC =") != std::string::npos)
+  const bool asks = !this->empty() && body.find("vec4 vertexVC =") != std::string::npos;
+  std::map<int, std::string> shares; // by light
+  for (std::size_t i = 0; asks && i < this->Code->lights.size(); ++i)
   {
-    std::map<int, std::string> shares; // by light
-    for (std::size_t i = 0; i < (this->empty() ? 0 : this->Code->lights.size()); ++i)
-    {
-      std::string& share = shares[this->Code->lights[i]];
-      share += (share.empty() ? "svoShare[" : " * svoShare[") + std::to_string(i) + "]";
-    }
-    for (const auto& [light, share] : shares)
-    {
-      weigh(light, "svoShown(" + share + ")");
-    }
+    std::string& share = shares[this->Code->lights[i]];
+    share += (share.empty() ? "svoShare[" : " * svoShare[") + std::to_string(i) + "]";
   }
-  const bool around =
-    !this->empty() && this->Code->hasAround() && body.find("vec4 vertexVC =") != std::string::npos;
+  for (const auto& [light, share] : shares)
+  {
+    weigh(light, "svoShown(" + share + ")");
+  }
+  const bool around = asks && this->Code->hasAround();
   const bool any = !code.str().empty() || around;
   const bool round = hasNormal && hasToken(declarations, "ZCalcR");
   const bool traced = hasToken(body, "svoSurface");
