@@ -1,6 +1,5 @@
 #include "svoMapCode.h"
 
-#include "svoMapGroups.h"
 #include "svoMapLookup.h"
 #include "svoOpenGL.h"
 #include "svoShadowRules.h"
@@ -8,7 +7,9 @@
 #include <algorithm>
 #include <iomanip>
 #include <locale>
+#include <map>
 #include <sstream>
+#include <tuple>
 
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
@@ -28,6 +29,75 @@ std::size_t mostMaps(std::size_t lights)
   const std::size_t taken = OfLight * lights + Others;
   const std::size_t left = std::max<std::size_t>(components, taken) - taken;
   return std::max(left / OfMap, MapsOfLight);
+}
+
+/// The maps of a light's opaque casters, or of a group of its translucent ones.
+struct MapGroup
+{
+  bool translucent;
+  int light; // index into Scene::lights, and its number in VTK's shaders
+  int group; // ShadowMap::group
+
+  /// Those of opaque casters first.
+  bool operator<(const MapGroup& o) const
+  {
+    return std::tie(this->translucent, this->light, this->group) <
+      std::tie(o.translucent, o.light, o.group);
+  }
+};
+using MapGroups = std::map<MapGroup, std::vector<const ShadowMap*>>;
+
+double brightness(const Light& light)
+{
+  return light.color.r + light.color.g + light.color.b;
+}
+
+std::size_t numbersOf(const std::vector<const ShadowMap*>& maps)
+{
+  std::size_t numbers = 0;
+  for (const ShadowMap* map : maps)
+  {
+    numbers += map->texels ? map->texels->tiles.size() + map->texels->numbers.size() : 0;
+  }
+  return numbers;
+}
+
+MapGroups groupsOf(const std::vector<ShadowMap>& maps)
+{
+  MapGroups groups;
+  for (const ShadowMap& map : maps)
+  {
+    groups[{ map.group > 0, map.light, map.group }].push_back(&map);
+  }
+  return groups;
+}
+
+/// Leaves maps of the faintest lights out, of each light those of translucent casters first, until
+/// no more than `most` maps of no more than `mostNumbers` floats are left. True if there were more.
+bool keepBrightest(
+  MapGroups& groups, const std::vector<Light>& lights, std::size_t most, std::size_t mostNumbers)
+{
+  std::size_t count = 0, numbers = 0;
+  for (const auto& entry : groups)
+  {
+    count += entry.second.size();
+    numbers += numbersOf(entry.second);
+  }
+  const std::size_t all = groups.size();
+  const auto rank = [&](const MapGroup& group)
+  {
+    // Of equally bright lights the first one.
+    return std::make_tuple(brightness(lights[group.light]), group.light, -group.group);
+  };
+  while (count > most || numbers > mostNumbers)
+  {
+    const auto faintest = std::min_element(groups.begin(), groups.end(),
+      [&](const auto& a, const auto& b) { return rank(a.first) < rank(b.first); });
+    count -= faintest->second.size();
+    numbers -= numbersOf(faintest->second);
+    groups.erase(faintest);
+  }
+  return groups.size() < all;
 }
 
 /// View coordinates of the eye -> (x, y, linear depth - base, w) of a map. Composed in double, so
