@@ -27,8 +27,8 @@
 #include "vtkVersion.h"
 
 #include <algorithm>
-#include <iterator>
 #include <string>
+#include <utility>
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -40,34 +40,23 @@ namespace
 Reason beyondTracing(vtkActor* actor)
 {
   vtkProperty* property = actor->GetProperty();
-  if (property->GetInterpolation() == VTK_PBR)
-  {
-    return "has a physically based material";
-  }
-  if (property->GetEdgeVisibility() || property->GetVertexVisibility())
-  {
-    return "shows its edges or vertices";
-  }
-  if (property->GetFrontfaceCulling() || property->GetBackfaceCulling())
-  {
-    return "has culled faces";
-  }
-  if (actor->GetBackfaceProperty())
-  {
-    return "has a backface property";
-  }
-  if (actor->GetTexture() || property->GetNumberOfTextures() > 0)
-  {
-    return "has a texture";
-  }
-  if (hasCustomShaders(actor))
-  {
-    return "has shaders of its own";
-  }
   vtkSelection* selection = actor->GetMapper()->GetSelection();
-  if (selection && selection->GetNumberOfNodes() > 0)
+  const std::pair<bool, Reason> reasons[] = {
+    { property->GetInterpolation() == VTK_PBR, "has a physically based material" },
+    { property->GetEdgeVisibility() || property->GetVertexVisibility(),
+      "shows its edges or vertices" },
+    { property->GetFrontfaceCulling() || property->GetBackfaceCulling(), "has culled faces" },
+    { actor->GetBackfaceProperty() != nullptr, "has a backface property" },
+    { actor->GetTexture() || property->GetNumberOfTextures() > 0, "has a texture" },
+    { hasCustomShaders(actor), "has shaders of its own" },
+    { selection && selection->GetNumberOfNodes() > 0, "shows a selection" },
+  };
+  for (const auto& [holds, reason] : reasons)
   {
-    return "shows a selection";
+    if (holds)
+    {
+      return reason;
+    }
   }
   return actor->HasTranslucentPolygonalGeometry() ? IsTranslucent : nullptr;
 }
@@ -261,14 +250,12 @@ bool reachesBeyondBounds(vtkActor* actor)
 
 bool isUnknownSurface(vtkActor* actor)
 {
-  // What these draw (points and lines, labels) has no surface.
-  constexpr const char* others[] = { "vtkGraphMapper", "vtkLabeledContourMapper" };
   vtkMapper* mapper = actor->GetMapper();
   vtkProperty* property = actor->GetProperty();
   return !isPlainMapper(mapper) && property->GetRepresentation() == VTK_SURFACE &&
     property->GetOpacity() >= 1.0 &&
-    std::none_of(std::begin(others), std::end(others),
-      [mapper](const char* name) { return mapper->IsA(name) != 0; });
+    // What these draw (points and lines, labels) has no surface.
+    !mapper->IsA("vtkGraphMapper") && !mapper->IsA("vtkLabeledContourMapper");
 }
 
 Treatment treatmentOf(vtkActor* actor, bool castsWhole)
