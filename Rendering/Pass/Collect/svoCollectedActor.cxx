@@ -26,7 +26,7 @@ void CollectedActor::complain(const std::string& text) const
   }
 }
 
-Casters CollectedActor::castersOf(const SurfacePart& part, OpaqueCells::Answer opaque) const
+Casters CollectedActor::castersOf(const SurfacePart& part, OpaqueAnswer opaque) const
 {
   if (this->flag(castShadowKey(), false))
   {

@@ -85,7 +85,7 @@ struct CollectedActor
   /// Gives a message about no object in particular, once for all renderers.
   void complain(const std::string& text) const;
 
-  Casters castersOf(const SurfacePart& part, OpaqueCells::Answer opaque) const;
+  Casters castersOf(const SurfacePart& part, OpaqueAnswer opaque) const;
 
   /// Adds a surface that is traced, or else casts, with what it has of its actor. `mark`: what its
   /// id differs by from that of others of the part.

@@ -174,8 +174,8 @@ void PropCollector::collectPart(const CollectedActor& of, SurfacePart& part)
     }
     return;
   }
-  const OpaqueCells::Answer opaque =
-    this->Opaque.of(part, attributes, frame.shadows && frame.translucentShadows, found.kept);
+  const OpaqueAnswer opaque = opaqueCellsOf(
+    part, attributes, frame.shadows && frame.translucentShadows, this->Opaque, found.kept);
   Casters casters;
   if (frame.shadows)
   {

@@ -103,7 +103,7 @@ void PropCollector::collectGlyphs(const CollectedActor& of)
       const bool some = all ||
         std::any_of(surface.copies->copies.begin(), surface.copies->copies.end(),
           [](const GlyphCopy& copy) { return copy.color[3] == 255; });
-      const OpaqueCells::Answer opaque{ some ? mesh : nullptr, !all, all ? nullptr : mesh };
+      const OpaqueAnswer opaque{ some ? mesh : nullptr, !all, all ? nullptr : mesh };
       const Casters casters = of.castersOf(part, opaque);
       surface.mesh = casters.opaque;
       surface.casts = surface.mesh != nullptr;

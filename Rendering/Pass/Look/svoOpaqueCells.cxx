@@ -76,7 +76,7 @@ vtkSmartPointer<vtkCellArray> sortCells(vtkCellArray* cells, vtkIdType base, vtk
 }
 
 /// Leaves are no cells of the mesh: either all of it is opaque, or nothing.
-OpaqueCells::Answer sortLeaves(
+OpaqueAnswer sortLeaves(
   vtkPolyData* mesh, const Attributes& attributes, vtkUnsignedCharArray* colors)
 {
   const auto count = static_cast<std::size_t>(colors->GetNumberOfTuples());
@@ -91,7 +91,7 @@ OpaqueCells::Answer sortLeaves(
 }
 
 /// `visible`: what is visible is asked for.
-OpaqueCells::Answer sort(vtkPolyData* mesh, const Attributes& attributes, bool visible)
+OpaqueAnswer sort(vtkPolyData* mesh, const Attributes& attributes, bool visible)
 {
   const std::size_t count = attributes.colorCoordinates ? 2 * attributes.colorTextureSize
     : attributes.colorAssociation == Association::Cell  ? mesh->GetNumberOfCells()
@@ -114,7 +114,7 @@ OpaqueCells::Answer sort(vtkPolyData* mesh, const Attributes& attributes, bool v
   };
   Counts counts;
   const auto opaque = sorted(false, counts);
-  OpaqueCells::Answer answer;
+  OpaqueAnswer answer;
   answer.mapped = answer.translucent = counts.opaque + counts.invisible < counts.all;
   if (counts.opaque == counts.all)
   {
@@ -141,8 +141,8 @@ OpaqueCells::Answer sort(vtkPolyData* mesh, const Attributes& attributes, bool v
 }
 }
 
-OpaqueCells::Answer OpaqueCells::of(
-  const SurfacePart& part, const Attributes& attributes, bool visible, Kept& kept)
+OpaqueAnswer opaqueCellsOf(const SurfacePart& part, const Attributes& attributes, bool visible,
+  OpaqueCells& cells, Kept& kept)
 {
   vtkPolyData* mesh = part.mesh;
   vtkMapper* colors = part.colors;
@@ -155,17 +155,15 @@ OpaqueCells::Answer OpaqueCells::of(
   {
     return { whole ? mesh : nullptr, !whole, whole ? nullptr : mesh };
   }
-  const Stamp stamp{ { mesh->GetMTime(), timeOf(colors->GetColorMapColors()),
-                       timeOf(colors->GetColorCoordinates()),
-                       timeOf(colors->GetColorTextureMap()) },
-    visible };
-  const auto make = [&](Answer& answer)
+  const std::array times{ mesh->GetMTime(), timeOf(colors->GetColorMapColors()),
+    timeOf(colors->GetColorCoordinates()), timeOf(colors->GetColorTextureMap()) };
+  const auto make = [&](OpaqueAnswer& answer)
   {
     answer = attributes.colorAssociation == Association::Leaf
       ? sortLeaves(mesh, attributes, colors->GetColorMapColors())
       : sort(mesh, attributes, visible);
   };
-  const Answer& answer = this->Answers.of({ mesh, colors }, stamp, kept, make);
+  const OpaqueAnswer& answer = cells.of({ mesh, colors }, { times, visible }, kept, make);
   if (whole)
   {
     return answer;

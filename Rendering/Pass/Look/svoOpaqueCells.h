@@ -16,34 +16,26 @@ class vtkPolyData;
 
 namespace svo
 {
-/// Kept until the mesh or its colours change, or nobody has them.
-class OpaqueCells
+struct OpaqueAnswer
 {
-public:
-  struct Answer
-  {
-    /// Of the opaque cells: the surface's own if all are; none if none.
-    vtkSmartPointer<vtkPolyData> mesh{};
-    bool translucent = false; // there are cells that are neither opaque nor invisible
-    /// Where there are, and it was asked for: all cells but the invisible ones, the surface's own
-    /// mesh if none is. Cells and points have the numbers that they have there.
-    vtkSmartPointer<vtkPolyData> visible{};
-    bool mapped = false; // colours make these cells translucent, perhaps the part's opacity, too
-    double alpha = 1.0;  // if mapped: the mean of what they have at the corners of visible cells
-  };
-
-  /// The part's scalars have been mapped to `attributes`. A cell is opaque if all of its points
-  /// are, and all colours between them. `visible`: what is visible is asked for.
-  Answer of(const SurfacePart& part, const Attributes& attributes, bool visible, Kept& kept);
-
-  /// Drops what nobody keeps.
-  void sweep() { this->Answers.sweep(); }
-
-private:
-  /// Times of the mesh and of what its colours are made of; whether what is visible was asked for.
-  using Stamp = std::pair<std::array<vtkMTimeType, 4>, bool>;
-  KeptValues<std::pair<vtkPolyData*, vtkMapper*>, Answer, Stamp> Answers;
+  /// Of the opaque cells: the surface's own if all are; none if none.
+  vtkSmartPointer<vtkPolyData> mesh{};
+  bool translucent = false; // there are cells that are neither opaque nor invisible
+  /// Where there are, and it was asked for: all cells but the invisible ones, the surface's own
+  /// mesh if none is. Cells and points have the numbers that they have there.
+  vtkSmartPointer<vtkPolyData> visible{};
+  bool mapped = false; // colours make these cells translucent, perhaps the part's opacity, too
+  double alpha = 1.0;  // if mapped: the mean of what they have at the corners of visible cells
 };
+/// Kept until the mesh or its colours change, or nobody has them. Stamps have times of the mesh and
+/// of what its colours are made of, and whether what is visible was asked for.
+using OpaqueCells = KeptValues<std::pair<vtkPolyData*, vtkMapper*>, OpaqueAnswer,
+  std::pair<std::array<vtkMTimeType, 4>, bool>>;
+
+/// The part's scalars have been mapped to `attributes`. A cell is opaque if all of its points are,
+/// and all colours between them. `visible`: what is visible is asked for.
+OpaqueAnswer opaqueCellsOf(const SurfacePart& part, const Attributes& attributes, bool visible,
+  OpaqueCells& cells, Kept& kept);
 }
 
 #endif
