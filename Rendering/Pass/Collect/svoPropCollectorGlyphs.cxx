@@ -55,7 +55,7 @@ void PropCollector::collectGlyphs(const CollectedActor& of)
     found.leaveAlone("has lines or vertices"); // VTK draws a line in the place of a source
     return;
   }
-  const Glyphs glyphs = this->Copies.of(mapper, property, found.kept);
+  const Glyphs glyphs = glyphsOf(mapper, property, this->Copies, found.kept);
   if (glyphs.beyond)
   {
     found.leaveAlone(glyphs.beyond);

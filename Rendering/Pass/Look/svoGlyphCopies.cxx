@@ -66,18 +66,31 @@ std::array<unsigned char, 4> bytesOf(const glm::dvec3& color, double opacity)
   const auto byte = [](double value) { return static_cast<unsigned char>(value * 255.0 + 0.5); };
   return { byte(color.x), byte(color.y), byte(color.z), byte(opacity) };
 }
-}
 
-bool isGlyphMapper(vtkMapper* mapper)
+/// What a data set of the input is shown as.
+struct Block
 {
-  return std::string(mapper->GetClassName()) == "vtkOpenGLGlyph3DMapper";
-}
+  unsigned int index = 0;
+  bool inTree = false; // colours of highlights are the block's
+  bool visible = true;
+  glm::dvec3 color{ 1.0 };
+  double opacity = 1.0;
+};
+/// A mapper while it is looked at.
+struct Looking
+{
+  vtkGlyph3DMapper* mapper;
+  GlyphCopies& copies;
+  Kept& kept;
+  std::vector<std::vector<vtkPolyData*>> sources; // all meshes of each entry of the table
+  unsigned int flatIndex = 0;                     // of what is visited next
+  Glyphs result;
+};
 
-void GlyphCopies::compute(
-  vtkGlyph3DMapper* mapper, vtkDataSet* input, const Stamp& stamp, Entry& entry)
+void compute(
+  vtkGlyph3DMapper* mapper, vtkDataSet* input, const GlyphStamp& stamp, PlacedGlyphs& entry)
 {
   const auto& [time, sources, opacity, color] = stamp;
-  ++this->Computed;
   entry.sets.clear();
   entry.beyond = nullptr;
   const vtkIdType points = input->GetNumberOfPoints();
@@ -157,7 +170,7 @@ void GlyphCopies::compute(
   }
 }
 
-void GlyphCopies::add(vtkDataSet* input, const Block& block, Looking& looking)
+void add(vtkDataSet* input, const Block& block, Looking& looking)
 {
   vtkGlyph3DMapper* mapper = looking.mapper;
   if (input->GetNumberOfPoints() < 1)
@@ -165,10 +178,10 @@ void GlyphCopies::add(vtkDataSet* input, const Block& block, Looking& looking)
     return;
   }
   // What was made since the last frame is later than all that was looked at then.
-  const Stamp stamp(std::max(mapper->GetMTime(), input->GetMTime()), looking.sources.size(),
+  const GlyphStamp stamp(std::max(mapper->GetMTime(), input->GetMTime()), looking.sources.size(),
     block.opacity, bytesOf(block.color, block.opacity));
-  const Entry& entry = this->Entries.of({ mapper, input }, stamp, looking.kept,
-    [&](Entry& changed) { this->compute(mapper, input, stamp, changed); });
+  const PlacedGlyphs& entry = looking.copies.of({ mapper, input }, stamp, looking.kept,
+    [&](PlacedGlyphs& changed) { compute(mapper, input, stamp, changed); });
   Glyphs& result = looking.result;
   for (const auto& set : entry.sets)
   {
@@ -181,7 +194,7 @@ void GlyphCopies::add(vtkDataSet* input, const Block& block, Looking& looking)
 }
 
 /// VTK's rules about attributes of blocks: up to 9.3 those of the leaves alone count.
-void GlyphCopies::visit(vtkDataObject* input, Block block, Looking& looking)
+void visit(vtkDataObject* input, Block block, Looking& looking)
 {
   auto* tree = vtkDataObjectTree::SafeDownCast(input);
   vtkCompositeDataDisplayAttributes* attributes = looking.mapper->GetBlockAttributes();
@@ -208,7 +221,7 @@ void GlyphCopies::visit(vtkDataObject* input, Block block, Looking& looking)
     auto* dataSet = vtkDataSet::SafeDownCast(input);
     if (dataSet && block.visible)
     {
-      this->add(dataSet, block, looking);
+      add(dataSet, block, looking);
     }
     return;
   }
@@ -216,7 +229,7 @@ void GlyphCopies::visit(vtkDataObject* input, Block block, Looking& looking)
   {
     if (child)
     {
-      this->visit(child, block, looking);
+      visit(child, block, looking);
     }
     else
     {
@@ -224,10 +237,16 @@ void GlyphCopies::visit(vtkDataObject* input, Block block, Looking& looking)
     }
   }
 }
+}
 
-Glyphs GlyphCopies::of(vtkGlyph3DMapper* mapper, vtkProperty* property, Kept& kept)
+bool isGlyphMapper(vtkMapper* mapper)
 {
-  Looking looking{ mapper, kept, {}, 0, {} };
+  return std::string(mapper->GetClassName()) == "vtkOpenGLGlyph3DMapper";
+}
+
+Glyphs glyphsOf(vtkGlyph3DMapper* mapper, vtkProperty* property, GlyphCopies& copies, Kept& kept)
+{
+  Looking looking{ mapper, copies, kept, {}, 0, {} };
   for (vtkDataObject* source : sourcesOf(mapper))
   {
     looking.sources.push_back(leavesOf(source));
@@ -238,12 +257,12 @@ Glyphs GlyphCopies::of(vtkGlyph3DMapper* mapper, vtkProperty* property, Kept& ke
   vtkDataObject* input = mapper->GetInputDataObject(0, 0);
   if (auto* dataSet = vtkDataSet::SafeDownCast(input))
   {
-    this->add(dataSet, block, looking);
+    add(dataSet, block, looking);
   }
   else if (input)
   {
     block.inTree = true;
-    this->visit(input, block, looking);
+    visit(input, block, looking);
   }
   if (looking.result.beyond)
   {

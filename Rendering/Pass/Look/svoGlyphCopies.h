@@ -17,7 +17,6 @@
 #include <glm/mat4x3.hpp>
 #include <glm/vec3.hpp>
 
-class vtkDataObject;
 class vtkDataSet;
 class vtkGlyph3DMapper;
 class vtkMapper;
@@ -62,56 +61,24 @@ struct Glyphs
 /// True for the class that draws copies by known rules.
 bool isGlyphMapper(vtkMapper* mapper);
 
-/// Follows vtkOpenGLGlyph3DMapper::RebuildStructures. What it computes is kept until the mapper, a
-/// data set of its input, its lookup table, its blocks' attributes or the property's colour
-/// changes.
-class GlyphCopies
+/// What one data set of a mapper's input places.
+struct PlacedGlyphs
 {
-public:
-  /// The mapper's input and sources are up to date. `property` is the actor's.
-  Glyphs of(vtkGlyph3DMapper* mapper, vtkProperty* property, Kept& kept);
-
-  /// Drops what nobody keeps.
-  void sweep() { this->Entries.sweep(); }
-
-  /// How often copies have been computed, for tests.
-  int computed() const { return this->Computed; }
-
-private:
-  /// What a data set of the input is shown as.
-  struct Block
-  {
-    unsigned int index = 0;
-    bool inTree = false; // colours of highlights are the block's
-    bool visible = true;
-    glm::dvec3 color{ 1.0 };
-    double opacity = 1.0;
-  };
-  struct Entry
-  {
-    std::vector<std::shared_ptr<const GlyphSet>> sets;
-    Reason beyond = nullptr;
-    vtkSmartPointer<vtkPolyDataMapper> colors;
-  };
-  /// A mapper while it is looked at.
-  struct Looking
-  {
-    vtkGlyph3DMapper* mapper;
-    Kept& kept;
-    std::vector<std::vector<vtkPolyData*>> sources; // all meshes of each entry of the table
-    unsigned int flatIndex = 0;                     // of what is visited next
-    Glyphs result;
-  };
-  void visit(vtkDataObject* input, Block block, Looking& looking);
-  void add(vtkDataSet* input, const Block& block, Looking& looking);
-  /// The latest time of all that the copies depend on; how many sources; the block's opacity, and
-  /// its colour with that.
-  using Stamp = std::tuple<vtkMTimeType, std::size_t, double, std::array<unsigned char, 4>>;
-  void compute(vtkGlyph3DMapper* mapper, vtkDataSet* input, const Stamp& stamp, Entry& entry);
-
-  KeptValues<std::pair<vtkGlyph3DMapper*, vtkDataSet*>, Entry, Stamp> Entries;
-  int Computed = 0;
+  std::vector<std::shared_ptr<const GlyphSet>> sets;
+  Reason beyond = nullptr;
+  vtkSmartPointer<vtkPolyDataMapper> colors;
 };
+/// The latest time of all that these depend on; how many sources; the opacity of the data set's
+/// block, and its colour with that.
+using GlyphStamp = std::tuple<vtkMTimeType, std::size_t, double, std::array<unsigned char, 4>>;
+
+/// Kept until the mapper, a data set of its input, its lookup table, its blocks' attributes or the
+/// property's colour changes.
+using GlyphCopies = KeptValues<std::pair<vtkGlyph3DMapper*, vtkDataSet*>, PlacedGlyphs, GlyphStamp>;
+
+/// Follows vtkOpenGLGlyph3DMapper::RebuildStructures. The mapper's input and sources are up to
+/// date. `property` is the actor's.
+Glyphs glyphsOf(vtkGlyph3DMapper* mapper, vtkProperty* property, GlyphCopies& copies, Kept& kept);
 }
 
 #endif
