@@ -8,7 +8,6 @@
 #include "vtkFloatArray.h"
 #include "vtkMapper.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <string>

@@ -8,7 +8,6 @@
 #include "vtkImageData.h"
 #include "vtkMapper.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 

@@ -4,7 +4,6 @@
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"
-#include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"

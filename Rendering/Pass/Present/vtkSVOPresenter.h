@@ -20,8 +20,6 @@
 #include "vtkSmartPointer.h"
 
 #include <functional>
-#include <memory>
-#include <string>
 #include <vector>
 
 class vtkOpenGLBufferObject;
