@@ -161,15 +161,15 @@ std::string MapCode::update(const std::vector<ShadowMap>& maps, const std::vecto
   std::vector<float> rows, errors;
   int firstTranslucent = 0; // map; the number of all maps if there is none
   this->Code.lights.clear();
-  for (const auto& entry : groups)
+  for (const auto& [group, ofGroup] : groups)
   {
-    if (!entry.first.translucent)
+    if (!group.translucent)
     {
-      firstTranslucent = static_cast<int>(kept.size() + entry.second.size());
+      firstTranslucent = static_cast<int>(kept.size() + ofGroup.size());
     }
-    this->Code.lights.push_back(entry.first.light);
+    this->Code.lights.push_back(group.light);
     first.push_back(static_cast<int>(kept.size()));
-    for (const ShadowMap* map : entry.second)
+    for (const ShadowMap* map : ofGroup)
     {
       const glm::mat4 matrix = glm::transpose(receiverMatrix(*map, eye));
       rows.insert(rows.end(), &matrix[0][0], &matrix[0][0] + 16);
@@ -192,11 +192,8 @@ std::string MapCode::update(const std::vector<ShadowMap>& maps, const std::vecto
   this->Code.constants = (texture != 0 ? "#define svoLayered\n" : "") +
     constantsOf(
       settings, capacity, groups.size(), firstTranslucent < static_cast<int>(kept.size()));
-  this->Code.textures = { { "svoMaps", this->Maps.name() } };
-  if (texture != 0)
-  {
-    this->Code.textures.front().target = GL_TEXTURE_2D_ARRAY;
-  }
+  const GLenum target = texture != 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_BUFFER;
+  this->Code.textures = { { "svoMaps", this->Maps.name(), target } };
   this->Code.integers = { { "svoTables", this->Maps.tables() }, { "svoSize", { size } },
     { "svoFirst", first }, { "svoFirstTranslucent", { firstTranslucent } } };
   this->Code.floats = { { "svoRows", 16, rows }, { "svoErrors", 1, errors },
