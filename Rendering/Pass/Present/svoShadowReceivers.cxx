@@ -1,13 +1,13 @@
 #include "svoShadowReceivers.h"
 
 #include "svoAmbientCode.h"
-#include "svoShaderTokens.h"
 #include "svoShadowCatcher.h"
 #include "svoShadowReceiver.h"
 #include "svoUniforms.h"
 
 #include "vtkShaderProgram.h"
 
+#include <cctype>
 #include <map>
 #include <sstream>
 
@@ -18,6 +18,41 @@ namespace
 const char DeclarationMark[] = "//SVO::Dec\n";
 const char ImplementationMark[] = "//SVO::Impl\n";
 const char LitMark[] = "//SVO::Lit\n"; // after VTK's lighting
+
+bool isIdentifier(char c)
+{
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
+
+/// Renames a whole token; true if it was there.
+bool renameToken(std::string& text, const std::string& from, const std::string& to)
+{
+  bool found = false;
+  std::size_t at = 0;
+  while ((at = text.find(from, at)) != std::string::npos)
+  {
+    const std::size_t end = at + from.size();
+    if ((at == 0 || !isIdentifier(text[at - 1])) &&
+      (end >= text.size() || !isIdentifier(text[end])))
+    {
+      text.replace(at, from.size(), to);
+      at += to.size();
+      found = true;
+    }
+    else
+    {
+      at = end;
+    }
+  }
+  return found;
+}
+
+/// True if `text` has `name` as a whole token.
+bool hasToken(std::string text, const std::string& name)
+{
+  return renameToken(text, name, name);
+}
+
 /// Has the vertex shader, and the geometry shader if there is one, send where a fragment lies
 /// inside of its facet, and with `corner` each facet one of its corners with its normal; false if
 /// they know none. (VTK's shader cache changes VSOut in fragment shaders to GSOut where there are
