@@ -339,10 +339,8 @@ void ShadowReceivers::completeShader(
 void ShadowReceivers::setUniforms(
   vtkShaderProgram* program, bool receives, bool catches, bool opaque) const
 {
-  if (program->IsUniformUsed("svoCatch"))
-  {
-    program->SetUniformf("svoCatch", catches && !this->Gathers ? 1.0f : 0.0f);
-  }
+  // What a program has no uniform for VTK leaves out.
+  program->SetUniformf("svoCatch", catches && !this->Gathers ? 1.0f : 0.0f);
   if (this->empty() || !program->IsUniformUsed("svoReceive"))
   {
     return;
@@ -351,10 +349,7 @@ void ShadowReceivers::setUniforms(
   sendUniforms(static_cast<unsigned int>(program->GetHandle()), *this->Code);
   program->SetUniformf("svoReceive", receives ? 1.0f : 0.0f);
   program->SetUniformf("svoGather", this->Gathers ? 1.0f : 0.0f);
-  if (program->IsUniformUsed("svoBehind"))
-  {
-    program->SetUniformi("svoBehind", this->Behind);
-  }
+  program->SetUniformi("svoBehind", this->Behind);
   program->SetUniformf("svoOpaque", opaque ? 1.0f : 0.0f);
   program->SetUniformf("svoIntensity", this->Intensity);
   program->SetUniformf("svoMirrored", this->Mirrored ? 1.0f : 0.0f);
