@@ -173,8 +173,7 @@ bool hasMeshes(vtkMapper* mapper)
 vtkPolyDataMapper* CompositeBlocks::colorsOf(vtkMapper* mapper, const Path& path, Kept& kept)
 {
   auto* attributes = attributesOf(mapper);
-  const vtkMTimeType time =
-    std::max(mapper->GetMTime(), attributes ? attributes->GetMTime() : vtkMTimeType(0));
+  const vtkMTimeType time = std::max(mapper->GetMTime(), timeOf(attributes));
   const auto make = [&](vtkSmartPointer<vtkPolyDataMapper>& colors)
   {
     colors = colors ? colors : vtkSmartPointer<vtkPolyDataMapper>::New();

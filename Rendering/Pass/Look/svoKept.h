@@ -5,6 +5,7 @@
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDataArray.h"
+#include "vtkObject.h"
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
@@ -23,6 +24,12 @@ void eraseIf(Container& container, const Unwanted& unwanted)
   {
     entry = unwanted(*entry) ? container.erase(entry) : std::next(entry);
   }
+}
+
+/// 0 where there is no object.
+inline vtkMTimeType timeOf(vtkObject* object)
+{
+  return object ? object->GetMTime() : 0;
 }
 
 class Kept

@@ -17,11 +17,6 @@ namespace svo
 {
 namespace
 {
-vtkMTimeType timeOf(vtkObject* object)
-{
-  return object ? object->GetMTime() : 0;
-}
-
 /// True if all of these RGBA colours are opaque.
 bool allOpaque(const unsigned char* colors, std::size_t count)
 {

@@ -1,6 +1,7 @@
 #include "svoPropState.h"
 
 #include "svoCompositeBlocks.h"
+#include "svoKept.h"
 #include "svoPropKeys.h"
 #include "svoSplats.h"
 #include "svoSurfaceLook.h"
@@ -39,14 +40,8 @@ std::uint64_t numberOf(const void* object)
   return reinterpret_cast<std::uintptr_t>(object);
 }
 
-template <class Object>
-std::uint64_t timeOf(Object* object)
-{
-  return object ? object->GetMTime() : 0;
-}
-
 /// Of an actor and, if it is a follower, of the camera that it turns to.
-std::uint64_t timeOf(vtkActor* actor, vtkFollower* follower)
+std::uint64_t timeOfActor(vtkActor* actor, vtkFollower* follower)
 {
   return std::max(timeOf(actor), follower ? timeOf(follower->GetCamera()) : 0);
 }
@@ -143,7 +138,7 @@ bool PropState::noteActor(vtkActor* actor, vtkProp* owner, Actor& state)
 {
   state.keys = actor->GetPropertyKeys();
   state.follower = vtkFollower::SafeDownCast(actor);
-  state.time = timeOf(actor, state.follower);
+  state.time = timeOfActor(actor, state.follower);
   state.timeOfKeys = timeOf(actor->GetPropertyKeys());
   state.answers = answersOf(actor);
   vtkMapper* mapper = state.mapper = actor->GetMapper();
@@ -217,7 +212,7 @@ bool PropState::holds(const Input& input, bool isStatic, vtkAlgorithm*& updated)
 Held PropState::holds(vtkActor* actor, const Actor& state, vtkAlgorithm*& updated)
 {
   vtkInformation* keys = actor->GetPropertyKeys();
-  const bool sameTime = timeOf(actor, state.follower) == state.time;
+  const bool sameTime = timeOfActor(actor, state.follower) == state.time;
   const bool sameKeys = keys == state.keys && timeOf(keys) == state.timeOfKeys;
   if ((!sameTime && lookOf(actor) != state.look) ||
     (!sameKeys && answersOf(actor) != state.answers) ||
@@ -309,7 +304,7 @@ void PropState::note(vtkProp* prop)
 void PropState::noteMove(vtkProp* actor)
 {
   Actor& state = this->Actors.front();
-  state.time = timeOf(static_cast<vtkActor*>(actor), state.follower);
+  state.time = timeOfActor(static_cast<vtkActor*>(actor), state.follower);
 }
 
 Held PropState::holds(vtkProp* prop, vtkAlgorithm*& updated) const
