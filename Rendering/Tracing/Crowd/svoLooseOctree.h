@@ -27,6 +27,7 @@
 #include "svoView.h"
 #include "vtkSVOTracingModule.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -74,14 +75,6 @@ struct LooseObjects
       this->unit * this->radius[i] + this->noise }
                    : Ball{ glm::dvec3(0.0), std::numeric_limits<double>::infinity() };
   }
-};
-
-/// What a visitor says to a node.
-enum class NodeVisit
-{
-  Skip,  // nothing below it
-  Below, // its objects and its children
-  All    // the same, and asks no more below: everything there is wanted
 };
 
 /// What front to back means: from an eye, or along the direction of parallel rays.
@@ -168,8 +161,9 @@ public:
   /// separates, that on the eye's side first. A node's objects come before its children, in no
   /// order. Nodes that keep nothing, below them neither, are left out.
   ///
-  ///   NodeVisit onNode(const LooseNode&, std::uint8_t& known)     before its objects
-  ///   void onObject(std::uint32_t object, bool all)               `all`: a node above said All
+  ///   bool onNode(const LooseNode&, std::uint8_t& known)   before its objects; false: skips them,
+  ///                                                        and its children
+  ///   void onObject(std::uint32_t object)
   ///
   /// `known` is the visitor's own: 0 at the root, and what a node leaves in it its children find.
   /// Allocates nothing.
@@ -177,17 +171,12 @@ public:
   void visit(const VisitOrder& order, OnNode&& onNode, OnObject&& onObject) const
   {
     this->visitGroups(order, onNode,
-      [&](const LooseObjects& some, bool all, std::uint8_t)
-      {
-        for (std::uint32_t i = 0; i < some.count; ++i)
-        {
-          onObject(some.objects[i], all);
-        }
-      });
+      [&](const LooseObjects& some, std::uint8_t)
+      { std::for_each(some.objects, some.objects + some.count, onObject); });
   }
   /// The same with the objects of a node in groups:
   ///
-  ///   void onObjects(const LooseObjects&, bool all, std::uint8_t known)   as their node left it
+  ///   void onObjects(const LooseObjects&, std::uint8_t known)   as their node left it
   template <class OnNode, class OnObjects>
   void visitGroups(const VisitOrder& order, OnNode&& onNode, OnObjects&& onObjects) const;
 
@@ -240,19 +229,16 @@ private:
   /// The depth of the cell of a radius in units, at most the reach of the root.
   int depthOf(float radius) const;
   /// What visitors of a node will read comes from memory while others are visited.
-  void prefetch(std::uint32_t chunk, bool namesOnly) const
+  void prefetch(std::uint32_t chunk) const
   {
     const Chunk* c = this->Chunks.data() + chunk;
     __builtin_prefetch(c);
-    if (!namesOnly)
-    {
-      __builtin_prefetch(c->x);
-      __builtin_prefetch(c->z);
-    }
+    __builtin_prefetch(c->x);
+    __builtin_prefetch(c->z);
   }
-  void prefetch(const Node& node, bool namesOnly) const
+  void prefetch(const Node& node) const
   {
-    this->prefetch(node.chunk, namesOnly);
+    this->prefetch(node.chunk);
     if (node.children != 0)
     {
       const Node* children = this->Nodes.data() + node.children;
@@ -298,7 +284,7 @@ void LooseOctree::visitGroups(const VisitOrder& order, OnNode&& onNode, OnObject
   {
     onObjects(
       LooseObjects{ this->Outsiders.data(), static_cast<std::uint32_t>(this->Outsiders.size()) },
-      false, std::uint8_t{ 0 });
+      std::uint8_t{ 0 });
   }
   if (this->Nodes[0].total == 0)
   {
@@ -309,11 +295,10 @@ void LooseOctree::visitGroups(const VisitOrder& order, OnNode&& onNode, OnObject
     std::uint32_t node;
     std::uint32_t x, y, z; // lower corner, units
     std::uint8_t known;
-    bool all;
   };
   Waiting stack[7 * MostDepth + 8];
   int waiting = 0;
-  stack[waiting++] = { 0, 0, 0, 0, 0, false };
+  stack[waiting++] = { 0, 0, 0, 0, 0 };
   const glm::dvec3 eye = (order.eye() - this->Low) * this->PerUnit;
   while (waiting > 0)
   {
@@ -322,27 +307,21 @@ void LooseOctree::visitGroups(const VisitOrder& order, OnNode&& onNode, OnObject
     const std::uint32_t half = 0x80000000u >> node.depth; // of the cell's edge
     const glm::dvec3 middle(static_cast<double>(at.x) + half, static_cast<double>(at.y) + half,
       static_cast<double>(at.z) + half);
-    if (!at.all)
+    if (!onNode(LooseNode{ this->Low + this->Unit * middle,
+                  this->Unit * this->Looseness * half + this->Noise, node.depth, node.total },
+          at.known))
     {
-      const NodeVisit said =
-        onNode(LooseNode{ this->Low + this->Unit * middle,
-                 this->Unit * this->Looseness * half + this->Noise, node.depth, node.total },
-          at.known);
-      if (said == NodeVisit::Skip)
-      {
-        continue;
-      }
-      at.all = said == NodeVisit::All;
+      continue;
     }
     std::uint32_t inChunk = node.count > 0 ? (node.count - 1) % ChunkSize + 1 : 0;
     for (std::uint32_t c = node.chunk; c != 0; c = this->Chunks[c].next)
     {
       const Chunk& chunk = this->Chunks[c];
-      this->prefetch(chunk.next, at.all);
+      this->prefetch(chunk.next);
       onObjects(LooseObjects{ chunk.objects, inChunk, chunk.x, chunk.y, chunk.z, chunk.radius,
                   this->Low + this->Unit * glm::dvec3(at.x, at.y, at.z),
                   this->Unit * half * 0x1p-15, this->Noise },
-        at.all, at.known);
+        at.known);
       inChunk = ChunkSize;
     }
     if (node.mask == 0)
@@ -358,9 +337,9 @@ void LooseOctree::visitGroups(const VisitOrder& order, OnNode&& onNode, OnObject
       if (node.mask >> child & 1)
       {
         assert(waiting < 7 * MostDepth + 8);
-        this->prefetch(this->Nodes[node.children + child], at.all);
+        this->prefetch(this->Nodes[node.children + child]);
         stack[waiting++] = { node.children + child, at.x + (child & 1) * half,
-          at.y + (child >> 1 & 1) * half, at.z + (child >> 2) * half, at.known, at.all };
+          at.y + (child >> 1 & 1) * half, at.z + (child >> 2) * half, at.known };
       }
     }
   }

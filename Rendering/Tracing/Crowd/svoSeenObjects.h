@@ -6,6 +6,7 @@
 #include "svoLooseOctree.h"
 #include "vtkSVOTracingModule.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace svo
@@ -18,8 +19,7 @@ VTKSVOTRACING_EXPORT std::uint32_t seenOf(
 
 /// onObject(object) for outsiders first, then for every object whose node and whose ball are not
 /// outside of the frustum, in the order of LooseOctree::visit(). Before its objects,
-/// onNode(const LooseNode&) for every such node, unless it said false of one above it that lies
-/// inside as a whole. Allocates nothing.
+/// onNode(const LooseNode&) for every such node. Allocates nothing.
 template <class OnNode, class OnObject>
 void eachSeen(const LooseOctree& objects, const Frustum& frustum, const VisitOrder& order,
   const OnNode& onNode, const OnObject& onObject)
@@ -29,21 +29,18 @@ void eachSeen(const LooseOctree& objects, const Frustum& frustum, const VisitOrd
     order,
     [&](const LooseNode& node, std::uint8_t& within)
     {
-      const Frustum::Side side = frustum.box(node.centre, glm::dvec3(node.half), within);
-      if (side == Frustum::Side::Outside)
+      if (frustum.box(node.centre, glm::dvec3(node.half), within) == Frustum::Side::Outside)
       {
-        return NodeVisit::Skip;
+        return false;
       }
-      return onNode(node) || side != Frustum::Side::Inside ? NodeVisit::Below : NodeVisit::All;
+      onNode(node);
+      return true;
     },
-    [&](const LooseObjects& some, bool all, std::uint8_t within)
+    [&](const LooseObjects& some, std::uint8_t within)
     {
-      if (all || within == allPlanes || !some.x)
+      if (within == allPlanes || !some.x)
       {
-        for (std::uint32_t i = 0; i < some.count; ++i)
-        {
-          onObject(some.objects[i]);
-        }
+        std::for_each(some.objects, some.objects + some.count, onObject);
         return;
       }
       for (std::uint32_t seen = seenOf(frustum, within, some); seen != 0; seen &= seen - 1)
@@ -51,13 +48,6 @@ void eachSeen(const LooseOctree& objects, const Frustum& frustum, const VisitOrd
         onObject(some.objects[__builtin_ctz(seen)]);
       }
     });
-}
-template <class OnObject>
-void eachSeen(const LooseOctree& objects, const Frustum& frustum, const VisitOrder& order,
-  const OnObject& onObject)
-{
-  eachSeen(
-    objects, frustum, order, [](const LooseNode&) { return false; }, onObject);
 }
 }
 

@@ -67,7 +67,6 @@ void askTree(const LooseOctree& tree, const View& view, VisibleSet& set)
           { parent, seeCube(node.centre - node.half, 2.0 * node.half, glm::dmat4(1.0), view) });
       }
       nodeAt[node.depth] = current;
-      return true; // for the nodes' sake, also where all is inside
     },
     [&](std::uint32_t object)
     {

@@ -88,11 +88,8 @@ bool RayCasters::anyOpaque(const BoxWay& way, const Visit& visit) const
   this->Tree->visit(
     VisitOrder::from(way.middle),
     [&](const LooseNode& node, std::uint8_t&)
-    {
-      const bool may = CasterBox(node.centre, node.half).mayMeet(way);
-      return may ? NodeVisit::Below : NodeVisit::Skip;
-    },
-    [&](std::uint32_t object, bool)
+    { return CasterBox(node.centre, node.half).mayMeet(way); },
+    [&](std::uint32_t object)
     {
       const std::uint32_t k = this->Casting[object];
       if (k != None && this->Opaque[k].box.mayMeet(way))
@@ -115,9 +112,8 @@ void RayCasters::eachOpaque(const glm::dvec3& from, const Reach& reach, const Vi
   }
   this->Tree->visit(
     VisitOrder::from(from),
-    [&](const LooseNode& node, std::uint8_t&)
-    { return reach(node.centre, glm::dvec3(node.half)) ? NodeVisit::Below : NodeVisit::Skip; },
-    [&](std::uint32_t object, bool)
+    [&](const LooseNode& node, std::uint8_t&) { return reach(node.centre, glm::dvec3(node.half)); },
+    [&](std::uint32_t object)
     {
       const std::uint32_t k = this->Casting[object];
       if (k != None)

@@ -271,7 +271,8 @@ public:
           {
             std::uint32_t* seen = this->Seen.data();
             svo::eachSeen(
-              this->Tree, frustum, order, [&](std::uint32_t object) { *seen++ = object; });
+              this->Tree, frustum, order, [](const svo::LooseNode&) {},
+              [&](std::uint32_t object) { *seen++ = object; });
             found = static_cast<std::size_t>(seen - this->Seen.data());
           });
         const auto list = [&](std::size_t length)

@@ -27,11 +27,10 @@ void expectEnclosed(const svo::LooseOctree& tree, const Crowd& crowd)
       path.push_back(node);
       objects += node.depth == 0 ? node.objects : 0;
       ++nodes;
-      return svo::NodeVisit::Below;
+      return true;
     },
-    [&](std::uint32_t object, bool all)
+    [&](std::uint32_t object)
     {
-      EXPECT_FALSE(all);
       const svo::Ball &given = crowd.at(object), kept = tree.ball(object);
       EXPECT_LE(glm::distance(kept.centre, given.centre) + given.radius, kept.radius);
       if (path.empty())
@@ -198,8 +197,8 @@ TEST(LooseOctree, WhatFitsNowhereIsHeldApartAndCanComeBack)
     std::size_t visited = 0;
     tree.visit(
       svo::VisitOrder::from({ 0, 0, 0 }),
-      [](const svo::LooseNode&, std::uint8_t&) { return svo::NodeVisit::Skip; },
-      [&](std::uint32_t, bool) { ++visited; });
+      [](const svo::LooseNode&, std::uint8_t&) { return false; },
+      [&](std::uint32_t) { ++visited; });
     EXPECT_EQ(visited, 20u) << "outsiders are visited whatever nodes are told";
   }
   for (std::uint32_t i = 0; i < 40; ++i)
@@ -271,9 +270,9 @@ TEST(LooseOctree, CubesOfAnySizeAnywhere)
         {
           path.resize(node.depth);
           path.push_back(node);
-          return svo::NodeVisit::Below;
+          return true;
         },
-        [&](std::uint32_t object, bool)
+        [&](std::uint32_t object)
         {
           const svo::Ball& ball = crowd[object];
           const svo::Ball kept = tree.ball(object);

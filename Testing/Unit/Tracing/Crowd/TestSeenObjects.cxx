@@ -58,7 +58,8 @@ TEST(SeenObjects, AreThoseOfAFlatTestAndAmongThemAllThatAreSeen)
       const svo::PixelRect rect = randomRect(random, view);
       const svo::Frustum frustum(view, rect);
       std::set<std::uint32_t> found;
-      svo::eachSeen(placed.tree, frustum, svo::VisitOrder(view),
+      svo::eachSeen(
+        placed.tree, frustum, svo::VisitOrder(view), [](const svo::LooseNode&) {},
         [&](std::uint32_t object) { EXPECT_TRUE(found.insert(object).second) << "only once"; });
       for (const auto& [name, given] : placed.crowd)
       {
@@ -100,8 +101,9 @@ TEST(SeenObjects, OfAllGroupsOfTilesAreThoseOfTheImage)
     const auto seenBy = [&](const svo::PixelRect& rect, double margin)
     {
       std::set<std::uint32_t> found;
-      svo::eachSeen(placed.tree, svo::Frustum(view, rect, margin), svo::VisitOrder(view),
-        [&](std::uint32_t object) { found.insert(object); });
+      svo::eachSeen(
+        placed.tree, svo::Frustum(view, rect, margin), svo::VisitOrder(view),
+        [](const svo::LooseNode&) {}, [&](std::uint32_t object) { found.insert(object); });
       return found;
     };
     std::set<std::uint32_t> together;
@@ -146,7 +148,8 @@ TEST(SeenObjects, BallsThatTouchTheFrustumFromOutsideAreAmongThem)
     {
       bool seen = false;
       tree.insert(0, at, radius);
-      svo::eachSeen(tree, frustum, svo::VisitOrder(view),
+      svo::eachSeen(
+        tree, frustum, svo::VisitOrder(view), [](const svo::LooseNode&) {},
         [&](std::uint32_t object) { seen = seen || object == 0; });
       return seen;
     };

@@ -41,9 +41,9 @@ inline std::vector<KeptNode> written(const svo::LooseOctree& tree)
     [&](const svo::LooseNode& node, std::uint8_t&)
     {
       nodes.push_back({ node.depth, { node.centre.x, node.centre.y, node.centre.z }, {} });
-      return svo::NodeVisit::Below;
+      return true;
     },
-    [&](std::uint32_t object, bool) { nodes.back().objects.push_back(object); });
+    [&](std::uint32_t object) { nodes.back().objects.push_back(object); });
   for (KeptNode& node : nodes)
   {
     std::sort(node.objects.begin(), node.objects.end());
