@@ -44,9 +44,8 @@ int leadingZeros(std::uint32_t bits)
 }
 }
 
-LooseOctree::LooseOctree(const glm::dvec3& centre, double edge, double looseness, int maximumDepth)
+LooseOctree::LooseOctree(const glm::dvec3& centre, double edge, double looseness)
   : Looseness(looseness >= LeastLooseness ? std::min(looseness, 2.0) : LeastLooseness)
-  , Depths(std::clamp(maximumDepth, 0, MostDepth))
   , Low(centre - 0.5 * edge)
   , PerUnit(Units / edge)
   , Unit(edge / Units)
@@ -101,7 +100,7 @@ int LooseOctree::depthOf(float radius) const
   // largest d with radius <= reach / 2^d, without a rounding.
   const std::int32_t d = (this->Reach - bitsOf(radius)) >> 23;
   assert(d >= 0);
-  return std::min(d, static_cast<std::int32_t>(this->Depths));
+  return std::min(d, MostDepth);
 }
 
 void LooseOctree::insert(std::uint32_t object, const glm::dvec3& centre, double radius)

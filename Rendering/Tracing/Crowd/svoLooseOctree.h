@@ -110,21 +110,19 @@ private:
 class VTKSVOTRACING_EXPORT LooseOctree
 {
 public:
-  static constexpr int MostDepth = 20;
+  static constexpr int MostDepth = 20; // of nodes
   /// Of objects that a node keeps though they have deeper cells.
   static constexpr std::uint32_t Bucket = 60;
 
   /// The cube: its middle and its edge, world. `looseness`: k; what lies outside of
   /// [LeastLooseness, 2] is clamped. The smaller it is, the fewer nodes a view crosses, and the
-  /// smaller is what still has a place. `maximumDepth`: 0 to MostDepth, clamped as well. With
-  /// a cube that is not finite, or has no edge, all objects are outsiders.
-  LooseOctree(
-    const glm::dvec3& centre, double edge, double looseness = 1.25, int maximumDepth = MostDepth);
+  /// smaller is what still has a place. With a cube that is not finite, or has no edge, all objects
+  /// are outsiders.
+  LooseOctree(const glm::dvec3& centre, double edge, double looseness = 1.25);
   /// Below it hardly anything fits a loose cell.
   static constexpr double LeastLooseness = 1.0 + 1.0 / 1024.0;
 
   double looseness() const { return this->Looseness; }
-  int maximumDepth() const { return this->Depths; }
 
   /// Adds an object, or moves it if it is there. Centre and radius, world, of a ball around it. One
   /// that does not fit the cube is an outsider: its centre lies outside of the cube, its radius is
@@ -264,7 +262,6 @@ private:
   void freeGroup(Node& node);
 
   double Looseness;
-  int Depths;
   glm::dvec3 Low;     // lower corner of the cube, world
   double PerUnit;     // units in the world's unit of length
   double Unit;        // the inverse

@@ -56,12 +56,11 @@ struct PlainTree
 {
   glm::dvec3 low;
   double edge, looseness;
-  int maximumDepth;
 
   int deepest(double radius) const
   {
     int d = 0;
-    while (d < this->maximumDepth &&
+    while (d < svo::LooseOctree::MostDepth &&
       radius <= std::ldexp(0.5 * (this->looseness - 1.0) * this->edge, -d - 1))
     {
       ++d;
@@ -122,15 +121,14 @@ struct PlainTree
 };
 
 /// The cube [-8, 8]^3.
-inline PlainTree plainly(double looseness, int maximumDepth = svo::LooseOctree::MostDepth)
+inline PlainTree plainly(double looseness)
 {
-  return { glm::dvec3(-8.0), 16.0, looseness, maximumDepth };
+  return { glm::dvec3(-8.0), 16.0, looseness };
 }
 
 inline svo::LooseOctree treeLike(const PlainTree& plain)
 {
-  return svo::LooseOctree(
-    plain.low + 0.5 * plain.edge, plain.edge, plain.looseness, plain.maximumDepth);
+  return svo::LooseOctree(plain.low + 0.5 * plain.edge, plain.edge, plain.looseness);
 }
 
 inline svo::LooseOctree treeOf(const PlainTree& plain, const Crowd& crowd)
