@@ -95,7 +95,7 @@ private:
 };
 }
 
-void SampleRays::trace(double offset, SampleBatch& batch) const
+void traceSamples(const RayCasters& casters, double offset, SampleBatch& batch)
 {
   std::fill_n(batch.blocked, batch.rays, 0.0f);
   PointBox box;
@@ -126,8 +126,8 @@ void SampleRays::trace(double offset, SampleBatch& batch) const
     }
     rays.eachMet([&](int ray) { f(rays, ray); });
   };
-  const glm::dvec3 farthest(std::max(offset, this->Casters.mostStartOffset()));
-  this->Casters.eachOpaque(
+  const glm::dvec3 farthest(std::max(offset, casters.mostStartOffset()));
+  casters.eachOpaque(
     0.5 * (box.low + box.high),
     [&](const glm::dvec3& centre, const glm::dvec3& extent)
     { return !stream.empty() && stream.reach(centre, extent + farthest); },
@@ -140,7 +140,7 @@ void SampleRays::trace(double offset, SampleBatch& batch) const
           stream.end(ray);
         });
     });
-  for (const RayCaster& caster : this->Casters.translucent())
+  for (const RayCaster& caster : casters.translucent())
   {
     if (stream.empty())
     {

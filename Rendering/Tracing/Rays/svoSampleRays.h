@@ -52,24 +52,12 @@ struct SampleBatch
   }
 };
 
-class VTKSVOTRACING_EXPORT SampleRays
-{
-public:
-  /// The casters are borrowed.
-  explicit SampleRays(const RayCasters& casters)
-    : Casters(casters)
-  {
-  }
-
-  /// Sets what is blocked of each ray: all by an opaque caster, by a translucent one what it takes
-  /// of light (ShadowRays::taken()). They start `offset` (world), or what a caster's planes are
-  /// off, off their surface. Where a float does not tell that off another caster's surface nothing
-  /// is known of what is nearer to it.
-  void trace(double offset, SampleBatch& batch) const;
-
-private:
-  const RayCasters& Casters;
-};
+/// Sets what is blocked of each ray: all by an opaque caster, by a translucent one what it takes of
+/// light (ShadowRays::taken()). They start `offset` (world), or what a caster's planes are off, off
+/// their surface. Where a float does not tell that off another caster's surface nothing is known of
+/// what is nearer to it.
+VTKSVOTRACING_EXPORT void traceSamples(
+  const RayCasters& casters, double offset, SampleBatch& batch);
 }
 
 #endif

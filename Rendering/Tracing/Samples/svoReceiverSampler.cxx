@@ -1,6 +1,7 @@
 #include "svoReceiverSampler.h"
 
 #include "svoHemisphereSums.h"
+#include "svoSampleRays.h"
 #include "svoTerminator.h"
 #include "svoTilePatch.h"
 #include "svoWorldSize.h"

@@ -2,6 +2,7 @@
 
 #include "svoBox.h"
 #include "svoSampleDirections.h"
+#include "svoSampleRays.h"
 
 #include <glm/geometric.hpp>
 
@@ -26,9 +27,9 @@ double usualOcclusionDistance(const Scene& scene)
   return all.empty() ? 1.0 : 0.2 * glm::distance(all.low, all.high);
 }
 
-HemisphereRays::HemisphereRays(const SampleRays& rays, double distance,
+HemisphereRays::HemisphereRays(const RayCasters& casters, double distance,
   const PixelRotations& rotations, int samples, const SkyPicture* picture)
-  : Rays(rays)
+  : Casters(casters)
   , Distance(distance)
   , Rotations(rotations)
   , Picture(picture)
@@ -54,7 +55,7 @@ void HemisphereRays::each(
     });
   const auto trace = [&]
   {
-    this->Rays.trace(query.errors.ray, batch);
+    traceSamples(this->Casters, query.errors.ray, batch);
     for (int ray = 0; ray < batch.rays; ++ray)
     {
       f(pixels[batch.point[ray]], batch.direction[ray], batch.blocked[ray]);

@@ -7,7 +7,7 @@
 
 #include "svoCasterBox.h"
 #include "svoLightShadow.h"
-#include "svoSampleRays.h"
+#include "svoRayCasters.h"
 #include "svoSampleSequence.h"
 #include "svoScene.h"
 #include "svoSkyPicture.h"
@@ -39,9 +39,9 @@ public:
   /// Streams that no light has.
   static constexpr unsigned OcclusionStream = ~0u, SkyStream = ~1u;
 
-  /// `distance`: beyond it nothing counts, world. The rays are borrowed, for a frame. `samples`: of
+  /// `distance`: beyond it nothing counts, world. Casters are borrowed, for a frame. `samples`: of
   /// each point, at least 1. `picture`: of the light, borrowed; or null.
-  HemisphereRays(const SampleRays& rays, double distance, const PixelRotations& rotations,
+  HemisphereRays(const RayCasters& casters, double distance, const PixelRotations& rotations,
     int samples, const SkyPicture* picture = nullptr);
 
   /// Calls f(pixel, direction, blocked) for all rays of the points that are asked, around their
@@ -59,7 +59,7 @@ public:
   }
 
 private:
-  const SampleRays& Rays;
+  const RayCasters& Casters;
   const double Distance;
   const PixelRotations Rotations;
   const SkyPicture* const Picture;

@@ -83,18 +83,17 @@ void Shadows::prepareAnswers(
   {
     this->Casters = std::make_unique<RayCasters>(scene, eye, this->Cull.tree);
     this->Rays = std::make_unique<ShadowRays>(*this->Casters);
-    this->Samplers = std::make_unique<SampleRays>(*this->Casters);
   }
   if (settings.ambientOcclusion)
   {
     this->Occlusion =
-      std::make_unique<HemisphereRays>(*this->Samplers, settings.ambientOcclusionDistance,
+      std::make_unique<HemisphereRays>(*this->Casters, settings.ambientOcclusionDistance,
         PixelRotations(view, HemisphereRays::OcclusionStream), settings.lightSamples);
   }
   if (settings.skyLight)
   {
     constexpr double Beyond = 1e100; // all
-    this->Sky = std::make_unique<HemisphereRays>(*this->Samplers, Beyond,
+    this->Sky = std::make_unique<HemisphereRays>(*this->Casters, Beyond,
       PixelRotations(view, HemisphereRays::SkyStream), settings.lightSamples,
       settings.skyPicture.get());
   }
@@ -103,7 +102,7 @@ void Shadows::prepareAnswers(
     const Light& light = scene.lights[l];
     if (this->sampled(l))
     {
-      this->OfLights.push_back(std::make_unique<SoftShadow>(light, *this->Rays, *this->Samplers,
+      this->OfLights.push_back(std::make_unique<SoftShadow>(light, *this->Rays, *this->Casters,
         PixelRotations(view, static_cast<unsigned>(l)), settings.lightSamples));
     }
     else if (this->byRays(l))
@@ -181,7 +180,6 @@ void Shadows::releaseRays()
 {
   this->Occlusion.reset();
   this->Sky.reset();
-  this->Samplers.reset();
   this->Rays.reset();
   this->Casters.reset();
 }

@@ -131,8 +131,7 @@ private:
   /// By Light::id and group.
   std::map<std::pair<std::uint64_t, std::uint8_t>, std::unique_ptr<ShadowBuffer>> Kept;
   std::unique_ptr<RayCasters> Casters; // where somebody asks rays
-  std::unique_ptr<ShadowRays> Rays;    // through these, as ...
-  std::unique_ptr<SampleRays> Samplers;
+  std::unique_ptr<ShadowRays> Rays;    // through these
   std::unique_ptr<HemisphereRays> Occlusion, Sky;
   std::vector<std::unique_ptr<LightShadow>> OfLights;
   std::vector<std::uint8_t> Soft;         // by light

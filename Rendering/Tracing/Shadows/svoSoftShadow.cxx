@@ -1,15 +1,16 @@
 #include "svoSoftShadow.h"
 
 #include "svoSampleDirections.h"
+#include "svoSampleRays.h"
 
 #include <algorithm>
 
 namespace svo
 {
-SoftShadow::SoftShadow(const Light& light, const ShadowRays& exact, const SampleRays& rays,
+SoftShadow::SoftShadow(const Light& light, const ShadowRays& exact, const RayCasters& casters,
   const PixelRotations& rotations, int samples)
   : RayShadow(light, exact)
-  , Sampler(rays)
+  , Casters(casters)
   , Rotations(rotations)
   , Samples(firstPoints(samples))
 {
@@ -37,7 +38,7 @@ void SoftShadow::ask(
   }
   const auto trace = [&]
   {
-    this->Sampler.trace(query.errors.ray, batch);
+    traceSamples(this->Casters, query.errors.ray, batch);
     for (int ray = 0; ray < batch.rays; ++ray)
     {
       Cone& cone = cones[batch.point[ray]];

@@ -2,8 +2,8 @@
 #ifndef svoSoftShadow_h
 #define svoSoftShadow_h
 
+#include "svoRayCasters.h"
 #include "svoRayShadow.h"
-#include "svoSampleRays.h"
 #include "svoSampleSequence.h"
 #include "vtkSVOTracingModule.h"
 
@@ -12,14 +12,14 @@
 
 namespace svo
 {
-/// The light and all rays are borrowed, for a frame. Samples of the light that lie below a point's
-/// own facet do not count, so a surface without casters is lit as by a point. Translucent casters
-/// are among what test() finds.
+/// The light, rays and casters are borrowed, for a frame. Samples of the light that lie below a
+/// point's own facet do not count, so a surface without casters is lit as by a point. Translucent
+/// casters are among what test() finds.
 class VTKSVOTRACING_EXPORT SoftShadow : public RayShadow
 {
 public:
   /// `samples`: to each point, at least 1.
-  SoftShadow(const Light& light, const ShadowRays& exact, const SampleRays& rays,
+  SoftShadow(const Light& light, const ShadowRays& exact, const RayCasters& casters,
     const PixelRotations& rotations, int samples);
 
   std::uint64_t test(const ShadowQuery& query, float* missed) const override;
@@ -30,7 +30,7 @@ public:
 private:
   void ask(const ShadowQuery& query, SampleBatch& batch, const int* pixels, float* missed) const;
 
-  const SampleRays& Sampler;
+  const RayCasters& Casters;
   const PixelRotations Rotations;
   std::vector<SquarePoint> Samples;
 };

@@ -156,7 +156,7 @@ TEST(SampleRays, AnswersAreThoseOfRaysAlone)
   {
     const double reach = round % 2 ? 2.0 : 1e20, offset = round % 3 ? 0.0 : 1e-3;
     fill(random, asked.scene, *batch, reach);
-    svo::SampleRays(*asked.plain).trace(offset, *batch);
+    svo::traceSamples(*asked.plain, offset, *batch);
     for (int i = 0; i < batch->rays; ++i)
     {
       const glm::dvec3 at = batch->position[batch->point[i]], along(batch->direction[i]);
@@ -216,7 +216,7 @@ TEST(SampleRays, CastersFarAwayAreMetExactly)
       const glm::dvec3 towards = glm::dvec3(3, 4, 5) + anywhere(random, 1.5 * Size) - at;
       batch->addRay(point, glm::vec3(glm::normalize(towards)), 1e20f);
     }
-    svo::SampleRays(*asked.plain).trace(0.0, *batch);
+    svo::traceSamples(*asked.plain, 0.0, *batch);
     for (int i = 0; i < batch->rays; ++i)
     {
       bool explained = false;
@@ -245,11 +245,11 @@ TEST(SampleRays, AnswersDependNeitherOnOrderNorOnCompanyNorOnTheTree)
   for (int round = 0; round < 40; ++round)
   {
     fill(random, asked.scene, *batch, round % 2 ? 2.0 : 1e20);
-    svo::SampleRays(*asked.plain).trace(0.0, *batch);
+    svo::traceSamples(*asked.plain, 0.0, *batch);
     // With the tree.
     *other = *batch;
     std::fill_n(other->blocked, other->rays, -1.0f);
-    svo::SampleRays(*asked.culled).trace(0.0, *other);
+    svo::traceSamples(*asked.culled, 0.0, *other);
     ASSERT_TRUE(std::equal(batch->blocked, batch->blocked + batch->rays, other->blocked));
     // Some of them, in another order.
     other->rays = 0;
@@ -259,7 +259,7 @@ TEST(SampleRays, AnswersDependNeitherOnOrderNorOnCompanyNorOnTheTree)
       which.push_back(i);
       other->addRay(batch->point[i], batch->direction[i], batch->length[i]);
     }
-    svo::SampleRays(*asked.plain).trace(0.0, *other);
+    svo::traceSamples(*asked.plain, 0.0, *other);
     for (std::size_t k = 0; k < which.size(); ++k)
     {
       ASSERT_EQ(batch->blocked[which[k]], other->blocked[k]) << round;

@@ -170,10 +170,9 @@ TEST(SoftRays, AnswersDoNotDependOnWhoElseAsks)
     eye.trace(svo::serialFor, nullptr);
     const svo::RayCasters casters(scene, eye.hits());
     const svo::ShadowRays exact(casters);
-    const svo::SampleRays rays(casters);
     const svo::PixelRotations rotations(view, 0);
-    const svo::SoftShadow soft(scene.lights[0], exact, rays, rotations, 16);
-    const svo::HemisphereRays around(rays, 1.0, rotations, 16);
+    const svo::SoftShadow soft(scene.lights[0], exact, casters, rotations, 16);
+    const svo::HemisphereRays around(casters, 1.0, rotations, 16);
     const auto closed = [&](const svo::ShadowQuery& query, float* shares)
     {
       std::fill_n(shares, 64, 0.0f);
