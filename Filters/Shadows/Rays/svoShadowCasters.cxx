@@ -147,24 +147,27 @@ std::uint64_t ShadowCasters::beam(
   {
     points.at[i] = caster.toOctree.point(starts[i].at);
   }
-  ShadowBeam::Answer answers[BeamPoints::Most];
+  const bool far = light.atInfinity();
+  const glm::dvec3 from =
+    far ? caster.toOctree.vector(light.direction) : caster.toOctree.point(light.position);
+  BeamAnswer answers[BeamPoints::Most];
   Primitive nearest[BeamPoints::Most];
   // A beam that sees more is slower than its rays side by side, whatever they lie on.
   constexpr std::size_t MostNodes = 24;
-  if (!ShadowBeam(caster.octree, caster.toOctree, light).trace(points, answers, nearest, MostNodes))
+  if (!traceBeam(caster.octree, from, far, points, answers, nearest, MostNodes))
   {
     return block(caster, light, starts, count);
   }
   for (int i = 0; i < count; ++i)
   {
-    if (answers[i] == ShadowBeam::Undecided ||
-      (answers[i] == ShadowBeam::Dark && skips(caster, starts[i].own, nearest[i])))
+    if (answers[i] == BeamAnswer::Undecided ||
+      (answers[i] == BeamAnswer::Dark && skips(caster, starts[i].own, nearest[i])))
     {
       alone(starts[i]);
     }
     else
     {
-      dark |= std::uint64_t(answers[i] == ShadowBeam::Dark) << starts[i].number;
+      dark |= std::uint64_t(answers[i] == BeamAnswer::Dark) << starts[i].number;
     }
   }
   return dark;

@@ -1,12 +1,14 @@
 #include "svoShadowBeam.h"
 
 #include "svoIntersectTile.h"
+#include "svoPyramidNodes.h"
 #include "svoSurface.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -61,25 +63,24 @@ double depthOfPlane(const BeamRay& ray, const Surface& surface, Primitive primit
 }
 }
 
-bool ShadowBeam::trace(
-  const BeamPoints& points, Answer* answers, Primitive* nearest, std::size_t mostNodes)
+bool traceBeam(const Octree& octree, const glm::dvec3& light, bool far, const BeamPoints& points,
+  BeamAnswer* answers, Primitive* nearest, std::size_t mostNodes)
 {
-  assert(points.count > 0 && points.count <= BeamPoints::Most && this->Tree.surface());
+  assert(points.count > 0 && points.count <= BeamPoints::Most && octree.surface());
   glm::dvec3 centre(0.0);
   for (int i = 0; i < points.count; ++i)
   {
     centre += points.at[i] / static_cast<double>(points.count);
   }
-  const BeamFrame frame(
-    this->Far ? centre : this->From, this->Far ? this->From : centre - this->From);
+  const BeamFrame frame(far ? centre : light, far ? light : centre - light);
 
   // The cube's depths.
-  const double edge = std::ldexp(1.0, -this->Tree.rootBits(0));
+  const double edge = std::ldexp(1.0, -octree.rootBits(0));
   const glm::dvec3 low(1.0);
   const double half =
     0.5 * edge * (std::abs(frame.axis.x) + std::abs(frame.axis.y) + std::abs(frame.axis.z));
   const double middle = frame.depth(low + 0.5 * edge);
-  const double base = this->Far ? middle - half : std::max(middle - half, 0.0);
+  const double base = far ? middle - half : std::max(middle - half, 0.0);
   const double behind = middle + half;
 
   // The beam's sides: slopes of rays from a light nearby, distances from the axis of others.
@@ -92,23 +93,22 @@ bool ShadowBeam::trace(
     const glm::dvec3 to = points.at[i] - frame.origin;
     const double end = glm::dot(frame.axis, to);
     const double u = glm::dot(frame.u, to), v = glm::dot(frame.v, to);
-    const double slopeU = this->Far ? u : u / end, slopeV = this->Far ? v : v / end;
-    narrow =
-      narrow && (this->Far || (end > 0.0 && std::abs(slopeU) < 1.0 && std::abs(slopeV) < 1.0));
+    const double slopeU = far ? u : u / end, slopeV = far ? v : v / end;
+    narrow = narrow && (far || (end > 0.0 && std::abs(slopeU) < 1.0 && std::abs(slopeV) < 1.0));
     lowU = std::min(lowU, slopeU);
     highU = std::max(highU, slopeU);
     lowV = std::min(lowV, slopeV);
     highV = std::max(highV, slopeV);
     last = std::max(last, end);
     rays[i].end = end;
-    rays[i].direction = this->Far ? frame.axis : frame.axis + slopeU * frame.u + slopeV * frame.v;
-    rays[i].origin = this->Far ? points.at[i] - end * frame.axis : frame.origin;
+    rays[i].direction = far ? frame.axis : frame.axis + slopeU * frame.u + slopeV * frame.v;
+    rays[i].origin = far ? points.at[i] - end * frame.axis : frame.origin;
   }
   if (!narrow)
   {
     return false;
   }
-  std::fill_n(answers, points.count, Lit);
+  std::fill_n(answers, points.count, BeamAnswer::Lit);
   if (!(last > base))
   {
     return true; // all points are nearer to the light than the octree
@@ -116,9 +116,9 @@ bool ShadowBeam::trace(
   TilePyramid pyramid;
   const auto side = [&](const glm::dvec3& across, double slope, double sign)
   {
-    const glm::dvec3 normal = this->Far ? across : across - slope * frame.axis;
+    const glm::dvec3 normal = far ? across : across - slope * frame.axis;
     glm::dvec4 plane = planeThrough(normal, frame.origin);
-    plane.w -= this->Far ? slope : 0.0;
+    plane.w -= far ? slope : 0.0;
     plane *= sign;
     plane.w += 2.0 * BeamRounding;
     return plane;
@@ -130,11 +130,12 @@ bool ShadowBeam::trace(
   pyramid.t = planeThrough(frame.axis, frame.origin);
   pyramid.t.w -= base;
   const float tFar = static_cast<float>(std::min(last, behind) - base + BeamRounding);
-  if (!findTileNodes(this->Tree, pyramid, 0.0f, tFar, mostNodes, this->Nodes))
+  std::vector<TileNode> nodes;
+  if (!findTileNodes(octree, pyramid, 0.0f, tFar, mostNodes, nodes))
   {
     return false;
   }
-  if (this->Nodes.empty())
+  if (nodes.empty())
   {
     return true;
   }
@@ -145,24 +146,25 @@ bool ShadowBeam::trace(
     const BeamRay& ray = rays[std::min(i, points.count - 1)];
     const glm::dvec3 start = ray.origin + base * ray.direction;
     block.aim(i, start, ray.direction);
-    block.tMin[i] =
-      static_cast<float>(this->Far ? 0.0 : std::max(BeforeLight * ray.end - base, 0.0));
+    block.tMin[i] = static_cast<float>(far ? 0.0 : std::max(BeforeLight * ray.end - base, 0.0));
     block.tMax[i] = i < points.count
       ? static_cast<float>(std::min(ray.end, behind) - base + BeamRounding)
       : -1.0f;
   }
   HitBlock hits;
-  intersectTile(this->Tree, pyramid, this->Nodes, block, hits);
-  const Surface& surface = *this->Tree.surface();
+  intersectTile(octree, pyramid, nodes, block, hits);
+  const Surface& surface = *octree.surface();
   for (int i = 0; i < points.count; ++i)
   {
     if (hits.primitive[i] != NoPrimitive)
     {
       const double plane = depthOfPlane(rays[i], surface, hits.primitive[i]);
       const double t = std::isfinite(plane) ? plane : base + hits.t[i];
-      const bool atLight = !this->Far && t < BeforeLight * rays[i].end;
-      answers[i] = atLight ? Undecided : t <= rays[i].end ? Dark : Lit;
-      if (nearest && answers[i] == Dark)
+      const bool atLight = !far && t < BeforeLight * rays[i].end;
+      answers[i] = atLight ? BeamAnswer::Undecided
+        : t <= rays[i].end ? BeamAnswer::Dark
+                           : BeamAnswer::Lit;
+      if (nearest && answers[i] == BeamAnswer::Dark)
       {
         nearest[i] = hits.primitive[i];
       }

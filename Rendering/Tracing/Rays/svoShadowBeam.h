@@ -12,16 +12,12 @@
 #ifndef svoShadowBeam_h
 #define svoShadowBeam_h
 
-#include "svoLight.h"
 #include "svoOctree.h"
-#include "svoPyramidNodes.h"
 #include "svoRay.h"
-#include "svoWorldToOctree.h"
 #include "vtkSVOTracingModule.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -39,35 +35,20 @@ struct BeamPoints
   glm::dvec3 at[Most];
 };
 
-class VTKSVOTRACING_EXPORT ShadowBeam
+enum class BeamAnswer : std::uint8_t
 {
-public:
-  /// The octree is borrowed.
-  ShadowBeam(const Octree& octree, const WorldToOctree& toOctree, const Light& light)
-    : Tree(octree)
-    , Far(light.atInfinity())
-    , From(this->Far ? toOctree.vector(light.direction) : toOctree.point(light.position))
-  {
-  }
-
-  enum Answer : std::uint8_t
-  {
-    Lit,
-    Dark,     // a triangle is between the point and the light
-    Undecided // the light lies on a triangle: a ray alone knows what is behind
-  };
-  /// False, and nothing is answered, where the beam is too wide to see at most `mostNodes` nodes:
-  /// ask for fewer points. `nearest`: where not null, the triangles that make points dark, those
-  /// nearest to the light.
-  bool trace(const BeamPoints& points, Answer* answers, Primitive* nearest = nullptr,
-    std::size_t mostNodes = 256);
-
-private:
-  const Octree& Tree;
-  const bool Far;
-  const glm::dvec3 From; // the light, or the way that it shines if it is far; octree coordinates
-  std::vector<TileNode> Nodes;
+  Lit,
+  Dark,     // a triangle is between the point and the light
+  Undecided // the light lies on a triangle: a ray alone knows what is behind
 };
+
+/// Answers all points. `light`: its position, or the way that it shines if it is `far` away; octree
+/// coordinates. False, and nothing is answered, where the beam is too wide to see at most
+/// `mostNodes` nodes: ask for fewer points. `nearest`: where not null, the triangles that make
+/// points dark, those nearest to the light.
+VTKSVOTRACING_EXPORT bool traceBeam(const Octree& octree, const glm::dvec3& light, bool far,
+  const BeamPoints& points, BeamAnswer* answers, Primitive* nearest = nullptr,
+  std::size_t mostNodes = 256);
 }
 
 #endif

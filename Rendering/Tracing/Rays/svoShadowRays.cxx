@@ -140,8 +140,11 @@ std::uint64_t ShadowRays::beam(
   {
     points.at[i] = caster.toOctree.point(starts[i].position + offset * starts[i].side);
   }
-  ShadowBeam::Answer answers[BeamPoints::Most];
-  if (!ShadowBeam(caster.instance->body->octree, caster.toOctree, light).trace(points, answers))
+  const bool far = light.atInfinity();
+  const glm::dvec3 from =
+    far ? caster.toOctree.vector(light.direction) : caster.toOctree.point(light.position);
+  BeamAnswer answers[BeamPoints::Most];
+  if (!traceBeam(caster.instance->body->octree, from, far, points, answers))
   {
     const int half = count / 2;
     return this->beam(caster, light, starts, half, offset) |
@@ -150,7 +153,7 @@ std::uint64_t ShadowRays::beam(
   for (int i = 0; i < count; ++i)
   {
     setIf(
-      answers[i] == ShadowBeam::Dark || (answers[i] == ShadowBeam::Undecided && alone(starts[i])),
+      answers[i] == BeamAnswer::Dark || (answers[i] == BeamAnswer::Undecided && alone(starts[i])),
       starts[i]);
   }
   return dark;
