@@ -2,10 +2,12 @@
 #ifndef svoSurface_h
 #define svoSurface_h
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 namespace svo
@@ -22,6 +24,22 @@ struct Surface
   {
     return points.size() * sizeof(glm::vec3) + triangles.size() * sizeof(glm::uvec3) +
       cells.size() * sizeof(std::uint32_t);
+  }
+};
+
+/// The plane of a triangle, octree coordinates.
+struct TrianglePlane
+{
+  glm::dvec3 p{ 0.0 }, normal{ 0.0 }; // of any length, by the winding
+
+  TrianglePlane() = default;
+  TrianglePlane(const Surface& surface, std::uint32_t id)
+  {
+    assert(id < surface.triangles.size());
+    const glm::uvec3 triangle = surface.triangles[id];
+    p = glm::dvec3(surface.points[triangle.x]);
+    normal = glm::cross(
+      glm::dvec3(surface.points[triangle.y]) - p, glm::dvec3(surface.points[triangle.z]) - p);
   }
 };
 }

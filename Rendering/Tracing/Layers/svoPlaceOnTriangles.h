@@ -6,7 +6,6 @@
 #include "svoSurface.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -34,22 +33,6 @@ inline bool seenEdgeOn(const glm::dvec3& normal, const glm::dvec3& direction, do
 {
   return !(along * along > 1e-6 * glm::dot(normal, normal) * glm::dot(direction, direction));
 }
-
-/// The plane of a triangle, octree coordinates.
-struct TrianglePlane
-{
-  glm::dvec3 p{ 0.0 }, normal{ 0.0 };
-
-  TrianglePlane() = default;
-  TrianglePlane(const Surface& surface, Primitive primitive)
-  {
-    assert(primitive < surface.triangles.size());
-    const glm::uvec3 triangle = surface.triangles[primitive];
-    p = glm::dvec3(surface.points[triangle.x]);
-    normal = glm::cross(
-      glm::dvec3(surface.points[triangle.y]) - p, glm::dvec3(surface.points[triangle.z]) - p);
-  }
-};
 
 /// Where a ray through the point (x, y) of the image, as it is in double, meets the plane.
 /// `edgeOn`: whether it does so edge-on.

@@ -51,15 +51,10 @@ glm::dvec4 planeThrough(const glm::dvec3& normal, const glm::dvec3& point)
   return { normal, -glm::dot(normal, point) };
 }
 
-/// Where the line of a ray meets the plane of a triangle. NaN or infinite if it is parallel to it.
-double depthOfPlane(const BeamRay& ray, const Surface& surface, Primitive primitive)
+/// Where the line of a ray meets a plane. NaN or infinite if it is parallel to it.
+double depthOfPlane(const BeamRay& ray, const TrianglePlane& plane)
 {
-  assert(primitive < surface.triangles.size());
-  const glm::uvec3 triangle = surface.triangles[primitive];
-  const glm::dvec3 p(surface.points[triangle.x]);
-  const glm::dvec3 normal = glm::cross(
-    glm::dvec3(surface.points[triangle.y]) - p, glm::dvec3(surface.points[triangle.z]) - p);
-  return glm::dot(normal, p - ray.origin) / glm::dot(normal, ray.direction);
+  return glm::dot(plane.normal, plane.p - ray.origin) / glm::dot(plane.normal, ray.direction);
 }
 }
 
@@ -153,12 +148,12 @@ bool traceBeam(const Octree& octree, const glm::dvec3& light, bool far, const Be
   }
   HitBlock hits;
   intersectTile(octree, pyramid, nodes, block, hits);
-  const Surface& surface = *octree.surface();
   for (int i = 0; i < points.count; ++i)
   {
     if (hits.primitive[i] != NoPrimitive)
     {
-      const double plane = depthOfPlane(rays[i], surface, hits.primitive[i]);
+      const double plane =
+        depthOfPlane(rays[i], TrianglePlane(*octree.surface(), hits.primitive[i]));
       const double t = std::isfinite(plane) ? plane : base + hits.t[i];
       const bool atLight = !far && t < BeforeLight * rays[i].end;
       answers[i] = atLight ? BeamAnswer::Undecided

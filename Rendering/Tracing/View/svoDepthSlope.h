@@ -5,6 +5,7 @@
 #include "svoOctree.h"
 #include "svoPlane.h"
 #include "svoRay.h"
+#include "svoSurface.h"
 #include "svoView.h"
 #include "svoWorldToOctree.h"
 
@@ -50,10 +51,7 @@ inline double steepness(const Octree& octree, const WorldToOctree& toOctree, con
   }
   else if (const Surface* surface = octree.surface())
   {
-    const glm::uvec3 triangle = surface->triangles[primitive];
-    const glm::dvec3 a(surface->points[triangle.x]);
-    normal = glm::cross(
-      glm::dvec3(surface->points[triangle.y]) - a, glm::dvec3(surface->points[triangle.z]) - a);
+    normal = TrianglePlane(*surface, primitive).normal;
   }
   return glm::length(depthSlope(view, x, y, t, toOctree.gradient(normal)));
 }
