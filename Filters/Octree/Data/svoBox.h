@@ -24,6 +24,12 @@ struct Box
     low = glm::min(low, point);
     high = glm::max(high, point);
   }
+  /// The same of all that is at most `reach` away from one, along each axis.
+  void add(const glm::dvec3& point, const glm::dvec3& reach)
+  {
+    low = glm::min(low, point - reach);
+    high = glm::max(high, point + reach);
+  }
   void add(const Box& other)
   {
     low = glm::min(low, other.low);

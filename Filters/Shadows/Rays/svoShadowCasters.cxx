@@ -182,7 +182,7 @@ std::uint64_t ShadowCasters::hidden(
   {
     const double offset = this->OwnError + (caster.own == Own::Nothing ? caster.error : 0.0);
     Start starts[BeamPoints::Most];
-    PointBox box;
+    Box box;
     int begun = 0;
     for (int i = 0; i < count; ++i)
     {
@@ -193,7 +193,7 @@ std::uint64_t ShadowCasters::hidden(
           glm::dot(sample.normal, light.along(sample.position)) > 0.0 ? -offset : offset;
         const glm::dvec3 at = sample.position + side * sample.normal;
         starts[begun++] = { at, sample.own, i };
-        box.add(at, glm::dvec3(0.0));
+        box.add(at);
       }
     }
     if (begun == 0 || !caster.box.mayBlock(light, box))

@@ -1,5 +1,6 @@
 #include "svoCPUTracer.h"
 
+#include "svoCasterBox.h"
 #include "svoFrameErrors.h"
 #include "svoFrameTiles.h"
 #include "svoInstanceTree.h"
@@ -212,7 +213,7 @@ void CPUTracer::Internals::findDarkenedTiles(
       boxes[2 * k] = this->Casters[i];
       boxes[2 * k + 1] = this->Casters[i] = CasterBox(scene.instances[i]);
     });
-  const auto mayCross = [&](const PointBox& starts)
+  const auto mayCross = [&](const Box& starts)
   {
     const auto anyOn = [&](const BoxWay& way)
     {
@@ -221,7 +222,7 @@ void CPUTracer::Internals::findDarkenedTiles(
     };
     const auto around = [&](const HemisphereRays* rays)
     { return rays && anyOn(rays->way(starts)); };
-    return !starts.empty() && !boxes.empty() &&
+    return starts.known() && !boxes.empty() &&
       (around(shadows.occlusion()) || around(shadows.sky()) ||
         std::any_of(scene.lights.begin(), scene.lights.end(),
           [&](const Light& light)

@@ -4,7 +4,7 @@
 #ifndef svoKeptTiles_h
 #define svoKeptTiles_h
 
-#include "svoCasterBox.h"
+#include "svoBox.h"
 #include "svoLightTile.h"
 
 #include <cassert>
@@ -20,8 +20,8 @@ public:
   struct Tile
   {
     LightTiles looksUp;
-    RaisedTiles raised;    // of points at the terminator (svoTerminator.h)
-    PointBox raysToLights; // world; where they begin
+    RaisedTiles raised; // of points at the terminator (svoTerminator.h)
+    Box raysToLights;   // world; where they begin
   };
 
   /// `all`: none is kept.
@@ -82,7 +82,7 @@ public:
       if (this->stale(tile))
       {
         this->Tiles[tile].raised.clear();
-        this->Tiles[tile].raysToLights = PointBox();
+        this->Tiles[tile].raysToLights = Box();
       }
     }
   }

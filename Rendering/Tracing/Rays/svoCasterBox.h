@@ -3,6 +3,7 @@
 #ifndef svoCasterBox_h
 #define svoCasterBox_h
 
+#include "svoBox.h"
 #include "svoInverse.h"
 #include "svoScene.h"
 
@@ -15,29 +16,14 @@
 
 namespace svo
 {
-/// A box around points, world.
-struct PointBox
-{
-  glm::dvec3 low{ 1.0 }, high{ -1.0 };
-
-  bool empty() const { return this->low.x > this->high.x; }
-  /// Adds the box of the points that are at most `reach` away from one.
-  void add(const glm::dvec3& point, const glm::dvec3& reach)
-  {
-    const bool first = this->empty();
-    this->low = first ? point - reach : glm::min(this->low, point - reach);
-    this->high = first ? point + reach : glm::max(this->high, point + reach);
-  }
-};
-
 /// The way that a box takes, and with it all points in it: `share` times `along` from its middle,
-/// its half edges growing by `spread` for each unit of the way.
+/// its half edges growing by `spread` for each unit of the way; world.
 struct BoxWay
 {
   glm::dvec3 middle, half, along;
   double share, spread;
 
-  BoxWay(const PointBox& from, const glm::dvec3& by, double times, double wider = 0.0)
+  BoxWay(const Box& from, const glm::dvec3& by, double times, double wider = 0.0)
     : middle(0.5 * (from.low + from.high))
     , half(0.5 * (from.high - from.low))
     , along(by)
@@ -48,7 +34,7 @@ struct BoxWay
 };
 
 /// From a box of points to a light, all of it.
-inline BoxWay wayToLight(const Light& light, const PointBox& from)
+inline BoxWay wayToLight(const Light& light, const Box& from)
 {
   const glm::dvec3 middle = 0.5 * (from.low + from.high);
   BoxWay way(from, -light.along(middle), light.atInfinity() ? 1e300 : 1.0, light.spread());
@@ -114,7 +100,7 @@ public:
   const glm::dvec3& extent() const { return this->Extent; }
 
   /// Adds its corners; nothing if it is around nothing.
-  void addTo(PointBox& all) const
+  void addTo(Box& all) const
   {
     if (this->Casts)
     {
@@ -122,9 +108,9 @@ public:
     }
   }
   /// False if no way from a point of `from` to the light meets the box.
-  bool mayBlock(const Light& light, const PointBox& from) const
+  bool mayBlock(const Light& light, const Box& from) const
   {
-    return !from.empty() && this->mayMeet(wayToLight(light, from));
+    return from.known() && this->mayMeet(wayToLight(light, from));
   }
   /// False if the box is not on the way.
   bool mayMeet(const BoxWay& way) const

@@ -98,10 +98,10 @@ private:
 void traceSamples(const RayCasters& casters, double offset, SampleBatch& batch)
 {
   std::fill_n(batch.blocked, batch.rays, 0.0f);
-  PointBox box;
+  Box box;
   for (int i = 0; i < batch.points; ++i)
   {
-    box.add(batch.position[i], glm::dvec3(0.0));
+    box.add(batch.position[i]);
   }
   RayStream stream(0.5 * (box.low + box.high));
   for (int ray = 0; ray < batch.rays; ++ray)

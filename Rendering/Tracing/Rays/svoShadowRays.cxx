@@ -79,7 +79,7 @@ void ShadowRays::taken(const Light& light, const TilePatch& patch, double offset
   std::uint64_t asked, float* taken) const
 {
   Start starts[Most];
-  PointBox box;
+  Box box;
   int count = 0;
   eachBit(asked & patch.mask,
     [&](int i)
@@ -113,7 +113,7 @@ bool ShadowRays::shadows(
   const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const
 {
   const glm::dvec3 side = sideOf(light, position, facet);
-  PointBox from;
+  Box from;
   from.add(position, glm::dvec3(offset));
   return this->Casters.anyOpaque(wayToLight(light, from),
     [&](const RayCaster& caster) { return blocks(caster, light, position, side, offset); });
@@ -161,7 +161,7 @@ std::uint64_t ShadowRays::beam(
 
 std::uint64_t ShadowRays::shadows(const Light& light, Start* starts, int count, double offset) const
 {
-  PointBox box;
+  Box box;
   for (int i = 0; i < count; ++i)
   {
     box.add(starts[i].position, glm::dvec3(offset));
@@ -221,8 +221,8 @@ bool ShadowRays::between(const glm::dvec3& from, const glm::dvec3& to, double of
 {
   const glm::dvec3 direction = to - from;
   const double length = glm::length(direction);
-  PointBox box;
-  box.add(from, glm::dvec3(0.0));
+  Box box;
+  box.add(from);
   return this->Casters.anyOpaque({ box, direction, 1.0 },
     [&](const RayCaster& caster)
     {

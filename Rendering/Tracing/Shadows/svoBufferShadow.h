@@ -70,7 +70,7 @@ public:
       this->Filters ? query.extents : nullptr, points, missed);
   }
 
-  void noteTerminator(const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays,
+  void noteTerminator(const ShadowQuery& query, const TerminatorPoint& at, Box& rays,
     RaisedTiles& raised) const override
   {
     const glm::dvec3 reach(query.errors.map);

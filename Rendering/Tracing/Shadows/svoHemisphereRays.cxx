@@ -10,7 +10,7 @@ namespace svo
 {
 double usualOcclusionDistance(const Scene& scene)
 {
-  PointBox all;
+  Box all;
   for (const Instance& instance : scene.instances)
   {
     const Octree& octree = instance.body->octree;
@@ -20,11 +20,9 @@ double usualOcclusionDistance(const Scene& scene)
       continue;
     }
     // Without the margins of a caster's box, which depend on the octree's level.
-    const Box box = boxAround(octree.header().meshBounds, instance.localToWorld);
-    all.add(box.low, glm::dvec3(0.0));
-    all.add(box.high, glm::dvec3(0.0));
+    all.add(boxAround(octree.header().meshBounds, instance.localToWorld));
   }
-  return all.empty() ? 1.0 : 0.2 * glm::distance(all.low, all.high);
+  return all.known() ? 0.2 * glm::distance(all.low, all.high) : 1.0;
 }
 
 HemisphereRays::HemisphereRays(const RayCasters& casters, double distance,

@@ -51,7 +51,7 @@ public:
     const ShadowQuery& query, const std::function<void(int, const glm::vec3&, float)>& f) const;
 
   /// All that rays can meet which start in a box.
-  BoxWay way(const PointBox& starts) const
+  BoxWay way(const Box& starts) const
   {
     BoxWay way(starts, glm::dvec3(0.0), 0.0);
     way.half += this->Distance;

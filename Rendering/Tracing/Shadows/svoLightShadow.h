@@ -2,7 +2,7 @@
 #ifndef svoLightShadow_h
 #define svoLightShadow_h
 
-#include "svoCasterBox.h"
+#include "svoBox.h"
 #include "svoLightTile.h"
 #include "svoSampleSums.h"
 #include "svoTerminator.h"
@@ -43,14 +43,14 @@ inline std::uint64_t missAll(std::uint64_t dark, float* missed)
 }
 
 /// Notes where rays of the points begin.
-inline void noteRayStarts(const ShadowQuery& query, PointBox& rays)
+inline void noteRayStarts(const ShadowQuery& query, Box& rays)
 {
   rays.add(
     query.patch.origin.position, (1.0 + 1e-6) * glm::dvec3(query.patch.extent) + query.errors.ray);
 }
 
 /// ... and of one at the terminator, and its way there.
-inline void noteRaisedStart(const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays)
+inline void noteRaisedStart(const ShadowQuery& query, const TerminatorPoint& at, Box& rays)
 {
   const glm::dvec3 reach(query.errors.ray);
   rays.add(query.patch.position(at.pixel), reach);
@@ -86,10 +86,9 @@ public:
   }
 
   /// Notes what the answers hang on besides what was marked: where rays begin, ...
-  virtual void noteRays(const ShadowQuery&, PointBox&) const {}
+  virtual void noteRays(const ShadowQuery&, Box&) const {}
   /// ... and what else is looked up of a point at the terminator.
-  virtual void noteTerminator(
-    const ShadowQuery&, const TerminatorPoint&, PointBox&, RaisedTiles&) const
+  virtual void noteTerminator(const ShadowQuery&, const TerminatorPoint&, Box&, RaisedTiles&) const
   {
   }
 };

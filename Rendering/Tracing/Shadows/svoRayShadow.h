@@ -48,13 +48,10 @@ public:
       nullptr, &this->Rays, this->Source, query, query.errors.ray, nullptr, points, missed);
   }
 
-  void noteRays(const ShadowQuery& query, PointBox& rays) const override
-  {
-    noteRayStarts(query, rays);
-  }
+  void noteRays(const ShadowQuery& query, Box& rays) const override { noteRayStarts(query, rays); }
 
-  void noteTerminator(const ShadowQuery& query, const TerminatorPoint& at, PointBox& rays,
-    RaisedTiles&) const override
+  void noteTerminator(
+    const ShadowQuery& query, const TerminatorPoint& at, Box& rays, RaisedTiles&) const override
   {
     noteRaisedStart(query, at, rays);
   }

@@ -283,7 +283,7 @@ TEST(SampleRays, NoCasterOnTheWayToALightIsLeftOut)
     light.position = anywhere(random, 10.0);
     light.direction = glm::dvec3(anyDirection(random));
     light.size = round % 2 ? power(0.01, 20.0) : power(0.1, 170.0);
-    svo::PointBox box;
+    svo::Box box;
     const glm::dvec3 middle = anywhere(random, 2.0);
     const double wide[3] = { power(1e-3, 10.0), power(1e-3, 10.0), power(1e-3, 10.0) };
     box.add(middle, { wide[0], wide[1], wide[2] });

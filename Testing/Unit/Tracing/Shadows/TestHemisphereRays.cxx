@@ -152,7 +152,7 @@ TEST(HemisphereRays, AmbientOcclusionEndsAtItsDistance)
 TEST(HemisphereRays, WithoutADistanceItIsAFifthOfAllCasters)
 {
   const svo::Scene scene = planeUnder({ wall(0.0, 1.0, 2.0), wall(3.0, 1.0, 2.0) });
-  svo::PointBox all;
+  svo::Box all;
   for (const svo::Instance& instance : scene.instances)
   {
     svo::CasterBox(instance).addTo(all);
