@@ -72,10 +72,9 @@ bool traceDoubtful(const TracedInstances& instances, double x, double y, int ray
     }
     const std::uint32_t owner = candidate.owner;
     const TracedInstance& entry = instances.of(owner);
-    glm::vec3 origin, direction;
-    entry.local.ray(x, y, origin, direction);
     float t;
-    if (!rayMeetsTriangle(*entry.octree->surface(), origin, direction, candidate.triangle, t) ||
+    if (!rayMeetsTriangle(*entry.octree->surface(), glm::vec3(entry.local.originAt(x, y)),
+          glm::vec3(entry.local.directionAt(x, y)), candidate.triangle, t) ||
       !(t >= 0.0f && t <= entry.local.tMax))
     {
       continue;

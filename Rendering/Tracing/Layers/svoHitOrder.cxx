@@ -116,8 +116,7 @@ double HitOrder::exactDepth(const SeenHit& hit, Primitive& primitive) const
   const double error = this->Instances.error(hit.instance);
   if (entry.refinement == DepthRefinement::Traced)
   {
-    const Ray ray{ local.origin + hit.y * local.originY + hit.x * local.originX,
-      local.direction + hit.y * local.directionY + hit.x * local.directionX,
+    const Ray ray{ local.originAt(hit.x, hit.y), local.directionAt(hit.x, hit.y),
       hit.t - local.base - error, hit.t - local.base + error };
     const Primitive triangle = intersect(*entry.octree, ray, { LeafGeometry::Triangle }).primitive;
     if (triangle == NoPrimitive)

@@ -39,11 +39,10 @@ inline bool seenEdgeOn(const glm::dvec3& normal, const glm::dvec3& direction, do
 inline double meetPlane(
   const TrianglePlane& plane, const LocalView& local, double x, double y, bool& edgeOn)
 {
-  const glm::dvec3 origin = local.origin + y * local.originY + x * local.originX;
-  const glm::dvec3 direction = local.direction + y * local.directionY + x * local.directionX;
+  const glm::dvec3 direction = local.directionAt(x, y);
   const double along = glm::dot(plane.normal, direction);
   edgeOn = seenEdgeOn(plane.normal, direction, along);
-  return glm::dot(plane.normal, plane.p - origin) / along;
+  return glm::dot(plane.normal, plane.p - local.originAt(x, y)) / along;
 }
 
 /// Moves the hit of a ray onto the plane of its triangle, along the ray: so that nothing is lost

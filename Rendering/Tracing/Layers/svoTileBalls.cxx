@@ -110,17 +110,12 @@ double TileBalls::merge(
   const double radii = octree.rootEdge();
   const glm::dvec3 centre = 1.0 - glm::dvec3(h.origin[0], h.origin[1], h.origin[2]) / radii;
   const double x = 8 * tileX + 0.5, y = 8 * tileY + 0.5;
-  const auto through = [](const glm::dvec3& at, const glm::dvec3& atX, const glm::dvec3& atY,
-                         double px, double py) { return at + py * atY + px * atX; };
   constexpr double Middle = 3.5;
-  const glm::dvec3 from =
-    through(local.origin, local.originX, local.originY, x + Middle, y + Middle) - centre;
-  const glm::dvec3 along =
-    through(local.direction, local.directionX, local.directionY, x + Middle, y + Middle);
+  const glm::dvec3 from = local.originAt(x + Middle, y + Middle) - centre;
+  const glm::dvec3 along = local.directionAt(x + Middle, y + Middle);
   const double start = -glm::dot(from, along) / glm::dot(along, along);
-  const glm::dvec3 direction = through(local.direction, local.directionX, local.directionY, x, y);
-  const glm::dvec3 origin =
-    through(local.origin, local.originX, local.originY, x, y) - centre + start * direction;
+  const glm::dvec3 direction = local.directionAt(x, y);
+  const glm::dvec3 origin = local.originAt(x, y) - centre + start * direction;
   const BallRays rays{ radii * origin, radii * (local.originX + start * local.directionX),
     radii * (local.originY + start * local.directionY), radii * direction, radii * local.directionX,
     radii * local.directionY, static_cast<float>(start), local.tMax };

@@ -19,17 +19,13 @@ struct RaySizes
   RaySizes(const LocalView& local, const View& view)
   {
     const double width = view.width, height = view.height;
-    const auto largest = [](const glm::dvec3& v) {
-      return std::max({ std::abs(v.x), std::abs(v.y), std::abs(v.z) });
-    };
-    this->origin = 2.0 + largest(local.origin) + width * largest(local.originX) +
-      height * largest(local.originY);
-    this->direction = largest(local.direction) + width * largest(local.directionX) +
-      height * largest(local.directionY);
+    this->origin = 2.0 + largestOf(local.origin) + width * largestOf(local.originX) +
+      height * largestOf(local.originY);
+    this->direction = largestOf(local.direction) + width * largestOf(local.directionX) +
+      height * largestOf(local.directionY);
     for (int corner = 0; corner < 4; ++corner)
     {
-      const glm::dvec3 d = local.direction + (corner & 1 ? height : 0.0) * local.directionY +
-        (corner & 2 ? width : 0.0) * local.directionX;
+      const glm::dvec3 d = local.directionAt(corner & 2 ? width : 0.0, corner & 1 ? height : 0.0);
       this->longest = std::max(this->longest, glm::dot(d, d));
     }
   }
@@ -69,7 +65,7 @@ struct SeenPlane
 std::uint64_t depthsOnPlanes(
   const SeenPlane* planes, const std::int32_t* plane, double x, double y, float* t);
 
-/// LocalView::fill() for all rays of a block, through the points x, y of the image.
+/// Aims all rays of a block through the points x, y of the image.
 void fillRays(const LocalView& local, const double* x, const double* y, RayBlock& rays);
 }
 

@@ -36,26 +36,14 @@ struct LocalView
   /// would lose the voxel. Such rays are traced by intersectStretched().
   bool stretched = false;
 
-  /// The ray through point (x, y) of the image.
-  void ray(double x, double y, glm::vec3& from, glm::vec3& along) const
+  /// The ray through point (x, y) of the image; floats of these are what is traced.
+  glm::dvec3 originAt(double x, double y) const
   {
-    from.x = static_cast<float>(this->origin.x + y * this->originY.x + x * this->originX.x);
-    from.y = static_cast<float>(this->origin.y + y * this->originY.y + x * this->originX.y);
-    from.z = static_cast<float>(this->origin.z + y * this->originY.z + x * this->originX.z);
-    along.x =
-      static_cast<float>(this->direction.x + y * this->directionY.x + x * this->directionX.x);
-    along.y =
-      static_cast<float>(this->direction.y + y * this->directionY.y + x * this->directionX.y);
-    along.z =
-      static_cast<float>(this->direction.z + y * this->directionY.z + x * this->directionX.z);
+    return this->origin + y * this->originY + x * this->originX;
   }
-  /// The same as ray k of a block.
-  void fill(double x, double y, int k, RayBlock& rays) const
+  glm::dvec3 directionAt(double x, double y) const
   {
-    assert(k >= 0 && k < RayBlock::Size);
-    glm::vec3 from, along;
-    this->ray(x, y, from, along);
-    rays.aim(k, from, along);
+    return this->direction + y * this->directionY + x * this->directionX;
   }
 };
 
@@ -182,8 +170,7 @@ inline void intersectStretched(const Octree& octree, const LocalView& local, con
   double start[RayBlock::Size];
   for (int k = 0; k < RayBlock::Size; ++k)
   {
-    const glm::dvec3 origin = local.origin + y[k] * local.originY + x[k] * local.originX;
-    const glm::dvec3 d = local.direction + y[k] * local.directionY + x[k] * local.directionX;
+    const glm::dvec3 origin = local.originAt(x[k], y[k]), d = local.directionAt(x[k], y[k]);
     double enter = rays.tMin[k];
     double leave = rays.tMax[k];
     for (int a = 0; a < 3; ++a)

@@ -51,11 +51,8 @@ struct PixelFunctions
     {
       // Rays come from one point: what starts on the plane of t = 0 spreads like the directions.
       this->wBase = glm::dot(local.originX, columnX) / glm::dot(columnX, columnX);
-      const auto largest = [](const glm::dvec3& v) {
-        return std::max({ std::abs(v.x), std::abs(v.y), std::abs(v.z) });
-      };
-      this->beside = view.width * largest(local.originX - this->wBase * columnX) +
-        view.height * largest(local.originY - this->wBase * columnY);
+      this->beside = view.width * largestOf(local.originX - this->wBase * columnX) +
+        view.height * largestOf(local.originY - this->wBase * columnY);
     }
     const glm::dmat3 toLocal(columnX, columnY, local.direction);
     const glm::dmat3 inverse = glm::inverse(toLocal);
@@ -147,14 +144,14 @@ inline GroupView makeGroupView(const LocalView& local, const PixelFunctions& fun
   for (int corner = 0; corner < 4; ++corner)
   {
     const double cx = x + (corner & 1 ? half : -half), cy = y + (corner & 2 ? half : -half);
-    const glm::dvec3 start = local.origin + cy * local.originY + cx * local.originX;
+    const glm::dvec3 start = local.originAt(cx, cy);
     for (int k = 0; k < 3; ++k)
     {
       m = std::max(m, std::abs(start[k]));
       a = std::max({ a, std::abs(start[k] - 1.0), std::abs(start[k] - 2.0) });
     }
     // Quotients of linear functions are largest at corners, unless the divisor may be 0 in between.
-    const glm::dvec3 d = local.direction + cy * local.directionY + cx * local.directionX;
+    const glm::dvec3 d = local.directionAt(cx, cy);
     const glm::dvec3 size = glm::abs(d);
     const int longest = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
     const int along = 2 * longest + (d[longest] < 0.0);
@@ -194,11 +191,9 @@ inline GroupView makeGroupView(const LocalView& local, const PixelFunctions& fun
   // Roundings that are relative to a distance in octree coordinates are so in pixels, but for how
   // skewed pixels are there: at most 4 of a distance that is at most twice that from the middle. Of
   // the edge functions' own there are 16.
-  const auto largest = [](const glm::dvec3& v) {
-    return std::max({ std::abs(v.x), std::abs(v.y), std::abs(v.z) });
-  };
-  const double pixel = functions.parallel ? largest(local.originX) + largest(local.originY)
-                                          : largest(local.directionX) + largest(local.directionY);
+  const double pixel = functions.parallel
+    ? largestOf(local.originX) + largestOf(local.originY)
+    : largestOf(local.directionX) + largestOf(local.directionY);
   const double skew =
     2.0 * pixel * (std::max(gradient(gx), gradient(gy)) + half * gradient(functions.w));
   view.rounding = roundUp(u * (16.0 + 8.0 * skew));

@@ -5,7 +5,9 @@
 #include "svoInverse.h"
 #include "svoOctree.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -13,6 +15,12 @@
 
 namespace svo
 {
+/// The largest coordinate, without its sign.
+inline double largestOf(const glm::dvec3& v)
+{
+  return std::max({ std::abs(v.x), std::abs(v.y), std::abs(v.z) });
+}
+
 /// M^-1 and the octree's cube applied to a point, in the order that cancels common parts before
 /// any rounding: 1 + (L^-1 (x - translation) - origin) / edge of the root cube. The error is
 /// at most some condition(L) 2^-52 |x - translation| in the object (Documentation/Numerics.md).

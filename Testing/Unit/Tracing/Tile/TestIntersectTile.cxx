@@ -65,7 +65,8 @@ void fillTile(const LocalView& local, int tileX, int tileY, RayBlock& rays)
 {
   for (int k = 0; k < 64; ++k)
   {
-    local.fill(8 * tileX + (k & 7) + 0.5, 8 * tileY + (k >> 3) + 0.5, k, rays);
+    const double x = 8 * tileX + (k & 7) + 0.5, y = 8 * tileY + (k >> 3) + 0.5;
+    rays.aim(k, local.originAt(x, y), local.directionAt(x, y));
   }
 }
 

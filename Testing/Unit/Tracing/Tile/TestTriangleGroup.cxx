@@ -63,10 +63,9 @@ struct Stage
   }
   bool meets(double x, double y, std::uint32_t triangle, float& t) const
   {
-    glm::vec3 origin, direction;
-    local.ray(x, y, origin, direction);
-    return rayMeetsTriangle(*octree.surface(), origin, direction, triangle, t) && t >= 0.0f &&
-      t <= local.tMax;
+    return rayMeetsTriangle(*octree.surface(), glm::vec3(local.originAt(x, y)),
+             glm::vec3(local.directionAt(x, y)), triangle, t) &&
+      t >= 0.0f && t <= local.tMax;
   }
 };
 
@@ -93,7 +92,7 @@ void compareTile(const Stage& stage, const TriangleGroup& group, int tileX, int 
   {
     x[i] = 8 * (tileX + column) + (i & 7) + 0.5;
     y[i] = 8 * (tileY + row) + (i >> 3) + 0.5;
-    stage.local.fill(x[i], y[i], i, rays);
+    rays.aim(i, stage.local.originAt(x[i], y[i]), stage.local.directionAt(x[i], y[i]));
     rays.tMin[i] = 0.0f;
     rays.tMax[i] = stage.local.tMax;
   }
