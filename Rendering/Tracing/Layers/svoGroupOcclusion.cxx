@@ -7,20 +7,12 @@ namespace svo
 {
 bool GroupOcclusion::hides(const PixelRect& rect, double depth) const
 {
-  // As PixelFunctions::key(); a view may count depths from elsewhere than where its rays meet.
+  // A view may count depths from elsewhere than where its rays meet.
   const double at = depth + this->Instances.fromEye();
-  const KeyBase& keys = this->Instances.keys();
-  double key = at - keys.far;
-  if (!this->Instances.view().parallel)
-  {
-    if (!(at > 0.0))
-    {
-      return false;
-    }
-    key = (keys.deep ? -keys.far : key) * keys.far / at;
-  }
-  return this->Group.wants(rect) &&
-    this->Triangles.hides(this->Group.windowOf(rect), static_cast<float>(key));
+  const bool parallel = this->Instances.view().parallel;
+  return (parallel || at > 0.0) && this->Group.wants(rect) &&
+    this->Triangles.hides(
+      this->Group.windowOf(rect), static_cast<float>(this->Instances.keys().key(at, parallel)));
 }
 
 bool GroupOcclusion::hidesNode(std::uint32_t node)

@@ -27,6 +27,12 @@ struct KeyBase
 {
   double far = 1.0;  // of w; of the depth where rays are parallel
   bool deep = false; // depths differ a lot
+
+  /// Of w or, where rays are parallel, of a depth.
+  double key(double at, bool parallel) const
+  {
+    return parallel ? at - this->far : (this->deep ? -this->far : at - this->far) * this->far / at;
+  }
 };
 
 /// A point of the cube, at depth base + t, is seen at the pixel (x / w, y / w).
@@ -84,12 +90,7 @@ struct PixelFunctions
   /// Of depth base + t.
   double key(double depth, const KeyBase& keys) const
   {
-    if (this->parallel)
-    {
-      return depth + this->base - keys.far;
-    }
-    const double at = depth + this->wBase;
-    return (keys.deep ? -keys.far : at - keys.far) * keys.far / at;
+    return keys.key(depth + (this->parallel ? this->base : this->wBase), this->parallel);
   }
 };
 
