@@ -2,7 +2,7 @@
 //
 // Such a triangle is not worth being sorted and drawn tile by tile: it is looked at where it is
 // made ready, at each pixel in the box around it, many triangles at a time. What may be met there
-// is written down as a point (svoSmallTriangles-inl.h) and merged into the group's pixels, which
+// is written down as a point (svoReadyTriangles.cxx) and merged into the group's pixels, which
 // know what svoNearestTriangles.cxx knows of a tile's.
 #ifndef svoGroupPixels_h
 #define svoGroupPixels_h
