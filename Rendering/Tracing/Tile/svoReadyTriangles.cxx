@@ -1,5 +1,7 @@
-// Corners are projected onto pixels, many triangles at a time; then edges and depth are linear in
-// the pixel. Floats are enough, since what they leave open is known:
+// Makes triangles ready for a group of tiles, many at a time.
+//
+// Corners are projected onto pixels; then edges and depth are linear in the pixel. Floats are
+// enough, since what they leave open is known:
 //
 // What float rays hit (svoIntersectTile.h) is what counts, and rays and pixels are computed
 // differently. Whatever either is off by can be put down to corners that are not where they should
@@ -27,7 +29,7 @@
 
 #include "svoLaneMoves-inl.h"
 #include "svoLaneTriples-inl.h"
-#include "svoReadyTriangles.h"
+#include "svoTriangleGroup.h"
 
 #include <algorithm>
 #include <limits>
@@ -460,8 +462,8 @@ namespace svo
 {
 HWY_EXPORT(makeReady);
 
-void readyTriangles(const Surface& surface, const std::uint32_t* ids, std::size_t count,
-  const GroupView& view, std::uint32_t owner, TriangleGroup::Slots& slots, SeenPoints* points)
+void TriangleGroup::project(const Surface& surface, const std::uint32_t* ids, std::size_t count,
+  const GroupView& view, std::uint32_t owner, Slots& slots, SeenPoints* points)
 {
   HWY_DYNAMIC_DISPATCH(makeReady)(surface, ids, count, view, owner, slots, points);
 }

@@ -4,7 +4,6 @@
 #include "svoTriangleGroup.h"
 
 #include "svoCrossingTriangle.h"
-#include "svoReadyTriangles.h"
 
 #include <algorithm>
 #include <cassert>
@@ -187,7 +186,7 @@ bool TriangleGroup::makeReady(const Surface& surface, const GroupView& view, Sma
   std::fill_n(this->Ids.begin() + static_cast<std::ptrdiff_t>(this->Count), Room, 0u);
   Slots& slots = this->Arrays;
   const std::size_t before = slots.count;
-  readyTriangles(surface, this->Ids.data() + first, this->Count - first, view, owner, slots,
+  project(surface, this->Ids.data() + first, this->Count - first, view, owner, slots,
     small == SmallTriangles::AsPoints ? &this->Small.points() : nullptr);
   for (std::size_t k = 0; k < slots.crossingCount; ++k)
   {

@@ -142,6 +142,11 @@ private:
   static void findList(const Octree& octree, std::uint32_t node, NodeList& list);
   /// Adds the triangles of Lists to Ids, each once.
   void readLists(const Surface& surface);
+  /// Projects triangles of one owner, each of them once. They become slots, or, if there are
+  /// `points`, points where they have a few pixels; those that have to be made ready alone are
+  /// named in slots.crossing. Behind the last id there is room for a vector of zeros.
+  static void project(const Surface& surface, const std::uint32_t* ids, std::size_t count,
+    const GroupView& view, std::uint32_t owner, Slots& slots, SeenPoints* points);
   /// Makes ready those from `first` on.
   bool makeReady(const Surface& surface, const GroupView& view, SmallTriangles small,
     std::uint32_t owner, std::size_t first);
