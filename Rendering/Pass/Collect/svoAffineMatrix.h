@@ -39,12 +39,9 @@ inline double frobeniusCondition(const glm::dmat4& m)
 
 inline MatrixKind kindOf(const glm::dmat4& m)
 {
-  for (int i = 0; i < 16; ++i)
+  if (!isFinite(m))
   {
-    if (!std::isfinite(m[i / 4][i % 4]))
-    {
-      return MatrixKind::Nowhere;
-    }
+    return MatrixKind::Nowhere;
   }
   if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0)
   {

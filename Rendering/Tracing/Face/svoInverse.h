@@ -7,10 +7,20 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x3.hpp>
 #include <glm/mat4x4.hpp>
 
 namespace svo
 {
+/// True if all numbers of a matrix of doubles are.
+template <class Matrix>
+bool isFinite(const Matrix& m)
+{
+  const double* const first = &m[0][0];
+  return std::all_of(
+    first, first + sizeof m / sizeof *first, [](double v) { return std::isfinite(v); });
+}
+
 namespace detail
 {
 /// (1 - m x)[row, column] with the precision of products and sums of twice as many digits: Dot2 of
@@ -114,22 +124,8 @@ inline glm::dmat3 byCofactors(const glm::dmat3& m)
 /// True of residuals from which two steps of Newton's iteration lead to all digits.
 inline bool isSmall(const glm::dmat3& error)
 {
-  bool small = true; // not of what is no number
-  for (int i = 0; i < 9; ++i)
-  {
-    small = small && std::abs(error[i / 3][i % 3]) <= 0x1p-20;
-  }
-  return small;
-}
-
-inline bool isFinite(const glm::dmat3& m)
-{
-  bool finite = true;
-  for (int i = 0; i < 9; ++i)
-  {
-    finite = finite && std::isfinite(m[i / 3][i % 3]);
-  }
-  return finite;
+  const double* const first = &error[0][0];
+  return std::all_of(first, first + 9, [](double v) { return std::abs(v) <= 0x1p-20; });
 }
 }
 
@@ -160,9 +156,8 @@ inline bool placesSomething(const glm::dmat4& m)
 {
   const glm::dmat3 linear(m);
   const bool inverted = detail::isSmall(glm::dmat3(1.0) - linear * detail::byCofactors(linear)) ||
-    detail::isFinite(stableInverse(linear));
-  return inverted && detail::isFinite(linear) && std::isfinite(m[3].x) && std::isfinite(m[3].y) &&
-    std::isfinite(m[3].z);
+    isFinite(stableInverse(linear));
+  return inverted && isFinite(glm::dmat4x3(m));
 }
 }
 

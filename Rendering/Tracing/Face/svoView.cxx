@@ -1,5 +1,7 @@
 #include "svoView.h"
 
+#include "svoInverse.h"
+
 #include <cmath>
 #include <limits>
 
@@ -18,18 +20,9 @@ double View::linearDepth(double windowDepth) const
 bool makeView(
   const glm::dmat4& worldToView, const glm::dmat4& viewToClip, int width, int height, View& view)
 {
-  for (int c = 0; c < 4; ++c)
-  {
-    for (int r = 0; r < 4; ++r)
-    {
-      if (!std::isfinite(worldToView[c][r]) || !std::isfinite(viewToClip[c][r]))
-      {
-        return false;
-      }
-    }
-  }
   const glm::dmat4& p = viewToClip;
-  if (width < 1 || height < 1 || p[0][3] != 0.0 || p[1][3] != 0.0)
+  if (!isFinite(worldToView) || !isFinite(p) || width < 1 || height < 1 || p[0][3] != 0.0 ||
+    p[1][3] != 0.0)
   {
     return false;
   }
