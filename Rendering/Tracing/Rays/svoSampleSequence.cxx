@@ -41,9 +41,9 @@ public:
     }
     for (;;)
     {
-      const int densest = this->densest();
+      const int densest = this->extreme<true>();
       this->put(densest, false);
-      const int emptiest = this->emptiest();
+      const int emptiest = this->extreme<false>();
       this->put(emptiest, true);
       if (densest == emptiest)
       {
@@ -53,7 +53,7 @@ public:
     const BlueNoise pattern(*this);
     for (int rank = First - 1; rank >= 0; --rank)
     {
-      const int densest = this->densest();
+      const int densest = this->extreme<true>();
       this->put(densest, false);
       this->Ranks[densest] = static_cast<std::uint32_t>(rank);
     }
@@ -61,7 +61,7 @@ public:
     this->Crowd = pattern.Crowd;
     for (int rank = First; rank < Pixels; ++rank)
     {
-      const int emptiest = this->emptiest();
+      const int emptiest = this->extreme<false>();
       this->put(emptiest, true);
       this->Ranks[emptiest] = static_cast<std::uint32_t>(rank);
     }
@@ -95,21 +95,16 @@ private:
       }
     }
   }
-  int densest() const
+  /// Where it is densest around a pixel that is set, or emptiest around one that is not.
+  template <bool IsSet>
+  int extreme() const
   {
+    const auto beyond = [this](int a, int b)
+    { return IsSet ? this->Crowd[a] > this->Crowd[b] : this->Crowd[a] < this->Crowd[b]; };
     int best = -1;
     for (int i = 0; i < Pixels; ++i)
     {
-      best = this->Set[i] && (best < 0 || this->Crowd[i] > this->Crowd[best]) ? i : best;
-    }
-    return best;
-  }
-  int emptiest() const
-  {
-    int best = -1;
-    for (int i = 0; i < Pixels; ++i)
-    {
-      best = !this->Set[i] && (best < 0 || this->Crowd[i] < this->Crowd[best]) ? i : best;
+      best = this->Set[i] == IsSet && (best < 0 || beyond(i, best)) ? i : best;
     }
     return best;
   }
