@@ -142,42 +142,29 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
   open[0].node = 0;
   open[0].size = 1.0f;
   constexpr double Cell = 1.0 / NodeEdge;
-  double tSlack = 0.0;
+  const auto lowest = [](const glm::dvec4& f)
+  { return Cell * (std::min(f.x, 0.0) + std::min(f.y, 0.0) + std::min(f.z, 0.0)); };
+  const auto highest = [](const glm::dvec4& f)
+  { return Cell * (std::max(f.x, 0.0) + std::max(f.y, 0.0) + std::max(f.z, 0.0)); };
+  // `start`: from a child's lower corner to where it is asked; rounding makes it `wider`, 1 or -1.
+  const auto begin = [&](int k, const glm::dvec4& f, double start, double wider, float* table)
+  {
+    fillTable(f, start, offsets.x, offsets.y, offsets.z, table);
+    tables.toCorner[k] = static_cast<float>(-start);
+    open[0].value[k] = static_cast<float>(f.x + f.y + f.z + f.w + wider * roundingSlack(f));
+  };
+  for (int k = 0; k < 4; ++k)
+  {
+    begin(k, pyramid.side[k], highest(pyramid.side[k]), 1.0, tables.most[k]);
+  }
+  begin(4, pyramid.t, lowest(pyramid.t), -1.0, tables.near);
+  tables.deep = static_cast<float>(highest(pyramid.t) - lowest(pyramid.t));
   if (Group)
   {
-    const glm::dvec4 f = (pyramid.side[0] + pyramid.side[1]) / double(GroupView::Pixels);
-    const double corner = f.x + f.y + f.z + f.w;
-    const double least = Cell * (std::min(f.x, 0.0) + std::min(f.y, 0.0) + std::min(f.z, 0.0));
-    fillTable(f, least, offsets.x, offsets.y, offsets.z, tables.least);
-    tables.toCorner[5] = static_cast<float>(-least);
-    open[0].value[5] = static_cast<float>(
-      corner - RoundingSlack * (std::abs(f.x) + std::abs(f.y) + std::abs(f.z) + std::abs(corner)));
+    const glm::dvec4 w = (pyramid.side[0] + pyramid.side[1]) / double(GroupView::Pixels);
+    begin(5, w, lowest(w), -1.0, tables.least);
   }
-  for (int k = 0; k < 5; ++k)
-  {
-    const glm::dvec4& f = k < 4 ? pyramid.side[k] : pyramid.t;
-    const double corner = f.x + f.y + f.z + f.w; // octree coordinates begin at 1
-    const double slack =
-      RoundingSlack * (std::abs(f.x) + std::abs(f.y) + std::abs(f.z) + std::abs(corner));
-    if (k < 4)
-    {
-      const double farthest = Cell * (std::max(f.x, 0.0) + std::max(f.y, 0.0) + std::max(f.z, 0.0));
-      fillTable(f, farthest, offsets.x, offsets.y, offsets.z, tables.most[k]);
-      tables.toCorner[k] = static_cast<float>(-farthest);
-      open[0].value[k] = static_cast<float>(corner + slack);
-    }
-    else
-    {
-      const double least = Cell * (std::min(f.x, 0.0) + std::min(f.y, 0.0) + std::min(f.z, 0.0));
-      const double farthest = Cell * (std::max(f.x, 0.0) + std::max(f.y, 0.0) + std::max(f.z, 0.0));
-      fillTable(f, least, offsets.x, offsets.y, offsets.z, tables.near);
-      tables.toCorner[4] = static_cast<float>(-least);
-      tables.deep = static_cast<float>(farthest - least);
-      open[0].value[4] = static_cast<float>(corner - slack);
-      tSlack = slack;
-    }
-  }
-  const float tFrom = static_cast<float>(tMin - 2.0 * tSlack);
+  const float tFrom = static_cast<float>(tMin - 2.0 * roundingSlack(pyramid.t));
   const Node* all = octree.nodes();
   const ShortLists& lists = octree.shortLists();
   const std::uint32_t bricks = octree.brickBegin();

@@ -8,8 +8,12 @@
 
 namespace svo
 {
-/// What ten roundings to float can do to a linear function, of the sum of its terms' sizes.
-constexpr double RoundingSlack = 1.0 / (1 << 18);
+/// What ten roundings to float can do to a linear function of octree coordinates, which begin at 1.
+inline double roundingSlack(const glm::dvec4& f)
+{
+  return (std::abs(f.x) + std::abs(f.y) + std::abs(f.z) + std::abs(f.x + f.y + f.z + f.w)) /
+    (1 << 18);
+}
 
 /// As functions of octree coordinates minus 1, negative beyond the side.
 struct PyramidSides
@@ -21,13 +25,10 @@ struct PyramidSides
     for (int k = 0; k < 4; ++k)
     {
       const glm::dvec4& f = pyramid.side[k];
-      const double corner = f.x + f.y + f.z + f.w;
-      const double slack =
-        RoundingSlack * (std::abs(f.x) + std::abs(f.y) + std::abs(f.z) + std::abs(corner));
       x[k] = static_cast<float>(f.x);
       y[k] = static_cast<float>(f.y);
       z[k] = static_cast<float>(f.z);
-      w[k] = static_cast<float>(corner + slack);
+      w[k] = static_cast<float>(f.x + f.y + f.z + f.w + roundingSlack(f));
     }
   }
 };
