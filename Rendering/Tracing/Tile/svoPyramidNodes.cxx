@@ -175,10 +175,7 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
     root.tNear = -std::numeric_limits<float>::infinity();
     if constexpr (Group)
     {
-      root.x0 = window.x0;
-      root.x1 = window.x1;
-      root.y0 = window.y0;
-      root.y1 = window.y1;
+      root.box = window;
     }
     nodes.push_back(root);
     return true;
@@ -239,11 +236,8 @@ HWY_INLINE bool findNodes(const Octree& octree, const CellOffsets& offsets,
       if constexpr (Group)
       {
         __builtin_prefetch(all + index);
-        const auto box = static_cast<std::uint32_t>(pixels[i]);
-        found.x0 = static_cast<std::uint8_t>(box);
-        found.x1 = static_cast<std::uint8_t>(box >> 8);
-        found.y0 = static_cast<std::uint8_t>(box >> 16);
-        found.y1 = static_cast<std::uint8_t>(box >> 24);
+        const auto byte = [&](int k) { return static_cast<std::uint8_t>(pixels[i] >> 8 * k); };
+        found.box = { byte(0), byte(1), byte(2), byte(3) };
       }
       nodes.push_back(found);
     }

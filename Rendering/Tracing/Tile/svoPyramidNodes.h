@@ -33,18 +33,18 @@ struct TileNode
   std::uint32_t node;
 };
 
+/// Pixels of a group, the last ones included.
+struct GroupWindow
+{
+  std::uint8_t x0 = 0, x1 = GroupView::Pixels - 1, y0 = 0, y1 = GroupView::Pixels - 1;
+};
+
 /// A node that the rays of a group of 4x4 tiles may meet.
 struct GroupNode
 {
   float tNear; // likewise
   std::uint32_t node;
-  std::uint8_t x0, x1, y0, y1; // pixels of the group whose centres it may cover
-};
-
-/// Pixels of a group, the last ones included.
-struct GroupWindow
-{
-  std::uint8_t x0 = 0, x1 = GroupView::Pixels - 1, y0 = 0, y1 = GroupView::Pixels - 1;
+  GroupWindow box; // pixels whose centres it may cover
 };
 
 /// Finds the nodes inside the pyramid between tMin and tMax, nearest first. False if there are more

@@ -99,7 +99,7 @@ bool TriangleGroup::hides(const GroupNode& node, const GroupView& view) const
   const float t = node.tNear - view.behind;
   const float w = view.wOfT[0] * t + view.wOfT[1];
   const float key = view.scale * (view.kOfT[0] * t + view.kOfT[1]) / w;
-  return w > 0.0f && this->hides({ node.x0, node.x1, node.y0, node.y1 }, key);
+  return w > 0.0f && this->hides(node.box, key);
 }
 
 void TriangleGroup::findCover(std::size_t first)
