@@ -1,6 +1,7 @@
 #include "svoGroupTriangles.h"
 
 #include "svoIntersectTile.h"
+#include "svoNode.h"
 #include "svoPlaceOnTriangles.h"
 #include "svoRayMeetsTriangle.h"
 
@@ -16,11 +17,6 @@ constexpr std::size_t MostGroupNodes = 4096;
 /// Where it sees fewer of an instance there are not enough triangles for one to hide another. With
 /// 0 ordinary meshes take 5 % longer, meshes of triangles smaller than pixels 2 % less.
 constexpr std::size_t FewGroupNodes = 400;
-
-int lowest(std::uint64_t bits)
-{
-  return __builtin_ctzll(bits);
-}
 
 /// Depths in float, of views that are not exact.
 void measureHits(const TracedInstances& instances, int tileX, int tileY,
@@ -168,7 +164,7 @@ bool GroupTriangles::settle(const TracedInstances& instances, const TileGroup& g
   this->Group.findCandidates(tileX - group.x, tileY - group.y, doubtful, nearest);
   for (; doubtful != 0; doubtful &= doubtful - 1)
   {
-    const int i = lowest(doubtful);
+    const int i = lowestBit(doubtful);
     const double x = 8 * tileX + (i & 7) + 0.5, y = 8 * tileY + (i >> 3) + 0.5;
     SeenHit first;
     const bool hit = traceDoubtful(instances, x, y, i, memory, first);
@@ -217,7 +213,7 @@ void GroupTriangles::placeHits(const TracedInstances& instances, const TileGroup
   const std::size_t shared = this->Planes.size();
   for (; small != 0; small &= small - 1)
   {
-    const int i = lowest(small);
+    const int i = lowestBit(small);
     plane[i] = add(i);
   }
   // No decided hit lies beyond the rays' ends.
@@ -226,7 +222,7 @@ void GroupTriangles::placeHits(const TracedInstances& instances, const TileGroup
   this->Planes.resize(shared);
   for (; left != 0; left &= left - 1)
   {
-    const int i = lowest(left);
+    const int i = lowestBit(left);
     if (nearest.slot[i] == NearestTriangles::None)
     {
       continue;

@@ -13,11 +13,6 @@ namespace
 /// Where a tile sees more nodes than this its rays are walked one by one after all.
 constexpr std::size_t MostTileNodes = 256;
 
-bool isAlive(const RayBlock& rays, int i)
-{
-  return rays.tMin[i] <= rays.tMax[i];
-}
-
 /// As intersect(), where only some of the rays are any: these go together.
 void intersectFew(const Octree& octree, const LocalView& local, const double* x, const double* y,
   const RayBlock& rays, const TraceOptions& options, HitBlock& hits)
@@ -31,7 +26,7 @@ void intersectFew(const Octree& octree, const LocalView& local, const double* x,
   {
     hits.primitive[i] = NoPrimitive;
     hits.t[i] = 0.0f;
-    if (isAlive(rays, i))
+    if (rays.tMin[i] <= rays.tMax[i])
     {
       fewX[count] = x[i];
       fewY[count] = y[i];
