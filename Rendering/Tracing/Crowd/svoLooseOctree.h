@@ -78,31 +78,22 @@ struct LooseObjects
 };
 
 /// What front to back means: from an eye, or along the direction of parallel rays.
-class VisitOrder
+struct VisitOrder
 {
-public:
-  /// From the eye of a view, or along its rays if they are parallel.
-  explicit VisitOrder(const View& view)
-    : VisitOrder(view.parallel ? along(view.direction) : from(view.origin))
-  {
-  }
-  static VisitOrder from(const glm::dvec3& eye) { return VisitOrder(eye); }
+  glm::dvec3 eye; // world
+
   /// The eye is far away, against the direction.
   static VisitOrder along(const glm::dvec3& direction)
   {
     constexpr double Far = std::numeric_limits<double>::infinity();
-    return VisitOrder(glm::dvec3(direction.x < 0.0 ? Far : -Far, direction.y < 0.0 ? Far : -Far,
-      direction.z < 0.0 ? Far : -Far));
+    return { glm::dvec3(direction.x < 0.0 ? Far : -Far, direction.y < 0.0 ? Far : -Far,
+      direction.z < 0.0 ? Far : -Far) };
   }
-  /// World.
-  const glm::dvec3& eye() const { return this->Eye; }
-
-private:
-  explicit VisitOrder(const glm::dvec3& eye)
-    : Eye(eye)
+  /// From the eye of a view, or along its rays if they are parallel.
+  static VisitOrder of(const View& view)
   {
+    return view.parallel ? along(view.direction) : VisitOrder{ view.origin };
   }
-  glm::dvec3 Eye;
 };
 
 /// Objects are named by numbers, dense from 0 on: memory goes with the largest. Changes are made by
@@ -296,7 +287,7 @@ void LooseOctree::visitGroups(const VisitOrder& order, OnNode&& onNode, OnObject
   Waiting stack[7 * MostDepth + 8];
   int waiting = 0;
   stack[waiting++] = { 0, 0, 0, 0, 0 };
-  const glm::dvec3 eye = (order.eye() - this->Low) * this->PerUnit;
+  const glm::dvec3 eye = (order.eye - this->Low) * this->PerUnit;
   while (waiting > 0)
   {
     Waiting at = stack[--waiting];

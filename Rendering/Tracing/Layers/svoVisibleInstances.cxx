@@ -55,7 +55,7 @@ void askTree(const LooseOctree& tree, const View& view, VisibleSet& set)
   std::uint32_t nodeAt[LooseOctree::MostDepth + 1]; // on the way to the one that is visited
   std::uint32_t current = SeenNode::None;
   eachSeen(
-    tree, Frustum(view), VisitOrder(view),
+    tree, Frustum(view), VisitOrder::of(view),
     [&](const LooseNode& node)
     {
       current = node.depth > 0 ? nodeAt[node.depth - 1] : SeenNode::None;

@@ -86,7 +86,7 @@ bool RayCasters::anyOpaque(const BoxWay& way, const Visit& visit) const
   // floats tell, the answer is that of the points which are asked together.
   std::vector<std::uint32_t> asked;
   this->Tree->visit(
-    VisitOrder::from(way.middle),
+    VisitOrder{ way.middle },
     [&](const LooseNode& node, std::uint8_t&)
     { return CasterBox(node.centre, node.half).mayMeet(way); },
     [&](std::uint32_t object)
@@ -111,7 +111,7 @@ void RayCasters::eachOpaque(const glm::dvec3& from, const Reach& reach, const Vi
     return;
   }
   this->Tree->visit(
-    VisitOrder::from(from),
+    VisitOrder{ from },
     [&](const LooseNode& node, std::uint8_t&) { return reach(node.centre, glm::dvec3(node.half)); },
     [&](std::uint32_t object)
     {

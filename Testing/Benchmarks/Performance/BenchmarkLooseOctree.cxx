@@ -265,7 +265,7 @@ public:
           planes[p] = glm::vec4(frustum.plane(p));
         }
         std::size_t found = 0, flatFound = 0;
-        const svo::VisitOrder order(view);
+        const svo::VisitOrder order = svo::VisitOrder::of(view);
         treeTime += secondsOf(
           [&]
           {

@@ -20,7 +20,7 @@ void expectEnclosed(const svo::LooseOctree& tree, const Crowd& crowd)
   std::vector<std::size_t> left;
   std::size_t objects = 0, nodes = 0;
   tree.visit(
-    svo::VisitOrder::from({ 1, 2, 3 }),
+    svo::VisitOrder{ { 1, 2, 3 } },
     [&](const svo::LooseNode& node, std::uint8_t&)
     {
       path.resize(node.depth);
@@ -193,8 +193,7 @@ TEST(LooseOctree, WhatFitsNowhereIsHeldApartAndCanComeBack)
     EXPECT_EQ(tree.outsiders().size(), 20u);
     std::size_t visited = 0;
     tree.visit(
-      svo::VisitOrder::from({ 0, 0, 0 }),
-      [](const svo::LooseNode&, std::uint8_t&) { return false; },
+      svo::VisitOrder{ { 0, 0, 0 } }, [](const svo::LooseNode&, std::uint8_t&) { return false; },
       [&](std::uint32_t) { ++visited; });
     EXPECT_EQ(visited, 20u) << "outsiders are visited whatever nodes are told";
   }
@@ -260,7 +259,7 @@ TEST(LooseOctree, CubesOfAnySizeAnywhere)
       EXPECT_LT(tree.outsiders().size(), 300u);
       std::vector<svo::LooseNode> path;
       tree.visit(
-        svo::VisitOrder::from(middle),
+        svo::VisitOrder{ middle },
         [&](const svo::LooseNode& node, std::uint8_t&)
         {
           path.resize(node.depth);

@@ -36,7 +36,7 @@ TEST(LooseOctreeVisits, OfTwoCellsThatAPlaneOfANodeSeparatesTheNearerIsFirst)
     const glm::dvec3 eye = eyes[e % eyes.size()];
     std::vector<KeptNode> nodes;
     tree.visit(
-      parallel ? svo::VisitOrder::along(-eye) : svo::VisitOrder::from(eye),
+      parallel ? svo::VisitOrder::along(-eye) : svo::VisitOrder{ eye },
       [&](const svo::LooseNode& node, std::uint8_t&)
       {
         nodes.push_back({ node.depth, { node.centre.x, node.centre.y, node.centre.z }, {} });
@@ -111,7 +111,7 @@ TEST(LooseOctreeVisits, NothingBelowANodeThatIsSkippedIsVisited)
   // The first node of depth 2 with many below it.
   std::size_t skipped = 0, visited = 0;
   tree.visit(
-    svo::VisitOrder::from({ 9, 9, 9 }),
+    svo::VisitOrder{ { 9, 9, 9 } },
     [&](const svo::LooseNode& node, std::uint8_t& known)
     {
       EXPECT_EQ(known, node.depth > 1 ? 2 : node.depth) << "handed down, to no neighbour";

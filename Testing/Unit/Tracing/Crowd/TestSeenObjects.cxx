@@ -59,7 +59,7 @@ TEST(SeenObjects, AreThoseOfAFlatTestAndAmongThemAllThatAreSeen)
       const svo::Frustum frustum(view, rect);
       std::set<std::uint32_t> found;
       svo::eachSeen(
-        placed.tree, frustum, svo::VisitOrder(view), [](const svo::LooseNode&) {},
+        placed.tree, frustum, svo::VisitOrder::of(view), [](const svo::LooseNode&) {},
         [&](std::uint32_t object) { EXPECT_TRUE(found.insert(object).second) << "only once"; });
       for (const auto& [name, given] : placed.crowd)
       {
@@ -102,7 +102,7 @@ TEST(SeenObjects, OfAllGroupsOfTilesAreThoseOfTheImage)
     {
       std::set<std::uint32_t> found;
       svo::eachSeen(
-        placed.tree, svo::Frustum(view, rect, margin), svo::VisitOrder(view),
+        placed.tree, svo::Frustum(view, rect, margin), svo::VisitOrder::of(view),
         [](const svo::LooseNode&) {}, [&](std::uint32_t object) { found.insert(object); });
       return found;
     };
@@ -149,7 +149,7 @@ TEST(SeenObjects, BallsThatTouchTheFrustumFromOutsideAreAmongThem)
       bool seen = false;
       tree.insert(0, at, radius);
       svo::eachSeen(
-        tree, frustum, svo::VisitOrder(view), [](const svo::LooseNode&) {},
+        tree, frustum, svo::VisitOrder::of(view), [](const svo::LooseNode&) {},
         [&](std::uint32_t object) { seen = seen || object == 0; });
       return seen;
     };
