@@ -7,6 +7,7 @@
 #define svoLaneBits_inl_h
 #endif
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -64,6 +65,18 @@ HWY_INLINE std::uint64_t lanesOf(const std::uint32_t* numbers, std::uint32_t wan
     lanes |= bitsOf(words, hn::Eq(hn::LoadU(words, numbers + i), value)) << i;
   }
   return lanes;
+}
+
+/// Of 64, aligned.
+HWY_INLINE float highestOf(const float* v)
+{
+  const DF df;
+  F most = hn::Load(df, v);
+  for (std::size_t i = hn::Lanes(df); i < 64; i += hn::Lanes(df))
+  {
+    most = hn::Max(most, hn::Load(df, v + i));
+  }
+  return hn::GetLane(hn::MaxOfLanes(df, most));
 }
 }
 }

@@ -4,6 +4,7 @@
 
 #include "svoCounters.h"
 #include "svoIntersectTile.h"
+#include "svoLaneBits-inl.h"
 #include "svoLaneProducts-inl.h"
 #include "svoLaneTriples-inl.h"
 #include "svoPyramidSides.h"
@@ -119,17 +120,6 @@ HWY_INLINE bool outside(const PyramidSides& sides, const float* p, const float* 
   return false;
 }
 
-float farthestEnd(const ShearedRays& rays)
-{
-  const DF df;
-  F most = hn::Load(df, rays.tEnd);
-  for (std::size_t i = hn::Lanes(df); i < 64; i += hn::Lanes(df))
-  {
-    most = hn::Max(most, hn::Load(df, rays.tEnd + i));
-  }
-  return hn::GetLane(hn::MaxOfLanes(df, most));
-}
-
 /// Shears the rays that are longest along axis `z`, negative or not; the others end before they
 /// begin. `kind`: 2 z + (1 if negative), of each ray.
 void shear(const RayBlock& block, const float* const direction[3], const std::int32_t* kinds,
@@ -162,7 +152,7 @@ void shear(const RayBlock& block, const float* const direction[3], const std::in
     hn::Store(infinity, df, rays.t + i);
     hn::Store(hn::Set(di, NoId), di, rays.id + i);
   }
-  rays.farthest = farthestEnd(rays);
+  rays.farthest = highestOf(rays.tEnd);
 }
 
 /// The axis and sign of each ray's direction, -1 where there is none; and which there are. Clears
@@ -269,7 +259,7 @@ void traceKind(const Octree& octree, const PyramidSides& sides, const std::vecto
     }
     if (any)
     {
-      rays.farthest = farthestEnd(rays);
+      rays.farthest = highestOf(rays.tEnd);
     }
   }
 }

@@ -247,17 +247,6 @@ HWY_NOINLINE std::uint64_t draw(const TriangleGroup::Slots& slots, const TilePix
   return met;
 }
 
-HWY_INLINE float highest(const float* v)
-{
-  const DF df;
-  F most = hn::Load(df, v);
-  for (std::size_t i = hn::Lanes(df); i < 64; i += hn::Lanes(df))
-  {
-    most = hn::Max(most, hn::Load(df, v + i));
-  }
-  return hn::GetLane(hn::MaxOfLanes(df, most));
-}
-
 /// The numbers of a tile among those of a group's pixels, which are row by row.
 template <class T>
 HWY_INLINE void copyTile(const T* from, int column, int row, T* to)
@@ -376,7 +365,7 @@ bool nearestInTile(const TriangleGroup::Slots& slots, const GroupPixels& small,
     TriangleGroup::Thin | TriangleGroup::Unsure | TriangleGroup::Clipped;
   const float x = tileMiddle(column), y = tileMiddle(row);
   std::uint64_t covered = begin(small, column, row, tile, found.slot); // others by boxes
-  float deepest = ~covered == 0 ? highest(tile.upper) : infinity;
+  float deepest = ~covered == 0 ? highestOf(tile.upper) : infinity;
   for (std::size_t k = 0; k < count && found.seen[k].key <= deepest; ++k)
   {
     const std::int32_t slot = found.seen[k].slot;
@@ -393,7 +382,7 @@ bool nearestInTile(const TriangleGroup::Slots& slots, const GroupPixels& small,
     covered |= box;
     if (~covered == 0 && (k % 4 == 0 || ~box == 0))
     {
-      deepest = highest(tile.upper);
+      deepest = highestOf(tile.upper);
     }
   }
   found.doubtful = 0;
