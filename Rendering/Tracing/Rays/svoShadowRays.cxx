@@ -19,16 +19,15 @@ glm::dvec3 sideOf(const Light& light, const glm::dvec3& position, const glm::vec
   const glm::dvec3 normal(facet);
   return glm::dot(normal, light.along(position)) > 0.0 ? -normal : normal;
 }
-}
 
 /// A point that asks, and its answer.
-struct ShadowRays::Start
+struct Start
 {
   glm::dvec3 position, side; // world; side: unit, of its facet, towards the light
   int number;                // of the answer's bit
 };
 
-bool ShadowRays::blocks(const RayCaster& caster, const Light& light, const glm::dvec3& position,
+bool blocks(const RayCaster& caster, const Light& light, const glm::dvec3& position,
   const glm::dvec3& side, double offset)
 {
   const glm::dvec3 start = position + offset * side;
@@ -59,8 +58,9 @@ bool ShadowRays::blocks(const RayCaster& caster, const Light& light, const glm::
   return occluded(caster.instance->body->octree, outer, options);
 }
 
-float ShadowRays::opacityMet(const RayCaster& caster, const Light& light,
-  const glm::dvec3& position, const glm::dvec3& side, double offset)
+/// How opaque the caster is where the light of a point that it blocks() meets it first.
+float opacityMet(const RayCaster& caster, const Light& light, const glm::dvec3& position,
+  const glm::dvec3& side, double offset)
 {
   // From the light to where blocks() began.
   for (const double above : { std::max(offset, caster.planeError), offset })
@@ -75,53 +75,9 @@ float ShadowRays::opacityMet(const RayCaster& caster, const Light& light,
   return 0.0f; // the ray only grazes it
 }
 
-void ShadowRays::taken(const Light& light, const TilePatch& patch, double offset,
-  std::uint64_t asked, float* taken) const
-{
-  Start starts[Most];
-  Box box;
-  int count = 0;
-  eachBit(asked & patch.mask,
-    [&](int i)
-    {
-      const glm::dvec3 position = patch.position(i);
-      box.add(position, glm::dvec3(offset));
-      starts[count++] = { position, sideOf(light, position, patch.facet(i)), i };
-    });
-  std::fill_n(taken, TilePatch::Most, 0.0f);
-  for (const RayCaster& caster : this->Casters.translucent())
-  {
-    if (count == 0 || !caster.box.mayBlock(light, box))
-    {
-      continue;
-    }
-    const std::uint64_t met = this->beam(caster, light, starts, count, offset);
-    for (int k = 0; k < count; ++k)
-    {
-      const Start& at = starts[k];
-      if (met >> at.number & 1)
-      {
-        float& all = taken[at.number];
-        const float one = opacityMet(caster, light, at.position, at.side, offset);
-        all = all > 0.0f ? 1.0f - (1.0f - all) * (1.0f - one) : one;
-      }
-    }
-  }
-}
-
-bool ShadowRays::shadows(
-  const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const
-{
-  const glm::dvec3 side = sideOf(light, position, facet);
-  Box from;
-  from.add(position, glm::dvec3(offset));
-  return this->Casters.anyOpaque(wayToLight(light, from),
-    [&](const RayCaster& caster) { return blocks(caster, light, position, side, offset); });
-}
-
 /// Those that the caster shadows, one bit each.
-std::uint64_t ShadowRays::beam(
-  const RayCaster& caster, const Light& light, const Start* starts, int count, double offset) const
+std::uint64_t beam(
+  const RayCaster& caster, const Light& light, const Start* starts, int count, double offset)
 {
   std::uint64_t dark = 0;
   const auto setIf = [&dark](bool isDark, const Start& start)
@@ -147,8 +103,8 @@ std::uint64_t ShadowRays::beam(
   if (!traceBeam(caster.instance->body->octree, from, far, points, answers))
   {
     const int half = count / 2;
-    return this->beam(caster, light, starts, half, offset) |
-      this->beam(caster, light, starts + half, count - half, offset);
+    return beam(caster, light, starts, half, offset) |
+      beam(caster, light, starts + half, count - half, offset);
   }
   for (int i = 0; i < count; ++i)
   {
@@ -159,7 +115,9 @@ std::uint64_t ShadowRays::beam(
   return dark;
 }
 
-std::uint64_t ShadowRays::shadows(const Light& light, Start* starts, int count, double offset) const
+/// The same of all casters. Changes the order of the starts.
+std::uint64_t shadowed(
+  const RayCasters& casters, const Light& light, Start* starts, int count, double offset)
 {
   Box box;
   for (int i = 0; i < count; ++i)
@@ -171,16 +129,61 @@ std::uint64_t ShadowRays::shadows(const Light& light, Start* starts, int count, 
   {
     return dark;
   }
-  this->Casters.anyOpaque(wayToLight(light, box),
+  casters.anyOpaque(wayToLight(light, box),
     [&](const RayCaster& caster)
     {
-      dark |= this->beam(caster, light, starts, count, offset);
+      dark |= beam(caster, light, starts, count, offset);
       count = static_cast<int>(std::remove_if(starts, starts + count,
                                  [&](const Start& start) { return dark >> start.number & 1; }) -
         starts);
       return count == 0;
     });
   return dark;
+}
+}
+
+void ShadowRays::taken(const Light& light, const TilePatch& patch, double offset,
+  std::uint64_t asked, float* taken) const
+{
+  Start starts[Most];
+  Box box;
+  int count = 0;
+  eachBit(asked & patch.mask,
+    [&](int i)
+    {
+      const glm::dvec3 position = patch.position(i);
+      box.add(position, glm::dvec3(offset));
+      starts[count++] = { position, sideOf(light, position, patch.facet(i)), i };
+    });
+  std::fill_n(taken, TilePatch::Most, 0.0f);
+  for (const RayCaster& caster : this->Casters.translucent())
+  {
+    if (count == 0 || !caster.box.mayBlock(light, box))
+    {
+      continue;
+    }
+    const std::uint64_t met = beam(caster, light, starts, count, offset);
+    for (int k = 0; k < count; ++k)
+    {
+      const Start& at = starts[k];
+      if (met >> at.number & 1)
+      {
+        float& all = taken[at.number];
+        const float one = opacityMet(caster, light, at.position, at.side, offset);
+        all = all > 0.0f ? 1.0f - (1.0f - all) * (1.0f - one) : one;
+      }
+    }
+  }
+}
+
+bool ShadowRays::shadows(
+  const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const
+{
+  const glm::dvec3 side = sideOf(light, position, facet);
+  Box from;
+  from.add(position, glm::dvec3(offset));
+  return this->Casters.anyOpaque(wayToLight(light, from),
+    [&](const RayCaster& caster) { return blocks(caster, light, position, side, offset); });
 }
 
 std::uint64_t ShadowRays::shadows(
@@ -195,7 +198,7 @@ std::uint64_t ShadowRays::shadows(
       const glm::dvec3 position = patch.position(i);
       starts[count++] = { position, sideOf(light, position, patch.facet(i)), i };
     });
-  return this->shadows(light, starts, count, offset);
+  return shadowed(this->Casters, light, starts, count, offset);
 }
 
 std::uint64_t ShadowRays::shadows(
@@ -208,7 +211,7 @@ std::uint64_t ShadowRays::shadows(
     const SurfacePoint& point = *points[i];
     starts[i] = { point.position, sideOf(light, point.position, point.facet), i };
   }
-  return this->shadows(light, starts, count, offset);
+  return shadowed(this->Casters, light, starts, count, offset);
 }
 
 glm::dvec3 ShadowRays::start(

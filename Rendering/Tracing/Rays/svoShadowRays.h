@@ -55,18 +55,6 @@ public:
   bool between(const glm::dvec3& from, const glm::dvec3& to, double offset) const;
 
 private:
-  /// Close together, on the light's side of their surface.
-  struct Start;
-  static bool blocks(const RayCaster& caster, const Light& light, const glm::dvec3& position,
-    const glm::dvec3& side, double offset);
-  /// How opaque the caster is where the light of a point that it blocks() meets it first.
-  static float opacityMet(const RayCaster& caster, const Light& light, const glm::dvec3& position,
-    const glm::dvec3& side, double offset);
-  /// Changes the order of the starts.
-  std::uint64_t shadows(const Light& light, Start* starts, int count, double offset) const;
-  std::uint64_t beam(const RayCaster& caster, const Light& light, const Start* starts, int count,
-    double offset) const;
-
   const RayCasters& Casters;
 };
 }
