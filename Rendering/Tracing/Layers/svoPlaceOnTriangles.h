@@ -27,21 +27,15 @@ inline double edgeOnReach(const LocalView& local)
   return 1e-5 * local.tMax;
 }
 
-/// True if the sine of a ray's angle to a triangle is less than 1e-3. `along`: the product of
-/// `normal` and `direction`.
-inline bool seenEdgeOn(const glm::dvec3& normal, const glm::dvec3& direction, double along)
-{
-  return !(along * along > 1e-6 * glm::dot(normal, normal) * glm::dot(direction, direction));
-}
-
 /// Where a ray through the point (x, y) of the image, as it is in double, meets the plane.
-/// `edgeOn`: whether it does so edge-on.
+/// `edgeOn`: whether the sine of its angle to the plane is less than 1e-3.
 inline double meetPlane(
   const TrianglePlane& plane, const LocalView& local, double x, double y, bool& edgeOn)
 {
   const glm::dvec3 direction = local.directionAt(x, y);
   const double along = glm::dot(plane.normal, direction);
-  edgeOn = seenEdgeOn(plane.normal, direction, along);
+  edgeOn =
+    !(along * along > 1e-6 * glm::dot(plane.normal, plane.normal) * glm::dot(direction, direction));
   return glm::dot(plane.normal, plane.p - local.originAt(x, y)) / along;
 }
 
