@@ -22,25 +22,15 @@ struct BoxWay
 {
   glm::dvec3 middle, half, along;
   double share, spread;
-
-  BoxWay(const Box& from, const glm::dvec3& by, double times, double wider = 0.0)
-    : middle(0.5 * (from.low + from.high))
-    , half(0.5 * (from.high - from.low))
-    , along(by)
-    , share(times)
-    , spread(wider)
-  {
-  }
 };
 
 /// From a box of points to a light, all of it.
 inline BoxWay wayToLight(const Light& light, const Box& from)
 {
   const glm::dvec3 middle = 0.5 * (from.low + from.high);
-  BoxWay way(from, -light.along(middle), light.atInfinity() ? 1e300 : 1.0, light.spread());
   // A box that gets narrower towards the light, or wider if the light is larger.
-  way.half = glm::max(way.half, glm::dvec3(light.radius()));
-  return way;
+  const glm::dvec3 half = glm::max(0.5 * (from.high - from.low), glm::dvec3(light.radius()));
+  return { middle, half, -light.along(middle), light.atInfinity() ? 1e300 : 1.0, light.spread() };
 }
 
 /// The box of an instance's mesh, or its octree's cube, in coordinates in which it is -1..1 wide.
@@ -74,14 +64,12 @@ public:
         low[i] = std::max(low[i], h.meshBounds[2 * i] - 2.0 * h.voxelSize);
         high[i] = std::min(high[i], h.meshBounds[2 * i + 1] + 2.0 * h.voxelSize);
       }
-    }
-    for (int i = 0; i < 3; ++i)
-    {
+      const double half = 0.5 * (high[i] - low[i]);
       for (int axis = 0; axis < 3; ++axis)
       {
-        this->Inverse[axis][i] = inverse[axis][i] / (0.5 * (high[i] - low[i]));
+        this->Inverse[axis][i] = inverse[axis][i] / half;
       }
-      this->Extent += 0.5 * (high[i] - low[i]) * glm::abs(glm::dvec3(instance.localToWorld[i]));
+      this->Extent += half * glm::abs(glm::dvec3(instance.localToWorld[i]));
     }
     this->Centre = glm::dvec3(instance.localToWorld * glm::dvec4(0.5 * (low + high), 1.0));
   }

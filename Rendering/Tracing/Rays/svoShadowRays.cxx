@@ -224,9 +224,7 @@ bool ShadowRays::between(const glm::dvec3& from, const glm::dvec3& to, double of
 {
   const glm::dvec3 direction = to - from;
   const double length = glm::length(direction);
-  Box box;
-  box.add(from);
-  return this->Casters.anyOpaque({ box, direction, 1.0 },
+  return this->Casters.anyOpaque({ from, glm::dvec3(0.0), direction, 1.0, 0.0 },
     [&](const RayCaster& caster)
     {
       const double first = std::max(offset, caster.leafError);

@@ -53,9 +53,8 @@ public:
   /// All that rays can meet which start in a box.
   BoxWay way(const Box& starts) const
   {
-    BoxWay way(starts, glm::dvec3(0.0), 0.0);
-    way.half += this->Distance;
-    return way;
+    return { 0.5 * (starts.low + starts.high), 0.5 * (starts.high - starts.low) + this->Distance,
+      glm::dvec3(0.0), 0.0, 0.0 };
   }
 
 private:
