@@ -2,7 +2,6 @@
 
 #include "svoDepthSlope.h"
 #include "svoIntersect.h"
-#include "svoPlaceOnTriangles.h"
 
 #include <algorithm>
 #include <cmath>

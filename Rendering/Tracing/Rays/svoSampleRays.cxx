@@ -4,7 +4,6 @@
 #include "svoTilePatch.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>

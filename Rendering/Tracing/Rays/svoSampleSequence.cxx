@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
