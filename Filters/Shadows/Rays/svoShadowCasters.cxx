@@ -147,14 +147,11 @@ std::uint64_t ShadowCasters::beam(
   {
     points.at[i] = caster.toOctree.point(starts[i].at);
   }
-  const bool far = light.atInfinity();
-  const glm::dvec3 from =
-    far ? caster.toOctree.vector(light.direction) : caster.toOctree.point(light.position);
   BeamAnswer answers[BeamPoints::Most];
   Primitive nearest[BeamPoints::Most];
   // A beam that sees more is slower than its rays side by side, whatever they lie on.
   constexpr std::size_t MostNodes = 24;
-  if (!traceBeam(caster.octree, from, far, points, answers, nearest, MostNodes))
+  if (!traceBeam(caster.octree, caster.toOctree, light, points, answers, nearest, MostNodes))
   {
     return block(caster, light, starts, count);
   }

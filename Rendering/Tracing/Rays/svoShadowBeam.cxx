@@ -58,8 +58,8 @@ double depthOfPlane(const BeamRay& ray, const TrianglePlane& plane)
 }
 }
 
-bool traceBeam(const Octree& octree, const glm::dvec3& light, bool far, const BeamPoints& points,
-  BeamAnswer* answers, Primitive* nearest, std::size_t mostNodes)
+bool traceBeam(const Octree& octree, const WorldToOctree& toOctree, const Light& light,
+  const BeamPoints& points, BeamAnswer* answers, Primitive* nearest, std::size_t mostNodes)
 {
   assert(points.count > 0 && points.count <= BeamPoints::Most && octree.surface());
   glm::dvec3 centre(0.0);
@@ -67,7 +67,9 @@ bool traceBeam(const Octree& octree, const glm::dvec3& light, bool far, const Be
   {
     centre += points.at[i] / static_cast<double>(points.count);
   }
-  const BeamFrame frame(far ? centre : light, far ? light : centre - light);
+  const bool far = light.atInfinity();
+  const glm::dvec3 source = far ? toOctree.vector(light.direction) : toOctree.point(light.position);
+  const BeamFrame frame(far ? centre : source, far ? source : centre - source);
 
   // The cube's depths.
   const double edge = std::ldexp(1.0, -octree.rootBits(0));

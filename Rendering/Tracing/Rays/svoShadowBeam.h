@@ -12,8 +12,10 @@
 #ifndef svoShadowBeam_h
 #define svoShadowBeam_h
 
+#include "svoLight.h"
 #include "svoOctree.h"
 #include "svoRay.h"
+#include "svoWorldToOctree.h"
 #include "vtkSVOTracingModule.h"
 
 #include <cstddef>
@@ -42,12 +44,11 @@ enum class BeamAnswer : std::uint8_t
   Undecided // the light lies on a triangle: a ray alone knows what is behind
 };
 
-/// Answers all points. `light`: its position, or the way that it shines if it is `far` away; octree
-/// coordinates. False, and nothing is answered, where the beam is too wide to see at most
+/// Answers all points. False, and nothing is answered, where the beam is too wide to see at most
 /// `mostNodes` nodes: ask for fewer points. `nearest`: where not null, the triangles that make
 /// points dark, those nearest to the light.
-VTKSVOTRACING_EXPORT bool traceBeam(const Octree& octree, const glm::dvec3& light, bool far,
-  const BeamPoints& points, BeamAnswer* answers, Primitive* nearest = nullptr,
+VTKSVOTRACING_EXPORT bool traceBeam(const Octree& octree, const WorldToOctree& toOctree,
+  const Light& light, const BeamPoints& points, BeamAnswer* answers, Primitive* nearest = nullptr,
   std::size_t mostNodes = 256);
 }
 

@@ -96,11 +96,8 @@ std::uint64_t beam(
   {
     points.at[i] = caster.toOctree.point(starts[i].position + offset * starts[i].side);
   }
-  const bool far = light.atInfinity();
-  const glm::dvec3 from =
-    far ? caster.toOctree.vector(light.direction) : caster.toOctree.point(light.position);
   BeamAnswer answers[BeamPoints::Most];
-  if (!traceBeam(caster.instance->body->octree, from, far, points, answers))
+  if (!traceBeam(caster.instance->body->octree, caster.toOctree, light, points, answers))
   {
     const int half = count / 2;
     return beam(caster, light, starts, half, offset) |
