@@ -36,12 +36,6 @@ float floatBelow(double x)
   const float f = static_cast<float>(x);
   return f > x ? std::nextafter(f, 0.0f) : f;
 }
-
-/// Leading bits that are all 0; 32 for 0.
-int leadingZeros(std::uint32_t bits)
-{
-  return bits == 0 ? 32 : __builtin_clz(bits);
-}
 }
 
 LooseOctree::LooseOctree(const glm::dvec3& centre, double edge, double looseness)
@@ -165,7 +159,8 @@ bool LooseOctree::move(std::uint32_t object, const glm::dvec3& centre, double ra
   }
   // Up to the deepest node that both places have above them: it keeps as many as before.
   const int depth = record.depth;
-  const int shared = std::min({ depth, deepest, leadingZeros(changed) });
+  const int same = changed == 0 ? 32 : __builtin_clz(changed); // leading bits
+  const int shared = std::min({ depth, deepest, same });
   const std::uint32_t from = record.node;
   std::uint32_t above = from;
   for (int d = depth; d > shared; --d)

@@ -21,34 +21,7 @@ double leastTrianglePixels(std::uint64_t triangles, bool allTiles)
   constexpr double Most = 0.5, MostAt = 200000.0;
   return std::clamp(static_cast<double>(triangles) * (Most / MostAt), allTiles ? 0.05 : 0.25, Most);
 }
-}
 
-bool worthTiles(const Instance& instance, const LocalView& local, const View& view, bool allTiles)
-{
-  const Octree& octree = instance.body->octree;
-  if (!traitsOf(instance.body->leafGeometry).exact() || !octree.surface() || local.stretched)
-  {
-    return false;
-  }
-  assert(!local.rect.empty() && octree.header().triangleCount > 0);
-  const double pixel = worldPixel(view, local.base + 0.5 * local.tMax);
-  const double voxel = worldVoxel(instance) / pixel;
-  const Header& h = octree.header();
-  const double voxels = static_cast<double>(h.voxelCount) / static_cast<double>(h.triangleCount);
-  return voxels * voxel * voxel >= leastTrianglePixels(h.triangleCount, allTiles);
-}
-
-int deepened(const Instance& instance, int level)
-{
-  const bool exact =
-    traitsOf(instance.body->leafGeometry).exact() && instance.body->octree.surface();
-  return (exact || instance.body->octree.hasPlanes()) && !stopsAtNodes(instance, level)
-    ? instance.body->octree.level()
-    : level;
-}
-
-namespace
-{
 /// What the tree knows of a view: `set.order` is all that may be seen.
 void askTree(const LooseOctree& tree, const View& view, VisibleSet& set)
 {
@@ -74,6 +47,30 @@ void askTree(const LooseOctree& tree, const View& view, VisibleSet& set)
       set.nodeOf.push_back(current);
     });
 }
+}
+
+bool worthTiles(const Instance& instance, const LocalView& local, const View& view, bool allTiles)
+{
+  const Octree& octree = instance.body->octree;
+  if (!traitsOf(instance.body->leafGeometry).exact() || !octree.surface() || local.stretched)
+  {
+    return false;
+  }
+  assert(!local.rect.empty() && octree.header().triangleCount > 0);
+  const double pixel = worldPixel(view, local.base + 0.5 * local.tMax);
+  const double voxel = worldVoxel(instance) / pixel;
+  const Header& h = octree.header();
+  const double voxels = static_cast<double>(h.voxelCount) / static_cast<double>(h.triangleCount);
+  return voxels * voxel * voxel >= leastTrianglePixels(h.triangleCount, allTiles);
+}
+
+int deepened(const Instance& instance, int level)
+{
+  const bool exact =
+    traitsOf(instance.body->leafGeometry).exact() && instance.body->octree.surface();
+  return (exact || instance.body->octree.hasPlanes()) && !stopsAtNodes(instance, level)
+    ? instance.body->octree.level()
+    : level;
 }
 
 void findVisible(const Scene& scene, const View& view, const Culling& culling,
