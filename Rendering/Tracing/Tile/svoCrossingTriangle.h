@@ -30,7 +30,7 @@ struct SeenPoint
   SeenPoint(const GroupView& view, const glm::vec3& point)
   {
     const glm::dvec4 v(glm::dvec3(point) - 1.0, 1.0);
-    const auto at = [&](const float* f) { return f[0] * v.x + f[1] * v.y + f[2] * v.z + f[3]; };
+    const auto at = [&](const glm::vec4& f) { return f.x * v.x + f.y * v.y + f.z * v.z + f.w; };
     p = { at(view.x), at(view.y), at(view.w) };
     k = at(view.k);
   }

@@ -3,17 +3,20 @@
 #ifndef svoGroupView_h
 #define svoGroupView_h
 
+#include <glm/vec4.hpp>
+
 namespace svo
 {
-/// Functions f(v) = f[0] v.x + f[1] v.y + f[2] v.z + f[3] of octree coordinates minus 1, in which
+/// Functions f(v) = f.x v.x + f.y v.y + f.z v.z + f.w of octree coordinates minus 1, in which
 /// points of the cube lie in [0, 1]. Pixels are counted from the middle of the group.
 struct GroupView
 {
   static constexpr int Tiles = 4;          // along an edge of the group
   static constexpr int Pixels = 8 * Tiles; // likewise
 
-  float x[4], y[4], w[4]; // a point is seen at the pixel (x / w, y / w)
-  float k[4], scale;      // its key is scale k / w: it grows with the depth
+  glm::vec4 x, y, w; // a point is seen at the pixel (x / w, y / w)
+  glm::vec4 k;       // its key is scale k / w: it grows with the depth
+  float scale;
   float kOfT[2], wOfT[2]; // k and w where a ray's t is so much: f[0] t + f[1]
 
   /// How far a corner of a triangle can be from where it is computed, times w: `error`, and

@@ -41,11 +41,11 @@ namespace svo
 {
 namespace HWY_NAMESPACE
 {
-HWY_INLINE F linear(const float* f, F x, F y, F z)
+HWY_INLINE F linear(const glm::vec4& f, F x, F y, F z)
 {
   const DF d;
-  return hn::MulAdd(hn::Set(d, f[0]), x,
-    hn::MulAdd(hn::Set(d, f[1]), y, hn::MulAdd(hn::Set(d, f[2]), z, hn::Set(d, f[3]))));
+  return hn::MulAdd(hn::Set(d, f.x), x,
+    hn::MulAdd(hn::Set(d, f.y), y, hn::MulAdd(hn::Set(d, f.z), z, hn::Set(d, f.w))));
 }
 
 HWY_INLINE F least(F a, F b, F c)

@@ -132,13 +132,6 @@ inline GroupView makeGroupView(const LocalView& local, const PixelFunctions& fun
   // A linear function in float: coefficients, products and sums are rounded.
   const auto roundings = [&](const glm::dvec4& f)
   { return 6.0 * u * (gradient(f) + std::abs(f.w)); };
-  const auto store = [](const glm::dvec4& f, float* to)
-  {
-    for (int k = 0; k < 4; ++k)
-    {
-      to[k] = static_cast<float>(f[k]);
-    }
-  };
 
   double m = 0.0, a = 0.0, s = 0.0;
   int axis = 0;
@@ -146,11 +139,8 @@ inline GroupView makeGroupView(const LocalView& local, const PixelFunctions& fun
   {
     const double cx = x + (corner & 1 ? half : -half), cy = y + (corner & 2 ? half : -half);
     const glm::dvec3 start = local.originAt(cx, cy);
-    for (int k = 0; k < 3; ++k)
-    {
-      m = std::max(m, std::abs(start[k]));
-      a = std::max({ a, std::abs(start[k] - 1.0), std::abs(start[k] - 2.0) });
-    }
+    m = std::max(m, largestOf(start));
+    a = std::max({ a, largestOf(start - 1.0), largestOf(start - 2.0) });
     // Quotients of linear functions are largest at corners, unless the divisor may be 0 in between.
     const glm::dvec3 d = local.directionAt(cx, cy);
     const glm::dvec3 size = glm::abs(d);
@@ -170,10 +160,10 @@ inline GroupView makeGroupView(const LocalView& local, const PixelFunctions& fun
     k = functions.t +
       glm::dvec4(0.0, 0.0, 0.0, (functions.parallel ? functions.base : functions.wBase) - keys.far);
   }
-  store(gx, view.x);
-  store(gy, view.y);
-  store(functions.w, view.w);
-  store(k, view.k);
+  view.x = gx;
+  view.y = gy;
+  view.w = functions.w;
+  view.k = k;
   // Of t itself, which is the functions' own but for its float.
   view.kOfT[0] = keys.deep ? 0.0f : 1.0f;
   view.kOfT[1] = static_cast<float>(k.w - (keys.deep ? 0.0 : functions.t.w));
