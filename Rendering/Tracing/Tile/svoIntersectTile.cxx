@@ -7,7 +7,6 @@
 #include "svoLaneBits-inl.h"
 #include "svoLaneProducts-inl.h"
 #include "svoLaneTriples-inl.h"
-#include "svoPyramidSides.h"
 
 #include <algorithm>
 #include <cassert>

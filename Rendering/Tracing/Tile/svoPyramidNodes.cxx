@@ -8,7 +8,6 @@
 #include "svoMorton.h"
 #include "svoNode.h"
 #include "svoPyramidNodes.h"
-#include "svoPyramidSides.h"
 
 #include <algorithm>
 #include <cassert>
