@@ -56,10 +56,15 @@ bool TriangleGroup::add(const Octree& octree, const std::vector<GroupNode>& node
   this->Count = 0;
   std::size_t ready = 0;
   bool good = true;
-  const auto makeReady = [&]
+  const auto readOn = [&](std::size_t fewest)
   {
-    good = this->makeReady(surface, view, small, owner, ready);
-    ready = this->Count;
+    this->readLists(surface);
+    if (this->Count - ready >= fewest)
+    {
+      good = this->makeReady(surface, view, small, owner, ready);
+      ready = this->Count;
+    }
+    return good;
   };
   for (const GroupNode& node : nodes)
   {
@@ -68,25 +73,13 @@ bool TriangleGroup::add(const Octree& octree, const std::vector<GroupNode>& node
       continue;
     }
     findList(octree, node.node, this->Lists[this->ListCount++]);
-    if (this->ListCount == ListsAtOnce)
+    // As soon as there are some, since they may hide what comes later.
+    if (this->ListCount == ListsAtOnce && !readOn(TrianglesAtOnce))
     {
-      this->readLists(surface);
-      // As soon as there are some, since they may hide what comes later.
-      if (this->Count - ready >= TrianglesAtOnce)
-      {
-        makeReady();
-        if (!good)
-        {
-          break;
-        }
-      }
+      break;
     }
   }
-  this->readLists(surface);
-  if (good && this->Count > ready)
-  {
-    makeReady();
-  }
+  good = good && readOn(1);
   for (std::size_t k = 0; k < this->Count; ++k)
   {
     this->Known[this->Ids[k] / 64] = 0;
