@@ -18,7 +18,6 @@ struct Corner
 struct Bundle
 {
   Corner corners[4];
-  double tNear, tFar;
   double originNoise, directionNoise; // world; world a unit of depth
 };
 
@@ -40,14 +39,12 @@ Bundle bundleOf(const View& view, double x0, double y0, double x1, double y1)
   rays.originNoise = Rounding * (sum(view.origin) + x * sum(view.originX) + y * sum(view.originY));
   rays.directionNoise =
     Rounding * (sum(view.direction) + x * sum(view.directionX) + y * sum(view.directionY));
-  rays.tNear = view.tNear;
-  rays.tFar = view.tFar;
   return rays;
 }
 
 /// The largest offset of a plane that all rays are inside of with; not finite where there is none:
 /// numbers without an end have a noise without one.
-double offsetFor(const Bundle& rays, const glm::dvec3& normal)
+double offsetFor(const View& view, const Bundle& rays, const glm::dvec3& normal)
 {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Corner& corner : rays.corners)
@@ -60,11 +57,11 @@ double offsetFor(const Bundle& rays, const glm::dvec3& normal)
         0x1p-50 * (std::abs(start) + std::abs(t * slope));
       return start + t * slope - noise;
     };
-    lowest = std::min(lowest, at(rays.tNear));
+    lowest = std::min(lowest, at(view.tNear));
     // A ray that certainly goes away is nearest where it starts, at whatever depth it ends.
     if (!(slope >= 2.0 * rays.directionNoise))
     {
-      lowest = std::min(lowest, at(rays.tFar));
+      lowest = std::min(lowest, at(view.tFar));
     }
   }
   return -lowest;
@@ -83,7 +80,7 @@ Frustum::Frustum(const View& view, const PixelRect& rect, double margin)
   const Bundle rays = bundleOf(view, x0, y0, x1, y1);
   const auto add = [&](const glm::dvec3& normal)
   {
-    const double offset = offsetFor(rays, normal);
+    const double offset = offsetFor(view, rays, normal);
     // What is so far away says nothing; and no plane where something is no number.
     if (std::abs(offset) < 1e200 && std::isfinite(sum(normal)))
     {
