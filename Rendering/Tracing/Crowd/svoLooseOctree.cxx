@@ -70,15 +70,15 @@ void LooseOctree::clear()
 LooseOctree::Spot LooseOctree::spotOf(const glm::dvec3& centre, double radius) const
 {
   const glm::dvec3 at = (centre - this->Low) * this->PerUnit;
-  Spot spot{ 0, 0, 0, 0.0f, false };
+  Spot spot;
   // False for what is not a number.
   if (!(at.x >= 0.0 && at.x <= Units && at.y >= 0.0 && at.y <= Units && at.z >= 0.0 &&
         at.z <= Units && radius >= 0.0))
   {
     return spot;
   }
-  spot.radius = floatAbove(radius * this->PerUnit);
-  spot.inside = bitsOf(spot.radius) <= this->Reach;
+  const float units = floatAbove(radius * this->PerUnit);
+  spot.radius = bitsOf(units) <= this->Reach ? units : -1.0f;
   // The upper sides of the cube belong to it.
   const auto unit = [](double x)
   { return static_cast<std::uint32_t>(std::min(x, static_cast<double>(0xffffffffu))); };
@@ -114,17 +114,14 @@ void LooseOctree::insert(std::uint32_t object, const glm::dvec3& centre, double 
 void LooseOctree::put(std::uint32_t object, const Spot& spot)
 {
   Record& record = this->Records[object];
-  if (!spot.inside)
+  if (!spot.inside())
   {
     record.node = Outside;
     record.place = static_cast<std::uint32_t>(this->Outsiders.size());
     this->Outsiders.push_back(object);
     return;
   }
-  record.x = spot.x;
-  record.y = spot.y;
-  record.z = spot.z;
-  record.radius = spot.radius;
+  static_cast<Spot&>(record) = spot;
   this->enter(0, object);
 }
 
@@ -136,9 +133,9 @@ bool LooseOctree::move(std::uint32_t object, const glm::dvec3& centre, double ra
   }
   const Spot spot = this->spotOf(centre, radius);
   Record& record = this->Records[object];
-  if (!spot.inside || record.node == Outside)
+  if (!spot.inside() || record.node == Outside)
   {
-    if (spot.inside || record.node != Outside)
+    if (spot.inside() || record.node != Outside)
     {
       this->remove(object);
       this->put(object, spot);
@@ -148,10 +145,7 @@ bool LooseOctree::move(std::uint32_t object, const glm::dvec3& centre, double ra
   const std::uint32_t changed = (record.x ^ spot.x) | (record.y ^ spot.y) | (record.z ^ spot.z);
   const int deepest = this->depthOf(spot.radius);
   const bool sameDepth = deepest == this->depthOf(record.radius);
-  record.x = spot.x;
-  record.y = spot.y;
-  record.z = spot.z;
-  record.radius = spot.radius;
+  static_cast<Spot&>(record) = spot;
   if (sameDepth && static_cast<std::uint64_t>(changed) >> (32 - record.depth) == 0)
   {
     this->writeBall(record);

@@ -179,10 +179,15 @@ private:
   static constexpr std::uint32_t Outside = 0xfffffffeu; // the same; its place is that in Outsiders
   static constexpr double Units = 4294967296.0;         // along an edge of the cube
 
-  struct alignas(32) Record
+  /// Where an object belongs.
+  struct Spot
   {
     std::uint32_t x = 0, y = 0, z = 0; // the unit that the centre lies in
-    float radius = 0.0f;               // units, rounded up
+    float radius = -1.0f;              // units, rounded up; negative: it fits nowhere
+    bool inside() const { return this->radius >= 0.0f; }
+  };
+  struct alignas(32) Record : Spot
+  {
     std::uint32_t node = Absent;
     std::uint32_t place = 0; // 16 times its chunk, and where in it
     std::uint8_t depth = 0;  // of the node
@@ -207,13 +212,6 @@ private:
   };
   static_assert(sizeof(Record) == 32 && sizeof(Node) == 24 && sizeof(Chunk) == 192, "");
 
-  /// Where an object belongs.
-  struct Spot
-  {
-    std::uint32_t x, y, z;
-    float radius;
-    bool inside;
-  };
   Spot spotOf(const glm::dvec3& centre, double radius) const;
   /// The depth of the cell of a radius in units, at most the reach of the root.
   int depthOf(float radius) const;
