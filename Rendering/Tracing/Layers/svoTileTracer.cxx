@@ -42,14 +42,12 @@ bool TileTracer::findWindow()
 {
   constexpr int Size = TileGroup::Tiles;
   int x0 = Size, y0 = Size, x1 = -1, y1 = -1;
-  const TileGrid& grid = this->Depth.grid;
-  const int endX = std::min(Size, grid.x0 + grid.tilesX - this->Group.x);
-  const int endY = std::min(Size, grid.y0 + grid.tilesY - this->Group.y);
-  for (int y = std::max(0, grid.y0 - this->Group.y); y < endY; ++y)
+  for (int y = 0; y < Size; ++y)
   {
-    for (int x = std::max(0, grid.x0 - this->Group.x); x < endX; ++x)
+    for (int x = 0; x < Size; ++x)
     {
-      if (this->Tiles.isMerged(this->indexOf(this->Group.x + x, this->Group.y + y)))
+      const int tileX = this->Group.x + x, tileY = this->Group.y + y;
+      if (this->Depth.grid.holds(tileX, tileY) && this->Tiles.isMerged(this->indexOf(tileX, tileY)))
       {
         x0 = std::min(x0, x);
         y0 = std::min(y0, y);
@@ -239,25 +237,23 @@ void TileTracer::traceTile(int tileX, int tileY, bool onlyChanged)
       account.rays += 64;
     });
   this->collect(tileX, tileY, onlyChanged, merged);
-  this->Depth.hit[tile] = merged.any;
-  if (this->OneByOne.empty())
+  if (!this->OneByOne.empty())
   {
-    return;
-  }
-  const TilePoints at(tileX, tileY);
-  for (Candidate* const candidate : this->OneByOne)
-  {
-    if (candidate->entry().layer)
+    const TilePoints at(tileX, tileY);
+    for (Candidate* const candidate : this->OneByOne)
     {
-      this->mergeLayer(tileX, tileY, at, *candidate, merged);
-    }
-    else if (candidate->method == Method::Alone)
-    {
-      this->mergeAlone(tileX, tileY, at, *candidate, merged);
-    }
-    else
-    {
-      this->mergeRays(at, *candidate, merged);
+      if (candidate->entry().layer)
+      {
+        this->mergeLayer(tileX, tileY, at, *candidate, merged);
+      }
+      else if (candidate->method == Method::Alone)
+      {
+        this->mergeAlone(tileX, tileY, at, *candidate, merged);
+      }
+      else
+      {
+        this->mergeRays(at, *candidate, merged);
+      }
     }
   }
   this->Depth.hit[tile] = merged.any;
