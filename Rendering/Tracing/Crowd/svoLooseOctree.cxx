@@ -29,13 +29,6 @@ float floatAbove(double x)
   }
   return f;
 }
-
-/// The largest float that is not above x > 0.
-float floatBelow(double x)
-{
-  const float f = static_cast<float>(x);
-  return f > x ? std::nextafter(f, 0.0f) : f;
-}
 }
 
 LooseOctree::LooseOctree(const glm::dvec3& centre, double edge, double looseness)
@@ -53,7 +46,8 @@ LooseOctree::LooseOctree(const glm::dvec3& centre, double edge, double looseness
   {
     this->Low = glm::dvec3(std::numeric_limits<double>::quiet_NaN()); // nothing lies there
   }
-  this->Reach = bitsOf(floatBelow(0.5 * (this->Looseness - 1.0) * Units));
+  const double reach = 0.5 * (this->Looseness - 1.0) * Units; // rounded down
+  this->Reach = bitsOf(static_cast<float>(reach)) - (static_cast<float>(reach) > reach);
   this->clear();
 }
 
