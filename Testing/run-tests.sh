@@ -8,7 +8,8 @@
 #                 VTKSVO_SCRIPTS in the environment: a folder of scripts that VTK's pictures are
 #                 compared on, with the pass and without
 #   --no-install  never installs: names what is missing and stops
-# VTKSVO_CMAKE_ARGUMENTS in the environment goes to CMake: -D options of one's own.
+# VTKSVO_CMAKE_ARGUMENTS in the environment goes to CMake: -D options of one's own. VTKSVO_JOBS: how many files are compiled, and
+# tests run, at a time; else one for each processor.
 # The exit code is 0 only if everything was built and every test passed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -21,11 +22,12 @@ for argument in "$@"; do
     --long) long=yes; groups+=(demo accuracy fresh tidy) ;;
     --no-install) check_only=(--no-install) ;;
     *)
-      sed -n '4,12s/^# //p' "${BASH_SOURCE[0]}"
+      sed -n '4,13s/^# //p' "${BASH_SOURCE[0]}"
       exit 2
       ;;
   esac
 done
+export VTKSVO_JOBS=${VTKSVO_JOBS:-$(nproc)}
 step() { printf '\n== %s (%s)\n' "$1" "$(date +%T)"; }
 
 step "Packages"
@@ -40,7 +42,7 @@ cmake -S . -B build/vtk -G Ninja \
   -DVTKSVO_PARAVIEW=OFF -DVTKSVO_SANITIZE=OFF \
   -DVTKSVO_TESTING=ON -DVTKSVO_EXAMPLES=ON -DVTKSVO_PYTHON=ON \
   ${VTKSVO_CMAKE_ARGUMENTS:-}
-cmake --build build/vtk -j "${VTKSVO_JOBS:-2}"
+cmake --build build/vtk -j "$VTKSVO_JOBS"
 
 step "Build: build/paraview"
 cmake -S . -B build/paraview -G Ninja \
@@ -50,7 +52,7 @@ cmake -S . -B build/paraview -G Ninja \
   -DParaView_DIR="$(echo "$paraview"/usr/lib/*/cmake/paraview-*)" \
   -DVTKSVO_PARAVIEW=ON -DVTKSVO_SANITIZE=OFF -DVTKSVO_TESTING=ON -DVTKSVO_PYTHON=ON \
   ${VTKSVO_CMAKE_ARGUMENTS:-}
-cmake --build build/paraview -j "${VTKSVO_JOBS:-2}"
+cmake --build build/paraview -j "$VTKSVO_JOBS"
 
 # One virtual display for the whole suite; -noreset, because the server resets whenever its last
 # window closes and windows opened meanwhile die.
@@ -61,7 +63,7 @@ result=0
 xvfb-run -a -s "-noreset -screen 0 1920x1200x24" bash -c '
   result=0
   for tree in build/vtk build/paraview; do
-    ctest --test-dir "$tree" --output-on-failure --timeout 300 "$@" || result=$?
+    ctest --test-dir "$tree" -j "$VTKSVO_JOBS" --output-on-failure --timeout 300 "$@" || result=$?
   done
   exit $result' tests "${selection[@]}" || result=$?
 

@@ -131,7 +131,7 @@ inline svo::Ray blockRay(
   }
   else
   {
-    view.fill(image.x, image.y, 0, block);
+    block.aim(0, view.originAt(image.x, image.y), view.directionAt(image.x, image.y));
   }
   svo::Ray ray;
   ray.origin = { block.originX[0], block.originY[0], block.originZ[0] };

@@ -1,7 +1,6 @@
 #include "svoSoftShadow.h"
 
 #include "svoSampleDirections.h"
-#include "svoSampleRays.h"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 #ifndef svoSoftShadow_h
 #define svoSoftShadow_h
 
-#include "svoRayCasters.h"
 #include "svoRayShadow.h"
+#include "svoSampleRays.h"
 #include "svoSampleSequence.h"
 #include "vtkSVOTracingModule.h"
 

@@ -456,6 +456,18 @@ TEST(VDBReader, FilesAreTimeSteps)
     reader->GetOutputInformation(0)->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
 }
 
+TEST(VDBReader, AFileThatComesBackIsReadAgain)
+{
+  const TemporaryFile file("back.vdb");
+  file.write({ sphereGrid(5.0, Centre) });
+  Reading reading(file.name());
+  ASSERT_EQ(reading.reader->GetNumberOfGrids(), 1);
+  reading.reader->RemoveAllFileNames();
+  EXPECT_EQ(reading.reader->GetGridNames()->GetNumberOfValues(), 0);
+  reading.reader->AddFileName(file.name());
+  EXPECT_EQ(reading.reader->GetGridNames()->GetNumberOfValues(), 1);
+}
+
 TEST(VDBReader, ReportsProgressAndCanBeAborted)
 {
   const TemporaryFile file("progress.vdb");
