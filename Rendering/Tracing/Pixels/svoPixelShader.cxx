@@ -129,28 +129,34 @@ void PixelShader::addSky(const Lit& lit, Scratch& scratch) const
 {
   const TilePatch& patch = scratch.patch;
   const Sky sky(lit.shaded.settings);
-  const glm::vec3 brightest = sky.brightest();
-  PixelVectors& light = scratch.light.scattered;
-  const auto add = [&](int i, const glm::vec3& seen) { light.set(i, light(i) + seen); };
+  glm::vec3 seen[TilePatch::Most];
   if (!lit.shaded.scene.instances[patch.instance].receiveShadow)
   {
-    eachBit(patch.mask, [&](int i) { add(i, sky.over(patch.normal(i))); });
+    eachBit(patch.mask, [&](int i) { seen[i] = sky.over(patch.normal(i)); });
   }
   else if (lit.images)
   {
     const int plane = lit.images->sampled().ofSky;
-    const auto mean = [&](int c, int i) { return scratch.mean(*lit.images, plane + c, i); };
-    eachBit(patch.mask,
-      [&](int i) { add(i, brightest * glm::vec3(mean(0, i), mean(1, i), mean(2, i))); });
+    for (int c = 0; c < 3; ++c)
+    {
+      eachBit(patch.mask, [&](int i) { seen[i][c] = scratch.mean(*lit.images, plane + c, i); });
+    }
   }
   else
   {
     SampleSums sums[3];
     sampleSky(this->Points.query(patch.mask, scratch, sums), *lit.shaded.dark.sky(), sky, sums);
-    const auto mean = [&](int c, int i) { return sums[c].mean(i); };
     eachBit(patch.mask,
-      [&](int i) { add(i, brightest * glm::vec3(mean(0, i), mean(1, i), mean(2, i))); });
+      [&](int i) {
+        seen[i] = { sums[0].mean(i), sums[1].mean(i), sums[2].mean(i) };
+      });
   }
+  if (lit.shaded.scene.instances[patch.instance].receiveShadow)
+  {
+    eachBit(patch.mask, [&](int i) { seen[i] *= sky.brightest(); });
+  }
+  PixelVectors& light = scratch.light.scattered;
+  eachBit(patch.mask, [&](int i) { light.set(i, light(i) + seen[i]); });
 }
 
 /// Shades a tile's hits and writes its pixels, hits or not, all at once.
