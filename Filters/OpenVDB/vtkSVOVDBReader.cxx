@@ -188,7 +188,7 @@ std::string vtkSVOVDBReader::ReadContents()
   own.Known = file;
   own.KnownTime = written;
   own.Contents = {};
-  std::string reason = file.empty() ? file : svo::readVDBContents(file, own.Contents);
+  std::string reason = file.empty() ? std::string() : svo::readVDBContents(file, own.Contents);
   own.GridNames->Initialize();
   for (const std::string& name : own.Contents.grids)
   {

@@ -243,10 +243,7 @@ int vtkSVOShadowFilter::RequestData(
   }
 
   const auto progress = [this](double done)
-  {
-    this->UpdateProgress(BuildShare + (1.0 - BuildShare) * done);
-    return !svo::isAborted(this);
-  };
+  { return svo::goesOn(this, BuildShare + (1.0 - BuildShare) * done); };
   const svo::ShareOptions options{ this->TwoSided, this->CosineWeighted, this->SingleRays,
     svo::smpParallelFor(), progress };
   std::atomic<bool> faced{ false };

@@ -16,10 +16,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <limits>
-#include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkSVORenderPass);
@@ -60,7 +61,7 @@ std::unique_ptr<svo::Tracer> vtkSVORenderPass::MakeTracer() const
 
 std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
 {
-  static const std::map<int, std::string> texts = {
+  constexpr std::pair<int, const char*> texts[] = {
     { TEXT_HEADLIGHT, "headlight" },
     { TEXT_ONLY_HEADLIGHTS,
       "No shadows: the only light is a headlight, which casts none that can be seen. "
@@ -85,8 +86,9 @@ std::string vtkSVORenderPass::GetText(int text, vtkLight*) const
       "clipped before its mapper (vtkClipPolyData) casts; SetCastShadow(true, prop) has the "
       "surface cast its whole shadow, SetCastShadow(false, prop) none in silence." },
   };
-  const auto found = texts.find(text);
-  return found != texts.end() ? found->second : std::string();
+  const auto* const found = std::find_if(
+    std::begin(texts), std::end(texts), [&](const auto& one) { return one.first == text; });
+  return found != std::end(texts) ? found->second : std::string();
 }
 
 void vtkSVORenderPass::ReleaseOctrees()

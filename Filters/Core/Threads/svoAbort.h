@@ -1,4 +1,4 @@
-// Whether a filter is to stop, for every version of VTK.
+// Whether a filter is to stop, for every version of VTK; and its progress.
 #ifndef svoAbort_h
 #define svoAbort_h
 

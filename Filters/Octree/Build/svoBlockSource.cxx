@@ -90,7 +90,8 @@ bool BlockSource::mayPass(const glm::dvec3& centre, double half) const
   {
     return false;
   }
-  const int above = lowestBit(static_cast<std::uint64_t>(edge)); // a power of two
+  // A power of two; below the voxels, where a build is of a deeper level, what is around them.
+  const int above = lowestBit(static_cast<std::uint64_t>(std::max(edge, 1)));
   const int first = firstBelow(svo::cellAt(low), above);
   return occupiedBelow(block->bricks[octantOf(low)], first, above) != 0;
 }

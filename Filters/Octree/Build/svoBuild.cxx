@@ -24,8 +24,8 @@ void buildStages(
   executor.report();
   const Cube cube = boundingCube(mesh, options, result.droppedTriangles);
   executor.report();
-  RawArray<float> recordsOfTriangle;
-  measure = measureMesh(mesh, cube, options.parallelFor, options.level, recordsOfTriangle);
+  RawArray<float> recordsOfTriangle(mesh.triangleCount);
+  measure = measureMesh(mesh, cube, options.parallelFor, options.level, &recordsOfTriangle);
   const double limit = options.memoryLimit > 0 ? static_cast<double>(options.memoryLimit) : 1e300;
   const auto expected = [&](int level) { return measure.expectedMemory(level); };
   const auto fitsIndices = [&](int level) { return measure.fitsIndices(level); };
@@ -53,9 +53,8 @@ void buildStages(
 std::size_t estimateBuildMemory(const TriangleMesh& mesh, int level)
 {
   level = std::clamp(level, 1, MaximumLevel);
-  RawArray<float> records;
   const double bytes =
-    measureMesh(mesh, boundingCube(mesh, level), serialFor, level, records).expectedMemory(level);
+    measureMesh(mesh, boundingCube(mesh, level), serialFor, level, nullptr).expectedMemory(level);
   return static_cast<std::size_t>(std::min(bytes, 1e18));
 }
 

@@ -1,4 +1,5 @@
 // Runs the stages of a build: in parallel, in batches between which it reports and may be aborted.
+// And what stops a build, of which BuildResult tells.
 #ifndef svoExecutor_h
 #define svoExecutor_h
 

@@ -2,11 +2,11 @@
 
 #include "svoAssemble.h"
 #include "svoExecutor.h"
+#include "svoExpectedCells.h"
 #include "svoMorton.h"
 #include "svoNode.h"
 #include "svoOctree.h"
 #include "svoPlane.h"
-#include "svoSourceMemory.h"
 #include "svoWork.h"
 
 #include <algorithm>

@@ -70,15 +70,18 @@ float offsetInBrick(const LatticeTriangle& t, const glm::ivec3& brick)
 /// is no test.
 bool segmentTouches(const LatticeTriangle& t, const Range& within, const glm::ivec3& cell, int bits)
 {
-  const int shift = bits + LatticeBits;
-  const glm::ivec3 low = cell * (1 << shift) - 1;
-  const glm::ivec3 high = low + ((1 << shift) + 2);
   for (int axis = 0; axis < 3; ++axis)
   {
     if (cell[axis] < within.first[axis] >> bits || cell[axis] > within.last[axis] >> bits)
     {
       return false;
     }
+  }
+  const int shift = bits + LatticeBits;
+  const glm::ivec3 low = cell * (1 << shift) - 1;
+  const glm::ivec3 high = low + ((1 << shift) + 2);
+  for (int axis = 0; axis < 3; ++axis)
+  {
     const int u = (axis + 1) % 3;
     const int v = (axis + 2) % 3;
     for (int i = 0; i < 3; ++i)

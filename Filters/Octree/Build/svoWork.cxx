@@ -174,13 +174,13 @@ bool MeshMeasure::fitsIndices(int level) const
 }
 
 MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const ParallelFor& parallelFor,
-  int level, RawArray<float>& recordsOfTriangle)
+  int level, RawArray<float>* recordsOfTriangle)
 {
   const std::size_t blocks = blocksOf(mesh.triangleCount);
   std::vector<MeshMeasure> measures(blocks);
   const double n = bricksOfEdge(level);
   const double scale = 1.0 / cube.edge;
-  recordsOfTriangle.resize(mesh.triangleCount);
+  float* const each = recordsOfTriangle ? recordsOfTriangle->data() : nullptr;
   forEach(parallelFor, blocks, 4,
     [&](std::size_t block)
     {
@@ -204,7 +204,10 @@ MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const Parall
           ++m.triangles;
           records = (areas * n + widths) * n + 1.0;
         }
-        recordsOfTriangle[i] = static_cast<float>(records);
+        if (each)
+        {
+          each[i] = static_cast<float>(records);
+        }
       }
       measures[block] = m;
     });

@@ -48,9 +48,10 @@ struct WorkPiece
 };
 
 /// Sums are taken in blocks of a fixed size, so that they are the same for any executor. What is
-/// expected of each triangle goes to `recordsOfTriangle`.
+/// expected of each triangle goes to `recordsOfTriangle`, as long as the mesh has triangles, or
+/// null.
 MeshMeasure measureMesh(const TriangleMesh& mesh, const Cube& cube, const ParallelFor& parallelFor,
-  int level, RawArray<float>& recordsOfTriangle);
+  int level, RawArray<float>* recordsOfTriangle);
 
 /// Cuts the mesh into pieces of about equal work, in ascending order of triangles.
 std::vector<WorkPiece> cutWork(const RawArray<float>& recordsOfTriangle);

@@ -44,7 +44,8 @@ struct TraceOptions
   int level = MaximumLevel; // rays stop at cells of this octree level (clamped to the octree's own)
 };
 
-/// Rays as a structure of arrays, in octree coordinates.
+/// Rays as a structure of arrays, in octree coordinates ([1,2)^3 is the cube); origins lie within a
+/// few units of it.
 template <int N>
 struct RayArrays
 {

@@ -100,12 +100,16 @@ bool isAbove(
   }
 }
 
-/// The block, or blocks, of a voxel or of a box of voxels.
-template <class Voxels>
-Voxels blocksOf(const Voxels& voxels)
+/// The block of a voxel, and those of a box of voxels.
+inline openvdb::Coord blockOf(const openvdb::Coord& voxel)
+{
+  return voxel >> std::size_t(3);
+}
+inline openvdb::CoordBBox blocksOf(const openvdb::CoordBBox& voxels)
 {
   return voxels >> std::size_t(3);
 }
+static_assert(VoxelBlock::Edge == 8, "");
 
 /// Gathers them: a sparse walk over the nodes, never a dense grid.
 template <class GridT>
@@ -132,7 +136,7 @@ public:
     forEach(this->Options.parallelFor, leaves.size(), 64,
       [&](std::size_t i)
       {
-        blocks[i].place = blocksOf(leaves[i]->origin());
+        blocks[i].place = blockOf(leaves[i]->origin());
         this->fill(*leaves[i], blocks[i].block);
       });
     std::size_t voxels = 0;

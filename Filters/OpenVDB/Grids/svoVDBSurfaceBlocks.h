@@ -51,7 +51,7 @@ public:
       [&](std::size_t i)
       {
         blocks[i].place =
-          i < leaves.size() ? blocksOf(leaves[i]->origin()) : places[i - leaves.size()];
+          i < leaves.size() ? blockOf(leaves[i]->origin()) : places[i - leaves.size()];
         this->fill(blocks[i]);
       });
     dropEmpty(blocks);
@@ -106,7 +106,7 @@ private:
         {
           for (int w = 0; w < Ways; ++w)
           {
-            const Coord place = blocksOf(leaves[i]->origin()) + way(w);
+            const Coord place = blockOf(leaves[i]->origin()) + way(w);
             if (exists(place) && !values.probeConstLeaf(coordOf(place)) &&
               this->changesTowards(
                 *leaves[i], way(w), this->sideOf(values.getValue(coordOf(place)))))
@@ -121,7 +121,7 @@ private:
     {
       for (std::uint32_t left = ways[i]; left != 0; left &= left - 1)
       {
-        places.push_back(blocksOf(leaves[i]->origin()) + way(lowestBit(std::uint64_t(left))));
+        places.push_back(blockOf(leaves[i]->origin()) + way(lowestBit(std::uint64_t(left))));
       }
     }
     return places;

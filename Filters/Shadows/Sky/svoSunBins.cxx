@@ -11,7 +11,6 @@ namespace svo
 namespace
 {
 constexpr double Degree = 3.14159265358979323846 / 180.0;
-
 }
 
 Date nextDay(const Date& date)

@@ -139,7 +139,9 @@ void PlaceBuffer::aim(vtkOpenGLState* state, LightCode& code)
 {
   int viewport[4];
   state->vtkglGetIntegerv(GL_VIEWPORT, viewport);
-  code.integers.back().values = { viewport[0], viewport[1] };
+  code.integers.back().values = { // what describe() ends with
+    viewport[0], viewport[1]
+  };
 }
 
 void PlaceBuffer::read(vtkOpenGLState* state, ReceiverPlaces& places) const

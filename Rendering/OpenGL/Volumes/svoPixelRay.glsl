@@ -1,5 +1,5 @@
 // The rays of a picture's pixels, view coordinates: at pixel 0, 0, and more at each to the right and up,
-// where they begin, and their ways, of depth 1.
+// where they begin, less the eye, and their ways, of depth 1.
 uniform vec3 svoPixelRays[6];
 
 vec3 svoRayBegins(vec2 pixel)

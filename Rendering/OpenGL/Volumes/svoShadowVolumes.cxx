@@ -76,7 +76,8 @@ std::string ShadowVolumes::describe(const Scene& scene, const std::vector<Caster
   }
   code.constants += "#define svoHasVolumes\n";
   const std::vector<ShaderValues::Floats>& floats = code.volumes->values.floats;
-  code.floats.insert(code.floats.end(), floats.begin(), floats.end());
+  code.floats.insert(
+    code.floats.end(), floats.begin(), floats.begin() + 2); // what rays of pixels need
   return {};
 }
 
@@ -118,8 +119,8 @@ std::shared_ptr<const VolumeDraws> ShadowVolumes::place(const Scene& scene,
     const glm::vec3 seen(turned * ray);
     rays.values.insert(rays.values.end(), { seen.x, seen.y, seen.z });
   }
-  draws->values.floats = { matrixOf("svoProjection", view.viewToClip), rays,
-    { "svoParallel", 1, { view.parallel ? 1.0f : 0.0f } },
+  draws->values.floats = { rays, { "svoParallel", 1, { view.parallel ? 1.0f : 0.0f } },
+    matrixOf("svoProjection", view.viewToClip),
     { "svoReach", 1, { static_cast<float>(base), static_cast<float>(reach) } } };
   return draws;
 }

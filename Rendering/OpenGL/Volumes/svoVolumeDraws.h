@@ -14,7 +14,7 @@ namespace svo
 struct VolumeDraws
 {
   unsigned int triangles = 0, edges = 0, casters = 0, senses = 0; // buffer textures
-  /// svoProjection, from view coordinates; svoPixelRays; svoParallel; and svoReach: the linear
+  /// svoPixelRays; svoParallel; svoProjection, from view coordinates; and svoReach: the linear
   /// depth of what may be seen, less the first number, is at most the second.
   ShaderValues values;
 

@@ -5,7 +5,6 @@
 #include "svoInverse.h"
 #include "svoOctree.h"
 
-#include <cmath>
 #include <limits>
 
 #include <glm/geometric.hpp>

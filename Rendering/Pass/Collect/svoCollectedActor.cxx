@@ -100,6 +100,7 @@ void CollectedActor::add(
 void CollectedActor::addTranslucent(
   const SurfacePart& part, SceneSurface& surface, std::uint64_t mark) const
 {
+  // What the id differs by from that of the same actor's opaque cells.
   constexpr std::uint64_t Translucent = 0x94d049bb133111ebull;
   surface.casts = surface.translucent = true;
   this->add(part, IsTranslucent, surface, mark ^ Translucent);

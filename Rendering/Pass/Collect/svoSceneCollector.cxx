@@ -211,7 +211,7 @@ bool SceneCollector::collectProps(
   changed = changed || place < this->Found.size();
   this->Found.resize(place);
   others.clear();
-  if (changed)
+  if (changed || this->Anew > 0)
   {
     this->Props.sweep();
   }

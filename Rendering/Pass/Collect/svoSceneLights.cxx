@@ -161,9 +161,12 @@ std::vector<Light> lightsOf(
       headlightOnly = headlightOnly && source->LightTypeIsHeadlight() && !isAnswered(source);
       if (source->LightTypeIsCameraLight() && placeOf(source) != renderer)
       {
-        vtkNew<vtkWeakReference> place;
-        place->Set(renderer);
-        keysOf(source)->Set(placeKey(), place);
+        vtkInformation* keys = keysOf(source);
+        if (!keys->Has(placeKey()))
+        {
+          keys->Set(placeKey(), vtkNew<vtkWeakReference>());
+        }
+        vtkWeakReference::SafeDownCast(keys->Get(placeKey()))->Set(renderer);
       }
       lights.push_back(light);
       const std::string kind = light.headlight ? words.headlight(source)

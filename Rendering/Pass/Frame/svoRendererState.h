@@ -119,7 +119,7 @@ public:
   vtkSVOPresenter* presenter() { return this->Presenter; }
 
   /// Puts the presenter in the traced props' place. The array is the renderer's own, so its entries
-  /// can change for the length of a frame, their number cannot.
+  /// can change for the length of a frame, their number cannot; the caller puts them back.
   void exchange(const vtkRenderState* state, vtkOpenGLRenderPass* pass);
 
   /// Has the presenter, which is in the renderer's own list, show what was traced.

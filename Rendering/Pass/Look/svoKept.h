@@ -102,8 +102,8 @@ public:
     kept.add(entry);
     if (entry->stamp != stamp)
     {
+      make(entry->value); // anew where it has thrown
       entry->stamp = stamp;
-      make(entry->value);
     }
     return entry->value;
   }

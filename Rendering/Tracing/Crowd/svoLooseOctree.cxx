@@ -108,6 +108,7 @@ void LooseOctree::insert(std::uint32_t object, const glm::dvec3& centre, double 
 void LooseOctree::put(std::uint32_t object, const Spot& spot)
 {
   Record& record = this->Records[object];
+  static_cast<Spot&>(record) = spot;
   if (!spot.inside())
   {
     record.node = Outside;
@@ -115,7 +116,6 @@ void LooseOctree::put(std::uint32_t object, const Spot& spot)
     this->Outsiders.push_back(object);
     return;
   }
-  static_cast<Spot&>(record) = spot;
   this->enter(0, object);
 }
 

@@ -161,7 +161,12 @@ public:
   {
     this->visitGroups(order, onNode,
       [&](const LooseObjects& some, std::uint8_t)
-      { std::for_each(some.objects, some.objects + some.count, onObject); });
+      {
+        for (std::uint32_t i = 0; i < some.count; ++i)
+        {
+          onObject(some.objects[i]);
+        }
+      });
   }
   /// The same with the objects of a node in groups:
   ///

@@ -6,7 +6,6 @@
 #include "svoLooseOctree.h"
 #include "vtkSVOTracingModule.h"
 
-#include <algorithm>
 #include <cstdint>
 
 namespace svo
@@ -40,7 +39,10 @@ void eachSeen(const LooseOctree& objects, const Frustum& frustum, const VisitOrd
     {
       if (within == allPlanes || !some.x)
       {
-        std::for_each(some.objects, some.objects + some.count, onObject);
+        for (std::uint32_t i = 0; i < some.count; ++i)
+        {
+          onObject(some.objects[i]);
+        }
         return;
       }
       for (std::uint32_t seen = seenOf(frustum, within, some); seen != 0; seen &= seen - 1)

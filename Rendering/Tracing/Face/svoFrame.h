@@ -59,7 +59,7 @@ struct FrameSettings
 {
   /// True if points ask what is all around them.
   bool asksHemispheres() const { return this->ambientOcclusion || this->skyLight; }
-  /// Where filterShadows has an effect: ShadowBuffer::darkness() is asked instead of yes or no.
+  /// Where filterShadows has an effect: MapTest::darkness() is asked instead of yes or no.
   bool filters() const
   {
     return this->filterShadows && this->automaticBias &&

@@ -143,12 +143,12 @@ SeenReceivers::SeenReceivers(const std::vector<Box>& receivers, const View& eye,
 void SeenReceivers::addSeen(
   const ConvexBody& box, int axis, const PixelRect& around, const View& eye, const Hits& traced)
 {
+  View seen = eye;
   for (int y = around.y0; y < around.y1; y += Block)
   {
     for (int x = around.x0; x < around.x1; x += Block)
     {
       const PixelRect block{ x, y, std::min(x + Block, around.x1), std::min(y + Block, around.y1) };
-      View seen = eye;
       seen.crop = seenPlane(eye, traced, block, axis, box[0][axis]);
       if (!seen.crop.empty())
       {

@@ -296,7 +296,9 @@ void ShadowBuffer::trace(const ParallelFor& parallelFor)
     {
       continue; // it sees nothing
     }
-    const std::vector<std::uint8_t> wanted(face->wanted.begin(), face->wanted.end());
+    std::vector<std::uint8_t> wanted(face->wanted.size());
+    std::transform(face->wanted.begin(), face->wanted.end(), wanted.begin(),
+      [](const auto& tile) { return tile.load(std::memory_order_relaxed); });
     face->layers.trace(parallelFor, wanted.data());
     face->map.occluders.find(face->layers.hits(), parallelFor);
     if (this->MappedColors.empty())

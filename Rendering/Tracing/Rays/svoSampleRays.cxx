@@ -96,6 +96,10 @@ private:
 
 void traceSamples(const RayCasters& casters, double offset, SampleBatch& batch)
 {
+  if (batch.rays == 0)
+  {
+    return;
+  }
   std::fill_n(batch.blocked, batch.rays, 0.0f);
   Box box;
   for (int i = 0; i < batch.points; ++i)

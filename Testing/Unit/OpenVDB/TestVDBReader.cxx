@@ -466,6 +466,9 @@ TEST(VDBReader, AFileThatComesBackIsReadAgain)
   EXPECT_EQ(reading.reader->GetGridNames()->GetNumberOfValues(), 0);
   reading.reader->AddFileName(file.name());
   EXPECT_EQ(reading.reader->GetGridNames()->GetNumberOfValues(), 1);
+  reading.reader->SetFileName(nullptr);
+  EXPECT_EQ(reading.reader->GetNumberOfGrids(), 0);
+  EXPECT_EQ(reading.messages.all(), "");
 }
 
 TEST(VDBReader, ReportsProgressAndCanBeAborted)

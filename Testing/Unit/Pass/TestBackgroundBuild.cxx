@@ -50,6 +50,7 @@ TEST_F(OctreeStore, ACoarserOctreeIsShownWhileADeeperOneIsBuilt)
 TEST_F(OctreeStore, WithoutAnOctreeThereIsNoneUntilItIsBuilt)
 {
   EXPECT_FALSE(find(7, false));
+  EXPECT_EQ(store.building(), 1);
   gate.letThrough();
   EXPECT_TRUE(find(7, false));
 }
@@ -183,6 +184,7 @@ TEST_F(OctreeStore, TheStoreMayGoWhileItBuilds)
 TEST_F(OctreeStore, WhatIsTooLargeIsSaidByTheFrameThatWaits)
 {
   ASSERT_FALSE(find(20, false));
+  EXPECT_EQ(store.building(), 1);
   gate.letThrough();
   endFrame();
   for (int frame = 0; frame < 12; ++frame)

@@ -2,9 +2,9 @@
 // have none.
 #include "svoBuildMeshes.h"
 #include "svoExecutor.h"
+#include "svoExpectedCells.h"
 #include "svoOctreeBytes.h"
 #include "svoPlane.h"
-#include "svoSourceMemory.h"
 #include "svoTestFields.h"
 
 #include <limits>

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -67,6 +69,29 @@ TEST(LooseOctree, WhereAnObjectIsKeptFollowsFromRadiusCentreAndTheCrowd)
     const std::vector<KeptNode> expected = plain.written(crowd), found = written(tree);
     EXPECT_TRUE(expected == found) << looseness;
     EXPECT_GT(found.size(), 200u);
+    expectEnclosed(tree, crowd);
+  }
+}
+
+TEST(LooseOctree, CrowdsOfAllSizesPileUpWhereNodesAreSmallest)
+{
+  for (const double looseness : { 2.0, 1.25 })
+  {
+    const PlainTree plain = plainly(looseness);
+    RandomBalls random(3);
+    const glm::dvec3 middle = random.ball().centre;
+    Crowd crowd;
+    for (std::uint32_t i = 0; i < 600; ++i)
+    {
+      const glm::dvec3 beside(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+      crowd[i] = { middle + 1e-6 * beside,
+        i % 8 == 0 ? 0.0 : std::pow(10.0, random.between(-9, -4)) };
+    }
+    const svo::LooseOctree tree = treeOf(plain, crowd);
+    const std::vector<KeptNode> found = written(tree);
+    EXPECT_TRUE(plain.written(crowd) == found) << looseness;
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+      [](const KeptNode& node) { return node.depth == 20 && node.objects.size() > 15; }));
     expectEnclosed(tree, crowd);
   }
 }

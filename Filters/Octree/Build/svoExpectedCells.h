@@ -1,11 +1,11 @@
-// What an octree of a source will take, before it is built.
+// How many cells of each level an octree of a source will have, about, before it is built.
 //
 // Random descents (Knuth, Estimating the efficiency of backtrack programs, 1975): from a cell go to
 // one of the children that the surface may pass through, each as likely as the others. The product
 // of how many there were on the way is, on average, the number of cells of that level. Nothing is
 // kept of them, and some hundred thousand cubes tell about an octree of billions.
-#ifndef svoSourceMemory_h
-#define svoSourceMemory_h
+#ifndef svoExpectedCells_h
+#define svoExpectedCells_h
 
 #include "svoExecutor.h"
 #include "vtkSVOOctreeModule.h"

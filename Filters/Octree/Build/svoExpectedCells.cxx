@@ -1,4 +1,4 @@
-#include "svoSourceMemory.h"
+#include "svoExpectedCells.h"
 
 #include <algorithm>
 #include <cmath>
