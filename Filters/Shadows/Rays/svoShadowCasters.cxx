@@ -26,39 +26,21 @@ double norm(const glm::dmat3& m)
 {
   return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
 }
-}
 
-struct ShadowCasters::Start
+struct Start
 {
   glm::dvec3 at; // world
   std::uint32_t own;
   int number; // of the answer's bit
 };
 
-void ShadowCasters::add(const Octree& octree, const glm::dmat4& toWorld, Own own)
+bool skips(const ShadowCaster& caster, std::uint32_t own, Primitive triangle)
 {
-  assert(placesSomething(toWorld));
-  if (!octree || octree.empty())
-  {
-    return;
-  }
-  Instance instance;
-  instance.body.own().octree = octree;
-  instance.localToWorld = toWorld;
-  const double error = FloatError * octree.rootEdge() * norm(glm::dmat3(toWorld));
-  const bool named = octree.surface() != nullptr;
-  this->Casters.push_back({ octree, WorldToOctree(octree, toWorld), CasterBox(instance), error,
-    named ? own : Own::Nothing });
-  this->OwnError = own != Own::Nothing ? std::max(this->OwnError, error) : this->OwnError;
-}
-
-bool ShadowCasters::skips(const Caster& caster, std::uint32_t own, Primitive triangle)
-{
-  if (caster.own == Own::Nothing)
+  if (caster.own == ShadowCaster::Own::Nothing)
   {
     return false;
   }
-  if (caster.own == Own::Triangles)
+  if (caster.own == ShadowCaster::Own::Triangles)
   {
     return triangle == own;
   }
@@ -70,7 +52,7 @@ bool ShadowCasters::skips(const Caster& caster, std::uint32_t own, Primitive tri
     surface.points[corners.z] == x;
 }
 
-bool ShadowCasters::ray(const Caster& caster, const Light& light, const Start& start)
+bool meets(const ShadowCaster& caster, const Light& light, const Start& start)
 {
   const Ray ray{ caster.toOctree.point(start.at), caster.toOctree.vector(-light.along(start.at)),
     0.0, light.rayEnd() };
@@ -82,8 +64,8 @@ bool ShadowCasters::ray(const Caster& caster, const Light& light, const Start& s
     caster.octree, ray, [&](Primitive triangle) { return skips(caster, start.own, triangle); });
 }
 
-std::uint64_t ShadowCasters::block(
-  const Caster& caster, const Light& light, const Start* starts, int count)
+/// Of at most 64, those that are hidden: side by side in float, what is dark confirmed in double.
+std::uint64_t block(const ShadowCaster& caster, const Light& light, const Start* starts, int count)
 {
   std::uint64_t dark = 0;
   OcclusionRays rays;
@@ -123,19 +105,20 @@ std::uint64_t ShadowCasters::block(
         intersectTriangle(ShearedRay<double>(ray.origin, ray.direction), surface.points[triangle.x],
           surface.points[triangle.y], surface.points[triangle.z], t) &&
         t >= 0.0 && t <= ray.tMax && !skips(caster, start.own, by[i]);
-      dark |= std::uint64_t(sure || ShadowCasters::ray(caster, light, start)) << start.number;
+      dark |= std::uint64_t(sure || meets(caster, light, start)) << start.number;
     }
   }
   return dark;
 }
 
-std::uint64_t ShadowCasters::beam(
-  const Caster& caster, const Light& light, const Start* starts, int count, bool singleRays)
+/// The same together, or where that is slower as a block.
+std::uint64_t beam(
+  const ShadowCaster& caster, const Light& light, const Start* starts, int count, bool singleRays)
 {
   std::uint64_t dark = 0;
   constexpr int Few = 4; // such a beam is no quicker than its rays
   const auto alone = [&](const Start& start)
-  { dark |= std::uint64_t(ray(caster, light, start)) << start.number; };
+  { dark |= std::uint64_t(meets(caster, light, start)) << start.number; };
   if (singleRays || count <= Few || !caster.octree.surface())
   {
     std::for_each(starts, starts + count, alone);
@@ -169,13 +152,31 @@ std::uint64_t ShadowCasters::beam(
   }
   return dark;
 }
+}
+
+void ShadowCasters::add(const Octree& octree, const glm::dmat4& toWorld, Own own)
+{
+  assert(placesSomething(toWorld));
+  if (!octree || octree.empty())
+  {
+    return;
+  }
+  Instance instance;
+  instance.body.own().octree = octree;
+  instance.localToWorld = toWorld;
+  const double error = FloatError * octree.rootEdge() * norm(glm::dmat3(toWorld));
+  const bool named = octree.surface() != nullptr;
+  this->Casters.push_back({ octree, WorldToOctree(octree, toWorld), CasterBox(instance), error,
+    named ? own : Own::Nothing });
+  this->OwnError = own != Own::Nothing ? std::max(this->OwnError, error) : this->OwnError;
+}
 
 std::uint64_t ShadowCasters::hidden(
   const Light& light, const Sample* samples, int count, std::uint64_t asked, bool singleRays) const
 {
   assert(count >= 0 && count <= BeamPoints::Most);
   std::uint64_t dark = 0;
-  for (const Caster& caster : this->Casters)
+  for (const ShadowCaster& caster : this->Casters)
   {
     const double offset = this->OwnError + (caster.own == Own::Nothing ? caster.error : 0.0);
     Start starts[BeamPoints::Most];

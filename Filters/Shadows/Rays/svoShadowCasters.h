@@ -22,16 +22,27 @@
 
 namespace svo
 {
-class ShadowCasters
+struct ShadowCaster
 {
-public:
-  /// What the samples lie on, of a caster.
+  /// What the samples lie on, of it.
   enum class Own
   {
     Nothing,
     Triangles, // Sample::own names a triangle of it
     Points     // Sample::own names a point of it
   };
+
+  Octree octree;
+  WorldToOctree toOctree;
+  CasterBox box;
+  double error; // world; how far a triangle may be from where the mesh has it
+  Own own;
+};
+
+class ShadowCasters
+{
+public:
+  using Own = ShadowCaster::Own;
 
   /// The matrix is finite and has an inverse. An octree that is empty is no caster.
   void add(const Octree& octree, const glm::dmat4& toWorld, Own own);
@@ -44,24 +55,7 @@ public:
     bool singleRays = false) const;
 
 private:
-  struct Caster
-  {
-    Octree octree;
-    WorldToOctree toOctree;
-    CasterBox box;
-    double error; // world; how far a triangle may be from where the mesh has it
-    Own own;
-  };
-  struct Start;
-  static bool skips(const Caster& caster, std::uint32_t own, Primitive triangle);
-  static bool ray(const Caster& caster, const Light& light, const Start& start);
-  /// Of at most 64, those that are hidden: together, or where that is slower as a block.
-  static std::uint64_t beam(
-    const Caster& caster, const Light& light, const Start* starts, int count, bool singleRays);
-  /// The same side by side in float, what is dark confirmed in double.
-  static std::uint64_t block(
-    const Caster& caster, const Light& light, const Start* starts, int count);
-  std::vector<Caster> Casters;
+  std::vector<ShadowCaster> Casters;
   double OwnError = 0.0;
 };
 }
