@@ -25,14 +25,15 @@ struct Start
 {
   glm::dvec3 position, side; // world; side: unit, of its facet, towards the light
   int number;                // of the answer's bit
+
+  glm::dvec3 off(double offset) const { return this->position + offset * this->side; }
 };
 
-bool blocks(const RayCaster& caster, const Light& light, const glm::dvec3& position,
-  const glm::dvec3& side, double offset)
+bool blocks(const RayCaster& caster, const Light& light, const Start& start, double offset)
 {
-  const glm::dvec3 start = position + offset * side;
-  const glm::dvec3 direction = -light.along(start);
-  const Ray ray{ caster.toOctree.point(start), caster.toOctree.vector(direction), 0.0,
+  const glm::dvec3 at = start.off(offset);
+  const glm::dvec3 direction = -light.along(at);
+  const Ray ray{ caster.toOctree.point(at), caster.toOctree.vector(direction), 0.0,
     light.rayEnd() };
   const TraceOptions options{ caster.geometry, MaximumLevel };
   if (!occluded(caster.instance->body->octree, ray, options))
@@ -47,25 +48,24 @@ bool blocks(const RayCaster& caster, const Light& light, const glm::dvec3& posit
   // cells that refuse the ray. What is met before the ray can have left them has to be met from
   // outside of them too.
   const double length = glm::length(direction);
-  const double slope = std::max(glm::dot(side, direction) / length, 0.05);
+  const double slope = std::max(glm::dot(start.side, direction) / length, 0.05);
   const Hit hit = intersect(caster.instance->body->octree, ray, options);
   if (hit.t * length > caster.planeError / slope)
   {
     return true;
   }
-  const Ray outer{ caster.toOctree.point(position + caster.planeError * side), ray.direction, 0.0,
+  const Ray outer{ caster.toOctree.point(start.off(caster.planeError)), ray.direction, 0.0,
     ray.tMax };
   return occluded(caster.instance->body->octree, outer, options);
 }
 
 /// How opaque the caster is where the light of a point that it blocks() meets it first.
-float opacityMet(const RayCaster& caster, const Light& light, const glm::dvec3& position,
-  const glm::dvec3& side, double offset)
+float opacityMet(const RayCaster& caster, const Light& light, const Start& start, double offset)
 {
   // From the light to where blocks() began.
   for (const double above : { std::max(offset, caster.planeError), offset })
   {
-    const glm::dvec3 end = position + above * side;
+    const glm::dvec3 end = start.off(above);
     const float opacity = svo::opacityMet(caster, end, -light.along(end), light.rayEnd());
     if (opacity > 0.0f)
     {
@@ -82,8 +82,7 @@ std::uint64_t beam(
   std::uint64_t dark = 0;
   const auto setIf = [&dark](bool isDark, const Start& start)
   { dark |= std::uint64_t(isDark) << start.number; };
-  const auto alone = [&](const Start& start)
-  { return blocks(caster, light, start.position, start.side, offset); };
+  const auto alone = [&](const Start& start) { return blocks(caster, light, start, offset); };
   constexpr int Few = 4; // such a beam is no quicker than its rays
   if (count <= Few || !caster.beams)
   {
@@ -94,7 +93,7 @@ std::uint64_t beam(
   points.count = count;
   for (int i = 0; i < count; ++i)
   {
-    points.at[i] = caster.toOctree.point(starts[i].position + offset * starts[i].side);
+    points.at[i] = caster.toOctree.point(starts[i].off(offset));
   }
   BeamAnswer answers[BeamPoints::Most];
   if (!traceBeam(caster.instance->body->octree, caster.toOctree, light, points, answers))
@@ -166,7 +165,7 @@ void ShadowRays::taken(const Light& light, const TilePatch& patch, double offset
       if (met >> at.number & 1)
       {
         float& all = taken[at.number];
-        const float one = opacityMet(caster, light, at.position, at.side, offset);
+        const float one = opacityMet(caster, light, at, offset);
         all = all > 0.0f ? 1.0f - (1.0f - all) * (1.0f - one) : one;
       }
     }
@@ -176,11 +175,8 @@ void ShadowRays::taken(const Light& light, const TilePatch& patch, double offset
 bool ShadowRays::shadows(
   const Light& light, const glm::dvec3& position, const glm::vec3& facet, double offset) const
 {
-  const glm::dvec3 side = sideOf(light, position, facet);
-  Box from;
-  from.add(position, glm::dvec3(offset));
-  return this->Casters.anyOpaque(wayToLight(light, from),
-    [&](const RayCaster& caster) { return blocks(caster, light, position, side, offset); });
+  Start start{ position, sideOf(light, position, facet), 0 };
+  return shadowed(this->Casters, light, &start, 1, offset) != 0;
 }
 
 std::uint64_t ShadowRays::shadows(
