@@ -192,23 +192,6 @@ bool LooseOctree::remove(std::uint32_t object)
   return true;
 }
 
-Ball LooseOctree::ball(std::uint32_t object) const
-{
-  assert(this->contains(object));
-  const Record& r = this->Records[object];
-  if (r.node == Outside)
-  {
-    return LooseObjects{ &object, 1 }.ball(0);
-  }
-  const Chunk& chunk = this->Chunks[r.place / 16];
-  const std::uint32_t i = r.place % 16;
-  const std::uint32_t cell = ~static_cast<std::uint32_t>(0xffffffffull >> r.depth);
-  const LooseObjects one{ &object, 1, chunk.x + i, chunk.y + i, chunk.z + i, chunk.radius + i,
-    this->Low + this->Unit * glm::dvec3(r.x & cell, r.y & cell, r.z & cell),
-    this->Unit * (0x80000000u >> r.depth) * 0x1p-15, this->Noise };
-  return one.ball(0);
-}
-
 std::size_t LooseOctree::memory() const
 {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof v[0]; };

@@ -61,20 +61,13 @@ struct LooseObjects
 
   const std::uint32_t* objects;
   std::uint32_t count;
-  /// The balls, in `unit`s from `low`; `radius` has what coordinates lack. Most + 1 can be read,
-  /// but those beyond `count` mean nothing. Null of outsiders.
+  /// Balls that enclose those which were given: their centres half a step above x, y and z, in
+  /// `unit`s from `low`; `radius` has what coordinates lack, and is larger by at most 2^-15 of the
+  /// edge of the node's cell, 2^-31 of the cube's, and rounding. Most + 1 can be read, but those
+  /// beyond `count` mean nothing. Null of outsiders.
   const std::uint16_t *x = nullptr, *y = nullptr, *z = nullptr, *radius = nullptr;
   glm::dvec3 low{ 0.0 };
   double unit = 0.0, noise = 0.0; // `noise`: to be added to radii; world
-
-  /// A ball that encloses that of object i; of outsiders one without an end.
-  Ball ball(std::uint32_t i) const
-  {
-    return this->x ? Ball{ this->low +
-        this->unit * glm::dvec3(this->x[i] + 0.5, this->y[i] + 0.5, this->z[i] + 0.5),
-      this->unit * this->radius[i] + this->noise }
-                   : Ball{ glm::dvec3(0.0), std::numeric_limits<double>::infinity() };
-  }
 };
 
 /// What front to back means: from an eye, or along the direction of parallel rays.
@@ -139,11 +132,6 @@ public:
   std::size_t size() const { return this->Nodes[0].total + this->Outsiders.size(); }
   /// In no order. They are visited always, before all others.
   const std::vector<std::uint32_t>& outsiders() const { return this->Outsiders; }
-
-  /// What is kept of an object that is there: a ball that encloses that which was given. Its radius
-  /// is larger by at most 2^-15 of the edge of its node's cell, 2^-31 of the cube's, and rounding;
-  /// infinite for outsiders.
-  Ball ball(std::uint32_t object) const;
 
   /// Visits nodes front to back, depth first, children in the order of their code exclusive-or the
   /// code of the eye's side of the node's middle: of two children whose cells a plane of the node

@@ -52,6 +52,7 @@ TEST(SeenObjects, AreThoseOfAFlatTestAndAmongThemAllThatAreSeen)
       ? glm::dvec3(0.0)
       : scale * std::pow(10.0, random.between(0.0, 5.0)) * glm::dvec3(1.0, -0.3, 0.6);
     const Placed placed(random, scale, middle, round % 2 ? 2.0 : 1.2);
+    const Crowd balls = keptBalls(placed.tree);
     for (int v = 0; v < 12; ++v)
     {
       const svo::View view = randomView(random, scale, middle);
@@ -63,7 +64,7 @@ TEST(SeenObjects, AreThoseOfAFlatTestAndAmongThemAllThatAreSeen)
         [&](std::uint32_t object) { EXPECT_TRUE(found.insert(object).second) << "only once"; });
       for (const auto& [name, given] : placed.crowd)
       {
-        const svo::Ball kept = placed.tree.ball(name);
+        const svo::Ball& kept = balls.at(name);
         const std::size_t flat = !frustum.outside(kept.centre, kept.radius);
         const std::size_t nearly =
           !frustum.outside(kept.centre, kept.radius + 16.0 * scale / 32768.0);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <random>
 #include <vector>
@@ -18,6 +19,31 @@
 namespace svotest
 {
 using Crowd = std::map<std::uint32_t, svo::Ball>;
+
+/// What is kept of object i of a group; of outsiders a ball without an end.
+inline svo::Ball keptBall(const svo::LooseObjects& some, std::uint32_t i)
+{
+  return some.x ? svo::Ball{ some.low +
+      some.unit * glm::dvec3(some.x[i] + 0.5, some.y[i] + 0.5, some.z[i] + 0.5),
+    some.unit * some.radius[i] + some.noise }
+                : svo::Ball{ glm::dvec3(0.0), std::numeric_limits<double>::infinity() };
+}
+
+/// All that is kept.
+inline Crowd keptBalls(const svo::LooseOctree& tree)
+{
+  Crowd kept;
+  tree.visitGroups(
+    svo::VisitOrder{ { 0, 0, 0 } }, [](const svo::LooseNode&, std::uint8_t&) { return true; },
+    [&](const svo::LooseObjects& some, std::uint8_t)
+    {
+      for (std::uint32_t i = 0; i < some.count; ++i)
+      {
+        kept[some.objects[i]] = keptBall(some, i);
+      }
+    });
+  return kept;
+}
 
 /// Depth, the middle of the cell, names in ascending order; outsiders have depth -1.
 struct KeptNode
