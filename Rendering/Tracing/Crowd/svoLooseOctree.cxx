@@ -31,9 +31,8 @@ float floatAbove(double x)
 }
 }
 
-LooseOctree::LooseOctree(const glm::dvec3& centre, double edge, double looseness)
-  : Looseness(looseness >= LeastLooseness ? std::min(looseness, 2.0) : LeastLooseness)
-  , Low(centre - 0.5 * edge)
+LooseOctree::LooseOctree(const glm::dvec3& centre, double edge)
+  : Low(centre - 0.5 * edge)
   , PerUnit(Units / edge)
   , Unit(edge / Units)
 {
@@ -46,8 +45,6 @@ LooseOctree::LooseOctree(const glm::dvec3& centre, double edge, double looseness
   {
     this->Low = glm::dvec3(std::numeric_limits<double>::quiet_NaN()); // nothing lies there
   }
-  const double reach = 0.5 * (this->Looseness - 1.0) * Units; // rounded down
-  this->Reach = bitsOf(static_cast<float>(reach)) - (static_cast<float>(reach) > reach);
   this->clear();
 }
 
@@ -72,7 +69,7 @@ LooseOctree::Spot LooseOctree::spotOf(const glm::dvec3& centre, double radius) c
     return spot;
   }
   const float units = floatAbove(radius * this->PerUnit);
-  spot.radius = bitsOf(units) <= this->Reach ? units : -1.0f;
+  spot.radius = units <= Reach ? units : -1.0f;
   // The upper sides of the cube belong to it.
   const auto unit = [](double x)
   { return static_cast<std::uint32_t>(std::min(x, static_cast<double>(0xffffffffu))); };
@@ -86,7 +83,7 @@ int LooseOctree::depthOf(float radius) const
 {
   // Floats above 0 are ordered as their bits; a step of 2^23 is a power of two. So this is the
   // largest d with radius <= reach / 2^d, without a rounding.
-  const std::int32_t d = (this->Reach - bitsOf(radius)) >> 23;
+  const std::int32_t d = (bitsOf(Reach) - bitsOf(radius)) >> 23;
   assert(d >= 0);
   return std::min(d, MostDepth);
 }

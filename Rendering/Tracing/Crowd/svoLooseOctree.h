@@ -1,6 +1,6 @@
 // A loose octree over the objects of a scene: T. Ulrich, "Loose Octrees", Game Programming Gems 1
-// (2000), with a looseness below 2 as well. It knows balls with names, nothing of what they
-// enclose.
+// (2000), with a looseness k of 1.25: the smaller it is, the fewer nodes a view crosses, and the
+// smaller is what still has a place. It knows balls with names, nothing of what they enclose.
 //
 // The cube of edge W is divided into cells of edge W / 2^d at depth d. The loose cell is k times as
 // wide about the same middle, so a ball whose centre lies in the cell, and whose radius is at most
@@ -98,15 +98,9 @@ public:
   /// Of objects that a node keeps though they have deeper cells.
   static constexpr std::uint32_t Bucket = 60;
 
-  /// The cube: its middle and its edge, world. `looseness`: k; what lies outside of
-  /// [LeastLooseness, 2] is clamped. The smaller it is, the fewer nodes a view crosses, and the
-  /// smaller is what still has a place. With a cube that is not finite, or has no edge, all objects
-  /// are outsiders.
-  LooseOctree(const glm::dvec3& centre, double edge, double looseness = 1.25);
-  /// Below it hardly anything fits a loose cell.
-  static constexpr double LeastLooseness = 1.0 + 1.0 / 1024.0;
-
-  double looseness() const { return this->Looseness; }
+  /// The cube: its middle and its edge, world. With a cube that is not finite, or has no edge, all
+  /// objects are outsiders.
+  LooseOctree(const glm::dvec3& centre, double edge);
 
   /// Adds an object, or moves it if it is there. Centre and radius, world, of a ball around it. One
   /// that does not fit the cube is an outsider: its centre lies outside of the cube, its radius is
@@ -171,6 +165,9 @@ private:
   static constexpr std::uint32_t Absent = 0xffffffffu;  // of Record::node
   static constexpr std::uint32_t Outside = 0xfffffffeu; // the same; its place is that in Outsiders
   static constexpr double Units = 4294967296.0;         // along an edge of the cube
+  static constexpr double Looseness = 1.25;
+  /// The largest radius, units.
+  static constexpr float Reach = static_cast<float>(0.5 * (Looseness - 1.0) * Units);
 
   /// Where an object belongs.
   struct Spot
@@ -243,12 +240,10 @@ private:
   std::uint32_t newChunk();
   void freeGroup(Node& node);
 
-  double Looseness;
-  glm::dvec3 Low;     // lower corner of the cube, world
-  double PerUnit;     // units in the world's unit of length
-  double Unit;        // the inverse
-  double Noise;       // how far what is computed here may be off by rounding, world
-  std::int32_t Reach; // (k - 1) / 2 edges, in units: the bits of a float
+  glm::dvec3 Low; // lower corner of the cube, world
+  double PerUnit; // units in the world's unit of length
+  double Unit;    // the inverse
+  double Noise;   // how far what is computed here may be off by rounding, world
 
   std::vector<Record> Records;
   std::vector<Node> Nodes;
@@ -287,7 +282,7 @@ void LooseOctree::visitGroups(const VisitOrder& order, OnNode&& onNode, OnObject
     const glm::dvec3 middle(static_cast<double>(at.x) + half, static_cast<double>(at.y) + half,
       static_cast<double>(at.z) + half);
     if (!onNode(LooseNode{ this->Low + this->Unit * middle,
-                  this->Unit * this->Looseness * half + this->Noise, node.depth, node.total },
+                  this->Unit * Looseness * half + this->Noise, node.depth, node.total },
           at.known))
     {
       continue;

@@ -1,7 +1,7 @@
 // What a loose octree over many objects takes: inserting, moving, asking what a frustum sees;
 // beside a flat test of all balls against six planes with all lanes of the machine.
 //
-//   BenchmarkLooseOctree [--objects 100000,1000000] [--repeat 9] [--looseness 1.25] [--json file]
+//   BenchmarkLooseOctree [--objects 100000,1000000] [--repeat 9] [--json file]
 //
 // Objects lie in a cube, one in a unit of volume on average, their names in no order of space:
 // uniform, with radii of 0.1 to 0.3, or mixed, with radii from 1e-3 to 1, as many of one size as of
@@ -38,7 +38,6 @@ struct Options
 {
   std::vector<std::uint32_t> objects{ 100000, 1000000 };
   int repeat = 9;
-  double looseness = 1.25;
 };
 
 /// s
@@ -143,7 +142,7 @@ public:
     : Asked(options)
     , Objects(scene)
     , Flat(scene.balls.size())
-    , Tree(glm::dvec3(0.5 * scene.edge), 1.01 * scene.edge, options.looseness)
+    , Tree(glm::dvec3(0.5 * scene.edge), 1.01 * scene.edge)
     , Seen(scene.balls.size() + 64)
   {
     for (std::size_t i = 0; i < scene.balls.size(); ++i)
@@ -178,8 +177,8 @@ public:
     const std::vector<svo::Ball>& balls = this->Objects.balls;
     for (int k = 0; k < this->Asked.repeat; ++k)
     {
-      this->Tree = svo::LooseOctree(
-        glm::dvec3(0.5 * this->Objects.edge), 1.01 * this->Objects.edge, this->Asked.looseness);
+      this->Tree =
+        svo::LooseOctree(glm::dvec3(0.5 * this->Objects.edge), 1.01 * this->Objects.edge);
       time("insert",
         [&]
         {
@@ -344,10 +343,6 @@ int main(int argc, char* argv[])
     else if (name == "--repeat")
     {
       options.repeat = std::max(1, std::atoi(argv[i + 1]));
-    }
-    else if (name == "--looseness")
-    {
-      options.looseness = std::atof(argv[i + 1]);
     }
     else if (name == "--json")
     {

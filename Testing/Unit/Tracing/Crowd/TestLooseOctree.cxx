@@ -57,112 +57,103 @@ void expectEnclosed(const svo::LooseOctree& tree, const Crowd& crowd)
 TEST(LooseOctree, WhereAnObjectIsKeptFollowsFromRadiusCentreAndTheCrowd)
 {
   RandomBalls random(1);
-  for (const double looseness : { 2.0, 1.5, 1.25, 1.0625 })
+  const PlainTree plain = plainly();
+  Crowd crowd;
+  for (std::uint32_t i = 0; i < 9000; ++i)
   {
-    const PlainTree plain = plainly(looseness);
-    Crowd crowd;
-    for (std::uint32_t i = 0; i < 9000; ++i)
-    {
-      crowd[i] = random.ball();
-    }
-    const svo::LooseOctree tree = treeOf(plain, crowd);
-    const std::vector<KeptNode> expected = plain.written(crowd), found = written(tree);
-    EXPECT_TRUE(expected == found) << looseness;
-    EXPECT_GT(found.size(), 200u);
-    expectEnclosed(tree, crowd);
+    crowd[i] = random.ball();
   }
+  const svo::LooseOctree tree = treeOf(plain, crowd);
+  const std::vector<KeptNode> expected = plain.written(crowd), found = written(tree);
+  EXPECT_TRUE(expected == found);
+  EXPECT_GT(found.size(), 200u);
+  expectEnclosed(tree, crowd);
 }
 
 TEST(LooseOctree, CrowdsOfAllSizesPileUpWhereNodesAreSmallest)
 {
-  for (const double looseness : { 2.0, 1.25 })
+  const PlainTree plain = plainly();
+  RandomBalls random(3);
+  const glm::dvec3 middle = random.ball().centre;
+  Crowd crowd;
+  for (std::uint32_t i = 0; i < 600; ++i)
   {
-    const PlainTree plain = plainly(looseness);
-    RandomBalls random(3);
-    const glm::dvec3 middle = random.ball().centre;
-    Crowd crowd;
-    for (std::uint32_t i = 0; i < 600; ++i)
-    {
-      const glm::dvec3 beside(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
-      crowd[i] = { middle + 1e-6 * beside,
-        i % 8 == 0 ? 0.0 : std::pow(10.0, random.between(-9, -4)) };
-    }
-    const svo::LooseOctree tree = treeOf(plain, crowd);
-    const std::vector<KeptNode> found = written(tree);
-    EXPECT_TRUE(plain.written(crowd) == found) << looseness;
-    EXPECT_TRUE(std::any_of(found.begin(), found.end(),
-      [](const KeptNode& node) { return node.depth == 20 && node.objects.size() > 15; }));
-    expectEnclosed(tree, crowd);
+    const glm::dvec3 beside(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+    crowd[i] = { middle + 1e-6 * beside,
+      i % 8 == 0 ? 0.0 : std::pow(10.0, random.between(-9, -4)) };
   }
+  const svo::LooseOctree tree = treeOf(plain, crowd);
+  const std::vector<KeptNode> found = written(tree);
+  EXPECT_TRUE(plain.written(crowd) == found);
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+    [](const KeptNode& node) { return node.depth == 20 && node.objects.size() > 15; }));
+  expectEnclosed(tree, crowd);
 }
 
 TEST(LooseOctree, AfterAnySequenceOfChangesItEqualsOneBuiltAfresh)
 {
-  for (const double looseness : { 2.0, 1.25 })
+  const PlainTree plain = plainly();
+  RandomBalls random(2);
+  svo::LooseOctree tree = treeLike(plain);
+  Crowd crowd;
+  for (int step = 1; step <= 80000; ++step)
   {
-    const PlainTree plain = plainly(looseness);
-    RandomBalls random(2);
-    svo::LooseOctree tree = treeLike(plain);
-    Crowd crowd;
-    for (int step = 1; step <= 80000; ++step)
+    // Crowds grow and shrink again.
+    const std::uint32_t name = random.below(step % 40000 < 20000 ? 6000 : 600);
+    const std::uint32_t kind = random.below(8);
+    const bool there = crowd.count(name) > 0;
+    ASSERT_EQ(tree.contains(name), there);
+    svo::Ball ball = random.ball();
+    if (kind == 0 || (kind < 4 && step % 40000 > 20000))
     {
-      // Crowds grow and shrink again.
-      const std::uint32_t name = random.below(step % 40000 < 20000 ? 6000 : 600);
-      const std::uint32_t kind = random.below(8);
-      const bool there = crowd.count(name) > 0;
-      ASSERT_EQ(tree.contains(name), there);
-      svo::Ball ball = random.ball();
-      if (kind == 0 || (kind < 4 && step % 40000 > 20000))
+      const std::uint32_t gone = random.below(6000);
+      ASSERT_EQ(tree.remove(gone), crowd.erase(gone) > 0);
+      continue;
+    }
+    if (there && kind < 6)
+    {
+      // A little, or another size at the same place.
+      ball.centre = crowd[name].centre +
+        glm::dvec3(random.between(-0.1, 0.1), random.between(-1e-4, 1e-4), 0.0);
+      ball.radius = kind == 5 ? ball.radius : crowd[name].radius;
+    }
+    if (kind == 7)
+    {
+      tree.insert(name, ball.centre, ball.radius);
+      crowd[name] = ball;
+    }
+    else
+    {
+      ASSERT_EQ(tree.move(name, ball.centre, ball.radius), there);
+      if (there)
       {
-        const std::uint32_t gone = random.below(6000);
-        ASSERT_EQ(tree.remove(gone), crowd.erase(gone) > 0);
-        continue;
-      }
-      if (there && kind < 6)
-      {
-        // A little, or another size at the same place.
-        ball.centre = crowd[name].centre +
-          glm::dvec3(random.between(-0.1, 0.1), random.between(-1e-4, 1e-4), 0.0);
-        ball.radius = kind == 5 ? ball.radius : crowd[name].radius;
-      }
-      if (kind == 7)
-      {
-        tree.insert(name, ball.centre, ball.radius);
         crowd[name] = ball;
       }
-      else
-      {
-        ASSERT_EQ(tree.move(name, ball.centre, ball.radius), there);
-        if (there)
-        {
-          crowd[name] = ball;
-        }
-      }
-      if (step % 10000 == 5000)
-      {
-        const std::vector<KeptNode> before = written(tree);
-        tree.arrange();
-        ASSERT_TRUE(written(tree) == before);
-      }
-      if (step % 4000 == 0)
-      {
-        const svo::LooseOctree fresh = treeOf(plain, crowd);
-        ASSERT_TRUE(written(tree) == written(fresh)) << "step " << step;
-        ASSERT_TRUE(written(tree) == plain.written(crowd)) << "step " << step;
-        ASSERT_EQ(tree.nodes(), fresh.nodes());
-        expectEnclosed(tree, crowd);
-      }
     }
-    EXPECT_GT(tree.outsiders().size(), 0u);
-    while (!crowd.empty())
+    if (step % 10000 == 5000)
     {
-      ASSERT_TRUE(tree.remove(crowd.begin()->first));
-      crowd.erase(crowd.begin());
+      const std::vector<KeptNode> before = written(tree);
+      tree.arrange();
+      ASSERT_TRUE(written(tree) == before);
     }
-    EXPECT_EQ(tree.size(), 0u);
-    EXPECT_EQ(tree.nodes(), 1u) << "empty nodes are reclaimed";
-    EXPECT_EQ(written(tree).size(), 1u);
+    if (step % 4000 == 0)
+    {
+      const svo::LooseOctree fresh = treeOf(plain, crowd);
+      ASSERT_TRUE(written(tree) == written(fresh)) << "step " << step;
+      ASSERT_TRUE(written(tree) == plain.written(crowd)) << "step " << step;
+      ASSERT_EQ(tree.nodes(), fresh.nodes());
+      expectEnclosed(tree, crowd);
+    }
   }
+  EXPECT_GT(tree.outsiders().size(), 0u);
+  while (!crowd.empty())
+  {
+    ASSERT_TRUE(tree.remove(crowd.begin()->first));
+    crowd.erase(crowd.begin());
+  }
+  EXPECT_EQ(tree.size(), 0u);
+  EXPECT_EQ(tree.nodes(), 1u) << "empty nodes are reclaimed";
+  EXPECT_EQ(written(tree).size(), 1u);
 }
 
 TEST(LooseOctree, MemoryStaysBoundedWhileObjectsMove)
@@ -195,13 +186,13 @@ TEST(LooseOctree, MemoryStaysBoundedWhileObjectsMove)
 
 TEST(LooseOctree, WhatFitsNowhereIsHeldApartAndCanComeBack)
 {
-  svo::LooseOctree tree(glm::dvec3(1.0), 2.0, 1.5);
+  svo::LooseOctree tree(glm::dvec3(1.0), 2.0);
   const std::vector<svo::Ball> outside = { { { NaN, 1, 1 }, 0.1 }, { { 1, Infinity, 1 }, 0.1 },
     { { 1, 1, -Infinity }, 0.1 }, { { 1, 1, 1 }, NaN }, { { 1, 1, 1 }, Infinity },
     { { 1, 1, 1 }, -1.0 }, { { -1e-9, 1, 1 }, 0.1 }, { { 1, 2.0 + 1e-9, 1 }, 0.1 },
-    { { 1e300, 1, 1 }, 0.1 }, { { 1, 1, 1 }, 0.5 + 1e-7 }, { { 1, 1, 1 }, 1e300 } };
+    { { 1e300, 1, 1 }, 0.1 }, { { 1, 1, 1 }, 0.25 + 1e-7 }, { { 1, 1, 1 }, 1e300 } };
   const std::vector<svo::Ball> inside = { { { 0, 0, 0 }, 0.0 }, { { 2, 2, 2 }, 0.0 },
-    { { 1, 1, 1 }, 0.5 }, { { 2, 0, 1 }, 5e-324 }, { { 0.3, 1.2, 1.9 }, 1e-300 } };
+    { { 1, 1, 1 }, 0.25 }, { { 2, 0, 1 }, 5e-324 }, { { 0.3, 1.2, 1.9 }, 1e-300 } };
   for (int round = 0; round < 3; ++round)
   {
     for (std::uint32_t i = 0; i < 40; ++i)
@@ -247,14 +238,6 @@ TEST(LooseOctree, ACubeThatIsNoneHoldsEverybodyApart)
   EXPECT_EQ(tree.outsiders().size(), 1u);
 }
 
-TEST(LooseOctree, ALoosenessBeyondItsRangeIsClamped)
-{
-  EXPECT_EQ(svo::LooseOctree(glm::dvec3(0.0), 1.0, 3.0).looseness(), 2.0);
-  EXPECT_EQ(
-    svo::LooseOctree(glm::dvec3(0.0), 1.0, NaN).looseness(), svo::LooseOctree::LeastLooseness);
-  EXPECT_EQ(svo::LooseOctree(glm::dvec3(0.0), 1.0, 1.3).looseness(), 1.3);
-}
-
 TEST(LooseOctree, CubesOfAnySizeAnywhere)
 {
   for (const double edge : { 1e-6, 1e-3, 1.0, 1e6, 1e100, 1e-100 })
@@ -262,7 +245,7 @@ TEST(LooseOctree, CubesOfAnySizeAnywhere)
     for (const double far : { 0.0, 1.0, 1e6 })
     {
       const glm::dvec3 middle = far * edge * glm::dvec3(1.0, -0.3, 0.7);
-      svo::LooseOctree tree(middle, edge, 1.5);
+      svo::LooseOctree tree(middle, edge);
       Crowd crowd;
       RandomBalls random(6);
       for (std::uint32_t i = 0; i < 1000; ++i)
@@ -276,7 +259,7 @@ TEST(LooseOctree, CubesOfAnySizeAnywhere)
           const double cell = std::ldexp(edge, -static_cast<int>(i % 16));
           ball.centre = middle - 0.5 * edge +
             cell * glm::dvec3(random.below(1u << i % 16), random.below(1u << i % 16), 0.0);
-          ball.radius = 0.5 * (1.5 - 1.0) * cell;
+          ball.radius = 0.125 * cell;
         }
         crowd[i] = ball;
         tree.insert(i, ball.centre, ball.radius);
@@ -341,10 +324,10 @@ TEST(LooseOctree, ManyObjectsAtOnePlaceComeAndGo)
 
 TEST(LooseOctree, ChildrenAreReclaimedWhereAllThatIsLeftIsLarge)
 {
-  svo::LooseOctree tree(glm::dvec3(0.0), 16.0, 2.0);
+  svo::LooseOctree tree(glm::dvec3(0.0), 16.0);
   for (std::uint32_t i = 1; i <= 200; ++i)
   {
-    tree.insert(i, glm::dvec3(1.0), 7.0);
+    tree.insert(i, glm::dvec3(1.0), 1.9);
   }
   EXPECT_EQ(tree.nodes(), 1u);
   tree.insert(0, glm::dvec3(1.0), 0.1);
@@ -352,6 +335,6 @@ TEST(LooseOctree, ChildrenAreReclaimedWhereAllThatIsLeftIsLarge)
   tree.move(0, glm::dvec3(-1.0), 0.1);
   EXPECT_EQ(tree.nodes(), 9u);
   EXPECT_EQ(written(tree).size(), 3u);
-  tree.move(0, glm::dvec3(1.0), 7.0);
+  tree.move(0, glm::dvec3(1.0), 1.9);
   EXPECT_EQ(tree.nodes(), 1u);
 }

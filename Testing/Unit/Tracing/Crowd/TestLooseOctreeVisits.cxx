@@ -20,7 +20,7 @@ int sideOf(const KeptNode& cell, double edge, const std::array<double, 3>& middl
 
 TEST(LooseOctreeVisits, OfTwoCellsThatAPlaneOfANodeSeparatesTheNearerIsFirst)
 {
-  const PlainTree plain = plainly(1.5);
+  const PlainTree plain = plainly();
   RandomBalls random(4);
   Crowd crowd;
   for (std::uint32_t i = 0; i < 6000; ++i)

@@ -15,8 +15,8 @@ struct Placed
 {
   Crowd crowd;
   svo::LooseOctree tree;
-  Placed(RandomBalls& random, double scale, const glm::dvec3& middle, double looseness)
-    : tree(middle, 16.0 * scale, looseness)
+  Placed(RandomBalls& random, double scale, const glm::dvec3& middle)
+    : tree(middle, 16.0 * scale)
   {
     for (std::uint32_t i = 0; i < 4000; ++i)
     {
@@ -51,7 +51,7 @@ TEST(SeenObjects, AreThoseOfAFlatTestAndAmongThemAllThatAreSeen)
     const glm::dvec3 middle = random.below(2)
       ? glm::dvec3(0.0)
       : scale * std::pow(10.0, random.between(0.0, 5.0)) * glm::dvec3(1.0, -0.3, 0.6);
-    const Placed placed(random, scale, middle, round % 2 ? 2.0 : 1.2);
+    const Placed placed(random, scale, middle);
     const Crowd balls = keptBalls(placed.tree);
     for (int v = 0; v < 12; ++v)
     {
@@ -95,7 +95,7 @@ TEST(SeenObjects, AreThoseOfAFlatTestAndAmongThemAllThatAreSeen)
 TEST(SeenObjects, OfAllGroupsOfTilesAreThoseOfTheImage)
 {
   RandomBalls random(22);
-  const Placed placed(random, 1.0, glm::dvec3(0.0), 1.5);
+  const Placed placed(random, 1.0, glm::dvec3(0.0));
   for (int v = 0; v < 20; ++v)
   {
     const svo::View view = randomView(random, 1.0, glm::dvec3(0.0));

@@ -77,17 +77,16 @@ inline std::vector<KeptNode> written(const svo::LooseOctree& tree)
   return nodes;
 }
 
-/// A cube, and what belongs where in it, by loops.
+/// A cube, and what belongs where in it, by loops. A loose cell is 1.25 times as wide as a cell.
 struct PlainTree
 {
   glm::dvec3 low;
-  double edge, looseness;
+  double edge;
 
   int deepest(double radius) const
   {
     int d = 0;
-    while (d < svo::LooseOctree::MostDepth &&
-      radius <= std::ldexp(0.5 * (this->looseness - 1.0) * this->edge, -d - 1))
+    while (d < svo::LooseOctree::MostDepth && radius <= std::ldexp(0.125 * this->edge, -d - 1))
     {
       ++d;
     }
@@ -97,8 +96,7 @@ struct PlainTree
   {
     const glm::dvec3 at = ball.centre - this->low;
     return at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x <= this->edge && at.y <= this->edge &&
-      at.z <= this->edge && ball.radius >= 0 &&
-      ball.radius <= 0.5 * (this->looseness - 1.0) * this->edge;
+      at.z <= this->edge && ball.radius >= 0 && ball.radius <= 0.125 * this->edge;
   }
   void place(const Crowd& all, int depth, const glm::dvec3& corner, std::vector<KeptNode>& to) const
   {
@@ -147,14 +145,14 @@ struct PlainTree
 };
 
 /// The cube [-8, 8]^3.
-inline PlainTree plainly(double looseness)
+inline PlainTree plainly()
 {
-  return { glm::dvec3(-8.0), 16.0, looseness };
+  return { glm::dvec3(-8.0), 16.0 };
 }
 
 inline svo::LooseOctree treeLike(const PlainTree& plain)
 {
-  return svo::LooseOctree(plain.low + 0.5 * plain.edge, plain.edge, plain.looseness);
+  return svo::LooseOctree(plain.low + 0.5 * plain.edge, plain.edge);
 }
 
 inline svo::LooseOctree treeOf(const PlainTree& plain, const Crowd& crowd)
