@@ -1,4 +1,4 @@
-// What the pixels of a view, or some of them, may see: boxes and balls against planes.
+// What the pixels of a view, or some of them, may see: boxes against planes.
 //
 // Never says "outside" of what a ray of the view can meet. At one depth, the points of all rays are
 // a parallelogram whose corners are those of the four corner rays; so what these are inside of, all
@@ -8,7 +8,6 @@
 #ifndef svoFrustum_h
 #define svoFrustum_h
 
-#include "svoBox.h"
 #include "svoView.h"
 #include "vtkSVOTracingModule.h"
 
@@ -24,13 +23,6 @@ namespace svo
 class VTKSVOTRACING_EXPORT Frustum
 {
 public:
-  enum class Side
-  {
-    Outside,  // no ray of the view meets it
-    Crossing, // one may
-    Inside    // all of it lies between all planes
-  };
-
   /// Nothing is outside.
   Frustum() = default;
   /// What the view looks at. `margin`: pixels that are added on all sides; one is what the tracer's
@@ -39,25 +31,12 @@ public:
   /// A rectangle of its pixels, as of a group of tiles.
   Frustum(const View& view, const PixelRect& rect, double margin = 1.0);
 
-  /// A ball, world.
-  bool outside(const glm::dvec3& centre, double radius) const
-  {
-    const double reach = radius + Rounding * largest(centre);
-    for (int i = 0; i < this->Count; ++i)
-    {
-      if (this->distance(i, centre) < -reach)
-      {
-        return true;
-      }
-    }
-    return false;
-  }
-  /// A box along the world's axes; `half`: half its edges. `within`: bits of planes that it is
-  /// known to lie within; those that it is found to lie within are added, for boxes in it.
-  Side box(const glm::dvec3& centre, const glm::dvec3& half, std::uint8_t& within) const
+  /// True if no ray of the view meets a box along the world's axes; `half`: half its edges, 0 of a
+  /// point. `within`: bits of planes that it is known to lie within; those that it is found to lie
+  /// within are added, for boxes in it.
+  bool outside(const glm::dvec3& centre, const glm::dvec3& half, std::uint8_t& within) const
   {
     const double rounding = Rounding * (largest(centre) + largest(half));
-    bool crossing = false;
     for (int i = 0; i < this->Count; ++i)
     {
       if (within >> i & 1)
@@ -65,26 +44,17 @@ public:
         continue;
       }
       const double reach = glm::dot(glm::abs(this->Normal[i]), half) + rounding;
-      const double at = this->distance(i, centre);
+      const double at = glm::dot(this->Normal[i], centre) + this->Offset[i];
       if (at < -reach)
       {
-        return Side::Outside;
+        return true;
       }
       if (at >= reach)
       {
         within |= static_cast<std::uint8_t>(1u << i);
       }
-      else
-      {
-        crossing = true;
-      }
     }
-    return crossing ? Side::Crossing : Side::Inside;
-  }
-  Side box(const Box& box) const
-  {
-    std::uint8_t within = 0;
-    return this->box(0.5 * (box.low + box.high), 0.5 * (box.high - box.low), within);
+    return false;
   }
   /// Planes in use: six at most. Fewer where a view has no far end, or rays that part.
   int planes() const { return this->Count; }
@@ -98,11 +68,6 @@ private:
   {
     const glm::dvec3 a = glm::abs(v);
     return glm::max(glm::max(a.x, a.y), a.z);
-  }
-  /// From a plane, positive inside; world.
-  double distance(int i, const glm::dvec3& p) const
-  {
-    return glm::dot(this->Normal[i], p) + this->Offset[i];
   }
 
   int Count = 0;

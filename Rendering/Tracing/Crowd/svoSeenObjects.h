@@ -28,7 +28,7 @@ void eachSeen(const LooseOctree& objects, const Frustum& frustum, const VisitOrd
     order,
     [&](const LooseNode& node, std::uint8_t& within)
     {
-      if (frustum.box(node.centre, glm::dvec3(node.half), within) == Frustum::Side::Outside)
+      if (frustum.outside(node.centre, glm::dvec3(node.half), within))
       {
         return false;
       }

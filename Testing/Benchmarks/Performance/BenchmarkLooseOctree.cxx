@@ -91,13 +91,26 @@ svo::View viewFrom(const Scene& scene, int corner, double angle)
   return view;
 }
 
+bool outside(const svo::Frustum& frustum, const svo::Ball& ball)
+{
+  for (int i = 0; i < frustum.planes(); ++i)
+  {
+    const glm::dvec4 plane = frustum.plane(i);
+    if (glm::dot(glm::dvec3(plane), ball.centre) + plane.w < -ball.radius)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// What is not outside, one by one.
 std::vector<std::uint32_t> seenExactly(const Scene& scene, const svo::Frustum& frustum)
 {
   std::vector<std::uint32_t> seen;
   for (std::uint32_t i = 0; i < scene.balls.size(); ++i)
   {
-    if (!frustum.outside(scene.balls[i].centre, scene.balls[i].radius))
+    if (!outside(frustum, scene.balls[i]))
     {
       seen.push_back(i);
     }

@@ -1,5 +1,6 @@
 #include "svoRandomViews.h"
 
+#include "svoBox.h"
 #include "svoFrustum.h"
 #include "svoLocalView.h"
 
@@ -44,16 +45,17 @@ TEST(Frustum, NothingThatARayMeetsIsOutside)
       const double x = pixel(rect.x0, rect.x1), y = pixel(rect.y0, rect.y1);
       const glm::dvec3 p = pointOf(view, x, y, randomDepth(random, view));
       const double size = std::max({ std::abs(p.x), std::abs(p.y), std::abs(p.z) });
-      ASSERT_FALSE(frustum.outside(p, 0.0)) << "view " << i << ", pixel " << x << ", " << y;
+      ASSERT_FALSE(outside(frustum, p, 0.0)) << "view " << i << ", pixel " << x << ", " << y;
       const glm::dvec3 beside = scale * std::exp2(random.between(-30.0, 10.0)) *
         glm::dvec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
-      ASSERT_FALSE(frustum.outside(p + beside, glm::length(beside) * (1.0 + 1e-14) + 1e-15 * size));
+      ASSERT_FALSE(
+        outside(frustum, p + beside, glm::length(beside) * (1.0 + 1e-14) + 1e-15 * size));
       const glm::dvec3 half = glm::abs(beside) * (1.0 + 1e-14) + 1e-15 * size;
       std::uint8_t within = 0;
-      const svo::Frustum::Side side = frustum.box(p + beside, half, within);
-      ASSERT_NE(side, svo::Frustum::Side::Outside) << "view " << i;
-      ASSERT_EQ(side == svo::Frustum::Side::Inside, within == (1 << frustum.planes()) - 1);
-      ASSERT_EQ(frustum.box(p + beside, half, within), side) << "what is known does not matter";
+      ASSERT_FALSE(frustum.outside(p + beside, half, within)) << "view " << i;
+      const std::uint8_t known = within;
+      ASSERT_FALSE(frustum.outside(p + beside, half, within)) << "what is known does not matter";
+      ASSERT_EQ(within, known);
     }
   }
 }
@@ -78,10 +80,10 @@ TEST(Frustum, NoBallThatTouchesItFromOutsideIsOutside)
       sum += d * d;
     }
     const double radius = std::nextafter(static_cast<double>(std::sqrt(sum)), 1e300);
-    ASSERT_FALSE(frustum.outside(centre, radius)) << "view " << i << ", size " << size;
+    ASSERT_FALSE(outside(frustum, centre, radius)) << "view " << i << ", size " << size;
     const glm::dvec3 half = glm::abs(centre - p);
     std::uint8_t within = 0;
-    ASSERT_NE(frustum.box(centre, half * (1.0 + 0x1p-52), within), svo::Frustum::Side::Outside);
+    ASSERT_FALSE(frustum.outside(centre, half * (1.0 + 0x1p-52), within));
   }
 }
 
@@ -108,10 +110,10 @@ TEST(Frustum, WhatIsAHundredthOfAPixelBesideIsOutside)
       const glm::dvec3 in = pointOf(view, x, y, t);
       for (int k = 0; k < 6; ++k)
       {
-        EXPECT_TRUE(frustum.outside(out[k], 0.0)) << "view " << i << ", side " << k;
+        EXPECT_TRUE(outside(frustum, out[k], 0.0)) << "view " << i << ", side " << k;
         const glm::dvec3 step = out[k] - in;
-        EXPECT_FALSE(frustum.outside(out[k] + step, 2.0 * glm::length(step))) << "it reaches in";
-        beside += frustum.outside(out[k] + 8.0 * step, 8.0 * glm::length(step) * (1.0 - 1e-9));
+        EXPECT_FALSE(outside(frustum, out[k] + step, 2.0 * glm::length(step))) << "it reaches in";
+        beside += outside(frustum, out[k] + 8.0 * step, 8.0 * glm::length(step) * (1.0 - 1e-9));
       }
     }
   }
@@ -131,7 +133,8 @@ TEST(Frustum, InsideIsBetweenAllPlanes)
     const glm::dvec3 p = pointOf(view, x, y, randomDepth(random, view));
     const double half = std::exp2(random.between(-12.0, 1.0));
     const svo::Box box{ p - half, p + half };
-    if (frustum.box(box) != svo::Frustum::Side::Inside)
+    std::uint8_t within = 0;
+    if (frustum.outside(p, glm::dvec3(half), within) || within != (1 << frustum.planes()) - 1)
     {
       continue;
     }
@@ -167,8 +170,8 @@ TEST(Frustum, HasAllCubesThatTheTracerLooksAt)
     const svo::Ball ball = random.ball();
     const svo::SeenCube cube =
       svo::seeCube(ball.centre - ball.radius, 2.0 * ball.radius, glm::dmat4(1.0), view);
-    const svo::Box box{ ball.centre - ball.radius, ball.centre + ball.radius };
-    const bool out = svo::Frustum(view).box(box) == svo::Frustum::Side::Outside;
+    std::uint8_t within = 0;
+    const bool out = svo::Frustum(view).outside(ball.centre, glm::dvec3(ball.radius), within);
     const svo::PixelRect all{ 0, 0, view.width, view.height };
     const bool whole = cube.rect.x0 == all.x0 && cube.rect.y0 == all.y0 && cube.rect.x1 == all.x1 &&
       cube.rect.y1 == all.y1;
@@ -186,24 +189,28 @@ TEST(Frustum, HasAllCubesThatTheTracerLooksAt)
 TEST(Frustum, OfNoViewNothingIsOutside)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(svo::Frustum().outside({ 1e9, 3, 4 }, 0.0));
+  EXPECT_FALSE(outside(svo::Frustum(), { 1e9, 3, 4 }, 0.0));
   svo::View bad;
   bad.origin.x = nan;
   bad.directionX.x = nan;
   bad.tNear = nan;
-  EXPECT_FALSE(svo::Frustum(bad).outside({ 1e9, 3, 4 }, 0.0));
+  EXPECT_FALSE(outside(svo::Frustum(bad), { 1e9, 3, 4 }, 0.0));
   svo::View huge;
   ASSERT_TRUE(svo::makeView(glm::dmat4(1.0), glm::ortho(-1.0, 1.0, -1.0, 1.0), 9, 9, huge));
   huge.originX = { 1e308, 0, 0 };
-  EXPECT_FALSE(svo::Frustum(huge).outside({ 0, 0, 1e9 }, 0.0)) << "corners that overflow";
+  EXPECT_FALSE(outside(svo::Frustum(huge), { 0, 0, 1e9 }, 0.0)) << "corners that overflow";
   // Nor is what is nowhere, or everywhere.
   RandomBalls random(15);
   const svo::Frustum frustum(randomView(random, 1.0, glm::dvec3(0.0)));
-  ASSERT_TRUE(frustum.outside({ 1e9, 1e9, 1e9 }, 0.0));
-  EXPECT_FALSE(frustum.outside({ nan, 0, 0 }, 1.0));
-  EXPECT_FALSE(frustum.outside({ 1e9, 1e9, 1e9 }, nan));
-  EXPECT_FALSE(frustum.outside({ 1e9, 1e9, 1e9 }, std::numeric_limits<double>::infinity()));
-  EXPECT_NE(frustum.box(svo::Box()), svo::Frustum::Side::Outside);
+  ASSERT_TRUE(outside(frustum, { 1e9, 1e9, 1e9 }, 0.0));
+  EXPECT_FALSE(outside(frustum, { nan, 0, 0 }, 1.0));
+  EXPECT_FALSE(outside(frustum, { 1e9, 1e9, 1e9 }, nan));
+  EXPECT_FALSE(outside(frustum, { 1e9, 1e9, 1e9 }, std::numeric_limits<double>::infinity()));
+  std::uint8_t within = 0;
+  EXPECT_FALSE(frustum.outside({ nan, 0, 0 }, { 1, 1, 1 }, within));
+  EXPECT_FALSE(frustum.outside({ 1e9, 1e9, 1e9 }, glm::dvec3(nan), within));
+  EXPECT_FALSE(frustum.outside(
+    { 1e9, 1e9, 1e9 }, glm::dvec3(std::numeric_limits<double>::infinity()), within));
 }
 
 TEST(Frustum, AViewWithoutAFarEndHasSidesAllTheSame)
@@ -216,8 +223,8 @@ TEST(Frustum, AViewWithoutAFarEndHasSidesAllTheSame)
     view.tFar = far;
     const svo::Frustum frustum(view);
     EXPECT_EQ(frustum.planes(), 5);
-    EXPECT_FALSE(frustum.outside({ 0, 0, -1e12 }, 0.0));
-    EXPECT_TRUE(frustum.outside({ 0, 1e12, -1e12 }, 0.0));
-    EXPECT_TRUE(frustum.outside({ 0, 0, 1 }, 0.5));
+    EXPECT_FALSE(outside(frustum, { 0, 0, -1e12 }, 0.0));
+    EXPECT_TRUE(outside(frustum, { 0, 1e12, -1e12 }, 0.0));
+    EXPECT_TRUE(outside(frustum, { 0, 0, 1 }, 0.5));
   }
 }

@@ -65,9 +65,9 @@ TEST(SeenObjects, AreThoseOfAFlatTestAndAmongThemAllThatAreSeen)
       for (const auto& [name, given] : placed.crowd)
       {
         const svo::Ball& kept = balls.at(name);
-        const std::size_t flat = !frustum.outside(kept.centre, kept.radius);
+        const std::size_t flat = !outside(frustum, kept.centre, kept.radius);
         const std::size_t nearly =
-          !frustum.outside(kept.centre, kept.radius + 16.0 * scale / 32768.0);
+          !outside(frustum, kept.centre, kept.radius + 16.0 * scale / 32768.0);
         EXPECT_GE(found.count(name), flat) << name << " in round " << round;
         EXPECT_LE(found.count(name), nearly) << name << " in round " << round;
         flatly += flat;

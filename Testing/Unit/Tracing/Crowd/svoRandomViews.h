@@ -3,12 +3,27 @@
 #define svoRandomViews_h
 
 #include "svoCrowdFixtures.h"
+#include "svoFrustum.h"
 #include "svoView.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace svotest
 {
+/// True if a ball lies beyond a plane of the frustum.
+inline bool outside(const svo::Frustum& frustum, const glm::dvec3& centre, double radius)
+{
+  const glm::dvec3 size = glm::abs(centre);
+  const double reach = radius + 0x1p-49 * glm::max(glm::max(size.x, size.y), size.z);
+  bool is = false;
+  for (int i = 0; i < frustum.planes(); ++i)
+  {
+    const glm::dvec4 plane = frustum.plane(i);
+    is = is || glm::dot(glm::dvec3(plane), centre) + plane.w < -reach;
+  }
+  return is;
+}
+
 /// Around `middle`, of things of about the size `scale`.
 inline svo::View randomView(RandomBalls& random, double scale, const glm::dvec3& middle)
 {
