@@ -38,28 +38,25 @@ std::uint64_t hashWords(std::size_t count, std::uint64_t seed, const Word& word)
   constexpr std::size_t chunk = 1 << 16;
   const std::size_t chunks = (count + chunk - 1) / chunk;
   std::vector<std::uint64_t> hashes(chunks);
-  smpParallelFor()(0, chunks, 1,
-    [&](std::size_t first, std::size_t last)
+  forEach(smpParallelFor(), chunks, 1,
+    [&](std::size_t c)
     {
-      for (std::size_t c = first; c < last; ++c)
+      // Four chains, so that a multiplication need not wait for the last one.
+      std::uint64_t h[4] = { 1, 2, 3, 4 };
+      const std::size_t end = std::min(count, (c + 1) * chunk);
+      std::size_t i = c * chunk;
+      for (; i + 4 <= end; i += 4)
       {
-        // Four chains, so that a multiplication need not wait for the last one.
-        std::uint64_t h[4] = { 1, 2, 3, 4 };
-        const std::size_t end = std::min(count, (c + 1) * chunk);
-        std::size_t i = c * chunk;
-        for (; i + 4 <= end; i += 4)
+        for (std::size_t k = 0; k < 4; ++k)
         {
-          for (std::size_t k = 0; k < 4; ++k)
-          {
-            h[k] = mix(h[k], word(i + k));
-          }
+          h[k] = mix(h[k], word(i + k));
         }
-        for (; i < end; ++i)
-        {
-          h[0] = mix(h[0], word(i));
-        }
-        hashes[c] = mix(mix(h[0], h[1]), mix(h[2], h[3]));
       }
+      for (; i < end; ++i)
+      {
+        h[0] = mix(h[0], word(i));
+      }
+      hashes[c] = mix(mix(h[0], h[1]), mix(h[2], h[3]));
     });
   std::uint64_t all = mix(seed, count);
   for (std::uint64_t h : hashes)

@@ -55,33 +55,30 @@ std::vector<CellBlock> blocksOf(const Octree& octree, int depth, const ParallelF
   {
     const std::uint32_t begin = octree.header().depthBegin[d + 1];
     std::vector<CellBlock> below(octree.header().depthBegin[d + 2] - begin);
-    parallelFor(0, blocks.size(), 64,
-      [&](std::size_t first, std::size_t last)
+    forEach(parallelFor, blocks.size(), 64,
+      [&](std::size_t b)
       {
-        for (std::size_t b = first; b < last; ++b)
+        const CellBlock& block = blocks[b];
+        const Node& node = nodes[block.around[CellBlock::Middle]];
+        std::uint32_t next = node.first - begin;
+        for (std::uint64_t mask = node.mask; mask != 0; mask &= mask - 1)
         {
-          const CellBlock& block = blocks[b];
-          const Node& node = nodes[block.around[CellBlock::Middle]];
-          std::uint32_t next = node.first - begin;
-          for (std::uint64_t mask = node.mask; mask != 0; mask &= mask - 1)
+          CellBlock& child = below[next++];
+          const glm::ivec3 cell = cellOfIndex(lowestBit(mask));
+          child.place = NodeEdge * block.place + cell;
+          int i = 0;
+          for (int z = cell.z - 1; z <= cell.z + 1; ++z)
           {
-            CellBlock& child = below[next++];
-            const glm::ivec3 cell = cellOfIndex(lowestBit(mask));
-            child.place = NodeEdge * block.place + cell;
-            int i = 0;
-            for (int z = cell.z - 1; z <= cell.z + 1; ++z)
+            for (int y = cell.y - 1; y <= cell.y + 1; ++y)
             {
-              for (int y = cell.y - 1; y <= cell.y + 1; ++y)
+              const int row = 9 * ((z >> NodeLevels) + 1) + 3 * ((y >> NodeLevels) + 1) + 1;
+              for (int x = cell.x - 1; x <= cell.x + 1; ++x, ++i)
               {
-                const int row = 9 * ((z >> NodeLevels) + 1) + 3 * ((y >> NodeLevels) + 1) + 1;
-                for (int x = cell.x - 1; x <= cell.x + 1; ++x, ++i)
-                {
-                  const std::uint32_t in = block.around[row + (x >> NodeLevels)];
-                  const int bit = cellAt({ x, y, z });
-                  child.around[i] = in != CellBlock::None && hasChild(nodes[in], bit)
-                    ? svo::child(nodes[in], bit)
-                    : CellBlock::None;
-                }
+                const std::uint32_t in = block.around[row + (x >> NodeLevels)];
+                const int bit = cellAt({ x, y, z });
+                child.around[i] = in != CellBlock::None && hasChild(nodes[in], bit)
+                  ? svo::child(nodes[in], bit)
+                  : CellBlock::None;
               }
             }
           }

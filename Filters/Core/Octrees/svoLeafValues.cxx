@@ -161,22 +161,20 @@ bool forEachLeaf(const Octree& octree, const ParallelFor& parallelFor,
   const std::vector<Brick> bricks = bricksOf(octree);
   for (std::size_t begin = 0; begin < bricks.size(); begin += Chunk)
   {
-    parallelFor(begin, std::min(begin + Chunk, bricks.size()), 16,
-      [&](std::size_t first, std::size_t last)
+    forEach(parallelFor, std::min(Chunk, bricks.size() - begin), 16,
+      [&](std::size_t b)
       {
-        for (std::size_t b = first; b < last; ++b)
+        const Brick& brick = bricks[begin + b];
+        const std::uint64_t mask = octree.nodes()[brick.node].mask;
+        for (std::uint64_t left = mask; left != 0; left &= left - 1)
         {
-          const std::uint64_t mask = octree.nodes()[bricks[b].node].mask;
-          for (std::uint64_t left = mask; left != 0; left &= left - 1)
-          {
-            const int i = lowestBit(left);
-            const std::uint32_t leaf = octree.planeOf(bricks[b].node, i);
-            const MeanPlane plane = decodePlane(octree.lists()[leaf]);
-            const glm::vec3 foot = 0.5f * Sqrt3 * plane.offset * plane.normal;
-            const glm::dvec3 inVoxel(glm::clamp(foot, -0.5f, 0.5f) + 0.5f);
-            visit(leaf,
-              origin + h.voxelSize * (glm::dvec3(bricks[b].firstVoxel + cellOfIndex(i)) + inVoxel));
-          }
+          const int i = lowestBit(left);
+          const std::uint32_t leaf = octree.planeOf(brick.node, i);
+          const MeanPlane plane = decodePlane(octree.lists()[leaf]);
+          const glm::vec3 foot = 0.5f * Sqrt3 * plane.offset * plane.normal;
+          const glm::dvec3 inVoxel(glm::clamp(foot, -0.5f, 0.5f) + 0.5f);
+          visit(
+            leaf, origin + h.voxelSize * (glm::dvec3(brick.firstVoxel + cellOfIndex(i)) + inVoxel));
         }
       });
     if (!progress(static_cast<double>(begin) / static_cast<double>(bricks.size())))

@@ -192,14 +192,9 @@ void ShadowVolumes::see(
       unknown.emplace_back(&octree, &mesh->second);
     }
   }
-  parallelFor(0, unknown.size(), 1,
-    [&unknown](std::size_t first, std::size_t last)
-    {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        *unknown[i].second = std::make_unique<const MeshEdges>(*unknown[i].first->surface());
-      }
-    });
+  forEach(parallelFor, unknown.size(), 1,
+    [&unknown](std::size_t i)
+    { *unknown[i].second = std::make_unique<const MeshEdges>(*unknown[i].first->surface()); });
   forEach(parallelFor, volumes.size(), 1,
     [&](std::size_t i) { this->see(volumes[i], settings.frameCoherence); });
   this->Volumes = volumes.size();

@@ -63,14 +63,8 @@ void InstanceTree::put(std::uint32_t object, const Ball& ball)
 void InstanceTree::build(const Scene& scene, const ParallelFor& parallelFor)
 {
   std::vector<Ball> balls(scene.instances.size());
-  parallelFor(0, balls.size(), 512,
-    [&](std::size_t first, std::size_t last)
-    {
-      std::transform(scene.instances.begin() + static_cast<std::ptrdiff_t>(first),
-        scene.instances.begin() + static_cast<std::ptrdiff_t>(last),
-        balls.begin() + static_cast<std::ptrdiff_t>(first),
-        [](const Instance& instance) { return ballOf(instance); });
-    });
+  forEach(
+    parallelFor, balls.size(), 512, [&](std::size_t i) { balls[i] = ballOf(scene.instances[i]); });
   Box box;
   for (const Ball& ball : balls)
   {
