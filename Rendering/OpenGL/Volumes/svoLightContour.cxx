@@ -17,9 +17,8 @@ constexpr double Rounding = 1e-9; // radians
 /// True if the triangle is wound to the left as the light sees it.
 bool faces(const Surface& surface, std::uint32_t face, const glm::dvec4& light)
 {
-  const glm::uvec3& t = surface.triangles[face];
-  const glm::dvec3 a(surface.points[t[0]]), b(surface.points[t[1]]), c(surface.points[t[2]]);
-  return glm::dot(glm::cross(b - a, c - a), glm::dvec3(light) - light.w * a) > 0.0;
+  const TrianglePlane plane(surface, face);
+  return glm::dot(plane.normal, glm::dvec3(light) - light.w * plane.p) > 0.0;
 }
 
 /// 1 if all of a bundle faces the light wherever it lies on the mesh, -1 if nothing does, else

@@ -40,13 +40,6 @@ std::vector<std::uint32_t> weld(const Surface& surface)
   return first;
 }
 
-glm::dvec3 normalOf(const Surface& surface, std::size_t face)
-{
-  const glm::uvec3& t = surface.triangles[face];
-  const glm::dvec3 a(surface.points[t[0]]), b(surface.points[t[1]]), c(surface.points[t[2]]);
-  return glm::cross(b - a, c - a);
-}
-
 int bundleOf(const glm::dvec3& normal)
 {
   const glm::dvec3 size = glm::abs(normal);
@@ -139,8 +132,8 @@ void join(const Surface& surface, MeshEdges& mesh)
   std::vector<double> volume(mesh.faces.size()); // by part, six times
   for (std::uint32_t face = 0; face < mesh.faces.size(); ++face)
   {
-    const glm::dvec3 corner(surface.points[surface.triangles[face][0]]);
-    volume[rootOf(part, face)] += glm::dot(normalOf(surface, face), corner - mesh.centre);
+    const TrianglePlane plane(surface, face);
+    volume[rootOf(part, face)] += glm::dot(plane.normal, plane.p - mesh.centre);
   }
   for (const std::uint32_t face : open)
   {
@@ -156,18 +149,18 @@ void bundle(const Surface& surface, MeshEdges& mesh)
 {
   std::vector<int> of(mesh.faces.size());
   std::vector<std::uint32_t> count(BundleCount + 2); // and of those without a normal
-  for (std::size_t face = 0; face < of.size(); ++face)
+  for (std::uint32_t face = 0; face < of.size(); ++face)
   {
-    const glm::dvec3 normal = normalOf(surface, face);
+    const glm::dvec3 normal = TrianglePlane(surface, face).normal;
     of[face] = glm::dot(normal, normal) > 0.0 ? bundleOf(normal) : BundleCount;
     ++count[of[face] + 1];
   }
   std::partial_sum(count.begin(), count.end(), count.begin());
   std::vector<std::uint32_t> next(count);
   mesh.bundled.resize(of.size());
-  for (std::size_t face = 0; face < of.size(); ++face)
+  for (std::uint32_t face = 0; face < of.size(); ++face)
   {
-    mesh.bundled[next[of[face]]++] = static_cast<std::uint32_t>(face);
+    mesh.bundled[next[of[face]]++] = face;
   }
   for (int i = 0; i < BundleCount; ++i)
   {
@@ -176,14 +169,16 @@ void bundle(const Surface& surface, MeshEdges& mesh)
     {
       continue;
     }
+    const auto direction = [&](std::uint32_t k)
+    { return glm::normalize(TrianglePlane(surface, mesh.bundled[k]).normal); };
     for (std::uint32_t k = made.first; k < made.end; ++k)
     {
-      made.axis += glm::normalize(normalOf(surface, mesh.bundled[k]));
+      made.axis += direction(k);
     }
     made.axis = glm::normalize(made.axis);
     for (std::uint32_t k = made.first; k < made.end; ++k)
     {
-      const double cosine = glm::dot(made.axis, glm::normalize(normalOf(surface, mesh.bundled[k])));
+      const double cosine = glm::dot(made.axis, direction(k));
       made.angle = std::max(made.angle, std::acos(std::clamp(cosine, -1.0, 1.0)));
     }
     mesh.bundles.push_back(made);
