@@ -1,8 +1,9 @@
 #include "svoOctreeLibrary.h"
 
+#include "svoEraseIf.h"
+
 #include <algorithm>
 #include <cstring>
-#include <iterator>
 
 namespace svo
 {
@@ -44,10 +45,7 @@ void OpenOctrees<Name>::add(const Name& name, const Octree& octree, const std::s
   const std::lock_guard<std::mutex> lock(this->Mutex);
   if (this->Octrees.size() >= this->Most)
   {
-    for (auto i = this->Octrees.begin(); i != this->Octrees.end();)
-    {
-      i = i->second.first.expired() ? this->Octrees.erase(i) : std::next(i);
-    }
+    eraseIf(this->Octrees, [](const auto& entry) { return entry.second.first.expired(); });
     this->Most = std::max<std::size_t>(2 * this->Octrees.size(), 64);
   }
   this->Octrees[name] = { WeakOctree(octree), message };

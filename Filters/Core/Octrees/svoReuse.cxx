@@ -1,5 +1,7 @@
 #include "svoReuse.h"
 
+#include "svoEraseIf.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -37,10 +39,7 @@ void ReuseHistory::forget()
   }
   const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
   std::nth_element(times.begin(), middle, times.end());
-  for (auto i = this->Things.begin(); i != this->Things.end();)
-  {
-    i = i->second.last < *middle ? this->Things.erase(i) : std::next(i);
-  }
+  eraseIf(this->Things, [&](const auto& entry) { return entry.second.last < *middle; });
 }
 
 ReuseHistory::Rank ReuseHistory::rankOf(Id id) const

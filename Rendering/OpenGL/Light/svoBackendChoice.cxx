@@ -1,5 +1,6 @@
 #include "svoBackendChoice.h"
 
+#include "svoEraseIf.h"
 #include "svoLightCode.h"
 #include "svoMeshOctree.h"
 #include "svoOpenGL.h"
@@ -175,9 +176,7 @@ BackendChoice chooseBackend(vtkOpenGLRenderWindow* window, const std::string& re
     return { true, {} };
   }
   static std::vector<std::pair<vtkWeakPointer<vtkOpenGLState>, BackendChoice>> known;
-  known.erase(
-    std::remove_if(known.begin(), known.end(), [](const auto& context) { return !context.first; }),
-    known.end());
+  eraseIf(known, [](const auto& context) { return !context.first; });
   const auto found = std::find_if(known.begin(), known.end(),
     [window](const auto& context) { return context.first == window->GetState(); });
   if (found != known.end())

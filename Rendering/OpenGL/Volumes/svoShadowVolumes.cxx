@@ -1,5 +1,6 @@
 #include "svoShadowVolumes.h"
 
+#include "svoEraseIf.h"
 #include "svoLightCode.h"
 #include "svoOctreeArena.h"
 #include "svoOutline.h"
@@ -8,7 +9,6 @@
 #include "svoWorldToOctree.h"
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 
 #include <glm/geometric.hpp>
@@ -165,10 +165,7 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
         { &instance, number, placeOf(light, caster.toOctree), end, reach.way(caster), seen });
     }
   }
-  for (auto i = this->Meshes.begin(); i != this->Meshes.end();)
-  {
-    i = inScene.count(i->first) > 0 ? std::next(i) : this->Meshes.erase(i);
-  }
+  eraseIf(this->Meshes, [&](const auto& mesh) { return inScene.count(mesh.first) == 0; });
   std::stable_sort(volumes.begin(), volumes.end(),
     [](const Volume& a, const Volume& b)
     {
@@ -214,10 +211,7 @@ void ShadowVolumes::see(
       seen.contour.forget();
     }
   }
-  for (auto i = this->Kept.begin(); i != this->Kept.end();)
-  {
-    i = i->second.current ? std::next(i) : this->Kept.erase(i);
-  }
+  eraseIf(this->Kept, [](const auto& entry) { return !entry.second.current; });
   for (auto& [key, seen] : this->Kept)
   {
     seen.current = false;

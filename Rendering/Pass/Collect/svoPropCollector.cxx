@@ -2,6 +2,7 @@
 
 #include "svoAffineMatrix.h"
 #include "svoCameraView.h"
+#include "svoEraseIf.h"
 #include "svoMeshOctree.h"
 #include "svoRoundSurfaces.h"
 

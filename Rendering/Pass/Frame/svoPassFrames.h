@@ -2,7 +2,7 @@
 #ifndef svoPassFrames_h
 #define svoPassFrames_h
 
-#include "svoKept.h"
+#include "svoEraseIf.h"
 #include "svoPassFrame.h"
 #include "svoRendererState.h"
 #include "svoTracer.h"

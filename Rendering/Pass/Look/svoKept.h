@@ -3,29 +3,20 @@
 #ifndef svoKept_h
 #define svoKept_h
 
+#include "svoEraseIf.h"
+
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDataArray.h"
 #include "vtkObject.h"
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <vector>
 
 namespace svo
 {
-/// Takes those entries out of a map or set of which `unwanted(entry)` is true (C++20 has it).
-template <class Container, class Unwanted>
-void eraseIf(Container& container, const Unwanted& unwanted)
-{
-  for (auto entry = container.begin(); entry != container.end();)
-  {
-    entry = unwanted(*entry) ? container.erase(entry) : std::next(entry);
-  }
-}
-
 /// 0 where there is no object.
 inline vtkMTimeType timeOf(vtkObject* object)
 {

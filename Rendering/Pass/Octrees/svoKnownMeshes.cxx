@@ -1,6 +1,6 @@
 #include "svoKnownMeshes.h"
 
-#include "svoKept.h"
+#include "svoEraseIf.h"
 #include "svoMeshOctree.h"
 #include "svoMeshTriangles.h"
 

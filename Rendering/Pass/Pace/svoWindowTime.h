@@ -2,10 +2,10 @@
 #ifndef svoWindowTime_h
 #define svoWindowTime_h
 
+#include "svoEraseIf.h"
 #include "svoSampleDistance.h"
 
 #include <cstdint>
-#include <iterator>
 #include <map>
 #include <memory>
 
@@ -21,10 +21,7 @@ public:
   static std::shared_ptr<WindowTime> of(const void* window)
   {
     static std::map<const void*, std::weak_ptr<WindowTime>> windows;
-    for (auto entry = windows.begin(); entry != windows.end();)
-    {
-      entry = entry->second.expired() ? windows.erase(entry) : std::next(entry);
-    }
+    eraseIf(windows, [](const auto& entry) { return entry.second.expired(); });
     std::shared_ptr<WindowTime> found = windows[window].lock();
     if (!found)
     {
