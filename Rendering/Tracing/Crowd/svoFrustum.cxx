@@ -69,12 +69,8 @@ double offsetFor(const View& view, const Bundle& rays, const glm::dvec3& normal)
 }
 
 Frustum::Frustum(const View& view, double margin)
-  : Frustum(view, view.crop, margin)
 {
-}
-
-Frustum::Frustum(const View& view, const PixelRect& rect, double margin)
-{
+  const PixelRect& rect = view.crop;
   const double x0 = rect.x0 - margin, x1 = rect.x1 + margin;
   const double y0 = rect.y0 - margin, y1 = rect.y1 + margin;
   const Bundle rays = bundleOf(view, x0, y0, x1, y1);

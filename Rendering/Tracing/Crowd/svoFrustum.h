@@ -23,13 +23,9 @@ namespace svo
 class VTKSVOTRACING_EXPORT Frustum
 {
 public:
-  /// Nothing is outside.
-  Frustum() = default;
-  /// What the view looks at. `margin`: pixels that are added on all sides; one is what the tracer's
+  /// Of the view's crop. `margin`: pixels that are added on all sides; one is what the tracer's
   /// float rays need (svoLocalView.h).
   explicit Frustum(const View& view, double margin = 1.0);
-  /// A rectangle of its pixels, as of a group of tiles.
-  Frustum(const View& view, const PixelRect& rect, double margin = 1.0);
 
   /// True if no ray of the view meets a box along the world's axes; `half`: half its edges, 0 of a
   /// point. `within`: bits of planes that it is known to lie within; those that it is found to lie

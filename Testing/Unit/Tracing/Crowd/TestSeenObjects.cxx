@@ -57,7 +57,7 @@ TEST(SeenObjects, AreThoseOfAFlatTestAndAmongThemAllThatAreSeen)
     {
       const svo::View view = randomView(random, scale, middle);
       const svo::PixelRect rect = randomRect(random, view);
-      const svo::Frustum frustum(view, rect);
+      const svo::Frustum frustum = frustumOf(view, rect);
       std::set<std::uint32_t> found;
       svo::eachSeen(
         placed.tree, frustum, svo::VisitOrder::of(view), [](const svo::LooseNode&) {},
@@ -103,7 +103,7 @@ TEST(SeenObjects, OfAllGroupsOfTilesAreThoseOfTheImage)
     {
       std::set<std::uint32_t> found;
       svo::eachSeen(
-        placed.tree, svo::Frustum(view, rect, margin), svo::VisitOrder::of(view),
+        placed.tree, frustumOf(view, rect, margin), svo::VisitOrder::of(view),
         [](const svo::LooseNode&) {}, [&](std::uint32_t object) { found.insert(object); });
       return found;
     };

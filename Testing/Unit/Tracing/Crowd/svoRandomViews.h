@@ -10,6 +10,13 @@
 
 namespace svotest
 {
+/// The frustum of a rectangle of the view's pixels.
+inline svo::Frustum frustumOf(svo::View view, const svo::PixelRect& rect, double margin = 1.0)
+{
+  view.crop = rect;
+  return svo::Frustum(view, margin);
+}
+
 /// True if a ball lies beyond a plane of the frustum.
 inline bool outside(const svo::Frustum& frustum, const glm::dvec3& centre, double radius)
 {
