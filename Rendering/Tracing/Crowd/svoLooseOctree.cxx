@@ -35,6 +35,8 @@ LooseOctree::LooseOctree(const glm::dvec3& centre, double edge)
   : Low(centre - 0.5 * edge)
   , PerUnit(Units / edge)
   , Unit(edge / Units)
+  , Nodes(8)
+  , Chunks(1)
 {
   // Products and sums of numbers of this size, a few roundings each.
   const glm::dvec3 size = glm::abs(this->Low) + edge;
@@ -45,17 +47,6 @@ LooseOctree::LooseOctree(const glm::dvec3& centre, double edge)
   {
     this->Low = glm::dvec3(std::numeric_limits<double>::quiet_NaN()); // nothing lies there
   }
-  this->clear();
-}
-
-void LooseOctree::clear()
-{
-  this->Records.clear();
-  this->Nodes.assign(8, Node()); // groups of eight, of which the root has a place in the first
-  this->Chunks.assign(1, Chunk());
-  this->Outsiders.clear();
-  this->FreeGroups.clear();
-  this->FreeChunks.clear();
 }
 
 LooseOctree::Spot LooseOctree::spotOf(const glm::dvec3& centre, double radius) const

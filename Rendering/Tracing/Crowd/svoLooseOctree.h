@@ -110,7 +110,6 @@ public:
   bool move(std::uint32_t object, const glm::dvec3& centre, double radius);
   /// False if it was not there.
   bool remove(std::uint32_t object);
-  void clear();
   /// Puts what is near in space side by side in memory; what is kept where stays as it is. Where
   /// many objects came in without an order of space, queries take half the time after it. It
   /// takes about as long as inserting a tenth of them.
@@ -246,7 +245,7 @@ private:
   double Noise;   // how far what is computed here may be off by rounding, world
 
   std::vector<Record> Records;
-  std::vector<Node> Nodes;
+  std::vector<Node> Nodes;   // in groups of eight; the root has a place in the first
   std::vector<Chunk> Chunks; // the first is none
   std::vector<std::uint32_t> Outsiders, FreeGroups, FreeChunks;
 };

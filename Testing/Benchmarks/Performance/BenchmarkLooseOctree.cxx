@@ -81,6 +81,11 @@ Scene makeScene(std::uint32_t objects, bool mixed)
   return scene;
 }
 
+svo::LooseOctree emptyTree(const Scene& scene)
+{
+  return svo::LooseOctree(glm::dvec3(0.5 * scene.edge), 1.01 * scene.edge);
+}
+
 svo::View viewFrom(const Scene& scene, int corner, double angle)
 {
   const glm::dvec3 middle(0.5 * scene.edge);
@@ -155,7 +160,7 @@ public:
     : Asked(options)
     , Objects(scene)
     , Flat(scene.balls.size())
-    , Tree(glm::dvec3(0.5 * scene.edge), 1.01 * scene.edge)
+    , Tree(emptyTree(scene))
     , Seen(scene.balls.size() + 64)
   {
     for (std::size_t i = 0; i < scene.balls.size(); ++i)
@@ -190,8 +195,7 @@ public:
     const std::vector<svo::Ball>& balls = this->Objects.balls;
     for (int k = 0; k < this->Asked.repeat; ++k)
     {
-      this->Tree =
-        svo::LooseOctree(glm::dvec3(0.5 * this->Objects.edge), 1.01 * this->Objects.edge);
+      this->Tree = emptyTree(this->Objects);
       time("insert",
         [&]
         {
@@ -246,7 +250,7 @@ public:
   /// The tree as it is after inserting, in no order of space.
   void insertAnew()
   {
-    this->Tree.clear();
+    this->Tree = emptyTree(this->Objects);
     for (std::uint32_t i = 0; i < this->Objects.balls.size(); ++i)
     {
       this->Tree.insert(i, this->Objects.balls[i].centre, this->Objects.balls[i].radius);
