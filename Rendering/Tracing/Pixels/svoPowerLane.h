@@ -15,13 +15,12 @@
 //   and the sum's own rounding comes on top: less than 8 u of the logarithm.
 // - y = p log2 x: less than 9 u |y|. y - n is exact, since |y| < 2^8.
 // - 2^y: 9 u |y| become 9 ln 2 u |y| < 6.3 u |y|; the series leaves out less than 0.1 u, its sum
-// and
-//   products add less than 4 u.
+//   and products add less than 4 u.
 //
-// So a power is off by less than PowerError(y) = (6.3 |y| + 5) 2^-24 of itself, y being the
-// exponent of 2 that it is. A power of at most 1 is off by less than 9 u = 5.4e-7 whatever x and p
-// are, since |y| 2^-|y| <= 0.54: less than a seven-thousandth of a grey level. Powers below 2^-126
-// become 0, and those of x below that.
+// So a power is off by less than (6.3 |y| + 5) 2^-24 of itself, y being the exponent of 2 that it
+// is. A power of at most 1 is off by less than 9 u = 5.4e-7 whatever x and p are, since |y| 2^-|y|
+// <= 0.54: less than a seven-thousandth of a grey level. Powers below 2^-126 become 0, and those of
+// x below that.
 #ifndef svoPowerLane_h
 #define svoPowerLane_h
 
@@ -30,12 +29,6 @@
 
 namespace svo
 {
-/// Relative error of powLane() where the power is 2^y.
-inline double PowerError(double y)
-{
-  return (6.3 * (y < 0.0 ? -y : y) + 5.0) / (1 << 24);
-}
-
 namespace detail
 {
 inline std::int32_t bitsOf(float x)
