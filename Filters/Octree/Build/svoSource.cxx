@@ -18,7 +18,6 @@
 #include <vector>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 

@@ -10,7 +10,6 @@
 #include <numeric>
 
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 
 namespace svo
 {

@@ -12,7 +12,6 @@
 #include "svoPacketSupply-inl.h"
 
 #include <algorithm>
-#include <cstdint>
 
 #if SVO_PACKET_LEAVES
 HWY_BEFORE_NAMESPACE();

@@ -14,7 +14,6 @@
 #include "svoPacketWalk-inl.h"
 
 #include <cmath>
-#include <cstdint>
 
 #if HWY_TARGET != HWY_SCALAR
 HWY_BEFORE_NAMESPACE();

@@ -17,8 +17,6 @@
 #include <cmath>
 #include <cstring>
 
-#include <glm/geometric.hpp>
-
 namespace svo
 {
 namespace

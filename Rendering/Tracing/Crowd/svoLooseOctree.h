@@ -27,7 +27,6 @@
 #include "svoView.h"
 #include "vtkSVOTracingModule.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>

@@ -5,6 +5,8 @@
 #include "svoSurfaceAlpha.h"
 #include "svoWorldSize.h"
 
+#include <algorithm>
+
 #include <glm/geometric.hpp>
 
 namespace svo
