@@ -4,7 +4,7 @@ set(VTKSVO_SETTINGS "${CMAKE_CURRENT_LIST_DIR}/../Rendering/Settings.cmake")
 
 # What is made of the entries, by the names that templates use.
 set(VTKSVO_SETTINGS_PARTS
-  PROPERTIES MEMBERS PRINT PARAVIEW_DEFAULTS FIELDS TO_FIELDS COMPARED AGREED TO_AGREED FROM_AGREED VIEW_PROPERTIES
+  PROPERTIES MEMBERS PRINT PARAVIEW_DEFAULTS ENUMERATIONS FIELDS TO_FIELDS COMPARED AGREED TO_AGREED FROM_AGREED VIEW_PROPERTIES
   STATISTICS VALUES VIEW_STATISTICS PANEL_FIRST PANEL_DEFAULT PANEL_ADVANCED TABLE_speed TABLE_shadows TABLE_time TABLE_host)
 function (vtksvo_append text part)
   set_property(GLOBAL APPEND_STRING PROPERTY "VTKSVO_${part}" "${text}")
@@ -87,11 +87,15 @@ function (vtksvo_setting name type default)
     set(value 0)
     set(names "")
     set(enumerators "")
+    set(field_enumerators "")
     set(entries "")
     while (rest)
       list(POP_FRONT rest enumerator chosen)
       vtksvo_words("${chosen}" words)
       list(APPEND enumerators "    ${enumerator} = ${value}")
+      string(REGEX MATCH "_(.)(.*)" words_of "${enumerator}")
+      string(TOLOWER "${CMAKE_MATCH_2}" others)
+      list(APPEND field_enumerators "  ${CMAKE_MATCH_1}${others}")
       string(APPEND entries "          <Entry value=\"${value}\" text=\"${words}\"/>\n")
       string(APPEND tail "  void Set${name}To${chosen}() { this->Set${name}(${enumerator}); }\n")
       list(APPEND names "${chosen}")
@@ -164,6 +168,8 @@ ${tail}  //@}
       set(initial "glm::dvec3(${default})")
     elseif (type STREQUAL "choice")
       set(field_type "${arg_TYPE}")
+      list(JOIN field_enumerators ",\n" field_enumerators)
+      vtksvo_append("enum class ${arg_TYPE}\n{\n${field_enumerators}\n};\n\n" ENUMERATIONS)
       set(value "static_cast<svo::${arg_TYPE}>(${value})")
       set(initial "static_cast<${arg_TYPE}>(${number})")
     endif ()

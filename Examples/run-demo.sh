@@ -1,5 +1,5 @@
 #!/bin/bash
-# Installs what is missing, builds build/vtk and renders the paper's experiments on real meshes: a
+# Installs what is missing, builds PaperScenes in build/vtk and renders the paper's experiments on real meshes: a
 # table of figures on the terminal; pictures, movie frames, a movie and figures.json in build/demo.
 # Usage: run-demo.sh [--quick] [--stand-in] [--no-install] [--output DIR]
 #   --quick       few and small frames, to see that everything works; its figures mean little
@@ -65,7 +65,7 @@ cmake -S . -B build/vtk -G Ninja \
   -DVTKSVO_PARAVIEW=OFF -DVTKSVO_SANITIZE=OFF \
   -DVTKSVO_TESTING=OFF -DVTKSVO_EXAMPLES=ON -DVTKSVO_PYTHON=ON \
   ${VTKSVO_CMAKE_ARGUMENTS:-}
-cmake --build build/vtk -j "${VTKSVO_JOBS:-$(nproc)}"
+cmake --build build/vtk -j "${VTKSVO_JOBS:-$(nproc)}" --target PaperScenes
 
 mkdir -p "$output" || fail "cannot make the folder $output"
 rm -f "$output"/frames/frame-?????.png "$output"/paper*.png
@@ -104,5 +104,6 @@ echo "Frames:    $output/frames/frame-*.png ($(ls "$output/frames" | wc -l))"
 echo "Figures:   $output/figures.json, $output/table.txt"
 echo "Pictures (those named vtkShadowMapPass are VTK's own rasteriser, for comparison):"
 ls "$output"/paper*.png | sed 's/^/  /'
+echo "The rest of build/vtk, Python's modules among it: cmake --build build/vtk"
 plugin=$(find build/paraview/lib -name SparseVoxelOctree.so 2>/dev/null || true)
 echo "ParaView plugin: ${plugin:+$PWD/}${plugin:-Testing/run-tests.sh builds it}"

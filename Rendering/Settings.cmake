@@ -9,7 +9,7 @@
 #   UNIT     of numbers, for people
 #   CHOICES  <enumerator> <name>..., of choices, by their values from 0
 #   FIELD    its name in svo::TracerSettings, where the tracer acts by it; of memory, in bytes
-#   TYPE     of that field, where it is an enumeration
+#   TYPE     of that field, of choices: an enumeration, which is made of them (SHADOW_BUFFER: Buffer)
 #   CHANGES  rays, shadows or look: what is traced or shaded anew when it changes. nothing: no picture shows it, it is
 #            not compared
 #   AGREED   processes that share a scene's shadow maps take the first one's

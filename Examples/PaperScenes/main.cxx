@@ -90,12 +90,13 @@ public:
       const Progress progress(experiment.name + ": pixels on objects", 0);
       sceneFigures.coverage = objectCoverage(this->Window, scene);
     }
-    if (this->Options.framesPerView > 0)
+    bool good = this->drawPictures(scene);
+    if (good && this->Options.framesPerView > 0)
     {
       this->time(scene, sceneFigures);
     }
     figures.scenes.push_back(sceneFigures);
-    const bool good = this->drawPictures(scene) && this->drawMovie(scene, movieFrames);
+    good = good && this->drawMovie(scene, movieFrames);
     removePass(scene.renderer());
     this->Window->RemoveRenderer(scene.renderer());
     if (!good)
@@ -134,6 +135,7 @@ private:
     this->Window->AddRenderer(scene.renderer());
   }
 
+  /// Ours first, and says where they are.
   bool drawPictures(Scene& scene)
   {
     const Experiment& experiment = scene.experiment();
@@ -157,9 +159,12 @@ private:
     };
     const auto shadowMaps = std::find_if(methods().begin(), methods().end(),
       [](const Method& m) { return m.technique == Technique::ShadowMaps; });
-    const bool good = draw(*shadowMaps, "-vtkShadowMapPass") && draw(defaultMethod(), "");
-    scene.setLight(LightKind::Point);
-    return good;
+    if (!draw(defaultMethod(), ""))
+    {
+      return false;
+    }
+    progress.finish(this->Options.output + "/" + experiment.name + "-*.png");
+    return draw(*shadowMaps, "-vtkShadowMapPass");
   }
 
   bool drawMovie(Scene& scene, int frames)
@@ -169,6 +174,8 @@ private:
       return true;
     }
     Progress progress(scene.experiment().name + ": movie frames", frames);
+    useMethod(defaultMethod(), scene.renderer(), this->ShadowMapResolution);
+    scene.setLight(LightKind::Point);
     scene.setCaption(scene.experiment().name + ":  " + scene.experiment().objects +
       ",  shadows by vtkSVORenderPass");
     const bool good = writeMovieFrames(this->Window, scene, this->Options.output + "/frames",

@@ -9,14 +9,6 @@
 
 namespace svo
 {
-/// How the shadows of a light are found.
-enum class ShadowTechnique
-{
-  None,
-  Buffer, // shadow buffers, merged from layers like the depth buffer
-  Rays    // one exact ray to the light per visible point and light; buffers for receivers
-};
-
 struct Light
 {
   enum class Kind
