@@ -4,7 +4,7 @@
 #include "vtkSVORenderPass.h"
 
 #include "svoLayout.h"
-#include "svoLight.h"
+#include "svoTracerSettings.h"
 
 #include "vtkActor.h"
 #include "vtkLight.h"
