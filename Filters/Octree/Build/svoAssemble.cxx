@@ -1,5 +1,6 @@
 #include "svoAssemble.h"
 
+#include "svoBuildStopped.h"
 #include "svoNode.h"
 
 #include <algorithm>

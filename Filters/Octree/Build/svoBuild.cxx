@@ -1,6 +1,7 @@
 #include "svoBuild.h"
 
 #include "svoAssemble.h"
+#include "svoBuildStopped.h"
 #include "svoExecutor.h"
 #include "svoLattice.h"
 #include "svoWork.h"

@@ -1,6 +1,7 @@
 #include "svoSource.h"
 
 #include "svoAssemble.h"
+#include "svoBuildStopped.h"
 #include "svoExecutor.h"
 #include "svoExpectedCells.h"
 #include "svoMorton.h"

@@ -4,6 +4,7 @@
 #define svoVDBBlocks_h
 
 #include "svoBlockSource.h"
+#include "svoBuildStopped.h"
 #include "svoMeshOctree.h"
 #include "svoVDBOctree.h"
 #include "svoWork.h"
@@ -31,12 +32,6 @@ struct PlacedBlock
   VoxelBlock block;
 };
 
-struct Refused
-{
-  BuildStatus status;
-  std::string message;
-};
-
 /// Throws where so many things of some bytes each are beyond a limit. `advice`: what else to do.
 inline void refuseTooMany(double count, const std::string& things, double bytesOfOne,
   std::size_t limit, const std::string& advice = {})
@@ -45,7 +40,7 @@ inline void refuseTooMany(double count, const std::string& things, double bytesO
   {
     char digits[32];
     std::snprintf(digits, sizeof(digits), "%.0f ", count);
-    throw Refused{ BuildStatus::TooLarge,
+    throw BuildStopped{ BuildStatus::TooLarge,
       "it has " + (digits + things) + ", and an octree of them needs about " +
         bytesAsText(count * bytesOfOne) + ", more memory than the limit of " +
         bytesAsText(static_cast<double>(limit)) + advice };
@@ -127,7 +122,7 @@ public:
   {
   }
 
-  /// Throws Refused where there are too many.
+  /// Throws BuildStopped where there are too many.
   std::vector<PlacedBlock> gather()
   {
     std::vector<const LeafT*> leaves;

@@ -304,9 +304,9 @@ SourceOctree octreeOfGrid(
     }
     return built;
   }
-  catch (const Refused& refused)
+  catch (const BuildStopped& stopped)
   {
-    built = { refused.status, 0, refused.message };
+    built = { stopped.status, 0, stopped.message };
   }
   catch (const std::bad_alloc&)
   {

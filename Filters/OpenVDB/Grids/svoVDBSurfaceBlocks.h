@@ -37,7 +37,7 @@ public:
   {
   }
 
-  /// Throws Refused where there are too many.
+  /// Throws BuildStopped where there are too many.
   std::vector<PlacedBlock> gather() const
   {
     std::vector<const LeafT*> leaves;

@@ -22,7 +22,7 @@ const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverSha
   const FrameSettings& settings, const View& view, bool unlit, int width, int height, bool others,
   bool translucent)
 {
-  const std::vector<int>& ofLights = shares.planes.ofLights;
+  const std::vector<int>& ofLights = shares.sampled.ofLights;
   const auto isSampled = [&](int light)
   { return light < static_cast<int>(ofLights.size()) && ofLights[light] != SampledPlanes::None; };
   static const LightCode NoMaps;
@@ -30,7 +30,7 @@ const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverSha
     others || !std::all_of(allMaps.lights.begin(), allMaps.lights.end(), isSampled);
   const LightCode& maps = needsMaps ? allMaps : NoMaps; // else shaders had code in vain
   this->Code = LightCode();
-  if (!shares.planes.any())
+  if (!shares.sampled.any())
   {
     this->release();
     return allMaps;
@@ -67,12 +67,12 @@ const LightCode& SampledMask::lookUp(const LightCode& allMaps, const ReceiverSha
       planes.push_back(ofLights[light]);
     }
   }
-  if (shares.planes.ofOcclusion != SampledPlanes::None)
+  if (shares.sampled.ofOcclusion != SampledPlanes::None)
   {
     this->Code.occlusion = this->Code.count();
-    planes.push_back(shares.planes.ofOcclusion);
+    planes.push_back(shares.sampled.ofOcclusion);
   }
-  if (const int sky = shares.planes.ofSky; sky != SampledPlanes::None)
+  if (const int sky = shares.sampled.ofSky; sky != SampledPlanes::None)
   {
     this->Code.sky = this->Code.count();
     planes.insert(planes.end(), { sky, sky + 1, sky + 2 });

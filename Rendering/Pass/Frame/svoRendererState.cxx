@@ -214,7 +214,7 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
     this->render(settings);
   }
   const bool receivers =
-    this->Collected.rasterizedReceivers && this->Trace->receiverShares().planes.any();
+    this->Collected.rasterizedReceivers && this->Trace->receiverShares().sampled.any();
   // Their places, or what a mask has of fewer samples, have to be known before.
   const bool later = receivers || (error > 0.0 && !this->Trace->lightCode().sampled.empty());
   if (!later)

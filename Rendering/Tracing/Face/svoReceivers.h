@@ -1,5 +1,5 @@
-// Surfaces that VTK draws, as a tracer that samples their light sees them, and what it has found.
-// Plain data.
+// Surfaces that VTK draws, as a tracer that samples their light sees them, and what it has found;
+// and which planes samples have, of these and of traced surfaces. Plain data.
 #ifndef svoReceivers_h
 #define svoReceivers_h
 
@@ -46,7 +46,7 @@ struct SampledPlanes
 /// What of the light that is sampled reaches them.
 struct ReceiverShares
 {
-  SampledPlanes planes; // but 1 less what is missed, or closed off
+  SampledPlanes sampled; // but of lights and occlusion 1 less what is missed, or closed off
 
   /// The numbers are those of the last frame.
   bool current = false;
@@ -56,7 +56,7 @@ struct ReceiverShares
   /// Four planes a layer, layer by layer, four numbers a pixel; 65535: all.
   std::vector<std::uint16_t> numbers;
 
-  int layers() const { return (this->planes.count + 3) / 4; }
+  int layers() const { return (this->sampled.count + 3) / 4; }
 };
 
 /// How far numbers as above are from those before, of these planes and of pixels with a surface:

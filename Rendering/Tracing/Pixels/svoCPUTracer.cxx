@@ -1,6 +1,5 @@
 #include "svoCPUTracer.h"
 
-#include "svoCasterBox.h"
 #include "svoFrameErrors.h"
 #include "svoFrameTiles.h"
 #include "svoInstanceTree.h"
@@ -16,6 +15,7 @@
 #include "svoSelectLevel.h"
 #include "svoShadows.h"
 #include "svoSilhouetteFinder.h"
+#include "svoStaleTiles.h"
 #include "svoTilePatch.h"
 
 #include <algorithm>
@@ -76,10 +76,7 @@ struct CPUTracer::Internals
 
   void cull(const Scene& scene, const FrameSettings& settings, const ParallelFor& parallelFor);
   const Scene& sceneOfLights(const Scene& scene, ShadowTechnique technique);
-  void findStaleTiles(const FrameChanges& changes, bool sameFrame);
   void markLightTiles(const Scene& scene, const View& view, const ParallelFor& parallelFor);
-  void findDarkenedTiles(
-    const Scene& scene, const FrameChanges& changes, const ParallelFor& parallelFor);
   void sampleLights(const ShadedScene& shaded, bool more, const ParallelFor& parallelFor,
     FrameStatistics& statistics);
   void traceViews(const Scene& scene, const View& view, const FrameSettings& settings,
@@ -132,37 +129,6 @@ const Scene& CPUTracer::Internals::sceneOfLights(const Scene& scene, ShadowTechn
   return this->AsLightsSee;
 }
 
-/// Tiles whose hits, or the looks of them, are not what they were.
-void CPUTracer::Internals::findStaleTiles(const FrameChanges& changes, bool sameFrame)
-{
-  const DepthBuffer& depth = this->Eye.hits().depth;
-  // Edges are smoothed over the tiles' borders.
-  const bool all = changes.all || !sameFrame || this->Settings.antiAliasing;
-  this->Shaded.beginFrame(depth.grid.tilesX, depth.grid.tilesY, all);
-  for (std::size_t tile = 0; tile < this->Shaded.size(); ++tile)
-  {
-    this->Shaded.setStale(tile, this->Eye.hits().tiles.changed(tile));
-  }
-  // Where an instance is not seen it does not matter how it looks; where one has moved, tiles that
-  // show it have changed.
-  for (const std::uint32_t instance : changes.instances)
-  {
-    if (all || this->Eye.hits().tiles.partChanged(instance))
-    {
-      continue;
-    }
-    const PixelRect rect = this->Eye.hits().instances.rect(instance);
-    for (int y = rect.y0 / 8; y < rect.y1 / 8; ++y)
-    {
-      for (int x = rect.x0 / 8; x < rect.x1 / 8; ++x)
-      {
-        const std::size_t tile = this->Shaded.index(x, y);
-        this->Shaded.setStale(tile, !this->Shaded.stale(tile) && depth.shows(x, y, instance));
-      }
-    }
-  }
-}
-
 void CPUTracer::Internals::markLightTiles(
   const Scene& scene, const View& view, const ParallelFor& parallelFor)
 {
@@ -195,51 +161,6 @@ void CPUTracer::Internals::markLightTiles(
         { return scene.instances[i].receiveShadow && scene.instances[i].material.lighting; },
         [&](std::uint32_t i) { return this->Eye.hits().base(i); }, patch,
         [&](const TilePatch&) { this->LightShadows.mark(patch, tile.looksUp); });
-    });
-}
-
-/// Tiles whose lights may not be what they were.
-void CPUTracer::Internals::findDarkenedTiles(
-  const Scene& scene, const FrameChanges& changes, const ParallelFor& parallelFor)
-{
-  const Shadows& shadows = this->LightShadows;
-  const bool all = changes.all || !shadows.sameMaps();
-  std::vector<CasterBox> boxes(2 * changes.instances.size()); // of those, before and now
-  this->Casters.resize(scene.instances.size());
-  forEach(parallelFor, changes.instances.size(), 256,
-    [&](std::size_t k)
-    {
-      const std::uint32_t i = changes.instances[k];
-      boxes[2 * k] = this->Casters[i];
-      boxes[2 * k + 1] = this->Casters[i] = CasterBox(scene.instances[i]);
-    });
-  const auto mayCross = [&](const Box& starts)
-  {
-    const auto anyOn = [&](const BoxWay& way)
-    {
-      return std::any_of(
-        boxes.begin(), boxes.end(), [&](const CasterBox& box) { return box.mayMeet(way); });
-    };
-    const auto around = [&](const HemisphereRays* rays)
-    { return rays && anyOn(rays->way(starts)); };
-    return starts.known() && !boxes.empty() &&
-      (around(shadows.occlusion()) || around(shadows.sky()) ||
-        std::any_of(scene.lights.begin(), scene.lights.end(),
-          [&](const Light& light)
-          { return light.castShadow && anyOn(wayToLight(light, starts)); }));
-  };
-  const std::vector<std::uint32_t>& hits = this->Tiles.hits();
-  forEach(parallelFor, hits.size(), 512,
-    [&](std::size_t k)
-    {
-      if (this->Shaded.stale(hits[k]))
-      {
-        return;
-      }
-      const KeptTiles::Tile& tile = this->Shaded[hits[k]];
-      this->Shaded.setStale(hits[k],
-        all || shadows.changed(tile.looksUp) || shadows.changed(tile.raised) ||
-          mayCross(tile.raysToLights));
     });
 }
 
@@ -303,7 +224,9 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     settings.frameCoherence, budget, parallelFor);
   this->Eye.trace(parallelFor, nullptr);
   const bool sameFrame = frame && this->Tiles.find(this->Eye.hits().depth, view, settings, *frame);
-  this->findStaleTiles(changes, sameFrame);
+  // Edges are smoothed over the tiles' borders.
+  findStaleTiles(this->Eye.hits(), changes.instances,
+    changes.all || !sameFrame || this->Settings.antiAliasing, this->Shaded);
   statistics.eye = clock.end();
 
   // What visible points will look up of the lights.
@@ -395,7 +318,8 @@ void CPUTracer::render(
   statistics.lightSamples = samples.count;
   self.traceViews(scene, view, settings, parallelFor, changes, &frame, statistics);
   clock.end(); // its phases have been timed
-  self.findDarkenedTiles(scene, changes, parallelFor);
+  findDarkenedTiles(
+    scene, changes, self.LightShadows, self.Tiles.hits(), self.Casters, parallelFor, self.Shaded);
 
   // Shade and test.
   const ShadedScene shaded{ { scene, view, settings, self.Eye.hits(), self.LightShadows }, self.Eye,

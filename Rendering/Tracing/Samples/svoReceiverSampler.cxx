@@ -278,13 +278,13 @@ std::vector<std::uint8_t> hiddenPlaces(const SampledFrame& frame, const Receiver
 
 void ReceiverSampler::begin(const SampledPlanes& sampled, bool other, bool more)
 {
-  const bool same = sampled.count == this->Shares.planes.count;
+  const bool same = sampled.count == this->Shares.sampled.count;
   if (other || more || !same)
   {
     this->More = more && same && this->Shares.current;
     this->Shares.current = false;
   }
-  this->Shares.planes = sampled;
+  this->Shares.sampled = sampled;
 }
 
 std::uint64_t ReceiverSampler::sample(const SampledFrame& frame, const ReceiverPlaces& places,
@@ -292,7 +292,7 @@ std::uint64_t ReceiverSampler::sample(const SampledFrame& frame, const ReceiverP
 {
   const int tilesX = (places.width + 7) / 8, tilesY = (places.height + 7) / 8;
   this->Images.begin(
-    this->Shares.planes, tilesX, tilesY, nullptr, frame.settings.lightSamples, this->More && same);
+    this->Shares.sampled, tilesX, tilesY, nullptr, frame.settings.lightSamples, this->More && same);
   const std::vector<std::uint8_t> hidden = hiddenPlaces(frame, places);
   const TileOfPlaces tile(frame, places, hidden, this->Images);
   std::atomic<std::uint64_t> rays{ 0 };
@@ -320,7 +320,7 @@ std::uint64_t ReceiverSampler::sample(const SampledFrame& frame, const ReceiverP
   this->Filled = std::move(filled);
   const std::vector<std::uint16_t> coarser = std::move(this->Shares.numbers);
   this->write(places, parallelFor);
-  std::vector<int> planes(static_cast<std::size_t>(this->Shares.planes.count));
+  std::vector<int> planes(static_cast<std::size_t>(this->Shares.sampled.count));
   std::iota(planes.begin(), planes.end(), 0);
   this->Shares.error =
     this->More && same ? differenceOf(coarser, this->Shares.numbers, planes, places) : -1.0;
@@ -335,7 +335,7 @@ void ReceiverSampler::write(const ReceiverPlaces& places, const ParallelFor& par
   const std::size_t pixels = static_cast<std::size_t>(places.width) * places.height;
   this->Shares.numbers.assign(4 * pixels * this->Shares.layers(), 0);
   // Means of lights and of occlusion are what is missing; of a sky what is seen.
-  const SampledPlanes& planes = this->Shares.planes;
+  const SampledPlanes& planes = this->Shares.sampled;
   const int missing = planes.ofSky == SampledPlanes::None ? planes.count : planes.ofSky;
   parallelFor(0, static_cast<std::size_t>(places.height), 16,
     [&](std::size_t first, std::size_t last)

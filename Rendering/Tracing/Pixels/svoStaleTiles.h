@@ -1,0 +1,30 @@
+// Which tiles have to be shaded anew: by their hits and looks, and by their lights.
+#ifndef svoStaleTiles_h
+#define svoStaleTiles_h
+
+#include "svoCasterBox.h"
+#include "svoHits.h"
+#include "svoKeptFrame.h"
+#include "svoKeptTiles.h"
+#include "svoParallel.h"
+#include "svoScene.h"
+#include "svoShadows.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace svo
+{
+/// Begins a frame of tiles: stale are those whose hits, or the looks of them, are not what they
+/// were. `instances`: those that have changed. `all`: nothing is kept.
+void findStaleTiles(
+  const Hits& eye, const std::vector<std::uint32_t>& instances, bool all, KeptTiles& tiles);
+
+/// Stale are also those whose lights may not be what they were. `hits`: tiles that show anything.
+/// `casters`: by index into Scene::instances, as they were; becomes what they are.
+void findDarkenedTiles(const Scene& scene, const FrameChanges& changes, const Shadows& shadows,
+  const std::vector<std::uint32_t>& hits, std::vector<CasterBox>& casters,
+  const ParallelFor& parallelFor, KeptTiles& tiles);
+}
+
+#endif
