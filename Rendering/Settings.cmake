@@ -354,7 +354,8 @@ vtksvo_setting(OcclusionCulling bool true
   TABLE time
   FIELD occlusionCulling CHANGES nothing
   SAYS
-    "Leave out instances that others hide before they are traced. The picture is the same to the bit.")
+    "Leave out instances that others hide before they are traced, and of shadow volumes casters whose shadows fall on
+     nothing that is seen. The picture is the same to the bit.")
 
 vtksvo_setting(BuildInBackground bool true
   TABLE time

@@ -105,7 +105,7 @@ public:
     CULLED_BY_VIEW = 0,      // they lie outside of the view
     CULLED_BY_OCCLUSION = 1, // others hide them
     CULLED_BY_DETAIL = 2,    // they are too small: DetailCullingThreshold
-    CULLED_CASTERS = 3       // of lights' maps, once a map: what they shadow is not seen
+    CULLED_CASTERS = 3       // of lights' maps or volumes, once each: what they shadow is not seen
   };
 
   //@{

@@ -15,6 +15,7 @@
 #include "vtkRenderWindow.h"
 #include "vtkReverseSense.h"
 
+#include <cmath>
 #include <cstddef>
 #include <iostream>
 #include <string>
@@ -103,6 +104,45 @@ void compareAgain(Checks& checks)
     checks.expect(others <= 10, "frame " + std::to_string(i) + ": lit and dark as rays say");
     checks.expect(difference(known, capture(stage.window)).largest == 0, "and once more");
   }
+}
+
+/// Casters whose shadows nobody sees have no volumes, and no pixel shows that, wherever lights and
+/// eye are.
+void compareCulled(Checks& checks)
+{
+  Stage stage;
+  addMirrored(stage);
+  for (int i = 0; i < 12; ++i)
+  {
+    stage.add(ball(6.0 * std::cos(0.5 * i), 0.2, 6.0 * std::sin(0.5 * i), 0.4), 0.9, 0.7, 0.3);
+  }
+  vtkLight* sun = stage.addSun(3.0, -2.0, 4.0);
+  vtkLight* bulb = stage.addBulb(-1.0, 0.6, 2.5);
+  stage.pass->SetBackendToOpenGL();
+  vtkCamera* camera = stage.renderer->GetActiveCamera();
+  vtkIdType spared = 0;
+  for (int i = 0; i < 16; ++i)
+  {
+    camera->Azimuth(23.0);
+    camera->SetParallelProjection(i >= 12);
+    camera->Zoom(i % 4 == 3 ? 2.0 : i % 4 == 0 && i > 0 ? 0.5 : 1.0);
+    sun->SetPosition(3.0 - i, -2.0, 4.0);
+    bulb->SetPosition(-1.0 + 0.4 * i, 0.6, 2.5);
+    bulb->SetConeAngle(i % 3 == 2 ? 25.0 : 180.0);
+    stage.renderer->ResetCameraClippingRange();
+    stage.pass->SetShadowTechniqueToShadowVolumes();
+    stage.pass->OcclusionCullingOff();
+    const Picture all = capture(stage.window);
+    const vtkIdType volumes = stage.pass->GetNumberOfShadowVolumes();
+    stage.pass->OcclusionCullingOn();
+    const std::string name = "culled, frame " + std::to_string(i);
+    checks.expect(differing(all, capture(stage.window)) == 0, name + ": the same");
+    const vtkIdType left = stage.pass->GetNumberOfCulledInstances(vtkSVORenderPass::CULLED_CASTERS);
+    checks.expect(volumes == left + stage.pass->GetNumberOfShadowVolumes(), name + ": counted");
+    spared += left;
+  }
+  std::cout << "culled: " << spared << " volumes less\n";
+  checks.expect(spared > 20, "some casters shadow nothing that is seen");
 }
 
 void tellsWhatIsMissing(Checks& checks)
@@ -238,6 +278,7 @@ int TestSVOShadowVolumes(int, char*[])
   }
   compareWithOthers(checks);
   compareAgain(checks);
+  compareCulled(checks);
   tellsWhatIsMissing(checks);
   return checks.exitCode();
 }

@@ -278,6 +278,7 @@ void OpenGLTracer::render(const Scene& scene, const View& view, const FrameSetti
   this->Statistics.lightsWithBuffers = maps ? static_cast<int>(lights) : 0;
   this->Statistics.shadowVolumes = this->Volumes.volumes();
   this->Statistics.contourEdges = this->Volumes.contourEdges();
+  this->Statistics.sparedCasters = this->Volumes.spared();
   this->Statistics.retracedLayers = this->Drawn.drawn();
   this->Drawn.widths().tell(this->Statistics);
   this->Statistics.shadowMemory = this->Drawn.mapBytes();

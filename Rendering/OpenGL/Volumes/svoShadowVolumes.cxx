@@ -133,13 +133,22 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
 {
   std::vector<Volume> volumes;
   std::set<std::uint64_t> inScene; // by Octree::id(): who may cast again
-  const bool suns = std::any_of(
-    lights.begin(), lights.end(), [&scene](int light) { return scene.lights[light].atInfinity(); });
-  const std::vector<Outline> outlines = suns ? outlinesOf(scene) : std::vector<Outline>();
+  // Some receivers show what is no pixel of theirs.
+  const bool all = settings.wholeShadowBuffers || !settings.occlusionCulling;
+  const std::vector<Outline> outlines = all ? std::vector<Outline>() : outlinesOf(scene);
+  std::vector<std::uint8_t> withVolume(outlines.size());
+  for (const CasterInMemory& caster : casters)
+  {
+    if (!all)
+    {
+      withVolume[caster.instance] = hasVolume(scene.instances[caster.instance]);
+    }
+  }
+  this->Spared = 0;
   for (std::size_t number = 0; number < lights.size(); ++number)
   {
     const Light& light = scene.lights[lights[number]];
-    const VolumeReach reach(outlines, light, view, settings.wholeShadowBuffers);
+    const VolumeReach reach(outlines, withVolume, light, view, all);
     for (const CasterInMemory& caster : casters)
     {
       const Instance& instance = scene.instances[caster.instance];
@@ -151,6 +160,7 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
       inScene.insert(instance.body->octree.id());
       if (!reach.find(caster.instance, end))
       {
+        ++this->Spared;
         continue;
       }
       std::pair<std::uint64_t, std::uint64_t> key(instance.id, light.id);
@@ -345,6 +355,6 @@ void ShadowVolumes::release()
   this->Aimed.clear();
   this->Kept.clear();
   this->Meshes.clear();
-  this->Volumes = this->ContourEdges = 0;
+  this->Volumes = this->ContourEdges = this->Spared = 0;
 }
 }

@@ -53,8 +53,10 @@ public:
   {
     return this->Edges.bytes() + this->Casters.bytes() + this->Senses.bytes();
   }
-  /// Of the last call: volumes; edges that they begin at.
+  /// Of the last call: volumes; casters, once a light, that have none, since their shadows fall on
+  /// nothing that is seen; edges that volumes begin at.
   std::size_t volumes() const { return this->Volumes; }
+  std::size_t spared() const { return this->Spared; }
   std::size_t contourEdges() const { return this->ContourEdges; }
 
 private:
@@ -100,7 +102,7 @@ private:
   BufferTexture Edges{ BufferTexture::Texel::FourWords };
   BufferTexture Casters{ BufferTexture::Texel::FourFloats };
   BufferTexture Senses{ BufferTexture::Texel::Word };
-  std::size_t Volumes = 0, ContourEdges = 0;
+  std::size_t Volumes = 0, Spared = 0, ContourEdges = 0;
   /// Of a frame whose volumes did not fit: the scene, the room, and how many lights.
   std::tuple<std::uint64_t, std::size_t, std::size_t> TooMuch;
 };

@@ -14,33 +14,6 @@ namespace
 /// Boxes are wider by so much of themselves, and of the cube; volumes longer by as much.
 constexpr double Margin = 0.01;
 
-/// Where something begins along a light, and ends; world.
-struct Span
-{
-  double first = VolumeReach::Endless, last = -VolumeReach::Endless;
-  double size = 0.0; // of the largest part
-
-  void add(double along)
-  {
-    this->first = std::min(this->first, along);
-    this->last = std::max(this->last, along);
-  }
-  void add(const Outline& outline, const Light& light)
-  {
-    const auto corners = worldCorners(outline, 0.0);
-    for (const glm::dvec3& corner : corners)
-    {
-      this->add(glm::dot(light.direction, corner));
-    }
-    this->size = std::max(this->size, glm::distance(corners.front(), corners.back()));
-  }
-  /// A little behind all of it.
-  double end() const
-  {
-    return this->last + Margin * std::max(this->size, this->last - this->first);
-  }
-};
-
 /// True if the way from one homogeneous point to another, of which at most one may be at infinity,
 /// meets a box. Two that are: whether they are almost the same but for their sign.
 bool meets(const Box& box, const glm::dvec4& from, const glm::dvec4& to)
@@ -76,45 +49,40 @@ glm::dvec4 placeOf(const Light& light, const WorldToOctree& to)
                             : glm::dvec4(to.point(light.position), 1.0);
 }
 
-VolumeReach::VolumeReach(
-  const std::vector<Outline>& outlines, const Light& light, const View& view, bool endless)
+VolumeReach::VolumeReach(const std::vector<Outline>& outlines,
+  const std::vector<std::uint8_t>& casters, const Light& light, const View& view, bool all)
   : Outlines(outlines)
   , Of(light)
   , Eye(view)
-  , Last(Endless)
 {
-  // Parallel rays that come from behind the ends have no eye to be reached.
-  if (endless || !light.atInfinity() ||
-    (view.parallel && glm::dot(light.direction, view.axis) < 0.0))
+  if (!all)
   {
-    return;
+    this->Seen.emplace(outlines, casters, light, view);
   }
-  Span span;
-  for (const Outline& outline : outlines)
-  {
-    if (outline.receives)
-    {
-      span.add(outline, light);
-    }
-  }
-  if (!view.parallel)
-  {
-    span.add(glm::dot(light.direction, view.eye));
-  }
-  this->Last = span.end();
 }
 
 bool VolumeReach::find(std::size_t instance, double& end) const
 {
   end = Endless;
-  if (this->Last == Endless)
+  double last = Endless;
+  if (!this->Seen)
   {
     return true;
   }
-  Span span;
-  span.add(this->Outlines[instance], this->Of);
-  end = std::max(this->Last, span.end()) - glm::dot(this->Of.direction, this->Eye.eye);
-  return span.first <= this->Last;
+  if (!this->Seen->behind(this->Outlines[instance], last))
+  {
+    return false;
+  }
+  // Parallel rays that come from behind the ends have no eye to be reached.
+  const bool before = this->Eye.parallel && glm::dot(this->Of.direction, this->Eye.axis) < 0.0;
+  if (this->Of.atInfinity() && !before && last < Endless)
+  {
+    const double eye = glm::dot(this->Of.direction, this->Eye.eye);
+    const auto corners = worldCorners(this->Outlines[instance], 0.0);
+    const double size = glm::distance(corners.front(), corners.back());
+    end = (this->Eye.parallel ? last : std::max(last, eye)) + Margin * size - eye;
+  }
+  return true;
 }
 
 VolumeDraws::Way VolumeReach::way(const CasterInMemory& caster) const

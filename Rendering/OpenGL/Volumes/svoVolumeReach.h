@@ -5,11 +5,14 @@
 #include "svoLight.h"
 #include "svoMapCopies.h"
 #include "svoOutline.h"
+#include "svoSeenDepths.h"
 #include "svoView.h"
 #include "svoVolumeDraws.h"
 #include "svoWorldToOctree.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -25,14 +28,16 @@ class VolumeReach
 public:
   static constexpr double Endless = 1e300;
 
-  /// Volumes have to reach to all that receives, and to the eye, which would look into them from
-  /// their ends; those of a light with a place are endless, and `endless` ones. `outlines`: of a
-  /// scene; they and the others live as long as this.
-  VolumeReach(
-    const std::vector<Outline>& outlines, const Light& light, const View& view, bool endless);
+  /// Volumes have to reach to all that the eye may see of what receives, and to the eye, which
+  /// would look into them from their ends; those of a light with a place are endless. `all`: all
+  /// are, and each caster has one. `outlines`: of a scene, `casters` one byte each; they and the
+  /// others live as long as this.
+  VolumeReach(const std::vector<Outline>& outlines, const std::vector<std::uint8_t>& casters,
+    const Light& light, const View& view, bool all);
 
   /// How far along the light, from the eye on, the volume of an instance reaches, world; Endless.
-  /// False if nothing lies behind it.
+  /// False if nothing that is seen
+  /// lies in its shadow.
   bool find(std::size_t instance, double& end) const;
   /// By the sides behind where the eye may be in the caster's shadow.
   VolumeDraws::Way way(const CasterInMemory& caster) const;
@@ -41,7 +46,7 @@ private:
   const std::vector<Outline>& Outlines;
   const Light& Of;
   const View& Eye;
-  double Last; // along the light, world
+  std::optional<SeenDepths> Seen;
 };
 }
 

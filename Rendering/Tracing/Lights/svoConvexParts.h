@@ -3,6 +3,7 @@
 #define svoConvexParts_h
 
 #include "svoView.h"
+#include "vtkSVOTracingModule.h"
 
 #include <array>
 #include <vector>
@@ -16,7 +17,7 @@ namespace svo
 using ConvexBody = std::array<glm::dvec3, 8>;
 
 /// The piece of a view between two linear depths.
-ConvexBody pieceOf(const View& view, double nearest, double farthest);
+VTKSVOTRACING_EXPORT ConvexBody pieceOf(const View& view, double nearest, double farthest);
 
 /// A face of a body, and the half-space dot(normal, x) >= offset that the body lies in.
 struct ConvexFace
@@ -28,7 +29,7 @@ struct ConvexFace
 };
 
 /// What some bodies have in common with one body after the other.
-class CommonPart
+class VTKSVOTRACING_EXPORT CommonPart
 {
 public:
   explicit CommonPart(const std::vector<ConvexBody>& bodies);

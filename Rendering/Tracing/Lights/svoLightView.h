@@ -5,6 +5,7 @@
 #include "svoOutline.h"
 #include "svoScene.h"
 #include "svoView.h"
+#include "vtkSVOTracingModule.h"
 
 #include <cstdint>
 #include <vector>
@@ -16,7 +17,7 @@ namespace svo
 /// degrees, else six square faces of a cube; for a spot never more than its cone. Views of
 /// `resolution`^2 texels fitted to the corners of the casters' cubes; none if nothing casts.
 /// `casters` as from castersOf().
-std::vector<View> fitLight(const std::vector<Outline>& outlines,
+VTKSVOTRACING_EXPORT std::vector<View> fitLight(const std::vector<Outline>& outlines,
   const std::vector<std::uint8_t>& casters, const Light& light, int resolution);
 }
 

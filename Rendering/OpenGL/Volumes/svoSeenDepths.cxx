@@ -1,0 +1,156 @@
+#include "svoSeenDepths.h"
+
+#include "svoLightView.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+namespace svo
+{
+namespace
+{
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+/// Bodies are larger by so much of themselves.
+constexpr double Margin = 0.01;
+
+ConvexBody bodyOf(const Outline& outline)
+{
+  ConvexBody body = worldCorners(outline, 0.0);
+  const glm::dvec3 middle = 0.5 * (body.front() + body.back());
+  for (glm::dvec3& corner : body)
+  {
+    corner += Margin * (corner - middle);
+  }
+  return body;
+}
+
+double depthOf(const View& view, const glm::dvec3& point)
+{
+  return glm::dot(view.axis, point - view.eye);
+}
+}
+
+/// Where points lie in a face: its tiles, and their depths.
+struct SeenDepths::Spot
+{
+  PixelRect tiles{ Tiles, Tiles, 0, 0 };
+  double first = Infinity, last = -Infinity;
+};
+
+SeenDepths::Spot SeenDepths::spotOf(const Face& face, const std::vector<glm::dvec3>& points)
+{
+  constexpr double Rounding = 1e-6; // tiles
+  const glm::dmat4 toClip = face.view.viewToClip * face.view.worldToView;
+  Spot spot;
+  for (const glm::dvec3& point : points)
+  {
+    const glm::dvec4 clip = toClip * glm::dvec4(point, 1.0);
+    const glm::dvec2 at = (0.5 * glm::dvec2(clip) / clip.w + 0.5) * static_cast<double>(Tiles);
+    const glm::ivec2 low(glm::clamp(at - Rounding, 0.0, Tiles - 1.0));
+    const glm::ivec2 high(glm::clamp(at + Rounding, 0.0, Tiles - 1.0));
+    spot.tiles = { std::min(spot.tiles.x0, low.x), std::min(spot.tiles.y0, low.y),
+      std::max(spot.tiles.x1, high.x + 1), std::max(spot.tiles.y1, high.y + 1) };
+    const double depth = depthOf(face.view, point);
+    spot.first = std::min(spot.first, depth);
+    spot.last = std::max(spot.last, depth);
+  }
+  return spot;
+}
+
+SeenDepths::SeenDepths(const std::vector<Outline>& outlines,
+  const std::vector<std::uint8_t>& casters, const Light& light, const View& eye)
+{
+  const std::vector<View> views = fitLight(outlines, casters, light, Tiles);
+  std::vector<double> farthest; // of each
+  for (const View& view : views)
+  {
+    farthest.push_back(view.tFar);
+  }
+  double deepest = eye.tNear; // that the eye may see
+  std::vector<ConvexBody> receivers;
+  for (const Outline& outline : outlines)
+  {
+    const ConvexBody body = bodyOf(outline);
+    for (const glm::dvec3& corner : body)
+    {
+      deepest = std::max(deepest, depthOf(eye, corner));
+      for (std::size_t i = 0; i < views.size(); ++i)
+      {
+        farthest[i] = std::max(farthest[i], depthOf(views[i], corner));
+      }
+    }
+    if (outline.receives)
+    {
+      receivers.push_back(body);
+    }
+  }
+  if (!(deepest < Infinity))
+  {
+    return;
+  }
+  const ConvexBody seen = pieceOf(eye, eye.tNear, std::min(eye.tFar, deepest));
+  std::vector<glm::dvec3> points;
+  const CommonPart ofEye({ seen });
+  const auto hidden = [&](const ConvexBody& body)
+  {
+    points.clear();
+    ofEye.add(body, points);
+    return points.empty();
+  };
+  receivers.erase(std::remove_if(receivers.begin(), receivers.end(), hidden), receivers.end());
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    const ConvexBody piece = pieceOf(views[i], views[i].tNear, farthest[i]);
+    this->Faces.push_back(
+      { views[i], CommonPart({ piece }), std::vector<double>(Tiles * Tiles, -Infinity) });
+    Face& face = this->Faces.back();
+    const CommonPart common({ seen, piece });
+    for (const ConvexBody& body : receivers)
+    {
+      points.clear();
+      common.add(body, points);
+      const Spot spot = spotOf(face, points);
+      for (int y = spot.tiles.y0; y < spot.tiles.y1; ++y)
+      {
+        for (int x = spot.tiles.x0; x < spot.tiles.x1; ++x)
+        {
+          double& depth = face.depths[y * Tiles + x];
+          depth = std::max(depth, spot.last);
+        }
+      }
+    }
+  }
+}
+
+bool SeenDepths::behind(const Outline& caster, double& last) const
+{
+  last = this->Faces.empty() ? Infinity : -Infinity;
+  const ConvexBody body = bodyOf(caster);
+  std::vector<glm::dvec3> points;
+  for (const Face& face : this->Faces)
+  {
+    points.clear();
+    face.lit.add(body, points);
+    const Spot spot = spotOf(face, points);
+    double deepest = -Infinity;
+    for (int y = spot.tiles.y0; y < spot.tiles.y1; ++y)
+    {
+      for (int x = spot.tiles.x0; x < spot.tiles.x1; ++x)
+      {
+        deepest = std::max(deepest, face.depths[y * Tiles + x]);
+      }
+    }
+    if (deepest >= spot.first)
+    {
+      const double base = face.view.parallel ? glm::dot(face.view.axis, face.view.eye) : 0.0;
+      last = std::max({ last, base + deepest, base + spot.last });
+    }
+  }
+  return last > -Infinity;
+}
+}

@@ -1,0 +1,48 @@
+// How far from a light lies what the eye may see of receivers, in tiles of the light's views: which
+// casters are in front of some of it.
+#ifndef svoSeenDepths_h
+#define svoSeenDepths_h
+
+#include "svoConvexParts.h"
+#include "svoLight.h"
+#include "svoOutline.h"
+#include "svoView.h"
+#include "vtkSVOOpenGLModule.h"
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace svo
+{
+class VTKSVOOPENGL_EXPORT SeenDepths
+{
+public:
+  /// `casters`: one byte an outline. Bodies are taken for a little larger than they are.
+  SeenDepths(const std::vector<Outline>& outlines, const std::vector<std::uint8_t>& casters,
+    const Light& light, const View& eye);
+
+  /// True if something that the eye may see can lie in a caster's shadow. Then `last` is at least
+  /// as deep as that, and as the caster: its depth along the light's view axis, which is the
+  /// direction of a light at infinity; there in the world, else from the light.
+  bool behind(const Outline& caster, double& last) const;
+
+private:
+  static constexpr int Tiles = 64; // along an edge of a view
+  /// One of a light.
+  struct Face
+  {
+    View view;
+    CommonPart lit; // with its rays
+    /// Linear depths, row by row; minus infinity where nothing is seen.
+    std::vector<double> depths;
+  };
+  struct Spot;
+  static Spot spotOf(const Face& face, const std::vector<glm::dvec3>& points);
+
+  std::vector<Face> Faces; // empty: nobody knows
+};
+}
+
+#endif
