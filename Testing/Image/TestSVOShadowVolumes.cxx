@@ -114,7 +114,7 @@ void compareCulled(Checks& checks)
   addMirrored(stage);
   for (int i = 0; i < 12; ++i)
   {
-    stage.add(ball(6.0 * std::cos(0.5 * i), 0.2, 6.0 * std::sin(0.5 * i), 0.4), 0.9, 0.7, 0.3);
+    stage.add(ball(0.4, 6.0 * std::cos(0.5 * i), 0.2, 6.0 * std::sin(0.5 * i)), 0.9, 0.7, 0.3);
   }
   vtkLight* sun = stage.addSun(3.0, -2.0, 4.0);
   vtkLight* bulb = stage.addBulb(-1.0, 0.6, 2.5);
@@ -143,6 +143,32 @@ void compareCulled(Checks& checks)
   }
   std::cout << "culled: " << spared << " volumes less\n";
   checks.expect(spared > 20, "some casters shadow nothing that is seen");
+}
+
+/// Of what a shadow falls on nothing is seen; before and behind that something is, past which the
+/// eye looks through the shadow.
+void compareThrough(Checks& checks)
+{
+  Stage stage;
+  stage.add(ball(1.0, 0.0, 7.0, 0.0), 0.9, 0.7, 0.3);
+  vtkNew<vtkPlaneSource> ground;
+  ground->SetOrigin(-200.0, 0.0, 200.0);
+  ground->SetPoint1(200.0, 0.0, 200.0);
+  ground->SetPoint2(-200.0, 0.0, -200.0);
+  stage.add(ground, 0.8, 0.8, 0.8);
+  stage.addSun(0.0, 1.0, 0.0);
+  stage.pass->SetBackendToOpenGL();
+  vtkCamera* camera = stage.renderer->GetActiveCamera();
+  camera->SetPosition(0.0, 10.0, 28.0);
+  camera->SetFocalPoint(0.0, 10.0 - 28.0 * std::tan(0.122), 0.0);
+  camera->SetViewUp(0.0, 1.0, 0.0);
+  camera->SetViewAngle(12.0);
+  stage.renderer->ResetCameraClippingRange();
+  const Picture expected = stage.shadowedByRays();
+  stage.pass->SetShadowTechniqueToShadowVolumes();
+  checks.expect(
+    differing(expected, capture(stage.window)) <= 2, "seen through a shadow that falls elsewhere");
+  checks.expect(stage.pass->GetNumberOfShadowVolumes() > 0, "which has a volume");
 }
 
 void tellsWhatIsMissing(Checks& checks)
@@ -279,6 +305,7 @@ int TestSVOShadowVolumes(int, char*[])
   compareWithOthers(checks);
   compareAgain(checks);
   compareCulled(checks);
+  compareThrough(checks);
   tellsWhatIsMissing(checks);
   return checks.exitCode();
 }

@@ -36,34 +36,41 @@ double depthOf(const View& view, const glm::dvec3& point)
 }
 
 /// Where points lie in a face: its tiles, and their depths.
-struct SeenDepths::Spot
+struct SeenDepths::Footprint
 {
   PixelRect tiles{ Tiles, Tiles, 0, 0 };
   double first = Infinity, last = -Infinity;
 };
 
-SeenDepths::Spot SeenDepths::spotOf(const Face& face, const std::vector<glm::dvec3>& points)
+SeenDepths::Footprint SeenDepths::footprintOf(
+  const Face& face, const std::vector<glm::dvec3>& points)
 {
   constexpr double Rounding = 1e-6; // tiles
   const glm::dmat4 toClip = face.view.viewToClip * face.view.worldToView;
-  Spot spot;
+  Footprint print;
   for (const glm::dvec3& point : points)
   {
+    const double depth = depthOf(face.view, point);
+    print.first = std::min(print.first, depth);
+    print.last = std::max(print.last, depth);
     const glm::dvec4 clip = toClip * glm::dvec4(point, 1.0);
+    if (!(clip.w > 0.0)) // at the light
+    {
+      print.tiles = { 0, 0, Tiles, Tiles };
+      continue;
+    }
     const glm::dvec2 at = (0.5 * glm::dvec2(clip) / clip.w + 0.5) * static_cast<double>(Tiles);
     const glm::ivec2 low(glm::clamp(at - Rounding, 0.0, Tiles - 1.0));
     const glm::ivec2 high(glm::clamp(at + Rounding, 0.0, Tiles - 1.0));
-    spot.tiles = { std::min(spot.tiles.x0, low.x), std::min(spot.tiles.y0, low.y),
-      std::max(spot.tiles.x1, high.x + 1), std::max(spot.tiles.y1, high.y + 1) };
-    const double depth = depthOf(face.view, point);
-    spot.first = std::min(spot.first, depth);
-    spot.last = std::max(spot.last, depth);
+    print.tiles = { std::min(print.tiles.x0, low.x), std::min(print.tiles.y0, low.y),
+      std::max(print.tiles.x1, high.x + 1), std::max(print.tiles.y1, high.y + 1) };
   }
-  return spot;
+  return print;
 }
 
 SeenDepths::SeenDepths(const std::vector<Outline>& outlines,
   const std::vector<std::uint8_t>& casters, const Light& light, const View& eye)
+  : Last(-Infinity)
 {
   const std::vector<View> views = fitLight(outlines, casters, light, Tiles);
   std::vector<double> farthest; // of each
@@ -91,6 +98,7 @@ SeenDepths::SeenDepths(const std::vector<Outline>& outlines,
   }
   if (!(deepest < Infinity))
   {
+    this->Last = Infinity;
     return;
   }
   const ConvexBody seen = pieceOf(eye, eye.tNear, std::min(eye.tFar, deepest));
@@ -100,12 +108,17 @@ SeenDepths::SeenDepths(const std::vector<Outline>& outlines,
   {
     points.clear();
     ofEye.add(body, points);
+    for (const glm::dvec3& point : points)
+    {
+      this->Last = std::max(this->Last, glm::dot(light.direction, point));
+    }
     return points.empty();
   };
   receivers.erase(std::remove_if(receivers.begin(), receivers.end(), hidden), receivers.end());
   for (std::size_t i = 0; i < views.size(); ++i)
   {
-    const ConvexBody piece = pieceOf(views[i], views[i].tNear, farthest[i]);
+    const ConvexBody piece =
+      pieceOf(views[i], views[i].parallel ? views[i].tNear : 0.0, farthest[i]);
     this->Faces.push_back(
       { views[i], CommonPart({ piece }), std::vector<double>(Tiles * Tiles, -Infinity) });
     Face& face = this->Faces.back();
@@ -114,43 +127,41 @@ SeenDepths::SeenDepths(const std::vector<Outline>& outlines,
     {
       points.clear();
       common.add(body, points);
-      const Spot spot = spotOf(face, points);
-      for (int y = spot.tiles.y0; y < spot.tiles.y1; ++y)
+      const Footprint print = footprintOf(face, points);
+      for (int y = print.tiles.y0; y < print.tiles.y1; ++y)
       {
-        for (int x = spot.tiles.x0; x < spot.tiles.x1; ++x)
+        for (int x = print.tiles.x0; x < print.tiles.x1; ++x)
         {
           double& depth = face.depths[y * Tiles + x];
-          depth = std::max(depth, spot.last);
+          depth = std::max(depth, print.last);
         }
       }
     }
   }
 }
 
-bool SeenDepths::behind(const Outline& caster, double& last) const
+bool SeenDepths::behind(const Outline& caster) const
 {
-  last = this->Faces.empty() ? Infinity : -Infinity;
   const ConvexBody body = bodyOf(caster);
   std::vector<glm::dvec3> points;
-  for (const Face& face : this->Faces)
-  {
-    points.clear();
-    face.lit.add(body, points);
-    const Spot spot = spotOf(face, points);
-    double deepest = -Infinity;
-    for (int y = spot.tiles.y0; y < spot.tiles.y1; ++y)
-    {
-      for (int x = spot.tiles.x0; x < spot.tiles.x1; ++x)
+  return this->Faces.empty() ||
+    std::any_of(this->Faces.begin(), this->Faces.end(),
+      [&](const Face& face)
       {
-        deepest = std::max(deepest, face.depths[y * Tiles + x]);
-      }
-    }
-    if (deepest >= spot.first)
-    {
-      const double base = face.view.parallel ? glm::dot(face.view.axis, face.view.eye) : 0.0;
-      last = std::max({ last, base + deepest, base + spot.last });
-    }
-  }
-  return last > -Infinity;
+        points.clear();
+        face.piece.add(body, points);
+        const Footprint print = footprintOf(face, points);
+        for (int y = print.tiles.y0; y < print.tiles.y1; ++y)
+        {
+          for (int x = print.tiles.x0; x < print.tiles.x1; ++x)
+          {
+            if (face.depths[y * Tiles + x] >= print.first)
+            {
+              return true;
+            }
+          }
+        }
+        return false;
+      });
 }
 }

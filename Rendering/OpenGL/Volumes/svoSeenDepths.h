@@ -23,25 +23,28 @@ public:
   SeenDepths(const std::vector<Outline>& outlines, const std::vector<std::uint8_t>& casters,
     const Light& light, const View& eye);
 
-  /// True if something that the eye may see can lie in a caster's shadow. Then `last` is at least
-  /// as deep as that, and as the caster: its depth along the light's view axis, which is the
-  /// direction of a light at infinity; there in the world, else from the light.
-  bool behind(const Outline& caster, double& last) const;
+  /// True if something that the eye may see can lie in a caster's shadow.
+  bool behind(const Outline& caster) const;
+
+  /// How far along a light at infinity, in the world, lies what the eye may see of any receiver;
+  /// minus infinity: it sees none.
+  double last() const { return this->Last; }
 
 private:
   static constexpr int Tiles = 64; // along an edge of a view
-  /// One of a light.
+  /// One of a light's views.
   struct Face
   {
     View view;
-    CommonPart lit; // with its rays
+    CommonPart piece; // with its rays
     /// Linear depths, row by row; minus infinity where nothing is seen.
     std::vector<double> depths;
   };
-  struct Spot;
-  static Spot spotOf(const Face& face, const std::vector<glm::dvec3>& points);
+  struct Footprint;
+  static Footprint footprintOf(const Face& face, const std::vector<glm::dvec3>& points);
 
   std::vector<Face> Faces; // empty: nobody knows
+  double Last;
 };
 }
 

@@ -58,17 +58,7 @@ std::string ShadowVolumes::describe(const Scene& scene, const std::vector<Caster
     return "Shadow volumes are counted from the eye, and this camera's matrices have none: rays to "
            "the lights find the same shadows.";
   }
-  // What did not fit is not made again to find that out.
-  const auto asked = std::make_tuple(scene.version, room, code.lights.size());
-  if (scene.version == 0 || asked != this->TooMuch)
-  {
-    code.volumes = this->place(scene, casters, arena, view, settings, code.lights, parallelFor);
-    if (this->bytes() > room)
-    {
-      code.volumes = nullptr;
-    }
-    this->TooMuch = code.volumes ? decltype(this->TooMuch)() : asked;
-  }
+  code.volumes = this->place(scene, casters, arena, view, settings, room, code.lights, parallelFor);
   if (!code.volumes)
   {
     return "Shadow volumes do not fit into OpenGL's memory, or into GPUMemoryLimit: rays to the "
@@ -81,21 +71,31 @@ std::string ShadowVolumes::describe(const Scene& scene, const std::vector<Caster
   return {};
 }
 
-/// The volumes that these lights (indices) make. Null if OpenGL has no room.
+/// The volumes that these lights (indices) make. Null if OpenGL, or `room`, has no room for them.
 std::shared_ptr<const VolumeDraws> ShadowVolumes::place(const Scene& scene,
   const std::vector<CasterInMemory>& casters, const OctreeArena& arena, const View& view,
-  const FrameSettings& settings, const std::vector<int>& lights, const ParallelFor& parallelFor)
+  const FrameSettings& settings, std::size_t room, const std::vector<int>& lights,
+  const ParallelFor& parallelFor)
 {
   const std::vector<Volume> volumes = this->gather(scene, casters, view, settings, lights);
-  this->see(volumes, settings, parallelFor);
-  auto draws = std::make_shared<VolumeDraws>();
-  draws->tellAll = std::all_of(casters.begin(), casters.end(),
-    [&scene](const CasterInMemory& caster) { return hasVolume(scene.instances[caster.instance]); });
-  if (!this->send(volumes, arena) || !this->aim(volumes, view))
+  // What did not fit is not made again to find that out.
+  const auto asked = std::make_tuple(scene.version, room, volumes.size());
+  if (scene.version != 0 && asked == this->TooMuch)
   {
     this->release();
     return nullptr;
   }
+  this->see(volumes, settings, parallelFor);
+  auto draws = std::make_shared<VolumeDraws>();
+  draws->tellAll = std::all_of(casters.begin(), casters.end(),
+    [&scene](const CasterInMemory& caster) { return hasVolume(scene.instances[caster.instance]); });
+  if (!this->send(volumes, arena) || !this->aim(volumes, view) || this->bytes() > room)
+  {
+    this->release();
+    this->TooMuch = asked;
+    return nullptr;
+  }
+  this->TooMuch = {};
   draws->lights = this->Ranges;
   draws->lights.resize(lights.size());
   const double base = view.parallel ? view.tNear : 0.0;
@@ -133,43 +133,43 @@ std::vector<ShadowVolumes::Volume> ShadowVolumes::gather(const Scene& scene,
 {
   std::vector<Volume> volumes;
   std::set<std::uint64_t> inScene; // by Octree::id(): who may cast again
-  // Some receivers show what is no pixel of theirs.
-  const bool all = settings.wholeShadowBuffers || !settings.occlusionCulling;
-  const std::vector<Outline> outlines = all ? std::vector<Outline>() : outlinesOf(scene);
+  const std::vector<Outline> outlines = outlinesOf(scene);
   std::vector<std::uint8_t> withVolume(outlines.size());
   for (const CasterInMemory& caster : casters)
   {
-    if (!all)
-    {
-      withVolume[caster.instance] = hasVolume(scene.instances[caster.instance]);
-    }
+    withVolume[caster.instance] = hasVolume(scene.instances[caster.instance]);
   }
   this->Spared = 0;
   for (std::size_t number = 0; number < lights.size(); ++number)
   {
     const Light& light = scene.lights[lights[number]];
-    const VolumeReach reach(outlines, withVolume, light, view, all);
+    const VolumeReach reach(outlines, withVolume, light, view, settings);
     for (const CasterInMemory& caster : casters)
     {
       const Instance& instance = scene.instances[caster.instance];
-      double end;
-      if (!hasVolume(instance))
+      if (!withVolume[caster.instance])
       {
         continue;
       }
       inScene.insert(instance.body->octree.id());
+      std::pair<std::uint64_t, std::uint64_t> key(instance.id, light.id);
+      auto known = this->Kept.find(key);
+      while (known != this->Kept.end() && known->second.current)
+      {
+        ++key.first; // two of one name
+        known = this->Kept.find(key);
+      }
+      double end;
       if (!reach.find(caster.instance, end))
       {
         ++this->Spared;
+        if (known != this->Kept.end())
+        {
+          known->second.current = true;
+        }
         continue;
       }
-      std::pair<std::uint64_t, std::uint64_t> key(instance.id, light.id);
       Seen* seen = &this->Kept[key];
-      while (seen->current)
-      {
-        ++key.first; // two of one name
-        seen = &this->Kept[key];
-      }
       seen->current = true;
       volumes.push_back(
         { &instance, number, placeOf(light, caster.toOctree), end, reach.way(caster), seen });
@@ -213,17 +213,16 @@ void ShadowVolumes::see(
   }
   for (const Volume& volume : volumes)
   {
-    Seen& seen = *volume.seen;
-    this->ContourEdges += seen.contour.edges().size();
+    this->ContourEdges += volume.seen->contour.edges().size();
+  }
+  eraseIf(this->Kept, [](const auto& entry) { return !entry.second.current; });
+  for (auto& [key, seen] : this->Kept)
+  {
     bytes += seen.contour.bytes() + seen.senses.size() * sizeof(std::uint32_t);
     if (!settings.frameCoherence || bytes > settings.layerMemoryLimit)
     {
       seen.contour.forget();
     }
-  }
-  eraseIf(this->Kept, [](const auto& entry) { return !entry.second.current; });
-  for (auto& [key, seen] : this->Kept)
-  {
     seen.current = false;
     seen.version = seen.version == Changed ? ++this->Versions : seen.version;
   }

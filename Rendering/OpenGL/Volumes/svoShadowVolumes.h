@@ -82,7 +82,8 @@ private:
   };
   std::shared_ptr<const VolumeDraws> place(const Scene& scene,
     const std::vector<CasterInMemory>& casters, const OctreeArena& arena, const View& view,
-    const FrameSettings& settings, const std::vector<int>& lights, const ParallelFor& parallelFor);
+    const FrameSettings& settings, std::size_t room, const std::vector<int>& lights,
+    const ParallelFor& parallelFor);
   std::vector<Volume> gather(const Scene& scene, const std::vector<CasterInMemory>& casters,
     const View& view, const FrameSettings& settings, const std::vector<int>& lights);
   void see(const std::vector<Volume>& volumes, const FrameSettings& settings,
@@ -103,7 +104,7 @@ private:
   BufferTexture Casters{ BufferTexture::Texel::FourFloats };
   BufferTexture Senses{ BufferTexture::Texel::Word };
   std::size_t Volumes = 0, Spared = 0, ContourEdges = 0;
-  /// Of a frame whose volumes did not fit: the scene, the room, and how many lights.
+  /// Of a frame whose volumes did not fit: the scene, the room, and how many there were.
   std::tuple<std::uint64_t, std::size_t, std::size_t> TooMuch;
 };
 }

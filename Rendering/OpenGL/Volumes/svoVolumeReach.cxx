@@ -50,37 +50,50 @@ glm::dvec4 placeOf(const Light& light, const WorldToOctree& to)
 }
 
 VolumeReach::VolumeReach(const std::vector<Outline>& outlines,
-  const std::vector<std::uint8_t>& casters, const Light& light, const View& view, bool all)
+  const std::vector<std::uint8_t>& casters, const Light& light, const View& view,
+  const FrameSettings& settings)
   : Outlines(outlines)
   , Of(light)
   , Eye(view)
+  , Last(Endless)
 {
-  if (!all)
+  if (settings.wholeShadowBuffers) // some receivers may be drawn beside their boxes
   {
-    this->Seen.emplace(outlines, casters, light, view);
+    return;
+  }
+  const SeenDepths seen(outlines, casters, light, view);
+  // Parallel rays that come from behind the ends have no eye to be reached.
+  if (light.atInfinity() && !(view.parallel && glm::dot(light.direction, view.axis) < 0.0))
+  {
+    this->Last =
+      view.parallel ? seen.last() : std::max(seen.last(), glm::dot(light.direction, view.eye));
+  }
+  if (settings.occlusionCulling)
+  {
+    this->Seen = seen;
   }
 }
 
 bool VolumeReach::find(std::size_t instance, double& end) const
 {
   end = Endless;
-  double last = Endless;
-  if (!this->Seen)
-  {
-    return true;
-  }
-  if (!this->Seen->behind(this->Outlines[instance], last))
+  if (this->Seen && !this->Seen->behind(this->Outlines[instance]))
   {
     return false;
   }
-  // Parallel rays that come from behind the ends have no eye to be reached.
-  const bool before = this->Eye.parallel && glm::dot(this->Of.direction, this->Eye.axis) < 0.0;
-  if (this->Of.atInfinity() && !before && last < Endless)
+  if (this->Last < Endless)
   {
     const double eye = glm::dot(this->Of.direction, this->Eye.eye);
+    double first = Endless, last = -Endless;
     const auto corners = worldCorners(this->Outlines[instance], 0.0);
-    const double size = glm::distance(corners.front(), corners.back());
-    end = (this->Eye.parallel ? last : std::max(last, eye)) + Margin * size - eye;
+    for (const glm::dvec3& corner : corners)
+    {
+      first = std::min(first, glm::dot(this->Of.direction, corner));
+      last = std::max(last, glm::dot(this->Of.direction, corner));
+    }
+    last = std::max(last, this->Last);
+    end =
+      last + Margin * std::max(glm::distance(corners.front(), corners.back()), last - first) - eye;
   }
   return true;
 }

@@ -2,6 +2,7 @@
 #ifndef svoVolumeReach_h
 #define svoVolumeReach_h
 
+#include "svoFrame.h"
 #include "svoLight.h"
 #include "svoMapCopies.h"
 #include "svoOutline.h"
@@ -28,16 +29,15 @@ class VolumeReach
 public:
   static constexpr double Endless = 1e300;
 
-  /// Volumes have to reach to all that the eye may see of what receives, and to the eye, which
-  /// would look into them from their ends; those of a light with a place are endless. `all`: all
-  /// are, and each caster has one. `outlines`: of a scene, `casters` one byte each; they and the
-  /// others live as long as this.
+  /// Volumes have to reach to all that the eye may see of what receives, and to the eye: from there
+  /// to what is seen nothing is to leave them by their ends. Those of a light with a place are
+  /// endless. `outlines`: of a scene, `casters` one byte each; they and the others live as long as
+  /// this.
   VolumeReach(const std::vector<Outline>& outlines, const std::vector<std::uint8_t>& casters,
-    const Light& light, const View& view, bool all);
+    const Light& light, const View& view, const FrameSettings& settings);
 
   /// How far along the light, from the eye on, the volume of an instance reaches, world; Endless.
-  /// False if nothing that is seen
-  /// lies in its shadow.
+  /// False if it needs none: nothing that is seen lies in its shadow.
   bool find(std::size_t instance, double& end) const;
   /// By the sides behind where the eye may be in the caster's shadow.
   VolumeDraws::Way way(const CasterInMemory& caster) const;
@@ -46,6 +46,7 @@ private:
   const std::vector<Outline>& Outlines;
   const Light& Of;
   const View& Eye;
+  double Last; // of all, along the light, world
   std::optional<SeenDepths> Seen;
 };
 }

@@ -241,7 +241,8 @@ void RendererState::trace(int width, int height, const FramePace& pace, FrameSet
   const LightCode& known = this->Sampled.any() ? sampled : masked;
   if (code.volumes && !masked.fromPlaces)
   {
-    this->Statistics.tracer.shadowVolumes = this->Statistics.tracer.contourEdges = 0;
+    FrameStatistics& tracer = this->Statistics.tracer;
+    tracer.shadowVolumes = tracer.contourEdges = tracer.sparedCasters = 0;
     this->Complaint = !this->Complaint.empty()
       ? this->Complaint
       : "A picture of what shadow volumes tell does not fit into OpenGL's memory, or "
