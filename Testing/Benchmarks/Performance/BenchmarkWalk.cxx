@@ -4,15 +4,18 @@
 // their median and the slowest hundredth; means of the phases and of the texels that were traced.
 //
 //   BenchmarkWalk [--objects 4000] [--triangles 20000] [--frames 300] [--size 1920x1080]
-//     [--speed 1] [--shadows none|buffer|rays] [--backend cpu|opengl] [--json file]
-//     [--pictures prefix]
+//     [--speed 1] [--shadows none|buffer|rays] [--backend cpu|opengl] [--apart n,n]
+//     [--json file] [--pictures prefix]
 //
-// --speed: so many times as fast.
+// --speed: so many times as fast. --apart: beside them interactive frames whose rays are so many
+// pixels apart, and how far these are from exact ones: mean difference of a channel, and the share
+// of the pixels that are off by more than 8 of 255 in one, its mean and its largest.
 //
-// The exit code is 1 if a picture of the one is not that of the other, to the bit.
+// The exit code is 1 if a picture of the first is not that of the second, to the bit.
 #include "performanceCrowd.h"
 #include "performancePass.h"
 #include "performanceWindow.h"
+#include "pictureDifference.h"
 #include "svoResults.h"
 #include "vtkSVORenderPass.h"
 
@@ -27,7 +30,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -41,6 +46,15 @@ struct Options
   int objects = 4000, frames = 300, size[2] = { 1920, 1080 };
   double speed = 1.0;
   std::string shadows = "buffer", backend = "cpu", pictures;
+  std::vector<int> apart;
+};
+
+/// How frames are made.
+struct Method
+{
+  std::string name;
+  bool keeps = true;
+  int apart = 1; // pixels, of rays
 };
 
 using Picture = std::vector<unsigned char>; // RGB
@@ -48,8 +62,8 @@ using Picture = std::vector<unsigned char>; // RGB
 class Walker
 {
 public:
-  Walker(const std::string& name, bool keeps, const Options& options)
-    : Name(name)
+  Walker(const Method& method, const Options& options)
+    : How(method)
     , Asked(options)
     , Scene(Renderer, options.crowd, options.objects)
   {
@@ -61,8 +75,11 @@ public:
     this->Renderer->SetPass(this->Pass);
     this->Pass->SetBackend(options.backend == "opengl" ? vtkSVORenderPass::BACKEND_OPENGL
                                                        : vtkSVORenderPass::BACKEND_CPU);
-    this->Pass->SetAutoAdjustSampleDistances(false);
-    this->Pass->SetFrameCoherence(keeps);
+    // More frames a second than it can make, so that it goes as far as it may.
+    this->Pass->SetAutoAdjustSampleDistances(method.apart > 1);
+    this->Pass->SetMaximumImageSampleDistance(method.apart);
+    this->Window->SetDesiredUpdateRate(method.apart > 1 ? 1e4 : 1e-3);
+    this->Pass->SetFrameCoherence(method.keeps);
     this->Pass->SetShadowTechnique(options.shadows == "none" ? vtkSVORenderPass::SHADOW_NONE
         : options.shadows == "rays"                          ? vtkSVORenderPass::SHADOW_RAYS
                                                              : vtkSVORenderPass::SHADOW_BUFFER);
@@ -105,7 +122,16 @@ public:
     this->Window->GetPixelData(0, 0, this->Asked.size[0] - 1, this->Asked.size[1] - 1, 0, pixels);
     return Picture(pixels->GetPointer(0), pixels->GetPointer(0) + pixels->GetNumberOfValues());
   }
-  void write(const std::string& name) { performance::writePicture(this->Window, name); }
+  void compare(const Picture& exact)
+  {
+    const performance::PictureDifference difference(exact, this->picture());
+    this->Difference += difference.mean;
+    this->Wrong.push_back(difference.wrong);
+  }
+  void write(const std::string& name)
+  {
+    performance::writePicture(this->Window, name + this->How.name + ".png");
+  }
 
   svobench::Row row() const
   {
@@ -113,7 +139,7 @@ public:
     std::sort(sorted.begin(), sorted.end());
     const auto count = static_cast<double>(sorted.size());
     svobench::Row row;
-    row["method"] = this->Name;
+    row["method"] = this->How.name;
     row["meanMs"] = std::accumulate(sorted.begin(), sorted.end(), 0.0) / count;
     row["medianMs"] = sorted[sorted.size() / 2];
     row["slowestMs"] = sorted[sorted.size() - 1 - sorted.size() / 100];
@@ -122,18 +148,25 @@ public:
     {
       row[phase] = this->Sums.at(phase) / count;
     }
+    if (!this->Wrong.empty())
+    {
+      row["meanDifference"] = this->Difference / count;
+      row["wrongShare"] = std::accumulate(this->Wrong.begin(), this->Wrong.end(), 0.0) / count;
+      row["largestWrongShare"] = *std::max_element(this->Wrong.begin(), this->Wrong.end());
+    }
     return row;
   }
 
 private:
-  const std::string Name;
+  const Method How;
   const Options Asked;
   vtkNew<vtkRenderer> Renderer;
   vtkNew<vtkRenderWindow> Window;
   performance::PhasesOfFrame Phases;
   vtkSmartPointer<vtkSVORenderPass> Pass = performance::makePass(Phases, false);
   performance::Crowd Scene;
-  std::vector<double> Times;
+  std::vector<double> Times, Wrong;
+  double Difference = 0.0; // a sum
   performance::Phases Sums;
 };
 }
@@ -173,6 +206,14 @@ int main(int argc, char** argv)
     {
       options.backend = value;
     }
+    else if (name == "--apart")
+    {
+      std::istringstream numbers(value);
+      for (std::string number; std::getline(numbers, number, ',');)
+      {
+        options.apart.push_back(std::max(std::atoi(number.c_str()), 2));
+      }
+    }
     else if (name == "--json")
     {
       json = value;
@@ -187,22 +228,44 @@ int main(int argc, char** argv)
       return 2;
     }
   }
-  svobench::Results results({ "method", "meanMs", "medianMs", "slowestMs", "collectMs", "eyeMs",
-    "markMs", "lightsMs", "shadeMs", "presentMs", "shadowRays" });
-  Walker kept("kept", true, options), fresh("fresh", false, options);
+  svobench::Results results(
+    { "method", "meanMs", "medianMs", "slowestMs", "collectMs", "eyeMs", "markMs", "lightsMs",
+      "shadeMs", "presentMs", "shadowRays", "meanDifference", "wrongShare", "largestWrongShare" });
+  std::vector<Method> methods{ { "kept" }, { "fresh", false } };
+  for (const int apart : options.apart)
+  {
+    methods.push_back({ "apart" + std::to_string(apart), true, apart });
+  }
+  std::vector<std::unique_ptr<Walker>> walkers;
+  for (const Method& method : methods)
+  {
+    walkers.push_back(std::make_unique<Walker>(method, options));
+  }
   int different = 0;
   for (int frame = -2; frame < options.frames; ++frame)
   {
-    kept.draw(frame);
-    fresh.draw(frame);
-    different += kept.picture() != fresh.picture();
-    if (!options.pictures.empty() && frame % 10 == 9)
+    for (const auto& walker : walkers)
     {
-      kept.write(options.pictures + std::to_string(frame) + ".png");
+      walker->draw(frame);
+    }
+    const Picture exact = walkers[0]->picture();
+    different += exact != walkers[1]->picture();
+    for (std::size_t i = 0; i < walkers.size(); ++i)
+    {
+      if (i > 1 && frame >= 0)
+      {
+        walkers[i]->compare(exact);
+      }
+      if (!options.pictures.empty() && frame % 10 == 9)
+      {
+        walkers[i]->write(options.pictures + std::to_string(frame));
+      }
     }
   }
-  results.add(kept.row());
-  results.add(fresh.row());
+  for (const auto& walker : walkers)
+  {
+    results.add(walker->row());
+  }
   if (different > 0)
   {
     std::fprintf(stderr, "BenchmarkWalk: %d pictures differ\n", different);
