@@ -61,16 +61,16 @@ VolumeReach::VolumeReach(const std::vector<Outline>& outlines,
   {
     return;
   }
-  const SeenDepths seen(outlines, casters, light, view);
+  const SeenDepths& seen = this->Seen.emplace(outlines, casters, light, view);
   // Parallel rays that come from behind the ends have no eye to be reached.
   if (light.atInfinity() && !(view.parallel && glm::dot(light.direction, view.axis) < 0.0))
   {
     this->Last =
       view.parallel ? seen.last() : std::max(seen.last(), glm::dot(light.direction, view.eye));
   }
-  if (settings.occlusionCulling)
+  if (!settings.occlusionCulling)
   {
-    this->Seen = seen;
+    this->Seen.reset();
   }
 }
 

@@ -158,8 +158,8 @@ struct FrameStatistics
   /// Visible instances that the eye's layers were made without: outside of the view, hidden by
   /// others, or below the detailThreshold.
   std::uint64_t outsideInstances = 0, hiddenInstances = 0, smallInstances = 0;
-  /// Casters in the lights' maps, or volumes, once each, that were not looked at: their shadows fall
-  /// on nothing that is seen, or into others'.
+  /// Casters in the lights' maps, or volumes, once each, that were not looked at: their shadows
+  /// fall on nothing that is seen, or into others'.
   std::uint64_t sparedCasters = 0;
   double largestSmallInstance = 0.0; // pixels, the longest edge of a rectangle that was left out
   /// How wide texels look at most in the shadow maps that were fitted to the eye's view, pixels; 0:
