@@ -31,7 +31,9 @@ public:
     for (int i = 0; i < 60; ++i)
     {
       Outline outline{};
-      const glm::dvec3 half = 0.1 + 0.4 * glm::abs(this->vector());
+      // Some are smaller than a tile.
+      const glm::dvec3 half =
+        (seed % 2 && i % 5 < 3 ? 0.03 : 1.0) * (0.1 + 0.4 * glm::abs(this->vector()));
       outline.mesh = outline.cube = { -half, half };
       outline.mesh.high.z = i % 7 == 0 ? outline.mesh.low.z : outline.mesh.high.z; // flat
       outline.cube = outline.mesh;
