@@ -1,6 +1,5 @@
 // A view that looks at a part of its image: what it has kept while that part moves on is what is
 // found anew, to the bit; and it sees what a view of the part alone sees.
-#include "svoInstructionSets.h"
 #include "svoLayeredView.h"
 #include "svoTracerScenes.h"
 
@@ -207,23 +206,19 @@ TEST(TileGrid, OfAWholeImageIsRowByRow)
 
 TEST(CroppedView, KeepsWhatItHasInCommonWithTheLastFrame)
 {
-  onEveryInstructionSet(
-    []
+  for (const bool parallel : { true, false })
+  {
+    for (const int size : { 1000, 1 << 20 })
     {
-      for (const bool parallel : { true, false })
+      for (const svo::LeafGeometry geometry :
+        { svo::LeafGeometry::Triangle, svo::LeafGeometry::Voxel, svo::LeafGeometry::Plane })
       {
-        for (const int size : { 1000, 1 << 20 })
-        {
-          for (const svo::LeafGeometry geometry :
-            { svo::LeafGeometry::Triangle, svo::LeafGeometry::Voxel, svo::LeafGeometry::Plane })
-          {
-            SCOPED_TRACE(std::to_string(size) + (parallel ? " parallel " : " perspective ") +
-              std::to_string(static_cast<int>(geometry)));
-            walk(imageOf(parallel, size), geometry);
-          }
-        }
+        SCOPED_TRACE(std::to_string(size) + (parallel ? " parallel " : " perspective ") +
+          std::to_string(static_cast<int>(geometry)));
+        walk(imageOf(parallel, size), geometry);
       }
-    });
+    }
+  }
 }
 
 // Of the same rays but for rounding.

@@ -133,33 +133,45 @@ TEST(LayeredBalls, AreMetWhereDoubleRaysMeetThem)
   for (const svo::View& view : views())
   {
     SCOPED_TRACE("view " + std::to_string(number++));
+    svo::LayeredView withoutBalls(false);
+    trace(withoutBalls, others, view, false);
+    std::vector<Hit> allExpected;
+    std::vector<bool> isSure;
+    for (int y = 0; y < view.height; ++y)
+    {
+      for (int x = 0; x < view.width; ++x)
+      {
+        Hit expected = hitOf(withoutBalls, x, y);
+        double second = Infinity;
+        bool sure = true;
+        for (std::uint32_t i = Others; i < scene.instances.size(); ++i)
+        {
+          double beside;
+          const double depth = meetBall(scene.instances[i], view, x, y, beside);
+          sure = sure && beside > 1e-3;
+          second = std::min(second, std::max(depth, expected.depth));
+          expected = depth < expected.depth ? Hit{ i, depth } : expected;
+        }
+        allExpected.push_back(expected);
+        isSure.push_back(sure && (second == Infinity || second - expected.depth > 1e-4 * second));
+      }
+    }
     onEveryInstructionSet(
       [&]
       {
-        svo::LayeredView layers(false), withoutBalls(false);
+        svo::LayeredView layers(false);
         trace(layers, scene, view, false);
-        trace(withoutBalls, others, view, false);
         int balls = 0, others = 0, doubtful = 0, wrong = 0;
         double farthest = 0.0;
         for (int y = 0; y < view.height; ++y)
         {
           for (int x = 0; x < view.width; ++x)
           {
-            Hit expected = hitOf(withoutBalls, x, y);
-            double second = Infinity;
-            bool sure = true;
-            for (std::uint32_t i = Others; i < scene.instances.size(); ++i)
-            {
-              double beside;
-              const double depth = meetBall(scene.instances[i], view, x, y, beside);
-              sure = sure && beside > 1e-3;
-              second = std::min(second, std::max(depth, expected.depth));
-              expected = depth < expected.depth ? Hit{ i, depth } : expected;
-            }
-            sure = sure && (second == Infinity || second - expected.depth > 1e-4 * second);
+            const std::size_t pixel = static_cast<std::size_t>(y) * view.width + x;
+            const Hit expected = allExpected[pixel];
             const Hit hit = hitOf(layers, x, y);
-            doubtful += !sure;
-            if (!sure)
+            doubtful += !isSure[pixel];
+            if (!isSure[pixel])
             {
               continue;
             }

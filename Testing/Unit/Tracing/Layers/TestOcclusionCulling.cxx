@@ -225,7 +225,7 @@ bool same(const std::vector<T>& a, const std::vector<T>& b)
 TEST(OcclusionCulling, ChangesNoBitOfPicturesShadowsAndNames)
 {
   const Shapes shapes;
-  const unsigned scenes = scenesOr(120);
+  const unsigned scenes = scenesOr(40);
   std::uint64_t outside = 0, hidden = 0, casters = 0;
   std::size_t covered = 0;
   // And one in which a point is dark or lit by which others ask with it.

@@ -112,7 +112,7 @@ void expectSameMaps(const svo::Tracer& a, const svo::Tracer& b)
 TEST(KeptMaps, AreThoseThatWouldBeTracedAnew)
 {
   const char* asked = std::getenv("SVO_RANDOM_SCENES");
-  const unsigned scenes = asked ? static_cast<unsigned>(std::atoi(asked)) : 10;
+  const unsigned scenes = asked ? static_cast<unsigned>(std::atoi(asked)) : 6;
   std::uint64_t keptTexels = 0, texels = 0;
   for (unsigned seed = 0; seed < scenes; ++seed)
   {

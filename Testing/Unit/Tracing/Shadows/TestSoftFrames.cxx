@@ -232,7 +232,7 @@ TEST(SoftFrames, WhatIsKeptIsAsIfMadeAfresh)
     }
     std::mt19937 random(seed);
     svo::CPUTracer tracer;
-    for (int step = 0; step < 24; ++step)
+    for (int step = 0; step < 12; ++step)
     {
       const svo::Frame frame = rendered(tracer, stage.scene, stage.view, stage.settings);
       svo::CPUTracer fresh;
@@ -242,7 +242,7 @@ TEST(SoftFrames, WhatIsKeptIsAsIfMadeAfresh)
       changeAnything(random, stage);
     }
   }
-  EXPECT_GT(kept, 24); // of 96 frames; else it says nothing
+  EXPECT_GT(kept, 12); // of 48 frames; else it says nothing
 }
 
 // Where one caster moves only those tiles are shaded anew whose samples it may be met by.

@@ -298,7 +298,8 @@ TEST(TranslucentShadows, KeptFramesAreThoseOfANewTracer)
       svo::Scene& scene = objects.scene;
       scene.lights = { everyLight()[0].light, everyLight()[2].light };
       scene.lights[1].id = 78;
-      const svo::FrameSettings settings = settingsOf(technique, filter);
+      svo::FrameSettings settings = settingsOf(technique, filter);
+      settings.shadowResolution = 256;
       svo::CPUTracer tracer;
       svo::Frame kept;
       const auto render = [&](const std::string& what)

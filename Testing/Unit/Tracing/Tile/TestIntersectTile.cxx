@@ -7,9 +7,9 @@
 #include "svoNode.h"
 #include "svoProjection.h"
 #include "svoRayMeetsTriangle.h"
+#include "svoReadyRay.h"
 #include "svoTestScenes.h"
 #include "svoTracerScenes.h"
-#include "svoTriangle.h"
 
 #include <gtest/gtest.h>
 
@@ -29,30 +29,14 @@ using svotest::onEveryInstructionSet;
 void bruteForce(const Octree& octree, const RayBlock& rays, int i, float& t, Primitive& primitive)
 {
   const Surface& surface = *octree.surface();
-  glm::vec3 direction(rays.directionX[i], rays.directionY[i], rays.directionZ[i]);
-  const glm::vec3 origin(rays.originX[i], rays.originY[i], rays.originZ[i]);
+  const svotest::ReadyRay ray({ rays.originX[i], rays.originY[i], rays.originZ[i] },
+    { rays.directionX[i], rays.directionY[i], rays.directionZ[i] });
   primitive = NoPrimitive;
-  const glm::vec3 size = glm::abs(direction);
-  const float largest = std::max(std::max(size.x, size.y), size.z);
-  if (!(largest >= std::numeric_limits<float>::min()))
-  {
-    return;
-  }
-  // As clip() of svoTraverse.h.
-  const float negligible = std::max(
-    largest * (std::numeric_limits<float>::epsilon() / 256.0f), std::numeric_limits<float>::min());
-  for (int a = 0; a < 3; ++a)
-  {
-    direction[a] = size[a] < negligible ? 0.0f : direction[a];
-  }
-  const ShearedRay<float> sheared(origin, direction);
   for (std::uint32_t id = 0; id < surface.triangles.size(); ++id)
   {
-    const glm::uvec3 triangle = surface.triangles[id];
     float found;
-    if (intersectTriangle(sheared, surface.points[triangle.x], surface.points[triangle.y],
-          surface.points[triangle.z], found) &&
-      found >= rays.tMin[i] && found <= rays.tMax[i] && (primitive == NoPrimitive || found <= t))
+    if (ray.meets(surface, id, found) && found >= rays.tMin[i] && found <= rays.tMax[i] &&
+      (primitive == NoPrimitive || found <= t))
     {
       t = found;
       primitive = id;

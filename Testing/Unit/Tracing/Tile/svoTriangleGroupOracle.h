@@ -6,7 +6,7 @@
 #include "svoIntersectTile.h"
 #include "svoPixelFunctions.h"
 #include "svoProjection.h"
-#include "svoRayMeetsTriangle.h"
+#include "svoReadyRay.h"
 #include "svoTriangleGroup.h"
 
 #include <gtest/gtest.h>
@@ -59,11 +59,28 @@ struct Stage
     return group.add(
       octree, nodes, makeGroupView(local, functions, keys, HitLimits(), tileX, tileY), small, 7);
   }
+  ReadyRay ray(double x, double y) const
+  {
+    return { glm::vec3(local.originAt(x, y)), glm::vec3(local.directionAt(x, y)) };
+  }
+  bool meets(const ReadyRay& ray, std::uint32_t triangle, float& t) const
+  {
+    return ray.meets(*octree.surface(), triangle, t) && t >= 0.0f && t <= local.tMax;
+  }
   bool meets(double x, double y, std::uint32_t triangle, float& t) const
   {
-    return rayMeetsTriangle(*octree.surface(), glm::vec3(local.originAt(x, y)),
-             glm::vec3(local.directionAt(x, y)), triangle, t) &&
-      t >= 0.0f && t <= local.tMax;
+    return meets(ray(x, y), triangle, t);
+  }
+  /// Those of a group's pixels, row by row.
+  std::vector<ReadyRay> groupRays(int tileX, int tileY) const
+  {
+    std::vector<ReadyRay> rays;
+    for (int pixel = 0; pixel < GroupPixels::Count; ++pixel)
+    {
+      rays.push_back(ray(
+        8 * tileX + pixel % GroupView::Pixels + 0.5, 8 * tileY + pixel / GroupView::Pixels + 0.5));
+    }
+    return rays;
   }
 };
 
@@ -148,7 +165,7 @@ inline void compareTile(const Stage& stage, const TriangleGroup& group, int tile
 
 /// What is said of each triangle at each pixel against its float test.
 inline void checkBounds(
-  const Stage& stage, const TriangleGroup& group, int tileX, int tileY, Tally& tally)
+  const Stage& stage, const TriangleGroup& group, const std::vector<ReadyRay>& rays, Tally& tally)
 {
   const TriangleGroup::Slots& s = group.slots();
   for (std::size_t k = 0; k < s.count; ++k)
@@ -157,9 +174,8 @@ inline void checkBounds(
     {
       for (int column = 0; column < GroupView::Pixels; ++column)
       {
-        const double x = 8 * tileX + column + 0.5, y = 8 * tileY + row + 0.5;
         float t;
-        const bool hit = stage.meets(x, y, s.id[k], t);
+        const bool hit = stage.meets(rays[GroupView::Pixels * row + column], s.id[k], t);
         const bool inBox =
           column >= s.x0[k] && column <= s.x1[k] && row >= s.y0[k] && row <= s.y1[k];
         ASSERT_TRUE(inBox || !hit) << "outside of the box";
@@ -200,7 +216,7 @@ inline void checkBounds(
 
 /// The same of triangles of a few pixels, at the pixels where they are said to be met.
 inline void checkPoints(
-  const Stage& stage, const TriangleGroup& group, int tileX, int tileY, Tally& tally)
+  const Stage& stage, const TriangleGroup& group, const std::vector<ReadyRay>& rays, Tally& tally)
 {
   const TriangleGroup::Slots& slots = group.slots();
   const SeenPoints& points = group.small().points();
@@ -218,13 +234,11 @@ inline void checkPoints(
     {
       continue;
     }
+    const auto known = seen.find(triangle);
     for (int pixel = 0; pixel < GroupPixels::Count; ++pixel)
     {
-      const double x = 8 * tileX + pixel % GroupView::Pixels + 0.5;
-      const double y = 8 * tileY + pixel / GroupView::Pixels + 0.5;
       float t;
-      const bool hit = stage.meets(x, y, triangle, t);
-      const auto known = seen.find(triangle);
+      const bool hit = stage.meets(rays[pixel], triangle, t);
       const bool maybe = known != seen.end() && known->second.count(pixel);
       if (!maybe)
       {
@@ -274,8 +288,9 @@ inline void compareGroups(const Stage& stage, int groups, unsigned seed, bool bo
     ASSERT_TRUE(small == SmallTriangles::AsPoints || group.small().empty());
     if (bounds)
     {
-      checkBounds(stage, group, tileX, tileY, tally);
-      checkPoints(stage, group, tileX, tileY, tally);
+      const std::vector<ReadyRay> rays = stage.groupRays(tileX, tileY);
+      checkBounds(stage, group, rays, tally);
+      checkPoints(stage, group, rays, tally);
     }
     for (int tile = 0; tile < 16 && !testing::Test::HasFailure(); ++tile)
     {
