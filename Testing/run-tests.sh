@@ -2,7 +2,7 @@
 # Installs what is missing, builds build/vtk and build/paraview and runs the tests of both. Safe to
 # run again.
 # Usage: run-tests.sh [--long] [--no-install]
-#   --long        also the tests labelled "long" (real meshes, big ray counts), clang-tidy, the
+#   --long        also the tests labelled "long" (real meshes, many rays and random scenes), clang-tidy, the
 #                 sanitizers, and all of this on each fresh Debian that is supported: hours, see
 #                 run-on.sh.
 #                 VTKSVO_SCRIPTS in the environment: a folder of scripts that VTK's pictures are

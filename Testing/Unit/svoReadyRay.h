@@ -40,7 +40,8 @@ private:
     constexpr float Smallest = std::numeric_limits<float>::min();
     const glm::vec3 size = glm::abs(direction);
     const float largest = std::max(std::max(size.x, size.y), size.z);
-    any = largest >= Smallest && std::isfinite(size.x + size.y + size.z);
+    any = largest >= Smallest && std::isfinite(size.x) && std::isfinite(size.y) &&
+      std::isfinite(size.z);
     if (!any)
     {
       return { 0.0f, 0.0f, 1.0f };
@@ -55,7 +56,7 @@ private:
     return along;
   }
 
-  bool Any = false;
+  bool Any = false; // before the ray, which is made with it
   svo::ShearedRay<float> Ray;
 };
 }

@@ -1,5 +1,6 @@
 // A view that looks at a part of its image: what it has kept while that part moves on is what is
 // found anew, to the bit; and it sees what a view of the part alone sees.
+#include "svoInstructionSets.h"
 #include "svoLayeredView.h"
 #include "svoTracerScenes.h"
 
@@ -218,6 +219,16 @@ TEST(CroppedView, KeepsWhatItHasInCommonWithTheLastFrame)
         walk(imageOf(parallel, size), geometry);
       }
     }
+  }
+}
+
+TEST(CroppedView, OfEveryInstructionSetKeepsIt)
+{
+  for (const svo::LeafGeometry geometry :
+    { svo::LeafGeometry::Triangle, svo::LeafGeometry::Voxel, svo::LeafGeometry::Plane })
+  {
+    SCOPED_TRACE(static_cast<int>(geometry));
+    onEveryInstructionSet([geometry] { walk(imageOf(false, 1 << 20), geometry); });
   }
 }
 

@@ -3,6 +3,7 @@
 // in random crowds with awkward places, matrices and views.
 #include "svoInstanceTree.h"
 #include "svoLayeredView.h"
+#include "svoRandomScenes.h"
 #include "svoTracer.h"
 #include "svoTracerScenes.h"
 
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <random>
@@ -130,12 +130,6 @@ svo::View viewOf(Random& random, double size)
       width, height, view);
   }
   return view;
-}
-
-unsigned scenesOr(unsigned few)
-{
-  const char* asked = std::getenv("SVO_RANDOM_SCENES");
-  return asked ? static_cast<unsigned>(std::atoi(asked)) : few;
 }
 
 void trace(const svo::Scene& scene, const svo::View& view, const svo::LooseOctree* tree,

@@ -1,13 +1,13 @@
 // Random scenes on wide grounds, of which the eye sees a part, while it and they move: pictures of
 // a tracer that keeps what is still true of its lights' maps, and of one that has seen nothing, are
-// the same to the bit. SVO_RANDOM_SCENES=1000 for more of them.
+// the same to the bit.
+#include "svoRandomScenes.h"
 #include "svoTracerScenes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <random>
 
 using namespace svotest;
@@ -111,8 +111,7 @@ void expectSameMaps(const svo::Tracer& a, const svo::Tracer& b)
 
 TEST(KeptMaps, AreThoseThatWouldBeTracedAnew)
 {
-  const char* asked = std::getenv("SVO_RANDOM_SCENES");
-  const unsigned scenes = asked ? static_cast<unsigned>(std::atoi(asked)) : 6;
+  const unsigned scenes = scenesOr(6);
   std::uint64_t keptTexels = 0, texels = 0;
   for (unsigned seed = 0; seed < scenes; ++seed)
   {

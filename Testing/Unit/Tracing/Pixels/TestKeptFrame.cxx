@@ -1,4 +1,5 @@
 // A frame that is made of what the last one was made of is not made again; any other is.
+#include "svoRandomScenes.h"
 #include "svoSilhouettes.h"
 #include "svoTracerScenes.h"
 
@@ -311,7 +312,7 @@ void changeAnything(std::mt19937& random, const svo::Octree& ball, Stage& stage)
   std::vector<svo::Instance>& all = stage.scene.instances;
   const auto anyIndex = [&] { return Posts + number(static_cast<int>(all.size()) - Posts); };
   const auto any = [&]() -> svo::Instance& { return all[anyIndex()]; };
-  switch (number(14))
+  switch (number(15))
   {
     case 0:
     case 1:
@@ -409,7 +410,7 @@ TEST(KeptFrame, AnySequenceOfChanges)
     std::mt19937 random(static_cast<unsigned>(s));
     svo::CPUTracer tracer;
     const svo::Frame& frame = tracer.frame();
-    for (int step = 0; step < 60; ++step)
+    for (unsigned step = 0; step < scenesOr(60); ++step)
     {
       render(tracer, stage);
       ASSERT_TRUE(identical(rendered(stage.scene, stage.view, stage.settings), frame))

@@ -237,7 +237,7 @@ inline void checkPoints(
     const auto known = seen.find(triangle);
     for (int pixel = 0; pixel < GroupPixels::Count; ++pixel)
     {
-      float t;
+      float t = 0.0f;
       const bool hit = stage.meets(rays[pixel], triangle, t);
       const bool maybe = known != seen.end() && known->second.count(pixel);
       if (!maybe)
