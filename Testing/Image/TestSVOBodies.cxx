@@ -10,6 +10,7 @@
 #include "vtkOpenGLSphereMapper.h"
 #include "vtkPointData.h"
 #include "vtkPointGaussianMapper.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkSphereSource.h"
@@ -338,6 +339,62 @@ void expectReceived(Checks& checks)
 }
 }
 
+namespace
+{
+/// One wide line, which no other shadow can fall on. It is near the eye at one end.
+void expectNoOwnShadow(Checks& checks)
+{
+  for (const double half : { 1.5, 3.0 })
+  {
+    Stage stage(Width, Height);
+    vtkNew<vtkPoints> points;
+    points->InsertNextPoint(-half, 0.0, 0.5);
+    points->InsertNextPoint(half, 0.0, 0.5);
+    vtkNew<vtkCellArray> lines;
+    lines->InsertNextCell({ 0, 1 });
+    vtkNew<vtkPolyData> line;
+    line->SetPoints(points);
+    line->SetLines(lines);
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(line);
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    actor->GetProperty()->SetLineWidth(20.0f);
+    actor->GetProperty()->RenderLinesAsTubesOn();
+    stage.renderer->AddActor(actor);
+    stage.addGround();
+    stage.addSun(4.0, -1.0, 3.0);
+    vtkCamera* camera = stage.renderer->GetActiveCamera();
+    camera->SetPosition(-2.0, -5.0, 4.0);
+    camera->SetFocalPoint(0.0, 0.0, 0.0);
+    camera->SetViewUp(0.0, 0.0, 1.0);
+    stage.renderer->ResetCameraClippingRange();
+    Stage ground(Width, Height);
+    ground.addGround();
+    ground.renderer->SetActiveCamera(camera);
+    ground.addSun(4.0, -1.0, 3.0);
+    const Picture without = ground.unshadowed(), lit = stage.unshadowed();
+    for (const bool rays : { false, true })
+    {
+      const Picture dark = rays ? stage.shadowedByRays() : stage.shadowedByBuffers();
+      std::size_t body = 0, own = 0, cast = 0;
+      for (std::size_t i = 0; i < lit.size(); ++i)
+      {
+        const bool drawn = lit.depth[i] != without.depth[i];
+        const bool darker = lit.grey(i) > dark.grey(i) + 8.0;
+        body += drawn ? 1 : 0;
+        own += drawn && darker ? 1 : 0;
+        cast += !drawn && darker ? 1 : 0;
+      }
+      std::cout << "a line of " << 2.0 * half << (rays ? ", rays: " : ", buffers: ") << own
+                << " of " << body << " pixels are in its own shadow\n";
+      checks.expect(body > 3000 && cast > 500, "a line is seen, and its shadow");
+      checks.expect(own == 0, "a line does not lie in its own shadow");
+    }
+  }
+}
+}
+
 int TestSVOBodies(int, char*[])
 {
   Checks checks;
@@ -346,5 +403,6 @@ int TestSVOBodies(int, char*[])
     expectAsMeshes(one, checks);
   }
   expectReceived(checks);
+  expectNoOwnShadow(checks);
   return checks.exitCode();
 }

@@ -35,7 +35,8 @@ Mask shadowed(Stage& stage)
   return mask;
 }
 
-void compare(const std::string& name, bool bulb, int resolution, Checks& checks)
+/// `beam`: aside lies a cube that is stretched into a beam of few, long voxels.
+void compare(const std::string& name, bool bulb, int resolution, Checks& checks, bool beam = false)
 {
   Stage stage(500, 500);
   vtkActor* receivers[] = { stage.addGround(2.5),
@@ -43,6 +44,13 @@ void compare(const std::string& name, bool bulb, int resolution, Checks& checks)
     stage.add(ring(0.7, 0.9, 0.1, 0.8), 0.7, 0.8, 0.9) };
   // Always rasterised, so that the shadow buffers are the same both times: whole, with all casters.
   vtkSVORenderPass::SetUseSVO(false, stage.add(coarseBall(0.3, 0.5, -0.9, 1.6), 0.5, 0.9, 0.4));
+  if (beam)
+  {
+    vtkActor* actor = stage.add(box(1.0, 0.0, 0.0, 0.0), 0.9, 0.3, 0.3);
+    actor->SetPosition(0.0, 2.2, 0.4);
+    actor->SetScale(20.0, 0.05, 0.05);
+    vtkSVORenderPass::SetUseSVO(false, actor);
+  }
   if (bulb)
   {
     stage.addBulb(1.5, -1.0, 3.5);
@@ -85,5 +93,6 @@ int TestSVOReceiversAgree(int, char*[])
   compare("sun, few texels", false, 256, checks);
   compare("bulb", true, 2048, checks);
   compare("bulb, few texels", true, 256, checks);
+  compare("sun, beside a beam", false, 2048, checks, true);
   return checks.exitCode();
 }

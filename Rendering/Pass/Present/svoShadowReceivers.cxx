@@ -116,8 +116,9 @@ constexpr char FacetOfNormal[] = "  if (any(isnan(svoFacet)))\n"
 
 /// The same on lines as tubes and points as spheres: VTK leaves vertexVC on the axis, or at the
 /// centre. Its normals of tubes are not quite perpendicular to them in windows that are not square.
-/// The place is a twentieth of the radius above the surface: at joints of tubes, which VTK draws
-/// flat, what is seen lies inside of the next one.
+/// The place is three twentieths of the radius above the surface: what casts the tube's shadow is
+/// wider by up to 0.118 of it (Pieces of svoPlacedShapes.cxx), and at joints, which VTK draws flat,
+/// what is seen lies inside of the next tube.
 constexpr char FragmentOfTube[] =
   "  vec3 svoAcross = dFdx(vertexVC.xyz);\n"
   "  vec3 svoUp = dFdy(vertexVC.xyz);\n"
@@ -127,7 +128,7 @@ constexpr char FragmentOfTube[] =
   "    ? normalize(normalVCVSOutput - dot(normalVCVSOutput, svoAxis) / svoAxisSquare * svoAxis)\n"
   "    : normalVCVSOutput;\n"
   "  vec3 svoPosition =\n"
-  "    vertexVC.xyz + 1.05 * ZCalcR * (cameraParallel == 0 ? -vertexVC.z : 1.0) * svoFacet;\n";
+  "    vertexVC.xyz + 1.15 * ZCalcR * (cameraParallel == 0 ? -vertexVC.z : 1.0) * svoFacet;\n";
 
 /// Adds the code of shadow catchers. `lit`: the shader knows of shadows.
 void catchShadows(std::string& declarations, std::string& body, bool lit)

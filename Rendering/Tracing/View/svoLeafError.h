@@ -52,14 +52,24 @@ inline double worldLeafError(
     (placed ? 1.2e-7 : 1e-6) * worldVoxel(instance, 0));
 }
 
+/// True if all that rays meet that stop at `level` are triangles.
+inline bool meetsTrianglesAlone(const Instance& instance, LeafGeometry geometry, int level)
+{
+  const LeafTraits traits = traitsOf(geometry);
+  return traits.exact() && instance.body->octree.surface() && !stopsAtNodes(instance, level) &&
+    instance.body->octree.longestList() <= traits.longestExact;
+}
+
 /// The error that the test against a shadow map allows for (LeafTraits::mapError), in the world. A
-/// ray among planes needs all of their error.
+/// ray among planes needs all of their error. Where there are none, a stretched octree of few
+/// levels has long voxels and exact hits all the same.
 inline double worldMapError(
   const Instance& instance, LeafGeometry geometry, int level, bool placed = false)
 {
   const double error = traitsOf(geometry).mapError;
   const bool planes = instance.body->octree.surface() || instance.body->octree.hasPlanes();
-  return error > 0.0 && !stopsAtNodes(instance, level) && planes
+  return error > 0.0 && !stopsAtNodes(instance, level) && planes &&
+      !meetsTrianglesAlone(instance, geometry, level)
     ? error * worldVoxel(instance, level)
     : worldLeafError(instance, geometry, level, placed);
 }
@@ -78,8 +88,7 @@ inline bool endsFreely(const Instance& instance, int level)
   {
     return true;
   }
-  return !stopsAtNodes(instance, level) && traits.exact() &&
-    instance.body->octree.longestList() <= traits.longestExact;
+  return meetsTrianglesAlone(instance, instance.body->leafGeometry, level);
 }
 }
 
