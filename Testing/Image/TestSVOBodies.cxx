@@ -337,10 +337,7 @@ void expectReceived(Checks& checks)
     checks.expect(body > 5000 && left * 1000 < body, one.name + ": shadows fall on them");
   }
 }
-}
 
-namespace
-{
 /// One wide line, which no other shadow can fall on. It is near the eye at one end.
 void expectNoOwnShadow(Checks& checks)
 {

@@ -77,7 +77,7 @@ DepthRefinement TracedInstances::refinementOf(
   const int level = visible.key.level;
   const bool nodes = stopsAtNodes(instance, level);
   error = edgeOnReach(visible.local);
-  if (visible.tiles || (!nodes && octree.longestList() <= traits.longestExact))
+  if (visible.tiles || meetsTrianglesAlone(instance, visible.key.leafGeometry, level))
   {
     return DepthRefinement::OnTriangle;
   }
