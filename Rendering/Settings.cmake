@@ -205,7 +205,8 @@ vtksvo_setting(AntiAliasing bool false
      their pixels."
   MORE
     "It filters shadows as `FilterShadows` does, whether that is on or off. Silhouettes and edges between facets follow the
-     render window's own multisampling (`SetMultiSamples`), as those of everything that VTK draws.")
+     render window's own multisampling (`SetMultiSamples`), as those of everything that VTK draws. Of
+     pictures that the CPU makes; with OpenGL there is a message.")
 
 vtksvo_setting(ShadowBufferResolution int 2048
   TABLE shadows RANGE 16 16384 UNIT texels

@@ -3,10 +3,12 @@
 
 #include "svoAbort.h"
 #include "svoCellSamples.h"
+#include "svoInstanceTree.h"
 #include "svoInverse.h"
 #include "svoMeshOctree.h"
 #include "svoMeshTriangles.h"
 #include "svoPointSamples.h"
+#include "svoSceneChanges.h"
 #include "svoShadowShares.h"
 #include "vtkSVOShadowFilterInternals.h"
 
@@ -38,7 +40,6 @@
 namespace
 {
 using Pipeline = vtkStreamingDemandDrivenPipeline;
-using Own = svo::ShadowCasters::Own;
 
 constexpr double BuildShare = 0.3; // of the progress
 
@@ -47,7 +48,7 @@ struct CasterMesh
 {
   vtkPolyData* mesh;
   glm::dmat4 toWorld;
-  Own own;
+  bool own; // of the samples
 };
 
 /// nullptr: the identity.
@@ -154,7 +155,7 @@ int vtkSVOShadowFilter::RequestData(
   std::vector<CasterMesh> meshes;
   if (this->MeshCasts && input->GetNumberOfCells() > 0)
   {
-    meshes.push_back({ input, toWorld, byPoint ? Own::Points : Own::Triangles });
+    meshes.push_back({ input, toWorld, true });
   }
   int withoutInverse = 0;
   for (int i = 0; i < inputVector[1]->GetNumberOfInformationObjects(); ++i)
@@ -165,7 +166,7 @@ int vtkSVOShadowFilter::RequestData(
       for (vtkPolyData* mesh :
         vtkCompositeDataSet::GetDataSets<vtkPolyData>(vtkDataObject::GetData(inputVector[1], i)))
       {
-        meshes.push_back({ mesh, place, Own::Nothing });
+        meshes.push_back({ mesh, place, false });
       }
     }
     else
@@ -181,7 +182,9 @@ int vtkSVOShadowFilter::RequestData(
 
   // Octrees.
   double start = vtkTimerLog::GetUniversalTime();
-  svo::ShadowCasters casters;
+  svo::Scene scene;
+  svo::OwnMesh own;
+  own.points = byPoint;
   for (std::size_t i = 0; i < meshes.size(); ++i)
   {
     const double count = static_cast<double>(meshes.size());
@@ -199,12 +202,22 @@ int vtkSVOShadowFilter::RequestData(
       vtkErrorMacro("There are no shadows, as a caster has no octree: " << problem);
       return 1;
     }
-    if (!problem.empty() && meshes[i].own == Own::Nothing)
+    if (!problem.empty() && !meshes[i].own)
     {
       vtkWarningMacro("Of a caster: " << problem); // of the mesh itself it is said below
     }
-    casters.add(octree, meshes[i].toWorld, meshes[i].own);
+    const std::uint32_t index = svo::addCaster(octree, meshes[i].toWorld, scene);
+    if (meshes[i].own && index != svo::OwnMesh::None)
+    {
+      own.instance = index;
+      own.error = svo::floatErrorOf(scene.instances[index]);
+    }
   }
+  svo::ViewedInstances seen; // by nobody
+  seen.assign(scene, false);
+  svo::InstanceTree tree;
+  tree.follow(scene, svo::SceneFollower().follow(scene), svo::smpParallelFor());
+  const svo::RayCasters casters(scene, seen, tree.tree());
   this->BuildTime = vtkTimerLog::GetUniversalTime() - start;
 
   // Arrays: what has no answer stays NaN.
@@ -254,7 +267,7 @@ int vtkSVOShadowFilter::RequestData(
   const auto compute = [&](const svo::Samples& samples)
   {
     answered = static_cast<vtkIdType>(samples.placeCount());
-    return svo::computeShadowShares(samples, casters, lights, options, arrays);
+    return svo::computeShadowShares(samples, casters, own, lights, options, arrays);
   };
   const vtkIdType asked = byPoint ? count : input->GetNumberOfPolys() + input->GetNumberOfStrips();
   const bool finished = byPoint

@@ -135,7 +135,16 @@ bool vtkSVORenderPass::CollectFrame(
     frame.tellOnce(
       std::string("OpenGL draws shadow volumes, and the CPU makes this picture: exact rays "
                   "find the same shadows.") +
-        (this->Backend == BACKEND_CPU ? " SetBackendToAuto() has OpenGL draw." : ""),
+        (this->Backend == BACKEND_CPU      ? " SetBackendToAuto() has OpenGL draw."
+            : !impl.severalProcesses() ? " SetBackendToOpenGL() has OpenGL draw what it can."
+                                       : ""),
+      impl.said);
+  }
+  if (this->AntiAliasing && statistics.openGL)
+  {
+    frame.tellOnce("AntiAliasing is of pictures that the CPU makes, and OpenGL makes this one: "
+                   "MultiSamples of the window smooth its edges, FilterShadows those of shadow "
+                   "maps. SetBackendToCPU() has the CPU make it.",
       impl.said);
   }
   const svo::CollectedScene& collected = frame.state->collected();

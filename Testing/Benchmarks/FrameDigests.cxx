@@ -188,16 +188,16 @@ std::vector<Lamp> lamps(const double* at)
     { "three", { sun, weak, head } } };
 }
 
-struct Way
+struct Variant
 {
   std::string name;
   svo::FrameSettings settings;
 };
 
-std::vector<Way> ways()
+std::vector<Variant> ways()
 {
   using Technique = svo::ShadowTechnique;
-  std::vector<Way> all;
+  std::vector<Variant> all;
   const auto add = [&](const char* name, Technique technique) -> svo::FrameSettings&
   {
     all.push_back({ name, svo::FrameSettings() });
@@ -319,7 +319,7 @@ void Program::run(const paper::Experiment& experiment)
         for (const double pixelError : { 1.0, 0.0, 4.0 })
         {
           svo::CPUTracer tracer; // keeps layers from way to way
-          for (const Way& way : ways())
+          for (const Variant& way : ways())
           {
             if (++turn % this->every != 0)
             {

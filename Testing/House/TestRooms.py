@@ -1,7 +1,7 @@
 """Files include those of their own room and of lower ones only, modules those of lower modules; of the
 tracer all others see its face only; what lies behind a view's hits sees nothing of how they are found;
 and every room opens with a README.md that names each of its files
-and no other.
+and no other, of which there are 30 at most.
 
 The order of the modules stands in the CMakeLists.txt of the project, that of the rooms in
 vtksvo_rooms() of each module, lowest first.
@@ -76,27 +76,44 @@ def check_face(root, places):
     return problems
 
 
-# Those who have views that are traced. All others behind Rendering/Tracing/Hits read hits.
-VIEW_OWNERS = ("svoShadowBuffer.h", "svoCPUTracer.cxx")
+# Those who have views that are traced. All others behind Rendering/Tracing/Layers read hits.
+VIEW_OWNERS = ("svoShadowBuffer.cxx", "svoCPUTracer.cxx")
 
 
 def check_hits(root, places):
+    """Whoever reads hits knows nothing of how they are found, not even by way of other headers."""
+    rooms = rooms_of(root, "Rendering/Tracing")
+    behind = tuple(f"Rendering/Tracing/{room}/" for room in rooms[rooms.index("Layers") + 1 : -1])
     problems = []
     for _, _, path in places.values():
-        behind = re.match("Rendering/Tracing/(Points|Lights|Maps|Rays|Shadows|Pixels)/", path)
-        if behind and os.path.basename(path) not in VIEW_OWNERS:
-            for name in re.findall(r'^#include "([^"]+)"', text_of(root, path), re.M):
+        if not path.startswith(behind) or os.path.basename(path) in VIEW_OWNERS:
+            continue
+        seen, left = set(), [path]
+        while left:
+            including = left.pop()
+            for name in re.findall(r'^#include "([^"]+)"', text_of(root, including), re.M):
                 lies = places[name][2] if name in places else ""
                 if lies.startswith("Rendering/Tracing/Layers/"):
-                    problems.append(f"{path} includes {lies}: it is to read svoHits.h")
+                    problems.append(f"{path} gets {lies} from {including}: it is to read svoHits.h")
+                elif lies and lies not in seen:
+                    seen.add(lies)
+                    left.append(lies)
     return problems
+
+
+MOST_FILES = 30  # that somebody can look over
 
 
 def check_readmes(root):
     problems = []
     for module in modules_of(root):
-        for room in rooms_of(root, module)[:-1]:
+        for room in rooms_of(root, module):
             folder = os.path.join(module, room)
+            files = [name for name in os.listdir(os.path.join(root, folder)) if "." in name]
+            if len(files) > MOST_FILES:
+                problems.append(f"{folder} has {len(files)} files: more than {MOST_FILES}")
+            if not room:
+                continue
             if not os.path.exists(os.path.join(root, folder, "README.md")):
                 problems.append(f"{folder} has no README.md")
                 continue

@@ -76,11 +76,11 @@ Shares sharesOf(vtkOpenGLRenderWindow* window, svo::Scene scene, const svo::View
       shares.cpu.push_back(frame.light[3 * i + static_cast<std::size_t>(c)]);
     }
   }
-  for (const svo::ShadowMask::Way way :
-    { svo::ShadowMask::Way::Compute, svo::ShadowMask::Way::Fragments })
+  for (const svo::ShadowMask::Method way :
+    { svo::ShadowMask::Method::Compute, svo::ShadowMask::Method::Fragments })
   {
     svo::ShadowMask mask;
-    mask.setWay(way);
+    mask.setMethod(way);
     svo::ShadowReceivers looking;
     looking.update(window, mask.lookUp(code, view.width, view.height, false, 1 << 28), 1.0, false);
     checks.expect(looking.gathers(), "a mask: " + mask.refusal());
@@ -109,7 +109,7 @@ Shares sharesOf(vtkOpenGLRenderWindow* window, svo::Scene scene, const svo::View
         [&](vtkShaderProgram* program) { looking.setUniforms(program, true, false); });
     looking.deactivate();
     std::vector<double>& all =
-      way == svo::ShadowMask::Way::Compute ? shares.computed : shares.fragments;
+      way == svo::ShadowMask::Method::Compute ? shares.computed : shares.fragments;
     for (const FourFloats& pixel : found)
     {
       all.insert(all.end(), pixel.begin(), pixel.begin() + (sky ? 3 : 1));

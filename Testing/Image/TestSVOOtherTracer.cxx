@@ -8,6 +8,7 @@
 #include "svoLightCode.h"
 #include "svoOpenGL.h"
 #include "svoOpenGLTracer.h"
+#include "svoStateGuard.h"
 #include "svoTextures.h"
 #include "svoTracer.h"
 
@@ -21,6 +22,8 @@
 #include <algorithm>
 #include <iostream>
 #include <vector>
+
+#include <glm/vec4.hpp>
 
 using namespace svotest;
 
@@ -91,6 +94,58 @@ int Wall::Frames = 0;
 int Wall::Asked = 0;
 int Wall::Level = 0;
 
+/// Sees the same wall, and has it on textures: there is no array anywhere.
+class DrawnWall : public Other
+{
+public:
+  std::vector<svo::NeededLevels> neededLevels(
+    const svo::Scene& scene, const svo::View&, const svo::FrameSettings&) const override
+  {
+    return std::vector<svo::NeededLevels>(scene.instances.size(), { 3, 0 });
+  }
+  void render(const svo::Scene&, const svo::View& view, const svo::FrameSettings&,
+    const svo::ParallelFor&) override
+  {
+    this->releaseGraphicsResources();
+    this->Picture.width = view.width;
+    this->Picture.height = view.height;
+    this->Picture.covered = { 0, 0, view.width, view.height };
+    this->Picture.images.color = draw(view, GL_RGBA8, { 0, 0, 0, 0 }, { 0, 1, 0, 1 });
+    this->Picture.images.depth = draw(view, GL_R32F, { 1, 0, 0, 0 }, { 0.25f, 0, 0, 0 });
+  }
+  const svo::FrameStatistics& statistics() const override { return this->Statistics; }
+  void releaseLayers() override {}
+  void releaseGraphicsResources() override
+  {
+    const GLuint textures[] = { this->Picture.images.color, this->Picture.images.depth };
+    glDeleteTextures(2, textures);
+    this->Picture = svo::Frame();
+  }
+
+private:
+  /// A texture that has `left` in its left half, and `right` elsewhere.
+  static GLuint draw(
+    const svo::View& view, GLenum format, const glm::vec4& right, const glm::vec4& left)
+  {
+    const svo::StateGuard guard;
+    const GLuint texture = svo::makeTexture(format, view.width, view.height);
+    GLuint framebuffer = 0;
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDisable(GL_SCISSOR_TEST);
+    glClearBufferfv(GL_COLOR, 0, &right.x);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, view.width / 2, view.height);
+    glClearBufferfv(GL_COLOR, 0, &left.x);
+    glDeleteFramebuffers(1, &framebuffer);
+    return texture;
+  }
+
+  svo::FrameStatistics Statistics;
+};
+
 /// One of ours, which hands out other things.
 class Altered : public Other
 {
@@ -111,7 +166,7 @@ protected:
   std::unique_ptr<svo::Tracer> Ours;
 };
 
-/// All that it hands out lies in the window's context, and nothing in arrays.
+/// What it hands out, shadow maps as well, lies in the window's context, and nothing in arrays.
 class OnGPU : public Altered
 {
 public:
@@ -338,6 +393,10 @@ int TestSVOOtherTracer(int, char*[])
   checks.expect(Wall::Frames == 1, "it was asked for one frame");
   checks.expect(Wall::Asked > 0, "it was asked how deep octrees have to be");
   checks.expect(Wall::Level == 3, "the octree is as deep as it said");
+  vtkNew<PassOf<DrawnWall>> drawn;
+  stage.renderer->SetPass(drawn);
+  checks.expect(
+    capture(stage.window).rgb == picture.rgb, "a tracer without arrays shows the same wall");
 
   compareOnGPU(checks);
   compareRefused(false, checks);

@@ -301,12 +301,12 @@ void compare(vtkOpenGLRenderWindow* window, const std::string& name, const glm::
       prepare);
   checks.expect(found.size() == points.size(), name + ": the shader runs");
   std::vector<FourFloats> masks[2];
-  const svo::ShadowMask::Way ways[] = { svo::ShadowMask::Way::Fragments,
-    svo::ShadowMask::Way::Compute };
+  const svo::ShadowMask::Method ways[] = { svo::ShadowMask::Method::Fragments,
+    svo::ShadowMask::Method::Compute };
   for (int i = 0; i < 2; ++i)
   {
     svo::ShadowMask mask;
-    mask.setWay(ways[i]);
+    mask.setMethod(ways[i]);
     svo::ShadowReceivers looking;
     looking.update(window, mask.lookUp(code, Across, Across, false, 1 << 24), 1.0, false);
     checks.expect(looking.gathers() && mask.computes() == (i == 1), name + ": a mask");

@@ -171,6 +171,43 @@ void compareThrough(Checks& checks)
   checks.expect(stage.pass->GetNumberOfShadowVolumes() > 0, "which has a volume");
 }
 
+/// Nothing is in the way of a light on bare ground, not even where a side of its volume ends, far
+/// away, at the centre of a pixel.
+void compareFarEnds(Checks& checks)
+{
+  Stage stage(600, 450);
+  vtkNew<vtkPlaneSource> ground;
+  ground->SetOrigin(-10.0, -10.0, 0.0);
+  ground->SetPoint1(10.0, -10.0, 0.0);
+  ground->SetPoint2(-10.0, 10.0, 0.0);
+  stage.add(ground, 0.8, 0.8, 0.8);
+  vtkLight* bulb = stage.addBulb(0.0, 0.0, 7.0);
+  stage.pass->SetBackendToOpenGL();
+  vtkCamera* camera = stage.renderer->GetActiveCamera();
+  camera->SetPosition(2.0, -14.0, 14.0);
+  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  camera->SetViewUp(0.0, 0.0, 1.0);
+  camera->SetViewAngle(30.0);
+  stage.renderer->ResetCameraClippingRange();
+  std::size_t wrong = 0;
+  // Of lights at random places these are some of which pixels were dark.
+  for (const glm::dvec3& at :
+    { glm::dvec3(5.604358068164121, 0.5667869901086675, 7.918053079894653),
+      glm::dvec3(-4.829596779006581, 3.134996600098276, 5.740813919498981),
+      glm::dvec3(-0.8913430737732506, 3.7750048859346315, 7.206191870599039),
+      glm::dvec3(-1.3827225657990745, 4.316494159087428, 7.83259890742226),
+      glm::dvec3(0.562669873744257, 3.5747882553912635, 7.4612056396951445) })
+  {
+    bulb->SetPosition(at.x, at.y, at.z);
+    const Picture lit = stage.unshadowed();
+    stage.pass->SetShadowTechniqueToShadowVolumes();
+    wrong += differing(lit, capture(stage.window));
+    checks.expect(stage.pass->GetNumberOfShadowVolumes() == 1, "the ground has a volume");
+  }
+  std::cout << "bare ground: " << wrong << " dark pixels\n";
+  checks.expect(wrong == 0, "bare ground is lit");
+}
+
 void tellsWhatIsMissing(Checks& checks)
 {
   Stage stage;
@@ -208,6 +245,16 @@ void tellsWhatIsMissing(Checks& checks)
   vtkSVORenderPass::SetLightSize(3.0, sun);
   stage.pass->SetBackendToOpenGL();
   expectOne("sampled by rays");
+  stage.pass->SetBackendToAuto();
+  expectOne("SetBackendToOpenGL()");
+  vtkSVORenderPass::SetLightSize(0.0, sun);
+  stage.pass->AntiAliasingOn();
+  svo::TestMessages messages{ stage.pass };
+  capture(stage.window);
+  capture(stage.window);
+  checks.expect(messages.errors.empty() && messages.warnings.size() == 1 &&
+      messages.warnings[0].find("AntiAliasing is of pictures") != std::string::npos,
+    "OpenGL smooths nothing, and says so: " + messages.all());
 }
 }
 
@@ -306,6 +353,7 @@ int TestSVOShadowVolumes(int, char*[])
   compareAgain(checks);
   compareCulled(checks);
   compareThrough(checks);
+  compareFarEnds(checks);
   tellsWhatIsMissing(checks);
   return checks.exitCode();
 }

@@ -53,14 +53,14 @@ std::size_t changed(const Picture& a, const Picture& b)
   return count;
 }
 
-struct Way
+struct Variant
 {
   const char* name;
   std::function<void(Stage&, vtkActor*)> prepare;
   bool traced;
 };
 
-const Way Ways[] = {
+const Variant Ways[] = {
   { "traced", [](Stage&, vtkActor*) {}, true },
   { "traced, few texels",
     [](Stage& stage, vtkActor*) { stage.pass->SetShadowBufferResolution(256); }, true },
@@ -92,7 +92,7 @@ int TestSVOTerminator(int, char*[])
   {
     for (const bool bulb : { false, true })
     {
-      for (const Way& way : Ways)
+      for (const Variant& way : Ways)
       {
         Stage stage(400, 400);
         vtkActor* body = stage.add(sphere ? coarseSphere() : coarseTube(), 0.9, 0.8, 0.7);

@@ -24,16 +24,16 @@ namespace
 using namespace svotest;
 
 /// How the ground gets its shadows.
-struct Way
+struct Variant
 {
   const char* name;
   bool rays, rasterised, smooth;
 };
-constexpr Way Ways[] = { { "buffer", false, false, false }, { "rays", true, false, false },
+constexpr Variant Ways[] = { { "buffer", false, false, false }, { "rays", true, false, false },
   { "rasterised", false, true, false }, { "filtered", false, false, true },
   { "rasterised, filtered", false, true, true } };
 
-void set(Stage& stage, vtkActor* ground, const Way& way)
+void set(Stage& stage, vtkActor* ground, const Variant& way)
 {
   vtkSVORenderPass::SetUseSVO(!way.rasterised, ground);
   stage.pass->SetShadowTechnique(
@@ -83,7 +83,7 @@ Mask shadowOf(const Picture& opaque, const Picture& unshadowed, const Picture& e
 }
 
 /// A ring over the ground that fades in.
-void fade(const Way& way, Checks& checks)
+void fade(const Variant& way, Checks& checks)
 {
   const std::string name = std::string("a fade, ") + way.name;
   Stage stage;
@@ -149,7 +149,7 @@ std::array<double, 3> placeOf(vtkRenderer* renderer, const Picture& picture, std
 }
 
 /// A box whose alpha grows from one side to the other, below the sun, and so does its shadow.
-void colorMap(const Way& way, bool interpolated, Checks& checks)
+void colorMap(const Variant& way, bool interpolated, Checks& checks)
 {
   const std::string name =
     std::string(interpolated ? "scalars first, " : "a colour map, ") + way.name;
@@ -230,7 +230,7 @@ vtkActor* addContour(Stage& stage)
 int TestSVOTranslucentShadows(int argc, char* argv[])
 {
   Checks checks;
-  for (const Way& way : Ways)
+  for (const Variant& way : Ways)
   {
     fade(way, checks);
     colorMap(way, false, checks);
@@ -249,7 +249,7 @@ int TestSVOTranslucentShadows(int argc, char* argv[])
   stage.window->SetAlphaBitPlanes(1);
   stage.renderer->UseDepthPeelingOn();
   Picture first;
-  for (const Way& way : Ways)
+  for (const Variant& way : Ways)
   {
     set(stage, ground, way);
     const Picture picture = capture(stage.window);

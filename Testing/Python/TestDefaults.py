@@ -1,4 +1,4 @@
-"""ParaView's panels and the classes behind them agree: each property of Plugin/Views/*.xml has a setting in
+"""ParaView's panels and the classes behind them agree: each property of Plugin/XML/*.xml has a setting in
 its class, with the same default and the same range. (TestRenderPassSettings has the class and the tracer.)
 """
 
@@ -13,7 +13,7 @@ import vtksvo
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
-VIEWS = pathlib.Path(__file__).resolve().parents[2] / "Plugin" / "Views"
+VIEWS = pathlib.Path(__file__).resolve().parents[2] / "Plugin" / "XML"
 GENERATED_VIEWS = os.environ["VTKSVO_VIEWS"]  # of Views.xml.in and Rendering/Settings.cmake
 
 # Properties of views that the pass has no setting for: the ground is ParaView's prop, reasons come from all processes.

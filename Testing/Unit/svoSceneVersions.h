@@ -38,7 +38,7 @@ inline std::vector<unsigned char> bytesOf(const svo::Instance& i)
   const svo::Body& b = *i.body;
   const svo::Attributes& a = b.attributes;
   const svo::Material& m = i.material;
-  add(i.localToWorld, i.pixelError, i.id, i.depthOffset, i.givesWay, i.visible, i.castShadow,
+  add(i.localToWorld, i.pixelError, i.id, i.depthOffset, i.coincidentOrder, i.visible, i.castShadow,
     i.receiveShadow, i.mappedOpacity, i.opacity);
   add(m.ambientColor, m.diffuseColor, m.specularColor, m.ambient, m.diffuse, m.specular,
     m.specularPower, m.lighting, m.flat, m.flatPlanes);

@@ -2,12 +2,12 @@
 
 #include "svoCellIds.h"
 #include "svoCellSurface.h"
+#include "svoKnownRange.h"
 #include "svoMeshOctree.h"
 #include "svoNode.h"
 #include "svoOctreeCells.h"
 #include "svoPlane.h"
 #include "svoSourceOctree.h"
-#include "svoToldRange.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

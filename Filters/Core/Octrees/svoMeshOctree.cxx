@@ -1,8 +1,8 @@
 #include "svoMeshOctree.h"
 
+#include "svoKnownRange.h"
 #include "svoMeshTriangles.h"
 #include "svoOctreeLibrary.h"
-#include "svoToldRange.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"

@@ -207,7 +207,7 @@ Octree Octree::open(std::shared_ptr<const std::byte> data, std::size_t size,
   if (parts->surface)
   {
     parts->shortLists = makeShortLists(octree);
-    parts->representatives = KeptRepresentatives(octree.header(), octree.nodes());
+    parts->representatives = BrickRepresentatives(octree.header(), octree.nodes());
   }
   return octree;
 }

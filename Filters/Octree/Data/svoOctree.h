@@ -3,7 +3,7 @@
 #ifndef svoOctree_h
 #define svoOctree_h
 
-#include "svoKeptRepresentatives.h"
+#include "svoBrickRepresentatives.h"
 #include "svoLayout.h"
 #include "svoNode.h"
 #include "svoShortLists.h"
@@ -83,7 +83,7 @@ public:
   /// The highest nodes with few triangles, for the tile queries; only where there is a surface.
   const ShortLists& shortLists() const { return this->Whole->shortLists; }
   /// What rays have found out about voxels; keeps none where there is no surface.
-  const KeptRepresentatives& representatives() const { return this->Whole->representatives; }
+  const BrickRepresentatives& representatives() const { return this->Whole->representatives; }
   /// Bytes of the buffer, the surface and all that is derived from them; 0 of no octree.
   std::size_t bytes() const;
 
@@ -166,7 +166,7 @@ private:
     // What is not stored.
     UpperLevels upper;
     ShortLists shortLists;
-    KeptRepresentatives representatives;
+    BrickRepresentatives representatives;
   };
 
   std::shared_ptr<const Parts> Whole;

@@ -2,7 +2,7 @@
 #ifndef svoIntersectBlock_h
 #define svoIntersectBlock_h
 
-#include "svoKeptRepresentatives.h"
+#include "svoBrickRepresentatives.h"
 #include "svoLeafGeometry.h"
 #include "svoNode.h"
 #include "svoOcclusion.h"
@@ -28,12 +28,12 @@ struct WalkTarget
   bool ownPlanes = false; // all cells where rays arrive have planes of their own
 
   // For leaves that are settled side by side; null pointers where they cannot be.
-  const float* points = nullptr;             // of the surface, 3 each
-  const std::int32_t* triangles = nullptr;   // likewise
-  int listBegin = 0;                         // index of the octree's lists in `words`
-  int cellSize = 0;                          // of the cells where rays stop
-  float touchedHalf = 0.0f;                  // see touchedHalf()
-  const KeptRepresentatives* kept = nullptr; // if the cells are voxels
+  const float* points = nullptr;              // of the surface, 3 each
+  const std::int32_t* triangles = nullptr;    // likewise
+  int listBegin = 0;                          // index of the octree's lists in `words`
+  int cellSize = 0;                           // of the cells where rays stop
+  float touchedHalf = 0.0f;                   // see touchedHalf()
+  const BrickRepresentatives* kept = nullptr; // if the cells are voxels
 };
 
 WalkTarget walkTarget(const LeafQuery& query);

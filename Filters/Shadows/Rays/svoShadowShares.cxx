@@ -22,8 +22,8 @@ struct Scratch
 
 /// Adds up to 64 samples of a piece for one light.
 void addSamples(const Sample* samples, int count, const WeightedLight& source,
-  const ShadowCasters& casters, const ShareOptions& options, std::size_t light, std::size_t lights,
-  Scratch& scratch)
+  const RayCasters& casters, const OwnMesh& own, const ShareOptions& options, std::size_t light,
+  std::size_t lights, Scratch& scratch)
 {
   std::uint64_t asked = 0;
   double cosines[PieceSamples];
@@ -43,7 +43,7 @@ void addSamples(const Sample* samples, int count, const WeightedLight& source,
   scratch.faced = scratch.faced || asked != 0;
   const std::uint64_t lit = asked == 0
     ? 0
-    : asked & ~casters.hidden(source.light, samples, count, asked, options.singleRays);
+    : asked & ~hiddenSamples(casters, own, source.light, samples, count, asked, options.singleRays);
   for (int i = 0; i < count; ++i)
   {
     const Sample& sample = samples[i];
@@ -60,7 +60,7 @@ void addSamples(const Sample* samples, int count, const WeightedLight& source,
 }
 }
 
-bool computeShadowShares(const Samples& samples, const ShadowCasters& casters,
+bool computeShadowShares(const Samples& samples, const RayCasters& casters, const OwnMesh& own,
   const std::vector<WeightedLight>& lights, const ShareOptions& options, const ShareArrays& out)
 {
   const auto shadePiece = [&](std::size_t index, Scratch& scratch)
@@ -73,7 +73,7 @@ bool computeShadowShares(const Samples& samples, const ShadowCasters& casters,
       const auto count = static_cast<int>(std::min(PieceSamples, scratch.samples.size() - first));
       for (std::size_t l = 0; l < lights.size(); ++l)
       {
-        addSamples(scratch.samples.data() + first, count, lights[l], casters, options, l,
+        addSamples(scratch.samples.data() + first, count, lights[l], casters, own, options, l,
           lights.size(), scratch);
       }
     }

@@ -2,10 +2,10 @@
 #ifndef svoShadowShares_h
 #define svoShadowShares_h
 
+#include "svoHiddenSamples.h"
 #include "svoLight.h"
 #include "svoParallel.h"
 #include "svoSamples.h"
-#include "svoShadowCasters.h"
 
 #include <atomic>
 #include <functional>
@@ -25,7 +25,7 @@ struct ShareOptions
 {
   bool twoSided = false;   // what faces away from a light is asked for on its other side
   bool cosine = false;     // what arrives counts by the cosine of its incidence
-  bool singleRays = false; // see ShadowCasters::hidden()
+  bool singleRays = false; // see hiddenSamples()
   ParallelFor parallelFor = serialFor;
   /// Called now and then on the calling thread with 0..1; false aborts.
   std::function<bool(double)> progress;
@@ -44,7 +44,7 @@ struct ShareArrays
 /// True unless it was aborted. The answers do not depend on the number of threads. A place gets
 /// nothing, which counts as shadow, of a light that is off, whose cone it is out of, that it faces
 /// away from (but with `twoSided`), or that a caster hides.
-bool computeShadowShares(const Samples& samples, const ShadowCasters& casters,
+bool computeShadowShares(const Samples& samples, const RayCasters& casters, const OwnMesh& own,
   const std::vector<WeightedLight>& lights, const ShareOptions& options, const ShareArrays& out);
 }
 

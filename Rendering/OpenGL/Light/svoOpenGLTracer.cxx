@@ -4,8 +4,8 @@
 #include "svoBufferTexture.h"
 #include "svoColorAlpha.h"
 #include "svoDrawnMaps.h"
+#include "svoFrameInputs.h"
 #include "svoHemisphereRays.h"
-#include "svoKeptFrame.h"
 #include "svoLightCode.h"
 #include "svoLightFilter.h"
 #include "svoOctreeArena.h"
@@ -13,6 +13,7 @@
 #include "svoRayWalk.h"
 #include "svoSampleCount.h"
 #include "svoSampleSequence.h"
+#include "svoSceneChanges.h"
 #include "svoSeenSurfaces.h"
 #include "svoShaderCasters.h"
 #include "svoShadowMask.h"
@@ -168,7 +169,8 @@ private:
   std::size_t Limit = 0;     // that they were to keep
   std::string WhyNot;        // they are not in OpenGL's memory; empty: they are
 
-  KeptFrame Kept;             // while something is sampled
+  SceneFollower Instances;    // while something is sampled
+  FrameInputs Kept;           // likewise
   double UsualDistance = 0.0; // of occlusion
 };
 
@@ -436,7 +438,8 @@ void OpenGLTracer::describeSamples(
     code.samples = 0;
     return;
   }
-  const FrameChanges changes = this->Kept.compare(scene, view, settings);
+  const FrameChanges changes =
+    this->Kept.compare(scene, this->Instances.follow(scene).instances, view, settings);
   const SampleCount samples(scene, settings, changes, code.samples);
   code.samples = samples.count;
   code.picture += !changes.none();

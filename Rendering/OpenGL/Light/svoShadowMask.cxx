@@ -218,7 +218,7 @@ bool ShadowMask::accepts(const LightCode& code)
     this->Texts[0].clear();
     this->Texts[1].clear();
     const bool computes =
-      this->Wanted == Way::Compute && PixelProgram::hasCompute() && !code.volumes;
+      this->Wanted == Method::Compute && PixelProgram::hasCompute() && !code.volumes;
     if (!this->link(code, computes) && computes)
     {
       this->link(code, false);

@@ -25,13 +25,13 @@ class VTKSVOOPENGL_EXPORT ShadowMask
 {
 public:
   /// Who asks: compute shaders (OpenGL 4.3), or a triangle over all pixels.
-  enum class Way
+  enum class Method
   {
     Compute, // where there are such shaders
     Fragments
   };
   /// Before the first lookUp().
-  void setWay(Way way) { this->Wanted = way; }
+  void setMethod(Method method) { this->Wanted = method; }
 
   /// True if OpenGL compiles the code, or it is not costly. Else why not stands in refusal(), a
   /// sentence, until release(): VTK's own shaders, which have the same code in them, would fail.
@@ -75,7 +75,7 @@ private:
     vtkOpenGLState* state, const LightCode& asked, const std::vector<std::uint16_t>& before);
   void releaseTextures();
 
-  Way Wanted = Way::Compute;
+  Method Wanted = Method::Compute;
   unsigned int Answering = 0; // the framebuffer that the mask is filled in
   PlaceBuffer Surfaces;
   PixelProgram Program;

@@ -1,12 +1,12 @@
 #include "svoDrawnMaps.h"
 
 #include "svoColorAlpha.h"
-#include "svoKeptState.h"
 #include "svoMapCasters.h"
 #include "svoOctreeArena.h"
 #include "svoOctreeWalk.h"
 #include "svoOpenGL.h"
 #include "svoProgram.h"
+#include "svoStateGuard.h"
 #include "svoSurface.h"
 #include "svoTextures.h"
 #include "svoUnfold.h"
@@ -212,7 +212,7 @@ std::string DrawnMaps::drawParts(const std::vector<PixelRect>& parts,
   }
   this->Copies.send(0, records.data(), texels);
   this->Drawn = drawn.size();
-  KeptState state;
+  StateGuard state;
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_SCISSOR_TEST);
   glDepthFunc(GL_LESS);

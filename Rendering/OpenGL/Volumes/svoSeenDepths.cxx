@@ -35,7 +35,7 @@ double depthOf(const View& view, const glm::dvec3& point)
 }
 }
 
-/// Where points lie in a face: its tiles, and their depths.
+/// Where points lie in a view: its tiles, and their depths.
 struct SeenDepths::Footprint
 {
   PixelRect tiles{ Tiles, Tiles, 0, 0 };
@@ -43,14 +43,14 @@ struct SeenDepths::Footprint
 };
 
 SeenDepths::Footprint SeenDepths::footprintOf(
-  const Face& face, const std::vector<glm::dvec3>& points)
+  const LightView& seen, const std::vector<glm::dvec3>& points)
 {
   constexpr double Rounding = 1e-6; // tiles
-  const glm::dmat4 toClip = face.view.viewToClip * face.view.worldToView;
+  const glm::dmat4 toClip = seen.view.viewToClip * seen.view.worldToView;
   Footprint print;
   for (const glm::dvec3& point : points)
   {
-    const double depth = depthOf(face.view, point);
+    const double depth = depthOf(seen.view, point);
     print.first = std::min(print.first, depth);
     print.last = std::max(print.last, depth);
     const glm::dvec4 clip = toClip * glm::dvec4(point, 1.0);
@@ -119,20 +119,20 @@ SeenDepths::SeenDepths(const std::vector<Outline>& outlines,
   {
     const ConvexBody piece =
       pieceOf(views[i], views[i].parallel ? views[i].tNear : 0.0, farthest[i]);
-    this->Faces.push_back(
+    this->Views.push_back(
       { views[i], CommonPart({ piece }), std::vector<double>(Tiles * Tiles, -Infinity) });
-    Face& face = this->Faces.back();
+    LightView& one = this->Views.back();
     const CommonPart common({ seen, piece });
     for (const ConvexBody& body : receivers)
     {
       points.clear();
       common.add(body, points);
-      const Footprint print = footprintOf(face, points);
+      const Footprint print = footprintOf(one, points);
       for (int y = print.tiles.y0; y < print.tiles.y1; ++y)
       {
         for (int x = print.tiles.x0; x < print.tiles.x1; ++x)
         {
-          double& depth = face.depths[y * Tiles + x];
+          double& depth = one.depths[y * Tiles + x];
           depth = std::max(depth, print.last);
         }
       }
@@ -144,18 +144,18 @@ bool SeenDepths::behind(const Outline& caster) const
 {
   const ConvexBody body = bodyOf(caster);
   std::vector<glm::dvec3> points;
-  return this->Faces.empty() ||
-    std::any_of(this->Faces.begin(), this->Faces.end(),
-      [&](const Face& face)
+  return this->Views.empty() ||
+    std::any_of(this->Views.begin(), this->Views.end(),
+      [&](const LightView& seen)
       {
         points.clear();
-        face.piece.add(body, points);
-        const Footprint print = footprintOf(face, points);
+        seen.piece.add(body, points);
+        const Footprint print = footprintOf(seen, points);
         for (int y = print.tiles.y0; y < print.tiles.y1; ++y)
         {
           for (int x = print.tiles.x0; x < print.tiles.x1; ++x)
           {
-            if (face.depths[y * Tiles + x] >= print.first)
+            if (seen.depths[y * Tiles + x] >= print.first)
             {
               return true;
             }

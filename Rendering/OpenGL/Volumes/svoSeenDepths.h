@@ -33,7 +33,7 @@ public:
 private:
   static constexpr int Tiles = 64; // along an edge of a view
   /// One of a light's views.
-  struct Face
+  struct LightView
   {
     View view;
     CommonPart piece; // with its rays
@@ -41,9 +41,9 @@ private:
     std::vector<double> depths;
   };
   struct Footprint;
-  static Footprint footprintOf(const Face& face, const std::vector<glm::dvec3>& points);
+  static Footprint footprintOf(const LightView& seen, const std::vector<glm::dvec3>& points);
 
-  std::vector<Face> Faces; // empty: nobody knows
+  std::vector<LightView> Views; // empty: nobody knows
   double Last;
 };
 }

@@ -122,12 +122,15 @@ void main()
 // Depths are those of planes at pixels' rays: what is interpolated over triangles that reach from behind
 // the eye to infinity has no digits.
 uniform float svoReach[2]; // VolumeDraws
+uniform float svoParallel;
 flat in vec4 svoPlane;
 
 void main()
 {
   float depth = -(dot(svoPlane.xyz, svoRayBegins(gl_FragCoord.xy)) + svoPlane.w) /
     dot(svoPlane.xyz, svoRayWay(gl_FragCoord.xy));
-  gl_FragDepth = svoPlane.xyz == vec3(0.0) ? 1.0 : clamp((depth - svoReach[0]) / svoReach[1], 0.0, 1.0);
+  // Where a side ends, far away, its plane vanishes: rounded, that is before the eye as often as behind it.
+  bool vanishes = svoParallel == 0.0 && depth < -(abs(svoReach[0]) + svoReach[1]);
+  gl_FragDepth = svoPlane.xyz == vec3(0.0) || vanishes ? 1.0 : clamp((depth - svoReach[0]) / svoReach[1], 0.0, 1.0);
 }
 #endif

@@ -77,7 +77,7 @@ private:
     std::size_t number; // of the light
     glm::dvec4 light;   // octree coordinates
     double end; // how far along the light it reaches, from the eye on, world; VolumeReach::Endless
-    VolumeDraws::Way way;
+    VolumeDraws::Sides way;
     Seen* seen;
   };
   std::shared_ptr<const VolumeDraws> place(const Scene& scene,

@@ -1,10 +1,10 @@
 #include "svoVolumeCounter.h"
 
-#include "svoKeptState.h"
 #include "svoOpenGL.h"
 #include "svoPixelRay.h"
 #include "svoProgram.h"
 #include "svoShadowVolume.h"
+#include "svoStateGuard.h"
 #include "svoTerminator.h"
 #include "svoTextures.h"
 #include "svoUnfold.h"
@@ -38,11 +38,11 @@ constexpr char Zero[] = "#version 150\n"
                         "  svoNone = vec4(0.0);\n"
                         "}\n";
 
-/// OpenGL's state of stencils, beside that of KeptState.
-class KeptStencil
+/// OpenGL's state of stencils, beside that of StateGuard.
+class StencilGuard
 {
 public:
-  KeptStencil()
+  StencilGuard()
   {
     for (int side = 0; side < 2; ++side)
     {
@@ -52,9 +52,9 @@ public:
       }
     }
   }
-  KeptStencil(const KeptStencil&) = delete;
-  KeptStencil& operator=(const KeptStencil&) = delete;
-  ~KeptStencil()
+  StencilGuard(const StencilGuard&) = delete;
+  StencilGuard& operator=(const StencilGuard&) = delete;
+  ~StencilGuard()
   {
     const GLenum sides[] = { GL_FRONT, GL_BACK };
     for (int side = 0; side < 2; ++side)
@@ -85,7 +85,7 @@ GLint at(GLuint program, const char* uniform)
 }
 
 /// How a side of a volume counts: by those before a point, or by those behind it.
-void count(GLenum side, VolumeDraws::Way way)
+void count(GLenum side, VolumeDraws::Sides way)
 {
   const bool enters = (side == GL_FRONT) == (way == VolumeDraws::Before);
   const GLenum how = enters ? GL_INCR_WRAP : GL_DECR_WRAP;
@@ -95,7 +95,7 @@ void count(GLenum side, VolumeDraws::Way way)
 }
 
 /// Drawing into a light's number, and into depths and stencils. In the end OpenGL is as before.
-class VolumeCounter::Scope : public KeptState
+class VolumeCounter::Scope : public StateGuard
 {
 public:
   Scope(const VolumeCounter& counter, int number, unsigned int shares)
@@ -123,7 +123,7 @@ public:
   }
 
 private:
-  KeptStencil Stencil;
+  StencilGuard Stencil;
 };
 
 bool VolumeCounter::link(std::string& words)
@@ -196,7 +196,7 @@ void VolumeCounter::find(vtkOpenGLState* state, const VolumeDraws& draws, int nu
   this->receive(draws, number, pixels);
   {
     // Others draw: what VTK has cached is to be so.
-    const KeptStencil stencil;
+    const StencilGuard stencil;
     const vtkOpenGLState::ScopedglEnableDisable tests(state, GL_STENCIL_TEST);
     const vtkOpenGLState::ScopedglColorMask colors(state);
     const int plane = number % 4;
@@ -253,7 +253,7 @@ void VolumeCounter::darken(const VolumeDraws& draws, int number, const Pixels& p
   glEnable(GL_STENCIL_TEST);
   glStencilMask(CountBits);
   glStencilFunc(GL_EQUAL, 0, Asks);
-  for (const VolumeDraws::Way way : { VolumeDraws::Before, VolumeDraws::Behind })
+  for (const VolumeDraws::Sides way : { VolumeDraws::Before, VolumeDraws::Behind })
   {
     const VolumeDraws::Part& part = light.parts[way];
     if (part.caps.empty())

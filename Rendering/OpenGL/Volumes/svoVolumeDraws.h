@@ -23,24 +23,24 @@ struct VolumeDraws
   {
     int firstCaster, casters, firstTriangle, triangles;
   };
-  /// Of casters in whose shadow the eye may be, and of others, by Way.
+  /// Of casters in whose shadow the eye may be, and of others, by Sides.
   struct Part
   {
     int firstEdge = 0, edges = 0;
     std::vector<Caps> caps;
   };
   /// How what lies in a volume is told: by its sides before the point, or by those behind it.
-  enum Way
+  enum Sides
   {
     Before,
     Behind,
-    Ways
+    SidesCount
   };
   struct OfLight
   {
     /// View coordinates: the way towards it, as long as reach, and 0; or its place, and 1.
     glm::vec4 light;
-    Part parts[Ways];
+    Part parts[SidesCount];
   };
   bool tellAll = false;        // there are no casters without a volume
   std::vector<OfLight> lights; // by number in the light's code

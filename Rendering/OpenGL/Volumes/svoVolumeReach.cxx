@@ -98,7 +98,7 @@ bool VolumeReach::find(std::size_t instance, double& end) const
   return true;
 }
 
-VolumeDraws::Way VolumeReach::way(const CasterInMemory& caster) const
+VolumeDraws::Sides VolumeReach::way(const CasterInMemory& caster) const
 {
   const WorldToOctree& to = caster.toOctree;
   const glm::dvec3 margin = Margin * (0.1 + caster.box.high - caster.box.low);

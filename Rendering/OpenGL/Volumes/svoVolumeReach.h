@@ -40,7 +40,7 @@ public:
   /// False if it needs none: nothing that is seen lies in its shadow.
   bool find(std::size_t instance, double& end) const;
   /// By the sides behind where the eye may be in the caster's shadow.
-  VolumeDraws::Way way(const CasterInMemory& caster) const;
+  VolumeDraws::Sides way(const CasterInMemory& caster) const;
 
 private:
   const std::vector<Outline>& Outlines;

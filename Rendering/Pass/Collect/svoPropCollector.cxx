@@ -67,7 +67,7 @@ void PropCollector::complainOnce(const CollectedActor& of, const std::string& te
   }
 }
 
-std::vector<SurfacePart> PropCollector::partsOf(vtkActor* actor, Kept& kept)
+std::vector<SurfacePart> PropCollector::partsOf(vtkActor* actor, KeepAlive& kept)
 {
   vtkMapper* mapper = actor->GetMapper();
   const double opacity = actor->GetProperty()->GetOpacity();

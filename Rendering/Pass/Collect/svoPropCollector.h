@@ -48,7 +48,7 @@ private:
   void collectActor(
     vtkActor* actor, const vtkMatrix4x4* matrix, PropSurfaces& found, const CollectProps& frame);
   bool place(CollectedActor& of, const vtkMatrix4x4* matrix);
-  std::vector<SurfacePart> partsOf(vtkActor* actor, Kept& kept);
+  std::vector<SurfacePart> partsOf(vtkActor* actor, KeepAlive& kept);
   void collectPart(const CollectedActor& of, SurfacePart& part);
   void collectGlyphs(const CollectedActor& of);
   Casters seenOf(const Casters& casters, const CollectedActor& of);

@@ -2,7 +2,7 @@
 
 #include "svoBox.h"
 #include "svoCameraView.h"
-#include "svoGiveWay.h"
+#include "svoCoincidentOrder.h"
 #include "svoPropKeys.h"
 #include "svoRoundSurfaces.h"
 #include "svoSceneInstances.h"
@@ -447,7 +447,7 @@ void SceneCollector::collect(vtkRenderer* renderer, OctreeStore& store, const St
   findOctrees(this->Found, result.scene.lights, settings.levels, store, options, sameOptions,
     this->Instances);
   leaveShared(this->Found);
-  giveWay(this->Found);
+  orderCoincident(this->Found);
   this->assemble(result);
   this->explain(settings, options, result);
   this->missShadows(options, result);

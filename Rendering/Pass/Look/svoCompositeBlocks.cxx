@@ -170,7 +170,7 @@ bool hasMeshes(vtkMapper* mapper)
   return !vtkCompositeDataSet::GetDataSets<vtkPolyData>(mapper->GetInputDataObject(0, 0)).empty();
 }
 
-vtkPolyDataMapper* CompositeBlocks::colorsOf(vtkMapper* mapper, const Path& path, Kept& kept)
+vtkPolyDataMapper* CompositeBlocks::colorsOf(vtkMapper* mapper, const Path& path, KeepAlive& kept)
 {
   auto* attributes = attributesOf(mapper);
   const vtkMTimeType time = std::max(mapper->GetMTime(), timeOf(attributes));
@@ -187,7 +187,8 @@ vtkPolyDataMapper* CompositeBlocks::colorsOf(vtkMapper* mapper, const Path& path
   return this->Blocks.of({ mapper, path.back() }, time, kept, make);
 }
 
-SurfacePart CompositeBlocks::partOf(vtkMapper* mapper, const Path& path, double opacity, Kept& kept)
+SurfacePart CompositeBlocks::partOf(
+  vtkMapper* mapper, const Path& path, double opacity, KeepAlive& kept)
 {
   SurfacePart part;
   part.mesh = vtkPolyData::SafeDownCast(path.back());
@@ -221,7 +222,7 @@ SurfacePart CompositeBlocks::partOf(vtkMapper* mapper, const Path& path, double 
 }
 
 void CompositeBlocks::visit(vtkMapper* mapper, Path& path, unsigned int& flatIndex, double opacity,
-  std::vector<SurfacePart>& parts, Kept& kept)
+  std::vector<SurfacePart>& parts, KeepAlive& kept)
 {
   const unsigned int index = flatIndex++;
   if (auto* tree = vtkDataObjectTree::SafeDownCast(path.back()))
@@ -251,7 +252,8 @@ void CompositeBlocks::visit(vtkMapper* mapper, Path& path, unsigned int& flatInd
   }
 }
 
-std::vector<SurfacePart> CompositeBlocks::partsOf(vtkMapper* mapper, double opacity, Kept& kept)
+std::vector<SurfacePart> CompositeBlocks::partsOf(
+  vtkMapper* mapper, double opacity, KeepAlive& kept)
 {
   std::vector<SurfacePart> parts;
   if (vtkDataObject* root = mapper->GetInputDataObject(0, 0))

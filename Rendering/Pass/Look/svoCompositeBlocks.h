@@ -2,7 +2,7 @@
 #ifndef svoCompositeBlocks_h
 #define svoCompositeBlocks_h
 
-#include "svoKept.h"
+#include "svoKeepAlive.h"
 #include "svoSurfaceLook.h"
 
 #include "vtkSmartPointer.h"
@@ -34,7 +34,7 @@ public:
   /// The mapper's visible blocks, in the order of their flat indices. `opacity` is the property's.
   /// Attributes are those of the block, else of the nearest tree around it that has some, else the
   /// mapper's (vtkCompositePolyDataMapper::BuildRenderValues).
-  std::vector<SurfacePart> partsOf(vtkMapper* mapper, double opacity, Kept& kept);
+  std::vector<SurfacePart> partsOf(vtkMapper* mapper, double opacity, KeepAlive& kept);
 
   /// Drops what nobody keeps.
   void sweep() { this->Blocks.sweep(); }
@@ -42,11 +42,11 @@ public:
 private:
   using Path = std::vector<vtkDataObject*>; // from the root to a block
   void visit(vtkMapper* mapper, Path& path, unsigned int& flatIndex, double opacity,
-    std::vector<SurfacePart>& parts, Kept& kept);
-  SurfacePart partOf(vtkMapper* mapper, const Path& path, double opacity, Kept& kept);
-  vtkPolyDataMapper* colorsOf(vtkMapper* mapper, const Path& path, Kept& kept);
+    std::vector<SurfacePart>& parts, KeepAlive& kept);
+  SurfacePart partOf(vtkMapper* mapper, const Path& path, double opacity, KeepAlive& kept);
+  vtkPolyDataMapper* colorsOf(vtkMapper* mapper, const Path& path, KeepAlive& kept);
 
-  KeptValues<std::pair<vtkMapper*, vtkDataObject*>, vtkSmartPointer<vtkPolyDataMapper>> Blocks;
+  CachedValues<std::pair<vtkMapper*, vtkDataObject*>, vtkSmartPointer<vtkPolyDataMapper>> Blocks;
 };
 }
 

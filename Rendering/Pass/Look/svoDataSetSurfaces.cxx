@@ -7,7 +7,8 @@
 
 namespace svo
 {
-vtkPolyDataMapper* surfaceMapperOf(vtkDataSetMapper* mapper, DataSetSurfaces& surfaces, Kept& kept)
+vtkPolyDataMapper* surfaceMapperOf(
+  vtkDataSetMapper* mapper, DataSetSurfaces& surfaces, KeepAlive& kept)
 {
   vtkDataSet* input = mapper->GetInput();
   if (!input)

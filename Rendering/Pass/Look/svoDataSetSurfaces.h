@@ -2,7 +2,7 @@
 #ifndef svoDataSetSurfaces_h
 #define svoDataSetSurfaces_h
 
-#include "svoKept.h"
+#include "svoKeepAlive.h"
 
 #include "vtkSmartPointer.h"
 
@@ -19,11 +19,12 @@ struct DataSetSurface
 };
 /// vtkDataSetMapper makes its surface while it draws. A traced one never draws, so the same is made
 /// here, by the same filter, and kept until the data set changes.
-using DataSetSurfaces = KeptValues<vtkDataSetMapper*, DataSetSurface>;
+using DataSetSurfaces = CachedValues<vtkDataSetMapper*, DataSetSurface>;
 
 /// A mapper of the surface with the settings of the given one; its input is up to date. Null if
 /// there is no data set.
-vtkPolyDataMapper* surfaceMapperOf(vtkDataSetMapper* mapper, DataSetSurfaces& surfaces, Kept& kept);
+vtkPolyDataMapper* surfaceMapperOf(
+  vtkDataSetMapper* mapper, DataSetSurfaces& surfaces, KeepAlive& kept);
 }
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef svoFloatArrays_h
 #define svoFloatArrays_h
 
-#include "svoKept.h"
+#include "svoKeepAlive.h"
 
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"
@@ -11,10 +11,10 @@
 namespace svo
 {
 /// Copies of arrays that are not floats, for as long as somebody keeps them.
-using FloatArrays = KeptValues<vtkDataArray*, vtkSmartPointer<vtkFloatArray>>;
+using FloatArrays = CachedValues<vtkDataArray*, vtkSmartPointer<vtkFloatArray>>;
 
 /// The array's values in its own order; valid as long as `kept`, or until the array changes.
-inline const float* floatsOf(vtkDataArray* array, FloatArrays& copies, Kept& kept)
+inline const float* floatsOf(vtkDataArray* array, FloatArrays& copies, KeepAlive& kept)
 {
   if (auto* floats = vtkFloatArray::SafeDownCast(array))
   {

@@ -233,7 +233,7 @@ struct Looking
 {
   vtkGlyph3DMapper* mapper;
   GlyphCopies& copies;
-  Kept& kept;
+  KeepAlive& kept;
   std::vector<std::vector<vtkPolyData*>> sources; // all meshes of each entry of the table
   unsigned int flatIndex = 0;                     // of what is visited next
   Glyphs result;
@@ -396,7 +396,8 @@ bool isGlyphMapper(vtkMapper* mapper)
   return std::string(mapper->GetClassName()) == "vtkOpenGLGlyph3DMapper";
 }
 
-Glyphs glyphsOf(vtkGlyph3DMapper* mapper, vtkProperty* property, GlyphCopies& copies, Kept& kept)
+Glyphs glyphsOf(
+  vtkGlyph3DMapper* mapper, vtkProperty* property, GlyphCopies& copies, KeepAlive& kept)
 {
   Looking looking{ mapper, copies, kept, {}, 0, {} };
   for (vtkDataObject* source : sourcesOf(mapper))

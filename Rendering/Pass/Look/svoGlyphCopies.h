@@ -2,7 +2,7 @@
 #ifndef svoGlyphCopies_h
 #define svoGlyphCopies_h
 
-#include "svoKept.h"
+#include "svoKeepAlive.h"
 #include "svoSurfaceLook.h"
 
 #include "vtkSmartPointer.h"
@@ -74,11 +74,13 @@ using GlyphStamp = std::tuple<vtkMTimeType, std::size_t, double, std::array<unsi
 
 /// Kept until the mapper, a data set of its input, its lookup table, its blocks' attributes or the
 /// property's colour changes.
-using GlyphCopies = KeptValues<std::pair<vtkGlyph3DMapper*, vtkDataSet*>, PlacedGlyphs, GlyphStamp>;
+using GlyphCopies =
+  CachedValues<std::pair<vtkGlyph3DMapper*, vtkDataSet*>, PlacedGlyphs, GlyphStamp>;
 
 /// Follows vtkOpenGLGlyph3DMapper::RebuildStructures. The mapper's input and sources are up to
 /// date. `property` is the actor's.
-Glyphs glyphsOf(vtkGlyph3DMapper* mapper, vtkProperty* property, GlyphCopies& copies, Kept& kept);
+Glyphs glyphsOf(
+  vtkGlyph3DMapper* mapper, vtkProperty* property, GlyphCopies& copies, KeepAlive& kept);
 }
 
 #endif

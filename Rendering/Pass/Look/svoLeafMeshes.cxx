@@ -48,7 +48,8 @@ vtkSmartPointer<vtkPolyData> meshOf(vtkPolyData* carrier, vtkDataArray* values)
 }
 }
 
-vtkPolyData* leafMeshOf(vtkPolyData* carrier, vtkMapper* mapper, LeafMeshes& meshes, Kept& kept)
+vtkPolyData* leafMeshOf(
+  vtkPolyData* carrier, vtkMapper* mapper, LeafMeshes& meshes, KeepAlive& kept)
 {
   const char* name = nameOfCellData(carrier, mapper);
   vtkDataArray* values = name ? leafValues(carrier, name) : nullptr;

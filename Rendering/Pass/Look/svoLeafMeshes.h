@@ -3,7 +3,7 @@
 #ifndef svoLeafMeshes_h
 #define svoLeafMeshes_h
 
-#include "svoKept.h"
+#include "svoKeepAlive.h"
 
 #include "vtkSmartPointer.h"
 
@@ -15,11 +15,12 @@ namespace svo
 {
 /// By values of leaves. Kept for as long as somebody has them: a mapper maps colours again only of
 /// a data set that is new or has changed.
-using LeafMeshes = KeptValues<vtkDataArray*, vtkSmartPointer<vtkPolyData>>;
+using LeafMeshes = CachedValues<vtkDataArray*, vtkSmartPointer<vtkPolyData>>;
 
 /// What has the values of leaves as cell data, in the place of the mesh's of that name, where the
 /// mapper colours it by such; else nullptr.
-vtkPolyData* leafMeshOf(vtkPolyData* carrier, vtkMapper* mapper, LeafMeshes& meshes, Kept& kept);
+vtkPolyData* leafMeshOf(
+  vtkPolyData* carrier, vtkMapper* mapper, LeafMeshes& meshes, KeepAlive& kept);
 }
 
 #endif

@@ -136,7 +136,7 @@ OpaqueAnswer sort(vtkPolyData* mesh, const Attributes& attributes, bool visible)
 }
 
 OpaqueAnswer opaqueCellsOf(const SurfacePart& part, const Attributes& attributes, bool visible,
-  OpaqueCells& cells, Kept& kept)
+  OpaqueCells& cells, KeepAlive& kept)
 {
   vtkPolyData* mesh = part.mesh;
   vtkMapper* colors = part.colors;

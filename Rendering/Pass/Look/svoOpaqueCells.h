@@ -2,7 +2,7 @@
 #ifndef svoOpaqueCells_h
 #define svoOpaqueCells_h
 
-#include "svoKept.h"
+#include "svoKeepAlive.h"
 #include "svoScene.h"
 #include "svoSurfaceLook.h"
 
@@ -29,13 +29,13 @@ struct OpaqueAnswer
 };
 /// Kept until the mesh or its colours change, or nobody has them. Stamps have times of the mesh and
 /// of what its colours are made of, and whether what is visible was asked for.
-using OpaqueCells = KeptValues<std::pair<vtkPolyData*, vtkMapper*>, OpaqueAnswer,
+using OpaqueCells = CachedValues<std::pair<vtkPolyData*, vtkMapper*>, OpaqueAnswer,
   std::pair<std::array<vtkMTimeType, 4>, bool>>;
 
 /// The part's scalars have been mapped to `attributes`. A cell is opaque if all of its points are,
 /// and all colours between them. `visible`: what is visible is asked for.
 OpaqueAnswer opaqueCellsOf(const SurfacePart& part, const Attributes& attributes, bool visible,
-  OpaqueCells& cells, Kept& kept);
+  OpaqueCells& cells, KeepAlive& kept);
 }
 
 #endif

@@ -1,7 +1,7 @@
 #include "svoPropState.h"
 
 #include "svoCompositeBlocks.h"
-#include "svoKept.h"
+#include "svoKeepAlive.h"
 #include "svoPropKeys.h"
 #include "svoSplats.h"
 #include "svoSurfaceLook.h"

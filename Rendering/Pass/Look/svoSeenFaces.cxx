@@ -58,7 +58,7 @@ std::vector<bool> frontFaces(vtkPolyData* mesh, const glm::dmat4& localToWorld, 
 }
 
 vtkPolyData* seenFacesOf(vtkPolyData* mesh, vtkActor* actor, const glm::dmat4& localToWorld,
-  const View& eye, SeenFaces& faces, Kept& kept)
+  const View& eye, SeenFaces& faces, KeepAlive& kept)
 {
   if (carriesPlanes(mesh))
   {

@@ -2,7 +2,7 @@
 #ifndef svoSeenFaces_h
 #define svoSeenFaces_h
 
-#include "svoKept.h"
+#include "svoKeepAlive.h"
 #include "svoView.h"
 
 #include "vtkSmartPointer.h"
@@ -23,13 +23,13 @@ struct FacesLeft
   vtkSmartPointer<vtkPolyData> made; // without these
 };
 /// Kept until the mesh changes, or another of its polygons turns to the eye, or nobody has them.
-using SeenFaces = KeptValues<std::pair<vtkPolyData*, vtkActor*>, FacesLeft>;
+using SeenFaces = CachedValues<std::pair<vtkPolyData*, vtkActor*>, FacesLeft>;
 
 /// A mesh of an actor without the polygons that turn their front to the eye, in whose places are
 /// cells without an area; strips, and surfaces that are no meshes, stay whole. The mesh itself if
 /// no polygon does; null if all do.
 vtkPolyData* seenFacesOf(vtkPolyData* mesh, vtkActor* actor, const glm::dmat4& localToWorld,
-  const View& eye, SeenFaces& faces, Kept& kept);
+  const View& eye, SeenFaces& faces, KeepAlive& kept);
 }
 
 #endif

@@ -62,7 +62,7 @@ Reason beyondTracing(vtkActor* actor)
 }
 
 /// An array that the look borrows.
-void keep(vtkDataArray* array, Attributes& attributes, Kept& kept)
+void keep(vtkDataArray* array, Attributes& attributes, KeepAlive& kept)
 {
   // Times are never given twice.
   attributes.version = std::max<std::uint64_t>(attributes.version, array->GetMTime());
@@ -70,7 +70,7 @@ void keep(vtkDataArray* array, Attributes& attributes, Kept& kept)
 }
 
 void normalsOf(
-  vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays& floats, Kept& kept)
+  vtkPolyData* mesh, bool flat, Attributes& attributes, FloatArrays& floats, KeepAlive& kept)
 {
   vtkDataArray* normals = flat ? nullptr : mesh->GetPointData()->GetNormals();
   attributes.normalAssociation = Association::Point;
@@ -101,7 +101,7 @@ bool colorsAreOfCells(vtkMapper* mapper, vtkPolyData* mesh)
 }
 
 /// Scalars that are interpolated before they are mapped.
-bool coordinateColors(vtkMapper* mapper, vtkPolyData* mesh, Attributes& attributes, Kept& kept)
+bool coordinateColors(vtkMapper* mapper, vtkPolyData* mesh, Attributes& attributes, KeepAlive& kept)
 {
   auto* coordinates = vtkFloatArray::SafeDownCast(mapper->GetColorCoordinates());
   vtkImageData* texture = mapper->GetColorTextureMap();
@@ -137,7 +137,7 @@ bool colorOfTuple(vtkUnsignedCharArray* colors, vtkIdType tuple, SurfacePart& pa
 }
 
 /// Colours of the octree's leaves.
-bool leafColors(vtkPolyData* leaves, vtkMapper* mapper, Attributes& attributes, Kept& kept)
+bool leafColors(vtkPolyData* leaves, vtkMapper* mapper, Attributes& attributes, KeepAlive& kept)
 {
   vtkUnsignedCharArray* colors = mapper->MapScalars(leaves, 1.0);
   if (!colors || colors->GetNumberOfComponents() != 4 ||
@@ -151,7 +151,7 @@ bool leafColors(vtkPolyData* leaves, vtkMapper* mapper, Attributes& attributes, 
   return true;
 }
 
-bool scalarColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes, Kept& kept)
+bool scalarColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes, KeepAlive& kept)
 {
   vtkMapper* mapper = part.colors;
   if (!mapper->GetScalarVisibility() || part.overridesColor)
@@ -322,7 +322,7 @@ bool hasOpaqueTable(const SurfacePart& part)
       !part.colors->HasTranslucentPolygonalGeometry());
 }
 
-Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes, Kept& kept)
+Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes, KeepAlive& kept)
 {
   if (!scalarColors(part, leaves, attributes, kept))
   {
@@ -336,7 +336,7 @@ Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes, 
 }
 
 Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
-  Attributes& attributes, FloatArrays& floats, Kept& kept)
+  Attributes& attributes, FloatArrays& floats, KeepAlive& kept)
 {
   vtkPolyData* mesh = part.mesh;
   if (part.texture)
@@ -366,7 +366,7 @@ Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Mater
   return nullptr;
 }
 
-MeshPoints pointsOf(vtkPolyData* mesh, Kept& kept)
+MeshPoints pointsOf(vtkPolyData* mesh, KeepAlive& kept)
 {
   MeshPoints points;
   vtkDataArray* array = mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr;

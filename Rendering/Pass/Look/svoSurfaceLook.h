@@ -3,7 +3,7 @@
 #define svoSurfaceLook_h
 
 #include "svoFloatArrays.h"
-#include "svoKept.h"
+#include "svoKeepAlive.h"
 #include "svoLeafMeshes.h"
 #include "svoScene.h"
 
@@ -96,14 +96,14 @@ bool hasOpaqueTable(const SurfacePart& part);
 
 /// Maps the part's scalars; one colour for all of it becomes the part's own. Colours of points,
 /// cells and leaves lie in arrays that are added to `kept`.
-Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes, Kept& kept);
+Reason mapColors(SurfacePart& part, LeafMeshes& leaves, Attributes& attributes, KeepAlive& kept);
 
 /// Material and normals of a part. Arrays of normals are kept in `floats` and `kept`.
 Reason lookOf(const SurfacePart& part, vtkProperty* property, bool lights, Material& material,
-  Attributes& attributes, FloatArrays& floats, Kept& kept);
+  Attributes& attributes, FloatArrays& floats, KeepAlive& kept);
 
 /// The part's points as they are, kept in `kept`; unknown if they are neither floats nor doubles.
-MeshPoints pointsOf(vtkPolyData* mesh, Kept& kept);
+MeshPoints pointsOf(vtkPolyData* mesh, KeepAlive& kept);
 
 /// VTK's offset of coincident polygons for this mapper, as its shaders apply it.
 DepthOffset coincidentOffset(vtkMapper* mapper);

@@ -35,7 +35,7 @@ WrittenSurface wanted(const PropSurfaces& prop, const SceneSurface& surface, Sta
     result.octree = idOf(body.octree);
     result.caster = idOf(body.casterOctree);
     result.neededLevel = body.neededLevel;
-    result.givesWay = surface.instance.givesWay;
+    result.coincidentOrder = surface.instance.coincidentOrder;
     result.visible = prop.shown;
     result.casts = surface.casts && body.octree;
   }
@@ -74,11 +74,12 @@ void writeFrame(SceneSurface& surface, const WrittenSurface& as, Instance* first
     }
   }
   const WrittenSurface& was = surface.written;
-  if (std::tie(as.givesWay, as.visible, as.casts) != std::tie(was.givesWay, was.visible, was.casts))
+  if (std::tie(as.coincidentOrder, as.visible, as.casts) !=
+    std::tie(was.coincidentOrder, was.visible, was.casts))
   {
     for (Instance* one = first; one != first + count; ++one)
     {
-      one->givesWay = as.givesWay;
+      one->coincidentOrder = as.coincidentOrder;
       one->visible = as.visible;
       one->castShadow = as.casts;
     }
@@ -125,7 +126,7 @@ void writeWhole(SceneSurface& surface, const WrittenSurface& as, Instance* first
   surface.body = Shared<Body>(bodyOf(surface, as));
   Instance whole = surface.instance;
   whole.body = surface.body;
-  whole.givesWay = as.givesWay;
+  whole.coincidentOrder = as.coincidentOrder;
   whole.visible = as.visible;
   whole.castShadow = as.casts;
   writeProp(surface, &whole, first);

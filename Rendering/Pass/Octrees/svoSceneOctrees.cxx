@@ -28,7 +28,7 @@ void findAttached(
   body.casterOctree = Octree();
   body.leafGeometry = LeafGeometry::Automatic;
   body.neededLevel = 0;
-  surface.instance.givesWay = 0;
+  surface.instance.coincidentOrder = 0;
   surface.needed = NeededLevels();
   if (known)
   {

@@ -3,7 +3,7 @@
 #define svoSceneOctrees_h
 
 #include "svoGlyphCopies.h"
-#include "svoKept.h"
+#include "svoKeepAlive.h"
 #include "svoOctreeStore.h"
 #include "svoPlacedShapes.h"
 #include "svoPropState.h"
@@ -35,14 +35,15 @@ struct WrittenSurface
 {
   std::size_t place = ~std::size_t(0);  // of the first
   std::uint64_t octree = 0, caster = 0; // ids; 0: none
-  int neededLevel = 0, givesWay = 0, deepestLevel = 0, detailLevel = 0;
+  int neededLevel = 0, coincidentOrder = 0, deepestLevel = 0, detailLevel = 0;
   LeafGeometry leafGeometry = LeafGeometry::Automatic;
   bool visible = false, casts = false;
 
   auto values() const
   {
-    return std::tie(this->place, this->octree, this->caster, this->neededLevel, this->givesWay,
-      this->deepestLevel, this->detailLevel, this->leafGeometry, this->visible, this->casts);
+    return std::tie(this->place, this->octree, this->caster, this->neededLevel,
+      this->coincidentOrder, this->deepestLevel, this->detailLevel, this->leafGeometry,
+      this->visible, this->casts);
   }
 };
 
@@ -86,7 +87,7 @@ struct PropSurfaces
   Reason rasterized = nullptr;           // why it is not traced
   Reason castsNone = nullptr;            // why something of it casts nothing
   std::vector<const vtkMapper*> mappers; // that VTK draws it with; only compared
-  Kept kept;
+  KeepAlive kept;
   PropState state; // when it was collected
 
   /// VTK's world, where it was collected or has moved to: of what the rasteriser draws, or has no

@@ -2,6 +2,7 @@
 
 #include "svoFrameCopy.h"
 #include "svoOpenGL.h"
+#include "svoTileRuns.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -9,6 +10,7 @@
 #include "vtkTextureObject.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace svo
 {
@@ -97,11 +99,68 @@ Written writtenIn(const Frame& frame, int y0, int y1, std::uint64_t since, bool 
 }
 }
 
+bool FrameTextures::show(
+  Frame& frame, const SilhouetteFinder& silhouettes, bool first, vtkOpenGLRenderWindow* window)
+{
+  std::vector<glm::vec2> positions = samplePositions();
+  int viewport[4];
+  window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+  const bool may = first && !this->CannotCopy && frame.width == viewport[2] &&
+    frame.height == viewport[3] && !frame.onGPU() && !frame.hasNormals() && !frame.hasLight();
+  const DepthFormat copies = may ? formatForCopies() : DepthFormat::None;
+  bool others = false;
+  if (frame.version == 0 || this->Shown != frame.version || positions != this->SamplePositions ||
+    copies != this->Copies || !this->isOf(window))
+  {
+    this->SamplePositions = std::move(positions);
+    this->uploadAll(frame, silhouettes, copies, window);
+    this->Shown = frame.version;
+    others = true;
+  }
+  if (!this->Copied.empty() &&
+    !copyRectangles(this->colors(), this->DepthCopy, this->Copies, this->Copied))
+  {
+    this->CannotCopy = true;
+    this->uploadAll(frame, silhouettes, DepthFormat::None, window);
+    others = true;
+  }
+  return others;
+}
+
+void FrameTextures::uploadAll(
+  Frame& frame, const SilhouetteFinder& find, DepthFormat copies, vtkOpenGLRenderWindow* window)
+{
+  Silhouettes silhouettes;
+  if (this->bySamples() && find)
+  {
+    find(this->SamplePositions, silhouettes);
+  }
+  this->Parts.upload(silhouettes.parts);
+  silhouettes.exchange(frame);
+  TileRuns runs = tileRunsOf(frame);
+  this->Drawn = std::move(runs.mixed);
+  this->Copied = std::move(runs.whole);
+  if (copies == DepthFormat::None)
+  {
+    this->Drawn.insert(this->Drawn.end(), this->Copied.begin(), this->Copied.end());
+    this->Copied.clear();
+  }
+  // Pixels that are exchanged are not what the tracer wrote.
+  if (this->HasParts || !silhouettes.pixels.empty())
+  {
+    this->Sent = 0;
+  }
+  this->HasParts = !silhouettes.pixels.empty();
+  this->upload(frame, copies, window);
+  silhouettes.exchange(frame); // back
+}
+
 void FrameTextures::release()
 {
   this->Textures = {};
   this->DepthCopy = nullptr;
-  this->Sent = 0;
+  this->Parts.release();
+  this->Sent = this->Shown = 0;
 }
 
 bool FrameTextures::isOf(vtkOpenGLRenderWindow* window) const
@@ -126,9 +185,11 @@ void FrameTextures::sendDepthCopy(const Frame& frame, const PixelRect& rect)
 
 void FrameTextures::borrow(const FrameImages& images, vtkOpenGLRenderWindow* window)
 {
-  this->release();
+  this->DepthCopy = nullptr;
+  this->Sent = 0;
   for (std::size_t i = 0; i < this->Textures.size(); ++i)
   {
+    this->Textures[i] = nullptr;
     if (const unsigned int name = images.*Images[i].name)
     {
       this->Textures[i] = vtkSmartPointer<vtkTextureObject>::New();
@@ -165,6 +226,7 @@ void FrameTextures::upload(const Frame& frame, DepthFormat format, vtkOpenGLRend
 {
   if (frame.onGPU())
   {
+    this->Copies = format;
     this->borrow(frame.images, window);
     return;
   }

@@ -1,11 +1,9 @@
 #include "vtkSVOPresenter.h"
 
-#include "svoFrameCopy.h"
 #include "svoOpenGL.h"
 #include "svoPresentFS.h"
 #include "svoPresentVS.h"
 #include "svoPropPasses.h"
-#include "svoTileRuns.h"
 
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
@@ -96,27 +94,10 @@ void vtkSVOPresenter::ReleaseAll()
   this->Corners = nullptr;
   this->Array = nullptr;
   this->Textures.release();
-  this->Parts.release();
-  this->Uploaded = 0;
   if (std::exchange(this->Entered, false) && this->LeaveContext)
   {
     this->LeaveContext();
   }
-}
-
-/// None unless the frame's pixels, but those of tiles with holes, may be copied.
-svo::DepthFormat vtkSVOPresenter::FormatForCopies(
-  vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
-{
-  const svo::Frame& frame = *this->Frame;
-  int viewport[4];
-  window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
-  // What the window, the renderer or a layer below has kept is before what is shown now.
-  const bool cleared =
-    window->GetErase() && renderer->GetErase() && !renderer->GetPreserveDepthBuffer();
-  const bool may = this->First && !this->CannotCopy && cleared && frame.width == viewport[2] &&
-    frame.height == viewport[3] && !frame.onGPU() && !frame.hasNormals() && !frame.hasLight();
-  return may ? svo::formatForCopies() : svo::DepthFormat::None;
 }
 
 void vtkSVOPresenter::UploadRectangles(const std::vector<svo::PixelRect>& rectangles)
@@ -134,35 +115,6 @@ void vtkSVOPresenter::UploadRectangles(const std::vector<svo::PixelRect>& rectan
     this->Array = vtkSmartPointer<vtkOpenGLVertexArrayObject>::New();
   }
   this->Corners->Upload(corners, vtkOpenGLBufferObject::ArrayBuffer);
-}
-
-void vtkSVOPresenter::Upload(vtkOpenGLRenderWindow* window, svo::DepthFormat copies)
-{
-  const bool copy = copies != svo::DepthFormat::None;
-  svo::Frame& frame = *this->Frame;
-  svo::Silhouettes silhouettes;
-  if (!this->SamplePositions.empty() && this->FindSilhouettes)
-  {
-    this->FindSilhouettes(this->SamplePositions, silhouettes);
-  }
-  this->Parts.upload(silhouettes.parts);
-  silhouettes.exchange(frame);
-  this->Copies = copies;
-  svo::TileRuns runs = svo::tileRunsOf(frame);
-  this->Copied = copy ? runs.whole : std::vector<svo::PixelRect>();
-  if (!copy)
-  {
-    runs.mixed.insert(runs.mixed.end(), runs.whole.begin(), runs.whole.end());
-  }
-  this->UploadRectangles(runs.mixed);
-  // Pixels that are exchanged are not what the tracer wrote.
-  if (this->HasParts || !silhouettes.pixels.empty())
-  {
-    this->Textures.invalidate();
-  }
-  this->HasParts = !silhouettes.pixels.empty();
-  this->Textures.upload(frame, copies, window);
-  silhouettes.exchange(frame); // back
 }
 
 void vtkSVOPresenter::StandFor(vtkProp* prop)
@@ -200,7 +152,7 @@ bool vtkSVOPresenter::DrawFrame(vtkRenderer* renderer, vtkOpenGLRenderWindow* wi
 {
   const svo::Frame& frame = *this->Frame;
   const bool writeNormals = frame.hasNormals();
-  const bool writeSlopes = frame.hasSlopes() && !this->SamplePositions.empty();
+  const bool writeSlopes = frame.hasSlopes() && this->Textures.bySamples();
   const bool writeLight = frame.hasLight();
   const std::string mark = "//VTK::System::Dec\n";
   std::string shader = svoPresentFS;
@@ -252,7 +204,7 @@ bool vtkSVOPresenter::DrawFrame(vtkRenderer* renderer, vtkOpenGLRenderWindow* wi
     state->vtkglDisable(GL_CULL_FACE);
     glDrawArrays(GL_TRIANGLES, 0, this->Drawn);
     this->Array->Release();
-    drawn = this->Parts.draw(window, size);
+    drawn = this->Textures.drawParts(window, size);
   }
   this->Textures.deactivate();
   return drawn;
@@ -286,21 +238,12 @@ int vtkSVOPresenter::RenderOpaqueGeometry(vtkViewport* viewport)
   }
   vtkOpenGLClearErrorMacro();
   this->Enter(window);
-  std::vector<glm::vec2> positions = svo::samplePositions();
-  const svo::DepthFormat copies = this->FormatForCopies(renderer, window);
-  if (this->Frame->version == 0 || this->Uploaded != this->Frame->version ||
-    positions != this->SamplePositions || copies != this->Copies || !this->Textures.isOf(window))
+  // What the window, the renderer or a layer below has kept is before what is shown now.
+  const bool first = this->First && window->GetErase() && renderer->GetErase() &&
+    !renderer->GetPreserveDepthBuffer();
+  if (this->Textures.show(*this->Frame, this->FindSilhouettes, first, window) || !this->Corners)
   {
-    this->SamplePositions = std::move(positions);
-    this->Upload(window, copies);
-    this->Uploaded = this->Frame->version;
-  }
-  if (!this->Copied.empty() &&
-    !svo::copyRectangles(
-      this->Textures.colors(), this->Textures.depthCopy(), this->Copies, this->Copied))
-  {
-    this->CannotCopy = true;
-    this->Upload(window, svo::DepthFormat::None);
+    this->UploadRectangles(this->Textures.rectangles());
   }
   const bool drawn = this->Drawn == 0 || this->DrawFrame(renderer, window);
   vtkOpenGLCheckErrorMacro("failed in vtkSVOPresenter");

@@ -10,7 +10,6 @@
 #define vtkSVOPresenter_h
 
 #include "svoFrameTextures.h"
-#include "svoPixelParts.h"
 #include "svoSilhouettes.h"
 #include "svoTracer.h"
 
@@ -36,8 +35,7 @@ public:
   static vtkSVOPresenter* New();
   vtkTypeMacro(vtkSVOPresenter, vtkProp3D);
 
-  /// Finds the parts of pixels that surfaces cover, for samples at these positions.
-  using SilhouetteFinder = std::function<void(const std::vector<glm::vec2>&, svo::Silhouettes&)>;
+  using SilhouetteFinder = svo::FrameTextures::SilhouetteFinder;
 
   /// The frame to show; it must live until the next call. `pass` is not asked for draw buffers.
   /// Where the framebuffer has several samples a pixel, silhouettes are asked for and the frame's
@@ -86,8 +84,6 @@ private:
   vtkSVOPresenter(const vtkSVOPresenter&) = delete;
   void operator=(const vtkSVOPresenter&) = delete;
 
-  svo::DepthFormat FormatForCopies(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
-  void Upload(vtkOpenGLRenderWindow* window, svo::DepthFormat copies);
   void UploadRectangles(const std::vector<svo::PixelRect>& rectangles);
   bool DrawFrame(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void SelectDrawBuffers(vtkShaderProgram* program);
@@ -102,19 +98,12 @@ private:
   SilhouetteFinder FindSilhouettes;
   Draw DrawSurfaces;
   vtkOpenGLRenderPass* Pass = nullptr;
-  std::uint64_t Uploaded = 0; // svo::Frame::version of what the textures show
   double PresentTime = 0.0;
-  std::vector<glm::vec2> SamplePositions; // that the upload was made for
-  svo::PixelParts Parts;
-  bool HasParts = false; // the upload has pixels that were exchanged
   bool First = false;
-  svo::DepthFormat Copies = svo::DepthFormat::None;
-  bool CannotCopy = false;                        // OpenGL did not take it
-  std::vector<svo::PixelRect> Copied;             // rectangles that are copied;
-  int Drawn = 0;                                  // and how many others are drawn
-  vtkSmartPointer<vtkOpenGLBufferObject> Corners; // two triangles for each
-  vtkSmartPointer<vtkOpenGLVertexArrayObject> Array;
   svo::FrameTextures Textures;
+  int Drawn = 0;                                  // corners
+  vtkSmartPointer<vtkOpenGLBufferObject> Corners; // two triangles for each rectangle
+  vtkSmartPointer<vtkOpenGLVertexArrayObject> Array;
   /// The mapper that other passes are given when they set up the quad's shader.
   vtkNew<vtkOpenGLPolyDataMapper> QuadMapper;
 };

@@ -3,6 +3,7 @@
 #include "svoBox.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 
@@ -88,11 +89,13 @@ void InstanceTree::build(const Scene& scene, const ParallelFor& parallelFor)
   this->OutsidersAtFirst = this->Tree->outsiders().size();
 }
 
-void InstanceTree::follow(const Scene& scene, const ParallelFor& parallelFor)
+void InstanceTree::follow(
+  const Scene& scene, const SceneChanges& changes, const ParallelFor& parallelFor)
 {
-  const std::size_t count = scene.instances.size(), before = this->Known.size();
-  const std::vector<std::uint32_t> changed = this->Known.update(scene);
-  if (changed.empty() && count == before)
+  const std::size_t count = changes.count;
+  const std::vector<std::uint32_t>& changed = changes.instances;
+  assert(count == scene.instances.size());
+  if (changes.none())
   {
     return;
   }
@@ -110,7 +113,7 @@ void InstanceTree::follow(const Scene& scene, const ParallelFor& parallelFor)
     this->build(scene, parallelFor);
     return;
   }
-  for (std::size_t i = count; i < before; ++i)
+  for (std::size_t i = count; i < changes.before; ++i)
   {
     this->Tree->remove(static_cast<std::uint32_t>(i));
   }

@@ -2,10 +2,10 @@
 #ifndef svoInstanceTree_h
 #define svoInstanceTree_h
 
-#include "svoInstanceVersions.h"
 #include "svoLooseOctree.h"
 #include "svoParallel.h"
 #include "svoScene.h"
+#include "svoSceneChanges.h"
 #include "vtkSVOTracingModule.h"
 
 #include <cstddef>
@@ -18,16 +18,16 @@ namespace svo
 /// it has none, or not finite if it may be anywhere.
 VTKSVOTRACING_EXPORT Ball ballOf(const Instance& instance);
 
-/// Instances with other versions are put where they are now; it is made anew where many have left
-/// its cube.
+/// Instances that have changed are put where they are now; it is made anew where many have left its
+/// cube.
 class VTKSVOTRACING_EXPORT InstanceTree
 {
 public:
   /// Where there are fewer instances there is no tree: they are asked one by one.
   static constexpr std::size_t Fewest = 64;
 
-  /// Makes it that of a scene; does nothing where Scene::version is the last one's.
-  void follow(const Scene& scene, const ParallelFor& parallelFor);
+  /// Makes it that of a scene. `changes`: since the last call, of which none may be left out.
+  void follow(const Scene& scene, const SceneChanges& changes, const ParallelFor& parallelFor);
 
   /// Its objects are the indices of the instances that have octrees. Null if there is none.
   const LooseOctree* tree() const { return this->Tree ? &*this->Tree : nullptr; }
@@ -39,7 +39,6 @@ private:
   void put(std::uint32_t object, const Ball& ball);
 
   std::optional<LooseOctree> Tree;
-  InstanceVersions Known; // what the tree was made of
   std::size_t Shown = 0;
   std::size_t OutsidersAtFirst = 0;
 };

@@ -45,7 +45,7 @@ struct Instance
   DepthOffset depthOffset; // shadows know nothing of it
   /// Where the rasteriser draws the same vertices: 1, what it draws is seen; -1, this is seen; 0,
   /// it does not. See svoShownDepth.h.
-  int givesWay = 0;
+  int coincidentOrder = 0;
   /// As a caster: the share of a light that it takes away, 0..1.
   float opacity = 1.0f;
   bool visible = true; // false: a rasterised object that only casts

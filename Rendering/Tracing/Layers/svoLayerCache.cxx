@@ -2,7 +2,7 @@
 
 namespace svo
 {
-void LayerCache::drop(Kept& kept, LayerBudget& budget)
+void LayerCache::drop(Entry& kept, LayerBudget& budget)
 {
   if (kept.layer)
   {
@@ -39,7 +39,7 @@ DepthLayer* LayerCache::layerOf(
     return nullptr;
   }
   const auto inserted = this->Layers.try_emplace(id);
-  Kept& kept = inserted.first->second;
+  Entry& kept = inserted.first->second;
   if (kept.used)
   {
     return nullptr;

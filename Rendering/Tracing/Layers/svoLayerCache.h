@@ -6,6 +6,7 @@
 #define svoLayerCache_h
 
 #include "svoDepthLayer.h"
+#include "svoLayerBudget.h"
 #include "svoLayerKey.h"
 #include "vtkSVOTracingModule.h"
 
@@ -16,13 +17,6 @@
 
 namespace svo
 {
-/// What all layers together may take, and take.
-struct LayerBudget
-{
-  std::size_t limit = 0; // bytes
-  std::size_t used = 0;  // bytes
-};
-
 class VTKSVOTRACING_EXPORT LayerCache
 {
 public:
@@ -44,15 +38,15 @@ public:
   void clear();
 
 private:
-  struct Kept
+  struct Entry
   {
     LayerKey key;
     std::unique_ptr<DepthLayer> layer; // null while the instance or the view moves
     bool used = false;
   };
-  void drop(Kept& kept, LayerBudget& budget);
+  void drop(Entry& kept, LayerBudget& budget);
 
-  std::unordered_map<std::uint64_t, Kept> Layers; // by Instance::id
+  std::unordered_map<std::uint64_t, Entry> Layers; // by Instance::id
   bool Keep = false;
   bool Moved = false;
   std::size_t Memory = 0;

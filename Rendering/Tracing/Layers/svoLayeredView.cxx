@@ -29,14 +29,15 @@ void LayeredView::release()
 {
   this->Layers.clear();
   this->HasFrame = false;
-  this->Seen.tiles.forget();
+  this->Tiles.forget();
 }
 
 void LayeredView::forget()
 {
   this->Seen.depth = DepthBuffer();
+  this->Seen.versions = {};
   this->LastHit = {};
-  this->Seen.tiles.forget();
+  this->Tiles.forget();
 }
 
 bool LayeredView::prepare(const Scene& scene, const View& view,
@@ -110,13 +111,27 @@ void LayeredView::trace(const ParallelFor& parallelFor, const std::uint8_t* want
   this->NotLookedAt = { this->Instances.size(), 0 };
   this->findIntervals(parallelFor);
   this->findStale(wanted);
-  if (this->Seen.tiles.anyStale())
+  if (this->Tiles.anyStale())
   {
     if (!this->Instances.empty())
     {
       this->traceTiles(parallelFor);
     }
-    this->Seen.depth.trim([this](std::size_t tile) { return this->Seen.tiles.isMerged(tile); });
+    this->Seen.depth.trim([this](std::size_t tile) { return this->Tiles.isMerged(tile); });
+    this->noteVersions();
+  }
+}
+
+void LayeredView::noteVersions()
+{
+  const std::uint64_t now = nextTileVersion();
+  this->Seen.versions.resize(this->Seen.depth.tiles());
+  for (std::size_t tile = 0; tile < this->Seen.versions.size(); ++tile)
+  {
+    if (this->Tiles.changed(tile))
+    {
+      this->Seen.versions[tile] = this->Seen.version = now;
+    }
   }
 }
 
@@ -135,7 +150,7 @@ void LayeredView::findStale(const std::uint8_t* wanted)
   const bool keep = this->HasFrame && this->Instances.shifted() == this->WasShifted;
   this->WasShifted = this->Instances.shifted();
   const TileGrid grid(view);
-  if (!this->Seen.tiles.beginFrame(view, this->Parts, keep, wanted))
+  if (!this->Tiles.beginFrame(view, this->Parts, keep, wanted))
   {
     depth.resize(grid);
   }
@@ -143,7 +158,7 @@ void LayeredView::findStale(const std::uint8_t* wanted)
   this->LastHit = depth.hit;
   for (std::size_t tile = 0; tile < depth.tiles(); ++tile)
   {
-    depth.hit[tile] = depth.hit[tile] && !this->Seen.tiles.isStale(tile);
+    depth.hit[tile] = depth.hit[tile] && !this->Tiles.isStale(tile);
   }
 }
 
@@ -173,7 +188,7 @@ void LayeredView::traceTiles(const ParallelFor& parallelFor)
       if (!mine)
       {
         mine = std::make_unique<TileTracer>(
-          this->Instances, this->Cull.occlusion, this->LastHit, this->Seen.depth, this->Seen.tiles);
+          this->Instances, this->Cull.occlusion, this->LastHit, this->Seen.depth, this->Tiles);
       }
       for (std::size_t group = first; group < last; ++group)
       {

@@ -7,6 +7,7 @@
 #include "svoGroupLists.h"
 #include "svoHits.h"
 #include "svoLayerCache.h"
+#include "svoMergedTiles.h"
 #include "svoParallel.h"
 #include "svoScene.h"
 #include "svoTileSampler.h"
@@ -75,9 +76,12 @@ private:
   /// Finds the tiles that are not what they were.
   void findStale(const std::uint8_t* wanted);
   void traceTiles(const ParallelFor& parallelFor);
+  /// Of those that turned out to be others.
+  void noteVersions();
 
   TracedInstances Instances;
-  Hits Seen{ {}, {}, this->Instances };
+  Hits Seen{ {}, {}, 0, this->Instances };
+  MergedTiles Tiles;       // which of them are not what they were
   bool HasFrame;           // hits and layers are those of a frame that keeps them
   bool WasShifted = false; // TracedInstances::shifted() of the last frame
   LayerCache Layers;

@@ -78,7 +78,8 @@ void TileTracer::gather(const std::uint32_t* nearby, std::size_t count)
     {
       continue;
     }
-    if (entry.ball)
+    const Method method = this->choose(entry);
+    if (method == Method::Ball)
     {
       this->Balls.add(entry, this->Group);
       this->accountOf(entry).asked = true;
@@ -87,8 +88,9 @@ void TileTracer::gather(const std::uint32_t* nearby, std::size_t count)
     Candidate& candidate = this->Candidates[this->Nearby++];
     candidate.part.entry = &entry;
     candidate.hidden = false;
-    candidate.method = this->choose(entry, candidate);
-    if (candidate.method == Method::Together)
+    candidate.method = method == Method::Alone ? this->aloneOrRays(candidate) : method;
+    candidate.unknown = entry.tiles ? Method::Layer : Method::Rays;
+    if (method == Method::Together)
     {
       this->Together.push_back(&candidate);
     }
@@ -100,17 +102,13 @@ void TileTracer::gather(const std::uint32_t* nearby, std::size_t count)
   this->findHidden();
 }
 
-TileTracer::Method TileTracer::choose(const TracedInstance& entry, Candidate& candidate)
+TileTracer::Method TileTracer::choose(const TracedInstance& entry) const
 {
-  if (!entry.tiles)
-  {
-    return Method::Rays;
-  }
-  if (entry.layer)
-  {
-    return Method::Undecided;
-  }
-  return this->Instances.shifted() ? this->aloneOrRays(candidate) : Method::Together;
+  return entry.ball             ? Method::Ball
+    : entry.layer               ? Method::Layer
+    : !entry.tiles              ? Method::Rays
+    : this->Instances.shifted() ? Method::Alone
+                                : Method::Together;
 }
 
 TileTracer::Method TileTracer::aloneOrRays(Candidate& candidate)
@@ -149,7 +147,7 @@ void TileTracer::findHidden()
   for (std::size_t k = 0; k < this->Nearby; ++k)
   {
     Candidate& candidate = this->Candidates[k];
-    if (candidate.method == Method::Rays && !candidate.entry().layer)
+    if (candidate.method == Method::Rays)
     {
       candidate.hidden = this->Occlusion.hides(candidate.entry());
     }
@@ -179,14 +177,18 @@ bool TileTracer::makeReady(int tileX, int tileY, const MergedTile& merged,
 {
   const TracedInstance& entry = candidate.entry();
   candidate.key = -std::numeric_limits<double>::infinity();
-  if (entry.layer) // first: kept ones cost nothing and cut the others' rays
+  switch (candidate.method)
   {
-    return entry.layer->holds(tileX, tileY) &&
-      entry.layer->traced[entry.layer->index(tileX, tileY)] != DepthLayer::Empty;
-  }
-  if (candidate.method != Method::Rays)
-  {
-    return candidate.method == Method::Alone; // others are merged
+    case Method::Layer: // first: kept ones cost nothing and cut the others' rays
+      return entry.layer->holds(tileX, tileY) &&
+        entry.layer->traced[entry.layer->index(tileX, tileY)] != DepthLayer::Empty;
+    case Method::Alone:
+      return true;
+    case Method::Ball:
+    case Method::Together:
+      return false; // they are merged
+    case Method::Rays:
+      break;
   }
   if (!deepest)
   {
@@ -242,7 +244,7 @@ void TileTracer::traceTile(int tileX, int tileY, bool onlyChanged)
     const TilePoints at(tileX, tileY);
     for (Candidate* const candidate : this->OneByOne)
     {
-      if (candidate->entry().layer)
+      if (candidate->method == Method::Layer)
       {
         this->mergeLayer(tileX, tileY, at, *candidate, merged);
       }
@@ -306,11 +308,11 @@ void TileTracer::mergeLayer(
 bool TileTracer::traceLayer(
   int tileX, int tileY, const TilePoints& at, Candidate& candidate, float* t, Primitive* primitive)
 {
-  if (candidate.method == Method::Undecided)
+  if (candidate.unknown == Method::Layer)
   {
-    candidate.method = this->aloneOrRays(candidate);
+    candidate.unknown = this->aloneOrRays(candidate);
   }
-  if (candidate.method == Method::Alone)
+  if (candidate.unknown == Method::Alone)
   {
     MergedTile hits{ t, this->Own.instance, primitive, false };
     return this->nearestTriangles(tileX, tileY, candidate.triangles, hits);

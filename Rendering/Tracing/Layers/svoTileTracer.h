@@ -1,8 +1,8 @@
 // Traces the tiles of a view, a group at a time: finds the instances that its rays may meet,
 // decides how each of them is traced, and merges what they hit. Private to a thread.
 //
-// What a ray of a tile meets of an instance is found in one of five ways. Which one is chosen for a
-// group (gather()); where triangles cannot be made ready, it is rays in the end.
+// What a ray of a tile meets of an instance is found by one of five methods. choose() says which,
+// for a group; where triangles cannot be made ready, it is rays in the end.
 //
 //   Ball      a ball that stands for its triangles      GroupBalls
 //   Layer     a kept depth layer; alone or by rays where it is not known
@@ -52,30 +52,31 @@ public:
   const Account& account(std::size_t entry) const { return this->Accounts[entry]; }
 
 private:
-  /// How an instance that is no ball is traced in the group. With a layer: its tiles that are not
-  /// known, of which there may be none.
   enum class Method : std::uint8_t
   {
-    Undecided, // alone or by rays; of layers
+    Ball,
+    Layer,
     Together,
     Alone,
     Rays
   };
-  /// An instance that the group's rays may meet.
+  /// An instance that the group's rays may meet, and that is no ball.
   struct Candidate
   {
     TilePart part; // of the tile at hand
     Method method = Method::Rays;
-    bool hidden = false;      // others hide all that the group sees of it
-    double key = 0.0;         // order of tracing
-    GroupTriangles triangles; // where it is traced alone
+    Method unknown = Method::Rays; // of a layer's tiles that are not; Layer: nobody had to know
+    bool hidden = false;           // others hide all that the group sees of it
+    double key = 0.0;              // order of tracing
+    GroupTriangles triangles;      // where it is traced alone
     const TracedInstance& entry() const { return *this->part.entry; }
   };
 
   /// Finds which tiles of the group are asked for; false if none.
   bool findWindow();
   void gather(const std::uint32_t* nearby, std::size_t count);
-  Method choose(const TracedInstance& entry, Candidate& candidate);
+  Method choose(const TracedInstance& entry) const;
+  /// Rays where its triangles cannot be made ready.
   Method aloneOrRays(Candidate& candidate);
   /// Adds what the group may see of those that are traced together. False, and all is to be done
   /// once more, if one of them turned out to have to be traced by rays.

@@ -2,6 +2,7 @@
 #ifndef svoVisibleInstances_h
 #define svoVisibleInstances_h
 
+#include "svoCulling.h"
 #include "svoLayerKey.h"
 #include "svoLocalView.h"
 #include "svoLooseOctree.h"
@@ -43,15 +44,6 @@ struct VisibleInstance
 
 /// The octree level that an instance's rays stop at.
 using LevelOf = std::function<int(const Instance&, const LocalView&)>;
-
-/// How instances are culled.
-struct Culling
-{
-  const LooseOctree* tree = nullptr; // of the scene's instances (svoInstanceTree.h); null: none
-  bool occlusion = true;             // those that others hide are left out
-  /// Pixels of its rectangle from which on an instance is worth being drawn.
-  double leastPixels = 0.0;
-};
 
 /// A node of the tree that a view may see, with several instances in it.
 struct SeenNode

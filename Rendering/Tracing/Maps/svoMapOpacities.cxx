@@ -11,7 +11,8 @@ void MapOpacities::find(
   const Scene& scene, const View& view, const Hits& map, bool all, const ParallelFor& parallelFor)
 {
   const DepthBuffer& depth = map.depth;
-  all = all || this->Texels.size() != 64 * depth.tiles();
+  const std::uint64_t known = all ? 0 : this->Of;
+  this->Of = map.version;
   this->Texels.resize(64 * depth.tiles());
   std::vector<SurfaceMatrices> frames(scene.instances.size());
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
@@ -45,7 +46,7 @@ void MapOpacities::find(
   forEach(parallelFor, depth.tiles(), 64,
     [&](std::size_t tile)
     {
-      for (int i = 0; depth.hit[tile] && (all || map.tiles.changed(tile)) && i < 64; ++i)
+      for (int i = 0; depth.hit[tile] && map.changedSince(tile, known) && i < 64; ++i)
       {
         this->Texels[64 * tile + i] = opacityAt(tile, i);
       }

@@ -1,5 +1,6 @@
 #include "svoShadowBuffer.h"
 
+#include "svoLayeredView.h"
 #include "svoLeafError.h"
 #include "svoLocalView.h"
 #include "svoMapTest.h"
@@ -7,9 +8,18 @@
 #include "svoWorldSize.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace svo
 {
+ShadowBuffer::Map::Map(std::unique_ptr<LayeredView> view)
+  : layers(std::move(view))
+  , hits(this->layers->hits())
+{
+}
+
+ShadowBuffer::Map::~Map() = default;
+
 void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_t first,
   const FrameSettings& settings, LayerBudget& budget, std::uint8_t group,
   const ParallelFor& parallelFor)
@@ -17,12 +27,12 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
   const std::vector<View>& views = maps.views;
   const std::uint8_t* casters = maps.casters.data() + first; // this scene's
   const bool sameBias =
-    this->Maps.automaticBias == settings.automaticBias && this->Maps.bias == settings.bias;
+    this->Tested.automaticBias == settings.automaticBias && this->Tested.bias == settings.bias;
   this->SameMaps = sameBias &&
-    std::equal(this->Faces.begin(), this->Faces.end(), views.begin(), views.end(),
-      [](const auto& face, const View& view) { return sameRays(face->map.view, view); });
+    std::equal(this->Maps.begin(), this->Maps.end(), views.begin(), views.end(),
+      [](const auto& map, const View& view) { return sameRays(map->traced.view, view); });
   this->setBias(settings);
-  this->arrangeFaces(views, budget);
+  this->arrangeMaps(views, budget);
   const std::vector<glm::dmat4> places = std::move(this->CasterPlace);
   this->CasterPlace.clear();
   this->CasterPlace.reserve(scene.instances.size());
@@ -34,44 +44,44 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
   const std::size_t outlines = scene.instances.size() + scene.receivers.size();
   for (std::size_t i = 0; i < views.size(); ++i)
   {
-    Face& face = *this->Faces[i];
-    const bool sawCasters = face.map.seesCasters;
-    static_cast<MapGeometry&>(face.map) = MapGeometry(views[i]);
-    const TileGrid before = face.grid;
-    face.grid = TileGrid(views[i]);
-    if (face.map.shared.merged() || !settings.handsOutMaps() || !sameGrid(before, face.grid))
+    Map& map = *this->Maps[i];
+    const bool sawCasters = map.traced.seesCasters;
+    static_cast<MapGeometry&>(map.traced) = MapGeometry(views[i]);
+    const TileGrid before = map.grid;
+    map.grid = TileGrid(views[i]);
+    if (map.traced.shared.merged() || !settings.handsOutMaps() || !sameGrid(before, map.grid))
     {
-      face.copied.reset();
+      map.copied.reset();
     }
-    face.map.shared.clear();
-    face.layers.setCulling(this->Cull);
-    face.map.seesCasters = face.layers.prepare(
-      scene, face.map.view,
+    map.traced.shared.clear();
+    map.layers->setCulling(this->Cull);
+    map.traced.seesCasters = map.layers->prepare(
+      scene, map.traced.view,
       [&](const Instance& instance)
       { return casters[&instance - scene.instances.data()] == group; },
       [&](const Instance& instance, const LocalView& local)
-      { return selectLevel(instance, local, face.map.view, settings.pixelError); },
+      { return selectLevel(instance, local, map.traced.view, settings.pixelError); },
       settings.frameCoherence, budget, parallelFor);
-    this->SameMaps = this->SameMaps && sawCasters == face.map.seesCasters;
-    if (sawCasters != face.map.seesCasters)
+    this->SameMaps = this->SameMaps && sawCasters == map.traced.seesCasters;
+    if (sawCasters != map.traced.seesCasters)
     {
-      face.copied.reset();
+      map.copied.reset();
     }
-    const std::vector<double> voxels = std::move(face.map.casterVoxel);
-    const std::vector<double> errors = std::move(face.map.casterError);
-    face.map.casterVoxel.assign(outlines, 0.0);
-    face.map.casterError.assign(outlines, 0.0);
-    if (!face.map.seesCasters && !settings.wholeShadowBuffers)
+    const std::vector<double> voxels = std::move(map.traced.casterVoxel);
+    const std::vector<double> errors = std::move(map.traced.casterError);
+    map.traced.casterVoxel.assign(outlines, 0.0);
+    map.traced.casterError.assign(outlines, 0.0);
+    if (!map.traced.seesCasters && !settings.wholeShadowBuffers)
     {
-      face.forget(); // of most groups' maps, where a light has six
+      map.forget(); // of most groups' maps, where a light has six
       continue;
     }
     this->SameMaps = this->SameMaps && voxels.size() == outlines;
-    const ViewedInstances& seen = face.layers.hits().instances;
+    const ViewedInstances& seen = map.hits.instances;
     for (std::uint32_t k = 0; k < scene.instances.size(); ++k)
     {
       const Instance& instance = scene.instances[k];
-      double &voxel = face.map.casterVoxel[k], &error = face.map.casterError[k];
+      double &voxel = map.traced.casterVoxel[k], &error = map.traced.casterError[k];
       if (const int level = seen.level(k); casters[k] == group && level > 0)
       {
         voxel = worldVoxel(instance, level);
@@ -81,57 +91,59 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
       this->SameMaps = this->SameMaps &&
         (places[k] != this->CasterPlace[k] || (voxels[k] == voxel && errors[k] == error));
     }
-    face.map.findLargest();
-    if (face.wanted.size() != face.grid.size())
+    map.traced.findLargest();
+    if (map.wanted.size() != map.grid.size())
     {
-      face.wanted = std::vector<std::atomic<std::uint8_t>>(face.grid.size());
+      map.wanted = std::vector<std::atomic<std::uint8_t>>(map.grid.size());
     }
-    for (auto& tile : face.wanted)
+    for (auto& tile : map.wanted)
     {
       tile.store(0, std::memory_order_relaxed);
     }
-    face.received.clear();
+    map.received.clear();
   }
   this->noteOpacities(scene, casters, group);
 }
 
-/// So many faces as there are views: each is the one that had its view's image, if there is one, as
+/// So many maps as there are views: each is the one that had its view's image, if there is one, as
 /// what was traced of it is still true then.
-void ShadowBuffer::arrangeFaces(const std::vector<View>& views, LayerBudget& budget)
+void ShadowBuffer::arrangeMaps(const std::vector<View>& views, LayerBudget& budget)
 {
-  std::vector<std::unique_ptr<Face>> before = std::move(this->Faces);
+  std::vector<std::unique_ptr<Map>> before = std::move(this->Maps);
   const bool moved = !before.empty();
-  this->Faces.clear();
+  this->Maps.clear();
   for (const View& view : views)
   {
     const auto same = std::find_if(before.begin(), before.end(),
-      [&](const auto& face) { return face && sameImage(face->map.view, view); });
-    this->Faces.push_back(same != before.end() ? std::move(*same) : nullptr);
+      [&](const auto& map) { return map && sameImage(map->traced.view, view); });
+    this->Maps.push_back(same != before.end() ? std::move(*same) : nullptr);
   }
-  auto other = before.begin(); // faces that are free
-  for (auto& face : this->Faces)
+  auto other = before.begin(); // maps that are free
+  for (auto& map : this->Maps)
   {
     other = std::find_if(other, before.end(), [](const auto& left) { return left != nullptr; });
-    if (!face)
+    if (!map)
     {
-      face = other != before.end() ? std::move(*other) : std::make_unique<Face>(moved);
+      map = other != before.end()
+        ? std::move(*other)
+        : std::make_unique<Map>(std::make_unique<LayeredView>(/*exact=*/false, moved));
     }
   }
-  this->Maps.maps.clear();
-  for (const auto& face : this->Faces)
+  this->Tested.maps.clear();
+  for (const auto& map : this->Maps)
   {
-    this->Maps.maps.push_back(&face->map);
+    this->Tested.maps.push_back(&map->traced);
   }
   for (const auto& gone : before)
   {
-    budget.used -= gone ? gone->layers.layerMemory() : 0;
+    budget.used -= gone ? gone->layers->layerMemory() : 0;
   }
 }
 
 template <class Body>
 void ShadowBuffer::tilesAround(const MapPlace& place, std::uint16_t light, Body&& body) const
 {
-  const TileGrid& grid = this->Faces[place.index]->grid;
+  const TileGrid& grid = this->Maps[place.index]->grid;
   const PixelRect& crop = place.map->view.crop;
   const int x0 = std::max(static_cast<int>(place.x - this->Around), crop.x0) >> 3;
   const int y0 = std::max(static_cast<int>(place.y - this->Around), crop.y0) >> 3;
@@ -157,21 +169,21 @@ bool ShadowBuffer::isTraced(const MapPlace& place) const
 bool ShadowBuffer::knows(const glm::dvec3& position) const
 {
   MapPlace place;
-  return !this->Maps.lookUp(position, place) || isTraced(place);
+  return !this->Tested.lookUp(position, place) || isTraced(place);
 }
 
 ShadowBuffer::MapAnswer ShadowBuffer::ask(
   const SurfacePoint& point, double error, const double* extent) const
 {
   MapPlace place;
-  if (!this->Maps.lookUp(point.position, place))
+  if (!this->Tested.lookUp(point.position, place))
   {
     return { true, 0.0f, 0.0 };
   }
   MapAnswer said{ isTraced(place), 0.0f, place.map->edge(place.t) };
   if (said.known)
   {
-    const MapTest test(this->Maps);
+    const MapTest test(this->Tested);
     said.darkness = extent         ? test.darkness(point, error, *extent)
       : test.shadows(point, error) ? 1.0f
                                    : 0.0f;
@@ -182,7 +194,7 @@ ShadowBuffer::MapAnswer ShadowBuffer::ask(
 void ShadowBuffer::note(const glm::dvec3& position, std::uint16_t light, RaisedTiles& noted) const
 {
   MapPlace place;
-  if (this->Maps.lookUp(position, place))
+  if (this->Tested.lookUp(position, place))
   {
     this->tilesAround(place, light,
       [&](const LightTile& name) {
@@ -191,16 +203,16 @@ void ShadowBuffer::note(const glm::dvec3& position, std::uint16_t light, RaisedT
   }
 }
 
-bool ShadowBuffer::Face::want(const MapPlaces& places, float around, std::uint16_t light,
+bool ShadowBuffer::Map::want(const MapPlaces& places, float around, std::uint16_t light,
   std::uint16_t index, LightTiles& noted)
 {
-  const MapTiles box = tilesOf(places, this->map.view, around);
+  const MapTiles box = tilesOf(places, this->traced.view, around);
   if (!box.atMost(8))
   {
     return false;
   }
   const std::uint64_t tiles =
-    box.atMost(2) ? ~std::uint64_t(0) : svo::tilesAround(places, this->map.view, around, box);
+    box.atMost(2) ? ~std::uint64_t(0) : svo::tilesAround(places, this->traced.view, around, box);
   for (int y = box.y0; y <= box.y1; ++y)
   {
     for (int x = box.x0; x <= box.x1; ++x)
@@ -227,14 +239,14 @@ bool ShadowBuffer::Face::want(const MapPlaces& places, float around, std::uint16
 void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles& noted)
 {
   std::uint64_t left = patch.mask, single = 0;
-  for (std::size_t f = 0; f < this->Faces.size() && left != 0; ++f)
+  for (std::size_t f = 0; f < this->Maps.size() && left != 0; ++f)
   {
-    const std::unique_ptr<Face>& face = this->Faces[f];
+    const std::unique_ptr<Map>& map = this->Maps[f];
     MapPlaces places;
-    placeInMap(face->map, patch, left, places);
+    placeInMap(map->traced, patch, left, places);
     single |= left & ~(places.inside | places.outside);
-    if (places.inside != 0 && face->map.seesCasters &&
-      !face->want(places, this->Around, light, static_cast<std::uint16_t>(f), noted))
+    if (places.inside != 0 && map->traced.seesCasters &&
+      !map->want(places, this->Around, light, static_cast<std::uint16_t>(f), noted))
     {
       single |= places.inside;
     }
@@ -249,7 +261,7 @@ void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles&
     [&](int i)
     {
       MapPlace place;
-      if (this->Maps.lookUp(patch.position(i), place))
+      if (this->Tested.lookUp(patch.position(i), place))
       {
         this->tilesAround(place, light, note);
       }
@@ -258,19 +270,19 @@ void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles&
 
 void ShadowBuffer::mark(const SeenReceivers& receivers)
 {
-  for (auto& face : this->Faces)
+  for (auto& map : this->Maps)
   {
-    face->received.assign(face->wanted.size(), 0);
+    map->received.assign(map->wanted.size(), 0);
     for (const PixelRect& rect :
-      face->map.seesCasters ? receivers.in(face->map.view) : std::vector<PixelRect>())
+      map->traced.seesCasters ? receivers.in(map->traced.view) : std::vector<PixelRect>())
     {
-      face->grid.eachStretch(rect,
+      map->grid.eachStretch(rect,
         [&](std::size_t first, std::size_t last)
         {
           for (std::size_t tile = first; tile < last; ++tile)
           {
-            face->wanted[tile].store(1, std::memory_order_relaxed);
-            face->received[tile] = 1;
+            map->wanted[tile].store(1, std::memory_order_relaxed);
+            map->received[tile] = 1;
           }
         });
     }
@@ -279,9 +291,9 @@ void ShadowBuffer::mark(const SeenReceivers& receivers)
 
 void ShadowBuffer::markAll()
 {
-  for (auto& face : this->Faces)
+  for (auto& map : this->Maps)
   {
-    for (auto& tile : face->wanted)
+    for (auto& tile : map->wanted)
     {
       tile.store(1, std::memory_order_relaxed);
     }
@@ -290,29 +302,29 @@ void ShadowBuffer::markAll()
 
 void ShadowBuffer::trace(const ParallelFor& parallelFor)
 {
-  for (auto& face : this->Faces)
+  for (auto& map : this->Maps)
   {
-    if (face->wanted.empty())
+    if (map->wanted.empty())
     {
       continue; // it sees nothing
     }
-    std::vector<std::uint8_t> wanted(face->wanted.size());
-    std::transform(face->wanted.begin(), face->wanted.end(), wanted.begin(),
+    std::vector<std::uint8_t> wanted(map->wanted.size());
+    std::transform(map->wanted.begin(), map->wanted.end(), wanted.begin(),
       [](const auto& tile) { return tile.load(std::memory_order_relaxed); });
-    face->layers.trace(parallelFor, wanted.data());
-    face->map.occluders.find(face->layers.hits(), parallelFor);
+    map->layers->trace(parallelFor, wanted.data());
+    map->traced.occluders.find(map->hits, parallelFor);
     if (this->MappedColors.empty())
     {
-      face->map.opacities.forget();
+      map->traced.opacities.forget();
     }
     else
     {
-      face->map.opacities.find(
-        *this->Traced, face->map.view, face->layers.hits(), this->OtherOpacities, parallelFor);
+      map->traced.opacities.find(
+        *this->Traced, map->traced.view, map->hits, this->OtherOpacities, parallelFor);
     }
-    if (face->layers.hits().tiles.anyStale() || this->OtherOpacities)
+    if (map->hits.version > map->copiedFrom || this->OtherOpacities)
     {
-      face->copied.reset();
+      map->copied.reset();
     }
   }
   this->Traced = nullptr;
@@ -322,43 +334,43 @@ void ShadowBuffer::merge(Processes& processes, std::size_t first)
 {
   if (this->Translucent)
   {
-    const std::vector<float> opacities = std::move(this->Maps.casterOpacity);
-    gatherRecords(processes, opacities, this->Maps.casterOpacity);
+    const std::vector<float> opacities = std::move(this->Tested.casterOpacity);
+    gatherRecords(processes, opacities, this->Tested.casterOpacity);
     this->MappedColors.clear();
-    this->Maps.findSameOpacity(/*mapped=*/false);
+    this->Tested.findSameOpacity(/*mapped=*/false);
   }
-  for (auto& face : this->Faces)
+  for (auto& map : this->Maps)
   {
-    const std::vector<double> voxels = std::move(face->map.casterVoxel);
-    const std::vector<double> errors = std::move(face->map.casterError);
-    gatherRecords(processes, voxels, face->map.casterVoxel);
-    gatherRecords(processes, errors, face->map.casterError);
-    face->map.findLargest();
-    face->map.shared.merge(processes, face->map.view, face->layers.hits(), first);
-    face->map.occluders.forget();
-    face->map.opacities.forget();
-    face->map.seesCasters = face->map.shared.bytes() > 0;
-    face->copied.reset();
+    const std::vector<double> voxels = std::move(map->traced.casterVoxel);
+    const std::vector<double> errors = std::move(map->traced.casterError);
+    gatherRecords(processes, voxels, map->traced.casterVoxel);
+    gatherRecords(processes, errors, map->traced.casterError);
+    map->traced.findLargest();
+    map->traced.shared.merge(processes, map->traced.view, map->hits, first);
+    map->traced.occluders.forget();
+    map->traced.opacities.forget();
+    map->traced.seesCasters = map->traced.shared.bytes() > 0;
+    map->copied.reset();
   }
 }
 
-void ShadowBuffer::Face::forget()
+void ShadowBuffer::Map::forget()
 {
   std::vector<std::atomic<std::uint8_t>>().swap(this->wanted);
-  this->layers.forget();
-  this->map.occluders.forget();
-  this->map.opacities.forget();
+  this->layers->forget();
+  this->traced.occluders.forget();
+  this->traced.opacities.forget();
 }
 
-std::size_t ShadowBuffer::Face::memory() const
+std::size_t ShadowBuffer::Map::memory() const
 {
   constexpr std::size_t OfTexel = sizeof(float) + sizeof(std::uint32_t) + sizeof(Primitive);
   // Of a tile of the map, here and in LayeredView: marks, states and what lies in it.
   constexpr std::size_t OfTile = 24;
-  std::size_t bytes = this->map.shared.bytes() + OfTile * this->wanted.size();
-  for (const std::uint8_t hit : this->layers.hits().depth.hit)
+  std::size_t bytes = this->traced.shared.bytes() + OfTile * this->wanted.size();
+  for (const std::uint8_t hit : this->hits.depth.hit)
   {
-    bytes += hit ? 64 * (OfTexel + (this->map.opacities.known() ? sizeof(float) : 0)) : 0;
+    bytes += hit ? 64 * (OfTexel + (this->traced.opacities.known() ? sizeof(float) : 0)) : 0;
   }
   if (this->copied)
   {
@@ -371,29 +383,29 @@ std::size_t ShadowBuffer::Face::memory() const
 std::size_t ShadowBuffer::memory() const
 {
   std::size_t sum = 0;
-  for (const auto& face : this->Faces)
+  for (const auto& map : this->Maps)
   {
-    sum += face->memory();
+    sum += map->memory();
   }
   return sum;
 }
 
 void ShadowBuffer::addStatistics(FrameStatistics& statistics) const
 {
-  for (const auto& face : this->Faces)
+  for (const auto& map : this->Maps)
   {
-    statistics.shadowRays += face->layers.rays();
-    statistics.retracedLayers += face->layers.retracedLayers();
-    statistics.sparedCasters += face->layers.spared().unasked + face->layers.spared().hidden;
+    statistics.shadowRays += map->layers->rays();
+    statistics.retracedLayers += map->layers->retracedLayers();
+    statistics.sparedCasters += map->layers->spared().unasked + map->layers->spared().hidden;
   }
 }
 
 std::size_t ShadowBuffer::layerMemory() const
 {
   std::size_t sum = 0;
-  for (const auto& face : this->Faces)
+  for (const auto& map : this->Maps)
   {
-    sum += face->layers.layerMemory();
+    sum += map->layers->layerMemory();
   }
   return sum;
 }

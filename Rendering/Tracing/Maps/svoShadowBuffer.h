@@ -3,8 +3,10 @@
 #ifndef svoShadowBuffer_h
 #define svoShadowBuffer_h
 
+#include "svoCulling.h"
 #include "svoFrame.h"
-#include "svoLayeredView.h"
+#include "svoHits.h"
+#include "svoLayerBudget.h"
 #include "svoLightDetail.h"
 #include "svoLightTile.h"
 #include "svoProcesses.h"
@@ -23,6 +25,8 @@
 
 namespace svo
 {
+class LayeredView;
+
 class ShadowBuffer
 {
 public:
@@ -39,8 +43,8 @@ public:
   /// How points are tested; prepare() does this, too.
   void setBias(const FrameSettings& settings)
   {
-    this->Maps.automaticBias = settings.automaticBias;
-    this->Maps.bias = settings.bias;
+    this->Tested.automaticBias = settings.automaticBias;
+    this->Tested.bias = settings.bias;
     this->Around = settings.filters() ? AroundFilter : AroundTest;
   }
 
@@ -50,18 +54,18 @@ public:
   /// A tile that was noted in the last frame, when the maps were the same.
   void mark(const LightTile& noted)
   {
-    this->Faces[noted.map]->wanted[noted.tile].store(1, std::memory_order_relaxed);
+    this->Maps[noted.map]->wanted[noted.tile].store(1, std::memory_order_relaxed);
   }
   /// True if the maps are those of the last frame, and what they show is tested alike.
   bool sameMaps() const { return this->SameMaps; }
-  /// After trace(): true if the tile does not show what it showed.
-  bool changed(const LightTile& noted) const
+  /// After trace(): true if the tile does not show what it showed; Hits::changedSince().
+  bool changedSince(const LightTile& noted, std::uint64_t version) const
   {
-    return this->Faces[noted.map]->layers.hits().tiles.changed(noted.tile);
+    return this->Maps[noted.map]->hits.changedSince(noted.tile, version);
   }
   bool wants(const LightTile& noted) const
   {
-    return this->Faces[noted.map]->wanted[noted.tile].load(std::memory_order_relaxed) != 0;
+    return this->Maps[noted.map]->wanted[noted.tile].load(std::memory_order_relaxed) != 0;
   }
   /// Notes the tiles that knows() asks about a point.
   void note(const glm::dvec3& position, std::uint16_t light, RaisedTiles& noted) const;
@@ -81,7 +85,7 @@ public:
   bool knows(const glm::dvec3& position) const;
 
   /// What points are tested against, after trace().
-  const TracedMaps& maps() const { return this->Maps; }
+  const TracedMaps& maps() const { return this->Tested; }
 
   /// What the buffer says of a point that nobody may have marked.
   struct MapAnswer
@@ -105,20 +109,20 @@ public:
   std::size_t layerMemory() const;
 
 private:
-  struct Face
+  struct Map
   {
-    explicit Face(bool moved)
-      : layers(/*exact=*/false, moved)
-    {
-    }
+    explicit Map(std::unique_ptr<LayeredView> view);
+    ~Map();
 
-    LayeredView layers;
-    TileGrid grid; // of the map's view, from prepare() on; the hits have it after trace()
-    TracedMap map{ this->layers.hits() };
+    std::unique_ptr<LayeredView> layers;
+    const Hits& hits; // theirs
+    TileGrid grid;    // of the map's view, from prepare() on; the hits have it after trace()
+    TracedMap traced{ this->hits };
     std::vector<std::atomic<std::uint8_t>> wanted; // per tile
     std::vector<std::uint8_t> received; // per tile: receivers may look it up; empty: all of them
     std::shared_ptr<const ShadowTexels> copied; // ShadowMap::texels; null: they have changed
     std::vector<std::uint8_t> copiedOf;         // the tiles that were received then
+    std::uint64_t copiedFrom = 0;               // Hits::version
 
     bool isReceived(std::size_t tile) const { return received.empty() || received[tile] != 0; }
     /// True if `copied` has what receivers may look up.
@@ -136,7 +140,7 @@ private:
     bool want(const MapPlaces& places, float around, std::uint16_t light, std::uint16_t index,
       LightTiles& noted);
   };
-  void arrangeFaces(const std::vector<View>& views, LayerBudget& budget);
+  void arrangeMaps(const std::vector<View>& views, LayerBudget& budget);
   void noteOpacities(const Scene& scene, const std::uint8_t* casters, std::uint8_t group);
   /// True if the texels around the place are.
   bool isTraced(const MapPlace& place) const;
@@ -148,8 +152,8 @@ private:
   static constexpr float AroundTest = 0.5f, AroundFilter = 2.0f;
 
   Culling Cull;
-  std::vector<std::unique_ptr<Face>> Faces;
-  TracedMaps Maps; // of them
+  std::vector<std::unique_ptr<Map>> Maps;
+  TracedMaps Tested; // of them
   std::vector<glm::dmat4> CasterPlace;
   // Of translucent casters.
   bool Translucent = false;

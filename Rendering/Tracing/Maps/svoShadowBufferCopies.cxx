@@ -7,7 +7,7 @@
 
 namespace svo
 {
-std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
+std::shared_ptr<const ShadowTexels> ShadowBuffer::Map::copy(
   double base, const std::vector<float>* ofCasters) const
 {
   constexpr std::size_t InTile = ShadowTexels::InTile;
@@ -21,7 +21,8 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
     for (int x = this->grid.x0; x < this->grid.x0 + this->grid.tilesX; ++x)
     {
       const std::size_t place = this->grid.index(x, y);
-      const bool any = this->map.seesCasters && this->isReceived(place) && this->map.holds(place);
+      const bool any =
+        this->traced.seesCasters && this->isReceived(place) && this->traced.holds(place);
       copy->tiles.push_back(
         any ? static_cast<std::uint32_t>(places.size()) : ShadowTexels::Nothing);
       if (any)
@@ -39,13 +40,13 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
       const std::size_t at = InTile * place + i;
       std::uint32_t caster;
       double t;
-      const bool any = this->map.occluder(at, caster, t);
+      const bool any = this->traced.occluder(at, caster, t);
       numbers[i] = any ? static_cast<float>(t - base) : std::numeric_limits<float>::infinity();
       if (ofCasters)
       {
-        numbers[InTile + i] = !any      ? 0.0f
-          : this->map.opacities.known() ? this->map.opacities.at(at)
-                                        : (*ofCasters)[caster];
+        numbers[InTile + i] = !any         ? 0.0f
+          : this->traced.opacities.known() ? this->traced.opacities.at(at)
+                                           : (*ofCasters)[caster];
       }
     }
     copy->numbers.insert(copy->numbers.end(), numbers, numbers + copy->stride);
@@ -53,7 +54,7 @@ std::shared_ptr<const ShadowTexels> ShadowBuffer::Face::copy(
   return copy;
 }
 
-bool ShadowBuffer::Face::copySuffices() const
+bool ShadowBuffer::Map::copySuffices() const
 {
   return this->copied &&
     (this->copiedOf.empty() ||
@@ -64,22 +65,23 @@ bool ShadowBuffer::Face::copySuffices() const
 
 void ShadowBuffer::copyMaps(int light, std::vector<ShadowMap>& maps, int group)
 {
-  for (const auto& face : this->Faces)
+  for (const auto& map : this->Maps)
   {
-    ShadowMap map;
-    map.light = light;
-    map.group = group;
-    map.view = cropped(face->map.view);
-    map.base = std::max(face->map.view.tNear, 0.0);
-    if (!face->copySuffices())
+    ShadowMap copy;
+    copy.light = light;
+    copy.group = group;
+    copy.view = cropped(map->traced.view);
+    copy.base = std::max(map->traced.view.tNear, 0.0);
+    if (!map->copySuffices())
     {
-      face->copiedOf = face->received;
-      face->copied = face->copy(map.base, this->Translucent ? &this->Maps.casterOpacity : nullptr);
+      map->copiedOf = map->received;
+      map->copiedFrom = map->hits.version;
+      map->copied = map->copy(copy.base, this->Translucent ? &this->Tested.casterOpacity : nullptr);
     }
-    map.texels = face->copied;
-    map.worldBias = face->map.largestError;
-    map.casterVoxel = face->map.largestVoxel;
-    maps.push_back(std::move(map));
+    copy.texels = map->copied;
+    copy.worldBias = map->traced.largestError;
+    copy.casterVoxel = map->traced.largestVoxel;
+    maps.push_back(std::move(copy));
   }
 }
 }

@@ -38,9 +38,9 @@ void ShadowBuffer::noteOpacities(
   const Scene& scene, const std::uint8_t* casters, std::uint8_t group)
 {
   this->Translucent = group != OpaqueCasters;
-  const std::vector<float> opacities = std::move(this->Maps.casterOpacity);
+  const std::vector<float> opacities = std::move(this->Tested.casterOpacity);
   const std::vector<Attributes> colors = std::move(this->MappedColors);
-  this->Maps.casterOpacity.clear();
+  this->Tested.casterOpacity.clear();
   this->MappedColors.clear();
   this->Traced = &scene;
   if (!this->Translucent)
@@ -51,15 +51,15 @@ void ShadowBuffer::noteOpacities(
   {
     const Instance& instance = scene.instances[i];
     const bool ours = casters[i] == group;
-    this->Maps.casterOpacity.push_back(ours ? instance.opacity : 0.0f);
+    this->Tested.casterOpacity.push_back(ours ? instance.opacity : 0.0f);
     if (ours && instance.mappedOpacity)
     {
       this->MappedColors.push_back(instance.body->attributes);
     }
   }
-  this->Maps.casterOpacity.resize(scene.instances.size() + scene.receivers.size(), 0.0f);
-  this->Maps.findSameOpacity(!this->MappedColors.empty());
-  this->OtherOpacities = opacities != this->Maps.casterOpacity ||
+  this->Tested.casterOpacity.resize(scene.instances.size() + scene.receivers.size(), 0.0f);
+  this->Tested.findSameOpacity(!this->MappedColors.empty());
+  this->OtherOpacities = opacities != this->Tested.casterOpacity ||
     !std::equal(colors.begin(), colors.end(), this->MappedColors.begin(), this->MappedColors.end(),
       sameColors);
   this->SameMaps = this->SameMaps && !this->OtherOpacities;

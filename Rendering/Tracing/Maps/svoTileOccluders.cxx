@@ -90,16 +90,16 @@ TileOccluders occludersIn(const Hits& map, std::size_t tile)
 void MapOccluders::find(const Hits& map, const ParallelFor& parallelFor)
 {
   const std::size_t tiles = map.depth.tiles();
-  const bool all = this->Tiles.size() != tiles;
   this->Tiles.resize(tiles);
   forEach(parallelFor, tiles, 256,
     [&](std::size_t tile)
     {
-      if (all || map.tiles.changed(tile))
+      if (map.changedSince(tile, this->Of))
       {
         this->Tiles[tile] = occludersIn(map, tile);
       }
     });
+  this->Of = map.version;
 }
 
 TileOccluders MapOccluders::in(const MapTiles& tiles, const TileGrid& grid) const

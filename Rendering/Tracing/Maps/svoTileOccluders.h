@@ -32,7 +32,11 @@ public:
   /// After the map is traced, each time: of the tiles that are not what they were.
   void find(const Hits& map, const ParallelFor& parallelFor);
   /// The map is not what shadows are looked up in.
-  void forget() { this->Tiles = {}; }
+  void forget()
+  {
+    this->Tiles = {};
+    this->Of = 0;
+  }
   bool known() const { return !this->Tiles.empty(); }
   /// Of each tile. known().
   const TileOccluders* tiles() const { return this->Tiles.data(); }
@@ -42,6 +46,7 @@ public:
 
 private:
   std::vector<TileOccluders> Tiles;
+  std::uint64_t Of = 0; // Hits::version
 };
 }
 

@@ -1,10 +1,9 @@
 #include "svoCPUTracer.h"
 
 #include "svoFrameErrors.h"
+#include "svoFrameInputs.h"
 #include "svoFrameTiles.h"
 #include "svoInstanceTree.h"
-#include "svoKeptFrame.h"
-#include "svoKeptTiles.h"
 #include "svoLayeredView.h"
 #include "svoLightImages.h"
 #include "svoLightSampler.h"
@@ -12,7 +11,9 @@
 #include "svoPixelShader.h"
 #include "svoReceiverSampler.h"
 #include "svoSampleCount.h"
+#include "svoSceneChanges.h"
 #include "svoSelectLevel.h"
+#include "svoShadedTiles.h"
 #include "svoShadows.h"
 #include "svoSilhouetteFinder.h"
 #include "svoStaleTiles.h"
@@ -21,6 +22,8 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <iterator>
+#include <utility>
 
 namespace svo
 {
@@ -56,6 +59,8 @@ struct CPUTracer::Internals
   Frame Picture;
   FrameStatistics Statistics;
   std::vector<ShadowMap> Maps;
+  SceneFollower Instances;
+  std::vector<std::uint32_t> Changed; // of them, by index, since the last frame
   InstanceTree Tree;
   LayeredView Eye;
   Shadows LightShadows;
@@ -64,8 +69,8 @@ struct CPUTracer::Internals
   LightImages Sampled;
   ReceiverSampler Receivers;
   PixelShader Shader;
-  KeptFrame Kept;
-  KeptTiles Shaded;               // by tile of the eye
+  FrameInputs Kept;
+  ShadedTiles Shaded;             // by tile of the eye
   std::vector<CasterBox> Casters; // by index into Scene::instances
   int Samples = 0;                // of lights, in the picture
   std::uint64_t UsualOf = 0;      // the scene's version whose ...
@@ -74,7 +79,8 @@ struct CPUTracer::Internals
   bool SharesBuffers = false;     // shadow buffers are traced, for all processes
   double SharingTime = 0.0;       // s, that took
 
-  void cull(const Scene& scene, const FrameSettings& settings, const ParallelFor& parallelFor);
+  void follow(const Scene& scene, const ParallelFor& parallelFor);
+  void cull(const FrameSettings& settings);
   const Scene& sceneOfLights(const Scene& scene, ShadowTechnique technique);
   void markLightTiles(const Scene& scene, const View& view, const ParallelFor& parallelFor);
   void sampleLights(const ShadedScene& shaded, bool more, const ParallelFor& parallelFor,
@@ -85,11 +91,20 @@ struct CPUTracer::Internals
   void traceLeftOut(const Scene& scene, const View& view, const ParallelFor& parallelFor);
 };
 
-/// Says how the instances of a frame are culled.
-void CPUTracer::Internals::cull(
-  const Scene& scene, const FrameSettings& settings, const ParallelFor& parallelFor)
+/// Finds what has changed.
+void CPUTracer::Internals::follow(const Scene& scene, const ParallelFor& parallelFor)
 {
-  this->Tree.follow(scene, parallelFor);
+  const SceneChanges changes = this->Instances.follow(scene);
+  this->Tree.follow(scene, changes, parallelFor);
+  const std::vector<std::uint32_t> before = std::move(this->Changed);
+  this->Changed.clear();
+  std::set_union(before.begin(), before.end(), changes.instances.begin(), changes.instances.end(),
+    std::back_inserter(this->Changed));
+}
+
+/// Says how the instances of a frame are culled.
+void CPUTracer::Internals::cull(const FrameSettings& settings)
+{
   Culling culling;
   culling.tree = settings.viewCulling ? this->Tree.tree() : nullptr;
   culling.occlusion = settings.occlusionCulling;
@@ -148,7 +163,7 @@ void CPUTracer::Internals::markLightTiles(
     [&](int tileX, int tileY, TilePatch& patch)
     {
       const std::size_t index = this->Shaded.index(tileX, tileY);
-      KeptTiles::Tile& tile = this->Shaded[index];
+      ShadedTiles::Tile& tile = this->Shaded[index];
       if (sameMaps && !this->Shaded.stale(index))
       {
         this->LightShadows.mark(tile.looksUp);
@@ -170,7 +185,7 @@ void CPUTracer::Internals::sampleLights(
 {
   const bool filtered = shaded.settings.filterLightSamples;
   const DepthBuffer& depth = shaded.eye.depth;
-  this->Sampled.begin(shaded.dark.sampledPlanes(), depth.grid.tilesX, depth.grid.tilesY,
+  this->Sampled.begin(shaded.shadows.sampledPlanes(), depth.grid.tilesX, depth.grid.tilesY,
     depth.hit.data(), shaded.settings.lightSamples, more);
   if (!this->Sampled.sampled().any())
   {
@@ -216,7 +231,7 @@ void CPUTracer::Internals::traceViews(const Scene& scene, const View& view,
     this->Eye.layerMemory() + this->LightShadows.layerMemory() };
 
   // Depth layers of the eye, merged.
-  this->cull(scene, settings, parallelFor);
+  this->cull(settings);
   this->Eye.prepare(
     scene, view, [](const Instance& instance) { return instance.visible; },
     [&](const Instance& instance, const LocalView& local)
@@ -292,7 +307,8 @@ void CPUTracer::render(
   Frame& frame = self.Picture;
   PhaseClock clock;
   FrameStatistics& statistics = self.Statistics;
-  FrameChanges changes = self.Kept.compare(scene, view, settings);
+  self.follow(scene, parallelFor);
+  FrameChanges changes = self.Kept.compare(scene, std::exchange(self.Changed, {}), view, settings);
   const bool keeps = settings.frameCoherence && !self.SharesBuffers;
   changes.all = changes.all || !keeps;
   const SampleCount samples(scene, settings, changes, self.Samples);
@@ -372,7 +388,8 @@ bool CPUTracer::shareShadows(const Scene& scene, const View& view, const FrameSe
   const double start = now();
   LayerBudget budget{ settings.layerMemoryLimit,
     self.Eye.layerMemory() + self.LightShadows.layerMemory() };
-  self.cull(scene, settings, parallelFor);
+  self.follow(scene, parallelFor);
+  self.cull(settings);
   self.SharesBuffers =
     self.LightShadows.traceShared(self.sceneOfLights(scene, settings.shadowTechnique), view,
       settings, budget, parallelFor, processes);

@@ -26,7 +26,7 @@ void sampleLight(std::size_t l, const ShadedScene& shaded, const Lighting& light
   const TilePatch& patch = scratch.patch;
   const std::uint64_t reached =
     arriveLight(lighting, l, shaded.scene.instances[patch.instance].material, patch, scratch.light);
-  points.find(shaded.dark.of(l), *lighting.lights[l].light,
+  points.find(shaded.shadows.of(l), *lighting.lights[l].light,
     points.query(reached, scratch, scratch.sums), scratch);
   images.put(images.sampled().ofLights[l], patch, reached, *scratch.sums);
 }
@@ -54,12 +54,13 @@ void samplePatch(const ShadedScene& shaded, const Lighting& lighting, const Patc
   {
     noteRayStarts(all, scratch.noted->raysToLights);
   }
-  sampleAround(all, shaded.dark, shaded.settings, images);
+  sampleAround(all, shaded.shadows, shaded.settings, images);
 }
 }
 
 void sampleLights(const ShadedScene& shaded, const PatchShadows& points,
-  const ParallelFor& parallelFor, KeptTiles& kept, LightImages& images, FrameStatistics& statistics)
+  const ParallelFor& parallelFor, ShadedTiles& kept, LightImages& images,
+  FrameStatistics& statistics)
 {
   const Lighting lighting(shaded.scene, shaded.view);
   std::atomic<std::uint64_t> allRays{ 0 };

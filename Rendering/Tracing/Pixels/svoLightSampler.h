@@ -3,18 +3,18 @@
 #define svoLightSampler_h
 
 #include "svoFrame.h"
-#include "svoKeptTiles.h"
 #include "svoLightImages.h"
 #include "svoParallel.h"
 #include "svoPatchShadows.h"
 #include "svoShadedScene.h"
+#include "svoShadedTiles.h"
 
 namespace svo
 {
 /// Adds the samples of stale tiles to a frame's images, or begins them anew, and notes what the
 /// answers hang on. Counts its rays.
 void sampleLights(const ShadedScene& shaded, const PatchShadows& points,
-  const ParallelFor& parallelFor, KeptTiles& kept, LightImages& images,
+  const ParallelFor& parallelFor, ShadedTiles& kept, LightImages& images,
   FrameStatistics& statistics);
 }
 

@@ -3,9 +3,9 @@
 #define svoPatchShadows_h
 
 #include "svoHits.h"
-#include "svoKeptTiles.h"
 #include "svoLightShadow.h"
 #include "svoScene.h"
+#include "svoShadedTiles.h"
 #include "svoSurfacePoint.h"
 #include "svoTerminator.h"
 #include "svoTileLighting.h"
@@ -36,7 +36,7 @@ public:
     float missed[TilePatch::Most];           // by pixel: of one light
     std::vector<TerminatorPoint> terminator; // of one light
     std::uint64_t rays;                      // of shadows
-    KeptTiles::Tile* noted = nullptr;        // takes down what is asked; or null
+    ShadedTiles::Tile* noted = nullptr;      // takes down what is asked; or null
   };
 
   /// Those of the patch that are `asked`. `sums`: of the query.

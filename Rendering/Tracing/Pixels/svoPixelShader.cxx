@@ -44,7 +44,7 @@ void PixelShader::shadow(
   if (plane == SampledPlanes::None || found != reached)
   {
     changed = found |
-      this->Points.find(lit.shaded.dark.of(l), *lit.lighting.lights[l].light,
+      this->Points.find(lit.shaded.shadows.of(l), *lit.lighting.lights[l].light,
         this->Points.query(reached & ~found, scratch), scratch);
   }
   eachBit(found, [&](int i) { missed[i] = scratch.mean(*lit.images, plane, i); });
@@ -64,9 +64,9 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
   const Instance& instance = lit.shaded.scene.instances[patch.instance];
   lookAtPatch(this->Points.frame(patch.instance), patch, scratch.triangles);
   std::fill_n(scratch.darkness, TilePatch::Most, Darkness(0));
-  const bool underSky = instance.material.lighting && lit.shaded.dark.sky();
+  const bool underSky = instance.material.lighting && lit.shaded.shadows.sky();
   const bool isLit = instance.material.lighting && (!lighting.lights.empty() || underSky);
-  if (isLit && instance.receiveShadow && lit.shaded.dark.filters())
+  if (isLit && instance.receiveShadow && lit.shaded.shadows.filters())
   {
     eachBit(patch.mask,
       [&](int i)
@@ -94,7 +94,7 @@ void PixelShader::shadePatch(const Lit& lit, Scratch& scratch) const
     this->addSky(lit, scratch);
   }
   finishLight(instance.material, isLit, patch, scratch.light, scratch.colors);
-  if (lit.shaded.dark.occlusion() && instance.material.lighting && instance.receiveShadow)
+  if (lit.shaded.shadows.occlusion() && instance.material.lighting && instance.receiveShadow)
   {
     this->occlude(lit, scratch);
   }
@@ -114,7 +114,7 @@ void PixelShader::occlude(const Lit& lit, Scratch& scratch) const
   {
     SampleSums sums;
     sampleOcclusion(
-      this->Points.query(patch.mask, scratch, &sums), *lit.shaded.dark.occlusion(), sums);
+      this->Points.query(patch.mask, scratch, &sums), *lit.shaded.shadows.occlusion(), sums);
     eachBit(patch.mask, [&](int i) { closed[i] = sums.mean(i); });
   }
   const auto strength = static_cast<float>(lit.shaded.settings.ambientOcclusionStrength);
@@ -145,7 +145,7 @@ void PixelShader::addSky(const Lit& lit, Scratch& scratch) const
   else
   {
     SampleSums sums[3];
-    sampleSky(this->Points.query(patch.mask, scratch, sums), *lit.shaded.dark.sky(), sky, sums);
+    sampleSky(this->Points.query(patch.mask, scratch, sums), *lit.shaded.shadows.sky(), sky, sums);
     eachBit(patch.mask,
       [&](int i) {
         seen[i] = { sums[0].mean(i), sums[1].mean(i), sums[2].mean(i) };
@@ -213,7 +213,7 @@ void PixelShader::write(const Lit& lit, const TileHits& hits, Scratch& scratch, 
 }
 
 void PixelShader::shade(const ShadedScene& shaded, const LightImages& sampled,
-  const ParallelFor& parallelFor, KeptTiles& kept, Frame& frame, FrameStatistics& statistics)
+  const ParallelFor& parallelFor, ShadedTiles& kept, Frame& frame, FrameStatistics& statistics)
 {
   const DepthBuffer& depth = shaded.eye.depth;
   Lit lit(shaded);

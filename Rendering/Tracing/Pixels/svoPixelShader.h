@@ -3,11 +3,11 @@
 #define svoPixelShader_h
 
 #include "svoFrame.h"
-#include "svoKeptTiles.h"
 #include "svoLightImages.h"
 #include "svoParallel.h"
 #include "svoPatchShadows.h"
 #include "svoShadedScene.h"
+#include "svoShadedTiles.h"
 #include "svoTileLighting.h"
 #include "svoTileLook.h"
 #include "svoTilePatch.h"
@@ -67,7 +67,7 @@ public:
   /// Writes the tiles with hits that are to be shaded anew, and notes of stale ones what the
   /// answers hang on. What samples found is in `sampled`. Counts its shadow rays.
   void shade(const ShadedScene& shaded, const LightImages& sampled, const ParallelFor& parallelFor,
-    KeptTiles& kept, Frame& frame, FrameStatistics& statistics);
+    ShadedTiles& kept, Frame& frame, FrameStatistics& statistics);
 
   /// After shade() with FrameSettings::antiAliasing. Counts its rays.
   void smoothEdges(const ShadedScene& shaded, const ParallelFor& parallelFor, Frame& frame,

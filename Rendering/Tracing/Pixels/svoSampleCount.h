@@ -3,7 +3,7 @@
 #define svoSampleCount_h
 
 #include "svoFrame.h"
-#include "svoKeptFrame.h"
+#include "svoFrameInputs.h"
 #include "svoScene.h"
 
 #include <algorithm>

@@ -193,7 +193,7 @@ private:
         std::size_t shownBy = this->at(pixel.x, pixel.y);
         if (!this->shows(pixel, facet))
         {
-          const bool known = this->Lit.shaded.dark.knows(this->position(facet));
+          const bool known = this->Lit.shaded.shadows.knows(this->position(facet));
           const bool nearby =
             (this->Beside.images || !known) && this->nearby(pixel, facet, shownBy);
           if (!nearby)

@@ -6,22 +6,17 @@
 namespace svo
 {
 void findStaleTiles(
-  const Hits& eye, const std::vector<std::uint32_t>& instances, bool all, KeptTiles& tiles)
+  const Hits& eye, const std::vector<std::uint32_t>& instances, bool all, ShadedTiles& tiles)
 {
   const DepthBuffer& depth = eye.depth;
   tiles.beginFrame(depth.grid.tilesX, depth.grid.tilesY, all);
   for (std::size_t tile = 0; tile < tiles.size(); ++tile)
   {
-    tiles.setStale(tile, eye.tiles.changed(tile));
+    tiles.setStale(tile, !all && eye.changedSince(tile, tiles.madeOf()));
   }
-  // Where an instance is not seen it does not matter how it looks; where one has moved, tiles that
-  // show it have changed.
-  for (const std::uint32_t instance : instances)
+  // Where an instance is not seen it does not matter how it looks.
+  for (const std::uint32_t instance : all ? std::vector<std::uint32_t>() : instances)
   {
-    if (all || eye.tiles.partChanged(instance))
-    {
-      continue;
-    }
     const PixelRect rect = eye.instances.rect(instance);
     for (int y = rect.y0 / 8; y < rect.y1 / 8; ++y)
     {
@@ -36,7 +31,7 @@ void findStaleTiles(
 
 void findDarkenedTiles(const Scene& scene, const FrameChanges& changes, const Shadows& shadows,
   const std::vector<std::uint32_t>& hits, std::vector<CasterBox>& casters,
-  const ParallelFor& parallelFor, KeptTiles& tiles)
+  const ParallelFor& parallelFor, ShadedTiles& tiles)
 {
   const bool all = changes.all || !shadows.sameMaps();
   std::vector<CasterBox> boxes(2 * changes.instances.size()); // of those, before and now
@@ -70,10 +65,11 @@ void findDarkenedTiles(const Scene& scene, const FrameChanges& changes, const Sh
       {
         return;
       }
-      const KeptTiles::Tile& tile = tiles[hits[k]];
+      const ShadedTiles::Tile& tile = tiles[hits[k]];
       tiles.setStale(hits[k],
-        all || shadows.changed(tile.looksUp) || shadows.changed(tile.raised) ||
-          mayCross(tile.raysToLights));
+        all || shadows.changedSince(tile.looksUp, tiles.madeOf()) ||
+          shadows.changedSince(tile.raised, tiles.madeOf()) || mayCross(tile.raysToLights));
     });
+  tiles.setMadeOf(nextTileVersion());
 }
 }

@@ -3,11 +3,11 @@
 #define svoStaleTiles_h
 
 #include "svoCasterBox.h"
+#include "svoFrameInputs.h"
 #include "svoHits.h"
-#include "svoKeptFrame.h"
-#include "svoKeptTiles.h"
 #include "svoParallel.h"
 #include "svoScene.h"
+#include "svoShadedTiles.h"
 #include "svoShadows.h"
 
 #include <cstdint>
@@ -18,13 +18,13 @@ namespace svo
 /// Begins a frame of tiles: stale are those whose hits, or the looks of them, are not what they
 /// were. `instances`: those that have changed. `all`: nothing is kept.
 void findStaleTiles(
-  const Hits& eye, const std::vector<std::uint32_t>& instances, bool all, KeptTiles& tiles);
+  const Hits& eye, const std::vector<std::uint32_t>& instances, bool all, ShadedTiles& tiles);
 
 /// Stale are also those whose lights may not be what they were. `hits`: tiles that show anything.
 /// `casters`: by index into Scene::instances, as they were; becomes what they are.
 void findDarkenedTiles(const Scene& scene, const FrameChanges& changes, const Shadows& shadows,
   const std::vector<std::uint32_t>& hits, std::vector<CasterBox>& casters,
-  const ParallelFor& parallelFor, KeptTiles& tiles);
+  const ParallelFor& parallelFor, ShadedTiles& tiles);
 }
 
 #endif

@@ -11,14 +11,13 @@
 
 namespace svo
 {
-namespace
+double floatErrorOf(const Instance& instance)
 {
-/// Of the edge of the root cube: the roundings of a start and of a triangle's corners, and as much
-/// again.
-constexpr double FloatError = 1e-6;
+  constexpr double FloatError = 1e-6; // of the edge of the root cube
+  return FloatError * worldVoxel(instance, 0);
 }
 
-RayCasters::RayCasters(const Scene& scene, const Hits& eye, const LooseOctree* tree)
+RayCasters::RayCasters(const Scene& scene, const ViewedInstances& seen, const LooseOctree* tree)
   : Tree(tree)
   , Casting(tree ? scene.instances.size() : 0, None)
 {
@@ -28,7 +27,7 @@ RayCasters::RayCasters(const Scene& scene, const Hits& eye, const LooseOctree* t
     {
       const Octree& octree = instance.body->octree;
       const auto index = static_cast<std::uint32_t>(&instance - scene.instances.data());
-      const LeafGeometry geometry = eye.instances.leafGeometry(index);
+      const LeafGeometry geometry = seen.leafGeometry(index);
       const LeafTraits traits = traitsOf(geometry);
       const bool exact = traits.exact() && octree.surface();
       const bool mixed = traits.exact() && octree.longestList() > traits.longestExact;
@@ -43,7 +42,7 @@ RayCasters::RayCasters(const Scene& scene, const Hits& eye, const LooseOctree* t
         std::max(planeError, worldLeafError(instance, geometry, octree.level())), exact && !mixed,
         CasterBox(instance, toOctree.inverse),
         instance.mappedOpacity ? SurfaceMatrices(instance) : SurfaceMatrices(),
-        FloatError * worldVoxel(instance, 0) });
+        floatErrorOf(instance) });
       this->MostStartOffset =
         std::max(this->MostStartOffset, casters.back().startOffset(0.0, true));
     }

@@ -3,10 +3,10 @@
 #define svoRayCasters_h
 
 #include "svoCasterBox.h"
-#include "svoHits.h"
 #include "svoLooseOctree.h"
 #include "svoScene.h"
 #include "svoSurfacePoint.h"
+#include "svoViewedInstances.h"
 #include "svoWorldToOctree.h"
 #include "vtkSVOTracingModule.h"
 
@@ -39,6 +39,10 @@ struct RayCaster
   }
 };
 
+/// What floats do not tell apart on an instance with an octree, world: the roundings of a point and
+/// of a triangle's corners, and as much again.
+VTKSVOTRACING_EXPORT double floatErrorOf(const Instance& instance);
+
 /// How opaque the caster is where light meets it first that comes to `end` from `length` times
 /// `towards` (world; not unit; a length of 1e30 or more: from beyond the caster): 0 if nowhere.
 VTKSVOTRACING_EXPORT float opacityMet(
@@ -47,9 +51,9 @@ VTKSVOTRACING_EXPORT float opacityMet(
 class VTKSVOTRACING_EXPORT RayCasters
 {
 public:
-  /// `eye`: of its leaf geometries. `tree`: of the scene's instances (svoInstanceTree.h); null:
-  /// each ray looks at each caster. All are borrowed.
-  RayCasters(const Scene& scene, const Hits& eye, const LooseOctree* tree = nullptr);
+  /// `seen`: their leaf geometries, as a view has them. `tree`: of the scene's instances
+  /// (svoInstanceTree.h); null: each ray looks at each caster. Scene and tree are borrowed.
+  RayCasters(const Scene& scene, const ViewedInstances& seen, const LooseOctree* tree = nullptr);
 
   const std::vector<RayCaster>& translucent() const { return this->Translucent; }
 

@@ -8,6 +8,7 @@
 #ifndef svoSampleRays_h
 #define svoSampleRays_h
 
+#include "svoDepthBuffer.h"
 #include "svoOcclusion.h"
 #include "svoRayCasters.h"
 #include "vtkSVOTracingModule.h"

@@ -20,12 +20,12 @@ namespace
 constexpr double BeforeLight = 1e-9;
 
 /// A beam's own frame: depth along the axis, and two directions across it.
-struct BeamFrame
+struct BeamBasis
 {
   glm::dvec3 origin; // the light, or a point of the beam
   glm::dvec3 axis, u, v;
 
-  BeamFrame(const glm::dvec3& from, const glm::dvec3& along)
+  BeamBasis(const glm::dvec3& from, const glm::dvec3& along)
     : origin(from)
     , axis(glm::normalize(along))
   {
@@ -69,7 +69,7 @@ bool traceBeam(const Octree& octree, const WorldToOctree& toOctree, const Light&
   }
   const bool far = light.atInfinity();
   const glm::dvec3 source = far ? toOctree.vector(light.direction) : toOctree.point(light.position);
-  const BeamFrame frame(far ? centre : source, far ? source : centre - source);
+  const BeamBasis frame(far ? centre : source, far ? source : centre - source);
 
   // The cube's depths.
   const double edge = std::ldexp(1.0, -octree.rootBits(0));

@@ -60,18 +60,18 @@ inline void sampleSky(
 
 /// Samples both, as far as they are sampled, for a frame's images. The query's sums are the first
 /// of three.
-inline void sampleAround(
-  const ShadowQuery& query, const Shadows& dark, const FrameSettings& settings, LightImages& images)
+inline void sampleAround(const ShadowQuery& query, const Shadows& shadows,
+  const FrameSettings& settings, LightImages& images)
 {
   const SampledPlanes& planes = images.sampled();
   if (planes.ofOcclusion != SampledPlanes::None)
   {
-    sampleOcclusion(query, *dark.occlusion(), *query.sums);
+    sampleOcclusion(query, *shadows.occlusion(), *query.sums);
     images.put(planes.ofOcclusion, query.patch, query.asked, *query.sums);
   }
   if (planes.ofSky != SampledPlanes::None)
   {
-    sampleSky(query, *dark.sky(), Sky(settings), query.sums);
+    sampleSky(query, *shadows.sky(), Sky(settings), query.sums);
     for (int c = 0; c < 3; ++c)
     {
       images.put(planes.ofSky + c, query.patch, query.asked, query.sums[c]);

@@ -202,7 +202,7 @@ void TileOfPlaces::sampleLight(std::size_t number, Scratch& scratch) const
     });
   const auto test = [&](std::uint64_t asked)
   {
-    this->Frame.dark.of(number).test(this->query(scratch, asked), scratch.missed);
+    this->Frame.shadows.of(number).test(this->query(scratch, asked), scratch.missed);
     this->Images.put(this->Images.sampled().ofLights[number], scratch.patch, asked, *scratch.sums);
   };
   this->eachPatch(scratch.list, false, scratch, [&](std::uint64_t mask) { test(mask & lit); });
@@ -223,7 +223,7 @@ void TileOfPlaces::sample(int tileX, int tileY, Scratch& scratch) const
     {
       this->Images.put(scratch.patch);
       sampleAround(
-        this->query(scratch, mask), this->Frame.dark, this->Frame.settings, this->Images);
+        this->query(scratch, mask), this->Frame.shadows, this->Frame.settings, this->Images);
     });
   for (std::size_t l = 0; l < planes.ofLights.size(); ++l)
   {

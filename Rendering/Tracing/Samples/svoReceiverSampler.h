@@ -24,7 +24,7 @@ struct SampledFrame
   const View& view;
   const FrameSettings& settings;
   const Hits& eye;
-  const Shadows& dark;
+  const Shadows& shadows;
 };
 
 class VTKSVOTRACING_EXPORT ReceiverSampler

@@ -81,7 +81,7 @@ void Shadows::prepareAnswers(
   if (anyByRays || settings.asksHemispheres() ||
     (this->Casting && std::any_of(scene.instances.begin(), scene.instances.end(), isSmooth)))
   {
-    this->Casters = std::make_unique<RayCasters>(scene, eye, this->Cull.tree);
+    this->Casters = std::make_unique<RayCasters>(scene, eye.instances, this->Cull.tree);
     this->Rays = std::make_unique<ShadowRays>(*this->Casters);
   }
   if (settings.ambientOcclusion)
@@ -222,10 +222,10 @@ bool Shadows::sameMaps() const
       { return now == before && (!now || now->sameMaps()); });
 }
 
-bool Shadows::changed(const LightTiles& noted) const
+bool Shadows::changedSince(const LightTiles& noted, std::uint64_t version) const
 {
   return std::any_of(noted.begin(), noted.end(),
-    [this](const LightTile& tile) { return this->Buffers[tile.light]->changed(tile); });
+    [=](const LightTile& tile) { return this->Buffers[tile.light]->changedSince(tile, version); });
 }
 
 void Shadows::trace(const ParallelFor& parallelFor)
@@ -233,14 +233,14 @@ void Shadows::trace(const ParallelFor& parallelFor)
   this->eachBuffer([&](ShadowBuffer& buffer) { buffer.trace(parallelFor); });
 }
 
-bool Shadows::changed(const RaisedTiles& noted) const
+bool Shadows::changedSince(const RaisedTiles& noted, std::uint64_t version) const
 {
   return std::any_of(noted.begin(), noted.end(),
-    [this](const RaisedTile& raised)
+    [=](const RaisedTile& raised)
     {
       const ShadowBuffer& buffer = *this->Buffers[raised.tile.light];
       return buffer.wants(raised.tile) != raised.wanted ||
-        (raised.wanted && buffer.changed(raised.tile));
+        (raised.wanted && buffer.changedSince(raised.tile, version));
     });
 }
 

@@ -59,12 +59,12 @@ public:
   void mark(const LightTiles& noted);
   /// True if all maps are those of the last frame, and what they show is tested alike.
   bool sameMaps() const;
-  /// After trace(): true if any of these tiles does not show what it showed in the last frame.
-  bool changed(const LightTiles& noted) const;
+  /// After trace(): true if any of these tiles does not show what it showed; Hits::changedSince().
+  bool changedSince(const LightTiles& noted, std::uint64_t version) const;
   /// True if it matters what mark() notes.
   bool wantsMarks() const { return this->Casting && !this->Samples; }
   /// After trace(): true if points at the terminator may look up something else.
-  bool changed(const RaisedTiles& noted) const;
+  bool changedSince(const RaisedTiles& noted, std::uint64_t version) const;
   void trace(const ParallelFor& parallelFor);
 
   /// True if all lights can tell whether the point is in their shadow. They can of visible points;

@@ -56,9 +56,9 @@ inline double rasterError(const Instance& instance, const View& view)
 /// Instance::depthOffset.factor times their slopes.
 inline double shownOffset(const Instance& instance, const View& view)
 {
-  return instance.givesWay == 0
+  return instance.coincidentOrder == 0
     ? instance.depthOffset.units
-    : instance.depthOffset.units + instance.givesWay * rasterError(instance, view);
+    : instance.depthOffset.units + instance.coincidentOrder * rasterError(instance, view);
 }
 }
 

@@ -83,13 +83,13 @@ struct MeanSquare
 };
 
 /// Nothing; more rays at edges alone; what SetAntiAliasing does: filtered shadows, too.
-struct Way
+struct Variant
 {
   svo::ShadowTechnique technique;
   bool antiAliasing;
   bool filterShadows;
 };
-const Way Ways[] = { { svo::ShadowTechnique::Buffer, false, false },
+const Variant Ways[] = { { svo::ShadowTechnique::Buffer, false, false },
   { svo::ShadowTechnique::Buffer, true, false }, { svo::ShadowTechnique::Buffer, true, true },
   { svo::ShadowTechnique::Rays, false, false }, { svo::ShadowTechnique::Rays, true, false } };
 
@@ -111,7 +111,7 @@ void measureAntiAliasing(const Sweep& sweep, Results& results)
     const std::vector<Mean> means = meanPicture(stage, reference);
     OctreeShelf shelf;
     const svo::Scene scene = sceneOf(stage, shelf, 10, svo::LeafGeometry::Automatic);
-    for (const Way& way : Ways)
+    for (const Variant& way : Ways)
     {
       for (const int resolution : resolutionsOf(way.technique))
       {

@@ -42,15 +42,15 @@ std::vector<Light> shownLight(
 }
 
 /// The leaf geometries, and the default once more with filtered shadows.
-struct Way
+struct Variant
 {
   svo::LeafGeometry leaves;
   const char* name;
   bool filter;
 };
-std::vector<Way> ways()
+std::vector<Variant> ways()
 {
-  std::vector<Way> ways;
+  std::vector<Variant> ways;
   for (const auto& [leaves, name] : LeafGeometries)
   {
     ways.push_back({ leaves, name, false });
@@ -79,7 +79,7 @@ void measureAcne(const Sweep& sweep, Results& results)
     const std::vector<TruePixel> truth = exactPicture(reference, stage, view, true);
     for (const int level : { 8, 10 })
     {
-      for (const Way& way : ways())
+      for (const Variant& way : ways())
       {
         // Of a filtered shadow the faintest counts.
         const std::vector<Light> shown = shownLight(sceneOf(stage, shelf, level, way.leaves), view,
@@ -139,7 +139,7 @@ void measureFoot(const Sweep& sweep, Results& results)
     stage.lights = { light };
     const Reference reference(stage);
     const std::vector<TruePixel> truth = exactPicture(reference, stage, view, true);
-    for (const Way& way : ways())
+    for (const Variant& way : ways())
     {
       const svo::Scene scene = sceneOf(stage, shelf, 10, way.leaves);
       const double voxel = svo::worldVoxel(scene.instances[0]);

@@ -25,16 +25,16 @@ std::vector<float> ellipsoidNormals(const Mesh& mesh)
 }
 
 /// Ways to find shadows.
-struct Way
+struct Variant
 {
   svo::LeafGeometry leaves;
   const char* name;
   bool rays;
   bool filter;
 };
-std::vector<Way> ways()
+std::vector<Variant> ways()
 {
-  std::vector<Way> ways;
+  std::vector<Variant> ways;
   for (const auto& [leaves, name] : LeafGeometries)
   {
     ways.push_back({ leaves, name, false, false });
@@ -70,7 +70,7 @@ void measureTerminator(const Sweep& sweep, Results& results)
     for (const auto& [lightName, light] : lightsAround())
     {
       stage.lights = { light };
-      for (const Way& way : ways())
+      for (const Variant& way : ways())
       {
         svo::Scene scene = sceneOf(stage, shelf, 10, way.leaves);
         for (svo::Instance& instance : scene.instances)

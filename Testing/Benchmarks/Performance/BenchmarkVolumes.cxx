@@ -257,18 +257,18 @@ public:
     : Light(light)
   {
     // The way from the light to the middle of the cube, and two across.
-    this->Way = glm::normalize(light.w * (glm::dvec3(1.5) * light.w - glm::dvec3(light)) -
+    this->Variant = glm::normalize(light.w * (glm::dvec3(1.5) * light.w - glm::dvec3(light)) -
       (1.0 - light.w) * glm::dvec3(light));
     const glm::dvec3 other =
-      std::abs(this->Way.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    this->Across = glm::normalize(glm::cross(this->Way, other));
-    this->Up = glm::cross(this->Across, this->Way);
+      std::abs(this->Variant.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    this->Across = glm::normalize(glm::cross(this->Variant, other));
+    this->Up = glm::cross(this->Across, this->Variant);
   }
   Point place(const glm::vec3& point) const
   {
     const glm::dvec3 from = glm::dvec3(point) - this->Light.w * glm::dvec3(this->Light);
     const double depth = this->Light.w > 0.0
-      ? glm::dot(from, this->Way) / glm::distance(glm::dvec3(1.5), glm::dvec3(this->Light))
+      ? glm::dot(from, this->Variant) / glm::distance(glm::dvec3(1.5), glm::dvec3(this->Light))
       : 1.0;
     constexpr double Steps = 1e8;
     const auto step = [&](const glm::dvec3& axis)
@@ -306,7 +306,7 @@ public:
 
 private:
   glm::dvec4 Light;
-  glm::dvec3 Way, Across, Up;
+  glm::dvec3 Variant, Across, Up;
   bp::polygon_set_data<int> Edges;
 };
 
@@ -326,7 +326,7 @@ bool compareContours(const Options& options, svobench::Results& results)
     const svo::MeshEdges edges(surface);
     const double preparedMs = processorMs() - start;
     svo::LightContour kept;
-    struct Way
+    struct Variant
     {
       const char* name;
       std::vector<double> times = {};
@@ -340,7 +340,7 @@ bool compareContours(const Options& options, svobench::Results& results)
       const glm::dvec4 light(1.5 + 1.2 * std::cos(turn), 1.5 + 1.2 * std::sin(turn), 2.9, 1.0);
       const auto corner = [&](std::uint32_t i)
       { return surface.points[surface.triangles[i / 3][i % 3]]; };
-      const auto time = [](Way& way, const auto& work)
+      const auto time = [](Variant& way, const auto& work)
       {
         const double before = processorMs();
         way.edges = static_cast<double>(work());
@@ -405,7 +405,7 @@ bool compareContours(const Options& options, svobench::Results& results)
       ways[5].edges = ways[4].edges;
       good = good && std::abs(area[0] - area[1]) <= 1e-4 * area[0] && area[0] > 0.0;
     }
-    for (Way& way : ways)
+    for (Variant& way : ways)
     {
       svobench::Row row;
       row["experiment"] = "contour";

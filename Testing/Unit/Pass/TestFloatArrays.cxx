@@ -10,7 +10,7 @@ TEST(FloatArrays, FloatsAreNotCopied)
   vtkNew<vtkFloatArray> array;
   array->InsertNextValue(1.5f);
   svo::FloatArrays floats;
-  svo::Kept kept;
+  svo::KeepAlive kept;
   EXPECT_EQ(svo::floatsOf(array, floats, kept), array->GetPointer(0));
   EXPECT_EQ(floats.size(), 0u);
 }
@@ -21,7 +21,7 @@ TEST(FloatArrays, DoublesAreConvertedOncePerChange)
   array->SetNumberOfComponents(3);
   array->InsertNextTuple3(1.0, 2.0, 3.0);
   svo::FloatArrays floats;
-  svo::Kept kept;
+  svo::KeepAlive kept;
   const float* first = svo::floatsOf(array, floats, kept);
   EXPECT_EQ(first[2], 3.0f);
   floats.sweep();
@@ -40,10 +40,10 @@ TEST(FloatArrays, CopiesThatNobodyKeepsAreForgotten)
   array->InsertNextValue(1.0);
   svo::FloatArrays floats;
   {
-    svo::Kept kept, another;
+    svo::KeepAlive kept, another;
     svo::floatsOf(array, floats, kept);
     svo::floatsOf(array, floats, another);
-    kept = svo::Kept();
+    kept = svo::KeepAlive();
     floats.sweep();
     EXPECT_EQ(floats.size(), 1u);
   }

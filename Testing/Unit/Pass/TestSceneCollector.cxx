@@ -23,7 +23,7 @@ void touchKeys(vtkProp* prop, bool has)
 
 /// `settings.openGL`.
 class KeptBy
-  : public Kept
+  : public KeptProps
   , public testing::WithParamInterface<bool>
 {
 };
@@ -164,7 +164,7 @@ TEST_P(KeptBy, EveryChangeIsNoticed)
 
 INSTANTIATE_TEST_SUITE_P(Backends, KeptBy, testing::Bool());
 
-TEST_F(Kept, WhatIsAroundThePropsIsNoticed)
+TEST_F(KeptProps, WhatIsAroundThePropsIsNoticed)
 {
   collect(collector, scene);
   collect(collector, scene);
@@ -186,7 +186,7 @@ TEST_F(Kept, WhatIsAroundThePropsIsNoticed)
   expectNoticed("what was forgotten", 9, [] {});
 }
 
-TEST_F(Kept, AnEyeThatNeedsNoOtherOctreesLeavesTheInstances)
+TEST_F(KeptProps, AnEyeThatNeedsNoOtherOctreesLeavesTheInstances)
 {
   collect(collector, scene);
   collect(collector, scene);
@@ -204,7 +204,7 @@ TEST_F(Kept, AnEyeThatNeedsNoOtherOctreesLeavesTheInstances)
   EXPECT_NE(scene.scene.version, version);
 }
 
-TEST_F(Kept, WhatIsMadeOfPropsThatWereNotChosenIsNoticed)
+TEST_F(KeptProps, WhatIsMadeOfPropsThatWereNotChosenIsNoticed)
 {
   collect(collector, scene);
   collect(collector, scene);
@@ -227,7 +227,7 @@ TEST_F(Kept, WhatIsMadeOfPropsThatWereNotChosenIsNoticed)
 }
 
 /// VTK's convention has it that arrays are modified; what crashes otherwise must not.
-TEST_F(Kept, ArraysThatHaveMovedAreNotRead)
+TEST_F(KeptProps, ArraysThatHaveMovedAreNotRead)
 {
   collect(collector, scene);
   collect(collector, scene);
@@ -239,7 +239,7 @@ TEST_F(Kept, ArraysThatHaveMovedAreNotRead)
 }
 
 /// The allocator gives a place at once to what asks for as much next.
-TEST_F(Kept, AnotherPropInTheSamePlaceIsAnotherProp)
+TEST_F(KeptProps, AnotherPropInTheSamePlaceIsAnotherProp)
 {
   collect(collector, scene);
   for (int i = 0; i < 20; ++i)
@@ -263,7 +263,7 @@ TEST_F(Kept, AnotherPropInTheSamePlaceIsAnotherProp)
   }
 }
 
-TEST_F(Kept, WhatSaysNothingNewIsNoChange)
+TEST_F(KeptProps, WhatSaysNothingNewIsNoChange)
 {
   const std::string reason = "was not chosen", sameReason = reason;
   settings.notMarked = reason.c_str();

@@ -5,7 +5,7 @@
 
 using namespace svotest;
 
-TEST_F(Kept, EveryChangeOfGlyphsIsNoticed)
+TEST_F(KeptProps, EveryChangeOfGlyphsIsNoticed)
 {
   collect(collector, scene);
   collect(collector, scene);
@@ -70,7 +70,7 @@ TEST_F(Kept, EveryChangeOfGlyphsIsNoticed)
     });
 }
 
-TEST_F(Kept, AMovedActorOfGlyphsComputesNoCopies)
+TEST_F(KeptProps, AMovedActorOfGlyphsComputesNoCopies)
 {
   collect(collector, scene);
   collect(collector, scene);
@@ -86,7 +86,7 @@ TEST_F(Kept, AMovedActorOfGlyphsComputesNoCopies)
   EXPECT_EQ(moved, 5);
 }
 
-TEST_F(Kept, CopiesShareOneBodyThatIsWrittenOnce)
+TEST_F(KeptProps, CopiesShareOneBodyThatIsWrittenOnce)
 {
   const auto copies = [this]
   {

@@ -43,10 +43,10 @@ vtkSmartPointer<vtkPolyData> mixture()
 }
 
 /// The fixture with tubes and splats in the place of some of its props.
-class KeptBodies : public Kept
+class RoundProps : public KeptProps
 {
 protected:
-  KeptBodies()
+  RoundProps()
   {
     this->renderer->RemoveAllViewProps();
     this->splats->SetInputData(this->points);
@@ -85,7 +85,7 @@ protected:
   vtkSmartPointer<vtkPolyData> lines = mixture();
 };
 
-TEST_F(KeptBodies, AreWhereTheyAreSeen)
+TEST_F(RoundProps, AreWhereTheyAreSeen)
 {
   collect(collector, scene);
   ASSERT_EQ(scene.scene.instances.size(), Splats + Rods + 1 + 1 + 1);
@@ -121,7 +121,7 @@ TEST_F(KeptBodies, AreWhereTheyAreSeen)
   EXPECT_EQ(store.built(), 2) << "the triangle's and the ball's";
 }
 
-TEST_F(KeptBodies, WidthsFollowTheEyeAndNothingIsBuilt)
+TEST_F(RoundProps, WidthsFollowTheEyeAndNothingIsBuilt)
 {
   collect(collector, scene);
   const std::uint64_t ofRod = scene.scene.instances[Splats].body->octree.id();
@@ -147,7 +147,7 @@ TEST_F(KeptBodies, WidthsFollowTheEyeAndNothingIsBuilt)
   expectSame(scene, other, "after the eye has moved");
 }
 
-TEST_F(KeptBodies, NothingIsPlacedAgainWhereNothingMoves)
+TEST_F(RoundProps, NothingIsPlacedAgainWhereNothingMoves)
 {
   collect(collector, scene);
   collect(collector, scene);
@@ -160,7 +160,7 @@ TEST_F(KeptBodies, NothingIsPlacedAgainWhereNothingMoves)
   EXPECT_NE(matrix(Splats)[3][0], 77.0);
 }
 
-TEST_F(KeptBodies, AnActorMovesThemAndScalesOnlyPlaces)
+TEST_F(RoundProps, AnActorMovesThemAndScalesOnlyPlaces)
 {
   collect(collector, scene);
   collect(collector, scene);
@@ -175,7 +175,7 @@ TEST_F(KeptBodies, AnActorMovesThemAndScalesOnlyPlaces)
   EXPECT_NEAR(glm::length(glm::dvec3(matrix(1)[1])), 0.5, 1e-12);
 }
 
-TEST_F(KeptBodies, EveryChangeIsNoticed)
+TEST_F(RoundProps, EveryChangeIsNoticed)
 {
   collect(collector, scene);
   collect(collector, scene);
@@ -212,7 +212,7 @@ TEST_F(KeptBodies, EveryChangeIsNoticed)
   EXPECT_EQ(scene.scene.instances.size(), 3u);
 }
 
-TEST_F(KeptBodies, TheTranslucentCastNothing)
+TEST_F(RoundProps, TheTranslucentCastNothing)
 {
   vtkNew<vtkLookupTable> table;
   table->SetNumberOfTableValues(2);
@@ -233,7 +233,7 @@ TEST_F(KeptBodies, TheTranslucentCastNothing)
   EXPECT_EQ(scene.scene.instances.size(), 1u);
 }
 
-TEST_F(KeptBodies, OfColoursBetweenPointsOnlyTheTranslucentCastNothing)
+TEST_F(RoundProps, OfColoursBetweenPointsOnlyTheTranslucentCastNothing)
 {
   vtkNew<vtkColorTransferFunction> opaque; // what it answers for NaN nobody is asked
   opaque->AddRGBPoint(0.5, 0.2, 0.3, 0.8);
@@ -276,7 +276,7 @@ TEST_F(KeptBodies, OfColoursBetweenPointsOnlyTheTranslucentCastNothing)
   EXPECT_NE(collector.judge(tubeActor).castsNone, nullptr);
 }
 
-TEST_F(KeptBodies, RepresentationsAndBadInput)
+TEST_F(RoundProps, RepresentationsAndBadInput)
 {
   const double nan = std::nan("");
   vtkProperty* property = tubeActor->GetProperty();
@@ -300,7 +300,7 @@ TEST_F(KeptBodies, RepresentationsAndBadInput)
   EXPECT_EQ(scene.scene.instances.size(), Splats - 1 + 1 + 1 + 1);
 }
 
-TEST_F(KeptBodies, AtTheEyeAndBehindIt)
+TEST_F(RoundProps, AtTheEyeAndBehindIt)
 {
   lines->GetPoints()->SetPoint(0, 0.0, -20.0, 10.0); // at the eye
   lines->GetPoints()->SetPoint(1, 0.0, -40.0, 20.0); // behind it
@@ -314,7 +314,7 @@ TEST_F(KeptBodies, AtTheEyeAndBehindIt)
   }
 }
 
-TEST_F(KeptBodies, LongLinesAreAsWideAsTheyLookAllAlong)
+TEST_F(RoundProps, LongLinesAreAsWideAsTheyLookAllAlong)
 {
   renderer->RemoveAllViewProps();
   renderer->AddActor(tubeActor);

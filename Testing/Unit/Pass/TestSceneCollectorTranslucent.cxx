@@ -20,7 +20,7 @@ vtkSmartPointer<vtkLookupTable> tableOf(double low, double middle, double high)
   return table;
 }
 
-class Translucent : public Kept
+class Translucent : public KeptProps
 {
 protected:
   Translucent() { this->settings.translucentShadows = true; }

@@ -98,10 +98,10 @@ inline vtkSmartPointer<vtkPolyData> places(int count)
 }
 
 /// A renderer with a prop of each kind, and a collector that sees it change.
-class Kept : public ::testing::Test
+class KeptProps : public ::testing::Test
 {
 protected:
-  Kept()
+  KeptProps()
     : tracer(svo::makeCPUTracer())
   {
     this->options.level = 6;
@@ -243,7 +243,7 @@ protected:
       const auto places = [](const Instance& n)
       {
         return std::make_tuple(
-          n.localToWorld, n.id, n.depthOffset.units, n.depthOffset.factor, n.givesWay);
+          n.localToWorld, n.id, n.depthOffset.units, n.depthOffset.factor, n.coincidentOrder);
       };
       const auto ways = [](const Instance& n)
       {

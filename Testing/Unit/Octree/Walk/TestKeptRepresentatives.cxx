@@ -51,7 +51,7 @@ int countDifferences(
 /// Voxels of which the triangle is known; all of them are found to be right.
 int countKept(const Octree& octree)
 {
-  const KeptRepresentatives& kept = octree.representatives();
+  const BrickRepresentatives& kept = octree.representatives();
   int count = 0;
   for (std::uint32_t brick = octree.brickBegin(); brick < octree.header().nodeCount; ++brick)
   {
@@ -68,7 +68,7 @@ int countKept(const Octree& octree)
   return count;
 }
 
-TEST(KeptRepresentatives, AreTheScalarWalksBeforeAndAfterTheyAreKnown)
+TEST(BrickRepresentatives, AreTheScalarWalksBeforeAndAfterTheyAreKnown)
 {
   svotest::onEveryInstructionSet(
     []
@@ -96,7 +96,7 @@ TEST(KeptRepresentatives, AreTheScalarWalksBeforeAndAfterTheyAreKnown)
     });
 }
 
-TEST(KeptRepresentatives, AreTheSameForThreadsThatAskAtOnce)
+TEST(BrickRepresentatives, AreTheSameForThreadsThatAskAtOnce)
 {
   const Octree octree = svotest::makeOctree(svotest::soup(500, 0.2, 9), 6);
   const std::vector<RayBlock> blocks = makeBlocks(octree, 32);
@@ -113,7 +113,7 @@ TEST(KeptRepresentatives, AreTheSameForThreadsThatAskAtOnce)
   EXPECT_EQ(differences, std::vector<int>(4, 0));
 }
 
-TEST(KeptRepresentatives, NoneWithoutASurface)
+TEST(BrickRepresentatives, NoneWithoutASurface)
 {
   const Octree octree = svotest::makeOctree({ glm::ivec3(0), glm::ivec3(3, 2, 1) }, 4);
   ASSERT_TRUE(octree);

@@ -64,7 +64,7 @@ TEST(LooseOctree, WhereAnObjectIsKeptFollowsFromRadiusCentreAndTheCrowd)
     crowd[i] = random.ball();
   }
   const svo::LooseOctree tree = treeOf(plain, crowd);
-  const std::vector<KeptNode> expected = plain.written(crowd), found = written(tree);
+  const std::vector<TreeNode> expected = plain.written(crowd), found = written(tree);
   EXPECT_TRUE(expected == found);
   EXPECT_GT(found.size(), 200u);
   expectEnclosed(tree, crowd);
@@ -83,10 +83,10 @@ TEST(LooseOctree, CrowdsOfAllSizesPileUpWhereNodesAreSmallest)
       i % 8 == 0 ? 0.0 : std::pow(10.0, random.between(-9, -4)) };
   }
   const svo::LooseOctree tree = treeOf(plain, crowd);
-  const std::vector<KeptNode> found = written(tree);
+  const std::vector<TreeNode> found = written(tree);
   EXPECT_TRUE(plain.written(crowd) == found);
   EXPECT_TRUE(std::any_of(found.begin(), found.end(),
-    [](const KeptNode& node) { return node.depth == 20 && node.objects.size() > 15; }));
+    [](const TreeNode& node) { return node.depth == 20 && node.objects.size() > 15; }));
   expectEnclosed(tree, crowd);
 }
 
@@ -132,7 +132,7 @@ TEST(LooseOctree, AfterAnySequenceOfChangesItEqualsOneBuiltAfresh)
     }
     if (step % 10000 == 5000)
     {
-      const std::vector<KeptNode> before = written(tree);
+      const std::vector<TreeNode> before = written(tree);
       tree.arrange();
       ASSERT_TRUE(written(tree) == before);
     }

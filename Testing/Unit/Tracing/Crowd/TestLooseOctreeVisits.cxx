@@ -9,7 +9,7 @@ using namespace svotest;
 namespace
 {
 /// Where a cell lies of a plane through the middle of a node, along an axis: -1, 1, or 0: across.
-int sideOf(const KeptNode& cell, double edge, const std::array<double, 3>& middle, int axis)
+int sideOf(const TreeNode& cell, double edge, const std::array<double, 3>& middle, int axis)
 {
   const double half = std::ldexp(edge, -cell.depth - 1);
   return cell.centre[axis] - half >= middle[axis] ? 1
@@ -34,7 +34,7 @@ TEST(LooseOctreeVisits, OfTwoCellsThatAPlaneOfANodeSeparatesTheNearerIsFirst)
   {
     const bool parallel = e >= eyes.size();
     const glm::dvec3 eye = eyes[e % eyes.size()];
-    std::vector<KeptNode> nodes;
+    std::vector<TreeNode> nodes;
     tree.visit(
       parallel ? svo::VisitOrder::along(-eye) : svo::VisitOrder{ eye },
       [&](const svo::LooseNode& node, std::uint8_t&)
@@ -45,10 +45,10 @@ TEST(LooseOctreeVisits, OfTwoCellsThatAPlaneOfANodeSeparatesTheNearerIsFirst)
       [&](std::uint32_t) {});
     ASSERT_GT(nodes.size(), 100u);
     std::size_t pairs = 0;
-    for (const KeptNode& node : nodes)
+    for (const TreeNode& node : nodes)
     {
       const double half = std::ldexp(plain.edge, -node.depth - 1);
-      const auto inside = [&](const KeptNode& other)
+      const auto inside = [&](const TreeNode& other)
       {
         bool is = other.depth > node.depth;
         for (int a = 0; a < 3; ++a)
@@ -57,8 +57,8 @@ TEST(LooseOctreeVisits, OfTwoCellsThatAPlaneOfANodeSeparatesTheNearerIsFirst)
         }
         return is;
       };
-      std::vector<const KeptNode*> below;
-      for (const KeptNode& other : nodes)
+      std::vector<const TreeNode*> below;
+      for (const TreeNode& other : nodes)
       {
         if (inside(other))
         {
@@ -67,7 +67,7 @@ TEST(LooseOctreeVisits, OfTwoCellsThatAPlaneOfANodeSeparatesTheNearerIsFirst)
       }
       if (below.size() > 200) // the upper nodes: enough of all pairs
       {
-        std::vector<const KeptNode*> some;
+        std::vector<const TreeNode*> some;
         for (std::size_t i = 0; i < below.size(); i += below.size() / 200 + 1)
         {
           some.push_back(below[i]);
@@ -137,10 +137,10 @@ TEST(LooseOctreeVisits, ManyMayLookAtOnce)
     const svo::Ball ball = random.ball();
     tree.insert(i, ball.centre, ball.radius);
   }
-  const std::vector<KeptNode> alone = written(tree);
-  std::vector<std::vector<KeptNode>> together(4);
+  const std::vector<TreeNode> alone = written(tree);
+  std::vector<std::vector<TreeNode>> together(4);
   std::vector<std::thread> readers;
-  for (std::vector<KeptNode>& nodes : together)
+  for (std::vector<TreeNode>& nodes : together)
   {
     readers.emplace_back([&] { nodes = written(tree); });
   }
@@ -148,7 +148,7 @@ TEST(LooseOctreeVisits, ManyMayLookAtOnce)
   {
     reader.join();
   }
-  for (const std::vector<KeptNode>& nodes : together)
+  for (const std::vector<TreeNode>& nodes : together)
   {
     EXPECT_TRUE(nodes == alone);
   }

@@ -46,12 +46,12 @@ inline Crowd keptBalls(const svo::LooseOctree& tree)
 }
 
 /// Depth, the middle of the cell, names in ascending order; outsiders have depth -1.
-struct KeptNode
+struct TreeNode
 {
   int depth;
   std::array<double, 3> centre;
   std::vector<std::uint32_t> objects;
-  bool operator==(const KeptNode& other) const
+  bool operator==(const TreeNode& other) const
   {
     return this->depth == other.depth && this->centre == other.centre &&
       this->objects == other.objects;
@@ -59,9 +59,9 @@ struct KeptNode
 };
 
 /// All nodes of a tree, in the order of their codes.
-inline std::vector<KeptNode> written(const svo::LooseOctree& tree)
+inline std::vector<TreeNode> written(const svo::LooseOctree& tree)
 {
-  std::vector<KeptNode> nodes{ { -1, {}, {} } };
+  std::vector<TreeNode> nodes{ { -1, {}, {} } };
   tree.visit(
     svo::VisitOrder::along({ 1, 1, 1 }),
     [&](const svo::LooseNode& node, std::uint8_t&)
@@ -70,7 +70,7 @@ inline std::vector<KeptNode> written(const svo::LooseOctree& tree)
       return true;
     },
     [&](std::uint32_t object) { nodes.back().objects.push_back(object); });
-  for (KeptNode& node : nodes)
+  for (TreeNode& node : nodes)
   {
     std::sort(node.objects.begin(), node.objects.end());
   }
@@ -98,7 +98,7 @@ struct PlainTree
     return at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x <= this->edge && at.y <= this->edge &&
       at.z <= this->edge && ball.radius >= 0 && ball.radius <= 0.125 * this->edge;
   }
-  void place(const Crowd& all, int depth, const glm::dvec3& corner, std::vector<KeptNode>& to) const
+  void place(const Crowd& all, int depth, const glm::dvec3& corner, std::vector<TreeNode>& to) const
   {
     if (all.empty())
     {
@@ -124,9 +124,9 @@ struct PlainTree
       this->place(below[i], depth + 1, corner + half * glm::dvec3(i & 1, i >> 1 & 1, i >> 2), to);
     }
   }
-  std::vector<KeptNode> written(const Crowd& crowd) const
+  std::vector<TreeNode> written(const Crowd& crowd) const
   {
-    std::vector<KeptNode> nodes{ { -1, {}, {} } };
+    std::vector<TreeNode> nodes{ { -1, {}, {} } };
     Crowd inside;
     for (const auto& [name, ball] : crowd)
     {

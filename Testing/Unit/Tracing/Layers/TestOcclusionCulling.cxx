@@ -163,7 +163,7 @@ TEST(OcclusionCulling, ChangesNoBit)
     const bool exact = !random.once(3); // or as for lights
     svo::LayeredView with(exact), without(exact);
     svo::InstanceTree tree;
-    tree.follow(scene, svo::serialFor);
+    tree.follow(scene, svo::SceneFollower().follow(scene), svo::serialFor);
     trees += tree.tree() != nullptr;
     trace(scene, view, tree.tree(), true, with);
     trace(scene, view, nullptr, false, without);

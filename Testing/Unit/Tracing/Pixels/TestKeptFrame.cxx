@@ -106,7 +106,7 @@ std::vector<Change> everyChange()
     { "pixel error", [=](Stage& s) { ball(s).pixelError = 3.0; } },
     { "depth offset", [=](Stage& s) { ball(s).depthOffset.units = 1e-3f; } },
     { "depth offset by slopes", [=](Stage& s) { ball(s).depthOffset.factor = -2.0f; } },
-    { "gives way", [=](Stage& s) { ball(s).givesWay = 1; } },
+    { "gives way", [=](Stage& s) { ball(s).coincidentOrder = 1; } },
     { "identity", [=](Stage& s) { ball(s).id = 3; } },
     { "order", [=](Stage& s) { std::swap(s.scene.instances[0], s.scene.instances[1]); } },
     { "one less", [=](Stage& s) { s.scene.instances.pop_back(); } },

@@ -1,6 +1,7 @@
 // The visible points of a tile, all at once, against the functions for one point, on every
 // instruction set of this machine.
 #include "svoInstructionSets.h"
+#include "svoLayeredView.h"
 #include "svoLeafError.h"
 #include "svoMapTest.h"
 #include "svoReferencePoint.h"
@@ -441,10 +442,13 @@ TEST(TileShading, WhatIsMarkedIsWhatIsLookedUp)
     svo::LightTiles noted;
     stage.eachPatch([&](const TilePatch& patch) { marked.mark(patch, 7, noted); });
     EXPECT_EQ(7, noted.at(0).light);
+    const std::uint64_t before = svo::nextTileVersion();
     marked.trace(serialFor);
+    const std::uint64_t after = svo::nextTileVersion();
     for (const svo::LightTile& tile : noted)
     {
-      EXPECT_TRUE(marked.changed(tile));
+      EXPECT_TRUE(marked.changedSince(tile, before));
+      EXPECT_FALSE(marked.changedSince(tile, after));
     }
     FrameStatistics few, all;
     marked.addStatistics(few);

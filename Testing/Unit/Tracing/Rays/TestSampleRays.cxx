@@ -85,10 +85,10 @@ struct Asked
     : scene(stamped(of))
   {
     prepareEye(this->eye, this->scene, lookAt({ 3, -5, 3 }, 16, 16));
-    this->tree.follow(this->scene, svo::serialFor);
-    this->plain = std::make_unique<svo::RayCasters>(this->scene, this->eye.hits());
+    this->tree.follow(this->scene, svo::SceneFollower().follow(this->scene), svo::serialFor);
+    this->plain = std::make_unique<svo::RayCasters>(this->scene, this->eye.hits().instances);
     this->culled =
-      std::make_unique<svo::RayCasters>(this->scene, this->eye.hits(), this->tree.tree());
+      std::make_unique<svo::RayCasters>(this->scene, this->eye.hits().instances, this->tree.tree());
   }
 };
 

@@ -101,7 +101,7 @@ Count compare(const svo::Scene& scene, const svo::View& view, const svo::Light& 
   svo::LayeredView eye;
   prepareEye(eye, scene, view);
   eye.trace(svo::serialFor, nullptr);
-  const svo::RayCasters casters(scene, eye.hits());
+  const svo::RayCasters casters(scene, eye.hits().instances);
   const svo::ShadowRays rays(casters);
   std::vector<svo::SurfaceMatrices> frames;
   double rounding = 0.0;
@@ -215,7 +215,7 @@ TEST(ShadowRays, CastersThatAreLeftOutAreNotMet)
   const svo::View view = lookAt({ 3, -5, 3 }, 16, 16);
   svo::LayeredView eye;
   prepareEye(eye, scene, view);
-  const svo::RayCasters casters(scene, eye.hits());
+  const svo::RayCasters casters(scene, eye.hits().instances);
   const svo::ShadowRays rays(casters);
   // Through every caster, wherever it is.
   const auto met = [&](const glm::dvec3& from, const glm::dvec3& way, double tMin, double tMax)

@@ -168,7 +168,7 @@ TEST(SoftRays, AnswersDoNotDependOnWhoElseAsks)
     svo::LayeredView eye;
     prepareEye(eye, scene, view);
     eye.trace(svo::serialFor, nullptr);
-    const svo::RayCasters casters(scene, eye.hits());
+    const svo::RayCasters casters(scene, eye.hits().instances);
     const svo::ShadowRays exact(casters);
     const svo::PixelRotations rotations(view, 0);
     const svo::SoftShadow soft(scene.lights[0], exact, casters, rotations, 16);

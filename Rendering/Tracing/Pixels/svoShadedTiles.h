@@ -1,8 +1,8 @@
 // Which tiles of a frame need not be shaded again: those whose hits, looks and lights are what they
 // were, the tiles of the lights' maps that they look up as well, and the casters that their rays to
 // the lights can meet. Then their pixels are, to the bit.
-#ifndef svoKeptTiles_h
-#define svoKeptTiles_h
+#ifndef svoShadedTiles_h
+#define svoShadedTiles_h
 
 #include "svoBox.h"
 #include "svoLightTile.h"
@@ -14,7 +14,7 @@
 
 namespace svo
 {
-class KeptTiles
+class ShadedTiles
 {
 public:
   struct Tile
@@ -87,10 +87,14 @@ public:
     }
   }
   std::size_t size() const { return this->Tiles.size(); }
+  /// Of hits in no later version than this (nextTileVersion()), the eye's and the lights'.
+  std::uint64_t madeOf() const { return this->MadeOf; }
+  void setMadeOf(std::uint64_t version) { this->MadeOf = version; }
 
 private:
   static constexpr std::uint8_t Itself = 1, Beside = 2;
   int TilesX = 0;
+  std::uint64_t MadeOf = 0;
   std::vector<Tile> Tiles;
   std::vector<std::uint8_t> Stale; // apart, since each frame looks at all of them
 };

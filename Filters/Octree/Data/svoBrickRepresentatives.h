@@ -4,8 +4,8 @@
 // it is a property of the voxel alone, and pictures hit the same voxels again and again. So what
 // was found is kept, a byte for each voxel. Threads that ask at the same time find the same, and a
 // byte is written whole: whoever comes second writes what is there already.
-#ifndef svoKeptRepresentatives_h
-#define svoKeptRepresentatives_h
+#ifndef svoBrickRepresentatives_h
+#define svoBrickRepresentatives_h
 
 #include "svoLayout.h"
 #include "svoNode.h"
@@ -20,15 +20,15 @@
 
 namespace svo
 {
-class KeptRepresentatives
+class BrickRepresentatives
 {
 public:
   /// A list's later triangles are not kept.
   static constexpr int MostPlaces = std::numeric_limits<std::uint8_t>::max();
 
   /// Keeps none.
-  KeptRepresentatives() = default;
-  KeptRepresentatives(const Header& header, const Node* nodes)
+  BrickRepresentatives() = default;
+  BrickRepresentatives(const Header& header, const Node* nodes)
     : BrickBegin(header.depthBegin[header.depthCount - 1])
   {
     if (header.voxelCount > std::numeric_limits<std::uint32_t>::max())

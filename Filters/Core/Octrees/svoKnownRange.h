@@ -1,6 +1,6 @@
 // The range of an array's values, told to it so that nobody goes through them.
-#ifndef svoToldRange_h
-#define svoToldRange_h
+#ifndef svoKnownRange_h
+#define svoKnownRange_h
 
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"

@@ -1,4 +1,4 @@
-#include "svoGiveWay.h"
+#include "svoCoincidentOrder.h"
 
 #include "vtkActor.h"
 #include "vtkPolyData.h"
@@ -60,7 +60,7 @@ bool touch(const double* a, const double* b)
 }
 }
 
-void giveWay(std::vector<PropSurfaces>& props)
+void orderCoincident(std::vector<PropSurfaces>& props)
 {
   if (std::none_of(props.begin(), props.end(), [](const PropSurfaces& prop) { return prop.shown; }))
   {
@@ -99,7 +99,7 @@ void giveWay(std::vector<PropSurfaces>& props)
     }
     for (SceneSurface& surface : props[i].surfaces)
     {
-      surface.instance.givesWay = way;
+      surface.instance.coincidentOrder = way;
     }
   }
 }

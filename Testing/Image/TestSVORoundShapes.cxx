@@ -392,7 +392,7 @@ void expectNoOwnShadow(Checks& checks)
 }
 }
 
-int TestSVOBodies(int, char*[])
+int TestSVORoundShapes(int, char*[])
 {
   Checks checks;
   for (const Case& one : cases())

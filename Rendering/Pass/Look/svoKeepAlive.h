@@ -1,7 +1,7 @@
 // What a collected prop keeps for as long as it is kept itself: the arrays that its surfaces point
 // into, and what was computed for them.
-#ifndef svoKept_h
-#define svoKept_h
+#ifndef svoKeepAlive_h
+#define svoKeepAlive_h
 
 #include "svoEraseIf.h"
 
@@ -23,7 +23,7 @@ inline vtkMTimeType timeOf(vtkObject* object)
   return object ? object->GetMTime() : 0;
 }
 
-class Kept
+class KeepAlive
 {
 public:
   /// An array whose values are pointed at, unless they are of a type that nobody points at.
@@ -77,13 +77,13 @@ private:
 /// Values by key, for as long as somebody keeps them. A stamp has the times of what a value is made
 /// of, which are never given twice: another object in an old one's place is noticed, too.
 template <class Key, class Value, class Stamp = vtkMTimeType>
-class KeptValues
+class CachedValues
 {
 public:
   /// The key's value, which `kept` keeps from now on. make(value) fills it in if it is new or was
   /// made at another stamp.
   template <class Make>
-  Value& of(const Key& key, const Stamp& stamp, Kept& kept, const Make& make)
+  Value& of(const Key& key, const Stamp& stamp, KeepAlive& kept, const Make& make)
   {
     std::shared_ptr<Entry>& entry = this->Entries[key];
     if (!entry)

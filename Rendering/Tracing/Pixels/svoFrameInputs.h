@@ -1,10 +1,9 @@
 // What the last frame was made of: where the next one is made of the same, it is the same picture,
 // to the bit, and nothing has to be done.
-#ifndef svoKeptFrame_h
-#define svoKeptFrame_h
+#ifndef svoFrameInputs_h
+#define svoFrameInputs_h
 
 #include "svoFrame.h"
-#include "svoInstanceVersions.h"
 #include "svoScene.h"
 #include "vtkSVOTracingModule.h"
 
@@ -21,18 +20,18 @@ struct FrameChanges
   bool none() const { return !this->all && this->instances.empty(); }
 };
 
-class VTKSVOTRACING_EXPORT KeptFrame
+class VTKSVOTRACING_EXPORT FrameInputs
 {
 public:
-  /// What of a frame's inputs differs from those of the last call: of instances their versions are
-  /// compared, of the rest all values.
-  FrameChanges compare(const Scene& scene, const View& view, const FrameSettings& settings);
+  /// What of a frame's inputs differs from those of the last call. `changed`: what is to
+  /// be said of instances; of the rest all values are compared.
+  FrameChanges compare(const Scene& scene, std::vector<std::uint32_t> changed, const View& view,
+    const FrameSettings& settings);
   /// The picture of the last call is not kept: all of the next one is new.
   void forget() { this->Inputs.clear(); }
 
 private:
   std::vector<unsigned char> Inputs; // all but the instances, as bytes
-  InstanceVersions Instances;
 };
 }
 

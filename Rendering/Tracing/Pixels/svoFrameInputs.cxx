@@ -1,4 +1,4 @@
-#include "svoKeptFrame.h"
+#include "svoFrameInputs.h"
 
 #include "svoSkyPicture.h"
 
@@ -50,7 +50,8 @@ void addSettings(const FrameSettings& s, Bytes& bytes)
 }
 }
 
-FrameChanges KeptFrame::compare(const Scene& scene, const View& view, const FrameSettings& settings)
+FrameChanges FrameInputs::compare(const Scene& scene, std::vector<std::uint32_t> changed,
+  const View& view, const FrameSettings& settings)
 {
   Bytes inputs;
   inputs.reserve(this->Inputs.size());
@@ -66,10 +67,8 @@ FrameChanges KeptFrame::compare(const Scene& scene, const View& view, const Fram
   {
     addLight(light, inputs);
   }
-  FrameChanges changes;
-  changes.all = inputs != this->Inputs;
+  const bool all = inputs != this->Inputs;
   this->Inputs = std::move(inputs);
-  changes.instances = this->Instances.update(scene);
-  return changes;
+  return { all, std::move(changed) };
 }
 }

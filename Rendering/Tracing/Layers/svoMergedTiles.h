@@ -62,7 +62,7 @@ public:
     assert(this->wasMerged(tile));
     this->Changes[tile] = Change::Same;
   }
-  /// True if the tile may not be what it was in the last frame.
+  /// After the frame: true if the tile may not be what it was in the last one.
   bool changed(std::size_t tile) const { return this->changeOf(tile) >= Change::Touched; }
   /// True if the part (by index in Scene::instances) is not what it was, or is gone.
   bool partChanged(std::uint32_t index) const

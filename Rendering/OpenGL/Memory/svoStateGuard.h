@@ -1,6 +1,6 @@
 // OpenGL's state around what draws beside VTK, which knows what it has set.
-#ifndef svoKeptState_h
-#define svoKeptState_h
+#ifndef svoStateGuard_h
+#define svoStateGuard_h
 
 #include "svoOpenGL.h"
 
@@ -13,10 +13,10 @@ namespace svo
 /// Switches tests, blending and culling off; in the end all is as it was of these, of depths,
 /// colours, the viewport and the scissor box, the framebuffer that is drawn into, the program, the
 /// vertex array, and what was bound here.
-class KeptState
+class StateGuard
 {
 public:
-  KeptState()
+  StateGuard()
   {
     for (std::size_t i = 0; i < std::size(this->On); ++i)
     {
@@ -33,9 +33,9 @@ public:
     glGetBooleanv(GL_DEPTH_WRITEMASK, &this->Deep);
     glGetBooleanv(GL_COLOR_WRITEMASK, this->Colors);
   }
-  KeptState(const KeptState&) = delete;
-  KeptState& operator=(const KeptState&) = delete;
-  ~KeptState()
+  StateGuard(const StateGuard&) = delete;
+  StateGuard& operator=(const StateGuard&) = delete;
+  ~StateGuard()
   {
     for (std::size_t i = 0; i < this->Bound.size(); ++i)
     {
