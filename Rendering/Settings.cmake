@@ -185,7 +185,8 @@ vtksvo_setting(FilterLightSamples bool true
   MORE
     "Up to eight pixels around, with about the same normal and in about the same plane. The more samples
      there are the less is taken from around. What lets light through in finer patterns than chance tells apart gets
-     blurred.")
+     blurred. At a picture's border there is less around, so where a screenshot is put together from tiles (`SetScale`) these
+     may differ by a few of 255 along their seams: switch it off there and take more samples.")
 
 vtksvo_setting(LightError double 0
   TABLE shadows RANGE 0 255 UNIT "of 255"
@@ -205,8 +206,8 @@ vtksvo_setting(AntiAliasing bool false
      their pixels."
   MORE
     "It filters shadows as `FilterShadows` does, whether that is on or off. Silhouettes and edges between facets follow the
-     render window's own multisampling (`SetMultiSamples`), as those of everything that VTK draws. Of
-     pictures that the CPU makes; with OpenGL there is a message.")
+     render window's own multisampling (`SetMultiSamples`), as those of everything that VTK draws. With
+     OpenGL it does no more than to filter shadow maps.")
 
 vtksvo_setting(ShadowBufferResolution int 2048
   TABLE shadows RANGE 16 16384 UNIT texels

@@ -210,7 +210,7 @@ int vtkSVOShadowFilter::RequestData(
     if (meshes[i].own && index != svo::OwnMesh::None)
     {
       own.instance = index;
-      own.error = svo::floatErrorOf(scene.instances[index]);
+      own.error = svo::triangleError(scene.instances[index]);
     }
   }
   svo::ViewedInstances seen; // by nobody

@@ -36,7 +36,7 @@ bool vtkSVORenderPass::CollectFrame(
   frame.state->beginFrame();
   svo::PassStatistics& statistics = frame.state->statistics();
   statistics.imageReduction = this->ImageReductionFactor;
-  bool disturbed = true;
+  bool disturbed = true, sampled = false;
   // As the last frame's scene says; this one's has the last word.
   bool planes = frame.state->collected().planes;
   for (int i = 1; disturbed && i <= MostCollections; ++i)
@@ -75,7 +75,7 @@ bool vtkSVORenderPass::CollectFrame(
     store.complain = [&frame](const std::string& text) { frame.messages.push_back(text); };
 
     const bool automatic = this->Backend == BACKEND_AUTO;
-    const bool sampled = this->AmbientOcclusion || this->SkyLight ||
+    sampled = this->AmbientOcclusion || this->SkyLight ||
       (this->ShadowTechnique != SHADOW_NONE && svo::hasSoftLight(renderer));
     // Samples are rays, and where these are there is no need of maps.
     const bool volumes = this->ShadowTechnique == SHADOW_VOLUMES; // which are OpenGL's alone
@@ -135,16 +135,9 @@ bool vtkSVORenderPass::CollectFrame(
     frame.tellOnce(
       std::string("OpenGL draws shadow volumes, and the CPU makes this picture: exact rays "
                   "find the same shadows.") +
-        (this->Backend == BACKEND_CPU      ? " SetBackendToAuto() has OpenGL draw."
-            : !impl.severalProcesses() ? " SetBackendToOpenGL() has OpenGL draw what it can."
-                                       : ""),
-      impl.said);
-  }
-  if (this->AntiAliasing && statistics.openGL)
-  {
-    frame.tellOnce("AntiAliasing is of pictures that the CPU makes, and OpenGL makes this one: "
-                   "MultiSamples of the window smooth its edges, FilterShadows those of shadow "
-                   "maps. SetBackendToCPU() has the CPU make it.",
+        (sampled || impl.severalProcesses() ? ""
+            : this->Backend == BACKEND_CPU  ? " SetBackendToAuto() has OpenGL draw."
+                                            : " SetBackendToOpenGL() has OpenGL draw."),
       impl.said);
   }
   const svo::CollectedScene& collected = frame.state->collected();
@@ -237,6 +230,12 @@ void vtkSVORenderPass::TraceFrame(svo::PassFrame& frame, int width, int height)
     this->UpdateLights(frame.renderer);
   }
   frame.tellOnce(frame.state->complaint(), impl.said);
+  frame.tellOnce(this->AntiAliasing && frame.state->drawnByOpenGL()
+      ? "OpenGL makes this picture, and of AntiAliasing it does no more than to filter shadow "
+        "maps: "
+        "MultiSamples of the window smooth edges. SetBackendToCPU() has the CPU smooth them all."
+      : "",
+    impl.said);
   const std::string signature = frame.state->receivers().signature();
   if (signature != impl.shaderSignature)
   {

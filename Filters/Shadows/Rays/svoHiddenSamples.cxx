@@ -9,13 +9,20 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 
 namespace svo
 {
 namespace
 {
+/// How far the points of an octree's triangles can be from the mesh's, of the edge of the root
+/// cube: half of a float's last place in [1, 2) along each axis, and as much again for the
+/// roundings of products that start from there.
+constexpr double FloatError = 2.0 * 1.7320508075688772 / 16777216.0;
+
 struct Start
 {
   glm::dvec3 at; // world
@@ -158,6 +165,14 @@ std::uint64_t beam(
 }
 }
 
+double triangleError(const Instance& instance)
+{
+  // No edge of local length 1 becomes longer than the matrix's norm.
+  const glm::dmat3 m(instance.localToWorld);
+  return FloatError * instance.body->octree.rootEdge() *
+    std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+
 std::uint32_t addCaster(const Octree& octree, const glm::dmat4& toWorld, Scene& scene)
 {
   assert(placesSomething(toWorld));
@@ -195,7 +210,7 @@ std::uint64_t hiddenSamples(const RayCasters& casters, const OwnMesh& own, const
     [&](const RayCaster& caster)
     {
       const Asked one{ caster, own };
-      const double offset = own.error + (one.named() ? 0.0 : caster.floatError);
+      const double offset = own.error + (one.named() ? 0.0 : triangleError(*caster.instance));
       Start starts[BeamPoints::Most];
       int begun = 0;
       for (int i = 0; i < count; ++i)

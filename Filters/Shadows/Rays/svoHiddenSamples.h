@@ -25,8 +25,12 @@ struct OwnMesh
   static constexpr std::uint32_t None = ~0u;
   std::uint32_t instance = None; // index in the scene, where it casts
   bool points = false;           // Sample::own names a point of it; else a triangle
-  double error = 0.0;            // world; what floats do not tell apart on it
+  double error = 0.0;            // triangleError() of the instance
 };
+
+/// How far an instance's triangles may be from where the mesh has them, world. (A ray that starts
+/// as a double starts nearer than RayCaster::floatError.)
+double triangleError(const Instance& instance);
 
 /// Adds a caster. The matrix is finite and has an inverse. Returns its index; OwnMesh::None, and
 /// nothing is added, if the octree is empty.

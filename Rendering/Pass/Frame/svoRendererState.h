@@ -133,6 +133,11 @@ public:
 
   /// A message about the traced frame; empty if all is well.
   const std::string& complaint() const { return this->Complaint; }
+  /// True if OpenGL was asked for the picture that trace() has made ready, and makes it.
+  bool drawnByOpenGL() const
+  {
+    return this->Statistics.openGL && this->Trace && !this->Trace->frame().hasPicture();
+  }
 
   /// Of its environment texture; `why` there is none, in a sentence.
   std::shared_ptr<const SkyPicture> skyPicture(std::string& why)

@@ -366,7 +366,7 @@ std::size_t ShadowBuffer::Map::memory() const
 {
   constexpr std::size_t OfTexel = sizeof(float) + sizeof(std::uint32_t) + sizeof(Primitive);
   // Of a tile of the map, here and in LayeredView: marks, states and what lies in it.
-  constexpr std::size_t OfTile = 24;
+  constexpr std::size_t OfTile = 32;
   std::size_t bytes = this->traced.shared.bytes() + OfTile * this->wanted.size();
   for (const std::uint8_t hit : this->hits.depth.hit)
   {

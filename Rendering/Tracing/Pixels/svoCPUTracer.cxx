@@ -96,10 +96,12 @@ void CPUTracer::Internals::follow(const Scene& scene, const ParallelFor& paralle
 {
   const SceneChanges changes = this->Instances.follow(scene);
   this->Tree.follow(scene, changes, parallelFor);
-  const std::vector<std::uint32_t> before = std::move(this->Changed);
-  this->Changed.clear();
+  std::vector<std::uint32_t>& all = this->Changed;
+  const std::vector<std::uint32_t> before = std::move(all);
+  all.clear();
   std::set_union(before.begin(), before.end(), changes.instances.begin(), changes.instances.end(),
-    std::back_inserter(this->Changed));
+    std::back_inserter(all));
+  all.erase(std::lower_bound(all.begin(), all.end(), changes.count), all.end()); // they are gone
 }
 
 /// Says how the instances of a frame are culled.

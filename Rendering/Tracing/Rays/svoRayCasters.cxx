@@ -11,10 +11,11 @@
 
 namespace svo
 {
-double floatErrorOf(const Instance& instance)
+namespace
 {
-  constexpr double FloatError = 1e-6; // of the edge of the root cube
-  return FloatError * worldVoxel(instance, 0);
+/// Of the edge of the root cube: the roundings of a start and of a triangle's corners, and as much
+/// again.
+constexpr double FloatError = 1e-6;
 }
 
 RayCasters::RayCasters(const Scene& scene, const ViewedInstances& seen, const LooseOctree* tree)
@@ -42,7 +43,7 @@ RayCasters::RayCasters(const Scene& scene, const ViewedInstances& seen, const Lo
         std::max(planeError, worldLeafError(instance, geometry, octree.level())), exact && !mixed,
         CasterBox(instance, toOctree.inverse),
         instance.mappedOpacity ? SurfaceMatrices(instance) : SurfaceMatrices(),
-        floatErrorOf(instance) });
+        FloatError * worldVoxel(instance, 0) });
       this->MostStartOffset =
         std::max(this->MostStartOffset, casters.back().startOffset(0.0, true));
     }

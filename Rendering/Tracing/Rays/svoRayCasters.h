@@ -39,10 +39,6 @@ struct RayCaster
   }
 };
 
-/// What floats do not tell apart on an instance with an octree, world: the roundings of a point and
-/// of a triangle's corners, and as much again.
-VTKSVOTRACING_EXPORT double floatErrorOf(const Instance& instance);
-
 /// How opaque the caster is where light meets it first that comes to `end` from `length` times
 /// `towards` (world; not unit; a length of 1e30 or more: from beyond the caster): 0 if nowhere.
 VTKSVOTRACING_EXPORT float opacityMet(

@@ -302,6 +302,37 @@ TEST(SharedShadows, ProcessesAgreeOnFewerTexels)
     });
 }
 
+// What has changed is told to the next frame that is drawn, of which objects may be gone.
+TEST(SharedShadows, AFrameThatIsNotDrawnLosesNothing)
+{
+  svo::Scene scene = ballsOnGround();
+  scene.lights = { lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }) };
+  svo::Scene fewer = scene;
+  fewer.instances.resize(2);
+  svo::Scene moved = scene;
+  moved.instances[3].localToWorld = movedTo(1.0, -1.5, 1.6);
+  const svo::View eye = lookAt({ 1, -6, 4 }, 160, 120);
+  inProcesses(2,
+    [&](svo::Processes& processes)
+    {
+      const auto part = [&](const svo::Scene& whole)
+      { return stamped(partOf(whole, processes.self(), 2)); };
+      const auto share = [&](svo::CPUTracer& tracer, const svo::Scene& mine)
+      { EXPECT_TRUE(tracer.shareShadows(mine, eye, smallBuffers(), svo::serialFor, processes)); };
+      svo::CPUTracer tracer;
+      for (const svo::Scene* const shown : { &fewer, &moved, &fewer })
+      {
+        share(tracer, part(scene)); // not drawn
+        const svo::Scene mine = part(*shown);
+        svo::CPUTracer other;
+        share(tracer, mine);
+        const svo::Frame frame = rendered(tracer, mine, eye, smallBuffers());
+        share(other, mine);
+        EXPECT_TRUE(identical(frame, rendered(other, mine, eye, smallBuffers())));
+      }
+    });
+}
+
 TEST(SharedShadows, ProcessesThatDisagreeAboutTheLightsKeepTheirOwn)
 {
   svo::Scene scene = ballsOnGround();
