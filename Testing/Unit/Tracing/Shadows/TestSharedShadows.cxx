@@ -302,35 +302,54 @@ TEST(SharedShadows, ProcessesAgreeOnFewerTexels)
     });
 }
 
-// What has changed is told to the next frame that is drawn, of which objects may be gone.
-TEST(SharedShadows, AFrameThatIsNotDrawnLosesNothing)
+// What has changed is found once, when shadows are shared, and told to the frame that is drawn
+// next, of which objects may be gone.
+TEST(SharedShadows, WhatHasChangedIsToldToTheNextFrame)
 {
   svo::Scene scene = ballsOnGround();
   scene.lights = { lightOf(svo::Light::Kind::Directional, { 2, -2, 5 }) };
-  svo::Scene fewer = scene;
+  svo::Scene fewer = scene, moved = scene, away = scene;
   fewer.instances.resize(2);
-  svo::Scene moved = scene;
-  moved.instances[3].localToWorld = movedTo(1.0, -1.5, 1.6);
+  moved.instances[2].localToWorld = movedTo(0.5, -1.5, 1.6);
+  away.instances[2].localToWorld = movedTo(-40.0, 0.0, 1.6);
+  struct Step
+  {
+    const svo::Scene* scene;
+    bool shared, drawn;
+  };
+  const Step steps[] = { { &scene, true, true }, { &scene, true, false }, { &fewer, true, true },
+    { &moved, true, false }, { &fewer, true, true }, { &scene, false, true },
+    { &moved, true, true }, { &moved, false, true }, { &away, false, true } };
   const svo::View eye = lookAt({ 1, -6, 4 }, 160, 120);
-  inProcesses(2,
-    [&](svo::Processes& processes)
-    {
-      const auto part = [&](const svo::Scene& whole)
-      { return stamped(partOf(whole, processes.self(), 2)); };
-      const auto share = [&](svo::CPUTracer& tracer, const svo::Scene& mine)
-      { EXPECT_TRUE(tracer.shareShadows(mine, eye, smallBuffers(), svo::serialFor, processes)); };
-      svo::CPUTracer tracer;
-      for (const svo::Scene* const shown : { &fewer, &moved, &fewer })
+  for (const svo::ShadowTechnique technique :
+    { svo::ShadowTechnique::Buffer, svo::ShadowTechnique::Rays })
+  {
+    svo::FrameSettings settings = smallBuffers();
+    settings.shadowTechnique = technique;
+    inProcesses(2,
+      [&](svo::Processes& processes)
       {
-        share(tracer, part(scene)); // not drawn
-        const svo::Scene mine = part(*shown);
-        svo::CPUTracer other;
-        share(tracer, mine);
-        const svo::Frame frame = rendered(tracer, mine, eye, smallBuffers());
-        share(other, mine);
-        EXPECT_TRUE(identical(frame, rendered(other, mine, eye, smallBuffers())));
-      }
-    });
+        svo::CPUTracer tracer;
+        for (const Step& step : steps)
+        {
+          const svo::Scene mine = stamped(partOf(*step.scene, processes.self(), 2));
+          svo::CPUTracer other;
+          for (svo::CPUTracer* const one : { &tracer, &other })
+          {
+            if (step.shared)
+            {
+              one->shareShadows(mine, eye, settings, svo::serialFor, processes);
+            }
+          }
+          if (step.drawn)
+          {
+            EXPECT_TRUE(identical(
+              rendered(tracer, mine, eye, settings), rendered(other, mine, eye, settings)))
+              << &step - steps << ", process " << processes.self();
+          }
+        }
+      });
+  }
 }
 
 TEST(SharedShadows, ProcessesThatDisagreeAboutTheLightsKeepTheirOwn)
