@@ -7,10 +7,18 @@
 
 namespace svo
 {
-struct LightTile
+/// A shadow buffer of a scene.
+struct BufferName
 {
   std::uint16_t light; // index into Scene::lights
-  std::uint16_t map;   // of the light
+  std::uint8_t group;  // which of its buffers; LightBuffers
+};
+
+struct LightTile
+{
+  std::uint16_t light; // BufferName
+  std::uint8_t group;  // BufferName
+  std::uint8_t map;    // of the buffer
   std::uint32_t tile;  // of the map
 };
 using LightTiles = std::vector<LightTile>;

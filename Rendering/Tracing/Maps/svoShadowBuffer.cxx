@@ -141,7 +141,7 @@ void ShadowBuffer::arrangeMaps(const std::vector<View>& views, LayerBudget& budg
 }
 
 template <class Body>
-void ShadowBuffer::tilesAround(const MapPlace& place, std::uint16_t light, Body&& body) const
+void ShadowBuffer::tilesAround(const MapPlace& place, BufferName name, Body&& body) const
 {
   const TileGrid& grid = this->Maps[place.index]->grid;
   const PixelRect& crop = place.map->view.crop;
@@ -153,7 +153,7 @@ void ShadowBuffer::tilesAround(const MapPlace& place, std::uint16_t light, Body&
   {
     for (int x = x0; x <= x1; ++x)
     {
-      body(LightTile{ light, static_cast<std::uint16_t>(place.index),
+      body(LightTile{ name.light, name.group, static_cast<std::uint8_t>(place.index),
         static_cast<std::uint32_t>(grid.index(x, y)) });
     }
   }
@@ -162,7 +162,8 @@ void ShadowBuffer::tilesAround(const MapPlace& place, std::uint16_t light, Body&
 bool ShadowBuffer::isTraced(const MapPlace& place) const
 {
   bool traced = true;
-  this->tilesAround(place, 0, [&](const LightTile& name) { traced = traced && this->wants(name); });
+  this->tilesAround(
+    place, {}, [&](const LightTile& tile) { traced = traced && this->wants(tile); });
   return traced;
 }
 
@@ -191,20 +192,20 @@ ShadowBuffer::MapAnswer ShadowBuffer::ask(
   return said;
 }
 
-void ShadowBuffer::note(const glm::dvec3& position, std::uint16_t light, RaisedTiles& noted) const
+void ShadowBuffer::note(const glm::dvec3& position, BufferName name, RaisedTiles& noted) const
 {
   MapPlace place;
   if (this->Tested.lookUp(position, place))
   {
-    this->tilesAround(place, light,
-      [&](const LightTile& name) {
-        noted.push_back({ name, this->wants(name) });
+    this->tilesAround(place, name,
+      [&](const LightTile& tile) {
+        noted.push_back({ tile, this->wants(tile) });
       });
   }
 }
 
-bool ShadowBuffer::Map::want(const MapPlaces& places, float around, std::uint16_t light,
-  std::uint16_t index, LightTiles& noted)
+bool ShadowBuffer::Map::want(
+  const MapPlaces& places, float around, BufferName name, std::uint8_t index, LightTiles& noted)
 {
   const MapTiles box = tilesOf(places, this->traced.view, around);
   if (!box.atMost(8))
@@ -222,7 +223,8 @@ bool ShadowBuffer::Map::want(const MapPlaces& places, float around, std::uint16_
         // Written part by part where it stays: a whole that was just put together from parts
         // could be copied only when they have reached the cache.
         LightTile& note = noted.emplace_back();
-        note.light = light;
+        note.light = name.light;
+        note.group = name.group;
         note.map = index;
         note.tile = static_cast<std::uint32_t>(this->grid.index(x, y));
         std::atomic<std::uint8_t>& tile = this->wanted[note.tile];
@@ -236,7 +238,7 @@ bool ShadowBuffer::Map::want(const MapPlaces& places, float around, std::uint16_
   return true;
 }
 
-void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles& noted)
+void ShadowBuffer::mark(const TilePatch& patch, BufferName name, LightTiles& noted)
 {
   std::uint64_t left = patch.mask, single = 0;
   for (std::size_t f = 0; f < this->Maps.size() && left != 0; ++f)
@@ -246,16 +248,16 @@ void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles&
     placeInMap(map->traced, patch, left, places);
     single |= left & ~(places.inside | places.outside);
     if (places.inside != 0 && map->traced.seesCasters &&
-      !map->want(places, this->Around, light, static_cast<std::uint16_t>(f), noted))
+      !map->want(places, this->Around, name, static_cast<std::uint8_t>(f), noted))
     {
       single |= places.inside;
     }
     left &= places.outside;
   }
-  const auto note = [&](const LightTile& name)
+  const auto note = [&](const LightTile& tile)
   {
-    noted.push_back(name);
-    this->mark(name);
+    noted.push_back(tile);
+    this->mark(tile);
   };
   eachBit(single,
     [&](int i)
@@ -263,7 +265,7 @@ void ShadowBuffer::mark(const TilePatch& patch, std::uint16_t light, LightTiles&
       MapPlace place;
       if (this->Tested.lookUp(patch.position(i), place))
       {
-        this->tilesAround(place, light, note);
+        this->tilesAround(place, name, note);
       }
     });
 }

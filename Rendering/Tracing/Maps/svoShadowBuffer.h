@@ -49,8 +49,8 @@ public:
   }
 
   /// Notes the 8x8 light tiles that the points of a patch will look up, and perhaps a few more.
-  /// Thread-safe.
-  void mark(const TilePatch& patch, std::uint16_t light, LightTiles& noted);
+  /// `name`: of the buffer. Thread-safe.
+  void mark(const TilePatch& patch, BufferName name, LightTiles& noted);
   /// A tile that was noted in the last frame, when the maps were the same.
   void mark(const LightTile& noted)
   {
@@ -68,7 +68,7 @@ public:
     return this->Maps[noted.map]->wanted[noted.tile].load(std::memory_order_relaxed) != 0;
   }
   /// Notes the tiles that knows() asks about a point.
-  void note(const glm::dvec3& position, std::uint16_t light, RaisedTiles& noted) const;
+  void note(const glm::dvec3& position, BufferName name, RaisedTiles& noted) const;
   /// What fragments of surfaces that are rasterised may look up.
   void mark(const SeenReceivers& receivers);
   /// Every tile will be looked up.
@@ -137,7 +137,7 @@ private:
     std::size_t memory() const;
     /// Notes the tiles around points that are inside, of this map: few, or one by one. False if
     /// there are too many to be noted here.
-    bool want(const MapPlaces& places, float around, std::uint16_t light, std::uint16_t index,
+    bool want(const MapPlaces& places, float around, BufferName name, std::uint8_t index,
       LightTiles& noted);
   };
   void arrangeMaps(const std::vector<View>& views, LayerBudget& budget);
@@ -146,7 +146,7 @@ private:
   bool isTraced(const MapPlace& place) const;
   /// Calls body(name) for the light tiles of the texels that a point asks: one, two or four.
   template <class Body>
-  void tilesAround(const MapPlace& place, std::uint16_t light, Body&& body) const;
+  void tilesAround(const MapPlace& place, BufferName name, Body&& body) const;
   /// How far from a point texels are asked, in texels: the test asks the four whose centres
   /// surround it; the filter's narrowest window reaches as far, and endsBefore() asks one beyond.
   static constexpr float AroundTest = 0.5f, AroundFilter = 2.0f;

@@ -9,24 +9,21 @@
 #include "svoShadowRules.h"
 #include "svoTerminatorShadow.h"
 
-#include <utility>
 #include <vector>
 
 namespace svo
 {
-/// The light, buffers and rays are borrowed, for a frame.
+/// The light, its buffers and rays are borrowed, for a frame.
 class BufferShadow : public LightShadow
 {
 public:
-  /// `name`: LightTile::light of the opaque casters' buffer. `translucent`: buffers of the groups
-  /// of translucent casters. `rays`: of points at the terminator, null where no mesh is smooth.
-  /// `filters`: as MapTest::darkness().
-  BufferShadow(const Light& light, const ShadowBuffer& opaque, std::uint16_t name,
-    std::vector<const ShadowBuffer*> translucent, const ShadowRays* rays, bool filters)
-    : Source(light)
-    , Opaque(opaque)
-    , Name(name)
-    , Translucent(std::move(translucent))
+  /// `rays`: of points at the terminator, null where no mesh is smooth. `filters`: as
+  /// MapTest::darkness().
+  BufferShadow(const Light& light, const MapsOfLight& maps, const ShadowRays* rays, bool filters)
+    : LightShadow(maps)
+    , Source(light)
+    , Opaque(maps.buffers->opaque())
+    , Translucent(maps.buffers->translucent())
     , Rays(rays)
     , Filters(filters)
   {
@@ -76,13 +73,14 @@ public:
     const glm::dvec3 reach(query.errors.map);
     rays.add(query.patch.position(at.pixel), reach);
     rays.add(at.point.position, reach);
-    this->Opaque.note(at.point.position, this->Name, raised);
+    this->Opaque.note(at.point.position, { this->Maps.light, 0 }, raised);
   }
 
 private:
+  void count(FrameStatistics& statistics) const override { ++statistics.lightsWithBuffers; }
+
   const Light& Source;
   const ShadowBuffer& Opaque;
-  std::uint16_t Name;
   std::vector<const ShadowBuffer*> Translucent;
   const ShadowRays* Rays;
   bool Filters;

@@ -1,14 +1,18 @@
-// The shadow of one light as shading asks for it, whatever it is found by.
+// The shadow of one light as a frame asks for it, whatever it is found by.
 #ifndef svoLightShadow_h
 #define svoLightShadow_h
 
 #include "svoBox.h"
+#include "svoFrame.h"
+#include "svoLightBuffers.h"
 #include "svoLightTile.h"
+#include "svoParallel.h"
 #include "svoSampleSums.h"
 #include "svoTerminator.h"
 #include "svoTilePatch.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -57,11 +61,66 @@ inline void noteRaisedStart(const ShadowQuery& query, const TerminatorPoint& at,
   rays.add(at.point.position, reach);
 }
 
+/// The buffers of a light, and its index in Scene::lights. Of those that find shadows by something
+/// else, too, where rasterised surfaces look maps up; null: there are none. They outlive the frame.
+struct MapsOfLight
+{
+  const LightBuffers* buffers = nullptr;
+  std::uint16_t light = 0;
+};
+
+/// Made anew for each frame. It is asked in this order: what points will look up of the light's
+/// maps is marked, the maps are traced, patches and points are tested.
+///
 /// This one is of a light that casts none.
 class LightShadow
 {
 public:
+  explicit LightShadow(const MapsOfLight& maps = {})
+    : Maps(maps)
+  {
+  }
   virtual ~LightShadow() = default;
+
+  /// ShadowBuffer::mark() of all maps.
+  void mark(const TilePatch& patch, LightTiles& noted) const
+  {
+    if (this->Maps.buffers)
+    {
+      this->Maps.buffers->mark(patch, this->Maps.light, noted);
+    }
+  }
+  void trace(const ParallelFor& parallelFor) const
+  {
+    this->eachBuffer([&](ShadowBuffer& buffer) { buffer.trace(parallelFor); });
+  }
+  /// True if it can tell of the point: where there are maps, if these are traced around it.
+  bool knows(const glm::dvec3& position) const
+  {
+    bool known = true;
+    this->eachBuffer([&](const ShadowBuffer& buffer) { known = known && buffer.knows(position); });
+    return known;
+  }
+  /// One of the light's maps' tiles.
+  ShadowBuffer& bufferOf(const LightTile& tile) const
+  {
+    assert(this->Maps.buffers);
+    return this->Maps.buffers->of(tile);
+  }
+  /// What it is found by, and memory. `traced`: what the maps took as well.
+  void addStatistics(bool traced, FrameStatistics& statistics) const
+  {
+    this->count(statistics);
+    this->eachBuffer(
+      [&](const ShadowBuffer& buffer)
+      {
+        statistics.shadowMemory += buffer.memory();
+        if (traced)
+        {
+          buffer.addStatistics(statistics);
+        }
+      });
+  }
 
   /// Sets what points miss of the light, 0..1, 0 of those that are not asked; returns those that
   /// miss something. What translucent casters take is not among it.
@@ -90,6 +149,20 @@ public:
   /// ... and what else is looked up of a point at the terminator.
   virtual void noteTerminator(const ShadowQuery&, const TerminatorPoint&, Box&, RaisedTiles&) const
   {
+  }
+
+protected:
+  const MapsOfLight Maps;
+
+private:
+  virtual void count(FrameStatistics&) const {}
+  template <class F>
+  void eachBuffer(const F& f) const
+  {
+    if (this->Maps.buffers)
+    {
+      this->Maps.buffers->each(f);
+    }
   }
 };
 

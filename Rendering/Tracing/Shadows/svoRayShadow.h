@@ -15,8 +15,9 @@ namespace svo
 class RayShadow : public LightShadow
 {
 public:
-  RayShadow(const Light& light, const ShadowRays& rays)
-    : Source(light)
+  RayShadow(const Light& light, const ShadowRays& rays, const MapsOfLight& maps)
+    : LightShadow(maps)
+    , Source(light)
     , Rays(rays)
   {
   }
@@ -59,6 +60,9 @@ public:
 protected:
   const Light& Source;
   const ShadowRays& Rays;
+
+private:
+  void count(FrameStatistics& statistics) const override { ++statistics.lightsWithRays; }
 };
 }
 

@@ -100,23 +100,20 @@ void Shadows::prepareAnswers(
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
   {
     const Light& light = scene.lights[l];
+    const MapsOfLight maps{ this->Buffers[l], static_cast<std::uint16_t>(l) };
     if (this->sampled(l))
     {
       this->OfLights.push_back(std::make_unique<SoftShadow>(light, *this->Rays, *this->Casters,
-        PixelRotations(view, static_cast<unsigned>(l)), settings.lightSamples));
+        PixelRotations(view, static_cast<unsigned>(l)), settings.lightSamples, maps));
     }
     else if (this->byRays(l))
     {
-      this->OfLights.push_back(std::make_unique<RayShadow>(light, *this->Rays));
+      this->OfLights.push_back(std::make_unique<RayShadow>(light, *this->Rays, maps));
     }
-    else if (this->Buffers[l])
+    else if (maps.buffers)
     {
       this->OfLights.push_back(
-        std::make_unique<BufferShadow>(light, *this->Buffers[l], static_cast<std::uint16_t>(l),
-          std::vector<const ShadowBuffer*>(
-            this->Buffers.begin() + static_cast<std::ptrdiff_t>(this->FirstTranslucent[l]),
-            this->Buffers.begin() + static_cast<std::ptrdiff_t>(this->FirstTranslucent[l + 1])),
-          this->Rays.get(), this->Filters));
+        std::make_unique<BufferShadow>(light, maps, this->Rays.get(), this->Filters));
     }
     else
     {
@@ -134,46 +131,33 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
   this->Traced = true;
   this->BuffersBefore.assign(this->Buffers.begin(), this->Buffers.end());
   this->Buffers.assign(lights.size(), nullptr);
-  std::map<std::pair<std::uint64_t, std::uint8_t>, std::unique_ptr<ShadowBuffer>> kept;
-  const auto bufferOf = [&](std::uint64_t id, std::uint8_t group, const LightMaps& views)
-  {
-    std::unique_ptr<ShadowBuffer>& buffer = kept[{ id, group }];
-    const auto found = this->Kept.find({ id, group });
-    buffer =
-      found != this->Kept.end() ? std::move(found->second) : std::make_unique<ShadowBuffer>();
-    buffer->setCulling(this->Cull);
-    buffer->prepare(scene, views, first, settings, budget, group, parallelFor);
-    if (this->TracesWhole)
-    {
-      buffer->markAll();
-    }
-    return buffer.get();
-  };
-  this->FirstTranslucent.assign(lights.size() + 1, lights.size());
+  std::map<std::uint64_t, std::unique_ptr<LightBuffers>> kept;
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
     const Light& light = lights[i];
-    this->FirstTranslucent[i] = this->Buffers.size();
     if (!light.castShadow || !this->usesBuffer(i, settings))
     {
       continue;
     }
     std::uint64_t id = light.id;
-    while (kept.count({ id, OpaqueCasters })) // two lights of one id are still two lights
+    while (kept.count(id) > 0) // two lights of one id are still two lights
     {
       ++id;
     }
-    this->Buffers[i] = bufferOf(id, OpaqueCasters, maps[i]);
-    for (int group = 1; group <= maps[i].translucentGroups; ++group)
-    {
-      this->Buffers.push_back(
-        bufferOf(id, static_cast<std::uint8_t>(OpaqueCasters + group), maps[i]));
-    }
+    std::unique_ptr<LightBuffers>& buffers = kept[id];
+    const auto found = this->Kept.find(id);
+    buffers =
+      found != this->Kept.end() ? std::move(found->second) : std::make_unique<LightBuffers>();
+    buffers->prepare(scene, maps[i], first, settings, this->Cull, budget, parallelFor);
+    this->Buffers[i] = buffers.get();
     this->Widths.add(maps[i], settings);
   }
-  this->FirstTranslucent.back() = this->Buffers.size();
   this->Kept = std::move(kept);
   this->Casting = !this->Kept.empty();
+  if (this->TracesWhole)
+  {
+    this->eachBuffer([](ShadowBuffer& buffer) { buffer.markAll(); });
+  }
 }
 
 void Shadows::releaseRays()
@@ -190,27 +174,22 @@ void Shadows::release()
   this->releaseRays();
   this->Kept.clear();
   this->Buffers.clear();
-  this->FirstTranslucent.clear();
   this->SharedState.clear();
 }
 
-void Shadows::mark(const TilePatch& patch, LightTiles& noted)
+void Shadows::mark(const TilePatch& patch, LightTiles& noted) const
 {
-  for (std::size_t l = 0; l < this->Buffers.size(); ++l)
+  for (const auto& light : this->OfLights)
   {
-    if (this->Buffers[l])
-    {
-      this->Buffers[l]->mark(patch, static_cast<std::uint16_t>(l), noted);
-    }
+    light->mark(patch, noted);
   }
 }
 
-void Shadows::mark(const LightTiles& noted)
+void Shadows::mark(const LightTiles& noted) const
 {
   for (const LightTile& tile : noted)
   {
-    assert(this->Buffers[tile.light]);
-    this->Buffers[tile.light]->mark(tile);
+    this->of(tile.light).bufferOf(tile).mark(tile);
   }
 }
 
@@ -218,19 +197,15 @@ bool Shadows::sameMaps() const
 {
   return this->Buffers.size() == this->BuffersBefore.size() &&
     std::equal(this->Buffers.begin(), this->Buffers.end(), this->BuffersBefore.begin(),
-      [](const ShadowBuffer* now, const ShadowBuffer* before)
+      [](const LightBuffers* now, const LightBuffers* before)
       { return now == before && (!now || now->sameMaps()); });
 }
 
 bool Shadows::changedSince(const LightTiles& noted, std::uint64_t version) const
 {
   return std::any_of(noted.begin(), noted.end(),
-    [=](const LightTile& tile) { return this->Buffers[tile.light]->changedSince(tile, version); });
-}
-
-void Shadows::trace(const ParallelFor& parallelFor)
-{
-  this->eachBuffer([&](ShadowBuffer& buffer) { buffer.trace(parallelFor); });
+    [=](const LightTile& tile)
+    { return this->of(tile.light).bufferOf(tile).changedSince(tile, version); });
 }
 
 bool Shadows::changedSince(const RaisedTiles& noted, std::uint64_t version) const
@@ -238,10 +213,18 @@ bool Shadows::changedSince(const RaisedTiles& noted, std::uint64_t version) cons
   return std::any_of(noted.begin(), noted.end(),
     [=](const RaisedTile& raised)
     {
-      const ShadowBuffer& buffer = *this->Buffers[raised.tile.light];
+      const ShadowBuffer& buffer = this->of(raised.tile.light).bufferOf(raised.tile);
       return buffer.wants(raised.tile) != raised.wanted ||
         (raised.wanted && buffer.changedSince(raised.tile, version));
     });
+}
+
+void Shadows::trace(const ParallelFor& parallelFor) const
+{
+  for (const auto& light : this->OfLights)
+  {
+    light->trace(parallelFor);
+  }
 }
 
 SampledPlanes Shadows::sampledPlanes() const
@@ -266,8 +249,8 @@ SampledPlanes Shadows::sampledPlanes() const
 bool Shadows::knows(const glm::dvec3& position) const
 {
   return this->TracesWhole ||
-    std::all_of(this->Buffers.begin(), this->Buffers.end(),
-      [&](const ShadowBuffer* buffer) { return !buffer || buffer->knows(position); });
+    std::all_of(this->OfLights.begin(), this->OfLights.end(),
+      [&](const auto& light) { return light->knows(position); });
 }
 
 std::size_t Shadows::layerMemory() const
@@ -275,7 +258,7 @@ std::size_t Shadows::layerMemory() const
   std::size_t sum = 0;
   for (const auto& kept : this->Kept)
   {
-    sum += kept.second->layerMemory();
+    kept.second->each([&](const ShadowBuffer& buffer) { sum += buffer.layerMemory(); });
   }
   return sum;
 }
@@ -283,34 +266,19 @@ std::size_t Shadows::layerMemory() const
 void Shadows::addStatistics(FrameStatistics& statistics) const
 {
   this->Widths.tell(statistics);
-  for (const ShadowTechnique technique : this->Techniques)
+  for (const auto& light : this->OfLights)
   {
-    statistics.lightsWithBuffers += technique == ShadowTechnique::Buffer;
-    statistics.lightsWithRays += technique == ShadowTechnique::Rays;
+    light->addStatistics(this->Traced, statistics);
   }
-  this->eachBuffer(
-    [&](const ShadowBuffer& buffer)
-    {
-      statistics.shadowMemory += buffer.memory();
-      if (this->Traced)
-      {
-        buffer.addStatistics(statistics);
-      }
-    });
 }
 
-void Shadows::copyMaps(std::vector<ShadowMap>& maps)
+void Shadows::copyMaps(std::vector<ShadowMap>& maps) const
 {
-  for (std::size_t l = 0; l + 1 < this->FirstTranslucent.size(); ++l)
+  for (std::size_t l = 0; l < this->Buffers.size(); ++l)
   {
     if (this->Buffers[l])
     {
       this->Buffers[l]->copyMaps(static_cast<int>(l), maps);
-    }
-    for (std::size_t b = this->FirstTranslucent[l]; b < this->FirstTranslucent[l + 1]; ++b)
-    {
-      this->Buffers[b]->copyMaps(
-        static_cast<int>(l), maps, 1 + static_cast<int>(b - this->FirstTranslucent[l]));
     }
   }
 }

@@ -4,10 +4,10 @@
 
 #include "svoFrame.h"
 #include "svoHemisphereRays.h"
+#include "svoLightBuffers.h"
 #include "svoLightShadow.h"
 #include "svoReceivers.h"
 #include "svoScene.h"
-#include "svoShadowBuffer.h"
 #include "svoShadowRays.h"
 #include "svoTilePatch.h"
 
@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace svo
@@ -54,9 +53,9 @@ public:
 
   /// Notes what visible points will look up. Which side of them is lit does not matter: light tiles
   /// that only unlit sides look up are few. Thread-safe.
-  void mark(const TilePatch& patch, LightTiles& noted);
+  void mark(const TilePatch& patch, LightTiles& noted) const;
   /// The same, of what was noted in the last frame, when the maps were the same.
-  void mark(const LightTiles& noted);
+  void mark(const LightTiles& noted) const;
   /// True if all maps are those of the last frame, and what they show is tested alike.
   bool sameMaps() const;
   /// After trace(): true if any of these tiles does not show what it showed; Hits::changedSince().
@@ -65,7 +64,7 @@ public:
   bool wantsMarks() const { return this->Casting && !this->Samples; }
   /// After trace(): true if points at the terminator may look up something else.
   bool changedSince(const RaisedTiles& noted, std::uint64_t version) const;
-  void trace(const ParallelFor& parallelFor);
+  void trace(const ParallelFor& parallelFor) const;
 
   /// True if all lights can tell whether the point is in their shadow. They can of visible points;
   /// of others only where their buffers happen to be traced.
@@ -87,7 +86,7 @@ public:
   bool filters() const { return this->Filters; }
 
   void addStatistics(FrameStatistics& statistics) const;
-  void copyMaps(std::vector<ShadowMap>& maps);
+  void copyMaps(std::vector<ShadowMap>& maps) const;
   /// Bytes of all kept layers.
   std::size_t layerMemory() const;
   void release();
@@ -105,11 +104,11 @@ private:
   template <class F>
   void eachBuffer(const F& f) const
   {
-    for (ShadowBuffer* const buffer : this->Buffers)
+    for (const LightBuffers* const ofLight : this->Buffers)
     {
-      if (buffer)
+      if (ofLight)
       {
-        f(*buffer);
+        ofLight->each(f);
       }
     }
   }
@@ -123,15 +122,11 @@ private:
   bool Casting = false;                    // there are buffers
   bool Filters = false;
   bool Samples = false; // points beside pixels' centres look up what nobody has marked
-  /// By index into Scene::lights, null: no buffer; then those of groups of translucent casters,
-  /// light by light: of each light from where its first one is.
-  std::vector<ShadowBuffer*> Buffers;
-  std::vector<std::size_t> FirstTranslucent;      // by light; and the number of buffers
-  std::vector<const ShadowBuffer*> BuffersBefore; // of the last frame
-  /// By Light::id and group.
-  std::map<std::pair<std::uint64_t, std::uint8_t>, std::unique_ptr<ShadowBuffer>> Kept;
-  std::unique_ptr<RayCasters> Casters; // where somebody asks rays
-  std::unique_ptr<ShadowRays> Rays;    // through these
+  std::vector<LightBuffers*> Buffers;                          // by light; null: none
+  std::vector<const LightBuffers*> BuffersBefore;              // of the last frame
+  std::map<std::uint64_t, std::unique_ptr<LightBuffers>> Kept; // by Light::id
+  std::unique_ptr<RayCasters> Casters;                         // where somebody asks rays
+  std::unique_ptr<ShadowRays> Rays;                            // through these
   std::unique_ptr<HemisphereRays> Occlusion, Sky;
   std::vector<std::unique_ptr<LightShadow>> OfLights;
   std::vector<std::uint8_t> Soft;         // by light

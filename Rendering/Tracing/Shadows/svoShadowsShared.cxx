@@ -127,7 +127,7 @@ bool Shadows::traceShared(const Scene& scene, const View& eye, const FrameSettin
 
   this->TracesWhole = true; // what the others' visible points look up is not known here
   this->prepareBuffers(scene, lights, maps, first, settings, budget, parallelFor);
-  this->trace(parallelFor);
+  this->eachBuffer([&](ShadowBuffer& buffer) { buffer.trace(parallelFor); });
   this->eachBuffer([&](ShadowBuffer& buffer) { buffer.merge(processes, first); });
   this->SharedState = std::move(state);
   return true;

@@ -7,8 +7,8 @@
 namespace svo
 {
 SoftShadow::SoftShadow(const Light& light, const ShadowRays& exact, const RayCasters& casters,
-  const PixelRotations& rotations, int samples)
-  : RayShadow(light, exact)
+  const PixelRotations& rotations, int samples, const MapsOfLight& maps)
+  : RayShadow(light, exact, maps)
   , Casters(casters)
   , Rotations(rotations)
   , Samples(firstPoints(samples))

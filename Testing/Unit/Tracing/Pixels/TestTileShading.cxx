@@ -440,8 +440,9 @@ TEST(TileShading, WhatIsMarkedIsWhatIsLookedUp)
     whole.trace(serialFor);
     marked.prepare(stage.scene, maps, 0, settings, budget);
     svo::LightTiles noted;
-    stage.eachPatch([&](const TilePatch& patch) { marked.mark(patch, 7, noted); });
+    stage.eachPatch([&](const TilePatch& patch) { marked.mark(patch, { 7, 3 }, noted); });
     EXPECT_EQ(7, noted.at(0).light);
+    EXPECT_EQ(3, noted.at(0).group);
     const std::uint64_t before = svo::nextTileVersion();
     marked.trace(serialFor);
     const std::uint64_t after = svo::nextTileVersion();
