@@ -8,6 +8,7 @@
 #include "svoWorldSize.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace svo
@@ -109,6 +110,7 @@ void ShadowBuffer::prepare(const Scene& scene, const LightMaps& maps, std::size_
 /// what was traced of it is still true then.
 void ShadowBuffer::arrangeMaps(const std::vector<View>& views, LayerBudget& budget)
 {
+  assert(views.size() <= 256); // LightTile::map
   std::vector<std::unique_ptr<Map>> before = std::move(this->Maps);
   const bool moved = !before.empty();
   this->Maps.clear();

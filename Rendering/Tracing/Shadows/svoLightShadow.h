@@ -70,7 +70,8 @@ struct MapsOfLight
 };
 
 /// Made anew for each frame. It is asked in this order: what points will look up of the light's
-/// maps is marked, the maps are traced, patches and points are tested.
+/// maps is marked, the maps are traced (where processes share maps these are traced whole before),
+/// patches and points are tested.
 ///
 /// This one is of a light that casts none.
 class LightShadow

@@ -179,6 +179,7 @@ void Shadows::release()
 
 void Shadows::mark(const TilePatch& patch, LightTiles& noted) const
 {
+  assert(this->OfLights.size() == this->Buffers.size());
   for (const auto& light : this->OfLights)
   {
     light->mark(patch, noted);
@@ -221,6 +222,7 @@ bool Shadows::changedSince(const RaisedTiles& noted, std::uint64_t version) cons
 
 void Shadows::trace(const ParallelFor& parallelFor) const
 {
+  assert(this->OfLights.size() == this->Buffers.size());
   for (const auto& light : this->OfLights)
   {
     light->trace(parallelFor);

@@ -51,8 +51,9 @@ public:
   bool traceShared(const Scene& scene, const View& eye, const FrameSettings& settings,
     LayerBudget& budget, const ParallelFor& parallelFor, Processes& processes);
 
-  /// Notes what visible points will look up. Which side of them is lit does not matter: light tiles
-  /// that only unlit sides look up are few. Thread-safe.
+  /// After prepareAnswers(), as all that follows: notes what visible points will look up. Which
+  /// side of them is lit does not matter: light tiles that only unlit sides look up are few.
+  /// Thread-safe.
   void mark(const TilePatch& patch, LightTiles& noted) const;
   /// The same, of what was noted in the last frame, when the maps were the same.
   void mark(const LightTiles& noted) const;
