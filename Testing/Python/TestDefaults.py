@@ -13,7 +13,7 @@ import vtksvo
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
-VIEWS = pathlib.Path(__file__).resolve().parents[2] / "Plugin" / "XML"
+PLUGIN = pathlib.Path(__file__).resolve().parents[2] / "Plugin"
 GENERATED_VIEWS = os.environ["VTKSVO_VIEWS"]  # of Views.xml.in and Rendering/Settings.cmake
 
 # Properties of views that the pass has no setting for: the ground is ParaView's prop, reasons come from all processes.
@@ -27,7 +27,7 @@ OTHER_IN_PARAVIEW = {"WriteStatistics": 1, "ShadowIntensity": 0.7}
 
 def properties_of(file, element):
     """The properties of the first such element in a file."""
-    path = GENERATED_VIEWS if file == "Views.xml" else VIEWS / file
+    path = GENERATED_VIEWS if file == "Views.xml" else PLUGIN / "XML" / file
     root = xml.etree.ElementTree.parse(path).getroot().find(f".//{element}")
     return [child for child in root if child.tag.endswith("Property") and "command" in child.attrib]
 
@@ -170,7 +170,7 @@ class Defaults(unittest.TestCase):
         others = {"SetPixelError": of_actor("PropPixelError"), "SetCastShadows": of_actor("CastShadow"),
                   "SetReceiveShadows": of_actor("ReceiveShadow")}
         # Without ParaView there is its header only.
-        header = (VIEWS / "vtkSVORepresentation.h").read_text(encoding="utf-8")
+        header = (PLUGIN / "Views" / "vtkSVORepresentation.h").read_text(encoding="utf-8")
         methods = set(re.findall(r"^  [\w ]+\b([GS]et\w+)\(", header, re.M))
         settings = 0
         for prop in properties_of("Representations.xml", "SVORepresentationProxy"):
