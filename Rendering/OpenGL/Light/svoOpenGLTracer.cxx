@@ -170,7 +170,7 @@ private:
   std::string WhyNot;        // they are not in OpenGL's memory; empty: they are
 
   SceneFollower Instances;    // while something is sampled
-  FrameInputs Kept;           // likewise
+  FrameInputs Inputs;         // likewise
   double UsualDistance = 0.0; // of occlusion
 };
 
@@ -434,12 +434,12 @@ void OpenGLTracer::describeSamples(
   }
   if (code.sampled.empty())
   {
-    this->Kept.forget();
+    this->Inputs.forget();
     code.samples = 0;
     return;
   }
-  const FrameChanges changes =
-    this->Kept.compare(scene, this->Instances.follow(scene).instances, view, settings);
+  const FrameChanges changes{ this->Inputs.differ(scene, view, settings),
+    this->Instances.follow(scene).instances };
   const SampleCount samples(scene, settings, changes, code.samples);
   code.samples = samples.count;
   code.picture += !changes.none();
@@ -465,7 +465,7 @@ void OpenGLTracer::releaseGraphicsResources()
   const std::uint64_t picture = this->Code.picture;
   this->Code = LightCode();
   this->Code.picture = picture;
-  this->Kept.forget();
+  this->Inputs.forget();
   this->Other->releaseGraphicsResources();
 }
 }

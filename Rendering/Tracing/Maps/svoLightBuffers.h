@@ -12,7 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace svo
@@ -20,18 +19,22 @@ namespace svo
 class LightBuffers
 {
 public:
-  /// As ShadowBuffer::prepare(), with `culling`.
-  void prepare(const Scene& scene, const LightMaps& maps, std::size_t first,
+  /// As ShadowBuffer::prepare(), with `culling`. `light`: index into Scene::lights.
+  void prepare(std::size_t light, const Scene& scene, const LightMaps& maps, std::size_t first,
     const FrameSettings& settings, const Culling& culling, LayerBudget& budget,
     const ParallelFor& parallelFor)
   {
+    this->Light = static_cast<std::uint16_t>(light);
     const std::size_t before = this->All.size();
     this->All.resize(1 + static_cast<std::size_t>(maps.translucentGroups));
     this->SameNumber = this->All.size() == before;
     for (std::size_t group = 0; group < this->All.size(); ++group)
     {
       std::unique_ptr<ShadowBuffer>& buffer = this->All[group];
-      buffer = buffer ? std::move(buffer) : std::make_unique<ShadowBuffer>();
+      if (!buffer)
+      {
+        buffer = std::make_unique<ShadowBuffer>();
+      }
       buffer->setCulling(culling);
       buffer->prepare(scene, maps, first, settings, budget,
         static_cast<std::uint8_t>(OpaqueCasters + group), parallelFor);
@@ -39,6 +42,7 @@ public:
   }
 
   const ShadowBuffer& opaque() const { return *this->All.front(); }
+  BufferName nameOfOpaque() const { return { this->Light, 0 }; }
   std::vector<const ShadowBuffer*> translucent() const
   {
     std::vector<const ShadowBuffer*> buffers;
@@ -68,24 +72,24 @@ public:
       std::all_of(
         this->All.begin(), this->All.end(), [](const auto& buffer) { return buffer->sameMaps(); });
   }
-  /// `light`: index into Scene::lights.
-  void mark(const TilePatch& patch, std::uint16_t light, LightTiles& noted) const
+  void mark(const TilePatch& patch, LightTiles& noted) const
   {
     for (std::size_t group = 0; group < this->All.size(); ++group)
     {
-      this->All[group]->mark(patch, { light, static_cast<std::uint8_t>(group) }, noted);
+      this->All[group]->mark(patch, { this->Light, static_cast<std::uint8_t>(group) }, noted);
     }
   }
-  void copyMaps(int light, std::vector<ShadowMap>& maps) const
+  void copyMaps(std::vector<ShadowMap>& maps) const
   {
     for (std::size_t group = 0; group < this->All.size(); ++group)
     {
-      this->All[group]->copyMaps(light, maps, static_cast<int>(group));
+      this->All[group]->copyMaps(this->Light, maps, static_cast<int>(group));
     }
   }
 
 private:
   std::vector<std::unique_ptr<ShadowBuffer>> All; // of opaque casters first
+  std::uint16_t Light = 0;
   bool SameNumber = false;
 };
 }

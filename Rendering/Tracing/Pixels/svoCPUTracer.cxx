@@ -69,7 +69,7 @@ struct CPUTracer::Internals
   LightImages Sampled;
   ReceiverSampler Receivers;
   PixelShader Shader;
-  FrameInputs Kept;
+  FrameInputs Inputs;
   ShadedTiles Shaded;             // by tile of the eye
   std::vector<CasterBox> Casters; // by index into Scene::instances
   int Samples = 0;                // of lights, in the picture
@@ -310,7 +310,8 @@ void CPUTracer::render(
   PhaseClock clock;
   FrameStatistics& statistics = self.Statistics;
   self.follow(scene, parallelFor);
-  FrameChanges changes = self.Kept.compare(scene, std::exchange(self.Changed, {}), view, settings);
+  FrameChanges changes{ self.Inputs.differ(scene, view, settings),
+    std::exchange(self.Changed, {}) };
   const bool keeps = settings.frameCoherence && !self.SharesBuffers;
   changes.all = changes.all || !keeps;
   const SampleCount samples(scene, settings, changes, self.Samples);
@@ -367,7 +368,7 @@ void CPUTracer::render(
 
   if (!keeps)
   {
-    self.Kept.forget();
+    self.Inputs.forget();
   }
   statistics.primaryRays += self.Eye.rays();
   statistics.retracedLayers += self.Eye.retracedLayers();
@@ -449,7 +450,7 @@ void CPUTracer::releaseLayers()
   this->Impl->LightShadows.release();
   this->Impl->SharesBuffers = false;
   this->Impl->ViewsAreTraced = false;
-  this->Impl->Kept.forget();
+  this->Impl->Inputs.forget();
   this->Impl->Receivers = ReceiverSampler();
 }
 }

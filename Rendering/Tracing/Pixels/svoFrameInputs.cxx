@@ -50,8 +50,7 @@ void addSettings(const FrameSettings& s, Bytes& bytes)
 }
 }
 
-FrameChanges FrameInputs::compare(const Scene& scene, std::vector<std::uint32_t> changed,
-  const View& view, const FrameSettings& settings)
+bool FrameInputs::differ(const Scene& scene, const View& view, const FrameSettings& settings)
 {
   Bytes inputs;
   inputs.reserve(this->Inputs.size());
@@ -67,8 +66,8 @@ FrameChanges FrameInputs::compare(const Scene& scene, std::vector<std::uint32_t>
   {
     addLight(light, inputs);
   }
-  const bool all = inputs != this->Inputs;
+  const bool others = inputs != this->Inputs;
   this->Inputs = std::move(inputs);
-  return { all, std::move(changed) };
+  return others;
 }
 }

@@ -23,10 +23,9 @@ struct FrameChanges
 class VTKSVOTRACING_EXPORT FrameInputs
 {
 public:
-  /// What of a frame's inputs differs from those of the last call. `changed`: what is to
-  /// be said of instances; of the rest all values are compared.
-  FrameChanges compare(const Scene& scene, std::vector<std::uint32_t> changed, const View& view,
-    const FrameSettings& settings);
+  /// True if anything but instances is another than in the last call: all values are compared. Of
+  /// instances SceneChanges say so.
+  bool differ(const Scene& scene, const View& view, const FrameSettings& settings);
   /// The picture of the last call is not kept: all of the next one is new.
   void forget() { this->Inputs.clear(); }
 

@@ -19,11 +19,12 @@ class BufferShadow : public LightShadow
 public:
   /// `rays`: of points at the terminator, null where no mesh is smooth. `filters`: as
   /// MapTest::darkness().
-  BufferShadow(const Light& light, const MapsOfLight& maps, const ShadowRays* rays, bool filters)
-    : LightShadow(maps)
+  BufferShadow(const Light& light, const LightBuffers& maps, const ShadowRays* rays, bool filters)
+    : LightShadow(&maps)
     , Source(light)
-    , Opaque(maps.buffers->opaque())
-    , Translucent(maps.buffers->translucent())
+    , Opaque(maps.opaque())
+    , Name(maps.nameOfOpaque())
+    , Translucent(maps.translucent())
     , Rays(rays)
     , Filters(filters)
   {
@@ -73,7 +74,7 @@ public:
     const glm::dvec3 reach(query.errors.map);
     rays.add(query.patch.position(at.pixel), reach);
     rays.add(at.point.position, reach);
-    this->Opaque.note(at.point.position, { this->Maps.light, 0 }, raised);
+    this->Opaque.note(at.point.position, this->Name, raised);
   }
 
 private:
@@ -81,6 +82,7 @@ private:
 
   const Light& Source;
   const ShadowBuffer& Opaque;
+  BufferName Name; // of it
   std::vector<const ShadowBuffer*> Translucent;
   const ShadowRays* Rays;
   bool Filters;

@@ -61,14 +61,6 @@ inline void noteRaisedStart(const ShadowQuery& query, const TerminatorPoint& at,
   rays.add(at.point.position, reach);
 }
 
-/// The buffers of a light, and its index in Scene::lights. Of those that find shadows by something
-/// else, too, where rasterised surfaces look maps up; null: there are none. They outlive the frame.
-struct MapsOfLight
-{
-  const LightBuffers* buffers = nullptr;
-  std::uint16_t light = 0;
-};
-
 /// Made anew for each frame. It is asked in this order: what points will look up of the light's
 /// maps is marked, the maps are traced (where processes share maps these are traced whole before),
 /// patches and points are tested.
@@ -77,7 +69,9 @@ struct MapsOfLight
 class LightShadow
 {
 public:
-  explicit LightShadow(const MapsOfLight& maps = {})
+  /// `maps`: of the light, which outlive the frame. Those that find shadows by something else have
+  /// them, too, where rasterised surfaces look maps up; null: there are none.
+  explicit LightShadow(const LightBuffers* maps = nullptr)
     : Maps(maps)
   {
   }
@@ -86,9 +80,9 @@ public:
   /// ShadowBuffer::mark() of all maps.
   void mark(const TilePatch& patch, LightTiles& noted) const
   {
-    if (this->Maps.buffers)
+    if (this->Maps)
     {
-      this->Maps.buffers->mark(patch, this->Maps.light, noted);
+      this->Maps->mark(patch, noted);
     }
   }
   void trace(const ParallelFor& parallelFor) const
@@ -105,8 +99,8 @@ public:
   /// One of the light's maps' tiles.
   ShadowBuffer& bufferOf(const LightTile& tile) const
   {
-    assert(this->Maps.buffers);
-    return this->Maps.buffers->of(tile);
+    assert(this->Maps);
+    return this->Maps->of(tile);
   }
   /// What it is found by, and memory. `traced`: what the maps took as well.
   void addStatistics(bool traced, FrameStatistics& statistics) const
@@ -152,19 +146,18 @@ public:
   {
   }
 
-protected:
-  const MapsOfLight Maps;
-
 private:
   virtual void count(FrameStatistics&) const {}
   template <class F>
   void eachBuffer(const F& f) const
   {
-    if (this->Maps.buffers)
+    if (this->Maps)
     {
-      this->Maps.buffers->each(f);
+      this->Maps->each(f);
     }
   }
+
+  const LightBuffers* Maps;
 };
 
 /// Adds to what points miss what something takes of the rest of those that are `left`; where

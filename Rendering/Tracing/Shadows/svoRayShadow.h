@@ -15,7 +15,7 @@ namespace svo
 class RayShadow : public LightShadow
 {
 public:
-  RayShadow(const Light& light, const ShadowRays& rays, const MapsOfLight& maps)
+  RayShadow(const Light& light, const ShadowRays& rays, const LightBuffers* maps)
     : LightShadow(maps)
     , Source(light)
     , Rays(rays)

@@ -100,7 +100,7 @@ void Shadows::prepareAnswers(
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
   {
     const Light& light = scene.lights[l];
-    const MapsOfLight maps{ this->Buffers[l], static_cast<std::uint16_t>(l) };
+    const LightBuffers* const maps = this->Buffers[l];
     if (this->sampled(l))
     {
       this->OfLights.push_back(std::make_unique<SoftShadow>(light, *this->Rays, *this->Casters,
@@ -110,10 +110,10 @@ void Shadows::prepareAnswers(
     {
       this->OfLights.push_back(std::make_unique<RayShadow>(light, *this->Rays, maps));
     }
-    else if (maps.buffers)
+    else if (maps)
     {
       this->OfLights.push_back(
-        std::make_unique<BufferShadow>(light, maps, this->Rays.get(), this->Filters));
+        std::make_unique<BufferShadow>(light, *maps, this->Rays.get(), this->Filters));
     }
     else
     {
@@ -148,7 +148,7 @@ void Shadows::prepareBuffers(const Scene& scene, const std::vector<Light>& light
     const auto found = this->Kept.find(id);
     buffers =
       found != this->Kept.end() ? std::move(found->second) : std::make_unique<LightBuffers>();
-    buffers->prepare(scene, maps[i], first, settings, this->Cull, budget, parallelFor);
+    buffers->prepare(i, scene, maps[i], first, settings, this->Cull, budget, parallelFor);
     this->Buffers[i] = buffers.get();
     this->Widths.add(maps[i], settings);
   }
@@ -276,11 +276,11 @@ void Shadows::addStatistics(FrameStatistics& statistics) const
 
 void Shadows::copyMaps(std::vector<ShadowMap>& maps) const
 {
-  for (std::size_t l = 0; l < this->Buffers.size(); ++l)
+  for (const LightBuffers* const ofLight : this->Buffers)
   {
-    if (this->Buffers[l])
+    if (ofLight)
     {
-      this->Buffers[l]->copyMaps(static_cast<int>(l), maps);
+      ofLight->copyMaps(maps);
     }
   }
 }

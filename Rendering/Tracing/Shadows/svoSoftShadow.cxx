@@ -7,7 +7,7 @@
 namespace svo
 {
 SoftShadow::SoftShadow(const Light& light, const ShadowRays& exact, const RayCasters& casters,
-  const PixelRotations& rotations, int samples, const MapsOfLight& maps)
+  const PixelRotations& rotations, int samples, const LightBuffers* maps)
   : RayShadow(light, exact, maps)
   , Casters(casters)
   , Rotations(rotations)

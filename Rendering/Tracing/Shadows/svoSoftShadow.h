@@ -20,7 +20,7 @@ class VTKSVOTRACING_EXPORT SoftShadow : public RayShadow
 public:
   /// `samples`: to each point, at least 1.
   SoftShadow(const Light& light, const ShadowRays& exact, const RayCasters& casters,
-    const PixelRotations& rotations, int samples, const MapsOfLight& maps = {});
+    const PixelRotations& rotations, int samples, const LightBuffers* maps = nullptr);
 
   std::uint64_t test(const ShadowQuery& query, float* missed) const override;
   bool dims() const override { return false; }
